@@ -1,0 +1,46 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace courant {
+
+/// A place in an input file; line and column count from 1, 0 means "not known".
+struct Location {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+enum class Severity { note, warning, error };
+
+/// One message about the user's input. `text()` gives `file:line:column: error: message` and, if there is one, a second
+/// line `  hint: ...`.
+struct Diagnostic {
+  Severity severity = Severity::error;
+  Location where;
+  std::string message;
+  std::string hint;
+  std::string text() const;
+};
+
+/// Collects every message about the input, so that all faults of a deck are reported at once. The library never prints.
+class Diagnostics {
+ public:
+  void error(Location where, std::string message, std::string hint = {});
+  void warning(Location where, std::string message, std::string hint = {});
+  void note(Location where, std::string message, std::string hint = {});
+  void add(Diagnostic diagnostic);
+
+  const std::vector<Diagnostic>& all() const { return all_; }
+  int errors() const { return errors_; }
+  int warnings() const { return warnings_; }
+  bool ok() const { return errors_ == 0; }
+  std::string text() const;  ///< all messages, one or two lines each, in the order they were found
+
+ private:
+  std::vector<Diagnostic> all_;
+  int errors_ = 0;
+  int warnings_ = 0;
+};
+
+}  // namespace courant

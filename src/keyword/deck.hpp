@@ -1,0 +1,64 @@
+#pragma once
+// A deck that was read: typed entries of every supported keyword, and where each stands, so that later checks can name the
+// file, line, column, keyword and field.
+#include <any>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <typeindex>
+#include <vector>
+
+#include "keyword/card.hpp"
+
+namespace courant {
+
+class Deck {
+ public:
+  /// All entries of one keyword in deck order; empty if the deck has none.
+  template <class T>
+  const std::vector<T>& all() const {
+    static const std::vector<T> none;
+    const auto it = entries_.find(std::type_index(typeid(T)));
+    return it == entries_.end() ? none : *std::static_pointer_cast<std::vector<T>>(it->second);
+  }
+  /// The entry that counts where a keyword should stand once: the last; nullptr if there is none.
+  template <class T>
+  const T* last() const {
+    return all<T>().empty() ? nullptr : &all<T>().back();
+  }
+  template <class T>
+  std::vector<T>& store() {
+    auto& slot = entries_[std::type_index(typeid(T))];
+    if (!slot) slot = std::make_shared<std::vector<T>>();
+    return *std::static_pointer_cast<std::vector<T>>(slot);
+  }
+
+  Location where(const Entry& entry) const;                          ///< first data line
+  Location where(const Entry& entry, std::string_view field) const;  ///< line and column of a named field
+  std::string keyword(const Entry& entry) const;                     ///< "*SECTION_SPH"
+  /// "*SECTION_SPH field 2 (CSLH, h0 = ... [-])", the beginning of every message about a field
+  std::string describe(const Entry& entry, std::string_view field) const;
+  /// Adds `file:line:column: error: *KEYWORD field N (NAME, meaning [dimension]): <message>` with a hint.
+  void error(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
+             std::string hint = {}) const;
+  void warning(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
+               std::string hint = {}) const;
+
+  std::string title;
+  std::vector<std::string> files;                           ///< as named by the user; [0] is the deck itself
+  std::vector<std::shared_ptr<std::vector<std::string>>> lines;  ///< text of each file, kept for messages
+  std::map<std::string, int> keyword_counts;                ///< every keyword of the deck by name, for `courant check`
+
+ private:
+  std::map<std::type_index, std::shared_ptr<void>> entries_;
+};
+
+struct ReadOptions {
+  std::map<std::string, std::string> parameters;  ///< --param NAME=VALUE: override *PARAMETER of the deck
+};
+
+/// Reads a deck with its includes. All faults go to `diagnostics`; never throws for bad input, never prints.
+Deck read_deck(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics);
+
+}  // namespace courant

@@ -1,0 +1,31 @@
+#pragma once
+// The list of supported keywords. Files register theirs at start-up; nothing else is edited for a new one.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "keyword/card.hpp"
+#include "keyword/deck.hpp"
+
+namespace courant {
+
+/// What the parser and `courant keywords` need of a keyword, without knowing its struct. See keyword/registry.cpp.
+class KeywordSpec;
+
+const std::vector<std::shared_ptr<const KeywordSpec>>& keyword_registry();
+void register_keyword(std::shared_ptr<const KeywordSpec> spec);
+
+template <class T>
+std::shared_ptr<const KeywordSpec> make_keyword_spec(KeywordOf<T> keyword);
+
+template <class T>
+struct RegisterKeyword {
+  explicit RegisterKeyword(KeywordOf<T> keyword) { register_keyword(make_keyword_spec<T>(std::move(keyword))); }
+};
+
+/// Cards of one keyword as text (`courant keywords NAME`), and the whole of docs/keywords.md.
+std::string keyword_help(const std::string& name);  ///< empty if there is no such keyword
+std::string keyword_list();
+std::string keyword_markdown();
+
+}  // namespace courant

@@ -1,0 +1,70 @@
+#pragma once
+// The only place that names threads. Work is cut into blocks of a fixed size, so a sum has the same bits on any number
+// of threads: each block is summed alone, then the blocks are added in order.
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "base/real.hpp"
+
+namespace courant {
+
+void set_threads(int threads);  ///< 0: as many as the machine has cores
+int threads();
+
+inline constexpr Index block_size = 256;
+
+/// Calls `body(begin, end)` for consecutive blocks of [0, n); a block is worked on by one thread.
+template <class Body>
+void for_each_block(Index n, const Body& body) {
+  const Index blocks = (n + block_size - 1) / block_size;
+#pragma omp parallel for schedule(static) if (blocks > 1)
+  for (Index b = 0; b < blocks; ++b) body(b * block_size, std::min(n, (b + 1) * block_size));
+}
+
+/// Calls `body(i)` for every i in [0, n).
+template <class Body>
+void for_each(Index n, const Body& body) {
+  for_each_block(n, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) body(i);
+  });
+}
+
+/// Combines `body(begin, end)` of all blocks in block order. T needs no more than a copy and `combine(T, T)`.
+template <class T, class Body, class Combine>
+T reduce(Index n, T start, const Body& body, const Combine& combine) {
+  const Index blocks = (n + block_size - 1) / block_size;
+  std::vector<T> part(blocks, start);
+#pragma omp parallel for schedule(static) if (blocks > 1)
+  for (Index b = 0; b < blocks; ++b) part[b] = body(b * block_size, std::min(n, (b + 1) * block_size));
+  for (const T& p : part) start = combine(start, p);
+  return start;
+}
+
+/// Sum of `term(i)` over [0, n), the same bits on any number of threads.
+template <class Term>
+Real sum(Index n, const Term& term) {
+  return reduce(
+      n, Real(0),
+      [&](Index begin, Index end) {
+        Real s = 0;
+        for (Index i = begin; i < end; ++i) s += term(i);
+        return s;
+      },
+      [](Real a, Real b) { return a + b; });
+}
+
+/// Largest `term(i)` over [0, n); -infinity for n = 0.
+template <class Term>
+Real maximum(Index n, const Term& term) {
+  return reduce(
+      n, -std::numeric_limits<Real>::infinity(),
+      [&](Index begin, Index end) {
+        Real s = -std::numeric_limits<Real>::infinity();
+        for (Index i = begin; i < end; ++i) s = std::max(s, Real(term(i)));
+        return s;
+      },
+      [](Real a, Real b) { return std::max(a, b); });
+}
+
+}  // namespace courant

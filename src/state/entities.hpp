@@ -1,0 +1,67 @@
+#pragma once
+// What exists in a run: SPH particles, shell nodes, contact segments, and the bodies that own rigid nodes.
+#include <array>
+
+#include "state/field.hpp"
+
+namespace courant {
+
+/// SPH particles, sorted as [active | rim | dormant]. Active particles are inside the computational box: the equations are
+/// solved for them. Rim particles are outside but within reach of an active one: they act as neighbours and move with
+/// constant velocity every step. Dormant particles are out of reach and are touched only when neighbours are refreshed.
+struct Particles {
+  FieldSet fields;
+  Field<Real>& x = fields.add<Real>({.name = "position", .dimension = "L", .components = 3, .exchange = true});
+  Field<Real>& v = fields.add<Real>({.name = "velocity", .dimension = "L/T", .components = 3, .output = true, .exchange = true});
+  Field<Real>& f = fields.add<Real>({.name = "force", .dimension = "ML/T2", .components = 3, .restart = false});
+  Field<Real>& m = fields.add<Real>({.name = "mass", .dimension = "M", .exchange = true});
+  Field<Real>& rho = fields.add<Real>({.name = "density", .dimension = "M/L3", .output = true, .exchange = true});
+  Field<Real>& drhodt = fields.add<Real>({.name = "density_rate", .dimension = "M/L3/T"});
+  Field<Real>& p = fields.add<Real>({.name = "pressure", .dimension = "M/LT2", .output = true, .exchange = true});
+  Field<Real>& c = fields.add<Real>({.name = "sound_speed", .dimension = "L/T", .exchange = true});
+  Field<Real>& E = fields.add<Real>({.name = "internal_energy", .dimension = "M/LT2", .output = true});  ///< per reference volume
+  Field<Real>& h = fields.add<Real>({.name = "smoothing_length", .dimension = "L", .exchange = true});
+  Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
+  Field<Index>& part = fields.add<Index>({.name = "part", .dimension = "-"});  ///< index into the model's parts
+  Field<Index>& state = fields.add<Index>({.name = "state", .dimension = "-"});  ///< see ParticleState
+
+  Index active = 0;   ///< particles [0, active) are active
+  Index moving = 0;   ///< particles [active, moving) are the rim
+  Index size() const { return fields.size(); }
+};
+
+enum ParticleState : Index {
+  particle_outside = 0,      ///< outside the box: keeps its state, moves with constant velocity
+  particle_active = 1,       ///< inside the box
+  particle_deactivated = 2,  ///< switched off for good (MAXV)
+};
+
+/// Nodes of shells. Contact adds forces to f; whoever owns the nodes (rigid bodies) moves them.
+struct Nodes {
+  FieldSet fields;
+  Field<Real>& x = fields.add<Real>({.name = "position", .dimension = "L", .components = 3});
+  Field<Real>& v = fields.add<Real>({.name = "velocity", .dimension = "L/T", .components = 3, .output = true});
+  Field<Real>& f = fields.add<Real>({.name = "force", .dimension = "ML/T2", .components = 3, .output = true, .restart = false});
+  Field<Real>& m = fields.add<Real>({.name = "mass", .dimension = "M"});
+  Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
+  Index size() const { return fields.size(); }
+};
+
+/// Shell faces that contact can act on. A triangle repeats its third node: node[2] == node[3].
+struct Segments {
+  FieldSet fields;
+  Field<Index>& node0 = fields.add<Index>({.name = "node0", .dimension = "-"});
+  Field<Index>& node1 = fields.add<Index>({.name = "node1", .dimension = "-"});
+  Field<Index>& node2 = fields.add<Index>({.name = "node2", .dimension = "-"});
+  Field<Index>& node3 = fields.add<Index>({.name = "node3", .dimension = "-"});
+  Field<Real>& thickness = fields.add<Real>({.name = "thickness", .dimension = "L", .output = true});
+  Field<Real>& K = fields.add<Real>({.name = "bulk_modulus", .dimension = "M/LT2"});  ///< E/(3(1-2 nu)) of the shell's material
+  Field<Real>& contact_force = fields.add<Real>(
+      {.name = "contact_force", .dimension = "ML/T2", .components = 3, .output = true, .restart = false});
+  Field<Index>& part = fields.add<Index>({.name = "part", .dimension = "-"});
+  Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
+  Index size() const { return fields.size(); }
+  std::array<Index, 4> nodes(Index s) const { return {node0[s], node1[s], node2[s], node3[s]}; }
+};
+
+}  // namespace courant
