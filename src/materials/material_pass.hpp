@@ -5,15 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/run_error.hpp"
 #include "parallel/parallel.hpp"
 #include "state/world.hpp"
 
 namespace courant {
-
-/// The run cannot go on: negative density, NaN. Names time, particle and part.
-struct RunError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// The parts one EOS pass works for, and what their material adds to the law.
 struct EosPart {

@@ -72,6 +72,8 @@ std::shared_ptr<EnergyTerm> make_sph_energy(const SphSettings&, World&, std::sha
 std::shared_ptr<Force> make_gravity(const Model&, World&, std::shared_ptr<Neighbours>);
 /// Acceleration that LOAD_BODY_X/Y/Z give to everything at time t [L/T2].
 Vec gravity_at(const std::vector<BodyLoad>& loads, Real t);
+/// nullptr where no particle is fixed. Call while particles stand in the order of the model.
+std::shared_ptr<Constraint> make_fixed_particles(const Model&, World&);
 std::shared_ptr<Constraint> make_speed_limit(const SphSettings&, std::shared_ptr<Neighbours>);
 
 }  // namespace courant
