@@ -74,8 +74,7 @@ struct CardOf {
   std::vector<FieldOf<T>> fields{};
   bool optional = false;  ///< may be missing at the end of the keyword
   bool repeat = false;    ///< repeats up to the next keyword, filling the vector members
-  std::function<bool(const T&)> when =
-      nullptr;  ///< the card is there only if this holds for the cards read so far
+  std::function<bool(const T&)> when{};  ///< the card is there only if this holds for the cards read so far
 };
 
 template <class T>
