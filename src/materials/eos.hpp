@@ -40,12 +40,6 @@ struct EosEntry {
 
 std::vector<EosEntry>& eos_registry();
 
-/// c^2 = (dp/dmu + B p / (1 + mu)^2) / rho0, from dE = -p dv with v = 1/(1 + mu).
-template <class Law>
-Real sound_speed2_of(const Law& law, Real rho0, Real mu, Real E, Real p) {
-  return (law.dA(mu) + law.dB(mu) * E + law.B(mu) * p / ((1 + mu) * (1 + mu))) / rho0;
-}
-
 template <class Law>
 class EosLawOf : public EosLaw {
  public:

@@ -11,6 +11,12 @@
 
 namespace courant {
 
+/// c^2 = (dp/dmu + B p / (1 + mu)^2) / rho0, from dE = -p dv with v = 1/(1 + mu).
+template <class Law>
+Real sound_speed2_of(const Law& law, Real rho0, Real mu, Real E, Real p) {
+  return (law.dA(mu) + law.dB(mu) * E + law.B(mu) * p / ((1 + mu) * (1 + mu))) / rho0;
+}
+
 /// The parts one EOS pass works for, and what their material adds to the law.
 struct EosPart {
   std::vector<char> mine;      ///< per part of the model
