@@ -13,7 +13,6 @@
 //           {"DEATH", &SectionSph::death, "T", "time SPH stops", {.standard = 1e20, .honour = Honour::no}},
 //           ...}}}}};
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <variant>
@@ -72,9 +71,9 @@ struct FieldOf {
 template <class T>
 struct CardOf {
   std::vector<FieldOf<T>> fields{};
-  bool optional = false;  ///< may be missing at the end of the keyword
-  bool repeat = false;    ///< repeats up to the next keyword, filling the vector members
-  std::function<bool(const T&)> when{};  ///< the card is there only if this holds for the cards read so far
+  bool optional = false;             ///< may be missing at the end of the keyword
+  bool repeat = false;               ///< repeats up to the next keyword, filling the vector members
+  bool (*when)(const T&) = nullptr;  ///< the card is there only if this holds for the cards read so far
 };
 
 template <class T>
