@@ -69,7 +69,8 @@ install_packages() {  # package names
       "As root: apt-get install --no-install-recommends ${missing[*]}"
     as_root=(sudo)
   fi
-  need_space /var 2500 "installing packages"
+  need_space /usr 3000 "installing packages"
+  need_space /var 1000 "fetching packages"
   mkdir -p "$logs"
   say "Installing ${#missing[@]} missing package(s) and what they need: ${missing[*]}"
   # apt-get update warns and goes on when servers are out of reach; the option makes it fail.
