@@ -149,7 +149,7 @@ int call_generate(const Call& call) {
 
 int call_post(const Call& call) {
   Diagnostics diagnostics;
-  const bool done = run_post(call.recipe, call.dir, [](const std::string& text) { fmt::print("{}", text); }, diagnostics);
+  const bool done = run_post(call.recipe, call.dir, [](std::string_view text) { fmt::print("{}", text); }, diagnostics);
   print_error(diagnostics.text());
   return done ? exit_ok : exit_input;
 }

@@ -12,6 +12,10 @@ namespace {
 struct Smallest {
   Real value = std::numeric_limits<Real>::infinity();
   Index at = -1;
+  /// NaN counts as smaller than any number and stays.
+  void take(Real other, Index where) {
+    if (!std::isnan(value) && !(other >= value)) value = other, at = where;
+  }
 };
 
 /// Eq. 18: dt = TSSFAC min h/(c + |v|), and with MU > 0 also dt <= 0.125 rho h^2 / MU (Morris et al. 1997). A NaN anywhere
@@ -32,11 +36,14 @@ class SphTimeLimit : public TimeLimit {
           for (Index i = begin; i < end; ++i) {
             Real dt = h[i] / (c[i] + std::sqrt(vx[i] * vx[i] + vy[i] * vy[i] + vz[i] * vz[i]));
             if (!mu_.empty()) dt = std::min(dt, 0.125 * p.rho[i] * h[i] * h[i] / mu_[p.part[i]]);
-            if (!(dt >= best.value)) best = {dt, i};
+            best.take(dt, i);
           }
           return best;
         },
-        [](Smallest a, Smallest b) { return !(b.value >= a.value) && b.at >= 0 ? b : a; });
+        [](Smallest a, Smallest b) {
+          if (b.at >= 0) a.take(b.value, b.at);
+          return a;
+        });
     if (s.at < 0) return {std::numeric_limits<Real>::infinity(), "no active particle"};
     return {tssfac_ * s.value, fmt::format("sph {} of part {}", p.id[s.at], part_ids_[p.part[s.at]])};
   }

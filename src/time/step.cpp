@@ -23,7 +23,8 @@ void choose_dt(World& world, Clock& clock, const StepRules& rules, std::string& 
   TimeLimit::Limit smallest{std::numeric_limits<Real>::infinity(), "nothing"};
   for (auto& limit : world.time_limits) {
     TimeLimit::Limit one = limit->limit(world, clock);
-    if (!(one.dt >= smallest.dt)) smallest = std::move(one);  // NaN is the smallest: the run must stop there
+    // NaN is the smallest of all: the run must stop there
+    if (!std::isnan(smallest.dt) && !(one.dt >= smallest.dt)) smallest = std::move(one);
   }
   if (clock.cycle == 0 && rules.dtinit > 0 && rules.dtinit < smallest.dt) smallest = {rules.dtinit, "DTINIT"};
   if (rules.dt_max) {
