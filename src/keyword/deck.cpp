@@ -67,7 +67,7 @@ Location Deck::where(const Entry& entry, std::string_view field) const {
 
 std::string Deck::keyword(const Entry& entry) const {
   const KeywordSpec* spec = spec_of(entry);
-  return spec ? "*" + spec->names[static_cast<std::size_t>(entry.name)] : "*?";
+  return spec ? fmt::format("*{}", spec->names[static_cast<std::size_t>(entry.name)]) : "*?";
 }
 
 std::string Deck::describe(const Entry& entry, std::string_view field) const {

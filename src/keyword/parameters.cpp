@@ -49,8 +49,9 @@ void Parameters::define(std::string_view declaration, std::string_view value, co
                         nearest(value));
       return;
     }
-    out.text =
-        value[0] == '-' ? (other->text[0] == '-' ? other->text.substr(1) : fmt::format("-{}", other->text)) : other->text;
+    out.text = value[0] == '-'
+                   ? (other->text[0] == '-' ? other->text.substr(1) : fmt::format("-{}", other->text))
+                   : other->text;
   }
   std::string source = "the deck";
   if (const auto it = overrides_.find(upper_case(name)); it != overrides_.end()) {
