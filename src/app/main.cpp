@@ -1,1 +1,13 @@
-int main() { return 0; }
+#include <cstdio>
+#include <exception>
+
+#include "app/cli.hpp"
+
+int main(int argc, char** argv) {
+  try {
+    return courant::command_line(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "courant: %s\n", error.what());
+    return 3;
+  }
+}

@@ -1,15 +1,18 @@
 #pragma once
-// A keyword is a table: field name, columns, type, dimension, default, range, one-line meaning. Parser, defaults, checks,
-// `courant keywords`, docs/keywords.md and error texts all come from that one table. Each folder registers its own.
+// A keyword is a table: field name, columns, type, dimension, default, range, one-line meaning. Parser,
+// defaults, checks, `courant keywords`, docs/keywords.md and error texts all come from that one table. Each
+// folder registers its own.
 //
 //   struct SectionSph : Entry { Id secid; Real cslh, hmin, ...; };
 //   static const RegisterKeyword<SectionSph> section_sph{{
 //       .names = {"SECTION_SPH"}, .purpose = "smoothing length of SPH parts", .title_option = true,
 //       .cards = {{.fields = {
-//           {"SECID", &SectionSph::secid, "-", "section id", {.required = true, .check = positive}},
-//           {"CSLH", &SectionSph::cslh, "-", "h0 = CSLH x largest nearest-neighbour distance", {.standard = 1.2}},
-//           {"DEATH", &SectionSph::death, "T", "time SPH stops", {.standard = 1e20, .honour = Honour::no}}, ...}}}}};
-#include <functional>
+//           {"SECID", &SectionSph::secid, "-", "section id", {.required = true, .check = Check::positive}},
+//           {"CSLH", &SectionSph::cslh, "-", "h0 = CSLH x largest nearest-neighbour distance", {.standard
+//           = 1.2}},
+//           {"DEATH", &SectionSph::death, "T", "time SPH stops", {.standard = 1e20, .honour = Honour::no}},
+//           ...}}}}};
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <variant>
@@ -20,11 +23,13 @@
 
 namespace courant {
 
-/// Base of every card struct: where it stands in the deck. `title` is the text of a _TITLE, _ID or heading card.
+/// Base of every card struct: where it stands in the deck. `title` is the text of a _TITLE, _ID or heading
+/// card.
 struct Entry {
   std::int32_t file = -1;     ///< index into Deck::files
-  std::int32_t line = 0;      ///< of the first data line
+  std::int32_t line = 0;      ///< of the first data line (the title or heading line, if there is one)
   std::int32_t keyword = -1;  ///< index into the registry
+  std::int32_t name = 0;      ///< which of the keyword's names the deck uses
 };
 
 /// What is done with a value that differs from the default.
@@ -38,49 +43,51 @@ enum class Honour {
 enum class Check { any, positive, not_negative, not_positive };
 
 struct FieldRules {
-  Real standard = 0;         ///< value of a blank field; also of 0 when `zero_is_standard`
+  Real standard = 0;  ///< value of a blank field; also of 0 when `zero_is_standard`
   bool zero_is_standard = true;
-  bool required = false;     ///< blank (or 0 for ids) is an error
+  bool required = false;  ///< blank (or 0 for ids) is an error
   Check check = Check::any;
   Honour honour = Honour::yes;
-  std::vector<int> allowed;  ///< for integers: the supported values; others are refused by name. Empty: any
-  int width = 10;            ///< columns in standard format
+  std::vector<int> allowed{};  ///< for integers: the supported values; others are refused by name. Empty: any
+  int width = 10;              ///< columns in standard format
 };
 
-/// One field. `member` says where the value goes and so of which type it is: Id and int are I, Real is F, std::string A.
-/// A vector member takes this and all following columns of the card, and (on a repeated card) of all cards up to the next
-/// keyword; blank and 0 entries are skipped for Id.
+/// One field. `member` says where the value goes and so of which type it is: Id and int are I, Real is F,
+/// std::string A. A vector member takes this and all following columns of the card, and (on a repeated card)
+/// of all cards up to the next keyword; blank and 0 entries are skipped for Id. Two or more vectors on a card
+/// take one column each, as a table.
 template <class T>
 struct FieldOf {
-  using Member = std::variant<int T::*, Id T::*, Real T::*, std::string T::*, std::vector<Id> T::*, std::vector<Real> T::*,
+  using Member = std::variant<int T::*, Id T::*, Real T::*, std::string T::*, std::vector<Id> T::*,
+                              std::vector<Real> T::*,
                               std::monostate>;  ///< monostate: columns that are skipped
-  std::string name;
-  Member member;
-  std::string dimension;
-  std::string meaning;
+  std::string name{};
+  Member member = std::monostate{};
+  std::string dimension{};
+  std::string meaning{};
   FieldRules rules{};
 };
 
 template <class T>
 struct CardOf {
-  std::vector<FieldOf<T>> fields;
-  bool optional = false;                           ///< may be missing at the end of the keyword
-  bool repeat = false;                             ///< repeats up to the next keyword, filling the vector members
-  std::function<bool(const T&)> when = nullptr;    ///< the card is there only if this holds for the cards read so far
+  std::vector<FieldOf<T>> fields{};
+  bool optional = false;             ///< may be missing at the end of the keyword
+  bool repeat = false;               ///< repeats up to the next keyword, filling the vector members
+  bool (*when)(const T&) = nullptr;  ///< the card is there only if this holds for the cards read so far
 };
 
 template <class T>
 struct KeywordOf {
-  std::vector<std::string> names;  ///< without '*', the first is shown: {"MAT_NULL", "MAT_009"}
-  std::string purpose;
-  bool title_option = false;       ///< NAME_TITLE adds an A80 card, stored in the member named by `title`
-  bool id_option = false;          ///< NAME_ID adds a card ID I10, HEADING A70
-  bool heading = false;            ///< always starts with an A70 heading card (*PART)
+  std::vector<std::string> names{};  ///< without '*', the first is shown: {"MAT_NULL", "MAT_009"}
+  std::string purpose{};
+  bool title_option = false;  ///< NAME_TITLE adds an A80 card, stored in the member named by `title`
+  bool id_option = false;     ///< NAME_ID adds a card ID I10, HEADING A70
+  bool heading = false;       ///< always starts with an A70 heading card (*PART)
   std::string T::*title = nullptr;
   Id T::*id = nullptr;
-  bool once = false;               ///< may stand only once in a deck
-  bool many = true;                ///< several card sets may follow one keyword line
-  std::vector<CardOf<T>> cards;
+  bool once = false;  ///< may stand only once in a deck
+  bool many = true;   ///< several card sets may follow one keyword line
+  std::vector<CardOf<T>> cards{};
 };
 
 }  // namespace courant

@@ -1,6 +1,6 @@
 #pragma once
-// A deck that was read: typed entries of every supported keyword, and where each stands, so that later checks can name the
-// file, line, column, keyword and field.
+// A deck that was read: typed entries of every supported keyword, and where each stands, so that later checks
+// can name the file, line, column, keyword and field.
 #include <any>
 #include <map>
 #include <memory>
@@ -46,9 +46,9 @@ class Deck {
                std::string hint = {}) const;
 
   std::string title;
-  std::vector<std::string> files;                           ///< as named by the user; [0] is the deck itself
+  std::vector<std::string> files;  ///< as named by the user; [0] is the deck itself
   std::vector<std::shared_ptr<std::vector<std::string>>> lines;  ///< text of each file, kept for messages
-  std::map<std::string, int> keyword_counts;                ///< every keyword of the deck by name, for `courant check`
+  std::map<std::string, int> keyword_counts;  ///< every keyword of the deck by name, for `courant check`
 
  private:
   std::map<std::type_index, std::shared_ptr<void>> entries_;

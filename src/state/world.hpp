@@ -79,6 +79,9 @@ struct Refresh : Pass {
 /// f . (v^{n-1/2} + v^{n+1/2})/2 dt_mean, which makes the change of kinetic energy exact.
 struct EnergyTerm : Pass {
   virtual void record(World& world, const Clock& clock, EnergyLedger& ledger) = 0;
+  /// Adds what holds at t^n (not what accumulates) to kinetic, internal, potential, contact, which are zero before. Called
+  /// only when somebody wants to know.
+  virtual void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const = 0;
 };
 
 /// Named counters that end up in summary.yaml: clamps, deactivations, leaks. Never silently wrong.

@@ -1,0 +1,233 @@
+#include "app/cli.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/simulation.hpp"
+#include "generate/generate.hpp"
+#include "keyword/registry.hpp"
+#include "output/file.hpp"
+#include "parallel/parallel.hpp"
+#include "post/post.hpp"
+
+namespace courant {
+
+namespace {
+
+enum ExitCode { exit_ok = 0, exit_input = 1, exit_run = 2, exit_other = 3 };
+
+std::atomic<bool> stop_requested{false};
+void request_stop(int) { stop_requested = true; }
+
+struct Call {
+  std::string deck, dir = ".", scene, output, recipe, keyword, restart;
+  std::vector<std::string> params;
+  int threads = 0;
+  Real until = 0;
+  bool quiet = false, markdown = false, strict = false;
+};
+
+void print_error(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
+/// Splits NAME=VALUE; a wrong one is an input error.
+bool parse_params(const std::vector<std::string>& words, std::map<std::string, std::string>& out) {
+  for (const std::string& word : words) {
+    const auto at = word.find('=');
+    if (at == std::string::npos || at == 0) {
+      print_error(fmt::format("error: --param expects NAME=VALUE, got '{}'\n", word));
+      return false;
+    }
+    out[word.substr(0, at)] = word.substr(at + 1);
+  }
+  return true;
+}
+
+std::unique_ptr<Simulation> build(const Call& call, std::vector<std::string>& warnings) {
+  ReadOptions read;
+  if (!parse_params(call.params, read.parameters)) return nullptr;
+  Diagnostics diagnostics;
+  auto simulation = Simulation::build(call.deck, read, diagnostics);
+  print_error(diagnostics.text());
+  if (!simulation) {
+    print_error(fmt::format("{} error{}; nothing was run, nothing written\n", diagnostics.errors(),
+                            diagnostics.errors() == 1 ? "" : "s"));
+    return nullptr;
+  }
+  for (const Diagnostic& d : diagnostics.all())
+    if (d.severity == Severity::warning) warnings.push_back(d.text());
+  if (call.strict && !warnings.empty()) {
+    print_error(fmt::format("{} warnings are errors with --strict\n", warnings.size()));
+    return nullptr;
+  }
+  return simulation;
+}
+
+int call_run(const Call& call) {
+  if (!call.restart.empty()) {
+    print_error("error: --restart is not supported yet: runs cannot be continued from a file\n");
+    return exit_input;
+  }
+  set_threads(call.threads);
+  std::vector<std::string> warnings;
+  auto simulation = build(call, warnings);
+  if (!simulation) return exit_input;
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  RunOptions options;
+  options.dir = call.dir, options.until = call.until, options.warnings = warnings, options.stop = &stop_requested;
+  const bool terminal = isatty(STDOUT_FILENO) != 0;
+  if (!call.quiet) {
+    options.print = [&](const std::string& line) {
+      if (line.find("write d3plot file") == std::string::npos) fmt::print("{}{}\n", terminal ? "\r\033[K" : "", line);
+      std::fflush(stdout);
+    };
+    if (terminal)
+      options.progress = [](const std::string& line) {
+        fmt::print("\r\033[K{}", line);
+        std::fflush(stdout);
+      };
+  }
+  try {
+    const Summary summary = run(*simulation, call.deck, options);
+    if (summary.termination == "error") {
+      print_error(fmt::format("error: {}\n", summary.reason));
+      return exit_run;
+    }
+    if (!call.quiet) fmt::print("results are in {}\n", call.dir);
+    return exit_ok;
+  } catch (const OutputError& error) {  // the folder could not be set up: nothing was run
+    print_error(fmt::format("error: {}\n", error.what()));
+    return exit_input;
+  }
+}
+
+int call_check(const Call& call) {
+  set_threads(1);
+  std::vector<std::string> warnings;
+  auto simulation = build(call, warnings);
+  if (!simulation) return exit_input;
+  fmt::print("{}", check_report(*simulation));
+  return exit_ok;
+}
+
+int call_keywords(const Call& call) {
+  if (call.markdown) {
+    fmt::print("{}", keyword_markdown());
+    return exit_ok;
+  }
+  if (call.keyword.empty()) {
+    fmt::print("{}", keyword_list());
+    return exit_ok;
+  }
+  const std::string help = keyword_help(call.keyword);
+  if (help.empty()) {
+    print_error(fmt::format("error: '{}' is not a supported keyword\n  hint: `courant keywords` lists them\n", call.keyword));
+    return exit_input;
+  }
+  fmt::print("{}", help);
+  return exit_ok;
+}
+
+int call_generate(const Call& call) {
+  std::map<std::string, std::string> params;
+  if (!parse_params(call.params, params)) return exit_input;
+  Diagnostics diagnostics;
+  const bool written = generate_deck(call.scene, call.output, params, diagnostics);
+  print_error(diagnostics.text());
+  if (!written) return exit_input;
+  fmt::print("wrote {}\n", call.output);
+  return exit_ok;
+}
+
+int call_post(const Call& call) {
+  Diagnostics diagnostics;
+  const bool done = run_post(call.recipe, call.dir, [](std::string_view text) { fmt::print("{}", text); }, diagnostics);
+  print_error(diagnostics.text());
+  return done ? exit_ok : exit_input;
+}
+
+/// LS-DYNA users type `i=DECK ncpu=N`: rewritten to our options before they are read.
+std::vector<std::string> translate_habits(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  std::vector<std::string> out;
+  bool habit = false;
+  for (const std::string& word : words) {
+    if (word.rfind("i=", 0) == 0) {
+      habit = true;
+      out.push_back(word.substr(2));
+    } else if (word.rfind("ncpu=", 0) == 0) {
+      out.push_back("--threads");
+      out.push_back(std::to_string(std::abs(std::atoi(word.c_str() + 5))));
+    } else if (word.rfind("memory=", 0) != 0) {
+      out.push_back(word);
+    }
+  }
+  if (habit && (out.empty() || out.front() != "run")) out.insert(out.begin(), "run");
+  return out;
+}
+
+}  // namespace
+
+int command_line(int argc, char** argv) {
+  CLI::App app{"Courant: explicit multiphysics solver for LS-DYNA-style keyword decks", "courant"};
+  app.set_version_flag("--version", std::string("courant ") + COURANT_VERSION);
+  app.require_subcommand(1);
+  Call call;
+
+  auto* run_ = app.add_subcommand("run", "run a deck (also: courant i=DECK ncpu=N)");
+  run_->add_option("DECK", call.deck, "keyword deck")->required();
+  run_->add_option("-o,--output", call.dir, "folder for the results; made if missing");
+  run_->add_option("--threads", call.threads, "threads; 0: all cores")->check(CLI::NonNegativeNumber);
+  run_->add_option("--until", call.until, "end time instead of ENDTIM")->check(CLI::PositiveNumber);
+  run_->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER")->allow_extra_args(false);
+  run_->add_option("--restart", call.restart, "continue from a restart file (not supported yet)");
+  run_->add_flag("--quiet", call.quiet, "print errors only");
+
+  auto* check = app.add_subcommand("check", "read, validate and build a deck; run nothing");
+  check->add_option("DECK", call.deck, "keyword deck")->required();
+  check->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER")->allow_extra_args(false);
+  check->add_flag("--strict", call.strict, "warnings are errors");
+
+  auto* keywords = app.add_subcommand("keywords", "list the supported keywords, or show the cards of one");
+  keywords->add_option("NAME", call.keyword, "keyword, with or without '*'");
+  keywords->add_flag("--markdown", call.markdown, "all cards as docs/keywords.md");
+
+  auto* generate = app.add_subcommand("generate", "write a keyword deck from a YAML scene");
+  generate->add_option("SCENE", call.scene, "scene.yaml")->required();
+  generate->add_option("-o,--output", call.output, "deck to write")->required();
+  generate->add_option("--param", call.params, "NAME=VALUE: a parameter of the scene")->allow_extra_args(false);
+
+  auto* post = app.add_subcommand("post", "tables, CSV and pictures from the results of a run");
+  post->add_option("RECIPE", call.recipe, "recipe.yaml")->required();
+  post->add_option("DIR", call.dir, "folder of the run")->required();
+
+  auto* help = app.add_subcommand("help", "show help for a call");
+  std::string topic;
+  help->add_option("CALL", topic, "run, check, keywords, generate or post");
+
+  std::vector<std::string> words = translate_habits(argc, argv);
+  std::reverse(words.begin(), words.end());
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_ok : exit_input;
+  }
+  if (*run_) return call_run(call);
+  if (*check) return call_check(call);
+  if (*keywords) return call_keywords(call);
+  if (*generate) return call_generate(call);
+  if (*post) return call_post(call);
+  const CLI::App* about = topic.empty() ? &app : app.get_subcommand_no_throw(topic);
+  fmt::print("{}", (about ? about : &app)->help());
+  return about ? exit_ok : exit_input;
+}
+
+}  // namespace courant

@@ -1,0 +1,267 @@
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "app/simulation.hpp"
+#include "base/run_error.hpp"
+#include "output/ascii.hpp"
+#include "output/field_writer.hpp"
+#include "output/messag.hpp"
+#include "parallel/parallel.hpp"
+
+namespace courant {
+
+namespace {
+
+using Clock_ = std::chrono::steady_clock;
+
+double seconds_since(Clock_::time_point start) { return std::chrono::duration<double>(Clock_::now() - start).count(); }
+
+double cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+std::int64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss * 1024;
+}
+
+HistoryRequests history_requests(const Simulation& s) {
+  const OutputRequests& wanted = s.model().output;
+  HistoryRequests h;
+  h.glstat = wanted.glstat, h.matsum = wanted.matsum, h.rcforc = wanted.rcforc, h.sphout = wanted.sphout;
+  h.title = s.model().title;
+  for (const ModelPart& part : s.model().parts) h.parts.push_back({part.id, part.title});
+  for (const auto& contact : s.contacts()) h.contacts.push_back({contact->report().id, contact->report().title});
+  return h;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 60) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 3600) return fmt::format("{:.0f} min {:02.0f} s", std::floor(seconds / 60), std::fmod(seconds, 60));
+  return fmt::format("{:.0f} h {:02.0f} min", std::floor(seconds / 3600), std::fmod(seconds / 60, 60));
+}
+
+/// One run with its files.
+class Run {
+ public:
+  Run(Simulation& simulation, const std::string& deck_path, const RunOptions& options)
+      : s_(simulation),
+        options_(options),
+        end_(options.until > 0 ? options.until : simulation.model().endtim),
+        messag_((make_folder(options.dir), std::filesystem::path(options.dir) / "messag"),
+                [this](std::string_view line) {
+                  if (options_.print) options_.print(std::string(line));
+                }),
+        fields_(options.dir, writer_options(simulation)),
+        histories_(options.dir, history_requests(simulation)),
+        field_schedule_(field_interval(simulation, end_)) {
+    summary_.title = s_.model().title;
+    summary_.deck = deck_path;
+    summary_.threads = threads();
+    summary_.particles = s_.world().particles.size();
+    summary_.warnings = options.warnings;
+    summary_.dt_min = std::numeric_limits<Real>::infinity();
+  }
+
+  Summary execute() {
+    print_start();
+    try {
+      loop();
+      finish_normally();
+    } catch (const RunError& error) {
+      fail(error.what());
+    } catch (const OutputError& error) {
+      fail(error.what());
+    }
+    close();
+    return summary_;
+  }
+
+ private:
+  static FieldWriterOptions writer_options(const Simulation& s) {
+    FieldWriterOptions o;
+    for (const ModelPart& part : s.model().parts) o.part_ids.push_back(part.id);
+    o.hide_inactive = s.sph().hide_inactive;
+    return o;
+  }
+  static Real field_interval(const Simulation& s, Real end) {
+    const OutputRequests& wanted = s.model().output;
+    return wanted.d3plot_count > 0 ? end / wanted.d3plot_count : wanted.d3plot;
+  }
+
+  void print_start() {
+    messag_.line(fmt::format("Courant {}", COURANT_VERSION));
+    messag_.line(fmt::format("deck {}: {}", summary_.deck, summary_.title));
+    messag_.line(fmt::format("{} particles in {}D, {} shell nodes, {} segments, {} threads", summary_.particles, s_.world().dim,
+                             s_.world().nodes.size(), s_.world().segments.size(), summary_.threads));
+    for (const std::string& warning : options_.warnings) messag_.line(warning);
+    messag_.line(s_.passes());
+    messag_.line(fmt::format(" termination time                  = {:10.3E}", end_));
+  }
+
+  void loop() {
+    const Id endcyc = s_.model().endcyc;
+    while (s_.clock().t < end_) {
+      if (options_.stop && options_.stop->load()) {
+        summary_.termination = "interrupted";
+        summary_.reason = fmt::format("stopped by a signal at time {:.6g}", s_.clock().t);
+        return;
+      }
+      if (endcyc > 0 && s_.clock().cycle >= endcyc) {
+        summary_.reason = "termination cycle reached";
+        return;
+      }
+      s_.step([this](World& world, const Clock& clock, const std::string& who) { at_time_level(world, clock, who); });
+      summary_.particle_steps += s_.world().particles.active;
+      if (s_.clock().cycle % 64 == 0) show_progress();
+    }
+    summary_.reason = "termination time reached";
+  }
+
+  void at_time_level(World& world, const Clock& clock, const std::string& who) {
+    who_ = who;
+    if (clock.cycle == 0) start_ledger(clock);
+    summary_.dt_min = std::min(summary_.dt_min, clock.dt);
+    summary_.dt_max = std::max(summary_.dt_max, clock.dt);
+    const Real dtmin = s_.model().dtmin;
+    if (dtmin > 0 && clock.dt < dtmin * first_dt_)
+      throw RunError(fmt::format("the step size {:.4g} fell below DTMIN x first step = {:.4g} at time {:.6g}, set by {}", clock.dt,
+                                 dtmin * first_dt_, clock.t, who));
+    if (field_schedule_.take(clock.t, clock.dt)) write_fields(world, clock);
+    if (histories_.is_due(clock.t, clock.dt)) write_histories(false);
+    if (clock.cycle % 5000 == 0 && clock.cycle > 0) messag_.status(clock.cycle, clock.t, clock.dt, "flush i/o buffers");
+  }
+
+  void start_ledger(const Clock& clock) {
+    first_dt_ = clock.dt;
+    sample_energy(s_.world(), clock);
+    EnergyLedger& e = s_.world().energy;
+    e.initial = e.total();
+    messag_.line(" initialization completed");
+    messag_.line(fmt::format("first step {:.4E} [T], set by {}", clock.dt, who_));
+  }
+
+  void write_fields(const World& world, const Clock& clock) {
+    fields_.write(world, clock.t, state_++);
+    last_field_time_ = clock.t;
+    messag_.status(clock.cycle, clock.t, clock.dt, "write d3plot file");
+  }
+
+  void write_histories(bool always) {
+    Sample sample = s_.sample(who_);
+    const double steps = static_cast<double>(std::max<std::int64_t>(summary_.particle_steps, 1));
+    sample.ns_per_zone_cycle = 1e9 * seconds_since(start_) / steps;
+    check_energy(sample.energy);
+    histories_.write(sample, always);
+  }
+
+  void check_energy(const EnergyLedger& e) const {
+    if (std::isfinite(e.total())) return;
+    throw RunError(fmt::format("the energy became {} at time {:.6g}, cycle {}: the run is unstable", e.total(), s_.clock().t,
+                               s_.clock().cycle));
+  }
+
+  void finish_normally() {
+    s_.evaluate(who_);  // pressures and forces at the end time
+    sample_energy(s_.world(), s_.clock());
+    check_energy(s_.world().energy);
+    if (field_schedule_.interval() > 0 && last_field_time_ < s_.clock().t) write_fields(s_.world(), s_.clock());
+    write_histories(true);
+    if (summary_.termination.empty()) {
+      summary_.termination = "normal";
+      messag_.line(fmt::format(" *** {} ***", summary_.reason));
+    }
+  }
+
+  void fail(const std::string& reason) {
+    summary_.termination = "error";
+    summary_.reason = reason;
+    failure_ = " *** Error: " + reason;
+  }
+
+  /// Writes what can still be written; a second failure must not hide the first.
+  void close() {
+    Summary& y = summary_;
+    y.time = s_.clock().t, y.steps = s_.clock().cycle;
+    y.wall_seconds = seconds_since(start_), y.cpu_seconds = cpu_seconds() - cpu_start_;
+    y.active_particles = s_.world().particles.active;
+    y.peak_memory_bytes = peak_memory();
+    y.energy = s_.world().energy;
+    y.counters = s_.world().counters;
+    y.maxima = s_.world().maxima;
+    y.leaked_particles = y.counters.contains("leaked_particles") ? y.counters.at("leaked_particles") : 0;
+    y.max_penetration = y.maxima.contains("max_penetration") ? y.maxima.at("max_penetration") : 0;
+    if (!std::isfinite(y.dt_min)) y.dt_min = 0;
+    for (const auto& row : s_.timer().table()) y.passes.push_back({row.name, row.seconds, row.calls});
+    y.counters["neighbour_rebuilds"] = s_.neighbours().rebuilds();
+    try {
+      histories_.finish();
+      fields_.finish();
+      print_end();
+      write_summary(std::filesystem::path(options_.dir) / "summary.yaml", y);
+    } catch (const OutputError& error) {
+      if (y.termination != "error") y.reason = error.what();
+      y.termination = "error";
+      if (options_.print) options_.print(std::string(" *** Error: ") + error.what());
+    }
+  }
+
+  void print_end() {
+    if (!failure_.empty()) messag_.line(failure_);
+    const bool ok = summary_.termination != "error";
+    messag_.line("T i m i n g   i n f o r m a t i o n        seconds        %");
+    for (const auto& pass : summary_.passes)
+      messag_.line(fmt::format("  {:<38}{:10.3f}{:9.1f}", pass.name, pass.seconds, 100 * pass.seconds / summary_.wall_seconds));
+    messag_.line(fmt::format(" Problem time       = {:12.5E}", summary_.time));
+    messag_.line(fmt::format(" Problem cycle      = {}", summary_.steps));
+    messag_.line(fmt::format(" Total CPU time     = {:.1f} s, elapsed {:.1f} s, {:.0f} ns per particle and step", summary_.cpu_seconds,
+                             summary_.wall_seconds, summary_.ns_per_particle_step()));
+    messag_.line(fmt::format(" leaked particles {}, largest penetration {:.4g} [L], energy residual {:.3g} % of what passed through",
+                             summary_.leaked_particles, summary_.max_penetration, residual_percent(summary_.energy)));
+    messag_.line(ok ? " N o r m a l    t e r m i n a t i o n" : " E r r o r    t e r m i n a t i o n");
+  }
+
+  static Real residual_percent(const EnergyLedger& e) {
+    return e.throughput > 0 ? 100 * e.residual() / e.throughput : 0;
+  }
+
+  void show_progress() {
+    if (!options_.progress || seconds_since(shown_) < 0.5) return;
+    shown_ = Clock_::now();
+    const double elapsed = seconds_since(start_), done = std::min(1.0, s_.clock().t / end_);
+    options_.progress(fmt::format("t {:.4f} of {:g}  {:5.1f} %  dt {:.2e} ({})  {} active  {} left", s_.clock().t, end_, 100 * done,
+                                  s_.clock().dt_old, who_, s_.world().particles.active,
+                                  done > 0 ? duration(elapsed * (1 - done) / done) : "?"));
+  }
+
+  Simulation& s_;
+  const RunOptions& options_;
+  Real end_;
+  Messag messag_;
+  FieldWriter fields_;
+  Histories histories_;
+  OutputSchedule field_schedule_;
+  Summary summary_;
+  std::string who_, failure_;
+  Real first_dt_ = 0, last_field_time_ = -1;
+  int state_ = 0;
+  double cpu_start_ = cpu_seconds();
+  Clock_::time_point start_ = Clock_::now(), shown_ = start_;
+};
+
+}  // namespace
+
+Summary run(Simulation& simulation, const std::string& deck_path, const RunOptions& options) {
+  return Run(simulation, deck_path, options).execute();
+}
+
+}  // namespace courant

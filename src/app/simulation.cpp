@@ -1,0 +1,126 @@
+#include "app/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include "parallel/parallel.hpp"
+#include "shell/shell.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Lists hold until something moved half the skin. 0.25 h was the cheapest on both the stiff and the soft jump.
+constexpr Real skin_over_h = 0.25;
+
+}  // namespace
+
+std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, const ReadOptions& options,
+                                              Diagnostics& diagnostics) {
+  std::unique_ptr<Simulation> s(new Simulation);
+  s->deck_ = read_deck(deck_path, options, diagnostics);
+  s->model_ = build_model(s->deck_, diagnostics);
+  const Model& model = s->model_;
+  s->materials_ = find_materials(s->deck_, model, diagnostics);
+  s->bodies_ = build_rigid_bodies(s->deck_, model, s->world_, diagnostics);
+  const auto sph_material = [&](Index part) -> SphMaterial {
+    const PartMaterial& m = s->materials_[part];
+    if (!m.found) return {};
+    return {m.ro, m.eos->V0, m.mu, m.eos->uses_energy()};
+  };
+  s->sph_ = build_particles(s->deck_, model, sph_material, s->world_, diagnostics);
+  if (model.sph.empty() && diagnostics.ok())
+    diagnostics.error({deck_path, 0, 0}, "the deck has no *ELEMENT_SPH: there is nothing to compute",
+                      "Courant needs at least one SPH particle");
+  if (diagnostics.ok()) s->add_passes(diagnostics);
+  if (!diagnostics.ok()) return nullptr;
+  return s;
+}
+
+void Simulation::add_passes(Diagnostics& diagnostics) {
+  const Real h = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
+  neighbours_ = std::make_shared<Neighbours>(skin_over_h * h, sph_.region);
+  add_eos_passes(world_, model_, materials_);
+  if (auto fixed = make_fixed_particles(model_, world_)) world_.constraints.push_back(fixed);
+  contacts_ = build_contacts(deck_, model_, world_, diagnostics);
+  left_out_ = add_sph_passes(world_, sph_, neighbours_);
+  if (!model_.body_loads.empty())
+    world_.forces.push_back(make_gravity(model_, world_, neighbours_));
+  else
+    left_out_.push_back({"gravity", "no *LOAD_BODY"});
+  for (auto& contact : contacts_) {
+    world_.forces.push_back(contact);
+    world_.refreshes.push_back(contact);
+    world_.time_limits.push_back(contact);
+    world_.energy_terms.push_back(contact);
+  }
+  if (contacts_.empty()) left_out_.push_back({"contact", "no *CONTACT"});
+  world_.motions.push_back(make_particle_motion());
+  world_.time_limits.insert(world_.time_limits.begin(), make_sph_time_limit(sph_, model_));
+  rules_.dtinit = model_.dtinit;
+  if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
+}
+
+void Simulation::step(const AtTimeLevel& at_time_level) {
+  courant::step(world_, clock_, *neighbours_, rules_, timer_, at_time_level);
+}
+
+void Simulation::evaluate(std::string& dt_controlled_by) {
+  courant::evaluate(world_, clock_, *neighbours_, rules_, timer_, dt_controlled_by);
+}
+
+Sample Simulation::sample(const std::string& dt_controlled_by) {
+  sample_energy(world_, clock_);
+  Sample s;
+  s.t = clock_.t, s.dt = clock_.dt, s.cycle = clock_.cycle, s.dt_set_by = dt_controlled_by, s.energy = world_.energy;
+  const Particles& p = world_.particles;
+  const auto* volume = dynamic_cast<const Field<Real>*>(p.fields.find("reference_volume"));
+  for (const ModelPart& part : model_.parts) s.parts.push_back({.id = part.id, .title = part.title});
+  for (Index i = 0; i < p.active; ++i) {
+    PartSample& part = s.parts[p.part[i]];
+    part.mass += p.m[i];
+    part.momentum += p.m[i] * p.v.vec(i);
+    part.kinetic += 0.5 * p.m[i] * p.v.vec(i).squaredNorm();
+    part.internal += p.E[i] * (*volume)[i];
+  }
+  if (bodies_) s.bodies = bodies_->reports();
+  for (const RigidBodyReport& body : s.bodies) {
+    PartSample& part = s.parts[model_.part_of_id.at(body.part)];
+    part.mass = body.mass;
+    part.momentum = body.mass * body.v;
+    part.kinetic = body.kinetic_energy;
+    part.rigid_velocity = body.v;
+  }
+  Vec momentum = Vec::Zero();
+  for (const PartSample& part : s.parts) s.mass += part.mass, momentum += part.momentum;
+  if (s.mass > 0) s.velocity = momentum / s.mass;
+  for (const auto& contact : contacts_) s.interfaces.push_back(contact->report());
+  if (!model_.output.history_sph.empty()) {
+    std::map<Id, Index> index;
+    for (Index i = 0; i < p.size(); ++i) index[p.id[i]] = i;
+    for (const Id id : model_.output.history_sph)
+      if (const auto at = index.find(id); at != index.end()) {
+        const Index i = at->second;
+        s.particles.push_back({id, i < p.active, p.x.vec(i), p.v.vec(i), p.p[i], p.rho[i], p.E[i]});
+      }
+  }
+  return s;
+}
+
+std::string Simulation::passes() const {
+  std::string text = "active passes, in the order of a step:\n";
+  const auto list = [&](const char* kind, const auto& passes) {
+    for (const auto& pass : passes) text += fmt::format("  {:<12}{}\n", kind, pass->name());
+  };
+  list("rate", world_.rates);
+  list("material", world_.materials);
+  list("force", world_.forces);
+  list("constraint", world_.constraints);
+  list("time limit", world_.time_limits);
+  list("energy", world_.energy_terms);
+  list("motion", world_.motions);
+  text += "not needed by this deck:\n";
+  for (const PassNote& note : left_out_) text += fmt::format("  {:<20}{}\n", note.name, note.reason);
+  return text;
+}
+
+}  // namespace courant

@@ -1,0 +1,80 @@
+#pragma once
+// A deck as a running model: the one place where all physics folders meet. Programs that embed Courant start here.
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "keyword/deck.hpp"
+#include "materials/materials.hpp"
+#include "model/model.hpp"
+#include "output/sample.hpp"
+#include "output/summary.hpp"
+#include "rigid/rigid.hpp"
+#include "sph/sph.hpp"
+#include "time/step.hpp"
+
+namespace courant {
+
+class Simulation {
+ public:
+  /// Reads, checks and builds. Returns nullptr when `diagnostics` has errors.
+  static std::unique_ptr<Simulation> build(const std::string& deck_path, const ReadOptions& options, Diagnostics& diagnostics);
+
+  /// One step; `at_time_level` sees x, p and f of the same time before the kick.
+  void step(const AtTimeLevel& at_time_level);
+  /// Brings rates, pressures and forces to the present time without moving anything.
+  void evaluate(std::string& dt_controlled_by);
+  /// Everything the histories print at the present time.
+  Sample sample(const std::string& dt_controlled_by);
+
+  const Deck& deck() const { return deck_; }
+  const Model& model() const { return model_; }
+  World& world() { return world_; }
+  const World& world() const { return world_; }
+  Clock& clock() { return clock_; }
+  const SphSettings& sph() const { return sph_; }
+  const Neighbours& neighbours() const { return *neighbours_; }
+  const std::vector<PartMaterial>& materials() const { return materials_; }
+  const std::vector<std::shared_ptr<Contact>>& contacts() const { return contacts_; }
+  const RigidBodies* bodies() const { return bodies_.get(); }
+  PassTimer& timer() { return timer_; }
+  std::string passes() const;  ///< which passes are active, and why others are not
+
+ private:
+  Simulation() = default;
+  void add_passes(Diagnostics& diagnostics);
+
+  Deck deck_;
+  Model model_;
+  World world_;
+  Clock clock_;
+  SphSettings sph_;
+  std::vector<PartMaterial> materials_;
+  std::shared_ptr<Neighbours> neighbours_;
+  std::vector<std::shared_ptr<Contact>> contacts_;
+  std::shared_ptr<RigidBodies> bodies_;
+  std::vector<PassNote> left_out_;
+  StepRules rules_;
+  PassTimer timer_;
+};
+
+struct RunOptions {
+  std::string dir = ".";          ///< where results go
+  Real until = 0;                 ///< > 0: end time instead of ENDTIM [T]
+  std::vector<std::string> warnings;       ///< of the deck, for summary.yaml
+  std::function<void(const std::string&)> print;     ///< every line of messag
+  std::function<void(const std::string&)> progress;  ///< one status line, about once a second
+  const std::atomic<bool>* stop = nullptr;           ///< set by a signal: end cleanly after this step
+};
+
+/// Runs to the end and writes all results. Throws OutputError where the folder cannot be written at the start; later
+/// failures end the run with `termination: error` in the summary.
+Summary run(Simulation& simulation, const std::string& deck_path, const RunOptions& options);
+
+/// The text of `courant check`.
+std::string check_report(Simulation& simulation);
+
+}  // namespace courant

@@ -1,0 +1,206 @@
+#include "generate/deck_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+
+#include "generate/expression.hpp"
+
+namespace courant {
+namespace {
+
+constexpr Id largest_id = 99999999;
+
+struct PlacedNode {
+  Id id;
+  Vec x;
+};
+struct PlacedShell {
+  Id id;
+  std::array<Id, 4> node;
+};
+/// Nodes and elements of one part. Particles have the ids of their nodes.
+struct PlacedPart {
+  std::vector<PlacedNode> nodes;
+  std::vector<std::pair<Id, Real>> particles;  ///< id, MASS field
+  std::vector<PlacedShell> shells;
+};
+
+void place_lattice(const SceneLattice& lattice, Real density, Id first, PlacedPart& out) {
+  // MASS > 0 is a mass, < 0 a volume.
+  const Real mass = density > 0 ? density * lattice.volume() : -lattice.volume();
+  Id id = first;
+  for (Id i = 0; i < lattice.n[0]; ++i) {
+    for (Id j = 0; j < lattice.n[1]; ++j) {
+      for (Id k = 0; k < lattice.n[2]; ++k) {
+        Vec x = lattice.low + lattice.spacing * Vec(Real(i) + 0.5, Real(j) + 0.5, Real(k) + 0.5);
+        if (lattice.dim == 2) x[2] = 0;
+        out.nodes.push_back({id, x});
+        out.particles.emplace_back(id++, mass);
+      }
+    }
+  }
+}
+
+/// Gives nodes of plates their ids; with `merge`, points closer than about 1e-6 mesh sizes get the same one.
+class NodePlacer {
+ public:
+  NodePlacer(bool merge, Id first, PlacedPart& out) : merge_(merge), next_(first), out_(out) {}
+  Id place(const Vec& x, Real grain) {
+    if (!merge_) return add(x);
+    const std::array<Id, 3> cell = {std::llround(x[0] / grain), std::llround(x[1] / grain),
+                                    std::llround(x[2] / grain)};
+    // A point may round to either side of a cell's border: look at the neighbours too.
+    for (Id n = 0; n < 27; ++n) {
+      const auto it = known_.find({cell[0] + n / 9 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n % 3 - 1});
+      if (it != known_.end()) return it->second;
+    }
+    return known_[cell] = add(x);
+  }
+  Id next() const { return next_; }
+
+ private:
+  Id add(const Vec& x) {
+    out_.nodes.push_back({next_, x});
+    return next_++;
+  }
+  bool merge_;
+  Id next_;
+  PlacedPart& out_;
+  std::map<std::array<Id, 3>, Id> known_;
+};
+
+void place_plate(const ScenePlate& plate, Real grain, NodePlacer& nodes, Id& element, PlacedPart& out) {
+  std::vector<Id> ids;
+  for (Id i = 0; i <= plate.n[0]; ++i) {
+    for (Id j = 0; j <= plate.n[1]; ++j) {
+      const Vec x = plate.origin + plate.edge1 * (Real(i) / Real(plate.n[0])) +
+                    plate.edge2 * (Real(j) / Real(plate.n[1]));
+      ids.push_back(nodes.place(x, grain));
+    }
+  }
+  const Id row = plate.n[1] + 1;
+  for (Id i = 0; i < plate.n[0]; ++i) {
+    for (Id j = 0; j < plate.n[1]; ++j) {
+      const Id a = i * row + j, b = a + row;
+      out.shells.push_back({element++, {ids[a], ids[b], ids[b + 1], ids[a + 1]}});
+    }
+  }
+}
+
+/// Next free ids over the whole deck.
+struct Ids {
+  Id node = 1, shell = 1;
+};
+
+PlacedPart place_part(const ScenePart& part, Ids& ids, Diagnostics& diagnostics) {
+  PlacedPart placed;
+  if (part.first_id > 0) {
+    if (part.first_id < ids.node || (!part.plates.empty() && part.first_id < ids.shell))
+      diagnostics.error(
+          part.where,
+          fmt::format("part {}: ids from {} on are taken by the parts above", part.id, part.first_id),
+          fmt::format("first_id: {} or more is free", std::max(ids.node, ids.shell)));
+    ids.node = part.first_id;
+    if (!part.plates.empty()) ids.shell = part.first_id;
+  }
+  for (const SceneLattice& lattice : part.lattices) {
+    place_lattice(lattice, part.density, ids.node, placed);
+    ids.node += lattice.count();
+  }
+  Real side = std::numeric_limits<Real>::max();
+  for (const ScenePlate& p : part.plates)
+    side = std::min({side, p.edge1.norm() / Real(p.n[0]), p.edge2.norm() / Real(p.n[1])});
+  NodePlacer nodes(part.merge, ids.node, placed);
+  for (const ScenePlate& plate : part.plates) place_plate(plate, 1e-6 * side, nodes, ids.shell, placed);
+  if (!part.plates.empty()) ids.node = nodes.next();
+  if (std::max(ids.node, ids.shell) - 1 > largest_id)
+    diagnostics.error(part.where, fmt::format("part {}: ids reach {}, the format ends at {}", part.id,
+                                              std::max(ids.node, ids.shell) - 1, largest_id));
+  return placed;
+}
+
+std::string parts_text(const Scene& scene) {
+  std::string out;
+  const auto put = std::back_inserter(out);
+  for (const ScenePart& part : scene.parts) {
+    fmt::format_to(put, "*PART\n$# heading\n{}\n", part.title);
+    out += "$#     pid     secid       mid     eosid      hgid\n";
+    fmt::format_to(put, "{:10}{:10}{:10}{:10}{:10}\n", part.id, part.section, part.material, part.eos,
+                   part.hourglass);
+  }
+  for (const ScenePart& part : scene.parts) {
+    if (!part.has_velocity) continue;
+    out +=
+        "*INITIAL_VELOCITY_GENERATION\n$#      id      styp     omega        vx        vy        vz     "
+        "ivatn      icid\n";
+    fmt::format_to(put, "{:10}         2         0{:>10}{:>10}{:>10}         0         0\n", part.id,
+                   number_text(part.velocity[0], 10), number_text(part.velocity[1], 10),
+                   number_text(part.velocity[2], 10));
+    out += "$#      xc        yc        zc        nx        ny        nz     phase    irigid\n";
+    out += "         0         0         0         0         0         0         0         0\n";
+  }
+  return out;
+}
+
+/// 15 of 16 columns, so that neighbours stay apart; the error is below 1e-11 for |x| < 100.
+std::string coordinate_text(Real x) {
+  return number_text(std::abs(x) < 1e-15 ? 0 : x, 15);
+}
+
+std::string mesh_text(const std::vector<PlacedPart>& parts, const Scene& scene) {
+  std::string out = "*NODE\n$#   nid               x               y               z      tc      rc\n";
+  const auto put = std::back_inserter(out);
+  for (const PlacedPart& part : parts)
+    for (const PlacedNode& node : part.nodes)
+      fmt::format_to(put, "{:8}{:>16}{:>16}{:>16}\n", node.id, coordinate_text(node.x[0]),
+                     coordinate_text(node.x[1]), coordinate_text(node.x[2]));
+  const auto any = [&](auto member) {
+    return std::any_of(parts.begin(), parts.end(), [&](const PlacedPart& p) { return !(p.*member).empty(); });
+  };
+  if (any(&PlacedPart::particles))
+    out += "*ELEMENT_SPH\n$#   nid     pid            mass    nend   (mass < 0: volume)\n";
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (const auto& [id, mass] : parts[p].particles)
+      fmt::format_to(put, "{:8}{:8}{:>16}\n", id, scene.parts[p].id, number_text(mass, 16));
+  if (any(&PlacedPart::shells)) out += "*ELEMENT_SHELL\n$#   eid     pid      n1      n2      n3      n4\n";
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (const PlacedShell& s : parts[p].shells)
+      fmt::format_to(put, "{:8}{:8}{:8}{:8}{:8}{:8}\n", s.id, scene.parts[p].id, s.node[0], s.node[1],
+                     s.node[2], s.node[3]);
+  return out;
+}
+
+}  // namespace
+
+std::string deck_text(const Scene& scene, const std::string& scene_name, Diagnostics& diagnostics) {
+  std::string out = fmt::format(
+      "$ Written by `courant generate {}`: change the scene, not this file.\n$ Parameters:\n", scene_name);
+  for (const auto& [name, value] : scene.parameters)
+    out += fmt::format("$   {} = {}\n", name, number_text(value));
+  Ids ids;
+  std::vector<PlacedPart> placed;
+  out += "$ Parts:\n";
+  for (const ScenePart& part : scene.parts) {
+    placed.push_back(place_part(part, ids, diagnostics));
+    const PlacedPart& p = placed.back();
+    const bool particles = !p.particles.empty();
+    out += fmt::format("$   {} {}: {} {}\n", part.id, part.title,
+                       particles ? p.particles.size() : p.shells.size(), particles ? "particles" : "shells");
+  }
+  out += fmt::format("*KEYWORD\n*TITLE\n{}\n", scene.title);
+  for (const std::string& block : scene.keywords) {
+    out += block;
+    if (!block.empty() && block.back() != '\n') out += '\n';
+  }
+  out += parts_text(scene);
+  out += mesh_text(placed, scene);
+  return out + "*END\n";
+}
+
+}  // namespace courant

@@ -1,0 +1,77 @@
+#pragma once
+// LS-DYNA's ASCII histories. Layouts: those that LS-DYNA R16 prints, measured on real files.
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/file.hpp"
+#include "output/history.hpp"
+#include "output/output_schedule.hpp"
+#include "output/sample.hpp"
+
+namespace courant {
+
+struct Legend {
+  Id id = 0;
+  std::string title;
+};
+
+/// Head of each file: title line, then the program and the date.
+std::string ascii_header(const std::string& title, const std::string& date);
+/// `{BEGIN LEGEND}` ... `{END LEGEND}`.
+std::string ascii_legend(const std::vector<Legend>& entries);
+
+/// One state of glstat. LS-DYNA knows no potential energy: it counts the work of gravity as external work.
+/// Therefore external work here is `external_work + first_potential - potential`, total energy is without the
+/// potential, sliding energy holds springs, contact damping and friction, internal energy the rest of what
+/// was dissipated. The ratio is total / (initial + external work), 1 exactly when the ledger's residual is 0.
+/// first_potential: potential energy at the first state [ML2/T2].
+std::string glstat_text(const Sample& sample, Real first_potential);
+/// One state of matsum: per part energies, momentum, rigid body velocity.
+std::string matsum_text(const Sample& sample);
+/// One state of rcforc: per interface the force on SURFA (the particles) and on SURFB. The mass is printed as
+/// 0; the columns of moments, which newer LS-DYNA versions append, are not there.
+std::string rcforc_text(const Sample& sample);
+/// One state of sphout, in a layout of our own (LS-DYNA's is not published): ` time = cycle = `, a line of
+/// column names, then per particle id, active (1 or 0), x y z, vx vy vz, pressure, density, internal energy
+/// per reference volume, in columns `%10d%4d` and 9 times `%14.5E`.
+std::string sphout_text(const Sample& sample);
+
+struct HistoryRequests {
+  Real glstat = 0, matsum = 0, rcforc = 0, sphout = 0;  ///< intervals, 0: no file [T]
+  Real h5 = 0;  ///< interval of history.h5, 0: the shortest of the others; none if all are 0 [T]
+  std::string title;
+  std::vector<Legend> parts, contacts;
+};
+
+/// All histories of a run, each at its own interval.
+class Histories {
+ public:
+  /// Opens the files that were asked for. Throws OutputError.
+  Histories(const std::filesystem::path& dir, HistoryRequests requests);
+
+  /// Whether any file is due at the cycle that goes from t to t + dt: only then a Sample need be filled.
+  bool is_due(Real t, Real dt) const;
+  /// Writes the sample to the files that are due at sample.t, sample.dt; all of them with `always` (the end
+  /// of the run). Throws OutputError.
+  void write(const Sample& sample, bool always = false);
+  /// Writes what is buffered. Throws OutputError.
+  void finish();
+
+ private:
+  struct Ascii {
+    OutputSchedule schedule;
+    TextFile file;
+    std::string (*text)(const Sample&);  // null: glstat, which needs the first potential
+    Real last = -1;                      // time of the last state
+  };
+  std::vector<Ascii> files_;
+  OutputSchedule h5_schedule_;
+  std::optional<History> h5_;
+  Real h5_last_ = -1;
+  std::optional<Real> first_potential_;
+};
+
+}  // namespace courant

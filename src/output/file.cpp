@@ -1,0 +1,65 @@
+#include "output/file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+namespace courant {
+namespace {
+
+std::string advice(const std::string& reason) {
+  if (reason == std::strerror(ENOSPC) || reason == std::strerror(EDQUOT))
+    return "free some space, or choose a folder on another disk with -o, and run again";
+  if (reason == std::strerror(EFBIG)) return "raise the limit on file sizes (ulimit -f) and run again";
+  if (reason == std::strerror(EACCES) || reason == std::strerror(EROFS) || reason == std::strerror(EPERM))
+    return "make the folder writable, or choose another with -o";
+  return "check the folder and the disk, or choose another folder with -o";
+}
+
+struct FileCloser {
+  void operator()(std::FILE* f) const { std::fclose(f); }
+};
+
+}  // namespace
+
+OutputError::OutputError(const std::filesystem::path& file, const std::string& reason)
+    : std::runtime_error(
+          fmt::format("cannot write '{}': {}\n  hint: {}", file.string(), reason, advice(reason))),
+      file_(file) {}
+
+void make_folder(const std::filesystem::path& dir) {
+  std::error_code error;
+  std::filesystem::create_directories(dir, error);
+  if (error) throw OutputError(dir, error.message());
+}
+
+void write_file(const std::filesystem::path& file, std::string_view content) {
+  std::filesystem::path temporary = file;
+  temporary += ".tmp";
+  const auto fail = [&](int number) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw OutputError(file, std::strerror(number));
+  };
+  std::unique_ptr<std::FILE, FileCloser> out(std::fopen(temporary.c_str(), "wb"));
+  if (!out) throw OutputError(file, std::strerror(errno));
+  if (std::fwrite(content.data(), 1, content.size(), out.get()) != content.size()) fail(errno);
+  if (std::fflush(out.get()) != 0) fail(errno);
+  if (std::fclose(out.release()) != 0) fail(errno);  // some file systems report a full disk only here
+  if (std::rename(temporary.c_str(), file.c_str()) != 0) fail(errno);
+}
+
+TextFile::TextFile(std::filesystem::path file, bool append)
+    : file_(std::move(file)), stream_(std::fopen(file_.c_str(), append ? "ab" : "wb")) {
+  if (!stream_) throw OutputError(file_, std::strerror(errno));
+}
+
+void TextFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stream_.get()) != text.size() ||
+      std::fflush(stream_.get()) != 0)
+    throw OutputError(file_, std::strerror(errno));
+}
+
+}  // namespace courant

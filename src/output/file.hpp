@@ -1,0 +1,47 @@
+#pragma once
+// Checked writing of files. A file carries its final name only once all of it is on the disk.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace courant {
+
+/// A result could not be written (disk full, no permission, ...). The text names the file and says what to
+/// do.
+class OutputError : public std::runtime_error {
+ public:
+  /// `reason` as the system puts it, for example "No space left on device".
+  OutputError(const std::filesystem::path& file, const std::string& reason);
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+};
+
+/// Makes the folder and its parents. Throws OutputError.
+void make_folder(const std::filesystem::path& dir);
+
+/// Writes the content to `file.tmp` and renames it to `file`, so that readers see the old file or the whole
+/// new one. Throws OutputError; `file` is then as it was before and `file.tmp` is gone.
+void write_file(const std::filesystem::path& file, std::string_view content);
+
+/// A text file that grows while the run goes on; each write reaches the system before the call returns.
+class TextFile {
+ public:
+  /// Starts an empty file, or goes on at its end. Throws OutputError.
+  explicit TextFile(std::filesystem::path file, bool append = false);
+  /// Throws OutputError.
+  void write(std::string_view text);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* f) const { std::fclose(f); }
+  };
+  std::filesystem::path file_;
+  std::unique_ptr<std::FILE, Close> stream_;
+};
+
+}  // namespace courant

@@ -1,0 +1,268 @@
+#include "output/history.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace courant {
+namespace {
+
+/// Owns an HDF5 identifier and closes it with the function of its kind.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  operator hid_t() const { return id_; }
+  herr_t close() {
+    const hid_t id = std::exchange(id_, -1);
+    return close_(id);
+  }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// HDF5 prints its error stack unless told not to; a library does not print.
+class Silence {
+ public:
+  Silence() {
+    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+  ~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+
+ private:
+  H5E_auto2_t function_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// Text of the innermost entry of HDF5's error stack, the one with the system's reason.
+std::string innermost_error() {
+  std::string text;
+  H5Ewalk2(
+      H5E_DEFAULT, H5E_WALK_UPWARD,
+      [](unsigned, const H5E_error2_t* error, void* client) -> herr_t {
+        if (error->desc) *static_cast<std::string*>(client) = error->desc;
+        return 1;  // the first one is enough
+      },
+      &text);
+  // The system's reason is somewhere in HDF5's sentence; the plain reason is what users and our advice know.
+  for (int number : {ENOSPC, EDQUOT, EFBIG, EACCES, EROFS, EPERM, EIO})
+    if (text.find(std::strerror(number)) != std::string::npos) return std::strerror(number);
+  return text.empty() ? "HDF5 failed" : text;
+}
+
+class HistoryFile {
+ public:
+  HistoryFile(const std::filesystem::path& file, const std::filesystem::path& final_name, bool create)
+      : name_(final_name),
+        access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose),
+        file_(open(file, create), H5Fclose) {
+    check(file_);
+  }
+
+  void append(const std::string& path, const std::string& dimension, int components,
+              const std::vector<double>& values, std::size_t rows_before) {
+    const hsize_t rows = values.size() / static_cast<std::size_t>(components);
+    const hsize_t start[] = {rows_before, 0}, count[] = {rows, static_cast<hsize_t>(components)};
+    const hsize_t size[] = {rows_before + rows, count[1]};
+    const int rank = components == 1 ? 1 : 2;
+    const bool is_there = rows_before > 0 && exists(path);
+    Handle dataset(is_there ? H5Dopen2(file_, path.c_str(), H5P_DEFAULT) : create(path, rank, size),
+                   H5Dclose);
+    check(dataset);
+    if (is_there)
+      check(H5Dset_extent(dataset, size));
+    else
+      set_text(dataset, "dimension", dimension);
+    Handle space(H5Dget_space(dataset), H5Sclose), memory(H5Screate_simple(rank, count, nullptr), H5Sclose);
+    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr));
+    check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()));
+    check(dataset.close());
+  }
+
+  void set_title(const std::string& group, const std::string& title) {
+    Handle object(H5Oopen(file_, group.c_str(), H5P_DEFAULT), H5Oclose);
+    check(object);
+    if (H5Aexists(object, "title") <= 0) set_text(object, "title", title);
+  }
+
+  void close() {
+    check(H5Fflush(file_, H5F_SCOPE_LOCAL));
+    check(file_.close());
+  }
+
+ private:
+  hid_t open(const std::filesystem::path& file, bool create) {
+    H5Pset_fclose_degree(access_, H5F_CLOSE_STRONG);
+    H5Pset_libver_bounds(access_, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+    H5Pset_file_locking(access_, false, true);  // a reader's lock must not stop the run
+    return create ? H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_)
+                  : H5Fopen(file.c_str(), H5F_ACC_RDWR, access_);
+  }
+
+  bool exists(const std::string& path) const {
+    for (std::size_t slash = path.find('/', 1); slash != std::string::npos; slash = path.find('/', slash + 1))
+      if (H5Lexists(file_, path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+    return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
+  }
+
+  hid_t create(const std::string& path, int rank, const hsize_t* size) {
+    const hsize_t longest[] = {H5S_UNLIMITED, size[1]}, chunk[] = {1024, rank == 1 ? 1 : size[1]};
+    const double missing = std::numeric_limits<double>::quiet_NaN();
+    Handle space(H5Screate_simple(rank, size, longest), H5Sclose),
+        options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    H5Pset_chunk(options, rank, chunk);
+    H5Pset_fill_value(options, H5T_NATIVE_DOUBLE, &missing);
+    H5Pset_shuffle(options);
+    H5Pset_deflate(options, 4);
+    H5Pset_create_intermediate_group(links, 1);
+    return H5Dcreate2(file_, path.c_str(), H5T_IEEE_F64LE, space, links, options, H5P_DEFAULT);
+  }
+
+  void set_text(hid_t object, const char* name, const std::string& text) {
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
+    H5Tset_size(type, std::max<std::size_t>(1, text.size()));
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    check(attribute);
+    check(H5Awrite(attribute, type, text.empty() ? "\0" : text.c_str()));
+  }
+
+  void check(hid_t result) const {
+    if (result < 0) throw OutputError(name_, innermost_error());
+  }
+
+  std::filesystem::path name_;
+  Handle access_, file_;
+};
+
+}  // namespace
+
+History::History(std::filesystem::path file, std::size_t buffered_samples, std::chrono::seconds longest_wait)
+    : file_(std::move(file)),
+      buffered_samples_(buffered_samples),
+      longest_wait_(longest_wait),
+      last_flush_(std::chrono::steady_clock::now()) {}
+
+History::Column& History::column(const std::string& path, const char* dimension, int components) {
+  Column& c = columns_[path];
+  c.dimension = dimension;
+  c.components = components;
+  c.values.resize(rows_ * static_cast<std::size_t>(components), std::numeric_limits<double>::quiet_NaN());
+  return c;
+}
+
+void History::put(const std::string& path, const char* dimension, double value) {
+  column(path, dimension, 1).values.push_back(value);
+}
+
+void History::put(const std::string& path, const char* dimension, const Vec& value) {
+  auto& values = column(path, dimension, 3).values;
+  values.insert(values.end(), value.data(), value.data() + 3);
+}
+
+void History::put_global(const Sample& s) {
+  const char* energy = "ML2/T2";
+  put("/global/time", "T", s.t);
+  put("/global/dt", "T", s.dt);
+  put("/global/cycle", "-", static_cast<double>(s.cycle));
+  put("/global/mass", "M", s.mass);
+  put("/global/velocity", "L/T", s.velocity);
+  put("/global/kinetic", energy, s.energy.kinetic);
+  put("/global/internal", energy, s.energy.internal);
+  put("/global/potential", energy, s.energy.potential);
+  put("/global/contact", energy, s.energy.contact);
+  put("/global/dissipated", energy, s.energy.dissipated);
+  put("/global/external_work", energy, s.energy.external_work);
+  put("/global/total", energy, s.energy.total());
+  put("/global/residual", energy, s.energy.residual());
+  put("/global/throughput", energy, s.energy.throughput);
+}
+
+void History::put_entities(const Sample& s) {
+  const char* energy = "ML2/T2";
+  for (const PartSample& part : s.parts) {
+    const std::string group = fmt::format("/parts/{}", part.id);
+    titles_[group] = part.title;
+    put(group + "/mass", "M", part.mass);
+    put(group + "/kinetic", energy, part.kinetic);
+    put(group + "/internal", energy, part.internal);
+    put(group + "/momentum", "ML/T", part.momentum);
+  }
+  for (const InterfaceForce& contact : s.interfaces) {
+    const std::string group = fmt::format("/contacts/{}", contact.id);
+    titles_[group] = contact.title;
+    put(group + "/force", "ML/T2", contact.on_surfa);
+    put(group + "/energy_stored", energy, contact.energy_stored);
+    put(group + "/energy_damping", energy, contact.energy_damping);
+    put(group + "/energy_friction", energy, contact.energy_friction);
+  }
+  for (const RigidBodyReport& body : s.bodies) {
+    const std::string group = fmt::format("/rigid_bodies/{}", body.part);
+    put(group + "/x", "L", body.x);
+    put(group + "/v", "L/T", body.v);
+    put(group + "/omega", "1/T", body.omega);
+    put(group + "/force", "ML/T2", body.force);
+    put(group + "/moment", "ML2/T2", body.moment);
+    put(group + "/kinetic", energy, body.kinetic_energy);
+  }
+  for (const ParticleSample& particle : s.particles) {
+    const std::string group = fmt::format("/particles/{}", particle.id);
+    put(group + "/x", "L", particle.x);
+    put(group + "/v", "L/T", particle.v);
+    put(group + "/p", "M/LT2", particle.p);
+    put(group + "/rho", "M/L3", particle.rho);
+    put(group + "/E", "M/LT2", particle.E);
+    put(group + "/active", "-", particle.active ? 1.0 : 0.0);
+  }
+}
+
+void History::record(const Sample& sample) {
+  put_global(sample);
+  put_entities(sample);
+  ++rows_;
+  if (rows_ >= buffered_samples_ || std::chrono::steady_clock::now() - last_flush_ >= longest_wait_) flush();
+}
+
+void History::flush() {
+  last_flush_ = std::chrono::steady_clock::now();
+  if (rows_ == 0) return;
+  const Silence silence;
+  const bool create = rows_in_file_ == 0;
+  std::filesystem::path target = file_;
+  if (create) target += ".tmp";
+  try {
+    HistoryFile h5(target, file_, create);
+    for (auto& [path, c] : columns_) {
+      c.values.resize(rows_ * static_cast<std::size_t>(c.components),
+                      std::numeric_limits<double>::quiet_NaN());
+      h5.append(path, c.dimension, c.components, c.values, rows_in_file_);
+      c.values.clear();
+    }
+    for (const auto& [group, title] : titles_) h5.set_title(group, title);
+    h5.close();
+  } catch (const OutputError&) {
+    std::error_code ignored;
+    if (create) std::filesystem::remove(target, ignored);
+    throw;
+  }
+  if (create && std::rename(target.c_str(), file_.c_str()) != 0)
+    throw OutputError(file_, std::strerror(errno));
+  rows_in_file_ += rows_;
+  rows_ = 0;
+}
+
+}  // namespace courant

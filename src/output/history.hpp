@@ -1,0 +1,57 @@
+#pragma once
+// history.h5: time histories as growing datasets.
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "output/file.hpp"
+#include "output/sample.hpp"
+
+namespace courant {
+
+/// Collects samples and appends them to an HDF5 file. Row i of every dataset belongs to /global/time[i]; a
+/// quantity that was not there at a sample is NaN. Datasets, scalars of shape (n), vectors of shape (n, 3),
+/// each with an attribute `dimension` (M, L, T):
+///   /global/{time dt cycle mass velocity kinetic internal potential contact dissipated external_work total
+///   residual
+///            throughput}
+///   /parts/<id>/{mass kinetic internal momentum}          with attribute `title`
+///   /contacts/<id>/{force energy_stored energy_damping energy_friction}   force: on the tracked side (the
+///   particles) /rigid_bodies/<part id>/{x v omega force moment kinetic} /particles/<id>/{x v p rho E active}
+/// Between flushes the file is closed, so that a killed run leaves it readable and others may read it at any
+/// time.
+class History {
+ public:
+  explicit History(std::filesystem::path file, std::size_t buffered_samples = 512,
+                   std::chrono::seconds longest_wait = std::chrono::seconds(10));
+
+  /// Adds a sample; writes to the file when the buffer is full or old. Throws OutputError.
+  void record(const Sample& sample);
+  /// Appends what is buffered. Call it at the end of the run. Throws OutputError.
+  void flush();
+
+ private:
+  struct Column {
+    std::string dimension;
+    int components = 1;
+    std::vector<double> values;  // shape: (buffered rows, components)
+  };
+  void put(const std::string& path, const char* dimension, double value);
+  void put(const std::string& path, const char* dimension, const Vec& value);
+  Column& column(const std::string& path, const char* dimension, int components);
+  void put_global(const Sample& sample);
+  void put_entities(const Sample& sample);
+
+  std::filesystem::path file_;
+  std::size_t buffered_samples_;
+  std::chrono::seconds longest_wait_;
+  std::chrono::steady_clock::time_point last_flush_;
+  std::map<std::string, Column> columns_;
+  std::map<std::string, std::string> titles_;  // of groups
+  std::size_t rows_ = 0;                       // buffered
+  std::size_t rows_in_file_ = 0;
+};
+
+}  // namespace courant

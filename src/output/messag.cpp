@@ -1,0 +1,26 @@
+#include "output/messag.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+
+namespace courant {
+
+std::string status_line(std::int64_t cycle, Real t, Real dt, std::string_view what, std::string_view stamp) {
+  return fmt::format("{:8d} t {:10.4E} dt {:8.2E} {:<28} {}", cycle, t, dt, what, stamp);
+}
+
+Messag::Messag(const std::filesystem::path& file, Echo echo) : file_(file), echo_(std::move(echo)) {}
+
+void Messag::line(std::string_view text) {
+  file_.write(std::string(text) + "\n");
+  if (echo_) echo_(text);
+}
+
+void Messag::status(std::int64_t cycle, Real t, Real dt, std::string_view what) {
+  line(status_line(cycle, t, dt, what,
+                   fmt::format("{:%m/%d/%y %H:%M:%S}", fmt::localtime(std::time(nullptr)))));
+}
+
+}  // namespace courant

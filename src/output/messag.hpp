@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "base/real.hpp"
+#include "output/file.hpp"
+
+namespace courant {
+
+/// One of LS-DYNA's status lines, `%8d t %10.4E dt %8.2E %-28s MM/DD/YY HH:MM:SS`, without line end.
+/// stamp: date and time as text. t, dt: [T]
+std::string status_line(std::int64_t cycle, Real t, Real dt, std::string_view what, std::string_view stamp);
+
+/// The file `messag`: all that a run says. Lines can be passed on to a callback, by which the program shows
+/// them.
+class Messag {
+ public:
+  using Echo = std::function<void(std::string_view line)>;
+
+  /// Starts an empty file. Throws OutputError.
+  explicit Messag(const std::filesystem::path& file, Echo echo = {});
+  /// Adds a line; `text` has no line end. Throws OutputError.
+  void line(std::string_view text);
+  /// Adds a status line with the present date and time. Throws OutputError.
+  void status(std::int64_t cycle, Real t, Real dt, std::string_view what);
+
+ private:
+  TextFile file_;
+  Echo echo_;
+};
+
+}  // namespace courant

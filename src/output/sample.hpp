@@ -1,0 +1,43 @@
+#pragma once
+// What the histories print at one time. The time loop fills it; the writers only format.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "state/world.hpp"
+
+namespace courant {
+
+struct PartSample {
+  Id id = 0;
+  std::string title;
+  Real mass = 0;                     ///< of active particles, or of the body [M]
+  Real internal = 0, kinetic = 0;    ///< [ML2/T2]
+  Vec momentum = Vec::Zero();        ///< [ML/T]
+  Vec rigid_velocity = Vec::Zero();  ///< of the centre of mass [L/T]
+};
+
+struct ParticleSample {
+  Id id = 0;
+  bool active = true;
+  Vec x = Vec::Zero();         ///< [L]
+  Vec v = Vec::Zero();         ///< [L/T]
+  Real p = 0, rho = 0, E = 0;  ///< [M/LT2], [M/L3], [M/LT2] per reference volume
+};
+
+struct Sample {
+  Real t = 0;  ///< [T]
+  Real dt = 0;
+  std::int64_t cycle = 0;
+  std::string dt_set_by;       ///< as TimeLimit::Limit::who: "sph particle 17 of part 1"
+  Real ns_per_zone_cycle = 0;  ///< wall time per particle and step [ns]
+  EnergyLedger energy;
+  Real mass = 0;               ///< active particles and bodies [M]
+  Vec velocity = Vec::Zero();  ///< of the centre of that mass [L/T]
+  std::vector<PartSample> parts;
+  std::vector<InterfaceForce> interfaces;
+  std::vector<RigidBodyReport> bodies;
+  std::vector<ParticleSample> particles;  ///< those of DATABASE_HISTORY_SPH, in the deck's order
+};
+
+}  // namespace courant

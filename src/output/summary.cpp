@@ -1,0 +1,89 @@
+#include "output/summary.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <limits>
+#include <utility>
+
+namespace courant {
+namespace {
+
+void emit_energy(YAML::Emitter& out, const Summary& s) {
+  const EnergyLedger& e = s.energy;
+  const std::pair<const char*, Real> entries[] = {
+      {"kinetic", e.kinetic},       {"internal", e.internal},     {"potential", e.potential},
+      {"contact", e.contact},       {"dissipated", e.dissipated}, {"external_work", e.external_work},
+      {"initial", e.initial},       {"total", e.total()},         {"residual", e.residual()},
+      {"throughput", e.throughput}, {"ratio", s.energy_ratio()},
+  };
+  out << YAML::Key << "energy" << YAML::Value << YAML::BeginMap;
+  for (const auto& [key, value] : entries) out << YAML::Key << key << YAML::Value << value;
+  out << YAML::EndMap;
+}
+
+template <class Map>
+void emit_map(YAML::Emitter& out, const char* key, const Map& map) {
+  out << YAML::Key << key << YAML::Value << YAML::BeginMap;
+  for (const auto& [name, value] : map) out << YAML::Key << name << YAML::Value << value;
+  out << YAML::EndMap;
+}
+
+void emit_lists(YAML::Emitter& out, const Summary& s) {
+  out << YAML::Key << "warnings" << YAML::Value << YAML::BeginSeq;
+  for (const std::string& warning : s.warnings) out << warning;
+  out << YAML::EndSeq;
+  out << YAML::Key << "passes" << YAML::Value << YAML::BeginSeq;
+  for (const Summary::PassTime& pass : s.passes)
+    out << YAML::Flow << YAML::BeginMap << YAML::Key << "name" << YAML::Value << pass.name << YAML::Key
+        << "seconds" << YAML::Value << pass.seconds << YAML::Key << "calls" << YAML::Value << pass.calls
+        << YAML::EndMap;
+  out << YAML::EndSeq;
+}
+
+}  // namespace
+
+double Summary::ns_per_particle_step() const {
+  return particle_steps > 0 ? 1e9 * wall_seconds / static_cast<double>(particle_steps) : 0;
+}
+
+Real Summary::energy_ratio() const {
+  const Real expected = energy.initial + energy.external_work;
+  if (expected == 0) return energy.total() == 0 ? 1 : std::numeric_limits<Real>::quiet_NaN();
+  return energy.total() / expected;
+}
+
+void write_summary(const std::filesystem::path& file, const Summary& s) {
+  YAML::Emitter out;
+  out.SetDoublePrecision(12);
+  const auto entry = [&](const char* key, const auto& value) {
+    out << YAML::Key << key << YAML::Value << value;
+  };
+  out << YAML::BeginMap;
+  entry("version", std::string(COURANT_VERSION));
+  entry("title", s.title);
+  entry("deck", s.deck);
+  entry("termination", s.termination);
+  entry("reason", s.reason);
+  entry("time", s.time);
+  entry("steps", s.steps);
+  entry("wall_seconds", s.wall_seconds);
+  entry("cpu_seconds", s.cpu_seconds);
+  entry("threads", s.threads);
+  entry("particles", s.particles);
+  entry("active_particles", s.active_particles);
+  entry("particle_steps", s.particle_steps);
+  entry("ns_per_particle_step", s.ns_per_particle_step());
+  entry("peak_memory_bytes", s.peak_memory_bytes);
+  entry("dt_min", s.dt_min);
+  entry("dt_max", s.dt_max);
+  emit_energy(out, s);
+  entry("leaked_particles", s.leaked_particles);
+  entry("max_penetration", s.max_penetration);
+  emit_map(out, "counters", s.counters);
+  emit_map(out, "maxima", s.maxima);
+  emit_lists(out, s);
+  out << YAML::EndMap;
+  write_file(file, std::string(out.c_str()) + "\n");
+}
+
+}  // namespace courant

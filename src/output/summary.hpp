@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "output/file.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+/// What a run came to, for scripts: the content of summary.yaml.
+struct Summary {
+  struct PassTime {
+    std::string name;
+    double seconds = 0;  ///< wall time in this pass over the run
+    std::int64_t calls = 0;
+  };
+  std::string title;        ///< of the deck
+  std::string deck;         ///< path of the deck
+  std::string termination;  ///< "normal", "error", "interrupted", ...
+  std::string reason;       ///< in words
+  Real time = 0;            ///< time reached [T]
+  std::int64_t steps = 0;
+  double wall_seconds = 0, cpu_seconds = 0;
+  int threads = 0;
+  std::int64_t particles = 0;         ///< in the model
+  std::int64_t active_particles = 0;  ///< at the end
+  std::int64_t particle_steps = 0;    ///< sum over steps of active particles
+  std::int64_t peak_memory_bytes = 0;
+  Real dt_min = 0, dt_max = 0;  ///< [T]
+  EnergyLedger energy;          ///< at the end
+  std::int64_t leaked_particles = 0;
+  Real max_penetration = 0;  ///< [L]
+  Counters counters;
+  std::map<std::string, Real> maxima;
+  std::vector<std::string> warnings;
+  std::vector<PassTime> passes;
+
+  double ns_per_particle_step() const;  ///< wall time; 0 if no step was taken
+  Real energy_ratio() const;            ///< total / (initial + external work); 1 where both are 0
+};
+
+/// Writes the summary as YAML, whole or not at all. Throws OutputError.
+void write_summary(const std::filesystem::path& file, const Summary& summary);
+
+}  // namespace courant

@@ -1,0 +1,266 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "sph/cards.hpp"
+#include "sph/sph.hpp"
+#include "sph/view.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Entries found by id, with duplicates reported once.
+template <class T>
+std::map<Id, const T*> by_id(const Deck& deck, Id T::*id, const char* field, Diagnostics& diagnostics) {
+  std::map<Id, const T*> found;
+  for (const T& entry : deck.all<T>())
+    if (!found.emplace(entry.*id, &entry).second)
+      deck.error(diagnostics, entry, field, fmt::format("id {} is used twice", entry.*id), "ids must be unique");
+  return found;
+}
+
+struct PartSmoothing {
+  Real cslh = 1.2, hmin = 0.2, hmax = 2, sphini = 0;
+};
+
+class Builder {
+ public:
+  Builder(const Deck& deck, const Model& model, const std::function<SphMaterial(Index)>& material, World& world,
+          Diagnostics& diagnostics)
+      : deck_(deck), model_(model), material_(material), world_(world), diagnostics_(diagnostics) {}
+
+  SphSettings build() {
+    settings_.tssfac = model_.tssfac;
+    settings_.h_min_factor.assign(model_.parts.size(), 1);
+    settings_.h_max_factor.assign(model_.parts.size(), 1);
+    settings_.q.resize(model_.parts.size());
+    smoothing_.resize(model_.parts.size());
+    read_sections();
+    read_viscosities();
+    read_control();
+    fill_particles();
+    set_smoothing_lengths();
+    choose_h_form();
+    return settings_;
+  }
+
+ private:
+  void read_sections() {
+    const auto sections = by_id(deck_, &SectionSph::secid, "SECID", diagnostics_);
+    for (std::size_t k = 0; k < model_.parts.size(); ++k) {
+      const ModelPart& part = model_.parts[k];
+      if (!part.has_sph) continue;
+      const auto found = sections.find(part.secid);
+      if (found == sections.end()) {
+        diagnostics_.error(part.where, fmt::format("*PART {}: its particles need a *SECTION_SPH, there is none with id {}", part.id, part.secid),
+                           "add the section or correct SECID of the part");
+        continue;
+      }
+      const SectionSph& s = *found->second;
+      if (s.hmin > s.hmax)
+        deck_.error(diagnostics_, s, "HMIN", fmt::format("expected a number <= HMAX = {}, got {}", s.hmax, s.hmin));
+      smoothing_[k] = {s.cslh, s.hmin, s.hmax, s.sphini};
+      settings_.h_min_factor[k] = s.hmin;
+      settings_.h_max_factor[k] = s.hmax;
+    }
+  }
+
+  void read_viscosities() {
+    const auto hourglass = by_id(deck_, &Hourglass::hgid, "HGID", diagnostics_);
+    const auto* control = deck_.last<ControlBulkViscosity>();
+    for (std::size_t k = 0; k < model_.parts.size(); ++k) {
+      const ModelPart& part = model_.parts[k];
+      if (!part.has_sph) continue;
+      if (control) settings_.q[k] = {control->q2, control->q1};  // LS-DYNA: Q1 quadratic, Q2 linear
+      if (part.hgid == 0) continue;
+      const auto found = hourglass.find(part.hgid);
+      if (found == hourglass.end())
+        diagnostics_.error(part.where, fmt::format("*PART {}: there is no *HOURGLASS with id {} (HGID)", part.id, part.hgid));
+      else
+        settings_.q[k] = {found->second->q2, found->second->q1};
+    }
+  }
+
+  void read_control() {
+    const ControlSph* c = deck_.last<ControlSph>();
+    const ControlSph standard{};
+    if (c == nullptr) c = &standard;
+    world_.dim = c->idim == 2 ? 2 : c->idim == 3 ? 3 : dimension_of_geometry();
+    settings_.dim = world_.dim;
+    settings_.maxv = std::abs(c->maxv) >= 1e15 ? 0 : c->maxv;
+    settings_.hide_inactive = c->ishow == 1;
+    settings_.skip_inactive_contact = c->icont == 1;
+    settings_.thickness_from_volume = c->ithk == 1;
+    if (c->boxid != 0) {
+      const auto box = model_.boxes.find(c->boxid);
+      if (box == model_.boxes.end())
+        deck_.error(diagnostics_, *c, "BOXID", fmt::format("there is no *DEFINE_BOX with id {}", c->boxid));
+      else
+        settings_.region = Neighbours::Region{box->second.low, box->second.high};
+    }
+    if (c->iavis == 1) {
+      settings_.viscosity = BulkViscosity{};
+      return;
+    }
+    std::set<Real> q2;
+    for (std::size_t k = 0; k < model_.parts.size(); ++k)
+      if (model_.parts[k].has_sph) q2.insert(settings_.q[k].q2);
+    if (q2.size() > 1)
+      diagnostics_.error({}, "*HOURGLASS: SPH parts with different quadratic viscosity Q1 are not supported with IAVIS 0",
+                         "give all SPH parts the same Q1, or use IAVIS 1");
+    if (!q2.empty()) settings_.viscosity = MonaghanViscosity{*q2.begin()};
+  }
+
+  int dimension_of_geometry() const {
+    for (const ModelSph& s : model_.sph)
+      if (model_.nodes[s.node].x[2] != model_.nodes[model_.sph[0].node].x[2]) return 3;
+    return model_.sph.empty() ? 3 : 2;
+  }
+
+  void fill_particles() {
+    Particles& p = world_.particles;
+    p.fields.resize(static_cast<Index>(model_.sph.size()));
+    Field<Real>& volume = p.fields.add<Real>({.name = "reference_volume", .dimension = "L3"});
+    bool any_mu = false;
+    std::vector<SphMaterial> materials(model_.parts.size());
+    std::vector<Real> mu(model_.parts.size(), 0);
+    for (std::size_t k = 0; k < model_.parts.size(); ++k)
+      if (model_.parts[k].has_sph) {
+        materials[k] = material_(static_cast<Index>(k));
+        mu[k] = materials[k].mu;
+        any_mu |= mu[k] > 0;
+        if (materials[k].heat_in_internal) {
+          settings_.heat_in_internal.resize(model_.parts.size(), 0);
+          settings_.heat_in_internal[k] = 1;
+        }
+      }
+    if (any_mu) settings_.mu = mu;
+    for (Index i = 0; i < p.size(); ++i) {
+      const ModelSph& s = model_.sph[i];
+      const ModelNode& node = model_.nodes[s.node];
+      const SphMaterial& material = materials[s.part];
+      const Real mass = s.mass > 0 ? s.mass : -s.mass * material.ro;
+      p.x.set(i, node.x);
+      p.v.set(i, node.v);
+      p.m[i] = mass;
+      p.rho[i] = material.ro > 0 ? material.ro / material.v0 : 1;
+      volume[i] = material.ro > 0 ? mass / material.ro : 0;
+      p.id[i] = node.id;
+      p.part[i] = s.part;
+      p.state[i] = particle_outside;
+      if (settings_.dim == 2 && (std::abs(node.x[2] - model_.nodes[model_.sph[0].node].x[2]) > 0 || node.v[2] != 0))
+        off_plane_ = off_plane_ < 0 ? i : off_plane_;
+    }
+    if (off_plane_ >= 0)
+      diagnostics_.error(model_.sph[off_plane_].where,
+                         fmt::format("*CONTROL_SPH field 4 (IDIM): 2D needs all particles in one plane z = constant without "
+                                     "velocity along z, particle {} is not",
+                                     p.id[off_plane_]),
+                         "use IDIM 3");
+    set_padding(p);
+  }
+
+  void set_padding(Particles& p) const {
+    const Index n = p.size();
+    for (int k = 0; k < 3; ++k) p.x.data(k)[n] = far_away;
+    p.rho[n] = 1;
+    p.h[n] = 1;
+  }
+
+  /// h0 = CSLH x largest nearest-neighbour distance, per part. A part in which one particle stands far off would get an h
+  /// of that distance, so such particles are refused.
+  void set_smoothing_lengths() {
+    Particles& p = world_.particles;
+    std::vector<Vec> all;
+    for (Index i = 0; i < p.size(); ++i) all.push_back(p.x.vec(i));
+    const std::vector<Real> nearest = nearest_distance(all);
+    for (std::size_t k = 0; k < model_.parts.size(); ++k) {
+      std::vector<Real> distances;
+      for (Index i = 0; i < p.size(); ++i)
+        if (p.part[i] == static_cast<Index>(k)) distances.push_back(nearest[i]);
+      if (distances.empty()) continue;
+      const Real largest = *std::max_element(distances.begin(), distances.end());
+      std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2), distances.end());
+      const Real median = distances[distances.size() / 2];
+      Real h = smoothing_[k].sphini;
+      if (h <= 0) {
+        report_lone_particles(static_cast<Index>(k), nearest, median);
+        h = smoothing_[k].cslh * largest;
+      }
+      if (std::isfinite(largest)) settings_.spacing = std::max(settings_.spacing, largest);
+      for (Index i = 0; i < p.size(); ++i)
+        if (p.part[i] == static_cast<Index>(k)) p.h[i] = h;
+    }
+  }
+
+  void report_lone_particles(Index part, const std::vector<Real>& nearest, Real median) {
+    const Particles& p = world_.particles;
+    for (Index i = 0; i < p.size(); ++i) {
+      if (p.part[i] != part) continue;
+      if (nearest[i] == 0)
+        diagnostics_.error(model_.sph[i].where, fmt::format("*ELEMENT_SPH: particle {} stands where another particle is", p.id[i]));
+      else if (nearest[i] > 3 * median || !std::isfinite(nearest[i]))
+        diagnostics_.error(model_.sph[i].where,
+                           fmt::format("*ELEMENT_SPH: particle {} has no neighbour: the nearest other particle is {:.4g} [L] "
+                                       "away, the usual distance in its part is {:.4g}",
+                                       p.id[i], nearest[i], median),
+                           "remove the particle, or give the smoothing length by SPHINI of *SECTION_SPH");
+    }
+  }
+
+  void choose_h_form() {
+    const Particles& p = world_.particles;
+    settings_.uniform_h = true;
+    for (Index i = 0; i < p.size(); ++i) settings_.uniform_h &= p.h[i] == p.h[0];
+    for (std::size_t k = 0; k < model_.parts.size(); ++k)
+      if (model_.parts[k].has_sph && !(settings_.h_min_factor[k] == 1 && settings_.h_max_factor[k] == 1))
+        settings_.evolving_h = true;
+    settings_.uniform_h &= !settings_.evolving_h;
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  const std::function<SphMaterial(Index)>& material_;
+  World& world_;
+  Diagnostics& diagnostics_;
+  SphSettings settings_;
+  std::vector<PartSmoothing> smoothing_;
+  Index off_plane_ = -1;
+};
+
+}  // namespace
+
+SphSettings build_particles(const Deck& deck, const Model& model, const std::function<SphMaterial(Index part)>& material,
+                            World& world, Diagnostics& diagnostics) {
+  return Builder(deck, model, material, world, diagnostics).build();
+}
+
+std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s, std::shared_ptr<Neighbours> neighbours) {
+  std::vector<PassNote> left_out;
+  world.rates.push_back(make_continuity(s, world, neighbours));
+  if (s.evolving_h)
+    world.materials.push_back(make_smoothing_length(s, world));
+  else
+    left_out.push_back({"smoothing length", "HMIN = HMAX = 1: h is constant"});
+  if (std::holds_alternative<BulkViscosity>(s.viscosity))
+    world.materials.push_back(make_bulk_viscosity(s, world));
+  else
+    left_out.push_back({"bulk viscosity", "IAVIS 0: Monaghan viscosity between pairs"});
+  if (!s.mu.empty())
+    world.materials.push_back(make_viscous_stress(s, world));
+  else
+    left_out.push_back({"viscous stress", "MU is 0 in all SPH materials"});
+  world.forces.push_back(make_momentum(s, world, neighbours));
+  if (s.maxv != 0)
+    world.constraints.push_back(make_speed_limit(s, neighbours));
+  else
+    left_out.push_back({"speed limit MAXV", "none given"});
+  if (!s.region) left_out.push_back({"computational box", "no BOXID"});
+  world.energy_terms.push_back(make_sph_energy(s, world, neighbours));
+  return left_out;
+}
+
+}  // namespace courant

@@ -1,0 +1,43 @@
+#pragma once
+#include "keyword/deck.hpp"
+
+namespace courant {
+
+/// *SECTION_SPH: smoothing length of the parts that name it.
+struct SectionSph : Entry {
+  Id secid = 0;
+  Real cslh = 0, hmin = 0, hmax = 0, sphini = 0, death = 0, start = 0;
+  int sphkern = 0;
+  std::string title;
+};
+
+/// *CONTROL_SPH
+struct ControlSph : Entry {
+  int ncbs = 0;
+  Id boxid = 0;
+  Real dt = 0;
+  int idim = 0, nmneigh = 0, form = 0;
+  Real start = 0, maxv = 0;
+  int cont = 0, deriv = 0, ini = 0, ishow = 0, ierod = 0, icont = 0, iavis = 0, isymp = 0;
+  int ithk = 0, istab = 0;
+  Real ql = 0;
+  int sphsort = 0, ishift = 0;
+};
+
+/// *HOURGLASS: for SPH parts only its bulk viscosity coefficients matter.
+struct Hourglass : Entry {
+  Id hgid = 0;
+  int ihq = 0;
+  Real qm = 0;
+  int ibq = 0;
+  Real q1 = 0, q2 = 0, qb = 0, qw = 0;
+  std::string title;
+};
+
+/// *CONTROL_BULK_VISCOSITY: coefficients of parts without an *HOURGLASS.
+struct ControlBulkViscosity : Entry {
+  Real q1 = 0, q2 = 0;
+  int type = 0, btype = 0, tstype = 0;
+};
+
+}  // namespace courant

@@ -1,0 +1,41 @@
+#include "parallel/parallel.hpp"
+#include "sph/sph.hpp"
+
+namespace courant {
+
+namespace {
+
+/// BOUNDARY_SPC and TC of *NODE on particles: neither force nor velocity along the fixed directions.
+class FixedParticles : public Constraint {
+ public:
+  FixedParticles(const Model& model, World& world)
+      : fixed_(world.particles.fields.add<Index>({.name = "fixed", .dimension = "-"})) {
+    for (Index i = 0; i < world.particles.size(); ++i) {
+      const auto& fixed = model.nodes[model.sph[i].node].fixed;
+      fixed_[i] = fixed[0] + 2 * fixed[1] + 4 * fixed[2];
+    }
+  }
+  std::string name() const override { return "fixed particles (SPC)"; }
+  void apply(World& world, const Clock&) override {
+    Particles& p = world.particles;
+    for_each(p.active, [&](Index i) {
+      for (int k = 0; k < 3; ++k)
+        if (fixed_[i] & (1 << k)) p.f.data(k)[i] = p.v.data(k)[i] = 0;
+    });
+  }
+
+ private:
+  Field<Index>& fixed_;
+};
+
+}  // namespace
+
+std::shared_ptr<Constraint> make_fixed_particles(const Model& model, World& world) {
+  for (const ModelSph& s : model.sph) {
+    const auto& fixed = model.nodes[s.node].fixed;
+    if (fixed[0] || fixed[1] || fixed[2]) return std::make_shared<FixedParticles>(model, world);
+  }
+  return nullptr;
+}
+
+}  // namespace courant

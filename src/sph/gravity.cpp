@@ -1,0 +1,85 @@
+#include "parallel/parallel.hpp"
+#include "sph/sph.hpp"
+
+namespace courant {
+
+Vec gravity_at(const std::vector<BodyLoad>& loads, Real t) {
+  Vec g = Vec::Zero();
+  for (const BodyLoad& load : loads) g[load.axis] -= load.sf * load.curve(t);  // the base accelerates, bodies feel the opposite
+  return g;
+}
+
+namespace {
+
+/// LOAD_BODY_X/Y/Z on active particles. Potential energy is - sum m g(t).x; where the curve changes or particles enter and
+/// leave, the difference is external work.
+class Gravity : public Force, public EnergyTerm, public Refresh {
+ public:
+  Gravity(const Model& model, World& world, std::shared_ptr<Neighbours> neighbours)
+      : loads_(model.body_loads), neighbours_(std::move(neighbours)) {
+    const Particles& p = world.particles;  // heights count from the lowest particle against gravity
+    const Vec g = gravity_at(loads_, 0);
+    for (Index i = 0; i < p.size(); ++i) {
+      const Real height = -g.dot(p.x.vec(i));
+      if (i == 0 || height < -g.dot(origin_)) origin_ = p.x.vec(i);
+    }
+  }
+  std::string name() const override { return "gravity"; }
+
+  void add(World& world, const Clock& clock) override {
+    Particles& p = world.particles;
+    const Vec g = gravity_at(loads_, clock.t);
+    for (int k = 0; k < 3; ++k) {
+      if (g[k] == 0) continue;
+      Real* f = p.f.data(k);
+      const Real *m = p.m.data(), gk = g[k];
+      for_each(p.active, [=](Index i) { f[i] += m[i] * gk; });
+    }
+  }
+
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
+    ledger.external_work += exchanged_;
+    ledger.throughput += std::abs(exchanged_);
+    exchanged_ = 0;
+    const Vec change = gravity_at(loads_, clock.t + clock.dt) - gravity_at(loads_, clock.t);
+    if (change.isZero(0)) return;
+    const Real work = potential(world, change);
+    ledger.external_work += work;
+    ledger.throughput += std::abs(work);
+  }
+
+  void refreshed(World& world, const Clock& clock, std::span<const Index>) override {
+    const Vec g = gravity_at(loads_, clock.t);
+    if (!first_) {
+      for (const Index i : neighbours_->entered()) exchanged_ += potential_of(world.particles, g, i);
+      for (const Index i : neighbours_->left()) exchanged_ -= potential_of(world.particles, g, i);
+    }
+    first_ = false;
+  }
+
+  Real potential(const World& world, const Vec& g) const {
+    return sum(world.particles.active, [&](Index i) { return potential_of(world.particles, g, i); });
+  }
+  void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override {
+    ledger.potential += potential(world, gravity_at(loads_, clock.t));
+  }
+
+ private:
+  Real potential_of(const Particles& p, const Vec& g, Index i) const { return -p.m[i] * g.dot(p.x.vec(i) - origin_); }
+  std::vector<BodyLoad> loads_;
+  std::shared_ptr<Neighbours> neighbours_;
+  Vec origin_ = Vec::Zero();
+  bool first_ = true;
+  Real exchanged_ = 0;
+};
+
+}  // namespace
+
+std::shared_ptr<Force> make_gravity(const Model& model, World& world, std::shared_ptr<Neighbours> neighbours) {
+  auto gravity = std::make_shared<Gravity>(model, world, std::move(neighbours));
+  world.refreshes.push_back(gravity);
+  world.energy_terms.push_back(gravity);
+  return gravity;
+}
+
+}  // namespace courant

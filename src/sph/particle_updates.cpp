@@ -1,0 +1,115 @@
+// Passes over single particles between the rates and the forces: bulk viscosity, viscous stress, smoothing length.
+#include <algorithm>
+#include <cmath>
+
+#include "parallel/parallel.hpp"
+#include "sph/sph.hpp"
+
+namespace courant {
+
+namespace {
+
+/// IAVIS 1: q = rho h (Q1 h d^2 - Q2 c d) for d = div v < 0, else 0, the form of solid elements with the length h.
+class BulkViscosityPass : public Material {
+ public:
+  BulkViscosityPass(const SphSettings& s, World& world)
+      : q_(s.q),
+        total_(world.particles.fields.add<Real>({.name = "pressure_plus_q", .dimension = "M/LT2", .restart = false})),
+        heat_(world.particles.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"})) {}
+  std::string name() const override { return "bulk viscosity"; }
+  void update(World& world, const Clock&) override {
+    Particles& p = world.particles;
+    for_each(p.moving, [&](Index i) {
+      total_[i] = p.p[i];
+      if (i >= p.active) return;
+      const Real d = std::min(-p.drhodt[i] / p.rho[i], Real(0));  // div v
+      const PartViscosity& k = q_[p.part[i]];
+      const Real q = p.rho[i] * p.h[i] * (k.q2 * p.h[i] * d * d - k.q1 * p.c[i] * d);
+      total_[i] += q;
+      heat_[i] = -q * d * p.m[i] / p.rho[i];
+    });
+  }
+
+ private:
+  std::vector<PartViscosity> q_;
+  Field<Real>& total_;
+  Field<Real>& heat_;
+};
+
+/// MAT_NULL: tau = 2 MU (D - tr D/3), eqs 11-12.
+class ViscousStress : public Material {
+ public:
+  ViscousStress(const SphSettings& s, World& world) : mu_(s.mu) {
+    FieldSet& f = world.particles.fields;
+    const char* axes[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    for (int k = 0; k < 6; ++k) {
+      rate_[k] = &f.add<Real>({.name = std::string("strain_rate_") + axes[k], .dimension = "1/T", .restart = false});
+      tau_[k] = &f.add<Real>({.name = std::string("stress_") + axes[k], .dimension = "M/LT2", .restart = false});
+    }
+    power_ = &f.add<Real>({.name = "viscous_dissipation", .dimension = "ML2/T3"});
+  }
+  std::string name() const override { return "viscous stress"; }
+  void update(World& world, const Clock&) override {
+    Particles& p = world.particles;
+    for_each(p.active, [&](Index i) {
+      const Real mu = mu_[p.part[i]];
+      const Real third = (rate(0, i) + rate(1, i) + rate(2, i)) / 3;
+      Real power = 0;
+      for (int k = 0; k < 6; ++k) {
+        const Real deviator = rate(k, i) - (k < 3 ? third : 0);
+        (*tau_[k])[i] = 2 * mu * deviator;
+        power += (k < 3 ? 1 : 2) * 2 * mu * deviator * rate(k, i);
+      }
+      (*power_)[i] = power * p.m[i] / p.rho[i];
+    });
+  }
+
+ private:
+  Real rate(int k, Index i) const { return (*rate_[k])[i]; }
+  std::vector<Real> mu_;
+  std::array<Field<Real>*, 6> rate_{}, tau_{};
+  Field<Real>* power_ = nullptr;
+};
+
+/// DERIV 0: dh/dt = h div v / dim, within HMIN h0 and HMAX h0. Particles at a bound are counted.
+class SmoothingLength : public Material {
+ public:
+  SmoothingLength(const SphSettings& s, World& world)
+      : low_(s.h_min_factor),
+        high_(s.h_max_factor),
+        h0_(world.particles.fields.add<Real>({.name = "initial_smoothing_length", .dimension = "L"})) {
+    for (Index i = 0; i < world.particles.size(); ++i) h0_[i] = world.particles.h[i];
+    world.counters["smoothing_length_at_bound"] = 0;
+  }
+  std::string name() const override { return "smoothing length"; }
+  void update(World& world, const Clock& clock) override {
+    if (clock.dt_old == 0) return;
+    Particles& p = world.particles;
+    const Real at_bound = sum(p.active, [&](Index i) -> Real {
+      const Real grown = p.h[i] * (1 - p.drhodt[i] / p.rho[i] * clock.dt_old / world.dim);
+      const Real low = low_[p.part[i]] * h0_[i], high = high_[p.part[i]] * h0_[i];
+      p.h[i] = std::clamp(grown, low, high);
+      return grown < low || grown > high ? 1 : 0;
+    });
+    auto& counter = world.counters["smoothing_length_at_bound"];
+    counter = std::max(counter, static_cast<std::int64_t>(at_bound));
+  }
+
+ private:
+  std::vector<Real> low_, high_;
+  Field<Real>& h0_;
+};
+
+}  // namespace
+
+std::shared_ptr<Material> make_bulk_viscosity(const SphSettings& s, World& world) {
+  return std::make_shared<BulkViscosityPass>(s, world);
+}
+std::shared_ptr<Material> make_viscous_stress(const SphSettings& s, World& world) {
+  return std::make_shared<ViscousStress>(s, world);
+}
+std::shared_ptr<Material> make_smoothing_length(const SphSettings& s, World& world) {
+  return std::make_shared<SmoothingLength>(s, world);
+}
+
+}  // namespace courant

@@ -1,0 +1,79 @@
+#pragma once
+// SPH after Jonsson et al. 2016, eqs 6-18 (FORM 0 of LS-DYNA): the passes, and how a deck becomes particles.
+#include <functional>
+#include <memory>
+#include <variant>
+
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+#include "search/neighbours.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+/// Artificial viscosity between pairs (IAVIS 0), eqs 15-16; q1 comes per particle as viscous_speed = q1 c.
+struct MonaghanViscosity {
+  Real q2 = 0;
+};
+/// Pressure-like bulk viscosity (IAVIS 1): q = rho h (Q1 h d^2 - Q2 c d) where d = div v < 0, added to p.
+struct BulkViscosity {};
+using ArtificialViscosity = std::variant<MonaghanViscosity, BulkViscosity>;
+
+/// Coefficients of one part, LS-DYNA's names swapped to the paper's: q1 linear (HOURGLASS Q2), q2 quadratic (HOURGLASS Q1).
+struct PartViscosity {
+  Real q1 = 0.06, q2 = 1.5;
+};
+
+/// What the material of an SPH part must tell. [M/L3], [-], [M/LT]
+struct SphMaterial {
+  Real ro = 0;
+  Real v0 = 1;  ///< initial relative volume: rho = ro / v0
+  Real mu = 0;  ///< dynamic viscosity
+  bool heat_in_internal = false;  ///< the EOS uses energy, so viscous heat goes into E and is counted there
+};
+
+struct SphSettings {
+  int dim = 3;
+  bool uniform_h = true;
+  bool evolving_h = false;
+  std::vector<Real> h_min_factor, h_max_factor;  ///< per part, of h/h0
+  ArtificialViscosity viscosity = MonaghanViscosity{};
+  std::vector<PartViscosity> q;   ///< per part
+  std::vector<Real> mu;           ///< per part, dynamic viscosity; empty if no part has any
+  std::vector<char> heat_in_internal;  ///< per part; empty if in none
+  Real tssfac = 0.9;
+  Real maxv = 0;                  ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
+  std::optional<Neighbours::Region> region;
+  bool hide_inactive = false;     ///< ISHOW
+  bool skip_inactive_contact = false;  ///< ICONT
+  bool thickness_from_volume = false;  ///< ITHK
+  Real spacing = 0;               ///< largest nearest-neighbour distance of all SPH parts [L]
+};
+
+/// Reads SECTION_SPH, CONTROL_SPH, HOURGLASS, CONTROL_BULK_VISCOSITY; fills world.particles (x, v, m, rho, h, id, part,
+/// state) and world.dim. p, c, E follow from the materials.
+SphSettings build_particles(const Deck& deck, const Model& model, const std::function<SphMaterial(Index part)>& material,
+                            World& world, Diagnostics& diagnostics);
+
+/// Adds the SPH passes the settings ask for to the world, and names those left out with the reason.
+struct PassNote {
+  std::string name;
+  std::string reason;
+};
+std::vector<PassNote> add_sph_passes(World& world, const SphSettings& settings, std::shared_ptr<Neighbours> neighbours);
+
+std::shared_ptr<Rate> make_continuity(const SphSettings&, World&, std::shared_ptr<Neighbours>);
+std::shared_ptr<Force> make_momentum(const SphSettings&, World&, std::shared_ptr<Neighbours>);
+std::shared_ptr<Material> make_bulk_viscosity(const SphSettings&, World&);
+std::shared_ptr<Material> make_viscous_stress(const SphSettings&, World&);
+std::shared_ptr<Material> make_smoothing_length(const SphSettings&, World&);
+std::shared_ptr<TimeLimit> make_sph_time_limit(const SphSettings&, const Model&);
+std::shared_ptr<EnergyTerm> make_sph_energy(const SphSettings&, World&, std::shared_ptr<Neighbours>);
+std::shared_ptr<Force> make_gravity(const Model&, World&, std::shared_ptr<Neighbours>);
+/// Acceleration that LOAD_BODY_X/Y/Z give to everything at time t [L/T2].
+Vec gravity_at(const std::vector<BodyLoad>& loads, Real t);
+/// nullptr where no particle is fixed. Call while particles stand in the order of the model.
+std::shared_ptr<Constraint> make_fixed_particles(const Model&, World&);
+std::shared_ptr<Constraint> make_speed_limit(const SphSettings&, std::shared_ptr<Neighbours>);
+
+}  // namespace courant

@@ -1,0 +1,97 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "parallel/parallel.hpp"
+#include "sph/sph.hpp"
+
+namespace courant {
+
+namespace {
+
+struct Smallest {
+  Real value = std::numeric_limits<Real>::infinity();
+  Index at = -1;
+  /// NaN counts as smaller than any number and stays.
+  void take(Real other, Index where) {
+    if (!std::isnan(value) && !(other >= value)) value = other, at = where;
+  }
+};
+
+/// Eq. 18: dt = TSSFAC min h/(c + |v|), and with MU > 0 also dt <= 0.125 rho h^2 / MU (Morris et al. 1997). A NaN anywhere
+/// comes out as the smallest, so that the run stops there.
+class SphTimeLimit : public TimeLimit {
+ public:
+  SphTimeLimit(const SphSettings& s, const Model& model) : tssfac_(s.tssfac), mu_(s.mu) {
+    for (const ModelPart& part : model.parts) part_ids_.push_back(part.id);
+  }
+  std::string name() const override { return "sph time step"; }
+  Limit limit(const World& world, const Clock&) override {
+    const Particles& p = world.particles;
+    const Real *vx = p.v.data(0), *vy = p.v.data(1), *vz = p.v.data(2), *h = p.h.data(), *c = p.c.data();
+    const Smallest s = reduce(
+        p.active, Smallest{},
+        [&](Index begin, Index end) {
+          Smallest best;
+          for (Index i = begin; i < end; ++i) {
+            Real dt = h[i] / (c[i] + std::sqrt(vx[i] * vx[i] + vy[i] * vy[i] + vz[i] * vz[i]));
+            if (!mu_.empty()) dt = std::min(dt, 0.125 * p.rho[i] * h[i] * h[i] / mu_[p.part[i]]);
+            best.take(dt, i);
+          }
+          return best;
+        },
+        [](Smallest a, Smallest b) {
+          if (b.at >= 0) a.take(b.value, b.at);
+          return a;
+        });
+    if (s.at < 0) return {std::numeric_limits<Real>::infinity(), "no active particle"};
+    return {tssfac_ * s.value, fmt::format("sph {} of part {}", p.id[s.at], part_ids_[p.part[s.at]])};
+  }
+
+ private:
+  Real tssfac_;
+  std::vector<Real> mu_;
+  std::vector<Id> part_ids_;
+};
+
+/// MAXV: faster particles are switched off (> 0) or slowed to the limit (< 0); both are counted.
+class SpeedLimit : public Constraint {
+ public:
+  SpeedLimit(const SphSettings& s, std::shared_ptr<Neighbours> neighbours)
+      : maxv_(s.maxv), neighbours_(std::move(neighbours)) {}
+  std::string name() const override { return "speed limit MAXV"; }
+  void apply(World& world, const Clock&) override {
+    Particles& p = world.particles;
+    const Real limit = std::abs(maxv_);
+    const Real fastest = maximum(p.active, [&](Index i) { return p.v.vec(i).squaredNorm(); });
+    if (!(fastest > limit * limit)) return;
+    for (Index i = 0; i < p.active; ++i) {
+      const Real speed = p.v.vec(i).norm();
+      if (!(speed > limit)) continue;
+      if (maxv_ < 0) {
+        p.v.set(i, p.v.vec(i) * (limit / speed));
+        ++world.counters["speed_clipped"];
+      } else {
+        p.state[i] = particle_deactivated;
+        p.f.set(i, Vec::Zero());
+        ++world.counters["deactivated_by_maxv"];
+        neighbours_->force_refresh();
+      }
+    }
+  }
+
+ private:
+  Real maxv_;
+  std::shared_ptr<Neighbours> neighbours_;
+};
+
+}  // namespace
+
+std::shared_ptr<TimeLimit> make_sph_time_limit(const SphSettings& s, const Model& model) {
+  return std::make_shared<SphTimeLimit>(s, model);
+}
+std::shared_ptr<Constraint> make_speed_limit(const SphSettings& s, std::shared_ptr<Neighbours> neighbours) {
+  return std::make_shared<SpeedLimit>(s, std::move(neighbours));
+}
+
+}  // namespace courant

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# From a bare Debian 12 to tested: installs what is missing, builds, runs every test. The last line: N passed, N failed.
+#   bash tests/run.sh [--warnings-as-errors] [options of ctest, such as -R NAME]
+set -uo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/../examples/lib/setup.sh"
+options=(-DCOURANT_TESTS=ON)
+if [ "${1:-}" = --warnings-as-errors ]; then
+  options+=(-DCOURANT_WARNINGS_AS_ERRORS=ON)
+  shift
+fi
+cd "$project" || stop "the folder $project cannot be entered."
+
+install_packages "${build_packages[@]}" "${picture_packages[@]}" "${test_packages[@]}"
+settled=yes  # configure again only if something changes
+for option in "${options[@]}"; do
+  name=${option#-D}
+  grep -qs "^${name%%=*}:BOOL=ON" "$build/CMakeCache.txt" || settled=no
+done
+if [ $settled = yes ]; then configure; else configure "${options[@]}"; fi
+build_targets
+
+# Only what failed is printed, and a count now and then.
+show_tests() {
+  awk '/^ *Start +[0-9]+:/ || /^Test project/ || /^Internal ctest/ {next}
+       /Test +#[0-9]+:.* Passed / {if (++done % 50 == 0) {print "  " done " tests passed"; fflush()} next}
+       {print; fflush()}'
+}
+say "Testing"
+ctest --test-dir "$build" --parallel "$(nproc)" --output-on-failure --no-tests=error --timeout 600 "$@" 2>&1 |
+  tee "$logs/tests.log" | show_tests
+status=${PIPESTATUS[0]}
+
+summary=$(grep -E 'tests passed, [0-9]+ tests? failed out of [0-9]+' "$logs/tests.log" | tail -n 1)
+[ -n "$summary" ] || stop "no test was run." "$(tail -n 1 "$logs/tests.log")"
+failed=$(printf '%s' "$summary" | sed -E 's/.*passed, ([0-9]+) tests? failed out of.*/\1/')
+total=$(printf '%s' "$summary" | sed -E 's/.*out of ([0-9]+).*/\1/')
+printf '%d passed, %d failed\n' $((total - failed)) "$failed"
+[ "$failed" -eq 0 ] && [ "$status" -eq 0 ]

@@ -1,0 +1,265 @@
+#include "generate/generate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include "generate/scene.hpp"
+
+namespace courant {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string decks = std::string(SOURCE_DIR) + "/keyword_decks/";
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class Generate : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / (std::string("courant_generate_") +
+                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// The deck of a scene given as text; messages go to `messages_` with the folder taken off.
+  std::string deck(const std::string& scene, const std::map<std::string, std::string>& params = {}) {
+    std::ofstream(folder_ / "scene.yaml") << scene;
+    Diagnostics diagnostics;
+    ok_ =
+        generate_deck((folder_ / "scene.yaml").string(), (folder_ / "deck.k").string(), params, diagnostics);
+    messages_ = diagnostics.text();
+    for (std::size_t at; (at = messages_.find(folder_.string() + "/")) != std::string::npos;)
+      messages_.erase(at, folder_.string().size() + 1);
+    EXPECT_EQ(ok_, fs::exists(folder_ / "deck.k"));
+    EXPECT_FALSE(fs::exists(folder_ / "deck.k.part"));
+    return read(folder_ / "deck.k");
+  }
+  void refused(const std::string& scene, const std::string& message,
+               const std::map<std::string, std::string>& params = {}) {
+    deck(scene, params);
+    EXPECT_FALSE(ok_);
+    EXPECT_NE(messages_.find(message), std::string::npos) << messages_;
+  }
+
+  fs::path folder_;
+  std::string messages_;
+  bool ok_ = false;
+};
+
+const char* small = R"(title: two by one, c0 = ${c0}
+parameters:
+  c0: 10
+  dx: 1 / 2
+parts:
+  - id: 3
+    title: water
+    section: 1
+    material: 2
+    eos: 4
+    velocity: [c0 / 5, 0]
+    lattices:
+      - {low: [-1, 0], high: [0, dx], spacing: dx}
+  - id: 7
+    section: 5
+    material: 6
+    merge: true
+    plates:
+      - {origin: [0, 0, 0], edge1: [1, 0, 0], edge2: [0, 0, dx], mesh: dx}
+      - {origin: [1, 0, 0], edge1: [0, 0.6, 0], edge2: [0, 0, dx], mesh: dx}
+keywords: |
+  *CONTROL_TERMINATION
+  $#  endtim
+  ${c0 * dx:10}
+)";
+
+TEST_F(Generate, WritesFixedColumns) {
+  const std::string text = deck(small);
+  ASSERT_TRUE(ok_) << messages_;
+  EXPECT_EQ(text, R"($ Written by `courant generate scene.yaml`: change the scene, not this file.
+$ Parameters:
+$   c0 = 10
+$   dx = 0.5
+$ Parts:
+$   3 water: 2 particles
+$   7 part 7: 4 shells
+*KEYWORD
+*TITLE
+two by one, c0 = 10
+*CONTROL_TERMINATION
+$#  endtim
+         5
+*PART
+$# heading
+water
+$#     pid     secid       mid     eosid      hgid
+         3         1         2         4         0
+*PART
+$# heading
+part 7
+$#     pid     secid       mid     eosid      hgid
+         7         5         6         0         0
+*INITIAL_VELOCITY_GENERATION
+$#      id      styp     omega        vx        vy        vz     ivatn      icid
+         3         2         0         2         0         0         0         0
+$#      xc        yc        zc        nx        ny        nz     phase    irigid
+         0         0         0         0         0         0         0         0
+*NODE
+$#   nid               x               y               z      tc      rc
+       1           -0.75            0.25               0
+       2           -0.25            0.25               0
+       3               0               0               0
+       4               0               0             0.5
+       5             0.5               0               0
+       6             0.5               0             0.5
+       7               1               0               0
+       8               1               0             0.5
+       9               1             0.3               0
+      10               1             0.3             0.5
+      11               1             0.6               0
+      12               1             0.6             0.5
+*ELEMENT_SPH
+$#   nid     pid            mass    nend   (mass < 0: volume)
+       1       3           -0.25
+       2       3           -0.25
+*ELEMENT_SHELL
+$#   eid     pid      n1      n2      n3      n4
+       1       7       3       5       6       4
+       2       7       5       7       8       6
+       3       7       7       9      10       8
+       4       7       9      11      12      10
+*END
+)");
+}
+
+TEST_F(Generate, OverridesParametersAndWhatFollowsFromThem) {
+  const std::string text = deck(small, {{"dx", "c0 / 40"}});
+  ASSERT_TRUE(ok_) << messages_;
+  EXPECT_NE(text.find("$   3 water: 4 particles"), std::string::npos) << text.substr(0, 300);
+}
+
+std::string with(std::string from, const std::string& old, const std::string& now) {
+  const auto at = from.find(old);
+  EXPECT_NE(at, std::string::npos) << old;
+  return from.replace(at, old.size(), now);
+}
+
+TEST_F(Generate, RefusesBadScenesWithTheirPlace) {
+  const std::string s = small;
+  refused(with(s, "spacing: dx", "spacing: -dx"),
+          "scene.yaml:13:48: error: spacing: expected a length > 0, got -0.5");
+  refused(with(s, "high: [0, dx]", "high: [-1, dx]"),
+          "scene.yaml:13:9: error: the lattice is empty: its extent along x is 0");
+  refused(with(s, "low: [-1, 0]", "low: [-1.1, 0]"),
+          "the extent 1.1 along x is 2.2 spacings, not a whole number");
+}
+
+TEST_F(Generate, RefusesUnknownAndRepeatedNames) {
+  const std::string s = small;
+  refused(with(s, "eos: 4", "eso: 4"),
+          "scene.yaml:10:5: error: a part: unknown key 'eso'\n  hint: known keys: id, title");
+  refused(with(s, "eos: 4", "section: 4"), "scene.yaml:10:5: error: a part: 'section' stands twice");
+  refused(with(s, "dx: 1 / 2", "dx: 1 / resolution"),
+          "scene.yaml:4:7: error: parameter dx: unknown parameter 'resolution'");
+  refused(with(s, "${c0 * dx:10}", "${c1 * dx:10}"),
+          "scene.yaml:24: error: in '${c1 * dx:10}': unknown parameter 'c1'");
+  refused(with(s, "id: 7", "id: 3"), "scene.yaml:14:9: error: part 3 is there already");
+  refused(s, "error: --param c1: the scene has no such parameter\n  hint: its parameters: c0, dx",
+          {{"c1", "2"}});
+  refused(s, "error: --param dx: unknown parameter 'half', got 'half'", {{"dx", "half"}});
+}
+
+TEST_F(Generate, RefusesBadPartsAndPlates) {
+  const std::string s = small;
+  refused(with(s, "id: 3", "id: 0"),
+          "scene.yaml:6:9: error: id: expected a whole number from 1 to 99999999, got 0");
+  refused(with(s, "id: 3", "id: 1.5"), "got 1.5");
+  refused(with(s, "    material: 6\n", ""), "scene.yaml:14:5: error: 'material' is missing");
+  refused(with(s, "edge2: [0, 0, dx]", "edge2: [2, 0, 0]"), "the plate has no area");
+  refused(with(s, "merge: true", "merge: perhaps"), "merge: expected true or false");
+  refused(with(s, "merge: true", "first_id: 2"), "part 7: ids from 2 on are taken by the parts above");
+  refused(with(s, "merge: true", "first_id: 99999999"), "the format ends at 99999999");
+  refused("title: x\n", "the scene has no parts");
+  refused("title: [x\n", "not valid YAML");
+  refused("- x\n", "a scene is a YAML map");
+  refused("", "a scene is a YAML map");
+}
+
+TEST_F(Generate, RefusesHugeLattices) {
+  refused(with(small, "spacing: dx", "spacing: 1 / 2^20"), "the lattice would have");
+}
+
+TEST_F(Generate, LeavesNothingWhereItCannotWrite) {
+  std::ofstream(folder_ / "scene.yaml") << small;
+  const auto fails = [&](const std::string& scene, const std::string& target) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(generate_deck(scene, target, {}, diagnostics));
+    return diagnostics.text();
+  };
+  const std::string scene = (folder_ / "scene.yaml").string();
+  EXPECT_NE(fails(scene, (folder_ / "missing/deck.k").string()).find("the deck cannot be written"),
+            std::string::npos);
+  EXPECT_NE(fails(scene, folder_.string()).find("this is a folder"), std::string::npos);
+  EXPECT_NE(fails((folder_ / "none.yaml").string(), (folder_ / "deck.k").string()).find("cannot be read"),
+            std::string::npos);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+Id particles(const std::string& scene, const std::map<std::string, std::string>& params) {
+  Diagnostics diagnostics;
+  const Scene read = read_scene(decks + scene, params, diagnostics);
+  EXPECT_TRUE(diagnostics.ok()) << diagnostics.text();
+  Id n = 0;
+  for (const ScenePart& part : read.parts)
+    for (const SceneLattice& lattice : part.lattices) n += lattice.count();
+  return n;
+}
+
+TEST(CommittedScenes, HaveTheParticlesTheirGeometryGives) {
+  const std::string jump = "hydraulic_jump/scene.yaml";
+  EXPECT_EQ(particles(jump, {{"resolution", "4"}, {"endtim", "30"}}), 36880);
+  EXPECT_EQ(particles(jump, {{"resolution", "5"}}), 10750);
+  EXPECT_EQ(particles(jump, {{"resolution", "6"}}), 15480);
+  EXPECT_EQ(particles(jump, {{"resolution", "10"}}), 43000);
+  EXPECT_EQ(particles(jump, {}), 6880);
+  EXPECT_EQ(particles("dam_break_3d/scene.yaml", {}), 16000);
+  EXPECT_EQ(particles("still_water/scene.yaml", {}), 2500);
+}
+
+TEST_F(Generate, CommittedJumpIsWhatItsSceneGives) {
+  Diagnostics diagnostics;
+  const std::string now = (folder_ / "d4_5s.k").string();
+  ASSERT_TRUE(generate_deck(decks + "hydraulic_jump/scene.yaml", now, {}, diagnostics)) << diagnostics.text();
+  EXPECT_TRUE(read(now) == read(decks + "hydraulic_jump/d4_5s.k"))
+      << "run: courant generate keyword_decks/hydraulic_jump/scene.yaml -o "
+         "keyword_decks/hydraulic_jump/d4_5s.k";
+}
+
+/// Every data line of the committed scenes' cards fits 80 columns, and numbers of a card stand under their
+/// headings.
+TEST_F(Generate, CardsOfCommittedScenesFitTheirColumns) {
+  for (const std::string name : {"hydraulic_jump", "dam_break_3d", "still_water"}) {
+    Diagnostics diagnostics;
+    const std::string path = (folder_ / (name + ".k")).string();
+    ASSERT_TRUE(generate_deck(decks + name + "/scene.yaml", path, {}, diagnostics)) << diagnostics.text();
+    std::stringstream lines(read(path));
+    for (std::string line; std::getline(lines, line);) {
+      if (line[0] == '$') continue;
+      EXPECT_LE(line.size(), 80u) << line;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace courant

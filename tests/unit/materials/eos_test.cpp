@@ -1,0 +1,113 @@
+#include "materials/eos.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include <unistd.h>
+
+#include "keyword/deck.hpp"
+
+using namespace courant;
+
+namespace {
+
+/// Reads one EOS from its cards.
+std::shared_ptr<EosLaw> law_of(const EosEntry& kind, const std::string& cards) {
+  const auto path = std::filesystem::temp_directory_path() / ("eos_test_" + std::to_string(::getpid()) + ".k");
+  std::ofstream(path) << "*KEYWORD\n*" << kind.keyword << "\n" << cards << "*END\n";
+  Diagnostics diagnostics;
+  const Deck deck = read_deck(path.string(), {}, diagnostics);
+  std::filesystem::remove(path);
+  EXPECT_TRUE(diagnostics.ok()) << diagnostics.text();
+  const auto laws = kind.all(deck);
+  EXPECT_EQ(laws.size(), 1u);
+  return laws.at(0).second;
+}
+
+}  // namespace
+
+TEST(EosRegistry, HoldsTheLawsAndEachHasReferences) {
+  std::set<std::string> names;
+  for (const EosEntry& kind : eos_registry()) {
+    names.insert(kind.keyword);
+    EXPECT_FALSE(kind.references.empty()) << kind.keyword;
+    EXPECT_FALSE(kind.equation.empty());
+    EXPECT_FALSE(kind.source.empty());
+  }
+  EXPECT_TRUE(names.contains("EOS_LINEAR_POLYNOMIAL"));
+  EXPECT_TRUE(names.contains("EOS_MURNAGHAN"));
+}
+
+TEST(EosRegistry, EveryLawGivesItsReferenceValues) {
+  for (const EosEntry& kind : eos_registry())
+    for (const EosReference& r : kind.references)
+      EXPECT_NEAR(law_of(kind, r.deck)->pressure(r.mu, r.E), r.p, 1e-12 * std::max(1.0, std::abs(r.p))) << kind.keyword;
+}
+
+TEST(EosRegistry, SoundSpeedIsTheSlopeOfPressureAlongAnIsentrope) {
+  const Real rho0 = 3;
+  for (const EosEntry& kind : eos_registry())
+    for (const EosReference& r : kind.references) {
+      const auto law = law_of(kind, r.deck);
+      // both sides of mu: dE = -p dv with v = 1/(1 + mu)
+      const Real d = 1e-6, p = law->pressure(r.mu, r.E);
+      const auto along = [&](Real dmu) {
+        const Real dv = 1 / (1 + r.mu + dmu) - 1 / (1 + r.mu);
+        return law->pressure(r.mu + dmu, r.E - p * dv);
+      };
+      const Real c2 = (along(d) - along(-d)) / (2 * d) / rho0;
+      const Real scale = std::max(1e-3, std::abs(c2));
+      if (r.mu != 0) EXPECT_NEAR(law->sound_speed2(rho0, r.mu, r.E), c2, 1e-6 * scale) << kind.keyword << " mu " << r.mu;
+    }
+}
+
+TEST(EosPass, AnIdealGasStaysOnItsIsentrope) {
+  // p v^gamma is constant when a gas is compressed step by step without heat
+  const Real gamma = 1.4, rho0 = 1;
+  const EosEntry* polynomial = nullptr;
+  for (const EosEntry& kind : eos_registry())
+    if (kind.keyword == "EOS_LINEAR_POLYNOMIAL") polynomial = &kind;
+  ASSERT_NE(polynomial, nullptr);
+  const auto law = law_of(*polynomial, "         1       0.0       0.0       0.0       0.0       0.4       0.4       0.0\n       2.5       1.0\n");
+  World world;
+  world.particles.fields.resize(1);
+  Particles& p = world.particles;
+  p.rho[0] = rho0, p.E[0] = 2.5, p.p[0] = 1;
+  p.active = p.moving = 1;
+  auto pass = law->make_pass({{1}, true, {rho0}, {-1e20}}, world);
+  Clock clock;
+  clock.dt_old = 1e-3;
+  for (int k = 0; k < 1000; ++k) {
+    p.drhodt[0] = 1.0;
+    pass->update(world, clock);
+  }
+  EXPECT_NEAR(p.rho[0], 2, 1e-12);
+  EXPECT_NEAR(p.p[0], std::pow(2.0, gamma), 2e-6);
+  EXPECT_NEAR(p.c[0], std::sqrt(gamma * p.p[0] / p.rho[0]), 1e-9);
+}
+
+TEST(EosPass, CutsTensionAtPcAndStopsAtNegativeDensity) {
+  const auto law = law_of(eos_registry().front(), eos_registry().front().references.front().deck);
+  World world;
+  world.particles.fields.resize(1);
+  Particles& p = world.particles;
+  p.rho[0] = 1000, p.id[0] = 17;
+  p.active = p.moving = 1;
+  auto pass = law->make_pass({{1}, true, {1000}, {-500}}, world);
+  Clock clock;
+  clock.dt_old = 1;
+  p.drhodt[0] = -100;
+  pass->update(world, clock);
+  EXPECT_DOUBLE_EQ(p.p[0], -500);
+  p.drhodt[0] = -1000;
+  EXPECT_THROW(
+      try { pass->update(world, clock); } catch (const RunError& e) {
+        EXPECT_NE(std::string(e.what()).find("particle 17"), std::string::npos);
+        throw;
+      },
+      RunError);
+}

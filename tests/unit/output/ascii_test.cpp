@@ -1,0 +1,186 @@
+#include "output/ascii.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include "output/messag.hpp"
+#include "output/summary.hpp"
+#include "output_test.hpp"
+
+namespace courant {
+namespace {
+
+using test::ScratchFolder;
+
+Sample made_sample() {
+  Sample s;
+  s.t = 0.02;
+  s.dt = 2.5e-6;
+  s.cycle = 8001;
+  s.dt_set_by = "sph particle 17 of part 1";
+  s.ns_per_zone_cycle = 99.6;
+  s.energy = {.kinetic = 100,
+              .internal = 20,
+              .potential = 7,
+              .contact = 3,
+              .dissipated = 5,
+              .external_work = 25,
+              .initial = 110};
+  s.velocity = Vec(1.5, 0, 0);
+  s.parts = {{.id = 1, .title = "water", .internal = 20, .kinetic = 100, .momentum = Vec(30, -1, 0)}};
+  InterfaceForce contact;
+  contact.id = 4;
+  contact.title = "water on walls";
+  contact.on_surfa = Vec(0, 196.2, 0);
+  contact.energy_damping = 2;
+  s.interfaces = {contact};
+  s.particles = {{.id = 17, .active = false, .x = Vec(0.1, 0.2, 0), .p = 1234.5}};
+  return s;
+}
+
+TEST(Glstat, LayoutAndMeaning) {
+  // first potential 4: gravity did 4 - 7 = -3 of external work
+  const std::string expected =
+      "\n\n dt of cycle    8001 is controlled by sph               17\n\n"
+      " time...........................   2.00000E-02\n"
+      " time step......................   2.50000E-06\n"
+      " kinetic energy.................   1.00000E+02\n"
+      " internal energy................   2.30000E+01\n"
+      " stonewall energy...............   0.00000E+00\n"
+      " rigid body stopper energy......   0.00000E+00\n"
+      " spring and damper energy.......   0.00000E+00\n"
+      " system damping energy..........   0.00000E+00\n"
+      " sliding interface energy.......   5.00000E+00\n"
+      " external work..................   2.20000E+01\n"
+      " eroded kinetic energy..........   0.00000E+00\n"
+      " eroded internal energy.........   0.00000E+00\n"
+      " eroded hourglass energy........   0.00000E+00\n"
+      " total energy...................   1.28000E+02\n"
+      " total energy / initial energy..   1.00000E+00\n"
+      " energy ratio w/o eroded energy.   1.00000E+00\n"
+      " global x velocity..............   1.50000E+00\n"
+      " global y velocity..............   0.00000E+00\n"
+      " global z velocity..............   0.00000E+00\n"
+      " time per zone cycle.(nanosec)..           100\n";
+  EXPECT_EQ(made_sample().energy.residual(), 0);
+  EXPECT_EQ(glstat_text(made_sample(), 4), expected);
+}
+
+TEST(Matsum, Layout) {
+  EXPECT_EQ(
+      matsum_text(made_sample()),
+      "\n\n time =   2.0000E-02\n"
+      " mat.#=    1             inten=   2.0000E+01     kinen=   1.0000E+02     eroded_ie=   0.0000E+00     "
+      "eroded_ke=   "
+      "0.0000E+00\n"
+      " x-mom=   3.0000E+01     y-mom=  -1.0000E+00     z-mom=   0.0000E+00\n"
+      " x-rbv=   0.0000E+00     y-rbv=   0.0000E+00     z-rbv=   0.0000E+00\n"
+      "                         hgeng=   0.0000E+00     +mass=   0.0000E+00     eroded_he=   0.0000E+00\n\n");
+}
+
+TEST(Rcforc, LayoutAndOppositeSides) {
+  EXPECT_EQ(rcforc_text(made_sample()),
+            "  SURFA           4 time 2.00000E-02  x  0.00000E+00  y  1.96200E+02  z  0.00000E+00 mass  "
+            "0.00000E+00\n"
+            "  SURFB           4 time 2.00000E-02  x  0.00000E+00  y -1.96200E+02  z  0.00000E+00 mass  "
+            "0.00000E+00\n");
+}
+
+TEST(Sphout, Columns) {
+  const std::string text = sphout_text(made_sample());
+  EXPECT_NE(text.find("        17   0   1.00000E-01   2.00000E-01   0.00000E+00"), std::string::npos) << text;
+  EXPECT_NE(text.find("   1.23450E+03"), std::string::npos) << text;
+}
+
+TEST(AsciiHeader, LegendAndTitle) {
+  EXPECT_EQ(ascii_legend({{4, "water on walls"}}),
+            "\n{BEGIN LEGEND}\n Entity #        Title\n        4     water on walls" + std::string(56, ' ') +
+                "\n{END LEGEND}\n");
+  const std::string header = ascii_header("channel", "11/21/2026");
+  EXPECT_EQ(header.substr(0, 74), " channel" + std::string(65, ' ') + "\n");
+  EXPECT_NE(header.find("date 11/21/2026\n"), std::string::npos);
+}
+
+TEST(Histories, EachFileAtItsOwnInterval) {
+  ScratchFolder dir;
+  Histories histories(dir.path(), {.glstat = 0.25, .rcforc = 0.5, .title = "channel"});
+  int asked = 0;
+  const Real dt = 0.0625;
+  for (int n = 0; n < 17; ++n) {
+    if (!histories.is_due(n * dt, dt)) continue;
+    ++asked;
+    Sample s = made_sample();
+    s.t = n * dt;
+    s.dt = dt;
+    histories.write(s, n == 16);
+  }
+  histories.finish();
+  const auto count = [](const std::string& text, const std::string& what) {
+    int found = 0;
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+    return found;
+  };
+  EXPECT_EQ(asked, 5);
+  EXPECT_EQ(count(test::read_text(dir / "glstat"), " time step."), 5);
+  EXPECT_EQ(count(test::read_text(dir / "rcforc"), "SURFA"), 3);
+  EXPECT_FALSE(std::filesystem::exists(dir / "matsum"));
+  EXPECT_TRUE(std::filesystem::exists(dir / "history.h5"));
+}
+
+TEST(OutputSchedule, LastCycleBeforeTheDueTime) {
+  OutputSchedule schedule(0.1);
+  EXPECT_TRUE(schedule.take(0, 0.03));
+  EXPECT_FALSE(schedule.take(0.03, 0.03));
+  EXPECT_FALSE(schedule.take(0.06, 0.03));
+  EXPECT_TRUE(schedule.take(0.09, 0.03));  // 0.09 <= 0.1 < 0.12
+  EXPECT_FALSE(schedule.take(0.12, 0.03));
+  EXPECT_TRUE(schedule.take(0.15, 0.4));  // 0.2 ... 0.5 fall into one step: one state
+  EXPECT_FALSE(schedule.take(0.55, 0.01));
+  EXPECT_TRUE(schedule.take(0.59, 0.02));
+  EXPECT_FALSE(OutputSchedule(0).take(0, 1));
+}
+
+TEST(OutputSchedule, RestartGoesOnWithTheNextDueTime) {
+  OutputSchedule schedule(0.1);
+  schedule.skip_to(0.25);
+  EXPECT_NEAR(schedule.next(), 0.3, 1e-15);
+  EXPECT_FALSE(schedule.take(0.25, 0.04));
+  EXPECT_TRUE(schedule.take(0.29, 0.04));
+}
+
+TEST(Messag, StatusLineAndEcho) {
+  EXPECT_EQ(status_line(5000, 1.25e-3, 2.5e-7, "flush i/o buffers", "11/21/26 08:00:00"),
+            "    5000 t 1.2500E-03 dt 2.50E-07 flush i/o buffers            11/21/26 08:00:00");
+  ScratchFolder dir;
+  std::string shown;
+  Messag messag(dir / "messag", [&](std::string_view line) { shown += line; });
+  messag.line("hello");
+  EXPECT_EQ(shown, "hello");
+  EXPECT_EQ(test::read_text(dir / "messag"), "hello\n");
+}
+
+TEST(Summary, ComesBackAsYaml) {
+  ScratchFolder dir;
+  Summary s;
+  s.title = "jump: d1/4";
+  s.termination = "normal";
+  s.wall_seconds = 2;
+  s.particle_steps = 1000000;
+  s.energy = made_sample().energy;
+  s.counters = {{"density clamped", 0}};
+  s.warnings = {"deck.k:3:1: warning: x"};
+  s.passes = {{"sph force", 1.5, 10}};
+  write_summary(dir / "summary.yaml", s);
+  const YAML::Node y = YAML::LoadFile((dir / "summary.yaml").string());
+  EXPECT_EQ(y["title"].as<std::string>(), "jump: d1/4");
+  EXPECT_EQ(y["ns_per_particle_step"].as<double>(), 2000);
+  EXPECT_EQ(y["energy"]["ratio"].as<double>(), 1);
+  EXPECT_EQ(y["energy"]["residual"].as<double>(), 0);
+  EXPECT_EQ(y["counters"]["density clamped"].as<int>(), 0);
+  EXPECT_EQ(y["passes"][0]["seconds"].as<double>(), 1.5);
+  EXPECT_EQ(y["warnings"][0].as<std::string>(), "deck.k:3:1: warning: x");
+  write_summary(dir / "empty.yaml", Summary());
+  EXPECT_TRUE(YAML::LoadFile((dir / "empty.yaml").string()).IsMap());
+}
+
+}  // namespace
+}  // namespace courant

@@ -1,0 +1,151 @@
+#include "output/field_writer.hpp"
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <csignal>
+
+#include "output_test.hpp"
+
+namespace courant {
+namespace {
+
+using test::ScratchFolder;
+
+TEST(FieldWriter, ParticlesComeBackInOrderOfIds) {
+  ScratchFolder dir;
+  World world;
+  test::fill_small_world(world);
+  FieldWriter writer(dir.path(), {.part_ids = {7, 8}});
+  writer.write(world, 0.25, 3);
+
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((dir / "fields/particles_0003.vtp").c_str());
+  reader->Update();
+  vtkPolyData* data = reader->GetOutput();
+  ASSERT_EQ(data->GetNumberOfPoints(), 3);
+  EXPECT_EQ(data->GetNumberOfVerts(), 3);
+  EXPECT_EQ(data->GetFieldData()->GetArray("TimeValue")->GetTuple1(0), 0.25);
+  vtkPointData* fields = data->GetPointData();
+  const double ids[] = {10, 20, 30}, parts[] = {8, 7, 7}, active[] = {1, 0, 1}, rho[] = {1001, 1002, 1000};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(fields->GetArray("id")->GetTuple1(i), ids[i]);
+    EXPECT_EQ(fields->GetArray("part")->GetTuple1(i), parts[i]);
+    EXPECT_EQ(fields->GetArray("active")->GetTuple1(i), active[i]);
+    EXPECT_EQ(fields->GetArray("density")->GetTuple1(i), rho[i]);
+  }
+  EXPECT_EQ(data->GetPoint(1)[0], 0.5);
+  EXPECT_EQ(fields->GetArray("velocity")->GetComponent(1, 0), 2.0);
+  EXPECT_EQ(fields->GetArray("velocity")->GetDataType(), VTK_FLOAT);
+  EXPECT_STREQ(fields->GetArray("density")->GetInformation()->Get(vtkDataArray::UNITS_LABEL()), "M/L3");
+  for (const char* name : {"pressure", "internal_energy", "mass", "smoothing_length"})
+    EXPECT_TRUE(fields->HasArray(name)) << name;
+  EXPECT_FALSE(fields->HasArray("density_rate"));  // not flagged for output
+}
+
+TEST(FieldWriter, ShellsComeBackWithContactForce) {
+  ScratchFolder dir;
+  World world;
+  test::fill_small_world(world);
+  FieldWriter(dir.path(), {.part_ids = {7, 8}}).write(world, 0, 0);
+
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName((dir / "fields/shells_0000.vtu").c_str());
+  reader->Update();
+  vtkUnstructuredGrid* data = reader->GetOutput();
+  ASSERT_EQ(data->GetNumberOfCells(), 2);
+  EXPECT_EQ(data->GetNumberOfPoints(), 5);
+  EXPECT_EQ(data->GetCellType(0), VTK_QUAD);
+  EXPECT_EQ(data->GetCellType(1), VTK_TRIANGLE);
+  EXPECT_EQ(data->GetCellData()->GetArray("contact_force")->GetComponent(1, 1), -6.0);
+  EXPECT_EQ(data->GetCellData()->GetArray("part")->GetTuple1(0), 8);
+}
+
+TEST(FieldWriter, HidesInactiveParticles) {
+  ScratchFolder dir;
+  World world;
+  test::fill_small_world(world);
+  FieldWriter(dir.path(), {.part_ids = {7, 8}, .hide_inactive = true}).write(world, 0, 0);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((dir / "fields/particles_0000.vtp").c_str());
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 2);
+}
+
+TEST(FieldWriter, IndexNamesEachStateAndNoShellsWithoutSegments) {
+  ScratchFolder dir;
+  World world;
+  FieldWriter writer(dir.path(), {});
+  writer.write(world, 0, 0);
+  writer.write(world, 0.5, 1);
+  const std::string pvd = test::read_text(dir / "fields.pvd");
+  EXPECT_NE(
+      pvd.find(
+          "timestep=\"0.5\" group=\"\" part=\"0\" name=\"particles\" file=\"fields/particles_0001.vtp\""),
+      std::string::npos);
+  EXPECT_EQ(pvd.find("shells"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(dir / "fields.pvd.tmp"));
+}
+
+/// Runs `body` in a child whose files may not grow beyond `bytes`; gives its exit status.
+template <class Body>
+int with_file_limit(rlim_t bytes, const Body& body) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{bytes, bytes};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    _exit(body());
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 99;
+}
+
+TEST(FieldWriter, FullDiskThrowsAndLeavesNoTruncatedFile) {
+  ScratchFolder dir;
+  World world;
+  test::fill_small_world(world);
+  const int status = with_file_limit(500, [&] {
+    try {
+      FieldWriter(dir.path(), {.part_ids = {7, 8}}).write(world, 0, 0);
+    } catch (const OutputError& e) {
+      const std::string text = e.what();
+      const bool helpful =
+          text.find("particles_0000.vtp") != std::string::npos && text.find("hint:") != std::string::npos;
+      return helpful ? 0 : 2;
+    }
+    return 1;
+  });
+  EXPECT_EQ(status, 0);
+  EXPECT_TRUE(std::filesystem::is_empty(dir / "fields"));
+}
+
+TEST(FieldWriter, UnwritableFolderThrows) {
+  EXPECT_THROW(FieldWriter("/proc/courant", {}), OutputError);
+}
+
+TEST(TextFile, FullDeviceThrows) {
+  TextFile file("/dev/full");
+  try {
+    file.write("a line\n");
+    FAIL() << "no error";
+  } catch (const OutputError& e) {
+    EXPECT_NE(std::string(e.what()).find("No space left on device"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("free some space"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace courant

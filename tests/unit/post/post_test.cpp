@@ -1,0 +1,188 @@
+#include "post/post.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <cstdint>
+
+#include "../output/output_test.hpp"
+#include "output/field_writer.hpp"
+#include "output/summary.hpp"
+#include "post/recipe.hpp"
+
+namespace courant {
+namespace {
+
+using test::ScratchFolder;
+
+const std::string jump_recipe = std::string(SOURCE_DIR) + "/keyword_decks/hydraulic_jump/post.yaml";
+
+std::filesystem::path write(const ScratchFolder& dir, const std::string& text) {
+  write_file(dir / "recipe.yaml", text);
+  return dir / "recipe.yaml";
+}
+
+/// A channel 1.1 m long whose water stands at 4 rows upstream of x_jump and 16 rows downstream of it.
+void fill_channel(World& world, Real x_jump) {
+  const Real dx = 0.005;
+  std::vector<Vec> x;
+  for (int i = 0; i < 220; ++i)
+    for (int k = 0; k < ((i + 0.5) * dx < x_jump ? 4 : 16); ++k)
+      x.emplace_back((i + 0.5) * dx, (k + 0.5) * dx, 0);
+  Particles& p = world.particles;
+  p.fields.resize(static_cast<Index>(x.size()));
+  for (Index i = 0; i < p.size(); ++i) {
+    const Vec& at = x[static_cast<std::size_t>(i)];
+    p.x.set(i, at);
+    p.v.set(i, {at.x() < x_jump ? 1.5 : 0.35, 0, 0});
+    p.m[i] = 1000 * dx * dx;
+    p.rho[i] = 1000;
+    p.h[i] = 1.2 * dx;
+    p.id[i] = i + 1;
+    p.state[i] = particle_active;
+  }
+}
+
+/// The jump stands at x = 1.2 (outside) before 1 s, then goes upstream from 0.9 at 0.1 m/s; a state every 0.1
+/// s.
+void write_run(const ScratchFolder& dir, const std::string& title) {
+  FieldWriter writer(dir.path(), {.part_ids = {1}});
+  for (int s = 0; s <= 50; ++s) {
+    World world;
+    fill_channel(world, s < 10 ? 1.2 : 0.9 - 0.01 * (s - 10));
+    writer.write(world, 0.1 * s, s);
+  }
+  Summary summary;
+  summary.title = title;
+  write_summary(dir / "summary.yaml", summary);
+}
+
+TEST(Post, HydraulicJumpFromFieldFilesToResults) {
+  ScratchFolder dir;
+  write_run(dir, "Hydraulic jump d1/4");
+  Diagnostics diagnostics;
+  std::string said;
+  ASSERT_TRUE(run_post(
+      jump_recipe, dir.path(), [&](std::string_view text) { said += text; }, diagnostics))
+      << diagnostics.text();
+
+  const YAML::Node results = YAML::LoadFile((dir / "results.yaml").string());
+  EXPECT_EQ(results["case"].as<std::string>(), "d1/4");
+  const YAML::Node interval = results["jump"]["intervals"][0];
+  const double ratio = 0.08 / 0.0863;  // 16 rows against Belanger
+  EXPECT_EQ(interval["states"].as<int>(), 26);
+  EXPECT_NEAR(interval["A"].as<double>(), ratio, 0.01);
+  EXPECT_NEAR(interval["P"].as<double>(), 1 - ratio, 0.01);
+  EXPECT_EQ(interval["published"][0]["A"].as<double>(), 0.969);
+  EXPECT_EQ(results["jump"]["intervals"][1]["states"].as<int>(), 0);
+  EXPECT_NEAR(results["jump"]["front"]["time"].as<double>(), 1.0, 1e-6);
+  EXPECT_NEAR(results["jump"]["toe_at_end"].as<double>(), 0.5, 0.011);
+  EXPECT_NE(said.find("Case: d1/4; 51 states"), std::string::npos) << said;
+
+  const std::string csv = test::read_text(dir / "depth.csv");
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "t,depth,depth_over_theory,toe,front_depth");
+  if (diagnostics.warnings() == 0) {  // python3 with matplotlib is there
+    EXPECT_GT(std::filesystem::file_size(dir / "depth.png"), 10000u);
+    EXPECT_GT(std::filesystem::file_size(dir / "velocity.png"), 10000u);
+  } else {
+    EXPECT_NE(diagnostics.text().find("matplotlib was not found"), std::string::npos) << diagnostics.text();
+  }
+}
+
+TEST(Post, ProbeOnTheLine) {
+  ScratchFolder dir;
+  FieldWriter writer(dir.path(), {.part_ids = {1}});
+  World world;
+  fill_channel(world, 0.5);
+  writer.write(world, 0, 0);
+  Diagnostics diagnostics;
+  ASSERT_TRUE(run_post(
+      write(dir, "probes: [{name: gauge, x: 0.8}]\n"), dir.path(), [](std::string_view) {}, diagnostics))
+      << diagnostics.text();
+  const YAML::Node results = YAML::LoadFile((dir / "results.yaml").string());
+  EXPECT_NEAR(results["probes"][0]["last_depth"].as<double>(), 0.08, 5e-4);
+}
+
+TEST(Post, FolderWithoutResults) {
+  ScratchFolder dir;
+  Diagnostics diagnostics;
+  EXPECT_FALSE(run_post(
+      jump_recipe, dir.path(), [](std::string_view) {}, diagnostics));
+  EXPECT_NE(diagnostics.text().find("fields.pvd: error: no results here"), std::string::npos)
+      << diagnostics.text();
+}
+
+TEST(Post, TruncatedFieldFile) {
+  ScratchFolder dir;
+  FieldWriter writer(dir.path(), {.part_ids = {1}});
+  World world;
+  fill_channel(world, 0.5);
+  writer.write(world, 0, 0);
+  const auto file = dir / "fields/particles_0000.vtp";
+  const auto size = std::filesystem::file_size(file);
+  for (const auto left :
+       {size - size / 4, std::uintmax_t(700), std::uintmax_t(0)}) {  // in the data, in the head, empty
+    std::filesystem::resize_file(file, left);
+    Diagnostics diagnostics;
+    EXPECT_FALSE(run_post(
+        jump_recipe, dir.path(), [](std::string_view) {}, diagnostics))
+        << left;
+    EXPECT_NE(diagnostics.text().find("particles_0000.vtp: error: not a field file"), std::string::npos)
+        << left << diagnostics.text();
+  }
+}
+
+TEST(Post, IndexThatIsNoXml) {
+  ScratchFolder dir;
+  write_file(dir / "fields.pvd", "<VTKFile><Coll");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(run_post(
+      jump_recipe, dir.path(), [](std::string_view) {}, diagnostics));
+  EXPECT_NE(diagnostics.text().find("fields.pvd: error:"), std::string::npos) << diagnostics.text();
+}
+
+TEST(Recipe, AllFaultsAtOnceWithTheirPlaces) {
+  ScratchFolder dir;
+  Diagnostics diagnostics;
+  const auto file = write(dir,
+                          "jump:\n"
+                          "  x: one\n"
+                          "  v1: -1.5\n"
+                          "  dd1: 0.02\n"
+                          "  intervals: [[5, 2.5]]\n"
+                          "snapshots: {times: 3}\n");
+  EXPECT_FALSE(read_recipe(file, diagnostics).has_value());
+  const std::string text = diagnostics.text(), name = file.string();
+  EXPECT_NE(text.find(name + ":2:6: error: 'jump.x' must be a number, got 'one'"), std::string::npos) << text;
+  EXPECT_NE(text.find(name + ":3:7: error: 'jump.v1' must be greater than 0"), std::string::npos) << text;
+  EXPECT_NE(text.find(name + ":4:3: error: 'jump' does not know the key 'dd1'"), std::string::npos) << text;
+  EXPECT_NE(text.find("'jump' lacks the key 'd1'"), std::string::npos) << text;
+  EXPECT_NE(text.find(":5:15: error: 'jump.intervals': the first number must be less"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find(":6:20: error: 'snapshots.times' must be a list"), std::string::npos) << text;
+}
+
+TEST(Recipe, BadFiles) {
+  ScratchFolder dir;
+  Diagnostics missing, broken, empty;
+  EXPECT_FALSE(read_recipe(dir / "no.yaml", missing));
+  EXPECT_NE(missing.text().find("no.yaml: error: cannot read the recipe"), std::string::npos)
+      << missing.text();
+  EXPECT_FALSE(read_recipe(write(dir, "jump: [1, 2\n"), broken));
+  EXPECT_NE(broken.text().find("not valid YAML"), std::string::npos) << broken.text();
+  EXPECT_FALSE(read_recipe(write(dir, "case: d1/4\n"), empty));
+  EXPECT_NE(empty.text().find("asks for nothing"), std::string::npos) << empty.text();
+}
+
+TEST(Recipe, ThePapersRowsAreThere) {
+  Diagnostics diagnostics;
+  const auto recipe = read_recipe(jump_recipe, diagnostics);
+  ASSERT_TRUE(recipe) << diagnostics.text();
+  ASSERT_EQ(recipe->jump->published.size(), 5u);
+  EXPECT_EQ(recipe->jump->published[3].A, 0.936);
+  EXPECT_EQ(recipe->jump->published[4].interval.to, 30);
+  EXPECT_EQ(recipe->snapshots->times.size(), 6u);
+}
+
+}  // namespace
+}  // namespace courant

@@ -1,0 +1,48 @@
+#pragma once
+// A cloud of particles for tests, without a deck.
+#include <memory>
+#include <random>
+
+#include "sph/sph.hpp"
+#include "sph/view.hpp"
+
+namespace courant::test {
+
+struct Cloud {
+  World world;
+  SphSettings settings;
+  std::shared_ptr<Neighbours> neighbours;
+  Clock clock;
+
+  /// A lattice of n per direction with spacing dx, each particle moved by up to `jitter` dx.
+  Cloud(int dim, int n, Real dx, Real jitter, Real h_over_dx = 1.2, unsigned seed = 1) {
+    world.dim = settings.dim = dim;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<Real> shake(-jitter * dx, jitter * dx);
+    const int nz = dim == 3 ? n : 1;
+    Particles& p = world.particles;
+    Field<Real>& volume = p.fields.add<Real>({.name = "reference_volume", .dimension = "L3"});
+    p.fields.resize(n * n * nz);
+    Index i = 0;
+    for (int a = 0; a < n; ++a)
+      for (int b = 0; b < n; ++b)
+        for (int c = 0; c < nz; ++c, ++i) {
+          p.x.set(i, {a * dx + shake(random), b * dx + shake(random), dim == 3 ? c * dx + shake(random) : 0});
+          p.m[i] = 1000 * std::pow(dx, dim);
+          volume[i] = std::pow(dx, dim);
+          p.rho[i] = 1000;
+          p.c[i] = 30;
+          p.h[i] = h_over_dx * dx;
+          p.id[i] = i + 1;
+        }
+    for (int k = 0; k < 3; ++k) p.x.data(k)[p.size()] = far_away;
+    p.rho[p.size()] = p.h[p.size()] = 1;
+    settings.q.assign(1, {0.1, 0.0});
+    settings.h_min_factor.assign(1, 1);
+    settings.h_max_factor.assign(1, 1);
+    neighbours = std::make_shared<Neighbours>(0.25 * h_over_dx * dx, std::nullopt);
+  }
+  void refresh() { neighbours->refresh(world, clock); }
+};
+
+}  // namespace courant::test

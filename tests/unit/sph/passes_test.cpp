@@ -1,0 +1,180 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cloud.hpp"
+#include "parallel/parallel.hpp"
+#include "sph/kernel.hpp"
+
+using namespace courant;
+using courant::test::Cloud;
+
+namespace {
+
+void random_state(Cloud& cloud, unsigned seed = 7) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<Real> u(-1, 1);
+  Particles& p = cloud.world.particles;
+  for (Index i = 0; i < p.size(); ++i) {
+    p.v.set(i, {u(random), u(random), cloud.world.dim == 3 ? u(random) : 0});
+    p.p[i] = 1000 * u(random);
+    p.rho[i] = 1000 + 20 * u(random);
+  }
+}
+
+/// Index of the particle nearest to the middle of the cloud.
+Index middle(const World& world) {
+  const Particles& p = world.particles;
+  Vec centre = Vec::Zero();
+  for (Index i = 0; i < p.size(); ++i) centre += p.x.vec(i) / p.size();
+  Index best = 0;
+  for (Index i = 1; i < p.size(); ++i)
+    if ((p.x.vec(i) - centre).norm() < (p.x.vec(best) - centre).norm()) best = i;
+  return best;
+}
+
+/// dW/dr of the 2D kernel
+Real kernel_slope_2d(Real r, Real h) { return CubicSpline<2>::C * CubicSpline<2>::slope(r / h) / (h * h * h); }
+
+struct Case {
+  int dim;
+  bool uniform;
+  bool monaghan;
+  bool stress;
+};
+class Pairs : public testing::TestWithParam<Case> {};
+
+}  // namespace
+
+TEST_P(Pairs, ConserveMomentumAndGiveTheEnergyTheyTake) {
+  const Case c = GetParam();
+  Cloud cloud(c.dim, c.dim == 2 ? 20 : 8, 0.01, 0.2);
+  World& w = cloud.world;
+  Particles& p = w.particles;
+  cloud.settings.uniform_h = c.uniform;
+  if (!c.uniform)
+    for (Index i = 0; i < p.size(); ++i) p.h[i] *= 1 + 0.2 * (i % 3);
+  if (c.stress) cloud.settings.mu.assign(1, 2.0);
+  cloud.settings.viscosity = c.monaghan ? ArtificialViscosity(MonaghanViscosity{1.5}) : ArtificialViscosity(BulkViscosity{});
+  random_state(cloud);
+  auto continuity = make_continuity(cloud.settings, w, cloud.neighbours);
+  std::vector<std::shared_ptr<Material>> updates;
+  if (!c.monaghan) updates.push_back(make_bulk_viscosity(cloud.settings, w));
+  if (c.stress) updates.push_back(make_viscous_stress(cloud.settings, w));
+  auto momentum = make_momentum(cloud.settings, w, cloud.neighbours);
+  cloud.refresh();
+  continuity->evaluate(w, cloud.clock);
+  for (auto& u : updates) u->update(w, cloud.clock);
+  momentum->add(w, cloud.clock);
+
+  auto& heat = w.particles.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"});
+  auto* viscous = dynamic_cast<Field<Real>*>(w.particles.fields.find("viscous_dissipation"));
+  Vec total = Vec::Zero();
+  Real scale = 0, kinetic = 0, internal = 0, dissipated = 0;
+  for (Index i = 0; i < p.size(); ++i) {
+    total += p.f.vec(i);
+    scale += p.f.vec(i).norm();
+    kinetic += p.f.vec(i).dot(p.v.vec(i));
+    internal += p.m[i] * p.p[i] / (p.rho[i] * p.rho[i]) * p.drhodt[i];
+    dissipated += heat[i] + (viscous ? (*viscous)[i] : 0);
+    EXPECT_GE(heat[i], 0);
+  }
+  EXPECT_LT(total.norm(), 1e-13 * scale);
+  EXPECT_GT(dissipated, 0);
+  // What forces take from the motion is what pressure stores and viscosity burns: exact for the adjoint forms.
+  EXPECT_NEAR(kinetic + internal + dissipated, 0, 1e-11 * (std::abs(kinetic) + std::abs(internal) + dissipated));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Pairs,
+                         testing::Values(Case{2, true, true, false}, Case{2, false, true, false}, Case{2, true, false, false},
+                                         Case{2, true, true, true}, Case{2, false, false, true}, Case{3, true, true, false},
+                                         Case{3, false, true, false}, Case{3, true, false, true}, Case{3, false, true, true}));
+
+TEST(Continuity, GivesTheDivergenceOfALinearField) {
+  for (const int dim : {2, 3}) {
+    Cloud cloud(dim, dim == 2 ? 21 : 13, 0.01, 0, 1.2);
+    World& w = cloud.world;
+    for (Index i = 0; i < w.particles.size(); ++i) {
+      const Vec x = w.particles.x.vec(i);
+      w.particles.v.set(i, {2 * x[0] + x[1], -0.5 * x[1], dim == 3 ? 3 * x[2] : 0});
+    }
+    cloud.settings.mu.assign(1, 1.0);
+    auto continuity = make_continuity(cloud.settings, w, cloud.neighbours);
+    cloud.refresh();
+    continuity->evaluate(w, cloud.clock);
+    const Index i = middle(w);
+    const Real div = dim == 2 ? 1.5 : 4.5;
+    // plain SPH on a lattice with h = 1.2 dx: its discrete second moment misses 1 by a few per cent in 2D
+    EXPECT_NEAR(w.particles.drhodt[i] / -w.particles.rho[i], div, 0.03 * div);
+    const auto strain = [&](const char* name) { return (*dynamic_cast<Field<Real>*>(w.particles.fields.find(name)))[i]; };
+    EXPECT_NEAR(strain("strain_rate_xx"), 2, 0.06);
+    EXPECT_NEAR(strain("strain_rate_yy"), -0.5, 0.015);
+    EXPECT_NEAR(strain("strain_rate_xy"), 0.5, 0.015);
+  }
+}
+
+TEST(Momentum, GivesTheGradientOfALinearPressure) {
+  for (const int dim : {2, 3}) {
+    Cloud cloud(dim, dim == 2 ? 21 : 13, 0.01, 0, 1.2);
+    World& w = cloud.world;
+    for (Index i = 0; i < w.particles.size(); ++i) w.particles.p[i] = 500 * w.particles.x.vec(i)[1];
+    auto continuity = make_continuity(cloud.settings, w, cloud.neighbours);
+    auto momentum = make_momentum(cloud.settings, w, cloud.neighbours);
+    cloud.refresh();
+    continuity->evaluate(w, cloud.clock);
+    momentum->add(w, cloud.clock);
+    const Index i = middle(w);
+    const Vec a = w.particles.f.vec(i) / w.particles.m[i];
+    EXPECT_NEAR(a[1], -0.5, 0.015);
+    EXPECT_NEAR(a[0], 0, 1e-12);
+  }
+}
+
+TEST(Monaghan, ActsOnApproachOnlyAndHasTheSizeOfEquation15) {
+  Cloud cloud(2, 2, 0.01, 0);
+  World& w = cloud.world;
+  Particles& p = w.particles;
+  p.fields.resize(2);  // two particles on the x axis
+  p.x.set(0, {0, 0, 0});
+  p.x.set(1, {0.01, 0, 0});
+  for (int k = 0; k < 3; ++k) p.x.data(k)[2] = far_away;
+  p.m[2] = 0, p.rho[2] = p.h[2] = 1;
+  cloud.settings.viscosity = MonaghanViscosity{2.0};
+  for (const Real approach : {1.0, -1.0}) {
+    p.v.set(0, {approach, 0, 0});
+    p.v.set(1, {0, 0, 0});
+    p.p[0] = p.p[1] = 0;
+    p.f.fill(0);
+    cloud.neighbours->force_refresh();
+    auto continuity = make_continuity(cloud.settings, w, cloud.neighbours);
+    auto momentum = make_momentum(cloud.settings, w, cloud.neighbours);
+    cloud.refresh();
+    continuity->evaluate(w, cloud.clock);
+    momentum->add(w, cloud.clock);
+    const Real h = 0.012, phi = h * (-0.01 * approach) / (0.01 * 0.01 + 0.01 * h * h);
+    const Real Pi = approach > 0 ? (-0.1 * 30 * phi + 2.0 * phi * phi) / 1000 : 0;
+    const Real dW = kernel_slope_2d(0.01, h);
+    const Index first = p.id[0] == 1 ? 0 : 1;
+    EXPECT_NEAR(p.f.vec(first)[0] / p.m[first], p.m[0] * Pi * dW, 1e-9 * std::abs(p.m[0] * dW));
+  }
+}
+
+TEST(Sph, SameBitsOnAnyNumberOfThreads) {
+  std::vector<Real> reference;
+  for (const int n : {1, 2, 4}) {
+    set_threads(n);
+    Cloud cloud(3, 14, 0.01, 0.2);
+    random_state(cloud);
+    auto continuity = make_continuity(cloud.settings, cloud.world, cloud.neighbours);
+    auto momentum = make_momentum(cloud.settings, cloud.world, cloud.neighbours);
+    cloud.refresh();
+    continuity->evaluate(cloud.world, cloud.clock);
+    momentum->add(cloud.world, cloud.clock);
+    std::vector<Real> result;
+    for (int k = 0; k < 3; ++k)
+      result.insert(result.end(), cloud.world.particles.f.data(k), cloud.world.particles.f.data(k) + cloud.world.particles.size());
+    if (reference.empty()) reference = result;
+    EXPECT_EQ(reference, result) << n << " threads";
+  }
+  set_threads(0);
+}

@@ -1,0 +1,50 @@
+#include "time/step.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../sph/cloud.hpp"
+#include "base/run_error.hpp"
+
+using namespace courant;
+using courant::test::Cloud;
+
+namespace {
+
+/// Steps whose size changes every time.
+struct ChangingSteps : TimeLimit {
+  std::string name() const override { return "changing"; }
+  Limit limit(const World&, const Clock& clock) override { return {0.001 * (1 + (clock.cycle * 7) % 5), "test"}; }
+};
+
+Curve constant(Real value) { return {.id = 1, .abscissa = {0, 1}, .ordinate = {value, value}}; }
+
+}  // namespace
+
+TEST(Step, FreeFallIsExactWithChangingSteps) {
+  Cloud cloud(2, 1, 0.01, 0);
+  Model model;
+  model.body_loads.push_back({1, constant(9.81), 1});
+  cloud.world.forces.push_back(make_gravity(model, cloud.world, cloud.neighbours));
+  cloud.world.motions.push_back(make_particle_motion());
+  cloud.world.time_limits.push_back(std::make_shared<ChangingSteps>());
+  cloud.world.particles.v.set(0, {1, 2, 0});
+  PassTimer timer;
+  for (int k = 0; k < 100; ++k)
+    step(cloud.world, cloud.clock, *cloud.neighbours, {}, timer, [](World&, const Clock&, const std::string&) {});
+  const Real t = cloud.clock.t;
+  EXPECT_NEAR(cloud.world.particles.x.vec(0)[0], t, 1e-12);
+  EXPECT_NEAR(cloud.world.particles.x.vec(0)[1], 2 * t - 0.5 * 9.81 * t * t, 1e-12);
+}
+
+TEST(Step, StopsWhereTheStepSizeIsNotANumber) {
+  struct Broken : TimeLimit {
+    std::string name() const override { return "broken"; }
+    Limit limit(const World&, const Clock&) override { return {std::nan(""), "sph 1 of part 1"}; }
+  };
+  Cloud cloud(2, 2, 0.01, 0);
+  cloud.world.time_limits.push_back(std::make_shared<Broken>());
+  cloud.world.time_limits.push_back(std::make_shared<ChangingSteps>());
+  PassTimer timer;
+  EXPECT_THROW(step(cloud.world, cloud.clock, *cloud.neighbours, {}, timer, [](World&, const Clock&, const std::string&) {}),
+               RunError);
+}
