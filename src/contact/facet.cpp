@@ -9,7 +9,9 @@ namespace {
 // Nodes in decks carry about 7 digits, so gaps between patches are below this fraction of the facet's size.
 constexpr Real joint_tolerance = 1e-5;
 
-Vec triangle_normal(const Vec& a, const Vec& b, const Vec& c) { return (b - a).cross(c - a); }
+Vec triangle_normal(const Vec& a, const Vec& b, const Vec& c) {
+  return (b - a).cross(c - a);
+}
 
 bool is_flat_and_convex(const Corners& x) {
   const Vec n = (x[2] - x[0]).cross(x[3] - x[1]);
@@ -27,7 +29,8 @@ void update_facet(Facet& f, const Nodes& nodes) {
   Vec centre = Vec::Zero();
   for (int e = 0; e < 4; ++e) f.x[e] = nodes.x.vec(f.node[std::min(e, f.corners - 1)]);
   for (int e = 0; e < f.corners; ++e) centre += f.x[e] / f.corners;
-  const Vec n = f.corners == 4 ? Vec((f.x[2] - f.x[0]).cross(f.x[3] - f.x[1])) : triangle_normal(f.x[0], f.x[1], f.x[2]);
+  const Vec n = f.corners == 4 ? Vec((f.x[2] - f.x[0]).cross(f.x[3] - f.x[1]))
+                               : triangle_normal(f.x[0], f.x[1], f.x[2]);
   f.n = n.normalized();
   f.centre = centre;
   f.offset = f.n.dot(centre);
@@ -48,7 +51,8 @@ std::vector<Facet> make_facets(const World& world, const std::vector<Index>& seg
     f.corners = corners;
     for (int e = 0; e < corners; ++e) f.moves = f.moves || !world.nodes.held[node[e]];
     update_facet(f, world.nodes);
-    if (f.n.squaredNorm() > 0.5) out.push_back(f);  // a segment without area has no normal and cannot be touched
+    if (f.n.squaredNorm() > 0.5)
+      out.push_back(f);  // a segment without area has no normal and cannot be touched
   };
   for (const Index s : segments) {
     const auto a = world.segments.nodes(s);
@@ -59,7 +63,8 @@ std::vector<Facet> make_facets(const World& world, const std::vector<Index>& seg
     } else if (is_flat_and_convex(x)) {
       add(s, a, 4);
     } else {
-      // The diagonal on whose two sides the triangles face the same way; for a warped convex quad either does.
+      // The diagonal on whose two sides the triangles face the same way; for a warped convex quad either
+      // does.
       const bool first = triangle_normal(x[0], x[1], x[2]).dot(triangle_normal(x[0], x[2], x[3])) >=
                          triangle_normal(x[1], x[2], x[3]).dot(triangle_normal(x[1], x[3], x[0]));
       const int o = first ? 0 : 1;
@@ -87,7 +92,8 @@ Vec nearest_on_rim(const Facet& f, const Vec& y) {
   return best;
 }
 
-bool passes_through(const Facet& f, const Corners& before, int side, const Vec& from, const Vec& to, Real& fraction) {
+bool passes_through(const Facet& f, const Corners& before, int side, const Vec& from, const Vec& to,
+                    Real& fraction) {
   const Vec n0 = f.corners == 4 ? Vec((before[2] - before[0]).cross(before[3] - before[1]))
                                 : triangle_normal(before[0], before[1], before[2]);
   const Real d0 = std::max(side * n0.normalized().dot(from - before[0]), 0.0);
@@ -118,7 +124,8 @@ std::array<Real, 4> shape_functions(const Facet& f, const Vec& q) {
   Real s = 0, t = 0;
   std::array<Real, 4> N{};
   for (int it = 0; it < 12; ++it) {
-    N = {0.25 * (1 - s) * (1 - t), 0.25 * (1 + s) * (1 - t), 0.25 * (1 + s) * (1 + t), 0.25 * (1 - s) * (1 + t)};
+    N = {0.25 * (1 - s) * (1 - t), 0.25 * (1 + s) * (1 - t), 0.25 * (1 + s) * (1 + t),
+         0.25 * (1 - s) * (1 + t)};
     const Vec gap = q - (N[0] * f.x[0] + N[1] * f.x[1] + N[2] * f.x[2] + N[3] * f.x[3]);
     const Real g1 = gap.dot(e1), g2 = gap.dot(e2);
     if (g1 * g1 + g2 * g2 < 1e-26 * f.radius * f.radius) return N;

@@ -40,10 +40,12 @@ void FacetGrid::build(const std::vector<Facet>& facets, Real reach) {
   const Real slack = reach * (1 + 1e-9);
   low_ = low - Vec::Constant(slack);
   const Vec size = high - low + Vec::Constant(2 * slack);
-  // Cells of the size of the reach, but not many more than facets: a large box with few facets must not fill the memory.
+  // Cells of the size of the reach, but not many more than facets: a large box with few facets must not fill
+  // the memory.
   const Real most = std::max<Real>(1e5, 50.0 * Real(facets.size()));
   cell_ = std::max(slack, size.maxCoeff() / 2000);
-  while (std::ceil(size[0] / cell_) * std::ceil(size[1] / cell_) * std::ceil(size[2] / cell_) > most) cell_ *= 1.25;
+  while (std::ceil(size[0] / cell_) * std::ceil(size[1] / cell_) * std::ceil(size[2] / cell_) > most)
+    cell_ *= 1.25;
   for (int k = 0; k < 3; ++k) cells_[k] = std::max<Index>(1, Index(std::ceil(size[k] / cell_)));
 
   first_.assign(std::size_t(cells_[0]) * cells_[1] * cells_[2] + 1, 0);

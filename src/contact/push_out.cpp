@@ -29,7 +29,8 @@ void share_many(Pushes& p) {
     p.at[i].share = 0;
     largest = std::max(largest, p.at[i].depth);
   }
-  for (int sweep = 0; sweep < 200; ++sweep) {  // projected Gauss-Seidel; one or two sweeps for perpendicular walls
+  for (int sweep = 0; sweep < 200;
+       ++sweep) {  // projected Gauss-Seidel; one or two sweeps for perpendicular walls
     Real change = 0;
     for (int i = 0; i < n; ++i) {
       Real s = p.at[i].depth;
