@@ -7,7 +7,7 @@ logs=$project/build/logs
 
 build_packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libvtk9-dev libyaml-cpp-dev libfmt-dev libcli11-dev)
 picture_packages=(python3 python3-matplotlib python3-numpy)
-test_packages=(libgtest-dev libgmock-dev python3-vtk9 python3-h5py)
+test_packages=(libgtest-dev libgmock-dev python3-vtk9 python3-h5py python3-yaml)
 
 say() { printf '%s\n' "$*"; }
 
@@ -69,7 +69,8 @@ install_packages() {  # package names
       "As root: apt-get install --no-install-recommends ${missing[*]}"
     as_root=(sudo)
   fi
-  need_space /var 2500 "installing packages"
+  need_space /usr 3000 "installing packages"
+  need_space /var 1000 "fetching packages"
   mkdir -p "$logs"
   say "Installing ${#missing[@]} missing package(s) and what they need: ${missing[*]}"
   # apt-get update warns and goes on when servers are out of reach; the option makes it fail.

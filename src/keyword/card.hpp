@@ -58,13 +58,13 @@ struct FieldRules {
 /// take one column each, as a table.
 template <class T>
 struct FieldOf {
-  using Member = std::variant<int T::*, Id T::*, Real T::*, std::string T::*, std::vector<Id> T::*,
-                              std::vector<Real> T::*,
-                              std::monostate>;  ///< monostate: columns that are skipped
-  std::string name{};
-  Member member = std::monostate{};
-  std::string dimension{};
-  std::string meaning{};
+  /// monostate, the default: columns that are skipped
+  using Member = std::variant<std::monostate, int T::*, Id T::*, Real T::*, std::string T::*,
+                              std::vector<Id> T::*, std::vector<Real> T::*>;
+  std::string name;
+  Member member;
+  std::string dimension;
+  std::string meaning;
   FieldRules rules{};
 };
 

@@ -13,6 +13,8 @@
 
 namespace courant {
 
+struct SourceText;
+
 class Deck {
  public:
   /// All entries of one keyword in deck order; empty if the deck has none.
@@ -46,8 +48,8 @@ class Deck {
                std::string hint = {}) const;
 
   std::string title;
-  std::vector<std::string> files;  ///< as named by the user; [0] is the deck itself
-  std::vector<std::shared_ptr<std::vector<std::string>>> lines;  ///< text of each file, kept for messages
+  std::vector<std::string> files;                          ///< as named by the user; [0] is the deck itself
+  std::vector<std::shared_ptr<const SourceText>> sources;  ///< text of each file, kept for messages
   std::map<std::string, int> keyword_counts;  ///< every keyword of the deck by name, for `courant check`
 
  private:

@@ -64,28 +64,28 @@ namespace detail {
 template <class T>
 FieldType field_type(const typename FieldOf<T>::Member& member) {
   // in the order of FieldOf::Member
-  constexpr FieldType types[] = {FieldType::integer, FieldType::id,    FieldType::real, FieldType::text,
-                                 FieldType::ids,     FieldType::reals, FieldType::skip};
+  constexpr FieldType types[] = {FieldType::skip, FieldType::integer, FieldType::id,   FieldType::real,
+                                 FieldType::text, FieldType::ids,     FieldType::reals};
   return types[member.index()];
 }
 
 template <class T>
 void set_number(T& entry, const typename FieldOf<T>::Member& member, auto value) {
   switch (member.index()) {
-    case 0:
-      entry.*(*std::get_if<0>(&member)) = static_cast<int>(value);
-      break;
     case 1:
-      entry.*(*std::get_if<1>(&member)) = static_cast<Id>(value);
+      entry.*(*std::get_if<1>(&member)) = static_cast<int>(value);
       break;
     case 2:
-      entry.*(*std::get_if<2>(&member)) = static_cast<Real>(value);
+      entry.*(*std::get_if<2>(&member)) = static_cast<Id>(value);
       break;
-    case 4:
-      (entry.*(*std::get_if<4>(&member))).push_back(static_cast<Id>(value));
+    case 3:
+      entry.*(*std::get_if<3>(&member)) = static_cast<Real>(value);
       break;
     case 5:
-      (entry.*(*std::get_if<5>(&member))).push_back(static_cast<Real>(value));
+      (entry.*(*std::get_if<5>(&member))).push_back(static_cast<Id>(value));
+      break;
+    case 6:
+      (entry.*(*std::get_if<6>(&member))).push_back(static_cast<Real>(value));
       break;
     default:
       break;

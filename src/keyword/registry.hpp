@@ -2,6 +2,7 @@
 // The list of supported keywords. Files register theirs at start-up; nothing else is edited for a new one.
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,30 @@ struct RegisterKeyword {
     register_keyword(make_keyword_spec<T>(std::move(keyword)));
   }
 };
+
+/// What a keyword line names: the registry's keyword, which of its names, and the options _TITLE and _ID.
+struct KeywordMatch {
+  int keyword = -1;  ///< index into the registry, -1: unknown
+  int name = 0;
+  bool title = false, id = false;
+};
+
+/// Look-up by name; holds for the keywords registered when it was made.
+class KeywordIndex {
+ public:
+  KeywordIndex();
+  KeywordMatch match(const std::string& name) const;  ///< `name` in upper case, without '*'
+  std::string hint(const std::string& name) const;  ///< "did you mean ...?" for an unknown name; may be empty
+
+ private:
+  std::unordered_map<std::string, KeywordMatch> by_name_;
+};
+
+/// The candidate with the fewest edits from `word`, or empty if none is near.
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
+
+/// "*PART card 1 field 2 (SECID, section id [-])", the beginning of every message about a field.
+std::string describe_field(const KeywordSpec& spec, int name, std::size_t card, std::size_t field);
 
 /// Cards of one keyword as text (`courant keywords NAME`), and the whole of docs/keywords.md.
 std::string keyword_help(const std::string& name);  ///< empty if there is no such keyword

@@ -152,6 +152,7 @@ void write_data(vtkDataObject* data, const std::filesystem::path& file) {
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToZLib();
+  writer->SetCompressionLevel(1);  // higher levels cost several times the time for little
   writer->WriteToOutputStringOn();
   if (writer->Write() != 1 || writer->GetErrorCode() != 0)
     throw OutputError(file,

@@ -98,7 +98,7 @@ def plot_velocity(folder, settings):
         axes.set_ylim(y_range)
         axes.set_aspect("equal")
         axes.set_ylabel("y [m]")
-        axes.text(0.01, 0.9, f"t = {t:g} s", transform=axes.transAxes, va="top", fontsize=10, fontweight="bold")
+        axes.text(0.99, 0.9, f"t = {t:g} s", transform=axes.transAxes, ha="right", va="top", fontsize=10, fontweight="bold")
     panels[-1, 0].set_xlabel("x [m]")
     figure.suptitle(settings["title"], fontsize=10)
     figure.colorbar(dots, ax=panels[:, 0].tolist(), label="velocity |v| [m/s]", shrink=0.6, aspect=30, pad=0.01)
@@ -111,6 +111,7 @@ def main():
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     settings = json.loads((folder / "plot.json").read_text())
+    settings["title"] = settings["title"].replace("$", "\\$")  # no formula in a deck's title
     if "jump" in settings:
         plot_depth(folder, settings)
     if "snapshots" in settings:

@@ -131,35 +131,40 @@ std::string depth_csv(const Recipe& recipe, const Measured& measured, const std:
   return out;
 }
 
+/// A number with the digits that mean something.
+std::string digits(Real value) {
+  return fmt::format("{:.9g}", value);
+}
+
 YAML::Node jump_node(const JumpRecipe& recipe, const JumpResult& jump) {
   YAML::Node out;
-  out["x"] = recipe.x;
-  out["Fr1"] = jump.Fr1;
-  out["d2_theory"] = jump.d2_theory;
+  out["x"] = digits(recipe.x);
+  out["Fr1"] = digits(jump.Fr1);
+  out["d2_theory"] = digits(jump.d2_theory);
   for (const IntervalResult& r : jump.intervals) {
     YAML::Node row;
-    row["from"] = r.interval.from;
-    row["to"] = r.interval.to;
+    row["from"] = digits(r.interval.from);
+    row["to"] = digits(r.interval.to);
     row["states"] = r.states;
     row["complete"] = r.complete;
     if (r.states > 0) {
-      row["A"] = r.A;
-      row["P"] = r.P;
-      row["mean_depth"] = r.mean_depth;
+      row["A"] = digits(r.A);
+      row["P"] = digits(r.P);
+      row["mean_depth"] = digits(r.mean_depth);
     }
     for (const PublishedRow& p : r.published) {
       YAML::Node published;
       published["case"] = p.case_name;
-      published["A"] = p.A;
-      published["P"] = p.P;
+      published["A"] = digits(p.A);
+      published["P"] = digits(p.P);
       row["published"].push_back(published);
     }
     out["intervals"].push_back(row);
   }
-  if (recipe.front_x) out["front"]["x"] = *recipe.front_x;
-  if (jump.front_time) out["front"]["time"] = *jump.front_time;
+  if (recipe.front_x) out["front"]["x"] = digits(*recipe.front_x);
+  if (jump.front_time) out["front"]["time"] = digits(*jump.front_time);
   if (!jump.series.toe.empty() && !std::isnan(jump.series.toe.back()))
-    out["toe_at_end"] = jump.series.toe.back();
+    out["toe_at_end"] = digits(jump.series.toe.back());
   return out;
 }
 
@@ -175,12 +180,11 @@ std::string results_yaml(const Recipe& recipe, const std::string& title, const M
   for (std::size_t i = 0; i < recipe.probes.size(); ++i) {
     YAML::Node probe;
     probe["name"] = recipe.probes[i].name;
-    probe["x"] = recipe.probes[i].x;
-    probe["last_depth"] = measured.probes[i].back();
+    probe["x"] = digits(recipe.probes[i].x);
+    probe["last_depth"] = digits(measured.probes[i].back());
     out["probes"].push_back(probe);
   }
   YAML::Emitter text;
-  text.SetDoublePrecision(9);
   text << out;
   return std::string(text.c_str()) + "\n";
 }

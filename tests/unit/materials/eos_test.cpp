@@ -61,7 +61,9 @@ TEST(EosRegistry, SoundSpeedIsTheSlopeOfPressureAlongAnIsentrope) {
       };
       const Real c2 = (along(d) - along(-d)) / (2 * d) / rho0;
       const Real scale = std::max(1e-3, std::abs(c2));
-      if (r.mu != 0) EXPECT_NEAR(law->sound_speed2(rho0, r.mu, r.E), c2, 1e-6 * scale) << kind.keyword << " mu " << r.mu;
+      if (r.mu != 0) {  // at mu = 0 the law may have a kink
+        EXPECT_NEAR(law->sound_speed2(rho0, r.mu, r.E), c2, 1e-6 * scale) << kind.keyword << " mu " << r.mu;
+      }
     }
 }
 

@@ -1,0 +1,27 @@
+// Courant inside another program: reads a deck, reports its faults or prints its parts.
+//   parts_of_deck DECK.k
+#include <cstdio>
+#include <map>
+
+#include "app/simulation.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: parts_of_deck DECK.k\n");
+    return 1;
+  }
+  courant::Diagnostics diagnostics;
+  const auto simulation = courant::Simulation::build(argv[1], {}, diagnostics);
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (!simulation) return 1;
+
+  const courant::Model& model = simulation->model();
+  std::map<courant::Index, int> particles, shells;
+  for (const auto& p : model.sph) ++particles[p.part];
+  for (const auto& s : model.shells) ++shells[s.part];
+  std::printf("%s\n%10s %10s %10s  %s\n", model.title.c_str(), "part", "particles", "shells", "title");
+  for (courant::Index i = 0; i < static_cast<courant::Index>(model.parts.size()); ++i)
+    std::printf("%10lld %10d %10d  %s\n", static_cast<long long>(model.parts[i].id), particles[i], shells[i],
+                model.parts[i].title.c_str());
+  return 0;
+}

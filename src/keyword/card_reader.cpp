@@ -1,0 +1,280 @@
+#include "keyword/card_reader.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <limits>
+
+#include "keyword/number.hpp"
+
+namespace courant {
+
+namespace {
+
+bool satisfies(Check check, Real value) {
+  switch (check) {
+    case Check::positive:
+      return value > 0;
+    case Check::not_negative:
+      return value >= 0;
+    case Check::not_positive:
+      return value <= 0;
+    default:
+      return true;
+  }
+}
+
+bool is_whole(FieldType type) {
+  return type == FieldType::integer || type == FieldType::id || type == FieldType::ids;
+}
+
+std::string expectation(const FieldSpec& field) {
+  const char* condition[] = {"", " > 0", " >= 0", " <= 0"};
+  return std::string(is_whole(field.type) ? "an integer" : "a number") +
+         condition[static_cast<int>(field.rules.check)];
+}
+
+}  // namespace
+
+void CardReader::read(const Block& block) {
+  block_ = block;
+  spec_ = keyword_registry()[static_cast<std::size_t>(block.match.keyword)].get();
+  line_ = static_cast<int>(block.line) + 1;
+  const auto sink = spec_->sink(deck_);
+  DataLines data(*block.source, block.line + 1);
+  if (data.done() && !spec_->cards.empty() && !spec_->cards[0].optional) missing(data, "card 1");
+  bool first = true;
+  while (!data.done() && !full()) {
+    if (!first && data.only_blanks_left()) break;
+    line_ = static_cast<int>(data.index()) + 1;
+    if (!first && !spec_->many) {
+      diagnostics_.error(
+          here(1),
+          fmt::format("*{}: one line too many", spec_->names[static_cast<std::size_t>(block_.match.name)]),
+          "the keyword takes one set of cards; compare `courant keywords " + spec_->names[0] + "`");
+      break;
+    }
+    const std::size_t before = data.index();
+    read_set(data, *sink);
+    if (data.index() == before) break;  // a keyword without cards
+    first = false;
+  }
+}
+
+void CardReader::read_set(DataLines& data, EntrySink& sink) {
+  Entry entry;
+  entry.file = block_.file;
+  entry.line = line_;
+  entry.keyword = block_.match.keyword;
+  entry.name = block_.match.name;
+  sink.begin(entry);
+  if (!read_title_lines(data, sink)) return;
+  read_cards(data, sink);
+  sink.commit();
+}
+
+bool CardReader::read_title_lines(DataLines& data, EntrySink& sink) {
+  const auto next = [&](const char* what) {
+    if (data.done()) {
+      missing(data, what);
+      return false;
+    }
+    line_ = static_cast<int>(data.index()) + 1;
+    return true;
+  };
+  if (spec_->heading) {
+    sink.set_title(trimmed(data.line()));
+    data.step();
+  }
+  if (block_.match.id) {
+    if (!next("the line with ID and heading")) return false;
+    read_id_line(data.line(), line_, sink);
+    data.step();
+  }
+  if (block_.match.title) {
+    if (!next("the title line")) return false;
+    sink.set_title(trimmed(data.line()));
+    data.step();
+  }
+  return true;
+}
+
+void CardReader::read_id_line(std::string_view line, int number, EntrySink& sink) {
+  const std::size_t width = block_.format == CardFormat::long_fields ? 20 : 10;
+  const std::size_t comma = line.find(',');
+  // a heading may contain commas, so only one within the ID's columns separates
+  const std::size_t end = std::min(comma < width ? comma : width, line.size());
+  std::string_view text = trimmed(line.substr(0, end));
+  std::string held;
+  if (Parameters::is_reference(text)) {
+    if (const Parameters::Value* value = parameters_.find(text)) {
+      held = value->text;
+      text = held;
+    }
+  }
+  Id id = 0;
+  if (!text.empty() && (!parse_integer(text, id) || id < 0)) {
+    line_ = number;
+    diagnostics_.error(
+        here(1),
+        fmt::format("*{}_ID field 1 (ID, number of the entry [-]): expected an integer >= 0, got '{}'",
+                    spec_->names[static_cast<std::size_t>(block_.match.name)], text),
+        "the option _ID adds a line with the ID in columns 1-10 and a heading in 11-80");
+  }
+  sink.set_id(id);
+  sink.set_title(trimmed(line.substr(std::min(end + (comma < width ? 1 : 0), line.size()))));
+}
+
+void CardReader::read_cards(DataLines& data, EntrySink& sink) {
+  for (std::size_t c = 0; c < spec_->cards.size(); ++c) {
+    const CardSpec& card = spec_->cards[c];
+    if (card.conditional && !spec_->has_card(sink.entry(), c)) continue;
+    if (card.repeat) {
+      for (; !data.done() && !full() && !data.only_blanks_left(); data.step()) read_card(data, c, sink);
+      while (!data.done()) data.step();
+      return;
+    }
+    if (data.done()) {
+      if (!card.optional) {
+        missing(data, fmt::format("card {}", c + 1));
+        return;
+      }
+      continue;
+    }
+    read_card(data, c, sink);
+    data.step();
+  }
+}
+
+void CardReader::read_card(const DataLines& data, std::size_t card, EntrySink& sink) {
+  line_ = static_cast<int>(data.index()) + 1;
+  int too_many = 0;
+  split_card(data.line(), spec_->cards[card], block_.format, slices_, &too_many);
+  const std::size_t fields = spec_->cards[card].fields.size();
+  for (std::size_t i = 0; i < slices_.size(); ++i)
+    read_field(card, std::min(i, fields - 1), slices_[i], sink);
+  if (too_many > 0)
+    diagnostics_.warning(
+        here(1),
+        fmt::format("*{}: card {} has {} fields, the {} values behind them are not read",
+                    spec_->names[static_cast<std::size_t>(block_.match.name)], card + 1, fields, too_many));
+}
+
+void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, EntrySink& sink) {
+  const FieldSpec& spec = spec_->cards[card].fields[field];
+  if (spec.type == FieldType::skip) return;
+  if (slice.text.empty()) {
+    if (spec.rules.required && !spec.is_vector())
+      field_error(card, field, slice, fmt::format("expected {}, got a blank field", expectation(spec)));
+    if (spec.type == FieldType::reals) sink.set_real(card, field, 0);
+    return;  // the entry began with the standard values
+  }
+  std::string held;
+  if (Parameters::is_reference(slice.text) && !substitute(card, field, slice, held)) return;
+  if (spec.type == FieldType::text) {
+    if (spec.rules.honour == Honour::no)
+      field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text),
+                  "leave the field blank");
+    sink.set_text(card, field, slice.text);
+  } else if (is_whole(spec.type)) {
+    read_integer(card, field, slice, sink);
+  } else {
+    read_real(card, field, slice, sink);
+  }
+}
+
+void CardReader::read_integer(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink) {
+  const FieldSpec& spec = spec_->cards[card].fields[field];
+  Id value = 0;
+  if (!parse_integer(slice.text, value)) {
+    field_error(card, field, slice, fmt::format("expected {}, got '{}'", expectation(spec), slice.text));
+    return;
+  }
+  if (value == 0 && spec.type == FieldType::ids) return;
+  if (value == 0 && spec.rules.zero_is_standard && !spec.rules.required) return;
+  if (spec.rules.required && value == 0 && spec.type == FieldType::id && spec.rules.check == Check::any) {
+    field_error(card, field, slice, "expected an id that is not 0, got '0'");
+    return;
+  }
+  if (spec.type == FieldType::integer &&
+      (value > std::numeric_limits<int>::max() || value < std::numeric_limits<int>::min())) {
+    field_error(card, field, slice, fmt::format("'{}' is too large", slice.text));
+    return;
+  }
+  if (!passes(card, field, slice, static_cast<Real>(value)) || !is_allowed(card, field, slice, value)) return;
+  sink.set_integer(card, field, value);
+}
+
+void CardReader::read_real(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink) {
+  const FieldSpec& spec = spec_->cards[card].fields[field];
+  Real value = 0;
+  if (!parse_real(slice.text, value)) {
+    field_error(card, field, slice, fmt::format("expected {}, got '{}'", expectation(spec), slice.text));
+    return;
+  }
+  if (value == 0 && !spec.is_vector() && spec.rules.zero_is_standard && !spec.rules.required) return;
+  if (passes(card, field, slice, value)) sink.set_real(card, field, value);
+}
+
+bool CardReader::substitute(std::size_t card, std::size_t field, Slice& slice, std::string& held) {
+  const FieldSpec& spec = spec_->cards[card].fields[field];
+  const Parameters::Value* value = parameters_.find(slice.text);
+  if (!value) {
+    field_error(card, field, slice, fmt::format("parameter '{}' is not defined", slice.text),
+                parameters_.nearest(slice.text));
+    return false;
+  }
+  if (is_whole(spec.type) && value->type == 'R') {
+    field_error(
+        card, field, slice,
+        fmt::format("expected {}, got '{}', which is a real (R) parameter", expectation(spec), slice.text),
+        "declare it with the type letter I");
+    return false;
+  }
+  held = value->text;
+  if (slice.text[0] == '-') held = held[0] == '-' ? held.substr(1) : fmt::format("-{}", held);
+  slice.text = held;
+  return true;
+}
+
+bool CardReader::passes(std::size_t card, std::size_t field, const Slice& slice, Real value) {
+  const FieldSpec& spec = spec_->cards[card].fields[field];
+  if (!satisfies(spec.rules.check, value)) {
+    field_error(card, field, slice, fmt::format("expected {}, got '{}'", expectation(spec), slice.text));
+    return false;
+  }
+  if (value == spec.rules.standard) return true;
+  if (spec.rules.honour == Honour::no) {
+    field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text),
+                fmt::format("leave the field blank or {:g}", spec.rules.standard));
+    return false;
+  }
+  if (spec.rules.honour == Honour::output_only)
+    diagnostics_.warning(here(slice.column),
+                         fmt::format("{}: '{}' is not supported and has no effect",
+                                     describe_field(*spec_, block_.match.name, card, field), slice.text));
+  return true;
+}
+
+bool CardReader::is_allowed(std::size_t card, std::size_t field, const Slice& slice, Id value) {
+  const auto& allowed = spec_->cards[card].fields[field].rules.allowed;
+  if (allowed.empty() || std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return true;
+  field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text),
+              fmt::format("supported values: {}", fmt::join(allowed, ", ")));
+  return false;
+}
+
+void CardReader::field_error(std::size_t card, std::size_t field, const Slice& slice,
+                             const std::string& message, std::string hint) {
+  diagnostics_.error(here(slice.column),
+                     describe_field(*spec_, block_.match.name, card, field) + ": " + message,
+                     std::move(hint));
+}
+
+void CardReader::missing(const DataLines& data, const std::string& what) {
+  line_ = static_cast<int>(std::min(data.index() + 1, block_.source->lines.size()));
+  const std::string name = spec_->names[static_cast<std::size_t>(block_.match.name)];
+  diagnostics_.error(here(1), fmt::format("*{}: {} is missing", name, what),
+                     fmt::format("`courant keywords {}` shows its cards", spec_->names[0]));
+}
+
+}  // namespace courant

@@ -1,0 +1,60 @@
+#pragma once
+// Reads the data lines below one keyword into entries, by the keyword's table.
+#include <string>
+#include <vector>
+
+#include "keyword/deck.hpp"
+#include "keyword/parameters.hpp"
+#include "keyword/registry.hpp"
+#include "keyword/source.hpp"
+
+namespace courant {
+
+class CardReader {
+ public:
+  /// Reading stops after this many errors.
+  static constexpr int max_errors = 100;
+
+  CardReader(Deck& deck, const Parameters& parameters, Diagnostics& diagnostics)
+      : deck_(deck), parameters_(parameters), diagnostics_(diagnostics) {}
+
+  struct Block {
+    std::int32_t file = 0;
+    const SourceText* source = nullptr;
+    std::size_t line = 0;  ///< index of the keyword line
+    KeywordMatch match;
+    CardFormat format = CardFormat::standard;
+  };
+  void read(const Block& block);
+  bool full() const { return diagnostics_.errors() >= max_errors; }
+
+ private:
+  void read_set(DataLines& data, EntrySink& sink);
+  bool read_title_lines(DataLines& data, EntrySink& sink);
+  void read_id_line(std::string_view line, int number, EntrySink& sink);
+  void read_cards(DataLines& data, EntrySink& sink);
+  void read_card(const DataLines& data, std::size_t card, EntrySink& sink);
+  void read_field(std::size_t card, std::size_t field, Slice slice, EntrySink& sink);
+  void read_integer(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink);
+  void read_real(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink);
+  /// Replaces "&name"; false if that failed. `held` keeps the text.
+  bool substitute(std::size_t card, std::size_t field, Slice& slice, std::string& held);
+  bool passes(std::size_t card, std::size_t field, const Slice& slice, Real value);
+  bool is_allowed(std::size_t card, std::size_t field, const Slice& slice, Id value);
+  void field_error(std::size_t card, std::size_t field, const Slice& slice, const std::string& message,
+                   std::string hint = {});
+  void missing(const DataLines& data, const std::string& what);
+  Location here(int column) const {
+    return {deck_.files[static_cast<std::size_t>(block_.file)], line_, column};
+  }
+
+  Deck& deck_;
+  const Parameters& parameters_;
+  Diagnostics& diagnostics_;
+  Block block_;
+  const KeywordSpec* spec_ = nullptr;
+  int line_ = 0;  ///< number of the line being read
+  std::vector<Slice> slices_;
+};
+
+}  // namespace courant

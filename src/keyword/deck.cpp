@@ -1,0 +1,90 @@
+#include "keyword/deck.hpp"
+
+#include <fmt/format.h>
+
+#include "keyword/registry.hpp"
+#include "keyword/source.hpp"
+
+namespace courant {
+
+namespace {
+
+struct FieldPlace {
+  std::size_t card = 0, field = 0;
+  bool found = false;
+};
+
+const KeywordSpec* spec_of(const Entry& entry) {
+  const auto& registry = keyword_registry();
+  if (entry.keyword < 0 || entry.keyword >= static_cast<std::int32_t>(registry.size())) return nullptr;
+  return registry[static_cast<std::size_t>(entry.keyword)].get();
+}
+
+FieldPlace find_field(const KeywordSpec& spec, std::string_view name) {
+  for (std::size_t c = 0; c < spec.cards.size(); ++c)
+    for (std::size_t f = 0; f < spec.cards[c].fields.size(); ++f)
+      if (spec.cards[c].fields[f].name == name) return {c, f, true};
+  return {};
+}
+
+/// Reads the entry's cards again, to find where a field stands: only messages need it, so no place is kept
+/// with the data.
+Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, const SourceText& source,
+                const std::string& file) {
+  const auto first = static_cast<std::size_t>(entry.line - 1);
+  std::size_t above = first;
+  while (above > 0 && (source.lines[above].empty() || source.lines[above][0] != '*')) --above;
+  if (source.lines[above].empty() || source.lines[above][0] != '*') return {file, entry.line, 1};
+  const KeywordLine keyword = parse_keyword_line(source.lines[above], source.format);
+  const KeywordMatch match = KeywordIndex().match(keyword.name);
+  DataLines data(source, first);
+  for (const bool extra : {spec.heading, match.id, match.title})
+    if (extra && !data.done()) data.step();
+  for (std::size_t c = 0; c < place.card && !data.done(); ++c)
+    if (spec.has_card(entry, c)) data.step();
+  if (data.done()) return {file, entry.line, 1};
+  std::vector<Slice> slices;
+  split_card(data.line(), spec.cards[place.card], keyword.format, slices);
+  return {file, static_cast<int>(data.index()) + 1, slices[place.field].column};
+}
+
+}  // namespace
+
+Location Deck::where(const Entry& entry) const {
+  if (entry.file < 0 || entry.file >= static_cast<std::int32_t>(files.size())) return {};
+  return {files[static_cast<std::size_t>(entry.file)], entry.line, 1};
+}
+
+Location Deck::where(const Entry& entry, std::string_view field) const {
+  const KeywordSpec* spec = spec_of(entry);
+  const Location line = where(entry);
+  if (!spec || line.file.empty() || entry.line < 1) return line;
+  const FieldPlace place = find_field(*spec, field);
+  const auto& source = sources[static_cast<std::size_t>(entry.file)];
+  if (!place.found || !source || static_cast<std::size_t>(entry.line) > source->lines.size()) return line;
+  return locate(*spec, entry, place, *source, line.file);
+}
+
+std::string Deck::keyword(const Entry& entry) const {
+  const KeywordSpec* spec = spec_of(entry);
+  return spec ? fmt::format("*{}", spec->names[static_cast<std::size_t>(entry.name)]) : "*?";
+}
+
+std::string Deck::describe(const Entry& entry, std::string_view field) const {
+  const KeywordSpec* spec = spec_of(entry);
+  const FieldPlace place = spec ? find_field(*spec, field) : FieldPlace{};
+  if (!place.found) return field.empty() ? keyword(entry) : fmt::format("{} {}", keyword(entry), field);
+  return describe_field(*spec, entry.name, place.card, place.field);
+}
+
+void Deck::error(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
+                 std::string hint) const {
+  diagnostics.error(where(entry, field), describe(entry, field) + ": " + message, std::move(hint));
+}
+
+void Deck::warning(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
+                   std::string hint) const {
+  diagnostics.warning(where(entry, field), describe(entry, field) + ": " + message, std::move(hint));
+}
+
+}  // namespace courant

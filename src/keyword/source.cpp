@@ -1,0 +1,174 @@
+#include "keyword/source.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+namespace courant {
+
+namespace {
+
+std::string expand_tabs(const std::string& text) {
+  constexpr std::size_t tab = 8;
+  std::string out;
+  out.reserve(text.size() + text.size() / 4);
+  std::size_t line_start = 0;
+  for (const char c : text) {
+    if (c == '\t') {
+      out.append(tab - (out.size() - line_start) % tab, ' ');
+    } else {
+      out += c;
+      if (c == '\n') line_start = out.size();
+    }
+  }
+  return out;
+}
+
+Slice slice_of(std::string_view line, std::size_t begin, std::size_t end) {
+  begin = std::min(begin, line.size());
+  end = std::min(end, line.size());
+  std::size_t first = begin;
+  while (first < end && (line[first] == ' ' || line[first] == '\r')) ++first;
+  if (first == end) return {{}, static_cast<int>(begin) + 1};
+  while (end > first && (line[end - 1] == ' ' || line[end - 1] == '\r')) --end;
+  return {line.substr(first, end - first), static_cast<int>(first) + 1};
+}
+
+void split_commas(std::string_view line, std::vector<Slice>& slices) {
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t comma = line.find(',', begin);
+    slices.push_back(slice_of(line, begin, std::min(comma, line.size())));
+    if (comma == std::string_view::npos) return;
+    begin = comma + 1;
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<SourceText> make_source(std::string text) {
+  auto source = std::make_shared<SourceText>();
+  if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // byte order mark of Windows editors
+  source->text = text.find('\t') == std::string::npos ? std::move(text) : expand_tabs(text);
+  const std::string_view all = source->text;
+  std::size_t begin = 0;
+  while (begin < all.size()) {
+    const std::size_t end = std::min(all.find('\n', begin), all.size());
+    std::string_view line = all.substr(begin, end - begin);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    source->lines.push_back(line);
+    begin = end + 1;
+  }
+  return source;
+}
+
+std::shared_ptr<SourceText> load_source(const std::string& path) {
+  std::error_code fault;
+  if (std::filesystem::is_directory(path, fault)) return nullptr;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return nullptr;
+  std::string text;
+  const auto size = std::filesystem::file_size(path, fault);
+  if (!fault) text.reserve(size);
+  char buffer[1 << 16];
+  while (file.read(buffer, sizeof buffer) || file.gcount() > 0)
+    text.append(buffer, static_cast<std::size_t>(file.gcount()));
+  if (file.bad()) return nullptr;
+  return make_source(std::move(text));
+}
+
+std::string_view trimmed(std::string_view text) {
+  return slice_of(text, 0, text.size()).text;
+}
+
+std::string upper_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return out;
+}
+
+KeywordLine parse_keyword_line(std::string_view line, CardFormat file_format) {
+  line.remove_prefix(1);
+  const std::size_t end = std::min(line.find(' '), line.size());
+  KeywordLine out{upper_case(line.substr(0, end)), file_format, trimmed(line.substr(end))};
+  char suffix = 0;
+  const std::string_view marks = "+-%";
+  if (!out.name.empty() && marks.find(out.name.back()) != std::string_view::npos) {
+    suffix = out.name.back();
+    out.name.pop_back();
+  } else if (!out.rest.empty() && marks.find(out.rest[0]) != std::string_view::npos &&
+             (out.rest.size() == 1 || out.rest[1] == ' ')) {
+    suffix = out.rest[0];
+  }
+  if (suffix == '+') out.format = CardFormat::long_fields;
+  if (suffix == '-') out.format = CardFormat::standard;
+  if (suffix == '%') out.format = CardFormat::i10;
+  return out;
+}
+
+bool DataLines::only_blanks_left() const {
+  DataLines ahead = *this;
+  while (!ahead.done()) {
+    if (!trimmed(ahead.line()).empty()) return false;
+    ahead.step();
+  }
+  return true;
+}
+
+int field_width(const FieldSpec& field, CardFormat format) {
+  const int width = field.rules.width;
+  if (format == CardFormat::i10) return std::max(width, 10);
+  if (format == CardFormat::long_fields) return width > 20 ? 2 * width : 20;
+  return width;
+}
+
+void split_card(std::string_view line, const CardSpec& card, CardFormat format, std::vector<Slice>& slices,
+                int* too_many) {
+  slices.clear();
+  const bool list = !card.fields.empty() && card.fields.back().takes_rest;
+  std::size_t total = 0;
+  for (const FieldSpec& field : card.fields) total += static_cast<std::size_t>(field_width(field, format));
+  const std::size_t columns = format == CardFormat::long_fields ? 160 : 80;
+  if (list) total = std::max(total, columns);
+  // what stands behind the last column is ignored, so a comma there does not make this a comma line
+  if (line.substr(0, total).find(',') != std::string_view::npos) {
+    split_commas(line, slices);
+    if (!list && slices.size() > card.fields.size()) {
+      const auto extra = slices.begin() + static_cast<std::ptrdiff_t>(card.fields.size());
+      if (too_many)
+        *too_many = static_cast<int>(
+            std::count_if(extra, slices.end(), [](const Slice& s) { return !s.text.empty(); }));
+      slices.erase(extra, slices.end());
+    }
+    for (std::size_t i = slices.size(); i < card.fields.size(); ++i)
+      slices.push_back({{}, static_cast<int>(line.size()) + 1});
+    return;
+  }
+  std::size_t column = 0;
+  for (const FieldSpec& field : card.fields) {
+    const auto width = static_cast<std::size_t>(field_width(field, format));
+    slices.push_back(slice_of(line, column, column + width));
+    if (slices.back().text.empty()) slices.back().column = static_cast<int>(column) + 1;
+    column += width;
+  }
+  if (!list) return;
+  const auto width = static_cast<std::size_t>(field_width(card.fields.back(), format));
+  for (; column < std::min(line.size(), total); column += width)
+    slices.push_back(slice_of(line, column, column + width));
+}
+
+std::vector<Slice> split_equal(std::string_view line, int width, int limit) {
+  std::vector<Slice> slices;
+  if (line.substr(0, static_cast<std::size_t>(limit)).find(',') != std::string_view::npos) {
+    split_commas(line, slices);
+    return slices;
+  }
+  const std::size_t end = std::min(line.size(), static_cast<std::size_t>(limit));
+  for (std::size_t column = 0; column < end; column += static_cast<std::size_t>(width))
+    slices.push_back(slice_of(line, column, column + static_cast<std::size_t>(width)));
+  return slices;
+}
+
+}  // namespace courant

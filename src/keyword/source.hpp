@@ -1,0 +1,76 @@
+#pragma once
+// The text of a deck's files and how its lines are cut: fixed columns (standard, I10, LONG) or commas.
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "keyword/keyword_spec.hpp"
+
+namespace courant {
+
+enum class CardFormat { standard, i10, long_fields };
+
+/// One file of a deck, without line ends and with tabs expanded to multiples of 8.
+struct SourceText {
+  std::string text;
+  std::vector<std::string_view> lines;       ///< views into `text`
+  CardFormat format = CardFormat::standard;  ///< of the file (*KEYWORD LONG=Y, I10=Y)
+};
+
+/// Null if the file cannot be read.
+std::shared_ptr<SourceText> load_source(const std::string& path);
+std::shared_ptr<SourceText> make_source(std::string text);
+
+std::string_view trimmed(std::string_view text);
+std::string upper_case(std::string_view text);
+
+/// A field as it stands in the deck, without blanks around it.
+struct Slice {
+  std::string_view text;
+  int column = 1;  ///< of its first character (of the field, if that is blank), from 1
+};
+
+/// "*node % comment" -> NODE, I10. The format is the file's unless the name has a suffix + (long), -
+/// (standard), % (I10).
+struct KeywordLine {
+  std::string name;
+  CardFormat format = CardFormat::standard;
+  std::string_view rest;  ///< what follows the name
+};
+KeywordLine parse_keyword_line(std::string_view line, CardFormat file_format);
+
+/// Steps over the data lines below a keyword line: comments are skipped, the next keyword ends them.
+class DataLines {
+ public:
+  /// `first`: index of the line to begin with.
+  DataLines(const SourceText& source, std::size_t first) : source_(&source), next_(first) { skip_comments(); }
+  bool done() const { return next_ >= source_->lines.size() || is_keyword(); }
+  bool only_blanks_left() const;
+  std::string_view line() const { return source_->lines[next_]; }
+  std::size_t index() const { return next_; }  ///< of line(), or of the line that ended the data
+  void step() {
+    ++next_;
+    skip_comments();
+  }
+
+ private:
+  bool is_keyword() const { return !line().empty() && line()[0] == '*'; }
+  void skip_comments() {
+    while (next_ < source_->lines.size() && !line().empty() && line()[0] == '$') ++next_;
+  }
+  const SourceText* source_;
+  std::size_t next_;
+};
+
+int field_width(const FieldSpec& field, CardFormat format);
+
+/// Cuts a data line into the card's fields; a list takes all further columns. `too_many`: fields of a comma
+/// line beyond the card's last.
+void split_card(std::string_view line, const CardSpec& card, CardFormat format, std::vector<Slice>& slices,
+                int* too_many = nullptr);
+
+/// Cuts a line into fields of one width, for cards without a table (*PARAMETER, _ID).
+std::vector<Slice> split_equal(std::string_view line, int width, int limit);
+
+}  // namespace courant

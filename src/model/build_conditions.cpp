@@ -1,0 +1,173 @@
+// Control, output requests, loads, constraints and initial velocities.
+#include <fmt/format.h>
+#include <algorithm>
+#include <limits>
+
+#include "model/model_builder.hpp"
+
+namespace courant {
+
+void ModelBuilder::build_control() {
+  if (const auto* card = deck_.last<ControlTerminationCard>()) {
+    model_.endtim = card->endtim;
+    model_.endcyc = card->endcyc;
+    model_.dtmin = card->dtmin;
+  } else {
+    ++errors_;
+    diagnostics_.error({deck_.files.empty() ? "" : deck_.files[0], 0, 0},
+                       "*CONTROL_TERMINATION is missing: the run has no end time",
+                       "add *CONTROL_TERMINATION with ENDTIM > 0");
+  }
+  if (const auto* card = deck_.last<ControlTimestepCard>()) {
+    model_.dtinit = card->dtinit;
+    model_.tssfac = card->tssfac;
+    if (card->lctm != 0) {
+      if (const Curve* found = curve(*card, "LCTM", card->lctm)) {
+        model_.dt_max_given = true;
+        model_.dt_max = *found;
+        if (!found->ordinate.empty() &&
+            *std::min_element(found->ordinate.begin(), found->ordinate.end()) <= 0)
+          error(*card, "LCTM", fmt::format("curve {} gives a largest step that is not above 0", card->lctm));
+      }
+    }
+  }
+}
+
+void ModelBuilder::build_output() {
+  OutputRequests& out = model_.output;
+  if (const auto* card = deck_.last<DatabaseD3plotCard>()) {
+    out.d3plot = card->dt;
+    out.d3plot_count = card->npltc;
+    if (card->npltc > 0) out.d3plot = model_.endtim / card->npltc;
+  }
+  for (const DatabaseAsciiCard& card : deck_.all<DatabaseAsciiCard>()) {
+    Real* interval[] = {&out.glstat, &out.matsum, &out.rcforc, &out.sphout};
+    *interval[card.name] = card.dt;
+  }
+  build_output_history();
+}
+
+void ModelBuilder::build_output_history() {
+  if (deck_.all<DatabaseHistorySphCard>().empty()) return;
+  std::vector<bool> is_particle(model_.nodes.size(), false);
+  for (const ModelSph& sph : model_.sph) is_particle[static_cast<std::size_t>(sph.node)] = true;
+  std::vector<Id>& history = model_.output.history_sph;
+  for (const DatabaseHistorySphCard& card : deck_.all<DatabaseHistorySphCard>()) {
+    const bool sets = card.name == 1;
+    for (const Id id : card.ids) {
+      std::vector<Index> nodes;
+      if (sets) {
+        if (const auto* members = node_set(card, "ID", id)) nodes = *members;
+      } else if (const Index n = node(card, "ID", id); n >= 0) {
+        nodes = {n};
+      }
+      for (const Index n : nodes) {
+        const Id nid = model_.nodes[static_cast<std::size_t>(n)].id;
+        if (is_particle[static_cast<std::size_t>(n)])
+          history.push_back(nid);
+        else
+          error(card, "ID", fmt::format("node {} is no particle", nid), "define one with *ELEMENT_SPH");
+      }
+    }
+  }
+  std::sort(history.begin(), history.end());
+  history.erase(std::unique(history.begin(), history.end()), history.end());
+}
+
+void ModelBuilder::build_body_loads() {
+  for (const LoadBodyCard& card : deck_.all<LoadBodyCard>())
+    if (const Curve* found = curve(card, "LCID", card.lcid))
+      model_.body_loads.push_back({.axis = card.name, .curve = *found, .sf = card.sf});
+}
+
+void ModelBuilder::build_constraints() {
+  const auto hold = [&](Index n, const BoundarySpcCard& card) {
+    auto& fixed = model_.nodes[static_cast<std::size_t>(n)].fixed;
+    const int dof[] = {card.dofx, card.dofy, card.dofz};
+    for (std::size_t k = 0; k < 3; ++k) fixed[k] = fixed[k] || dof[k] == 1;
+  };
+  for (const auto& card : deck_.all<BoundarySpcNodeCard>())
+    if (const Index n = node(card, "NID", card.nid); n >= 0) hold(n, card);
+  for (const auto& card : deck_.all<BoundarySpcSetCard>())
+    if (const auto* members = node_set(card, "NSID", card.nid))
+      for (const Index n : *members) hold(n, card);
+}
+
+void ModelBuilder::build_velocities() {
+  for (const auto& card : deck_.all<InitialVelocityCard>()) set_velocity(card);
+  for (const auto& card : deck_.all<InitialVelocityGenerationCard>()) set_velocity(card);
+  for (const auto& card : deck_.all<InitialVelocityNodeCard>())
+    if (const Index n = node(card, "NID", card.nid); n >= 0)
+      model_.nodes[static_cast<std::size_t>(n)].v = {card.vx, card.vy, card.vz};
+}
+
+void ModelBuilder::set_velocity(const InitialVelocityCard& card) {
+  const Box* inside = card.boxid == 0 ? nullptr : box(card, "BOXID", card.boxid);
+  const std::vector<Index>* set = card.nsid == 0 ? nullptr : node_set(card, "NSID", card.nsid);
+  const std::vector<Index>* excepted = card.nsidex == 0 ? nullptr : node_set(card, "NSIDEX", card.nsidex);
+  if ((card.boxid != 0 && !inside) || (card.nsid != 0 && !set) || (card.nsidex != 0 && !excepted)) return;
+  const auto apply = [&](ModelNode& n) {
+    if (!inside || inside->contains(n.x)) n.v = {card.vx, card.vy, card.vz};
+  };
+  if (set)
+    for (const Index n : *set) apply(model_.nodes[static_cast<std::size_t>(n)]);
+  else
+    for (ModelNode& n : model_.nodes) apply(n);
+  if (excepted)
+    for (const Index n : *excepted)
+      model_.nodes[static_cast<std::size_t>(n)].v = {card.vxe, card.vye, card.vze};
+}
+
+void ModelBuilder::set_velocity(const InitialVelocityGenerationCard& card) {
+  constexpr Real axis_by_nodes = -999;
+  if (card.nx == axis_by_nodes) {
+    error(card, "NX", "an axis given by two nodes (-999) is not supported", "give the direction of the axis");
+    return;
+  }
+  const Vec direction(card.nx, card.ny, card.nz);
+  if (card.omega != 0 && direction.norm() == 0) {
+    error(card, "NX", "the axis of the rotation has no direction", "give NX, NY, NZ, not all zero");
+    return;
+  }
+  const Vec omega = card.omega == 0 ? Vec(Vec::Zero()) : Vec(card.omega * direction.normalized());
+  const Vec centre(card.xc, card.yc, card.zc), v(card.vx, card.vy, card.vz);
+  for (const Index n : nodes_of(card)) {
+    ModelNode& target = model_.nodes[static_cast<std::size_t>(n)];
+    target.v = v + omega.cross(target.x - centre);
+  }
+}
+
+std::vector<Index> ModelBuilder::nodes_of(const InitialVelocityGenerationCard& card) {
+  constexpr int by_part_set = 1, by_part = 2;
+  std::vector<Index> parts;
+  if (card.id == 0) {
+    for (ModelPart& p : model_.parts) p.velocity_given = true;
+    std::vector<Index> all(model_.nodes.size());
+    for (std::size_t n = 0; n < all.size(); ++n) all[n] = static_cast<Index>(n);
+    return all;
+  }
+  if (card.styp == by_part_set) {
+    if (const auto* members = part_set(card, "ID", card.id)) parts = *members;
+  } else if (card.styp == by_part) {
+    if (const Index p = part(card, "ID", card.id); p >= 0) parts = {p};
+  } else {
+    const auto* members = node_set(card, "ID", card.id);
+    return members ? *members : std::vector<Index>{};
+  }
+  for (const Index p : parts) model_.parts[static_cast<std::size_t>(p)].velocity_given = true;
+  return nodes_of_parts(parts);
+}
+
+std::vector<Index> ModelBuilder::nodes_of_parts(const std::vector<Index>& parts) const {
+  const auto wanted = [&](Index p) { return std::find(parts.begin(), parts.end(), p) != parts.end(); };
+  std::vector<Index> nodes;
+  for (const ModelSph& sph : model_.sph)
+    if (wanted(sph.part)) nodes.push_back(sph.node);
+  for (const ModelShell& shell : model_.shells)
+    if (wanted(shell.part)) nodes.insert(nodes.end(), shell.node.begin(), shell.node.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+}  // namespace courant

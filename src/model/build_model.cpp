@@ -1,0 +1,96 @@
+#include "model/build_model.hpp"
+
+#include <fmt/format.h>
+
+#include "model/model_builder.hpp"
+
+namespace courant {
+
+Model build_model(const Deck& deck, Diagnostics& diagnostics) {
+  return ModelBuilder(deck, diagnostics).build();
+}
+
+Model ModelBuilder::build() {
+  model_.title = deck_.title;
+  build_nodes();
+  build_parts();
+  build_particles();
+  build_shells();
+  check_shared_nodes();
+  build_curves();
+  build_boxes();
+  build_node_sets();
+  build_part_sets();
+  build_control();
+  build_output();
+  build_body_loads();
+  build_constraints();
+  build_velocities();
+  if (errors_ > max_errors)
+    diagnostics_.note({deck_.files.empty() ? "" : deck_.files[0], 0, 0},
+                      fmt::format("{} more errors are not shown", errors_ - max_errors));
+  return std::move(model_);
+}
+
+void ModelBuilder::error(const Entry& entry, std::string_view field, std::string message, std::string hint) {
+  if (++errors_ <= max_errors) deck_.error(diagnostics_, entry, field, std::move(message), std::move(hint));
+}
+
+std::string ModelBuilder::place(const Location& where) const {
+  return fmt::format("{}:{}", where.file, where.line);
+}
+
+void ModelBuilder::duplicate(const Entry& entry, std::string_view field, const char* what, Id id,
+                             const Location& first) {
+  error(entry, field, fmt::format("{} {} is defined twice, first at {}", what, id, place(first)));
+}
+
+void ModelBuilder::unknown(const Entry& entry, std::string_view field, const char* what, Id id,
+                           const char* keyword) {
+  error(entry, field, fmt::format("{} {} does not exist", what, id),
+        fmt::format("define it with {}", keyword));
+}
+
+Index ModelBuilder::node(const Entry& entry, std::string_view field, Id id) {
+  const auto it = model_.node_of_id.find(id);
+  if (it != model_.node_of_id.end()) return it->second;
+  error(entry, field, fmt::format("node {} has no coordinates", id), "define it with *NODE");
+  return -1;
+}
+
+Index ModelBuilder::part(const Entry& entry, std::string_view field, Id id) {
+  const auto it = model_.part_of_id.find(id);
+  if (it != model_.part_of_id.end()) return it->second;
+  unknown(entry, field, "part", id, "*PART");
+  return -1;
+}
+
+const std::vector<Index>* ModelBuilder::node_set(const Entry& entry, std::string_view field, Id id) {
+  const auto it = model_.node_sets.find(id);
+  if (it != model_.node_sets.end()) return &it->second;
+  unknown(entry, field, "node set", id, "*SET_NODE_LIST");
+  return nullptr;
+}
+
+const std::vector<Index>* ModelBuilder::part_set(const Entry& entry, std::string_view field, Id id) {
+  const auto it = model_.part_sets.find(id);
+  if (it != model_.part_sets.end()) return &it->second;
+  unknown(entry, field, "part set", id, "*SET_PART_LIST");
+  return nullptr;
+}
+
+const Curve* ModelBuilder::curve(const Entry& entry, std::string_view field, Id id) {
+  const auto it = model_.curves.find(id);
+  if (it != model_.curves.end()) return &it->second;
+  unknown(entry, field, "curve", id, "*DEFINE_CURVE");
+  return nullptr;
+}
+
+const Box* ModelBuilder::box(const Entry& entry, std::string_view field, Id id) {
+  const auto it = model_.boxes.find(id);
+  if (it != model_.boxes.end()) return &it->second;
+  unknown(entry, field, "box", id, "*DEFINE_BOX");
+  return nullptr;
+}
+
+}  // namespace courant

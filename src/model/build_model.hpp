@@ -1,0 +1,13 @@
+#pragma once
+// From cards to the model: references are resolved and checked, initial velocities and constraints applied.
+#include "base/diagnostic.hpp"
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+
+namespace courant {
+
+/// All faults go to `diagnostics` (at most 100 of them); the model is of use only if there is none.
+/// Initial velocities: INITIAL_VELOCITY in deck order, then _GENERATION in deck order, then _NODE.
+Model build_model(const Deck& deck, Diagnostics& diagnostics);
+
+}  // namespace courant

@@ -1,0 +1,127 @@
+// Sets, curves and boxes.
+#include <fmt/format.h>
+#include <algorithm>
+#include <map>
+
+#include "model/model_builder.hpp"
+
+namespace courant {
+
+namespace {
+
+void remove_repeats(std::vector<Index>& members) {
+  std::sort(members.begin(), members.end());
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+}
+
+}  // namespace
+
+void ModelBuilder::build_node_sets() {
+  std::map<Id, Location> first;
+  const auto open = [&](const SetCard& card, std::string_view field) -> std::vector<Index>* {
+    const auto [it, is_new] = first.try_emplace(card.sid, deck_.where(card));
+    if (!is_new) duplicate(card, "SID", "node set", card.sid, it->second);
+    if (card.ids.empty()) error(card, field, "the set is empty", "list its nodes below the first card");
+    return is_new ? &model_.node_sets[card.sid] : nullptr;
+  };
+  for (const SetNodeCard& card : deck_.all<SetNodeCard>()) {
+    std::vector<Index>* members = open(card, "NID");
+    if (!members) continue;
+    for (const Id id : card.ids)
+      if (const Index n = node(card, "NID", id); n >= 0) members->push_back(n);
+    remove_repeats(*members);
+  }
+  for (const SetNodeGenerateCard& card : deck_.all<SetNodeGenerateCard>())
+    if (std::vector<Index>* members = open(card, "BNBEG")) add_generated(card, *members);
+}
+
+void ModelBuilder::add_generated(const SetNodeGenerateCard& card, std::vector<Index>& members) {
+  if (card.ids.size() % 2 != 0) {
+    error(card, "BNBEG", "the last range has a first id, but no last id");
+    return;
+  }
+  for (std::size_t r = 0; r < card.ids.size(); r += 2) {
+    const Id begin = card.ids[r], end = card.ids[r + 1];
+    if (end < begin) {
+      error(card, "BNBEG", fmt::format("the range {} to {} runs backwards", begin, end));
+      return;
+    }
+    const std::size_t before = members.size();
+    // whichever is shorter: the range of ids or the list of nodes
+    if (end - begin < static_cast<Id>(model_.nodes.size())) {
+      for (Id id = begin; id <= end; ++id)
+        if (const auto it = model_.node_of_id.find(id); it != model_.node_of_id.end())
+          members.push_back(it->second);
+    } else {
+      for (std::size_t n = 0; n < model_.nodes.size(); ++n)
+        if (model_.nodes[n].id >= begin && model_.nodes[n].id <= end)
+          members.push_back(static_cast<Index>(n));
+    }
+    if (members.size() == before)
+      error(card, "BNBEG", fmt::format("there is no node with an id from {} to {}", begin, end));
+  }
+  remove_repeats(members);
+}
+
+void ModelBuilder::build_part_sets() {
+  std::map<Id, Location> first;
+  for (const SetPartCard& card : deck_.all<SetPartCard>()) {
+    const auto [it, is_new] = first.try_emplace(card.sid, deck_.where(card));
+    if (!is_new) duplicate(card, "SID", "part set", card.sid, it->second);
+    if (card.ids.empty()) error(card, "PID", "the set is empty", "list its parts below the first card");
+    if (!is_new) continue;
+    std::vector<Index>& members = model_.part_sets[card.sid];
+    for (const Id id : card.ids)
+      if (const Index p = part(card, "PID", id); p >= 0) members.push_back(p);
+    remove_repeats(members);
+  }
+}
+
+void ModelBuilder::build_curves() {
+  std::map<Id, Location> first;
+  for (const DefineCurveCard& card : deck_.all<DefineCurveCard>()) {
+    const auto [it, is_new] = first.try_emplace(card.lcid, deck_.where(card));
+    if (!is_new) {
+      duplicate(card, "LCID", "curve", card.lcid, it->second);
+      continue;
+    }
+    Curve& curve = model_.curves[card.lcid];
+    curve.id = card.lcid;
+    if (card.a.empty())
+      error(card, "A1", "the curve has no points", "give one point per line: abscissa, ordinate");
+    for (std::size_t i = 0; i < card.a.size(); ++i) {
+      curve.abscissa.push_back(card.sfa * (card.a[i] + card.offa));
+      curve.ordinate.push_back(card.sfo * (card.o[i] + card.offo));
+    }
+    if (card.sfa < 0) {
+      std::reverse(curve.abscissa.begin(), curve.abscissa.end());
+      std::reverse(curve.ordinate.begin(), curve.ordinate.end());
+    }
+    for (std::size_t i = 1; i < curve.abscissa.size(); ++i) {
+      if (curve.abscissa[i] > curve.abscissa[i - 1]) continue;
+      error(card, "A1",
+            fmt::format("the abscissas of curve {} do not increase from point {} to point {}", card.lcid, i,
+                        i + 1));
+      break;
+    }
+  }
+}
+
+void ModelBuilder::build_boxes() {
+  std::map<Id, Location> first;
+  for (const DefineBoxCard& card : deck_.all<DefineBoxCard>()) {
+    const auto [it, is_new] = first.try_emplace(card.boxid, deck_.where(card));
+    if (!is_new) duplicate(card, "BOXID", "box", card.boxid, it->second);
+    const Box box{
+        .id = card.boxid, .low = {card.xmn, card.ymn, card.zmn}, .high = {card.xmx, card.ymx, card.zmx}};
+    const char* high[] = {"XMX", "YMX", "ZMX"};
+    for (int k = 0; k < 3; ++k)
+      if (box.high[k] < box.low[k])
+        error(
+            card, high[k],
+            fmt::format("expected a number not below the lowest, {:g}, got '{:g}'", box.low[k], box.high[k]));
+    model_.boxes.emplace(card.boxid, box);
+  }
+}
+
+}  // namespace courant

@@ -1,0 +1,154 @@
+#pragma once
+// Cards of the keywords that belong to no single physics. Field names, columns and meanings: the tables in
+// cards_*.cpp.
+#include <string>
+#include <vector>
+
+#include "keyword/card.hpp"
+
+namespace courant {
+
+struct NodeCard : Entry {
+  Id nid;
+  Real x, y, z;
+  int tc, rc;
+};
+
+struct ElementSphCard : Entry {
+  Id nid, pid;
+  Real mass;
+  Id nend;
+};
+
+struct ElementShellCard : Entry {
+  Id eid, pid, n1, n2, n3, n4;
+  Id n5, n6, n7, n8;
+};
+
+struct PartCard : Entry {
+  std::string title;
+  Id pid, secid, mid, eosid, hgid;
+  int grav, adpopt;
+  Id tmid;
+};
+
+struct SetCard : Entry {
+  std::string title;
+  Id sid;
+  Real da1, da2, da3, da4;
+  std::string solver;
+  int its;
+  std::vector<Id> ids;
+};
+struct SetNodeCard : SetCard {};
+struct SetNodeGenerateCard : SetCard {};  ///< ids: first, last, first, last, ...
+struct SetPartCard : SetCard {};
+
+struct DefineCurveCard : Entry {
+  std::string title;
+  Id lcid;
+  int sidr;
+  Real sfa, sfo, offa, offo;
+  int dattyp, lcint;
+  std::vector<Real> a, o;
+};
+
+struct DefineBoxCard : Entry {
+  std::string title;
+  Id boxid;
+  Real xmn, xmx, ymn, ymx, zmn, zmx;
+};
+
+struct InitialVelocityCard : Entry {
+  Id nsid, nsidex, boxid;
+  int irigid;
+  Id icid;
+  Real vx, vy, vz, vxr, vyr, vzr;
+  Real vxe, vye, vze, vxre, vyre, vzre;
+};
+
+struct InitialVelocityNodeCard : Entry {
+  Id nid;
+  Real vx, vy, vz, vxr, vyr, vzr;
+  Id icid;
+};
+
+struct InitialVelocityGenerationCard : Entry {
+  Id id;
+  int styp;
+  Real omega, vx, vy, vz;
+  int ivatn;
+  Id icid;
+  Real xc, yc, zc, nx, ny, nz;
+  int phase, irigid;
+};
+
+struct BoundarySpcCard : Entry {
+  Id id;
+  std::string title;
+  Id nid;  ///< node, or node set
+  Id cid;
+  int dofx, dofy, dofz, dofrx, dofry, dofrz;
+};
+struct BoundarySpcNodeCard : BoundarySpcCard {};
+struct BoundarySpcSetCard : BoundarySpcCard {};
+
+struct LoadBodyCard : Entry {  ///< Entry::name is the axis
+  Id lcid;
+  Real sf;
+  Id lciddr;
+  Real xc, yc, zc;
+  Id cid;
+};
+
+struct ControlTerminationCard : Entry {
+  Real endtim;
+  Id endcyc;
+  Real dtmin, endeng, endmas;
+  int nosol;
+};
+
+struct ControlTimestepCard : Entry {
+  Real dtinit, tssfac;
+  int isdo;
+  Real tslimt, dt2ms;
+  Id lctm;
+  int erode, ms1st;
+  Real dt2msf;
+  Id dt2mslc;
+  int imscl;
+  Real rmscl, emscl;
+  int ihdo;
+  Real rmavg;
+  int igado;
+  Real dtusr;
+  int dtdynv;
+};
+
+struct ControlEnergyCard : Entry {
+  int hgen, rwen, slnten, rylen, irgen, maten, drlen, disen;
+};
+
+struct DatabaseD3plotCard : Entry {
+  Real dt;
+  Id lcdt;
+  int beam, npltc;
+  Id psetid;
+  int ioopt;
+  Real rate, cutoff, window;
+  int type;
+  Id pset;
+};
+
+struct DatabaseAsciiCard : Entry {  ///< Entry::name: 0 GLSTAT, 1 MATSUM, 2 RCFORC, 3 SPHOUT
+  Real dt;
+  int binary;
+  Id lcur;
+  int ioopt;
+};
+
+struct DatabaseHistorySphCard : Entry {
+  std::vector<Id> ids;
+};
+
+}  // namespace courant

@@ -1,0 +1,114 @@
+// Tables of initial conditions, constraints and loads.
+#include "keyword/registry.hpp"
+#include "model/cards.hpp"
+
+namespace courant {
+
+namespace {
+
+const FieldRules required_id{.required = true, .check = Check::positive};
+const FieldRules optional_id{.check = Check::not_negative};
+const FieldRules unsupported{.honour = Honour::no};
+const FieldRules no_effect{.honour = Honour::ignored};
+const FieldRules flag{.allowed = {0, 1}};
+
+using V = InitialVelocityCard;
+const RegisterKeyword<V> initial_velocity{
+    {.names = {"INITIAL_VELOCITY"},
+     .purpose = "initial velocity of a node set or of all nodes",
+     .cards = {{.fields = {{"NSID", &V::nsid, "-", "node set id, 0 all nodes", optional_id},
+                           {"NSIDEX", &V::nsidex, "-", "node set id of excepted nodes", optional_id},
+                           {"BOXID", &V::boxid, "-", "only nodes in this box", optional_id},
+                           {"IRIGID", &V::irigid, "-", "overwrites PART_INERTIA velocities", unsupported},
+                           {"ICID", &V::icid, "-", "local coordinate system id", unsupported}}},
+               {.fields = {{"VX", &V::vx, "L/T", "velocity in x"},
+                           {"VY", &V::vy, "L/T", "velocity in y"},
+                           {"VZ", &V::vz, "L/T", "velocity in z"},
+                           {"VXR", &V::vxr, "1/T", "angular velocity about x", unsupported},
+                           {"VYR", &V::vyr, "1/T", "angular velocity about y", unsupported},
+                           {"VZR", &V::vzr, "1/T", "angular velocity about z", unsupported}}},
+               {.fields = {{"VXE", &V::vxe, "L/T", "velocity in x of excepted nodes"},
+                           {"VYE", &V::vye, "L/T", "velocity in y of excepted nodes"},
+                           {"VZE", &V::vze, "L/T", "velocity in z of excepted nodes"},
+                           {"VXRE", &V::vxre, "1/T", "angular velocity about x", unsupported},
+                           {"VYRE", &V::vyre, "1/T", "angular velocity about y", unsupported},
+                           {"VZRE", &V::vzre, "1/T", "angular velocity about z", unsupported}},
+                .when = [](const V& card) { return card.nsidex > 0; }}}}};
+
+using VN = InitialVelocityNodeCard;
+const RegisterKeyword<VN> initial_velocity_node{
+    {.names = {"INITIAL_VELOCITY_NODE"},
+     .purpose = "initial velocity of single nodes; stands above the other INITIAL_VELOCITY keywords",
+     .cards = {{.fields = {{"NID", &VN::nid, "-", "node id", required_id},
+                           {"VX", &VN::vx, "L/T", "velocity in x"},
+                           {"VY", &VN::vy, "L/T", "velocity in y"},
+                           {"VZ", &VN::vz, "L/T", "velocity in z"},
+                           {"VXR", &VN::vxr, "1/T", "angular velocity about x", unsupported},
+                           {"VYR", &VN::vyr, "1/T", "angular velocity about y", unsupported},
+                           {"VZR", &VN::vzr, "1/T", "angular velocity about z", unsupported},
+                           {"ICID", &VN::icid, "-", "local coordinate system id", unsupported}}}}}};
+
+using VG = InitialVelocityGenerationCard;
+const RegisterKeyword<VG> initial_velocity_generation{
+    {.names = {"INITIAL_VELOCITY_GENERATION"},
+     .purpose = "initial velocity V + omega x r of parts or node sets",
+     .cards = {
+         {.fields = {{"ID", &VG::id, "-", "id of the part set, part or node set, 0 all", optional_id},
+                     {"STYP",
+                      &VG::styp,
+                      "-",
+                      "kind of ID: 1 part set, 2 part, 3 node set",
+                      {.standard = 1, .allowed = {1, 2, 3}}},
+                     {"OMEGA", &VG::omega, "1/T", "angular velocity about the axis"},
+                     {"VX", &VG::vx, "L/T", "velocity in x"},
+                     {"VY", &VG::vy, "L/T", "velocity in y"},
+                     {"VZ", &VG::vz, "L/T", "velocity in z"},
+                     {"IVATN", &VG::ivatn, "-", "also constrained nodes and parts", no_effect},
+                     {"ICID", &VG::icid, "-", "local coordinate system id", unsupported}}},
+         {.fields = {{"XC", &VG::xc, "L", "x of a point on the axis"},
+                     {"YC", &VG::yc, "L", "y of a point on the axis"},
+                     {"ZC", &VG::zc, "L", "z of a point on the axis"},
+                     {"NX", &VG::nx, "-", "x of the axis direction"},
+                     {"NY", &VG::ny, "-", "y of the axis direction"},
+                     {"NZ", &VG::nz, "-", "z of the axis direction"},
+                     {"PHASE", &VG::phase, "-", "1 after dynamic relaxation", unsupported},
+                     {"IRIGID", &VG::irigid, "-", "overwrites PART_INERTIA velocities", unsupported}}}}}};
+
+template <class T>
+KeywordOf<T> boundary_spc(std::string name, std::string purpose, std::string field, std::string meaning) {
+  return {.names = {std::move(name)},
+          .purpose = std::move(purpose),
+          .id_option = true,
+          .title = &T::title,
+          .id = &T::id,
+          .cards = {{.fields = {{std::move(field), &T::nid, "-", std::move(meaning), required_id},
+                                {"CID", &T::cid, "-", "coordinate system id", unsupported},
+                                {"DOFX", &T::dofx, "-", "1 holds the translation in x", flag},
+                                {"DOFY", &T::dofy, "-", "1 holds the translation in y", flag},
+                                {"DOFZ", &T::dofz, "-", "1 holds the translation in z", flag},
+                                {"DOFRX", &T::dofrx, "-", "1 holds the rotation about x", no_effect},
+                                {"DOFRY", &T::dofry, "-", "1 holds the rotation about y", no_effect},
+                                {"DOFRZ", &T::dofrz, "-", "1 holds the rotation about z", no_effect}}}}};
+}
+const RegisterKeyword<BoundarySpcNodeCard> boundary_spc_node{
+    boundary_spc<BoundarySpcNodeCard>("BOUNDARY_SPC_NODE", "holds translations of nodes", "NID", "node id")};
+const RegisterKeyword<BoundarySpcSetCard> boundary_spc_set{boundary_spc<BoundarySpcSetCard>(
+    "BOUNDARY_SPC_SET", "holds translations of node sets", "NSID", "node set id")};
+
+using L = LoadBodyCard;
+const RegisterKeyword<L> load_body{
+    {.names = {"LOAD_BODY_X", "LOAD_BODY_Y", "LOAD_BODY_Z"},
+     .purpose = "acceleration of the base along an axis: bodies feel the opposite (gravity along -z: "
+                "LOAD_BODY_Z with +g)",
+     .many = false,
+     .cards = {{.fields = {{"LCID", &L::lcid, "-", "curve of acceleration over time", required_id},
+                           {"SF", &L::sf, "-", "scale of the curve", {.standard = 1}},
+                           {"LCIDDR", &L::lciddr, "-", "curve for dynamic relaxation", no_effect},
+                           {"XC", &L::xc, "L", "x of the centre of rotation", no_effect},
+                           {"YC", &L::yc, "L", "y of the centre of rotation", no_effect},
+                           {"ZC", &L::zc, "L", "z of the centre of rotation", no_effect},
+                           {"CID", &L::cid, "-", "coordinate system id", unsupported}}}}}};
+
+}  // namespace
+
+}  // namespace courant

@@ -1,0 +1,123 @@
+// Tables of control keywords and output requests.
+#include "keyword/registry.hpp"
+#include "model/cards.hpp"
+
+namespace courant {
+
+namespace {
+
+const FieldRules optional_id{.check = Check::not_negative};
+const FieldRules unsupported{.honour = Honour::no};
+const FieldRules no_effect{.honour = Honour::ignored};
+const FieldRules unsupported_output{.honour = Honour::output_only};
+const FieldRules interval{.check = Check::not_negative};
+
+using T = ControlTerminationCard;
+const RegisterKeyword<T> control_termination{
+    {.names = {"CONTROL_TERMINATION"},
+     .purpose = "end of the run",
+     .once = true,
+     .many = false,
+     .cards = {
+         {.fields = {
+              {"ENDTIM", &T::endtim, "T", "end time", {.required = true, .check = Check::positive}},
+              {"ENDCYC", &T::endcyc, "-", "last step, 0 no limit", optional_id},
+              {"DTMIN", &T::dtmin, "-", "stop when the step is below DTMIN x the first step", interval},
+              {"ENDENG", &T::endeng, "-", "stop at a change of the energy ratio", unsupported},
+              {"ENDMAS", &T::endmas, "-", "stop at added mass", {.standard = 1e8, .honour = Honour::ignored}},
+              {"NOSOL", &T::nosol, "-", "1 stop after the initialisation", unsupported}}}}}};
+
+using S = ControlTimestepCard;
+const RegisterKeyword<S> control_timestep{
+    {.names = {"CONTROL_TIMESTEP", "CONTROL_TIME_STEP"},
+     .purpose = "size of the time step",
+     .once = true,
+     .many = false,
+     .cards = {{.fields = {{"DTINIT", &S::dtinit, "T", "first step, 0 computed", interval},
+                           {"TSSFAC",
+                            &S::tssfac,
+                            "-",
+                            "scale of the computed step",
+                            {.standard = 0.9, .check = Check::positive}},
+                           {"ISDO", &S::isdo, "-", "characteristic length of shells", no_effect},
+                           {"TSLIMT", &S::tslimt, "T", "smallest step of shells", unsupported},
+                           {"DT2MS", &S::dt2ms, "T", "step for mass scaling", unsupported},
+                           {"LCTM", &S::lctm, "-", "curve of the largest step over time", optional_id},
+                           {"ERODE", &S::erode, "-", "erosion at the smallest step", unsupported},
+                           {"MS1ST", &S::ms1st, "-", "mass scaling at the start", unsupported}}},
+               {.fields = {{"DT2MSF", &S::dt2msf, "-", "step for mass scaling", unsupported},
+                           {"DT2MSLC", &S::dt2mslc, "-", "curve of the step for mass scaling", unsupported},
+                           {"IMSCL", &S::imscl, "-", "selective mass scaling", unsupported},
+                           {},
+                           {},
+                           {"RMSCL", &S::rmscl, "-", "rotational mass scaling", unsupported},
+                           {"EMSCL", &S::emscl, "-", "share of added mass in gravity", no_effect},
+                           {"IHDO", &S::ihdo, "-", "step of solids", no_effect}},
+                .optional = true},
+               {.fields = {{"RMAVG", &S::rmavg, "-", "average rotational mass", unsupported},
+                           {"IGADO", &S::igado, "-", "step of isogeometric elements", no_effect},
+                           {"DTUSR", &S::dtusr, "T", "step of users' elements", unsupported},
+                           {"DTDYNV", &S::dtdynv, "-", "viscous limit of solids", no_effect}},
+                .optional = true}}}};
+
+using E = ControlEnergyCard;
+FieldRules energy_flag(int standard) {
+  return {.standard = static_cast<Real>(standard), .honour = Honour::ignored};
+}
+const RegisterKeyword<E> control_energy{
+    {.names = {"CONTROL_ENERGY"},
+     .purpose = "which energies are computed: here all of them, always",
+     .once = true,
+     .many = false,
+     .cards = {{.fields = {{"HGEN", &E::hgen, "-", "hourglass energy", energy_flag(1)},
+                           {"RWEN", &E::rwen, "-", "rigid wall energy", energy_flag(2)},
+                           {"SLNTEN", &E::slnten, "-", "contact energy", energy_flag(1)},
+                           {"RYLEN", &E::rylen, "-", "damping energy", energy_flag(1)},
+                           {"IRGEN", &E::irgen, "-", "energy of the reference geometry", energy_flag(2)},
+                           {"MATEN", &E::maten, "-", "split of the material energy", energy_flag(1)},
+                           {"DRLEN", &E::drlen, "-", "drilling energy", energy_flag(1)},
+                           {"DISEN", &E::disen, "-", "dissipated energy", energy_flag(1)}}}}}};
+
+using D = DatabaseD3plotCard;
+const RegisterKeyword<D> database_binary_d3plot{
+    {.names = {"DATABASE_BINARY_D3PLOT"},
+     .purpose = "interval of the field files (fields.pvd)",
+     .once = true,
+     .many = false,
+     .cards = {
+         {.fields = {{"DT", &D::dt, "T", "interval, 0 none", interval},
+                     {"LCDT", &D::lcdt, "-", "curve of the interval", unsupported_output},
+                     {"BEAM", &D::beam, "-", "discrete elements as beams", no_effect},
+                     {"NPLTC", &D::npltc, "-", "number of states: interval = ENDTIM / NPLTC", optional_id},
+                     {"PSETID", &D::psetid, "-", "parts left out", unsupported_output}}},
+         {.fields = {{"IOOPT", &D::ioopt, "-", "mode of the curve", no_effect},
+                     {"RATE", &D::rate, "T", "filter interval", unsupported_output},
+                     {"CUTOFF", &D::cutoff, "1/T", "filter frequency", unsupported_output},
+                     {"WINDOW", &D::window, "T", "filter window", unsupported_output},
+                     {"TYPE", &D::type, "-", "filtered data", unsupported_output},
+                     {"PSET", &D::pset, "-", "filtered parts", unsupported_output}},
+          .optional = true}}}};
+
+using A = DatabaseAsciiCard;
+const RegisterKeyword<A> database_ascii{
+    {.names = {"DATABASE_GLSTAT", "DATABASE_MATSUM", "DATABASE_RCFORC", "DATABASE_SPHOUT"},
+     .purpose = "interval of a history: energies, parts, contact forces, particles",
+     .once = true,
+     .many = false,
+     .cards = {
+         {.fields = {
+              {"DT", &A::dt, "T", "interval, 0 none", interval},
+              {"BINARY", &A::binary, "-", "kind of file", no_effect},
+              {"LCUR", &A::lcur, "-", "curve of the interval", unsupported_output},
+              {"IOOPT", &A::ioopt, "-", "mode of the curve", {.standard = 1, .honour = Honour::ignored}}}}}}};
+
+using H = DatabaseHistorySphCard;
+const RegisterKeyword<H> database_history_sph{
+    {.names = {"DATABASE_HISTORY_SPH", "DATABASE_HISTORY_SPH_SET"},
+     .purpose = "particles whose histories go to sphout (_SET: node sets)",
+     .cards = {{.fields = {{"ID", &H::ids, "-", "ids of particles, or of node sets", optional_id}},
+                .repeat = true}}}};
+
+}  // namespace
+
+}  // namespace courant

@@ -1,0 +1,67 @@
+#pragma once
+// The steps of build_model, over several files: mesh, sets, conditions.
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "keyword/deck.hpp"
+#include "model/cards.hpp"
+#include "model/model.hpp"
+
+namespace courant {
+
+class ModelBuilder {
+ public:
+  ModelBuilder(const Deck& deck, Diagnostics& diagnostics) : deck_(deck), diagnostics_(diagnostics) {}
+  Model build();
+
+ private:
+  // build_mesh.cpp
+  void build_nodes();
+  void build_parts();
+  void build_particles();
+  void build_shells();
+  void add_particle(const ElementSphCard& card, Id nid, Index part);
+  void check_shared_nodes();
+  // build_sets.cpp
+  void build_node_sets();
+  void build_part_sets();
+  void build_curves();
+  void build_boxes();
+  void add_generated(const SetNodeGenerateCard& card, std::vector<Index>& members);
+  // build_conditions.cpp
+  void build_control();
+  void build_output();
+  void build_output_history();
+  void build_body_loads();
+  void build_constraints();
+  void build_velocities();
+  void set_velocity(const InitialVelocityCard& card);
+  void set_velocity(const InitialVelocityGenerationCard& card);
+  std::vector<Index> nodes_of(const InitialVelocityGenerationCard& card);
+  std::vector<Index> nodes_of_parts(const std::vector<Index>& parts) const;
+
+  /// Index of a node, part, ... named in a field; -1 with an error if the deck has none.
+  Index node(const Entry& entry, std::string_view field, Id id);
+  Index part(const Entry& entry, std::string_view field, Id id);
+  const std::vector<Index>* node_set(const Entry& entry, std::string_view field, Id id);
+  const std::vector<Index>* part_set(const Entry& entry, std::string_view field, Id id);
+  const Curve* curve(const Entry& entry, std::string_view field, Id id);
+  const Box* box(const Entry& entry, std::string_view field, Id id);
+  void unknown(const Entry& entry, std::string_view field, const char* what, Id id, const char* keyword);
+
+  void error(const Entry& entry, std::string_view field, std::string message, std::string hint = {});
+  void duplicate(const Entry& entry, std::string_view field, const char* what, Id id, const Location& first);
+  std::string place(const Location& where) const;
+
+  static constexpr int max_errors = 100;  ///< that many are reported
+
+  const Deck& deck_;
+  Diagnostics& diagnostics_;
+  Model model_;
+  int errors_ = 0;
+};
+
+}  // namespace courant

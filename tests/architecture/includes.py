@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Rooms of src/ include each other downward only, and no file has grown past what one can read at a sitting.
+
+usage: includes.py PROJECT_FOLDER
+"""
+import pathlib
+import re
+import sys
+
+# A room may include itself, what stands here, and what those may include.
+MAY_INCLUDE = {
+    "base": [],
+    "parallel": ["base"],
+    "state": ["base", "parallel"],
+    "keyword": ["base"],
+    "model": ["base", "keyword"],
+    "search": ["state"],
+    "materials": ["state", "keyword", "model"],
+    "sph": ["search", "state", "keyword", "model"],
+    "rigid": ["search", "state", "keyword", "model"],
+    "shell": ["search", "state", "keyword", "model"],
+    "solid": ["search", "state", "keyword", "model"],
+    "contact": ["search", "state", "keyword", "model"],
+    "output": ["state"],
+    "time": ["state", "search", "output"],
+    "post": ["base", "output"],
+    "generate": ["base"],
+    "verify": ["post"],
+}
+TOP = "app"  # may include everything; nothing includes it
+THREADS = re.compile(r"#\s*(pragma\s+omp\s+(?!simd|declare\s+simd)|include\s*<(omp\.h|thread|mutex|future|condition_variable)>)")
+ENDS = re.compile(r"(?<![\w:.>])(?:std::)?(?:exit|abort|_Exit|quick_exit|terminate)\s*\(")
+PRINTS = re.compile(r"\bstd::(cout|cerr|clog)\b|(?<![\w:.])f?printf\s*\(|\bfmt::print\b")
+CATCH_ALL = re.compile(r"catch\s*\(\s*\.\.\.\s*\)")
+LONGEST = 500
+
+
+def closure(room):
+    """Every room that `room` may include."""
+    seen, waiting = {room}, [room]
+    while waiting:
+        for below in MAY_INCLUDE[waiting.pop()]:
+            if below not in seen:
+                seen.add(below)
+                waiting.append(below)
+    return seen
+
+
+def faults_of_file(name, room, text, rooms):
+    """Messages on one file; `room` is its folder under src/."""
+    faults = []
+    allowed = rooms if room == TOP else closure(room)
+    for number, line in enumerate(text.splitlines(), 1):
+        where = f"{name}:{number}: "
+        include = re.match(r'\s*#\s*include\s*"([^"]+)"', line)
+        if include:
+            target = include.group(1).split("/")[0] if "/" in include.group(1) else None
+            if target is None or ".." in include.group(1):
+                faults.append(where + f'"{include.group(1)}" should be written as "folder/file"')
+            elif target not in rooms:
+                faults.append(where + f'"{include.group(1)}": there is no room src/{target}')
+            elif target not in allowed:
+                faults.append(where + f"{room} may not include {target}")
+        code = re.sub(r'"(\\.|[^"\\])*"', '""', line.split("//")[0])
+        if room != "parallel" and THREADS.search(line):
+            faults.append(where + "threads are the business of parallel/")
+        if room != TOP and ENDS.search(code):
+            faults.append(where + "the library never ends the program")
+        if room != TOP and PRINTS.search(code):
+            faults.append(where + "the library never prints")
+        if room != TOP and CATCH_ALL.search(code):
+            faults.append(where + "catch (...) hides faults")
+    lines = text.count("\n")
+    if lines > LONGEST:
+        faults.append(f"{name}: {lines} lines; split it below {LONGEST}")
+    return faults
+
+
+def check(project):
+    """All messages on a project."""
+    source = project / "src"
+    rooms = {p.name for p in source.iterdir() if p.is_dir()}
+    faults = [f"src/{r}: a new room needs a line in tests/architecture/includes.py" for r in sorted(rooms - set(MAY_INCLUDE) - {TOP})]
+    files = 0
+    for path in sorted(source.rglob("*")):
+        if path.suffix not in (".hpp", ".cpp", ".h"):
+            continue
+        room = path.relative_to(source).parts[0]
+        if room in MAY_INCLUDE or room == TOP:
+            files += 1
+            faults += faults_of_file(str(path.relative_to(project)), room, path.read_text(encoding="utf-8"), rooms)
+    if files == 0:
+        faults.append("src/ holds no source file")
+    return faults
+
+
+def self_test():
+    """The rules must see what they forbid."""
+    rooms = set(MAY_INCLUDE) | {TOP}
+    bad = {
+        ("sph", '#include "materials/mat_null.hpp"\n'): "sph may not include materials",
+        ("base", '#include "state/field.hpp"\n'): "base may not include state",
+        ("sph", '#include "contact/contact.hpp"\n'): "sph may not include contact",
+        ("sph", '#include "nowhere/x.hpp"\n'): "there is no room",
+        ("sph", '#include "../state/field.hpp"\n'): "should be written",
+        ("sph", "#pragma omp parallel for\n"): "threads",
+        ("sph", "#include <thread>\n"): "threads",
+        ("model", "  std::exit(1);\n"): "never ends",
+        ("model", '  std::cout << "x";\n'): "never prints",
+        ("model", "} catch (...) {\n"): "hides",
+        ("model", "\n" * (LONGEST + 1)): "split",
+    }
+    good = [
+        ("sph", '#include "parallel/parallel.hpp"\n#pragma omp simd\n'),
+        ("app", '#include "contact/contact.hpp"\nstd::cout << 1;\n'),
+        ("model", "// exit(1) in a comment\nstd::snprintf(b, 8, \"printf(\");\n"),
+    ]
+    for (room, text), message in bad.items():
+        if not any(message in f for f in faults_of_file("x", room, text, rooms)):
+            return [f"self test: {room}: {text.strip()[:60]!r} was not seen"]
+    for room, text in good:
+        if faults_of_file("x", room, text, rooms):
+            return [f"self test: {faults_of_file('x', room, text, rooms)[0]}"]
+    return []
+
+
+if __name__ == "__main__":
+    messages = self_test() + check(pathlib.Path(sys.argv[1]))
+    print("\n".join(messages) or "rooms are in order")
+    sys.exit(1 if messages else 0)

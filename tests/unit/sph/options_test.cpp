@@ -1,0 +1,109 @@
+// Every optional term of the SPH passes, switched on.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cloud.hpp"
+#include "time/step.hpp"
+
+using namespace courant;
+using courant::test::Cloud;
+
+namespace {
+
+struct ConstantStep : TimeLimit {
+  explicit ConstantStep(Real dt) : dt_(dt) {}
+  std::string name() const override { return "constant"; }
+  Limit limit(const World&, const Clock&) override { return {dt_, "test"}; }
+  Real dt_;
+};
+
+void step(Cloud& cloud, int times) {
+  PassTimer timer;
+  for (int k = 0; k < times; ++k)
+    courant::step(cloud.world, cloud.clock, *cloud.neighbours, {}, timer, [](World&, const Clock&, const std::string&) {});
+}
+
+}  // namespace
+
+TEST(SmoothingLength, FollowsTheDensityAndStopsAtItsBounds) {
+  Cloud cloud(2, 10, 0.01, 0);
+  World& w = cloud.world;
+  cloud.settings.h_max_factor.assign(1, 1.1);
+  cloud.settings.h_min_factor.assign(1, 0.9);
+  auto pass = make_smoothing_length(cloud.settings, w);
+  cloud.refresh();
+  cloud.clock.dt_old = 1e-3;
+  Real rho = 1000;
+  for (int k = 0; k < 50; ++k) {  // expands: drho/dt = -rho
+    w.particles.drhodt.fill(-rho);
+    w.particles.rho.fill(rho);
+    pass->update(w, cloud.clock);
+    rho -= rho * 1e-3;
+  }
+  EXPECT_NEAR(w.particles.h[0], 0.012 * std::pow(1000 / rho, 0.5), 1e-6 * 0.012);
+  EXPECT_EQ(w.counters.at("smoothing_length_at_bound"), 0);
+  for (int k = 0; k < 300; ++k) pass->update(w, cloud.clock);
+  EXPECT_DOUBLE_EQ(w.particles.h[0], 1.1 * 0.012);
+  EXPECT_EQ(w.counters.at("smoothing_length_at_bound"), w.particles.size());
+}
+
+TEST(SpeedLimit, SwitchesOffOrClipsAndCounts) {
+  for (const Real maxv : {5.0, -5.0}) {
+    Cloud cloud(2, 4, 0.01, 0);
+    World& w = cloud.world;
+    w.particles.v.set(3, {30, 40, 0});
+    const Id fast = w.particles.id[3];
+    cloud.settings.maxv = maxv;
+    w.constraints.push_back(make_speed_limit(cloud.settings, cloud.neighbours));
+    w.motions.push_back(make_particle_motion());
+    w.time_limits.push_back(std::make_shared<ConstantStep>(1e-5));
+    step(cloud, 3);
+    if (maxv > 0) {
+      EXPECT_EQ(w.counters.at("deactivated_by_maxv"), 1);
+      EXPECT_EQ(w.particles.active, 15);
+      EXPECT_EQ(w.particles.id[15], fast);
+    } else {
+      EXPECT_EQ(w.counters.at("speed_clipped"), 1);
+      for (Index i = 0; i < 16; ++i) EXPECT_LE(w.particles.v.vec(i).norm(), 5 + 1e-12);
+    }
+  }
+}
+
+TEST(FixedParticles, HoldTheirDirectionsOnly) {
+  Cloud cloud(3, 2, 0.01, 0);
+  Model model;
+  model.nodes.resize(8);
+  for (Index i = 0; i < 8; ++i) model.sph.push_back({i, 0, 1.0, {}});
+  EXPECT_EQ(make_fixed_particles(model, cloud.world), nullptr);
+  model.nodes[5].fixed = {true, false, true};
+  auto pass = make_fixed_particles(model, cloud.world);
+  ASSERT_NE(pass, nullptr);
+  cloud.refresh();
+  for (Index i = 0; i < 8; ++i) cloud.world.particles.f.set(i, {1, 2, 3}), cloud.world.particles.v.set(i, {4, 5, 6});
+  pass->apply(cloud.world, cloud.clock);
+  for (Index i = 0; i < 8; ++i) {
+    const bool fixed = cloud.world.particles.id[i] == 6;
+    EXPECT_EQ(cloud.world.particles.f.vec(i), fixed ? Vec(0, 2, 0) : Vec(1, 2, 3));
+    EXPECT_EQ(cloud.world.particles.v.vec(i), fixed ? Vec(0, 5, 0) : Vec(4, 5, 6));
+  }
+}
+
+TEST(Gravity, ALoadCurveThatChangesDoesExternalWork) {
+  Cloud cloud(2, 3, 0.01, 0);
+  World& w = cloud.world;
+  Model model;
+  model.body_loads.push_back({1, {.id = 1, .abscissa = {0, 0.5, 1}, .ordinate = {0, 9.81, 2}}, 1});
+  w.forces.push_back(make_gravity(model, w, cloud.neighbours));
+  w.energy_terms.push_back(make_sph_energy(cloud.settings, w, cloud.neighbours));
+  w.motions.push_back(make_particle_motion());
+  w.time_limits.push_back(std::make_shared<ConstantStep>(1e-4));
+  step(cloud, 1);
+  sample_energy(w, cloud.clock);
+  w.energy.initial = w.energy.total() - w.energy.external_work;
+  step(cloud, 7000);
+  sample_energy(w, cloud.clock);
+  EXPECT_GT(w.energy.kinetic, 1e-3);
+  EXPECT_GT(std::abs(w.energy.external_work), 0.1 * w.energy.kinetic);
+  EXPECT_NEAR(w.energy.residual(), 0, 1e-3 * w.energy.kinetic);
+}

@@ -1,0 +1,74 @@
+// Water at rest: hydrostatic pressure, no drift over 5 s. Reference: p = rho0 g (surface - y).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "app/simulation.hpp"
+#include "scenes.hpp"
+
+using namespace courant;
+
+namespace {
+
+/// Mean pressure of the particles whose height lies in each of n equal layers of the depth.
+std::vector<Real> pressure_of_layers(const World& world, Real depth, int n) {
+  std::vector<Real> total(n, 0);
+  std::vector<int> count(n, 0);
+  for (Index i = 0; i < world.particles.size(); ++i) {
+    const int layer = static_cast<int>(world.particles.x.vec(i)[1] / depth * n);
+    if (layer < 0 || layer >= n) continue;
+    total[layer] += world.particles.p[i];
+    ++count[layer];
+  }
+  for (int k = 0; k < n; ++k) total[k] = count[k] ? total[k] / count[k] : 0;
+  return total;
+}
+
+Real surface(const World& world) {
+  Real top = 0;
+  for (Index i = 0; i < world.particles.size(); ++i) top = std::max(top, world.particles.x.vec(i)[1]);
+  return top;
+}
+
+}  // namespace
+
+TEST(StillWater, SettlesToHydrostaticPressureWithoutDrift) {
+  const Real depth = 0.5, g = 9.81, rho0 = 1000, dx = depth / 40;
+  auto s = test::simulation("still_water", {{"resolution", "40"}, {"endtim", "5"}});
+  const auto nothing = [](World&, const Clock&, const std::string&) {};
+  const int layers = 10;
+  std::vector<Real> mean(layers, 0);
+  int samples = 0;
+  Real kinetic_at_4 = 0, surface_at_2 = 0, next = 3;
+  while (s->clock().t < 5) {
+    s->step(nothing);
+    if (surface_at_2 == 0 && s->clock().t > 2) surface_at_2 = surface(s->world());
+    if (s->clock().t > next) {  // pressure means over 3 to 5 s
+      const auto now = pressure_of_layers(s->world(), depth, layers);
+      for (int k = 0; k < layers; ++k) mean[k] += now[k];
+      ++samples;
+      next += 0.01;
+      sample_energy(s->world(), s->clock());
+      if (s->clock().t < 4) kinetic_at_4 = std::max(kinetic_at_4, s->world().energy.kinetic);
+    }
+  }
+  Real largest_error = 0;
+  for (int k = 0; k < layers; ++k) {
+    const Real y = (k + 0.5) * depth / layers;
+    const Real error = (mean[k] / samples - rho0 * g * (depth - y)) / (rho0 * g * depth);
+    largest_error = std::max(largest_error, std::abs(error));
+    RecordProperty("layer_" + std::to_string(k), std::to_string(error));
+  }
+  std::printf("largest pressure error %.3f %% of rho g depth, surface %.4f m at 2 s, %.4f m at 5 s\n", 100 * largest_error, surface_at_2,
+              surface(s->world()));
+  EXPECT_LT(largest_error, 0.02);
+  EXPECT_NEAR(surface(s->world()), surface_at_2, 0.25 * dx);
+  sample_energy(s->world(), s->clock());
+  const Real wave_energy = 0.5 * rho0 * depth * depth * g * depth;  // the column's potential energy, as a scale
+  EXPECT_LT(s->world().energy.kinetic, 1e-5 * wave_energy);
+  EXPECT_LE(s->world().energy.kinetic, 1.5 * kinetic_at_4);
+  EXPECT_EQ(s->world().counters.at("leaked_particles"), 0);
+  const EnergyLedger& e = s->world().energy;
+  std::printf("energy residual %.3g of %.3g\n", e.residual(), e.throughput);
+}
