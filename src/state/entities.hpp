@@ -44,6 +44,7 @@ struct Nodes {
   Field<Real>& f = fields.add<Real>({.name = "force", .dimension = "ML/T2", .components = 3, .output = true, .restart = false});
   Field<Real>& m = fields.add<Real>({.name = "mass", .dimension = "M"});
   Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
+  Field<Index>& held = fields.add<Index>({.name = "held", .dimension = "-"});  ///< 1: its body cannot move at all
   Index size() const { return fields.size(); }
 };
 

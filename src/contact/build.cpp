@@ -1,0 +1,146 @@
+#include <fmt/format.h>
+
+#include <unordered_set>
+
+#include "contact/cards.hpp"
+#include "contact/contact.hpp"
+
+namespace courant {
+namespace {
+
+class Builder {
+ public:
+  Builder(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {}
+
+  /// Particles of SURFA; reports an empty or missing side.
+  std::vector<bool> tracked(const ContactNodesToSurface& c) {
+    const Particles& p = world_.particles;
+    std::vector<bool> out(p.size(), c.surfatyp == 5);
+    if (c.surfatyp == 5) return out;
+    if (c.surfatyp == 4) return nodes_of_set(c, std::move(out));
+    std::vector<bool> chosen(model_.parts.size(), false);
+    for (const Index part : parts(c, c.surfa, c.surfatyp, "SURFA")) {
+      chosen[part] = true;
+      if (!model_.parts[part].has_sph)
+        deck_.error(diagnostics_, c, "SURFA", fmt::format("part {} has no particles", model_.parts[part].id),
+                    "SURFA must be SPH parts or a node set of particles");
+    }
+    for (Index i = 0; i < p.size(); ++i) out[i] = chosen[p.part[i]];
+    return out;
+  }
+
+  /// Segments of SURFB
+  std::vector<Index> segments(const ContactNodesToSurface& c) {
+    std::vector<bool> chosen(model_.parts.size(), false);
+    for (const Index part : parts(c, c.surfb, c.surfbtyp, "SURFB")) {
+      chosen[part] = true;
+      if (!model_.parts[part].has_shell)
+        deck_.error(diagnostics_, c, "SURFB", fmt::format("part {} has no shells", model_.parts[part].id),
+                    "SURFB must be parts of shells");
+    }
+    std::vector<Index> out;
+    for (Index s = 0; s < world_.segments.size(); ++s)
+      if (chosen[world_.segments.part[s]]) out.push_back(s);
+    return out;
+  }
+
+ private:
+  std::vector<Index> parts(const ContactNodesToSurface& c, Id id, int type, const char* field) {
+    if (type == 2) {
+      const auto set = model_.part_sets.find(id);
+      if (set == model_.part_sets.end())
+        deck_.error(diagnostics_, c, field, fmt::format("part set {} is missing", id),
+                    "define it with *SET_PART_LIST");
+      else if (set->second.empty())
+        deck_.error(diagnostics_, c, field, fmt::format("part set {} is empty", id));
+      else
+        return set->second;
+    } else if (type == 3) {
+      const auto part = model_.part_of_id.find(id);
+      if (part != model_.part_of_id.end()) return {part->second};
+      deck_.error(diagnostics_, c, field, fmt::format("part {} is missing", id), "define it with *PART");
+    }
+    return {};  // other types were refused by the card
+  }
+
+  std::vector<bool> nodes_of_set(const ContactNodesToSurface& c, std::vector<bool> out) {
+    const auto set = model_.node_sets.find(c.surfa);
+    if (set == model_.node_sets.end()) {
+      deck_.error(diagnostics_, c, "SURFA", fmt::format("node set {} is missing", c.surfa),
+                  "define it with *SET_NODE_LIST");
+      return out;
+    }
+    std::unordered_set<Id> ids;
+    for (const Index n : set->second) ids.insert(model_.nodes[n].id);
+    std::size_t found = 0;
+    for (Index i = 0; i < world_.particles.size(); ++i)
+      if (ids.count(world_.particles.id[i])) {
+        out[i] = true;
+        ++found;
+      }
+    if (ids.empty()) deck_.error(diagnostics_, c, "SURFA", fmt::format("node set {} is empty", c.surfa));
+    if (found < ids.size())
+      deck_.error(diagnostics_, c, "SURFA",
+                  fmt::format("{} of the {} nodes of set {} are not SPH particles", ids.size() - found,
+                              ids.size(), c.surfa),
+                  "only particles can be the tracked side");
+    return out;
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  World& world_;
+  Diagnostics& diagnostics_;
+};
+
+ContactLaw law_of(const ContactNodesToSurface& c, const ControlContact* control, int number) {
+  ContactLaw law;
+  law.id = c.cid > 0 ? c.cid : number;
+  law.title = c.title;
+  if (control) {
+    law.slsfac = control->slsfac;
+    law.penopt = control->penopt;
+  }
+  law.sfsa = c.sfsa, law.sfsb = c.sfsb;
+  law.sast = c.sast, law.sbst = c.sbst, law.sfsat = c.sfsat, law.sfsbt = c.sfsbt;
+  law.fs = c.fs * c.fsf, law.fd = c.fd * c.fsf, law.dc = c.dc, law.vc = c.vc * c.vsf;
+  law.vdc = c.vdc;
+  law.birth = c.bt, law.death = c.dt;
+  law.soft = c.soft, law.sofscl = c.sofscl, law.dtstif = c.dtstif;
+  return law;
+}
+
+}  // namespace
+
+std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Model& model,
+                                                     const ContactOptions& options, World& world,
+                                                     Diagnostics& diagnostics) {
+  std::vector<std::shared_ptr<Contact>> out;
+  Builder builder(deck, model, world, diagnostics);
+  int number = 0;
+  for (const ContactNodesToSurface& c : deck.all<ContactNodesToSurface>()) {
+    ++number;
+    const int errors = diagnostics.errors();
+    if (c.fs == 2)
+      deck.error(diagnostics, c, "FS", "FS = 2 asks for a friction table, which is not supported",
+                 "give a coefficient other than 2");
+    const std::vector<bool> tracked = builder.tracked(c);
+    const std::vector<Index> segments = builder.segments(c);
+    if (diagnostics.errors() > errors || segments.empty()) continue;
+    auto contact = std::make_shared<Contact>(law_of(c, deck.last<ControlContact>(), number), options, number,
+                                             segments, tracked, world);
+    const Contact::Penetrations p = contact->penetrations(world);
+    world.counters["initial_penetrations"] += p.count;
+    if (p.count > 0)
+      diagnostics.warning(
+          deck.where(c),
+          fmt::format("{}: {} initial penetrations, deepest {:.4g} [L] at particle {}", deck.keyword(c),
+                      p.count, p.deepest, p.particle),
+          "they are pushed out by the penalty force; move the particles or reduce the thickness");
+    out.push_back(contact);
+  }
+  return out;
+}
+
+}  // namespace courant

@@ -1,0 +1,40 @@
+#pragma once
+#include "keyword/card.hpp"
+
+namespace courant {
+
+/// *CONTACT_AUTOMATIC_NODES_TO_SURFACE; field names and units as in the keyword's table.
+struct ContactNodesToSurface : Entry {
+  Id cid = 0;
+  std::string title;
+  Id surfa = 0, surfb = 0, saboxid = 0, sbboxid = 0;
+  int surfatyp = 0, surfbtyp = 0, sapr = 0, sbpr = 0;
+  Real fs = 0, fd = 0, dc = 0, vc = 0, vdc = 0, bt = 0, dt = 1e20;
+  int penchk = 0;
+  Real sfsa = 1, sfsb = 1, sast = 0, sbst = 0, sfsat = 1, sfsbt = 1, fsf = 1, vsf = 1;
+  int soft = 0, lcidab = 0, sbopt = 2, depth = 2, bsort = 0, frcfrq = 1;
+  Real sofscl = 0.1, maxpar = 1.025;
+  Real penmax = 0, sldthk = 0, sldstf = 0;
+  int thkopt = 0, shlthk = 0, snlog = 0, isym = 0, i2d3d = 0;
+  int igap = 1, ignore = 0, cid_rcf = 0;
+  Real dprfac = 0, dtstif = 0, edgek = 0, flangl = 0;
+  int q2tri = 0, tcso = 0, tiedid = 0, shledg = 0;
+  Real dtpchk = 0, sfnbr = 0, fnlscl = 0, dnlscl = 0;
+  int sharec = 0, cparm8 = 0, ipback = 0, srnde = 0, icor = 0, ftorq = 0, region = 0;
+  Real fricsf = 1;
+};
+
+/// *CONTROL_CONTACT
+struct ControlContact : Entry {
+  Real slsfac = 0.1, rwpnal = 0, xpene = 4;
+  int islchk = 1, shlthk = 0, penopt = 1, thkchg = 0, orien = 1, enmass = 0;
+  int usrstr = 0, usrfrc = 0, nsbcs = 0, interm = 0, ssthk = 0, ecdt = 0, tiedprj = 0;
+  Real sfric = 0, dfric = 0, edc = 0, vfc = 0, th = 0, th_sf = 0, pen_sf = 0, ptscl = 1;
+  int ignore = 0, frceng = 0, skiprwg = 0, outseg = 0, spotstp = 0, spotdel = 0, dir_tie = 0;
+  Real spothin = 0;
+  int isym = 0, nserod = 0, rwgaps = 1, icov = 0, ithoff = 0;
+  Real rwgdth = 0, rwksf = 1, swradf = 0;
+  int shledg = 0, pstiff = 0;
+};
+
+}  // namespace courant

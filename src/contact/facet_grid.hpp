@@ -1,0 +1,24 @@
+#pragma once
+// Which facets are near a point: each facet stands in all cells that it reaches, so one cell answers.
+#include <span>
+#include <vector>
+
+#include "contact/facet.hpp"
+
+namespace courant {
+
+class FacetGrid {
+ public:
+  /// Enters every facet in the cells within `reach` [L] of it.
+  void build(const std::vector<Facet>& facets, Real reach);
+  /// Facets that may be within reach of x, in ascending order; empty far from all.
+  std::span<const Index> near(const Vec& x) const;
+
+ private:
+  Vec low_ = Vec::Zero();
+  Real cell_ = 1;
+  std::array<Index, 3> cells_ = {0, 0, 0};
+  std::vector<Index> first_, facet_;
+};
+
+}  // namespace courant

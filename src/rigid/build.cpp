@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "rigid/mat_rigid.hpp"
+#include "rigid/rigid.hpp"
+
+namespace courant {
+namespace {
+
+const MatRigid* find(const Deck& deck, Id mid) {
+  for (const MatRigid& m : deck.all<MatRigid>())
+    if (m.mid == mid) return &m;
+  return nullptr;
+}
+
+/// Axes that a code 0 to 7 of CON1 or CON2 holds.
+std::array<bool, 3> axes(int code) {
+  return {code == 1 || code == 4 || code == 6 || code == 7, code == 2 || code == 4 || code == 5 || code == 7,
+          code == 3 || code == 5 || code == 6 || code == 7};
+}
+
+void read_constraints(const Deck& deck, const MatRigid& m, RigidBody& body, Diagnostics& diagnostics) {
+  if (m.cmo == 0) return;  // CON1 and CON2 have no meaning then
+  if (m.cmo != 1) {
+    deck.error(diagnostics, m, "CMO", fmt::format("{:g} (local or point constraint) is not supported", m.cmo),
+               "use CMO = 1 with CON1 and CON2 along the global axes");
+    return;
+  }
+  const auto code = [&](const char* field, Real value) {
+    if (value >= 0 && value <= 7 && value == std::floor(value)) return int(value);
+    deck.error(diagnostics, m, field, fmt::format("expected a code 0 to 7, got '{:g}'", value),
+               "7 holds all axes");
+    return 0;
+  };
+  body.held = axes(code("CON1", m.con1));
+  body.no_turn = axes(code("CON2", m.con2));
+}
+
+void sum_mass(RigidBody& b, const World& world) {
+  const Nodes& nodes = world.nodes;
+  Vec momentum = Vec::Zero();
+  for (const Index n : b.nodes) {
+    b.m += nodes.m[n];
+    b.x += nodes.m[n] * nodes.x.vec(n);
+    momentum += nodes.m[n] * nodes.v.vec(n);
+  }
+  b.x /= b.m;
+  b.v = momentum / b.m;
+  for (const Index n : b.nodes) {
+    const Vec X = nodes.x.vec(n) - b.x;
+    b.X.push_back(X);
+    b.J0 += nodes.m[n] * (X.squaredNorm() * Matrix::Identity() - X * X.transpose());
+    b.L += nodes.m[n] * X.cross(nodes.v.vec(n) - b.v);
+  }
+}
+
+// Inertia of the axes that may turn; singular if all nodes lie on a line.
+bool can_turn(const RigidBody& b) {
+  Matrix J = b.J0;
+  for (int k = 0; k < 3; ++k)
+    if (b.no_turn[k]) {
+      J.row(k).setZero();
+      J.col(k).setZero();
+      J(k, k) = b.J0.trace();
+    }
+  return std::abs(J.determinant()) > 1e-12 * std::pow(b.J0.trace(), 3) ||
+         (b.no_turn[0] && b.no_turn[1] && b.no_turn[2]);
+}
+
+void start_velocities(RigidBody& b, World& world) {
+  for (int k = 0; k < 3; ++k) {
+    if (b.held[k]) b.v[k] = 0;
+    if (b.no_turn[k]) b.L[k] = 0;
+  }
+  b.omega = b.fixed() ? Vec(Vec::Zero()) : b.omega_of(b.q);
+  for (std::size_t k = 0; k < b.nodes.size(); ++k) world.nodes.v.set(b.nodes[k], b.v + b.omega.cross(b.X[k]));
+}
+
+class Builder {
+ public:
+  Builder(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
+    for (Index n = 0; n < world.nodes.size(); ++n) world_node_[world.nodes.id[n]] = n;
+    owner_.assign(world.nodes.size(), -1);
+  }
+
+  void add(Index part, const MatRigid& m) {
+    RigidBody b;
+    b.part = model_.parts[part].id;
+    read_constraints(deck_, m, b, diagnostics_);
+    std::set<Index> nodes;
+    for (const ModelShell& shell : model_.shells)
+      if (shell.part == part)
+        for (const Index n : shell.node) {
+          nodes.insert(world_node_.at(model_.nodes[n].id));
+          refuse_spc(part, model_.nodes[n]);
+        }
+    b.nodes.assign(nodes.begin(), nodes.end());
+    sum_mass(b, world_);
+    if (!(b.m > 0)) return;  // the shells' own errors tell why
+    if (world_.dim == 2) in_plane(part, b);
+    if (!can_turn(b))
+      diagnostics_.error(
+          model_.parts[part].where,
+          fmt::format("*PART {}: the nodes of the rigid body lie on a line, so it has no inertia against "
+                      "rotation about it",
+                      b.part),
+          "hold rotations with CMO = 1, CON2 of *MAT_RIGID");
+    else
+      start_velocities(b, world_);
+    claim(part, b);
+    bodies_.push_back(std::move(b));
+  }
+
+  std::shared_ptr<RigidBodies> finish() {
+    for (const RigidBody& b : bodies_)
+      if (b.fixed())
+        for (const Index n : b.nodes) world_.nodes.held[n] = 1;
+    return bodies_.empty() ? nullptr : std::make_shared<RigidBodies>(std::move(bodies_));
+  }
+
+ private:
+  void refuse_spc(Index part, const ModelNode& node) {
+    if (!(node.fixed[0] || node.fixed[1] || node.fixed[2]) || !refused_.insert(part).second) return;
+    diagnostics_.error(model_.parts[part].where,
+                       fmt::format("*BOUNDARY_SPC or TC on node {} of rigid part {} is not supported",
+                                   node.id, model_.parts[part].id),
+                       "hold the body with CMO = 1, CON1 and CON2 of its *MAT_RIGID");
+  }
+
+  // A body of a plane scene stays in the plane; particles have mass per unit depth, so the body must be one
+  // unit deep.
+  void in_plane(Index part, RigidBody& b) {
+    b.held[2] = b.no_turn[0] = b.no_turn[1] = true;
+    if (b.fixed()) return;
+    Real low = std::numeric_limits<Real>::infinity(), high = -low;
+    for (const Index n : b.nodes) {
+      low = std::min(low, world_.nodes.x.vec(n).z());
+      high = std::max(high, world_.nodes.x.vec(n).z());
+    }
+    if (std::abs(high - low - 1) > 1e-6)
+      diagnostics_.error(
+          model_.parts[part].where,
+          fmt::format("*PART {}: in a 2D scene particles have mass per unit depth, but this moving body is "
+                      "{:.4g} deep in z",
+                      b.part, high - low),
+          "extrude it by 1 in z");
+  }
+
+  void claim(Index part, const RigidBody& b) {
+    for (const Index n : b.nodes) {
+      const Index other = owner_[n];
+      owner_[n] = Index(bodies_.size());
+      if (other < 0 || (b.fixed() && bodies_[other].fixed())) continue;
+      diagnostics_.error(model_.parts[part].where,
+                         fmt::format("node {} belongs to the rigid parts {} and {}, of which one can move",
+                                     world_.nodes.id[n], bodies_[other].part, b.part),
+                         "give each part its own nodes, or make them one part");
+      return;
+    }
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  World& world_;
+  Diagnostics& diagnostics_;
+  std::map<Id, Index> world_node_;
+  std::vector<Index> owner_;
+  std::set<Index> refused_;
+  std::vector<RigidBody> bodies_;
+};
+
+}  // namespace
+
+std::optional<RigidMaterial> rigid_material(const Deck& deck, const Model& model, Index part) {
+  const MatRigid* m = find(deck, model.parts[part].mid);
+  if (!m) return std::nullopt;
+  return RigidMaterial{m->ro, m->E, m->pr};
+}
+
+std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& model, World& world,
+                                                Diagnostics& diagnostics) {
+  Builder builder(deck, model, world, diagnostics);
+  for (Index part = 0; part < Index(model.parts.size()); ++part) {
+    const MatRigid* m = model.parts[part].has_shell ? find(deck, model.parts[part].mid) : nullptr;
+    if (m) builder.add(part, *m);
+  }
+  return builder.finish();
+}
+
+}  // namespace courant

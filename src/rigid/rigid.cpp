@@ -1,0 +1,164 @@
+#include "rigid/rigid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace courant {
+namespace {
+
+bool all(const std::array<bool, 3>& a) {
+  return a[0] && a[1] && a[2];
+}
+
+Eigen::Quaterniond turned(const Vec& angle, const Eigen::Quaterniond& q) {
+  const Real a = angle.norm();
+  if (a == 0) return q;
+  return (Eigen::Quaterniond(Eigen::AngleAxisd(a, angle / a)) * q).normalized();
+}
+
+void place_nodes(const RigidBody& b, World& world, Real dt) {
+  const Matrix R = b.q.toRotationMatrix();
+  for (std::size_t k = 0; k < b.nodes.size(); ++k) {
+    const Index n = b.nodes[k];
+    const Vec old = world.nodes.x.vec(n), now = b.x + R * b.X[k];
+    // The chord of the step: contact finds where the node was from x - v dt.
+    if (dt > 0) world.nodes.v.set(n, (now - old) / dt);
+    world.nodes.x.set(n, now);
+  }
+}
+
+}  // namespace
+
+bool RigidBody::fixed() const {
+  return all(held) && all(no_turn);
+}
+
+// With some rotations held only the rows of L = J omega along the free axes count; the others hold the
+// reaction.
+Vec RigidBody::omega_of(const Eigen::Quaterniond& orientation) const {
+  const Matrix R = orientation.toRotationMatrix();
+  Matrix J = R * J0 * R.transpose();
+  Vec rhs = L;
+  for (int k = 0; k < 3; ++k) {
+    if (!no_turn[k]) continue;
+    J.row(k).setZero();
+    J.col(k).setZero();
+    J(k, k) = 1;
+    rhs[k] = 0;
+  }
+  return J.inverse() * rhs;
+}
+
+bool RigidBodies::any_moves() const {
+  return std::any_of(bodies_.begin(), bodies_.end(), [](const RigidBody& b) { return !b.fixed(); });
+}
+
+void RigidBodies::apply(World& world, const Clock& clock) {
+  const Vec g = gravity_ ? gravity_(clock.t) : Vec(Vec::Zero());
+  for (RigidBody& b : bodies_) {
+    if (b.fixed()) continue;
+    b.force = b.m * g;
+    b.moment.setZero();
+    for (const Index n : b.nodes) {
+      const Vec f = world.nodes.f.vec(n);
+      b.force += f;
+      b.moment += (world.nodes.x.vec(n) - b.x).cross(f);
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (b.held[k]) b.force[k] = 0;
+      if (b.no_turn[k]) b.moment[k] = 0;
+    }
+  }
+}
+
+void RigidBodies::kick(World&, const Clock& clock) {
+  for (RigidBody& b : bodies_) {
+    if (b.fixed()) continue;
+    b.v += b.force / b.m * clock.dt_mean();
+    b.L += b.moment * clock.dt_mean();
+    // omega of the half step belongs to the orientation in the middle of the step, which depends on omega.
+    Vec omega = b.omega_of(b.q);
+    for (int it = 0; it < 20; ++it) {
+      const Vec next = b.omega_of(turned(0.5 * clock.dt * omega, b.q));
+      const bool done = (next - omega).norm() <= 1e-15 * next.norm();
+      omega = next;
+      if (done) break;
+    }
+    b.omega = omega;
+  }
+}
+
+void RigidBodies::drift(World& world, const Clock& clock) {
+  for (RigidBody& b : bodies_) {
+    if (b.fixed()) continue;
+    b.x += b.v * clock.dt;
+    b.q = turned(clock.dt * b.omega, b.q);
+    place_nodes(b, world, clock.dt);
+  }
+}
+
+Real RigidBodies::kinetic_energy(const World&) const {
+  Real e = 0;
+  for (const RigidBody& b : bodies_)
+    if (!b.fixed()) e += b.kinetic_energy();
+  return e;
+}
+
+void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
+  if (!gravity_) return;
+  // Potential energy is -m g(t).x: a change of g alone is work from outside.
+  const Vec dg = gravity_(clock.t + clock.dt) - gravity_(clock.t);
+  for (const RigidBody& b : bodies_)
+    if (!b.fixed())
+      for (int k = 0; k < 3; ++k)
+        if (!b.held[k]) ledger.external_work -= b.m * dg[k] * b.x[k];
+}
+
+void RigidBodies::sample(const World& world, const Clock& clock, EnergyLedger& ledger) const {
+  ledger.kinetic += kinetic_energy(world);
+  if (!gravity_) return;
+  const Vec g = gravity_(clock.t);
+  for (const RigidBody& b : bodies_)
+    if (!b.fixed())
+      for (int k = 0; k < 3; ++k)
+        if (!b.held[k]) ledger.potential -= b.m * g[k] * b.x[k];
+}
+
+std::vector<RigidBodyReport> RigidBodies::reports() const {
+  std::vector<RigidBodyReport> out;
+  for (const RigidBody& b : bodies_)
+    out.push_back({.part = b.part,
+                   .mass = b.m,
+                   .x = b.x,
+                   .v = b.v,
+                   .omega = b.omega,
+                   .force = b.force,
+                   .moment = b.moment,
+                   .kinetic_energy = b.fixed() ? 0 : b.kinetic_energy()});
+  return out;
+}
+
+std::vector<Real> RigidBodies::state() const {
+  std::vector<Real> out;
+  for (const RigidBody& b : bodies_) {
+    for (const Vec& a : {b.x, b.v, b.L}) out.insert(out.end(), a.data(), a.data() + 3);
+    for (const Real a : {b.q.w(), b.q.x(), b.q.y(), b.q.z()}) out.push_back(a);
+    out.insert(out.end(), b.omega.data(), b.omega.data() + 3);
+  }
+  return out;
+}
+
+void RigidBodies::set_state(std::span<const Real> state) {
+  if (state.size() != 16 * bodies_.size()) return;
+  const Real* a = state.data();
+  for (RigidBody& b : bodies_) {
+    b.x = {a[0], a[1], a[2]};
+    b.v = {a[3], a[4], a[5]};
+    b.L = {a[6], a[7], a[8]};
+    b.q = Eigen::Quaterniond(a[9], a[10], a[11], a[12]);
+    b.omega = {a[13], a[14], a[15]};
+    a += 16;
+  }
+}
+
+}  // namespace courant

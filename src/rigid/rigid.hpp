@@ -1,0 +1,89 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+/// What *MAT_RIGID says about stiffness and mass, for shells and contact.
+struct RigidMaterial {
+  Real ro = 0;  ///< density [M/L3]
+  Real E = 0;   ///< Young's modulus [M/LT2]
+  Real pr = 0;  ///< Poisson ratio [-]
+};
+
+/// The *MAT_RIGID of a part (index into Model::parts); nothing if its material is another one or missing.
+std::optional<RigidMaterial> rigid_material(const Deck& deck, const Model& model, Index part);
+
+/// One rigid part.
+struct RigidBody {
+  Id part = 0;
+  std::vector<Index> nodes;               ///< indices into World::nodes
+  std::vector<Vec> X;                     ///< their places about the centre at t = 0 [L]
+  std::array<bool, 3> held{}, no_turn{};  ///< global axes without translation, rotation
+  Real m = 0;                             ///< [M]
+  Matrix J0 = Matrix::Zero();             ///< inertia about the centre at t = 0, global axes [ML2]
+  Vec x = Vec::Zero(), v = Vec::Zero();   ///< centre [L], [L/T]
+  Vec L = Vec::Zero();                    ///< angular momentum about the centre [ML2/T]
+  Vec omega = Vec::Zero();                ///< [1/T]
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+  Vec force = Vec::Zero(), moment = Vec::Zero();  ///< at the last force evaluation [ML/T2], [ML2/T2]
+
+  bool fixed() const;  ///< nothing can move
+  Real kinetic_energy() const { return 0.5 * (m * v.squaredNorm() + omega.dot(L)); }
+  /// Angular velocity that belongs to L in orientation q, with rotations held about some axes.
+  Vec omega_of(const Eigen::Quaterniond& orientation) const;
+};
+
+/// All rigid bodies of a deck. Each is moved by the sums of its nodes' forces: m a = F, dL/dt = M, L = J
+/// omega, which is J omega' = M - omega x J omega. Orientation by quaternion with the implicit midpoint rule,
+/// which keeps |L| exactly; nodes follow exactly. Bodies that are held in all directions are left out of
+/// every loop.
+class RigidBodies : public Constraint, public Motion, public EnergyTerm {
+ public:
+  explicit RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodies)) {}
+
+  /// Acceleration of gravity over time [L/T2]
+  void set_gravity(std::function<Vec(Real t)> gravity) { gravity_ = std::move(gravity); }
+
+  std::string name() const override { return "rigid bodies"; }
+  void apply(World& world, const Clock& clock) override;
+  void kick(World& world, const Clock& clock) override;
+  void drift(World& world, const Clock& clock) override;
+  Real kinetic_energy(const World& world) const override;
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
+  /// Adds kinetic and potential energy of the bodies that can move.
+  void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
+
+  bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
+  const std::vector<RigidBody>& bodies() const { return bodies_; }
+  /// Force and moment are those on the free body; zero for bodies that are fixed.
+  std::vector<RigidBodyReport> reports() const;
+
+  /// For restart: 16 numbers per body (x, v, L, q, and omega); nodes' fields restart by themselves.
+  std::vector<Real> state() const;
+  void set_state(std::span<const Real> state);
+
+ private:
+  std::vector<RigidBody> bodies_;
+  std::function<Vec(Real)> gravity_;
+};
+
+/// One body per shell part of *MAT_RIGID, with mass, centre and inertia from the nodal masses that
+/// build_segments gave (call that first). Sets Nodes::held. nullptr if there is none. Refuses by name: local
+/// and point constraints, SPC on nodes of rigid bodies, nodes shared by two bodies of which one can move,
+/// inertia that does not allow a free rotation.
+std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& model, World& world,
+                                                Diagnostics& diagnostics);
+
+}  // namespace courant

@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <vector>
+
+#include "shell/section_shell.hpp"
+#include "shell/shell.hpp"
+
+namespace courant {
+namespace {
+
+struct ShellPart {
+  bool usable = false;
+  ShellMaterial material;
+  Real thickness = 0;  ///< [L]
+  Real marea = 0;      ///< [M/L2]
+};
+
+std::vector<ShellPart> read_parts(const Deck& deck, const Model& model,
+                                  const std::function<std::optional<ShellMaterial>(Index)>& material,
+                                  Diagnostics& diagnostics) {
+  std::map<Id, const SectionShell*> sections;
+  for (const SectionShell& s : deck.all<SectionShell>()) {
+    sections[s.secid] = &s;
+    if (s.elform >= 13 && s.elform <= 15)
+      deck.error(diagnostics, s, "ELFORM", fmt::format("{} is a 2D solid, not a shell", s.elform),
+                 "use 2 (Belytschko-Tsay) or 16; rigid shells make no difference between them");
+  }
+  std::vector<ShellPart> out(model.parts.size());
+  for (Index k = 0; k < Index(model.parts.size()); ++k) {
+    const ModelPart& part = model.parts[k];
+    if (!part.has_shell) continue;
+    const auto section = sections.find(part.secid);
+    if (section == sections.end())
+      diagnostics.error(part.where, fmt::format("*PART {}: shells need *SECTION_SHELL {}, which is missing",
+                                                part.id, part.secid));
+    const auto m = material(k);
+    if (!m)
+      diagnostics.error(
+          part.where, fmt::format("*PART {}: material {} of its shells is not *MAT_RIGID", part.id, part.mid),
+          "deformable shells are not supported; use *MAT_RIGID");
+    else if (!(m->ro > 0 && m->E > 0 && m->pr < 0.5))
+      diagnostics.error(
+          part.where,
+          fmt::format(
+              "*PART {}: material {} needs RO > 0, E > 0 and PR < 0.5 for its mass and contact stiffness",
+              part.id, part.mid));
+    if (!m || section == sections.end()) continue;
+    const SectionShell& s = *section->second;
+    const auto corner = [&](Real t) { return t > 0 ? t : s.t1; };
+    out[k] = {true, *m, 0.25 * (s.t1 + corner(s.t2) + corner(s.t3) + corner(s.t4)), s.marea};
+  }
+  return out;
+}
+
+}  // namespace
+
+void build_segments(const Deck& deck, const Model& model,
+                    const std::function<std::optional<ShellMaterial>(Index part)>& material, World& world,
+                    Diagnostics& diagnostics) {
+  const std::vector<ShellPart> parts = read_parts(deck, model, material, diagnostics);
+  std::vector<Index> position(model.nodes.size(), -1);
+  for (const ModelShell& shell : model.shells)
+    for (const Index n : shell.node) position[n] = 0;
+  Index count = 0;
+  for (Index& p : position)
+    if (p == 0) p = count++;
+  Nodes& nodes = world.nodes;
+  nodes.fields.resize(count);
+  for (std::size_t n = 0; n < position.size(); ++n) {
+    if (position[n] < 0) continue;
+    nodes.x.set(position[n], model.nodes[n].x);
+    nodes.v.set(position[n], model.nodes[n].v);
+    nodes.id[position[n]] = model.nodes[n].id;
+  }
+  Segments& g = world.segments;
+  g.fields.resize(Index(model.shells.size()));
+  for (Index s = 0; s < g.size(); ++s) {
+    const ModelShell& shell = model.shells[s];
+    const ShellPart& part = parts[shell.part];
+    std::array<Index, 4> a;
+    for (int e = 0; e < 4; ++e) a[e] = position[shell.node[e]];
+    g.node0[s] = a[0], g.node1[s] = a[1], g.node2[s] = a[2], g.node3[s] = a[3];
+    g.part[s] = shell.part;
+    g.id[s] = shell.id;
+    const auto x = [&](int e) { return nodes.x.vec(a[e]); };
+    const Real area = 0.5 * (x(2) - x(0)).cross(x(3) - x(1)).norm();
+    if (!(area > 0))
+      diagnostics.error(
+          model.parts[shell.part].where,
+          fmt::format("*ELEMENT_SHELL {} of part {} has no area", shell.id, model.parts[shell.part].id),
+          "its nodes coincide or lie on a line");
+    if (!part.usable) continue;
+    g.thickness[s] = part.thickness;
+    g.K[s] = part.material.E / (3 * (1 - 2 * part.material.pr));
+    const int corners = a[2] == a[3] ? 3 : 4;
+    const Real m = (part.material.ro * part.thickness + part.marea) * area / corners;
+    for (int e = 0; e < corners; ++e) nodes.m[a[e]] += m;
+  }
+}
+
+}  // namespace courant
