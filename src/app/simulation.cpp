@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "model/build_model.hpp"
 #include "parallel/parallel.hpp"
 #include "shell/shell.hpp"
 
@@ -18,30 +19,42 @@ std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, cons
                                               Diagnostics& diagnostics) {
   std::unique_ptr<Simulation> s(new Simulation);
   s->deck_ = read_deck(deck_path, options, diagnostics);
+  if (!diagnostics.ok()) return nullptr;  // what could not be read would only cause more messages
   s->model_ = build_model(s->deck_, diagnostics);
-  const Model& model = s->model_;
-  s->materials_ = find_materials(s->deck_, model, diagnostics);
-  s->bodies_ = build_rigid_bodies(s->deck_, model, s->world_, diagnostics);
+  const bool model_is_whole = diagnostics.ok();
+  s->build_parts(diagnostics);
+  if (s->model_.sph.empty() && model_is_whole)
+    diagnostics.error({deck_path, 0, 0}, "the deck has no *ELEMENT_SPH: there is nothing to compute",
+                      "Courant needs at least one SPH particle");
+  if (model_is_whole) s->add_passes(diagnostics);
+  if (!diagnostics.ok()) return nullptr;
+  return s;
+}
+
+void Simulation::build_parts(Diagnostics& diagnostics) {
+  materials_ = find_materials(deck_, model_, diagnostics);
+  const auto shell_material = [&](Index part) -> std::optional<ShellMaterial> {
+    const auto m = rigid_material(deck_, model_, part);
+    if (!m) return std::nullopt;
+    return ShellMaterial{m->ro, m->E, m->pr};
+  };
+  build_segments(deck_, model_, shell_material, world_, diagnostics);
+  bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
   const auto sph_material = [&](Index part) -> SphMaterial {
-    const PartMaterial& m = s->materials_[part];
+    const PartMaterial& m = materials_[part];
     if (!m.found) return {};
     return {m.ro, m.eos->V0, m.mu, m.eos->uses_energy()};
   };
-  s->sph_ = build_particles(s->deck_, model, sph_material, s->world_, diagnostics);
-  if (model.sph.empty() && diagnostics.ok())
-    diagnostics.error({deck_path, 0, 0}, "the deck has no *ELEMENT_SPH: there is nothing to compute",
-                      "Courant needs at least one SPH particle");
-  if (diagnostics.ok()) s->add_passes(diagnostics);
-  if (!diagnostics.ok()) return nullptr;
-  return s;
+  sph_ = build_particles(deck_, model_, sph_material, world_, diagnostics);
 }
 
 void Simulation::add_passes(Diagnostics& diagnostics) {
   const Real h = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
   neighbours_ = std::make_shared<Neighbours>(skin_over_h * h, sph_.region);
-  add_eos_passes(world_, model_, materials_);
-  if (auto fixed = make_fixed_particles(model_, world_)) world_.constraints.push_back(fixed);
-  contacts_ = build_contacts(deck_, model_, world_, diagnostics);
+  if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
+  contacts_ = build_contacts(deck_, model_, {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->skin()}, world_,
+                             diagnostics);
+  if (!diagnostics.ok()) return;
   left_out_ = add_sph_passes(world_, sph_, neighbours_);
   if (!model_.body_loads.empty())
     world_.forces.push_back(make_gravity(model_, world_, neighbours_));
@@ -54,10 +67,23 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
     world_.energy_terms.push_back(contact);
   }
   if (contacts_.empty()) left_out_.push_back({"contact", "no *CONTACT"});
+  if (auto fixed = make_fixed_particles(model_, world_)) world_.constraints.push_back(fixed);
   world_.motions.push_back(make_particle_motion());
+  add_bodies();
   world_.time_limits.insert(world_.time_limits.begin(), make_sph_time_limit(sph_, model_));
   rules_.dtinit = model_.dtinit;
   if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
+}
+
+void Simulation::add_bodies() {
+  if (!bodies_ || !bodies_->any_moves()) {
+    left_out_.push_back({"rigid bodies", bodies_ ? "all are held in every direction" : "no *MAT_RIGID"});
+    return;
+  }
+  bodies_->set_gravity([loads = model_.body_loads](Real t) { return gravity_at(loads, t); });
+  world_.constraints.push_back(bodies_);
+  world_.motions.push_back(bodies_);
+  world_.energy_terms.push_back(bodies_);
 }
 
 void Simulation::step(const AtTimeLevel& at_time_level) {

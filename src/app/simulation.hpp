@@ -45,7 +45,9 @@ class Simulation {
 
  private:
   Simulation() = default;
+  void build_parts(Diagnostics& diagnostics);
   void add_passes(Diagnostics& diagnostics);
+  void add_bodies();
 
   Deck deck_;
   Model model_;

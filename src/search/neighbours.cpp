@@ -38,17 +38,27 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   }
   build_lists(world);
 
+  remember_places(world);
+  built_ = true;
+  built_at_ = clock.t;
+  ++rebuilds_;
+  for (auto& r : world.refreshes) r->refreshed(world, clock, old_of_new);
+  return true;
+}
+
+void Neighbours::remember_places(const World& world) {
+  const Particles& p = world.particles;
   const Index n = p.moving;
   for (auto* copy : {&x_built_, &y_built_, &z_built_, &h_built_}) copy->resize(n);
   std::copy_n(p.x.data(0), n, x_built_.data());
   std::copy_n(p.x.data(1), n, y_built_.data());
   std::copy_n(p.x.data(2), n, z_built_.data());
   std::copy_n(p.h.data(), n, h_built_.data());
-  built_ = true;
-  built_at_ = clock.t;
-  ++rebuilds_;
-  for (auto& r : world.refreshes) r->refreshed(world, clock, old_of_new);
-  return true;
+  if (rebuilds_ == 0)
+    for (Index k = 0; k < world.nodes.size(); ++k)
+      if (!world.nodes.held[k]) moving_nodes_.push_back(k);
+  nodes_built_.clear();
+  for (const Index k : moving_nodes_) nodes_built_.push_back(world.nodes.x.vec(k));
 }
 
 bool Neighbours::must_refresh(const World& world, const Clock& clock) const {
@@ -58,6 +68,8 @@ bool Neighbours::must_refresh(const World& world, const Clock& clock) const {
   const Real* region_low = region_ ? region_->low.data() : nullptr;
   const Real* region_high = region_ ? region_->high.data() : nullptr;
   const Real reach = 0.5 * skin_;
+  for (std::size_t k = 0; k < moving_nodes_.size(); ++k)
+    if (!((world.nodes.x.vec(moving_nodes_[k]) - nodes_built_[k]).norm() < reach)) return true;
   // 1 where a particle moved too far, grew too much, or crossed the border of the box
   const Real moved = maximum(p.moving, [&](Index i) -> Real {
     const Real dx = x[i] - x_built_[i], dy = y[i] - y_built_[i], dz = z[i] - z_built_[i];

@@ -10,7 +10,8 @@
 namespace courant {
 
 /// Sorts particles by cell, sets which of them are active, and keeps a Verlet list for each active particle: every particle
-/// within 2 max(h_i, h_j) + skin. The lists hold until something moved (or grew) by half the skin. Each list is filled up
+/// within 2 max(h_i, h_j) + skin. The lists hold until something (particles, or shell
+/// nodes that contact looks at) moved or grew by half the skin. Each list is filled up
 /// with the padding particle (index `particles.size()`) to a multiple of `lanes`, so that pair loops need no remainder.
 class Neighbours {
  public:
@@ -65,6 +66,7 @@ class Neighbours {
   void make_grid(const World& world, const std::vector<signed char>& group, Real cell_size);
   std::vector<Index> sorted_order(World& world, const std::vector<signed char>& group);
   void build_lists(const World& world);
+  void remember_places(const World& world);
   void search_around(const World& world, Index i, std::vector<Index>& found, Index& count) const;
   std::array<Index, 3> cell_of(Real x, Real y, Real z) const;
 
@@ -77,6 +79,8 @@ class Neighbours {
   Grid grid_;
   std::vector<Index> active_start_, rim_start_;  ///< first sorted particle of each cell, one longer than the cells
   std::vector<Block> blocks_;
+  std::vector<Index> moving_nodes_;  ///< shell nodes that are not held: contact relies on the skin, too
+  std::vector<Vec> nodes_built_;
   Array<Real> x_built_, y_built_, z_built_, h_built_;
   std::vector<Index> entered_, left_;
   std::int64_t rebuilds_ = 0;
