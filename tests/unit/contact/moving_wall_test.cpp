@@ -61,7 +61,9 @@ void collide(Real friction) {
   EXPECT_NEAR((P1 - P0).norm(), 0, 1e-15);
   EXPECT_EQ(s.world.counters.at("leaked_particles"), 0);
   // friction acts at the wall, up to r away from the particle, and this couple is not balanced
-  if (friction == 0) EXPECT_NEAR((L1 - L0).norm(), 0, 1e-15);
+  if (friction == 0) {
+    EXPECT_NEAR((L1 - L0).norm(), 0, 1e-15);
+  }
 }
 
 TEST(MovingWall, MomentumOfParticlesAndFreePlateIsKept) {
