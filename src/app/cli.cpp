@@ -225,9 +225,9 @@ int command_line(int argc, char** argv) {
   if (*keywords) return call_keywords(call);
   if (*generate) return call_generate(call);
   if (*post) return call_post(call);
-  const CLI::App* about = topic.empty() ? &app : app.get_subcommand_no_throw(topic);
-  fmt::print("{}", (about ? about : &app)->help());
-  return about ? exit_ok : exit_input;
+  const auto calls = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == topic; });
+  fmt::print("{}", (calls.empty() ? &app : calls.front())->help());
+  return topic.empty() || !calls.empty() ? exit_ok : exit_input;
 }
 
 }  // namespace courant

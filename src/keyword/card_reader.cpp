@@ -50,7 +50,8 @@ void CardReader::read(const Block& block) {
       diagnostics_.error(
           here(1),
           fmt::format("*{}: one line too many", spec_->names[static_cast<std::size_t>(block_.match.name)]),
-          "the keyword takes one set of cards; compare `courant keywords " + spec_->names[0] + "`");
+          "the keyword takes one set of cards; compare `courant keywords " +
+              spec_->names[static_cast<std::size_t>(block_.match.name)] + "`");
       break;
     }
     const std::size_t before = data.index();
@@ -155,7 +156,7 @@ void CardReader::read_card(const DataLines& data, std::size_t card, EntrySink& s
   if (too_many > 0)
     diagnostics_.warning(
         here(1),
-        fmt::format("*{}: card {} has {} fields, the {} values behind them are not read",
+        fmt::format("*{}: card {} has {} fields; values behind them ({}) are not read",
                     spec_->names[static_cast<std::size_t>(block_.match.name)], card + 1, fields, too_many));
 }
 
@@ -271,10 +272,10 @@ void CardReader::field_error(std::size_t card, std::size_t field, const Slice& s
 }
 
 void CardReader::missing(const DataLines& data, const std::string& what) {
-  line_ = static_cast<int>(std::min(data.index() + 1, block_.source->lines.size()));
+  line_ = static_cast<int>(data.index());  // the last line that is there
   const std::string name = spec_->names[static_cast<std::size_t>(block_.match.name)];
   diagnostics_.error(here(1), fmt::format("*{}: {} is missing", name, what),
-                     fmt::format("`courant keywords {}` shows its cards", spec_->names[0]));
+                     fmt::format("`courant keywords {}` shows its cards", name));
 }
 
 }  // namespace courant

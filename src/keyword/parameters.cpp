@@ -41,7 +41,13 @@ void Parameters::define(std::string_view declaration, std::string_view value, co
     diagnostics.error(where, fmt::format("*PARAMETER: '{}' has no name after the type letter", declaration));
     return;
   }
-  Value out{type, std::string(value), where};
+  if (name.find(' ') != std::string_view::npos) {
+    diagnostics.error(where, fmt::format("*PARAMETER: the name '{}' contains a blank", name),
+                      "names stand in columns 1-10, 21-30, 41-50, 61-70 and values in the columns behind "
+                      "them, or commas separate");
+    return;
+  }
+  Value out{std::string(name), type, std::string(value), where};
   if (is_reference(value)) {
     const Value* other = find(value);
     if (!other) {
@@ -82,7 +88,8 @@ std::string Parameters::nearest(std::string_view reference) const {
   std::vector<std::string> names;
   for (const auto& [name, value] : values_) names.push_back(name);
   const std::string near = nearest_word(name_of(reference), names);
-  return near.empty() ? "define it with *PARAMETER above its use" : fmt::format("did you mean &{}?", near);
+  return near.empty() ? "define it with *PARAMETER above its use"
+                      : fmt::format("did you mean &{}?", values_.at(near).name);
 }
 
 void Parameters::check_overrides(const std::string& deck, Diagnostics& diagnostics) const {
@@ -93,7 +100,7 @@ void Parameters::check_overrides(const std::string& deck, Diagnostics& diagnosti
     const std::string near = nearest_word(key, names);
     diagnostics.error({deck, 0, 0},
                       fmt::format("--param {}: the deck has no *PARAMETER of that name", given.name),
-                      near.empty() ? "" : fmt::format("did you mean {}?", near));
+                      near.empty() ? "" : fmt::format("did you mean {}?", values_.at(near).name));
   }
 }
 

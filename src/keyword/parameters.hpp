@@ -12,6 +12,7 @@ namespace courant {
 class Parameters {
  public:
   struct Value {
+    std::string name;  ///< as declared
     char type = 'R';   ///< R real, I integer
     std::string text;  ///< as written in the deck or given on the command line
     Location where;

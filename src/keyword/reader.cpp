@@ -62,7 +62,7 @@ class Reader {
       ++line;
       while (line < count && (file.source->lines[line].empty() || file.source->lines[line][0] != '*')) ++line;
     }
-    if (main && !ended && !cards_.full())
+    if (main && !ended && !cards_.full() && !deck_.keyword_counts.empty())
       diagnostics_.warning({name, static_cast<int>(count), 0}, "*END is missing: is the deck complete?");
     open_files_.pop_back();
   }

@@ -89,7 +89,7 @@ void ModelBuilder::build_curves() {
     curve.id = card.lcid;
     if (card.a.empty())
       error(card, "A1", "the curve has no points", "give one point per line: abscissa, ordinate");
-    for (std::size_t i = 0; i < card.a.size(); ++i) {
+    for (std::size_t i = 0; i < std::min(card.a.size(), card.o.size()); ++i) {
       curve.abscissa.push_back(card.sfa * (card.a[i] + card.offa));
       curve.ordinate.push_back(card.sfo * (card.o[i] + card.offo));
     }
