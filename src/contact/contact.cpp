@@ -70,6 +70,7 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
   Real radius = radius_all_;
   limit_ = infinity;
   for (Index i = 0; i < p.size(); ++i) {
+    (*k_particle_)[i] = 0;
     if (!tracked[i]) continue;
     const Real dx = std::pow(p.m[i] / p.rho[i], 1.0 / world.dim);
     // rho c^2 A^2 / V of a cube of the particle's volume; in 2D per unit depth

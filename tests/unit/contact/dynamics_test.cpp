@@ -1,0 +1,201 @@
+#include <gtest/gtest.h>
+
+#include "parallel/parallel.hpp"
+#include "scene.hpp"
+
+using namespace courant;
+using courant::test::Scene;
+
+namespace {
+
+struct Random {
+  std::uint64_t seed = 12345;
+  Real operator()() {
+    seed = seed * 6364136223846793005ull + 1442695040888963407ull;
+    return Real(seed >> 11) / 9007199254740992.0;
+  }
+};
+
+TEST(ContactDynamics, BounceConservesEnergy) {
+  Scene s;
+  s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0), 2, 2);
+  s.x = {Vec(0.04, 0.04, 0.05)};
+  s.v = {Vec(0.1, 0, 0)};
+  s.build();
+  const Real dt = 0.1 * s.contact->limit(s.world, s.clock).dt, g = 9.81;
+  Real highest = 0;
+  bool down = false;
+  for (int n = 0; s.clock.t < 0.30; ++n) {
+    s.step(dt, Vec(0, 0, -g));
+    const Real z = s.world.particles.x.vec(0).z();
+    down = down || z < 0.0099;
+    if (down && s.world.particles.v.vec(0).z() > 0) highest = 0;
+    highest = std::max(highest, z);
+  }
+  EXPECT_TRUE(down);
+  const Vec v = s.world.particles.v.vec(0);
+  const Real energy = s.kinetic() + s.m * g * s.world.particles.x.vec(0).z();
+  const Real before = 0.5 * s.m * 0.01 + s.m * g * 0.05;
+  EXPECT_NEAR(energy, before, 0.01 * before);
+  EXPECT_NEAR(v.x(), 0.1, 1e-12);
+  EXPECT_EQ(s.world.counters.at("leaked_particles"), 0);
+}
+
+TEST(ContactDynamics, DampingDissipatesWhatTheLedgerSays) {
+  Scene s;
+  s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0), 2, 2);
+  s.x = {Vec(0.04, 0.04, 0.012)};
+  s.v = {Vec(0, 0, -0.3)};
+  s.law.vdc = 30;
+  s.build();
+  const Real dt = 0.02 * s.contact->limit(s.world, s.clock).dt, before = s.kinetic();
+  while (s.world.particles.x.vec(0).z() < 0.0121) s.step(dt);
+  EXPECT_LT(s.kinetic(), 0.6 * before);
+  EXPECT_NEAR(s.kinetic() + s.world.energy.dissipated, before, 0.01 * before);
+  EXPECT_NEAR(s.contact->report().energy_damping, s.world.energy.dissipated, 1e-15);
+}
+
+TEST(ContactDynamics, FrictionStopsASlide) {
+  Scene s;
+  s.plate(Vec(-0.05, 0, 0), Vec(0.5, 0, 0), Vec(0, 0.1, 0), 50, 10);
+  s.law.fs = s.law.fd = 0.3;
+  const Real g = 9.81, k = 0.1 * s.rho * s.c * s.c * std::cbrt(s.m / s.rho);
+  s.x = {Vec(0, 0.043, 0.01 - s.m * g / k)};
+  s.v = {Vec(1, 0, 0)};
+  s.build();
+  const Real dt = 0.2 * s.contact->limit(s.world, s.clock).dt;
+  while (s.clock.t < 0.6) s.step(dt, Vec(0, 0, -g));
+  EXPECT_NEAR(s.world.particles.x.vec(0).x(), 1 / (2 * 0.3 * g), 0.01 / (2 * 0.3 * g));
+  EXPECT_LT(std::abs(s.world.particles.v.vec(0).x()), 0.02);
+  EXPECT_NEAR(s.contact->report().energy_friction, 0.5 * s.m, 0.02 * s.m);
+}
+
+TEST(ContactDynamics, NoParticleLeavesABoxOfSeparatePatches) {
+  for (const int soft : {0, 1}) {
+    Scene s;
+    s.thickness = 0.004;
+    const Real a = 0.1;
+    const Vec o = Vec::Zero(), X(a, 0, 0), Y(0, a, 0), Z(0, 0, a);
+    s.plate(o, X, Y, 7, 5), s.plate(Z, X, Y, 4, 9);
+    s.plate(o, X, Z, 3, 8), s.plate(Y, X, Z, 6, 6);
+    s.plate(o, Y, Z, 11, 2), s.plate(X, Y, Z, 5, 5);
+    s.law.soft = soft;
+    s.law.sofscl = 0.5;
+    Random random;
+    for (int i = 0; i < 400; ++i) {
+      s.x.push_back(Vec(0.005 + 0.09 * random(), 0.005 + 0.09 * random(), 0.005 + 0.09 * random()));
+      // up to half of the speed that takes a particle through r, many hits straight into edges and corners
+      s.v.push_back(0.6 * Vec(random() - 0.5, random() - 0.5, random() - 0.5));
+      if (i % 3 == 0) s.v.back() = (0.3 / a) * (Vec(i % 2, (i / 2) % 2, (i / 4) % 2) * a - s.x.back());
+    }
+    s.build();
+    const Real dt = 0.2 * s.contact->limit(s.world, s.clock).dt, before = s.kinetic();
+    while (s.clock.t < 2.0) s.step(dt);
+    for (Index i = 0; i < s.world.particles.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_GT(s.world.particles.x.vec(i)[k], 0);
+        EXPECT_LT(s.world.particles.x.vec(i)[k], a);
+      }
+    EXPECT_NEAR(s.kinetic() + s.contact->report().energy_stored, before, 0.02 * before) << "SOFT " << soft;
+    EXPECT_EQ(s.world.counters.at("leaked_particles"), 0);
+    EXPECT_GT(s.world.maxima.at("max_penetration"), 0.0005);
+  }
+}
+
+// So fast that mid-surfaces are crossed all the time: each particle is counted once, and pulled back also
+// from beyond edges and corners.
+TEST(ContactDynamics, ParticlesBeyondTheMidSurfaceComeBack) {
+  Scene s;
+  s.thickness = 0.004;
+  s.options.reach_margin = 0.05;
+  const Real a = 0.1;
+  const Vec o = Vec::Zero(), X(a, 0, 0), Y(0, a, 0), Z(0, 0, a);
+  s.plate(o, X, Y, 7, 5), s.plate(Z, X, Y, 4, 9);
+  s.plate(o, X, Z, 3, 8), s.plate(Y, X, Z, 6, 6);
+  s.plate(o, Y, Z, 11, 2), s.plate(X, Y, Z, 5, 5);
+  Random random;
+  for (int i = 0; i < 300; ++i) {
+    s.x.push_back(Vec(0.01 + 0.08 * random(), 0.01 + 0.08 * random(), 0.01 + 0.08 * random()));
+    s.v.push_back(8.0 * Vec(random() - 0.5, random() - 0.5, random() - 0.5));
+    if (i % 3 == 0) s.v.back() = (5.0 / a) * (Vec(i % 2, (i / 2) % 2, (i / 4) % 2) * a - s.x.back());
+  }
+  s.build();
+  const Real dt = 0.1 * s.contact->limit(s.world, s.clock).dt, before = s.kinetic();
+  Real farthest = 0;
+  while (s.clock.t < 0.5) {
+    s.step(dt, Vec::Zero(), 3);
+    for (Index i = 0; i < s.world.particles.size(); ++i)
+      farthest = std::max(farthest,
+                          (s.world.particles.x.vec(i) - Vec(0.05, 0.05, 0.05)).cwiseAbs().maxCoeff() - 0.05);
+  }
+  EXPECT_GT(s.world.counters.at("leaked_particles"), 100);
+  EXPECT_LE(s.world.counters.at("leaked_particles"), 300);
+  EXPECT_GT(farthest, 0.002);
+  EXPECT_LT(farthest, 0.03);
+  EXPECT_NEAR(s.kinetic() + s.contact->report().energy_stored, before, 0.05 * before);
+}
+
+TEST(ContactDynamics, SameBitsOnAnyNumberOfThreads) {
+  std::vector<Real> first;
+  for (const int n : {1, 2, 4}) {
+    set_threads(n);
+    Scene s;
+    s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0), 5, 5);
+    s.law.fs = s.law.fd = 0.2;
+    s.law.vdc = 10;
+    Random random;
+    for (int i = 0; i < 2000; ++i) {
+      s.x.push_back(Vec(0.1 * random(), 0.1 * random(), 0.012));
+      s.v.push_back(Vec(random(), 0, -0.5 * random()));
+    }
+    s.build();
+    for (int k = 0; k < 50; ++k) s.step(0.1 * s.contact->limit(s.world, s.clock).dt);
+    std::vector<Real> now;
+    for (Index i = 0; i < s.world.particles.size(); ++i)
+      for (int k = 0; k < 3; ++k) now.push_back(s.world.particles.x.vec(i)[k]);
+    for (int k = 0; k < 3; ++k) now.push_back(s.contact->report().on_surfa[k]);
+    if (first.empty()) first = now;
+    EXPECT_TRUE(first == now) << n << " threads";
+  }
+  set_threads(0);
+}
+
+TEST(ContactDynamics, BirthAndDeath) {
+  Scene s;
+  s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0));
+  s.x = {Vec(0.05, 0.05, 0.005)};
+  s.law.birth = 1, s.law.death = 2;
+  s.build();
+  EXPECT_EQ(s.force(Vec(0.05, 0.05, 0.005)).norm(), 0);
+  s.clock.t = 1.5;
+  EXPECT_GT(s.force(Vec(0.05, 0.05, 0.005)).z(), 0);
+  s.clock.t = 2.5;
+  EXPECT_EQ(s.force(Vec(0.05, 0.05, 0.005)).norm(), 0);
+}
+
+TEST(ContactDynamics, PenaltyStiffnessFollowsPenopt) {
+  for (const int penopt : {1, 2, 3}) {
+    Scene s;
+    s.K = 1e5;  // soft wall
+    s.law.penopt = penopt;
+    s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0));
+    s.x = {Vec(0, 0, 1)};
+    s.build();
+    const Real k_seg = 0.1 * s.K * 0.01 / (0.1 * std::sqrt(2.0)), k_node = 0.1 * s.rho * s.c * s.c * 0.01;
+    const Real k = penopt == 1 ? std::min(k_seg, k_node) : penopt == 2 ? k_seg : k_node;
+    EXPECT_NEAR(s.force(Vec(0.05, 0.05, 0.005)).z(), k * 0.005, 1e-9 * k);
+  }
+}
+
+TEST(ContactDynamics, InitialPenetrationsAreCounted) {
+  Scene s;
+  s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0));
+  s.x = {Vec(0.05, 0.05, 0.01), Vec(0.05, 0.05, 0.008), Vec(0.05, 0.05, 0.003), Vec(0.05, 0.05, 0.05)};
+  s.build();
+  const auto p = s.contact->penetrations(s.world);
+  EXPECT_EQ(p.count, 2);
+  EXPECT_NEAR(p.deepest, 0.007, 1e-12);
+  EXPECT_EQ(p.particle, 3);
+}
+
+}  // namespace
