@@ -37,9 +37,10 @@ TEST(StillWater, SettlesToHydrostaticPressureWithoutDrift) {
   const Real depth = 0.5, g = 9.81, rho0 = 1000, dx = depth / 40;
   auto s = test::simulation("still_water", {{"resolution", "40"}, {"endtim", "5"}});
   const auto nothing = [](World&, const Clock&, const std::string&) {};
-  const int layers = 10;
+  const int layers = 20;
   std::vector<Real> mean(layers, 0);
   int samples = 0;
+  Real carried_force = 0;
   Real kinetic_at_4 = 0, surface_at_2 = 0, next = 3;
   while (s->clock().t < 5) {
     s->step(nothing);
@@ -47,22 +48,29 @@ TEST(StillWater, SettlesToHydrostaticPressureWithoutDrift) {
     if (s->clock().t > next) {  // pressure means over 3 to 5 s
       const auto now = pressure_of_layers(s->world(), depth, layers);
       for (int k = 0; k < layers; ++k) mean[k] += now[k];
+      carried_force += s->contacts()[0]->report().on_surfa[1];
       ++samples;
       next += 0.01;
       sample_energy(s->world(), s->clock());
       if (s->clock().t < 4) kinetic_at_4 = std::max(kinetic_at_4, s->world().energy.kinetic);
     }
   }
-  Real largest_error = 0;
+  // Within a kernel support (2.4 dx: the lowest layer and a bit) of the bed, neighbours are missing on one side: the plain
+  // sums of eq. 17 then need a higher pressure to carry the same weight. That layer has its own, looser bound.
+  Real largest_error = 0, bed_error = 0;
   for (int k = 0; k < layers; ++k) {
     const Real y = (k + 0.5) * depth / layers;
-    const Real error = (mean[k] / samples - rho0 * g * (depth - y)) / (rho0 * g * depth);
-    largest_error = std::max(largest_error, std::abs(error));
-    RecordProperty("layer_" + std::to_string(k), std::to_string(error));
+    const Real error = std::abs(mean[k] / samples - rho0 * g * (depth - y)) / (rho0 * g * depth);
+    (k < 2 ? bed_error : largest_error) = std::max(k < 2 ? bed_error : largest_error, error);
   }
-  std::printf("largest pressure error %.3f %% of rho g depth, surface %.4f m at 2 s, %.4f m at 5 s\n", 100 * largest_error, surface_at_2,
-              surface(s->world()));
+  const Real weight = rho0 * g * depth * depth;
+  const Real carried = carried_force / samples;
+  std::printf("pressure error %.2f %% of rho g depth, %.2f %% at the bed; the bed carries %.4f of the weight; surface %.4f m at 2 s, "
+              "%.4f m at 5 s\n",
+              100 * largest_error, 100 * bed_error, carried / weight, surface_at_2, surface(s->world()));
   EXPECT_LT(largest_error, 0.02);
+  EXPECT_LT(bed_error, 0.12);
+  EXPECT_NEAR(carried / weight, 1, 0.005);
   EXPECT_NEAR(surface(s->world()), surface_at_2, 0.25 * dx);
   sample_energy(s->world(), s->clock());
   const Real wave_energy = 0.5 * rho0 * depth * depth * g * depth;  // the column's potential energy, as a scale
