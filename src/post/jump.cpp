@@ -98,6 +98,7 @@ JumpResult evaluate_jump(const JumpRecipe& recipe, const std::string& case_name,
                  .case_name = case_name,
                  .intervals = {},
                  .front_time = std::nullopt,
+                 .turn = std::nullopt,
                  .series = std::move(series)};
   for (const Interval& interval : recipe.intervals) {
     IntervalResult result = evaluate_interval(interval, out.series, out.d2_theory);
@@ -110,6 +111,9 @@ JumpResult evaluate_jump(const JumpRecipe& recipe, const std::string& case_name,
   }
   for (std::size_t i = 0; i < out.series.front.size() && !out.front_time; ++i)
     if (out.series.front[i] > recipe.front_threshold * recipe.d1) out.front_time = out.series.t[i];
+  for (std::size_t i = 0; i < out.series.toe.size(); ++i)
+    if (!std::isnan(out.series.toe[i]) && (!out.turn || out.series.toe[i] > out.turn->second))
+      out.turn = {out.series.t[i], out.series.toe[i]};
   return out;
 }
 
@@ -139,11 +143,14 @@ std::string jump_text(const JumpRecipe& recipe, const JumpResult& result) {
                          r.states == 0 ? "do not reach" : "cover only a part of");
   }
   if (recipe.front_x)
-    out += result.front_time ? fmt::format("The wave reaches x = {:g} m at t = {:.3f} s (depth > {:g} d1)\n",
+    out += result.front_time ? fmt::format("The first wave passes x = {:g} m at t = {:.3f} s (depth > {:g} d1)\n",
                                            *recipe.front_x, *result.front_time, recipe.front_threshold)
                              : fmt::format("The wave does not reach x = {:g} m by t = {:.3g} s\n",
                                            *recipe.front_x, s.t.back());
   if (!s.toe.empty()) out += toe_text(recipe, s);
+  if (result.turn)
+    out += fmt::format("The jump is furthest downstream at t = {:.3f} s, toe at x = {:.3f} m\n", result.turn->first,
+                       result.turn->second);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "post/recipe.hpp"
@@ -41,6 +42,8 @@ struct JumpResult {
   std::string case_name;  ///< empty: unknown
   std::vector<IntervalResult> intervals;
   std::optional<Real> front_time;  ///< [T]
+  /// When and where the toe stood furthest downstream: the jump has reached the weir and turns back [T], [L]
+  std::optional<std::pair<Real, Real>> turn;
   JumpSeries series;
 };
 

@@ -163,6 +163,10 @@ YAML::Node jump_node(const JumpRecipe& recipe, const JumpResult& jump) {
   }
   if (recipe.front_x) out["front"]["x"] = digits(*recipe.front_x);
   if (jump.front_time) out["front"]["time"] = digits(*jump.front_time);
+  if (jump.turn) {
+    out["turn"]["time"] = digits(jump.turn->first);
+    out["turn"]["x"] = digits(jump.turn->second);
+  }
   if (!jump.series.toe.empty() && !std::isnan(jump.series.toe.back()))
     out["toe_at_end"] = digits(jump.series.toe.back());
   return out;

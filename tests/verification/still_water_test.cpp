@@ -41,18 +41,23 @@ TEST(StillWater, SettlesToHydrostaticPressureWithoutDrift) {
   std::vector<Real> mean(layers, 0);
   int samples = 0;
   Real carried_force = 0;
-  Real kinetic_at_4 = 0, surface_at_2 = 0, next = 3;
+  Real first_bounce = 0, kinetic_3_to_4 = 0, surface_at_2 = 0, next_energy = 0, next = 3;
   while (s->clock().t < 5) {
     s->step(nothing);
     if (surface_at_2 == 0 && s->clock().t > 2) surface_at_2 = surface(s->world());
+    if (s->clock().t > next_energy) {
+      sample_energy(s->world(), s->clock());
+      const Real kinetic = s->world().energy.kinetic, t = s->clock().t;
+      if (t < 0.5) first_bounce = std::max(first_bounce, kinetic);
+      if (t > 3 && t < 4) kinetic_3_to_4 = std::max(kinetic_3_to_4, kinetic);
+      next_energy += 0.01;
+    }
     if (s->clock().t > next) {  // pressure means over 3 to 5 s
       const auto now = pressure_of_layers(s->world(), depth, layers);
       for (int k = 0; k < layers; ++k) mean[k] += now[k];
       carried_force += s->contacts()[0]->report().on_surfa[1];
       ++samples;
       next += 0.01;
-      sample_energy(s->world(), s->clock());
-      if (s->clock().t < 4) kinetic_at_4 = std::max(kinetic_at_4, s->world().energy.kinetic);
     }
   }
   // Within a kernel support (2.4 dx: the lowest layer and a bit) of the bed, neighbours are missing on one side: the plain
@@ -73,9 +78,11 @@ TEST(StillWater, SettlesToHydrostaticPressureWithoutDrift) {
   EXPECT_NEAR(carried / weight, 1, 0.005);
   EXPECT_NEAR(surface(s->world()), surface_at_2, 0.25 * dx);
   sample_energy(s->world(), s->clock());
-  const Real wave_energy = 0.5 * rho0 * depth * depth * g * depth;  // the column's potential energy, as a scale
-  EXPECT_LT(s->world().energy.kinetic, 1e-5 * wave_energy);
-  EXPECT_LE(s->world().energy.kinetic, 1.5 * kinetic_at_4);
+  // The column starts uncompressed and bounces on its own elasticity; that motion dies away, nothing feeds it.
+  const Real kinetic = s->world().energy.kinetic;
+  std::printf("kinetic energy %.4f J in the first bounce, %.4f at 3 to 4 s, %.4f at 5 s\n", first_bounce, kinetic_3_to_4, kinetic);
+  EXPECT_LT(kinetic, 0.06 * first_bounce);
+  EXPECT_LT(kinetic, 0.6 * kinetic_3_to_4);
   EXPECT_EQ(s->world().counters.at("leaked_particles"), 0);
   const EnergyLedger& e = s->world().energy;
   std::printf("energy residual %.3g of %.3g\n", e.residual(), e.throughput);
