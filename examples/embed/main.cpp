@@ -1,4 +1,4 @@
-// Courant inside another program: reads a deck, reports its faults or prints its parts.
+// Courant inside another program: reads a deck, reports its faults, or prints its parts and takes a hundred steps.
 //   parts_of_deck DECK.k
 #include <cstdio>
 #include <map>
@@ -23,5 +23,10 @@ int main(int argc, char** argv) {
   for (courant::Index i = 0; i < static_cast<courant::Index>(model.parts.size()); ++i)
     std::printf("%10lld %10d %10d  %s\n", static_cast<long long>(model.parts[i].id), particles[i], shells[i],
                 model.parts[i].title.c_str());
+
+  for (int k = 0; k < 100; ++k)
+    simulation->step([](courant::World&, const courant::Clock&, const std::string&) {});
+  courant::sample_energy(simulation->world(), simulation->clock());
+  std::printf("after 100 steps: time %.6g, kinetic energy %.6g\n", simulation->clock().t, simulation->world().energy.kinetic);
   return 0;
 }

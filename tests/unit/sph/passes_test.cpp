@@ -130,6 +130,29 @@ TEST(Momentum, GivesTheGradientOfALinearPressure) {
   }
 }
 
+TEST(ViscousStress, GivesTheForceOfACurvedVelocityProfile) {
+  // v_x = a y^2 in a fluid of viscosity MU: dv_x/dt = 2 a MU / rho, the term of eqs 7 and 12
+  for (const int dim : {2, 3}) {
+    Cloud cloud(dim, dim == 2 ? 25 : 15, 0.01, 0, 1.2);
+    World& w = cloud.world;
+    const Real a = 40, mu = 3;
+    for (Index i = 0; i < w.particles.size(); ++i) w.particles.v.set(i, {a * std::pow(w.particles.x.vec(i)[1], 2), 0, 0});
+    cloud.settings.mu.assign(1, mu);
+    cloud.settings.q.assign(1, {0, 0});
+    auto continuity = make_continuity(cloud.settings, w, cloud.neighbours);
+    auto stress = make_viscous_stress(cloud.settings, w);
+    auto momentum = make_momentum(cloud.settings, w, cloud.neighbours);
+    cloud.refresh();
+    continuity->evaluate(w, cloud.clock);
+    stress->update(w, cloud.clock);
+    momentum->add(w, cloud.clock);
+    const Index i = middle(w);
+    const Real expected = 2 * a * mu / 1000;
+    EXPECT_NEAR(w.particles.f.vec(i)[0] / w.particles.m[i], expected, 0.05 * expected) << dim << "D";
+    EXPECT_NEAR(w.particles.f.vec(i)[1] / w.particles.m[i], 0, 1e-9);
+  }
+}
+
 TEST(Monaghan, ActsOnApproachOnlyAndHasTheSizeOfEquation15) {
   Cloud cloud(2, 2, 0.01, 0);
   World& w = cloud.world;
