@@ -1,13 +1,18 @@
 #!/usr/bin/env bash
 # From a bare Debian 12 to tested: installs what is missing, builds, runs every test. The last line: N passed, N failed.
-#   bash tests/run.sh [--warnings-as-errors] [options of ctest, such as -R NAME]
+#   bash tests/run.sh [--warnings-as-errors] [--again] [options of ctest, such as -R NAME]
+# When nothing has changed since all tests passed here, it says so and stops; --again runs them all the same.
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/lib/setup.sh"
 options=(-DCOURANT_TESTS=ON)
-if [ "${1:-}" = --warnings-as-errors ]; then
-  options+=(-DCOURANT_WARNINGS_AS_ERRORS=ON)
-  shift
-fi
+again=${CI:-}
+while true; do
+  case ${1:-} in
+    --warnings-as-errors) options+=(-DCOURANT_WARNINGS_AS_ERRORS=ON); shift ;;
+    --again) again=yes; shift ;;
+    *) break ;;
+  esac
+done
 cd "$project" || stop "the folder $project cannot be entered."
 
 install_packages "${build_packages[@]}" "${picture_packages[@]}" "${test_packages[@]}"
@@ -18,6 +23,15 @@ for option in "${options[@]}"; do
 done
 if [ $settled = yes ]; then configure; else configure "${options[@]}"; fi
 build_targets
+
+passed=$logs/tests.passed  # the closing line of the last run in which every test passed
+if [ -z "$again" ] && [ $# -eq 0 ] && [ -f "$passed" ] &&
+  [ -z "$(find src tests keyword_decks examples docs CMakeLists.txt README.md "$build"/courant "$build"/libcourant.so \
+    "$build"/tests/*_tests -newer "$passed" -type f -not -path '*/__pycache__*' -print -quit)" ]; then
+  say "Nothing has changed since all tests passed here ($(date -r "$passed" '+%F %T')); --again runs them."
+  cat "$passed"
+  exit 0
+fi
 
 # Only what failed is printed, and a count now and then.
 show_tests() {
@@ -35,4 +49,5 @@ summary=$(grep -E 'tests passed, [0-9]+ tests? failed out of [0-9]+' "$logs/test
 failed=$(printf '%s' "$summary" | sed -E 's/.*passed, ([0-9]+) tests? failed out of.*/\1/')
 total=$(printf '%s' "$summary" | sed -E 's/.*out of ([0-9]+).*/\1/')
 printf '%d passed, %d failed\n' $((total - failed)) "$failed"
-[ "$failed" -eq 0 ] && [ "$status" -eq 0 ]
+[ "$failed" -eq 0 ] && [ "$status" -eq 0 ] || exit 1
+[ $# -gt 0 ] || printf '%d passed, 0 failed\n' "$total" >"$passed"

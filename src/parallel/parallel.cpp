@@ -1,6 +1,9 @@
 #include "parallel/parallel.hpp"
 
 #include <omp.h>
+#include <unistd.h>
+
+#include <cstdlib>
 
 namespace courant {
 
@@ -11,6 +14,12 @@ int wanted_threads = 0;
 void set_threads(int threads) {
   wanted_threads = threads > 0 ? threads : omp_get_num_procs();
   omp_set_num_threads(wanted_threads);
+}
+
+void let_waiting_threads_sleep(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
+  setenv("OMP_WAIT_POLICY", "passive", 1);
+  execv("/proc/self/exe", argv);  // returns only if it failed: then threads spin, which is slower but right
 }
 
 int threads() { return wanted_threads > 0 ? wanted_threads : omp_get_max_threads(); }
