@@ -14,6 +14,7 @@
 #include "app/simulation.hpp"
 #include "generate/generate.hpp"
 #include "keyword/registry.hpp"
+#include "keyword/source.hpp"
 #include "output/file.hpp"
 #include "parallel/parallel.hpp"
 #include "post/post.hpp"
@@ -64,7 +65,7 @@ std::unique_ptr<Simulation> build(const Call& call, std::vector<std::string>& wa
   for (const Diagnostic& d : diagnostics.all())
     if (d.severity == Severity::warning) warnings.push_back(d.text());
   if (call.strict && !warnings.empty()) {
-    print_error(fmt::format("{} warnings are errors with --strict\n", warnings.size()));
+    print_error(fmt::format("{} warning{} and --strict: refused\n", warnings.size(), warnings.size() == 1 ? "" : "s"));
     return nullptr;
   }
   return simulation;
@@ -81,6 +82,7 @@ int call_run(const Call& call) {
   if (!simulation) return exit_input;
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then a failed write, with a message and a summary
   RunOptions options;
   options.dir = call.dir, options.until = call.until, options.warnings = warnings, options.stop = &stop_requested;
   const bool terminal = isatty(STDOUT_FILENO) != 0;
@@ -129,7 +131,11 @@ int call_keywords(const Call& call) {
   }
   const std::string help = keyword_help(call.keyword);
   if (help.empty()) {
-    print_error(fmt::format("error: '{}' is not a supported keyword\n  hint: `courant keywords` lists them\n", call.keyword));
+    std::string name = upper_case(call.keyword);
+    if (!name.empty() && name[0] == '*') name.erase(0, 1);
+    const std::string near = KeywordIndex().hint(name);
+    print_error(fmt::format("error: '{}' is not a supported keyword\n  hint: {}\n", call.keyword,
+                            near.empty() ? "`courant keywords` lists them" : near));
     return exit_input;
   }
   fmt::print("{}", help);
@@ -167,7 +173,7 @@ std::vector<std::string> translate_habits(int argc, char** argv) {
       out.push_back(word.substr(2));
     } else if (word.rfind("ncpu=", 0) == 0) {
       out.push_back("--threads");
-      out.push_back(std::to_string(std::abs(std::atoi(word.c_str() + 5))));
+      out.push_back(word.substr(word.rfind("ncpu=-", 0) == 0 ? 6 : 5));  // LS-DYNA's sign means another order of sums
     } else if (word.rfind("memory=", 0) != 0) {
       out.push_back(word);
     }
@@ -216,6 +222,15 @@ int command_line(int argc, char** argv) {
   help->add_option("CALL", topic, "run, check, keywords, generate or post");
 
   std::vector<std::string> words = translate_habits(argc, argv);
+  std::vector<std::string> calls;
+  for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; })) calls.push_back(one->get_name());
+  if (!words.empty() && words[0][0] != '-' && std::find(calls.begin(), calls.end(), words[0]) == calls.end()) {
+    const std::string near = nearest_word(words[0], calls);
+    print_error(fmt::format("error: '{}' is no call of courant\n  hint: {}\n", words[0],
+                            near.empty() ? fmt::format("the calls are {}", fmt::join(calls, ", "))
+                                         : fmt::format("did you mean `courant {}`?", near)));
+    return exit_input;
+  }
   std::reverse(words.begin(), words.end());
   try {
     app.parse(words);
@@ -227,9 +242,9 @@ int command_line(int argc, char** argv) {
   if (*keywords) return call_keywords(call);
   if (*generate) return call_generate(call);
   if (*post) return call_post(call);
-  const auto calls = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == topic; });
-  fmt::print("{}", (calls.empty() ? &app : calls.front())->help());
-  return topic.empty() || !calls.empty() ? exit_ok : exit_input;
+  const auto found = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == topic; });
+  fmt::print("{}", (found.empty() ? &app : found.front())->help());
+  return topic.empty() || !found.empty() ? exit_ok : exit_input;
 }
 
 }  // namespace courant

@@ -57,7 +57,7 @@ class Run {
       : s_(simulation),
         options_(options),
         end_(options.until > 0 ? options.until : simulation.model().endtim),
-        messag_((make_folder(options.dir), std::filesystem::path(options.dir) / "messag"),
+        messag_((prepare_folder(options.dir), std::filesystem::path(options.dir) / "messag"),
                 [this](std::string_view line) {
                   if (options_.print) options_.print(std::string(line));
                 }),
@@ -87,6 +87,14 @@ class Run {
   }
 
  private:
+  /// An older run's results must not pass for this one's if this one is killed.
+  static void prepare_folder(const std::filesystem::path& dir) {
+    make_folder(dir);
+    for (const char* name : {"summary.yaml", "fields.pvd", "history.h5"}) {
+      std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is told then
+      std::filesystem::remove(dir / name, ignored);
+    }
+  }
   static FieldWriterOptions writer_options(const Simulation& s) {
     FieldWriterOptions o;
     for (const ModelPart& part : s.model().parts) o.part_ids.push_back(part.id);
@@ -203,20 +211,28 @@ class Run {
     if (!std::isfinite(y.dt_min)) y.dt_min = 0;
     for (const auto& row : s_.timer().table()) y.passes.push_back({row.name, row.seconds, row.calls});
     y.counters["neighbour_rebuilds"] = s_.neighbours().rebuilds();
+    attempt([&] { histories_.finish(); });
+    attempt([&] { fields_.finish(); });
+    attempt([&] { print_end(); });
+    attempt([&] { write_summary(std::filesystem::path(options_.dir) / "summary.yaml", y); });
+  }
+
+  /// One of the last files; where it fails, the others are still written.
+  template <class Write>
+  void attempt(Write write) {
     try {
-      histories_.finish();
-      fields_.finish();
-      print_end();
-      write_summary(std::filesystem::path(options_.dir) / "summary.yaml", y);
+      write();
     } catch (const OutputError& error) {
-      if (y.termination != "error") y.reason = error.what();
-      y.termination = "error";
-      if (options_.print) options_.print(std::string(" *** Error: ") + error.what());
+      if (summary_.termination == "error") return;  // the first failure is the one to report
+      summary_.termination = "error";
+      summary_.reason = error.what();
+      failure_ = " *** Error: " + summary_.reason;
     }
   }
 
   void print_end() {
     if (!failure_.empty()) messag_.line(failure_);
+    if (summary_.termination == "interrupted") messag_.line(fmt::format(" *** {} ***", summary_.reason));
     const bool ok = summary_.termination != "error";
     messag_.line("T i m i n g   i n f o r m a t i o n        seconds        %");
     for (const auto& pass : summary_.passes)

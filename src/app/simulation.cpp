@@ -38,14 +38,14 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     if (!m) return std::nullopt;
     return ShellMaterial{m->ro, m->E, m->pr};
   };
-  build_segments(deck_, model_, shell_material, world_, diagnostics);
-  bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
   const auto sph_material = [&](Index part) -> SphMaterial {
     const PartMaterial& m = materials_[part];
     if (!m.found) return {};
     return {m.ro, m.eos->V0, m.mu, m.eos->uses_energy()};
   };
-  sph_ = build_particles(deck_, model_, sph_material, world_, diagnostics);
+  sph_ = build_particles(deck_, model_, sph_material, world_, diagnostics);  // sets world_.dim, which rigid bodies ask for
+  build_segments(deck_, model_, shell_material, world_, diagnostics);
+  bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
 }
 
 void Simulation::add_passes(Diagnostics& diagnostics) {

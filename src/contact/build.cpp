@@ -50,7 +50,7 @@ class Builder {
     if (type == 2) {
       const auto set = model_.part_sets.find(id);
       if (set == model_.part_sets.end())
-        deck_.error(diagnostics_, c, field, fmt::format("part set {} is missing", id),
+        deck_.error(diagnostics_, c, field, fmt::format("part set {} does not exist", id),
                     "define it with *SET_PART_LIST");
       else if (set->second.empty())
         deck_.error(diagnostics_, c, field, fmt::format("part set {} is empty", id));
@@ -59,7 +59,7 @@ class Builder {
     } else if (type == 3) {
       const auto part = model_.part_of_id.find(id);
       if (part != model_.part_of_id.end()) return {part->second};
-      deck_.error(diagnostics_, c, field, fmt::format("part {} is missing", id), "define it with *PART");
+      deck_.error(diagnostics_, c, field, fmt::format("part {} does not exist", id), "define it with *PART");
     }
     return {};  // other types were refused by the card
   }
@@ -67,7 +67,7 @@ class Builder {
   std::vector<bool> nodes_of_set(const ContactNodesToSurface& c, std::vector<bool> out) {
     const auto set = model_.node_sets.find(c.surfa);
     if (set == model_.node_sets.end()) {
-      deck_.error(diagnostics_, c, "SURFA", fmt::format("node set {} is missing", c.surfa),
+      deck_.error(diagnostics_, c, "SURFA", fmt::format("node set {} does not exist", c.surfa),
                   "define it with *SET_NODE_LIST");
       return out;
     }

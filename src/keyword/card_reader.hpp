@@ -33,6 +33,7 @@ class CardReader {
   bool read_title_lines(DataLines& data, EntrySink& sink);
   void read_id_line(std::string_view line, int number, EntrySink& sink);
   void read_cards(DataLines& data, EntrySink& sink);
+  void refuse_second_definition(const Entry& entry);
   void read_card(const DataLines& data, std::size_t card, EntrySink& sink);
   void read_field(std::size_t card, std::size_t field, Slice slice, EntrySink& sink);
   void read_integer(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink);

@@ -77,6 +77,22 @@ std::string Deck::describe(const Entry& entry, std::string_view field) const {
   return describe_field(*spec, entry.name, place.card, place.field);
 }
 
+const Entry* Deck::define(const std::string& id_space, Id id, const Entry& entry) {
+  const auto [it, is_new] = definitions_.try_emplace({id_space, id}, entry);
+  return is_new ? nullptr : &it->second;
+}
+
+std::string Deck::found_instead(const std::string& id_space, Id id) const {
+  const auto it = definitions_.find({id_space, id});
+  if (it == definitions_.end()) return "there is none";
+  return fmt::format("it is a {}, defined at {}", keyword(it->second), place(it->second));
+}
+
+std::string Deck::place(const Entry& entry) const {
+  const Location at = where(entry);
+  return fmt::format("{}:{}", at.file, at.line);
+}
+
 void Deck::error(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
                  std::string hint) const {
   diagnostics.error(where(entry, field), describe(entry, field) + ": " + message, std::move(hint));

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <typeindex>
+#include <utility>
 #include <vector>
 
 #include "keyword/card.hpp"
@@ -47,6 +48,12 @@ class Deck {
   void warning(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
                std::string hint = {}) const;
 
+  /// Notes who defines an id; the entry that did so before, or nullptr if this is the first.
+  const Entry* define(const std::string& id_space, Id id, const Entry& entry);
+  /// For messages about a missing definition: "there is none", or "it is a *MAT_RIGID, defined at deck.k:12".
+  std::string found_instead(const std::string& id_space, Id id) const;
+  std::string place(const Entry& entry) const;  ///< "deck.k:12"
+
   std::string title;
   std::vector<std::string> files;                          ///< as named by the user; [0] is the deck itself
   std::vector<std::shared_ptr<const SourceText>> sources;  ///< text of each file, kept for messages
@@ -54,6 +61,7 @@ class Deck {
 
  private:
   std::map<std::type_index, std::shared_ptr<void>> entries_;
+  std::map<std::pair<std::string, Id>, Entry> definitions_;
 };
 
 struct ReadOptions {

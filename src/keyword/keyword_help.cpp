@@ -74,6 +74,76 @@ std::string options_line(const KeywordSpec& spec) {
   if (spec.title_option) out += "Option _TITLE: a title line comes first. ";
   if (spec.id_option) out += "Option _ID: a line with ID (columns 1-10) and heading (11-80) comes first. ";
   if (spec.once) out += "May stand only once in a deck. ";
+  if (!out.empty()) out.pop_back();
+  return out;
+}
+
+constexpr const char* markdown_introduction =
+    "# Keywords\n\n"
+    "Written by `courant keywords --markdown` from the tables that the reader itself works with; do not edit. "
+    "`courant keywords NAME` shows one of them.\n\n"
+    "How to read the tables:\n\n"
+    "- Columns are those of the standard format. With `*KEYWORD LONG=Y`, or `+` behind a name, every field is 20 columns "
+    "wide; with `I10=Y`, or `%`, ids that are 8 wide become 10 wide. Fields may also be separated by commas.\n"
+    "- Type: I integer, F number, A text; a list takes all columns up to the end of the line, and of the lines below.\n"
+    "- A blank field has its default, and so has a 0 unless the field must not be 0. A `required` field must be given.\n"
+    "- Dimension: M mass, L length, T time in whatever consistent units the deck uses; `-` has none. In 2D (IDIM 2) masses, "
+    "forces and energies are per unit of depth.\n"
+    "- Accepted: the values that are. *Only the default*: other values ask for physics that Courant lacks, and the deck is "
+    "refused. *No effect*: read and left unused, because it cannot change results here. *Warning*: another value asks for "
+    "output that Courant lacks; the run goes on without it.\n"
+    "- A keyword that is not on this page is an error, except requests for output (`*DATABASE_...`, `*CONTROL_OUTPUT`, "
+    "`*CONTROL_PARALLEL`, `*CONTROL_MPP_...`, `*CONTROL_UNITS`), which give a warning.\n";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|' || c == '*' || c == '_' || c == '<') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+std::string sentence(std::string text) {
+  if (text.empty()) return text;
+  text[0] = upper_case(text.substr(0, 1))[0];
+  return text + ".";
+}
+
+std::string anchor(const KeywordSpec& spec) {
+  std::string out = spec.names[0];
+  std::transform(out.begin(), out.end(), out.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 'a' - 'A') : c; });
+  return out;
+}
+
+std::string first_word(const KeywordSpec& spec) { return spec.names[0].substr(0, spec.names[0].find('_')); }
+
+std::string accepted(const FieldSpec& field) {
+  switch (field.rules.honour) {
+    case Honour::no:
+      return "only the default";
+    case Honour::output_only:
+      return "warning, no effect";
+    case Honour::ignored:
+      return "no effect";
+    default:
+      break;
+  }
+  const char* check[] = {"", "> 0", ">= 0", "<= 0"};
+  std::string out = check[static_cast<int>(field.rules.check)];
+  if (!field.rules.allowed.empty())
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", fmt::join(field.rules.allowed, ", "));
+  return out.empty() ? "any" : out;
+}
+
+std::string markdown_card(const CardSpec& card, std::size_t number) {
+  std::string out = fmt::format(
+      "\n{}\n\n| Field | Columns | Type | Default | Meaning | Dimension | Accepted |\n|---|---|---|---|---|---|---|\n",
+      card_line(card, number));
+  for (const FieldSpec& f : card.fields)
+    if (f.type != FieldType::skip)
+      out += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", escaped(f.name), columns(f), type_name(f), standard_value(f),
+                         escaped(f.meaning), f.dimension, accepted(f));
   return out;
 }
 
@@ -120,22 +190,24 @@ std::string keyword_list() {
 }
 
 std::string keyword_markdown() {
-  std::string out =
-      "# Keywords\n\nWritten by `courant keywords --markdown` from the tables in the source; do not edit.\n\n"
-      "Dimensions are in M, L, T. \"required\" fields must not be blank. 0 and blank are the same unless "
-      "noted.\n";
-  for (const KeywordSpec* spec : sorted_registry()) {
-    out += fmt::format("\n## *{}\n\n{}\n", fmt::join(spec->names, ", *"), spec->purpose);
+  std::string out = markdown_introduction;
+  std::string group;
+  const auto specs = sorted_registry();
+  for (const KeywordSpec* spec : specs) {
+    const std::string word = first_word(*spec);
+    out += word == group ? ", " : "\n- ";
+    group = word;
+    for (std::size_t n = 0; n < spec->names.size(); ++n)
+      out += fmt::format("{}[{}](#{})", n > 0 ? ", " : "", spec->names[n], anchor(*spec));
+  }
+  out += "\n";
+  for (const KeywordSpec* spec : specs) {
+    out += fmt::format("\n<a id=\"{}\"></a>\n\n## *{}\n\n", anchor(*spec), spec->names[0]);
+    if (spec->names.size() > 1)
+      out += fmt::format("Also: `*{}`. ", fmt::join(spec->names.begin() + 1, spec->names.end(), "`, `*"));
+    out += escaped(sentence(spec->purpose)) + "\n";
     if (const std::string options = options_line(*spec); !options.empty()) out += "\n" + options + "\n";
-    for (std::size_t c = 0; c < spec->cards.size(); ++c) {
-      out += fmt::format(
-          "\n{}\n\n| Field | Columns | Type | Default | Meaning | Remark |\n|---|---|---|---|---|---|\n",
-          card_line(spec->cards[c], c + 1));
-      for (const FieldSpec& f : spec->cards[c].fields)
-        if (f.type != FieldType::skip)
-          out += fmt::format("| {} | {} | {} | {} | {} [{}] | {} |\n", f.name, columns(f), type_name(f),
-                             standard_value(f), f.meaning, f.dimension, remark(f));
-    }
+    for (std::size_t c = 0; c < spec->cards.size(); ++c) out += markdown_card(spec->cards[c], c + 1);
   }
   return out;
 }

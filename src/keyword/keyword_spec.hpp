@@ -52,9 +52,11 @@ class KeywordSpec {
   virtual std::unique_ptr<EntrySink> sink(Deck& deck) const = 0;
   /// Whether the card is there, as far as the entry was read. `entry` must be of this keyword.
   virtual bool has_card(const Entry& entry, std::size_t card) const = 0;
+  /// The entry's id (first field of the first card), 0 where there is no id_space. `entry` must be of this keyword.
+  virtual Id id_of(const Entry& entry) const = 0;
 
   std::vector<std::string> names;
-  std::string purpose;
+  std::string purpose, id_space;
   bool title_option = false, id_option = false, heading = false, once = false, many = true;
   std::vector<CardSpec> cards;
 };
@@ -133,6 +135,7 @@ class KeywordSpecOf : public KeywordSpec {
   explicit KeywordSpecOf(KeywordOf<T> keyword) : keyword_(std::move(keyword)) {
     names = keyword_.names;
     purpose = keyword_.purpose;
+    id_space = keyword_.id_space;
     title_option = keyword_.title_option;
     id_option = keyword_.id_option;
     heading = keyword_.heading;
@@ -146,6 +149,11 @@ class KeywordSpecOf : public KeywordSpec {
   bool has_card(const Entry& entry, std::size_t card) const override {
     const auto& when = keyword_.cards[card].when;
     return !when || when(static_cast<const T&>(entry));
+  }
+  Id id_of(const Entry& entry) const override {
+    if (id_space.empty()) return 0;
+    const auto* member = std::get_if<Id T::*>(&keyword_.cards[0].fields[0].member);
+    return member ? static_cast<const T&>(entry).*(*member) : 0;
   }
 
  private:

@@ -35,7 +35,6 @@ struct EosEntry {
   std::string keyword, equation, source;
   std::vector<EosReference> references;
   std::function<std::vector<std::pair<Id, std::shared_ptr<EosLaw>>>(const Deck&)> all;  ///< every law of this kind in a deck
-  std::function<const Entry*(const Deck&, Id)> entry;
 };
 
 std::vector<EosEntry>& eos_registry();
@@ -75,11 +74,6 @@ struct RegisterEos {
         laws.emplace_back(card.eosid, law);
       }
       return laws;
-    };
-    entry.entry = [](const Deck& deck, Id id) -> const Entry* {
-      for (const Card& card : deck.all<Card>())
-        if (card.eosid == id) return &card;
-      return nullptr;
     };
     eos_registry().push_back(std::move(entry));
     register_keyword(make_keyword_spec<Card>(std::move(keyword)));

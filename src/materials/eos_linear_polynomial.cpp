@@ -34,6 +34,7 @@ const RegisterEos<Card> registered{
      {"         1       0.0       0.0       0.0       0.0       0.4       0.4       0.0\n       2.5       1.0\n", 0.5, 3, 1.8}},
     {.names = {"EOS_LINEAR_POLYNOMIAL", "EOS_001"},
      .purpose = "pressure as a polynomial of compression, with energy",
+     .id_space = "equation of state",
      .title_option = true,
      .title = &Card::title,
      .cards = {{.fields = {{"EOSID", &Card::eosid, "-", "id that *PART refers to", {.required = true, .check = Check::positive}},

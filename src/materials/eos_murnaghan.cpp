@@ -33,6 +33,7 @@ const RegisterEos<Card> registered{
     {{"         1       7.0     1.0E6       1.0\n", 0.0, 0, 0}, {"         1       2.0     100.0       1.0\n", 0.1, 0, 21}},
     {.names = {"EOS_MURNAGHAN", "EOS_019"},
      .purpose = "stiff power law for weakly compressible water",
+     .id_space = "equation of state",
      .title_option = true,
      .title = &Card::title,
      .cards = {{.fields = {{"EOSID", &Card::eosid, "-", "id that *PART refers to", {.required = true, .check = Check::positive}},

@@ -24,12 +24,10 @@ namespace {
 
 using LawOfId = std::map<Id, std::shared_ptr<EosLaw>>;
 
-LawOfId all_laws(const Deck& deck, Diagnostics& diagnostics) {
+LawOfId all_laws(const Deck& deck) {
   LawOfId laws;
   for (const EosEntry& kind : eos_registry())
-    for (const auto& [id, law] : kind.all(deck))
-      if (!laws.emplace(id, law).second)
-        deck.error(diagnostics, *kind.entry(deck, id), "EOSID", fmt::format("id {} is used twice", id), "ids must be unique");
+    for (const auto& [id, law] : kind.all(deck)) laws.emplace(id, law);
   return laws;
 }
 
@@ -42,11 +40,9 @@ std::string known_laws() {
 }  // namespace
 
 std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
-  const LawOfId laws = all_laws(deck, diagnostics);
+  const LawOfId laws = all_laws(deck);
   std::map<Id, const MatNull*> nulls;
-  for (const MatNull& m : deck.all<MatNull>())
-    if (!nulls.emplace(m.mid, &m).second)
-      deck.error(diagnostics, m, "MID", fmt::format("id {} is used twice", m.mid), "ids must be unique");
+  for (const MatNull& m : deck.all<MatNull>()) nulls.emplace(m.mid, &m);
   std::vector<PartMaterial> out(model.parts.size());
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const ModelPart& part = model.parts[k];
@@ -54,18 +50,24 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
     const auto null = nulls.find(part.mid);
     const auto law = laws.find(part.eosid);
     if (null == nulls.end())
-      diagnostics.error(part.where, fmt::format("*PART {}: its particles need a *MAT_NULL, there is none with id {}", part.id, part.mid),
-                        "add the material or correct MID of the part");
+      deck.error(diagnostics, part.card, "MID",
+                 fmt::format("the particles of part {} need a *MAT_NULL with id {}; {}", part.id, part.mid,
+                             deck.found_instead("material", part.mid)),
+                 "add the material, or correct the id here");
     if (law == laws.end())
-      diagnostics.error(part.where,
-                        fmt::format("*PART {}: its particles need an equation of state, there is none with id {}", part.id, part.eosid),
-                        "add one of " + known_laws() + " or correct EOSID of the part");
+      deck.error(diagnostics, part.card, "EOSID",
+                 part.eosid == 0 ? fmt::format("the particles of part {} need an equation of state, got none", part.id)
+                                 : fmt::format("there is no equation of state with id {} for the particles of part {}", part.eosid,
+                                               part.id),
+                 "add one of " + known_laws() + " and give its id here");
     if (null == nulls.end() || law == laws.end()) continue;
     out[k] = {true, null->second->ro, null->second->pc, null->second->mu, law->second};
     const Real c2 = law->second->sound_speed2(out[k].ro, 1 / law->second->V0 - 1, law->second->E0);
     if (!(c2 > 0))
-      diagnostics.error(part.where, fmt::format("*PART {}: its equation of state gives no sound speed (c^2 = {:.4g})", part.id, c2),
-                        "give C1 = rho0 c0^2 (or K0 and GAMMA) > 0");
+      deck.error(diagnostics, part.card, "EOSID",
+                 fmt::format("equation of state {} gives part {} no sound speed: c^2 = {:.4g} [L2/T2] at the start", part.eosid,
+                             part.id, c2),
+                 "give it a bulk modulus > 0: C1 = RO c0^2 of *EOS_LINEAR_POLYNOMIAL, K0 and GAMMA of *EOS_MURNAGHAN");
   }
   return out;
 }

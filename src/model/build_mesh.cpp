@@ -72,6 +72,7 @@ void ModelBuilder::build_parts() {
     part.eosid = card.eosid;
     part.hgid = card.hgid;
     part.where = deck_.where(card, "PID");
+    part.card = card;
     model_.parts.push_back(std::move(part));
   }
 }

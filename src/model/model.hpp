@@ -11,6 +11,7 @@
 
 #include "base/diagnostic.hpp"
 #include "base/real.hpp"
+#include "keyword/card.hpp"
 
 namespace courant {
 
@@ -26,6 +27,7 @@ struct ModelPart {
   std::string title;
   Id secid = 0, mid = 0, eosid = 0, hgid = 0;
   Location where;  ///< of the PART card, for messages
+  Entry card;      ///< the PART card, for messages about one of its fields
   bool has_sph = false, has_shell = false;
   bool velocity_given = false;  ///< INITIAL_VELOCITY_GENERATION names this part
 };

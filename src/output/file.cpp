@@ -54,12 +54,21 @@ void write_file(const std::filesystem::path& file, std::string_view content) {
 TextFile::TextFile(std::filesystem::path file, bool append)
     : file_(std::move(file)), stream_(std::fopen(file_.c_str(), append ? "ab" : "wb")) {
   if (!stream_) throw OutputError(file_, std::strerror(errno));
+  std::setvbuf(stream_.get(), nullptr, _IONBF, 0);  // nothing may be left over that is tried again on closing
+  std::error_code unknown;
+  if (append) size_ = std::filesystem::file_size(file_, unknown);
 }
 
 void TextFile::write(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stream_.get()) != text.size() ||
-      std::fflush(stream_.get()) != 0)
-    throw OutputError(file_, std::strerror(errno));
+  if (std::fwrite(text.data(), 1, text.size(), stream_.get()) == text.size()) {
+    size_ += text.size();
+    return;
+  }
+  const int number = errno;
+  std::error_code ignored;
+  std::filesystem::resize_file(file_, size_, ignored);  // half a line would mislead its readers
+  std::fseek(stream_.get(), static_cast<long>(size_), SEEK_SET);
+  throw OutputError(file_, std::strerror(number));
 }
 
 }  // namespace courant

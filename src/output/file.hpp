@@ -1,5 +1,6 @@
 #pragma once
 // Checked writing of files. A file carries its final name only once all of it is on the disk.
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -28,7 +29,8 @@ void make_folder(const std::filesystem::path& dir);
 /// new one. Throws OutputError; `file` is then as it was before and `file.tmp` is gone.
 void write_file(const std::filesystem::path& file, std::string_view content);
 
-/// A text file that grows while the run goes on; each write reaches the system before the call returns.
+/// A text file that grows while the run goes on; each write reaches the system before the call returns. A write that
+/// fails leaves the file as it was before.
 class TextFile {
  public:
   /// Starts an empty file, or goes on at its end. Throws OutputError.
@@ -42,6 +44,7 @@ class TextFile {
   };
   std::filesystem::path file_;
   std::unique_ptr<std::FILE, Close> stream_;
+  std::uintmax_t size_ = 0;  ///< of what was written whole [bytes]
 };
 
 }  // namespace courant

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 namespace courant {
@@ -63,12 +66,21 @@ std::string innermost_error() {
   return text.empty() ? "HDF5 failed" : text;
 }
 
+std::string content(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream bytes;
+  bytes << stream.rdbuf();
+  if (!stream || bytes.str().empty()) throw OutputError(file, "what was written before cannot be read back");
+  return bytes.str();
+}
+
+/// The file as HDF5 keeps it in memory: HDF5 never writes to the disk itself, because after a failed write (disk full) its
+/// clean-up at exit crashes.
 class HistoryFile {
  public:
-  HistoryFile(const std::filesystem::path& file, const std::filesystem::path& final_name, bool create)
-      : name_(final_name),
-        access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose),
-        file_(open(file, create), H5Fclose) {
+  /// `image`: bytes of the file so far, empty for a new one.
+  HistoryFile(const std::filesystem::path& name, const std::string& image)
+      : name_(name), access_(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), file_(open(image), H5Fclose) {
     check(file_);
   }
 
@@ -98,18 +110,29 @@ class HistoryFile {
     if (H5Aexists(object, "title") <= 0) set_text(object, "title", title);
   }
 
-  void close() {
+  /// All bytes of the file.
+  std::string image() {
     check(H5Fflush(file_, H5F_SCOPE_LOCAL));
+    const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
+    check(size);
+    std::string bytes(static_cast<std::size_t>(size), '\0');
+    check(H5Fget_file_image(file_, bytes.data(), bytes.size()));
     check(file_.close());
+    return bytes;
   }
 
  private:
-  hid_t open(const std::filesystem::path& file, bool create) {
+  hid_t open(const std::string& image) {
+    constexpr std::size_t growth = 1 << 20;  // bytes
     H5Pset_fclose_degree(access_, H5F_CLOSE_STRONG);
-    H5Pset_libver_bounds(access_, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-    H5Pset_file_locking(access_, false, true);  // a reader's lock must not stop the run
-    return create ? H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_)
-                  : H5Fopen(file.c_str(), H5F_ACC_RDWR, access_);
+    // H5Fget_file_image of HDF5 1.10 spoils the checksum that later formats have in their first block
+    H5Pset_libver_bounds(access_, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
+    H5Pset_fapl_core(access_, growth, false);
+    const std::string name = name_.string() + ".in_memory";  // HDF5 refuses an image for a name that is on the disk
+    if (image.empty()) return H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_);
+    // HDF5 copies the bytes; it asks for a mutable pointer all the same
+    check(H5Pset_file_image(access_, const_cast<char*>(image.data()), image.size()));
+    return H5Fopen(name.c_str(), H5F_ACC_RDWR, access_);
   }
 
   bool exists(const std::string& path) const {
@@ -155,6 +178,7 @@ History::History(std::filesystem::path file, std::size_t buffered_samples, std::
     : file_(std::move(file)),
       buffered_samples_(buffered_samples),
       longest_wait_(longest_wait),
+      wait_(longest_wait),
       last_flush_(std::chrono::steady_clock::now()) {}
 
 History::Column& History::column(const std::string& path, const char* dimension, int components) {
@@ -234,35 +258,26 @@ void History::record(const Sample& sample) {
   put_global(sample);
   put_entities(sample);
   ++rows_;
-  if (rows_ >= buffered_samples_ || std::chrono::steady_clock::now() - last_flush_ >= longest_wait_) flush();
+  if (rows_ >= buffered_samples_ || std::chrono::steady_clock::now() - last_flush_ >= wait_) flush();
 }
 
 void History::flush() {
   last_flush_ = std::chrono::steady_clock::now();
   if (rows_ == 0) return;
   const Silence silence;
-  const bool create = rows_in_file_ == 0;
-  std::filesystem::path target = file_;
-  if (create) target += ".tmp";
-  try {
-    HistoryFile h5(target, file_, create);
-    for (auto& [path, c] : columns_) {
-      c.values.resize(rows_ * static_cast<std::size_t>(c.components),
-                      std::numeric_limits<double>::quiet_NaN());
-      h5.append(path, c.dimension, c.components, c.values, rows_in_file_);
-      c.values.clear();
-    }
-    for (const auto& [group, title] : titles_) h5.set_title(group, title);
-    h5.close();
-  } catch (const OutputError&) {
-    std::error_code ignored;
-    if (create) std::filesystem::remove(target, ignored);
-    throw;
+  HistoryFile h5(file_, rows_in_file_ > 0 ? content(file_) : std::string());
+  for (auto& [path, c] : columns_) {
+    c.values.resize(rows_ * static_cast<std::size_t>(c.components), std::numeric_limits<double>::quiet_NaN());
+    h5.append(path, c.dimension, c.components, c.values, rows_in_file_);
   }
-  if (create && std::rename(target.c_str(), file_.c_str()) != 0)
-    throw OutputError(file_, std::strerror(errno));
+  for (const auto& [group, title] : titles_) h5.set_title(group, title);
+  write_file(file_, h5.image());
+  for (auto& [path, c] : columns_) c.values.clear();
   rows_in_file_ += rows_;
   rows_ = 0;
+  // A large file takes long to write anew: not more than a twentieth of the time goes there.
+  const auto now = std::chrono::steady_clock::now();
+  wait_ = std::max<std::chrono::steady_clock::duration>(longest_wait_, 20 * (now - last_flush_));
 }
 
 }  // namespace courant

@@ -20,8 +20,7 @@ namespace courant {
 ///   /parts/<id>/{mass kinetic internal momentum}          with attribute `title`
 ///   /contacts/<id>/{force energy_stored energy_damping energy_friction}   force: on the tracked side (the
 ///   particles) /rigid_bodies/<part id>/{x v omega force moment kinetic} /particles/<id>/{x v p rho E active}
-/// Between flushes the file is closed, so that a killed run leaves it readable and others may read it at any
-/// time.
+/// A flush replaces the file by a longer one, so that a killed run leaves it readable and others may read it at any time.
 class History {
  public:
   explicit History(std::filesystem::path file, std::size_t buffered_samples = 512,
@@ -47,6 +46,7 @@ class History {
   std::filesystem::path file_;
   std::size_t buffered_samples_;
   std::chrono::seconds longest_wait_;
+  std::chrono::steady_clock::duration wait_;
   std::chrono::steady_clock::time_point last_flush_;
   std::map<std::string, Column> columns_;
   std::map<std::string, std::string> titles_;  // of groups

@@ -25,9 +25,12 @@ std::array<bool, 3> axes(int code) {
 }
 
 void read_constraints(const Deck& deck, const MatRigid& m, RigidBody& body, Diagnostics& diagnostics) {
+  if (!(m.pr < 0.5))
+    deck.error(diagnostics, m, "PR", fmt::format("expected a number < 0.5, got '{:g}'", m.pr),
+               "the contact stiffness is E / (3 (1 - 2 PR)); 0.3 is steel");
   if (m.cmo == 0) return;  // CON1 and CON2 have no meaning then
   if (m.cmo != 1) {
-    deck.error(diagnostics, m, "CMO", fmt::format("{:g} (local or point constraint) is not supported", m.cmo),
+    deck.error(diagnostics, m, "CMO", fmt::format("'{:g}' (a constraint along local axes or of a point) is not supported", m.cmo),
                "use CMO = 1 with CON1 and CON2 along the global axes");
     return;
   }
@@ -92,7 +95,8 @@ class Builder {
   void add(Index part, const MatRigid& m) {
     RigidBody b;
     b.part = model_.parts[part].id;
-    read_constraints(deck_, m, b, diagnostics_);
+    Diagnostics told_before;
+    read_constraints(deck_, m, b, checked_.insert(&m).second ? diagnostics_ : told_before);
     std::set<Index> nodes;
     for (const ModelShell& shell : model_.shells)
       if (shell.part == part)
@@ -172,6 +176,7 @@ class Builder {
   std::map<Id, Index> world_node_;
   std::vector<Index> owner_;
   std::set<Index> refused_;
+  std::set<const MatRigid*> checked_;  // one material may serve several parts
   std::vector<RigidBody> bodies_;
 };
 

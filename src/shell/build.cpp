@@ -29,22 +29,19 @@ std::vector<ShellPart> read_parts(const Deck& deck, const Model& model,
   std::vector<ShellPart> out(model.parts.size());
   for (Index k = 0; k < Index(model.parts.size()); ++k) {
     const ModelPart& part = model.parts[k];
-    if (!part.has_shell) continue;
+    if (!part.has_shell || part.has_sph) continue;  // a part of both kinds was refused by the model
     const auto section = sections.find(part.secid);
     if (section == sections.end())
-      diagnostics.error(part.where, fmt::format("*PART {}: shells need *SECTION_SHELL {}, which is missing",
-                                                part.id, part.secid));
+      deck.error(diagnostics, part.card, "SECID",
+                 fmt::format("the shells of part {} need a *SECTION_SHELL with id {}; {}", part.id, part.secid,
+                             deck.found_instead("section", part.secid)),
+                 "add the section, or correct the id here");
     const auto m = material(k);
     if (!m)
-      diagnostics.error(
-          part.where, fmt::format("*PART {}: material {} of its shells is not *MAT_RIGID", part.id, part.mid),
-          "deformable shells are not supported; use *MAT_RIGID");
-    else if (!(m->ro > 0 && m->E > 0 && m->pr < 0.5))
-      diagnostics.error(
-          part.where,
-          fmt::format(
-              "*PART {}: material {} needs RO > 0, E > 0 and PR < 0.5 for its mass and contact stiffness",
-              part.id, part.mid));
+      deck.error(diagnostics, part.card, "MID",
+                 fmt::format("the shells of part {} need a *MAT_RIGID with id {}; {}", part.id, part.mid,
+                             deck.found_instead("material", part.mid)),
+                 "shells are rigid walls here; deformable ones are not supported");
     if (!m || section == sections.end()) continue;
     const SectionShell& s = *section->second;
     const auto corner = [&](Real t) { return t > 0 ? t : s.t1; };

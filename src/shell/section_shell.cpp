@@ -11,6 +11,7 @@ constexpr Honour no = Honour::no, ignored = Honour::ignored;
 const RegisterKeyword<S> section_shell{
     {.names = {"SECTION_SHELL"},
      .purpose = "thickness of shells",
+     .id_space = "section",
      .title_option = true,
      .title = &S::title,
      .cards = {

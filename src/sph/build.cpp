@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -12,13 +11,10 @@ namespace courant {
 
 namespace {
 
-/// Entries found by id, with duplicates reported once.
 template <class T>
-std::map<Id, const T*> by_id(const Deck& deck, Id T::*id, const char* field, Diagnostics& diagnostics) {
+std::map<Id, const T*> by_id(const Deck& deck, Id T::*id) {
   std::map<Id, const T*> found;
-  for (const T& entry : deck.all<T>())
-    if (!found.emplace(entry.*id, &entry).second)
-      deck.error(diagnostics, entry, field, fmt::format("id {} is used twice", entry.*id), "ids must be unique");
+  for (const T& entry : deck.all<T>()) found.emplace(entry.*id, &entry);
   return found;
 }
 
@@ -49,19 +45,22 @@ class Builder {
 
  private:
   void read_sections() {
-    const auto sections = by_id(deck_, &SectionSph::secid, "SECID", diagnostics_);
+    const auto sections = by_id(deck_, &SectionSph::secid);
     for (std::size_t k = 0; k < model_.parts.size(); ++k) {
       const ModelPart& part = model_.parts[k];
       if (!part.has_sph) continue;
       const auto found = sections.find(part.secid);
       if (found == sections.end()) {
-        diagnostics_.error(part.where, fmt::format("*PART {}: its particles need a *SECTION_SPH, there is none with id {}", part.id, part.secid),
-                           "add the section or correct SECID of the part");
+        deck_.error(diagnostics_, part.card, "SECID",
+                    fmt::format("the particles of part {} need a *SECTION_SPH with id {}; {}", part.id, part.secid,
+                                deck_.found_instead("section", part.secid)),
+                    "add the section, or correct the id here");
         continue;
       }
       const SectionSph& s = *found->second;
       if (s.hmin > s.hmax)
-        deck_.error(diagnostics_, s, "HMIN", fmt::format("expected a number <= HMAX = {}, got {}", s.hmax, s.hmin));
+        deck_.error(diagnostics_, s, "HMIN", fmt::format("expected a number <= HMAX = {:g}, got '{:g}'", s.hmax, s.hmin),
+                    "h may vary from HMIN h0 to HMAX h0; HMIN = HMAX = 1 keeps it constant");
       smoothing_[k] = {s.cslh, s.hmin, s.hmax, s.sphini};
       settings_.h_min_factor[k] = s.hmin;
       settings_.h_max_factor[k] = s.hmax;
@@ -69,16 +68,16 @@ class Builder {
   }
 
   void read_viscosities() {
-    const auto hourglass = by_id(deck_, &Hourglass::hgid, "HGID", diagnostics_);
+    const auto hourglass = by_id(deck_, &Hourglass::hgid);
     const auto* control = deck_.last<ControlBulkViscosity>();
     for (std::size_t k = 0; k < model_.parts.size(); ++k) {
       const ModelPart& part = model_.parts[k];
-      if (!part.has_sph) continue;
       if (control) settings_.q[k] = {control->q2, control->q1};  // LS-DYNA: Q1 quadratic, Q2 linear
       if (part.hgid == 0) continue;
       const auto found = hourglass.find(part.hgid);
       if (found == hourglass.end())
-        diagnostics_.error(part.where, fmt::format("*PART {}: there is no *HOURGLASS with id {} (HGID)", part.id, part.hgid));
+        deck_.error(diagnostics_, part.card, "HGID", fmt::format("hourglass {} does not exist", part.hgid),
+                    "define it with *HOURGLASS, or leave the field blank");
       else
         settings_.q[k] = {found->second->q2, found->second->q1};
     }
@@ -97,7 +96,7 @@ class Builder {
     if (c->boxid != 0) {
       const auto box = model_.boxes.find(c->boxid);
       if (box == model_.boxes.end())
-        deck_.error(diagnostics_, *c, "BOXID", fmt::format("there is no *DEFINE_BOX with id {}", c->boxid));
+        deck_.error(diagnostics_, *c, "BOXID", fmt::format("box {} does not exist", c->boxid), "define it with *DEFINE_BOX");
       else
         settings_.region = Neighbours::Region{box->second.low, box->second.high};
     }
@@ -105,13 +104,28 @@ class Builder {
       settings_.viscosity = BulkViscosity{};
       return;
     }
-    std::set<Real> q2;
-    for (std::size_t k = 0; k < model_.parts.size(); ++k)
-      if (model_.parts[k].has_sph) q2.insert(settings_.q[k].q2);
-    if (q2.size() > 1)
-      diagnostics_.error({}, "*HOURGLASS: SPH parts with different quadratic viscosity Q1 are not supported with IAVIS 0",
-                         "give all SPH parts the same Q1, or use IAVIS 1");
-    if (!q2.empty()) settings_.viscosity = MonaghanViscosity{*q2.begin()};
+    settings_.viscosity = MonaghanViscosity{common_q2()};
+  }
+
+  /// The quadratic coefficient of the pair loop, which has only one.
+  Real common_q2() {
+    const ModelPart* first = nullptr;
+    Real q2 = 0;
+    for (std::size_t k = 0; k < model_.parts.size(); ++k) {
+      const ModelPart& part = model_.parts[k];
+      if (!part.has_sph) continue;
+      if (first == nullptr) {
+        first = &part;
+        q2 = settings_.q[k].q2;
+      } else if (settings_.q[k].q2 != q2) {
+        deck_.error(diagnostics_, part.card, "HGID",
+                    fmt::format("the quadratic viscosity Q1 of part {} is {:g}, that of part {} is {:g}: IAVIS 0 supports only "
+                                "one for all SPH parts",
+                                part.id, settings_.q[k].q2, first->id, q2),
+                    "give all SPH parts the same Q1 in *HOURGLASS, or use IAVIS 1 of *CONTROL_SPH");
+      }
+    }
+    return q2;
   }
 
   int dimension_of_geometry() const {
@@ -156,10 +170,10 @@ class Builder {
     }
     if (off_plane_ >= 0)
       diagnostics_.error(model_.sph[off_plane_].where,
-                         fmt::format("*CONTROL_SPH field 4 (IDIM): 2D needs all particles in one plane z = constant without "
-                                     "velocity along z, particle {} is not",
-                                     p.id[off_plane_]),
-                         "use IDIM 3");
+                         fmt::format("*ELEMENT_SPH: in 2D all particles must lie in one plane z = constant without velocity along "
+                                     "z; particle {} has z = {:g} [L] and vz = {:g} [L/T], the first one z = {:g}",
+                                     p.id[off_plane_], p.x.vec(off_plane_)[2], p.v.vec(off_plane_)[2], p.x.vec(0)[2]),
+                         "move it into the plane, or use IDIM 3 of *CONTROL_SPH");
     set_padding(p);
   }
 
@@ -177,6 +191,7 @@ class Builder {
     std::vector<Vec> all;
     for (Index i = 0; i < p.size(); ++i) all.push_back(p.x.vec(i));
     const std::vector<Real> nearest = nearest_distance(all);
+    report_coincident_particles(all, nearest);
     for (std::size_t k = 0; k < model_.parts.size(); ++k) {
       std::vector<Real> distances;
       for (Index i = 0; i < p.size(); ++i)
@@ -196,19 +211,39 @@ class Builder {
     }
   }
 
+  void report_coincident_particles(const std::vector<Vec>& x, const std::vector<Real>& nearest) {
+    Index found = 0;
+    for (Index i = 0; i < world_.particles.size(); ++i) {
+      if (nearest[i] != 0) continue;
+      const auto first = std::find(x.begin(), x.end(), x[i]) - x.begin();  // the earlier one of the pair is not reported
+      if (model_.sph[first].node == model_.sph[i].node) continue;  // the same one, or one node used twice: told already
+      diagnostics_.error(model_.sph[i].where,
+                         fmt::format("*ELEMENT_SPH: particle {} stands where particle {} is", world_.particles.id[i],
+                                     world_.particles.id[first]),
+                         "remove one of the two, or move its node");
+      if (++found < max_reports) continue;
+      diagnostics_.note(model_.sph[i].where, fmt::format("only {} particles in one place with another are shown", max_reports));
+      return;  // each search runs over all particles
+    }
+  }
+
   void report_lone_particles(Index part, const std::vector<Real>& nearest, Real median) {
     const Particles& p = world_.particles;
+    Index found = 0;
     for (Index i = 0; i < p.size(); ++i) {
-      if (p.part[i] != part) continue;
-      if (nearest[i] == 0)
-        diagnostics_.error(model_.sph[i].where, fmt::format("*ELEMENT_SPH: particle {} stands where another particle is", p.id[i]));
-      else if (nearest[i] > 3 * median || !std::isfinite(nearest[i]))
-        diagnostics_.error(model_.sph[i].where,
-                           fmt::format("*ELEMENT_SPH: particle {} has no neighbour: the nearest other particle is {:.4g} [L] "
-                                       "away, the usual distance in its part is {:.4g}",
-                                       p.id[i], nearest[i], median),
-                           "remove the particle, or give the smoothing length by SPHINI of *SECTION_SPH");
+      if (p.part[i] != part || !(nearest[i] > 3 * median || !std::isfinite(nearest[i]))) continue;
+      if (++found > max_reports) continue;
+      const std::string what = std::isfinite(nearest[i])
+                                   ? fmt::format("has no neighbour: the nearest other particle is {:.4g} [L] away, the usual "
+                                                 "distance in its part is {:.4g}",
+                                                 nearest[i], median)
+                                   : std::string("is the only one, so it has no neighbour to take the smoothing length from");
+      diagnostics_.error(model_.sph[i].where, fmt::format("*ELEMENT_SPH: particle {} {}", p.id[i], what),
+                         "remove the particle, or give the smoothing length by SPHINI of *SECTION_SPH");
     }
+    if (found > max_reports)
+      diagnostics_.note(model_.parts[part].where,
+                        fmt::format("{} more particles of part {} have no neighbour", found - max_reports, model_.parts[part].id));
   }
 
   void choose_h_form() {
@@ -229,6 +264,7 @@ class Builder {
   SphSettings settings_;
   std::vector<PartSmoothing> smoothing_;
   Index off_plane_ = -1;
+  static constexpr Index max_reports = 20;  ///< of one kind of fault
 };
 
 }  // namespace

@@ -9,6 +9,7 @@ namespace {
 const RegisterKeyword<SectionSph> section_sph{{
     .names = {"SECTION_SPH"},
     .purpose = "smoothing length of SPH parts",
+    .id_space = "section",
     .title_option = true,
     .title = &SectionSph::title,
     .cards = {{.fields = {
@@ -31,7 +32,8 @@ const RegisterKeyword<ControlSph> control_sph{{
         {.fields =
              {{"NCBS", &ControlSph::ncbs, "-", "cycles between sorts; lists are kept by a skin instead",
                {.standard = 1, .honour = Honour::ignored}},
-              {"BOXID", &ControlSph::boxid, "-", "box outside of which particles keep state and velocity", {}},
+              {"BOXID", &ControlSph::boxid, "-", "box outside of which particles keep state and velocity",
+               {.check = Check::not_negative}},
               {"DT", &ControlSph::dt, "T", "death time of SPH", {.standard = 1e20, .honour = Honour::no}},
               {"IDIM", &ControlSph::idim, "-", "2 plane strain in x-y, 3 three-dimensional, 0 from the geometry",
                {.allowed = {0, 2, 3}}},
@@ -62,6 +64,7 @@ const RegisterKeyword<ControlSph> control_sph{{
 const RegisterKeyword<Hourglass> hourglass{{
     .names = {"HOURGLASS"},
     .purpose = "bulk viscosity coefficients of the parts that name it (HGID)",
+    .id_space = "hourglass",
     .title_option = true,
     .title = &Hourglass::title,
     .cards = {{.fields = {

@@ -74,13 +74,13 @@ TEST(BuildContacts, NodeSetTracksItsParticlesOnly) {
 TEST(BuildContacts, MissingSidesAreNamed) {
   Case a;
   a.card.surfa = 9, a.card.surfatyp = 4;
-  EXPECT_NE(a.failure().find("node set 9 is missing"), std::string::npos);
+  EXPECT_NE(a.failure().find("node set 9 does not exist"), std::string::npos);
   Case b;
   b.card.surfb = 9;
-  EXPECT_NE(b.failure().find("part 9 is missing"), std::string::npos);
+  EXPECT_NE(b.failure().find("part 9 does not exist"), std::string::npos);
   Case c;
   c.card.surfb = 9, c.card.surfbtyp = 2;
-  EXPECT_NE(c.failure().find("part set 9 is missing"), std::string::npos);
+  EXPECT_NE(c.failure().find("part set 9 does not exist"), std::string::npos);
   Case d;
   d.card.surfb = 1;
   EXPECT_NE(d.failure().find("part 1 has no shells"), std::string::npos);

@@ -153,7 +153,7 @@ TEST(Registry, HelpComesFromTheTable) {
   EXPECT_NE(help.find("required"), std::string::npos);
   EXPECT_TRUE(keyword_help("NO_SUCH_KEYWORD").empty());
   EXPECT_NE(keyword_list().find("*ELEMENT_SPH"), std::string::npos);
-  EXPECT_NE(keyword_markdown().find("## *SET_NODE_LIST, *SET_NODE"), std::string::npos);
+  EXPECT_NE(keyword_markdown().find("## *SET_NODE_LIST\n\nAlso: `*SET_NODE`."), std::string::npos);
 }
 
 }  // namespace

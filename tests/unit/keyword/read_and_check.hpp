@@ -2,9 +2,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/diagnostic.hpp"
-#include "keyword/deck.hpp"
-#include "model/build_model.hpp"
+#include "app/simulation.hpp"
 
 namespace courant {
 
@@ -22,12 +20,17 @@ class WorkingDirectory {
   std::filesystem::path old_;
 };
 
-/// All checks of a deck, in the order in which a run does them; the text of all messages.
-inline std::string read_and_check(const std::string& path) {
+/// What `courant check` would say of a deck.
+struct Checked {
+  bool built = false;
   Diagnostics diagnostics;
-  const Deck deck = read_deck(path, {}, diagnostics);
-  if (diagnostics.ok()) build_model(deck, diagnostics);
-  return diagnostics.text();
+};
+
+/// All checks of a deck, just as a run does them.
+inline Checked read_and_check(const std::string& path) {
+  Checked out;
+  out.built = Simulation::build(path, {}, out.diagnostics) != nullptr;
+  return out;
 }
 
 }  // namespace courant

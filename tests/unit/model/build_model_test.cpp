@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "../keyword/read_and_check.hpp"
+#include "model/build_model.hpp"
 
 namespace courant {
 

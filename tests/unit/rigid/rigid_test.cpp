@@ -72,7 +72,7 @@ TEST(Shell, MaterialThatIsNotRigidIsRefusedByName) {
   p.model.parts[0].mid = 8;
   p.build();
   EXPECT_EQ(p.diagnostics.errors(), 1);
-  EXPECT_NE(p.diagnostics.text().find("*PART 1: material 8 of its shells is not *MAT_RIGID"),
+  EXPECT_NE(p.diagnostics.text().find("the shells of part 1 need a *MAT_RIGID with id 8"),
             std::string::npos);
   EXPECT_EQ(p.bodies, nullptr);
 }
@@ -81,7 +81,7 @@ TEST(Shell, MissingSectionIsNamed) {
   Plate p;
   p.model.parts[0].secid = 4;
   p.build();
-  EXPECT_NE(p.diagnostics.text().find("*SECTION_SHELL 4"), std::string::npos);
+  EXPECT_NE(p.diagnostics.text().find("*SECTION_SHELL with id 4"), std::string::npos);
 }
 
 TEST(Rigid, MassCentreAndInertiaComeFromTheNodes) {

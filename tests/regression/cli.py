@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+"""The command line as a user meets it: exit codes, messages, and what is left on the disk when things go wrong.
+
+usage: cli.py COURANT SOURCE_DIR WORK_DIR
+"""
+import glob
+import os
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import xml.etree.ElementTree as ElementTree
+
+courant, source, work = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), os.path.join(os.path.abspath(sys.argv[3]), "cli")
+shutil.rmtree(work, ignore_errors=True)
+os.makedirs(work)
+os.chdir(work)
+failures = []
+
+
+def check(holds, text):
+    print(("ok      " if holds else "FAILED  ") + text, flush=True)
+    if not holds:
+        failures.append(text)
+
+
+def call(*words, limit=None, cwd=None):
+    """Exit code, stdout, stderr. `limit`: largest file the call may write [bytes], as `ulimit -f` sets it."""
+    done = subprocess.run([courant, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=cwd, timeout=120,
+                          preexec_fn=limit and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))))
+    return done.returncode, done.stdout, done.stderr
+
+
+def ends(code, *words, err="", out="", what=None, **options):
+    """One call that must end with `code` and say `err` and `out` (regular expressions)."""
+    got, stdout, stderr = call(*words, **options)
+    holds = got == code and re.search(err, stderr) is not None and re.search(out, stdout) is not None
+    check(holds, what or f"courant {' '.join(words)} -> {code}")
+    if not holds:
+        print(f"        exit code {got}, expected {code}\n        stdout: {stdout[-800:]!r} expected {out!r}\n"
+              f"        stderr: {stderr[-800:]!r} expected {err!r}")
+    return stdout, stderr
+
+
+def summary(folder):
+    """The top-level scalars of summary.yaml; this test must do without Python's yaml."""
+    with open(os.path.join(folder, "summary.yaml")) as file:
+        return dict(m.groups() for m in re.finditer(r'^(\w+): "?([^"\n]+)', file.read(), re.M))
+
+
+def states(folder):
+    """The states that fields.pvd lists; every file must be there and be closed."""
+    files = [d.get("file") for d in ElementTree.parse(os.path.join(folder, "fields.pvd")).iter("DataSet")]
+    for name in files:
+        with open(os.path.join(folder, name), "rb") as file:
+            check(file.read().rstrip().endswith(b"</VTKFile>"), f"{folder}/{name} is whole") if name == files[-1] else None
+    return files
+
+
+def until(condition, process, seconds=60):
+    end = time.time() + seconds
+    while time.time() < end and process.poll() is None:
+        if condition():
+            return True
+        time.sleep(0.02)
+    return False
+
+
+def running(folder, *words):
+    """A long run that has written three states."""
+    process = subprocess.Popen([courant, "run", "tiny.k", "-o", folder, "--threads", "1", "--until", "1000", *words],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    begun = until(lambda: os.path.exists(os.path.join(folder, "fields", "particles_0003.vtp")), process)
+    check(begun, f"the run in {folder} is under way")
+    return process
+
+
+# --- a deck, and the calls that only read
+scene = os.path.join(source, "keyword_decks", "still_water", "scene.yaml")
+ends(0, "generate", scene, "-o", "tiny.k", "--param", "resolution=8", "--param", "endtim=0.05", "--param", "dt_plot=0.01", out="wrote tiny.k")
+ends(1, "generate", scene, "-o", "no.k", "--param", "resolutoin=8", err="resolutoin")
+ends(1, "generate", scene, "-o", "no.k", "--param", "resolution", err="NAME=VALUE")
+ends(1, "generate", scene, "-o", "/proc/no.k", err="/proc/no.k")
+ends(1, "generate", "missing.yaml", "-o", "no.k", err="missing.yaml")
+check(not os.path.exists("no.k"), "generate leaves nothing behind")
+ends(0, "check", "tiny.k", out=r"64 particles of which 64 are active.*\n(.*\n)*first step .* set by")
+ends(0, "--version", out=r"\d+\.\d+\.\d+")
+ends(0, "help", out="check")
+ends(0, "help", "run", out="--until")
+ends(0, "run", "--help", out="--until")
+ends(1, "help", "nonsense")
+ends(1, "nonsense", err="'nonsense' is no call of courant\n  hint: the calls are run, check")
+ends(1, "chekc", "tiny.k", err="did you mean `courant check`")
+ends(1, "i=tiny.k", "ncpu=two", err="two")
+ends(1, err=".")
+ends(1, "run", err="DECK")
+ends(1, "run", "tiny.k", "--no-such-option", err="no-such-option")
+ends(1, "run", "tiny.k", "--until", "soon", err="soon")
+ends(1, "run", "tiny.k", "--until", "-1", err="-1")
+ends(0, "keywords", out=r"\*MAT_NULL +fluid")
+ends(0, "keywords", "section_sph", out="CSLH")
+ends(0, "keywords", "*MAT_RIGID_TITLE", out="CMO")
+ends(1, "keywords", "MAT_NUL", err="did you mean")
+
+# --- a run that ends well
+ends(0, "run", "tiny.k", "-o", "well", "--threads", "1", out="N o r m a l    t e r m i n a t i o n")
+good = summary("well")
+check(good["termination"] == "normal" and abs(float(good["time"]) - 0.05) < 0.01, f"summary: {good['termination']} at {good['time']}")
+check(len(states("well")) == 14, "states of particles and walls at 0, 0.01, ... 0.05 and the end")
+check(not glob.glob("well/**/*.tmp", recursive=True), "no temporary file is left")
+stdout, _ = ends(0, "run", "tiny.k", "-o", "quiet", "--quiet", "--until", "0.02")
+check(stdout == "", "--quiet prints nothing")
+check(abs(float(summary("quiet")["time"]) - 0.02) < 0.01, "--until ends the run")
+os.makedirs("habit")
+ends(0, "i=../tiny.k", "ncpu=2", "memory=20m", cwd="habit")
+check(summary("habit")["threads"] == "2" and os.path.exists("habit/glstat"), "i=DECK ncpu=2 runs here on two threads")
+
+# --- parameters of a deck
+text = open("tiny.k").read()
+name = "*CONTROL_TERMINATION\n"
+at = text.index("\n", text.index(name) + len(name)) + 1  # below the comment line
+with open("parameter.k", "w") as file:
+    file.write(text[:at].replace("*KEYWORD\n", "*KEYWORD\n*PARAMETER\nR     tend      0.05\n") + "     &tend" + text[at + 10:])
+ends(0, "run", "parameter.k", "-o", "parameter", "--param", "tend=0.03", "--quiet")
+check(abs(float(summary("parameter")["time"]) - 0.03) < 0.01, "--param tend=0.03 overrides *PARAMETER")
+ends(1, "run", "parameter.k", "-o", "never", "--param", "tedn=1", err="tedn.*\n.*did you mean tend")
+ends(1, "run", "parameter.k", "-o", "never", "--param", "tend=soon", err="soon")
+ends(1, "run", "parameter.k", "-o", "never", "--param", "tend", err="NAME=VALUE")
+
+# --- bad input: exit code 1, nothing written
+with open("bad.k", "w") as file:
+    file.write(text.replace("*MAT_NULL", "*MAT_NUL"))
+ends(1, "run", "bad.k", "-o", "never", err=r"bad.k:\d+:1: error: \*MAT_NUL: unknown keyword\n  hint: did you mean \*MAT_NULL\?\n"
+     "1 error; nothing was run, nothing written")
+ends(1, "check", "bad.k", err="did you mean")
+ends(1, "run", "missing.k", "-o", "never", err="missing.k: error: cannot read the deck")
+ends(1, "run", ".", "-o", "never", err="cannot read the deck")
+with open("binary.k", "wb") as file:
+    file.write(bytes(range(256)) * 64)
+ends(1, "run", "binary.k", "-o", "never", err="binary.k:1:1: error: text before the first keyword")
+with open("warns.k", "w") as file:
+    file.write(text.replace("*END", "*DATABASE_NODOUT\n       0.1\n*END"))
+ends(0, "check", "warns.k", err="warning: .DATABASE_NODOUT")
+ends(1, "check", "warns.k", "--strict", err="1 warning")
+ends(1, "run", "tiny.k", "-o", "never", "--restart", "d3dump01", err="not supported")
+check(not os.path.exists("never"), "no folder was made")
+
+# --- folders that cannot be written: exit code 1
+with open("in_the_way", "w") as file:
+    file.write("a file\n")
+ends(1, "run", "tiny.k", "-o", "in_the_way", err="cannot write 'in_the_way")
+ends(1, "run", "tiny.k", "-o", "in_the_way/below", err="cannot write 'in_the_way/below'")
+check(open("in_the_way").read() == "a file\n", "the file in the way is as it was")
+ends(1, "run", "tiny.k", "-o", "/proc/x", err="cannot write '/proc/x'.*\n  hint: ")
+
+# --- post
+ends(1, "post", "missing.yaml", "well", err="missing.yaml")
+os.makedirs("empty")
+recipe = os.path.join(source, "keyword_decks", "hydraulic_jump", "post.yaml")
+ends(1, "post", recipe, "empty", err="empty")
+ends(1, "post", recipe, "no_such_folder", err="no_such_folder")
+
+# --- the disk is full in the middle of a run: exit code 2, whatever file is the first to fail
+for limit in (9000, 40000, 120000):
+    folder = f"full_{limit}"
+    ends(2, "run", "tiny.k", "-o", folder, "--threads", "1", "--until", "50", limit=limit, err="File too large\n  hint: raise the limit",
+         what=f"files of at most {limit} bytes -> 2")
+    end = summary(folder)
+    check(end["termination"] == "error" and "File too large" in end["reason"], f"summary: {end['reason']}")
+    check(not glob.glob(folder + "/**/*.tmp", recursive=True), "no temporary file is left")
+    if os.path.exists(folder + "/fields.pvd"):
+        check(len(states(folder)) >= 2, "fields.pvd is readable")
+    for ascii_file in ("messag", "glstat", "matsum", "rcforc"):
+        if os.path.getsize(f"{folder}/{ascii_file}") > 0:
+            check(open(f"{folder}/{ascii_file}").read().endswith("\n"), f"{folder}/{ascii_file} ends with a whole line")
+    try:
+        import h5py
+    except ImportError:
+        print("skipped: Python's h5py is not here")
+    else:
+        if os.path.exists(folder + "/history.h5"):
+            check(len(h5py.File(folder + "/history.h5")["global/time"]) > 0, "history.h5 is readable")
+
+# --- signals
+for number in (signal.SIGINT, signal.SIGTERM):
+    folder = f"stopped_{number.name}"
+    process = running(folder)
+    process.send_signal(number)
+    process.communicate(timeout=60)
+    end = summary(folder)
+    check(process.returncode == 0 and end["termination"] == "interrupted", f"{number.name} -> {process.returncode}, {end['termination']}")
+    check(len(states(folder)) >= 8, "fields.pvd is readable")
+    check("stopped by a signal" in open(folder + "/messag").read(), "messag says why the run stopped")
+os.makedirs("killed")
+with open("killed/summary.yaml", "w") as file:
+    file.write("termination: normal\n")
+process = running("killed")
+process.kill()
+process.communicate()
+check(len(states("killed")) >= 6, "fields.pvd is readable after kill -9")
+check(not os.path.exists("killed/summary.yaml"), "a killed run has no summary, not even an older run's")
+
+sys.exit(f"{len(failures)} failed" if failures else 0)
