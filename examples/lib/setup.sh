@@ -107,7 +107,7 @@ configure() {  # cmake options
   command -v "${CXX:-c++}" >/dev/null || stop "there is no C++ compiler (${CXX:-c++})." "apt-get install g++"
   mkdir -p "$logs" 2>/dev/null && [ -w "$logs" ] || stop "the folder $project/build cannot be written to."
   [ -f "$build/build.ninja" ] && [ $# -eq 0 ] && return 0
-  say "Configuring in build/release"
+  say "Configuring in ${build#"$project"/}"
   cmake -S "$project" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >"$logs/configure.log" 2>&1 ||
     stop "CMake could not configure the build." "$(grep -m1 -A3 'CMake Error' "$logs/configure.log" | tr '\n' ' ')" \
       "Details: $logs/configure.log"

@@ -166,7 +166,9 @@ std::vector<std::string> translate_habits(int argc, char** argv) {
   std::vector<std::string> out;
   bool habit = false;
   for (const std::string& word : words) {
-    if (word.rfind("i=", 0) == 0) {
+    if (!out.empty() && out.back() == "--param") {  // `--param i=5` is a parameter named i
+      out.push_back(word);
+    } else if (word.rfind("i=", 0) == 0) {
       habit = true;
       out.push_back(word.substr(2));
     } else if (word.rfind("ncpu=", 0) == 0) {

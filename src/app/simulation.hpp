@@ -25,7 +25,8 @@ class Simulation {
 
   /// One step; `at_time_level` sees x, p and f of the same time before the kick.
   void step(const AtTimeLevel& at_time_level);
-  /// Brings rates, pressures and forces to the present time without moving anything.
+  /// Brings rates, pressures and forces to the present time without moving anything. At the start (before `courant check`
+  /// prints) or once at the end of a run: density advances here, so a step after it would advance density twice.
   void evaluate(std::string& dt_controlled_by);
   /// Everything the histories print at the present time.
   Sample sample(const std::string& dt_controlled_by);

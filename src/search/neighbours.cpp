@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "base/run_error.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
@@ -21,6 +24,8 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   if (built_ && !must_refresh(world, clock)) return false;
   Particles& p = world.particles;
   move_dormant(world, clock.t);
+  stop_for_lost_particles(world, clock);
+  const Index active_before = p.active;
   std::vector<signed char> group(p.size());
   classify(world, group);
   make_grid(world, group, 2 * h_max_ + skin_);
@@ -29,9 +34,9 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
 
   entered_.clear();
   left_.clear();
-  for (Index i = 0; i < p.size(); ++i) {  // the state field still tells what each particle was before
+  for (Index i = 0; i < p.size(); ++i) {  // not by the state field: what MAXV switched off leaves, too
     const bool now = i < p.active;
-    const bool before = p.state[i] == particle_active;
+    const bool before = old_of_new[i] < active_before;
     if (now && !before) entered_.push_back(i);
     if (!now && before) left_.push_back(i);
     if (p.state[i] != particle_deactivated) p.state[i] = now ? particle_active : particle_outside;
@@ -94,6 +99,17 @@ void Neighbours::move_dormant(World& world, Real t) {
     const Index i = first + k;
     for (int d = 0; d < 3; ++d) p.x.data(d)[i] += p.v.data(d)[i] * dt;
   });
+}
+
+void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock) const {
+  const Particles& p = world.particles;
+  for (Index i = 0; i < p.size(); ++i) {
+    const Vec x = p.x.vec(i);
+    if (x.allFinite() && std::isfinite(p.h[i])) continue;
+    throw RunError(fmt::format("particle {} went to x = ({:.5g}, {:.5g}, {:.5g}) with h = {:.5g} [L] at time {:.6g}, cycle {}: the run is "
+                               "unstable",
+                               p.id[i], x[0], x[1], x[2], p.h[i], clock.t, clock.cycle));
+  }
 }
 
 void Neighbours::classify(World& world, std::vector<signed char>& group) {

@@ -29,6 +29,7 @@ class Neighbours {
   Neighbours(Real skin, std::optional<Region> region) : skin_(skin), region_(std::move(region)) {}
 
   /// Sorts and rebuilds if it must. Returns true if it did; then every Refresh of the world was told.
+  /// Throws RunError naming a particle whose place is no longer a finite number.
   bool refresh(World& world, const Clock& clock);
   void force_refresh() { built_ = false; }
 
@@ -41,7 +42,8 @@ class Neighbours {
 
   Real skin() const { return skin_; }
   const std::optional<Region>& region() const { return region_; }
-  /// Particles that became active or stopped being so at the last refresh (indices after sorting).
+  /// Particles that became active or stopped being so (by leaving the box or by MAXV) at the last refresh; indices after
+  /// sorting.
   const std::vector<Index>& entered() const { return entered_; }
   const std::vector<Index>& left() const { return left_; }
   std::int64_t rebuilds() const { return rebuilds_; }
@@ -62,6 +64,7 @@ class Neighbours {
 
   bool must_refresh(const World& world, const Clock& clock) const;
   void move_dormant(World& world, Real t);
+  void stop_for_lost_particles(const World& world, const Clock& clock) const;
   void classify(World& world, std::vector<signed char>& group);
   void make_grid(const World& world, const std::vector<signed char>& group, Real cell_size);
   std::vector<Index> sorted_order(World& world, const std::vector<signed char>& group);

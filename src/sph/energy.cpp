@@ -1,4 +1,7 @@
 // What SPH adds to the energy ledger: dissipation, and the energy that crosses the computational box.
+#include <array>
+#include <cmath>
+
 #include "parallel/parallel.hpp"
 #include "sph/momentum.hpp"
 #include "sph/sph.hpp"
@@ -7,7 +10,7 @@ namespace courant {
 
 namespace {
 
-/// Energies of an active particle that the ledger counts: kinetic, internal, and (through gravity, elsewhere) potential.
+/// Kinetic and internal energy of a particle, as the ledger counts them; gravity adds the potential energy.
 Real kinetic_and_internal(const Particles& p, const Field<Real>& reference_volume, Index i) {
   return 0.5 * p.m[i] * p.v.vec(i).squaredNorm() + p.E[i] * reference_volume[i];
 }
@@ -19,7 +22,14 @@ class SphEnergy : public EnergyTerm, public Refresh {
         neighbours_(std::move(neighbours)),
         heat_(world.particles.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"})),
         reference_volume_(world.particles.fields.add<Real>({.name = "reference_volume", .dimension = "L3"})) {
-    if (!s.mu.empty()) viscous_ = &world.particles.fields.add<Real>({.name = "viscous_dissipation", .dimension = "ML2/T3"});
+    FieldSet& f = world.particles.fields;
+    if (!std::holds_alternative<MonaghanViscosity>(s.viscosity))
+      total_pressure_ = &f.add<Real>({.name = "pressure_plus_q", .dimension = "M/LT2", .restart = false});
+    if (s.mu.empty()) return;
+    viscous_ = &f.add<Real>({.name = "viscous_dissipation", .dimension = "ML2/T3"});
+    const char* names[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
+    for (int k = 0; k < 6; ++k)
+      tau_[k] = &f.add<Real>({.name = names[k], .dimension = "M/LT2", .restart = false});
   }
   std::string name() const override { return "sph energy"; }
 
@@ -72,13 +82,14 @@ class SphEnergy : public EnergyTerm, public Refresh {
     Index i, j;
   };
 
-  /// Power that rim particles j, whose state is frozen, put into active ones: the pair's part of the change of kinetic and
-  /// internal energy of i and of the dissipation counted for i.
+  /// Power that rim particles j, whose state is frozen, put into active ones: the pair's part of the change
+  /// of kinetic and internal energy of i and of the dissipation counted for i.
   Real rim_power(World& world) const {
     return with_dimension(world.dim, [&](auto dim) {
       return with_bool(settings_.uniform_h, [&](auto uniform) {
-        return with_bool(std::holds_alternative<MonaghanViscosity>(settings_.viscosity),
-                         [&](auto visc) { return rim_power_of<dim.value, uniform.value, visc.value>(world); });
+        return with_bool(std::holds_alternative<MonaghanViscosity>(settings_.viscosity), [&](auto visc) {
+          return rim_power_of<dim.value, uniform.value, visc.value>(world);
+        });
       });
     });
   }
@@ -86,22 +97,47 @@ class SphEnergy : public EnergyTerm, public Refresh {
   template <int Dim, bool UniformH, bool Monaghan>
   Real rim_power_of(World& world) const {
     const Particles& p = world.particles;
+    const Real* pressure = total_pressure_ ? total_pressure_->data() : p.p.data();
     Real total = 0;
-    for (const Pair& r : rim_pairs_) {
-      const Real h = p.h[r.i];
-      const PartViscosity &qi = settings_.q[p.part[r.i]], &qj = settings_.q[p.part[r.j]];
-      MomentumPair<Dim, UniformH, Monaghan> pair{h, 1 / h, CubicSpline<Dim>::C / power<Dim + 1>(h), tiny_distance2 * h * h,
-                                                 p.p[r.i], p.rho[r.i], qi.q1 * p.c[r.i], 0, 1 / p.rho[r.i]};
+    for (const auto [i, j] : rim_pairs_) {
+      const Real h = p.h[i];
+      const PartViscosity &qi = settings_.q[p.part[i]], &qj = settings_.q[p.part[j]];
+      MomentumPair<Dim, UniformH, Monaghan> pair{h,
+                                                 1 / h,
+                                                 CubicSpline<Dim>::C / power<Dim + 1>(h),
+                                                 tiny_distance2 * h * h,
+                                                 pressure[i],
+                                                 p.rho[i],
+                                                 qi.q1 * p.c[i],
+                                                 0,
+                                                 1 / p.rho[i]};
       if constexpr (Monaghan) pair.q2 = std::get<MonaghanViscosity>(settings_.viscosity).q2;
-      const Vec d = p.x.vec(r.i) - p.x.vec(r.j), u = p.v.vec(r.i) - p.v.vec(r.j);
-      const Real v_dot_r = u.dot(d);
-      const auto s = pair(d.squaredNorm() + pair.tiny, v_dot_r, p.p[r.j], p.rho[r.j], qj.q1 * p.c[r.j], p.h[r.j]);
-      const Real w = p.m[r.i] * p.m[r.j] / p.rho[r.j];
-      const Real on_i = -(s.pressure_i + s.pressure_j + s.viscous) * d.dot(p.v.vec(r.i));  // change of kinetic energy
-      const Real compression = s.pressure_i * v_dot_r;                                    // change of internal energy
-      total += w * (on_i + compression + 0.5 * s.viscous * v_dot_r);
+      const Vec d = p.x.vec(i) - p.x.vec(j), vi = p.v.vec(i), vj = p.v.vec(j);
+      const Real r2 = d.squaredNorm() + pair.tiny;
+      const auto s = pair(r2, (vi - vj).dot(d), pressure[j], p.rho[j], qj.q1 * p.c[j], p.h[j]);
+      // the work on i, less what i stores or burns of it by p_i v_ij.d, tau_i:D and its half of Pi
+      Real power = -(s.pressure_i * vj + s.pressure_j * vi + 0.5 * s.viscous * (vi + vj)).dot(d);
+      if (viscous_) {
+        const Real gi = slope_over_r<Dim>(r2, h), gj = slope_over_r<Dim>(r2, UniformH ? h : p.h[j]);
+        power += pair.inverse_rho * (gi * (stress(i) * d).dot(vj) + gj * (stress(j) * d).dot(vi));
+      }
+      total += p.m[i] * p.m[j] / p.rho[j] * power;
     }
     return total;
+  }
+
+  /// (dW/dr)/r
+  template <int Dim>
+  static Real slope_over_r(Real r2, Real h) {
+    const Real r = std::sqrt(r2);
+    return CubicSpline<Dim>::C / power<Dim + 1>(h) * CubicSpline<Dim>::slope(r / h) / r;
+  }
+
+  Matrix stress(Index i) const {
+    const auto t = [&](int k) { return (*tau_[k])[i]; };
+    Matrix tau;
+    tau << t(0), t(3), t(5), t(3), t(1), t(4), t(5), t(4), t(2);
+    return tau;
   }
 
   SphSettings settings_;
@@ -109,6 +145,8 @@ class SphEnergy : public EnergyTerm, public Refresh {
   Field<Real>& heat_;
   Field<Real>& reference_volume_;
   Field<Real>* viscous_ = nullptr;
+  Field<Real>* total_pressure_ = nullptr;
+  std::array<Field<Real>*, 6> tau_{};
   std::vector<Pair> rim_pairs_;
   bool first_ = true;
   Real exchanged_ = 0, inflow_ = 0;
@@ -116,7 +154,8 @@ class SphEnergy : public EnergyTerm, public Refresh {
 
 }  // namespace
 
-std::shared_ptr<EnergyTerm> make_sph_energy(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours) {
+std::shared_ptr<EnergyTerm> make_sph_energy(const SphSettings& s, World& world,
+                                            std::shared_ptr<Neighbours> neighbours) {
   auto energy = std::make_shared<SphEnergy>(s, world, std::move(neighbours));
   world.refreshes.push_back(energy);
   return energy;

@@ -13,6 +13,8 @@ class FixedParticles : public Constraint {
     for (Index i = 0; i < world.particles.size(); ++i) {
       const auto& fixed = model.nodes[model.sph[i].node].fixed;
       fixed_[i] = fixed[0] + 2 * fixed[1] + 4 * fixed[2];
+      for (int k = 0; k < 3; ++k)  // outside the box, too, where the pass below does not come
+        if (fixed[k]) world.particles.v.data(k)[i] = 0;
     }
   }
   std::string name() const override { return "fixed particles (SPC)"; }

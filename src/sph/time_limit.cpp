@@ -54,7 +54,8 @@ class SphTimeLimit : public TimeLimit {
   std::vector<Id> part_ids_;
 };
 
-/// MAXV: faster particles are switched off (> 0) or slowed to the limit (< 0); both are counted.
+/// MAXV: faster particles are switched off (> 0) or slowed to the limit (< 0); both are counted, and the energy that
+/// slowing takes is dissipated.
 class SpeedLimit : public Constraint {
  public:
   SpeedLimit(const SphSettings& s, std::shared_ptr<Neighbours> neighbours)
@@ -69,6 +70,9 @@ class SpeedLimit : public Constraint {
       const Real speed = p.v.vec(i).norm();
       if (!(speed > limit)) continue;
       if (maxv_ < 0) {
+        const Real taken = 0.5 * p.m[i] * (speed * speed - limit * limit);
+        world.energy.dissipated += taken;
+        world.energy.throughput += taken;
         p.v.set(i, p.v.vec(i) * (limit / speed));
         ++world.counters["speed_clipped"];
       } else {

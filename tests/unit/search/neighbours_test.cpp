@@ -3,16 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 
 #include "../sph/cloud.hpp"
+#include "base/run_error.hpp"
 
 using namespace courant;
 using courant::test::Cloud;
 
 namespace {
 
-/// Every active particle has every neighbour within its reach, and no particle twice; found by trying all pairs.
+/// Every active particle has every neighbour within its reach, and no particle twice; found by trying all
+/// pairs.
 void expect_complete(const Cloud& cloud) {
   const Particles& p = cloud.world.particles;
   for (Index i = 0; i < p.active; ++i) {
@@ -50,7 +54,8 @@ TEST(Neighbours, StayCompleteUntilTheyRebuildThemselves) {
   std::mt19937 random(3);
   std::uniform_real_distribution<Real> u(-1, 1);
   for (int step = 0; step < 60; ++step) {
-    for (Index i = 0; i < cloud.world.particles.size(); ++i) cloud.world.particles.x.add(i, Vec(u(random), u(random), 0) * 2e-4);
+    for (Index i = 0; i < cloud.world.particles.size(); ++i)
+      cloud.world.particles.x.add(i, Vec(u(random), u(random), 0) * 2e-4);
     cloud.refresh();
     expect_complete(cloud);
   }
@@ -69,7 +74,8 @@ TEST(Neighbours, TheBoxSplitsActiveRimAndDormant) {
   Cloud cloud(2, 40, 0.01, 0);
   Particles& p = cloud.world.particles;
   for (Index i = 0; i < p.size(); ++i) p.v.set(i, {1, 0, 0});
-  cloud.neighbours = std::make_shared<Neighbours>(0.003, Neighbours::Region{Vec(0.195, -1, -1), Vec(0.255, 1, 1)});
+  cloud.neighbours =
+      std::make_shared<Neighbours>(0.003, Neighbours::Region{Vec(0.195, -1, -1), Vec(0.255, 1, 1)});
   cloud.refresh();
   EXPECT_EQ(p.active, 6 * 40);
   expect_complete(cloud);
@@ -90,6 +96,65 @@ TEST(Neighbours, TheBoxSplitsActiveRimAndDormant) {
   cloud.neighbours->force_refresh();
   cloud.refresh();
   for (Index i = 0; i < p.size(); ++i) EXPECT_NEAR(p.x.vec(i)[0], before[p.id[i]] + 0.04, 1e-12);
+}
+
+TEST(Neighbours, StopWhereAPlaceIsNoNumber) {
+  for (const Real lost :
+       {std::nan(""), std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()}) {
+    Cloud cloud(2, 6, 0.01, 0.1);
+    cloud.refresh();
+    cloud.world.particles.x.set(4, {0.01, lost, 0});
+    const Id id = cloud.world.particles.id[4];
+    try {
+      cloud.refresh();
+      FAIL() << "went on with " << lost;
+    } catch (const RunError& error) {
+      EXPECT_NE(std::string(error.what()).find("particle " + std::to_string(id) + " "), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(Neighbours, CopeWithNoParticleAndWithOne) {
+  for (const Index n : {0, 1}) {
+    Cloud cloud(2, 2, 0.01, 0);
+    Particles& p = cloud.world.particles;
+    p.fields.resize(n);
+    for (int k = 0; k < 3; ++k) p.x.data(k)[n] = far_away;
+    cloud.refresh();
+    EXPECT_EQ(p.active, n);
+    EXPECT_EQ(cloud.neighbours->pairs(), 0);
+    cloud.refresh();
+  }
+}
+
+TEST(Neighbours, SortEveryFieldTheSameWay) {
+  Cloud cloud(3, 8, 0.01, 0.3, 1.2, 5);
+  Particles& p = cloud.world.particles;
+  Field<Real>& one = p.fields.add<Real>({.name = "one", .dimension = "-"});
+  Field<Real>& three = p.fields.add<Real>({.name = "three", .dimension = "-", .components = 3});
+  std::map<Id, Vec> places;
+  for (Index i = 0; i < p.size(); ++i) {  // every value tells whose it is
+    p.id[i] = 1 + (i * 37) % p.size();
+    const Real tag = static_cast<Real>(p.id[i]);
+    for (Field<Real>* f : {&p.m, &p.rho, &p.drhodt, &p.p, &p.c, &p.E, &one}) (*f)[i] = tag;
+    for (Field<Real>* f : {&p.v, &p.f, &three}) f->set(i, {tag, 2 * tag, 3 * tag});
+    p.part[i] = static_cast<Index>(tag);
+    places[p.id[i]] = p.x.vec(i);
+  }
+  cloud.refresh();
+  bool moved = false;
+  for (Index i = 0; i < p.size(); ++i) {
+    moved |= p.id[i] != 1 + (i * 37) % p.size();
+    const Real tag = static_cast<Real>(p.id[i]);
+    for (Field<Real>* f : {&p.m, &p.rho, &p.drhodt, &p.p, &p.c, &p.E, &one})
+      EXPECT_EQ((*f)[i], tag) << f->info().name;
+    for (Field<Real>* f : {&p.v, &p.f, &three})
+      EXPECT_EQ(f->vec(i), Vec(tag, 2 * tag, 3 * tag)) << f->info().name;
+    EXPECT_EQ(p.part[i], static_cast<Index>(tag));
+    EXPECT_EQ(p.x.vec(i), places[p.id[i]]);
+  }
+  EXPECT_TRUE(moved);
 }
 
 TEST(NearestDistance, OfALatticeIsItsSpacing) {

@@ -21,7 +21,8 @@ struct ConstantStep : TimeLimit {
 void step(Cloud& cloud, int times) {
   PassTimer timer;
   for (int k = 0; k < times; ++k)
-    courant::step(cloud.world, cloud.clock, *cloud.neighbours, {}, timer, [](World&, const Clock&, const std::string&) {});
+    courant::step(cloud.world, cloud.clock, *cloud.neighbours, {}, timer,
+                  [](World&, const Clock&, const std::string&) {});
 }
 
 }  // namespace
@@ -58,7 +59,12 @@ TEST(SpeedLimit, SwitchesOffOrClipsAndCounts) {
     w.constraints.push_back(make_speed_limit(cloud.settings, cloud.neighbours));
     w.motions.push_back(make_particle_motion());
     w.time_limits.push_back(std::make_shared<ConstantStep>(1e-5));
+    w.energy_terms.push_back(make_sph_energy(cloud.settings, w, cloud.neighbours));
+    w.energy.initial = 0.5 * w.particles.m[3] * 50 * 50;
     step(cloud, 3);
+    sample_energy(w, cloud.clock);
+    EXPECT_NEAR(w.energy.kinetic, maxv > 0 ? 0 : w.energy.initial / 100, 1e-12);
+    EXPECT_NEAR(w.energy.residual(), 0, 1e-12) << "what it took is in the ledger";
     if (maxv > 0) {
       EXPECT_EQ(w.counters.at("deactivated_by_maxv"), 1);
       EXPECT_EQ(w.particles.active, 15);
@@ -80,12 +86,45 @@ TEST(FixedParticles, HoldTheirDirectionsOnly) {
   auto pass = make_fixed_particles(model, cloud.world);
   ASSERT_NE(pass, nullptr);
   cloud.refresh();
-  for (Index i = 0; i < 8; ++i) cloud.world.particles.f.set(i, {1, 2, 3}), cloud.world.particles.v.set(i, {4, 5, 6});
+  for (Index i = 0; i < 8; ++i)
+    cloud.world.particles.f.set(i, {1, 2, 3}), cloud.world.particles.v.set(i, {4, 5, 6});
   pass->apply(cloud.world, cloud.clock);
   for (Index i = 0; i < 8; ++i) {
     const bool fixed = cloud.world.particles.id[i] == 6;
     EXPECT_EQ(cloud.world.particles.f.vec(i), fixed ? Vec(0, 2, 0) : Vec(1, 2, 3));
     EXPECT_EQ(cloud.world.particles.v.vec(i), fixed ? Vec(0, 5, 0) : Vec(4, 5, 6));
+  }
+}
+
+TEST(ParticleMotion, RimParticlesGoOnWithTheirVelocityAndFeelNoForce) {
+  Cloud cloud(2, 10, 0.01, 0);
+  World& w = cloud.world;
+  cloud.neighbours =
+      std::make_shared<Neighbours>(0.003, Neighbours::Region{Vec(-1, -1, -1), Vec(0.045, 1, 1)});
+  Model model;
+  model.body_loads.push_back({1, {.id = 1, .abscissa = {0, 1}, .ordinate = {1, 1}}, 1});
+  w.forces.push_back(make_gravity(model, w, cloud.neighbours));
+  w.motions.push_back(make_particle_motion());
+  w.time_limits.push_back(std::make_shared<ConstantStep>(1e-4));
+  std::map<Id, Vec> before;
+  for (Index i = 0; i < w.particles.size(); ++i)
+    w.particles.v.set(i, {0, 1, 0}), before[w.particles.id[i]] = w.particles.x.vec(i);
+  step(cloud, 7);  // less than half the skin: nothing is sorted again
+  const Particles& p = w.particles;
+  ASSERT_EQ(cloud.neighbours->rebuilds(), 1);
+  ASSERT_LT(p.moving, p.size());
+  for (Index i = 0; i < p.size(); ++i) {
+    const Real rise = p.x.vec(i)[1] - before[p.id[i]][1];
+    if (i < p.active) {
+      EXPECT_LT(p.v.vec(i)[1], 1);
+    } else {
+      EXPECT_EQ(p.v.vec(i)[1], 1);
+    }
+    if (i >= p.active && i < p.moving) {
+      EXPECT_NEAR(rise, 7e-4, 1e-15);
+    } else if (i >= p.moving) {
+      EXPECT_EQ(rise, 0) << "dormant particles wait for the next sort";
+    }
   }
 }
 
