@@ -1,4 +1,5 @@
-// Courant inside another program: reads a deck, reports its faults, or prints its parts and takes a hundred steps.
+// Courant inside another program: reads a deck, reports its faults, or prints its parts and takes a hundred
+// steps.
 //   parts_of_deck DECK.k
 #include <cstdio>
 #include <map>
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   for (int k = 0; k < 100; ++k)
     simulation->step([](courant::World&, const courant::Clock&, const std::string&) {});
   courant::sample_energy(simulation->world(), simulation->clock());
-  std::printf("after 100 steps: time %.6g, kinetic energy %.6g\n", simulation->clock().t, simulation->world().energy.kinetic);
+  std::printf("after 100 steps: time %.6g, kinetic energy %.6g\n", simulation->clock().t,
+              simulation->world().energy.kinetic);
   return 0;
 }

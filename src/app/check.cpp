@@ -25,12 +25,15 @@ std::string part_table(const Simulation& s) {
   }
   for (const ModelShell& shell : s.model().shells) ++totals[shell.part].shells;
   if (s.bodies())
-    for (const RigidBodyReport& body : s.bodies()->reports()) totals[s.model().part_of_id.at(body.part)].mass = body.mass;
-  std::string text = "     part particles    shells         mass      density  sound speed            h    max speed  title\n";
+    for (const RigidBodyReport& body : s.bodies()->reports())
+      totals[s.model().part_of_id.at(body.part)].mass = body.mass;
+  std::string text =
+      "     part particles    shells         mass      density  sound speed            h    max speed  "
+      "title\n";
   for (std::size_t k = 0; k < totals.size(); ++k) {
     const PartTotals& t = totals[k];
-    text += fmt::format("{:9}{:10}{:10}{:13.5g}{:13.5g}{:13.5g}{:13.5g}{:13.5g}  {}\n", s.model().parts[k].id, t.particles, t.shells,
-                        t.mass, t.rho, t.c, t.h, t.speed, s.model().parts[k].title);
+    text += fmt::format("{:9}{:10}{:10}{:13.5g}{:13.5g}{:13.5g}{:13.5g}{:13.5g}  {}\n", s.model().parts[k].id,
+                        t.particles, t.shells, t.mass, t.rho, t.c, t.h, t.speed, s.model().parts[k].title);
   }
   return text;
 }
@@ -61,14 +64,17 @@ std::string check_report(Simulation& s) {
   std::string text = fmt::format("{}\nfiles read:\n", s.model().title);
   for (const std::string& file : s.deck().files) text += "  " + file + "\n";
   text += "keywords:\n";
-  for (const auto& [name, count] : s.deck().keyword_counts) text += fmt::format("  {:<44}{:8}\n", name, count);
+  for (const auto& [name, count] : s.deck().keyword_counts)
+    text += fmt::format("  {:<44}{:8}\n", name, count);
   text += part_table(s);
-  text += fmt::format("{}D, spacing {:.6g} [L], {} particles of which {} are active now, {:.1f} neighbours each (skin included)\n",
-                      s.world().dim, s.sph().spacing, p.size(), p.active,
-                      p.active > 0 ? static_cast<double>(s.neighbours().pairs()) / p.active : 0);
+  text += fmt::format(
+      "{}D, spacing {:.6g} [L], {} particles of which {} are active now, {:.1f} neighbours each (skin "
+      "included)\n",
+      s.world().dim, s.sph().spacing, p.size(), p.active,
+      p.active > 0 ? static_cast<double>(s.neighbours().pairs()) / p.active : 0);
   text += fmt::format("units: {}\n", units(s));
-  text += fmt::format("first step {:.5g} [T], set by {}; {:.0f} steps to ENDTIM = {:g} at this size\n", s.clock().dt, who,
-                      std::ceil(s.model().endtim / s.clock().dt), s.model().endtim);
+  text += fmt::format("first step {:.5g} [T], set by {}; {:.0f} steps to ENDTIM = {:g} at this size\n",
+                      s.clock().dt, who, std::ceil(s.model().endtim / s.clock().dt), s.model().endtim);
   const auto& counters = s.world().counters;
   if (const auto found = counters.find("initial_penetrations"); found != counters.end())
     text += fmt::format("initial penetrations: {}\n", found->second);

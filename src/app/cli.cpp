@@ -8,8 +8,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/simulation.hpp"
 #include "generate/generate.hpp"
@@ -26,7 +26,9 @@ namespace {
 enum ExitCode { exit_ok = 0, exit_input = 1, exit_run = 2, exit_other = 3 };
 
 std::atomic<bool> stop_requested{false};
-void request_stop(int) { stop_requested = true; }
+void request_stop(int) {
+  stop_requested = true;
+}
 
 struct Call {
   std::string deck, dir = ".", scene, output, recipe, keyword, restart;
@@ -36,7 +38,9 @@ struct Call {
   bool quiet = false, markdown = false, strict = false;
 };
 
-void print_error(const std::string& text) { std::fputs(text.c_str(), stderr); }
+void print_error(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+}
 
 /// Splits NAME=VALUE; a wrong one is an input error.
 bool parse_params(const std::vector<std::string>& words, std::map<std::string, std::string>& out) {
@@ -65,7 +69,8 @@ std::unique_ptr<Simulation> build(const Call& call, std::vector<std::string>& wa
   for (const Diagnostic& d : diagnostics.all())
     if (d.severity == Severity::warning) warnings.push_back(d.text());
   if (call.strict && !warnings.empty()) {
-    print_error(fmt::format("{} warning{} and --strict: refused\n", warnings.size(), warnings.size() == 1 ? "" : "s"));
+    print_error(fmt::format("{} warning{} and --strict: refused\n", warnings.size(),
+                            warnings.size() == 1 ? "" : "s"));
     return nullptr;
   }
   return simulation;
@@ -82,13 +87,16 @@ int call_run(const Call& call) {
   if (!simulation) return exit_input;
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then a failed write, with a message and a summary
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a limit on file sizes is then a failed write, with a message and a summary
   RunOptions options;
-  options.dir = call.dir, options.until = call.until, options.warnings = warnings, options.stop = &stop_requested;
+  options.dir = call.dir, options.until = call.until, options.warnings = warnings,
+  options.stop = &stop_requested;
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   if (!call.quiet) {
     options.print = [&](const std::string& line) {
-      if (line.find("write d3plot file") == std::string::npos) fmt::print("{}{}\n", terminal ? "\r\033[K" : "", line);
+      if (line.find("write d3plot file") == std::string::npos)
+        fmt::print("{}{}\n", terminal ? "\r\033[K" : "", line);
       std::fflush(stdout);
     };
     if (terminal)
@@ -155,7 +163,8 @@ int call_generate(const Call& call) {
 
 int call_post(const Call& call) {
   Diagnostics diagnostics;
-  const bool done = run_post(call.recipe, call.dir, [](std::string_view text) { fmt::print("{}", text); }, diagnostics);
+  const bool done = run_post(
+      call.recipe, call.dir, [](std::string_view text) { fmt::print("{}", text); }, diagnostics);
   print_error(diagnostics.text());
   return done ? exit_ok : exit_input;
 }
@@ -173,7 +182,8 @@ std::vector<std::string> translate_habits(int argc, char** argv) {
       out.push_back(word.substr(2));
     } else if (word.rfind("ncpu=", 0) == 0) {
       out.push_back("--threads");
-      out.push_back(word.substr(word.rfind("ncpu=-", 0) == 0 ? 6 : 5));  // LS-DYNA's sign means another order of sums
+      out.push_back(
+          word.substr(word.rfind("ncpu=-", 0) == 0 ? 6 : 5));  // LS-DYNA's sign means another order of sums
     } else if (word.rfind("memory=", 0) != 0) {
       out.push_back(word);
     }
@@ -211,7 +221,8 @@ int command_line(int argc, char** argv) {
   auto* generate = app.add_subcommand("generate", "write a keyword deck from a YAML scene");
   generate->add_option("SCENE", call.scene, "scene.yaml")->required();
   generate->add_option("-o,--output", call.output, "deck to write")->required();
-  generate->add_option("--param", call.params, "NAME=VALUE: a parameter of the scene")->allow_extra_args(false);
+  generate->add_option("--param", call.params, "NAME=VALUE: a parameter of the scene")
+      ->allow_extra_args(false);
 
   auto* post = app.add_subcommand("post", "tables, CSV and pictures from the results of a run");
   post->add_option("RECIPE", call.recipe, "recipe.yaml")->required();
@@ -223,8 +234,10 @@ int command_line(int argc, char** argv) {
 
   std::vector<std::string> words = translate_habits(argc, argv);
   std::vector<std::string> calls;
-  for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; })) calls.push_back(one->get_name());
-  if (!words.empty() && words[0][0] != '-' && std::find(calls.begin(), calls.end(), words[0]) == calls.end()) {
+  for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; }))
+    calls.push_back(one->get_name());
+  if (!words.empty() && words[0][0] != '-' &&
+      std::find(calls.begin(), calls.end(), words[0]) == calls.end()) {
     const std::string near = nearest_word(words[0], calls);
     print_error(fmt::format("error: '{}' is no call of courant\n  hint: {}\n", words[0],
                             near.empty() ? fmt::format("the calls are {}", fmt::join(calls, ", "))

@@ -19,12 +19,16 @@ namespace {
 
 using Clock_ = std::chrono::steady_clock;
 
-double seconds_since(Clock_::time_point start) { return std::chrono::duration<double>(Clock_::now() - start).count(); }
+double seconds_since(Clock_::time_point start) {
+  return std::chrono::duration<double>(Clock_::now() - start).count();
+}
 
 double cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -40,13 +44,15 @@ HistoryRequests history_requests(const Simulation& s) {
   h.glstat = wanted.glstat, h.matsum = wanted.matsum, h.rcforc = wanted.rcforc, h.sphout = wanted.sphout;
   h.title = s.model().title;
   for (const ModelPart& part : s.model().parts) h.parts.push_back({part.id, part.title});
-  for (const auto& contact : s.contacts()) h.contacts.push_back({contact->report().id, contact->report().title});
+  for (const auto& contact : s.contacts())
+    h.contacts.push_back({contact->report().id, contact->report().title});
   return h;
 }
 
 std::string duration(double seconds) {
   if (seconds < 60) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 3600) return fmt::format("{:.0f} min {:02.0f} s", std::floor(seconds / 60), std::fmod(seconds, 60));
+  if (seconds < 3600)
+    return fmt::format("{:.0f} min {:02.0f} s", std::floor(seconds / 60), std::fmod(seconds, 60));
   return fmt::format("{:.0f} h {:02.0f} min", std::floor(seconds / 3600), std::fmod(seconds / 60, 60));
 }
 
@@ -109,8 +115,9 @@ class Run {
   void print_start() {
     messag_.line(fmt::format("Courant {}", COURANT_VERSION));
     messag_.line(fmt::format("deck {}: {}", summary_.deck, summary_.title));
-    messag_.line(fmt::format("{} particles in {}D, {} shell nodes, {} segments, {} threads", summary_.particles, s_.world().dim,
-                             s_.world().nodes.size(), s_.world().segments.size(), summary_.threads));
+    messag_.line(fmt::format("{} particles in {}D, {} shell nodes, {} segments, {} threads",
+                             summary_.particles, s_.world().dim, s_.world().nodes.size(),
+                             s_.world().segments.size(), summary_.threads));
     for (const std::string& warning : options_.warnings) messag_.line(warning);
     messag_.line(s_.passes());
     messag_.line(fmt::format(" termination time                  = {:10.3E}", end_));
@@ -128,7 +135,9 @@ class Run {
         summary_.reason = "termination cycle reached";
         return;
       }
-      s_.step([this](World& world, const Clock& clock, const std::string& who) { at_time_level(world, clock, who); });
+      s_.step([this](World& world, const Clock& clock, const std::string& who) {
+        at_time_level(world, clock, who);
+      });
       summary_.particle_steps += s_.world().particles.active;
       if (s_.clock().cycle % 64 == 0) show_progress();
     }
@@ -142,11 +151,13 @@ class Run {
     summary_.dt_max = std::max(summary_.dt_max, clock.dt);
     const Real dtmin = s_.model().dtmin;
     if (dtmin > 0 && clock.dt < dtmin * first_dt_)
-      throw RunError(fmt::format("the step size {:.4g} fell below DTMIN x first step = {:.4g} at time {:.6g}, set by {}", clock.dt,
-                                 dtmin * first_dt_, clock.t, who));
+      throw RunError(
+          fmt::format("the step size {:.4g} fell below DTMIN x first step = {:.4g} at time {:.6g}, set by {}",
+                      clock.dt, dtmin * first_dt_, clock.t, who));
     if (field_schedule_.take(clock.t, clock.dt)) write_fields(world, clock);
     if (histories_.is_due(clock.t, clock.dt)) write_histories(false);
-    if (clock.cycle % 5000 == 0 && clock.cycle > 0) messag_.status(clock.cycle, clock.t, clock.dt, "flush i/o buffers");
+    if (clock.cycle % 5000 == 0 && clock.cycle > 0)
+      messag_.status(clock.cycle, clock.t, clock.dt, "flush i/o buffers");
   }
 
   void start_ledger(const Clock& clock) {
@@ -174,15 +185,16 @@ class Run {
 
   void check_energy(const EnergyLedger& e) const {
     if (std::isfinite(e.total())) return;
-    throw RunError(fmt::format("the energy became {} at time {:.6g}, cycle {}: the run is unstable", e.total(), s_.clock().t,
-                               s_.clock().cycle));
+    throw RunError(fmt::format("the energy became {} at time {:.6g}, cycle {}: the run is unstable",
+                               e.total(), s_.clock().t, s_.clock().cycle));
   }
 
   void finish_normally() {
     s_.evaluate(who_);  // pressures and forces at the end time
     sample_energy(s_.world(), s_.clock());
     check_energy(s_.world().energy);
-    if (field_schedule_.interval() > 0 && last_field_time_ < s_.clock().t) write_fields(s_.world(), s_.clock());
+    if (field_schedule_.interval() > 0 && last_field_time_ < s_.clock().t)
+      write_fields(s_.world(), s_.clock());
     write_histories(true);
     if (summary_.termination.empty()) {
       summary_.termination = "normal";
@@ -236,13 +248,17 @@ class Run {
     const bool ok = summary_.termination != "error";
     messag_.line("T i m i n g   i n f o r m a t i o n        seconds        %");
     for (const auto& pass : summary_.passes)
-      messag_.line(fmt::format("  {:<38}{:10.3f}{:9.1f}", pass.name, pass.seconds, 100 * pass.seconds / summary_.wall_seconds));
+      messag_.line(fmt::format("  {:<38}{:10.3f}{:9.1f}", pass.name, pass.seconds,
+                               100 * pass.seconds / summary_.wall_seconds));
     messag_.line(fmt::format(" Problem time       = {:12.5E}", summary_.time));
     messag_.line(fmt::format(" Problem cycle      = {}", summary_.steps));
-    messag_.line(fmt::format(" Total CPU time     = {:.1f} s, elapsed {:.1f} s, {:.0f} ns per particle and step", summary_.cpu_seconds,
-                             summary_.wall_seconds, summary_.ns_per_particle_step()));
-    messag_.line(fmt::format(" leaked particles {}, largest penetration {:.4g} [L], energy residual {:.3g} % of what passed through",
-                             summary_.leaked_particles, summary_.max_penetration, residual_percent(summary_.energy)));
+    messag_.line(
+        fmt::format(" Total CPU time     = {:.1f} s, elapsed {:.1f} s, {:.0f} ns per particle and step",
+                    summary_.cpu_seconds, summary_.wall_seconds, summary_.ns_per_particle_step()));
+    messag_.line(
+        fmt::format(" leaked particles {}, largest penetration {:.4g} [L], energy residual {:.3g} % of what "
+                    "passed through",
+                    summary_.leaked_particles, summary_.max_penetration, residual_percent(summary_.energy)));
     messag_.line(ok ? " N o r m a l    t e r m i n a t i o n" : " E r r o r    t e r m i n a t i o n");
   }
 
@@ -254,8 +270,9 @@ class Run {
     if (!options_.progress || seconds_since(shown_) < 0.5) return;
     shown_ = Clock_::now();
     const double elapsed = seconds_since(start_), done = std::min(1.0, s_.clock().t / end_);
-    options_.progress(fmt::format("t {:.4f} of {:g}  {:5.1f} %  dt {:.2e} ({})  {} active  {} left", s_.clock().t, end_, 100 * done,
-                                  s_.clock().dt_old, who_, s_.world().particles.active,
+    options_.progress(fmt::format("t {:.4f} of {:g}  {:5.1f} %  dt {:.2e} ({})  {} active  {} left",
+                                  s_.clock().t, end_, 100 * done, s_.clock().dt_old, who_,
+                                  s_.world().particles.active,
                                   done > 0 ? duration(elapsed * (1 - done) / done) : "?"));
   }
 

@@ -10,7 +10,8 @@ namespace courant {
 
 namespace {
 
-/// Lists hold until something moved half the skin. 0.25 h was the cheapest on both the stiff and the soft jump.
+/// Lists hold until something moved half the skin. 0.25 h was the cheapest on both the stiff and the soft
+/// jump.
 constexpr Real skin_over_h = 0.25;
 
 }  // namespace
@@ -43,7 +44,8 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     if (!m.found) return {};
     return {m.ro, m.eos->V0, m.mu, m.eos->uses_energy()};
   };
-  sph_ = build_particles(deck_, model_, sph_material, world_, diagnostics);  // sets world_.dim, which rigid bodies ask for
+  sph_ = build_particles(deck_, model_, sph_material, world_,
+                         diagnostics);  // sets world_.dim, which rigid bodies ask for
   build_segments(deck_, model_, shell_material, world_, diagnostics);
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
 }
@@ -52,8 +54,9 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   const Real h = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
   neighbours_ = std::make_shared<Neighbours>(skin_over_h * h, sph_.region);
   if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
-  contacts_ = build_contacts(deck_, model_, {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->skin()}, world_,
-                             diagnostics);
+  contacts_ = build_contacts(deck_, model_,
+                             {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->skin()},
+                             world_, diagnostics);
   if (!diagnostics.ok()) return;
   left_out_ = add_sph_passes(world_, sph_, neighbours_);
   if (!model_.body_loads.empty())
@@ -97,7 +100,8 @@ void Simulation::evaluate(std::string& dt_controlled_by) {
 Sample Simulation::sample(const std::string& dt_controlled_by) {
   sample_energy(world_, clock_);
   Sample s;
-  s.t = clock_.t, s.dt = clock_.dt, s.cycle = clock_.cycle, s.dt_set_by = dt_controlled_by, s.energy = world_.energy;
+  s.t = clock_.t, s.dt = clock_.dt, s.cycle = clock_.cycle, s.dt_set_by = dt_controlled_by,
+  s.energy = world_.energy;
   const Particles& p = world_.particles;
   const auto* volume = dynamic_cast<const Field<Real>*>(p.fields.find("reference_volume"));
   for (const ModelPart& part : model_.parts) s.parts.push_back({.id = part.id, .title = part.title});

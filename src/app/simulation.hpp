@@ -1,5 +1,6 @@
 #pragma once
-// A deck as a running model: the one place where all physics folders meet. Programs that embed Courant start here.
+// A deck as a running model: the one place where all physics folders meet. Programs that embed Courant start
+// here.
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -21,12 +22,14 @@ namespace courant {
 class Simulation {
  public:
   /// Reads, checks and builds. Returns nullptr when `diagnostics` has errors.
-  static std::unique_ptr<Simulation> build(const std::string& deck_path, const ReadOptions& options, Diagnostics& diagnostics);
+  static std::unique_ptr<Simulation> build(const std::string& deck_path, const ReadOptions& options,
+                                           Diagnostics& diagnostics);
 
   /// One step; `at_time_level` sees x, p and f of the same time before the kick.
   void step(const AtTimeLevel& at_time_level);
-  /// Brings rates, pressures and forces to the present time without moving anything. At the start (before `courant check`
-  /// prints) or once at the end of a run: density advances here, so a step after it would advance density twice.
+  /// Brings rates, pressures and forces to the present time without moving anything. At the start (before
+  /// `courant check` prints) or once at the end of a run: density advances here, so a step after it would
+  /// advance density twice.
   void evaluate(std::string& dt_controlled_by);
   /// Everything the histories print at the present time.
   Sample sample(const std::string& dt_controlled_by);
@@ -65,16 +68,16 @@ class Simulation {
 };
 
 struct RunOptions {
-  std::string dir = ".";          ///< where results go
-  Real until = 0;                 ///< > 0: end time instead of ENDTIM [T]
-  std::vector<std::string> warnings;       ///< of the deck, for summary.yaml
+  std::string dir = ".";                             ///< where results go
+  Real until = 0;                                    ///< > 0: end time instead of ENDTIM [T]
+  std::vector<std::string> warnings;                 ///< of the deck, for summary.yaml
   std::function<void(const std::string&)> print;     ///< every line of messag
   std::function<void(const std::string&)> progress;  ///< one status line, about once a second
   const std::atomic<bool>* stop = nullptr;           ///< set by a signal: end cleanly after this step
 };
 
-/// Runs to the end and writes all results. Throws OutputError where the folder cannot be written at the start; later
-/// failures end the run with `termination: error` in the summary.
+/// Runs to the end and writes all results. Throws OutputError where the folder cannot be written at the
+/// start; later failures end the run with `termination: error` in the summary.
 Summary run(Simulation& simulation, const std::string& deck_path, const RunOptions& options);
 
 /// The text of `courant check`.

@@ -13,8 +13,8 @@ struct Location {
 
 enum class Severity { note, warning, error };
 
-/// One message about the user's input. `text()` gives `file:line:column: error: message` and, if there is one, a second
-/// line `  hint: ...`.
+/// One message about the user's input. `text()` gives `file:line:column: error: message` and, if there is
+/// one, a second line `  hint: ...`.
 struct Diagnostic {
   Severity severity = Severity::error;
   Location where;
@@ -23,7 +23,8 @@ struct Diagnostic {
   std::string text() const;
 };
 
-/// Collects every message about the input, so that all faults of a deck are reported at once. The library never prints.
+/// Collects every message about the input, so that all faults of a deck are reported at once. The library
+/// never prints.
 class Diagnostics {
  public:
   void error(Location where, std::string message, std::string hint = {});

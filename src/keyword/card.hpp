@@ -80,7 +80,8 @@ template <class T>
 struct KeywordOf {
   std::vector<std::string> names{};  ///< without '*', the first is shown: {"MAT_NULL", "MAT_009"}
   std::string purpose{};
-  /// What the first field numbers ("section", "material", ...): an id may stand once among all keywords that share the word.
+  /// What the first field numbers ("section", "material", ...): an id may stand once among all keywords that
+  /// share the word.
   std::string id_space{};
   bool title_option = false;  ///< NAME_TITLE adds an A80 card, stored in the member named by `title`
   bool id_option = false;     ///< NAME_ID adds a card ID I10, HEADING A70

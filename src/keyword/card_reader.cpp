@@ -80,8 +80,8 @@ void CardReader::refuse_second_definition(const Entry& entry) {
   const Entry* first = deck_.define(spec_->id_space, id, entry);
   if (!first) return;
   deck_.error(diagnostics_, entry, spec_->cards[0].fields[0].name,
-              fmt::format("{} {} is defined twice, first as {} at {}", spec_->id_space, id, deck_.keyword(*first),
-                          deck_.place(*first)),
+              fmt::format("{} {} is defined twice, first as {} at {}", spec_->id_space, id,
+                          deck_.keyword(*first), deck_.place(*first)),
               fmt::format("give every {} an id of its own{}", spec_->id_space,
                           first->keyword == entry.keyword ? "" : ", whatever its kind"));
 }
@@ -179,8 +179,9 @@ void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, En
   if (slice.text.empty()) {
     if (spec.rules.required && !spec.is_vector())
       field_error(card, field, slice, fmt::format("expected {}, got a blank field", expectation(spec)),
-                  spec.rules.allowed.empty() ? ""
-                                             : fmt::format("supported values: {}", fmt::join(spec.rules.allowed, ", ")));
+                  spec.rules.allowed.empty()
+                      ? ""
+                      : fmt::format("supported values: {}", fmt::join(spec.rules.allowed, ", ")));
     if (spec.type == FieldType::reals) sink.set_real(card, field, 0);
     return;  // the entry began with the standard values
   }

@@ -80,19 +80,28 @@ std::string options_line(const KeywordSpec& spec) {
 
 constexpr const char* markdown_introduction =
     "# Keywords\n\n"
-    "Written by `courant keywords --markdown` from the tables that the reader itself works with; do not edit. "
+    "Written by `courant keywords --markdown` from the tables that the reader itself works with; do not "
+    "edit. "
     "`courant keywords NAME` shows one of them.\n\n"
     "How to read the tables:\n\n"
-    "- Columns are those of the standard format. With `*KEYWORD LONG=Y`, or `+` behind a name, every field is 20 columns "
-    "wide; with `I10=Y`, or `%`, ids that are 8 wide become 10 wide. Fields may also be separated by commas.\n"
-    "- Type: I integer, F number, A text; a list takes all columns up to the end of the line, and of the lines below.\n"
-    "- A blank field has its default, and so has a 0 unless the field must not be 0. A `required` field must be given.\n"
-    "- Dimension: M mass, L length, T time in whatever consistent units the deck uses; `-` has none. In 2D (IDIM 2) masses, "
+    "- Columns are those of the standard format. With `*KEYWORD LONG=Y`, or `+` behind a name, every field "
+    "is 20 columns "
+    "wide; with `I10=Y`, or `%`, ids that are 8 wide become 10 wide. Fields may also be separated by "
+    "commas.\n"
+    "- Type: I integer, F number, A text; a list takes all columns up to the end of the line, and of the "
+    "lines below.\n"
+    "- A blank field has its default, and so has a 0 unless the field must not be 0. A `required` field must "
+    "be given.\n"
+    "- Dimension: M mass, L length, T time in whatever consistent units the deck uses; `-` has none. In 2D "
+    "(IDIM 2) masses, "
     "forces and energies are per unit of depth.\n"
-    "- Accepted: the values that are. *Only the default*: other values ask for physics that Courant lacks, and the deck is "
-    "refused. *No effect*: read and left unused, because it cannot change results here. *Warning*: another value asks for "
+    "- Accepted: the values that are. *Only the default*: other values ask for physics that Courant lacks, "
+    "and the deck is "
+    "refused. *No effect*: read and left unused, because it cannot change results here. *Warning*: another "
+    "value asks for "
     "output that Courant lacks; the run goes on without it.\n"
-    "- A keyword that is not on this page is an error, except requests for output (`*DATABASE_...`, `*CONTROL_OUTPUT`, "
+    "- A keyword that is not on this page is an error, except requests for output (`*DATABASE_...`, "
+    "`*CONTROL_OUTPUT`, "
     "`*CONTROL_PARALLEL`, `*CONTROL_MPP_...`, `*CONTROL_UNITS`), which give a warning.\n";
 
 std::string escaped(const std::string& text) {
@@ -112,11 +121,14 @@ std::string sentence(std::string text) {
 
 std::string anchor(const KeywordSpec& spec) {
   std::string out = spec.names[0];
-  std::transform(out.begin(), out.end(), out.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 'a' - 'A') : c; });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 'a' - 'A') : c; });
   return out;
 }
 
-std::string first_word(const KeywordSpec& spec) { return spec.names[0].substr(0, spec.names[0].find('_')); }
+std::string first_word(const KeywordSpec& spec) {
+  return spec.names[0].substr(0, spec.names[0].find('_'));
+}
 
 std::string accepted(const FieldSpec& field) {
   switch (field.rules.honour) {
@@ -138,12 +150,13 @@ std::string accepted(const FieldSpec& field) {
 
 std::string markdown_card(const CardSpec& card, std::size_t number) {
   std::string out = fmt::format(
-      "\n{}\n\n| Field | Columns | Type | Default | Meaning | Dimension | Accepted |\n|---|---|---|---|---|---|---|\n",
+      "\n{}\n\n| Field | Columns | Type | Default | Meaning | Dimension | Accepted "
+      "|\n|---|---|---|---|---|---|---|\n",
       card_line(card, number));
   for (const FieldSpec& f : card.fields)
     if (f.type != FieldType::skip)
-      out += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", escaped(f.name), columns(f), type_name(f), standard_value(f),
-                         escaped(f.meaning), f.dimension, accepted(f));
+      out += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", escaped(f.name), columns(f), type_name(f),
+                         standard_value(f), escaped(f.meaning), f.dimension, accepted(f));
   return out;
 }
 

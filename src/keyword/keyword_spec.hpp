@@ -52,7 +52,8 @@ class KeywordSpec {
   virtual std::unique_ptr<EntrySink> sink(Deck& deck) const = 0;
   /// Whether the card is there, as far as the entry was read. `entry` must be of this keyword.
   virtual bool has_card(const Entry& entry, std::size_t card) const = 0;
-  /// The entry's id (first field of the first card), 0 where there is no id_space. `entry` must be of this keyword.
+  /// The entry's id (first field of the first card), 0 where there is no id_space. `entry` must be of this
+  /// keyword.
   virtual Id id_of(const Entry& entry) const = 0;
 
   std::vector<std::string> names;

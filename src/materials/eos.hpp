@@ -1,6 +1,7 @@
 #pragma once
-// Equations of state p = A(mu) + B(mu) E with mu = rho/rho0 - 1 and E the internal energy per reference volume. A law is a
-// small struct with A, B and their derivatives; one file per law registers it with its card, and nothing else is edited.
+// Equations of state p = A(mu) + B(mu) E with mu = rho/rho0 - 1 and E the internal energy per reference
+// volume. A law is a small struct with A, B and their derivatives; one file per law registers it with its
+// card, and nothing else is edited.
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,8 +18,8 @@ namespace courant {
 class EosLaw {
  public:
   virtual ~EosLaw() = default;
-  virtual Real pressure(Real mu, Real E) const = 0;                  ///< [M/LT2]
-  virtual Real sound_speed2(Real rho0, Real mu, Real E) const = 0;   ///< dp/drho at constant entropy [L2/T2]
+  virtual Real pressure(Real mu, Real E) const = 0;                 ///< [M/LT2]
+  virtual Real sound_speed2(Real rho0, Real mu, Real E) const = 0;  ///< dp/drho at constant entropy [L2/T2]
   virtual bool uses_energy() const = 0;
   virtual std::shared_ptr<Material> make_pass(EosPart part, World& world) const = 0;
   Real E0 = 0;  ///< initial internal energy per reference volume [M/LT2]
@@ -34,7 +35,8 @@ struct EosReference {
 struct EosEntry {
   std::string keyword, equation, source;
   std::vector<EosReference> references;
-  std::function<std::vector<std::pair<Id, std::shared_ptr<EosLaw>>>(const Deck&)> all;  ///< every law of this kind in a deck
+  std::function<std::vector<std::pair<Id, std::shared_ptr<EosLaw>>>(const Deck&)>
+      all;  ///< every law of this kind in a deck
 };
 
 std::vector<EosEntry>& eos_registry();
@@ -59,7 +61,8 @@ class EosLawOf : public EosLaw {
 /// Card must have members eosid and functions law(), e0(), v0().
 template <class Card>
 struct RegisterEos {
-  RegisterEos(std::string equation, std::string source, std::vector<EosReference> references, KeywordOf<Card> keyword) {
+  RegisterEos(std::string equation, std::string source, std::vector<EosReference> references,
+              KeywordOf<Card> keyword) {
     EosEntry entry;
     entry.keyword = keyword.names.front();
     entry.equation = std::move(equation);

@@ -28,16 +28,28 @@ using Card = EosLinearPolynomial;
 const RegisterEos<Card> registered{
     "p = C0 + C1 mu + C2 mu^2 + C3 mu^3 + (C4 + C5 mu + C6 mu^2) E",
     "Jonsson et al. 2016, eqs 13-14; water: C1 = rho0 c0^2",
-    {{"         1       0.0     9.0E5       0.0       0.0       0.0       0.0       0.0\n       0.0       1.0\n", 0.01, 0, 9000},
-     {"         1       1.0      10.0     100.0    1000.0       0.0       0.0       0.0\n       0.0       1.0\n", 0.1, 0, 4},
-     {"         1       1.0      10.0     100.0    1000.0       0.0       0.0       0.0\n       0.0       1.0\n", -0.1, 0, -1},
-     {"         1       0.0       0.0       0.0       0.0       0.4       0.4       0.0\n       2.5       1.0\n", 0.5, 3, 1.8}},
+    {{"         1       0.0     9.0E5       0.0       0.0       0.0       0.0       0.0\n       0.0       "
+      "1.0\n",
+      0.01, 0, 9000},
+     {"         1       1.0      10.0     100.0    1000.0       0.0       0.0       0.0\n       0.0       "
+      "1.0\n",
+      0.1, 0, 4},
+     {"         1       1.0      10.0     100.0    1000.0       0.0       0.0       0.0\n       0.0       "
+      "1.0\n",
+      -0.1, 0, -1},
+     {"         1       0.0       0.0       0.0       0.0       0.4       0.4       0.0\n       2.5       "
+      "1.0\n",
+      0.5, 3, 1.8}},
     {.names = {"EOS_LINEAR_POLYNOMIAL", "EOS_001"},
      .purpose = "pressure as a polynomial of compression, with energy",
      .id_space = "equation of state",
      .title_option = true,
      .title = &Card::title,
-     .cards = {{.fields = {{"EOSID", &Card::eosid, "-", "id that *PART refers to", {.required = true, .check = Check::positive}},
+     .cards = {{.fields = {{"EOSID",
+                            &Card::eosid,
+                            "-",
+                            "id that *PART refers to",
+                            {.required = true, .check = Check::positive}},
                            {"C0", &Card::c0, "M/LT2", "pressure at mu = 0", {}},
                            {"C1", &Card::c1, "M/LT2", "bulk modulus, rho0 c0^2", {}},
                            {"C2", &Card::c2, "M/LT2", "factor of mu^2, in compression", {}},
@@ -46,7 +58,11 @@ const RegisterEos<Card> registered{
                            {"C5", &Card::c5, "-", "factor of mu E", {}},
                            {"C6", &Card::c6, "-", "factor of mu^2 E, in compression", {}}}},
                {.fields = {{"E0", &Card::E0, "M/LT2", "initial internal energy per reference volume", {}},
-                           {"V0", &Card::V0, "-", "initial relative volume rho0/rho", {.standard = 1, .check = Check::positive}}},
+                           {"V0",
+                            &Card::V0,
+                            "-",
+                            "initial relative volume rho0/rho",
+                            {.standard = 1, .check = Check::positive}}},
                 .optional = true}}}};
 
 }  // namespace

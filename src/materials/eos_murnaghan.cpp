@@ -30,16 +30,31 @@ using Card = EosMurnaghan;
 const RegisterEos<Card> registered{
     "p = K0 ((rho/rho0)^GAMMA - 1)",
     "Murnaghan 1944; as Cole's law for water in Monaghan 1994: K0 = rho0 c0^2 / 7, GAMMA = 7",
-    {{"         1       7.0     1.0E6       1.0\n", 0.0, 0, 0}, {"         1       2.0     100.0       1.0\n", 0.1, 0, 21}},
+    {{"         1       7.0     1.0E6       1.0\n", 0.0, 0, 0},
+     {"         1       2.0     100.0       1.0\n", 0.1, 0, 21}},
     {.names = {"EOS_MURNAGHAN", "EOS_019"},
      .purpose = "stiff power law for weakly compressible water",
      .id_space = "equation of state",
      .title_option = true,
      .title = &Card::title,
-     .cards = {{.fields = {{"EOSID", &Card::eosid, "-", "id that *PART refers to", {.required = true, .check = Check::positive}},
-                           {"GAMMA", &Card::gamma, "-", "exponent, 7 for water", {.required = true, .check = Check::positive}},
-                           {"K0", &Card::k0, "M/LT2", "rho0 c0^2 / GAMMA", {.required = true, .check = Check::positive}},
-                           {"V0", &Card::V0, "-", "initial relative volume rho0/rho", {.standard = 1, .check = Check::positive}}}}}}};
+     .cards = {
+         {.fields = {
+              {"EOSID",
+               &Card::eosid,
+               "-",
+               "id that *PART refers to",
+               {.required = true, .check = Check::positive}},
+              {"GAMMA",
+               &Card::gamma,
+               "-",
+               "exponent, 7 for water",
+               {.required = true, .check = Check::positive}},
+              {"K0", &Card::k0, "M/LT2", "rho0 c0^2 / GAMMA", {.required = true, .check = Check::positive}},
+              {"V0",
+               &Card::V0,
+               "-",
+               "initial relative volume rho0/rho",
+               {.standard = 1, .check = Check::positive}}}}}}};
 
 }  // namespace
 

@@ -26,15 +26,17 @@ struct EosPart {
 
 [[noreturn]] void stop_for_density(const World& world, const Clock& clock, Index particle);
 
-/// Advances rho and E over dt_old and evaluates p and c of active particles. With energy, p is solved implicitly:
-/// E* = E - 1/2 dv p + heat, p = (A + B E*)/(1 + 1/2 B dv), E = E* - 1/2 dv p  (dv: change of relative volume).
+/// Advances rho and E over dt_old and evaluates p and c of active particles. With energy, p is solved
+/// implicitly: E* = E - 1/2 dv p + heat, p = (A + B E*)/(1 + 1/2 B dv), E = E* - 1/2 dv p  (dv: change of
+/// relative volume).
 template <class Law>
 class EosPass : public Material {
  public:
   EosPass(Law law, EosPart part, World& world)
       : law_(law),
         part_(std::move(part)),
-        reference_volume_(world.particles.fields.add<Real>({.name = "reference_volume", .dimension = "L3"})) {}
+        reference_volume_(world.particles.fields.add<Real>({.name = "reference_volume", .dimension = "L3"})) {
+  }
   std::string name() const override { return std::string("eos ") + Law::name; }
 
   void update(World& world, const Clock& clock) override {

@@ -16,8 +16,9 @@ std::vector<EosEntry>& eos_registry() {
 void stop_for_density(const World& world, const Clock& clock, Index i) {
   const Particles& p = world.particles;
   const Vec x = p.x.vec(i);
-  throw RunError(fmt::format("density of particle {} became {:.4g} [M/L3] at time {:.6g}, cycle {}, x = ({:.5g}, {:.5g}, {:.5g})",
-                             p.id[i], p.rho[i], clock.t, clock.cycle, x[0], x[1], x[2]));
+  throw RunError(fmt::format(
+      "density of particle {} became {:.4g} [M/L3] at time {:.6g}, cycle {}, x = ({:.5g}, {:.5g}, {:.5g})",
+      p.id[i], p.rho[i], clock.t, clock.cycle, x[0], x[1], x[2]));
 }
 
 namespace {
@@ -56,18 +57,21 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
                  "add the material, or correct the id here");
     if (law == laws.end())
       deck.error(diagnostics, part.card, "EOSID",
-                 part.eosid == 0 ? fmt::format("the particles of part {} need an equation of state, got none", part.id)
-                                 : fmt::format("there is no equation of state with id {} for the particles of part {}", part.eosid,
-                                               part.id),
+                 part.eosid == 0
+                     ? fmt::format("the particles of part {} need an equation of state, got none", part.id)
+                     : fmt::format("there is no equation of state with id {} for the particles of part {}",
+                                   part.eosid, part.id),
                  "add one of " + known_laws() + " and give its id here");
     if (null == nulls.end() || law == laws.end()) continue;
     out[k] = {true, null->second->ro, null->second->pc, null->second->mu, law->second};
     const Real c2 = law->second->sound_speed2(out[k].ro, 1 / law->second->V0 - 1, law->second->E0);
     if (!(c2 > 0))
-      deck.error(diagnostics, part.card, "EOSID",
-                 fmt::format("equation of state {} gives part {} no sound speed: c^2 = {:.4g} [L2/T2] at the start", part.eosid,
-                             part.id, c2),
-                 "give it a bulk modulus > 0: C1 = RO c0^2 of *EOS_LINEAR_POLYNOMIAL, K0 and GAMMA of *EOS_MURNAGHAN");
+      deck.error(
+          diagnostics, part.card, "EOSID",
+          fmt::format("equation of state {} gives part {} no sound speed: c^2 = {:.4g} [L2/T2] at the start",
+                      part.eosid, part.id, c2),
+          "give it a bulk modulus > 0: C1 = RO c0^2 of *EOS_LINEAR_POLYNOMIAL, K0 and GAMMA of "
+          "*EOS_MURNAGHAN");
   }
   return out;
 }

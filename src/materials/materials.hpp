@@ -7,13 +7,14 @@ namespace courant {
 /// The material and EOS of one SPH part.
 struct PartMaterial {
   bool found = false;
-  Real ro = 0;   ///< reference density [M/L3]
-  Real pc = 0;   ///< tensile pressure cut-off, <= 0 [M/LT2]
-  Real mu = 0;   ///< dynamic viscosity [M/LT]
+  Real ro = 0;  ///< reference density [M/L3]
+  Real pc = 0;  ///< tensile pressure cut-off, <= 0 [M/LT2]
+  Real mu = 0;  ///< dynamic viscosity [M/LT]
   std::shared_ptr<EosLaw> eos;
 };
 
-/// Material of every part of the model; parts without particles stay empty. Missing or unsuitable ones are errors.
+/// Material of every part of the model; parts without particles stay empty. Missing or unsuitable ones are
+/// errors.
 std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 /// Sets p, c, E of all particles from rho, and adds one EOS pass per law to the world.

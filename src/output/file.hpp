@@ -29,8 +29,8 @@ void make_folder(const std::filesystem::path& dir);
 /// new one. Throws OutputError; `file` is then as it was before and `file.tmp` is gone.
 void write_file(const std::filesystem::path& file, std::string_view content);
 
-/// A text file that grows while the run goes on; each write reaches the system before the call returns. A write that
-/// fails leaves the file as it was before.
+/// A text file that grows while the run goes on; each write reaches the system before the call returns. A
+/// write that fails leaves the file as it was before.
 class TextFile {
  public:
   /// Starts an empty file, or goes on at its end. Throws OutputError.

@@ -74,8 +74,8 @@ std::string content(const std::filesystem::path& file) {
   return bytes.str();
 }
 
-/// The file as HDF5 keeps it in memory: HDF5 never writes to the disk itself, because after a failed write (disk full) its
-/// clean-up at exit crashes.
+/// The file as HDF5 keeps it in memory: HDF5 never writes to the disk itself, because after a failed write
+/// (disk full) its clean-up at exit crashes.
 class HistoryFile {
  public:
   /// `image`: bytes of the file so far, empty for a new one.
@@ -128,7 +128,8 @@ class HistoryFile {
     // H5Fget_file_image of HDF5 1.10 spoils the checksum that later formats have in their first block
     H5Pset_libver_bounds(access_, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
     H5Pset_fapl_core(access_, growth, false);
-    const std::string name = name_.string() + ".in_memory";  // HDF5 refuses an image for a name that is on the disk
+    const std::string name =
+        name_.string() + ".in_memory";  // HDF5 refuses an image for a name that is on the disk
     if (image.empty()) return H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_);
     // HDF5 copies the bytes; it asks for a mutable pointer all the same
     check(H5Pset_file_image(access_, const_cast<char*>(image.data()), image.size()));

@@ -20,7 +20,8 @@ namespace courant {
 ///   /parts/<id>/{mass kinetic internal momentum}          with attribute `title`
 ///   /contacts/<id>/{force energy_stored energy_damping energy_friction}   force: on the tracked side (the
 ///   particles) /rigid_bodies/<part id>/{x v omega force moment kinetic} /particles/<id>/{x v p rho E active}
-/// A flush replaces the file by a longer one, so that a killed run leaves it readable and others may read it at any time.
+/// A flush replaces the file by a longer one, so that a killed run leaves it readable and others may read it
+/// at any time.
 class History {
  public:
   explicit History(std::filesystem::path file, std::size_t buffered_samples = 512,

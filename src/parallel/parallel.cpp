@@ -22,6 +22,8 @@ void let_waiting_threads_sleep(char** argv) {
   execv("/proc/self/exe", argv);  // returns only if it failed: then threads spin, which is slower but right
 }
 
-int threads() { return wanted_threads > 0 ? wanted_threads : omp_get_max_threads(); }
+int threads() {
+  return wanted_threads > 0 ? wanted_threads : omp_get_max_threads();
+}
 
 }  // namespace courant

@@ -143,14 +143,15 @@ std::string jump_text(const JumpRecipe& recipe, const JumpResult& result) {
                          r.states == 0 ? "do not reach" : "cover only a part of");
   }
   if (recipe.front_x)
-    out += result.front_time ? fmt::format("The first wave passes x = {:g} m at t = {:.3f} s (depth > {:g} d1)\n",
-                                           *recipe.front_x, *result.front_time, recipe.front_threshold)
-                             : fmt::format("The wave does not reach x = {:g} m by t = {:.3g} s\n",
-                                           *recipe.front_x, s.t.back());
+    out += result.front_time
+               ? fmt::format("The first wave passes x = {:g} m at t = {:.3f} s (depth > {:g} d1)\n",
+                             *recipe.front_x, *result.front_time, recipe.front_threshold)
+               : fmt::format("The wave does not reach x = {:g} m by t = {:.3g} s\n", *recipe.front_x,
+                             s.t.back());
   if (!s.toe.empty()) out += toe_text(recipe, s);
   if (result.turn)
-    out += fmt::format("The jump is furthest downstream at t = {:.3f} s, toe at x = {:.3f} m\n", result.turn->first,
-                       result.turn->second);
+    out += fmt::format("The jump is furthest downstream at t = {:.3f} s, toe at x = {:.3f} m\n",
+                       result.turn->first, result.turn->second);
   return out;
 }
 

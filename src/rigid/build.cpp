@@ -30,7 +30,8 @@ void read_constraints(const Deck& deck, const MatRigid& m, RigidBody& body, Diag
                "the contact stiffness is E / (3 (1 - 2 PR)); 0.3 is steel");
   if (m.cmo == 0) return;  // CON1 and CON2 have no meaning then
   if (m.cmo != 1) {
-    deck.error(diagnostics, m, "CMO", fmt::format("'{:g}' (a constraint along local axes or of a point) is not supported", m.cmo),
+    deck.error(diagnostics, m, "CMO",
+               fmt::format("'{:g}' (a constraint along local axes or of a point) is not supported", m.cmo),
                "use CMO = 1 with CON1 and CON2 along the global axes");
     return;
   }

@@ -106,9 +106,11 @@ void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock)
   for (Index i = 0; i < p.size(); ++i) {
     const Vec x = p.x.vec(i);
     if (x.allFinite() && std::isfinite(p.h[i])) continue;
-    throw RunError(fmt::format("particle {} went to x = ({:.5g}, {:.5g}, {:.5g}) with h = {:.5g} [L] at time {:.6g}, cycle {}: the run is "
-                               "unstable",
-                               p.id[i], x[0], x[1], x[2], p.h[i], clock.t, clock.cycle));
+    throw RunError(
+        fmt::format("particle {} went to x = ({:.5g}, {:.5g}, {:.5g}) with h = {:.5g} [L] at time {:.6g}, "
+                    "cycle {}: the run is "
+                    "unstable",
+                    p.id[i], x[0], x[1], x[2], p.h[i], clock.t, clock.cycle));
   }
 }
 
@@ -127,7 +129,8 @@ void Neighbours::classify(World& world, std::vector<signed char>& group) {
   });
   dormant_speed_ = 0;
   for (Index i = 0; i < p.size(); ++i)
-    if (group[i] == group_dormant && p.state[i] != particle_deactivated) dormant_speed_ = std::max(dormant_speed_, p.v.vec(i).norm());
+    if (group[i] == group_dormant && p.state[i] != particle_deactivated)
+      dormant_speed_ = std::max(dormant_speed_, p.v.vec(i).norm());
 }
 
 void Neighbours::make_grid(const World& world, const std::vector<signed char>& group, Real cell_size) {
@@ -143,10 +146,12 @@ void Neighbours::make_grid(const World& world, const std::vector<signed char>& g
   }
   if (n == 0) low = high = Vec::Zero();
   grid_.origin = low;
-  // A few far-flung particles must not make a grid larger than the particles themselves: then cells grow instead.
+  // A few far-flung particles must not make a grid larger than the particles themselves: then cells grow
+  // instead.
   const Real most = 16.0 * n + 4096;
   Real size = cell_size > 0 ? cell_size : 1;
-  while (((high - low) / size).array().floor().cwiseMin(1e9).unaryExpr([](Real c) { return c + 1; }).prod() > most)
+  while (((high - low) / size).array().floor().cwiseMin(1e9).unaryExpr([](Real c) { return c + 1; }).prod() >
+         most)
     size *= 1.26;
   grid_.inverse_size = 1 / size;
   for (int d = 0; d < 3; ++d) grid_.cells[d] = static_cast<Index>((high[d] - low[d]) / size) + 1;
@@ -168,9 +173,12 @@ std::vector<Index> Neighbours::sorted_order(World& world, const std::vector<sign
   std::vector<Index> key(n);
   for_each(n, [&](Index i) {
     const auto c = cell_of(p.x.data(0)[i], p.x.data(1)[i], p.x.data(2)[i]);
-    key[i] = group[i] == group_dormant ? 2 * cells : group[i] * cells + (c[2] * grid_.cells[1] + c[1]) * grid_.cells[0] + c[0];
+    key[i] = group[i] == group_dormant
+                 ? 2 * cells
+                 : group[i] * cells + (c[2] * grid_.cells[1] + c[1]) * grid_.cells[0] + c[0];
   });
-  std::vector<Index> start(2 * cells + 2, 0);  // counting sort, stable: the same order on any number of threads
+  std::vector<Index> start(2 * cells + 2,
+                           0);  // counting sort, stable: the same order on any number of threads
   for (Index i = 0; i < n; ++i) ++start[key[i] + 1];
   for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
   active_start_.assign(start.begin(), start.begin() + cells + 1);
@@ -194,7 +202,8 @@ void Neighbours::search_around(const World& world, Index i, std::vector<Index>& 
       const Index row = (cz * grid_.cells[1] + cy) * grid_.cells[0];
       for (const auto* start : {&active_start_, &rim_start_}) {
         const Index begin = (*start)[row + x0], end = (*start)[row + x1 + 1];
-        if (static_cast<Index>(found.size()) < count + (end - begin) + 1) found.resize(2 * (count + (end - begin)) + 64);
+        if (static_cast<Index>(found.size()) < count + (end - begin) + 1)
+          found.resize(2 * (count + (end - begin)) + 64);
         for (Index j = begin; j < end; ++j) {
           const Real dx = xi - x[j], dy = yi - y[j], dz = zi - z[j];
           const Real reach = 2 * std::max(hi, h[j]) + skin_;
@@ -278,7 +287,8 @@ Real nearest_to(const std::vector<Vec>& x, const CellLists& lists, std::size_t i
         const bool shell = std::abs(dz) == ring || std::abs(dy) == ring;
         for (std::int64_t dx = -ring; dx <= ring; dx += shell || ring == 0 ? 1 : 2 * ring) {
           const std::array<std::int64_t, 3> k{c[0] + dx, c[1] + dy, c[2] + dz};
-          if (k[0] < 0 || k[1] < 0 || k[2] < 0 || k[0] >= lists.cells[0] || k[1] >= lists.cells[1] || k[2] >= lists.cells[2])
+          if (k[0] < 0 || k[1] < 0 || k[2] < 0 || k[0] >= lists.cells[0] || k[1] >= lists.cells[1] ||
+              k[2] >= lists.cells[2])
             continue;
           for (Index q = lists.start[lists.index(k)]; q < lists.start[lists.index(k) + 1]; ++q) {
             const std::size_t j = lists.points[q];

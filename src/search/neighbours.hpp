@@ -9,10 +9,10 @@
 
 namespace courant {
 
-/// Sorts particles by cell, sets which of them are active, and keeps a Verlet list for each active particle: every particle
-/// within 2 max(h_i, h_j) + skin. The lists hold until something (particles, or shell
-/// nodes that contact looks at) moved or grew by half the skin. Each list is filled up
-/// with the padding particle (index `particles.size()`) to a multiple of `lanes`, so that pair loops need no remainder.
+/// Sorts particles by cell, sets which of them are active, and keeps a Verlet list for each active particle:
+/// every particle within 2 max(h_i, h_j) + skin. The lists hold until something (particles, or shell nodes
+/// that contact looks at) moved or grew by half the skin. Each list is filled up with the padding particle
+/// (index `particles.size()`) to a multiple of `lanes`, so that pair loops need no remainder.
 class Neighbours {
  public:
   static constexpr Index lanes = 8;
@@ -38,12 +38,14 @@ class Neighbours {
     const Index k = i % block_size;
     return {b.list.data() + b.start[k], static_cast<std::size_t>(b.start[k + 1] - b.start[k])};
   }
-  std::span<const Index> of(Index i) const { return padded(i).first(blocks_[i / block_size].count[i % block_size]); }
+  std::span<const Index> of(Index i) const {
+    return padded(i).first(blocks_[i / block_size].count[i % block_size]);
+  }
 
   Real skin() const { return skin_; }
   const std::optional<Region>& region() const { return region_; }
-  /// Particles that became active or stopped being so (by leaving the box or by MAXV) at the last refresh; indices after
-  /// sorting.
+  /// Particles that became active or stopped being so (by leaving the box or by MAXV) at the last refresh;
+  /// indices after sorting.
   const std::vector<Index>& entered() const { return entered_; }
   const std::vector<Index>& left() const { return left_; }
   std::int64_t rebuilds() const { return rebuilds_; }
@@ -80,7 +82,8 @@ class Neighbours {
   Real h_max_ = 0;
   Real dormant_speed_ = 0;
   Grid grid_;
-  std::vector<Index> active_start_, rim_start_;  ///< first sorted particle of each cell, one longer than the cells
+  std::vector<Index> active_start_,
+      rim_start_;  ///< first sorted particle of each cell, one longer than the cells
   std::vector<Block> blocks_;
   std::vector<Index> moving_nodes_;  ///< shell nodes that are not held: contact relies on the skin, too
   std::vector<Vec> nodes_built_;

@@ -33,8 +33,8 @@ std::vector<ShellPart> read_parts(const Deck& deck, const Model& model,
     const auto section = sections.find(part.secid);
     if (section == sections.end())
       deck.error(diagnostics, part.card, "SECID",
-                 fmt::format("the shells of part {} need a *SECTION_SHELL with id {}; {}", part.id, part.secid,
-                             deck.found_instead("section", part.secid)),
+                 fmt::format("the shells of part {} need a *SECTION_SHELL with id {}; {}", part.id,
+                             part.secid, deck.found_instead("section", part.secid)),
                  "add the section, or correct the id here");
     const auto m = material(k);
     if (!m)

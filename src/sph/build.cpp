@@ -24,8 +24,8 @@ struct PartSmoothing {
 
 class Builder {
  public:
-  Builder(const Deck& deck, const Model& model, const std::function<SphMaterial(Index)>& material, World& world,
-          Diagnostics& diagnostics)
+  Builder(const Deck& deck, const Model& model, const std::function<SphMaterial(Index)>& material,
+          World& world, Diagnostics& diagnostics)
       : deck_(deck), model_(model), material_(material), world_(world), diagnostics_(diagnostics) {}
 
   SphSettings build() {
@@ -52,14 +52,15 @@ class Builder {
       const auto found = sections.find(part.secid);
       if (found == sections.end()) {
         deck_.error(diagnostics_, part.card, "SECID",
-                    fmt::format("the particles of part {} need a *SECTION_SPH with id {}; {}", part.id, part.secid,
-                                deck_.found_instead("section", part.secid)),
+                    fmt::format("the particles of part {} need a *SECTION_SPH with id {}; {}", part.id,
+                                part.secid, deck_.found_instead("section", part.secid)),
                     "add the section, or correct the id here");
         continue;
       }
       const SectionSph& s = *found->second;
       if (s.hmin > s.hmax)
-        deck_.error(diagnostics_, s, "HMIN", fmt::format("expected a number <= HMAX = {:g}, got '{:g}'", s.hmax, s.hmin),
+        deck_.error(diagnostics_, s, "HMIN",
+                    fmt::format("expected a number <= HMAX = {:g}, got '{:g}'", s.hmax, s.hmin),
                     "h may vary from HMIN h0 to HMAX h0; HMIN = HMAX = 1 keeps it constant");
       smoothing_[k] = {s.cslh, s.hmin, s.hmax, s.sphini};
       settings_.h_min_factor[k] = s.hmin;
@@ -96,7 +97,8 @@ class Builder {
     if (c->boxid != 0) {
       const auto box = model_.boxes.find(c->boxid);
       if (box == model_.boxes.end())
-        deck_.error(diagnostics_, *c, "BOXID", fmt::format("box {} does not exist", c->boxid), "define it with *DEFINE_BOX");
+        deck_.error(diagnostics_, *c, "BOXID", fmt::format("box {} does not exist", c->boxid),
+                    "define it with *DEFINE_BOX");
       else
         settings_.region = Neighbours::Region{box->second.low, box->second.high};
     }
@@ -119,7 +121,8 @@ class Builder {
         q2 = settings_.q[k].q2;
       } else if (settings_.q[k].q2 != q2) {
         deck_.error(diagnostics_, part.card, "HGID",
-                    fmt::format("the quadratic viscosity Q1 of part {} is {:g}, that of part {} is {:g}: IAVIS 0 supports only "
+                    fmt::format("the quadratic viscosity Q1 of part {} is {:g}, that of part {} is {:g}: "
+                                "IAVIS 0 supports only "
                                 "one for all SPH parts",
                                 part.id, settings_.q[k].q2, first->id, q2),
                     "give all SPH parts the same Q1 in *HOURGLASS, or use IAVIS 1 of *CONTROL_SPH");
@@ -165,15 +168,18 @@ class Builder {
       p.id[i] = node.id;
       p.part[i] = s.part;
       p.state[i] = particle_outside;
-      if (settings_.dim == 2 && (std::abs(node.x[2] - model_.nodes[model_.sph[0].node].x[2]) > 0 || node.v[2] != 0))
+      if (settings_.dim == 2 &&
+          (std::abs(node.x[2] - model_.nodes[model_.sph[0].node].x[2]) > 0 || node.v[2] != 0))
         off_plane_ = off_plane_ < 0 ? i : off_plane_;
     }
     if (off_plane_ >= 0)
-      diagnostics_.error(model_.sph[off_plane_].where,
-                         fmt::format("*ELEMENT_SPH: in 2D all particles must lie in one plane z = constant without velocity along "
-                                     "z; particle {} has z = {:g} [L] and vz = {:g} [L/T], the first one z = {:g}",
-                                     p.id[off_plane_], p.x.vec(off_plane_)[2], p.v.vec(off_plane_)[2], p.x.vec(0)[2]),
-                         "move it into the plane, or use IDIM 3 of *CONTROL_SPH");
+      diagnostics_.error(
+          model_.sph[off_plane_].where,
+          fmt::format(
+              "*ELEMENT_SPH: in 2D all particles must lie in one plane z = constant without velocity along "
+              "z; particle {} has z = {:g} [L] and vz = {:g} [L/T], the first one z = {:g}",
+              p.id[off_plane_], p.x.vec(off_plane_)[2], p.v.vec(off_plane_)[2], p.x.vec(0)[2]),
+          "move it into the plane, or use IDIM 3 of *CONTROL_SPH");
     set_padding(p);
   }
 
@@ -184,8 +190,8 @@ class Builder {
     p.h[n] = 1;
   }
 
-  /// h0 = CSLH x largest nearest-neighbour distance, per part. A part in which one particle stands far off would get an h
-  /// of that distance, so such particles are refused.
+  /// h0 = CSLH x largest nearest-neighbour distance, per part. A part in which one particle stands far off
+  /// would get an h of that distance, so such particles are refused.
   void set_smoothing_lengths() {
     Particles& p = world_.particles;
     std::vector<Vec> all;
@@ -198,7 +204,9 @@ class Builder {
         if (p.part[i] == static_cast<Index>(k)) distances.push_back(nearest[i]);
       if (distances.empty()) continue;
       const Real largest = *std::max_element(distances.begin(), distances.end());
-      std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2), distances.end());
+      std::nth_element(distances.begin(),
+                       distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2),
+                       distances.end());
       const Real median = distances[distances.size() / 2];
       Real h = smoothing_[k].sphini;
       if (h <= 0) {
@@ -215,14 +223,17 @@ class Builder {
     Index found = 0;
     for (Index i = 0; i < world_.particles.size(); ++i) {
       if (nearest[i] != 0) continue;
-      const auto first = std::find(x.begin(), x.end(), x[i]) - x.begin();  // the earlier one of the pair is not reported
-      if (model_.sph[first].node == model_.sph[i].node) continue;  // the same one, or one node used twice: told already
+      const auto first =
+          std::find(x.begin(), x.end(), x[i]) - x.begin();  // the earlier one of the pair is not reported
+      if (model_.sph[first].node == model_.sph[i].node)
+        continue;  // the same one, or one node used twice: told already
       diagnostics_.error(model_.sph[i].where,
-                         fmt::format("*ELEMENT_SPH: particle {} stands where particle {} is", world_.particles.id[i],
-                                     world_.particles.id[first]),
+                         fmt::format("*ELEMENT_SPH: particle {} stands where particle {} is",
+                                     world_.particles.id[i], world_.particles.id[first]),
                          "remove one of the two, or move its node");
       if (++found < max_reports) continue;
-      diagnostics_.note(model_.sph[i].where, fmt::format("only {} particles in one place with another are shown", max_reports));
+      diagnostics_.note(model_.sph[i].where,
+                        fmt::format("only {} particles in one place with another are shown", max_reports));
       return;  // each search runs over all particles
     }
   }
@@ -233,17 +244,20 @@ class Builder {
     for (Index i = 0; i < p.size(); ++i) {
       if (p.part[i] != part || !(nearest[i] > 3 * median || !std::isfinite(nearest[i]))) continue;
       if (++found > max_reports) continue;
-      const std::string what = std::isfinite(nearest[i])
-                                   ? fmt::format("has no neighbour: the nearest other particle is {:.4g} [L] away, the usual "
-                                                 "distance in its part is {:.4g}",
-                                                 nearest[i], median)
-                                   : std::string("is the only one, so it has no neighbour to take the smoothing length from");
+      const std::string what =
+          std::isfinite(nearest[i])
+              ? fmt::format(
+                    "has no neighbour: the nearest other particle is {:.4g} [L] away, the usual "
+                    "distance in its part is {:.4g}",
+                    nearest[i], median)
+              : std::string("is the only one, so it has no neighbour to take the smoothing length from");
       diagnostics_.error(model_.sph[i].where, fmt::format("*ELEMENT_SPH: particle {} {}", p.id[i], what),
                          "remove the particle, or give the smoothing length by SPHINI of *SECTION_SPH");
     }
     if (found > max_reports)
       diagnostics_.note(model_.parts[part].where,
-                        fmt::format("{} more particles of part {} have no neighbour", found - max_reports, model_.parts[part].id));
+                        fmt::format("{} more particles of part {} have no neighbour", found - max_reports,
+                                    model_.parts[part].id));
   }
 
   void choose_h_form() {
@@ -269,12 +283,14 @@ class Builder {
 
 }  // namespace
 
-SphSettings build_particles(const Deck& deck, const Model& model, const std::function<SphMaterial(Index part)>& material,
-                            World& world, Diagnostics& diagnostics) {
+SphSettings build_particles(const Deck& deck, const Model& model,
+                            const std::function<SphMaterial(Index part)>& material, World& world,
+                            Diagnostics& diagnostics) {
   return Builder(deck, model, material, world, diagnostics).build();
 }
 
-std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s, std::shared_ptr<Neighbours> neighbours) {
+std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
+                                     std::shared_ptr<Neighbours> neighbours) {
   std::vector<PassNote> left_out;
   world.rates.push_back(make_continuity(s, world, neighbours));
   if (s.evolving_h)

@@ -17,8 +17,8 @@ struct StrainRate {
 /// Eq. 6: drho_i/dt = rho_i sum_j m_j/rho_j v_ij . grad_i W_ij, and with `Gradient` also
 /// D_ab = -1/2 sum_j m_j/rho_j (v_ij,a grad_b W + v_ij,b grad_a W). Both with h_i (FORM 0).
 template <int Dim, bool UniformH, bool Gradient>
-void rates_of_block(const ParticleView& p, const Real* V, const Neighbours& neighbours, Index begin, Index end, Real h0,
-                    Real* drhodt, const StrainRate& strain) {
+void rates_of_block(const ParticleView& p, const Real* V, const Neighbours& neighbours, Index begin,
+                    Index end, Real h0, Real* drhodt, const StrainRate& strain) {
   using Kernel = CubicSpline<Dim>;
   const Real *x = p.x[0], *y = p.x[1], *z = p.x[2], *vx = p.v[0], *vy = p.v[1], *vz = p.v[2];
   for (Index i = begin; i < end; ++i) {
@@ -62,17 +62,21 @@ class Continuity : public Rate {
  public:
   Continuity(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours)
       : neighbours_(std::move(neighbours)),
-        volume_(world.particles.fields.add<Real>({.name = "volume", .dimension = "L3", .restart = false, .exchange = true})) {
+        volume_(world.particles.fields.add<Real>(
+            {.name = "volume", .dimension = "L3", .restart = false, .exchange = true})) {
     const bool gradient = !s.mu.empty();
     if (gradient) {
       const char* names[] = {"strain_rate_xx", "strain_rate_yy", "strain_rate_zz",
                              "strain_rate_xy", "strain_rate_yz", "strain_rate_zx"};
       for (int k = 0; k < 6; ++k)
-        strain_fields_[k] = &world.particles.fields.add<Real>({.name = names[k], .dimension = "1/T", .restart = false});
+        strain_fields_[k] =
+            &world.particles.fields.add<Real>({.name = names[k], .dimension = "1/T", .restart = false});
     }
     loop_ = with_dimension(s.dim, [&](auto dim) {
       return with_bool(s.uniform_h, [&](auto uniform) {
-        return with_bool(gradient, [&](auto grad) -> Loop { return &rates_of_block<dim.value, uniform.value, grad.value>; });
+        return with_bool(gradient, [&](auto grad) -> Loop {
+          return &rates_of_block<dim.value, uniform.value, grad.value>;
+        });
       });
     });
   }
@@ -89,11 +93,14 @@ class Continuity : public Rate {
       if (strain_fields_[k]) strain.d[k] = strain_fields_[k]->data();
     const Real h0 = p.active > 0 ? p.h[0] : 1;
     Real* drhodt = p.drhodt.data();
-    for_each_block(p.active, [&](Index begin, Index end) { loop_(view, V, *neighbours_, begin, end, h0, drhodt, strain); });
+    for_each_block(p.active, [&](Index begin, Index end) {
+      loop_(view, V, *neighbours_, begin, end, h0, drhodt, strain);
+    });
   }
 
  private:
-  using Loop = void (*)(const ParticleView&, const Real*, const Neighbours&, Index, Index, Real, Real*, const StrainRate&);
+  using Loop = void (*)(const ParticleView&, const Real*, const Neighbours&, Index, Index, Real, Real*,
+                        const StrainRate&);
   std::shared_ptr<Neighbours> neighbours_;
   Field<Real>& volume_;
   std::array<Field<Real>*, 6> strain_fields_{};
@@ -102,7 +109,8 @@ class Continuity : public Rate {
 
 }  // namespace
 
-std::shared_ptr<Rate> make_continuity(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours) {
+std::shared_ptr<Rate> make_continuity(const SphSettings& s, World& world,
+                                      std::shared_ptr<Neighbours> neighbours) {
   return std::make_shared<Continuity>(s, world, std::move(neighbours));
 }
 

@@ -5,14 +5,15 @@ namespace courant {
 
 Vec gravity_at(const std::vector<BodyLoad>& loads, Real t) {
   Vec g = Vec::Zero();
-  for (const BodyLoad& load : loads) g[load.axis] -= load.sf * load.curve(t);  // the base accelerates, bodies feel the opposite
+  for (const BodyLoad& load : loads)
+    g[load.axis] -= load.sf * load.curve(t);  // the base accelerates, bodies feel the opposite
   return g;
 }
 
 namespace {
 
-/// LOAD_BODY_X/Y/Z on active particles. Potential energy is - sum m g(t).x; where the curve changes or particles enter and
-/// leave, the difference is external work.
+/// LOAD_BODY_X/Y/Z on active particles. Potential energy is - sum m g(t).x; where the curve changes or
+/// particles enter and leave, the difference is external work.
 class Gravity : public Force, public EnergyTerm, public Refresh {
  public:
   Gravity(const Model& model, World& world, std::shared_ptr<Neighbours> neighbours)
@@ -65,7 +66,9 @@ class Gravity : public Force, public EnergyTerm, public Refresh {
   }
 
  private:
-  Real potential_of(const Particles& p, const Vec& g, Index i) const { return -p.m[i] * g.dot(p.x.vec(i) - origin_); }
+  Real potential_of(const Particles& p, const Vec& g, Index i) const {
+    return -p.m[i] * g.dot(p.x.vec(i) - origin_);
+  }
   std::vector<BodyLoad> loads_;
   std::shared_ptr<Neighbours> neighbours_;
   Vec origin_ = Vec::Zero();
@@ -75,7 +78,8 @@ class Gravity : public Force, public EnergyTerm, public Refresh {
 
 }  // namespace
 
-std::shared_ptr<Force> make_gravity(const Model& model, World& world, std::shared_ptr<Neighbours> neighbours) {
+std::shared_ptr<Force> make_gravity(const Model& model, World& world,
+                                    std::shared_ptr<Neighbours> neighbours) {
   auto gravity = std::make_shared<Gravity>(model, world, std::move(neighbours));
   world.refreshes.push_back(gravity);
   world.energy_terms.push_back(gravity);

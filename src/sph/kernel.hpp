@@ -7,8 +7,9 @@ namespace courant {
 
 /// Cubic B-spline, W(r, h) = theta(r/h) / h^Dim with support 2h.
 ///   theta(R) = C (1 - 3/2 R^2 + 3/4 R^3) for R < 1,  C/4 (2 - R)^3 for 1 <= R < 2.
-/// Source: Jonsson et al. 2016, eqs 8-10, with C = 2/3, 10/(7 pi), 1/pi. The constants printed there (3/2, 45/(14 pi),
-/// 9/(4 pi)) make the kernel integrate to 2.25. Written without branches, so that pair loops vectorise.
+/// Source: Jonsson et al. 2016, eqs 8-10, with C = 2/3, 10/(7 pi), 1/pi. The constants printed there (3/2,
+/// 45/(14 pi), 9/(4 pi)) make the kernel integrate to 2.25. Written without branches, so that pair loops
+/// vectorise.
 template <int Dim>
 struct CubicSpline {
   static constexpr Real C = Dim == 1 ? 2.0 / 3.0 : Dim == 2 ? 10.0 / (7.0 * pi) : 1.0 / pi;

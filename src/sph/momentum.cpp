@@ -9,29 +9,34 @@ namespace {
 
 /// What the momentum loop reads and writes besides position, velocity, mass and density.
 struct MomentumArrays {
-  const Real* V;    ///< m/rho
-  const Real* p;    ///< pressure, plus bulk viscosity where there is any
-  const Real* qc;   ///< q1 c, for Monaghan viscosity
+  const Real* V;                     ///< m/rho
+  const Real* p;                     ///< pressure, plus bulk viscosity where there is any
+  const Real* qc;                    ///< q1 c, for Monaghan viscosity
   std::array<const Real*, 6> tau{};  ///< viscous stress xx yy zz xy yz zx
   Real* f[3];
-  Real* heat;       ///< dissipated power of each particle [ML2/T3]
+  Real* heat;  ///< dissipated power of each particle [ML2/T3]
   Real h0, q2;
 };
 
 /// Eq. 17: dv_i/dt = - sum_j m_j ((p_i + p_j)/(rho_i rho_j) + Pi_ij) grad W, eq. 7 with viscous stress added.
 template <int Dim, bool UniformH, bool Monaghan, bool Stress>
-void forces_of_block(const ParticleView& q, const MomentumArrays& a, const Neighbours& neighbours, Index begin, Index end) {
-  const Real *x = q.x[0], *y = q.x[1], *z = q.x[2], *vx = q.v[0], *vy = q.v[1], *vz = q.v[2], *rho = q.rho, *hh = q.h;
+void forces_of_block(const ParticleView& q, const MomentumArrays& a, const Neighbours& neighbours,
+                     Index begin, Index end) {
+  const Real *x = q.x[0], *y = q.x[1], *z = q.x[2], *vx = q.v[0], *vy = q.v[1], *vz = q.v[2], *rho = q.rho,
+             *hh = q.h;
   const Real *V = a.V, *p = a.p, *qc = a.qc;
-  const Real *txx = a.tau[0], *tyy = a.tau[1], *tzz = a.tau[2], *txy = a.tau[3], *tyz = a.tau[4], *tzx = a.tau[5];
+  const Real *txx = a.tau[0], *tyy = a.tau[1], *tzz = a.tau[2], *txy = a.tau[3], *tyz = a.tau[4],
+             *tzx = a.tau[5];
   for (Index i = begin; i < end; ++i) {
     const auto list = neighbours.padded(i);
     const Index* nb = list.data();
     const Index count = static_cast<Index>(list.size() / Neighbours::lanes) * Neighbours::lanes;
     const Real h = UniformH ? a.h0 : hh[i];
     MomentumPair<Dim, UniformH, Monaghan> pair{};
-    pair.h = h, pair.hinv = 1 / h, pair.norm = CubicSpline<Dim>::C / power<Dim + 1>(h), pair.tiny = tiny_distance2 * h * h;
-    pair.p = p[i], pair.rho = rho[i], pair.qc = Monaghan ? qc[i] : 0, pair.q2 = a.q2, pair.inverse_rho = 1 / rho[i];
+    pair.h = h, pair.hinv = 1 / h, pair.norm = CubicSpline<Dim>::C / power<Dim + 1>(h),
+    pair.tiny = tiny_distance2 * h * h;
+    pair.p = p[i], pair.rho = rho[i], pair.qc = Monaghan ? qc[i] : 0, pair.q2 = a.q2,
+    pair.inverse_rho = 1 / rho[i];
     const Real xi = x[i], yi = y[i], zi = z[i], vxi = vx[i], vyi = vy[i], vzi = vz[i];
     Real ax = 0, ay = 0, az = 0, power_i = 0;
 #pragma omp simd reduction(+ : ax, ay, az, power_i)
@@ -50,18 +55,21 @@ void forces_of_block(const ParticleView& q, const MomentumArrays& a, const Neigh
       if constexpr (Monaghan) power_i += V[j] * s.viscous * v_dot_r;
       if constexpr (Stress) {  // tau_i with h_i, tau_j with h_j, as the pressure
         const Real rinv = 1 / std::sqrt(r2);
-        const Real gi = V[j] * pair.inverse_rho * pair.norm * CubicSpline<Dim>::slope(r2 * rinv * pair.hinv) * rinv;
+        const Real gi =
+            V[j] * pair.inverse_rho * pair.norm * CubicSpline<Dim>::slope(r2 * rinv * pair.hinv) * rinv;
         Real gj = gi;
         if constexpr (!UniformH) {
           const Real hjinv = 1 / hh[j];
           gj = V[j] * pair.inverse_rho * CubicSpline<Dim>::C * power<Dim + 1>(hjinv) *
                CubicSpline<Dim>::slope(r2 * rinv * hjinv) * rinv;
         }
-        const Real sxx = txx[i] * gi + txx[j] * gj, syy = tyy[i] * gi + tyy[j] * gj, sxy = txy[i] * gi + txy[j] * gj;
+        const Real sxx = txx[i] * gi + txx[j] * gj, syy = tyy[i] * gi + tyy[j] * gj,
+                   sxy = txy[i] * gi + txy[j] * gj;
         ax += sxx * dx + sxy * dy;
         ay += sxy * dx + syy * dy;
         if constexpr (Dim == 3) {
-          const Real szz = tzz[i] * gi + tzz[j] * gj, syz = tyz[i] * gi + tyz[j] * gj, szx = tzx[i] * gi + tzx[j] * gj;
+          const Real szz = tzz[i] * gi + tzz[j] * gj, syz = tyz[i] * gi + tyz[j] * gj,
+                     szx = tzx[i] * gi + tzx[j] * gj;
           ax += szx * dz;
           ay += syz * dz;
           az += szx * dx + syz * dy + szz * dz;
@@ -86,11 +94,13 @@ class Momentum : public Force {
     volume_ = &f.add<Real>({.name = "volume", .dimension = "L3", .restart = false, .exchange = true});
     heat_ = &f.add<Real>({.name = "dissipation", .dimension = "ML2/T3"});
     if (monaghan_) qc_ = &f.add<Real>({.name = "viscous_speed", .dimension = "L/T", .restart = false});
-    if (!monaghan_) total_pressure_ = &f.add<Real>({.name = "pressure_plus_q", .dimension = "M/LT2", .restart = false});
+    if (!monaghan_)
+      total_pressure_ = &f.add<Real>({.name = "pressure_plus_q", .dimension = "M/LT2", .restart = false});
     const bool stress = !s.mu.empty();
     if (stress) {
       const char* names[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
-      for (int k = 0; k < 6; ++k) tau_[k] = &f.add<Real>({.name = names[k], .dimension = "M/LT2", .restart = false});
+      for (int k = 0; k < 6; ++k)
+        tau_[k] = &f.add<Real>({.name = names[k], .dimension = "M/LT2", .restart = false});
     }
     loop_ = with_dimension(s.dim, [&](auto dim) {
       return with_bool(s.uniform_h, [&](auto uniform) {
@@ -144,7 +154,8 @@ class Momentum : public Force {
 
 }  // namespace
 
-std::shared_ptr<Force> make_momentum(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours) {
+std::shared_ptr<Force> make_momentum(const SphSettings& s, World& world,
+                                     std::shared_ptr<Neighbours> neighbours) {
   return std::make_shared<Momentum>(s, world, std::move(neighbours));
 }
 

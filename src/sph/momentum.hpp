@@ -7,8 +7,8 @@
 
 namespace courant {
 
-/// One pair of the momentum equation, eq. 17 (with h per particle: FORM 0, p_i with h_i and p_j with h_j, so that pair
-/// forces cancel), written once for the pair loop and for the energy that crosses the box.
+/// One pair of the momentum equation, eq. 17 (with h per particle: FORM 0, p_i with h_i and p_j with h_j, so
+/// that pair forces cancel), written once for the pair loop and for the energy that crosses the box.
 template <int Dim, bool UniformH, bool Monaghan>
 struct MomentumPair {
   using Kernel = CubicSpline<Dim>;
@@ -31,8 +31,8 @@ struct MomentumPair {
     }
     Result out{p * inverse_rho * gi, pj * inverse_rho * gj, 0};
     if constexpr (Monaghan) {
-      const Real phi = hbar * std::min(v_dot_r, Real(0)) / (r2 + 0.01 * hbar * hbar);    // eq. 16
-      const Real Pi = 2 * phi * (q2 * phi - 0.5 * (qc + qcj)) / (rho + rhoj);             // eq. 15
+      const Real phi = hbar * std::min(v_dot_r, Real(0)) / (r2 + 0.01 * hbar * hbar);  // eq. 16
+      const Real Pi = 2 * phi * (q2 * phi - 0.5 * (qc + qcj)) / (rho + rhoj);          // eq. 15
       out.viscous = rhoj * Pi * (UniformH ? gi : 0.5 * (gi + gj));
     }
     return out;

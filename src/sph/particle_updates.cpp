@@ -1,4 +1,5 @@
-// Passes over single particles between the rates and the forces: bulk viscosity, viscous stress, smoothing length.
+// Passes over single particles between the rates and the forces: bulk viscosity, viscous stress, smoothing
+// length.
 #include <algorithm>
 #include <cmath>
 
@@ -9,12 +10,14 @@ namespace courant {
 
 namespace {
 
-/// IAVIS 1: q = rho h (Q1 h d^2 - Q2 c d) for d = div v < 0, else 0, the form of solid elements with the length h.
+/// IAVIS 1: q = rho h (Q1 h d^2 - Q2 c d) for d = div v < 0, else 0, the form of solid elements with the
+/// length h.
 class BulkViscosityPass : public Material {
  public:
   BulkViscosityPass(const SphSettings& s, World& world)
       : q_(s.q),
-        total_(world.particles.fields.add<Real>({.name = "pressure_plus_q", .dimension = "M/LT2", .restart = false})),
+        total_(world.particles.fields.add<Real>(
+            {.name = "pressure_plus_q", .dimension = "M/LT2", .restart = false})),
         heat_(world.particles.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"})) {}
   std::string name() const override { return "bulk viscosity"; }
   void update(World& world, const Clock&) override {
@@ -43,8 +46,10 @@ class ViscousStress : public Material {
     FieldSet& f = world.particles.fields;
     const char* axes[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
     for (int k = 0; k < 6; ++k) {
-      rate_[k] = &f.add<Real>({.name = std::string("strain_rate_") + axes[k], .dimension = "1/T", .restart = false});
-      tau_[k] = &f.add<Real>({.name = std::string("stress_") + axes[k], .dimension = "M/LT2", .restart = false});
+      rate_[k] =
+          &f.add<Real>({.name = std::string("strain_rate_") + axes[k], .dimension = "1/T", .restart = false});
+      tau_[k] =
+          &f.add<Real>({.name = std::string("stress_") + axes[k], .dimension = "M/LT2", .restart = false});
     }
     power_ = &f.add<Real>({.name = "viscous_dissipation", .dimension = "ML2/T3"});
   }

@@ -19,7 +19,8 @@ struct MonaghanViscosity {
 struct BulkViscosity {};
 using ArtificialViscosity = std::variant<MonaghanViscosity, BulkViscosity>;
 
-/// Coefficients of one part, LS-DYNA's names swapped to the paper's: q1 linear (HOURGLASS Q2), q2 quadratic (HOURGLASS Q1).
+/// Coefficients of one part, LS-DYNA's names swapped to the paper's: q1 linear (HOURGLASS Q2), q2 quadratic
+/// (HOURGLASS Q1).
 struct PartViscosity {
   Real q1 = 0.06, q2 = 1.5;
 };
@@ -27,8 +28,8 @@ struct PartViscosity {
 /// What the material of an SPH part must tell. [M/L3], [-], [M/LT]
 struct SphMaterial {
   Real ro = 0;
-  Real v0 = 1;  ///< initial relative volume: rho = ro / v0
-  Real mu = 0;  ///< dynamic viscosity
+  Real v0 = 1;                    ///< initial relative volume: rho = ro / v0
+  Real mu = 0;                    ///< dynamic viscosity
   bool heat_in_internal = false;  ///< the EOS uses energy, so viscous heat goes into E and is counted there
 };
 
@@ -38,29 +39,31 @@ struct SphSettings {
   bool evolving_h = false;
   std::vector<Real> h_min_factor, h_max_factor;  ///< per part, of h/h0
   ArtificialViscosity viscosity = MonaghanViscosity{};
-  std::vector<PartViscosity> q;   ///< per part
-  std::vector<Real> mu;           ///< per part, dynamic viscosity; empty if no part has any
+  std::vector<PartViscosity> q;        ///< per part
+  std::vector<Real> mu;                ///< per part, dynamic viscosity; empty if no part has any
   std::vector<char> heat_in_internal;  ///< per part; empty if in none
   Real tssfac = 0.9;
-  Real maxv = 0;                  ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
+  Real maxv = 0;  ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
   std::optional<Neighbours::Region> region;
-  bool hide_inactive = false;     ///< ISHOW
+  bool hide_inactive = false;          ///< ISHOW
   bool skip_inactive_contact = false;  ///< ICONT
   bool thickness_from_volume = false;  ///< ITHK
-  Real spacing = 0;               ///< largest nearest-neighbour distance of all SPH parts [L]
+  Real spacing = 0;                    ///< largest nearest-neighbour distance of all SPH parts [L]
 };
 
-/// Reads SECTION_SPH, CONTROL_SPH, HOURGLASS, CONTROL_BULK_VISCOSITY; fills world.particles (x, v, m, rho, h, id, part,
-/// state) and world.dim. p, c, E follow from the materials.
-SphSettings build_particles(const Deck& deck, const Model& model, const std::function<SphMaterial(Index part)>& material,
-                            World& world, Diagnostics& diagnostics);
+/// Reads SECTION_SPH, CONTROL_SPH, HOURGLASS, CONTROL_BULK_VISCOSITY; fills world.particles (x, v, m, rho, h,
+/// id, part, state) and world.dim. p, c, E follow from the materials.
+SphSettings build_particles(const Deck& deck, const Model& model,
+                            const std::function<SphMaterial(Index part)>& material, World& world,
+                            Diagnostics& diagnostics);
 
 /// Adds the SPH passes the settings ask for to the world, and names those left out with the reason.
 struct PassNote {
   std::string name;
   std::string reason;
 };
-std::vector<PassNote> add_sph_passes(World& world, const SphSettings& settings, std::shared_ptr<Neighbours> neighbours);
+std::vector<PassNote> add_sph_passes(World& world, const SphSettings& settings,
+                                     std::shared_ptr<Neighbours> neighbours);
 
 std::shared_ptr<Rate> make_continuity(const SphSettings&, World&, std::shared_ptr<Neighbours>);
 std::shared_ptr<Force> make_momentum(const SphSettings&, World&, std::shared_ptr<Neighbours>);

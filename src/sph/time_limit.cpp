@@ -18,8 +18,8 @@ struct Smallest {
   }
 };
 
-/// Eq. 18: dt = TSSFAC min h/(c + |v|), and with MU > 0 also dt <= 0.125 rho h^2 / MU (Morris et al. 1997). A NaN anywhere
-/// comes out as the smallest, so that the run stops there.
+/// Eq. 18: dt = TSSFAC min h/(c + |v|), and with MU > 0 also dt <= 0.125 rho h^2 / MU (Morris et al. 1997). A
+/// NaN anywhere comes out as the smallest, so that the run stops there.
 class SphTimeLimit : public TimeLimit {
  public:
   SphTimeLimit(const SphSettings& s, const Model& model) : tssfac_(s.tssfac), mu_(s.mu) {
@@ -54,8 +54,8 @@ class SphTimeLimit : public TimeLimit {
   std::vector<Id> part_ids_;
 };
 
-/// MAXV: faster particles are switched off (> 0) or slowed to the limit (< 0); both are counted, and the energy that
-/// slowing takes is dissipated.
+/// MAXV: faster particles are switched off (> 0) or slowed to the limit (< 0); both are counted, and the
+/// energy that slowing takes is dissipated.
 class SpeedLimit : public Constraint {
  public:
   SpeedLimit(const SphSettings& s, std::shared_ptr<Neighbours> neighbours)

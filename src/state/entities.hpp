@@ -6,27 +6,36 @@
 
 namespace courant {
 
-/// SPH particles, sorted as [active | rim | dormant]. Active particles are inside the computational box: the equations are
-/// solved for them. Rim particles are outside but within reach of an active one: they act as neighbours and move with
-/// constant velocity every step. Dormant particles are out of reach and are touched only when neighbours are refreshed.
+/// SPH particles, sorted as [active | rim | dormant]. Active particles are inside the computational box: the
+/// equations are solved for them. Rim particles are outside but within reach of an active one: they act as
+/// neighbours and move with constant velocity every step. Dormant particles are out of reach and are touched
+/// only when neighbours are refreshed.
 struct Particles {
   FieldSet fields;
-  Field<Real>& x = fields.add<Real>({.name = "position", .dimension = "L", .components = 3, .exchange = true});
-  Field<Real>& v = fields.add<Real>({.name = "velocity", .dimension = "L/T", .components = 3, .output = true, .exchange = true});
-  Field<Real>& f = fields.add<Real>({.name = "force", .dimension = "ML/T2", .components = 3, .restart = false});
+  Field<Real>& x =
+      fields.add<Real>({.name = "position", .dimension = "L", .components = 3, .exchange = true});
+  Field<Real>& v = fields.add<Real>(
+      {.name = "velocity", .dimension = "L/T", .components = 3, .output = true, .exchange = true});
+  Field<Real>& f =
+      fields.add<Real>({.name = "force", .dimension = "ML/T2", .components = 3, .restart = false});
   Field<Real>& m = fields.add<Real>({.name = "mass", .dimension = "M", .output = true, .exchange = true});
-  Field<Real>& rho = fields.add<Real>({.name = "density", .dimension = "M/L3", .output = true, .exchange = true});
+  Field<Real>& rho =
+      fields.add<Real>({.name = "density", .dimension = "M/L3", .output = true, .exchange = true});
   Field<Real>& drhodt = fields.add<Real>({.name = "density_rate", .dimension = "M/L3/T"});
-  Field<Real>& p = fields.add<Real>({.name = "pressure", .dimension = "M/LT2", .output = true, .exchange = true});
+  Field<Real>& p =
+      fields.add<Real>({.name = "pressure", .dimension = "M/LT2", .output = true, .exchange = true});
   Field<Real>& c = fields.add<Real>({.name = "sound_speed", .dimension = "L/T", .exchange = true});
-  Field<Real>& E = fields.add<Real>({.name = "internal_energy", .dimension = "M/LT2", .output = true});  ///< per reference volume
-  Field<Real>& h = fields.add<Real>({.name = "smoothing_length", .dimension = "L", .output = true, .exchange = true});
+  Field<Real>& E = fields.add<Real>(
+      {.name = "internal_energy", .dimension = "M/LT2", .output = true});  ///< per reference volume
+  Field<Real>& h =
+      fields.add<Real>({.name = "smoothing_length", .dimension = "L", .output = true, .exchange = true});
   Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
-  Field<Index>& part = fields.add<Index>({.name = "part", .dimension = "-"});  ///< index into the model's parts
+  Field<Index>& part =
+      fields.add<Index>({.name = "part", .dimension = "-"});  ///< index into the model's parts
   Field<Index>& state = fields.add<Index>({.name = "state", .dimension = "-"});  ///< see ParticleState
 
-  Index active = 0;   ///< particles [0, active) are active
-  Index moving = 0;   ///< particles [active, moving) are the rim
+  Index active = 0;  ///< particles [0, active) are active
+  Index moving = 0;  ///< particles [active, moving) are the rim
   Index size() const { return fields.size(); }
 };
 
@@ -40,11 +49,14 @@ enum ParticleState : Index {
 struct Nodes {
   FieldSet fields;
   Field<Real>& x = fields.add<Real>({.name = "position", .dimension = "L", .components = 3});
-  Field<Real>& v = fields.add<Real>({.name = "velocity", .dimension = "L/T", .components = 3, .output = true});
-  Field<Real>& f = fields.add<Real>({.name = "force", .dimension = "ML/T2", .components = 3, .output = true, .restart = false});
+  Field<Real>& v =
+      fields.add<Real>({.name = "velocity", .dimension = "L/T", .components = 3, .output = true});
+  Field<Real>& f = fields.add<Real>(
+      {.name = "force", .dimension = "ML/T2", .components = 3, .output = true, .restart = false});
   Field<Real>& m = fields.add<Real>({.name = "mass", .dimension = "M"});
   Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
-  Field<Index>& held = fields.add<Index>({.name = "held", .dimension = "-"});  ///< 1: its body cannot move at all
+  Field<Index>& held =
+      fields.add<Index>({.name = "held", .dimension = "-"});  ///< 1: its body cannot move at all
   Index size() const { return fields.size(); }
 };
 
@@ -56,7 +68,8 @@ struct Segments {
   Field<Index>& node2 = fields.add<Index>({.name = "node2", .dimension = "-"});
   Field<Index>& node3 = fields.add<Index>({.name = "node3", .dimension = "-"});
   Field<Real>& thickness = fields.add<Real>({.name = "thickness", .dimension = "L", .output = true});
-  Field<Real>& K = fields.add<Real>({.name = "bulk_modulus", .dimension = "M/LT2"});  ///< E/(3(1-2 nu)) of the shell's material
+  Field<Real>& K = fields.add<Real>(
+      {.name = "bulk_modulus", .dimension = "M/LT2"});  ///< E/(3(1-2 nu)) of the shell's material
   Field<Real>& contact_force = fields.add<Real>(
       {.name = "contact_force", .dimension = "ML/T2", .components = 3, .output = true, .restart = false});
   Field<Index>& part = fields.add<Index>({.name = "part", .dimension = "-"});

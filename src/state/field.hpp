@@ -1,6 +1,6 @@
 #pragma once
-// Named structure-of-arrays fields. A field is registered once; output, restart, sorting and (later) ghost exchange walk
-// the registry, so a new field appears there without any edit.
+// Named structure-of-arrays fields. A field is registered once; output, restart, sorting and (later) ghost
+// exchange walk the registry, so a new field appears there without any edit.
 #include <algorithm>
 #include <memory>
 #include <span>
@@ -35,8 +35,8 @@ class FieldBase {
   FieldInfo info_;
 };
 
-/// `components` arrays of `n + 1` values: the last one is the padding entity, always zero unless a physics sets it, which
-/// neighbour lists use to fill up vectors.
+/// `components` arrays of `n + 1` values: the last one is the padding entity, always zero unless a physics
+/// sets it, which neighbour lists use to fill up vectors.
 template <class T>
 class Field : public FieldBase {
  public:

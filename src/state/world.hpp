@@ -11,7 +11,8 @@
 
 namespace courant {
 
-/// Time of the run. `dt` is the step about to be taken from t to t + dt, `dt_old` the one that led to t (0 at the start).
+/// Time of the run. `dt` is the step about to be taken from t to t + dt, `dt_old` the one that led to t (0 at
+/// the start).
 struct Clock {
   Real t = 0;
   Real dt = 0;
@@ -27,9 +28,11 @@ struct EnergyLedger {
   Real potential = 0;      ///< - sum m g.x of active particles and bodies
   Real contact = 0;        ///< stored in penalty springs
   Real dissipated = 0;     ///< by viscosity, contact damping, friction (accumulates)
-  Real external_work = 0;  ///< work done on the active particles from outside: load curves, box boundary, inflow minus outflow (accumulates)
-  Real throughput = 0;     ///< energy that passed through so far: sum of |work| of all kinds and of inflow (accumulates)
-  Real initial = 0;        ///< total at t = 0
+  Real external_work = 0;  ///< work done on the active particles from outside: load curves, box boundary,
+                           ///< inflow minus outflow (accumulates)
+  Real throughput =
+      0;  ///< energy that passed through so far: sum of |work| of all kinds and of inflow (accumulates)
+  Real initial = 0;  ///< total at t = 0
   Real total() const { return kinetic + internal + potential + contact + dissipated; }
   Real residual() const { return total() - initial - external_work; }
 };
@@ -70,8 +73,8 @@ struct TimeLimit : Pass {
   };
   virtual Limit limit(const World& world, const Clock& clock) = 0;
 };
-/// Keeps what depends on the order or the neighbourhood of particles. Called after particles were sorted and their lists
-/// built: particle i was at old_of_new[i] before.
+/// Keeps what depends on the order or the neighbourhood of particles. Called after particles were sorted and
+/// their lists built: particle i was at old_of_new[i] before.
 struct Refresh : Pass {
   virtual void refreshed(World& world, const Clock& clock, std::span<const Index> old_of_new) = 0;
 };
@@ -79,8 +82,8 @@ struct Refresh : Pass {
 /// f . (v^{n-1/2} + v^{n+1/2})/2 dt_mean, which makes the change of kinetic energy exact.
 struct EnergyTerm : Pass {
   virtual void record(World& world, const Clock& clock, EnergyLedger& ledger) = 0;
-  /// Adds what holds at t^n (not what accumulates) to kinetic, internal, potential, contact, which are zero before. Called
-  /// only when somebody wants to know.
+  /// Adds what holds at t^n (not what accumulates) to kinetic, internal, potential, contact, which are zero
+  /// before. Called only when somebody wants to know.
   virtual void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const = 0;
 };
 
@@ -111,7 +114,8 @@ struct World {
 struct InterfaceForce {
   Id id = 0;
   std::string title;
-  Vec on_surfa = Vec::Zero();  ///< total contact force on the tracked side (the particles) [ML/T2]; SURFB gets the opposite
+  Vec on_surfa = Vec::Zero();  ///< total contact force on the tracked side (the particles) [ML/T2]; SURFB
+                               ///< gets the opposite
   Real energy_stored = 0;      ///< in the springs now [ML2/T2]
   Real energy_damping = 0;     ///< dissipated by VDC so far
   Real energy_friction = 0;    ///< dissipated by friction so far

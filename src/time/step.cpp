@@ -32,10 +32,11 @@ void choose_dt(World& world, Clock& clock, const StepRules& rules, std::string& 
     if (most > 0 && most < smallest.dt) smallest = {most, "load curve"};
   }
   if (!(smallest.dt > 0))
-    throw RunError(fmt::format("the step size became {} at time {:.6g}, cycle {}, set by {}", smallest.dt, clock.t, clock.cycle,
-                               smallest.who));
+    throw RunError(fmt::format("the step size became {} at time {:.6g}, cycle {}, set by {}", smallest.dt,
+                               clock.t, clock.cycle, smallest.who));
   if (std::isinf(smallest.dt))
-    throw RunError(fmt::format("nothing limits the step size at time {:.6g}, cycle {}: no particle is active", clock.t, clock.cycle));
+    throw RunError(fmt::format("nothing limits the step size at time {:.6g}, cycle {}: no particle is active",
+                               clock.t, clock.cycle));
   clock.dt = smallest.dt;
   who = std::move(smallest.who);
 }
@@ -46,10 +47,12 @@ void evaluate(World& world, Clock& clock, Neighbours& neighbours, const StepRule
               std::string& controlled_by) {
   timer.measure("neighbours", [&] { neighbours.refresh(world, clock); });
   for (auto& rate : world.rates) timer.measure(rate->name(), [&] { rate->evaluate(world, clock); });
-  for (auto& material : world.materials) timer.measure(material->name(), [&] { material->update(world, clock); });
+  for (auto& material : world.materials)
+    timer.measure(material->name(), [&] { material->update(world, clock); });
   timer.measure("clear forces", [&] { clear_forces(world); });
   for (auto& force : world.forces) timer.measure(force->name(), [&] { force->add(world, clock); });
-  for (auto& constraint : world.constraints) timer.measure(constraint->name(), [&] { constraint->apply(world, clock); });
+  for (auto& constraint : world.constraints)
+    timer.measure(constraint->name(), [&] { constraint->apply(world, clock); });
   timer.measure("time step", [&] { choose_dt(world, clock, rules, controlled_by); });
 }
 
@@ -118,6 +121,8 @@ class ParticleMotion : public Motion {
 
 }  // namespace
 
-std::shared_ptr<Motion> make_particle_motion() { return std::make_shared<ParticleMotion>(); }
+std::shared_ptr<Motion> make_particle_motion() {
+  return std::make_shared<ParticleMotion>();
+}
 
 }  // namespace courant

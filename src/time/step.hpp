@@ -36,8 +36,8 @@ using AtTimeLevel = std::function<void(World&, const Clock&, const std::string& 
 
 /// How the step size may change besides the limits of the passes.
 struct StepRules {
-  Real dtinit = 0;                              ///< first step, 0: from the limits [T]
-  std::function<Real(Real t)> dt_max = nullptr; ///< LCTM curve
+  Real dtinit = 0;                               ///< first step, 0: from the limits [T]
+  std::function<Real(Real t)> dt_max = nullptr;  ///< LCTM curve
 };
 
 /// One step of the staggered central difference,

@@ -1,4 +1,5 @@
-// 16 000 particles thrown about in a closed box whose walls are separate, unmerged patches: not one may leave.
+// 16 000 particles thrown about in a closed box whose walls are separate, unmerged patches: not one may
+// leave.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -33,11 +34,13 @@ TEST_P(DamBreak, NoParticleLeavesTheBox) {
   sample_energy(s->world(), s->clock());
   const EnergyLedger& e = s->world().energy;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("SOFT %s: %d particles, %lld steps, %.1f s, %.0f ns per particle and step on %d threads; penetration %.3g m, "
-              "energy residual %.3g of %.3g J\n",
-              GetParam(), s->world().particles.size(), static_cast<long long>(steps), seconds,
-              1e9 * seconds / (static_cast<double>(steps) * s->world().particles.size()), threads(),
-              s->world().maxima.at("max_penetration"), e.residual(), e.throughput);
+  std::printf(
+      "SOFT %s: %d particles, %lld steps, %.1f s, %.0f ns per particle and step on %d threads; penetration "
+      "%.3g m, "
+      "energy residual %.3g of %.3g J\n",
+      GetParam(), s->world().particles.size(), static_cast<long long>(steps), seconds,
+      1e9 * seconds / (static_cast<double>(steps) * s->world().particles.size()), threads(),
+      s->world().maxima.at("max_penetration"), e.residual(), e.throughput);
   EXPECT_GE(s->world().particles.size(), 15000);
   EXPECT_GE(s->model().endtim, 1.0);
   EXPECT_EQ(outside, 0);

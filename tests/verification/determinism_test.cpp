@@ -15,8 +15,8 @@ TEST(Determinism, TheJumpHasTheSameBitsOnAnyNumberOfThreads) {
     while (s->clock().t < 0.4) s->step([](World&, const Clock&, const std::string&) {});
     sample_energy(s->world(), s->clock());
     const Particles& p = s->world().particles;
-    std::vector<Real> state{s->clock().t, s->world().energy.total(), s->world().energy.dissipated, s->world().energy.external_work,
-                            s->world().maxima.at("max_penetration")};
+    std::vector<Real> state{s->clock().t, s->world().energy.total(), s->world().energy.dissipated,
+                            s->world().energy.external_work, s->world().maxima.at("max_penetration")};
     for (const auto* f : {&p.x, &p.v})
       for (int k = 0; k < 3; ++k) state.insert(state.end(), f->data(k), f->data(k) + p.size());
     for (const auto* f : {&p.rho, &p.p, &p.E}) state.insert(state.end(), f->data(), f->data() + p.size());

@@ -18,12 +18,14 @@ inline std::string generated(const std::string& scene, const std::map<std::strin
   const auto deck = std::filesystem::temp_directory_path() /
                     (scene + "_" + std::to_string(::getpid()) + "_" + std::to_string(counter++) + ".k");
   Diagnostics diagnostics;
-  EXPECT_TRUE(generate_deck(std::string(SOURCE_DIR) + "/keyword_decks/" + scene + "/scene.yaml", deck.string(), parameters, diagnostics))
+  EXPECT_TRUE(generate_deck(std::string(SOURCE_DIR) + "/keyword_decks/" + scene + "/scene.yaml",
+                            deck.string(), parameters, diagnostics))
       << diagnostics.text();
   return deck.string();
 }
 
-inline std::unique_ptr<Simulation> simulation(const std::string& scene, const std::map<std::string, std::string>& parameters) {
+inline std::unique_ptr<Simulation> simulation(const std::string& scene,
+                                              const std::map<std::string, std::string>& parameters) {
   const std::string deck = generated(scene, parameters);
   Diagnostics diagnostics;
   auto s = Simulation::build(deck, {}, diagnostics);

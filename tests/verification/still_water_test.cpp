@@ -60,8 +60,9 @@ TEST(StillWater, SettlesToHydrostaticPressureWithoutDrift) {
       next += 0.01;
     }
   }
-  // Within a kernel support (2.4 dx: the lowest layer and a bit) of the bed, neighbours are missing on one side: the plain
-  // sums of eq. 17 then need a higher pressure to carry the same weight. That layer has its own, looser bound.
+  // Within a kernel support (2.4 dx: the lowest layer and a bit) of the bed, neighbours are missing on one
+  // side: the plain sums of eq. 17 then need a higher pressure to carry the same weight. That layer has its
+  // own, looser bound.
   Real largest_error = 0, bed_error = 0;
   for (int k = 0; k < layers; ++k) {
     const Real y = (k + 0.5) * depth / layers;
@@ -70,17 +71,21 @@ TEST(StillWater, SettlesToHydrostaticPressureWithoutDrift) {
   }
   const Real weight = rho0 * g * depth * depth;
   const Real carried = carried_force / samples;
-  std::printf("pressure error %.2f %% of rho g depth, %.2f %% at the bed; the bed carries %.4f of the weight; surface %.4f m at 2 s, "
-              "%.4f m at 5 s\n",
-              100 * largest_error, 100 * bed_error, carried / weight, surface_at_2, surface(s->world()));
+  std::printf(
+      "pressure error %.2f %% of rho g depth, %.2f %% at the bed; the bed carries %.4f of the weight; "
+      "surface %.4f m at 2 s, "
+      "%.4f m at 5 s\n",
+      100 * largest_error, 100 * bed_error, carried / weight, surface_at_2, surface(s->world()));
   EXPECT_LT(largest_error, 0.02);
   EXPECT_LT(bed_error, 0.12);
   EXPECT_NEAR(carried / weight, 1, 0.005);
   EXPECT_NEAR(surface(s->world()), surface_at_2, 0.25 * dx);
   sample_energy(s->world(), s->clock());
-  // The column starts uncompressed and bounces on its own elasticity; that motion dies away, nothing feeds it.
+  // The column starts uncompressed and bounces on its own elasticity; that motion dies away, nothing feeds
+  // it.
   const Real kinetic = s->world().energy.kinetic;
-  std::printf("kinetic energy %.4f J in the first bounce, %.4f at 3 to 4 s, %.4f at 5 s\n", first_bounce, kinetic_3_to_4, kinetic);
+  std::printf("kinetic energy %.4f J in the first bounce, %.4f at 3 to 4 s, %.4f at 5 s\n", first_bounce,
+              kinetic_3_to_4, kinetic);
   EXPECT_LT(kinetic, 0.06 * first_bounce);
   EXPECT_LT(kinetic, 0.6 * kinetic_3_to_4);
   EXPECT_EQ(s->world().counters.at("leaked_particles"), 0);

@@ -17,7 +17,8 @@ namespace {
 
 /// Reads one EOS from its cards.
 std::shared_ptr<EosLaw> law_of(const EosEntry& kind, const std::string& cards) {
-  const auto path = std::filesystem::temp_directory_path() / ("eos_test_" + std::to_string(::getpid()) + ".k");
+  const auto path =
+      std::filesystem::temp_directory_path() / ("eos_test_" + std::to_string(::getpid()) + ".k");
   std::ofstream(path) << "*KEYWORD\n*" << kind.keyword << "\n" << cards << "*END\n";
   Diagnostics diagnostics;
   const Deck deck = read_deck(path.string(), {}, diagnostics);
@@ -45,7 +46,8 @@ TEST(EosRegistry, HoldsTheLawsAndEachHasReferences) {
 TEST(EosRegistry, EveryLawGivesItsReferenceValues) {
   for (const EosEntry& kind : eos_registry())
     for (const EosReference& r : kind.references)
-      EXPECT_NEAR(law_of(kind, r.deck)->pressure(r.mu, r.E), r.p, 1e-12 * std::max(1.0, std::abs(r.p))) << kind.keyword;
+      EXPECT_NEAR(law_of(kind, r.deck)->pressure(r.mu, r.E), r.p, 1e-12 * std::max(1.0, std::abs(r.p)))
+          << kind.keyword;
 }
 
 TEST(EosRegistry, SoundSpeedIsTheSlopeOfPressureAlongAnIsentrope) {
@@ -74,7 +76,9 @@ TEST(EosPass, AnIdealGasStaysOnItsIsentrope) {
   for (const EosEntry& kind : eos_registry())
     if (kind.keyword == "EOS_LINEAR_POLYNOMIAL") polynomial = &kind;
   ASSERT_NE(polynomial, nullptr);
-  const auto law = law_of(*polynomial, "         1       0.0       0.0       0.0       0.0       0.4       0.4       0.0\n       2.5       1.0\n");
+  const auto law = law_of(*polynomial,
+                          "         1       0.0       0.0       0.0       0.0       0.4       0.4       "
+                          "0.0\n       2.5       1.0\n");
   World world;
   world.particles.fields.resize(1);
   Particles& p = world.particles;

@@ -13,10 +13,14 @@ namespace {
 /// Steps whose size changes every time.
 struct ChangingSteps : TimeLimit {
   std::string name() const override { return "changing"; }
-  Limit limit(const World&, const Clock& clock) override { return {0.001 * (1 + (clock.cycle * 7) % 5), "test"}; }
+  Limit limit(const World&, const Clock& clock) override {
+    return {0.001 * (1 + (clock.cycle * 7) % 5), "test"};
+  }
 };
 
-Curve constant(Real value) { return {.id = 1, .abscissa = {0, 1}, .ordinate = {value, value}}; }
+Curve constant(Real value) {
+  return {.id = 1, .abscissa = {0, 1}, .ordinate = {value, value}};
+}
 
 }  // namespace
 
@@ -30,7 +34,8 @@ TEST(Step, FreeFallIsExactWithChangingSteps) {
   cloud.world.particles.v.set(0, {1, 2, 0});
   PassTimer timer;
   for (int k = 0; k < 100; ++k)
-    step(cloud.world, cloud.clock, *cloud.neighbours, {}, timer, [](World&, const Clock&, const std::string&) {});
+    step(cloud.world, cloud.clock, *cloud.neighbours, {}, timer,
+         [](World&, const Clock&, const std::string&) {});
   const Real t = cloud.clock.t;
   EXPECT_NEAR(cloud.world.particles.x.vec(0)[0], t, 1e-12);
   EXPECT_NEAR(cloud.world.particles.x.vec(0)[1], 2 * t - 0.5 * 9.81 * t * t, 1e-12);
@@ -45,6 +50,7 @@ TEST(Step, StopsWhereTheStepSizeIsNotANumber) {
   cloud.world.time_limits.push_back(std::make_shared<Broken>());
   cloud.world.time_limits.push_back(std::make_shared<ChangingSteps>());
   PassTimer timer;
-  EXPECT_THROW(step(cloud.world, cloud.clock, *cloud.neighbours, {}, timer, [](World&, const Clock&, const std::string&) {}),
+  EXPECT_THROW(step(cloud.world, cloud.clock, *cloud.neighbours, {}, timer,
+                    [](World&, const Clock&, const std::string&) {}),
                RunError);
 }
