@@ -49,6 +49,26 @@ TEST(SmoothingLength, FollowsTheDensityAndStopsAtItsBounds) {
   EXPECT_EQ(w.counters.at("smoothing_length_at_bound"), w.particles.size());
 }
 
+TEST(SphTimeLimit, IsTheSmallestOfEquation18AndOfViscosity) {
+  Cloud cloud(2, 4, 0.01, 0);
+  Particles& p = cloud.world.particles;
+  Model model;
+  model.parts.push_back({.id = 7});
+  cloud.settings.tssfac = 0.8;
+  cloud.refresh();
+  p.v.set(5, {3, 4, 0});
+  p.h[6] = 0.011;
+  const auto acoustic = make_sph_time_limit(cloud.settings, model)->limit(cloud.world, cloud.clock);
+  EXPECT_NEAR(acoustic.dt, 0.8 * 0.012 / (30 + 5), 1e-15);
+  EXPECT_EQ(acoustic.who, "sph " + std::to_string(p.id[5]) + " of part 7");
+  cloud.settings.mu.assign(1, 900);
+  const auto viscous = make_sph_time_limit(cloud.settings, model)->limit(cloud.world, cloud.clock);
+  EXPECT_NEAR(viscous.dt, 0.8 * 0.125 * 1000 * 0.011 * 0.011 / 900, 1e-15);
+  EXPECT_EQ(viscous.who, "sph " + std::to_string(p.id[6]) + " of part 7");
+  p.c[9] = std::nan("");
+  EXPECT_TRUE(std::isnan(make_sph_time_limit(cloud.settings, model)->limit(cloud.world, cloud.clock).dt));
+}
+
 TEST(SpeedLimit, SwitchesOffOrClipsAndCounts) {
   for (const Real maxv : {5.0, -5.0}) {
     Cloud cloud(2, 4, 0.01, 0);
