@@ -29,6 +29,15 @@ std::shared_ptr<EosLaw> law_of(const EosEntry& kind, const std::string& cards) {
   return laws.at(0).second;
 }
 
+/// p = factor (1 + mu) E, an ideal gas of gamma = 1 + factor; with factor 0 a liquid of bulk modulus 9e5.
+std::shared_ptr<EosLaw> polynomial(Real factor) {
+  for (const EosEntry& kind : eos_registry())
+    if (kind.keyword == "EOS_LINEAR_POLYNOMIAL")
+      return law_of(kind, "1,0.0," + std::string(factor > 0 ? "0.0" : "9.0E5") + ",0.0,0.0," + std::to_string(factor) + "," +
+                              std::to_string(factor) + "\n0.0,1.0\n");
+  return nullptr;
+}
+
 }  // namespace
 
 TEST(EosRegistry, HoldsTheLawsAndEachHasReferences) {
@@ -94,6 +103,27 @@ TEST(EosPass, AnIdealGasStaysOnItsIsentrope) {
   EXPECT_NEAR(p.rho[0], 2, 1e-12);
   EXPECT_NEAR(p.p[0], std::pow(2.0, gamma), 2e-6);
   EXPECT_NEAR(p.c[0], std::sqrt(gamma * p.p[0] / p.rho[0]), 1e-9);
+}
+
+TEST(EosPass, ViscousHeatGoesIntoTheEnergyOfALawThatUsesIt) {
+  // at constant volume dE = heat dt / reference volume, p = (gamma - 1) E; both kinds of viscous heat count
+  for (const bool uses : {true, false}) {
+    const auto law = polynomial(uses ? 0.4 : 0.0);
+    World world;
+    Particles& p = world.particles;
+    p.fields.resize(1);
+    p.fields.add<Real>({.name = "dissipation"})[0] = 30;
+    p.fields.add<Real>({.name = "viscous_dissipation"})[0] = 10;
+    p.fields.add<Real>({.name = "reference_volume"})[0] = 2;
+    p.rho[0] = 1, p.E[0] = 2.5;
+    p.active = p.moving = 1;
+    auto pass = law->make_pass({{1}, true, {1.0}, {-1e20}}, world);
+    Clock clock;
+    clock.dt_old = 0.01;
+    pass->update(world, clock);
+    EXPECT_NEAR(p.E[0], 2.5 + (uses ? 0.2 : 0), 1e-14);
+    EXPECT_NEAR(p.p[0], uses ? 0.4 * 2.7 : 0, 1e-14);
+  }
 }
 
 TEST(EosPass, CutsTensionAtPcAndStopsAtNegativeDensity) {

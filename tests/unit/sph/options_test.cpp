@@ -49,6 +49,26 @@ TEST(SmoothingLength, FollowsTheDensityAndStopsAtItsBounds) {
   EXPECT_EQ(w.counters.at("smoothing_length_at_bound"), w.particles.size());
 }
 
+TEST(SphTimeLimit, IsTheSmallestOfEquation18AndOfViscosity) {
+  Cloud cloud(2, 4, 0.01, 0);
+  Particles& p = cloud.world.particles;
+  Model model;
+  model.parts.push_back({.id = 7});
+  cloud.settings.tssfac = 0.8;
+  cloud.refresh();
+  p.v.set(5, {3, 4, 0});
+  p.h[6] = 0.011;
+  const auto acoustic = make_sph_time_limit(cloud.settings, model)->limit(cloud.world, cloud.clock);
+  EXPECT_NEAR(acoustic.dt, 0.8 * 0.012 / (30 + 5), 1e-15);
+  EXPECT_EQ(acoustic.who, "sph " + std::to_string(p.id[5]) + " of part 7");
+  cloud.settings.mu.assign(1, 900);
+  const auto viscous = make_sph_time_limit(cloud.settings, model)->limit(cloud.world, cloud.clock);
+  EXPECT_NEAR(viscous.dt, 0.8 * 0.125 * 1000 * 0.011 * 0.011 / 900, 1e-15);
+  EXPECT_EQ(viscous.who, "sph " + std::to_string(p.id[6]) + " of part 7");
+  p.c[9] = std::nan("");
+  EXPECT_TRUE(std::isnan(make_sph_time_limit(cloud.settings, model)->limit(cloud.world, cloud.clock).dt));
+}
+
 TEST(SpeedLimit, SwitchesOffOrClipsAndCounts) {
   for (const Real maxv : {5.0, -5.0}) {
     Cloud cloud(2, 4, 0.01, 0);
@@ -74,6 +94,46 @@ TEST(SpeedLimit, SwitchesOffOrClipsAndCounts) {
       for (Index i = 0; i < 16; ++i) EXPECT_LE(w.particles.v.vec(i).norm(), 5 + 1e-12);
     }
   }
+}
+
+TEST(BulkViscosity, ActsInCompressionOnlyWithBothItsTerms) {
+  Cloud cloud(2, 3, 0.01, 0);
+  Particles& p = cloud.world.particles;
+  const Real q1 = 0.1, q2 = 1.5, h = 0.012, c = 30, rho = 1000;
+  cloud.settings.viscosity = BulkViscosity{};
+  cloud.settings.q.assign(1, {q1, q2});
+  auto pass = make_bulk_viscosity(cloud.settings, cloud.world);
+  cloud.refresh();
+  p.p.fill(7);
+  for (const Real div : {-4.0, 4.0}) {
+    p.drhodt.fill(-rho * div);
+    pass->update(cloud.world, cloud.clock);
+    auto& total = p.fields.add<Real>({.name = "pressure_plus_q"});
+    auto& heat = p.fields.add<Real>({.name = "dissipation"});
+    const Real q = div < 0 ? rho * h * (q2 * h * 16 + q1 * c * 4) : 0;
+    for (Index i = 0; i < p.size(); ++i) {
+      EXPECT_NEAR(total[i], 7 + q, 1e-11);
+      EXPECT_NEAR(heat[i], q * 4 * p.m[i] / rho, 1e-12);
+    }
+  }
+}
+
+TEST(ViscousStress, IsTwiceViscosityTimesTheDeviatorOfTheStrainRate) {
+  Cloud cloud(3, 2, 0.01, 0);
+  Particles& p = cloud.world.particles;
+  cloud.settings.mu.assign(1, 5.0);
+  auto pass = make_viscous_stress(cloud.settings, cloud.world);
+  cloud.refresh();
+  const char* axes[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+  const Real D[] = {1, 2, 6, 0.5, -0.25, 4}, tau[] = {-20, -10, 30, 5, -2.5, 40};
+  for (int k = 0; k < 6; ++k) p.fields.add<Real>({.name = std::string("strain_rate_") + axes[k]}).fill(D[k]);
+  pass->update(cloud.world, cloud.clock);
+  Real power = 0;
+  for (int k = 0; k < 6; ++k) {
+    EXPECT_NEAR(p.fields.add<Real>({.name = std::string("stress_") + axes[k]})[0], tau[k], 1e-13) << axes[k];
+    power += (k < 3 ? 1 : 2) * tau[k] * D[k];
+  }
+  EXPECT_NEAR(p.fields.add<Real>({.name = "viscous_dissipation"})[0], power * p.m[0] / p.rho[0], 1e-12);
 }
 
 TEST(FixedParticles, HoldTheirDirectionsOnly) {
