@@ -70,6 +70,42 @@ TEST(ContactDynamics, FrictionStopsASlide) {
   EXPECT_NEAR(s.contact->report().energy_friction, 0.5 * s.m, 0.02 * s.m);
 }
 
+TEST(ContactDynamics, FrictionHoldsOnAGentleSlope) {
+  Scene s;
+  s.plate(Vec(-0.05, 0, 0), Vec(0.5, 0, 0), Vec(0, 0.1, 0), 50, 10);
+  s.law.fs = s.law.fd = 0.3;
+  const Real g = 9.81, k = 0.1 * s.rho * s.c * s.c * std::cbrt(s.m / s.rho), x0 = 0.02;
+  s.x = {Vec(x0, 0.043, 0.01 - s.m * g / k)};
+  s.v = {Vec::Zero()};
+  s.build();
+  const Real dt = 0.2 * s.contact->limit(s.world, s.clock).dt;
+  Real farthest = 0;
+  while (s.clock.t < 0.5) {
+    s.step(dt, Vec(0.1 * g, 0, -g));
+    farthest = std::max(farthest, s.world.particles.x.vec(0).x() - x0);
+  }
+  EXPECT_GT(farthest, 1.5 * 0.1 * s.m * g / k);   // it swings about the stretch that carries it
+  EXPECT_LT(farthest, 2.05 * 0.1 * s.m * g / k);  // and does not creep
+}
+
+TEST(ContactDynamics, TheLedgerHoldsWhatTheSpringStores) {
+  Scene s;
+  s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0), 2, 2);
+  s.x = {Vec(0.04, 0.04, 0.012)};
+  s.v = {Vec(0, 0, -0.3)};
+  s.build();
+  const Real dt = 0.01 * s.contact->limit(s.world, s.clock).dt, before = s.kinetic();
+  Real most = 0;
+  while (s.world.particles.x.vec(0).z() < 0.0121) {
+    s.step(dt);
+    EnergyLedger now;
+    s.contact->sample(s.world, s.clock, now);
+    most = std::max(most, now.contact);
+    EXPECT_NEAR(s.kinetic() + now.contact, before, 0.03 * before);
+  }
+  EXPECT_NEAR(most, before, 0.01 * before);
+}
+
 TEST(ContactDynamics, NoParticleLeavesABoxOfSeparatePatches) {
   for (const int soft : {0, 1}) {
     Scene s;

@@ -98,6 +98,33 @@ TEST(Neighbours, TheBoxSplitsActiveRimAndDormant) {
   for (Index i = 0; i < p.size(); ++i) EXPECT_NEAR(p.x.vec(i)[0], before[p.id[i]] + 0.04, 1e-12);
 }
 
+TEST(Neighbours, CrossingTheBorderOfTheBoxCountsAtOnce) {
+  Cloud cloud(2, 10, 0.01, 0);
+  Particles& p = cloud.world.particles;
+  cloud.neighbours = std::make_shared<Neighbours>(0.003, Neighbours::Region{Vec(-1, -1, -1), Vec(0.0401, 1, 1)});
+  cloud.refresh();
+  EXPECT_EQ(p.active, 50);
+  p.x.add(p.active, Vec(-0.001, 0, 0));  // far less than the skin: stays outside
+  cloud.refresh();
+  EXPECT_EQ(cloud.neighbours->rebuilds(), 1);
+  Index last = 0;
+  for (Index i = 0; i < p.active; ++i)
+    if (p.x.vec(i)[0] > p.x.vec(last)[0]) last = i;
+  const Id leaving = p.id[last];
+  p.x.add(last, Vec(0.0002, 0, 0));  // as little, but across
+  cloud.refresh();
+  EXPECT_EQ(cloud.neighbours->rebuilds(), 2);
+  EXPECT_EQ(p.active, 49);
+  ASSERT_EQ(cloud.neighbours->left().size(), 1u);
+  const Index outside = cloud.neighbours->left()[0];
+  EXPECT_EQ(p.id[outside], leaving);
+  p.x.add(outside, Vec(-0.0002, 0, 0));
+  cloud.refresh();
+  EXPECT_EQ(p.active, 50);
+  ASSERT_EQ(cloud.neighbours->entered().size(), 1u);
+  EXPECT_EQ(p.id[cloud.neighbours->entered()[0]], leaving);
+}
+
 TEST(Neighbours, StopWhereAPlaceIsNoNumber) {
   for (const Real lost :
        {std::nan(""), std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()}) {
