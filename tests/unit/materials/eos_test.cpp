@@ -33,8 +33,8 @@ std::shared_ptr<EosLaw> law_of(const EosEntry& kind, const std::string& cards) {
 std::shared_ptr<EosLaw> polynomial(Real factor) {
   for (const EosEntry& kind : eos_registry())
     if (kind.keyword == "EOS_LINEAR_POLYNOMIAL")
-      return law_of(kind, "1,0.0," + std::string(factor > 0 ? "0.0" : "9.0E5") + ",0.0,0.0," + std::to_string(factor) + "," +
-                              std::to_string(factor) + "\n0.0,1.0\n");
+      return law_of(kind, "1,0.0," + std::string(factor > 0 ? "0.0" : "9.0E5") + ",0.0,0.0," +
+                              std::to_string(factor) + "," + std::to_string(factor) + "\n0.0,1.0\n");
   return nullptr;
 }
 

@@ -101,7 +101,8 @@ TEST(Neighbours, TheBoxSplitsActiveRimAndDormant) {
 TEST(Neighbours, CrossingTheBorderOfTheBoxCountsAtOnce) {
   Cloud cloud(2, 10, 0.01, 0);
   Particles& p = cloud.world.particles;
-  cloud.neighbours = std::make_shared<Neighbours>(0.003, Neighbours::Region{Vec(-1, -1, -1), Vec(0.0401, 1, 1)});
+  cloud.neighbours =
+      std::make_shared<Neighbours>(0.003, Neighbours::Region{Vec(-1, -1, -1), Vec(0.0401, 1, 1)});
   cloud.refresh();
   EXPECT_EQ(p.active, 50);
   p.x.add(p.active, Vec(-0.001, 0, 0));  // far less than the skin: stays outside
