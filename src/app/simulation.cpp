@@ -10,8 +10,8 @@ namespace courant {
 
 namespace {
 
-/// Lists hold until something moved half the skin. 0.25 h was the cheapest on both the stiff and the soft
-/// jump.
+/// Lists hold until something moved half the skin. Not tuned: a soft scene (jump at c0 = 30 m/s) rebuilds
+/// every third step with it, a stiff one (1484 m/s) every hundredth, where a thinner skin would save pairs.
 constexpr Real skin_over_h = 0.25;
 
 }  // namespace
