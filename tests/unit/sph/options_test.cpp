@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cloud.hpp"
+#include "materials/material_pass.hpp"
 #include "time/step.hpp"
 
 using namespace courant;
@@ -16,6 +17,16 @@ struct ConstantStep : TimeLimit {
   std::string name() const override { return "constant"; }
   Limit limit(const World&, const Clock&) override { return {dt_, "test"}; }
   Real dt_;
+};
+
+/// p = rho0 c^2 mu with the cloud's density and sound speed
+struct Liquid {
+  static constexpr const char* name = "liquid";
+  Real A(Real mu) const { return 9e5 * mu; }
+  Real dA(Real) const { return 9e5; }
+  Real B(Real) const { return 0; }
+  Real dB(Real) const { return 0; }
+  bool uses_energy() const { return false; }
 };
 
 void step(Cloud& cloud, int times) {
@@ -153,6 +164,34 @@ TEST(FixedParticles, HoldTheirDirectionsOnly) {
     const bool fixed = cloud.world.particles.id[i] == 6;
     EXPECT_EQ(cloud.world.particles.f.vec(i), fixed ? Vec(0, 2, 0) : Vec(1, 2, 3));
     EXPECT_EQ(cloud.world.particles.v.vec(i), fixed ? Vec(0, 5, 0) : Vec(4, 5, 6));
+  }
+}
+
+TEST(EnergyLedger, ClosesForACloudThatRunsIntoItself) {
+  for (const bool monaghan : {true, false}) {
+    Cloud cloud(2, 16, 0.01, 0);
+    World& w = cloud.world;
+    Particles& p = w.particles;
+    if (!monaghan) cloud.settings.viscosity = BulkViscosity{};
+    cloud.settings.mu.assign(1, 0.5);
+    for (Index i = 0; i < p.size(); ++i) p.v.set(i, -2 * (p.x.vec(i) - Vec(0.075, 0.075, 0)) / 0.075);
+    w.materials.push_back(
+        std::make_shared<EosPass<Liquid>>(Liquid{}, EosPart{{1}, true, {1000}, {-1e20}}, w));
+    add_sph_passes(w, cloud.settings, cloud.neighbours);
+    w.motions.push_back(make_particle_motion());
+    w.time_limits.push_back(std::make_shared<ConstantStep>(2e-5));
+    cloud.refresh();
+    sample_energy(w, cloud.clock);
+    w.energy.initial = w.energy.kinetic;
+    Real most = 0;
+    for (int k = 0; k < 250; ++k) {
+      step(cloud, 1);
+      sample_energy(w, cloud.clock);
+      most = std::max(most, w.energy.internal);
+      EXPECT_NEAR(w.energy.residual(), 0, 0.01 * w.energy.initial);
+    }
+    EXPECT_GT(most, 0.3 * w.energy.initial);
+    EXPECT_GT(w.energy.dissipated, 0.02 * w.energy.initial);
   }
 }
 
