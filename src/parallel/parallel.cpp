@@ -18,7 +18,7 @@ void set_threads(int threads) {
 
 void let_waiting_threads_sleep(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
-  setenv("OMP_WAIT_POLICY", "passive", 1);
+  setenv("GOMP_SPINCOUNT", "1000", 1);  // some microseconds; see docs/performance.md
   execv("/proc/self/exe", argv);  // returns only if it failed: then threads spin, which is slower but right
 }
 
