@@ -97,7 +97,7 @@ void RigidBodies::drift(World& world, const Clock& clock) {
   }
 }
 
-Real RigidBodies::kinetic_energy(const World&) const {
+Real RigidBodies::kinetic_energy() const {
   Real e = 0;
   for (const RigidBody& b : bodies_)
     if (!b.fixed()) e += b.kinetic_energy();
@@ -114,8 +114,8 @@ void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
         if (!b.held[k]) ledger.external_work -= b.m * dg[k] * b.x[k];
 }
 
-void RigidBodies::sample(const World& world, const Clock& clock, EnergyLedger& ledger) const {
-  ledger.kinetic += kinetic_energy(world);
+void RigidBodies::sample(const World&, const Clock& clock, EnergyLedger& ledger) const {
+  ledger.kinetic += kinetic_energy();
   if (!gravity_) return;
   const Vec g = gravity_(clock.t);
   for (const RigidBody& b : bodies_)

@@ -60,7 +60,7 @@ class RigidBodies : public Constraint, public Motion, public EnergyTerm {
   void apply(World& world, const Clock& clock) override;
   void kick(World& world, const Clock& clock) override;
   void drift(World& world, const Clock& clock) override;
-  Real kinetic_energy(const World& world) const override;
+  Real kinetic_energy() const;  ///< of the bodies that can move [ML2/T2]
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   /// Adds kinetic and potential energy of the bodies that can move.
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "parallel/parallel.hpp"
+#include "sph/fields.hpp"
 #include "sph/kernel.hpp"
 #include "sph/sph.hpp"
 #include "sph/view.hpp"
@@ -61,17 +62,9 @@ void rates_of_block(const ParticleView& p, const Real* V, const Neighbours& neig
 class Continuity : public Rate {
  public:
   Continuity(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours)
-      : neighbours_(std::move(neighbours)),
-        volume_(world.particles.fields.add<Real>(
-            {.name = "volume", .dimension = "L3", .restart = false, .exchange = true})) {
+      : neighbours_(std::move(neighbours)), volume_(sph_fields::volume(world.particles)) {
     const bool gradient = !s.mu.empty();
-    if (gradient) {
-      const char* names[] = {"strain_rate_xx", "strain_rate_yy", "strain_rate_zz",
-                             "strain_rate_xy", "strain_rate_yz", "strain_rate_zx"};
-      for (int k = 0; k < 6; ++k)
-        strain_fields_[k] =
-            &world.particles.fields.add<Real>({.name = names[k], .dimension = "1/T", .restart = false});
-    }
+    if (gradient) strain_fields_ = sph_fields::strain_rate(world.particles);
     loop_ = with_dimension(s.dim, [&](auto dim) {
       return with_bool(s.uniform_h, [&](auto uniform) {
         return with_bool(gradient, [&](auto grad) -> Loop {

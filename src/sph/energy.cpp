@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "parallel/parallel.hpp"
+#include "sph/fields.hpp"
 #include "sph/momentum.hpp"
 #include "sph/sph.hpp"
 
@@ -20,16 +21,14 @@ class SphEnergy : public EnergyTerm, public Refresh {
   SphEnergy(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours)
       : settings_(s),
         neighbours_(std::move(neighbours)),
-        heat_(world.particles.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"})),
+        heat_(sph_fields::dissipation(world.particles)),
         reference_volume_(world.particles.fields.add<Real>({.name = "reference_volume", .dimension = "L3"})) {
-    FieldSet& f = world.particles.fields;
+    Particles& p = world.particles;
     if (!std::holds_alternative<MonaghanViscosity>(s.viscosity))
-      total_pressure_ = &f.add<Real>({.name = "pressure_plus_q", .dimension = "M/LT2", .restart = false});
+      total_pressure_ = &sph_fields::pressure_plus_q(p);
     if (s.mu.empty()) return;
-    viscous_ = &f.add<Real>({.name = "viscous_dissipation", .dimension = "ML2/T3"});
-    const char* names[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
-    for (int k = 0; k < 6; ++k)
-      tau_[k] = &f.add<Real>({.name = names[k], .dimension = "M/LT2", .restart = false});
+    viscous_ = &sph_fields::viscous_dissipation(p);
+    tau_ = sph_fields::stress(p);
   }
   std::string name() const override { return "sph energy"; }
 

@@ -1,6 +1,7 @@
 #include "sph/momentum.hpp"
 
 #include "parallel/parallel.hpp"
+#include "sph/fields.hpp"
 #include "sph/sph.hpp"
 
 namespace courant {
@@ -88,20 +89,15 @@ class Momentum : public Force {
  public:
   Momentum(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours)
       : neighbours_(std::move(neighbours)), q_(s.q) {
-    FieldSet& f = world.particles.fields;
+    Particles& p = world.particles;
     monaghan_ = std::holds_alternative<MonaghanViscosity>(s.viscosity);
     if (monaghan_) q2_ = std::get<MonaghanViscosity>(s.viscosity).q2;
-    volume_ = &f.add<Real>({.name = "volume", .dimension = "L3", .restart = false, .exchange = true});
-    heat_ = &f.add<Real>({.name = "dissipation", .dimension = "ML2/T3"});
-    if (monaghan_) qc_ = &f.add<Real>({.name = "viscous_speed", .dimension = "L/T", .restart = false});
-    if (!monaghan_)
-      total_pressure_ = &f.add<Real>({.name = "pressure_plus_q", .dimension = "M/LT2", .restart = false});
+    volume_ = &sph_fields::volume(p);
+    heat_ = &sph_fields::dissipation(p);
+    if (monaghan_) qc_ = &p.fields.add<Real>({.name = "viscous_speed", .dimension = "L/T", .restart = false});
+    if (!monaghan_) total_pressure_ = &sph_fields::pressure_plus_q(p);
     const bool stress = !s.mu.empty();
-    if (stress) {
-      const char* names[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
-      for (int k = 0; k < 6; ++k)
-        tau_[k] = &f.add<Real>({.name = names[k], .dimension = "M/LT2", .restart = false});
-    }
+    if (stress) tau_ = sph_fields::stress(p);
     loop_ = with_dimension(s.dim, [&](auto dim) {
       return with_bool(s.uniform_h, [&](auto uniform) {
         return with_bool(monaghan_, [&](auto visc) {

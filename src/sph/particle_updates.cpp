@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "parallel/parallel.hpp"
+#include "sph/fields.hpp"
 #include "sph/sph.hpp"
 
 namespace courant {
@@ -16,9 +17,8 @@ class BulkViscosityPass : public Material {
  public:
   BulkViscosityPass(const SphSettings& s, World& world)
       : q_(s.q),
-        total_(world.particles.fields.add<Real>(
-            {.name = "pressure_plus_q", .dimension = "M/LT2", .restart = false})),
-        heat_(world.particles.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"})) {}
+        total_(sph_fields::pressure_plus_q(world.particles)),
+        heat_(sph_fields::dissipation(world.particles)) {}
   std::string name() const override { return "bulk viscosity"; }
   void update(World& world, const Clock&) override {
     Particles& p = world.particles;
@@ -43,15 +43,9 @@ class BulkViscosityPass : public Material {
 class ViscousStress : public Material {
  public:
   ViscousStress(const SphSettings& s, World& world) : mu_(s.mu) {
-    FieldSet& f = world.particles.fields;
-    const char* axes[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
-    for (int k = 0; k < 6; ++k) {
-      rate_[k] =
-          &f.add<Real>({.name = std::string("strain_rate_") + axes[k], .dimension = "1/T", .restart = false});
-      tau_[k] =
-          &f.add<Real>({.name = std::string("stress_") + axes[k], .dimension = "M/LT2", .restart = false});
-    }
-    power_ = &f.add<Real>({.name = "viscous_dissipation", .dimension = "ML2/T3"});
+    rate_ = sph_fields::strain_rate(world.particles);
+    tau_ = sph_fields::stress(world.particles);
+    power_ = &sph_fields::viscous_dissipation(world.particles);
   }
   std::string name() const override { return "viscous stress"; }
   void update(World& world, const Clock&) override {

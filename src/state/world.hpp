@@ -64,7 +64,6 @@ struct Constraint : Pass {
 struct Motion : Pass {
   virtual void kick(World& world, const Clock& clock) = 0;
   virtual void drift(World& world, const Clock& clock) = 0;
-  virtual Real kinetic_energy(const World& world) const = 0;
 };
 struct TimeLimit : Pass {
   struct Limit {

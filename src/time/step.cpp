@@ -113,10 +113,6 @@ class ParticleMotion : public Motion {
       for_each(p.moving, [=](Index i) { x[i] += v[i] * dt; });
     }
   }
-  Real kinetic_energy(const World& world) const override {
-    const Particles& p = world.particles;
-    return sum(p.active, [&](Index i) { return 0.5 * p.m[i] * p.v.vec(i).squaredNorm(); });
-  }
 };
 
 }  // namespace
