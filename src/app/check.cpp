@@ -57,6 +57,16 @@ std::string units(const Simulation& s) {
 
 }  // namespace
 
+namespace {
+
+Real mean_neighbours(const Simulation& s) {
+  const Particles& p = s.world().particles;
+  if (p.active == 0) return 0;
+  return sum(p.active, [&](Index i) { return static_cast<Real>(s.neighbours().of(p, i).size()); }) / p.active;
+}
+
+}  // namespace
+
 std::string check_report(Simulation& s) {
   std::string who;
   s.evaluate(who);
@@ -68,10 +78,8 @@ std::string check_report(Simulation& s) {
     text += fmt::format("  {:<44}{:8}\n", name, count);
   text += part_table(s);
   text += fmt::format(
-      "{}D, spacing {:.6g} [L], {} particles of which {} are active now, {:.1f} neighbours each (skin "
-      "included)\n",
-      s.world().dim, s.sph().spacing, p.size(), p.active,
-      p.active > 0 ? static_cast<double>(s.neighbours().pairs()) / p.active : 0);
+      "{}D, spacing {:.6g} [L], {} particles of which {} are active now, {:.1f} neighbours each\n",
+      s.world().dim, s.sph().spacing, p.size(), p.active, mean_neighbours(s));
   text += fmt::format("units: {}\n", units(s));
   text += fmt::format("first step {:.5g} [T], set by {}; {:.0f} steps to ENDTIM = {:g} at this size\n",
                       s.clock().dt, who, std::ceil(s.model().endtim / s.clock().dt), s.model().endtim);

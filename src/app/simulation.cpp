@@ -10,9 +10,8 @@ namespace courant {
 
 namespace {
 
-/// Lists hold until something moved half the skin. Not tuned: a soft scene (jump at c0 = 30 m/s) rebuilds
-/// every third step with it, a stiff one (1484 m/s) every hundredth, where a thinner skin would save pairs.
-constexpr Real skin_over_h = 0.25;
+/// Neighbour lists hold until something moved half the skin; of h. See docs/performance.md.
+constexpr Real least_skin = 0.02, first_skin = 0.1, most_skin = 0.4;
 
 }  // namespace
 
@@ -52,12 +51,15 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
 
 void Simulation::add_passes(Diagnostics& diagnostics) {
   const Real h = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
-  neighbours_ = std::make_shared<Neighbours>(skin_over_h * h, sph_.region);
+  neighbours_ = std::make_shared<Neighbours>(first_skin * h, sph_.region);
+  neighbours_->adapt_skin(least_skin * h, most_skin * h);
   if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
-  contacts_ = build_contacts(deck_, model_,
-                             {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->skin()},
-                             world_, diagnostics);
+  contacts_ = build_contacts(
+      deck_, model_, {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->largest_skin()},
+      world_, diagnostics);
   if (!diagnostics.ok()) return;
+  world_.motions.push_back(make_particle_motion());
+  add_sph_time_limit(sph_, model_, world_);
   left_out_ = add_sph_passes(world_, sph_, neighbours_);
   if (!model_.body_loads.empty())
     world_.forces.push_back(make_gravity(model_, world_, neighbours_));
@@ -71,11 +73,10 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   }
   if (contacts_.empty()) left_out_.push_back({"contact", "no *CONTACT"});
   if (auto fixed = make_fixed_particles(model_, world_)) world_.constraints.push_back(fixed);
-  world_.motions.push_back(make_particle_motion());
   add_bodies();
-  world_.time_limits.insert(world_.time_limits.begin(), make_sph_time_limit(sph_, model_));
   rules_.dtinit = model_.dtinit;
   if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
+  stepper_ = std::make_unique<Stepper>(world_, *neighbours_, rules_, timer_);
 }
 
 void Simulation::add_bodies() {
@@ -84,17 +85,15 @@ void Simulation::add_bodies() {
     return;
   }
   bodies_->set_gravity([loads = model_.body_loads](Real t) { return gravity_at(loads, t); });
-  world_.constraints.push_back(bodies_);
-  world_.motions.push_back(bodies_);
-  world_.energy_terms.push_back(bodies_);
+  add_body_passes(world_, bodies_);
 }
 
 void Simulation::step(const AtTimeLevel& at_time_level) {
-  courant::step(world_, clock_, *neighbours_, rules_, timer_, at_time_level);
+  stepper_->step(clock_, at_time_level);
 }
 
 void Simulation::evaluate(std::string& dt_controlled_by) {
-  courant::evaluate(world_, clock_, *neighbours_, rules_, timer_, dt_controlled_by);
+  stepper_->evaluate(clock_, dt_controlled_by);
 }
 
 Sample Simulation::sample(const std::string& dt_controlled_by) {
@@ -143,6 +142,7 @@ std::string Simulation::passes() const {
   };
   list("rate", world_.rates);
   list("material", world_.materials);
+  list("tally", world_.tallies);
   list("force", world_.forces);
   list("constraint", world_.constraints);
   list("time limit", world_.time_limits);

@@ -65,6 +65,7 @@ class Simulation {
   std::vector<PassNote> left_out_;
   StepRules rules_;
   PassTimer timer_;
+  std::unique_ptr<Stepper> stepper_;
 };
 
 struct RunOptions {

@@ -165,7 +165,11 @@ void Contact::learn_sides(const World& world, const Clock& clock) {
   });
 }
 
-void Contact::add(World& world, const Clock& clock) {
+void Contact::start(World& world, const Clock& clock) {
+  for (int k = 0; k < 3; ++k) {
+    std::fill_n(world.nodes.f.data(k), world.nodes.size(), 0.0);
+    std::fill_n(world.segments.contact_force.data(k), world.segments.size(), 0.0);
+  }
   soft_dt_ = std::max(soft_dt_, clock.dt_old);
   total_ = Vec::Zero();
   stored_ = stored_friction_ = 0;

@@ -49,7 +49,8 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
           const std::vector<bool>& tracked, World& world);
 
   std::string name() const override;
-  void add(World& world, const Clock& clock) override;
+  void start(World& world, const Clock& clock) override;
+  void block(World&, const Clock&, Index, Index) override {}
   void refreshed(World& world, const Clock& clock, std::span<const Index> old_of_new) override;
   Limit limit(const World& world, const Clock& clock) override;
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;

@@ -39,32 +39,43 @@ class EosPass : public Material {
   }
   std::string name() const override { return std::string("eos ") + Law::name; }
 
-  void update(World& world, const Clock& clock) override {
+  void start(World& world, const Clock&) override {
+    const FieldSet& fields = world.particles.fields;
+    heat_ = dynamic_cast<const Field<Real>*>(fields.find("dissipation"));
+    viscous_ = dynamic_cast<const Field<Real>*>(fields.find("viscous_dissipation"));
+    lowest_.resize(block_count(world.particles.active));
+  }
+
+  void block(World& world, const Clock& clock, Index begin, Index end) override {
     Particles& p = world.particles;
-    const auto* heat = dynamic_cast<const Field<Real>*>(p.fields.find("dissipation"));
-    const auto* viscous = dynamic_cast<const Field<Real>*>(p.fields.find("viscous_dissipation"));
     const Real dt = clock.dt_old;
-    const Real lowest = -maximum(p.active, [&](Index i) -> Real {
+    Real lowest = 1;
+    for (Index i = begin; i < end; ++i) {
       const Index part = p.part[i];
-      if (!part_.all_parts && !part_.mine[part]) return -1;
+      if (!part_.all_parts && !part_.mine[part]) continue;
       const Real rho0 = part_.rho0[part];
       const Real v_old = rho0 / p.rho[i];
       p.rho[i] += p.drhodt[i] * dt;
       const Real v = rho0 / p.rho[i], dv = v - v_old, mu = p.rho[i] / rho0 - 1;
       Real E = p.E[i] - 0.5 * dv * p.p[i];
       if (law_.uses_energy() && reference_volume_[i] > 0)
-        E += ((heat ? (*heat)[i] : 0) + (viscous ? (*viscous)[i] : 0)) * dt / reference_volume_[i];
+        E += ((heat_ ? (*heat_)[i] : 0) + (viscous_ ? (*viscous_)[i] : 0)) * dt / reference_volume_[i];
       const Real B = law_.B(mu);
       const Real pressure = std::max((law_.A(mu) + B * E) / (1 + 0.5 * B * dv), part_.pc[part]);
       E -= 0.5 * dv * pressure;
       p.p[i] = pressure;
       p.E[i] = E;
       p.c[i] = std::sqrt(std::max(sound_speed2_of(law_, rho0, mu, E, pressure), Real(0)));
-      return -p.rho[i] / rho0;
-    });
-    if (p.active > 0 && !(lowest > 0)) {
-      for (Index i = 0; i < p.active; ++i)
-        if (!(p.rho[i] > 0)) stop_for_density(world, clock, i);
+      if (!(p.rho[i] >= lowest * rho0)) lowest = p.rho[i] / rho0;  // also where it is not a number
+    }
+    lowest_[begin / block_size] = lowest;
+  }
+
+  void finish(World& world, const Clock& clock) override {
+    for (std::size_t b = 0; b < lowest_.size(); ++b) {
+      if (lowest_[b] > 0) continue;
+      for (Index i = static_cast<Index>(b) * block_size; i < world.particles.active; ++i)
+        if (!(world.particles.rho[i] > 0)) stop_for_density(world, clock, i);
     }
   }
 
@@ -72,6 +83,9 @@ class EosPass : public Material {
   Law law_;
   EosPart part_;
   Field<Real>& reference_volume_;
+  const Field<Real>* heat_ = nullptr;     ///< null where no pass makes such heat
+  const Field<Real>* viscous_ = nullptr;  ///< the same
+  std::vector<Real> lowest_;              ///< rho/rho0 in each block
 };
 
 }  // namespace courant

@@ -18,12 +18,32 @@ int threads();
 /// wait for. Figures: docs/performance.md.
 void let_waiting_threads_sleep(char** argv);
 
-inline constexpr Index block_size = 256;
+inline constexpr Index block_size = 128;
+inline Index block_count(Index n) {
+  return (n + block_size - 1) / block_size;
+}
+
+/// Which thread works on which blocks: thread t on [first[t], first[t + 1]). Neighbouring blocks stay on one
+/// thread and, from step to step, the same one, whose cache then holds them.
+struct Shares {
+  std::vector<Index> first{0, 0};
+  int threads() const { return static_cast<int>(first.size()) - 1; }
+  /// Cuts blocks of the given costs into shares of about equal cost for all threads.
+  static Shares of(const std::vector<double>& cost);
+  static Shares even(Index blocks);
+};
+
+/// Calls `body(t)` for every t in [0, n) on threads of their own; on the calling thread if n is 1.
+template <class Body>
+void on_threads(int n, const Body& body) {
+#pragma omp parallel for schedule(static, 1) num_threads(n) if (n > 1)
+  for (int t = 0; t < n; ++t) body(t);
+}
 
 /// Calls `body(begin, end)` for consecutive blocks of [0, n); a block is worked on by one thread.
 template <class Body>
 void for_each_block(Index n, const Body& body) {
-  const Index blocks = (n + block_size - 1) / block_size;
+  const Index blocks = block_count(n);
 #pragma omp parallel for schedule(static) if (blocks > 1)
   for (Index b = 0; b < blocks; ++b) body(b * block_size, std::min(n, (b + 1) * block_size));
 }
@@ -39,7 +59,7 @@ void for_each(Index n, const Body& body) {
 /// Combines `body(begin, end)` of all blocks in block order. T needs no more than a copy and `combine(T, T)`.
 template <class T, class Body, class Combine>
 T reduce(Index n, T start, const Body& body, const Combine& combine) {
-  const Index blocks = (n + block_size - 1) / block_size;
+  const Index blocks = block_count(n);
   std::vector<T> part(blocks, start);
 #pragma omp parallel for schedule(static) if (blocks > 1)
   for (Index b = 0; b < blocks; ++b) part[b] = body(b * block_size, std::min(n, (b + 1) * block_size));

@@ -97,6 +97,41 @@ void RigidBodies::drift(World& world, const Clock& clock) {
   }
 }
 
+namespace {
+
+class BodyForces : public Constraint {
+ public:
+  explicit BodyForces(std::shared_ptr<RigidBodies> bodies) : bodies_(std::move(bodies)) {}
+  std::string name() const override { return bodies_->name(); }
+  void block(World&, const Clock&, Index, Index) override {}
+  void finish(World& world, const Clock& clock) override { bodies_->apply(world, clock); }
+
+ private:
+  std::shared_ptr<RigidBodies> bodies_;
+};
+
+class BodyMotion : public Motion {
+ public:
+  explicit BodyMotion(std::shared_ptr<RigidBodies> bodies) : bodies_(std::move(bodies)) {}
+  std::string name() const override { return bodies_->name(); }
+  void block(World&, const Clock&, Index, Index) override {}
+  void finish(World& world, const Clock& clock) override {
+    bodies_->kick(world, clock);
+    bodies_->drift(world, clock);
+  }
+
+ private:
+  std::shared_ptr<RigidBodies> bodies_;
+};
+
+}  // namespace
+
+void add_body_passes(World& world, std::shared_ptr<RigidBodies> bodies) {
+  world.constraints.push_back(std::make_shared<BodyForces>(bodies));
+  world.motions.push_back(std::make_shared<BodyMotion>(bodies));
+  world.energy_terms.push_back(bodies);
+}
+
 Real RigidBodies::kinetic_energy() const {
   Real e = 0;
   for (const RigidBody& b : bodies_)

@@ -49,7 +49,7 @@ struct RigidBody {
 /// omega, which is J omega' = M - omega x J omega. Orientation by quaternion with the implicit midpoint rule,
 /// which keeps |L| exactly; nodes follow exactly. Bodies that are held in all directions are left out of
 /// every loop.
-class RigidBodies : public Constraint, public Motion, public EnergyTerm {
+class RigidBodies : public EnergyTerm {
  public:
   explicit RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodies)) {}
 
@@ -57,9 +57,10 @@ class RigidBodies : public Constraint, public Motion, public EnergyTerm {
   void set_gravity(std::function<Vec(Real t)> gravity) { gravity_ = std::move(gravity); }
 
   std::string name() const override { return "rigid bodies"; }
-  void apply(World& world, const Clock& clock) override;
-  void kick(World& world, const Clock& clock) override;
-  void drift(World& world, const Clock& clock) override;
+  /// Sums the forces on the bodies' nodes.
+  void apply(World& world, const Clock& clock);
+  void kick(World& world, const Clock& clock);
+  void drift(World& world, const Clock& clock);
   Real kinetic_energy() const;  ///< of the bodies that can move [ML2/T2]
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   /// Adds kinetic and potential energy of the bodies that can move.
@@ -78,6 +79,9 @@ class RigidBodies : public Constraint, public Motion, public EnergyTerm {
   std::vector<RigidBody> bodies_;
   std::function<Vec(Real)> gravity_;
 };
+
+/// Puts the bodies into the lists of `world`: their forces among the constraints, their motion and energy.
+void add_body_passes(World& world, std::shared_ptr<RigidBodies> bodies);
 
 /// One body per shell part of *MAT_RIGID, with mass, centre and inertia from the nodal masses that
 /// build_segments gave (call that first). Sets Nodes::held. nullptr if there is none. Refuses by name: local

@@ -1,109 +1,172 @@
 #include "search/neighbours.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/run_error.hpp"
-#include "parallel/parallel.hpp"
 
 namespace courant {
 
 namespace {
+
+/// What decides how particles are sorted.
+struct Extent {
+  Vec low = Vec::Constant(std::numeric_limits<Real>::infinity()), high = -low;
+  Real h_max = 0, h_min = std::numeric_limits<Real>::infinity(), volume = 0;
+  Index count = 0;
+  void add(const Extent& other) {
+    low = low.cwiseMin(other.low), high = high.cwiseMax(other.high);
+    h_max = std::max(h_max, other.h_max), h_min = std::min(h_min, other.h_min);
+    volume += other.volume, count += other.count;
+  }
+};
+
 enum Group : signed char { group_active = 0, group_rim = 1, group_dormant = 2 };
+
+/// Particles that wait or have gone are woken this many smoothing lengths before they can matter, so that
+/// whole batches are.
+constexpr Real waking_margin = 8;
+
+}  // namespace
+
+/// Looks whether something moved so far that lists may miss a pair.
+class Neighbours::Watch : public Motion {
+ public:
+  explicit Watch(const Neighbours& lists) : lists_(lists) {}
+  std::string name() const override { return "neighbours"; }
+
+  void start(World& world, const Clock&) override { prepare(world); }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    look(world.particles, begin, end);
+  }
+  void finish(World&, const Clock&) override { looked_ = true; }
+
+  bool stale(World& world, const Clock& clock) {
+    if (!looked_) {
+      prepare(world);
+      for_each_block(world.particles.moving,
+                     [&](Index begin, Index end) { look(world.particles, begin, end); });
+    }
+    looked_ = false;
+    const bool due = lists_.first_due_ < lists_.due_.size() && lists_.due_[lists_.first_due_] <= clock.t;
+    return due || std::find(stale_.begin(), stale_.end(), 1) != stale_.end() || lists_.nodes_moved(world);
+  }
+  /// Since the lists were built [L]
+  Real largest_move() const {
+    return moved2_.empty() ? 0 : std::sqrt(*std::max_element(moved2_.begin(), moved2_.end()));
+  }
+
+ private:
+  void prepare(const World& world) {
+    stale_.resize(block_count(world.particles.moving));
+    moved2_.resize(stale_.size());
+  }
+  void look(const Particles& p, Index begin, Index end) {
+    const Real *x = p.x.data(0), *y = p.x.data(1), *z = p.x.data(2), *h = p.h.data();
+    const Real *xb = lists_.x_built_.data(), *yb = lists_.y_built_.data(), *zb = lists_.z_built_.data(),
+               *hb = lists_.h_built_.data();
+    const Real reach = 0.5 * lists_.skin_;
+    Real most = 0;
+    bool stale = false;
+    for (Index i = begin; i < end; ++i) {
+      const Real dx = x[i] - xb[i], dy = y[i] - yb[i], dz = z[i] - zb[i];
+      const Real moved2 = dx * dx + dy * dy + dz * dz;
+      const Real room = std::max(reach - std::max(h[i] - hb[i], Real(0)), Real(0));
+      stale |= !(moved2 < room * room);  // true also for NaN
+      most = std::max(most, moved2);
+    }
+    if (lists_.region_)
+      for (Index i = begin; i < end; ++i)
+        stale |= lists_.region_->contains(x[i], y[i], z[i]) != (i < p.active);
+    stale_[begin / block_size] = stale;
+    moved2_[begin / block_size] = most;
+  }
+  const Neighbours& lists_;
+  bool looked_ = false;
+  std::vector<char> stale_;
+  std::vector<Real> moved2_;
+};
+
+Neighbours::Neighbours(Real skin, std::optional<Region> region)
+    : skin_(skin),
+      least_skin_(skin),
+      most_skin_(skin),
+      region_(std::move(region)),
+      find_near_(courant::find_near()),
+      watch_(std::make_shared<Watch>(*this)) {}
+
+void Neighbours::adapt_skin(Real least, Real most) {
+  least_skin_ = least;
+  most_skin_ = most;
+  skin_ = std::clamp(skin_, least, most);
 }
 
-Real Neighbours::Region::distance(Real x, Real y, Real z) const {
-  const Real dx = std::max({low[0] - x, x - high[0], Real(0)});
-  const Real dy = std::max({low[1] - y, y - high[1], Real(0)});
-  const Real dz = std::max({low[2] - z, z - high[2], Real(0)});
-  return std::sqrt(dx * dx + dy * dy + dz * dz);
+std::shared_ptr<Motion> Neighbours::watch() {
+  return watch_;
 }
 
 bool Neighbours::refresh(World& world, const Clock& clock) {
-  if (built_ && !must_refresh(world, clock)) return false;
+  if (built_ && !watch_->stale(world, clock)) return false;
   Particles& p = world.particles;
-  move_dormant(world, clock.t);
-  stop_for_lost_particles(world, clock);
   const Index active_before = p.active;
-  std::vector<signed char> group(p.size());
-  classify(world, group);
-  make_grid(world, group, 2 * h_max_ + skin_);
-  const std::vector<Index> old_of_new = sorted_order(world, group);
+  const bool all = !built_ || too_many_gone(world);
+  if (all) wake_all(world, clock.t);
+  const Index n = all ? p.size() : p.moving + take_due(world, clock.t);
+  stop_for_lost_particles(world, clock, n);
+  choose_skin(clock);
+  sort(world, clock, n);
+  std::vector<Index>& old_of_new = order_;
   p.fields.permute(old_of_new);
-
-  entered_.clear();
-  left_.clear();
-  for (Index i = 0; i < p.size(); ++i) {  // not by the state field: what MAXV switched off leaves, too
-    const bool now = i < p.active;
-    const bool before = old_of_new[i] < active_before;
-    if (now && !before) entered_.push_back(i);
-    if (!now && before) left_.push_back(i);
-    if (p.state[i] != particle_deactivated) p.state[i] = now ? particle_active : particle_outside;
-  }
+  note_changes(p, old_of_new, active_before);
+  if (all) queue_dormant(world, clock.t);
   build_lists(world);
-
-  remember_places(world);
+  remember_places(world, clock);
   built_ = true;
-  built_at_ = clock.t;
   ++rebuilds_;
   for (auto& r : world.refreshes) r->refreshed(world, clock, old_of_new);
   return true;
 }
 
-void Neighbours::remember_places(const World& world) {
-  const Particles& p = world.particles;
-  const Index n = p.moving;
-  for (auto* copy : {&x_built_, &y_built_, &z_built_, &h_built_}) copy->resize(n);
-  std::copy_n(p.x.data(0), n, x_built_.data());
-  std::copy_n(p.x.data(1), n, y_built_.data());
-  std::copy_n(p.x.data(2), n, z_built_.data());
-  std::copy_n(p.h.data(), n, h_built_.data());
-  if (rebuilds_ == 0)
-    for (Index k = 0; k < world.nodes.size(); ++k)
-      if (!world.nodes.held[k]) moving_nodes_.push_back(k);
-  nodes_built_.clear();
-  for (const Index k : moving_nodes_) nodes_built_.push_back(world.nodes.x.vec(k));
-}
-
-bool Neighbours::must_refresh(const World& world, const Clock& clock) const {
-  const Particles& p = world.particles;
-  if (dormant_speed_ * (clock.t - built_at_) > 0.5 * skin_) return true;
-  const Real *x = p.x.data(0), *y = p.x.data(1), *z = p.x.data(2), *h = p.h.data();
-  const Real* region_low = region_ ? region_->low.data() : nullptr;
-  const Real* region_high = region_ ? region_->high.data() : nullptr;
-  const Real reach = 0.5 * skin_;
-  for (std::size_t k = 0; k < moving_nodes_.size(); ++k)
-    if (!((world.nodes.x.vec(moving_nodes_[k]) - nodes_built_[k]).norm() < reach)) return true;
-  // 1 where a particle moved too far, grew too much, or crossed the border of the box
-  const Real moved = maximum(p.moving, [&](Index i) -> Real {
-    const Real dx = x[i] - x_built_[i], dy = y[i] - y_built_[i], dz = z[i] - z_built_[i];
-    const Real room = reach - std::max(h[i] - h_built_[i], Real(0));
-    bool stale = room <= 0 || !(dx * dx + dy * dy + dz * dz < room * room);
-    if (region_low) {
-      const bool inside = x[i] >= region_low[0] && x[i] <= region_high[0] && y[i] >= region_low[1] &&
-                          y[i] <= region_high[1] && z[i] >= region_low[2] && z[i] <= region_high[2];
-      stale |= inside != (i < p.active);
-    }
-    return stale ? 1 : 0;
-  });
-  return moved > 0;
-}
-
-void Neighbours::move_dormant(World& world, Real t) {
+// Dormant particles stand in the order in which they can come within reach, so the first ones are due first.
+Index Neighbours::take_due(World& world, Real t) {
   Particles& p = world.particles;
-  if (!built_ && rebuilds_ == 0) return;
-  const Real dt = t - built_at_;
-  const Index first = p.moving;
-  for_each(p.size() - first, [&](Index k) {
-    const Index i = first + k;
-    for (int d = 0; d < 3; ++d) p.x.data(d)[i] += p.v.data(d)[i] * dt;
-  });
+  Index n = 0;
+  while (first_due_ < due_.size() && due_[first_due_] <= t + waking_time_) {
+    const Index i = p.moving + n;
+    p.x.set(i, p.x.vec(i) + p.v.vec(i) * (t - p.dormant_time));
+    ++first_due_;
+    ++n;
+  }
+  return n;
 }
 
-void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock) const {
+void Neighbours::wake_all(World& world, Real t) {
+  Particles& p = world.particles;
+  if (rebuilds_ > 0) {
+    const Real dt = t - p.dormant_time;
+    const Index first = p.moving;
+    for (int d = 0; d < 3; ++d) {
+      Real* x = p.x.data(d);
+      const Real* v = p.v.data(d);
+      for_each(p.size() - first, [=](Index k) { x[first + k] += v[first + k] * dt; });
+    }
+  }
+  p.dormant_time = t;
+}
+
+bool Neighbours::too_many_gone(const World& world) const {
+  return gone_ > 64 + world.particles.moving / 4;
+}
+
+void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock, Index n) const {
   const Particles& p = world.particles;
-  for (Index i = 0; i < p.size(); ++i) {
+  const Real lost = maximum(n, [&](Index i) {
+    return std::isfinite(p.x.data(0)[i] + p.x.data(1)[i] + p.x.data(2)[i] + p.h[i]) ? 0.0 : 1.0;
+  });
+  if (!(lost > 0)) return;
+  for (Index i = 0; i < n; ++i) {
     const Vec x = p.x.vec(i);
     if (x.allFinite() && std::isfinite(p.h[i])) continue;
     throw RunError(
@@ -114,211 +177,190 @@ void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock)
   }
 }
 
-void Neighbours::classify(World& world, std::vector<signed char>& group) {
-  Particles& p = world.particles;
-  h_max_ = p.size() ? maximum(p.size(), [&](Index i) { return p.h[i]; }) : 0;
-  const Real reach = 2 * h_max_ + skin_;
-  for_each(p.size(), [&](Index i) {
-    const Real x = p.x.data(0)[i], y = p.x.data(1)[i], z = p.x.data(2)[i];
-    if (p.state[i] == particle_deactivated)
-      group[i] = group_dormant;
-    else if (!region_ || region_->contains(x, y, z))
-      group[i] = group_active;
-    else
-      group[i] = region_->distance(x, y, z) <= reach ? group_rim : group_dormant;
-  });
-  dormant_speed_ = 0;
-  for (Index i = 0; i < p.size(); ++i)
-    if (group[i] == group_dormant && p.state[i] != particle_deactivated)
-      dormant_speed_ = std::max(dormant_speed_, p.v.vec(i).norm());
+// A skin s costs pairs out of reach, about 0.7 s/h of those within, in every step, and a rebuild, some two to
+// three steps' pairs, every s/(2 move) steps. The sum is least for s of about sqrt(2 x 2.5/0.7 move h).
+void Neighbours::choose_skin(const Clock& clock) {
+  if (least_skin_ == most_skin_ || !built_ || clock.cycle <= built_cycle_) return;
+  const Real move = watch_->largest_move() / static_cast<Real>(clock.cycle - built_cycle_);
+  skin_ = std::clamp(std::sqrt(7 * move * h_max_), least_skin_, most_skin_);
 }
 
-void Neighbours::make_grid(const World& world, const std::vector<signed char>& group, Real cell_size) {
+void Neighbours::sort(World& world, const Clock&, Index n) {
+  Particles& p = world.particles;
+  const Real h_max = n > 0 ? maximum(n, [&](Index i) { return p.h[i]; }) : 0;
+  const Real near = 2 * h_max + most_skin_ + waking_margin * h_max;
+  const bool all = n == p.size();
+  group_.resize(n);
+  key_.resize(n);
+  const auto extent_of = [&](Index begin, Index end) {
+    Extent e;
+    for (Index i = begin; i < end; ++i) {
+      const Vec x = p.x.vec(i);
+      const bool active = !region_ || region_->contains(x[0], x[1], x[2]);
+      const bool far = !active && all && region_->time_to_reach(x, p.v.vec(i), near) > 0;
+      group_[i] = p.state[i] == particle_deactivated || far ? group_dormant
+                  : active                                  ? group_active
+                                                            : group_rim;
+      if (group_[i] == group_dormant) continue;
+      e.low = e.low.cwiseMin(x), e.high = e.high.cwiseMax(x);
+      e.h_max = std::max(e.h_max, p.h[i]), e.h_min = std::min(e.h_min, p.h[i]);
+      e.volume += p.m[i] / p.rho[i];
+      ++e.count;
+    }
+    return e;
+  };
+  Extent e = reduce(n, Extent{}, extent_of, [](Extent a, const Extent& b) {
+    a.add(b);
+    return a;
+  });
+  if (e.count == 0) e.low = e.high = Vec::Zero(), e.h_min = h_max, e.volume = 1, e.count = 1;
+  h_max_ = e.h_max;
+  h_min_ = e.h_min;
+
+  // rows as wide as eight particles that stand together, so that groups are compact
+  const Real spacing = std::pow(e.volume / e.count, 1.0 / world.dim);
+  grid_.cover(e.low, e.high, (world.dim == 2 ? std::sqrt(Real(lanes)) : 2) * spacing, 0.5 * spacing,
+              16.0 * e.count + 4096);
+  const Index cells = grid_.total();
+  for_each(n, [&](Index i) {
+    const Index cell = grid_.cell_of(p.x.data(0)[i], p.x.data(1)[i], p.x.data(2)[i]);
+    key_[i] = group_[i] == group_dormant ? 2 * cells : group_[i] * cells + cell;
+  });
+  start_.assign(2 * cells + 2, 0);  // counting sort, stable
+  for (Index i = 0; i < n; ++i) ++start_[key_[i] + 1];
+  for (std::size_t k = 1; k < start_.size(); ++k) start_[k] += start_[k - 1];
+  active_start_.assign(start_.begin(), start_.begin() + cells + 1);
+  rim_start_.assign(start_.begin() + cells, start_.begin() + 2 * cells + 1);
+  p.active = start_[cells];
+  p.moving = start_[2 * cells];
+  order_.resize(n);
+  for (Index i = 0; i < n; ++i) order_[start_[key_[i]]++] = i;
+  if (all) order_dormant(p);
+}
+
+// Behind the moving particles: those first that can be within reach first.
+void Neighbours::order_dormant(const Particles& p) {
+  const Real reach = 2 * h_max_ + most_skin_;
+  std::vector<Real> due(p.size());
+  for (std::size_t k = p.moving; k < order_.size(); ++k) {
+    const Index i = order_[k];
+    due[i] = p.state[i] == particle_deactivated
+                 ? std::numeric_limits<Real>::infinity()
+                 : p.dormant_time + region_->time_to_reach(p.x.vec(i), p.v.vec(i), reach);
+  }
+  std::stable_sort(order_.begin() + p.moving, order_.end(),
+                   [&](Index a, Index b) { return due[a] < due[b]; });
+}
+
+void Neighbours::note_changes(Particles& p, const std::vector<Index>& old_of_new, Index active_before) {
+  entered_.clear();
+  left_.clear();
+  gone_ = 0;
+  const Real near = 2 * (2 * h_max_ + most_skin_ + waking_margin * h_max_);
+  for (Index i = 0; i < static_cast<Index>(old_of_new.size()); ++i) {
+    // not by the state field: what MAXV switched off leaves, too
+    const bool now = i < p.active, before = old_of_new[i] < active_before;
+    if (now && !before) entered_.push_back(i);
+    if (!now && before) left_.push_back(i);
+    if (p.state[i] != particle_deactivated) p.state[i] = now ? particle_active : particle_outside;
+    if (!now && i < p.moving && region_->time_to_reach(p.x.vec(i), p.v.vec(i), near) > 0) ++gone_;
+  }
+}
+
+void Neighbours::queue_dormant(World& world, Real t) {
   const Particles& p = world.particles;
-  Vec low = Vec::Constant(std::numeric_limits<Real>::infinity()), high = -low;
-  Index n = 0;
-  for (Index i = 0; i < p.size(); ++i) {
-    if (group[i] == group_dormant) continue;
-    const Vec x = p.x.vec(i);
+  const Real reach = 2 * h_max_ + most_skin_;
+  due_.clear();
+  first_due_ = 0;
+  Real fastest = 0;
+  for (Index i = p.moving; i < p.size(); ++i) {
+    const bool off = p.state[i] == particle_deactivated;
+    due_.push_back(off ? std::numeric_limits<Real>::infinity()
+                       : t + region_->time_to_reach(p.x.vec(i), p.v.vec(i), reach));
+    if (!off) fastest = std::max(fastest, p.v.vec(i).norm());
+  }
+  waking_time_ = fastest > 0 ? waking_margin * h_max_ / fastest : 0;
+}
+
+Index Neighbours::list_of_group(const World& world, const NearQuery& q, std::vector<Index>& found) const {
+  const Particles& p = world.particles;
+  Vec low = p.x.vec(q.first), high = low;
+  for (Index k = 1; k < q.count; ++k) {
+    const Vec x = p.x.vec(q.first + k);
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
-    ++n;
   }
-  if (n == 0) low = high = Vec::Zero();
-  grid_.origin = low;
-  // A few far-flung particles must not make a grid larger than the particles themselves: then cells grow
-  // instead.
-  const Real most = 16.0 * n + 4096;
-  Real size = cell_size > 0 ? cell_size : 1;
-  while (((high - low) / size).array().floor().cwiseMin(1e9).unaryExpr([](Real c) { return c + 1; }).prod() >
-         most)
-    size *= 1.26;
-  grid_.inverse_size = 1 / size;
-  for (int d = 0; d < 3; ++d) grid_.cells[d] = static_cast<Index>((high[d] - low[d]) / size) + 1;
-}
-
-std::array<Index, 3> Neighbours::cell_of(Real x, Real y, Real z) const {
-  const Real at[3] = {x, y, z};
-  std::array<Index, 3> c{};
-  for (int d = 0; d < 3; ++d) {
-    const Real k = (at[d] - grid_.origin[d]) * grid_.inverse_size;
-    c[d] = k > 0 ? (k < grid_.cells[d] - 1 ? static_cast<Index>(k) : grid_.cells[d] - 1) : 0;
-  }
-  return c;
-}
-
-std::vector<Index> Neighbours::sorted_order(World& world, const std::vector<signed char>& group) {
-  Particles& p = world.particles;
-  const Index n = p.size(), cells = grid_.total();
-  std::vector<Index> key(n);
-  for_each(n, [&](Index i) {
-    const auto c = cell_of(p.x.data(0)[i], p.x.data(1)[i], p.x.data(2)[i]);
-    key[i] = group[i] == group_dormant
-                 ? 2 * cells
-                 : group[i] * cells + (c[2] * grid_.cells[1] + c[1]) * grid_.cells[0] + c[0];
-  });
-  std::vector<Index> start(2 * cells + 2,
-                           0);  // counting sort, stable: the same order on any number of threads
-  for (Index i = 0; i < n; ++i) ++start[key[i] + 1];
-  for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
-  active_start_.assign(start.begin(), start.begin() + cells + 1);
-  rim_start_.assign(start.begin() + cells, start.begin() + 2 * cells + 1);
-  p.active = start[cells];
-  p.moving = start[2 * cells];
-  std::vector<Index> old_of_new(n);
-  for (Index i = 0; i < n; ++i) old_of_new[start[key[i]]++] = i;
-  return old_of_new;
-}
-
-void Neighbours::search_around(const World& world, Index i, std::vector<Index>& found, Index& count) const {
-  const Particles& p = world.particles;
-  const Real *x = p.x.data(0), *y = p.x.data(1), *z = p.x.data(2), *h = p.h.data();
-  const Real xi = x[i], yi = y[i], zi = z[i], hi = h[i];
-  const auto c = cell_of(xi, yi, zi);
-  const Index x0 = std::max(c[0] - 1, Index(0)), x1 = std::min(c[0] + 1, grid_.cells[0] - 1);
-  count = 0;
-  for (Index cz = std::max(c[2] - 1, Index(0)); cz <= std::min(c[2] + 1, grid_.cells[2] - 1); ++cz)
-    for (Index cy = std::max(c[1] - 1, Index(0)); cy <= std::min(c[1] + 1, grid_.cells[1] - 1); ++cy) {
-      const Index row = (cz * grid_.cells[1] + cy) * grid_.cells[0];
-      for (const auto* start : {&active_start_, &rim_start_}) {
-        const Index begin = (*start)[row + x0], end = (*start)[row + x1 + 1];
-        if (static_cast<Index>(found.size()) < count + (end - begin) + 1)
-          found.resize(2 * (count + (end - begin)) + 64);
-        for (Index j = begin; j < end; ++j) {
-          const Real dx = xi - x[j], dy = yi - y[j], dz = zi - z[j];
-          const Real reach = 2 * std::max(hi, h[j]) + skin_;
-          found[count] = j;
-          count += (dx * dx + dy * dy + dz * dz < reach * reach) & (j != i);
-        }
-      }
+  Index count = 0;
+  grid_.near(low, high, 2 * h_max_ + skin_, [&](Index first, Index last) {
+    for (const auto* start : {&active_start_, &rim_start_}) {
+      const Index begin = (*start)[first], end = (*start)[last + 1];
+      if (begin == end) continue;
+      if (static_cast<Index>(found.size()) <= count + (end - begin))
+        found.resize(2 * (count + (end - begin)) + 64);
+      count += find_near_(q, begin, end, found.data() + count);
     }
+  });
+  return count;
 }
 
-void Neighbours::build_lists(const World& world) {
+void Neighbours::build_lists(World& world) {
   const Particles& p = world.particles;
   const Index n = p.active;
-  const Index padding = p.size();
-  blocks_.resize((n + block_size - 1) / block_size);
+  blocks_.resize(block_count(n));
   for_each_block(n, [&](Index begin, Index end) {
     Block& b = blocks_[begin / block_size];
-    b.list.clear();
-    std::vector<Index> found(256);
-    for (Index i = begin; i < end; ++i) {
-      Index count = 0;
-      search_around(world, i, found, count);
-      b.start[i - begin] = static_cast<Index>(b.list.size());
-      b.count[i - begin] = count;
-      b.list.insert(b.list.end(), found.begin(), found.begin() + count);
-      b.list.resize((b.list.size() + lanes - 1) / lanes * lanes, padding);
+    NearQuery q{p.x.data(0), p.x.data(1), p.x.data(2), p.h.data(), 0, 0, skin_, h_min_ == h_max_};
+    std::vector<Index> found(512), all;
+    for (Index k = 0; k < groups_per_block; ++k) {
+      b.start[k] = static_cast<Index>(all.size());
+      q.first = begin + k * lanes;
+      q.count = std::min(lanes, end - q.first);
+      if (q.count <= 0) continue;
+      const Index count = list_of_group(world, q, found);
+      all.insert(all.end(), found.begin(), found.begin() + count);
     }
-    for (Index k = end - begin; k <= block_size; ++k) b.start[k] = static_cast<Index>(b.list.size());
+    b.start[groups_per_block] = static_cast<Index>(all.size());
+    std::copy(all.begin(), all.end(), b.list.grow_to(all.size()));
   });
+  std::vector<double> cost;
+  for (Index b = 0; b < block_count(n); ++b) cost.push_back(entries(b) + 2.0 * block_size);
+  world.shares = Shares::of(cost);
+  world.moving_shares = Shares::even(block_count(p.moving));
 }
 
-std::int64_t Neighbours::pairs() const {
+void Neighbours::remember_places(const World& world, const Clock& clock) {
+  const Particles& p = world.particles;
+  const Index n = p.moving;
+  for (auto* copy : {&x_built_, &y_built_, &z_built_, &h_built_}) copy->resize(n);
+  std::copy_n(p.x.data(0), n, x_built_.data());
+  std::copy_n(p.x.data(1), n, y_built_.data());
+  std::copy_n(p.x.data(2), n, z_built_.data());
+  std::copy_n(p.h.data(), n, h_built_.data());
+  built_cycle_ = clock.cycle;
+  if (rebuilds_ == 0)
+    for (Index k = 0; k < world.nodes.size(); ++k)
+      if (!world.nodes.held[k]) moving_nodes_.push_back(k);
+  nodes_built_.clear();
+  for (const Index k : moving_nodes_) nodes_built_.push_back(world.nodes.x.vec(k));
+}
+
+bool Neighbours::nodes_moved(const World& world) const {
+  for (std::size_t k = 0; k < moving_nodes_.size(); ++k)
+    if (!((world.nodes.x.vec(moving_nodes_[k]) - nodes_built_[k]).norm() < 0.5 * skin_)) return true;
+  return false;
+}
+
+std::int64_t Neighbours::entries() const {
   std::int64_t n = 0;
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (Index k = 0; k < block_size; ++k)
-      if (blocks_[b].start[k] < blocks_[b].start[k + 1]) n += blocks_[b].count[k];
+  for (std::size_t b = 0; b < blocks_.size(); ++b) n += entries(static_cast<Index>(b));
   return n;
 }
 
-namespace {
-
-/// Points sorted into cubes of a given size; used to find nearest neighbours at set-up.
-struct CellLists {
-  Vec low;
-  Real size;
-  std::array<std::int64_t, 3> cells;
-  std::vector<Index> start, points;
-
-  CellLists(const std::vector<Vec>& x, Real cell) : size(cell) {
-    low = Vec::Constant(std::numeric_limits<Real>::infinity());
-    Vec high = -low;
-    for (const Vec& p : x) low = low.cwiseMin(p), high = high.cwiseMax(p);
-    for (int d = 0; d < 3; ++d) cells[d] = static_cast<std::int64_t>((high[d] - low[d]) / size) + 1;
-    start.assign(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]) + 1, 0);
-    for (const Vec& p : x) ++start[index(cell_of(p)) + 1];
-    for (std::size_t k = 1; k < start.size(); ++k) start[k] += start[k - 1];
-    points.resize(x.size());
-    std::vector<Index> next(start.begin(), start.end() - 1);
-    for (std::size_t i = 0; i < x.size(); ++i) points[next[index(cell_of(x[i]))]++] = static_cast<Index>(i);
-  }
-  std::array<std::int64_t, 3> cell_of(const Vec& p) const {
-    std::array<std::int64_t, 3> c{};
-    for (int d = 0; d < 3; ++d)
-      c[d] = std::clamp(static_cast<std::int64_t>((p[d] - low[d]) / size), std::int64_t(0), cells[d] - 1);
-    return c;
-  }
-  std::size_t index(const std::array<std::int64_t, 3>& c) const {
-    return static_cast<std::size_t>((c[2] * cells[1] + c[1]) * cells[0] + c[0]);
-  }
-};
-
-/// Nearest distance to another point, looking in ever wider shells of cells until none nearer can come.
-Real nearest_to(const std::vector<Vec>& x, const CellLists& lists, std::size_t i) {
-  const auto c = lists.cell_of(x[i]);
-  Real best = std::numeric_limits<Real>::infinity();
-  const std::int64_t widest = std::max({lists.cells[0], lists.cells[1], lists.cells[2]});
-  for (std::int64_t ring = 0; ring <= widest; ++ring) {
-    if (best <= static_cast<Real>(ring - 1) * lists.size) break;
-    for (std::int64_t dz = -ring; dz <= ring; ++dz)
-      for (std::int64_t dy = -ring; dy <= ring; ++dy) {
-        const bool shell = std::abs(dz) == ring || std::abs(dy) == ring;
-        for (std::int64_t dx = -ring; dx <= ring; dx += shell || ring == 0 ? 1 : 2 * ring) {
-          const std::array<std::int64_t, 3> k{c[0] + dx, c[1] + dy, c[2] + dz};
-          if (k[0] < 0 || k[1] < 0 || k[2] < 0 || k[0] >= lists.cells[0] || k[1] >= lists.cells[1] ||
-              k[2] >= lists.cells[2])
-            continue;
-          for (Index q = lists.start[lists.index(k)]; q < lists.start[lists.index(k) + 1]; ++q) {
-            const std::size_t j = lists.points[q];
-            if (j != i) best = std::min(best, (x[i] - x[j]).norm());
-          }
-        }
-      }
-  }
-  return best;
-}
-
-}  // namespace
-
-std::vector<Real> nearest_distance(const std::vector<Vec>& points) {
-  std::vector<Real> nearest(points.size(), std::numeric_limits<Real>::infinity());
-  if (points.size() < 2) return nearest;
-  Vec low = points[0], high = points[0];
-  for (const Vec& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  // about two points in a cell, whatever the dimension of the cloud
-  const Vec extent = high - low;
-  const Real largest = extent.maxCoeff();
-  if (largest <= 0) return std::vector<Real>(points.size(), 0);
-  Real volume = 1;
-  int dimensions = 0;
-  for (int d = 0; d < 3; ++d)
-    if (extent[d] > 1e-9 * largest) volume *= extent[d], ++dimensions;
-  const Real size = std::pow(2 * volume / static_cast<Real>(points.size()), 1.0 / dimensions);
-  const CellLists lists(points, std::max(size, largest * 1e-3));
-  for_each(static_cast<Index>(points.size()), [&](Index i) { nearest[i] = nearest_to(points, lists, i); });
-  return nearest;
+std::vector<Index> Neighbours::of(const Particles& p, Index i) const {
+  std::vector<Index> out;
+  for (const Index j : of_group(i / lanes))
+    if (j != i && (p.x.vec(i) - p.x.vec(j)).norm() < 2 * std::max(p.h[i], p.h[j])) out.push_back(j);
+  return out;
 }
 
 }  // namespace courant

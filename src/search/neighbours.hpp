@@ -1,98 +1,108 @@
 #pragma once
-#include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "parallel/buffer.hpp"
 #include "parallel/parallel.hpp"
+#include "search/cell_grid.hpp"
+#include "search/near_loops.hpp"
+#include "search/region.hpp"
 #include "state/world.hpp"
 
 namespace courant {
 
-/// Sorts particles by cell, sets which of them are active, and keeps a Verlet list for each active particle:
-/// every particle within 2 max(h_i, h_j) + skin. The lists hold until something (particles, or shell nodes
-/// that contact looks at) moved or grew by half the skin. Each list is filled up with the padding particle
-/// (index `particles.size()`) to a multiple of `lanes`, so that pair loops need no remainder.
+/// Sorts particles so that near ones stand together, sets which of them are active, and keeps a Verlet list
+/// for every eight active particles in a row (a group): all particles within 2 max(h_i, h_j) + skin of any of
+/// them, itself included. So a pair loop loads eight particles i at once and takes one j after the other,
+/// without gathering; a kernel of zero sorts out those that only other lanes need. The lists hold until
+/// something (particles, or shell nodes that contact looks at) moved or grew by half the skin.
 class Neighbours {
  public:
   static constexpr Index lanes = 8;
-
-  struct Region {  ///< the computational box (CONTROL_SPH BOXID); without one, every particle is active
-    Vec low, high;
-    bool contains(Real x, Real y, Real z) const {
-      return x >= low[0] && x <= high[0] && y >= low[1] && y <= high[1] && z >= low[2] && z <= high[2];
-    }
-    Real distance(Real x, Real y, Real z) const;
-  };
+  static constexpr Index groups_per_block = block_size / lanes;
+  using Region = courant::Region;
 
   /// skin: dimension L, > 0.
-  Neighbours(Real skin, std::optional<Region> region) : skin_(skin), region_(std::move(region)) {}
+  Neighbours(Real skin, std::optional<Region> region);
+  /// Chooses the skin anew at each rebuild, between the given bounds [L], so that rebuilding and looking at
+  /// pairs out of reach together cost least at the present speed of particles.
+  void adapt_skin(Real least, Real most);
 
   /// Sorts and rebuilds if it must. Returns true if it did; then every Refresh of the world was told.
   /// Throws RunError naming a particle whose place is no longer a finite number.
   bool refresh(World& world, const Clock& clock);
   void force_refresh() { built_ = false; }
+  /// Looks, as the last pass of the motion stage, whether the lists still hold, so that `refresh` need not.
+  std::shared_ptr<Motion> watch();
 
-  std::span<const Index> padded(Index i) const {
-    const Block& b = blocks_[i / block_size];
-    const Index k = i % block_size;
+  /// The particles that group `g` = particles [8 g, 8 g + 8) looks at.
+  std::span<const Index> of_group(Index g) const {
+    const Block& b = blocks_[g / groups_per_block];
+    const Index k = g % groups_per_block;
     return {b.list.data() + b.start[k], static_cast<std::size_t>(b.start[k + 1] - b.start[k])};
   }
-  std::span<const Index> of(Index i) const {
-    return padded(i).first(blocks_[i / block_size].count[i % block_size]);
-  }
+  /// Entries of the lists of block `b`, and where the list of its k-th group starts among them.
+  Index entries(Index b) const { return blocks_[b].start[groups_per_block]; }
+  Index blocks() const { return static_cast<Index>(blocks_.size()); }
+  const Index* starts(Index b) const { return blocks_[b].start.data(); }
+  const Index* list(Index b) const { return blocks_[b].list.data(); }
 
   Real skin() const { return skin_; }
+  Real largest_skin() const { return most_skin_; }
   const std::optional<Region>& region() const { return region_; }
   /// Particles that became active or stopped being so (by leaving the box or by MAXV) at the last refresh;
   /// indices after sorting.
   const std::vector<Index>& entered() const { return entered_; }
   const std::vector<Index>& left() const { return left_; }
   std::int64_t rebuilds() const { return rebuilds_; }
-  std::int64_t pairs() const;  ///< list entries without padding
+  std::int64_t entries() const;  ///< of all lists
+  /// Others within 2 max(h_i, h_j) of particle i. For tests and reports: slow.
+  std::vector<Index> of(const Particles& p, Index i) const;
 
  private:
   struct Block {
-    std::vector<Index> list;
-    std::array<Index, block_size + 1> start;
-    std::array<Index, block_size> count;
+    Buffer<Index> list;
+    std::array<Index, groups_per_block + 1> start;
   };
-  struct Grid {
-    Vec origin;
-    Real inverse_size = 0;
-    std::array<Index, 3> cells{1, 1, 1};
-    Index total() const { return cells[0] * cells[1] * cells[2]; }
-  };
+  class Watch;
 
-  bool must_refresh(const World& world, const Clock& clock) const;
-  void move_dormant(World& world, Real t);
-  void stop_for_lost_particles(const World& world, const Clock& clock) const;
-  void classify(World& world, std::vector<signed char>& group);
-  void make_grid(const World& world, const std::vector<signed char>& group, Real cell_size);
-  std::vector<Index> sorted_order(World& world, const std::vector<signed char>& group);
-  void build_lists(const World& world);
-  void remember_places(const World& world);
-  void search_around(const World& world, Index i, std::vector<Index>& found, Index& count) const;
-  std::array<Index, 3> cell_of(Real x, Real y, Real z) const;
+  Index take_due(World& world, Real t);
+  void wake_all(World& world, Real t);
+  bool too_many_gone(const World& world) const;
+  void stop_for_lost_particles(const World& world, const Clock& clock, Index n) const;
+  void choose_skin(const Clock& clock);
+  void sort(World& world, const Clock& clock, Index n);
+  void order_dormant(const Particles& p);
+  void queue_dormant(World& world, Real t);
+  void note_changes(Particles& p, const std::vector<Index>& old_of_new, Index active_before);
+  void build_lists(World& world);
+  Index list_of_group(const World& world, const NearQuery& query, std::vector<Index>& found) const;
+  void remember_places(const World& world, const Clock& clock);
+  bool nodes_moved(const World& world) const;
 
-  Real skin_;
+  Real skin_, least_skin_, most_skin_;
   std::optional<Region> region_;
+  FindNear find_near_;
   bool built_ = false;
-  Real built_at_ = 0;
-  Real h_max_ = 0;
-  Real dormant_speed_ = 0;
-  Grid grid_;
-  std::vector<Index> active_start_,
-      rim_start_;  ///< first sorted particle of each cell, one longer than the cells
+  std::int64_t built_cycle_ = 0;
+  Real h_max_ = 0, h_min_ = 0;
+  CellGrid grid_;
+  std::vector<Index> active_start_, rim_start_;  ///< first sorted particle of each cell, and the end
   std::vector<Block> blocks_;
+  std::vector<Real> due_;      ///< when dormant particle moving + k may come within reach, ascending [T]
+  std::size_t first_due_ = 0;  ///< the entry of due_ that belongs to particle `moving`
+  Real waking_time_ = 0;       ///< those due that soon are woken together [T]
+  Index gone_ = 0;             ///< rim particles that are far from the box
+  std::vector<Index> order_, key_, start_;  // scratch of sorting
+  std::vector<signed char> group_;
   std::vector<Index> moving_nodes_;  ///< shell nodes that are not held: contact relies on the skin, too
   std::vector<Vec> nodes_built_;
   Array<Real> x_built_, y_built_, z_built_, h_built_;
+  std::shared_ptr<Watch> watch_;
   std::vector<Index> entered_, left_;
   std::int64_t rebuilds_ = 0;
 };
-
-/// Distance to the nearest other particle for each of `n` points; infinity for a lone one. For set-up only.
-std::vector<Real> nearest_distance(const std::vector<Vec>& points);
 
 }  // namespace courant

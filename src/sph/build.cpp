@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "search/nearest_distance.hpp"
 #include "sph/cards.hpp"
+#include "sph/pair_geometry.hpp"
 #include "sph/sph.hpp"
 #include "sph/view.hpp"
 
@@ -180,14 +182,6 @@ class Builder {
               "z; particle {} has z = {:g} [L] and vz = {:g} [L/T], the first one z = {:g}",
               p.id[off_plane_], p.x.vec(off_plane_)[2], p.v.vec(off_plane_)[2], p.x.vec(0)[2]),
           "move it into the plane, or use IDIM 3 of *CONTROL_SPH");
-    set_padding(p);
-  }
-
-  void set_padding(Particles& p) const {
-    const Index n = p.size();
-    for (int k = 0; k < 3; ++k) p.x.data(k)[n] = far_away;
-    p.rho[n] = 1;
-    p.h[n] = 1;
   }
 
   /// h0 = CSLH x largest nearest-neighbour distance, per part. A part in which one particle stands far off
@@ -196,7 +190,7 @@ class Builder {
     Particles& p = world_.particles;
     std::vector<Vec> all;
     for (Index i = 0; i < p.size(); ++i) all.push_back(p.x.vec(i));
-    const std::vector<Real> nearest = nearest_distance(all);
+    const std::vector<Real> nearest = nearest_distance(p.x.data(0), p.x.data(1), p.x.data(2), p.size());
     report_coincident_particles(all, nearest);
     for (std::size_t k = 0; k < model_.parts.size(); ++k) {
       std::vector<Real> distances;
@@ -292,9 +286,10 @@ SphSettings build_particles(const Deck& deck, const Model& model,
 std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
                                      std::shared_ptr<Neighbours> neighbours) {
   std::vector<PassNote> left_out;
-  world.rates.push_back(make_continuity(s, world, neighbours));
+  const auto geometry = std::make_shared<PairGeometry>(neighbours, s.uniform_h);
+  world.rates.push_back(make_rates(s, world, geometry));
   if (s.evolving_h)
-    world.materials.push_back(make_smoothing_length(s, world));
+    world.motions.push_back(make_smoothing_length(s, world));
   else
     left_out.push_back({"smoothing length", "HMIN = HMAX = 1: h is constant"});
   if (std::holds_alternative<BulkViscosity>(s.viscosity))
@@ -305,7 +300,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
     world.materials.push_back(make_viscous_stress(s, world));
   else
     left_out.push_back({"viscous stress", "MU is 0 in all SPH materials"});
-  world.forces.push_back(make_momentum(s, world, neighbours));
+  world.forces.push_back(make_forces(s, world, geometry));
   if (s.maxv != 0)
     world.constraints.push_back(make_speed_limit(s, neighbours));
   else

@@ -16,7 +16,7 @@ Real kinetic_and_internal(const Particles& p, const Field<Real>& reference_volum
   return 0.5 * p.m[i] * p.v.vec(i).squaredNorm() + p.E[i] * reference_volume[i];
 }
 
-class SphEnergy : public EnergyTerm, public Refresh {
+class SphEnergy : public Tally, public EnergyTerm, public Refresh {
  public:
   SphEnergy(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours)
       : settings_(s),
@@ -32,15 +32,21 @@ class SphEnergy : public EnergyTerm, public Refresh {
   }
   std::string name() const override { return "sph energy"; }
 
-  void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
+  void start(World& world, const Clock&) override { power_.resize(block_count(world.particles.active)); }
+  void block(World& world, const Clock&, Index begin, Index end) override {
     const Particles& p = world.particles;
     const auto& internal = settings_.heat_in_internal;  // heat that E holds already is not counted twice
     const Real* heat = heat_.data();
     const Real* viscous = viscous_ ? viscous_->data() : nullptr;
-    const Real power = sum(p.active, [&](Index i) {
-      if (!internal.empty() && internal[p.part[i]]) return Real(0);
-      return heat[i] + (viscous ? viscous[i] : 0);
-    });
+    Real sum = 0;
+    for (Index i = begin; i < end; ++i)
+      if (internal.empty() || !internal[p.part[i]]) sum += heat[i] + (viscous ? viscous[i] : 0);
+    power_[begin / block_size] = sum;
+  }
+
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
+    Real power = 0;
+    for (const Real p : power_) power += p;
     ledger.dissipated += power * clock.dt_mean();
     ledger.throughput += power * clock.dt_mean() + inflow_;
     ledger.external_work += exchanged_;
@@ -71,9 +77,12 @@ class SphEnergy : public EnergyTerm, public Refresh {
     }
     rim_pairs_.clear();
     if (p.moving == p.active) return;
-    for (Index i = 0; i < p.active; ++i)
-      for (const Index j : neighbours_->of(i))
-        if (j >= p.active) rim_pairs_.push_back({i, j});
+    for (Index g = 0; g * lanes < p.active; ++g)
+      for (const Index j : neighbours_->of_group(g))
+        if (j >= p.active)
+          for (Index i = g * lanes; i < std::min((g + 1) * lanes, p.active); ++i)
+            if ((p.x.vec(i) - p.x.vec(j)).norm() < 2 * std::max(p.h[i], p.h[j]) + neighbours_->skin())
+              rim_pairs_.push_back({i, j});
   }
 
  private:
@@ -146,6 +155,8 @@ class SphEnergy : public EnergyTerm, public Refresh {
   Field<Real>* viscous_ = nullptr;
   Field<Real>* total_pressure_ = nullptr;
   std::array<Field<Real>*, 6> tau_{};
+  static constexpr Index lanes = Neighbours::lanes;
+  std::vector<Real> power_;  ///< dissipated in each block [ML2/T3]
   std::vector<Pair> rim_pairs_;
   bool first_ = true;
   Real exchanged_ = 0, inflow_ = 0;
@@ -156,6 +167,7 @@ class SphEnergy : public EnergyTerm, public Refresh {
 std::shared_ptr<EnergyTerm> make_sph_energy(const SphSettings& s, World& world,
                                             std::shared_ptr<Neighbours> neighbours) {
   auto energy = std::make_shared<SphEnergy>(s, world, std::move(neighbours));
+  world.tallies.push_back(energy);
   world.refreshes.push_back(energy);
   return energy;
 }

@@ -23,9 +23,14 @@ inline std::array<Field<Real>*, 6> stress(Particles& p) {
   return tensor(p, "stress", "M/LT2");
 }
 
-/// m/rho
+/// m/rho at the last motion
 inline Field<Real>& volume(Particles& p) {
   return p.fields.add<Real>({.name = "volume", .dimension = "L3", .restart = false, .exchange = true});
+}
+/// q1 c at the last motion
+inline Field<Real>& viscous_speed(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "viscous_speed", .dimension = "L/T", .restart = false, .exchange = true});
 }
 /// p + q of the bulk viscosity
 inline Field<Real>& pressure_plus_q(Particles& p) {

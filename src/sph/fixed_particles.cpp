@@ -18,12 +18,11 @@ class FixedParticles : public Constraint {
     }
   }
   std::string name() const override { return "fixed particles (SPC)"; }
-  void apply(World& world, const Clock&) override {
+  void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
-    for_each(p.active, [&](Index i) {
+    for (Index i = begin; i < end; ++i)
       for (int k = 0; k < 3; ++k)
         if (fixed_[i] & (1 << k)) p.f.data(k)[i] = p.v.data(k)[i] = 0;
-    });
   }
 
  private:

@@ -27,14 +27,14 @@ class Gravity : public Force, public EnergyTerm, public Refresh {
   }
   std::string name() const override { return "gravity"; }
 
-  void add(World& world, const Clock& clock) override {
+  void block(World& world, const Clock& clock, Index begin, Index end) override {
     Particles& p = world.particles;
     const Vec g = gravity_at(loads_, clock.t);
     for (int k = 0; k < 3; ++k) {
       if (g[k] == 0) continue;
       Real* f = p.f.data(k);
       const Real *m = p.m.data(), gk = g[k];
-      for_each(p.active, [=](Index i) { f[i] += m[i] * gk; });
+      for (Index i = begin; i < end; ++i) f[i] += m[i] * gk;
     }
   }
 

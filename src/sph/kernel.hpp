@@ -27,14 +27,17 @@ struct CubicSpline {
   }
 };
 
+/// Added to r^2 relative to h^2, so that two particles in one place give zero force instead of 0/0.
+inline constexpr Real tiny_distance2 = 1e-24;
+
 /// h^n for the small powers kernels need.
 template <int n>
-inline Real power(Real h) {
+[[gnu::always_inline]] inline Real power(Real h) {
   if constexpr (n == 0) return 1;
   return h * power<n - 1>(h);
 }
 template <>
-inline Real power<0>(Real) {
+[[gnu::always_inline]] inline Real power<0>(Real) {
   return 1;
 }
 

@@ -2,6 +2,7 @@
 // length.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "parallel/parallel.hpp"
 #include "sph/fields.hpp"
@@ -13,24 +14,26 @@ namespace {
 
 /// IAVIS 1: q = rho h (Q1 h d^2 - Q2 c d) for d = div v < 0, else 0, the form of solid elements with the
 /// length h.
-class BulkViscosityPass : public Material {
+class BulkViscosityPass : public Material, public Refresh {
  public:
   BulkViscosityPass(const SphSettings& s, World& world)
       : q_(s.q),
         total_(sph_fields::pressure_plus_q(world.particles)),
         heat_(sph_fields::dissipation(world.particles)) {}
   std::string name() const override { return "bulk viscosity"; }
-  void update(World& world, const Clock&) override {
+  void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
-    for_each(p.moving, [&](Index i) {
-      total_[i] = p.p[i];
-      if (i >= p.active) return;
+    for (Index i = begin; i < end; ++i) {
       const Real d = std::min(-p.drhodt[i] / p.rho[i], Real(0));  // div v
       const PartViscosity& k = q_[p.part[i]];
       const Real q = p.rho[i] * p.h[i] * (k.q2 * p.h[i] * d * d - k.q1 * p.c[i] * d);
-      total_[i] += q;
+      total_[i] = p.p[i] + q;
       heat_[i] = -q * d * p.m[i] / p.rho[i];
-    });
+    }
+  }
+  void refreshed(World& world, const Clock&, std::span<const Index>) override {
+    const Particles& p = world.particles;
+    for (Index i = p.active; i < p.moving; ++i) total_[i] = p.p[i];  // the rim's pressure does not change
   }
 
  private:
@@ -48,9 +51,9 @@ class ViscousStress : public Material {
     power_ = &sph_fields::viscous_dissipation(world.particles);
   }
   std::string name() const override { return "viscous stress"; }
-  void update(World& world, const Clock&) override {
+  void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
-    for_each(p.active, [&](Index i) {
+    for (Index i = begin; i < end; ++i) {
       const Real mu = mu_[p.part[i]];
       const Real third = (rate(0, i) + rate(1, i) + rate(2, i)) / 3;
       Real power = 0;
@@ -60,7 +63,7 @@ class ViscousStress : public Material {
         power += (k < 3 ? 1 : 2) * 2 * mu * deviator * rate(k, i);
       }
       (*power_)[i] = power * p.m[i] / p.rho[i];
-    });
+    }
   }
 
  private:
@@ -70,8 +73,9 @@ class ViscousStress : public Material {
   Field<Real>* power_ = nullptr;
 };
 
-/// DERIV 0: dh/dt = h div v / dim, within HMIN h0 and HMAX h0. Particles at a bound are counted.
-class SmoothingLength : public Material {
+/// DERIV 0: dh/dt = h div v / dim, within HMIN h0 and HMAX h0. Particles at a bound are counted. Neighbours
+/// read h during the rates, so it follows the density at the end of the step.
+class SmoothingLength : public Motion {
  public:
   SmoothingLength(const SphSettings& s, World& world)
       : low_(s.h_min_factor),
@@ -81,33 +85,40 @@ class SmoothingLength : public Material {
     world.counters["smoothing_length_at_bound"] = 0;
   }
   std::string name() const override { return "smoothing length"; }
-  void update(World& world, const Clock& clock) override {
-    if (clock.dt_old == 0) return;
+  void start(World& world, const Clock&) override {
+    at_bound_.assign(block_count(world.particles.moving), 0);
+  }
+  void block(World& world, const Clock& clock, Index begin, Index end) override {
     Particles& p = world.particles;
-    const Real at_bound = sum(p.active, [&](Index i) -> Real {
-      const Real grown = p.h[i] * (1 - p.drhodt[i] / p.rho[i] * clock.dt_old / world.dim);
+    for (Index i = begin; i < std::min(end, p.active); ++i) {
+      const Real grown = p.h[i] * (1 - p.drhodt[i] / p.rho[i] * clock.dt / world.dim);
       const Real low = low_[p.part[i]] * h0_[i], high = high_[p.part[i]] * h0_[i];
       p.h[i] = std::clamp(grown, low, high);
-      return grown < low || grown > high ? 1 : 0;
-    });
+      at_bound_[begin / block_size] += grown < low || grown > high ? 1 : 0;
+    }
+  }
+  void finish(World& world, const Clock&) override {
     auto& counter = world.counters["smoothing_length_at_bound"];
-    counter = std::max(counter, static_cast<std::int64_t>(at_bound));
+    counter = std::max(counter, std::accumulate(at_bound_.begin(), at_bound_.end(), std::int64_t(0)));
   }
 
  private:
   std::vector<Real> low_, high_;
+  std::vector<std::int64_t> at_bound_;  ///< in each block
   Field<Real>& h0_;
 };
 
 }  // namespace
 
 std::shared_ptr<Material> make_bulk_viscosity(const SphSettings& s, World& world) {
-  return std::make_shared<BulkViscosityPass>(s, world);
+  auto pass = std::make_shared<BulkViscosityPass>(s, world);
+  world.refreshes.push_back(pass);
+  return pass;
 }
 std::shared_ptr<Material> make_viscous_stress(const SphSettings& s, World& world) {
   return std::make_shared<ViscousStress>(s, world);
 }
-std::shared_ptr<Material> make_smoothing_length(const SphSettings& s, World& world) {
+std::shared_ptr<Motion> make_smoothing_length(const SphSettings& s, World& world) {
   return std::make_shared<SmoothingLength>(s, world);
 }
 

@@ -65,12 +65,15 @@ struct PassNote {
 std::vector<PassNote> add_sph_passes(World& world, const SphSettings& settings,
                                      std::shared_ptr<Neighbours> neighbours);
 
-std::shared_ptr<Rate> make_continuity(const SphSettings&, World&, std::shared_ptr<Neighbours>);
-std::shared_ptr<Force> make_momentum(const SphSettings&, World&, std::shared_ptr<Neighbours>);
+class PairGeometry;
+/// Adds to the motions of `world` what keeps m/rho and q1 c for neighbours.
+std::shared_ptr<Rate> make_rates(const SphSettings&, World&, std::shared_ptr<PairGeometry>);
+std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<PairGeometry>);
 std::shared_ptr<Material> make_bulk_viscosity(const SphSettings&, World&);
 std::shared_ptr<Material> make_viscous_stress(const SphSettings&, World&);
-std::shared_ptr<Material> make_smoothing_length(const SphSettings&, World&);
-std::shared_ptr<TimeLimit> make_sph_time_limit(const SphSettings&, const Model&);
+std::shared_ptr<Motion> make_smoothing_length(const SphSettings&, World&);
+/// Eq. 18; the first of the world's time limits.
+void add_sph_time_limit(const SphSettings&, const Model&, World&);
 std::shared_ptr<EnergyTerm> make_sph_energy(const SphSettings&, World&, std::shared_ptr<Neighbours>);
 std::shared_ptr<Force> make_gravity(const Model&, World&, std::shared_ptr<Neighbours>);
 /// Acceleration that LOAD_BODY_X/Y/Z give to everything at time t [L/T2].

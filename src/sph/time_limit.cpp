@@ -20,30 +20,31 @@ struct Smallest {
 
 /// Eq. 18: dt = TSSFAC min h/(c + |v|), and with MU > 0 also dt <= 0.125 rho h^2 / MU (Morris et al. 1997). A
 /// NaN anywhere comes out as the smallest, so that the run stops there.
-class SphTimeLimit : public TimeLimit {
+class SphTimeLimit : public Tally, public TimeLimit {
  public:
   SphTimeLimit(const SphSettings& s, const Model& model) : tssfac_(s.tssfac), mu_(s.mu) {
     for (const ModelPart& part : model.parts) part_ids_.push_back(part.id);
   }
   std::string name() const override { return "sph time step"; }
-  Limit limit(const World& world, const Clock&) override {
+  void start(World& world, const Clock&) override { smallest_.resize(block_count(world.particles.active)); }
+  void block(World& world, const Clock&, Index begin, Index end) override {
     const Particles& p = world.particles;
     const Real *vx = p.v.data(0), *vy = p.v.data(1), *vz = p.v.data(2), *h = p.h.data(), *c = p.c.data();
-    const Smallest s = reduce(
-        p.active, Smallest{},
-        [&](Index begin, Index end) {
-          Smallest best;
-          for (Index i = begin; i < end; ++i) {
-            Real dt = h[i] / (c[i] + std::sqrt(vx[i] * vx[i] + vy[i] * vy[i] + vz[i] * vz[i]));
-            if (!mu_.empty()) dt = std::min(dt, 0.125 * p.rho[i] * h[i] * h[i] / mu_[p.part[i]]);
-            best.take(dt, i);
-          }
-          return best;
-        },
-        [](Smallest a, Smallest b) {
-          if (b.at >= 0) a.take(b.value, b.at);
-          return a;
-        });
+    Real dt[block_size];
+    for (Index i = begin; i < end; ++i)
+      dt[i - begin] = h[i] / (c[i] + std::sqrt(vx[i] * vx[i] + vy[i] * vy[i] + vz[i] * vz[i]));
+    if (!mu_.empty())
+      for (Index i = begin; i < end; ++i)
+        dt[i - begin] = std::min(dt[i - begin], 0.125 * p.rho[i] * h[i] * h[i] / mu_[p.part[i]]);
+    Smallest best;
+    for (Index i = begin; i < end; ++i) best.take(dt[i - begin], i);
+    smallest_[begin / block_size] = best;
+  }
+  Limit limit(const World& world, const Clock&) override {
+    const Particles& p = world.particles;
+    Smallest s;
+    for (const Smallest& b : smallest_)
+      if (b.at >= 0) s.take(b.value, b.at);
     if (s.at < 0) return {std::numeric_limits<Real>::infinity(), "no active particle"};
     return {tssfac_ * s.value, fmt::format("sph {} of part {}", p.id[s.at], part_ids_[p.part[s.at]])};
   }
@@ -52,6 +53,7 @@ class SphTimeLimit : public TimeLimit {
   Real tssfac_;
   std::vector<Real> mu_;
   std::vector<Id> part_ids_;
+  std::vector<Smallest> smallest_;  ///< of each block
 };
 
 /// MAXV: faster particles are switched off (> 0) or slowed to the limit (< 0); both are counted, and the
@@ -61,7 +63,8 @@ class SpeedLimit : public Constraint {
   SpeedLimit(const SphSettings& s, std::shared_ptr<Neighbours> neighbours)
       : maxv_(s.maxv), neighbours_(std::move(neighbours)) {}
   std::string name() const override { return "speed limit MAXV"; }
-  void apply(World& world, const Clock&) override {
+  void block(World&, const Clock&, Index, Index) override {}
+  void finish(World& world, const Clock&) override {
     Particles& p = world.particles;
     const Real limit = std::abs(maxv_);
     const Real fastest = maximum(p.active, [&](Index i) { return p.v.vec(i).squaredNorm(); });
@@ -91,8 +94,10 @@ class SpeedLimit : public Constraint {
 
 }  // namespace
 
-std::shared_ptr<TimeLimit> make_sph_time_limit(const SphSettings& s, const Model& model) {
-  return std::make_shared<SphTimeLimit>(s, model);
+void add_sph_time_limit(const SphSettings& s, const Model& model, World& world) {
+  auto limit = std::make_shared<SphTimeLimit>(s, model);
+  world.tallies.push_back(limit);
+  world.time_limits.push_back(limit);
 }
 std::shared_ptr<Constraint> make_speed_limit(const SphSettings& s, std::shared_ptr<Neighbours> neighbours) {
   return std::make_shared<SpeedLimit>(s, std::move(neighbours));

@@ -1,29 +1,24 @@
 #pragma once
-#include "search/neighbours.hpp"
+#include "sph/pair_loops.hpp"
 #include "state/world.hpp"
 
 namespace courant {
 
-/// Raw pointers to the particle fields that pair loops read; `x[k]`, `v[k]` are component arrays.
-struct ParticleView {
-  explicit ParticleView(Particles& p)
-      : x{p.x.data(0), p.x.data(1), p.x.data(2)},
-        v{p.v.data(0), p.v.data(1), p.v.data(2)},
-        m(p.m.data()),
-        rho(p.rho.data()),
-        h(p.h.data()) {}
-  const Real* x[3];
-  const Real* v[3];
-  const Real* m;
-  const Real* rho;
-  const Real* h;
-};
-
-/// Where the padding particle stands: so far away that every kernel is zero, yet its square is finite.
-inline constexpr Real far_away = 1e30;
-
-/// Added to r^2 relative to h^2, so that two particles in one place give zero force instead of 0/0.
-inline constexpr Real tiny_distance2 = 1e-24;
+/// The arrays that every pair loop works with; the rest is null.
+inline PairArrays particle_arrays(Particles& p) {
+  PairArrays a{};
+  for (int k = 0; k < 3; ++k) {
+    a.x[k] = p.x.data(k);
+    a.v[k] = p.v.data(k);
+    a.f[k] = p.f.data(k);
+  }
+  a.m = p.m.data();
+  a.h = p.h.data();
+  a.rho = p.rho.data();
+  a.drhodt = p.drhodt.data();
+  a.h0 = p.active > 0 ? p.h[0] : 1;
+  return a;
+}
 
 /// Calls `f(std::bool_constant)` with a run-time bool: one place where a choice becomes a specialised loop.
 template <class F>

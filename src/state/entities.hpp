@@ -34,8 +34,9 @@ struct Particles {
       fields.add<Index>({.name = "part", .dimension = "-"});  ///< index into the model's parts
   Field<Index>& state = fields.add<Index>({.name = "state", .dimension = "-"});  ///< see ParticleState
 
-  Index active = 0;  ///< particles [0, active) are active
-  Index moving = 0;  ///< particles [active, moving) are the rim
+  Index active = 0;       ///< particles [0, active) are active
+  Index moving = 0;       ///< particles [active, moving) are the rim
+  Real dormant_time = 0;  ///< when dormant particles were at x; since then they move with v [T]
   Index size() const { return fields.size(); }
 };
 

@@ -11,6 +11,7 @@
 
 #include "base/real.hpp"
 #include "parallel/array.hpp"
+#include "parallel/parallel.hpp"
 
 namespace courant {
 
@@ -35,8 +36,7 @@ class FieldBase {
   FieldInfo info_;
 };
 
-/// `components` arrays of `n + 1` values: the last one is the padding entity, always zero unless a physics
-/// sets it, which neighbour lists use to fill up vectors.
+/// `components` arrays of n values.
 template <class T>
 class Field : public FieldBase {
  public:
@@ -56,19 +56,18 @@ class Field : public FieldBase {
     for (int k = 0; k < 3; ++k) component_[k][i] += value[k];
   }
   void fill(T value) {
-    for (auto& c : component_) std::fill(c.begin(), c.end() - 1, value);
+    for (auto& c : component_) std::fill(c.begin(), c.end(), value);
   }
 
   void resize(Index n) override {
-    for (auto& c : component_) c.resize(n + 1, T(0));
+    for (auto& c : component_) c.resize(n, T(0));
   }
   void permute(std::span<const Index> old_of_new) override {
+    const Index n = static_cast<Index>(old_of_new.size());
+    scratch_.resize(n);
     for (auto& c : component_) {
-      scratch_.resize(c.size());
-      for (std::size_t i = 0; i < old_of_new.size(); ++i) scratch_[i] = c[old_of_new[i]];
-      std::copy(c.begin() + static_cast<std::ptrdiff_t>(old_of_new.size()), c.end(),
-                scratch_.begin() + static_cast<std::ptrdiff_t>(old_of_new.size()));
-      c.swap(scratch_);
+      for_each(n, [&](Index i) { scratch_[i] = c[old_of_new[i]]; });
+      std::copy_n(scratch_.data(), n, c.data());
     }
   }
 
@@ -104,7 +103,7 @@ class FieldSet {
     size_ = n;
     for (auto& f : fields_) f->resize(n);
   }
-  /// New entity i is old entity old_of_new[i].
+  /// New entity i is old entity old_of_new[i], for as many as are given; those behind stay.
   void permute(std::span<const Index> old_of_new) {
     for (auto& f : fields_) f->permute(old_of_new);
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "parallel/parallel.hpp"
 #include "state/entities.hpp"
 
 namespace courant {
@@ -44,27 +45,44 @@ struct Pass {
   virtual ~Pass() = default;
   virtual std::string name() const = 0;
 };
-/// Rates from the velocities of the last kick: drho/dt, velocity gradient.
-struct Rate : Pass {
-  virtual void evaluate(World& world, const Clock& clock) = 0;
+
+/// A pass whose work threads share by blocks of particles. A step is a few stages; in a stage every block
+/// goes through the block passes of that stage in order, with no waiting in between. So `block` writes only
+/// what belongs to particles [begin, end), and reads of other particles only what an earlier stage has
+/// finished.
+struct BlockPass : Pass {
+  /// Before any block of the stage, on one thread.
+  virtual void start(World& /*world*/, const Clock& /*clock*/) {}
+  /// `begin` is a multiple of block_size; `end` may be beyond world.particles.active where the stage has the
+  /// rim, too (motions).
+  virtual void block(World& world, const Clock& clock, Index begin, Index end) = 0;
+  /// After all blocks of all passes of the stage, on one thread. What blocks summed up is added here, in the
+  /// order of blocks, so that it has the same bits on any number of threads.
+  virtual void finish(World& /*world*/, const Clock& /*clock*/) {}
 };
+
+// Stage "rates": everything from x and v of the last motion.
+/// Rates from the velocities of the last kick: drho/dt, velocity gradient; forces that depend on them go to
+/// f, which is zero before.
+struct Rate : BlockPass {};
 /// Advances rho and E over dt_old with the rates, then gives p, c (and stress).
-struct Material : Pass {
-  virtual void update(World& world, const Clock& clock) = 0;
-};
-/// Adds to particles.f of active particles and nodes.f; both are zero before the first force.
-struct Force : Pass {
-  virtual void add(World& world, const Clock& clock) = 0;
-};
-/// Changes forces (or accelerations) after all are known: SPC, rigid bodies.
-struct Constraint : Pass {
-  virtual void apply(World& world, const Clock& clock) = 0;
-};
-/// Moves what it owns: v += a dt_mean, x += v dt.
-struct Motion : Pass {
-  virtual void kick(World& world, const Clock& clock) = 0;
-  virtual void drift(World& world, const Clock& clock) = 0;
-};
+struct Material : BlockPass {};
+/// Sums or searches over particles once materials are known; changes nothing of theirs.
+struct Tally : BlockPass {};
+
+// Stage "forces": what needs the pressures of neighbours.
+/// Adds to particles.f of active particles. Who adds to nodes.f or segments.contact_force (in `finish`) first
+/// takes back in `start` what it added a step ago.
+struct Force : BlockPass {};
+/// Changes forces (or accelerations) after all are known: SPC, rigid bodies. Those of particles in `block`,
+/// those of nodes in `finish`.
+struct Constraint : BlockPass {};
+
+// Stage "motion".
+/// Moves what it owns: v += a dt_mean, x += v dt; or brings up to date what the next step's pair loops read.
+/// Blocks cover active and rim particles.
+struct Motion : BlockPass {};
+
 struct TimeLimit : Pass {
   struct Limit {
     Real dt;          ///< [T], infinity where there is none
@@ -97,10 +115,14 @@ struct World {
   EnergyLedger energy;
   Counters counters;
   std::map<std::string, Real> maxima;  ///< largest values over the run, for summary.yaml: max_penetration
+  /// Which thread works on which blocks of active particles, and of active and rim particles; neighbours
+  /// choose.
+  Shares shares, moving_shares;
 
   // The passes the deck asks for, in the order the step runs them. One object may stand in several lists.
   std::vector<std::shared_ptr<Rate>> rates;
   std::vector<std::shared_ptr<Material>> materials;
+  std::vector<std::shared_ptr<Tally>> tallies;
   std::vector<std::shared_ptr<Force>> forces;
   std::vector<std::shared_ptr<Constraint>> constraints;
   std::vector<std::shared_ptr<Motion>> motions;

@@ -11,13 +11,14 @@ namespace courant {
 
 namespace {
 
-void clear_forces(World& world) {
-  for (int k = 0; k < 3; ++k) {
-    std::fill_n(world.particles.f.data(k), world.particles.active, 0.0);
-    std::fill_n(world.nodes.f.data(k), world.nodes.size(), 0.0);
-    std::fill_n(world.segments.contact_force.data(k), world.segments.size(), 0.0);
+class ClearForces : public Rate {
+ public:
+  std::string name() const override { return "clear forces"; }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    for (int k = 0; k < 3; ++k)
+      std::fill(world.particles.f.data(k) + begin, world.particles.f.data(k) + end, 0.0);
   }
-}
+};
 
 void choose_dt(World& world, Clock& clock, const StepRules& rules, std::string& who) {
   TimeLimit::Limit smallest{std::numeric_limits<Real>::infinity(), "nothing"};
@@ -43,31 +44,39 @@ void choose_dt(World& world, Clock& clock, const StepRules& rules, std::string& 
 
 }  // namespace
 
-void evaluate(World& world, Clock& clock, Neighbours& neighbours, const StepRules& rules, PassTimer& timer,
-              std::string& controlled_by) {
-  timer.measure("neighbours", [&] { neighbours.refresh(world, clock); });
-  for (auto& rate : world.rates) timer.measure(rate->name(), [&] { rate->evaluate(world, clock); });
-  for (auto& material : world.materials)
-    timer.measure(material->name(), [&] { material->update(world, clock); });
-  timer.measure("clear forces", [&] { clear_forces(world); });
-  for (auto& force : world.forces) timer.measure(force->name(), [&] { force->add(world, clock); });
-  for (auto& constraint : world.constraints)
-    timer.measure(constraint->name(), [&] { constraint->apply(world, clock); });
-  timer.measure("time step", [&] { choose_dt(world, clock, rules, controlled_by); });
+Stepper::Stepper(World& world, Neighbours& neighbours, StepRules rules, PassTimer& timer)
+    : world_(world),
+      neighbours_(neighbours),
+      rules_(std::move(rules)),
+      timer_(timer),
+      rates_(timer),
+      forces_(timer),
+      motion_(timer) {
+  rates_.add(std::make_shared<ClearForces>());
+  rates_.add_all(world.rates);
+  rates_.add_all(world.materials);
+  rates_.add_all(world.tallies);
+  forces_.add_all(world.forces);
+  forces_.add_all(world.constraints);
+  motion_.add_all(world.motions);
+  motion_.add(neighbours.watch());
 }
 
-void step(World& world, Clock& clock, Neighbours& neighbours, const StepRules& rules, PassTimer& timer,
-          const AtTimeLevel& at_time_level) {
+void Stepper::evaluate(Clock& clock, std::string& controlled_by) {
+  timer_.measure("neighbours", [&] { neighbours_.refresh(world_, clock); });
+  rates_.run(world_, clock, world_.particles.active, world_.shares);
+  forces_.run(world_, clock, world_.particles.active, world_.shares);
+  timer_.measure("time step", [&] { choose_dt(world_, clock, rules_, controlled_by); });
+}
+
+void Stepper::step(Clock& clock, const AtTimeLevel& at_time_level) {
   std::string controlled_by;
-  evaluate(world, clock, neighbours, rules, timer, controlled_by);
-  timer.measure("output", [&] { at_time_level(world, clock, controlled_by); });
-  timer.measure("energy", [&] {
-    for (auto& term : world.energy_terms) term->record(world, clock, world.energy);
+  evaluate(clock, controlled_by);
+  timer_.measure("output", [&] { at_time_level(world_, clock, controlled_by); });
+  timer_.measure("energy", [&] {
+    for (auto& term : world_.energy_terms) term->record(world_, clock, world_.energy);
   });
-  timer.measure("motion", [&] {
-    for (auto& motion : world.motions) motion->kick(world, clock);
-    for (auto& motion : world.motions) motion->drift(world, clock);
-  });
+  motion_.run(world_, clock, world_.particles.moving, world_.moving_shares);
   clock.t += clock.dt;
   clock.dt_old = clock.dt;
   ++clock.cycle;
@@ -79,38 +88,21 @@ void sample_energy(World& world, const Clock& clock) {
   for (auto& term : world.energy_terms) term->sample(world, clock, e);
 }
 
-void PassTimer::add(const std::string& name, double seconds) {
-  for (Row& row : table_)
-    if (row.name == name) {
-      row.seconds += seconds;
-      ++row.calls;
-      return;
-    }
-  table_.push_back({name, seconds, 1});
-}
-
 namespace {
 
 class ParticleMotion : public Motion {
  public:
   std::string name() const override { return "particle motion"; }
-  void kick(World& world, const Clock& clock) override {
+  void block(World& world, const Clock& clock, Index begin, Index end) override {
     Particles& p = world.particles;
-    const Real dt = clock.dt_mean();
+    const Real dt = clock.dt, dt_kick = clock.dt_mean();
+    const Index active_end = std::min(end, p.active);
     const Real* m = p.m.data();
     for (int k = 0; k < world.dim; ++k) {
-      Real* v = p.v.data(k);
+      Real *x = p.x.data(k), *v = p.v.data(k);
       const Real* f = p.f.data(k);
-      for_each(p.active, [=](Index i) { v[i] += f[i] / m[i] * dt; });
-    }
-  }
-  void drift(World& world, const Clock& clock) override {
-    Particles& p = world.particles;
-    const Real dt = clock.dt;
-    for (int k = 0; k < world.dim; ++k) {
-      Real* x = p.x.data(k);
-      const Real* v = p.v.data(k);
-      for_each(p.moving, [=](Index i) { x[i] += v[i] * dt; });
+      for (Index i = begin; i < active_end; ++i) v[i] += f[i] / m[i] * dt_kick;
+      for (Index i = begin; i < end; ++i) x[i] += v[i] * dt;
     }
   }
 };

@@ -1,0 +1,148 @@
+#pragma once
+// Eight numbers at once, for the few files that are compiled once for each instruction set (see
+// docs/architecture.md). Everything here has the name of the instruction set in its name, so that code of
+// different sets is never mixed up by the linker.
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#include "base/real.hpp"
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
+#define COURANT_SIMD avx512
+#define COURANT_SIMD_BYTES 64
+#elif defined(__AVX2__) && defined(__FMA__)
+#define COURANT_SIMD avx2
+#define COURANT_SIMD_BYTES 32
+#else
+#define COURANT_SIMD baseline
+#define COURANT_SIMD_BYTES 16
+#endif
+
+#define COURANT_INLINE [[gnu::always_inline]] inline
+
+namespace courant {
+inline constexpr Index lanes = 8;
+
+namespace COURANT_SIMD {
+
+using Native = Real __attribute__((vector_size(COURANT_SIMD_BYTES)));
+using NativeInMemory = Real __attribute__((vector_size(COURANT_SIMD_BYTES), aligned(8), may_alias));
+inline constexpr int native_lanes = COURANT_SIMD_BYTES / 8;
+inline constexpr int parts = lanes / native_lanes;
+
+COURANT_INLINE Native native_max(Native a, Native b) {
+#if COURANT_SIMD_BYTES == 64
+  return _mm512_max_pd(a, b);
+#elif COURANT_SIMD_BYTES == 32
+  return _mm256_max_pd(a, b);
+#elif defined(__SSE2__)
+  return _mm_max_pd(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
+/// 1/sqrt(x) for normal x > 0, within a few units of the last place.
+COURANT_INLINE Native native_rsqrt(Native x) {
+#if COURANT_SIMD_BYTES == 64
+  // 14 bits, then one step of fourth order: dividing and taking roots would cost several times as much
+  const Native y = _mm512_rsqrt14_pd(x), e = 1.0 - x * y * y;
+  return y + y * e * (0.5 + e * (0.375 + e * 0.3125));
+#elif COURANT_SIMD_BYTES == 32
+  return 1.0 / Native(_mm256_sqrt_pd(x));
+#elif defined(__SSE2__)
+  return 1.0 / Native(_mm_sqrt_pd(x));
+#else
+  Native root;
+  for (int k = 0; k < native_lanes; ++k) root[k] = __builtin_sqrt(x[k]);
+  return 1.0 / root;
+#endif
+}
+
+/// Eight numbers, in as few registers as the instruction set allows.
+struct Pack {
+  Native part[parts];
+
+  COURANT_INLINE static Pack of(Real a) {
+    Pack out;
+    for (int k = 0; k < parts; ++k) out.part[k] = a - Native{};
+    return out;
+  }
+  COURANT_INLINE static Pack zero() { return of(0); }
+  COURANT_INLINE static Pack load(const Real* p) {
+    Pack out;
+    for (int k = 0; k < parts; ++k)
+      out.part[k] = *reinterpret_cast<const NativeInMemory*>(p + k * native_lanes);
+    return out;
+  }
+  /// The first `n` numbers; the others repeat the last of them.
+  COURANT_INLINE static Pack load(const Real* p, Index n) {
+    if (n >= lanes) return load(p);
+    Real copy[lanes];
+    for (Index k = 0; k < lanes; ++k) copy[k] = p[k < n ? k : n - 1];
+    return load(copy);
+  }
+  COURANT_INLINE void store(Real* p) const {
+    for (int k = 0; k < parts; ++k) *reinterpret_cast<NativeInMemory*>(p + k * native_lanes) = part[k];
+  }
+  COURANT_INLINE void store(Real* p, Index n) const {
+    if (n >= lanes) return store(p);
+    Real copy[lanes];
+    store(copy);
+    for (Index k = 0; k < n; ++k) p[k] = copy[k];
+  }
+};
+
+#define COURANT_PACK_OPERATOR(op)                                         \
+  COURANT_INLINE Pack operator op(const Pack& a, const Pack& b) {         \
+    Pack out;                                                             \
+    for (int k = 0; k < parts; ++k) out.part[k] = a.part[k] op b.part[k]; \
+    return out;                                                           \
+  }                                                                       \
+  COURANT_INLINE Pack operator op(const Pack& a, Real b) {                \
+    Pack out;                                                             \
+    for (int k = 0; k < parts; ++k) out.part[k] = a.part[k] op b;         \
+    return out;                                                           \
+  }                                                                       \
+  COURANT_INLINE Pack operator op(Real a, const Pack& b) {                \
+    Pack out;                                                             \
+    for (int k = 0; k < parts; ++k) out.part[k] = a op b.part[k];         \
+    return out;                                                           \
+  }                                                                       \
+  COURANT_INLINE Pack& operator op##=(Pack& a, const Pack& b) {           \
+    return a = a op b;                                                    \
+  }
+COURANT_PACK_OPERATOR(+)
+COURANT_PACK_OPERATOR(-)
+COURANT_PACK_OPERATOR(*)
+COURANT_PACK_OPERATOR(/)
+#undef COURANT_PACK_OPERATOR
+
+COURANT_INLINE Pack max(const Pack& a, const Pack& b) {
+  Pack out;
+  for (int k = 0; k < parts; ++k) out.part[k] = native_max(a.part[k], b.part[k]);
+  return out;
+}
+COURANT_INLINE Pack rsqrt(const Pack& a) {
+  Pack out;
+  for (int k = 0; k < parts; ++k) out.part[k] = native_rsqrt(a.part[k]);
+  return out;
+}
+/// True if a < b in any lane.
+COURANT_INLINE bool any_less(const Pack& a, const Pack& b) {
+#if COURANT_SIMD_BYTES == 64
+  return _mm512_cmp_pd_mask(a.part[0], b.part[0], _CMP_LT_OQ) != 0;
+#elif COURANT_SIMD_BYTES == 32
+  return _mm256_movemask_pd(_mm256_or_pd(_mm256_cmp_pd(a.part[0], b.part[0], _CMP_LT_OQ),
+                                         _mm256_cmp_pd(a.part[1], b.part[1], _CMP_LT_OQ))) != 0;
+#else
+  bool any = false;
+  for (int k = 0; k < parts; ++k)
+    for (int l = 0; l < native_lanes; ++l) any |= a.part[k][l] < b.part[k][l];
+  return any;
+#endif
+}
+
+}  // namespace COURANT_SIMD
+}  // namespace courant

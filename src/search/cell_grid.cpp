@@ -1,0 +1,20 @@
+#include "search/cell_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace courant {
+
+void CellGrid::cover(const Vec& low, const Vec& high, Real row, Real bin, Real most) {
+  origin_ = low;
+  size_ = Vec(bin, row, row);
+  const auto count = [&](int d) { return std::floor(std::min((high[d] - low[d]) / size_[d], 1e9)) + 1; };
+  // A few far-flung particles must not make a grid larger than the particles themselves.
+  while (count(0) * count(1) * count(2) > most) size_ *= 1.26;
+  for (int d = 0; d < 3; ++d) {
+    cells_[d] = static_cast<Index>(count(d));
+    inverse_[d] = 1 / size_[d];
+  }
+}
+
+}  // namespace courant

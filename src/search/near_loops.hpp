@@ -1,0 +1,22 @@
+#pragma once
+// The inner loop of the neighbour search, compiled once for each instruction set.
+#include "base/real.hpp"
+
+namespace courant {
+
+/// Eight particles in a row (fewer at the end) and those that may be near them.
+struct NearQuery {
+  const Real *x, *y, *z, *h;  ///< of all particles
+  Index first, count;         ///< the group: particles [first, first + count), 1 <= count <= 8
+  Real skin;                  ///< [L]
+  bool uniform_h;             ///< all h are that of particle `first`
+};
+
+/// Writes those of particles [begin, end) to `out` that are within 2 max(h_i, h_j) + skin of any particle i
+/// of the group; returns how many.
+using FindNear = Index (*)(const NearQuery& query, Index begin, Index end, Index* out);
+
+/// For the machine the program runs on.
+FindNear find_near();
+
+}  // namespace courant

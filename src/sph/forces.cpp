@@ -1,0 +1,53 @@
+#include "sph/fields.hpp"
+#include "sph/pair_geometry.hpp"
+#include "sph/sph.hpp"
+#include "sph/view.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Pressure and viscous stress of eq. 7; artificial viscosity comes with the rates.
+class PairForces : public Force {
+ public:
+  PairForces(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry)
+      : geometry_(std::move(geometry)) {
+    Particles& p = world.particles;
+    volume_ = &sph_fields::volume(p);
+    if (!std::holds_alternative<MonaghanViscosity>(s.viscosity))
+      total_pressure_ = &sph_fields::pressure_plus_q(p);
+    if (!s.mu.empty()) tau_ = sph_fields::stress(p);
+    ForcesChoice choice{s.dim, s.uniform_h, !s.mu.empty(), Geometry::compute};
+    compute_ = forces_loop(choice);
+    choice.geometry = Geometry::load;
+    load_ = forces_loop(choice);
+  }
+  std::string name() const override { return "sph forces"; }
+
+  void start(World& world, const Clock&) override {
+    a_ = particle_arrays(world.particles);
+    a_.V = volume_->data();
+    a_.p = total_pressure_ ? total_pressure_->data() : world.particles.p.data();
+    for (int k = 0; k < 6; ++k) a_.tau[k] = tau_[k] ? tau_[k]->data() : nullptr;
+  }
+  void block(World&, const Clock&, Index begin, Index end) override {
+    (geometry_->kept() ? load_ : compute_)(a_, geometry_->lists(begin, end));
+  }
+
+ private:
+  std::shared_ptr<PairGeometry> geometry_;
+  Field<Real>* volume_ = nullptr;
+  Field<Real>* total_pressure_ = nullptr;
+  std::array<Field<Real>*, 6> tau_{};
+  PairLoop compute_, load_;
+  PairArrays a_{};
+};
+
+}  // namespace
+
+std::shared_ptr<Force> make_forces(const SphSettings& s, World& world,
+                                   std::shared_ptr<PairGeometry> geometry) {
+  return std::make_shared<PairForces>(s, world, std::move(geometry));
+}
+
+}  // namespace courant

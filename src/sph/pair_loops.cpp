@@ -1,0 +1,213 @@
+// Compiled once for each instruction set; see docs/architecture.md.
+#include "sph/pair_loops.hpp"
+
+#include "base/simd.hpp"
+#include "sph/kernel.hpp"
+
+namespace courant::COURANT_SIMD {
+
+namespace {
+
+/// The factor that turns `gradient_shape` into (dW/dr)/r.
+template <int Dim>
+COURANT_INLINE Real gradient_norm(Real h) {
+  return -0.75 * CubicSpline<Dim>::C / power<Dim + 1>(h);
+}
+template <int Dim>
+COURANT_INLINE Pack gradient_norm(const Pack& hinv) {
+  return -0.75 * CubicSpline<Dim>::C * hinv * hinv * hinv * (Dim == 3 ? hinv : Pack::of(1));
+}
+/// Slope of the cubic spline times -4/3, over r.
+COURANT_INLINE Pack gradient_shape(const Pack& R, const Pack& rinv) {
+  const Pack a = max(2 - R, Pack::zero()), b = max(1 - R, Pack::zero());
+  return (a * a - 4 * (b * b)) * rinv;
+}
+
+/// Eight particles i.
+template <int Dim>
+struct Places {
+  Pack x, y, z;
+  COURANT_INLINE Places(const Real* const p[3], Index i, Index count)
+      : x(Pack::load(p[0] + i, count)), y(Pack::load(p[1] + i, count)), z(Pack::zero()) {
+    if constexpr (Dim == 3) z = Pack::load(p[2] + i, count);
+  }
+};
+/// x_i - x_j
+template <int Dim>
+struct Difference {
+  Pack x, y, z;
+  COURANT_INLINE Difference(const Places<Dim>& i, const Real* const p[3], std::ptrdiff_t j)
+      : x(i.x - p[0][j]), y(i.y - p[1][j]), z(Pack::zero()) {
+    if constexpr (Dim == 3) z = i.z - p[2][j];
+  }
+};
+template <int Dim>
+COURANT_INLINE Pack dot(const Difference<Dim>& a, const Difference<Dim>& b) {
+  const Pack two = a.x * b.x + a.y * b.y;
+  if constexpr (Dim == 3) return two + a.z * b.z;
+  return two;
+}
+
+template <int Dim>
+struct Sum {
+  Pack x = Pack::zero(), y = Pack::zero(), z = Pack::zero();
+  COURANT_INLINE void add(const Pack& w, const Difference<Dim>& d) {
+    x += w * d.x;
+    y += w * d.y;
+    if constexpr (Dim == 3) z += w * d.z;
+  }
+  COURANT_INLINE void add_to(Real* const f[3], Index i, Index count, const Pack& factor) const {
+    (Pack::load(f[0] + i, count) + factor * x).store(f[0] + i, count);
+    (Pack::load(f[1] + i, count) + factor * y).store(f[1] + i, count);
+    if constexpr (Dim == 3) (Pack::load(f[2] + i, count) + factor * z).store(f[2] + i, count);
+  }
+};
+
+template <int Dim, bool UniformH, bool Viscous, bool Gradient, Geometry geometry>
+void rates(const PairArrays& a, const PairLists& lists) {
+  for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
+    const Index count = lists.end - i < lanes ? lists.end - i : lanes;
+    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Pack hi = UniformH ? Pack::of(a.h0) : Pack::load(a.h + i, count);
+    const Pack hinv = UniformH ? Pack::of(1 / a.h0) : 1 / hi;
+    const Pack norm = UniformH ? Pack::of(gradient_norm<Dim>(a.h0)) : gradient_norm<Dim>(hinv);
+    const Pack tiny = tiny_distance2 * hi * hi;
+    const Pack mi = Viscous ? Pack::load(a.m + i, count) : Pack::zero();
+    const Pack Vi = Viscous ? Pack::load(a.V + i, count) : Pack::zero();
+    const Pack qci = Viscous ? 0.5 * Pack::load(a.qc + i, count) : Pack::zero();
+    Pack div = Pack::zero(), power = Pack::zero();
+    Pack xx = div, yy = div, zz = div, xy = div, yz = div, zx = div;
+    Sum<Dim> force;
+    for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
+      const std::ptrdiff_t j = lists.list[k];
+      const Difference<Dim> d(xi, a.x, j), u(vi, a.v, j);
+      const Pack r2 = dot(d, d) + tiny, u_dot_d = dot(u, d);
+      Pack w, rinv = Pack::zero();
+      if constexpr (geometry == Geometry::load) {
+        w = Pack::load(lists.g + std::ptrdiff_t(k) * lanes);
+      } else {
+        rinv = rsqrt(r2);
+        w = gradient_shape(r2 * rinv * hinv, rinv) * a.V[j];
+      }
+      if constexpr (geometry == Geometry::store) w.store(lists.g + std::ptrdiff_t(k) * lanes);
+      div += w * u_dot_d;
+      if constexpr (Viscous) {
+        Pack h = hi, pair = w;  // (dW/dr)/r V_j / norm, mean of both where h differs
+        if constexpr (!UniformH) {
+          const Real hj = a.h[j], ratio = gradient_norm<Dim>(hj);
+          h = 0.5 * (hi + hj);
+          pair = 0.5 * (w + gradient_shape(r2 * rinv * (1 / hj), rinv) * (a.V[j] * ratio) / norm);
+        }
+        // m_j Pi V_i / V_j with 1/(rho_i + rho_j) = V_i V_j / (m_i V_j + m_j V_i)
+        const Pack approach = h * max(0 - u_dot_d, Pack::zero()), D = r2 + 0.01 * (h * h);
+        const Pack viscous = pair * (a.m[j] * approach * (a.q2 * approach + (qci + 0.5 * a.qc[j]) * D) /
+                                     (D * D * (mi * a.V[j] + Vi * a.m[j])));
+        force.add(viscous, d);
+        power += viscous * u_dot_d;
+      }
+      if constexpr (Gradient) {
+        xx -= w * (u.x * d.x);
+        yy -= w * (u.y * d.y);
+        xy -= w * (u.x * d.y + u.y * d.x);
+        if constexpr (Dim == 3) {
+          zz -= w * (u.z * d.z);
+          yz -= w * (u.y * d.z + u.z * d.y);
+          zx -= w * (u.z * d.x + u.x * d.z);
+        }
+      }
+    }
+    (Pack::load(a.rho + i, count) * norm * div).store(a.drhodt + i, count);
+    if constexpr (Viscous) {
+      const Pack factor = 2 * mi * Vi * norm;
+      force.add_to(a.f, i, count, 0 - factor);
+      (0.5 * factor * power).store(a.heat + i, count);  // each partner takes half
+    }
+    if constexpr (Gradient) {
+      const Pack d[6] = {xx, yy, zz, 0.5 * xy, 0.5 * yz, 0.5 * zx};
+      for (int k = 0; k < 6; ++k) (norm * d[k]).store(a.strain[k] + i, count);
+    }
+  }
+}
+
+template <int Dim, bool UniformH, bool Stress, Geometry geometry>
+void forces(const PairArrays& a, const PairLists& lists) {
+  for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
+    const Index count = lists.end - i < lanes ? lists.end - i : lanes;
+    const Places<Dim> xi(a.x, i, count);
+    const Pack hi = UniformH ? Pack::of(a.h0) : Pack::load(a.h + i, count);
+    const Pack hinv = UniformH ? Pack::of(1 / a.h0) : 1 / hi;
+    const Pack norm = UniformH ? Pack::of(gradient_norm<Dim>(a.h0)) : gradient_norm<Dim>(hinv);
+    const Pack tiny = tiny_distance2 * hi * hi, pi = Pack::load(a.p + i, count);
+    Pack ti[6];
+    if constexpr (Stress)
+      for (int k = 0; k < 6; ++k) ti[k] = Pack::load(a.tau[k] + i, count);
+    Sum<Dim> push, pull;
+    for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
+      const std::ptrdiff_t j = lists.list[k];
+      const Difference<Dim> d(xi, a.x, j);
+      Pack w, wj;  // with h_i and with h_j
+      if constexpr (geometry == Geometry::load) {
+        w = wj = Pack::load(lists.g + std::ptrdiff_t(k) * lanes);
+      } else {
+        const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2);
+        w = wj = gradient_shape(r2 * rinv * hinv, rinv) * a.V[j];
+        if constexpr (!UniformH)
+          wj = gradient_shape(r2 * rinv * (1 / a.h[j]), rinv) * (a.V[j] * gradient_norm<Dim>(a.h[j])) / norm;
+      }
+      if constexpr (UniformH)
+        push.add(w * (pi + a.p[j]), d);
+      else
+        push.add(w * pi + wj * a.p[j], d);
+      if constexpr (Stress) {
+        Pack s[6];
+        for (int c = 0; c < 6; ++c) s[c] = w * ti[c] + wj * a.tau[c][j];
+        pull.x += s[0] * d.x + s[3] * d.y;
+        pull.y += s[3] * d.x + s[1] * d.y;
+        if constexpr (Dim == 3) {
+          pull.x += s[5] * d.z;
+          pull.y += s[4] * d.z;
+          pull.z += s[5] * d.x + s[4] * d.y + s[2] * d.z;
+        }
+      }
+    }
+    const Pack factor = Pack::load(a.V + i, count) * norm;
+    push.add_to(a.f, i, count, 0 - factor);
+    if constexpr (Stress) pull.add_to(a.f, i, count, factor);
+  }
+}
+
+template <int Dim, bool UniformH, bool Viscous, bool Gradient>
+PairLoop rates_of(Geometry geometry) {
+  if constexpr (UniformH) {
+    if (geometry == Geometry::store) return &rates<Dim, true, Viscous, Gradient, Geometry::store>;
+    if (geometry == Geometry::load) return &rates<Dim, true, Viscous, Gradient, Geometry::load>;
+  }
+  return &rates<Dim, UniformH, Viscous, Gradient, Geometry::compute>;
+}
+template <int Dim, bool UniformH>
+PairLoop rates_of(const RatesChoice& c) {
+  if (c.viscous)
+    return c.gradient ? rates_of<Dim, UniformH, true, true>(c.geometry)
+                      : rates_of<Dim, UniformH, true, false>(c.geometry);
+  return c.gradient ? rates_of<Dim, UniformH, false, true>(c.geometry)
+                    : rates_of<Dim, UniformH, false, false>(c.geometry);
+}
+template <int Dim, bool Stress>
+PairLoop forces_of(const ForcesChoice& c) {
+  if (!c.uniform_h) return &forces<Dim, false, Stress, Geometry::compute>;
+  return c.geometry == Geometry::load ? &forces<Dim, true, Stress, Geometry::load>
+                                      : &forces<Dim, true, Stress, Geometry::compute>;
+}
+
+}  // namespace
+
+PairLoop rates_loop(const RatesChoice& c) {
+  if (c.dim == 2) return c.uniform_h ? rates_of<2, true>(c) : rates_of<2, false>(c);
+  return c.uniform_h ? rates_of<3, true>(c) : rates_of<3, false>(c);
+}
+PairLoop forces_loop(const ForcesChoice& c) {
+  if (c.dim == 2) return c.stress ? forces_of<2, true>(c) : forces_of<2, false>(c);
+  return c.stress ? forces_of<3, true>(c) : forces_of<3, false>(c);
+}
+
+}  // namespace courant::COURANT_SIMD

@@ -1,0 +1,59 @@
+#pragma once
+// The loops over pairs, compiled once for each instruction set. A loop takes eight particles i at once and
+// one neighbour j after the other; see docs/architecture.md. All sums are gathered, nothing is scattered.
+#include "base/real.hpp"
+
+namespace courant {
+
+/// What pair loops read and write; arrays over all particles, null where a scene lacks them.
+struct PairArrays {
+  const Real* x[3];
+  const Real* v[3];
+  const Real* m;
+  const Real* V;    ///< m/rho at the last motion: density moves on while neighbours still read
+  const Real* h;    ///< where it differs
+  const Real* rho;  ///< of particle i alone
+  const Real* qc;   ///< q1 c, for Monaghan viscosity
+  const Real* p;    ///< pressure, plus bulk viscosity where there is any
+  const Real* tau[6];
+  Real* drhodt;
+  Real* strain[6];
+  Real* f[3];
+  Real* heat;   ///< power that artificial viscosity turns into heat [ML2/T3]
+  Real h0, q2;  ///< h0: the h of all where it does not differ
+};
+
+/// The lists of particles [begin, end); end - begin <= block_size.
+struct PairLists {
+  const Index* list;
+  const Index* start;  ///< of each group of eight, and the end
+  Real* g;             ///< eight numbers for each entry, see Geometry
+  Index begin, end;
+};
+
+/// Whether V_j (dW/dr)/r of the pairs (but for a constant) is worked out, or also stored, or taken from where
+/// it was stored.
+enum class Geometry { compute, store, load };
+
+using PairLoop = void (*)(const PairArrays&, const PairLists&);
+
+/// Eq. 6: drho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij (with h_i, FORM 0). `viscous`: eqs 15-16, Monaghan's
+/// viscosity, adds to f and sets heat. `gradient`: sets the symmetric velocity gradient, -1/2 sum_j V_j
+/// (v_ij,a grad_b W + v_ij,b grad_a W), components xx yy zz xy yz zx.
+struct RatesChoice {
+  int dim;
+  bool uniform_h, viscous, gradient;
+  Geometry geometry;  ///< compute where h differs
+};
+PairLoop rates_loop(const RatesChoice& choice);
+
+/// Eq. 17 without Pi: f_i -= V_i sum_j V_j (p_i grad W(h_i) + p_j grad W(h_j)), which conserves momentum.
+/// `stress`: adds the viscous stress tau in the same way, with the other sign.
+struct ForcesChoice {
+  int dim;
+  bool uniform_h, stress;
+  Geometry geometry;  ///< compute or load
+};
+PairLoop forces_loop(const ForcesChoice& choice);
+
+}  // namespace courant
