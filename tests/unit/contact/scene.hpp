@@ -4,6 +4,7 @@
 #include <memory>
 #include <numeric>
 
+#include "../run_pass.hpp"
 #include "contact/contact.hpp"
 
 namespace courant::test {
@@ -77,7 +78,7 @@ struct Scene {
     world.particles.v.set(0, Vec::Zero());
     refresh();
     clear();
-    contact->add(world, clock);
+    courant::test::run(*contact, world, clock);
     return world.particles.f.vec(0);
   }
 
@@ -85,7 +86,7 @@ struct Scene {
     clock.dt = dt;
     if (clock.cycle % refresh_every == 0) refresh();
     clear();
-    contact->add(world, clock);
+    courant::test::run(*contact, world, clock);
     contact->record(world, clock, world.energy);
     before_move();
     Particles& p = world.particles;
