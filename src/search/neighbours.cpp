@@ -69,19 +69,32 @@ class Neighbours::Watch : public Motion {
                *hb = lists_.h_built_.data();
     const Real reach = 0.5 * lists_.skin_;
     Real most = 0;
-    bool stale = false;
+    int stale = 0;
+#pragma omp simd reduction(max : most) reduction(| : stale)
     for (Index i = begin; i < end; ++i) {
       const Real dx = x[i] - xb[i], dy = y[i] - yb[i], dz = z[i] - zb[i];
       const Real moved2 = dx * dx + dy * dy + dz * dz;
       const Real room = std::max(reach - std::max(h[i] - hb[i], Real(0)), Real(0));
-      stale |= !(moved2 < room * room);  // true also for NaN
+      stale |= moved2 < room * room ? 0 : 1;  // 1 also for NaN
       most = std::max(most, moved2);
     }
-    if (lists_.region_)
-      for (Index i = begin; i < end; ++i)
-        stale |= lists_.region_->contains(x[i], y[i], z[i]) != (i < p.active);
-    stale_[begin / block_size] = stale;
+    if (lists_.region_) {
+      const Index active_end = std::clamp(p.active, begin, end);
+      stale |= inside(*lists_.region_, x, y, z, begin, active_end) != active_end - begin;
+      stale |= inside(*lists_.region_, x, y, z, active_end, end) != 0;
+    }
+    stale_[begin / block_size] = stale != 0;
     moved2_[begin / block_size] = most;
+  }
+  static Index inside(const Region& region, const Real* x, const Real* y, const Real* z, Index begin,
+                      Index end) {
+    const Vec low = region.low, high = region.high;
+    Index count = 0;
+#pragma omp simd reduction(+ : count)
+    for (Index i = begin; i < end; ++i)
+      count += (x[i] >= low[0]) & (x[i] <= high[0]) & (y[i] >= low[1]) & (y[i] <= high[1]) &
+               (z[i] >= low[2]) & (z[i] <= high[2]);
+    return count;
   }
   const Neighbours& lists_;
   bool looked_ = false;
