@@ -6,11 +6,13 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/real.hpp"
 #include "parallel/array.hpp"
+#include "parallel/parallel.hpp"
 
 namespace courant {
 
@@ -23,13 +25,17 @@ struct FieldInfo {
   bool exchange = false;  ///< needed on ghosts
 };
 
+/// One spare array per type of number, which the fields of a set share while they are sorted.
+using FieldScratch = std::tuple<Array<Real>, Array<Id>, Array<Index>>;
+
 class FieldBase {
  public:
   explicit FieldBase(FieldInfo info) : info_(std::move(info)) {}
   virtual ~FieldBase() = default;
   const FieldInfo& info() const { return info_; }
   virtual void resize(Index n) = 0;
-  virtual void permute(std::span<const Index> old_of_new) = 0;
+  virtual void permute(std::span<const Index> old_of_new, FieldScratch& scratch) = 0;
+  virtual std::size_t bytes_per_entity() const = 0;
 
  private:
   FieldInfo info_;
@@ -59,22 +65,32 @@ class Field : public FieldBase {
     for (auto& c : component_) std::fill(c.begin(), c.end() - 1, value);
   }
 
+  /// New entities are zero; the threads that will work on them touch them first.
   void resize(Index n) override {
-    for (auto& c : component_) c.resize(n + 1, T(0));
-  }
-  void permute(std::span<const Index> old_of_new) override {
     for (auto& c : component_) {
-      scratch_.resize(c.size());
-      for (std::size_t i = 0; i < old_of_new.size(); ++i) scratch_[i] = c[old_of_new[i]];
-      std::copy(c.begin() + static_cast<std::ptrdiff_t>(old_of_new.size()), c.end(),
-                scratch_.begin() + static_cast<std::ptrdiff_t>(old_of_new.size()));
-      c.swap(scratch_);
+      const auto old = static_cast<Index>(c.size());
+      c.resize(n + 1);
+      for_each_block(n + 1, [&](Index begin, Index end) {
+        std::fill(c.data() + std::clamp(old, begin, end), c.data() + end, T(0));
+      });
     }
   }
+  void permute(std::span<const Index> old_of_new, FieldScratch& scratch) override {
+    auto& spare = std::get<Array<T>>(scratch);
+    const auto n = static_cast<Index>(old_of_new.size());
+    for (auto& c : component_) {
+      spare.resize(c.size());
+      for_each_block(n, [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) spare[i] = c[old_of_new[i]];
+      });
+      std::copy(c.begin() + n, c.end(), spare.begin() + n);
+      c.swap(spare);
+    }
+  }
+  std::size_t bytes_per_entity() const override { return sizeof(T) * component_.size(); }
 
  private:
   std::vector<Array<T>> component_;
-  Array<T> scratch_;
 };
 
 /// The fields of one kind of entity (particles, nodes, segments); all have the same length.
@@ -106,13 +122,20 @@ class FieldSet {
   }
   /// New entity i is old entity old_of_new[i].
   void permute(std::span<const Index> old_of_new) {
-    for (auto& f : fields_) f->permute(old_of_new);
+    for (auto& f : fields_) f->permute(old_of_new, scratch_);
+  }
+  /// What one more entity takes: its fields and its share of the scratch for sorting.
+  std::size_t bytes_per_entity() const {
+    std::size_t bytes = sizeof(Real) + sizeof(Id) + sizeof(Index);
+    for (const auto& f : fields_) bytes += f->bytes_per_entity();
+    return bytes;
   }
   const std::vector<std::unique_ptr<FieldBase>>& all() const { return fields_; }
 
  private:
   Index size_ = 0;
   std::vector<std::unique_ptr<FieldBase>> fields_;
+  FieldScratch scratch_;
 };
 
 }  // namespace courant
