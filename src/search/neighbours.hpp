@@ -92,7 +92,4 @@ class Neighbours {
   std::int64_t rebuilds_ = 0;
 };
 
-/// Distance to the nearest other particle for each of `n` points; infinity for a lone one. For set-up only.
-std::vector<Real> nearest_distance(const std::vector<Vec>& points);
-
 }  // namespace courant

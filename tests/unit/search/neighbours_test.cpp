@@ -184,12 +184,3 @@ TEST(Neighbours, SortEveryFieldTheSameWay) {
   }
   EXPECT_TRUE(moved);
 }
-
-TEST(NearestDistance, OfALatticeIsItsSpacing) {
-  std::vector<Vec> points;
-  for (int a = 0; a < 30; ++a)
-    for (int b = 0; b < 20; ++b) points.push_back({0.5 * a, 0.5 * b, 3});
-  for (const Real d : nearest_distance(points)) EXPECT_NEAR(d, 0.5, 1e-12);
-  points.push_back({100, 100, 3});
-  EXPECT_NEAR(nearest_distance(points).back(), std::hypot(100 - 14.5, 100 - 9.5), 1e-9);
-}
