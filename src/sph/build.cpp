@@ -181,7 +181,7 @@ class Builder {
     while (i < p.size() && p.x.vec(i)[2] == p.x.vec(0)[2] && p.v.vec(i)[2] == 0) ++i;
     if (i == p.size()) return;
     diagnostics_.error(
-        model_.sph[i].where,
+        deck_.where(model_.sph[i].card),
         fmt::format(
             "*ELEMENT_SPH: in 2D all particles must lie in one plane z = constant without velocity along "
             "z; particle {} has z = {:g} [L] and vz = {:g} [L/T], the first one z = {:g}",
@@ -235,11 +235,11 @@ class Builder {
       if (model_.sph[first].node == model_.sph[i].node)
         continue;  // the same one, or one node used twice: told already
       diagnostics_.error(
-          model_.sph[i].where,
+          deck_.where(model_.sph[i].card),
           fmt::format("*ELEMENT_SPH: particle {} stands where particle {} is", p.id[i], p.id[first]),
           "remove one of the two, or move its node");
       if (++found < max_reports) continue;
-      diagnostics_.note(model_.sph[i].where,
+      diagnostics_.note(deck_.where(model_.sph[i].card),
                         fmt::format("only {} particles in one place with another are shown", max_reports));
       return;  // each search runs over all particles
     }
@@ -258,7 +258,8 @@ class Builder {
                     "distance in its part is {:.4g}",
                     nearest[i], median)
               : std::string("is the only one, so it has no neighbour to take the smoothing length from");
-      diagnostics_.error(model_.sph[i].where, fmt::format("*ELEMENT_SPH: particle {} {}", p.id[i], what),
+      diagnostics_.error(deck_.where(model_.sph[i].card),
+                         fmt::format("*ELEMENT_SPH: particle {} {}", p.id[i], what),
                          "remove the particle, or give the smoothing length by SPHINI of *SECTION_SPH");
     }
     if (found > max_reports)
