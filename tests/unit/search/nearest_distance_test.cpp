@@ -49,6 +49,20 @@ TEST(NearestDistance, IsWhatTryingAllPairsFinds) {
   }
 }
 
+TEST(NearestDistance, TakesNoLongerForPointsFarOff) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<Real> u(0, 1);
+  Points p;
+  constexpr int crowd = 200000;  // trying all pairs would take minutes
+  for (int k = 0; k < crowd; ++k) p.add(u(random), u(random), u(random));
+  for (int k = 0; k < 20; ++k) p.add(1e4 * u(random), -1e5 * u(random), 300 + 2e4 * u(random));
+  p.add(-1e7, 1e7, 0);
+  for (int k = 0; k < 40; ++k) p.add(0.25, 0.5, 0.75);
+  const std::vector<Real> nearest = p.nearest();
+  for (Index i = 0; i < crowd; i += 997) EXPECT_NEAR(nearest[i], by_trying_all(p, i), 1e-15);
+  for (Index i = crowd; i < p.size(); ++i) EXPECT_DOUBLE_EQ(nearest[i], by_trying_all(p, i));
+}
+
 TEST(NearestDistance, OfFewPoints) {
   Points p;
   EXPECT_TRUE(p.nearest().empty());
