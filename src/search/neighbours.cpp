@@ -16,10 +16,12 @@ struct Extent {
   Vec low = Vec::Constant(std::numeric_limits<Real>::infinity()), high = -low;
   Real h_max = 0, h_min = std::numeric_limits<Real>::infinity(), volume = 0;
   Index count = 0;
+  bool lost = false;  ///< a place or h is not a finite number
   void add(const Extent& other) {
     low = low.cwiseMin(other.low), high = high.cwiseMax(other.high);
     h_max = std::max(h_max, other.h_max), h_min = std::min(h_min, other.h_min);
     volume += other.volume, count += other.count;
+    lost = lost || other.lost;
   }
 };
 
@@ -127,7 +129,6 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   const bool all = !built_ || too_many_gone(world);
   if (all) wake_all(world, clock.t);
   const Index n = all ? p.size() : p.moving + take_due(world, clock.t);
-  stop_for_lost_particles(world, clock, n);
   choose_skin(clock);
   sort(world, clock, n);
   std::vector<Index>& old_of_new = order_;
@@ -175,10 +176,6 @@ bool Neighbours::too_many_gone(const World& world) const {
 
 void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock, Index n) const {
   const Particles& p = world.particles;
-  const Real lost = maximum(n, [&](Index i) {
-    return std::isfinite(p.x.data(0)[i] + p.x.data(1)[i] + p.x.data(2)[i] + p.h[i]) ? 0.0 : 1.0;
-  });
-  if (!(lost > 0)) return;
   for (Index i = 0; i < n; ++i) {
     const Vec x = p.x.vec(i);
     if (x.allFinite() && std::isfinite(p.h[i])) continue;
@@ -198,17 +195,18 @@ void Neighbours::choose_skin(const Clock& clock) {
   skin_ = std::clamp(std::sqrt(7 * move * h_max_), least_skin_, most_skin_);
 }
 
-void Neighbours::sort(World& world, const Clock&, Index n) {
+void Neighbours::sort(World& world, const Clock& clock, Index n) {
   Particles& p = world.particles;
-  const Real h_max = n > 0 ? maximum(n, [&](Index i) { return p.h[i]; }) : 0;
-  const Real near = 2 * h_max + most_skin_ + waking_margin * h_max;
   const bool all = n == p.size();
+  if (all) h_max_ = n > 0 ? maximum(n, [&](Index i) { return p.h[i]; }) : 0;
+  const Real near = 2 * h_max_ + most_skin_ + waking_margin * h_max_;
   group_.resize(n);
   key_.resize(n);
   const auto extent_of = [&](Index begin, Index end) {
     Extent e;
     for (Index i = begin; i < end; ++i) {
       const Vec x = p.x.vec(i);
+      e.lost = e.lost || !std::isfinite(x.sum() + p.h[i]);
       const bool active = !region_ || region_->contains(x[0], x[1], x[2]);
       const bool far = !active && all && region_->time_to_reach(x, p.v.vec(i), near) > 0;
       group_[i] = p.state[i] == particle_deactivated || far ? group_dormant
@@ -226,7 +224,8 @@ void Neighbours::sort(World& world, const Clock&, Index n) {
     a.add(b);
     return a;
   });
-  if (e.count == 0) e.low = e.high = Vec::Zero(), e.h_min = h_max, e.volume = 1, e.count = 1;
+  if (e.lost) stop_for_lost_particles(world, clock, n);
+  if (e.count == 0) e.low = e.high = Vec::Zero(), e.h_min = e.h_max = h_max_, e.volume = 1, e.count = 1;
   h_max_ = e.h_max;
   h_min_ = e.h_min;
 
@@ -345,10 +344,12 @@ void Neighbours::remember_places(const World& world, const Clock& clock) {
   const Particles& p = world.particles;
   const Index n = p.moving;
   for (auto* copy : {&x_built_, &y_built_, &z_built_, &h_built_}) copy->resize(n);
-  std::copy_n(p.x.data(0), n, x_built_.data());
-  std::copy_n(p.x.data(1), n, y_built_.data());
-  std::copy_n(p.x.data(2), n, z_built_.data());
-  std::copy_n(p.h.data(), n, h_built_.data());
+  for_each_block(n, [&](Index begin, Index end) {
+    std::copy(p.x.data(0) + begin, p.x.data(0) + end, x_built_.data() + begin);
+    std::copy(p.x.data(1) + begin, p.x.data(1) + end, y_built_.data() + begin);
+    std::copy(p.x.data(2) + begin, p.x.data(2) + end, z_built_.data() + begin);
+    std::copy(p.h.data() + begin, p.h.data() + end, h_built_.data() + begin);
+  });
   built_cycle_ = clock.cycle;
   if (rebuilds_ == 0)
     for (Index k = 0; k < world.nodes.size(); ++k)
