@@ -25,7 +25,7 @@ struct FieldInfo {
   bool exchange = false;  ///< needed on ghosts
 };
 
-/// One spare array per type of number, which the fields of a set share while they are sorted.
+/// One spare array per type of number that a field may hold, shared by the fields of a set for sorting.
 using FieldScratch = std::tuple<Array<Real>, Array<Id>, Array<Index>>;
 
 class FieldBase {
@@ -126,7 +126,7 @@ class FieldSet {
   }
   /// What one more entity takes: its fields and its share of the scratch for sorting.
   std::size_t bytes_per_entity() const {
-    std::size_t bytes = sizeof(Real) + sizeof(Id) + sizeof(Index);
+    std::size_t bytes = std::apply([](const auto&... spare) { return (sizeof(spare[0]) + ...); }, scratch_);
     for (const auto& f : fields_) bytes += f->bytes_per_entity();
     return bytes;
   }
