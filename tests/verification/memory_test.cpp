@@ -12,7 +12,8 @@ const std::map<std::string, std::string> coarse = {{"dx", "0.05"}};
 
 }  // namespace
 
-TEST(Memory, FieldsTakeAtMost400BytesPerParticleIn3D) {
+// 400 is the goal for all but the lists of neighbours; what is built beside the fields shares it.
+TEST(Memory, FieldsTakeAtMost300BytesPerParticleIn3D) {
   for (const char* iavis : {"0", "1"}) {
     auto parameters = coarse;
     parameters["iavis"] = iavis;
@@ -20,11 +21,7 @@ TEST(Memory, FieldsTakeAtMost400BytesPerParticleIn3D) {
     ASSERT_NE(s, nullptr);
     ASSERT_EQ(s->contacts().size(), 1u);
     const FieldSet& fields = s->world().particles.fields;
-    EXPECT_LE(fields.bytes_per_entity(), 400u) << "IAVIS " << iavis;
-    std::size_t listed = 0;
-    for (const auto& field : fields.all()) listed += field->bytes_per_entity();
-    EXPECT_GT(listed, 200u) << "x, v, f and 13 scalars alone take more";
-    RecordProperty(std::string("bytes_iavis_") + iavis, static_cast<int>(fields.bytes_per_entity()));
+    EXPECT_LE(fields.bytes_per_entity(), 300u) << "IAVIS " << iavis;
   }
 }
 
