@@ -15,7 +15,7 @@
 namespace courant {
 namespace {
 
-constexpr std::size_t block_bytes = 16384;
+constexpr std::size_t block_bytes = 4096;
 constexpr int states_between_attempts = 32;
 
 void add_uint32(std::string& out, std::size_t value) {

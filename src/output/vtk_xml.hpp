@@ -34,7 +34,7 @@ struct VtkDataSet {
 
 /// Turns data sets of one kind, one per state, into the bytes of files. VTK's own writer spends most of its
 /// time on the ranges of values and on text, and compresses anew what did not change since the last state.
-/// Here a block (16 KiB) with the same bytes as in the state before is taken from there, and an array whose
+/// Here a block (4 KiB) with the same bytes as in the state before is taken from there, and an array whose
 /// values zlib can hardly shrink (those of a moving liquid) is stored as it is for some states before the
 /// next attempt. The bytes depend only on the data sets so far.
 class VtkEncoder {

@@ -17,8 +17,10 @@
 
 #include <cmath>
 #include <csignal>
+#include <utility>
 
 #include "output_test.hpp"
+#include "parallel/job_queue.hpp"
 
 namespace courant {
 namespace {
@@ -146,6 +148,56 @@ TEST(FieldWriter, EveryStateComesBackAsItWasWritten) {
     }
     ASSERT_EQ(wrong, 0) << "state " << state;
   }
+}
+
+TEST(FieldWriter, SameBytesWhetherWrittenAtOnceOrByTheQueue) {
+  ScratchFolder at_once, queued;
+  World world;
+  test::fill_small_world(world);
+  for (const auto& [dir, capacity] : {std::pair(&at_once, 0), std::pair(&queued, 2)}) {
+    FieldWriter writer(dir->path(), {.part_ids = {7, 8}});
+    JobQueue queue(capacity);
+    for (int state = 0; state < 40; ++state) {
+      world.particles.p[1] = state;
+      world.segments.contact_force.set(0, {0, 1.0 * state, 0});
+      queue.submit([&writer, taken = writer.take(world, 0.1 * state, state)] { writer.write(taken); });
+      world.particles.p[1] = -1;  // the world goes on
+    }
+    queue.wait();
+    writer.finish();
+  }
+  std::vector<std::string> files = {"fields.pvd"};
+  for (int state = 0; state < 40; ++state) {
+    files.push_back(fmt::format("fields/particles_{:04d}.vtp", state));
+    files.push_back(fmt::format("fields/shells_{:04d}.vtu", state));
+  }
+  for (const std::string& file : files) {
+    EXPECT_EQ(test::read_text(at_once / file), test::read_text(queued / file)) << file;
+    EXPECT_FALSE(test::read_text(at_once / file).empty()) << file;
+  }
+}
+
+/// Of a run that is killed after any state the index must be whole and lack few states.
+TEST(FieldWriter, IndexIsWholeAndNeverFarBehind) {
+  ScratchFolder dir;
+  World world;
+  test::fill_small_world(world);
+  FieldWriter writer(dir.path(), {.part_ids = {7, 8}});
+  const auto listed = [&] {
+    const std::string pvd = test::read_text(dir / "fields.pvd");
+    const std::string end = "</VTKFile>\n";
+    EXPECT_TRUE(pvd.size() > end.size() && pvd.substr(pvd.size() - end.size()) == end);
+    int count = 0;
+    for (auto at = pvd.find("particles_"); at != std::string::npos; at = pvd.find("particles_", at + 1))
+      ++count;
+    return count;
+  };
+  for (int state = 0; state < 100; ++state) {
+    writer.write(world, 0.1 * state, state);
+    EXPECT_LE(16 * (state + 1 - listed()), state + 1);
+  }
+  writer.finish();
+  EXPECT_EQ(listed(), 100);
 }
 
 TEST(FieldWriter, IdsWithLargeGapsAreSortedToo) {
