@@ -171,8 +171,9 @@ class Run {
   }
 
   void write_fields(const World& world, const Clock& clock) {
-    writer_.submit([this, state = fields_.take(world, clock.t, state_++)] { fields_.write(state); },
-                   weight_of_state);
+    writer_.submit(
+        [this, state = fields_.take(world, clock.t, state_++)]() mutable { fields_.write(std::move(state)); },
+        weight_of_state);
     last_field_time_ = clock.t;
     messag_.status(clock.cycle, clock.t, clock.dt, "write d3plot file");
   }

@@ -188,7 +188,7 @@ FieldState FieldWriter::take(const World& world, Real t, int number) const {
   return state;
 }
 
-void FieldWriter::write(const FieldState& state) {
+void FieldWriter::write(FieldState state) {
   const auto add_entry = [&](int part, const char* name, const std::string& file) {
     entries_ +=
         fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
@@ -196,11 +196,13 @@ void FieldWriter::write(const FieldState& state) {
   };
   ++states_not_listed_;
   std::string file = fmt::format("fields/particles_{:04d}.vtp", state.number);
-  write_file(dir_ / file, particle_encoder_.encode(state.particles));
+  const VtkEncoder::File particles = particle_encoder_.encode(std::move(state.particles));
+  write_file(dir_ / file, {particles.header, particles.data});
   add_entry(0, "particles", file);
   if (state.shells) {
     file = fmt::format("fields/shells_{:04d}.vtu", state.number);
-    write_file(dir_ / file, shell_encoder_.encode(*state.shells));
+    const VtkEncoder::File shells = shell_encoder_.encode(std::move(*state.shells));
+    write_file(dir_ / file, {shells.header, shells.data});
     add_entry(1, "shells", file);
   }
   ++states_;

@@ -42,7 +42,7 @@ class FieldWriter {
   /// Writes one state, and fields.pvd anew so that others can open what is there, even of a killed run. As
   /// the list grows that is done only when it lacks a sixteenth of the states or is a second old. Throws
   /// OutputError.
-  void write(const FieldState& state);
+  void write(FieldState state);
   void write(const World& world, Real t, int number) { write(take(world, t, number)); }
 
   /// Brings fields.pvd up to date; after this the writer may be dropped. Throws OutputError.

@@ -11,12 +11,13 @@
 #include <new>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace courant {
 namespace {
 
 constexpr std::size_t block_bytes = 4096;
-constexpr int states_between_attempts = 32;
+constexpr int states_between_attempts = 128;
 
 void add_uint32(std::string& out, std::size_t value) {
   const auto number = static_cast<std::uint32_t>(value);
@@ -73,7 +74,7 @@ VtkEncoder::~VtkEncoder() = default;
 
 /// Layout: number of blocks, size of a block, size of the last one if it is shorter (else 0), compressed size
 /// of each block; then the blocks.
-void VtkEncoder::add_data(Memory& memory, const std::string& bytes) {
+void VtkEncoder::add_data(Memory& memory, std::string bytes) {
   const std::size_t blocks = (bytes.size() + block_bytes - 1) / block_bytes;
   const bool as_it_is = memory.states_to_store > 0;
   const auto block_of = [](std::string_view all, std::size_t b) {
@@ -94,15 +95,15 @@ void VtkEncoder::add_data(Memory& memory, const std::string& bytes) {
     --memory.states_to_store;
   else if (2 * reached > attempted)
     memory.states_to_store = states_between_attempts;
-  memory.bytes = bytes;
 
   for (const std::size_t number : {blocks, block_bytes, bytes.size() % block_bytes})
     add_uint32(data_, number);
   for (const std::string& block : memory.blocks) add_uint32(data_, block.size());
   for (const std::string& block : memory.blocks) data_ += block;
+  memory.bytes = std::move(bytes);
 }
 
-void VtkEncoder::add_array(const char* section, const VtkArray& array, const char* attributes) {
+void VtkEncoder::add_array(const char* section, VtkArray array, const char* attributes) {
   const auto out = std::back_inserter(header_);
   fmt::format_to(
       out, "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"appended\" offset=\"{}\"",
@@ -114,10 +115,10 @@ void VtkEncoder::add_array(const char* section, const VtkArray& array, const cha
                    ">\n<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>\n"
                    "</DataArray>\n",
                    array.dimension);
-  add_data(memory_[fmt::format("{}/{}", section, array.name)], array.bytes);
+  add_data(memory_[fmt::format("{}/{}", section, array.name)], std::move(array.bytes));
 }
 
-const std::string& VtkEncoder::encode(const VtkDataSet& data) {
+VtkEncoder::File VtkEncoder::encode(VtkDataSet data) {
   constexpr bool little = std::endian::native == std::endian::little;
   data_.clear();
   header_ = fmt::format(
@@ -127,20 +128,16 @@ const std::string& VtkEncoder::encode(const VtkDataSet& data) {
       data.type, little ? "LittleEndian" : "BigEndian", data.type);
   VtkArray time{"TimeValue", "Float64", 1, "", std::string(sizeof data.t, '\0')};
   std::memcpy(time.bytes.data(), &data.t, sizeof data.t);
-  add_array("FieldData", time, " NumberOfTuples=\"1\"");
+  add_array("FieldData", std::move(time), " NumberOfTuples=\"1\"");
   header_ += fmt::format("</FieldData>\n<Piece {}>\n", data.sizes);
-  for (const VtkSection& section : data.sections) {
+  for (VtkSection& section : data.sections) {
     header_ += fmt::format("<{}>\n", section.name);
-    for (const VtkArray& array : section.arrays) add_array(section.name, array, "");
+    for (VtkArray& array : section.arrays) add_array(section.name, std::move(array), "");
     header_ += fmt::format("</{}>\n", section.name);
   }
   header_ += fmt::format("</Piece>\n</{}>\n<AppendedData encoding=\"raw\">\n_", data.type);
-  file_.clear();
-  file_.reserve(header_.size() + data_.size() + 64);
-  file_ += header_;
-  file_ += data_;
-  file_ += "\n</AppendedData>\n</VTKFile>\n";
-  return file_;
+  data_ += "\n</AppendedData>\n</VTKFile>\n";
+  return {header_, data_};
 }
 
 }  // namespace courant

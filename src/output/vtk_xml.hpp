@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/real.hpp"
@@ -41,8 +42,11 @@ class VtkEncoder {
  public:
   VtkEncoder();  ///< Throws std::bad_alloc.
   ~VtkEncoder();
-  /// The bytes of the file; they stay valid until the next call. Throws std::bad_alloc.
-  const std::string& encode(const VtkDataSet& data);
+  struct File {
+    std::string_view header, data;  ///< its bytes, one part after the other
+  };
+  /// What stands in the file; valid until the next call. Throws std::bad_alloc.
+  File encode(VtkDataSet data);
 
  private:
   class Deflater;
@@ -51,12 +55,12 @@ class VtkEncoder {
     std::vector<std::string> blocks;  // compressed
     int states_to_store = 0;          // that many are not worth the time of zlib
   };
-  void add_array(const char* section, const VtkArray& array, const char* attributes);
-  void add_data(Memory& memory, const std::string& bytes);
+  void add_array(const char* section, VtkArray array, const char* attributes);
+  void add_data(Memory& memory, std::string bytes);
 
   std::map<std::string, Memory> memory_;  // by section and name
   std::unique_ptr<Deflater> deflater_;
-  std::string header_, data_, file_;
+  std::string header_, data_;
 };
 
 }  // namespace courant

@@ -115,26 +115,26 @@ TEST(FieldWriter, EveryStateComesBackAsItWasWritten) {
     return std::sin(1e4 * std::sin(1.0 + i + 0.37 * state + k));
   };
   const auto velocity = [&](Index i, int state) { return Vec(noise(i, state, 0), noise(i, state, 1), 0); };
-  const auto pressure = [&](Index i, int state) { return state < 20 ? 5.0 : noise(i, state, 2); };
+  const auto pressure = [&](Index i, int state) { return state < 60 ? 5.0 : noise(i, state, 2); };
   const auto density = [&](Index i, int state) {
-    return state < 10 ? noise(i, state, 3) : 1000.0 + (i >= n / 2);
+    return state < 20 ? noise(i, state, 3) : 1000.0 + (i >= n / 2);
   };
-  for (int state = 0; state < 50; ++state) {
+  for (int state = 0; state < 150; ++state) {
     for (Index i = 0; i < n; ++i) {
       p.id[i] = n - i;
-      p.state[i] = i >= n / 3 + 40 * state ? particle_outside : particle_active;
+      p.state[i] = i >= n / 3 + 20 * state ? particle_outside : particle_active;
       p.v.set(i, velocity(i, state));
       p.p[i] = pressure(i, state);
       p.rho[i] = density(i, state);
     }
     writer.write(world, state, state);
   }
-  for (int state = 0; state < 50; ++state) {
+  for (int state = 0; state < 150; ++state) {
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->SetFileName((dir / fmt::format("fields/particles_{:04d}.vtp", state)).c_str());
     reader->Update();
     vtkPointData* data = reader->GetOutput()->GetPointData();
-    const Index active = n / 3 + 40 * state;
+    const Index active = n / 3 + 20 * state;
     ASSERT_EQ(reader->GetOutput()->GetNumberOfVerts(), active);
     int wrong = 0;
     for (Index k = 0; k < active; ++k) {
