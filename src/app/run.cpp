@@ -11,6 +11,7 @@
 #include "output/ascii.hpp"
 #include "output/field_writer.hpp"
 #include "output/messag.hpp"
+#include "parallel/job_queue.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
@@ -170,17 +171,20 @@ class Run {
   }
 
   void write_fields(const World& world, const Clock& clock) {
-    fields_.write(world, clock.t, state_++);
+    writer_.submit(
+        [this, state = fields_.take(world, clock.t, state_++)]() mutable { fields_.write(std::move(state)); },
+        weight_of_state);
     last_field_time_ = clock.t;
     messag_.status(clock.cycle, clock.t, clock.dt, "write d3plot file");
   }
 
   void write_histories(bool always) {
+    const Histories::Due due = histories_.take(s_.clock().t, s_.clock().dt, always);
     Sample sample = s_.sample(who_);
     const double steps = static_cast<double>(std::max<std::int64_t>(summary_.particle_steps, 1));
     sample.ns_per_zone_cycle = 1e9 * seconds_since(start_) / steps;
     check_energy(sample.energy);
-    histories_.write(sample, always);
+    writer_.submit([this, sample = std::move(sample), due] { histories_.write(sample, due); });
   }
 
   void check_energy(const EnergyLedger& e) const {
@@ -196,6 +200,7 @@ class Run {
     if (field_schedule_.interval() > 0 && last_field_time_ < s_.clock().t)
       write_fields(s_.world(), s_.clock());
     write_histories(true);
+    writer_.wait();
     if (summary_.termination.empty()) {
       summary_.termination = "normal";
       messag_.line(fmt::format(" *** {} ***", summary_.reason));
@@ -210,9 +215,13 @@ class Run {
 
   /// Writes what can still be written; a second failure must not hide the first.
   void close() {
+    attempt([&] { writer_.wait(); });
+    attempt([&] { histories_.finish(); });
+    attempt([&] { fields_.finish(); });
     Summary& y = summary_;
     y.time = s_.clock().t, y.steps = s_.clock().cycle;
     y.wall_seconds = seconds_since(start_), y.cpu_seconds = cpu_seconds() - cpu_start_;
+    y.writer_cpu_seconds = writer_.cpu_seconds();
     y.active_particles = s_.world().particles.active;
     y.peak_memory_bytes = peak_memory();
     y.energy = s_.world().energy;
@@ -223,8 +232,6 @@ class Run {
     if (!std::isfinite(y.dt_min)) y.dt_min = 0;
     for (const auto& row : s_.timer().table()) y.passes.push_back({row.name, row.seconds, row.calls});
     y.counters["neighbour_rebuilds"] = s_.neighbours().rebuilds();
-    attempt([&] { histories_.finish(); });
-    attempt([&] { fields_.finish(); });
     attempt([&] { print_end(); });
     attempt([&] { write_summary(std::filesystem::path(options_.dir) / "summary.yaml", y); });
   }
@@ -250,6 +257,8 @@ class Run {
     for (const auto& pass : summary_.passes)
       messag_.line(fmt::format("  {:<38}{:10.3f}{:9.1f}", pass.name, pass.seconds,
                                100 * pass.seconds / summary_.wall_seconds));
+    messag_.line(
+        fmt::format("  {:<38}{:10.3f}", "(writer's CPU time, beside all this)", summary_.writer_cpu_seconds));
     messag_.line(fmt::format(" Problem time       = {:12.5E}", summary_.time));
     messag_.line(fmt::format(" Problem cycle      = {}", summary_.steps));
     messag_.line(
@@ -289,6 +298,12 @@ class Run {
   int state_ = 0;
   double cpu_start_ = cpu_seconds();
   Clock_::time_point start_ = Clock_::now(), shown_ = start_;
+
+  /// At most two field states are held in memory, or the samples that fit beside them.
+  static constexpr int weight_of_state = 16;
+  /// Writes fields_ and histories_, which nothing else may touch before it has been waited for. The last
+  /// member: its jobs end before what they write to.
+  JobQueue writer_{2 * weight_of_state};
 };
 
 }  // namespace

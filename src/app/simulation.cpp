@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <unordered_map>
+
 #include "model/build_model.hpp"
 #include "parallel/parallel.hpp"
 #include "shell/shell.hpp"
@@ -114,9 +116,11 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   for (const ModelPart& part : model_.parts) s.parts.push_back({.id = part.id, .title = part.title});
   for (Index i = 0; i < p.active; ++i) {
     PartSample& part = s.parts[p.part[i]];
-    part.mass += p.m[i];
-    part.momentum += p.m[i] * p.v.vec(i);
-    part.kinetic += 0.5 * p.m[i] * p.v.vec(i).squaredNorm();
+    const Real m = p.m[i];
+    const Vec v = p.v.vec(i);
+    part.mass += m;
+    part.momentum += m * v;
+    part.kinetic += 0.5 * m * v.squaredNorm();
     part.internal += p.E[i] * (*volume)[i];
   }
   if (bodies_) s.bodies = bodies_->reports();
@@ -132,13 +136,13 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   if (s.mass > 0) s.velocity = momentum / s.mass;
   for (const auto& contact : contacts_) s.interfaces.push_back(contact->report());
   if (!model_.output.history_sph.empty()) {
-    std::map<Id, Index> index;
-    for (Index i = 0; i < p.size(); ++i) index[p.id[i]] = i;
+    std::unordered_map<Id, Index> index;  // of those that are asked for: few among many
+    for (const Id id : model_.output.history_sph) index[id] = -1;
+    for (Index i = 0; i < p.size(); ++i)
+      if (const auto at = index.find(p.id[i]); at != index.end()) at->second = i;
     for (const Id id : model_.output.history_sph)
-      if (const auto at = index.find(id); at != index.end()) {
-        const Index i = at->second;
+      if (const Index i = index.at(id); i >= 0)
         s.particles.push_back({id, i < p.active, p.x.vec(i), p.v.vec(i), p.p[i], p.rho[i], p.E[i]});
-      }
   }
   return s;
 }

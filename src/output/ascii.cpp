@@ -48,18 +48,23 @@ bool Histories::is_due(Real t, Real dt) const {
   return false;
 }
 
-void Histories::write(const Sample& sample, bool always) {
+Histories::Due Histories::take(Real t, Real dt, bool always) {
+  Due due;
+  const auto add = [&](OutputSchedule& schedule, Real& last) {
+    due.push_back((schedule.take(t, dt) || always) && last != t);
+    if (due.back()) last = t;
+  };
+  for (Ascii& file : files_) add(file.schedule, file.last);
+  add(h5_schedule_, h5_last_);
+  return due;
+}
+
+void Histories::write(const Sample& sample, const Due& due) {
   if (!first_potential_) first_potential_ = sample.energy.potential;
-  for (Ascii& file : files_) {
-    const bool due = file.schedule.take(sample.t, sample.dt) || always;
-    if (!due || file.last == sample.t) continue;
-    file.last = sample.t;
-    file.file.write(file.text ? file.text(sample) : glstat_text(sample, *first_potential_));
-  }
-  const bool due = h5_schedule_.take(sample.t, sample.dt) || always;
-  if (!h5_ || !due || h5_last_ == sample.t) return;
-  h5_last_ = sample.t;
-  h5_->record(sample);
+  for (std::size_t i = 0; i < files_.size(); ++i)
+    if (due[i])
+      files_[i].file.write(files_[i].text ? files_[i].text(sample) : glstat_text(sample, *first_potential_));
+  if (h5_ && due.back()) h5_->record(sample);
 }
 
 void Histories::finish() {

@@ -54,9 +54,15 @@ class Histories {
 
   /// Whether any file is due at the cycle that goes from t to t + dt: only then a Sample need be filled.
   bool is_due(Real t, Real dt) const;
-  /// Writes the sample to the files that are due at sample.t, sample.dt; all of them with `always` (the end
-  /// of the run). Throws OutputError.
-  void write(const Sample& sample, bool always = false);
+  /// Which files a sample goes to: one entry for each ASCII file, the last one for history.h5.
+  using Due = std::vector<bool>;
+  /// The files that are due at the cycle that goes from t to t + dt, with `always` (the end of the run) all
+  /// that have no sample of time t yet. From here on they count as written.
+  Due take(Real t, Real dt, bool always = false);
+  /// Writes the sample to those files. Touches nothing that `is_due` and `take` use: they may go on while
+  /// another thread writes. Throws OutputError.
+  void write(const Sample& sample, const Due& due);
+  void write(const Sample& sample, bool always = false) { write(sample, take(sample.t, sample.dt, always)); }
   /// Writes what is buffered. Throws OutputError.
   void finish();
 

@@ -1,93 +1,92 @@
 #include "output/field_writer.hpp"
 
 #include <fmt/format.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkFloatArray.h>
-#include <vtkInformation.h>
-#include <vtkInformationStringKey.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-#include <vtkTypeInt32Array.h>
-#include <vtkTypeInt64Array.h>
-#include <vtkTypeUInt8Array.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
 #include <numeric>
+#include <stdexcept>
 #include <type_traits>
 
 namespace courant {
 namespace {
 
 template <class T>
-using VtkArrayOf =
-    std::conditional_t<std::is_same_v<T, Real>, vtkFloatArray,
-                       std::conditional_t<std::is_same_v<T, Id>, vtkTypeInt64Array, vtkTypeInt32Array>>;
+constexpr const char* vtk_type = nullptr;
+template <>
+constexpr const char* vtk_type<float> = "Float32";
+template <>
+constexpr const char* vtk_type<std::int64_t> = "Int64";
+template <>
+constexpr const char* vtk_type<std::int32_t> = "Int32";
+template <>
+constexpr const char* vtk_type<std::uint8_t> = "UInt8";
 
+/// An array of n tuples, each filled by `put(i, to)`.
+template <class T, class Put>
+VtkArray make_array(std::string name, int components, std::string dimension, std::size_t n, const Put& put) {
+  VtkArray out{std::move(name), vtk_type<T>, components, std::move(dimension), {}};
+  const std::size_t width = sizeof(T) * static_cast<std::size_t>(components);
+  out.bytes.resize(n * width);
+  for (std::size_t i = 0; i < n; ++i) {
+    T tuple[4];
+    put(i, tuple);
+    std::memcpy(out.bytes.data() + i * width, tuple, width);
+  }
+  return out;
+}
+
+/// first, first + 1, ...
+VtkArray count_up(std::string name, std::size_t n, Index first) {
+  return make_array<Index>(std::move(name), 1, "", n,
+                           [first](std::size_t i, Index* to) { *to = first + static_cast<Index>(i); });
+}
+
+/// Reals as float32.
 template <class T>
-vtkSmartPointer<vtkDataArray> copy(const Field<T>& field, const std::vector<Index>& which) {
-  vtkNew<VtkArrayOf<T>> out;
-  const int components = field.info().components;
-  out->SetName(field.info().name.c_str());
-  out->SetNumberOfComponents(components);
-  out->SetNumberOfTuples(static_cast<vtkIdType>(which.size()));
-  auto* to = out->GetPointer(0);
-  for (int k = 0; k < components; ++k) {
-    const T* from = field.data(k);
-    for (std::size_t i = 0; i < which.size(); ++i)
-      to[i * components + k] = static_cast<typename VtkArrayOf<T>::ValueType>(from[which[i]]);
-  }
-  out->GetInformation()->Set(vtkDataArray::UNITS_LABEL(), field.info().dimension.c_str());
-  return out;
+VtkArray copy(const Field<T>& field, const std::vector<Index>& which, const char* name) {
+  using Value = std::conditional_t<std::is_same_v<T, Real>, float, T>;
+  const FieldInfo& info = field.info();
+  if (info.components == 1)
+    return make_array<Value>(
+        name, 1, info.dimension, which.size(),
+        [&, from = field.data()](std::size_t i, Value* to) { *to = static_cast<Value>(from[which[i]]); });
+  const T *x = field.data(0), *y = field.data(1), *z = field.data(2);
+  return make_array<Value>(name, 3, info.dimension, which.size(), [&](std::size_t i, Value* to) {
+    const Index k = which[i];
+    to[0] = static_cast<Value>(x[k]), to[1] = static_cast<Value>(y[k]), to[2] = static_cast<Value>(z[k]);
+  });
 }
 
-void add_fields(const FieldSet& fields, const std::vector<Index>& which, vtkDataSetAttributes* to) {
+void add_fields(const FieldSet& fields, const std::vector<Index>& which, std::vector<VtkArray>& to) {
   for (const auto& field : fields.all()) {
-    if (!field->info().output) continue;
+    const FieldInfo& info = field->info();
+    if (!info.output) continue;
     if (const auto* reals = dynamic_cast<const Field<Real>*>(field.get()))
-      to->AddArray(copy(*reals, which));
+      to.push_back(copy(*reals, which, info.name.c_str()));
     else if (const auto* ids = dynamic_cast<const Field<Id>*>(field.get()))
-      to->AddArray(copy(*ids, which));
+      to.push_back(copy(*ids, which, info.name.c_str()));
     else if (const auto* indices = dynamic_cast<const Field<Index>*>(field.get()))
-      to->AddArray(copy(*indices, which));
+      to.push_back(copy(*indices, which, info.name.c_str()));
     else
-      throw std::logic_error("field '" + field->info().name + "' has a type the field files do not know");
+      throw std::logic_error("field '" + info.name + "' has a type the field files do not know");
   }
 }
 
-void add_part_ids(const Field<Index>& part, const std::vector<Index>& which, const std::vector<Id>& part_ids,
-                  vtkDataSetAttributes* to) {
-  vtkNew<vtkTypeInt64Array> out;
-  out->SetName("part");
-  out->SetNumberOfTuples(static_cast<vtkIdType>(which.size()));
-  for (std::size_t i = 0; i < which.size(); ++i)
-    out->SetValue(static_cast<vtkIdType>(i), part_ids.at(static_cast<std::size_t>(part[which[i]])));
-  to->AddArray(out);
+VtkArray part_numbers(const Field<Index>& part, const std::vector<Index>& which,
+                      const std::vector<Id>& part_ids) {
+  return make_array<Id>("part", 1, "", which.size(), [&](std::size_t i, Id* to) {
+    *to = part_ids.at(static_cast<std::size_t>(part[which[i]]));
+  });
 }
 
-vtkSmartPointer<vtkPoints> points(const Field<Real>& x, const std::vector<Index>& which) {
-  vtkNew<vtkPoints> out;
-  out->SetDataTypeToFloat();
-  out->SetNumberOfPoints(static_cast<vtkIdType>(which.size()));
-  for (std::size_t i = 0; i < which.size(); ++i)
-    out->SetPoint(static_cast<vtkIdType>(i), x.vec(which[i]).data());
+VtkArray points(const Field<Real>& x, const std::vector<Index>& which) {
+  VtkArray out = copy(x, which, "Points");
+  out.dimension.clear();  // VTK keeps none with the points
   return out;
-}
-
-void add_time(vtkDataObject* data, Real t) {
-  vtkNew<vtkDoubleArray> time;
-  time->SetName("TimeValue");
-  time->InsertNextValue(t);
-  data->GetFieldData()->AddArray(time);
 }
 
 std::vector<Index> all_of(Index n) {
@@ -96,68 +95,82 @@ std::vector<Index> all_of(Index n) {
   return out;
 }
 
-vtkSmartPointer<vtkPolyData> particle_data(const Particles& particles, const FieldWriterOptions& options) {
+/// Sorts by id. The ids of a deck are mostly numbered without large gaps: then a table does it, faster.
+void sort_by_id(const Field<Id>& id, std::vector<Index>& which) {
+  if (which.empty()) return;
+  Id low = id[which.front()], high = low;
+  for (const Index i : which) low = std::min(low, id[i]), high = std::max(high, id[i]);
+  std::vector<Index> sorted;
+  if (static_cast<std::size_t>(high - low) < 8 * which.size()) {
+    std::vector<Index> at(static_cast<std::size_t>(high - low) + 1, -1);
+    for (const Index i : which) at[static_cast<std::size_t>(id[i] - low)] = i;
+    std::copy_if(at.begin(), at.end(), std::back_inserter(sorted), [](Index i) { return i >= 0; });
+  }
+  if (sorted.size() == which.size())
+    which = std::move(sorted);
+  else  // large gaps, or an id that stands twice
+    std::sort(which.begin(), which.end(), [&](Index a, Index b) { return id[a] < id[b]; });
+}
+
+VtkDataSet particle_data(const Particles& particles, const FieldWriterOptions& options) {
   std::vector<Index> which = all_of(particles.size());
   if (options.hide_inactive)
     std::erase_if(which, [&](Index i) { return particles.state[i] != particle_active; });
-  std::sort(which.begin(), which.end(), [&](Index a, Index b) { return particles.id[a] < particles.id[b]; });
+  sort_by_id(particles.id, which);
+  const std::size_t n = which.size();
 
-  vtkNew<vtkPolyData> out;
-  out->SetPoints(points(particles.x, which));
-  vtkNew<vtkCellArray> vertices;
-  vtkNew<vtkTypeUInt8Array> active;
-  active->SetName("active");
-  active->SetNumberOfTuples(static_cast<vtkIdType>(which.size()));
-  for (vtkIdType i = 0; i < static_cast<vtkIdType>(which.size()); ++i) {
-    vertices->InsertNextCell(1, &i);
-    active->SetValue(i, particles.state[which[static_cast<std::size_t>(i)]] == particle_active ? 1 : 0);
-  }
-  out->SetVerts(vertices);
-  add_fields(particles.fields, which, out->GetPointData());
-  add_part_ids(particles.part, which, options.part_ids, out->GetPointData());
-  out->GetPointData()->AddArray(active);
+  std::vector<VtkArray> data;
+  add_fields(particles.fields, which, data);
+  data.push_back(part_numbers(particles.part, which, options.part_ids));
+  data.push_back(make_array<std::uint8_t>("active", 1, "", n, [&](std::size_t i, std::uint8_t* to) {
+    *to = particles.state[which[i]] == particle_active ? 1 : 0;
+  }));
+  VtkDataSet out{"PolyData",
+                 fmt::format("NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
+                             "NumberOfStrips=\"0\" NumberOfPolys=\"0\"",
+                             n),
+                 0,
+                 {}};
+  out.sections.push_back({"PointData", std::move(data)});
+  out.sections.push_back({"Points", {points(particles.x, which)}});
+  out.sections.push_back({"Verts", {count_up("connectivity", n, 0), count_up("offsets", n, 1)}});
   return out;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> shell_data(const World& world, const FieldWriterOptions& options) {
+/// The cells of a .vtu: corners of all segments one after the other, where each ends, and its VTK type.
+VtkSection cells(const Segments& segments) {
+  constexpr std::uint8_t triangle = 5, quad = 9;  // VTK_TRIANGLE, VTK_QUAD
+  std::vector<Index> corners, ends;
+  std::vector<std::uint8_t> types;
+  for (Index s = 0; s < segments.size(); ++s) {
+    const auto n = segments.nodes(s);
+    const bool three = n[2] == n[3];
+    corners.insert(corners.end(), n.begin(), three ? n.end() - 1 : n.end());
+    ends.push_back(static_cast<Index>(corners.size()));
+    types.push_back(three ? triangle : quad);
+  }
+  const auto array = [](const char* name, const auto& values) {
+    using T = typename std::decay_t<decltype(values)>::value_type;
+    return make_array<T>(name, 1, "", values.size(), [&](std::size_t i, T* to) { *to = values[i]; });
+  };
+  return {"Cells", {array("connectivity", corners), array("offsets", ends), array("types", types)}};
+}
+
+VtkDataSet shell_data(const World& world, const FieldWriterOptions& options) {
   const std::vector<Index> nodes = all_of(world.nodes.size()), segments = all_of(world.segments.size());
-  vtkNew<vtkUnstructuredGrid> out;
-  out->SetPoints(points(world.nodes.x, nodes));
-  out->Allocate(world.segments.size());
-  for (Index s : segments) {
-    const auto n = world.segments.nodes(s);
-    const vtkIdType corners[] = {n[0], n[1], n[2], n[3]};
-    const bool triangle = n[2] == n[3];
-    out->InsertNextCell(triangle ? VTK_TRIANGLE : VTK_QUAD, triangle ? 3 : 4, corners);
-  }
-  add_fields(world.nodes.fields, nodes, out->GetPointData());
-  add_fields(world.segments.fields, segments, out->GetCellData());
-  add_part_ids(world.segments.part, segments, options.part_ids, out->GetCellData());
+  std::vector<VtkArray> of_nodes, of_segments;
+  add_fields(world.nodes.fields, nodes, of_nodes);
+  add_fields(world.segments.fields, segments, of_segments);
+  of_segments.push_back(part_numbers(world.segments.part, segments, options.part_ids));
+  VtkDataSet out{"UnstructuredGrid",
+                 fmt::format("NumberOfPoints=\"{}\" NumberOfCells=\"{}\"", nodes.size(), segments.size()),
+                 0,
+                 {}};
+  out.sections.push_back({"PointData", std::move(of_nodes)});
+  out.sections.push_back({"CellData", std::move(of_segments)});
+  out.sections.push_back({"Points", {points(world.nodes.x, nodes)}});
+  out.sections.push_back(cells(world.segments));
   return out;
-}
-
-/// The writer works in memory and the bytes go through write_file: only there is every byte checked. Its
-/// errors are caught by an observer, because VTK would print them.
-template <class Writer>
-void write_data(vtkDataObject* data, const std::filesystem::path& file) {
-  vtkNew<Writer> writer;
-  std::string complaint;
-  vtkNew<vtkCallbackCommand> on_error;
-  on_error->SetClientData(&complaint);
-  on_error->SetCallback([](vtkObject*, unsigned long, void* client, void* text) {
-    if (text) *static_cast<std::string*>(client) += static_cast<const char*>(text);
-  });
-  writer->AddObserver(vtkCommand::ErrorEvent, on_error);
-  writer->SetInputData(data);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
-  writer->SetCompressionLevel(1);  // higher levels cost several times the time for little
-  writer->WriteToOutputStringOn();
-  if (writer->Write() != 1 || writer->GetErrorCode() != 0)
-    throw OutputError(file,
-                      fmt::format("VTK's writer failed with code {} {}", writer->GetErrorCode(), complaint));
-  write_file(file, writer->GetOutputString());
 }
 
 }  // namespace
@@ -167,26 +180,34 @@ FieldWriter::FieldWriter(std::filesystem::path dir, FieldWriterOptions options)
   make_folder(dir_ / "fields");
 }
 
-void FieldWriter::write(const World& world, Real t, int state) {
+FieldState FieldWriter::take(const World& world, Real t, int number) const {
+  FieldState state{number, t, particle_data(world.particles, options_), {}};
+  if (world.segments.size() > 0) state.shells = shell_data(world, options_);
+  state.particles.t = t;
+  if (state.shells) state.shells->t = t;
+  return state;
+}
+
+void FieldWriter::write(FieldState state) {
   const auto add_entry = [&](int part, const char* name, const std::string& file) {
     entries_ +=
-        fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", t,
-                    part, name, file);
+        fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
+                    state.t, part, name, file);
   };
-  index_written_ = false;
-  const auto particles = particle_data(world.particles, options_);
-  add_time(particles, t);
-  std::string file = fmt::format("fields/particles_{:04d}.vtp", state);
-  write_data<vtkXMLPolyDataWriter>(particles, dir_ / file);
+  ++states_not_listed_;
+  std::string file = fmt::format("fields/particles_{:04d}.vtp", state.number);
+  const VtkEncoder::File particles = particle_encoder_.encode(std::move(state.particles));
+  write_file(dir_ / file, {particles.header, particles.data});
   add_entry(0, "particles", file);
-  if (world.segments.size() > 0) {
-    const auto shells = shell_data(world, options_);
-    add_time(shells, t);
-    file = fmt::format("fields/shells_{:04d}.vtu", state);
-    write_data<vtkXMLUnstructuredGridWriter>(shells, dir_ / file);
+  if (state.shells) {
+    file = fmt::format("fields/shells_{:04d}.vtu", state.number);
+    const VtkEncoder::File shells = shell_encoder_.encode(std::move(*state.shells));
+    write_file(dir_ / file, {shells.header, shells.data});
     add_entry(1, "shells", file);
   }
-  write_index();
+  ++states_;
+  if (16 * states_not_listed_ >= states_ || std::chrono::steady_clock::now() - listed_at_ >= longest_wait_)
+    write_index();
 }
 
 void FieldWriter::write_index() {
@@ -195,11 +216,12 @@ void FieldWriter::write_index() {
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
       "  <Collection>\n" +
           entries_ + "  </Collection>\n</VTKFile>\n");
-  index_written_ = true;
+  states_not_listed_ = 0;
+  listed_at_ = std::chrono::steady_clock::now();
 }
 
 void FieldWriter::finish() {
-  if (!index_written_) write_index();
+  if (states_not_listed_ > 0) write_index();
 }
 
 }  // namespace courant

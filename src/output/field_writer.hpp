@@ -1,11 +1,14 @@
 #pragma once
 // Field files for ParaView: one .vtp (particles) and one .vtu (shells) per state, tied together in time by
 // fields.pvd.
+#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "output/file.hpp"
+#include "output/vtk_xml.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -13,6 +16,14 @@ namespace courant {
 struct FieldWriterOptions {
   std::vector<Id> part_ids;    ///< deck number of each part index, for the array `part`
   bool hide_inactive = false;  ///< ISHOW = 1: particles that are not active are left out
+};
+
+/// What the field files of one time hold: a copy, so that the world may go on.
+struct FieldState {
+  int number = 0;
+  Real t = 0;  ///< [T]
+  VtkDataSet particles;
+  std::optional<VtkDataSet> shells;  ///< none without segments
 };
 
 /// Writes `fields/particles_NNNN.vtp`, `fields/shells_NNNN.vtu` (if there are segments) and `fields.pvd`
@@ -25,9 +36,14 @@ class FieldWriter {
   /// Makes the folders. Throws OutputError.
   FieldWriter(std::filesystem::path dir, FieldWriterOptions options);
 
-  /// Writes one state and then rewrites fields.pvd, so that a killed run can still be opened. t: [T]. Throws
-  /// OutputError, std::out_of_range where a part index has no entry in part_ids.
-  void write(const World& world, Real t, int state);
+  /// Copies what a state holds; changes nothing. t: [T]. Throws std::out_of_range where a part index has no
+  /// entry in part_ids.
+  FieldState take(const World& world, Real t, int number) const;
+  /// Writes one state, and fields.pvd anew so that others can open what is there, even of a killed run. As
+  /// the list grows that is done only when it lacks a sixteenth of the states or is a second old. Throws
+  /// OutputError.
+  void write(FieldState state);
+  void write(const World& world, Real t, int number) { write(take(world, t, number)); }
 
   /// Brings fields.pvd up to date; after this the writer may be dropped. Throws OutputError.
   void finish();
@@ -38,7 +54,10 @@ class FieldWriter {
   std::filesystem::path dir_;
   FieldWriterOptions options_;
   std::string entries_;  // the <DataSet> lines of fields.pvd so far
-  bool index_written_ = true;
+  VtkEncoder particle_encoder_, shell_encoder_;
+  static constexpr std::chrono::seconds longest_wait_{1};
+  int states_ = 0, states_not_listed_ = 0;
+  std::chrono::steady_clock::time_point listed_at_;
 };
 
 }  // namespace courant

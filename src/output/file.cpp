@@ -35,7 +35,7 @@ void make_folder(const std::filesystem::path& dir) {
   if (error) throw OutputError(dir, error.message());
 }
 
-void write_file(const std::filesystem::path& file, std::string_view content) {
+void write_file(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces) {
   std::filesystem::path temporary = file;
   temporary += ".tmp";
   const auto fail = [&](int number) {
@@ -45,7 +45,8 @@ void write_file(const std::filesystem::path& file, std::string_view content) {
   };
   std::unique_ptr<std::FILE, FileCloser> out(std::fopen(temporary.c_str(), "wb"));
   if (!out) throw OutputError(file, std::strerror(errno));
-  if (std::fwrite(content.data(), 1, content.size(), out.get()) != content.size()) fail(errno);
+  for (const std::string_view piece : pieces)
+    if (std::fwrite(piece.data(), 1, piece.size(), out.get()) != piece.size()) fail(errno);
   if (std::fflush(out.get()) != 0) fail(errno);
   if (std::fclose(out.release()) != 0) fail(errno);  // some file systems report a full disk only here
   if (std::rename(temporary.c_str(), file.c_str()) != 0) fail(errno);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -25,9 +26,12 @@ class OutputError : public std::runtime_error {
 /// Makes the folder and its parents. Throws OutputError.
 void make_folder(const std::filesystem::path& dir);
 
-/// Writes the content to `file.tmp` and renames it to `file`, so that readers see the old file or the whole
-/// new one. Throws OutputError; `file` is then as it was before and `file.tmp` is gone.
-void write_file(const std::filesystem::path& file, std::string_view content);
+/// Writes the pieces, one after the other, to `file.tmp` and renames it to `file`, so that readers see the
+/// old file or the whole new one. Throws OutputError; `file` is then as it was before and `file.tmp` is gone.
+void write_file(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces);
+inline void write_file(const std::filesystem::path& file, std::string_view content) {
+  write_file(file, {content});
+}
 
 /// A text file that grows while the run goes on; each write reaches the system before the call returns. A
 /// write that fails leaves the file as it was before.

@@ -259,7 +259,9 @@ void History::record(const Sample& sample) {
   put_global(sample);
   put_entities(sample);
   ++rows_;
-  if (rows_ >= buffered_samples_ || std::chrono::steady_clock::now() - last_flush_ >= wait_) flush();
+  const std::size_t enough =
+      std::max(buffered_samples_, rows_in_file_ / 16);  // each flush writes all rows anew
+  if (rows_ >= enough || std::chrono::steady_clock::now() - last_flush_ >= wait_) flush();
 }
 
 void History::flush() {
@@ -276,9 +278,9 @@ void History::flush() {
   for (auto& [path, c] : columns_) c.values.clear();
   rows_in_file_ += rows_;
   rows_ = 0;
-  // A large file takes long to write anew: not more than a twentieth of the time goes there.
+  // A large file takes long to write anew: not more than a hundredth of the time goes there.
   const auto now = std::chrono::steady_clock::now();
-  wait_ = std::max<std::chrono::steady_clock::duration>(longest_wait_, 20 * (now - last_flush_));
+  wait_ = std::max<std::chrono::steady_clock::duration>(longest_wait_, 100 * (now - last_flush_));
 }
 
 }  // namespace courant

@@ -68,6 +68,7 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
   entry("steps", s.steps);
   entry("wall_seconds", s.wall_seconds);
   entry("cpu_seconds", s.cpu_seconds);
+  entry("writer_cpu_seconds", s.writer_cpu_seconds);
   entry("threads", s.threads);
   entry("particles", s.particles);
   entry("active_particles", s.active_particles);

@@ -24,6 +24,7 @@ struct Summary {
   Real time = 0;            ///< time reached [T]
   std::int64_t steps = 0;
   double wall_seconds = 0, cpu_seconds = 0;
+  double writer_cpu_seconds = 0;  ///< part of cpu_seconds: writing results, beside the computation
   int threads = 0;
   std::int64_t particles = 0;         ///< in the model
   std::int64_t active_particles = 0;  ///< at the end

@@ -14,6 +14,12 @@ import sys
 import time
 import xml.etree.ElementTree as ElementTree
 
+try:
+    import h5py
+except ImportError:
+    h5py = None
+    print("Python's h5py is not here: the content of history.h5 is not looked at")
+
 courant, source, work = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), os.path.join(os.path.abspath(sys.argv[3]), "cli")
 shutil.rmtree(work, ignore_errors=True)
 os.makedirs(work)
@@ -176,13 +182,8 @@ for limit in (9000, 40000, 120000):
     for ascii_file in ("messag", "glstat", "matsum", "rcforc"):
         if os.path.getsize(f"{folder}/{ascii_file}") > 0:
             check(open(f"{folder}/{ascii_file}").read().endswith("\n"), f"{folder}/{ascii_file} ends with a whole line")
-    try:
-        import h5py
-    except ImportError:
-        print("skipped: Python's h5py is not here")
-    else:
-        if os.path.exists(folder + "/history.h5"):
-            check(len(h5py.File(folder + "/history.h5")["global/time"]) > 0, "history.h5 is readable")
+    if h5py and os.path.exists(folder + "/history.h5"):
+        check(len(h5py.File(folder + "/history.h5")["global/time"]) > 0, "history.h5 is readable")
 
 # --- signals
 for number in (signal.SIGINT, signal.SIGTERM):
@@ -202,5 +203,30 @@ process.kill()
 process.communicate()
 check(len(states("killed")) >= 6, "fields.pvd is readable after kill -9")
 check(not os.path.exists("killed/summary.yaml"), "a killed run has no summary, not even an older run's")
+
+process = running("killed_later")
+check(until(lambda: os.path.exists("killed_later/history.h5"), process), "history.h5 is there while the run goes on")
+process.kill()
+process.communicate()
+listed = states("killed_later")
+written = len(glob.glob("killed_later/fields/*.vt?"))
+check(all(open(f"killed_later/{name}", "rb").read().endswith(b"</VTKFile>\n") for name in listed), "every file that fields.pvd lists is whole")
+check(len(listed) >= 0.9 * written - 2, f"fields.pvd lists {len(listed)} of {written} files after kill -9")
+if h5py:
+    times = h5py.File("killed_later/history.h5")["global/time"][:]
+    check(len(times) > 0 and all(a < b for a, b in zip(times, times[1:])), "history.h5 is readable after kill -9, its times in order")
+
+# --- results that can no longer be written while the run goes on: whatever thread finds out, the run ends
+process = running("gone")
+os.rename("gone/fields", "gone/fields_away")
+_, said = process.communicate(timeout=60)
+end = summary("gone")
+check(process.returncode == 2 and end["termination"] == "error", f"a folder that vanished -> {process.returncode}, {end['termination']}")
+check(re.search(r"error: cannot write 'gone/fields/\w+_\d+\.vt[pu]': No such file or directory\n  hint: ", said), "the message names the file")
+kept = sorted(glob.glob("gone/fields_away/particles_*.vtp"))
+check([f"particles_{i:04d}.vtp" for i in range(len(kept))] == [os.path.basename(name) for name in kept], "states up to the failure are kept, none is missing")
+check(open("gone/glstat").read().endswith("\n") and "E r r o r    t e r m i n a t i o n" in open("gone/messag").read(), "the text files are whole")
+if h5py:
+    check(len(h5py.File("gone/history.h5")["global/time"]) >= len(kept) - 1, "history.h5 has the samples up to the failure")
 
 sys.exit(f"{len(failures)} failed" if failures else 0)

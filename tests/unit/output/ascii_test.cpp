@@ -126,6 +126,28 @@ TEST(Histories, EachFileAtItsOwnInterval) {
   EXPECT_TRUE(std::filesystem::exists(dir / "history.h5"));
 }
 
+TEST(Histories, TakenSamplesCanBeWrittenLater) {
+  ScratchFolder dir;
+  Histories histories(dir.path(), {.glstat = 0.25, .rcforc = 0.5, .title = "channel"});
+  std::vector<std::pair<Sample, Histories::Due>> waiting;
+  for (int n = 0; n < 9; ++n) {
+    Sample s = made_sample();
+    s.t = n * 0.125;
+    s.dt = 0.125;
+    if (histories.is_due(s.t, s.dt)) waiting.emplace_back(s, histories.take(s.t, s.dt));
+  }
+  ASSERT_EQ(waiting.size(), 5u);
+  EXPECT_EQ(waiting[1].second, (Histories::Due{true, false, true}));  // glstat, rcforc, history.h5
+  EXPECT_EQ(histories.take(1, 0.125, true), (Histories::Due{false, false, false}));  // all have t = 1
+  for (const auto& [sample, due] : waiting) histories.write(sample, due);
+  histories.finish();
+  const std::string glstat = test::read_text(dir / "glstat"), rcforc = test::read_text(dir / "rcforc");
+  for (const char* t : {"0.00000E+00", "2.50000E-01", "5.00000E-01", "7.50000E-01", "1.00000E+00"})
+    EXPECT_NE(glstat.find(std::string("time...........................   ") + t), std::string::npos) << t;
+  EXPECT_NE(rcforc.find("time 5.00000E-01"), std::string::npos);
+  EXPECT_EQ(rcforc.find("time 2.50000E-01"), std::string::npos);
+}
+
 TEST(OutputSchedule, LastCycleBeforeTheDueTime) {
   OutputSchedule schedule(0.1);
   EXPECT_TRUE(schedule.take(0, 0.03));
@@ -164,6 +186,7 @@ TEST(Summary, ComesBackAsYaml) {
   s.title = "jump: d1/4";
   s.termination = "normal";
   s.wall_seconds = 2;
+  s.writer_cpu_seconds = 0.25;
   s.particle_steps = 1000000;
   s.energy = made_sample().energy;
   s.counters = {{"density clamped", 0}};
@@ -172,6 +195,7 @@ TEST(Summary, ComesBackAsYaml) {
   write_summary(dir / "summary.yaml", s);
   const YAML::Node y = YAML::LoadFile((dir / "summary.yaml").string());
   EXPECT_EQ(y["title"].as<std::string>(), "jump: d1/4");
+  EXPECT_EQ(y["writer_cpu_seconds"].as<double>(), 0.25);
   EXPECT_EQ(y["ns_per_particle_step"].as<double>(), 2000);
   EXPECT_EQ(y["energy"]["ratio"].as<double>(), 1);
   EXPECT_EQ(y["energy"]["residual"].as<double>(), 0);

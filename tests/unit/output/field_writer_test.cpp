@@ -1,5 +1,6 @@
 #include "output/field_writer.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <vtkCellData.h>
@@ -14,9 +15,12 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <cmath>
 #include <csignal>
+#include <utility>
 
 #include "output_test.hpp"
+#include "parallel/job_queue.hpp"
 
 namespace courant {
 namespace {
@@ -96,6 +100,119 @@ TEST(FieldWriter, IndexNamesEachStateAndNoShellsWithoutSegments) {
       std::string::npos);
   EXPECT_EQ(pvd.find("shells"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(dir / "fields.pvd.tmp"));
+}
+
+/// Many states that share blocks with the state before, and arrays that are stored for a while: what is read
+/// back must be what was written, whatever the encoder kept from earlier states.
+TEST(FieldWriter, EveryStateComesBackAsItWasWritten) {
+  ScratchFolder dir;
+  World world;
+  Particles& p = world.particles;
+  const Index n = 6000;  // some blocks and a part of one
+  p.fields.resize(n);
+  FieldWriter writer(dir.path(), {.part_ids = {1}, .hide_inactive = true});
+  const auto noise = [](Index i, int state, int k) {
+    return std::sin(1e4 * std::sin(1.0 + i + 0.37 * state + k));
+  };
+  const auto velocity = [&](Index i, int state) { return Vec(noise(i, state, 0), noise(i, state, 1), 0); };
+  const auto pressure = [&](Index i, int state) { return state < 60 ? 5.0 : noise(i, state, 2); };
+  const auto density = [&](Index i, int state) {
+    return state < 20 ? noise(i, state, 3) : 1000.0 + (i >= n / 2);
+  };
+  for (int state = 0; state < 150; ++state) {
+    for (Index i = 0; i < n; ++i) {
+      p.id[i] = n - i;
+      p.state[i] = i >= n / 3 + 20 * state ? particle_outside : particle_active;
+      p.v.set(i, velocity(i, state));
+      p.p[i] = pressure(i, state);
+      p.rho[i] = density(i, state);
+    }
+    writer.write(world, state, state);
+  }
+  for (int state = 0; state < 150; ++state) {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName((dir / fmt::format("fields/particles_{:04d}.vtp", state)).c_str());
+    reader->Update();
+    vtkPointData* data = reader->GetOutput()->GetPointData();
+    const Index active = n / 3 + 20 * state;
+    ASSERT_EQ(reader->GetOutput()->GetNumberOfVerts(), active);
+    int wrong = 0;
+    for (Index k = 0; k < active; ++k) {
+      const Index i = active - 1 - k;  // in order of the ids
+      const Vec v = velocity(i, state);
+      wrong += data->GetArray("id")->GetTuple1(k) != n - i;
+      wrong += data->GetArray("pressure")->GetTuple1(k) != static_cast<float>(pressure(i, state));
+      wrong += data->GetArray("density")->GetTuple1(k) != static_cast<float>(density(i, state));
+      for (int c = 0; c < 3; ++c)
+        wrong += data->GetArray("velocity")->GetComponent(k, c) != static_cast<float>(v[c]);
+    }
+    ASSERT_EQ(wrong, 0) << "state " << state;
+  }
+}
+
+TEST(FieldWriter, SameBytesWhetherWrittenAtOnceOrByTheQueue) {
+  ScratchFolder at_once, queued;
+  World world;
+  test::fill_small_world(world);
+  for (const auto& [dir, capacity] : {std::pair(&at_once, 0), std::pair(&queued, 2)}) {
+    FieldWriter writer(dir->path(), {.part_ids = {7, 8}});
+    JobQueue queue(capacity);
+    for (int state = 0; state < 40; ++state) {
+      world.particles.p[1] = state;
+      world.segments.contact_force.set(0, {0, 1.0 * state, 0});
+      queue.submit([&writer, taken = writer.take(world, 0.1 * state, state)] { writer.write(taken); });
+      world.particles.p[1] = -1;  // the world goes on
+    }
+    queue.wait();
+    writer.finish();
+  }
+  std::vector<std::string> files = {"fields.pvd"};
+  for (int state = 0; state < 40; ++state) {
+    files.push_back(fmt::format("fields/particles_{:04d}.vtp", state));
+    files.push_back(fmt::format("fields/shells_{:04d}.vtu", state));
+  }
+  for (const std::string& file : files) {
+    EXPECT_EQ(test::read_text(at_once / file), test::read_text(queued / file)) << file;
+    EXPECT_FALSE(test::read_text(at_once / file).empty()) << file;
+  }
+}
+
+/// Of a run that is killed after any state the index must be whole and lack few states.
+TEST(FieldWriter, IndexIsWholeAndNeverFarBehind) {
+  ScratchFolder dir;
+  World world;
+  test::fill_small_world(world);
+  FieldWriter writer(dir.path(), {.part_ids = {7, 8}});
+  const auto listed = [&] {
+    const std::string pvd = test::read_text(dir / "fields.pvd");
+    const std::string end = "</VTKFile>\n";
+    EXPECT_TRUE(pvd.size() > end.size() && pvd.substr(pvd.size() - end.size()) == end);
+    int count = 0;
+    for (auto at = pvd.find("particles_"); at != std::string::npos; at = pvd.find("particles_", at + 1))
+      ++count;
+    return count;
+  };
+  for (int state = 0; state < 100; ++state) {
+    writer.write(world, 0.1 * state, state);
+    EXPECT_LE(16 * (state + 1 - listed()), state + 1);
+  }
+  writer.finish();
+  EXPECT_EQ(listed(), 100);
+}
+
+TEST(FieldWriter, IdsWithLargeGapsAreSortedToo) {
+  ScratchFolder dir;
+  World world;
+  test::fill_small_world(world);
+  world.particles.id[0] = Id(1) << 40;
+  FieldWriter(dir.path(), {.part_ids = {7, 8}}).write(world, 0, 0);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((dir / "fields/particles_0000.vtp").c_str());
+  reader->Update();
+  vtkDataArray* ids = reader->GetOutput()->GetPointData()->GetArray("id");
+  EXPECT_EQ(ids->GetTuple1(0), 10);
+  EXPECT_EQ(ids->GetTuple1(1), 20);
+  EXPECT_EQ(ids->GetTuple1(2), 1099511627776.0);
 }
 
 /// Runs `body` in a child whose files may not grow beyond `bytes`; gives its exit status.
