@@ -169,7 +169,8 @@ class Run {
     messag_.line(fmt::format("first step {:.4E} [T], set by {}", clock.dt, who_));
   }
 
-  void write_fields(const World& world, const Clock& clock) {
+  void write_fields(World& world, const Clock& clock) {
+    for (const auto& contact : s_.contacts()) contact->show_forces(world);
     fields_.write(world, clock.t, state_++);
     last_field_time_ = clock.t;
     messag_.status(clock.cycle, clock.t, clock.dt, "write d3plot file");

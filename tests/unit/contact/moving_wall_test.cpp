@@ -88,7 +88,7 @@ TEST(MovingWall, FastPlateDoesNotPassAParticle) {
     s.refresh();
     s.clear();
     s.clock.dt_old = k > 0 ? 1e-3 : 0;
-    s.contact->add(s.world, s.clock);
+    s.add_forces();
     s.world.particles.v.set(0, Vec::Zero());
   }
   EXPECT_EQ(s.world.counters.at("leaked_particles"), 1);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "contact/contact.hpp"
+#include "parallel/parallel.hpp"
 
 namespace courant::test {
 
@@ -72,12 +73,20 @@ struct Scene {
     }
   }
 
+  /// What a step does with the contact.
+  void add_forces() {
+    contact->start(world, clock);
+    for_each_block(world.particles.active,
+                   [&](Index begin, Index end) { contact->block(world, clock, begin, end); });
+    contact->finish(world, clock);
+  }
+
   Vec force(const Vec& at) {
     world.particles.x.set(0, at);
     world.particles.v.set(0, Vec::Zero());
     refresh();
     clear();
-    contact->add(world, clock);
+    add_forces();
     return world.particles.f.vec(0);
   }
 
@@ -85,7 +94,7 @@ struct Scene {
     clock.dt = dt;
     if (clock.cycle % refresh_every == 0) refresh();
     clear();
-    contact->add(world, clock);
+    add_forces();
     contact->record(world, clock, world.energy);
     before_move();
     Particles& p = world.particles;

@@ -1,0 +1,120 @@
+// Shortcuts for particles whose candidates all lie in one to three fixed planes, the same side of each plane
+// facing the particle. If the particle is well inside a facet of every plane that it is deep in, no other
+// facet has a say: the rest of the plane is not deeper (it is at the same plane distance and further beyond
+// its edges), and is at the contact distance once the particle is pushed out. So three plane distances at
+// most decide. Where that is not sure, the full search of touch.cpp does, with the same bits.
+#include <cmath>
+
+#include "contact/near.hpp"
+
+namespace courant {
+namespace {
+
+/// Plane distances of the facets of a plane differ by less (see Contact::choose_shortcuts).
+constexpr Real surely_out = 0.5 * depth_tolerance, surely_in = 2 * depth_tolerance;
+
+}  // namespace
+
+// By far the most frequent case, so without the detour over pushes. Returns false where that is not sure.
+bool Contact::touch_one_wall(const World& world, Block& b, Slot& slot, const Vec& x, Real* const f[]) const {
+  const Wall* w = &walls_[slot.facet[0]];
+  const Index i = slot.particle;
+  const Real r = contact_distance(i, *w);
+  Real d = plane_distance(*w, x), a = slot.side[0] * d;
+  if (r - a <= surely_out * r) return true;
+  if (beyond_edges(*w, x) > -w->margin) {
+    if (!find_facet(b, slot, 0, x)) return false;
+    w = &walls_[slot.facet[0]];
+    d = plane_distance(*w, x), a = slot.side[0] * d;
+  }
+  const Real depth = r - a;
+  if (!(depth > surely_in * r) || !(a > clear_margin * r)) return false;
+  slot.room = 0;
+  const Vec n = slot.side[0] * w->n;
+  const Real k = stiffness(i, slot.k, w->k, facets_[slot.facet[0]], world);
+  b.touches.push_back({.particle = i,
+                       .facet = slot.facet[0],
+                       .share = depth,
+                       .depth = depth,
+                       .k = k,
+                       .n = n,
+                       .q = x - d * w->n});
+  b.deepest = std::max(b.deepest, depth);
+  const Vec force = k * depth * n;
+  for (int c = 0; c < dim_; ++c) f[c][i] += 0.0 + force[c];  // never -0, as in forces_of
+  return true;
+}
+
+// As push_off does, but looks at one facet of each plane only.
+bool Contact::quick_pushes(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const {
+  Vec u = Vec::Zero();
+  while (pushes.count < Pushes::capacity) {
+    const Vec y = x + u;
+    int worst = -1;
+    if (!worst_wall(b, slot, y, pushes, worst)) return false;
+    if (worst < 0) {
+      if (pushes.count > 0) slot.room = 0;
+      return true;
+    }
+    const Wall& w = walls_[slot.facet[worst]];
+    const Real d = plane_distance(w, x);
+    pushes.at[pushes.count++] = {.facet = slot.facet[worst],
+                                 .n = slot.side[worst] * w.n,
+                                 .depth = contact_distance(slot.particle, w) - slot.side[worst] * d,
+                                 .share = 0,
+                                 .q = x - d * w.n,
+                                 .face = true};
+    u = share_pushes(pushes);
+  }
+  return false;
+}
+
+// The wall that y is deepest in, -1 if it is in none. Returns false where that is not sure.
+bool Contact::worst_wall(const Block& b, Slot& slot, const Vec& y, const Pushes& pushes, int& worst) const {
+  std::array<Real, 3> depth{};
+  for (int j = 0; j < slot.walls; ++j) {
+    const Wall& w = walls_[slot.facet[j]];
+    const Real r = contact_distance(slot.particle, w), a = slot.side[j] * plane_distance(w, y);
+    depth[j] = r - a;
+    if (depth[j] <= surely_out * r) continue;
+    if (!(depth[j] > surely_in * r) || !(a > clear_margin * r) || pushes.has(slot.facet[j])) return false;
+    if (beyond_edges(w, y) <= -w.margin) continue;
+    if (!find_facet(b, slot, j, y)) return false;
+    return worst_wall(b, slot, y, pushes, worst);
+  }
+  worst = -1;
+  Real violation = 0;
+  for (int j = 0; j < slot.walls; ++j) {
+    const Real r = contact_distance(slot.particle, walls_[slot.facet[j]]);
+    if (depth[j] <= violation + depth_tolerance * r) continue;  // the rule of Contact::consider
+    violation = depth[j];
+    worst = j;
+  }
+  return true;
+}
+
+/// Takes for a plane the facet that y is well inside, if there is one, and keeps facets in ascending order.
+bool Contact::find_facet(const Block& b, Slot& slot, int wall, const Vec& y) const {
+  const Wall& old = walls_[slot.facet[wall]];
+  for (Index c = slot.first; c < slot.last; ++c) {
+    const Wall& w = walls_[b.candidate[c]];
+    if (w.plane != old.plane || beyond_edges(w, y) > -w.margin) continue;
+    if (w.n.dot(old.n) < 0) slot.side[wall] = std::int8_t(-slot.side[wall]);
+    slot.facet[wall] = b.candidate[c];
+    for (int j = 1; j < slot.walls; ++j)
+      for (int k = j; k > 0 && slot.facet[k] < slot.facet[k - 1]; --k) {
+        std::swap(slot.facet[k], slot.facet[k - 1]);
+        std::swap(slot.side[k], slot.side[k - 1]);
+      }
+    return true;
+  }
+  return false;
+}
+
+// It was `room` away from touching; since then neither it nor the walls have come that far.
+bool Contact::is_far(const Slot& slot, const Vec& x) const {
+  const Real room = slot.room - (travel_ - slot.travel);
+  return room > 0 && (x - slot.seen).squaredNorm() < room * room;
+}
+
+}  // namespace courant
