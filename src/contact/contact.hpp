@@ -127,6 +127,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   void touch(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes);
   bool touch_one_wall(const World& world, Block& b, Slot& slot, const Vec& x, Real* const f[]) const;
   bool quick_pushes(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const;
+  bool joint_pushes(const Block& b, const Slot& slot, const Vec& x, Pushes& pushes) const;
   bool worst_wall(const Block& b, Slot& slot, const Vec& y, const Pushes& pushes, int& worst) const;
   bool find_facet(const Block& b, Slot& slot, int wall, const Vec& y) const;
   bool is_far(const Slot& slot, const Vec& x) const;

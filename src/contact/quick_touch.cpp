@@ -1,8 +1,8 @@
 // Shortcuts for particles whose candidates all lie in one to three fixed planes, the same side of each plane
-// facing the particle. If the particle is well inside a facet of every plane that it is deep in, no other
-// facet has a say: the rest of the plane is not deeper (it is at the same plane distance and further beyond
-// its edges), and is at the contact distance once the particle is pushed out. So three plane distances at
-// most decide. Where that is not sure, the full search of touch.cpp does, with the same bits.
+// facing the particle. If the particle is surely over a facet of every plane that it is deep in, no other
+// facet has a say: later ones of the plane are not deeper, earlier ones are further away, and all are at the
+// contact distance once the particle is pushed out. So three plane distances at most decide. Where that is
+// not sure, the full search of touch.cpp does, with the same bits.
 #include <cmath>
 
 #include "contact/near.hpp"
@@ -22,7 +22,7 @@ bool Contact::touch_one_wall(const World& world, Block& b, Slot& slot, const Vec
   const Real r = contact_distance(i, *w);
   Real d = plane_distance(*w, x), a = slot.side[0] * d;
   if (r - a <= surely_out * r) return true;
-  if (beyond_edges(*w, x) > -w->margin) {
+  if (!is_surely_over(*w, x)) {
     if (!find_facet(b, slot, 0, x)) return false;
     w = &walls_[slot.facet[0]];
     d = plane_distance(*w, x), a = slot.side[0] * d;
@@ -52,10 +52,7 @@ bool Contact::quick_pushes(const Block& b, Slot& slot, const Vec& x, Pushes& pus
     const Vec y = x + u;
     int worst = -1;
     if (!worst_wall(b, slot, y, pushes, worst)) return false;
-    if (worst < 0) {
-      if (pushes.count > 0) slot.room = 0;
-      return true;
-    }
+    if (worst < 0) return true;
     const Wall& w = walls_[slot.facet[worst]];
     const Real d = plane_distance(w, x);
     pushes.at[pushes.count++] = {.facet = slot.facet[worst],
@@ -69,6 +66,33 @@ bool Contact::quick_pushes(const Block& b, Slot& slot, const Vec& x, Pushes& pus
   return false;
 }
 
+// Particles at rest often sit where facets of a plane meet. Then only these few can be the deepest, in the
+// order of the full search; the others come to the contact distance with them, if the push is straight off
+// the plane.
+bool Contact::joint_pushes(const Block& b, const Slot& slot, const Vec& x, Pushes& pushes) const {
+  if (slot.walls != 1) return false;
+  constexpr std::size_t most = 4;
+  std::array<Index, most> facet;
+  std::array<std::int8_t, most> side;
+  std::size_t count = 0;
+  for (Index c = slot.first; c < slot.last; ++c) {
+    const Wall& w = walls_[b.candidate[c]];
+    if (beyond_edges(w, x) > w.margin) continue;
+    if (count == most || !(b.side[c] * plane_distance(w, x) > clear_margin * r_most_)) return false;
+    facet[count] = b.candidate[c];
+    side[count++] = b.side[c];
+  }
+  Near near;
+  near.particle = slot.particle;
+  near.candidate = {facet.data(), count};
+  near.side = {side.data(), count};
+  near.x = near.origin = x;
+  pushes.count = 0;
+  Vec u = Vec::Zero();
+  push_off(near, pushes, u);
+  return pushes.count == 1 && pushes.at[0].face;
+}
+
 // The wall that y is deepest in, -1 if it is in none. Returns false where that is not sure.
 bool Contact::worst_wall(const Block& b, Slot& slot, const Vec& y, const Pushes& pushes, int& worst) const {
   std::array<Real, 3> depth{};
@@ -78,7 +102,7 @@ bool Contact::worst_wall(const Block& b, Slot& slot, const Vec& y, const Pushes&
     depth[j] = r - a;
     if (depth[j] <= surely_out * r) continue;
     if (!(depth[j] > surely_in * r) || !(a > clear_margin * r) || pushes.has(slot.facet[j])) return false;
-    if (beyond_edges(w, y) <= -w.margin) continue;
+    if (is_surely_over(w, y)) continue;
     if (!find_facet(b, slot, j, y)) return false;
     return worst_wall(b, slot, y, pushes, worst);
   }
@@ -93,12 +117,12 @@ bool Contact::worst_wall(const Block& b, Slot& slot, const Vec& y, const Pushes&
   return true;
 }
 
-/// Takes for a plane the facet that y is well inside, if there is one, and keeps facets in ascending order.
+/// Takes for a plane the facet that y is surely over, if there is one, and keeps facets in ascending order.
 bool Contact::find_facet(const Block& b, Slot& slot, int wall, const Vec& y) const {
   const Wall& old = walls_[slot.facet[wall]];
   for (Index c = slot.first; c < slot.last; ++c) {
     const Wall& w = walls_[b.candidate[c]];
-    if (w.plane != old.plane || beyond_edges(w, y) > -w.margin) continue;
+    if (w.plane != old.plane || !is_surely_over(w, y)) continue;
     if (w.n.dot(old.n) < 0) slot.side[wall] = std::int8_t(-slot.side[wall]);
     slot.facet[wall] = b.candidate[c];
     for (int j = 1; j < slot.walls; ++j)

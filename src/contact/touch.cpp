@@ -29,7 +29,8 @@ void Contact::touch(World& world, const Clock& clock, Block& b, Slot& slot, Push
   const Vec x = world.particles.x.vec(i);
   const std::size_t first_touch = b.touches.size();
   pushes.count = 0;
-  const bool quick = slot.walls > 0 && !slot.behind && quick_pushes(b, slot, x, pushes);
+  const bool quick = slot.walls > 0 && !slot.behind &&
+                     (quick_pushes(b, slot, x, pushes) || joint_pushes(b, slot, x, pushes));
   if (!quick) {
     if (is_far(slot, x)) {
       slot.skipped = true;
@@ -37,11 +38,13 @@ void Contact::touch(World& world, const Clock& clock, Block& b, Slot& slot, Push
     }
     if (slot.skipped) learn_sides(world, clock, b, slot);
     slot.skipped = false;
-    slot.room = 0;
     pushes.count = 0;
     find_pushes(world, clock, b, slot, pushes);
   }
-  if (pushes.count > 0) forces_of(world, clock, b, slot, pushes);
+  if (pushes.count > 0) {
+    slot.room = 0;
+    forces_of(world, clock, b, slot, pushes);
+  }
   if (friction_on_) keep_friction(b, i, first_touch);
 }
 
@@ -61,6 +64,7 @@ void Contact::find_pushes(World& world, const Clock& clock, Block& b, Slot& slot
     if (search_less_) nearest2 = std::min(nearest2, least_distance2(w, near.x));
   }
   const Vec offset = ghost_->vec(i);
+  slot.room = 0;
   if (search_less_ && !changed && !slot.behind) {
     slot.room = std::sqrt(nearest2) - (1 + clear_margin) * r_most_;
     slot.seen = near.x;
@@ -146,8 +150,9 @@ void Contact::push_off(Near& near, Pushes& pushes, Vec& u) const {
       if (search_less_) {
         // Not as deep as another one, by far more than what the order of looking can make of it
         const Wall& w = walls_[near.candidate[c]];
-        const Real within = contact_distance(near.particle, w) - surely;
-        if (near.side[c] * plane_distance(w, y) >= 0 && least_distance2(w, y) > within * within) continue;
+        const Real r = contact_distance(near.particle, w), within = r - surely;
+        const Real a = near.side[c] * plane_distance(w, y);
+        if (r - a <= depth_tolerance * r || (a >= 0 && least_distance2(w, y) > within * within)) continue;
       }
       consider(near, Index(c), y, pushes, worst, violation);
     }

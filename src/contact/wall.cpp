@@ -39,28 +39,52 @@ bool same_plane(const Facet& first, const Facet& f, Real reach, Real same) {
   return true;
 }
 
-/// True if an edge of f has all of g beyond it but for `overlap`.
-bool an_edge_parts(const Facet& f, const Facet& g, Real overlap) {
-  for (int e = 0; e < f.corners; ++e) {
-    Real most = -std::numeric_limits<Real>::infinity();
-    for (int c = 0; c < g.corners; ++c) most = std::max(most, f.inward[e].dot(g.x[c] - f.x[e]));
-    if (most <= overlap) return true;
-  }
-  return false;
+/// How far all of g is beyond edge e of f.
+Real how_far_beyond(const Facet& f, int e, const Facet& g) {
+  Real least = std::numeric_limits<Real>::infinity();
+  for (int c = 0; c < g.corners; ++c) least = std::min(least, f.inward[e].dot(f.x[e] - g.x[c]));
+  return least;
 }
 
-/// Takes every facet of the plane that overlaps another one out of it.
-void drop_overlapping(const std::vector<Facet>& facets, std::vector<Index>& members, Real apart,
-                      std::vector<Wall>& walls) {
+/// The edge of f that has g furthest beyond it.
+int parting_edge(const Facet& f, const Facet& g, Real& beyond) {
+  int best = 0;
+  beyond = -std::numeric_limits<Real>::infinity();
+  for (int e = 0; e < f.corners; ++e) {
+    const Real now = how_far_beyond(f, e, g);
+    if (now > beyond) beyond = now, best = e;
+  }
+  return best;
+}
+
+/// Where the later one of two facets may be on the earlier one, too, it is not sure. Facets that overlap
+/// leave the plane.
+void keep_apart(const std::vector<Facet>& facets, Index earlier, Index later, Real margin,
+                std::vector<Wall>& walls) {
+  Real beyond = 0, other = 0;
+  const int e = parting_edge(facets[later], facets[earlier], beyond);
+  parting_edge(facets[earlier], facets[later], other);
+  if (std::max(beyond, other) < -0.5 * margin) {
+    walls[earlier].plane = walls[later].plane = -1;
+    return;
+  }
+  if (beyond > 2 * margin) return;
+  Wall& w = walls[later];
+  for (int k = 0; k < 4; ++k)
+    if (beyond < -0.5 * margin || k == e) w.sure[k] = w.edge[k] + margin;
+}
+
+void part_facets(const std::vector<Facet>& facets, std::vector<Index>& members, Real apart,
+                 std::vector<Wall>& walls) {
   Real margin = 0;
-  for (const Index s : members) margin = std::max(margin, 2 * (facets[s].tolerance + apart));
-  for (const Index s : members) walls[s].margin = margin;
-  const Real overlap = 0.5 * margin;
   Vec low = facets[members[0]].centre, high = low;
   for (const Index s : members) {
+    margin = std::max(margin, 2 * (facets[s].tolerance + apart));
+    for (int e = 0; e < 4; ++e) walls[s].sure[e] = walls[s].edge[e] - 0.5 * walls[s].tolerance;
     low = low.cwiseMin(facets[s].centre);
     high = high.cwiseMax(facets[s].centre);
   }
+  for (const Index s : members) walls[s].margin = margin;
   int axis = 0;
   (high - low).maxCoeff(&axis);
   const auto start = [&](Index s) { return facets[s].centre[axis] - facets[s].radius; };
@@ -68,11 +92,11 @@ void drop_overlapping(const std::vector<Facet>& facets, std::vector<Index>& memb
   for (std::size_t a = 0; a < members.size(); ++a) {
     const Facet& f = facets[members[a]];
     for (std::size_t b = a + 1; b < members.size(); ++b) {
-      if (start(members[b]) > f.centre[axis] + f.radius) break;
+      if (start(members[b]) > f.centre[axis] + f.radius + 2 * margin) break;
       const Facet& g = facets[members[b]];
-      if ((f.centre - g.centre).squaredNorm() > (f.radius + g.radius) * (f.radius + g.radius)) continue;
-      if (an_edge_parts(f, g, overlap) || an_edge_parts(g, f, overlap)) continue;
-      walls[members[a]].plane = walls[members[b]].plane = -1;
+      const Real near = f.radius + g.radius + 2 * margin;
+      if ((f.centre - g.centre).squaredNorm() > near * near) continue;
+      keep_apart(facets, std::min(members[a], members[b]), std::max(members[a], members[b]), margin, walls);
     }
   }
 }
@@ -109,7 +133,7 @@ void find_planes(const std::vector<Facet>& facets, Real reach, Real same, Real a
     plane.push_back(s);
   }
   for (std::vector<Index>& plane : members)
-    if (!plane.empty()) drop_overlapping(facets, plane, apart, walls);
+    if (!plane.empty()) part_facets(facets, plane, apart, walls);
 }
 
 }  // namespace courant

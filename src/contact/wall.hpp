@@ -17,7 +17,8 @@ struct Wall {
   std::array<Real, 4> edge{};   ///< inward[e].x = edge[e] on edge e [L]
   Real tolerance = 0;           ///< as in Facet [L]
   Index plane = -1;             ///< see find_planes; -1: nothing is known
-  Real margin = 0;  ///< a place further inside the facet than this is not on any other of its plane [L]
+  std::array<Real, 4> sure{};   ///< see is_surely_over [L]
+  Real margin = 0;              ///< what is further beyond the facet is not as deep as on the plane [L]
 };
 
 Wall make_wall(const Facet& facet);
@@ -41,10 +42,18 @@ inline Real least_distance2(const Wall& w, const Vec& y) {
   return a * a + beyond * beyond;
 }
 
-/// Gives Wall::plane and Wall::margin: facets of one plane are fixed, touch at the same distance and do not
+/// For facets of a plane: true if y is over this one (to Facet::tolerance) and far enough from all facets of
+/// the plane with lower numbers.
+inline bool is_surely_over(const Wall& w, const Vec& y) {
+  Real beyond = w.sure[0] - w.inward[0].dot(y);
+  for (int e = 1; e < 4; ++e) beyond = std::max(beyond, w.sure[e] - w.inward[e].dot(y));
+  return beyond <= 0;
+}
+
+/// Gives Wall::plane and Wall::sure: facets of one plane are fixed, touch at the same distance and do not
 /// overlap. Within `reach` of two of them their plane distances differ, but for the sign, by less than
-/// `same`; what is further than `margin` inside one is beyond the tolerance of the others, by more than
-/// `apart`. [L]
+/// `same`; what is surely over one is beyond the tolerance of those with lower numbers, by more than `apart`.
+/// [L]
 void find_planes(const std::vector<Facet>& facets, Real reach, Real same, Real apart,
                  std::vector<Wall>& walls);
 
