@@ -54,7 +54,9 @@ bool Contact::list_candidates(Block& b, const Vec& x) const {
   const std::size_t before = b.candidate.size();
   for (const Index s : grid_.near(x)) {
     const Wall& w = walls_[s];
-    if (std::abs(plane_distance(w, x)) > reach_ || least_distance2(w, x) > reach_ * reach_) continue;
+    const Real far = reach_ + w.radius;
+    if (std::abs(plane_distance(w, x)) > reach_ || (x - w.centre).squaredNorm() > far * far) continue;
+    if (w.radius > reach_ && least_distance2(w, x) > reach_ * reach_) continue;
     b.candidate.push_back(s);
   }
   return b.candidate.size() > before;

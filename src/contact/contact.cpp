@@ -13,6 +13,10 @@ namespace {
 
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
+/// A facet that is this far beside the one that a particle is over, of the contact distance, is twenty depth
+/// tolerances less deep, so that the order in which facets are looked at does not matter.
+constexpr Real apart_of_contact_distance = 2e-4;
+
 /// Stiffness K A / (longest diagonal) of a shell segment and the least mass of its nodes.
 void give_stiffness(Facet& f, const ContactLaw& law, const World& world) {
   const Segments& g = world.segments;
@@ -113,7 +117,7 @@ void Contact::choose_shortcuts(const World& world) {
   const Real round_off = 4 * std::numeric_limits<Real>::epsilon() * (largest + 100 * reach_);
   search_less_ = round_off < 0.01 * clear_margin * r && round_off < 1e-7 * size;
   if (search_less_ && round_off < 0.1 * depth_tolerance * r)
-    find_planes(facets_, reach_, 0.2 * depth_tolerance * r, 1e-3 * r_most_, walls_);
+    find_planes(facets_, reach_, 0.2 * depth_tolerance * r, apart_of_contact_distance * r_most_, walls_);
 }
 
 std::string Contact::name() const {

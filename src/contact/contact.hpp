@@ -99,9 +99,11 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
     std::array<Index, 3> facet{};  ///< of each plane the one it was over last, in ascending order
     bool behind = false;           ///< its ghost is somewhere else
     bool skipped = false;          ///< sides of candidates are out of date
-    Real k = 0;                    ///< stiffness of the particle [M/T2]
-    Real room = 0;                 ///< at `seen` it was further than this from touching [L]
-    Real travel = 0;               ///< of the walls, then [L]
+    std::int8_t joints = 0;        ///< facets of a joint it was over at `seen`, if any
+    std::array<Index, 4> joint{};
+    Real k = 0;       ///< stiffness of the particle [M/T2]
+    Real room = 0;    ///< at `seen` it was further than this from touching [L]
+    Real travel = 0;  ///< of the walls, then [L]
     Vec seen = Vec::Zero();
   };
   struct alignas(64) Block {  ///< of particles; what one thread works on
@@ -126,8 +128,11 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   void fall_asleep(World& world);
   void touch(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes);
   bool touch_one_wall(const World& world, Block& b, Slot& slot, const Vec& x, Real* const f[]) const;
+  bool quick_touch(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const;
   bool quick_pushes(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const;
-  bool joint_pushes(const Block& b, const Slot& slot, const Vec& x, Pushes& pushes) const;
+  bool is_at_joint(const Slot& slot, const Vec& x) const;
+  bool note_joint(const Block& b, Slot& slot, const Vec& x) const;
+  bool joint_pushes(const Slot& slot, const Vec& x, Pushes& pushes) const;
   bool worst_wall(const Block& b, Slot& slot, const Vec& y, const Pushes& pushes, int& worst) const;
   bool find_facet(const Block& b, Slot& slot, int wall, const Vec& y) const;
   bool is_far(const Slot& slot, const Vec& x) const;

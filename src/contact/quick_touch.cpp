@@ -22,6 +22,7 @@ bool Contact::touch_one_wall(const World& world, Block& b, Slot& slot, const Vec
   const Real r = contact_distance(i, *w);
   Real d = plane_distance(*w, x), a = slot.side[0] * d;
   if (r - a <= surely_out * r) return true;
+  if (slot.joints > 0 && is_at_joint(slot, x)) return false;
   if (!is_surely_over(*w, x)) {
     if (!find_facet(b, slot, 0, x)) return false;
     w = &walls_[slot.facet[0]];
@@ -45,8 +46,17 @@ bool Contact::touch_one_wall(const World& world, Block& b, Slot& slot, const Vec
   return true;
 }
 
+// Returns false where the full search must decide.
+bool Contact::quick_touch(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const {
+  const bool at_joint = is_at_joint(slot, x);
+  if (at_joint && joint_pushes(slot, x, pushes)) return true;
+  if (quick_pushes(b, slot, x, pushes)) return true;
+  return !at_joint && slot.walls == 1 && note_joint(b, slot, x) && joint_pushes(slot, x, pushes);
+}
+
 // As push_off does, but looks at one facet of each plane only.
 bool Contact::quick_pushes(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const {
+  pushes.count = 0;
   Vec u = Vec::Zero();
   while (pushes.count < Pushes::capacity) {
     const Vec y = x + u;
@@ -69,28 +79,43 @@ bool Contact::quick_pushes(const Block& b, Slot& slot, const Vec& x, Pushes& pus
 // Particles at rest often sit where facets of a plane meet. Then only these few can be the deepest, in the
 // order of the full search; the others come to the contact distance with them, if the push is straight off
 // the plane.
-bool Contact::joint_pushes(const Block& b, const Slot& slot, const Vec& x, Pushes& pushes) const {
-  if (slot.walls != 1) return false;
-  constexpr std::size_t most = 4;
-  std::array<Index, most> facet;
-  std::array<std::int8_t, most> side;
-  std::size_t count = 0;
-  for (Index c = slot.first; c < slot.last; ++c) {
-    const Wall& w = walls_[b.candidate[c]];
-    if (beyond_edges(w, x) > w.margin) continue;
-    if (count == most || !(b.side[c] * plane_distance(w, x) > clear_margin * r_most_)) return false;
-    facet[count] = b.candidate[c];
-    side[count++] = b.side[c];
-  }
+bool Contact::joint_pushes(const Slot& slot, const Vec& x, Pushes& pushes) const {
+  std::array<std::int8_t, 4> side;
+  const Wall& first = walls_[slot.facet[0]];
+  if (!(slot.side[0] * plane_distance(first, x) > clear_margin * r_most_)) return false;
+  for (int j = 0; j < slot.joints; ++j)
+    side[j] = std::int8_t(first.n.dot(walls_[slot.joint[j]].n) > 0 ? slot.side[0] : -slot.side[0]);
   Near near;
   near.particle = slot.particle;
-  near.candidate = {facet.data(), count};
-  near.side = {side.data(), count};
+  near.candidate = {slot.joint.data(), std::size_t(slot.joints)};
+  near.side = {side.data(), std::size_t(slot.joints)};
   near.x = near.origin = x;
   pushes.count = 0;
   Vec u = Vec::Zero();
   push_off(near, pushes, u);
   return pushes.count == 1 && pushes.at[0].face;
+}
+
+// Valid as long as the particle stays within the margin: so those within two margins are noted.
+bool Contact::note_joint(const Block& b, Slot& slot, const Vec& x) const {
+  slot.joints = 0;
+  std::size_t count = 0;
+  for (Index c = slot.first; c < slot.last; ++c) {
+    const Wall& w = walls_[b.candidate[c]];
+    if (beyond_edges(w, x) > 2 * w.margin) continue;
+    if (count == slot.joint.size()) return false;
+    slot.joint[count++] = b.candidate[c];
+  }
+  slot.joints = std::int8_t(count);
+  slot.seen = x;
+  slot.room = 0;
+  return count > 0;
+}
+
+bool Contact::is_at_joint(const Slot& slot, const Vec& x) const {
+  if (slot.joints == 0) return false;
+  const Real margin = walls_[slot.joint[0]].margin;
+  return (x - slot.seen).squaredNorm() < margin * margin;
 }
 
 // The wall that y is deepest in, -1 if it is in none. Returns false where that is not sure.

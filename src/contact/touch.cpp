@@ -29,8 +29,7 @@ void Contact::touch(World& world, const Clock& clock, Block& b, Slot& slot, Push
   const Vec x = world.particles.x.vec(i);
   const std::size_t first_touch = b.touches.size();
   pushes.count = 0;
-  const bool quick = slot.walls > 0 && !slot.behind &&
-                     (quick_pushes(b, slot, x, pushes) || joint_pushes(b, slot, x, pushes));
+  const bool quick = slot.walls > 0 && !slot.behind && quick_touch(b, slot, x, pushes);
   if (!quick) {
     if (is_far(slot, x)) {
       slot.skipped = true;
@@ -65,6 +64,7 @@ void Contact::find_pushes(World& world, const Clock& clock, Block& b, Slot& slot
   }
   const Vec offset = ghost_->vec(i);
   slot.room = 0;
+  slot.joints = 0;
   if (search_less_ && !changed && !slot.behind) {
     slot.room = std::sqrt(nearest2) - (1 + clear_margin) * r_most_;
     slot.seen = near.x;

@@ -68,10 +68,11 @@ void keep_apart(const std::vector<Facet>& facets, Index earlier, Index later, Re
     walls[earlier].plane = walls[later].plane = -1;
     return;
   }
-  if (beyond > 2 * margin) return;
   Wall& w = walls[later];
+  const bool parted = beyond >= -0.5 * margin;
   for (int k = 0; k < 4; ++k)
-    if (beyond < -0.5 * margin || k == e) w.sure[k] = w.edge[k] + margin;
+    if (!parted || k == e)
+      w.sure[k] = std::max(w.sure[k], w.edge[k] + (parted ? 0.5 * margin - beyond : margin));
 }
 
 void part_facets(const std::vector<Facet>& facets, std::vector<Index>& members, Real apart,
@@ -110,6 +111,8 @@ Wall make_wall(const Facet& f) {
   w.r = f.r;
   w.k = f.k;
   w.tolerance = f.tolerance;
+  w.centre = f.centre;
+  w.radius = f.radius;
   for (int e = 0; e < 4; ++e) {
     const int from = std::min(e, f.corners - 1);
     w.inward[e] = f.inward[from];

@@ -16,6 +16,8 @@ struct Wall {
   std::array<Vec, 4> inward{};  ///< as in Facet; a triangle repeats the last [-]
   std::array<Real, 4> edge{};   ///< inward[e].x = edge[e] on edge e [L]
   Real tolerance = 0;           ///< as in Facet [L]
+  Vec centre = Vec::Zero();     ///< as in Facet [L]
+  Real radius = 0;              ///< as in Facet [L]
   Index plane = -1;             ///< see find_planes; -1: nothing is known
   std::array<Real, 4> sure{};   ///< see is_surely_over [L]
   Real margin = 0;              ///< what is further beyond the facet is not as deep as on the plane [L]
