@@ -13,7 +13,29 @@ namespace {
 /// Plane distances of the facets of a plane differ by less (see Contact::choose_shortcuts).
 constexpr Real surely_out = 0.5 * depth_tolerance, surely_in = 2 * depth_tolerance;
 
+/// 1 - cos of a push that goes less than half a margin sideways (apart_of_contact_distance).
+constexpr Real straight = 1e-8;
+
 }  // namespace
+
+void Contact::block(World& world, const Clock& clock, Index begin, Index) {
+  if (asleep_) return;
+  Block& b = blocks_[begin / block_size];
+  b.touches.clear(), b.drags.clear(), b.crossed.clear();
+  b.deepest = 0;
+  b.moves = false;
+  const auto& x = world.particles.x;
+  const Real* const at[3] = {x.data(0), x.data(1), x.data(2)};
+  Real* const f[3] = {world.particles.f.data(0), world.particles.f.data(1), world.particles.f.data(2)};
+  Pushes pushes;
+  for (Slot& slot : b.slots) {
+    const Index i = slot.particle;
+    if (slot.walls == 1 && !drag_on_ && !slot.behind &&
+        touch_one_wall(world, b, slot, Vec(at[0][i], at[1][i], at[2][i]), f))
+      continue;
+    touch(world, clock, b, slot, pushes);
+  }
+}
 
 // By far the most frequent case, so without the detour over pushes. Returns false where that is not sure.
 bool Contact::touch_one_wall(const World& world, Block& b, Slot& slot, const Vec& x, Real* const f[]) const {
@@ -77,14 +99,19 @@ bool Contact::quick_pushes(const Block& b, Slot& slot, const Vec& x, Pushes& pus
 }
 
 // Particles at rest often sit where facets of a plane meet. Then only these few can be the deepest, in the
-// order of the full search; the others come to the contact distance with them, if the push is straight off
-// the plane.
+// order of the full search; the others come to the contact distance with them, if the push is so straight
+// off the plane that it ends within their margin.
 bool Contact::joint_pushes(const Slot& slot, const Vec& x, Pushes& pushes) const {
   std::array<std::int8_t, 4> side;
   const Wall& first = walls_[slot.facet[0]];
   if (!(slot.side[0] * plane_distance(first, x) > clear_margin * r_most_)) return false;
-  for (int j = 0; j < slot.joints; ++j)
-    side[j] = std::int8_t(first.n.dot(walls_[slot.joint[j]].n) > 0 ? slot.side[0] : -slot.side[0]);
+  bool over = false;
+  for (int j = 0; j < slot.joints; ++j) {
+    const Wall& w = walls_[slot.joint[j]];
+    side[j] = std::int8_t(first.n.dot(w.n) > 0 ? slot.side[0] : -slot.side[0]);
+    over = over || beyond_edges(w, x) <= 0;
+  }
+  if (!over) return false;
   Near near;
   near.particle = slot.particle;
   near.candidate = {slot.joint.data(), std::size_t(slot.joints)};
@@ -93,7 +120,9 @@ bool Contact::joint_pushes(const Slot& slot, const Vec& x, Pushes& pushes) const
   pushes.count = 0;
   Vec u = Vec::Zero();
   push_off(near, pushes, u);
-  return pushes.count == 1 && pushes.at[0].face;
+  for (int j = 0; j < pushes.count; ++j)
+    if (!(std::abs(pushes.at[j].n.dot(first.n)) > 1 - straight)) return false;
+  return true;
 }
 
 // Valid as long as the particle stays within the margin: so those within two margins are noted.

@@ -5,25 +5,6 @@
 
 namespace courant {
 
-void Contact::block(World& world, const Clock& clock, Index begin, Index) {
-  if (asleep_) return;
-  Block& b = blocks_[begin / block_size];
-  b.touches.clear(), b.drags.clear(), b.crossed.clear();
-  b.deepest = 0;
-  b.moves = false;
-  const auto& x = world.particles.x;
-  const Real* const at[3] = {x.data(0), x.data(1), x.data(2)};
-  Real* const f[3] = {world.particles.f.data(0), world.particles.f.data(1), world.particles.f.data(2)};
-  Pushes pushes;
-  for (Slot& slot : b.slots) {
-    const Index i = slot.particle;
-    if (slot.walls == 1 && !drag_on_ && !slot.behind &&
-        touch_one_wall(world, b, slot, Vec(at[0][i], at[1][i], at[2][i]), f))
-      continue;
-    touch(world, clock, b, slot, pushes);
-  }
-}
-
 void Contact::touch(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes) {
   const Index i = slot.particle;
   const Vec x = world.particles.x.vec(i);

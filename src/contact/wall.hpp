@@ -13,14 +13,14 @@ struct Wall {
   Real offset = 0;              ///< as in Facet [L]
   Real r = 0;                   ///< contact distance of the segment [L]
   Real k = 0;                   ///< stiffness of the segment [M/T2]
+  std::array<Real, 4> sure{};   ///< see is_surely_over [L]
   std::array<Vec, 4> inward{};  ///< as in Facet; a triangle repeats the last [-]
   std::array<Real, 4> edge{};   ///< inward[e].x = edge[e] on edge e [L]
   Real tolerance = 0;           ///< as in Facet [L]
+  Real margin = 0;              ///< what is further beyond the facet is not as deep as on the plane [L]
   Vec centre = Vec::Zero();     ///< as in Facet [L]
   Real radius = 0;              ///< as in Facet [L]
   Index plane = -1;             ///< see find_planes; -1: nothing is known
-  std::array<Real, 4> sure{};   ///< see is_surely_over [L]
-  Real margin = 0;              ///< what is further beyond the facet is not as deep as on the plane [L]
 };
 
 Wall make_wall(const Facet& facet);
