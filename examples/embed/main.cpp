@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
 
   const courant::Model& model = simulation->model();
   std::map<courant::Index, int> particles, shells;
-  for (const auto& p : model.sph) ++particles[p.part];
+  const courant::Particles& p = simulation->world().particles;
+  for (courant::Index i = 0; i < p.size(); ++i) ++particles[p.part[i]];
   for (const auto& s : model.shells) ++shells[s.part];
   std::printf("%s\n%10s %10s %10s  %s\n", model.title.c_str(), "part", "particles", "shells", "title");
   for (courant::Index i = 0; i < static_cast<courant::Index>(model.parts.size()); ++i)

@@ -21,6 +21,7 @@ std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, cons
   s->deck_ = read_deck(deck_path, options, diagnostics);
   if (!diagnostics.ok()) return nullptr;  // what could not be read would only cause more messages
   s->model_ = build_model(s->deck_, diagnostics);
+  release_mesh_cards(s->deck_);
   const bool model_is_whole = diagnostics.ok();
   s->build_parts(diagnostics);
   if (s->model_.sph.empty() && model_is_whole)
@@ -28,7 +29,14 @@ std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, cons
                       "Courant needs at least one SPH particle");
   if (model_is_whole) s->add_passes(diagnostics);
   if (!diagnostics.ok()) return nullptr;
+  s->release_tables();
   return s;
+}
+
+// What only messages about the deck and the building of the world need, some 300 bytes per particle.
+void Simulation::release_tables() {
+  deck_.release_sources();
+  model_.release_mesh();
 }
 
 void Simulation::build_parts(Diagnostics& diagnostics) {

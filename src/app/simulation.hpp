@@ -34,8 +34,8 @@ class Simulation {
   /// Everything the histories print at the present time.
   Sample sample(const std::string& dt_controlled_by);
 
-  const Deck& deck() const { return deck_; }
-  const Model& model() const { return model_; }
+  const Deck& deck() const { return deck_; }     ///< without nodes, elements and text
+  const Model& model() const { return model_; }  ///< without nodes and particles: the world holds them
   World& world() { return world_; }
   const World& world() const { return world_; }
   Clock& clock() { return clock_; }
@@ -50,6 +50,7 @@ class Simulation {
  private:
   Simulation() = default;
   void build_parts(Diagnostics& diagnostics);
+  void release_tables();
   void add_passes(Diagnostics& diagnostics);
   void add_bodies();
 

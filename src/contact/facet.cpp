@@ -44,6 +44,7 @@ void update_facet(Facet& f, const Nodes& nodes) {
 
 std::vector<Facet> make_facets(const World& world, const std::vector<Index>& segments) {
   std::vector<Facet> out;
+  out.reserve(segments.size());
   const auto add = [&](Index s, std::array<Index, 4> node, int corners) {
     Facet f;
     f.segment = s;

@@ -35,6 +35,8 @@ void place_lattice(const SceneLattice& lattice, Real density, Id first, PlacedPa
   // MASS > 0 is a mass, < 0 a volume.
   const Real mass = density > 0 ? density * lattice.volume() : -lattice.volume();
   Id id = first;
+  out.nodes.reserve(out.nodes.size() + static_cast<std::size_t>(lattice.count()));
+  out.particles.reserve(out.particles.size() + static_cast<std::size_t>(lattice.count()));
   for (Id i = 0; i < lattice.n[0]; ++i) {
     for (Id j = 0; j < lattice.n[1]; ++j) {
       for (Id k = 0; k < lattice.n[2]; ++k) {
@@ -148,32 +150,60 @@ std::string parts_text(const Scene& scene) {
   return out;
 }
 
-/// 15 of 16 columns, so that neighbours stay apart; the error is below 1e-11 for |x| < 100.
-std::string coordinate_text(Real x) {
-  return number_text(std::abs(x) < 1e-15 ? 0 : x, 15);
-}
+/// Numbers of one column as text. In a lattice most are those of the line above.
+class Column {
+ public:
+  explicit Column(int width) : width_(width) {}
+  const std::string& text(Real value) {
+    if (text_.empty() || value != value_) text_ = number_text(value_ = value, width_);
+    return text_;
+  }
 
-std::string mesh_text(const std::vector<PlacedPart>& parts, const Scene& scene) {
-  std::string out = "*NODE\n$#   nid               x               y               z      tc      rc\n";
+ private:
+  int width_;
+  Real value_ = 0;
+  std::string text_;
+};
+
+void append_nodes(const std::vector<PlacedPart>& parts, std::string& out) {
+  out += "*NODE\n$#   nid               x               y               z      tc      rc\n";
   const auto put = std::back_inserter(out);
+  // 15 of 16 columns, so that neighbours stay apart; the error is below 1e-11 for |x| < 100.
+  std::array<Column, 3> columns{Column(15), Column(15), Column(15)};
+  const auto text = [&](const Vec& x, int k) -> const std::string& {
+    return columns[static_cast<std::size_t>(k)].text(std::abs(x[k]) < 1e-15 ? 0 : x[k]);
+  };
   for (const PlacedPart& part : parts)
     for (const PlacedNode& node : part.nodes)
-      fmt::format_to(put, "{:8}{:>16}{:>16}{:>16}\n", node.id, coordinate_text(node.x[0]),
-                     coordinate_text(node.x[1]), coordinate_text(node.x[2]));
+      fmt::format_to(put, "{:8}{:>16}{:>16}{:>16}\n", node.id, text(node.x, 0), text(node.x, 1),
+                     text(node.x, 2));
+}
+
+void append_elements(const std::vector<PlacedPart>& parts, const Scene& scene, std::string& out) {
+  const auto put = std::back_inserter(out);
   const auto any = [&](auto member) {
     return std::any_of(parts.begin(), parts.end(), [&](const PlacedPart& p) { return !(p.*member).empty(); });
   };
   if (any(&PlacedPart::particles))
     out += "*ELEMENT_SPH\n$#   nid     pid            mass    nend   (mass < 0: volume)\n";
+  Column masses(16);
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (const auto& [id, mass] : parts[p].particles)
-      fmt::format_to(put, "{:8}{:8}{:>16}\n", id, scene.parts[p].id, number_text(mass, 16));
+      fmt::format_to(put, "{:8}{:8}{:>16}\n", id, scene.parts[p].id, masses.text(mass));
   if (any(&PlacedPart::shells)) out += "*ELEMENT_SHELL\n$#   eid     pid      n1      n2      n3      n4\n";
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (const PlacedShell& s : parts[p].shells)
       fmt::format_to(put, "{:8}{:8}{:8}{:8}{:8}{:8}\n", s.id, scene.parts[p].id, s.node[0], s.node[1],
                      s.node[2], s.node[3]);
-  return out;
+}
+
+/// Room for all lines of the mesh at once: a deck of 10 million particles takes a gigabyte.
+void reserve_mesh(const std::vector<PlacedPart>& parts, std::string& out) {
+  constexpr std::size_t node = 57, particle = 33, shell = 49, headings = 1000;
+  std::size_t size = out.size() + headings;
+  for (const PlacedPart& p : parts)
+    size += node * p.nodes.size() + particle * p.particles.size() + shell * p.shells.size();
+  out.reserve(size);
 }
 
 }  // namespace
@@ -199,8 +229,11 @@ std::string deck_text(const Scene& scene, const std::string& scene_name, Diagnos
     if (!block.empty() && block.back() != '\n') out += '\n';
   }
   out += parts_text(scene);
-  out += mesh_text(placed, scene);
-  return out + "*END\n";
+  reserve_mesh(placed, out);
+  append_nodes(placed, out);
+  append_elements(placed, scene, out);
+  out += "*END\n";
+  return out;
 }
 
 }  // namespace courant

@@ -190,11 +190,11 @@ std::string number_text(Real value, int width) {
   constexpr int most = 13, least = 4;
   if (width == 0) return plain(value, most);
   const auto room = static_cast<std::size_t>(width);
-  for (const std::string& s : {plain(value, most), scientific(value, most)})
-    if (s.size() <= room) return s;
-  for (int digits = most - 1; digits >= least; --digits)
-    for (const std::string& s : {plain(value, digits), scientific(value, digits)})
-      if (s.size() < room) return s;
+  for (int digits = most; digits >= least; --digits) {
+    const std::size_t longest = digits == most ? room : room - 1;
+    if (std::string s = plain(value, digits); s.size() <= longest) return s;
+    if (std::string s = scientific(value, digits); s.size() <= longest) return s;
+  }
   return {};
 }
 

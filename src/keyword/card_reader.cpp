@@ -33,6 +33,19 @@ std::string expectation(const FieldSpec& field) {
          condition[static_cast<int>(field.rules.check)];
 }
 
+/// Lines below a keyword line, comments and blank ones included.
+std::size_t lines_of_block(const SourceText& source, std::size_t keyword_line) {
+  std::size_t end = keyword_line + 1;
+  while (end < source.lines.size() && (source.lines[end].empty() || source.lines[end][0] != '*')) ++end;
+  return end - keyword_line - 1;
+}
+
+/// Whether each line is an entry, as in the tables of nodes and elements.
+bool is_table(const KeywordSpec& spec, const KeywordMatch& match) {
+  return spec.many && spec.cards.size() == 1 && !spec.cards[0].repeat && !spec.heading && !match.id &&
+         !match.title;
+}
+
 }  // namespace
 
 void CardReader::read(const Block& block) {
@@ -40,6 +53,7 @@ void CardReader::read(const Block& block) {
   spec_ = keyword_registry()[static_cast<std::size_t>(block.match.keyword)].get();
   line_ = static_cast<int>(block.line) + 1;
   const auto sink = spec_->sink(deck_);
+  if (is_table(*spec_, block.match)) sink->expect(lines_of_block(*block.source, block.line));
   DataLines data(*block.source, block.line + 1);
   if (data.done() && !spec_->cards.empty() && !spec_->cards[0].optional) missing(data, "card 1");
   bool first = true;

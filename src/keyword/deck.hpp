@@ -36,6 +36,15 @@ class Deck {
     if (!slot) slot = std::make_shared<std::vector<T>>();
     return *std::static_pointer_cast<std::vector<T>>(slot);
   }
+  /// Gives back the memory of all entries of one keyword, once nobody will ask for them.
+  template <class T>
+  void release() {
+    entries_.erase(std::type_index(typeid(T)));
+  }
+  /// Gives back the text of the files: from then on messages about a field name its line, but not its column.
+  void release_sources() {
+    for (auto& source : sources) source.reset();
+  }
 
   Location where(const Entry& entry) const;                          ///< first data line
   Location where(const Entry& entry, std::string_view field) const;  ///< line and column of a named field

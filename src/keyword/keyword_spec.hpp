@@ -1,6 +1,7 @@
 #pragma once
 // The type-erased form of a keyword's table: what the reader, the messages and the documentation need,
 // without the struct.
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -36,7 +37,8 @@ struct CardSpec {
 class EntrySink {
  public:
   virtual ~EntrySink() = default;
-  virtual void begin(const Entry& where) = 0;  ///< a new entry, all fields at their standard values
+  virtual void expect(std::size_t entries) = 0;  ///< room for so many more, a hint
+  virtual void begin(const Entry& where) = 0;    ///< a new entry, all fields at their standard values
   virtual void set_integer(std::size_t card, std::size_t field, Id value) = 0;  ///< sets or appends
   virtual void set_real(std::size_t card, std::size_t field, Real value) = 0;   ///< sets or appends
   virtual void set_text(std::size_t card, std::size_t field, std::string_view value) = 0;
@@ -100,6 +102,11 @@ class EntrySinkOf : public EntrySink {
  public:
   EntrySinkOf(const KeywordOf<T>& keyword, const T& standard, std::vector<T>& store)
       : keyword_(keyword), standard_(standard), store_(store) {}
+  void expect(std::size_t entries) override {
+    const std::size_t wanted = store_.size() + entries;
+    // at least twice as many, so that a thousand short blocks do not move what is there a thousand times
+    if (wanted > store_.capacity()) store_.reserve(std::max(wanted, 2 * store_.capacity()));
+  }
   void begin(const Entry& where) override {
     entry_ = standard_;
     static_cast<Entry&>(entry_) = where;

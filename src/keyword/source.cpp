@@ -53,6 +53,7 @@ std::shared_ptr<SourceText> make_source(std::string text) {
   if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // byte order mark of Windows editors
   source->text = text.find('\t') == std::string::npos ? std::move(text) : expand_tabs(text);
   const std::string_view all = source->text;
+  source->lines.reserve(static_cast<std::size_t>(std::count(all.begin(), all.end(), '\n')) + 1);
   std::size_t begin = 0;
   while (begin < all.size()) {
     const std::size_t end = std::min(all.find('\n', begin), all.size());

@@ -38,12 +38,16 @@ bool has_area(const std::vector<ModelNode>& nodes, const std::array<Index, 4>& c
 void ModelBuilder::build_nodes() {
   const auto& cards = deck_.all<NodeCard>();
   model_.nodes.reserve(cards.size());
-  model_.node_of_id.reserve(cards.size());
+  const auto ids = std::minmax_element(cards.begin(), cards.end(),
+                                       [](const NodeCard& a, const NodeCard& b) { return a.nid < b.nid; });
+  if (!cards.empty()) node_of_id_ = IdIndex(ids.first->nid, ids.second->nid, cards.size());
   for (std::size_t i = 0; i < cards.size(); ++i) {
     const NodeCard& card = cards[i];
-    const auto [it, is_new] =
-        model_.node_of_id.try_emplace(card.nid, static_cast<Index>(model_.nodes.size()));
-    if (!is_new) {
+    if (node_of_id_.insert(card.nid, static_cast<Index>(model_.nodes.size())) >= 0) {
+      if (errors_ >= max_errors) {  // each search runs over all nodes
+        ++errors_;
+        continue;
+      }
       const auto first =
           std::find_if(cards.begin(), cards.end(), [&](const NodeCard& c) { return c.nid == card.nid; });
       duplicate(card, "NID", "node", card.nid, deck_.where(*first));
@@ -98,7 +102,7 @@ void ModelBuilder::build_particles() {
 void ModelBuilder::add_particle(const ElementSphCard& card, Id nid, Index p) {
   const Index n = node(card, "NID", nid);
   if (n < 0) return;
-  model_.sph.push_back({.node = n, .part = p, .mass = card.mass, .where = deck_.where(card)});
+  model_.sph.push_back({.node = n, .part = p, .mass = card.mass, .card = card});
 }
 
 void ModelBuilder::build_shells() {
@@ -141,9 +145,9 @@ void ModelBuilder::check_shared_nodes() {
     }
     if (++errors_ > max_errors) continue;
     const Id id = model_.nodes[static_cast<std::size_t>(model_.sph[i].node)].id;
-    diagnostics_.error(model_.sph[i].where,
+    diagnostics_.error(deck_.where(model_.sph[i].card),
                        fmt::format("*ELEMENT_SPH: node {} is used by two particles, first at {}", id,
-                                   place(model_.sph[static_cast<std::size_t>(o)].where)));
+                                   deck_.place(model_.sph[static_cast<std::size_t>(o)].card)));
   }
   std::vector<bool> told(model_.nodes.size(), false);
   for (const ModelShell& shell : model_.shells) {
@@ -152,7 +156,7 @@ void ModelBuilder::check_shared_nodes() {
       if (o == nobody || told[static_cast<std::size_t>(n)]) continue;
       told[static_cast<std::size_t>(n)] = true;
       if (++errors_ > max_errors) continue;
-      diagnostics_.error(model_.sph[static_cast<std::size_t>(o)].where,
+      diagnostics_.error(deck_.where(model_.sph[static_cast<std::size_t>(o)].card),
                          fmt::format("*ELEMENT_SPH: node {} is also a corner of shell {}",
                                      model_.nodes[static_cast<std::size_t>(n)].id, shell.id),
                          "give the particle a node of its own");

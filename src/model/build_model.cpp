@@ -10,6 +10,12 @@ Model build_model(const Deck& deck, Diagnostics& diagnostics) {
   return ModelBuilder(deck, diagnostics).build();
 }
 
+void release_mesh_cards(Deck& deck) {
+  deck.release<NodeCard>();
+  deck.release<ElementSphCard>();
+  deck.release<ElementShellCard>();
+}
+
 Model ModelBuilder::build() {
   model_.title = deck_.title;
   build_nodes();
@@ -52,8 +58,7 @@ void ModelBuilder::unknown(const Entry& entry, std::string_view field, const cha
 }
 
 Index ModelBuilder::node(const Entry& entry, std::string_view field, Id id) {
-  const auto it = model_.node_of_id.find(id);
-  if (it != model_.node_of_id.end()) return it->second;
+  if (const Index n = node_of_id_.find(id); n >= 0) return n;
   error(entry, field, fmt::format("node {} has no coordinates", id), "define it with *NODE");
   return -1;
 }

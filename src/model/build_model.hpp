@@ -10,4 +10,7 @@ namespace courant {
 /// Initial velocities: INITIAL_VELOCITY in deck order, then _GENERATION in deck order, then _NODE.
 Model build_model(const Deck& deck, Diagnostics& diagnostics);
 
+/// Gives back the cards of nodes and elements, which the model has taken over.
+void release_mesh_cards(Deck& deck);
+
 }  // namespace courant

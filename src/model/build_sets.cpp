@@ -50,8 +50,7 @@ void ModelBuilder::add_generated(const SetNodeGenerateCard& card, std::vector<In
     // whichever is shorter: the range of ids or the list of nodes
     if (end - begin < static_cast<Id>(model_.nodes.size())) {
       for (Id id = begin; id <= end; ++id)
-        if (const auto it = model_.node_of_id.find(id); it != model_.node_of_id.end())
-          members.push_back(it->second);
+        if (const Index n = node_of_id_.find(id); n >= 0) members.push_back(n);
     } else {
       for (std::size_t n = 0; n < model_.nodes.size(); ++n)
         if (model_.nodes[n].id >= begin && model_.nodes[n].id <= end)

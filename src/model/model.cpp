@@ -14,4 +14,10 @@ Real Curve::operator()(Real a) const {
   return ordinate[i - 1] + s * (ordinate[i] - ordinate[i - 1]);
 }
 
+void Model::release_mesh() {
+  std::vector<ModelNode>().swap(nodes);  // clear() would keep the memory
+  std::vector<ModelSph>().swap(sph);
+  node_sets.clear();
+}
+
 }  // namespace courant

@@ -36,7 +36,7 @@ struct ModelSph {
   Index node = 0;  ///< index into nodes; the particle's id is the node's
   Index part = 0;  ///< index into parts
   Real mass = 0;   ///< > 0 mass [M]; < 0: -volume [L3], times the material's RO (2D: per unit depth)
-  Location where;
+  Entry card;      ///< the ELEMENT_SPH card, for messages
 };
 
 struct ModelShell {
@@ -81,7 +81,6 @@ struct Model {
   std::vector<ModelPart> parts;
   std::vector<ModelSph> sph;
   std::vector<ModelShell> shells;
-  std::unordered_map<Id, Index> node_of_id;
   std::unordered_map<Id, Index> part_of_id;
   std::map<Id, std::vector<Index>> node_sets;  ///< indices into nodes
   std::map<Id, std::vector<Index>> part_sets;  ///< indices into parts
@@ -97,6 +96,9 @@ struct Model {
   Real dtinit = 0;  ///< first step, 0: computed [T]
   bool dt_max_given = false;
   Curve dt_max;  ///< LCTM: largest step over time
+
+  /// Gives back nodes, particles and node sets, once the world is built from them.
+  void release_mesh();
 };
 
 }  // namespace courant

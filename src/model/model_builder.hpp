@@ -8,6 +8,7 @@
 
 #include "keyword/deck.hpp"
 #include "model/cards.hpp"
+#include "model/id_index.hpp"
 #include "model/model.hpp"
 
 namespace courant {
@@ -61,6 +62,7 @@ class ModelBuilder {
   const Deck& deck_;
   Diagnostics& diagnostics_;
   Model model_;
+  IdIndex node_of_id_;
   int errors_ = 0;
 };
 

@@ -16,10 +16,12 @@ struct Extent {
   Vec low = Vec::Constant(std::numeric_limits<Real>::infinity()), high = -low;
   Real h_max = 0, h_min = std::numeric_limits<Real>::infinity(), volume = 0;
   Index count = 0;
+  bool lost = false;  ///< a place or h is not a finite number
   void add(const Extent& other) {
     low = low.cwiseMin(other.low), high = high.cwiseMax(other.high);
     h_max = std::max(h_max, other.h_max), h_min = std::min(h_min, other.h_min);
     volume += other.volume, count += other.count;
+    lost = lost || other.lost;
   }
 };
 
@@ -69,19 +71,32 @@ class Neighbours::Watch : public Motion {
                *hb = lists_.h_built_.data();
     const Real reach = 0.5 * lists_.skin_;
     Real most = 0;
-    bool stale = false;
+    int stale = 0;
+#pragma omp simd reduction(max : most) reduction(| : stale)
     for (Index i = begin; i < end; ++i) {
       const Real dx = x[i] - xb[i], dy = y[i] - yb[i], dz = z[i] - zb[i];
       const Real moved2 = dx * dx + dy * dy + dz * dz;
       const Real room = std::max(reach - std::max(h[i] - hb[i], Real(0)), Real(0));
-      stale |= !(moved2 < room * room);  // true also for NaN
+      stale |= moved2 < room * room ? 0 : 1;  // 1 also for NaN
       most = std::max(most, moved2);
     }
-    if (lists_.region_)
-      for (Index i = begin; i < end; ++i)
-        stale |= lists_.region_->contains(x[i], y[i], z[i]) != (i < p.active);
-    stale_[begin / block_size] = stale;
+    if (lists_.region_) {
+      const Index active_end = std::clamp(p.active, begin, end);
+      stale |= inside(*lists_.region_, x, y, z, begin, active_end) != active_end - begin;
+      stale |= inside(*lists_.region_, x, y, z, active_end, end) != 0;
+    }
+    stale_[begin / block_size] = stale != 0;
     moved2_[begin / block_size] = most;
+  }
+  static Index inside(const Region& region, const Real* x, const Real* y, const Real* z, Index begin,
+                      Index end) {
+    const Vec low = region.low, high = region.high;
+    Index count = 0;
+#pragma omp simd reduction(+ : count)
+    for (Index i = begin; i < end; ++i)
+      count += (x[i] >= low[0]) & (x[i] <= high[0]) & (y[i] >= low[1]) & (y[i] <= high[1]) &
+               (z[i] >= low[2]) & (z[i] <= high[2]);
+    return count;
   }
   const Neighbours& lists_;
   bool looked_ = false;
@@ -114,7 +129,6 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   const bool all = !built_ || too_many_gone(world);
   if (all) wake_all(world, clock.t);
   const Index n = all ? p.size() : p.moving + take_due(world, clock.t);
-  stop_for_lost_particles(world, clock, n);
   choose_skin(clock);
   sort(world, clock, n);
   std::vector<Index>& old_of_new = order_;
@@ -162,10 +176,6 @@ bool Neighbours::too_many_gone(const World& world) const {
 
 void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock, Index n) const {
   const Particles& p = world.particles;
-  const Real lost = maximum(n, [&](Index i) {
-    return std::isfinite(p.x.data(0)[i] + p.x.data(1)[i] + p.x.data(2)[i] + p.h[i]) ? 0.0 : 1.0;
-  });
-  if (!(lost > 0)) return;
   for (Index i = 0; i < n; ++i) {
     const Vec x = p.x.vec(i);
     if (x.allFinite() && std::isfinite(p.h[i])) continue;
@@ -185,17 +195,18 @@ void Neighbours::choose_skin(const Clock& clock) {
   skin_ = std::clamp(std::sqrt(7 * move * h_max_), least_skin_, most_skin_);
 }
 
-void Neighbours::sort(World& world, const Clock&, Index n) {
+void Neighbours::sort(World& world, const Clock& clock, Index n) {
   Particles& p = world.particles;
-  const Real h_max = n > 0 ? maximum(n, [&](Index i) { return p.h[i]; }) : 0;
-  const Real near = 2 * h_max + most_skin_ + waking_margin * h_max;
   const bool all = n == p.size();
+  if (all) h_max_ = n > 0 ? maximum(n, [&](Index i) { return p.h[i]; }) : 0;
+  const Real near = 2 * h_max_ + most_skin_ + waking_margin * h_max_;
   group_.resize(n);
   key_.resize(n);
   const auto extent_of = [&](Index begin, Index end) {
     Extent e;
     for (Index i = begin; i < end; ++i) {
       const Vec x = p.x.vec(i);
+      e.lost = e.lost || !std::isfinite(x.sum() + p.h[i]);
       const bool active = !region_ || region_->contains(x[0], x[1], x[2]);
       const bool far = !active && all && region_->time_to_reach(x, p.v.vec(i), near) > 0;
       group_[i] = p.state[i] == particle_deactivated || far ? group_dormant
@@ -213,12 +224,13 @@ void Neighbours::sort(World& world, const Clock&, Index n) {
     a.add(b);
     return a;
   });
-  if (e.count == 0) e.low = e.high = Vec::Zero(), e.h_min = h_max, e.volume = 1, e.count = 1;
+  if (e.lost) stop_for_lost_particles(world, clock, n);
+  if (e.count == 0) e.low = e.high = Vec::Zero(), e.h_min = e.h_max = h_max_, e.volume = 1, e.count = 1;
   h_max_ = e.h_max;
   h_min_ = e.h_min;
 
   // rows as wide as eight particles that stand together, so that groups are compact
-  const Real spacing = std::pow(e.volume / e.count, 1.0 / world.dim);
+  const Real spacing = std::clamp(std::pow(e.volume / e.count, 1.0 / world.dim), 0.3 * h_max_, 1.2 * h_max_);
   grid_.cover(e.low, e.high, (world.dim == 2 ? std::sqrt(Real(lanes)) : 2) * spacing, 0.5 * spacing,
               16.0 * e.count + 4096);
   const Index cells = grid_.total();
@@ -332,10 +344,12 @@ void Neighbours::remember_places(const World& world, const Clock& clock) {
   const Particles& p = world.particles;
   const Index n = p.moving;
   for (auto* copy : {&x_built_, &y_built_, &z_built_, &h_built_}) copy->resize(n);
-  std::copy_n(p.x.data(0), n, x_built_.data());
-  std::copy_n(p.x.data(1), n, y_built_.data());
-  std::copy_n(p.x.data(2), n, z_built_.data());
-  std::copy_n(p.h.data(), n, h_built_.data());
+  for_each_block(n, [&](Index begin, Index end) {
+    std::copy(p.x.data(0) + begin, p.x.data(0) + end, x_built_.data() + begin);
+    std::copy(p.x.data(1) + begin, p.x.data(1) + end, y_built_.data() + begin);
+    std::copy(p.x.data(2) + begin, p.x.data(2) + end, z_built_.data() + begin);
+    std::copy(p.h.data() + begin, p.h.data() + end, h_built_.data() + begin);
+  });
   built_cycle_ = clock.cycle;
   if (rebuilds_ == 0)
     for (Index k = 0; k < world.nodes.size(); ++k)

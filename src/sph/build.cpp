@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "parallel/parallel.hpp"
 #include "search/nearest_distance.hpp"
 #include "sph/cards.hpp"
 #include "sph/pair_geometry.hpp"
@@ -157,7 +158,7 @@ class Builder {
         }
       }
     if (any_mu) settings_.mu = mu;
-    for (Index i = 0; i < p.size(); ++i) {
+    for_each(p.size(), [&](Index i) {
       const ModelSph& s = model_.sph[i];
       const ModelNode& node = model_.nodes[s.node];
       const SphMaterial& material = materials[s.part];
@@ -170,29 +171,32 @@ class Builder {
       p.id[i] = node.id;
       p.part[i] = s.part;
       p.state[i] = particle_outside;
-      if (settings_.dim == 2 &&
-          (std::abs(node.x[2] - model_.nodes[model_.sph[0].node].x[2]) > 0 || node.v[2] != 0))
-        off_plane_ = off_plane_ < 0 ? i : off_plane_;
-    }
-    if (off_plane_ >= 0)
-      diagnostics_.error(
-          model_.sph[off_plane_].where,
-          fmt::format(
-              "*ELEMENT_SPH: in 2D all particles must lie in one plane z = constant without velocity along "
-              "z; particle {} has z = {:g} [L] and vz = {:g} [L/T], the first one z = {:g}",
-              p.id[off_plane_], p.x.vec(off_plane_)[2], p.v.vec(off_plane_)[2], p.x.vec(0)[2]),
-          "move it into the plane, or use IDIM 3 of *CONTROL_SPH");
+    });
+    if (settings_.dim == 2) report_off_plane();
+  }
+
+  void report_off_plane() {
+    const Particles& p = world_.particles;
+    Index i = 0;
+    while (i < p.size() && p.x.vec(i)[2] == p.x.vec(0)[2] && p.v.vec(i)[2] == 0) ++i;
+    if (i == p.size()) return;
+    diagnostics_.error(
+        deck_.where(model_.sph[i].card),
+        fmt::format(
+            "*ELEMENT_SPH: in 2D all particles must lie in one plane z = constant without velocity along "
+            "z; particle {} has z = {:g} [L] and vz = {:g} [L/T], the first one z = {:g}",
+            p.id[i], p.x.vec(i)[2], p.v.vec(i)[2], p.x.vec(0)[2]),
+        "move it into the plane, or use IDIM 3 of *CONTROL_SPH");
   }
 
   /// h0 = CSLH x largest nearest-neighbour distance, per part. A part in which one particle stands far off
   /// would get an h of that distance, so such particles are refused.
   void set_smoothing_lengths() {
     Particles& p = world_.particles;
-    std::vector<Vec> all;
-    for (Index i = 0; i < p.size(); ++i) all.push_back(p.x.vec(i));
     const std::vector<Real> nearest = nearest_distance(p.x.data(0), p.x.data(1), p.x.data(2), p.size());
-    report_coincident_particles(all, nearest);
+    report_coincident_particles(nearest);
     for (std::size_t k = 0; k < model_.parts.size(); ++k) {
+      if (!model_.parts[k].has_sph) continue;
       std::vector<Real> distances;
       for (Index i = 0; i < p.size(); ++i)
         if (p.part[i] == static_cast<Index>(k)) distances.push_back(nearest[i]);
@@ -208,25 +212,27 @@ class Builder {
         h = smoothing_[k].cslh * largest;
       }
       if (std::isfinite(largest)) settings_.spacing = std::max(settings_.spacing, largest);
-      for (Index i = 0; i < p.size(); ++i)
+      for_each(p.size(), [&](Index i) {
         if (p.part[i] == static_cast<Index>(k)) p.h[i] = h;
+      });
     }
   }
 
-  void report_coincident_particles(const std::vector<Vec>& x, const std::vector<Real>& nearest) {
+  void report_coincident_particles(const std::vector<Real>& nearest) {
+    const Particles& p = world_.particles;
     Index found = 0;
-    for (Index i = 0; i < world_.particles.size(); ++i) {
+    for (Index i = 0; i < p.size(); ++i) {
       if (nearest[i] != 0) continue;
-      const auto first =
-          std::find(x.begin(), x.end(), x[i]) - x.begin();  // the earlier one of the pair is not reported
+      Index first = 0;  // the earlier one of the pair is not reported
+      while (p.x.vec(first) != p.x.vec(i)) ++first;
       if (model_.sph[first].node == model_.sph[i].node)
         continue;  // the same one, or one node used twice: told already
-      diagnostics_.error(model_.sph[i].where,
-                         fmt::format("*ELEMENT_SPH: particle {} stands where particle {} is",
-                                     world_.particles.id[i], world_.particles.id[first]),
-                         "remove one of the two, or move its node");
+      diagnostics_.error(
+          deck_.where(model_.sph[i].card),
+          fmt::format("*ELEMENT_SPH: particle {} stands where particle {} is", p.id[i], p.id[first]),
+          "remove one of the two, or move its node");
       if (++found < max_reports) continue;
-      diagnostics_.note(model_.sph[i].where,
+      diagnostics_.note(deck_.where(model_.sph[i].card),
                         fmt::format("only {} particles in one place with another are shown", max_reports));
       return;  // each search runs over all particles
     }
@@ -245,7 +251,8 @@ class Builder {
                     "distance in its part is {:.4g}",
                     nearest[i], median)
               : std::string("is the only one, so it has no neighbour to take the smoothing length from");
-      diagnostics_.error(model_.sph[i].where, fmt::format("*ELEMENT_SPH: particle {} {}", p.id[i], what),
+      diagnostics_.error(deck_.where(model_.sph[i].card),
+                         fmt::format("*ELEMENT_SPH: particle {} {}", p.id[i], what),
                          "remove the particle, or give the smoothing length by SPHINI of *SECTION_SPH");
     }
     if (found > max_reports)
@@ -271,7 +278,6 @@ class Builder {
   Diagnostics& diagnostics_;
   SphSettings settings_;
   std::vector<PartSmoothing> smoothing_;
-  Index off_plane_ = -1;
   static constexpr Index max_reports = 20;  ///< of one kind of fault
 };
 

@@ -39,8 +39,13 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh {
     const Real* heat = heat_.data();
     const Real* viscous = viscous_ ? viscous_->data() : nullptr;
     Real sum = 0;
-    for (Index i = begin; i < end; ++i)
-      if (internal.empty() || !internal[p.part[i]]) sum += heat[i] + (viscous ? viscous[i] : 0);
+    if (internal.empty() && !viscous) {
+#pragma omp simd reduction(+ : sum)
+      for (Index i = begin; i < end; ++i) sum += heat[i];
+    } else {
+      for (Index i = begin; i < end; ++i)
+        if (internal.empty() || !internal[p.part[i]]) sum += heat[i] + (viscous ? viscous[i] : 0);
+    }
     power_[begin / block_size] = sum;
   }
 

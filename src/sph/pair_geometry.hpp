@@ -12,13 +12,15 @@ namespace courant {
 
 class PairGeometry {
  public:
-  PairGeometry(std::shared_ptr<Neighbours> neighbours, bool uniform_h)
-      : neighbours_(std::move(neighbours)), uniform_h_(uniform_h) {}
+  static constexpr std::int64_t cache_bytes = 16 << 20;
+  /// Gradients are kept where they need no more than `most_kept` bytes and h is the same for all.
+  PairGeometry(std::shared_ptr<Neighbours> neighbours, bool uniform_h, std::int64_t most_kept = cache_bytes)
+      : neighbours_(std::move(neighbours)), most_kept_(uniform_h ? most_kept : -1) {}
 
   /// At the start of the rates: decides whether gradients are kept. They are where they fit into the caches;
   /// fetching them from memory would take longer than working them out again. See docs/performance.md.
   void prepare() {
-    kept_ = uniform_h_ && neighbours_->entries() * std::int64_t(lanes * sizeof(Real)) <= most_kept_bytes;
+    kept_ = neighbours_->entries() * std::int64_t(lanes * sizeof(Real)) <= most_kept_;
     const Index blocks = kept_ ? neighbours_->blocks() : 0;
     if (static_cast<Index>(g_.size()) != blocks) g_.resize(blocks);
   }
@@ -32,9 +34,9 @@ class PairGeometry {
 
  private:
   static constexpr Index lanes = Neighbours::lanes;
-  static constexpr std::int64_t most_kept_bytes = 16 << 20;
   std::shared_ptr<Neighbours> neighbours_;
-  bool uniform_h_, kept_ = false;
+  std::int64_t most_kept_;
+  bool kept_ = false;
   std::vector<Buffer<Real>> g_;  ///< of each block
 };
 

@@ -9,15 +9,6 @@ namespace courant {
 
 namespace {
 
-struct Smallest {
-  Real value = std::numeric_limits<Real>::infinity();
-  Index at = -1;
-  /// NaN counts as smaller than any number and stays.
-  void take(Real other, Index where) {
-    if (!std::isnan(value) && !(other >= value)) value = other, at = where;
-  }
-};
-
 /// Eq. 18: dt = TSSFAC min h/(c + |v|), and with MU > 0 also dt <= 0.125 rho h^2 / MU (Morris et al. 1997). A
 /// NaN anywhere comes out as the smallest, so that the run stops there.
 class SphTimeLimit : public Tally, public TimeLimit {
@@ -30,30 +21,44 @@ class SphTimeLimit : public Tally, public TimeLimit {
   void block(World& world, const Clock&, Index begin, Index end) override {
     const Particles& p = world.particles;
     const Real *vx = p.v.data(0), *vy = p.v.data(1), *vz = p.v.data(2), *h = p.h.data(), *c = p.c.data();
-    Real dt[block_size];
-    for (Index i = begin; i < end; ++i)
-      dt[i - begin] = h[i] / (c[i] + std::sqrt(vx[i] * vx[i] + vy[i] * vy[i] + vz[i] * vz[i]));
+    Real smallest = std::numeric_limits<Real>::infinity();
+    int broken = 0;
+#pragma omp simd reduction(min : smallest) reduction(| : broken)
+    for (Index i = begin; i < end; ++i) {
+      const Real dt = h[i] / (c[i] + std::sqrt(vx[i] * vx[i] + vy[i] * vy[i] + vz[i] * vz[i]));
+      smallest = std::min(smallest, dt);
+      broken |= dt == dt ? 0 : 1;
+    }
     if (!mu_.empty())
-      for (Index i = begin; i < end; ++i)
-        dt[i - begin] = std::min(dt[i - begin], 0.125 * p.rho[i] * h[i] * h[i] / mu_[p.part[i]]);
-    Smallest best;
-    for (Index i = begin; i < end; ++i) best.take(dt[i - begin], i);
-    smallest_[begin / block_size] = best;
+      for (Index i = begin; i < end; ++i) smallest = std::min(smallest, viscous_limit(p, i));
+    smallest_[begin / block_size] = broken ? std::nan("") : smallest;
   }
+
   Limit limit(const World& world, const Clock&) override {
     const Particles& p = world.particles;
-    Smallest s;
-    for (const Smallest& b : smallest_)
-      if (b.at >= 0) s.take(b.value, b.at);
-    if (s.at < 0) return {std::numeric_limits<Real>::infinity(), "no active particle"};
-    return {tssfac_ * s.value, fmt::format("sph {} of part {}", p.id[s.at], part_ids_[p.part[s.at]])};
+    std::size_t block = 0;
+    for (std::size_t b = 1; b < smallest_.size(); ++b)
+      if (!std::isnan(smallest_[block]) && !(smallest_[b] >= smallest_[block])) block = b;
+    if (smallest_.empty()) return {std::numeric_limits<Real>::infinity(), "no active particle"};
+    const Real dt = smallest_[block];
+    Index i = static_cast<Index>(block) * block_size;  // whose it is
+    const Index end = std::min(i + block_size, p.active);
+    const auto own = [&](Index k) {
+      return std::min(p.h[k] / (p.c[k] + p.v.vec(k).norm()), viscous_limit(p, k));
+    };
+    while (i + 1 < end && !(own(i) <= dt * (1 + 1e-14)) && !std::isnan(own(i))) ++i;
+    return {tssfac_ * dt, fmt::format("sph {} of part {}", p.id[i], part_ids_[p.part[i]])};
   }
 
  private:
+  Real viscous_limit(const Particles& p, Index i) const {
+    return mu_.empty() ? std::numeric_limits<Real>::infinity()
+                       : 0.125 * p.rho[i] * p.h[i] * p.h[i] / mu_[p.part[i]];
+  }
   Real tssfac_;
   std::vector<Real> mu_;
   std::vector<Id> part_ids_;
-  std::vector<Smallest> smallest_;  ///< of each block
+  std::vector<Real> smallest_;  ///< of each block [T]
 };
 
 /// MAXV: faster particles are switched off (> 0) or slowed to the limit (< 0); both are counted, and the

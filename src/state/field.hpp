@@ -2,6 +2,7 @@
 // Named structure-of-arrays fields. A field is registered once; output, restart, sorting and (later) ghost
 // exchange walk the registry, so a new field appears there without any edit.
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 
 #include "base/real.hpp"
 #include "parallel/array.hpp"
+#include "parallel/buffer.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
@@ -30,7 +32,10 @@ class FieldBase {
   virtual ~FieldBase() = default;
   const FieldInfo& info() const { return info_; }
   virtual void resize(Index n) = 0;
-  virtual void permute(std::span<const Index> old_of_new) = 0;
+  /// Entity i of a component becomes what entity old_of_new[i] was, for as many as are given; those behind
+  /// stay.
+  virtual void permute(int component, std::span<const Index> old_of_new, Buffer<std::byte>& scratch) = 0;
+  virtual std::size_t bytes_per_entity() const = 0;
 
  private:
   FieldInfo info_;
@@ -59,21 +64,26 @@ class Field : public FieldBase {
     for (auto& c : component_) std::fill(c.begin(), c.end(), value);
   }
 
+  /// New entities are zero; the threads that will work on them touch them first.
   void resize(Index n) override {
-    for (auto& c : component_) c.resize(n, T(0));
-  }
-  void permute(std::span<const Index> old_of_new) override {
-    const Index n = static_cast<Index>(old_of_new.size());
-    scratch_.resize(n);
     for (auto& c : component_) {
-      for_each(n, [&](Index i) { scratch_[i] = c[old_of_new[i]]; });
-      std::copy_n(scratch_.data(), n, c.data());
+      const auto old = static_cast<Index>(c.size());
+      c.resize(n);
+      for_each_block(n, [&](Index begin, Index end) {
+        std::fill(c.data() + std::clamp(old, begin, end), c.data() + end, T(0));
+      });
     }
   }
+  void permute(int component, std::span<const Index> old_of_new, Buffer<std::byte>& scratch) override {
+    T* values = component_[component].data();
+    T* spare = reinterpret_cast<T*>(scratch.grow_to(old_of_new.size() * sizeof(T)));
+    for (std::size_t i = 0; i < old_of_new.size(); ++i) spare[i] = values[old_of_new[i]];
+    std::copy_n(spare, old_of_new.size(), values);
+  }
+  std::size_t bytes_per_entity() const override { return sizeof(T) * component_.size(); }
 
  private:
   std::vector<Array<T>> component_;
-  Array<T> scratch_;
 };
 
 /// The fields of one kind of entity (particles, nodes, segments); all have the same length.
@@ -103,15 +113,32 @@ class FieldSet {
     size_ = n;
     for (auto& f : fields_) f->resize(n);
   }
-  /// New entity i is old entity old_of_new[i], for as many as are given; those behind stay.
+  /// New entity i is old entity old_of_new[i], for as many as are given; those behind stay. Each thread sorts
+  /// arrays of its own.
   void permute(std::span<const Index> old_of_new) {
-    for (auto& f : fields_) f->permute(old_of_new);
+    std::vector<std::pair<FieldBase*, int>> arrays;
+    for (const auto& f : fields_)
+      for (int k = 0; k < f->info().components; ++k) arrays.emplace_back(f.get(), k);
+    const int n = std::min<int>(threads(), old_of_new.size() > 1000 ? most_sorters : 1);
+    if (static_cast<int>(scratch_.size()) < n) scratch_.resize(n);
+    on_threads(n, [&](int t) {
+      for (std::size_t a = t; a < arrays.size(); a += n)
+        arrays[a].first->permute(arrays[a].second, old_of_new, scratch_[t]);
+    });
+  }
+  /// What one more entity takes: its fields and its share of the scratch for sorting.
+  std::size_t bytes_per_entity() const {
+    std::size_t bytes = sizeof(Real) * static_cast<std::size_t>(std::min(threads(), most_sorters));
+    for (const auto& f : fields_) bytes += f->bytes_per_entity();
+    return bytes;
   }
   const std::vector<std::unique_ptr<FieldBase>>& all() const { return fields_; }
 
  private:
+  static constexpr int most_sorters = 4;  ///< sorting is bound by memory, and each has a scratch array
   Index size_ = 0;
   std::vector<std::unique_ptr<FieldBase>> fields_;
+  std::vector<Buffer<std::byte>> scratch_;  ///< of each thread
 };
 
 }  // namespace courant

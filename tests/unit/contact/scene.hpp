@@ -4,8 +4,8 @@
 #include <memory>
 #include <numeric>
 
+#include "../run_pass.hpp"
 #include "contact/contact.hpp"
-#include "parallel/parallel.hpp"
 
 namespace courant::test {
 
@@ -73,20 +73,12 @@ struct Scene {
     }
   }
 
-  /// What a step does with the contact.
-  void add_forces() {
-    contact->start(world, clock);
-    for_each_block(world.particles.active,
-                   [&](Index begin, Index end) { contact->block(world, clock, begin, end); });
-    contact->finish(world, clock);
-  }
-
   Vec force(const Vec& at) {
     world.particles.x.set(0, at);
     world.particles.v.set(0, Vec::Zero());
     refresh();
     clear();
-    add_forces();
+    courant::test::run(*contact, world, clock);
     return world.particles.f.vec(0);
   }
 
@@ -94,7 +86,7 @@ struct Scene {
     clock.dt = dt;
     if (clock.cycle % refresh_every == 0) refresh();
     clear();
-    add_forces();
+    courant::test::run(*contact, world, clock);
     contact->record(world, clock, world.energy);
     before_move();
     Particles& p = world.particles;

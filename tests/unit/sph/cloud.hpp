@@ -3,6 +3,8 @@
 #include <memory>
 #include <random>
 
+#include "../run_pass.hpp"
+#include "sph/pair_geometry.hpp"
 #include "sph/sph.hpp"
 #include "sph/view.hpp"
 
@@ -35,14 +37,22 @@ struct Cloud {
           p.h[i] = h_over_dx * dx;
           p.id[i] = i + 1;
         }
-    for (int k = 0; k < 3; ++k) p.x.data(k)[p.size()] = far_away;
-    p.rho[p.size()] = p.h[p.size()] = 1;
     settings.q.assign(1, {0.1, 0.0});
     settings.h_min_factor.assign(1, 1);
     settings.h_max_factor.assign(1, 1);
     neighbours = std::make_shared<Neighbours>(0.25 * h_over_dx * dx, std::nullopt);
   }
   void refresh() { neighbours->refresh(world, clock); }
+  /// The two pair passes; make them before `refresh`.
+  void make_pairs(bool keep_gradients = true) {
+    const auto geometry = std::make_shared<PairGeometry>(neighbours, settings.uniform_h,
+                                                         keep_gradients ? PairGeometry::cache_bytes : -1);
+    rates = make_rates(settings, world, geometry);
+    forces = make_forces(settings, world, geometry);
+  }
+  void run(BlockPass& pass) { test::run(pass, world, clock); }
+  std::shared_ptr<Rate> rates;
+  std::shared_ptr<Force> forces;
 };
 
 }  // namespace courant::test

@@ -67,20 +67,19 @@ struct Evaluated {
         c.monaghan ? ArtificialViscosity(MonaghanViscosity{1.5}) : ArtificialViscosity(BulkViscosity{});
     random_state(cloud);
     cloud.neighbours = std::make_shared<Neighbours>(cloud.neighbours->skin(), region);
-    auto continuity = make_continuity(cloud.settings, w, cloud.neighbours);
+    cloud.make_pairs();
     std::vector<std::shared_ptr<Material>> updates;
     if (!c.monaghan) updates.push_back(make_bulk_viscosity(cloud.settings, w));
     if (c.stress) updates.push_back(make_viscous_stress(cloud.settings, w));
-    auto momentum = make_momentum(cloud.settings, w, cloud.neighbours);
     ledger = make_sph_energy(cloud.settings, w, cloud.neighbours);
     cloud.refresh();
     if (c.stress)  // rim particles keep the stress they had
       for (const char* name : {"stress_xx", "stress_yy", "stress_xy"})
         for (Index i = p.active; i < p.moving; ++i)
           (*dynamic_cast<Field<Real>*>(p.fields.find(name)))[i] = 3.0 + i % 5;
-    continuity->evaluate(w, cloud.clock);
-    for (auto& u : updates) u->update(w, cloud.clock);
-    momentum->add(w, cloud.clock);
+    cloud.run(*cloud.rates);
+    for (auto& u : updates) cloud.run(*u);
+    cloud.run(*cloud.forces);
     auto& heat = p.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"});
     auto* viscous = dynamic_cast<Field<Real>*>(p.fields.find("viscous_dissipation"));
     for (Index i = 0; i < p.active; ++i) {
@@ -109,6 +108,7 @@ TEST_P(Pairs, CountTheWorkOfParticlesOutsideTheBox) {
   World& w = e.cloud.world;
   ASSERT_GT(w.particles.moving, w.particles.active);
   e.cloud.clock.dt = e.cloud.clock.dt_old = 1e-3;
+  e.cloud.run(dynamic_cast<BlockPass&>(*e.ledger));
   e.ledger->record(w, e.cloud.clock, w.energy);
   const Real power = e.kinetic + e.internal + e.dissipated;
   EXPECT_GT(std::abs(power), 1e-3 * e.dissipated);
@@ -133,9 +133,9 @@ TEST(Continuity, GivesTheDivergenceOfALinearField) {
       w.particles.v.set(i, {2 * x[0] + x[1], -0.5 * x[1], dim == 3 ? 3 * x[2] : 0});
     }
     cloud.settings.mu.assign(1, 1.0);
-    auto continuity = make_continuity(cloud.settings, w, cloud.neighbours);
+    cloud.make_pairs();
     cloud.refresh();
-    continuity->evaluate(w, cloud.clock);
+    cloud.run(*cloud.rates);
     const Index i = middle(w);
     const Real div = dim == 2 ? 1.5 : 4.5;
     // plain SPH on a lattice with h = 1.2 dx: its discrete second moment misses 1 by a few per cent in 2D
@@ -154,11 +154,10 @@ TEST(Momentum, GivesTheGradientOfALinearPressure) {
     Cloud cloud(dim, dim == 2 ? 21 : 13, 0.01, 0, 1.2);
     World& w = cloud.world;
     for (Index i = 0; i < w.particles.size(); ++i) w.particles.p[i] = 500 * w.particles.x.vec(i)[1];
-    auto continuity = make_continuity(cloud.settings, w, cloud.neighbours);
-    auto momentum = make_momentum(cloud.settings, w, cloud.neighbours);
+    cloud.make_pairs();
     cloud.refresh();
-    continuity->evaluate(w, cloud.clock);
-    momentum->add(w, cloud.clock);
+    cloud.run(*cloud.rates);
+    cloud.run(*cloud.forces);
     const Index i = middle(w);
     const Vec a = w.particles.f.vec(i) / w.particles.m[i];
     EXPECT_NEAR(a[1], -0.5, 0.015);
@@ -176,13 +175,12 @@ TEST(ViscousStress, GivesTheForceOfACurvedVelocityProfile) {
       w.particles.v.set(i, {a * std::pow(w.particles.x.vec(i)[1], 2), 0, 0});
     cloud.settings.mu.assign(1, mu);
     cloud.settings.q.assign(1, {0, 0});
-    auto continuity = make_continuity(cloud.settings, w, cloud.neighbours);
+    cloud.make_pairs();
     auto stress = make_viscous_stress(cloud.settings, w);
-    auto momentum = make_momentum(cloud.settings, w, cloud.neighbours);
     cloud.refresh();
-    continuity->evaluate(w, cloud.clock);
-    stress->update(w, cloud.clock);
-    momentum->add(w, cloud.clock);
+    cloud.run(*cloud.rates);
+    cloud.run(*stress);
+    cloud.run(*cloud.forces);
     const Index i = middle(w);
     const Real expected = 2 * a * mu / 1000;
     EXPECT_NEAR(w.particles.f.vec(i)[0] / w.particles.m[i], expected, 0.05 * expected) << dim << "D";
@@ -197,8 +195,6 @@ TEST(Monaghan, ActsOnApproachOnlyAndHasTheSizeOfEquation15) {
   p.fields.resize(2);  // two particles on the x axis
   p.x.set(0, {0, 0, 0});
   p.x.set(1, {0.01, 0, 0});
-  for (int k = 0; k < 3; ++k) p.x.data(k)[2] = far_away;
-  p.m[2] = 0, p.rho[2] = p.h[2] = 1;
   cloud.settings.viscosity = MonaghanViscosity{2.0};
   for (const Real approach : {1.0, -1.0}) {
     p.v.set(0, {approach, 0, 0});
@@ -206,11 +202,10 @@ TEST(Monaghan, ActsOnApproachOnlyAndHasTheSizeOfEquation15) {
     p.p[0] = p.p[1] = 0;
     p.f.fill(0);
     cloud.neighbours->force_refresh();
-    auto continuity = make_continuity(cloud.settings, w, cloud.neighbours);
-    auto momentum = make_momentum(cloud.settings, w, cloud.neighbours);
+    cloud.make_pairs();
     cloud.refresh();
-    continuity->evaluate(w, cloud.clock);
-    momentum->add(w, cloud.clock);
+    cloud.run(*cloud.rates);
+    cloud.run(*cloud.forces);
     const Real h = 0.012, phi = h * (-0.01 * approach) / (0.01 * 0.01 + 0.01 * h * h);
     const Real Pi = approach > 0 ? (-0.1 * 30 * phi + 2.0 * phi * phi) / 1000 : 0;
     const Real dW = kernel_slope_2d(0.01, h);
@@ -225,11 +220,10 @@ TEST(Sph, SameBitsOnAnyNumberOfThreads) {
     set_threads(n);
     Cloud cloud(3, 14, 0.01, 0.2);
     random_state(cloud);
-    auto continuity = make_continuity(cloud.settings, cloud.world, cloud.neighbours);
-    auto momentum = make_momentum(cloud.settings, cloud.world, cloud.neighbours);
+    cloud.make_pairs();
     cloud.refresh();
-    continuity->evaluate(cloud.world, cloud.clock);
-    momentum->add(cloud.world, cloud.clock);
+    cloud.run(*cloud.rates);
+    cloud.run(*cloud.forces);
     std::vector<Real> result;
     for (int k = 0; k < 3; ++k)
       result.insert(result.end(), cloud.world.particles.f.data(k),

@@ -33,9 +33,8 @@ TEST(Step, FreeFallIsExactWithChangingSteps) {
   cloud.world.time_limits.push_back(std::make_shared<ChangingSteps>());
   cloud.world.particles.v.set(0, {1, 2, 0});
   PassTimer timer;
-  for (int k = 0; k < 100; ++k)
-    step(cloud.world, cloud.clock, *cloud.neighbours, {}, timer,
-         [](World&, const Clock&, const std::string&) {});
+  Stepper stepper(cloud.world, *cloud.neighbours, {}, timer);
+  for (int k = 0; k < 100; ++k) stepper.step(cloud.clock, [](World&, const Clock&, const std::string&) {});
   const Real t = cloud.clock.t;
   EXPECT_NEAR(cloud.world.particles.x.vec(0)[0], t, 1e-12);
   EXPECT_NEAR(cloud.world.particles.x.vec(0)[1], 2 * t - 0.5 * 9.81 * t * t, 1e-12);
@@ -50,7 +49,6 @@ TEST(Step, StopsWhereTheStepSizeIsNotANumber) {
   cloud.world.time_limits.push_back(std::make_shared<Broken>());
   cloud.world.time_limits.push_back(std::make_shared<ChangingSteps>());
   PassTimer timer;
-  EXPECT_THROW(step(cloud.world, cloud.clock, *cloud.neighbours, {}, timer,
-                    [](World&, const Clock&, const std::string&) {}),
-               RunError);
+  Stepper stepper(cloud.world, *cloud.neighbours, {}, timer);
+  EXPECT_THROW(stepper.step(cloud.clock, [](World&, const Clock&, const std::string&) {}), RunError);
 }

@@ -1,0 +1,157 @@
+// The pair loops of every instruction set against the plain double sum over all pairs, equation by equation.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/instruction_set.hpp"
+#include "cloud.hpp"
+#include "sph/fields.hpp"
+#include "sph/kernel.hpp"
+
+using namespace courant;
+using courant::test::Cloud;
+
+namespace {
+
+struct Case {
+  int dim;
+  bool uniform_h, monaghan, stress, keep_gradients;
+};
+
+/// What the passes must give for particle i, from eqs 6, 7, 12, 15-17.
+struct Expected {
+  Real drhodt = 0, heat = 0;
+  Vec f = Vec::Zero();
+  Matrix D = Matrix::Zero();
+};
+
+Matrix symmetric(const std::array<const Field<Real>*, 6>& t, Index i) {
+  const auto v = [&](int k) { return (*t[k])[i]; };
+  Matrix m;
+  m << v(0), v(3), v(5), v(3), v(1), v(4), v(5), v(4), v(2);
+  return m;
+}
+
+/// grad_i W(x_i - x_j, h) / (x_i - x_j)
+template <int Dim>
+Real gradient(Real r, Real h) {
+  return CubicSpline<Dim>::C * CubicSpline<Dim>::slope(r / h) / (std::pow(h, Dim + 1) * r);
+}
+
+template <int Dim>
+class Oracle {
+ public:
+  Oracle(const Cloud& cloud, const Case& c) : cloud_(cloud), p_(cloud.world.particles), case_(c) {
+    for (const char* name : {"xx", "yy", "zz", "xy", "yz", "zx"})
+      tau_.at(filled_++) = dynamic_cast<const Field<Real>*>(p_.fields.find(std::string("stress_") + name));
+  }
+
+  Expected of(Index i) const {
+    Expected e;
+    for (Index j = 0; j < p_.moving; ++j) {
+      const Vec d = p_.x.vec(i) - p_.x.vec(j), u = p_.v.vec(i) - p_.v.vec(j);
+      const Real r = d.norm();
+      if (j == i || r == 0) continue;
+      const Real gi = gradient<Dim>(r, p_.h[i]), gj = gradient<Dim>(r, p_.h[j]);
+      const Real Vj = p_.m[j] / p_.rho[j];
+      e.drhodt += p_.rho[i] * Vj * u.dot(d) * gi;
+      e.D -= 0.5 * Vj * gi * (u * d.transpose() + d * u.transpose());
+      const Real mm = p_.m[i] * p_.m[j] / (p_.rho[i] * p_.rho[j]);
+      e.f -= mm * (p_.p[i] * gi + p_.p[j] * gj) * d;
+      if (case_.monaghan) {
+        const Real h = 0.5 * (p_.h[i] + p_.h[j]), rho = 0.5 * (p_.rho[i] + p_.rho[j]);
+        const Real c = 0.5 * (p_.c[i] + p_.c[j]);
+        const Real phi = u.dot(d) < 0 ? h * u.dot(d) / (r * r + 0.01 * h * h) : 0;
+        const Real Pi = (-0.1 * c * phi + q2 * phi * phi) / rho;
+        const Vec force = p_.m[i] * p_.m[j] * Pi * 0.5 * (gi + gj) * d;
+        e.f -= force;
+        e.heat += 0.5 * force.dot(u);
+      }
+      if (case_.stress) e.f += mm * (symmetric(tau_, i) * gi + symmetric(tau_, j) * gj) * d;
+    }
+    return e;
+  }
+  static constexpr Real q2 = 1.5;
+
+ private:
+  const Cloud& cloud_;
+  const Particles& p_;
+  Case case_;
+  std::array<const Field<Real>*, 6> tau_{};
+  std::size_t filled_ = 0;
+};
+
+void expect_near(const Vec& a, const Vec& b, Real scale) {
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 1e-12 * scale);
+}
+
+template <int Dim>
+void compare(const Case& c, std::optional<Neighbours::Region> region) {
+  Cloud cloud(Dim, Dim == 2 ? 21 : 9, 0.01, 0.25);
+  World& w = cloud.world;
+  Particles& p = w.particles;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<Real> u(-1, 1);
+  for (Index i = 0; i < p.size(); ++i) {
+    p.v.set(i, {u(random), u(random), Dim == 3 ? u(random) : 0});
+    p.p[i] = 1000 * u(random), p.rho[i] = 1000 + 200 * u(random), p.c[i] = 30 + 5 * u(random);
+    p.m[i] *= 1 + 0.3 * u(random);
+    if (!c.uniform_h) p.h[i] *= 1 + 0.3 * u(random);
+  }
+  p.x.set(3, p.x.vec(4));  // two particles in one place
+  cloud.settings.uniform_h = c.uniform_h;
+  cloud.settings.viscosity = c.monaghan ? ArtificialViscosity(MonaghanViscosity{Oracle<Dim>::q2})
+                                        : ArtificialViscosity(BulkViscosity{});
+  std::array<Field<Real>*, 6> tau{}, D{};
+  if (c.stress) {
+    cloud.settings.mu.assign(1, 1.0);
+    tau = sph_fields::stress(p), D = sph_fields::strain_rate(p);
+    for (Index i = 0; i < p.size(); ++i)
+      for (int k = 0; k < 6; ++k) (*tau[k])[i] = Dim == 3 || k < 2 || k == 3 ? 500 * u(random) : 0;
+  }
+  cloud.neighbours = std::make_shared<Neighbours>(cloud.neighbours->skin(), region);
+  cloud.make_pairs(c.keep_gradients);
+  cloud.refresh();
+  cloud.run(*cloud.rates);
+  if (!c.monaghan)
+    for (Index i = 0; i < p.moving; ++i) sph_fields::pressure_plus_q(p)[i] = p.p[i];
+  cloud.run(*cloud.forces);
+  const Oracle<Dim> oracle(cloud, c);
+  const auto& heat = sph_fields::dissipation(p);
+  Real f = 0, drhodt = 0, most_heat = 0;
+  for (Index i = 0; i < p.active; ++i) {
+    f = std::max(f, p.f.vec(i).norm()), drhodt = std::max(drhodt, std::abs(p.drhodt[i]));
+    most_heat = std::max(most_heat, heat[i]);
+  }
+  for (Index i = 0; i < p.active; ++i) {
+    const Expected e = oracle.of(i);
+    EXPECT_NEAR(p.drhodt[i], e.drhodt, 1e-12 * drhodt);
+    expect_near(p.f.vec(i), e.f, f);
+    if (c.monaghan) EXPECT_NEAR(heat[i], e.heat, 1e-12 * most_heat);
+    if (!c.stress) continue;
+    const Matrix found = symmetric({D[0], D[1], D[2], D[3], D[4], D[5]}, i);
+    EXPECT_LT((found - e.D).cwiseAbs().maxCoeff(), 1e-12 * drhodt / 1000);
+  }
+}
+
+class PairLoops : public testing::TestWithParam<InstructionSet> {};
+
+}  // namespace
+
+TEST_P(PairLoops, GiveWhatTheSumOverAllPairsGives) {
+  const InstructionSet before = instruction_set();
+  use_instruction_set(GetParam());
+  for (const int dim : {2, 3})
+    for (int k = 0; k < 16; ++k) {
+      const Case c{dim, (k & 1) != 0, (k & 2) != 0, (k & 4) != 0, (k & 8) != 0};
+      SCOPED_TRACE(testing::Message() << dim << "D, uniform h " << c.uniform_h << ", Monaghan " << c.monaghan
+                                      << ", stress " << c.stress << ", gradients kept " << c.keep_gradients);
+      const Neighbours::Region box{Vec(-1, 0.024, -1), Vec(1, 0.051, 1)};
+      for (const auto& region : {std::optional<Neighbours::Region>(), std::optional(box)})
+        dim == 2 ? compare<2>(c, region) : compare<3>(c, region);
+    }
+  use_instruction_set(before);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PairLoops, testing::ValuesIn(instruction_sets()),
+                         [](const auto& set) { return std::string(name_of(set.param)); });
