@@ -1,5 +1,6 @@
 // Which particles have walls near them, and which walls. Done anew when particles were sorted.
 #include <cmath>
+#include <limits>
 
 #include "contact/near.hpp"
 #include "parallel/parallel.hpp"
@@ -35,7 +36,7 @@ void Contact::list_block(World& world, const Clock& clock, Index begin, Index en
     slot.particle = i;
     slot.first = Index(b.candidate.size());
     slot.k = (*k_particle_)[i];
-    if (slot.k > 0 && list_candidates(b, p.x.vec(i))) {
+    if (slot.k > 0 && list_candidates(b, p.x.vec(i), slot.facet[0])) {
       slot.last = Index(b.candidate.size());
       b.side.resize(b.candidate.size());
       slot.behind = !ghost_->vec(i).isZero(0);
@@ -50,14 +51,17 @@ void Contact::list_block(World& world, const Clock& clock, Index begin, Index en
   }
 }
 
-bool Contact::list_candidates(Block& b, const Vec& x) const {
+bool Contact::list_candidates(Block& b, const Vec& x, Index& nearest) const {
   const std::size_t before = b.candidate.size();
+  Real least2 = std::numeric_limits<Real>::infinity();
   for (const Index s : grid_.near(x)) {
     const Wall& w = walls_[s];
     const Real far = reach_ + w.radius;
-    if (std::abs(plane_distance(w, x)) > reach_ || (x - w.centre).squaredNorm() > far * far) continue;
+    const Real d2 = (x - w.centre).squaredNorm();
+    if (d2 > far * far || std::abs(plane_distance(w, x)) > reach_) continue;
     if (w.radius > reach_ && least_distance2(w, x) > reach_ * reach_) continue;
     b.candidate.push_back(s);
+    if (d2 < least2) least2 = d2, nearest = s;
   }
   return b.candidate.size() > before;
 }
@@ -65,6 +69,7 @@ bool Contact::list_candidates(Block& b, const Vec& x) const {
 // Shortcuts need to know all planes near the particle, and that it is on the same side of all facets of one.
 void Contact::note_planes(const Block& b, Slot& slot) const {
   constexpr Index most = 100;  // chains of facets each a little deeper than the one before stay short
+  const Index nearest = slot.facet[0];
   slot.walls = 0;
   if (!search_less_ || slot.last - slot.first > most) return;
   int planes = 0;
@@ -82,6 +87,8 @@ void Contact::note_planes(const Block& b, Slot& slot) const {
     }
   }
   slot.walls = std::int8_t(planes);
+  // The particle is most likely over this one. The order matters where there are more.
+  if (planes == 1) take_facet(slot, 0, nearest);
 }
 
 // The sides are those of one step ago, so that a path that crosses a wall in the very step before this one is

@@ -124,14 +124,6 @@ std::string Contact::name() const {
   return fmt::format("contact {}", law_.id ? law_.id : number_);
 }
 
-Real Contact::stiffness(Index i, Real kn, Real kf, const Facet& f, const World& world) const {
-  Real k = law_.penopt == 2 ? kf : law_.penopt == 3 ? kn : std::min(kn, kf);
-  const Real dt = law_.dtstif > 0 ? law_.dtstif : soft_dt_;
-  if (law_.soft == 1 && dt > 0)
-    k = std::max(k, 0.5 * law_.sofscl * std::min(world.particles.m[i], f.m) / (dt * dt));
-  return k;
-}
-
 void Contact::update_facets(const World& world, const Clock& clock) {
   if (moving_.empty()) return;
   const Real moved2 = maximum(Index(moving_.size()), [&](Index k) {

@@ -122,7 +122,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   void update_facets(const World& world, const Clock& clock);
   void forget_left(const World& world, std::span<const Index> old_of_new);
   void list_block(World& world, const Clock& clock, Index begin, Index end);
-  bool list_candidates(Block& b, const Vec& x) const;
+  bool list_candidates(Block& b, const Vec& x, Index& nearest) const;
   void note_planes(const Block& b, Slot& slot) const;
   void learn_sides(const World& world, const Clock& clock, Block& b, const Slot& slot) const;
   void fall_asleep(World& world);
@@ -135,6 +135,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   bool joint_pushes(const Slot& slot, const Vec& x, Pushes& pushes) const;
   bool worst_wall(const Block& b, Slot& slot, const Vec& y, const Pushes& pushes, int& worst) const;
   bool find_facet(const Block& b, Slot& slot, int wall, const Vec& y) const;
+  void take_facet(Slot& slot, int wall, Index facet) const;
   bool is_far(const Slot& slot, const Vec& x) const;
   void find_pushes(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes);
   bool pull_back(Near& near, const Vec& ghost, Pushes& pushes, Vec& u) const;

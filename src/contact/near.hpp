@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <span>
 
 #include "contact/contact.hpp"
@@ -19,5 +20,13 @@ struct Contact::Near {
   Vec x = Vec::Zero();               ///< [L]
   Vec origin = Vec::Zero();          ///< a place in front of all walls: x itself, or the ghost [L]
 };
+
+inline Real Contact::stiffness(Index i, Real kn, Real kf, const Facet& f, const World& world) const {
+  Real k = law_.penopt == 2 ? kf : law_.penopt == 3 ? kn : std::min(kn, kf);
+  const Real dt = law_.dtstif > 0 ? law_.dtstif : soft_dt_;
+  if (law_.soft == 1 && dt > 0)
+    k = std::max(k, 0.5 * law_.sofscl * std::min(world.particles.m[i], f.m) / (dt * dt));
+  return k;
+}
 
 }  // namespace courant

@@ -171,22 +171,27 @@ bool Contact::worst_wall(const Block& b, Slot& slot, const Vec& y, const Pushes&
   return true;
 }
 
-/// Takes for a plane the facet that y is surely over, if there is one, and keeps facets in ascending order.
+/// Takes for a plane the facet that y is surely over, if there is one.
 bool Contact::find_facet(const Block& b, Slot& slot, int wall, const Vec& y) const {
-  const Wall& old = walls_[slot.facet[wall]];
+  const Index plane = walls_[slot.facet[wall]].plane;
   for (Index c = slot.first; c < slot.last; ++c) {
     const Wall& w = walls_[b.candidate[c]];
-    if (w.plane != old.plane || !is_surely_over(w, y)) continue;
-    if (w.n.dot(old.n) < 0) slot.side[wall] = std::int8_t(-slot.side[wall]);
-    slot.facet[wall] = b.candidate[c];
-    for (int j = 1; j < slot.walls; ++j)
-      for (int k = j; k > 0 && slot.facet[k] < slot.facet[k - 1]; --k) {
-        std::swap(slot.facet[k], slot.facet[k - 1]);
-        std::swap(slot.side[k], slot.side[k - 1]);
-      }
+    if (w.plane != plane || !is_surely_over(w, y)) continue;
+    take_facet(slot, wall, b.candidate[c]);
     return true;
   }
   return false;
+}
+
+/// Keeps facets in ascending order, in which the full search looks at them.
+void Contact::take_facet(Slot& slot, int wall, Index facet) const {
+  if (walls_[facet].n.dot(walls_[slot.facet[wall]].n) < 0) slot.side[wall] = std::int8_t(-slot.side[wall]);
+  slot.facet[wall] = facet;
+  for (int j = 1; j < slot.walls; ++j)
+    for (int k = j; k > 0 && slot.facet[k] < slot.facet[k - 1]; --k) {
+      std::swap(slot.facet[k], slot.facet[k - 1]);
+      std::swap(slot.side[k], slot.side[k - 1]);
+    }
 }
 
 // It was `room` away from touching; since then neither it nor the walls have come that far.
