@@ -29,7 +29,8 @@ void Contact::forget_left(const World& world, std::span<const Index> old_of_new)
 void Contact::list_block(World& world, const Clock& clock, Index begin, Index end) {
   Block& b = blocks_[begin / block_size];
   b.slots.clear(), b.candidate.clear(), b.side.clear();
-  b.touches.clear(), b.drags.clear(), b.crossed.clear();
+  b.touches.clear(), b.drags.clear(), b.crossed.clear(), b.reactions.clear();
+  b.deepest = 0;
   const Particles& p = world.particles;
   for (Index i = begin; i < end; ++i) {
     Slot slot;

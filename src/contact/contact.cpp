@@ -145,7 +145,8 @@ void Contact::update_facets(const World& world, const Clock& clock) {
 void Contact::fall_asleep(World& world) {
   if (asleep_) return;
   for (Block& b : blocks_) {
-    b.touches.clear(), b.drags.clear(), b.crossed.clear();
+    b.touches.clear(), b.drags.clear(), b.crossed.clear(), b.reactions.clear();
+    b.deepest = 0;
     for (Slot& slot : b.slots) slot.behind = false, slot.room = 0;
   }
   for (int k = 0; k < 3; ++k) std::fill_n(ghost_->data(k), world.particles.size(), 0.0);
@@ -172,44 +173,42 @@ void Contact::start(World& world, const Clock& clock) {
   asleep_ = false;
 }
 
+// Serial and in the order of particles: sums have the same bits on any number of threads.
 void Contact::finish(World& world, const Clock&) {
   Real deepest = 0;
-  bool moving = false;
   for (const Block& b : blocks_) {
     deepest = std::max(deepest, b.deepest);
-    moving = moving || b.moves;
     for (const Index i : b.crossed) {
       if ((*leaked_)[i]) continue;
       (*leaked_)[i] = 1;
       ++world.counters["leaked_particles"];
     }
+    for (const Reaction& r : b.reactions) give_to_wall(world, b, r.touch, r.share);
   }
   if (deepest > 0) {
     Real& most = world.maxima["max_penetration"];
     most = std::max(most, deepest);
   }
-  if (moving) give_to_nodes(world, true);
 }
 
 void Contact::show_forces(World& world) {
   if (shown_) return;
-  give_to_nodes(world, false);
   shown_ = true;
-}
-
-// Serial and in the order of particles: sums have the same bits on any number of threads.
-void Contact::give_to_nodes(World& world, bool moving) {
   for (const Block& b : blocks_)
     for (std::size_t t = 0; t < b.touches.size(); ++t) {
-      const Touch& a = b.touches[t];
-      const Facet& f = facets_[a.facet];
-      if (f.moves != moving) continue;
-      const Vec force = force_of(b, t);
-      const auto N = shape_functions(f, a.q);
-      for (int e = 0; e < f.corners; ++e) world.nodes.f.add(f.node[e], -N[e] * force);
-      world.segments.contact_force.add(f.segment, -force);
-      written_.push_back(a.facet);
+      const Facet& f = facets_[b.touches[t].facet];
+      if (!f.moves) give_to_wall(world, b, t, shape_functions(f, b.touches[t].q));
     }
+}
+
+void Contact::give_to_wall(World& world, const Block& b, std::size_t touch,
+                           const std::array<Real, 4>& share) {
+  const Index s = b.touches[touch].facet;
+  const Facet& f = facets_[s];
+  const Vec force = force_of(b, touch);
+  for (int e = 0; e < f.corners; ++e) world.nodes.f.add(f.node[e], -share[e] * force);
+  world.segments.contact_force.add(f.segment, -force);
+  written_.push_back(s);
 }
 
 TimeLimit::Limit Contact::limit(const World&, const Clock&) {
@@ -224,15 +223,22 @@ void Contact::record(World& world, const Clock& clock, EnergyLedger& ledger) {
   if (!drag_on_) return;
   const Particles& p = world.particles;
   const Real before = damping_work_ + friction_work_;
-  for (const Block& b : blocks_)
+  for_each_block(listed_, [&](Index begin, Index) {
+    Block& b = blocks_[begin / block_size];
+    b.damping_work = b.friction_work = 0;
     for (std::size_t t = 0; t < b.touches.size(); ++t) {
       const Touch& a = b.touches[t];
       const Index i = a.particle;
       const Vec v = p.v.vec(i) + 0.5 * clock.dt_mean() / p.m[i] * p.f.vec(i) -
                     wall_velocity(world, facets_[a.facet], a.q);
-      damping_work_ -= b.drags[t].damping * a.n.dot(v) * clock.dt_mean();
-      friction_work_ -= b.drags[t].friction.dot(v) * clock.dt_mean();
+      b.damping_work -= b.drags[t].damping * a.n.dot(v) * clock.dt_mean();
+      b.friction_work -= b.drags[t].friction.dot(v) * clock.dt_mean();
     }
+  });
+  for (const Block& b : blocks_) {
+    damping_work_ += b.damping_work;
+    friction_work_ += b.friction_work;
+  }
   ledger.dissipated += damping_work_ + friction_work_ - before;
 }
 

@@ -106,6 +106,10 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
     Real travel = 0;  ///< of the walls, then [L]
     Vec seen = Vec::Zero();
   };
+  struct Reaction {  ///< of a touch on a wall that moves
+    Index touch;
+    std::array<Real, 4> share;  ///< of the facet's corners [-]
+  };
   struct alignas(64) Block {  ///< of particles; what one thread works on
     std::vector<Slot> slots;
     std::vector<Index> candidate;   ///< facets, ascending for each slot
@@ -114,7 +118,8 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
     std::vector<Drag> drags;        ///< per touch, if there is friction or damping
     std::vector<Index> crossed;     ///< particles whose path goes through a mid-surface now
     Real deepest = 0;               ///< touch [L]
-    bool moves = false;             ///< a wall that moves is touched
+    std::vector<Reaction> reactions;
+    Real damping_work = 0, friction_work = 0;  ///< dissipated in this step [ML2/T2]
   };
   struct Near;  ///< scratch of one particle's search
 
@@ -148,7 +153,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
                      Real k) const;
   void keep_friction(const Block& b, Index particle, std::size_t first_touch);
   Vec force_of(const Block& b, std::size_t touch) const;
-  void give_to_nodes(World& world, bool moving);
+  void give_to_wall(World& world, const Block& b, std::size_t touch, const std::array<Real, 4>& share);
   Vec wall_velocity(const World& world, const Facet& f, const Vec& q) const;
   Real stiffness(Index i, Real kn, Real kf, const Facet& f, const World& world) const;
   const Corners& before(Index facet) const {

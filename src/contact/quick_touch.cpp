@@ -21,9 +21,8 @@ constexpr Real straight = 1e-8;
 void Contact::block(World& world, const Clock& clock, Index begin, Index) {
   if (asleep_) return;
   Block& b = blocks_[begin / block_size];
-  b.touches.clear(), b.drags.clear(), b.crossed.clear();
+  b.touches.clear(), b.drags.clear(), b.crossed.clear(), b.reactions.clear();
   b.deepest = 0;
-  b.moves = false;
   const auto& x = world.particles.x;
   const Real* const at[3] = {x.data(0), x.data(1), x.data(2)};
   Real* const f[3] = {world.particles.f.data(0), world.particles.f.data(1), world.particles.f.data(2)};

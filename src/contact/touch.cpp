@@ -213,7 +213,7 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
     b.touches.push_back(
         {.particle = i, .facet = p.facet, .share = p.share, .depth = p.depth, .k = k, .n = p.n, .q = p.q});
     b.deepest = std::max(b.deepest, p.depth);
-    b.moves = b.moves || f.moves;
+    if (f.moves) b.reactions.push_back({Index(b.touches.size()) - 1, shape_functions(f, p.q)});
     if (drag_on_) {
       const Vec v = world.particles.v.vec(i) - wall_velocity(world, f, p.q);
       Drag& drag = b.drags.emplace_back(Drag{.damping = 0, .friction = Vec::Zero()});
