@@ -170,7 +170,8 @@ class Run {
     messag_.line(fmt::format("first step {:.4E} [T], set by {}", clock.dt, who_));
   }
 
-  void write_fields(const World& world, const Clock& clock) {
+  void write_fields(World& world, const Clock& clock) {
+    for (const auto& contact : s_.contacts()) contact->show_forces(world);
     writer_.submit(
         [this, state = fields_.take(world, clock.t, state_++)]() mutable { fields_.write(std::move(state)); },
         weight_of_state);

@@ -13,6 +13,10 @@ namespace {
 
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
+/// A facet that is this far beside the one that a particle is over, of the contact distance, is twenty depth
+/// tolerances less deep, so that the order in which facets are looked at does not matter.
+constexpr Real apart_of_contact_distance = 2e-4;
+
 /// Stiffness K A / (longest diagonal) of a shell segment and the least mass of its nodes.
 void give_stiffness(Facet& f, const ContactLaw& law, const World& world) {
   const Segments& g = world.segments;
@@ -39,7 +43,12 @@ Field<Real>* particle_field(World& world, const std::string& name, const std::st
 
 Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
                  const std::vector<Index>& segments, const std::vector<bool>& tracked, World& world)
-    : law_(std::move(law)), options_(options), number_(number), friction_on_(law_.fs > 0 || law_.fd > 0) {
+    : law_(std::move(law)),
+      options_(options),
+      number_(number),
+      dim_(world.dim),
+      friction_on_(law_.fs > 0 || law_.fd > 0),
+      drag_on_(friction_on_ || law_.vdc > 0) {
   const std::string prefix = fmt::format("contact_{}_", number_);
   Particles& p = world.particles;
   k_particle_ = particle_field(world, prefix + "stiffness", "M/T2", 1);
@@ -61,12 +70,13 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
   Real r = 0, k_facet = 0, m_facet = infinity;
   for (Facet& f : facets_) {
     give_stiffness(f, law_, world);
-    any_moves_ = any_moves_ || f.moves;
+    if (f.moves) moving_.push_back(Index(&f - facets_.data()));
+    walls_.push_back(make_wall(f));
     r = std::max(r, f.r);
     k_facet = std::max(k_facet, f.k);
     m_facet = std::min(m_facet, f.m);
   }
-  if (any_moves_) before_.resize(facets_.size());
+  if (!moving_.empty()) before_.resize(facets_.size());
   Real radius = radius_all_;
   limit_ = infinity;
   for (Index i = 0; i < p.size(); ++i) {
@@ -77,137 +87,128 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
     (*k_particle_)[i] = law_.slsfac * law_.sfsa * p.rho[i] * p.c[i] * p.c[i] * (world.dim == 3 ? dx : 1.0);
     if (radius_) radius = std::max(radius, (*radius_)[i] = 0.5 * dx * law_.sfsat);
     Facet stiffest;
-    stiffest.k = k_facet;
     stiffest.m = m_facet;
     const Real m = 1 / (1 / p.m[i] + 1 / m_facet);
-    limit_ = std::min(limit_, std::sqrt(2 * m / stiffness(i, stiffest, world)));
+    limit_ = std::min(limit_, std::sqrt(2 * m / stiffness(i, (*k_particle_)[i], k_facet, stiffest, world)));
   }
   // The second wall of an obtuse corner acts up to 1.4 r away from it, so the list looks a little beyond r.
-  reach_ = 1.5 * (r + radius) + options_.reach_margin;
+  r_most_ = r + radius;
+  reach_ = 1.5 * r_most_ + options_.reach_margin;
   grid_.build(facets_, reach_);
+  choose_shortcuts(world);
+}
+
+// Where coordinates are so large that round-off is no longer far below the margins of the shortcuts, there
+// are none.
+void Contact::choose_shortcuts(const World& world) {
+  if (!options_.shortcuts || facets_.empty()) return;
+  Real r = infinity, size = infinity, largest = 0;
+  for (const Facet& f : facets_) {
+    r = std::min(r, f.r), size = std::min(size, f.radius);
+    for (int e = 0; e < f.corners; ++e) largest = std::max(largest, f.x[e].cwiseAbs().maxCoeff());
+  }
+  Real radius = radius_ ? infinity : radius_all_;
+  if (radius_)
+    for (Index i = 0; i < world.particles.size(); ++i)
+      if ((*k_particle_)[i] > 0) radius = std::min(radius, (*radius_)[i]);
+  r += radius;
+  if (!std::isfinite(r)) return;
+  // with room for walls that move away
+  const Real round_off = 4 * std::numeric_limits<Real>::epsilon() * (largest + 100 * reach_);
+  search_less_ = round_off < 0.01 * clear_margin * r && round_off < 1e-7 * size;
+  if (search_less_ && round_off < 0.1 * depth_tolerance * r)
+    find_planes(facets_, reach_, 0.2 * depth_tolerance * r, apart_of_contact_distance * r_most_, walls_);
 }
 
 std::string Contact::name() const {
   return fmt::format("contact {}", law_.id ? law_.id : number_);
 }
 
-Real Contact::stiffness(Index i, const Facet& f, const World& world) const {
-  const Real kn = (*k_particle_)[i];
-  Real k = law_.penopt == 2 ? f.k : law_.penopt == 3 ? kn : std::min(kn, f.k);
-  const Real dt = law_.dtstif > 0 ? law_.dtstif : soft_dt_;
-  if (law_.soft == 1 && dt > 0)
-    k = std::max(k, 0.5 * law_.sofscl * std::min(world.particles.m[i], f.m) / (dt * dt));
-  return k;
-}
-
 void Contact::update_facets(const World& world, const Clock& clock) {
-  if (!any_moves_) return;
-  for_each(Index(facets_.size()), [&](Index s) {
+  if (moving_.empty()) return;
+  const Real moved2 = maximum(Index(moving_.size()), [&](Index k) {
+    const Index s = moving_[k];
     Facet& f = facets_[s];
-    if (!f.moves) return;
+    const Corners old = f.x;
     update_facet(f, world.nodes);
-    for (int e = 0; e < 4; ++e)
+    walls_[s] = make_wall(f);
+    Real most = 0;
+    for (int e = 0; e < 4; ++e) {
       before_[s][e] = f.x[e] - world.nodes.v.vec(f.node[std::min(e, f.corners - 1)]) * clock.dt_old;
+      most = std::max(most, (f.x[e] - old[e]).squaredNorm());
+    }
+    return most;
   });
+  travel_ += std::sqrt(moved2) * (1 + clear_margin);
 }
 
-void Contact::refreshed(World& world, const Clock& clock, std::span<const Index>) {
-  update_facets(world, clock);
-  if (any_moves_) grid_.build(facets_, reach_);
-  const Particles& p = world.particles;
-  slots_.clear();
-  first_.assign(1, 0);
-  candidate_.clear();
-  for (Index i = 0; i < p.size(); ++i) {
-    bool near = false;
-    if (i < p.active && (*k_particle_)[i] > 0) {
-      const Vec x = p.x.vec(i);
-      for (const Index s : grid_.near(x)) {
-        const Facet& f = facets_[s];
-        if (std::abs(plane_distance(f, x)) > reach_) continue;
-        if ((x - f.centre).squaredNorm() > (reach_ + f.radius) * (reach_ + f.radius)) continue;
-        if (!is_over(f, x) && (x - nearest_on_rim(f, x)).squaredNorm() > reach_ * reach_) continue;
-        candidate_.push_back(s);
-        near = true;
-      }
-    }
-    if (near) {
-      slots_.push_back({.particle = i});
-      first_.push_back(Index(candidate_.size()));
-      continue;
-    }
-    ghost_->set(i, Vec::Zero());
-    if (friction_on_)
-      for (int k = 0; k < 3; ++k) friction_force_[k]->set(i, Vec::Zero());
+void Contact::fall_asleep(World& world) {
+  if (asleep_) return;
+  for (Block& b : blocks_) {
+    b.touches.clear(), b.drags.clear(), b.crossed.clear(), b.reactions.clear();
+    b.deepest = 0;
+    for (Slot& slot : b.slots) slot.behind = false, slot.room = 0;
   }
-  side_.resize(candidate_.size());
-  touches_.resize(slots_.size() * Pushes::capacity);
-  learn_sides(world, clock);
-}
-
-// The sides are those of one step ago, so that a path that crosses a wall in the very step before this one is
-// seen.
-void Contact::learn_sides(const World& world, const Clock& clock) {
-  for_each(Index(slots_.size()), [&](Index s) {
-    const Index i = slots_[s].particle;
-    const Vec ghost = world.particles.x.vec(i) - world.particles.v.vec(i) * clock.dt_old + ghost_->vec(i);
-    for (Index c = first_[s]; c < first_[s + 1]; ++c) {
-      const Facet& f = facets_[candidate_[c]];
-      if (!f.moves) {
-        side_[c] = std::int8_t(side_of(plane_distance(f, ghost)));
-        continue;
-      }
-      const Corners& b = before_[candidate_[c]];
-      const Vec n =
-          f.corners == 4 ? Vec((b[2] - b[0]).cross(b[3] - b[1])) : Vec((b[1] - b[0]).cross(b[2] - b[0]));
-      side_[c] = std::int8_t(side_of(n.dot(ghost - b[0])));
-    }
-  });
+  for (int k = 0; k < 3; ++k) std::fill_n(ghost_->data(k), world.particles.size(), 0.0);
+  asleep_ = true;
 }
 
 void Contact::start(World& world, const Clock& clock) {
-  for (int k = 0; k < 3; ++k) {
-    std::fill_n(world.nodes.f.data(k), world.nodes.size(), 0.0);
-    std::fill_n(world.segments.contact_force.data(k), world.segments.size(), 0.0);
+  for (const Index s : written_) {
+    const Facet& f = facets_[s];
+    for (int e = 0; e < f.corners; ++e) world.nodes.f.set(f.node[e], Vec::Zero());
+    world.segments.contact_force.set(f.segment, Vec::Zero());
   }
+  written_.clear();
+  shown_ = false;
   soft_dt_ = std::max(soft_dt_, clock.dt_old);
-  total_ = Vec::Zero();
-  stored_ = stored_friction_ = 0;
   if (clock.t < law_.birth || clock.t > law_.death) {
-    for (Slot& s : slots_) s.count = 0;
-    for (int k = 0; k < 3; ++k) std::fill_n(ghost_->data(k), world.particles.size(), 0.0);
-    asleep_ = true;
+    fall_asleep(world);
     return;
   }
   update_facets(world, clock);
-  if (asleep_) learn_sides(world, clock);
+  if (asleep_)
+    for (Block& b : blocks_)
+      for (const Slot& slot : b.slots) learn_sides(world, clock, b, slot);
   asleep_ = false;
-  for_each(Index(slots_.size()), [&](Index s) { touch(world, clock, s); });
-  scatter(world);
 }
 
-void Contact::scatter(World& world) {
-  Nodes& nodes = world.nodes;
-  Real& deepest = world.maxima["max_penetration"];
-  for (std::size_t s = 0; s < slots_.size(); ++s) {
-    const Slot& slot = slots_[s];
-    if (slot.crossed && !(*leaked_)[slot.particle]) {
-      (*leaked_)[slot.particle] = 1;
+// Serial and in the order of particles: sums have the same bits on any number of threads.
+void Contact::finish(World& world, const Clock&) {
+  Real deepest = 0;
+  for (const Block& b : blocks_) {
+    deepest = std::max(deepest, b.deepest);
+    for (const Index i : b.crossed) {
+      if ((*leaked_)[i]) continue;
+      (*leaked_)[i] = 1;
       ++world.counters["leaked_particles"];
     }
-    stored_friction_ += slot.stored_friction;
-    for (Index t = 0; t < slot.count; ++t) {
-      const Touch& a = touches_[s * Pushes::capacity + t];
-      const Facet& f = facets_[a.facet];
-      const auto N = shape_functions(f, a.q);
-      for (int e = 0; e < f.corners; ++e) nodes.f.add(f.node[e], -N[e] * a.force);
-      world.segments.contact_force.add(f.segment, -a.force);
-      world.particles.f.add(slot.particle, a.force);
-      total_ += a.force;
-      stored_ += 0.5 * a.k * a.share * a.depth;
-      deepest = std::max(deepest, a.depth);
-    }
+    for (const Reaction& r : b.reactions) give_to_wall(world, b, r.touch, r.share);
   }
+  if (deepest > 0) {
+    Real& most = world.maxima["max_penetration"];
+    most = std::max(most, deepest);
+  }
+}
+
+void Contact::show_forces(World& world) {
+  if (shown_) return;
+  shown_ = true;
+  for (const Block& b : blocks_)
+    for (std::size_t t = 0; t < b.touches.size(); ++t) {
+      const Facet& f = facets_[b.touches[t].facet];
+      if (!f.moves) give_to_wall(world, b, t, shape_functions(f, b.touches[t].q));
+    }
+}
+
+void Contact::give_to_wall(World& world, const Block& b, std::size_t touch,
+                           const std::array<Real, 4>& share) {
+  const Index s = b.touches[touch].facet;
+  const Facet& f = facets_[s];
+  const Vec force = force_of(b, touch);
+  for (int e = 0; e < f.corners; ++e) world.nodes.f.add(f.node[e], -share[e] * force);
+  world.segments.contact_force.add(f.segment, -force);
+  written_.push_back(s);
 }
 
 TimeLimit::Limit Contact::limit(const World&, const Clock&) {
@@ -219,34 +220,52 @@ TimeLimit::Limit Contact::limit(const World&, const Clock&) {
 
 // Work of the step from the force at t^n and the mean of the velocities before and after the kick.
 void Contact::record(World& world, const Clock& clock, EnergyLedger& ledger) {
-  if (law_.vdc <= 0 && !friction_on_) return;
+  if (!drag_on_) return;
   const Particles& p = world.particles;
   const Real before = damping_work_ + friction_work_;
-  for (std::size_t s = 0; s < slots_.size(); ++s) {
-    const Index i = slots_[s].particle;
-    for (Index t = 0; t < slots_[s].count; ++t) {
-      const Touch& a = touches_[s * Pushes::capacity + t];
+  for_each_block(listed_, [&](Index begin, Index) {
+    Block& b = blocks_[begin / block_size];
+    b.damping_work = b.friction_work = 0;
+    for (std::size_t t = 0; t < b.touches.size(); ++t) {
+      const Touch& a = b.touches[t];
+      const Index i = a.particle;
       const Vec v = p.v.vec(i) + 0.5 * clock.dt_mean() / p.m[i] * p.f.vec(i) -
                     wall_velocity(world, facets_[a.facet], a.q);
-      damping_work_ -= a.damping * a.n.dot(v) * clock.dt_mean();
-      friction_work_ -= a.friction.dot(v) * clock.dt_mean();
+      b.damping_work -= b.drags[t].damping * a.n.dot(v) * clock.dt_mean();
+      b.friction_work -= b.drags[t].friction.dot(v) * clock.dt_mean();
     }
+  });
+  for (const Block& b : blocks_) {
+    damping_work_ += b.damping_work;
+    friction_work_ += b.friction_work;
   }
   ledger.dissipated += damping_work_ + friction_work_ - before;
 }
 
 // Friction springs hold part of the friction work: what they store now is not dissipated yet.
 void Contact::sample(const World&, const Clock&, EnergyLedger& ledger) const {
-  ledger.contact += stored_;
+  Real stored = 0;
+  for (const Block& b : blocks_)
+    for (const Touch& a : b.touches) stored += 0.5 * a.k * a.share * a.depth;
+  ledger.contact += stored;
 }
 
 InterfaceForce Contact::report() const {
+  Vec total = Vec::Zero();
+  Real stored = 0, stored_friction = 0;
+  for (const Block& b : blocks_)
+    for (std::size_t t = 0; t < b.touches.size(); ++t) {
+      const Touch& a = b.touches[t];
+      total += force_of(b, t);
+      stored += 0.5 * a.k * a.share * a.depth;
+      if (friction_on_) stored_friction += 0.5 * b.drags[t].friction.squaredNorm() / a.k;
+    }
   return {.id = law_.id ? law_.id : Id(number_),
           .title = law_.title,
-          .on_surfa = total_,
-          .energy_stored = stored_ + stored_friction_,
+          .on_surfa = total,
+          .energy_stored = stored + stored_friction,
           .energy_damping = damping_work_,
-          .energy_friction = friction_work_ - stored_friction_};
+          .energy_friction = friction_work_ - stored_friction};
 }
 
 std::vector<Real> Contact::state() const {
@@ -271,7 +290,7 @@ Contact::Penetrations Contact::penetrations(World& world) {
     for (const Index s : grid_.near(x)) {
       const Facet& f = facets_[s];
       const Real d = is_over(f, x) ? std::abs(plane_distance(f, x)) : (x - nearest_on_rim(f, x)).norm();
-      const Real r = contact_distance(i, f);
+      const Real r = contact_distance(i, walls_[s]);
       if (r - d > 1e-6 * r) deepest = std::max(deepest, r - d);  // just touching is no penetration
     }
     if (deepest <= 0) continue;

@@ -10,6 +10,7 @@
 #include "contact/facet.hpp"
 #include "contact/facet_grid.hpp"
 #include "contact/push_out.hpp"
+#include "contact/wall.hpp"
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
 #include "state/world.hpp"
@@ -21,6 +22,7 @@ struct ContactOptions {
   bool thickness_from_volume =
       false;              ///< ITHK 1: contact radius of a particle is 0.5 V^(1/dim) where SAST is 0
   Real reach_margin = 0;  ///< particles and nodes move at most half of this between two refreshes [L]
+  bool shortcuts = true;  ///< off: every candidate is looked at in every step, with the same result
 };
 
 /// One contact interface as the deck gives it; names and units as on the card and in *CONTROL_CONTACT.
@@ -41,7 +43,11 @@ struct ContactLaw {
 /// push_out.hpp). Each particle has a place in front of the walls that its path belongs to, its ghost: the
 /// particle itself, unless its path went through a mid-surface. It is then pulled back to the ghost's side,
 /// which the ghost only leaves around a free edge, never through a wall. All memory is in particle fields, so
+/// which the ghost only leaves around a free edge, never through a wall. All memory is in particle fields, so
 /// sorting and restart keep it.
+///
+/// Most particles near walls are far from touching, or touch one fixed flat wall or a corner of few. For
+/// these there are shortcuts (quick_touch.cpp) that give the same bits as the full search (touch.cpp).
 class Contact : public Force, public Refresh, public TimeLimit, public EnergyTerm {
  public:
   /// `tracked`: by particle index. `number` counts interfaces from 1 and keeps their fields apart.
@@ -50,7 +56,11 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
 
   std::string name() const override;
   void start(World& world, const Clock& clock) override;
-  void block(World&, const Clock&, Index, Index) override {}
+  void block(World& world, const Clock& clock, Index begin, Index end) override;
+  void finish(World& world, const Clock& clock) override;
+  /// Adds the forces on fixed walls to nodes.f and segments.contact_force. No motion depends on these, so
+  /// this is left to who wants to see them; before particles move again.
+  void show_forces(World& world);
   void refreshed(World& world, const Clock& clock, std::span<const Index> old_of_new) override;
   Limit limit(const World& world, const Clock& clock) override;
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
@@ -69,57 +79,104 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   };
   /// Tracked particles (the active ones, all if none is) nearer to a wall than the contact distance.
   Penetrations penetrations(World& world);
-  Index candidates() const { return Index(candidate_.size()); }  ///< particle-facet pairs in the list
+  Index candidates() const;  ///< particle-facet pairs in the list
 
  private:
   struct Touch {
-    Index facet;
+    Index particle, facet;
+    Real share, depth, k;
     Vec n, q;
-    Real depth, share, k;
-    Real damping;  ///< part of the normal force that is damping [ML/T2]
-    Vec friction;  ///< force on the particle [ML/T2]
-    Vec force;     ///< total on the particle [ML/T2]
+  };
+  struct Drag {        ///< what friction and damping add to a touch
+    Real damping = 0;  ///< part of the normal force that is damping [ML/T2]
+    Vec friction;      ///< force on the particle [ML/T2]
   };
   struct Slot {  ///< a particle with walls near it
     Index particle = 0;
-    Index count = 0;  ///< touches now
-    bool crossed = false;
-    Real stored_friction = 0;
+    Index first = 0, last = 0;  ///< its candidates: [first, last)
+    std::int8_t walls = 0;      ///< planes of all its candidates; 0: too many or not known
+    std::array<std::int8_t, 3> side{};
+    std::array<Index, 3> facet{};  ///< of each plane the one it was over last, in ascending order
+    bool behind = false;           ///< its ghost is somewhere else
+    bool skipped = false;          ///< sides of candidates are out of date
+    std::int8_t joints = 0;        ///< facets of a joint it was over at `seen`, if any
+    std::array<Index, 4> joint{};
+    Real k = 0;       ///< stiffness of the particle [M/T2]
+    Real room = 0;    ///< at `seen` it was further than this from touching [L]
+    Real travel = 0;  ///< of the walls, then [L]
+    Vec seen = Vec::Zero();
+  };
+  struct Reaction {  ///< of a touch on a wall that moves
+    Index touch;
+    std::array<Real, 4> share;  ///< of the facet's corners [-]
+  };
+  struct alignas(64) Block {  ///< of particles; what one thread works on
+    std::vector<Slot> slots;
+    std::vector<Index> candidate;   ///< facets, ascending for each slot
+    std::vector<std::int8_t> side;  ///< of the ghost, per candidate
+    std::vector<Touch> touches;     ///< now, in the order of particles
+    std::vector<Drag> drags;        ///< per touch, if there is friction or damping
+    std::vector<Index> crossed;     ///< particles whose path goes through a mid-surface now
+    Real deepest = 0;               ///< touch [L]
+    std::vector<Reaction> reactions;
+    Real damping_work = 0, friction_work = 0;  ///< dissipated in this step [ML2/T2]
   };
   struct Near;  ///< scratch of one particle's search
 
+  void choose_shortcuts(const World& world);
   void update_facets(const World& world, const Clock& clock);
-  void learn_sides(const World& world, const Clock& clock);
-  void touch(World& world, const Clock& clock, Index s);
-  void find_pushes(World& world, const Clock& clock, Index s, Pushes& pushes);
-  bool pull_back(Near& near, const Vec& ghost, Pushes& pushes, Vec& u);
+  void forget_left(const World& world, std::span<const Index> old_of_new);
+  void list_block(World& world, const Clock& clock, Index begin, Index end);
+  bool list_candidates(Block& b, const Vec& x, Index& nearest) const;
+  void note_planes(const Block& b, Slot& slot) const;
+  void learn_sides(const World& world, const Clock& clock, Block& b, const Slot& slot) const;
+  void fall_asleep(World& world);
+  void touch(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes);
+  bool touch_one_wall(const World& world, Block& b, Slot& slot, const Vec& x, Real* const f[]) const;
+  bool quick_touch(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const;
+  bool quick_pushes(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const;
+  bool is_at_joint(const Slot& slot, const Vec& x) const;
+  bool note_joint(const Block& b, Slot& slot, const Vec& x) const;
+  bool joint_pushes(const Slot& slot, const Vec& x, Pushes& pushes) const;
+  bool worst_wall(const Block& b, Slot& slot, const Vec& y, const Pushes& pushes, int& worst) const;
+  bool find_facet(const Block& b, Slot& slot, int wall, const Vec& y) const;
+  void take_facet(Slot& slot, int wall, Index facet) const;
+  bool is_far(const Slot& slot, const Vec& x) const;
+  void find_pushes(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes);
+  bool pull_back(Near& near, const Vec& ghost, Pushes& pushes, Vec& u) const;
   void push_off(Near& near, Pushes& pushes, Vec& u) const;
+  Real surely_deepest(const Near& near, const Vec& y, const Pushes& pushes) const;
   bool consider(const Near& near, Index c, const Vec& y, const Pushes& pushes, Push& worst,
                 Real& violation) const;
-  void forces_of(World& world, const Clock& clock, Index s, const Pushes& pushes);
+  void forces_of(World& world, const Clock& clock, Block& b, const Slot& slot, const Pushes& pushes);
   Vec friction_force(const World& world, const Clock& clock, Index i, Real fn, const Vec& v, const Vec& n,
                      Real k) const;
-  void keep_friction(World& world, Index s);
-  void scatter(World& world);
+  void keep_friction(const Block& b, Index particle, std::size_t first_touch);
+  Vec force_of(const Block& b, std::size_t touch) const;
+  void give_to_wall(World& world, const Block& b, std::size_t touch, const std::array<Real, 4>& share);
   Vec wall_velocity(const World& world, const Facet& f, const Vec& q) const;
-  Real stiffness(Index i, const Facet& f, const World& world) const;
+  Real stiffness(Index i, Real kn, Real kf, const Facet& f, const World& world) const;
   const Corners& before(Index facet) const {
     return facets_[facet].moves ? before_[facet] : facets_[facet].x;
   }
-  Real contact_distance(Index i, const Facet& f) const {
-    return f.r + (radius_ ? (*radius_)[i] : radius_all_);
+  Real contact_distance(Index i, const Wall& w) const {
+    return w.r + (radius_ ? (*radius_)[i] : radius_all_);
   }
 
   ContactLaw law_;
   ContactOptions options_;
-  int number_;
-  bool friction_on_, asleep_ = false;
+  int number_, dim_;
+  bool friction_on_, drag_on_, asleep_ = false;
   std::vector<Facet> facets_;
+  std::vector<Wall> walls_;      ///< the same facets, for the search
   std::vector<Corners> before_;  ///< corners one step ago, only for facets that move
-  bool any_moves_ = false;
+  std::vector<Index> moving_;    ///< facets
+  Real travel_ = 0;              ///< of the corners that move most, summed up [L]
   FacetGrid grid_;
   Real reach_ = 0, radius_all_ = 0;
+  Real r_most_ = 0;  ///< largest contact distance [L]
   Real limit_ = 0, soft_dt_ = 0;
+  bool search_less_ = false;  ///< options_.shortcuts, unless round-off forbids them
 
   Field<Real>* k_particle_ = nullptr;  ///< penalty stiffness of the particle; 0: not tracked
   Field<Real>* radius_ = nullptr;      ///< only if it differs from particle to particle
@@ -128,13 +185,11 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
       nullptr;  ///< 1 once the particle's path crossed a mid-surface (shared by all interfaces)
   std::array<Field<Real>*, 3> friction_normal_{}, friction_force_{};
 
-  std::vector<Slot> slots_;
-  std::vector<Index> first_;       ///< candidates of slot s: [first_[s], first_[s+1])
-  std::vector<Index> candidate_;   ///< facets
-  std::vector<std::int8_t> side_;  ///< of the ghost, per candidate
-  std::vector<Touch> touches_;     ///< Pushes::capacity per slot
-  Vec total_ = Vec::Zero();
-  Real stored_ = 0, stored_friction_ = 0, damping_work_ = 0, friction_work_ = 0;
+  std::vector<Block> blocks_;
+  Index listed_ = 0;            ///< particles that were active at the last refresh
+  std::vector<Index> written_;  ///< facets whose nodes and segments have forces of this interface
+  bool shown_ = false;
+  Real damping_work_ = 0, friction_work_ = 0;
 };
 
 /// Reads all *CONTACT_AUTOMATIC_NODES_TO_SURFACE of the deck. Particles and segments must exist (x, v, m,

@@ -47,6 +47,7 @@ void FacetGrid::build(const std::vector<Facet>& facets, Real reach) {
   while (std::ceil(size[0] / cell_) * std::ceil(size[1] / cell_) * std::ceil(size[2] / cell_) > most)
     cell_ *= 1.25;
   for (int k = 0; k < 3; ++k) cells_[k] = std::max<Index>(1, Index(std::ceil(size[k] / cell_)));
+  inverse_ = 1 / cell_;
 
   first_.assign(std::size_t(cells_[0]) * cells_[1] * cells_[2] + 1, 0);
   std::vector<Index> fill;
@@ -77,7 +78,7 @@ void FacetGrid::build(const std::vector<Facet>& facets, Real reach) {
 std::span<const Index> FacetGrid::near(const Vec& x) const {
   std::size_t c = 0;
   for (int k = 0; k < 3; ++k) {
-    const Real a = (x[k] - low_[k]) / cell_;
+    const Real a = (x[k] - low_[k]) * inverse_;
     if (!(a >= 0 && a < cells_[k])) return {};
     c = c * cells_[k] + std::size_t(a);
   }

@@ -16,7 +16,7 @@ class FacetGrid {
 
  private:
   Vec low_ = Vec::Zero();
-  Real cell_ = 1;
+  Real cell_ = 1, inverse_ = 1;
   std::array<Index, 3> cells_ = {0, 0, 0};
   std::vector<Index> first_, facet_;
 };

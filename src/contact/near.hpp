@@ -1,15 +1,32 @@
 #pragma once
+#include <algorithm>
+#include <span>
+
 #include "contact/contact.hpp"
 
 namespace courant {
 
+/// Depths below this fraction of the contact distance are round-off: a particle pushed out to r is out.
+inline constexpr Real depth_tolerance = 1e-9;
+
+/// Shortcuts rely on comparisons with this margin, of the contact distance; round-off is far below.
+inline constexpr Real clear_margin = 1e-6;
+
 /// What the search for one particle's pushes works with.
 struct Contact::Near {
   Index particle = 0;
-  Index begin = 0, end = 0;     ///< its candidates
-  Vec x = Vec::Zero();          ///< [L]
-  Vec origin = Vec::Zero();     ///< a place in front of all walls: x itself, or the ghost [L]
-  std::int8_t* side = nullptr;  ///< of the origin, by candidate
+  std::span<const Index> candidate;  ///< facets
+  std::span<std::int8_t> side;       ///< of the origin, by candidate
+  Vec x = Vec::Zero();               ///< [L]
+  Vec origin = Vec::Zero();          ///< a place in front of all walls: x itself, or the ghost [L]
 };
+
+inline Real Contact::stiffness(Index i, Real kn, Real kf, const Facet& f, const World& world) const {
+  Real k = law_.penopt == 2 ? kf : law_.penopt == 3 ? kn : std::min(kn, kf);
+  const Real dt = law_.dtstif > 0 ? law_.dtstif : soft_dt_;
+  if (law_.soft == 1 && dt > 0)
+    k = std::max(k, 0.5 * law_.sofscl * std::min(world.particles.m[i], f.m) / (dt * dt));
+  return k;
+}
 
 }  // namespace courant

@@ -4,56 +4,80 @@
 #include "contact/near.hpp"
 
 namespace courant {
-namespace {
 
-/// Depths below this fraction of the contact distance are round-off: a particle pushed out to r is out.
-constexpr Real depth_tolerance = 1e-9;
-
-}  // namespace
-
-void Contact::touch(World& world, const Clock& clock, Index s) {
-  slots_[s].count = 0;
-  slots_[s].crossed = false;
-  slots_[s].stored_friction = 0;
-  Pushes pushes;
-  find_pushes(world, clock, s, pushes);
-  if (pushes.count > 0) forces_of(world, clock, s, pushes);
-  if (friction_on_) keep_friction(world, s);
+void Contact::touch(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes) {
+  const Index i = slot.particle;
+  const Vec x = world.particles.x.vec(i);
+  const std::size_t first_touch = b.touches.size();
+  pushes.count = 0;
+  const bool quick = slot.walls > 0 && !slot.behind && quick_touch(b, slot, x, pushes);
+  if (!quick) {
+    if (is_far(slot, x)) {
+      slot.skipped = true;
+      return;  // and nothing has changed since friction was kept last
+    }
+    if (slot.skipped) learn_sides(world, clock, b, slot);
+    slot.skipped = false;
+    pushes.count = 0;
+    find_pushes(world, clock, b, slot, pushes);
+  }
+  if (pushes.count > 0) {
+    slot.room = 0;
+    forces_of(world, clock, b, slot, pushes);
+  }
+  if (friction_on_) keep_friction(b, i, first_touch);
 }
 
-void Contact::find_pushes(World& world, const Clock& clock, Index s, Pushes& pushes) {
-  const Index i = slots_[s].particle;
+// In most steps nothing is within reach; the distance to the nearest wall then tells for how long.
+void Contact::find_pushes(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes) {
+  const Index i = slot.particle;
   Near near;
   near.particle = i;
-  near.begin = first_[s];
-  near.end = first_[s + 1];
-  near.side = side_.data();
+  near.candidate = {b.candidate.data() + slot.first, std::size_t(slot.last - slot.first)};
+  near.side = {b.side.data() + slot.first, near.candidate.size()};
   near.x = near.origin = world.particles.x.vec(i);
   bool changed = false;
-  for (Index c = near.begin; c < near.end; ++c)
-    changed = changed || side_of(plane_distance(facets_[candidate_[c]], near.x)) != near.side[c];
+  Real nearest2 = std::numeric_limits<Real>::infinity();
+  for (std::size_t c = 0; c < near.candidate.size(); ++c) {
+    const Wall& w = walls_[near.candidate[c]];
+    changed = changed || side_of(plane_distance(w, near.x)) != near.side[c];
+    if (search_less_) nearest2 = std::min(nearest2, least_distance2(w, near.x));
+  }
   const Vec offset = ghost_->vec(i);
+  slot.room = 0;
+  slot.joints = 0;
+  if (search_less_ && !changed && !slot.behind) {
+    slot.room = std::sqrt(nearest2) - (1 + clear_margin) * r_most_;
+    slot.seen = near.x;
+    slot.travel = travel_;
+    if (slot.room > 0) return;
+  }
+  if (changed) slot.walls = 0;  // facets of one plane may now be seen from different sides
   Vec u = Vec::Zero();
   bool behind = false;
+  const auto learn = [&](const Vec& y) {
+    for (std::size_t c = 0; c < near.candidate.size(); ++c)
+      near.side[c] = std::int8_t(side_of(plane_distance(walls_[near.candidate[c]], y)));
+  };
   if (changed) {
     const Vec ghost = near.x - world.particles.v.vec(i) * clock.dt_old + offset;
     behind = pull_back(near, ghost, pushes, u);
     if (behind) {
       near.origin = ghost;
-      slots_[s].crossed = true;
+      b.crossed.push_back(i);
     } else {
-      for (Index c = near.begin; c < near.end; ++c)
-        near.side[c] = std::int8_t(side_of(plane_distance(facets_[candidate_[c]], near.x)));
+      learn(near.x);
     }
   }
   push_off(near, pushes, u);
+  slot.behind = behind;
   if (!behind) {
     if (!offset.isZero(0)) ghost_->set(i, Vec::Zero());
     return;
   }
   // The ghost follows to where the walls let the particle be, unless that is behind another wall.
   Pushes none;
-  Vec ignore;
+  Vec ignore = Vec::Zero();
   Near there = near;
   there.x = near.x + u;
   if (pull_back(there, near.origin, none, ignore)) {
@@ -61,32 +85,32 @@ void Contact::find_pushes(World& world, const Clock& clock, Index s, Pushes& pus
     return;
   }
   ghost_->set(i, u);
-  for (Index c = near.begin; c < near.end; ++c)
-    near.side[c] = std::int8_t(side_of(plane_distance(facets_[candidate_[c]], there.x)));
+  learn(there.x);
 }
 
 // Walls that stand between the ghost and where the particle is (after each wall found: where it would be
 // pushed to). Returns whether there are any.
-bool Contact::pull_back(Near& near, const Vec& ghost, Pushes& pushes, Vec& u) {
+bool Contact::pull_back(Near& near, const Vec& ghost, Pushes& pushes, Vec& u) const {
   while (pushes.count < Pushes::capacity) {
     const Vec y = near.x + u;
     Real soonest = 2;
     Index hit = -1;
-    for (Index c = near.begin; c < near.end; ++c) {
-      const Index k = candidate_[c];
-      if (side_of(plane_distance(facets_[k], y)) == near.side[c] || pushes.has(k)) continue;
+    for (std::size_t c = 0; c < near.candidate.size(); ++c) {
+      const Index k = near.candidate[c];
+      if (side_of(plane_distance(walls_[k], y)) == near.side[c] || pushes.has(k)) continue;
       Real t = 0;
       if (passes_through(facets_[k], before(k), near.side[c], ghost, y, t) && t < soonest) {
         soonest = t;
-        hit = c;
+        hit = Index(c);
       }
     }
     if (hit < 0) break;
-    const Facet& f = facets_[candidate_[hit]];
+    const Index k = near.candidate[hit];
+    const Facet& f = facets_[k];
     Push& p = pushes.at[pushes.count++];
-    p.facet = candidate_[hit];
+    p.facet = k;
     p.n = near.side[hit] * f.n;
-    p.depth = contact_distance(near.particle, f) - near.side[hit] * plane_distance(f, near.x);
+    p.depth = contact_distance(near.particle, walls_[k]) - near.side[hit] * plane_distance(f, near.x);
     p.q = near.x - plane_distance(f, near.x) * f.n;
     p.face = true;
     u = share_pushes(pushes);
@@ -102,18 +126,40 @@ void Contact::push_off(Near& near, Pushes& pushes, Vec& u) const {
     const Vec y = near.x + u;
     Push worst;
     Real violation = 0;
-    for (Index c = near.begin; c < near.end; ++c) consider(near, c, y, pushes, worst, violation);
+    const Real surely = search_less_ ? surely_deepest(near, y, pushes) - clear_margin * r_most_ : 0;
+    for (std::size_t c = 0; c < near.candidate.size(); ++c) {
+      if (search_less_) {
+        // Not as deep as another one, by far more than what the order of looking can make of it
+        const Wall& w = walls_[near.candidate[c]];
+        const Real r = contact_distance(near.particle, w), within = r - surely;
+        const Real a = near.side[c] * plane_distance(w, y);
+        if (r - a <= depth_tolerance * r || (a >= 0 && least_distance2(w, y) > within * within)) continue;
+      }
+      consider(near, Index(c), y, pushes, worst, violation);
+    }
     if (violation <= 0) return;
     pushes.at[pushes.count++] = worst;
     u = share_pushes(pushes);
   }
 }
 
+// How deep y is in a facet that it is over, 0 if there is none. [L]
+Real Contact::surely_deepest(const Near& near, const Vec& y, const Pushes& pushes) const {
+  Real deepest = 0;
+  for (std::size_t c = 0; c < near.candidate.size(); ++c) {
+    const Wall& w = walls_[near.candidate[c]];
+    const Real a = near.side[c] * plane_distance(w, y), depth = contact_distance(near.particle, w) - a;
+    if (a >= 0 && depth > deepest && beyond_edges(w, y) <= 0 && !pushes.has(near.candidate[c]))
+      deepest = depth;
+  }
+  return deepest;
+}
+
 bool Contact::consider(const Near& near, Index c, const Vec& y, const Pushes& pushes, Push& worst,
                        Real& violation) const {
-  const Index k = candidate_[c];
+  const Index k = near.candidate[c];
   const Facet& f = facets_[k];
-  const Real r = contact_distance(near.particle, f);
+  const Real r = contact_distance(near.particle, walls_[k]);
   const Real a = near.side[c] * plane_distance(f, y);
   const Real least = violation + depth_tolerance * r;  // what would not be deeper than this does not matter
   if (r - a <= least) return false;
@@ -155,39 +201,46 @@ Vec Contact::wall_velocity(const World& world, const Facet& f, const Vec& q) con
   return v;
 }
 
-void Contact::forces_of(World& world, const Clock& clock, Index s, const Pushes& pushes) {
-  const Index i = slots_[s].particle;
+void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& slot, const Pushes& pushes) {
+  const Index i = slot.particle;
   const Real m = world.particles.m[i];
+  Vec total = Vec::Zero();
   for (int j = 0; j < pushes.count; ++j) {
     const Push& p = pushes.at[j];
     if (!(p.share > 0)) continue;
     const Facet& f = facets_[p.facet];
-    Touch& a = touches_[s * Pushes::capacity + slots_[s].count++];
-    a = {.facet = p.facet,
-         .n = p.n,
-         .q = p.q,
-         .depth = p.depth,
-         .share = p.share,
-         .k = stiffness(i, f, world),
-         .damping = 0,
-         .friction = Vec::Zero(),
-         .force = Vec::Zero()};
-    const Vec v = world.particles.v.vec(i) - wall_velocity(world, f, p.q);
-    Real fn = a.k * p.share;
-    if (law_.vdc > 0) {
-      // omega = sqrt(k (m_s + m_m)/(m_s m_m)), m = min(m_s, m_m); the smaller share where two walls say
-      // nearly the same
-      const Real omega = std::sqrt(a.k * (1 / m + 1 / f.m));
-      const Real damping = -0.01 * law_.vdc * 2 * std::min(m, f.m) * omega * v.dot(p.n);
-      a.damping = std::max(damping * std::clamp(p.share / p.depth, 0.0, 1.0), -fn);  // never pulls
-      fn += a.damping;
+    const Real k = stiffness(i, slot.k, f.k, f, world);
+    b.touches.push_back(
+        {.particle = i, .facet = p.facet, .share = p.share, .depth = p.depth, .k = k, .n = p.n, .q = p.q});
+    b.deepest = std::max(b.deepest, p.depth);
+    if (f.moves) b.reactions.push_back({Index(b.touches.size()) - 1, shape_functions(f, p.q)});
+    if (drag_on_) {
+      const Vec v = world.particles.v.vec(i) - wall_velocity(world, f, p.q);
+      Drag& drag = b.drags.emplace_back(Drag{.damping = 0, .friction = Vec::Zero()});
+      Real fn = k * p.share;
+      if (law_.vdc > 0) {
+        // omega = sqrt(k (m_s + m_m)/(m_s m_m)), m = min(m_s, m_m); the smaller share where two walls say
+        // nearly the same
+        const Real omega = std::sqrt(k * (1 / m + 1 / f.m));
+        const Real damping = -0.01 * law_.vdc * 2 * std::min(m, f.m) * omega * v.dot(p.n);
+        drag.damping = std::max(damping * std::clamp(p.share / p.depth, 0.0, 1.0), -fn);  // never pulls
+        fn += drag.damping;
+      }
+      if (friction_on_) drag.friction = friction_force(world, clock, i, fn, v, p.n, k);
+      if (dim_ == 2) drag.friction.z() = 0;
     }
-    if (friction_on_) a.friction = friction_force(world, clock, i, fn, v, p.n, a.k);
-    if (world.dim == 2) a.friction.z() = 0;
-    a.force = fn * p.n + a.friction;
-    if (world.dim == 2) a.force.z() = 0;
-    if (friction_on_) slots_[s].stored_friction += 0.5 * a.friction.squaredNorm() / a.k;
+    total += force_of(b, b.touches.size() - 1);
   }
+  world.particles.f.add(i, total);
+}
+
+/// On the particle
+Vec Contact::force_of(const Block& b, std::size_t touch) const {
+  const Touch& a = b.touches[touch];
+  Vec f = a.k * a.share * a.n;
+  if (drag_on_) f = (a.k * a.share + b.drags[touch].damping) * a.n + b.drags[touch].friction;
+  if (dim_ == 2) f.z() = 0;
+  return f;
 }
 
 // Elastic predictor: the spring of the last step, turned into the tangent plane, plus -k times the slip since
@@ -215,13 +268,11 @@ Vec Contact::friction_force(const World& world, const Clock& clock, Index i, Rea
   return size > most ? Vec(trial * (most / size)) : trial;
 }
 
-void Contact::keep_friction(World&, Index s) {
-  const Index i = slots_[s].particle;
-  for (int j = 0; j < 3; ++j) {
-    const bool on = j < slots_[s].count;
-    const Touch& a = touches_[s * Pushes::capacity + (on ? j : 0)];
-    friction_normal_[j]->set(i, on ? a.n : Vec(Vec::Zero()));
-    friction_force_[j]->set(i, on ? a.friction : Vec(Vec::Zero()));
+void Contact::keep_friction(const Block& b, Index particle, std::size_t first_touch) {
+  for (std::size_t j = 0; j < 3; ++j) {
+    const bool on = first_touch + j < b.touches.size();
+    friction_normal_[j]->set(particle, on ? b.touches[first_touch + j].n : Vec(Vec::Zero()));
+    friction_force_[j]->set(particle, on ? b.drags[first_touch + j].friction : Vec(Vec::Zero()));
   }
 }
 

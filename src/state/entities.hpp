@@ -46,7 +46,8 @@ enum ParticleState : Index {
   particle_deactivated = 2,  ///< switched off for good (MAXV)
 };
 
-/// Nodes of shells. Contact adds forces to f; whoever owns the nodes (rigid bodies) moves them.
+/// Nodes of shells. Contact adds forces to f; whoever owns the nodes (rigid bodies) moves them. Forces on
+/// walls that are held move nothing: they are there only once somebody asks for them (Contact::show_forces).
 struct Nodes {
   FieldSet fields;
   Field<Real>& x = fields.add<Real>({.name = "position", .dimension = "L", .components = 3});
