@@ -166,7 +166,7 @@ double measure_pair_loops(benchmark::State& state, const Build& build, int repea
   double quickest = std::numeric_limits<double>::infinity();
   const auto measure = [&](const std::string& row, int threads) {
     for (const bool kept : {false, true}) {
-      const PairTimes t = loops.measure(kept, threads, repeats);
+      const PairTimes t = loops.measure(kept, threads, repeats * threads);
       state.counters[row + (kept ? " kept rates_ns" : " again rates_ns")] = t.rates_ns;
       state.counters[row + (kept ? " kept forces_ns" : " again forces_ns")] = t.forces_ns;
       quickest = std::min(quickest, pair_seconds(t, active));
@@ -196,14 +196,14 @@ void add_machine(Size size) {
   for (const InstructionSet set : instruction_sets())
     for (const int threads : {1, 2})
       add("peak/" + std::string(name_of(set)) + "/" + std::to_string(threads), [=](benchmark::State& state) {
-        const double flops = peak_flops(set, threads, size == Size::smoke ? 1 : 60);
+        const double flops = peak_flops(set, threads, size == Size::smoke ? 1 : 100 * threads);
         state.counters["flops"] = flops;
         return 1 / flops;
       });
   for (const int threads : {1, 2})
     add("triad/" + std::to_string(threads), [=](benchmark::State& state) {
       const std::int64_t bytes = size == Size::smoke ? 3 << 20 : 192 << 20;  // beyond all caches
-      const double bandwidth = triad_bandwidth(threads, size == Size::smoke ? 2 : 15, bytes);
+      const double bandwidth = triad_bandwidth(threads, size == Size::smoke ? 2 : 25 * threads, bytes);
       state.counters["bytes"] = bandwidth;
       return 24 / bandwidth;
     });

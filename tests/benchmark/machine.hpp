@@ -7,7 +7,8 @@
 namespace courant::benchmarks {
 
 /// Most floating-point operations per second (an FMA is two), by chains of FMAs that do not wait for each
-/// other; `baseline` has no FMA and multiplies and adds. The best of `repeats` bursts of some milliseconds.
+/// other; `baseline` has no FMA and multiplies and adds. The best of `repeats` bursts of some
+/// milliseconds: many, where others may take a core.
 double peak_flops(InstructionSet set, int threads, int repeats);
 
 /// Bytes per second of a = b + s c with three arrays of `bytes` in all, counted as STREAM does: 24 an

@@ -9,7 +9,7 @@ namespace courant::benchmarks {
 
 /// How long to measure.
 struct Effort {
-  int rounds = 6;                  ///< chunks of steps for each number of threads; the quickest counts
+  int rounds = 6;                  ///< chunks for each number of threads, more in doubt; the quickest counts
   double seconds = 0.12;           ///< least length of a chunk
   std::int64_t most_steps = 2000;  ///< of a chunk
 };

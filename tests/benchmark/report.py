@@ -3,9 +3,10 @@
 
 usage: report.py BUILD_FOLDER [--full | --smoke] [--write] [--json FILE]
 
-Takes one to two minutes. Prints the tables; --write puts them between the two marker lines of docs/performance.md instead. --full adds the scenes
-that take minutes and gigabytes, --smoke runs small ones for a few steps to see that all works. --json takes what an
-earlier run of the program wrote, without running it: benchmarks --benchmark_out=FILE --benchmark_out_format=json.
+Takes one to two minutes. Prints the tables; --write puts them between the two marker lines of docs/performance.md
+instead. --full adds the scenes that take many minutes and gigabytes, --smoke runs small ones for a few steps to see that
+all works. --json takes what an earlier run of the program wrote, without running it:
+benchmarks --benchmark_out=FILE --benchmark_out_format=json.
 """
 import argparse
 import json
@@ -103,15 +104,18 @@ def memory(scenes):
                    number(c["field_bytes"] + c["list_bytes"] + c["kept_bytes"])] for name, c in scenes])
 
 
-def roofline(scenes, peak, bandwidth):
-    """One thread: what arithmetic and memory alone would take, beside what was measured."""
+def roofline(scenes, peak, bandwidth, cache):
+    """One thread: what arithmetic and memory alone would take, beside what was measured. Memory bounds what the caches
+    do not hold."""
     rows = []
     for name, c in scenes:
-        arithmetic, stream, ns = 1e9 * c["flops"] / peak, 1e9 * c["bytes_streamed"] / bandwidth, c["cpu_ns_1"]
+        arithmetic, ns = 1e9 * c["flops"] / peak, c["cpu_ns_1"]
         useful = 1e9 * c["useful_flops"] / peak
+        in_cache = c["active"] * (c["field_bytes"] + c["list_bytes"] + c["kept_bytes"]) <= cache
+        stream = 0 if in_cache else 1e9 * c["bytes_streamed"] / bandwidth
         rows.append([name, number(c["flops"]), number(c["flops"] / ns), number(useful), number(arithmetic),
-                     number(c["bytes_streamed"]), number(c["bytes_streamed"] / ns), number(stream), number(ns),
-                     f"{ns / max(arithmetic, stream):.2f}"])
+                     number(c["bytes_streamed"]), number(c["bytes_streamed"] / ns), "-" if in_cache else number(stream),
+                     number(ns), f"{ns / max(arithmetic, stream):.2f}"])
     return table(["scene", "flop", "Gflop/s", "ns at peak, pairs only", "ns at peak, all lanes", "bytes", "GB/s",
                   "ns at triad", "measured ns", "measured / larger bound"], rows)
 
@@ -161,10 +165,14 @@ def report(result, load_after):
     groups, context = by_group(result), result["context"]
     steps = groups["step"]
     scenes = named(steps, ["jump", "dam"])
+    large = [(name, c) for name, c in named(steps, ["block"]) if c["active"] >= 1e6]
     peaks = {run: c["flops"] for run, c in groups["peak"].items()}  # of "avx2/1", ...
     best = context["instruction_set"]
+    cache = max((c["size"] for c in context["caches"]), default=0)
+    alone = min(groups["peak"][run.replace("/1", "/2")]["flops"] / peaks[run] for run in peaks if run.endswith("/1")) > 1.8
+    warning = "" if alone else " **Others held the second core for long: what follows for 2 threads is not to be trusted.**"
     load = f"{context['load_avg'][0]:.1f} at the start" + "".join(f", {x:.1f} at the end" for x in load_after)
-    return f"""{processor_name()}, {context['num_cpus']} cores, {best}; load {load}.
+    return f"""{processor_name()}, {context['num_cpus']} cores, {best}; load {load}.{warning}
 
 The machine, measured by chains of FMAs and by a triad beyond the caches:
 
@@ -186,10 +194,10 @@ Bytes per active particle:
 {memory(scenes)}
 
 Against the limits of the machine, 1 thread, per particle and step. Operations and bytes are counted from the source
-(`tests/benchmark/work.hpp`); "pairs only" leaves out lanes beyond 2h. Bytes come from the caches where a scene fits into them,
-so the triad bounds only the large ones.
+(`tests/benchmark/work.hpp`); "pairs only" leaves out lanes beyond 2h. The triad bounds only what does not fit into the caches
+({cache / 2**20:.0f} MiB).
 
-{roofline(scenes, peaks[best + "/1"], groups["triad"]["1"]["bytes"])}
+{roofline(scenes + large, peaks[best + "/1"], groups["triad"]["1"]["bytes"], cache)}
 
 The two pair loops alone, ns of wall time per particle, gradients kept from the rates for the forces or worked out again:
 
