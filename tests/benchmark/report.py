@@ -27,8 +27,10 @@ def run(program, options):
     """What Google Benchmark writes."""
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "out.json"
-        subprocess.run([program, *options, f"--benchmark_out={out}", "--benchmark_out_format=json"], check=True,
-                       stdout=subprocess.DEVNULL)
+        done = subprocess.run([program, *options, f"--benchmark_out={out}", "--benchmark_out_format=json"],
+                              stdout=subprocess.DEVNULL)
+        if done.returncode != 0:
+            sys.exit(f"{program} ended with {done.returncode}")
         return json.loads(out.read_text())
 
 
