@@ -1,0 +1,87 @@
+#include "measure.hpp"
+
+#include <algorithm>
+#include <ctime>
+
+#include "scenes.hpp"
+#include "sph/pair_geometry.hpp"
+
+namespace courant::benchmarks {
+
+namespace {
+
+double processor_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+void step_to_rebuild(Simulation& s, std::int64_t most_steps) {
+  const std::int64_t before = s.neighbours().rebuilds();
+  for (std::int64_t k = 0; k < most_steps && s.neighbours().rebuilds() == before; ++k) take_steps(s, 1);
+}
+
+Chunk take_chunk(Simulation& s, const Effort& effort) {
+  Chunk c;
+  const auto passes_before = s.timer().table();
+  const double wall = PassTimer::now(), cpu = processor_seconds();
+  const std::int64_t rebuilds = s.neighbours().rebuilds();
+  for (bool rebuilt = false; c.steps < effort.most_steps;) {
+    const std::int64_t before = s.neighbours().rebuilds();
+    take_steps(s, 1);
+    ++c.steps;
+    c.particle_steps += s.world().particles.active;
+    rebuilt = s.neighbours().rebuilds() != before;
+    if (rebuilt && PassTimer::now() - wall >= effort.seconds) break;
+  }
+  c.cpu = processor_seconds() - cpu;
+  c.wall = PassTimer::now() - wall;
+  c.rebuilds = s.neighbours().rebuilds() - rebuilds;
+  c.passes = s.timer().table();
+  for (std::size_t k = 0; k < passes_before.size(); ++k) c.passes[k].seconds -= passes_before[k].seconds;
+  return c;
+}
+
+}  // namespace
+
+Measured measure(Simulation& s, const Effort& effort) {
+  Measured m;
+  step_to_rebuild(s, effort.most_steps);
+  // two threads that are hardly quicker than one may have had but one core, beside work of others
+  const auto in_doubt = [&] { return effort.rounds > 1 && m.two.wall_ns() > 0.9 * m.one.wall_ns(); };
+  for (int round = 0; round < effort.rounds || (round < 3 * effort.rounds && in_doubt()); ++round)
+    for (const int threads : {1, 2}) {
+      use_threads(s, threads);
+      Chunk c = take_chunk(s, effort);
+      m.steps += c.steps;
+      m.rebuilds += c.rebuilds;
+      if (threads == 1 && (round == 0 || c.cpu_ns() < m.cpu_ns)) m.cpu_ns = c.cpu_ns();
+      Chunk& best = threads == 1 ? m.one : m.two;
+      if (round == 0 || c.wall_ns() < best.wall_ns()) best = std::move(c);
+    }
+  return m;
+}
+
+Sizes sizes_of(const Simulation& s) {
+  const Particles& p = s.world().particles;
+  const Neighbours& lists = s.neighbours();
+  Sizes out;
+  out.dim = s.world().dim;
+  out.active = p.active;
+  const double active = p.active;
+  const Index stride = std::max<Index>(1, p.active / 20000);  // enough for a mean
+  double sampled = 0;
+  for (Index i = 0; i < p.active; i += stride, ++sampled)
+    out.pairs += static_cast<double>(lists.of(p, i).size());
+  out.pairs /= sampled;
+  const double entries = static_cast<double>(lists.entries());
+  out.entries = entries * Neighbours::lanes / active;
+  const double gradients = entries * Neighbours::lanes * sizeof(Real);
+  out.kept = s.sph().uniform_h && gradients <= static_cast<double>(PairGeometry::cache_bytes);
+  out.field_bytes = static_cast<double>(p.fields.bytes_per_entity()) * p.moving / active;
+  out.list_bytes = entries * sizeof(Index) / active;
+  out.kept_bytes = out.kept ? gradients / active : 0;
+  return out;
+}
+
+}  // namespace courant::benchmarks
