@@ -142,7 +142,7 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
       if (const auto at = index.find(p.id[i]); at != index.end()) at->second = i;
     for (const Id id : model_.output.history_sph)
       if (const Index i = index.at(id); i >= 0)
-        s.particles.push_back({id, i < p.active, p.x.vec(i), p.v.vec(i), p.p[i], p.rho[i], p.E[i]});
+        s.particles.push_back({id, i < p.active, p.place(i, clock_.t), p.v.vec(i), p.p[i], p.rho[i], p.E[i]});
   }
   return s;
 }

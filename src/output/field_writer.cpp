@@ -112,7 +112,7 @@ void sort_by_id(const Field<Id>& id, std::vector<Index>& which) {
     std::sort(which.begin(), which.end(), [&](Index a, Index b) { return id[a] < id[b]; });
 }
 
-VtkDataSet particle_data(const Particles& particles, const FieldWriterOptions& options) {
+VtkDataSet particle_data(const Particles& particles, Real t, const FieldWriterOptions& options) {
   std::vector<Index> which = all_of(particles.size());
   if (options.hide_inactive)
     std::erase_if(which, [&](Index i) { return particles.state[i] != particle_active; });
@@ -132,7 +132,10 @@ VtkDataSet particle_data(const Particles& particles, const FieldWriterOptions& o
                  0,
                  {}};
   out.sections.push_back({"PointData", std::move(data)});
-  out.sections.push_back({"Points", {points(particles.x, which)}});
+  out.sections.push_back({"Points", {make_array<float>("Points", 3, "", n, [&](std::size_t i, float* to) {
+                            const Vec x = particles.place(which[i], t);
+                            for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(x[k]);
+                          })}});
   out.sections.push_back({"Verts", {count_up("connectivity", n, 0), count_up("offsets", n, 1)}});
   return out;
 }
@@ -181,7 +184,7 @@ FieldWriter::FieldWriter(std::filesystem::path dir, FieldWriterOptions options)
 }
 
 FieldState FieldWriter::take(const World& world, Real t, int number) const {
-  FieldState state{number, t, particle_data(world.particles, options_), {}};
+  FieldState state{number, t, particle_data(world.particles, t, options_), {}};
   if (world.segments.size() > 0) state.shells = shell_data(world, options_);
   state.particles.t = t;
   if (state.shells) state.shells->t = t;

@@ -18,7 +18,7 @@ int threads();
 /// wait for. Figures: docs/performance.md.
 void let_waiting_threads_sleep(char** argv);
 
-inline constexpr Index block_size = 128;
+inline constexpr Index block_size = 64;
 inline Index block_count(Index n) {
   return (n + block_size - 1) / block_size;
 }

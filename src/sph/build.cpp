@@ -42,6 +42,7 @@ class Builder {
     read_control();
     fill_particles();
     set_smoothing_lengths();
+    read_pair_geometry();
     choose_h_form();
     return settings_;
   }
@@ -110,6 +111,16 @@ class Builder {
       return;
     }
     settings_.viscosity = MonaghanViscosity{common_q2()};
+  }
+
+  void read_pair_geometry() {
+    const auto* c = deck_.last<CourantPairGeometry>();
+    if (c == nullptr) return;
+    settings_.geometry_eps = c->eps;
+    if (c->eps > 0 && !settings_.uniform_h)
+      deck_.error(diagnostics_, *c, "EPS",
+                  fmt::format("expected 0 where h differs or changes, got '{:g}'", c->eps),
+                  "use HMIN = HMAX = 1 and one CSLH and spacing for all SPH parts, or leave the keyword out");
   }
 
   /// The quadratic coefficient of the pair loop, which has only one.
@@ -292,8 +303,10 @@ SphSettings build_particles(const Deck& deck, const Model& model,
 std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
                                      std::shared_ptr<Neighbours> neighbours) {
   std::vector<PassNote> left_out;
-  const auto geometry = std::make_shared<PairGeometry>(neighbours, s.uniform_h);
+  const auto geometry =
+      std::make_shared<PairGeometry>(neighbours, s.uniform_h, PairGeometry::cache_bytes, s.geometry_eps);
   world.rates.push_back(make_rates(s, world, geometry));
+  if (s.geometry_eps == 0) left_out.push_back({"kept pair geometry", "no *COURANT_PAIR_GEOMETRY"});
   if (s.evolving_h)
     world.motions.push_back(make_smoothing_length(s, world));
   else

@@ -40,4 +40,9 @@ struct ControlBulkViscosity : Entry {
   int type = 0, btype = 0, tstype = 0;
 };
 
+/// *COURANT_PAIR_GEOMETRY, ours.
+struct CourantPairGeometry : Entry {
+  Real eps = 0;
+};
+
 }  // namespace courant

@@ -1,7 +1,10 @@
 #pragma once
 // The lists of neighbours as pair loops take them, and the memory in which the loop of the rates leaves
 // kernel gradients for the loop of the forces.
+#include <cstdint>
+#include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "parallel/buffer.hpp"
@@ -12,10 +15,17 @@ namespace courant {
 
 class PairGeometry {
  public:
-  static constexpr std::int64_t cache_bytes = 16 << 20;
+  static constexpr std::int64_t cache_bytes = 128 << 20;
   /// Gradients are kept where they need no more than `most_kept` bytes and h is the same for all.
-  PairGeometry(std::shared_ptr<Neighbours> neighbours, bool uniform_h, std::int64_t most_kept = cache_bytes)
-      : neighbours_(std::move(neighbours)), most_kept_(uniform_h ? most_kept : -1) {}
+  /// `eps` > 0: they are kept from step to step, whatever they need, until two particles may have moved eps h
+  /// towards each other.
+  PairGeometry(std::shared_ptr<Neighbours> neighbours, bool uniform_h, std::int64_t most_kept = cache_bytes,
+               Real eps = 0)
+      : neighbours_(std::move(neighbours)),
+        most_kept_(!uniform_h ? -1
+                   : eps > 0  ? std::numeric_limits<std::int64_t>::max()
+                              : most_kept),
+        eps_(eps) {}
 
   /// At the start of the rates: decides whether gradients are kept. They are where they fit into the caches;
   /// fetching them from memory would take longer than working them out again. See docs/performance.md.
@@ -25,6 +35,23 @@ class PairGeometry {
     if (static_cast<Index>(g_.size()) != blocks) g_.resize(blocks);
   }
   bool kept() const { return kept_; }
+
+  /// Before a motion: whether gradients must be worked out anew after it, since particles as fast as in the
+  /// last step would pass the bound with the next one.
+  bool will_expire(Real h, Real dt) const { return eps_ == 0 || 2 * (moved_ + fastest_ * dt) > eps_ * h; }
+  bool watches_motion() const { return eps_ > 0; }
+  /// After a motion at a highest speed of `fastest` [L/T].
+  void moved(Real fastest, Real dt, bool expired) {
+    fastest_ = fastest;
+    moved_ += fastest * dt;
+    if (expired) expire();
+  }
+  void expire() {
+    moved_ = 0;
+    valid_ = false;
+  }
+  /// True while the gradients of an earlier step still hold; asking makes the next ones valid.
+  bool take_valid() { return std::exchange(valid_, kept_); }
 
   PairLists lists(Index begin, Index end) {
     const Index b = begin / block_size;
@@ -36,7 +63,9 @@ class PairGeometry {
   static constexpr Index lanes = Neighbours::lanes;
   std::shared_ptr<Neighbours> neighbours_;
   std::int64_t most_kept_;
-  bool kept_ = false;
+  Real eps_;
+  Real moved_ = 0, fastest_ = 0;  ///< bound of what a particle moved since [L]; [L/T]
+  bool kept_ = false, valid_ = false;
   std::vector<Buffer<Real>> g_;  ///< of each block
 };
 

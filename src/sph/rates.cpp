@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "sph/fields.hpp"
 #include "sph/pair_geometry.hpp"
 #include "sph/sph.hpp"
@@ -26,11 +29,14 @@ class PairRates : public Rate {
     compute_ = rates_loop(choice);
     choice.geometry = Geometry::store;
     store_ = rates_loop(choice);
+    choice.geometry = Geometry::load;
+    load_ = rates_loop(choice);
   }
   std::string name() const override { return "sph rates"; }
 
   void start(World& world, const Clock&) override {
     geometry_->prepare();
+    loop_ = !geometry_->kept() ? compute_ : geometry_->take_valid() ? load_ : store_;
     a_ = particle_arrays(world.particles);
     a_.V = volume_->data();
     a_.qc = viscous_speed_ ? viscous_speed_->data() : nullptr;
@@ -39,7 +45,7 @@ class PairRates : public Rate {
     for (int k = 0; k < 6; ++k) a_.strain[k] = strain_[k] ? strain_[k]->data() : nullptr;
   }
   void block(World&, const Clock&, Index begin, Index end) override {
-    (geometry_->kept() ? store_ : compute_)(a_, geometry_->lists(begin, end));
+    loop_(a_, geometry_->lists(begin, end));
   }
 
  private:
@@ -49,33 +55,62 @@ class PairRates : public Rate {
   Field<Real>* viscous_speed_ = nullptr;
   std::array<Field<Real>*, 6> strain_{};
   Real q2_ = 0;
-  PairLoop compute_, store_;
+  PairLoop compute_, store_, load_, loop_ = nullptr;
   PairArrays a_{};
 };
 
 /// Keeps what pair loops read of neighbours besides x, v, m and p: while threads work on the rates, density
-/// and sound speed already change.
+/// and sound speed already change. Where gradients are kept over steps, so are the volumes, which stand in
+/// them: else pair forces would not cancel.
 class PairFactors : public Motion, public Refresh {
  public:
-  PairFactors(const SphSettings& s, World& world) : q_(s.q), volume_(sph_fields::volume(world.particles)) {
+  PairFactors(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry)
+      : geometry_(std::move(geometry)), q_(s.q), volume_(sph_fields::volume(world.particles)) {
     if (std::holds_alternative<MonaghanViscosity>(s.viscosity))
       viscous_speed_ = &sph_fields::viscous_speed(world.particles);
   }
   std::string name() const override { return "sph factors"; }
+  void start(World& world, const Clock& clock) override {
+    const Particles& p = world.particles;
+    expires_ = geometry_->will_expire(p.active > 0 ? p.h[0] : 1, clock.dt);
+    if (geometry_->watches_motion()) fastest2_.assign(block_count(p.moving), 0);
+  }
   void block(World& world, const Clock&, Index begin, Index end) override {
+    update(world, begin, end, expires_);
+    if (!geometry_->watches_motion()) return;
+    const Particles& p = world.particles;
+    const Real *vx = p.v.data(0), *vy = p.v.data(1), *vz = p.v.data(2);
+    Real most = 0;
+#pragma omp simd reduction(max : most)
+    for (Index i = begin; i < end; ++i) most = std::max(most, vx[i] * vx[i] + vy[i] * vy[i] + vz[i] * vz[i]);
+    fastest2_[begin / block_size] = most;
+  }
+  void finish(World&, const Clock& clock) override {
+    if (!geometry_->watches_motion()) return geometry_->expire();
+    Real most = 0;
+    for (const Real v2 : fastest2_) most = std::max(most, v2);
+    geometry_->moved(std::sqrt(most), clock.dt, expires_);
+  }
+  void refreshed(World& world, const Clock&, std::span<const Index>) override {
+    for_each_block(world.particles.moving, [&](Index begin, Index end) { update(world, begin, end, true); });
+    geometry_->expire();
+  }
+
+ private:
+  void update(World& world, Index begin, Index end, bool volumes) {
     const Particles& p = world.particles;
     const Real *m = p.m.data(), *rho = p.rho.data(), *c = p.c.data();
     Real* V = volume_.data();
-    for (Index i = begin; i < end; ++i) V[i] = m[i] / rho[i];
+    if (volumes)
+      for (Index i = begin; i < end; ++i) V[i] = m[i] / rho[i];
     if (!viscous_speed_) return;
     Real* qc = viscous_speed_->data();
     for (Index i = begin; i < end; ++i) qc[i] = q_[p.part[i]].q1 * c[i];
   }
-  void refreshed(World& world, const Clock& clock, std::span<const Index>) override {
-    for_each_block(world.particles.moving, [&](Index begin, Index end) { block(world, clock, begin, end); });
-  }
 
- private:
+  std::shared_ptr<PairGeometry> geometry_;
+  bool expires_ = true;
+  std::vector<Real> fastest2_;  ///< in each block [L2/T2]
   std::vector<PartViscosity> q_;
   Field<Real>& volume_;
   Field<Real>* viscous_speed_ = nullptr;
@@ -84,7 +119,7 @@ class PairFactors : public Motion, public Refresh {
 }  // namespace
 
 std::shared_ptr<Rate> make_rates(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry) {
-  auto factors = std::make_shared<PairFactors>(s, world);
+  auto factors = std::make_shared<PairFactors>(s, world, geometry);
   world.motions.push_back(factors);
   world.refreshes.push_back(factors);
   return std::make_shared<PairRates>(s, world, std::move(geometry));

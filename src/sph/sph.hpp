@@ -43,7 +43,8 @@ struct SphSettings {
   std::vector<Real> mu;                ///< per part, dynamic viscosity; empty if no part has any
   std::vector<char> heat_in_internal;  ///< per part; empty if in none
   Real tssfac = 0.9;
-  Real maxv = 0;  ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
+  Real geometry_eps = 0;  ///< *COURANT_PAIR_GEOMETRY: relative motion, of h, over which gradients are kept
+  Real maxv = 0;          ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
   std::optional<Neighbours::Region> region;
   bool hide_inactive = false;          ///< ISHOW
   bool skip_inactive_contact = false;  ///< ICONT

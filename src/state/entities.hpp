@@ -37,6 +37,10 @@ struct Particles {
   Index active = 0;       ///< particles [0, active) are active
   Index moving = 0;       ///< particles [active, moving) are the rim
   Real dormant_time = 0;  ///< when dormant particles were at x; since then they move with v [T]
+  /// Where particle i is at time t, at which the moving ones are at x. [L]
+  Vec place(Index i, Real t) const {
+    return i < moving ? x.vec(i) : Vec(x.vec(i) + v.vec(i) * (t - dormant_time));
+  }
   Index size() const { return fields.size(); }
 };
 

@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""The hot loops are what they should be: each variant uses the vectors of its instruction set and no others, and nothing
+that one of them compiles can take the place of the same function of another file. Loops over single particles are
+vectorised by the compiler: its own report tells.
+
+usage: hot_loops.py BUILD_FOLDER
+"""
+import glob
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+
+build = sys.argv[1]
+commands = json.load(open(os.path.join(build, "compile_commands.json")))
+entry = next(c for c in commands if c["file"].endswith("src/sph/time_limit.cpp"))
+if not any(re.fullmatch(r"-O[23]", w) for w in shlex.split(entry["command"])):
+    print("skipped: this build is not optimised")
+    sys.exit(77)
+faults = []
+
+
+def run(*words, **options):
+    return subprocess.run(words, capture_output=True, text=True, check=True, **options).stdout
+
+
+REGISTERS = {"baseline": "xmm", "avx2": "ymm", "avx512": "zmm"}
+objects = glob.glob(os.path.join(build, "CMakeFiles/hot_*.dir/**/*.o"), recursive=True)
+if not objects:
+    faults.append("no object files of hot loops; correct this test")
+for path in sorted(objects):
+    variant = re.search(r"hot_(\w+)\.dir", path).group(1)
+    name = f"{variant} {os.path.basename(path)}"
+    for line in run("nm", "-C", "--defined-only", path).splitlines():
+        kind, symbol = re.match(r"[0-9a-f]* (\w) (.*)", line).groups()
+        if kind not in "tTrRdDbBnN" and f"courant::{variant}::" not in symbol:
+            faults.append(f"{name}: others could get its {symbol}")
+    if os.uname().machine != "x86_64":
+        continue
+    code = run("objdump", "-d", "--no-show-raw-insn", path)
+    wide = {r: len(re.findall(rf"%{r}\d", code)) for r in REGISTERS.values()}
+    own = REGISTERS[variant]
+    for register, count in wide.items():
+        if count and register > own:
+            faults.append(f"{name}: uses %{register}, which its processors lack")
+    fused = len(re.findall(rf"vfn?m(?:add|sub)\d+pd.*%{own}", code)) if own != "xmm" else wide[own]
+    print(f"{name}: {fused} {'fused operations' if own != 'xmm' else 'uses'} of %{own}")
+    if "pair_loops" in path and fused < 200:
+        faults.append(f"{name}: the loops over pairs do not use %{own}")
+
+# "#pragma omp simd" loops of passes over single particles
+compiler = shlex.split(entry["command"])[0]
+if "Free Software Foundation" in run(compiler, "--version"):
+    for source in ["src/materials/eos_linear_polynomial.cpp", "src/sph/time_limit.cpp", "src/search/neighbours.cpp",
+                   "src/sph/energy.cpp", "src/sph/rates.cpp"]:
+        entry = next(c for c in commands if c["file"].endswith(source))
+        words = shlex.split(entry["command"])
+        words[words.index("-o") + 1] = os.devnull
+        report = subprocess.run(words + ["-fopt-info-vec-optimized"], cwd=entry["directory"], capture_output=True, text=True)
+        if report.returncode != 0:
+            sys.exit(report.stderr)
+        where = "src/materials/material_pass.hpp" if "materials" in source else source
+        text = open(entry["file"].replace(source, where)).read().splitlines()
+        for loop in [n for n, line in enumerate(text, 1) if "#pragma omp simd" in line]:
+            found = {int(n) for n in re.findall(rf"{re.escape(os.path.basename(where))}:(\d+):\d+: optimized: loop vectorized",
+                                                report.stderr)}
+            if not any(loop <= n <= loop + 3 for n in found):
+                faults.append(f"{where}:{loop}: the loop is not vectorised")
+print("\n".join(faults))
+sys.exit(1 if faults else 0)
