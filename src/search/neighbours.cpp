@@ -30,6 +30,8 @@ enum Group : signed char { group_active = 0, group_rim = 1, group_dormant = 2 };
 /// Particles that wait or have gone are woken this many smoothing lengths before they can matter, so that
 /// whole batches are.
 constexpr Real waking_margin = 8;
+/// By so much h may grow before it is worked out anew when dormant particles are due.
+constexpr Real h_growth = 1.2;
 
 }  // namespace
 
@@ -126,7 +128,8 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   if (built_ && !watch_->stale(world, clock)) return false;
   Particles& p = world.particles;
   const Index active_before = p.active;
-  const bool all = !built_ || too_many_gone(world);
+  const bool h_grew = h_max_ > 0.5 * (1 + h_growth) * h_queued_;  // with room for what grows until next time
+  const bool all = !built_ || too_many_gone(world) || h_grew;
   if (all) wake_all(world, clock.t);
   const Index n = all ? p.size() : p.moving + take_due(world, clock.t);
   choose_skin(clock);
@@ -252,7 +255,7 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
 
 // Behind the moving particles: those first that can be within reach first.
 void Neighbours::order_dormant(const Particles& p) {
-  const Real reach = 2 * h_max_ + most_skin_;
+  const Real reach = 2 * h_growth * h_max_ + most_skin_;
   std::vector<Real> due(p.size());
   for (std::size_t k = p.moving; k < order_.size(); ++k) {
     const Index i = order_[k];
@@ -281,7 +284,7 @@ void Neighbours::note_changes(Particles& p, const std::vector<Index>& old_of_new
 
 void Neighbours::queue_dormant(World& world, Real t) {
   const Particles& p = world.particles;
-  const Real reach = 2 * h_max_ + most_skin_;
+  const Real reach = 2 * h_growth * h_max_ + most_skin_;
   due_.clear();
   first_due_ = 0;
   Real fastest = 0;
@@ -291,6 +294,7 @@ void Neighbours::queue_dormant(World& world, Real t) {
                        : t + region_->time_to_reach(p.x.vec(i), p.v.vec(i), reach));
     if (!off) fastest = std::max(fastest, p.v.vec(i).norm());
   }
+  h_queued_ = h_max_;
   waking_time_ = fastest > 0 ? waking_margin * h_max_ / fastest : 0;
 }
 

@@ -94,6 +94,7 @@ class Neighbours {
   std::vector<Real> due_;      ///< when dormant particle moving + k may come within reach, ascending [T]
   std::size_t first_due_ = 0;  ///< the entry of due_ that belongs to particle `moving`
   Real waking_time_ = 0;       ///< those due that soon are woken together [T]
+  Real h_queued_ = 0;          ///< h_max_ when due_ was made
   Index gone_ = 0;             ///< rim particles that are far from the box
   std::vector<Index> order_, key_, start_;  // scratch of sorting
   std::vector<signed char> group_;

@@ -42,8 +42,8 @@ class Builder {
     read_control();
     fill_particles();
     set_smoothing_lengths();
-    read_pair_geometry();
     choose_h_form();
+    read_pair_geometry();
     return settings_;
   }
 

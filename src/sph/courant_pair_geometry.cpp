@@ -13,8 +13,7 @@ const RegisterKeyword<CourantPairGeometry> pair_geometry{
      .cards = {{.fields = {{"EPS",
                             &CourantPairGeometry::eps,
                             "-",
-                            "kernel gradients are kept until two particles may have moved EPS h towards each "
-                            "other; 0 works them out in every step. Needs HMIN = HMAX = 1",
+                            "relative motion, in h, over which kernel gradients are kept; 0: none",
                             {.check = Check::not_negative}}}}}}};
 
 }  // namespace

@@ -110,6 +110,7 @@ TEST(FieldWriter, EveryStateComesBackAsItWasWritten) {
   Particles& p = world.particles;
   const Index n = 6000;  // some blocks and a part of one
   p.fields.resize(n);
+  p.active = p.moving = n;
   FieldWriter writer(dir.path(), {.part_ids = {1}, .hide_inactive = true});
   const auto noise = [](Index i, int state, int k) {
     return std::sin(1e4 * std::sin(1.0 + i + 0.37 * state + k));

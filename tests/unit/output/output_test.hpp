@@ -42,6 +42,7 @@ inline std::string read_text(const std::filesystem::path& file) {
 inline void fill_small_world(World& world) {
   Particles& p = world.particles;
   p.fields.resize(3);
+  p.active = p.moving = 3;
   for (Index i = 0; i < 3; ++i) {
     p.id[i] = i == 0 ? 30 : 10 * i;
     p.x.set(i, {0.25 * i, 0.5, 0});

@@ -31,6 +31,7 @@ void fill_channel(World& world, Real x_jump) {
       x.emplace_back((i + 0.5) * dx, (k + 0.5) * dx, 0);
   Particles& p = world.particles;
   p.fields.resize(static_cast<Index>(x.size()));
+  p.active = p.moving = p.size();
   for (Index i = 0; i < p.size(); ++i) {
     const Vec& at = x[static_cast<std::size_t>(i)];
     p.x.set(i, at);

@@ -26,6 +26,9 @@ void expect_complete(const Cloud& cloud) {
     for (Index j = 0; j < p.moving; ++j)
       if (j != i && (p.x.vec(i) - p.x.vec(j)).norm() < 2 * std::max(p.h[i], p.h[j])) wanted.insert(p.id[j]);
     EXPECT_TRUE(std::includes(listed.begin(), listed.end(), wanted.begin(), wanted.end()));
+    for (Index j = p.moving; j < p.size(); ++j)
+      if (p.state[j] != particle_deactivated)
+        EXPECT_GE((p.x.vec(i) - p.place(j, cloud.clock.t)).norm(), 2 * p.h[i]) << "a neighbour sleeps";
   }
 }
 
@@ -95,6 +98,27 @@ TEST(Neighbours, TheBoxSplitsActiveRimAndDormant) {
   cloud.neighbours->force_refresh();
   cloud.refresh();
   for (Index i = 0; i < p.size(); ++i) EXPECT_NEAR(p.x.vec(i)[0], before[p.id[i]] + 0.04, 1e-12);
+}
+
+TEST(Neighbours, WakeParticlesInTimeAlsoWhereHGrows) {
+  Cloud cloud(2, 60, 0.01, 0);
+  Particles& p = cloud.world.particles;
+  for (Index i = 0; i < p.size(); ++i) p.v.set(i, {i % 2 == 0 ? 1.0 : 0.3, 0, 0});
+  cloud.neighbours =
+      std::make_shared<Neighbours>(0.003, Neighbours::Region{Vec(0.495, 0.2, -1), Vec(9, 0.3, 1)});
+  cloud.refresh();
+  EXPECT_LT(p.moving, p.size());
+  const Index first = p.moving;
+  for (int step = 0; step < 120; ++step) {
+    for (Index i = 0; i < p.moving; ++i) {
+      p.x.add(i, p.v.vec(i) * 0.001);
+      if (step % 10 == 0) p.h[i] *= 1.05;
+    }
+    cloud.clock.t += 0.001;
+    cloud.refresh();
+    expect_complete(cloud);
+  }
+  EXPECT_GT(p.moving, first);
 }
 
 TEST(Neighbours, CrossingTheBorderOfTheBoxCountsAtOnce) {
