@@ -233,7 +233,9 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
   h_min_ = e.h_min;
 
   // rows as wide as eight particles that stand together, so that groups are compact
-  const Real spacing = std::clamp(std::pow(e.volume / e.count, 1.0 / world.dim), 0.3 * h_max_, 1.2 * h_max_);
+  Real spacing = std::min(std::pow(e.volume / e.count, 1.0 / world.dim), 1.2 * h_max_);
+  if (!(spacing >= 0.3 * h_max_)) spacing = 0.3 * h_max_;  // also where volumes are no numbers
+  if (!(spacing > 0)) spacing = 1;
   grid_.cover(e.low, e.high, (world.dim == 2 ? std::sqrt(Real(lanes)) : 2) * spacing, 0.5 * spacing,
               16.0 * e.count + 4096);
   const Index cells = grid_.total();
