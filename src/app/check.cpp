@@ -72,10 +72,9 @@ std::string check_report(Simulation& s) {
   s.evaluate(who);
   const Particles& p = s.world().particles;
   std::string text = fmt::format("{}\nfiles read:\n", s.model().title);
-  for (const std::string& file : s.deck().files) text += "  " + file + "\n";
+  for (const DeckFile& file : s.deck().files) text += "  " + file.name + "\n";
   text += "keywords:\n";
-  for (const auto& [name, count] : s.deck().keyword_counts)
-    text += fmt::format("  {:<44}{:8}\n", name, count);
+  for (const auto& [name, use] : s.deck().keywords) text += fmt::format("  {:<44}{:8}\n", name, use.blocks);
   text += part_table(s);
   text += fmt::format(
       "{}D, spacing {:.6g} [L], {} particles of which {} are active now, {:.1f} neighbours each\n",

@@ -14,6 +14,7 @@ std::string Diagnostic::text() const {
   }
   const char* word[] = {"note", "warning", "error"};
   out += fmt::format("{}: {}", word[static_cast<int>(severity)], message);
+  if (!where.included_from.empty()) out += "\n  included from " + where.included_from;
   if (!hint.empty()) out += "\n  hint: " + hint;
   return out;
 }

@@ -9,12 +9,14 @@ struct Location {
   std::string file;
   int line = 0;
   int column = 0;
+  std::string
+      included_from{};  ///< "main.k:12, from top.k:3": who includes the file; empty: it is the deck itself
 };
 
 enum class Severity { note, warning, error };
 
 /// One message about the user's input. `text()` gives `file:line:column: error: message` and, if there is
-/// one, a second line `  hint: ...`.
+/// one, further lines `  included from ...` and `  hint: ...`.
 struct Diagnostic {
   Severity severity = Severity::error;
   Location where;

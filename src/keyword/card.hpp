@@ -20,6 +20,7 @@
 
 #include "base/diagnostic.hpp"
 #include "base/real.hpp"
+#include "keyword/conversion.hpp"
 
 namespace courant {
 
@@ -42,6 +43,10 @@ enum class Honour {
 
 enum class Check { any, positive, not_negative, not_positive };
 
+/// A field that is, with the two fields behind it, a place or a direction in space; *INCLUDE_TRANSFORM moves
+/// it.
+enum class Spatial { none, point, direction };
+
 struct FieldRules {
   Real standard = 0;  ///< value of a blank field; also of 0 when `zero_is_standard`
   bool zero_is_standard = true;
@@ -50,22 +55,27 @@ struct FieldRules {
   Honour honour = Honour::yes;
   std::vector<int> allowed{};  ///< for integers: the supported values; others are refused by name. Empty: any
   int width = 10;              ///< columns in standard format
+  IdSpace refers =
+      IdSpace::none;  ///< what the ids in this field number; for the first field KeywordOf::id_space
+  Spatial spatial = Spatial::none;
 };
 
 /// One field. `member` says where the value goes and so of which type it is: Id and int are I, Real is F,
 /// std::string A. A vector member takes this and all following columns of the card, and (on a repeated card)
 /// of all cards up to the next keyword; blank and 0 entries are skipped for Id. Two or more vectors on a card
-/// take one column each, as a table.
+/// take one column each, as a table, and each card adds a row, blank fields as 0 or "".
 template <class T>
 struct FieldOf {
   /// monostate, the default: columns that are skipped
   using Member = std::variant<std::monostate, int T::*, Id T::*, Real T::*, std::string T::*,
-                              std::vector<Id> T::*, std::vector<Real> T::*>;
+                              std::vector<Id> T::*, std::vector<Real> T::*, std::vector<std::string> T::*>;
   std::string name;
   Member member;
   std::string dimension;
   std::string meaning;
   FieldRules rules{};
+  /// Where it depends on other fields (a type beside it) what the ids number; instead of rules.refers.
+  IdSpace (*refers)(const T&) = nullptr;
 };
 
 template <class T>
@@ -80,17 +90,24 @@ template <class T>
 struct KeywordOf {
   std::vector<std::string> names{};  ///< without '*', the first is shown: {"MAT_NULL", "MAT_009"}
   std::string purpose{};
-  /// What the first field numbers ("section", "material", ...): an id may stand once among all keywords that
-  /// share the word.
-  std::string id_space{};
+  /// What the first field numbers: an id may stand once among all keywords that share the space.
+  IdSpace id_space = IdSpace::none;
   bool title_option = false;  ///< NAME_TITLE adds an A80 card, stored in the member named by `title`
   bool id_option = false;     ///< NAME_ID adds a card ID I10, HEADING A70
+  bool mpp_option = false;    ///< NAME_MPP adds one or two cards for parallel runs, which have no effect here
   bool heading = false;       ///< always starts with an A70 heading card (*PART)
   std::string T::*title = nullptr;
   Id T::*id = nullptr;
   bool once = false;  ///< may stand only once in a deck
   bool many = true;   ///< several card sets may follow one keyword line
+  /// Not empty: what Courant lacks to honour the keyword ("solid elements"). Its cards are read and checked,
+  /// counted by `courant check`, and the deck is refused.
+  std::string lacking{};
   std::vector<CardOf<T>> cards{};
+  /// What the table cannot tell of a change of units or of a motion: done after the fields' own rules. They
+  /// return why it cannot be done, else nothing.
+  std::string (*convert)(T&, const Conversion&) = nullptr;
+  std::string (*move)(T&, const Affine&) = nullptr;
 };
 
 }  // namespace courant

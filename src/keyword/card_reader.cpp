@@ -84,19 +84,30 @@ void CardReader::read_set(DataLines& data, EntrySink& sink) {
   sink.begin(entry);
   if (!read_title_lines(data, sink)) return;
   read_cards(data, sink);
+  convert(sink);
   refuse_second_definition(sink.entry());
   sink.commit();
+  ++count_;
+}
+
+void CardReader::convert(EntrySink& sink) {
+  const Conversion& conversion = deck_.files[static_cast<std::size_t>(block_.file)].conversion;
+  if (!conversion.any()) return;
+  const std::string reason = sink.convert(conversion);
+  if (!reason.empty())
+    diagnostics_.error(
+        here(1), fmt::format("*{}: {}", spec_->names[static_cast<std::size_t>(block_.match.name)], reason));
 }
 
 void CardReader::refuse_second_definition(const Entry& entry) {
   const Id id = spec_->id_of(entry);
-  if (id <= 0) return;  // no id, or one that was refused already
+  if (id <= 0 || is_mesh(spec_->id_space)) return;  // no id, or one that was refused already
   const Entry* first = deck_.define(spec_->id_space, id, entry);
   if (!first) return;
-  deck_.error(diagnostics_, entry, spec_->cards[0].fields[0].name,
-              fmt::format("{} {} is defined twice, first as {} at {}", spec_->id_space, id,
+  deck_.error(diagnostics_, entry, block_.match.id ? "" : spec_->cards[0].fields[0].name,
+              fmt::format("{} {} is defined twice, first as {} at {}", id_word(spec_->id_space), id,
                           deck_.keyword(*first), deck_.place(*first)),
-              fmt::format("give every {} an id of its own{}", spec_->id_space,
+              fmt::format("give every {} an id of its own{}", id_word(spec_->id_space),
                           first->keyword == entry.keyword ? "" : ", whatever its kind"));
 }
 
@@ -122,6 +133,10 @@ bool CardReader::read_title_lines(DataLines& data, EntrySink& sink) {
     if (!next("the title line")) return false;
     sink.set_title(trimmed(data.line()));
     data.step();
+  }
+  if (block_.match.mpp) {
+    if (!next("the line of the option _MPP")) return false;
+    skip_mpp_lines(data);
   }
   return true;
 }
@@ -197,11 +212,13 @@ void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, En
                       ? ""
                       : fmt::format("supported values: {}", fmt::join(spec.rules.allowed, ", ")));
     if (spec.type == FieldType::reals) sink.set_real(card, field, 0);
+    if (spec.type == FieldType::texts) sink.set_text(card, field, "");
+    if (spec.type == FieldType::ids && spec_->cards[card].is_table) sink.set_integer(card, field, 0);
     return;  // the entry began with the standard values
   }
   std::string held;
   if (Parameters::is_reference(slice.text) && !substitute(card, field, slice, held)) return;
-  if (spec.type == FieldType::text) {
+  if (spec.type == FieldType::text || spec.type == FieldType::texts) {
     if (spec.rules.honour == Honour::no)
       field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text),
                   "leave the field blank");
@@ -220,7 +237,10 @@ void CardReader::read_integer(std::size_t card, std::size_t field, const Slice& 
     field_error(card, field, slice, fmt::format("expected {}, got '{}'", expectation(spec), slice.text));
     return;
   }
-  if (value == 0 && spec.type == FieldType::ids) return;
+  if (value == 0 && spec.type == FieldType::ids) {
+    if (spec_->cards[card].is_table) sink.set_integer(card, field, 0);
+    return;
+  }
   if (value == 0 && spec.rules.zero_is_standard && !spec.rules.required) return;
   if (spec.rules.required && value == 0 && spec.type == FieldType::id && spec.rules.check == Check::any) {
     field_error(card, field, slice, "expected an id that is not 0, got '0'");

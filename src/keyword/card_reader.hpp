@@ -1,6 +1,7 @@
 #pragma once
 // Reads the data lines below one keyword into entries, by the keyword's table.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "keyword/deck.hpp"
@@ -26,11 +27,14 @@ class CardReader {
     CardFormat format = CardFormat::standard;
   };
   void read(const Block& block);
+  /// Entries read since the last call.
+  std::size_t take_count() { return std::exchange(count_, 0); }
   bool full() const { return diagnostics_.errors() >= max_errors; }
 
  private:
   void read_set(DataLines& data, EntrySink& sink);
   bool read_title_lines(DataLines& data, EntrySink& sink);
+  void convert(EntrySink& sink);
   void read_id_line(std::string_view line, int number, EntrySink& sink);
   void read_cards(DataLines& data, EntrySink& sink);
   void refuse_second_definition(const Entry& entry);
@@ -45,9 +49,7 @@ class CardReader {
   void field_error(std::size_t card, std::size_t field, const Slice& slice, const std::string& message,
                    std::string hint = {});
   void missing(const DataLines& data, const std::string& what);
-  Location here(int column) const {
-    return {deck_.files[static_cast<std::size_t>(block_.file)], line_, column};
-  }
+  Location here(int column) const { return deck_.location(block_.file, line_, column); }
 
   Deck& deck_;
   const Parameters& parameters_;
@@ -55,6 +57,7 @@ class CardReader {
   Block block_;
   const KeywordSpec* spec_ = nullptr;
   int line_ = 0;  ///< number of the line being read
+  std::size_t count_ = 0;
   std::vector<Slice> slices_;
 };
 

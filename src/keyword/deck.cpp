@@ -30,29 +30,41 @@ FieldPlace find_field(const KeywordSpec& spec, std::string_view name) {
 /// Reads the entry's cards again, to find where a field stands: only messages need it, so no place is kept
 /// with the data.
 Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, const SourceText& source,
-                const std::string& file) {
+                Location line) {
   const auto first = static_cast<std::size_t>(entry.line - 1);
   std::size_t above = first;
   while (above > 0 && (source.lines[above].empty() || source.lines[above][0] != '*')) --above;
-  if (source.lines[above].empty() || source.lines[above][0] != '*') return {file, entry.line, 1};
+  if (source.lines[above].empty() || source.lines[above][0] != '*') return line;
   const KeywordLine keyword = parse_keyword_line(source.lines[above], source.format);
   const KeywordMatch match = KeywordIndex().match(keyword.name);
   DataLines data(source, first);
   for (const bool extra : {spec.heading, match.id, match.title})
     if (extra && !data.done()) data.step();
+  if (match.mpp) skip_mpp_lines(data);
   for (std::size_t c = 0; c < place.card && !data.done(); ++c)
     if (spec.has_card(entry, c)) data.step();
-  if (data.done()) return {file, entry.line, 1};
+  if (data.done()) return line;
   std::vector<Slice> slices;
   split_card(data.line(), spec.cards[place.card], keyword.format, slices);
-  return {file, static_cast<int>(data.index()) + 1, slices[place.field].column};
+  line.line = static_cast<int>(data.index()) + 1;
+  line.column = slices[place.field].column;
+  return line;
 }
 
 }  // namespace
 
 Location Deck::where(const Entry& entry) const {
   if (entry.file < 0 || entry.file >= static_cast<std::int32_t>(files.size())) return {};
-  return {files[static_cast<std::size_t>(entry.file)], entry.line, 1};
+  return location(entry.file, entry.line, 1);
+}
+
+Location Deck::location(std::int32_t file, int line, int column) const {
+  const auto file_at = [&](std::int32_t f) -> const DeckFile& { return files[static_cast<std::size_t>(f)]; };
+  Location out{file_at(file).name, line, column, {}};
+  for (std::int32_t f = file; file_at(f).parent >= 0; f = file_at(f).parent)
+    out.included_from += fmt::format("{}{}:{}", out.included_from.empty() ? "" : ", from ",
+                                     file_at(file_at(f).parent).name, file_at(f).line);
+  return out;
 }
 
 Location Deck::where(const Entry& entry, std::string_view field) const {
@@ -60,9 +72,9 @@ Location Deck::where(const Entry& entry, std::string_view field) const {
   const Location line = where(entry);
   if (!spec || line.file.empty() || entry.line < 1) return line;
   const FieldPlace place = find_field(*spec, field);
-  const auto& source = sources[static_cast<std::size_t>(entry.file)];
+  const auto& source = files[static_cast<std::size_t>(entry.file)].source;
   if (!place.found || !source || static_cast<std::size_t>(entry.line) > source->lines.size()) return line;
-  return locate(*spec, entry, place, *source, line.file);
+  return locate(*spec, entry, place, *source, line);
 }
 
 std::string Deck::keyword(const Entry& entry) const {
@@ -77,13 +89,13 @@ std::string Deck::describe(const Entry& entry, std::string_view field) const {
   return describe_field(*spec, entry.name, place.card, place.field);
 }
 
-const Entry* Deck::define(const std::string& id_space, Id id, const Entry& entry) {
-  const auto [it, is_new] = definitions_.try_emplace({id_space, id}, entry);
+const Entry* Deck::define(IdSpace space, Id id, const Entry& entry) {
+  const auto [it, is_new] = definitions_.try_emplace({space, id}, entry);
   return is_new ? nullptr : &it->second;
 }
 
-std::string Deck::found_instead(const std::string& id_space, Id id) const {
-  const auto it = definitions_.find({id_space, id});
+std::string Deck::found_instead(IdSpace space, Id id) const {
+  const auto it = definitions_.find({space, id});
   if (it == definitions_.end()) return "there is none";
   return fmt::format("it is a {}, defined at {}", keyword(it->second), place(it->second));
 }

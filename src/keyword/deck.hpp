@@ -1,9 +1,10 @@
 #pragma once
 // A deck that was read: typed entries of every supported keyword, and where each stands, so that later checks
 // can name the file, line, column, keyword and field.
-#include <any>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <typeindex>
@@ -15,6 +16,28 @@
 namespace courant {
 
 struct SourceText;
+
+/// One file of a deck, as often as it is read.
+struct DeckFile {
+  std::string name;                            ///< as named by the user
+  std::shared_ptr<const SourceText> source{};  ///< its text, kept for messages
+  std::int32_t parent = -1;  ///< index of the file that includes this one, -1: the deck itself
+  int line = 0;              ///< where it does so
+  Conversion conversion{};   ///< what *INCLUDE_TRANSFORM asks for
+};
+
+/// What becomes of a keyword.
+enum class Treatment {
+  honoured,
+  output_only,  ///< a request for output that is not supported: warning
+  refused,      ///< physics that is not supported, or an unknown name: error
+};
+
+struct KeywordUse {
+  int blocks = 0;           ///< keyword lines
+  std::size_t entries = 0;  ///< sets of cards below them: nodes, elements, materials, ...
+  Treatment treatment = Treatment::honoured;
+};
 
 class Deck {
  public:
@@ -43,7 +66,7 @@ class Deck {
   }
   /// Gives back the text of the files: from then on messages about a field name its line, but not its column.
   void release_sources() {
-    for (auto& source : sources) source.reset();
+    for (DeckFile& file : files) file.source.reset();
   }
 
   Location where(const Entry& entry) const;                          ///< first data line
@@ -58,23 +81,28 @@ class Deck {
                std::string hint = {}) const;
 
   /// Notes who defines an id; the entry that did so before, or nullptr if this is the first.
-  const Entry* define(const std::string& id_space, Id id, const Entry& entry);
+  const Entry* define(IdSpace space, Id id, const Entry& entry);
   /// For messages about a missing definition: "there is none", or "it is a *MAT_RIGID, defined at deck.k:12".
-  std::string found_instead(const std::string& id_space, Id id) const;
+  std::string found_instead(IdSpace space, Id id) const;
   std::string place(const Entry& entry) const;  ///< "deck.k:12"
 
+  /// A place in one of the files, with the chain of files that include it.
+  Location location(std::int32_t file, int line, int column) const;
+
   std::string title;
-  std::vector<std::string> files;                          ///< as named by the user; [0] is the deck itself
-  std::vector<std::shared_ptr<const SourceText>> sources;  ///< text of each file, kept for messages
-  std::map<std::string, int> keyword_counts;  ///< every keyword of the deck by name, for `courant check`
+  std::vector<DeckFile> files;                 ///< [0] is the deck itself
+  std::map<std::string, KeywordUse> keywords;  ///< every keyword of the deck by name, for `courant check`
 
  private:
   std::map<std::type_index, std::shared_ptr<void>> entries_;
-  std::map<std::pair<std::string, Id>, Entry> definitions_;
+  std::map<std::pair<IdSpace, Id>, Entry> definitions_;
 };
 
 struct ReadOptions {
   std::map<std::string, std::string> parameters;  ///< --param NAME=VALUE: override *PARAMETER of the deck
+  /// Text of a file, nothing if it cannot be read; empty: files of this machine. Tests read decks from
+  /// memory.
+  std::function<std::optional<std::string>(const std::string& path)> open{};
 };
 
 /// Reads a deck with its includes. All faults go to `diagnostics`; never throws for bad input, never prints.

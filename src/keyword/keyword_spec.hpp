@@ -2,6 +2,7 @@
 // The type-erased form of a keyword's table: what the reader, the messages and the documentation need,
 // without the struct.
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -14,7 +15,7 @@
 
 namespace courant {
 
-enum class FieldType { integer, id, real, text, ids, reals, skip };
+enum class FieldType { integer, id, real, text, ids, reals, texts, skip };
 
 /// One field of a card, with its place in standard format.
 struct FieldSpec {
@@ -23,7 +24,9 @@ struct FieldSpec {
   FieldType type = FieldType::skip;
   int column = 0;           ///< first column in standard format, from 0
   bool takes_rest = false;  ///< a vector that takes all further columns of the card
-  bool is_vector() const { return type == FieldType::ids || type == FieldType::reals; }
+  bool is_vector() const {
+    return type == FieldType::ids || type == FieldType::reals || type == FieldType::texts;
+  }
 };
 
 struct CardSpec {
@@ -31,6 +34,7 @@ struct CardSpec {
   bool optional = false;
   bool repeat = false;
   bool conditional = false;  ///< there only under a condition, see KeywordSpec::has_card
+  bool is_table = false;     ///< several vectors: each card adds one to each of them
 };
 
 /// Builds the entries of one keyword, one after the other, and stores them in a deck.
@@ -45,7 +49,17 @@ class EntrySink {
   virtual void set_title(std::string_view title) = 0;
   virtual void set_id(Id id) = 0;
   virtual const Entry& entry() const = 0;  ///< the entry as read so far
-  virtual void commit() = 0;               ///< stores the entry in the deck
+  /// Shifts ids and changes units, by the table; returns why it cannot be done, else nothing.
+  virtual std::string convert(const Conversion& conversion) = 0;
+  virtual void commit() = 0;  ///< stores the entry in the deck
+};
+
+/// An id in a field of an entry.
+struct IdUse {
+  std::size_t card = 0, field = 0;
+  IdSpace space = IdSpace::none;
+  Id id = 0;             ///< as it stands, 0 and negative ones too
+  bool defines = false;  ///< the entry's own id
 };
 
 class KeywordSpec {
@@ -54,13 +68,25 @@ class KeywordSpec {
   virtual std::unique_ptr<EntrySink> sink(Deck& deck) const = 0;
   /// Whether the card is there, as far as the entry was read. `entry` must be of this keyword.
   virtual bool has_card(const Entry& entry, std::size_t card) const = 0;
-  /// The entry's id (first field of the first card), 0 where there is no id_space. `entry` must be of this
-  /// keyword.
+  /// The entry's id (with _ID that of its line, else the first field), 0 where there is no id_space. `entry`
+  /// must be of this keyword.
   virtual Id id_of(const Entry& entry) const = 0;
+  /// All entries of the keyword with this place in the registry.
+  virtual void for_each(const Deck& deck, std::int32_t keyword,
+                        const std::function<void(const Entry&)>& visit) const = 0;
+  /// All ids in an entry's fields, its own first. `entry` must be of this keyword.
+  virtual void for_each_id(const Entry& entry, const std::function<void(const IdUse&)>& visit) const = 0;
+  /// Moves the places and directions in the entries for which `motion_of` gives a motion. `refuse` hears why
+  /// an entry cannot be moved.
+  virtual void move(Deck& deck, std::int32_t keyword,
+                    const std::function<const Affine*(const Entry&)>& motion_of,
+                    const std::function<void(const Entry&, const std::string&)>& refuse) const = 0;
 
   std::vector<std::string> names;
-  std::string purpose, id_space;
-  bool title_option = false, id_option = false, heading = false, once = false, many = true;
+  std::string purpose, lacking;
+  IdSpace id_space = IdSpace::none;
+  bool title_option = false, id_option = false, mpp_option = false;
+  bool heading = false, once = false, many = true;
   std::vector<CardSpec> cards;
 };
 
@@ -69,8 +95,8 @@ namespace detail {
 template <class T>
 FieldType field_type(const typename FieldOf<T>::Member& member) {
   // in the order of FieldOf::Member
-  constexpr FieldType types[] = {FieldType::skip, FieldType::integer, FieldType::id,   FieldType::real,
-                                 FieldType::text, FieldType::ids,     FieldType::reals};
+  constexpr FieldType types[] = {FieldType::skip, FieldType::integer, FieldType::id,    FieldType::real,
+                                 FieldType::text, FieldType::ids,     FieldType::reals, FieldType::texts};
   return types[member.index()];
 }
 
@@ -97,6 +123,54 @@ void set_number(T& entry, const typename FieldOf<T>::Member& member, auto value)
   }
 }
 
+/// What the ids in a field number.
+template <class T>
+IdSpace space_of(const KeywordOf<T>& keyword, std::size_t card, std::size_t field, const T& entry) {
+  if (card == 0 && field == 0 && !keyword.id && keyword.id_space != IdSpace::none) return keyword.id_space;
+  const FieldOf<T>& f = keyword.cards[card].fields[field];
+  return f.refers ? f.refers(entry) : f.rules.refers;
+}
+
+template <class T>
+void convert_field(const KeywordOf<T>& keyword, std::size_t card, std::size_t field,
+                   const Conversion& conversion, T& entry) {
+  const FieldOf<T>& f = keyword.cards[card].fields[field];
+  const IdSpace space = space_of(keyword, card, field, entry);
+  const Real factor = conversion.units.of(f.dimension);
+  if (auto* id = std::get_if<Id T::*>(&f.member)) {
+    entry.*(*id) = conversion.offsets.shifted(space, entry.*(*id));
+  } else if (auto* ids = std::get_if<std::vector<Id> T::*>(&f.member)) {
+    for (Id& one : entry.*(*ids)) one = conversion.offsets.shifted(space, one);
+  } else if (auto* real = std::get_if<Real T::*>(&f.member)) {
+    // a standard value ("1e20", never) is no number in the file's units
+    if (entry.*(*real) != f.rules.standard) entry.*(*real) *= factor;
+  } else if (auto* reals = std::get_if<std::vector<Real> T::*>(&f.member)) {
+    for (Real& one : entry.*(*reals)) one *= factor;
+  }
+}
+
+/// A title with what *INCLUDE_TRANSFORM puts before and behind it.
+inline std::string converted_title(const Conversion& conversion, const std::string& title) {
+  std::string out = conversion.prefix.empty() ? title : conversion.prefix + "." + title;
+  return conversion.suffix.empty() ? out : out + "." + conversion.suffix;
+}
+
+template <class T>
+void move_fields(const KeywordOf<T>& keyword, const Affine& motion, T& entry) {
+  for (const CardOf<T>& card : keyword.cards) {
+    for (std::size_t f = 0; f + 2 < card.fields.size(); ++f) {
+      if (card.fields[f].rules.spatial == Spatial::none) continue;
+      const auto component = [&](std::size_t k) -> Real& {
+        return entry.*(*std::get_if<Real T::*>(&card.fields[f + k].member));
+      };
+      const Vec old(component(0), component(1), component(2));
+      const Vec now =
+          card.fields[f].rules.spatial == Spatial::point ? Vec(motion * old) : Vec(motion.linear() * old);
+      for (std::size_t k = 0; k < 3; ++k) component(k) = now[static_cast<Eigen::Index>(k)];
+    }
+  }
+}
+
 template <class T>
 class EntrySinkOf : public EntrySink {
  public:
@@ -118,8 +192,10 @@ class EntrySinkOf : public EntrySink {
     set_number<T>(entry_, keyword_.cards[card].fields[field].member, value);
   }
   void set_text(std::size_t card, std::size_t field, std::string_view value) override {
-    if (auto* text = std::get_if<std::string T::*>(&keyword_.cards[card].fields[field].member))
-      entry_.*(*text) = value;
+    const auto& member = keyword_.cards[card].fields[field].member;
+    if (auto* text = std::get_if<std::string T::*>(&member)) entry_.*(*text) = value;
+    if (auto* texts = std::get_if<std::vector<std::string> T::*>(&member))
+      (entry_.*(*texts)).emplace_back(value);
   }
   void set_title(std::string_view title) override {
     if (keyword_.title) entry_.*(keyword_.title) = title;
@@ -128,6 +204,15 @@ class EntrySinkOf : public EntrySink {
     if (keyword_.id) entry_.*(keyword_.id) = id;
   }
   const Entry& entry() const override { return entry_; }
+  std::string convert(const Conversion& conversion) override {
+    for (std::size_t c = 0; c < keyword_.cards.size(); ++c)
+      for (std::size_t f = 0; f < keyword_.cards[c].fields.size(); ++f)
+        convert_field(keyword_, c, f, conversion, entry_);
+    if (keyword_.id)
+      entry_.*(keyword_.id) = conversion.offsets.shifted(keyword_.id_space, entry_.*(keyword_.id));
+    if (keyword_.title) entry_.*(keyword_.title) = converted_title(conversion, entry_.*(keyword_.title));
+    return keyword_.convert ? keyword_.convert(entry_, conversion) : std::string();
+  }
   void commit() override { store_.push_back(std::move(entry_)); }
 
  private:
@@ -144,8 +229,10 @@ class KeywordSpecOf : public KeywordSpec {
     names = keyword_.names;
     purpose = keyword_.purpose;
     id_space = keyword_.id_space;
+    lacking = keyword_.lacking;
     title_option = keyword_.title_option;
     id_option = keyword_.id_option;
+    mpp_option = keyword_.mpp_option;
     heading = keyword_.heading;
     once = keyword_.once;
     many = keyword_.many;
@@ -159,9 +246,41 @@ class KeywordSpecOf : public KeywordSpec {
     return !when || when(static_cast<const T&>(entry));
   }
   Id id_of(const Entry& entry) const override {
-    if (id_space.empty()) return 0;
+    if (id_space == IdSpace::none) return 0;
+    const T& e = static_cast<const T&>(entry);
+    if (keyword_.id) return e.*(keyword_.id);
     const auto* member = std::get_if<Id T::*>(&keyword_.cards[0].fields[0].member);
-    return member ? static_cast<const T&>(entry).*(*member) : 0;
+    return member ? e.*(*member) : 0;
+  }
+  void for_each(const Deck& deck, std::int32_t keyword,
+                const std::function<void(const Entry&)>& visit) const override {
+    for (const T& entry : deck.all<T>())
+      if (entry.keyword == keyword) visit(entry);
+  }
+  void for_each_id(const Entry& entry, const std::function<void(const IdUse&)>& visit) const override {
+    const T& e = static_cast<const T&>(entry);
+    if (keyword_.id) visit({0, 0, id_space, e.*(keyword_.id), true});
+    for (std::size_t c = 0; c < keyword_.cards.size(); ++c) {
+      for (std::size_t f = 0; f < keyword_.cards[c].fields.size(); ++f) {
+        const IdSpace space = space_of(keyword_, c, f, e);
+        if (space == IdSpace::none) continue;
+        const bool own = c == 0 && f == 0 && !keyword_.id && id_space != IdSpace::none;
+        const auto& member = keyword_.cards[c].fields[f].member;
+        if (auto* id = std::get_if<Id T::*>(&member)) visit({c, f, space, e.*(*id), own});
+        if (auto* ids = std::get_if<std::vector<Id> T::*>(&member))
+          for (const Id one : e.*(*ids)) visit({c, f, space, one, own});
+      }
+    }
+  }
+  void move(Deck& deck, std::int32_t keyword, const std::function<const Affine*(const Entry&)>& motion_of,
+            const std::function<void(const Entry&, const std::string&)>& refuse) const override {
+    for (T& entry : deck.store<T>()) {
+      const Affine* motion = entry.keyword == keyword ? motion_of(entry) : nullptr;
+      if (!motion) continue;
+      move_fields(keyword_, *motion, entry);
+      const std::string reason = keyword_.move ? keyword_.move(entry, *motion) : std::string();
+      if (!reason.empty()) refuse(entry, reason);
+    }
   }
 
  private:
@@ -183,6 +302,7 @@ class KeywordSpecOf : public KeywordSpec {
       spec.fields.push_back(std::move(field));
     }
     // two vectors side by side are columns of a table (abscissa, ordinate); a single one is a list
+    spec.is_table = vectors > 1;
     if (vectors == 1 && spec.fields.back().is_vector()) spec.fields.back().takes_rest = true;
     cards.push_back(std::move(spec));
   }

@@ -57,21 +57,24 @@ KeywordIndex::KeywordIndex() {
 KeywordMatch KeywordIndex::match(const std::string& name) const {
   if (const auto it = by_name_.find(name); it != by_name_.end()) return it->second;
   std::string base = name;
-  bool title = false, id = false;
+  bool title = false, id = false, mpp = false;
   while (true) {
     if (!title && strip_suffix(base, "_TITLE"))
       title = true;
     else if (!id && strip_suffix(base, "_ID"))
       id = true;
+    else if (!mpp && strip_suffix(base, "_MPP"))
+      mpp = true;
     else
       return {};
     const auto it = by_name_.find(base);
     if (it == by_name_.end()) continue;
     const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(it->second.keyword)];
-    if ((title && !spec.title_option) || (id && !spec.id_option)) return {};
+    if ((title && !spec.title_option) || (id && !spec.id_option) || (mpp && !spec.mpp_option)) return {};
     KeywordMatch out = it->second;
     out.title = title;
     out.id = id;
+    out.mpp = mpp;
     return out;
   }
 }

@@ -25,11 +25,12 @@ struct RegisterKeyword {
   }
 };
 
-/// What a keyword line names: the registry's keyword, which of its names, and the options _TITLE and _ID.
+/// What a keyword line names: the registry's keyword, which of its names, and the options _TITLE, _ID and
+/// _MPP.
 struct KeywordMatch {
   int keyword = -1;  ///< index into the registry, -1: unknown
   int name = 0;
-  bool title = false, id = false;
+  bool title = false, id = false, mpp = false;
 };
 
 /// Look-up by name; holds for the keywords registered when it was made.

@@ -63,6 +63,12 @@ class DataLines {
   std::size_t next_;
 };
 
+/// The lines that the option _MPP adds; the second one begins with &.
+inline void skip_mpp_lines(DataLines& data) {
+  if (!data.done()) data.step();
+  if (!data.done() && !data.line().empty() && data.line()[0] == '&') data.step();
+}
+
 int field_width(const FieldSpec& field, CardFormat format);
 
 /// Cuts a data line into the card's fields; a list takes all further columns. `too_many`: fields of a comma

@@ -42,7 +42,7 @@ const RegisterEos<Card> registered{
       0.5, 3, 1.8}},
     {.names = {"EOS_LINEAR_POLYNOMIAL", "EOS_001"},
      .purpose = "pressure as a polynomial of compression, with energy",
-     .id_space = "equation of state",
+     .id_space = IdSpace::eos,
      .title_option = true,
      .title = &Card::title,
      .cards = {{.fields = {{"EOSID",

@@ -34,7 +34,7 @@ const RegisterEos<Card> registered{
      {"         1       2.0     100.0       1.0\n", 0.1, 0, 21}},
     {.names = {"EOS_MURNAGHAN", "EOS_019"},
      .purpose = "stiff power law for weakly compressible water",
-     .id_space = "equation of state",
+     .id_space = IdSpace::eos,
      .title_option = true,
      .title = &Card::title,
      .cards = {

@@ -9,7 +9,7 @@ namespace {
 const RegisterKeyword<MatNull> mat_null{
     {.names = {"MAT_NULL", "MAT_009"},
      .purpose = "fluid: density, tensile cut-off and viscosity; pressure comes from the part's EOS",
-     .id_space = "material",
+     .id_space = IdSpace::material,
      .title_option = true,
      .title = &MatNull::title,
      .cards = {

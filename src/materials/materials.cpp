@@ -53,7 +53,7 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
     if (null == nulls.end())
       deck.error(diagnostics, part.card, "MID",
                  fmt::format("the particles of part {} need a *MAT_NULL with id {}; {}", part.id, part.mid,
-                             deck.found_instead("material", part.mid)),
+                             deck.found_instead(IdSpace::material, part.mid)),
                  "add the material, or correct the id here");
     if (law == laws.end())
       deck.error(diagnostics, part.card, "EOSID",

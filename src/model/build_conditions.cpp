@@ -14,7 +14,7 @@ void ModelBuilder::build_control() {
     model_.dtmin = card->dtmin;
   } else {
     ++errors_;
-    diagnostics_.error({deck_.files.empty() ? "" : deck_.files[0], 0, 0},
+    diagnostics_.error({deck_.files.empty() ? "" : deck_.files[0].name, 0, 0},
                        "*CONTROL_TERMINATION is missing: the run has no end time",
                        "add *CONTROL_TERMINATION with ENDTIM > 0");
   }

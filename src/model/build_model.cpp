@@ -33,7 +33,7 @@ Model ModelBuilder::build() {
   build_constraints();
   build_velocities();
   if (errors_ > max_errors)
-    diagnostics_.note({deck_.files.empty() ? "" : deck_.files[0], 0, 0},
+    diagnostics_.note({deck_.files.empty() ? "" : deck_.files[0].name, 0, 0},
                       fmt::format("{} more errors are not shown", errors_ - max_errors));
   return std::move(model_);
 }

@@ -11,7 +11,7 @@ constexpr Honour no = Honour::no, output_only = Honour::output_only;
 const RegisterKeyword<M> mat_rigid{
     {.names = {"MAT_RIGID", "MAT_020"},
      .purpose = "rigid body: density, constraints; E and PR give the contact stiffness only",
-     .id_space = "material",
+     .id_space = IdSpace::material,
      .title_option = true,
      .title = &M::title,
      .cards = {

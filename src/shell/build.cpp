@@ -34,13 +34,13 @@ std::vector<ShellPart> read_parts(const Deck& deck, const Model& model,
     if (section == sections.end())
       deck.error(diagnostics, part.card, "SECID",
                  fmt::format("the shells of part {} need a *SECTION_SHELL with id {}; {}", part.id,
-                             part.secid, deck.found_instead("section", part.secid)),
+                             part.secid, deck.found_instead(IdSpace::section, part.secid)),
                  "add the section, or correct the id here");
     const auto m = material(k);
     if (!m)
       deck.error(diagnostics, part.card, "MID",
                  fmt::format("the shells of part {} need a *MAT_RIGID with id {}; {}", part.id, part.mid,
-                             deck.found_instead("material", part.mid)),
+                             deck.found_instead(IdSpace::material, part.mid)),
                  "shells are rigid walls here; deformable ones are not supported");
     if (!m || section == sections.end()) continue;
     const SectionShell& s = *section->second;

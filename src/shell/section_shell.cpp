@@ -11,7 +11,7 @@ constexpr Honour no = Honour::no, ignored = Honour::ignored;
 const RegisterKeyword<S> section_shell{
     {.names = {"SECTION_SHELL"},
      .purpose = "thickness of shells",
-     .id_space = "section",
+     .id_space = IdSpace::section,
      .title_option = true,
      .title = &S::title,
      .cards = {

@@ -57,7 +57,7 @@ class Builder {
       if (found == sections.end()) {
         deck_.error(diagnostics_, part.card, "SECID",
                     fmt::format("the particles of part {} need a *SECTION_SPH with id {}; {}", part.id,
-                                part.secid, deck_.found_instead("section", part.secid)),
+                                part.secid, deck_.found_instead(IdSpace::section, part.secid)),
                     "add the section, or correct the id here");
         continue;
       }

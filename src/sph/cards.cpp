@@ -9,7 +9,7 @@ namespace {
 const RegisterKeyword<SectionSph> section_sph{
     {.names = {"SECTION_SPH"},
      .purpose = "smoothing length of SPH parts",
-     .id_space = "section",
+     .id_space = IdSpace::section,
      .title_option = true,
      .title = &SectionSph::title,
      .cards = {
@@ -119,7 +119,7 @@ const RegisterKeyword<ControlSph> control_sph{
 const RegisterKeyword<Hourglass> hourglass{
     {.names = {"HOURGLASS"},
      .purpose = "bulk viscosity coefficients of the parts that name it (HGID)",
-     .id_space = "hourglass",
+     .id_space = IdSpace::hourglass,
      .title_option = true,
      .title = &Hourglass::title,
      .cards = {{.fields = {{"HGID",

@@ -33,6 +33,6 @@ TEST(Memory, TablesOfTheDeckAreGivenBackOnceTheWorldIsBuilt) {
   EXPECT_EQ(s->model().sph.capacity(), 0u);
   EXPECT_TRUE(s->deck().all<NodeCard>().empty());
   EXPECT_TRUE(s->deck().all<ElementSphCard>().empty());
-  for (const auto& source : s->deck().sources) EXPECT_EQ(source, nullptr);
+  for (const DeckFile& file : s->deck().files) EXPECT_EQ(file.source, nullptr);
   EXPECT_FALSE(s->deck().files.empty()) << "names stay, for `courant check`";
 }

@@ -1,0 +1,128 @@
+#include "keyword/conversion.hpp"
+
+#include <cmath>
+
+namespace courant {
+
+const char* id_word(IdSpace space) {
+  static constexpr const char* words[] = {"id",
+                                          "node",
+                                          "solid element",
+                                          "shell",
+                                          "beam",
+                                          "discrete element",
+                                          "mass element",
+                                          "part",
+                                          "material",
+                                          "equation of state",
+                                          "section",
+                                          "hourglass",
+                                          "node set",
+                                          "part set",
+                                          "solid set",
+                                          "shell set",
+                                          "beam set",
+                                          "segment set",
+                                          "curve",
+                                          "box",
+                                          "coordinate system",
+                                          "vector",
+                                          "transformation",
+                                          "definition",
+                                          "contact",
+                                          "boundary condition",
+                                          "rigid wall"};
+  static_assert(sizeof words / sizeof *words == static_cast<std::size_t>(IdSpace::count));
+  return words[static_cast<std::size_t>(space)];
+}
+
+Id IdOffsets::of(IdSpace space) const {
+  switch (space) {
+    case IdSpace::none:
+    case IdSpace::count:
+      return 0;
+    case IdSpace::node:
+      return node;
+    case IdSpace::solid:
+    case IdSpace::shell:
+    case IdSpace::beam:
+    case IdSpace::discrete:
+    case IdSpace::mass:
+      return element;
+    case IdSpace::part:
+      return part;
+    case IdSpace::material:
+      return material;
+    case IdSpace::node_set:
+    case IdSpace::part_set:
+    case IdSpace::solid_set:
+    case IdSpace::shell_set:
+    case IdSpace::beam_set:
+    case IdSpace::segment_set:
+      return set;
+    case IdSpace::curve:
+      return curve;
+    case IdSpace::box:
+    case IdSpace::coordinate_system:
+    case IdSpace::vector:
+    case IdSpace::transformation:
+    case IdSpace::definition:
+      return definition;
+    case IdSpace::eos:
+    case IdSpace::section:
+    case IdSpace::hourglass:
+    case IdSpace::contact:
+    case IdSpace::boundary:
+    case IdSpace::rigid_wall:
+      return other;
+  }
+  return 0;
+}
+
+Id IdOffsets::shifted(IdSpace space, Id id) const {
+  const Id offset = of(space);
+  return id > 0 ? id + offset : id < 0 ? id - offset : 0;
+}
+
+bool IdOffsets::any() const {
+  return node != 0 || element != 0 || part != 0 || material != 0 || set != 0 || curve != 0 ||
+         definition != 0 || other != 0;
+}
+
+Real UnitFactors::of(std::string_view dimension) const {
+  Real factor = 1;
+  int sign = 1;
+  for (std::size_t i = 0; i < dimension.size(); ++i) {
+    const char c = dimension[i];
+    if (c == '/') sign = -1;
+    if (c != 'M' && c != 'L' && c != 'T') continue;
+    const bool power = i + 1 < dimension.size() && dimension[i + 1] >= '2' && dimension[i + 1] <= '9';
+    const int exponent = sign * (power ? dimension[i + 1] - '0' : 1);
+    factor *= std::pow(c == 'M' ? mass : c == 'L' ? length : time, exponent);
+  }
+  return factor;
+}
+
+Conversion Conversion::then(const Conversion& inner) const {
+  Conversion out = inner;
+  out.offsets.node += offsets.node;
+  out.offsets.element += offsets.element;
+  out.offsets.part += offsets.part;
+  out.offsets.material += offsets.material;
+  out.offsets.set += offsets.set;
+  out.offsets.curve += offsets.curve;
+  out.offsets.definition += offsets.definition;
+  out.offsets.other += offsets.other;
+  out.units.mass *= units.mass;
+  out.units.time *= units.time;
+  out.units.length *= units.length;
+  const auto joined = [](const std::string& a, const std::string& b) {
+    return a.empty() || b.empty() ? a + b : a + "." + b;
+  };
+  out.prefix = joined(prefix, inner.prefix);
+  out.suffix = joined(inner.suffix, suffix);
+  out.transformations.insert(out.transformations.end(), transformations.begin(), transformations.end());
+  return out;
+}
+
+}  // namespace courant
