@@ -304,7 +304,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
                                      std::shared_ptr<Neighbours> neighbours) {
   std::vector<PassNote> left_out;
   const auto geometry =
-      std::make_shared<PairGeometry>(neighbours, s.uniform_h, PairGeometry::cache_bytes, s.geometry_eps);
+      std::make_shared<PairGeometry>(neighbours, s.uniform_h, PairGeometry::most_kept_bytes, s.geometry_eps);
   world.rates.push_back(make_rates(s, world, geometry));
   if (s.geometry_eps == 0) left_out.push_back({"kept pair geometry", "no *COURANT_PAIR_GEOMETRY"});
   if (s.evolving_h)
