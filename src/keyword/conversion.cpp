@@ -1,6 +1,7 @@
 #include "keyword/conversion.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace courant {
 
@@ -50,8 +51,10 @@ Id IdOffsets::of(IdSpace space) const {
     case IdSpace::mass:
       return element;
     case IdSpace::part:
+    case IdSpace::rigid_wall:
       return part;
     case IdSpace::material:
+    case IdSpace::eos:
       return material;
     case IdSpace::node_set:
     case IdSpace::part_set:
@@ -68,20 +71,21 @@ Id IdOffsets::of(IdSpace space) const {
     case IdSpace::transformation:
     case IdSpace::definition:
       return definition;
-    case IdSpace::eos:
     case IdSpace::section:
     case IdSpace::hourglass:
     case IdSpace::contact:
     case IdSpace::boundary:
-    case IdSpace::rigid_wall:
       return other;
   }
   return 0;
 }
 
 Id IdOffsets::shifted(IdSpace space, Id id) const {
-  const Id offset = of(space);
-  return id > 0 ? id + offset : id < 0 ? id - offset : 0;
+  const Id offset = id < 0 ? -of(space) : of(space);
+  Id sum = 0;
+  // an id that no deck has use for stays so, instead of turning round to a small one
+  if (__builtin_add_overflow(id, offset, &sum)) return std::numeric_limits<Id>::max();
+  return id == 0 ? 0 : sum;
 }
 
 bool IdOffsets::any() const {
