@@ -35,7 +35,8 @@ const RegisterKeyword<IncludeLine> include_keyword{
 
 const RegisterKeyword<IncludeLine> include_path{
     {.names = {"INCLUDE_PATH"},
-     .purpose = "folders in which the files included further down are looked for, in this order",
+     .purpose = "folders in which the files included further down are looked for, in this order; their names "
+                "are relative to the working directory, then to the deck's own folder",
      .cards = {{.fields = {{"PATH", &IncludeLine::text, "-", "name of a folder", {.width = 80}}}}}}};
 
 const RegisterKeyword<IncludeLine> include_path_relative{
@@ -69,7 +70,7 @@ const RegisterKeyword<T> include_transform{
          {.fields = {{"FCTMAS", &T::fctmas, "-", "the file's unit of mass in the deck's", factor},
                      {"FCTTIM", &T::fcttim, "-", "the file's unit of time in the deck's", factor},
                      {"FCTLEN", &T::fctlen, "-", "the file's unit of length in the deck's", factor},
-                     {"FCTTEM", &T::fcttem, "-", "change of temperature scale", {.honour = Honour::no}},
+                     {"FCTTEM", &T::fcttem, "-", "change of temperature scale; only none (blank, 0 or 1)"},
                      {"INCOUT1",
                       &T::incout1,
                       "-",

@@ -6,6 +6,7 @@
 
 #include "keyword/deck_reader.hpp"
 #include "keyword/include_card.hpp"
+#include "keyword/number.hpp"
 
 namespace courant {
 
@@ -20,6 +21,12 @@ std::string identity(const std::string& path) {
   std::error_code fault;
   const auto full = fs::weakly_canonical(path, fault);
   return fault ? path : full.string();
+}
+
+/// FCTTEM is a word like FtoC. Some programs write a factor instead.
+bool changes_temperatures(const std::string& fcttem) {
+  Real factor = 0;
+  return !fcttem.empty() && !(parse_real(fcttem, factor) && (factor == 0 || factor == 1));
 }
 
 Id largest(const IdOffsets& o) {
@@ -59,7 +66,9 @@ void DeckReader::read_include_paths(const File& file, std::size_t line, bool rel
     std::error_code fault;
     if (name.find('\\') != std::string::npos && !fs::exists(name, fault))
       std::replace(name.begin(), name.end(), '\\', '/');
-    include_paths_.push_back(relative_to_deck ? (deck_folder / name).string() : name);
+    const fs::path beside_deck = deck_folder / name;
+    if (!relative_to_deck) include_paths_.push_back(name);
+    if (relative_to_deck || beside_deck != name) include_paths_.push_back(beside_deck.string());
   }
 }
 
@@ -78,6 +87,9 @@ void DeckReader::read_include_transform(const File& file, std::size_t line, cons
   if (largest(whole.offsets) > largest_offset)
     deck_.error(diagnostics_, card, "IDNOFF",
                 fmt::format("an offset, with those of the including files, is above {}", largest_offset));
+  else if (changes_temperatures(card.fcttem))
+    deck_.error(diagnostics_, card, "FCTTEM", fmt::format("'{}' is not supported", card.fcttem),
+                "leave the field blank");
   else if (card.filename.empty())
     diagnostics_.error(place(file, line), "*INCLUDE_TRANSFORM: the file name is missing");
   else

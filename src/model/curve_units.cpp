@@ -26,7 +26,7 @@ struct ConvertedCurve {
 void use(const Deck& deck, const Entry& entry, const KeywordSpec& spec, const IdUse& id,
          ConvertedCurve& curve, Diagnostics& diagnostics) {
   const FieldSpec& field = spec.cards[id.card].fields[id.field];
-  if (field.rules.honour != Honour::yes) return;  // without effect, or refused already
+  if (field.rules.honour != Honour::yes || !spec.lacking.empty()) return;  // no effect, or refused already
   const CurveDimensions* dimensions = curve_dimensions(spec.names[0], field.name);
   const char* hint =
       "give the curve in the deck's own units: in a file without unit factors, or through SFA and SFO";

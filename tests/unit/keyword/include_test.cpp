@@ -66,6 +66,12 @@ TEST(Include, PathsHoldForFilesFurtherDownOnly) {
       "main.k:3:1: error: *INCLUDE: cannot read 'mesh.k'\n  hint: looked for mesh.k\n");
 }
 
+TEST(Include, PathsMayBeRelativeToTheDeck) {
+  expect_found(
+      {{{"sub/main.k", including("*INCLUDE_PATH\nlib\n*INCLUDE\nmesh.k\n")}, {"sub/lib/mesh.k", node}}},
+      "sub/main.k", "sub/lib/mesh.k");
+}
+
 TEST(Include, PathRelativeCountsFromTheDeckAlsoInAnIncludedFile) {
   DecksInMemory decks{{{"case/main.k", including("*INCLUDE\nparts/all.k\n")},
                        {"case/parts/all.k", "*INCLUDE_PATH_RELATIVE\nlib\n*INCLUDE\nmesh.k\n"},
@@ -127,8 +133,9 @@ TEST(Include, TellsWhereAMissingFileWasLookedFor) {
   EXPECT_EQ(messages_of({{{"sub/main.k", including("*INCLUDE_PATH\nlib\n/usr/lib\n*INCLUDE\nx\\mesh.k\n")}}},
                         "sub/main.k"),
             "sub/main.k:6:1: error: *INCLUDE: cannot read 'x\\mesh.k'\n"
-            "  hint: looked for sub/x\\mesh.k, x\\mesh.k, lib/x\\mesh.k, /usr/lib/x\\mesh.k, sub/x/mesh.k, "
-            "x/mesh.k, lib/x/mesh.k, /usr/lib/x/mesh.k\n");
+            "  hint: looked for sub/x\\mesh.k, x\\mesh.k, lib/x\\mesh.k, sub/lib/x\\mesh.k, "
+            "/usr/lib/x\\mesh.k, sub/x/mesh.k, "
+            "x/mesh.k, lib/x/mesh.k, sub/lib/x/mesh.k, /usr/lib/x/mesh.k\n");
 }
 
 TEST(Include, RefusesAFolder) {

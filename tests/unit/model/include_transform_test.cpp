@@ -14,130 +14,13 @@
 #include "model/included_entries.hpp"
 #include "rigid/mat_rigid.hpp"
 #include "sph/cards.hpp"
+#include "transformed_scene.hpp"
 
 namespace courant {
 
 namespace {
 
 constexpr Real tolerance = 1e-12;
-
-/// How a file writes what the scene means: numbers divided by `units`, ids less `offsets`, points and
-/// directions before `moved` was done to them.
-struct Writing {
-  UnitFactors units{};
-  IdOffsets offsets{};
-  Affine moved = Affine::Identity();
-  bool along_axes = true;  ///< with what a file that is turned by any angle cannot hold
-
-  std::string id(IdSpace space, Id n) const { return fmt::format("{}", n - offsets.of(space)); }
-  std::string number(Real value, const char* dimension) const {
-    return fmt::format("{:.17g}", value / units.of(dimension));
-  }
-  std::string vector(const Vec& v, const char* dimension) const {
-    return number(v[0], dimension) + ", " + number(v[1], dimension) + ", " + number(v[2], dimension);
-  }
-  std::string point(const Vec& x) const { return vector(moved.inverse() * x, "L"); }
-  std::string velocity(const Vec& v) const { return vector(moved.linear().inverse() * v, "L/T"); }
-  /// low x, high x, low y, ...
-  std::string box(const Vec& low, const Vec& high) const {
-    const Vec a = moved.inverse() * low, b = moved.inverse() * high;
-    std::string out;
-    for (int k = 0; k < 3; ++k)
-      out +=
-          (k > 0 ? ", " : "") + number(std::min(a[k], b[k]), "L") + ", " + number(std::max(a[k], b[k]), "L");
-    return out;
-  }
-  std::string code(std::array<bool, 3> held) const;
-};
-
-/// The code, in the file, of axes that are held in the scene.
-std::string Writing::code(std::array<bool, 3> held) const {
-  int out = 0;
-  std::array<bool, 3> before{};
-  for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l)
-      before[l] = before[l] || (held[k] && std::abs((moved.linear().inverse() * Vec::Unit(k))[l]) > 0.5);
-  const std::array<bool, 3> codes[] = {{false, false, false}, {true, false, false}, {false, true, false},
-                                       {false, false, true},  {true, true, false},  {false, true, true},
-                                       {true, false, true},   {true, true, true}};
-  while (codes[out] != before) ++out;
-  return fmt::format("{}", out);
-}
-
-std::string mesh(const Writing& w) {
-  std::string text = "*NODE\n", particles = "*ELEMENT_SPH\n";
-  for (int k = 0; k < 8; ++k) {
-    const Vec x(2 + 0.1 * (k % 2), 1 + 0.1 * (k / 2 % 2), 0.3 + 0.1 * (k / 4));
-    const std::array<bool, 3> held = {k == 3, false, k == 3 || k == 5};
-    text += fmt::format("{}, {}, {}\n", w.id(IdSpace::node, 9001 + k), w.point(x),
-                        w.along_axes ? w.code(held) : std::string(k == 6 ? "7" : "0"));
-    particles += fmt::format("{}, {}, {}\n", w.id(IdSpace::node, 9001 + k), w.id(IdSpace::part, 801),
-                             k < 4 ? w.number(1.01, "M") : w.number(-1e-3, "L3"));
-  }
-  const Vec corners[] = {{1.5, 0.5, 0}, {2.5, 0.5, 0}, {2.5, 1.5, 0.1}, {1.5, 1.5, 0.2}};
-  for (int k = 0; k < 4; ++k)
-    text += fmt::format("{}, {}\n", w.id(IdSpace::node, 9011 + k), w.point(corners[k]));
-  text += particles;
-  text += fmt::format("*ELEMENT_SHELL\n{}, {}, {}, {}, {}, {}\n", w.id(IdSpace::shell, 7001),
-                      w.id(IdSpace::part, 802), w.id(IdSpace::node, 9011), w.id(IdSpace::node, 9012),
-                      w.id(IdSpace::node, 9013), w.id(IdSpace::node, 9014));
-  return text;
-}
-
-std::string parts(const Writing& w) {
-  std::string text =
-      fmt::format("*PART\nwater\n{}, {}, {}, {}, {}\n", w.id(IdSpace::part, 801), w.id(IdSpace::section, 601),
-                  w.id(IdSpace::material, 501), w.id(IdSpace::eos, 502), w.id(IdSpace::hourglass, 602));
-  text += fmt::format("*PART\nplate\n{}, {}, {}\n", w.id(IdSpace::part, 802), w.id(IdSpace::section, 603),
-                      w.id(IdSpace::material, 503));
-  text += fmt::format("*SECTION_SPH\n{}, , , , {}\n", w.id(IdSpace::section, 601), w.number(0.13, "L"));
-  text += fmt::format("*SECTION_SHELL\n{}\n{},\n", w.id(IdSpace::section, 603), w.number(0.02, "L"));
-  text += fmt::format("*MAT_NULL\n{}, {}, {}, {}\n", w.id(IdSpace::material, 501), w.number(1000, "M/L3"),
-                      w.number(-1e6, "M/LT2"), w.number(1e-3, "M/LT"));
-  text += fmt::format("*EOS_MURNAGHAN\n{}, 7.0, {}\n", w.id(IdSpace::eos, 502), w.number(1e6, "M/LT2"));
-  text += fmt::format("*MAT_RIGID\n{}, {}, {}, 0.3\n1, {}, 7\n", w.id(IdSpace::material, 503),
-                      w.number(7850, "M/L3"), w.number(2.1e11, "M/LT2"),
-                      w.along_axes ? w.code({true, true, false}) : std::string("7"));
-  text += fmt::format("*HOURGLASS\n{}, , , , 1.2, 0.1\n", w.id(IdSpace::hourglass, 602));
-  return text;
-}
-
-std::string conditions(const Writing& w) {
-  std::string text = fmt::format("*SET_NODE_LIST\n{}\n{}, {}\n", w.id(IdSpace::node_set, 401),
-                                 w.id(IdSpace::node, 9002), w.id(IdSpace::node, 9005));
-  text += fmt::format("*SET_NODE_GENERATE\n{}\n{}, {}\n", w.id(IdSpace::node_set, 402),
-                      w.id(IdSpace::node, 9001), w.id(IdSpace::node, 9008));
-  text += fmt::format("*SET_PART\n{}\n{}\n", w.id(IdSpace::part_set, 403), w.id(IdSpace::part, 801));
-  text +=
-      fmt::format("*INITIAL_VELOCITY\n{}, {}{}\n{}\n{}\n", w.id(IdSpace::node_set, 402),
-                  w.id(IdSpace::node_set, 401), w.along_axes ? ", " + w.id(IdSpace::box, 301) : std::string(),
-                  w.velocity({1, 2, 3}), w.velocity({-1, 0, 0.5}));
-  if (w.along_axes)
-    text +=
-        fmt::format("*DEFINE_BOX\n{}, {}\n", w.id(IdSpace::box, 301), w.box({1.9, 0.9, 0.25}, {2.05, 3, 3}));
-  const Real hand = w.moved.linear().determinant() < 0 ? -1 : 1;
-  text += fmt::format("*INITIAL_VELOCITY_GENERATION\n{}, 3, {}, {}\n{}, {}\n", w.id(IdSpace::node_set, 401),
-                      w.number(hand * 4, "1/T"), w.velocity({0, 0, 7}), w.point({2, 1, 0}),
-                      w.vector(w.moved.linear().inverse() * Vec(1, 2, 2), "-"));
-  text += fmt::format("*INITIAL_VELOCITY_NODE\n{}, {}\n", w.id(IdSpace::node, 9008), w.velocity({9, 8, 7}));
-  text += fmt::format("*BOUNDARY_SPC_SET_ID\n{:10}held\n{}, 0, 1, 1, 1\n", 12, w.id(IdSpace::node_set, 401));
-  text += fmt::format(
-      "*CONTACT_AUTOMATIC_NODES_TO_SURFACE_ID\n{:>10}water on plate\n{}, {}, 2, 3\n0.1, 0.1, {}, {}\n"
-      "1.0, 1.0, {}\n",
-      w.id(IdSpace::contact, 604), w.id(IdSpace::part_set, 403), w.id(IdSpace::part, 802),
-      w.number(0.5, "T/L"), w.number(1e5, "M/LT2"), w.number(0.03, "L"));
-  text += fmt::format("*DATABASE_HISTORY_SPH\n{}\n*DATABASE_HISTORY_SPH_SET\n{}\n", w.id(IdSpace::node, 9004),
-                      w.id(IdSpace::node_set, 401));
-  text += fmt::format("*LOAD_BODY_Z\n{}\n*DEFINE_CURVE\n{}\n{}, {}\n{}, {}\n", w.id(IdSpace::curve, 201),
-                      w.id(IdSpace::curve, 201), w.number(0, "T"), w.number(9.81, "L/T2"), w.number(2, "T"),
-                      w.number(4, "L/T2"));
-  text += fmt::format("*DATABASE_GLSTAT\n{},\n", w.number(0.01, "T"));
-  return text;
-}
-
-std::string scene(const Writing& w) {
-  return mesh(w) + parts(w) + conditions(w);
-}
 
 const std::string control = "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*CONTROL_SPH\n, , , 3\n";
 
@@ -454,6 +337,20 @@ TEST(IncludeTransform, AddsPrefixAndSuffixToTitles) {
   EXPECT_EQ(diagnostics.text(), "");
   ASSERT_EQ(deck.all<PartCard>().size(), 1u);
   EXPECT_EQ(deck.all<PartCard>()[0].title, "left.deep.water.1.2");
+}
+
+TEST(IncludeTransform, TakesAFactorOfTemperatureThatChangesNothing) {
+  DecksInMemory decks{
+      {{"main.k",
+        "*KEYWORD\n*INCLUDE_TRANSFORM\nmesh.k\n\n\n       1.0       1.0       1.0       1.0         1\n"
+        "*INCLUDE_TRANSFORM\nmesh.k\n         1\n\n                                 2.0\n*END\n"},
+       {"mesh.k", "*NODE\n1, 500.0\n"}}};
+  Diagnostics diagnostics;
+  decks.read("main.k", diagnostics);
+  EXPECT_EQ(diagnostics.text(),
+            "main.k:11:34: error: *INCLUDE_TRANSFORM card 4 field 4 (FCTTEM, change of temperature scale; "
+            "only none "
+            "(blank, 0 or 1) [-]): '2.0' is not supported\n  hint: leave the field blank\n");
 }
 
 TEST(IncludeTransform, TakesParameters) {
