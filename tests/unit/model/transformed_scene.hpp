@@ -86,7 +86,7 @@ inline std::string parts(const Writing& w) {
   text += fmt::format("*EOS_MURNAGHAN\n{}, 7.0, {}\n", w.id(IdSpace::eos, 502), w.number(1e6, "M/LT2"));
   text += fmt::format("*MAT_RIGID\n{}, {}, {}, 0.3\n1, {}, 7\n", w.id(IdSpace::material, 503),
                       w.number(7850, "M/L3"), w.number(2.1e11, "M/LT2"),
-                      w.along_axes ? w.code({true, true, false}) : std::string("7"));
+                      w.along_axes ? w.code({true, false, false}) : std::string("7"));
   text += fmt::format("*HOURGLASS\n{}, , , , 1.2, 0.1\n", w.id(IdSpace::hourglass, 602));
   return text;
 }
