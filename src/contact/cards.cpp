@@ -166,7 +166,7 @@ const RegisterKeyword<C> contact_nodes_to_surface{
                       {"DTPCHK", &C::dtpchk, "T", "interval of penetration reports", {.honour = output_only}},
                       {"SFNBR", &C::sfnbr, "-", "scale of neighbour segments", {.honour = no}},
                       {"FNLSCL", &C::fnlscl, "-", "nonlinear force scale", {.honour = no}},
-                      {"DNLSCL", &C::dnlscl, "-", "distance of the nonlinear force", {.honour = no}},
+                      {"DNLSCL", &C::dnlscl, "L", "distance of the nonlinear force", {.honour = no}},
                       {"TCSO", &C::tcso, "-", "thickness from contact segments only", {.honour = ignored}},
                       {"TIEDID", &C::tiedid, "-", "update of tied contact", {.honour = ignored}},
                       {"SHLEDG", &C::shledg, "-", "shell edges: 0 round, 1 square", {.honour = no}}},

@@ -36,21 +36,34 @@ struct Writing {
           (k > 0 ? ", " : "") + number(std::min(a[k], b[k]), "L") + ", " + number(std::max(a[k], b[k]), "L");
     return out;
   }
-  std::string code(std::array<bool, 3> held) const;
+  std::array<bool, 3> before(const std::array<bool, 3>& held) const;
+  std::string code(const std::array<bool, 3>& held) const;
+  std::string flags(const std::array<bool, 3>& held) const;
 };
 
-/// The code, in the file, of axes that are held in the scene.
-inline std::string Writing::code(std::array<bool, 3> held) const {
-  int out = 0;
-  std::array<bool, 3> before{};
-  for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l)
-      before[l] = before[l] || (held[k] && std::abs((moved.linear().inverse() * Vec::Unit(k))[l]) > 0.5);
+/// Which axes of the file become the axes that are held in the scene.
+inline std::array<bool, 3> Writing::before(const std::array<bool, 3>& held) const {
+  std::array<bool, 3> out{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t l = 0; l < 3; ++l) {
+      const Vec axis = moved.linear().inverse() * Vec::Unit(static_cast<Eigen::Index>(k));
+      out[l] = out[l] || (held[k] && std::abs(axis[static_cast<Eigen::Index>(l)]) > 0.5);
+    }
+  return out;
+}
+
+inline std::string Writing::code(const std::array<bool, 3>& held) const {
   const std::array<bool, 3> codes[] = {{false, false, false}, {true, false, false}, {false, true, false},
                                        {false, false, true},  {true, true, false},  {false, true, true},
                                        {true, false, true},   {true, true, true}};
-  while (codes[out] != before) ++out;
+  int out = 0;
+  while (codes[out] != before(held)) ++out;
   return fmt::format("{}", out);
+}
+
+inline std::string Writing::flags(const std::array<bool, 3>& held) const {
+  const std::array<bool, 3> in_file = before(held);
+  return fmt::format("{:d}, {:d}, {:d}", in_file[0], in_file[1], in_file[2]);
 }
 
 inline std::string mesh(const Writing& w) {
@@ -110,6 +123,9 @@ inline std::string conditions(const Writing& w) {
                       w.vector(w.moved.linear().inverse() * Vec(1, 2, 2), "-"));
   text += fmt::format("*INITIAL_VELOCITY_NODE\n{}, {}\n", w.id(IdSpace::node, 9008), w.velocity({9, 8, 7}));
   text += fmt::format("*BOUNDARY_SPC_SET_ID\n{:10}held\n{}, 0, 1, 1, 1\n", 12, w.id(IdSpace::node_set, 401));
+  if (w.along_axes)
+    text += fmt::format("*BOUNDARY_SPC_NODE\n{}, 0, {}\n", w.id(IdSpace::node, 9007),
+                        w.flags({false, true, true}));
   text += fmt::format(
       "*CONTACT_AUTOMATIC_NODES_TO_SURFACE_ID\n{:>10}water on plate\n{}, {}, 2, 3\n0.1, 0.1, {}, {}\n"
       "1.0, 1.0, {}\n",
