@@ -1,6 +1,6 @@
 #include "keyword/conversion.hpp"
 
-#include <cmath>
+#include <limits>
 
 namespace courant {
 
@@ -50,8 +50,10 @@ Id IdOffsets::of(IdSpace space) const {
     case IdSpace::mass:
       return element;
     case IdSpace::part:
+    case IdSpace::rigid_wall:
       return part;
     case IdSpace::material:
+    case IdSpace::eos:
       return material;
     case IdSpace::node_set:
     case IdSpace::part_set:
@@ -68,20 +70,21 @@ Id IdOffsets::of(IdSpace space) const {
     case IdSpace::transformation:
     case IdSpace::definition:
       return definition;
-    case IdSpace::eos:
     case IdSpace::section:
     case IdSpace::hourglass:
     case IdSpace::contact:
     case IdSpace::boundary:
-    case IdSpace::rigid_wall:
       return other;
   }
   return 0;
 }
 
 Id IdOffsets::shifted(IdSpace space, Id id) const {
-  const Id offset = of(space);
-  return id > 0 ? id + offset : id < 0 ? id - offset : 0;
+  const Id offset = id < 0 ? -of(space) : of(space);
+  Id sum = 0;
+  // an id that no deck has use for stays so, instead of turning round to a small one
+  if (__builtin_add_overflow(id, offset, &sum)) return std::numeric_limits<Id>::max();
+  return id == 0 ? 0 : sum;
 }
 
 bool IdOffsets::any() const {
@@ -90,17 +93,18 @@ bool IdOffsets::any() const {
 }
 
 Real UnitFactors::of(std::string_view dimension) const {
-  Real factor = 1;
-  int sign = 1;
+  if (dimension == "-" || !any()) return 1;  // asked for every field of every entry
+  Real above = 1, below = 1;
+  bool divided = false;
   for (std::size_t i = 0; i < dimension.size(); ++i) {
     const char c = dimension[i];
-    if (c == '/') sign = -1;
+    if (c == '/') divided = true;
     if (c != 'M' && c != 'L' && c != 'T') continue;
     const bool power = i + 1 < dimension.size() && dimension[i + 1] >= '2' && dimension[i + 1] <= '9';
-    const int exponent = sign * (power ? dimension[i + 1] - '0' : 1);
-    factor *= std::pow(c == 'M' ? mass : c == 'L' ? length : time, exponent);
+    for (int k = power ? dimension[i + 1] - '0' : 1; k > 0; --k)
+      (divided ? below : above) *= c == 'M' ? mass : c == 'L' ? length : time;
   }
-  return factor;
+  return above / below;
 }
 
 Conversion Conversion::then(const Conversion& inner) const {

@@ -183,7 +183,24 @@ class Builder {
       p.part[i] = s.part;
       p.state[i] = particle_outside;
     });
-    if (settings_.dim == 2) report_off_plane();
+    if (settings_.dim == 2) {
+      report_off_plane();
+      report_other_unit_of_length();
+    }
+  }
+
+  /// MASS per unit of depth has another dimension than its field in 3D, by which *INCLUDE_TRANSFORM converts.
+  void report_other_unit_of_length() {
+    for (const ModelSph& s : model_.sph) {
+      const Conversion& c = deck_.files[static_cast<std::size_t>(s.card.file)].conversion;
+      if (c.units.length == 1) continue;
+      deck_.error(diagnostics_, s.card, "MASS",
+                  fmt::format("in 2D masses are per unit of depth, and the file has another unit of length "
+                              "(FCTLEN {:g}), which leaves open what the depth is",
+                              c.units.length),
+                  "give 2D particles in the deck's own unit of length");
+      return;  // once for all of them
+    }
   }
 
   void report_off_plane() {
