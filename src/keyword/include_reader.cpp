@@ -30,7 +30,7 @@ void DeckReader::read_includes(const File& file, std::size_t line) {
     diagnostics_.error(place(file, line), "*INCLUDE: the file name is missing");
   while (!data.done() && !cards_.full()) {
     const std::size_t at = data.index();
-    const std::string name = read_file_name(data);
+    const std::string name = parameters_.with_texts(read_file_name(data));
     if (!name.empty()) include(name, file, at, {});
   }
 }
@@ -59,7 +59,9 @@ void DeckReader::include(const std::string& name, const File& from, std::size_t 
   }
   if (!source) {
     diagnostics_.error(place(from, line), fmt::format("*INCLUDE: cannot read '{}'", name),
-                       "looked beside the including file and in the working directory");
+                       name.find('&') == std::string::npos
+                           ? "looked beside the including file and in the working directory"
+                           : "only text parameters (C) that are defined above stand for parts of a name");
     return;
   }
   const std::string id = identity(path);

@@ -69,6 +69,15 @@ inline void skip_mpp_lines(DataLines& data) {
   if (!data.done() && !data.line().empty() && data.line()[0] == '&') data.step();
 }
 
+/// Whether `line` has parentheses or <...>, all of them closed; commas inside them do not separate fields.
+bool has_brackets(std::string_view line);
+
+/// Place of the next comma that separates fields, or npos. `brackets`: what has_brackets says of the line.
+std::size_t next_comma(std::string_view line, std::size_t from, bool brackets);
+
+/// Whether a comma within the first `columns` columns separates fields.
+bool is_comma_line(std::string_view line, std::size_t columns);
+
 int field_width(const FieldSpec& field, CardFormat format);
 
 /// Cuts a data line into the card's fields; a list takes all further columns. `too_many`: fields of a comma
