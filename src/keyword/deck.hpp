@@ -39,6 +39,17 @@ struct KeywordUse {
   Treatment treatment = Treatment::honoured;
 };
 
+/// A parameter as *PARAMETER and its kin define it.
+struct DeckParameter {
+  std::string name{};  ///< as declared
+  char type = 'R';     ///< R real, I integer, C text
+  std::string text{};  ///< its value; of an expression: the result
+  Location where{};    ///< of the definition that counts
+  bool used = false;   ///< a field, title or file name depends on it
+  bool local = false;  ///< known in one file and those that it includes
+  bool given = false;  ///< its value comes from ReadOptions::parameters
+};
+
 class Deck {
  public:
   /// All entries of one keyword in deck order; empty if the deck has none.
@@ -92,6 +103,7 @@ class Deck {
 
   std::string title;
   std::vector<DeckFile> files;                 ///< [0] is the deck itself
+  std::vector<DeckParameter> parameters;       ///< in the order of their definitions
   std::map<std::string, KeywordUse> keywords;  ///< every keyword of the deck by name, for `courant check`
 
  private:

@@ -43,7 +43,15 @@ class DeckReader {
 
   // parameter_reader.cpp
   bool read_parameter_keyword(const File& file, std::size_t line, const KeywordLine& keyword);
-  void read_parameters(const File& file, std::size_t line, CardFormat format);
+  struct ExpressionPiece {
+    std::size_t offset = 0;  ///< in the expression as a whole
+    std::size_t line = 0, column = 0;
+  };
+  void read_parameters(const File& file, std::size_t line, CardFormat format, bool typed,
+                       Parameters::Definition& definition);
+  void read_parameter_expressions(const File& file, std::size_t line, CardFormat format,
+                                  Parameters::Definition& definition);
+  void refuse_text_behind(const File& file, std::size_t line, std::size_t columns, std::string_view keyword);
 
   // include_reader.cpp
   bool read_include_keyword(const File& file, std::size_t line, const KeywordLine& keyword);

@@ -23,6 +23,9 @@ Deck DeckReader::read(const std::string& path) {
     diagnostics_.note({path, 0, 0}, fmt::format("reading stopped after {} errors", CardReader::max_errors));
   else
     parameters_.check_overrides(path, diagnostics_);
+  // a line that was refused may be the one that uses it
+  if (diagnostics_.ok()) parameters_.check_unused(diagnostics_);
+  deck_.parameters = parameters_.list();
   return std::move(deck_);
 }
 
@@ -38,6 +41,7 @@ void DeckReader::read_file(DeckFile deck_file, std::shared_ptr<SourceText> sourc
   deck_file.source = file.source;
   deck_.files.push_back(std::move(deck_file));
   const std::size_t count = file.source->lines.size();
+  parameters_.enter_file();
   std::size_t line = skip_text_before_keywords(file);
   bool ended = false;
   while (line < count && !ended && !cards_.full()) {
@@ -45,6 +49,7 @@ void DeckReader::read_file(DeckFile deck_file, std::shared_ptr<SourceText> sourc
     ++line;
     while (line < count && (file.source->lines[line].empty() || file.source->lines[line][0] != '*')) ++line;
   }
+  parameters_.leave_file();
   if (file.index == 0 && !ended && !cards_.full() && !deck_.keywords.empty())
     diagnostics_.warning({name, static_cast<int>(count), 0}, "*END is missing: is the deck complete?");
 }
@@ -91,7 +96,11 @@ bool DeckReader::read_deck_keyword(const File& file, std::size_t line, const Key
 Treatment DeckReader::read_cards(const File& file, std::size_t line, const KeywordLine& keyword) {
   const Location where = place(file, line);
   const KeywordMatch match = index_.match(keyword.name);
-  if (match.keyword < 0) return refuse(keyword.name, where);
+  if (match.keyword < 0) {
+    for (DataLines data(*file.source, line + 1); !data.done(); data.step())
+      parameters_.note_mentions(data.line());
+    return refuse(keyword.name, where);
+  }
   const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(match.keyword)];
   const auto [first, is_new] = seen_.try_emplace({match.keyword, match.name}, where);
   if (spec.once && !is_new) {
@@ -139,7 +148,7 @@ void DeckReader::read_format(const File& file, const KeywordLine& keyword, const
 
 void DeckReader::read_title(const File& file, std::size_t line) {
   const DataLines data(*file.source, line + 1);
-  if (!data.done()) deck_.title = trimmed(data.line());
+  if (!data.done()) deck_.title = parameters_.with_texts(trimmed(data.line()));
 }
 
 }  // namespace courant

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/nearest_word.hpp"
 #include "keyword/card.hpp"
 #include "keyword/deck.hpp"
 #include "keyword/keyword_spec.hpp"
@@ -43,9 +44,6 @@ class KeywordIndex {
  private:
   std::unordered_map<std::string, KeywordMatch> by_name_;
 };
-
-/// The candidate with the fewest edits from `word`, or empty if none is near.
-std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
 /// "*PART card 1 field 2 (SECID, section id [-])", the beginning of every message about a field.
 std::string describe_field(const KeywordSpec& spec, int name, std::size_t card, std::size_t field);
