@@ -314,6 +314,7 @@ bool CardReader::substitute(std::size_t card, std::size_t field, Slice& slice, s
     return false;
   }
   held = std::move(value.text);
+  if (origin_.empty()) origin_ = fmt::format("{} is {}", slice.text, held);
   slice.text = held;
   return true;
 }

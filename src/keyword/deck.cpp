@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "keyword/parameters.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
 
@@ -29,9 +30,9 @@ FieldPlace find_field(const KeywordSpec& spec, std::string_view name) {
 }
 
 /// Reads the entry's cards again, to find where a field stands: only messages need it, so no place is kept
-/// with the data.
+/// with the data. `text`: what stands there, unless it is a list.
 Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, const SourceText& source,
-                Location line) {
+                Location line, std::string& text) {
   const auto first = static_cast<std::size_t>(entry.line - 1);
   std::size_t above = first;
   while (above > 0 && (source.lines[above].empty() || source.lines[above][0] != '*')) --above;
@@ -50,6 +51,8 @@ Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, c
   split_card(data.line(), spec.cards[place.card], keyword.format, slices);
   line.line = static_cast<int>(data.index()) + 1;
   line.column = slices[place.field].column;
+  // of a list, the message may be about any number
+  if (!spec.cards[place.card].fields[place.field].is_vector()) text = slices[place.field].text;
   return line;
 }
 
@@ -70,6 +73,11 @@ Location Deck::location(std::int32_t file, int line, int column) const {
 }
 
 Location Deck::where(const Entry& entry, std::string_view field, std::size_t row) const {
+  std::string text;
+  return find(entry, field, row, text);
+}
+
+Location Deck::find(const Entry& entry, std::string_view field, std::size_t row, std::string& text) const {
   const KeywordSpec* spec = spec_of(entry);
   const Location line = where(entry);
   if (!spec || line.file.empty() || entry.line < 1) return line;
@@ -77,7 +85,7 @@ Location Deck::where(const Entry& entry, std::string_view field, std::size_t row
   place.row = row;
   const auto& source = files[static_cast<std::size_t>(entry.file)].source;
   if (!place.found || !source || static_cast<std::size_t>(entry.line) > source->lines.size()) return line;
-  return locate(*spec, entry, place, *source, line);
+  return locate(*spec, entry, place, *source, line, text);
 }
 
 std::string Deck::keyword(const Entry& entry) const {
@@ -108,14 +116,40 @@ std::string Deck::place(const Entry& entry) const {
   return fmt::format("{}:{}", at.file, at.line);
 }
 
+/// "&width is 2.0, defined at deck.k:21", for a field that holds a parameter's name.
+std::string Deck::origin(const std::string& text) const {
+  if (!Parameters::is_name(text)) return {};
+  const std::string name = upper_case(text.substr(text.find('&') + 1));
+  const DeckParameter* found = nullptr;
+  for (const DeckParameter& parameter : parameters) {
+    if (upper_case(parameter.name) != name) continue;
+    if (found) return {};  // which of several local ones cannot be told any more
+    found = &parameter;
+  }
+  if (!found) return {};
+  return fmt::format(
+      "&{} is {}, {}", found->name, found->text,
+      found->given ? "by --param" : fmt::format("defined at {}:{}", found->where.file, found->where.line));
+}
+
+Diagnostic Deck::about(const Entry& entry, std::string_view field, const std::string& message,
+                       std::string hint) const {
+  std::string text;
+  Location where = find(entry, field, 0, text);
+  if (const std::string from = origin(text); !from.empty()) hint += (hint.empty() ? "" : "; ") + from;
+  return {Severity::error, std::move(where), describe(entry, field) + ": " + message, std::move(hint)};
+}
+
 void Deck::error(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
                  std::string hint) const {
-  diagnostics.error(where(entry, field), describe(entry, field) + ": " + message, std::move(hint));
+  diagnostics.add(about(entry, field, message, std::move(hint)));
 }
 
 void Deck::warning(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
                    std::string hint) const {
-  diagnostics.warning(where(entry, field), describe(entry, field) + ": " + message, std::move(hint));
+  Diagnostic warning = about(entry, field, message, std::move(hint));
+  warning.severity = Severity::warning;
+  diagnostics.add(std::move(warning));
 }
 
 }  // namespace courant

@@ -107,6 +107,11 @@ class Deck {
   std::map<std::string, KeywordUse> keywords;  ///< every keyword of the deck by name, for `courant check`
 
  private:
+  Location find(const Entry& entry, std::string_view field, std::size_t row, std::string& text) const;
+  std::string origin(const std::string& text) const;
+  Diagnostic about(const Entry& entry, std::string_view field, const std::string& message,
+                   std::string hint) const;
+
   std::map<std::type_index, std::shared_ptr<void>> entries_;
   std::map<std::pair<IdSpace, Id>, Entry> definitions_;
 };

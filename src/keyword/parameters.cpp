@@ -121,8 +121,8 @@ Parameters::Resolved Parameters::resolve_name(std::string_view text, bool negati
   out.text = value.text;
   out.number = value.number;
   out.failed = value.faulty;
-  out.origin = value.given ? fmt::format("--param gives &{} the value {}", value.name, value.text)
-                           : fmt::format("&{} is defined at {}", value.name, place_of(value.where));
+  out.origin = fmt::format("&{} is {}, {}", value.name, value.text,
+                           value.given ? "by --param" : "defined at " + place_of(value.where));
   if (!negative || value.faulty) return out;
   if (value.type == 'C') {
     out.failed = true;

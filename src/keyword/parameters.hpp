@@ -45,7 +45,7 @@ class Parameters {
     char type = 'R';
     std::string text{};    ///< as if it stood in the field itself
     Number number{};       ///< of types I and R
-    std::string origin{};  ///< "&width is defined at deck.k:21"; empty for an expression
+    std::string origin{};  ///< "&width is 2.0, defined at deck.k:21"; empty for an expression
     bool failed = false;
     std::string error{}, hint{};  ///< if failed; both may be empty where the definition had its error before
     std::size_t at = 0;           ///< place of the error in the text

@@ -141,6 +141,17 @@ TEST(ParameterValues, MatchTheManualsPlotInterval) {
   EXPECT_EQ(boxes(r), (std::map<Id, Real>{{1, 0.01 / 71}, {2, -0.01 / 71}}));
 }
 
+TEST(ParameterValues, AreReadWithOptionsInAnyOrder) {
+  const Read r = read_lines(
+      "*PARAMETER_NOECHO_LOCAL\nI a, 1\n*PARAMETER_LOCAL_MUTABLE_EXPRESSION\nI b, a+1\n"
+      "*PARAMETER_EXPRESSION_GLOBAL_NOECHO\nI c, b+1\n*parameter_type\nI        d         4       NID\n"
+      "*PARAMETER_EXPRESSION\nC title   water, with an odd ( and a comma\n*TITLE\n&title\n" +
+      box(1, "&a") + box(2, "&b") + box(3, "&c") + box(4, "&d"));
+  EXPECT_EQ(r.diagnostics.text(), "");
+  EXPECT_EQ(boxes(r), (std::map<Id, Real>{{1, 1}, {2, 2}, {3, 3}, {4, 4}}));
+  EXPECT_EQ(r.deck.title, "water, with an odd ( and a comma");
+}
+
 TEST(ParameterOverrides, ReplaceNumbersTextsAndExpressions) {
   const std::string lines =
       "*PARAMETER\nR x, 1.0, I n, 2, C name, one\n*PARAMETER_EXPRESSION\nR sum     x+n\n"
