@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "model/build_model.hpp"
+#include "model/included_entries.hpp"
 #include "parallel/parallel.hpp"
 #include "shell/shell.hpp"
 
@@ -22,6 +23,8 @@ std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, cons
   std::unique_ptr<Simulation> s(new Simulation);
   s->deck_ = read_deck(deck_path, options, diagnostics);
   if (!diagnostics.ok()) return nullptr;  // what could not be read would only cause more messages
+  move_included_entries(s->deck_, diagnostics);
+  if (!diagnostics.ok()) return nullptr;  // nodes do not stand where they should
   s->model_ = build_model(s->deck_, diagnostics);
   release_mesh_cards(s->deck_);
   const bool model_is_whole = diagnostics.ok();

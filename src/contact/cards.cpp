@@ -8,29 +8,51 @@ namespace {
 using C = ContactNodesToSurface;
 constexpr Honour no = Honour::no, ignored = Honour::ignored, output_only = Honour::output_only;
 
+/// What SURFA and SURFB number, by the type beside them.
+IdSpace space_of_type(int type) {
+  constexpr IdSpace spaces[] = {IdSpace::segment_set, IdSpace::shell_set, IdSpace::part_set, IdSpace::part,
+                                IdSpace::node_set,    IdSpace::none,      IdSpace::part_set};
+  return type >= 0 && type <= 6 ? spaces[type] : IdSpace::none;
+}
+
 const RegisterKeyword<C> contact_nodes_to_surface{
     {.names = {"CONTACT_AUTOMATIC_NODES_TO_SURFACE"},
      .purpose = "penalty contact of particles (SURFA) with shells (SURFB)",
+     .id_space = IdSpace::contact,
      .id_option = true,
      .title = &C::title,
      .id = &C::cid,
      .many = false,
      .cards =
          {{.fields =
-               {{"SURFA", &C::surfa, "-", "particles: node set, part set or part; 0 with SURFATYP 5", {}},
+               {{"SURFA",
+                 &C::surfa,
+                 "-",
+                 "particles: node set, part set or part; 0 with SURFATYP 5",
+                 {},
+                 [](const C& card) { return space_of_type(card.surfatyp); }},
                 {"SURFB",
                  &C::surfb,
                  "-",
                  "shells: part set or part",
-                 {.required = true, .check = Check::positive}},
+                 {.required = true, .check = Check::positive},
+                 [](const C& card) { return space_of_type(card.surfbtyp); }},
                 {"SURFATYP",
                  &C::surfatyp,
                  "-",
                  "2 part set, 3 part, 4 node set, 5 all particles",
                  {.required = true, .allowed = {2, 3, 4, 5}}},
                 {"SURFBTYP", &C::surfbtyp, "-", "2 part set, 3 part", {.required = true, .allowed = {2, 3}}},
-                {"SABOXID", &C::saboxid, "-", "box that restricts SURFA", {.honour = no}},
-                {"SBBOXID", &C::sbboxid, "-", "box that restricts SURFB", {.honour = no}},
+                {"SABOXID",
+                 &C::saboxid,
+                 "-",
+                 "box that restricts SURFA",
+                 {.honour = no, .refers = IdSpace::box}},
+                {"SBBOXID",
+                 &C::sbboxid,
+                 "-",
+                 "box that restricts SURFB",
+                 {.honour = no, .refers = IdSpace::box}},
                 {"SAPR", &C::sapr, "-", "SURFA in interface files", {.honour = ignored}},
                 {"SBPR", &C::sbpr, "-", "SURFB in interface files", {.honour = ignored}}}},
           {.fields = {{"FS", &C::fs, "-", "static friction", {.check = Check::not_negative}},
@@ -144,7 +166,7 @@ const RegisterKeyword<C> contact_nodes_to_surface{
                       {"DTPCHK", &C::dtpchk, "T", "interval of penetration reports", {.honour = output_only}},
                       {"SFNBR", &C::sfnbr, "-", "scale of neighbour segments", {.honour = no}},
                       {"FNLSCL", &C::fnlscl, "-", "nonlinear force scale", {.honour = no}},
-                      {"DNLSCL", &C::dnlscl, "-", "distance of the nonlinear force", {.honour = no}},
+                      {"DNLSCL", &C::dnlscl, "L", "distance of the nonlinear force", {.honour = no}},
                       {"TCSO", &C::tcso, "-", "thickness from contact segments only", {.honour = ignored}},
                       {"TIEDID", &C::tiedid, "-", "update of tied contact", {.honour = ignored}},
                       {"SHLEDG", &C::shledg, "-", "shell edges: 0 round, 1 square", {.honour = no}}},

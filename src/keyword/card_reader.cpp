@@ -118,7 +118,8 @@ void CardReader::convert(EntrySink& sink) {
 
 void CardReader::refuse_second_definition(const Entry& entry) {
   const Id id = spec_->id_of(entry);
-  if (id <= 0 || is_mesh(spec_->id_space)) return;  // no id, or one that was refused already
+  // no id, one that was refused already, or none that must be unique
+  if (id <= 0 || is_mesh(spec_->id_space) || may_repeat(spec_->id_space)) return;
   const Entry* first = deck_.define(spec_->id_space, id, entry);
   if (!first) return;
   deck_.error(diagnostics_, entry, block_.match.id ? "" : spec_->cards[0].fields[0].name,
@@ -198,6 +199,10 @@ void CardReader::read_cards(DataLines& data, EntrySink& sink) {
         missing(data, fmt::format("card {}", c + 1));
         return;
       }
+      continue;
+    }
+    if (holds_file_name(card)) {
+      sink.set_text(c, 0, read_file_name(data));
       continue;
     }
     read_card(data, c, sink);

@@ -1,7 +1,6 @@
 #include "keyword/conversion.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace courant {
 
@@ -63,8 +62,10 @@ Id IdOffsets::of(IdSpace space) const {
     case IdSpace::mass:
       return element;
     case IdSpace::part:
+    case IdSpace::rigid_wall:
       return part;
     case IdSpace::material:
+    case IdSpace::eos:
       return material;
     case IdSpace::node_set:
     case IdSpace::part_set:
@@ -81,12 +82,10 @@ Id IdOffsets::of(IdSpace space) const {
     case IdSpace::transformation:
     case IdSpace::definition:
       return definition;
-    case IdSpace::eos:
     case IdSpace::section:
     case IdSpace::hourglass:
     case IdSpace::contact:
     case IdSpace::boundary:
-    case IdSpace::rigid_wall:
       return other;
   }
   return 0;
@@ -103,17 +102,18 @@ bool IdOffsets::any() const {
 }
 
 Real UnitFactors::of(std::string_view dimension) const {
-  Real factor = 1;
-  int sign = 1;
+  if (dimension == "-" || !any()) return 1;  // asked for every field of every entry
+  Real above = 1, below = 1;
+  bool divided = false;
   for (std::size_t i = 0; i < dimension.size(); ++i) {
     const char c = dimension[i];
-    if (c == '/') sign = -1;
+    if (c == '/') divided = true;
     if (c != 'M' && c != 'L' && c != 'T') continue;
     const bool power = i + 1 < dimension.size() && dimension[i + 1] >= '2' && dimension[i + 1] <= '9';
-    const int exponent = sign * (power ? dimension[i + 1] - '0' : 1);
-    factor *= std::pow(c == 'M' ? mass : c == 'L' ? length : time, exponent);
+    for (int k = power ? dimension[i + 1] - '0' : 1; k > 0; --k)
+      (divided ? below : above) *= c == 'M' ? mass : c == 'L' ? length : time;
   }
-  return factor;
+  return above / below;
 }
 
 Conversion Conversion::then(const Conversion& inner) const {

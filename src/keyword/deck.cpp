@@ -12,6 +12,7 @@ namespace {
 struct FieldPlace {
   std::size_t card = 0, field = 0;
   bool found = false;
+  std::size_t row = 0;
 };
 
 const KeywordSpec* spec_of(const Entry& entry) {
@@ -23,7 +24,7 @@ const KeywordSpec* spec_of(const Entry& entry) {
 FieldPlace find_field(const KeywordSpec& spec, std::string_view name) {
   for (std::size_t c = 0; c < spec.cards.size(); ++c)
     for (std::size_t f = 0; f < spec.cards[c].fields.size(); ++f)
-      if (spec.cards[c].fields[f].name == name) return {c, f, true};
+      if (spec.cards[c].fields[f].name == name) return {c, f, true, 0};
   return {};
 }
 
@@ -42,7 +43,8 @@ Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, c
     if (extra && !data.done()) data.step();
   if (match.mpp) skip_mpp_lines(data);
   for (std::size_t c = 0; c < place.card && !data.done(); ++c)
-    if (spec.has_card(entry, c)) data.step();
+    if (spec.has_card(entry, c)) skip_card(data, spec.cards[c]);
+  for (std::size_t row = 0; row < place.row && !data.done(); ++row) data.step();
   if (data.done()) return line;
   std::vector<Slice> slices;
   split_card(data.line(), spec.cards[place.card], keyword.format, slices);
@@ -67,11 +69,12 @@ Location Deck::location(std::int32_t file, int line, int column) const {
   return out;
 }
 
-Location Deck::where(const Entry& entry, std::string_view field) const {
+Location Deck::where(const Entry& entry, std::string_view field, std::size_t row) const {
   const KeywordSpec* spec = spec_of(entry);
   const Location line = where(entry);
   if (!spec || line.file.empty() || entry.line < 1) return line;
-  const FieldPlace place = find_field(*spec, field);
+  FieldPlace place = find_field(*spec, field);
+  place.row = row;
   const auto& source = files[static_cast<std::size_t>(entry.file)].source;
   if (!place.found || !source || static_cast<std::size_t>(entry.line) > source->lines.size()) return line;
   return locate(*spec, entry, place, *source, line);

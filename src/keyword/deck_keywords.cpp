@@ -33,13 +33,6 @@ const RegisterKeyword<DeckLevel> parameter_keyword{
          {.fields = {{"PRMR", &DeckLevel::text, "-", "type letter (R real, I integer) and name"},
                      {"VAL", &DeckLevel::text, "-", "value, or a reference to an earlier parameter"}}}}}};
 
-const RegisterKeyword<DeckLevel> include_keyword{
-    {.names = {"INCLUDE"},
-     .purpose = "reads other files: names are relative to this file, else to the working directory; ' +' at "
-                "the end of a "
-                "line continues the name",
-     .cards = {{.fields = {{"FILENAME", &DeckLevel::text, "-", "name of a file", {.width = 80}}}}}}};
-
 }  // namespace
 
 }  // namespace courant

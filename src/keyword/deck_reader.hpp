@@ -55,8 +55,13 @@ class DeckReader {
   // include_reader.cpp
   bool read_include_keyword(const File& file, std::size_t line, const KeywordLine& keyword);
   void read_includes(const File& file, std::size_t line);
-  std::string read_file_name(DataLines& data) const;
-  void include(const std::string& name, const File& from, std::size_t line, const Conversion& conversion);
+  void read_include_paths(const File& file, std::size_t line, bool relative_to_deck);
+  void read_include_transform(const File& file, std::size_t line, const KeywordLine& keyword);
+  /// `keyword`: who asks for the file, for messages.
+  void include(const std::string& name, const File& from, std::size_t line, const Conversion& conversion,
+               const char* keyword);
+  bool may_include(const std::string& path, const Location& where, const char* keyword);
+  std::vector<std::string> candidates(const std::string& name, const std::string& including) const;
 
   Deck deck_;
   Diagnostics& diagnostics_;
@@ -64,7 +69,9 @@ class DeckReader {
   Parameters parameters_;
   CardReader cards_;
   KeywordIndex index_;
-  std::vector<std::string> open_files_;  // from the deck to the file being read
+  std::vector<std::string> open_files_;     // from the deck to the file being read
+  std::vector<std::string> include_paths_;  // in the order of the deck
+  bool too_many_files_ = false;
   std::map<std::pair<int, int>, Location> seen_;
 };
 

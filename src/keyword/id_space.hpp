@@ -48,4 +48,9 @@ constexpr bool is_mesh(IdSpace space) {
   return space >= IdSpace::node && space <= IdSpace::mass;
 }
 
+/// Ids that nothing refers to: they name an entry in outputs.
+constexpr bool may_repeat(IdSpace space) {
+  return space == IdSpace::boundary;
+}
+
 }  // namespace courant

@@ -22,6 +22,8 @@ std::string type_name(const FieldSpec& field) {
       return field.takes_rest ? "F, list" : "F, column";
     case FieldType::text:
       return "A";
+    case FieldType::texts:
+      return field.takes_rest ? "A, list" : "A, column";
     default:
       return "-";
   }

@@ -67,6 +67,31 @@ bool DataLines::only_blanks_left() const {
   return true;
 }
 
+bool holds_file_name(const CardSpec& card) {
+  return card.fields.size() == 1 && card.fields[0].name == "FILENAME";
+}
+
+std::string read_file_name(DataLines& data) {
+  std::string name;
+  for (bool more = true; more && !data.done(); data.step()) {
+    std::string_view part = trimmed(data.line());
+    more = part.size() >= 2 && part.substr(part.size() - 2) == " +";
+    if (more) part.remove_suffix(2);
+    name += trimmed(part);
+  }
+  const auto quoted = [&](char quote) {
+    return name.size() >= 2 && name.front() == quote && name.back() == quote;
+  };
+  return quoted('"') || quoted('\'') ? std::string(trimmed(name.substr(1, name.size() - 2))) : name;
+}
+
+void skip_card(DataLines& data, const CardSpec& card) {
+  if (holds_file_name(card))
+    read_file_name(data);
+  else
+    data.step();
+}
+
 int field_width(const FieldSpec& field, CardFormat format) {
   const int width = field.rules.width;
   if (format == CardFormat::i10) return std::max(width, 10);

@@ -83,6 +83,15 @@ inline void skip_mpp_lines(DataLines& data) {
   if (!data.done() && !data.line().empty() && data.line()[0] == '&') data.step();
 }
 
+/// The card holds nothing but a name of a file.
+bool holds_file_name(const CardSpec& card);
+
+/// A name of a file, without quotes around it; behind " +" it goes on in the next line.
+std::string read_file_name(DataLines& data);
+
+/// Steps over a card, of one line or, if it holds a name of a file, of several.
+void skip_card(DataLines& data, const CardSpec& card);
+
 int field_width(const FieldSpec& field, CardFormat format);
 
 /// Cuts a data line into the card's fields; a list takes all further columns. `too_many`: fields of a comma

@@ -3,16 +3,11 @@
 #include <algorithm>
 
 #include "model/model_builder.hpp"
+#include "model/transformation.hpp"
 
 namespace courant {
 
 namespace {
-
-/// Letters of the code in TC: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 xyz.
-std::array<bool, 3> held_translations(int tc) {
-  return {tc == 1 || tc == 4 || tc == 6 || tc == 7, tc == 2 || tc == 4 || tc == 5 || tc == 7,
-          tc == 3 || tc == 5 || tc == 6 || tc == 7};
-}
 
 /// Corners without repetition, as a triangle (last one repeated) or a quad; fewer than three: false.
 bool normalise_corners(std::array<Index, 4>& corner) {
@@ -53,21 +48,17 @@ void ModelBuilder::build_nodes() {
       duplicate(card, "NID", "node", card.nid, deck_.where(*first));
       continue;
     }
-    model_.nodes.push_back({.id = card.nid,
-                            .x = {card.x, card.y, card.z},
-                            .v = Vec::Zero(),
-                            .fixed = held_translations(card.tc)});
+    const Vec x(card.x, card.y, card.z);
+    if (!x.allFinite())
+      error(card, "X", "the coordinates are too large after a change of units or a motion of the file");
+    model_.nodes.push_back({.id = card.nid, .x = x, .v = Vec::Zero(), .fixed = axes_of_code(card.tc)});
   }
 }
 
 void ModelBuilder::build_parts() {
   for (const PartCard& card : deck_.all<PartCard>()) {
-    const auto [it, is_new] =
-        model_.part_of_id.try_emplace(card.pid, static_cast<Index>(model_.parts.size()));
-    if (!is_new) {
-      duplicate(card, "PID", "part", card.pid, model_.parts[static_cast<std::size_t>(it->second)].where);
-      continue;
-    }
+    if (!model_.part_of_id.try_emplace(card.pid, static_cast<Index>(model_.parts.size())).second)
+      continue;  // the reader has refused it
     ModelPart part;
     part.id = card.pid;
     part.title = card.title;

@@ -27,6 +27,7 @@ Model ModelBuilder::build() {
   build_boxes();
   build_node_sets();
   build_part_sets();
+  move_nodes();
   build_control();
   build_output();
   build_body_loads();

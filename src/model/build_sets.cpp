@@ -1,7 +1,6 @@
 // Sets, curves and boxes.
 #include <fmt/format.h>
 #include <algorithm>
-#include <map>
 
 #include "model/model_builder.hpp"
 
@@ -17,22 +16,18 @@ void remove_repeats(std::vector<Index>& members) {
 }  // namespace
 
 void ModelBuilder::build_node_sets() {
-  std::map<Id, Location> first;
-  const auto open = [&](const SetCard& card, std::string_view field) -> std::vector<Index>* {
-    const auto [it, is_new] = first.try_emplace(card.sid, deck_.where(card));
-    if (!is_new) duplicate(card, "SID", "node set", card.sid, it->second);
+  const auto open = [&](const SetCard& card, std::string_view field) {
     if (card.ids.empty()) error(card, field, "the set is empty", "list its nodes below the first card");
-    return is_new ? &model_.node_sets[card.sid] : nullptr;
+    return &model_.node_sets[card.sid];
   };
   for (const SetNodeCard& card : deck_.all<SetNodeCard>()) {
     std::vector<Index>* members = open(card, "NID");
-    if (!members) continue;
     for (const Id id : card.ids)
       if (const Index n = node(card, "NID", id); n >= 0) members->push_back(n);
     remove_repeats(*members);
   }
   for (const SetNodeGenerateCard& card : deck_.all<SetNodeGenerateCard>())
-    if (std::vector<Index>* members = open(card, "BNBEG")) add_generated(card, *members);
+    add_generated(card, *open(card, "BNBEG"));
 }
 
 void ModelBuilder::add_generated(const SetNodeGenerateCard& card, std::vector<Index>& members) {
@@ -68,12 +63,8 @@ void ModelBuilder::add_generated(const SetNodeGenerateCard& card, std::vector<In
 }
 
 void ModelBuilder::build_part_sets() {
-  std::map<Id, Location> first;
   for (const SetPartCard& card : deck_.all<SetPartCard>()) {
-    const auto [it, is_new] = first.try_emplace(card.sid, deck_.where(card));
-    if (!is_new) duplicate(card, "SID", "part set", card.sid, it->second);
     if (card.ids.empty()) error(card, "PID", "the set is empty", "list its parts below the first card");
-    if (!is_new) continue;
     std::vector<Index>& members = model_.part_sets[card.sid];
     for (const Id id : card.ids)
       if (const Index p = part(card, "PID", id); p >= 0) members.push_back(p);
@@ -82,13 +73,7 @@ void ModelBuilder::build_part_sets() {
 }
 
 void ModelBuilder::build_curves() {
-  std::map<Id, Location> first;
   for (const DefineCurveCard& card : deck_.all<DefineCurveCard>()) {
-    const auto [it, is_new] = first.try_emplace(card.lcid, deck_.where(card));
-    if (!is_new) {
-      duplicate(card, "LCID", "curve", card.lcid, it->second);
-      continue;
-    }
     Curve& curve = model_.curves[card.lcid];
     curve.id = card.lcid;
     if (card.a.empty())
@@ -112,10 +97,7 @@ void ModelBuilder::build_curves() {
 }
 
 void ModelBuilder::build_boxes() {
-  std::map<Id, Location> first;
   for (const DefineBoxCard& card : deck_.all<DefineBoxCard>()) {
-    const auto [it, is_new] = first.try_emplace(card.boxid, deck_.where(card));
-    if (!is_new) duplicate(card, "BOXID", "box", card.boxid, it->second);
     const Box box{
         .id = card.boxid, .low = {card.xmn, card.ymn, card.zmn}, .high = {card.xmx, card.ymx, card.zmx}};
     const char* high[] = {"XMX", "YMX", "ZMX"};

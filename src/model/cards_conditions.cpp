@@ -1,26 +1,39 @@
 // Tables of initial conditions, constraints and loads.
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
+#include "model/transformation.hpp"
 
 namespace courant {
 
 namespace {
 
-const FieldRules required_id{.required = true, .check = Check::positive};
-const FieldRules optional_id{.check = Check::not_negative};
+FieldRules required_of(IdSpace space) {
+  return {.required = true, .check = Check::positive, .refers = space};
+}
+FieldRules optional_of(IdSpace space) {
+  return {.check = Check::not_negative, .refers = space};
+}
+const FieldRules local_system{.honour = Honour::no, .refers = IdSpace::coordinate_system};
 const FieldRules unsupported{.honour = Honour::no};
 const FieldRules no_effect{.honour = Honour::ignored};
 const FieldRules flag{.allowed = {0, 1}};
 
 using V = InitialVelocityCard;
+std::string move_velocities(V& card, const Affine& motion) {
+  if (card.icid != 0) return {};  // along the axes of a system that moves
+  std::string reason = move_velocity(card.vx, card.vy, card.vz, motion);
+  return reason.empty() ? move_velocity(card.vxe, card.vye, card.vze, motion) : reason;
+}
 const RegisterKeyword<V> initial_velocity{
     {.names = {"INITIAL_VELOCITY"},
      .purpose = "initial velocity of a node set or of all nodes",
-     .cards = {{.fields = {{"NSID", &V::nsid, "-", "node set id, 0 all nodes", optional_id},
-                           {"NSIDEX", &V::nsidex, "-", "node set id of excepted nodes", optional_id},
-                           {"BOXID", &V::boxid, "-", "only nodes in this box", optional_id},
+     .cards = {{.fields = {{"NSID", &V::nsid, "-", "node set id, 0 all nodes",
+                            optional_of(IdSpace::node_set)},
+                           {"NSIDEX", &V::nsidex, "-", "node set id of excepted nodes",
+                            optional_of(IdSpace::node_set)},
+                           {"BOXID", &V::boxid, "-", "only nodes in this box", optional_of(IdSpace::box)},
                            {"IRIGID", &V::irigid, "-", "overwrites PART_INERTIA velocities", unsupported},
-                           {"ICID", &V::icid, "-", "local coordinate system id", unsupported}}},
+                           {"ICID", &V::icid, "-", "local coordinate system id", local_system}}},
                {.fields = {{"VX", &V::vx, "L/T", "velocity in x"},
                            {"VY", &V::vy, "L/T", "velocity in y"},
                            {"VZ", &V::vz, "L/T", "velocity in z"},
@@ -33,67 +46,110 @@ const RegisterKeyword<V> initial_velocity{
                            {"VXRE", &V::vxre, "1/T", "angular velocity about x", unsupported},
                            {"VYRE", &V::vyre, "1/T", "angular velocity about y", unsupported},
                            {"VZRE", &V::vzre, "1/T", "angular velocity about z", unsupported}},
-                .when = [](const V& card) { return card.nsidex > 0; }}}}};
+                .when = [](const V& card) { return card.nsidex > 0; }}},
+     .move = move_velocities}};
 
 using VN = InitialVelocityNodeCard;
 const RegisterKeyword<VN> initial_velocity_node{
     {.names = {"INITIAL_VELOCITY_NODE"},
      .purpose = "initial velocity of single nodes; stands above the other INITIAL_VELOCITY keywords",
-     .cards = {{.fields = {{"NID", &VN::nid, "-", "node id", required_id},
+     .cards = {{.fields = {{"NID", &VN::nid, "-", "node id", required_of(IdSpace::node)},
                            {"VX", &VN::vx, "L/T", "velocity in x"},
                            {"VY", &VN::vy, "L/T", "velocity in y"},
                            {"VZ", &VN::vz, "L/T", "velocity in z"},
                            {"VXR", &VN::vxr, "1/T", "angular velocity about x", unsupported},
                            {"VYR", &VN::vyr, "1/T", "angular velocity about y", unsupported},
                            {"VZR", &VN::vzr, "1/T", "angular velocity about z", unsupported},
-                           {"ICID", &VN::icid, "-", "local coordinate system id", unsupported}}}}}};
+                           {"ICID", &VN::icid, "-", "local coordinate system id", local_system}}}},
+     .move = [](VN& card, const Affine& motion) {
+       return card.icid != 0 ? std::string() : move_velocity(card.vx, card.vy, card.vz, motion);
+     }}};
 
 using VG = InitialVelocityGenerationCard;
+IdSpace kind_of_id(const VG& card) {
+  return card.styp == 1 ? IdSpace::part_set : card.styp == 2 ? IdSpace::part : IdSpace::node_set;
+}
+std::string move_generation(VG& card, const Affine& motion) {
+  constexpr Real axis_by_nodes = -999;
+  if (card.icid != 0) return {};
+  std::string reason = move_velocity(card.vx, card.vy, card.vz, motion);
+  if (!reason.empty() || card.omega == 0) return reason;
+  if (!keeps_lengths(motion))
+    return "the file is scaled by a transformation, which leaves open whether velocities are, too";
+  if (card.nx != axis_by_nodes) {
+    const Vec axis = motion.linear() * Vec(card.nx, card.ny, card.nz);
+    card.nx = axis[0], card.ny = axis[1], card.nz = axis[2];
+  }
+  if (motion.linear().determinant() < 0) card.omega = -card.omega;  // in a mirror things turn the other way
+  return {};
+}
 const RegisterKeyword<VG> initial_velocity_generation{
     {.names = {"INITIAL_VELOCITY_GENERATION"},
      .purpose = "initial velocity V + omega x r of parts or node sets",
-     .cards = {
-         {.fields = {{"ID", &VG::id, "-", "id of the part set, part or node set, 0 all", optional_id},
-                     {"STYP",
-                      &VG::styp,
-                      "-",
-                      "kind of ID: 1 part set, 2 part, 3 node set",
-                      {.standard = 1, .allowed = {1, 2, 3}}},
-                     {"OMEGA", &VG::omega, "1/T", "angular velocity about the axis"},
-                     {"VX", &VG::vx, "L/T", "velocity in x"},
-                     {"VY", &VG::vy, "L/T", "velocity in y"},
-                     {"VZ", &VG::vz, "L/T", "velocity in z"},
-                     {"IVATN", &VG::ivatn, "-", "also constrained nodes and parts", no_effect},
-                     {"ICID", &VG::icid, "-", "local coordinate system id", unsupported}}},
-         {.fields = {{"XC", &VG::xc, "L", "x of a point on the axis"},
-                     {"YC", &VG::yc, "L", "y of a point on the axis"},
-                     {"ZC", &VG::zc, "L", "z of a point on the axis"},
-                     {"NX", &VG::nx, "-", "x of the axis direction"},
-                     {"NY", &VG::ny, "-", "y of the axis direction"},
-                     {"NZ", &VG::nz, "-", "z of the axis direction"},
-                     {"PHASE", &VG::phase, "-", "1 after dynamic relaxation", unsupported},
-                     {"IRIGID", &VG::irigid, "-", "overwrites PART_INERTIA velocities", unsupported}}}}}};
+     .cards = {{.fields = {{"ID",
+                            &VG::id,
+                            "-",
+                            "id of the part set, part or node set, 0 all",
+                            {.check = Check::not_negative},
+                            kind_of_id},
+                           {"STYP",
+                            &VG::styp,
+                            "-",
+                            "kind of ID: 1 part set, 2 part, 3 node set",
+                            {.standard = 1, .allowed = {1, 2, 3}}},
+                           {"OMEGA", &VG::omega, "1/T", "angular velocity about the axis"},
+                           {"VX", &VG::vx, "L/T", "velocity in x"},
+                           {"VY", &VG::vy, "L/T", "velocity in y"},
+                           {"VZ", &VG::vz, "L/T", "velocity in z"},
+                           {"IVATN", &VG::ivatn, "-", "also constrained nodes and parts", no_effect},
+                           {"ICID", &VG::icid, "-", "local coordinate system id", local_system}}},
+               {.fields = {{"XC", &VG::xc, "L", "x of a point on the axis", {.spatial = Spatial::point}},
+                           {"YC", &VG::yc, "L", "y of a point on the axis"},
+                           {"ZC", &VG::zc, "L", "z of a point on the axis"},
+                           {"NX", &VG::nx, "-", "x of the axis direction"},
+                           {"NY", &VG::ny, "-", "y of the axis direction"},
+                           {"NZ", &VG::nz, "-", "z of the axis direction"},
+                           {"PHASE", &VG::phase, "-", "1 after dynamic relaxation", unsupported},
+                           {"IRIGID", &VG::irigid, "-", "overwrites PART_INERTIA velocities", unsupported}}}},
+     .move = move_generation}};
+
+std::string move_constraint(BoundarySpcCard& card, const Affine& motion) {
+  if (card.cid != 0) return {};                 // along the axes of a system that moves
+  for (int* dof : {&card.dofx, &card.dofrx}) {  // three in a row
+    int* flags[] = {dof, dof == &card.dofx ? &card.dofy : &card.dofry,
+                    dof == &card.dofx ? &card.dofz : &card.dofrz};
+    std::array<bool, 3> held{};
+    for (std::size_t k = 0; k < 3; ++k) held[k] = *flags[k] == 1;
+    std::string reason = move_held_axes(held, motion);
+    if (!reason.empty() && dof == &card.dofx) return reason;
+    for (std::size_t k = 0; k < 3; ++k) *flags[k] = held[k];
+  }
+  return {};
+}
 
 template <class T>
-KeywordOf<T> boundary_spc(std::string name, std::string purpose, std::string field, std::string meaning) {
+KeywordOf<T> boundary_spc(std::string name, std::string purpose, std::string field, std::string meaning,
+                          IdSpace refers) {
   return {.names = {std::move(name)},
           .purpose = std::move(purpose),
+          .id_space = IdSpace::boundary,
           .id_option = true,
           .title = &T::title,
           .id = &T::id,
-          .cards = {{.fields = {{std::move(field), &T::nid, "-", std::move(meaning), required_id},
-                                {"CID", &T::cid, "-", "coordinate system id", unsupported},
+          .cards = {{.fields = {{std::move(field), &T::nid, "-", std::move(meaning), required_of(refers)},
+                                {"CID", &T::cid, "-", "coordinate system id", local_system},
                                 {"DOFX", &T::dofx, "-", "1 holds the translation in x", flag},
                                 {"DOFY", &T::dofy, "-", "1 holds the translation in y", flag},
                                 {"DOFZ", &T::dofz, "-", "1 holds the translation in z", flag},
                                 {"DOFRX", &T::dofrx, "-", "1 holds the rotation about x", no_effect},
                                 {"DOFRY", &T::dofry, "-", "1 holds the rotation about y", no_effect},
-                                {"DOFRZ", &T::dofrz, "-", "1 holds the rotation about z", no_effect}}}}};
+                                {"DOFRZ", &T::dofrz, "-", "1 holds the rotation about z", no_effect}}}},
+          .move = [](T& card, const Affine& motion) { return move_constraint(card, motion); }};
 }
-const RegisterKeyword<BoundarySpcNodeCard> boundary_spc_node{
-    boundary_spc<BoundarySpcNodeCard>("BOUNDARY_SPC_NODE", "holds translations of nodes", "NID", "node id")};
+const RegisterKeyword<BoundarySpcNodeCard> boundary_spc_node{boundary_spc<BoundarySpcNodeCard>(
+    "BOUNDARY_SPC_NODE", "holds translations of nodes", "NID", "node id", IdSpace::node)};
 const RegisterKeyword<BoundarySpcSetCard> boundary_spc_set{boundary_spc<BoundarySpcSetCard>(
-    "BOUNDARY_SPC_SET", "holds translations of node sets", "NSID", "node set id")};
+    "BOUNDARY_SPC_SET", "holds translations of node sets", "NSID", "node set id", IdSpace::node_set)};
 
 using L = LoadBodyCard;
 const RegisterKeyword<L> load_body{
@@ -101,13 +157,18 @@ const RegisterKeyword<L> load_body{
      .purpose = "acceleration of the base along an axis: bodies feel the opposite (gravity along -z: "
                 "LOAD_BODY_Z with +g)",
      .many = false,
-     .cards = {{.fields = {{"LCID", &L::lcid, "-", "curve of acceleration over time", required_id},
-                           {"SF", &L::sf, "-", "scale of the curve", {.standard = 1}},
-                           {"LCIDDR", &L::lciddr, "-", "curve for dynamic relaxation", no_effect},
-                           {"XC", &L::xc, "L", "x of the centre of rotation", no_effect},
-                           {"YC", &L::yc, "L", "y of the centre of rotation", no_effect},
-                           {"ZC", &L::zc, "L", "z of the centre of rotation", no_effect},
-                           {"CID", &L::cid, "-", "coordinate system id", unsupported}}}}}};
+     .cards = {
+         {.fields = {{"LCID", &L::lcid, "-", "curve of acceleration over time", required_of(IdSpace::curve)},
+                     {"SF", &L::sf, "-", "scale of the curve", {.standard = 1}},
+                     {"LCIDDR",
+                      &L::lciddr,
+                      "-",
+                      "curve for dynamic relaxation",
+                      {.honour = Honour::ignored, .refers = IdSpace::curve}},
+                     {"XC", &L::xc, "L", "x of the centre of rotation", no_effect},
+                     {"YC", &L::yc, "L", "y of the centre of rotation", no_effect},
+                     {"ZC", &L::zc, "L", "z of the centre of rotation", no_effect},
+                     {"CID", &L::cid, "-", "coordinate system id", local_system}}}}}};
 
 }  // namespace
 

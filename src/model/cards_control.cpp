@@ -10,6 +10,8 @@ const FieldRules optional_id{.check = Check::not_negative};
 const FieldRules unsupported{.honour = Honour::no};
 const FieldRules no_effect{.honour = Honour::ignored};
 const FieldRules unsupported_output{.honour = Honour::output_only};
+const FieldRules output_curve{.honour = Honour::output_only, .refers = IdSpace::curve};
+const FieldRules output_parts{.honour = Honour::output_only, .refers = IdSpace::part_set};
 const FieldRules interval{.check = Check::not_negative};
 
 using T = ControlTerminationCard;
@@ -42,11 +44,19 @@ const RegisterKeyword<S> control_timestep{
                            {"ISDO", &S::isdo, "-", "characteristic length of shells", no_effect},
                            {"TSLIMT", &S::tslimt, "T", "smallest step of shells", unsupported},
                            {"DT2MS", &S::dt2ms, "T", "step for mass scaling", unsupported},
-                           {"LCTM", &S::lctm, "-", "curve of the largest step over time", optional_id},
+                           {"LCTM",
+                            &S::lctm,
+                            "-",
+                            "curve of the largest step over time",
+                            {.check = Check::not_negative, .refers = IdSpace::curve}},
                            {"ERODE", &S::erode, "-", "erosion at the smallest step", unsupported},
                            {"MS1ST", &S::ms1st, "-", "mass scaling at the start", unsupported}}},
                {.fields = {{"DT2MSF", &S::dt2msf, "-", "step for mass scaling", unsupported},
-                           {"DT2MSLC", &S::dt2mslc, "-", "curve of the step for mass scaling", unsupported},
+                           {"DT2MSLC",
+                            &S::dt2mslc,
+                            "-",
+                            "curve of the step for mass scaling",
+                            {.honour = Honour::no, .refers = IdSpace::curve}},
                            {"IMSCL", &S::imscl, "-", "selective mass scaling", unsupported},
                            {},
                            {},
@@ -86,16 +96,16 @@ const RegisterKeyword<D> database_binary_d3plot{
      .many = false,
      .cards = {
          {.fields = {{"DT", &D::dt, "T", "interval, 0 none", interval},
-                     {"LCDT", &D::lcdt, "-", "curve of the interval", unsupported_output},
+                     {"LCDT", &D::lcdt, "-", "curve of the interval", output_curve},
                      {"BEAM", &D::beam, "-", "discrete elements as beams", no_effect},
                      {"NPLTC", &D::npltc, "-", "number of states: interval = ENDTIM / NPLTC", optional_id},
-                     {"PSETID", &D::psetid, "-", "parts left out", unsupported_output}}},
+                     {"PSETID", &D::psetid, "-", "parts left out", output_parts}}},
          {.fields = {{"IOOPT", &D::ioopt, "-", "mode of the curve", no_effect},
                      {"RATE", &D::rate, "T", "filter interval", unsupported_output},
                      {"CUTOFF", &D::cutoff, "1/T", "filter frequency", unsupported_output},
                      {"WINDOW", &D::window, "T", "filter window", unsupported_output},
                      {"TYPE", &D::type, "-", "filtered data", unsupported_output},
-                     {"PSET", &D::pset, "-", "filtered parts", unsupported_output}},
+                     {"PSET", &D::pset, "-", "filtered parts", output_parts}},
           .optional = true}}}};
 
 using A = DatabaseAsciiCard;
@@ -108,15 +118,17 @@ const RegisterKeyword<A> database_ascii{
          {.fields = {
               {"DT", &A::dt, "T", "interval, 0 none", interval},
               {"BINARY", &A::binary, "-", "kind of file", no_effect},
-              {"LCUR", &A::lcur, "-", "curve of the interval", unsupported_output},
+              {"LCUR", &A::lcur, "-", "curve of the interval", output_curve},
               {"IOOPT", &A::ioopt, "-", "mode of the curve", {.standard = 1, .honour = Honour::ignored}}}}}}};
 
 using H = DatabaseHistorySphCard;
 const RegisterKeyword<H> database_history_sph{
     {.names = {"DATABASE_HISTORY_SPH", "DATABASE_HISTORY_SPH_SET"},
      .purpose = "particles whose histories go to sphout (_SET: node sets)",
-     .cards = {{.fields = {{"ID", &H::ids, "-", "ids of particles, or of node sets", optional_id}},
-                .repeat = true}}}};
+     .cards = {
+         {.fields = {{"ID", &H::ids, "-", "ids of particles, or of node sets", optional_id,
+                      [](const H& card) { return card.name == 1 ? IdSpace::node_set : IdSpace::node; }}},
+          .repeat = true}}}};
 
 }  // namespace
 

@@ -1,66 +1,104 @@
 // Tables of nodes, elements, parts, sets, curves and boxes.
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
+#include "model/transformation.hpp"
 
 namespace courant {
 
 namespace {
 
 using N = NodeCard;
+std::string move_node(N& node, const Affine& motion) {
+  for (int* code : {&node.tc, &node.rc}) {
+    auto held = axes_of_code(*code);
+    std::string reason = move_held_axes(held, motion);
+    if (!reason.empty() && code == &node.tc) return reason;
+    *code = code_of_axes(held);
+  }
+  return {};
+}
 const RegisterKeyword<N> node{
     {.names = {"NODE"},
      .purpose = "coordinates of nodes",
-     .cards = {
-         {.fields = {
-              {"NID", &N::nid, "-", "node id", {.required = true, .check = Check::positive, .width = 8}},
-              {"X", &N::x, "L", "x coordinate", {.width = 16}},
-              {"Y", &N::y, "L", "y coordinate", {.width = 16}},
-              {"Z", &N::z, "L", "z coordinate", {.width = 16}},
-              {"TC",
-               &N::tc,
-               "-",
-               "held translations: 0 none, 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 xyz",
-               {.allowed = {0, 1, 2, 3, 4, 5, 6, 7}, .width = 8}},
-              {"RC",
-               &N::rc,
-               "-",
-               "held rotations, same code",
-               {.honour = Honour::ignored, .allowed = {0, 1, 2, 3, 4, 5, 6, 7}, .width = 8}}}}}}};
+     .id_space = IdSpace::node,
+     .cards =
+         {{.fields =
+               {{"NID", &N::nid, "-", "node id", {.required = true, .check = Check::positive, .width = 8}},
+                {"X", &N::x, "L", "x coordinate", {.width = 16, .spatial = Spatial::point}},
+                {"Y", &N::y, "L", "y coordinate", {.width = 16}},
+                {"Z", &N::z, "L", "z coordinate", {.width = 16}},
+                {"TC",
+                 &N::tc,
+                 "-",
+                 "held translations: 0 none, 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 xyz",
+                 {.allowed = {0, 1, 2, 3, 4, 5, 6, 7}, .width = 8}},
+                {"RC",
+                 &N::rc,
+                 "-",
+                 "held rotations, same code",
+                 {.honour = Honour::ignored, .allowed = {0, 1, 2, 3, 4, 5, 6, 7}, .width = 8}}}}},
+     .move = move_node}};
 
 using E = ElementSphCard;
+std::string convert_volume(E& element, const Conversion& conversion) {
+  if (element.mass < 0) element.mass *= conversion.units.of("L3") / conversion.units.of("M");
+  return {};
+}
+std::string keep_volume(E&, const Affine& motion) {
+  if (keeps_volume(motion)) return {};
+  return "the file is scaled by a transformation, which leaves open what becomes of the particles' masses";
+}
 const RegisterKeyword<E> element_sph{
     {.names = {"ELEMENT_SPH"},
      .purpose = "SPH particles; a particle has the id of its node",
-     .cards = {
-         {.fields = {
-              {"NID", &E::nid, "-", "node id", {.required = true, .check = Check::positive, .width = 8}},
-              {"PID", &E::pid, "-", "part id", {.required = true, .check = Check::positive, .width = 8}},
-              {"MASS", &E::mass, "M", "mass; negative: volume, in 2D area, times -1", {.width = 16}},
-              {"NEND",
-               &E::nend,
-               "-",
-               "particles NID to NEND get the same data",
-               {.check = Check::not_negative}}}}}}};
+     .cards =
+         {{.fields = {{"NID",
+                       &E::nid,
+                       "-",
+                       "node id",
+                       {.required = true, .check = Check::positive, .width = 8, .refers = IdSpace::node}},
+                      {"PID",
+                       &E::pid,
+                       "-",
+                       "part id",
+                       {.required = true, .check = Check::positive, .width = 8, .refers = IdSpace::part}},
+                      {"MASS", &E::mass, "M", "mass; negative: volume, in 2D area, times -1", {.width = 16}},
+                      {"NEND",
+                       &E::nend,
+                       "-",
+                       "particles NID to NEND get the same data",
+                       {.check = Check::not_negative, .refers = IdSpace::node}}}}},
+     .convert = convert_volume,
+     .move = keep_volume}};
 
 using S = ElementShellCard;
-const FieldRules corner{.required = true, .check = Check::positive, .width = 8};
-const FieldRules mid_side{.honour = Honour::no, .width = 8};
+const FieldRules element{.required = true, .check = Check::positive, .width = 8};
+const FieldRules of_part{.required = true, .check = Check::positive, .width = 8, .refers = IdSpace::part};
+const FieldRules corner{.required = true, .check = Check::positive, .width = 8, .refers = IdSpace::node};
+const FieldRules last_corner{.check = Check::not_negative, .width = 8, .refers = IdSpace::node};
+const FieldRules mid_side{.honour = Honour::no, .width = 8, .refers = IdSpace::node};
 const RegisterKeyword<S> element_shell{
     {.names = {"ELEMENT_SHELL"},
      .purpose = "shells of 3 (N4 = N3 or 0) or 4 nodes",
-     .cards = {{.fields = {{"EID", &S::eid, "-", "element id", corner},
-                           {"PID", &S::pid, "-", "part id", corner},
+     .id_space = IdSpace::shell,
+     .cards = {{.fields = {{"EID", &S::eid, "-", "element id", element},
+                           {"PID", &S::pid, "-", "part id", of_part},
                            {"N1", &S::n1, "-", "corner node 1", corner},
                            {"N2", &S::n2, "-", "corner node 2", corner},
                            {"N3", &S::n3, "-", "corner node 3", corner},
-                           {"N4", &S::n4, "-", "corner node 4", {.check = Check::not_negative, .width = 8}},
+                           {"N4", &S::n4, "-", "corner node 4", last_corner},
                            {"N5", &S::n5, "-", "mid-side node", mid_side},
                            {"N6", &S::n6, "-", "mid-side node", mid_side},
                            {"N7", &S::n7, "-", "mid-side node", mid_side},
                            {"N8", &S::n8, "-", "mid-side node", mid_side}}}}}};
 
 const FieldRules required_id{.required = true, .check = Check::positive};
-const FieldRules optional_id{.check = Check::not_negative};
+FieldRules required_of(IdSpace space) {
+  return {.required = true, .check = Check::positive, .refers = space};
+}
+FieldRules optional_of(IdSpace space) {
+  return {.check = Check::not_negative, .refers = space};
+}
 const FieldRules unsupported{.honour = Honour::no};
 const FieldRules no_effect{.honour = Honour::ignored};
 
@@ -68,16 +106,22 @@ using P = PartCard;
 const RegisterKeyword<P> part{
     {.names = {"PART"},
      .purpose = "parts: elements of one section and material",
+     .id_space = IdSpace::part,
      .heading = true,
      .title = &P::title,
      .cards = {{.fields = {{"PID", &P::pid, "-", "part id", required_id},
-                           {"SECID", &P::secid, "-", "section id", required_id},
-                           {"MID", &P::mid, "-", "material id", required_id},
-                           {"EOSID", &P::eosid, "-", "equation of state id", optional_id},
-                           {"HGID", &P::hgid, "-", "hourglass and bulk viscosity id", optional_id},
+                           {"SECID", &P::secid, "-", "section id", required_of(IdSpace::section)},
+                           {"MID", &P::mid, "-", "material id", required_of(IdSpace::material)},
+                           {"EOSID", &P::eosid, "-", "equation of state id", optional_of(IdSpace::eos)},
+                           {"HGID", &P::hgid, "-", "hourglass and bulk viscosity id",
+                            optional_of(IdSpace::hourglass)},
                            {"GRAV", &P::grav, "-", "gravity preload", unsupported},
                            {"ADPOPT", &P::adpopt, "-", "adaptivity", unsupported},
-                           {"TMID", &P::tmid, "-", "thermal material id", unsupported}}}}}};
+                           {"TMID",
+                            &P::tmid,
+                            "-",
+                            "thermal material id",
+                            {.honour = Honour::no, .refers = IdSpace::material}}}}}}};
 
 /// The first card of all sets.
 template <class T>
@@ -94,34 +138,40 @@ CardOf<T> set_card() {
 const RegisterKeyword<SetNodeCard> set_node{
     {.names = {"SET_NODE_LIST", "SET_NODE"},
      .purpose = "set of nodes, by their ids",
+     .id_space = IdSpace::node_set,
      .title_option = true,
      .title = &SetNodeCard::title,
      .cards = {set_card<SetNodeCard>(),
-               {.fields = {{"NID", &SetNodeCard::ids, "-", "node ids", optional_id}}, .repeat = true}}}};
+               {.fields = {{"NID", &SetNodeCard::ids, "-", "node ids", optional_of(IdSpace::node)}},
+                .repeat = true}}}};
 
 const RegisterKeyword<SetNodeGenerateCard> set_node_generate{
     {.names = {"SET_NODE_LIST_GENERATE", "SET_NODE_GENERATE"},
      .purpose = "set of all nodes with ids in given ranges",
+     .id_space = IdSpace::node_set,
      .title_option = true,
      .title = &SetNodeGenerateCard::title,
      .cards = {set_card<SetNodeGenerateCard>(),
                {.fields = {{"BNBEG", &SetNodeGenerateCard::ids, "-",
-                            "first id, last id, first id, last id, ...", optional_id}},
+                            "first id, last id, first id, last id, ...", optional_of(IdSpace::node)}},
                 .repeat = true}}}};
 
 const RegisterKeyword<SetPartCard> set_part{
     {.names = {"SET_PART_LIST", "SET_PART"},
      .purpose = "set of parts, by their ids",
+     .id_space = IdSpace::part_set,
      .title_option = true,
      .title = &SetPartCard::title,
      .cards = {set_card<SetPartCard>(),
-               {.fields = {{"PID", &SetPartCard::ids, "-", "part ids", optional_id}}, .repeat = true}}}};
+               {.fields = {{"PID", &SetPartCard::ids, "-", "part ids", optional_of(IdSpace::part)}},
+                .repeat = true}}}};
 
 using C = DefineCurveCard;
 const RegisterKeyword<C> define_curve{
     {.names = {"DEFINE_CURVE"},
      .purpose =
          "piecewise linear curve: SFO (ordinate + OFFO) at SFA (abscissa + OFFA); constant beyond its ends",
+     .id_space = IdSpace::curve,
      .title_option = true,
      .title = &C::title,
      .cards = {
@@ -139,8 +189,21 @@ const RegisterKeyword<C> define_curve{
           .repeat = true}}}};
 
 using B = DefineBoxCard;
+/// The box around the moved corners; it is the moved box itself where axes become axes.
+std::string move_box(B& box, const Affine& motion) {
+  if (!maps_axes(motion))
+    return "the file is turned by an angle that is no multiple of 90 degrees, and a box lies along the axes";
+  const Vec low(box.xmn, box.ymn, box.zmn), high(box.xmx, box.ymx, box.zmx);
+  if ((high.array() < low.array()).any()) return {};  // refused later, as it stands
+  const Vec one = motion * low, other = motion * high;
+  const Vec now_low = one.cwiseMin(other), now_high = one.cwiseMax(other);
+  box.xmn = now_low[0], box.ymn = now_low[1], box.zmn = now_low[2];
+  box.xmx = now_high[0], box.ymx = now_high[1], box.zmx = now_high[2];
+  return {};
+}
 const RegisterKeyword<B> define_box{{.names = {"DEFINE_BOX"},
                                      .purpose = "box with sides along the axes",
+                                     .id_space = IdSpace::box,
                                      .title_option = true,
                                      .title = &B::title,
                                      .cards = {{.fields = {{"BOXID", &B::boxid, "-", "box id", required_id},
@@ -149,7 +212,8 @@ const RegisterKeyword<B> define_box{{.names = {"DEFINE_BOX"},
                                                            {"YMN", &B::ymn, "L", "lowest y"},
                                                            {"YMX", &B::ymx, "L", "highest y"},
                                                            {"ZMN", &B::zmn, "L", "lowest z"},
-                                                           {"ZMX", &B::zmx, "L", "highest z"}}}}}};
+                                                           {"ZMX", &B::zmx, "L", "highest z"}}}},
+                                     .move = move_box}};
 
 }  // namespace
 

@@ -32,6 +32,8 @@ class ModelBuilder {
   void build_curves();
   void build_boxes();
   void add_generated(const SetNodeGenerateCard& card, std::vector<Index>& members);
+  // move_nodes.cpp
+  void move_nodes();
   // build_conditions.cpp
   void build_control();
   void build_output();

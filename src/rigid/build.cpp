@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "model/transformation.hpp"
 #include "rigid/mat_rigid.hpp"
 #include "rigid/rigid.hpp"
 
@@ -16,12 +17,6 @@ const MatRigid* find(const Deck& deck, Id mid) {
   for (const MatRigid& m : deck.all<MatRigid>())
     if (m.mid == mid) return &m;
   return nullptr;
-}
-
-/// Axes that a code 0 to 7 of CON1 or CON2 holds.
-std::array<bool, 3> axes(int code) {
-  return {code == 1 || code == 4 || code == 6 || code == 7, code == 2 || code == 4 || code == 5 || code == 7,
-          code == 3 || code == 5 || code == 6 || code == 7};
 }
 
 void read_constraints(const Deck& deck, const MatRigid& m, RigidBody& body, Diagnostics& diagnostics) {
@@ -41,8 +36,8 @@ void read_constraints(const Deck& deck, const MatRigid& m, RigidBody& body, Diag
                "7 holds all axes");
     return 0;
   };
-  body.held = axes(code("CON1", m.con1));
-  body.no_turn = axes(code("CON2", m.con2));
+  body.held = axes_of_code(code("CON1", m.con1));
+  body.no_turn = axes_of_code(code("CON2", m.con2));
 }
 
 void sum_mass(RigidBody& b, const World& world) {

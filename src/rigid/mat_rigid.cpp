@@ -1,6 +1,9 @@
 #include "rigid/mat_rigid.hpp"
 
+#include <cmath>
+
 #include "keyword/registry.hpp"
+#include "model/transformation.hpp"
 
 namespace courant {
 namespace {
@@ -8,38 +11,64 @@ namespace {
 using M = MatRigid;
 constexpr Honour no = Honour::no, output_only = Honour::output_only;
 
+/// CON1 and CON2 name global axes. Anything else in them is refused later, as it stands.
+std::string move_constraints(M& m, const Affine& motion) {
+  if (m.cmo != 1) return {};
+  for (Real* code : {&m.con1, &m.con2}) {
+    if (!(*code > 0 && *code < 7 && *code == std::floor(*code))) continue;
+    auto held = axes_of_code(static_cast<int>(*code));
+    std::string reason = move_held_axes(held, motion);
+    if (!reason.empty()) return reason;
+    *code = code_of_axes(held);
+  }
+  return {};
+}
+
 const RegisterKeyword<M> mat_rigid{
     {.names = {"MAT_RIGID", "MAT_020"},
      .purpose = "rigid body: density, constraints; E and PR give the contact stiffness only",
      .id_space = IdSpace::material,
      .title_option = true,
      .title = &M::title,
-     .cards = {
-         {.fields =
-              {{"MID", &M::mid, "-", "id that *PART refers to", {.required = true, .check = Check::positive}},
-               {"RO", &M::ro, "M/L3", "density", {.required = true, .check = Check::positive}},
-               {"E", &M::E, "M/LT2", "Young's modulus", {.required = true, .check = Check::positive}},
-               {"PR", &M::pr, "-", "Poisson ratio", {.check = Check::not_negative}},
-               {"N", &M::n, "-", "coupling with other codes", {.honour = no}},
-               {"COUPLE", &M::couple, "-", "coupling with other codes", {.honour = no}},
-               {"M", &M::m, "-", "coupling with other codes", {.honour = no}},
-               {"ALIAS", &M::alias, "-", "coupling with other codes", {.honour = no}}}},
-         {.fields = {{"CMO", &M::cmo, "-", "0 free, 1 constrained along the global axes", {}},
-                     {"CON1", &M::con1, "-", "held translations: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 all", {}},
-                     {"CON2", &M::con2, "-", "held rotations: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 all", {}},
-                     {"SPCNID", &M::spcnid, "-", "node of a point constraint", {.honour = no}},
-                     {"XSPC", &M::xspc, "L", "point of a point constraint", {.honour = no}},
-                     {"YSPC", &M::yspc, "L", "point of a point constraint", {.honour = no}},
-                     {"ZSPC", &M::zspc, "L", "point of a point constraint", {.honour = no}}},
-          .optional = true},
-         {.fields = {{"LCO", &M::lco, "-", "local system of the output", {.honour = output_only}},
-                     {"A2", &M::a2, "-", "local system of the output", {.honour = output_only}},
-                     {"A3", &M::a3, "-", "local system of the output", {.honour = output_only}},
-                     {"V1", &M::v1, "-", "local system of the output", {.honour = output_only}},
-                     {"V2", &M::v2, "-", "local system of the output", {.honour = output_only}},
-                     {"V3", &M::v3, "-", "local system of the output", {.honour = output_only}},
-                     {"BNDLCO", &M::bndlco, "-", "local axes in bndout", {.honour = output_only}}},
-          .optional = true}}}};
+     .cards =
+         {{.fields = {{"MID",
+                       &M::mid,
+                       "-",
+                       "id that *PART refers to",
+                       {.required = true, .check = Check::positive}},
+                      {"RO", &M::ro, "M/L3", "density", {.required = true, .check = Check::positive}},
+                      {"E", &M::E, "M/LT2", "Young's modulus", {.required = true, .check = Check::positive}},
+                      {"PR", &M::pr, "-", "Poisson ratio", {.check = Check::not_negative}},
+                      {"N", &M::n, "-", "coupling with other codes", {.honour = no}},
+                      {"COUPLE", &M::couple, "-", "coupling with other codes", {.honour = no}},
+                      {"M", &M::m, "-", "coupling with other codes", {.honour = no}},
+                      {"ALIAS", &M::alias, "-", "coupling with other codes", {.honour = no}}}},
+          {.fields =
+               {{"CMO", &M::cmo, "-", "0 free, 1 constrained along the global axes", {}},
+                {"CON1", &M::con1, "-", "held translations: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 all", {}},
+                {"CON2", &M::con2, "-", "held rotations: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 all", {}},
+                {"SPCNID",
+                 &M::spcnid,
+                 "-",
+                 "node of a point constraint",
+                 {.honour = no, .refers = IdSpace::node}},
+                {"XSPC",
+                 &M::xspc,
+                 "L",
+                 "point of a point constraint",
+                 {.honour = no, .spatial = Spatial::point}},
+                {"YSPC", &M::yspc, "L", "point of a point constraint", {.honour = no}},
+                {"ZSPC", &M::zspc, "L", "point of a point constraint", {.honour = no}}},
+           .optional = true},
+          {.fields = {{"LCO", &M::lco, "-", "local system of the output", {.honour = output_only}},
+                      {"A2", &M::a2, "-", "local system of the output", {.honour = output_only}},
+                      {"A3", &M::a3, "-", "local system of the output", {.honour = output_only}},
+                      {"V1", &M::v1, "-", "local system of the output", {.honour = output_only}},
+                      {"V2", &M::v2, "-", "local system of the output", {.honour = output_only}},
+                      {"V3", &M::v3, "-", "local system of the output", {.honour = output_only}},
+                      {"BNDLCO", &M::bndlco, "-", "local axes in bndout", {.honour = output_only}}},
+           .optional = true}},
+     .move = move_constraints}};
 
 }  // namespace
 }  // namespace courant

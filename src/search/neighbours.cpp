@@ -137,7 +137,7 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   std::vector<Index>& old_of_new = order_;
   p.fields.permute(old_of_new);
   note_changes(p, old_of_new, active_before);
-  if (all) queue_dormant(world, clock.t);
+  if (all) queue_dormant(p);
   build_lists(world);
   remember_places(world, clock);
   built_ = true;
@@ -255,16 +255,17 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
   if (all) order_dormant(p);
 }
 
+// When a dormant particle can be within reach of the box.
+Real Neighbours::due_time(const Particles& p, Index i) const {
+  if (p.state[i] == particle_deactivated) return std::numeric_limits<Real>::infinity();
+  const Real reach = 2 * h_growth * h_max_ + most_skin_;
+  return p.dormant_time + region_->time_to_reach(p.x.vec(i), p.v.vec(i), reach);
+}
+
 // Behind the moving particles: those first that can be within reach first.
 void Neighbours::order_dormant(const Particles& p) {
-  const Real reach = 2 * h_growth * h_max_ + most_skin_;
   std::vector<Real> due(p.size());
-  for (std::size_t k = p.moving; k < order_.size(); ++k) {
-    const Index i = order_[k];
-    due[i] = p.state[i] == particle_deactivated
-                 ? std::numeric_limits<Real>::infinity()
-                 : p.dormant_time + region_->time_to_reach(p.x.vec(i), p.v.vec(i), reach);
-  }
+  for (std::size_t k = p.moving; k < order_.size(); ++k) due[order_[k]] = due_time(p, order_[k]);
   std::stable_sort(order_.begin() + p.moving, order_.end(),
                    [&](Index a, Index b) { return due[a] < due[b]; });
 }
@@ -284,17 +285,13 @@ void Neighbours::note_changes(Particles& p, const std::vector<Index>& old_of_new
   }
 }
 
-void Neighbours::queue_dormant(World& world, Real t) {
-  const Particles& p = world.particles;
-  const Real reach = 2 * h_growth * h_max_ + most_skin_;
+void Neighbours::queue_dormant(const Particles& p) {
   due_.clear();
   first_due_ = 0;
   Real fastest = 0;
   for (Index i = p.moving; i < p.size(); ++i) {
-    const bool off = p.state[i] == particle_deactivated;
-    due_.push_back(off ? std::numeric_limits<Real>::infinity()
-                       : t + region_->time_to_reach(p.x.vec(i), p.v.vec(i), reach));
-    if (!off) fastest = std::max(fastest, p.v.vec(i).norm());
+    due_.push_back(due_time(p, i));
+    if (p.state[i] != particle_deactivated) fastest = std::max(fastest, p.v.vec(i).norm());
   }
   h_queued_ = h_max_;
   waking_time_ = fastest > 0 ? waking_margin * h_max_ / fastest : 0;

@@ -75,7 +75,8 @@ class Neighbours {
   void choose_skin(const Clock& clock);
   void sort(World& world, const Clock& clock, Index n);
   void order_dormant(const Particles& p);
-  void queue_dormant(World& world, Real t);
+  void queue_dormant(const Particles& p);
+  Real due_time(const Particles& p, Index i) const;
   void note_changes(Particles& p, const std::vector<Index>& old_of_new, Index active_before);
   void build_lists(World& world);
   Index list_of_group(const World& world, const NearQuery& query, std::vector<Index>& found) const;

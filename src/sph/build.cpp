@@ -183,7 +183,24 @@ class Builder {
       p.part[i] = s.part;
       p.state[i] = particle_outside;
     });
-    if (settings_.dim == 2) report_off_plane();
+    if (settings_.dim == 2) {
+      report_off_plane();
+      report_other_unit_of_length();
+    }
+  }
+
+  /// MASS per unit of depth has another dimension than its field in 3D, by which *INCLUDE_TRANSFORM converts.
+  void report_other_unit_of_length() {
+    for (const ModelSph& s : model_.sph) {
+      const Conversion& c = deck_.files[static_cast<std::size_t>(s.card.file)].conversion;
+      if (c.units.length == 1) continue;
+      deck_.error(diagnostics_, s.card, "MASS",
+                  fmt::format("in 2D masses are per unit of depth, and the file has another unit of length "
+                              "(FCTLEN {:g}), which leaves open what the depth is",
+                              c.units.length),
+                  "give 2D particles in the deck's own unit of length");
+      return;  // once for all of them
+    }
   }
 
   void report_off_plane() {
@@ -304,7 +321,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
                                      std::shared_ptr<Neighbours> neighbours) {
   std::vector<PassNote> left_out;
   const auto geometry =
-      std::make_shared<PairGeometry>(neighbours, s.uniform_h, PairGeometry::cache_bytes, s.geometry_eps);
+      std::make_shared<PairGeometry>(neighbours, s.uniform_h, PairGeometry::most_kept_bytes, s.geometry_eps);
   world.rates.push_back(make_rates(s, world, geometry));
   if (s.geometry_eps == 0) left_out.push_back({"kept pair geometry", "no *COURANT_PAIR_GEOMETRY"});
   if (s.evolving_h)

@@ -59,7 +59,7 @@ const RegisterKeyword<ControlSph> control_sph{
                 &ControlSph::boxid,
                 "-",
                 "box outside of which particles keep state and velocity",
-                {.check = Check::not_negative}},
+                {.check = Check::not_negative, .refers = IdSpace::box}},
                {"DT", &ControlSph::dt, "T", "death time of SPH", {.standard = 1e20, .honour = Honour::no}},
                {"IDIM",
                 &ControlSph::idim,

@@ -8,7 +8,7 @@
 namespace courant {
 
 /// One pair of the momentum equation, eq. 17 (with h per particle: FORM 0, p_i with h_i and p_j with h_j, so
-/// that pair forces cancel), written once for the pair loop and for the energy that crosses the box.
+/// that pair forces cancel), for the energy that crosses the box. The pair loops hold the same in packs.
 template <int Dim, bool UniformH, bool Monaghan>
 struct MomentumPair {
   using Kernel = CubicSpline<Dim>;

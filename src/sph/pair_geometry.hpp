@@ -15,20 +15,20 @@ namespace courant {
 
 class PairGeometry {
  public:
-  static constexpr std::int64_t cache_bytes = 128 << 20;
+  static constexpr std::int64_t most_kept_bytes = 128 << 20;
   /// Gradients are kept where they need no more than `most_kept` bytes and h is the same for all.
   /// `eps` > 0: they are kept from step to step, whatever they need, until two particles may have moved eps h
   /// towards each other.
-  PairGeometry(std::shared_ptr<Neighbours> neighbours, bool uniform_h, std::int64_t most_kept = cache_bytes,
-               Real eps = 0)
+  PairGeometry(std::shared_ptr<Neighbours> neighbours, bool uniform_h,
+               std::int64_t most_kept = most_kept_bytes, Real eps = 0)
       : neighbours_(std::move(neighbours)),
         most_kept_(!uniform_h ? -1
                    : eps > 0  ? std::numeric_limits<std::int64_t>::max()
                               : most_kept),
         eps_(eps) {}
 
-  /// At the start of the rates: decides whether gradients are kept. They are where they fit into the caches;
-  /// fetching them from memory would take longer than working them out again. See docs/performance.md.
+  /// At the start of the rates: decides whether gradients are kept. They spare the forces a root and the
+  /// kernel of each pair; memory is the limit. See docs/performance.md.
   void prepare() {
     kept_ = neighbours_->entries() * std::int64_t(lanes * sizeof(Real)) <= most_kept_;
     const Index blocks = kept_ ? neighbours_->blocks() : 0;

@@ -77,7 +77,7 @@ Sizes sizes_of(const Simulation& s) {
   const double entries = static_cast<double>(lists.entries());
   out.entries = entries * Neighbours::lanes / active;
   const double gradients = entries * Neighbours::lanes * sizeof(Real);
-  out.kept = s.sph().uniform_h && gradients <= static_cast<double>(PairGeometry::cache_bytes);
+  out.kept = s.sph().uniform_h && gradients <= static_cast<double>(PairGeometry::most_kept_bytes);
   out.field_bytes = static_cast<double>(p.fields.bytes_per_entity()) * p.moving / active;
   out.list_bytes = entries * sizeof(Index) / active;
   out.kept_bytes = out.kept ? gradients / active : 0;

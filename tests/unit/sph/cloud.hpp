@@ -46,7 +46,7 @@ struct Cloud {
   /// The two pair passes; make them before `refresh`.
   void make_pairs(bool keep_gradients = true) {
     const auto geometry = std::make_shared<PairGeometry>(neighbours, settings.uniform_h,
-                                                         keep_gradients ? PairGeometry::cache_bytes : -1);
+                                                         keep_gradients ? PairGeometry::most_kept_bytes : -1);
     rates = make_rates(settings, world, geometry);
     forces = make_forces(settings, world, geometry);
   }

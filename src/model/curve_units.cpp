@@ -1,0 +1,88 @@
+// Unit factors of curves in files that *INCLUDE_TRANSFORM reads.
+#include <fmt/format.h>
+#include <cstdlib>
+#include <map>
+
+#include "keyword/registry.hpp"
+#include "model/cards.hpp"
+#include "model/included_entries.hpp"
+
+namespace courant {
+
+namespace {
+
+constexpr CurveDimensions known[] = {
+    {"LOAD_BODY_X", "LCID", "T", "L/T2"},
+    {"CONTROL_TIMESTEP", "LCTM", "T", "T"},
+};
+
+struct ConvertedCurve {
+  DefineCurveCard* card = nullptr;
+  Real abscissa = 1, ordinate = 1;
+  Entry user{};  ///< who told the factors
+  bool used = false;
+};
+
+void use(const Deck& deck, const Entry& entry, const KeywordSpec& spec, const IdUse& id,
+         ConvertedCurve& curve, Diagnostics& diagnostics) {
+  const FieldSpec& field = spec.cards[id.card].fields[id.field];
+  if (field.rules.honour != Honour::yes || !spec.lacking.empty()) return;  // no effect, or refused already
+  const CurveDimensions* dimensions = curve_dimensions(spec.names[0], field.name);
+  const char* hint =
+      "give the curve in the deck's own units: in a file without unit factors, or through SFA and SFO";
+  if (!dimensions) {
+    deck.error(
+        diagnostics, entry, field.name,
+        fmt::format("curve {} stands in a file with unit factors, and the dimensions of its numbers are "
+                    "not known here",
+                    std::abs(id.id)),
+        hint);
+    return;
+  }
+  const UnitFactors& units = deck.files[static_cast<std::size_t>(curve.card->file)].conversion.units;
+  const Real abscissa = units.of(dimensions->abscissa), ordinate = units.of(dimensions->ordinate);
+  if (curve.used && (curve.abscissa != abscissa || curve.ordinate != ordinate))
+    deck.error(
+        diagnostics, entry, field.name,
+        fmt::format("curve {} stands in a file with unit factors, and its numbers have another dimension "
+                    "here than for {} at {}",
+                    std::abs(id.id), deck.keyword(curve.user), deck.place(curve.user)),
+        hint);
+  curve.abscissa = abscissa;
+  curve.ordinate = ordinate;
+  curve.user = entry;
+  curve.used = true;
+}
+
+}  // namespace
+
+const CurveDimensions* curve_dimensions(const std::string& keyword, const std::string& field) {
+  for (const CurveDimensions& one : known)
+    if (keyword == one.keyword && field == one.field) return &one;
+  return nullptr;
+}
+
+void convert_curves(Deck& deck, Diagnostics& diagnostics) {
+  std::map<Id, ConvertedCurve> curves;
+  for (DefineCurveCard& card : deck.store<DefineCurveCard>())
+    if (deck.files[static_cast<std::size_t>(card.file)].conversion.units.any())
+      curves[card.lcid].card = &card;
+  if (curves.empty()) return;
+  const auto& registry = keyword_registry();
+  for (std::size_t k = 0; k < registry.size(); ++k) {
+    const KeywordSpec& spec = *registry[k];
+    spec.for_each(deck, static_cast<std::int32_t>(k), [&](const Entry& entry) {
+      spec.for_each_id(entry, [&](const IdUse& id) {
+        if (id.space != IdSpace::curve || id.defines) return;
+        const auto it = curves.find(std::abs(id.id));
+        if (it != curves.end()) use(deck, entry, spec, id, it->second, diagnostics);
+      });
+    });
+  }
+  for (auto& [id, curve] : curves) {
+    curve.card->sfa *= curve.abscissa;
+    curve.card->sfo *= curve.ordinate;
+  }
+}
+
+}  // namespace courant
