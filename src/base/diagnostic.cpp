@@ -4,6 +4,27 @@
 
 namespace courant {
 
+namespace {
+
+/// Without control characters, which could act on a terminal, and cut where it is too long to read. Text of
+/// several lines (what another program said) keeps all of them.
+void make_presentable(std::string& text) {
+  const bool several_lines = text.find('\n') != std::string::npos;
+  if (!several_lines && text.size() > Diagnostics::longest_text) {
+    std::size_t end = Diagnostics::longest_text;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
+      --end;  // within a UTF-8 character
+    text.resize(end);
+    text += "...";
+  }
+  for (char& c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte < 0x20 && c != '\n') || byte == 0x7F) c = '?';
+  }
+}
+
+}  // namespace
+
 std::string Diagnostic::text() const {
   std::string out;
   if (!where.file.empty()) {
@@ -21,7 +42,20 @@ std::string Diagnostic::text() const {
 
 void Diagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.severity == Severity::error) ++errors_;
-  if (diagnostic.severity == Severity::warning) ++warnings_;
+  if (diagnostic.severity == Severity::warning && ++warnings_ > max_warnings) {
+    if (warnings_ == max_warnings + 1) {
+      note_of_more_ = all_.size();
+      all_.push_back({Severity::note, {diagnostic.where.file, 0, 0}, "", ""});
+    }
+    const int more = warnings_ - max_warnings;
+    all_[note_of_more_].message = more == 1 ? std::string("1 more warning is not shown")
+                                            : fmt::format("{} more warnings are not shown", more);
+    return;
+  }
+  make_presentable(diagnostic.where.file);
+  make_presentable(diagnostic.where.included_from);
+  make_presentable(diagnostic.message);
+  make_presentable(diagnostic.hint);
   all_.push_back(std::move(diagnostic));
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,14 @@ struct Diagnostic {
 };
 
 /// Collects every message about the input, so that all faults of a deck are reported at once. The library
-/// never prints.
+/// never prints. Input of any kind may stand in a message, so control characters are shown as '?' and what is
+/// too long to read is cut.
 class Diagnostics {
  public:
+  /// More warnings than these are counted, but not kept: a note in their place says how many.
+  static constexpr int max_warnings = 100;
+  static constexpr std::size_t longest_text = 500;  ///< of a message or a hint, in bytes
+
   void error(Location where, std::string message, std::string hint = {});
   void warning(Location where, std::string message, std::string hint = {});
   void note(Location where, std::string message, std::string hint = {});
@@ -44,6 +50,7 @@ class Diagnostics {
   std::vector<Diagnostic> all_;
   int errors_ = 0;
   int warnings_ = 0;
+  std::size_t note_of_more_ = 0;  ///< index of the note about warnings that are not kept
 };
 
 }  // namespace courant

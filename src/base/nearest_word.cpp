@@ -22,9 +22,12 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
   std::string best;
+  constexpr std::size_t longest_word = 100;  // a whole line is no misspelt word, and takes long to compare
+  if (word.size() > longest_word) return best;
   // of a word of two letters, one at least must be right
   std::size_t least = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
   for (const std::string& candidate : candidates) {
+    if (candidate.size() >= word.size() + least || word.size() >= candidate.size() + least) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < least) {
       least = distance;

@@ -33,13 +33,6 @@ std::string expectation(const FieldSpec& field) {
          condition[static_cast<int>(field.rules.check)];
 }
 
-/// Lines below a keyword line, comments and blank ones included.
-std::size_t lines_of_block(const SourceText& source, std::size_t keyword_line) {
-  std::size_t end = keyword_line + 1;
-  while (end < source.lines.size() && (source.lines[end].empty() || source.lines[end][0] != '*')) ++end;
-  return end - keyword_line - 1;
-}
-
 /// Whether each line is an entry, as in the tables of nodes and elements.
 bool is_table(const KeywordSpec& spec, const KeywordMatch& match) {
   return spec.many && spec.cards.size() == 1 && !spec.cards[0].repeat && !spec.heading && !match.id &&
@@ -53,12 +46,17 @@ void CardReader::read(const Block& block) {
   spec_ = keyword_registry()[static_cast<std::size_t>(block.match.keyword)].get();
   line_ = static_cast<int>(block.line) + 1;
   const auto sink = spec_->sink(deck_);
-  if (is_table(*spec_, block.match)) sink->expect(lines_of_block(*block.source, block.line));
+  find_end();
+  table_ = {};
+  if (is_table(*spec_, block.match)) {
+    sink->expect(end_ - block.line - 1);
+    table_ = TableLines(*spec_, block.format);
+  }
   DataLines data(*block.source, block.line + 1);
   if (data.done() && !spec_->cards.empty() && !spec_->cards[0].optional) missing(data, "card 1");
   bool first = true;
   while (!data.done() && !full()) {
-    if (!first && data.only_blanks_left()) break;
+    if (!first && only_blanks_left(data)) break;
     line_ = static_cast<int>(data.index()) + 1;
     if (!first && !spec_->many) {
       diagnostics_.error(
@@ -75,6 +73,13 @@ void CardReader::read(const Block& block) {
   }
 }
 
+/// Once for the block: to look ahead at each card would take the square of the number of blank lines.
+void CardReader::find_end() {
+  const auto& lines = block_.source->lines;
+  end_ = block_.source->next_keyword(block_.line + 1);
+  while (end_ > block_.line + 1 && (trimmed(lines[end_ - 1]).empty() || lines[end_ - 1][0] == '$')) --end_;
+}
+
 void CardReader::read_set(DataLines& data, EntrySink& sink) {
   Entry entry;
   entry.file = block_.file;
@@ -82,8 +87,20 @@ void CardReader::read_set(DataLines& data, EntrySink& sink) {
   entry.keyword = block_.match.keyword;
   entry.name = block_.match.name;
   sink.begin(entry);
+  if (table_.usable()) {
+    if (table_.read(data.line(), sink.fields())) {
+      data.step();
+      finish(sink);
+      return;
+    }
+    sink.begin(entry);
+  }
   if (!read_title_lines(data, sink)) return;
   read_cards(data, sink);
+  finish(sink);
+}
+
+void CardReader::finish(EntrySink& sink) {
   convert(sink);
   refuse_second_definition(sink.entry());
   sink.commit();
@@ -184,7 +201,7 @@ void CardReader::read_cards(DataLines& data, EntrySink& sink) {
     const CardSpec& card = spec_->cards[c];
     if (card.conditional && !spec_->has_card(sink.entry(), c)) continue;
     if (card.repeat) {
-      for (; !data.done() && !full() && !data.only_blanks_left(); data.step()) read_card(data, c, sink);
+      for (; !data.done() && !full() && !only_blanks_left(data); data.step()) read_card(data, c, sink);
       while (!data.done()) data.step();
       return;
     }
@@ -211,11 +228,24 @@ void CardReader::read_card(const DataLines& data, std::size_t card, EntrySink& s
   const std::size_t fields = spec_->cards[card].fields.size();
   for (std::size_t i = 0; i < slices_.size(); ++i)
     read_field(card, std::min(i, fields - 1), slices_[i], sink);
+  warn_of_cut_number(data.line(), spec_->cards[card], card);
   if (too_many > 0)
     diagnostics_.warning(
         here(1),
         fmt::format("*{}: card {} has {} fields; values behind them ({}) are not read",
                     spec_->names[static_cast<std::size_t>(block_.match.name)], card + 1, fields, too_many));
+}
+
+void CardReader::warn_of_cut_number(std::string_view line, const CardSpec& spec, std::size_t card) {
+  const std::size_t last = last_column(spec, block_.format);
+  const FieldType type = spec.fields.back().type;
+  if (type == FieldType::text || type == FieldType::texts || type == FieldType::skip ||
+      !runs_across(line, last) || line.substr(0, last).find(',') != std::string_view::npos)
+    return;
+  diagnostics_.warning(
+      here(static_cast<int>(last)),
+      fmt::format("*{}: a number runs across column {}, the last of card {}; what stands behind is not read",
+                  spec_->names[static_cast<std::size_t>(block_.match.name)], last, card + 1));
 }
 
 void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, EntrySink& sink) {
@@ -258,7 +288,8 @@ void CardReader::read_integer(std::size_t card, std::size_t field, const Slice& 
   const FieldSpec& spec = spec_->cards[card].fields[field];
   Id value = 0;
   if (!parse_integer(slice.text, value)) {
-    field_error(card, field, slice, fmt::format("expected {}, got '{}'", expectation(spec), slice.text));
+    field_error(card, field, slice, fmt::format("expected {}, got '{}'", expectation(spec), slice.text),
+                number_hint(slice.text));
     return;
   }
   if (value == 0 && spec.type == FieldType::ids) {
@@ -270,8 +301,8 @@ void CardReader::read_integer(std::size_t card, std::size_t field, const Slice& 
     field_error(card, field, slice, "expected an id that is not 0, got '0'");
     return;
   }
-  if (spec.type == FieldType::integer &&
-      (value > std::numeric_limits<int>::max() || value < std::numeric_limits<int>::min())) {
+  const Id largest = spec.type == FieldType::integer ? std::numeric_limits<int>::max() : largest_id;
+  if (value > largest || value < -largest) {
     field_error(card, field, slice, fmt::format("'{}' is too large", slice.text));
     return;
   }
@@ -283,7 +314,8 @@ void CardReader::read_real(std::size_t card, std::size_t field, const Slice& sli
   const FieldSpec& spec = spec_->cards[card].fields[field];
   Real value = 0;
   if (!parse_real(slice.text, value)) {
-    field_error(card, field, slice, fmt::format("expected {}, got '{}'", expectation(spec), slice.text));
+    field_error(card, field, slice, fmt::format("expected {}, got '{}'", expectation(spec), slice.text),
+                number_hint(slice.text));
     return;
   }
   if (value == 0 && !spec.is_vector() && spec.rules.zero_is_standard && !spec.rules.required) return;

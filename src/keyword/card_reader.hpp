@@ -8,6 +8,7 @@
 #include "keyword/parameters.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
+#include "keyword/table_lines.hpp"
 
 namespace courant {
 
@@ -32,13 +33,17 @@ class CardReader {
   bool full() const { return diagnostics_.errors() >= max_errors; }
 
  private:
+  void find_end();
+  bool only_blanks_left(const DataLines& data) const { return data.index() >= end_; }
   void read_set(DataLines& data, EntrySink& sink);
+  void finish(EntrySink& sink);
   bool read_title_lines(DataLines& data, EntrySink& sink);
   void convert(EntrySink& sink);
   void read_id_line(std::string_view line, int number, EntrySink& sink);
   void read_cards(DataLines& data, EntrySink& sink);
   void refuse_second_definition(const Entry& entry);
   void read_card(const DataLines& data, std::size_t card, EntrySink& sink);
+  void warn_of_cut_number(std::string_view line, const CardSpec& spec, std::size_t card);
   void read_field(std::size_t card, std::size_t field, Slice slice, EntrySink& sink);
   void read_integer(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink);
   void read_real(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink);
@@ -58,9 +63,11 @@ class CardReader {
   Diagnostics& diagnostics_;
   Block block_;
   const KeywordSpec* spec_ = nullptr;
-  int line_ = 0;  ///< number of the line being read
+  int line_ = 0;         ///< number of the line being read
+  std::size_t end_ = 0;  ///< index behind the last line of the block that is neither blank nor a comment
   std::size_t count_ = 0;
   std::string origin_;  ///< of the value of the field being read, if that is a parameter
+  TableLines table_;
   std::vector<Slice> slices_;
 };
 

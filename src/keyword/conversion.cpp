@@ -1,8 +1,20 @@
 #include "keyword/conversion.hpp"
 
-#include <limits>
+#include <algorithm>
 
 namespace courant {
+
+namespace {
+
+/// Stops short of the end of the type, where adding would begin again at the other one.
+Id sum(Id a, Id b) {
+  constexpr Id most = Id(1) << 62;
+  Id out = 0;
+  if (__builtin_add_overflow(a, b, &out)) out = a > 0 ? most : -most;
+  return std::clamp(out, -most, most);
+}
+
+}  // namespace
 
 const char* id_word(IdSpace space) {
   static constexpr const char* words[] = {"id",
@@ -80,11 +92,8 @@ Id IdOffsets::of(IdSpace space) const {
 }
 
 Id IdOffsets::shifted(IdSpace space, Id id) const {
-  const Id offset = id < 0 ? -of(space) : of(space);
-  Id sum = 0;
-  // an id that no deck has use for stays so, instead of turning round to a small one
-  if (__builtin_add_overflow(id, offset, &sum)) return std::numeric_limits<Id>::max();
-  return id == 0 ? 0 : sum;
+  const Id offset = of(space);
+  return id > 0 ? sum(id, offset) : id < 0 ? -sum(-id, offset) : 0;
 }
 
 bool IdOffsets::any() const {
@@ -109,14 +118,14 @@ Real UnitFactors::of(std::string_view dimension) const {
 
 Conversion Conversion::then(const Conversion& inner) const {
   Conversion out = inner;
-  out.offsets.node += offsets.node;
-  out.offsets.element += offsets.element;
-  out.offsets.part += offsets.part;
-  out.offsets.material += offsets.material;
-  out.offsets.set += offsets.set;
-  out.offsets.curve += offsets.curve;
-  out.offsets.definition += offsets.definition;
-  out.offsets.other += offsets.other;
+  out.offsets.node = sum(out.offsets.node, offsets.node);
+  out.offsets.element = sum(out.offsets.element, offsets.element);
+  out.offsets.part = sum(out.offsets.part, offsets.part);
+  out.offsets.material = sum(out.offsets.material, offsets.material);
+  out.offsets.set = sum(out.offsets.set, offsets.set);
+  out.offsets.curve = sum(out.offsets.curve, offsets.curve);
+  out.offsets.definition = sum(out.offsets.definition, offsets.definition);
+  out.offsets.other = sum(out.offsets.other, offsets.other);
   out.units.mass *= units.mass;
   out.units.time *= units.time;
   out.units.length *= units.length;

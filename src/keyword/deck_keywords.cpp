@@ -11,8 +11,10 @@ struct DeckLevel : Entry {
 };
 
 const RegisterKeyword<DeckLevel> keyword_keyword{
-    {.names = {"KEYWORD"},
-     .purpose = "begins a deck; LONG=Y (all fields 20 wide) or I10=Y (ids 10 wide) may follow on the line"}};
+    {.names = {"KEYWORD", "KEYWORD_ID", "KEYWORD_JOBID"},
+     .purpose =
+         "begins a deck; LONG=Y (all fields 20 wide) or I10=Y (ids 10 wide) may follow on the line; _ID and "
+         "_JOBID (a prefix of file names) have no effect"}};
 
 const RegisterKeyword<DeckLevel> title_keyword{
     {.names = {"TITLE"},

@@ -1,5 +1,6 @@
 #pragma once
-// read_deck from the inside: keyword lines (reader.cpp), *INCLUDE and its kin (include_reader.cpp),
+// read_deck from the inside: keyword lines (reader.cpp), *KEYWORD
+// (format_reader.cpp), *INCLUDE and its kin (include_reader.cpp),
 // *PARAMETER and its kin (parameter_reader.cpp). The cards of all other keywords are read by CardReader.
 #include <map>
 #include <memory>
@@ -34,12 +35,18 @@ class DeckReader {
   bool read_deck_keyword(const File& file, std::size_t line, const KeywordLine& keyword);
   Treatment read_cards(const File& file, std::size_t line, const KeywordLine& keyword);
   Treatment refuse(const std::string& name, const Location& where);
-  void read_format(const File& file, const KeywordLine& keyword, const Location& where);
+  bool refuse_encrypted(const File& file, std::size_t line, const KeywordLine& keyword);
+  void check_end(const File& file);
   void read_title(const File& file, std::size_t line);
+  void warn_of_more_lines(const File& file, DataLines data, const std::string& name);
   std::shared_ptr<SourceText> load(const std::string& path) const;
   Location place(const File& file, std::size_t line, int column = 1) const {
     return deck_.location(file.index, static_cast<int>(line) + 1, column);
   }
+
+  // format_reader.cpp
+  bool read_keyword_keyword(const File& file, std::size_t line, const KeywordLine& keyword);
+  void read_format(const File& file, const KeywordLine& keyword, const Location& where);
 
   // parameter_reader.cpp
   bool read_parameter_keyword(const File& file, std::size_t line, const KeywordLine& keyword);

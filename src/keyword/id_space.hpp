@@ -5,6 +5,10 @@
 
 namespace courant {
 
+/// No id is larger: as many digits as fields of 20 columns keep exactly elsewhere, and far enough from the
+/// end of its type that offsets of many nested includes may be added.
+inline constexpr std::int64_t largest_id = 9'999'999'999'999'999;
+
 enum class IdSpace : std::uint8_t {
   none,
   node,

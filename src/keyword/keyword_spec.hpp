@@ -2,6 +2,7 @@
 // The type-erased form of a keyword's table: what the reader, the messages and the documentation need,
 // without the struct.
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -24,6 +25,7 @@ struct FieldSpec {
   FieldType type = FieldType::skip;
   int column = 0;           ///< first column in standard format, from 0
   bool takes_rest = false;  ///< a vector that takes all further columns of the card
+  std::size_t offset = 0;   ///< of a single number within its struct, for EntrySink::fields
   bool is_vector() const {
     return type == FieldType::ids || type == FieldType::reals || type == FieldType::texts;
   }
@@ -49,6 +51,7 @@ class EntrySink {
   virtual void set_title(std::string_view title) = 0;
   virtual void set_id(Id id) = 0;
   virtual const Entry& entry() const = 0;  ///< the entry as read so far
+  virtual std::byte* fields() = 0;         ///< its numbers, each at FieldSpec::offset
   /// Shifts ids and changes units, by the table; returns why it cannot be done, else nothing.
   virtual std::string convert(const Conversion& conversion) = 0;
   virtual void commit() = 0;  ///< stores the entry in the deck
@@ -121,6 +124,19 @@ void set_number(T& entry, const typename FieldOf<T>::Member& member, auto value)
     default:
       break;
   }
+}
+
+/// Where a single number stands in its struct.
+template <class T>
+std::size_t offset_of(const T& entry, const typename FieldOf<T>::Member& member) {
+  const auto place = [&](const auto& number) {
+    return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&number) -
+                                    reinterpret_cast<const std::byte*>(&entry));
+  };
+  if (auto* integer = std::get_if<int T::*>(&member)) return place(entry.*(*integer));
+  if (auto* id = std::get_if<Id T::*>(&member)) return place(entry.*(*id));
+  if (auto* real = std::get_if<Real T::*>(&member)) return place(entry.*(*real));
+  return 0;
 }
 
 /// What the ids in a field number.
@@ -204,6 +220,7 @@ class EntrySinkOf : public EntrySink {
     if (keyword_.id) entry_.*(keyword_.id) = id;
   }
   const Entry& entry() const override { return entry_; }
+  std::byte* fields() override { return reinterpret_cast<std::byte*>(&entry_); }
   std::string convert(const Conversion& conversion) override {
     for (std::size_t c = 0; c < keyword_.cards.size(); ++c)
       for (std::size_t f = 0; f < keyword_.cards[c].fields.size(); ++f)
@@ -295,7 +312,8 @@ class KeywordSpecOf : public KeywordSpec {
                       .rules = f.rules,
                       .type = field_type<T>(f.member),
                       .column = column,
-                      .takes_rest = false};
+                      .takes_rest = false,
+                      .offset = offset_of(standard_, f.member)};
       column += f.rules.width;
       vectors += field.is_vector();
       if (!field.is_vector()) set_number<T>(standard_, f.member, f.rules.standard);

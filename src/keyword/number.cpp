@@ -35,6 +35,7 @@ std::string exponent_of(std::string_view tail) {
 }  // namespace
 
 bool parse_real(std::string_view text, Real& value) {
+  if (parse_plain_real(text.data(), text.data() + text.size(), value)) return true;
   if (!text.empty() && text[0] == '+') {
     text.remove_prefix(1);
     if (!text.empty() && text[0] == '-') return false;
@@ -55,6 +56,7 @@ bool parse_real(std::string_view text, Real& value) {
 }
 
 bool parse_integer(std::string_view text, Id& value) {
+  if (parse_plain_integer(text.data(), text.data() + text.size(), value)) return true;
   const std::string_view digits = !text.empty() && text[0] == '+' ? text.substr(1) : text;
   const char* end = digits.data() + digits.size();
   const auto [stop, fault] = std::from_chars(digits.data(), end, value);

@@ -1,5 +1,6 @@
 // read_deck: files and keyword lines.
 #include <fmt/format.h>
+#include <algorithm>
 #include <utility>
 
 #include "keyword/deck_reader.hpp"
@@ -37,40 +38,71 @@ std::shared_ptr<SourceText> DeckReader::load(const std::string& path) const {
 
 void DeckReader::read_file(DeckFile deck_file, std::shared_ptr<SourceText> source) {
   const File file{static_cast<std::int32_t>(deck_.files.size()), std::move(source)};
-  const std::string name = deck_file.name;
   deck_file.source = file.source;
   deck_.files.push_back(std::move(deck_file));
+  for (const SourceFault& fault : file.source->faults)
+    diagnostics_.error(deck_.location(file.index, fault.line, fault.column), fault.message, fault.hint);
+  if (!file.source->faults.empty()) return;
   const std::size_t count = file.source->lines.size();
   parameters_.enter_file();
   std::size_t line = skip_text_before_keywords(file);
   bool ended = false;
   while (line < count && !ended && !cards_.full()) {
     ended = read_keyword(file, line);
-    ++line;
-    while (line < count && (file.source->lines[line].empty() || file.source->lines[line][0] != '*')) ++line;
+    line = file.source->next_keyword(line + 1);
   }
   parameters_.leave_file();
-  if (file.index == 0 && !ended && !cards_.full() && !deck_.keywords.empty())
-    diagnostics_.warning({name, static_cast<int>(count), 0}, "*END is missing: is the deck complete?");
+  if (!ended && !cards_.full() && count > 0) check_end(file);
+}
+
+/// A file that was cut off, by a full disk or a broken transfer, must not pass for a smaller one.
+void DeckReader::check_end(const File& file) {
+  const std::vector<std::string_view>& lines = file.source->lines;
+  const std::size_t last = lines.size() - 1;
+  const auto is_data = [&](std::size_t i) {
+    return !trimmed(lines[i]).empty() && lines[i][0] != '*' && lines[i][0] != '$';
+  };
+  const bool within_data = file.source->ends_within_line && is_data(last);
+  if (file.index == 0 && within_data) {
+    diagnostics_.error(place(file, last), "the deck ends within a line and without *END: is it cut off?",
+                       "if its last line is whole, end the deck with *END");
+  } else if (file.index == 0 && !deck_.keywords.empty()) {
+    diagnostics_.warning(place(file, last, 0), "*END is missing: is the deck complete?");
+  } else if (within_data && last > 0 && is_data(last - 1) && lines[last].size() < lines[last - 1].size() &&
+             lines[last].find(',') == std::string_view::npos) {
+    // included files need no *END, and some editors write no last line end
+    diagnostics_.warning(
+        place(file, last),
+        "the last line has no line end and is shorter than the one above: is the file cut off?",
+        "if it is whole, end the line");
+  }
 }
 
 std::size_t DeckReader::skip_text_before_keywords(const File& file) {
   DataLines data(*file.source, 0);
-  const bool text = !data.only_blanks_left();
-  if (text)
+  while (!data.done() && trimmed(data.line()).empty()) data.step();
+  const std::size_t first = file.source->next_keyword(0);
+  if (!data.done() && !file.source->encrypted_lines.empty() &&
+      file.source->encrypted_lines.front() == data.index())
+    diagnostics_.error(place(file, data.index()), "encrypted text before the first keyword cannot be read",
+                       "ask its owner for plain text");
+  else if (!data.done())
     diagnostics_.error(place(file, data.index()), "text before the first keyword",
                        "is this a keyword deck? Only comments ($) may stand there");
-  while (!data.done()) data.step();
-  if (file.index == 0 && !text && data.index() == file.source->lines.size())
+  else if (first == file.source->lines.size() && file.index == 0)
     diagnostics_.error({deck_.files[0].name, 0, 0}, "the deck holds no keyword");
-  return data.index();
+  else if (first == file.source->lines.size())
+    diagnostics_.warning(place(file, 0, 0), "the file holds no keyword");
+  return first;
 }
 
 bool DeckReader::read_keyword(const File& file, std::size_t line) {
   const KeywordLine keyword = parse_keyword_line(file.source->lines[line], file.source->format);
   // an included file may count the same keyword while this one is being read
-  const Treatment treatment =
-      read_deck_keyword(file, line, keyword) ? Treatment::honoured : read_cards(file, line, keyword);
+  Treatment treatment = Treatment::refused;
+  if (!refuse_encrypted(file, line, keyword))
+    treatment =
+        read_deck_keyword(file, line, keyword) ? Treatment::honoured : read_cards(file, line, keyword);
   KeywordUse& use = deck_.keywords[keyword.name];
   ++use.blocks;
   use.entries += cards_.take_count();
@@ -78,14 +110,21 @@ bool DeckReader::read_keyword(const File& file, std::size_t line) {
   return keyword.name == "END";
 }
 
+bool DeckReader::refuse_encrypted(const File& file, std::size_t line, const KeywordLine& keyword) {
+  const auto& blocks = file.source->encrypted_lines;
+  const auto block = std::lower_bound(blocks.begin(), blocks.end(), line);
+  if (keyword.name == "END" || block == blocks.end() || *block >= file.source->next_keyword(line + 1))
+    return false;
+  diagnostics_.error(place(file, *block), fmt::format("*{}: encrypted cards cannot be read", keyword.name),
+                     "ask their owner for plain text");
+  return true;
+}
+
 /// Keywords that shape the deck itself.
 bool DeckReader::read_deck_keyword(const File& file, std::size_t line, const KeywordLine& keyword) {
   const std::string& name = keyword.name;
   if (name == "END" || name == "COMMENT") return true;
-  if (name == "KEYWORD") {
-    read_format(file, keyword, place(file, line));
-    return true;
-  }
+  if (read_keyword_keyword(file, line, keyword)) return true;
   if (name == "TITLE") {
     read_title(file, line);
     return true;
@@ -119,7 +158,14 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
 }
 
 Treatment DeckReader::refuse(const std::string& name, const Location& where) {
-  std::string hint = index_.hint(name);
+  if (name.empty()) {
+    diagnostics_.error(where, "a '*' in column 1 without the name of a keyword",
+                       "the name stands right behind it; a comment begins with $");
+    return Treatment::refused;
+  }
+  // a hint takes a look at all keywords, in vain where the warning is not shown
+  const bool shown = diagnostics_.warnings() < Diagnostics::max_warnings;
+  std::string hint = shown || !is_output_request(name) ? index_.hint(name) : std::string();
   if (is_output_request(name)) {
     diagnostics_.warning(where, fmt::format("*{}: this request is not supported and has no effect", name),
                          std::move(hint));
@@ -130,25 +176,19 @@ Treatment DeckReader::refuse(const std::string& name, const Location& where) {
   return Treatment::refused;
 }
 
-void DeckReader::read_format(const File& file, const KeywordLine& keyword, const Location& where) {
-  const std::string words = upper_case(keyword.rest);
-  const auto value_of = [&](const std::string& key) -> std::string {
-    const std::size_t at = words.find(key + "=");
-    return at == std::string::npos ? "" : words.substr(at + key.size() + 1, 1);
-  };
-  if (const std::string v = value_of("LONG"); v == "Y")
-    file.source->format = CardFormat::long_fields;
-  else if (!v.empty() && v != "S" && v != "K" && v != "N")
-    diagnostics_.error(where, fmt::format("*KEYWORD: LONG={} is not known", v), "LONG=Y, LONG=S or LONG=K");
-  if (const std::string v = value_of("I10"); v == "Y")
-    file.source->format = CardFormat::i10;
-  else if (!v.empty() && v != "N")
-    diagnostics_.error(where, fmt::format("*KEYWORD: I10={} is not known", v), "I10=Y or I10=N");
+void DeckReader::read_title(const File& file, std::size_t line) {
+  DataLines data(*file.source, line + 1);
+  if (data.done()) return;
+  deck_.title = parameters_.with_texts(trimmed(data.line()));
+  data.step();
+  warn_of_more_lines(file, data, "TITLE");
 }
 
-void DeckReader::read_title(const File& file, std::size_t line) {
-  const DataLines data(*file.source, line + 1);
-  if (!data.done()) deck_.title = parameters_.with_texts(trimmed(data.line()));
+void DeckReader::warn_of_more_lines(const File& file, DataLines data, const std::string& name) {
+  while (!data.done() && trimmed(data.line()).empty()) data.step();
+  if (!data.done())
+    diagnostics_.warning(place(file, data.index()),
+                         fmt::format("*{} has one card; this line is not read", name));
 }
 
 }  // namespace courant

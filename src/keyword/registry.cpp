@@ -13,11 +13,24 @@ std::vector<std::shared_ptr<const KeywordSpec>>& mutable_registry() {
   return registry;
 }
 
-bool strip_suffix(std::string& name, const std::string& suffix) {
-  if (name.size() <= suffix.size() || name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0)
-    return false;
-  name.resize(name.size() - suffix.size());
-  return true;
+/// Takes one of _TITLE, _ID and _MPP out of a name, the last that stands there; each only once.
+bool take_option(std::string& name, KeywordMatch& options) {
+  for (std::size_t end = name.size(); end != std::string::npos && end > 0;) {
+    const std::size_t begin = name.rfind('_', end - 1);
+    if (begin == std::string::npos) return false;
+    const std::string_view word(name.data() + begin, end - begin);
+    bool* option = word == "_TITLE" ? &options.title
+                   : word == "_ID"  ? &options.id
+                   : word == "_MPP" ? &options.mpp
+                                    : nullptr;
+    if (option && !*option) {
+      *option = true;
+      name.erase(begin, end - begin);
+      return true;
+    }
+    end = begin;
+  }
+  return false;
 }
 
 }  // namespace
@@ -40,27 +53,22 @@ KeywordIndex::KeywordIndex() {
 
 KeywordMatch KeywordIndex::match(const std::string& name) const {
   if (const auto it = by_name_.find(name); it != by_name_.end()) return it->second;
+  // the options in any order: at the end, as the manual has them, or, as some programs write them, before
+  // others
   std::string base = name;
-  bool title = false, id = false, mpp = false;
-  while (true) {
-    if (!title && strip_suffix(base, "_TITLE"))
-      title = true;
-    else if (!id && strip_suffix(base, "_ID"))
-      id = true;
-    else if (!mpp && strip_suffix(base, "_MPP"))
-      mpp = true;
-    else
-      return {};
+  KeywordMatch options;
+  while (take_option(base, options)) {
     const auto it = by_name_.find(base);
     if (it == by_name_.end()) continue;
     const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(it->second.keyword)];
-    if ((title && !spec.title_option) || (id && !spec.id_option) || (mpp && !spec.mpp_option)) return {};
-    KeywordMatch out = it->second;
-    out.title = title;
-    out.id = id;
-    out.mpp = mpp;
-    return out;
+    if ((options.title && !spec.title_option) || (options.id && !spec.id_option) ||
+        (options.mpp && !spec.mpp_option))
+      return {};
+    options.keyword = it->second.keyword;
+    options.name = it->second.name;
+    return options;
   }
+  return {};
 }
 
 std::string KeywordIndex::hint(const std::string& name) const {

@@ -2,29 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 
 namespace courant {
 
 namespace {
-
-std::string expand_tabs(const std::string& text) {
-  constexpr std::size_t tab = 8;
-  std::string out;
-  out.reserve(text.size() + text.size() / 4);
-  std::size_t line_start = 0;
-  for (const char c : text) {
-    if (c == '\t') {
-      out.append(tab - (out.size() - line_start) % tab, ' ');
-    } else {
-      out += c;
-      if (c == '\n') line_start = out.size();
-    }
-  }
-  return out;
-}
 
 Slice slice_of(std::string_view line, std::size_t begin, std::size_t end) {
   begin = std::min(begin, line.size());
@@ -48,38 +29,6 @@ void split_commas(std::string_view line, std::vector<Slice>& slices) {
 }
 
 }  // namespace
-
-std::shared_ptr<SourceText> make_source(std::string text) {
-  auto source = std::make_shared<SourceText>();
-  if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // byte order mark of Windows editors
-  source->text = text.find('\t') == std::string::npos ? std::move(text) : expand_tabs(text);
-  const std::string_view all = source->text;
-  source->lines.reserve(static_cast<std::size_t>(std::count(all.begin(), all.end(), '\n')) + 1);
-  std::size_t begin = 0;
-  while (begin < all.size()) {
-    const std::size_t end = std::min(all.find('\n', begin), all.size());
-    std::string_view line = all.substr(begin, end - begin);
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    source->lines.push_back(line);
-    begin = end + 1;
-  }
-  return source;
-}
-
-std::shared_ptr<SourceText> load_source(const std::string& path) {
-  std::error_code fault;
-  if (std::filesystem::is_directory(path, fault)) return nullptr;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return nullptr;
-  std::string text;
-  const auto size = std::filesystem::file_size(path, fault);
-  if (!fault) text.reserve(size);
-  char buffer[1 << 16];
-  while (file.read(buffer, sizeof buffer) || file.gcount() > 0)
-    text.append(buffer, static_cast<std::size_t>(file.gcount()));
-  if (file.bad()) return nullptr;
-  return make_source(std::move(text));
-}
 
 std::string_view trimmed(std::string_view text) {
   return slice_of(text, 0, text.size()).text;
@@ -179,14 +128,19 @@ int field_width(const FieldSpec& field, CardFormat format) {
   return width;
 }
 
+std::size_t last_column(const CardSpec& card, CardFormat format) {
+  std::size_t total = 0;
+  for (const FieldSpec& field : card.fields) total += static_cast<std::size_t>(field_width(field, format));
+  const bool list = !card.fields.empty() && card.fields.back().takes_rest;
+  const std::size_t columns = format == CardFormat::long_fields ? 160 : 80;
+  return list ? std::max(total, columns) : total;
+}
+
 void split_card(std::string_view line, const CardSpec& card, CardFormat format, std::vector<Slice>& slices,
                 int* too_many) {
   slices.clear();
   const bool list = !card.fields.empty() && card.fields.back().takes_rest;
-  std::size_t total = 0;
-  for (const FieldSpec& field : card.fields) total += static_cast<std::size_t>(field_width(field, format));
-  const std::size_t columns = format == CardFormat::long_fields ? 160 : 80;
-  if (list) total = std::max(total, columns);
+  const std::size_t total = last_column(card, format);
   // what stands behind the last column is ignored, so a comma there does not make this a comma line
   if (is_comma_line(line, total)) {
     split_commas(line, slices);

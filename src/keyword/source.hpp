@@ -11,14 +11,28 @@ namespace courant {
 
 enum class CardFormat { standard, i10, long_fields };
 
-/// One file of a deck, without line ends and with tabs expanded to multiples of 8.
-struct SourceText {
-  std::string text;
-  std::vector<std::string_view> lines;       ///< views into `text`
-  CardFormat format = CardFormat::standard;  ///< of the file (*KEYWORD LONG=Y, I10=Y)
+/// Why a file is no text of a deck.
+struct SourceFault {
+  int line = 0, column = 0;
+  std::string message, hint;
 };
 
-/// Null if the file cannot be read.
+/// One file of a deck. Lines end with LF, CRLF or CR; tabs are expanded to multiples of 8. Characters are
+/// bytes: a letter that UTF-8 writes with two takes two columns, as LS-DYNA, which knows no encodings,
+/// counts.
+struct SourceText {
+  std::string text;
+  std::vector<std::string_view> lines;       ///< views into `text`, without line ends
+  std::vector<std::size_t> keyword_lines;    ///< indices of the lines that begin with '*'
+  std::vector<std::size_t> encrypted_lines;  ///< where encrypted blocks begin
+  std::vector<SourceFault> faults;           ///< not empty: the file is no text, and has no lines
+  bool ends_within_line = false;             ///< the last line has no line end
+  CardFormat format = CardFormat::standard;  ///< of the file (*KEYWORD LONG=Y, I10=Y)
+  /// Index of the first keyword line from line `first` on; the number of lines if there is none.
+  std::size_t next_keyword(std::size_t first) const;
+};
+
+/// Null if the file cannot be read, or is no regular file: a folder, a device or a pipe may never end.
 std::shared_ptr<SourceText> load_source(const std::string& path);
 std::shared_ptr<SourceText> make_source(std::string text);
 
@@ -93,6 +107,16 @@ int field_width(const FieldSpec& field, CardFormat format);
 /// line beyond the card's last.
 void split_card(std::string_view line, const CardSpec& card, CardFormat format, std::vector<Slice>& slices,
                 int* too_many = nullptr);
+
+/// The last column of a card in a format that is not commas; a list goes to the end of the line.
+std::size_t last_column(const CardSpec& card, CardFormat format);
+
+/// Whether a number of a line without commas runs across a column: its end would be lost without a word.
+inline bool runs_across(std::string_view line, std::size_t column) {
+  constexpr std::string_view of_numbers = "0123456789.+-";
+  return line.size() > column && column > 0 && of_numbers.find(line[column]) != std::string_view::npos &&
+         of_numbers.find(line[column - 1]) != std::string_view::npos;
+}
 
 /// Cuts a line into fields of one width, for cards without a table (*PARAMETER, _ID).
 std::vector<Slice> split_equal(std::string_view line, int width, int limit);

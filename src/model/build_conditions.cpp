@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <limits>
+#include <unordered_set>
 
 #include "model/model_builder.hpp"
 
@@ -52,11 +53,13 @@ void ModelBuilder::build_output_history() {
   std::vector<bool> is_particle(model_.nodes.size(), false);
   for (const ModelSph& sph : model_.sph) is_particle[static_cast<std::size_t>(sph.node)] = true;
   std::vector<Id>& history = model_.output.history_sph;
+  std::unordered_set<Id> sets_seen;  // a set may be named often: its members must not add up
   for (const DatabaseHistorySphCard& card : deck_.all<DatabaseHistorySphCard>()) {
     const bool sets = card.name == 1;
     for (const Id id : card.ids) {
       std::vector<Index> nodes;
       if (sets) {
+        if (!sets_seen.insert(id).second) continue;
         if (const auto* members = node_set(card, "ID", id)) nodes = *members;
       } else if (const Index n = node(card, "ID", id); n >= 0) {
         nodes = {n};
@@ -159,7 +162,9 @@ std::vector<Index> ModelBuilder::nodes_of(const InitialVelocityGenerationCard& c
 }
 
 std::vector<Index> ModelBuilder::nodes_of_parts(const std::vector<Index>& parts) const {
-  const auto wanted = [&](Index p) { return std::find(parts.begin(), parts.end(), p) != parts.end(); };
+  std::vector<bool> is_wanted(model_.parts.size(), false);
+  for (const Index p : parts) is_wanted[static_cast<std::size_t>(p)] = true;
+  const auto wanted = [&](Index p) { return is_wanted[static_cast<std::size_t>(p)]; };
   std::vector<Index> nodes;
   for (const ModelSph& sph : model_.sph)
     if (wanted(sph.part)) nodes.push_back(sph.node);

@@ -85,8 +85,11 @@ void ModelBuilder::build_particles() {
     model_.parts[static_cast<std::size_t>(p)].has_sph = true;
     const Id last = std::max(card.nid, card.nend);
     const int before = errors_;
-    // a faulty range may name millions of nodes: the first missing one is enough
-    for (Id nid = card.nid; nid <= last && errors_ == before; ++nid) add_particle(card, nid, p);
+    // a faulty range may name millions of nodes: the first missing one is enough. Nor need more particles
+    // than nodes be kept: some node has two of them, which check_shared_nodes says
+    for (Id nid = card.nid; nid <= last && errors_ == before && model_.sph.size() <= model_.nodes.size();
+         ++nid)
+      add_particle(card, nid, p);
   }
 }
 

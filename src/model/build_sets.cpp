@@ -35,24 +35,29 @@ void ModelBuilder::add_generated(const SetNodeGenerateCard& card, std::vector<In
     error(card, "BNBEG", "the last range has a first id, but no last id");
     return;
   }
+  std::vector<bool> is_member(model_.nodes.size(), false);  // ranges may overlap: nodes must not add up
+  bool found = false;
+  const auto add = [&](Index n) {
+    found = true;
+    if (!is_member[static_cast<std::size_t>(n)]) members.push_back(n);
+    is_member[static_cast<std::size_t>(n)] = true;
+  };
   for (std::size_t r = 0; r < card.ids.size(); r += 2) {
     const Id begin = card.ids[r], end = card.ids[r + 1];
     if (end < begin) {
       error(card, "BNBEG", fmt::format("the range {} to {} runs backwards", begin, end));
       return;
     }
-    const std::size_t before = members.size();
+    found = false;
     // whichever is shorter: the range of ids or the list of nodes
     if (end - begin < static_cast<Id>(model_.nodes.size())) {
       for (Id id = begin; id <= end; ++id)
-        if (const Index n = node_of_id_.find(id); n >= 0) members.push_back(n);
+        if (const Index n = node_of_id_.find(id); n >= 0) add(n);
     } else {
       for (std::size_t n = 0; n < model_.nodes.size(); ++n)
-        if (model_.nodes[n].id >= begin && model_.nodes[n].id <= end)
-          members.push_back(static_cast<Index>(n));
+        if (model_.nodes[n].id >= begin && model_.nodes[n].id <= end) add(static_cast<Index>(n));
     }
-    if (members.size() == before)
-      error(card, "BNBEG", fmt::format("there is no node with an id from {} to {}", begin, end));
+    if (!found) error(card, "BNBEG", fmt::format("there is no node with an id from {} to {}", begin, end));
   }
   remove_repeats(members);
 }

@@ -90,7 +90,14 @@ INSTANTIATE_TEST_SUITE_P(Formats, AcceptDeck,
                          testing::Values("fixed.k", "crlf_tabs_case.k", "comma.k", "long.k", "i10.k",
                                          "suffixes.k", "parameters.k", "includes.k", "param_fields.k",
                                          "param_comma.k", "param_long.k", "param_texts.k", "param_scopes.k",
-                                         "param_mutable.k"),
+                                         "param_mutable.k",
+
+                                         "lexer_beyond_last_column.k", "lexer_carriage_returns.k",
+                                         "lexer_comments_everywhere.k", "lexer_formats_per_file.k",
+                                         "lexer_keyword_words.k", "lexer_latin1.k",
+                                         "lexer_long_with_suffixes.k", "lexer_no_last_line_end.k",
+                                         "lexer_numbers.k", "lexer_options_order.k", "lexer_repeated_sets.k",
+                                         "lexer_two_returns.k", "lexer_utf8_with_mark.k"),
                          [](const auto& test) {
                            std::string name = test.param;
                            name.resize(name.size() - 2);
