@@ -12,6 +12,7 @@ const RegisterKeyword<C> contact_nodes_to_surface{
     {.names = {"CONTACT_AUTOMATIC_NODES_TO_SURFACE"},
      .purpose = "penalty contact of particles (SURFA) with shells (SURFB)",
      .id_option = true,
+     .mpp_option = true,
      .title = &C::title,
      .id = &C::cid,
      .many = false,

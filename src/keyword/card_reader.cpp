@@ -103,7 +103,7 @@ void CardReader::refuse_second_definition(const Entry& entry) {
   const Id id = spec_->id_of(entry);
   if (id <= 0 || is_mesh(spec_->id_space)) return;  // no id, or one that was refused already
   const Entry* first = deck_.define(spec_->id_space, id, entry);
-  if (!first) return;
+  if (!first || block_.match.collect) return;
   deck_.error(diagnostics_, entry, block_.match.id ? "" : spec_->cards[0].fields[0].name,
               fmt::format("{} {} is defined twice, first as {} at {}", id_word(spec_->id_space), id,
                           deck_.keyword(*first), deck_.place(*first)),

@@ -57,7 +57,7 @@ KeywordIndex::KeywordIndex() {
 KeywordMatch KeywordIndex::match(const std::string& name) const {
   if (const auto it = by_name_.find(name); it != by_name_.end()) return it->second;
   std::string base = name;
-  bool title = false, id = false, mpp = false;
+  bool title = false, id = false, mpp = false, collect = false;
   while (true) {
     if (!title && strip_suffix(base, "_TITLE"))
       title = true;
@@ -65,16 +65,21 @@ KeywordMatch KeywordIndex::match(const std::string& name) const {
       id = true;
     else if (!mpp && strip_suffix(base, "_MPP"))
       mpp = true;
+    else if (!collect && strip_suffix(base, "_COLLECT"))
+      collect = true;
     else
       return {};
     const auto it = by_name_.find(base);
     if (it == by_name_.end()) continue;
     const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(it->second.keyword)];
-    if ((title && !spec.title_option) || (id && !spec.id_option) || (mpp && !spec.mpp_option)) return {};
+    if ((title && !spec.title_option) || (id && !spec.id_option) || (mpp && !spec.mpp_option) ||
+        (collect && !spec.collect_option))
+      return {};
     KeywordMatch out = it->second;
     out.title = title;
     out.id = id;
     out.mpp = mpp;
+    out.collect = collect;
     return out;
   }
 }

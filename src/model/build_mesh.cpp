@@ -61,12 +61,12 @@ void ModelBuilder::build_nodes() {
 }
 
 void ModelBuilder::build_parts() {
-  for (const PartCard& card : deck_.all<PartCard>()) {
+  const auto add = [&](const PartCard& card) {
     const auto [it, is_new] =
         model_.part_of_id.try_emplace(card.pid, static_cast<Index>(model_.parts.size()));
     if (!is_new) {
       duplicate(card, "PID", "part", card.pid, model_.parts[static_cast<std::size_t>(it->second)].where);
-      continue;
+      return;
     }
     ModelPart part;
     part.id = card.pid;
@@ -78,7 +78,9 @@ void ModelBuilder::build_parts() {
     part.where = deck_.where(card, "PID");
     part.card = card;
     model_.parts.push_back(std::move(part));
-  }
+  };
+  for (const PartCard& card : deck_.all<PartCard>()) add(card);
+  for (const PartContactCard& card : deck_.all<PartContactCard>()) add(card);
 }
 
 void ModelBuilder::build_particles() {
