@@ -88,7 +88,7 @@ class KeywordSpec {
   std::vector<std::string> names;
   std::string purpose, lacking;
   IdSpace id_space = IdSpace::none;
-  bool title_option = false, id_option = false, mpp_option = false;
+  bool title_option = false, id_option = false, mpp_option = false, collect_option = false;
   bool heading = false, once = false, many = true;
   std::vector<CardSpec> cards;
 };
@@ -250,6 +250,7 @@ class KeywordSpecOf : public KeywordSpec {
     title_option = keyword_.title_option;
     id_option = keyword_.id_option;
     mpp_option = keyword_.mpp_option;
+    collect_option = keyword_.collect_option;
     heading = keyword_.heading;
     once = keyword_.once;
     many = keyword_.many;

@@ -13,16 +13,17 @@ std::vector<std::shared_ptr<const KeywordSpec>>& mutable_registry() {
   return registry;
 }
 
-/// Takes one of _TITLE, _ID and _MPP out of a name, the last that stands there; each only once.
+/// Takes one of _TITLE, _ID, _MPP and _COLLECT out of a name, the last that stands there; each only once.
 bool take_option(std::string& name, KeywordMatch& options) {
   for (std::size_t end = name.size(); end != std::string::npos && end > 0;) {
     const std::size_t begin = name.rfind('_', end - 1);
     if (begin == std::string::npos) return false;
     const std::string_view word(name.data() + begin, end - begin);
-    bool* option = word == "_TITLE" ? &options.title
-                   : word == "_ID"  ? &options.id
-                   : word == "_MPP" ? &options.mpp
-                                    : nullptr;
+    bool* option = word == "_TITLE"     ? &options.title
+                   : word == "_ID"      ? &options.id
+                   : word == "_MPP"     ? &options.mpp
+                   : word == "_COLLECT" ? &options.collect
+                                        : nullptr;
     if (option && !*option) {
       *option = true;
       name.erase(begin, end - begin);
@@ -62,7 +63,7 @@ KeywordMatch KeywordIndex::match(const std::string& name) const {
     if (it == by_name_.end()) continue;
     const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(it->second.keyword)];
     if ((options.title && !spec.title_option) || (options.id && !spec.id_option) ||
-        (options.mpp && !spec.mpp_option))
+        (options.mpp && !spec.mpp_option) || (options.collect && !spec.collect_option))
       return {};
     options.keyword = it->second.keyword;
     options.name = it->second.name;

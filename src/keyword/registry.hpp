@@ -26,12 +26,12 @@ struct RegisterKeyword {
   }
 };
 
-/// What a keyword line names: the registry's keyword, which of its names, and the options _TITLE, _ID and
-/// _MPP.
+/// What a keyword line names: the registry's keyword, which of its names, and the options _TITLE, _ID,
+/// _MPP and _COLLECT.
 struct KeywordMatch {
   int keyword = -1;  ///< index into the registry, -1: unknown
   int name = 0;
-  bool title = false, id = false, mpp = false;
+  bool title = false, id = false, mpp = false, collect = false;
 };
 
 /// Look-up by name; holds for the keywords registered when it was made.
