@@ -19,8 +19,13 @@ constexpr Real least_skin = 0.02, first_skin = 0.1, most_skin = 0.4;
 
 std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, const ReadOptions& options,
                                               Diagnostics& diagnostics) {
+  return from_deck(deck_path, read_deck(deck_path, options, diagnostics), diagnostics);
+}
+
+std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, Deck deck,
+                                                  Diagnostics& diagnostics) {
   std::unique_ptr<Simulation> s(new Simulation);
-  s->deck_ = read_deck(deck_path, options, diagnostics);
+  s->deck_ = std::move(deck);
   if (!diagnostics.ok()) return nullptr;  // what could not be read would only cause more messages
   s->model_ = build_model(s->deck_, diagnostics);
   release_mesh_cards(s->deck_);

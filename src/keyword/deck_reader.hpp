@@ -3,11 +3,14 @@
 // *PARAMETER and its kin (parameter_reader.cpp). The cards of all other keywords are read by CardReader.
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "keyword/card_reader.hpp"
+#include "keyword/families.hpp"
+#include "keyword/refusal_log.hpp"
 
 namespace courant {
 
@@ -34,6 +37,8 @@ class DeckReader {
   bool read_deck_keyword(const File& file, std::size_t line, const KeywordLine& keyword);
   Treatment read_cards(const File& file, std::size_t line, const KeywordLine& keyword);
   Treatment refuse(const std::string& name, const Location& where);
+  void note_refused(const File& file, std::size_t line, const std::string& name, KeywordUse& use);
+  const Families& families();
   void read_format(const File& file, const KeywordLine& keyword, const Location& where);
   void read_title(const File& file, std::size_t line);
   std::shared_ptr<SourceText> load(const std::string& path) const;
@@ -57,6 +62,8 @@ class DeckReader {
   Parameters parameters_;
   CardReader cards_;
   KeywordIndex index_;
+  std::optional<Families> families_;
+  RefusalLog refusals_;
   std::vector<std::string> open_files_;  // from the deck to the file being read
   std::map<std::pair<int, int>, Location> seen_;
 };

@@ -19,6 +19,7 @@ Deck DeckReader::read(const std::string& path) {
     return std::move(deck_);
   }
   read_file({.name = path}, std::move(source));
+  refusals_.close(diagnostics_);
   if (cards_.full())
     diagnostics_.note({path, 0, 0}, fmt::format("reading stopped after {} errors", CardReader::max_errors));
   else
@@ -70,7 +71,23 @@ bool DeckReader::read_keyword(const File& file, std::size_t line) {
   ++use.blocks;
   use.entries += cards_.take_count();
   use.treatment = treatment;
+  if (treatment != Treatment::honoured) note_refused(file, line, keyword.name, use);
   return keyword.name == "END";
+}
+
+void DeckReader::note_refused(const File& file, std::size_t line, const std::string& name, KeywordUse& use) {
+  if (const KeywordMatch match = index_.match(name); match.keyword >= 0) {
+    use.lacking = keyword_registry()[static_cast<std::size_t>(match.keyword)]->lacking;
+    return;
+  }
+  if (use.blocks == 1 && use.treatment == Treatment::refused) use.lacking = families().refusal(name).lacking;
+  for (DataLines data(*file.source, line + 1); !data.done(); data.step()) ++use.lines;
+}
+
+/// Made when the first keyword without a table comes.
+const Families& DeckReader::families() {
+  if (!families_) families_.emplace();
+  return *families_;
 }
 
 /// Keywords that shape the deck itself.
@@ -105,20 +122,26 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
                .match = match,
                .format = keyword.format});
   if (spec.lacking.empty()) return Treatment::honoured;
-  if (is_new) diagnostics_.error(where, fmt::format("*{}: {} are not supported", keyword.name, spec.lacking));
+  if (refusals_.is_first(keyword.name, diagnostics_))
+    diagnostics_.error(where, fmt::format("*{}: {}", keyword.name, not_supported(spec.lacking)));
   return Treatment::refused;
 }
 
 Treatment DeckReader::refuse(const std::string& name, const Location& where) {
-  std::string hint = index_.hint(name);
-  if (is_output_request(name)) {
+  const bool is_output = is_output_request(name);
+  const Treatment treatment = is_output ? Treatment::output_only : Treatment::refused;
+  if (!refusals_.is_first(name, diagnostics_)) return treatment;
+  if (is_output) {
     diagnostics_.warning(where, fmt::format("*{}: this request is not supported and has no effect", name),
-                         std::move(hint));
-    return Treatment::output_only;
+                         families().slip(name, 1));
+    return treatment;
   }
-  if (hint.empty()) hint = "`courant keywords` lists the supported keywords";
-  diagnostics_.error(where, fmt::format("*{}: unknown keyword", name), std::move(hint));
-  return Treatment::refused;
+  Refusal why = families().refusal(name);
+  diagnostics_.error(
+      where,
+      fmt::format("*{}: {}", name, why.lacking.empty() ? "unknown keyword" : not_supported(why.lacking)),
+      std::move(why.hint));
+  return treatment;
 }
 
 void DeckReader::read_format(const File& file, const KeywordLine& keyword, const Location& where) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <numeric>
 
 namespace courant {
 
@@ -19,21 +18,6 @@ bool strip_suffix(std::string& name, const std::string& suffix) {
     return false;
   name.resize(name.size() - suffix.size());
   return true;
-}
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t(0));
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -77,37 +61,6 @@ KeywordMatch KeywordIndex::match(const std::string& name) const {
     out.mpp = mpp;
     return out;
   }
-}
-
-std::string KeywordIndex::hint(const std::string& name) const {
-  std::string base;  // longest known name that `name` continues with an option
-  std::vector<std::string> names;
-  for (const auto& [known, match] : by_name_) {
-    names.push_back(known);
-    if (name.size() > known.size() && name.compare(0, known.size(), known) == 0 &&
-        name[known.size()] == '_' && known.size() > base.size())
-      base = known;
-  }
-  std::sort(names.begin(), names.end());
-  const std::string near = nearest_word(name, names);
-  if (!near.empty() && edit_distance(name, near) <= 2) return fmt::format("did you mean *{}?", near);
-  if (!base.empty())
-    return fmt::format("*{} is supported, its option {} is not", base, name.substr(base.size()));
-  if (!near.empty()) return fmt::format("did you mean *{}?", near);
-  return {};
-}
-
-std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
-  std::string best;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < least) {
-      least = distance;
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 }  // namespace courant
