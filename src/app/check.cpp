@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "base/run_error.hpp"
+
 namespace courant {
 
 namespace {
@@ -25,9 +27,14 @@ std::string verdict_of(const CheckResult& result, const Diagnostics& diagnostics
 std::string model_part(const std::string& path, Deck deck, const DeckFacts& facts, Diagnostics& diagnostics) {
   const auto simulation = Simulation::from_deck(path, std::move(deck), diagnostics);
   if (!simulation) return "";
-  std::vector<Real> sound_speeds;
-  std::string text = model_text(*simulation, sound_speeds);
-  return units_text(facts, sound_speeds) + text;
+  try {
+    std::vector<Real> sound_speeds;
+    const std::string text = model_text(*simulation, sound_speeds);
+    return units_text(facts, sound_speeds) + text;
+  } catch (const RunError& fault) {  // a run would stop at its first step
+    diagnostics.error({path, 0, 0}, fault.what());
+    return "";
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 
 TIME_LIMIT = 20  # seconds per deck; the largest has some thousand lines
 courant, source = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
@@ -148,7 +149,28 @@ def reason(message):
     return re.sub(r"'[^']*'", "'...'", re.sub(r"^.*?\]\): ", "", re.sub(r"\d+", "N", message)))
 
 
+def self_test():
+    """The plain count against counts made by hand, and the classes of messages."""
+    text = ("*KEYWORD\n*NODE\n       1             0.0\n$ comment\n2,1.0,2.0\n*ELEMENT_SOLID\n       1       1       1       2       3\n"
+            "       2       1\n       1       2       3       4\n*ELEMENT_SOLID_ORTHO\n       3       1       1       2       3\n 1.0\n 0.0\n"
+            "*ELEMENT_MASS\n       4       1           2.5-1\n5,1,1.5d0\n*ELEMENT_MASS_PART+\n" + f"{7:20d}{3.0:20f}\n" + "*END\n*NODE\n       9\n")
+    with tempfile.NamedTemporaryFile("w", suffix=".k") as file:
+        file.write(text)
+        file.flush()
+        count = Count()
+        count_file(file.name, count, [])
+    assert count.nodes == 2 and count.elements == {"solids": 3, "lumped masses": 2, "masses added to parts": 1}, vars(count)
+    assert count.known and abs(count.mass["lumped masses"] - 1.75) < 1e-12 and count.mass["masses added to parts"] == 3, vars(count)
+    assert classify(1, ["*AIRBAG_ALE: airbags are not supported", "*INCLUDE: cannot read 'x'"]) == "read, with refusals"
+    assert classify(1, ["*CONTROL_TERMINATION is missing: the run has no end time"]) == "read, incomplete as a deck"
+    assert classify(1, ["*NODE field 2 (X, x coordinate [L]): expected a number, got 'a'"]) == "rejected"
+    got, unread = said("Mesh\n  nodes                            8\n  solids                           2\n"
+                       "  beams                            3  (lines that are not read)\n  lumped masses                    1  given mass 2.5 [M]\n")
+    assert got.nodes == 8 and got.elements == {"solids": 2, "lumped masses": 1} and unread == {"beams"} and got.mass["lumped masses"] == 2.5
+
+
 def main():
+    self_test()
     if not os.path.isdir(corpus):
         print(f"skipped: there is no folder {corpus}")
         return 77
