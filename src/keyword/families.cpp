@@ -108,8 +108,8 @@ constexpr Family families[] = {
     {"DEFINE_FORMING", "metal-forming tools"},
     {"DEFINE_FRICTION", "friction tables"},
     {"DEFINE_FUNCTION", "functions"},
-    {"DEFINE_SPH_INJECTION", "SPH injection"},
-    {"DEFINE_SPH_MESH", "particles that are generated"},
+    {"DEFINE_SPH_INJECTION", "inlets of particles"},
+    {"DEFINE_SPH_MESH", "particles made by keyword"},
     {"DEFINE_STAGED_CONSTRUCTION", "staged constructions"},
     {"DEFINE_TABLE", "this kind of table"},
     {"DEFINE_TRANSFORMATION", "transformations"},
@@ -276,8 +276,7 @@ bool is_output_request(const std::string& name) {
 }
 
 std::string not_supported(const std::string& lacking) {
-  const bool singular = is_this(lacking) || lacking == "SPH injection";
-  return fmt::format("{} {} not supported", lacking, singular ? "is" : "are");
+  return fmt::format("{} {} not supported", lacking, is_this(lacking) ? "is" : "are");
 }
 
 Families::Families(std::vector<std::string> supported, std::vector<std::string> read)
