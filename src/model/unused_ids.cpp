@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdlib>
 #include <functional>
+#include <system_error>
 #include <unordered_set>
 #include <utility>
 
 #include "keyword/registry.hpp"
+#include "keyword/source.hpp"
 #include "model/cards.hpp"
 
 namespace courant {
@@ -107,7 +110,10 @@ class UseFinder {
     const auto& nodes = deck_.all<NodeCard>();
     const auto ends = std::minmax_element(nodes.begin(), nodes.end(),
                                           [](const NodeCard& a, const NodeCard& b) { return a.nid < b.nid; });
-    if (!nodes.empty()) used(IdSpace::node).expect(ends.first->nid, ends.second->nid, nodes.size());
+    if (!nodes.empty()) {
+      used(IdSpace::node).expect(ends.first->nid, ends.second->nid, nodes.size());
+      last_node_ = ends.second->nid;
+    }
     const auto& registry = keyword_registry();
     for (std::size_t k = 0; k < registry.size(); ++k)
       if (registry[k]->names[0] != "NODE") visit(*registry[k], static_cast<std::int32_t>(k));
@@ -125,31 +131,64 @@ class UseFinder {
   UsedIds& used(IdSpace space) { return used_[static_cast<std::size_t>(space)]; }
 
   void visit(const KeywordSpec& spec, std::int32_t keyword) {
-    // *SET_..._GENERATE: pairs of a first and a last id; with an increment behind them, three numbers
-    const bool generates = spec.names[0].find("_GENERATE") != std::string::npos;
-    const bool increment = spec.names[0].find("_INCREMENT") != std::string::npos;
-    std::vector<Id> row;
-    IdSpace row_space = IdSpace::none;
+    const auto named = [&](const char* option) { return spec.names[0].find(option) != std::string::npos; };
+    const bool generates = named("_GENERATE"), by_words = named("_GENERAL") || named("_ADVANCED");
+    std::vector<std::vector<Id>> columns;  // of a set that is generated
+    std::size_t column = 0;
+    IdSpace column_space = IdSpace::none;
     const Entry* entry = nullptr;
     const std::function<void(const IdUse&)> see = [&](const IdUse& use) {
       if (use.defines) {
         if (wants_use(use.space) && in_use_[static_cast<std::size_t>(use.space)] && use.id > 0)
           defined_.push_back({use.space, use.id, *entry});
       } else if (generates && use.card > 0) {
-        row.push_back(use.id);
-        row_space = use.space;
-        if (row.size() < (increment ? 3u : 2u)) return;
-        used(row_space).add_range(row[0], row[1]);
-        row.clear();
+        if (columns.empty() || use.field != column) columns.emplace_back();
+        columns.back().push_back(use.id);
+        column = use.field;
+        column_space = use.space;
       } else if (use.id != 0) {
         used(use.space).add(std::abs(use.id));  // a negative id is a flagged one
       }
     };
     spec.for_each(deck_, keyword, [&](const Entry& one) {
       entry = &one;
-      row.clear();
+      columns.clear();
       spec.for_each_id(one, see);
+      if (!columns.empty()) add_ranges(used(column_space), columns);
+      if (by_words) add_numbers_of(one);
     });
+  }
+
+  /// *SET_..._GENERATE: first and last ids in turn; with _INCREMENT in columns of their own.
+  static void add_ranges(UsedIds& ids, const std::vector<std::vector<Id>>& columns) {
+    const std::vector<Id>& first = columns[0];
+    if (columns.size() > 1)
+      for (std::size_t k = 0; k < std::min(first.size(), columns[1].size()); ++k)
+        ids.add_range(first[k], columns[1][k]);
+    else
+      for (std::size_t k = 0; k + 1 < first.size(); k += 2) ids.add_range(first[k], first[k + 1]);
+  }
+
+  /// *SET_..._GENERAL, _ADD_ADVANCED: what a row's ids number is told by a word or a number in it, not by the
+  /// table. They are taken for uses of whatever has such an id: none is called unused wrongly.
+  void add_numbers_of(const Entry& entry) {
+    const DeckFile& file = deck_.files[static_cast<std::size_t>(entry.file)];
+    if (!file.source) return;
+    for (DataLines data(*file.source, static_cast<std::size_t>(entry.line - 1)); !data.done(); data.step()) {
+      const std::string_view line = data.line();
+      if (upper_case(line).find("ALL") != std::string::npos) used(IdSpace::node).add_range(1, last_node_);
+      for (std::size_t k = 0; k < line.size();) {
+        Id id = 0;
+        const auto end = std::from_chars(line.data() + k, line.data() + line.size(), id);
+        if (end.ec == std::errc() && id != 0) add_everywhere(std::abs(id), file.conversion.offsets);
+        k = std::max(k + 1, static_cast<std::size_t>(end.ptr - line.data()));
+      }
+    }
+  }
+
+  void add_everywhere(Id id, const IdOffsets& offsets) {
+    for (std::size_t k = 0; k < used_.size(); ++k)
+      used_[k].add(offsets.any() ? offsets.shifted(static_cast<IdSpace>(k), id) : id);
   }
 
   UnusedIds unused() {
@@ -169,6 +208,7 @@ class UseFinder {
   const Spaces in_use_ = spaces_in_use();
   std::array<UsedIds, static_cast<std::size_t>(IdSpace::count)> used_;
   std::vector<UnusedId> defined_;
+  Id last_node_ = 0;
 };
 
 }  // namespace

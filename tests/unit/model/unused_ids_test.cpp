@@ -43,6 +43,33 @@ const RegisterKeyword<ThingRange> thing_range{
                {.fields = {{"IDS", &ThingRange::ids, "-", "first, last, ...", {.refers = IdSpace::node}}},
                 .repeat = true}}}};
 
+struct ThingIncrement : Entry {
+  Id sid;
+  std::vector<Id> first, last, step;
+};
+const RegisterKeyword<ThingIncrement> thing_increment{
+    {.names = {"TEST_THING_GENERATE_INCREMENT"},
+     .purpose = "names ranges of nodes in steps",
+     .id_space = IdSpace::node_set,
+     .cards = {{.fields = {{"SID", &ThingIncrement::sid, "-", "set id"}}},
+               {.fields = {{"BBEG", &ThingIncrement::first, "-", "first id", {.refers = IdSpace::node}},
+                           {"BEND", &ThingIncrement::last, "-", "last id", {.refers = IdSpace::node}},
+                           {"INCR", &ThingIncrement::step, "-", "step"}},
+                .repeat = true}}}};
+struct ThingGeneral : Entry {
+  Id sid;
+  std::vector<std::string> words;
+  std::vector<Id> ids;
+};
+const RegisterKeyword<ThingGeneral> thing_general{
+    {.names = {"TEST_THING_GENERAL"},
+     .purpose = "rows whose word tells what their ids number",
+     .id_space = IdSpace::node_set,
+     .cards = {{.fields = {{"SID", &ThingGeneral::sid, "-", "set id"}}},
+               {.fields = {{"OPTION", &ThingGeneral::words, "-", "BOX, NODE, ..."},
+                           {"E1", &ThingGeneral::ids, "-", "an id"}},
+                .repeat = true}}}};
+
 UnusedIds unused_of(const std::string& text) {
   ReadOptions options;
   options.open = [&](const std::string& path) {
@@ -94,6 +121,26 @@ TEST(UnusedIds, RangesUseAllBetween) {
   EXPECT_EQ(unused.nodes, (std::vector<Id>{1, 4}));
   ASSERT_EQ(unused.named.size(), 1u);
   EXPECT_EQ(unused.named[0].space, IdSpace::node_set);
+}
+
+TEST(UnusedIds, ColumnsOfFirstAndLastIdsAreRanges) {
+  const auto unused = unused_of(
+      "*NODE\n       1\n       2\n       7\n      20\n      25\n      31\n"
+      "*TEST_THING_GENERATE_INCREMENT\n         8\n         2         7         5\n        20        30      "
+      "   1\n");
+  EXPECT_EQ(unused.nodes, (std::vector<Id>{1, 31}));
+}
+
+TEST(UnusedIds, RowsWithAWordMayUseAnything) {
+  const auto unused = unused_of(
+      "*TEST_THING\n         5\n         6\n*NODE\n       3\n       4\n"
+      "*TEST_THING_GENERAL\n         8\nBOX                5\nNODE               4\n");
+  EXPECT_EQ(boxes(unused), std::vector<Id>{6});
+  EXPECT_EQ(unused.nodes, std::vector<Id>{3});
+}
+
+TEST(UnusedIds, ASetOfAllNodesUsesThemAll) {
+  EXPECT_TRUE(unused_of("*NODE\n       3\n     400\n*TEST_THING_GENERAL\n         8\nALL\n").nodes.empty());
 }
 
 }  // namespace
