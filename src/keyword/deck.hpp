@@ -37,6 +37,8 @@ struct KeywordUse {
   int blocks = 0;           ///< keyword lines
   std::size_t entries = 0;  ///< sets of cards below them: nodes, elements, materials, ...
   Treatment treatment = Treatment::honoured;
+  std::string lacking{};  ///< of a refused one: what Courant lacks, "solid elements"
+  std::size_t lines = 0;  ///< data lines, of keywords without a table, whose entries nobody can count
 };
 
 /// A parameter as *PARAMETER and its kin define it.

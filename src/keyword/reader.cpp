@@ -20,6 +20,7 @@ Deck DeckReader::read(const std::string& path) {
     return std::move(deck_);
   }
   read_file({.name = path}, std::move(source));
+  refusals_.close(diagnostics_);
   if (cards_.full())
     diagnostics_.note({path, 0, 0}, fmt::format("reading stopped after {} errors", CardReader::max_errors));
   else
@@ -107,6 +108,7 @@ bool DeckReader::read_keyword(const File& file, std::size_t line) {
   ++use.blocks;
   use.entries += cards_.take_count();
   use.treatment = treatment;
+  if (treatment != Treatment::honoured) note_refused(file, line, keyword.name, use);
   return keyword.name == "END";
 }
 
@@ -118,6 +120,21 @@ bool DeckReader::refuse_encrypted(const File& file, std::size_t line, const Keyw
   diagnostics_.error(place(file, *block), fmt::format("*{}: encrypted cards cannot be read", keyword.name),
                      "ask their owner for plain text");
   return true;
+}
+
+void DeckReader::note_refused(const File& file, std::size_t line, const std::string& name, KeywordUse& use) {
+  if (const KeywordMatch match = index_.match(name); match.keyword >= 0) {
+    use.lacking = keyword_registry()[static_cast<std::size_t>(match.keyword)]->lacking;
+    return;
+  }
+  if (use.blocks == 1 && use.treatment == Treatment::refused) use.lacking = families().refusal(name).lacking;
+  for (DataLines data(*file.source, line + 1); !data.done(); data.step()) ++use.lines;
+}
+
+/// Made when the first keyword without a table comes.
+const Families& DeckReader::families() {
+  if (!families_) families_.emplace();
+  return *families_;
 }
 
 /// Keywords that shape the deck itself.
@@ -153,7 +170,8 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
                .match = match,
                .format = keyword.format});
   if (spec.lacking.empty()) return Treatment::honoured;
-  if (is_new) diagnostics_.error(where, fmt::format("*{}: {} are not supported", keyword.name, spec.lacking));
+  if (refusals_.is_first(keyword.name, diagnostics_))
+    diagnostics_.error(where, fmt::format("*{}: {}", keyword.name, not_supported(spec.lacking)));
   return Treatment::refused;
 }
 
@@ -163,17 +181,22 @@ Treatment DeckReader::refuse(const std::string& name, const Location& where) {
                        "the name stands right behind it; a comment begins with $");
     return Treatment::refused;
   }
+  const bool is_output = is_output_request(name);
+  const Treatment treatment = is_output ? Treatment::output_only : Treatment::refused;
   // a hint takes a look at all keywords, in vain where the warning is not shown
-  const bool shown = diagnostics_.warnings() < Diagnostics::max_warnings;
-  std::string hint = shown || !is_output_request(name) ? index_.hint(name) : std::string();
-  if (is_output_request(name)) {
+  if (is_output && diagnostics_.warnings() >= Diagnostics::max_warnings) return treatment;
+  if (!refusals_.is_first(name, diagnostics_)) return treatment;
+  if (is_output) {
     diagnostics_.warning(where, fmt::format("*{}: this request is not supported and has no effect", name),
-                         std::move(hint));
-    return Treatment::output_only;
+                         families().slip(name, 1));
+    return treatment;
   }
-  if (hint.empty()) hint = "`courant keywords` lists the supported keywords";
-  diagnostics_.error(where, fmt::format("*{}: unknown keyword", name), std::move(hint));
-  return Treatment::refused;
+  Refusal why = families().refusal(name);
+  diagnostics_.error(
+      where,
+      fmt::format("*{}: {}", name, why.lacking.empty() ? "unknown keyword" : not_supported(why.lacking)),
+      std::move(why.hint));
+  return treatment;
 }
 
 void DeckReader::read_title(const File& file, std::size_t line) {

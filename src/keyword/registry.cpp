@@ -72,22 +72,4 @@ KeywordMatch KeywordIndex::match(const std::string& name) const {
   return {};
 }
 
-std::string KeywordIndex::hint(const std::string& name) const {
-  std::string base;  // longest known name that `name` continues with an option
-  std::vector<std::string> names;
-  for (const auto& [known, match] : by_name_) {
-    names.push_back(known);
-    if (name.size() > known.size() && name.compare(0, known.size(), known) == 0 &&
-        name[known.size()] == '_' && known.size() > base.size())
-      base = known;
-  }
-  std::sort(names.begin(), names.end());
-  const std::string near = nearest_word(name, names);
-  if (!near.empty() && edit_distance(name, near) <= 2) return fmt::format("did you mean *{}?", near);
-  if (!base.empty())
-    return fmt::format("*{} is supported, its option {} is not", base, name.substr(base.size()));
-  if (!near.empty()) return fmt::format("did you mean *{}?", near);
-  return {};
-}
-
 }  // namespace courant

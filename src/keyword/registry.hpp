@@ -10,6 +10,7 @@
 #include "keyword/card.hpp"
 #include "keyword/deck.hpp"
 #include "keyword/keyword_spec.hpp"
+#include "keyword/law_names.hpp"
 
 namespace courant {
 
@@ -22,6 +23,7 @@ void register_keyword(std::shared_ptr<const KeywordSpec> spec);
 template <class T>
 struct RegisterKeyword {
   explicit RegisterKeyword(KeywordOf<T> keyword) {
+    add_law_names(keyword.names);
     register_keyword(make_keyword_spec<T>(std::move(keyword)));
   }
 };
@@ -39,7 +41,6 @@ class KeywordIndex {
  public:
   KeywordIndex();
   KeywordMatch match(const std::string& name) const;  ///< `name` in upper case, without '*'
-  std::string hint(const std::string& name) const;  ///< "did you mean ...?" for an unknown name; may be empty
 
  private:
   std::unordered_map<std::string, KeywordMatch> by_name_;
@@ -48,9 +49,16 @@ class KeywordIndex {
 /// "*PART card 1 field 2 (SECID, section id [-])", the beginning of every message about a field.
 std::string describe_field(const KeywordSpec& spec, int name, std::size_t card, std::size_t field);
 
-/// Cards of one keyword as text (`courant keywords NAME`), and the whole of docs/keywords.md.
+/// Cards of one keyword as text, and the whole of docs/keywords.md.
 std::string keyword_help(const std::string& name);  ///< empty if there is no such keyword
 std::string keyword_list();
+/// What `courant keywords NAME` says: the cards of that keyword, and the names that go on from it or contain
+/// it; for names without a table why they are refused, then `found` is false.
+struct KeywordAnswer {
+  bool found = false;
+  std::string text, hint;
+};
+KeywordAnswer find_keywords(const std::string& name);
 std::string keyword_markdown();
 
 }  // namespace courant
