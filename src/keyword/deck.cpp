@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "keyword/number.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
 
@@ -27,10 +28,33 @@ FieldPlace find_field(const KeywordSpec& spec, std::string_view name) {
   return {};
 }
 
+/// Looks for an id on the lines of a repeated card.
+bool find_value(DataLines data, const CardSpec& card, CardFormat format, Id value, Location& found) {
+  std::vector<Slice> slices;
+  for (; value != 0 && !data.done(); data.step()) {
+    split_card(data.line(), card, format, slices);
+    for (const Slice& slice : slices) {
+      Id here = 0;
+      if (!parse_integer(slice.text, here) || here != value) continue;
+      found.line = static_cast<int>(data.index()) + 1;
+      found.column = slice.column;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// To a row of a repeated card, if it is there.
+void step_rows(DataLines& data, std::size_t rows) {
+  DataLines ahead = data;
+  for (; rows > 0 && !ahead.done(); --rows) ahead.step();
+  if (!ahead.done()) data = ahead;
+}
+
 /// Reads the entry's cards again, to find where a field stands: only messages need it, so no place is kept
 /// with the data.
-Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, const SourceText& source,
-                Location line) {
+Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, Deck::Repeat repeat,
+                const SourceText& source, Location line) {
   const auto first = static_cast<std::size_t>(entry.line - 1);
   std::size_t above = first;
   while (above > 0 && (source.lines[above].empty() || source.lines[above][0] != '*')) --above;
@@ -45,6 +69,10 @@ Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, c
     if (spec.has_card(entry, c)) data.step();
   if (data.done()) return line;
   std::vector<Slice> slices;
+  if (spec.cards[place.card].repeat) {
+    step_rows(data, repeat.row);
+    if (find_value(data, spec.cards[place.card], keyword.format, repeat.value, line)) return line;
+  }
   split_card(data.line(), spec.cards[place.card], keyword.format, slices);
   line.line = static_cast<int>(data.index()) + 1;
   line.column = slices[place.field].column;
@@ -67,14 +95,14 @@ Location Deck::location(std::int32_t file, int line, int column) const {
   return out;
 }
 
-Location Deck::where(const Entry& entry, std::string_view field) const {
+Location Deck::where(const Entry& entry, std::string_view field, Repeat repeat) const {
   const KeywordSpec* spec = spec_of(entry);
   const Location line = where(entry);
   if (!spec || line.file.empty() || entry.line < 1) return line;
   const FieldPlace place = find_field(*spec, field);
   const auto& source = files[static_cast<std::size_t>(entry.file)].source;
   if (!place.found || !source || static_cast<std::size_t>(entry.line) > source->lines.size()) return line;
-  return locate(*spec, entry, place, *source, line);
+  return locate(*spec, entry, place, repeat, *source, line);
 }
 
 std::string Deck::keyword(const Entry& entry) const {

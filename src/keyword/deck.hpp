@@ -69,9 +69,16 @@ class Deck {
     for (DeckFile& file : files) file.source.reset();
   }
 
-  Location where(const Entry& entry) const;                          ///< first data line
-  Location where(const Entry& entry, std::string_view field) const;  ///< line and column of a named field
-  std::string keyword(const Entry& entry) const;                     ///< "*SECTION_SPH"
+  Location where(const Entry& entry) const;  ///< first data line
+  /// Line and column of a named field. On a repeated card: in that row (from 0), and where `value` stands in
+  /// it or below; at the field if it stands nowhere, as behind a parameter.
+  struct Repeat {
+    std::size_t row = 0;
+    Id value = 0;  ///< 0: not searched for
+  };
+  Location where(const Entry& entry, std::string_view field, Repeat repeat) const;
+  Location where(const Entry& entry, std::string_view field) const { return where(entry, field, Repeat{}); }
+  std::string keyword(const Entry& entry) const;  ///< "*SECTION_SPH"
   /// "*SECTION_SPH field 2 (CSLH, h0 = ... [-])", the beginning of every message about a field
   std::string describe(const Entry& entry, std::string_view field) const;
   /// Adds `file:line:column: error: *KEYWORD field N (NAME, meaning [dimension]): <message>` with a hint.

@@ -17,11 +17,13 @@ std::string type_name(const FieldSpec& field) {
     case FieldType::real:
       return "F";
     case FieldType::ids:
-      return "I, list";
+      return field.takes_rest ? "I, list" : "I, column";
     case FieldType::reals:
       return field.takes_rest ? "F, list" : "F, column";
     case FieldType::text:
       return "A";
+    case FieldType::texts:
+      return "A, column";
     default:
       return "-";
   }
