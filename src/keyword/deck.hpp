@@ -83,8 +83,14 @@ class Deck {
   }
 
   Location where(const Entry& entry) const;  ///< first data line
-  /// Line and column of a named field; of a repeated card, in its given row.
-  Location where(const Entry& entry, std::string_view field, std::size_t row = 0) const;
+  /// Line and column of a named field. On a repeated card: in that row (from 0), and where `value` stands in
+  /// it or below; at the field if it stands nowhere, as behind a parameter.
+  struct Repeat {
+    std::size_t row = 0;
+    Id value = 0;  ///< 0: not searched for
+  };
+  Location where(const Entry& entry, std::string_view field, Repeat repeat) const;
+  Location where(const Entry& entry, std::string_view field) const { return where(entry, field, Repeat{}); }
   std::string keyword(const Entry& entry) const;  ///< "*SECTION_SPH"
   /// "*SECTION_SPH field 2 (CSLH, h0 = ... [-])", the beginning of every message about a field
   std::string describe(const Entry& entry, std::string_view field) const;
@@ -109,7 +115,7 @@ class Deck {
   std::map<std::string, KeywordUse> keywords;  ///< every keyword of the deck by name, for `courant check`
 
  private:
-  Location find(const Entry& entry, std::string_view field, std::size_t row, std::string& text) const;
+  Location find(const Entry& entry, std::string_view field, Repeat repeat, std::string& text) const;
   std::string origin(const std::string& text) const;
   Diagnostic about(const Entry& entry, std::string_view field, const std::string& message,
                    std::string hint) const;

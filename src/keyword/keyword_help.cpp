@@ -17,7 +17,7 @@ std::string type_name(const FieldSpec& field) {
     case FieldType::real:
       return "F";
     case FieldType::ids:
-      return "I, list";
+      return field.takes_rest ? "I, list" : "I, column";
     case FieldType::reals:
       return field.takes_rest ? "F, list" : "F, column";
     case FieldType::text:

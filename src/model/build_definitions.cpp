@@ -8,8 +8,12 @@
 namespace courant {
 
 void ModelBuilder::build_sets() {
-  const auto report = [this](const Entry& entry, std::string_view field, std::string message,
-                             std::string hint) { error(entry, field, std::move(message), std::move(hint)); };
+  const auto report = [this](const Entry& entry, std::string_view field, Deck::Repeat repeat,
+                             std::string message, std::string hint) {
+    if (++errors_ <= max_errors)
+      diagnostics_.error(deck_.where(entry, field, repeat), deck_.describe(entry, field) + ": " + message,
+                         std::move(hint));
+  };
   SetResolver(deck_, model_, node_of_id_, report).resolve_all();
 }
 

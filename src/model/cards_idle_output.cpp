@@ -12,9 +12,6 @@ const FieldRules no_output{.honour = Honour::output_only};
 FieldRules no_effect_but(Real standard) {
   return {.standard = standard, .honour = Honour::ignored};
 }
-FieldRules no_output_but(Real standard) {
-  return {.standard = standard, .honour = Honour::output_only};
-}
 
 struct DatabaseNodout : Entry {
   int binary = 0, lcur = 0, ioopt = 0, option2 = 0, option3 = 0, option4 = 0;
@@ -70,37 +67,37 @@ KeywordOf<DatabaseExtentBinary> database_extent_binary() {
       .many = false,
       .cards = {
           {.fields = {{"NEIPH", &T::neiph, "-", "extra history variables, solids and SPH", no_output},
-                      {"NEIPS", &T::neips, "-", "extra history variables, shells", no_output},
-                      {"MAXINT", &T::maxint, "-", "shell integration points written", no_output_but(3)},
+                      {"NEIPS", &T::neips, "-", "extra history variables, shells", no_effect},
+                      {"MAXINT", &T::maxint, "-", "shell integration points written", no_effect_but(3)},
                       {"STRFLG", &T::strflg, "-", "1 write strain tensor", no_output},
-                      {"SIGFLG", &T::sigflg, "-", "1 stress / plastic strain in", no_output_but(1)},
-                      {"EPSFLG", &T::epsflg, "-", "1 stress / plastic strain in", no_output_but(1)},
-                      {"RLTFLG", &T::rltflg, "-", "1 resultants / energy, thickness in", no_output_but(1)},
-                      {"ENGFLG", &T::engflg, "-", "1 resultants / energy, thickness in", no_output_but(1)}}},
-          {.fields = {{"CMPFLG", &T::cmpflg, "-", "material axes flag", no_output},
-                      {"IEVERP", &T::ieverp, "-", "1 one state per file", no_output},
-                      {"BEAMIP", &T::beamip, "-", "beam integration points", no_output},
-                      {"DCOMP", &T::dcomp, "-", "rigid-data compression 1-6", no_output_but(1)},
-                      {"SHGE", &T::shge, "-", "shell hourglass energy 2 on", no_output_but(1)},
-                      {"STSSZ", &T::stssz, "-", "time step / mass output", no_output_but(1)},
-                      {"N3THDT", &T::n3thdt, "-", "material energies in d3thdt", no_output_but(2)},
-                      {"IALEMAT", &T::ialemat, "-", "ALE part list", no_output_but(1)}},
+                      {"SIGFLG", &T::sigflg, "-", "1 stress / plastic strain in", no_effect_but(1)},
+                      {"EPSFLG", &T::epsflg, "-", "1 stress / plastic strain in", no_effect_but(1)},
+                      {"RLTFLG", &T::rltflg, "-", "1 resultants / energy, thickness in", no_effect_but(1)},
+                      {"ENGFLG", &T::engflg, "-", "1 resultants / energy, thickness in", no_effect_but(1)}}},
+          {.fields = {{"CMPFLG", &T::cmpflg, "-", "material axes flag", no_effect},
+                      {"IEVERP", &T::ieverp, "-", "1 one state per file", no_effect},
+                      {"BEAMIP", &T::beamip, "-", "beam integration points", no_effect},
+                      {"DCOMP", &T::dcomp, "-", "rigid-data compression 1-6", no_effect_but(1)},
+                      {"SHGE", &T::shge, "-", "shell hourglass energy 2 on", no_effect_but(1)},
+                      {"STSSZ", &T::stssz, "-", "time step / mass output", no_effect_but(1)},
+                      {"N3THDT", &T::n3thdt, "-", "material energies in d3thdt", no_effect_but(2)},
+                      {"IALEMAT", &T::ialemat, "-", "ALE part list", no_effect_but(1)}},
            .optional = true},
-          {.fields = {{"NINTSLD", &T::nintsld, "-", "solid points written 1 or 8", no_output},
-                      {"PKP_SEN", &T::pkp_sen, "-", "peak pressure and energy in intfor", no_output},
-                      {"SCLP", &T::sclp, "-", "scale on that", no_output_but(1)},
-                      {"HYDRO", &T::hydro, "-", "1 adds 3, 2 adds 5 shock variables", no_output},
-                      {"MSSCL", &T::msscl, "-", "added-mass output", no_output},
-                      {"THERM", &T::therm, "-", "thermal output", no_output},
-                      {"INTOUT", &T::intout, "-", "detailed element output words", no_output},
-                      {"NODOUT", &T::nodout, "-", "detailed element output words", no_output}},
+          {.fields = {{"NINTSLD", &T::nintsld, "-", "solid points written 1 or 8", no_effect},
+                      {"PKP_SEN", &T::pkp_sen, "-", "peak pressure and energy in intfor", no_effect},
+                      {"SCLP", &T::sclp, "-", "scale on that", no_effect_but(1)},
+                      {"HYDRO", &T::hydro, "-", "1 adds 3, 2 adds 5 shock variables", no_effect},
+                      {"MSSCL", &T::msscl, "-", "added-mass output", no_effect},
+                      {"THERM", &T::therm, "-", "thermal output", no_effect},
+                      {"INTOUT", &T::intout, "-", "detailed element output words", no_effect},
+                      {"NODOUT", &T::nodout, "-", "detailed element output words", no_effect}},
            .optional = true},
-          {.fields = {{"DTDT", &T::dtdt, "-", "temperature rate", no_output},
-                      {"RESPLT", &T::resplt, "-", "residual forces", no_output},
-                      {"NEIPB", &T::neipb, "-", "beam history variables", no_output},
-                      {"QUADSLD", &T::quadsld, "-", "higher-order solids output", no_output},
-                      {"CUBSLD", &T::cubsld, "-", "higher-order solids output", no_output},
-                      {"DELERES", &T::deleres, "-", "results of deleted elements", no_output}},
+          {.fields = {{"DTDT", &T::dtdt, "-", "temperature rate", no_effect},
+                      {"RESPLT", &T::resplt, "-", "residual forces", no_effect},
+                      {"NEIPB", &T::neipb, "-", "beam history variables", no_effect},
+                      {"QUADSLD", &T::quadsld, "-", "higher-order solids output", no_effect},
+                      {"CUBSLD", &T::cubsld, "-", "higher-order solids output", no_effect},
+                      {"DELERES", &T::deleres, "-", "results of deleted elements", no_effect}},
            .optional = true}}};
 }
 const RegisterKeyword<DatabaseExtentBinary> database_extent_binary_keyword{database_extent_binary()};

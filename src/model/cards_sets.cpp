@@ -128,15 +128,21 @@ CardOf<T> advanced_card() {
 template <class T>
 CardOf<T> general_card() {
   const FieldRules id{.check = Check::not_negative};
-  return {.fields = {{"OPTION", &T::option, "-", "what to take in; with D in front: out"},
-                     {"E1", &T::ids, "-", "id, or corner node of SEG", id},
-                     {"E2", &T::e2, "-", "id, or corner node of SEG", id},
-                     {"E3", &T::e3, "-", "id, or corner node of SEG", id},
-                     {"E4", &T::e4, "-", "id; segments: corner node of SEG, else attribute", id},
-                     {"E5", &T::e5, "-", "id; segments: attribute", id},
-                     {"E6", &T::e6, "-", "id; segments: attribute", id},
-                     {"E7", &T::e7, "-", "id; segments: attribute", id}},
-          .repeat = true};
+  CardOf<T> card{.fields = {{"OPTION", &T::option, "-", "what to take in; with D in front: out"},
+                            {"E1", &T::ids, "-", "id", id},
+                            {"E2", &T::e2, "-", "id", id},
+                            {"E3", &T::e3, "-", "id", id}},
+                 .repeat = true};
+  if (T::kind == SetKind::segment) {
+    card.fields.push_back({"E4", &T::r4, "-", "corner node 4 of SEG, else an attribute without effect"});
+    for (int attribute = 5; attribute <= 7; ++attribute) card.fields.push_back({});
+    return card;
+  }
+  card.fields.push_back({"E4", &T::e4, "-", "id", id});
+  card.fields.push_back({"E5", &T::e5, "-", "id", id});
+  card.fields.push_back({"E6", &T::e6, "-", "id", id});
+  card.fields.push_back({"E7", &T::e7, "-", "id", id});
+  return card;
 }
 
 template <class T>
@@ -177,12 +183,16 @@ std::string shift_rows(T& card, const Conversion& conversion) {
           column[row] = conversion.offsets.shifted(advanced_space(cell(card.*types[p], row)), column[row]);
       }
   } else {
-    for (std::size_t row = 0; row < card.option.size(); ++row)
+    for (std::size_t row = 0; row < card.option.size(); ++row) {
+      const IdSpace fourth = row_space(T::kind, card.option[row], 3);
+      if (row < card.r4.size() && fourth != IdSpace::none)
+        card.r4[row] = static_cast<Real>(conversion.offsets.shifted(fourth, static_cast<Id>(card.r4[row])));
       for (std::size_t k = 0; k < std::size(columns); ++k) {
         std::vector<Id>& column = card.*columns[k];
         if (row < column.size())
           column[row] = conversion.offsets.shifted(row_space(T::kind, card.option[row], k), column[row]);
       }
+    }
   }
   return {};
 }

@@ -32,6 +32,7 @@ struct SetCard : Entry {
   int its = 1;
   std::vector<Id> ids;                         ///< ids of a list; the first column of a table
   std::vector<Id> e2, e3, e4, e5, e6, e7, e8;  ///< further columns of a table
+  std::vector<Real> r4;                        ///< _GENERAL of segments: E4, a node of SEG or an attribute
   std::vector<std::string> option;             ///< _GENERAL: the word of each row
 };
 

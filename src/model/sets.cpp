@@ -74,14 +74,16 @@ void SetResolver::resolve_all() {
 void SetResolver::resolve(SetKind kind, Id id, Slot& slot) {
   if (slot.state != State::open) return;
   slot.state = State::busy;
+  const std::size_t row_of_caller = std::exchange(row_, 0);
   path_.emplace_back(kind, id);
   Members all;
   for (const Definition& definition : slot.definitions) {
     const SetCard& card = *definition.card;
     const bool told = !card.ids.empty() || !card.option.empty();
     Found found = told ? members(kind, definition) : Members{};
+    row_ = 0;
     if (found && found->empty())
-      error(card, member_field(kind, definition.form), "the set is empty",
+      error(card, member_field(kind, definition.form), 0, "the set is empty",
             told ? definition.form == SetForm::intersect ? fmt::format("its sets share no {}", set_word(kind))
                    : definition.form == SetForm::general ? fmt::format("its rows leave no {}", set_word(kind))
                                                          : std::string()
@@ -96,6 +98,7 @@ void SetResolver::resolve(SetKind kind, Id id, Slot& slot) {
   all.shrink_to_fit();
   target(kind)[id] = std::move(all);
   path_.pop_back();
+  row_ = row_of_caller;
   slot.state = State::done;
 }
 
@@ -138,10 +141,10 @@ SetResolver::Found SetResolver::listed(SetKind kind, const SetCard& card, SetFor
     }
     whole = false;
     if (kind == SetKind::node)
-      error(card, member_field(kind, form), fmt::format("node {} has no coordinates", id),
+      error(card, member_field(kind, form), id, fmt::format("node {} has no coordinates", id),
             "define it with *NODE");
     else
-      error(card, member_field(kind, form), fmt::format("{} {} does not exist", set_word(kind), id),
+      error(card, member_field(kind, form), id, fmt::format("{} {} does not exist", set_word(kind), id),
             fmt::format("define it with {}", kind == SetKind::part    ? "*PART"
                                              : kind == SetKind::shell ? "*ELEMENT_SHELL"
                                                                       : "*ELEMENT_SOLID"));
@@ -169,14 +172,16 @@ SetResolver::Found SetResolver::ranges(SetKind kind, const SetCard& card, SetFor
   const char* field = member_field(kind, form);
   Members out;
   if (form == SetForm::increment) {
-    for (std::size_t row = 0; row < card.ids.size(); ++row)
+    for (std::size_t row = 0; row < card.ids.size(); ++row) {
+      row_ = row;
       if (!add_range(kind, card, form, card.ids[row], cell(card.e2, row), std::max<Id>(cell(card.e3, row), 1),
                      out))
         return std::nullopt;
+    }
     return out;
   }
   if (card.ids.size() % 2 != 0) {
-    error(card, field, "the last range has a first id, but no last id");
+    error(card, field, card.ids.back(), "the last range has a first id, but no last id");
     return std::nullopt;
   }
   for (std::size_t r = 0; r < card.ids.size(); r += 2)
@@ -188,7 +193,7 @@ bool SetResolver::add_range(SetKind kind, const SetCard& card, SetForm form, Id 
                             Members& out) {
   const char* field = member_field(kind, form);
   if (end < begin) {
-    error(card, field, fmt::format("the range {} to {} runs backwards", begin, end));
+    error(card, field, begin, fmt::format("the range {} to {} runs backwards", begin, end));
     return false;
   }
   const std::size_t before = out.size();
@@ -202,7 +207,7 @@ bool SetResolver::add_range(SetKind kind, const SetCard& card, SetForm form, Id 
         out.push_back(static_cast<Index>(i));
   }
   if (out.size() > before) return true;
-  error(card, field,
+  error(card, field, begin,
         fmt::format("there is no {} with an id from {} to {}{}", set_word(kind), begin, end,
                     step == 1 ? "" : fmt::format(" in steps of {}", step)));
   return false;
@@ -237,6 +242,7 @@ SetResolver::Found SetResolver::advanced(const SetCard& card) {
       {&card.ids, &card.e2}, {&card.e3, &card.e4}, {&card.e5, &card.e6}, {&card.e7, &card.e8}};
   Members out;
   for (std::size_t row = 0; row < card.ids.size(); ++row) {
+    row_ = row;
     for (const auto& [ids, types] : columns) {
       const Id id = cell(*ids, row);
       if (id == 0) continue;
@@ -254,7 +260,7 @@ SetResolver::Found SetResolver::advanced(const SetCard& card) {
           kind = SetKind::segment;
           break;
         default:  // the card allows 0 besides, for pairs that are left out
-          error(card, "TYPE1", fmt::format("set {} has no kind beside it", id),
+          error(card, "SID1", id, fmt::format("set {} has no kind beside it", id),
                 "1 node, 2 shell, 4 solid, 5 segment set");
           return std::nullopt;
       }
@@ -272,7 +278,7 @@ const SetResolver::Members* SetResolver::other(const SetCard& card, std::string_
   auto& slots = slots_[static_cast<std::size_t>(kind)];
   const auto it = slots.find(id);
   if (it == slots.end()) {
-    error(card, field, fmt::format("{} set {} does not exist", set_word(kind), id),
+    error(card, field, id, fmt::format("{} set {} does not exist", set_word(kind), id),
           fmt::format("define it with {}", keyword_of[static_cast<std::size_t>(kind)]));
     return nullptr;
   }
@@ -281,7 +287,8 @@ const SetResolver::Members* SetResolver::other(const SetCard& card, std::string_
     const auto first = std::find(path_.begin(), path_.end(), std::make_pair(kind, id));
     for (auto step = first; step != path_.end(); ++step)
       chain += fmt::format("{} set {} needs ", set_word(step->first), step->second);
-    error(card, field, fmt::format("a set cannot be made of itself: {}{} set {}", chain, set_word(kind), id),
+    error(card, field, id,
+          fmt::format("a set cannot be made of itself: {}{} set {}", chain, set_word(kind), id),
           "leave one of them out");
     return nullptr;
   }
@@ -344,13 +351,14 @@ Index SetResolver::segment_of_ids(const SetCard& card, std::string_view field, c
     if (id == 0) continue;
     const Index n = node_of_id_.find(id);
     if (n < 0) {
-      error(card, field, fmt::format("node {} has no coordinates", id), "define it with *NODE");
+      error(card, field, id, fmt::format("node {} has no coordinates", id), "define it with *NODE");
       return -1;
     }
     if (std::find(corners.begin(), corners.end(), n) == corners.end()) corners.push_back(n);
   }
   if (corners.size() < 2) {
-    error(card, field, fmt::format("the segment of nodes {} has less than two corners", fmt::join(ids, " ")));
+    error(card, field, 0,
+          fmt::format("the segment of nodes {} has less than two corners", fmt::join(ids, " ")));
     return -1;
   }
   std::array<Index, 4> all{};

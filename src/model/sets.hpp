@@ -31,8 +31,8 @@ void release_set_cards(Deck& deck);
 
 class SetResolver {
  public:
-  using Report =
-      std::function<void(const Entry&, std::string_view field, std::string message, std::string hint)>;
+  using Report = std::function<void(const Entry&, std::string_view field, Deck::Repeat repeat,
+                                    std::string message, std::string hint)>;
   /// Nodes, parts, elements and boxes of `model` must be there. Faults go to `report`.
   SetResolver(const Deck& deck, Model& model, const IdIndex& node_of_id, Report report);
 
@@ -85,8 +85,10 @@ class SetResolver {
   std::size_t count(SetKind kind) const;
   Id id_of(SetKind kind, std::size_t index) const;
   Index find(SetKind kind, Id id);
-  void error(const Entry& entry, std::string_view field, std::string message, std::string hint = {}) {
-    report_(entry, field, std::move(message), std::move(hint));
+  /// `value`: the id at fault, 0 if it is not one alone.
+  void error(const Entry& entry, std::string_view field, Id value, std::string message,
+             std::string hint = {}) {
+    report_(entry, field, {row_, value}, std::move(message), std::move(hint));
   }
 
   const Deck& deck_;
@@ -95,6 +97,7 @@ class SetResolver {
   Report report_;
   std::map<Id, Slot> slots_[5];
   std::vector<std::pair<SetKind, Id>> path_;  // sets being found, each for the one before
+  std::size_t row_ = 0;                       // of the table being read, for messages
   std::optional<IdIndex> shell_of_id_, solid_of_id_;
   std::map<std::array<Index, 4>, Index> segment_of_corners_;
 };

@@ -68,6 +68,11 @@ RowWord read_word(SetKind kind, std::string_view text) {
   return {};
 }
 
+/// SEG: E4 is a node there, and an attribute, a real, behind all other words.
+Id fourth_corner(const SetCard& card, std::size_t row) {
+  return row < card.r4.size() ? static_cast<Id>(card.r4[row]) : 0;
+}
+
 }  // namespace
 
 std::vector<std::string> set_words(SetKind kind) {
@@ -85,18 +90,21 @@ SetResolver::Found SetResolver::general(SetKind kind, const SetCard& card) {
   const std::vector<Id>* columns[] = {&card.ids, &card.e2, &card.e3, &card.e4, &card.e5, &card.e6, &card.e7};
   Members out;
   for (std::size_t r = 0; r < card.option.size(); ++r) {
+    row_ = r;
     if (card.option[r].empty()) continue;  // a blank line
     const RowWord asked = read_word(kind, card.option[r]);
     if (!asked.word) {
-      error(card, "OPTION", fmt::format("'{}' is not supported", card.option[r]),
+      error(card, "OPTION", 0, fmt::format("'{}' is not supported", card.option[r]),
             fmt::format("supported: {}; with D in front they take out", fmt::join(set_words(kind), ", ")));
       return std::nullopt;
     }
     std::vector<Id> ids;
     for (std::size_t k = 0; k < asked.word->ids; ++k)
-      if (const Id id = cell(*columns[k], r); id != 0) ids.push_back(id);
+      if (const Id id = k == 3 && kind == SetKind::segment ? fourth_corner(card, r) : cell(*columns[k], r);
+          id != 0)
+        ids.push_back(id);
     if (ids.empty() && asked.word->ids > 0) {
-      error(card, "OPTION", fmt::format("{} has no id behind it", card.option[r]));
+      error(card, "OPTION", 0, fmt::format("{} has no id behind it", card.option[r]));
       return std::nullopt;
     }
     Found found = row(kind, card, asked.word->word, ids);
@@ -146,7 +154,7 @@ SetResolver::Found SetResolver::elements(SetKind kind, const SetCard& card, cons
   for (const Id id : ids) {
     const Index found = find(kind, id);
     if (found < 0) {
-      error(card, "E1", fmt::format("{} {} does not exist", set_word(kind), id));
+      error(card, "E1", id, fmt::format("{} {} does not exist", set_word(kind), id));
       return std::nullopt;
     }
     out.push_back(found);
@@ -169,7 +177,7 @@ SetResolver::Found SetResolver::of_parts(SetKind kind, const SetCard& card, cons
   if (kind == SetKind::solid) return solids;
   if (kind == SetKind::segment) {
     if (solids.empty()) return converted(SetKind::shell, kind, shells);
-    error(card, "E1", "segments on the faces of solid elements are not supported");
+    error(card, "E1", 0, "segments on the faces of solid elements are not supported");
     return std::nullopt;
   }
   out = converted(SetKind::shell, kind, shells);
@@ -185,7 +193,7 @@ SetResolver::Found SetResolver::in_boxes(SetKind kind, const SetCard& card, cons
   for (const Id id : ids) {
     const auto it = model_.boxes.find(id);
     if (it == model_.boxes.end()) {
-      error(card, "E1", fmt::format("box {} does not exist", id), "define it with *DEFINE_BOX");
+      error(card, "E1", id, fmt::format("box {} does not exist", id), "define it with *DEFINE_BOX");
       return std::nullopt;
     }
     const auto inside = [&](Index n) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "keyword/registry.hpp"
+#include "model/set_cards.hpp"
 #include "small_deck.hpp"
 
 namespace courant {
@@ -156,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "*SET_SEGMENT_GENERAL\n1\nALL\n",
                     {{1, 2, 5, 4}, {2, 3, 6, 5}, {4, 5, 8, 7}, {5, 6, 9, 9}}},
         SegmentCase{"GeneralPartAsTheShellsAreTurned",
-                    "*SET_SEGMENT_GENERAL\n1\nPART,3,0,0,7.\n",
+                    "*SET_SEGMENT_GENERAL\n1\nPART,3,0,0,.5,.5,.5,.5\n",
                     {{4, 5, 8, 7}, {5, 6, 9, 9}}},
         SegmentCase{"GeneralBox",
                     "*SET_SEGMENT_GENERAL\n1\nBOX_SHELL,4\n*DEFINE_BOX\n4,0.,1.,0.,1.,0.,0.\n",
@@ -246,6 +248,47 @@ TEST(Sets, OfSolids) {
   EXPECT_EQ(ids_of(m.model.solids, m.model.solid_sets.at(2)), (Ids{1, 2}));
   EXPECT_EQ(ids_of(m.model.solids, m.model.solid_sets.at(3)), Ids{1});
   EXPECT_EQ(ids_of(m.model.nodes, m.model.node_sets.at(4)), (Ids{2, 3, 5, 6, 12}));
+}
+
+/// One entry of a keyword with a single row below the set id, shifted as *INCLUDE_TRANSFORM does it.
+template <class Card>
+Card shifted_row(const std::string& name, const std::string& word, const std::vector<Real>& numbers) {
+  Conversion conversion;
+  conversion.offsets.node = 100, conversion.offsets.part = 200, conversion.offsets.set = 300;
+  Deck deck;
+  const KeywordMatch match = KeywordIndex().match(name);
+  const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(match.keyword)];
+  const auto sink = spec.sink(deck);
+  sink->begin({});
+  sink->set_integer(0, 0, 1);
+  std::size_t field = 0;
+  if (!word.empty()) sink->set_text(1, field++, word);
+  for (const Real number : numbers) {
+    if (spec.cards[1].fields[field].type == FieldType::reals)
+      sink->set_real(1, field++, number);
+    else
+      sink->set_integer(1, field++, static_cast<Id>(number));
+  }
+  EXPECT_EQ(sink->convert(conversion), "");
+  sink->commit();
+  return deck.all<Card>().at(0);
+}
+
+TEST(Sets, ShiftIdsByTheWordOfTheRow) {
+  using NodeGeneral = SetCardOf<SetKind::node, SetForm::general>;
+  const auto part = shifted_row<NodeGeneral>("SET_NODE_GENERAL", "dpart", {3, 4});
+  EXPECT_EQ(part.sid, 301);
+  EXPECT_EQ(part.ids, Ids{203});
+  EXPECT_EQ(part.e2, Ids{204});
+  EXPECT_EQ(shifted_row<NodeGeneral>("SET_NODE_GENERAL", "SET_SHELL", {3}).ids, Ids{303});
+  using SegmentGeneral = SetCardOf<SetKind::segment, SetForm::general>;
+  EXPECT_EQ(shifted_row<SegmentGeneral>("SET_SEGMENT_GENERAL", "SEG", {1, 2, 3, 4}).r4,
+            std::vector<Real>{104});
+  const auto attribute = shifted_row<SegmentGeneral>("SET_SEGMENT_GENERAL", "PART", {1, 0, 0, 0.5});
+  EXPECT_EQ(attribute.ids, Ids{201});
+  EXPECT_EQ(attribute.r4, std::vector<Real>{0.5});
+  using Advanced = SetCardOf<SetKind::node, SetForm::advanced>;
+  EXPECT_EQ(shifted_row<Advanced>("SET_NODE_ADD_ADVANCED", "", {7, 2}).ids, Ids{307});
 }
 
 TEST(Sets, MakeNoSecondErrorOfAFault) {
