@@ -329,6 +329,12 @@ std::string Families::slip(const std::string& name, std::size_t most) const {
 }
 
 Refusal Families::refusal(const std::string& name) const {
+  const std::size_t end = name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-");
+  if (end != std::string::npos) {  // no name: something stands right behind one
+    const std::string base = name.substr(0, end);
+    if (std::find(supported_.begin(), supported_.end(), base) != supported_.end())
+      return {"", fmt::format("did you mean *{}? A blank ends the name", base)};
+  }
   std::size_t law_length = 0;
   const LawName* law = find_law(name, &law_length);
   const std::string base = base_of(name, supported_);

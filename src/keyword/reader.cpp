@@ -183,8 +183,10 @@ Treatment DeckReader::refuse(const std::string& name, const Location& where) {
   }
   const bool is_output = is_output_request(name);
   const Treatment treatment = is_output ? Treatment::output_only : Treatment::refused;
-  // a hint takes a look at all keywords, in vain where the warning is not shown
-  if (is_output && diagnostics_.warnings() >= Diagnostics::max_warnings) return treatment;
+  if (is_output && diagnostics_.warnings() >= Diagnostics::max_warnings) {
+    diagnostics_.warning(where, "");  // only counted: a hint would take a look at all keywords in vain
+    return treatment;
+  }
   if (!refusals_.is_first(name, diagnostics_)) return treatment;
   if (is_output) {
     diagnostics_.warning(where, fmt::format("*{}: this request is not supported and has no effect", name),

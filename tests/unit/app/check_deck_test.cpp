@@ -44,11 +44,11 @@ TEST(CheckDeck, FilesAreATreeWithTheirPlaces) {
 TEST(CheckDeck, KeywordsWithWhatBecomesOfThem) {
   const Read read =
       read_files({{"deck.k",
-                   "*KEYWORD\n*NODE\n       1\n       2\n*DATABASE_NODOUT\n       0.1\n"
+                   "*KEYWORD\n*NODE\n       1\n       2\n*DATABASE_FSI\n       0.1\n"
                    "*AIRBAG_ALE\n         1\n$ comment\n         2\n*AIRBAG_ALE\n*COFFEE_BREAK\n*END\n"}});
   const std::string text = keywords_text(read.deck);
   EXPECT_TRUE(holds(text, "*NODE                                         1          2  honoured\n")) << text;
-  EXPECT_TRUE(holds(text, "*DATABASE_NODOUT                              1    1 lines  no effect: output\n"))
+  EXPECT_TRUE(holds(text, "*DATABASE_FSI                                 1    1 lines  no effect: output\n"))
       << text;
   EXPECT_TRUE(holds(text, "*AIRBAG_ALE                                   2    2 lines  REFUSED: airbags\n"))
       << text;

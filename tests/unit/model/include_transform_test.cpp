@@ -12,6 +12,7 @@
 #include "model/build_model.hpp"
 #include "model/cards.hpp"
 #include "model/included_entries.hpp"
+#include "model/set_cards.hpp"
 #include "rigid/mat_rigid.hpp"
 #include "sph/cards.hpp"
 #include "transformed_scene.hpp"
@@ -236,7 +237,8 @@ TEST(IncludeTransform, ShiftsRangesOfParticles) {
   EXPECT_EQ(deck.all<ElementSphCard>()[0].nid, 1001);
   EXPECT_EQ(deck.all<ElementSphCard>()[0].nend, 1009);
   EXPECT_EQ(deck.all<ElementSphCard>()[0].pid, 202);
-  EXPECT_EQ(deck.all<SetNodeGenerateCard>()[0].ids, (std::vector<Id>{1001, 1009, 1021, 1029}));
+  EXPECT_EQ((deck.all<SetCardOf<SetKind::node, SetForm::generate>>()[0].ids),
+            (std::vector<Id>{1001, 1009, 1021, 1029}));
 }
 
 TEST(IncludeTransform, ChangesUnits) {
