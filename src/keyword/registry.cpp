@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <utility>
 
 namespace courant {
 
@@ -62,6 +63,9 @@ KeywordMatch KeywordIndex::match(const std::string& name) const {
     const auto it = by_name_.find(base);
     if (it == by_name_.end()) continue;
     const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(it->second.keyword)];
+    // older decks write _TITLE where others write _ID: the same line of id and heading
+    if (options.title && !spec.title_option && spec.id_option && !options.id)
+      std::swap(options.title, options.id);
     if ((options.title && !spec.title_option) || (options.id && !spec.id_option) ||
         (options.mpp && !spec.mpp_option) || (options.collect && !spec.collect_option))
       return {};

@@ -379,6 +379,7 @@ KeywordOf<RigidwallPlanar> rigidwall_planar() {
                             {"RO", &T::ro, "M/L3", "its density", or_blank(1e-9)},
                             {"E", &T::e, "M/LT2", "its modulus", or_blank(1e-4)},
                             {"PR", &T::pr, "-", "its Poisson ratio", or_blank(0.3)}},
+                 .optional = true,
                  .when = [](const T& e) { return (e.name & 16) != 0; }}}};
 }
 const RegisterKeyword<RigidwallPlanar> rigidwall_planar_keyword{rigidwall_planar()};
@@ -387,22 +388,20 @@ struct RigidwallGeometricFlat : Entry {
   std::string title;
   Id entry_id = 0;
   Id nsid = 0, nsidex = 0, boxid = 0, lcid = 0, pid = 0;
-  int nsegs = 0, opt = 0;
+  int opt = 0;
   Real birth = 0, death = 0, xt = 0, yt = 0, zt = 0, xh = 0, yh = 0, zh = 0, fric = 0, xhev = 0, yhev = 0,
-       zhev = 0, lenl = 0, lenm = 0, lenp = 0, radcyl = 0, lencyl = 0, radsph = 0, vx = 0, vy = 0, vz = 0,
-       ro = 0, e = 0, pr = 0;
+       zhev = 0, lenl = 0, lenm = 0, lenp = 0, radsph = 0, vx = 0, vy = 0, vz = 0, ro = 0, e = 0, pr = 0;
 };
 KeywordOf<RigidwallGeometricFlat> rigidwall_geometric_flat() {
   using T = RigidwallGeometricFlat;
-  return {.names = {"RIGIDWALL_GEOMETRIC_FLAT", "RIGIDWALL_GEOMETRIC_PRISM", "RIGIDWALL_GEOMETRIC_CYLINDER",
-                    "RIGIDWALL_GEOMETRIC_SPHERE", "RIGIDWALL_GEOMETRIC_FLAT_MOTION",
-                    "RIGIDWALL_GEOMETRIC_PRISM_MOTION", "RIGIDWALL_GEOMETRIC_CYLINDER_MOTION",
+  // cylinders may have any number of sections, so they have no table
+  return {.names = {"RIGIDWALL_GEOMETRIC_FLAT", "RIGIDWALL_GEOMETRIC_PRISM", "RIGIDWALL_GEOMETRIC_SPHERE",
+                    "RIGIDWALL_GEOMETRIC_FLAT_MOTION", "RIGIDWALL_GEOMETRIC_PRISM_MOTION",
                     "RIGIDWALL_GEOMETRIC_SPHERE_MOTION", "RIGIDWALL_GEOMETRIC_FLAT_DISPLAY",
-                    "RIGIDWALL_GEOMETRIC_PRISM_DISPLAY", "RIGIDWALL_GEOMETRIC_CYLINDER_DISPLAY",
-                    "RIGIDWALL_GEOMETRIC_SPHERE_DISPLAY", "RIGIDWALL_GEOMETRIC_FLAT_MOTION_DISPLAY",
-                    "RIGIDWALL_GEOMETRIC_PRISM_MOTION_DISPLAY", "RIGIDWALL_GEOMETRIC_CYLINDER_MOTION_DISPLAY",
+                    "RIGIDWALL_GEOMETRIC_PRISM_DISPLAY", "RIGIDWALL_GEOMETRIC_SPHERE_DISPLAY",
+                    "RIGIDWALL_GEOMETRIC_FLAT_MOTION_DISPLAY", "RIGIDWALL_GEOMETRIC_PRISM_MOTION_DISPLAY",
                     "RIGIDWALL_GEOMETRIC_SPHERE_MOTION_DISPLAY"},
-          .purpose = "rigid obstacle: plate, prism, cylinder or sphere",
+          .purpose = "rigid obstacle: plate, prism or sphere",
           .id_space = IdSpace::rigid_wall,
           .id_option = true,
           .title = &T::title,
@@ -426,24 +425,21 @@ KeywordOf<RigidwallGeometricFlat> rigidwall_geometric_flat() {
                                 {"LENL", &T::lenl, "L", "length of edge l, 0 infinite"},
                                 {"LENM", &T::lenm, "L", "length of edge m, 0 infinite"},
                                 {"LENP", &T::lenp, "L", "length of edge p of a prism, 0 infinite"}},
-                     .when = [](const T& e) { return e.name % 4 < 2; }},
-                    {.fields = {{"RADCYL", &T::radcyl, "L", "radius of the cylinder"},
-                                {"LENCYL", &T::lencyl, "L", "its length, 0 infinite"},
-                                {"NSEGS", &T::nsegs, "-", "number of sections"}},
-                     .when = [](const T& e) { return e.name % 4 == 2; }},
+                     .when = [](const T& e) { return e.name % 3 < 2; }},
                     {.fields = {{"RADSPH", &T::radsph, "L", "radius of the sphere"}},
-                     .when = [](const T& e) { return e.name % 4 == 3; }},
+                     .when = [](const T& e) { return e.name % 3 == 2; }},
                     {.fields = {{"LCID", &T::lcid, "-", "motion curve", id_of(IdSpace::curve)},
                                 {"OPT", &T::opt, "-", "0 velocity; 1 displacement"},
                                 {"VX", &T::vx, "-", "motion direction cosine", direction},
                                 {"VY", &T::vy, "-", "motion direction cosine"},
                                 {"VZ", &T::vz, "-", "motion direction cosine"}},
-                     .when = [](const T& e) { return e.name % 8 >= 4; }},
+                     .when = [](const T& e) { return e.name / 3 % 2 == 1; }},
                     {.fields = {{"PID", &T::pid, "-", "part of the display", id_of(IdSpace::part)},
                                 {"RO", &T::ro, "M/L3", "its density", or_blank(1e-9)},
                                 {"E", &T::e, "M/LT2", "its modulus", or_blank(1e-4)},
                                 {"PR", &T::pr, "-", "its Poisson ratio", or_blank(0.3)}},
-                     .when = [](const T& e) { return e.name >= 8; }}}};
+                     .optional = true,
+                     .when = [](const T& e) { return e.name >= 6; }}}};
 }
 const RegisterKeyword<RigidwallGeometricFlat> rigidwall_geometric_flat_keyword{rigidwall_geometric_flat()};
 

@@ -60,6 +60,9 @@ FieldRules id_in(IdSpace space) {
 /// thermal and airbag loads; nothing that is computed here reads them.
 template <class T>
 CardOf<T> set_card() {
+  if (T::kind == SetKind::solid)  // solids have no attributes
+    return {.fields = {{"SID", &T::sid, "-", "set id", required_id},
+                       {"SOLVER", &T::solver, "-", "solver that owns the set", no_effect}}};
   return {.fields = {{"SID", &T::sid, "-", "set id", required_id},
                      {"DA1", &T::da1, "-", "attribute 1", no_effect},
                      {"DA2", &T::da2, "-", "attribute 2", no_effect},

@@ -267,6 +267,7 @@ KeywordOf<DefineSphAmbientDrag> define_sph_ambient_drag() {
                                 {"MUA", &T::mua, "M/LT", "ambient viscosity"},
                                 {"SFTENS", &T::sftens, "M/T2", "surface tension"}}},
                     {.fields = {{"FILENAME", &T::filename, "-", "profile file name", {.width = 60}}},
+                     .optional = true,
                      .when = [](const T& e) { return e.icpl == 1; }}}};
 }
 const RegisterKeyword<DefineSphAmbientDrag> define_sph_ambient_drag_keyword{define_sph_ambient_drag()};
