@@ -11,10 +11,10 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "app/check.hpp"
 #include "app/simulation.hpp"
 #include "generate/generate.hpp"
 #include "keyword/registry.hpp"
-#include "keyword/source.hpp"
 #include "output/file.hpp"
 #include "parallel/parallel.hpp"
 #include "post/post.hpp"
@@ -68,11 +68,6 @@ std::unique_ptr<Simulation> build(const Call& call, std::vector<std::string>& wa
   }
   for (const Diagnostic& d : diagnostics.all())
     if (d.severity == Severity::warning) warnings.push_back(d.text());
-  if (call.strict && !warnings.empty()) {
-    print_error(fmt::format("{} warning{} and --strict: refused\n", warnings.size(),
-                            warnings.size() == 1 ? "" : "s"));
-    return nullptr;
-  }
   return simulation;
 }
 
@@ -121,11 +116,20 @@ int call_run(const Call& call) {
 
 int call_check(const Call& call) {
   set_threads(1);
-  std::vector<std::string> warnings;
-  auto simulation = build(call, warnings);
-  if (!simulation) return exit_input;
-  fmt::print("{}", check_report(*simulation));
-  return exit_ok;
+  ReadOptions read;
+  if (!parse_params(call.params, read.parameters)) return exit_input;
+  const CheckResult result = check_deck(call.deck, read, call.strict);
+  // on a terminal: what was read, what is wrong with it, what a run would compute, the sum
+  fmt::print("{}", result.deck);
+  std::fflush(stdout);
+  print_error(result.messages);
+  fmt::print("{}", result.model);
+  std::fflush(stdout);
+  if (result.sound)
+    fmt::print("{}", result.verdict);
+  else
+    print_error(result.verdict);
+  return result.sound ? exit_ok : exit_input;
 }
 
 int call_keywords(const Call& call) {
@@ -133,20 +137,13 @@ int call_keywords(const Call& call) {
     fmt::print("{}", keyword_markdown());
     return exit_ok;
   }
-  if (call.keyword.empty()) {
-    fmt::print("{}", keyword_list());
-    return exit_ok;
-  }
-  const std::string help = keyword_help(call.keyword);
-  if (help.empty()) {
-    std::string name = upper_case(call.keyword);
-    if (!name.empty() && name[0] == '*') name.erase(0, 1);
-    const std::string near = KeywordIndex().hint(name);
-    print_error(fmt::format("error: '{}' is not a supported keyword\n  hint: {}\n", call.keyword,
-                            near.empty() ? "`courant keywords` lists them" : near));
+  const KeywordAnswer answer = find_keywords(call.keyword);
+  if (!answer.found) {
+    print_error(fmt::format("error: {}\n{}", answer.text,
+                            answer.hint.empty() ? "" : fmt::format("  hint: {}\n", answer.hint)));
     return exit_input;
   }
-  fmt::print("{}", help);
+  fmt::print("{}", answer.text);
   return exit_ok;
 }
 
@@ -212,7 +209,7 @@ int command_line(int argc, char** argv) {
   auto* check = app.add_subcommand("check", "read, validate and build a deck; run nothing");
   check->add_option("DECK", call.deck, "keyword deck")->required();
   check->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER")->allow_extra_args(false);
-  check->add_flag("--strict", call.strict, "warnings are errors");
+  check->add_flag("--strict", call.strict, "warnings, and ids that nothing refers to, are errors");
 
   auto* keywords = app.add_subcommand("keywords", "list the supported keywords, or show the cards of one");
   keywords->add_option("NAME", call.keyword, "keyword, with or without '*'");

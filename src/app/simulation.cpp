@@ -20,11 +20,16 @@ constexpr Real least_skin = 0.02, first_skin = 0.1, most_skin = 0.4;
 
 std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, const ReadOptions& options,
                                               Diagnostics& diagnostics) {
+  Deck deck = read_deck(deck_path, options, diagnostics);
+  if (diagnostics.ok()) move_included_entries(deck, diagnostics);
+  return from_deck(deck_path, std::move(deck), diagnostics);
+}
+
+std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, Deck deck,
+                                                  Diagnostics& diagnostics) {
   std::unique_ptr<Simulation> s(new Simulation);
-  s->deck_ = read_deck(deck_path, options, diagnostics);
-  if (!diagnostics.ok()) return nullptr;  // what could not be read would only cause more messages
-  move_included_entries(s->deck_, diagnostics);
-  if (!diagnostics.ok()) return nullptr;  // nodes do not stand where they should
+  s->deck_ = std::move(deck);
+  if (!diagnostics.ok()) return nullptr;  // what could not be read or moved would only cause more messages
   s->model_ = build_model(s->deck_, diagnostics);
   release_mesh_cards(s->deck_);
   const bool model_is_whole = diagnostics.ok();

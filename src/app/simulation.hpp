@@ -24,6 +24,10 @@ class Simulation {
   /// Reads, checks and builds. Returns nullptr when `diagnostics` has errors.
   static std::unique_ptr<Simulation> build(const std::string& deck_path, const ReadOptions& options,
                                            Diagnostics& diagnostics);
+  /// The same for a deck that was read from `deck_path`. Nothing is built where `diagnostics` has errors
+  /// already.
+  static std::unique_ptr<Simulation> from_deck(const std::string& deck_path, Deck deck,
+                                               Diagnostics& diagnostics);
 
   /// One step; `at_time_level` sees x, p and f of the same time before the kick.
   void step(const AtTimeLevel& at_time_level);
@@ -81,8 +85,5 @@ struct RunOptions {
 /// Runs to the end and writes all results. Throws OutputError where the folder cannot be written at the
 /// start; later failures end the run with `termination: error` in the summary.
 Summary run(Simulation& simulation, const std::string& deck_path, const RunOptions& options);
-
-/// The text of `courant check`.
-std::string check_report(Simulation& simulation);
 
 }  // namespace courant

@@ -40,6 +40,9 @@ class Diagnostics {
   void note(Location where, std::string message, std::string hint = {});
   void add(Diagnostic diagnostic);
 
+  /// Adds words to the message with this place in all().
+  void amend(std::size_t index, const std::string& text) { all_[index].message += text; }
+
   const std::vector<Diagnostic>& all() const { return all_; }
   int errors() const { return errors_; }
   int warnings() const { return warnings_; }

@@ -20,6 +20,7 @@ const RegisterKeyword<C> contact_nodes_to_surface{
      .purpose = "penalty contact of particles (SURFA) with shells (SURFB)",
      .id_space = IdSpace::contact,
      .id_option = true,
+     .mpp_option = true,
      .title = &C::title,
      .id = &C::cid,
      .many = false,

@@ -3,159 +3,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
-#include <cmath>
-#include <cstdlib>
-#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "base/expression.hpp"
 
 namespace courant {
 namespace {
 
-constexpr int depth_limit = 100;  // nested parentheses: keeps hostile input from exhausting the stack
-
-class Parser {
- public:
-  Parser(std::string_view text, const Variables& variables) : text_(text), variables_(variables) {}
-
-  Evaluation run() {
-    Evaluation result{sum(), {}};
-    skip_blanks();
-    if (error_.empty() && at_ < text_.size()) fail(fmt::format("'{}' is not understood", text_.substr(at_)));
-    if (error_.empty() && !std::isfinite(result.value)) fail("the result is not a finite number");
-    result.error = error_;
-    return result;
-  }
-
- private:
-  void fail(std::string message) {
-    if (error_.empty()) error_ = std::move(message);
-    at_ = text_.size();
-  }
-  void skip_blanks() {
-    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_]))) ++at_;
-  }
-  bool take(char c) {
-    skip_blanks();
-    if (at_ >= text_.size() || text_[at_] != c) return false;
-    ++at_;
-    return true;
-  }
-  void expect(char c) {
-    if (error_.empty() && !take(c)) fail(fmt::format("'{}' is missing", c));
-  }
-
-  Real sum() {
-    Real value = product();
-    for (;;) {
-      if (take('+')) {
-        value += product();
-      } else if (take('-')) {
-        value -= product();
-      } else {
-        return value;
-      }
+/// The text with every `${` and its `}` as parentheses, in the same columns.
+Evaluation without_placeholders(std::string_view text, std::string& out) {
+  out = text;
+  std::vector<char> open;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (out.compare(i, 2, "${") == 0) {
+      open.push_back('$');
+      out.replace(i++, 2, " (");
+    } else if (out[i] == '(') {
+      open.push_back('(');
+    } else if (out[i] == ')' || out[i] == '}') {
+      const bool fits = !open.empty() && (open.back() == '$') == (out[i] == '}');
+      if (out[i] == '}' && fits) out[i] = ')';
+      if (!open.empty() && open.back() == '$' && !fits) return {0, "'}' is missing"};
+      if (fits) open.pop_back();
     }
   }
-  Real product() {
-    Real value = signed_power();
-    for (;;) {
-      if (take('*')) {
-        value *= signed_power();
-      } else if (take('/')) {
-        const Real divisor = signed_power();
-        if (divisor == 0 && error_.empty()) fail("division by zero");
-        value /= divisor;
-      } else {
-        return value;
-      }
-    }
-  }
-  // -a^2 is -(a^2), and a^-2 is allowed.
-  Real signed_power() {
-    if (++depth_ > depth_limit) fail("too deeply nested");
-    Real value = 0;
-    if (take('-')) {
-      value = -signed_power();
-    } else if (take('+')) {
-      value = signed_power();
-    } else {
-      value = primary();
-      if (take('^')) value = std::pow(value, signed_power());
-    }
-    --depth_;
-    return value;
-  }
-  Real primary() {
-    skip_blanks();
-    if (at_ >= text_.size()) {
-      fail("a value is missing");
-      return 0;
-    }
-    if (take('(')) {
-      const Real value = sum();
-      expect(')');
-      return value;
-    }
-    if (text_.substr(at_, 2) == "${") {
-      at_ += 2;
-      const Real value = sum();
-      expect('}');
-      return value;
-    }
-    if (std::isalpha(static_cast<unsigned char>(text_[at_])) || text_[at_] == '_') return named();
-    return number();
-  }
-  Real number() {
-    Real value = 0;
-    const auto [end, code] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-    if (code != std::errc()) {
-      fail(fmt::format("expected a number or a name, got '{}'", text_.substr(at_)));
-      return 0;
-    }
-    at_ = static_cast<std::size_t>(end - text_.data());
-    return value;
-  }
-  Real named() {
-    std::size_t end = at_;
-    while (end < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[end])) || text_[end] == '_'))
-      ++end;
-    const std::string name(text_.substr(at_, end - at_));
-    at_ = end;
-    if (take('(')) return call(name);
-    const auto it = variables_.find(name);
-    if (it != variables_.end()) return it->second;
-    fail(fmt::format("unknown parameter '{}'", name));
-    return 0;
-  }
-  Real call(const std::string& name) {
-    std::vector<Real> a{sum()};
-    while (take(',')) a.push_back(sum());
-    expect(')');
-    if (!error_.empty()) return 0;
-    if (a.size() == 1) {
-      if (name == "sqrt") return std::sqrt(a[0]);
-      if (name == "abs") return std::abs(a[0]);
-      if (name == "floor") return std::floor(a[0]);
-      if (name == "ceil") return std::ceil(a[0]);
-      if (name == "round") return std::round(a[0]);
-    }
-    if (a.size() == 2) {
-      if (name == "min") return std::min(a[0], a[1]);
-      if (name == "max") return std::max(a[0], a[1]);
-    }
-    fail(fmt::format("unknown function '{}' of {} argument(s)", name, a.size()));
-    return 0;
-  }
-
-  std::string_view text_;
-  const Variables& variables_;
-  std::size_t at_ = 0;
-  int depth_ = 0;
-  std::string error_;
-};
+  const bool closed = std::find(open.begin(), open.end(), '$') == open.end();
+  return {0, closed ? "" : "'}' is missing"};
+}
 
 // 1e+05 -> 1e5, 1e-05 -> 1e-5: two columns of ten are worth having.
 std::string shorten_exponent(std::string s) {
@@ -181,7 +58,20 @@ std::string scientific(Real value, int digits) {
 }  // namespace
 
 Evaluation evaluate(std::string_view text, const Variables& variables) {
-  return Parser(text, variables).run();
+  std::string plain_text;
+  if (Evaluation fault = without_placeholders(text, plain_text); !fault.ok()) return fault;
+  ExpressionNames names;
+  names.find = [&](std::string_view name, std::string&) -> std::optional<Number> {
+    const auto it = variables.find(std::string(name));
+    return it == variables.end() ? std::nullopt : std::optional<Number>(Number::of(it->second));
+  };
+  names.all = [&] {
+    std::vector<std::string> all;
+    for (const auto& [name, value] : variables) all.push_back(name);
+    return all;
+  };
+  const ExpressionResult result = evaluate_expression(plain_text, names, Arithmetic::real);
+  return {result.value.value(), result.hint.empty() ? result.error : result.error + ", " + result.hint};
 }
 
 std::string number_text(Real value, int width) {

@@ -1,6 +1,6 @@
 #pragma once
-// Arithmetic in scenes: + - * / ^, parentheses, sqrt abs floor ceil round min max, and the scene's parameters
-// by name.
+// Expressions in scenes: the arithmetic of base/expression.hpp with reals only, the scene's parameters by
+// name, and the placeholders `${...}`.
 #include <map>
 #include <string>
 #include <string_view>

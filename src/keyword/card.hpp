@@ -95,7 +95,8 @@ struct KeywordOf {
   bool title_option = false;  ///< NAME_TITLE adds an A80 card, stored in the member named by `title`
   bool id_option = false;     ///< NAME_ID adds a card ID I10, HEADING A70
   bool mpp_option = false;    ///< NAME_MPP adds one or two cards for parallel runs, which have no effect here
-  bool heading = false;       ///< always starts with an A70 heading card (*PART)
+  bool collect_option = false;  ///< NAME_COLLECT adds to what an earlier entry with the same id defines
+  bool heading = false;         ///< always starts with an A70 heading card (*PART)
   std::string T::*title = nullptr;
   Id T::*id = nullptr;
   bool once = false;  ///< may stand only once in a deck

@@ -121,7 +121,7 @@ void CardReader::refuse_second_definition(const Entry& entry) {
   // no id, one that was refused already, or none that must be unique
   if (id <= 0 || is_mesh(spec_->id_space) || may_repeat(spec_->id_space)) return;
   const Entry* first = deck_.define(spec_->id_space, id, entry);
-  if (!first) return;
+  if (!first || block_.match.collect) return;
   deck_.error(diagnostics_, entry, block_.match.id ? "" : spec_->cards[0].fields[0].name,
               fmt::format("{} {} is defined twice, first as {} at {}", id_word(spec_->id_space), id,
                           deck_.keyword(*first), deck_.place(*first)),
@@ -139,7 +139,7 @@ bool CardReader::read_title_lines(DataLines& data, EntrySink& sink) {
     return true;
   };
   if (spec_->heading) {
-    sink.set_title(trimmed(data.line()));
+    sink.set_title(parameters_.with_texts(trimmed(data.line())));
     data.step();
   }
   if (block_.match.id) {
@@ -149,40 +149,51 @@ bool CardReader::read_title_lines(DataLines& data, EntrySink& sink) {
   }
   if (block_.match.title) {
     if (!next("the title line")) return false;
-    sink.set_title(trimmed(data.line()));
+    sink.set_title(parameters_.with_texts(trimmed(data.line())));
     data.step();
   }
   if (block_.match.mpp) {
     if (!next("the line of the option _MPP")) return false;
+    const std::size_t first = data.index();
     skip_mpp_lines(data);
+    for (std::size_t k = first; k < data.index(); ++k) parameters_.note_mentions(block_.source->lines[k]);
   }
   return true;
 }
 
 void CardReader::read_id_line(std::string_view line, int number, EntrySink& sink) {
   const std::size_t width = block_.format == CardFormat::long_fields ? 20 : 10;
-  const std::size_t comma = line.find(',');
+  const std::size_t comma = next_comma(line, 0, has_brackets(line));
   // a heading may contain commas, so only one within the ID's columns separates
   const std::size_t end = std::min(comma < width ? comma : width, line.size());
-  std::string_view text = trimmed(line.substr(0, end));
-  std::string held;
-  if (Parameters::is_reference(text)) {
-    if (const Parameters::Value* value = parameters_.find(text)) {
-      held = value->text;
-      text = held;
-    }
-  }
+  const std::string_view text = trimmed(line.substr(0, end));
   Id id = 0;
-  if (!text.empty() && (!parse_integer(text, id) || id < 0)) {
-    line_ = number;
-    diagnostics_.error(
-        here(1),
-        fmt::format("*{}_ID field 1 (ID, number of the entry [-]): expected an integer >= 0, got '{}'",
-                    spec_->names[static_cast<std::size_t>(block_.match.name)], text),
-        "the option _ID adds a line with the ID in columns 1-10 and a heading in 11-80");
+  std::string fault, hint = "the option _ID adds a line with the ID in columns 1-10 and a heading in 11-80";
+  if (Parameters::is_reference(text)) {
+    const Parameters::Resolved value = parameters_.resolve(text);
+    id = value.number.integer;
+    if (value.failed) {
+      fault = value.error;
+      hint = value.hint;
+    } else if (value.type != 'I' || id < 0) {
+      fault = fmt::format("expected an integer >= 0, got '{}', which is {}", text,
+                          value.type == 'C'   ? "a text (C)"
+                          : value.type == 'R' ? "a real (R)"
+                                              : value.text);
+      hint = value.origin;
+    }
+  } else if (!text.empty() && (!parse_integer(text, id) || id < 0)) {
+    fault = fmt::format("expected an integer >= 0, got '{}'", text);
   }
+  line_ = number;
+  if (!fault.empty())
+    diagnostics_.error(here(1),
+                       fmt::format("*{}_ID field 1 (ID, number of the entry [-]): {}",
+                                   spec_->names[static_cast<std::size_t>(block_.match.name)], fault),
+                       hint);
   sink.set_id(id);
-  sink.set_title(trimmed(line.substr(std::min(end + (comma < width ? 1 : 0), line.size()))));
+  sink.set_title(
+      parameters_.with_texts(trimmed(line.substr(std::min(end + (comma < width ? 1 : 0), line.size())))));
 }
 
 void CardReader::read_cards(DataLines& data, EntrySink& sink) {
@@ -202,7 +213,7 @@ void CardReader::read_cards(DataLines& data, EntrySink& sink) {
       continue;
     }
     if (holds_file_name(card)) {
-      sink.set_text(c, 0, read_file_name(data));
+      sink.set_text(c, 0, parameters_.with_texts(read_file_name(data)));
       continue;
     }
     read_card(data, c, sink);
@@ -239,7 +250,11 @@ void CardReader::warn_of_cut_number(std::string_view line, const CardSpec& spec,
 
 void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, EntrySink& sink) {
   const FieldSpec& spec = spec_->cards[card].fields[field];
-  if (spec.type == FieldType::skip) return;
+  if (spec.type == FieldType::skip) {
+    parameters_.note_mentions(slice.text);
+    return;
+  }
+  if (!origin_.empty()) origin_.clear();
   if (slice.text.empty()) {
     if (spec.rules.required && !spec.is_vector())
       field_error(card, field, slice, fmt::format("expected {}, got a blank field", expectation(spec)),
@@ -252,13 +267,17 @@ void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, En
     return;  // the entry began with the standard values
   }
   std::string held;
-  if (Parameters::is_reference(slice.text) && !substitute(card, field, slice, held)) return;
-  if (spec.type == FieldType::text || spec.type == FieldType::texts) {
+  const bool text = spec.type == FieldType::text || spec.type == FieldType::texts;
+  if (text) {
+    if (!substitute_texts(card, field, slice, held)) return;
     if (spec.rules.honour == Honour::no)
       field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text),
                   "leave the field blank");
     sink.set_text(card, field, slice.text);
-  } else if (is_whole(spec.type)) {
+    return;
+  }
+  if (Parameters::is_reference(slice.text) && !substitute(card, field, slice, held)) return;
+  if (is_whole(spec.type)) {
     read_integer(card, field, slice, sink);
   } else {
     read_real(card, field, slice, sink);
@@ -305,21 +324,44 @@ void CardReader::read_real(std::size_t card, std::size_t field, const Slice& sli
 
 bool CardReader::substitute(std::size_t card, std::size_t field, Slice& slice, std::string& held) {
   const FieldSpec& spec = spec_->cards[card].fields[field];
-  const Parameters::Value* value = parameters_.find(slice.text);
-  if (!value) {
-    field_error(card, field, slice, fmt::format("parameter '{}' is not defined", slice.text),
-                parameters_.nearest(slice.text));
+  Parameters::Resolved value = parameters_.resolve(slice.text);
+  if (value.failed) {
+    slice.column += static_cast<int>(value.at);
+    if (!value.error.empty()) field_error(card, field, slice, value.error, std::move(value.hint));
     return false;
   }
-  if (is_whole(spec.type) && value->type == 'R') {
+  origin_ = std::move(value.origin);
+  if (value.type == 'C') {
     field_error(
         card, field, slice,
-        fmt::format("expected {}, got '{}', which is a real (R) parameter", expectation(spec), slice.text),
-        "declare it with the type letter I");
+        fmt::format("expected {}, got '{}', which is a text (C) parameter", expectation(spec), slice.text));
     return false;
   }
-  held = value->text;
-  if (slice.text[0] == '-') held = held[0] == '-' ? held.substr(1) : fmt::format("-{}", held);
+  if (is_whole(spec.type) && value.type == 'R') {
+    const bool named = !origin_.empty();
+    field_error(card, field, slice,
+                fmt::format("expected {}, got '{}', which is a real{}", expectation(spec), slice.text,
+                            named ? " (R) parameter" : ""),
+                named ? "declare it with the type letter I" : "int() or nint() makes it an integer");
+    return false;
+  }
+  held = std::move(value.text);
+  if (origin_.empty()) origin_ = fmt::format("{} is {}", slice.text, held);
+  slice.text = held;
+  return true;
+}
+
+bool CardReader::substitute_texts(std::size_t card, std::size_t field, Slice& slice, std::string& held) {
+  if (slice.text.find('&') == std::string_view::npos) return true;
+  if (Parameters::is_name(slice.text)) {
+    Parameters::Resolved value = parameters_.resolve(slice.text);
+    if (value.failed && !value.error.empty())
+      field_error(card, field, slice, value.error, std::move(value.hint));
+    if (value.failed) return false;
+    held = std::move(value.text);
+  } else {
+    held = parameters_.with_texts(slice.text);
+  }
   slice.text = held;
   return true;
 }
@@ -353,6 +395,7 @@ bool CardReader::is_allowed(std::size_t card, std::size_t field, const Slice& sl
 
 void CardReader::field_error(std::size_t card, std::size_t field, const Slice& slice,
                              const std::string& message, std::string hint) {
+  if (!origin_.empty()) hint += (hint.empty() ? "" : "; ") + origin_;
   diagnostics_.error(here(slice.column),
                      describe_field(*spec_, block_.match.name, card, field) + ": " + message,
                      std::move(hint));

@@ -17,7 +17,7 @@ class CardReader {
   /// Reading stops after this many errors.
   static constexpr int max_errors = 100;
 
-  CardReader(Deck& deck, const Parameters& parameters, Diagnostics& diagnostics)
+  CardReader(Deck& deck, Parameters& parameters, Diagnostics& diagnostics)
       : deck_(deck), parameters_(parameters), diagnostics_(diagnostics) {}
 
   struct Block {
@@ -47,8 +47,10 @@ class CardReader {
   void read_field(std::size_t card, std::size_t field, Slice slice, EntrySink& sink);
   void read_integer(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink);
   void read_real(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink);
-  /// Replaces "&name"; false if that failed. `held` keeps the text.
+  /// Replaces "&name" or "<expression>" by its value; false if that failed. `held` keeps the text.
   bool substitute(std::size_t card, std::size_t field, Slice& slice, std::string& held);
+  /// Replaces each &name of a text parameter; other names must be those of a whole field.
+  bool substitute_texts(std::size_t card, std::size_t field, Slice& slice, std::string& held);
   bool passes(std::size_t card, std::size_t field, const Slice& slice, Real value);
   bool is_allowed(std::size_t card, std::size_t field, const Slice& slice, Id value);
   void field_error(std::size_t card, std::size_t field, const Slice& slice, const std::string& message,
@@ -57,13 +59,14 @@ class CardReader {
   Location here(int column) const { return deck_.location(block_.file, line_, column); }
 
   Deck& deck_;
-  const Parameters& parameters_;
+  Parameters& parameters_;
   Diagnostics& diagnostics_;
   Block block_;
   const KeywordSpec* spec_ = nullptr;
   int line_ = 0;         ///< number of the line being read
   std::size_t end_ = 0;  ///< index behind the last line of the block that is neither blank nor a comment
   std::size_t count_ = 0;
+  std::string origin_;  ///< of the value of the field being read, if that is a parameter
   TableLines table_;
   std::vector<Slice> slices_;
 };

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "keyword/number.hpp"
+#include "keyword/parameters.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
 
@@ -12,7 +14,6 @@ namespace {
 struct FieldPlace {
   std::size_t card = 0, field = 0;
   bool found = false;
-  std::size_t row = 0;
 };
 
 const KeywordSpec* spec_of(const Entry& entry) {
@@ -24,14 +25,37 @@ const KeywordSpec* spec_of(const Entry& entry) {
 FieldPlace find_field(const KeywordSpec& spec, std::string_view name) {
   for (std::size_t c = 0; c < spec.cards.size(); ++c)
     for (std::size_t f = 0; f < spec.cards[c].fields.size(); ++f)
-      if (spec.cards[c].fields[f].name == name) return {c, f, true, 0};
+      if (spec.cards[c].fields[f].name == name) return {c, f, true};
   return {};
 }
 
+/// Looks for an id on the lines of a repeated card.
+bool find_value(DataLines data, const CardSpec& card, CardFormat format, Id value, Location& found) {
+  std::vector<Slice> slices;
+  for (; value != 0 && !data.done(); data.step()) {
+    split_card(data.line(), card, format, slices);
+    for (const Slice& slice : slices) {
+      Id here = 0;
+      if (!parse_integer(slice.text, here) || here != value) continue;
+      found.line = static_cast<int>(data.index()) + 1;
+      found.column = slice.column;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// To a row of a repeated card, if it is there.
+void step_rows(DataLines& data, std::size_t rows) {
+  DataLines ahead = data;
+  for (; rows > 0 && !ahead.done(); --rows) ahead.step();
+  if (!ahead.done()) data = ahead;
+}
+
 /// Reads the entry's cards again, to find where a field stands: only messages need it, so no place is kept
-/// with the data.
-Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, const SourceText& source,
-                Location line) {
+/// with the data. `text`: what stands there, unless it is a list.
+Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, Deck::Repeat repeat,
+                const SourceText& source, Location line, std::string& text) {
   const auto first = static_cast<std::size_t>(entry.line - 1);
   std::size_t above = first;
   while (above > 0 && (source.lines[above].empty() || source.lines[above][0] != '*')) --above;
@@ -44,12 +68,17 @@ Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, c
   if (match.mpp) skip_mpp_lines(data);
   for (std::size_t c = 0; c < place.card && !data.done(); ++c)
     if (spec.has_card(entry, c)) skip_card(data, spec.cards[c]);
-  for (std::size_t row = 0; row < place.row && !data.done(); ++row) data.step();
   if (data.done()) return line;
   std::vector<Slice> slices;
+  if (spec.cards[place.card].repeat) {
+    step_rows(data, repeat.row);
+    if (find_value(data, spec.cards[place.card], keyword.format, repeat.value, line)) return line;
+  }
   split_card(data.line(), spec.cards[place.card], keyword.format, slices);
   line.line = static_cast<int>(data.index()) + 1;
   line.column = slices[place.field].column;
+  // of a list, the message may be about any number
+  if (!spec.cards[place.card].fields[place.field].is_vector()) text = slices[place.field].text;
   return line;
 }
 
@@ -69,15 +98,19 @@ Location Deck::location(std::int32_t file, int line, int column) const {
   return out;
 }
 
-Location Deck::where(const Entry& entry, std::string_view field, std::size_t row) const {
+Location Deck::where(const Entry& entry, std::string_view field, Repeat repeat) const {
+  std::string text;
+  return find(entry, field, repeat, text);
+}
+
+Location Deck::find(const Entry& entry, std::string_view field, Repeat repeat, std::string& text) const {
   const KeywordSpec* spec = spec_of(entry);
   const Location line = where(entry);
   if (!spec || line.file.empty() || entry.line < 1) return line;
-  FieldPlace place = find_field(*spec, field);
-  place.row = row;
+  const FieldPlace place = find_field(*spec, field);
   const auto& source = files[static_cast<std::size_t>(entry.file)].source;
   if (!place.found || !source || static_cast<std::size_t>(entry.line) > source->lines.size()) return line;
-  return locate(*spec, entry, place, *source, line);
+  return locate(*spec, entry, place, repeat, *source, line, text);
 }
 
 std::string Deck::keyword(const Entry& entry) const {
@@ -108,14 +141,40 @@ std::string Deck::place(const Entry& entry) const {
   return fmt::format("{}:{}", at.file, at.line);
 }
 
+/// "&width is 2.0, defined at deck.k:21", for a field that holds a parameter's name.
+std::string Deck::origin(const std::string& text) const {
+  if (!Parameters::is_name(text)) return {};
+  const std::string name = upper_case(text.substr(text.find('&') + 1));
+  const DeckParameter* found = nullptr;
+  for (const DeckParameter& parameter : parameters) {
+    if (upper_case(parameter.name) != name) continue;
+    if (found) return {};  // which of several local ones cannot be told any more
+    found = &parameter;
+  }
+  if (!found) return {};
+  return fmt::format(
+      "&{} is {}, {}", found->name, found->text,
+      found->given ? "by --param" : fmt::format("defined at {}:{}", found->where.file, found->where.line));
+}
+
+Diagnostic Deck::about(const Entry& entry, std::string_view field, const std::string& message,
+                       std::string hint) const {
+  std::string text;
+  Location where = find(entry, field, {}, text);
+  if (const std::string from = origin(text); !from.empty()) hint += (hint.empty() ? "" : "; ") + from;
+  return {Severity::error, std::move(where), describe(entry, field) + ": " + message, std::move(hint)};
+}
+
 void Deck::error(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
                  std::string hint) const {
-  diagnostics.error(where(entry, field), describe(entry, field) + ": " + message, std::move(hint));
+  diagnostics.add(about(entry, field, message, std::move(hint)));
 }
 
 void Deck::warning(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
                    std::string hint) const {
-  diagnostics.warning(where(entry, field), describe(entry, field) + ": " + message, std::move(hint));
+  Diagnostic warning = about(entry, field, message, std::move(hint));
+  warning.severity = Severity::warning;
+  diagnostics.add(std::move(warning));
 }
 
 }  // namespace courant

@@ -37,6 +37,19 @@ struct KeywordUse {
   int blocks = 0;           ///< keyword lines
   std::size_t entries = 0;  ///< sets of cards below them: nodes, elements, materials, ...
   Treatment treatment = Treatment::honoured;
+  std::string lacking{};  ///< of a refused one: what Courant lacks, "solid elements"
+  std::size_t lines = 0;  ///< data lines, of keywords without a table, whose entries nobody can count
+};
+
+/// A parameter as *PARAMETER and its kin define it.
+struct DeckParameter {
+  std::string name{};  ///< as declared
+  char type = 'R';     ///< R real, I integer, C text
+  std::string text{};  ///< its value; of an expression: the result
+  Location where{};    ///< of the definition that counts
+  bool used = false;   ///< a field, title or file name depends on it
+  bool local = false;  ///< known in one file and those that it includes
+  bool given = false;  ///< its value comes from ReadOptions::parameters
 };
 
 class Deck {
@@ -70,8 +83,14 @@ class Deck {
   }
 
   Location where(const Entry& entry) const;  ///< first data line
-  /// Line and column of a named field; of a repeated card, in its given row.
-  Location where(const Entry& entry, std::string_view field, std::size_t row = 0) const;
+  /// Line and column of a named field. On a repeated card: in that row (from 0), and where `value` stands in
+  /// it or below; at the field if it stands nowhere, as behind a parameter.
+  struct Repeat {
+    std::size_t row = 0;
+    Id value = 0;  ///< 0: not searched for
+  };
+  Location where(const Entry& entry, std::string_view field, Repeat repeat) const;
+  Location where(const Entry& entry, std::string_view field) const { return where(entry, field, Repeat{}); }
   std::string keyword(const Entry& entry) const;  ///< "*SECTION_SPH"
   /// "*SECTION_SPH field 2 (CSLH, h0 = ... [-])", the beginning of every message about a field
   std::string describe(const Entry& entry, std::string_view field) const;
@@ -92,9 +111,15 @@ class Deck {
 
   std::string title;
   std::vector<DeckFile> files;                 ///< [0] is the deck itself
+  std::vector<DeckParameter> parameters;       ///< in the order of their definitions
   std::map<std::string, KeywordUse> keywords;  ///< every keyword of the deck by name, for `courant check`
 
  private:
+  Location find(const Entry& entry, std::string_view field, Repeat repeat, std::string& text) const;
+  std::string origin(const std::string& text) const;
+  Diagnostic about(const Entry& entry, std::string_view field, const std::string& message,
+                   std::string hint) const;
+
   std::map<std::type_index, std::shared_ptr<void>> entries_;
   std::map<std::pair<IdSpace, Id>, Entry> definitions_;
 };

@@ -1,4 +1,5 @@
 // Keywords that shape the deck itself. read_deck handles them by name; the tables are for the documentation.
+#include "keyword/parameters.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
@@ -27,11 +28,50 @@ const RegisterKeyword<DeckLevel> comment_keyword{
     {.names = {"COMMENT"}, .purpose = "lines of text up to the next keyword, without effect"}};
 
 const RegisterKeyword<DeckLevel> parameter_keyword{
-    {.names = {"PARAMETER"},
-     .purpose = "numbers with a name, used as &name or -&name in any field; up to four pairs per line",
+    {.names = {"PARAMETER", "PARAMETER_LOCAL", "PARAMETER_GLOBAL", "PARAMETER_MUTABLE", "PARAMETER_NOECHO"},
+     .purpose = "names for values, used as &name or -&name in any field; up to four pairs per line. Names do "
+                "not distinguish upper and lower case. A parameter is known below its definition, in all "
+                "files; with _LOCAL in this file and those that it includes. _MUTABLE: later definitions may "
+                "change it. Options may stand together, in any order",
      .cards = {
-         {.fields = {{"PRMR", &DeckLevel::text, "-", "type letter (R real, I integer) and name"},
-                     {"VAL", &DeckLevel::text, "-", "value, or a reference to an earlier parameter"}}}}}};
+         {.fields = {{"PRMR", &DeckLevel::text, "-", "type letter (R real, I integer, C text) and name"},
+                     {"VAL", &DeckLevel::text, "-",
+                      "value, &name or -&name of an earlier parameter, or <expression>"}}}}}};
+
+const RegisterKeyword<DeckLevel> parameter_expression_keyword{
+    {.names = {"PARAMETER_EXPRESSION", "PARAMETER_EXPRESSION_LOCAL", "PARAMETER_EXPRESSION_GLOBAL",
+               "PARAMETER_EXPRESSION_MUTABLE", "PARAMETER_EXPRESSION_NOECHO"},
+     .purpose = "a parameter computed from earlier ones, one per line; lines whose first ten columns are "
+                "blank continue it. Of integers + - * / ** give integers (5/2 is 2); functions: sin cos tan "
+                "csc sec ctn asin acos atan atan2 sinh cosh tanh asinh acosh atanh min max sqrt mod abs sign "
+                "int aint nint anint float exp log log10 LS_INTEGER LS_REAL",
+     .cards = {{.fields = {{"PRMR", &DeckLevel::text, "-",
+                            "type letter (R, I: the result loses its fraction, C: a text) and name"},
+                           {"EXPRESSION",
+                            &DeckLevel::text,
+                            "-",
+                            "numbers, names with or without &, operators, parentheses, functions",
+                            {.width = 70}}}}}}};
+
+const RegisterKeyword<DeckLevel> parameter_type_keyword{
+    {.names = {"PARAMETER_TYPE"},
+     .purpose = "as *PARAMETER, one pair per line, with a word for pre-processors behind it",
+     .cards = {
+         {.fields = {
+              {"PRMR", &DeckLevel::text, "-", "type letter and name"},
+              {"VAL", &DeckLevel::text, "-", "value"},
+              {"PRTYP", &DeckLevel::text, "-", "what the value numbers", {.honour = Honour::ignored}}}}}}};
+
+const RegisterKeyword<ParameterDuplication> parameter_duplication{
+    {.names = {"PARAMETER_DUPLICATION"},
+     .purpose = "what a second definition of a parameter with another value does, from here on: 1 warning, "
+                "ignored; 2 warning, taken; 3 error; 4 taken; 5 ignored. *PARAMETER_MUTABLE needs none of it",
+     .many = false,
+     .cards = {{.fields = {{"DFLAG",
+                            &ParameterDuplication::dflag,
+                            "-",
+                            "the choice",
+                            {.standard = 1, .allowed = {1, 2, 3, 4, 5}}}}}}}};
 
 }  // namespace
 

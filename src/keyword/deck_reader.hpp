@@ -4,11 +4,14 @@
 // *PARAMETER and its kin (parameter_reader.cpp). The cards of all other keywords are read by CardReader.
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "keyword/card_reader.hpp"
+#include "keyword/families.hpp"
+#include "keyword/refusal_log.hpp"
 
 namespace courant {
 
@@ -37,6 +40,8 @@ class DeckReader {
   Treatment refuse(const std::string& name, const Location& where);
   bool refuse_encrypted(const File& file, std::size_t line, const KeywordLine& keyword);
   void check_end(const File& file);
+  void note_refused(const File& file, std::size_t line, const std::string& name, KeywordUse& use);
+  const Families& families();
   void read_title(const File& file, std::size_t line);
   void warn_of_more_lines(const File& file, DataLines data, const std::string& name);
   std::shared_ptr<SourceText> load(const std::string& path) const;
@@ -50,7 +55,15 @@ class DeckReader {
 
   // parameter_reader.cpp
   bool read_parameter_keyword(const File& file, std::size_t line, const KeywordLine& keyword);
-  void read_parameters(const File& file, std::size_t line, CardFormat format);
+  struct ExpressionPiece {
+    std::size_t offset = 0;  ///< in the expression as a whole
+    std::size_t line = 0, column = 0;
+  };
+  void read_parameters(const File& file, std::size_t line, CardFormat format, bool typed,
+                       Parameters::Definition& definition);
+  void read_parameter_expressions(const File& file, std::size_t line, CardFormat format,
+                                  Parameters::Definition& definition);
+  void refuse_text_behind(const File& file, std::size_t line, std::size_t columns, std::string_view keyword);
 
   // include_reader.cpp
   bool read_include_keyword(const File& file, std::size_t line, const KeywordLine& keyword);
@@ -72,6 +85,8 @@ class DeckReader {
   std::vector<std::string> open_files_;     // from the deck to the file being read
   std::vector<std::string> include_paths_;  // in the order of the deck
   bool too_many_files_ = false;
+  std::optional<Families> families_;
+  RefusalLog refusals_;
   std::map<std::pair<int, int>, Location> seen_;
 };
 

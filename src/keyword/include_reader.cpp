@@ -53,7 +53,7 @@ void DeckReader::read_includes(const File& file, std::size_t line) {
     diagnostics_.error(place(file, line), "*INCLUDE: the file name is missing");
   while (!data.done() && !cards_.full()) {
     const std::size_t at = data.index();
-    const std::string name = read_file_name(data);
+    const std::string name = parameters_.with_texts(read_file_name(data));
     if (!name.empty()) include(name, file, at, {}, "*INCLUDE");
   }
 }
@@ -61,7 +61,7 @@ void DeckReader::read_includes(const File& file, std::size_t line) {
 void DeckReader::read_include_paths(const File& file, std::size_t line, bool relative_to_deck) {
   const fs::path deck_folder = fs::path(deck_.files[0].name).parent_path();
   for (DataLines data(*file.source, line + 1); !data.done();) {
-    std::string name = read_file_name(data);
+    std::string name = parameters_.with_texts(read_file_name(data));
     if (name.empty()) continue;
     std::error_code fault;
     if (name.find('\\') != std::string::npos && !fs::exists(name, fault))
@@ -144,7 +144,9 @@ void DeckReader::include(const std::string& name, const File& from, std::size_t 
   while (found != paths.end() && !(source = load(*found))) ++found;
   if (!source) {
     diagnostics_.error(place(from, line), fmt::format("{}: cannot read '{}'", keyword, name),
-                       fmt::format("looked for {}", fmt::join(paths, ", ")));
+                       name.find('&') == std::string::npos
+                           ? fmt::format("looked for {}", fmt::join(paths, ", "))
+                           : "only text parameters (C) that are defined above stand for parts of a name");
     return;
   }
   if (!may_include(*found, place(from, line), keyword)) return;

@@ -17,7 +17,7 @@ std::string type_name(const FieldSpec& field) {
     case FieldType::real:
       return "F";
     case FieldType::ids:
-      return "I, list";
+      return field.takes_rest ? "I, list" : "I, column";
     case FieldType::reals:
       return field.takes_rest ? "F, list" : "F, column";
     case FieldType::text:
@@ -75,6 +75,8 @@ std::string options_line(const KeywordSpec& spec) {
   if (spec.heading) out += "Each set begins with a heading line. ";
   if (spec.title_option) out += "Option _TITLE: a title line comes first. ";
   if (spec.id_option) out += "Option _ID: a line with ID (columns 1-10) and heading (11-80) comes first. ";
+  if (spec.mpp_option) out += "Option _MPP: one or two lines for parallel runs come first, without effect. ";
+  if (spec.collect_option) out += "Option _COLLECT: adds to the set that has the same id already. ";
   if (spec.once) out += "May stand only once in a deck. ";
   if (!out.empty()) out.pop_back();
   return out;

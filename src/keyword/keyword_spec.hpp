@@ -79,6 +79,8 @@ class KeywordSpec {
                         const std::function<void(const Entry&)>& visit) const = 0;
   /// All ids in an entry's fields, its own first. `entry` must be of this keyword.
   virtual void for_each_id(const Entry& entry, const std::function<void(const IdUse&)>& visit) const = 0;
+  /// The number in a field of an entry of this keyword; 0 for texts, lists and skipped columns.
+  virtual Real number_of(const Entry& entry, std::size_t card, std::size_t field) const = 0;
   /// Moves the places and directions in the entries for which `motion_of` gives a motion. `refuse` hears why
   /// an entry cannot be moved.
   virtual void move(Deck& deck, std::int32_t keyword,
@@ -88,7 +90,7 @@ class KeywordSpec {
   std::vector<std::string> names;
   std::string purpose, lacking;
   IdSpace id_space = IdSpace::none;
-  bool title_option = false, id_option = false, mpp_option = false;
+  bool title_option = false, id_option = false, mpp_option = false, collect_option = false;
   bool heading = false, once = false, many = true;
   std::vector<CardSpec> cards;
 };
@@ -250,6 +252,7 @@ class KeywordSpecOf : public KeywordSpec {
     title_option = keyword_.title_option;
     id_option = keyword_.id_option;
     mpp_option = keyword_.mpp_option;
+    collect_option = keyword_.collect_option;
     heading = keyword_.heading;
     once = keyword_.once;
     many = keyword_.many;
@@ -288,6 +291,14 @@ class KeywordSpecOf : public KeywordSpec {
           for (const Id one : e.*(*ids)) visit({c, f, space, one, own});
       }
     }
+  }
+  Real number_of(const Entry& entry, std::size_t card, std::size_t field) const override {
+    const T& e = static_cast<const T&>(entry);
+    const auto& member = keyword_.cards[card].fields[field].member;
+    if (auto* integer = std::get_if<int T::*>(&member)) return e.*(*integer);
+    if (auto* id = std::get_if<Id T::*>(&member)) return static_cast<Real>(e.*(*id));
+    if (auto* real = std::get_if<Real T::*>(&member)) return e.*(*real);
+    return 0;
   }
   void move(Deck& deck, std::int32_t keyword, const std::function<const Affine*(const Entry&)>& motion_of,
             const std::function<void(const Entry&, const std::string&)>& refuse) const override {

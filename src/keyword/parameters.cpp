@@ -1,23 +1,42 @@
+// Parameters in fields and texts: look-up, references, expressions. Definitions: parameter_definitions.cpp.
 #include "keyword/parameters.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <optional>
+#include <utility>
 
-#include "keyword/number.hpp"
-#include "keyword/registry.hpp"
+#include "base/nearest_word.hpp"
 #include "keyword/source.hpp"
 
 namespace courant {
 
 namespace {
 
-std::string name_of(std::string_view reference) {
-  return upper_case(reference.substr(reference.find('&') + 1));
+bool is_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
 }
 
-bool fits(char type, std::string_view text) {
-  Id i = 0;
-  Real r = 0;
-  return type == 'I' ? parse_integer(text, i) : parse_real(text, r);
+std::string name_of(std::string_view reference) {
+  return upper_case(trimmed(reference.substr(reference.find('&') + 1)));
+}
+
+std::string_view word_at(std::string_view text, std::size_t at) {
+  std::size_t end = at;
+  while (end < text.size() && is_word(text[end])) ++end;
+  return text.substr(at, end - at);
+}
+
+/// The smallest integer has no positive counterpart; as a real it has.
+Number negated(const Number& number) {
+  const bool whole = number.is_integer && number.integer != std::numeric_limits<Id>::min();
+  return whole ? Number::of(-number.integer) : Number::of(-number.value());
+}
+
+std::string place_of(const Location& where) {
+  return fmt::format("{}:{}", where.file, where.line);
 }
 
 }  // namespace
@@ -26,82 +45,190 @@ Parameters::Parameters(const ReadOptions& options) {
   for (const auto& [name, text] : options.parameters) overrides_[upper_case(name)] = {name, text};
 }
 
-void Parameters::define(std::string_view declaration, std::string_view value, const Location& where,
-                        Diagnostics& diagnostics) {
-  const char type = upper_case(declaration.substr(0, 1))[0];
-  const std::string_view name = trimmed(declaration.substr(1));
-  if (type != 'R' && type != 'I') {
-    diagnostics.error(where,
-                      fmt::format("*PARAMETER: '{}' begins with none of the types R and I", declaration),
-                      type == 'C' ? "text parameters (C) are not supported"
-                                  : "write the type letter before the name: R for a real, I for an integer");
-    return;
-  }
-  if (name.empty()) {
-    diagnostics.error(where, fmt::format("*PARAMETER: '{}' has no name after the type letter", declaration));
-    return;
-  }
-  if (name.find(' ') != std::string_view::npos) {
-    diagnostics.error(where, fmt::format("*PARAMETER: the name '{}' contains a blank", name),
-                      "names stand in columns 1-10, 21-30, 41-50, 61-70 and values in the columns behind "
-                      "them, or commas separate");
-    return;
-  }
-  Value out{std::string(name), type, std::string(value), where};
-  if (is_reference(value)) {
-    const Value* other = find(value);
-    if (!other) {
-      diagnostics.error(where, fmt::format("*PARAMETER {}: parameter '{}' is not defined", name, value),
-                        nearest(value));
-      return;
-    }
-    out.text = value[0] == '-'
-                   ? (other->text[0] == '-' ? other->text.substr(1) : fmt::format("-{}", other->text))
-                   : other->text;
-  }
-  std::string source = "the deck";
-  if (const auto it = overrides_.find(upper_case(name)); it != overrides_.end()) {
-    it->second.used = true;
-    out.text = it->second.text;
-    source = "--param";
-  }
-  if (!fits(type, out.text)) {
-    diagnostics.error(where, fmt::format("*PARAMETER {}: expected {}, got '{}'{}", name,
-                                         type == 'I' ? "an integer" : "a number", out.text,
-                                         source == "--param" ? " from --param" : ""));
-    return;
-  }
-  const auto [it, is_new] = values_.emplace(upper_case(name), out);
-  if (!is_new && (it->second.type != type || it->second.text != out.text))
-    diagnostics.error(where,
-                      fmt::format("*PARAMETER {}: defined before with another value, '{}', at {}:{}", name,
-                                  it->second.text, it->second.where.file, it->second.where.line),
-                      "give each parameter one value");
+bool Parameters::is_name(std::string_view text) {
+  if (!text.empty() && text[0] == '-') text.remove_prefix(1);
+  return text.size() > 1 && text[0] == '&' && word_at(text, 1).size() == text.size() - 1;
 }
 
-const Parameters::Value* Parameters::find(std::string_view reference) const {
-  const auto it = values_.find(name_of(reference));
-  return it == values_.end() ? nullptr : &it->second;
+bool Parameters::look_up(std::string_view name, std::size_t& index) const {
+  const std::string key = upper_case(name);
+  for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope) {
+    const auto it = scope->find(key);
+    if (it == scope->end()) continue;
+    index = it->second;
+    return true;
+  }
+  return false;
+}
+
+void Parameters::mark_used(std::size_t index) {
+  std::vector<std::size_t> waiting = {index};
+  while (!waiting.empty()) {
+    Value& value = values_[waiting.back()];
+    waiting.pop_back();
+    if (value.used) continue;
+    value.used = true;
+    waiting.insert(waiting.end(), value.made_of.begin(), value.made_of.end());
+  }
 }
 
 std::string Parameters::nearest(std::string_view reference) const {
+  const std::string name = name_of(reference);
+  for (const Value& value : values_)
+    if (upper_case(value.name) == name)
+      return fmt::format("&{} is local to the file that defines it, at {}", value.name,
+                         place_of(value.where));
+  if (name.find_first_of("+*/()-") != std::string::npos) return "an expression stands between < and >";
   std::vector<std::string> names;
-  for (const auto& [name, value] : values_) names.push_back(name);
-  const std::string near = nearest_word(name_of(reference), names);
+  std::map<std::string, std::string> as_declared;
+  for (const Scope& scope : scopes_) {
+    for (const auto& [key, index] : scope) {
+      names.push_back(key);
+      as_declared[key] = values_[index].name;
+    }
+  }
+  const std::string near = nearest_word(name, names);
   return near.empty() ? "define it with *PARAMETER above its use"
-                      : fmt::format("did you mean &{}?", values_.at(near).name);
+                      : fmt::format("did you mean &{}?", as_declared[near]);
 }
 
-void Parameters::check_overrides(const std::string& deck, Diagnostics& diagnostics) const {
-  for (const auto& [key, given] : overrides_) {
-    if (given.used) continue;
-    std::vector<std::string> names;
-    for (const auto& [name, value] : values_) names.push_back(name);
-    const std::string near = nearest_word(key, names);
-    diagnostics.error({deck, 0, 0},
-                      fmt::format("--param {}: the deck has no *PARAMETER of that name", given.name),
-                      near.empty() ? "" : fmt::format("did you mean {}?", values_.at(near).name));
+Parameters::Resolved Parameters::resolve(std::string_view text) {
+  std::vector<std::size_t> uses;
+  Resolved out = resolve_with(text, uses);
+  for (const std::size_t index : uses) mark_used(index);
+  return out;
+}
+
+Parameters::Resolved Parameters::resolve_with(std::string_view text, std::vector<std::size_t>& uses) const {
+  const bool negative = text[0] == '-';
+  return text[negative] == '&' ? resolve_name(text, negative, uses)
+                               : resolve_expression(text, negative, uses);
+}
+
+Parameters::Resolved Parameters::resolve_name(std::string_view text, bool negative,
+                                              std::vector<std::size_t>& uses) const {
+  Resolved out;
+  std::size_t index = 0;
+  if (!look_up(name_of(text), index)) {
+    out.failed = true;
+    out.error = fmt::format("parameter '{}' is not defined", text);
+    out.hint = nearest(text);
+    return out;
   }
+  uses.push_back(index);
+  const Value& value = values_[index];
+  out.type = value.type;
+  out.text = value.text;
+  out.number = value.number;
+  out.failed = value.faulty;
+  out.origin = fmt::format("&{} is {}, {}", value.name, value.text,
+                           value.given ? "by --param" : "defined at " + place_of(value.where));
+  if (!negative || value.faulty) return out;
+  if (value.type == 'C') {
+    out.failed = true;
+    out.error = fmt::format("'{}' is a text parameter (C): it has no sign", text);
+    out.hint = std::move(out.origin);
+  } else {
+    out.number = negated(value.number);
+    out.text = out.number.text();
+  }
+  return out;
+}
+
+Parameters::Resolved Parameters::resolve_expression(std::string_view text, bool negative,
+                                                    std::vector<std::size_t>& uses) const {
+  Resolved out;
+  if (text.back() != '>') {
+    out.failed = true;
+    out.error = fmt::format("'>' is missing in '{}'", text);
+    out.hint = "an expression must fit its field; between commas it may be longer";
+    return out;
+  }
+  const std::size_t begin = negative ? 2 : 1;
+  std::string inside(text.substr(begin, text.size() - begin - 1));
+  const ExpressionResult result = evaluate(inside, uses, out.failed);
+  if (out.failed) return out;
+  if (!result.ok()) {
+    out.failed = true;
+    out.error = fmt::format("in '{}': {}", text, result.error);
+    out.hint = result.hint;
+    out.at = begin + result.at;
+    return out;
+  }
+  out.number = result.value;
+  if (negative) out.number = negated(out.number);
+  out.type = out.number.is_integer ? 'I' : 'R';
+  out.text = out.number.text();
+  return out;
+}
+
+ExpressionResult Parameters::evaluate(std::string_view text, std::vector<std::size_t>& uses,
+                                      bool& faulty) const {
+  std::string unknown;
+  ExpressionNames names;
+  names.find = [&](std::string_view name, std::string& reason) -> std::optional<Number> {
+    std::size_t index = 0;
+    if (!look_up(name, index)) {
+      unknown = name;
+      return std::nullopt;
+    }
+    const Value& value = values_[index];
+    uses.push_back(index);
+    faulty = faulty || value.faulty;
+    if (value.type == 'C') {
+      reason = fmt::format("'{}' is a text parameter (C), defined at {}", value.name, place_of(value.where));
+      return std::nullopt;
+    }
+    return value.number;
+  };
+  ExpressionResult result = evaluate_expression(text, names);
+  if (!unknown.empty()) result.hint = nearest(unknown);
+  return result;
+}
+
+std::string Parameters::with_texts(std::string_view text) {
+  if (text.find('&') == std::string_view::npos) return std::string(text);
+  std::vector<std::size_t> uses;
+  std::string out = replaced(text, uses);
+  for (const std::size_t index : uses) mark_used(index);
+  return out;
+}
+
+std::string Parameters::replaced(std::string_view text, std::vector<std::size_t>& uses) const {
+  std::string out;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t mark = std::min(text.find('&', at), text.size());
+    out += text.substr(at, mark - at);
+    if (mark == text.size()) break;
+    const std::string_view name = word_at(text, mark + 1);
+    std::size_t index = 0;
+    const bool known = !name.empty() && look_up(name, index) && values_[index].type == 'C';
+    if (known) uses.push_back(index);
+    out += known ? std::string_view(values_[index].text) : text.substr(mark, name.size() + 1);
+    at = mark + 1 + name.size();
+  }
+  return out;
+}
+
+void Parameters::note_mentions(std::string_view text) {
+  if (values_.empty() ||
+      (text.find('&') == std::string_view::npos && text.find('<') == std::string_view::npos))
+    return;
+  bool inside = false;  // of <...>, where & may be left out
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '<') inside = true;
+    if (text[at] == '>') inside = false;
+    const bool begins = text[at] == '&' || (inside && (at == 0 || !is_word(text[at - 1])));
+    if (!begins) continue;
+    const std::string_view name = word_at(text, at + (text[at] == '&'));
+    std::size_t index = 0;
+    if (!name.empty() && look_up(name, index)) mark_used(index);
+  }
+}
+
+std::vector<DeckParameter> Parameters::list() const {
+  return {values_.begin(), values_.end()};
 }
 
 }  // namespace courant

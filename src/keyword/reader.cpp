@@ -20,10 +20,14 @@ Deck DeckReader::read(const std::string& path) {
     return std::move(deck_);
   }
   read_file({.name = path}, std::move(source));
+  refusals_.close(diagnostics_);
   if (cards_.full())
     diagnostics_.note({path, 0, 0}, fmt::format("reading stopped after {} errors", CardReader::max_errors));
   else
     parameters_.check_overrides(path, diagnostics_);
+  // a line that was refused may be the one that uses it
+  if (diagnostics_.ok()) parameters_.check_unused(diagnostics_);
+  deck_.parameters = parameters_.list();
   return std::move(deck_);
 }
 
@@ -41,12 +45,14 @@ void DeckReader::read_file(DeckFile deck_file, std::shared_ptr<SourceText> sourc
     diagnostics_.error(deck_.location(file.index, fault.line, fault.column), fault.message, fault.hint);
   if (!file.source->faults.empty()) return;
   const std::size_t count = file.source->lines.size();
+  parameters_.enter_file();
   std::size_t line = skip_text_before_keywords(file);
   bool ended = false;
   while (line < count && !ended && !cards_.full()) {
     ended = read_keyword(file, line);
     line = file.source->next_keyword(line + 1);
   }
+  parameters_.leave_file();
   if (!ended && !cards_.full() && count > 0) check_end(file);
 }
 
@@ -102,6 +108,7 @@ bool DeckReader::read_keyword(const File& file, std::size_t line) {
   ++use.blocks;
   use.entries += cards_.take_count();
   use.treatment = treatment;
+  if (treatment != Treatment::honoured) note_refused(file, line, keyword.name, use);
   return keyword.name == "END";
 }
 
@@ -113,6 +120,21 @@ bool DeckReader::refuse_encrypted(const File& file, std::size_t line, const Keyw
   diagnostics_.error(place(file, *block), fmt::format("*{}: encrypted cards cannot be read", keyword.name),
                      "ask their owner for plain text");
   return true;
+}
+
+void DeckReader::note_refused(const File& file, std::size_t line, const std::string& name, KeywordUse& use) {
+  if (const KeywordMatch match = index_.match(name); match.keyword >= 0) {
+    use.lacking = keyword_registry()[static_cast<std::size_t>(match.keyword)]->lacking;
+    return;
+  }
+  if (use.blocks == 1 && use.treatment == Treatment::refused) use.lacking = families().refusal(name).lacking;
+  for (DataLines data(*file.source, line + 1); !data.done(); data.step()) ++use.lines;
+}
+
+/// Made when the first keyword without a table comes.
+const Families& DeckReader::families() {
+  if (!families_) families_.emplace();
+  return *families_;
 }
 
 /// Keywords that shape the deck itself.
@@ -130,7 +152,11 @@ bool DeckReader::read_deck_keyword(const File& file, std::size_t line, const Key
 Treatment DeckReader::read_cards(const File& file, std::size_t line, const KeywordLine& keyword) {
   const Location where = place(file, line);
   const KeywordMatch match = index_.match(keyword.name);
-  if (match.keyword < 0) return refuse(keyword.name, where);
+  if (match.keyword < 0) {
+    for (DataLines data(*file.source, line + 1); !data.done(); data.step())
+      parameters_.note_mentions(data.line());
+    return refuse(keyword.name, where);
+  }
   const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(match.keyword)];
   const auto [first, is_new] = seen_.try_emplace({match.keyword, match.name}, where);
   if (spec.once && !is_new) {
@@ -144,7 +170,8 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
                .match = match,
                .format = keyword.format});
   if (spec.lacking.empty()) return Treatment::honoured;
-  if (is_new) diagnostics_.error(where, fmt::format("*{}: {} are not supported", keyword.name, spec.lacking));
+  if (refusals_.is_first(keyword.name, diagnostics_))
+    diagnostics_.error(where, fmt::format("*{}: {}", keyword.name, not_supported(spec.lacking)));
   return Treatment::refused;
 }
 
@@ -154,23 +181,30 @@ Treatment DeckReader::refuse(const std::string& name, const Location& where) {
                        "the name stands right behind it; a comment begins with $");
     return Treatment::refused;
   }
-  // a hint takes a look at all keywords, in vain where the warning is not shown
-  const bool shown = diagnostics_.warnings() < Diagnostics::max_warnings;
-  std::string hint = shown || !is_output_request(name) ? index_.hint(name) : std::string();
-  if (is_output_request(name)) {
-    diagnostics_.warning(where, fmt::format("*{}: this request is not supported and has no effect", name),
-                         std::move(hint));
-    return Treatment::output_only;
+  const bool is_output = is_output_request(name);
+  const Treatment treatment = is_output ? Treatment::output_only : Treatment::refused;
+  if (is_output && diagnostics_.warnings() >= Diagnostics::max_warnings) {
+    diagnostics_.warning(where, "");  // only counted: a hint would take a look at all keywords in vain
+    return treatment;
   }
-  if (hint.empty()) hint = "`courant keywords` lists the supported keywords";
-  diagnostics_.error(where, fmt::format("*{}: unknown keyword", name), std::move(hint));
-  return Treatment::refused;
+  if (!refusals_.is_first(name, diagnostics_)) return treatment;
+  if (is_output) {
+    diagnostics_.warning(where, fmt::format("*{}: this request is not supported and has no effect", name),
+                         families().slip(name, 1));
+    return treatment;
+  }
+  Refusal why = families().refusal(name);
+  diagnostics_.error(
+      where,
+      fmt::format("*{}: {}", name, why.lacking.empty() ? "unknown keyword" : not_supported(why.lacking)),
+      std::move(why.hint));
+  return treatment;
 }
 
 void DeckReader::read_title(const File& file, std::size_t line) {
   DataLines data(*file.source, line + 1);
   if (data.done()) return;
-  deck_.title = trimmed(data.line());
+  deck_.title = parameters_.with_texts(trimmed(data.line()));
   data.step();
   warn_of_more_lines(file, data, "TITLE");
 }

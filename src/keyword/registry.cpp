@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <numeric>
 
 namespace courant {
 
@@ -14,16 +13,17 @@ std::vector<std::shared_ptr<const KeywordSpec>>& mutable_registry() {
   return registry;
 }
 
-/// Takes one of _TITLE, _ID and _MPP out of a name, the last that stands there; each only once.
+/// Takes one of _TITLE, _ID, _MPP and _COLLECT out of a name, the last that stands there; each only once.
 bool take_option(std::string& name, KeywordMatch& options) {
   for (std::size_t end = name.size(); end != std::string::npos && end > 0;) {
     const std::size_t begin = name.rfind('_', end - 1);
     if (begin == std::string::npos) return false;
     const std::string_view word(name.data() + begin, end - begin);
-    bool* option = word == "_TITLE" ? &options.title
-                   : word == "_ID"  ? &options.id
-                   : word == "_MPP" ? &options.mpp
-                                    : nullptr;
+    bool* option = word == "_TITLE"     ? &options.title
+                   : word == "_ID"      ? &options.id
+                   : word == "_MPP"     ? &options.mpp
+                   : word == "_COLLECT" ? &options.collect
+                                        : nullptr;
     if (option && !*option) {
       *option = true;
       name.erase(begin, end - begin);
@@ -32,21 +32,6 @@ bool take_option(std::string& name, KeywordMatch& options) {
     end = begin;
   }
   return false;
-}
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t(0));
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -78,47 +63,13 @@ KeywordMatch KeywordIndex::match(const std::string& name) const {
     if (it == by_name_.end()) continue;
     const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(it->second.keyword)];
     if ((options.title && !spec.title_option) || (options.id && !spec.id_option) ||
-        (options.mpp && !spec.mpp_option))
+        (options.mpp && !spec.mpp_option) || (options.collect && !spec.collect_option))
       return {};
     options.keyword = it->second.keyword;
     options.name = it->second.name;
     return options;
   }
   return {};
-}
-
-std::string KeywordIndex::hint(const std::string& name) const {
-  std::string base;  // longest known name that `name` continues with an option
-  std::vector<std::string> names;
-  for (const auto& [known, match] : by_name_) {
-    names.push_back(known);
-    if (name.size() > known.size() && name.compare(0, known.size(), known) == 0 &&
-        name[known.size()] == '_' && known.size() > base.size())
-      base = known;
-  }
-  std::sort(names.begin(), names.end());
-  const std::string near = nearest_word(name, names);
-  if (!near.empty() && edit_distance(name, near) <= 2) return fmt::format("did you mean *{}?", near);
-  if (!base.empty())
-    return fmt::format("*{} is supported, its option {} is not", base, name.substr(base.size()));
-  if (!near.empty()) return fmt::format("did you mean *{}?", near);
-  return {};
-}
-
-std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
-  std::string best;
-  constexpr std::size_t longest_word = 100;  // a whole line is no misspelt word, and takes long to compare
-  if (word.size() > longest_word) return best;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates) {
-    if (candidate.size() >= word.size() + least || word.size() >= candidate.size() + least) continue;
-    const std::size_t distance = edit_distance(word, candidate);
-    if (distance < least) {
-      least = distance;
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 }  // namespace courant

@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/nearest_word.hpp"
 #include "keyword/card.hpp"
 #include "keyword/deck.hpp"
 #include "keyword/keyword_spec.hpp"
+#include "keyword/law_names.hpp"
 
 namespace courant {
 
@@ -21,16 +23,17 @@ void register_keyword(std::shared_ptr<const KeywordSpec> spec);
 template <class T>
 struct RegisterKeyword {
   explicit RegisterKeyword(KeywordOf<T> keyword) {
+    add_law_names(keyword.names);
     register_keyword(make_keyword_spec<T>(std::move(keyword)));
   }
 };
 
-/// What a keyword line names: the registry's keyword, which of its names, and the options _TITLE, _ID and
-/// _MPP.
+/// What a keyword line names: the registry's keyword, which of its names, and the options _TITLE, _ID,
+/// _MPP and _COLLECT.
 struct KeywordMatch {
   int keyword = -1;  ///< index into the registry, -1: unknown
   int name = 0;
-  bool title = false, id = false, mpp = false;
+  bool title = false, id = false, mpp = false, collect = false;
 };
 
 /// Look-up by name; holds for the keywords registered when it was made.
@@ -38,21 +41,24 @@ class KeywordIndex {
  public:
   KeywordIndex();
   KeywordMatch match(const std::string& name) const;  ///< `name` in upper case, without '*'
-  std::string hint(const std::string& name) const;  ///< "did you mean ...?" for an unknown name; may be empty
 
  private:
   std::unordered_map<std::string, KeywordMatch> by_name_;
 };
 
-/// The candidate with the fewest edits from `word`, or empty if none is near.
-std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
-
 /// "*PART card 1 field 2 (SECID, section id [-])", the beginning of every message about a field.
 std::string describe_field(const KeywordSpec& spec, int name, std::size_t card, std::size_t field);
 
-/// Cards of one keyword as text (`courant keywords NAME`), and the whole of docs/keywords.md.
+/// Cards of one keyword as text, and the whole of docs/keywords.md.
 std::string keyword_help(const std::string& name);  ///< empty if there is no such keyword
 std::string keyword_list();
+/// What `courant keywords NAME` says: the cards of that keyword, and the names that go on from it or contain
+/// it; for names without a table why they are refused, then `found` is false.
+struct KeywordAnswer {
+  bool found = false;
+  std::string text, hint;
+};
+KeywordAnswer find_keywords(const std::string& name);
 std::string keyword_markdown();
 
 }  // namespace courant

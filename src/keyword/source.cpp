@@ -18,9 +18,10 @@ Slice slice_of(std::string_view line, std::size_t begin, std::size_t end) {
 }
 
 void split_commas(std::string_view line, std::vector<Slice>& slices) {
+  const bool brackets = has_brackets(line);
   std::size_t begin = 0;
   while (true) {
-    const std::size_t comma = line.find(',', begin);
+    const std::size_t comma = next_comma(line, begin, brackets);
     slices.push_back(slice_of(line, begin, std::min(comma, line.size())));
     if (comma == std::string_view::npos) return;
     begin = comma + 1;
@@ -92,6 +93,34 @@ void skip_card(DataLines& data, const CardSpec& card) {
     data.step();
 }
 
+bool has_brackets(std::string_view line) {
+  if (line.find_first_of("(<") == std::string_view::npos) return false;
+  int depth = 0;
+  for (const char c : line) {
+    if (c == '(' || c == '<') ++depth;
+    if ((c == ')' || c == '>') && depth > 0) --depth;
+  }
+  return depth == 0;
+}
+
+std::size_t next_comma(std::string_view line, std::size_t from, bool brackets) {
+  if (!brackets) return line.find(',', from);
+  int depth = 0;
+  for (std::size_t k = from; k < line.size(); ++k) {
+    const char c = line[k];
+    if (c == '(' || c == '<') ++depth;
+    if ((c == ')' || c == '>') && depth > 0) --depth;
+    if (c == ',' && depth == 0) return k;
+  }
+  return std::string_view::npos;
+}
+
+bool is_comma_line(std::string_view line, std::size_t columns) {
+  // most lines have no comma at all
+  return line.substr(0, columns).find(',') != std::string_view::npos &&
+         next_comma(line, 0, has_brackets(line)) < columns;
+}
+
 int field_width(const FieldSpec& field, CardFormat format) {
   const int width = field.rules.width;
   if (format == CardFormat::i10) return std::max(width, 10);
@@ -113,7 +142,7 @@ void split_card(std::string_view line, const CardSpec& card, CardFormat format, 
   const bool list = !card.fields.empty() && card.fields.back().takes_rest;
   const std::size_t total = last_column(card, format);
   // what stands behind the last column is ignored, so a comma there does not make this a comma line
-  if (line.substr(0, total).find(',') != std::string_view::npos) {
+  if (is_comma_line(line, total)) {
     split_commas(line, slices);
     if (!list && slices.size() > card.fields.size()) {
       const auto extra = slices.begin() + static_cast<std::ptrdiff_t>(card.fields.size());
@@ -141,7 +170,7 @@ void split_card(std::string_view line, const CardSpec& card, CardFormat format, 
 
 std::vector<Slice> split_equal(std::string_view line, int width, int limit) {
   std::vector<Slice> slices;
-  if (line.substr(0, static_cast<std::size_t>(limit)).find(',') != std::string_view::npos) {
+  if (is_comma_line(line, static_cast<std::size_t>(limit))) {
     split_commas(line, slices);
     return slices;
   }

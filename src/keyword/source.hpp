@@ -92,6 +92,15 @@ std::string read_file_name(DataLines& data);
 /// Steps over a card, of one line or, if it holds a name of a file, of several.
 void skip_card(DataLines& data, const CardSpec& card);
 
+/// Whether `line` has parentheses or <...>, all of them closed; commas inside them do not separate fields.
+bool has_brackets(std::string_view line);
+
+/// Place of the next comma that separates fields, or npos. `brackets`: what has_brackets says of the line.
+std::size_t next_comma(std::string_view line, std::size_t from, bool brackets);
+
+/// Whether a comma within the first `columns` columns separates fields.
+bool is_comma_line(std::string_view line, std::size_t columns);
+
 int field_width(const FieldSpec& field, CardFormat format);
 
 /// Cuts a data line into the card's fields; a list takes all further columns. `too_many`: fields of a comma

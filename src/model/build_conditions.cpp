@@ -84,16 +84,49 @@ void ModelBuilder::build_body_loads() {
 }
 
 void ModelBuilder::build_constraints() {
-  const auto hold = [&](Index n, const BoundarySpcCard& card) {
+  const auto hold = [&](Index n, const std::array<bool, 3>& held) {
     auto& fixed = model_.nodes[static_cast<std::size_t>(n)].fixed;
-    const int dof[] = {card.dofx, card.dofy, card.dofz};
-    for (std::size_t k = 0; k < 3; ++k) fixed[k] = fixed[k] || dof[k] == 1;
+    for (std::size_t k = 0; k < 3; ++k) fixed[k] = fixed[k] || held[k];
   };
   for (const auto& card : deck_.all<BoundarySpcNodeCard>())
-    if (const Index n = node(card, "NID", card.nid); n >= 0) hold(n, card);
-  for (const auto& card : deck_.all<BoundarySpcSetCard>())
-    if (const auto* members = node_set(card, "NSID", card.nid))
-      for (const Index n : *members) hold(n, card);
+    if (const Index n = node(card, "NID", card.nid); n >= 0) hold(n, held_directions(card));
+  for (const auto& card : deck_.all<BoundarySpcSetCard>()) {
+    const std::vector<Index>* members = node_set(card, "NSID", card.nid);
+    const std::array<bool, 3> held = held_directions(card);
+    if (!members) continue;
+    for (const Index n : *members) hold(n, held);
+  }
+}
+
+/// The global directions that a card holds. In a system of its own that works as long as each held axis is
+/// along a global one, or all are held.
+std::array<bool, 3> ModelBuilder::held_directions(const BoundarySpcCard& card) {
+  const std::array<bool, 3> held = {card.dofx == 1, card.dofy == 1, card.dofz == 1};
+  if (card.cid == 0 || held == std::array{true, true, true}) return held;
+  std::array<bool, 3> out = {false, false, false};
+  const CoordinateSystem* system = coordinate_system(card, "CID", card.cid);
+  if (!system) return out;
+  constexpr Real along = 1 - 1e-9;  // cosine
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!held[k]) continue;
+    const Vec axis = system->axes.col(static_cast<Eigen::Index>(k)).cwiseAbs();
+    Eigen::Index nearest = 0;
+    if (axis.maxCoeff(&nearest) < along || system->moves) {
+      error(card, "CID",
+            fmt::format("a constraint along the axes of system {} is not supported, as {}", card.cid,
+                        system->moves ? "it turns with nodes" : "they are not along the global axes"),
+            "hold all three translations, or use a system along the global axes");
+      return out;
+    }
+    out[static_cast<std::size_t>(nearest)] = true;
+  }
+  return out;
+}
+
+/// The columns are the directions in which a card gives its velocities.
+Matrix ModelBuilder::axes_of(const Entry& card, Id icid) {
+  const CoordinateSystem* system = icid == 0 ? nullptr : coordinate_system(card, "ICID", icid);
+  return system ? system->axes : Matrix(Matrix::Identity());
 }
 
 void ModelBuilder::build_velocities() {
@@ -101,7 +134,7 @@ void ModelBuilder::build_velocities() {
   for (const auto& card : deck_.all<InitialVelocityGenerationCard>()) set_velocity(card);
   for (const auto& card : deck_.all<InitialVelocityNodeCard>())
     if (const Index n = node(card, "NID", card.nid); n >= 0)
-      model_.nodes[static_cast<std::size_t>(n)].v = {card.vx, card.vy, card.vz};
+      model_.nodes[static_cast<std::size_t>(n)].v = axes_of(card, card.icid) * Vec(card.vx, card.vy, card.vz);
 }
 
 void ModelBuilder::set_velocity(const InitialVelocityCard& card) {
@@ -109,16 +142,17 @@ void ModelBuilder::set_velocity(const InitialVelocityCard& card) {
   const std::vector<Index>* set = card.nsid == 0 ? nullptr : node_set(card, "NSID", card.nsid);
   const std::vector<Index>* excepted = card.nsidex == 0 ? nullptr : node_set(card, "NSIDEX", card.nsidex);
   if ((card.boxid != 0 && !inside) || (card.nsid != 0 && !set) || (card.nsidex != 0 && !excepted)) return;
+  const Matrix axes = axes_of(card, card.icid);
+  const Vec v = axes * Vec(card.vx, card.vy, card.vz), ve = axes * Vec(card.vxe, card.vye, card.vze);
   const auto apply = [&](ModelNode& n) {
-    if (!inside || inside->contains(n.x)) n.v = {card.vx, card.vy, card.vz};
+    if (!inside || inside->contains(n.x)) n.v = v;
   };
   if (set)
     for (const Index n : *set) apply(model_.nodes[static_cast<std::size_t>(n)]);
   else
     for (ModelNode& n : model_.nodes) apply(n);
-  if (excepted)
-    for (const Index n : *excepted)
-      model_.nodes[static_cast<std::size_t>(n)].v = {card.vxe, card.vye, card.vze};
+  if (!excepted) return;
+  for (const Index n : *excepted) model_.nodes[static_cast<std::size_t>(n)].v = ve;
 }
 
 void ModelBuilder::set_velocity(const InitialVelocityGenerationCard& card) {
@@ -127,13 +161,15 @@ void ModelBuilder::set_velocity(const InitialVelocityGenerationCard& card) {
     error(card, "NX", "an axis given by two nodes (-999) is not supported", "give the direction of the axis");
     return;
   }
-  const Vec direction(card.nx, card.ny, card.nz);
+  const Matrix axes = axes_of(card, card.icid);
+  const Vec direction = axes * Vec(card.nx, card.ny, card.nz);
   if (card.omega != 0 && direction.norm() == 0) {
     error(card, "NX", "the axis of the rotation has no direction", "give NX, NY, NZ, not all zero");
     return;
   }
   const Vec omega = card.omega == 0 ? Vec(Vec::Zero()) : Vec(card.omega * direction.normalized());
-  const Vec centre(card.xc, card.yc, card.zc), v(card.vx, card.vy, card.vz);
+  const Vec centre(card.xc, card.yc, card.zc);  // global, also with ICID
+  const Vec v = axes * Vec(card.vx, card.vy, card.vz);
   for (const Index n : nodes_of(card)) {
     ModelNode& target = model_.nodes[static_cast<std::size_t>(n)];
     target.v = v + omega.cross(target.x - centre);

@@ -56,9 +56,9 @@ void ModelBuilder::build_nodes() {
 }
 
 void ModelBuilder::build_parts() {
-  for (const PartCard& card : deck_.all<PartCard>()) {
+  const auto add = [&](const PartCard& card) {
     if (!model_.part_of_id.try_emplace(card.pid, static_cast<Index>(model_.parts.size())).second)
-      continue;  // the reader has refused it
+      return;  // the reader has refused it
     ModelPart part;
     part.id = card.pid;
     part.title = card.title;
@@ -69,7 +69,9 @@ void ModelBuilder::build_parts() {
     part.where = deck_.where(card, "PID");
     part.card = card;
     model_.parts.push_back(std::move(part));
-  }
+  };
+  for (const PartCard& card : deck_.all<PartCard>()) add(card);
+  for (const PartContactCard& card : deck_.all<PartContactCard>()) add(card);
 }
 
 void ModelBuilder::build_particles() {

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "model/cards_elements.hpp"
 #include "model/model_builder.hpp"
+#include "model/sets.hpp"
 
 namespace courant {
 
@@ -14,6 +16,8 @@ void release_mesh_cards(Deck& deck) {
   deck.release<NodeCard>();
   deck.release<ElementSphCard>();
   deck.release<ElementShellCard>();
+  deck.release<ElementSolidCard>();
+  release_set_cards(deck);
 }
 
 Model ModelBuilder::build() {
@@ -22,11 +26,15 @@ Model ModelBuilder::build() {
   build_parts();
   build_particles();
   build_shells();
+  build_solids();
   check_shared_nodes();
   build_curves();
+  build_tables();
   build_boxes();
-  build_node_sets();
-  build_part_sets();
+  build_local_boxes();
+  build_coordinate_systems();
+  build_vectors();
+  build_sets();
   move_nodes();
   build_control();
   build_output();
@@ -96,6 +104,13 @@ const Box* ModelBuilder::box(const Entry& entry, std::string_view field, Id id) 
   const auto it = model_.boxes.find(id);
   if (it != model_.boxes.end()) return &it->second;
   unknown(entry, field, "box", id, "*DEFINE_BOX");
+  return nullptr;
+}
+
+const CoordinateSystem* ModelBuilder::coordinate_system(const Entry& entry, std::string_view field, Id id) {
+  const auto it = model_.coordinate_systems.find(id);
+  if (it != model_.coordinate_systems.end()) return &it->second;
+  unknown(entry, field, "coordinate system", id, "*DEFINE_COORDINATE_SYSTEM");
   return nullptr;
 }
 

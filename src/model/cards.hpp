@@ -31,18 +31,9 @@ struct PartCard : Entry {
   int grav, adpopt;
   Id tmid;
 };
-
-struct SetCard : Entry {
-  std::string title;
-  Id sid;
-  Real da1, da2, da3, da4;
-  std::string solver;
-  int its;
-  std::vector<Id> ids;
+struct PartContactCard : PartCard {
+  Real fs, fd, dc, vc, optt, sft, ssf, cparm8;
 };
-struct SetNodeCard : SetCard {};
-struct SetNodeGenerateCard : SetCard {};  ///< ids: first, last, first, last, ...
-struct SetPartCard : SetCard {};
 
 struct DefineCurveCard : Entry {
   std::string title;

@@ -16,6 +16,7 @@ FieldRules optional_of(IdSpace space) {
 const FieldRules local_system{.honour = Honour::no, .refers = IdSpace::coordinate_system};
 const FieldRules unsupported{.honour = Honour::no};
 const FieldRules no_effect{.honour = Honour::ignored};
+const FieldRules system_id{.check = Check::not_negative, .refers = IdSpace::coordinate_system};
 const FieldRules flag{.allowed = {0, 1}};
 
 using V = InitialVelocityCard;
@@ -33,7 +34,7 @@ const RegisterKeyword<V> initial_velocity{
                             optional_of(IdSpace::node_set)},
                            {"BOXID", &V::boxid, "-", "only nodes in this box", optional_of(IdSpace::box)},
                            {"IRIGID", &V::irigid, "-", "overwrites PART_INERTIA velocities", unsupported},
-                           {"ICID", &V::icid, "-", "local coordinate system id", local_system}}},
+                           {"ICID", &V::icid, "-", "system of the velocities, 0 global", system_id}}},
                {.fields = {{"VX", &V::vx, "L/T", "velocity in x"},
                            {"VY", &V::vy, "L/T", "velocity in y"},
                            {"VZ", &V::vz, "L/T", "velocity in z"},
@@ -60,7 +61,7 @@ const RegisterKeyword<VN> initial_velocity_node{
                            {"VXR", &VN::vxr, "1/T", "angular velocity about x", unsupported},
                            {"VYR", &VN::vyr, "1/T", "angular velocity about y", unsupported},
                            {"VZR", &VN::vzr, "1/T", "angular velocity about z", unsupported},
-                           {"ICID", &VN::icid, "-", "local coordinate system id", local_system}}}},
+                           {"ICID", &VN::icid, "-", "system of the velocities, 0 global", system_id}}}},
      .move = [](VN& card, const Affine& motion) {
        return card.icid != 0 ? std::string() : move_velocity(card.vx, card.vy, card.vz, motion);
      }}};
@@ -102,7 +103,8 @@ const RegisterKeyword<VG> initial_velocity_generation{
                            {"VY", &VG::vy, "L/T", "velocity in y"},
                            {"VZ", &VG::vz, "L/T", "velocity in z"},
                            {"IVATN", &VG::ivatn, "-", "also constrained nodes and parts", no_effect},
-                           {"ICID", &VG::icid, "-", "local coordinate system id", local_system}}},
+                           {"ICID", &VG::icid, "-", "system of V and of the axis direction, 0 global",
+                            system_id}}},
                {.fields = {{"XC", &VG::xc, "L", "x of a point on the axis", {.spatial = Spatial::point}},
                            {"YC", &VG::yc, "L", "y of a point on the axis"},
                            {"ZC", &VG::zc, "L", "z of a point on the axis"},
@@ -137,7 +139,7 @@ KeywordOf<T> boundary_spc(std::string name, std::string purpose, std::string fie
           .title = &T::title,
           .id = &T::id,
           .cards = {{.fields = {{std::move(field), &T::nid, "-", std::move(meaning), required_of(refers)},
-                                {"CID", &T::cid, "-", "coordinate system id", local_system},
+                                {"CID", &T::cid, "-", "system of the directions, 0 global", system_id},
                                 {"DOFX", &T::dofx, "-", "1 holds the translation in x", flag},
                                 {"DOFY", &T::dofy, "-", "1 holds the translation in y", flag},
                                 {"DOFZ", &T::dofz, "-", "1 holds the translation in z", flag},

@@ -1,4 +1,4 @@
-// Tables of nodes, elements, parts, sets, curves and boxes.
+// Tables of nodes, elements, parts, curves and boxes.
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
 #include "model/transformation.hpp"
@@ -123,54 +123,12 @@ const RegisterKeyword<P> part{
                             "thermal material id",
                             {.honour = Honour::no, .refers = IdSpace::material}}}}}}};
 
-/// The first card of all sets.
-template <class T>
-CardOf<T> set_card() {
-  return {.fields = {{"SID", &T::sid, "-", "set id", required_id},
-                     {"DA1", &T::da1, "-", "attribute 1", unsupported},
-                     {"DA2", &T::da2, "-", "attribute 2", unsupported},
-                     {"DA3", &T::da3, "-", "attribute 3", unsupported},
-                     {"DA4", &T::da4, "-", "attribute 4", unsupported},
-                     {"SOLVER", &T::solver, "-", "solver that owns the set", no_effect},
-                     {"ITS", &T::its, "-", "two-scale flag", no_effect}}};
-}
-
-const RegisterKeyword<SetNodeCard> set_node{
-    {.names = {"SET_NODE_LIST", "SET_NODE"},
-     .purpose = "set of nodes, by their ids",
-     .id_space = IdSpace::node_set,
-     .title_option = true,
-     .title = &SetNodeCard::title,
-     .cards = {set_card<SetNodeCard>(),
-               {.fields = {{"NID", &SetNodeCard::ids, "-", "node ids", optional_of(IdSpace::node)}},
-                .repeat = true}}}};
-
-const RegisterKeyword<SetNodeGenerateCard> set_node_generate{
-    {.names = {"SET_NODE_LIST_GENERATE", "SET_NODE_GENERATE"},
-     .purpose = "set of all nodes with ids in given ranges",
-     .id_space = IdSpace::node_set,
-     .title_option = true,
-     .title = &SetNodeGenerateCard::title,
-     .cards = {set_card<SetNodeGenerateCard>(),
-               {.fields = {{"BNBEG", &SetNodeGenerateCard::ids, "-",
-                            "first id, last id, first id, last id, ...", optional_of(IdSpace::node)}},
-                .repeat = true}}}};
-
-const RegisterKeyword<SetPartCard> set_part{
-    {.names = {"SET_PART_LIST", "SET_PART"},
-     .purpose = "set of parts, by their ids",
-     .id_space = IdSpace::part_set,
-     .title_option = true,
-     .title = &SetPartCard::title,
-     .cards = {set_card<SetPartCard>(),
-               {.fields = {{"PID", &SetPartCard::ids, "-", "part ids", optional_of(IdSpace::part)}},
-                .repeat = true}}}};
-
 using C = DefineCurveCard;
 const RegisterKeyword<C> define_curve{
     {.names = {"DEFINE_CURVE"},
      .purpose =
-         "piecewise linear curve: SFO (ordinate + OFFO) at SFA (abscissa + OFFA); constant beyond its ends",
+         "piecewise linear curve: SFO (ordinate + OFFO) at SFA (abscissa + OFFA); constant beyond its ends; "
+         "two points with one abscissa are a jump, at which the later one holds",
      .id_space = IdSpace::curve,
      .title_option = true,
      .title = &C::title,
@@ -182,7 +140,11 @@ const RegisterKeyword<C> define_curve{
                {"SFO", &C::sfo, "-", "scale of the ordinate", {.standard = 1}},
                {"OFFA", &C::offa, "-", "offset of the abscissa"},
                {"OFFO", &C::offo, "-", "offset of the ordinate"},
-               {"DATTYP", &C::dattyp, "-", "kind of data", unsupported},
+               {"DATTYP",
+                &C::dattyp,
+                "-",
+                "kind of data: 0 over time, 1 pairs (x, y); the same here, as x may not decrease",
+                {.allowed = {0, 1}}},
                {"LCINT", &C::lcint, "-", "number of points for resampling", no_effect}}},
          {.fields = {{"A1", &C::a, "-", "abscissa", {.width = 20}},
                      {"O1", &C::o, "-", "ordinate", {.width = 20}}},

@@ -17,7 +17,12 @@ Real Curve::operator()(Real a) const {
 void Model::release_mesh() {
   std::vector<ModelNode>().swap(nodes);  // clear() would keep the memory
   std::vector<ModelSph>().swap(sph);
+  std::vector<ModelSolid>().swap(solids);
+  std::vector<ModelSegment>().swap(segments);
   node_sets.clear();
+  shell_sets.clear();
+  solid_sets.clear();
+  segment_sets.clear();
 }
 
 }  // namespace courant

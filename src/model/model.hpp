@@ -45,17 +45,58 @@ struct ModelShell {
   std::array<Index, 4> node = {0, 0, 0, 0};  ///< triangle: node[3] == node[2]
 };
 
+/// Solids are known to sets and counts only.
+struct ModelSolid {
+  Id id = 0;
+  Index part = 0;
+  std::array<Index, 10> node{};  ///< in the deck's order, repeated ones too; -1 behind the last
+};
+
+/// A face told by its corners; triangle: node[3] == node[2], line in 2D: node[3] == node[2] == node[1]. Its
+/// normal follows from the order of the corners.
+struct ModelSegment {
+  std::array<Index, 4> node{};
+};
+
 /// Piecewise linear, constant beyond its ends. Values are SFO (ordinate + OFFO) at SFA (abscissa + OFFA).
+/// Two points with the same abscissa are a jump; at the abscissa itself the later one holds.
 struct Curve {
   Id id = 0;
   std::vector<Real> abscissa, ordinate;
   Real operator()(Real a) const;
 };
 
+/// Curves over a parameter: DEFINE_TABLE and _2D (curve ids), _3D (ids of tables).
+struct Table {
+  Id id = 0;
+  std::vector<Real> value{};  ///< SFA (VALUE + OFFA), increasing
+  std::vector<Id> curve{};    ///< one for each value
+  bool of_tables = false;
+};
+
+/// Cartesian, right-handed. Column k of `axes` is the local axis k.
+struct CoordinateSystem {
+  Id id = 0;
+  Vec origin = Vec::Zero();
+  Matrix axes = Matrix::Identity();
+  bool moves = false;  ///< FLAG or NID: turns with nodes from t = 0 on
+};
+
+/// DEFINE_VECTOR
+struct ModelVector {
+  Id id = 0;
+  Vec tail = Vec::Zero(), head = Vec::Zero();
+  bool moves = false;  ///< given by nodes
+};
+
 struct Box {
   Id id = 0;
-  Vec low = Vec::Zero(), high = Vec::Zero();
-  bool contains(const Vec& x) const {
+  Vec low = Vec::Zero(), high = Vec::Zero();  ///< along the axes below
+  bool local = false;                         ///< DEFINE_BOX_LOCAL: with axes and an origin of its own
+  Vec origin = Vec::Zero();
+  Matrix axes = Matrix::Identity();
+  bool contains(const Vec& point) const {
+    const Vec x = local ? Vec(axes.transpose() * (point - origin)) : point;
     return (x.array() >= low.array()).all() && (x.array() <= high.array()).all();
   }
 };
@@ -81,11 +122,19 @@ struct Model {
   std::vector<ModelPart> parts;
   std::vector<ModelSph> sph;
   std::vector<ModelShell> shells;
+  std::vector<ModelSolid> solids;
+  std::vector<ModelSegment> segments;  ///< those of all segment sets
   std::unordered_map<Id, Index> part_of_id;
-  std::map<Id, std::vector<Index>> node_sets;  ///< indices into nodes
-  std::map<Id, std::vector<Index>> part_sets;  ///< indices into parts
+  std::map<Id, std::vector<Index>> node_sets;     ///< indices into nodes
+  std::map<Id, std::vector<Index>> part_sets;     ///< indices into parts
+  std::map<Id, std::vector<Index>> shell_sets;    ///< indices into shells
+  std::map<Id, std::vector<Index>> solid_sets;    ///< indices into solids
+  std::map<Id, std::vector<Index>> segment_sets;  ///< indices into segments
   std::map<Id, Curve> curves;
+  std::map<Id, Table> tables;
   std::map<Id, Box> boxes;
+  std::map<Id, CoordinateSystem> coordinate_systems;
+  std::map<Id, ModelVector> vectors;
   std::vector<BodyLoad> body_loads;
   OutputRequests output;
 
@@ -97,7 +146,8 @@ struct Model {
   bool dt_max_given = false;
   Curve dt_max;  ///< LCTM: largest step over time
 
-  /// Gives back nodes, particles and node sets, once the world is built from them.
+  /// Gives back nodes, particles, solids and the sets of nodes and elements, once the world is built from
+  /// them.
   void release_mesh();
 };
 

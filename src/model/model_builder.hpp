@@ -1,5 +1,6 @@
 #pragma once
 // The steps of build_model, over several files: mesh, sets, conditions.
+#include <array>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -8,6 +9,7 @@
 
 #include "keyword/deck.hpp"
 #include "model/cards.hpp"
+#include "model/define_cards.hpp"
 #include "model/id_index.hpp"
 #include "model/model.hpp"
 
@@ -24,22 +26,32 @@ class ModelBuilder {
   void build_parts();
   void build_particles();
   void build_shells();
+  void build_solids();
   void add_particle(const ElementSphCard& card, Id nid, Index part);
   void check_shared_nodes();
-  // build_sets.cpp
-  void build_node_sets();
-  void build_part_sets();
+  // build_definitions.cpp
+  void build_sets();
   void build_curves();
   void build_boxes();
-  void add_generated(const SetNodeGenerateCard& card, std::vector<Index>& members);
   // move_nodes.cpp
   void move_nodes();
+  // build_frames.cpp
+  void build_local_boxes();
+  void build_coordinate_systems();
+  void build_vectors();
+  void add_system(const CoordinateNodesCard& card);
+  void add_system(const CoordinateSystemCard& card);
+  void build_tables();
+  void add_table(const Entry& card, Table table);
+  void check_tables();
   // build_conditions.cpp
   void build_control();
   void build_output();
   void build_output_history();
   void build_body_loads();
   void build_constraints();
+  std::array<bool, 3> held_directions(const BoundarySpcCard& card);
+  Matrix axes_of(const Entry& card, Id icid);
   void build_velocities();
   void set_velocity(const InitialVelocityCard& card);
   void set_velocity(const InitialVelocityGenerationCard& card);
@@ -53,6 +65,7 @@ class ModelBuilder {
   const std::vector<Index>* part_set(const Entry& entry, std::string_view field, Id id);
   const Curve* curve(const Entry& entry, std::string_view field, Id id);
   const Box* box(const Entry& entry, std::string_view field, Id id);
+  const CoordinateSystem* coordinate_system(const Entry& entry, std::string_view field, Id id);
   void unknown(const Entry& entry, std::string_view field, const char* what, Id id, const char* keyword);
 
   void error(const Entry& entry, std::string_view field, std::string message, std::string hint = {});

@@ -201,8 +201,8 @@ class Evaluation {
 
   Affine error(const std::string& field, const std::string& message, std::string hint = {}) {
     faulty_ = true;
-    diagnostics_.error(deck_.where(card_, field, row_), deck_.describe(card_, field) + ": " + message,
-                       std::move(hint));
+    diagnostics_.error(deck_.where(card_, field, Deck::Repeat{.row = row_}),
+                       deck_.describe(card_, field) + ": " + message, std::move(hint));
     return Affine::Identity();
   }
 
@@ -231,7 +231,7 @@ Evaluation::NodeOfId node_finder(const Deck& deck, Diagnostics& diagnostics) {
       [&deck, &diagnostics, nodes, moved_by](const Card& card, std::size_t row, Id id) -> std::optional<Vec> {
         const auto it = nodes.find(id);
         const auto fail = [&](std::string message, std::string hint) {
-          diagnostics.error(deck.where(card, "OPTION", row),
+          diagnostics.error(deck.where(card, "OPTION", Deck::Repeat{.row = row}),
                             deck.describe(card, "OPTION") + ": " + std::move(message), std::move(hint));
           return std::nullopt;
         };

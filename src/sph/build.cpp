@@ -103,6 +103,10 @@ class Builder {
       if (box == model_.boxes.end())
         deck_.error(diagnostics_, *c, "BOXID", fmt::format("box {} does not exist", c->boxid),
                     "define it with *DEFINE_BOX");
+      else if (box->second.local)
+        deck_.error(diagnostics_, *c, "BOXID",
+                    fmt::format("box {} has axes of its own, which is not supported here", c->boxid),
+                    "use a *DEFINE_BOX along the global axes");
       else
         settings_.region = Neighbours::Region{box->second.low, box->second.high};
     }

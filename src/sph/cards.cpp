@@ -7,8 +7,8 @@ namespace courant {
 namespace {
 
 const RegisterKeyword<SectionSph> section_sph{
-    {.names = {"SECTION_SPH"},
-     .purpose = "smoothing length of SPH parts",
+    {.names = {"SECTION_SPH", "SECTION_SPH_INTERACTION"},
+     .purpose = "smoothing length of SPH parts; _INTERACTION matters with CONT 1 of *CONTROL_SPH only",
      .id_space = IdSpace::section,
      .title_option = true,
      .title = &SectionSph::title,

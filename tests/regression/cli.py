@@ -92,7 +92,7 @@ ends(1, "generate", scene, "-o", "no.k", "--param", "resolution", err="NAME=VALU
 ends(1, "generate", scene, "-o", "/proc/no.k", err="/proc/no.k")
 ends(1, "generate", "missing.yaml", "-o", "no.k", err="missing.yaml")
 check(not os.path.exists("no.k"), "generate leaves nothing behind")
-ends(0, "check", "tiny.k", out=r"64 particles of which 64 are active.*\n(.*\n)*first step .* set by")
+ends(0, "check", "tiny.k", out=r"64 particles of which 64 are active.*\n(.*\n)*First step .* set by")
 ends(0, "--version", out=r"\d+\.\d+\.\d+")
 ends(0, "help", out="check")
 ends(0, "help", "run", out="--until")
@@ -110,6 +110,11 @@ ends(0, "keywords", out=r"\*MAT_NULL +fluid")
 ends(0, "keywords", "section_sph", out="CSLH")
 ends(0, "keywords", "*MAT_RIGID_TITLE", out="CMO")
 ends(1, "keywords", "MAT_NUL", err="did you mean")
+ends(0, "keywords", "MAT", out=r"(?s)\*MAT_NULL.*\*MAT_RIGID")
+ends(0, "keywords", "sph", out=r"(?s)\*CONTROL_SPH.*\*SECTION_SPH")
+ends(0, "keywords", "SET_NODE", out=r"(?s)SID .*Other keywords with this name in theirs:.*\*SET_NODE_LIST_GENERATE")
+ends(1, "keywords", "AIRBAG_ALE", err="AIRBAG_ALE: airbags are not supported")
+ends(1, "keywords", "DATABASE_ABSTAT", err="decks with it run, with a warning")
 
 # --- a run that ends well
 ends(0, "run", "tiny.k", "-o", "well", "--threads", "1", out="N o r m a l    t e r m i n a t i o n")
@@ -153,6 +158,49 @@ ends(0, "check", "warns.k", err="warning: .DATABASE_NODOUT")
 ends(1, "check", "warns.k", "--strict", err="1 warning")
 ends(1, "run", "tiny.k", "-o", "never", "--restart", "d3dump01", err="not supported")
 check(not os.path.exists("never"), "no folder was made")
+
+# --- check: what it says of good, refused and broken decks
+stdout, _ = ends(0, "check", "tiny.k", "--strict", out=r"The deck can be run: 0 errors, 0 warnings\n$")
+for part in (r"Files\n  tiny.k +\d+ lines", r"\*ELEMENT_SPH +1 +64  honoured", r"  nodes +\d+  from \(", r"  SPH particles +64 ",
+             r"Units: kg-m-s \(N, Pa\)\n  the acceleration 9.81 is gravity, RO = 1000 is water",
+             r"\n +1 \S.* 64 sph ", r"First step \S+ \[T\], set by sph \d+ of part 1\n", r"steps to ENDTIM = 0.05 at this size; on one thread"):
+    check(re.search(part, stdout), f"check says {part!r}")
+check(max(map(len, stdout.splitlines())) <= 100, "no line of the report is wider than 100 columns")
+with open("refused.k", "w") as file:
+    file.write(text.replace("*END", "*INCLUDE\nsolids.k\n*AIRBAG_ALE\n1\n*AIRBAG_ALE\n2\n*END"))
+with open("solids.k", "w") as file:
+    file.write("*NODE\n" + "".join(f"{900001 + i:8d}{i % 2:16d}{i // 2 % 2:16d}{i // 4:16d}\n" for i in range(8))
+               + "*ELEMENT_SOLID\n" + 2 * ("  900001     900" + "".join(f"{900001 + i:8d}" for i in range(8)) + "\n"))
+stdout, stderr = ends(1, "check", "refused.k", out="What a run would need",
+                      err=r"AIRBAG_ALE: airbags are not supported \(here and in 1 more place\)\n(.*\n)*2 errors, 0 warnings.*; the deck cannot be run\n$")
+for part in (r"Files\n  refused.k .*\n    solids.k .*included by refused.k:\d+", r"  SPH particles +64 ", r"  solids +2 ",
+             r"\*ELEMENT_SOLID .*REFUSED: solid elements", r"  not supported: airbags: \*AIRBAG_ALE\n"):
+    check(re.search(part, stdout), f"check says {part!r} of a refused deck")
+check("First step" not in stdout, "no step is promised for a deck that cannot be run")
+ends(1, "check", "bad.k", out=r"(?s)\*MAT_NUL .*REFUSED: unknown", err="1 error")
+ends(1, "check", "missing.k", err="cannot read the deck")
+ends(1, "check", "binary.k", err="text before the first keyword")
+with open("fragment.k", "w") as file:
+    file.write("*KEYWORD\n*NODE\n       1\n*END\n")
+ends(1, "check", "fragment.k", out=r"(?s)nodes +1 .*not in the deck: \*ELEMENT_SPH .*not in the deck: \*CONTROL_TERMINATION \(end time\)")
+both = subprocess.run([courant, "check", "warns.k"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True).stdout
+order = [both.find(word) for word in ("Files", "Keywords", "Mesh", "warning: *DATABASE_NODOUT", "Parts in the run", "First step", "The deck can be run")]
+check(order == sorted(order) and order[0] >= 0, f"what was read, what is wrong, what a run computes, the sum: {order}")
+
+# --- check: a deck of 100 000 particles; the time of the processor, others may use the machine
+side = 316
+with open("large.k", "w") as file:
+    file.write("*KEYWORD\n*CONTROL_SPH\n         1         0    1.0E20         2\n*CONTROL_TERMINATION\n       1.0\n*PART\nwater\n"
+               "         1         1         1         1\n*SECTION_SPH\n         1       1.2       1.0       1.0\n*MAT_NULL\n"
+               "         1    1000.0   -1.0E20\n*EOS_LINEAR_POLYNOMIAL\n         1       0.0     9.0E5\n*NODE\n")
+    file.write("".join(f"{1 + i:8d}{0.01 * (i % side):16.8f}{0.01 * (i // side):16.8f}             0.0\n" for i in range(side * side)))
+    file.write("*ELEMENT_SPH\n" + "".join(f"{1 + i:8d}       1             0.1\n" for i in range(side * side)) + "*END\n")
+before = resource.getrusage(resource.RUSAGE_CHILDREN)
+start = time.time()
+ends(0, "check", "large.k", out=f"SPH particles +{side * side} ")
+after = resource.getrusage(resource.RUSAGE_CHILDREN)
+seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+check(seconds < 2, f"100 000 particles are checked in {seconds:.2f} s of processor time, {time.time() - start:.2f} s in all")
 
 # --- folders that cannot be written: exit code 1
 with open("in_the_way", "w") as file:

@@ -1,23 +1,46 @@
 #!/usr/bin/env python3
-"""A deck written by another program's keyword library, PyDyna (`pip install ansys-dyna-core`), is read as it was meant.
+"""Decks written by another program's keyword library, PyDyna (`pip install ansys-dyna-core`), are read as they were meant.
 
 usage: pydyna.py COURANT WORK_DIR
-Skipped where the Python that runs this does not have the package.
+1. A whole deck: its numbers arrive.
+2. Every keyword that both know, once with PyDyna's defaults and once with all fields filled: the cards are those of Courant's
+   tables, so that no card is missing or too many, and no number stands where Courant expects another kind of value.
+3. Every name that PyDyna knows: none is called unknown.
+The package is looked for in this Python, then in WORK_DIR, where pip puts it; skipped where there is none and pip cannot get it.
 """
 import os
 import re
 import subprocess
 import sys
 
-try:
+courant, work = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+packages = os.path.join(work, "pydyna_packages")
+
+
+def import_pydyna():
+    global pandas, Deck, kwd, TypeMapping
     import pandas
     from ansys.dyna.core import Deck
     from ansys.dyna.core import keywords as kwd
-except ImportError as missing:
-    print(f"skipped: {missing}; `pip install ansys-dyna-core` provides it")
-    sys.exit(77)
+    from ansys.dyna.core.keywords.keyword_classes.type_mapping import TypeMapping
 
-courant, work = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+
+sys.path.append(packages)
+try:
+    import_pydyna()
+except ImportError as missing:
+    call = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--retries", "1", "--target", packages,
+            "ansys-dyna-core"]
+    try:
+        got = subprocess.run(call, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
+        if got.returncode != 0:
+            raise OSError((got.stdout.strip().splitlines() or ["pip failed"])[-1])
+        import_pydyna()
+    except (OSError, ImportError, subprocess.TimeoutExpired) as reason:
+        print(f"skipped: {missing}, and pip cannot get ansys-dyna-core: {reason}")
+        sys.exit(77)
+
+# --- 1: a whole deck
 spacing, count = 0.1, 4
 points = [(i * spacing, j * spacing) for i in range(count) for j in range(count)]
 ids = range(1, len(points) + 1)
@@ -35,15 +58,80 @@ deck.append(kwd.MatNull(mid=1, ro=1000.0, pc=-1.0e20))
 deck.append(kwd.EosLinearPolynomial(eosid=1, c1=9.0e5))
 deck.append(kwd.ControlTermination(endtim=0.01))
 deck.append(kwd.DatabaseBinaryD3Plot(dt=0.005))
-path = os.path.join(work, "pydyna.k")
-with open(path, "w") as file:
-    file.write(deck.write())
 
-done = subprocess.run([courant, "check", path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-print(open(path).read(), done.stdout, done.stderr, sep="\n")
-assert done.returncode == 0, f"courant check ended with exit code {done.returncode}"
-assert "error" not in done.stderr, "the deck has errors"
-row = re.search(r"^ +1 +16 +0 +(\S+) +(\S+) +(\S+) +(\S+)", done.stdout, re.M)
-assert row, "part 1 has 16 particles and no shells"
-mass, density, sound, h = map(float, row.groups())
-assert abs(mass - 160) < 1e-9 and density == 1000 and abs(sound - 30) < 1e-9 and abs(h - 0.12) < 1e-9, row.groups()
+
+
+def check(name, text):
+    """Exit code, stdout and stderr of `courant check` on a deck."""
+    deck_path = os.path.join(work, name)
+    with open(deck_path, "w") as deck_file:
+        deck_file.write(text)
+    got = subprocess.run([courant, "check", deck_path], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60)
+    assert got.returncode in (0, 1), f"courant check {deck_path} ended with exit code {got.returncode}"
+    return got.returncode, got.stdout, got.stderr
+
+
+code, stdout, stderr = check("pydyna.k", deck.write())
+print(stdout, stderr, sep="\n")
+assert code == 0, f"courant check ended with exit code {code}"
+assert "error" not in stderr, "the deck has errors"
+row = re.search(r"^ +1 +16 sph +(\S+) +(\S+) +(\S+) +(\S+) +(\S+) +(\S+)", stdout.replace(" water ", " "), re.M)
+assert row, "part 1 has 16 particles"
+mass, volume, density, sound, distance, h = map(float, row.groups())
+assert (mass, volume, density, sound, distance, h) == (160, 0.16, 1000, 30, 0.1, 0.12), row.groups()
+
+# --- 2: card layouts
+failures = []
+WRONG_LAYOUT = re.compile(r"is missing|one line too many|values behind|is not read|unknown keyword|expected (an integer|a number), got|"
+                          r"text before")
+VALUE = {int: 1, float: 2.5, str: "A"}
+
+
+def filled(keyword):
+    """Sets all fields of plain cards; tables keep their defaults."""
+    for card in keyword._cards:
+        for field in getattr(card, "_fields", []):
+            try:
+                if field.type in VALUE and field.name and hasattr(keyword, field.name):
+                    setattr(keyword, field.name, VALUE[field.type])
+            except Exception:  # not every value is allowed in PyDyna
+                pass
+    return keyword
+
+
+listing = subprocess.run([courant, "keywords"], stdout=subprocess.PIPE, text=True).stdout
+names = [line.split()[0] for line in listing.splitlines()]
+tried = 0
+for name in names:
+    if name not in TypeMapping or name in ("*KEYWORD", "*INCLUDE", "*COMMENT") or name.startswith(("*PARAMETER", "*INCLUDE")):
+        continue
+    make = TypeMapping[name]
+    make = getattr(kwd, make) if isinstance(make, str) else make
+    tried += 1
+    for fill in (False, True):
+        keyword = filled(make()) if fill else make()
+        try:
+            text = keyword.write()
+        except Exception as fault:  # a keyword that PyDyna itself cannot write so
+            print(f"{name}: PyDyna: {type(fault).__name__}")
+            continue
+        if len(text.strip().splitlines()) < 2:  # a table without a row
+            continue
+        _, stdout, stderr = check("pydyna_keyword.k", f"*KEYWORD\n{text}\n*CONTROL_TERMINATION\n       1.0\n*END\n")
+        for message in re.findall(r"(?:error|warning): (.*)", stderr):
+            if WRONG_LAYOUT.search(message) and "*CONTROL_TERMINATION may stand" not in message:
+                failures.append(f"{name} {'filled' if fill else 'default'}: {message}\n{text}")
+print(f"{tried} keywords")
+assert tried >= 40, "too few keywords were tried"
+
+# --- 3: names
+everything = [name.upper() for name in TypeMapping if not name.startswith(("*END", "*KEYWORD", "*INCLUDE", "*PARAMETER", "*COMMENT"))]
+AT_ONCE = 30  # a keyword without cards can give several errors, and reading stops after a hundred
+for begin in range(0, len(everything), AT_ONCE):
+    _, _, stderr = check("pydyna_names.k", "*KEYWORD\n" + "\n".join(everything[begin:begin + AT_ONCE]) + "\n*END\n")
+    failures += re.findall(r".*unknown keyword\n.*", stderr)
+    if "reading stopped" in stderr:
+        failures.append(f"too many errors from {everything[begin]} on")
+print(f"{len(everything)} names")
+print("\n".join(failures))
+sys.exit(f"{len(failures)} failed" if failures else 0)

@@ -33,12 +33,15 @@ TEST(Expression, KnowsParametersAndFunctions) {
 
 TEST(Expression, NamesWhatIsWrong) {
   EXPECT_EQ(evaluate("2 * spacing", variables).error, "unknown parameter 'spacing'");
+  EXPECT_EQ(evaluate("2 * dy", variables).error, "unknown parameter 'dy', did you mean dx?");
   EXPECT_EQ(evaluate("1 / (n - 4)", variables).error, "division by zero");
   EXPECT_EQ(evaluate("(1 + 2", variables).error, "')' is missing");
   EXPECT_EQ(evaluate("1 +", variables).error, "a value is missing");
   EXPECT_EQ(evaluate("", variables).error, "a value is missing");
   EXPECT_EQ(evaluate("2o.0", variables).error, "'o.0' is not understood");
-  EXPECT_EQ(evaluate("sin(1)", variables).error, "unknown function 'sin' of 1 argument(s)");
+  EXPECT_EQ(evaluate("sine(1)", variables).error, "unknown function 'sine', did you mean sin?");
+  EXPECT_EQ(evaluate("2 * ${dx + 1", variables).error, "'}' is missing");
+  EXPECT_EQ(evaluate("2 * (dx}", variables).error, "')' is missing");
   EXPECT_EQ(evaluate("sqrt(-1)", variables).error, "the result is not a finite number");
   EXPECT_EQ(evaluate(std::string(5000, '('), variables).error, "too deeply nested");
 }
@@ -67,7 +70,7 @@ TEST(Substitute, FillsPlaceholdersAndKeepsColumns) {
 
 TEST(Substitute, TellsTheLineOfAFault) {
   const Substitution result = substitute("a\nb ${dx}\nc ${dy}\n", variables);
-  EXPECT_EQ(result.error, "in '${dy}': unknown parameter 'dy'");
+  EXPECT_EQ(result.error, "in '${dy}': unknown parameter 'dy', did you mean dx?");
   EXPECT_EQ(result.line, 2);
   EXPECT_FALSE(substitute("${dx", variables).ok());
   EXPECT_FALSE(substitute("${dx\n}", variables).ok());

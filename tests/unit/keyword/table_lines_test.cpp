@@ -78,7 +78,8 @@ std::string describe(const Deck& deck) {
 TEST(TableLines, SayAndStoreWhatTheCarefulWayDoes) {
   std::mt19937 random(7);
   constexpr int width[] = {8, 16, 16, 16, 8};
-  std::string quick = "*KEYWORD\n*PARAMETER\nI      z,0\n*NODE\n", careful = quick;
+  const std::string quick = "*KEYWORD\n*COMMENT\nno parameter\n*NODE\n",
+                    careful = "*KEYWORD\n*PARAMETER\nI      z,0\n*NODE\n";
   for (int k = 0; k < 400; ++k) {
     const bool commas = random() % 3 == 0;
     std::string line;

@@ -88,7 +88,10 @@ TEST_P(AcceptDeck, GivesControlAndOutput) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, AcceptDeck,
                          testing::Values("fixed.k", "crlf_tabs_case.k", "comma.k", "long.k", "i10.k",
-                                         "suffixes.k", "parameters.k", "includes.k",
+                                         "suffixes.k", "parameters.k", "includes.k", "param_fields.k",
+                                         "param_comma.k", "param_long.k", "param_texts.k", "param_scopes.k",
+                                         "param_mutable.k",
+
                                          "lexer_beyond_last_column.k", "lexer_carriage_returns.k",
                                          "lexer_comments_everywhere.k", "lexer_formats_per_file.k",
                                          "lexer_keyword_words.k", "lexer_latin1.k",
@@ -113,9 +116,7 @@ TEST(Parameters, OverrideOfNoneIsAnError) {
   read_deck("parameters.k", {.parameters = {{"hihg", "3.5"}, {"water", "two"}}}, diagnostics);
   EXPECT_EQ(diagnostics.text(),
             "parameters.k:6:12: error: *PARAMETER water: expected an integer, got 'two' from --param\n"
-            "parameters.k:24:11: error: *ELEMENT_SPH field 2 (PID, part id [-]): parameter '&water' is not "
-            "defined\n"
-            "  hint: define it with *PARAMETER above its use\n"
+            "  hint: the deck declares it with the type letter I\n"
             "parameters.k: error: --param hihg: the deck has no *PARAMETER of that name\n"
             "  hint: did you mean high?\n");
 }

@@ -12,6 +12,7 @@
 #include "model/build_model.hpp"
 #include "model/cards.hpp"
 #include "model/included_entries.hpp"
+#include "model/set_cards.hpp"
 #include "rigid/mat_rigid.hpp"
 #include "sph/cards.hpp"
 #include "transformed_scene.hpp"
@@ -198,6 +199,46 @@ Affine turned(const Vec& axis, Real degrees, const Vec& centre = Vec::Zero()) {
 TEST(IncludeTransform, ShiftsIds) {
   const Writing w{.offsets = offsets};
   expect_same_scene(w, include_transform("scene.k", w, 0));
+}
+
+TEST(IncludeTransform, ShiftsIdsByTheTypeBesideThem) {
+  std::string text;
+  for (const int styp : {1, 2, 3}) text += fmt::format("*INITIAL_VELOCITY_GENERATION\n5, {}\n\n", styp);
+  for (const int type : {2, 3, 4, 5})
+    text += fmt::format("*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n{}, 5, {}, {}\n\n\n", type == 5 ? 0 : 5, type,
+                        type == 2 ? 2 : 3);
+  DecksInMemory decks{
+      {{"main.k", "*KEYWORD\n*INCLUDE_TRANSFORM\na.k\n1000, 0, 200, 0, 30\n*END\n"}, {"a.k", text}}};
+  Diagnostics diagnostics;
+  const Deck deck = decks.read("main.k", diagnostics);
+  EXPECT_EQ(diagnostics.text(), "");
+  const auto& velocities = deck.all<InitialVelocityGenerationCard>();
+  ASSERT_EQ(velocities.size(), 3u);
+  EXPECT_EQ(velocities[0].id, 35);   // part set
+  EXPECT_EQ(velocities[1].id, 205);  // part
+  EXPECT_EQ(velocities[2].id, 35);   // node set
+  const auto& contacts = deck.all<ContactNodesToSurface>();
+  ASSERT_EQ(contacts.size(), 4u);
+  EXPECT_EQ(contacts[0].surfa, 35);
+  EXPECT_EQ(contacts[0].surfb, 35);
+  EXPECT_EQ(contacts[1].surfa, 205);
+  EXPECT_EQ(contacts[1].surfb, 205);
+  EXPECT_EQ(contacts[2].surfa, 35);
+  EXPECT_EQ(contacts[3].surfa, 0);
+}
+
+TEST(IncludeTransform, ShiftsRangesOfParticles) {
+  DecksInMemory decks{{{"main.k", "*KEYWORD\n*INCLUDE_TRANSFORM\na.k\n1000, 0, 200\n*END\n"},
+                       {"a.k", "*ELEMENT_SPH\n1, 2, 3.0, 9\n*SET_NODE_GENERATE\n7\n1, 9, 21, 29\n"}}};
+  Diagnostics diagnostics;
+  const Deck deck = decks.read("main.k", diagnostics);
+  EXPECT_EQ(diagnostics.text(), "");
+  ASSERT_EQ(deck.all<ElementSphCard>().size(), 1u);
+  EXPECT_EQ(deck.all<ElementSphCard>()[0].nid, 1001);
+  EXPECT_EQ(deck.all<ElementSphCard>()[0].nend, 1009);
+  EXPECT_EQ(deck.all<ElementSphCard>()[0].pid, 202);
+  EXPECT_EQ((deck.all<SetCardOf<SetKind::node, SetForm::generate>>()[0].ids),
+            (std::vector<Id>{1001, 1009, 1021, 1029}));
 }
 
 TEST(IncludeTransform, ChangesUnits) {

@@ -1,0 +1,177 @@
+// `courant check`, second part: what a run of a sound deck would compute.
+#include <fmt/format.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "app/check.hpp"
+#include "parallel/parallel.hpp"
+#include "search/nearest_distance.hpp"
+
+namespace courant {
+
+namespace {
+
+constexpr Real none = -1;  ///< a number that a part does not have
+
+struct PartRow {
+  Index count = 0;
+  const char* kind = "-";
+  Real mass = none, volume = none, rho = none, c = none, spacing = none, h = none;
+  Real nearest = std::numeric_limits<Real>::infinity();  ///< smallest distance between two particles
+  Real speed = 0;
+};
+
+std::string cell(Real value) {
+  return value == none ? fmt::format("{:>10}", "-") : fmt::format("{:10.4g}", value);
+}
+
+/// Nearest-neighbour distances within each part.
+void measure_spacing(const Particles& p, std::vector<PartRow>& rows) {
+  struct Points {
+    std::vector<Real> x, y, z;
+  };
+  std::vector<Points> points(rows.size());
+  for (Index i = 0; i < p.size(); ++i) {
+    Points& of_part = points[p.part[i]];
+    const Vec x = p.x.vec(i);
+    of_part.x.push_back(x[0]), of_part.y.push_back(x[1]), of_part.z.push_back(x[2]);
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Points& of_part = points[k];
+    for (const Real d : nearest_distance(of_part.x.data(), of_part.y.data(), of_part.z.data(),
+                                         static_cast<Index>(of_part.x.size()))) {
+      if (!std::isfinite(d)) continue;
+      rows[k].spacing = std::max(rows[k].spacing, d);
+      rows[k].nearest = std::min(rows[k].nearest, d);
+    }
+  }
+}
+
+void add_particles(const Simulation& s, std::vector<PartRow>& rows) {
+  const Particles& p = s.world().particles;
+  for (Index i = 0; i < p.size(); ++i) {
+    PartRow& row = rows[p.part[i]];
+    if (row.count++ == 0) row.kind = "sph", row.mass = row.volume = 0;
+    row.mass += p.m[i];
+    row.volume += p.m[i] / p.rho[i];
+    row.rho = std::max(row.rho, p.rho[i]), row.c = std::max(row.c, p.c[i]), row.h = std::max(row.h, p.h[i]);
+    row.speed = std::max(row.speed, p.v.vec(i).norm());
+  }
+  measure_spacing(p, rows);
+}
+
+Real area_of(const World& world, Index segment) {
+  const auto n = world.segments.nodes(segment);
+  const auto x = [&](std::size_t k) { return world.nodes.x.vec(n[k]); };
+  return n[2] == n[3] ? 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm()
+                      : 0.5 * (x(2) - x(0)).cross(x(3) - x(1)).norm();
+}
+
+void add_shells(const Simulation& s, std::vector<PartRow>& rows) {
+  const World& world = s.world();
+  std::vector<Real> area(rows.size(), 0);
+  for (Index k = 0; k < world.segments.size(); ++k) {
+    const Index part = world.segments.part[k];
+    PartRow& row = rows[part];
+    if (row.count++ == 0) row.kind = "shell", row.volume = 0;
+    const Real a = area_of(world, k);
+    area[part] += a;
+    row.volume += a * world.segments.thickness[k];
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (area[k] == 0) continue;
+    rows[k].spacing = std::sqrt(area[k] / rows[k].count);
+    if (const auto m = rigid_material(s.deck(), s.model(), static_cast<Index>(k))) rows[k].rho = m->ro;
+  }
+  if (s.bodies())
+    for (const RigidBodyReport& body : s.bodies()->reports()) {
+      PartRow& row = rows[s.model().part_of_id.at(body.part)];
+      row.kind = "rigid";
+      row.mass = body.mass;
+      row.speed = body.v.norm();
+    }
+}
+
+std::string part_table(const Simulation& s, std::vector<Real>& sound_speeds) {
+  std::vector<PartRow> rows(s.model().parts.size());
+  add_particles(s, rows);
+  add_shells(s, rows);
+  std::string text =
+      fmt::format("Parts in the run\n{:>8} {:<15}{:>9} {:<5}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "part",
+                  "title", "elements", "kind", "mass", "volume", "density", "sound", "spacing", "h");
+  std::string remarks;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const PartRow& r = rows[k];
+    const ModelPart& part = s.model().parts[k];
+    text += fmt::format("{:>8} {:<15.15}{:>9} {:<5}{}{}{}{}{}{}\n", part.id, part.title, r.count, r.kind,
+                        cell(r.mass), cell(r.volume), cell(r.rho), cell(r.c), cell(r.spacing), cell(r.h));
+    if (r.c != none) sound_speeds.push_back(r.c);
+    if (r.speed > 0)
+      remarks += fmt::format("  part {}: initial speed up to {:.4g} [L/T]{}\n", part.id, r.speed,
+                             r.c > 0 ? fmt::format(", {:.2g} of its sound speed", r.speed / r.c) : "");
+    if (r.nearest < 0.9 * r.spacing)
+      remarks += fmt::format("  part {}: nearest neighbours are {:.4g} to {:.4g} [L] apart\n", part.id,
+                             r.nearest, r.spacing);
+    if (r.count == 0) remarks += fmt::format("  part {}: no elements\n", part.id);
+  }
+  return text + remarks;
+}
+
+Real mean_neighbours(const Simulation& s) {
+  const Particles& p = s.world().particles;
+  if (p.active == 0) return 0;
+  return sum(p.active, [&](Index i) { return static_cast<Real>(s.neighbours().of(p, i).size()); }) / p.active;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 1.5) return "1 s";
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
+  if (seconds < 172800) return fmt::format("{:.1f} h", seconds / 3600);
+  return fmt::format("{:.1f} days", seconds / 86400);
+}
+
+/// One more evaluation of the forces, timed. At the start no time has passed, so it gives the same again.
+double seconds_per_step(Simulation& s) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::string who;
+  s.evaluate(who);
+  constexpr double motion_and_lists = 1.3;  // what a step does besides, see docs/performance.md
+  return motion_and_lists * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::string step_text(Simulation& s, const std::string& who, double seconds) {
+  const Real dt = s.clock().dt, endtim = s.model().endtim;
+  const double steps = std::ceil(endtim / dt);
+  std::string text = fmt::format("First step {:.5g} [T], set by {}\n", dt, who);
+  for (const auto& limit : s.world().time_limits) {
+    const TimeLimit::Limit one = limit->limit(s.world(), s.clock());
+    if (std::isfinite(one.dt) && one.who != who)
+      text += fmt::format("  {} would allow {:.5g}\n", one.who, one.dt);
+  }
+  return text +
+         fmt::format("  {:.0f} steps to ENDTIM = {:g} at this size; on one thread of this machine about {}\n",
+                     steps, endtim, duration(steps * seconds));
+}
+
+}  // namespace
+
+std::string model_text(Simulation& s, std::vector<Real>& sound_speeds) {
+  std::string who;
+  s.evaluate(who);
+  const Particles& p = s.world().particles;
+  std::string text = part_table(s, sound_speeds);
+  text += fmt::format(
+      "  {}D, spacing {:.6g} [L], {} particles of which {} are active now, {:.1f} neighbours each\n",
+      s.world().dim, s.sph().spacing, p.size(), p.active, mean_neighbours(s));
+  const auto& counters = s.world().counters;
+  if (const auto found = counters.find("initial_penetrations"); found != counters.end())
+    text += fmt::format("  initial penetrations: {}\n", found->second);
+  const std::string passes = s.passes();
+  text += step_text(s, who, seconds_per_step(s));
+  return text + passes;
+}
+
+}  // namespace courant

@@ -1,0 +1,13 @@
+#pragma once
+// Solid elements: read and kept, so that sets and counts know them.
+#include "keyword/card.hpp"
+
+namespace courant {
+
+struct ElementSolidCard : Entry {
+  Id eid = 0, pid = 0;
+  Id n1 = 0, n2 = 0, n3 = 0, n4 = 0, n5 = 0, n6 = 0, n7 = 0, n8 = 0, n9 = 0, n10 = 0;
+  Real a1 = 0, a2 = 0, a3 = 0, d1 = 0, d2 = 0, d3 = 0;  ///< _ORTHO: directions of the material
+};
+
+}  // namespace courant

@@ -1,0 +1,53 @@
+// *PART_CONTACT: a part with data for contacts.
+#include "keyword/registry.hpp"
+#include "model/cards.hpp"
+
+namespace courant {
+
+namespace {
+
+const FieldRules required_id{.required = true, .check = Check::positive};
+const FieldRules unsupported{.honour = Honour::no};
+
+FieldRules required_id_of(IdSpace space) {
+  return {.required = true, .check = Check::positive, .refers = space};
+}
+FieldRules id_of(IdSpace space) {
+  return {.check = Check::not_negative, .refers = space};
+}
+/// Contacts read the friction of parts where their own FS is -1, which they refuse.
+const FieldRules friction{.honour = Honour::ignored};
+const FieldRules scale{.standard = 1, .honour = Honour::no};
+
+using P = PartContactCard;
+const RegisterKeyword<P> part_contact{
+    {.names = {"PART_CONTACT"},
+     .purpose = "parts with friction of their own, which only contacts with FS = -1 would read",
+     .id_space = IdSpace::part,
+     .heading = true,
+     .title = &P::title,
+     .cards = {
+         {.fields = {{"PID", &P::pid, "-", "part id", required_id},
+                     {"SECID", &P::secid, "-", "section id", required_id_of(IdSpace::section)},
+                     {"MID", &P::mid, "-", "material id", required_id_of(IdSpace::material)},
+                     {"EOSID", &P::eosid, "-", "equation of state id", id_of(IdSpace::eos)},
+                     {"HGID", &P::hgid, "-", "hourglass and bulk viscosity id", id_of(IdSpace::hourglass)},
+                     {"GRAV", &P::grav, "-", "gravity preload", unsupported},
+                     {"ADPOPT", &P::adpopt, "-", "adaptivity", unsupported},
+                     {"TMID",
+                      &P::tmid,
+                      "-",
+                      "thermal material id",
+                      {.honour = Honour::no, .refers = IdSpace::material}}}},
+         {.fields = {{"FS", &P::fs, "-", "static friction", friction},
+                     {"FD", &P::fd, "-", "dynamic friction", friction},
+                     {"DC", &P::dc, "T/L", "decay of the friction", friction},
+                     {"VC", &P::vc, "M/LT2", "largest friction stress", friction},
+                     {"OPTT", &P::optt, "L", "contact thickness", unsupported},
+                     {"SFT", &P::sft, "-", "scale of the contact thickness", scale},
+                     {"SSF", &P::ssf, "-", "scale of the stiffness", scale},
+                     {"CPARM8", &P::cparm8, "-", "beams left out of contact", friction}}}}}};
+
+}  // namespace
+
+}  // namespace courant

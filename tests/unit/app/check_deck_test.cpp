@@ -1,0 +1,108 @@
+// What `courant check` says of a deck before, and without, a run.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "app/check.hpp"
+
+namespace courant {
+
+namespace {
+
+struct Read {
+  Deck deck;
+  Diagnostics diagnostics;
+};
+
+Read read_files(const std::map<std::string, std::string>& files) {
+  Read out;
+  ReadOptions options;
+  options.open = [&](const std::string& path) {
+    const auto it = files.find(path);
+    return it == files.end() ? std::nullopt : std::optional<std::string>(it->second);
+  };
+  out.deck = read_deck("deck.k", options, out.diagnostics);
+  return out;
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(CheckDeck, FilesAreATreeWithTheirPlaces) {
+  const Read read = read_files({{"deck.k", "*KEYWORD\n*INCLUDE\na.k\nb.k\n*END\n"},
+                                {"a.k", "*INCLUDE\nb.k\n"},
+                                {"b.k", "*TITLE\nb\n"}});
+  const std::string text = files_text(read.deck);
+  EXPECT_TRUE(holds(text, "\n  deck.k ")) << text;
+  EXPECT_TRUE(holds(text, "\n    a.k ")) << text;
+  EXPECT_TRUE(holds(text, "\n      b.k ")) << text;
+  EXPECT_TRUE(holds(text, "2 lines, 13 bytes, included by deck.k:3\n")) << text;
+  EXPECT_TRUE(holds(text, "2 lines, 9 bytes, included by a.k:2\n")) << text;
+}
+
+TEST(CheckDeck, KeywordsWithWhatBecomesOfThem) {
+  const Read read =
+      read_files({{"deck.k",
+                   "*KEYWORD\n*NODE\n       1\n       2\n*DATABASE_FSI\n       0.1\n"
+                   "*AIRBAG_ALE\n         1\n$ comment\n         2\n*AIRBAG_ALE\n*COFFEE_BREAK\n*END\n"}});
+  const std::string text = keywords_text(read.deck);
+  EXPECT_TRUE(holds(text, "*NODE                                         1          2  honoured\n")) << text;
+  EXPECT_TRUE(holds(text, "*DATABASE_FSI                                 1    1 lines  no effect: output\n"))
+      << text;
+  EXPECT_TRUE(holds(text, "*AIRBAG_ALE                                   2    2 lines  REFUSED: airbags\n"))
+      << text;
+  EXPECT_TRUE(holds(text, "*COFFEE_BREAK                                 1          -  REFUSED: unknown\n"))
+      << text;
+}
+
+TEST(CheckDeck, MeshIsCountedWhateverElseIsWrong) {
+  const Read read = read_files(
+      {{"deck.k",
+        "*KEYWORD\n*NODE\n       1             1.0             2.0\n       2             4.0\n"
+        "*ELEMENT_SPH\n       1       7             2.5       4\n       5       7            -0.5\n"
+        "*ELEMENT_SEATBELT\n       1\n       2\n*PART\nwater\n         7         1         x\n"
+        "*PART\nlonely\n         8         1         1\n*END\n"}});
+  EXPECT_FALSE(read.diagnostics.ok());
+  const std::string text = mesh_text(gather_facts(read.deck));
+  EXPECT_TRUE(holds(text, "  nodes                            2  from (1, 0, 0), size 3 x 2 x 0 [L]\n"))
+      << text;
+  EXPECT_TRUE(holds(text, "  SPH particles                    5  given mass 10 [M]  given volume 0.5 [L3"))
+      << text;
+  EXPECT_TRUE(holds(text, "  seat belts                       2  (lines that are not read)\n")) << text;
+  EXPECT_TRUE(holds(text, "7  water ")) << text;
+  EXPECT_TRUE(holds(text, "SPH particles 5\n")) << text;
+  EXPECT_TRUE(holds(text, "8  lonely                                 1        1        0  none\n")) << text;
+}
+
+TEST(CheckDeck, NeedsAreWhatIsRefusedAndWhatIsMissing) {
+  const Read read = read_files(
+      {{"deck.k", "*KEYWORD\n*NODE\n       1\n*AIRBAG_ALE\n*AIRBAG_LINEAR_FLUID\n*EOS_JWL\n*END\n"}});
+  EXPECT_EQ(needs_text(read.deck, gather_facts(read.deck)),
+            "What a run would need\n"
+            "  not supported: airbags: *AIRBAG_ALE, *AIRBAG_LINEAR_FLUID\n"
+            "  not supported: this equation of state (EOS_002): *EOS_JWL\n"
+            "  not in the deck: *ELEMENT_SPH (at least one particle)\n"
+            "  not in the deck: *PART (what the particles are made of)\n"
+            "  not in the deck: *SECTION_SPH (smoothing length)\n"
+            "  not in the deck: *MAT_NULL (density of the particles' material)\n"
+            "  not in the deck: *CONTROL_TERMINATION (end time)\n");
+}
+
+TEST(CheckDeck, UnusedIdsAreListedWithTheirPlaces) {
+  const Read read = read_files({{"deck.k", "*KEYWORD\n*DEFINE_BOX\n         3\n*END\n"}});
+  UnusedIds unused;
+  EXPECT_EQ(unused_text(read.deck, unused), "");
+  Entry entry;
+  entry.file = 0, entry.line = 3;
+  unused.named.push_back({IdSpace::box, 3, entry});
+  for (Id id = 1; id <= 30; ++id) unused.nodes.push_back(id);
+  const std::string text = unused_text(read.deck, unused);
+  EXPECT_TRUE(holds(text, "  box                      3 (deck.k:3)\n")) << text;
+  EXPECT_TRUE(holds(text, "  30 nodes                 1, 2, 3,")) << text;
+  EXPECT_TRUE(holds(text, "20,\n                           ... 10 more\n")) << text;
+}
+
+}  // namespace
+
+}  // namespace courant

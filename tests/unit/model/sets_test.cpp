@@ -1,0 +1,302 @@
+// Members of every kind of set, told in every form.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "keyword/registry.hpp"
+#include "model/set_cards.hpp"
+#include "small_deck.hpp"
+
+namespace courant {
+
+namespace {
+
+using Ids = std::vector<Id>;
+
+struct Case {
+  const char* name;
+  const char* keywords;
+  Ids expected{};
+};
+
+template <class Entity>
+Ids ids_of(const std::vector<Entity>& entities, const std::vector<Index>& members) {
+  Ids out;
+  for (const Index m : members) out.push_back(entities[static_cast<std::size_t>(m)].id);
+  return out;
+}
+
+const auto name_of = [](const auto& test) { return std::string(test.param.name); };
+
+class NodeSet : public testing::TestWithParam<Case> {};
+
+TEST_P(NodeSet, HasItsMembers) {  // the set of interest is number 1
+  const SmallModel m = small_model(GetParam().keywords);
+  EXPECT_EQ(m.messages, "");
+  ASSERT_EQ(m.model.node_sets.count(1), 1u);
+  EXPECT_EQ(ids_of(m.model.nodes, m.model.node_sets.at(1)), GetParam().expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Forms, NodeSet,
+    testing::Values(
+        Case{"List", "*SET_NODE_LIST\n1\n3,1,3\n2\n", {1, 2, 3}},
+        Case{"ListWithoutTheWord", "*SET_NODE\n1\n3\n", {3}},
+        Case{"ListTitle", "*SET_NODE_LIST_TITLE\nsome nodes\n1\n3\n", {3}},
+        Case{"AttributesHaveNoEffect", "*SET_NODE_LIST\n1,0.5,1.,2.,3.,MECH,2\n3\n", {3}},
+        Case{"Generate", "*SET_NODE_LIST_GENERATE\n1\n2,4,8,10\n", {2, 3, 4, 8, 9}},
+        Case{"GenerateWithoutTheWord", "*SET_NODE_GENERATE\n1\n12,100000000000\n", {12}},
+        Case{"Increment", "*SET_NODE_LIST_GENERATE_INCREMENT\n1\n1,9,4\n11,12\n", {1, 5, 9, 11, 12}},
+        Case{"IncrementOverManyIds", "*SET_NODE_GENERATE_INCREMENT\n1\n2,900000000000,3\n", {2, 5, 8, 11}},
+        Case{"Column", "*SET_NODE_COLUMN\n1\n4,.5,.5,.5,.5\n2\n", {2, 4}},
+        Case{"Add", "*SET_NODE_ADD\n1\n2,3\n*SET_NODE\n2\n5,6\n*SET_NODE\n3\n6,7\n", {5, 6, 7}},
+        Case{"AddOfAdd", "*SET_NODE_ADD\n1\n2\n*SET_NODE_ADD\n2\n3\n*SET_NODE\n3\n7\n", {7}},
+        Case{"Intersect", "*SET_NODE_INTERSECT\n1\n2,3\n*SET_NODE\n2\n5,6,8\n*SET_NODE\n3\n6,7,8\n", {6, 8}},
+        Case{"AddAdvanced",
+             "*SET_NODE_ADD_ADVANCED\n1\n2,1,2,2,2,5\n*SET_NODE\n2\n12\n*SET_SHELL\n2\n4\n"
+             "*SET_SEGMENT\n2\n1,2,5,4\n",
+             {1, 2, 4, 5, 6, 9, 12}},
+        Case{"Collect", "*SET_NODE_LIST\n1\n3\n*SET_NODE_COLUMN_COLLECT\n1\n5\n", {3, 5}},
+        Case{"CollectTitle", "*SET_NODE_COLLECT_TITLE\na\n1\n3\n*SET_NODE_TITLE_COLLECT\nb\n1\n5\n", {3, 5}},
+        Case{"GeneralAll", "*SET_NODE_GENERAL\n1\nALL\n", {1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 12}},
+        Case{"GeneralNode", "*SET_NODE_GENERAL\n1\nNODE,5,6\n", {5, 6}},
+        Case{"GeneralLowerCase", "*SET_NODE_GENERAL\n1\nnode,5,6\ndnode,5\n", {6}},
+        Case{"GeneralFixedFormat", "*SET_NODE_GENERAL\n         1\nNODE               5         6\n", {5, 6}},
+        Case{"GeneralPart", "*SET_NODE_GENERAL\n1\nPART,1,3\n", {4, 5, 6, 7, 8, 9, 11, 12}},
+        Case{"GeneralTakesOut", "*SET_NODE_GENERAL\n1\nALL\nDPART,1,2\nDNODE,7\n", {8, 9}},
+        Case{"GeneralInTheOrderOfTheRows", "*SET_NODE_GENERAL\n1\nDNODE,5\nNODE,5,6\nDNODE,6\n", {5}},
+        Case{"GeneralBox", "*SET_NODE_GENERAL\n1\nBOX,4\n*DEFINE_BOX\n4,0.,1.,0.,1.,0.,0.\n", {1, 2, 4, 5}},
+        Case{"GeneralDbox",
+             "*SET_NODE_GENERAL\n1\nPART,2\nDBOX,4\n*DEFINE_BOX\n4,0.,1.,0.,1.,0.,0.\n",
+             {3, 6}},
+        Case{"GeneralSetShell", "*SET_NODE_GENERAL\n1\nSET_SHELL,2\n*SET_SHELL\n2\n4\n", {5, 6, 9}},
+        Case{
+            "GeneralDsetShell", "*SET_NODE_GENERAL\n1\nPART,3\nDSET_SHELL,2\n*SET_SHELL\n2\n4\n", {4, 7, 8}}),
+    name_of);
+
+class PartSet : public testing::TestWithParam<Case> {};
+
+TEST_P(PartSet, HasItsMembers) {
+  const SmallModel m = small_model(GetParam().keywords);
+  EXPECT_EQ(m.messages, "");
+  ASSERT_EQ(m.model.part_sets.count(1), 1u);
+  EXPECT_EQ(ids_of(m.model.parts, m.model.part_sets.at(1)), GetParam().expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Forms, PartSet,
+    testing::Values(Case{"List", "*SET_PART_LIST\n1\n3,1\n", {1, 3}}, Case{"Short", "*SET_PART\n1\n2\n", {2}},
+                    Case{"Generate", "*SET_PART_LIST_GENERATE\n1\n2,99\n", {2, 3}},
+                    Case{"Increment", "*SET_PART_LIST_GENERATE_INCREMENT\n1\n1,3,2\n", {1, 3}},
+                    Case{"Column", "*SET_PART_COLUMN\n1\n2,.1\n", {2}},
+                    Case{"Add", "*SET_PART_ADD\n1\n2,3\n*SET_PART\n2\n1\n*SET_PART\n3\n3\n", {1, 3}},
+                    Case{"GeneralAll", "*SET_PART_GENERAL\n1\nALL\nDPART,2\n", {1, 3}},
+                    Case{"GeneralSet",
+                         "*SET_PART_GENERAL\n1\nPART,1\nSET,2\nDSET,3\n*SET_PART\n2\n2,3\n*SET_PART\n3\n1\n",
+                         {2, 3}}),
+    name_of);
+
+class ShellSet : public testing::TestWithParam<Case> {};
+
+TEST_P(ShellSet, HasItsMembers) {
+  const SmallModel m = small_model(GetParam().keywords);
+  EXPECT_EQ(m.messages, "");
+  ASSERT_EQ(m.model.shell_sets.count(1), 1u);
+  EXPECT_EQ(ids_of(m.model.shells, m.model.shell_sets.at(1)), GetParam().expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Forms, ShellSet,
+    testing::Values(
+        Case{"List", "*SET_SHELL_LIST\n1\n4,2\n", {2, 4}},
+        Case{"Generate", "*SET_SHELL_LIST_GENERATE\n1\n2,3\n", {2, 3}},
+        Case{"Increment", "*SET_SHELL_GENERATE_INCREMENT\n1\n1,4,3\n", {1, 4}},
+        Case{"Column", "*SET_SHELL_COLUMN\n1\n4\n", {4}},
+        Case{"Add", "*SET_SHELL_ADD\n1\n2\n*SET_SHELL\n2\n3\n", {3}},
+        Case{"Intersect", "*SET_SHELL_INTERSECT\n1\n2,3\n*SET_SHELL\n2\n1,3\n*SET_SHELL\n3\n3,4\n", {3}},
+        Case{"GeneralElem", "*SET_SHELL_GENERAL\n1\nELEM,1,2\nDELEM,1\n", {2}},
+        Case{"GeneralPart", "*SET_SHELL_GENERAL\n1\nALL\nDPART,2\n", {3, 4}},
+        Case{"GeneralBoxHoldsAllNodes",
+             "*SET_SHELL_GENERAL\n1\nBOX,4\n*DEFINE_BOX\n4,0.,2.,0.,1.5,0.,0.\n",
+             {1, 2}},
+        Case{"GeneralSet", "*SET_SHELL_GENERAL\n1\nALL\nDSET,2\n*SET_SHELL\n2\n3,4\n", {1, 2}}),
+    name_of);
+
+struct SegmentCase {
+  const char* name;
+  const char* keywords;
+  std::vector<std::array<Id, 4>> expected{};
+};
+
+class SegmentSet : public testing::TestWithParam<SegmentCase> {};
+
+TEST_P(SegmentSet, HasItsMembers) {
+  const SmallModel m = small_model(GetParam().keywords);
+  EXPECT_EQ(m.messages, "");
+  ASSERT_EQ(m.model.segment_sets.count(1), 1u);
+  std::vector<std::array<Id, 4>> found;
+  for (const Index s : m.model.segment_sets.at(1)) {
+    const Ids corners = ids_of(m.model.nodes, {m.model.segments[static_cast<std::size_t>(s)].node.begin(),
+                                               m.model.segments[static_cast<std::size_t>(s)].node.end()});
+    found.push_back({corners[0], corners[1], corners[2], corners[3]});
+  }
+  EXPECT_EQ(found, GetParam().expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Forms, SegmentSet,
+    testing::Values(
+        SegmentCase{"Quad", "*SET_SEGMENT\n1\n1,2,5,4,.1,.2\n", {{1, 2, 5, 4}}},
+        SegmentCase{"Triangles", "*SET_SEGMENT\n1\n1,2,5,5\n2,3,6\n", {{1, 2, 5, 5}, {2, 3, 6, 6}}},
+        SegmentCase{"Line", "*SET_SEGMENT\n1\n1,2\n", {{1, 2, 2, 2}}},
+        SegmentCase{"TheSameTwice", "*SET_SEGMENT\n1\n1,2,5,4\n5,4,1,2\n", {{1, 2, 5, 4}}},
+        SegmentCase{"TheOtherSideUp", "*SET_SEGMENT\n1\n1,2,5,4\n4,5,2,1\n", {{1, 2, 5, 4}, {4, 5, 2, 1}}},
+        SegmentCase{"Add", "*SET_SEGMENT_ADD\n1\n2\n*SET_SEGMENT\n2\n1,2,5,4\n", {{1, 2, 5, 4}}},
+        SegmentCase{"GeneralAll",
+                    "*SET_SEGMENT_GENERAL\n1\nALL\n",
+                    {{1, 2, 5, 4}, {2, 3, 6, 5}, {4, 5, 8, 7}, {5, 6, 9, 9}}},
+        SegmentCase{"GeneralPartAsTheShellsAreTurned",
+                    "*SET_SEGMENT_GENERAL\n1\nPART,3,0,0,.5,.5,.5,.5\n",
+                    {{4, 5, 8, 7}, {5, 6, 9, 9}}},
+        SegmentCase{"GeneralBox",
+                    "*SET_SEGMENT_GENERAL\n1\nBOX_SHELL,4\n*DEFINE_BOX\n4,0.,1.,0.,1.,0.,0.\n",
+                    {{1, 2, 5, 4}}},
+        SegmentCase{"GeneralSeg", "*SET_SEGMENT_GENERAL\n1\nSEG,1,2,5,4\n", {{1, 2, 5, 4}}},
+        SegmentCase{"GeneralDsegWhicheverSideIsUp",
+                    "*SET_SEGMENT_GENERAL\n1\nPART,2\nDSEG,4,5,2,1\n",
+                    {{2, 3, 6, 5}}},
+        SegmentCase{
+            "GeneralSetShell", "*SET_SEGMENT_GENERAL\n1\nSET_SHELL,2\n*SET_SHELL\n2\n4\n", {{5, 6, 9, 9}}},
+        SegmentCase{"GeneralDset",
+                    "*SET_SEGMENT_GENERAL\n1\nPART,2\nDSET,2\n*SET_SEGMENT\n2\n1,2,5,4\n",
+                    {{2, 3, 6, 5}}}),
+    name_of);
+
+struct Fault {
+  const char* name;
+  const char* keywords;
+  const char* message;
+};
+
+class FaultySet : public testing::TestWithParam<Fault> {};
+
+TEST_P(FaultySet, IsRefused) {
+  const SmallModel m = small_model(GetParam().keywords);
+  EXPECT_NE(m.messages.find(GetParam().message), std::string::npos) << m.messages;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Reasons, FaultySet,
+    testing::Values(
+        Fault{"NodeMissing", "*SET_NODE_COLUMN\n1\n5\n10\n",
+              "(NID, node id [-]): node 10 has no coordinates"},
+        Fault{"ShellMissing", "*SET_SHELL\n1\n5\n",
+              "shell 5 does not exist\n  hint: define it with *ELEMENT_SHELL"},
+        Fault{"SolidMissing", "*SET_SOLID\n1\n5\n",
+              "solid 5 does not exist\n  hint: define it with *ELEMENT_SOLID"},
+        Fault{"SetMissing", "*SET_NODE_ADD\n1\n2\n",
+              "node set 2 does not exist\n  hint: define it with *SET_NODE_LIST"},
+        Fault{"Itself", "*SET_NODE_ADD\n1\n1\n",
+              "a set cannot be made of itself: node set 1 needs node set 1\n"},
+        Fault{"Cycle",
+              "*SET_NODE_ADD\n1\n2\n*SET_NODE_INTERSECT\n2\n3\n*SET_NODE_GENERAL\n3\nSET_SHELL,4\n"
+              "*SET_SHELL_ADD\n4\n5\n*SET_SHELL_ADD\n5\n4\n",
+              "a set cannot be made of itself: shell set 4 needs shell set 5 needs shell set 4\n"},
+        Fault{"NothingShared", "*SET_NODE_INTERSECT\n1\n2,3\n*SET_NODE\n2\n5\n*SET_NODE\n3\n6\n",
+              "the set is empty\n  hint: its sets share no node"},
+        Fault{"NothingLeft", "*SET_PART_GENERAL\n1\nPART,1\nDPART,1\n",
+              "the set is empty\n  hint: its rows leave no part"},
+        Fault{"NoRows", "*SET_SHELL_GENERAL\n1\n",
+              "the set is empty\n  hint: give a row such as ALL or PART"},
+        Fault{"NoSets", "*SET_SHELL_INTERSECT\n1\n",
+              "the set is empty\n  hint: list its sets below the first card"},
+        Fault{"RowUnknown", "*SET_NODE_GENERAL\n1\nVOL,3\n",
+              "'VOL' is not supported\n  hint: supported: ALL, NODE, PART, BOX, SET_SHELL, SET_SOLID; with D "
+              "in front"},
+        Fault{"RowDall", "*SET_NODE_GENERAL\n1\nDALL\n", "'DALL' is not supported"},
+        Fault{"RowWithoutId", "*SET_NODE_GENERAL\n1\nPART\n", "PART has no id behind it"},
+        Fault{"RowPartMissing", "*SET_SHELL_GENERAL\n1\nPART,9\n", "part 9 does not exist"},
+        Fault{"RowBoxMissing", "*SET_SHELL_GENERAL\n1\nDBOX,9\n",
+              "box 9 does not exist\n  hint: define it with *DEFINE_BOX"},
+        Fault{"RangeBackwards", "*SET_SHELL_GENERATE\n1\n4,2\n", "the range 4 to 2 runs backwards"},
+        Fault{"RangeWithoutEnd", "*SET_PART_LIST_GENERATE\n1\n4\n",
+              "the last range has a first id, but no last id"},
+        Fault{"RangeEmpty", "*SET_SHELL_GENERATE_INCREMENT\n1\n5,90,5\n",
+              "there is no shell with an id from 5 to 90 in steps of 5"},
+        Fault{"SegmentOfOneNode", "*SET_SEGMENT\n1\n3,3,3,3\n",
+              "the segment of nodes 3 3 3 3 has less than two corners"},
+        Fault{"SegmentNodeMissing", "*SET_SEGMENT\n1\n1,2,10,4\n", "node 10 has no coordinates"},
+        Fault{"AdvancedWithoutKind", "*SET_NODE_ADD_ADVANCED\n1\n2\n*SET_NODE\n2\n5\n",
+              "set 2 has no kind beside it"},
+        Fault{"AdvancedBeams", "*SET_NODE_ADD_ADVANCED\n1\n2,3\n",
+              "'3' is not supported\n  hint: supported values: 0, 1, 2, 4, 5"},
+        Fault{"Twice", "*SET_SEGMENT\n1\n1,2\n*SET_SEGMENT_ADD\n1\n1\n",
+              "segment set 1 is defined twice, first as *SET_SEGMENT at deck.k"},
+        Fault{"FacesOfSolids", "*ELEMENT_SOLID\n1,1,1,2,5,4,11,11,11,11\n*SET_SEGMENT_GENERAL\n1\nPART,1\n",
+              "segments on the faces of solid elements are not supported"}),
+    name_of);
+
+TEST(Sets, OfSolids) {
+  const SmallModel m = small_model(
+      "*ELEMENT_SOLID\n1,1,1,2,5,4,11,11,11,11\n       2       1\n       2       3       6       5      12\n"
+      "*SET_SOLID\n1\n2\n*SET_SOLID_GENERATE\n2\n1,9\n*SET_SOLID_GENERAL\n3\nALL\nDELEM,2\n"
+      "*SET_NODE_GENERAL\n4\nSET_SOLID,1\n");
+  EXPECT_NE(m.messages.find("*ELEMENT_SOLID: solid elements are not supported"), std::string::npos);
+  EXPECT_EQ(ids_of(m.model.solids, m.model.solid_sets.at(1)), Ids{2});
+  EXPECT_EQ(ids_of(m.model.solids, m.model.solid_sets.at(2)), (Ids{1, 2}));
+  EXPECT_EQ(ids_of(m.model.solids, m.model.solid_sets.at(3)), Ids{1});
+  EXPECT_EQ(ids_of(m.model.nodes, m.model.node_sets.at(4)), (Ids{2, 3, 5, 6, 12}));
+}
+
+/// One entry of a keyword with a single row below the set id, shifted as *INCLUDE_TRANSFORM does it.
+template <class Card>
+Card shifted_row(const std::string& name, const std::string& word, const std::vector<Real>& numbers) {
+  Conversion conversion;
+  conversion.offsets.node = 100, conversion.offsets.part = 200, conversion.offsets.set = 300;
+  Deck deck;
+  const KeywordMatch match = KeywordIndex().match(name);
+  const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(match.keyword)];
+  const auto sink = spec.sink(deck);
+  sink->begin({});
+  sink->set_integer(0, 0, 1);
+  std::size_t field = 0;
+  if (!word.empty()) sink->set_text(1, field++, word);
+  for (const Real number : numbers) {
+    if (spec.cards[1].fields[field].type == FieldType::reals)
+      sink->set_real(1, field++, number);
+    else
+      sink->set_integer(1, field++, static_cast<Id>(number));
+  }
+  EXPECT_EQ(sink->convert(conversion), "");
+  sink->commit();
+  return deck.all<Card>().at(0);
+}
+
+TEST(Sets, ShiftIdsByTheWordOfTheRow) {
+  using NodeGeneral = SetCardOf<SetKind::node, SetForm::general>;
+  const auto part = shifted_row<NodeGeneral>("SET_NODE_GENERAL", "dpart", {3, 4});
+  EXPECT_EQ(part.sid, 301);
+  EXPECT_EQ(part.ids, Ids{203});
+  EXPECT_EQ(part.e2, Ids{204});
+  EXPECT_EQ(shifted_row<NodeGeneral>("SET_NODE_GENERAL", "SET_SHELL", {3}).ids, Ids{303});
+  using SegmentGeneral = SetCardOf<SetKind::segment, SetForm::general>;
+  EXPECT_EQ(shifted_row<SegmentGeneral>("SET_SEGMENT_GENERAL", "SEG", {1, 2, 3, 4}).r4,
+            std::vector<Real>{104});
+  const auto attribute = shifted_row<SegmentGeneral>("SET_SEGMENT_GENERAL", "PART", {1, 0, 0, 0.5});
+  EXPECT_EQ(attribute.ids, Ids{201});
+  EXPECT_EQ(attribute.r4, std::vector<Real>{0.5});
+  using Advanced = SetCardOf<SetKind::node, SetForm::advanced>;
+  EXPECT_EQ(shifted_row<Advanced>("SET_NODE_ADD_ADVANCED", "", {7, 2}).ids, Ids{307});
+}
+
+TEST(Sets, MakeNoSecondErrorOfAFault) {
+  const SmallModel m = small_model("*SET_NODE_ADD\n1\n2\n*SET_NODE_ADD\n2\n3\n*SET_NODE\n3\n10\n");
+  EXPECT_EQ(m.messages.find("empty"), std::string::npos) << m.messages;
+  EXPECT_EQ(m.messages.find("error"), m.messages.rfind("error")) << m.messages;
+}
+
+}  // namespace
+
+}  // namespace courant
