@@ -79,10 +79,10 @@ Cost measure(const std::function<bool()>& body) {
     const bool told = write(ends[1], &seconds, sizeof seconds) == sizeof seconds;
     _exit(good && told ? 0 : 1);
   }
+  close(ends[1]);  // else a child that crashed would be waited for without end
   Cost out;
   const bool heard = read(ends[0], &out.seconds, sizeof out.seconds) == sizeof out.seconds;
   close(ends[0]);
-  close(ends[1]);
   int status = 0;
   rusage used{};
   if (wait4(child, &status, 0, &used) != child || !heard || status != 0) {
