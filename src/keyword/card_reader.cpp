@@ -339,6 +339,17 @@ bool CardReader::substitute(std::size_t card, std::size_t field, Slice& slice, s
   }
   if (is_whole(spec.type) && value.type == 'R') {
     const bool named = !origin_.empty();
+    Id whole = 0;
+    if (named && parse_integer(value.text, whole)) {  // as 5.0 in a field for integers
+      diagnostics_.warning(
+          here(slice.column),
+          fmt::format("{}: '{}' is a real (R) parameter, taken as {}",
+                      describe_field(*spec_, block_.match.name, card, field), slice.text, whole),
+          "declare it with the type letter I");
+      held = std::to_string(whole);
+      slice.text = held;
+      return true;
+    }
     field_error(card, field, slice,
                 fmt::format("expected {}, got '{}', which is a real{}", expectation(spec), slice.text,
                             named ? " (R) parameter" : ""),
