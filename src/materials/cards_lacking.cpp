@@ -2,19 +2,14 @@
 // refused by name. Temperatures have no unit, as factors of units know none.
 #include <string>
 
+#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
 
-namespace {
+using namespace rules;
 
-const FieldRules required_id{.required = true, .check = Check::positive};
-FieldRules id_of(IdSpace space) {
-  return {.refers = space};
-}
-FieldRules or_blank(Real standard) {
-  return {.standard = standard};
-}
+namespace {
 
 struct MatElastic : Entry {
   std::string title;

@@ -3,24 +3,14 @@
 #include <cstdlib>
 #include <string>
 
+#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
 
-namespace {
+using namespace rules;
 
-const FieldRules required_id{.required = true, .check = Check::positive};
-const FieldRules point{.spatial = Spatial::point};
-const FieldRules direction{.spatial = Spatial::direction};
-FieldRules required_id_of(IdSpace space) {
-  return {.required = true, .check = Check::positive, .refers = space};
-}
-FieldRules id_of(IdSpace space) {
-  return {.refers = space};
-}
-FieldRules or_blank(Real standard) {
-  return {.standard = standard};
-}
+namespace {
 
 struct InitialVelocityRigidBody : Entry {
   Id pid = 0, icid = 0;

@@ -2,24 +2,14 @@
 // is refused by name.
 #include <string>
 
+#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
 
-namespace {
+using namespace rules;
 
-const FieldRules required_id{.required = true, .check = Check::positive};
-const FieldRules point{.spatial = Spatial::point};
-const FieldRules direction{.spatial = Spatial::direction};
-FieldRules required_id_of(IdSpace space) {
-  return {.required = true, .check = Check::positive, .refers = space};
-}
-FieldRules id_of(IdSpace space) {
-  return {.refers = space};
-}
-FieldRules or_blank(Real standard) {
-  return {.standard = standard};
-}
+namespace {
 
 struct ElementShellThickness : Entry {
   Id eid = 0, pid = 0, n1 = 0, n2 = 0, n3 = 0, n4 = 0, n5 = 0, n6 = 0, n7 = 0, n8 = 0;
