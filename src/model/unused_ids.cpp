@@ -198,10 +198,17 @@ class UseFinder {
       if (!used(one.space).has(one.id)) out.named.push_back(one);
     std::stable_sort(out.named.begin(), out.named.end(),
                      [](const UnusedId& a, const UnusedId& b) { return a.space < b.space; });
-    if (!in_use_[static_cast<std::size_t>(IdSpace::node)]) return out;
+    if (!in_use_[static_cast<std::size_t>(IdSpace::node)] || elements_not_read()) return out;
     for (const NodeCard& card : deck_.all<NodeCard>())
       if (!used(IdSpace::node).has(card.nid)) out.nodes.push_back(card.nid);
     return out;
+  }
+
+  /// Whether elements without a table may use any node.
+  bool elements_not_read() const {
+    return std::any_of(deck_.keywords.begin(), deck_.keywords.end(), [](const auto& keyword) {
+      return keyword.first.rfind("ELEMENT_", 0) == 0 && keyword.second.lines > 0;
+    });
   }
 
   const Deck& deck_;

@@ -70,14 +70,14 @@ const RegisterKeyword<ThingGeneral> thing_general{
                            {"E1", &ThingGeneral::ids, "-", "an id"}},
                 .repeat = true}}}};
 
-UnusedIds unused_of(const std::string& text) {
+UnusedIds unused_of(const std::string& text, const std::string& messages = "") {
   ReadOptions options;
   options.open = [&](const std::string& path) {
     return path == "deck.k" ? std::optional<std::string>("*KEYWORD\n" + text + "*END\n") : std::nullopt;
   };
   Diagnostics diagnostics;
   const Deck deck = read_deck("deck.k", options, diagnostics);
-  EXPECT_EQ(diagnostics.text(), "");
+  EXPECT_EQ(diagnostics.text(), messages);
   return find_unused_ids(deck);
 }
 
@@ -112,6 +112,13 @@ TEST(UnusedIds, ParticlesUseTheirNodes) {
       "*NODE\n       1\n       2\n       3\n       4\n       9\n"
       "*ELEMENT_SPH\n       1       1             1.0\n       3       1             1.0       4\n");
   EXPECT_EQ(unused.nodes, (std::vector<Id>{2, 9}));
+}
+
+TEST(UnusedIds, ElementsThatAreNotReadMayUseAnyNode) {
+  EXPECT_TRUE(unused_of("*NODE\n       5\n").any());
+  EXPECT_FALSE(unused_of("*NODE\n       5\n*ELEMENT_TSHELL\n       1       1       5\n",
+                         "deck.k:4:1: error: *ELEMENT_TSHELL: thick shell elements are not supported\n")
+                   .any());
 }
 
 TEST(UnusedIds, RangesUseAllBetween) {
