@@ -73,6 +73,7 @@ class DeckReader {
   /// `keyword`: who asks for the file, for messages.
   void include(const std::string& name, const File& from, std::size_t line, const Conversion& conversion,
                const char* keyword);
+  std::shared_ptr<SourceText> load_once(const std::string& path);
   bool may_include(const std::string& path, const Location& where, const char* keyword);
   std::vector<std::string> candidates(const std::string& name, const std::string& including) const;
 
@@ -82,8 +83,10 @@ class DeckReader {
   Parameters parameters_;
   CardReader cards_;
   KeywordIndex index_;
-  std::vector<std::string> open_files_;     // from the deck to the file being read
-  std::vector<std::string> include_paths_;  // in the order of the deck
+  std::vector<std::string> open_files_;                         // from the deck to the file being read
+  std::vector<std::string> include_paths_;                      // in the order of the deck
+  std::map<std::string, std::shared_ptr<SourceText>> sources_;  // of included files, by path
+  std::size_t distinct_bytes_ = 0, reread_bytes_ = 0;
   bool too_many_files_ = false;
   std::optional<Families> families_;
   RefusalLog refusals_;

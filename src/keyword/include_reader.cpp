@@ -15,6 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_open_files = 100, most_files = 10000;
+// A file may be read often, for copies of a body; beyond this, bytes, only as many times as a deck can mean.
+constexpr std::size_t free_rereading = std::size_t(64) << 20, most_rereading = 1000;
 constexpr Id largest_offset = 1'000'000'000'000'000;  // ids in LONG format have no more digits
 
 std::string identity(const std::string& path) {
@@ -128,10 +130,29 @@ bool DeckReader::may_include(const std::string& path, const Location& where, con
     too_many_files_ = true;
     diagnostics_.error(where, fmt::format("{}: the deck has more than {} files", keyword, most_files),
                        "does a file that is included many times include others?");
+  } else if (reread_bytes_ > free_rereading + most_rereading * distinct_bytes_) {
+    too_many_files_ = true;
+    diagnostics_.error(where,
+                       fmt::format("{}: the same files are read more than {} times", keyword, most_rereading),
+                       "does a file that is included many times include others?");
   } else {
     return true;
   }
   return false;
+}
+
+/// Shares the text of a file that was read before: it may be included many times.
+std::shared_ptr<SourceText> DeckReader::load_once(const std::string& path) {
+  if (const auto it = sources_.find(path); it != sources_.end()) {
+    reread_bytes_ += it->second->text.size();
+    it->second->format = CardFormat::standard;
+    return it->second;
+  }
+  auto source = load(path);
+  if (!source) return nullptr;
+  distinct_bytes_ += source->text.size();
+  sources_.emplace(path, source);
+  return source;
 }
 
 void DeckReader::include(const std::string& name, const File& from, std::size_t line,
@@ -141,7 +162,7 @@ void DeckReader::include(const std::string& name, const File& from, std::size_t 
   std::shared_ptr<SourceText> source;
   const std::vector<std::string> paths = candidates(name, parent.name);
   auto found = paths.begin();
-  while (found != paths.end() && !(source = load(*found))) ++found;
+  while (found != paths.end() && !(source = load_once(*found))) ++found;
   if (!source) {
     diagnostics_.error(place(from, line), fmt::format("{}: cannot read '{}'", keyword, name),
                        name.find('&') == std::string::npos
