@@ -18,6 +18,7 @@ namespace {
 
 constexpr Real largest_id = 99999999;  // I8
 constexpr Real most_entities = 5e7;    // a typing error in a spacing should not fill the memory
+constexpr Real most_jitter = 0.5;      // from there on two particles may meet
 
 class SceneReader {
  public:
@@ -35,6 +36,7 @@ class SceneReader {
     read_parameters(root["parameters"], scene);
     scene.title = root["title"] ? text(root["title"]) : std::string("untitled scene");
     if (scene.title.size() > 80) error(root["title"], "title: a deck's title has at most 80 characters");
+    scene.variables = variables_;
     read_parts(root, scene);
     read_keywords(root["keywords"], scene);
     return scene;
@@ -162,6 +164,44 @@ class SceneReader {
     return vector(map, key, dim);
   }
 
+  // x, y, z are the place; a parameter of that name would be hidden.
+  PlaceExpression of_place(const YAML::Node& node, std::string_view what) {
+    if (!node.IsScalar()) {
+      error(node, fmt::format("{}: expected an expression of x, y, z", what));
+      return {};
+    }
+    const auto named = named_places(node.Scalar());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::string name(1, "xyz"[k]);
+      if (named[k] && variables_.count(name))
+        error(node,
+              fmt::format("{}: {} is the place of a particle here, and a parameter of the scene", what, name),
+              "give the parameter another name");
+    }
+    if (node.Scalar().empty()) error(node, fmt::format("{}: the expression is missing", what));
+    return {node.Scalar(), at(node)};
+  }
+
+  void read_velocity(const YAML::Node& map, bool particles, ScenePart& part) {
+    const YAML::Node node = map["velocity"];
+    bool of_places = false;
+    if (node.IsSequence())
+      for (const auto& component : node) {
+        const auto named = component.IsScalar() ? named_places(component.Scalar()) : std::array<bool, 3>{};
+        of_places = of_places || named[0] || named[1] || named[2];
+      }
+    if (of_places && !particles)
+      error(node, "velocity: x, y, z are the place of a particle, and the part has none",
+            "parts of shells move with one velocity");
+    if (!of_places || node.size() < 2 || node.size() > 3) {
+      part.has_velocity = true;
+      part.velocity = vector(map, "velocity");
+      return;
+    }
+    part.velocity_of_place[2] = {"0", at(node)};
+    for (std::size_t k = 0; k < node.size(); ++k) part.velocity_of_place[k] = of_place(node[k], "velocity");
+  }
+
   Real length(const YAML::Node& map, const char* key) {
     const YAML::Node node = map[key];
     if (!node) {
@@ -196,8 +236,8 @@ class SceneReader {
 
   ScenePart read_part(const YAML::Node& node) {
     check_keys(node, "a part",
-               {"id", "title", "section", "material", "eos", "hourglass", "velocity", "density", "merge",
-                "first_id", "lattices", "plates"});
+               {"id", "title", "section", "material", "eos", "hourglass", "velocity", "pressure", "density",
+                "merge", "first_id", "lattices", "plates"});
     ScenePart part;
     part.where = at(node);
     part.id = id(node, "id", true);
@@ -208,8 +248,6 @@ class SceneReader {
     part.eos = id(node, "eos", false);
     part.hourglass = id(node, "hourglass", false);
     part.first_id = id(node, "first_id", false);
-    part.has_velocity = static_cast<bool>(node["velocity"]);
-    if (part.has_velocity) part.velocity = vector(node, "velocity");
     if (node["density"] && (part.density = number(node["density"], "density")) <= 0)
       error(node["density"], fmt::format("density: expected a number > 0, got {}", part.density));
     if (const YAML::Node merge = node["merge"]; merge && !YAML::convert<bool>::decode(merge, part.merge))
@@ -219,6 +257,10 @@ class SceneReader {
       error(node, "a part has either 'lattices' (SPH particles) or 'plates' (shells)");
       return part;
     }
+    if (node["velocity"]) read_velocity(node, particles, part);
+    if (node["pressure"]) part.pressure = of_place(node["pressure"], "pressure");
+    if (part.pressure.given() && !particles)
+      error(node["pressure"], "pressure: only particles have one, and the part has none");
     const YAML::Node list = node[particles ? "lattices" : "plates"];
     if (!list.IsSequence() || list.size() == 0) error(list, "expected a list that is not empty");
     for (const auto& entry : list) {
@@ -234,13 +276,19 @@ class SceneReader {
   }
 
   SceneLattice read_lattice(const YAML::Node& node) {
-    check_keys(node, "a lattice", {"low", "high", "spacing"});
+    check_keys(node, "a lattice", {"low", "high", "spacing", "where", "jitter"});
     SceneLattice lattice;
     const int before = diagnostics_.errors();
     int dim_high = 0;
     lattice.low = vector(node, "low", lattice.dim);
     const Vec high = vector(node, "high", dim_high);
     lattice.spacing = length(node, "spacing");
+    if (node["where"]) lattice.where = of_place(node["where"], "where");
+    if (node["jitter"]) lattice.jitter = number(node["jitter"], "jitter");
+    if (!(lattice.jitter >= 0 && lattice.jitter < most_jitter))
+      error(node["jitter"],
+            fmt::format("jitter: expected a fraction of the spacing from 0 to below {}, got {}", most_jitter,
+                        lattice.jitter));
     if (lattice.dim != dim_high && lattice.dim && dim_high)
       error(node, "low and high of a lattice need the same number of components");
     if (diagnostics_.errors() > before) return lattice;
