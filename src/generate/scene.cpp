@@ -105,13 +105,25 @@ class SceneReader {
   void read_parameters(const YAML::Node& node, const YAML::Node& base, Scene& scene) {
     std::set<std::string> unused;
     for (const auto& [name, value] : overrides_) unused.insert(name);
+    // The base's first, but for those that need the scene's own; these stand above the base's of the same
+    // name.
+    std::set<std::string> own;
+    std::set<int> done;  // entries by their place in the file
+    if (node && node.IsMap())
+      for (const auto& entry : node)
+        if (entry.first.IsScalar()) own.insert(entry.first.Scalar());
+    bool all = false;
+    const auto read_base = [&](const YAML::Node& name, const YAML::Node& value) {
+      const std::string key = name.IsScalar() ? name.Scalar() : "";
+      const bool ready = all || (value.IsScalar() && evaluate(value.Scalar(), variables_).ok());
+      if (!ready || own.contains(key) || !done.insert(name.Mark().pos).second) return;
+      read_parameter(name, value, unused, scene);
+    };
+    if (base) in_base([&] { for_each_entry(base["parameters"], read_base); });
     for_each_entry(node, [&](const YAML::Node& name, const YAML::Node& value) {
       read_parameter(name, value, unused, scene);
     });
-    const Variables own = variables_;  // they stand above the base's
-    const auto read_base = [&](const YAML::Node& name, const YAML::Node& value) {
-      if (!name.IsScalar() || !own.contains(name.Scalar())) read_parameter(name, value, unused, scene);
-    };
+    all = true;
     if (base) in_base([&] { for_each_entry(base["parameters"], read_base); });
     std::vector<std::string> names;
     for (const auto& p : scene.parameters) names.push_back(p.first);
