@@ -71,6 +71,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   const Real h = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
   neighbours_ = std::make_shared<Neighbours>(first_skin * h, sph_.region);
   neighbours_->adapt_skin(least_skin * h, most_skin * h);
+  add_images(h, diagnostics);
   if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
   contacts_ = build_contacts(
       deck_, model_, {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->largest_skin()},
@@ -78,7 +79,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   if (!diagnostics.ok()) return;
   world_.motions.push_back(make_particle_motion());
   add_sph_time_limit(sph_, model_, world_);
-  left_out_ = add_sph_passes(world_, sph_, neighbours_);
+  for (auto& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
   if (!model_.body_loads.empty())
     world_.forces.push_back(make_gravity(model_, world_, neighbours_));
   else
@@ -95,6 +96,16 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   rules_.dtinit = model_.dtinit;
   if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
   stepper_ = std::make_unique<Stepper>(world_, *neighbours_, rules_, timer_);
+}
+
+void Simulation::add_images(Real h, Diagnostics& diagnostics) {
+  const Real reach = 2 * h + neighbours_->largest_skin();
+  auto planes = build_image_planes(deck_, model_, sph_, reach, world_, diagnostics);
+  if (planes.empty())
+    return left_out_.push_back({"images", "no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC"});
+  auto images = std::make_shared<Images>(std::move(planes));
+  neighbours_->set_images(images);
+  world_.exchangers.push_back(images);
 }
 
 void Simulation::add_bodies() {
@@ -160,6 +171,7 @@ std::string Simulation::passes() const {
   const auto list = [&](const char* kind, const auto& passes) {
     for (const auto& pass : passes) text += fmt::format("  {:<12}{}\n", kind, pass->name());
   };
+  list("exchange", world_.exchangers);
   list("rate", world_.rates);
   list("material", world_.materials);
   list("tally", world_.tallies);

@@ -10,16 +10,14 @@
 #include <map>
 
 #include "generate/expression.hpp"
+#include "generate/initial_state.hpp"
+#include "generate/lattice.hpp"
 
 namespace courant {
 namespace {
 
 constexpr Id largest_id = 99999999;
 
-struct PlacedNode {
-  Id id;
-  Vec x;
-};
 struct PlacedShell {
   Id id;
   std::array<Id, 4> node;
@@ -31,21 +29,16 @@ struct PlacedPart {
   std::vector<PlacedShell> shells;
 };
 
-void place_lattice(const SceneLattice& lattice, Real density, Id first, PlacedPart& out) {
+void place_lattice(const SceneLattice& lattice, const std::vector<Vec>& points, Real density, Id first,
+                   PlacedPart& out) {
   // MASS > 0 is a mass, < 0 a volume.
   const Real mass = density > 0 ? density * lattice.volume() : -lattice.volume();
   Id id = first;
-  out.nodes.reserve(out.nodes.size() + static_cast<std::size_t>(lattice.count()));
-  out.particles.reserve(out.particles.size() + static_cast<std::size_t>(lattice.count()));
-  for (Id i = 0; i < lattice.n[0]; ++i) {
-    for (Id j = 0; j < lattice.n[1]; ++j) {
-      for (Id k = 0; k < lattice.n[2]; ++k) {
-        Vec x = lattice.low + lattice.spacing * Vec(Real(i) + 0.5, Real(j) + 0.5, Real(k) + 0.5);
-        if (lattice.dim == 2) x[2] = 0;
-        out.nodes.push_back({id, x});
-        out.particles.emplace_back(id++, mass);
-      }
-    }
+  out.nodes.reserve(out.nodes.size() + points.size());
+  out.particles.reserve(out.particles.size() + points.size());
+  for (const Vec& x : points) {
+    out.nodes.push_back({id, x});
+    out.particles.emplace_back(id++, mass);
   }
 }
 
@@ -100,7 +93,7 @@ struct Ids {
   Id node = 1, shell = 1;
 };
 
-PlacedPart place_part(const ScenePart& part, Ids& ids, Diagnostics& diagnostics) {
+PlacedPart place_part(const ScenePart& part, Ids& ids, const Variables& variables, Diagnostics& diagnostics) {
   PlacedPart placed;
   if (part.first_id > 0) {
     if (part.first_id < ids.node || (!part.plates.empty() && part.first_id < ids.shell))
@@ -111,10 +104,15 @@ PlacedPart place_part(const ScenePart& part, Ids& ids, Diagnostics& diagnostics)
     ids.node = part.first_id;
     if (!part.plates.empty()) ids.shell = part.first_id;
   }
+  Id stream = 1000 * part.id;
   for (const SceneLattice& lattice : part.lattices) {
-    place_lattice(lattice, part.density, ids.node, placed);
-    ids.node += lattice.count();
+    const std::vector<Vec> points = lattice_points(lattice, stream++, variables, diagnostics);
+    place_lattice(lattice, points, part.density, ids.node, placed);
+    ids.node += static_cast<Id>(points.size());
   }
+  if (part.plates.empty() && placed.particles.empty() && diagnostics.ok())
+    diagnostics.error(part.where, fmt::format("part {} has no particles: 'where' leaves none", part.id),
+                      "a particle is kept where the expression is > 0");
   Real side = std::numeric_limits<Real>::max();
   for (const ScenePlate& p : part.plates)
     side = std::min({side, p.edge1.norm() / Real(p.n[0]), p.edge2.norm() / Real(p.n[1])});
@@ -217,7 +215,7 @@ std::string deck_text(const Scene& scene, const std::string& scene_name, Diagnos
   std::vector<PlacedPart> placed;
   out += "$ Parts:\n";
   for (const ScenePart& part : scene.parts) {
-    placed.push_back(place_part(part, ids, diagnostics));
+    placed.push_back(place_part(part, ids, scene.variables, diagnostics));
     const PlacedPart& p = placed.back();
     const bool particles = !p.particles.empty();
     out += fmt::format("$   {} {}: {} {}\n", part.id, part.title,
@@ -232,6 +230,8 @@ std::string deck_text(const Scene& scene, const std::string& scene_name, Diagnos
   reserve_mesh(placed, out);
   append_nodes(placed, out);
   append_elements(placed, scene, out);
+  for (std::size_t p = 0; p < placed.size(); ++p)
+    append_initial_state(scene.parts[p], placed[p].nodes, scene.variables, out, diagnostics);
   out += "*END\n";
   return out;
 }

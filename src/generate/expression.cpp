@@ -57,17 +57,20 @@ std::string scientific(Real value, int digits) {
 
 }  // namespace
 
-Evaluation evaluate(std::string_view text, const Variables& variables) {
+Evaluation evaluate(std::string_view text, const Variables& variables, const Vec* place) {
   std::string plain_text;
   if (Evaluation fault = without_placeholders(text, plain_text); !fault.ok()) return fault;
   ExpressionNames names;
   names.find = [&](std::string_view name, std::string&) -> std::optional<Number> {
+    if (place && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z')
+      return Number::of((*place)[name[0] - 'x']);
     const auto it = variables.find(std::string(name));
     return it == variables.end() ? std::nullopt : std::optional<Number>(Number::of(it->second));
   };
   names.all = [&] {
     std::vector<std::string> all;
     for (const auto& [name, value] : variables) all.push_back(name);
+    if (place) all.insert(all.end(), {"x", "y", "z"});
     return all;
   };
   const ExpressionResult result = evaluate_expression(plain_text, names, Arithmetic::real);

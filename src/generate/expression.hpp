@@ -19,8 +19,9 @@ struct Evaluation {
 };
 
 /// Value of an expression such as `1.2 * d1 / ${resolution}`. `${name}` and `name` mean the same. Never
-/// throws; a result that is not finite (division by zero) is an error.
-Evaluation evaluate(std::string_view text, const Variables& variables);
+/// throws; a result that is not finite (division by zero) is an error. `place`: what x, y, z mean, where they
+/// mean a place.
+Evaluation evaluate(std::string_view text, const Variables& variables, const Vec* place = nullptr);
 
 /// The shortest text of a number that fits `width` columns, with a leading blank where that costs no digits.
 /// Empty if fewer than four correct digits would remain. `width` 0: no limit.

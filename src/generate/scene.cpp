@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <initializer_list>
 #include <set>
 #include <string_view>
@@ -18,6 +19,13 @@ namespace {
 
 constexpr Real largest_id = 99999999;  // I8
 constexpr Real most_entities = 5e7;    // a typing error in a spacing should not fill the memory
+constexpr Real most_jitter = 0.5;      // from there on two particles may meet
+
+void report_yaml_fault(const std::string& path, const YAML::Exception& fault, Diagnostics& diagnostics) {
+  const bool somewhere = !fault.mark.is_null();
+  diagnostics.error({path, somewhere ? fault.mark.line + 1 : 0, somewhere ? fault.mark.column + 1 : 0},
+                    fmt::format("not valid YAML: {}", fault.msg));
+}
 
 class SceneReader {
  public:
@@ -31,11 +39,14 @@ class SceneReader {
       diagnostics_.error({path_, 1, 1}, "a scene is a YAML map", "start with 'title: ...'");
       return scene;
     }
-    check_keys(root, "the scene", {"title", "parameters", "parts", "keywords"});
-    read_parameters(root["parameters"], scene);
+    check_keys(root, "the scene", {"title", "base", "parameters", "parts", "keywords"});
+    const YAML::Node base = load_base(root["base"]);
+    read_parameters(root["parameters"], base, scene);
     scene.title = root["title"] ? text(root["title"]) : std::string("untitled scene");
     if (scene.title.size() > 80) error(root["title"], "title: a deck's title has at most 80 characters");
+    scene.variables = variables_;
     read_parts(root, scene);
+    if (base) in_base([&] { read_keywords(base["keywords"], scene); });
     read_keywords(root["keywords"], scene);
     return scene;
   }
@@ -67,18 +78,65 @@ class SceneReader {
     }
   }
 
-  void read_parameters(const YAML::Node& node, Scene& scene) {
+  /// What many scenes have in common: a file with parameters and keywords.
+  YAML::Node load_base(const YAML::Node& node) {
+    if (!node) return YAML::Node(YAML::NodeType::Undefined);
+    const std::string name = text(node);
+    base_path_ = (std::filesystem::path(path_).parent_path() / name).string();
+    YAML::Node base(YAML::NodeType::Undefined);
+    try {
+      base = YAML::LoadFile(base_path_);
+    } catch (const YAML::BadFile&) {
+      error(node, fmt::format("base: the file '{}' cannot be read", base_path_));
+    } catch (const YAML::Exception& fault) {
+      report_yaml_fault(base_path_, fault, diagnostics_);
+    }
+    if (base) in_base([&] { check_keys(base, "a base", {"parameters", "keywords"}); });
+    return base;
+  }
+  /// Messages name the base's file meanwhile.
+  template <class Read>
+  void in_base(Read read) {
+    std::swap(path_, base_path_);
+    read();
+    std::swap(path_, base_path_);
+  }
+
+  void read_parameters(const YAML::Node& node, const YAML::Node& base, Scene& scene) {
     std::set<std::string> unused;
     for (const auto& [name, value] : overrides_) unused.insert(name);
-    if (node && !node.IsMap()) error(node, "parameters: expected a map of NAME: VALUE");
-    if (node && node.IsMap()) {
-      for (const auto& entry : node) read_parameter(entry.first, entry.second, unused, scene);
-    }
+    // The base's first, but for those that need the scene's own; these stand above the base's of the same
+    // name.
+    std::set<std::string> own;
+    std::set<int> done;  // entries by their place in the file
+    if (node && node.IsMap())
+      for (const auto& entry : node)
+        if (entry.first.IsScalar()) own.insert(entry.first.Scalar());
+    bool all = false;
+    const auto read_base = [&](const YAML::Node& name, const YAML::Node& value) {
+      const std::string key = name.IsScalar() ? name.Scalar() : "";
+      const bool ready = all || (value.IsScalar() && evaluate(value.Scalar(), variables_).ok());
+      if (!ready || own.contains(key) || !done.insert(name.Mark().pos).second) return;
+      read_parameter(name, value, unused, scene);
+    };
+    if (base) in_base([&] { for_each_entry(base["parameters"], read_base); });
+    for_each_entry(node, [&](const YAML::Node& name, const YAML::Node& value) {
+      read_parameter(name, value, unused, scene);
+    });
+    all = true;
+    if (base) in_base([&] { for_each_entry(base["parameters"], read_base); });
     std::vector<std::string> names;
     for (const auto& p : scene.parameters) names.push_back(p.first);
     for (const std::string& name : unused)
       diagnostics_.error({path_, 0, 0}, fmt::format("--param {}: the scene has no such parameter", name),
                          fmt::format("its parameters: {}", fmt::join(names, ", ")));
+  }
+
+  template <class Visit>
+  void for_each_entry(const YAML::Node& map, Visit visit) {
+    if (!map) return;
+    if (!map.IsMap()) return error(map, "parameters: expected a map of NAME: VALUE");
+    for (const auto& entry : map) visit(entry.first, entry.second);
   }
 
   void read_parameter(const YAML::Node& key, const YAML::Node& node, std::set<std::string>& unused,
@@ -92,7 +150,10 @@ class SceneReader {
     if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) ||
         !std::all_of(name.begin(), name.end(), is_word))
       error(key, fmt::format("parameters: '{}' is not a name", name), "use letters, digits and _");
-    if (variables_.count(name)) error(key, fmt::format("parameters: '{}' stands twice", name));
+    if (name == "pi")
+      error(key, "parameters: 'pi' is there already, 3.14159...");
+    else if (variables_.count(name))
+      error(key, fmt::format("parameters: '{}' stands twice", name));
     const auto override = overrides_.find(name);
     unused.erase(name);
     const bool overridden = override != overrides_.end();
@@ -162,6 +223,44 @@ class SceneReader {
     return vector(map, key, dim);
   }
 
+  // x, y, z are the place; a parameter of that name would be hidden.
+  PlaceExpression of_place(const YAML::Node& node, std::string_view what) {
+    if (!node.IsScalar()) {
+      error(node, fmt::format("{}: expected an expression of x, y, z", what));
+      return {};
+    }
+    const auto named = named_places(node.Scalar());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::string name(1, "xyz"[k]);
+      if (named[k] && variables_.count(name))
+        error(node,
+              fmt::format("{}: {} is the place of a particle here, and a parameter of the scene", what, name),
+              "give the parameter another name");
+    }
+    if (node.Scalar().empty()) error(node, fmt::format("{}: the expression is missing", what));
+    return {node.Scalar(), at(node)};
+  }
+
+  void read_velocity(const YAML::Node& map, bool particles, ScenePart& part) {
+    const YAML::Node node = map["velocity"];
+    bool of_places = false;
+    if (node.IsSequence())
+      for (const auto& component : node) {
+        const auto named = component.IsScalar() ? named_places(component.Scalar()) : std::array<bool, 3>{};
+        of_places = of_places || named[0] || named[1] || named[2];
+      }
+    if (of_places && !particles)
+      error(node, "velocity: x, y, z are the place of a particle, and the part has none",
+            "parts of shells move with one velocity");
+    if (!of_places || node.size() < 2 || node.size() > 3) {
+      part.has_velocity = true;
+      part.velocity = vector(map, "velocity");
+      return;
+    }
+    part.velocity_of_place[2] = {"0", at(node)};
+    for (std::size_t k = 0; k < node.size(); ++k) part.velocity_of_place[k] = of_place(node[k], "velocity");
+  }
+
   Real length(const YAML::Node& map, const char* key) {
     const YAML::Node node = map[key];
     if (!node) {
@@ -196,8 +295,8 @@ class SceneReader {
 
   ScenePart read_part(const YAML::Node& node) {
     check_keys(node, "a part",
-               {"id", "title", "section", "material", "eos", "hourglass", "velocity", "density", "merge",
-                "first_id", "lattices", "plates"});
+               {"id", "title", "section", "material", "eos", "hourglass", "velocity", "pressure", "density",
+                "merge", "first_id", "lattices", "plates"});
     ScenePart part;
     part.where = at(node);
     part.id = id(node, "id", true);
@@ -208,8 +307,6 @@ class SceneReader {
     part.eos = id(node, "eos", false);
     part.hourglass = id(node, "hourglass", false);
     part.first_id = id(node, "first_id", false);
-    part.has_velocity = static_cast<bool>(node["velocity"]);
-    if (part.has_velocity) part.velocity = vector(node, "velocity");
     if (node["density"] && (part.density = number(node["density"], "density")) <= 0)
       error(node["density"], fmt::format("density: expected a number > 0, got {}", part.density));
     if (const YAML::Node merge = node["merge"]; merge && !YAML::convert<bool>::decode(merge, part.merge))
@@ -219,6 +316,10 @@ class SceneReader {
       error(node, "a part has either 'lattices' (SPH particles) or 'plates' (shells)");
       return part;
     }
+    if (node["velocity"]) read_velocity(node, particles, part);
+    if (node["pressure"]) part.pressure = of_place(node["pressure"], "pressure");
+    if (part.pressure.given() && !particles)
+      error(node["pressure"], "pressure: only particles have one, and the part has none");
     const YAML::Node list = node[particles ? "lattices" : "plates"];
     if (!list.IsSequence() || list.size() == 0) error(list, "expected a list that is not empty");
     for (const auto& entry : list) {
@@ -234,13 +335,19 @@ class SceneReader {
   }
 
   SceneLattice read_lattice(const YAML::Node& node) {
-    check_keys(node, "a lattice", {"low", "high", "spacing"});
+    check_keys(node, "a lattice", {"low", "high", "spacing", "where", "jitter"});
     SceneLattice lattice;
     const int before = diagnostics_.errors();
     int dim_high = 0;
     lattice.low = vector(node, "low", lattice.dim);
     const Vec high = vector(node, "high", dim_high);
     lattice.spacing = length(node, "spacing");
+    if (node["where"]) lattice.where = of_place(node["where"], "where");
+    if (node["jitter"]) lattice.jitter = number(node["jitter"], "jitter");
+    if (!(lattice.jitter >= 0 && lattice.jitter < most_jitter))
+      error(node["jitter"],
+            fmt::format("jitter: expected a fraction of the spacing from 0 to below {}, got {}", most_jitter,
+                        lattice.jitter));
     if (lattice.dim != dim_high && lattice.dim && dim_high)
       error(node, "low and high of a lattice need the same number of components");
     if (diagnostics_.errors() > before) return lattice;
@@ -313,10 +420,10 @@ class SceneReader {
     scene.keywords.push_back(filled.text);
   }
 
-  std::string path_;
+  std::string path_, base_path_;
   const std::map<std::string, std::string>& overrides_;
   Diagnostics& diagnostics_;
-  Variables variables_;
+  Variables variables_{{"pi", pi}};
 };
 
 }  // namespace
@@ -328,9 +435,7 @@ Scene read_scene(const std::string& path, const std::map<std::string, std::strin
   } catch (const YAML::BadFile&) {
     diagnostics.error({path, 0, 0}, "the scene cannot be read", "check the name and the permissions");
   } catch (const YAML::Exception& fault) {
-    diagnostics.error({path, fault.mark.is_null() ? 0 : fault.mark.line + 1,
-                       fault.mark.is_null() ? 0 : fault.mark.column + 1},
-                      fmt::format("not valid YAML: {}", fault.msg));
+    report_yaml_fault(path, fault, diagnostics);
   }
   return {};
 }

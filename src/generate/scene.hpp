@@ -8,6 +8,7 @@
 
 #include "base/diagnostic.hpp"
 #include "base/real.hpp"
+#include "generate/place_expression.hpp"
 
 namespace courant {
 
@@ -16,8 +17,10 @@ struct SceneLattice {
   int dim = 3;                      ///< 2: low and high have two components, particles lie in the plane z = 0
   Vec low = Vec::Zero();            ///< [L]
   Real spacing = 0;                 ///< [L]
-  std::array<Id, 3> n = {0, 0, 1};  ///< particles along x, y, z
-  Id count() const { return n[0] * n[1] * n[2]; }
+  std::array<Id, 3> n = {0, 0, 1};  ///< cells along x, y, z
+  PlaceExpression where;            ///< if given, only cells whose centre has a value > 0 have a particle
+  Real jitter = 0;                  ///< largest shift along each axis, of the spacing [-]
+  Id count() const { return n[0] * n[1] * n[2]; }  ///< of cells
   Real volume() const {
     return dim == 2 ? spacing * spacing : spacing * spacing * spacing;
   }  ///< [L3], 2D: per depth
@@ -34,7 +37,9 @@ struct ScenePart {
   std::string title;
   Id section = 0, material = 0, eos = 0, hourglass = 0;
   bool has_velocity = false;
-  Vec velocity = Vec::Zero();  ///< initial [L/T]
+  Vec velocity = Vec::Zero();                        ///< initial [L/T]
+  std::array<PlaceExpression, 3> velocity_of_place;  ///< [L/T], given where one of them names x, y or z
+  PlaceExpression pressure;                          ///< initial [M/LT2]
   Real density = 0;    ///< > 0: elements carry a mass [M/L3]; 0: a volume, and RO of the material counts
   bool merge = false;  ///< plates of the part share the nodes they have in common
   Id first_id = 0;     ///< of nodes and elements; 0: the next free one
@@ -46,6 +51,7 @@ struct ScenePart {
 struct Scene {
   std::string title;
   std::vector<std::pair<std::string, Real>> parameters;  ///< in file order, after overrides
+  Variables variables;                                   ///< the same by name
   std::vector<ScenePart> parts;
   std::vector<std::string> keywords;  ///< deck text, placeholders filled
 };

@@ -133,11 +133,13 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   if (all) wake_all(world, clock.t);
   const Index n = all ? p.size() : p.moving + take_due(world, clock.t);
   choose_skin(clock);
+  if (images_) images_->bring_back(world, n);
   sort(world, clock, n);
   std::vector<Index>& old_of_new = order_;
   p.fields.permute(old_of_new);
   note_changes(p, old_of_new, active_before);
   if (all) queue_dormant(p);
+  if (images_) build_images(world);
   build_lists(world);
   remember_places(world, clock);
   built_ = true;
@@ -236,6 +238,11 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
   Real spacing = std::min(std::pow(e.volume / e.count, 1.0 / world.dim), 1.2 * h_max_);
   if (!(spacing >= 0.3 * h_max_)) spacing = 0.3 * h_max_;  // also where volumes are no numbers
   if (!(spacing > 0)) spacing = 1;
+  if (images_) {  // cells beyond the particles, where images may stand
+    const Vec reach = Vec::Constant(2 * h_max_ + most_skin_);
+    e.low -= reach, e.high += reach;
+    if (world.dim == 2) e.low[2] += reach[2], e.high[2] -= reach[2];
+  }
   grid_.cover(e.low, e.high, (world.dim == 2 ? std::sqrt(Real(lanes)) : 2) * spacing, 0.5 * spacing,
               16.0 * e.count + 4096);
   const Index cells = grid_.total();
@@ -307,7 +314,8 @@ Index Neighbours::list_of_group(const World& world, const NearQuery& q, std::vec
   }
   Index count = 0;
   grid_.near(low, high, 2 * h_max_ + skin_, [&](Index first, Index last) {
-    for (const auto* start : {&active_start_, &rim_start_}) {
+    for (const auto* start : {&active_start_, &rim_start_, &image_start_}) {
+      if (start->empty()) continue;
       const Index begin = (*start)[first], end = (*start)[last + 1];
       if (begin == end) continue;
       if (static_cast<Index>(found.size()) <= count + (end - begin))
@@ -316,6 +324,24 @@ Index Neighbours::list_of_group(const World& world, const NearQuery& q, std::vec
     }
   });
   return count;
+}
+
+void Neighbours::build_images(World& world) {
+  Particles& p = world.particles;
+  images_->build(world, 2 * h_max_ + skin_);
+  const Index n = images_->count(), cells = grid_.total(), first = p.size();
+  std::vector<Index> cell_of(n), order(n);
+  image_start_.assign(cells + 1, 0);
+  for (Index k = 0; k < n; ++k) {
+    const Index i = first + k;
+    cell_of[k] = grid_.cell_of(p.x.data(0)[i], p.x.data(1)[i], p.x.data(2)[i]);
+    ++image_start_[cell_of[k] + 1];
+  }
+  image_start_[0] = first;
+  for (Index c = 0; c < cells; ++c) image_start_[c + 1] += image_start_[c];
+  std::vector<Index> next(image_start_.begin(), image_start_.end() - 1);
+  for (Index k = 0; k < n; ++k) order[next[cell_of[k]]++ - first] = k;
+  images_->sort(world, order);
 }
 
 void Neighbours::build_lists(World& world) {

@@ -83,6 +83,12 @@ struct Constraint : BlockPass {};
 /// Blocks cover active and rim particles.
 struct Motion : BlockPass {};
 
+/// Brings copies of particles (images behind planes) up to date, between the stages.
+struct Exchanger : Pass {
+  virtual void before_rates(World& world) = 0;   ///< what motion changed
+  virtual void before_forces(World& world) = 0;  ///< what rates and materials changed
+};
+
 struct TimeLimit : Pass {
   struct Limit {
     Real dt;          ///< [T], infinity where there is none
@@ -120,6 +126,7 @@ struct World {
   Shares shares, moving_shares;
 
   // The passes the deck asks for, in the order the step runs them. One object may stand in several lists.
+  std::vector<std::shared_ptr<Exchanger>> exchangers;
   std::vector<std::shared_ptr<Rate>> rates;
   std::vector<std::shared_ptr<Material>> materials;
   std::vector<std::shared_ptr<Tally>> tallies;

@@ -64,7 +64,9 @@ Stepper::Stepper(World& world, Neighbours& neighbours, StepRules rules, PassTime
 
 void Stepper::evaluate(Clock& clock, std::string& controlled_by) {
   timer_.measure("neighbours", [&] { neighbours_.refresh(world_, clock); });
+  for (auto& e : world_.exchangers) timer_.measure(e->name(), [&] { e->before_rates(world_); });
   rates_.run(world_, clock, world_.particles.active, world_.shares);
+  for (auto& e : world_.exchangers) timer_.measure(e->name(), [&] { e->before_forces(world_); });
   forces_.run(world_, clock, world_.particles.active, world_.shares);
   timer_.measure("time step", [&] { choose_dt(world_, clock, rules_, controlled_by); });
 }
