@@ -91,10 +91,9 @@ std::vector<std::string> recommendation(const CaseResult& result, std::size_t ob
   std::vector<std::string> text;
   for (const Choice& choice : all) {
     const RunResult& run = result.runs[choice.point.run];
-    const std::string what =
-        choice.level > 0 ? "For an error of at most " + percent(choice.level) : "For no error at all";
-    text.push_back(fmt::format("{}: {}, {} of CPU time (error {}).", what, run_name(run),
-                               seconds(choice.point.cost), percent(choice.point.error)));
+    const std::string what = choice.level > 0 ? "at most " + percent(choice.level) : "zero";
+    text.push_back(fmt::format("{}: {}, {} (error {}).", what, run_name(run), seconds(choice.point.cost),
+                               percent(choice.point.error)));
   }
   if (observation >= result.definition.observations.size()) return text;
   const std::optional<Real>& bound = result.definition.observations[observation].bound;

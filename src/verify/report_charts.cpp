@@ -146,6 +146,7 @@ std::optional<Figure> map_figure(const CaseResult& result) {
   if (!map) return {};
   Figure figure{"map", "Stability map", svg_map(*map), {}, {}};
   figure.notes.push_back(verdict_counts(result) + ".");
+  if (!map->value_name.empty()) figure.notes.push_back("Numbers in the cells: " + map->value_name + ".");
   for (const RunResult& run : result.runs)
     if (!run.as_required)
       figure.notes.push_back(run_name(run) + " is " + verdict_word(run.verdict) +

@@ -29,16 +29,16 @@ h3{font-size:1.05em;margin:1.4em 0 .4em}p{max-width:75ch;margin:.5em 0}a{color:v
 .badge.missed{background:var(--bad);color:var(--page)}.badge.none{background:var(--panel);color:var(--soft)}
 .bad{color:var(--bad);font-weight:600}
 .facts{display:grid;grid-template-columns:max-content 1fr;gap:2px 14px;margin:1em 0;font-size:.93em}.facts dt{color:var(--soft)}.facts dd{margin:0}
-.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,400px),1fr));gap:20px;align-items:start}
+.figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,360px),1fr));gap:20px;align-items:start}
 figure{margin:0;min-width:0}figcaption{font-size:.93em}figcaption strong{display:block;margin-bottom:2px}
 .figures figure{border:1px solid var(--line);border-radius:6px;padding:10px 12px}
 .figures ul,.notes{margin:.4em 0;padding-left:1.2em;font-size:.93em}.notes{color:var(--soft)}
 .scroll{overflow-x:auto;max-width:100%}.chart{display:block;width:100%;height:auto;max-width:560px}
-.picture img{display:block;max-width:100%;height:auto}
+.choose{font-size:.93em;font-weight:600;margin-top:.5em}.picture img{display:block;width:100%;max-width:560px;height:auto}
 table{border-collapse:collapse;font-size:.87em;line-height:1.35;font-variant-numeric:tabular-nums;overflow-wrap:normal}
 th,td{padding:4px 9px;border-bottom:1px solid var(--line);text-align:left;vertical-align:top;white-space:nowrap}
-th{vertical-align:bottom;white-space:normal;background:var(--panel);min-width:5em}td.long{white-space:normal;min-width:16em}
-.n{text-align:right}tr.bad td{background:var(--bad-panel);color:inherit;font-weight:400}tr.bad td:last-child{color:var(--bad);font-weight:700}
+th{vertical-align:bottom;white-space:normal;background:var(--panel);min-width:5em}td.long{white-space:normal;min-width:16em}nav td:first-child{white-space:normal;min-width:9em}
+.n{text-align:right}tr.bad td{background:var(--bad-panel);color:inherit;font-weight:400}tr.bad td.missed{font-weight:700}summary{cursor:pointer;margin:.4em 0}
 @media (max-width:600px){body{padding:8px 12px 32px}.figures figure{border:0;padding:0}h1{font-size:1.4em}h2{font-size:1.2em}
 .facts{grid-template-columns:1fr}.facts dd{margin:0 0 4px}}
 @media print{body{max-width:none;padding:0;font-size:10.5pt}h2{break-after:avoid}figure,tr{break-inside:avoid}.scroll{overflow:visible}
@@ -46,7 +46,8 @@ table{font-size:7.5pt}th,td{white-space:normal;padding:2px 4px;min-width:0!impor
 .verdict,.badge,th,tr.bad td,.chart{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )";
 
-constexpr std::size_t long_cell = 44;  // longer texts are broken into lines
+constexpr std::size_t most_open_rows = 30;  // of a table; a longer one is opened by the reader
+constexpr std::size_t long_cell = 44;       // longer texts are broken into lines
 
 std::string table_html(const Table& table, const std::vector<std::string>& links = {}) {
   std::string out = R"(<div class="scroll" tabindex="0"><table><thead><tr>)";
@@ -57,10 +58,14 @@ std::string table_html(const Table& table, const std::vector<std::string>& links
     const Table::Row& row = table.rows[r];
     out += row.bad ? "<tr class=\"bad\">" : "<tr>";
     for (std::size_t c = 0; c < row.cells.size(); ++c) {
-      const bool numeric = table.columns[c].numeric, broken = length(row.cells[c]) > long_cell;
+      const bool broken = length(row.cells[c]) > long_cell, stands_out = row.cells[c].starts_with("MISSED");
+      const std::string_view css = table.columns[c].numeric ? " class=\"n\""
+                                   : stands_out             ? " class=\"missed\""
+                                   : broken                 ? " class=\"long\""
+                                                            : "";
       std::string text = escape_xml(row.cells[c]);
       if (c == 0 && r < links.size()) text = fmt::format("<a href=\"#{}\">{}</a>", links[r], text);
-      out += fmt::format("<td{}>{}</td>", numeric ? " class=\"n\"" : broken ? " class=\"long\"" : "", text);
+      out += fmt::format("<td{}>{}</td>", css, text);
     }
     out += "</tr>\n";
   }
@@ -92,8 +97,10 @@ std::string drawing_html(const std::string& svg) {
 
 std::string figure_html(const Figure& figure) {
   return "<figure><figcaption><strong>" + escape_xml(figure.title) + "</strong></figcaption>\n" +
-         drawing_html(figure.svg) + "\n" + list_html(figure.advice, "") + list_html(figure.notes, "notes") +
-         "</figure>\n";
+         drawing_html(figure.svg) + "\n" +
+         (figure.advice.empty() ? ""
+                                : "<div class=\"choose\">Cheapest run (CPU time) for an error of</div>\n") +
+         list_html(figure.advice, "") + list_html(figure.notes, "notes") + "</figure>\n";
 }
 
 std::string badge(const CaseResult& c) {
@@ -130,6 +137,12 @@ std::string picture_html(const ReportPicture& picture) {
       title, base64(picture.png), escape_xml(picture.low), escape_xml(picture.high));
 }
 
+std::string runs_html(const CaseResult& c) {
+  const std::string table = table_html(runs_table(c));
+  if (c.runs.size() <= most_open_rows) return table;
+  return fmt::format("<details><summary>All {} runs</summary>\n{}</details>\n", c.runs.size(), table);
+}
+
 std::string case_html(const CaseResult& c, const std::string& id) {
   const std::string& title = c.definition.title.empty() ? c.definition.name : c.definition.title;
   std::string out = fmt::format("<section id=\"{}\">\n<h2>{} {}</h2>\n", id, escape_xml(title), badge(c));
@@ -141,7 +154,7 @@ std::string case_html(const CaseResult& c, const std::string& id) {
   if (c.picture) out += picture_html(*c.picture);
   out += "</div>\n";
   if (!c.checks.empty()) out += "<h3>Bounds</h3>\n" + table_html(checks_table(c));
-  if (!c.runs.empty()) out += "<h3>Runs</h3>\n" + table_html(runs_table(c));
+  if (!c.runs.empty()) out += "<h3>Runs</h3>\n" + runs_html(c);
   return out + "</section>\n";
 }
 

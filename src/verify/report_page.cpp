@@ -15,6 +15,8 @@ namespace courant {
 namespace report {
 namespace {
 
+constexpr std::size_t most_open_rows = 30;  // of a table; a longer one is opened by the reader
+
 /// Where pictures go, and how the page names them.
 struct Pictures {
   std::filesystem::path folder;
@@ -84,6 +86,7 @@ std::string case_markdown(const CaseResult& c, Pictures& pictures) {
       out += pictures.add(c.definition.name + "-" + figure.stem, ".svg", standalone_svg(figure.svg),
                           figure.title) +
              "\n\n";
+    if (!figure.advice.empty()) out += "Cheapest run (CPU time) for an error of\n\n";
     out += list_markdown(figure.advice) + list_markdown(figure.notes);
   }
   if (c.picture)
@@ -91,7 +94,11 @@ std::string case_markdown(const CaseResult& c, Pictures& pictures) {
            " to " + escape_markdown(c.picture->high) + "\n\n" +
            pictures.add(c.definition.name + "-picture", ".png", c.picture->png, c.picture->title) + "\n\n";
   if (!c.checks.empty()) out += table_markdown(checks_table(c));
-  if (!c.runs.empty()) out += table_markdown(runs_table(c));
+  if (c.runs.size() > most_open_rows)
+    out += fmt::format("<details><summary>All {} runs</summary>\n\n{}</details>\n\n", c.runs.size(),
+                       table_markdown(runs_table(c)));
+  else if (!c.runs.empty())
+    out += table_markdown(runs_table(c));
   return out;
 }
 
@@ -104,7 +111,7 @@ std::string head_markdown(const SuiteResult& result) {
     for (const BoundCheck& check : c.checks)
       if (!check.met) out += "- " + escape_markdown(c.definition.title + ": " + check_text(check)) + "\n";
   if (!result.ok()) out += "\n";
-  out += escape_markdown(fmt::format("Suite {}, {}, on {}, {}; {}, {} at a time.",
+  out += escape_markdown(fmt::format("Suite {}, version {}, on {}, {}; {}, {} at a time.",
                                      result.suite.file.filename().string(), result.version, result.machine,
                                      result.date, seconds(result.wall_seconds),
                                      result.jobs == 1 ? "one run" : fmt::format("{} runs", result.jobs)));

@@ -30,7 +30,7 @@ void add_cost(Table& table, const CaseResult& result) {
              [](const RunResult& r) { return number(r.cpu_seconds, 3); });
   add_column(table, result, "wall time [s]", true,
              [](const RunResult& r) { return number(r.wall_seconds, 3); });
-  add_column(table, result, "CPU time per particle-step [ns]", true, [](const RunResult& r) {
+  add_column(table, result, "CPU ns per particle-step", true, [](const RunResult& r) {
     return r.particle_steps > 0 ? number(1e9 * r.cpu_seconds / static_cast<double>(r.particle_steps), 3) : "";
   });
   add_column(table, result, "memory [MB]", true, [](const RunResult& r) {
@@ -125,7 +125,7 @@ Table checks_table(const CaseResult& result) {
 }
 
 Table overview_table(const SuiteResult& result) {
-  Table table{{{"case"}, {"runs", true}, {"CPU time", true}, {"bounds met", true}, {"verdict"}}, {}};
+  Table table{{{"case"}, {"verdict"}, {"bounds met", true}, {"runs", true}, {"CPU time", true}}, {}};
   for (const CaseResult& c : result.cases) {
     double cpu = 0;
     for (const RunResult& run : c.runs) cpu += run.cpu_seconds;
@@ -134,8 +134,8 @@ Table overview_table(const SuiteResult& result) {
         c.checks.empty() ? "none stated" : fmt::format("{} of {}", c.checks.size() - bad, c.checks.size());
     std::string word = bad > 0 ? "MISSED" : c.checks.empty() ? "" : "met";
     if (c.definition.stability) word += (word.empty() ? "" : "; ") + verdict_counts(c);
-    table.rows.push_back({{c.definition.title.empty() ? c.definition.name : c.definition.title,
-                           fmt::format("{}", c.runs.size()), seconds(cpu), bounds, word},
+    table.rows.push_back({{c.definition.title.empty() ? c.definition.name : c.definition.title, word, bounds,
+                           fmt::format("{}", c.runs.size()), seconds(cpu)},
                           bad > 0});
   }
   return table;
@@ -146,7 +146,8 @@ std::string check_text(const BoundCheck& check) {
   if (!check.observation.empty()) text += (text.empty() ? "" : ", ") + check.observation;
   text += (text.empty() ? "" : ": ") + check.what;
   const std::string bound = amount(check, check.bound);
-  return bound.empty() ? text : text + " " + bound + ", measured " + amount(check, check.measured);
+  return bound.empty() ? text + " is required"
+                       : text + " " + bound + ", measured " + amount(check, check.measured);
 }
 
 std::size_t missed(const CaseResult& result) {

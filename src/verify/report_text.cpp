@@ -126,7 +126,7 @@ std::string number(Real value, int digits) {
   if (std::isinf(value)) return value > 0 ? "infinite" : "-infinite";
   const Real size = std::abs(value);
   if (value == std::round(value) && size < 1e6) return fmt::format("{:.0f}", value + 0.0);
-  if (size >= 1e4 && size < 1e6) return fmt::format("{:.0f}", value);
+  if (size >= std::pow(Real(10), digits) && size < 1e6) return fmt::format("{:.0f}", value);
   if (size != 0 && size < 1e-3) return short_exponent(fmt::format("{:.{}e}", value, digits - 1));
   return short_exponent(fmt::format("{:.{}g}", value, digits));
 }
@@ -134,19 +134,20 @@ std::string number(Real value, int digits) {
 std::string percent(Real fraction) {
   const Real size = std::abs(fraction);
   if (!std::isfinite(fraction)) return number(fraction);
-  if (fraction == 0) return "0 %";
+  if (fraction == 0) return "0\u00a0%";
   if (size < 1e-6 || size >= 100) return number(fraction, 2);
   const Real value = 100 * fraction;
-  return size >= 1 ? fmt::format("{:.0f} %", value) : fmt::format("{:.{}g} %", value, size >= 0.1 ? 3 : 2);
+  return size >= 1 ? fmt::format("{:.0f}\u00a0%", value)
+                   : fmt::format("{:.{}g}\u00a0%", value, size >= 0.1 ? 3 : 2);
 }
 
 std::string seconds(double value) {
   if (!std::isfinite(value)) return number(value);
-  if (value < 9.95) return short_exponent(fmt::format("{:.2g} s", value));
-  if (value < 119.5) return fmt::format("{:.0f} s", value);
+  if (value < 9.95) return short_exponent(fmt::format("{:.2g}\u00a0s", value));
+  if (value < 119.5) return fmt::format("{:.0f}\u00a0s", value);
   const auto whole = static_cast<long long>(std::llround(value));
-  if (whole < 7200) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+  if (whole < 7200) return fmt::format("{}\u00a0min\u00a0{}\u00a0s", whole / 60, whole % 60);
+  return fmt::format("{}\u00a0h\u00a0{}\u00a0min", whole / 3600, whole % 3600 / 60);
 }
 
 std::string integer(std::int64_t value) {

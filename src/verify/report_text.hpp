@@ -25,10 +25,11 @@ std::size_t length(std::string_view text);
 std::string shorten(std::string_view text, std::size_t most);
 
 std::string number(Real value, int digits = 4);  ///< significant digits; "not a number", "infinite"
-std::string percent(Real fraction);              ///< 0.012 -> "1.2 %"; very small and large ones: "1.2e-7"
-std::string seconds(double value);               ///< "3.1 s", "12 min 4 s"
-std::string integer(std::int64_t value);         ///< groups of three digits
-std::string megabytes(std::int64_t bytes);       ///< "12.3", without unit
+std::string percent(Real fraction);  ///< with a blank that does not break: 0.012 -> "1.2 %"; very small and
+                                     ///< large ones: "1.2e-7"
+std::string seconds(double value);   ///< "3.1 s", "12 min 4 s"
+std::string integer(std::int64_t value);    ///< groups of three digits
+std::string megabytes(std::int64_t bytes);  ///< "12.3", without unit
 
 /// A name for a file: letters, digits and '-'; never empty.
 std::string file_stem(std::string_view text);

@@ -62,8 +62,8 @@ void set_range(Axis& axis, std::span<const Real> values) {
   if (!any) {
     axis.from = axis.logarithmic ? 1 : 0, axis.to = axis.logarithmic ? 10 : 1;
   } else if (axis.logarithmic) {
-    const Real lack = std::max(smallest_ratio / (axis.to / axis.from), Real(1));
-    const Real margin = std::pow(axis.to / axis.from, Real(0.06)) * std::sqrt(lack);
+    const Real width = std::log(axis.to) - std::log(axis.from);
+    const Real margin = std::exp(0.06 * width + std::max((std::log(smallest_ratio) - width) / 2, Real(0)));
     axis.from /= margin, axis.to *= margin;
     // At the limits of what numbers can be, the axis still has two ends.
     if (!(axis.from > 1e-300)) axis.from = 1e-300;
@@ -84,7 +84,8 @@ bool Axis::shows(Real value) const {
 }
 
 Real Axis::place(Real value) const {
-  return logarithmic ? std::log(value / from) / std::log(to / from) : (value - from) / (to - from);
+  return logarithmic ? (std::log(value) - std::log(from)) / (std::log(to) - std::log(from))
+                     : (value - from) / (to - from);
 }
 
 Axis make_axis(bool logarithmic, std::span<const Real> values, bool percentages) {

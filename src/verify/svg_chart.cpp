@@ -24,6 +24,9 @@ struct Drawing {
   Real at_x(Real v) const { return left + x.place(v) * (right - left); }
   Real at_y(Real v) const { return bottom() - y.place(v) * plot_height; }
   bool shows(const ChartPoint& p) const { return x.shows(p.x) && y.shows(p.y); }
+  // Of what has no place: near the beginning of the axis, or its end for what is too large or not a number.
+  Real edge_x(Real v) const { return x.shows(v) ? at_x(v) : v <= 0 ? left + 10 : right - 10; }
+  Real edge_y(Real v) const { return y.shows(v) ? at_y(v) : v <= 0 ? bottom() - 10 : plot_top + 10; }
 };
 
 std::string marker_shape(std::size_t index, Real x, Real y, Real r) {
@@ -93,10 +96,9 @@ std::string path_through(const Drawing& d, const std::vector<ChartPoint>& points
 
 /// A point that has no place on the axes: at the edge, with an arrow and its value.
 std::string stray(const Drawing& d, const ChartPoint& p, std::size_t index) {
-  const bool high = !(p.y < 0 || (d.y.logarithmic && p.y <= 0));  // also what is not a number
-  const bool x_off = !d.x.shows(p.x), y_off = !d.y.shows(p.y);
-  const Real x = !x_off ? d.at_x(p.x) : p.x > 0 || std::isnan(p.x) ? d.right - 8 : d.left + 8;
-  const Real y = !y_off ? d.at_y(p.y) : high ? plot_top + 9 : d.bottom() - 9;
+  const bool high = !(p.y <= 0);
+  const bool y_off = !d.y.shows(p.y);
+  const Real x = d.edge_x(p.x), y = d.edge_y(p.y);
   std::string out = marker(index, x, y, p.hover);
   if (y_off) {
     const std::string_view arrow = high ? "m-3.5 3.5L0 0 3.5 3.5M0 0V6" : "m-3.5-3.5L0 0 3.5-3.5M0 0V-6";
@@ -156,8 +158,7 @@ std::string draw_front(const Drawing& d, const std::vector<ChartPoint>& front) {
   if (front.empty()) return {};
   std::string out = fmt::format(R"(<g class="front"><path d="{}"/>)", path_through(d, front));
   for (const ChartPoint& p : front)
-    if (d.shows(p))
-      out += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="9"/>)", d.at_x(p.x), d.at_y(p.y));
+    out += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="9"/>)", d.edge_x(p.x), d.edge_y(p.y));
   return out + "</g>";
 }
 
@@ -191,7 +192,7 @@ std::string legend(const Chart& chart, Real& y) {
   Real x = 8;
   for (const Entry& e : entries_of(chart)) {
     const std::string name = shorten(e.name, 50);
-    const Real width = 34 + letter_width * static_cast<Real>(length(name)) + 16;
+    const Real width = 34 + letter_width * static_cast<Real>(length(name)) + 22;
     if (x > 8 && x + width > chart_width) x = 8, y += row;
     out += fmt::format(R"svg(<g transform="translate({:.1f} {:.1f})">{}{}{}</g>)svg", x, y, e.sample,
                        name == e.name ? "" : title_of(e.name), text_at(33, 4.5, "start", name));

@@ -25,7 +25,7 @@ std::string text_at(Real x, Real y, std::string_view anchor, std::string_view cs
 
 std::string value_of(const RunResult& run) {
   for (const Observed& o : run.observed)
-    if (o.found && o.value) return number(*o.value, 2);
+    if (o.found && o.value) return number(*o.value, 3);
   return {};
 }
 
@@ -217,6 +217,9 @@ std::optional<StabilityMap> stability_map(const CaseResult& result) {
     if (map.columns.size() > in_a_row && !map.rows.empty() && map.rows.size() < map.columns.size()) turn(map);
   }
   map.label = result.definition.title + ": " + verdict_counts(result);
+  for (const RunResult& run : result.runs)
+    for (const Observed& o : run.observed)
+      if (map.value_name.empty() && o.found && o.value) map.value_name = o.name;
   return map;
 }
 

@@ -20,6 +20,7 @@ struct StabilityMap {
   std::string column_name, row_name;
   std::vector<std::string> columns, rows;  ///< values of the swept parameters; no rows: one parameter
   std::vector<MapCell> cells;              ///< row by row
+  std::string value_name{};                ///< what the values in the cells are; blank: there are none
 };
 
 /// The map of a stability case: columns and rows as the suite has them; the longer sweep stands in rows where
