@@ -104,8 +104,8 @@ std::vector<BoundCheck> check_bounds(const SuiteCase& definition, const std::vec
   return out;
 }
 
-void judge_stability(const SuiteStability& stability, const PlannedRun& planned, const RunNumbers& numbers,
-                     RunResult& run) {
+BoundCheck judge_stability(const SuiteStability& stability, const PlannedRun& planned,
+                           const RunNumbers& numbers, RunResult& run) {
   std::vector<std::string> names = outcome_names();
   std::vector<Real> values = {numbers.residual, numbers.ratio, numbers.leaked, numbers.penetration,
                               numbers.steps};
@@ -129,20 +129,19 @@ void judge_stability(const SuiteStability& stability, const PlannedRun& planned,
     run.verdict = Verdict::degraded;
   }
   std::string why;
-  const bool must_be_stable = constant_value(stability.must_be_stable, planned.variables, why) > 0,
-             must_stop = constant_value(stability.must_stop, planned.variables, why) > 0;
-  run.as_required = run.verdict != Verdict::broken && why.empty();
-  if (must_be_stable && !must_stop) run.as_required = run.as_required && run.verdict == Verdict::stable;
-  if (must_stop)
-    run.as_required = run.as_required && (run.verdict == Verdict::stopped || run.verdict == Verdict::refused);
-}
-
-std::vector<BoundCheck> check_verdicts(const std::vector<RunResult>& runs) {
-  std::vector<BoundCheck> out;
-  for (const RunResult& run : runs)
-    out.push_back({run.setting, "", fmt::format("verdict allowed: {}", word_for(run.verdict)), 1,
-                   run.as_required ? 1.0 : 0.0, run.as_required});
-  return out;
+  const bool must_stop = constant_value(stability.must_stop, planned.variables, why) > 0,
+             must_be_stable =
+                 constant_value(stability.must_be_stable, planned.variables, why) > 0 && !must_stop;
+  const bool ended = run.verdict == Verdict::stopped || run.verdict == Verdict::refused;
+  run.as_required = run.verdict != Verdict::broken;
+  if (must_be_stable) run.as_required = run.verdict == Verdict::stable;
+  if (must_stop) run.as_required = ended;
+  if (!why.empty()) run.as_required = false;
+  const std::string what = !why.empty()     ? "what is required: " + why
+                           : must_stop      ? "stopped or refused"
+                           : must_be_stable ? "stable"
+                                            : "anything but broken";
+  return {run.setting, "", what, 1, run.as_required ? 1.0 : 0.0, run.as_required};
 }
 
 }  // namespace courant

@@ -17,11 +17,9 @@ std::vector<BoundCheck> check_bounds(const SuiteCase& definition, const std::vec
                                      const std::vector<MeasuredOrder>& orders);
 
 /// Completes the verdict of a run of a stability case by its limits, and says whether it is as required.
-void judge_stability(const SuiteStability& stability, const PlannedRun& planned, const RunNumbers& numbers,
-                     RunResult& run);
-
-/// One check per run of a stability case.
-std::vector<BoundCheck> check_verdicts(const std::vector<RunResult>& runs);
+/// Returns the check of that.
+BoundCheck judge_stability(const SuiteStability& stability, const PlannedRun& planned,
+                           const RunNumbers& numbers, RunResult& run);
 
 const char* word_for(Verdict verdict);  ///< "stable"
 

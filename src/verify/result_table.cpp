@@ -165,6 +165,7 @@ std::string check_text(const CaseResult& c, const BoundCheck& check) {
   if (check.what == "error at most")
     out += fmt::format(" {}: {}", percent(check.bound), percent(check.measured));
   if (check.what == "order at least") out += fmt::format(" {:g}: {:.2f}", check.bound, check.measured);
+  if (c.definition.stability) out += " is required";
   return out;
 }
 

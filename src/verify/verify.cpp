@@ -253,12 +253,11 @@ class Verification {
             definition.observations[o], measured[k].observations[o], runs[k]->plan.variables,
             finest == k ? nullptr : &measured[finest].observations[o]));
       if (definition.stability)
-        judge_stability(*definition.stability, runs[k]->plan, numbers[k], out.runs[k]);
+        out.checks.push_back(judge_stability(*definition.stability, runs[k]->plan, numbers[k], out.runs[k]));
       if (!definition.stability) out.runs[k].as_required = out.runs[k].verdict == Verdict::stable;
     }
     out.orders = measured_orders(definition, out.runs);
-    out.checks =
-        definition.stability ? check_verdicts(out.runs) : check_bounds(definition, out.runs, out.orders);
+    if (!definition.stability) out.checks = check_bounds(definition, out.runs, out.orders);
     if (!definition.picture_of.empty()) {
       const std::size_t finest = finest_of(runs, 0);
       out.picture = draw_particles(definition, runs[finest]->plan.variables, runs[finest]->folder);
