@@ -34,7 +34,8 @@ figure{margin:0;min-width:0}figcaption{font-size:.93em}figcaption strong{display
 .figures figure{border:1px solid var(--line);border-radius:6px;padding:10px 12px}
 .figures ul,.notes{margin:.4em 0;padding-left:1.2em;font-size:.93em}.notes{color:var(--soft)}
 .scroll{overflow-x:auto;max-width:100%}.chart{display:block;width:100%;height:auto;max-width:560px}
-.choose{font-size:.93em;font-weight:600;margin-top:.5em}.picture img{display:block;width:100%;max-width:560px;height:auto}
+.choose{font-size:.93em;font-weight:600;margin-top:.5em}.wide .chart{max-width:none}.figures figure:has(.wide){grid-column:1/-1}
+.picture img{display:block;width:100%;max-width:560px;height:auto}
 table{border-collapse:collapse;font-size:.87em;line-height:1.35;font-variant-numeric:tabular-nums;overflow-wrap:normal}
 th,td{padding:4px 9px;border-bottom:1px solid var(--line);text-align:left;vertical-align:top;white-space:nowrap}
 th{vertical-align:bottom;white-space:normal;background:var(--panel);min-width:5em}td.long{white-space:normal;min-width:16em}nav td:first-child{white-space:normal;min-width:9em}
@@ -91,8 +92,9 @@ std::string drawing_html(const std::string& svg) {
   const std::size_t at = svg.find(key);
   const int width = at == std::string::npos ? chart_width : std::stoi(svg.substr(at + key.size(), 9));
   if (width <= chart_width) return svg;
-  return fmt::format("<div class=\"scroll\" tabindex=\"0\"><div style=\"min-width:{}px\">{}</div></div>",
-                     width * 9 / 10, svg);
+  return fmt::format(
+      "<div class=\"scroll\" tabindex=\"0\"><div class=\"wide\" style=\"width:{}px\">{}</div></div>",
+      width * 9 / 10, svg);
 }
 
 std::string figure_html(const Figure& figure) {

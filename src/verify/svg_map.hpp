@@ -35,8 +35,8 @@ std::string verdict_word(Verdict verdict);
 /// "12 stable, 3 degraded, 1 stopped", those that occur.
 std::string verdict_counts(const CaseResult& result);
 
-/// The map as one `svg` element in the style of chart_style(). Cells are at least 46 wide: a map of more
-/// columns than fit into chart_width is wider than that. One parameter: rows of up to seven values below each
+/// The map as one `svg` element in the style of chart_style(). Cells are as wide as their texts need: a map
+/// with more of them than fit into chart_width is wider than that. One parameter: rows of values below each
 /// other.
 std::string svg_map(const StabilityMap& map);
 

@@ -123,7 +123,7 @@ check(done.returncode == 0 and done.stdout.rstrip().endswith("</html>"), f"Chrom
 check(not on_console(done), f"no message on the console {on_console(done)[:3]}")
 with open(os.path.join(folder, "report.html"), encoding="utf-8") as file:
     charts = file.read().count("<svg ")
-check(charts == 9, f"{charts} charts in the file: four of errors, two of curves, three maps")
+check(charts == 10, f"{charts} charts in the file: four of errors, two of curves, four maps")
 check(done.stdout.count("<svg ") == charts, "all of them in the document")
 for width in (1280, 400):
     check_width(width, charts)

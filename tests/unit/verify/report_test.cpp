@@ -58,14 +58,14 @@ TEST(ReportText, Numbers) {
   EXPECT_EQ(number(-0.0), "0");
   EXPECT_EQ(number(1234.56, 3), "1235");
   EXPECT_EQ(number(0.0123456, 3), "0.0123");
-  EXPECT_EQ(number(1.2e-5, 3), "1.20e-5");
+  EXPECT_EQ(number(1.2e-5, 3), "1.2e-5");
   EXPECT_EQ(number(-2.5e9, 3), "-2.5e9");
   EXPECT_EQ(number(made::no_number), "not a number");
   EXPECT_EQ(number(-made::infinite), "-infinite");
   EXPECT_EQ(percent(0.0123), "1.2\u00a0%");
   EXPECT_EQ(percent(0.125), "12.5\u00a0%");
   EXPECT_EQ(percent(3.5), "350\u00a0%");
-  EXPECT_EQ(percent(1e-9), "1.0e-9");
+  EXPECT_EQ(percent(1e-9), "1e-9");
   EXPECT_EQ(percent(made::infinite), "infinite");
   EXPECT_EQ(seconds(3.14), "3.1\u00a0s");
   EXPECT_EQ(seconds(754), "12\u00a0min\u00a034\u00a0s");

@@ -34,6 +34,11 @@ TEST(Axis, TicksAreRound) {
   EXPECT_THAT(labels(axis(false, {-0.1, 0.3})), ElementsAre("-0.1", "0", "0.1", "0.2", "0.3"));
   EXPECT_THAT(labels(axis(false, {1000.001, 1000.003})),
               ElementsAre("1000.001", "1000.0015", "1000.002", "1000.0025", "1000.003"));
+  EXPECT_THAT(labels(axis(false, {101324.99991, 101325.00009})),
+              ElementsAre("101324.9999", "101324.99995", "101325", "101325.00005", "101325.0001"));
+  EXPECT_THAT(labels(axis(false, {1.0e8, 1.02e8})),
+              ElementsAre("1e8", "1.005e8", "1.01e8", "1.015e8", "1.02e8"));
+  EXPECT_THAT(labels(axis(false, {0, 2e-5})), ElementsAre("0", "5e-6", "1e-5", "1.5e-5", "2e-5"));
   EXPECT_THAT(labels(axis(true, {0.01, 100})), ElementsAre("0.01", "0.1", "1", "10", "100"));
   EXPECT_THAT(labels(axis(true, {0.011, 0.09}, true)), ElementsAre("1 %", "2 %", "5 %", "10 %"));
 }
