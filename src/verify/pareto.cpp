@@ -22,7 +22,7 @@ Real round_level(Real error) {
 }
 
 bool ended_well(const RunResult& run) {
-  return run.exit_code == 0 && run.verdict != Verdict::broken;
+  return run.exit_code == 0 && run.verdict <= Verdict::degraded;
 }
 
 }  // namespace

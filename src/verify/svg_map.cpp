@@ -55,9 +55,9 @@ void show(MapCell& cell, const RunResult& run) {
 }
 
 /// A case that sweeps nothing: its runs by their names.
-StabilityMap map_of_runs(const CaseResult& result) {
+StabilityMap map_of_runs(const std::vector<RunResult>& runs) {
   StabilityMap map;
-  for (const RunResult& run : result.runs) {
+  for (const RunResult& run : runs) {
     map.columns.push_back(run_name(run));
     show(map.cells.emplace_back(), run);
   }
@@ -211,26 +211,30 @@ std::string verdict_counts(const CaseResult& result) {
   return text;
 }
 
-std::optional<StabilityMap> stability_map(const CaseResult& result) {
+std::optional<StabilityMap> stability_map(const CaseResult& result, const std::string& setting) {
   if (!result.definition.stability) return {};
+  std::vector<RunResult> runs;
+  for (const RunResult& run : result.runs)
+    if (setting.empty() || run.setting == setting || run.setting.starts_with(setting + ", "))
+      runs.push_back(run);
   const auto& sweep = result.definition.stability->sweep;
   StabilityMap map;
   if (sweep.empty()) {
-    map = map_of_runs(result);
+    map = map_of_runs(runs);
   } else {
     const auto& [name, values] = sweep[0];
     map.column_name = name, map.columns = values;
     if (sweep.size() > 1) map.row_name = sweep[1].first, map.rows = sweep[1].second;
     map.cells.resize(map.columns.size() * std::max<std::size_t>(map.rows.size(), 1));
     for (std::size_t i = 0; i < map.cells.size(); ++i)
-      for (const RunResult& run : result.runs)
+      for (const RunResult& run : runs)
         if (has(run, name, map.columns[i % map.columns.size()]) &&
             (map.rows.empty() || has(run, map.row_name, map.rows[i / map.columns.size()])))
           show(map.cells[i], run);
     if (map.columns.size() > in_a_row && !map.rows.empty() && map.rows.size() < map.columns.size()) turn(map);
   }
   map.label = result.definition.title + ": " + verdict_counts(result);
-  for (const RunResult& run : result.runs)
+  for (const RunResult& run : runs)
     for (const Observed& o : run.observed)
       if (map.value_name.empty() && o.found && o.value) map.value_name = o.name;
   return map;

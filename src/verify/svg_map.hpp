@@ -24,9 +24,10 @@ struct StabilityMap {
 };
 
 /// The map of a stability case: columns and rows as the suite has them; the longer sweep stands in rows where
-/// it would be too wide. Of several runs with the same swept values, the worst one stands in the cell.
+/// it would be too wide. With a setting, its runs alone (their names begin
+/// with it). Of several runs with the same swept values, the worst one stands in the cell.
 /// Nothing for other cases.
-std::optional<StabilityMap> stability_map(const CaseResult& result);
+std::optional<StabilityMap> stability_map(const CaseResult& result, const std::string& setting = {});
 
 /// The letter that stands for a verdict, so that the map can be read without colours.
 char verdict_letter(Verdict verdict);

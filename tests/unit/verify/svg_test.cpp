@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "made_suite.hpp"
+#include "verify/report_charts.hpp"
 #include "verify/svg_axis.hpp"
 #include "verify/svg_chart.hpp"
 #include "verify/svg_map.hpp"
@@ -190,6 +191,17 @@ TEST(SvgMap, OfSeveralRunsTheWorstStandsInTheCell) {
   EXPECT_EQ(stability_map(c)->cells.at(0).verdict, Verdict::stopped);
   c.runs.push_back(c.runs[0]);
   EXPECT_EQ(stability_map(c)->cells.at(0).verdict, Verdict::stopped);
+}
+
+TEST(SvgMap, SettingsHaveMapsOfTheirOwn) {
+  CaseResult c = made::stability(2, 0);
+  for (RunResult& run : c.runs) run.setting = "cubic, " + run.setting;
+  c.runs.push_back(c.runs[0]);
+  c.runs.back().setting = "cubic spline, tssfac = 0.1", c.runs.back().verdict = Verdict::broken;
+  EXPECT_EQ(stability_map(c, "cubic")->cells.at(0).verdict, Verdict::stable);
+  EXPECT_EQ(stability_map(c, "cubic spline")->cells.at(0).verdict, Verdict::broken);
+  c.definition.settings = {{"cubic", {}, {}}, {"cubic spline", {}, {}}};
+  EXPECT_EQ(figures(c).size(), 2u);
 }
 
 TEST(SvgMap, ACaseWithoutSweepShowsItsRuns) {
