@@ -10,6 +10,8 @@
 namespace courant::report {
 namespace {
 
+constexpr std::size_t most_choices = 6;  // in words
+
 /// The smallest of 1, 2, 5 times a power of ten that is not below `error`.
 Real round_level(Real error) {
   if (error <= 0) return 0;
@@ -20,7 +22,7 @@ Real round_level(Real error) {
 }
 
 bool ended_well(const RunResult& run) {
-  return run.exit_code == 0 && run.verdict != Verdict::broken;
+  return run.exit_code == 0 && run.verdict <= Verdict::degraded;
 }
 
 }  // namespace
@@ -89,7 +91,10 @@ std::string run_name(const RunResult& run) {
 std::vector<std::string> recommendation(const CaseResult& result, std::size_t observation) {
   const std::vector<Choice> all = choices(pareto_front(cost_points(result, observation)));
   std::vector<std::string> text;
-  for (const Choice& choice : all) {
+  // Evenly along the front, the first and the last one among them: more than a few are no advice.
+  const std::size_t shown = std::min(all.size(), most_choices);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Choice& choice = all[shown > 1 ? i * (all.size() - 1) / (shown - 1) : 0];
     const RunResult& run = result.runs[choice.point.run];
     const std::string what = choice.level > 0 ? "at most " + percent(choice.level) : "zero";
     text.push_back(fmt::format("{}: {}, {} (error {}).", what, run_name(run), seconds(choice.point.cost),

@@ -39,8 +39,8 @@ std::vector<CostPoint> cost_points(const CaseResult& result, std::size_t observa
 std::optional<std::size_t> cheapest_within_bounds(const CaseResult& result);
 
 /// The choices in words, for a list of the cheapest runs for an error of: "at most 1 %: cubic at resolution
-/// 40, 3.1 s (error 0.8 %)." The time is CPU time. The last one tells the smallest error if it misses the
-/// bound of the observation.
+/// 40, 3.1 s (error 0.8 %)." The time is CPU time. At most six, spread along the front. The last one tells
+/// the smallest error if it misses the bound of the observation.
 std::vector<std::string> recommendation(const CaseResult& result, std::size_t observation);
 
 /// "cubic at resolution 40", or what of it is there.

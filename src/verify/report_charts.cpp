@@ -141,17 +141,25 @@ std::optional<Figure> curve_figure(const CaseResult& result, std::size_t k) {
   return figure;
 }
 
-std::optional<Figure> map_figure(const CaseResult& result) {
-  const std::optional<StabilityMap> map = stability_map(result);
-  if (!map) return {};
-  Figure figure{"map", "Stability map", svg_map(*map), {}, {}};
-  figure.notes.push_back(verdict_counts(result) + ".");
-  if (!map->value_name.empty()) figure.notes.push_back("Numbers in the cells: " + map->value_name + ".");
+/// One map, or one for each of several settings.
+std::vector<Figure> map_figures(const CaseResult& result) {
+  std::vector<Figure> all;
+  const std::vector<SuiteSetting>& settings = result.definition.settings;
+  for (std::size_t i = 0; i < std::max<std::size_t>(settings.size(), 1); ++i) {
+    const std::string setting = settings.size() > 1 ? settings[i].name : "";
+    const std::optional<StabilityMap> map = stability_map(result, setting);
+    if (!map) return {};
+    Figure figure{setting.empty() ? "map" : "map-" + setting, "Stability map", svg_map(*map), {}, {}};
+    if (!setting.empty()) figure.title += ", " + setting;
+    if (!map->value_name.empty()) figure.notes.push_back("Numbers in the cells: " + map->value_name + ".");
+    all.push_back(std::move(figure));
+  }
+  all.back().notes.push_back(verdict_counts(result) + ".");
   for (const RunResult& run : result.runs)
     if (!run.as_required)
-      figure.notes.push_back(run_name(run) + " is " + verdict_word(run.verdict) +
-                             ", which the suite does not allow.");
-  return figure;
+      all.back().notes.push_back(run_name(run) + " is " + verdict_word(run.verdict) +
+                                 ", which the suite does not allow.");
+  return all;
 }
 
 }  // namespace
@@ -186,7 +194,7 @@ std::vector<Figure> figures(const CaseResult& result) {
     if (result.definition.stability) continue;
     if (std::optional<Figure> figure = curve_figure(result, k)) all.push_back(std::move(*figure));
   }
-  if (std::optional<Figure> figure = map_figure(result)) all.push_back(std::move(*figure));
+  for (Figure& figure : map_figures(result)) all.push_back(std::move(figure));
   if (all.empty() && !result.runs.empty())
     all.push_back({"none", "Charts", {}, {"Nothing is observed that could be drawn."}, {}});
   return all;

@@ -1,6 +1,9 @@
 // report.html: plain elements, one style sheet, no script.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "output/file.hpp"
 #include "verify/pareto.hpp"
 #include "verify/report.hpp"
@@ -34,7 +37,8 @@ figure{margin:0;min-width:0}figcaption{font-size:.93em}figcaption strong{display
 .figures figure{border:1px solid var(--line);border-radius:6px;padding:10px 12px}
 .figures ul,.notes{margin:.4em 0;padding-left:1.2em;font-size:.93em}.notes{color:var(--soft)}
 .scroll{overflow-x:auto;max-width:100%}.chart{display:block;width:100%;height:auto;max-width:560px}
-.choose{font-size:.93em;font-weight:600;margin-top:.5em}.picture img{display:block;width:100%;max-width:560px;height:auto}
+.choose{font-size:.93em;font-weight:600;margin-top:.5em}.wide .chart{max-width:none}.figures figure:has(.wide){grid-column:1/-1}
+.picture img{display:block;width:100%;max-width:560px;height:auto}
 table{border-collapse:collapse;font-size:.87em;line-height:1.35;font-variant-numeric:tabular-nums;overflow-wrap:normal}
 th,td{padding:4px 9px;border-bottom:1px solid var(--line);text-align:left;vertical-align:top;white-space:nowrap}
 th{vertical-align:bottom;white-space:normal;background:var(--panel);min-width:5em}td.long{white-space:normal;min-width:16em}nav td:first-child{white-space:normal;min-width:9em}
@@ -91,8 +95,9 @@ std::string drawing_html(const std::string& svg) {
   const std::size_t at = svg.find(key);
   const int width = at == std::string::npos ? chart_width : std::stoi(svg.substr(at + key.size(), 9));
   if (width <= chart_width) return svg;
-  return fmt::format("<div class=\"scroll\" tabindex=\"0\"><div style=\"min-width:{}px\">{}</div></div>",
-                     width * 9 / 10, svg);
+  return fmt::format(
+      "<div class=\"scroll\" tabindex=\"0\"><div class=\"wide\" style=\"width:{}px\">{}</div></div>",
+      width * 9 / 10, svg);
 }
 
 std::string figure_html(const Figure& figure) {
@@ -133,14 +138,20 @@ std::string picture_html(const ReportPicture& picture) {
   const std::string title = escape_xml(picture.title);
   return fmt::format(
       "<figure class=\"picture\"><figcaption><strong>{0}</strong></figcaption><img alt=\"{0}\" "
-      "src=\"data:image/png;base64,{1}\"><figcaption>Colours from {2} to {3}</figcaption></figure>\n",
+      "src=\"data:image/png;base64,{1}\"><figcaption>Colours from {2} (dark) to {3} "
+      "(light)</figcaption></figure>\n",
       title, base64(picture.png), escape_xml(picture.low), escape_xml(picture.high));
 }
 
-std::string runs_html(const CaseResult& c) {
-  const std::string table = table_html(runs_table(c));
-  if (c.runs.size() <= most_open_rows) return table;
-  return fmt::format("<details><summary>All {} runs</summary>\n{}</details>\n", c.runs.size(), table);
+/// A long table is folded; what stands out in it is shown above.
+std::string folded_html(const Table& table, std::string_view what) {
+  if (table.rows.size() <= most_open_rows) return table_html(table);
+  Table bad{table.columns, {}};
+  std::copy_if(table.rows.begin(), table.rows.end(), std::back_inserter(bad.rows),
+               [](const auto& r) { return r.bad; });
+  return (bad.rows.empty() ? "" : table_html(bad)) +
+         fmt::format("<details><summary>All {} {}</summary>\n{}</details>\n", table.rows.size(), what,
+                     table_html(table));
 }
 
 std::string case_html(const CaseResult& c, const std::string& id) {
@@ -153,8 +164,8 @@ std::string case_html(const CaseResult& c, const std::string& id) {
   for (const Figure& figure : figures(c)) out += figure_html(figure);
   if (c.picture) out += picture_html(*c.picture);
   out += "</div>\n";
-  if (!c.checks.empty()) out += "<h3>Bounds</h3>\n" + table_html(checks_table(c));
-  if (!c.runs.empty()) out += "<h3>Runs</h3>\n" + runs_html(c);
+  if (!c.checks.empty()) out += "<h3>Bounds</h3>\n" + folded_html(checks_table(c), "bounds");
+  if (!c.runs.empty()) out += "<h3>Runs</h3>\n" + folded_html(runs_table(c), "runs");
   return out + "</section>\n";
 }
 

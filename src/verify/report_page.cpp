@@ -1,6 +1,8 @@
 // The Markdown page: what GitHub renders, with the charts as files beside it.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "output/file.hpp"
@@ -51,6 +53,17 @@ std::string table_markdown(const Table& table) {
   return out + "\n";
 }
 
+/// A long table is folded; what stands out in it is shown above.
+std::string folded_markdown(const Table& table, std::string_view what) {
+  if (table.rows.size() <= most_open_rows) return table_markdown(table);
+  Table bad{table.columns, {}};
+  std::copy_if(table.rows.begin(), table.rows.end(), std::back_inserter(bad.rows),
+               [](const auto& r) { return r.bad; });
+  return (bad.rows.empty() ? "" : table_markdown(bad)) +
+         fmt::format("<details><summary>All {} {}</summary>\n\n{}</details>\n\n", table.rows.size(), what,
+                     table_markdown(table));
+}
+
 std::string paragraphs_markdown(const std::string& text) {
   std::string out;
   for (const std::string& p : paragraphs(text)) out += escape_markdown(p) + "\n\n";
@@ -91,14 +104,10 @@ std::string case_markdown(const CaseResult& c, Pictures& pictures) {
   }
   if (c.picture)
     out += "**" + escape_markdown(c.picture->title) + "**, colours from " + escape_markdown(c.picture->low) +
-           " to " + escape_markdown(c.picture->high) + "\n\n" +
+           " (dark) to " + escape_markdown(c.picture->high) + " (light)\n\n" +
            pictures.add(c.definition.name + "-picture", ".png", c.picture->png, c.picture->title) + "\n\n";
-  if (!c.checks.empty()) out += table_markdown(checks_table(c));
-  if (c.runs.size() > most_open_rows)
-    out += fmt::format("<details><summary>All {} runs</summary>\n\n{}</details>\n\n", c.runs.size(),
-                       table_markdown(runs_table(c)));
-  else if (!c.runs.empty())
-    out += table_markdown(runs_table(c));
+  if (!c.checks.empty()) out += folded_markdown(checks_table(c), "bounds");
+  if (!c.runs.empty()) out += folded_markdown(runs_table(c), "runs");
   return out;
 }
 

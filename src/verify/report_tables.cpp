@@ -146,7 +146,7 @@ std::string check_text(const BoundCheck& check) {
   if (!check.observation.empty()) text += (text.empty() ? "" : ", ") + check.observation;
   text += (text.empty() ? "" : ": ") + check.what;
   const std::string bound = amount(check, check.bound);
-  return bound.empty() ? text + " is required"
+  return bound.empty() ? text + (check.met ? ": yes" : ": no")
                        : text + " " + bound + ", measured " + amount(check, check.measured);
 }
 

@@ -42,10 +42,11 @@ void each_character(std::string_view text, Use&& use) {
   }
 }
 
-/// "1e-05" -> "1e-5", "1e+06" -> "1e6"
+/// "1e-05" -> "1e-5", "1.20e+06" -> "1.2e6"
 std::string short_exponent(std::string text) {
-  const std::size_t e = text.find('e');
+  std::size_t e = text.find('e');
   if (e == std::string::npos) return text;
+  for (; text.find('.') < e && (text[e - 1] == '0' || text[e - 1] == '.'); --e) text.erase(e - 1, 1);
   std::size_t digits = e + 2;
   while (digits + 1 < text.size() && text[digits] == '0') text.erase(digits, 1);
   if (text[e + 1] == '+') text.erase(e + 1, 1);

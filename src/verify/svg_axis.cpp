@@ -94,12 +94,17 @@ Axis make_axis(bool logarithmic, std::span<const Real> values, bool percentages)
   set_range(axis, values);
   const std::vector<Real> ticks = logarithmic ? logarithmic_ticks(axis) : linear_ticks(axis);
   const bool as_percent = percentages && axis.from > 5e-6 && axis.to < 200;
+  // Enough digits to tell neighbouring ticks apart, too few to show that 0.3 is not 3/10.
+  int digits = 6;
+  if (!logarithmic) {
+    const Real size = std::max(std::abs(axis.from), std::abs(axis.to));
+    digits = std::clamp(static_cast<int>(std::log10(size / (ticks[1] - ticks[0]))) + 3, 6, 15);
+  }
   for (const Real v : ticks) {
-    // Ten digits: enough to tell neighbouring ticks apart, too few to show that 0.3 is not 3/10.
-    const Real shown = std::stod(fmt::format("{:.9e}", as_percent ? 100 * v : v));
+    const Real shown = std::stod(fmt::format("{:.{}e}", as_percent ? 100 * v : v, digits - 1));
     const Real size = std::abs(shown);
-    std::string label = fmt::format("{:.10g}", shown);
-    if (size != 0 && (size < 1e-4 || size >= 1e6)) label = number(shown, 2);
+    std::string label = fmt::format("{:.{}g}", shown, digits);
+    if (size != 0 && (size < 1e-4 || size >= 1e6)) label = number(shown, digits);
     axis.ticks.push_back({v, label + (as_percent ? " %" : "")});
   }
   return axis;

@@ -12,7 +12,8 @@
 namespace courant::report {
 namespace {
 
-constexpr Real letter_width = 7.3;  // mean, of letters of the size chart_letters
+// Of letters of the size chart_letters, in a broad face: mean of words, and digits.
+constexpr Real letter_width = 7.3, digit_width = 8.6;
 constexpr Real plot_top = 30, plot_height = 225, row = 21;
 constexpr int colours = 7;  // of the style sheet
 
@@ -72,7 +73,7 @@ std::string grid(const Drawing& d) {
   for (const Axis::Tick& t : d.y.ticks) out += text_at(d.left - 6, d.at_y(t.value) + 4.5, "end", t.label);
   Real taken = -1e9;
   for (const Axis::Tick& t : d.x.ticks) {
-    const Real half = letter_width * static_cast<Real>(length(t.label)) / 2;
+    const Real half = digit_width * static_cast<Real>(length(t.label)) / 2;
     const Real middle = std::clamp(d.at_x(t.value), half, chart_width - half - 1);
     if (middle - half < taken + 8) continue;
     taken = middle + half;
@@ -212,7 +213,7 @@ Drawing lay_out(const Chart& chart) {
   d.y = make_axis(chart.log_y, ys, chart.percent_y);
   std::size_t longest = 2;
   for (const Axis::Tick& t : d.y.ticks) longest = std::max(longest, length(t.label));
-  d.left = std::min<Real>(14 + letter_width * static_cast<Real>(longest), 130);
+  d.left = std::min<Real>(10 + digit_width * static_cast<Real>(longest), 140);
   d.right = chart_width - 14;
   return d;
 }

@@ -52,7 +52,7 @@ std::string_view chart_style();
 /// A file of its own: the `svg` element with the style sheet inside.
 std::string standalone_svg(std::string_view svg);
 
-/// Width of the charts' coordinates, and the size of their letters in them: shown 340 pixels wide or more,
+/// Width of the charts' coordinates, and the size of their letters in them: shown 345 pixels wide or more,
 /// the letters are at least 11 pixels high.
 inline constexpr int chart_width = 420;
 inline constexpr Real chart_letters = 13.5;

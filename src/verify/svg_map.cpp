@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::array all_verdicts = {Verdict::stable, Verdict::degraded, Verdict::stopped, Verdict::refused,
                                      Verdict::broken};
-constexpr Real letter_width = 7.3, cell_height = 40, least_width = 46, letters_in_cell = 6;
-constexpr std::size_t in_a_row = 7;  // values of a single parameter
+constexpr Real letter_width = 7.3, digit_width = 8.6, cell_height = 40, least_width = 46;
+constexpr std::size_t most_letters = 14;  // of a value of a swept parameter, or in a cell
+constexpr std::size_t in_a_row = 7;       // more columns than that had better be rows
 
 std::string text_at(Real x, Real y, std::string_view anchor, std::string_view css, std::string_view text) {
   return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}" class="{}">{}</text>)", x, y, anchor,
@@ -54,9 +55,9 @@ void show(MapCell& cell, const RunResult& run) {
 }
 
 /// A case that sweeps nothing: its runs by their names.
-StabilityMap map_of_runs(const CaseResult& result) {
+StabilityMap map_of_runs(const std::vector<RunResult>& runs) {
   StabilityMap map;
-  for (const RunResult& run : result.runs) {
+  for (const RunResult& run : runs) {
     map.columns.push_back(run_name(run));
     show(map.cells.emplace_back(), run);
   }
@@ -90,8 +91,7 @@ std::string draw_cell(const MapCell& cell, Real x, Real y, Real width) {
   const bool alone = cell.value.empty();
   out += text_at(x + width / 2, y + (alone ? 25 : 17), "middle", "symbol on-cell on-" + name, letter);
   if (!alone)
-    out += text_at(x + width / 2, y + 33, "middle", "on-cell on-" + name,
-                   shorten(cell.value, letters_in_cell + 2));
+    out += text_at(x + width / 2, y + 33, "middle", "on-cell on-" + name, shorten(cell.value, most_letters));
   return out + "</g>";
 }
 
@@ -99,24 +99,37 @@ std::string draw_cell(const MapCell& cell, Real x, Real y, Real width) {
 std::string draw_block(const StabilityMap& map, std::size_t first, std::size_t count, Real left, Real width,
                        Real& y) {
   std::string out;
-  const auto letters = static_cast<std::size_t>(width / letter_width);
+
   for (std::size_t c = 0; c < count; ++c) {
     const std::string& value = map.columns[first + c];
-    out +=
-        "<g><title>" + escape_xml(map.column_name + " = " + value) + "</title>" +
-        text_at(left + (static_cast<Real>(c) + 0.5) * width, y + 14, "middle", "", shorten(value, letters)) +
-        "</g>";
+    out += "<g><title>" + escape_xml(map.column_name + " = " + value) + "</title>" +
+           text_at(left + (static_cast<Real>(c) + 0.5) * width, y + 14, "middle", "",
+                   shorten(value, most_letters)) +
+           "</g>";
   }
   y += 20;
   for (std::size_t r = 0; r < std::max<std::size_t>(map.rows.size(), 1); ++r) {
     if (!map.rows.empty())
-      out += text_at(left - 8, y + cell_height / 2 + 4.5, "end", "", shorten(map.rows[r], 14));
+      out += text_at(left - 8, y + cell_height / 2 + 4.5, "end", "", shorten(map.rows[r], most_letters));
     for (std::size_t c = 0; c < count; ++c)
       out += draw_cell(map.cells[r * map.columns.size() + first + c], left + static_cast<Real>(c) * width, y,
                        width);
     y += cell_height;
   }
   return out;
+}
+
+std::size_t longest_of(const std::vector<std::string>& texts) {
+  std::size_t longest = 0;
+  for (const std::string& text : texts) longest = std::max(longest, std::min(length(text), most_letters));
+  return longest;
+}
+
+/// So that no text reaches into the next cell.
+Real least_cell_width(const StabilityMap& map) {
+  std::size_t longest = longest_of(map.columns);
+  for (const MapCell& cell : map.cells) longest = std::max(longest, longest_of({cell.value}));
+  return std::max(least_width, digit_width * static_cast<Real>(longest) + 8);
 }
 
 std::string draw_legend(const StabilityMap& map, Real full_width, Real& y) {
@@ -198,39 +211,44 @@ std::string verdict_counts(const CaseResult& result) {
   return text;
 }
 
-std::optional<StabilityMap> stability_map(const CaseResult& result) {
+std::optional<StabilityMap> stability_map(const CaseResult& result, const std::string& setting) {
   if (!result.definition.stability) return {};
+  std::vector<RunResult> runs;
+  for (const RunResult& run : result.runs)
+    if (setting.empty() || run.setting == setting || run.setting.starts_with(setting + ", "))
+      runs.push_back(run);
   const auto& sweep = result.definition.stability->sweep;
   StabilityMap map;
   if (sweep.empty()) {
-    map = map_of_runs(result);
+    map = map_of_runs(runs);
   } else {
     const auto& [name, values] = sweep[0];
     map.column_name = name, map.columns = values;
     if (sweep.size() > 1) map.row_name = sweep[1].first, map.rows = sweep[1].second;
     map.cells.resize(map.columns.size() * std::max<std::size_t>(map.rows.size(), 1));
     for (std::size_t i = 0; i < map.cells.size(); ++i)
-      for (const RunResult& run : result.runs)
+      for (const RunResult& run : runs)
         if (has(run, name, map.columns[i % map.columns.size()]) &&
             (map.rows.empty() || has(run, map.row_name, map.rows[i / map.columns.size()])))
           show(map.cells[i], run);
     if (map.columns.size() > in_a_row && !map.rows.empty() && map.rows.size() < map.columns.size()) turn(map);
   }
   map.label = result.definition.title + ": " + verdict_counts(result);
-  for (const RunResult& run : result.runs)
+  for (const RunResult& run : runs)
     for (const Observed& o : run.observed)
       if (map.value_name.empty() && o.found && o.value) map.value_name = o.name;
   return map;
 }
 
 std::string svg_map(const StabilityMap& map) {
-  std::size_t longest = 0;
-  for (const std::string& value : map.rows)
-    longest = std::max(longest, std::min<std::size_t>(length(value), 14));
-  const Real left = map.rows.empty() ? 8 : 18 + letter_width * static_cast<Real>(longest);
+  const Real left = map.rows.empty() ? 8 : 16 + digit_width * static_cast<Real>(longest_of(map.rows));
+  const Real least = least_cell_width(map);
   const std::size_t count = std::max<std::size_t>(
-      map.rows.empty() ? std::min(map.columns.size(), in_a_row) : map.columns.size(), 1);
-  const Real width = std::clamp((chart_width - left - 8) / static_cast<Real>(count), least_width, Real(90));
+      map.rows.empty() ? std::min(map.columns.size(), static_cast<std::size_t>((chart_width - 16) / least))
+                       : map.columns.size(),
+      1);
+  const Real width =
+      std::clamp((chart_width - left - 8) / static_cast<Real>(count), least, std::max(least, Real(90)));
   const Real full = std::max<Real>(chart_width, left + width * static_cast<Real>(count) + 8);
   Real y = 6;
   std::string names = map.column_name.empty() ? "" : map.column_name + " →";

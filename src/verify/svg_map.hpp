@@ -24,9 +24,10 @@ struct StabilityMap {
 };
 
 /// The map of a stability case: columns and rows as the suite has them; the longer sweep stands in rows where
-/// it would be too wide. Of several runs with the same swept values, the worst one stands in the cell.
+/// it would be too wide. With a setting, its runs alone (their names begin
+/// with it). Of several runs with the same swept values, the worst one stands in the cell.
 /// Nothing for other cases.
-std::optional<StabilityMap> stability_map(const CaseResult& result);
+std::optional<StabilityMap> stability_map(const CaseResult& result, const std::string& setting = {});
 
 /// The letter that stands for a verdict, so that the map can be read without colours.
 char verdict_letter(Verdict verdict);
@@ -35,8 +36,8 @@ std::string verdict_word(Verdict verdict);
 /// "12 stable, 3 degraded, 1 stopped", those that occur.
 std::string verdict_counts(const CaseResult& result);
 
-/// The map as one `svg` element in the style of chart_style(). Cells are at least 46 wide: a map of more
-/// columns than fit into chart_width is wider than that. One parameter: rows of up to seven values below each
+/// The map as one `svg` element in the style of chart_style(). Cells are as wide as their texts need: a map
+/// with more of them than fit into chart_width is wider than that. One parameter: rows of values below each
 /// other.
 std::string svg_map(const StabilityMap& map);
 

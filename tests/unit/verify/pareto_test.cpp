@@ -71,6 +71,19 @@ TEST(Recommendation, TellsThatTheBoundIsOutOfReach) {
   EXPECT_THAT(recommendation(made::all_stopped(), 0), ElementsAre());
 }
 
+TEST(Recommendation, IsShort) {
+  CaseResult c = made::one_run();
+  for (int i = 1; i < 20; ++i) {
+    c.runs.push_back(c.runs[0]);
+    c.runs.back().resolution = std::to_string(i), c.runs.back().cpu_seconds = 2 * i;
+    c.runs.back().observed[0].error = std::pow(0.1, i);
+  }
+  const std::vector<std::string> text = recommendation(c, 0);
+  EXPECT_EQ(text.size(), 6u);
+  EXPECT_THAT(text.front(), testing::HasSubstr("the run, 1.5"));
+  EXPECT_THAT(text.back(), testing::HasSubstr("resolution 19"));
+}
+
 TEST(Recommendation, NeverChoosesARunThatStopped) {
   CaseResult c = made::one_run();
   c.runs.push_back(c.runs[0]);

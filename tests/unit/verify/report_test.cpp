@@ -45,7 +45,6 @@ TEST(ReportText, HasNoMeaningToHtml) {
   EXPECT_EQ(escape_xml("<a href=\"x\" o='y'> & ü\n"), "&lt;a href=&quot;x&quot; o=&#39;y&#39;&gt; &amp; ü\n");
   EXPECT_EQ(escape_xml("a\x01z\xff\xc3"), "a?z??");  // a control character, no UTF-8, half a character
   EXPECT_EQ(escape_xml("\xed\xa0\x80|\xef\xbf\xbf"), "???|???");  // a surrogate, U+FFFF: not of XML
-            "????");  // a surrogate (three bytes), U+FFFF... no characters of XML
 }
 
 TEST(ReportText, HasNoMeaningToMarkdown) {
@@ -59,14 +58,14 @@ TEST(ReportText, Numbers) {
   EXPECT_EQ(number(-0.0), "0");
   EXPECT_EQ(number(1234.56, 3), "1235");
   EXPECT_EQ(number(0.0123456, 3), "0.0123");
-  EXPECT_EQ(number(1.2e-5, 3), "1.20e-5");
+  EXPECT_EQ(number(1.2e-5, 3), "1.2e-5");
   EXPECT_EQ(number(-2.5e9, 3), "-2.5e9");
   EXPECT_EQ(number(made::no_number), "not a number");
   EXPECT_EQ(number(-made::infinite), "-infinite");
   EXPECT_EQ(percent(0.0123), "1.2\u00a0%");
   EXPECT_EQ(percent(0.125), "12.5\u00a0%");
   EXPECT_EQ(percent(3.5), "350\u00a0%");
-  EXPECT_EQ(percent(1e-9), "1.0e-9");
+  EXPECT_EQ(percent(1e-9), "1e-9");
   EXPECT_EQ(percent(made::infinite), "infinite");
   EXPECT_EQ(seconds(3.14), "3.1\u00a0s");
   EXPECT_EQ(seconds(754), "12\u00a0min\u00a034\u00a0s");

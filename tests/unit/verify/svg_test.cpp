@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "made_suite.hpp"
+#include "verify/report_charts.hpp"
 #include "verify/svg_axis.hpp"
 #include "verify/svg_chart.hpp"
 #include "verify/svg_map.hpp"
@@ -34,6 +35,11 @@ TEST(Axis, TicksAreRound) {
   EXPECT_THAT(labels(axis(false, {-0.1, 0.3})), ElementsAre("-0.1", "0", "0.1", "0.2", "0.3"));
   EXPECT_THAT(labels(axis(false, {1000.001, 1000.003})),
               ElementsAre("1000.001", "1000.0015", "1000.002", "1000.0025", "1000.003"));
+  EXPECT_THAT(labels(axis(false, {101324.99991, 101325.00009})),
+              ElementsAre("101324.9999", "101324.99995", "101325", "101325.00005", "101325.0001"));
+  EXPECT_THAT(labels(axis(false, {1.0e8, 1.02e8})),
+              ElementsAre("1e8", "1.005e8", "1.01e8", "1.015e8", "1.02e8"));
+  EXPECT_THAT(labels(axis(false, {0, 2e-5})), ElementsAre("0", "5e-6", "1e-5", "1.5e-5", "2e-5"));
   EXPECT_THAT(labels(axis(true, {0.01, 100})), ElementsAre("0.01", "0.1", "1", "10", "100"));
   EXPECT_THAT(labels(axis(true, {0.011, 0.09}, true)), ElementsAre("1 %", "2 %", "5 %", "10 %"));
 }
@@ -185,6 +191,17 @@ TEST(SvgMap, OfSeveralRunsTheWorstStandsInTheCell) {
   EXPECT_EQ(stability_map(c)->cells.at(0).verdict, Verdict::stopped);
   c.runs.push_back(c.runs[0]);
   EXPECT_EQ(stability_map(c)->cells.at(0).verdict, Verdict::stopped);
+}
+
+TEST(SvgMap, SettingsHaveMapsOfTheirOwn) {
+  CaseResult c = made::stability(2, 0);
+  for (RunResult& run : c.runs) run.setting = "cubic, " + run.setting;
+  c.runs.push_back(c.runs[0]);
+  c.runs.back().setting = "cubic spline, tssfac = 0.1", c.runs.back().verdict = Verdict::broken;
+  EXPECT_EQ(stability_map(c, "cubic")->cells.at(0).verdict, Verdict::stable);
+  EXPECT_EQ(stability_map(c, "cubic spline")->cells.at(0).verdict, Verdict::broken);
+  c.definition.settings = {{"cubic", {}, {}}, {"cubic spline", {}, {}}};
+  EXPECT_EQ(figures(c).size(), 2u);
 }
 
 TEST(SvgMap, ACaseWithoutSweepShowsItsRuns) {
