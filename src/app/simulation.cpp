@@ -4,6 +4,7 @@
 
 #include <unordered_map>
 
+#include "materials/initial_stress.hpp"
 #include "model/build_model.hpp"
 #include "model/included_entries.hpp"
 #include "parallel/parallel.hpp"
@@ -46,6 +47,7 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
 // What only messages about the deck and the building of the world need, some 300 bytes per particle.
 void Simulation::release_tables() {
   deck_.release_sources();
+  release_initial_stresses(deck_);
   model_.release_mesh();
 }
 
@@ -72,6 +74,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   neighbours_ = std::make_shared<Neighbours>(first_skin * h, sph_.region);
   neighbours_->adapt_skin(least_skin * h, most_skin * h);
   add_images(h, diagnostics);
+  if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
   contacts_ = build_contacts(
       deck_, model_, {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->largest_skin()},
