@@ -9,6 +9,7 @@
 #include "model/included_entries.hpp"
 #include "parallel/parallel.hpp"
 #include "shell/shell.hpp"
+#include "sph/prescribed_particles.hpp"
 
 namespace courant {
 
@@ -75,13 +76,14 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   neighbours_->adapt_skin(least_skin * h, most_skin * h);
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
+  add_prescribed_motions(diagnostics);
   contacts_ = build_contacts(
       deck_, model_, {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->largest_skin()},
       world_, diagnostics);
   if (!diagnostics.ok()) return;
   world_.motions.push_back(make_particle_motion());
   add_sph_time_limit(sph_, model_, world_);
-  left_out_ = add_sph_passes(world_, sph_, neighbours_);
+  for (PassNote& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
   if (!model_.body_loads.empty())
     world_.forces.push_back(make_gravity(model_, world_, neighbours_));
   else
@@ -98,6 +100,14 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   rules_.dtinit = model_.dtinit;
   if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
   stepper_ = std::make_unique<Stepper>(world_, *neighbours_, rules_, timer_);
+}
+
+void Simulation::add_prescribed_motions(Diagnostics& diagnostics) {
+  const std::vector<PrescribedMotion> motions = prescribed_motions(deck_, model_, diagnostics);
+  if (motions.empty()) left_out_.push_back({"prescribed motion", "no *BOUNDARY_PRESCRIBED_MOTION"});
+  add_prescribed_particles(motions, deck_, model_, sph_, world_, diagnostics);
+  RigidBodies none({});
+  (bodies_ ? *bodies_ : none).follow(motions, deck_, model_, diagnostics);
 }
 
 void Simulation::add_bodies() {

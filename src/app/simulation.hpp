@@ -56,6 +56,7 @@ class Simulation {
   void build_parts(Diagnostics& diagnostics);
   void release_tables();
   void add_passes(Diagnostics& diagnostics);
+  void add_prescribed_motions(Diagnostics& diagnostics);
   void add_bodies();
 
   Deck deck_;
