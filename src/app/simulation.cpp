@@ -9,6 +9,7 @@
 #include "model/included_entries.hpp"
 #include "parallel/parallel.hpp"
 #include "shell/shell.hpp"
+#include "sph/prescribed_particles.hpp"
 
 namespace courant {
 
@@ -76,13 +77,14 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   add_images(h, diagnostics);
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
+  add_prescribed_motions(diagnostics);
   contacts_ = build_contacts(
       deck_, model_, {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->largest_skin()},
       world_, diagnostics);
   if (!diagnostics.ok()) return;
   world_.motions.push_back(make_particle_motion());
   add_sph_time_limit(sph_, model_, world_);
-  for (auto& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
+  for (PassNote& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
   if (!model_.body_loads.empty())
     world_.forces.push_back(make_gravity(model_, world_, neighbours_));
   else
@@ -109,6 +111,14 @@ void Simulation::add_images(Real h, Diagnostics& diagnostics) {
   auto images = std::make_shared<Images>(std::move(planes));
   neighbours_->set_images(images);
   world_.exchangers.push_back(images);
+}
+
+void Simulation::add_prescribed_motions(Diagnostics& diagnostics) {
+  const std::vector<PrescribedMotion> motions = prescribed_motions(deck_, model_, diagnostics);
+  if (motions.empty()) left_out_.push_back({"prescribed motion", "no *BOUNDARY_PRESCRIBED_MOTION"});
+  add_prescribed_particles(motions, deck_, model_, sph_, world_, diagnostics);
+  RigidBodies none({});
+  (bodies_ ? *bodies_ : none).follow(motions, deck_, model_, diagnostics);
 }
 
 void Simulation::add_bodies() {

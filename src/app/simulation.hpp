@@ -57,6 +57,7 @@ class Simulation {
   void release_tables();
   void add_passes(Diagnostics& diagnostics);
   void add_images(Real h, Diagnostics& diagnostics);
+  void add_prescribed_motions(Diagnostics& diagnostics);
   void add_bodies();
 
   Deck deck_;
