@@ -16,9 +16,10 @@ std::vector<EosEntry>& eos_registry() {
 void stop_for_density(const World& world, const Clock& clock, Index i) {
   const Particles& p = world.particles;
   const Vec x = p.x.vec(i);
-  throw RunError(fmt::format(
-      "density of particle {} became {:.4g} [M/L3] at time {:.6g}, cycle {}, x = ({:.5g}, {:.5g}, {:.5g})",
-      p.id[i], p.rho[i], clock.t, clock.cycle, x[0], x[1], x[2]));
+  throw RunError(fmt::format("density of particle {} of part {} became {:.4g} [M/L3] at time {:.6g}, cycle "
+                             "{}, x = ({:.5g}, {:.5g}, {:.5g})",
+                             p.id[i], world.part_id(i), p.rho[i], clock.t, clock.cycle, x[0], x[1], x[2]),
+                 std::isfinite(p.rho[i]) ? StopCause::density : StopCause::not_finite);
 }
 
 namespace {
