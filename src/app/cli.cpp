@@ -106,6 +106,7 @@ int call_run(const Call& call) {
     const Summary summary = run(*simulation, call.deck, options);
     if (summary.termination == "error") {
       print_error(fmt::format("error: {}\n", summary.reason));
+      if (!summary.advice.empty()) print_error(fmt::format("  hint: {}\n", summary.advice));
       return exit_run;
     }
     if (!call.quiet) fmt::print("results are in {}\n", call.dir);

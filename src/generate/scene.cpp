@@ -40,13 +40,13 @@ class SceneReader {
       return scene;
     }
     check_keys(root, "the scene", {"title", "base", "parameters", "parts", "keywords"});
-    const YAML::Node base = load_base(root["base"]);
-    read_parameters(root["parameters"], base, scene);
+    load_bases(root["base"]);
+    read_parameters(root["parameters"], scene);
     scene.title = root["title"] ? text(root["title"]) : std::string("untitled scene");
     if (scene.title.size() > 80) error(root["title"], "title: a deck's title has at most 80 characters");
     scene.variables = variables_;
     read_parts(root, scene);
-    if (base) in_base([&] { read_keywords(base["keywords"], scene); });
+    for_each_base([&](const YAML::Node& base) { read_keywords(base["keywords"], scene); });
     read_keywords(root["keywords"], scene);
     return scene;
   }
@@ -78,37 +78,42 @@ class SceneReader {
     }
   }
 
-  /// What many scenes have in common: a file with parameters and keywords.
-  YAML::Node load_base(const YAML::Node& node) {
-    if (!node) return YAML::Node(YAML::NodeType::Undefined);
-    const std::string name = text(node);
-    base_path_ = (std::filesystem::path(path_).parent_path() / name).string();
-    YAML::Node base(YAML::NodeType::Undefined);
+  /// What many scenes have in common: files with parameters and keywords.
+  void load_bases(const YAML::Node& node) {
+    if (!node) return;
+    if (!node.IsSequence()) return load_base(node);
+    for (const auto& one : node) load_base(one);
+  }
+  void load_base(const YAML::Node& node) {
+    const std::string path = (std::filesystem::path(path_).parent_path() / text(node)).string();
     try {
-      base = YAML::LoadFile(base_path_);
+      bases_.push_back({path, YAML::LoadFile(path)});
     } catch (const YAML::BadFile&) {
-      error(node, fmt::format("base: the file '{}' cannot be read", base_path_));
+      return error(node, fmt::format("base: the file '{}' cannot be read", path));
     } catch (const YAML::Exception& fault) {
-      report_yaml_fault(base_path_, fault, diagnostics_);
+      return report_yaml_fault(path, fault, diagnostics_);
     }
-    if (base) in_base([&] { check_keys(base, "a base", {"parameters", "keywords"}); });
-    return base;
+    std::swap(path_, bases_.back().path);
+    check_keys(bases_.back().node, "a base", {"parameters", "keywords"});
+    std::swap(path_, bases_.back().path);
   }
   /// Messages name the base's file meanwhile.
-  template <class Read>
-  void in_base(Read read) {
-    std::swap(path_, base_path_);
-    read();
-    std::swap(path_, base_path_);
+  template <class Visit>
+  void for_each_base(Visit visit) {
+    for (Base& base : bases_) {
+      std::swap(path_, base.path);
+      visit(base.node);
+      std::swap(path_, base.path);
+    }
   }
 
-  void read_parameters(const YAML::Node& node, const YAML::Node& base, Scene& scene) {
+  void read_parameters(const YAML::Node& node, Scene& scene) {
     std::set<std::string> unused;
     for (const auto& [name, value] : overrides_) unused.insert(name);
     // The base's first, but for those that need the scene's own; these stand above the base's of the same
     // name.
     std::set<std::string> own;
-    std::set<int> done;  // entries by their place in the file
+    std::set<std::pair<std::string, int>> done;  // entries of bases: file and place in it
     if (node && node.IsMap())
       for (const auto& entry : node)
         if (entry.first.IsScalar()) own.insert(entry.first.Scalar());
@@ -116,15 +121,15 @@ class SceneReader {
     const auto read_base = [&](const YAML::Node& name, const YAML::Node& value) {
       const std::string key = name.IsScalar() ? name.Scalar() : "";
       const bool ready = all || (value.IsScalar() && evaluate(value.Scalar(), variables_).ok());
-      if (!ready || own.contains(key) || !done.insert(name.Mark().pos).second) return;
+      if (!ready || own.contains(key) || !done.emplace(path_, name.Mark().pos).second) return;
       read_parameter(name, value, unused, scene);
     };
-    if (base) in_base([&] { for_each_entry(base["parameters"], read_base); });
+    for_each_base([&](const YAML::Node& base) { for_each_entry(base["parameters"], read_base); });
     for_each_entry(node, [&](const YAML::Node& name, const YAML::Node& value) {
       read_parameter(name, value, unused, scene);
     });
     all = true;
-    if (base) in_base([&] { for_each_entry(base["parameters"], read_base); });
+    for_each_base([&](const YAML::Node& base) { for_each_entry(base["parameters"], read_base); });
     std::vector<std::string> names;
     for (const auto& p : scene.parameters) names.push_back(p.first);
     for (const std::string& name : unused)
@@ -420,7 +425,12 @@ class SceneReader {
     scene.keywords.push_back(filled.text);
   }
 
-  std::string path_, base_path_;
+  struct Base {
+    std::string path;
+    YAML::Node node;
+  };
+  std::string path_;
+  std::vector<Base> bases_;
   const std::map<std::string, std::string>& overrides_;
   Diagnostics& diagnostics_;
   Variables variables_{{"pi", pi}};

@@ -384,60 +384,6 @@ KeywordOf<EosLinearPolynomialWithEnergyLeak> eos_linear_polynomial_with_energy_l
 const RegisterKeyword<EosLinearPolynomialWithEnergyLeak> eos_linear_polynomial_with_energy_leak_keyword{
     eos_linear_polynomial_with_energy_leak()};
 
-struct EosGruneisen : Entry {
-  std::string title;
-  Id eosid = 0, lcid = 0;
-  Real c = 0, s1 = 0, s2 = 0, s3 = 0, gamma0 = 0, a = 0, e0 = 0, v0 = 0;
-};
-KeywordOf<EosGruneisen> eos_gruneisen() {
-  using T = EosGruneisen;
-  return {.names = {"EOS_GRUNEISEN", "EOS_004"},
-          .purpose = "shock Hugoniot and Grueneisen gamma",
-          .id_space = IdSpace::eos,
-          .title_option = true,
-          .title = &T::title,
-          .lacking = "Grueneisen equations of state",
-          .cards = {
-              {.fields = {{"EOSID", &T::eosid, "-", "equation-of-state id, referenced by *PART", required_id},
-                          {"C", &T::c, "L/T", "intercept of us-up curve (sound speed)"},
-                          {"S1", &T::s1, "-", "slope coefficient of us-up curve"},
-                          {"S2", &T::s2, "-", "slope coefficient of us-up curve"},
-                          {"S3", &T::s3, "-", "slope coefficient of us-up curve"},
-                          {"GAMMA0", &T::gamma0, "-", "Grueneisen gamma"},
-                          {"A", &T::a, "-", "first-order volume correction to gamma"},
-                          {"E0", &T::e0, "M/LT2", "initial internal energy per unit reference volume"}}},
-              {.fields = {{"V0", &T::v0, "-", "initial relative volume (rho0/rho)"},
-                          {},
-                          {"LCID", &T::lcid, "-", "energy deposition rate curve", id_of(IdSpace::curve)}}}}};
-}
-const RegisterKeyword<EosGruneisen> eos_gruneisen_keyword{eos_gruneisen()};
-
-struct EosIdealGas : Entry {
-  std::string title;
-  Id eosid = 0;
-  Real cvmas = 0, cpmas = 0, b = 0, c = 0, t0 = 0, v0 = 0, vc0 = 0, adiab = 0;
-};
-KeywordOf<EosIdealGas> eos_ideal_gas() {
-  using T = EosIdealGas;
-  return {.names = {"EOS_IDEAL_GAS", "EOS_012"},
-          .purpose = "ideal gas with heat capacities",
-          .id_space = IdSpace::eos,
-          .title_option = true,
-          .title = &T::title,
-          .lacking = "equations of state with temperature",
-          .cards = {
-              {.fields = {{"EOSID", &T::eosid, "-", "equation-of-state id, referenced by *PART", required_id},
-                          {"CVMAS", &T::cvmas, "L2/T2", "Cv (mass basis)"},
-                          {"CPMAS", &T::cpmas, "L2/T2", "Cp (mass basis)"},
-                          {"B", &T::b, "L2/T2", "linear temperature coefficient of Cv, Cp"},
-                          {"C", &T::c, "L2/T2", "quadratic temperature coefficient"},
-                          {"T0", &T::t0, "-", "initial temperature"},
-                          {"V0", &T::v0, "-", "initial relative volume (rho0/rho)"},
-                          {"VC0", &T::vc0, "-", "van der Waals covolume"}}},
-              {.fields = {{"ADIAB", &T::adiab, "-", "1 adiabatic law"}}, .optional = true}}};
-}
-const RegisterKeyword<EosIdealGas> eos_ideal_gas_keyword{eos_ideal_gas()};
-
 }  // namespace
 
 }  // namespace courant

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,6 +18,15 @@ Real sound_speed2_of(const Law& law, Real rho0, Real mu, Real E, Real p) {
   return (law.dA(mu) + law.dB(mu) * E + law.B(mu) * p / ((1 + mu) * (1 + mu))) / rho0;
 }
 
+/// Largest mu for which a law holds.
+template <class Law>
+Real mu_limit_of(const Law& law) {
+  if constexpr (requires { law.mu_limit(); })
+    return law.mu_limit();
+  else
+    return std::numeric_limits<Real>::infinity();
+}
+
 /// The parts one EOS pass works for, and what their material adds to the law.
 struct EosPart {
   std::vector<char> mine;      ///< per part of the model
@@ -24,7 +34,8 @@ struct EosPart {
   std::vector<Real> rho0, pc;  ///< per part: reference density [M/L3], tensile cut-off (<= 0) [M/LT2]
 };
 
-[[noreturn]] void stop_for_density(const World& world, const Clock& clock, Index particle);
+/// `rho_limit`: up to which the law of the particle holds.
+[[noreturn]] void stop_for_density(const World& world, const Clock& clock, Index particle, Real rho_limit);
 
 /// Advances rho and E over dt_old and evaluates p and c of active particles. With energy, p is solved
 /// implicitly: E* = E - 1/2 dv p + heat, p = (A + B E*)/(1 + 1/2 B dv), E = E* - 1/2 dv p  (dv: change of
@@ -63,11 +74,16 @@ class EosPass : public Material {
     for (std::size_t b = 0; b < lowest_.size(); ++b) {
       if (lowest_[b] > 0) continue;
       for (Index i = static_cast<Index>(b) * block_size; i < world.particles.active; ++i)
-        if (!(world.particles.rho[i] > 0)) stop_for_density(world, clock, i);
+        if (part_.mine[world.particles.part[i]] && !holds(world.particles, i))
+          stop_for_density(world, clock, i, rho_limit(world.particles.part[i]));
     }
   }
 
  private:
+  Real rho_limit(Index part) const { return part_.rho0[part] * (1 + mu_limit_of(law_)); }
+  /// Also false where the density is not a number.
+  bool holds(const Particles& p, Index i) const { return p.rho[i] > 0 && p.rho[i] < rho_limit(p.part[i]); }
+
   void advance(Particles& p, Real dt, Index begin, Index end, Index part, Real& lowest) {
     if (law_.uses_energy())
       advance_with_energy(p, dt, begin, end, part, lowest);
@@ -76,7 +92,7 @@ class EosPass : public Material {
   }
 
   void advance_with_energy(Particles& p, Real dt, Index begin, Index end, Index part, Real& lowest) {
-    const Real rho0 = part_.rho0[part], pc = part_.pc[part];
+    const Real rho0 = part_.rho0[part], pc = part_.pc[part], limit = rho_limit(part);
     for (Index i = begin; i < end; ++i) {
       const Real v_old = rho0 / p.rho[i];
       p.rho[i] += p.drhodt[i] * dt;
@@ -91,12 +107,13 @@ class EosPass : public Material {
       p.E[i] = E;
       p.c[i] = std::sqrt(std::max(sound_speed2_of(law_, rho0, mu, E, pressure), Real(0)));
       if (!(p.rho[i] >= lowest * rho0)) lowest = p.rho[i] / rho0;  // also where it is not a number
+      if (!(p.rho[i] < limit)) lowest = 0;
     }
   }
 
   /// The same with B = 0, in a form that vectorises: E only counts the work of the pressure.
   void advance_without(Particles& p, Real dt, Index begin, Index end, Index part, Real& lowest) {
-    const Real rho0 = part_.rho0[part], pc = part_.pc[part], inverse_rho0 = 1 / rho0;
+    const Real rho0 = part_.rho0[part], pc = part_.pc[part], inverse_rho0 = 1 / rho0, limit = rho_limit(part);
     const Real* __restrict rate = p.drhodt.data();
     Real* __restrict rho = p.rho.data(), * __restrict pressure = p.p.data(), * __restrict E = p.E.data(), * __restrict c = p.c.data();
     const Law law = law_;
@@ -113,7 +130,7 @@ class EosPass : public Material {
       pressure[i] = p_new;
       c[i] = std::sqrt(std::max(law.dA(mu) * inverse_rho0, Real(0)));
       least = std::min(least, after * inverse_rho0);
-      broken |= after > 0 ? 0 : 1;
+      broken |= (after > 0 ? 0 : 1) | (after < limit ? 0 : 1);
     }
     lowest = broken ? 0 : least;
   }

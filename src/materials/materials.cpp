@@ -1,5 +1,6 @@
 #include "materials/materials.hpp"
 
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -13,23 +14,39 @@ std::vector<EosEntry>& eos_registry() {
   return registry;
 }
 
-void stop_for_density(const World& world, const Clock& clock, Index i) {
+void stop_for_density(const World& world, const Clock& clock, Index i, Real rho_limit) {
   const Particles& p = world.particles;
   const Vec x = p.x.vec(i);
-  throw RunError(fmt::format(
-      "density of particle {} became {:.4g} [M/L3] at time {:.6g}, cycle {}, x = ({:.5g}, {:.5g}, {:.5g})",
-      p.id[i], p.rho[i], clock.t, clock.cycle, x[0], x[1], x[2]));
+  const std::string beyond =
+      p.rho[i] >= rho_limit && std::isfinite(p.rho[i])
+          ? fmt::format(": its equation of state ends at {:.4g}, where the pressure becomes infinite",
+                        rho_limit)
+          : std::string();
+  throw RunError(
+      fmt::format("density of particle {} of part {} became {:.4g} [M/L3] at time {:.6g}, cycle "
+                  "{}, x = ({:.5g}, {:.5g}, {:.5g}){}",
+                  p.id[i], world.part_id(i), p.rho[i], clock.t, clock.cycle, x[0], x[1], x[2], beyond),
+      std::isfinite(p.rho[i]) ? StopCause::density : StopCause::not_finite);
 }
 
 namespace {
 
 using LawOfId = std::map<Id, std::shared_ptr<EosLaw>>;
+/// Parts with the same law and the same reference density share one pass.
+using LawOfDensity = std::map<std::pair<Id, Real>, std::shared_ptr<EosLaw>>;
 
 LawOfId all_laws(const Deck& deck) {
   LawOfId laws;
   for (const EosEntry& kind : eos_registry())
     for (const auto& [id, law] : kind.all(deck)) laws.emplace(id, law);
   return laws;
+}
+
+std::shared_ptr<EosLaw> law_at_density(LawOfDensity& known, Id id, const std::shared_ptr<EosLaw>& law,
+                                       Real rho0) {
+  auto& found = known[{id, rho0}];
+  if (!found) found = law->at_density(rho0);
+  return found ? found : found = law;
 }
 
 std::string known_laws() {
@@ -42,6 +59,7 @@ std::string known_laws() {
 
 std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   const LawOfId laws = all_laws(deck);
+  LawOfDensity laws_of_density;
   std::map<Id, const MatNull*> nulls;
   for (const MatNull& m : deck.all<MatNull>()) nulls.emplace(m.mid, &m);
   std::vector<PartMaterial> out(model.parts.size());
@@ -63,9 +81,18 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
                                    part.eosid, part.id),
                  "add one of " + known_laws() + " and give its id here");
     if (null == nulls.end() || law == laws.end()) continue;
-    out[k] = {true, null->second->ro, null->second->pc, null->second->mu, law->second};
-    const Real c2 = law->second->sound_speed2(out[k].ro, 1 / law->second->V0 - 1, law->second->E0);
-    if (!(c2 > 0))
+    const MatNull& material = *null->second;
+    const auto eos = law_at_density(laws_of_density, part.eosid, law->second, material.ro);
+    out[k] = {true, material.ro, material.pc, material.mu, eos};
+    const Real mu = 1 / eos->V0 - 1, c2 = eos->sound_speed2(out[k].ro, mu, eos->E0);
+    if (!(mu < eos->mu_limit()))
+      deck.error(
+          diagnostics, part.card, "EOSID",
+          fmt::format("part {} starts beyond the end of equation of state {}: rho/RO = {:g}, the law ends "
+                      "at {:g}",
+                      part.id, part.eosid, 1 + mu, 1 + eos->mu_limit()),
+          "correct V0 of the equation of state");
+    else if (!(c2 > 0))
       deck.error(
           diagnostics, part.card, "EOSID",
           fmt::format("equation of state {} gives part {} no sound speed: c^2 = {:.4g} [L2/T2] at the start",

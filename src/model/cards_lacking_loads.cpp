@@ -1,6 +1,5 @@
-// Initial velocities, motions, loads, walls and damping whose physics is not here: their cards are read and
+// Initial velocities, loads, walls and damping whose physics is not here: their cards are read and
 // checked, and the deck is refused by name.
-#include <cstdlib>
 #include <string>
 
 #include "keyword/common_rules.hpp"
@@ -33,120 +32,6 @@ KeywordOf<InitialVelocityRigidBody> initial_velocity_rigid_body() {
 }
 const RegisterKeyword<InitialVelocityRigidBody> initial_velocity_rigid_body_keyword{
     initial_velocity_rigid_body()};
-
-struct BoundaryPrescribedMotionNode : Entry {
-  std::string title;
-  Id entry_id = 0;
-  Id nid = 0, lcid = 0, vid = 0, lrb = 0, node1 = 0, node2 = 0;
-  int dof = 0, vad = 0;
-  Real sf = 0, death = 0, birth = 0, offset1 = 0, offset2 = 0;
-};
-KeywordOf<BoundaryPrescribedMotionNode> boundary_prescribed_motion_node() {
-  using T = BoundaryPrescribedMotionNode;
-  return {.names = {"BOUNDARY_PRESCRIBED_MOTION_NODE"},
-          .purpose = "prescribed motion of nodes",
-          .id_space = IdSpace::boundary,
-          .id_option = true,
-          .title = &T::title,
-          .id = &T::entry_id,
-          .lacking = "prescribed motions",
-          .cards = {
-              {.fields =
-                   {{"NID", &T::nid, "-", "what moves", required_id},
-                    {"DOF", &T::dof, "-",
-                     "direction: 1-3 x, y, z, 4 along VID, 5-7 rotations, 8 about VID, 9-11 eccentric"},
-                    {"VAD", &T::vad, "-",
-                     "0 velocity, 1 acceleration, 2 displacement, 3 velocity over displacement, 4 relative"},
-                    {"LCID", &T::lcid, "-", "curve of the motion", id_of(IdSpace::curve)},
-                    {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
-                    {"VID", &T::vid, "-", "vector; negative: coordinate system", id_of(IdSpace::vector)},
-                    {"DEATH", &T::death, "T", "end time", or_blank(1e28)},
-                    {"BIRTH", &T::birth, "T", "start time"}}},
-              {.fields = {{"OFFSET1", &T::offset1, "L", "offset of the axis"},
-                          {"OFFSET2", &T::offset2, "L", "offset of the axis"},
-                          {"LRB", &T::lrb, "-", "body to which the motion is relative", id_of(IdSpace::part)},
-                          {"NODE1", &T::node1, "-", "node of the orientation", id_of(IdSpace::node)},
-                          {"NODE2", &T::node2, "-", "node of the orientation", id_of(IdSpace::node)}},
-               .when = [](const T& e) { return std::abs(e.dof) >= 9 || e.vad == 4; }}}};
-}
-const RegisterKeyword<BoundaryPrescribedMotionNode> boundary_prescribed_motion_node_keyword{
-    boundary_prescribed_motion_node()};
-
-struct BoundaryPrescribedMotionSet : Entry {
-  std::string title;
-  Id entry_id = 0;
-  Id nsid = 0, lcid = 0, vid = 0, lrb = 0, node1 = 0, node2 = 0;
-  int dof = 0, vad = 0;
-  Real sf = 0, death = 0, birth = 0, offset1 = 0, offset2 = 0;
-};
-KeywordOf<BoundaryPrescribedMotionSet> boundary_prescribed_motion_set() {
-  using T = BoundaryPrescribedMotionSet;
-  return {.names = {"BOUNDARY_PRESCRIBED_MOTION_SET"},
-          .purpose = "prescribed motion of node sets",
-          .id_space = IdSpace::boundary,
-          .id_option = true,
-          .title = &T::title,
-          .id = &T::entry_id,
-          .lacking = "prescribed motions",
-          .cards = {
-              {.fields =
-                   {{"NSID", &T::nsid, "-", "what moves", required_id},
-                    {"DOF", &T::dof, "-",
-                     "direction: 1-3 x, y, z, 4 along VID, 5-7 rotations, 8 about VID, 9-11 eccentric"},
-                    {"VAD", &T::vad, "-",
-                     "0 velocity, 1 acceleration, 2 displacement, 3 velocity over displacement, 4 relative"},
-                    {"LCID", &T::lcid, "-", "curve of the motion", id_of(IdSpace::curve)},
-                    {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
-                    {"VID", &T::vid, "-", "vector; negative: coordinate system", id_of(IdSpace::vector)},
-                    {"DEATH", &T::death, "T", "end time", or_blank(1e28)},
-                    {"BIRTH", &T::birth, "T", "start time"}}},
-              {.fields = {{"OFFSET1", &T::offset1, "L", "offset of the axis"},
-                          {"OFFSET2", &T::offset2, "L", "offset of the axis"},
-                          {"LRB", &T::lrb, "-", "body to which the motion is relative", id_of(IdSpace::part)},
-                          {"NODE1", &T::node1, "-", "node of the orientation", id_of(IdSpace::node)},
-                          {"NODE2", &T::node2, "-", "node of the orientation", id_of(IdSpace::node)}},
-               .when = [](const T& e) { return std::abs(e.dof) >= 9 || e.vad == 4; }}}};
-}
-const RegisterKeyword<BoundaryPrescribedMotionSet> boundary_prescribed_motion_set_keyword{
-    boundary_prescribed_motion_set()};
-
-struct BoundaryPrescribedMotionRigid : Entry {
-  std::string title;
-  Id entry_id = 0;
-  Id pid = 0, lcid = 0, vid = 0, lrb = 0, node1 = 0, node2 = 0;
-  int dof = 0, vad = 0;
-  Real sf = 0, death = 0, birth = 0, offset1 = 0, offset2 = 0;
-};
-KeywordOf<BoundaryPrescribedMotionRigid> boundary_prescribed_motion_rigid() {
-  using T = BoundaryPrescribedMotionRigid;
-  return {.names = {"BOUNDARY_PRESCRIBED_MOTION_RIGID", "BOUNDARY_PRESCRIBED_MOTION_RIGID_LOCAL"},
-          .purpose = "prescribed motion of rigid bodies",
-          .id_space = IdSpace::boundary,
-          .id_option = true,
-          .title = &T::title,
-          .id = &T::entry_id,
-          .lacking = "prescribed motions",
-          .cards = {
-              {.fields =
-                   {{"PID", &T::pid, "-", "what moves", required_id},
-                    {"DOF", &T::dof, "-",
-                     "direction: 1-3 x, y, z, 4 along VID, 5-7 rotations, 8 about VID, 9-11 eccentric"},
-                    {"VAD", &T::vad, "-",
-                     "0 velocity, 1 acceleration, 2 displacement, 3 velocity over displacement, 4 relative"},
-                    {"LCID", &T::lcid, "-", "curve of the motion", id_of(IdSpace::curve)},
-                    {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
-                    {"VID", &T::vid, "-", "vector; negative: coordinate system", id_of(IdSpace::vector)},
-                    {"DEATH", &T::death, "T", "end time", or_blank(1e28)},
-                    {"BIRTH", &T::birth, "T", "start time"}}},
-              {.fields = {{"OFFSET1", &T::offset1, "L", "offset of the axis"},
-                          {"OFFSET2", &T::offset2, "L", "offset of the axis"},
-                          {"LRB", &T::lrb, "-", "body to which the motion is relative", id_of(IdSpace::part)},
-                          {"NODE1", &T::node1, "-", "node of the orientation", id_of(IdSpace::node)},
-                          {"NODE2", &T::node2, "-", "node of the orientation", id_of(IdSpace::node)}},
-               .when = [](const T& e) { return std::abs(e.dof) >= 9 || e.vad == 4; }}}};
-}
-const RegisterKeyword<BoundaryPrescribedMotionRigid> boundary_prescribed_motion_rigid_keyword{
-    boundary_prescribed_motion_rigid()};
 
 struct LoadNodePoint : Entry {
   Id nid = 0, lcid = 0, cid = 0, m1 = 0, m2 = 0, m3 = 0;

@@ -14,7 +14,23 @@ namespace {
 constexpr CurveDimensions known[] = {
     {"LOAD_BODY_X", "LCID", "T", "L/T2"},
     {"CONTROL_TIMESTEP", "LCTM", "T", "T"},
+    // VAD 0; of the others `of_motion` tells
+    {"BOUNDARY_PRESCRIBED_MOTION_NODE", "LCID", "T", "L/T"},
+    {"BOUNDARY_PRESCRIBED_MOTION_SET", "LCID", "T", "L/T"},
+    {"BOUNDARY_PRESCRIBED_MOTION_RIGID", "LCID", "T", "L/T"},
 };
+
+/// Values by VAD and by what DOF drives: a translation, a rotation.
+constexpr const char* motion_values[3][2] = {{"L/T", "1/T"}, {"L/T2", "1/T2"}, {"L", "-"}};
+
+/// The ordinate's dimension where it depends on other fields of the entry, else nothing.
+const char* of_motion(const KeywordSpec& spec, const Entry& entry) {
+  constexpr std::size_t dof_field = 1, vad_field = 2;
+  if (spec.names[0].rfind("BOUNDARY_PRESCRIBED_MOTION", 0) != 0) return nullptr;
+  const Real dof = spec.number_of(entry, 0, dof_field), vad = spec.number_of(entry, 0, vad_field);
+  if (!(vad >= 0 && vad <= 2)) return nullptr;  // refused later
+  return motion_values[static_cast<int>(vad)][dof >= 5];
+}
 
 struct ConvertedCurve {
   DefineCurveCard* card = nullptr;
@@ -28,6 +44,7 @@ void use(const Deck& deck, const Entry& entry, const KeywordSpec& spec, const Id
   const FieldSpec& field = spec.cards[id.card].fields[id.field];
   if (field.rules.honour != Honour::yes || !spec.lacking.empty()) return;  // no effect, or refused already
   const CurveDimensions* dimensions = curve_dimensions(spec.names[0], field.name);
+  const char* of_entry = of_motion(spec, entry);
   const char* hint =
       "give the curve in the deck's own units: in a file without unit factors, or through SFA and SFO";
   if (!dimensions) {
@@ -40,7 +57,8 @@ void use(const Deck& deck, const Entry& entry, const KeywordSpec& spec, const Id
     return;
   }
   const UnitFactors& units = deck.files[static_cast<std::size_t>(curve.card->file)].conversion.units;
-  const Real abscissa = units.of(dimensions->abscissa), ordinate = units.of(dimensions->ordinate);
+  const Real abscissa = units.of(dimensions->abscissa),
+             ordinate = units.of(of_entry ? of_entry : dimensions->ordinate);
   if (curve.used && (curve.abscissa != abscissa || curve.ordinate != ordinate))
     deck.error(
         diagnostics, entry, field.name,

@@ -74,8 +74,9 @@ void RigidBodies::apply(World& world, const Clock& clock) {
 void RigidBodies::kick(World&, const Clock& clock) {
   for (RigidBody& b : bodies_) {
     if (b.fixed()) continue;
-    b.v += b.force / b.m * clock.dt_mean();
-    b.L += b.moment * clock.dt_mean();
+    const HalfStep next = next_half_step(b, clock);
+    b.v = next.v;
+    b.L = next.L;
     // omega of the half step belongs to the orientation in the middle of the step, which depends on omega.
     Vec omega = b.omega_of(b.q);
     for (int it = 0; it < 20; ++it) {
@@ -140,6 +141,11 @@ Real RigidBodies::kinetic_energy() const {
 }
 
 void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
+  for (const RigidBody& b : bodies_) {
+    const Real work = b.motions.empty() ? 0 : work_of_drives(b, clock);
+    ledger.external_work += work;
+    ledger.throughput += std::abs(work);
+  }
   if (!gravity_) return;
   // Potential energy is -m g(t).x: a change of g alone is work from outside.
   const Vec dg = gravity_(clock.t + clock.dt) - gravity_(clock.t);

@@ -11,6 +11,7 @@
 
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
+#include "model/prescribed_motion.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -38,12 +39,22 @@ struct RigidBody {
   Vec omega = Vec::Zero();                ///< [1/T]
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
   Vec force = Vec::Zero(), moment = Vec::Zero();  ///< at the last force evaluation [ML/T2], [ML2/T2]
+  std::vector<PrescribedMotion> motions;          ///< whose directions are global axes where they turn
 
   bool fixed() const;  ///< nothing can move
   Real kinetic_energy() const { return 0.5 * (m * v.squaredNorm() + omega.dot(L)); }
   /// Angular velocity that belongs to L in orientation q, with rotations held about some axes.
   Vec omega_of(const Eigen::Quaterniond& orientation) const;
 };
+
+/// Velocity and angular momentum of the half step to come.
+struct HalfStep {
+  Vec v = Vec::Zero(), L = Vec::Zero();
+};
+/// From the forces on a body, and from its prescribed motions where there are any.
+HalfStep next_half_step(const RigidBody& body, const Clock& clock);
+/// Work of the drives of a body over the coming step [ML2/T2].
+Real work_of_drives(const RigidBody& body, const Clock& clock);
 
 /// All rigid bodies of a deck. Each is moved by the sums of its nodes' forces: m a = F, dL/dt = M, L = J
 /// omega, which is J omega' = M - omega x J omega. Orientation by quaternion with the implicit midpoint rule,
@@ -66,6 +77,10 @@ class RigidBodies : public EnergyTerm {
   /// Adds kinetic and potential energy of the bodies that can move.
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
 
+  /// Lets bodies follow *BOUNDARY_PRESCRIBED_MOTION_RIGID. Refuses by name: parts that are no rigid bodies,
+  /// directions that are held or driven twice, rotations of bodies that may turn about another axis, too.
+  void follow(const std::vector<PrescribedMotion>& motions, const Deck& deck, const Model& model,
+              Diagnostics& diagnostics);
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   /// Force and moment are those on the free body; zero for bodies that are fixed.

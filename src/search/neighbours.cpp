@@ -32,6 +32,9 @@ enum Group : signed char { group_active = 0, group_rim = 1, group_dormant = 2 };
 constexpr Real waking_margin = 8;
 /// By so much h may grow before it is worked out anew when dormant particles are due.
 constexpr Real h_growth = 1.2;
+/// A step that moves a particle this many smoothing lengths has left every limit: TSSFAC h/(c + v) is less
+/// than one.
+constexpr Real longest_leap = 2;
 
 }  // namespace
 
@@ -126,6 +129,7 @@ std::shared_ptr<Motion> Neighbours::watch() {
 
 bool Neighbours::refresh(World& world, const Clock& clock) {
   if (built_ && !watch_->stale(world, clock)) return false;
+  if (built_) stop_for_leaps(world, clock);
   Particles& p = world.particles;
   const Index active_before = p.active;
   const bool h_grew = h_max_ > 0.5 * (1 + h_growth) * h_queued_;  // with room for what grows until next time
@@ -185,10 +189,29 @@ void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock,
     const Vec x = p.x.vec(i);
     if (x.allFinite() && std::isfinite(p.h[i])) continue;
     throw RunError(
-        fmt::format("particle {} went to x = ({:.5g}, {:.5g}, {:.5g}) with h = {:.5g} [L] at time {:.6g}, "
-                    "cycle {}: the run is "
-                    "unstable",
-                    p.id[i], x[0], x[1], x[2], p.h[i], clock.t, clock.cycle));
+        fmt::format(
+            "particle {} of part {} went to x = ({:.5g}, {:.5g}, {:.5g}) with h = {:.5g} [L] at time {:.6g}, "
+            "cycle {}: the run is "
+            "unstable",
+            p.id[i], world.part_id(i), x[0], x[1], x[2], p.h[i], clock.t, clock.cycle),
+        StopCause::not_finite);
+  }
+}
+
+// Before their last step particles had moved half a skin at most, or the lists would be younger. Who goes
+// further in one step passes others and walls unseen.
+void Neighbours::stop_for_leaps(const World& world, const Clock& clock) const {
+  const Particles& p = world.particles;
+  if (!(watch_->largest_move() > longest_leap * h_max_)) return;
+  for (Index i = 0; i < p.active; ++i) {
+    const Vec before(x_built_[i], y_built_[i], z_built_[i]);
+    const Real moved = (p.x.vec(i) - before).norm();
+    if (!(moved - 0.5 * skin_ > longest_leap * p.h[i]) || !std::isfinite(moved)) continue;
+    throw RunError(
+        fmt::format("particle {} of part {} moved {:.4g} smoothing lengths in the step to time {:.6g}, "
+                    "cycle {}: no pair and no wall on its way was seen",
+                    p.id[i], world.part_id(i), moved / p.h[i], clock.t, clock.cycle),
+        StopCause::leap);
   }
 }
 

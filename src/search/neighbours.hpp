@@ -76,6 +76,7 @@ class Neighbours {
   Index take_due(World& world, Real t);
   void wake_all(World& world, Real t);
   bool too_many_gone(const World& world) const;
+  void stop_for_leaps(const World& world, const Clock& clock) const;
   void stop_for_lost_particles(const World& world, const Clock& clock, Index n) const;
   void choose_skin(const Clock& clock);
   void sort(World& world, const Clock& clock, Index n);

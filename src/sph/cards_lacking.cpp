@@ -176,26 +176,6 @@ KeywordOf<BoundarySphNoslip> boundary_sph_noslip() {
 }
 const RegisterKeyword<BoundarySphNoslip> boundary_sph_noslip_keyword{boundary_sph_noslip()};
 
-struct InitialStressSph : Entry {
-  Id eid = 0;
-  Real sigxx = 0, sigyy = 0, sigzz = 0, sigxy = 0, sigyz = 0, sigzx = 0, eps = 0;
-};
-KeywordOf<InitialStressSph> initial_stress_sph() {
-  using T = InitialStressSph;
-  return {.names = {"INITIAL_STRESS_SPH"},
-          .purpose = "stresses of particles at the start",
-          .lacking = "initial stresses of particles",
-          .cards = {{.fields = {{"EID", &T::eid, "-", "particle id", required_id_of(IdSpace::node)},
-                                {"SIGXX", &T::sigxx, "M/LT2", "stress component"},
-                                {"SIGYY", &T::sigyy, "M/LT2", "stress component"},
-                                {"SIGZZ", &T::sigzz, "M/LT2", "stress component"},
-                                {"SIGXY", &T::sigxy, "M/LT2", "stress component"},
-                                {"SIGYZ", &T::sigyz, "M/LT2", "stress component"},
-                                {"SIGZX", &T::sigzx, "M/LT2", "stress component"},
-                                {"EPS", &T::eps, "-", "effective plastic strain"}}}}};
-}
-const RegisterKeyword<InitialStressSph> initial_stress_sph_keyword{initial_stress_sph()};
-
 }  // namespace
 
 }  // namespace courant

@@ -116,6 +116,7 @@ using Counters = std::map<std::string, std::int64_t>;
 struct World {
   int dim = 3;  ///< 2 or 3 (IDIM)
   Particles particles;
+  std::vector<Id> part_ids;  ///< number in the deck of each part index
   Nodes nodes;
   Segments segments;
   EnergyLedger energy;
@@ -124,6 +125,12 @@ struct World {
   /// Which thread works on which blocks of active particles, and of active and rim particles; neighbours
   /// choose.
   Shares shares, moving_shares;
+
+  /// Number in the deck of a particle's part; 0 in a world without a deck.
+  Id part_id(Index particle) const {
+    const auto part = static_cast<std::size_t>(particles.part[particle]);
+    return part < part_ids.size() ? part_ids[part] : 0;
+  }
 
   // The passes the deck asks for, in the order the step runs them. One object may stand in several lists.
   std::vector<std::shared_ptr<Exchanger>> exchangers;

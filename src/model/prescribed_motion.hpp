@@ -1,0 +1,47 @@
+#pragma once
+// *BOUNDARY_PRESCRIBED_MOTION: velocities, accelerations or displacements over time that particles and rigid
+// bodies follow.
+#include <vector>
+
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+
+namespace courant {
+
+/// One direction of one card. The curve's abscissa is t - BIRTH.
+struct PrescribedMotion {
+  enum class Kind { velocity, acceleration, displacement };
+  Kind kind = Kind::velocity;
+  bool turns = false;            ///< about `direction`, with angles for displacements [-]
+  Vec direction = Vec::Zero();   ///< unit
+  Curve curve;                   ///< of time; values [L/T], [L/T2] or [L], of rotations [1/T], [1/T2] or [-]
+  Real sf = 1;                   ///< factor of the values
+  Real birth = 0, death = 1e28;  ///< [T]
+  std::vector<Index> nodes;      ///< _NODE and _SET: indices into Model::nodes
+  Index part = -1;               ///< _RIGID: index into Model::parts
+  Entry card;                    ///< for messages
+
+  /// Whether the step from t to t + dt follows it: its middle is not before BIRTH and before DEATH.
+  bool drives(Real t, Real dt) const { return t + 0.5 * dt >= birth && t + 0.5 * dt < death; }
+  /// Velocity over the step from t to t + dt, whose length gives the place at t + dt exactly: the mean of the
+  /// curve over the step, or the rise of displacements over dt. Of accelerations: `before`, the velocity over
+  /// the step before, plus the change of the mean velocity from one step (of length dt_old, 0: there is none)
+  /// to the next.
+  Real velocity(Real t, Real dt, Real dt_old, Real before) const;
+};
+
+/// Integral of a curve from a to b, exact for its straight pieces.
+Real integral(const Curve& curve, Real a, Real b);
+/// Integral of the curve's slope from a to b; what it jumps does not count.
+Real rise(const Curve& curve, Real a, Real b);
+
+/// All prescribed motions of a deck. Refuses by name: missing curves, vectors, nodes and parts, vectors that
+/// turn with nodes, coordinate systems, displacements that jump.
+std::vector<PrescribedMotion> prescribed_motions(const Deck& deck, const Model& model,
+                                                 Diagnostics& diagnostics);
+
+/// Why two motions of one node or body cannot both hold, else nothing: both drive one direction, or
+/// directions that are not at right angles, at the same time.
+std::string clash(const PrescribedMotion& a, const PrescribedMotion& b);
+
+}  // namespace courant
