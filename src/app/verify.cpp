@@ -96,6 +96,7 @@ int call_verify(const VerifyCall& call, const std::atomic<bool>& stop) {
   std::optional<VerifyOutcome> outcome;
   try {
     if (diagnostics.ok()) outcome = verify_suite(suite, options_of(call, folder, stop), diagnostics);
+    if (isatty(STDOUT_FILENO) != 0) fmt::print("\r\033[K");  // the last line of progress
     print_error(diagnostics.text());
     if (!outcome) {
       print_error(fmt::format("{} error{}; nothing was run\n", diagnostics.errors(),

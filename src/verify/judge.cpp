@@ -86,8 +86,9 @@ std::vector<BoundCheck> check_bounds(const SuiteCase& definition, const std::vec
   for (const RunResult& run : runs)
     if (run.verdict != Verdict::stable)
       out.push_back({run.setting, "",
-                     fmt::format("{}{}{} runs to its end", definition.resolution,
-                                 run.resolution.empty() ? "" : " = ", run.resolution),
+                     run.resolution.empty()
+                         ? "runs to its end"
+                         : fmt::format("{} = {} runs to its end", definition.resolution, run.resolution),
                      1, 0, false});
   for (const SuiteSetting& setting : definition.settings) {
     const auto of_setting = runs_of(runs, setting.name);

@@ -139,7 +139,7 @@ class Planner {
 
 Variables parameter_values(const SuiteCase& definition, const SuiteParameters& overrides,
                            Diagnostics& diagnostics) {
-  Variables out;
+  Variables out{{"pi", pi}};
   if (!definition.scene.empty()) {
     const Scene scene = read_scene(definition.scene.string(), overrides, diagnostics);
     for (const auto& [name, value] : scene.parameters) out[name] = value;

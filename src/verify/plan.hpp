@@ -22,7 +22,7 @@ struct PlannedRun {
 };
 
 /// Values of the parameters of a case with `overrides`: of a scene all it has; of a deck, those of the
-/// overrides that are numbers. Faults of the scene go to `diagnostics`.
+/// overrides that are numbers; and pi. Faults of the scene go to `diagnostics`.
 Variables parameter_values(const SuiteCase& definition, const SuiteParameters& overrides,
                            Diagnostics& diagnostics);
 

@@ -122,13 +122,13 @@ TEST(Suite, FaultsHaveTheirPlace) {
   EXPECT_EQ(read("title: x\n").said, "suite.yaml:1:1: error: 'suite' lacks the key 'cases'\n");
   EXPECT_EQ(read("cases: []\n").said, "suite.yaml:1:1: error: the suite has no cases\n");
   EXPECT_EQ(read(observing + "{name: a, of: global/kinetic, refernce: 1}\n").said,
-            "suite.yaml:5:41: error: 'observation' does not know the key 'refernce'\n  hint: did you mean "
+            "suite.yaml:5:39: error: 'observation' does not know the key 'refernce'\n  hint: did you mean "
             "reference? known "
             "keys: name, title, unit, kind, of, where, along, reduce, take, from, to, at, reference, norm, "
             "scale, bound, "
             "bound_settings, least_order\n");
   EXPECT_EQ(read(observing + "{name: a, of: global/kinetic, take: finl}\n").said,
-            "suite.yaml:5:47: error: 'observation.take' cannot be 'finl'\n  hint: did you mean final? it may "
+            "suite.yaml:5:45: error: 'observation.take' cannot be 'finl'\n  hint: did you mean final? it may "
             "be curve, "
             "final, mean, min, max, at, period, decay, slope, growth\n");
   EXPECT_EQ(read("cases:\n  - name: one\n    scene: secne.yaml\n    observations: [{name: a, of: t}]\n").said,
