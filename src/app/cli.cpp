@@ -13,6 +13,7 @@
 
 #include "app/check.hpp"
 #include "app/simulation.hpp"
+#include "app/verify.hpp"
 #include "generate/generate.hpp"
 #include "keyword/registry.hpp"
 #include "output/file.hpp"
@@ -35,6 +36,7 @@ struct Call {
   std::vector<std::string> params;
   int threads = 0;
   Real until = 0;
+  VerifyCall verify;
   bool quiet = false, markdown = false, strict = false;
 };
 
@@ -104,6 +106,7 @@ int call_run(const Call& call) {
     const Summary summary = run(*simulation, call.deck, options);
     if (summary.termination == "error") {
       print_error(fmt::format("error: {}\n", summary.reason));
+      if (!summary.advice.empty()) print_error(fmt::format("  hint: {}\n", summary.advice));
       return exit_run;
     }
     if (!call.quiet) fmt::print("results are in {}\n", call.dir);
@@ -225,9 +228,23 @@ int command_line(int argc, char** argv) {
   post->add_option("RECIPE", call.recipe, "recipe.yaml")->required();
   post->add_option("DIR", call.dir, "folder of the run")->required();
 
+  auto* verify = app.add_subcommand("verify", "run a suite of cases: errors against run time, and stability");
+  verify->add_option("SUITE", call.verify.suite, "suite.yaml")->required();
+  verify->add_option("-o,--output", call.verify.dir,
+                     "folder for runs and results; SUITE_verify if not given");
+  verify->add_option("--jobs", call.verify.jobs, "runs at once; 0: one per core")
+      ->check(CLI::NonNegativeNumber);
+  verify->add_option("--only", call.verify.only, "CASE[,CASE...]: these cases alone")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verify->add_option("--compare", call.verify.compare, "results.csv of an earlier call: tell what got worse");
+  verify->add_option("--page", call.verify.page,
+                     "also write a Markdown page with its charts in a folder beside it");
+  verify->add_flag("--fresh", call.verify.fresh, "take over no runs of an earlier call");
+
   auto* help = app.add_subcommand("help", "show help for a call");
   std::string topic;
-  help->add_option("CALL", topic, "run, check, keywords, generate or post");
+  help->add_option("CALL", topic, "run, check, keywords, generate, post or verify");
 
   std::vector<std::string> words = translate_habits(argc, argv);
   std::vector<std::string> calls;
@@ -252,6 +269,11 @@ int command_line(int argc, char** argv) {
   if (*keywords) return call_keywords(call);
   if (*generate) return call_generate(call);
   if (*post) return call_post(call);
+  if (*verify) {
+    std::signal(SIGINT, request_stop);
+    std::signal(SIGTERM, request_stop);
+    return call_verify(call.verify, stop_requested);
+  }
   const auto found = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == topic; });
   fmt::print("{}", (found.empty() ? &app : found.front())->help());
   return topic.empty() || !found.empty() ? exit_ok : exit_input;

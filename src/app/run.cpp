@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "app/advice.hpp"
+#include "app/range_warnings.hpp"
 #include "app/simulation.hpp"
 #include "base/run_error.hpp"
 #include "output/ascii.hpp"
@@ -86,6 +88,7 @@ class Run {
       finish_normally();
     } catch (const RunError& error) {
       fail(error.what());
+      explain(error.cause);
     } catch (const OutputError& error) {
       fail(error.what());
     }
@@ -97,7 +100,8 @@ class Run {
   /// An older run's results must not pass for this one's if this one is killed.
   static void prepare_folder(const std::filesystem::path& dir) {
     make_folder(dir);
-    for (const char* name : {"summary.yaml", "fields.pvd", "history.h5"}) {
+    for (const char* name :
+         {"summary.yaml", "fields.pvd", "history.h5", "fields/failed.vtp", "fields/failed_shells.vtu"}) {
       std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is told then
       std::filesystem::remove(dir / name, ignored);
     }
@@ -147,30 +151,22 @@ class Run {
 
   void at_time_level(World& world, const Clock& clock, const std::string& who) {
     who_ = who;
-    if (clock.cycle == 0) start_ledger(clock);
+    if (clock.cycle == 0) print_first_step(clock);
     summary_.dt_min = std::min(summary_.dt_min, clock.dt);
     summary_.dt_max = std::max(summary_.dt_max, clock.dt);
-    const Real dtmin = s_.model().dtmin;
-    if (dtmin > 0 && clock.dt < dtmin * first_dt_)
-      throw RunError(
-          fmt::format("the step size {:.4g} fell below DTMIN x first step = {:.4g} at time {:.6g}, set by {}",
-                      clock.dt, dtmin * first_dt_, clock.t, who));
     if (field_schedule_.take(clock.t, clock.dt)) write_fields(world, clock);
     if (histories_.is_due(clock.t, clock.dt)) write_histories(false);
     if (clock.cycle % 5000 == 0 && clock.cycle > 0)
       messag_.status(clock.cycle, clock.t, clock.dt, "flush i/o buffers");
   }
 
-  void start_ledger(const Clock& clock) {
-    first_dt_ = clock.dt;
-    sample_energy(s_.world(), clock);
-    EnergyLedger& e = s_.world().energy;
-    e.initial = e.total();
+  void print_first_step(const Clock& clock) {
     messag_.line(" initialization completed");
     messag_.line(fmt::format("first step {:.4E} [T], set by {}", clock.dt, who_));
   }
 
   void write_fields(World& world, const Clock& clock) {
+    s_.guard().look(world, clock);  // states that are written are sound
     for (const auto& contact : s_.contacts()) contact->show_forces(world);
     writer_.submit(
         [this, state = fields_.take(world, clock.t, state_++)]() mutable { fields_.write(std::move(state)); },
@@ -184,20 +180,13 @@ class Run {
     Sample sample = s_.sample(who_);
     const double steps = static_cast<double>(std::max<std::int64_t>(summary_.particle_steps, 1));
     sample.ns_per_zone_cycle = 1e9 * seconds_since(start_) / steps;
-    check_energy(sample.energy);
+    if (!std::isfinite(sample.energy.total())) s_.guard().look(s_.world(), s_.clock());
     writer_.submit([this, sample = std::move(sample), due] { histories_.write(sample, due); });
-  }
-
-  void check_energy(const EnergyLedger& e) const {
-    if (std::isfinite(e.total())) return;
-    throw RunError(fmt::format("the energy became {} at time {:.6g}, cycle {}: the run is unstable",
-                               e.total(), s_.clock().t, s_.clock().cycle));
   }
 
   void finish_normally() {
     s_.evaluate(who_);  // pressures and forces at the end time
-    sample_energy(s_.world(), s_.clock());
-    check_energy(s_.world().energy);
+    s_.guard().look(s_.world(), s_.clock());
     if (field_schedule_.interval() > 0 && last_field_time_ < s_.clock().t)
       write_fields(s_.world(), s_.clock());
     write_histories(true);
@@ -214,12 +203,24 @@ class Run {
     failure_ = " *** Error: " + reason;
   }
 
+  /// What the state tells of the failure: advice, and the state itself for those who want to look.
+  void explain(StopCause cause) {
+    failed_state_ = true;
+    s_.guard().note_ranges(s_.world(), s_.clock());
+    add_facts_at_stop(facts_, s_, cause, who_);
+    summary_.advice = advice(facts_);
+    failure_ += "\n     hint: " + summary_.advice;
+  }
+
   /// Writes what can still be written; a second failure must not hide the first.
   void close() {
     attempt([&] { writer_.wait(); });
     attempt([&] { histories_.finish(); });
     attempt([&] { fields_.finish(); });
+    if (failed_state_) attempt([&] { fields_.write_failed(s_.world(), s_.clock().t); });
     Summary& y = summary_;
+    y.ranges = s_.guard().ranges();
+    for (const std::string& warning : range_warnings(y.ranges)) y.warnings.push_back(warning);
     y.time = s_.clock().t, y.steps = s_.clock().cycle;
     y.wall_seconds = seconds_since(start_), y.cpu_seconds = cpu_seconds() - cpu_start_;
     y.writer_cpu_seconds = writer_.cpu_seconds();
@@ -269,6 +270,8 @@ class Run {
         fmt::format(" leaked particles {}, largest penetration {:.4g} [L], energy residual {:.3g} % of what "
                     "passed through",
                     summary_.leaked_particles, summary_.max_penetration, residual_percent(summary_.energy)));
+    for (const std::string& line : range_lines(summary_.ranges)) messag_.line(line);
+    for (const std::string& warning : range_warnings(summary_.ranges)) messag_.line(" " + warning);
     messag_.line(ok ? " N o r m a l    t e r m i n a t i o n" : " E r r o r    t e r m i n a t i o n");
   }
 
@@ -295,7 +298,9 @@ class Run {
   OutputSchedule field_schedule_;
   Summary summary_;
   std::string who_, failure_;
-  Real first_dt_ = 0, last_field_time_ = -1;
+  StopFacts facts_ = facts_at_start(s_);
+  bool failed_state_ = false;
+  Real last_field_time_ = -1;
   int state_ = 0;
   double cpu_start_ = cpu_seconds();
   Clock_::time_point start_ = Clock_::now(), shown_ = start_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <unordered_map>
 
 #include "materials/initial_stress.hpp"
@@ -53,6 +54,7 @@ void Simulation::release_tables() {
 }
 
 void Simulation::build_parts(Diagnostics& diagnostics) {
+  for (const ModelPart& part : model_.parts) world_.part_ids.push_back(part.id);
   materials_ = find_materials(deck_, model_, diagnostics);
   const auto shell_material = [&](Index part) -> std::optional<ShellMaterial> {
     const auto m = rigid_material(deck_, model_, part);
@@ -74,6 +76,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   const Real h = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
   neighbours_ = std::make_shared<Neighbours>(first_skin * h, sph_.region);
   neighbours_->adapt_skin(least_skin * h, most_skin * h);
+  add_images(h, diagnostics);
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
   add_prescribed_motions(diagnostics);
@@ -95,11 +98,40 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
     world_.energy_terms.push_back(contact);
   }
   if (contacts_.empty()) left_out_.push_back({"contact", "no *CONTACT"});
-  if (auto fixed = make_fixed_particles(model_, world_)) world_.constraints.push_back(fixed);
+  if (auto fixed = make_fixed_particles(model_, world_))
+    world_.constraints.push_back(fixed);
+  else
+    left_out_.push_back({"fixed particles", "no particle in *BOUNDARY_SPC"});
   add_bodies();
   rules_.dtinit = model_.dtinit;
   if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
+  rules_.dtmin = model_.dtmin;
+  rules_.guard = guard_ = std::make_shared<Guard>(reference_of_parts(), model_.endeng);
   stepper_ = std::make_unique<Stepper>(world_, *neighbours_, rules_, timer_);
+}
+
+// Before the first step, so that c0 is that of the material at rest.
+Ranges Simulation::reference_of_parts() const {
+  Ranges out(model_.parts.size());
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    out[k].part = model_.parts[k].id;
+    const PartMaterial& m = materials_[k];
+    if (!m.found) continue;
+    out[k].rho0 = m.ro;
+    out[k].c0 = std::sqrt(m.eos->sound_speed2(m.ro, 1 / m.eos->V0 - 1, m.eos->E0));
+    out[k].liquid = m.eos->sound_speed2(m.ro, 0, 0) > 0;  // a gas has no pressure without heat
+  }
+  return out;
+}
+
+void Simulation::add_images(Real h, Diagnostics& diagnostics) {
+  const Real reach = 2 * h + neighbours_->largest_skin();
+  auto planes = build_image_planes(deck_, model_, sph_, reach, world_, diagnostics);
+  if (planes.empty())
+    return left_out_.push_back({"images", "no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC"});
+  auto images = std::make_shared<Images>(std::move(planes));
+  neighbours_->set_images(images);
+  world_.exchangers.push_back(images);
 }
 
 void Simulation::add_prescribed_motions(Diagnostics& diagnostics) {
@@ -168,11 +200,27 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   return s;
 }
 
+std::vector<PassNote> Simulation::outputs(bool wanted) const {
+  const OutputRequests& out = model_.output;
+  const std::pair<PassNote, bool> all[] = {
+      {{"field states", "no *DATABASE_BINARY_D3PLOT"}, out.d3plot > 0 || out.d3plot_count > 0},
+      {{"glstat", "no *DATABASE_GLSTAT"}, out.glstat > 0},
+      {{"matsum", "no *DATABASE_MATSUM"}, out.matsum > 0},
+      {{"rcforc", "no *DATABASE_RCFORC"}, out.rcforc > 0},
+      {{"sphout", "no *DATABASE_SPHOUT"}, out.sphout > 0},
+  };
+  std::vector<PassNote> notes;
+  for (const auto& [note, on] : all)
+    if (on == wanted) notes.push_back(note);
+  return notes;
+}
+
 std::string Simulation::passes() const {
   std::string text = "active passes, in the order of a step:\n";
   const auto list = [&](const char* kind, const auto& passes) {
     for (const auto& pass : passes) text += fmt::format("  {:<12}{}\n", kind, pass->name());
   };
+  list("exchange", world_.exchangers);
   list("rate", world_.rates);
   list("material", world_.materials);
   list("tally", world_.tallies);
@@ -181,8 +229,11 @@ std::string Simulation::passes() const {
   list("time limit", world_.time_limits);
   list("energy", world_.energy_terms);
   list("motion", world_.motions);
+  text += fmt::format("  {:<12}every {} steps\n", "guard", Guard::interval);
+  for (const PassNote& output : outputs(true)) text += fmt::format("  {:<12}{}\n", "output", output.name);
   text += "not needed by this deck:\n";
   for (const PassNote& note : left_out_) text += fmt::format("  {:<20}{}\n", note.name, note.reason);
+  for (const PassNote& note : outputs(false)) text += fmt::format("  {:<20}{}\n", note.name, note.reason);
   return text;
 }
 

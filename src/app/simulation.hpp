@@ -49,15 +49,20 @@ class Simulation {
   const std::vector<std::shared_ptr<Contact>>& contacts() const { return contacts_; }
   const RigidBodies* bodies() const { return bodies_.get(); }
   PassTimer& timer() { return timer_; }
-  std::string passes() const;  ///< which passes are active, and why others are not
+  Guard& guard() { return *guard_; }  ///< looks every Guard::interval steps, and when told to
+  const Guard& guard() const { return *guard_; }
+  std::string passes() const;  ///< which passes and outputs are active, and why others are not
 
  private:
   Simulation() = default;
   void build_parts(Diagnostics& diagnostics);
   void release_tables();
   void add_passes(Diagnostics& diagnostics);
+  void add_images(Real h, Diagnostics& diagnostics);
   void add_prescribed_motions(Diagnostics& diagnostics);
   void add_bodies();
+  std::vector<PassNote> outputs(bool wanted) const;
+  Ranges reference_of_parts() const;
 
   Deck deck_;
   Model model_;
@@ -70,6 +75,7 @@ class Simulation {
   std::shared_ptr<RigidBodies> bodies_;
   std::vector<PassNote> left_out_;
   StepRules rules_;
+  std::shared_ptr<Guard> guard_;
   PassTimer timer_;
   std::unique_ptr<Stepper> stepper_;
 };

@@ -49,6 +49,18 @@ Calculated real_function(Arguments a) {
   return real_result(f(a[0].value()));
 }
 
+template <Real (*f)(Real)>
+ExpressionFunction of_one(const char* name) {
+  return {name, 1, 1, real_function<f>, f};
+}
+
+Real smaller(Real a, Real b) {
+  return b < a ? b : a;
+}
+Real greater(Real a, Real b) {
+  return b > a ? b : a;
+}
+
 Real csc(Real x) {
   return 1 / std::sin(x);
 }
@@ -117,35 +129,35 @@ Real above(Real x) {
 
 const std::vector<ExpressionFunction>& functions() {
   static const std::vector<ExpressionFunction> table = {
-      {"sin", 1, 1, real_function<std::sin>},
-      {"cos", 1, 1, real_function<std::cos>},
-      {"tan", 1, 1, real_function<std::tan>},
-      {"csc", 1, 1, real_function<csc>},
-      {"sec", 1, 1, real_function<sec>},
-      {"ctn", 1, 1, real_function<ctn>},
-      {"asin", 1, 1, real_function<std::asin>},
-      {"acos", 1, 1, real_function<std::acos>},
-      {"atan", 1, 1, real_function<std::atan>},
-      {"atan2", 2, 2, atan2_of},
-      {"sinh", 1, 1, real_function<std::sinh>},
-      {"cosh", 1, 1, real_function<std::cosh>},
-      {"tanh", 1, 1, real_function<std::tanh>},
-      {"asinh", 1, 1, real_function<std::asinh>},
-      {"acosh", 1, 1, real_function<std::acosh>},
-      {"atanh", 1, 1, real_function<std::atanh>},
-      {"exp", 1, 1, real_function<std::exp>},
-      {"log", 1, 1, real_function<std::log>},
-      {"log10", 1, 1, real_function<std::log10>},
-      {"sqrt", 1, 1, real_function<std::sqrt>},
-      {"min", 2, any_number, [](Arguments a) { return extreme(a, false); }},
-      {"max", 2, any_number, [](Arguments a) { return extreme(a, true); }},
+      of_one<std::sin>("sin"),
+      of_one<std::cos>("cos"),
+      of_one<std::tan>("tan"),
+      of_one<csc>("csc"),
+      of_one<sec>("sec"),
+      of_one<ctn>("ctn"),
+      of_one<std::asin>("asin"),
+      of_one<std::acos>("acos"),
+      of_one<std::atan>("atan"),
+      {"atan2", 2, 2, atan2_of, nullptr, std::atan2},
+      of_one<std::sinh>("sinh"),
+      of_one<std::cosh>("cosh"),
+      of_one<std::tanh>("tanh"),
+      of_one<std::asinh>("asinh"),
+      of_one<std::acosh>("acosh"),
+      of_one<std::atanh>("atanh"),
+      of_one<std::exp>("exp"),
+      of_one<std::log>("log"),
+      of_one<std::log10>("log10"),
+      of_one<std::sqrt>("sqrt"),
+      {"min", 2, any_number, [](Arguments a) { return extreme(a, false); }, nullptr, smaller},
+      {"max", 2, any_number, [](Arguments a) { return extreme(a, true); }, nullptr, greater},
       {"mod", 2, 2, remainder},
-      {"abs", 1, 1, [](Arguments a) { return magnitude(a[0]); }},
+      {"abs", 1, 1, [](Arguments a) { return magnitude(a[0]); }, std::fabs},
       {"sign", 2, 2, with_sign},
       {"int", 1, 1, to_integer<cut>},
-      {"aint", 1, 1, real_function<cut>},
+      of_one<cut>("aint"),
       {"nint", 1, 1, to_integer<nearest>},
-      {"anint", 1, 1, real_function<nearest>},
+      of_one<nearest>("anint"),
       {"float", 1, 1, [](Arguments a) { return real_result(a[0].value()); }},
       {"ls_integer", 1, 1, to_integer<cut>},
       {"ls_real", 1, 1, [](Arguments a) { return real_result(a[0].value()); }},

@@ -26,6 +26,9 @@ struct ExpressionFunction {
   std::string name;  ///< in lower case
   std::size_t least = 1, most = 1;
   Calculated (*of)(const std::vector<Number>& arguments) = nullptr;
+  // the same on reals alone, for speed; what is not finite is a fault
+  Real (*of_real)(Real) = nullptr;         ///< of functions of one argument; may be missing
+  Real (*of_reals)(Real, Real) = nullptr;  ///< with two arguments; may be missing
 };
 
 const ExpressionFunction* find_function(std::string_view name);  ///< nullptr if there is none

@@ -14,6 +14,7 @@ void Contact::refreshed(World& world, const Clock& clock, std::span<const Index>
   listed_ = world.particles.active;
   blocks_.resize(block_count(listed_));
   for_each_block(listed_, [&](Index begin, Index end) { list_block(world, clock, begin, end); });
+  for (const Block& b : blocks_) count_leaks(world, b.leapt);
 }
 
 // Nobody else clears the memory of particles that are no longer active.
@@ -30,6 +31,7 @@ void Contact::list_block(World& world, const Clock& clock, Index begin, Index en
   Block& b = blocks_[begin / block_size];
   b.slots.clear(), b.candidate.clear(), b.side.clear();
   b.touches.clear(), b.drags.clear(), b.crossed.clear(), b.reactions.clear();
+  b.leapt.clear();
   b.deepest = 0;
   const Particles& p = world.particles;
   for (Index i = begin; i < end; ++i) {
@@ -46,10 +48,28 @@ void Contact::list_block(World& world, const Clock& clock, Index begin, Index en
       b.slots.push_back(slot);
       continue;
     }
+    if (slot.k > 0 && leapt_over_wall(p.x.vec(i) - p.v.vec(i) * clock.dt_old, p.x.vec(i)))
+      b.leapt.push_back(i);
     ghost_->set(i, Vec::Zero());
     if (friction_on_)
       for (int k = 0; k < 3; ++k) friction_force_[k]->set(i, Vec::Zero());
   }
+}
+
+// Who goes so far in one step that the wall is out of reach behind it is not pulled back: it has leaked.
+bool Contact::leapt_over_wall(const Vec& from, const Vec& to) const {
+  const Vec path = to - from;
+  const Real length = path.norm();
+  constexpr Real most_looks = 1000;
+  if (!(length > reach_)) return false;
+  const Real looks = std::ceil(std::min(length / reach_, most_looks));
+  for (Real k = 0; k < looks; ++k)
+    for (const Index s : grid_.near(from + path * ((k + 0.5) / looks))) {
+      const Real before = plane_distance(walls_[s], from), after = plane_distance(walls_[s], to);
+      if ((before < 0) != (after < 0) && is_over(facets_[s], from + path * (before / (before - after))))
+        return true;
+    }
+  return false;
 }
 
 bool Contact::list_candidates(Block& b, const Vec& x, Index& nearest) const {

@@ -173,16 +173,20 @@ void Contact::start(World& world, const Clock& clock) {
   asleep_ = false;
 }
 
+void Contact::count_leaks(World& world, const std::vector<Index>& particles) {
+  for (const Index i : particles) {
+    if ((*leaked_)[i]) continue;
+    (*leaked_)[i] = 1;
+    ++world.counters["leaked_particles"];
+  }
+}
+
 // Serial and in the order of particles: sums have the same bits on any number of threads.
 void Contact::finish(World& world, const Clock&) {
   Real deepest = 0;
   for (const Block& b : blocks_) {
     deepest = std::max(deepest, b.deepest);
-    for (const Index i : b.crossed) {
-      if ((*leaked_)[i]) continue;
-      (*leaked_)[i] = 1;
-      ++world.counters["leaked_particles"];
-    }
+    count_leaks(world, b.crossed);
     for (const Reaction& r : b.reactions) give_to_wall(world, b, r.touch, r.share);
   }
   if (deepest > 0) {
@@ -239,7 +243,9 @@ void Contact::record(World& world, const Clock& clock, EnergyLedger& ledger) {
     damping_work_ += b.damping_work;
     friction_work_ += b.friction_work;
   }
-  ledger.dissipated += damping_work_ + friction_work_ - before;
+  const Real work = damping_work_ + friction_work_ - before;
+  ledger.dissipated += work;
+  ledger.throughput += std::abs(work);
 }
 
 // Friction springs hold part of the friction work: what they store now is not dissipated yet.

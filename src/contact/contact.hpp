@@ -117,6 +117,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
     std::vector<Touch> touches;     ///< now, in the order of particles
     std::vector<Drag> drags;        ///< per touch, if there is friction or damping
     std::vector<Index> crossed;     ///< particles whose path goes through a mid-surface now
+    std::vector<Index> leapt;       ///< those whose last step did, too far for the wall to hold them
     Real deepest = 0;               ///< touch [L]
     std::vector<Reaction> reactions;
     Real damping_work = 0, friction_work = 0;  ///< dissipated in this step [ML2/T2]
@@ -128,6 +129,8 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   void forget_left(const World& world, std::span<const Index> old_of_new);
   void list_block(World& world, const Clock& clock, Index begin, Index end);
   bool list_candidates(Block& b, const Vec& x, Index& nearest) const;
+  bool leapt_over_wall(const Vec& from, const Vec& to) const;
+  void count_leaks(World& world, const std::vector<Index>& particles);
   void note_planes(const Block& b, Slot& slot) const;
   void learn_sides(const World& world, const Clock& clock, Block& b, const Slot& slot) const;
   void fall_asleep(World& world);

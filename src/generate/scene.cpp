@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <initializer_list>
 #include <set>
 #include <string_view>
@@ -20,6 +21,12 @@ constexpr Real largest_id = 99999999;  // I8
 constexpr Real most_entities = 5e7;    // a typing error in a spacing should not fill the memory
 constexpr Real most_jitter = 0.5;      // from there on two particles may meet
 
+void report_yaml_fault(const std::string& path, const YAML::Exception& fault, Diagnostics& diagnostics) {
+  const bool somewhere = !fault.mark.is_null();
+  diagnostics.error({path, somewhere ? fault.mark.line + 1 : 0, somewhere ? fault.mark.column + 1 : 0},
+                    fmt::format("not valid YAML: {}", fault.msg));
+}
+
 class SceneReader {
  public:
   SceneReader(std::string path, const std::map<std::string, std::string>& overrides, Diagnostics& diagnostics)
@@ -32,12 +39,14 @@ class SceneReader {
       diagnostics_.error({path_, 1, 1}, "a scene is a YAML map", "start with 'title: ...'");
       return scene;
     }
-    check_keys(root, "the scene", {"title", "parameters", "parts", "keywords"});
+    check_keys(root, "the scene", {"title", "base", "parameters", "parts", "keywords"});
+    load_bases(root["base"]);
     read_parameters(root["parameters"], scene);
     scene.title = root["title"] ? text(root["title"]) : std::string("untitled scene");
     if (scene.title.size() > 80) error(root["title"], "title: a deck's title has at most 80 characters");
     scene.variables = variables_;
     read_parts(root, scene);
+    for_each_base([&](const YAML::Node& base) { read_keywords(base["keywords"], scene); });
     read_keywords(root["keywords"], scene);
     return scene;
   }
@@ -69,18 +78,70 @@ class SceneReader {
     }
   }
 
+  /// What many scenes have in common: files with parameters and keywords.
+  void load_bases(const YAML::Node& node) {
+    if (!node) return;
+    if (!node.IsSequence()) return load_base(node);
+    for (const auto& one : node) load_base(one);
+  }
+  void load_base(const YAML::Node& node) {
+    const std::string path = (std::filesystem::path(path_).parent_path() / text(node)).string();
+    try {
+      bases_.push_back({path, YAML::LoadFile(path)});
+    } catch (const YAML::BadFile&) {
+      return error(node, fmt::format("base: the file '{}' cannot be read", path));
+    } catch (const YAML::Exception& fault) {
+      return report_yaml_fault(path, fault, diagnostics_);
+    }
+    std::swap(path_, bases_.back().path);
+    check_keys(bases_.back().node, "a base", {"parameters", "keywords"});
+    std::swap(path_, bases_.back().path);
+  }
+  /// Messages name the base's file meanwhile.
+  template <class Visit>
+  void for_each_base(Visit visit) {
+    for (Base& base : bases_) {
+      std::swap(path_, base.path);
+      visit(base.node);
+      std::swap(path_, base.path);
+    }
+  }
+
   void read_parameters(const YAML::Node& node, Scene& scene) {
     std::set<std::string> unused;
     for (const auto& [name, value] : overrides_) unused.insert(name);
-    if (node && !node.IsMap()) error(node, "parameters: expected a map of NAME: VALUE");
-    if (node && node.IsMap()) {
-      for (const auto& entry : node) read_parameter(entry.first, entry.second, unused, scene);
-    }
+    // The base's first, but for those that need the scene's own; these stand above the base's of the same
+    // name.
+    std::set<std::string> own;
+    std::set<std::pair<std::string, int>> done;  // entries of bases: file and place in it
+    if (node && node.IsMap())
+      for (const auto& entry : node)
+        if (entry.first.IsScalar()) own.insert(entry.first.Scalar());
+    bool all = false;
+    const auto read_base = [&](const YAML::Node& name, const YAML::Node& value) {
+      const std::string key = name.IsScalar() ? name.Scalar() : "";
+      const bool ready = all || (value.IsScalar() && evaluate(value.Scalar(), variables_).ok());
+      if (!ready || own.contains(key) || !done.emplace(path_, name.Mark().pos).second) return;
+      read_parameter(name, value, unused, scene);
+    };
+    for_each_base([&](const YAML::Node& base) { for_each_entry(base["parameters"], read_base); });
+    for_each_entry(node, [&](const YAML::Node& name, const YAML::Node& value) {
+      read_parameter(name, value, unused, scene);
+    });
+    all = true;
+    for_each_base([&](const YAML::Node& base) { for_each_entry(base["parameters"], read_base); });
     std::vector<std::string> names;
     for (const auto& p : scene.parameters) names.push_back(p.first);
     for (const std::string& name : unused)
       diagnostics_.error({path_, 0, 0}, fmt::format("--param {}: the scene has no such parameter", name),
                          fmt::format("its parameters: {}", fmt::join(names, ", ")));
+  }
+
+  template <class Visit>
+  void for_each_entry(const YAML::Node& map, Visit visit) {
+    if (!map) return;
+    if (!map.IsMap()) return error(map, "parameters: expected a map of NAME: VALUE");
+    for (const auto& entry : map) visit(entry.first, entry.second);
   }
 
   void read_parameter(const YAML::Node& key, const YAML::Node& node, std::set<std::string>& unused,
@@ -94,7 +155,10 @@ class SceneReader {
     if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) ||
         !std::all_of(name.begin(), name.end(), is_word))
       error(key, fmt::format("parameters: '{}' is not a name", name), "use letters, digits and _");
-    if (variables_.count(name)) error(key, fmt::format("parameters: '{}' stands twice", name));
+    if (name == "pi")
+      error(key, "parameters: 'pi' is there already, 3.14159...");
+    else if (variables_.count(name))
+      error(key, fmt::format("parameters: '{}' stands twice", name));
     const auto override = overrides_.find(name);
     unused.erase(name);
     const bool overridden = override != overrides_.end();
@@ -361,10 +425,15 @@ class SceneReader {
     scene.keywords.push_back(filled.text);
   }
 
+  struct Base {
+    std::string path;
+    YAML::Node node;
+  };
   std::string path_;
+  std::vector<Base> bases_;
   const std::map<std::string, std::string>& overrides_;
   Diagnostics& diagnostics_;
-  Variables variables_;
+  Variables variables_{{"pi", pi}};
 };
 
 }  // namespace
@@ -376,9 +445,7 @@ Scene read_scene(const std::string& path, const std::map<std::string, std::strin
   } catch (const YAML::BadFile&) {
     diagnostics.error({path, 0, 0}, "the scene cannot be read", "check the name and the permissions");
   } catch (const YAML::Exception& fault) {
-    diagnostics.error({path, fault.mark.is_null() ? 0 : fault.mark.line + 1,
-                       fault.mark.is_null() ? 0 : fault.mark.column + 1},
-                      fmt::format("not valid YAML: {}", fault.msg));
+    report_yaml_fault(path, fault, diagnostics);
   }
   return {};
 }

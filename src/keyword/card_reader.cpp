@@ -8,8 +8,6 @@
 
 namespace courant {
 
-namespace {
-
 bool satisfies(Check check, Real value) {
   switch (check) {
     case Check::positive:
@@ -22,6 +20,8 @@ bool satisfies(Check check, Real value) {
       return true;
   }
 }
+
+namespace {
 
 bool is_whole(FieldType type) {
   return type == FieldType::integer || type == FieldType::id || type == FieldType::ids;

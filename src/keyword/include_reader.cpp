@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_open_files = 100, most_files = 10000;
 // A file may be read often, for copies of a body; beyond this, bytes, only as many times as a deck can mean.
-constexpr std::size_t free_rereading = std::size_t(64) << 20, most_rereading = 1000;
+constexpr std::size_t free_rereading = std::size_t(8) << 20, most_rereading = 500;
 constexpr Id largest_offset = 1'000'000'000'000'000;  // ids in LONG format have no more digits
 
 std::string identity(const std::string& path) {

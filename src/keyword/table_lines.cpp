@@ -10,19 +10,6 @@ namespace courant {
 
 namespace {
 
-bool passes(Check check, Real value) {
-  switch (check) {
-    case Check::positive:
-      return value > 0;
-    case Check::not_negative:
-      return value >= 0;
-    case Check::not_positive:
-      return value <= 0;
-    default:
-      return true;
-  }
-}
-
 template <class Number>
 void store(std::byte* entry, std::size_t offset, Number number) {
   std::memcpy(entry + offset, &number, sizeof number);
@@ -101,7 +88,7 @@ bool TableLines::read_integer(const Column& column, const char* begin, const cha
     if (column.zero_is_standard) return true;
   }
   const Id largest = column.type == FieldType::integer ? std::numeric_limits<int>::max() : largest_id;
-  if (value > largest || value < -largest || !passes(column.check, static_cast<Real>(value))) return false;
+  if (value > largest || value < -largest || !satisfies(column.check, static_cast<Real>(value))) return false;
   if (!column.any_value && static_cast<Real>(value) != column.standard) return false;
   if (column.allowed &&
       std::find(column.allowed->begin(), column.allowed->end(), value) == column.allowed->end())
@@ -117,7 +104,7 @@ bool TableLines::read_real(const Column& column, const char* begin, const char* 
   Real value = 0;
   if (!parse_plain_real(begin, end, value)) return false;
   if (value == 0 && column.zero_is_standard) return true;
-  if (!passes(column.check, value) || (!column.any_value && value != column.standard)) return false;
+  if (!satisfies(column.check, value) || (!column.any_value && value != column.standard)) return false;
   store(entry, column.offset, value);
   return true;
 }

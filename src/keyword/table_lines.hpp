@@ -6,9 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "base/real.hpp"
 #include "keyword/source.hpp"
 
 namespace courant {
+
+/// Whether a number is one that the field allows.
+bool satisfies(Check check, Real value);
 
 class TableLines {
  public:

@@ -22,9 +22,11 @@ void stop_for_density(const World& world, const Clock& clock, Index i, Real rho_
           ? fmt::format(": its equation of state ends at {:.4g}, where the pressure becomes infinite",
                         rho_limit)
           : std::string();
-  throw RunError(fmt::format(
-      "density of particle {} became {:.4g} [M/L3] at time {:.6g}, cycle {}, x = ({:.5g}, {:.5g}, {:.5g}){}",
-      p.id[i], p.rho[i], clock.t, clock.cycle, x[0], x[1], x[2], beyond));
+  throw RunError(
+      fmt::format("density of particle {} of part {} became {:.4g} [M/L3] at time {:.6g}, cycle "
+                  "{}, x = ({:.5g}, {:.5g}, {:.5g}){}",
+                  p.id[i], world.part_id(i), p.rho[i], clock.t, clock.cycle, x[0], x[1], x[2], beyond),
+      std::isfinite(p.rho[i]) ? StopCause::density : StopCause::not_finite);
 }
 
 namespace {

@@ -13,6 +13,7 @@ void ModelBuilder::build_control() {
     model_.endtim = card->endtim;
     model_.endcyc = card->endcyc;
     model_.dtmin = card->dtmin;
+    model_.endeng = card->endeng;
   } else {
     ++errors_;
     diagnostics_.error({deck_.files.empty() ? "" : deck_.files[0].name, 0, 0},

@@ -25,7 +25,8 @@ const RegisterKeyword<T> control_termination{
               {"ENDTIM", &T::endtim, "T", "end time", {.required = true, .check = Check::positive}},
               {"ENDCYC", &T::endcyc, "-", "last step, 0 no limit", optional_id},
               {"DTMIN", &T::dtmin, "-", "stop when the step is below DTMIN x the first step", interval},
-              {"ENDENG", &T::endeng, "-", "stop at a change of the energy ratio", unsupported},
+              {"ENDENG", &T::endeng, "-", "stop at this change of the energy ratio in per cent, 0 none",
+               interval},
               {"ENDMAS", &T::endmas, "-", "stop at added mass", {.standard = 1e8, .honour = Honour::ignored}},
               {"NOSOL", &T::nosol, "-", "1 stop after the initialisation", unsupported}}}}}};
 
@@ -42,7 +43,7 @@ const RegisterKeyword<S> control_timestep{
                             "scale of the computed step",
                             {.standard = 0.9, .check = Check::positive}},
                            {"ISDO", &S::isdo, "-", "characteristic length of shells", no_effect},
-                           {"TSLIMT", &S::tslimt, "T", "smallest step of shells", unsupported},
+                           {"TSLIMT", &S::tslimt, "T", "smallest step of shells that deform", no_effect},
                            {"DT2MS", &S::dt2ms, "T", "step for mass scaling", unsupported},
                            {"LCTM",
                             &S::lctm,

@@ -141,6 +141,7 @@ struct Model {
   Real endtim = 0;  ///< [T]
   Id endcyc = 0;    ///< 0: no limit
   Real dtmin = 0;   ///< stop when dt < dtmin x first dt
+  Real endeng = 0;  ///< stop when the energy ratio differs by more from 1, percent; 0 never
   Real tssfac = 0.9;
   Real dtinit = 0;  ///< first step, 0: computed [T]
   bool dt_max_given = false;

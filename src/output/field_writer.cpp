@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <type_traits>
@@ -112,8 +113,8 @@ void sort_by_id(const Field<Id>& id, std::vector<Index>& which) {
     std::sort(which.begin(), which.end(), [&](Index a, Index b) { return id[a] < id[b]; });
 }
 
-VtkDataSet particle_data(const Particles& particles, Real t, const FieldWriterOptions& options) {
-  std::vector<Index> which = all_of(particles.size());
+VtkDataSet particle_data(const Particles& particles, std::vector<Index> which, Real t,
+                         const FieldWriterOptions& options) {
   if (options.hide_inactive)
     std::erase_if(which, [&](Index i) { return particles.state[i] != particle_active; });
   sort_by_id(particles.id, which);
@@ -184,7 +185,8 @@ FieldWriter::FieldWriter(std::filesystem::path dir, FieldWriterOptions options)
 }
 
 FieldState FieldWriter::take(const World& world, Real t, int number) const {
-  FieldState state{number, t, particle_data(world.particles, t, options_), {}};
+  FieldState state{
+      number, t, particle_data(world.particles, all_of(world.particles.size()), t, options_), {}};
   if (world.segments.size() > 0) state.shells = shell_data(world, options_);
   state.particles.t = t;
   if (state.shells) state.shells->t = t;
@@ -211,6 +213,25 @@ void FieldWriter::write(FieldState state) {
   ++states_;
   if (16 * states_not_listed_ >= states_ || std::chrono::steady_clock::now() - listed_at_ >= longest_wait_)
     write_index();
+}
+
+void FieldWriter::write_failed(const World& world, Real t) {
+  const Particles& p = world.particles;
+  std::vector<Index> which = all_of(p.moving);  // where the others are is not sure in the middle of a step
+  const auto has_place = [](const Vec& x) {
+    return x.allFinite() && x.cwiseAbs().maxCoeff() < std::numeric_limits<float>::max();
+  };
+  std::erase_if(which, [&](Index i) { return !has_place(p.x.vec(i)); });
+  if (which.empty()) return;
+  const auto put = [&](const char* file, VtkEncoder& encoder, VtkDataSet data) {
+    data.t = t;
+    const VtkEncoder::File encoded = encoder.encode(std::move(data));
+    write_file(dir_ / "fields" / file, {encoded.header, encoded.data});
+  };
+  put("failed.vtp", particle_encoder_, particle_data(p, std::move(which), t, options_));
+  for (Index k = 0; k < world.nodes.size(); ++k)
+    if (!has_place(world.nodes.x.vec(k))) return;
+  if (world.segments.size() > 0) put("failed_shells.vtu", shell_encoder_, shell_data(world, options_));
 }
 
 void FieldWriter::write_index() {

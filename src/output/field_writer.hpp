@@ -45,6 +45,11 @@ class FieldWriter {
   void write(FieldState state);
   void write(const World& world, Real t, int number) { write(take(world, t, number)); }
 
+  /// The state of a run that stopped in error, for those who want to look: `fields/failed.vtp` and
+  /// `fields/failed_shells.vtu`, which fields.pvd does not list. Active and rim particles whose places a
+  /// float32 can hold; nothing where there is none. Other values may be NaN. Throws OutputError.
+  void write_failed(const World& world, Real t);
+
   /// Brings fields.pvd up to date; after this the writer may be dropped. Throws OutputError.
   void finish();
 

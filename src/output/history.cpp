@@ -11,44 +11,10 @@
 #include <sstream>
 #include <utility>
 
+#include "output/hdf5.hpp"
+
 namespace courant {
 namespace {
-
-/// Owns an HDF5 identifier and closes it with the function of its kind.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  operator hid_t() const { return id_; }
-  herr_t close() {
-    const hid_t id = std::exchange(id_, -1);
-    return close_(id);
-  }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// HDF5 prints its error stack unless told not to; a library does not print.
-class Silence {
- public:
-  Silence() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-  ~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
 
 /// Text of the innermost entry of HDF5's error stack, the one with the system's reason.
 std::string innermost_error() {
@@ -91,21 +57,22 @@ class HistoryFile {
     const hsize_t size[] = {rows_before + rows, count[1]};
     const int rank = components == 1 ? 1 : 2;
     const bool is_there = rows_before > 0 && exists(path);
-    Handle dataset(is_there ? H5Dopen2(file_, path.c_str(), H5P_DEFAULT) : create(path, rank, size),
-                   H5Dclose);
+    Hdf5Handle dataset(is_there ? H5Dopen2(file_, path.c_str(), H5P_DEFAULT) : create(path, rank, size),
+                       H5Dclose);
     check(dataset);
     if (is_there)
       check(H5Dset_extent(dataset, size));
     else
       set_text(dataset, "dimension", dimension);
-    Handle space(H5Dget_space(dataset), H5Sclose), memory(H5Screate_simple(rank, count, nullptr), H5Sclose);
+    Hdf5Handle space(H5Dget_space(dataset), H5Sclose),
+        memory(H5Screate_simple(rank, count, nullptr), H5Sclose);
     check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr));
     check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()));
     check(dataset.close());
   }
 
   void set_title(const std::string& group, const std::string& title) {
-    Handle object(H5Oopen(file_, group.c_str(), H5P_DEFAULT), H5Oclose);
+    Hdf5Handle object(H5Oopen(file_, group.c_str(), H5P_DEFAULT), H5Oclose);
     check(object);
     if (H5Aexists(object, "title") <= 0) set_text(object, "title", title);
   }
@@ -145,7 +112,7 @@ class HistoryFile {
   hid_t create(const std::string& path, int rank, const hsize_t* size) {
     const hsize_t longest[] = {H5S_UNLIMITED, size[1]}, chunk[] = {1024, rank == 1 ? 1 : size[1]};
     const double missing = std::numeric_limits<double>::quiet_NaN();
-    Handle space(H5Screate_simple(rank, size, longest), H5Sclose),
+    Hdf5Handle space(H5Screate_simple(rank, size, longest), H5Sclose),
         options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
     H5Pset_chunk(options, rank, chunk);
     H5Pset_fill_value(options, H5T_NATIVE_DOUBLE, &missing);
@@ -156,11 +123,11 @@ class HistoryFile {
   }
 
   void set_text(hid_t object, const char* name, const std::string& text) {
-    Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
+    Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
     H5Tset_size(type, std::max<std::size_t>(1, text.size()));
     H5Tset_cset(type, H5T_CSET_UTF8);
     H5Tset_strpad(type, H5T_STR_NULLPAD);
-    Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    Hdf5Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     check(attribute);
     check(H5Awrite(attribute, type, text.empty() ? "\0" : text.c_str()));
   }
@@ -170,7 +137,7 @@ class HistoryFile {
   }
 
   std::filesystem::path name_;
-  Handle access_, file_;
+  Hdf5Handle access_, file_;
 };
 
 }  // namespace
@@ -267,7 +234,7 @@ void History::record(const Sample& sample) {
 void History::flush() {
   last_flush_ = std::chrono::steady_clock::now();
   if (rows_ == 0) return;
-  const Silence silence;
+  const Hdf5Silence silence;
   HistoryFile h5(file_, rows_in_file_ > 0 ? content(file_) : std::string());
   for (auto& [path, c] : columns_) {
     c.values.resize(rows_ * static_cast<std::size_t>(c.components), std::numeric_limits<double>::quiet_NaN());

@@ -28,6 +28,26 @@ void emit_map(YAML::Emitter& out, const char* key, const Map& map) {
   out << YAML::EndMap;
 }
 
+void emit_extreme(YAML::Emitter& out, const char* key, const Extreme& e) {
+  out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginMap << YAML::Key << "value"
+      << YAML::Value << e.value << YAML::Key << "particle" << YAML::Value << e.particle << YAML::Key << "time"
+      << YAML::Value << e.t << YAML::EndMap;
+}
+
+void emit_ranges(YAML::Emitter& out, const Ranges& ranges) {
+  out << YAML::Key << "ranges" << YAML::Value << YAML::BeginSeq;
+  for (const PartRange& r : ranges) {
+    if (!r.seen) continue;
+    out << YAML::BeginMap << YAML::Key << "part" << YAML::Value << r.part << YAML::Key << "sound_speed"
+        << YAML::Value << r.c0;
+    emit_extreme(out, "speed", r.speed);
+    emit_extreme(out, "density_ratio_low", r.density_low);
+    emit_extreme(out, "density_ratio_high", r.density_high);
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq;
+}
+
 void emit_lists(YAML::Emitter& out, const Summary& s) {
   out << YAML::Key << "warnings" << YAML::Value << YAML::BeginSeq;
   for (const std::string& warning : s.warnings) out << warning;
@@ -64,6 +84,7 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
   entry("deck", s.deck);
   entry("termination", s.termination);
   entry("reason", s.reason);
+  if (!s.advice.empty()) entry("advice", s.advice);
   entry("time", s.time);
   entry("steps", s.steps);
   entry("wall_seconds", s.wall_seconds);
@@ -82,6 +103,7 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
   entry("max_penetration", s.max_penetration);
   emit_map(out, "counters", s.counters);
   emit_map(out, "maxima", s.maxima);
+  emit_ranges(out, s.ranges);
   emit_lists(out, s);
   out << YAML::EndMap;
   write_file(file, std::string(out.c_str()) + "\n");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "output/file.hpp"
+#include "state/ranges.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -21,6 +22,7 @@ struct Summary {
   std::string deck;         ///< path of the deck
   std::string termination;  ///< "normal", "error", "interrupted", ...
   std::string reason;       ///< in words
+  std::string advice;       ///< what to change, where the run stopped in error; may be empty
   Real time = 0;            ///< time reached [T]
   std::int64_t steps = 0;
   double wall_seconds = 0, cpu_seconds = 0;
@@ -36,6 +38,7 @@ struct Summary {
   Real max_penetration = 0;  ///< [L]
   Counters counters;
   std::map<std::string, Real> maxima;
+  Ranges ranges;  ///< of speeds and densities, seen at the looks of the guard
   std::vector<std::string> warnings;
   std::vector<PassTime> passes;
 

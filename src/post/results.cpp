@@ -81,6 +81,13 @@ vtkDataArray* find_array(vtkPolyData* data, const char* name, int components,
   return nullptr;
 }
 
+void copy(vtkDataArray* from, std::vector<Real>& to) {
+  const int components = from->GetNumberOfComponents();
+  to.reserve(static_cast<std::size_t>(from->GetNumberOfTuples() * components));
+  for (vtkIdType i = 0; i < from->GetNumberOfTuples(); ++i)
+    for (int k = 0; k < components; ++k) to.push_back(from->GetComponent(i, k));
+}
+
 }  // namespace
 
 std::vector<StateFiles> read_states(const std::filesystem::path& dir, Diagnostics& diagnostics) {
@@ -113,6 +120,7 @@ std::vector<StateFiles> read_states(const std::filesystem::path& dir, Diagnostic
 }
 
 std::optional<ParticleFrame> read_particles(const StateFiles& state, bool with_speed,
+                                            const std::vector<ParticleArray>& arrays,
                                             Diagnostics& diagnostics) {
   VtkMessages messages;
   vtkNew<vtkXMLPolyDataReader> reader;
@@ -122,6 +130,8 @@ std::optional<ParticleFrame> read_particles(const StateFiles& state, bool with_s
   for (const char* name : {"mass", "density", "smoothing_length"})
     reader->GetPointDataArraySelection()->EnableArray(name);
   if (with_speed) reader->GetPointDataArraySelection()->EnableArray("velocity");
+  for (const ParticleArray& array : arrays)
+    reader->GetPointDataArraySelection()->EnableArray(array.name.c_str());
   if (!load(reader.Get(), messages, state.particles, diagnostics)) return std::nullopt;
 
   vtkPolyData* data = reader->GetOutput();
@@ -132,6 +142,11 @@ std::optional<ParticleFrame> read_particles(const StateFiles& state, bool with_s
   if (!m || !rho || !h || (with_speed && !v)) return std::nullopt;
 
   ParticleFrame out;
+  for (const ParticleArray& array : arrays) {
+    vtkDataArray* from = find_array(data, array.name.c_str(), array.components, state.particles, diagnostics);
+    if (!from) return std::nullopt;
+    copy(from, out.arrays[array.name]);
+  }
   out.t = state.t;
   const vtkIdType n = data->GetNumberOfPoints();
   for (vtkIdType i = 0; i < n; ++i) {

@@ -32,6 +32,9 @@ enum Group : signed char { group_active = 0, group_rim = 1, group_dormant = 2 };
 constexpr Real waking_margin = 8;
 /// By so much h may grow before it is worked out anew when dormant particles are due.
 constexpr Real h_growth = 1.2;
+/// A step that moves a particle this many smoothing lengths has left every limit: TSSFAC h/(c + v) is less
+/// than one.
+constexpr Real longest_leap = 2;
 
 }  // namespace
 
@@ -126,6 +129,7 @@ std::shared_ptr<Motion> Neighbours::watch() {
 
 bool Neighbours::refresh(World& world, const Clock& clock) {
   if (built_ && !watch_->stale(world, clock)) return false;
+  if (built_) stop_for_leaps(world, clock);
   Particles& p = world.particles;
   const Index active_before = p.active;
   const bool h_grew = h_max_ > 0.5 * (1 + h_growth) * h_queued_;  // with room for what grows until next time
@@ -133,11 +137,13 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   if (all) wake_all(world, clock.t);
   const Index n = all ? p.size() : p.moving + take_due(world, clock.t);
   choose_skin(clock);
+  if (images_) images_->bring_back(world, n);
   sort(world, clock, n);
   std::vector<Index>& old_of_new = order_;
   p.fields.permute(old_of_new);
   note_changes(p, old_of_new, active_before);
   if (all) queue_dormant(p);
+  if (images_) build_images(world);
   build_lists(world);
   remember_places(world, clock);
   built_ = true;
@@ -183,10 +189,29 @@ void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock,
     const Vec x = p.x.vec(i);
     if (x.allFinite() && std::isfinite(p.h[i])) continue;
     throw RunError(
-        fmt::format("particle {} went to x = ({:.5g}, {:.5g}, {:.5g}) with h = {:.5g} [L] at time {:.6g}, "
-                    "cycle {}: the run is "
-                    "unstable",
-                    p.id[i], x[0], x[1], x[2], p.h[i], clock.t, clock.cycle));
+        fmt::format(
+            "particle {} of part {} went to x = ({:.5g}, {:.5g}, {:.5g}) with h = {:.5g} [L] at time {:.6g}, "
+            "cycle {}: the run is "
+            "unstable",
+            p.id[i], world.part_id(i), x[0], x[1], x[2], p.h[i], clock.t, clock.cycle),
+        StopCause::not_finite);
+  }
+}
+
+// Before their last step particles had moved half a skin at most, or the lists would be younger. Who goes
+// further in one step passes others and walls unseen.
+void Neighbours::stop_for_leaps(const World& world, const Clock& clock) const {
+  const Particles& p = world.particles;
+  if (!(watch_->largest_move() > longest_leap * h_max_)) return;
+  for (Index i = 0; i < p.active; ++i) {
+    const Vec before(x_built_[i], y_built_[i], z_built_[i]);
+    const Real moved = (p.x.vec(i) - before).norm();
+    if (!(moved - 0.5 * skin_ > longest_leap * p.h[i]) || !std::isfinite(moved)) continue;
+    throw RunError(
+        fmt::format("particle {} of part {} moved {:.4g} smoothing lengths in the step to time {:.6g}, "
+                    "cycle {}: no pair and no wall on its way was seen",
+                    p.id[i], world.part_id(i), moved / p.h[i], clock.t, clock.cycle),
+        StopCause::leap);
   }
 }
 
@@ -236,6 +261,11 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
   Real spacing = std::min(std::pow(e.volume / e.count, 1.0 / world.dim), 1.2 * h_max_);
   if (!(spacing >= 0.3 * h_max_)) spacing = 0.3 * h_max_;  // also where volumes are no numbers
   if (!(spacing > 0)) spacing = 1;
+  if (images_) {  // cells beyond the particles, where images may stand
+    const Vec reach = Vec::Constant(2 * h_max_ + most_skin_);
+    e.low -= reach, e.high += reach;
+    if (world.dim == 2) e.low[2] += reach[2], e.high[2] -= reach[2];
+  }
   grid_.cover(e.low, e.high, (world.dim == 2 ? std::sqrt(Real(lanes)) : 2) * spacing, 0.5 * spacing,
               16.0 * e.count + 4096);
   const Index cells = grid_.total();
@@ -307,7 +337,8 @@ Index Neighbours::list_of_group(const World& world, const NearQuery& q, std::vec
   }
   Index count = 0;
   grid_.near(low, high, 2 * h_max_ + skin_, [&](Index first, Index last) {
-    for (const auto* start : {&active_start_, &rim_start_}) {
+    for (const auto* start : {&active_start_, &rim_start_, &image_start_}) {
+      if (start->empty()) continue;
       const Index begin = (*start)[first], end = (*start)[last + 1];
       if (begin == end) continue;
       if (static_cast<Index>(found.size()) <= count + (end - begin))
@@ -316,6 +347,24 @@ Index Neighbours::list_of_group(const World& world, const NearQuery& q, std::vec
     }
   });
   return count;
+}
+
+void Neighbours::build_images(World& world) {
+  Particles& p = world.particles;
+  images_->build(world, 2 * h_max_ + skin_);
+  const Index n = images_->count(), cells = grid_.total(), first = p.size();
+  std::vector<Index> cell_of(n), order(n);
+  image_start_.assign(cells + 1, 0);
+  for (Index k = 0; k < n; ++k) {
+    const Index i = first + k;
+    cell_of[k] = grid_.cell_of(p.x.data(0)[i], p.x.data(1)[i], p.x.data(2)[i]);
+    ++image_start_[cell_of[k] + 1];
+  }
+  image_start_[0] = first;
+  for (Index c = 0; c < cells; ++c) image_start_[c + 1] += image_start_[c];
+  std::vector<Index> next(image_start_.begin(), image_start_.end() - 1);
+  for (Index k = 0; k < n; ++k) order[next[cell_of[k]]++ - first] = k;
+  images_->sort(world, order);
 }
 
 void Neighbours::build_lists(World& world) {

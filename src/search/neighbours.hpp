@@ -7,6 +7,7 @@
 #include "parallel/buffer.hpp"
 #include "parallel/parallel.hpp"
 #include "search/cell_grid.hpp"
+#include "search/images.hpp"
 #include "search/near_loops.hpp"
 #include "search/region.hpp"
 #include "state/world.hpp"
@@ -29,6 +30,10 @@ class Neighbours {
   /// Chooses the skin anew at each rebuild, between the given bounds [L], so that rebuilding and looking at
   /// pairs out of reach together cost least at the present speed of particles.
   void adapt_skin(Real least, Real most);
+
+  /// From now on the lists also hold images of particles behind planes.
+  void set_images(std::shared_ptr<Images> images) { images_ = std::move(images); }
+  const Images* images() const { return images_.get(); }
 
   /// Sorts and rebuilds if it must. Returns true if it did; then every Refresh of the world was told.
   /// Throws RunError naming a particle whose place is no longer a finite number.
@@ -71,6 +76,7 @@ class Neighbours {
   Index take_due(World& world, Real t);
   void wake_all(World& world, Real t);
   bool too_many_gone(const World& world) const;
+  void stop_for_leaps(const World& world, const Clock& clock) const;
   void stop_for_lost_particles(const World& world, const Clock& clock, Index n) const;
   void choose_skin(const Clock& clock);
   void sort(World& world, const Clock& clock, Index n);
@@ -78,6 +84,7 @@ class Neighbours {
   void queue_dormant(const Particles& p);
   Real due_time(const Particles& p, Index i) const;
   void note_changes(Particles& p, const std::vector<Index>& old_of_new, Index active_before);
+  void build_images(World& world);
   void build_lists(World& world);
   Index list_of_group(const World& world, const NearQuery& query, std::vector<Index>& found) const;
   void remember_places(const World& world, const Clock& clock);
@@ -90,7 +97,9 @@ class Neighbours {
   std::int64_t built_cycle_ = 0;
   Real h_max_ = 0, h_min_ = 0;
   CellGrid grid_;
+  std::shared_ptr<Images> images_;               ///< null: none
   std::vector<Index> active_start_, rim_start_;  ///< first sorted particle of each cell, and the end
+  std::vector<Index> image_start_;               ///< the same of images; empty: there are none
   std::vector<Block> blocks_;
   std::vector<Real> due_;      ///< when dormant particle moving + k may come within reach, ascending [T]
   std::size_t first_due_ = 0;  ///< the entry of due_ that belongs to particle `moving`

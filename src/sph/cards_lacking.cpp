@@ -130,24 +130,6 @@ KeywordOf<BoundarySphFlow> boundary_sph_flow() {
 }
 const RegisterKeyword<BoundarySphFlow> boundary_sph_flow_keyword{boundary_sph_flow()};
 
-struct BoundarySphSymmetryPlane : Entry {
-  Real vtx = 0, vty = 0, vtz = 0, vhx = 0, vhy = 0, vhz = 0;
-};
-KeywordOf<BoundarySphSymmetryPlane> boundary_sph_symmetry_plane() {
-  using T = BoundarySphSymmetryPlane;
-  return {.names = {"BOUNDARY_SPH_SYMMETRY_PLANE"},
-          .purpose = "plane that mirrors particles",
-          .lacking = "symmetry planes of particles",
-          .cards = {{.fields = {{"VTX", &T::vtx, "L", "tail point on the plane", point},
-                                {"VTY", &T::vty, "L", "tail point on the plane"},
-                                {"VTZ", &T::vtz, "L", "tail point on the plane"},
-                                {"VHX", &T::vhx, "L", "head point", point},
-                                {"VHY", &T::vhy, "L", "head point"},
-                                {"VHZ", &T::vhz, "L", "head point"}}}}};
-}
-const RegisterKeyword<BoundarySphSymmetryPlane> boundary_sph_symmetry_plane_keyword{
-    boundary_sph_symmetry_plane()};
-
 struct BoundarySphNonReflecting : Entry {
   Real vtx = 0, vty = 0, vtz = 0, vhx = 0, vhy = 0, vhz = 0;
 };
@@ -193,21 +175,6 @@ KeywordOf<BoundarySphNoslip> boundary_sph_noslip() {
                           {"LCID", &T::lcid, "-", "velocity scale curve", id_of(IdSpace::curve)}}}}};
 }
 const RegisterKeyword<BoundarySphNoslip> boundary_sph_noslip_keyword{boundary_sph_noslip()};
-
-struct BoundarySphPeriodic : Entry {
-  Id vid1 = 0, vid2 = 0;
-};
-KeywordOf<BoundarySphPeriodic> boundary_sph_periodic() {
-  using T = BoundarySphPeriodic;
-  return {
-      .names = {"BOUNDARY_SPH_PERIODIC"},
-      .purpose = "planes through which particles come back",
-      .lacking = "periodic boundaries",
-      .cards = {
-          {.fields = {{"VID1", &T::vid1, "-", "inward normal vector of a plane", id_of(IdSpace::vector)},
-                      {"VID2", &T::vid2, "-", "inward normal vector of a plane", id_of(IdSpace::vector)}}}}};
-}
-const RegisterKeyword<BoundarySphPeriodic> boundary_sph_periodic_keyword{boundary_sph_periodic()};
 
 }  // namespace
 

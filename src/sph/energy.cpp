@@ -1,5 +1,4 @@
 // What SPH adds to the energy ledger: dissipation, and the energy that crosses the computational box.
-#include <array>
 #include <cmath>
 
 #include "parallel/parallel.hpp"
@@ -28,7 +27,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh {
       total_pressure_ = &sph_fields::pressure_plus_q(p);
     if (s.mu.empty()) return;
     viscous_ = &sph_fields::viscous_dissipation(p);
-    tau_ = sph_fields::stress(p);
+    tau_ = &sph_fields::stress(p);
   }
   std::string name() const override { return "sph energy"; }
 
@@ -84,7 +83,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh {
     if (p.moving == p.active) return;
     for (Index g = 0; g * lanes < p.active; ++g)
       for (const Index j : neighbours_->of_group(g))
-        if (j >= p.active)
+        if (j >= p.active && j < p.moving)  // the rim, not images
           for (Index i = g * lanes; i < std::min((g + 1) * lanes, p.active); ++i)
             if ((p.x.vec(i) - p.x.vec(j)).norm() < 2 * std::max(p.h[i], p.h[j]) + neighbours_->skin())
               rim_pairs_.push_back({i, j});
@@ -132,7 +131,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh {
       Real power = -(s.pressure_i * vj + s.pressure_j * vi + 0.5 * s.viscous * (vi + vj)).dot(d);
       if (viscous_) {
         const Real gi = slope_over_r<Dim>(r2, h), gj = slope_over_r<Dim>(r2, UniformH ? h : p.h[j]);
-        power += pair.inverse_rho * (gi * (stress(i) * d).dot(vj) + gj * (stress(j) * d).dot(vi));
+        power += pair.inverse_rho * (gi * (tau_->tensor(i) * d).dot(vj) + gj * (tau_->tensor(j) * d).dot(vi));
       }
       total += p.m[i] * p.m[j] / p.rho[j] * power;
     }
@@ -146,20 +145,13 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh {
     return CubicSpline<Dim>::C / power<Dim + 1>(h) * CubicSpline<Dim>::slope(r / h) / r;
   }
 
-  Matrix stress(Index i) const {
-    const auto t = [&](int k) { return (*tau_[k])[i]; };
-    Matrix tau;
-    tau << t(0), t(3), t(5), t(3), t(1), t(4), t(5), t(4), t(2);
-    return tau;
-  }
-
   SphSettings settings_;
   std::shared_ptr<Neighbours> neighbours_;
   Field<Real>& heat_;
   Field<Real>& reference_volume_;
   Field<Real>* viscous_ = nullptr;
   Field<Real>* total_pressure_ = nullptr;
-  std::array<Field<Real>*, 6> tau_{};
+  Field<Real>* tau_ = nullptr;
   static constexpr Index lanes = Neighbours::lanes;
   std::vector<Real> power_;  ///< dissipated in each block [ML2/T3]
   std::vector<Pair> rim_pairs_;

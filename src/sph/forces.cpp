@@ -16,7 +16,7 @@ class PairForces : public Force {
     volume_ = &sph_fields::volume(p);
     if (!std::holds_alternative<MonaghanViscosity>(s.viscosity))
       total_pressure_ = &sph_fields::pressure_plus_q(p);
-    if (!s.mu.empty()) tau_ = sph_fields::stress(p);
+    if (!s.mu.empty()) tau_ = &sph_fields::stress(p);
     ForcesChoice choice{s.dim, s.uniform_h, !s.mu.empty(), Geometry::compute};
     compute_ = forces_loop(choice);
     choice.geometry = Geometry::load;
@@ -28,7 +28,7 @@ class PairForces : public Force {
     a_ = particle_arrays(world.particles);
     a_.V = volume_->data();
     a_.p = total_pressure_ ? total_pressure_->data() : world.particles.p.data();
-    for (int k = 0; k < 6; ++k) a_.tau[k] = tau_[k] ? tau_[k]->data() : nullptr;
+    for (int k = 0; k < 6; ++k) a_.tau[k] = tau_ ? tau_->data(k) : nullptr;
   }
   void block(World&, const Clock&, Index begin, Index end) override {
     (geometry_->kept() ? load_ : compute_)(a_, geometry_->lists(begin, end));
@@ -38,7 +38,7 @@ class PairForces : public Force {
   std::shared_ptr<PairGeometry> geometry_;
   Field<Real>* volume_ = nullptr;
   Field<Real>* total_pressure_ = nullptr;
-  std::array<Field<Real>*, 6> tau_{};
+  Field<Real>* tau_ = nullptr;
   PairLoop compute_, load_;
   PairArrays a_{};
 };

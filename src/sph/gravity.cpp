@@ -54,6 +54,7 @@ class Gravity : public Force, public EnergyTerm, public Refresh {
     if (!first_) {
       for (const Index i : neighbours_->entered()) exchanged_ += potential_of(world.particles, g, i);
       for (const Index i : neighbours_->left()) exchanged_ -= potential_of(world.particles, g, i);
+      if (neighbours_->images()) exchanged_ -= g.dot(neighbours_->images()->brought_back());
     }
     first_ = false;
   }

@@ -45,11 +45,11 @@ class BulkViscosityPass : public Material, public Refresh {
 /// MAT_NULL: tau = 2 MU (D - tr D/3), eqs 11-12.
 class ViscousStress : public Material {
  public:
-  ViscousStress(const SphSettings& s, World& world) : mu_(s.mu) {
-    rate_ = sph_fields::strain_rate(world.particles);
-    tau_ = sph_fields::stress(world.particles);
-    power_ = &sph_fields::viscous_dissipation(world.particles);
-  }
+  ViscousStress(const SphSettings& s, World& world)
+      : mu_(s.mu),
+        rate_(sph_fields::strain_rate(world.particles)),
+        tau_(sph_fields::stress(world.particles)),
+        power_(sph_fields::viscous_dissipation(world.particles)) {}
   std::string name() const override { return "viscous stress"; }
   void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
@@ -59,18 +59,17 @@ class ViscousStress : public Material {
       Real power = 0;
       for (int k = 0; k < 6; ++k) {
         const Real deviator = rate(k, i) - (k < 3 ? third : 0);
-        (*tau_[k])[i] = 2 * mu * deviator;
+        tau_.data(k)[i] = 2 * mu * deviator;
         power += (k < 3 ? 1 : 2) * 2 * mu * deviator * rate(k, i);
       }
-      (*power_)[i] = power * p.m[i] / p.rho[i];
+      power_[i] = power * p.m[i] / p.rho[i];
     }
   }
 
  private:
-  Real rate(int k, Index i) const { return (*rate_[k])[i]; }
+  Real rate(int k, Index i) const { return rate_.data(k)[i]; }
   std::vector<Real> mu_;
-  std::array<Field<Real>*, 6> rate_{}, tau_{};
-  Field<Real>* power_ = nullptr;
+  Field<Real>&rate_, &tau_, &power_;
 };
 
 /// DERIV 0: dh/dt = h div v / dim, within HMIN h0 and HMAX h0. Particles at a bound are counted. Neighbours

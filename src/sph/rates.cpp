@@ -24,7 +24,7 @@ class PairRates : public Rate {
       viscous_speed_ = &sph_fields::viscous_speed(p);
       q2_ = std::get<MonaghanViscosity>(s.viscosity).q2;
     }
-    if (gradient) strain_ = sph_fields::strain_rate(p);
+    if (gradient) strain_ = &sph_fields::strain_rate(p);
     RatesChoice choice{s.dim, s.uniform_h, viscous, gradient, Geometry::compute};
     compute_ = rates_loop(choice);
     choice.geometry = Geometry::store;
@@ -42,7 +42,7 @@ class PairRates : public Rate {
     a_.qc = viscous_speed_ ? viscous_speed_->data() : nullptr;
     a_.heat = heat_->data();
     a_.q2 = q2_;
-    for (int k = 0; k < 6; ++k) a_.strain[k] = strain_[k] ? strain_[k]->data() : nullptr;
+    for (int k = 0; k < 6; ++k) a_.strain[k] = strain_ ? strain_->data(k) : nullptr;
   }
   void block(World&, const Clock&, Index begin, Index end) override {
     loop_(a_, geometry_->lists(begin, end));
@@ -53,7 +53,7 @@ class PairRates : public Rate {
   Field<Real>* volume_ = nullptr;
   Field<Real>* heat_ = nullptr;
   Field<Real>* viscous_speed_ = nullptr;
-  std::array<Field<Real>*, 6> strain_{};
+  Field<Real>* strain_ = nullptr;
   Real q2_ = 0;
   PairLoop compute_, store_, load_, loop_ = nullptr;
   PairArrays a_{};

@@ -58,6 +58,11 @@ SphSettings build_particles(const Deck& deck, const Model& model,
                             const std::function<SphMaterial(Index part)>& material, World& world,
                             Diagnostics& diagnostics);
 
+/// The planes of BOUNDARY_SPH_SYMMETRY_PLANE and _PERIODIC. `reach`: how far a particle looks [L]. Call while
+/// particles stand in the order of the model.
+std::vector<ImagePlane> build_image_planes(const Deck& deck, const Model& model, const SphSettings& settings,
+                                           Real reach, const World& world, Diagnostics& diagnostics);
+
 /// Adds the SPH passes the settings ask for to the world, and names those left out with the reason.
 struct PassNote {
   std::string name;

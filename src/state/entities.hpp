@@ -12,23 +12,26 @@ namespace courant {
 /// only when neighbours are refreshed.
 struct Particles {
   FieldSet fields;
-  Field<Real>& x =
-      fields.add<Real>({.name = "position", .dimension = "L", .components = 3, .exchange = true});
-  Field<Real>& v = fields.add<Real>(
-      {.name = "velocity", .dimension = "L/T", .components = 3, .output = true, .exchange = true});
+  Field<Real>& x = fields.add<Real>(
+      {.name = "position", .dimension = "L", .components = 3, .exchange = Exchange::before_rates});
+  Field<Real>& v = fields.add<Real>({.name = "velocity",
+                                     .dimension = "L/T",
+                                     .components = 3,
+                                     .output = true,
+                                     .exchange = Exchange::before_rates});
   Field<Real>& f =
       fields.add<Real>({.name = "force", .dimension = "ML/T2", .components = 3, .restart = false});
-  Field<Real>& m = fields.add<Real>({.name = "mass", .dimension = "M", .output = true, .exchange = true});
-  Field<Real>& rho =
-      fields.add<Real>({.name = "density", .dimension = "M/L3", .output = true, .exchange = true});
+  Field<Real>& m = fields.add<Real>(
+      {.name = "mass", .dimension = "M", .output = true, .exchange = Exchange::before_rates});
+  Field<Real>& rho = fields.add<Real>({.name = "density", .dimension = "M/L3", .output = true});
   Field<Real>& drhodt = fields.add<Real>({.name = "density_rate", .dimension = "M/L3/T"});
-  Field<Real>& p =
-      fields.add<Real>({.name = "pressure", .dimension = "M/LT2", .output = true, .exchange = true});
-  Field<Real>& c = fields.add<Real>({.name = "sound_speed", .dimension = "L/T", .exchange = true});
+  Field<Real>& p = fields.add<Real>(
+      {.name = "pressure", .dimension = "M/LT2", .output = true, .exchange = Exchange::before_forces});
+  Field<Real>& c = fields.add<Real>({.name = "sound_speed", .dimension = "L/T"});
   Field<Real>& E = fields.add<Real>(
       {.name = "internal_energy", .dimension = "M/LT2", .output = true});  ///< per reference volume
-  Field<Real>& h =
-      fields.add<Real>({.name = "smoothing_length", .dimension = "L", .output = true, .exchange = true});
+  Field<Real>& h = fields.add<Real>(
+      {.name = "smoothing_length", .dimension = "L", .output = true, .exchange = Exchange::before_rates});
   Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
   Field<Index>& part =
       fields.add<Index>({.name = "part", .dimension = "-"});  ///< index into the model's parts

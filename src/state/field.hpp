@@ -17,13 +17,20 @@
 
 namespace courant {
 
+/// When pair loops need a field of neighbours that are copies of particles elsewhere (images).
+enum class Exchange {
+  never,
+  before_rates,   ///< changes with the motion
+  before_forces,  ///< changes with the rates and materials
+};
+
 struct FieldInfo {
   std::string name;
   std::string dimension;  ///< in M, L, T, "-" for a pure number: "M/L3", "L/T"
-  int components = 1;     ///< 1 or 3
+  int components = 1;     ///< 1, 3 (vector) or 6 (symmetric tensor: xx yy zz xy yz zx)
   bool output = false;    ///< written to the field files
   bool restart = true;    ///< needed to continue a run bitwise
-  bool exchange = false;  ///< needed on ghosts
+  Exchange exchange = Exchange::never;
 };
 
 class FieldBase {
@@ -32,6 +39,8 @@ class FieldBase {
   virtual ~FieldBase() = default;
   const FieldInfo& info() const { return info_; }
   virtual void resize(Index n) = 0;
+  /// Room for `images` entities behind the n there are; theirs are not set.
+  virtual void make_room(Index n, Index images) = 0;
   /// Entity i of a component becomes what entity old_of_new[i] was, for as many as are given; those behind
   /// stay.
   virtual void permute(int component, std::span<const Index> old_of_new, Buffer<std::byte>& scratch) = 0;
@@ -60,6 +69,17 @@ class Field : public FieldBase {
   void add(Index i, const Vec& value) {
     for (int k = 0; k < 3; ++k) component_[k][i] += value[k];
   }
+  /// The same as a symmetric tensor, for fields of six components.
+  Matrix tensor(Index i) const {
+    const auto c = [&](int k) { return component_[k][i]; };
+    Matrix t;
+    t << c(0), c(3), c(5), c(3), c(1), c(4), c(5), c(4), c(2);
+    return t;
+  }
+  void set_tensor(Index i, const Matrix& t) {
+    const Real value[6] = {t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0)};
+    for (int k = 0; k < 6; ++k) component_[k][i] = value[k];
+  }
   void fill(T value) {
     for (auto& c : component_) std::fill(c.begin(), c.end(), value);
   }
@@ -72,6 +92,12 @@ class Field : public FieldBase {
       for_each_block(n, [&](Index begin, Index end) {
         std::fill(c.data() + std::clamp(old, begin, end), c.data() + end, T(0));
       });
+    }
+  }
+  void make_room(Index n, Index images) override {
+    for (auto& c : component_) {
+      if (c.capacity() < static_cast<std::size_t>(n + images)) c.reserve(n + images + images / 4);
+      c.resize(n + images);
     }
   }
   void permute(int component, std::span<const Index> old_of_new, Buffer<std::byte>& scratch) override {
@@ -112,6 +138,11 @@ class FieldSet {
   void resize(Index n) {
     size_ = n;
     for (auto& f : fields_) f->resize(n);
+  }
+  /// Room behind the entities for `count` images in all fields that are exchanged. Arrays may move.
+  void make_room_for_images(Index count) {
+    for (auto& f : fields_)
+      if (f->info().exchange != Exchange::never) f->make_room(size_, count);
   }
   /// New entity i is old entity old_of_new[i], for as many as are given; those behind stay. Each thread sorts
   /// arrays of its own.

@@ -83,6 +83,12 @@ struct Constraint : BlockPass {};
 /// Blocks cover active and rim particles.
 struct Motion : BlockPass {};
 
+/// Brings copies of particles (images behind planes) up to date, between the stages.
+struct Exchanger : Pass {
+  virtual void before_rates(World& world) = 0;   ///< what motion changed
+  virtual void before_forces(World& world) = 0;  ///< what rates and materials changed
+};
+
 struct TimeLimit : Pass {
   struct Limit {
     Real dt;          ///< [T], infinity where there is none
@@ -110,6 +116,7 @@ using Counters = std::map<std::string, std::int64_t>;
 struct World {
   int dim = 3;  ///< 2 or 3 (IDIM)
   Particles particles;
+  std::vector<Id> part_ids;  ///< number in the deck of each part index
   Nodes nodes;
   Segments segments;
   EnergyLedger energy;
@@ -119,7 +126,14 @@ struct World {
   /// choose.
   Shares shares, moving_shares;
 
+  /// Number in the deck of a particle's part; 0 in a world without a deck.
+  Id part_id(Index particle) const {
+    const auto part = static_cast<std::size_t>(particles.part[particle]);
+    return part < part_ids.size() ? part_ids[part] : 0;
+  }
+
   // The passes the deck asks for, in the order the step runs them. One object may stand in several lists.
+  std::vector<std::shared_ptr<Exchanger>> exchangers;
   std::vector<std::shared_ptr<Rate>> rates;
   std::vector<std::shared_ptr<Material>> materials;
   std::vector<std::shared_ptr<Tally>> tallies;

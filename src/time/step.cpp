@@ -32,12 +32,16 @@ void choose_dt(World& world, Clock& clock, const StepRules& rules, std::string& 
     const Real most = rules.dt_max(clock.t);
     if (most > 0 && most < smallest.dt) smallest = {most, "load curve"};
   }
-  if (!(smallest.dt > 0))
+  if (!(smallest.dt > 0)) {
+    Guard::stop_for_numbers(world, clock);  // mostly that is why; it names the quantity
     throw RunError(fmt::format("the step size became {} at time {:.6g}, cycle {}, set by {}", smallest.dt,
-                               clock.t, clock.cycle, smallest.who));
+                               clock.t, clock.cycle, smallest.who),
+                   StopCause::step_size);
+  }
   if (std::isinf(smallest.dt))
     throw RunError(fmt::format("nothing limits the step size at time {:.6g}, cycle {}: no particle is active",
-                               clock.t, clock.cycle));
+                               clock.t, clock.cycle),
+                   StopCause::step_size);
   clock.dt = smallest.dt;
   who = std::move(smallest.who);
 }
@@ -64,7 +68,9 @@ Stepper::Stepper(World& world, Neighbours& neighbours, StepRules rules, PassTime
 
 void Stepper::evaluate(Clock& clock, std::string& controlled_by) {
   timer_.measure("neighbours", [&] { neighbours_.refresh(world_, clock); });
+  for (auto& e : world_.exchangers) timer_.measure(e->name(), [&] { e->before_rates(world_); });
   rates_.run(world_, clock, world_.particles.active, world_.shares);
+  for (auto& e : world_.exchangers) timer_.measure(e->name(), [&] { e->before_forces(world_); });
   forces_.run(world_, clock, world_.particles.active, world_.shares);
   timer_.measure("time step", [&] { choose_dt(world_, clock, rules_, controlled_by); });
 }
@@ -72,6 +78,9 @@ void Stepper::evaluate(Clock& clock, std::string& controlled_by) {
 void Stepper::step(Clock& clock, const AtTimeLevel& at_time_level) {
   std::string controlled_by;
   evaluate(clock, controlled_by);
+  stop_below_dtmin(clock, controlled_by);
+  if (rules_.guard && clock.cycle % Guard::interval == 0)
+    timer_.measure("guard", [&] { rules_.guard->look(world_, clock); });
   timer_.measure("output", [&] { at_time_level(world_, clock, controlled_by); });
   timer_.measure("energy", [&] {
     for (auto& term : world_.energy_terms) term->record(world_, clock, world_.energy);
@@ -80,6 +89,17 @@ void Stepper::step(Clock& clock, const AtTimeLevel& at_time_level) {
   clock.t += clock.dt;
   clock.dt_old = clock.dt;
   ++clock.cycle;
+}
+
+// A first step that DTINIT chose says nothing of the scene.
+void Stepper::stop_below_dtmin(const Clock& clock, const std::string& controlled_by) {
+  if (first_dt_ == 0 && controlled_by != "DTINIT") first_dt_ = clock.dt;
+  if (!(clock.dt < rules_.dtmin * first_dt_)) return;
+  throw RunError(
+      fmt::format(
+          "the step size {:.4g} fell below DTMIN x first step = {:.4g} at time {:.6g}, cycle {}, set by {}",
+          clock.dt, rules_.dtmin * first_dt_, clock.t, clock.cycle, controlled_by),
+      StopCause::step_size);
 }
 
 void sample_energy(World& world, const Clock& clock) {

@@ -6,6 +6,7 @@
 
 #include "search/neighbours.hpp"
 #include "state/world.hpp"
+#include "time/guard.hpp"
 #include "time/pass_timer.hpp"
 #include "time/stage.hpp"
 
@@ -18,6 +19,8 @@ using AtTimeLevel = std::function<void(World&, const Clock&, const std::string& 
 struct StepRules {
   Real dtinit = 0;                               ///< first step, 0: from the limits [T]
   std::function<Real(Real t)> dt_max = nullptr;  ///< LCTM curve
+  Real dtmin = 0;                                ///< stop below this times the first computed step
+  std::shared_ptr<Guard> guard = nullptr;        ///< looks at the state now and then
 };
 
 /// Takes steps of the staggered central difference,
@@ -33,11 +36,14 @@ class Stepper {
   void evaluate(Clock& clock, std::string& controlled_by);
 
  private:
+  void stop_below_dtmin(const Clock& clock, const std::string& controlled_by);
+
   World& world_;
   Neighbours& neighbours_;
   StepRules rules_;
   PassTimer& timer_;
   Stage rates_, forces_, motion_;
+  Real first_dt_ = 0;  ///< computed, which DTINIT is not [T]
 };
 
 /// Moves active particles with their forces and rim particles with their velocity.

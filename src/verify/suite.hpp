@@ -53,7 +53,9 @@ struct SuiteObservation {
   SuiteReference reference;
   std::string norm = "l2";  ///< of curves: l1, l2, linf (of the difference)
   std::string scale;  ///< the error is divided by this expression; blank: the same norm of the reference
-  std::optional<Real> bound;  ///< on the error, at the finest resolution of the settings named (all if none)
+  /// On the error, at the finest resolution of the settings named (all if none); the last but one where the
+  /// finest run is the reference.
+  std::optional<Real> bound;
   std::vector<std::string> bound_settings;
   std::optional<Real> least_order;  ///< measured order of convergence, of the same settings
 };
@@ -86,6 +88,7 @@ struct SuiteCase {
   std::vector<SuiteSetting> settings;
   std::vector<SuiteObservation> observations;
   std::optional<SuiteStability> stability;
+  Real time_limit = 1800;  ///< of a run, wall time [s]; one that takes longer is ended and counts as broken
   /// Particles of the finest run, drawn in colours by this expression at this time; blank: no picture.
   std::string picture_of, picture_title, picture_at, picture_where;
   Location where;

@@ -57,6 +57,10 @@ std::string lattice_with(const std::string& added) {
   return s.replace(s.rfind("dx}"), 3, "dx, " + added + "}");
 }
 
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream(file) << text;
+}
+
 /// Numbers of the lines of a keyword.
 std::vector<std::vector<double>> cards(const std::string& deck, const std::string& keyword) {
   std::vector<std::vector<double>> out;
@@ -184,6 +188,36 @@ parts:
 TEST(Place, NamesAreWholeWords) {
   EXPECT_EQ(named_places("max(x1, exp(2)) * dy"), (std::array<bool, 3>{}));
   EXPECT_EQ(named_places("${x} - 2*z"), (std::array<bool, 3>{true, false, true}));
+}
+
+TEST(SceneBase, GivesParametersAndKeywordsBelowTheScenesOwn) {
+  const fs::path base = fs::temp_directory_path() / "courant_scene_base.yaml";
+  write(base, "parameters:\n  U: 7\n  c0: 10 * U\nkeywords: |\n  *COMMENT\n  ${U} ${c0}\n");
+  const Written w = written("base: courant_scene_base.yaml\n" + with("keywords: |\n  *END_OF_OWN\n"));
+  EXPECT_EQ(w.messages, "");
+  EXPECT_EQ(w.scene.variables.at("c0"), 20);
+  ASSERT_EQ(w.scene.keywords.size(), 2u);
+  EXPECT_EQ(w.scene.keywords[0], "*COMMENT\n2 20\n");
+  EXPECT_EQ(w.scene.keywords[1], "*END_OF_OWN\n");
+  write(base, "parameters:\n  c0: 10 * V\nparts: 1\n");
+  const std::string messages = written("base: courant_scene_base.yaml\n" + with("")).messages;
+  EXPECT_NE(messages.find("courant_scene_base.yaml:3:1: error: a base: unknown key 'parts'"),
+            std::string::npos);
+  EXPECT_NE(messages.find("courant_scene_base.yaml:2:7: error: parameter c0: unknown parameter 'V'"),
+            std::string::npos)
+      << messages;
+  write(base, "parameters: [\n");
+  EXPECT_NE(
+      written("base: courant_scene_base.yaml\n" + with("")).messages.find("base.yaml:2:1: error: not valid"),
+      std::string::npos);
+  fs::remove(base);
+  EXPECT_NE(written("base: courant_scene_base.yaml\n" + with("")).messages.find("cannot be read"),
+            std::string::npos);
+}
+
+TEST(Scene, KnowsPi) {
+  EXPECT_EQ(written(with("") + "title: x\n").messages.find("pi"), std::string::npos);
+  EXPECT_NE(written("parameters: {pi: 3}\n").messages.find("'pi' is there already"), std::string::npos);
 }
 
 }  // namespace

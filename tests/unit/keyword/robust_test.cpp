@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <ctime>
-#include <fstream>
+#include <map>
+#include <optional>
 
 #include "keyword/conversion.hpp"
 #include "keyword/deck.hpp"
 #include "keyword/registry.hpp"
 #include "model/build_model.hpp"
+#include "model/cards.hpp"
 
 namespace courant {
 
@@ -154,6 +156,41 @@ TEST(Robust, VelocitiesOfManyPartsTakeTimeInProportion) {
   const Read r = read(text);
   EXPECT_EQ(r.diagnostics.text(), "");
   EXPECT_LT(r.seconds, soon);
+}
+
+TEST(Robust, FilesThatAreReadOftenTakeBoundedTime) {
+  const std::map<std::string, std::string> files = {
+      {"deck.k", "*KEYWORD\n*INCLUDE\n" + repeated("a\n", 20000) + "*END\n"},
+      {"a", "*COMMENT\n" + repeated("x\n", 40000)}};
+  ReadOptions options;
+  options.open = [&](const std::string& path) -> std::optional<std::string> {
+    const auto it = files.find(path);
+    return it == files.end() ? std::nullopt : std::optional<std::string>(it->second);
+  };
+  Diagnostics diagnostics;
+  const std::clock_t begin = std::clock();
+  const Deck deck = read_deck("deck.k", options, diagnostics);
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, soon);
+  ASSERT_EQ(diagnostics.errors(), 1);
+  EXPECT_NE(diagnostics.text().find("*INCLUDE: the same files are read more than 500 times"),
+            std::string::npos);
+  ASSERT_GT(deck.files.size(), 500u);
+  EXPECT_EQ(deck.files[1].source, deck.files[500].source);  // one text for all
+}
+
+TEST(Robust, AFileReadAgainBeginsInStandardFormat) {
+  const std::map<std::string, std::string> files = {
+      {"deck.k", "*KEYWORD\n*INCLUDE\na\na\n*END\n"},
+      {"a",
+       "*NODE\n       1             1.0\n*KEYWORD LONG=Y\n*NODE\n                   2                 "
+       "2.0\n*END\n"}};
+  ReadOptions options;
+  options.open = [&](const std::string& path) { return std::optional<std::string>(files.at(path)); };
+  Diagnostics diagnostics;
+  const Deck deck = read_deck("deck.k", options, diagnostics);
+  EXPECT_EQ(diagnostics.text(), "");
+  ASSERT_EQ(deck.all<NodeCard>().size(), 4u);
+  for (const NodeCard& node : deck.all<NodeCard>()) EXPECT_EQ(node.x, static_cast<Real>(node.nid));
 }
 
 }  // namespace courant

@@ -5,6 +5,7 @@
 
 #include "cloud.hpp"
 #include "materials/material_pass.hpp"
+#include "sph/fields.hpp"
 #include "time/step.hpp"
 
 using namespace courant;
@@ -144,11 +145,12 @@ TEST(ViscousStress, IsTwiceViscosityTimesTheDeviatorOfTheStrainRate) {
   cloud.refresh();
   const char* axes[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
   const Real D[] = {1, 2, 6, 0.5, -0.25, 4}, tau[] = {-20, -10, 30, 5, -2.5, 40};
-  for (int k = 0; k < 6; ++k) p.fields.add<Real>({.name = std::string("strain_rate_") + axes[k]}).fill(D[k]);
+  Field<Real>&rate = sph_fields::strain_rate(p), &stress = sph_fields::stress(p);
+  for (int k = 0; k < 6; ++k) std::fill_n(rate.data(k), p.size(), D[k]);
   cloud.run(*pass);
   Real power = 0;
   for (int k = 0; k < 6; ++k) {
-    EXPECT_NEAR(p.fields.add<Real>({.name = std::string("stress_") + axes[k]})[0], tau[k], 1e-13) << axes[k];
+    EXPECT_NEAR(stress.data(k)[0], tau[k], 1e-13) << axes[k];
     power += (k < 3 ? 1 : 2) * tau[k] * D[k];
   }
   EXPECT_NEAR(p.fields.add<Real>({.name = "viscous_dissipation"})[0], power * p.m[0] / p.rho[0], 1e-12);

@@ -25,13 +25,6 @@ struct Expected {
   Matrix D = Matrix::Zero();
 };
 
-Matrix symmetric(const std::array<const Field<Real>*, 6>& t, Index i) {
-  const auto v = [&](int k) { return (*t[k])[i]; };
-  Matrix m;
-  m << v(0), v(3), v(5), v(3), v(1), v(4), v(5), v(4), v(2);
-  return m;
-}
-
 /// grad_i W(x_i - x_j, h) / (x_i - x_j)
 template <int Dim>
 Real gradient(Real r, Real h) {
@@ -41,10 +34,11 @@ Real gradient(Real r, Real h) {
 template <int Dim>
 class Oracle {
  public:
-  Oracle(const Cloud& cloud, const Case& c) : cloud_(cloud), p_(cloud.world.particles), case_(c) {
-    for (const char* name : {"xx", "yy", "zz", "xy", "yz", "zx"})
-      tau_.at(filled_++) = dynamic_cast<const Field<Real>*>(p_.fields.find(std::string("stress_") + name));
-  }
+  Oracle(const Cloud& cloud, const Case& c)
+      : cloud_(cloud),
+        p_(cloud.world.particles),
+        case_(c),
+        tau_(dynamic_cast<const Field<Real>*>(p_.fields.find("stress"))) {}
 
   Expected of(Index i) const {
     Expected e;
@@ -67,7 +61,7 @@ class Oracle {
         e.f -= force;
         e.heat += 0.5 * force.dot(u);
       }
-      if (case_.stress) e.f += mm * (symmetric(tau_, i) * gi + symmetric(tau_, j) * gj) * d;
+      if (case_.stress) e.f += mm * (tau_->tensor(i) * gi + tau_->tensor(j) * gj) * d;
     }
     return e;
   }
@@ -77,8 +71,7 @@ class Oracle {
   const Cloud& cloud_;
   const Particles& p_;
   Case case_;
-  std::array<const Field<Real>*, 6> tau_{};
-  std::size_t filled_ = 0;
+  const Field<Real>* tau_;
 };
 
 void expect_near(const Vec& a, const Vec& b, Real scale) {
@@ -102,12 +95,12 @@ void compare(const Case& c, std::optional<Neighbours::Region> region) {
   cloud.settings.uniform_h = c.uniform_h;
   cloud.settings.viscosity = c.monaghan ? ArtificialViscosity(MonaghanViscosity{Oracle<Dim>::q2})
                                         : ArtificialViscosity(BulkViscosity{});
-  std::array<Field<Real>*, 6> tau{}, D{};
+  Field<Real>*tau = nullptr, *D = nullptr;
   if (c.stress) {
     cloud.settings.mu.assign(1, 1.0);
-    tau = sph_fields::stress(p), D = sph_fields::strain_rate(p);
+    tau = &sph_fields::stress(p), D = &sph_fields::strain_rate(p);
     for (Index i = 0; i < p.size(); ++i)
-      for (int k = 0; k < 6; ++k) (*tau[k])[i] = Dim == 3 || k < 2 || k == 3 ? 500 * u(random) : 0;
+      for (int k = 0; k < 6; ++k) tau->data(k)[i] = Dim == 3 || k < 2 || k == 3 ? 500 * u(random) : 0;
   }
   cloud.neighbours = std::make_shared<Neighbours>(cloud.neighbours->skin(), region);
   cloud.make_pairs(c.keep_gradients);
@@ -129,7 +122,7 @@ void compare(const Case& c, std::optional<Neighbours::Region> region) {
     expect_near(p.f.vec(i), e.f, f);
     if (c.monaghan) EXPECT_NEAR(heat[i], e.heat, 1e-12 * most_heat);
     if (!c.stress) continue;
-    const Matrix found = symmetric({D[0], D[1], D[2], D[3], D[4], D[5]}, i);
+    const Matrix found = D->tensor(i);
     EXPECT_LT((found - e.D).cwiseAbs().maxCoeff(), 1e-12 * drhodt / 1000);
   }
 }

@@ -4,6 +4,7 @@
 
 #include "cloud.hpp"
 #include "parallel/parallel.hpp"
+#include "sph/fields.hpp"
 #include "sph/kernel.hpp"
 
 using namespace courant;
@@ -74,9 +75,8 @@ struct Evaluated {
     ledger = make_sph_energy(cloud.settings, w, cloud.neighbours);
     cloud.refresh();
     if (c.stress)  // rim particles keep the stress they had
-      for (const char* name : {"stress_xx", "stress_yy", "stress_xy"})
-        for (Index i = p.active; i < p.moving; ++i)
-          (*dynamic_cast<Field<Real>*>(p.fields.find(name)))[i] = 3.0 + i % 5;
+      for (const int component : {0, 1, 3})
+        for (Index i = p.active; i < p.moving; ++i) sph_fields::stress(p).data(component)[i] = 3.0 + i % 5;
     cloud.run(*cloud.rates);
     for (auto& u : updates) cloud.run(*u);
     cloud.run(*cloud.forces);
@@ -140,12 +140,10 @@ TEST(Continuity, GivesTheDivergenceOfALinearField) {
     const Real div = dim == 2 ? 1.5 : 4.5;
     // plain SPH on a lattice with h = 1.2 dx: its discrete second moment misses 1 by a few per cent in 2D
     EXPECT_NEAR(w.particles.drhodt[i] / -w.particles.rho[i], div, 0.03 * div);
-    const auto strain = [&](const char* name) {
-      return (*dynamic_cast<Field<Real>*>(w.particles.fields.find(name)))[i];
-    };
-    EXPECT_NEAR(strain("strain_rate_xx"), 2, 0.06);
-    EXPECT_NEAR(strain("strain_rate_yy"), -0.5, 0.015);
-    EXPECT_NEAR(strain("strain_rate_xy"), 0.5, 0.015);
+    const Matrix strain = sph_fields::strain_rate(w.particles).tensor(i);
+    EXPECT_NEAR(strain(0, 0), 2, 0.06);
+    EXPECT_NEAR(strain(1, 1), -0.5, 0.015);
+    EXPECT_NEAR(strain(0, 1), 0.5, 0.015);
   }
 }
 

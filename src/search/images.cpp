@@ -1,0 +1,118 @@
+#include "search/images.hpp"
+
+#include <cmath>
+
+#include "parallel/parallel.hpp"
+
+namespace courant {
+
+namespace {
+
+Real depth(const ImagePlane& plane, const Vec& x) {
+  return (x - plane.point).dot(plane.normal);
+}
+
+}  // namespace
+
+Images::Images(std::vector<ImagePlane> planes) : planes_(std::move(planes)) {
+  for (const ImagePlane& plane : planes_) {
+    Motion m;
+    if (plane.kind == ImagePlane::Kind::mirror) {
+      m.A = Matrix::Identity() - 2 * plane.normal * plane.normal.transpose();
+      m.b = 2 * plane.point.dot(plane.normal) * plane.normal;
+    } else {
+      m.b = plane.period * plane.normal;
+    }
+    mirror_.push_back(m);
+  }
+}
+
+void Images::bring_back(World& world, Index n) {
+  Particles& p = world.particles;
+  brought_back_.setZero();
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const ImagePlane& plane = planes_[k];
+    const bool mirror = plane.kind == ImagePlane::Kind::mirror;
+    for (Index i = 0; i < n; ++i) {
+      const Vec before = p.x.vec(i);
+      const Real d = depth(plane, before);
+      const bool outside = mirror ? d < 0 : d < 0 || d >= plane.period;
+      if (!outside || p.state[i] == particle_deactivated || !before.allFinite()) continue;
+      if (mirror) {
+        p.x.set(i, mirror_[k].of(before));
+        p.v.set(i, mirror_[k].A * p.v.vec(i));
+      } else {  // far out after a step that was much too long: the run stops for other reasons soon
+        p.x.set(i, before - std::floor(d / plane.period) * mirror_[k].b);
+      }
+      if (mirror) ++world.counters["mirror_crossings"];
+      if (i < p.active) brought_back_ += p.m[i] * (p.x.vec(i) - before);
+    }
+  }
+}
+
+void Images::build(World& world, Real reach) {
+  Particles& p = world.particles;
+  source_.clear();
+  motion_.clear();
+  motions_.assign(1, Motion{});
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const Index before = count();
+    const auto add = [&](const Motion& motion, auto&& wanted) {
+      std::vector<Index> composed(motions_.size(), -1);
+      const auto image = [&](Index source, Index first) {
+        if (!wanted(motions_[first].of(p.x.vec(source)))) return;
+        if (composed[first] < 0) {
+          composed[first] = static_cast<Index>(motions_.size());
+          motions_.push_back(motion.after(motions_[first]));
+        }
+        source_.push_back(source);
+        motion_.push_back(composed[first]);
+      };
+      for (Index i = 0; i < p.moving; ++i) image(i, 0);
+      for (Index m = 0; m < before; ++m) image(source_[m], motion_[m]);  // corners: images of images
+    };
+    const ImagePlane& plane = planes_[k];
+    const auto near = [&](const Vec& x) { return depth(plane, x) < reach; };
+    const auto near_other = [&](const Vec& x) { return plane.period - depth(plane, x) < reach; };
+    add(mirror_[k], near);
+    if (plane.kind == ImagePlane::Kind::periodic) add(Motion{Matrix::Identity(), -mirror_[k].b}, near_other);
+  }
+  p.fields.make_room_for_images(count());
+  before_rates(world);
+}
+
+void Images::sort(World& world, std::span<const Index> order) {
+  for (auto* list : {&source_, &motion_}) {
+    scratch_.resize(list->size());
+    for (std::size_t k = 0; k < order.size(); ++k) scratch_[k] = (*list)[order[k]];
+    list->swap(scratch_);
+  }
+  before_rates(world);
+}
+
+void Images::copy(World& world, Exchange when) const {
+  Particles& p = world.particles;
+  for (const auto& field : p.fields.all()) {
+    if (field->info().exchange != when) continue;
+    auto& values = dynamic_cast<Field<Real>&>(*field);
+    copy_field(values, p.size(), &values == &p.x);
+  }
+}
+
+void Images::copy_field(Field<Real>& field, Index first, bool place) const {
+  const Index n = count();
+  if (field.info().components == 1)
+    return for_each(n, [&, values = field.data()](Index k) { values[first + k] = values[source_[k]]; });
+  if (field.info().components == 3)
+    return for_each(n, [&](Index k) {
+      const Motion& m = motions_[motion_[k]];
+      const Vec value = field.vec(source_[k]);
+      field.set(first + k, place ? m.of(value) : Vec(m.A * value));
+    });
+  for_each(n, [&](Index k) {
+    const Matrix& A = motions_[motion_[k]].A;
+    field.set_tensor(first + k, A * field.tensor(source_[k]) * A.transpose());
+  });
+}
+
+}  // namespace courant

@@ -1,0 +1,65 @@
+#pragma once
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "state/world.hpp"
+
+namespace courant {
+
+/// Where the world of particles goes on as an image of itself.
+struct ImagePlane {
+  enum class Kind { mirror, periodic } kind = Kind::mirror;
+  Vec point = Vec::Zero();   ///< on the plane [L]
+  Vec normal = Vec::Zero();  ///< into the material, of length 1
+  Real period = 0;           ///< periodic: the other plane stands at point + period normal [L]
+};
+
+/// Images of particles behind planes: neighbours that the pair loops take like any other. A particle within
+/// reach of a mirror has a copy behind it with reflected velocity and stress; one near a periodic plane has a
+/// copy beyond the other plane. Images stand behind all particles in the fields that are exchanged, from
+/// index particles.size() on. A particle that has gone through a mirror changes places with its image, which
+/// is the same flow; one that has gone through a periodic plane comes back at the other.
+class Images : public Exchanger {
+ public:
+  /// Planes must be perpendicular to each other, or parallel and farther apart than particles reach.
+  explicit Images(std::vector<ImagePlane> planes);
+  std::string name() const override { return "images"; }
+
+  /// Brings back particles [0, n) that are outside.
+  void bring_back(World& world, Index n);
+  /// Sum of mass times shift of the active particles that the last call brought back [ML]
+  const Vec& brought_back() const { return brought_back_; }
+
+  /// Finds which particles [0, moving) have images within `reach` of the planes, makes room for them and puts
+  /// them there; nothing of earlier images is kept. [L]
+  void build(World& world, Real reach);
+  Index count() const { return static_cast<Index>(source_.size()); }
+  /// Puts image k at order[k]'s place.
+  void sort(World& world, std::span<const Index> order);
+  Index source(Index k) const { return source_[k]; }
+
+  void before_rates(World& world) override { copy(world, Exchange::before_rates); }
+  void before_forces(World& world) override { copy(world, Exchange::before_forces); }
+
+ private:
+  /// x -> A x + b for places, A v for vectors, A S A^T for tensors.
+  struct Motion {
+    Matrix A = Matrix::Identity();
+    Vec b = Vec::Zero();
+    Motion after(const Motion& first) const { return {A * first.A, A * first.b + b}; }
+    Vec of(const Vec& x) const { return A * x + b; }
+  };
+  void copy(World& world, Exchange when) const;
+  void copy_field(Field<Real>& field, Index first, bool place) const;
+
+  std::vector<ImagePlane> planes_;
+  std::vector<Motion> mirror_;          ///< of each plane; periodic ones: the shift by +period
+  std::vector<Index> source_, motion_;  ///< of each image: the particle, and an index of motions_
+  std::vector<Motion> motions_;         ///< the first one is none
+  Vec brought_back_ = Vec::Zero();
+  std::vector<Index> scratch_;
+};
+
+}  // namespace courant

@@ -1,0 +1,45 @@
+#pragma once
+// What stops a run that has gone wrong before its results look like results.
+#include <functional>
+
+#include "state/ranges.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+/// Looks at the whole state now and then: numbers that are none, energy from nowhere, how far speeds and
+/// densities went. A look reads some twenty arrays once, so it costs little against `interval` steps.
+class Guard {
+ public:
+  static constexpr int interval = 64;  ///< steps from look to look
+
+  /// parts: rho0, c0, liquid and number of each part of the model. endeng: percent, 0 none
+  /// (CONTROL_TERMINATION).
+  explicit Guard(Ranges parts, Real endeng = 0) : ranges_(std::move(parts)), endeng_(endeng) {}
+
+  /// At t^n, forces and pressures known. At cycle 0 it sets the ledger's initial energy; how much energy
+  /// there may be is judged at multiples of `interval` only. Throws RunError, which names the quantity.
+  void look(World& world, const Clock& clock);
+  /// The first part of it: particles, nodes and bodies hold finite numbers only. Throws RunError.
+  static void stop_for_numbers(const World& world, const Clock& clock);
+  /// Notes extremes of speed and density; numbers that are not finite are passed over.
+  void note_ranges(const World& world, const Clock& clock);
+  const Ranges& ranges() const { return ranges_; }
+
+ private:
+  void start(const EnergyLedger& e);
+  void stop_for_energy(const EnergyLedger& e, const Clock& clock) const;
+
+  Ranges ranges_;
+  Real endeng_;
+  Real initial_size_ = 0;       ///< of the energies at the start, but potential [ML2/T2]
+  Real initial_potential_ = 0;  ///< [ML2/T2]
+  Real initial_internal_ = 0;   ///< [ML2/T2]
+  std::vector<char> beaten_;    ///< blocks of particles with one beyond a range
+};
+
+/// Percent by which the energy ratio of glstat differs from 1: 100 residual / (initial energy + work from
+/// outside and of gravity), as ENDENG counts. 0 where the residual is round-off only.
+Real energy_ratio_change(const EnergyLedger& e, Real initial_potential);
+
+}  // namespace courant

@@ -1,0 +1,183 @@
+// Only what a scene needs: the whole list of passes, active and left out with the reason, scene by scene.
+#include "small_scene.hpp"
+
+namespace courant {
+namespace {
+
+using test::build;
+using test::SmallScene;
+
+/// The list of the barest scene, line by line; a scene's list differs by what is taken away and what comes.
+struct Lists {
+  std::vector<std::string> active, left_out;
+};
+
+Lists lists_of(const SmallScene& scene) {
+  Lists out;
+  const auto s = build(scene);
+  if (!s) return out;
+  const std::string text = s->passes();
+  std::vector<std::string>* to = &out.active;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = text.find('\n', at);
+    std::string line = text.substr(at, end - at);
+    at = end + 1;
+    if (line.rfind("  ", 0) != 0) {
+      if (line.rfind("not needed", 0) == 0) to = &out.left_out;
+      continue;
+    }
+    std::string words;  // blanks in a row are columns
+    for (const char c : line.substr(2))
+      if (c != ' ' || (!words.empty() && words.back() != ' ')) words += c;
+    to->push_back(words);
+  }
+  return out;
+}
+
+const Lists bare{
+    {"rate sph rates", "material eos linear polynomial", "tally sph time step", "tally sph energy",
+     "force sph forces", "time limit sph time step", "energy sph energy", "motion particle motion",
+     "motion sph factors", "guard every 64 steps"},
+    {"images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
+     "kept pair geometry no *COURANT_PAIR_GEOMETRY", "smoothing length HMIN = HMAX = 1: h is constant",
+     "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
+     "viscous stress MU is 0 in all SPH materials", "speed limit MAXV none given",
+     "computational box no BOXID", "gravity no *LOAD_BODY", "contact no *CONTACT",
+     "fixed particles no particle in *BOUNDARY_SPC", "rigid bodies no *MAT_RIGID",
+     "field states no *DATABASE_BINARY_D3PLOT", "glstat no *DATABASE_GLSTAT", "matsum no *DATABASE_MATSUM",
+     "rcforc no *DATABASE_RCFORC", "sphout no *DATABASE_SPHOUT"}};
+
+/// Compares with the barest scene's lists: `gone` of left_out (by their first words) have become `come` among
+/// the active; `other` left-out lines stand with another reason. Order within a list does not matter here:
+/// the order of a step has tests of its own.
+void expect_change(const SmallScene& scene, const std::vector<std::string>& gone,
+                   const std::vector<std::string>& come, const std::vector<std::string>& other = {},
+                   const std::vector<std::string>& replaced = {}) {
+  Lists expected = bare, got = lists_of(scene);
+  const auto starts = [](const std::string& line, const std::string& word) {
+    return line.rfind(word, 0) == 0;
+  };
+  for (const std::string& word : gone)
+    EXPECT_EQ(std::erase_if(expected.left_out, [&](const std::string& line) { return starts(line, word); }),
+              1u)
+        << word;
+  for (const std::string& line : replaced) EXPECT_EQ(std::erase(expected.active, line), 1u) << line;
+  expected.active.insert(expected.active.end(), come.begin(), come.end());
+  expected.left_out.insert(expected.left_out.end(), other.begin(), other.end());
+  for (auto* lines : {&expected.active, &expected.left_out, &got.active, &got.left_out})
+    std::sort(lines->begin(), lines->end());
+  EXPECT_EQ(got.active, expected.active);
+  EXPECT_EQ(got.left_out, expected.left_out);
+}
+
+TEST(Passes, BareSceneInTheOrderOfAStep) {
+  const Lists got = lists_of({});
+  EXPECT_EQ(got.active, bare.active);
+  EXPECT_EQ(got.left_out, bare.left_out);
+}
+
+TEST(Passes, ThreeDimensionsNeedNoOtherPasses) {
+  SmallScene scene;
+  scene.dim = 3, scene.n = 3;
+  expect_change(scene, {}, {});
+}
+
+TEST(Passes, Gravity) {
+  SmallScene scene;
+  scene.extra = test::gravity_cards;
+  expect_change(scene, {"gravity"}, {"force gravity", "energy gravity"});
+}
+
+TEST(Passes, ContactWithAFloorThatIsHeld) {
+  SmallScene scene;
+  scene.extra = test::floor_cards();
+  expect_change(scene, {"contact", "rigid bodies"},
+                {"force contact 1", "time limit contact 1", "energy contact 1"},
+                {"rigid bodies all are held in every direction"});
+}
+
+TEST(Passes, ABodyThatMoves) {
+  SmallScene scene;
+  scene.dim = 3, scene.n = 3;
+  scene.extra = test::floor_cards(-0.025, 1, "1,5,7");
+  expect_change(scene, {"contact", "rigid bodies"},
+                {"force contact 1", "time limit contact 1", "energy contact 1", "constraint rigid bodies",
+                 "energy rigid bodies", "motion rigid bodies"});
+}
+
+TEST(Passes, Viscous) {
+  SmallScene scene;
+  scene.material = "1,1000.,-1.E20,0.001";
+  expect_change(scene, {"viscous stress"}, {"material viscous stress"});
+}
+
+TEST(Passes, BulkViscosity) {
+  SmallScene scene;
+  scene.dim = 3, scene.n = 3;
+  scene.control_sph = "\n0,0,0,0,0,0,1";
+  expect_change(scene, {"bulk viscosity"}, {"material bulk viscosity"});
+}
+
+TEST(Passes, SmoothingLengthsThatChange) {
+  SmallScene scene;
+  scene.section = "1,1.2,0.2,2.";
+  expect_change(scene, {"smoothing length"}, {"motion smoothing length"});
+}
+
+TEST(Passes, SpeedLimit) {
+  SmallScene scene;
+  scene.control_sph = ",150,0,0.,10.";
+  expect_change(scene, {"speed limit MAXV"}, {"constraint speed limit MAXV"});
+}
+
+TEST(Passes, ComputationalBox) {
+  SmallScene scene;
+  scene.box = "1";
+  scene.extra = "*DEFINE_BOX\n1,-1.,1.,-1.,1.,-1.,1.\n";
+  expect_change(scene, {"computational box"}, {});
+}
+
+TEST(Passes, FixedParticles) {
+  SmallScene scene;
+  scene.extra = "*BOUNDARY_SPC_NODE\n1,0,1,1,1\n";
+  expect_change(scene, {"fixed particles"}, {"constraint fixed particles (SPC)"});
+}
+
+TEST(Passes, ImagesBehindAPlane) {
+  SmallScene scene;
+  scene.extra = "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n";
+  expect_change(scene, {"images"}, {"exchange images"});
+}
+
+TEST(Passes, KeptPairGeometry) {
+  SmallScene scene;
+  scene.extra = "*COURANT_PAIR_GEOMETRY\n0.005\n";
+  expect_change(scene, {"kept pair geometry"}, {});
+}
+
+TEST(Passes, AnotherEquationOfState) {
+  SmallScene scene;
+  scene.eos = "*EOS_MURNAGHAN\n1,7.,1.28E5\n";
+  expect_change(scene, {}, {"material eos murnaghan"}, {}, {"material eos linear polynomial"});
+}
+
+TEST(Passes, TwoPartsWithOneLawShareAPass) {
+  SmallScene scene;
+  scene.extra =
+      "*PART\nmore water\n3,1,1,1,1\n*NODE\n901,0.05,0.65,0.\n902,0.15,0.65,0.\n"
+      "*ELEMENT_SPH\n901,3,10.\n902,3,10.\n";
+  expect_change(scene, {}, {});
+}
+
+TEST(Passes, OutputsThatAreAskedFor) {
+  SmallScene scene;
+  scene.extra =
+      "*DATABASE_GLSTAT\n0.1\n*DATABASE_MATSUM\n0.1\n*DATABASE_BINARY_D3PLOT\n0.1\n"
+      "*DATABASE_SPHOUT\n0.1\n*DATABASE_HISTORY_SPH\n1\n";
+  expect_change(scene, {"glstat", "matsum", "sphout", "field states"},
+                {"output field states", "output glstat", "output matsum", "output sphout"});
+}
+
+}  // namespace
+}  // namespace courant
