@@ -126,10 +126,10 @@ Ranges Simulation::reference_of_parts() const {
 
 void Simulation::add_images(Real h, Diagnostics& diagnostics) {
   const Real reach = 2 * h + neighbours_->largest_skin();
-  auto planes = build_image_planes(deck_, model_, sph_, reach, world_, diagnostics);
-  if (planes.empty())
+  planes_ = build_image_planes(deck_, model_, sph_, reach, world_, diagnostics);
+  if (planes_.empty())
     return left_out_.push_back({"images", "no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC"});
-  auto images = std::make_shared<Images>(std::move(planes));
+  auto images = std::make_shared<Images>(planes_);
   neighbours_->set_images(images);
   world_.exchangers.push_back(images);
 }
@@ -137,7 +137,7 @@ void Simulation::add_images(Real h, Diagnostics& diagnostics) {
 void Simulation::add_prescribed_motions(Diagnostics& diagnostics) {
   const std::vector<PrescribedMotion> motions = prescribed_motions(deck_, model_, diagnostics);
   if (motions.empty()) left_out_.push_back({"prescribed motion", "no *BOUNDARY_PRESCRIBED_MOTION"});
-  add_prescribed_particles(motions, deck_, model_, sph_, world_, diagnostics);
+  add_prescribed_particles(motions, deck_, model_, sph_, planes_, world_, diagnostics);
   RigidBodies none({});
   (bodies_ ? *bodies_ : none).follow(motions, deck_, model_, diagnostics);
 }

@@ -73,6 +73,7 @@ class Simulation {
   std::shared_ptr<Neighbours> neighbours_;
   std::vector<std::shared_ptr<Contact>> contacts_;
   std::shared_ptr<RigidBodies> bodies_;
+  std::vector<ImagePlane> planes_;
   std::vector<PassNote> left_out_;
   StepRules rules_;
   std::shared_ptr<Guard> guard_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 
 #include "parallel/parallel.hpp"
@@ -85,8 +86,9 @@ class PrescribedParticles : public Motion, public EnergyTerm {
 
 class Builder {
  public:
-  Builder(const Deck& deck, const Model& model, const SphSettings& settings, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), settings_(settings), diagnostics_(diagnostics) {
+  Builder(const Deck& deck, const Model& model, const SphSettings& settings,
+          std::span<const ImagePlane> planes, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), settings_(settings), planes_(planes), diagnostics_(diagnostics) {
     particle_of_node_.assign(model.nodes.size(), -1);
     for (std::size_t i = 0; i < model.sph.size(); ++i)
       particle_of_node_[static_cast<std::size_t>(model.sph[i].node)] = static_cast<Index>(i);
@@ -102,6 +104,13 @@ class Builder {
                    "prescribed motions and the box BOXID of *CONTROL_SPH exclude each other: outside of it "
                    "particles keep their velocity",
                    "leave BOXID blank");
+    constexpr Real along = 1e-9;  // cosine
+    for (const ImagePlane& plane : planes_)
+      if (plane.kind == ImagePlane::Kind::mirror && std::abs(plane.normal.dot(motion.direction)) > along)
+        return error(
+            motion, "DOF",
+            "the direction is not along a symmetry plane, which would reflect what is driven through it",
+            "drive along the plane, or use a driven rigid plate as the wall");
     motions_.push_back(motion);
     for (const Index n : motion.nodes)
       if (!add(motion, n)) return;  // one message for each card
@@ -157,6 +166,7 @@ class Builder {
   const Deck& deck_;
   const Model& model_;
   const SphSettings& settings_;
+  std::span<const ImagePlane> planes_;
   Diagnostics& diagnostics_;
   std::vector<Index> particle_of_node_;
   std::vector<PrescribedMotion> motions_;
@@ -166,12 +176,12 @@ class Builder {
 }  // namespace
 
 bool add_prescribed_particles(const std::vector<PrescribedMotion>& motions, const Deck& deck,
-                              const Model& model, const SphSettings& settings, World& world,
-                              Diagnostics& diagnostics) {
+                              const Model& model, const SphSettings& settings,
+                              std::span<const ImagePlane> planes, World& world, Diagnostics& diagnostics) {
   bool any = false;
   for (const PrescribedMotion& motion : motions) any = any || motion.part < 0;
   if (!any) return false;
-  Builder builder(deck, model, settings, diagnostics);
+  Builder builder(deck, model, settings, planes, diagnostics);
   for (const PrescribedMotion& motion : motions)
     if (motion.part < 0) builder.add(motion);
   if (!builder.any() || !diagnostics.ok()) return false;

@@ -1,9 +1,10 @@
 #pragma once
-#include <memory>
+#include <span>
 #include <vector>
 
 #include "keyword/deck.hpp"
 #include "model/prescribed_motion.hpp"
+#include "search/images.hpp"
 #include "sph/sph.hpp"
 #include "state/world.hpp"
 
@@ -14,7 +15,7 @@ namespace courant {
 /// driven. Refuses by name: nodes that are no particles, directions that are held or driven twice, motions
 /// out of the plane of a 2D scene, and a computational box, outside of which nothing is driven.
 bool add_prescribed_particles(const std::vector<PrescribedMotion>& motions, const Deck& deck,
-                              const Model& model, const SphSettings& settings, World& world,
-                              Diagnostics& diagnostics);
+                              const Model& model, const SphSettings& settings,
+                              std::span<const ImagePlane> planes, World& world, Diagnostics& diagnostics);
 
 }  // namespace courant

@@ -173,7 +173,7 @@ void Guard::stop_for_energy(const EnergyLedger& e, const Clock& clock) const {
                                "{}, where {:.4g} entered; kinetic {:.4g}, internal {:.4g}, contact {:.4g}",
                                e.residual(), clock.t, clock.cycle, entered, e.kinetic, e.internal, e.contact),
                    StopCause::energy);
-  const Real change = energy_ratio_change(e, initial_potential_);
+  const Real change = energy_ratio_change(e);
   if (endeng_ > 0 && std::abs(change) > endeng_)
     throw RunError(fmt::format("the energy ratio changed by {:.4g} %, more than ENDENG = {:.4g} %, by time "
                                "{:.6g}, cycle {}",
@@ -181,8 +181,8 @@ void Guard::stop_for_energy(const EnergyLedger& e, const Clock& clock) const {
                    StopCause::energy);
 }
 
-Real energy_ratio_change(const EnergyLedger& e, Real initial_potential) {
-  const Real expected = e.initial - initial_potential + e.external_work + (initial_potential - e.potential);
+Real energy_ratio_change(const EnergyLedger& e) {
+  const Real expected = e.initial + e.external_work - e.potential;  // where heights count from cancels
   if (std::abs(e.residual()) <= round_off * size_of(e)) return 0;
   return 100 * e.residual() / expected;
 }

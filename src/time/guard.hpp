@@ -40,6 +40,6 @@ class Guard {
 
 /// Percent by which the energy ratio of glstat differs from 1: 100 residual / (initial energy + work from
 /// outside and of gravity), as ENDENG counts. 0 where the residual is round-off only.
-Real energy_ratio_change(const EnergyLedger& e, Real initial_potential);
+Real energy_ratio_change(const EnergyLedger& e);
 
 }  // namespace courant

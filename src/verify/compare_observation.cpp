@@ -102,13 +102,33 @@ Real scale_of(const SuiteObservation& o, const Variables& variables, Real otherw
   return scale;
 }
 
-void compare_curve(const SuiteObservation& o, const Measured& m, const Variables& variables,
+/// The curve shifted so that it first reaches the reference's first y at the reference's first x.
+Series aligned(Series series, const Series& reference, std::string& why) {
+  const Real level = reference.y.front();
+  for (std::size_t i = 0; i + 1 < series.size(); ++i) {
+    const Real a = series.y[i] - level, b = series.y[i + 1] - level;
+    if (a * b > 0 || a == b) continue;
+    const Real x = series.x[i] + (series.x[i + 1] - series.x[i]) * a / (a - b);
+    for (Real& each : series.x) each += reference.x.front() - x;
+    return series;
+  }
+  why = fmt::format("the curve never reaches {:.6g}, the first value of the reference", level);
+  return series;
+}
+
+void compare_curve(const SuiteObservation& o, const Measured& measured, const Variables& variables,
                    const Measured* finest, Observed& out) {
+  Measured m = measured;
   AtPoints at;
   if (o.reference.kind == SuiteReference::Kind::formula) at = formula_at_points(o, m, variables);
   if (o.reference.kind == SuiteReference::Kind::csv) {
     std::string why;
     const Series table = scaled_table(o.reference, variables, why);
+    if (o.align && why.empty() && table.size() > 0) {
+      m.series = aligned(std::move(m.series), table, why);
+      const Series shown = thinned(m.series, points_of_report);
+      out.curve.x = shown.x, out.curve.y = shown.y;
+    }
     at = curve_at_points(m, table);
     if (!why.empty()) at.why = why;
   }

@@ -133,6 +133,7 @@ struct ParticleTask {
   Selection where;
   Window window;
   int state = -1;  // of a profile
+  std::vector<Real> volumes_of_profile;
   bool open = true;
 
   ParticleTask(const SuiteObservation& observation, Measured& measured, const Variables& variables)
@@ -170,6 +171,7 @@ struct ParticleTask {
       if (!std::isfinite(values.back()))
         return close(fmt::format("'of' is not finite for a particle at t = {:.6g}", state.t()));
       if (o.kind != Kind::profile) continue;
+      volumes_of_profile.push_back(volumes.back());
       out.series.x.push_back(along(row.data()));
       out.series.y.push_back(values.back());
       if (with_formula(o)) out.formula.push_back(reference(row.data()));
@@ -189,8 +191,35 @@ struct ParticleTask {
     } else if (out.series.size() == 0) {
       close("no particle counts");
     } else {
+      if (o.bins > 0) put_in_bins();
       sort_by_x();
       out.found = true;
+      if (o.take != "curve") out = taken(o, std::move(out.series), window);
+    }
+  }
+  /// One point for each bin in which there are particles: its middle, and the reduced values; of a reference
+  /// formula, too.
+  void put_in_bins() {
+    const auto [low, high] = std::minmax_element(out.series.x.begin(), out.series.x.end());
+    const Real first = *low, width = (*high - *low) / o.bins;
+    if (!(width > 0)) return;
+    struct Bin {
+      std::vector<Real> values, formula, volumes;
+    };
+    std::vector<Bin> bins(o.bins);
+    for (std::size_t i = 0; i < out.series.size(); ++i) {
+      Bin& bin = bins[std::min(o.bins - 1, static_cast<int>((out.series.x[i] - first) / width))];
+      bin.values.push_back(out.series.y[i]);
+      bin.volumes.push_back(volumes_of_profile[i]);
+      if (!out.formula.empty()) bin.formula.push_back(out.formula[i]);
+    }
+    out.series = {};
+    out.formula.clear();
+    for (int k = 0; k < o.bins; ++k) {
+      if (bins[k].values.empty()) continue;
+      out.series.x.push_back(first + (k + 0.5) * width);
+      out.series.y.push_back(reduce(o.reduce, bins[k].values, bins[k].volumes));
+      if (!bins[k].formula.empty()) out.formula.push_back(reduce(o.reduce, bins[k].formula, bins[k].volumes));
     }
   }
   void sort_by_x() {

@@ -161,8 +161,9 @@ class SuiteReader {
     using Kind = SuiteObservation::Kind;
     using Over = CheckedExpression::Over;
     SuiteObservation out;
-    map.allow({"name", "title", "unit", "kind", "of", "where", "along", "reduce", "take", "from", "to", "at",
-               "reference", "norm", "scale", "bound", "bound_settings", "least_order"});
+    map.allow({"name",   "title", "unit",           "kind",       "of", "where", "along",     "bins",
+               "reduce", "take",  "align",          "from",       "to", "at",    "reference", "norm",
+               "scale",  "bound", "bound_settings", "least_order"});
     map.text("name", out.name, true);
     if (map.has("name") && !is_identifier(out.name))
       map.error(*map.get("name", true), "'observation.name' is a word of letters, digits and _",
@@ -179,6 +180,16 @@ class SuiteReader {
     expression(map, "where", out.where, Over::particles);
     expression(map, "along", out.along, Over::particles, out.kind == Kind::profile);
     choice(map, "reduce", out.reduce, {"mean", "sum", "min", "max", "count", "median", "p01", "p99"});
+    if (map.has("bins")) {
+      Real bins = 0;
+      map.positive("bins", bins);
+      out.bins = static_cast<int>(bins);
+    }
+    if (map.has("align")) {
+      std::string align;
+      choice(map, "align", align, {"first"});
+      out.align = true;
+    }
     choice(map, "take", out.take,
            {"curve", "final", "mean", "min", "max", "at", "period", "decay", "slope", "growth"});
     moment(map, "from", out.from);

@@ -45,12 +45,17 @@ struct SuiteObservation {
     profile     ///< `of` of each particle with `where` > 0 at time `at`, over `along` (an expression)
   } kind = Kind::history;
   std::string of, where, along;
+  /// profile: > 0: `reduce` of the particles in each of so many equal parts of the range of `along`.
+  int bins = 0;
   std::string reduce = "mean";  ///< mean (by volume), sum, min, max, count, median, p01, p99 (percentiles)
   /// How a series becomes what is compared: curve (all of it), final, mean, min, max, at, period, decay,
-  /// slope, growth. profile: always curve.
+  /// slope, growth. profile: curve; with bins also mean, min, max.
   std::string take = "curve";
   std::optional<std::string> from, to, at;  ///< window or moment in t, expressions of parameters
   SuiteReference reference;
+  /// Against a csv: shift the curve so that it first reaches the csv's first y at the csv's first x, where
+  /// the two count time from different origins.
+  bool align = false;
   std::string norm = "l2";  ///< of curves: l1, l2, linf (of the difference)
   std::string scale;  ///< the error is divided by this expression; blank: the same norm of the reference
   /// On the error, at the finest resolution of the settings named (all if none); the last but one where the

@@ -123,7 +123,12 @@ void check_observation(const MapReader& map, const SuiteObservation& o) {
   if (history && map.has("where")) fault("where", "'where' belongs to particles and profiles");
   if (!profile && map.has("along")) fault("along", "'along' belongs to profiles");
   if (o.kind != Kind::particles && map.has("reduce")) fault("reduce", "'reduce' belongs to kind: particles");
-  if (profile && o.take != "curve") fault("take", "a profile can only be taken as a curve");
+  if (!profile && map.has("bins")) fault("bins", "'bins' belongs to profiles");
+  const bool simple = o.take == "mean" || o.take == "min" || o.take == "max";
+  if (profile && o.take != "curve" && !(o.bins > 0 && simple))
+    fault("take", "a profile can only be taken as a curve, one with bins also as mean, min or max");
+  if (o.align && !(o.reference.kind == SuiteReference::Kind::csv && o.take == "curve"))
+    fault("align", "'align' belongs to curves against a csv");
   if (profile && (o.from || o.to)) fault("from", "a profile has no window; use 'where'");
   if (o.take == "at" && !o.at) fault("take", "'take: at' needs the moment 'at'");
   if (o.at && o.take != "at" && !profile) fault("at", "'at' belongs to 'take: at' and to profiles");

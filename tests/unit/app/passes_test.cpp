@@ -40,7 +40,8 @@ const Lists bare{
      "force sph forces", "time limit sph time step", "energy sph energy", "motion particle motion",
      "motion sph factors", "guard every 64 steps"},
     {"images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
-     "kept pair geometry no *COURANT_PAIR_GEOMETRY", "smoothing length HMIN = HMAX = 1: h is constant",
+     "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION", "kept pair geometry no *COURANT_PAIR_GEOMETRY",
+     "smoothing length HMIN = HMAX = 1: h is constant",
      "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
      "viscous stress MU is 0 in all SPH materials", "speed limit MAXV none given",
      "computational box no BOXID", "gravity no *LOAD_BODY", "contact no *CONTACT",
@@ -148,6 +149,12 @@ TEST(Passes, ImagesBehindAPlane) {
   SmallScene scene;
   scene.extra = "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n";
   expect_change(scene, {"images"}, {"exchange images"});
+}
+
+TEST(Passes, PrescribedMotionOfParticles) {
+  SmallScene scene;
+  scene.extra = "*DEFINE_CURVE\n9\n0.,0.\n1.,1.\n*BOUNDARY_PRESCRIBED_MOTION_NODE\n1,1,0,9\n";
+  expect_change(scene, {"prescribed motion"}, {"energy prescribed particles", "motion prescribed particles"});
 }
 
 TEST(Passes, KeptPairGeometry) {

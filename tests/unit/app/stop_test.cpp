@@ -105,6 +105,24 @@ TEST(Stop, TheEnergyRatioLeavesEndeng) {
   EXPECT_EQ(stopped.cause, StopCause::energy);
 }
 
+// Energy that falls, expands or comes from a load is no energy from nowhere, however little there was at the
+// start; nor does the half step of kinetic energy make the ratio of a fall leave ENDENG.
+TEST(Stop, SoundRunsGoOn) {
+  SmallScene falls;
+  falls.extra = test::gravity_cards;
+  falls.termination = "9.,0,0.,5.";
+  SmallScene expands;
+  expands.eos = "*EOS_LINEAR_POLYNOMIAL\n1,0.,9.E5\n0.,0.97\n";
+  SmallScene rests;
+  rests.extra = std::string(test::gravity_cards) + test::floor_cards();
+  SmallScene pushed;
+  pushed.extra = "*LOAD_BODY_X\n1\n*DEFINE_CURVE\n1\n0.,0.\n0.05,5.\n100.,0.\n";
+  for (const SmallScene& scene : {falls, expands, rests, pushed}) {
+    auto s = build(scene);
+    EXPECT_EQ(run_on(*s, 4 * Guard::interval + 1).text, "");
+  }
+}
+
 TEST(Stop, TheStepFallsBelowDtmin) {
   SmallScene scene;
   scene.termination = "1.,0,0.5";

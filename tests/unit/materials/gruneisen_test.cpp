@@ -86,10 +86,10 @@ TEST(Gruneisen, StopsBeyondThePoleAndNamesTheParticle) {
       courant::test::run(*stops, beyond, clock);
       FAIL() << "the density is beyond the pole";
     } catch (const RunError& e) {
-      EXPECT_STREQ(
-          e.what(),
-          "density of particle 17 became 2010 [M/L3] at time 0.25, cycle 0, x = (0, 0, 0): its equation "
-          "of state ends at 2000, where the pressure becomes infinite");
+      EXPECT_STREQ(e.what(),
+                   "density of particle 17 of part 0 became 2010 [M/L3] at time 0.25, cycle 0, x = (0, 0, "
+                   "0): its equation "
+                   "of state ends at 2000, where the pressure becomes infinite");
     }
   }
 }

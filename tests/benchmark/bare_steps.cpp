@@ -1,0 +1,83 @@
+#include "bare_steps.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "materials/materials.hpp"
+#include "model/build_model.hpp"
+#include "sph/pair_geometry.hpp"
+
+namespace courant::benchmarks {
+
+namespace {
+
+ReadOptions reader_of(const std::string& text) {
+  return {.parameters = {}, .open = [text](const std::string& path) {
+            return path == "square.k" ? std::optional(text) : std::nullopt;
+          }};
+}
+
+void stop_for(const Diagnostics& diagnostics) {
+  if (!diagnostics.ok()) throw std::runtime_error(diagnostics.text());
+}
+
+}  // namespace
+
+std::string SquareOfWater::deck() const {
+  const Real dx = 1.0 / n;
+  std::string nodes, particles;
+  for (int k = 0; k < n * n; ++k) {
+    nodes += fmt::format("{},{:.10f},{:.10f},0.\n", k + 1, (k % n + 0.5) * dx, (k / n + 0.5) * dx);
+    particles += fmt::format("{},1,{:.10f}\n", k + 1, 1000 * dx * dx);
+  }
+  return "*KEYWORD\n*NODE\n" + nodes + "*ELEMENT_SPH\n" + particles +
+         "*PART\nwater\n1,1,1,1,1\n*SECTION_SPH\n1,1.2," + h_bounds + "\n*MAT_NULL\n1,1000.,-1.E20," + mu +
+         "\n*EOS_LINEAR_POLYNOMIAL\n1,0.,2.5E6,0.,0.," + c4 +
+         "\n*HOURGLASS\n1,0,0,0,1.E-20,0.1\n*CONTROL_SPH\n" +
+         fmt::format("1,{},1.E20,2,150,0,0.,{}\n0,0,0,0,0,0,{}\n", box, maxv, iavis) +
+         "*CONTROL_TERMINATION\n1.E6\n*INITIAL_VELOCITY\n0\n1.,0.,0.\n" + keywords + "*END\n";
+}
+
+std::unique_ptr<Simulation> build(const SquareOfWater& water) {
+  Diagnostics diagnostics;
+  auto s = Simulation::build("square.k", reader_of(water.deck()), diagnostics);
+  stop_for(diagnostics);
+  return s;
+}
+
+BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
+  Diagnostics diagnostics;
+  const Deck deck = read_deck("square.k", reader_of(water.deck()), diagnostics);
+  const Model model = build_model(deck, diagnostics);
+  const auto materials = find_materials(deck, model, diagnostics);
+  stop_for(diagnostics);
+  const auto material = [&](Index part) -> SphMaterial {
+    const PartMaterial& m = materials[part];
+    return {m.ro, m.eos->V0, m.mu, m.eos->uses_energy()};
+  };
+  const SphSettings settings = build_particles(deck, model, material, world_, diagnostics);
+  stop_for(diagnostics);
+  const Real h = world_.particles.h[0];
+  neighbours_ = std::make_shared<Neighbours>(0.1 * h, settings.region);
+  neighbours_->adapt_skin(0.02 * h, 0.4 * h);
+  add_eos_passes(world_, model, materials);
+  world_.motions.push_back(make_particle_motion());
+  add_sph_time_limit(settings, model, world_);
+  const auto geometry = std::make_shared<PairGeometry>(neighbours_, settings.uniform_h);
+  world_.rates.push_back(make_rates(settings, world_, geometry));
+  world_.forces.push_back(make_forces(settings, world_, geometry));
+  if (ledger) world_.energy_terms.push_back(make_sph_energy(settings, world_, neighbours_));
+  stepper_ = std::make_unique<Stepper>(world_, *neighbours_, StepRules{}, timer_);
+}
+
+double BareSteps::take(int steps) {
+  double done = 0;
+  for (int k = 0; k < steps; ++k) {
+    stepper_->step(clock_, [](World&, const Clock&, const std::string&) {});
+    done += world_.particles.active;
+  }
+  return done;
+}
+
+}  // namespace courant::benchmarks
