@@ -34,7 +34,7 @@ class PairRates : public Rate {
   }
   std::string name() const override { return "sph rates"; }
 
-  void start(World& world, const Clock&) override {
+  void start(World& world, const Clock& clock) override {
     geometry_->prepare();
     loop_ = !geometry_->kept() ? compute_ : geometry_->take_valid() ? load_ : store_;
     a_ = particle_arrays(world.particles);
@@ -42,6 +42,7 @@ class PairRates : public Rate {
     a_.qc = viscous_speed_ ? viscous_speed_->data() : nullptr;
     a_.heat = heat_->data();
     a_.q2 = q2_;
+    a_.half_step = geometry_->watches_motion() ? 0 : 0.5 * clock.dt_old;
     for (int k = 0; k < 6; ++k) a_.strain[k] = strain_ ? strain_->data(k) : nullptr;
   }
   void block(World&, const Clock&, Index begin, Index end) override {
