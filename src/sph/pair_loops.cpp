@@ -97,15 +97,15 @@ void rates(const PairArrays& a, const PairLists& lists) {
       const Pack r2 = dot(d, d) + tiny, u_dot_d = dot(u, d);
       Pack w, rinv = Pack::zero();
       if constexpr (geometry == Geometry::load) {
-        w = Pack::load(lists.g + std::ptrdiff_t(k) * lanes);
+        w = Pack::load(lists.g + std::ptrdiff_t(k) * lanes) * a.V[j];
         div += w * u_dot_d;
       } else {
         rinv = rsqrt(r2);
         const MovingShape kernel(r2 * rinv * hinv, rinv, two_hinv, u_dot_d * rinv, dot(u, u));
+        if constexpr (geometry == Geometry::store) kernel.shape.store(lists.g + std::ptrdiff_t(k) * lanes);
         w = kernel.shape * a.V[j];
         div += w * u_dot_d - kernel.later * (a.half_step * a.V[j]);
       }
-      if constexpr (geometry == Geometry::store) w.store(lists.g + std::ptrdiff_t(k) * lanes);
       if constexpr (Viscous) {
         Pack h = hi, pair = w;  // (dW/dr)/r V_j / norm, mean of both where h differs
         if constexpr (!UniformH) {
@@ -162,7 +162,7 @@ void forces(const PairArrays& a, const PairLists& lists) {
       const Difference<Dim> d(xi, a.x, j);
       Pack w, wj;  // with h_i and with h_j
       if constexpr (geometry == Geometry::load) {
-        w = wj = Pack::load(lists.g + std::ptrdiff_t(k) * lanes);
+        w = wj = Pack::load(lists.g + std::ptrdiff_t(k) * lanes) * a.V[j];
       } else {
         const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2);
         w = wj = gradient_shape(r2 * rinv * hinv, rinv) * a.V[j];

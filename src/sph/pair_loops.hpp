@@ -10,7 +10,7 @@ struct PairArrays {
   const Real* x[3];
   const Real* v[3];
   const Real* m;
-  const Real* V;    ///< m/rho at the last motion: density moves on while neighbours still read
+  const Real* V;    ///< m/rho, see PairVolumes
   const Real* h;    ///< where it differs
   const Real* rho;  ///< of particle i alone
   const Real* qc;   ///< q1 c, for Monaghan viscosity
@@ -32,7 +32,7 @@ struct PairLists {
   Index begin, end;
 };
 
-/// Whether V_j (dW/dr)/r of the pairs (but for a constant) is worked out, or also stored, or taken from where
+/// Whether (dW/dr)/r of the pairs (but for a constant) is worked out, or also stored, or taken from where
 /// it was stored.
 enum class Geometry { compute, store, load };
 

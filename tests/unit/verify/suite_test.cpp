@@ -161,7 +161,7 @@ TEST(Suite, KeysThatDoNotFit) {
       {observing + "{name: a, kind: profile, of: p, along: x, bins: 2.5}\n", "must be a whole number"},
       {observing + "{name: a, kind: profile, of: p, along: x, bins: 4, take: max, reference: y}\n",
        "unknown name 'y'"},
-      {observing + "{name: a, of: t, reference: 1, align: first}\n",
+      {observing + "{name: a, of: t, reference: 1, align: 1}\n",
        "'align' belongs to curves against a csv"},
       {observing + "{name: a, kind: profile, of: p}\n", "lacks the key 'along'"},
       {observing + "{name: a, kind: profile, of: p, along: x, take: max}\n", "can only be taken as a curve"},
