@@ -93,7 +93,7 @@ void Images::sort(World& world, std::span<const Index> order) {
 void Images::copy(World& world, Exchange when) const {
   Particles& p = world.particles;
   for (const auto& field : p.fields.all()) {
-    if (field->info().exchange != when) continue;
+    if (field->info().exchange != when && field->info().exchange != Exchange::always) continue;
     auto& values = dynamic_cast<Field<Real>&>(*field);
     copy_field(values, p.size(), &values == &p.x);
   }

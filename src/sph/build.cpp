@@ -7,6 +7,7 @@
 #include "search/nearest_distance.hpp"
 #include "sph/cards.hpp"
 #include "sph/pair_geometry.hpp"
+#include "sph/pair_volumes.hpp"
 #include "sph/sph.hpp"
 #include "sph/view.hpp"
 
@@ -326,7 +327,8 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   std::vector<PassNote> left_out;
   const auto geometry =
       std::make_shared<PairGeometry>(neighbours, s.uniform_h, PairGeometry::most_kept_bytes, s.geometry_eps);
-  world.rates.push_back(make_rates(s, world, geometry));
+  const auto volumes = make_pair_volumes(world);
+  world.rates.push_back(make_rates(s, world, geometry, volumes));
   if (s.geometry_eps == 0) left_out.push_back({"kept pair geometry", "no *COURANT_PAIR_GEOMETRY"});
   if (s.evolving_h)
     world.motions.push_back(make_smoothing_length(s, world));
@@ -340,7 +342,8 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
     world.materials.push_back(make_viscous_stress(s, world));
   else
     left_out.push_back({"viscous stress", "MU is 0 in all SPH materials"});
-  world.forces.push_back(make_forces(s, world, geometry));
+  world.materials.push_back(volumes);
+  world.forces.push_back(make_forces(s, world, geometry, volumes));
   if (s.maxv != 0)
     world.constraints.push_back(make_speed_limit(s, neighbours));
   else

@@ -17,11 +17,6 @@ inline Field<Real>& stress(Particles& p) {
                              .exchange = Exchange::before_forces});
 }
 
-/// m/rho at the last motion
-inline Field<Real>& volume(Particles& p) {
-  return p.fields.add<Real>(
-      {.name = "volume", .dimension = "L3", .restart = false, .exchange = Exchange::before_rates});
-}
 /// q1 c at the last motion
 inline Field<Real>& viscous_speed(Particles& p) {
   return p.fields.add<Real>(

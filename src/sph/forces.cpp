@@ -1,5 +1,6 @@
 #include "sph/fields.hpp"
 #include "sph/pair_geometry.hpp"
+#include "sph/pair_volumes.hpp"
 #include "sph/sph.hpp"
 #include "sph/view.hpp"
 
@@ -10,10 +11,10 @@ namespace {
 /// Pressure and viscous stress of eq. 7; artificial viscosity comes with the rates.
 class PairForces : public Force {
  public:
-  PairForces(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry)
-      : geometry_(std::move(geometry)) {
+  PairForces(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry,
+             std::shared_ptr<PairVolumes> volumes)
+      : geometry_(std::move(geometry)), volumes_(std::move(volumes)) {
     Particles& p = world.particles;
-    volume_ = &sph_fields::volume(p);
     if (!std::holds_alternative<MonaghanViscosity>(s.viscosity))
       total_pressure_ = &sph_fields::pressure_plus_q(p);
     if (!s.mu.empty()) tau_ = &sph_fields::stress(p);
@@ -26,7 +27,7 @@ class PairForces : public Force {
 
   void start(World& world, const Clock&) override {
     a_ = particle_arrays(world.particles);
-    a_.V = volume_->data();
+    a_.V = volumes_->current();
     a_.p = total_pressure_ ? total_pressure_->data() : world.particles.p.data();
     for (int k = 0; k < 6; ++k) a_.tau[k] = tau_ ? tau_->data(k) : nullptr;
   }
@@ -36,7 +37,7 @@ class PairForces : public Force {
 
  private:
   std::shared_ptr<PairGeometry> geometry_;
-  Field<Real>* volume_ = nullptr;
+  std::shared_ptr<PairVolumes> volumes_;
   Field<Real>* total_pressure_ = nullptr;
   Field<Real>* tau_ = nullptr;
   PairLoop compute_, load_;
@@ -45,9 +46,9 @@ class PairForces : public Force {
 
 }  // namespace
 
-std::shared_ptr<Force> make_forces(const SphSettings& s, World& world,
-                                   std::shared_ptr<PairGeometry> geometry) {
-  return std::make_shared<PairForces>(s, world, std::move(geometry));
+std::shared_ptr<Force> make_forces(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry,
+                                   std::shared_ptr<PairVolumes> volumes) {
+  return std::make_shared<PairForces>(s, world, std::move(geometry), std::move(volumes));
 }
 
 }  // namespace courant

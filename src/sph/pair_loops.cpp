@@ -23,6 +23,19 @@ COURANT_INLINE Pack gradient_shape(const Pack& R, const Pack& rinv) {
   return (a * a - 4 * (b * b)) * rinv;
 }
 
+/// The same, and how it changes with time, times u.d: (dW/dr)'/r of the radial velocity q, and what turning
+/// does.
+struct MovingShape {
+  Pack shape, later;
+  COURANT_INLINE MovingShape(const Pack& R, const Pack& rinv, const Pack& two_hinv, const Pack& q,
+                             const Pack& u2)
+      : shape(Pack::zero()), later(Pack::zero()) {
+    const Pack a = max(2 - R, Pack::zero()), b = max(1 - R, Pack::zero()), q2 = q * q;
+    shape = (a * a - 4 * (b * b)) * rinv;
+    later = (4 * b - a) * two_hinv * q2 + shape * (u2 - q2);
+  }
+};
+
 /// Eight particles i.
 template <int Dim>
 struct Places {
@@ -71,7 +84,7 @@ void rates(const PairArrays& a, const PairLists& lists) {
     const Pack hi = UniformH ? Pack::of(a.h0) : Pack::load(a.h + i, count);
     const Pack hinv = UniformH ? Pack::of(1 / a.h0) : 1 / hi;
     const Pack norm = UniformH ? Pack::of(gradient_norm<Dim>(a.h0)) : gradient_norm<Dim>(hinv);
-    const Pack tiny = tiny_distance2 * hi * hi;
+    const Pack tiny = tiny_distance2 * hi * hi, two_hinv = 2 * hinv;
     const Pack mi = Viscous ? Pack::load(a.m + i, count) : Pack::zero();
     const Pack Vi = Viscous ? Pack::load(a.V + i, count) : Pack::zero();
     const Pack qci = Viscous ? 0.5 * Pack::load(a.qc + i, count) : Pack::zero();
@@ -84,13 +97,15 @@ void rates(const PairArrays& a, const PairLists& lists) {
       const Pack r2 = dot(d, d) + tiny, u_dot_d = dot(u, d);
       Pack w, rinv = Pack::zero();
       if constexpr (geometry == Geometry::load) {
-        w = Pack::load(lists.g + std::ptrdiff_t(k) * lanes);
+        w = Pack::load(lists.g + std::ptrdiff_t(k) * lanes) * a.V[j];
+        div += w * u_dot_d;
       } else {
         rinv = rsqrt(r2);
-        w = gradient_shape(r2 * rinv * hinv, rinv) * a.V[j];
+        const MovingShape kernel(r2 * rinv * hinv, rinv, two_hinv, u_dot_d * rinv, dot(u, u));
+        if constexpr (geometry == Geometry::store) kernel.shape.store(lists.g + std::ptrdiff_t(k) * lanes);
+        w = kernel.shape * a.V[j];
+        div += w * u_dot_d - kernel.later * (a.half_step * a.V[j]);
       }
-      if constexpr (geometry == Geometry::store) w.store(lists.g + std::ptrdiff_t(k) * lanes);
-      div += w * u_dot_d;
       if constexpr (Viscous) {
         Pack h = hi, pair = w;  // (dW/dr)/r V_j / norm, mean of both where h differs
         if constexpr (!UniformH) {
@@ -147,7 +162,7 @@ void forces(const PairArrays& a, const PairLists& lists) {
       const Difference<Dim> d(xi, a.x, j);
       Pack w, wj;  // with h_i and with h_j
       if constexpr (geometry == Geometry::load) {
-        w = wj = Pack::load(lists.g + std::ptrdiff_t(k) * lanes);
+        w = wj = Pack::load(lists.g + std::ptrdiff_t(k) * lanes) * a.V[j];
       } else {
         const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2);
         w = wj = gradient_shape(r2 * rinv * hinv, rinv) * a.V[j];

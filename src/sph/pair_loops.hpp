@@ -10,7 +10,7 @@ struct PairArrays {
   const Real* x[3];
   const Real* v[3];
   const Real* m;
-  const Real* V;    ///< m/rho at the last motion: density moves on while neighbours still read
+  const Real* V;    ///< m/rho, see PairVolumes
   const Real* h;    ///< where it differs
   const Real* rho;  ///< of particle i alone
   const Real* qc;   ///< q1 c, for Monaghan viscosity
@@ -19,8 +19,9 @@ struct PairArrays {
   Real* drhodt;
   Real* strain[6];
   Real* f[3];
-  Real* heat;   ///< power that artificial viscosity turns into heat [ML2/T3]
-  Real h0, q2;  ///< h0: the h of all where it does not differ
+  Real* heat;      ///< power that artificial viscosity turns into heat [ML2/T3]
+  Real h0, q2;     ///< h0: the h of all where it does not differ
+  Real half_step;  ///< half of the step that led here: continuity holds in its middle [T]
 };
 
 /// The lists of particles [begin, end); end - begin <= block_size.
@@ -31,15 +32,18 @@ struct PairLists {
   Index begin, end;
 };
 
-/// Whether V_j (dW/dr)/r of the pairs (but for a constant) is worked out, or also stored, or taken from where
+/// Whether (dW/dr)/r of the pairs (but for a constant) is worked out, or also stored, or taken from where
 /// it was stored.
 enum class Geometry { compute, store, load };
 
 using PairLoop = void (*)(const PairArrays&, const PairLists&);
 
-/// Eq. 6: drho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij (with h_i, FORM 0). `viscous`: eqs 15-16, Monaghan's
-/// viscosity, adds to f and sets heat. `gradient`: sets the symmetric velocity gradient, -1/2 sum_j V_j
-/// (v_ij,a grad_b W + v_ij,b grad_a W), components xx yy zz xy yz zx.
+/// Eq. 6: drho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij (with h_i, FORM 0), in the middle of the step, to
+/// which the velocities belong: less half_step v_ij . (grad grad W) . v_ij (not where gradients are taken
+/// from memory). With the places at its end, noise would seem to compress, and energy come from nowhere, in
+/// proportion to the step. `viscous`: eqs 15-16, Monaghan's viscosity, adds to f and sets heat. `gradient`:
+/// sets the symmetric velocity gradient, -1/2 sum_j V_j (v_ij,a grad_b W + v_ij,b grad_a W), components xx yy
+/// zz xy yz zx.
 struct RatesChoice {
   int dim;
   bool uniform_h, viscous, gradient;

@@ -3,6 +3,7 @@
 
 #include "sph/fields.hpp"
 #include "sph/pair_geometry.hpp"
+#include "sph/pair_volumes.hpp"
 #include "sph/sph.hpp"
 #include "sph/view.hpp"
 
@@ -14,11 +15,11 @@ namespace {
 /// gradient.
 class PairRates : public Rate {
  public:
-  PairRates(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry)
-      : geometry_(std::move(geometry)) {
+  PairRates(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry,
+            std::shared_ptr<PairVolumes> volumes)
+      : geometry_(std::move(geometry)), volumes_(std::move(volumes)) {
     Particles& p = world.particles;
     const bool viscous = std::holds_alternative<MonaghanViscosity>(s.viscosity), gradient = !s.mu.empty();
-    volume_ = &sph_fields::volume(p);
     heat_ = &sph_fields::dissipation(p);
     if (viscous) {
       viscous_speed_ = &sph_fields::viscous_speed(p);
@@ -34,14 +35,15 @@ class PairRates : public Rate {
   }
   std::string name() const override { return "sph rates"; }
 
-  void start(World& world, const Clock&) override {
+  void start(World& world, const Clock& clock) override {
     geometry_->prepare();
     loop_ = !geometry_->kept() ? compute_ : geometry_->take_valid() ? load_ : store_;
     a_ = particle_arrays(world.particles);
-    a_.V = volume_->data();
+    a_.V = volumes_->current();
     a_.qc = viscous_speed_ ? viscous_speed_->data() : nullptr;
     a_.heat = heat_->data();
     a_.q2 = q2_;
+    a_.half_step = geometry_->watches_motion() ? 0 : 0.5 * clock.dt_old;
     for (int k = 0; k < 6; ++k) a_.strain[k] = strain_ ? strain_->data(k) : nullptr;
   }
   void block(World&, const Clock&, Index begin, Index end) override {
@@ -50,7 +52,7 @@ class PairRates : public Rate {
 
  private:
   std::shared_ptr<PairGeometry> geometry_;
-  Field<Real>* volume_ = nullptr;
+  std::shared_ptr<PairVolumes> volumes_;
   Field<Real>* heat_ = nullptr;
   Field<Real>* viscous_speed_ = nullptr;
   Field<Real>* strain_ = nullptr;
@@ -59,13 +61,12 @@ class PairRates : public Rate {
   PairArrays a_{};
 };
 
-/// Keeps what pair loops read of neighbours besides x, v, m and p: while threads work on the rates, density
-/// and sound speed already change. Where gradients are kept over steps, so are the volumes, which stand in
-/// them: else pair forces would not cancel.
+/// Keeps q1 c as pair loops read it of neighbours: while threads work on the rates, the sound speed already
+/// changes. Watches how long gradients that are kept over steps hold.
 class PairFactors : public Motion, public Refresh {
  public:
   PairFactors(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry)
-      : geometry_(std::move(geometry)), q_(s.q), volume_(sph_fields::volume(world.particles)) {
+      : geometry_(std::move(geometry)), q_(s.q) {
     if (std::holds_alternative<MonaghanViscosity>(s.viscosity))
       viscous_speed_ = &sph_fields::viscous_speed(world.particles);
   }
@@ -76,7 +77,7 @@ class PairFactors : public Motion, public Refresh {
     if (geometry_->watches_motion()) fastest2_.assign(block_count(p.moving), 0);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
-    update(world, begin, end, expires_);
+    update(world, begin, end);
     if (!geometry_->watches_motion()) return;
     const Particles& p = world.particles;
     const Real *vx = p.v.data(0), *vy = p.v.data(1), *vz = p.v.data(2);
@@ -92,18 +93,15 @@ class PairFactors : public Motion, public Refresh {
     geometry_->moved(std::sqrt(most), clock.dt, expires_);
   }
   void refreshed(World& world, const Clock&, std::span<const Index>) override {
-    for_each_block(world.particles.moving, [&](Index begin, Index end) { update(world, begin, end, true); });
+    for_each_block(world.particles.moving, [&](Index begin, Index end) { update(world, begin, end); });
     geometry_->expire();
   }
 
  private:
-  void update(World& world, Index begin, Index end, bool volumes) {
-    const Particles& p = world.particles;
-    const Real *m = p.m.data(), *rho = p.rho.data(), *c = p.c.data();
-    Real* V = volume_.data();
-    if (volumes)
-      for (Index i = begin; i < end; ++i) V[i] = m[i] / rho[i];
+  void update(World& world, Index begin, Index end) {
     if (!viscous_speed_) return;
+    const Particles& p = world.particles;
+    const Real* c = p.c.data();
     Real* qc = viscous_speed_->data();
     for (Index i = begin; i < end; ++i) qc[i] = q_[p.part[i]].q1 * c[i];
   }
@@ -112,17 +110,17 @@ class PairFactors : public Motion, public Refresh {
   bool expires_ = true;
   std::vector<Real> fastest2_;  ///< in each block [L2/T2]
   std::vector<PartViscosity> q_;
-  Field<Real>& volume_;
   Field<Real>* viscous_speed_ = nullptr;
 };
 
 }  // namespace
 
-std::shared_ptr<Rate> make_rates(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry) {
+std::shared_ptr<Rate> make_rates(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry,
+                                 std::shared_ptr<PairVolumes> volumes) {
   auto factors = std::make_shared<PairFactors>(s, world, geometry);
   world.motions.push_back(factors);
   world.refreshes.push_back(factors);
-  return std::make_shared<PairRates>(s, world, std::move(geometry));
+  return std::make_shared<PairRates>(s, world, std::move(geometry), std::move(volumes));
 }
 
 }  // namespace courant

@@ -72,9 +72,14 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& settings,
                                      std::shared_ptr<Neighbours> neighbours);
 
 class PairGeometry;
-/// Adds to the motions of `world` what keeps m/rho and q1 c for neighbours.
-std::shared_ptr<Rate> make_rates(const SphSettings&, World&, std::shared_ptr<PairGeometry>);
-std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<PairGeometry>);
+class PairVolumes;
+/// Adds to the motions of `world` what keeps q1 c for neighbours.
+std::shared_ptr<Rate> make_rates(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
+                                 std::shared_ptr<PairVolumes>);
+std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
+                                   std::shared_ptr<PairVolumes>);
+/// Adds itself to the refreshes of `world`; belongs behind its materials.
+std::shared_ptr<PairVolumes> make_pair_volumes(World&);
 std::shared_ptr<Material> make_bulk_viscosity(const SphSettings&, World&);
 std::shared_ptr<Material> make_viscous_stress(const SphSettings&, World&);
 std::shared_ptr<Motion> make_smoothing_length(const SphSettings&, World&);

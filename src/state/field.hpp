@@ -22,6 +22,7 @@ enum class Exchange {
   never,
   before_rates,   ///< changes with the motion
   before_forces,  ///< changes with the rates and materials
+  always,
 };
 
 struct FieldInfo {

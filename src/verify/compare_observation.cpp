@@ -102,17 +102,22 @@ Real scale_of(const SuiteObservation& o, const Variables& variables, Real otherw
   return scale;
 }
 
-/// The curve shifted so that it first reaches the reference's first y at the reference's first x.
-Series aligned(Series series, const Series& reference, std::string& why) {
-  const Real level = reference.y.front();
+/// The curve shifted so that it first reaches the y of a row of the reference, counted from 1, at its x.
+Series aligned(Series series, const Series& reference, int row, std::string& why) {
+  const std::size_t k = static_cast<std::size_t>(row) - 1;
+  if (k >= reference.size()) {
+    why = fmt::format("'align': the reference has no row {}", row);
+    return series;
+  }
+  const Real level = reference.y[k];
   for (std::size_t i = 0; i + 1 < series.size(); ++i) {
     const Real a = series.y[i] - level, b = series.y[i + 1] - level;
     if (a * b > 0 || a == b) continue;
     const Real x = series.x[i] + (series.x[i + 1] - series.x[i]) * a / (a - b);
-    for (Real& each : series.x) each += reference.x.front() - x;
+    for (Real& each : series.x) each += reference.x[k] - x;
     return series;
   }
-  why = fmt::format("the curve never reaches {:.6g}, the first value of the reference", level);
+  why = fmt::format("the curve never reaches {:.6g}, row {} of the reference", level, row);
   return series;
 }
 
@@ -124,8 +129,8 @@ void compare_curve(const SuiteObservation& o, const Measured& measured, const Va
   if (o.reference.kind == SuiteReference::Kind::csv) {
     std::string why;
     const Series table = scaled_table(o.reference, variables, why);
-    if (o.align && why.empty() && table.size() > 0) {
-      m.series = aligned(std::move(m.series), table, why);
+    if (o.align > 0 && why.empty()) {
+      m.series = aligned(std::move(m.series), table, o.align, why);
       const Series shown = thinned(m.series, points_of_report);
       out.curve.x = shown.x, out.curve.y = shown.y;
     }

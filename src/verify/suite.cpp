@@ -183,12 +183,13 @@ class SuiteReader {
     if (map.has("bins")) {
       Real bins = 0;
       map.positive("bins", bins);
-      out.bins = static_cast<int>(bins);
+      out.bins = static_cast<int>(std::min(bins, 1e6));
+      if (bins != out.bins) map.error(*map.get("bins", true), "'observation.bins' must be a whole number");
     }
     if (map.has("align")) {
-      std::string align;
-      choice(map, "align", align, {"first"});
-      out.align = true;
+      Real row = 0;
+      map.positive("align", row);
+      out.align = static_cast<int>(row);
     }
     choice(map, "take", out.take,
            {"curve", "final", "mean", "min", "max", "at", "period", "decay", "slope", "growth"});

@@ -53,9 +53,9 @@ struct SuiteObservation {
   std::string take = "curve";
   std::optional<std::string> from, to, at;  ///< window or moment in t, expressions of parameters
   SuiteReference reference;
-  /// Against a csv: shift the curve so that it first reaches the csv's first y at the csv's first x, where
-  /// the two count time from different origins.
-  bool align = false;
+  /// Against a csv, > 0: shift the curve so that it first reaches the y of this row of the csv at its x,
+  /// where the two count time from different origins.
+  int align = 0;
   std::string norm = "l2";  ///< of curves: l1, l2, linf (of the difference)
   std::string scale;  ///< the error is divided by this expression; blank: the same norm of the reference
   /// On the error, at the finest resolution of the settings named (all if none); the last but one where the

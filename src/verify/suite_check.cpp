@@ -38,6 +38,8 @@ void check_expression(const CheckedExpression& e, const SuiteCase& definition, c
   std::string hint = formula.hint();
   if (hint.empty() && e.over == Over::histories && e.text.find('/') == std::string::npos)
     hint = "histories are named like global/kinetic, parts/1/mass or contacts/1/force.y";
+  if (hint.empty() && !definition.deck.empty() && formula.error().starts_with("unknown name"))
+    hint = "of a deck, those parameters are known to which the suite gives a number";
   diagnostics.error(e.where, fmt::format("'{}': {}", e.name, formula.error()), hint);
 }
 
@@ -106,7 +108,7 @@ void check_stability(const MapReader& map, const SuiteCase& definition) {
 }  // namespace
 
 Over over_of_formula(const SuiteObservation& o) {
-  if (o.kind == Kind::profile) return Over::particles;
+  if (o.kind == Kind::profile) return o.take == "curve" ? Over::particles : Over::nothing;
   return o.take == "curve" || o.take == "final" || o.take == "at" ? Over::time : Over::nothing;
 }
 
@@ -122,7 +124,8 @@ void check_observation(const MapReader& map, const SuiteObservation& o) {
   const bool history = o.kind == Kind::history, profile = o.kind == Kind::profile;
   if (history && map.has("where")) fault("where", "'where' belongs to particles and profiles");
   if (!profile && map.has("along")) fault("along", "'along' belongs to profiles");
-  if (o.kind != Kind::particles && map.has("reduce")) fault("reduce", "'reduce' belongs to kind: particles");
+  if (o.kind != Kind::particles && o.bins == 0 && map.has("reduce"))
+    fault("reduce", "'reduce' belongs to kind: particles, and to profiles with bins");
   if (!profile && map.has("bins")) fault("bins", "'bins' belongs to profiles");
   const bool simple = o.take == "mean" || o.take == "min" || o.take == "max";
   if (profile && o.take != "curve" && !(o.bins > 0 && simple))

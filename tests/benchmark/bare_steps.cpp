@@ -7,6 +7,7 @@
 #include "materials/materials.hpp"
 #include "model/build_model.hpp"
 #include "sph/pair_geometry.hpp"
+#include "sph/pair_volumes.hpp"
 
 namespace courant::benchmarks {
 
@@ -65,8 +66,10 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   world_.motions.push_back(make_particle_motion());
   add_sph_time_limit(settings, model, world_);
   const auto geometry = std::make_shared<PairGeometry>(neighbours_, settings.uniform_h);
-  world_.rates.push_back(make_rates(settings, world_, geometry));
-  world_.forces.push_back(make_forces(settings, world_, geometry));
+  const auto volumes = make_pair_volumes(world_);
+  world_.rates.push_back(make_rates(settings, world_, geometry, volumes));
+  world_.materials.push_back(volumes);
+  world_.forces.push_back(make_forces(settings, world_, geometry, volumes));
   if (ledger) world_.energy_terms.push_back(make_sph_energy(settings, world_, neighbours_));
   stepper_ = std::make_unique<Stepper>(world_, *neighbours_, StepRules{}, timer_);
 }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "sph/pair_geometry.hpp"
+#include "sph/pair_volumes.hpp"
 
 namespace courant::benchmarks {
 
@@ -19,8 +20,9 @@ PairTimes PairLoopsAlone::measure(bool kept, int threads, int repeats) {
   World& world = s_.world();
   const std::int64_t most_kept = kept ? std::numeric_limits<std::int64_t>::max() : -1;
   const auto geometry = std::make_shared<PairGeometry>(neighbours_, s_.sph().uniform_h, most_kept);
-  const auto rates = make_rates(s_.sph(), world, geometry);
-  const auto forces = make_forces(s_.sph(), world, geometry);
+  const auto volumes = make_pair_volumes(world);
+  const auto rates = make_rates(s_.sph(), world, geometry, volumes);
+  const auto forces = make_forces(s_.sph(), world, geometry, volumes);
   const Index n = world.particles.active, blocks = block_count(n);
   const auto seconds = [&](BlockPass& pass) {
     const double start = PassTimer::now();

@@ -36,9 +36,9 @@ Lists lists_of(const SmallScene& scene) {
 }
 
 const Lists bare{
-    {"rate sph rates", "material eos linear polynomial", "tally sph time step", "tally sph energy",
-     "force sph forces", "time limit sph time step", "energy sph energy", "motion particle motion",
-     "motion sph factors", "guard every 64 steps"},
+    {"rate sph rates", "material eos linear polynomial", "material sph volumes", "tally sph time step",
+     "tally sph energy", "force sph forces", "time limit sph time step", "energy sph energy",
+     "motion particle motion", "motion sph factors", "guard every 64 steps"},
     {"images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
      "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION", "kept pair geometry no *COURANT_PAIR_GEOMETRY",
      "smoothing length HMIN = HMAX = 1: h is constant",

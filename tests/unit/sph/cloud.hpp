@@ -5,6 +5,7 @@
 
 #include "../run_pass.hpp"
 #include "sph/pair_geometry.hpp"
+#include "sph/pair_volumes.hpp"
 #include "sph/sph.hpp"
 #include "sph/view.hpp"
 
@@ -47,8 +48,9 @@ struct Cloud {
   void make_pairs(bool keep_gradients = true) {
     const auto geometry = std::make_shared<PairGeometry>(neighbours, settings.uniform_h,
                                                          keep_gradients ? PairGeometry::most_kept_bytes : -1);
-    rates = make_rates(settings, world, geometry);
-    forces = make_forces(settings, world, geometry);
+    const auto volumes = make_pair_volumes(world);
+    rates = make_rates(settings, world, geometry, volumes);
+    forces = make_forces(settings, world, geometry, volumes);
   }
   void run(BlockPass& pass) { test::run(pass, world, clock); }
   std::shared_ptr<Rate> rates;

@@ -1,0 +1,26 @@
+#pragma once
+// m/rho of particles as pair loops read it of neighbours.
+#include "state/world.hpp"
+
+namespace courant {
+
+/// While threads work on the rates, density already changes: the loops of the rates read the volumes before
+/// that, those of the forces the volumes after. With older ones in the forces, pressure would give back less
+/// work than it took, in proportion to the step. Stands behind the equations of state.
+class PairVolumes : public Material, public Refresh {
+ public:
+  explicit PairVolumes(World& world);
+  std::string name() const override { return "sph volumes"; }
+  /// Of the latest density all of which is known [L3]; shape: (particles and images)
+  const Real* current() const { return fields_[current_]->data(); }
+
+  void block(World& world, const Clock&, Index begin, Index end) override;
+  void finish(World&, const Clock&) override { current_ = 1 - current_; }
+  void refreshed(World& world, const Clock&, std::span<const Index>) override;
+
+ private:
+  Field<Real>* fields_[2];
+  int current_ = 0;
+};
+
+}  // namespace courant
