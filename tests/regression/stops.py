@@ -74,7 +74,7 @@ def stops(name, reason, hint, **settings):
 
 # --- each of them stops, none runs on
 stops("unstable", "(density|the energy|particle)", r"TSSFAC = 3 of \*CONTROL_TIMESTEP", start=-20.0, timestep="0.,3.", sfsa=1e-3)
-stops("within_wall", "(density|the energy|particle)", r"\d+ particles started within the contact distance of a wall", floor=0.0, thickness=0.5, sfsa=100.0)
+stops("within_wall", "(density|the energy|particle)", r"\d+ particles started within the contact distance of a wall", floor=0.0, thickness=0.5, sfsa=100.0, modulus=1e3)
 stops("soft", r"particle \d+ of part 1 moved .* smoothing lengths in the step to time ", "gravity gives speeds of ", modulus=10.0)
 stops("slow_step", r"the step size .* fell below DTMIN x first step = .*, set by sph \d+ of part 1", "", termination="2.,0,0.998")
 stops("ratio", r"the energy ratio changed by .* %, more than ENDENG = 0.0001 %", "", termination="2.,0,0.,0.0001", start=-1.0)
