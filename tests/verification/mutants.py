@@ -11,6 +11,7 @@ marks in FILE (docs/mutants.md), otherwise it goes to stdout. Exits with 1 if th
 import argparse
 import copy
 import hashlib
+import math
 import os
 import pathlib
 import shutil
@@ -92,6 +93,10 @@ class Tree:
 
 def places(mutant):
     return [mutant, *mutant.get("also", [])]
+
+
+def places_only(mutant):
+    return [{key: place[key] for key in ("file", "find", "replace")} for place in places(mutant)]
 
 
 def mutated(place):
@@ -184,18 +189,23 @@ def try_mutant(tree, mutant, arguments, suite, suite_file, known_misses):
 
 
 def told(suite, result, known_misses):
-    """What noticed, in words; the worst first."""
+    """What noticed, in words: missed bounds, the worst first, then runs that stopped."""
     if result["build"]:
         return [f"does not build: {result['build']}"]
-    out = [(float("inf"), f"stopped: {text}") for text in result["stopped"]]
+    out = []
     for m in missed(suite, result["checks"]):
         if any(same_check(m, known) for known in known_misses):
             continue
-        order = m["what"] == "order at least"
-        by = m["bound"] - m["measured"] if order else m["measured"] / m["bound"] if m["bound"] else float("inf")
-        out.append((by, f"{m['case']} ({m['setting']}), {m['observation']}: {'order ' if order else ''}{m['measured']:.3g} "
-                        f"{'below' if order else 'above'} {m['bound']:g}"))
-    return [text for _, text in sorted(out, key=lambda item: -item[0] if item[0] == item[0] else -float("inf"))]
+        where = f"{m['case']} ({m['setting']}), {m['observation']}"
+        if math.isnan(m["measured"]):
+            out.append((-1, f"{where}: nothing to measure"))
+        elif m["what"] == "order at least":
+            out.append((0, f"{where}: order {m['measured']:.3g} below {m['bound']:g}"))
+        else:
+            by = m["measured"] / m["bound"] if m["bound"] else math.inf
+            out.append((by, f"{where}: {m['measured']:.3g} against {m['bound']:g}"))
+    stopped = [f"{text.split(' at time ')[0].split(' by time ')[0]} (stopped)" for text in result["stopped"]]
+    return [text for by, text in sorted(out, key=lambda item: -item[0]) if by >= 0] + stopped + [text for by, text in out if by < 0]
 
 
 def table(suite, mutants, results, known_misses):
@@ -263,7 +273,7 @@ def main():
     kept = yaml.safe_load(store.read_text()) if store.is_file() and not arguments.fresh else {}
 
     def result_for(mutant, run):
-        key = digest(basis.encode(), mutant)
+        key = digest(basis.encode(), places_only(mutant))
         if key not in kept or (arguments.all_cases and len({c["case"] for c in kept[key]["checks"]}) < len(sum(ROUNDS, []))
                                and not kept[key]["build"]):
             kept[key] = run()
@@ -277,14 +287,14 @@ def main():
         checks, stopped = verify(tree, suite_file, sum(ROUNDS, []), arguments.work / "run")
         return {"build": "", "checks": checks, "stopped": stopped}
 
-    unbroken = result_for({"name": "none"}, run_unbroken)
+    unbroken = result_for({"file": "", "find": "", "replace": ""}, run_unbroken)
     known_misses = missed(suite, unbroken["checks"])
     for text in told(suite, unbroken, []):
         tell(f"unbroken code: {text}")
     results = {}
     for k, m in enumerate(mutants):
         chosen = arguments.only in m["name"] or any(arguments.only in place["file"] for place in places(m))
-        known = digest(basis.encode(), m) in kept
+        known = digest(basis.encode(), places_only(m)) in kept
         if not known and (not chosen or time.monotonic() - began > 60 * arguments.minutes):
             continue
         results[m["name"]] = result_for(m, lambda: try_mutant(tree, m, arguments, suite, suite_file, known_misses))
