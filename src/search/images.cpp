@@ -35,6 +35,8 @@ class Mirrors : public Motion {
   }
 
  private:
+  // What gravity did behind the mirror is taken back twice, which errs by half a step of it, m g v dt/2, to
+  // the safe side: without that a lattice that trembles on a mirror gains energy.
   void reflect(Particles& p, const ImagePlane& plane, Index begin, Index end) {
     const Real pull = -g_.dot(plane.normal);
     for (Index i = begin; i < end; ++i) {
