@@ -85,6 +85,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
       world_, diagnostics);
   if (!diagnostics.ok()) return;
   world_.motions.push_back(make_particle_motion());
+  if (mirrors_) world_.motions.push_back(mirrors_);
   add_sph_time_limit(sph_, model_, world_);
   for (PassNote& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
   if (!model_.body_loads.empty())
@@ -132,6 +133,7 @@ void Simulation::add_images(Real h, Diagnostics& diagnostics) {
   auto images = std::make_shared<Images>(planes_);
   neighbours_->set_images(images);
   world_.exchangers.push_back(images);
+  mirrors_ = images->make_mirrors([loads = model_.body_loads](Real t) { return gravity_at(loads, t); });
 }
 
 void Simulation::add_prescribed_motions(Diagnostics& diagnostics) {

@@ -1,5 +1,6 @@
 #include "search/images.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "parallel/parallel.hpp"
@@ -14,6 +15,50 @@ Real depth(const ImagePlane& plane, const Vec& x) {
 
 }  // namespace
 
+namespace {
+
+class Mirrors : public Motion {
+ public:
+  Mirrors(std::vector<ImagePlane> mirrors, std::function<Vec(Real)> gravity)
+      : mirrors_(std::move(mirrors)), gravity_(std::move(gravity)) {}
+  std::string name() const override { return "mirrors"; }
+  void start(World& world, const Clock& clock) override {
+    g_ = gravity_(clock.t);
+    crossings_.assign(block_count(world.particles.moving), 0);
+  }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    for (const ImagePlane& plane : mirrors_) reflect(world.particles, plane, begin, end);
+  }
+  void finish(World& world, const Clock&) override {
+    for (const Index n : crossings_)
+      if (n > 0) world.counters["mirror_crossings"] += n;
+  }
+
+ private:
+  // What gravity did behind the mirror is taken back twice, which errs by half a step of it, m g v dt/2, to
+  // the safe side: without that a lattice that trembles on a mirror gains energy.
+  void reflect(Particles& p, const ImagePlane& plane, Index begin, Index end) {
+    const Real pull = -g_.dot(plane.normal);
+    for (Index i = begin; i < end; ++i) {
+      const Real d = depth(plane, p.x.vec(i));
+      if (!(d < 0)) continue;
+      const Real across = -p.v.vec(i).dot(plane.normal);  // outwards
+      const Real back = i < p.active && across > 0
+                            ? std::sqrt(std::max(across * across + 4 * pull * d, Real(0)))
+                            : std::abs(across);
+      p.x.add(i, -2 * d * plane.normal);
+      p.v.add(i, (across + back) * plane.normal);
+      ++crossings_[begin / block_size];
+    }
+  }
+  std::vector<ImagePlane> mirrors_;
+  std::function<Vec(Real)> gravity_;
+  Vec g_ = Vec::Zero();
+  std::vector<Index> crossings_;  ///< in each block
+};
+
+}  // namespace
+
 Images::Images(std::vector<ImagePlane> planes) : planes_(std::move(planes)) {
   for (const ImagePlane& plane : planes_) {
     Motion m;
@@ -25,6 +70,14 @@ Images::Images(std::vector<ImagePlane> planes) : planes_(std::move(planes)) {
     }
     mirror_.push_back(m);
   }
+}
+
+std::shared_ptr<::courant::Motion> Images::make_mirrors(std::function<Vec(Real)> gravity) const {
+  std::vector<ImagePlane> mirrors;
+  for (const ImagePlane& plane : planes_)
+    if (plane.kind == ImagePlane::Kind::mirror) mirrors.push_back(plane);
+  if (mirrors.empty()) return nullptr;
+  return std::make_shared<Mirrors>(std::move(mirrors), std::move(gravity));
 }
 
 void Images::bring_back(World& world, Index n) {
@@ -45,7 +98,7 @@ void Images::bring_back(World& world, Index n) {
         p.x.set(i, before - std::floor(d / plane.period) * mirror_[k].b);
       }
       if (mirror) ++world.counters["mirror_crossings"];
-      if (i < p.active) brought_back_ += p.m[i] * (p.x.vec(i) - before);
+      if (!mirror && i < p.active) brought_back_ += p.m[i] * (p.x.vec(i) - before);
     }
   }
 }

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -27,9 +29,15 @@ class Images : public Exchanger {
   explicit Images(std::vector<ImagePlane> planes);
   std::string name() const override { return "images"; }
 
+  /// A pass that reflects at the end of each step what went through a mirror in it; null without mirrors.
+  /// `gravity`: the acceleration at a time [L/T2]. It pulled the whole way, towards the mirror and then away
+  /// from it, where it would have turned round: the speed across the mirror gives back what that was too
+  /// much.
+  std::shared_ptr<::courant::Motion> make_mirrors(std::function<Vec(Real t)> gravity) const;
   /// Brings back particles [0, n) that are outside.
   void bring_back(World& world, Index n);
-  /// Sum of mass times shift of the active particles that the last call brought back [ML]
+  /// Sum of mass times shift of the active particles that the last call brought back through periodic planes
+  /// [ML]
   const Vec& brought_back() const { return brought_back_; }
 
   /// Finds which particles [0, moving) have images within `reach` of the planes, makes room for them and puts

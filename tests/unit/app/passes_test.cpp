@@ -148,7 +148,7 @@ TEST(Passes, FixedParticles) {
 TEST(Passes, ImagesBehindAPlane) {
   SmallScene scene;
   scene.extra = "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n";
-  expect_change(scene, {"images"}, {"exchange images"});
+  expect_change(scene, {"images"}, {"exchange images", "motion mirrors"});
 }
 
 TEST(Passes, PrescribedMotionOfParticles) {
