@@ -1,7 +1,5 @@
 #include "app/cli.hpp"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -13,6 +11,7 @@
 
 #include "app/check.hpp"
 #include "app/simulation.hpp"
+#include "app/terminal.hpp"
 #include "app/verify.hpp"
 #include "generate/generate.hpp"
 #include "keyword/registry.hpp"
@@ -89,18 +88,11 @@ int call_run(const Call& call) {
   RunOptions options;
   options.dir = call.dir, options.until = call.until, options.warnings = warnings,
   options.stop = &stop_requested;
-  const bool terminal = isatty(STDOUT_FILENO) != 0;
   if (!call.quiet) {
-    options.print = [&](const std::string& line) {
-      if (line.find("write d3plot file") == std::string::npos)
-        fmt::print("{}{}\n", terminal ? "\r\033[K" : "", line);
-      std::fflush(stdout);
+    options.print = [](const std::string& line) {
+      if (line.find("write d3plot file") == std::string::npos) print_line(line);
     };
-    if (terminal)
-      options.progress = [](const std::string& line) {
-        fmt::print("\r\033[K{}", line);
-        std::fflush(stdout);
-      };
+    options.progress = status_line();
   }
   try {
     const Summary summary = run(*simulation, call.deck, options);

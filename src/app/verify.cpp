@@ -1,11 +1,11 @@
 #include "app/verify.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 
+#include "app/terminal.hpp"
 #include "output/file.hpp"
 #include "verify/compare.hpp"
 #include "verify/report.hpp"
@@ -38,16 +38,8 @@ VerifyOptions options_of(const VerifyCall& call, const std::filesystem::path& fo
   options.fresh = call.fresh;
   options.only = call.only;
   options.stop = &stop;
-  const bool terminal = isatty(STDOUT_FILENO) != 0;
-  options.print = [terminal](const std::string& line) {
-    fmt::print("{}{}\n", terminal ? "\r\033[K" : "", line);
-    std::fflush(stdout);
-  };
-  if (terminal)
-    options.progress = [](const std::string& line) {
-      fmt::print("\r\033[K{}", line);
-      std::fflush(stdout);
-    };
+  options.print = print_line;
+  options.progress = status_line();
   return options;
 }
 
@@ -96,7 +88,7 @@ int call_verify(const VerifyCall& call, const std::atomic<bool>& stop) {
   std::optional<VerifyOutcome> outcome;
   try {
     if (diagnostics.ok()) outcome = verify_suite(suite, options_of(call, folder, stop), diagnostics);
-    if (isatty(STDOUT_FILENO) != 0) fmt::print("\r\033[K");  // the last line of progress
+    clear_status_line();
     print_error(diagnostics.text());
     if (!outcome) {
       print_error(fmt::format("{} error{}; nothing was run\n", diagnostics.errors(),

@@ -13,10 +13,6 @@ Real depth(const ImagePlane& plane, const Vec& x) {
   return (x - plane.point).dot(plane.normal);
 }
 
-}  // namespace
-
-namespace {
-
 class Mirrors : public Motion {
  public:
   Mirrors(std::vector<ImagePlane> mirrors, std::function<Vec(Real)> gravity)
@@ -131,7 +127,7 @@ void Images::build(World& world, Real reach) {
     if (plane.kind == ImagePlane::Kind::periodic) add(Motion{Matrix::Identity(), -mirror_[k].b}, near_other);
   }
   p.fields.make_room_for_images(count());
-  before_rates(world);
+  copy_field(p.x, p.size(), true);  // places are what images are sorted by
 }
 
 void Images::sort(World& world, std::span<const Index> order) {

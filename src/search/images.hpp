@@ -46,7 +46,6 @@ class Images : public Exchanger {
   Index count() const { return static_cast<Index>(source_.size()); }
   /// Puts image k at order[k]'s place.
   void sort(World& world, std::span<const Index> order);
-  Index source(Index k) const { return source_[k]; }
 
   void before_rates(World& world) override { copy(world, Exchange::before_rates); }
   void before_forces(World& world) override { copy(world, Exchange::before_forces); }

@@ -115,8 +115,7 @@ class Comparer {
           new_cost > old_cost);
   }
   static int rank(const std::string& verdict) {
-    for (const Verdict v :
-         {Verdict::stable, Verdict::degraded, Verdict::stopped, Verdict::refused, Verdict::broken})
+    for (const Verdict v : all_verdicts)
       if (verdict == word_for(v)) return static_cast<int>(v);
     return -1;
   }

@@ -45,22 +45,6 @@ void check_observation(const SuiteObservation& o, std::size_t k, const std::stri
 
 }  // namespace
 
-const char* word_for(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::stable:
-      return "stable";
-    case Verdict::degraded:
-      return "degraded";
-    case Verdict::stopped:
-      return "stopped";
-    case Verdict::refused:
-      return "refused";
-    case Verdict::broken:
-      return "broken";
-  }
-  return "";
-}
-
 std::vector<MeasuredOrder> measured_orders(const SuiteCase& definition, const std::vector<RunResult>& runs) {
   std::vector<MeasuredOrder> out;
   if (definition.size.empty() || definition.stability) return out;

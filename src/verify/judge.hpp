@@ -21,6 +21,4 @@ std::vector<BoundCheck> check_bounds(const SuiteCase& definition, const std::vec
 BoundCheck judge_stability(const SuiteStability& stability, const PlannedRun& planned,
                            const RunNumbers& numbers, RunResult& run);
 
-const char* word_for(Verdict verdict);  ///< "stable"
-
 }  // namespace courant

@@ -157,7 +157,7 @@ std::vector<Figure> map_figures(const CaseResult& result) {
   all.back().notes.push_back(verdict_counts(result) + ".");
   for (const RunResult& run : result.runs)
     if (!run.as_required)
-      all.back().notes.push_back(run_name(run) + " is " + verdict_word(run.verdict) +
+      all.back().notes.push_back(run_name(run) + " is " + word_for(run.verdict) +
                                  ", which the suite does not allow.");
   return all;
 }

@@ -102,7 +102,7 @@ Table runs_table(const CaseResult& result) {
              [](const RunResult& r) { return r.resolution; });
   if (result.definition.stability)
     add_column(table, result, "verdict", false, [](const RunResult& r) {
-      return verdict_word(r.verdict) + (r.as_required ? "" : ", not allowed here");
+      return std::string(word_for(r.verdict)) + (r.as_required ? "" : ", not allowed here");
     });
   add_cost(table, result);
   for (std::size_t k = 0; k < result.definition.observations.size(); ++k) add_observation(table, result, k);

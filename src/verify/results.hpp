@@ -1,5 +1,6 @@
 #pragma once
 // What came out of a suite, for the table, the CSV file and the reports.
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -28,6 +29,13 @@ struct Observed {
 };
 
 enum class Verdict { stable, degraded, stopped, refused, broken };  // broken: crash, hang or garbage
+inline constexpr std::array all_verdicts = {Verdict::stable, Verdict::degraded, Verdict::stopped,
+                                            Verdict::refused, Verdict::broken};
+/// "stable"
+inline const char* word_for(Verdict verdict) {
+  constexpr std::array words = {"stable", "degraded", "stopped", "refused", "broken"};
+  return words[static_cast<std::size_t>(verdict)];
+}
 
 struct RunResult {
   std::string setting;     ///< or the swept values of a stability case: "tssfac = 0.9"

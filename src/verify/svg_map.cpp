@@ -13,8 +13,6 @@
 namespace courant::report {
 namespace {
 
-constexpr std::array all_verdicts = {Verdict::stable, Verdict::degraded, Verdict::stopped, Verdict::refused,
-                                     Verdict::broken};
 constexpr Real letter_width = 7.3, digit_width = 8.6, cell_height = 40, least_width = 46;
 constexpr std::size_t most_letters = 14;  // of a value of a swept parameter, or in a cell
 constexpr std::size_t in_a_row = 7;       // more columns than that had better be rows
@@ -31,7 +29,7 @@ std::string value_of(const RunResult& run) {
 }
 
 std::string hover_of(const RunResult& run) {
-  std::string text = run.setting + ": " + verdict_word(run.verdict);
+  std::string text = run.setting + ": " + word_for(run.verdict);
   if (!run.as_required) text += ", which the suite does not allow";
   for (const std::string& limit : run.exceeded) text += "; " + limit;
   for (const Observed& o : run.observed)
@@ -74,7 +72,7 @@ void turn(StabilityMap& map) {
 }
 
 std::string css_name(const MapCell& cell) {
-  return cell.verdict ? verdict_word(*cell.verdict) : "none";
+  return cell.verdict ? word_for(*cell.verdict) : "none";
 }
 
 std::string draw_cell(const MapCell& cell, Real x, Real y, Real width) {
@@ -155,7 +153,7 @@ std::string draw_legend(const StabilityMap& map, Real full_width, Real& y) {
   for (const Verdict v : all_verdicts) {
     const auto n =
         std::count_if(map.cells.begin(), map.cells.end(), [&](const MapCell& c) { return c.verdict == v; });
-    if (n > 0) entry({v, true, {}, {}}, fmt::format("{} ({})", verdict_word(v), n));
+    if (n > 0) entry({v, true, {}, {}}, fmt::format("{} ({})", word_for(v), n));
   }
   const auto faults =
       std::count_if(map.cells.begin(), map.cells.end(), [](const MapCell& c) { return !c.as_required; });
@@ -185,28 +183,12 @@ char verdict_letter(Verdict verdict) {
   return '!';
 }
 
-std::string verdict_word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::stable:
-      return "stable";
-    case Verdict::degraded:
-      return "degraded";
-    case Verdict::stopped:
-      return "stopped";
-    case Verdict::refused:
-      return "refused";
-    case Verdict::broken:
-      break;
-  }
-  return "broken";
-}
-
 std::string verdict_counts(const CaseResult& result) {
   std::string text;
   for (const Verdict v : all_verdicts) {
     const auto n = std::count_if(result.runs.begin(), result.runs.end(),
                                  [&](const RunResult& r) { return r.verdict == v; });
-    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, verdict_word(v));
+    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, word_for(v));
   }
   return text;
 }

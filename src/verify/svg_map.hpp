@@ -31,7 +31,6 @@ std::optional<StabilityMap> stability_map(const CaseResult& result, const std::s
 
 /// The letter that stands for a verdict, so that the map can be read without colours.
 char verdict_letter(Verdict verdict);
-std::string verdict_word(Verdict verdict);
 
 /// "12 stable, 3 degraded, 1 stopped", those that occur.
 std::string verdict_counts(const CaseResult& result);

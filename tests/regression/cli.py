@@ -7,12 +7,13 @@ import glob
 import os
 import re
 import resource
-import shutil
 import signal
 import subprocess
 import sys
 import time
 import xml.etree.ElementTree as ElementTree
+
+from checks import check, enter_empty_folder, failures
 
 try:
     import h5py
@@ -21,16 +22,7 @@ except ImportError:
     print("Python's h5py is not here: the content of history.h5 is not looked at")
 
 courant, source, work = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), os.path.join(os.path.abspath(sys.argv[3]), "cli")
-shutil.rmtree(work, ignore_errors=True)
-os.makedirs(work)
-os.chdir(work)
-failures = []
-
-
-def check(holds, text):
-    print(("ok      " if holds else "FAILED  ") + text, flush=True)
-    if not holds:
-        failures.append(text)
+enter_empty_folder(work)
 
 
 def call(*words, limit=None, cwd=None):

@@ -14,16 +14,11 @@ import h5py
 import numpy
 import yaml
 
+from checks import check, failures
+
 courant, source, work = sys.argv[1:4]
 scene = os.path.join(source, "keyword_decks", "hydraulic_jump")
 results = os.path.join(work, "jump")
-failures = []
-
-
-def check(holds, text):
-    print(("ok      " if holds else "FAILED  ") + text)
-    if not holds:
-        failures.append(text)
 
 
 def call(*words):

@@ -15,10 +15,11 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
+from checks import check, failures
+
 make_report, work = sys.argv[1], os.path.abspath(sys.argv[2])
 folder = os.path.join(work, "report")
 chromium = shutil.which("chromium") or shutil.which("chromium-browser")
-failures = []
 
 # Put into a page of its own that shows the report in a frame: Chromium's window is never narrower than 500 pixels.
 MEASURE = """<!DOCTYPE html><meta charset="utf-8"><style>body{margin:0}</style>
@@ -50,12 +51,6 @@ addEventListener('load', () => {
     title: page.title, pictures: [...page.images].map(i => i.naturalWidth), paper: view.getComputedStyle(page.body).backgroundColor,
     columns: new Set([...page.querySelectorAll('#case-1-wave .figures > figure')].map(f => f.getBoundingClientRect().left)).size});
 });</script>"""
-
-
-def check(holds, text):
-    print(("ok      " if holds else "FAILED  ") + text)
-    if not holds:
-        failures.append(text)
 
 
 def browse(page, *options):

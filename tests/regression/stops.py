@@ -5,10 +5,11 @@ usage: stops.py COURANT WORK_DIR
 """
 import os
 import re
-import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
+
+from checks import check, enter_empty_folder, failures
 
 try:
     import h5py
@@ -17,16 +18,7 @@ except ImportError:
     print("Python's h5py is not here: the content of history.h5 is not looked at")
 
 courant, work = os.path.abspath(sys.argv[1]), os.path.join(os.path.abspath(sys.argv[2]), "stops")
-shutil.rmtree(work, ignore_errors=True)
-os.makedirs(work)
-os.chdir(work)
-failures = []
-
-
-def check(holds, text):
-    print(("ok      " if holds else "FAILED  ") + text, flush=True)
-    if not holds:
-        failures.append(text)
+enter_empty_folder(work)
 
 
 def deck(name, *, modulus=9e5, pc=-1e20, start=0.0, termination="2.", timestep="0.,0.9", floor=-0.025, thickness=0.05, sfsa=1.0, more=""):

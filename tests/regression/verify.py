@@ -12,11 +12,10 @@ import subprocess
 import sys
 import time
 
+from checks import check, enter_empty_folder, failures
+
 courant, source, work = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), os.path.join(os.path.abspath(sys.argv[3]), "verify")
-shutil.rmtree(work, ignore_errors=True)
-os.makedirs(work)
-os.chdir(work)
-failures = []
+enter_empty_folder(work)
 
 SCENE = os.path.relpath(os.path.join(source, "keyword_decks", "still_water", "scene.yaml"), work)
 SUITE = f"""
@@ -50,12 +49,6 @@ cases:
         - {{name: kinetic, value: kinetic, at_most: 1}}
         - {{name: leaked, value: leaked, at_most: 0}}
 """
-
-
-def check(holds, text):
-    print(("ok      " if holds else "FAILED  ") + text, flush=True)
-    if not holds:
-        failures.append(text)
 
 
 def write(name, text):

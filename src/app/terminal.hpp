@@ -1,0 +1,15 @@
+#pragma once
+// Lines on standard output beside a status line that is written over and over.
+#include <functional>
+#include <string>
+
+namespace courant {
+
+/// Prints a line; on a terminal it takes the place of the status line.
+void print_line(const std::string& line);
+/// Shows a status line; empty where standard output is no terminal.
+std::function<void(const std::string&)> status_line();
+/// Takes the status line away.
+void clear_status_line();
+
+}  // namespace courant
