@@ -13,17 +13,16 @@ FieldRules no_effect_but(Real standard) {
   return {.standard = standard, .honour = Honour::ignored};
 }
 
-struct DatabaseNodout : Entry {
+struct DatabaseNodfor : Entry {
   int binary = 0, lcur = 0, ioopt = 0, option2 = 0, option3 = 0, option4 = 0;
   Real dt = 0, option1 = 0;
 };
-KeywordOf<DatabaseNodout> database_nodout() {
-  using T = DatabaseNodout;
-  return {.names = {"DATABASE_NODOUT",  "DATABASE_NODFOR",  "DATABASE_ELOUT",  "DATABASE_BNDOUT",
-                    "DATABASE_SPCFORC", "DATABASE_RWFORC",  "DATABASE_RBDOUT", "DATABASE_NCFORC",
-                    "DATABASE_SECFORC", "DATABASE_JNTFORC", "DATABASE_DEFORC", "DATABASE_SLEOUT",
-                    "DATABASE_ABSTAT",  "DATABASE_SWFORC",  "DATABASE_TRHIST", "DATABASE_SPHMASSFLOW",
-                    "DATABASE_DISBOUT", "DATABASE_ATDOUT",  "DATABASE_GCEOUT", "DATABASE_CURVOUT"},
+KeywordOf<DatabaseNodfor> database_nodfor() {
+  using T = DatabaseNodfor;
+  return {.names = {"DATABASE_NODFOR", "DATABASE_ELOUT", "DATABASE_RWFORC", "DATABASE_NCFORC",
+                    "DATABASE_SECFORC", "DATABASE_JNTFORC", "DATABASE_DEFORC", "DATABASE_ABSTAT",
+                    "DATABASE_SWFORC", "DATABASE_TRHIST", "DATABASE_SPHMASSFLOW", "DATABASE_DISBOUT",
+                    "DATABASE_ATDOUT", "DATABASE_GCEOUT", "DATABASE_CURVOUT"},
           .purpose = "interval of a history that is not written here",
           .cards = {{.fields = {{"DT", &T::dt, "T", "interval, 0 none", no_output},
                                 {"BINARY", &T::binary, "-", "kind of file", no_effect},
@@ -34,7 +33,7 @@ KeywordOf<DatabaseNodout> database_nodout() {
                                 {"OPTION3", &T::option3, "-", "option of some of them", no_effect},
                                 {"OPTION4", &T::option4, "-", "option of some of them", no_effect}}}}};
 }
-const RegisterKeyword<DatabaseNodout> database_nodout_keyword{database_nodout()};
+const RegisterKeyword<DatabaseNodfor> database_nodfor_keyword{database_nodfor()};
 
 struct DatabaseFormat : Entry {
   int iform = 0, ibinary = 0;

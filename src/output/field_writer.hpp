@@ -45,6 +45,9 @@ class FieldWriter {
   void write(FieldState state);
   void write(const World& world, Real t, int number) { write(take(world, t, number)); }
 
+  int states() const { return states_; }
+  std::int64_t bytes() const { return bytes_; }  ///< of all field files
+
   /// The state of a run that stopped in error, for those who want to look: `fields/failed.vtp` and
   /// `fields/failed_shells.vtu`, which fields.pvd does not list. Active and rim particles whose places a
   /// float32 can hold; nothing where there is none. Other values may be NaN. Throws OutputError.
@@ -62,6 +65,7 @@ class FieldWriter {
   VtkEncoder particle_encoder_, shell_encoder_;
   static constexpr std::chrono::seconds longest_wait_{1};
   int states_ = 0, states_not_listed_ = 0;
+  std::int64_t bytes_ = 0;
   std::chrono::steady_clock::time_point listed_at_;
 };
 
