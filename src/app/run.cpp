@@ -8,6 +8,7 @@
 
 #include "app/advice.hpp"
 #include "app/end_report.hpp"
+#include "app/field_options.hpp"
 #include "app/simulation.hpp"
 #include "base/run_error.hpp"
 #include "model/output_times.hpp"
@@ -75,7 +76,7 @@ class Run {
                 [this](std::string_view line) {
                   if (options_.print) options_.print(std::string(line));
                 }),
-        fields_(options.dir, writer_options(simulation)),
+        fields_(options.dir, field_options(simulation.model(), simulation.sph().hide_inactive)),
         histories_(options.dir, history_requests(simulation)),
         field_schedule_(field_schedule(simulation, end_)) {
     summary_.title = s_.model().title;
@@ -110,12 +111,6 @@ class Run {
       std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is told then
       std::filesystem::remove(dir / name, ignored);
     }
-  }
-  static FieldWriterOptions writer_options(const Simulation& s) {
-    FieldWriterOptions o;
-    for (const ModelPart& part : s.model().parts) o.part_ids.push_back(part.id);
-    o.hide_inactive = s.sph().hide_inactive;
-    return o;
   }
   static OutputSchedule field_schedule(const Simulation& s, Real end) {
     const OutputRequests& wanted = s.model().output;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/field_options.hpp"
 #include "materials/initial_stress.hpp"
 #include "model/build_model.hpp"
 #include "model/included_entries.hpp"
@@ -115,6 +116,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   else
     left_out_.push_back({"fixed particles", "no particle in *BOUNDARY_SPC"});
   add_bodies();
+  check_field_names(deck_, model_.output.fields, world_, diagnostics);
   rules_.dtinit = model_.dtinit;
   if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
   rules_.dtmin = model_.dtmin;

@@ -43,6 +43,7 @@ void ModelBuilder::build_output() {
     build_output_curve(*card, "LCDT", card->lcdt, std::max(card->ioopt, 1), out.d3plot);
     build_left_out_parts(*card, card->psetid);
   }
+  build_field_output();
   build_histories();
 }
 

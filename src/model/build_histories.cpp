@@ -102,11 +102,4 @@ void ModelBuilder::build_history_node() {
   history.erase(std::unique(history.begin(), history.end(), same), history.end());
 }
 
-void ModelBuilder::build_left_out_parts(const Entry& card, Id psetid) {
-  if (psetid == 0) return;
-  std::vector<Index>& out = model_.output.fields.left_out;
-  if (const auto* parts = part_set(card, "PSETID", psetid)) out = *parts;
-  std::sort(out.begin(), out.end());
-}
-
 }  // namespace courant

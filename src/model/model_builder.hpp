@@ -35,9 +35,12 @@ class ModelBuilder {
   void build_history_sph();
   void build_history_node();
   void build_output_curve(const Entry& card, std::string_view field, Id id, int ioopt, OutputTimes& out);
-  void build_left_out_parts(const Entry& card, Id psetid);
   std::vector<Index> listed_nodes(const Entry& card, const std::vector<Id>& ids, bool sets,
                                   std::unordered_set<Id>& sets_seen);
+  // build_field_output.cpp
+  void build_field_output();
+  void build_left_out_parts(const Entry& card, Id psetid);
+  void leave_out(const std::vector<Index>& parts);
   // build_definitions.cpp
   void build_sets();
   void build_curves();
