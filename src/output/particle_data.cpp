@@ -31,8 +31,8 @@ void sort_by_id(const Field<Id>& id, std::vector<Index>& which) {
 
 /// first, first + 1, ...
 VtkArray count_up(std::string name, std::size_t n, Index first) {
-  return make_array<Index>(std::move(name), 1, "", n,
-                           [first](std::size_t i, Index* to) { *to = first + static_cast<Index>(i); });
+  return make_array<Index, 1>(std::move(name), "", n,
+                              [first](std::size_t i, Index* to) { *to = first + static_cast<Index>(i); });
 }
 
 std::vector<std::string> names_to_write(const Particles& particles, const FieldWriterOptions& options) {
@@ -51,20 +51,20 @@ VtkArray array_of(const Particles& p, const std::string& name, const std::vector
                   const FieldWriterOptions& options) {
   const std::size_t n = which.size();
   if (name == part)
-    return make_array<Id>(part, 1, "", n, [&](std::size_t i, Id* to) {
+    return make_array<Id, 1>(part, "", n, [&](std::size_t i, Id* to) {
       *to = options.part_ids.at(static_cast<std::size_t>(p.part[which[i]]));
     });
   if (name == active)
-    return make_array<std::uint8_t>(active, 1, "", n, [&](std::size_t i, std::uint8_t* to) {
+    return make_array<std::uint8_t, 1>(active, "", n, [&](std::size_t i, std::uint8_t* to) {
       *to = p.state[which[i]] == particle_active ? 1 : 0;
     });
   if (name == acceleration)  // outside the box forces are not known, and do nothing
-    return make_reals_of_range(acceleration, 3, "L/T2", n, options.float64, options.eps,
-                               [&](std::size_t i, Real* to) {
-                                 const Index k = which[i];
-                                 for (int c = 0; c < 3; ++c)
-                                   to[c] = k < p.active ? p.f.data(c)[k] / p.m[k] : 0;
-                               });
+    return make_reals_of_range<3>(acceleration, "L/T2", n, options.float64, options.eps,
+                                  [&](std::size_t i, Real* to) {
+                                    const Index k = which[i];
+                                    for (int c = 0; c < 3; ++c)
+                                      to[c] = k < p.active ? p.f.data(c)[k] / p.m[k] : 0;
+                                  });
   return copy_of(*p.fields.find(name), which, options.float64, options.eps);
 }
 
@@ -72,18 +72,19 @@ VtkArray array_of(const Particles& p, const std::string& name, const std::vector
 VtkArray places(const Particles& p, const std::vector<Index>& which, Real t,
                 const FieldWriterOptions& options) {
   constexpr Real round_off = 0x1p-24, most = 1e-3;
-  Real h = std::numeric_limits<Real>::infinity(), far = 0;
+  Real h = which.empty() ? 0 : std::numeric_limits<Real>::infinity(), far = 0;
+  std::vector<Vec> place;
+  place.reserve(which.size());
   for (const Index i : which) {
+    place.push_back(p.place(i, t));
     h = std::min(h, p.h[i]);
-    far = std::max(far, p.place(i, t).cwiseAbs().maxCoeff());
+    far = std::max(far, place.back().cwiseAbs().maxCoeff());
   }
-  if (!std::isfinite(h)) h = 0;
   const bool too_far = far * round_off > std::max(most, options.epsx) * h;
-  return make_reals("Points", 3, "", which.size(), {options.float64 || too_far, options.epsx * h},
-                    [&](std::size_t i, Real* to) {
-                      const Vec x = p.place(which[i], t);
-                      for (int k = 0; k < 3; ++k) to[k] = x[k];
-                    });
+  return make_reals<3>("Points", "", which.size(), {options.float64 || too_far, options.epsx * h},
+                       [&](std::size_t i, Real* to) {
+                         for (int k = 0; k < 3; ++k) to[k] = place[i][k];
+                       });
 }
 
 bool is_left_out(const Particles& p, Index i, Real t, const FieldWriterOptions& options) {

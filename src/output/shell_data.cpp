@@ -23,7 +23,7 @@ VtkSection cells(const Segments& segments, const std::vector<Index>& which) {
   }
   const auto array = [](const char* name, const auto& values) {
     using T = typename std::decay_t<decltype(values)>::value_type;
-    return make_array<T>(name, 1, "", values.size(), [&](std::size_t i, T* to) { *to = values[i]; });
+    return make_array<T, 1>(name, "", values.size(), [&](std::size_t i, T* to) { *to = values[i]; });
   };
   return {"Cells", {array("connectivity", corners), array("offsets", ends), array("types", types)}};
 }
@@ -64,7 +64,7 @@ VtkDataSet shell_data(const World& world, const FieldWriterOptions& options) {
   std::vector<VtkArray> of_nodes, of_segments;
   add_fields(world.nodes.fields, nodes, options, of_nodes);
   add_fields(world.segments.fields, segments, options, of_segments);
-  of_segments.push_back(make_array<Id>("part", 1, "", segments.size(), [&](std::size_t i, Id* to) {
+  of_segments.push_back(make_array<Id, 1>("part", "", segments.size(), [&](std::size_t i, Id* to) {
     *to = options.part_ids.at(static_cast<std::size_t>(world.segments.part[segments[i]]));
   }));
   VtkDataSet out{"UnstructuredGrid",

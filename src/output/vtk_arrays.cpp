@@ -1,5 +1,6 @@
 #include "output/vtk_arrays.hpp"
 
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -21,22 +22,30 @@ namespace {
 template <class T>
 VtkArray whole_numbers(const Field<T>& field, const std::vector<Index>& which) {
   const FieldInfo& info = field.info();
-  return make_array<T>(info.name, info.components, info.dimension, which.size(), [&](std::size_t i, T* to) {
-    for (int k = 0; k < info.components; ++k) to[k] = field.data(k)[which[i]];
-  });
+  if (info.components != 1) throw std::logic_error("field '" + info.name + "' has more than one component");
+  return make_array<T, 1>(info.name, info.dimension, which.size(),
+                          [from = field.data(), &which](std::size_t i, T* to) { *to = from[which[i]]; });
+}
+
+template <int components>
+VtkArray reals(const Field<Real>& field, const std::vector<Index>& which, bool float64, Real eps) {
+  std::array<const Real*, components> from;
+  for (int k = 0; k < components; ++k) from[static_cast<std::size_t>(k)] = field.data(k);
+  return make_reals_of_range<components>(field.info().name, field.info().dimension, which.size(), float64,
+                                         eps, [from, index = which.data()](std::size_t i, Real* to) {
+                                           for (std::size_t k = 0; k < components; ++k)
+                                             to[k] = from[k][index[i]];
+                                         });
 }
 
 }  // namespace
 
 VtkArray copy_of(const FieldBase& field, const std::vector<Index>& which, bool float64, Real eps) {
   const FieldInfo& info = field.info();
-  if (const auto* reals = dynamic_cast<const Field<Real>*>(&field)) {
-    const Real* from[6] = {};
-    for (int k = 0; k < info.components; ++k) from[k] = reals->data(k);
-    return make_reals_of_range(info.name, info.components, info.dimension, which.size(), float64, eps,
-                               [&](std::size_t i, Real* to) {
-                                 for (int k = 0; k < info.components; ++k) to[k] = from[k][which[i]];
-                               });
+  if (const auto* values = dynamic_cast<const Field<Real>*>(&field)) {
+    if (info.components == 1) return reals<1>(*values, which, float64, eps);
+    if (info.components == 3) return reals<3>(*values, which, float64, eps);
+    if (info.components == 6) return reals<6>(*values, which, float64, eps);
   }
   if (const auto* ids = dynamic_cast<const Field<Id>*>(&field)) return whole_numbers(*ids, which);
   if (const auto* indices = dynamic_cast<const Field<Index>*>(&field)) return whole_numbers(*indices, which);

@@ -26,14 +26,15 @@ inline constexpr const char* vtk_type<std::int32_t> = "Int32";
 template <>
 inline constexpr const char* vtk_type<std::uint8_t> = "UInt8";
 
-/// An array of n tuples, each filled by `put(i, to)`.
-template <class T, class Put>
-VtkArray make_array(std::string name, int components, std::string dimension, std::size_t n, const Put& put) {
+/// An array of n tuples, each filled by `put(i, to)`. The number of components is known to the compiler:
+/// this is what the computation waits for at an output.
+template <class T, int components, class Put>
+VtkArray make_array(std::string name, std::string dimension, std::size_t n, const Put& put) {
   VtkArray out{std::move(name), vtk_type<T>, components, std::move(dimension), {}};
-  const std::size_t width = sizeof(T) * static_cast<std::size_t>(components);
+  constexpr std::size_t width = sizeof(T) * components;
   out.bytes.resize(n * width);
   for (std::size_t i = 0; i < n; ++i) {
-    T tuple[6];
+    T tuple[components];
     put(i, tuple);
     std::memcpy(out.bytes.data() + i * width, tuple, width);
   }
@@ -48,14 +49,14 @@ struct RealFormat {
 
 /// An array of reals; put(i, Real to[]) gives a tuple. With an error, values are rounded to multiples of the
 /// largest power of two that keeps it, so that their last bits are 0 and pack well.
-template <class Put>
-VtkArray make_reals(std::string name, int components, std::string dimension, std::size_t n,
-                    const RealFormat& format, const Put& put);
+template <int components, class Put>
+VtkArray make_reals(std::string name, std::string dimension, std::size_t n, const RealFormat& format,
+                    const Put& put);
 
 /// The same, where the error is a part of the range (largest - smallest component) of the values.
-template <class Put>
-VtkArray make_reals_of_range(std::string name, int components, std::string dimension, std::size_t n,
-                             bool float64, Real part_of_range, const Put& put);
+template <int components, class Put>
+VtkArray make_reals_of_range(std::string name, std::string dimension, std::size_t n, bool float64,
+                             Real part_of_range, const Put& put);
 
 /// The largest power of two that is at most 2 `error`: rounding to its multiples is off by `error` at most.
 /// 0 where error is 0.
@@ -70,26 +71,34 @@ std::vector<Index> all_of(Index n);
 
 // ---------------------------------------------------------------------------------------------------------
 
-template <class Put>
-VtkArray make_reals(std::string name, int components, std::string dimension, std::size_t n,
-                    const RealFormat& format, const Put& put) {
+template <int components, class Put>
+VtkArray make_reals(std::string name, std::string dimension, std::size_t n, const RealFormat& format,
+                    const Put& put) {
   const Real quantum = quantum_of(format.error);
-  const auto fill = [&](std::size_t i, auto* to) {
-    Real tuple[6];
+  const auto rounding = [&](std::size_t i, auto* to) {
+    Real tuple[components];
     put(i, tuple);
     for (int k = 0; k < components; ++k)
       to[k] = static_cast<std::remove_pointer_t<decltype(to)>>(rounded(tuple[k], quantum));
   };
-  if (format.float64) return make_array<double>(std::move(name), components, std::move(dimension), n, fill);
-  return make_array<float>(std::move(name), components, std::move(dimension), n, fill);
+  const auto plain = [&](std::size_t i, auto* to) {
+    Real tuple[components];
+    put(i, tuple);
+    for (int k = 0; k < components; ++k) to[k] = static_cast<std::remove_pointer_t<decltype(to)>>(tuple[k]);
+  };
+  const auto make = [&](const auto& fill) {
+    return format.float64 ? make_array<double, components>(std::move(name), std::move(dimension), n, fill)
+                          : make_array<float, components>(std::move(name), std::move(dimension), n, fill);
+  };
+  return quantum == 0 ? make(plain) : make(rounding);
 }
 
-template <class Put>
-VtkArray make_reals_of_range(std::string name, int components, std::string dimension, std::size_t n,
-                             bool float64, Real part_of_range, const Put& put) {
+template <int components, class Put>
+VtkArray make_reals_of_range(std::string name, std::string dimension, std::size_t n, bool float64,
+                             Real part_of_range, const Put& put) {
   RealFormat format{float64, 0};
   if (part_of_range > 0 && n > 0) {
-    Real tuple[6];
+    Real tuple[components];
     put(0, tuple);
     Real low = tuple[0], high = tuple[0];
     for (std::size_t i = 0; i < n; ++i) {
@@ -98,7 +107,7 @@ VtkArray make_reals_of_range(std::string name, int components, std::string dimen
     }
     format.error = part_of_range * (high - low);
   }
-  return make_reals(std::move(name), components, std::move(dimension), n, format, put);
+  return make_reals<components>(std::move(name), std::move(dimension), n, format, put);
 }
 
 }  // namespace courant
