@@ -5,7 +5,7 @@ project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$project/build/release
 logs=$project/build/logs
 
-build_packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libvtk9-dev libyaml-cpp-dev libfmt-dev libcli11-dev)
+build_packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libvtk9-dev libyaml-cpp-dev libfmt-dev libcli11-dev zlib1g-dev liblzma-dev)
 picture_packages=(python3 python3-matplotlib python3-numpy)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-vtk9 python3-h5py python3-yaml chromium valgrind)
 

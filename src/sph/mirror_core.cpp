@@ -17,6 +17,8 @@ namespace {
 /// distances below (Thomas and Couchman 1992 do so for all pairs). Farther away particles, and those of a
 /// flow along the mirror, notice nothing. Continuity takes the same slope as pressure does, so that energy is
 /// kept.
+/// Both only under pressure: tension would pull a particle onto the mirror, through it and back, and each
+/// crossing that ends a step behind it would make energy.
 class MirrorCore : public Rate {
  public:
   MirrorCore(const SphSettings& s, const World& world, std::vector<ImagePlane> mirrors)
@@ -36,8 +38,10 @@ class MirrorCore : public Rate {
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     if (!(clock.dt_old > 0)) return;
     Particles& p = world.particles;
-    // From where it was a step ago; on the other side, which is the same, where it went through the mirror.
+    // p is still that of the force that drove the step. From where it was a step ago; on the other side,
+    // which is the same, where it went through the mirror.
     for_each_at_mirror(p, begin, end, [&](Index i, const Vec& n, Real d) {
+      if (!(p.p[i] > 0)) return;
       const Real before = std::abs(d - clock.dt_old * p.v.vec(i).dot(n));
       p.drhodt[i] -= 2 * p.m[i] * (missing_kernel(p, i, d) - missing_kernel(p, i, before)) / clock.dt_old;
     });
@@ -89,6 +93,7 @@ class MirrorCoreForce : public Force {
     Particles& p = world.particles;
     const Real* pressure = total_pressure_ ? total_pressure_->data() : p.p.data();
     core_->for_each_at_mirror(p, begin, end, [&](Index i, const Vec& n, Real d) {
+      if (!(p.p[i] > 0)) return;
       const Real V = p.m[i] / p.rho[i];
       p.f.add(i, 2 * V * V * pressure[i] * core_->missing_slope(p, i, d) * n);
     });
