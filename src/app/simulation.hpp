@@ -51,6 +51,10 @@ class Simulation {
   PassTimer& timer() { return timer_; }
   Guard& guard() { return *guard_; }  ///< looks every Guard::interval steps, and when told to
   const Guard& guard() const { return *guard_; }
+  /// Saves or loads all that later steps depend on; between steps only. A run that goes on after it, and one
+  /// that is loaded into a fresh simulation of the same deck, have the same bits from then on. Throws
+  /// RestartError where the state is that of another deck.
+  void keep(Archive& archive);
   std::string passes() const;  ///< which passes and outputs are active, and why others are not
 
  private:

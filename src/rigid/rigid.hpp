@@ -12,6 +12,7 @@
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
 #include "model/prescribed_motion.hpp"
+#include "state/keeper.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -60,7 +61,7 @@ Real work_of_drives(const RigidBody& body, const Clock& clock);
 /// omega, which is J omega' = M - omega x J omega. Orientation by quaternion with the implicit midpoint rule,
 /// which keeps |L| exactly; nodes follow exactly. Bodies that are held in all directions are left out of
 /// every loop.
-class RigidBodies : public EnergyTerm {
+class RigidBodies : public EnergyTerm, public Keeper {
  public:
   explicit RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodies)) {}
 
@@ -86,9 +87,8 @@ class RigidBodies : public EnergyTerm {
   /// Force and moment are those on the free body; zero for bodies that are fixed.
   std::vector<RigidBodyReport> reports() const;
 
-  /// For restart: 16 numbers per body (x, v, L, q, and omega); nodes' fields restart by themselves.
-  std::vector<Real> state() const;
-  void set_state(std::span<const Real> state);
+  /// Place, motion and orientation of each body, and the forces of the last step, which reports show.
+  void keep(Archive& archive) override;
 
  private:
   std::vector<RigidBody> bodies_;

@@ -8,13 +8,10 @@ namespace courant::sph_fields {
 inline Field<Real>& strain_rate(Particles& p) {
   return p.fields.add<Real>({.name = "strain_rate", .dimension = "1/T", .components = 6, .restart = false});
 }
-/// Viscous stress: xx yy zz xy yz zx
+/// Viscous stress: xx yy zz xy yz zx. Particles beside the box keep that of when they were active.
 inline Field<Real>& stress(Particles& p) {
-  return p.fields.add<Real>({.name = "stress",
-                             .dimension = "M/LT2",
-                             .components = 6,
-                             .restart = false,
-                             .exchange = Exchange::before_forces});
+  return p.fields.add<Real>(
+      {.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = Exchange::before_forces});
 }
 
 /// q1 c at the last motion
