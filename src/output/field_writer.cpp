@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
@@ -232,6 +233,29 @@ void FieldWriter::write_failed(const World& world, Real t) {
   for (Index k = 0; k < world.nodes.size(); ++k)
     if (!has_place(world.nodes.x.vec(k))) return;
   if (world.segments.size() > 0) put("failed_shells.vtu", shell_encoder_, shell_data(world, options_));
+}
+
+void FieldWriter::keep(Archive& archive) {
+  const Archive::Group inside(archive, "fields");
+  archive("entries", entries_);
+  archive("states", states_);
+}
+
+void FieldWriter::cut(int number) {
+  std::error_code error;
+  std::vector<std::filesystem::path> later;
+  for (std::filesystem::directory_iterator it(dir_ / "fields", error), end; !error && it != end;
+       it.increment(error)) {
+    const std::string name = it->path().stem().string();
+    const std::size_t at = name.find_last_of('_') + 1;
+    int found = 0;
+    if (std::from_chars(name.data() + at, name.data() + name.size(), found).ec == std::errc() &&
+        found >= number)
+      later.push_back(it->path());
+  }
+  write_index();  // first, so that it never names a file that is gone
+  for (const auto& file : later)
+    if (!std::filesystem::remove(file, error) && error) throw OutputError(file, error.message());
 }
 
 void FieldWriter::write_index() {

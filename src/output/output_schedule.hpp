@@ -31,6 +31,10 @@ class OutputSchedule {
     while (next() < t) k_ += 1;
   }
 
+  Real count() const { return k_; }  ///< of intervals at which the next one is due
+  /// For a restart with the same interval: as it was.
+  void set_count(Real count) { k_ = count; }
+
   Real next() const { return k_ * interval_; }  ///< product, not a running sum: no drift [T]
   Real interval() const { return interval_; }
 
