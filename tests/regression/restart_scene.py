@@ -8,7 +8,7 @@ import numpy
 import yaml
 
 
-def deck(name, *, end=0.6, runrsf=40, d3dump=0, plot=0.02, columns=24, rows=16, mass=10.0, glstat=0.01, more=""):
+def deck(name, *, end=0.6, runrsf=40, d3dump=0, plot=0.02, columns=24, rows=16, mass=10.0, glstat=0.01, histories=True, more=""):
     """Water that flows through a box of computation over a floor with friction; a rigid plate falls beside it."""
     nodes = [(0.05 + 0.1 * i, 0.05 + 0.1 * j) for j in range(rows) for i in range(columns)]
     text = "*KEYWORD\n*TITLE\n" + name + "\n*NODE\n"
@@ -23,8 +23,8 @@ def deck(name, *, end=0.6, runrsf=40, d3dump=0, plot=0.02, columns=24, rows=16, 
              "*LOAD_BODY_Y\n1\n*DEFINE_CURVE\n1\n0.,9.81\n9.,9.81\n*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n1,2,3,3\n0.2,0.1,1.,0.,10.\n1.\n"
              f"*CONTROL_TERMINATION\n{end}\n*CONTROL_TIMESTEP\n0.,0.9\n*INITIAL_VELOCITY\n0\n1.5,0.,0.\n")
     text += "".join(f"*DATABASE_{kind}\n{value}\n" for kind, value in
-                    (("BINARY_D3PLOT", plot), ("GLSTAT", glstat), ("MATSUM", 0.013), ("RCFORC", 0.01), ("SPHOUT", 0.05), ("BINARY_RUNRSF", runrsf),
-                     ("BINARY_D3DUMP", d3dump)) if value)
+                    (("BINARY_D3PLOT", plot), ("GLSTAT", glstat * histories), ("MATSUM", 0.013 * histories), ("RCFORC", 0.01 * histories),
+                     ("SPHOUT", 0.05 * histories), ("BINARY_RUNRSF", runrsf), ("BINARY_D3DUMP", d3dump)) if value)
     text += "*DATABASE_HISTORY_SPH\n1,30,200\n" + more + "*END\n"
     with open(name + ".k", "w") as file:
         file.write(text)
