@@ -5,6 +5,7 @@ usage: restart.py COURANT WORK_DIR
 """
 import glob
 import os
+import pty
 import re
 import resource
 import shutil
@@ -59,7 +60,7 @@ for name, threads in (("d3dump01", "2"), ("runrsf", "1"), ("d3dump02", "4")):
     alike("whole", "part", f"from {name}, on {threads} threads")
 shutil.rmtree("part")
 ends(0, "run", "flow.k", "-o", "part", "--until", "0.25", "--quiet")
-ends(0, f"i=flow.k", "r=part", "-o", "part", "ncpu=2", "--quiet")
+ends(0, "i=flow.k", "r=part", "-o", "part", "ncpu=2", "--quiet")
 alike("whole", "part", "a run that ended earlier, by LS-DYNA's words")
 ends(0, "run", "flow.k", "-o", "none", "--until", "0.1", "--no-final-dump", "--quiet")
 check([os.path.basename(f) for f in glob.glob("none/restart/*")] == [], "no restart file where none is wanted")
@@ -123,6 +124,22 @@ with open("going/d3kil", "w") as file:
 check(process.wait(60) == 0 and "termination: normal" in open("going/summary.yaml").read(), "endtime ends the run")
 check("'nonsense' is not known" in said("going"), "an unknown order is told")
 check("write d3dump01 file" in said("going"), "sw3. writes a restart file")
+
+shutil.rmtree("typed", ignore_errors=True)
+process, terminal = pty.fork()
+if process == 0:
+    os.execv(courant, [courant, "run", "long.k", "-o", "typed"])
+typed, text, end = False, b"", time.time() + 60
+while time.time() < end:
+    try:
+        text += os.read(terminal, 65536)
+    except OSError:  # it has ended
+        break
+    if not typed and b"first step" in text:
+        os.write(terminal, b"sw1.\n")
+        typed = True
+code = os.waitpid(process, 0)[1]
+check(code == 0 and b"stopped by sense switch sw1." in text and os.path.exists("typed/restart/d3dump01.h5"), f"sw1. typed at the terminal -> {code}")
 
 for number, name in ((signal.SIGINT, "SIGINT"), (signal.SIGTERM, "SIGTERM")):
     shutil.rmtree("signalled", ignore_errors=True)

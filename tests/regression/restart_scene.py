@@ -2,10 +2,15 @@
 import glob
 import os
 import re
+import sys
 
-import h5py
-import numpy
-import yaml
+try:
+    import h5py
+    import numpy
+    import yaml
+except ImportError as error:
+    print(f"not tested: {error}")
+    sys.exit(77)
 
 
 def deck(name, *, end=0.6, runrsf=40, d3dump=0, plot=0.02, columns=24, rows=16, mass=10.0, glstat=0.01, histories=True, more=""):
