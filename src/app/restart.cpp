@@ -149,6 +149,30 @@ std::vector<std::string> RestartSchedule::due(std::int64_t cycle) {
   return names;
 }
 
+bool prepare_folder(const RunOptions& options) {
+  const fs::path dir = options.dir;
+  std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is told then
+  const bool goes_on = options.restart && fs::equivalent(fs::absolute(options.restart->file).parent_path(),
+                                                         dir / "restart", ignored);
+  make_folder(dir / "restart");
+  retire_restart_files(dir, goes_on ? options.restart->cycle : -1,
+                       options.restart ? options.restart->file : fs::path());
+  for (const char* name : {"summary.yaml", "fields/failed.vtp", "fields/failed_shells.vtu"})
+    fs::remove(dir / name, ignored);
+  if (!goes_on)
+    for (const char* name : {"fields.pvd", "history.h5"}) fs::remove(dir / name, ignored);
+  return goes_on;
+}
+
+HistoryPositions positions_before(const RunOptions& options) {
+  HistoryPositions out;
+  if (!options.restart) return out;
+  Archive archive = Archive::loader(options.restart->state);
+  const Archive::Group inside(archive, "files");
+  out.keep(archive);
+  return out;
+}
+
 int retire_restart_files(const fs::path& dir, std::int64_t cycle, const fs::path& in_use) {
   int count = 0;
   for (const RestartFile& one : restart_files(dir / "restart")) {

@@ -7,6 +7,7 @@
 
 #include "app/simulation.hpp"
 #include "base/restart_error.hpp"
+#include "output/ascii.hpp"
 #include "state/saved_state.hpp"
 
 namespace courant {
@@ -45,6 +46,13 @@ class RestartSchedule {
   std::int64_t runrsf_ = 0, d3dump_ = 0;  ///< cycles between files, 0: none
   int files_ = 1, dumps_ = 0;
 };
+
+/// Makes the folder of results and takes away what an older run's results could pass for this one's by, if
+/// this one is killed. Returns whether the run goes on in the folder that it was in before, and so with the
+/// files there. Throws OutputError.
+bool prepare_folder(const RunOptions& options);
+/// How far the files had come when the restart file was written.
+HistoryPositions positions_before(const RunOptions& options);
 
 /// Moves the restart files in `dir`/restart of states later than `cycle` to `dir`/restart_old, so that nobody
 /// takes those of another run, or of another branch of this one, for the latest. Returns their number.

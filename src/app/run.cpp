@@ -1,13 +1,11 @@
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cmath>
-#include <ctime>
 
 #include <fmt/format.h>
 
 #include "app/advice.hpp"
 #include "app/range_warnings.hpp"
+#include "app/resources.hpp"
 #include "app/restart.hpp"
 #include "app/sense_switches.hpp"
 #include "app/simulation.hpp"
@@ -28,21 +26,6 @@ using Clock_ = std::chrono::steady_clock;
 
 double seconds_since(Clock_::time_point start) {
   return std::chrono::duration<double>(Clock_::now() - start).count();
-}
-
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-std::int64_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss * 1024;
 }
 
 HistoryRequests history_requests(const Simulation& s) {
@@ -110,32 +93,6 @@ class Run {
   }
 
  private:
-  /// An older run's results must not pass for this one's if this one is killed.
-  /// Returns whether the run goes on in the folder that it was in before, and so with the files there.
-  static bool prepare_folder(const RunOptions& options) {
-    const std::filesystem::path dir = options.dir;
-    std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is told then
-    const bool goes_on =
-        options.restart &&
-        std::filesystem::equivalent(std::filesystem::absolute(options.restart->file).parent_path(),
-                                    dir / "restart", ignored);
-    make_folder(dir / "restart");
-    retire_restart_files(dir, goes_on ? options.restart->cycle : -1,
-                         options.restart ? options.restart->file : std::filesystem::path());
-    for (const char* name : {"summary.yaml", "fields/failed.vtp", "fields/failed_shells.vtu"})
-      std::filesystem::remove(dir / name, ignored);
-    if (!goes_on)
-      for (const char* name : {"fields.pvd", "history.h5"}) std::filesystem::remove(dir / name, ignored);
-    return goes_on;
-  }
-  static HistoryPositions positions_before(const RunOptions& options) {
-    HistoryPositions out;
-    if (!options.restart) return out;
-    Archive archive = Archive::loader(options.restart->state);
-    const Archive::Group inside(archive, "files");
-    out.keep(archive);
-    return out;
-  }
   static FieldWriterOptions writer_options(const Simulation& s) {
     FieldWriterOptions o;
     for (const ModelPart& part : s.model().parts) o.part_ids.push_back(part.id);
