@@ -7,7 +7,7 @@ logs=$project/build/logs
 
 build_packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libvtk9-dev libyaml-cpp-dev libfmt-dev libcli11-dev)
 picture_packages=(python3 python3-matplotlib python3-numpy)
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-vtk9 python3-h5py python3-yaml chromium)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-vtk9 python3-h5py python3-yaml chromium valgrind)
 
 say() { printf '%s\n' "$*"; }
 

@@ -90,6 +90,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   if (mirrors_) world_.motions.push_back(mirrors_);
   add_sph_time_limit(sph_, model_, world_);
   for (PassNote& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
+  add_mirror_core(sph_, planes_, world_);
   if (!model_.body_loads.empty())
     world_.forces.push_back(make_gravity(model_, world_, neighbours_));
   else

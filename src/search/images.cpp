@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "parallel/parallel.hpp"
 
 namespace courant {
 
 namespace {
-
-Real depth(const ImagePlane& plane, const Vec& x) {
-  return (x - plane.point).dot(plane.normal);
-}
 
 class Mirrors : public Motion {
  public:
@@ -34,6 +31,7 @@ class Mirrors : public Motion {
   // What gravity did behind the mirror is taken back twice, which errs by half a step of it, m g v dt/2, to
   // the safe side: without that a lattice that trembles on a mirror gains energy.
   void reflect(Particles& p, const ImagePlane& plane, Index begin, Index end) {
+    if (!(least_depth(plane, p, begin, end) < 0)) return;
     const Real pull = -g_.dot(plane.normal);
     for (Index i = begin; i < end; ++i) {
       const Real d = depth(plane, p.x.vec(i));
@@ -54,6 +52,14 @@ class Mirrors : public Motion {
 };
 
 }  // namespace
+
+Real least_depth(const ImagePlane& plane, const Particles& p, Index begin, Index end) {
+  const Real *x = p.x.data(0), *y = p.x.data(1), *z = p.x.data(2);
+  Real least = std::numeric_limits<Real>::infinity();
+#pragma omp simd reduction(min : least)
+  for (Index i = begin; i < end; ++i) least = std::min(least, depth(plane, x[i], y[i], z[i]));
+  return least;
+}
 
 Images::Images(std::vector<ImagePlane> planes) : planes_(std::move(planes)) {
   for (const ImagePlane& plane : planes_) {

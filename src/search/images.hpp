@@ -18,6 +18,18 @@ struct ImagePlane {
   Real period = 0;           ///< periodic: the other plane stands at point + period normal [L]
 };
 
+/// Distance from the plane, into the material [L].
+inline Real depth(const ImagePlane& plane, Real x, Real y, Real z) {
+  const Vec &n = plane.normal, &p = plane.point;
+  return n[0] * (x - p[0]) + n[1] * (y - p[1]) + n[2] * (z - p[2]);
+}
+inline Real depth(const ImagePlane& plane, const Vec& x) {
+  return depth(plane, x[0], x[1], x[2]);
+}
+/// Distance of the particle among [begin, end) that is nearest to the plane, or farthest behind it [L]: so
+/// that blocks of particles far from it cost next to nothing.
+Real least_depth(const ImagePlane& plane, const Particles& p, Index begin, Index end);
+
 /// Images of particles behind planes: neighbours that the pair loops take like any other. A particle within
 /// reach of a mirror has a copy behind it with reflected velocity and stress; one near a periodic plane has a
 /// copy beyond the other plane. Images stand behind all particles in the fields that are exchanged, from

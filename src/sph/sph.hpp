@@ -71,6 +71,9 @@ struct PassNote {
 std::vector<PassNote> add_sph_passes(World& world, const SphSettings& settings,
                                      std::shared_ptr<Neighbours> neighbours);
 
+/// What holds particles off mirrors among `planes`; nothing where there are none. Behind `add_sph_passes`.
+void add_mirror_core(const SphSettings& settings, const std::vector<ImagePlane>& planes, World& world);
+
 class PairGeometry;
 class PairVolumes;
 /// Adds to the motions of `world` what keeps q1 c for neighbours.

@@ -2,6 +2,9 @@
 // feature more at a time, in turns with one that has none, so that load from others acts on both alike.
 // Prints the table of docs/performance.md.
 //   feature_costs [particles along a side] [builds] [rounds of each]
+//   feature_costs --steps simulation|passes COUNT    only takes steps of the bare scene, so that others can
+//   count
+//                                                    instructions (absent_features.py)
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -207,9 +210,25 @@ void print(const std::vector<Feature>& features, int n, int builds, int rounds, 
              look, Guard::interval, 100 * look / (Guard::interval * step));
 }
 
+/// One of the two ways that `compare_bare_steps` holds to be the same.
+void take_steps(const std::string& way, int steps) {
+  const SquareOfWater water{.n = 64};
+  if (way == "passes") {
+    BareSteps(water, true).take(steps);
+    return;
+  }
+  const auto s = build(water);
+  for (int k = 0; k < steps; ++k) s->step([](World&, const Clock&, const std::string&) {});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 4 && std::string(argv[1]) == "--steps") {
+    set_threads(1);
+    take_steps(argv[2], std::atoi(argv[3]));
+    return 0;
+  }
   const auto argument = [&](int k, int standard) {
     return argc > k ? std::max(1, std::atoi(argv[k])) : standard;
   };

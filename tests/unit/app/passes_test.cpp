@@ -148,7 +148,8 @@ TEST(Passes, FixedParticles) {
 TEST(Passes, ImagesBehindAPlane) {
   SmallScene scene;
   scene.extra = "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n";
-  expect_change(scene, {"images"}, {"exchange images", "motion mirrors"});
+  expect_change(scene, {"images"},
+                {"exchange images", "rate mirror core (rates)", "force mirror core", "motion mirrors"});
 }
 
 TEST(Passes, PrescribedMotionOfParticles) {
