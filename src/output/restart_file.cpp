@@ -189,6 +189,10 @@ struct Trailer {
   std::uint32_t crc = 0;
 };
 
+std::string trailer_of(const Trailer& t) {
+  return trailer_without_crc(t.format, t.cycle) + fmt::format("{:08x}\n", t.crc);
+}
+
 /// False where the text is not that of a trailer.
 bool parse(std::string_view text, Trailer& to) {
   if (text.size() != trailer_bytes || text.substr(0, trailer_start.size()) != trailer_start) return false;
@@ -200,7 +204,7 @@ bool parse(std::string_view text, Trailer& to) {
   };
   const std::size_t at = trailer_start.size();
   return number(at, 5, to.format, 10) && number(at + 13, 14, to.cycle, 10) &&
-         number(trailer_bytes - crc_bytes, crc_bytes - 1, to.crc, 16);
+         number(trailer_bytes - crc_bytes, crc_bytes - 1, to.crc, 16) && text == trailer_of(to);
 }
 
 std::string content(const fs::path& file) {
@@ -257,9 +261,8 @@ bool get(hid_t file, const std::string& path, SavedArray& to) {
 
 void write_restart_file(const fs::path& file, SavedState& state, std::int64_t cycle) {
   const std::string bytes = image_of(file, state);
-  std::string trailer = trailer_without_crc(restart_format, cycle);
-  trailer += fmt::format("{:08x}\n", crc_of(crc_of(0, bytes), trailer));
-  write_to_disk(file, bytes, trailer);
+  const std::uint32_t crc = crc_of(crc_of(0, bytes), trailer_without_crc(restart_format, cycle));
+  write_to_disk(file, bytes, trailer_of({restart_format, cycle, crc}));
 }
 
 SavedState read_restart_file(const fs::path& file) {

@@ -76,7 +76,7 @@ TEST_F(RestartFiles, AreRefusedForOneWrongBitAnywhere) {
   std::stringstream bytes;
   bytes << stream.rdbuf();
   const std::string whole = bytes.str();
-  for (std::size_t at = 0; at < whole.size(); at += at + 400 < whole.size() ? 97 : 1) {
+  for (std::size_t at = 0; at < whole.size(); at += at + 160 < whole.size() ? 509 : 2) {
     std::string broken = whole;
     broken[at] = static_cast<char>(broken[at] ^ 1 << at % 8);
     std::ofstream(file, std::ios::binary) << broken;
