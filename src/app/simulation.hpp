@@ -54,6 +54,7 @@ class Simulation {
   const std::vector<std::shared_ptr<Contact>>& contacts() const { return contacts_; }
   const RigidBodies* bodies() const { return bodies_.get(); }
   PassTimer& timer() { return timer_; }
+  double read_seconds() const { return read_seconds_; }  ///< for deck and set-up: the first rows of timer()
   Guard& guard() { return *guard_; }  ///< looks every Guard::interval steps, and when told to
   const Guard& guard() const { return *guard_; }
   /// Saves or loads all that later steps depend on; between steps only. A run that goes on after it, and one
@@ -66,6 +67,7 @@ class Simulation {
   Simulation() = default;
   void build_parts(Diagnostics& diagnostics);
   void release_tables();
+  void note_read_seconds(double reading, double building);
   void add_passes(Diagnostics& diagnostics);
   void add_images(Real h, Diagnostics& diagnostics);
   void add_prescribed_motions(Diagnostics& diagnostics);
@@ -90,6 +92,7 @@ class Simulation {
   StepRules rules_;
   std::shared_ptr<Guard> guard_;
   PassTimer timer_;
+  double read_seconds_ = 0;
   std::unique_ptr<Stepper> stepper_;
 };
 

@@ -142,8 +142,9 @@ Real RigidBodies::kinetic_energy() const {
 }
 
 void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
-  for (const RigidBody& b : bodies_) {
+  for (RigidBody& b : bodies_) {
     const Real work = b.motions.empty() ? 0 : work_of_drives(b, clock);
+    b.drive_work += work;
     ledger.external_work += work;
     ledger.throughput += std::abs(work);
   }
@@ -190,6 +191,7 @@ void RigidBodies::keep(Archive& archive) {
     archive.rows("q", std::vector<Real*>{b.q.coeffs().data()}, 4);
     archive("force", b.force);
     archive("moment", b.moment);
+    archive("drive_work", b.drive_work);
   }
 }
 

@@ -40,14 +40,27 @@ const Lists bare{
      "tally sph energy", "force sph forces", "time limit sph time step", "energy sph energy",
      "motion particle motion", "motion sph factors", "guard every 64 steps"},
     {"images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
-     "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION", "kept pair geometry no *COURANT_PAIR_GEOMETRY",
+     "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
+     "kept pair geometry no *COURANT_PAIR_GEOMETRY",
      "smoothing length HMIN = HMAX = 1: h is constant",
      "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
-     "viscous stress MU is 0 in all SPH materials", "speed limit MAXV none given",
-     "computational box no BOXID", "gravity no *LOAD_BODY", "contact no *CONTACT",
-     "fixed particles no particle in *BOUNDARY_SPC", "rigid bodies no *MAT_RIGID",
-     "field states no *DATABASE_BINARY_D3PLOT", "glstat no *DATABASE_GLSTAT", "matsum no *DATABASE_MATSUM",
-     "rcforc no *DATABASE_RCFORC", "sphout no *DATABASE_SPHOUT"}};
+     "viscous stress MU is 0 in all SPH materials",
+     "speed limit MAXV none given",
+     "computational box no BOXID",
+     "gravity no *LOAD_BODY",
+     "contact no *CONTACT",
+     "fixed particles no particle in *BOUNDARY_SPC",
+     "rigid bodies no *MAT_RIGID",
+     "field states no *DATABASE_BINARY_D3PLOT",
+     "glstat no *DATABASE_GLSTAT",
+     "matsum no *DATABASE_MATSUM",
+     "rcforc no *DATABASE_RCFORC",
+     "sleout no *DATABASE_SLEOUT",
+     "sphout no *DATABASE_SPHOUT",
+     "nodout no *DATABASE_NODOUT",
+     "rbdout no *DATABASE_RBDOUT",
+     "bndout no *DATABASE_BNDOUT",
+     "spcforc no *DATABASE_SPCFORC"}};
 
 /// Compares with the barest scene's lists: `gone` of left_out (by their first words) have become `come` among
 /// the active; `other` left-out lines stand with another reason. Order within a list does not matter here:
