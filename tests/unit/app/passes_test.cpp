@@ -41,6 +41,7 @@ const Lists bare{
      "motion particle motion", "motion sph factors", "guard every 64 steps"},
     {"images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
      "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
+     "density diffusion no *COURANT_DENSITY_DIFFUSION",
      "kept pair geometry no *COURANT_PAIR_GEOMETRY",
      "smoothing length HMIN = HMAX = 1: h is constant",
      "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
@@ -163,6 +164,12 @@ TEST(Passes, ImagesBehindAPlane) {
   scene.extra = "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n";
   expect_change(scene, {"images"},
                 {"exchange images", "rate mirror core (rates)", "force mirror core", "motion mirrors"});
+}
+
+TEST(Passes, DensityDiffusion) {
+  SmallScene scene;
+  scene.extra = "*COURANT_DENSITY_DIFFUSION\n0.1\n";
+  expect_change(scene, {"density diffusion"}, {"rate density diffusion", "motion gravity's potential"});
 }
 
 TEST(Passes, PrescribedMotionOfParticles) {
