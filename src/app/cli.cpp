@@ -112,7 +112,10 @@ int call_run(const Call& call) {
     if (!call.quiet) fmt::print("results are in {}\n", call.dir);
     return exit_ok;
   } catch (const RestartError& error) {
-    print_error(fmt::format("error: {}\n  hint: use the program that wrote the file\n", error.what()));
+    print_error(
+        fmt::format("error: {}\n  hint: use the program that wrote the file, with the requests for output of "
+                    "the run so far\n",
+                    error.what()));
     return exit_input;
   } catch (const OutputError& error) {  // the folder could not be set up: nothing was run
     print_error(fmt::format("error: {}\n", error.what()));
