@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "app/check.hpp"
+#include "app/restart.hpp"
 #include "app/simulation.hpp"
 #include "app/terminal.hpp"
 #include "app/verify.hpp"
@@ -36,7 +38,7 @@ struct Call {
   int threads = 0;
   Real until = 0;
   VerifyCall verify;
-  bool quiet = false, markdown = false, strict = false;
+  bool no_final_dump = false, quiet = false, markdown = false, strict = false;
 };
 
 void print_error(const std::string& text) {
@@ -56,11 +58,12 @@ bool parse_params(const std::vector<std::string>& words, std::map<std::string, s
   return true;
 }
 
-std::unique_ptr<Simulation> build(const Call& call, std::vector<std::string>& warnings) {
+std::unique_ptr<Simulation> build(const Call& call, const DeckRecord* before,
+                                  std::vector<std::string>& warnings) {
   ReadOptions read;
   if (!parse_params(call.params, read.parameters)) return nullptr;
   Diagnostics diagnostics;
-  auto simulation = Simulation::build(call.deck, read, diagnostics);
+  auto simulation = Simulation::build(call.deck, read, diagnostics, before);
   print_error(diagnostics.text());
   if (!simulation) {
     print_error(fmt::format("{} error{}; nothing was run, nothing written\n", diagnostics.errors(),
@@ -73,13 +76,16 @@ std::unique_ptr<Simulation> build(const Call& call, std::vector<std::string>& wa
 }
 
 int call_run(const Call& call) {
-  if (!call.restart.empty()) {
-    print_error("error: --restart is not supported yet: runs cannot be continued from a file\n");
+  set_threads(call.threads);
+  std::optional<Restart> restart;
+  try {
+    if (!call.restart.empty()) restart = open_restart(call.restart);
+  } catch (const RestartError& error) {
+    print_error(fmt::format("error: {}\n", error.what()));
     return exit_input;
   }
-  set_threads(call.threads);
   std::vector<std::string> warnings;
-  auto simulation = build(call, warnings);
+  auto simulation = build(call, restart ? &restart->deck : nullptr, warnings);
   if (!simulation) return exit_input;
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
@@ -87,12 +93,14 @@ int call_run(const Call& call) {
               SIG_IGN);  // a limit on file sizes is then a failed write, with a message and a summary
   RunOptions options;
   options.dir = call.dir, options.until = call.until, options.warnings = warnings,
-  options.stop = &stop_requested;
+  options.stop = &stop_requested, options.dump_at_end = !call.no_final_dump;
+  options.restart = restart ? &*restart : nullptr;
   if (!call.quiet) {
     options.print = [](const std::string& line) {
       if (line.find("write d3plot file") == std::string::npos) print_line(line);
     };
     options.progress = status_line();
+    options.keyboard = keyboard_is_terminal();
   }
   try {
     const Summary summary = run(*simulation, call.deck, options);
@@ -103,6 +111,12 @@ int call_run(const Call& call) {
     }
     if (!call.quiet) fmt::print("results are in {}\n", call.dir);
     return exit_ok;
+  } catch (const RestartError& error) {
+    print_error(
+        fmt::format("error: {}\n  hint: use the program that wrote the file, with the requests for output of "
+                    "the run so far\n",
+                    error.what()));
+    return exit_input;
   } catch (const OutputError& error) {  // the folder could not be set up: nothing was run
     print_error(fmt::format("error: {}\n", error.what()));
     return exit_input;
@@ -161,7 +175,7 @@ int call_post(const Call& call) {
   return done ? exit_ok : exit_input;
 }
 
-/// LS-DYNA users type `i=DECK ncpu=N`: rewritten to our options before they are read.
+/// LS-DYNA users type `i=DECK ncpu=N r=FILE`: rewritten to our options before they are read.
 std::vector<std::string> translate_habits(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   std::vector<std::string> out;
@@ -171,6 +185,9 @@ std::vector<std::string> translate_habits(int argc, char** argv) {
       out.push_back(word);
     } else if (word.rfind("i=", 0) == 0) {
       habit = true;
+      out.push_back(word.substr(2));
+    } else if (word.rfind("r=", 0) == 0) {
+      out.push_back("--restart");
       out.push_back(word.substr(2));
     } else if (word.rfind("ncpu=", 0) == 0) {
       out.push_back("--threads");
@@ -198,7 +215,9 @@ int command_line(int argc, char** argv) {
   run_->add_option("--threads", call.threads, "threads; 0: all cores")->check(CLI::NonNegativeNumber);
   run_->add_option("--until", call.until, "end time instead of ENDTIM")->check(CLI::PositiveNumber);
   run_->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER")->allow_extra_args(false);
-  run_->add_option("--restart", call.restart, "continue from a restart file (not supported yet)");
+  run_->add_option("--restart", call.restart,
+                   "go on from this restart file, or from the latest in this folder of results");
+  run_->add_flag("--no-final-dump", call.no_final_dump, "write no restart file at the end or when stopped");
   run_->add_flag("--quiet", call.quiet, "print errors only");
 
   auto* check = app.add_subcommand("check", "read, validate and build a deck; run nothing");

@@ -1,20 +1,22 @@
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cmath>
-#include <ctime>
 
 #include <fmt/format.h>
 
 #include "app/advice.hpp"
 #include "app/end_report.hpp"
 #include "app/field_options.hpp"
+#include "app/resources.hpp"
+#include "app/restart.hpp"
+#include "app/sense_switches.hpp"
 #include "app/simulation.hpp"
 #include "base/run_error.hpp"
 #include "model/output_times.hpp"
 #include "output/ascii.hpp"
 #include "output/field_writer.hpp"
+#include "output/folder_lock.hpp"
 #include "output/messag.hpp"
+#include "output/restart_file.hpp"
 #include "parallel/job_queue.hpp"
 #include "parallel/parallel.hpp"
 #include "time/guard.hpp"
@@ -27,21 +29,6 @@ using Clock_ = std::chrono::steady_clock;
 
 double seconds_since(Clock_::time_point start) {
   return std::chrono::duration<double>(Clock_::now() - start).count();
-}
-
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-std::int64_t peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss * 1024;
 }
 
 OutputSchedule schedule(const OutputTimes& times) {
@@ -68,17 +55,25 @@ HistoryRequests history_requests(const Simulation& s) {
 /// One run with its files.
 class Run {
  public:
-  Run(Simulation& simulation, const std::string& deck_path, const RunOptions& options)
+  Run(Simulation& simulation, const std::string& deck_path, const RunOptions& options, StopFacts facts)
       : s_(simulation),
         options_(options),
         end_(options.until > 0 ? options.until : simulation.model().endtim),
-        messag_((prepare_folder(options.dir), std::filesystem::path(options.dir) / "messag"),
-                [this](std::string_view line) {
-                  if (options_.print) options_.print(std::string(line));
-                }),
+        lock_(options.dir),
+        goes_on_(prepare_folder(options)),
+        messag_(
+            std::filesystem::path(options.dir) / "messag",
+            [this](std::string_view line) {
+              if (options_.print) options_.print(std::string(line));
+            },
+            goes_on_),
+        positions_(positions_before(options)),
         fields_(options.dir, field_options(simulation.model(), simulation.sph().hide_inactive)),
-        histories_(options.dir, history_requests(simulation)),
-        field_schedule_(field_schedule(simulation, end_)) {
+        histories_(options.dir, history_requests(simulation), goes_on_ ? &positions_ : nullptr),
+        field_schedule_(field_schedule(simulation, end_)),
+        restart_schedule_(simulation.deck()),
+        switches_(options.dir, options.keyboard),
+        facts_(std::move(facts)) {
     summary_.title = s_.model().title;
     summary_.deck = deck_path;
     summary_.threads = threads();
@@ -90,6 +85,7 @@ class Run {
   Summary execute() {
     print_start();
     try {
+      if (options_.restart) go_on();
       loop();
       finish_normally();
     } catch (const RunError& error) {
@@ -103,15 +99,6 @@ class Run {
   }
 
  private:
-  /// An older run's results must not pass for this one's if this one is killed.
-  static void prepare_folder(const std::filesystem::path& dir) {
-    make_folder(dir);
-    for (const char* name :
-         {"summary.yaml", "fields.pvd", "history.h5", "fields/failed.vtp", "fields/failed_shells.vtu"}) {
-      std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is told then
-      std::filesystem::remove(dir / name, ignored);
-    }
-  }
   static OutputSchedule field_schedule(const Simulation& s, Real end) {
     const OutputRequests& wanted = s.model().output;
     return wanted.d3plot_count > 0 ? OutputSchedule(end / wanted.d3plot_count) : schedule(wanted.d3plot);
@@ -127,6 +114,133 @@ class Run {
     messag_.line(s_.passes());
     messag_.line(" input of data is completed");
     messag_.line(fmt::format(" termination time                  = {:10.3E}", end_));
+  }
+
+  /// Takes up what the run was at when the restart file was written.
+  void go_on() {
+    Restart& before = *options_.restart;
+    Archive archive = Archive::loader(before.state);
+    keep_run(archive);
+    messag_.line(fmt::format(" *** restart from {} at time {:.6g}, cycle {} ***", before.file.string(),
+                             before.t, before.cycle));
+    if (!goes_on_) {
+      messag_.line(" the files of the run so far are in another folder: files here begin at the restart");
+      histories_.set_first_potential(positions_);
+    } else {
+      const Archive::Group inside(archive, "files");
+      fields_.keep(archive);
+      fields_.cut(state_);
+    }
+    for (const std::string& text : before.warnings) messag_.line(" *** Warning: " + text);
+    for (const std::string& text : histories_.lost()) messag_.line(" *** Warning: " + text);
+    for (const std::string& text : s_.changes()) messag_.line(" changed in the deck: " + text);
+    before.state.clear();
+    newest_restart_ = before.file.string();
+    ++summary_.restarts;
+    kept_cycle_ = s_.clock().cycle;
+  }
+
+  /// What restart files hold of the run itself, without its files.
+  void keep_run(Archive& archive) {
+    const Archive::Group inside(archive, "run");
+    Summary& y = summary_;
+    Real wall = wall_seconds(), cpu = cpu_before_ + cpu_seconds() - cpu_start_,
+         writer = writer_before_ + writer_.cpu_seconds(), read = read_before_ + s_.read_seconds();
+    std::vector<std::string> names;
+    std::vector<Real> seconds;
+    std::vector<std::int64_t> calls;
+    for (const auto& row : s_.timer().table())
+      names.push_back(row.name), seconds.push_back(row.seconds), calls.push_back(row.calls);
+    archive("dt_min", y.dt_min);
+    archive("dt_max", y.dt_max);
+    archive("particle_steps", y.particle_steps);
+    archive("restarts", y.restarts);
+    archive("wall_seconds", wall);
+    archive("cpu_seconds", cpu);
+    archive("writer_cpu_seconds", writer);
+    archive("read_seconds", read);
+    archive("pass_names", names);
+    archive("pass_seconds", seconds);
+    archive("pass_calls", calls);
+    archive("field_state", state_);
+    archive("last_field_time", last_field_time_);
+    restart_schedule_.keep(archive);
+    histories_.keep(archive, s_.clock().t);
+    if (!archive.loading()) return;
+    wall_before_ = wall, cpu_before_ = cpu, writer_before_ = writer, read_before_ = read;
+    for (std::size_t k = 0; k < names.size(); ++k) s_.timer().add({names[k], seconds.at(k), calls.at(k)});
+    field_schedule_.skip_to(s_.clock().t);
+  }
+
+  /// Between two steps. The copy is made here, all else by the thread that writes, after what it has to write
+  /// before, so that the positions in other files are those of now.
+  void write_restart(const std::string& name) {
+    s_.timer().measure("restart files", [&] { submit_restart(name); });
+    messag_.status(s_.clock().cycle, s_.clock().t, s_.clock().dt, fmt::format("write {} file", name));
+    kept_cycle_ = s_.clock().cycle;
+  }
+
+  void submit_restart(const std::string& name) {
+    auto state = std::make_shared<SavedState>();
+    {
+      Archive archive = Archive::saver(*state);
+      Restart head = head_of(s_);
+      keep_head(head, archive);
+      s_.keep(archive);
+      keep_run(archive);
+    }
+    const std::filesystem::path file = std::filesystem::path(options_.dir) / "restart" / (name + ".h5");
+    writer_.submit(
+        [this, state, file, cycle = s_.clock().cycle] {
+          Archive archive = Archive::saver(*state);
+          {
+            const Archive::Group inside(archive, "files");
+            HistoryPositions positions = histories_.positions();
+            positions.keep(archive);
+            fields_.keep(archive);
+          }
+          write_restart_file(file, *state, cycle);
+          newest_restart_ = file.string();
+        },
+        weight_of_state);
+  }
+
+  /// False: the run ends here.
+  bool obey(const SenseSwitch& order) {
+    using Kind = SenseSwitch::Kind;
+    const Clock& clock = s_.clock();
+    messag_.status(clock.cycle, clock.t, clock.dt, "sense switch " + order.text);
+    switch (order.kind) {
+      case Kind::dump_and_stop:
+      case Kind::stop:
+        if (order.kind == Kind::dump_and_stop) write_restart(restart_schedule_.next_dump());
+        summary_.termination = "interrupted";
+        summary_.reason = fmt::format("stopped by sense switch {} at time {:.6g}", order.text, clock.t);
+        return false;
+      case Kind::dump:
+        write_restart(restart_schedule_.next_dump());
+        break;
+      case Kind::plot:
+        plot_wanted_ = true;  // when x, p and f are next of one time
+        break;
+      case Kind::flush:
+        writer_.submit([this] { histories_.finish(), fields_.finish(); });
+        break;
+      case Kind::end_time:
+        end_ = order.end_time;
+        messag_.line(fmt::format(" termination time                  = {:10.3E}", end_));
+        break;
+      case Kind::tell:
+        break;
+      case Kind::unknown:
+        messag_.line(
+            fmt::format(" *** Warning: sense switch '{}' is not known; known are sw1. (restart file, "
+                        "stop), sw2. (time), sw3. (restart file), sw4. (field state), swa. (flush), "
+                        "stop, endtime=T",
+                        order.text));
+        break;
+    }
+    return true;
   }
 
   void loop() {
@@ -145,6 +259,8 @@ class Run {
         at_time_level(world, clock, who);
       });
       summary_.particle_steps += s_.world().particles.active;
+      for (const std::string& name : restart_schedule_.due(s_.clock().cycle)) write_restart(name);
+      if (const auto order = switches_.take(); order && !obey(*order)) return;
       if (s_.clock().cycle % 64 == 0) show_progress();
     }
     summary_.reason = "termination time reached";
@@ -152,10 +268,11 @@ class Run {
 
   void at_time_level(World& world, const Clock& clock, const std::string& who) {
     who_ = who;
-    if (clock.cycle == 0) print_first_step(clock);
+    if (clock.cycle == first_cycle_) print_first_step(clock);
     summary_.dt_min = std::min(summary_.dt_min, clock.dt);
     summary_.dt_max = std::max(summary_.dt_max, clock.dt);
-    if (field_schedule_.take(clock.t, clock.dt)) write_fields(world, clock);
+    if (field_schedule_.take(clock.t, clock.dt) || plot_wanted_) write_fields(world, clock);
+    plot_wanted_ = false;
     if (histories_.is_due(clock.t, clock.dt)) write_histories(false);
     if (clock.cycle % 5000 == 0 && clock.cycle > 0) {
       messag_.status(clock.cycle, clock.t, clock.dt, "flush i/o buffers");
@@ -183,12 +300,13 @@ class Run {
     const Histories::Due due = histories_.take(s_.clock().t, s_.clock().dt, always);
     Sample sample = s_.sample(who_);
     const double steps = static_cast<double>(std::max<std::int64_t>(summary_.particle_steps, 1));
-    sample.ns_per_zone_cycle = 1e9 * seconds_since(start_) / steps;
+    sample.ns_per_zone_cycle = 1e9 * wall_seconds() / steps;
     if (!std::isfinite(sample.energy.total())) s_.guard().look(s_.world(), s_.clock());
     writer_.submit([this, sample = std::move(sample), due] { histories_.write(sample, due); });
   }
 
   void finish_normally() {
+    if (options_.dump_at_end && kept_cycle_ != s_.clock().cycle) write_restart(restart_schedule_.next_dump());
     s_.evaluate(who_);  // pressures and forces at the end time
     s_.timer().measure("guard", [&] { s_.guard().look(s_.world(), s_.clock()); });
     s_.timer().measure("output", [&] { write_last(); });
@@ -223,6 +341,7 @@ class Run {
   void close() {
     s_.timer().measure("output", [&] {
       attempt([&] { writer_.wait(); });
+      tell_restart_file();
       attempt([&] { histories_.finish(); });
       attempt([&] { fields_.finish(); });
       if (failed_state_) attempt([&] { fields_.write_failed(s_.world(), s_.clock().t); });
@@ -230,8 +349,9 @@ class Run {
     Summary& y = summary_;
     y.ranges = s_.guard().ranges();
     y.time = s_.clock().t, y.steps = s_.clock().cycle;
-    y.wall_seconds = seconds_since(start_), y.cpu_seconds = cpu_seconds() - cpu_start_;
-    y.writer_cpu_seconds = writer_.cpu_seconds();
+    y.wall_seconds = wall_seconds(), y.cpu_seconds = cpu_before_ + cpu_seconds() - cpu_start_;
+    y.writer_cpu_seconds = writer_before_ + writer_.cpu_seconds();
+    y.restart_file = newest_restart_;
     y.active_particles = s_.world().particles.active;
     y.peak_memory_bytes = peak_memory();
     y.energy = s_.world().energy;
@@ -240,7 +360,7 @@ class Run {
     y.leaked_particles = y.counters.contains("leaked_particles") ? y.counters.at("leaked_particles") : 0;
     y.max_penetration = y.maxima.contains("max_penetration") ? y.maxima.at("max_penetration") : 0;
     if (!std::isfinite(y.dt_min)) y.dt_min = 0;
-    y.read_seconds = s_.read_seconds();
+    y.read_seconds = read_before_ + s_.read_seconds();
     y.counters["neighbour_rebuilds"] = s_.neighbours().rebuilds();
     for (const std::string& warning : end_warnings(y)) y.warnings.push_back(warning);
     note_times();
@@ -248,6 +368,20 @@ class Run {
     attempt([&] { print_end(); });
     attempt([&] { write_summary(std::filesystem::path(options_.dir) / "summary.yaml", y); });
   }
+
+  /// What can go on from where, for a run that did not reach its end.
+  void tell_restart_file() {
+    const std::string call =
+        fmt::format("courant run {} -o {} --restart {}", summary_.deck, options_.dir, newest_restart_);
+    if (summary_.termination == "error")
+      failure_ += newest_restart_.empty()
+                      ? "\n     no restart file was written; *DATABASE_BINARY_RUNRSF asks for some"
+                      : "\n     to go on from the latest whole state: " + call;
+    else if (summary_.termination == "interrupted" && !newest_restart_.empty())
+      summary_.reason += "; to go on: " + call;
+  }
+
+  double wall_seconds() const { return wall_before_ + seconds_since(start_); }
 
   /// One of the last files; where it fails, the others are still written.
   template <class Write>
@@ -288,10 +422,9 @@ class Run {
   }
 
   void show_progress() {
-    if (s_.clock().cycle == 64) {
-      const double done = s_.clock().t / end_;
-      messag_.line(fmt::format(" estimated clock time to complete    = {:10.0f} sec",
-                               seconds_since(start_) * (1 - done) / done));
+    if (s_.clock().cycle - first_cycle_ < 64 && !estimated_) {
+      estimated_ = true;
+      messag_.line(fmt::format(" estimated clock time to complete    = {:10.0f} sec", seconds_left()));
     }
     if (!options_.progress || seconds_since(shown_) < 0.5) return;
     shown_ = Clock_::now();
@@ -301,8 +434,10 @@ class Run {
   }
 
   std::string time_left() const {
-    const double done = std::min(1.0, s_.clock().t / end_);
-    return done > 0 ? duration(seconds_since(start_) * (1 - done) / done) : "?";
+    return s_.clock().t > first_time_ ? duration(seconds_left()) : "?";
+  }
+  double seconds_left() const {
+    return seconds_since(start_) * std::max(0.0, end_ - s_.clock().t) / (s_.clock().t - first_time_);
   }
 
   /// Energy as the guard saw it last.
@@ -317,14 +452,24 @@ class Run {
   Simulation& s_;
   const RunOptions& options_;
   Real end_;
+  FolderLock lock_;
+  bool goes_on_;  ///< with the files of the run before
   Messag messag_;
+  HistoryPositions positions_;  ///< of the run before
   FieldWriter fields_;
   Histories histories_;
   OutputSchedule field_schedule_;
+  RestartSchedule restart_schedule_;
+  SenseSwitches switches_;
   Summary summary_;
   std::string who_, failure_;
-  StopFacts facts_ = facts_at_start(s_);
-  bool failed_state_ = false;
+  StopFacts facts_;
+  bool failed_state_ = false, plot_wanted_ = false, estimated_ = false;
+  const std::int64_t first_cycle_ = s_.clock().cycle;
+  const Real first_time_ = s_.clock().t;
+  std::int64_t kept_cycle_ = 0;  ///< of the latest restart file
+  std::string newest_restart_;   ///< that is whole; set by the thread that writes
+  Real wall_before_ = 0, cpu_before_ = 0, writer_before_ = 0, read_before_ = 0;  ///< before the restart [s]
   Real last_field_time_ = -1;
   int state_ = 0;
   double cpu_start_ = cpu_seconds();
@@ -340,7 +485,12 @@ class Run {
 }  // namespace
 
 Summary run(Simulation& simulation, const std::string& deck_path, const RunOptions& options) {
-  return Run(simulation, deck_path, options).execute();
+  StopFacts facts = facts_at_start(simulation);
+  if (options.restart) {
+    Archive archive = Archive::loader(options.restart->state);
+    simulation.keep(archive);
+  }
+  return Run(simulation, deck_path, options, std::move(facts)).execute();
 }
 
 }  // namespace courant

@@ -22,12 +22,12 @@ constexpr Real least_skin = 0.02, first_skin = 0.1, most_skin = 0.4;
 }  // namespace
 
 std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, const ReadOptions& options,
-                                              Diagnostics& diagnostics) {
+                                              Diagnostics& diagnostics, const DeckRecord* before) {
   const double start = PassTimer::now();
   Deck deck = read_deck(deck_path, options, diagnostics);
   if (diagnostics.ok()) move_included_entries(deck, diagnostics);
   const double read = PassTimer::now();
-  auto s = from_deck(deck_path, std::move(deck), diagnostics);
+  auto s = from_deck(deck_path, std::move(deck), diagnostics, before);
   if (!s) return s;
   s->note_read_seconds(read - start, PassTimer::now() - read);
   return s;
@@ -40,11 +40,13 @@ void Simulation::note_read_seconds(double reading, double building) {
 }
 
 std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, Deck deck,
-                                                  Diagnostics& diagnostics) {
+                                                  Diagnostics& diagnostics, const DeckRecord* before) {
   std::unique_ptr<Simulation> s(new Simulation);
   for (const char* row : {"keyword reader", "set-up"}) s->timer_.row(row);  // stand first
   s->deck_ = std::move(deck);
   if (!diagnostics.ok()) return nullptr;  // what could not be read or moved would only cause more messages
+  s->record_ = record_deck(s->deck_);
+  if (before) s->changes_ = compare_decks(*before, s->deck_, s->record_, diagnostics);
   s->model_ = build_model(s->deck_, diagnostics);
   release_mesh_cards(s->deck_);
   const bool model_is_whole = diagnostics.ok();

@@ -9,6 +9,7 @@
 
 #include "contact/contact.hpp"
 #include "keyword/deck.hpp"
+#include "keyword/deck_record.hpp"
 #include "materials/materials.hpp"
 #include "model/model.hpp"
 #include "output/sample.hpp"
@@ -21,13 +22,14 @@ namespace courant {
 
 class Simulation {
  public:
-  /// Reads, checks and builds. Returns nullptr when `diagnostics` has errors.
+  /// Reads, checks and builds. Returns nullptr when `diagnostics` has errors. `before`: the deck of the run
+  /// that is to go on; only what may change between the parts of a run may differ from it.
   static std::unique_ptr<Simulation> build(const std::string& deck_path, const ReadOptions& options,
-                                           Diagnostics& diagnostics);
+                                           Diagnostics& diagnostics, const DeckRecord* before = nullptr);
   /// The same for a deck that was read from `deck_path`. Nothing is built where `diagnostics` has errors
   /// already.
   static std::unique_ptr<Simulation> from_deck(const std::string& deck_path, Deck deck,
-                                               Diagnostics& diagnostics);
+                                               Diagnostics& diagnostics, const DeckRecord* before = nullptr);
 
   /// One step; `at_time_level` sees x, p and f of the same time before the kick.
   void step(const AtTimeLevel& at_time_level);
@@ -38,6 +40,9 @@ class Simulation {
   /// Everything the histories print at the present time.
   Sample sample(const std::string& dt_controlled_by);
 
+  const DeckRecord& record() const { return record_; }  ///< the deck as it was read
+  /// How the deck differs from that of the run before, a line for each difference.
+  const std::vector<std::string>& changes() const { return changes_; }
   const Deck& deck() const { return deck_; }     ///< without nodes, elements and text
   const Model& model() const { return model_; }  ///< without nodes and particles: the world holds them
   World& world() { return world_; }
@@ -52,6 +57,10 @@ class Simulation {
   double read_seconds() const { return read_seconds_; }  ///< for deck and set-up: the first rows of timer()
   Guard& guard() { return *guard_; }  ///< looks every Guard::interval steps, and when told to
   const Guard& guard() const { return *guard_; }
+  /// Saves or loads all that later steps depend on; between steps only. A run that goes on after it, and one
+  /// that is loaded into a fresh simulation of the same deck, have the same bits from then on. Throws
+  /// RestartError where the state is that of another deck.
+  void keep(Archive& archive);
   std::string passes() const;  ///< which passes and outputs are active, and why others are not
 
  private:
@@ -67,6 +76,8 @@ class Simulation {
   Ranges reference_of_parts() const;
 
   Deck deck_;
+  DeckRecord record_;
+  std::vector<std::string> changes_;
   Model model_;
   World world_;
   Clock clock_;
@@ -85,6 +96,8 @@ class Simulation {
   std::unique_ptr<Stepper> stepper_;
 };
 
+struct Restart;
+
 struct RunOptions {
   std::string dir = ".";                             ///< where results go
   Real until = 0;                                    ///< > 0: end time instead of ENDTIM [T]
@@ -92,6 +105,9 @@ struct RunOptions {
   std::function<void(const std::string&)> print;     ///< every line of messag
   std::function<void(const std::string&)> progress;  ///< one status line, about once a second
   const std::atomic<bool>* stop = nullptr;           ///< set by a signal: end cleanly after this step
+  bool dump_at_end = true;                           ///< a restart file when the run has ended or is stopped
+  bool keyboard = false;                             ///< sense switches may be typed
+  Restart* restart = nullptr;                        ///< what the run goes on from; emptied on the way
 };
 
 /// Runs to the end and writes all results. Throws OutputError where the folder cannot be written at the

@@ -16,6 +16,10 @@ bool is_terminal() {
 
 }  // namespace
 
+bool keyboard_is_terminal() {
+  return isatty(STDIN_FILENO) != 0;
+}
+
 void clear_status_line() {
   if (is_terminal()) fmt::print("\r\033[K");
 }

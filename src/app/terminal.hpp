@@ -9,6 +9,8 @@ namespace courant {
 void print_line(const std::string& line);
 /// Shows a status line; empty where standard output is no terminal.
 std::function<void(const std::string&)> status_line();
+/// Whether somebody may type.
+bool keyboard_is_terminal();
 /// Takes the status line away.
 void clear_status_line();
 

@@ -278,17 +278,6 @@ InterfaceForce Contact::report() const {
           .energy_friction = friction_work_ - stored_friction};
 }
 
-std::vector<Real> Contact::state() const {
-  return {damping_work_, friction_work_, soft_dt_};
-}
-
-void Contact::set_state(std::span<const Real> state) {
-  if (state.size() != 3) return;
-  damping_work_ = state[0];
-  friction_work_ = state[1];
-  soft_dt_ = state[2];
-}
-
 Contact::Penetrations Contact::penetrations(World& world) {
   Penetrations out;
   const Particles& p = world.particles;

@@ -13,6 +13,7 @@
 #include "contact/wall.hpp"
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
+#include "state/keeper.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -42,13 +43,12 @@ struct ContactLaw {
 /// shortest way out; where several walls meet, to the nearest place that keeps distance r from all (see
 /// push_out.hpp). Each particle has a place in front of the walls that its path belongs to, its ghost: the
 /// particle itself, unless its path went through a mid-surface. It is then pulled back to the ghost's side,
-/// which the ghost only leaves around a free edge, never through a wall. All memory is in particle fields, so
-/// which the ghost only leaves around a free edge, never through a wall. All memory is in particle fields, so
-/// sorting and restart keep it.
+/// which the ghost only leaves around a free edge, never through a wall. What outlives a search of neighbours
+/// is in particle fields, so sorting keeps it.
 ///
 /// Most particles near walls are far from touching, or touch one fixed flat wall or a corner of few. For
 /// these there are shortcuts (quick_touch.cpp) that give the same bits as the full search (touch.cpp).
-class Contact : public Force, public Refresh, public TimeLimit, public EnergyTerm {
+class Contact : public Force, public Refresh, public TimeLimit, public EnergyTerm, public Keeper {
  public:
   /// `tracked`: by particle index. `number` counts interfaces from 1 and keeps their fields apart.
   Contact(ContactLaw law, const ContactOptions& options, int number, const std::vector<Index>& segments,
@@ -67,10 +67,10 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
   InterfaceForce report() const;
 
-  /// What a restart needs besides the particle fields: energies dissipated so far and the step that SOFT 1
-  /// uses.
-  std::vector<Real> state() const;
-  void set_state(std::span<const Real> state);
+  /// What a restart needs besides the particle fields: energies dissipated so far, the step that SOFT 1 uses,
+  /// and what is known of particles near walls since neighbours were searched last.
+  void keep(Archive& archive) override;
+  void loaded(World& world) override { listed_ = world.particles.active; }
 
   struct Penetrations {
     Index count = 0;
@@ -124,6 +124,8 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   };
   struct Near;  ///< scratch of one particle's search
 
+  void keep_slots(Archive& archive);
+  void keep_walls(Archive& archive);
   void choose_shortcuts(const World& world);
   void update_facets(const World& world, const Clock& clock);
   void forget_left(const World& world, std::span<const Index> old_of_new);

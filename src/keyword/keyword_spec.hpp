@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "keyword/card.hpp"
 #include "keyword/deck.hpp"
 
@@ -81,6 +83,8 @@ class KeywordSpec {
   virtual void for_each_id(const Entry& entry, const std::function<void(const IdUse&)>& visit) const = 0;
   /// The number in a field of an entry of this keyword; 0 for texts, lists and skipped columns.
   virtual Real number_of(const Entry& entry, std::size_t card, std::size_t field) const = 0;
+  /// Texts and lists in a field: their values with all digits, apart by blanks; "" for single numbers.
+  virtual std::string text_of(const Entry& entry, std::size_t card, std::size_t field) const = 0;
   /// Moves the places and directions in the entries for which `motion_of` gives a motion. `refuse` hears why
   /// an entry cannot be moved.
   virtual void move(Deck& deck, std::int32_t keyword,
@@ -299,6 +303,19 @@ class KeywordSpecOf : public KeywordSpec {
     if (auto* id = std::get_if<Id T::*>(&member)) return static_cast<Real>(e.*(*id));
     if (auto* real = std::get_if<Real T::*>(&member)) return e.*(*real);
     return 0;
+  }
+  std::string text_of(const Entry& entry, std::size_t card, std::size_t field) const override {
+    const T& e = static_cast<const T&>(entry);
+    const auto& member = keyword_.cards[card].fields[field].member;
+    if (auto* text = std::get_if<std::string T::*>(&member)) return e.*(*text);
+    std::string out;
+    const auto add = [&](const auto& values) {
+      for (const auto& value : values) out += fmt::format("{}{}", out.empty() ? "" : " ", value);
+    };
+    if (auto* ids = std::get_if<std::vector<Id> T::*>(&member)) add(e.*(*ids));
+    if (auto* reals = std::get_if<std::vector<Real> T::*>(&member)) add(e.*(*reals));
+    if (auto* texts = std::get_if<std::vector<std::string> T::*>(&member)) add(e.*(*texts));
+    return out;
   }
   void move(Deck& deck, std::int32_t keyword, const std::function<const Affine*(const Entry&)>& motion_of,
             const std::function<void(const Entry&, const std::string&)>& refuse) const override {

@@ -19,14 +19,23 @@ std::string ascii_legend(const std::vector<Legend>& entries) {
   return out + "{END LEGEND}\n";
 }
 
-Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests) : dir_(dir) {
+Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
+                     const HistoryPositions* resume)
+    : dir_(dir) {
   const std::string header =
       ascii_header(requests.title, fmt::format("{:%m/%d/%Y}", fmt::localtime(std::time(nullptr))));
   const auto open = [&](const char* name, const OutputSchedule& schedule, const std::string& legend,
                         std::string (*text)(const Sample&)) {
     if (!schedule.is_wanted()) return;
-    files_.push_back({schedule, name, TextFile(dir / name), text});
-    files_.back().file.write(header + legend);
+    const bool goes_on = resume && resume->bytes.contains(name);
+    files_.push_back({schedule, name, TextFile(dir / name, goes_on), text});
+    TextFile& file = files_.back().file;
+    if (goes_on) {
+      const auto bytes = static_cast<std::uintmax_t>(resume->bytes.at(name));
+      if (file.size() < bytes) lost_.push_back(fmt::format("{} has lost its end before the restart", name));
+      file.cut(bytes);
+    }
+    if (file.size() == 0) file.write(header + legend);
   };
   make_folder(dir);
   open("glstat", requests.glstat, "", nullptr);
@@ -40,6 +49,41 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests)
   open("spcforc", requests.spcforc, "", spcforc_text);
   choose_h5_times(requests.h5);
   if (!h5_schedules_.empty()) h5_.emplace(dir / "history.h5");
+  if (!resume) return;
+  set_first_potential(*resume);
+  const auto rows = static_cast<std::size_t>(resume->rows);
+  if (h5_ && rows > 0 && h5_->resume(rows) < rows)
+    lost_.push_back("history.h5 has lost samples before the restart");
+}
+
+// What is due next follows from the time; whether the last sample was at this very time does not.
+void Histories::keep(Archive& archive, Real t) {
+  const Archive::Group inside(archive, "histories");
+  std::map<std::string, Real> last;
+  for (const Ascii& file : files_) last[file.name] = file.last;
+  last["history.h5"] = h5_last_;
+  archive("last", last);
+  if (!archive.loading()) return;
+  const auto take_over = [&](const std::string& name, Real& to) {
+    if (last.contains(name)) to = last[name];
+  };
+  for (Ascii& file : files_) {
+    take_over(file.name, file.last);
+    file.schedule.skip_to(t);
+  }
+  take_over("history.h5", h5_last_);
+  for (OutputSchedule& schedule : h5_schedules_) schedule.skip_to(t);
+}
+
+HistoryPositions Histories::positions() {
+  HistoryPositions out;
+  for (const Ascii& file : files_) out.bytes[file.name] = static_cast<std::int64_t>(file.file.size());
+  if (h5_) {
+    h5_->flush();
+    out.rows = static_cast<std::int64_t>(h5_->rows());
+  }
+  if (first_potential_) out.first_potential = {*first_potential_};
+  return out;
 }
 
 void Histories::choose_h5_times(const OutputSchedule& wanted) {

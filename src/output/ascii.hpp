@@ -2,6 +2,7 @@
 // LS-DYNA's ASCII histories. Layouts: those that LS-DYNA R16 prints, measured on real files.
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "output/history.hpp"
 #include "output/output_schedule.hpp"
 #include "output/sample.hpp"
+#include "state/saved_state.hpp"
 
 namespace courant {
 
@@ -59,11 +61,35 @@ struct HistoryRequests {
   std::vector<Legend> parts{}, contacts{}, nodes{};
 };
 
+/// How far the files of a run have come: what a restart cuts them back to.
+struct HistoryPositions {
+  std::map<std::string, std::int64_t> bytes;  ///< of each text file
+  std::int64_t rows = 0;                      ///< of history.h5
+  std::vector<Real> first_potential;          ///< none before the first sample [ML2/T2]
+  void keep(Archive& archive) {
+    archive("bytes", bytes);
+    archive("rows", rows);
+    archive("first_potential", first_potential);
+  }
+};
+
 /// All histories of a run, each at its own interval.
 class Histories {
  public:
-  /// Opens the files that were asked for. Throws OutputError.
-  Histories(const std::filesystem::path& dir, HistoryRequests requests);
+  /// Opens the files that were asked for: empty ones, or those of an earlier run, cut back to where they were
+  /// then. Throws OutputError.
+  Histories(const std::filesystem::path& dir, HistoryRequests requests,
+            const HistoryPositions* resume = nullptr);
+  /// What of the earlier run's files is missing, a line each.
+  const std::vector<std::string>& lost() const { return lost_; }
+  /// When what was written last. `t`: where the run goes on [T]
+  void keep(Archive& archive, Real t);
+  /// Brings all files to the disk and tells how long they are. Belongs to the thread that writes. Throws
+  /// OutputError.
+  HistoryPositions positions();
+  void set_first_potential(const HistoryPositions& before) {
+    if (!before.first_potential.empty()) first_potential_ = before.first_potential[0];
+  }
 
   /// Whether any file is due at the cycle that goes from t to t + dt: only then a Sample need be filled.
   bool is_due(Real t, Real dt) const;
@@ -96,6 +122,7 @@ class Histories {
   std::optional<History> h5_;
   Real h5_last_ = -1;
   std::optional<Real> first_potential_;
+  std::vector<std::string> lost_;
 };
 
 }  // namespace courant

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 #include <limits>
 
@@ -9,6 +10,45 @@
 #include "output/vtk_arrays.hpp"
 
 namespace courant {
+
+namespace {
+
+/// Names and values of arrays, which is what sections are compared by.
+void keep_sections(const std::string& name, std::vector<VtkSection>& sections, Archive& archive) {
+  const Archive::Group inside(archive, name);
+  std::vector<std::int64_t> arrays, sizes;
+  std::vector<std::string> names;
+  std::vector<char> values;
+  for (const VtkSection& section : sections) {
+    arrays.push_back(static_cast<std::int64_t>(section.arrays.size()));
+    for (const VtkArray& array : section.arrays) {
+      names.push_back(array.name);
+      sizes.push_back(static_cast<std::int64_t>(array.bytes.size()));
+      values.insert(values.end(), array.bytes.begin(), array.bytes.end());
+    }
+  }
+  archive("arrays", arrays);
+  archive("names", names);
+  archive("sizes", sizes);
+  archive("values", values);
+  if (!archive.loading()) return;
+  sections.clear();
+  std::size_t k = 0;
+  auto at = values.begin();
+  for (const std::int64_t count : arrays) {
+    VtkSection section{"", {}};
+    for (std::int64_t n = 0; n < count; ++n, ++k) {
+      VtkArray array;
+      array.name = names.at(k);
+      array.bytes.assign(at, at + sizes.at(k));
+      at += sizes.at(k);
+      section.arrays.push_back(std::move(array));
+    }
+    sections.push_back(std::move(section));
+  }
+}
+
+}  // namespace
 
 FieldWriter::FieldWriter(std::filesystem::path dir, FieldWriterOptions options)
     : dir_(std::move(dir)),
@@ -75,6 +115,38 @@ void FieldWriter::write_failed(const World& world, Real t) {
   for (Index k = 0; k < world.nodes.size(); ++k)
     if (!has_place(world.nodes.x.vec(k))) return;
   if (world.segments.size() > 0) put_failed("failed_shells.vtu", shell_encoder_, shell_data(world, all));
+}
+
+void FieldWriter::keep(Archive& archive) {
+  const Archive::Group inside(archive, "fields");
+  archive("entries", entries_);
+  archive("states", states_);
+  archive("bytes", bytes_);
+  archive("shell_file", shell_file_);
+  keep_sections("shells_before", shells_before_, archive);
+  const auto keep_encoder = [&](const char* name, VtkEncoder& encoder) {
+    const Archive::Group group(archive, name);
+    encoder.keep(archive);
+  };
+  keep_encoder("particles", particle_encoder_);
+  keep_encoder("shells", shell_encoder_);
+}
+
+void FieldWriter::cut(int number) {
+  std::error_code error;
+  std::vector<std::filesystem::path> later;
+  for (std::filesystem::directory_iterator it(dir_ / "fields", error), end; !error && it != end;
+       it.increment(error)) {
+    const std::string name = it->path().stem().string();
+    const std::size_t at = name.find_last_of('_') + 1;
+    int found = 0;
+    if (std::from_chars(name.data() + at, name.data() + name.size(), found).ec == std::errc() &&
+        found >= number)
+      later.push_back(it->path());
+  }
+  write_index();  // first, so that it never names a file that is gone
+  for (const auto& file : later)
+    if (!std::filesystem::remove(file, error) && error) throw OutputError(file, error.message());
 }
 
 void FieldWriter::write_index() {

@@ -10,6 +10,7 @@
 
 #include "output/file.hpp"
 #include "output/vtk_xml.hpp"
+#include "state/saved_state.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -69,6 +70,12 @@ class FieldWriter {
   /// `fields/failed_shells.vtu`, which fields.pvd does not list. Active and rim particles whose places a
   /// float32 can hold; nothing where there is none. Other values may be NaN. Throws OutputError.
   void write_failed(const World& world, Real t);
+
+  /// The states that fields.pvd lists. Belongs to the thread that writes.
+  void keep(Archive& archive);
+  /// After loading: takes off the files of states from `number` on, of which fields.pvd then knows nothing.
+  /// Throws OutputError.
+  void cut(int number);
 
   /// Brings fields.pvd up to date; after this the writer may be dropped. Throws OutputError.
   void finish();

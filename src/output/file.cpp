@@ -10,6 +10,8 @@ namespace courant {
 namespace {
 
 std::string advice(const std::string& reason) {
+  if (reason.rfind("another run", 0) == 0)
+    return "wait for its end or stop it, or choose another folder with -o";
   if (reason == std::strerror(ENOSPC) || reason == std::strerror(EDQUOT))
     return "free some space, or choose a folder on another disk with -o, and run again";
   if (reason == std::strerror(EFBIG)) return "raise the limit on file sizes (ulimit -f) and run again";
@@ -70,6 +72,15 @@ void TextFile::write(std::string_view text) {
   std::filesystem::resize_file(file_, size_, ignored);  // half a line would mislead its readers
   std::fseek(stream_.get(), static_cast<long>(size_), SEEK_SET);
   throw OutputError(file_, std::strerror(number));
+}
+
+void TextFile::cut(std::uintmax_t size) {
+  if (size >= size_) return;
+  std::error_code error;
+  std::filesystem::resize_file(file_, size, error);
+  if (error) throw OutputError(file_, error.message());
+  std::fseek(stream_.get(), static_cast<long>(size), SEEK_SET);
+  size_ = size;
 }
 
 }  // namespace courant

@@ -41,6 +41,9 @@ class TextFile {
   explicit TextFile(std::filesystem::path file, bool append = false);
   /// Throws OutputError.
   void write(std::string_view text);
+  std::uintmax_t size() const { return size_; }  ///< [bytes]
+  /// Takes off what stands behind the first `size` bytes. Throws OutputError.
+  void cut(std::uintmax_t size);
 
  private:
   struct Close {

@@ -77,6 +77,31 @@ class HistoryFile {
     if (H5Aexists(object, "title") <= 0) set_text(object, "title", title);
   }
 
+  /// Rows that all datasets have; `most` at most. Those behind are taken off.
+  std::size_t cut(std::size_t most) {
+    std::vector<std::string> paths;
+    check(H5Ovisit(
+        file_, H5_INDEX_NAME, H5_ITER_NATIVE,
+        [](hid_t, const char* name, const H5O_info_t* info, void* to) -> herr_t {
+          if (info->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(to)->emplace_back(name);
+          return 0;
+        },
+        &paths));
+    std::size_t rows = paths.empty() ? 0 : most;
+    for (const bool only_look : {true, false})
+      for (const std::string& path : paths) {
+        Hdf5Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
+        check(dataset);
+        Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+        hsize_t size[2] = {0, 0};
+        check(H5Sget_simple_extent_dims(space, size, nullptr));
+        if (only_look) rows = std::min<std::size_t>(rows, size[0]);
+        size[0] = rows;
+        if (!only_look) check(H5Dset_extent(dataset, size));
+      }
+    return rows;
+  }
+
   /// All bytes of the file.
   std::string image() {
     check(H5Fflush(file_, H5F_SCOPE_LOCAL));
@@ -148,6 +173,16 @@ History::History(std::filesystem::path file, std::size_t buffered_samples, std::
       longest_wait_(longest_wait),
       wait_(longest_wait),
       last_flush_(std::chrono::steady_clock::now()) {}
+
+std::size_t History::resume(std::size_t rows) {
+  const Hdf5Silence silence;
+  std::error_code none;
+  if (!std::filesystem::exists(file_, none)) return 0;
+  HistoryFile h5(file_, content(file_));
+  rows_in_file_ = h5.cut(rows);
+  write_file(file_, h5.image());
+  return rows_in_file_;
+}
 
 void History::record(const Sample& sample) {
   put_global(sample);

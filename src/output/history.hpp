@@ -31,6 +31,11 @@ class History {
   explicit History(std::filesystem::path file, std::size_t buffered_samples = 512,
                    std::chrono::seconds longest_wait = std::chrono::seconds(10));
 
+  /// Goes on with the file that is there, behind its first `rows` rows; what stands behind them is taken off.
+  /// Returns how many rows it goes on from: less where the file has less. Throws OutputError.
+  std::size_t resume(std::size_t rows);
+  std::size_t rows() const { return rows_in_file_ + rows_; }  ///< samples so far
+
   /// Adds a sample; writes to the file when the buffer is full or old. Throws OutputError.
   void record(const Sample& sample);
   /// Appends what is buffered. Call it at the end of the run. Throws OutputError.

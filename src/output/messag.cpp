@@ -19,7 +19,8 @@ std::string status_line(std::int64_t cycle, Real t, Real dt, std::string_view wh
   return fmt::format("{:8d} t {:10.4E} dt {:8.2E} {:<28} {}", cycle, t, dt, what, stamp);
 }
 
-Messag::Messag(const std::filesystem::path& file, Echo echo) : file_(file), echo_(std::move(echo)) {}
+Messag::Messag(const std::filesystem::path& file, Echo echo, bool append)
+    : file_(file, append), echo_(std::move(echo)) {}
 
 void Messag::line(std::string_view text) {
   file_.write(std::string(text) + "\n");

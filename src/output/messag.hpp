@@ -20,8 +20,8 @@ class Messag {
  public:
   using Echo = std::function<void(std::string_view line)>;
 
-  /// Starts an empty file. Throws OutputError.
-  explicit Messag(const std::filesystem::path& file, Echo echo = {});
+  /// Starts an empty file, or goes on at its end. Throws OutputError.
+  explicit Messag(const std::filesystem::path& file, Echo echo = {}, bool append = false);
   /// Adds a line; `text` has no line end. Throws OutputError.
   void line(std::string_view text);
   /// Adds a status line with the present date and time. Throws OutputError.

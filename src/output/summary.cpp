@@ -100,6 +100,8 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
   if (!s.advice.empty()) entry("advice", s.advice);
   entry("time", s.time);
   entry("steps", s.steps);
+  if (s.restarts > 0) entry("restarts", s.restarts);
+  if (!s.restart_file.empty()) entry("restart_file", s.restart_file);
   entry("wall_seconds", s.wall_seconds);
   entry("cpu_seconds", s.cpu_seconds);
   entry("read_seconds", s.read_seconds);

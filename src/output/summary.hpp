@@ -25,6 +25,8 @@ struct Summary {
   std::string advice;       ///< what to change, where the run stopped in error; may be empty
   Real time = 0;            ///< time reached [T]
   std::int64_t steps = 0;
+  int restarts = 0;          ///< parts that the run was made in, but one
+  std::string restart_file;  ///< the latest whole one that was written; empty: none
   double wall_seconds = 0, cpu_seconds = 0;
   double read_seconds = 0;        ///< wall time for deck and set-up, before the run
   double writer_cpu_seconds = 0;  ///< part of cpu_seconds: writing results, beside the computation

@@ -57,6 +57,18 @@ void store(std::string_view block, std::string& out) {
   for (const int shift : {24, 16, 8, 0}) out += static_cast<char>(sum >> shift & 0xff);
 }
 
+/// A block that was stored as it is, by its third byte.
+bool is_stored(std::string_view packed) {
+  return packed.size() > 2 && packed[2] == 1;
+}
+
+/// Tells a block from another, and whether it was stored. A block that is taken for another is only packed
+/// otherwise.
+std::int64_t mark_of(std::string_view block, bool stored) {
+  const auto sum = crc32(crc32(0, nullptr, 0), bytes_of(block), static_cast<unsigned>(block.size()));
+  return 2 * static_cast<std::int64_t>(sum) + (stored ? 1 : 0);
+}
+
 }  // namespace
 
 VtkEncoder::VtkEncoder(Compression compression)
@@ -80,7 +92,7 @@ void VtkEncoder::add_data(Memory& memory, std::string bytes, int stride) {
   std::size_t attempted = 0, reached = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::string_view block = block_of(bytes, b);
-    if (block == block_of(memory.bytes, b)) continue;
+    if (block == block_of(memory.bytes, b) || pack_as_before(memory, b, block, stride)) continue;
     if (as_it_is)
       store(block, memory.blocks[b]);
     else
@@ -96,6 +108,7 @@ void VtkEncoder::add_data(Memory& memory, std::string bytes, int stride) {
   for (const std::string& block : memory.blocks) add_uint32(data_, block.size());
   for (const std::string& block : memory.blocks) data_ += block;
   memory.bytes = std::move(bytes);
+  memory.before_restart.clear();
 }
 
 void VtkEncoder::add_array(const char* section, VtkArray array, const char* attributes) {
@@ -135,6 +148,43 @@ VtkEncoder::File VtkEncoder::encode(VtkDataSet data) {
   header_ += fmt::format("</Piece>\n</{}>\n<AppendedData encoding=\"raw\">\n_", data.type);
   data_ += "\n</AppendedData>\n</VTKFile>\n";
   return {header_, data_};
+}
+
+/// The first state after a restart: a block that was there before it.
+bool VtkEncoder::pack_as_before(Memory& memory, std::size_t b, std::string_view block, int stride) {
+  if (b >= memory.before_restart.size()) return false;
+  const bool stored = memory.before_restart[b] % 2 != 0;
+  if (memory.before_restart[b] != mark_of(block, stored)) return false;
+  if (stored)
+    store(block, memory.blocks[b]);
+  else
+    compressor_->compress(block, stride, memory.blocks[b]);
+  return true;
+}
+
+void VtkEncoder::keep(Archive& archive) {
+  std::map<std::string, std::int64_t> states, counts;
+  std::vector<std::int64_t> marks;
+  const std::size_t size = block_bytes();
+  for (const auto& [name, memory] : memory_) {
+    states[name] = memory.states_to_store;
+    counts[name] = static_cast<std::int64_t>(memory.before_restart.size() + memory.blocks.size());
+    marks.insert(marks.end(), memory.before_restart.begin(), memory.before_restart.end());
+    for (std::size_t b = 0; memory.before_restart.empty() && b < memory.blocks.size(); ++b)
+      marks.push_back(
+          mark_of(std::string_view(memory.bytes).substr(b * size, size), is_stored(memory.blocks[b])));
+  }
+  archive("states_to_store", states);
+  archive("blocks", counts);
+  archive("marks", marks);
+  if (!archive.loading()) return;
+  auto at = marks.begin();
+  for (const auto& [name, count] : counts) {
+    Memory& memory = memory_[name];
+    memory.states_to_store = static_cast<int>(states[name]);
+    memory.before_restart.assign(at, at + count);
+    at += count;
+  }
 }
 
 }  // namespace courant

@@ -1,5 +1,6 @@
 #pragma once
 // VTK's XML files (.vtp, .vtu) with appended raw data, compressed block by block.
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "base/real.hpp"
 #include "output/block_compressor.hpp"
+#include "state/saved_state.hpp"
 
 namespace courant {
 
@@ -50,13 +52,18 @@ class VtkEncoder {
   };
   /// What stands in the file; valid until the next call. Throws std::bad_alloc.
   File encode(VtkDataSet data);
+  /// What of the states so far decides how the next ones are packed: after a restart files have the bytes
+  /// that they would have had.
+  void keep(Archive& archive);
 
  private:
   struct Memory {  // of an array in the state before
     std::string bytes;
-    std::vector<std::string> blocks;  // compressed
-    int states_to_store = 0;          // that many are not worth the time of zlib
+    std::vector<std::string> blocks;           // compressed
+    int states_to_store = 0;                   // that many are not worth the time of zlib
+    std::vector<std::int64_t> before_restart;  // of each block, see mark_of; instead of bytes and blocks
   };
+  bool pack_as_before(Memory& memory, std::size_t b, std::string_view block, int stride);
   void add_array(const char* section, VtkArray array, const char* attributes);
   void add_data(Memory& memory, std::string bytes, int stride);
   std::size_t block_bytes() const { return compression_.method == Compression::Method::xz ? 1 << 18 : 4096; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace courant {
 namespace {
@@ -180,28 +181,17 @@ std::vector<RigidBodyReport> RigidBodies::reports() const {
   return out;
 }
 
-std::vector<Real> RigidBodies::state() const {
-  std::vector<Real> out;
-  for (const RigidBody& b : bodies_) {
-    for (const Vec& a : {b.x, b.v, b.L}) out.insert(out.end(), a.data(), a.data() + 3);
-    for (const Real a : {b.q.w(), b.q.x(), b.q.y(), b.q.z()}) out.push_back(a);
-    out.insert(out.end(), b.omega.data(), b.omega.data() + 3);
-    out.push_back(b.drive_work);
-  }
-  return out;
-}
-
-void RigidBodies::set_state(std::span<const Real> state) {
-  if (state.size() != 17 * bodies_.size()) return;
-  const Real* a = state.data();
+void RigidBodies::keep(Archive& archive) {
   for (RigidBody& b : bodies_) {
-    b.x = {a[0], a[1], a[2]};
-    b.v = {a[3], a[4], a[5]};
-    b.L = {a[6], a[7], a[8]};
-    b.q = Eigen::Quaterniond(a[9], a[10], a[11], a[12]);
-    b.omega = {a[13], a[14], a[15]};
-    b.drive_work = a[16];
-    a += 17;
+    const Archive::Group inside(archive, "part " + std::to_string(b.part));
+    archive("x", b.x);
+    archive("v", b.v);
+    archive("L", b.L);
+    archive("omega", b.omega);
+    archive.rows("q", std::vector<Real*>{b.q.coeffs().data()}, 4);
+    archive("force", b.force);
+    archive("moment", b.moment);
+    archive("drive_work", b.drive_work);
   }
 }
 

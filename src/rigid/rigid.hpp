@@ -12,6 +12,7 @@
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
 #include "model/prescribed_motion.hpp"
+#include "state/keeper.hpp"
 #include "state/reports.hpp"
 #include "state/world.hpp"
 
@@ -65,7 +66,7 @@ BoundaryForce force_of_drives(const RigidBody& body, const Clock& clock);
 /// omega, which is J omega' = M - omega x J omega. Orientation by quaternion with the implicit midpoint rule,
 /// which keeps |L| exactly; nodes follow exactly. Bodies that are held in all directions are left out of
 /// every loop.
-class RigidBodies : public EnergyTerm, public BoundaryForceReporter {
+class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Keeper {
  public:
   explicit RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodies)) {
     for (RigidBody& body : bodies_) body.x0 = body.x;
@@ -96,10 +97,8 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter {
   std::vector<RigidBodyMotion> motions(const Clock& clock) const;
   void report_forces(const World& world, const Clock& clock, std::vector<BoundaryForce>& out) const override;
 
-  /// For restart: 17 numbers per body (x, v, L, q, omega, work of its drives); nodes' fields restart by
-  /// themselves.
-  std::vector<Real> state() const;
-  void set_state(std::span<const Real> state);
+  /// Place, motion and orientation of each body, and the forces of the last step, which reports show.
+  void keep(Archive& archive) override;
 
  private:
   std::vector<RigidBody> bodies_;

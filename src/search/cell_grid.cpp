@@ -17,4 +17,11 @@ void CellGrid::cover(const Vec& low, const Vec& high, Real row, Real bin, Real m
   }
 }
 
+void CellGrid::keep(Archive& archive) {
+  archive("origin", origin_);
+  archive("size", size_);
+  archive("inverse", inverse_);
+  archive.rows("cells", std::vector<Index*>{cells_.data()}, cells_.size());
+}
+
 }  // namespace courant

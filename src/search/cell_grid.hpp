@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/real.hpp"
+#include "state/saved_state.hpp"
 
 namespace courant {
 
@@ -19,6 +20,8 @@ class CellGrid {
   Index total() const { return cells_[0] * cells_[1] * cells_[2]; }
   /// Place of the cell in the snake. Points outside belong to the cell at the border.
   Index cell_of(Real x, Real y, Real z) const { return place(at(x, 0), row_at(at(y, 1), at(z, 2))); }
+
+  void keep(Archive& archive);
 
   /// Calls `visit(first, last)` with ranges of cells, last included, that together hold every point within
   /// `reach` of the box low..high.

@@ -403,11 +403,15 @@ void Neighbours::remember_places(const World& world, const Clock& clock) {
     std::copy(p.h.data() + begin, p.h.data() + end, h_built_.data() + begin);
   });
   built_cycle_ = clock.cycle;
-  if (rebuilds_ == 0)
-    for (Index k = 0; k < world.nodes.size(); ++k)
-      if (!world.nodes.held[k]) moving_nodes_.push_back(k);
+  if (rebuilds_ == 0) find_moving_nodes(world);
   nodes_built_.clear();
   for (const Index k : moving_nodes_) nodes_built_.push_back(world.nodes.x.vec(k));
+}
+
+void Neighbours::find_moving_nodes(const World& world) {
+  moving_nodes_.clear();
+  for (Index k = 0; k < world.nodes.size(); ++k)
+    if (!world.nodes.held[k]) moving_nodes_.push_back(k);
 }
 
 bool Neighbours::nodes_moved(const World& world) const {

@@ -10,6 +10,7 @@
 #include "search/images.hpp"
 #include "search/near_loops.hpp"
 #include "search/region.hpp"
+#include "state/keeper.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -39,6 +40,13 @@ class Neighbours {
   /// Throws RunError naming a particle whose place is no longer a finite number.
   bool refresh(World& world, const Clock& clock);
   void force_refresh() { built_ = false; }
+
+  /// What the next rebuild depends on, with the places of the last one. Lists are not kept: `restore` makes
+  /// them anew from those places, the same entries in the same order.
+  void keep(Archive& archive);
+  /// After loading: lists and images, and with them what `keepers` make of them.
+  void restore(World& world, const std::vector<std::pair<std::string, Keeper*>>& keepers);
+
   /// Looks, as the last pass of the motion stage, whether the lists still hold, so that `refresh` need not.
   std::shared_ptr<Motion> watch();
 
@@ -85,10 +93,12 @@ class Neighbours {
   Real due_time(const Particles& p, Index i) const;
   void note_changes(Particles& p, const std::vector<Index>& old_of_new, Index active_before);
   void build_images(World& world);
+  void count_cells(const World& world);
   void build_lists(World& world);
   Index list_of_group(const World& world, const NearQuery& query, std::vector<Index>& found) const;
   void remember_places(const World& world, const Clock& clock);
   bool nodes_moved(const World& world) const;
+  void find_moving_nodes(const World& world);
 
   Real skin_, least_skin_, most_skin_;
   std::optional<Region> region_;

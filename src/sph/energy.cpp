@@ -5,6 +5,7 @@
 #include "sph/fields.hpp"
 #include "sph/momentum.hpp"
 #include "sph/sph.hpp"
+#include "state/keeper.hpp"
 
 namespace courant {
 
@@ -15,7 +16,7 @@ Real kinetic_and_internal(const Particles& p, const Field<Real>& reference_volum
   return 0.5 * p.m[i] * p.v.vec(i).squaredNorm() + p.E[i] * reference_volume[i];
 }
 
-class SphEnergy : public Tally, public EnergyTerm, public Refresh {
+class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper {
  public:
   SphEnergy(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours)
       : settings_(s),
@@ -79,6 +80,16 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh {
       }
       for (const Index i : neighbours_->left()) exchanged_ -= kinetic_and_internal(p, reference_volume_, i);
     }
+    relist(world);
+  }
+
+  void keep(Archive& archive) override {
+    archive("first", first_);
+    archive("exchanged", exchanged_);
+    archive("inflow", inflow_);
+  }
+  void relist(World& world) override {
+    const Particles& p = world.particles;
     rim_pairs_.clear();
     if (p.moving == p.active) return;
     for (Index g = 0; g * lanes < p.active; ++g)

@@ -8,13 +8,10 @@ namespace courant::sph_fields {
 inline Field<Real>& strain_rate(Particles& p) {
   return p.fields.add<Real>({.name = "strain_rate", .dimension = "1/T", .components = 6, .restart = false});
 }
-/// Viscous stress: xx yy zz xy yz zx
+/// Viscous stress: xx yy zz xy yz zx. Particles beside the box keep that of when they were active.
 inline Field<Real>& stress(Particles& p) {
-  return p.fields.add<Real>({.name = "stress",
-                             .dimension = "M/LT2",
-                             .components = 6,
-                             .restart = false,
-                             .exchange = Exchange::before_forces});
+  return p.fields.add<Real>(
+      {.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = Exchange::before_forces});
 }
 
 /// q1 c at the last motion
@@ -35,8 +32,7 @@ inline Field<Real>& density_diffusion(Particles& p) {
 }
 /// -g.x of gravity; images have that of their particle, as they have its pressure.
 inline Field<Real>& potential(Particles& p) {
-  return p.fields.add<Real>(
-      {.name = "potential", .dimension = "L2/T2", .restart = false, .exchange = Exchange::before_rates});
+  return p.fields.add<Real>({.name = "potential", .dimension = "L2/T2", .exchange = Exchange::before_rates});
 }
 /// Power that artificial viscosity turns into heat
 inline Field<Real>& dissipation(Particles& p) {

@@ -1,5 +1,6 @@
 #include "parallel/parallel.hpp"
 #include "sph/sph.hpp"
+#include "state/keeper.hpp"
 
 namespace courant {
 
@@ -14,7 +15,7 @@ namespace {
 
 /// LOAD_BODY_X/Y/Z on active particles. Potential energy is - sum m g(t).x; where the curve changes or
 /// particles enter and leave, the difference is external work.
-class Gravity : public Force, public EnergyTerm, public Refresh {
+class Gravity : public Force, public EnergyTerm, public Refresh, public Keeper {
  public:
   Gravity(const Model& model, World& world, std::shared_ptr<Neighbours> neighbours)
       : loads_(model.body_loads), neighbours_(std::move(neighbours)) {
@@ -57,6 +58,12 @@ class Gravity : public Force, public EnergyTerm, public Refresh {
       if (neighbours_->images()) exchanged_ -= g.dot(neighbours_->images()->brought_back());
     }
     first_ = false;
+  }
+
+  void keep(Archive& archive) override {
+    archive("origin", origin_);
+    archive("first", first_);
+    archive("exchanged", exchanged_);
   }
 
   Real potential(const World& world, const Vec& g) const {

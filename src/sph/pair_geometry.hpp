@@ -10,6 +10,7 @@
 #include "parallel/buffer.hpp"
 #include "search/neighbours.hpp"
 #include "sph/pair_loops.hpp"
+#include "state/saved_state.hpp"
 
 namespace courant {
 
@@ -52,6 +53,15 @@ class PairGeometry {
   }
   /// True while the gradients of an earlier step still hold; asking makes the next ones valid.
   bool take_valid() { return std::exchange(valid_, kept_); }
+
+  /// Not the gradients: they follow from the places at which they were worked out.
+  void keep(Archive& archive) {
+    archive("moved", moved_);
+    archive("fastest", fastest_);
+    archive("valid", valid_);
+  }
+  /// Whether gradients of an earlier step will be read, so that they must be there after loading.
+  bool valid() const { return valid_; }
 
   PairLists lists(Index begin, Index end) {
     const Index b = begin / block_size;

@@ -20,7 +20,7 @@ void PairVolumes::block(World& world, const Clock&, Index begin, Index end) {
 }
 
 // The rim, too: its density does not change, so nobody works on it in between.
-void PairVolumes::refreshed(World& world, const Clock&, std::span<const Index>) {
+void PairVolumes::fill(World& world) {
   const Particles& p = world.particles;
   const Real *m = p.m.data(), *rho = p.rho.data();
   Real *V = fields_[0]->data(), *W = fields_[1]->data();

@@ -1,5 +1,6 @@
 #pragma once
 // m/rho of particles as pair loops read it of neighbours.
+#include "state/keeper.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -7,7 +8,7 @@ namespace courant {
 /// While threads work on the rates, density already changes: the loops of the rates read the volumes before
 /// that, those of the forces the volumes after. With older ones in the forces, pressure would give back less
 /// work than it took, in proportion to the step. Stands behind the equations of state.
-class PairVolumes : public Material, public Refresh {
+class PairVolumes : public Material, public Refresh, public Keeper {
  public:
   explicit PairVolumes(World& world);
   std::string name() const override { return "sph volumes"; }
@@ -16,9 +17,12 @@ class PairVolumes : public Material, public Refresh {
 
   void block(World& world, const Clock&, Index begin, Index end) override;
   void finish(World&, const Clock&) override { current_ = 1 - current_; }
-  void refreshed(World& world, const Clock&, std::span<const Index>) override;
+  void refreshed(World& world, const Clock&, std::span<const Index>) override { fill(world); }
+  void keep(Archive& archive) override { archive("current", current_); }
+  void loaded(World& world) override { fill(world); }
 
  private:
+  void fill(World& world);
   Field<Real>* fields_[2];
   int current_ = 0;
 };

@@ -7,6 +7,7 @@
 #include "parallel/parallel.hpp"
 #include "sph/fields.hpp"
 #include "sph/sph.hpp"
+#include "state/keeper.hpp"
 
 namespace courant {
 
@@ -14,7 +15,7 @@ namespace {
 
 /// IAVIS 1: q = rho h (Q1 h d^2 - Q2 c d) for d = div v < 0, else 0, the form of solid elements with the
 /// length h.
-class BulkViscosityPass : public Material, public Refresh {
+class BulkViscosityPass : public Material, public Refresh, public Keeper {
  public:
   BulkViscosityPass(const SphSettings& s, World& world)
       : q_(s.q),
@@ -32,7 +33,9 @@ class BulkViscosityPass : public Material, public Refresh {
       heat_[i] = (after_diffusion_ ? heat_[i] : 0) - q * d * p.m[i] / p.rho[i];
     }
   }
-  void refreshed(World& world, const Clock&, std::span<const Index>) override {
+  void refreshed(World& world, const Clock&, std::span<const Index>) override { loaded(world); }
+  void keep(Archive&) override {}
+  void loaded(World& world) override {
     const Particles& p = world.particles;
     for (Index i = p.active; i < p.moving; ++i) total_[i] = p.p[i];  // the rim's pressure does not change
   }

@@ -6,6 +6,7 @@
 #include "sph/pair_volumes.hpp"
 #include "sph/sph.hpp"
 #include "sph/view.hpp"
+#include "state/keeper.hpp"
 
 namespace courant {
 
@@ -13,7 +14,7 @@ namespace {
 
 /// Continuity, and what else needs the velocities of neighbours: Monaghan's viscosity and the velocity
 /// gradient.
-class PairRates : public Rate {
+class PairRates : public Rate, public Keeper {
  public:
   PairRates(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry,
             std::shared_ptr<PairVolumes> volumes)
@@ -38,19 +39,59 @@ class PairRates : public Rate {
   void start(World& world, const Clock& clock) override {
     geometry_->prepare();
     loop_ = !geometry_->kept() ? compute_ : geometry_->take_valid() ? load_ : store_;
-    a_ = particle_arrays(world.particles);
-    a_.V = volumes_->current();
-    a_.qc = viscous_speed_ ? viscous_speed_->data() : nullptr;
-    a_.heat = heat_->data();
-    a_.q2 = q2_;
+    if (loop_ == store_ && geometry_->watches_motion()) note_places(world.particles);
+    take_arrays(world.particles);
     a_.half_step = geometry_->watches_motion() ? 0 : 0.5 * clock.dt_old;
-    for (int k = 0; k < 6; ++k) a_.strain[k] = strain_ ? strain_->data(k) : nullptr;
   }
   void block(World&, const Clock&, Index begin, Index end) override {
     loop_(a_, geometry_->lists(begin, end));
   }
 
+  void keep(Archive& archive) override {
+    geometry_->keep(archive);
+    if (!geometry_->valid()) return;
+    for (int k = 0; k < 3; ++k) archive(std::string("stored_") + "xyz"[k], stored_x_[k]);
+  }
+  // The loop that stores gradients, once more at the places of then; what else it works out is not wanted.
+  void loaded(World& world) override {
+    if (!geometry_->valid()) return;
+    Particles& p = world.particles;
+    exchange_places(world);
+    geometry_->prepare();
+    take_arrays(p);
+    std::vector<Array<Real>> unwanted(11, Array<Real>(p.active, 0.0));
+    for (int k = 0; k < 3; ++k) a_.f[k] = unwanted[k].data();
+    a_.drhodt = unwanted[3].data(), a_.heat = unwanted[4].data();
+    for (int k = 0; k < 6; ++k) a_.strain[k] = strain_ ? unwanted[5 + k].data() : nullptr;
+    a_.half_step = 0;
+    for_each_block(p.active, [&](Index begin, Index end) { store_(a_, geometry_->lists(begin, end)); });
+    exchange_places(world);
+  }
+
  private:
+  void take_arrays(Particles& p) {
+    a_ = particle_arrays(p);
+    a_.V = volumes_->current();
+    a_.qc = viscous_speed_ ? viscous_speed_->data() : nullptr;
+    a_.heat = heat_->data();
+    a_.q2 = q2_;
+    for (int k = 0; k < 6; ++k) a_.strain[k] = strain_ ? strain_->data(k) : nullptr;
+  }
+  void note_places(const Particles& p) {
+    for (int k = 0; k < 3; ++k) {
+      stored_x_[k].resize(p.moving);
+      for_each_block(p.moving, [&](Index begin, Index end) {
+        std::copy(p.x.data(k) + begin, p.x.data(k) + end, stored_x_[k].data() + begin);
+      });
+    }
+  }
+  /// Moving particles and their images are where gradients were stored, or back.
+  void exchange_places(World& world) {
+    for (int k = 0; k < 3; ++k)
+      std::swap_ranges(stored_x_[k].begin(), stored_x_[k].end(), world.particles.x.data(k));
+    for (const auto& e : world.exchangers) e->before_rates(world);
+  }
+
   std::shared_ptr<PairGeometry> geometry_;
   std::shared_ptr<PairVolumes> volumes_;
   Field<Real>* heat_ = nullptr;
@@ -59,11 +100,12 @@ class PairRates : public Rate {
   Real q2_ = 0;
   PairLoop compute_, store_, load_, loop_ = nullptr;
   PairArrays a_{};
+  Array<Real> stored_x_[3];  ///< where gradients that are kept over steps were worked out [L]
 };
 
 /// Keeps q1 c as pair loops read it of neighbours: while threads work on the rates, the sound speed already
 /// changes. Watches how long gradients that are kept over steps hold.
-class PairFactors : public Motion, public Refresh {
+class PairFactors : public Motion, public Refresh, public Keeper {
  public:
   PairFactors(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry)
       : geometry_(std::move(geometry)), q_(s.q) {
@@ -93,8 +135,12 @@ class PairFactors : public Motion, public Refresh {
     geometry_->moved(std::sqrt(most), clock.dt, expires_);
   }
   void refreshed(World& world, const Clock&, std::span<const Index>) override {
-    for_each_block(world.particles.moving, [&](Index begin, Index end) { update(world, begin, end); });
+    loaded(world);
     geometry_->expire();
+  }
+  void keep(Archive&) override {}
+  void loaded(World& world) override {
+    for_each_block(world.particles.moving, [&](Index begin, Index end) { update(world, begin, end); });
   }
 
  private:

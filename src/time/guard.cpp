@@ -151,6 +151,32 @@ void Guard::note_ranges(const World& world, const Clock& clock) {
   }
 }
 
+namespace {
+
+void keep_extreme(const std::string& name, Extreme& e, Archive& archive) {
+  const Archive::Group inside(archive, name);
+  archive("value", e.value);
+  archive("particle", e.particle);
+  archive("t", e.t);
+}
+
+}  // namespace
+
+void Guard::keep(Archive& archive) {
+  archive("initial_size", initial_size_);
+  archive("initial_potential", initial_potential_);
+  archive("initial_internal", initial_internal_);
+  for (std::size_t k = 0; k < ranges_.size(); ++k) {
+    PartRange& r = ranges_[k];
+    const Archive::Group inside(archive, fmt::format("part {}", r.part));
+    archive("c0", r.c0);
+    archive("seen", r.seen);
+    keep_extreme("speed", r.speed, archive);
+    keep_extreme("density_low", r.density_low, archive);
+    keep_extreme("density_high", r.density_high, archive);
+  }
+}
+
 void Guard::start(const EnergyLedger& e) {
   initial_size_ = std::abs(e.kinetic) + std::abs(e.internal) + std::abs(e.contact);
   initial_potential_ = e.potential;

@@ -2,6 +2,7 @@
 // What stops a run that has gone wrong before its results look like results.
 #include <functional>
 
+#include "state/keeper.hpp"
 #include "state/ranges.hpp"
 #include "state/world.hpp"
 
@@ -9,7 +10,7 @@ namespace courant {
 
 /// Looks at the whole state now and then: numbers that are none, energy from nowhere, how far speeds and
 /// densities went. A look reads some twenty arrays once, so it costs little against `interval` steps.
-class Guard {
+class Guard : public Keeper {
  public:
   static constexpr int interval = 64;  ///< steps from look to look
 
@@ -25,6 +26,7 @@ class Guard {
   /// Notes extremes of speed and density; numbers that are not finite are passed over.
   void note_ranges(const World& world, const Clock& clock);
   const Ranges& ranges() const { return ranges_; }
+  void keep(Archive& archive) override;
 
  private:
   void start(const EnergyLedger& e);

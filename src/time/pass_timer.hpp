@@ -23,6 +23,12 @@ class PassTimer {
     table_[row].seconds += seconds;
     ++table_[row].calls;
   }
+  /// Adds what a pass took before a restart.
+  void add(const Row& before) {
+    Row& to = table_[row(before.name)];
+    to.seconds += before.seconds;
+    to.calls += before.calls;
+  }
   template <class F>
   void measure(const std::string& name, F&& f) {
     const double start = now();

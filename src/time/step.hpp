@@ -26,7 +26,7 @@ struct StepRules {
 /// Takes steps of the staggered central difference,
 ///   v^{n+1/2} = v^{n-1/2} + a^n (dt_old + dt)/2,   x^{n+1} = x^n + v^{n+1/2} dt;
 /// density and energy advance with the velocity of the last kick, before the pressure is used.
-class Stepper {
+class Stepper : public Keeper {
  public:
   /// The passes of `world` must not change afterwards.
   Stepper(World& world, Neighbours& neighbours, StepRules rules, PassTimer& timer);
@@ -34,6 +34,7 @@ class Stepper {
   void step(Clock& clock, const AtTimeLevel& at_time_level);
   /// Everything up to the choice of dt, without moving: for `courant check`.
   void evaluate(Clock& clock, std::string& controlled_by);
+  void keep(Archive& archive) override { archive("first_dt", first_dt_); }
 
  private:
   void stop_below_dtmin(const Clock& clock, const std::string& controlled_by);

@@ -195,7 +195,7 @@ class Verification {
     const SuiteCase& definition = suite_.cases[run.plan.of_case];
     clear(run);
     ProcessJob job{{options_.executable.string(), "run", run.deck.string(), "-o", run.folder.string(),
-                    "--threads", "1", "--quiet"},
+                    "--threads", "1", "--no-final-dump", "--quiet"},
                    run.folder,
                    definition.time_limit};
     if (definition.scene.empty())

@@ -148,7 +148,7 @@ with open("warns.k", "w") as file:
     file.write(text.replace("*END", "*DATABASE_NODOUT\n       0.1\n*END"))
 ends(0, "check", "warns.k", err="warning: .DATABASE_NODOUT")
 ends(1, "check", "warns.k", "--strict", err="1 warning")
-ends(1, "run", "tiny.k", "-o", "never", "--restart", "d3dump01", err="not supported")
+ends(1, "run", "tiny.k", "-o", "never", "--restart", "d3dump01", err="cannot restart from .d3dump01.: No such file")
 check(not os.path.exists("never"), "no folder was made")
 
 # --- check: what it says of good, refused and broken decks

@@ -189,7 +189,10 @@ TEST(Rigid, StateRestoresABody) {
   }
   Clock clock;
   for (int k = 0; k < 50; ++k) a.step(clock, 1e-3);
-  b.bodies->set_state(a.bodies->state());
+  SavedState state;
+  Archive saver = Archive::saver(state), loader = Archive::loader(state);
+  a.bodies->keep(saver);
+  b.bodies->keep(loader);
   Clock other = clock;
   a.step(clock, 1e-3);
   b.step(other, 1e-3);

@@ -1,0 +1,28 @@
+// What a restart file holds of a simulation.
+#include "app/simulation.hpp"
+#include "state/keeper.hpp"
+
+namespace courant {
+
+void Simulation::keep(Archive& archive) {
+  const Archive::Group inside(archive, "state");
+  keep_clock(clock_, archive);
+  keep_world(world_, archive);
+  auto keepers = keepers_of(world_);
+  keepers.emplace_back("guard", guard_.get());
+  keepers.emplace_back("stepper", stepper_.get());
+  neighbours_->keep(archive);
+  {
+    const Archive::Group passes(archive, "passes");
+    for (const auto& [name, keeper] : keepers) {
+      const Archive::Group pass(archive, name);
+      keeper->keep(archive);
+    }
+  }
+  if (!archive.loading()) return;
+  archive.stop_for_leftovers();
+  neighbours_->restore(world_, keepers);
+  for (const auto& [name, keeper] : keepers) keeper->loaded(world_);
+}
+
+}  // namespace courant

@@ -1,0 +1,109 @@
+// What the contact knows from one step to the next. Shortcuts give the same bits as the full search, but on
+// which side of a wall a particle is may have been learned many steps ago.
+#include "contact/contact.hpp"
+
+namespace courant {
+
+void Contact::keep(Archive& archive) {
+  archive("damping_work", damping_work_);
+  archive("friction_work", friction_work_);
+  archive("soft_dt", soft_dt_);
+  archive("asleep", asleep_);
+  archive("travel", travel_);
+  keep_walls(archive);
+  keep_slots(archive);
+}
+
+/// Corners of the walls that move, as they were one step ago; the rest of a facet follows from its nodes.
+void Contact::keep_walls(Archive& archive) {
+  std::vector<Vec> corners;
+  for (const Index s : moving_)
+    for (const Vec& x : facets_[s].x) corners.push_back(x);
+  archive("wall_corners", corners);
+  if (!archive.loading()) return;
+  if (corners.size() != 4 * moving_.size()) archive.stop("wall_corners", "belongs to other walls");
+  std::size_t at = 0;
+  for (const Index s : moving_)
+    for (Vec& x : facets_[s].x) x = corners[at++];
+}
+
+namespace {
+
+/// Members of objects one after the other, each in the same order: given to the archive as one list.
+template <class T>
+class Row {
+ public:
+  explicit Row(bool loading) : loading_(loading) {}
+  std::vector<T> values;
+  template <class Member>
+  void operator()(Member& member) {
+    if (loading_)
+      member = static_cast<Member>(values[at_++]);
+    else
+      values.push_back(static_cast<T>(member));
+  }
+  template <class Member, std::size_t n>
+  void operator()(std::array<Member, n>& members) {
+    for (Member& member : members) (*this)(member);
+  }
+
+ private:
+  bool loading_;
+  std::size_t at_ = 0;
+};
+
+constexpr std::size_t indices_of_slot = 10, letters_of_slot = 7, reals_of_slot = 6;
+
+}  // namespace
+
+void Contact::keep_slots(Archive& archive) {
+  const bool loading = archive.loading();
+  std::vector<Index> slots, candidates, facets;
+  std::vector<std::int8_t> sides;
+  for (const Block& b : blocks_) {
+    slots.push_back(static_cast<Index>(b.slots.size()));
+    candidates.push_back(static_cast<Index>(b.candidate.size()));
+    facets.insert(facets.end(), b.candidate.begin(), b.candidate.end());
+    sides.insert(sides.end(), b.side.begin(), b.side.end());
+  }
+  archive("slots", slots);
+  archive("candidates", candidates);
+  archive("facets", facets);
+  archive("sides", sides);
+  if (loading) {
+    blocks_.assign(slots.size(), {});
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      blocks_[k].slots.resize(slots[k]);
+      const std::size_t end = at + static_cast<std::size_t>(candidates[k]);
+      blocks_[k].candidate.assign(facets.begin() + at, facets.begin() + end);
+      blocks_[k].side.assign(sides.begin() + at, sides.begin() + end);
+      at = end;
+    }
+  }
+  Row<Index> indices(loading);
+  Row<std::int8_t> letters(loading);
+  Row<Real> reals(loading);
+  const auto keep_all = [&] {
+    for (Block& b : blocks_)
+      for (Slot& s : b.slots) {
+        indices(s.particle), indices(s.first), indices(s.last), indices(s.facet), indices(s.joint);
+        letters(s.walls), letters(s.side), letters(s.behind), letters(s.skipped), letters(s.joints);
+        reals(s.k), reals(s.room), reals(s.travel);
+        for (int d = 0; d < 3; ++d) reals(s.seen[d]);
+      }
+  };
+  if (!loading) keep_all();
+  archive("slot_indices", indices.values);
+  archive("slot_letters", letters.values);
+  archive("slot_reals", reals.values);
+  if (!loading) return;
+  std::size_t n = 0;
+  for (const Block& b : blocks_) n += b.slots.size();
+  if (indices.values.size() != n * indices_of_slot || letters.values.size() != n * letters_of_slot ||
+      reals.values.size() != n * reals_of_slot)
+    archive.stop("slots", "has another length");
+  keep_all();
+}
+
+}  // namespace courant

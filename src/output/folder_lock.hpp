@@ -1,0 +1,22 @@
+#pragma once
+#include <filesystem>
+
+namespace courant {
+
+/// While it lives no other run writes its results to the folder. The system gives the lock back when the
+/// process ends, however it ends.
+class FolderLock {
+ public:
+  /// Makes the folder where it is missing. Throws OutputError where another run is writing there, or the
+  /// folder cannot be written. File systems without locks are let pass.
+  explicit FolderLock(const std::filesystem::path& folder);
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock();
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+};
+
+}  // namespace courant

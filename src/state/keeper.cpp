@@ -1,0 +1,92 @@
+#include "state/keeper.hpp"
+
+#include <set>
+#include <stdexcept>
+
+namespace courant {
+namespace {
+
+template <class T>
+bool keep_field(FieldBase& field, Index n, Archive& archive) {
+  auto* values = dynamic_cast<Field<T>*>(&field);
+  if (!values) return false;
+  std::vector<T*> rows;
+  for (int k = 0; k < field.info().components; ++k) rows.push_back(values->data(k));
+  archive.rows(field.info().name, rows, static_cast<std::size_t>(n));
+  return true;
+}
+
+void keep_fields(const std::string& group, FieldSet& fields, Archive& archive) {
+  const Archive::Group inside(archive, group);
+  for (const auto& field : fields.all()) {
+    if (!field->info().restart) continue;
+    const Index n = fields.size();
+    if (!keep_field<Real>(*field, n, archive) && !keep_field<Id>(*field, n, archive) &&
+        !keep_field<Index>(*field, n, archive))
+      throw std::logic_error("field '" + field->info().name + "' has a type that restart files do not know");
+  }
+}
+
+void keep_ledger(EnergyLedger& e, Archive& archive) {
+  const Archive::Group inside(archive, "energy");
+  archive("kinetic", e.kinetic);
+  archive("internal", e.internal);
+  archive("potential", e.potential);
+  archive("contact", e.contact);
+  archive("dissipated", e.dissipated);
+  archive("external_work", e.external_work);
+  archive("throughput", e.throughput);
+  archive("initial", e.initial);
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, Keeper*>> keepers_of(const World& world) {
+  std::vector<std::pair<std::string, Keeper*>> out;
+  std::set<std::string> names;
+  std::set<Keeper*> known;
+  const auto add = [&](const auto& passes) {
+    for (const auto& pass : passes) {
+      auto* keeper = dynamic_cast<Keeper*>(pass.get());
+      if (!keeper || !known.insert(keeper).second) continue;
+      std::string name = pass->name();
+      for (int k = 2; !names.insert(name).second; ++k) name = pass->name() + " " + std::to_string(k);
+      out.emplace_back(name, keeper);
+    }
+  };
+  add(world.exchangers);
+  add(world.rates);
+  add(world.materials);
+  add(world.tallies);
+  add(world.forces);
+  add(world.constraints);
+  add(world.motions);
+  add(world.time_limits);
+  add(world.refreshes);
+  add(world.energy_terms);
+  return out;
+}
+
+void keep_world(World& world, Archive& archive) {
+  Particles& p = world.particles;
+  keep_fields("particles", p.fields, archive);
+  keep_fields("nodes", world.nodes.fields, archive);
+  keep_fields("segments", world.segments.fields, archive);
+  keep_ledger(world.energy, archive);
+  const Archive::Group inside(archive, "world");
+  archive("active", p.active);
+  archive("moving", p.moving);
+  archive("dormant_time", p.dormant_time);
+  archive("counters", world.counters);
+  archive("maxima", world.maxima);
+}
+
+void keep_clock(Clock& clock, Archive& archive) {
+  const Archive::Group inside(archive, "clock");
+  archive("t", clock.t);
+  archive("dt", clock.dt);
+  archive("dt_old", clock.dt_old);
+  archive("cycle", clock.cycle);
+}
+
+}  // namespace courant

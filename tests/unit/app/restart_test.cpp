@@ -1,0 +1,263 @@
+// A run that is saved and loaded goes on bit by bit like one that was never stopped.
+#include <cstring>
+#include <filesystem>
+#include <set>
+
+#include "base/restart_error.hpp"
+#include "parallel/parallel.hpp"
+#include "small_scene.hpp"
+
+namespace courant {
+namespace {
+
+using test::SmallScene;
+
+/// Everything that can be compared: what is saved, and all that can be read of active particles.
+SavedState all_of(Simulation& s) {
+  SavedState state;
+  Archive archive = Archive::saver(state);
+  s.keep(archive);
+  const Archive::Group group(archive, "fields");
+  Particles& p = s.world().particles;
+  for (const auto& field : p.fields.all())
+    if (auto* reals = dynamic_cast<Field<Real>*>(field.get())) {
+      std::vector<Real*> rows;
+      for (int k = 0; k < reals->info().components; ++k) rows.push_back(reals->data(k));
+      archive.rows(reals->info().name, rows, static_cast<std::size_t>(p.active));
+    }
+  std::vector<Index> lists;
+  for (Index g = 0; 8 * g < p.active; ++g)
+    for (const Index j : s.neighbours().of_group(g)) lists.push_back(j);
+  archive("lists", lists);
+  return state;
+}
+
+/// Paths whose bits differ, "" where there are none.
+std::string difference(const SavedState& a, const SavedState& b) {
+  std::string names;
+  std::set<std::string> paths;
+  for (const auto* state : {&a, &b})
+    for (const auto& [path, array] : *state) paths.insert(path);
+  for (const std::string& path : paths) {
+    const auto x = a.find(path), y = b.find(path);
+    const bool both = x != a.end() && y != b.end();
+    if (!both || x->second.bytes != y->second.bytes) names += " " + path;
+  }
+  return names;
+}
+
+void steps(Simulation& s, int n) {
+  for (int k = 0; k < n; ++k) s.step([](World&, const Clock&, const std::string&) {});
+}
+
+SavedState saved(Simulation& s) {
+  SavedState state;
+  Archive archive = Archive::saver(state);
+  s.keep(archive);
+  return state;
+}
+
+void load(Simulation& s, SavedState state) {
+  Archive archive = Archive::loader(state);
+  s.keep(archive);
+}
+
+using Make = std::function<std::unique_ptr<Simulation>()>;
+
+/// Dumps of a run at several moments, each continued in a simulation of its own for at least two rebuilds;
+/// the run itself goes on as if nobody had looked.
+void expect_same(const Make& make, const std::vector<int>& dumps, int last) {
+  const auto whole = make(), watched = make();
+  ASSERT_TRUE(whole && watched);
+  steps(*whole, last);
+  const SavedState end = all_of(*whole);
+  int at = 0;
+  for (const int n : dumps) {
+    steps(*watched, n - at);
+    at = n;
+    const SavedState state = saved(*watched);
+    const auto other = make();
+    load(*other, state);
+    EXPECT_EQ(difference(saved(*other), state), "") << "just loaded, step " << n;
+    steps(*other, last - n);
+    EXPECT_EQ(difference(all_of(*other), end), "") << "dumped at step " << n;
+  }
+  steps(*watched, last - at);
+  EXPECT_EQ(difference(all_of(*watched), end), "") << "the run that was dumped";
+}
+
+Make maker(const SmallScene& scene) {
+  return [scene] { return test::build(scene); };
+}
+
+TEST(Restart, FallingBlockOnAFloor) {
+  SmallScene s;
+  s.start = "0.3,-0.5,0.";
+  s.extra = test::gravity_cards + test::floor_cards();
+  expect_same(maker(s), {0, 1, 7, 60, 113}, 170);
+}
+
+TEST(Restart, FrictionAndDamping) {
+  SmallScene s;
+  s.start = "1.,-1.,0.";
+  s.extra = test::gravity_cards + test::floor_cards();
+  const std::string contact = "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n1,2,3,3\n0.\n";
+  const auto at = s.extra.find(contact);
+  ASSERT_NE(at, std::string::npos);
+  s.extra.replace(at, contact.size(), "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n1,2,3,3\n0.3,0.2,1.,0.,20.\n");
+  expect_same(maker(s), {40, 90}, 160);
+}
+
+TEST(Restart, MiddleOfAnInflow) {
+  SmallScene s;
+  s.n = 9;
+  s.start = "2.,0.,0.";
+  s.box = "1";
+  s.extra = "*DEFINE_BOX\n1,0.6,10.,-1.,5.,-1.,1.\n";
+  expect_same(maker(s), {3, 60}, 110);
+}
+
+TEST(Restart, OutflowWithViscosityAndBox) {
+  SmallScene s;
+  s.n = 10;
+  s.start = "2.,0.,0.";
+  s.box = "1";
+  s.material = "1,1000.,-1.E20,0.5";
+  s.extra = "*DEFINE_BOX\n1,0.1,0.9,-1.,5.,-1.,1.\n";
+  expect_same(maker(s), {20, 75}, 118);
+}
+
+TEST(Restart, EvolvingSmoothingLength) {
+  SmallScene s;
+  s.n = 8;
+  s.start = "0.,-3.,0.";
+  s.section = "1,1.2,0.5,2.";
+  s.extra = test::gravity_cards + test::floor_cards();
+  expect_same(maker(s), {30, 80}, 150);
+}
+
+TEST(Restart, BulkViscosityWithABox) {
+  SmallScene s;
+  s.n = 10;
+  s.start = "2.,0.,0.";
+  s.box = "1";
+  s.control_sph = ",0,0,0,1.E20,0,0,1";
+  s.extra = "*DEFINE_BOX\n1,0.3,0.9,-1.,5.,-1.,1.\n";
+  expect_same(maker(s), {20, 75}, 118);
+}
+
+TEST(Restart, KeptPairGeometry) {
+  SmallScene s;
+  s.n = 8;
+  s.start = "0.5,-0.5,0.";
+  s.extra = test::gravity_cards + test::floor_cards() + "*COURANT_PAIR_GEOMETRY\n0.01\n";
+  expect_same(maker(s), {20, 21, 22, 23, 24, 75}, 120);
+}
+
+TEST(Restart, DensityDiffusion) {
+  SmallScene s;
+  s.n = 8;
+  s.start = "0.5,-0.5,0.";
+  s.extra = test::gravity_cards + test::floor_cards() + "*COURANT_DENSITY_DIFFUSION\n0.1\n";
+  expect_same(maker(s), {20, 75}, 120);
+}
+
+TEST(Restart, SymmetryPlane) {
+  SmallScene s;
+  s.n = 8;
+  s.start = "0.5,-1.,0.";
+  s.extra = std::string(test::gravity_cards) + "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n";
+  expect_same(maker(s), {20, 75}, 120);
+}
+
+TEST(Restart, MovingRigidBody) {
+  SmallScene s;
+  s.dim = 3;
+  s.n = 4;
+  s.start = "0.,-2.,0.";
+  s.extra = test::gravity_cards + test::floor_cards(-0.025, 1, "1,5,7");
+  expect_same(maker(s), {30, 77}, 150);
+}
+
+TEST(Restart, SwitchedOffByMaxv) {
+  SmallScene s;
+  s.n = 8;
+  s.control_sph = ",0,0,0,1.2";
+  s.start = "0.,-1.,0.";
+  s.extra = test::gravity_cards + test::floor_cards();
+  expect_same(maker(s), {10, 60}, 120);
+}
+
+TEST(Restart, EveryWholeDeck) {
+  for (const auto& file : std::filesystem::directory_iterator(SOURCE_DIR "/tests/decks/accept")) {
+    const std::string name = file.path().filename().string();
+    if (name.rfind("whole", 0) != 0 || file.path().extension() != ".k") continue;
+    const std::string path = file.path().string();
+    SCOPED_TRACE(name);
+    expect_same(
+        [&] {
+          Diagnostics diagnostics;
+          return Simulation::build(path, {}, diagnostics);
+        },
+        {3, 9}, 18);
+  }
+}
+
+TEST(Restart, AnyNumberOfThreads) {
+  SmallScene s;
+  s.n = 14;
+  s.start = "1.,-1.,0.";
+  s.box = "1";
+  s.extra = "*DEFINE_BOX\n1,0.3,2.,-1.,5.,-1.,1.\n" + (test::gravity_cards + test::floor_cards());
+  const int before = threads();
+  set_threads(1);
+  const auto whole = test::build(s);
+  steps(*whole, 120);
+  const SavedState end = all_of(*whole);
+  for (const auto [first, second] : {std::pair{1, 4}, {2, 1}, {4, 2}}) {
+    set_threads(first);
+    const auto a = test::build(s);
+    steps(*a, 50);
+    set_threads(second);
+    const auto b = test::build(s);
+    load(*b, saved(*a));
+    steps(*b, 70);
+    EXPECT_EQ(difference(all_of(*b), end), "") << first << " threads, then " << second;
+  }
+  set_threads(before);
+}
+
+TEST(Restart, RefusesTheStateOfAnotherRun) {
+  SmallScene s;
+  const auto a = test::build(s);
+  steps(*a, 3);
+  const SavedState state = saved(*a);
+  const auto message = [&](SavedState changed, const SmallScene& scene) {
+    const auto b = test::build(scene);
+    try {
+      load(*b, std::move(changed));
+    } catch (const RestartError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message(state, s), "");
+  SavedState less = state;
+  less.erase("state/stepper/first_dt");
+  less.erase("state/passes/stepper/first_dt");
+  EXPECT_EQ(message(less, s),
+            "the saved state does not fit this run: 'state/passes/stepper/first_dt' is not there");
+  SmallScene other;
+  other.n = 7;
+  EXPECT_NE(message(state, other).find("has another length"), std::string::npos);
+  other = s;
+  other.extra = test::gravity_cards;
+  EXPECT_NE(message(state, other).find("'state/passes/gravity/origin' is not there"), std::string::npos);
+  SavedState more = state;
+  more.try_emplace("state/passes/magnet/pull");
+  EXPECT_EQ(message(more, s),
+            "the saved state does not fit this run, which knows no 'state/passes/magnet/pull'");
+}
+
+}  // namespace
+}  // namespace courant
