@@ -116,24 +116,21 @@ class CurveWriter {
       if (is_word(column.name)) names_.push_back(column.name), columns_.push_back(&column.values);
   }
   void write(std::string& out, const char*& comma, Diagnostics& diagnostics) {
-    const CompiledExpression x = compile(curve_.x, "x", diagnostics), y = compile(curve_.y, "y", diagnostics);
+    const auto x = values(curve_.x, "x", diagnostics), y = values(curve_.y, "y", diagnostics);
     const PostColumn* each = curve_.each.empty() ? nullptr : table_.find(curve_.each);
     if (!curve_.each.empty() && !each)
       diagnostics.error(curve_.where,
                         fmt::format("the table '{}' has no column '{}'", table_.name, curve_.each),
                         fmt::format("it has {}", fmt::join(names_, ", ")));
-    if (!x.ok() || !y.ok() || (!curve_.each.empty() && !each)) return;
+    if (!x || !y || (!curve_.each.empty() && !each)) return;
     std::vector<Real> keys = each ? each->values : std::vector<Real>{0};
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
     bool first = true;
     for (Real key : keys) {
-      std::vector<Real> xs, ys, row(columns_.size());
-      for (std::size_t i = 0; i < table_.rows(); ++i) {
-        if (each && each->values[i] != key) continue;
-        for (std::size_t c = 0; c < row.size(); ++c) row[c] = (*columns_[c])[i];
-        xs.push_back(x(row.data())), ys.push_back(y(row.data()));
-      }
+      std::vector<Real> xs, ys;
+      for (std::size_t i = 0; i < table_.rows(); ++i)
+        if (!each || each->values[i] == key) xs.push_back((*x)[i]), ys.push_back((*y)[i]);
       out += comma + fmt::format("{{\"label\": {}, \"style\": {}, ", json_quoted(first ? curve_.label : ""),
                                  json_quoted(curve_.style));
       if (each) out += fmt::format("\"each\": {:.7g}, ", key);
@@ -146,12 +143,22 @@ class CurveWriter {
   }
 
  private:
-  CompiledExpression compile(const std::string& text, const char* key, Diagnostics& diagnostics) const {
-    CompiledExpression out(text, names_);
-    if (!out.ok())
+  /// A column by its name, which may be no word ("depth@0.5"), or an expression over columns.
+  std::optional<std::vector<Real>> values(const std::string& text, const char* key,
+                                          Diagnostics& diagnostics) const {
+    if (const PostColumn* column = table_.find(text)) return column->values;
+    const CompiledExpression of(text, names_);
+    if (!of.ok()) {
       diagnostics.error(curve_.where,
-                        fmt::format("'{}' of a curve from '{}': {}", key, table_.name, out.error()),
+                        fmt::format("'{}' of a curve from '{}': {}", key, table_.name, of.error()),
                         fmt::format("the table has {}", fmt::join(names_, ", ")));
+      return std::nullopt;
+    }
+    std::vector<Real> out, row(columns_.size());
+    for (std::size_t i = 0; i < table_.rows(); ++i) {
+      for (std::size_t c = 0; c < row.size(); ++c) row[c] = (*columns_[c])[i];
+      out.push_back(of(row.data()));
+    }
     return out;
   }
   const FigureCurve& curve_;

@@ -266,6 +266,7 @@ void write_figures(const Recipe& recipe, const std::filesystem::path& folder, co
   const std::string json =
       figures_json(recipe.figures, tables, images, walls, recipe.formats, title, diagnostics);
   write_file(folder / "figures.json", json);
+  if (!diagnostics.ok()) return;  // a figure without one of its curves would mislead
   if (draw_pictures(folder, "plot_figures.py", diagnostics))
     say(fmt::format("{} figures: {}\n", recipe.figures.size(), folder.string()));
 }

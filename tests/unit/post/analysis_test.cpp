@@ -230,6 +230,25 @@ TEST(Probe, ValuesOverTimeAndSelection) {
   EXPECT_NEAR(run.scalar("p", "vx_1_mean"), 1.1, 1e-10);
 }
 
+TEST(Surface, UpIsZ) {
+  Analyses run(
+      "up: z\nanalyses:\n  - {kind: surface, name: s, x: [0.02], across: 0.03, bed: 0.01}\n"
+      "  - {kind: flux, name: q, at: 0.03, g: 10}\n");
+  ParticleFrame frame;
+  frame.dim = 3;
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 12; ++j)
+      for (int k = 0; k < 8; ++k)
+        test::add(frame, (i + 0.5) * 0.005, (j + 0.5) * 0.005, 0.005, (k + 0.5) * 0.005);
+  run.take(moving(frame, [](Real, Real) { return Point{3, 0, 0}; }), 0);
+  run.finish();
+  EXPECT_NEAR(run.column("s", "depth")[0], 0.03, 6e-4);
+  const Real mass = 1000 * 3 * 0.06 * 0.04;
+  EXPECT_NEAR(run.column("q_mean", "mass_mean")[0], mass, 0.002 * mass);
+  EXPECT_NEAR(run.column("q_mean", "potential_mean")[0], mass * 10 * 0.02, 0.002 * mass * 0.2);
+  EXPECT_NE(test::read_text(run.out() / "q_mean.csv").find("mass_mean [kg/s]"), std::string::npos);
+}
+
 TEST(Toe, FollowsAStep) {
   Analyses run(
       "analyses:\n"

