@@ -36,6 +36,7 @@ class GridAnalysis : public Analysis {
         for (Real x : axes_[0]) points_.push_back({x, y, z});
     moments_.assign(sampler_.of.size(), std::vector<RunningMoments>(points_.size()));
     wet_.assign(points_.size(), 0);
+    colour_.assign(points_.size(), 0);
     if (const auto node = map.get("states", false)) {
       if (!is_grid_ || !node->IsScalar() || !YAML::convert<bool>::decode(*node, states_))
         map.error(*node, fmt::format("'{}.states' must be true or false, and of a grid", map.name()));
@@ -48,7 +49,8 @@ class GridAnalysis : public Analysis {
   void take(const PostState& state) override {
     const FieldSampler::Sample sample = sampler_.sample(state, points_);
     times_.push_back(state.frame.t);
-    for (std::size_t p = 0; p < points_.size(); ++p) wet_[p] += sample.wet[p] != 0;
+    for (std::size_t p = 0; p < points_.size(); ++p)
+      wet_[p] += sample.wet[p] != 0, colour_[p] += sample.colour[p];
     for (std::size_t q = 0; q < sampler_.of.size(); ++q)
       for (std::size_t p = 0; p < points_.size(); ++p) moments_[q][p].add(sample.values[q][p]);
     fallbacks_ += sample.fallbacks;
@@ -79,6 +81,8 @@ class GridAnalysis : public Analysis {
           {sampler_.of[q].name + "_deviation", sampler_.of[q].unit, std::move(deviation)});
     }
     table.columns.push_back({"wet", "-", std::move(wet)});
+    for (Real& colour : colour_) colour /= states;
+    table.columns.push_back({"colour", "-", std::move(colour_)});
     result_.text +=
         fmt::format("  {} x {} x {} points, mean of {} states from t = {:.4g} to {:.4g}\n", axes_[0].size(),
                     axes_[1].size(), axes_[2].size(), times_.size(), times_.front(), times_.back());
@@ -140,7 +144,7 @@ class GridAnalysis : public Analysis {
   std::array<std::vector<Real>, 3> axes_;
   std::vector<Point> points_;                         // x fastest
   std::vector<std::vector<RunningMoments>> moments_;  // shape: (of, points)
-  std::vector<Real> wet_;                             // states with water there
+  std::vector<Real> wet_, colour_;                    // states with water there; sum of C over states
   std::size_t fallbacks_ = 0;
   std::filesystem::path folder_;
   std::string pvd_ = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";

@@ -32,6 +32,7 @@ class SurfaceAnalysis : public Analysis {
     columns_.resize(x_.size());
     moments_.resize(x_.size());
     wet_.assign(x_.size(), 0);
+    filled_.assign(x_.size(), 0);
   }
 
   void note_needs(std::vector<ParticleArray>& arrays) const override { note_arrays(where_.of, arrays); }
@@ -40,16 +41,18 @@ class SurfaceAnalysis : public Analysis {
     const ParticleGrid& water = state.water(where_.text, where_.of, spray_);
     const bool in_window = window_.holds(state.frame.t, state.slack);
     std::vector<std::vector<WaterInterval>> found(x_.size());
+    std::vector<Real> filled(x_.size());
     for_each(static_cast<Index>(x_.size()), [&](Index i) {
       const auto k = static_cast<std::size_t>(i);
-      found[k] = water_on_line(water, {x_[k], up_ == 1 ? 0 : across_, up_ == 1 ? across_ : 0}, up_);
+      found[k] =
+          water_on_line(water, {x_[k], up_ == 1 ? 0 : across_, up_ == 1 ? across_ : 0}, up_, &filled[k]);
     });
     times_.push_back(state.frame.t);
     window_states_ += in_window;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const Real depth = depth_of(found[k], bed_[k], water.largest_h());
       columns_[k].push_back(depth);
-      if (in_window) moments_[k].add(depth), wet_[k] += depth > 0;
+      if (in_window) moments_[k].add(depth), wet_[k] += depth > 0, filled_[k] += filled[k];
       if (!layers_) continue;
       for (const WaterInterval& piece : found[k]) {
         const Real row[] = {state.frame.t, x_[k], piece.low, piece.high};
@@ -73,21 +76,23 @@ class SurfaceAnalysis : public Analysis {
     PostTable& over_time = add_table();
     over_time.columns.push_back({"t", time, times_});
     for (PostSeries& one : series()) over_time.columns.push_back({one.name, one.unit, std::move(one.values)});
-    std::vector<Real> mean, deviation, least, most, wet;
+    std::vector<Real> mean, deviation, least, most, wet, filled;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       mean.push_back(moments_[k].mean);
       deviation.push_back(moments_[k].deviation());
       least.push_back(moments_[k].least), most.push_back(moments_[k].most);
       wet.push_back(wet_[k] / static_cast<Real>(window_states_));
+      filled.push_back(filled_[k] / static_cast<Real>(window_states_));
     }
     if (x_.size() == 1) {
       add_scalar("depth_mean", length, mean.front());
       add_scalar("depth_deviation", length, deviation.front());
+      add_scalar("filled_mean", length, filled.front());
     }
     add_table("mean").columns = {{"x", length, x_},        {"bed", length, bed_},
                                  {"mean", length, mean},   {"deviation", length, deviation},
                                  {"least", length, least}, {"most", length, most},
-                                 {"wet", "-", wet}};
+                                 {"wet", "-", wet},        {"filled", length, filled}};
     if (layers_)
       add_table("layers").columns = {{"t", time, layer_columns_[0]},
                                      {"x", length, layer_columns_[1]},
@@ -120,7 +125,7 @@ class SurfaceAnalysis : public Analysis {
   bool first_ = false, layers_ = false;
   std::vector<std::vector<Real>> columns_;  // shape: (places, states)
   std::vector<RunningMoments> moments_;
-  std::vector<Real> wet_;
+  std::vector<Real> wet_, filled_;
   std::size_t window_states_ = 0;
   std::array<std::vector<Real>, 4> layer_columns_;
 };

@@ -27,10 +27,12 @@ FieldSampler::Sample FieldSampler::sample(const PostState& state, const std::vec
   Sample out;
   out.values.assign(of.size(), std::vector<Real>(points.size(), std::nan("")));
   out.wet.assign(points.size(), 0);
+  out.colour.assign(points.size(), 0);
   std::vector<char> fallback(points.size(), 0);
   for_each(static_cast<Index>(points.size()), [&](Index i) {
     const auto p = static_cast<std::size_t>(i);
     const PointWeights weights = interpolate(water, points[p], interpolation);
+    out.colour[p] = weights.colour;
     if (!(weights.colour >= wet)) return;
     out.wet[p] = 1;
     fallback[p] = weights.fallback;

@@ -20,6 +20,7 @@ struct FieldSampler {
   struct Sample {
     std::vector<std::vector<Real>> values;  ///< shape: (of, points); NaN outside the water
     std::vector<char> wet;                  ///< shape: (points)
+    std::vector<Real> colour;               ///< C of each point, 0 where no particle is near
     std::size_t fallbacks = 0;              ///< points in the water where MLS had to be Shepard
   };
   /// On all threads; a point's value does not depend on their number.

@@ -50,7 +50,9 @@ ParticleGrid water_body(const ParticleGrid& all, const SprayRule& rule) {
   return ParticleGrid(all, taken);
 }
 
-std::vector<WaterInterval> water_on_line(const ParticleGrid& water, const Point& x, std::size_t axis) {
+std::vector<WaterInterval> water_on_line(const ParticleGrid& water, const Point& x, std::size_t axis,
+                                         Real* filled) {
+  if (filled) *filled = 0;
   std::vector<std::pair<std::size_t, Real>> near;  // particle, distance from the line
   Real low = 0, high = 0;
   water.near_line(x, axis, [&](std::size_t k) {
@@ -77,6 +79,7 @@ std::vector<WaterInterval> water_on_line(const ParticleGrid& water, const Point&
       C[s] += p.V * cubic_spline(std::hypot(aside, static_cast<Real>(s) * dy - at), p.h, water.dim());
   }
 
+  if (filled) *filled = dy * std::accumulate(C.begin(), C.end(), Real(0));
   std::vector<WaterInterval> out;
   const auto crossing = [&](std::size_t s) {  // between s - 1 and s
     return start + (static_cast<Real>(s - 1) + (0.5 - C[s - 1]) / (C[s] - C[s - 1])) * dy;

@@ -23,6 +23,7 @@ struct WaterInterval {
 /// All pieces of water on the line through x along `axis`, from low to high: where the colour C = sum_j V_j W
 /// is at least 1/2. Ends are found on steps of h/16, linear in between. Pieces thinner than half an h are
 /// none.
-std::vector<WaterInterval> water_on_line(const ParticleGrid& water, const Point& x, std::size_t axis);
+std::vector<WaterInterval> water_on_line(const ParticleGrid& water, const Point& x, std::size_t axis,
+                                         Real* filled = nullptr);
 
 }  // namespace courant

@@ -91,6 +91,7 @@ TEST(Profile, MeansLeaveOutWhatIsNotWater) {
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(mean[i], 1 + 10 * y[i], 1e-10) << i;  // no zeros among them
   EXPECT_EQ(wet[0], 1);
   EXPECT_EQ(wet[4], 0.75);
+  EXPECT_NEAR(run.column("u", "colour")[2], 0.75, 0.05);
 }
 
 TEST(Profile, RarelyWetPointsHaveNoMean) {
@@ -120,8 +121,9 @@ TEST(Grid, FilesForParaView) {
     run.take(moving(test::water({.x1 = 0.2}), [](Real, Real) { return Point{2, 0, 0}; }), 0.01 * s);
   run.finish();
   const std::string csv = test::read_text(run.out() / "field.csv");
-  EXPECT_EQ(csv.substr(0, csv.find('\n')),
-            "x [mm],y [mm],vx_mean [mm/ms],vx_deviation [mm/ms],q_mean [Pa],q_deviation [Pa],wet [-]");
+  EXPECT_EQ(
+      csv.substr(0, csv.find('\n')),
+      "x [mm],y [mm],vx_mean [mm/ms],vx_deviation [mm/ms],q_mean [Pa],q_deviation [Pa],wet [-],colour [-]");
   EXPECT_NEAR(run.column("field", "q_mean")[5], 2000, 1e-9);
   for (const char* file :
        {"field.vti", "field/field_0000.vti", "field/field_0001.vti", "field.pvd", "tables.h5"})
@@ -160,10 +162,10 @@ TEST(Surface, SpectrumOfATravellingWave) {
       "  - {kind: surface, name: gauges, x: [0.2, 0.3, 0.4]}\n"
       "  - {kind: spectrum, name: spectra, of: gauges, segment: 1.5, band: [0.7, 15]}\n");
   const Real f = 2.6, k = 2 * pi / 0.4, amplitude = 0.01;
-  for (int s = 0; s < 150; ++s) {
-    const Real t = 0.02 * s;
+  for (int s = 0; s < 120; ++s) {
+    const Real t = 0.025 * s;
     ParticleFrame frame;
-    for (int i = 0; i < 60; ++i)
+    for (int i = 0; i < 50; ++i)
       for (int j = 0; j < 12; ++j) {  // columns of particles that stretch with the wave
         const Real x = (i + 0.5) * 0.01;
         const Real stretch = 1 + amplitude / 0.06 * std::sin(k * x - 2 * pi * f * t);

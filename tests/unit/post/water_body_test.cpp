@@ -62,6 +62,18 @@ TEST(WaterOnLine, AnOverhangHasSeveralPieces) {
   EXPECT_NEAR(pieces[1].high, 0.09, 0.1 * dx);
 }
 
+TEST(WaterOnLine, FilledIsTheVolumeOfTheParticles) {
+  ParticleFrame frame = test::water({.x1 = 0.5, .y1 = 0.05});
+  for (Real& volume : frame.V) volume *= 0.95;  // sparse particles: the surface stays, the volume shrinks
+  Real filled = -1;
+  const auto pieces = water_on_line(all_of(frame), {0.2512, 0, 0}, 1, &filled);
+  ASSERT_EQ(pieces.size(), 1u);
+  EXPECT_NEAR(pieces[0].high, 0.05, 0.1 * dx);
+  EXPECT_NEAR(filled, 0.95 * 0.05, 0.002 * 0.05);
+  water_on_line(all_of(frame), {3, 0, 0}, 1, &filled);
+  EXPECT_EQ(filled, 0);
+}
+
 TEST(WaterOnLine, AlongEachAxisInSpace) {
   ParticleFrame frame;
   frame.dim = 3;
