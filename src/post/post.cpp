@@ -191,7 +191,7 @@ std::string results_yaml(const Recipe& recipe, const std::string& title, const M
   for (const auto& analysis : recipe.analyses)
     for (const PostScalar& scalar : analysis->result().scalars) {
       YAML::Node number;
-      number["value"] = digits(scalar.value);
+      number["value"] = std::isnan(scalar.value) ? ".nan" : digits(scalar.value);
       number["unit"] = scalar.unit;
       out["analyses"][analysis->name()][scalar.name] = number;
     }

@@ -217,6 +217,16 @@ TEST(Flux, AcrossTheFlowAndWithinAnExtent) {
   EXPECT_EQ(run.column("outside_mean", "mass_mean")[0], 0);
 }
 
+TEST(Flux, InactiveParticlesDoNotCount) {
+  Analyses run("analyses:\n  - {kind: flux, name: q, at: 0.5}\n  - {kind: surface, name: s, x: 0.5}\n");
+  ParticleFrame frame = moving(test::water({.y1 = 0.1}), [](Real, Real) { return Point{2, 0, 0}; });
+  for (std::size_t i = 0; i < frame.size(); ++i) frame.arrays["active"][i] = frame.y[i] < 0.05;
+  run.take(frame, 0);
+  run.finish();
+  EXPECT_NEAR(run.column("q_mean", "mass_mean")[0], 100, 0.2);
+  EXPECT_NEAR(run.column("s", "depth")[0], 0.05, 6e-4);
+}
+
 TEST(Probe, ValuesOverTimeAndSelection) {
   Analyses run(
       "analyses:\n"
