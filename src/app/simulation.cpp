@@ -131,6 +131,9 @@ void Simulation::add_images(Real h, Diagnostics& diagnostics) {
   planes_ = build_image_planes(deck_, model_, sph_, reach, world_, diagnostics);
   if (planes_.empty())
     return left_out_.push_back({"images", "no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC"});
+  for (const ImagePlane& plane : planes_)  // along a period nothing rests on anything
+    if (plane.kind == ImagePlane::Kind::periodic && sph_.gravity)
+      sph_.gravity = [g = sph_.gravity, n = plane.normal](Real t) { return Vec(g(t) - g(t).dot(n) * n); };
   auto images = std::make_shared<Images>(planes_);
   neighbours_->set_images(images);
   world_.exchangers.push_back(images);

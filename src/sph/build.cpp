@@ -45,6 +45,7 @@ class Builder {
     set_smoothing_lengths();
     choose_h_form();
     read_pair_geometry();
+    read_density_diffusion();
     return settings_;
   }
 
@@ -116,6 +117,18 @@ class Builder {
       return;
     }
     settings_.viscosity = MonaghanViscosity{common_q2()};
+  }
+
+  void read_density_diffusion() {
+    const auto* c = deck_.last<CourantDensityDiffusion>();
+    if (c == nullptr) return;
+    settings_.density_diffusion = c->delta;
+    settings_.gravity = [loads = model_.body_loads](Real t) { return gravity_at(loads, t); };
+    if (c->delta > most_diffusion)
+      deck_.error(diagnostics_, *c, "DELTA",
+                  fmt::format("expected at most {:g}, beyond which it is unstable, got '{:g}'",
+                              most_diffusion, c->delta),
+                  "0.1 evens out the noise of pressures");
   }
 
   void read_pair_geometry() {
@@ -311,7 +324,8 @@ class Builder {
   Diagnostics& diagnostics_;
   SphSettings settings_;
   std::vector<PartSmoothing> smoothing_;
-  static constexpr Index max_reports = 20;  ///< of one kind of fault
+  static constexpr Real most_diffusion = 0.2;  ///< delta h c dt = dx^2/4 at TSSFAC 0.9, h = 1.2 dx
+  static constexpr Index max_reports = 20;     ///< of one kind of fault
 };
 
 }  // namespace
@@ -329,6 +343,10 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
       std::make_shared<PairGeometry>(neighbours, s.uniform_h, PairGeometry::most_kept_bytes, s.geometry_eps);
   const auto volumes = make_pair_volumes(world);
   world.rates.push_back(make_rates(s, world, geometry, volumes));
+  if (s.density_diffusion > 0)
+    add_density_diffusion(s, world);
+  else
+    left_out.push_back({"density diffusion", "no *COURANT_DENSITY_DIFFUSION"});
   if (s.geometry_eps == 0) left_out.push_back({"kept pair geometry", "no *COURANT_PAIR_GEOMETRY"});
   if (s.evolving_h)
     world.motions.push_back(make_smoothing_length(s, world));

@@ -45,4 +45,9 @@ struct CourantPairGeometry : Entry {
   Real eps = 0;
 };
 
+/// *COURANT_DENSITY_DIFFUSION, ours.
+struct CourantDensityDiffusion : Entry {
+  Real delta = 0;
+};
+
 }  // namespace courant

@@ -29,6 +29,15 @@ inline Field<Real>& pressure_plus_q(Particles& p) {
                              .restart = false,
                              .exchange = Exchange::before_forces});
 }
+/// Rate of density by diffusion, of the last forces: the next rates take it.
+inline Field<Real>& density_diffusion(Particles& p) {
+  return p.fields.add<Real>({.name = "density_diffusion", .dimension = "M/L3T"});
+}
+/// -g.x of gravity; images have that of their particle, as they have its pressure.
+inline Field<Real>& potential(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "potential", .dimension = "L2/T2", .restart = false, .exchange = Exchange::before_rates});
+}
 /// Power that artificial viscosity turns into heat
 inline Field<Real>& dissipation(Particles& p) {
   return p.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"});

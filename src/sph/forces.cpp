@@ -8,7 +8,8 @@ namespace courant {
 
 namespace {
 
-/// Pressure and viscous stress of eq. 7; artificial viscosity comes with the rates.
+/// Pressure and viscous stress of eq. 7, and what density diffusion will do; artificial viscosity comes with
+/// the rates.
 class PairForces : public Force {
  public:
   PairForces(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry,
@@ -18,7 +19,12 @@ class PairForces : public Force {
     if (!std::holds_alternative<MonaghanViscosity>(s.viscosity))
       total_pressure_ = &sph_fields::pressure_plus_q(p);
     if (!s.mu.empty()) tau_ = &sph_fields::stress(p);
-    ForcesChoice choice{s.dim, s.uniform_h, !s.mu.empty(), Geometry::compute};
+    if (s.density_diffusion > 0) {
+      diffusion_ = &sph_fields::density_diffusion(p);
+      potential_ = &sph_fields::potential(p);
+    }
+    delta_ = s.density_diffusion;
+    ForcesChoice choice{s.dim, s.uniform_h, !s.mu.empty(), diffusion_ != nullptr, Geometry::compute};
     compute_ = forces_loop(choice);
     choice.geometry = Geometry::load;
     load_ = forces_loop(choice);
@@ -29,6 +35,12 @@ class PairForces : public Force {
     a_ = particle_arrays(world.particles);
     a_.V = volumes_->current();
     a_.p = total_pressure_ ? total_pressure_->data() : world.particles.p.data();
+    if (diffusion_) {
+      a_.c = world.particles.c.data();
+      a_.diffusion = diffusion_->data();
+      a_.delta = delta_;
+      a_.potential = potential_->data();
+    }
     for (int k = 0; k < 6; ++k) a_.tau[k] = tau_ ? tau_->data(k) : nullptr;
   }
   void block(World&, const Clock&, Index begin, Index end) override {
@@ -40,6 +52,8 @@ class PairForces : public Force {
   std::shared_ptr<PairVolumes> volumes_;
   Field<Real>* total_pressure_ = nullptr;
   Field<Real>* tau_ = nullptr;
+  Field<Real>*diffusion_ = nullptr, *potential_ = nullptr;
+  Real delta_ = 0;
   PairLoop compute_, load_;
   PairArrays a_{};
 };

@@ -144,7 +144,7 @@ void rates(const PairArrays& a, const PairLists& lists) {
   }
 }
 
-template <int Dim, bool UniformH, bool Stress, Geometry geometry>
+template <int Dim, bool UniformH, bool Stress, bool Diffusion, Geometry geometry>
 void forces(const PairArrays& a, const PairLists& lists) {
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
@@ -156,7 +156,10 @@ void forces(const PairArrays& a, const PairLists& lists) {
     Pack ti[6];
     if constexpr (Stress)
       for (int k = 0; k < 6; ++k) ti[k] = Pack::load(a.tau[k] + i, count);
+    const Pack rhoi = Diffusion ? Pack::load(a.rho + i, count) : Pack::zero();
+    const Pack potential = Diffusion ? Pack::load(a.potential + i, count) : Pack::zero();
     Sum<Dim> push, pull;
+    Pack spread = Pack::zero();
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
       const Difference<Dim> d(xi, a.x, j);
@@ -173,6 +176,7 @@ void forces(const PairArrays& a, const PairLists& lists) {
         push.add(w * (pi + a.p[j]), d);
       else
         push.add(w * pi + wj * a.p[j], d);
+      if constexpr (Diffusion) spread += w * (a.p[j] - pi + rhoi * (a.potential[j] - potential));
       if constexpr (Stress) {
         Pack s[6];
         for (int c = 0; c < 6; ++c) s[c] = w * ti[c] + wj * a.tau[c][j];
@@ -188,6 +192,8 @@ void forces(const PairArrays& a, const PairLists& lists) {
     const Pack factor = Pack::load(a.V + i, count) * norm;
     push.add_to(a.f, i, count, 0 - factor);
     if constexpr (Stress) pull.add_to(a.f, i, count, factor);
+    if constexpr (Diffusion)
+      (-2 * a.delta * norm * hi * spread / Pack::load(a.c + i, count)).store(a.diffusion + i, count);
   }
 }
 
@@ -207,11 +213,16 @@ PairLoop rates_of(const RatesChoice& c) {
   return c.gradient ? rates_of<Dim, UniformH, false, true>(c.geometry)
                     : rates_of<Dim, UniformH, false, false>(c.geometry);
 }
-template <int Dim, bool Stress>
+template <int Dim, bool Stress, bool Diffusion>
 PairLoop forces_of(const ForcesChoice& c) {
-  if (!c.uniform_h) return &forces<Dim, false, Stress, Geometry::compute>;
-  return c.geometry == Geometry::load ? &forces<Dim, true, Stress, Geometry::load>
-                                      : &forces<Dim, true, Stress, Geometry::compute>;
+  if (!c.uniform_h) return &forces<Dim, false, Stress, Diffusion, Geometry::compute>;
+  return c.geometry == Geometry::load ? &forces<Dim, true, Stress, Diffusion, Geometry::load>
+                                      : &forces<Dim, true, Stress, Diffusion, Geometry::compute>;
+}
+template <int Dim>
+PairLoop forces_of(const ForcesChoice& c) {
+  if (c.diffusion) return c.stress ? forces_of<Dim, true, true>(c) : forces_of<Dim, false, true>(c);
+  return c.stress ? forces_of<Dim, true, false>(c) : forces_of<Dim, false, false>(c);
 }
 
 }  // namespace
@@ -221,8 +232,7 @@ PairLoop rates_loop(const RatesChoice& c) {
   return c.uniform_h ? rates_of<3, true>(c) : rates_of<3, false>(c);
 }
 PairLoop forces_loop(const ForcesChoice& c) {
-  if (c.dim == 2) return c.stress ? forces_of<2, true>(c) : forces_of<2, false>(c);
-  return c.stress ? forces_of<3, true>(c) : forces_of<3, false>(c);
+  return c.dim == 2 ? forces_of<2>(c) : forces_of<3>(c);
 }
 
 }  // namespace courant::COURANT_SIMD

@@ -19,9 +19,12 @@ struct PairArrays {
   Real* drhodt;
   Real* strain[6];
   Real* f[3];
-  Real* heat;      ///< power that artificial viscosity turns into heat [ML2/T3]
-  Real h0, q2;     ///< h0: the h of all where it does not differ
-  Real half_step;  ///< half of the step that led here: continuity holds in its middle [T]
+  const Real* c;          ///< of particle i alone
+  Real* diffusion;        ///< rate of rho by diffusion [M/L3T]
+  const Real* potential;  ///< -g.x [L2/T2]
+  Real* heat;             ///< power that artificial viscosity turns into heat [ML2/T3]
+  Real h0, q2, delta;     ///< h0: the h of all where it does not differ; delta: strength of the diffusion
+  Real half_step;         ///< half of the step that led here: continuity holds in its middle [T]
 };
 
 /// The lists of particles [begin, end); end - begin <= block_size.
@@ -53,9 +56,11 @@ PairLoop rates_loop(const RatesChoice& choice);
 
 /// Eq. 17 without Pi: f_i -= V_i sum_j V_j (p_i grad W(h_i) + p_j grad W(h_j)), which conserves momentum.
 /// `stress`: adds the viscous stress tau in the same way, with the other sign.
+/// `diffusion`: sets -2 delta h_i/c_i sum_j V_j (p_j - p_i + rho_i (phi_j - phi_i)) (dW/dr)/r, phi the
+/// potential of gravity (Fourtakas et al. 2019 with dp = c^2 drho).
 struct ForcesChoice {
   int dim;
-  bool uniform_h, stress;
+  bool uniform_h, stress, diffusion;
   Geometry geometry;  ///< compute or load
 };
 PairLoop forces_loop(const ForcesChoice& choice);

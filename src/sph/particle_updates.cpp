@@ -18,6 +18,7 @@ class BulkViscosityPass : public Material, public Refresh {
  public:
   BulkViscosityPass(const SphSettings& s, World& world)
       : q_(s.q),
+        after_diffusion_(s.density_diffusion > 0),
         total_(sph_fields::pressure_plus_q(world.particles)),
         heat_(sph_fields::dissipation(world.particles)) {}
   std::string name() const override { return "bulk viscosity"; }
@@ -28,7 +29,7 @@ class BulkViscosityPass : public Material, public Refresh {
       const PartViscosity& k = q_[p.part[i]];
       const Real q = p.rho[i] * p.h[i] * (k.q2 * p.h[i] * d * d - k.q1 * p.c[i] * d);
       total_[i] = p.p[i] + q;
-      heat_[i] = -q * d * p.m[i] / p.rho[i];
+      heat_[i] = (after_diffusion_ ? heat_[i] : 0) - q * d * p.m[i] / p.rho[i];
     }
   }
   void refreshed(World& world, const Clock&, std::span<const Index>) override {
@@ -38,6 +39,7 @@ class BulkViscosityPass : public Material, public Refresh {
 
  private:
   std::vector<PartViscosity> q_;
+  bool after_diffusion_;  ///< which has given heat already
   Field<Real>& total_;
   Field<Real>& heat_;
 };

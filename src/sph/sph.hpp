@@ -44,7 +44,9 @@ struct SphSettings {
   std::vector<char> heat_in_internal;  ///< per part; empty if in none
   Real tssfac = 0.9;
   Real geometry_eps = 0;  ///< *COURANT_PAIR_GEOMETRY: relative motion, of h, over which gradients are kept
-  Real maxv = 0;          ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
+  Real density_diffusion = 0;          ///< *COURANT_DENSITY_DIFFUSION: delta; 0: none
+  std::function<Vec(Real t)> gravity;  ///< acceleration at a time, for the diffusion of density [L/T2]
+  Real maxv = 0;                       ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
   std::optional<Neighbours::Region> region;
   bool hide_inactive = false;          ///< ISHOW
   bool skip_inactive_contact = false;  ///< ICONT
@@ -83,6 +85,8 @@ std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<P
                                    std::shared_ptr<PairVolumes>);
 /// Adds itself to the refreshes of `world`; belongs behind its materials.
 std::shared_ptr<PairVolumes> make_pair_volumes(World&);
+/// Adds to the rates what density diffusion gave in the last forces.
+void add_density_diffusion(const SphSettings&, World&);
 std::shared_ptr<Material> make_bulk_viscosity(const SphSettings&, World&);
 std::shared_ptr<Material> make_viscous_stress(const SphSettings&, World&);
 std::shared_ptr<Motion> make_smoothing_length(const SphSettings&, World&);

@@ -40,8 +40,8 @@ const Lists bare{
      "tally sph energy", "force sph forces", "time limit sph time step", "energy sph energy",
      "motion particle motion", "motion sph factors", "guard every 64 steps"},
     {"images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
-     "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION", "kept pair geometry no *COURANT_PAIR_GEOMETRY",
-     "smoothing length HMIN = HMAX = 1: h is constant",
+     "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION", "density diffusion no *COURANT_DENSITY_DIFFUSION",
+     "kept pair geometry no *COURANT_PAIR_GEOMETRY", "smoothing length HMIN = HMAX = 1: h is constant",
      "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
      "viscous stress MU is 0 in all SPH materials", "speed limit MAXV none given",
      "computational box no BOXID", "gravity no *LOAD_BODY", "contact no *CONTACT",
@@ -150,6 +150,12 @@ TEST(Passes, ImagesBehindAPlane) {
   scene.extra = "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n";
   expect_change(scene, {"images"},
                 {"exchange images", "rate mirror core (rates)", "force mirror core", "motion mirrors"});
+}
+
+TEST(Passes, DensityDiffusion) {
+  SmallScene scene;
+  scene.extra = "*COURANT_DENSITY_DIFFUSION\n0.1\n";
+  expect_change(scene, {"density diffusion"}, {"rate density diffusion", "motion gravity's potential"});
 }
 
 TEST(Passes, PrescribedMotionOfParticles) {

@@ -20,7 +20,7 @@ struct Case {
 
 /// What the passes must give for particle i, from eqs 6, 7, 12, 15-17.
 struct Expected {
-  Real drhodt = 0, heat = 0;
+  Real drhodt = 0, heat = 0, diffusion = 0;
   Vec f = Vec::Zero();
   Matrix D = Matrix::Zero();
 };
@@ -50,6 +50,8 @@ class Oracle {
       const Real Vj = p_.m[j] / p_.rho[j];
       e.drhodt += p_.rho[i] * Vj * u.dot(d) * gi;
       e.D -= 0.5 * Vj * gi * (u * d.transpose() + d * u.transpose());
+      e.diffusion -= 2 * delta * p_.h[i] / p_.c[i] * Vj *
+                     (p_.p[j] - p_.p[i] + p_.rho[i] * gravity().dot(p_.x.vec(i) - p_.x.vec(j))) * gi;
       const Real mm = p_.m[i] * p_.m[j] / (p_.rho[i] * p_.rho[j]);
       e.f -= mm * (p_.p[i] * gi + p_.p[j] * gj) * d;
       if (case_.monaghan) {
@@ -65,7 +67,8 @@ class Oracle {
     }
     return e;
   }
-  static constexpr Real q2 = 1.5;
+  static constexpr Real q2 = 1.5, delta = 0.1;
+  static Vec gravity() { return {300, -2000, Dim == 3 ? 500.0 : 0.0}; }
 
  private:
   const Cloud& cloud_;
@@ -91,10 +94,11 @@ void compare(const Case& c, std::optional<Neighbours::Region> region) {
     p.m[i] *= 1 + 0.3 * u(random);
     if (!c.uniform_h) p.h[i] *= 1 + 0.3 * u(random);
   }
-  p.x.set(3, p.x.vec(4));  // two particles in one place
+  p.x.set(3, p.x.vec(4)), p.p[3] = p.p[4];  // two particles in one place
   cloud.settings.uniform_h = c.uniform_h;
   cloud.settings.viscosity = c.monaghan ? ArtificialViscosity(MonaghanViscosity{Oracle<Dim>::q2})
                                         : ArtificialViscosity(BulkViscosity{});
+  cloud.settings.density_diffusion = Oracle<Dim>::delta;
   Field<Real>*tau = nullptr, *D = nullptr;
   if (c.stress) {
     cloud.settings.mu.assign(1, 1.0);
@@ -108,18 +112,22 @@ void compare(const Case& c, std::optional<Neighbours::Region> region) {
   cloud.run(*cloud.rates);
   if (!c.monaghan)
     for (Index i = 0; i < p.moving; ++i) sph_fields::pressure_plus_q(p)[i] = p.p[i];
+  for (Index i = 0; i < p.moving; ++i) sph_fields::potential(p)[i] = -Oracle<Dim>::gravity().dot(p.x.vec(i));
   cloud.run(*cloud.forces);
   const Oracle<Dim> oracle(cloud, c);
   const auto& heat = sph_fields::dissipation(p);
-  Real f = 0, drhodt = 0, most_heat = 0;
+  const auto& diffusion = sph_fields::density_diffusion(p);
+  Real f = 0, drhodt = 0, most_heat = 0, most_diffusion = 0;
   for (Index i = 0; i < p.active; ++i) {
     f = std::max(f, p.f.vec(i).norm()), drhodt = std::max(drhodt, std::abs(p.drhodt[i]));
     most_heat = std::max(most_heat, heat[i]);
+    most_diffusion = std::max(most_diffusion, std::abs(diffusion[i]));
   }
   for (Index i = 0; i < p.active; ++i) {
     const Expected e = oracle.of(i);
     EXPECT_NEAR(p.drhodt[i], e.drhodt, 1e-12 * drhodt);
     expect_near(p.f.vec(i), e.f, f);
+    EXPECT_NEAR(diffusion[i], e.diffusion, 1e-12 * most_diffusion);
     if (c.monaghan) EXPECT_NEAR(heat[i], e.heat, 1e-12 * most_heat);
     if (!c.stress) continue;
     const Matrix found = D->tensor(i);

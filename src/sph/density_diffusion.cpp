@@ -1,0 +1,79 @@
+// *COURANT_DENSITY_DIFFUSION: evens out the noise of pressures (delta-SPH).
+#include "keyword/registry.hpp"
+#include "parallel/parallel.hpp"
+#include "sph/cards.hpp"
+#include "sph/fields.hpp"
+#include "sph/sph.hpp"
+
+namespace courant {
+
+namespace {
+
+const RegisterKeyword<CourantDensityDiffusion> density_diffusion_keyword{
+    {.names = {"COURANT_DENSITY_DIFFUSION"},
+     .purpose = "density diffusion that leaves hydrostatic pressure alone (delta-SPH)",
+     .once = true,
+     .many = false,
+     .cards = {{.fields = {{"DELTA",
+                            &CourantDensityDiffusion::delta,
+                            "-",
+                            "strength, usually 0.1; 0: none",
+                            {.check = Check::not_negative}}}}}}};
+
+/// d rho/dt += D with the D that the forces of the step before worked out beside the pressure: they know the
+/// pressures of neighbours, which change while rates are worked out. What the internal energy of volume work
+/// loses by it is dissipated.
+class DensityDiffusion : public Rate {
+ public:
+  DensityDiffusion(const SphSettings& s, World& world)
+      : first_(!std::holds_alternative<MonaghanViscosity>(s.viscosity)),
+        diffusion_(sph_fields::density_diffusion(world.particles)),
+        heat_(sph_fields::dissipation(world.particles)) {}
+  std::string name() const override { return "density diffusion"; }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    Particles& p = world.particles;
+    const Real *D = diffusion_.data(), *rho = p.rho.data(), *m = p.m.data(), *pressure = p.p.data();
+    Real *rate = p.drhodt.data(), *heat = heat_.data();
+    for (Index i = begin; i < end; ++i) {
+      rate[i] += D[i];
+      heat[i] = (first_ ? 0 : heat[i]) - pressure[i] * m[i] / (rho[i] * rho[i]) * D[i];
+    }
+  }
+
+ private:
+  bool first_;  ///< to give heat: bulk viscosity comes later
+  Field<Real>&diffusion_, &heat_;
+};
+
+/// -g.x as pair loops read it of neighbours.
+class GravityPotential : public Motion, public Refresh {
+ public:
+  GravityPotential(const SphSettings& s, World& world)
+      : gravity_(s.gravity), potential_(sph_fields::potential(world.particles)) {}
+  std::string name() const override { return "gravity's potential"; }
+  void start(World&, const Clock& clock) override { g_ = gravity_(clock.t + clock.dt); }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    const Field<Real>& x = world.particles.x;
+    for (Index i = begin; i < end; ++i) potential_[i] = -g_.dot(x.vec(i));
+  }
+  void refreshed(World& world, const Clock& clock, std::span<const Index>) override {
+    g_ = gravity_(clock.t);
+    for_each_block(world.particles.moving, [&](Index begin, Index end) { block(world, clock, begin, end); });
+  }
+
+ private:
+  std::function<Vec(Real t)> gravity_;
+  Field<Real>& potential_;
+  Vec g_ = Vec::Zero();
+};
+
+}  // namespace
+
+void add_density_diffusion(const SphSettings& s, World& world) {
+  world.rates.push_back(std::make_shared<DensityDiffusion>(s, world));
+  const auto potential = std::make_shared<GravityPotential>(s, world);
+  world.motions.push_back(potential);
+  world.refreshes.push_back(potential);
+}
+
+}  // namespace courant
