@@ -169,10 +169,21 @@ int call_generate(const Call& call) {
 
 int call_post(const Call& call) {
   Diagnostics diagnostics;
-  const bool done = run_post(
-      call.recipe, call.dir, [](std::string_view text) { fmt::print("{}", text); }, diagnostics);
-  print_error(diagnostics.text());
-  return done ? exit_ok : exit_input;
+  set_threads(call.threads);
+  const auto say = [](std::string_view text) {
+    clear_status_line();
+    fmt::print("{}", text);
+  };
+  try {
+    const bool done = run_post(call.recipe, call.dir, say, diagnostics, status_line());
+    clear_status_line();
+    print_error(diagnostics.text());
+    return done ? exit_ok : exit_input;
+  } catch (const OutputError& error) {
+    clear_status_line();
+    print_error(diagnostics.text() + fmt::format("error: {}\n", error.what()));
+    return exit_run;
+  }
 }
 
 /// LS-DYNA users type `i=DECK ncpu=N r=FILE`: rewritten to our options before they are read.
@@ -238,6 +249,7 @@ int command_line(int argc, char** argv) {
   auto* post = app.add_subcommand("post", "tables, CSV and pictures from the results of a run");
   post->add_option("RECIPE", call.recipe, "recipe.yaml")->required();
   post->add_option("DIR", call.dir, "folder of the run")->required();
+  post->add_option("--threads", call.threads, "threads; 0: all cores")->check(CLI::NonNegativeNumber);
 
   auto* verify = app.add_subcommand("verify", "run a suite of cases: errors against run time, and stability");
   verify->add_option("SUITE", call.verify.suite, "suite.yaml")->required();

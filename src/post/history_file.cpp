@@ -14,7 +14,19 @@ namespace {
 struct Dataset {
   int components = 0;
   std::vector<Real> values;
+  std::string dimension = "-";
 };
+
+/// The attribute `dimension`, a text of fixed length.
+std::string dimension_of(hid_t dataset) {
+  if (H5Aexists(dataset, "dimension") <= 0) return "-";
+  const Hdf5Handle attribute(H5Aopen(dataset, "dimension", H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return "-";
+  std::string text(H5Tget_size(type), '\0');
+  if (H5Aread(attribute, type, text.data()) < 0) return "-";
+  return text.c_str();
+}
 
 herr_t note_dataset(hid_t, const char* name, const H5O_info_t* info, void* to) {
   if (info->type == H5O_TYPE_DATASET)
@@ -29,7 +41,7 @@ std::optional<Dataset> load(hid_t file, const std::string& path) {
   hsize_t size[2] = {0, 1};
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 1 || rank > 2 || H5Sget_simple_extent_dims(space, size, nullptr) < 0) return std::nullopt;
-  Dataset out{static_cast<int>(size[1]), std::vector<Real>(size[0] * size[1])};
+  Dataset out{static_cast<int>(size[1]), std::vector<Real>(size[0] * size[1]), dimension_of(dataset)};
   if (!out.values.empty() &&
       H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.values.data()) < 0)
     return std::nullopt;
@@ -82,6 +94,11 @@ const std::vector<std::string>& HistoryFile::names() const {
 int HistoryFile::components(const std::string& path) const {
   const auto found = content_->datasets.find(path);
   return found == content_->datasets.end() ? 0 : found->second.components;
+}
+
+std::string HistoryFile::dimension(const std::string& path) const {
+  const auto found = content_->datasets.find(path);
+  return found == content_->datasets.end() ? "-" : found->second.dimension;
 }
 
 std::optional<std::vector<Real>> HistoryFile::column(const std::string& path, int component) const {

@@ -26,6 +26,8 @@ class HistoryFile {
   const std::vector<std::string>& names() const;
   /// Components of a dataset, 1 or 3; 0 where there is none of that name.
   int components(const std::string& path) const;
+  /// Dimension of a dataset in M, L, T as the file names it, "ML/T2"; "-" where there is none.
+  std::string dimension(const std::string& path) const;
   /// One component of a dataset; shape: (rows). Nothing if it cannot be read.
   std::optional<std::vector<Real>> column(const std::string& path, int component = 0) const;
   /// 1 for the rows in which the group of a dataset was sampled, else 0; shape: (rows).

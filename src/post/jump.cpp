@@ -68,6 +68,22 @@ Real belanger_depth(Real v1, Real d1, Real g) {
   return 0.5 * d1 * (std::sqrt(1 + 8 * Fr1 * Fr1) - 1);
 }
 
+Real roller_length_over_d1(Real Fr1) {
+  return 160 * std::tanh(Fr1 / 20) - 12;
+}
+
+Real velocity_decay(Real distance_over_d1) {
+  return std::exp(-0.028 * distance_over_d1);
+}
+
+Real largest_deviation_over_d1(Real Fr1) {
+  return 0.116 * std::pow(Fr1 - 1, 1.235);
+}
+
+Real surface_strouhal(Real Fr1) {
+  return 0.143 * std::exp(-0.27 * Fr1);
+}
+
 Real agreement_A(std::span<const Real> depth, Real theory) {
   Real sum = 0;
   for (Real d : depth) sum += d * d;

@@ -15,6 +15,16 @@ namespace courant {
 Real froude(Real v1, Real d1, Real g);  ///< v1 / sqrt(g d1)
 /// Belanger's conjugate depth d2 = d1/2 (sqrt(1 + 8 Fr1^2) - 1), eq. 1. v1: [L/T], d1: [L], g: [L/T2] -> [L]
 Real belanger_depth(Real v1, Real d1, Real g);
+/// Length of the roller over d1, eq. 2, for 2 < Fr1 < 16. Source there: Hager, Bremen and Kawagoshi (1990).
+Real roller_length_over_d1(Real Fr1);
+/// Largest mean velocity over v1 at a distance (x - x1) / d1 from the toe, eq. 3. Source there: Chanson
+/// (2010).
+Real velocity_decay(Real distance_over_d1);
+/// Largest standard deviation of the surface over d1, eq. 4. Source there: Murzyn and Chanson (2009).
+Real largest_deviation_over_d1(Real Fr1);
+/// Strouhal number f d1 / v1 of the surface's fluctuations, eq. 5, for 2.4 < Fr1 < 6.5. Source there:
+/// Chachereau and Chanson (2011).
+Real surface_strouhal(Real Fr1);
 /// A = sqrt(sum d^2 / sum d_theory^2), eq. 19; 1 is agreement. depth: (N) [L]; NaN for N = 0.
 Real agreement_A(std::span<const Real> depth, Real theory);
 /// P = sqrt(sum (d - d_theory)^2 / sum d_theory^2), eq. 20; 0 is agreement. depth: (N) [L]; NaN for N = 0.

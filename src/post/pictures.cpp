@@ -34,22 +34,22 @@ int run(const std::vector<std::string>& words, const std::filesystem::path& log)
   return WEXITSTATUS(status);
 }
 
-std::filesystem::path find_script() {
+std::filesystem::path find_script(const char* name) {
   std::error_code ignored;
-  for (const char* path : {COURANT_PLOT_SCRIPT, COURANT_INSTALLED_PLOT_SCRIPT})
-    if (std::filesystem::exists(path, ignored)) return path;
+  for (const std::filesystem::path beside : {COURANT_PLOT_SCRIPT, COURANT_INSTALLED_PLOT_SCRIPT})
+    if (const auto path = beside.parent_path() / name; std::filesystem::exists(path, ignored)) return path;
   return {};
 }
 
 }  // namespace
 
-bool draw_pictures(const std::filesystem::path& dir, Diagnostics& diagnostics) {
-  const std::filesystem::path script = find_script(), log = dir / "plot.log";
+bool draw_pictures(const std::filesystem::path& dir, const char* name, Diagnostics& diagnostics) {
+  const std::filesystem::path script = find_script(name), log = dir / "plot.log";
   const std::string none = "no pictures were drawn: ";
   std::error_code ignored;
   if (script.empty()) {
-    diagnostics.warning({}, none + "the script plot.py is missing",
-                        std::string("expected at ") + COURANT_INSTALLED_PLOT_SCRIPT);
+    diagnostics.warning({}, none + "the script " + name + " is missing",
+                        "expected beside " + std::string(COURANT_INSTALLED_PLOT_SCRIPT));
     return false;
   }
   std::string python;

@@ -10,11 +10,13 @@
 #include <set>
 
 #include "output/file.hpp"
+#include "post/figures.hpp"
 #include "post/free_surface.hpp"
 #include "post/jump.hpp"
 #include "post/pictures.hpp"
 #include "post/recipe.hpp"
 #include "post/results.hpp"
+#include "post/run_analyses.hpp"
 
 namespace courant {
 namespace {
@@ -77,27 +79,25 @@ std::multimap<std::size_t, Real> snapshot_states(const Recipe& recipe, const std
   return out;
 }
 
-std::optional<Measured> measure(const Recipe& recipe, const std::vector<StateFiles>& states,
-                                Diagnostics& diagnostics) {
-  Measured out;
+/// Looks at states for the jump, the depth probes and the snapshots; `out` and `wanted` must outlive it.
+StateReader measuring_reader(const Recipe& recipe, const std::multimap<std::size_t, Real>& wanted,
+                             Measured& out) {
   out.probes.resize(recipe.probes.size());
-  const auto wanted = snapshot_states(recipe, states, diagnostics);
   const bool series = recipe.jump || !recipe.probes.empty();
-  for (std::size_t s = 0; s < states.size(); ++s) {
-    const bool picture = wanted.count(s) > 0;
-    if (!series && !picture) continue;
-    const auto frame = read_particles(states[s], picture, diagnostics);
-    if (!frame) return std::nullopt;
-    out.t.push_back(frame->t);
-    if (recipe.jump) measure_jump(*frame, *recipe.jump, out.jump);
+  StateReader reader;
+  reader.wants = [series, &wanted](std::size_t s) { return series || wanted.count(s) > 0; };
+  reader.wants_speed = [&wanted](std::size_t s) { return wanted.count(s) > 0; };
+  reader.take = [&recipe, &wanted, &out](std::size_t s, const ParticleFrame& frame) {
+    out.t.push_back(frame.t);
+    if (recipe.jump) measure_jump(frame, *recipe.jump, out.jump);
     for (std::size_t i = 0; i < recipe.probes.size(); ++i) {
       const ProbeRecipe& probe = recipe.probes[i];
-      out.probes[i].push_back(FreeSurface(*frame, probe.x, probe.x).depth(probe.x, probe.bed, probe.z));
+      out.probes[i].push_back(FreeSurface(frame, probe.x, probe.x).depth(probe.x, probe.bed, probe.z));
     }
     const auto [first, last] = wanted.equal_range(s);
-    for (auto w = first; w != last; ++w) add_snapshot(*frame, w->second, *recipe.snapshots, out.snapshots);
-  }
-  return out;
+    for (auto w = first; w != last; ++w) add_snapshot(frame, w->second, *recipe.snapshots, out.snapshots);
+  };
+  return reader;
 }
 
 std::string read_title(const std::filesystem::path& dir, Diagnostics& diagnostics) {
@@ -188,6 +188,13 @@ std::string results_yaml(const Recipe& recipe, const std::string& title, const M
     probe["last_depth"] = digits(measured.probes[i].back());
     out["probes"].push_back(probe);
   }
+  for (const auto& analysis : recipe.analyses)
+    for (const PostScalar& scalar : analysis->result().scalars) {
+      YAML::Node number;
+      number["value"] = std::isnan(scalar.value) ? ".nan" : digits(scalar.value);
+      number["unit"] = scalar.unit;
+      out["analyses"][analysis->name()][scalar.name] = number;
+    }
   YAML::Emitter text;
   text << out;
   return std::string(text.c_str()) + "\n";
@@ -198,18 +205,10 @@ std::string plot_json(const Recipe& recipe, const std::string& title, const std:
   const auto pair = [](const Interval& i) {
     return i.from < i.to ? fmt::format("[{:g}, {:g}]", i.from, i.to) : std::string("null");
   };
-  const auto quoted = [](const std::string& text) {
-    std::string out = "\"";
-    for (unsigned char c : text) {
-      if (c == '"' || c == '\\') out += '\\';
-      out += c < 0x20 ? ' ' : static_cast<char>(c);
-    }
-    return out + '"';
-  };
-  std::string out = fmt::format("{{\"title\": {}", quoted(title));
+  std::string out = fmt::format("{{\"title\": {}", json_quoted(title));
   if (jump) {
     out += fmt::format(", \"jump\": {{\"x\": {:g}, \"d2_theory\": {:.9g}, \"case\": {}, \"intervals\": [",
-                       recipe.jump->x, jump->d2_theory, quoted(jump->case_name));
+                       recipe.jump->x, jump->d2_theory, json_quoted(jump->case_name));
     const char* comma = "";
     for (const IntervalResult& r : jump->intervals) {
       if (r.states == 0) continue;
@@ -235,39 +234,83 @@ std::string walls_csv(const std::vector<WallLine>& walls) {
   return out;
 }
 
+/// Files of the jump, the probes and the snapshots in the run's folder.
+void write_measured(const Recipe& recipe, const std::filesystem::path& dir, const Measured& measured,
+                    const std::optional<JumpResult>& jump, const std::string& title,
+                    const std::vector<WallLine>& walls, const std::function<void(std::string_view)>& say,
+                    Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < recipe.probes.size(); ++i)
+    say(fmt::format("Depth at {} (x = {:g} m): {:.4f} m at t = {:.3g} s, see depth.csv\n",
+                    recipe.probes[i].name, recipe.probes[i].x, measured.probes[i].back(), measured.t.back()));
+  if (jump || !recipe.probes.empty()) write_file(dir / "depth.csv", depth_csv(recipe, measured, jump));
+  if (recipe.snapshots) {
+    write_file(dir / "snapshots.csv", measured.snapshots);
+    write_file(dir / "walls.csv", walls_csv(walls));
+  }
+  if (jump || recipe.snapshots) {
+    write_file(dir / "plot.json", plot_json(recipe, title, jump));
+    if (draw_pictures(dir, "plot.py", diagnostics)) say(fmt::format("Pictures: {}/*.png\n", dir.string()));
+  }
+}
+
+void write_figures(const Recipe& recipe, const std::filesystem::path& folder, const std::string& title,
+                   const std::vector<WallLine>& walls, const std::function<void(std::string_view)>& say,
+                   Diagnostics& diagnostics) {
+  std::vector<PostTable> tables;
+  std::vector<PostImage> images;
+  for (const auto& analysis : recipe.analyses) {
+    const PostResult& result = analysis->result();
+    tables.insert(tables.end(), result.tables.begin(), result.tables.end());
+    images.insert(images.end(), result.images.begin(), result.images.end());
+  }
+  const std::string json =
+      figures_json(recipe.figures, tables, images, walls, recipe.formats, title, diagnostics);
+  write_file(folder / "figures.json", json);
+  if (!diagnostics.ok()) return;  // a figure without one of its curves would mislead
+  if (draw_pictures(folder, "plot_figures.py", diagnostics))
+    say(fmt::format("{} figures: {}\n", recipe.figures.size(), folder.string()));
+}
+
+/// Arrays of the field files that the analyses need.
+std::vector<ParticleArray> needed_arrays(const Recipe& recipe) {
+  std::vector<ParticleArray> out;
+  for (const auto& analysis : recipe.analyses) {
+    if (!analysis->needs_states()) continue;
+    if (out.empty()) out.push_back({"active", 1});
+    analysis->note_needs(out);
+  }
+  return out;
+}
+
 }  // namespace
 
 bool run_post(const std::filesystem::path& recipe_file, const std::filesystem::path& dir,
-              const std::function<void(std::string_view)>& say, Diagnostics& diagnostics) {
+              const std::function<void(std::string_view)>& say, Diagnostics& diagnostics,
+              const std::function<void(const std::string&)>& progress) {
   const auto recipe = read_recipe(recipe_file, diagnostics);
   if (!recipe) return false;
   const auto states = read_states(dir, diagnostics);
   if (states.empty()) return false;
-  const auto measured = measure(*recipe, states, diagnostics);
-  if (!measured) return false;
+  Measured measured;
+  const auto wanted = snapshot_states(*recipe, states, diagnostics);
+  const std::filesystem::path folder = dir / recipe->folder;
+  const std::vector<StateReader> readers{measuring_reader(*recipe, wanted, measured),
+                                         analysis_reader(recipe->analyses, states, folder)};
+  if (!stream_states(states, readers, needed_arrays(*recipe), progress, diagnostics)) return false;
 
   const std::string title = read_title(dir, diagnostics);
   std::optional<JumpResult> jump;
   if (recipe->jump) {
     const std::string name =
         recipe->case_name.empty() ? find_case(title, recipe->jump->published) : recipe->case_name;
-    jump = evaluate_jump(*recipe->jump, name, measured->jump);
+    jump = evaluate_jump(*recipe->jump, name, measured.jump);
     say(jump_text(*recipe->jump, *jump));
   }
-  for (std::size_t i = 0; i < recipe->probes.size(); ++i)
-    say(fmt::format("Depth at {} (x = {:g} m): {:.4f} m at t = {:.3g} s, see depth.csv\n",
-                    recipe->probes[i].name, recipe->probes[i].x, measured->probes[i].back(),
-                    measured->t.back()));
-  write_file(dir / "results.yaml", results_yaml(*recipe, title, *measured, jump));
-  if (jump || !recipe->probes.empty()) write_file(dir / "depth.csv", depth_csv(*recipe, *measured, jump));
-  if (recipe->snapshots) {
-    write_file(dir / "snapshots.csv", measured->snapshots);
-    write_file(dir / "walls.csv", walls_csv(read_walls(states.front(), diagnostics)));
-  }
-  if (jump || recipe->snapshots) {
-    write_file(dir / "plot.json", plot_json(*recipe, title, jump));
-    if (draw_pictures(dir, diagnostics)) say(fmt::format("Pictures: {}/*.png\n", dir.string()));
-  }
+  if (!recipe->analyses.empty()) finish_analyses(recipe->analyses, dir, folder, say, diagnostics);
+  write_file(dir / "results.yaml", results_yaml(*recipe, title, measured, jump));
+  const std::vector<WallLine> walls = read_walls(states.front(), diagnostics);
+  write_measured(*recipe, dir, measured, jump, title, walls, say, diagnostics);
+  if (!recipe->figures.empty()) write_figures(*recipe, folder, title, walls, say, diagnostics);
   return diagnostics.ok();
 }
 

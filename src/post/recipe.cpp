@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+
 #include "post/yaml_map.hpp"
 
 namespace courant {
@@ -81,6 +83,58 @@ SnapshotRecipe read_snapshots(const MapReader& map) {
   return snapshots;
 }
 
+PostSettings read_settings(const MapReader& map) {
+  PostSettings out;
+  if (const auto units = map.map("units")) {
+    units->allow({"mass", "length", "time"});
+    units->text("mass", out.units.mass);
+    units->text("length", out.units.length);
+    units->text("time", out.units.time);
+  }
+  out.up = read_choice(map, "up", {"y", "z"}) + 1;
+  return out;
+}
+
+void read_one_analysis(const MapReader& list, const YAML::Node& node, Recipe& recipe) {
+  std::string name;
+  if (node.IsMap() && node["name"] && node["name"].IsScalar()) name = node["name"].Scalar();
+  const MapReader map = list.element(node, name.empty() ? "analyses" : name.c_str());
+  if (!node.IsMap()) return;  // the reader has told
+  auto analysis = read_analysis(map, recipe.settings);
+  if (!analysis) return;
+  const auto named = [&](const std::string& wanted) {
+    return std::any_of(recipe.analyses.begin(), recipe.analyses.end(),
+                       [&](const auto& other) { return other->name() == wanted; });
+  };
+  if (named(analysis->name()))
+    map.error(*map.get("name", false), fmt::format("two analyses are named '{}'", analysis->name()));
+  for (const auto& [key, wanted] : analysis->refers())
+    if (const auto at = map.get(key, false); at && !named(wanted))
+      map.error(*at, fmt::format("'{}.{}': there is no analysis '{}' above it", map.name(), key, wanted),
+                "analyses are worked through from top to bottom");
+  recipe.analyses.push_back(std::move(analysis));
+}
+
+void read_formats(const MapReader& map, Recipe& recipe) {
+  if (!map.has("formats")) return;
+  recipe.formats.clear();
+  map.list("formats", [&](const YAML::Node& node) {
+    recipe.formats.push_back(node.IsScalar() ? node.Scalar() : "");
+    const std::string& format = recipe.formats.back();
+    if (format != "png" && format != "svg" && format != "pdf")
+      map.error(node, fmt::format("'{}.formats' cannot be '{}'", map.name(), format),
+                "they are png, svg and pdf");
+  });
+}
+
+void read_folder(const MapReader& map, Recipe& recipe) {
+  map.text("folder", recipe.folder);
+  const std::filesystem::path folder = recipe.folder;
+  if (folder.is_absolute() || recipe.folder.find("..") != std::string::npos || folder.empty())
+    map.error(*map.get("folder", false), "'recipe.folder' must be a folder within the run's",
+              "for example post");
+}
+
 }  // namespace
 
 std::optional<Recipe> read_recipe(const std::filesystem::path& file, Diagnostics& diagnostics) {
@@ -91,7 +145,8 @@ std::optional<Recipe> read_recipe(const std::filesystem::path& file, Diagnostics
   if (!root) return std::nullopt;
   const int errors_before = diagnostics.errors();
   const MapReader map(*root, "recipe", recipe.file, diagnostics);
-  map.allow({"case", "probes", "jump", "snapshots"});
+  map.allow(
+      {"case", "probes", "jump", "snapshots", "units", "up", "folder", "analyses", "figures", "formats"});
   map.text("case", recipe.case_name);
   const auto add_probe = [&](const YAML::Node& node) {
     recipe.probes.push_back(read_probe(map.element(node, "probes"), recipe.probes.size() + 1));
@@ -99,9 +154,15 @@ std::optional<Recipe> read_recipe(const std::filesystem::path& file, Diagnostics
   map.list("probes", add_probe);
   if (const auto jump = map.map("jump")) recipe.jump = read_jump(*jump);
   if (const auto snapshots = map.map("snapshots")) recipe.snapshots = read_snapshots(*snapshots);
-  if (diagnostics.errors() == errors_before && recipe.probes.empty() && !recipe.jump && !recipe.snapshots)
+  recipe.settings = read_settings(map);
+  map.list("analyses", [&](const YAML::Node& node) { read_one_analysis(map, node, recipe); });
+  map.list("figures", [&](const YAML::Node& node) { recipe.figures.push_back(read_figure(map, node)); });
+  read_formats(map, recipe);
+  read_folder(map, recipe);
+  const bool empty = recipe.probes.empty() && !recipe.jump && !recipe.snapshots && recipe.analyses.empty();
+  if (diagnostics.errors() == errors_before && empty)
     diagnostics.error({recipe.file, 1, 1}, "the recipe asks for nothing",
-                      "add one of: probes, jump, snapshots");
+                      "add one of: probes, jump, snapshots, analyses");
   if (diagnostics.errors() > errors_before) return std::nullopt;
   return recipe;
 }

@@ -1,12 +1,15 @@
 #pragma once
 // What `courant post` is asked to measure: the content of a recipe (YAML).
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/diagnostic.hpp"
 #include "base/real.hpp"
+#include "post/analysis.hpp"
+#include "post/figures.hpp"
 
 namespace courant {
 
@@ -53,6 +56,11 @@ struct Recipe {
   std::vector<ProbeRecipe> probes;
   std::optional<JumpRecipe> jump;
   std::optional<SnapshotRecipe> snapshots;
+  PostSettings settings;
+  std::vector<std::unique_ptr<Analysis>> analyses;  ///< in the order of the recipe
+  std::vector<Figure> figures;                      ///< drawn from the tables of analyses
+  std::vector<std::string> formats{"png"};          ///< of the figures: png, svg, pdf
+  std::string folder = "post";                      ///< in the run's folder, for what analyses write
 };
 
 /// Reads a recipe. Every fault is reported with its place; then there is no value.

@@ -13,6 +13,16 @@ TEST(Belanger, ThePapersJump) {
   EXPECT_NEAR(belanger_depth(std::sqrt(9.81 * 0.02), 0.02, 9.81), 0.02, 1e-15);  // Fr = 1: no jump
 }
 
+/// Against hand calculation with tables of tanh and exp.
+TEST(EmpiricalEquations, ThePapersJump) {
+  EXPECT_NEAR(0.02 * roller_length_over_d1(3.4), 0.2988, 5e-3 * 0.2988);  // the number in the paper
+  EXPECT_NEAR(velocity_decay(10), 0.75578, 1e-5);
+  EXPECT_NEAR(velocity_decay(0), 1, 0);
+  EXPECT_NEAR(largest_deviation_over_d1(2), 0.116, 1e-12);
+  EXPECT_NEAR(surface_strouhal(0), 0.143, 1e-12);
+  EXPECT_NEAR(surface_strouhal(3.4) * 1.5 / 0.02, 4.28, 0.01);
+}
+
 TEST(Agreement, MadeSignals) {
   const std::vector<Real> exact = {2, 2, 2}, scaled = {1.8, 1.8}, mixed = {1, 3};
   EXPECT_DOUBLE_EQ(agreement_A(exact, 2), 1);

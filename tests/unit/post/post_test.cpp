@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 #include "../output/output_test.hpp"
 #include "output/field_writer.hpp"
 #include "output/summary.hpp"
+#include "parallel/parallel.hpp"
 #include "post/recipe.hpp"
 
 namespace courant {
@@ -46,9 +48,9 @@ void fill_channel(World& world, Real x_jump) {
 
 /// The jump stands at x = 1.2 (outside) before 1 s, then goes upstream from 0.9 at 0.1 m/s; a state every 0.1
 /// s.
-void write_run(const ScratchFolder& dir, const std::string& title) {
+void write_run(const ScratchFolder& dir, const std::string& title, int states = 51) {
   FieldWriter writer(dir.path(), {.part_ids = {1}});
-  for (int s = 0; s <= 50; ++s) {
+  for (int s = 0; s < states; ++s) {
     World world;
     fill_channel(world, s < 10 ? 1.2 : 0.9 - 0.01 * (s - 10));
     writer.write(world, 0.1 * s, s);
@@ -161,6 +163,106 @@ TEST(Recipe, AllFaultsAtOnceWithTheirPlaces) {
   EXPECT_NE(text.find(":5:15: error: 'jump.intervals': the first number must be less"), std::string::npos)
       << text;
   EXPECT_NE(text.find(":6:20: error: 'snapshots.times' must be a list"), std::string::npos) << text;
+}
+
+TEST(Recipe, FaultsOfAnalysesWithTheirPlaces) {
+  ScratchFolder dir;
+  const auto message = [&](const std::string& text) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(read_recipe(write(dir, text), diagnostics)) << text;
+    std::string out = diagnostics.text();
+    const std::string name = (dir / "recipe.yaml").string();
+    for (auto at = out.find(name); at != std::string::npos; at = out.find(name))
+      out.replace(at, name.size(), "R");
+    return out;
+  };
+  const auto analysis = [&](const std::string& keys) { return message("analyses:\n  - {" + keys + "}\n"); };
+  EXPECT_EQ(analysis("kind: surfce, name: a, x: 1"),
+            "R:2:12: error: there is no kind of analysis 'surfce'\n"
+            "  hint: did you mean surface? kinds: probe, surface, grid, profile, spectrum, flux, history, "
+            "force, toe, "
+            "roller\n");
+  EXPECT_EQ(analysis("kind: surface, name: a/b, x: 1"),
+            "R:2:27: error: the name 'a/b' of an analysis must be of letters, digits, - and _\n"
+            "  hint: files are named after it\n");
+  EXPECT_EQ(analysis("kind: surface, name: a, x: {from: 1, to: 0, step: 0.1}"),
+            "R:2:33: error: 'a.x' must go upwards in at most 100000 steps\n");
+  EXPECT_EQ(analysis("kind: spectrum, name: s, of: depth"),
+            "R:2:35: error: 's.of': there is no analysis 'depth' above it\n"
+            "  hint: analyses are worked through from top to bottom\n");
+  EXPECT_EQ(analysis("kind: profile, name: p, of: [u], x: 1, y: 1"),
+            "R:2:35: error: 'p.of': unknown name 'u'\n  hint: it may use x, y, z, vx, vy, vz, speed, p, rho, "
+            "h, m, V, e, "
+            "part, id, active, t\n");
+  EXPECT_EQ(analysis("kind: profile, name: p, of: [p], x: 1, y: 1, interpolation: msl"),
+            "R:2:66: error: 'p.interpolation' cannot be 'msl'\n  hint: it is one of shepard, mls\n");
+  EXPECT_EQ(analysis("kind: surface, name: a, x: 1, link: 3"),
+            "R:2:42: error: 'a.link' must be at most 2, got 3\n"
+            "  hint: particles further apart than 2 h do not know each other\n");
+  EXPECT_EQ(message("folder: ../out\nanalyses: [{kind: surface, name: a, x: 1}]\n"),
+            "R:1:9: error: 'recipe.folder' must be a folder within the run's\n  hint: for example post\n");
+}
+
+TEST(Post, FiguresThatNameWhatIsNotThere) {
+  ScratchFolder dir;
+  FieldWriter writer(dir.path(), {.part_ids = {1}});
+  World world;
+  fill_channel(world, 0.5);
+  writer.write(world, 0, 0);
+  const auto recipe = write(dir,
+                            "analyses: [{kind: surface, name: depth, x: [0.2, 0.8]}]\n"
+                            "figures:\n"
+                            "  - {name: a, curves: [{table: dept, x: t, y: t}]}\n"
+                            "  - {name: b, curves: [{table: depth_mean, x: x, y: meen}]}\n");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(run_post(
+      recipe, dir.path(), [](std::string_view) {}, diagnostics));
+  const std::string text = diagnostics.text();
+  EXPECT_NE(
+      text.find(
+          ":3:24: error: there is no table 'dept' for the figure\n  hint: there are: depth, depth_mean"),
+      std::string::npos)
+      << text;
+  EXPECT_NE(text.find(":4:24: error: 'y' of a curve from 'depth_mean': unknown name 'meen'"),
+            std::string::npos)
+      << text;
+  EXPECT_GT(std::filesystem::file_size(dir / "post/depth_mean.csv"), 50u);
+}
+
+TEST(Post, SameTablesOnAnyNumberOfThreads) {
+  ScratchFolder dir;
+  write_run(dir, "jump", 12);
+  const auto recipe =
+      write(dir,
+            "analyses:\n"
+            "  - {kind: surface, name: s, x: {from: 0.1, to: 1, step: 0.05}, layers: true}\n"
+            "  - {kind: profile, name: u, of: [vx, p], x: [0.3, 0.9], y: {from: 0.01, to: 0.08, step: 0.01}, "
+            "interpolation: mls}\n"
+            "  - {kind: spectrum, name: f, of: s}\n"
+            "  - {kind: flux, name: q, at: [0.3, 0.9]}\n");
+  std::map<std::string, std::string> first;
+  for (int n : {1, 2, 4}) {
+    set_threads(n);
+    Diagnostics diagnostics;
+    ASSERT_TRUE(run_post(
+        recipe, dir.path(), [](std::string_view) {}, diagnostics))
+        << diagnostics.text();
+    for (const char* name : {"s", "s_mean", "s_layers", "u", "f", "f_peaks", "q", "q_mean"}) {
+      const std::string text = test::read_text(dir / ("post/" + std::string(name) + ".csv"));
+      EXPECT_GT(text.size(), 50u);
+      EXPECT_EQ(first.emplace(name, text).first->second, text) << name << " on " << n << " threads";
+    }
+  }
+  set_threads(0);
+}
+
+TEST(Recipe, ThePapersFiguresAreSound) {
+  Diagnostics diagnostics;
+  const auto recipe =
+      read_recipe(std::string(SOURCE_DIR) + "/keyword_decks/hydraulic_jump/paper_figures.yaml", diagnostics);
+  ASSERT_TRUE(recipe) << diagnostics.text();
+  EXPECT_EQ(recipe->analyses.size(), 10u);
+  EXPECT_EQ(recipe->figures.size(), 12u);
 }
 
 TEST(Recipe, BadFiles) {

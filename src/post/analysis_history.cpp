@@ -1,0 +1,154 @@
+// kinds: history and force. Series of history.h5, forces on walls and bodies among them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/nearest_word.hpp"
+#include "post/analysis.hpp"
+#include "post/history_file.hpp"
+
+namespace courant {
+namespace {
+
+/// One column: a component of a dataset times a factor.
+struct Source {
+  std::string name, path;
+  int component = 0;
+  Real factor = 1;
+  std::string unit{};  // empty: from the dimension in the file
+};
+
+/// "contacts/1/force.x" -> path and component. Returns false where the component is none.
+bool split(const std::string& text, Source& source) {
+  source.path = text.starts_with('/') ? text : "/" + text;
+  const auto dot = source.path.rfind('.');
+  if (dot == std::string::npos) return true;
+  const auto axis = std::string("xyz").find(source.path.substr(dot + 1));
+  if (source.path.size() != dot + 2 || axis == std::string::npos) return false;
+  source.component = static_cast<int>(axis);
+  source.path.resize(dot);
+  return true;
+}
+
+class HistoryAnalysis : public Analysis {
+ public:
+  HistoryAnalysis(const char* kind, const MapReader& map, const PostSettings& settings)
+      : Analysis(kind, map), units_(settings.units) {
+    read_window(map, window_);
+  }
+  void read_sources(const MapReader& map) {
+    map.allow({"kind", "name", "of", "from", "to"});
+    map.list(
+        "of", [&](const YAML::Node& node) { add_source(map, node); }, true);
+  }
+  void read_forces(const MapReader& map) {
+    map.allow({"kind", "name", "contacts", "bodies", "from", "to"});
+    const auto add = [&](const char* group, const char* word, Real factor, const YAML::Node& node) {
+      const std::string id = node.IsScalar() ? node.Scalar() : "";
+      for (int a = 0; a < 3; ++a) {
+        const char axis = "xyz"[a];
+        sources_.push_back({fmt::format("force_{}_{}{}", axis, word, id),
+                            fmt::format("/{}/{}/force", group, id), a, factor});
+      }
+    };
+    // a contact's history is the force on the particles; on the walls it is the opposite
+    map.list("contacts", [&](const YAML::Node& node) { add("contacts", "contact", -1, node); });
+    map.list("bodies", [&](const YAML::Node& node) { add("rigid_bodies", "body", 1, node); });
+    if (sources_.empty())
+      map.error(map.node(), fmt::format("'{}' names neither contacts nor bodies", map.name()),
+                "for example contacts: [1]");
+  }
+
+  bool needs_states() const override { return false; }
+  std::vector<PostSeries> series() const override { return series_; }
+
+  void finish(const std::vector<std::unique_ptr<Analysis>>&, const std::filesystem::path& dir,
+              Diagnostics& diagnostics) override {
+    const auto file = HistoryFile::open(dir / "history.h5", diagnostics);
+    if (!file) return;
+    times_ = *file->column("/global/time");
+    PostTable& table = add_table();
+    table.columns.push_back({"t", units_.of({0, 0, 1}), times_});
+    for (const Source& source : sources_) {
+      auto values = file->column(source.path, source.component);
+      if (!values) {
+        const std::string near = nearest_word(source.path, file->names());
+        fault(diagnostics,
+              fmt::format("history.h5 has no dataset '{}' with component {}", source.path, source.component),
+              near.empty() ? "h5ls -r history.h5 lists them" : fmt::format("did you mean {}?", near));
+        continue;
+      }
+      for (Real& value : *values) value *= source.factor;
+      const std::string unit =
+          source.unit.empty() ? units_.of(parse_dimension(file->dimension(source.path))) : source.unit;
+      series_.push_back({source.name, unit, std::nullopt, *values});
+      table.columns.push_back({source.name, unit, std::move(*values)});
+      add_statistics(series_.back());
+    }
+  }
+
+ private:
+  void add_source(const MapReader& map, const YAML::Node& node) {
+    Source source;
+    std::string text;
+    if (node.IsMap()) {
+      const MapReader entry = map.element(node, "of");
+      entry.allow({"name", "of", "factor", "unit"});
+      entry.text("name", source.name, true);
+      entry.text("of", text, true);
+      entry.number("factor", source.factor);
+      entry.text("unit", source.unit);
+    } else if (node.IsScalar()) {
+      text = source.name = node.Scalar();
+    }
+    if (!split(text, source) || text.empty())
+      map.error(node, fmt::format("'{}.of' must name a dataset of history.h5, got '{}'", map.name(), text),
+                "for example contacts/1/force.x or global/kinetic");
+    sources_.push_back(std::move(source));
+  }
+
+  void add_statistics(const PostSeries& series) {
+    RunningMoments moments;
+    Real impulse = 0;
+    const Real spacing =
+        times_.size() > 1 ? (times_.back() - times_.front()) / static_cast<Real>(times_.size() - 1) : 0;
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      if (!window_.holds(times_[i], 0.25 * spacing)) continue;
+      moments.add(series.values[i]);
+      const bool pair = i > 0 && window_.holds(times_[i - 1], 0.25 * spacing);
+      const Real piece =
+          pair ? 0.5 * (times_[i] - times_[i - 1]) * (series.values[i] + series.values[i - 1]) : 0;
+      if (!std::isnan(piece)) impulse += piece;
+    }
+    add_scalar(series.name + "_mean", series.unit, moments.mean_or_nan());
+    add_scalar(series.name + "_deviation", series.unit, moments.deviation());
+    add_scalar(series.name + "_least", series.unit, moments.n > 0 ? moments.least : std::nan(""));
+    add_scalar(series.name + "_most", series.unit, moments.n > 0 ? moments.most : std::nan(""));
+    add_scalar(series.name + "_integral", series.unit + " " + units_.time, impulse);
+    result_.text +=
+        fmt::format("  {}: mean {:.5g} {}, deviation {:.3g}, {:.5g} to {:.5g}\n", series.name,
+                    moments.mean_or_nan(), series.unit, moments.deviation(), moments.least, moments.most);
+  }
+
+  PostUnits units_;
+  TimeWindow window_;
+  std::vector<Source> sources_;
+  std::vector<PostSeries> series_;
+};
+
+}  // namespace
+
+std::unique_ptr<Analysis> read_history_analysis(const MapReader& map, const PostSettings& settings) {
+  auto out = std::make_unique<HistoryAnalysis>("history", map, settings);
+  out->read_sources(map);
+  return out;
+}
+
+std::unique_ptr<Analysis> read_force_analysis(const MapReader& map, const PostSettings& settings) {
+  auto out = std::make_unique<HistoryAnalysis>("force", map, settings);
+  out->read_forces(map);
+  return out;
+}
+
+}  // namespace courant
