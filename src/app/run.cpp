@@ -433,9 +433,7 @@ class Run {
                                   end_, 100 * done, s_.clock().dt_old, who_, state_in_words(), time_left()));
   }
 
-  std::string time_left() const {
-    return s_.clock().t > first_time_ ? duration(seconds_left()) : "?";
-  }
+  std::string time_left() const { return s_.clock().t > first_time_ ? duration(seconds_left()) : "?"; }
   double seconds_left() const {
     return seconds_since(start_) * std::max(0.0, end_ - s_.clock().t) / (s_.clock().t - first_time_);
   }
