@@ -7,14 +7,17 @@
 #include <fmt/format.h>
 
 #include "app/advice.hpp"
-#include "app/range_warnings.hpp"
+#include "app/end_report.hpp"
+#include "app/field_options.hpp"
 #include "app/simulation.hpp"
 #include "base/run_error.hpp"
+#include "model/output_times.hpp"
 #include "output/ascii.hpp"
 #include "output/field_writer.hpp"
 #include "output/messag.hpp"
 #include "parallel/job_queue.hpp"
 #include "parallel/parallel.hpp"
+#include "time/guard.hpp"
 
 namespace courant {
 
@@ -41,22 +44,25 @@ std::int64_t peak_memory() {
   return usage.ru_maxrss * 1024;
 }
 
+OutputSchedule schedule(const OutputTimes& times) {
+  if (times.rule == OutputTimes::Rule::interval) return {times.interval};
+  return {first_output(times), [times](Real due) { return next_output(times, due); }};
+}
+
 HistoryRequests history_requests(const Simulation& s) {
   const OutputRequests& wanted = s.model().output;
   HistoryRequests h;
-  h.glstat = wanted.glstat, h.matsum = wanted.matsum, h.rcforc = wanted.rcforc, h.sphout = wanted.sphout;
+  h.glstat = schedule(wanted.glstat), h.matsum = schedule(wanted.matsum), h.rcforc = schedule(wanted.rcforc);
+  h.sleout = schedule(wanted.sleout), h.sphout = schedule(wanted.sphout), h.nodout = schedule(wanted.nodout);
+  h.rbdout = schedule(wanted.rbdout), h.bndout = schedule(wanted.bndout);
+  h.spcforc = schedule(wanted.spcforc);
+  for (const HistoryNode& node : wanted.history_node)
+    if (!node.title.empty()) h.nodes.push_back({node.id, node.title});
   h.title = s.model().title;
   for (const ModelPart& part : s.model().parts) h.parts.push_back({part.id, part.title});
   for (const auto& contact : s.contacts())
     h.contacts.push_back({contact->report().id, contact->report().title});
   return h;
-}
-
-std::string duration(double seconds) {
-  if (seconds < 60) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 3600)
-    return fmt::format("{:.0f} min {:02.0f} s", std::floor(seconds / 60), std::fmod(seconds, 60));
-  return fmt::format("{:.0f} h {:02.0f} min", std::floor(seconds / 3600), std::fmod(seconds / 60, 60));
 }
 
 /// One run with its files.
@@ -70,9 +76,9 @@ class Run {
                 [this](std::string_view line) {
                   if (options_.print) options_.print(std::string(line));
                 }),
-        fields_(options.dir, writer_options(simulation)),
+        fields_(options.dir, field_options(simulation.model(), simulation.sph().hide_inactive)),
         histories_(options.dir, history_requests(simulation)),
-        field_schedule_(field_interval(simulation, end_)) {
+        field_schedule_(field_schedule(simulation, end_)) {
     summary_.title = s_.model().title;
     summary_.deck = deck_path;
     summary_.threads = threads();
@@ -106,15 +112,9 @@ class Run {
       std::filesystem::remove(dir / name, ignored);
     }
   }
-  static FieldWriterOptions writer_options(const Simulation& s) {
-    FieldWriterOptions o;
-    for (const ModelPart& part : s.model().parts) o.part_ids.push_back(part.id);
-    o.hide_inactive = s.sph().hide_inactive;
-    return o;
-  }
-  static Real field_interval(const Simulation& s, Real end) {
+  static OutputSchedule field_schedule(const Simulation& s, Real end) {
     const OutputRequests& wanted = s.model().output;
-    return wanted.d3plot_count > 0 ? end / wanted.d3plot_count : wanted.d3plot;
+    return wanted.d3plot_count > 0 ? OutputSchedule(end / wanted.d3plot_count) : schedule(wanted.d3plot);
   }
 
   void print_start() {
@@ -125,6 +125,7 @@ class Run {
                              s_.world().segments.size(), summary_.threads));
     for (const std::string& warning : options_.warnings) messag_.line(warning);
     messag_.line(s_.passes());
+    messag_.line(" input of data is completed");
     messag_.line(fmt::format(" termination time                  = {:10.3E}", end_));
   }
 
@@ -156,11 +157,14 @@ class Run {
     summary_.dt_max = std::max(summary_.dt_max, clock.dt);
     if (field_schedule_.take(clock.t, clock.dt)) write_fields(world, clock);
     if (histories_.is_due(clock.t, clock.dt)) write_histories(false);
-    if (clock.cycle % 5000 == 0 && clock.cycle > 0)
+    if (clock.cycle % 5000 == 0 && clock.cycle > 0) {
       messag_.status(clock.cycle, clock.t, clock.dt, "flush i/o buffers");
+      messag_.line(fmt::format("          step set by {}  {}  {} left", who, state_in_words(), time_left()));
+    }
   }
 
   void print_first_step(const Clock& clock) {
+    messag_.line(fmt::format(" initial kinetic energy = {:.8E}", s_.world().energy.kinetic));
     messag_.line(" initialization completed");
     messag_.line(fmt::format("first step {:.4E} [T], set by {}", clock.dt, who_));
   }
@@ -186,15 +190,18 @@ class Run {
 
   void finish_normally() {
     s_.evaluate(who_);  // pressures and forces at the end time
-    s_.guard().look(s_.world(), s_.clock());
-    if (field_schedule_.interval() > 0 && last_field_time_ < s_.clock().t)
-      write_fields(s_.world(), s_.clock());
-    write_histories(true);
-    writer_.wait();
+    s_.timer().measure("guard", [&] { s_.guard().look(s_.world(), s_.clock()); });
+    s_.timer().measure("output", [&] { write_last(); });
     if (summary_.termination.empty()) {
       summary_.termination = "normal";
       messag_.line(fmt::format(" *** {} ***", summary_.reason));
     }
+  }
+
+  void write_last() {
+    if (field_schedule_.is_wanted() && last_field_time_ < s_.clock().t) write_fields(s_.world(), s_.clock());
+    write_histories(true);
+    writer_.wait();
   }
 
   void fail(const std::string& reason) {
@@ -214,13 +221,14 @@ class Run {
 
   /// Writes what can still be written; a second failure must not hide the first.
   void close() {
-    attempt([&] { writer_.wait(); });
-    attempt([&] { histories_.finish(); });
-    attempt([&] { fields_.finish(); });
-    if (failed_state_) attempt([&] { fields_.write_failed(s_.world(), s_.clock().t); });
+    s_.timer().measure("output", [&] {
+      attempt([&] { writer_.wait(); });
+      attempt([&] { histories_.finish(); });
+      attempt([&] { fields_.finish(); });
+      if (failed_state_) attempt([&] { fields_.write_failed(s_.world(), s_.clock().t); });
+    });
     Summary& y = summary_;
     y.ranges = s_.guard().ranges();
-    for (const std::string& warning : range_warnings(y.ranges)) y.warnings.push_back(warning);
     y.time = s_.clock().t, y.steps = s_.clock().cycle;
     y.wall_seconds = seconds_since(start_), y.cpu_seconds = cpu_seconds() - cpu_start_;
     y.writer_cpu_seconds = writer_.cpu_seconds();
@@ -232,8 +240,11 @@ class Run {
     y.leaked_particles = y.counters.contains("leaked_particles") ? y.counters.at("leaked_particles") : 0;
     y.max_penetration = y.maxima.contains("max_penetration") ? y.maxima.at("max_penetration") : 0;
     if (!std::isfinite(y.dt_min)) y.dt_min = 0;
-    for (const auto& row : s_.timer().table()) y.passes.push_back({row.name, row.seconds, row.calls});
+    y.read_seconds = s_.read_seconds();
     y.counters["neighbour_rebuilds"] = s_.neighbours().rebuilds();
+    for (const std::string& warning : end_warnings(y)) y.warnings.push_back(warning);
+    note_times();
+    note_output();
     attempt([&] { print_end(); });
     attempt([&] { write_summary(std::filesystem::path(options_.dir) / "summary.yaml", y); });
   }
@@ -254,39 +265,53 @@ class Run {
   void print_end() {
     if (!failure_.empty()) messag_.line(failure_);
     if (summary_.termination == "interrupted") messag_.line(fmt::format(" *** {} ***", summary_.reason));
+    for (const std::string& line : end_report(summary_)) messag_.line(line);
     const bool ok = summary_.termination != "error";
-    messag_.line("T i m i n g   i n f o r m a t i o n        seconds        %");
-    for (const auto& pass : summary_.passes)
-      messag_.line(fmt::format("  {:<38}{:10.3f}{:9.1f}", pass.name, pass.seconds,
-                               100 * pass.seconds / summary_.wall_seconds));
-    messag_.line(
-        fmt::format("  {:<38}{:10.3f}", "(writer's CPU time, beside all this)", summary_.writer_cpu_seconds));
-    messag_.line(fmt::format(" Problem time       = {:12.5E}", summary_.time));
-    messag_.line(fmt::format(" Problem cycle      = {}", summary_.steps));
-    messag_.line(
-        fmt::format(" Total CPU time     = {:.1f} s, elapsed {:.1f} s, {:.0f} ns per particle and step",
-                    summary_.cpu_seconds, summary_.wall_seconds, summary_.ns_per_particle_step()));
-    messag_.line(
-        fmt::format(" leaked particles {}, largest penetration {:.4g} [L], energy residual {:.3g} % of what "
-                    "passed through",
-                    summary_.leaked_particles, summary_.max_penetration, residual_percent(summary_.energy)));
-    for (const std::string& line : range_lines(summary_.ranges)) messag_.line(line);
-    for (const std::string& warning : range_warnings(summary_.ranges)) messag_.line(" " + warning);
-    messag_.line(ok ? " N o r m a l    t e r m i n a t i o n" : " E r r o r    t e r m i n a t i o n");
+    messag_.banner(ok ? " N o r m a l    t e r m i n a t i o n" : " E r r o r    t e r m i n a t i o n");
   }
 
-  static Real residual_percent(const EnergyLedger& e) {
-    return e.throughput > 0 ? 100 * e.residual() / e.throughput : 0;
+  /// Rows of the passes, and what is left of the elapsed time.
+  void note_times() {
+    double sum = 0;
+    for (const auto& row : s_.timer().table()) {
+      summary_.passes.push_back({row.name, row.seconds, row.calls});
+      sum += row.seconds;
+      if (row.name == "output") summary_.output.seconds = row.seconds;
+    }
+    summary_.passes.push_back({"rest", summary_.read_seconds + summary_.wall_seconds - sum, 1});
+  }
+
+  void note_output() {
+    summary_.output.states = fields_.states();
+    summary_.output.field_bytes = fields_.bytes();
+    summary_.output.history_bytes = histories_.bytes();
   }
 
   void show_progress() {
+    if (s_.clock().cycle == 64) {
+      const double done = s_.clock().t / end_;
+      messag_.line(fmt::format(" estimated clock time to complete    = {:10.0f} sec",
+                               seconds_since(start_) * (1 - done) / done));
+    }
     if (!options_.progress || seconds_since(shown_) < 0.5) return;
     shown_ = Clock_::now();
-    const double elapsed = seconds_since(start_), done = std::min(1.0, s_.clock().t / end_);
-    options_.progress(fmt::format("t {:.4f} of {:g}  {:5.1f} %  dt {:.2e} ({})  {} active  {} left",
-                                  s_.clock().t, end_, 100 * done, s_.clock().dt_old, who_,
-                                  s_.world().particles.active,
-                                  done > 0 ? duration(elapsed * (1 - done) / done) : "?"));
+    const double done = std::min(1.0, s_.clock().t / end_);
+    options_.progress(fmt::format("t {:.4f} of {:g}  {:5.1f} %  dt {:.2e} ({})  {}  {} left", s_.clock().t,
+                                  end_, 100 * done, s_.clock().dt_old, who_, state_in_words(), time_left()));
+  }
+
+  std::string time_left() const {
+    const double done = std::min(1.0, s_.clock().t / end_);
+    return done > 0 ? duration(seconds_since(start_) * (1 - done) / done) : "?";
+  }
+
+  /// Energy as the guard saw it last.
+  std::string state_in_words() const {
+    const Counters& counters = s_.world().counters;
+    const auto leaked = counters.find("leaked_particles");
+    return fmt::format("{} active  energy ratio {:.4f}  leaked {}", s_.world().particles.active,
+                       1 + energy_ratio_change(s_.world().energy) / 100,
+                       leaked == counters.end() ? 0 : leaked->second);
   }
 
   Simulation& s_;

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <unordered_map>
 
+#include "app/field_options.hpp"
 #include "materials/initial_stress.hpp"
 #include "model/build_model.hpp"
 #include "model/included_entries.hpp"
@@ -23,14 +23,26 @@ constexpr Real least_skin = 0.02, first_skin = 0.1, most_skin = 0.4;
 
 std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, const ReadOptions& options,
                                               Diagnostics& diagnostics) {
+  const double start = PassTimer::now();
   Deck deck = read_deck(deck_path, options, diagnostics);
   if (diagnostics.ok()) move_included_entries(deck, diagnostics);
-  return from_deck(deck_path, std::move(deck), diagnostics);
+  const double read = PassTimer::now();
+  auto s = from_deck(deck_path, std::move(deck), diagnostics);
+  if (!s) return s;
+  s->note_read_seconds(read - start, PassTimer::now() - read);
+  return s;
+}
+
+void Simulation::note_read_seconds(double reading, double building) {
+  timer_.add(timer_.row("keyword reader"), reading);
+  timer_.add(timer_.row("set-up"), building);
+  read_seconds_ = reading + building;
 }
 
 std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, Deck deck,
                                                   Diagnostics& diagnostics) {
   std::unique_ptr<Simulation> s(new Simulation);
+  for (const char* row : {"keyword reader", "set-up"}) s->timer_.row(row);  // stand first
   s->deck_ = std::move(deck);
   if (!diagnostics.ok()) return nullptr;  // what could not be read or moved would only cause more messages
   s->model_ = build_model(s->deck_, diagnostics);
@@ -105,6 +117,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   else
     left_out_.push_back({"fixed particles", "no particle in *BOUNDARY_SPC"});
   add_bodies();
+  check_field_names(deck_, model_.output.fields, world_, diagnostics);
   rules_.dtinit = model_.dtinit;
   if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
   rules_.dtmin = model_.dtmin;
@@ -165,55 +178,19 @@ void Simulation::evaluate(std::string& dt_controlled_by) {
   stepper_->evaluate(clock_, dt_controlled_by);
 }
 
-Sample Simulation::sample(const std::string& dt_controlled_by) {
-  sample_energy(world_, clock_);
-  Sample s;
-  s.t = clock_.t, s.dt = clock_.dt, s.cycle = clock_.cycle, s.dt_set_by = dt_controlled_by,
-  s.energy = world_.energy;
-  const Particles& p = world_.particles;
-  const auto* volume = dynamic_cast<const Field<Real>*>(p.fields.find("reference_volume"));
-  for (const ModelPart& part : model_.parts) s.parts.push_back({.id = part.id, .title = part.title});
-  for (Index i = 0; i < p.active; ++i) {
-    PartSample& part = s.parts[p.part[i]];
-    const Real m = p.m[i];
-    const Vec v = p.v.vec(i);
-    part.mass += m;
-    part.momentum += m * v;
-    part.kinetic += 0.5 * m * v.squaredNorm();
-    part.internal += p.E[i] * (*volume)[i];
-  }
-  if (bodies_) s.bodies = bodies_->reports();
-  for (const RigidBodyReport& body : s.bodies) {
-    PartSample& part = s.parts[model_.part_of_id.at(body.part)];
-    part.mass = body.mass;
-    part.momentum = body.mass * body.v;
-    part.kinetic = body.kinetic_energy;
-    part.rigid_velocity = body.v;
-  }
-  Vec momentum = Vec::Zero();
-  for (const PartSample& part : s.parts) s.mass += part.mass, momentum += part.momentum;
-  if (s.mass > 0) s.velocity = momentum / s.mass;
-  for (const auto& contact : contacts_) s.interfaces.push_back(contact->report());
-  if (!model_.output.history_sph.empty()) {
-    std::unordered_map<Id, Index> index;  // of those that are asked for: few among many
-    for (const Id id : model_.output.history_sph) index[id] = -1;
-    for (Index i = 0; i < p.size(); ++i)
-      if (const auto at = index.find(p.id[i]); at != index.end()) at->second = i;
-    for (const Id id : model_.output.history_sph)
-      if (const Index i = index.at(id); i >= 0)
-        s.particles.push_back({id, i < p.active, p.place(i, clock_.t), p.v.vec(i), p.p[i], p.rho[i], p.E[i]});
-  }
-  return s;
-}
-
 std::vector<PassNote> Simulation::outputs(bool wanted) const {
   const OutputRequests& out = model_.output;
   const std::pair<PassNote, bool> all[] = {
-      {{"field states", "no *DATABASE_BINARY_D3PLOT"}, out.d3plot > 0 || out.d3plot_count > 0},
-      {{"glstat", "no *DATABASE_GLSTAT"}, out.glstat > 0},
-      {{"matsum", "no *DATABASE_MATSUM"}, out.matsum > 0},
-      {{"rcforc", "no *DATABASE_RCFORC"}, out.rcforc > 0},
-      {{"sphout", "no *DATABASE_SPHOUT"}, out.sphout > 0},
+      {{"field states", "no *DATABASE_BINARY_D3PLOT"}, out.d3plot.asked() || out.d3plot_count > 0},
+      {{"glstat", "no *DATABASE_GLSTAT"}, out.glstat.asked()},
+      {{"matsum", "no *DATABASE_MATSUM"}, out.matsum.asked()},
+      {{"rcforc", "no *DATABASE_RCFORC"}, out.rcforc.asked()},
+      {{"sleout", "no *DATABASE_SLEOUT"}, out.sleout.asked()},
+      {{"sphout", "no *DATABASE_SPHOUT"}, out.sphout.asked()},
+      {{"nodout", "no *DATABASE_NODOUT"}, out.nodout.asked()},
+      {{"rbdout", "no *DATABASE_RBDOUT"}, out.rbdout.asked()},
+      {{"bndout", "no *DATABASE_BNDOUT"}, out.bndout.asked()},
+      {{"spcforc", "no *DATABASE_SPCFORC"}, out.spcforc.asked()},
   };
   std::vector<PassNote> notes;
   for (const auto& [note, on] : all)

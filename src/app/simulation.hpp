@@ -49,6 +49,7 @@ class Simulation {
   const std::vector<std::shared_ptr<Contact>>& contacts() const { return contacts_; }
   const RigidBodies* bodies() const { return bodies_.get(); }
   PassTimer& timer() { return timer_; }
+  double read_seconds() const { return read_seconds_; }  ///< for deck and set-up: the first rows of timer()
   Guard& guard() { return *guard_; }  ///< looks every Guard::interval steps, and when told to
   const Guard& guard() const { return *guard_; }
   std::string passes() const;  ///< which passes and outputs are active, and why others are not
@@ -57,6 +58,7 @@ class Simulation {
   Simulation() = default;
   void build_parts(Diagnostics& diagnostics);
   void release_tables();
+  void note_read_seconds(double reading, double building);
   void add_passes(Diagnostics& diagnostics);
   void add_images(Real h, Diagnostics& diagnostics);
   void add_prescribed_motions(Diagnostics& diagnostics);
@@ -79,6 +81,7 @@ class Simulation {
   StepRules rules_;
   std::shared_ptr<Guard> guard_;
   PassTimer timer_;
+  double read_seconds_ = 0;
   std::unique_ptr<Stepper> stepper_;
 };
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <limits>
-#include <unordered_set>
 
 #include "model/model_builder.hpp"
 
@@ -38,44 +37,14 @@ void ModelBuilder::build_control() {
 void ModelBuilder::build_output() {
   OutputRequests& out = model_.output;
   if (const auto* card = deck_.last<DatabaseD3plotCard>()) {
-    out.d3plot = card->dt;
+    out.d3plot.interval = card->dt;
     out.d3plot_count = card->npltc;
-    if (card->npltc > 0) out.d3plot = model_.endtim / card->npltc;
+    if (card->npltc > 0) out.d3plot.interval = model_.endtim / card->npltc;
+    build_output_curve(*card, "LCDT", card->lcdt, std::max(card->ioopt, 1), out.d3plot);
+    build_left_out_parts(*card, card->psetid);
   }
-  for (const DatabaseAsciiCard& card : deck_.all<DatabaseAsciiCard>()) {
-    Real* interval[] = {&out.glstat, &out.matsum, &out.rcforc, &out.sphout};
-    *interval[card.name] = card.dt;
-  }
-  build_output_history();
-}
-
-void ModelBuilder::build_output_history() {
-  if (deck_.all<DatabaseHistorySphCard>().empty()) return;
-  std::vector<bool> is_particle(model_.nodes.size(), false);
-  for (const ModelSph& sph : model_.sph) is_particle[static_cast<std::size_t>(sph.node)] = true;
-  std::vector<Id>& history = model_.output.history_sph;
-  std::unordered_set<Id> sets_seen;  // a set may be named often: its members must not add up
-  for (const DatabaseHistorySphCard& card : deck_.all<DatabaseHistorySphCard>()) {
-    const bool sets = card.name == 1;
-    for (const Id id : card.ids) {
-      std::vector<Index> nodes;
-      if (sets) {
-        if (!sets_seen.insert(id).second) continue;
-        if (const auto* members = node_set(card, "ID", id)) nodes = *members;
-      } else if (const Index n = node(card, "ID", id); n >= 0) {
-        nodes = {n};
-      }
-      for (const Index n : nodes) {
-        const Id nid = model_.nodes[static_cast<std::size_t>(n)].id;
-        if (is_particle[static_cast<std::size_t>(n)])
-          history.push_back(nid);
-        else
-          error(card, "ID", fmt::format("node {} is no particle", nid), "define one with *ELEMENT_SPH");
-      }
-    }
-  }
-  std::sort(history.begin(), history.end());
-  history.erase(std::unique(history.begin(), history.end()), history.end());
+  build_field_output();
+  build_histories();
 }
 
 void ModelBuilder::build_body_loads() {

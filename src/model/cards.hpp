@@ -131,15 +131,26 @@ struct DatabaseD3plotCard : Entry {
   Id pset;
 };
 
-struct DatabaseAsciiCard : Entry {  ///< Entry::name: 0 GLSTAT, 1 MATSUM, 2 RCFORC, 3 SPHOUT
+/// Entry::name: 0 GLSTAT, 1 MATSUM, 2 RCFORC, 3 SPHOUT, 4 SLEOUT, 5 NODOUT, 6 RBDOUT, 7 BNDOUT, 8 SPCFORC
+struct DatabaseAsciiCard : Entry {
   Real dt;
   int binary;
   Id lcur;
   int ioopt;
+  Real option1;
+  int option2, option3, option4;
 };
 
 struct DatabaseHistorySphCard : Entry {
   std::vector<Id> ids;
+};
+
+struct DatabaseHistoryNodeCard : Entry {
+  std::vector<Id> ids;
+};
+struct DatabaseHistoryNodeIdCard : Entry {
+  std::vector<Id> ids;
+  std::vector<std::string> headings;
 };
 
 }  // namespace courant

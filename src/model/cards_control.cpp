@@ -10,7 +10,8 @@ const FieldRules optional_id{.check = Check::not_negative};
 const FieldRules unsupported{.honour = Honour::no};
 const FieldRules no_effect{.honour = Honour::ignored};
 const FieldRules unsupported_output{.honour = Honour::output_only};
-const FieldRules output_curve{.honour = Honour::output_only, .refers = IdSpace::curve};
+const FieldRules curve_id{.check = Check::not_negative, .refers = IdSpace::curve};
+const FieldRules part_set{.check = Check::not_negative, .refers = IdSpace::part_set};
 const FieldRules output_parts{.honour = Honour::output_only, .refers = IdSpace::part_set};
 const FieldRules interval{.check = Check::not_negative};
 
@@ -97,39 +98,21 @@ const RegisterKeyword<D> database_binary_d3plot{
      .many = false,
      .cards = {
          {.fields = {{"DT", &D::dt, "T", "interval, 0 none", interval},
-                     {"LCDT", &D::lcdt, "-", "curve of the interval", output_curve},
+                     {"LCDT", &D::lcdt, "-", "curve of the interval, instead of DT", curve_id},
                      {"BEAM", &D::beam, "-", "discrete elements as beams", no_effect},
                      {"NPLTC", &D::npltc, "-", "number of states: interval = ENDTIM / NPLTC", optional_id},
-                     {"PSETID", &D::psetid, "-", "parts left out", output_parts}}},
-         {.fields = {{"IOOPT", &D::ioopt, "-", "mode of the curve", no_effect},
+                     {"PSETID", &D::psetid, "-", "parts left out", part_set}}},
+         {.fields = {{"IOOPT",
+                      &D::ioopt,
+                      "-",
+                      "1 next state at t + f(t), 2 f at the next state, 3 at the abscissae; 0 is 1",
+                      {.allowed = {0, 1, 2, 3}}},
                      {"RATE", &D::rate, "T", "filter interval", unsupported_output},
                      {"CUTOFF", &D::cutoff, "1/T", "filter frequency", unsupported_output},
                      {"WINDOW", &D::window, "T", "filter window", unsupported_output},
                      {"TYPE", &D::type, "-", "filtered data", unsupported_output},
                      {"PSET", &D::pset, "-", "filtered parts", output_parts}},
           .optional = true}}}};
-
-using A = DatabaseAsciiCard;
-const RegisterKeyword<A> database_ascii{
-    {.names = {"DATABASE_GLSTAT", "DATABASE_MATSUM", "DATABASE_RCFORC", "DATABASE_SPHOUT"},
-     .purpose = "interval of a history: energies, parts, contact forces, particles",
-     .once = true,
-     .many = false,
-     .cards = {
-         {.fields = {
-              {"DT", &A::dt, "T", "interval, 0 none", interval},
-              {"BINARY", &A::binary, "-", "kind of file", no_effect},
-              {"LCUR", &A::lcur, "-", "curve of the interval", output_curve},
-              {"IOOPT", &A::ioopt, "-", "mode of the curve", {.standard = 1, .honour = Honour::ignored}}}}}}};
-
-using H = DatabaseHistorySphCard;
-const RegisterKeyword<H> database_history_sph{
-    {.names = {"DATABASE_HISTORY_SPH", "DATABASE_HISTORY_SPH_SET"},
-     .purpose = "particles whose histories go to sphout (_SET: node sets)",
-     .cards = {
-         {.fields = {{"ID", &H::ids, "-", "ids of particles, or of node sets", optional_id,
-                      [](const H& card) { return card.name == 1 ? IdSpace::node_set : IdSpace::node; }}},
-          .repeat = true}}}};
 
 }  // namespace
 

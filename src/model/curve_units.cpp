@@ -14,6 +14,8 @@ namespace {
 constexpr CurveDimensions known[] = {
     {"LOAD_BODY_X", "LCID", "T", "L/T2"},
     {"CONTROL_TIMESTEP", "LCTM", "T", "T"},
+    {"DATABASE_BINARY_D3PLOT", "LCDT", "T", "T"},
+    {"DATABASE_GLSTAT", "LCUR", "T", "T"},
     // VAD 0; of the others `of_motion` tells
     {"BOUNDARY_PRESCRIBED_MOTION_NODE", "LCID", "T", "L/T"},
     {"BOUNDARY_PRESCRIBED_MOTION_SET", "LCID", "T", "L/T"},

@@ -108,12 +108,53 @@ struct BodyLoad {
   Real sf = 1;
 };
 
-/// Interval of an output, 0: not asked for. [T]
+/// When an output is due.
+struct OutputTimes {
+  /// IOOPT where a curve (LCUR, LCDT) tells the times t_k instead of an interval.
+  enum class Rule {
+    interval,    ///< every `interval`
+    after_last,  ///< 1: t_{k+1} = t_k + f(t_k)
+    implicit,    ///< 2: t_{k+1} = t_k + f(t_{k+1})
+    abscissae,   ///< 3: at the abscissae of the curve
+  };
+  Real interval = 0;  ///< 0: not asked for [T]
+  Rule rule = Rule::interval;
+  Curve curve{};  ///< interval over time, positive [T]
+  bool asked() const { return interval > 0 || rule != Rule::interval; }
+};
+
+/// A node of *DATABASE_HISTORY_NODE.
+struct HistoryNode {
+  Id id = 0;
+  Vec X = Vec::Zero();  ///< place at t = 0 [L]
+  std::string title{};
+};
+
+/// What goes into the field files, and how: *COURANT_OUTPUT, *DATABASE_EXTENT_BINARY. Zero or empty: not
+/// given.
+struct FieldRequests {
+  Entry card{};                     ///< of *COURANT_OUTPUT, for messages; keyword < 0: none
+  std::vector<std::string> fields;  ///< names of arrays of particles; empty: the usual ones
+  std::vector<std::string> extra;   ///< besides these, where the run has them
+  bool small = false;
+  int bits = 32;                ///< of reals
+  int compression = -1;         ///< 0 none, 1 zlib, 2 xz; -1 not given
+  int level = -1;               ///< of the compression; -1 not given
+  Real eps = -1;                ///< error of values, of the range of an array at that time; -1 not given
+  Real epsx = -1;               ///< error of places, of h; -1 not given
+  std::vector<Index> left_out;  ///< parts, sorted
+  bool in_box = false;
+  Box box;
+};
+
+/// What the deck asks to be written.
 struct OutputRequests {
-  Real d3plot = 0;
+  OutputTimes d3plot;
   int d3plot_count = 0;  ///< NPLTC: interval is ENDTIM / NPLTC if given
-  Real glstat = 0, matsum = 0, rcforc = 0, sphout = 0;
-  std::vector<Id> history_sph;  ///< particles in sphout
+  OutputTimes glstat, matsum, rcforc, sleout, sphout, nodout, rbdout, bndout, spcforc;
+  std::vector<Id> history_sph;            ///< particles in sphout
+  std::vector<HistoryNode> history_node;  ///< nodes in nodout
+  FieldRequests fields;
 };
 
 struct Model {

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,17 @@ class ModelBuilder {
   void build_solids();
   void add_particle(const ElementSphCard& card, Id nid, Index part);
   void check_shared_nodes();
+  // build_histories.cpp
+  void build_histories();
+  void build_history_sph();
+  void build_history_node();
+  void build_output_curve(const Entry& card, std::string_view field, Id id, int ioopt, OutputTimes& out);
+  std::vector<Index> listed_nodes(const Entry& card, const std::vector<Id>& ids, bool sets,
+                                  std::unordered_set<Id>& sets_seen);
+  // build_field_output.cpp
+  void build_field_output();
+  void build_left_out_parts(const Entry& card, Id psetid);
+  void leave_out(const std::vector<Index>& parts);
   // build_definitions.cpp
   void build_sets();
   void build_curves();
@@ -47,7 +59,6 @@ class ModelBuilder {
   // build_conditions.cpp
   void build_control();
   void build_output();
-  void build_output_history();
   void build_body_loads();
   void build_constraints();
   std::array<bool, 3> held_directions(const BoundarySpcCard& card);

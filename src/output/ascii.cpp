@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 
 namespace courant {
@@ -18,44 +19,61 @@ std::string ascii_legend(const std::vector<Legend>& entries) {
   return out + "{END LEGEND}\n";
 }
 
-Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests) {
+Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests) : dir_(dir) {
   const std::string header =
       ascii_header(requests.title, fmt::format("{:%m/%d/%Y}", fmt::localtime(std::time(nullptr))));
-  const auto open = [&](const char* name, Real interval, const std::string& legend,
+  const auto open = [&](const char* name, const OutputSchedule& schedule, const std::string& legend,
                         std::string (*text)(const Sample&)) {
-    if (interval <= 0) return;
-    files_.push_back({OutputSchedule(interval), TextFile(dir / name), text});
+    if (!schedule.is_wanted()) return;
+    files_.push_back({schedule, name, TextFile(dir / name), text});
     files_.back().file.write(header + legend);
   };
   make_folder(dir);
   open("glstat", requests.glstat, "", nullptr);
   open("matsum", requests.matsum, ascii_legend(requests.parts), matsum_text);
   open("rcforc", requests.rcforc, ascii_legend(requests.contacts), rcforc_text);
+  open("sleout", requests.sleout, "", sleout_text);
   open("sphout", requests.sphout, "", sphout_text);
+  open("nodout", requests.nodout, requests.nodes.empty() ? "" : ascii_legend(requests.nodes), nodout_text);
+  open("rbdout", requests.rbdout, "", rbdout_text);
+  open("bndout", requests.bndout, "", bndout_text);
+  open("spcforc", requests.spcforc, "", spcforc_text);
+  choose_h5_times(requests.h5);
+  if (!h5_schedules_.empty()) h5_.emplace(dir / "history.h5");
+}
 
-  Real interval = requests.h5;
-  for (const Ascii& file : files_)
-    if (requests.h5 <= 0 && (interval <= 0 || file.schedule.interval() < interval))
-      interval = file.schedule.interval();
-  h5_schedule_ = OutputSchedule(interval);
-  if (interval > 0) h5_.emplace(dir / "history.h5");
+void Histories::choose_h5_times(const OutputSchedule& wanted) {
+  if (wanted.is_wanted()) {
+    h5_schedules_ = {wanted};
+    return;
+  }
+  Real shortest = 0;
+  for (const Ascii& file : files_) {
+    const Real interval = file.schedule.interval();
+    if (interval <= 0)
+      h5_schedules_.push_back(file.schedule);
+    else if (shortest == 0 || interval < shortest)
+      shortest = interval;
+  }
+  if (shortest > 0) h5_schedules_.emplace_back(shortest);
 }
 
 bool Histories::is_due(Real t, Real dt) const {
-  if (h5_schedule_.is_due(t, dt)) return true;
-  for (const Ascii& file : files_)
-    if (file.schedule.is_due(t, dt)) return true;
-  return false;
+  const auto due = [&](const OutputSchedule& schedule) { return schedule.is_due(t, dt); };
+  return std::any_of(h5_schedules_.begin(), h5_schedules_.end(), due) ||
+         std::any_of(files_.begin(), files_.end(), [&](const Ascii& file) { return due(file.schedule); });
 }
 
 Histories::Due Histories::take(Real t, Real dt, bool always) {
   Due due;
-  const auto add = [&](OutputSchedule& schedule, Real& last) {
-    due.push_back((schedule.take(t, dt) || always) && last != t);
+  const auto add = [&](bool is_due, Real& last) {
+    due.push_back((is_due || always) && last != t);
     if (due.back()) last = t;
   };
-  for (Ascii& file : files_) add(file.schedule, file.last);
-  add(h5_schedule_, h5_last_);
+  for (Ascii& file : files_) add(file.schedule.take(t, dt), file.last);
+  bool h5_is_due = false;
+  for (OutputSchedule& schedule : h5_schedules_) h5_is_due |= schedule.take(t, dt);
+  add(h5_is_due, h5_last_);
   return due;
 }
 
@@ -69,6 +87,18 @@ void Histories::write(const Sample& sample, const Due& due) {
 
 void Histories::finish() {
   if (h5_) h5_->flush();
+}
+
+std::int64_t Histories::bytes() const {
+  std::int64_t sum = 0;
+  const auto add = [&](const std::string& name) {
+    std::error_code none;  // a file that was not begun
+    const std::uintmax_t size = std::filesystem::file_size(dir_ / name, none);
+    if (!none) sum += static_cast<std::int64_t>(size);
+  };
+  for (const Ascii& file : files_) add(file.name);
+  if (h5_) add("history.h5");
+  return sum;
 }
 
 }  // namespace courant

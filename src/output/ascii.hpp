@@ -34,16 +34,29 @@ std::string matsum_text(const Sample& sample);
 /// One state of rcforc: per interface the force on SURFA (the particles) and on SURFB. The mass is printed as
 /// 0; the columns of moments, which newer LS-DYNA versions append, are not there.
 std::string rcforc_text(const Sample& sample);
-/// One state of sphout, in a layout of our own (LS-DYNA's is not published): ` time = cycle = `, a line of
-/// column names, then per particle id, active (1 or 0), x y z, vx vy vz, pressure, density, internal energy
-/// per reference volume, in columns `%10d%4d` and 9 times `%14.5E`.
+/// One state of sleout: per interface the energy of springs, damping and friction, all of it on the side
+/// SURFA (the particles), and the friction among it. Their sum is the sliding energy of glstat.
+std::string sleout_text(const Sample& sample);
+/// One state of sphout: stress (sigma = tau - p I, tension positive), strain (not kept: 0), density,
+/// smoothing length, neighbours, active; yield stress (0) and effective stress.
 std::string sphout_text(const Sample& sample);
+/// One state of nodout: displacement, velocity, acceleration and place of nodes, in global axes; then, where
+/// a node belongs to a rigid body, its rotation. Velocities are those of the last half step.
+std::string nodout_text(const Sample& sample);
+/// One state of rbdout: motion of the centre of each rigid body, in global and in principal axes.
+std::string rbdout_text(const Sample& sample);
+/// One state of bndout: the forces that drive particles and bodies, and their work so far.
+std::string bndout_text(const Sample& sample);
+/// One state of spcforc: the forces that hold particles.
+std::string spcforc_text(const Sample& sample);
 
 struct HistoryRequests {
-  Real glstat = 0, matsum = 0, rcforc = 0, sphout = 0;  ///< intervals, 0: no file [T]
-  Real h5 = 0;  ///< interval of history.h5, 0: the shortest of the others; none if all are 0 [T]
-  std::string title;
-  std::vector<Legend> parts, contacts;
+  OutputSchedule glstat{}, matsum{}, rcforc{}, sleout{}, sphout{}, nodout{}, rbdout{}, bndout{}, spcforc{};
+  /// history.h5; where it is not wanted: with the file of the shortest interval, and with those that a curve
+  /// times; none if there is no other.
+  OutputSchedule h5{};
+  std::string title{};
+  std::vector<Legend> parts{}, contacts{}, nodes{};
 };
 
 /// All histories of a run, each at its own interval.
@@ -65,16 +78,21 @@ class Histories {
   void write(const Sample& sample, bool always = false) { write(sample, take(sample.t, sample.dt, always)); }
   /// Writes what is buffered. Throws OutputError.
   void finish();
+  std::int64_t bytes() const;  ///< of all files, after `finish`
 
  private:
+  void choose_h5_times(const OutputSchedule& wanted);
+
   struct Ascii {
     OutputSchedule schedule;
+    std::string name;
     TextFile file;
     std::string (*text)(const Sample&);  // null: glstat, which needs the first potential
     Real last = -1;                      // time of the last state
   };
+  std::filesystem::path dir_;
   std::vector<Ascii> files_;
-  OutputSchedule h5_schedule_;
+  std::vector<OutputSchedule> h5_schedules_;  // any of them
   std::optional<History> h5_;
   Real h5_last_ = -1;
   std::optional<Real> first_potential_;

@@ -1,5 +1,6 @@
 #pragma once
 // history.h5: time histories as growing datasets.
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -13,13 +14,16 @@ namespace courant {
 
 /// Collects samples and appends them to an HDF5 file. Row i of every dataset belongs to /global/time[i]; a
 /// quantity that was not there at a sample is NaN. Datasets, scalars of shape (n), vectors of shape (n, 3),
-/// each with an attribute `dimension` (M, L, T):
+/// symmetric tensors of shape (n, 6), each with an attribute `dimension` (M, L, T):
 ///   /global/{time dt cycle mass velocity kinetic internal potential contact dissipated external_work total
-///   residual
-///            throughput}
+///   residual throughput}
 ///   /parts/<id>/{mass kinetic internal momentum}          with attribute `title`
-///   /contacts/<id>/{force energy_stored energy_damping energy_friction}   force: on the tracked side (the
-///   particles) /rigid_bodies/<part id>/{x v omega force moment kinetic} /particles/<id>/{x v p rho E active}
+///   /contacts/<id>/{force energy_stored energy_damping energy_friction}   force: on the particles
+///   /rigid_bodies/<part id>/{x v omega force moment kinetic displacement rotation a angular_a}
+///   /particles/<id>/{x v p rho E h tau neighbours active}
+///   /nodes/<id>/{displacement x v a}, of rigid bodies also {rotation omega angular_a}
+///   /driven_particles/<id>/{force work}, /driven_bodies/<part id>/{force moment work},
+///   /held_particles/<id>/force
 /// A flush replaces the file by a longer one, so that a killed run leaves it readable and others may read it
 /// at any time.
 class History {
@@ -40,9 +44,12 @@ class History {
   };
   void put(const std::string& path, const char* dimension, double value);
   void put(const std::string& path, const char* dimension, const Vec& value);
+  void put(const std::string& path, const char* dimension, const std::array<Real, 6>& value);
   Column& column(const std::string& path, const char* dimension, int components);
   void put_global(const Sample& sample);
   void put_entities(const Sample& sample);
+  void put_bodies(const Sample& sample);
+  void put_points(const Sample& sample);
 
   std::filesystem::path file_;
   std::size_t buffered_samples_;

@@ -7,6 +7,14 @@
 
 namespace courant {
 
+namespace {
+
+std::string date_and_time() {
+  return fmt::format("{:%m/%d/%y %H:%M:%S}", fmt::localtime(std::time(nullptr)));
+}
+
+}  // namespace
+
 std::string status_line(std::int64_t cycle, Real t, Real dt, std::string_view what, std::string_view stamp) {
   return fmt::format("{:8d} t {:10.4E} dt {:8.2E} {:<28} {}", cycle, t, dt, what, stamp);
 }
@@ -19,8 +27,11 @@ void Messag::line(std::string_view text) {
 }
 
 void Messag::status(std::int64_t cycle, Real t, Real dt, std::string_view what) {
-  line(status_line(cycle, t, dt, what,
-                   fmt::format("{:%m/%d/%y %H:%M:%S}", fmt::localtime(std::time(nullptr)))));
+  line(status_line(cycle, t, dt, what, date_and_time()));
+}
+
+void Messag::banner(std::string_view text) {
+  line(fmt::format("{:<50} {}", text, date_and_time()));
 }
 
 }  // namespace courant

@@ -26,6 +26,8 @@ class Messag {
   void line(std::string_view text);
   /// Adds a status line with the present date and time. Throws OutputError.
   void status(std::int64_t cycle, Real t, Real dt, std::string_view what);
+  /// Adds a line with the present date and time behind it. Throws OutputError.
+  void banner(std::string_view text);
 
  private:
   TextFile file_;

@@ -1,42 +1,65 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
 
 #include "base/real.hpp"
 
 namespace courant {
 
-/// When an output is due. A state due at t_out = k interval is written at the cycle with t <= t_out < t + dt,
-/// as LS-DYNA does, first at t = 0; several due times within one step give one state.
+/// When an output is due. A state due at t_out is written at the cycle with t <= t_out < t + dt, as LS-DYNA
+/// does; several due times within one step give one state.
 class OutputSchedule {
  public:
-  /// interval [T]; 0 or less: never due.
-  explicit OutputSchedule(Real interval = 0) : interval_(interval) {}
+  /// The due time behind a due time; infinity: none. [T]
+  using After = std::function<Real(Real due)>;
 
+  /// Due at k interval, first at t = 0. interval [T]; 0 or less: never due.
+  OutputSchedule(Real interval = 0) : interval_(interval) {}
+  /// Due at `first`, then at what `after` tells.
+  OutputSchedule(Real first, After after) : first_(first), next_(first), after_(std::move(after)) {}
+
+  bool is_wanted() const { return interval_ > 0 || after_; }
   /// Whether a state is due in [t, t + dt). Changes nothing.
-  bool is_due(Real t, Real dt) const { return interval_ > 0 && next() < t + dt; }
+  bool is_due(Real t, Real dt) const { return is_wanted() && next() < t + dt; }
 
   /// Whether a state is due in [t, t + dt); if so, the next one is due after that step.
   bool take(Real t, Real dt) {
     if (!is_due(t, dt)) return false;
-    k_ = std::max(k_ + 1, std::floor((t + dt) / interval_));
-    while (next() < t + dt) k_ += 1;
+    if (!after_) k_ = std::max(k_ + 1, std::floor((t + dt) / interval_));
+    while (next() < t + dt) go_on();
     return true;
   }
 
   /// For a restart at time t: what was due before t is taken as written.
   void skip_to(Real t) {
-    if (interval_ <= 0) return;
-    k_ = std::max<Real>(0, std::floor(t / interval_));
-    while (next() < t) k_ += 1;
+    if (!is_wanted()) return;
+    if (after_)
+      next_ = first_;
+    else
+      k_ = std::max<Real>(0, std::floor(t / interval_));
+    while (next() < t) go_on();
   }
 
-  Real next() const { return k_ * interval_; }  ///< product, not a running sum: no drift [T]
-  Real interval() const { return interval_; }
+  Real next() const { return after_ ? next_ : k_ * interval_; }  ///< product: no drift [T]
+  Real interval() const { return interval_; }                    ///< 0: by `after`, or never due [T]
 
  private:
-  Real interval_;
+  void go_on() {
+    if (!after_) {
+      k_ += 1;
+      return;
+    }
+    const Real due = after_(next_);
+    next_ = due > next_ ? due : std::numeric_limits<Real>::infinity();  // below round-off: no end otherwise
+  }
+
+  Real interval_ = 0;
   Real k_ = 0;  // whole number, kept as Real for the product
+  Real first_ = 0, next_ = 0;
+  After after_{};
 };
 
 }  // namespace courant

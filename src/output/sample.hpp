@@ -1,9 +1,11 @@
 #pragma once
 // What the histories print at one time. The time loop fills it; the writers only format.
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "state/reports.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -23,6 +25,20 @@ struct ParticleSample {
   Vec x = Vec::Zero();         ///< [L]
   Vec v = Vec::Zero();         ///< [L/T]
   Real p = 0, rho = 0, E = 0;  ///< [M/LT2], [M/L3], [M/LT2] per reference volume
+  Id part = 0;
+  Real h = 0;                 ///< [L]
+  std::array<Real, 6> tau{};  ///< viscous stress xx yy zz xy yz zx [M/LT2]
+  std::int64_t neighbours = 0;
+};
+
+/// A node of *DATABASE_HISTORY_NODE: of shells, an SPH particle, or one that nothing uses.
+struct NodeSample {
+  Id id = 0;
+  Vec displacement = Vec::Zero(), x = Vec::Zero();   ///< [L]
+  Vec v = Vec::Zero(), a = Vec::Zero();              ///< [L/T], [L/T2]
+  bool turns = false;                                ///< belongs to a rigid body
+  Vec rotation = Vec::Zero();                        ///< of that body [-]
+  Vec omega = Vec::Zero(), angular_a = Vec::Zero();  ///< [1/T], [1/T2]
 };
 
 struct Sample {
@@ -37,7 +53,10 @@ struct Sample {
   std::vector<PartSample> parts;
   std::vector<InterfaceForce> interfaces;
   std::vector<RigidBodyReport> bodies;
-  std::vector<ParticleSample> particles;  ///< those of DATABASE_HISTORY_SPH, in the deck's order
+  std::vector<RigidBodyMotion> body_motions;  ///< in the order of `bodies`
+  std::vector<ParticleSample> particles;      ///< those of DATABASE_HISTORY_SPH, by id
+  std::vector<NodeSample> nodes;              ///< those of DATABASE_HISTORY_NODE, by id
+  std::vector<BoundaryForce> boundary_forces;
 };
 
 }  // namespace courant

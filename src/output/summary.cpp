@@ -60,6 +60,19 @@ void emit_lists(YAML::Emitter& out, const Summary& s) {
   out << YAML::EndSeq;
 }
 
+void emit_output(YAML::Emitter& out, const Summary::Output& o) {
+  const auto entry = [&](const char* key, const auto& value) {
+    out << YAML::Key << key << YAML::Value << value;
+  };
+  out << YAML::Key << "output" << YAML::Value << YAML::BeginMap;
+  entry("seconds", o.seconds);
+  entry("field_states", o.states);
+  entry("field_bytes", o.field_bytes);
+  entry("bytes_per_state", o.states > 0 ? o.field_bytes / o.states : 0);
+  entry("history_bytes", o.history_bytes);
+  out << YAML::EndMap;
+}
+
 }  // namespace
 
 double Summary::ns_per_particle_step() const {
@@ -89,6 +102,7 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
   entry("steps", s.steps);
   entry("wall_seconds", s.wall_seconds);
   entry("cpu_seconds", s.cpu_seconds);
+  entry("read_seconds", s.read_seconds);
   entry("writer_cpu_seconds", s.writer_cpu_seconds);
   entry("threads", s.threads);
   entry("particles", s.particles);
@@ -101,6 +115,7 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
   emit_energy(out, s);
   entry("leaked_particles", s.leaked_particles);
   entry("max_penetration", s.max_penetration);
+  emit_output(out, s.output);
   emit_map(out, "counters", s.counters);
   emit_map(out, "maxima", s.maxima);
   emit_ranges(out, s.ranges);

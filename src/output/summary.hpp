@@ -26,6 +26,7 @@ struct Summary {
   Real time = 0;            ///< time reached [T]
   std::int64_t steps = 0;
   double wall_seconds = 0, cpu_seconds = 0;
+  double read_seconds = 0;        ///< wall time for deck and set-up, before the run
   double writer_cpu_seconds = 0;  ///< part of cpu_seconds: writing results, beside the computation
   int threads = 0;
   std::int64_t particles = 0;         ///< in the model
@@ -40,7 +41,14 @@ struct Summary {
   std::map<std::string, Real> maxima;
   Ranges ranges;  ///< of speeds and densities, seen at the looks of the guard
   std::vector<std::string> warnings;
-  std::vector<PassTime> passes;
+  std::vector<PassTime> passes;  ///< of deck, set-up and run: they add up to read_seconds + wall_seconds
+  struct Output {
+    double seconds = 0;            ///< wall time that the computation spent on it
+    std::int64_t states = 0;       ///< of the field files
+    std::int64_t field_bytes = 0;  ///< in all field files
+    std::int64_t history_bytes = 0;
+  };
+  Output output;
 
   double ns_per_particle_step() const;  ///< wall time; 0 if no step was taken
   Real energy_ratio() const;            ///< total / (initial + external work); 1 where both are 0

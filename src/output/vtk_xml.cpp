@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <cstring>
 #include <iterator>
-#include <new>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -16,8 +15,26 @@
 namespace courant {
 namespace {
 
-constexpr std::size_t block_bytes = 4096;
+constexpr std::size_t most_stored = 65535;  // the length of a stored block has 16 bits
 constexpr int states_between_attempts = 128;
+
+/// Bytes of a value, from VTK's word for its type: Int64, UInt8.
+int width_of(std::string_view type) {
+  if (type.ends_with("64")) return 8;
+  return type.ends_with("32") ? 4 : 1;
+}
+
+const char* attribute_of(Compression::Method method) {
+  switch (method) {
+    case Compression::Method::none:
+      return "";
+    case Compression::Method::zlib:
+      return " compressor=\"vtkZLibDataCompressor\"";
+    case Compression::Method::xz:
+      return " compressor=\"vtkLZMADataCompressor\"";
+  }
+  return "";
+}
 
 void add_uint32(std::string& out, std::size_t value) {
   const auto number = static_cast<std::uint32_t>(value);
@@ -30,7 +47,7 @@ const Bytef* bytes_of(std::string_view text) {
 
 /// The block as a zlib stream that holds it as it is (RFC 1950, RFC 1951: one stored block).
 void store(std::string_view block, std::string& out) {
-  static_assert(block_bytes <= 65535, "the length of a stored block has 16 bits");
+  if (block.size() > most_stored) throw std::logic_error("a stored block is too long");
   const auto length = static_cast<unsigned>(block.size());
   const unsigned sum = static_cast<unsigned>(adler32(adler32(0, nullptr, 0), bytes_of(block), length));
   const unsigned head[] = {0x78, 0x01, 0x01, length, length >> 8, ~length, ~length >> 8};
@@ -42,43 +59,22 @@ void store(std::string_view block, std::string& out) {
 
 }  // namespace
 
-/// zlib's compressor, set up once: that takes longer than a block.
-class VtkEncoder::Deflater {
- public:
-  Deflater() {
-    constexpr int fast = 1;  // higher levels cost several times the time for little
-    if (deflateInit(&stream_, fast) != Z_OK) throw std::bad_alloc();
-    room_.resize(deflateBound(&stream_, block_bytes));
-  }
-  Deflater(const Deflater&) = delete;
-  Deflater& operator=(const Deflater&) = delete;
-  ~Deflater() { deflateEnd(&stream_); }
-
-  void compress(std::string_view block, std::string& out) {
-    stream_.next_in = const_cast<Bytef*>(bytes_of(block));  // zlib only reads it
-    stream_.avail_in = static_cast<uInt>(block.size());
-    stream_.next_out = reinterpret_cast<Bytef*>(room_.data());
-    stream_.avail_out = static_cast<uInt>(room_.size());
-    if (deflate(&stream_, Z_FINISH) != Z_STREAM_END) throw std::logic_error("zlib did not finish a block");
-    out.assign(room_.data(), stream_.total_out);
-    deflateReset(&stream_);
-  }
-
- private:
-  z_stream stream_{};
-  std::string room_;
-};
-
-VtkEncoder::VtkEncoder() : deflater_(std::make_unique<Deflater>()) {}
+VtkEncoder::VtkEncoder(Compression compression)
+    : compression_(compression), compressor_(BlockCompressor::make(compression)) {}
 VtkEncoder::~VtkEncoder() = default;
 
 /// Layout: number of blocks, size of a block, size of the last one if it is shorter (else 0), compressed size
-/// of each block; then the blocks.
-void VtkEncoder::add_data(Memory& memory, std::string bytes) {
-  const std::size_t blocks = (bytes.size() + block_bytes - 1) / block_bytes;
+/// of each block; then the blocks. Without compression: the number of bytes, then these.
+void VtkEncoder::add_data(Memory& memory, std::string bytes, int stride) {
+  if (!compressor_) {
+    add_uint32(data_, bytes.size());
+    data_ += bytes;
+    return;
+  }
+  const std::size_t size = block_bytes(), blocks = (bytes.size() + size - 1) / size;
   const bool as_it_is = memory.states_to_store > 0;
-  const auto block_of = [](std::string_view all, std::size_t b) {
-    return b * block_bytes < all.size() ? all.substr(b * block_bytes, block_bytes) : std::string_view();
+  const auto block_of = [size](std::string_view all, std::size_t b) {
+    return b * size < all.size() ? all.substr(b * size, size) : std::string_view();
   };
   memory.blocks.resize(blocks);
   std::size_t attempted = 0, reached = 0;
@@ -88,16 +84,15 @@ void VtkEncoder::add_data(Memory& memory, std::string bytes) {
     if (as_it_is)
       store(block, memory.blocks[b]);
     else
-      deflater_->compress(block, memory.blocks[b]);
+      compressor_->compress(block, stride, memory.blocks[b]);
     attempted += block.size(), reached += memory.blocks[b].size();
   }
   if (as_it_is)
     --memory.states_to_store;
-  else if (2 * reached > attempted)
+  else if (2 * reached > attempted && !compression_.always)
     memory.states_to_store = states_between_attempts;
 
-  for (const std::size_t number : {blocks, block_bytes, bytes.size() % block_bytes})
-    add_uint32(data_, number);
+  for (const std::size_t number : {blocks, size, bytes.size() % size}) add_uint32(data_, number);
   for (const std::string& block : memory.blocks) add_uint32(data_, block.size());
   for (const std::string& block : memory.blocks) data_ += block;
   memory.bytes = std::move(bytes);
@@ -115,7 +110,10 @@ void VtkEncoder::add_array(const char* section, VtkArray array, const char* attr
                    ">\n<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">{}</InformationKey>\n"
                    "</DataArray>\n",
                    array.dimension);
-  add_data(memory_[fmt::format("{}/{}", section, array.name)], std::move(array.bytes));
+  // counters and numbers of particles run up; floats are best left as they are
+  const bool counts = std::string_view(array.type).substr(0, 5) != "Float";
+  const int stride = counts ? width_of(array.type) * array.components : 0;
+  add_data(memory_[fmt::format("{}/{}", section, array.name)], std::move(array.bytes), stride);
 }
 
 VtkEncoder::File VtkEncoder::encode(VtkDataSet data) {
@@ -123,9 +121,8 @@ VtkEncoder::File VtkEncoder::encode(VtkDataSet data) {
   data_.clear();
   header_ = fmt::format(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"0.1\" byte_order=\"{}\" "
-      "header_type=\"UInt32\" "
-      "compressor=\"vtkZLibDataCompressor\">\n<{}>\n<FieldData>\n",
-      data.type, little ? "LittleEndian" : "BigEndian", data.type);
+      "header_type=\"UInt32\"{}>\n<{}>\n<FieldData>\n",
+      data.type, little ? "LittleEndian" : "BigEndian", attribute_of(compression_.method), data.type);
   VtkArray time{"TimeValue", "Float64", 1, "", std::string(sizeof data.t, '\0')};
   std::memcpy(time.bytes.data(), &data.t, sizeof data.t);
   add_array("FieldData", std::move(time), " NumberOfTuples=\"1\"");

@@ -1,5 +1,5 @@
 #pragma once
-// VTK's XML files (.vtp, .vtu) with appended raw data, compressed with zlib block by block.
+// VTK's XML files (.vtp, .vtu) with appended raw data, compressed block by block.
 #include <map>
 #include <memory>
 #include <string>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/real.hpp"
+#include "output/block_compressor.hpp"
 
 namespace courant {
 
@@ -17,12 +18,14 @@ struct VtkArray {
   int components = 1;
   std::string dimension;  ///< in M, L, T; becomes VTK's UNITS_LABEL; empty: none
   std::string bytes;      ///< the values in the machine's byte order; shape: (tuples, components)
+  bool operator==(const VtkArray& other) const { return name == other.name && bytes == other.bytes; }
 };
 
 /// A group of arrays, as VTK names it: PointData, CellData, Points, Verts, Cells.
 struct VtkSection {
   const char* name;
   std::vector<VtkArray> arrays;
+  bool operator==(const VtkSection& other) const { return arrays == other.arrays; }
 };
 
 /// A file with a single piece.
@@ -40,7 +43,7 @@ struct VtkDataSet {
 /// next attempt. The bytes depend only on the data sets so far.
 class VtkEncoder {
  public:
-  VtkEncoder();  ///< Throws std::bad_alloc.
+  explicit VtkEncoder(Compression compression = {});  ///< Throws std::bad_alloc.
   ~VtkEncoder();
   struct File {
     std::string_view header, data;  ///< its bytes, one part after the other
@@ -49,17 +52,18 @@ class VtkEncoder {
   File encode(VtkDataSet data);
 
  private:
-  class Deflater;
   struct Memory {  // of an array in the state before
     std::string bytes;
     std::vector<std::string> blocks;  // compressed
     int states_to_store = 0;          // that many are not worth the time of zlib
   };
   void add_array(const char* section, VtkArray array, const char* attributes);
-  void add_data(Memory& memory, std::string bytes);
+  void add_data(Memory& memory, std::string bytes, int stride);
+  std::size_t block_bytes() const { return compression_.method == Compression::Method::xz ? 1 << 18 : 4096; }
 
   std::map<std::string, Memory> memory_;  // by section and name
-  std::unique_ptr<Deflater> deflater_;
+  Compression compression_;
+  std::unique_ptr<BlockCompressor> compressor_;
   std::string header_, data_;
 };
 

@@ -110,6 +110,21 @@ Real work_of_drives(const RigidBody& b, const Clock& clock) {
   return work;
 }
 
+BoundaryForce force_of_drives(const RigidBody& b, const Clock& clock) {
+  BoundaryForce out{BoundaryForce::Kind::driven_body, b.part, Vec::Zero(), Vec::Zero(), b.drive_work};
+  const HalfStep next = next_half_step(b, clock);
+  const Real dt = clock.dt_mean();
+  for (const PrescribedMotion& motion : b.motions) {
+    if (!motion.drives(clock.t, clock.dt)) continue;
+    const Vec& d = motion.direction;
+    if (motion.turns)
+      out.moment[axis_of(motion)] = ((next.L - b.L) / dt - b.moment)[axis_of(motion)];
+    else
+      out.force += (b.m * (next.v - b.v) / dt - b.force).dot(d) * d;
+  }
+  return out;
+}
+
 void RigidBodies::follow(const std::vector<PrescribedMotion>& motions, const Deck& deck, const Model& model,
                          Diagnostics& diagnostics) {
   Follower follower(deck, model, diagnostics);

@@ -141,8 +141,9 @@ Real RigidBodies::kinetic_energy() const {
 }
 
 void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
-  for (const RigidBody& b : bodies_) {
+  for (RigidBody& b : bodies_) {
     const Real work = b.motions.empty() ? 0 : work_of_drives(b, clock);
+    b.drive_work += work;
     ledger.external_work += work;
     ledger.throughput += std::abs(work);
   }
@@ -185,12 +186,13 @@ std::vector<Real> RigidBodies::state() const {
     for (const Vec& a : {b.x, b.v, b.L}) out.insert(out.end(), a.data(), a.data() + 3);
     for (const Real a : {b.q.w(), b.q.x(), b.q.y(), b.q.z()}) out.push_back(a);
     out.insert(out.end(), b.omega.data(), b.omega.data() + 3);
+    out.push_back(b.drive_work);
   }
   return out;
 }
 
 void RigidBodies::set_state(std::span<const Real> state) {
-  if (state.size() != 16 * bodies_.size()) return;
+  if (state.size() != 17 * bodies_.size()) return;
   const Real* a = state.data();
   for (RigidBody& b : bodies_) {
     b.x = {a[0], a[1], a[2]};
@@ -198,7 +200,8 @@ void RigidBodies::set_state(std::span<const Real> state) {
     b.L = {a[6], a[7], a[8]};
     b.q = Eigen::Quaterniond(a[9], a[10], a[11], a[12]);
     b.omega = {a[13], a[14], a[15]};
-    a += 16;
+    b.drive_work = a[16];
+    a += 17;
   }
 }
 

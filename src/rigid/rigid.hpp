@@ -12,6 +12,7 @@
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
 #include "model/prescribed_motion.hpp"
+#include "state/reports.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -35,11 +36,13 @@ struct RigidBody {
   Real m = 0;                             ///< [M]
   Matrix J0 = Matrix::Zero();             ///< inertia about the centre at t = 0, global axes [ML2]
   Vec x = Vec::Zero(), v = Vec::Zero();   ///< centre [L], [L/T]
+  Vec x0 = Vec::Zero();                   ///< centre at t = 0 [L]
   Vec L = Vec::Zero();                    ///< angular momentum about the centre [ML2/T]
   Vec omega = Vec::Zero();                ///< [1/T]
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
   Vec force = Vec::Zero(), moment = Vec::Zero();  ///< at the last force evaluation [ML/T2], [ML2/T2]
   std::vector<PrescribedMotion> motions;          ///< whose directions are global axes where they turn
+  Real drive_work = 0;                            ///< by `motions` so far [ML2/T2]
 
   bool fixed() const;  ///< nothing can move
   Real kinetic_energy() const { return 0.5 * (m * v.squaredNorm() + omega.dot(L)); }
@@ -55,14 +58,18 @@ struct HalfStep {
 HalfStep next_half_step(const RigidBody& body, const Clock& clock);
 /// Work of the drives of a body over the coming step [ML2/T2].
 Real work_of_drives(const RigidBody& body, const Clock& clock);
+/// Force and moment of the drives at t^n.
+BoundaryForce force_of_drives(const RigidBody& body, const Clock& clock);
 
 /// All rigid bodies of a deck. Each is moved by the sums of its nodes' forces: m a = F, dL/dt = M, L = J
 /// omega, which is J omega' = M - omega x J omega. Orientation by quaternion with the implicit midpoint rule,
 /// which keeps |L| exactly; nodes follow exactly. Bodies that are held in all directions are left out of
 /// every loop.
-class RigidBodies : public EnergyTerm {
+class RigidBodies : public EnergyTerm, public BoundaryForceReporter {
  public:
-  explicit RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodies)) {}
+  explicit RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodies)) {
+    for (RigidBody& body : bodies_) body.x0 = body.x;
+  }
 
   /// Acceleration of gravity over time [L/T2]
   void set_gravity(std::function<Vec(Real t)> gravity) { gravity_ = std::move(gravity); }
@@ -85,8 +92,12 @@ class RigidBodies : public EnergyTerm {
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   /// Force and moment are those on the free body; zero for bodies that are fixed.
   std::vector<RigidBodyReport> reports() const;
+  /// Accelerations are those of the coming kick: for this the forces at t^n and dt must be known.
+  std::vector<RigidBodyMotion> motions(const Clock& clock) const;
+  void report_forces(const World& world, const Clock& clock, std::vector<BoundaryForce>& out) const override;
 
-  /// For restart: 16 numbers per body (x, v, L, q, and omega); nodes' fields restart by themselves.
+  /// For restart: 17 numbers per body (x, v, L, q, omega, work of its drives); nodes' fields restart by
+  /// themselves.
   std::vector<Real> state() const;
   void set_state(std::span<const Real> state);
 

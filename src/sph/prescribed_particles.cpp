@@ -6,6 +6,7 @@
 #include <map>
 
 #include "parallel/parallel.hpp"
+#include "state/reports.hpp"
 
 namespace courant {
 
@@ -16,10 +17,11 @@ using Group = std::vector<std::size_t>;
 
 /// Gives driven particles the velocity of the coming half step before they are kicked and moved, and takes
 /// the force along it away. What the drive does of work is external.
-class PrescribedParticles : public Motion, public EnergyTerm {
+class PrescribedParticles : public Motion, public EnergyTerm, public BoundaryForceReporter {
  public:
-  PrescribedParticles(std::vector<PrescribedMotion> motions, std::vector<Group> groups, Field<Index>& group)
-      : motions_(std::move(motions)), groups_(std::move(groups)), group_(group) {}
+  PrescribedParticles(std::vector<PrescribedMotion> motions, std::vector<Group> groups, Field<Index>& group,
+                      Field<Real>* work)
+      : motions_(std::move(motions)), groups_(std::move(groups)), group_(group), work_(work) {}
   std::string name() const override { return "prescribed particles"; }
 
   void start(World&, const Clock& clock) override { choose(clock); }
@@ -50,10 +52,31 @@ class PrescribedParticles : public Motion, public EnergyTerm {
       }
       return work;
     };
+    if (work_)
+      for (Index i = 0; i < p.active; ++i) (*work_)[i] += work_on(i);
     ledger.external_work += sum(p.active, work_on);
     ledger.throughput += sum(p.active, [&](Index i) { return std::abs(work_on(i)); });
   }
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
+
+  void report_forces(const World& world, const Clock& clock, std::vector<BoundaryForce>& out) const override {
+    if (!work_) return;
+    const Particles& p = world.particles;
+    for (Index i = 0; i < p.active; ++i) {
+      if (group_[i] == 0) continue;
+      BoundaryForce force{BoundaryForce::Kind::driven_particle, p.id[i], Vec::Zero(), Vec::Zero(),
+                          (*work_)[i]};
+      for (const std::size_t k : groups_[static_cast<std::size_t>(group_[i])]) {
+        const PrescribedMotion& m = motions_[k];
+        if (!m.drives(clock.t, clock.dt)) continue;
+        const Vec& d = m.direction;
+        const Real before = p.v.vec(i).dot(d);
+        const Real after = m.velocity(clock.t, clock.dt, clock.dt_old, before);
+        force.force += (p.m[i] * (after - before) / clock.dt_mean() - p.f.vec(i).dot(d)) * d;
+      }
+      out.push_back(force);
+    }
+  }
 
  private:
   /// What a motion does in the coming step: v.direction becomes `at_zero` + `keep` v.direction.
@@ -80,6 +103,7 @@ class PrescribedParticles : public Motion, public EnergyTerm {
   std::vector<PrescribedMotion> motions_;
   std::vector<Group> groups_;                      ///< the first one is empty
   Field<Index>& group_;                            ///< of each particle
+  Field<Real>* work_;                              ///< on each particle so far; null: nobody asks
   std::vector<Drive> all_;                         ///< of each motion
   std::vector<std::vector<const Drive*>> drives_;  ///< of each group, those that drive in this step
 };
@@ -127,7 +151,10 @@ class Builder {
       if (is_new) groups.push_back(motions_of_[i]);
       group[static_cast<Index>(i)] = it->second;
     }
-    return std::make_shared<PrescribedParticles>(std::move(motions_), std::move(groups), group);
+    Field<Real>* work = nullptr;
+    if (model_.output.bndout.asked())
+      work = &world.particles.fields.add<Real>({.name = "drive_work", .dimension = "ML2/T2"});
+    return std::make_shared<PrescribedParticles>(std::move(motions_), std::move(groups), group, work);
   }
 
  private:

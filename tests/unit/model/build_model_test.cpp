@@ -79,10 +79,10 @@ TEST_P(AcceptDeck, GivesControlAndOutput) {
   EXPECT_EQ(m.tssfac, 0.9);  // from a blank card
   EXPECT_FALSE(m.dt_max_given);
   EXPECT_EQ(m.output.d3plot_count, 5);
-  EXPECT_EQ(m.output.d3plot, 0.5);
-  EXPECT_EQ(m.output.glstat, 0.01);
-  EXPECT_EQ(m.output.sphout, 0.02);
-  EXPECT_EQ(m.output.rcforc, 0);
+  EXPECT_EQ(m.output.d3plot.interval, 0.5);
+  EXPECT_EQ(m.output.glstat.interval, 0.01);
+  EXPECT_EQ(m.output.sphout.interval, 0.02);
+  EXPECT_EQ(m.output.rcforc.interval, 0);
   EXPECT_EQ(m.output.history_sph, std::vector<Id>{5});
 }
 

@@ -85,10 +85,47 @@ TEST(Rcforc, LayoutAndOppositeSides) {
             "0.00000E+00\n");
 }
 
-TEST(Sphout, Columns) {
-  const std::string text = sphout_text(made_sample());
-  EXPECT_NE(text.find("        17   0   1.00000E-01   2.00000E-01   0.00000E+00"), std::string::npos) << text;
-  EXPECT_NE(text.find("   1.23450E+03"), std::string::npos) << text;
+TEST(Sphout, StressOfPressureAndViscosity) {
+  Sample s = made_sample();
+  s.particles[0].part = 3;
+  s.particles[0].rho = 1001;
+  s.particles[0].h = 0.006;
+  s.particles[0].neighbours = 20;
+  s.particles[0].tau = {1, -1, 0, 2, 0, 0};
+  const std::string text = sphout_text(s);
+  for (const char* line :
+       {"\n\n\n S P H   o u t p u t       at time 2.0000E-02     for  time  step      8001\n",
+        "      17     3 -1.2335E+03 -1.2355E+03 -1.2345E+03  2.0000E+00  0.0000E+00  0.0000E+00\n",
+        "      17     3  1.0010E+03  6.0000E-03     20     0\n",
+        "      17     3  0.0000E+00  3.8730E+00   elastic\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+}
+
+TEST(Sleout, SumIsTheSlidingEnergy) {
+  Sample s = made_sample();
+  s.interfaces[0].energy_stored = 3;
+  s.interfaces[0].energy_friction = 0.5;
+  EXPECT_EQ(sleout_text(s),
+            "\n\n\n contact interface energy file, time= 2.0000000E-02\n"
+            "    #             surfa       surfb        cycle=          8001    frictional\n\n"
+            "         4   5.5000E+00   0.0000E+00                              5.0000E-01\n"
+            "\n summary   total surfa side= 5.5000000E+00\n"
+            "           total surfb side= 0.0000000E+00\n"
+            "           total energy    = 5.5000000E+00\n"
+            "           total friction  = 5.0000000E-01\n\n\n\n");
+}
+
+TEST(Nodout, RotationsOnlyWhereSomethingTurns) {
+  Sample s = made_sample();
+  s.nodes = {
+      {.id = 7, .displacement = Vec(1, 0, 0), .x = Vec(2, 0, 0), .v = Vec(0, -3, 0), .a = Vec(0, 0, 4)}};
+  const std::string row =
+      "        7   1.0000E+00  0.0000E+00  0.0000E+00  0.0000E+00 -3.0000E+00  0.0000E+00  0.0000E+00"
+      "  0.0000E+00  4.0000E+00  2.0000E+00  0.0000E+00  0.0000E+00\n";
+  EXPECT_NE(nodout_text(s).find(row), std::string::npos) << nodout_text(s);
+  EXPECT_EQ(nodout_text(s).find("x-rot"), std::string::npos);
+  s.nodes[0].turns = true;
+  EXPECT_NE(nodout_text(s).find("x-rot"), std::string::npos);
 }
 
 TEST(AsciiHeader, LegendAndTitle) {
@@ -159,6 +196,23 @@ TEST(OutputSchedule, LastCycleBeforeTheDueTime) {
   EXPECT_FALSE(schedule.take(0.55, 0.01));
   EXPECT_TRUE(schedule.take(0.59, 0.02));
   EXPECT_FALSE(OutputSchedule(0).take(0, 1));
+}
+
+TEST(OutputSchedule, FollowsWhatTellsTheNextTime) {
+  OutputSchedule schedule(0, [](Real due) { return due + (due < 0.25 ? 0.1 : 1); });  // 0 0.1 0.2 0.3 1.3
+  std::vector<int> taken;
+  for (int n = 0; n < 32; ++n)
+    if (schedule.take(n * 0.0625, 0.0625)) taken.push_back(n);
+  EXPECT_EQ(taken, (std::vector<int>{0, 1, 3, 4, 20}));
+  schedule.skip_to(0.25);
+  EXPECT_NEAR(schedule.next(), 0.3, 1e-15);
+  schedule.skip_to(0.15);
+  EXPECT_NEAR(schedule.next(), 0.2, 1e-15);
+  EXPECT_TRUE(schedule.is_wanted());
+  EXPECT_FALSE(OutputSchedule(0.5, [](Real due) { return due; }).is_due(0.4, 0.1));
+  OutputSchedule stuck(0, [](Real due) { return due; });  // below round-off
+  EXPECT_TRUE(stuck.take(0, 1));
+  EXPECT_FALSE(stuck.take(1, 1));
 }
 
 TEST(OutputSchedule, RestartGoesOnWithTheNextDueTime) {

@@ -1,0 +1,138 @@
+// What the histories print, taken from the world at t^n.
+#include <algorithm>
+#include <unordered_map>
+
+#include "app/simulation.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Where the entities of the named ids stand now: few among many.
+template <class Ids>
+std::unordered_map<Id, Index> places_of(const Ids& wanted, const Field<Id>& id, Index n) {
+  std::unordered_map<Id, Index> index;
+  for (const auto& one : wanted) index[one] = -1;
+  if (index.empty()) return index;
+  for (Index i = 0; i < n; ++i)
+    if (const auto at = index.find(id[i]); at != index.end()) at->second = i;
+  return index;
+}
+
+Vec force_on(const std::vector<BoundaryForce>& forces, Id particle) {
+  Vec sum = Vec::Zero();
+  for (const BoundaryForce& force : forces)
+    if (force.kind == BoundaryForce::Kind::driven_particle && force.id == particle) sum += force.force;
+  return sum;
+}
+
+ParticleSample particle_sample(const World& world, const Neighbours& neighbours, const Clock& clock,
+                               Index i) {
+  const Particles& p = world.particles;
+  const bool active = i < p.active;
+  ParticleSample out{p.id[i], active, p.place(i, clock.t), p.v.vec(i), p.p[i], p.rho[i], p.E[i]};
+  out.part = world.part_id(i);
+  out.h = p.h[i];
+  if (active) out.neighbours = static_cast<std::int64_t>(neighbours.of(p, i).size());
+  if (const auto* tau = dynamic_cast<const Field<Real>*>(p.fields.find("stress")); tau && active)
+    for (int k = 0; k < 6; ++k) out.tau[static_cast<std::size_t>(k)] = tau->data(k)[i];
+  return out;
+}
+
+/// The nodes of a rigid body move with it: v + omega x r, a + alpha x r + omega x (omega x r).
+void follow(const RigidBodyMotion& body, NodeSample& node) {
+  const Vec r = node.x - body.x;
+  node.turns = true;
+  node.a = body.a + body.angular_a.cross(r) + body.omega.cross(body.omega.cross(r));
+  node.rotation = body.rotation, node.omega = body.omega, node.angular_a = body.angular_a;
+}
+
+void sample_nodes(const std::vector<HistoryNode>& wanted, const World& world, const RigidBodies* bodies,
+                  const Clock& clock, Sample& s) {
+  if (wanted.empty()) return;
+  std::vector<Id> ids;
+  for (const HistoryNode& one : wanted) ids.push_back(one.id);
+  const Particles& p = world.particles;
+  const auto particle = places_of(ids, p.id, p.size()),
+             shell_node = places_of(ids, world.nodes.id, world.nodes.size());
+  std::unordered_map<Index, const RigidBodyMotion*> body_of;
+  if (bodies)
+    for (std::size_t b = 0; b < s.body_motions.size(); ++b)
+      for (const Index n : bodies->bodies()[b].nodes) body_of[n] = &s.body_motions[b];
+  for (const HistoryNode& one : wanted) {
+    NodeSample node{.id = one.id, .x = one.X};
+    if (const Index i = particle.at(one.id); i >= 0) {
+      node.x = p.place(i, clock.t);
+      node.v = p.v.vec(i);
+      if (i < p.active) node.a = (p.f.vec(i) + force_on(s.boundary_forces, one.id)) / p.m[i];
+    } else if (const Index n = shell_node.at(one.id); n >= 0) {
+      node.x = world.nodes.x.vec(n);
+      node.v = world.nodes.v.vec(n);
+      if (const auto body = body_of.find(n); body != body_of.end()) follow(*body->second, node);
+    }
+    node.displacement = node.x - one.X;
+    s.nodes.push_back(node);
+  }
+}
+
+void sample_parts(const World& world, const Model& model, Sample& s) {
+  const Particles& p = world.particles;
+  const auto* volume = dynamic_cast<const Field<Real>*>(p.fields.find("reference_volume"));
+  for (const ModelPart& part : model.parts) s.parts.push_back({.id = part.id, .title = part.title});
+  for (Index i = 0; i < p.active; ++i) {
+    PartSample& part = s.parts[p.part[i]];
+    const Real m = p.m[i];
+    const Vec v = p.v.vec(i);
+    part.mass += m;
+    part.momentum += m * v;
+    part.kinetic += 0.5 * m * v.squaredNorm();
+    part.internal += p.E[i] * (*volume)[i];
+  }
+  for (const RigidBodyReport& body : s.bodies) {
+    PartSample& part = s.parts[model.part_of_id.at(body.part)];
+    part.mass = body.mass;
+    part.momentum = body.mass * body.v;
+    part.kinetic = body.kinetic_energy;
+    part.rigid_velocity = body.v;
+  }
+  Vec momentum = Vec::Zero();
+  for (const PartSample& part : s.parts) s.mass += part.mass, momentum += part.momentum;
+  if (s.mass > 0) s.velocity = momentum / s.mass;
+}
+
+/// Passes that impose motions stand among the constraints or among the energy terms.
+void sample_boundary_forces(const World& world, const Clock& clock, std::vector<BoundaryForce>& out) {
+  for (const auto& pass : world.constraints)
+    if (const auto* one = dynamic_cast<const BoundaryForceReporter*>(pass.get()))
+      one->report_forces(world, clock, out);
+  for (const auto& pass : world.energy_terms)
+    if (const auto* one = dynamic_cast<const BoundaryForceReporter*>(pass.get()))
+      one->report_forces(world, clock, out);
+  // particles stand in an order of their own, which changes
+  std::sort(out.begin(), out.end(), [](const BoundaryForce& a, const BoundaryForce& b) {
+    return a.kind != b.kind ? a.kind < b.kind : a.id < b.id;
+  });
+}
+
+}  // namespace
+
+Sample Simulation::sample(const std::string& dt_controlled_by) {
+  sample_energy(world_, clock_);
+  Sample s;
+  s.t = clock_.t, s.dt = clock_.dt, s.cycle = clock_.cycle, s.dt_set_by = dt_controlled_by,
+  s.energy = world_.energy;
+  if (bodies_) s.bodies = bodies_->reports(), s.body_motions = bodies_->motions(clock_);
+  sample_parts(world_, model_, s);
+  for (const auto& contact : contacts_) s.interfaces.push_back(contact->report());
+  sample_boundary_forces(world_, clock_, s.boundary_forces);
+  const std::vector<Id>& wanted = model_.output.history_sph;
+  const Particles& p = world_.particles;
+  const auto index = places_of(wanted, p.id, p.size());
+  for (const Id id : wanted)
+    if (const Index i = index.at(id); i >= 0)
+      s.particles.push_back(particle_sample(world_, *neighbours_, clock_, i));
+  sample_nodes(model_.output.history_node, world_, bodies_.get(), clock_, s);
+  return s;
+}
+
+}  // namespace courant

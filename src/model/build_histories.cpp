@@ -1,0 +1,105 @@
+// What is written, when, and of whom.
+#include <fmt/format.h>
+#include <algorithm>
+#include <unordered_set>
+
+#include "model/model_builder.hpp"
+
+namespace courant {
+
+/// A curve of the interval takes the place of DT.
+void ModelBuilder::build_output_curve(const Entry& card, std::string_view field, Id id, int ioopt,
+                                      OutputTimes& out) {
+  if (id == 0) return;
+  const Curve* found = curve(card, field, id);
+  if (!found) return;
+  const auto rule = static_cast<OutputTimes::Rule>(ioopt);
+  const auto& f = found->ordinate;
+  if (rule != OutputTimes::Rule::abscissae && (f.empty() || *std::min_element(f.begin(), f.end()) <= 0))
+    return error(card, field, fmt::format("curve {} gives an output interval that is not above 0", id),
+                 "its ordinates are intervals of time");
+  out = {.interval = 0, .rule = rule, .curve = *found};
+}
+
+void ModelBuilder::build_histories() {
+  OutputRequests& out = model_.output;
+  OutputTimes* const times[] = {&out.glstat, &out.matsum, &out.rcforc, &out.sphout, &out.sleout,
+                                &out.nodout, &out.rbdout, &out.bndout, &out.spcforc};
+  constexpr int sphout = 3, nodout = 5, bndout = 7;
+  build_history_sph();
+  build_history_node();
+  for (const DatabaseAsciiCard& card : deck_.all<DatabaseAsciiCard>()) {
+    OutputTimes& one = *times[card.name];
+    one.interval = card.dt;
+    build_output_curve(card, "LCUR", card.lcur, card.ioopt, one);
+    if (one.interval < 0 && card.name == bndout)
+      deck_.warning(diagnostics_, card, "DT", "an interval in cycles is not supported: bndout is not written",
+                    "give an interval of time");
+    else if (one.interval < 0)
+      error(card, "DT", fmt::format("the interval is {:g}", one.interval), "it must not be negative");
+    one.interval = std::max<Real>(one.interval, 0);
+    if (one.asked() && card.name == nodout && out.history_node.empty())
+      deck_.warning(diagnostics_, card, "DT", "no node is named: nodout holds no values",
+                    "name nodes by *DATABASE_HISTORY_NODE");
+    if (one.asked() && card.name == sphout && out.history_sph.empty())
+      deck_.warning(diagnostics_, card, "DT", "no particle is named: sphout holds no values",
+                    "name particles by *DATABASE_HISTORY_SPH");
+  }
+}
+
+/// The members of a list of nodes, or of node sets, each named once.
+std::vector<Index> ModelBuilder::listed_nodes(const Entry& card, const std::vector<Id>& ids, bool sets,
+                                              std::unordered_set<Id>& sets_seen) {
+  std::vector<Index> nodes;
+  for (const Id id : ids) {
+    if (!sets) {
+      if (const Index n = node(card, "ID", id); n >= 0) nodes.push_back(n);
+    } else if (sets_seen.insert(id).second) {  // a set may be named often: its members must not add up
+      if (const auto* members = node_set(card, "ID", id))
+        nodes.insert(nodes.end(), members->begin(), members->end());
+    }
+  }
+  return nodes;
+}
+
+void ModelBuilder::build_history_sph() {
+  if (deck_.all<DatabaseHistorySphCard>().empty()) return;
+  std::vector<bool> is_particle(model_.nodes.size(), false);
+  for (const ModelSph& sph : model_.sph) is_particle[static_cast<std::size_t>(sph.node)] = true;
+  std::vector<Id>& history = model_.output.history_sph;
+  std::unordered_set<Id> sets_seen;
+  for (const DatabaseHistorySphCard& card : deck_.all<DatabaseHistorySphCard>()) {
+    for (const Index n : listed_nodes(card, card.ids, card.name == 1, sets_seen)) {
+      const Id nid = model_.nodes[static_cast<std::size_t>(n)].id;
+      if (is_particle[static_cast<std::size_t>(n)])
+        history.push_back(nid);
+      else
+        error(card, "ID", fmt::format("node {} is no particle", nid), "define one with *ELEMENT_SPH");
+    }
+  }
+  std::sort(history.begin(), history.end());
+  history.erase(std::unique(history.begin(), history.end()), history.end());
+}
+
+void ModelBuilder::build_history_node() {
+  std::vector<HistoryNode>& history = model_.output.history_node;
+  const auto add = [&](Index n, const std::string& title) {
+    const ModelNode& one = model_.nodes[static_cast<std::size_t>(n)];
+    history.push_back({one.id, one.x, title});
+  };
+  std::unordered_set<Id> sets_seen;
+  for (const DatabaseHistoryNodeCard& card : deck_.all<DatabaseHistoryNodeCard>())
+    for (const Index n : listed_nodes(card, card.ids, card.name == 1, sets_seen)) add(n, "");
+  for (const DatabaseHistoryNodeIdCard& card : deck_.all<DatabaseHistoryNodeIdCard>())
+    for (std::size_t k = 0; k < card.ids.size(); ++k)
+      if (const Index n = card.ids[k] == 0 ? -1 : node(card, "ID", card.ids[k]); n >= 0)
+        add(n, k < card.headings.size() ? card.headings[k] : "");
+  // a heading wins over a mention without one
+  std::stable_sort(history.begin(), history.end(), [](const HistoryNode& a, const HistoryNode& b) {
+    return a.id != b.id ? a.id < b.id : a.title.empty() < b.title.empty();
+  });
+  const auto same = [](const HistoryNode& a, const HistoryNode& b) { return a.id == b.id; };
+  history.erase(std::unique(history.begin(), history.end(), same), history.end());
+}
+
+}  // namespace courant

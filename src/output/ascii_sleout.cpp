@@ -1,0 +1,23 @@
+#include <fmt/printf.h>
+
+#include "output/ascii.hpp"
+
+namespace courant {
+
+std::string sleout_text(const Sample& s) {
+  std::string out = fmt::sprintf("\n\n\n contact interface energy file, time=%14.7E\n", s.t);
+  out += fmt::sprintf("    #             surfa       surfb        cycle=%14d    frictional\n\n", s.cycle);
+  Real total = 0, friction = 0;
+  for (const InterfaceForce& i : s.interfaces) {
+    const Real energy = i.energy_stored + i.energy_damping + i.energy_friction;
+    out += fmt::sprintf("%10d%13.4E%13.4E%27s%13.4E\n", i.id, energy, 0.0, "", i.energy_friction);
+    total += energy, friction += i.energy_friction;
+  }
+  out += fmt::sprintf("\n summary   total surfa side=%14.7E\n", total);
+  out += fmt::sprintf("           total surfb side=%14.7E\n", 0.0);
+  out += fmt::sprintf("           total energy    =%14.7E\n", total);
+  out += fmt::sprintf("           total friction  =%14.7E\n\n\n\n", friction);
+  return out;
+}
+
+}  // namespace courant

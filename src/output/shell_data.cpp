@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "output/field_data.hpp"
+#include "output/vtk_arrays.hpp"
+
+namespace courant {
+namespace {
+
+/// The cells of a .vtu: corners of all segments one after the other, where each ends, and its VTK type.
+VtkSection cells(const Segments& segments, const std::vector<Index>& which) {
+  constexpr std::uint8_t triangle = 5, quad = 9;  // VTK_TRIANGLE, VTK_QUAD
+  std::vector<Index> corners, ends;
+  std::vector<std::uint8_t> types;
+  for (const Index s : which) {
+    const auto n = segments.nodes(s);
+    const bool three = n[2] == n[3];
+    corners.insert(corners.end(), n.begin(), three ? n.end() - 1 : n.end());
+    ends.push_back(static_cast<Index>(corners.size()));
+    types.push_back(three ? triangle : quad);
+  }
+  const auto array = [](const char* name, const auto& values) {
+    using T = typename std::decay_t<decltype(values)>::value_type;
+    return make_array<T, 1>(name, "", values.size(), [&](std::size_t i, T* to) { *to = values[i]; });
+  };
+  return {"Cells", {array("connectivity", corners), array("offsets", ends), array("types", types)}};
+}
+
+bool is_force(const FieldInfo& info) {
+  return info.dimension == "ML/T2";
+}
+
+void add_fields(const FieldSet& fields, const std::vector<Index>& which, const FieldWriterOptions& options,
+                std::vector<VtkArray>& to) {
+  for (const auto& field : fields.all())
+    if (field->info().output && !(options.sparse_shells && is_force(field->info())))
+      to.push_back(copy_of(*field, which, options.float64, options.eps));
+}
+
+/// Shells are seldom far smaller than their distance from the origin; where a particle's places need
+/// float64, so may theirs.
+VtkArray node_places(const World& world, const std::vector<Index>& nodes, const FieldWriterOptions& options) {
+  constexpr Real round_off = 0x1p-24, most = 1e-3;
+  Real h = std::numeric_limits<Real>::infinity(), far = 0;
+  for (Index i = 0; i < world.particles.size(); ++i) h = std::min(h, world.particles.h[i]);
+  for (const Index n : nodes) far = std::max(far, world.nodes.x.vec(n).cwiseAbs().maxCoeff());
+  const bool too_far = far * round_off > most * h;
+  VtkArray out = copy_of(world.nodes.x, nodes, options.float64 || too_far, 0);
+  out.name = "Points";
+  out.dimension.clear();  // VTK keeps none with the points
+  return out;
+}
+
+}  // namespace
+
+VtkDataSet shell_data(const World& world, const FieldWriterOptions& options) {
+  const std::vector<Index> nodes = all_of(world.nodes.size());
+  std::vector<Index> segments = all_of(world.segments.size());
+  std::erase_if(segments, [&](Index s) {
+    return std::binary_search(options.left_out.begin(), options.left_out.end(), world.segments.part[s]);
+  });
+  std::vector<VtkArray> of_nodes, of_segments;
+  add_fields(world.nodes.fields, nodes, options, of_nodes);
+  add_fields(world.segments.fields, segments, options, of_segments);
+  of_segments.push_back(make_array<Id, 1>("part", "", segments.size(), [&](std::size_t i, Id* to) {
+    *to = options.part_ids.at(static_cast<std::size_t>(world.segments.part[segments[i]]));
+  }));
+  VtkDataSet out{"UnstructuredGrid",
+                 fmt::format("NumberOfPoints=\"{}\" NumberOfCells=\"{}\"", nodes.size(), segments.size()),
+                 0,
+                 {}};
+  out.sections.push_back({"PointData", std::move(of_nodes)});
+  out.sections.push_back({"CellData", std::move(of_segments)});
+  out.sections.push_back({"Points", {node_places(world, nodes, options)}});
+  out.sections.push_back(cells(world.segments, segments));
+  return out;
+}
+
+}  // namespace courant

@@ -1,0 +1,40 @@
+#pragma once
+// What passes can tell of themselves for the histories, when somebody asks.
+#include <vector>
+
+#include "state/world.hpp"
+
+namespace courant {
+
+/// Force by which a boundary condition acts on what it drives or holds, at t^n.
+struct BoundaryForce {
+  enum class Kind {
+    driven_particle,  ///< *BOUNDARY_PRESCRIBED_MOTION_NODE, _SET
+    driven_body,      ///< *BOUNDARY_PRESCRIBED_MOTION_RIGID
+    held_particle,    ///< *BOUNDARY_SPC
+  };
+  Kind kind = Kind::driven_particle;
+  Id id = 0;                                      ///< of the particle, or the body's part
+  Vec force = Vec::Zero(), moment = Vec::Zero();  ///< [ML/T2], [ML2/T2]
+  Real work = 0;                                  ///< done so far [ML2/T2]
+};
+
+/// A pass that imposes motions.
+struct BoundaryForceReporter {
+  virtual ~BoundaryForceReporter() = default;
+  /// Adds the forces once those at t^n and dt are known, before the kick.
+  virtual void report_forces(const World& world, const Clock& clock,
+                             std::vector<BoundaryForce>& out) const = 0;
+};
+
+/// How a rigid body moves at t^n; velocities are those of the last half step.
+struct RigidBodyMotion {
+  Id part = 0;
+  Vec x = Vec::Zero(), displacement = Vec::Zero();   ///< of the centre [L]
+  Vec v = Vec::Zero(), a = Vec::Zero();              ///< [L/T], [L/T2]
+  Vec rotation = Vec::Zero();                        ///< from t = 0, axis times angle up to pi [-]
+  Vec omega = Vec::Zero(), angular_a = Vec::Zero();  ///< [1/T], [1/T2]
+  Matrix axes = Matrix::Identity();                  ///< principal directions as columns
+};
+
+}  // namespace courant
