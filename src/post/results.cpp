@@ -75,9 +75,10 @@ vtkDataArray* find_array(vtkPolyData* data, const char* name, int components,
   if (array && array->GetNumberOfComponents() == components &&
       array->GetNumberOfTuples() == data->GetNumberOfPoints())
     return array;
-  diagnostics.error({file.string()},
-                    std::string("the array '") + name + "' is missing or has the wrong shape",
-                    "the file must come from `courant run`");
+  diagnostics.error(
+      {file.string()}, std::string("the array '") + name + "' is missing or has the wrong shape",
+      "the file must come from `courant run`, and FIELDS of *COURANT_OUTPUT, if the deck has it, must "
+      "name the array");
   return nullptr;
 }
 
