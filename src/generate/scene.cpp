@@ -34,6 +34,7 @@ class SceneReader {
 
   Scene read() {
     Scene scene;
+    if (std::filesystem::is_directory(path_)) throw YAML::BadFile(path_);
     const YAML::Node root = YAML::LoadFile(path_);
     if (!root.IsMap()) {
       diagnostics_.error({path_, 1, 1}, "a scene is a YAML map", "start with 'title: ...'");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace courant {
 std::optional<YAML::Node> load_yaml(const std::string& file, const std::string& what, const std::string& hint,
                                     Diagnostics& diagnostics) {
   try {
+    if (std::filesystem::is_directory(file)) throw YAML::BadFile(file);
     return YAML::LoadFile(file);
   } catch (const YAML::BadFile&) {
     diagnostics.error({file}, "cannot read the " + what, "check the path; " + hint);

@@ -83,6 +83,7 @@ ends(1, "generate", scene, "-o", "no.k", "--param", "resolutoin=8", err="resolut
 ends(1, "generate", scene, "-o", "no.k", "--param", "resolution", err="NAME=VALUE")
 ends(1, "generate", scene, "-o", "/proc/no.k", err="/proc/no.k")
 ends(1, "generate", "missing.yaml", "-o", "no.k", err="missing.yaml")
+ends(1, "generate", ".", "-o", "no.k", err="the scene cannot be read")
 check(not os.path.exists("no.k"), "generate leaves nothing behind")
 ends(0, "check", "tiny.k", out=r"64 particles of which 64 are active.*\n(.*\n)*First step .* set by")
 ends(0, "--version", out=r"\d+\.\d+\.\d+")
@@ -204,6 +205,7 @@ ends(1, "run", "tiny.k", "-o", "/proc/x", err="cannot write '/proc/x'.*\n  hint:
 
 # --- post
 ends(1, "post", "missing.yaml", "well", err="missing.yaml")
+ends(1, "post", ".", "well", err="cannot read the recipe")
 os.makedirs("empty")
 recipe = os.path.join(source, "keyword_decks", "hydraulic_jump", "post.yaml")
 ends(1, "post", recipe, "empty", err="empty")
