@@ -17,6 +17,7 @@ class Mirrors : public Motion {
   std::string name() const override { return "mirrors"; }
   void start(World& world, const Clock& clock) override {
     g_ = gravity_(clock.t);
+    pull_ = dynamic_cast<const Field<Real>*>(world.particles.fields.find("mirror_pull"));
     crossings_.assign(block_count(world.particles.moving), 0);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
@@ -37,9 +38,10 @@ class Mirrors : public Motion {
       const Real d = depth(plane, p.x.vec(i));
       if (!(d < 0)) continue;
       const Real across = -p.v.vec(i).dot(plane.normal);  // outwards
-      const Real back = i < p.active && across > 0
-                            ? std::sqrt(std::max(across * across + 4 * pull * d, Real(0)))
-                            : std::abs(across);
+      const Real back =
+          i < p.active && across > 0
+              ? std::sqrt(std::max(across * across + 4 * (pull + (pull_ ? (*pull_)[i] : 0)) * d, Real(0)))
+              : std::abs(across);
       p.x.add(i, -2 * d * plane.normal);
       p.v.add(i, (across + back) * plane.normal);
       ++crossings_[begin / block_size];
@@ -48,7 +50,8 @@ class Mirrors : public Motion {
   std::vector<ImagePlane> mirrors_;
   std::function<Vec(Real)> gravity_;
   Vec g_ = Vec::Zero();
-  std::vector<Index> crossings_;  ///< in each block
+  const Field<Real>* pull_ = nullptr;  ///< of others than gravity
+  std::vector<Index> crossings_;       ///< in each block
 };
 
 }  // namespace

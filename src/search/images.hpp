@@ -30,6 +30,12 @@ inline Real depth(const ImagePlane& plane, const Vec& x) {
 /// that blocks of particles far from it cost next to nothing.
 Real least_depth(const ImagePlane& plane, const Particles& p, Index begin, Index end);
 
+/// Acceleration towards a mirror that does not turn round behind it, as it should; whoever adds such a force
+/// tells it here, gravity apart [L/T2]
+inline Field<Real>& mirror_pull(Particles& p) {
+  return p.fields.add<Real>({.name = "mirror_pull", .dimension = "L/T2", .restart = false});
+}
+
 /// Images of particles behind planes: neighbours that the pair loops take like any other. A particle within
 /// reach of a mirror has a copy behind it with reflected velocity and stress; one near a periodic plane has a
 /// copy beyond the other plane. Images stand behind all particles in the fields that are exchanged, from

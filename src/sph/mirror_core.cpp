@@ -17,8 +17,8 @@ namespace {
 /// distances below (Thomas and Couchman 1992 do so for all pairs). Farther away particles, and those of a
 /// flow along the mirror, notice nothing. Continuity takes the same slope as pressure does, so that energy is
 /// kept.
-/// Both only under pressure: tension would pull a particle onto the mirror, through it and back, and each
-/// crossing that ends a step behind it would make energy.
+/// What tension does behind the mirror the reflection takes back (`mirror_pull`): it would make energy of
+/// each crossing.
 class MirrorCore : public Rate {
  public:
   MirrorCore(const SphSettings& s, const World& world, std::vector<ImagePlane> mirrors)
@@ -38,10 +38,9 @@ class MirrorCore : public Rate {
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     if (!(clock.dt_old > 0)) return;
     Particles& p = world.particles;
-    // p is still that of the force that drove the step. From where it was a step ago; on the other side,
+    // From where it was a step ago; on the other side,
     // which is the same, where it went through the mirror.
     for_each_at_mirror(p, begin, end, [&](Index i, const Vec& n, Real d) {
-      if (!(p.p[i] > 0)) return;
       const Real before = std::abs(d - clock.dt_old * p.v.vec(i).dot(n));
       p.drhodt[i] -= 2 * p.m[i] * (missing_kernel(p, i, d) - missing_kernel(p, i, before)) / clock.dt_old;
     });
@@ -83,7 +82,7 @@ class MirrorCore : public Rate {
 class MirrorCoreForce : public Force {
  public:
   MirrorCoreForce(const SphSettings& s, World& world, std::shared_ptr<MirrorCore> core)
-      : core_(std::move(core)) {
+      : core_(std::move(core)), pull_(mirror_pull(world.particles)) {
     if (!std::holds_alternative<MonaghanViscosity>(s.viscosity))
       total_pressure_ = &sph_fields::pressure_plus_q(world.particles);
   }
@@ -92,15 +91,18 @@ class MirrorCoreForce : public Force {
   void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
     const Real* pressure = total_pressure_ ? total_pressure_->data() : p.p.data();
+    for (Index i = begin; i < end; ++i) pull_[i] = 0;
     core_->for_each_at_mirror(p, begin, end, [&](Index i, const Vec& n, Real d) {
-      if (!(p.p[i] > 0)) return;
       const Real V = p.m[i] / p.rho[i];
-      p.f.add(i, 2 * V * V * pressure[i] * core_->missing_slope(p, i, d) * n);
+      const Real push = 2 * V * V * pressure[i] * core_->missing_slope(p, i, d);
+      pull_[i] += std::max(-push, Real(0)) / p.m[i];
+      p.f.add(i, push * n);
     });
   }
 
  private:
   std::shared_ptr<MirrorCore> core_;
+  Field<Real>& pull_;
   Field<Real>* total_pressure_ = nullptr;
 };
 
