@@ -6,7 +6,6 @@ namespace courant {
 
 namespace {
 
-const FieldRules no_effect{.honour = Honour::ignored};
 FieldRules no_effect_of(IdSpace refers) {
   return {.honour = Honour::ignored, .refers = refers};
 }

@@ -8,10 +8,12 @@
 #include "app/field_options.hpp"
 #include "app/resources.hpp"
 #include "app/restart.hpp"
+#include "app/run_outputs.hpp"
+#include "app/run_summary.hpp"
 #include "app/sense_switches.hpp"
 #include "app/simulation.hpp"
+#include "app/state_copies.hpp"
 #include "base/run_error.hpp"
-#include "model/output_times.hpp"
 #include "output/ascii.hpp"
 #include "output/field_writer.hpp"
 #include "output/folder_lock.hpp"
@@ -31,26 +33,8 @@ double seconds_since(Clock_::time_point start) {
   return std::chrono::duration<double>(Clock_::now() - start).count();
 }
 
-OutputSchedule schedule(const OutputTimes& times) {
-  if (times.rule == OutputTimes::Rule::interval) return {times.interval};
-  return {first_output(times), [times](Real due) { return next_output(times, due); }};
-}
-
-HistoryRequests history_requests(const Simulation& s) {
-  const OutputRequests& wanted = s.model().output;
-  HistoryRequests h;
-  h.glstat = schedule(wanted.glstat), h.matsum = schedule(wanted.matsum), h.rcforc = schedule(wanted.rcforc);
-  h.sleout = schedule(wanted.sleout), h.sphout = schedule(wanted.sphout), h.nodout = schedule(wanted.nodout);
-  h.rbdout = schedule(wanted.rbdout), h.bndout = schedule(wanted.bndout);
-  h.spcforc = schedule(wanted.spcforc);
-  for (const HistoryNode& node : wanted.history_node)
-    if (!node.title.empty()) h.nodes.push_back({node.id, node.title});
-  h.title = s.model().title;
-  for (const ModelPart& part : s.model().parts) h.parts.push_back({part.id, part.title});
-  for (const auto& contact : s.contacts())
-    h.contacts.push_back({contact->report().id, contact->report().title});
-  return h;
-}
+/// The restart file that a stop in error leaves.
+constexpr const char* before_error = "before_error.h5";
 
 /// One run with its files.
 class Run {
@@ -73,6 +57,7 @@ class Run {
         field_schedule_(field_schedule(simulation, end_)),
         restart_schedule_(simulation.deck()),
         switches_(options.dir, options.keyboard),
+        copies_(simulation.world(), options.dump_at_end, simulation.clock().cycle),
         facts_(std::move(facts)) {
     summary_.title = s_.model().title;
     summary_.deck = deck_path;
@@ -99,11 +84,6 @@ class Run {
   }
 
  private:
-  static OutputSchedule field_schedule(const Simulation& s, Real end) {
-    const OutputRequests& wanted = s.model().output;
-    return wanted.d3plot_count > 0 ? OutputSchedule(end / wanted.d3plot_count) : schedule(wanted.d3plot);
-  }
-
   void print_start() {
     messag_.line(fmt::format("Courant {}", COURANT_VERSION));
     messag_.line(fmt::format("deck {}: {}", summary_.deck, summary_.title));
@@ -112,6 +92,7 @@ class Run {
                              s_.world().segments.size(), summary_.threads));
     for (const std::string& warning : options_.warnings) messag_.line(warning);
     messag_.line(s_.passes());
+    if (!copies_.refusal().empty()) messag_.line(copies_.refusal());
     messag_.line(" input of data is completed");
     messag_.line(fmt::format(" termination time                  = {:10.3E}", end_));
   }
@@ -131,6 +112,8 @@ class Run {
       fields_.keep(archive);
       fields_.cut(state_);
     }
+    if (before.file.filename() == before_error && s_.changes().empty())
+      before.warnings.push_back("after this state the run stopped in error, and the deck is the same");
     for (const std::string& text : before.warnings) messag_.line(" *** Warning: " + text);
     for (const std::string& text : histories_.lost()) messag_.line(" *** Warning: " + text);
     for (const std::string& text : s_.changes()) messag_.line(" changed in the deck: " + text);
@@ -182,27 +165,61 @@ class Run {
 
   void submit_restart(const std::string& name) {
     auto state = std::make_shared<SavedState>();
-    {
-      Archive archive = Archive::saver(*state);
-      Restart head = head_of(s_);
-      keep_head(head, archive);
-      s_.keep(archive);
-      keep_run(archive);
-    }
-    const std::filesystem::path file = std::filesystem::path(options_.dir) / "restart" / (name + ".h5");
+    save(*state);
     writer_.submit(
-        [this, state, file, cycle = s_.clock().cycle] {
-          Archive archive = Archive::saver(*state);
-          {
-            const Archive::Group inside(archive, "files");
-            HistoryPositions positions = histories_.positions();
-            positions.keep(archive);
-            fields_.keep(archive);
-          }
+        [this, state, file = restart_file(name + ".h5"), cycle = s_.clock().cycle] {
+          histories_.finish();
+          save_files(*state);
           write_restart_file(file, *state, cycle);
           newest_restart_ = file.string();
         },
         weight_of_state);
+  }
+
+  void save(SavedState& state) {
+    Archive archive = Archive::saver(state);
+    Restart head = head_of(s_);
+    keep_head(head, archive);
+    s_.keep(archive);
+    keep_run(archive);
+  }
+
+  /// How far the files have come, by the thread that writes them.
+  void save_files(SavedState& state) {
+    Archive archive = Archive::saver(state);
+    const Archive::Group inside(archive, "files");
+    HistoryPositions positions = histories_.positions();
+    positions.keep(archive);
+    fields_.keep(archive);
+  }
+
+  std::filesystem::path restart_file(const std::string& name) const {
+    return std::filesystem::path(options_.dir) / "restart" / name;
+  }
+
+  void copy_state() {
+    s_.timer().measure("copies for an error stop", [&] {
+      auto copy = copies_.take(s_.clock(), [this](SavedState& state) { save(state); });
+      writer_.submit([this, copy] {
+        save_files(copy->state);
+        copy->has_files = true;
+      });
+    });
+  }
+
+  /// After a stop in error, when nothing is left for the thread that writes.
+  void write_copy() {
+    const auto copy = copies_.best();
+    if (!copy || !copy->has_files) return;
+    const std::string file = restart_file(before_error).string();
+    histories_.finish();  // its samples belong to the state
+    write_restart_file(file, copy->state, copy->cycle);
+    failure_ += fmt::format(
+        "\n     {} has the state at time {:.6g}, cycle {}, which the guard had found sane; to go on from it "
+        "with "
+        "a smaller TSSFAC in the deck: {}",
+        file, copy->t, copy->cycle, restart_call(file));
+    if (newest_restart_.empty() || copy->cycle > kept_cycle_) newest_restart_ = file;
   }
 
   /// False: the run ends here.
@@ -260,6 +277,7 @@ class Run {
       });
       summary_.particle_steps += s_.world().particles.active;
       for (const std::string& name : restart_schedule_.due(s_.clock().cycle)) write_restart(name);
+      if (copies_.is_due(s_.clock())) copy_state();
       if (const auto order = switches_.take(); order && !obey(*order)) return;
       if (s_.clock().cycle % 64 == 0) show_progress();
     }
@@ -341,44 +359,38 @@ class Run {
   void close() {
     s_.timer().measure("output", [&] {
       attempt([&] { writer_.wait(); });
+      if (failed_state_) attempt([&] { write_copy(); });
       tell_restart_file();
       attempt([&] { histories_.finish(); });
       attempt([&] { fields_.finish(); });
       if (failed_state_) attempt([&] { fields_.write_failed(s_.world(), s_.clock().t); });
     });
     Summary& y = summary_;
-    y.ranges = s_.guard().ranges();
-    y.time = s_.clock().t, y.steps = s_.clock().cycle;
     y.wall_seconds = wall_seconds(), y.cpu_seconds = cpu_before_ + cpu_seconds() - cpu_start_;
     y.writer_cpu_seconds = writer_before_ + writer_.cpu_seconds();
     y.restart_file = newest_restart_;
-    y.active_particles = s_.world().particles.active;
-    y.peak_memory_bytes = peak_memory();
-    y.energy = s_.world().energy;
-    y.counters = s_.world().counters;
-    y.maxima = s_.world().maxima;
-    y.leaked_particles = y.counters.contains("leaked_particles") ? y.counters.at("leaked_particles") : 0;
-    y.max_penetration = y.maxima.contains("max_penetration") ? y.maxima.at("max_penetration") : 0;
-    if (!std::isfinite(y.dt_min)) y.dt_min = 0;
     y.read_seconds = read_before_ + s_.read_seconds();
-    y.counters["neighbour_rebuilds"] = s_.neighbours().rebuilds();
+    note_end(y, s_);
     for (const std::string& warning : end_warnings(y)) y.warnings.push_back(warning);
-    note_times();
+    note_times(y, s_.timer());
     note_output();
     attempt([&] { print_end(); });
     attempt([&] { write_summary(std::filesystem::path(options_.dir) / "summary.yaml", y); });
   }
 
+  std::string restart_call(const std::string& file) const {
+    return fmt::format("courant run {} -o {} --restart {}", summary_.deck, options_.dir, file);
+  }
+
   /// What can go on from where, for a run that did not reach its end.
   void tell_restart_file() {
-    const std::string call =
-        fmt::format("courant run {} -o {} --restart {}", summary_.deck, options_.dir, newest_restart_);
-    if (summary_.termination == "error")
+    const bool is_told = failure_.find(newest_restart_) != std::string::npos && !newest_restart_.empty();
+    if (summary_.termination == "error" && !is_told)
       failure_ += newest_restart_.empty()
                       ? "\n     no restart file was written; *DATABASE_BINARY_RUNRSF asks for some"
-                      : "\n     to go on from the latest whole state: " + call;
+                      : "\n     to go on from the latest whole state: " + restart_call(newest_restart_);
     else if (summary_.termination == "interrupted" && !newest_restart_.empty())
-      summary_.reason += "; to go on: " + call;
+      summary_.reason += "; to go on: " + restart_call(newest_restart_);
   }
 
   double wall_seconds() const { return wall_before_ + seconds_since(start_); }
@@ -402,17 +414,6 @@ class Run {
     for (const std::string& line : end_report(summary_)) messag_.line(line);
     const bool ok = summary_.termination != "error";
     messag_.banner(ok ? " N o r m a l    t e r m i n a t i o n" : " E r r o r    t e r m i n a t i o n");
-  }
-
-  /// Rows of the passes, and what is left of the elapsed time.
-  void note_times() {
-    double sum = 0;
-    for (const auto& row : s_.timer().table()) {
-      summary_.passes.push_back({row.name, row.seconds, row.calls});
-      sum += row.seconds;
-      if (row.name == "output") summary_.output.seconds = row.seconds;
-    }
-    summary_.passes.push_back({"rest", summary_.read_seconds + summary_.wall_seconds - sum, 1});
   }
 
   void note_output() {
@@ -459,6 +460,7 @@ class Run {
   OutputSchedule field_schedule_;
   RestartSchedule restart_schedule_;
   SenseSwitches switches_;
+  StateCopies copies_;
   Summary summary_;
   std::string who_, failure_;
   StopFacts facts_;

@@ -88,7 +88,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
 
 void Simulation::add_passes(Diagnostics& diagnostics) {
   const Real h = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
-  neighbours_ = std::make_shared<Neighbours>(first_skin * h, sph_.region);
+  neighbours_ = std::make_shared<Neighbours>(first_skin * h, sph_.region, kernel_support(sph_.kernel));
   neighbours_->adapt_skin(least_skin * h, most_skin * h);
   add_images(h, diagnostics);
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
@@ -99,6 +99,8 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
       world_, diagnostics);
   if (!diagnostics.ok()) return;
   world_.motions.push_back(make_particle_motion());
+  add_drifts(
+      sph_, [loads = model_.body_loads](Real t) { return gravity_at(loads, t); }, world_);
   if (mirrors_) world_.motions.push_back(mirrors_);
   add_sph_time_limit(sph_, model_, world_);
   for (PassNote& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
@@ -142,13 +144,15 @@ Ranges Simulation::reference_of_parts() const {
 }
 
 void Simulation::add_images(Real h, Diagnostics& diagnostics) {
-  const Real reach = 2 * h + neighbours_->largest_skin();
+  const Real reach = neighbours_->support() * h + neighbours_->largest_skin();
   planes_ = build_image_planes(deck_, model_, sph_, reach, world_, diagnostics);
   if (planes_.empty())
     return left_out_.push_back({"images", "no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC"});
   for (const ImagePlane& plane : planes_)  // along a period nothing rests on anything
     if (plane.kind == ImagePlane::Kind::periodic && sph_.gravity)
       sph_.gravity = [g = sph_.gravity, n = plane.normal](Real t) { return Vec(g(t) - g(t).dot(n) * n); };
+  for (const ImagePlane& plane : planes_)
+    if (plane.kind == ImagePlane::Kind::mirror) sph_.mirrors.push_back(plane);
   auto images = std::make_shared<Images>(planes_);
   neighbours_->set_images(images);
   world_.exchangers.push_back(images);

@@ -17,8 +17,8 @@ std::vector<InstructionSet> instruction_sets();
 /// For tests and benchmarks; takes effect for what is built afterwards.
 void use_instruction_set(InstructionSet set);
 
-/// The variant for this machine of a function that is compiled for each instruction set. On other processors
-/// than x86-64 only `baseline` exists, and the others are null.
+/// The variant for this machine of a function that is compiled for each instruction set. Those that
+/// this build has not are null.
 template <class Function>
 Function variant(Function baseline, Function avx2, Function avx512) {
   switch (instruction_set()) {
@@ -33,9 +33,19 @@ Function variant(Function baseline, Function avx2, Function avx512) {
 
 }  // namespace courant
 
-/// `variant` of a function that each instruction set's namespace has under the same name.
-#if defined(__x86_64__)
-#define COURANT_VARIANT(function) variant(&baseline::function, &avx2::function, &avx512::function)
+// What this build has: CMake's COURANT_LEAVE_OUT names sets that are not compiled.
+#if defined(__x86_64__) && !defined(COURANT_WITHOUT_avx2)
+#define COURANT_AVX2(function) &avx2::function
 #else
-#define COURANT_VARIANT(function) variant(&baseline::function, decltype(&baseline::function){}, {})
+#define COURANT_AVX2(function) nullptr
 #endif
+#if defined(__x86_64__) && !defined(COURANT_WITHOUT_avx512)
+#define COURANT_AVX512(function) &avx512::function
+#else
+#define COURANT_AVX512(function) nullptr
+#endif
+
+/// `variant` of a function that each instruction set's namespace has under the same name.
+#define COURANT_VARIANT(function)                                                     \
+  variant<decltype(&baseline::function)>(&baseline::function, COURANT_AVX2(function), \
+                                         COURANT_AVX512(function))

@@ -12,6 +12,7 @@ void Contact::refreshed(World& world, const Clock& clock, std::span<const Index>
   if (!moving_.empty()) grid_.build(facets_, reach_);
   forget_left(world, old_of_new);
   listed_ = world.particles.active;
+  near_wall_ = dynamic_cast<Field<Index>*>(world.particles.fields.find("near_wall"));
   blocks_.resize(block_count(listed_));
   for_each_block(listed_, [&](Index begin, Index end) { list_block(world, clock, begin, end); });
   for (const Block& b : blocks_) count_leaks(world, b.leapt);
@@ -46,6 +47,7 @@ void Contact::list_block(World& world, const Clock& clock, Index begin, Index en
       learn_sides(world, clock, b, slot);
       note_planes(b, slot);
       b.slots.push_back(slot);
+      if (near_wall_) (*near_wall_)[i] = 1;
       continue;
     }
     if (slot.k > 0 && leapt_over_wall(p.x.vec(i) - p.v.vec(i) * clock.dt_old, p.x.vec(i)))

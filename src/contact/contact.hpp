@@ -186,6 +186,8 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   Field<Real>* k_particle_ = nullptr;  ///< penalty stiffness of the particle; 0: not tracked
   Field<Real>* radius_ = nullptr;      ///< only if it differs from particle to particle
   Field<Real>* ghost_ = nullptr;       ///< ghost minus position, 0 for a particle in front
+  Field<Index>* near_wall_ =
+      nullptr;  ///< 1 where a wall is within reach, if anybody wants to know; whoever does clears it
   Field<Index>* leaked_ =
       nullptr;  ///< 1 once the particle's path crossed a mid-surface (shared by all interfaces)
   std::array<Field<Real>*, 3> friction_normal_{}, friction_force_{};

@@ -60,6 +60,14 @@ struct FieldRules {
   Spatial spatial = Spatial::none;
 };
 
+// Rules that many tables share.
+inline const FieldRules no_effect{.honour = Honour::ignored};
+inline const FieldRules no_output{.honour = Honour::output_only};
+inline const FieldRules unsupported{.honour = Honour::no};
+inline FieldRules no_effect_but(Real standard) {
+  return {.standard = standard, .honour = Honour::ignored};
+}
+
 /// One field. `member` says where the value goes and so of which type it is: Id and int are I, Real is F,
 /// std::string A. A vector member takes this and all following columns of the card, and (on a repeated card)
 /// of all cards up to the next keyword; blank and 0 entries are skipped for Id. Two or more vectors on a card

@@ -56,11 +56,9 @@ const RegisterKeyword<DeckLevel> parameter_expression_keyword{
 const RegisterKeyword<DeckLevel> parameter_type_keyword{
     {.names = {"PARAMETER_TYPE"},
      .purpose = "as *PARAMETER, one pair per line, with a word for pre-processors behind it",
-     .cards = {
-         {.fields = {
-              {"PRMR", &DeckLevel::text, "-", "type letter and name"},
-              {"VAL", &DeckLevel::text, "-", "value"},
-              {"PRTYP", &DeckLevel::text, "-", "what the value numbers", {.honour = Honour::ignored}}}}}}};
+     .cards = {{.fields = {{"PRMR", &DeckLevel::text, "-", "type letter and name"},
+                           {"VAL", &DeckLevel::text, "-", "value"},
+                           {"PRTYP", &DeckLevel::text, "-", "what the value numbers", no_effect}}}}}};
 
 const RegisterKeyword<ParameterDuplication> parameter_duplication{
     {.names = {"PARAMETER_DUPLICATION"},

@@ -89,8 +89,25 @@ bool may_change(const KeywordSpec& spec) {
          name == "COURANT_OUTPUT" || name.rfind("DEFINE_CURVE", 0) == 0;
 }
 
+constexpr const char* step_keyword = "CONTROL_TIMESTEP";
+
+/// Fields that may change though their keyword may not: a run that stopped in error may go on with shorter
+/// steps.
+bool may_change(const KeywordSpec& spec, const FieldSpec& field) {
+  return spec.names.front() == step_keyword && field.name == "TSSFAC";
+}
+
 bool has_influence(const FieldSpec& field) {
   return field.rules.honour == Honour::yes || field.rules.honour == Honour::no;
+}
+
+/// What line_of gives for an entry with nothing but blanks, which begins as `like` does.
+std::string blank_line(const KeywordSpec& spec, const std::string& like) {
+  std::string line = like.substr(0, like.find('\t', like.find('\t') + 1));
+  for_each_field(spec, [&](std::size_t, std::size_t, const FieldSpec& field) {
+    line += '\t' + (is_number(field.type) ? fmt::format("{}", field.rules.standard) : std::string());
+  });
+  return line;
 }
 
 class Comparison {
@@ -103,6 +120,9 @@ class Comparison {
     if (before.entries == now.entries && before.sum == now.sum) return;
     std::vector<const Entry*> entries;
     spec.for_each(deck_, keyword, [&](const Entry& entry) { entries.push_back(&entry); });
+    // a run without the card had its defaults
+    if (spec.names.front() == step_keyword && before.entries == 0 && now.lines.size() == 1)
+      return compare_fields(spec, *entries[0], split(blank_line(spec, now.lines[0])), split(now.lines[0]));
     const bool lines = static_cast<std::int64_t>(before.lines.size()) == before.entries &&
                        before.lines.size() == now.lines.size();
     if (!lines) return compare_as_a_whole(spec, before, now, entries);
@@ -148,7 +168,7 @@ class Comparison {
       const std::string &old = before[k], &value = now[k];
       ++k;
       if (old == value) return;
-      if (may_change(spec) || !has_influence(field))
+      if (may_change(spec) || may_change(spec, field) || !has_influence(field))
         allowed.push_back(
             fmt::format("{} {}: {}, was {}", deck_.keyword(entry), field.name, shown(value), shown(old)));
       else
@@ -158,7 +178,9 @@ class Comparison {
   }
 
   static constexpr const char* hint =
-      "a run can go on with another end time, other outputs or curves; change this back, or start a new run";
+      "a run can go on with another end time, other outputs, curves or TSSFAC; change this back, or start a "
+      "new "
+      "run";
   const Deck& deck_;
   Diagnostics& diagnostics_;
 };

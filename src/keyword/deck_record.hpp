@@ -20,7 +20,8 @@ using DeckRecord = std::vector<KeywordRecord>;
 /// Records every keyword with a table. Call it before tables of the deck are released.
 DeckRecord record_deck(const Deck& deck);
 
-/// Differences that a run can go on with: end time, outputs, curves, and fields without influence on results.
+/// Differences that a run can go on with: end time, outputs, curves, TSSFAC, and fields without influence on
+/// results.
 /// Others are errors that name file, line, column, keyword and field.
 /// Returns what is different and allowed, a line for each keyword.
 std::vector<std::string> compare_decks(const DeckRecord& before, const Deck& deck, const DeckRecord& now,

@@ -26,7 +26,6 @@ struct EosIdealGas : Entry {
 };
 using Card = EosIdealGas;
 
-const FieldRules unsupported{.honour = Honour::no};
 const FieldRules required{.required = true, .check = Check::positive};
 
 // By hand: air, CP/CV = 1005/718 - 1 = 287/718; E = 718 . 1.2 . 300, mu = 0: p = 1.2 . 287 . 300 = 103320.

@@ -22,7 +22,6 @@ struct InitialStressSph : Entry {
 
 KeywordOf<InitialStressSph> initial_stress_sph() {
   using T = InitialStressSph;
-  const FieldRules not_in_fluids{.honour = Honour::no};
   return {.names = {"INITIAL_STRESS_SPH"},
           .purpose =
               "pressures of particles at the start: SIGXX = SIGYY = SIGZZ = -p; the density follows from "
@@ -31,10 +30,10 @@ KeywordOf<InitialStressSph> initial_stress_sph() {
                                 {"SIGXX", &T::sigxx, "M/LT2", "stress component, -p"},
                                 {"SIGYY", &T::sigyy, "M/LT2", "stress component, -p"},
                                 {"SIGZZ", &T::sigzz, "M/LT2", "stress component, -p"},
-                                {"SIGXY", &T::sigxy, "M/LT2", "stress component", not_in_fluids},
-                                {"SIGYZ", &T::sigyz, "M/LT2", "stress component", not_in_fluids},
-                                {"SIGZX", &T::sigzx, "M/LT2", "stress component", not_in_fluids},
-                                {"EPS", &T::eps, "-", "effective plastic strain", not_in_fluids}}}}};
+                                {"SIGXY", &T::sigxy, "M/LT2", "stress component", unsupported},
+                                {"SIGYZ", &T::sigyz, "M/LT2", "stress component", unsupported},
+                                {"SIGZX", &T::sigzx, "M/LT2", "stress component", unsupported},
+                                {"EPS", &T::eps, "-", "effective plastic strain", unsupported}}}}};
 }
 const RegisterKeyword<InitialStressSph> initial_stress_sph_keyword{initial_stress_sph()};
 

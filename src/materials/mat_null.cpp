@@ -26,18 +26,10 @@ const RegisterKeyword<MatNull> mat_null{
                "tensile pressure cut-off; 0 allows no tension",
                {.check = Check::not_positive}},
               {"MU", &MatNull::mu, "M/LT", "dynamic viscosity", {.check = Check::not_negative}},
-              {"TEROD", &MatNull::terod, "-", "erosion in expansion", {.honour = Honour::no}},
-              {"CEROD", &MatNull::cerod, "-", "erosion in compression", {.honour = Honour::no}},
-              {"YM",
-               &MatNull::ym,
-               "M/LT2",
-               "Young's modulus of null shells and beams",
-               {.honour = Honour::ignored}},
-              {"PR",
-               &MatNull::pr,
-               "-",
-               "Poisson ratio of null shells and beams",
-               {.honour = Honour::ignored}}}}}}};
+              {"TEROD", &MatNull::terod, "-", "erosion in expansion", unsupported},
+              {"CEROD", &MatNull::cerod, "-", "erosion in compression", unsupported},
+              {"YM", &MatNull::ym, "M/LT2", "Young's modulus of null shells and beams", no_effect},
+              {"PR", &MatNull::pr, "-", "Poisson ratio of null shells and beams", no_effect}}}}}};
 
 }  // namespace
 

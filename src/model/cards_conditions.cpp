@@ -14,8 +14,6 @@ FieldRules optional_of(IdSpace space) {
   return {.check = Check::not_negative, .refers = space};
 }
 const FieldRules local_system{.honour = Honour::no, .refers = IdSpace::coordinate_system};
-const FieldRules unsupported{.honour = Honour::no};
-const FieldRules no_effect{.honour = Honour::ignored};
 const FieldRules system_id{.check = Check::not_negative, .refers = IdSpace::coordinate_system};
 const FieldRules flag{.allowed = {0, 1}};
 

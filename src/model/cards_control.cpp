@@ -7,9 +7,6 @@ namespace courant {
 namespace {
 
 const FieldRules optional_id{.check = Check::not_negative};
-const FieldRules unsupported{.honour = Honour::no};
-const FieldRules no_effect{.honour = Honour::ignored};
-const FieldRules unsupported_output{.honour = Honour::output_only};
 const FieldRules curve_id{.check = Check::not_negative, .refers = IdSpace::curve};
 const FieldRules part_set{.check = Check::not_negative, .refers = IdSpace::part_set};
 const FieldRules output_parts{.honour = Honour::output_only, .refers = IdSpace::part_set};
@@ -21,15 +18,14 @@ const RegisterKeyword<T> control_termination{
      .purpose = "end of the run",
      .once = true,
      .many = false,
-     .cards = {
-         {.fields = {
-              {"ENDTIM", &T::endtim, "T", "end time", {.required = true, .check = Check::positive}},
-              {"ENDCYC", &T::endcyc, "-", "last step, 0 no limit", optional_id},
-              {"DTMIN", &T::dtmin, "-", "stop when the step is below DTMIN x the first step", interval},
-              {"ENDENG", &T::endeng, "-", "stop at this change of the energy ratio in per cent, 0 none",
-               interval},
-              {"ENDMAS", &T::endmas, "-", "stop at added mass", {.standard = 1e8, .honour = Honour::ignored}},
-              {"NOSOL", &T::nosol, "-", "1 stop after the initialisation", unsupported}}}}}};
+     .cards = {{.fields = {
+                    {"ENDTIM", &T::endtim, "T", "end time", {.required = true, .check = Check::positive}},
+                    {"ENDCYC", &T::endcyc, "-", "last step, 0 no limit", optional_id},
+                    {"DTMIN", &T::dtmin, "-", "stop when the step is below DTMIN x the first step", interval},
+                    {"ENDENG", &T::endeng, "-", "stop at this change of the energy ratio in per cent, 0 none",
+                     interval},
+                    {"ENDMAS", &T::endmas, "-", "stop at added mass", no_effect_but(1e8)},
+                    {"NOSOL", &T::nosol, "-", "1 stop after the initialisation", unsupported}}}}}};
 
 using S = ControlTimestepCard;
 const RegisterKeyword<S> control_timestep{
@@ -73,22 +69,19 @@ const RegisterKeyword<S> control_timestep{
                 .optional = true}}}};
 
 using E = ControlEnergyCard;
-FieldRules energy_flag(int standard) {
-  return {.standard = static_cast<Real>(standard), .honour = Honour::ignored};
-}
 const RegisterKeyword<E> control_energy{
     {.names = {"CONTROL_ENERGY"},
      .purpose = "which energies are computed: here all of them, always",
      .once = true,
      .many = false,
-     .cards = {{.fields = {{"HGEN", &E::hgen, "-", "hourglass energy", energy_flag(1)},
-                           {"RWEN", &E::rwen, "-", "rigid wall energy", energy_flag(2)},
-                           {"SLNTEN", &E::slnten, "-", "contact energy", energy_flag(1)},
-                           {"RYLEN", &E::rylen, "-", "damping energy", energy_flag(1)},
-                           {"IRGEN", &E::irgen, "-", "energy of the reference geometry", energy_flag(2)},
-                           {"MATEN", &E::maten, "-", "split of the material energy", energy_flag(1)},
-                           {"DRLEN", &E::drlen, "-", "drilling energy", energy_flag(1)},
-                           {"DISEN", &E::disen, "-", "dissipated energy", energy_flag(1)}}}}}};
+     .cards = {{.fields = {{"HGEN", &E::hgen, "-", "hourglass energy", no_effect_but(1)},
+                           {"RWEN", &E::rwen, "-", "rigid wall energy", no_effect_but(2)},
+                           {"SLNTEN", &E::slnten, "-", "contact energy", no_effect_but(1)},
+                           {"RYLEN", &E::rylen, "-", "damping energy", no_effect_but(1)},
+                           {"IRGEN", &E::irgen, "-", "energy of the reference geometry", no_effect_but(2)},
+                           {"MATEN", &E::maten, "-", "split of the material energy", no_effect_but(1)},
+                           {"DRLEN", &E::drlen, "-", "drilling energy", no_effect_but(1)},
+                           {"DISEN", &E::disen, "-", "dissipated energy", no_effect_but(1)}}}}}};
 
 using D = DatabaseD3plotCard;
 const RegisterKeyword<D> database_binary_d3plot{
@@ -107,10 +100,10 @@ const RegisterKeyword<D> database_binary_d3plot{
                       "-",
                       "1 next state at t + f(t), 2 f at the next state, 3 at the abscissae; 0 is 1",
                       {.allowed = {0, 1, 2, 3}}},
-                     {"RATE", &D::rate, "T", "filter interval", unsupported_output},
-                     {"CUTOFF", &D::cutoff, "1/T", "filter frequency", unsupported_output},
-                     {"WINDOW", &D::window, "T", "filter window", unsupported_output},
-                     {"TYPE", &D::type, "-", "filtered data", unsupported_output},
+                     {"RATE", &D::rate, "T", "filter interval", no_output},
+                     {"CUTOFF", &D::cutoff, "1/T", "filter frequency", no_output},
+                     {"WINDOW", &D::window, "T", "filter window", no_output},
+                     {"TYPE", &D::type, "-", "filtered data", no_output},
                      {"PSET", &D::pset, "-", "filtered parts", output_parts}},
           .optional = true}}}};
 

@@ -6,12 +6,6 @@ namespace courant {
 
 namespace {
 
-const FieldRules no_effect{.honour = Honour::ignored};
-const FieldRules no_output{.honour = Honour::output_only};
-FieldRules no_effect_but(Real standard) {
-  return {.standard = standard, .honour = Honour::ignored};
-}
-
 KeywordOf<DatabaseExtentBinary> database_extent_binary() {
   using T = DatabaseExtentBinary;
   return {

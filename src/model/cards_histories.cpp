@@ -7,7 +7,6 @@ namespace courant {
 namespace {
 
 const FieldRules optional_id{.check = Check::not_negative};
-const FieldRules no_effect{.honour = Honour::ignored};
 
 using A = DatabaseAsciiCard;
 const RegisterKeyword<A> database_ascii{
@@ -29,7 +28,7 @@ const RegisterKeyword<A> database_ascii{
                             "-",
                             "1 next at t + f(t), 2 f at the next, 3 at the abscissae",
                             {.standard = 1, .allowed = {1, 2, 3}}},
-                           {"OPTION1", &A::option1, "-", "option of some", {.honour = Honour::output_only}},
+                           {"OPTION1", &A::option1, "-", "option of some", no_output},
                            {"OPTION2", &A::option2, "-", "option of some", no_effect},
                            {"OPTION3", &A::option3, "-", "option of some", no_effect},
                            {"OPTION4", &A::option4, "-", "option of some", no_effect}}}}}};

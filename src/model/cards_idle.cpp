@@ -7,12 +7,6 @@ namespace courant {
 
 namespace {
 
-const FieldRules no_effect{.honour = Honour::ignored};
-const FieldRules unsupported{.honour = Honour::no};
-FieldRules no_effect_but(Real standard) {
-  return {.standard = standard, .honour = Honour::ignored};
-}
-
 struct ControlOutput : Entry {
   int npopt = 0, neecho = 0, nrefup = 0, iaccop = 0, ipnint = 0, ikedit = 0, iflush = 0, iprtf = 0,
       ierode = 0, tet10s8 = 0, msgmax = 0, ipcurv = 0, ip1dblt = 0, eocs = 0, tolev = 0, newleg = 0,

@@ -7,12 +7,6 @@ namespace courant {
 
 namespace {
 
-const FieldRules no_effect{.honour = Honour::ignored};
-const FieldRules no_output{.honour = Honour::output_only};
-FieldRules no_effect_but(Real standard) {
-  return {.standard = standard, .honour = Honour::ignored};
-}
-
 struct DatabaseNodfor : Entry {
   int binary = 0, lcur = 0, ioopt = 0, option2 = 0, option3 = 0, option4 = 0;
   Real dt = 0, option1 = 0;

@@ -99,8 +99,6 @@ FieldRules required_of(IdSpace space) {
 FieldRules optional_of(IdSpace space) {
   return {.check = Check::not_negative, .refers = space};
 }
-const FieldRules unsupported{.honour = Honour::no};
-const FieldRules no_effect{.honour = Honour::ignored};
 
 using P = PartCard;
 const RegisterKeyword<P> part{

@@ -7,7 +7,6 @@ namespace courant {
 namespace {
 
 const FieldRules required_id{.required = true, .check = Check::positive};
-const FieldRules unsupported{.honour = Honour::no};
 
 FieldRules required_id_of(IdSpace space) {
   return {.required = true, .check = Check::positive, .refers = space};
@@ -15,8 +14,7 @@ FieldRules required_id_of(IdSpace space) {
 FieldRules id_of(IdSpace space) {
   return {.check = Check::not_negative, .refers = space};
 }
-/// Contacts read the friction of parts where their own FS is -1, which they refuse.
-const FieldRules friction{.honour = Honour::ignored};
+/// Contacts read the friction of parts where their own FS is -1, which they refuse: no effect.
 const FieldRules scale{.standard = 1, .honour = Honour::no};
 
 using P = PartContactCard;
@@ -39,14 +37,14 @@ const RegisterKeyword<P> part_contact{
                       "-",
                       "thermal material id",
                       {.honour = Honour::no, .refers = IdSpace::material}}}},
-         {.fields = {{"FS", &P::fs, "-", "static friction", friction},
-                     {"FD", &P::fd, "-", "dynamic friction", friction},
-                     {"DC", &P::dc, "T/L", "decay of the friction", friction},
-                     {"VC", &P::vc, "M/LT2", "largest friction stress", friction},
+         {.fields = {{"FS", &P::fs, "-", "static friction", no_effect},
+                     {"FD", &P::fd, "-", "dynamic friction", no_effect},
+                     {"DC", &P::dc, "T/L", "decay of the friction", no_effect},
+                     {"VC", &P::vc, "M/LT2", "largest friction stress", no_effect},
                      {"OPTT", &P::optt, "L", "contact thickness", unsupported},
                      {"SFT", &P::sft, "-", "scale of the contact thickness", scale},
                      {"SSF", &P::ssf, "-", "scale of the stiffness", scale},
-                     {"CPARM8", &P::cparm8, "-", "beams left out of contact", friction}}}}}};
+                     {"CPARM8", &P::cparm8, "-", "beams left out of contact", no_effect}}}}}};
 
 }  // namespace
 

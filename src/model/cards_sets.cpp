@@ -50,7 +50,6 @@ const char* member_field(SetKind kind, SetForm form) {
 namespace {
 
 const FieldRules required_id{.required = true, .check = Check::positive};
-const FieldRules no_effect{.honour = Honour::ignored};
 
 FieldRules id_in(IdSpace space) {
   return {.check = Check::not_negative, .refers = space};
@@ -69,7 +68,7 @@ CardOf<T> set_card() {
                      {"DA3", &T::da3, "-", "attribute 3", no_effect},
                      {"DA4", &T::da4, "-", "attribute 4", no_effect},
                      {"SOLVER", &T::solver, "-", "solver that owns the set", no_effect},
-                     {"ITS", &T::its, "-", "two-scale flag", {.standard = 1, .honour = Honour::ignored}}}};
+                     {"ITS", &T::its, "-", "two-scale flag", no_effect_but(1)}}};
 }
 
 template <class T>

@@ -19,6 +19,20 @@ void sort_unique(std::vector<Index>& members) {
   members.erase(std::unique(members.begin(), members.end()), members.end());
 }
 
+/// The ranges of first and last ids in turn, those that overlap taken together, so that what lies in many is
+/// looked at once. One that runs backwards stays as it is.
+std::vector<std::pair<Id, Id>> without_overlap(const std::vector<Id>& ids) {
+  std::vector<std::pair<Id, Id>> given, out;
+  for (std::size_t r = 0; r + 1 < ids.size(); r += 2) given.emplace_back(ids[r], ids[r + 1]);
+  std::sort(given.begin(), given.end());
+  for (const auto& [begin, end] : given)
+    if (out.empty() || begin > out.back().second || end < begin)
+      out.emplace_back(begin, end);
+    else
+      out.back().second = std::max(out.back().second, end);
+  return out;
+}
+
 template <class Entity>
 IdIndex index_of_ids(const std::vector<Entity>& entities) {
   if (entities.empty()) return {};
@@ -184,8 +198,8 @@ SetResolver::Found SetResolver::ranges(SetKind kind, const SetCard& card, SetFor
     error(card, field, card.ids.back(), "the last range has a first id, but no last id");
     return std::nullopt;
   }
-  for (std::size_t r = 0; r < card.ids.size(); r += 2)
-    if (!add_range(kind, card, form, card.ids[r], card.ids[r + 1], 1, out)) return std::nullopt;
+  for (const auto& [begin, end] : without_overlap(card.ids))
+    if (!add_range(kind, card, form, begin, end, 1, out)) return std::nullopt;
   return out;
 }
 
@@ -206,7 +220,10 @@ bool SetResolver::add_range(SetKind kind, const SetCard& card, SetForm form, Id 
       if (const Id id = id_of(kind, i); id >= begin && id <= end && (id - begin) % step == 0)
         out.push_back(static_cast<Index>(i));
   }
-  if (out.size() > before) return true;
+  if (out.size() > before) {
+    if (out.size() > 8 * count(kind) + 1000) sort_unique(out);  // ranges in steps may overlap many times
+    return true;
+  }
   error(card, field, begin,
         fmt::format("there is no {} with an id from {} to {}{}", set_word(kind), begin, end,
                     step == 1 ? "" : fmt::format(" in steps of {}", step)));

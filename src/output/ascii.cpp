@@ -75,13 +75,10 @@ void Histories::keep(Archive& archive, Real t) {
   for (OutputSchedule& schedule : h5_schedules_) schedule.skip_to(t);
 }
 
-HistoryPositions Histories::positions() {
+HistoryPositions Histories::positions() const {
   HistoryPositions out;
   for (const Ascii& file : files_) out.bytes[file.name] = static_cast<std::int64_t>(file.file.size());
-  if (h5_) {
-    h5_->flush();
-    out.rows = static_cast<std::int64_t>(h5_->rows());
-  }
+  if (h5_) out.rows = static_cast<std::int64_t>(h5_->rows());
   if (first_potential_) out.first_potential = {*first_potential_};
   return out;
 }

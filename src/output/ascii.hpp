@@ -84,9 +84,8 @@ class Histories {
   const std::vector<std::string>& lost() const { return lost_; }
   /// When what was written last. `t`: where the run goes on [T]
   void keep(Archive& archive, Real t);
-  /// Brings all files to the disk and tells how long they are. Belongs to the thread that writes. Throws
-  /// OutputError.
-  HistoryPositions positions();
+  /// How long the files are, with what `finish` would still write. Belongs to the thread that writes.
+  HistoryPositions positions() const;
   void set_first_potential(const HistoryPositions& before) {
     if (!before.first_potential.empty()) first_potential_ = before.first_potential[0];
   }

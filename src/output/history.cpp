@@ -8,13 +8,15 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include "output/hdf5.hpp"
 
 namespace courant {
 namespace {
+
+constexpr std::size_t chunk_rows = 1024;                     // what HDF5 packs at a time
+constexpr std::size_t most_buffered = std::size_t{1} << 22;  // numbers, 32 MiB
 
 /// Text of the innermost entry of HDF5's error stack, the one with the system's reason.
 std::string innermost_error() {
@@ -33,11 +35,13 @@ std::string innermost_error() {
 }
 
 std::string content(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
   std::ifstream stream(file, std::ios::binary);
-  std::stringstream bytes;
-  bytes << stream.rdbuf();
-  if (!stream || bytes.str().empty()) throw OutputError(file, "what was written before cannot be read back");
-  return bytes.str();
+  std::string bytes(error ? 0 : static_cast<std::size_t>(size), '\0');
+  if (bytes.empty() || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+    throw OutputError(file, "what was written before cannot be read back");
+  return bytes;
 }
 
 /// The file as HDF5 keeps it in memory: HDF5 never writes to the disk itself, because after a failed write
@@ -135,7 +139,7 @@ class HistoryFile {
   }
 
   hid_t create(const std::string& path, int rank, const hsize_t* size) {
-    const hsize_t longest[] = {H5S_UNLIMITED, size[1]}, chunk[] = {1024, rank == 1 ? 1 : size[1]};
+    const hsize_t longest[] = {H5S_UNLIMITED, size[1]}, chunk[] = {chunk_rows, rank == 1 ? 1 : size[1]};
     const double missing = std::numeric_limits<double>::quiet_NaN();
     Hdf5Handle space(H5Screate_simple(rank, size, longest), H5Sclose),
         options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
@@ -188,9 +192,19 @@ void History::record(const Sample& sample) {
   put_global(sample);
   put_entities(sample);
   ++rows_;
-  const std::size_t enough =
-      std::max(buffered_samples_, rows_in_file_ / 16);  // each flush writes all rows anew
-  if (rows_ >= enough || std::chrono::steady_clock::now() - last_flush_ >= wait_) flush();
+  // where the last chunk is not whole it will have to be packed once more
+  const bool is_whole = rows() % chunk_rows == 0 || buffered_samples_ < chunk_rows;
+  if ((is_whole && rows_ >= buffered_samples_ && rows_ >= enough_rows()) ||
+      std::chrono::steady_clock::now() - last_flush_ >= wait_)
+    flush();
+}
+
+// Each flush writes all rows anew: a larger file is left alone longer, as far as memory allows.
+std::size_t History::enough_rows() const {
+  std::size_t width = 0;
+  for (const auto& [path, c] : columns_) width += static_cast<std::size_t>(c.components);
+  return std::max(buffered_samples_,
+                  std::min(rows_in_file_ / 8, most_buffered / std::max<std::size_t>(width, 1)));
 }
 
 void History::flush() {

@@ -28,7 +28,7 @@ namespace courant {
 /// at any time.
 class History {
  public:
-  explicit History(std::filesystem::path file, std::size_t buffered_samples = 512,
+  explicit History(std::filesystem::path file, std::size_t buffered_samples = 1024,
                    std::chrono::seconds longest_wait = std::chrono::seconds(10));
 
   /// Goes on with the file that is there, behind its first `rows` rows; what stands behind them is taken off.
@@ -55,6 +55,7 @@ class History {
   void put_entities(const Sample& sample);
   void put_bodies(const Sample& sample);
   void put_points(const Sample& sample);
+  std::size_t enough_rows() const;  ///< buffered ones that are worth a flush
 
   std::filesystem::path file_;
   std::size_t buffered_samples_;

@@ -1,22 +1,26 @@
-// kinds: history and force. Series of history.h5, forces on walls and bodies among them.
+// kinds: history and force. Series of history.h5, forces on walls and bodies among them, or of one ASCII
+// file.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "base/nearest_word.hpp"
 #include "post/analysis.hpp"
+#include "post/ascii_history.hpp"
 #include "post/history_file.hpp"
 
 namespace courant {
 namespace {
 
-/// One column: a component of a dataset times a factor.
+/// One column: a component of a dataset, or a series of an ASCII file, times a factor.
 struct Source {
   std::string name, path;
   int component = 0;
   Real factor = 1;
   std::string unit{};  // empty: from the dimension in the file
+  AsciiKey key{};
 };
 
 /// "contacts/1/force.x" -> path and component. Returns false where the component is none.
@@ -31,6 +35,27 @@ bool split(const std::string& text, Source& source) {
   return true;
 }
 
+/// "kinetic energy" of nothing -> kinetic_energy, "x" of 4 SURFA -> x_4_SURFA.
+std::string column_name(const AsciiKey& key) {
+  std::string name = key.name + (key.id ? fmt::format(" {}", *key.id) : "") + " " + key.side;
+  std::string out;
+  for (const unsigned char c : name) {
+    if (std::isalnum(c))
+      out += static_cast<char>(c);
+    else if (!out.empty() && out.back() != '_')
+      out += '_';
+  }
+  while (!out.empty() && out.back() == '_') out.pop_back();
+  return out;
+}
+
+/// A plain name is a file of the run, any other path counts from the recipe.
+std::filesystem::path place_of(const std::string& file, const std::string& recipe,
+                               const std::filesystem::path& run) {
+  const std::filesystem::path path = file;
+  return (path.has_parent_path() ? std::filesystem::path(recipe).parent_path() : run) / path;
+}
+
 class HistoryAnalysis : public Analysis {
  public:
   HistoryAnalysis(const char* kind, const MapReader& map, const PostSettings& settings)
@@ -38,9 +63,12 @@ class HistoryAnalysis : public Analysis {
     read_window(map, window_);
   }
   void read_sources(const MapReader& map) {
-    map.allow({"kind", "name", "of", "from", "to"});
+    map.allow({"kind", "name", "file", "of", "id", "side", "from", "to"});
+    map.text("file", ascii_);
+    AsciiKey common;
+    read_owner(map, common);
     map.list(
-        "of", [&](const YAML::Node& node) { add_source(map, node); }, true);
+        "of", [&](const YAML::Node& node) { add_source(map, node, common); }, true);
   }
   void read_forces(const MapReader& map) {
     map.allow({"kind", "name", "contacts", "bodies", "from", "to"});
@@ -65,11 +93,17 @@ class HistoryAnalysis : public Analysis {
 
   void finish(const std::vector<std::unique_ptr<Analysis>>&, const std::filesystem::path& dir,
               Diagnostics& diagnostics) override {
+    if (ascii_.empty())
+      take_h5(dir, diagnostics);
+    else
+      take_ascii(place_of(ascii_, where().file, dir), diagnostics);
+  }
+
+ private:
+  void take_h5(const std::filesystem::path& dir, Diagnostics& diagnostics) {
     const auto file = HistoryFile::open(dir / "history.h5", diagnostics);
     if (!file) return;
-    times_ = *file->column("/global/time");
-    PostTable& table = add_table();
-    table.columns.push_back({"t", units_.of({0, 0, 1}), times_});
+    begin_table(*file->column("/global/time"));
     for (const Source& source : sources_) {
       auto values = file->column(source.path, source.component);
       if (!values) {
@@ -79,32 +113,79 @@ class HistoryAnalysis : public Analysis {
               near.empty() ? "h5ls -r history.h5 lists them" : fmt::format("did you mean {}?", near));
         continue;
       }
-      for (Real& value : *values) value *= source.factor;
-      const std::string unit =
-          source.unit.empty() ? units_.of(parse_dimension(file->dimension(source.path))) : source.unit;
-      series_.push_back({source.name, unit, std::nullopt, *values});
-      table.columns.push_back({source.name, unit, std::move(*values)});
-      add_statistics(series_.back());
+      add_column(source, std::move(*values), units_.of(parse_dimension(file->dimension(source.path))));
     }
   }
 
- private:
-  void add_source(const MapReader& map, const YAML::Node& node) {
+  void take_ascii(const std::filesystem::path& path, Diagnostics& diagnostics) {
+    const auto file = AsciiHistory::open(path, diagnostics);
+    if (!file) return;
+    begin_table(file->times());
+    for (const Source& source : sources_) {
+      std::string why, hint;
+      const AsciiColumn* column = file->find(source.key, why, hint);
+      if (!column) {
+        fault(diagnostics, fmt::format("{}: {}", path.string(), why), hint);
+        continue;
+      }
+      const std::string dimension = file->dimension(*column);
+      const bool is_unit = dimension == "?" || dimension == "ns" || dimension == "%";
+      add_column(source, column->values, is_unit ? dimension : units_.of(parse_dimension(dimension)));
+    }
+  }
+
+  void begin_table(std::vector<Real> times) {
+    times_ = std::move(times);
+    add_table().columns.push_back({"t", units_.of({0, 0, 1}), times_});
+  }
+
+  void add_column(const Source& source, std::vector<Real> values, const std::string& unit_of_file) {
+    for (Real& value : values) value *= source.factor;
+    const std::string unit = source.unit.empty() ? unit_of_file : source.unit;
+    series_.push_back({source.name, unit, std::nullopt, values});
+    result_.tables.front().columns.push_back({source.name, unit, std::move(values)});
+    add_statistics(series_.back());
+  }
+
+  /// id, side: what a series of an ASCII file belongs to.
+  void read_owner(const MapReader& map, AsciiKey& key) {
+    Real id = 0;
+    for (const char* word : {"id", "side"})
+      if (const auto node = map.get(word, false); node && ascii_.empty())
+        map.error(*node, fmt::format("'{}.{}' goes with 'file', an ASCII history", map.name(), word),
+                  "a dataset of history.h5 has its id in its name: contacts/1/force.x");
+    if (const auto node = map.get("id", false); node && map.scalar(*node, "id", id)) {
+      if (id != std::floor(id) || id < 0) map.error(*node, fmt::format("'{}.id' must be an id", map.name()));
+      key.id = static_cast<std::int64_t>(id);
+    }
+    map.text("side", key.side);
+  }
+
+  void add_source(const MapReader& map, const YAML::Node& node, const AsciiKey& common) {
     Source source;
+    source.key = common;
     std::string text;
     if (node.IsMap()) {
       const MapReader entry = map.element(node, "of");
-      entry.allow({"name", "of", "factor", "unit"});
+      entry.allow({"name", "of", "id", "side", "factor", "unit"});
       entry.text("name", source.name, true);
       entry.text("of", text, true);
       entry.number("factor", source.factor);
       entry.text("unit", source.unit);
+      read_owner(entry, source.key);
     } else if (node.IsScalar()) {
       text = source.name = node.Scalar();
     }
-    if (!split(text, source) || text.empty())
+    if (!ascii_.empty()) {
+      source.key.name = text;
+      if (node.IsScalar()) source.name = column_name(source.key);
+      if (text.empty())
+        map.error(node, fmt::format("'{}.of' must name a series of {}", map.name(), ascii_),
+                  "for example kinetic energy, or {name: px, of: x-mom, id: 1}");
+    } else if (!split(text, source) || text.empty()) {
       map.error(node, fmt::format("'{}.of' must name a dataset of history.h5, got '{}'", map.name(), text),
                 "for example contacts/1/force.x or global/kinetic");
+    }
     sources_.push_back(std::move(source));
   }
 
@@ -133,6 +214,7 @@ class HistoryAnalysis : public Analysis {
 
   PostUnits units_;
   TimeWindow window_;
+  std::string ascii_;  // empty: history.h5
   std::vector<Source> sources_;
   std::vector<PostSeries> series_;
 };

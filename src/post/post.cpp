@@ -271,6 +271,13 @@ void write_figures(const Recipe& recipe, const std::filesystem::path& folder, co
     say(fmt::format("{} figures: {}\n", recipe.figures.size(), folder.string()));
 }
 
+/// A recipe of histories alone, which also a folder without field states serves: LS-DYNA's, for example.
+bool reads_histories_only(const Recipe& recipe) {
+  return !recipe.jump && recipe.probes.empty() && !recipe.snapshots && !recipe.analyses.empty() &&
+         std::none_of(recipe.analyses.begin(), recipe.analyses.end(),
+                      [](const auto& analysis) { return analysis->needs_states(); });
+}
+
 /// Arrays of the field files that the analyses need.
 std::vector<ParticleArray> needed_arrays(const Recipe& recipe) {
   std::vector<ParticleArray> out;
@@ -289,8 +296,9 @@ bool run_post(const std::filesystem::path& recipe_file, const std::filesystem::p
               const std::function<void(const std::string&)>& progress) {
   const auto recipe = read_recipe(recipe_file, diagnostics);
   if (!recipe) return false;
-  const auto states = read_states(dir, diagnostics);
-  if (states.empty()) return false;
+  const bool without_states = reads_histories_only(*recipe) && !std::filesystem::exists(dir / "fields.pvd");
+  const auto states = without_states ? std::vector<StateFiles>{} : read_states(dir, diagnostics);
+  if (states.empty() && !without_states) return false;
   Measured measured;
   const auto wanted = snapshot_states(*recipe, states, diagnostics);
   const std::filesystem::path folder = dir / recipe->folder;
@@ -308,7 +316,7 @@ bool run_post(const std::filesystem::path& recipe_file, const std::filesystem::p
   }
   if (!recipe->analyses.empty()) finish_analyses(recipe->analyses, dir, folder, say, diagnostics);
   write_file(dir / "results.yaml", results_yaml(*recipe, title, measured, jump));
-  const std::vector<WallLine> walls = read_walls(states.front(), diagnostics);
+  const auto walls = without_states ? std::vector<WallLine>{} : read_walls(states.front(), diagnostics);
   write_measured(*recipe, dir, measured, jump, title, walls, say, diagnostics);
   if (!recipe->figures.empty()) write_figures(*recipe, folder, title, walls, say, diagnostics);
   return diagnostics.ok();

@@ -9,11 +9,12 @@ struct NearQuery {
   const Real *x, *y, *z, *h;  ///< of all particles
   Index first, count;         ///< the group: particles [first, first + count), 1 <= count <= 8
   Real skin;                  ///< [L]
+  Real support;               ///< of the kernel, in h
   bool uniform_h;             ///< all h are that of particle `first`
 };
 
-/// Writes those of particles [begin, end) to `out` that are within 2 max(h_i, h_j) + skin of any particle i
-/// of the group; returns how many.
+/// Writes those of particles [begin, end) to `out` that are within support max(h_i, h_j) + skin of any
+/// particle i of the group; returns how many.
 using FindNear = Index (*)(const NearQuery& query, Index begin, Index end, Index* out);
 
 /// For the machine the program runs on.

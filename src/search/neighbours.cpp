@@ -109,10 +109,11 @@ class Neighbours::Watch : public Motion {
   std::vector<Real> moved2_;
 };
 
-Neighbours::Neighbours(Real skin, std::optional<Region> region)
+Neighbours::Neighbours(Real skin, std::optional<Region> region, Real support)
     : skin_(skin),
       least_skin_(skin),
       most_skin_(skin),
+      support_(support),
       region_(std::move(region)),
       find_near_(courant::find_near()),
       watch_(std::make_shared<Watch>(*this)) {}
@@ -227,7 +228,7 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
   Particles& p = world.particles;
   const bool all = n == p.size();
   if (all) h_max_ = n > 0 ? maximum(n, [&](Index i) { return p.h[i]; }) : 0;
-  const Real near = 2 * h_max_ + most_skin_ + waking_margin * h_max_;
+  const Real near = support_ * h_max_ + most_skin_ + waking_margin * h_max_;
   group_.resize(n);
   key_.resize(n);
   const auto extent_of = [&](Index begin, Index end) {
@@ -262,7 +263,7 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
   if (!(spacing >= 0.3 * h_max_)) spacing = 0.3 * h_max_;  // also where volumes are no numbers
   if (!(spacing > 0)) spacing = 1;
   if (images_) {  // cells beyond the particles, where images may stand
-    const Vec reach = Vec::Constant(2 * h_max_ + most_skin_);
+    const Vec reach = Vec::Constant(support_ * h_max_ + most_skin_);
     e.low -= reach, e.high += reach;
     if (world.dim == 2) e.low[2] += reach[2], e.high[2] -= reach[2];
   }
@@ -288,7 +289,7 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
 // When a dormant particle can be within reach of the box.
 Real Neighbours::due_time(const Particles& p, Index i) const {
   if (p.state[i] == particle_deactivated) return std::numeric_limits<Real>::infinity();
-  const Real reach = 2 * h_growth * h_max_ + most_skin_;
+  const Real reach = support_ * h_growth * h_max_ + most_skin_;
   return p.dormant_time + region_->time_to_reach(p.x.vec(i), p.v.vec(i), reach);
 }
 
@@ -304,7 +305,7 @@ void Neighbours::note_changes(Particles& p, const std::vector<Index>& old_of_new
   entered_.clear();
   left_.clear();
   gone_ = 0;
-  const Real near = 2 * (2 * h_max_ + most_skin_ + waking_margin * h_max_);
+  const Real near = 2 * (support_ * h_max_ + most_skin_ + waking_margin * h_max_);
   for (Index i = 0; i < static_cast<Index>(old_of_new.size()); ++i) {
     // not by the state field: what MAXV switched off leaves, too
     const bool now = i < p.active, before = old_of_new[i] < active_before;
@@ -336,7 +337,7 @@ Index Neighbours::list_of_group(const World& world, const NearQuery& q, std::vec
     high = high.cwiseMax(x);
   }
   Index count = 0;
-  grid_.near(low, high, 2 * h_max_ + skin_, [&](Index first, Index last) {
+  grid_.near(low, high, support_ * h_max_ + skin_, [&](Index first, Index last) {
     for (const auto* start : {&active_start_, &rim_start_, &image_start_}) {
       if (start->empty()) continue;
       const Index begin = (*start)[first], end = (*start)[last + 1];
@@ -351,7 +352,7 @@ Index Neighbours::list_of_group(const World& world, const NearQuery& q, std::vec
 
 void Neighbours::build_images(World& world) {
   Particles& p = world.particles;
-  images_->build(world, 2 * h_max_ + skin_);
+  images_->build(world, support_ * h_max_ + skin_);
   const Index n = images_->count(), cells = grid_.total(), first = p.size();
   std::vector<Index> cell_of(n), order(n);
   image_start_.assign(cells + 1, 0);
@@ -373,7 +374,7 @@ void Neighbours::build_lists(World& world) {
   blocks_.resize(block_count(n));
   for_each_block(n, [&](Index begin, Index end) {
     Block& b = blocks_[begin / block_size];
-    NearQuery q{p.x.data(0), p.x.data(1), p.x.data(2), p.h.data(), 0, 0, skin_, h_min_ == h_max_};
+    NearQuery q{p.x.data(0), p.x.data(1), p.x.data(2), p.h.data(), 0, 0, skin_, support_, h_min_ == h_max_};
     std::vector<Index> found(512), all;
     for (Index k = 0; k < groups_per_block; ++k) {
       b.start[k] = static_cast<Index>(all.size());
@@ -429,7 +430,7 @@ std::int64_t Neighbours::entries() const {
 std::vector<Index> Neighbours::of(const Particles& p, Index i) const {
   std::vector<Index> out;
   for (const Index j : of_group(i / lanes))
-    if (j != i && (p.x.vec(i) - p.x.vec(j)).norm() < 2 * std::max(p.h[i], p.h[j])) out.push_back(j);
+    if (j != i && (p.x.vec(i) - p.x.vec(j)).norm() < support_ * std::max(p.h[i], p.h[j])) out.push_back(j);
   return out;
 }
 

@@ -16,18 +16,18 @@
 namespace courant {
 
 /// Sorts particles so that near ones stand together, sets which of them are active, and keeps a Verlet list
-/// for every eight active particles in a row (a group): all particles within 2 max(h_i, h_j) + skin of any of
-/// them, itself included. So a pair loop loads eight particles i at once and takes one j after the other,
-/// without gathering; a kernel of zero sorts out those that only other lanes need. The lists hold until
-/// something (particles, or shell nodes that contact looks at) moved or grew by half the skin.
+/// for every eight active particles in a row (a group): all particles within support max(h_i, h_j) + skin of
+/// any of them, itself included. So a pair loop loads eight particles i at once and takes one j after the
+/// other, without gathering; a kernel of zero sorts out those that only other lanes need. The lists hold
+/// until something (particles, or shell nodes that contact looks at) moved or grew by half the skin.
 class Neighbours {
  public:
   static constexpr Index lanes = 8;
   static constexpr Index groups_per_block = block_size / lanes;
   using Region = courant::Region;
 
-  /// skin: dimension L, > 0.
-  Neighbours(Real skin, std::optional<Region> region);
+  /// `skin`: > 0 [L]. `support`: how far the kernel reaches, in h.
+  Neighbours(Real skin, std::optional<Region> region, Real support = 2);
   /// Chooses the skin anew at each rebuild, between the given bounds [L], so that rebuilding and looking at
   /// pairs out of reach together cost least at the present speed of particles.
   void adapt_skin(Real least, Real most);
@@ -64,6 +64,7 @@ class Neighbours {
 
   Real skin() const { return skin_; }
   Real largest_skin() const { return most_skin_; }
+  Real support() const { return support_; }
   const std::optional<Region>& region() const { return region_; }
   /// Particles that became active or stopped being so (by leaving the box or by MAXV) at the last refresh;
   /// indices after sorting.
@@ -71,7 +72,7 @@ class Neighbours {
   const std::vector<Index>& left() const { return left_; }
   std::int64_t rebuilds() const { return rebuilds_; }
   std::int64_t entries() const;  ///< of all lists
-  /// Others within 2 max(h_i, h_j) of particle i. For tests and reports: slow.
+  /// Others within support max(h_i, h_j) of particle i. For tests and reports: slow.
   std::vector<Index> of(const Particles& p, Index i) const;
 
  private:
@@ -101,6 +102,7 @@ class Neighbours {
   void find_moving_nodes(const World& world);
 
   Real skin_, least_skin_, most_skin_;
+  Real support_;  ///< of the kernel, in h
   std::optional<Region> region_;
   FindNear find_near_;
   bool built_ = false;

@@ -39,6 +39,7 @@ class Builder {
     settings_.q.resize(model_.parts.size());
     smoothing_.resize(model_.parts.size());
     read_sections();
+    settings_.kernel = read_kernel(deck_, model_, diagnostics_);
     read_viscosities();
     read_control();
     fill_particles();
@@ -46,6 +47,9 @@ class Builder {
     choose_h_form();
     read_pair_geometry();
     read_density_diffusion();
+    if (const auto* c = deck_.last<CourantVolumeControl>()) settings_.volume_tau = c->tau;
+    read_shifting();
+    read_xsph();
     return settings_;
   }
 
@@ -124,11 +128,66 @@ class Builder {
     if (c == nullptr) return;
     settings_.density_diffusion = c->delta;
     settings_.gravity = [loads = model_.body_loads](Real t) { return gravity_at(loads, t); };
-    if (c->delta > most_diffusion)
-      deck_.error(diagnostics_, *c, "DELTA",
-                  fmt::format("expected at most {:g}, beyond which it is unstable, got '{:g}'",
-                              most_diffusion, c->delta),
-                  "0.1 evens out the noise of pressures");
+    const Real most = most_diffusion * std::min(Real(1), stiffness<CubicSpline>() /
+                                                             with_kernel(settings_.kernel, [&](auto kernel) {
+                                                               return stiffness<decltype(kernel)>();
+                                                             }));
+    if (c->delta > most)
+      deck_.error(
+          diagnostics_, *c, "DELTA",
+          fmt::format("expected at most {:.3g}, beyond which it is unstable, got '{:g}'", most, c->delta),
+          "0.1 evens out the noise of pressures");
+  }
+
+  /// Integral of -(dW/dr)/r, times h^2: how stiff diffusion between neighbours is; in 2D.
+  template <class Kernel>
+  static Real stiffness() {
+    return 2 * pi * Kernel::C(2) * Kernel::shape(0);
+  }
+
+  void read_shifting() {
+    const auto* control = deck_.last<ControlSph>();
+    const auto* c = deck_.last<CourantShifting>();
+    const bool on = control != nullptr && control->ishift == 1;
+    if (c && !on)
+      deck_.error(diagnostics_, *c, "A", "nothing asks for the shifting that this describes",
+                  "set ISHIFT of *CONTROL_SPH to 1, or leave the keyword out");
+    if (!on) return;
+    constexpr Real usual_strength = 2, usual_pairing = 0.2;
+    settings_.shift.strength = c ? c->strength : usual_strength;
+    settings_.shift.pairing = c ? std::max(c->pairing, Real(0)) : usual_pairing;
+    settings_.shift.surface = c && c->surface > 0 ? c->surface : settings_.dim - 0.5;
+    settings_.shift.correct = c && c->correct == 1;
+    if (c && c->surface >= settings_.dim)
+      deck_.error(diagnostics_, *c, "SURFACE",
+                  fmt::format("expected a number below {}, which is div r inside, got '{:g}'", settings_.dim,
+                              c->surface),
+                  "1.5 in 2D and 2.5 in 3D tell a surface from the inside");
+    refuse_beside_drift(*control, "ISHIFT");
+  }
+
+  void read_xsph() {
+    const auto* c = deck_.last<CourantXsph>();
+    if (c == nullptr) return;
+    settings_.xsph = c->eps;
+    if (c->eps > 1)
+      deck_.error(diagnostics_, *c, "EPS", fmt::format("expected at most 1, got '{:g}'", c->eps),
+                  "0.5 is usual; with 1 particles move with the mean velocity of their neighbours");
+    if (c->eps > 0) refuse_beside_drift(*c, "EPS");
+  }
+
+  /// What cannot stand beside ways that are not those of the velocity.
+  template <class T>
+  void refuse_beside_drift(const T& entry, const char* field) {
+    if (settings_.geometry_eps > 0)
+      deck_.error(diagnostics_, entry, field,
+                  "expected 0 beside *COURANT_PAIR_GEOMETRY, which follows the velocities alone",
+                  "leave one of the two out");
+    if (settings_.kernel != KernelChoice::cubic_spline)
+      deck_.error(diagnostics_, entry, field,
+                  fmt::format("expected 0 beside the {}: its sums take the cubic spline",
+                              kernel_name(settings_.kernel)),
+                  "leave one of the two out");
   }
 
   void read_pair_geometry() {
@@ -347,6 +406,19 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
     add_density_diffusion(s, world);
   else
     left_out.push_back({"density diffusion", "no *COURANT_DENSITY_DIFFUSION"});
+  if (s.volume_tau > 0)
+    add_volume_control(s, world, neighbours, volumes);
+  else
+    left_out.push_back({"volume control", "no *COURANT_VOLUME_CONTROL"});
+  if (s.shift.strength > 0)
+    add_shifting(s, world, neighbours, volumes);
+  else
+    left_out.push_back({"shifting", "ISHIFT 0"});
+  if (s.xsph > 0)
+    add_xsph(s, world, neighbours, volumes);
+  else
+    left_out.push_back({"XSPH", "no *COURANT_XSPH"});
+  if (s.xsph > 0 && !(s.shift.strength > 0)) add_drift_rate(s, world, neighbours, volumes);
   if (s.geometry_eps == 0) left_out.push_back({"kept pair geometry", "no *COURANT_PAIR_GEOMETRY"});
   if (s.evolving_h)
     world.motions.push_back(make_smoothing_length(s, world));

@@ -50,4 +50,25 @@ struct CourantDensityDiffusion : Entry {
   Real delta = 0;
 };
 
+/// *COURANT_KERNEL, ours.
+struct CourantKernel : Entry {
+  std::string name;
+};
+
+/// *COURANT_VOLUME_CONTROL, ours.
+struct CourantVolumeControl : Entry {
+  Real tau = 0;
+};
+
+/// *COURANT_SHIFTING, ours.
+struct CourantShifting : Entry {
+  Real strength = 0, pairing = 0, surface = 0;
+  int correct = 0;
+};
+
+/// *COURANT_XSPH, ours.
+struct CourantXsph : Entry {
+  Real eps = 0;
+};
+
 }  // namespace courant

@@ -2,6 +2,7 @@
 #include "keyword/registry.hpp"
 #include "parallel/parallel.hpp"
 #include "sph/cards.hpp"
+#include "sph/density_source.hpp"
 #include "sph/fields.hpp"
 #include "sph/sph.hpp"
 
@@ -21,28 +22,19 @@ const RegisterKeyword<CourantDensityDiffusion> density_diffusion_keyword{
                             {.check = Check::not_negative}}}}}}};
 
 /// d rho/dt += D with the D that the forces of the step before worked out beside the pressure: they know the
-/// pressures of neighbours, which change while rates are worked out. What the internal energy of volume work
-/// loses by it is dissipated.
+/// pressures of neighbours, which change while rates are worked out.
 class DensityDiffusion : public Rate {
  public:
   DensityDiffusion(const SphSettings& s, World& world)
-      : first_(!std::holds_alternative<MonaghanViscosity>(s.viscosity)),
-        diffusion_(sph_fields::density_diffusion(world.particles)),
-        heat_(sph_fields::dissipation(world.particles)) {}
+      : source_(s, world, true), rate_(sph_fields::density_diffusion(world.particles)) {}
   std::string name() const override { return "density diffusion"; }
   void block(World& world, const Clock&, Index begin, Index end) override {
-    Particles& p = world.particles;
-    const Real *D = diffusion_.data(), *rho = p.rho.data(), *m = p.m.data(), *pressure = p.p.data();
-    Real *rate = p.drhodt.data(), *heat = heat_.data();
-    for (Index i = begin; i < end; ++i) {
-      rate[i] += D[i];
-      heat[i] = (first_ ? 0 : heat[i]) - pressure[i] * m[i] / (rho[i] * rho[i]) * D[i];
-    }
+    source_.add(world.particles, rate_.data(), begin, end);
   }
 
  private:
-  bool first_;  ///< to give heat: bulk viscosity comes later
-  Field<Real>&diffusion_, &heat_;
+  DensitySource source_;
+  Field<Real>& rate_;
 };
 
 /// -g.x as pair loops read it of neighbours.

@@ -96,7 +96,8 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
       for (const Index j : neighbours_->of_group(g))
         if (j >= p.active && j < p.moving)  // the rim, not images
           for (Index i = g * lanes; i < std::min((g + 1) * lanes, p.active); ++i)
-            if ((p.x.vec(i) - p.x.vec(j)).norm() < 2 * std::max(p.h[i], p.h[j]) + neighbours_->skin())
+            if ((p.x.vec(i) - p.x.vec(j)).norm() <
+                neighbours_->support() * std::max(p.h[i], p.h[j]) + neighbours_->skin())
               rim_pairs_.push_back({i, j});
   }
 
@@ -108,16 +109,18 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
   /// Power that rim particles j, whose state is frozen, put into active ones: the pair's part of the change
   /// of kinetic and internal energy of i and of the dissipation counted for i.
   Real rim_power(World& world) const {
-    return with_dimension(world.dim, [&](auto dim) {
-      return with_bool(settings_.uniform_h, [&](auto uniform) {
-        return with_bool(std::holds_alternative<MonaghanViscosity>(settings_.viscosity), [&](auto visc) {
-          return rim_power_of<dim.value, uniform.value, visc.value>(world);
+    return with_kernel(settings_.kernel, [&](auto kernel) {
+      return with_dimension(world.dim, [&](auto dim) {
+        return with_bool(settings_.uniform_h, [&](auto uniform) {
+          return with_bool(std::holds_alternative<MonaghanViscosity>(settings_.viscosity), [&](auto visc) {
+            return rim_power_of<decltype(kernel), dim.value, uniform.value, visc.value>(world);
+          });
         });
       });
     });
   }
 
-  template <int Dim, bool UniformH, bool Monaghan>
+  template <class Kernel, int Dim, bool UniformH, bool Monaghan>
   Real rim_power_of(World& world) const {
     const Particles& p = world.particles;
     const Real* pressure = total_pressure_ ? total_pressure_->data() : p.p.data();
@@ -125,15 +128,15 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
     for (const auto [i, j] : rim_pairs_) {
       const Real h = p.h[i];
       const PartViscosity &qi = settings_.q[p.part[i]], &qj = settings_.q[p.part[j]];
-      MomentumPair<Dim, UniformH, Monaghan> pair{h,
-                                                 1 / h,
-                                                 CubicSpline<Dim>::C / power<Dim + 1>(h),
-                                                 tiny_distance2 * h * h,
-                                                 pressure[i],
-                                                 p.rho[i],
-                                                 qi.q1 * p.c[i],
-                                                 0,
-                                                 1 / p.rho[i]};
+      MomentumPair<Kernel, Dim, UniformH, Monaghan> pair{h,
+                                                         1 / h,
+                                                         Kernel::C(Dim) / power<Dim + 1>(h),
+                                                         tiny_distance2 * h * h,
+                                                         pressure[i],
+                                                         p.rho[i],
+                                                         qi.q1 * p.c[i],
+                                                         0,
+                                                         1 / p.rho[i]};
       if constexpr (Monaghan) pair.q2 = std::get<MonaghanViscosity>(settings_.viscosity).q2;
       const Vec d = p.x.vec(i) - p.x.vec(j), vi = p.v.vec(i), vj = p.v.vec(j);
       const Real r2 = d.squaredNorm() + pair.tiny;
@@ -141,7 +144,8 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
       // the work on i, less what i stores or burns of it by p_i v_ij.d, tau_i:D and its half of Pi
       Real power = -(s.pressure_i * vj + s.pressure_j * vi + 0.5 * s.viscous * (vi + vj)).dot(d);
       if (viscous_) {
-        const Real gi = slope_over_r<Dim>(r2, h), gj = slope_over_r<Dim>(r2, UniformH ? h : p.h[j]);
+        const Real gi = slope_over_r<Kernel, Dim>(r2, h),
+                   gj = slope_over_r<Kernel, Dim>(r2, UniformH ? h : p.h[j]);
         power += pair.inverse_rho * (gi * (tau_->tensor(i) * d).dot(vj) + gj * (tau_->tensor(j) * d).dot(vi));
       }
       total += p.m[i] * p.m[j] / p.rho[j] * power;
@@ -150,10 +154,10 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
   }
 
   /// (dW/dr)/r
-  template <int Dim>
+  template <class Kernel, int Dim>
   static Real slope_over_r(Real r2, Real h) {
     const Real r = std::sqrt(r2);
-    return CubicSpline<Dim>::C / power<Dim + 1>(h) * CubicSpline<Dim>::slope(r / h) / r;
+    return Kernel::C(Dim) / power<Dim + 1>(h) * Kernel::slope(r / h) / r;
   }
 
   SphSettings settings_;

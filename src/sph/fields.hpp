@@ -1,5 +1,7 @@
 #pragma once
 // Fields that several SPH passes share, each described in one place. A field exists once a pass asks for it.
+#include <string>
+
 #include "state/entities.hpp"
 
 namespace courant::sph_fields {
@@ -30,9 +32,63 @@ inline Field<Real>& pressure_plus_q(Particles& p) {
 inline Field<Real>& density_diffusion(Particles& p) {
   return p.fields.add<Real>({.name = "density_diffusion", .dimension = "M/L3T"});
 }
+/// Rate of density by volume control, as of its last look.
+inline Field<Real>& volume_rate(Particles& p) {
+  return p.fields.add<Real>({.name = "volume_rate", .dimension = "M/L3T"});
+}
 /// -g.x of gravity; images have that of their particle, as they have its pressure.
 inline Field<Real>& potential(Particles& p) {
   return p.fields.add<Real>({.name = "potential", .dimension = "L2/T2", .exchange = Exchange::before_rates});
+}
+/// sum_j V_j (x_j - x_i).grad W_ij, 2 or 3 inside, of the last rates, as neighbours read it.
+inline Field<Real>& spread(Particles& p) {
+  return p.fields.add<Real>({.name = "spread", .dimension = "-", .exchange = Exchange::before_rates});
+}
+/// The same of the present rates.
+inline Field<Real>& new_spread(Particles& p) {
+  return p.fields.add<Real>({.name = "new_spread", .dimension = "-", .restart = false});
+}
+/// Gradient of the concentration of particles, with the term against pairs
+inline Field<Real>& shift_gradient(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "shift_gradient", .dimension = "1/L", .components = 3, .restart = false});
+}
+/// Gradient of the spread: towards the water
+inline Field<Real>& surface_normal(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "surface_normal", .dimension = "1/L", .components = 3, .restart = false});
+}
+/// > 0 where a surface is within reach
+inline Field<Real>& surface_near(Particles& p) {
+  return p.fields.add<Real>({.name = "surface_near", .dimension = "-", .restart = false});
+}
+/// Sum of kernels, sum_j V_j W_ij
+inline Field<Real>& filling(Particles& p) {
+  return p.fields.add<Real>({.name = "filling", .dimension = "-", .restart = false});
+}
+/// Gradient of component k of the velocity
+inline Field<Real>& velocity_gradient(Particles& p, int k) {
+  return p.fields.add<Real>({.name = std::string("velocity_gradient_") + "xyz"[k],
+                             .dimension = "1/T",
+                             .components = 3,
+                             .restart = false});
+}
+/// Rate of density by the last drift
+inline Field<Real>& drift_rate(Particles& p) {
+  return p.fields.add<Real>({.name = "drift_rate", .dimension = "M/L3T", .restart = false});
+}
+/// Pressure before the materials of this step
+inline Field<Real>& pressure_before(Particles& p) {
+  return p.fields.add<Real>({.name = "pressure_before", .dimension = "M/LT2", .restart = false});
+}
+/// How places changed in the last step besides the velocity
+inline Field<Real>& drifted(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "drifted", .dimension = "L/T", .components = 3, .exchange = Exchange::before_rates});
+}
+/// 1/theta(dx/h) at the start, without the constant of theta
+inline Field<Real>& kernel_at_spacing(Particles& p) {
+  return p.fields.add<Real>({.name = "kernel_at_spacing", .dimension = "-"});
 }
 /// Power that artificial viscosity turns into heat
 inline Field<Real>& dissipation(Particles& p) {

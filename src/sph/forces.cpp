@@ -24,7 +24,8 @@ class PairForces : public Force {
       potential_ = &sph_fields::potential(p);
     }
     delta_ = s.density_diffusion;
-    ForcesChoice choice{s.dim, s.uniform_h, !s.mu.empty(), diffusion_ != nullptr, Geometry::compute};
+    ForcesChoice choice{s.dim,   s.uniform_h, !s.mu.empty(), diffusion_ != nullptr, Geometry::compute,
+                        s.kernel};
     compute_ = forces_loop(choice);
     choice.geometry = Geometry::load;
     load_ = forces_loop(choice);

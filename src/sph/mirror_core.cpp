@@ -13,16 +13,23 @@ namespace {
 /// What a particle right at a mirror lacks. The slope of the kernel falls to nothing where a particle meets
 /// its own image, so nothing would hold it off the mirror: water that hits one leaves a row of particles on
 /// it, each in one place with its image, where the pressure is several times too high. Here the slope towards
-/// one's own image stays as steep as it is at half a spacing, or at R = 2/3, where it is steepest, for all
-/// distances below (Thomas and Couchman 1992 do so for all pairs). Farther away particles, and those of a
-/// flow along the mirror, notice nothing. Continuity takes the same slope as pressure does, so that energy is
-/// kept.
+/// one's own image stays as steep as it is at half a spacing, or where it is steepest (R = 2/3 for the cubic
+/// spline), for all distances below (Thomas and Couchman 1992 do so for all pairs). Farther away particles,
+/// and those of a flow along the mirror, notice nothing. Continuity takes the same slope as pressure does, so
+/// that energy is kept.
+/// A kernel with a kink pushes most where particle and image meet, and lacks nothing; but pair loops know one
+/// side of the kink only, which is wrong over the step in which a particle goes through the mirror.
 /// What tension does behind the mirror the reflection takes back (`mirror_pull`): it would make energy of
 /// each crossing.
 class MirrorCore : public Rate {
  public:
   MirrorCore(const SphSettings& s, const World& world, std::vector<ImagePlane> mirrors)
-      : dim_(s.dim), mirrors_(std::move(mirrors)), core_(world.part_ids.size(), 2.0 / 3.0) {
+      : dim_(s.dim), kernel_(s.kernel), mirrors_(std::move(mirrors)), core_(world.part_ids.size(), 1) {
+    with_kernel(kernel_, [&](auto kernel) {
+      using Kernel = decltype(kernel);
+      C_ = Kernel::C(dim_), kink_ = Kernel::kink;
+      if (!kink_) core_.assign(core_.size(), Kernel::steepest);
+    });
     const Particles& p = world.particles;
     for (Index i = 0; i < p.size(); ++i) {
       Real& R = core_[p.part[i]];
@@ -41,8 +48,11 @@ class MirrorCore : public Rate {
     // From where it was a step ago; on the other side,
     // which is the same, where it went through the mirror.
     for_each_at_mirror(p, begin, end, [&](Index i, const Vec& n, Real d) {
-      const Real before = std::abs(d - clock.dt_old * p.v.vec(i).dot(n));
-      p.drhodt[i] -= 2 * p.m[i] * (missing_kernel(p, i, d) - missing_kernel(p, i, before)) / clock.dt_old;
+      const Real came_from = d - clock.dt_old * p.v.vec(i).dot(n), before = std::abs(came_from);
+      if (!kink_)
+        p.drhodt[i] -= 2 * p.m[i] * (missing_kernel(p, i, d) - missing_kernel(p, i, before)) / clock.dt_old;
+      else if (came_from < 0)
+        p.drhodt[i] += p.m[i] * fold(p, i, before) / clock.dt_old;
     });
   }
 
@@ -58,22 +68,33 @@ class MirrorCore : public Rate {
   /// By how much -dW/dr of particle i and its image falls short, the mirror at distance d. [1/L^(dim+1)]
   Real missing_slope(const Particles& p, Index i, Real d) const {
     const Real R = 2 * d / p.h[i], core = core_[p.part[i]];
-    return R < core ? norm(p.h[i]) / p.h[i] * (steepness(core) - steepness(R)) : 0;
+    return R < core && !kink_ ? norm(p.h[i]) / p.h[i] * (steepness(core) - steepness(R)) : 0;
   }
 
  private:
   /// Half of its integral over the distance between them, from 0: grows with d. [1/L^dim]
   Real missing_kernel(const Particles& p, Index i, Real d) const {
     const Real core = core_[p.part[i]], R = std::min(2 * d / p.h[i], core);
-    return 0.5 * norm(p.h[i]) * (steepness(core) * R - R * R * (1.5 - 0.75 * R));
+    return 0.5 * norm(p.h[i]) * (steepness(core) * R - dip(R));
   }
-  /// -d theta/dR of the cubic spline without its constant, R < 1
-  static Real steepness(Real R) { return R * (3 - 2.25 * R); }
-  Real norm(Real h) const {
-    return dim_ == 2 ? CubicSpline<2>::C / power<2>(h) : CubicSpline<3>::C / power<3>(h);
+  /// By how much the kernel as it would go on beyond the kink is larger than it is at distance d from the
+  /// mirror. [1/L^dim]
+  Real fold(const Particles& p, Index i, Real d) const {
+    const Real R = 2 * d / p.h[i];
+    return norm(p.h[i]) * (dip(R) - dip(-R));
   }
+  Real dip(Real R) const {
+    return with_kernel(kernel_, [R](auto kernel) { return decltype(kernel)::dip(R); });
+  }
+  Real steepness(Real R) const {
+    return with_kernel(kernel_, [R](auto kernel) { return decltype(kernel)::steepness(R); });
+  }
+  Real norm(Real h) const { return C_ / (dim_ == 2 ? power<2>(h) : power<3>(h)); }
 
   int dim_;
+  KernelChoice kernel_;
+  Real C_ = 0;
+  bool kink_ = false;
   std::vector<ImagePlane> mirrors_;
   std::vector<Real> core_;  ///< R of particle and image up to which the slope is kept, by part
   Real reach_ = 0;          ///< largest distance from a mirror where something lacks [L]

@@ -9,9 +9,8 @@ namespace courant {
 
 /// One pair of the momentum equation, eq. 17 (with h per particle: FORM 0, p_i with h_i and p_j with h_j, so
 /// that pair forces cancel), for the energy that crosses the box. The pair loops hold the same in packs.
-template <int Dim, bool UniformH, bool Monaghan>
+template <class Kernel, int Dim, bool UniformH, bool Monaghan>
 struct MomentumPair {
-  using Kernel = CubicSpline<Dim>;
   // of particle i
   Real h, hinv, norm, tiny, p, rho, qc, q2, inverse_rho;
 
@@ -26,7 +25,7 @@ struct MomentumPair {
     Real gj = gi, hbar = h;
     if constexpr (!UniformH) {
       const Real hjinv = 1 / hj;
-      gj = Kernel::C * power<Dim + 1>(hjinv) * Kernel::slope(r2 * rinv * hjinv) * rinv;
+      gj = Kernel::C(Dim) * power<Dim + 1>(hjinv) * Kernel::slope(r2 * rinv * hjinv) * rinv;
       hbar = 0.5 * (h + hj);
     }
     Result out{p * inverse_rho * gi, pj * inverse_rho * gj, 0};

@@ -2,6 +2,7 @@
 // The loops over pairs, compiled once for each instruction set. A loop takes eight particles i at once and
 // one neighbour j after the other; see docs/architecture.md. All sums are gathered, nothing is scattered.
 #include "base/real.hpp"
+#include "sph/kernel_choice.hpp"
 
 namespace courant {
 
@@ -51,6 +52,7 @@ struct RatesChoice {
   int dim;
   bool uniform_h, viscous, gradient;
   Geometry geometry;  ///< compute where h differs
+  KernelChoice kernel = KernelChoice::cubic_spline;
 };
 PairLoop rates_loop(const RatesChoice& choice);
 
@@ -62,7 +64,14 @@ struct ForcesChoice {
   int dim;
   bool uniform_h, stress, diffusion;
   Geometry geometry;  ///< compute or load
+  KernelChoice kernel = KernelChoice::cubic_spline;
 };
 PairLoop forces_loop(const ForcesChoice& choice);
+
+/// The loops of one kernel.
+struct PairLoops {
+  PairLoop (*rates)(const RatesChoice&);
+  PairLoop (*forces)(const ForcesChoice&);
+};
 
 }  // namespace courant

@@ -3,24 +3,33 @@
 
 namespace courant {
 
+// One file *_loops.cpp for each kernel has them.
 namespace baseline {
-PairLoop rates_loop(const RatesChoice&);
-PairLoop forces_loop(const ForcesChoice&);
-}  // namespace baseline
+template <class Kernel>
+PairLoops loops_of();
+}
 namespace avx2 {
-PairLoop rates_loop(const RatesChoice&);
-PairLoop forces_loop(const ForcesChoice&);
-}  // namespace avx2
+template <class Kernel>
+PairLoops loops_of();
+}
 namespace avx512 {
-PairLoop rates_loop(const RatesChoice&);
-PairLoop forces_loop(const ForcesChoice&);
-}  // namespace avx512
+template <class Kernel>
+PairLoops loops_of();
+}
+
+namespace {
+
+PairLoops loops_of(KernelChoice choice) {
+  return with_kernel(choice, [](auto kernel) { return COURANT_VARIANT(loops_of<decltype(kernel)>)(); });
+}
+
+}  // namespace
 
 PairLoop rates_loop(const RatesChoice& choice) {
-  return COURANT_VARIANT(rates_loop)(choice);
+  return loops_of(choice.kernel).rates(choice);
 }
 PairLoop forces_loop(const ForcesChoice& choice) {
-  return COURANT_VARIANT(forces_loop)(choice);
+  return loops_of(choice.kernel).forces(choice);
 }
 
 }  // namespace courant

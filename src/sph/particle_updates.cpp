@@ -19,7 +19,7 @@ class BulkViscosityPass : public Material, public Refresh, public Keeper {
  public:
   BulkViscosityPass(const SphSettings& s, World& world)
       : q_(s.q),
-        after_diffusion_(s.density_diffusion > 0),
+        after_sources_(s.has_density_sources()),
         total_(sph_fields::pressure_plus_q(world.particles)),
         heat_(sph_fields::dissipation(world.particles)) {}
   std::string name() const override { return "bulk viscosity"; }
@@ -30,7 +30,7 @@ class BulkViscosityPass : public Material, public Refresh, public Keeper {
       const PartViscosity& k = q_[p.part[i]];
       const Real q = p.rho[i] * p.h[i] * (k.q2 * p.h[i] * d * d - k.q1 * p.c[i] * d);
       total_[i] = p.p[i] + q;
-      heat_[i] = (after_diffusion_ ? heat_[i] : 0) - q * d * p.m[i] / p.rho[i];
+      heat_[i] = (after_sources_ ? heat_[i] : 0) - q * d * p.m[i] / p.rho[i];
     }
   }
   void refreshed(World& world, const Clock&, std::span<const Index>) override { loaded(world); }
@@ -42,7 +42,7 @@ class BulkViscosityPass : public Material, public Refresh, public Keeper {
 
  private:
   std::vector<PartViscosity> q_;
-  bool after_diffusion_;  ///< which has given heat already
+  bool after_sources_;  ///< which have given heat already
   Field<Real>& total_;
   Field<Real>& heat_;
 };

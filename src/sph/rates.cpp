@@ -19,6 +19,7 @@ class PairRates : public Rate, public Keeper {
   PairRates(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry,
             std::shared_ptr<PairVolumes> volumes)
       : geometry_(std::move(geometry)), volumes_(std::move(volumes)) {
+    if (s.kernel != KernelChoice::cubic_spline) name_ += std::string(", ") + kernel_name(s.kernel);
     Particles& p = world.particles;
     const bool viscous = std::holds_alternative<MonaghanViscosity>(s.viscosity), gradient = !s.mu.empty();
     heat_ = &sph_fields::dissipation(p);
@@ -27,14 +28,14 @@ class PairRates : public Rate, public Keeper {
       q2_ = std::get<MonaghanViscosity>(s.viscosity).q2;
     }
     if (gradient) strain_ = &sph_fields::strain_rate(p);
-    RatesChoice choice{s.dim, s.uniform_h, viscous, gradient, Geometry::compute};
+    RatesChoice choice{s.dim, s.uniform_h, viscous, gradient, Geometry::compute, s.kernel};
     compute_ = rates_loop(choice);
     choice.geometry = Geometry::store;
     store_ = rates_loop(choice);
     choice.geometry = Geometry::load;
     load_ = rates_loop(choice);
   }
-  std::string name() const override { return "sph rates"; }
+  std::string name() const override { return name_; }
 
   void start(World& world, const Clock& clock) override {
     geometry_->prepare();
@@ -92,6 +93,7 @@ class PairRates : public Rate, public Keeper {
     for (const auto& e : world.exchangers) e->before_rates(world);
   }
 
+  std::string name_ = "sph rates";
   std::shared_ptr<PairGeometry> geometry_;
   std::shared_ptr<PairVolumes> volumes_;
   Field<Real>* heat_ = nullptr;

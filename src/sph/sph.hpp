@@ -7,6 +7,7 @@
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
 #include "search/neighbours.hpp"
+#include "sph/kernel_choice.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -33,8 +34,17 @@ struct SphMaterial {
   bool heat_in_internal = false;  ///< the EOS uses energy, so viscous heat goes into E and is counted there
 };
 
+/// ISHIFT of *CONTROL_SPH with *COURANT_SHIFTING.
+struct ShiftRules {
+  Real strength = 0;     ///< A; 0: none
+  Real pairing = 0;      ///< R
+  Real surface = 0;      ///< div r of surfaces
+  bool correct = false;  ///< the velocity changes to that of the new place
+};
+
 struct SphSettings {
   int dim = 3;
+  KernelChoice kernel = KernelChoice::cubic_spline;
   bool uniform_h = true;
   bool evolving_h = false;
   std::vector<Real> h_min_factor, h_max_factor;  ///< per part, of h/h0
@@ -46,12 +56,19 @@ struct SphSettings {
   Real geometry_eps = 0;  ///< *COURANT_PAIR_GEOMETRY: relative motion, of h, over which gradients are kept
   Real density_diffusion = 0;          ///< *COURANT_DENSITY_DIFFUSION: delta; 0: none
   std::function<Vec(Real t)> gravity;  ///< acceleration at a time, for the diffusion of density [L/T2]
-  Real maxv = 0;                       ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
+  Real volume_tau = 0;                 ///< *COURANT_VOLUME_CONTROL: TAU [T]; 0: none
+  ShiftRules shift;
+  std::vector<ImagePlane> mirrors;  ///< symmetry planes, along which alone particles near them drift
+  Real xsph = 0;                    ///< *COURANT_XSPH: EPS; 0: none
+  Real maxv = 0;                    ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
   std::optional<Neighbours::Region> region;
   bool hide_inactive = false;          ///< ISHOW
   bool skip_inactive_contact = false;  ///< ICONT
   bool thickness_from_volume = false;  ///< ITHK
   Real spacing = 0;                    ///< largest nearest-neighbour distance of all SPH parts [L]
+
+  /// Something besides the motion of particles changes the density.
+  bool has_density_sources() const { return density_diffusion > 0 || volume_tau > 0; }
 };
 
 /// Reads SECTION_SPH, CONTROL_SPH, HOURGLASS, CONTROL_BULK_VISCOSITY; fills world.particles (x, v, m, rho, h,
@@ -59,6 +76,9 @@ struct SphSettings {
 SphSettings build_particles(const Deck& deck, const Model& model,
                             const std::function<SphMaterial(Index part)>& material, World& world,
                             Diagnostics& diagnostics);
+
+/// The kernel that SPHKERN of SECTION_SPH or COURANT_KERNEL asks for.
+KernelChoice read_kernel(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 /// The planes of BOUNDARY_SPH_SYMMETRY_PLANE and _PERIODIC. `reach`: how far a particle looks [L]. Call while
 /// particles stand in the order of the model.
@@ -87,6 +107,18 @@ std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<P
 std::shared_ptr<PairVolumes> make_pair_volumes(World&);
 /// Adds to the rates what density diffusion gave in the last forces.
 void add_density_diffusion(const SphSettings&, World&);
+/// Adds to the rates what brings the density back to what the places of particles say.
+void add_volume_control(const SphSettings&, World&, std::shared_ptr<Neighbours>,
+                        std::shared_ptr<PairVolumes>);
+/// Adds the motions by which particles drift, behind that by their velocity; what sets the velocities of
+/// drift comes with `add_sph_passes`. `gravity`: the acceleration at a time [L/T2].
+void add_drifts(const SphSettings&, const std::function<Vec(Real t)>& gravity, World&);
+/// Adds to the rates what the last drift did to the density; `add_shifting` does so, too.
+void add_drift_rate(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);
+/// Adds to the rates what shifts particles.
+void add_shifting(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);
+/// Adds to the rates what smooths the velocities with which particles move.
+void add_xsph(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);
 std::shared_ptr<Material> make_bulk_viscosity(const SphSettings&, World&);
 std::shared_ptr<Material> make_viscous_stress(const SphSettings&, World&);
 std::shared_ptr<Motion> make_smoothing_length(const SphSettings&, World&);

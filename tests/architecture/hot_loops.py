@@ -47,7 +47,7 @@ for path in sorted(objects):
             faults.append(f"{name}: uses %{register}, which its processors lack")
     fused = len(re.findall(rf"vfn?m(?:add|sub)\d+pd.*%{own}", code)) if own != "xmm" else wide[own]
     print(f"{name}: {fused} {'fused operations' if own != 'xmm' else 'uses'} of %{own}")
-    if "pair_loops" in path and fused < 200:
+    if re.search(r"sph/\w+_loops", path) and fused < 200:
         faults.append(f"{name}: the loops over pairs do not use %{own}")
 
 # "#pragma omp simd" loops of passes over single particles

@@ -8,7 +8,9 @@
 namespace courant::benchmarks {
 
 PairLoopsAlone::PairLoopsAlone(Simulation& s)
-    : s_(s), neighbours_(std::make_shared<Neighbours>(s.neighbours().skin(), s.neighbours().region())) {
+    : s_(s),
+      neighbours_(std::make_shared<Neighbours>(s.neighbours().skin(), s.neighbours().region(),
+                                               s.neighbours().support())) {
   neighbours_->refresh(s.world(), s.clock());
 }
 

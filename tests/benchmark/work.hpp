@@ -10,9 +10,10 @@ struct PairWork {
   int both() const { return rates + forces; }
 };
 
-/// Floating-point operations of src/sph/pair_loops.cpp per entry of a list and lane, for one h, Monaghan
-/// viscosity and no MU. Each + - * / and max is one; a reciprocal root is ten, what the avx512 variant spells
-/// it out as (the others take a root and a quotient, which keep the processor busy for longer).
+/// Floating-point operations of src/sph/pair_sums.hpp per entry of a list and lane, for the cubic spline, one
+/// h, Monaghan viscosity and no MU. Each + - * / and max is one; a reciprocal root is ten, what the avx512
+/// variant spells it out as (the others take a root and a quotient, which keep the processor busy for
+/// longer).
 ///
 ///                            2D  3D
 ///   x_i - x_j                 2   3   rates, forces

@@ -296,7 +296,56 @@ for (a, _, on_a), (b, _, on_b) in zip(contact[::2], contact[1::2]):
 check(len(contact) > 4, "rcforc holds both sides")
 tables = sphout("still/sphout")
 
+# --- courant post reads all of these files, and gives what history.h5 has, to the digits that they print
+ASKED = (  # folder, file, id, side, name in the file, the same in history.h5, component, digits, factor
+    ("closed", "glstat", None, None, "kinetic energy", "global/kinetic", None, 6, 1),
+    ("closed", "glstat", None, None, "global z velocity", "global/velocity", 2, 6, 1),
+    ("closed", "matsum", 5, None, "z-mom", "parts/5/momentum", 2, 5, 1),
+    ("closed", "matsum", 1, None, "kinen", "parts/1/kinetic", None, 5, 1),
+    ("closed", "nodout", 101, None, "y-disp", "nodes/101/displacement", 1, 5, 1),
+    ("closed", "nodout", 101, None, "z-rot vel", "nodes/101/omega", 2, 5, 1),
+    ("closed", "rbdout", 5, None, "accelerations z", "rigid_bodies/5/a", 2, 5, 1),
+    ("closed", "rbdout", 6, None, "velocities z", "rigid_bodies/6/v", 2, 5, 1),
+    ("closed", "bndout", 30, "nd#", "energy", "driven_particles/30/work", None, 5, 1),
+    ("closed", "bndout", 6, "mat#", "zforce", "driven_bodies/6/force", 2, 5, 1),
+    ("closed", "spcforc", 20, None, "forces z", "held_particles/20/force", 2, 5, 1),
+    ("still", "rcforc", 1, "SURFB", "y", "contacts/1/force", 1, 6, -1),
+    ("still", "sleout", 1, None, "frictional", "contacts/1/energy_friction", None, 5, 1),
+    ("still", "sphout", 1, None, "density", "particles/1/rho", None, 5, 1),
+    ("still", "sphout", 2, None, "smooth", "particles/2/h", None, 5, 1))
+
+
+def series_of_post(folder):
+    """Times and values of each of the ASKED, as courant post gives them."""
+    recipe = "analyses:\n"
+    for k, (where, name, id_, side, of, *_) in enumerate(ASKED):
+        if where == folder:
+            recipe += f"  - {{kind: history, name: a{k}, file: {name}, of: [{{name: value, of: {of}"
+            recipe += (f", id: {id_}" if id_ else "") + (f", side: {side}" if side else "") + "}]}\n"
+    with open("recipe.yaml", "w") as file:
+        file.write(recipe)
+    done = subprocess.run([courant, "post", "recipe.yaml", folder], stdout=subprocess.DEVNULL, timeout=120)
+    check(done.returncode == 0, f"courant post of {folder}")
+    found = {}
+    for k, (where, *_) in enumerate(ASKED):
+        if where == folder:
+            with open(f"{folder}/post/a{k}.csv") as file:
+                found[k] = [[float(word) for word in line.split(",")] for line in file.read().splitlines()[1:]]
+    return found
+
+
 if h5py:
+    for folder in ("closed", "still"):
+        with h5py.File(f"{folder}/history.h5") as h5:
+            times = h5["global/time"][:]
+            for k, rows in series_of_post(folder).items():
+                _, name, id_, _, of, dataset, component, digits, factor = ASKED[k]
+                values = h5[dataset][:] if component is None else h5[dataset][:, component]
+                pairs = [(a, factor * values[j]) for t, a in rows for j in [int(abs(times - t).argmin())] if abs(times[j] - t) <= 1e-4 * t]
+                # half of the last digit; courant post prints nine, and the momenta of what rests are round-off
+                wrong = [(a, b) for a, b in pairs if not abs(a - b) <= 0.501 * 10.0 ** (1 - digits) * max(abs(a), abs(b)) + 1e-15]
+                check(len(pairs) > 2 and not wrong, f"courant post, {of} of {name} {id_ or ''}: {len(pairs)} of {len(rows)} times {wrong[:2]}")
+
     def compare(folder, name, t, value, what):
         with h5py.File(f"{folder}/history.h5") as h5:
             times = h5["global/time"][:]
@@ -319,5 +368,10 @@ if h5py:
         unnamed = []
         h5.visititems(lambda name, item: unnamed.append(name) if isinstance(item, h5py.Dataset) and "dimension" not in item.attrs else None)
         check(not unnamed, f"each dataset of history.h5 tells its dimension: {unnamed}")
+
+# --- the example that reads them all
+done = subprocess.run([sys.executable, os.path.join(source, "examples/results/histories.py"), "closed"], stdout=subprocess.PIPE, text=True, timeout=60)
+kinds = ("matsum of mat 5, 9 rows", "nodout of 101, ", "rbdout of 6, ", "bndout of nd 30, ", "bndout of mat 6, ", "spcforc of 20, ", "sphout of 1, ") if h5py else ()
+check(not h5py or done.returncode == 0 and all(kind in done.stdout for kind in kinds), f"the example reads all of it: {done.stdout[:600]}")
 
 sys.exit(1 if failures else 0)

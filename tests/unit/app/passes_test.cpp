@@ -42,6 +42,9 @@ const Lists bare{
     {"images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
      "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
      "density diffusion no *COURANT_DENSITY_DIFFUSION",
+     "volume control no *COURANT_VOLUME_CONTROL",
+     "shifting ISHIFT 0",
+     "XSPH no *COURANT_XSPH",
      "kept pair geometry no *COURANT_PAIR_GEOMETRY",
      "smoothing length HMIN = HMAX = 1: h is constant",
      "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
@@ -96,6 +99,16 @@ TEST(Passes, ThreeDimensionsNeedNoOtherPasses) {
   SmallScene scene;
   scene.dim = 3, scene.n = 3;
   expect_change(scene, {}, {});
+}
+
+TEST(Passes, AnotherKernelIsNamed) {
+  SmallScene scene;
+  scene.section = "1,1.2,1.,1.,0.,0.,0.,1";
+  Lists got = lists_of(scene);
+  EXPECT_EQ(got.active.front(), "rate sph rates, quintic spline");
+  got.active.front() = bare.active.front();
+  EXPECT_EQ(got.active, bare.active);
+  EXPECT_EQ(got.left_out, bare.left_out);
 }
 
 TEST(Passes, Gravity) {
@@ -170,6 +183,21 @@ TEST(Passes, DensityDiffusion) {
   SmallScene scene;
   scene.extra = "*COURANT_DENSITY_DIFFUSION\n0.1\n";
   expect_change(scene, {"density diffusion"}, {"rate density diffusion", "motion gravity's potential"});
+  scene.extra = "*COURANT_VOLUME_CONTROL\n0.1\n";
+  expect_change(scene, {"volume control"}, {"rate volume control"});
+}
+
+TEST(Passes, Drifts) {
+  SmallScene scene;
+  scene.control_sph = test::shifting_cards;
+  expect_change(scene, {"shifting"},
+                {"rate shifting (gradient)", "tally drift work", "energy drift work", "motion shifting",
+                 "motion surfaces"});
+  scene.control_sph = "";
+  scene.extra = "*COURANT_XSPH\n0.5\n";
+  expect_change(
+      scene, {"XSPH"},
+      {"rate XSPH", "rate drift (density)", "tally drift work", "energy drift work", "motion XSPH motion"});
 }
 
 TEST(Passes, PrescribedMotionOfParticles) {

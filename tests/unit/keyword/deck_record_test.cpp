@@ -63,6 +63,31 @@ TEST(DeckRecord, EndTimeOutputsAndCurvesMayChange) {
       << "a field without influence";
 }
 
+TEST(DeckRecord, OfTheStepOnlyItsScaleMayChange) {
+  const auto with = [](const std::string& card) {
+    std::string text = first;
+    return text.replace(text.find("*END\n"), 5, card + "*END\n");
+  };
+  const auto compared = [&](const std::string& before, const std::string& now) {
+    const Deck deck = read(with(now));
+    Diagnostics diagnostics;
+    Outcome out{compare_decks(record_deck(read(with(before))), deck, record_deck(deck), diagnostics), ""};
+    out.errors = diagnostics.text();
+    return out;
+  };
+  const Outcome smaller = compared("*CONTROL_TIMESTEP\n0.,0.9\n", "*CONTROL_TIMESTEP\n0.,0.5\n");
+  EXPECT_EQ(smaller.allowed, Lines{"*CONTROL_TIMESTEP TSSFAC: '0.5', was '0.9'"});
+  EXPECT_EQ(smaller.errors, "");
+  const Outcome added = compared("", "*CONTROL_TIME_STEP\n0.,0.5\n");
+  EXPECT_EQ(added.allowed, Lines{"*CONTROL_TIME_STEP TSSFAC: '0.5', was '0.9'"});
+  EXPECT_EQ(added.errors, "");
+  EXPECT_NE(compared("", "*CONTROL_TIMESTEP\n1e-6,0.5\n").errors.find("field 1 (DTINIT"), std::string::npos);
+  EXPECT_NE(compared("*CONTROL_TIMESTEP\n0.,0.9\n", "*CONTROL_TIMESTEP\n1e-6,0.9\n").errors.find("(DTINIT"),
+            std::string::npos);
+  EXPECT_NE(compared("*CONTROL_TIMESTEP\n0.,0.5\n", "").errors.find("the run so far had 1 entry"),
+            std::string::npos);
+}
+
 TEST(DeckRecord, AnythingElseIsRefusedByName) {
   const std::string message = changed("1,1000.", "1,900.").errors;
   EXPECT_EQ(message.rfind("deck.k:3:3: error: *MAT_NULL field 2 (RO", 0), 0u) << message;

@@ -134,6 +134,14 @@ TEST(Robust, RangesOfSetsMayOverlap) {
   EXPECT_LT(r.seconds, soon);
 }
 
+TEST(Robust, RangesInStepsMayOverlap) {
+  const Read r = read("*KEYWORD\n" + nodes(4000) + "*SET_NODE_LIST_GENERATE_INCREMENT\n1\n" +
+                      repeated("1,9999,1\n", 3000) + "*CONTROL_TERMINATION\n1.0\n*END\n");
+  EXPECT_EQ(r.diagnostics.text(), "");
+  EXPECT_EQ(r.model.node_sets.at(1).size(), 4000u);
+  EXPECT_LT(r.seconds, soon);
+}
+
 TEST(Robust, SetsMayBeNamedOften) {
   const Read r = read("*KEYWORD\n" + nodes(2000) +
                       "*PART\n\n1,1,1\n*ELEMENT_SPH\n1,1,1.0,2000\n*SET_NODE_LIST_GENERATE\n"

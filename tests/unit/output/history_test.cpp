@@ -55,6 +55,30 @@ std::string attribute(hid_t file, const char* path, const char* name) {
   return out;
 }
 
+TEST(History, IsWrittenAnewWhenWholeChunksAreThere) {
+  ScratchFolder dir;
+  History history(dir / "history.h5", 1024, std::chrono::seconds(1000));
+  int taken = 0;
+  const auto rows_after = [&](int samples) {
+    while (taken < samples) history.record(sample_at(1e-3 * taken++));
+    if (!std::filesystem::exists(dir / "history.h5")) return std::size_t{0};
+    const hid_t file = H5Fopen((dir / "history.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const auto t = read(file, "/global/time");
+    H5Fclose(file);
+    return t.size();
+  };
+  EXPECT_EQ(rows_after(1023), 0u);
+  EXPECT_EQ(rows_after(1024), 1024u);
+  EXPECT_EQ(rows_after(1500), 1024u);
+  history.flush();
+  EXPECT_EQ(rows_after(1500), 1500u);
+  EXPECT_EQ(rows_after(3071), 1500u);  // at 2048 there are too few, then the last chunk is not whole
+  EXPECT_EQ(rows_after(3072), 3072u);
+  EXPECT_EQ(rows_after(20480), 20480u);
+  EXPECT_EQ(rows_after(20480 + 2048), 20480u);  // an eighth is more than two chunks
+  EXPECT_EQ(rows_after(20480 + 3072), 23552u);
+}
+
 TEST(History, GrowsOverSeveralFlushesAndComesBack) {
   ScratchFolder dir;
   History history(dir / "history.h5", 3);

@@ -1,6 +1,7 @@
 // Analyses from recipes over particles with known fields.
 #include "post/analysis.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "../output/output_test.hpp"
@@ -328,6 +329,57 @@ TEST(Force, OnTheWallsFromHistories) {
   EXPECT_NEAR(run.scalar("wall", "force_y_contact7_integral"), 3.75, 1e-12);
   EXPECT_NEAR(run.column("h", "v")[3], 8, 1e-12);
   EXPECT_NE(test::read_text(run.out() / "wall.csv").find("force_y_contact7 [N]"), std::string::npos);
+}
+
+TEST(History, OfAsciiFilesHereAndElsewhere) {
+  Analyses run(
+      "analyses:\n"
+      "  - {kind: history, name: ours, file: rcforc, id: 7, of: [{name: push, of: y, side: SURFB, factor: "
+      "2}, "
+      "{name: x, of: x, side: SURFA, unit: lbf}]}\n"
+      "  - {kind: history, name: theirs, file: lsdyna/rcforc_of_mine, side: SURFA, of: [y, mx], from: "
+      "0.15}\n");
+  const auto lines = [](Real t, Real y, const char* more) {
+    return fmt::format(
+        "  SURFA           7 time {0:11.5E}  x  1.00000E+00  y {1:12.5E}  z  0.00000E+00{2}\n"
+        "  SURFB           7 time {0:11.5E}  x -1.00000E+00  y {3:12.5E}  z  0.00000E+00{2}\n",
+        t, y, more, -y);
+  };
+  std::string ours = " title\n  date\n", theirs = ours;
+  for (int s = 0; s < 3; ++s) ours += lines(0.1 * s, -s, "");
+  for (int s = 0; s < 5; ++s) theirs += lines(0.05 * s, s, "  mx  2.50000E+00");
+  write_file(run.folder() / "rcforc", ours);
+  make_folder(run.folder() / "lsdyna");
+  write_file(run.folder() / "lsdyna/rcforc_of_mine", theirs);
+  run.finish();
+  EXPECT_EQ(run.column("ours", "push"), (std::vector<Real>{0, 2, 4}));
+  EXPECT_EQ(run.column("theirs", "y_SURFA"), (std::vector<Real>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(run.column("theirs", "t")[3], 0.15);
+  EXPECT_NEAR(run.scalar("theirs", "y_SURFA_mean"), 3.5, 1e-12);
+  const std::string csv = test::read_text(run.out() / "ours.csv");
+  EXPECT_EQ(csv.find("t [s],push [N],x [lbf]"), 0u) << csv;
+  EXPECT_EQ(test::read_text(run.out() / "theirs.csv").find("t [s],y_SURFA [N],mx_SURFA"), 0u);
+}
+
+TEST(History, FaultsOfAsciiFiles) {
+  const auto fault = [](const std::string& analysis) {
+    Analyses run("analyses:\n  - " + analysis + "\n");
+    write_file(run.folder() / "glstat",
+               " dt of cycle       1 is controlled by sph 1\n"
+               " time...........................   0.00000E+00\n"
+               " kinetic energy.................   1.00000E+00\n");
+    return run.fail();
+  };
+  EXPECT_NE(fault("{kind: history, name: h, file: nowhere, of: [x]}")
+                .find("nowhere: error: cannot read the history"),
+            std::string::npos);
+  const std::string text = fault("{kind: history, name: h, file: glstat, of: [kinetic energi]}");
+  EXPECT_NE(text.find("recipe.yaml:2:5: error: analysis 'h': "), std::string::npos) << text;
+  EXPECT_NE(text.find("glstat has no 'kinetic energi'\n  hint: did you mean 'kinetic energy'?"),
+            std::string::npos);
+  EXPECT_NE(fault("{kind: history, name: h, file: glstat, id: 3, of: [kinetic energy]}")
+                .find("glstat has no 'kinetic energy' of 3\n  hint: it belongs to the whole"),
+            std::string::npos);
 }
 
 TEST(Analyses, FaultsOfResultsNameTheAnalysis) {

@@ -46,6 +46,14 @@ void fill_channel(World& world, Real x_jump) {
   }
 }
 
+/// One state whose jump stands at x = 0.5.
+void write_state(const ScratchFolder& dir) {
+  FieldWriter writer(dir.path(), {.part_ids = {1}});
+  World world;
+  fill_channel(world, 0.5);
+  writer.write(world, 0, 0);
+}
+
 /// The jump stands at x = 1.2 (outside) before 1 s, then goes upstream from 0.9 at 0.1 m/s; a state every 0.1
 /// s.
 void write_run(const ScratchFolder& dir, const std::string& title, int states = 51) {
@@ -94,10 +102,7 @@ TEST(Post, HydraulicJumpFromFieldFilesToResults) {
 
 TEST(Post, ProbeOnTheLine) {
   ScratchFolder dir;
-  FieldWriter writer(dir.path(), {.part_ids = {1}});
-  World world;
-  fill_channel(world, 0.5);
-  writer.write(world, 0, 0);
+  write_state(dir);
   Diagnostics diagnostics;
   ASSERT_TRUE(run_post(
       write(dir, "probes: [{name: gauge, x: 0.8}]\n"), dir.path(), [](std::string_view) {}, diagnostics))
@@ -117,10 +122,7 @@ TEST(Post, FolderWithoutResults) {
 
 TEST(Post, TruncatedFieldFile) {
   ScratchFolder dir;
-  FieldWriter writer(dir.path(), {.part_ids = {1}});
-  World world;
-  fill_channel(world, 0.5);
-  writer.write(world, 0, 0);
+  write_state(dir);
   const auto file = dir / "fields/particles_0000.vtp";
   const auto size = std::filesystem::file_size(file);
   for (const auto left :
@@ -205,10 +207,7 @@ TEST(Recipe, FaultsOfAnalysesWithTheirPlaces) {
 
 TEST(Post, FiguresThatNameWhatIsNotThere) {
   ScratchFolder dir;
-  FieldWriter writer(dir.path(), {.part_ids = {1}});
-  World world;
-  fill_channel(world, 0.5);
-  writer.write(world, 0, 0);
+  write_state(dir);
   const auto recipe = write(dir,
                             "analyses: [{kind: surface, name: depth, x: [0.2, 0.8]}]\n"
                             "figures:\n"

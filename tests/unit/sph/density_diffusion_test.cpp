@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "app/simulation.hpp"
+#include "../app/small_scene.hpp"
 
 namespace courant {
 
@@ -29,12 +29,7 @@ std::unique_ptr<Simulation> tank(const std::string& more, Real noise) {
     pressures += fmt::format("{},{:.17g},{:.17g},{:.17g},0,0,0,0\n", k + 1, -p, -p, -p);
   }
   text += elements + pressures + "*END\n";
-  ReadOptions options;
-  options.open = [&](const std::string&) { return std::optional<std::string>(text); };
-  Diagnostics diagnostics;
-  auto s = Simulation::build("deck.k", options, diagnostics);
-  if (!s) throw std::runtime_error(diagnostics.text());
-  return s;
+  return test::build_deck(text);
 }
 
 const std::string on = "*COURANT_DENSITY_DIFFUSION\n0.1\n";

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "app/simulation.hpp"
+#include "../app/small_scene.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
@@ -53,12 +53,7 @@ struct Tank {
 };
 
 States run(const Tank& tank, Simulation** keep = nullptr) {
-  const std::string text = tank.deck();
-  ReadOptions options;
-  options.open = [&](const std::string&) { return std::optional<std::string>(text); };
-  Diagnostics diagnostics;
-  auto s = Simulation::build("deck.k", options, diagnostics);
-  EXPECT_EQ(diagnostics.text(), "");
+  auto s = test::build_deck(tank.deck());
   States out;
   if (!s) return out;
   while (s->clock().t < tank.endtim)
@@ -183,11 +178,8 @@ TEST(Images, AParticleThatBouncesOnAMirrorKeepsItsEnergy) {
       "*CONTROL_TIMESTEP\n0,0.5,0,0,0,2\n*DEFINE_CURVE\n2\n0,1e-3\n9,1e-3\n"
       "*BOUNDARY_SPH_SYMMETRY_PLANE\n0,0,0,0,1,0\n*LOAD_BODY_Y\n1,10.0\n*DEFINE_CURVE\n1\n0,1\n100,1\n"
       "*NODE\n1,0,0.5,0\n*ELEMENT_SPH\n1,1,0.1\n*INITIAL_VELOCITY_NODE\n1,0,-3\n*END\n";
-  ReadOptions options;
-  options.open = [&](const std::string&) { return std::optional<std::string>(deck); };
-  Diagnostics diagnostics;
-  const auto s = Simulation::build("deck.k", options, diagnostics);
-  ASSERT_EQ(diagnostics.text(), "");
+  const auto s = test::build_deck(deck);
+  ASSERT_TRUE(s);
   Real lowest = 1e9, highest = 0;
   while (s->clock().t < 6)
     s->step([&](World& world, const Clock& clock, const std::string&) {

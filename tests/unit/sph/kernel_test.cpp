@@ -3,45 +3,122 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <type_traits>
+
+#include "sph/kernel_choice.hpp"
 
 using namespace courant;
 
 namespace {
 
+template <class Kernel>
+class EveryKernel : public testing::Test {};
+
+using Kernels =
+    testing::Types<CubicSpline, QuinticSpline, QuadraticSpline, QuarticSpline, WendlandC2, WendlandC4>;
+TYPED_TEST_SUITE(EveryKernel, Kernels);
+
 /// Integral of W over its support by the midpoint rule in the radius.
-template <int Dim>
+template <class Kernel, int Dim>
 Real integral(Real h) {
   const int n = 20000;
-  const Real dr = 2 * h / n;
+  const Real dr = Kernel::support * h / n;
   Real total = 0;
   for (int k = 0; k < n; ++k) {
     const Real r = (k + 0.5) * dr;
     const Real shell = Dim == 1 ? 2 : Dim == 2 ? 2 * pi * r : 4 * pi * r * r;
-    total += CubicSpline<Dim>::C * CubicSpline<Dim>::shape(r / h) / power<Dim>(h) * shell * dr;
+    total += Kernel::C(Dim) * Kernel::shape(r / h) / power<Dim>(h) * shell * dr;
   }
   return total;
 }
 
-}  // namespace
-
-TEST(CubicSpline, IntegratesToOneInEveryDimension) {
-  EXPECT_NEAR(integral<1>(0.3), 1, 1e-8);
-  EXPECT_NEAR(integral<2>(0.3), 1, 1e-8);
-  EXPECT_NEAR(integral<3>(0.3), 1, 1e-8);
+/// Calls f(R) at places within the support, none of them at a knot.
+template <class Kernel, class F>
+void at_places(F&& f) {
+  for (int k = 0; k < 200; ++k) f((k + 0.37) / 200 * Kernel::support);
 }
 
-TEST(CubicSpline, SlopeIsTheDerivativeOfTheShape) {
+TYPED_TEST(EveryKernel, IntegratesToOneInEveryDimension) {
+  EXPECT_NEAR((integral<TypeParam, 1>(0.3)), 1, 1e-8);
+  EXPECT_NEAR((integral<TypeParam, 2>(0.3)), 1, 1e-8);
+  EXPECT_NEAR((integral<TypeParam, 3>(0.3)), 1, 1e-8);
+}
+
+TYPED_TEST(EveryKernel, SlopeIsTheDerivativeOfTheShape) {
   const Real d = 1e-6;
-  for (const Real R : {0.1, 0.5, 0.999, 1.001, 1.7, 1.999, 2.5}) {
-    const Real differences = (CubicSpline<2>::shape(R + d) - CubicSpline<2>::shape(R - d)) / (2 * d);
-    EXPECT_NEAR(CubicSpline<2>::slope(R), differences, 1e-8) << R;
+  at_places<TypeParam>([&](Real R) {
+    const Real differences = (TypeParam::shape(R + d) - TypeParam::shape(R - d)) / (2 * d);
+    EXPECT_NEAR(TypeParam::slope(R), differences, 1e-8 * TypeParam::shape(0)) << R;
+  });
+}
+
+TYPED_TEST(EveryKernel, FallsToNothingAtItsSupport) {
+  Real before = TypeParam::shape(0);
+  at_places<TypeParam>([&](Real R) {
+    EXPECT_LT(TypeParam::shape(R), before) << R;
+    before = TypeParam::shape(R);
+  });
+  EXPECT_GT(TypeParam::shape(0.99 * TypeParam::support), 0);
+  for (const Real R : {TypeParam::support, TypeParam::support + 0.5, 10.0}) {
+    EXPECT_DOUBLE_EQ(TypeParam::shape(R), 0);
+    EXPECT_DOUBLE_EQ(TypeParam::slope(R), 0);
+    EXPECT_DOUBLE_EQ(TypeParam::gradient(R), 0);
+    EXPECT_DOUBLE_EQ(TypeParam::half_curvature(R), 0);
   }
 }
 
-TEST(CubicSpline, HasTheShapeOfEquation10) {
-  EXPECT_DOUBLE_EQ(CubicSpline<3>::shape(0), 1);
-  EXPECT_DOUBLE_EQ(CubicSpline<3>::shape(1), 0.25);
-  EXPECT_DOUBLE_EQ(CubicSpline<3>::shape(0.5), 1 - 1.5 * 0.25 + 0.75 * 0.125);
-  EXPECT_DOUBLE_EQ(CubicSpline<3>::shape(2), 0);
-  EXPECT_DOUBLE_EQ(CubicSpline<3>::slope(3), 0);
+TYPED_TEST(EveryKernel, PairLoopsTakeTheSameSlope) {
+  const Real d = 1e-6;
+  at_places<TypeParam>([&](Real R) {
+    EXPECT_NEAR(TypeParam::gradient_factor * TypeParam::gradient(R), TypeParam::slope(R),
+                1e-14 * TypeParam::shape(0))
+        << R;
+    const Real differences = (TypeParam::gradient(R + d) - TypeParam::gradient(R - d)) / (2 * d);
+    EXPECT_NEAR(2 * TypeParam::half_curvature(R), differences, 1e-7 * TypeParam::shape(0)) << R;
+  });
 }
+
+TYPED_TEST(EveryKernel, IsSteepestWhereItSays) {
+  const Real steepest = TypeParam::steepest;
+  at_places<TypeParam>([&](Real R) { EXPECT_LE(-TypeParam::slope(R), -TypeParam::slope(steepest)) << R; });
+  for (int k = 0; k <= 20; ++k) {
+    const Real R = steepest * k / 20;
+    EXPECT_NEAR(TypeParam::dip(R), TypeParam::shape(0) - TypeParam::shape(R), 1e-14 * TypeParam::shape(0));
+    EXPECT_NEAR(TypeParam::steepness(R), -TypeParam::slope(R), 1e-14 * TypeParam::shape(0));
+  }
+  EXPECT_EQ(TypeParam::kink, TypeParam::slope(0) != 0);
+}
+
+TEST(CubicSpline, HasTheShapeOfEquation10) {
+  EXPECT_DOUBLE_EQ(CubicSpline::shape(0), 1);
+  EXPECT_DOUBLE_EQ(CubicSpline::shape(1), 0.25);
+  EXPECT_DOUBLE_EQ(CubicSpline::shape(0.5), 1 - 1.5 * 0.25 + 0.75 * 0.125);
+  EXPECT_DOUBLE_EQ(CubicSpline::shape(2), 0);
+  EXPECT_DOUBLE_EQ(CubicSpline::slope(3), 0);
+}
+
+/// Values from the formulas as they are printed, worked out with fractions.
+TEST(EveryKernelOf, TheLiteratureHasItsValues) {
+  EXPECT_DOUBLE_EQ(QuinticSpline::shape(0), 66);
+  EXPECT_DOUBLE_EQ(QuinticSpline::shape(1), 26);
+  EXPECT_DOUBLE_EQ(QuinticSpline::shape(2), 1);
+  EXPECT_DOUBLE_EQ(QuadraticSpline::shape(0), 0.75);
+  EXPECT_DOUBLE_EQ(QuadraticSpline::shape(1), 3.0 / 16 - 3.0 / 4 + 3.0 / 4);
+  EXPECT_DOUBLE_EQ(QuarticSpline::shape(0), 14.375);
+  EXPECT_DOUBLE_EQ(QuarticSpline::shape(0.5), 11);
+  EXPECT_DOUBLE_EQ(QuarticSpline::shape(1.5), 1);
+  EXPECT_DOUBLE_EQ(WendlandC2::shape(1), 3.0 / 16);
+  EXPECT_DOUBLE_EQ(WendlandC4::shape(1), (1 + 3 + 35.0 / 12) / 64);
+}
+
+TEST(KernelChoice, LeadsToItsKernel) {
+  EXPECT_STREQ(kernel_name(KernelChoice::cubic_spline), "cubic spline");
+  EXPECT_EQ(kernel_support(KernelChoice::quintic_spline), 3);
+  EXPECT_EQ(kernel_support(KernelChoice::quartic_spline), 2.5);
+  EXPECT_STREQ(kernel_name(KernelChoice::wendland_c2), "Wendland C2");
+  for (const KernelChoice a : every_kernel)
+    for (const KernelChoice b : every_kernel)
+      EXPECT_EQ(a == b, std::string(kernel_name(a)) == kernel_name(b));
+}
+
+}  // namespace

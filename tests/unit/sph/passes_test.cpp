@@ -36,7 +36,7 @@ Index middle(const World& world) {
 
 /// dW/dr of the 2D kernel
 Real kernel_slope_2d(Real r, Real h) {
-  return CubicSpline<2>::C * CubicSpline<2>::slope(r / h) / (h * h * h);
+  return CubicSpline::C(2) * CubicSpline::slope(r / h) / (h * h * h);
 }
 
 struct Case {

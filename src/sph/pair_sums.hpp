@@ -1,89 +1,60 @@
-// Compiled once for each instruction set; see docs/architecture.md.
-#include "sph/pair_loops.hpp"
-
-#include "base/simd.hpp"
+#pragma once
+// The loops over pairs for any kernel, included by one file *_loops.cpp for each kernel, which is compiled
+// once for each instruction set; see docs/architecture.md.
 #include "sph/kernel.hpp"
+#include "sph/pair_loops.hpp"
+#include "sph/pair_packs.hpp"
 
 namespace courant::COURANT_SIMD {
 
-namespace {
+COURANT_INLINE Pack positive(const Pack& a) {
+  return max(a, Pack::zero());
+}
 
 /// The factor that turns `gradient_shape` into (dW/dr)/r.
-template <int Dim>
+template <class Kernel, int Dim>
 COURANT_INLINE Real gradient_norm(Real h) {
-  return -0.75 * CubicSpline<Dim>::C / power<Dim + 1>(h);
+  constexpr Real C = Kernel::gradient_factor * Kernel::C(Dim);
+  return C / power<Dim + 1>(h);
 }
-template <int Dim>
+template <class Kernel, int Dim>
 COURANT_INLINE Pack gradient_norm(const Pack& hinv) {
-  return -0.75 * CubicSpline<Dim>::C * hinv * hinv * hinv * (Dim == 3 ? hinv : Pack::of(1));
+  constexpr Real C = Kernel::gradient_factor * Kernel::C(Dim);
+  return C * hinv * hinv * hinv * (Dim == 3 ? hinv : Pack::of(1));
 }
-/// Slope of the cubic spline times -4/3, over r.
+/// Slope of the kernel, but for a constant, over r.
+template <class Kernel>
 COURANT_INLINE Pack gradient_shape(const Pack& R, const Pack& rinv) {
-  const Pack a = max(2 - R, Pack::zero()), b = max(1 - R, Pack::zero());
-  return (a * a - 4 * (b * b)) * rinv;
+  return Kernel::gradient(R) * rinv;
 }
 
 /// The same, and how it changes with time, times u.d: (dW/dr)'/r of the radial velocity q, and what turning
-/// does.
+/// does. `u2`: u.u; `half_step`: half of the step. Where the slope is not 0 at r = 0, a pair that passes
+/// closer than it moves in half a step turns no faster than over that distance.
+template <class Kernel>
 struct MovingShape {
   Pack shape, later;
   COURANT_INLINE MovingShape(const Pack& R, const Pack& rinv, const Pack& two_hinv, const Pack& q,
-                             const Pack& u2)
+                             const Pack& u2, [[maybe_unused]] const Pack& r2, [[maybe_unused]] Real half_step)
       : shape(Pack::zero()), later(Pack::zero()) {
-    const Pack a = max(2 - R, Pack::zero()), b = max(1 - R, Pack::zero()), q2 = q * q;
-    shape = (a * a - 4 * (b * b)) * rinv;
-    later = (4 * b - a) * two_hinv * q2 + shape * (u2 - q2);
+    const Pack gradient = Kernel::gradient(R), half_curvature = Kernel::half_curvature(R), q2 = q * q;
+    shape = gradient * rinv;
+    if constexpr (Kernel::kink)
+      later = half_curvature * two_hinv * q2 + gradient * rsqrt(r2 + half_step * half_step * u2) * (u2 - q2);
+    else
+      later = half_curvature * two_hinv * q2 + shape * (u2 - q2);
   }
 };
 
-/// Eight particles i.
-template <int Dim>
-struct Places {
-  Pack x, y, z;
-  COURANT_INLINE Places(const Real* const p[3], Index i, Index count)
-      : x(Pack::load(p[0] + i, count)), y(Pack::load(p[1] + i, count)), z(Pack::zero()) {
-    if constexpr (Dim == 3) z = Pack::load(p[2] + i, count);
-  }
-};
-/// x_i - x_j
-template <int Dim>
-struct Difference {
-  Pack x, y, z;
-  COURANT_INLINE Difference(const Places<Dim>& i, const Real* const p[3], std::ptrdiff_t j)
-      : x(i.x - p[0][j]), y(i.y - p[1][j]), z(Pack::zero()) {
-    if constexpr (Dim == 3) z = i.z - p[2][j];
-  }
-};
-template <int Dim>
-COURANT_INLINE Pack dot(const Difference<Dim>& a, const Difference<Dim>& b) {
-  const Pack two = a.x * b.x + a.y * b.y;
-  if constexpr (Dim == 3) return two + a.z * b.z;
-  return two;
-}
-
-template <int Dim>
-struct Sum {
-  Pack x = Pack::zero(), y = Pack::zero(), z = Pack::zero();
-  COURANT_INLINE void add(const Pack& w, const Difference<Dim>& d) {
-    x += w * d.x;
-    y += w * d.y;
-    if constexpr (Dim == 3) z += w * d.z;
-  }
-  COURANT_INLINE void add_to(Real* const f[3], Index i, Index count, const Pack& factor) const {
-    (Pack::load(f[0] + i, count) + factor * x).store(f[0] + i, count);
-    (Pack::load(f[1] + i, count) + factor * y).store(f[1] + i, count);
-    if constexpr (Dim == 3) (Pack::load(f[2] + i, count) + factor * z).store(f[2] + i, count);
-  }
-};
-
-template <int Dim, bool UniformH, bool Viscous, bool Gradient, Geometry geometry>
+template <class Kernel, int Dim, bool UniformH, bool Viscous, bool Gradient, Geometry geometry>
 void rates(const PairArrays& a, const PairLists& lists) {
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
     const Pack hi = UniformH ? Pack::of(a.h0) : Pack::load(a.h + i, count);
     const Pack hinv = UniformH ? Pack::of(1 / a.h0) : 1 / hi;
-    const Pack norm = UniformH ? Pack::of(gradient_norm<Dim>(a.h0)) : gradient_norm<Dim>(hinv);
+    const Pack norm =
+        UniformH ? Pack::of(gradient_norm<Kernel, Dim>(a.h0)) : gradient_norm<Kernel, Dim>(hinv);
     const Pack tiny = tiny_distance2 * hi * hi, two_hinv = 2 * hinv;
     const Pack mi = Viscous ? Pack::load(a.m + i, count) : Pack::zero();
     const Pack Vi = Viscous ? Pack::load(a.V + i, count) : Pack::zero();
@@ -101,7 +72,8 @@ void rates(const PairArrays& a, const PairLists& lists) {
         div += w * u_dot_d;
       } else {
         rinv = rsqrt(r2);
-        const MovingShape kernel(r2 * rinv * hinv, rinv, two_hinv, u_dot_d * rinv, dot(u, u));
+        const MovingShape<Kernel> kernel(r2 * rinv * hinv, rinv, two_hinv, u_dot_d * rinv, dot(u, u), r2,
+                                         a.half_step);
         if constexpr (geometry == Geometry::store) kernel.shape.store(lists.g + std::ptrdiff_t(k) * lanes);
         w = kernel.shape * a.V[j];
         div += w * u_dot_d - kernel.later * (a.half_step * a.V[j]);
@@ -109,9 +81,9 @@ void rates(const PairArrays& a, const PairLists& lists) {
       if constexpr (Viscous) {
         Pack h = hi, pair = w;  // (dW/dr)/r V_j / norm, mean of both where h differs
         if constexpr (!UniformH) {
-          const Real hj = a.h[j], ratio = gradient_norm<Dim>(hj);
+          const Real hj = a.h[j], ratio = gradient_norm<Kernel, Dim>(hj);
           h = 0.5 * (hi + hj);
-          pair = 0.5 * (w + gradient_shape(r2 * rinv * (1 / hj), rinv) * (a.V[j] * ratio) / norm);
+          pair = 0.5 * (w + gradient_shape<Kernel>(r2 * rinv * (1 / hj), rinv) * (a.V[j] * ratio) / norm);
         }
         // m_j Pi V_i / V_j with 1/(rho_i + rho_j) = V_i V_j / (m_i V_j + m_j V_i)
         const Pack approach = h * max(0 - u_dot_d, Pack::zero()), D = r2 + 0.01 * (h * h);
@@ -144,14 +116,15 @@ void rates(const PairArrays& a, const PairLists& lists) {
   }
 }
 
-template <int Dim, bool UniformH, bool Stress, bool Diffusion, Geometry geometry>
+template <class Kernel, int Dim, bool UniformH, bool Stress, bool Diffusion, Geometry geometry>
 void forces(const PairArrays& a, const PairLists& lists) {
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> xi(a.x, i, count);
     const Pack hi = UniformH ? Pack::of(a.h0) : Pack::load(a.h + i, count);
     const Pack hinv = UniformH ? Pack::of(1 / a.h0) : 1 / hi;
-    const Pack norm = UniformH ? Pack::of(gradient_norm<Dim>(a.h0)) : gradient_norm<Dim>(hinv);
+    const Pack norm =
+        UniformH ? Pack::of(gradient_norm<Kernel, Dim>(a.h0)) : gradient_norm<Kernel, Dim>(hinv);
     const Pack tiny = tiny_distance2 * hi * hi, pi = Pack::load(a.p + i, count);
     Pack ti[6];
     if constexpr (Stress)
@@ -168,9 +141,10 @@ void forces(const PairArrays& a, const PairLists& lists) {
         w = wj = Pack::load(lists.g + std::ptrdiff_t(k) * lanes) * a.V[j];
       } else {
         const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2);
-        w = wj = gradient_shape(r2 * rinv * hinv, rinv) * a.V[j];
+        w = wj = gradient_shape<Kernel>(r2 * rinv * hinv, rinv) * a.V[j];
         if constexpr (!UniformH)
-          wj = gradient_shape(r2 * rinv * (1 / a.h[j]), rinv) * (a.V[j] * gradient_norm<Dim>(a.h[j])) / norm;
+          wj = gradient_shape<Kernel>(r2 * rinv * (1 / a.h[j]), rinv) *
+               (a.V[j] * gradient_norm<Kernel, Dim>(a.h[j])) / norm;
       }
       if constexpr (UniformH)
         push.add(w * (pi + a.p[j]), d);
@@ -197,42 +171,48 @@ void forces(const PairArrays& a, const PairLists& lists) {
   }
 }
 
-template <int Dim, bool UniformH, bool Viscous, bool Gradient>
+template <class Kernel, int Dim, bool UniformH, bool Viscous, bool Gradient>
 PairLoop rates_of(Geometry geometry) {
   if constexpr (UniformH) {
-    if (geometry == Geometry::store) return &rates<Dim, true, Viscous, Gradient, Geometry::store>;
-    if (geometry == Geometry::load) return &rates<Dim, true, Viscous, Gradient, Geometry::load>;
+    if (geometry == Geometry::store) return &rates<Kernel, Dim, true, Viscous, Gradient, Geometry::store>;
+    if (geometry == Geometry::load) return &rates<Kernel, Dim, true, Viscous, Gradient, Geometry::load>;
   }
-  return &rates<Dim, UniformH, Viscous, Gradient, Geometry::compute>;
+  return &rates<Kernel, Dim, UniformH, Viscous, Gradient, Geometry::compute>;
 }
-template <int Dim, bool UniformH>
+template <class Kernel, int Dim, bool UniformH>
 PairLoop rates_of(const RatesChoice& c) {
   if (c.viscous)
-    return c.gradient ? rates_of<Dim, UniformH, true, true>(c.geometry)
-                      : rates_of<Dim, UniformH, true, false>(c.geometry);
-  return c.gradient ? rates_of<Dim, UniformH, false, true>(c.geometry)
-                    : rates_of<Dim, UniformH, false, false>(c.geometry);
+    return c.gradient ? rates_of<Kernel, Dim, UniformH, true, true>(c.geometry)
+                      : rates_of<Kernel, Dim, UniformH, true, false>(c.geometry);
+  return c.gradient ? rates_of<Kernel, Dim, UniformH, false, true>(c.geometry)
+                    : rates_of<Kernel, Dim, UniformH, false, false>(c.geometry);
 }
-template <int Dim, bool Stress, bool Diffusion>
-PairLoop forces_of(const ForcesChoice& c) {
-  if (!c.uniform_h) return &forces<Dim, false, Stress, Diffusion, Geometry::compute>;
-  return c.geometry == Geometry::load ? &forces<Dim, true, Stress, Diffusion, Geometry::load>
-                                      : &forces<Dim, true, Stress, Diffusion, Geometry::compute>;
-}
-template <int Dim>
-PairLoop forces_of(const ForcesChoice& c) {
-  if (c.diffusion) return c.stress ? forces_of<Dim, true, true>(c) : forces_of<Dim, false, true>(c);
-  return c.stress ? forces_of<Dim, true, false>(c) : forces_of<Dim, false, false>(c);
+template <class Kernel>
+PairLoop rates_of(const RatesChoice& c) {
+  if (c.dim == 2) return c.uniform_h ? rates_of<Kernel, 2, true>(c) : rates_of<Kernel, 2, false>(c);
+  return c.uniform_h ? rates_of<Kernel, 3, true>(c) : rates_of<Kernel, 3, false>(c);
 }
 
-}  // namespace
-
-PairLoop rates_loop(const RatesChoice& c) {
-  if (c.dim == 2) return c.uniform_h ? rates_of<2, true>(c) : rates_of<2, false>(c);
-  return c.uniform_h ? rates_of<3, true>(c) : rates_of<3, false>(c);
+template <class Kernel, int Dim, bool Stress, bool Diffusion>
+PairLoop forces_of(const ForcesChoice& c) {
+  if (!c.uniform_h) return &forces<Kernel, Dim, false, Stress, Diffusion, Geometry::compute>;
+  return c.geometry == Geometry::load ? &forces<Kernel, Dim, true, Stress, Diffusion, Geometry::load>
+                                      : &forces<Kernel, Dim, true, Stress, Diffusion, Geometry::compute>;
 }
-PairLoop forces_loop(const ForcesChoice& c) {
-  return c.dim == 2 ? forces_of<2>(c) : forces_of<3>(c);
+template <class Kernel, int Dim>
+PairLoop forces_of(const ForcesChoice& c) {
+  if (c.diffusion)
+    return c.stress ? forces_of<Kernel, Dim, true, true>(c) : forces_of<Kernel, Dim, false, true>(c);
+  return c.stress ? forces_of<Kernel, Dim, true, false>(c) : forces_of<Kernel, Dim, false, false>(c);
+}
+template <class Kernel>
+PairLoop forces_of(const ForcesChoice& c) {
+  return c.dim == 2 ? forces_of<Kernel, 2>(c) : forces_of<Kernel, 3>(c);
+}
+
+template <class Kernel>
+PairLoops loops_of() {
+  return {&rates_of<Kernel>, &forces_of<Kernel>};
 }
 
 }  // namespace courant::COURANT_SIMD

@@ -1,0 +1,301 @@
+#!/usr/bin/env python3
+"""
+Runs and evaluates the cases of Jonsson et al. (2016) and writes docs/hydraulic_jump_paper.md.
+
+usage: bash examples/hydraulic_jump/paper.sh [options]
+
+  --threads N       threads of each run (all cores)
+  --only NAME,...   these runs of paper_runs.yaml alone: d4,d5,d6,d10, d4_c1484, fr34, ...
+  --paper-setting   also the paper's speed of sound, 1484 m/s: hours
+  --standing        also jumps that stand still, Froude numbers 2.4 to 6.5
+  --results FOLDER  where runs go (results/hydraulic_jump_paper)
+  --page FILE       the page (docs/hydraulic_jump_paper.md); its figures go to figures/hydraulic_jump beside it
+  --quick           0.2 s in place of each run, to try the script: results/hydraulic_jump_quick, and the page in there
+
+A complete run that is younger than its deck and the program is taken over. One that was stopped (Ctrl-C) or killed goes on from its
+restart file. A run that fails is reported, the others go on. The page shows all runs that are complete in the folder.
+Exit code: 0 all is done, 1 a run or its evaluation failed, 2 the call was wrong, 130 interrupted.
+
+"""
+import argparse
+import os
+import pathlib
+import re
+import signal
+import statistics
+import subprocess
+import sys
+import time
+
+import yaml
+
+import paper_evaluate
+import paper_page
+from paper_evaluate import Failure, age
+
+HERE = pathlib.Path(__file__).resolve().parent
+PROJECT = HERE.parents[1]
+SCENES = PROJECT / "keyword_decks" / "hydraulic_jump"
+FIRST_GUESS = 150        # ns per particle and step on one thread, until a run has told
+RESTART_WORK = 1.0e9     # particle-steps between restart files: a minute or two
+QUICK = {"endtim": 0.2, "settled": [0.05, 0.2], "segment": 0.15}
+
+
+class Run:
+    """One line of paper_runs.yaml with its files and what is known of its size."""
+
+    def __init__(self, entry, results, quick):
+        self.__dict__.update(segment=1, figures=False, toe=0)
+        self.__dict__.update(entry)
+        self.parameters = dict(entry["parameters"])
+        if quick:
+            self.parameters["endtim"] = QUICK["endtim"]
+            self.settled, self.segment = QUICK["settled"], QUICK["segment"]
+        self.folder = results / self.name
+        self.deck = results / f"{self.name}.k"
+        self.summary_file = self.folder / "summary.yaml"
+        self.work = self.steps = self.particles = 0  # particle-steps, steps, particles
+
+    def summary(self):
+        try:
+            return yaml.safe_load(self.summary_file.read_text()) or {}
+        except (OSError, yaml.YAMLError):
+            return {}
+
+
+def say(text=""):
+    print(text, flush=True)
+
+
+def duration(seconds):
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    if seconds < 5400:
+        return f"{seconds / 60:.0f} min"
+    return f"{seconds / 3600:.1f} h"
+
+
+class Program:
+    """The courant that runs, with all its files."""
+
+    def __init__(self, courant):
+        self.courant = pathlib.Path(courant).resolve()
+        self.age = max([age(self.courant)] + [age(lib) for lib in self.courant.parent.glob("libcourant.so*")])
+
+    def call(self, *words):
+        """Runs to the end; output as text. An interrupt ends it."""
+        with subprocess.Popen([self.courant, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                              start_new_session=True) as child:
+            try:
+                out = child.communicate()[0]
+            except BaseException:
+                child.kill()
+                raise
+        if child.returncode != 0:
+            raise Failure(f"courant {words[0]} ended with exit code {child.returncode}:\n{out[-2000:]}")
+        return out
+
+
+# ---- decks
+
+def make_deck(run, program):
+    """Generates the deck, with a card for restart files; one that is as before keeps its age."""
+    fresh = run.deck.with_suffix(".new")
+    words = [f"--param={name}={value}" for name, value in run.parameters.items()]
+    program.call("generate", SCENES / run.scene, "-o", fresh, *words)
+    measure(run, program.call("check", fresh))
+    cycles = max(1000, round(RESTART_WORK / (run.work / run.steps), -3))
+    text = fresh.read_text()
+    head, end, tail = text.rpartition("*END")
+    if not end:
+        raise Failure(f"{fresh} has no *END")
+    text = head + f"*DATABASE_BINARY_RUNRSF\n$#    cycl        nr\n{cycles:10.0f}         1\n" + end + tail
+    fresh.unlink()
+    if not run.deck.exists() or run.deck.read_text() != text:
+        run.deck.write_text(text)
+
+
+def measure(run, report):
+    """What `courant check` says of the size of a run."""
+    size = re.search(r"spacing ([\d.e+-]+) \[L\], (\d+) particles", report)
+    steps = re.search(r"(\d+) steps to ENDTIM", report)
+    if not size or not steps:
+        raise Failure("courant check does not tell spacing, particles and steps:\n" + report[-2000:])
+    run.particles, run.steps = int(size[2]), int(steps[1])
+    run.work = run.steps * min(run.particles, run.water / float(size[1]) ** 2)
+
+
+# ---- what is there already
+
+def is_complete(run, program):
+    return run.summary().get("termination") == "normal" and age(run.summary_file) > max(age(run.deck), program.age)
+
+
+def can_go_on(run, program):
+    """A run of this deck by this program was stopped or killed and left a restart file."""
+    files = list((run.folder / "restart").glob("*.h5"))
+    newest = max(map(age, files), default=0)
+    return newest > max(age(run.deck), program.age) and run.summary().get("termination") in (None, "interrupted")
+
+
+# ---- running
+
+class Clock:
+    """Estimates: particles x steps x ns per particle and step, the last one from the runs that are done."""
+
+    def __init__(self, runs, threads):
+        self.threads, self.rates, self.ratios = threads, [], []
+        for run in runs:
+            self.learn(run)
+
+    def learn(self, run):
+        summary = run.summary()
+        if summary.get("termination") != "normal" or summary.get("threads") != self.threads or not run.work:
+            return
+        self.rates.append(summary["ns_per_particle_step"])
+        self.ratios.append(summary["particle_steps"] / run.work)
+
+    def seconds(self, run):
+        ns = statistics.median(self.rates) if self.rates else FIRST_GUESS / self.threads**0.8
+        work = statistics.median(self.ratios) if self.ratios else 1
+        return run.work * work * ns * 1e-9
+
+
+def reached(run, interval=0.01):
+    """The time of the last field state."""
+    return max(0, len(list((run.folder / "fields").glob("*.vtp"))) - 1) * interval
+
+
+def watch(child, run, later, clock):
+    """Tells now and then how far a run is, until it ends. later: estimated seconds of the runs behind it."""
+    end, begin, start = run.parameters["endtim"], reached(run), time.time()
+    terminal, told = sys.stdout.isatty(), start
+    while True:
+        try:
+            child.wait(2)
+            break
+        except subprocess.TimeoutExpired:
+            pass
+        if time.time() - told < (5 if terminal else 120):
+            continue
+        told, t = time.time(), reached(run)
+        if t <= begin + 0.02 * end:
+            left = clock.seconds(run) * (1 - begin / end) - (told - start)
+        else:
+            left = (told - start) * (end - t) / (t - begin)
+        text = f"  {run.name}: t = {t:.2f} of {end:g} s, {duration(max(0, left))} left; all runs {duration(max(0, left) + later)}"
+        print(f"\r{text:<78}" if terminal else text, end="" if terminal else "\n", flush=True)
+    if terminal and told != start:
+        print("\r" + " " * 78 + "\r", end="")
+
+
+def execute(run, program, threads, later, clock):
+    words = [program.courant, "run", run.deck, "-o", run.folder, "--threads", threads, "--quiet"]
+    if can_go_on(run, program):
+        words += ["--restart", run.folder]
+        say(f"{run.name}: goes on from its restart file at t = {reached(run):.2f} s")
+    else:
+        for stale in (run.summary_file, run.folder / paper_evaluate.EVALUATED):
+            stale.unlink(missing_ok=True)
+        say(f"{run.name}: runs, {run.particles} particles, {run.steps} steps, about {duration(clock.seconds(run))}")
+    run.folder.mkdir(parents=True, exist_ok=True)
+    # a session of its own: Ctrl-C reaches it once, through us
+    log = open(run.folder / "messages.txt", "w")
+    child = subprocess.Popen(list(map(str, words)), stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
+    try:
+        watch(child, run, later, clock)
+    except KeyboardInterrupt:
+        child.send_signal(signal.SIGINT)
+        child.wait()
+        raise
+    finally:
+        log.close()
+    summary = run.summary()
+    if child.returncode != 0 or summary.get("termination") != "normal":
+        reason = summary.get("reason") or (run.folder / "messages.txt").read_text()[-2000:].strip()
+        raise Failure(f"the run ended with exit code {child.returncode}: {reason}")
+    clock.learn(run)
+    say(f"  done in {duration(summary['wall_seconds'])}, {summary['ns_per_particle_step']:.0f} ns per particle and step")
+
+
+# ---- the whole
+
+def read_options():
+    parser = argparse.ArgumentParser(usage=__doc__, add_help=False)
+    parser.add_argument("--courant", required=True)
+    parser.add_argument("--threads", type=int, default=os.cpu_count())
+    parser.add_argument("--only", default="")
+    parser.add_argument("--paper-setting", action="store_true")
+    parser.add_argument("--standing", action="store_true")
+    parser.add_argument("--results", type=pathlib.Path)
+    parser.add_argument("--page", type=pathlib.Path)
+    parser.add_argument("--quick", action="store_true")
+    options = parser.parse_args()
+    if options.threads < 1:
+        parser.error("--threads needs a number from 1 on")
+    options.results = (options.results or PROJECT / "results" / ("hydraulic_jump_quick" if options.quick else "hydraulic_jump_paper")).resolve()
+    options.page = (options.page or (options.results / "page.md" if options.quick else PROJECT / "docs" / "hydraulic_jump_paper.md")).resolve()
+    return options
+
+
+def choose(runs, options):
+    if options.only:
+        names = options.only.split(",")
+        unknown = set(names) - {run.name for run in runs}
+        if unknown:
+            say(f"--only: there is no run {', '.join(sorted(unknown))}; there are {', '.join(run.name for run in runs)}")
+            sys.exit(2)
+        return [run for run in runs if run.name in names]
+    groups = {"paper", "smooth", "better", "paper_setting" if options.paper_setting else "", "standing" if options.standing else ""}
+    return [run for run in runs if run.group in groups]
+
+
+def work_through(chosen, program, options):
+    """Runs and evaluates; names of what failed."""
+    failed = []
+    clock = Clock(chosen, options.threads)
+    waiting = [run for run in chosen if not is_complete(run, program)]
+    for run in chosen:
+        say(f"  {run.name:<10} " + ("is complete" if run not in waiting else f"about {duration(clock.seconds(run))} on {options.threads} thread(s)"))
+    if waiting:
+        say(f"  all together about {duration(sum(map(clock.seconds, waiting)))}; Ctrl-C stops, the same command goes on")
+    for run in chosen:
+        try:
+            if run in waiting:
+                waiting.remove(run)
+                execute(run, program, options.threads, sum(map(clock.seconds, waiting)), clock)
+            paper_evaluate.evaluate(run, program, SCENES, options.threads, say)
+        except (Failure, OSError) as error:
+            failed.append(run.name)
+            say(f"FAILED {run.name}: {error}")
+    return failed
+
+
+def main():
+    options = read_options()
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # SIGINT, too: it is ignored where a shell started us behind itself
+        signal.signal(number, signal.default_int_handler)
+    table = yaml.safe_load((HERE / "paper_runs.yaml").read_text())
+    options.results.mkdir(parents=True, exist_ok=True)
+    runs = [Run(entry, options.results, options.quick) for entry in table["runs"]]
+    chosen = choose(runs, options)
+    program = Program(options.courant)
+    try:
+        for run in chosen:
+            make_deck(run, program)
+        failed = work_through(chosen, program, options)
+        paper_page.write(options, runs, table["paper"], program, PROJECT)
+    except Failure as error:
+        say(f"Stopped: {error}")
+        return 1
+    except KeyboardInterrupt:
+        say("\nInterrupted; the same command goes on from here.")
+        return 130
+    say(f"Page: {options.page}")
+    if failed:
+        say(f"{len(failed)} of {len(chosen)} runs failed: {', '.join(failed)}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,175 @@
+"""Evaluates a run with the recipes of keyword_decks/hydraulic_jump: `courant post` measures, here its numbers are gathered in evaluated.yaml."""
+import csv
+import math
+import pathlib
+import re
+import shutil
+
+import yaml
+
+EVALUATED = "evaluated.yaml"
+
+
+class Failure(Exception):
+    """A run or its evaluation did not end well; the text says why."""
+
+
+def age(path):
+    """When a file was written; 0 if it is not there."""
+    try:
+        return path.stat().st_mtime
+    except OSError:
+        return 0
+
+
+def with_numbers(text, numbers):
+    """A recipe with other numbers behind its anchors (&from) or keys (segment:)."""
+    for key, value in numbers.items():
+        text, count = re.subn(re.escape(key) + r'\s+("[^"]*"|[^\s,}\]]+)', f"{key} {value}", text)
+        if count != 1:
+            raise Failure(f"the recipe has '{key}' {count} times, expected once")
+    return text
+
+
+def read_table(path):
+    """Columns of a CSV file by name; heads such as `vx_mean [m/s]` lose their unit."""
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))
+    return {name.split(" [")[0]: [float(row[k]) for row in rows[1:]] for k, name in enumerate(rows[0])}
+
+
+def mean(values):
+    values = [v for v in values if not math.isnan(v)]
+    return sum(values) / len(values) if values else math.nan
+
+
+def at(xs, ys, x):
+    """Linear between the points of a table."""
+    for a, b, ya, yb in zip(xs, xs[1:], ys, ys[1:]):
+        if a <= x <= b:
+            return ya + (yb - ya) * (x - a) / (b - a)
+    return math.nan
+
+
+def post(run, program, recipe, numbers, threads):
+    """Measures by a recipe with these numbers; its results.yaml."""
+    copy = run.folder / f"recipe_{recipe.name}"
+    copy.write_text(with_numbers(recipe.read_text(), numbers))
+    program.call("post", copy, run.folder, "--threads", threads)
+    kept = run.folder / f"results_{recipe.name}"
+    shutil.copy(run.folder / "results.yaml", kept)
+    return yaml.safe_load(kept.read_text())
+
+
+def scalars(results):
+    """Single numbers of all analyses: {analysis: {name: value}}."""
+    return {name: {key: float(one["value"]) for key, one in numbers.items()} for name, numbers in results["analyses"].items()}
+
+
+def window(run):
+    return {"&from": run.settled[0], "&to": run.settled[1]}
+
+
+# ---- the paper's cases
+
+def events(table, jump):
+    """When the depth at x = 1 m rises, and when the toe has come back to the gate."""
+    times, turn = table["t"], float(jump.get("turn", {}).get("time", math.inf))
+    rises = next((t for t, d in zip(times, table["depth_over_theory"]) if d > 0.5), math.nan)
+    gate = next((t for t, x in zip(times, table["toe"]) if t > turn and x <= 0.04), math.nan)
+    return {"depth_rises": rises, "at_gate": gate}
+
+
+def bed_and_volume(run, program, scenes, threads):
+    dx = 0.02 / run.parameters["resolution"]
+    rows = {"&y1": dx / 2, "&y2": 1.75 * dx, "&row1": f'"{dx} - y"', "&row2": f'"min(y - {dx}, {2.5 * dx} - y)"'}
+    post(run, program, scenes / "bed_and_volume.yaml", rows | window(run), threads)
+    folder = run.folder / "bed_and_volume"
+    first, second, depth = (read_table(folder / f"{name}.csv") for name in ("row1", "row2", "depths_mean"))
+    both = [(a, b) for a, b in zip(first["vx_mean"], second["vx_mean"]) if not math.isnan(a + b)]
+    ratio = mean([a for a, _ in both]) / mean([b for _, b in both]) if both else math.nan
+    filled = [f / d if d > 0 else math.nan for f, d in zip(depth["filled"], depth["mean"])]
+    return {"row1": first["vx_mean"][0], "row2": second["vx_mean"][0], "row_ratio": ratio,
+            "filled_ratio": filled[-1], "filled_ratio_mean": mean(filled), "depth": depth["mean"][-1], "filled": depth["filled"][-1]}
+
+
+def evaluate_paper(run, program, scenes, threads):
+    jump = post(run, program, scenes / "post.yaml", {}, threads)["jump"]
+    out = {"jump": jump, "events": events(read_table(run.folder / "depth.csv"), jump)}
+    out["bed"] = bed_and_volume(run, program, scenes, threads)
+    if run.figures:
+        numbers = window(run) | {"segment:": run.segment, "&toe": run.toe}
+        out["analyses"] = scalars(post(run, program, scenes / "paper_figures.yaml", numbers, threads))
+    return out
+
+
+# ---- standing jumps
+
+def deck_values(deck):
+    """What the scene wrote down: `$ value NAME NUMBER`."""
+    found = re.findall(r"^\$ value (\w+) (\S+)$", deck.read_text(), re.M)
+    return {name: float(value) for name, value in found}
+
+
+def local_inflow(folder, toe, deviation, d1):
+    """Depth and velocity of the jet three depths, or three deviations of the toe, upstream of the toe."""
+    surface, flux = read_table(folder / "surface_mean.csv"), read_table(folder / "fluxes_mean.csv")
+    x = toe - 3 * max(d1, deviation)
+    speeds = [p / m if m > 0 else math.nan for p, m in zip(flux["momentum_x_mean"], flux["mass_mean"])]
+    return x, at(surface["x"], surface["mean"], x), at(flux["at"], speeds, x)
+
+
+def sequent_depth(folder, values):
+    """Mean depth one to two d2 before the weir, by the surface and by the particles' volume."""
+    surface = read_table(folder / "surface_mean.csv")
+    low, high = values["basin"] - 2 * values["d2"], values["basin"] - values["d2"]
+    rows = [k for k, x in enumerate(surface["x"]) if low <= x <= high]
+    return mean([surface["mean"][k] for k in rows]), mean([surface["filled"][k] for k in rows])
+
+
+def evaluate_standing(run, program, scenes, threads):
+    values = deck_values(run.deck)
+    d1, recipe, folder = values["d1"], scenes / "standing_figures.yaml", run.folder / "standing"
+    numbers = window(run) | {"&segment": run.segment, "&end": round(values["basin"] - 0.02, 6), "&top": round(1.5 * values["d2"], 3)}
+    toe = scalars(post(run, program, recipe, numbers | {"&v1": values["v1"], "&d1": d1}, threads))["toe"]
+    x, depth, speed = local_inflow(folder, toe["toe_mean"], toe["toe_deviation"], d1)
+    at_gate = math.isnan(depth) or math.isnan(speed)
+    if at_gate:  # no jet to be seen: the inflow itself
+        depth, speed = d1, values["v1"]
+    found = scalars(post(run, program, recipe, numbers | {"&v1": speed, "&d1": depth}, threads))
+    behind, filled = sequent_depth(folder, values)
+    froude = speed / math.sqrt(9.81 * depth)
+    return {"analyses": found, "values": values,
+            "local": {"x": x, "d1": depth, "v1": speed, "froude": froude, "at_gate": at_gate, "d2": behind, "d2_filled": filled,
+                      "d2_theory": depth / 2 * (math.sqrt(1 + 8 * froude**2) - 1)}}
+
+
+# ---- all
+
+def is_fresh(run, program, scenes):
+    made_from = [run.summary_file, pathlib.Path(__file__), *scenes.glob("*.yaml")]
+    done = run.folder / EVALUATED
+    return age(done) > max(program.age, *map(age, made_from))
+
+
+def evaluate(run, program, scenes, threads, say):
+    if is_fresh(run, program, scenes):
+        return
+    say(f"{run.name}: is evaluated")
+    work = evaluate_standing if run.group == "standing" else evaluate_paper
+    out = work(run, program, scenes, threads)
+    summary = run.summary()
+    energy = summary["energy"]
+    out["run"] = {key: summary[key] for key in ("version", "threads", "particles", "steps", "particle_steps", "wall_seconds", "cpu_seconds",
+                                                "ns_per_particle_step", "leaked_particles", "max_penetration")}
+    out["run"]["residual"] = abs(energy["residual"]) / energy["throughput"]
+    out["run"]["settled"] = list(run.settled)
+    (run.folder / EVALUATED).write_text(yaml.safe_dump(out, sort_keys=False))
+
+
+def evaluated(run):
+    """What `evaluate` found, or None."""
+    try:
+        return yaml.safe_load((run.folder / EVALUATED).read_text())
+    except OSError:
+        return None

@@ -1,0 +1,207 @@
+"""Writes the page: tables from what `paper_evaluate` gathered, figures from what `courant post` drew."""
+import math
+import os
+import pathlib
+import platform
+import subprocess
+import time
+
+import paper_figures
+from paper_evaluate import EVALUATED, age, evaluated
+
+SETTINGS = ("*plates*: `scene.yaml` as the paper has it, with c0 = 30 m/s; *smooth bed*: `smooth_bed.yaml`, a bed that is a symmetry plane, all else as before; *better*: the same "
+            "bed, an eddy viscosity of v1 d1/22 at all spacings (q1 = 0.06 to 0.15), density diffusion 0.1, volume control with TAU = 0.1 s; *c0 = 1484 m/s*: `scene.yaml` "
+            "with the paper's speed of sound.\n")
+
+
+def number(value, form="{:.3g}"):
+    """A number for a cell; a dash where there is none."""
+    if value is None:
+        return "-"
+    value = float(value)
+    return "-" if math.isnan(value) or math.isinf(value) else form.format(value)
+
+
+def percent(value, digits=1):
+    return number(value, "{:.%df} %%" % digits) if value is None else number(100 * float(value), "{:.%df} %%" % digits)
+
+
+def hours(seconds):
+    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows])
+
+
+def machine():
+    """Processor, cores, memory and system of this computer, as far as it tells."""
+    processor, memory, system = platform.machine(), "", platform.system()
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines() if pathlib.Path("/proc/cpuinfo").exists() else []:
+        if line.startswith("model name"):
+            processor = line.split(":", 1)[1].strip()
+            break
+    try:
+        for line in pathlib.Path("/proc/meminfo").read_text().splitlines():
+            if line.startswith("MemTotal"):
+                memory = f", {float(line.split()[1]) / 2**20:.0f} GiB"
+        system = platform.freedesktop_os_release()["PRETTY_NAME"]
+    except (OSError, AttributeError, KeyError):
+        pass
+    return f"{processor}, {os.cpu_count()} cores{memory}, {system}"
+
+
+def revision(project):
+    """The commit of the source, with a + where files differ from it; nothing outside a repository."""
+    def git(*words):
+        return subprocess.run(["git", "-C", project, *words], capture_output=True, text=True, check=True).stdout.strip()
+    try:
+        return ", commit " + git("rev-parse", "--short=10", "HEAD") + ("+" if git("status", "--porcelain", "--untracked-files=no", "src") else "")
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+
+
+def command(options):
+    words = [word for word, given in (("--paper-setting", options.paper_setting), ("--standing", options.standing), ("--quick", options.quick)) if given]
+    if options.only:
+        words.append(f"--only {options.only}")
+    return " ".join(["bash examples/hydraulic_jump/paper.sh", f"--threads {options.threads}", *words])
+
+
+def top(options, program, project, shown):
+    version = subprocess.run([program.courant, "--version"], capture_output=True, text=True).stdout.strip() or "courant"
+    old = [run.name for run, _ in shown if age(run.folder / EVALUATED) < program.age]
+    text = (f"# The numbers and figures of Jonsson et al. (2016)\n\nWritten by `{command(options)}` on {time.strftime('%Y-%m-%d')}; do not edit, run it again. "
+            f"{version}{revision(project)}, on {machine()}. What the runs are and how they compare is discussed in [hydraulic_jump.md](hydraulic_jump.md); how each "
+            "number is measured stands in [post.md](post.md) and in the recipes of `keyword_decks/hydraulic_jump`. The paper's numbers carry their place in it.\n")
+    if options.quick:
+        text += "\n**A quick trial: every run was cut to 0.2 s. These numbers mean nothing.**\n"
+    if old:
+        text += f"\nRun or evaluated by an earlier build: {', '.join(old)}.\n"
+    return text
+
+
+def label(run):
+    """Case and setting of a row."""
+    return [run.case, run.setting]
+
+
+def table1(shown, paper):
+    rows = []
+    for run, found in shown:
+        theirs, ours = paper["table1"][run.case], found["run"]
+        rows.append(label(run) + [f"{run.parameters['endtim']:g}", theirs[0], ours["particles"], theirs[1], ours["threads"], f"{theirs[2]} h", hours(ours["wall_seconds"]),
+                                  ours["steps"], number(ours["ns_per_particle_step"], "{:.0f}")])
+    head = ["case", "setting", "flow [s]", "particles, paper", "here", "cores, paper", "here", "time, paper", "here", "steps", "ns per particle and step"]
+    return "## Table 1: size and time\n\n" + table(head, rows) + "\n\nThe paper's columns: Table 1. Its cases ran with c0 = 1484 m/s. Settings: " + SETTINGS
+
+
+def table2(shown):
+    rows = []
+    for run, found in shown:
+        for interval in found["jump"]["intervals"]:
+            if not interval["states"] or not interval["complete"]:
+                continue
+            theirs = (interval.get("published") or [{}])[0]
+            rows.append(label(run) + [f"{float(interval['from']):g}-{float(interval['to']):g}", number(theirs.get("A"), "{:.3f}"), number(interval["A"], "{:.3f}"),
+                                      number(theirs.get("P"), "{:.3f}"), number(interval["P"], "{:.3f}"), number(1000 * float(interval["mean_depth"]), "{:.1f}")])
+    order = list(dict.fromkeys(run.setting for run, _ in shown))
+    rows.sort(key=lambda row: (order.index(row[1]), float(row[2].split("-")[0])))
+    head = ["case", "setting", "interval [s]", "A, paper", "here", "P, paper", "here", "mean depth [mm]"]
+    d2 = 1000 * float(shown[0][1]["jump"]["d2_theory"])
+    return (f"## Table 2: depth at x = 1 m against Bélanger, {d2:.1f} mm\n\n" + table(head, rows) +
+            "\n\nA and P: eqs 19 and 20, recipe `keyword_decks/hydraulic_jump/post.yaml`; the paper's columns: Table 2.\n")
+
+
+def course(shown, paper):
+    theirs = paper["numbers"]
+    keys = ("depth_rises", "turns", "at_gate")
+    rows = [["paper", "c0 = 1484 m/s"] + [f"{theirs[key]['value']} ({theirs[key]['source']})" for key in keys]]
+    for run, found in shown:
+        turn = found["jump"].get("turn", {}).get("time")
+        rows.append(label(run) + [number(found["events"]["depth_rises"], "{:.2f}"), number(turn, "{:.2f}"), number(found["events"]["at_gate"], "{:.1f}")])
+    head = ["case", "setting", "depth at x = 1 m rises [s]", "jump turns [s]", "toe back at the gate [s]"]
+    return ("## Course of events\n\n" + table(head, rows) + "\n\nThe depth rises: first over half of Bélanger's. The jump turns: the toe (depth over 2.5 d1) stands furthest "
+            "downstream. At the gate: within 2 d1 of it; the paper gives the time for d1/4 alone.\n")
+
+
+def settled(shown, paper):
+    """Lengths, decay, deviations and frequencies against eqs 2 to 5, a column for each run with figures."""
+    runs = [(run, found) for run, found in shown if "analyses" in found]
+    if not runs:
+        return ""
+    rollers = [found["analyses"]["roller"] for _, found in runs]
+    theirs, first, d1 = paper["numbers"], rollers[0], 0.02
+    length, frequency = theirs["roller_length"]["value"] / d1, theirs["frequency"]["value"]
+
+    def row(title, published, reference, key, form="{:.3g}", factor=1):
+        return [title, published, reference] + [number(factor * roller[key], form) for roller in rollers]
+    rows = [
+        ["mean toe x1 [m]", "0", "-"] + [number(found["analyses"]["toe"]["toe_mean"], "{:.3f}") for _, found in runs],
+        row("length of the roller, Lr/d1: mean velocity nowhere negative", f"{length:.2f} ({theirs['roller_length']['source']})", number(first["roller_length_reference"], "{:.2f} (eq. 2)"), "roller_length", "{:.2f}"),
+        row("the same: stagnation point at the surface", "-", number(first["roller_length_surface_reference"], "{:.2f} (eq. 2)"), "roller_length_surface", "{:.2f}"),
+        row("V_max against its decay, rms up to 20 d1", "-", "0 % (eq. 3)", "decay_rms", "{:.1f} %", 100),
+        row("largest deviation of the surface, (η'/d1)max", "-", number(first["deviation_largest_reference"], "{:.3f} (eq. 4)"), "deviation_largest", "{:.3f}"),
+        row("found at (x - x1)/d1", "-", "10 to 15 (section 1, experiments)", "deviation_largest_at", "{:.1f}"),
+        row("dominant frequency of the depth [Hz]", f"{frequency} ({theirs['frequency']['source']})", number(first["strouhal_reference"] * 1.5 / d1, "{:.2f} (eq. 5)"), "frequency", "{:.2f}"),
+        row("Strouhal number f d1/v1", f"{frequency * d1 / 1.5:.4f} (of that)", number(first["strouhal_reference"], "{:.4f} (eq. 5)"), "strouhal", "{:.4f}"),
+    ]
+    head = ["", "paper", "reference"] + [f"{run.case}, {run.setting}" for run, _ in runs]
+    span = "{:g}-{:g} s".format(*runs[0][1]["run"]["settled"])
+    return f"## The settled state, {span}\n\n" + table(head, rows) + "\n\nRecipe `keyword_decks/hydraulic_jump/paper_figures.yaml`; x1 = 0 as in the paper; in *better*, whose toe does not reach the gate, the mean toe.\n"
+
+
+def checks(shown):
+    rows = []
+    for run, found in shown:
+        bed, one = found["bed"], found["run"]
+        dx = 0.02 / run.parameters["resolution"]
+        rows.append(label(run) + ["{:g}-{:g}".format(*one["settled"]), number(1000 * bed["depth"], "{:.1f}"), number(1000 * bed["filled"], "{:.1f}"), percent(bed["filled_ratio_mean"]),
+                                  number(bed["row1"], "{:.2f}"), number(bed["row2"], "{:.2f}"), percent(bed["row_ratio"], 0),
+                                  one["leaked_particles"], percent(float(one["max_penetration"]) / dx), percent(one["residual"], 2)])
+    head = ["case", "setting", "window [s]", "depth at 1 m [mm]", "filled [mm]", "filled/depth, x = 0.1-1 m", "v, row at the bed, x = 0.1 m [m/s]", "next row", "ratio, x = 0.1-1 m",
+            "leaked", "largest penetration / dx", "energy residual"]
+    return ("## What walls and sums do to the water\n\n" + table(head, rows) + "\n\n*Filled*: the depth that the particles' own volume m/ρ would have. *Ratio*: mean velocity, over x = 0.1 to 1 m, of the row of "
+            "particles nearest to the bed over that of the next row. Residual of the energy ledger over the energy that passed through. Recipe "
+            "`keyword_decks/hydraulic_jump/bed_and_volume.yaml`; leaks, penetration and energy from `summary.yaml`.\n")
+
+
+def standing(shown):
+    place, ratios = [], []
+    for run, found in sorted(shown, key=lambda one: one[1]["values"]["froude"]):
+        v, here, roller, toe = found["values"], found["local"], found["analyses"]["roller"], found["analyses"]["toe"]
+        place.append([f"{v['froude']:g}", f"{run.parameters['reynolds']:g}", "{:g}-{:g}".format(*found["run"]["settled"]), f"{v['discharge']:g}", number(1000 * v["height"], "{:.1f}"), f"{toe['toe_mean']:.3f} ± {toe['toe_deviation']:.3f}" + (" (gate)" if here["at_gate"] else ""),
+                      number(1000 * toe["toe_speed"], "{:+.1f}"), number(1000 * here["d1"], "{:.1f}"), number(here["v1"], "{:.3f}"), number(here["froude"], "{:.2f}"),
+                      number(1000 * here["d2"], "{:.1f}"), number(1000 * here["d2_filled"], "{:.1f}"), number(1000 * here["d2_theory"], "{:.1f}"),
+                      number(here["d2"] / here["d2_theory"], "{:.3f}"), number(here["d2_filled"] / here["d2_theory"], "{:.3f}"), found["run"]["leaked_particles"],
+                      percent(found["run"]["residual"], 2)])
+        ratios.append([number(here["froude"], "{:.2f}"), number(roller["roller_length"], "{:.1f}"), number(roller["roller_length_surface"], "{:.1f}"),
+                       number(roller["roller_length_reference"], "{:.1f}"), percent(roller["decay_rms"]),
+                       number(roller["deviation_largest"], "{:.3f}"), number(roller["deviation_largest_reference"], "{:.3f}"), number(roller["deviation_largest_at"], "{:.1f}"),
+                       number(roller["frequency"], "{:.2f}"), number(roller["strouhal"], "{:.4f}"), number(roller["strouhal_reference"], "{:.4f}")])
+    head = ["Fr1 of the inflow", "Re", "means over [s]", "coefficient of the weir", "its height [mm]", "toe [m]", "drift [mm/s]", "d1 before the toe [mm]", "v1 there [m/s]", "Fr1 there", "d2 [mm]", "filled [mm]",
+            "Bélanger [mm]", "d2/Bélanger", "filled/Bélanger", "leaked", "energy residual"]
+    against = ["Fr1 before the toe", "Lr/d1: mean velocity nowhere negative", "stagnation point", "eq. 2", "V_max, rms to eq. 3", "(η'/d1)max", "eq. 4", "at (x - x1)/d1", "f [Hz]", "St", "eq. 5"]
+    return ("## Jumps that stand still\n\n" + table(head, place) + "\n\n" + table(against, ratios) +
+            "\n\n`keyword_decks/hydraulic_jump/standing.yaml`, d1/4, recipe `keyword_decks/hydraulic_jump/standing_figures.yaml`. Re = v1 d1/ν of the eddy viscosity, "
+            "chosen for each Froude number. The height of the weir follows from Bélanger's depth, critical flow over its crest and a coefficient for what is lost there. Depth and velocity of the jet are taken three depths "
+            "(or three deviations of the toe) upstream of the toe, d2 one to two d2 before the weir; d1 and v1 in all ratios are these.\n")
+
+
+def write(options, runs, paper, program, project):
+    """The page of all runs that are complete and evaluated."""
+    shown = [(run, found) for run in runs if (found := evaluated(run))]
+    main = [one for one in shown if one[0].group != "standing"]
+    still = [one for one in shown if one[0].group == "standing"]
+    parts = [top(options, program, project, shown)]
+    if main:
+        parts += [table1(main, paper), table2(main), course(main, paper), settled(main, paper), checks(main)]
+    if still:
+        parts.append(standing(still))
+    missing = [run.name for run in runs if not evaluated(run)]
+    if missing:
+        parts.append(f"Not run: {', '.join(missing)}.\n")
+    parts.append(paper_figures.section(main, still, options.page.parent, project))
+    options.page.parent.mkdir(parents=True, exist_ok=True)
+    options.page.write_text("\n".join(part for part in parts if part))

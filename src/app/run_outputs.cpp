@@ -1,0 +1,36 @@
+#include "app/run_outputs.hpp"
+
+#include "model/output_times.hpp"
+
+namespace courant {
+namespace {
+
+OutputSchedule schedule(const OutputTimes& times) {
+  if (times.rule == OutputTimes::Rule::interval) return {times.interval};
+  return {first_output(times), [times](Real due) { return next_output(times, due); }};
+}
+
+}  // namespace
+
+HistoryRequests history_requests(const Simulation& s) {
+  const OutputRequests& wanted = s.model().output;
+  HistoryRequests h;
+  h.glstat = schedule(wanted.glstat), h.matsum = schedule(wanted.matsum), h.rcforc = schedule(wanted.rcforc);
+  h.sleout = schedule(wanted.sleout), h.sphout = schedule(wanted.sphout), h.nodout = schedule(wanted.nodout);
+  h.rbdout = schedule(wanted.rbdout), h.bndout = schedule(wanted.bndout);
+  h.spcforc = schedule(wanted.spcforc);
+  for (const HistoryNode& node : wanted.history_node)
+    if (!node.title.empty()) h.nodes.push_back({node.id, node.title});
+  h.title = s.model().title;
+  for (const ModelPart& part : s.model().parts) h.parts.push_back({part.id, part.title});
+  for (const auto& contact : s.contacts())
+    h.contacts.push_back({contact->report().id, contact->report().title});
+  return h;
+}
+
+OutputSchedule field_schedule(const Simulation& s, Real end) {
+  const OutputRequests& wanted = s.model().output;
+  return wanted.d3plot_count > 0 ? OutputSchedule(end / wanted.d3plot_count) : schedule(wanted.d3plot);
+}
+
+}  // namespace courant

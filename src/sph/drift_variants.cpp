@@ -1,0 +1,32 @@
+#include "base/instruction_set.hpp"
+#include "sph/drift_loops.hpp"
+
+namespace courant {
+
+namespace baseline {
+DriftLoop shifting_loop(int dim, bool correct);
+DriftLoop drift_rate_loop(int dim);
+DriftLoop xsph_loop(int dim, bool uniform_h);
+}  // namespace baseline
+namespace avx2 {
+DriftLoop shifting_loop(int dim, bool correct);
+DriftLoop drift_rate_loop(int dim);
+DriftLoop xsph_loop(int dim, bool uniform_h);
+}  // namespace avx2
+namespace avx512 {
+DriftLoop shifting_loop(int dim, bool correct);
+DriftLoop drift_rate_loop(int dim);
+DriftLoop xsph_loop(int dim, bool uniform_h);
+}  // namespace avx512
+
+DriftLoop shifting_loop(int dim, bool correct) {
+  return COURANT_VARIANT(shifting_loop)(dim, correct);
+}
+DriftLoop drift_rate_loop(int dim) {
+  return COURANT_VARIANT(drift_rate_loop)(dim);
+}
+DriftLoop xsph_loop(int dim, bool uniform_h) {
+  return COURANT_VARIANT(xsph_loop)(dim, uniform_h);
+}
+
+}  // namespace courant

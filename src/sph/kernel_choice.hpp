@@ -1,0 +1,49 @@
+#pragma once
+// The kernel of a run, chosen by the deck: one for all particles.
+#include <array>
+
+#include "sph/kernel.hpp"
+
+namespace courant {
+
+/// The first four in the order of SPHKERN of *SECTION_SPH.
+enum class KernelChoice {
+  cubic_spline,
+  quintic_spline,
+  quadratic_spline,
+  quartic_spline,
+  wendland_c2,
+  wendland_c4
+};
+inline constexpr std::array every_kernel{KernelChoice::cubic_spline,     KernelChoice::quintic_spline,
+                                         KernelChoice::quadratic_spline, KernelChoice::quartic_spline,
+                                         KernelChoice::wendland_c2,      KernelChoice::wendland_c4};
+
+/// Calls `f` with the chosen kernel's struct: one place where the choice becomes a type.
+template <class F>
+decltype(auto) with_kernel(KernelChoice choice, F&& f) {
+  switch (choice) {
+    case KernelChoice::quintic_spline:
+      return f(QuinticSpline{});
+    case KernelChoice::quadratic_spline:
+      return f(QuadraticSpline{});
+    case KernelChoice::quartic_spline:
+      return f(QuarticSpline{});
+    case KernelChoice::wendland_c2:
+      return f(WendlandC2{});
+    case KernelChoice::wendland_c4:
+      return f(WendlandC4{});
+    default:
+      return f(CubicSpline{});
+  }
+}
+
+inline const char* kernel_name(KernelChoice choice) {
+  return with_kernel(choice, [](auto kernel) { return decltype(kernel)::name; });
+}
+/// How far the kernel reaches, in h.
+inline Real kernel_support(KernelChoice choice) {
+  return with_kernel(choice, [](auto kernel) { return decltype(kernel)::support; });
+}
+
+}  // namespace courant

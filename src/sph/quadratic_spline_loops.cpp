@@ -1,0 +1,8 @@
+// Compiled once for each instruction set; see docs/architecture.md.
+#include "sph/pair_sums.hpp"
+
+namespace courant::COURANT_SIMD {
+
+template PairLoops loops_of<QuadraticSpline>();
+
+}  // namespace courant::COURANT_SIMD

@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""The script behind examples/hydraulic_jump/paper.sh on runs cut to 0.2 s: page and figures, taking over, going on, a run that fails.
+
+usage: paper.py COURANT SOURCE_DIR WORK_DIR
+"""
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import yaml
+
+from checks import check, enter_empty_folder, failures
+
+courant, source = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
+work = pathlib.Path(sys.argv[3]).resolve() / "paper"
+enter_empty_folder(str(work))
+results = work / "results"
+try:
+    import matplotlib  # noqa: F401
+    pictures = True
+except ImportError:
+    pictures = False
+    print("matplotlib is not here: figures are not looked for")
+
+
+def words(only, program=courant):
+    return [sys.executable, str(source / "examples/hydraulic_jump/paper.py"), "--courant", str(program), "--quick", "--only", only,
+            "--threads", "1", "--results", str(results)]
+
+
+def call(only, program=courant):
+    done = subprocess.run(words(only, program), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    print(done.stdout)
+    return done.returncode, done.stdout
+
+
+def termination(name):
+    return yaml.safe_load((results / name / "summary.yaml").read_text())["termination"]
+
+
+# ---- a run, its numbers and its figures
+code, out = call("d4_better")
+check(code == 0, f"exit code {code}")
+page = (results / "page.md").read_text()
+check("These numbers mean nothing" in page, "the page tells that it is a trial")
+check(re.search(r"\| d1/4 \| better \| 0\.2 \| 36879 \| 1120 \| 8 \| 1 \| 114 h \|", page) is not None,
+      "Table 1: 1120 particles, (1.1 m + 1.5 m/s x 0.2 s) x d1 in squares of d1/4, on one thread, beside the paper's 36879 on 8 cores in 114 h")
+check("11.18 (section 3, Figure 6)" in page, "the paper's roller of 0.2235 m is 11.18 d1")
+check("14.84 (eq. 2)" in page, "eq. 2 at Fr1 = 3.386 gives 14.84 d1")
+found = yaml.safe_load((results / "d4_better" / "evaluated.yaml").read_text())
+check(0.3 < found["bed"]["row1"] < 1.5 and 0.3 < found["bed"]["row2"] < 1.6, f"jet at x = 0.1 m: {found['bed']['row1']:.2f} m/s in the row at the bed, {found['bed']['row2']:.2f} m/s in the next")
+check(abs(found["bed"]["filled"] / 0.02 - 1) < 0.02, f"water at rest at x = 1 m fills {1000 * found['bed']['filled']:.2f} mm of 20 mm")
+if pictures:
+    shown = re.findall(r"\]\((figures/[^)]+)\)", page)
+    check(len(shown) == 14, f"{len(shown)} figures: 12 of the run, its speed, the depth of all cases")
+    check(all((results / name).stat().st_size > 3000 for name in shown), "they are there")
+
+# ---- a second call takes everything over
+before = (results / "d4_better" / "summary.yaml").stat().st_mtime_ns, (results / "d4_better" / "evaluated.yaml").stat().st_mtime_ns
+code, out = call("d4_better")
+after = (results / "d4_better" / "summary.yaml").stat().st_mtime_ns, (results / "d4_better" / "evaluated.yaml").stat().st_mtime_ns
+check(code == 0 and before == after and "is complete" in out, "a complete run is neither run nor evaluated again")
+
+# ---- interrupted, and gone on with
+running = subprocess.Popen(words("d10"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
+end = time.time() + 120
+while time.time() < end and len(list((results / "d10" / "fields").glob("*.vtp"))) < 3 and running.poll() is None:
+    time.sleep(0.01)
+os.killpg(running.pid, signal.SIGINT)  # as Ctrl-C at a terminal
+out = running.communicate()[0]
+print(out)
+check(running.returncode == 130 and "Interrupted" in out, f"interrupted: exit code {running.returncode}")
+check(termination("d10") == "interrupted", f"the run was stopped: {termination('d10')}")
+code, out = call("d10")
+check(code == 0 and "goes on from its restart file" in out and termination("d10") == "normal", "the same command goes on")
+check(yaml.safe_load((results / "d10" / "summary.yaml").read_text())["restarts"] == 1, "in one further part")
+
+# ---- a run that fails does not keep others from running
+broken = work / "courant_broken"
+broken.write_text(f'#!/bin/sh\ncase "$1 $2" in "run "*/d5.k) echo broken on purpose; exit 2 ;; esac\nexec "{courant}" "$@"\n')
+broken.chmod(0o755)
+code, out = call("d5,d6", broken)
+check(code == 1 and "FAILED d5: the run ended with exit code 2: broken on purpose" in out, f"a failed run is told, exit code {code}")
+check(termination("d6") == "normal" and "| d1/6 |" in (results / "page.md").read_text(), "the next run was run all the same")
+not_run = [line for line in (results / "page.md").read_text().splitlines() if line.startswith("Not run: ")]
+names = not_run[0].removeprefix("Not run: ").rstrip(".").split(", ") if not_run else []
+check("d5" in names and "d6" not in names and "d10" not in names, f"the page tells what was not run: {', '.join(names)}")
+code, out = call("nothing")
+check(code == 2 and "there is no run nothing" in out, f"an unknown name is refused, exit code {code}")
+
+sys.exit(1 if failures else 0)
