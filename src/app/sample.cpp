@@ -124,6 +124,9 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   if (bodies_) s.bodies = bodies_->reports(), s.body_motions = bodies_->motions(clock_);
   sample_parts(world_, model_, s);
   for (const auto& contact : contacts_) s.interfaces.push_back(contact->report());
+  for (const auto& pass : world_.energy_terms)
+    if (const auto* walls = dynamic_cast<const WallForceReporter*>(pass.get()))
+      s.interfaces.push_back(walls->report(world_));
   sample_boundary_forces(world_, clock_, s.boundary_forces);
   const std::vector<Id>& wanted = model_.output.history_sph;
   const Particles& p = world_.particles;

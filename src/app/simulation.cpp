@@ -84,6 +84,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
                          diagnostics);  // sets world_.dim, which rigid bodies ask for
   build_segments(deck_, model_, shell_material, world_, diagnostics);
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
+  read_supported_walls(deck_, model_, world_, sph_, diagnostics);
 }
 
 void Simulation::add_passes(Diagnostics& diagnostics) {

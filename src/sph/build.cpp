@@ -402,6 +402,10 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
       std::make_shared<PairGeometry>(neighbours, s.uniform_h, PairGeometry::most_kept_bytes, s.geometry_eps);
   const auto volumes = make_pair_volumes(world);
   world.rates.push_back(make_rates(s, world, geometry, volumes));
+  if (!s.walls.segments.empty())
+    add_wall_support(s, world, neighbours);
+  else
+    left_out.push_back({"wall support", "no *COURANT_WALL_SUPPORT"});
   if (s.density_diffusion > 0)
     add_density_diffusion(s, world);
   else

@@ -60,6 +60,13 @@ struct CourantVolumeControl : Entry {
   Real tau = 0;
 };
 
+/// *COURANT_WALL_SUPPORT, ours.
+struct CourantWallSupport : Entry {
+  Id surfb = 0;
+  int surfbtyp = 3;
+  Real cf = 0;
+};
+
 /// *COURANT_SHIFTING, ours.
 struct CourantShifting : Entry {
   Real strength = 0, pairing = 0, surface = 0;

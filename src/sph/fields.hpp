@@ -90,6 +90,18 @@ inline Field<Real>& drifted(Particles& p) {
 inline Field<Real>& kernel_at_spacing(Particles& p) {
   return p.fields.add<Real>({.name = "kernel_at_spacing", .dimension = "-"});
 }
+/// int n W dS over the walls in sight, n out of the water
+inline Field<Real>& wall_slope(Particles& p) {
+  return p.fields.add<Real>({.name = "wall_slope", .dimension = "1/L", .components = 3, .restart = false});
+}
+/// Of the kernel's integral, what lies behind walls
+inline Field<Real>& wall_fill(Particles& p) {
+  return p.fields.add<Real>({.name = "wall_fill", .dimension = "-", .restart = false});
+}
+/// int CF W dS
+inline Field<Real>& wall_rubbing(Particles& p) {
+  return p.fields.add<Real>({.name = "wall_rubbing", .dimension = "1/L", .restart = false});
+}
 /// Power that artificial viscosity turns into heat
 inline Field<Real>& dissipation(Particles& p) {
   return p.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"});

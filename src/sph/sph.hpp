@@ -42,6 +42,12 @@ struct ShiftRules {
   bool correct = false;  ///< the velocity changes to that of the new place
 };
 
+/// Shells that support particles, and their skin friction; none where `segments` is empty.
+struct SupportedWalls {
+  std::vector<Index> segments;
+  std::vector<Real> cf;  ///< by segment; < 0 where it does not support [-]
+};
+
 struct SphSettings {
   int dim = 3;
   KernelChoice kernel = KernelChoice::cubic_spline;
@@ -57,6 +63,7 @@ struct SphSettings {
   Real density_diffusion = 0;          ///< *COURANT_DENSITY_DIFFUSION: delta; 0: none
   std::function<Vec(Real t)> gravity;  ///< acceleration at a time, for the diffusion of density [L/T2]
   Real volume_tau = 0;                 ///< *COURANT_VOLUME_CONTROL: TAU [T]; 0: none
+  SupportedWalls walls;                ///< *COURANT_WALL_SUPPORT
   ShiftRules shift;
   std::vector<ImagePlane> mirrors;  ///< symmetry planes, along which alone particles near them drift
   Real xsph = 0;                    ///< *COURANT_XSPH: EPS; 0: none
@@ -110,6 +117,12 @@ void add_density_diffusion(const SphSettings&, World&);
 /// Adds to the rates what brings the density back to what the places of particles say.
 void add_volume_control(const SphSettings&, World&, std::shared_ptr<Neighbours>,
                         std::shared_ptr<PairVolumes>);
+/// Reads *COURANT_WALL_SUPPORT into the settings. Call when segments and bodies are built: walls must not
+/// move.
+void read_supported_walls(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
+                          Diagnostics& diagnostics);
+/// Adds the passes of supporting walls; belongs right behind the pair rates.
+void add_wall_support(const SphSettings&, World&, std::shared_ptr<Neighbours>);
 /// Adds the motions by which particles drift, behind that by their velocity; what sets the velocities of
 /// drift comes with `add_sph_passes`. `gravity`: the acceleration at a time [L/T2].
 void add_drifts(const SphSettings&, const std::function<Vec(Real t)>& gravity, World&);

@@ -51,6 +51,10 @@ class VolumeControl : public Rate, public Keeper {
         neighbours_(std::move(neighbours)),
         volumes_(std::move(volumes)),
         rate_(sph_fields::volume_rate(world.particles)) {
+    if (!s.walls.segments.empty()) {
+      wall_slope_ = &sph_fields::wall_slope(world.particles);
+      wall_fill_ = &sph_fields::wall_fill(world.particles);
+    }
     const Particles& p = world.particles;
     const Index i = p.size() - 1;  // stands for all
     if (i >= 0) lattice_ = lattice_sum(p.h[i] / std::pow(p.m[i] / p.rho[i], 1.0 / dim_));
@@ -90,8 +94,10 @@ class VolumeControl : public Rate, public Keeper {
           if (r > 0) slope += (V[j] * Kernel::slope(R) / r) * d;
         }
         const Real norm = Kernel::C(Dim) / power<Dim>(h);
-        const Real edge = norm * slope.norm() / surface_slope_;
-        rate_[i] = p.rho[i] * std::max(Real(0), 1 - edge * edge) * (norm * sum / lattice_ - 1) / tau_;
+        slope *= norm / h, sum *= norm;
+        if (wall_slope_) slope += wall_slope_->vec(i), sum += (*wall_fill_)[i];
+        const Real edge = h * slope.norm() / surface_slope_;
+        rate_[i] = p.rho[i] * std::max(Real(0), 1 - edge * edge) * (sum / lattice_ - 1) / tau_;
       }
   }
   Real lattice_sum(Real h) const {
@@ -128,6 +134,7 @@ class VolumeControl : public Rate, public Keeper {
   std::shared_ptr<Neighbours> neighbours_;
   std::shared_ptr<PairVolumes> volumes_;
   Field<Real>& rate_;
+  Field<Real>*wall_slope_ = nullptr, *wall_fill_ = nullptr;  ///< where walls support particles
 };
 
 }  // namespace

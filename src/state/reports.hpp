@@ -27,6 +27,15 @@ struct BoundaryForceReporter {
                              std::vector<BoundaryForce>& out) const = 0;
 };
 
+/// A pass that pushes particles off walls besides contact.
+struct WallForceReporter {
+  virtual ~WallForceReporter() = default;
+  /// Force on all particles at t^n. Its number is 0.
+  virtual InterfaceForce report(const World& world) const = 0;
+  /// Adds the forces on the walls to nodes.f and segments.contact_force until the next step.
+  virtual void show_forces(World& world) = 0;
+};
+
 /// How a rigid body moves at t^n; velocities are those of the last half step.
 struct RigidBodyMotion {
   Id part = 0;

@@ -41,6 +41,7 @@ const Lists bare{
      "motion particle motion", "motion sph factors", "guard every 64 steps"},
     {"images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
      "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
+     "wall support no *COURANT_WALL_SUPPORT",
      "density diffusion no *COURANT_DENSITY_DIFFUSION",
      "volume control no *COURANT_VOLUME_CONTROL",
      "shifting ISHIFT 0",

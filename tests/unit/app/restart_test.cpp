@@ -181,6 +181,17 @@ TEST(Restart, VolumeControl) {
               {20, 75}, 120);
 }
 
+TEST(Restart, WallSupport) {
+  // the edge of the floor is in the water, so that some particles see one plane and others pieces of it
+  const std::string floor = "*NODE\n9001,-2.,0.,-2.\n9002,0.4,0.,-2.\n9003,0.4,0.,3.\n9004,-2.,0.,3.\n";
+  std::string cards = test::floor_cards(0);
+  cards.replace(0, cards.find("*ELEMENT_SHELL"), floor);
+  expect_same({.start = "0.5,-0.3,0.",
+               .extra = test::gravity_cards + cards +
+                        "*COURANT_WALL_SUPPORT\n2,3,0.004\n*COURANT_VOLUME_CONTROL\n0.1\n"},
+              {0, 1, 33, 80}, 140);
+}
+
 TEST(Restart, ShiftingWithCorrectionsAndXsph) {
   expect_same({.n = 10,
                .start = "1.5,-0.5,0.",

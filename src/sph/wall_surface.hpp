@@ -1,0 +1,112 @@
+#pragma once
+// The surface of shells that do not move, as points that each stand for a piece of it.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "state/world.hpp"
+
+namespace courant {
+
+struct WallPoint {
+  Vec x = Vec::Zero();
+  Vec area = Vec::Zero();  ///< of the piece, along the normal of its face [L^(dim-1)]
+  Index face = 0;
+};
+
+/// Flat faces cut into pieces of about one size. In 2D a shell counts by its line in the plane of flow, once
+/// however many shells it has across, and areas are lengths.
+class WallSurface {
+ public:
+  /// `spacing`: of points [L]; `reach`: farthest that anything looks [L].
+  WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach);
+
+  Index faces() const { return static_cast<Index>(faces_.size()); }
+  Index points() const { return static_cast<Index>(points_.size()); }
+  Index segment_of(Index face) const { return faces_[face].segment; }
+
+  /// Where x sees one flat wall and none of its edges: a face of it; else -1. `nothing`: it sees no wall.
+  struct View {
+    bool nothing = true;
+    Index flat = -1;
+  };
+  View view_from(const Vec& x) const;
+  /// Distance of x from the plane of a face, and the plane's normal away from x.
+  Real distance(Index face, const Vec& x) const { return std::abs(height(face, x)); }
+  Vec away(Index face, const Vec& x) const {
+    return height(face, x) < 0 ? faces_[face].n : Vec(-faces_[face].n);
+  }
+
+  /// Calls f(point, away) for each point nearer than the reach that can be seen from x past other faces;
+  /// `away` is the piece's area with its normal away from x.
+  template <class F>
+  void for_each_seen(const Vec& x, F&& f) const {
+    const Vec from = in_plane(x);
+    std::array<Index, 27> cells;
+    const int n = cells_around(from, cells);
+    bool anything = false, corner = false;
+    Index plane = -1;
+    for (int k = 0; k < n; ++k)
+      for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q) {
+        if (!near(points_[q], from)) continue;
+        const Index other = faces_[points_[q].face].plane;
+        corner |= anything && other != plane;
+        anything = true, plane = other;
+      }
+    if (!anything) return;
+    std::vector<Index> hiding;
+    if (corner) hiding = faces_near(from, cells, n);
+    for (int k = 0; k < n; ++k)
+      for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q) {
+        const WallPoint& point = points_[q];
+        if (!near(point, from) || (corner && hidden(point, from, hiding))) continue;
+        f(point, point.area.dot(point.x - from) < 0 ? Vec(-point.area) : point.area);
+      }
+  }
+
+ private:
+  struct Face {
+    std::array<Vec, 4> x, inward;
+    Vec n = Vec::Zero();
+    Real offset = 0;
+    int corners = 4;
+    Index plane = 0, segment = 0;
+    Face() {
+      x.fill(Vec::Zero());
+      inward.fill(Vec::Zero());
+    }
+  };
+
+  /// What is alike to 1e-6 of the reach has one key.
+  using Key = std::array<std::int64_t, 6>;
+  Key key(const Vec& a, const Vec& b) const;
+
+  Real height(Index face, const Vec& x) const { return faces_[face].n.dot(x) - faces_[face].offset; }
+  void add_line(const Nodes& nodes, const std::array<Index, 4>& node, Index segment);
+  void add_face(Face face);
+  void cut(Index face, Real spacing);
+  void sort_into_cells();
+  Vec in_plane(const Vec& x) const { return dim_ == 2 ? Vec(x[0], x[1], 0) : x; }
+  bool near(const WallPoint& point, const Vec& x) const {
+    return (point.x - x).squaredNorm() < reach_ * reach_;
+  }
+  int cells_around(const Vec& x, std::array<Index, 27>& cells) const;
+  std::vector<Index> faces_near(const Vec& x, const std::array<Index, 27>& cells, int n) const;
+  bool hidden(const WallPoint& point, const Vec& from, const std::vector<Index>& hiding) const;
+
+  int dim_;
+  Real reach_;
+  std::vector<Face> faces_;
+  std::set<Key> lines_;
+  std::map<Key, Index> planes_;
+  std::vector<WallPoint> points_;
+  Vec low_ = Vec::Zero();
+  Real cell_ = 1;
+  std::array<Index, 3> cells_{1, 1, 1};
+  std::vector<Index> first_;  ///< points [first_[c], first_[c+1]) stand in cell c
+};
+
+}  // namespace courant

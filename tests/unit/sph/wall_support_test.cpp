@@ -1,0 +1,247 @@
+// *COURANT_WALL_SUPPORT against integrals worked out here by other means.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "../app/small_scene.hpp"
+#include "sph/fields.hpp"
+#include "sph/wall_surface.hpp"
+
+namespace courant {
+namespace {
+
+constexpr Real h = 0.12, g = 9.81;
+
+Real W(Real r) {
+  return CubicSpline::C(2) * CubicSpline::shape(r / h) / (h * h);
+}
+
+/// Integral of W over the places that `inside` tells, by a fine grid around x.
+template <class Inside>
+Real volume(const Vec& x, const Inside& inside) {
+  constexpr int n = 600;
+  const Real step = 4 * h / n;
+  Real sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Vec d((i + 0.5) * step - 2 * h, (j + 0.5) * step - 2 * h, 0);
+      if (inside(Vec(x + d))) sum += W(d.norm()) * step * step;
+    }
+  return sum;
+}
+/// Integral of W over the straight line from a to b, seen from x.
+Real line(const Vec& x, const Vec& a, const Vec& b) {
+  constexpr int n = 20000;
+  Real sum = 0;
+  for (int i = 0; i < n; ++i) sum += W((a + (b - a) * ((i + 0.5) / n) - x).norm()) * (b - a).norm() / n;
+  return sum;
+}
+
+/// Shells one wide along the given lines.
+void add_walls(World& world, const std::vector<std::pair<Vec, Vec>>& lines) {
+  world.dim = 2;
+  world.nodes.fields.resize(4 * static_cast<Index>(lines.size()));
+  world.segments.fields.resize(static_cast<Index>(lines.size()));
+  for (Index s = 0; s < static_cast<Index>(lines.size()); ++s) {
+    const Vec z(0, 0, 0.5);
+    const Vec corners[4] = {lines[s].first - z, lines[s].second - z, lines[s].second + z, lines[s].first + z};
+    for (Index e = 0; e < 4; ++e) world.nodes.x.set(4 * s + e, corners[e]);
+    world.segments.node0[s] = 4 * s, world.segments.node1[s] = 4 * s + 1;
+    world.segments.node2[s] = 4 * s + 2, world.segments.node3[s] = 4 * s + 3;
+  }
+}
+Vec slope_at(const WallSurface& surface, const Vec& x) {
+  Vec sum = Vec::Zero();
+  surface.for_each_seen(x, [&](const WallPoint& q, const Vec& away) { sum += away * W((q.x - x).norm()); });
+  return sum;
+}
+
+TEST(WallSurface, IntegratesTheKernelOverAWallFromBothSides) {
+  const Vec a(-1, 0, 0), b(1, 0, 0);
+  World world;
+  add_walls(world, {{a, b}});
+  const WallSurface surface(world, {0}, h / 4, 2 * h);
+  for (const Real d : {0.3, 0.5, 1.0, 1.5, 1.9, 2.1}) {
+    const Vec above = slope_at(surface, Vec(0.013, d * h, 0)),
+              below = slope_at(surface, Vec(0.013, -d * h, 0));
+    EXPECT_NEAR(above[1], -line(Vec(0.013, d * h, 0), a, b), 2e-4 / h) << d;
+    EXPECT_NEAR(below[1], -above[1], 1e-12 / h) << d;
+    EXPECT_NEAR(above[0], 0, 1e-12 / h) << d;
+  }
+}
+
+TEST(WallSurface, ShellsSideBySideAcrossThePlaneCountOnce) {
+  World world;
+  add_walls(world, {{Vec(-1, 0, 0), Vec(1, 0, 0)}, {Vec(1, 0, 0), Vec(-1, 0, 0)}});
+  for (Index n = 4; n < 8; ++n) world.nodes.x.set(n, Vec(world.nodes.x.vec(n) + Vec(0, 0, 1)));
+  const WallSurface surface(world, {0, 1}, h / 4, 2 * h);
+  EXPECT_EQ(surface.faces(), 1);
+}
+
+TEST(WallSurface, SeesBothWallsOfACornerAndNothingBehindAnEdge) {
+  // floor from the left, then a wall upwards, then a floor to the right: a step
+  const Vec a(-1, 0, 0), foot(0, 0, 0), top(0, 0.5, 0), b(1, 0.5, 0);
+  World world;
+  add_walls(world, {{a, foot}, {foot, top}, {top, b}});
+  const WallSurface surface(world, {0, 1, 2}, h / 4, 2 * h);
+  const Vec inner(-0.06, 0.06, 0);
+  const Vec seen = slope_at(surface, inner);
+  EXPECT_NEAR(seen[0], line(inner, foot, top), 2e-3 / h);
+  EXPECT_NEAR(seen[1], -line(inner, a, foot), 2e-3 / h);
+  // in front of the wall and under the edge the upper floor is out of sight
+  const Vec under(-0.06, 0.44, 0);
+  EXPECT_NEAR(slope_at(surface, under)[1], 0, 1e-12 / h);
+  EXPECT_NEAR(slope_at(surface, under)[0], line(under, foot, top), 2e-3 / h);
+  // from above the upper floor the wall under it is out of sight
+  const Vec over(0.06, 0.56, 0);
+  EXPECT_NEAR(slope_at(surface, over)[0], 0, 1e-12 / h);
+  EXPECT_NEAR(slope_at(surface, over)[1], -line(over, top, b), 2e-3 / h);
+}
+
+TEST(WallSurface, CutsFacesInThreeDimensions) {
+  World world;
+  add_walls(world, {{Vec(-0.5, 0, 0), Vec(0.5, 0, 0)}});
+  world.dim = 3;
+  const WallSurface surface(world, {0}, h / 4, 2 * h);
+  Real area = 0;
+  const Vec x(0.02, 0.5 * h, 0.03);
+  Vec sum = Vec::Zero();
+  surface.for_each_seen(x, [&](const WallPoint& q, const Vec& away) {
+    area += away.norm();
+    const Real R = (q.x - x).norm() / h;
+    sum += away * (CubicSpline::C(3) * CubicSpline::shape(R) / (h * h * h));
+  });
+  // of a plane at distance d: 2 pi int W r dr from d on
+  Real expected = 0;
+  constexpr int n = 20000;
+  for (int i = 0; i < n; ++i) {
+    const Real R = 0.5 + 1.5 * (i + 0.5) / n;
+    expected += 2 * pi * CubicSpline::C(3) * CubicSpline::shape(R) / h * R * 1.5 / n;
+  }
+  EXPECT_NEAR(sum[1], -expected, 1e-3 / h);
+  EXPECT_GT(area, pi * (3.7 * h) * (0.9 * h));
+}
+
+/// A floor one spacing thick, its middle half a spacing under the lowest row.
+std::string floor_cards() {
+  std::string cards = test::floor_cards(0);
+  const std::string thin = "2,2\n0.05\n";
+  return cards.replace(cards.find(thin), thin.size(), "2,2\n0.09999\n");
+}
+/// A square of water on it.
+std::string on_floor(const std::string& more, const std::string& start = "0.,0.,0.", int n = 6) {
+  test::SmallScene scene;
+  scene.n = n;
+  scene.start = start;
+  scene.extra = floor_cards() + more;
+  return scene.text();
+}
+const std::string support = "*COURANT_WALL_SUPPORT\n2,3\n";
+
+Index at(const Particles& p, const Vec& x) {
+  Index best = 0;
+  for (Index i = 0; i < p.active; ++i)
+    if ((p.x.vec(i) - x).norm() < (p.x.vec(best) - x).norm()) best = i;
+  return best;
+}
+
+TEST(WallSupport, ContinuityNoticesTheWall) {
+  std::string who;
+  const auto with = test::build_deck(on_floor(support, "0.3,-0.5,0."));
+  const auto without = test::build_deck(on_floor("", "0.3,-0.5,0."));
+  Clock one, two;
+  with->evaluate(who), without->evaluate(who);
+  const Particles &p = with->world().particles, &q = without->world().particles;
+  for (Index i = 0; i < p.active; ++i) {
+    const Vec x = p.x.vec(i);
+    const Index j = at(q, x);
+    const Real b = line(x, Vec(-2, 0, 0), Vec(3, 0, 0));
+    EXPECT_NEAR(p.drhodt[i] - q.drhodt[j], 2 * 1000 * 0.5 * b, 1000 * 0.5 * 2e-3 / h) << x.transpose();
+  }
+}
+
+TEST(WallSupport, KnowsHowMuchOfTheKernelLiesBehindTheWall) {
+  const auto s = test::build_deck(on_floor(support));
+  std::string who;
+  s->evaluate(who);
+  Particles& p = s->world().particles;
+  const Field<Real>& fill = sph_fields::wall_fill(p);
+  for (const Real y : {0.05, 0.15}) {
+    const Vec x(0.25, y, 0);
+    EXPECT_NEAR(fill[at(p, x)], volume(x, [](const Vec& place) { return place[1] < 0; }), 2e-3) << y;
+  }
+}
+
+TEST(WallSupport, AUniformPressureDoesNotMoveTheLowestRow) {
+  const std::string pressure = "*EOS_LINEAR_POLYNOMIAL\n1,1000.,9.E5\n";
+  const auto force = [&](const std::string& more) {
+    std::string text = on_floor(more, "0.,0.,0.", 12);
+    const std::string old = "*EOS_LINEAR_POLYNOMIAL\n1,0.,9.E5\n";
+    text.replace(text.find(old), old.size(), pressure);
+    const auto s = test::build_deck(text, false);
+    std::string who;
+    s->evaluate(who);
+    const Particles& p = s->world().particles;
+    return p.f.vec(at(p, Vec(0.55, 0.05, 0)))[1];
+  };
+  const Real whole = 2 * 1000 * 0.1 * 0.1 * line(Vec(0.55, 0.05, 0), Vec(-2, 0, 0), Vec(3, 0, 0));  // 2 p V b
+  EXPECT_NEAR(force(support) - force(""), whole, 1e-3 * whole);
+  EXPECT_LT(std::abs(force(support)), 0.05 * whole);  // the sum over a lattice is no integral
+}
+
+TEST(WallSupport, RestingWaterKeepsItsPlaceAndPressureAndEnergy) {
+  test::SmallScene scene;
+  scene.n = 10;
+  scene.termination = "2.";
+  scene.extra = floor_cards() + support + test::gravity_cards +
+                "*BOUNDARY_SPH_SYMMETRY_PLANE\n0,0,0,1,0,0\n1,0,0,0,0,0\n";
+  const auto s = test::build_deck(scene.text(), false);
+  // gravity comes at once, so the water swings; means over many periods of 4 H/c
+  Real pressure = 0, on_water = 0, times = 0;
+  while (s->clock().t < 4) {
+    s->step([](World&, const Clock&, const std::string&) {});
+    if (s->clock().t < 2 || s->clock().cycle % 16 != 0) continue;
+    const Particles& p = s->world().particles;
+    Real rows = 0, sum = 0;
+    for (Index i = 0; i < p.active; ++i)
+      if (p.x.vec(i)[1] < 0.09) sum += p.p[i], ++rows;
+    for (const InterfaceForce& f : s->sample("").interfaces) on_water += f.on_surfa[1];
+    pressure += sum / rows, ++times;
+  }
+  EXPECT_NEAR(pressure / times / (1000 * g * 0.95), 1, 0.05);  // half a spacing
+  EXPECT_NEAR(on_water / times / (1000 * g), 1, 0.01);         // on support and contact together
+  const Particles& p = s->world().particles;
+  Real lowest = 1, highest = 0;
+  for (Index i = 0; i < p.active; ++i)
+    lowest = std::min(lowest, p.x.vec(i)[1]), highest = std::max(highest, p.x.vec(i)[1]);
+  EXPECT_NEAR(lowest, 0.05, 0.01);
+  EXPECT_NEAR(highest, 0.95, 0.02);
+  EXPECT_LT(std::abs(s->sample("").energy.residual()), 1e-3 * 1000 * g * 0.5);
+}
+
+TEST(WallSupport, FrictionIsHalfRhoVSquaredTimesCf) {
+  const auto s = test::build_deck(on_floor("*COURANT_WALL_SUPPORT\n2,3,0.004\n", "2.,0.,0.", 12));
+  std::string who;
+  s->evaluate(who);
+  const Particles& p = s->world().particles;
+  Real drag = 0;
+  for (Index i = 0; i < p.active; ++i) drag += p.f.vec(i)[0];
+  EXPECT_NEAR(drag / (-0.5 * 1000 * 4 * 0.004 * 1.2), 1, 0.02);
+}
+
+TEST(WallSupport, EnergyOfAnImpactIsKeptAsWellAsWithoutIt) {
+  const auto residual = [&](const std::string& more) {
+    const auto s = test::build_deck(on_floor(more + "*CONTROL_TIMESTEP\n0,0.3\n", "0.,-0.3,0."));
+    while (s->clock().t < 0.5) s->step([](World&, const Clock&, const std::string&) {});
+    const Sample sample = s->sample("");
+    return std::abs(sample.energy.residual()) / (0.5 * 360 * 0.09);  // of the impact's
+  };
+  const Real with = residual(support);
+  EXPECT_LT(with, 0.01);
+  EXPECT_LT(with, residual("") + 0.005);
+}
+
+}  // namespace
+}  // namespace courant
