@@ -6,7 +6,8 @@
 
 namespace courant {
 
-/// SPH particles, sorted as [active | rim | dormant]. Active particles are inside the computational box: the
+/// SPH particles, sorted as [active | rim | dormant]. Active particles are inside the computational box and
+/// not upstream of an inlet for which they wait: the
 /// equations are solved for them. Rim particles are outside but within reach of an active one: they act as
 /// neighbours and move with constant velocity every step. Dormant particles are out of reach and are touched
 /// only when neighbours are refreshed.
@@ -51,6 +52,7 @@ enum ParticleState : Index {
   particle_outside = 0,      ///< outside the box: keeps its state, moves with constant velocity
   particle_active = 1,       ///< inside the box
   particle_deactivated = 2,  ///< switched off for good (MAXV)
+  particle_waiting = 3,      ///< made for an inlet and not yet through its plane: like outside
 };
 
 /// Nodes of shells. Contact adds forces to f; whoever owns the nodes (rigid bodies) moves them. Forces on
