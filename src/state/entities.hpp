@@ -6,11 +6,11 @@
 
 namespace courant {
 
-/// SPH particles, sorted as [active | rim | dormant]. Active particles are inside the computational box and
-/// not upstream of an inlet for which they wait: the
+/// SPH particles, sorted as [active | rim | dormant]. Active particles are inside the computational box: the
 /// equations are solved for them. Rim particles are outside but within reach of an active one: they act as
 /// neighbours and move with constant velocity every step. Dormant particles are out of reach and are touched
-/// only when neighbours are refreshed.
+/// only when neighbours are refreshed. Those made for an inlet are outside, too, until they have crossed its
+/// plane.
 struct Particles {
   FieldSet fields;
   Field<Real>& x = fields.add<Real>(
