@@ -87,6 +87,10 @@ int call_run(const Call& call) {
   std::vector<std::string> warnings;
   auto simulation = build(call, restart ? &restart->deck : nullptr, warnings);
   if (!simulation) return exit_input;
+  if (const std::string why = simulation->lacks_particles(call.until); !why.empty()) {
+    print_error(fmt::format("error: --until {:g}: {}\n", call.until, why));
+    return exit_input;
+  }
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   std::signal(SIGXFSZ,

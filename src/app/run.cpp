@@ -70,6 +70,7 @@ class Run {
   Summary execute() {
     print_start();
     try {
+      if (const std::string why = s_.lacks_particles(end_); !why.empty()) throw RunError(why);
       if (options_.restart) go_on();
       loop();
       finish_normally();
@@ -244,7 +245,10 @@ class Run {
         writer_.submit([this] { histories_.finish(), fields_.finish(); });
         break;
       case Kind::end_time:
-        end_ = order.end_time;
+        if (const std::string why = s_.lacks_particles(order.end_time); !why.empty())
+          messag_.line(" *** Warning: the end stays: " + why);
+        else
+          end_ = order.end_time;
         messag_.line(fmt::format(" termination time                  = {:10.3E}", end_));
         break;
       case Kind::tell:

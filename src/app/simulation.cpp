@@ -49,6 +49,7 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
   if (before) s->changes_ = compare_decks(*before, s->deck_, s->record_, diagnostics);
   s->model_ = build_model(s->deck_, diagnostics);
   release_mesh_cards(s->deck_);
+  s->injections_ = add_injected_particles(s->deck_, s->model_, diagnostics);
   const bool model_is_whole = diagnostics.ok();
   s->build_parts(diagnostics);
   if (s->model_.sph.empty() && model_is_whole)
@@ -91,6 +92,8 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   const Real h = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
   neighbours_ = std::make_shared<Neighbours>(first_skin * h, sph_.region, kernel_support(sph_.kernel));
   neighbours_->adapt_skin(least_skin * h, most_skin * h);
+  make_injected_wait(injections_, world_, *neighbours_);
+  if (injections_.inlets.empty()) left_out_.push_back({"inlets", "no *DEFINE_SPH_INJECTION"});
   add_images(h, diagnostics);
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
@@ -142,6 +145,15 @@ Ranges Simulation::reference_of_parts() const {
     out[k].liquid = m.eos->sound_speed2(m.ro, 0, 0) > 0;  // a gas has no pressure without heat
   }
   return out;
+}
+
+std::string Simulation::lacks_particles(Real end) const {
+  for (const Injection& inlet : injections_.inlets)
+    if (end > model_.endtim && inlet.end > model_.endtim)
+      return fmt::format(
+          "the particles of {} ({}) last until ENDTIM = {:g} only: give the later end as ENDTIM",
+          deck_.keyword(inlet.card), deck_.place(inlet.card), model_.endtim);
+  return "";
 }
 
 void Simulation::add_images(Real h, Diagnostics& diagnostics) {
@@ -221,6 +233,7 @@ std::string Simulation::passes() const {
   list("motion", world_.motions);
   text += fmt::format("  {:<12}every {} steps\n", "guard", Guard::interval);
   for (const PassNote& output : outputs(true)) text += fmt::format("  {:<12}{}\n", "output", output.name);
+  text += injections_text(injections_, model_);
   text += "not needed by this deck:\n";
   for (const PassNote& note : left_out_) text += fmt::format("  {:<20}{}\n", note.name, note.reason);
   for (const PassNote& note : outputs(false)) text += fmt::format("  {:<20}{}\n", note.name, note.reason);

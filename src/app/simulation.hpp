@@ -15,6 +15,7 @@
 #include "output/sample.hpp"
 #include "output/summary.hpp"
 #include "rigid/rigid.hpp"
+#include "sph/injection.hpp"
 #include "sph/sph.hpp"
 #include "time/step.hpp"
 
@@ -53,6 +54,9 @@ class Simulation {
   const std::vector<PartMaterial>& materials() const { return materials_; }
   const std::vector<std::shared_ptr<Contact>>& contacts() const { return contacts_; }
   const RigidBodies* bodies() const { return bodies_.get(); }
+  const Injections& injections() const { return injections_; }
+  /// Why a run cannot go on until `end`: particles of inlets were made up to ENDTIM. Empty where it can. [T]
+  std::string lacks_particles(Real end) const;
   PassTimer& timer() { return timer_; }
   double read_seconds() const { return read_seconds_; }  ///< for deck and set-up: the first rows of timer()
   Guard& guard() { return *guard_; }  ///< looks every Guard::interval steps, and when told to
@@ -82,6 +86,7 @@ class Simulation {
   World world_;
   Clock clock_;
   SphSettings sph_;
+  Injections injections_;
   std::vector<PartMaterial> materials_;
   std::shared_ptr<Neighbours> neighbours_;
   std::shared_ptr<Motion> mirrors_;  ///< null: none

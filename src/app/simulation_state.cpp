@@ -7,7 +7,7 @@ namespace courant {
 void Simulation::keep(Archive& archive) {
   const Archive::Group inside(archive, "state");
   keep_clock(clock_, archive);
-  keep_world(world_, archive);
+  const bool more_wait = keep_world(world_, archive);
   auto keepers = keepers_of(world_);
   keepers.emplace_back("guard", guard_.get());
   keepers.emplace_back("stepper", stepper_.get());
@@ -23,6 +23,7 @@ void Simulation::keep(Archive& archive) {
   archive.stop_for_leftovers();
   neighbours_->restore(world_, keepers);
   for (const auto& [name, keeper] : keepers) keeper->loaded(world_);
+  if (more_wait) neighbours_->force_refresh();
 }
 
 }  // namespace courant

@@ -283,7 +283,7 @@ Contact::Penetrations Contact::penetrations(World& world) {
   const Particles& p = world.particles;
   const Index n = p.active > 0 ? p.active : p.size();
   for (Index i = 0; i < n; ++i) {
-    if (!((*k_particle_)[i] > 0)) continue;
+    if (!((*k_particle_)[i] > 0) || p.state[i] == particle_waiting) continue;
     const Vec x = p.x.vec(i);
     Real deepest = 0;
     for (const Index s : grid_.near(x)) {

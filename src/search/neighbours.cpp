@@ -85,11 +85,12 @@ class Neighbours::Watch : public Motion {
       stale |= moved2 < room * room ? 0 : 1;  // 1 also for NaN
       most = std::max(most, moved2);
     }
-    if (lists_.region_) {
-      const Index active_end = std::clamp(p.active, begin, end);
-      stale |= inside(*lists_.region_, x, y, z, begin, active_end) != active_end - begin;
+    const Index active_end = std::clamp(p.active, begin, end);
+    if (lists_.region_) stale |= inside(*lists_.region_, x, y, z, begin, active_end) != active_end - begin;
+    if (lists_.inlet_)
+      for (Index i = active_end; i < end; ++i) stale |= lists_.is_solved_for(p, i) ? 1 : 0;
+    else if (lists_.region_)
       stale |= inside(*lists_.region_, x, y, z, active_end, end) != 0;
-    }
     stale_[begin / block_size] = stale != 0;
     moved2_[begin / block_size] = most;
   }
@@ -124,6 +125,27 @@ void Neighbours::adapt_skin(Real least, Real most) {
   skin_ = std::clamp(skin_, least, most);
 }
 
+void Neighbours::set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet) {
+  inlets_ = std::move(planes);
+  inlet_ = &inlet;
+}
+
+/// Where it is now. Particles that MAXV switched off are not asked about.
+bool Neighbours::is_solved_for(const Particles& p, Index i) const {
+  const Vec x = p.x.vec(i);
+  return (!region_ || region_->contains(x[0], x[1], x[2])) &&
+         (p.state[i] != particle_waiting || inlets_[(*inlet_)[i]].behind(x));
+}
+
+/// How long until a particle that is not solved for, with constant velocity, can be within `reach` of where
+/// it would be. [T]
+Real Neighbours::time_to_reach(const Particles& p, Index i, Real reach) const {
+  const Vec x = p.x.vec(i), v = p.v.vec(i);
+  Real time = region_ ? region_->time_to_reach(x, v, reach) : 0;
+  if (p.state[i] == particle_waiting) time = std::max(time, inlets_[(*inlet_)[i]].time_to_reach(x, v, reach));
+  return time;
+}
+
 std::shared_ptr<Motion> Neighbours::watch() {
   return watch_;
 }
@@ -134,9 +156,13 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   Particles& p = world.particles;
   const Index active_before = p.active;
   const bool h_grew = h_max_ > 0.5 * (1 + h_growth) * h_queued_;  // with room for what grows until next time
-  const bool all = !built_ || too_many_gone(world) || h_grew;
+  bool all = !built_ || too_many_gone(world) || h_grew;
   if (all) wake_all(world, clock.t);
   const Index n = all ? p.size() : p.moving + take_due(world, clock.t);
+  if (n == p.size()) {  // the last ones were due: those that are still far sleep on from where they are now
+    all = true;
+    p.dormant_time = clock.t;
+  }
   choose_skin(clock);
   if (images_) images_->bring_back(world, n);
   sort(world, clock, n);
@@ -236,8 +262,8 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
     for (Index i = begin; i < end; ++i) {
       const Vec x = p.x.vec(i);
       e.lost = e.lost || !std::isfinite(x.sum() + p.h[i]);
-      const bool active = !region_ || region_->contains(x[0], x[1], x[2]);
-      const bool far = !active && all && region_->time_to_reach(x, p.v.vec(i), near) > 0;
+      const bool active = is_solved_for(p, i);
+      const bool far = !active && all && time_to_reach(p, i, near) > 0;
       group_[i] = p.state[i] == particle_deactivated || far ? group_dormant
                   : active                                  ? group_active
                                                             : group_rim;
@@ -290,7 +316,7 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
 Real Neighbours::due_time(const Particles& p, Index i) const {
   if (p.state[i] == particle_deactivated) return std::numeric_limits<Real>::infinity();
   const Real reach = support_ * h_growth * h_max_ + most_skin_;
-  return p.dormant_time + region_->time_to_reach(p.x.vec(i), p.v.vec(i), reach);
+  return p.dormant_time + time_to_reach(p, i, reach);
 }
 
 // Behind the moving particles: those first that can be within reach first.
@@ -311,8 +337,9 @@ void Neighbours::note_changes(Particles& p, const std::vector<Index>& old_of_new
     const bool now = i < p.active, before = old_of_new[i] < active_before;
     if (now && !before) entered_.push_back(i);
     if (!now && before) left_.push_back(i);
-    if (p.state[i] != particle_deactivated) p.state[i] = now ? particle_active : particle_outside;
-    if (!now && i < p.moving && region_->time_to_reach(p.x.vec(i), p.v.vec(i), near) > 0) ++gone_;
+    if (p.state[i] != particle_deactivated && (now || p.state[i] != particle_waiting))
+      p.state[i] = now ? particle_active : particle_outside;
+    if (!now && i < p.moving && time_to_reach(p, i, near) > 0) ++gone_;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "parallel/parallel.hpp"
 #include "search/cell_grid.hpp"
 #include "search/images.hpp"
+#include "search/inlet_plane.hpp"
 #include "search/near_loops.hpp"
 #include "search/region.hpp"
 #include "state/keeper.hpp"
@@ -35,6 +36,9 @@ class Neighbours {
   /// From now on the lists also hold images of particles behind planes.
   void set_images(std::shared_ptr<Images> images) { images_ = std::move(images); }
   const Images* images() const { return images_.get(); }
+  /// Particles in the state particle_waiting become active when they cross the plane that `inlet` counts from
+  /// 0 (and are inside the box, where there is one). Call before the first refresh.
+  void set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet);
 
   /// Sorts and rebuilds if it must. Returns true if it did; then every Refresh of the world was told.
   /// Throws RunError naming a particle whose place is no longer a finite number.
@@ -82,6 +86,8 @@ class Neighbours {
   };
   class Watch;
 
+  bool is_solved_for(const Particles& p, Index i) const;
+  Real time_to_reach(const Particles& p, Index i, Real reach) const;
   Index take_due(World& world, Real t);
   void wake_all(World& world, Real t);
   bool too_many_gone(const World& world) const;
@@ -104,6 +110,8 @@ class Neighbours {
   Real skin_, least_skin_, most_skin_;
   Real support_;  ///< of the kernel, in h
   std::optional<Region> region_;
+  std::vector<InletPlane> inlets_;
+  const Field<Index>* inlet_ = nullptr;  ///< of waiting particles; null: there are none
   FindNear find_near_;
   bool built_ = false;
   std::int64_t built_cycle_ = 0;

@@ -6,6 +6,7 @@
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "sph/injection.hpp"
 #include "sph/sph.hpp"
 
 namespace courant {
@@ -54,6 +55,9 @@ class PlaneBuilder {
   std::vector<ImagePlane> build(const SphSettings& settings, Real reach) {
     for (const auto& card : deck_.all<BoundarySphSymmetryPlane>()) add_mirror(card);
     for (const auto& card : deck_.all<BoundarySphPeriodic>()) {
+      if (first_injection(deck_))
+        diagnostics_.error(deck_.where(card), "*BOUNDARY_SPH_PERIODIC: not beside an inlet of particles",
+                           "use symmetry planes");
       if (settings.region)
         diagnostics_.error(deck_.where(card),
                            "*BOUNDARY_SPH_PERIODIC: not beside a computational box (BOXID)",
@@ -155,8 +159,8 @@ class PlaneBuilder {
         const Real d = (p.x.vec(i) - planes_[k].point).dot(planes_[k].normal);
         if (d >= 0 && (planes_[k].period == 0 || d < planes_[k].period)) continue;
         diagnostics_.error(deck_.where(model_.sph[i].card),
-                           fmt::format("*ELEMENT_SPH: particle {} stands behind the plane of {}", p.id[i],
-                                       place(*cards_[k])),
+                           fmt::format("{}: particle {} stands behind the plane of {}",
+                                       deck_.keyword(model_.sph[i].card), p.id[i], place(*cards_[k])),
                            "the vector of the plane points into the material");
         break;
       }

@@ -271,6 +271,7 @@ class Builder {
     for (const ModelSph& s : model_.sph) {
       const Conversion& c = deck_.files[static_cast<std::size_t>(s.card.file)].conversion;
       if (c.units.length == 1) continue;
+      if (deck_.keyword(s.card) != "*ELEMENT_SPH") return;  // those of inlets stand behind all of them
       deck_.error(diagnostics_, s.card, "MASS",
                   fmt::format("in 2D masses are per unit of depth, and the file has another unit of length "
                               "(FCTLEN {:g}), which leaves open what the depth is",
@@ -287,10 +288,9 @@ class Builder {
     if (i == p.size()) return;
     diagnostics_.error(
         deck_.where(model_.sph[i].card),
-        fmt::format(
-            "*ELEMENT_SPH: in 2D all particles must lie in one plane z = constant without velocity along "
-            "z; particle {} has z = {:g} [L] and vz = {:g} [L/T], the first one z = {:g}",
-            p.id[i], p.x.vec(i)[2], p.v.vec(i)[2], p.x.vec(0)[2]),
+        fmt::format("{}: in 2D all particles must lie in one plane z = constant without velocity along "
+                    "z; particle {} has z = {:g} [L] and vz = {:g} [L/T], the first one z = {:g}",
+                    deck_.keyword(model_.sph[i].card), p.id[i], p.x.vec(i)[2], p.v.vec(i)[2], p.x.vec(0)[2]),
         "move it into the plane, or use IDIM 3 of *CONTROL_SPH");
   }
 
@@ -332,10 +332,10 @@ class Builder {
       while (p.x.vec(first) != p.x.vec(i)) ++first;
       if (model_.sph[first].node == model_.sph[i].node)
         continue;  // the same one, or one node used twice: told already
-      diagnostics_.error(
-          deck_.where(model_.sph[i].card),
-          fmt::format("*ELEMENT_SPH: particle {} stands where particle {} is", p.id[i], p.id[first]),
-          "remove one of the two, or move its node");
+      diagnostics_.error(deck_.where(model_.sph[i].card),
+                         fmt::format("{}: particle {} stands where particle {} is",
+                                     deck_.keyword(model_.sph[i].card), p.id[i], p.id[first]),
+                         "remove one of the two, or move its node");
       if (++found < max_reports) continue;
       diagnostics_.note(deck_.where(model_.sph[i].card),
                         fmt::format("only {} particles in one place with another are shown", max_reports));
@@ -357,7 +357,7 @@ class Builder {
                     nearest[i], median)
               : std::string("is the only one, so it has no neighbour to take the smoothing length from");
       diagnostics_.error(deck_.where(model_.sph[i].card),
-                         fmt::format("*ELEMENT_SPH: particle {} {}", p.id[i], what),
+                         fmt::format("{}: particle {} {}", deck_.keyword(model_.sph[i].card), p.id[i], what),
                          "remove the particle, or give the smoothing length by SPHINI of *SECTION_SPH");
     }
     if (found > max_reports)

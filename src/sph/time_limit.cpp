@@ -39,7 +39,7 @@ class SphTimeLimit : public Tally, public TimeLimit {
     std::size_t block = 0;
     for (std::size_t b = 1; b < smallest_.size(); ++b)
       if (!std::isnan(smallest_[block]) && !(smallest_[b] >= smallest_[block])) block = b;
-    if (smallest_.empty()) return {std::numeric_limits<Real>::infinity(), "no active particle"};
+    if (smallest_.empty()) return limit_of_waiting(p);
     const Real dt = smallest_[block];
     Index i = static_cast<Index>(block) * block_size;  // whose it is
     const Index end = std::min(i + block_size, p.active);
@@ -51,6 +51,16 @@ class SphTimeLimit : public Tally, public TimeLimit {
   }
 
  private:
+  /// Nothing is active, but some may wait to come in: their own limit brings the run to them.
+  Limit limit_of_waiting(const Particles& p) const {
+    Limit out{std::numeric_limits<Real>::infinity(), "no active particle"};
+    for (Index i = 0; i < p.size(); ++i)
+      if (p.state[i] == particle_waiting)
+        out = {
+            std::min(out.dt, tssfac_ * std::min(p.h[i] / (p.c[i] + p.v.vec(i).norm()), viscous_limit(p, i))),
+            "particles that wait at an inlet"};
+    return out;
+  }
   Real viscous_limit(const Particles& p, Index i) const {
     return mu_.empty() ? std::numeric_limits<Real>::infinity()
                        : 0.125 * p.rho[i] * p.h[i] * p.h[i] / mu_[p.part[i]];

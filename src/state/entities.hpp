@@ -9,7 +9,8 @@ namespace courant {
 /// SPH particles, sorted as [active | rim | dormant]. Active particles are inside the computational box: the
 /// equations are solved for them. Rim particles are outside but within reach of an active one: they act as
 /// neighbours and move with constant velocity every step. Dormant particles are out of reach and are touched
-/// only when neighbours are refreshed.
+/// only when neighbours are refreshed. Those made for an inlet are outside, too, until they have crossed its
+/// plane.
 struct Particles {
   FieldSet fields;
   Field<Real>& x = fields.add<Real>(
@@ -51,6 +52,7 @@ enum ParticleState : Index {
   particle_outside = 0,      ///< outside the box: keeps its state, moves with constant velocity
   particle_active = 1,       ///< inside the box
   particle_deactivated = 2,  ///< switched off for good (MAXV)
+  particle_waiting = 3,      ///< made for an inlet and not yet through its plane: like outside
 };
 
 /// Nodes of shells. Contact adds forces to f; whoever owns the nodes (rigid bodies) moves them. Forces on

@@ -16,15 +16,29 @@ bool keep_field(FieldBase& field, Index n, Archive& archive) {
   return true;
 }
 
-void keep_fields(const std::string& group, FieldSet& fields, Archive& archive) {
+/// The first n of each field.
+void keep_fields(const std::string& group, FieldSet& fields, Index n, Archive& archive) {
   const Archive::Group inside(archive, group);
   for (const auto& field : fields.all()) {
     if (!field->info().restart) continue;
-    const Index n = fields.size();
     if (!keep_field<Real>(*field, n, archive) && !keep_field<Id>(*field, n, archive) &&
         !keep_field<Index>(*field, n, archive))
       throw std::logic_error("field '" + field->info().name + "' has a type that restart files do not know");
   }
+}
+
+/// How many of the particles there are in the state. With another ENDTIM a deck with an inlet makes more or
+/// fewer particles that wait: those that are missing are not needed yet, and stand behind all others with
+/// higher ids; those that are too many wait on.
+Index particles_to_load(Particles& p, Archive& archive) {
+  const Archive::Group inside(archive, "particles");
+  const auto saved = static_cast<Index>(archive.count("id"));
+  const bool has_inlets = p.fields.find("inlet") != nullptr;
+  if (saved == p.size() || !has_inlets) return p.size();
+  if (saved > p.size()) p.fields.resize(saved);
+  for (Index i = saved; i < p.size(); ++i)
+    if (p.state[i] != particle_waiting) archive.stop("id", "has another length");
+  return saved;
 }
 
 void keep_ledger(EnergyLedger& e, Archive& archive) {
@@ -67,11 +81,12 @@ std::vector<std::pair<std::string, Keeper*>> keepers_of(const World& world) {
   return out;
 }
 
-void keep_world(World& world, Archive& archive) {
+bool keep_world(World& world, Archive& archive) {
   Particles& p = world.particles;
-  keep_fields("particles", p.fields, archive);
-  keep_fields("nodes", world.nodes.fields, archive);
-  keep_fields("segments", world.segments.fields, archive);
+  const Index known = archive.loading() ? particles_to_load(p, archive) : p.size();
+  keep_fields("particles", p.fields, known, archive);
+  keep_fields("nodes", world.nodes.fields, world.nodes.size(), archive);
+  keep_fields("segments", world.segments.fields, world.segments.size(), archive);
   keep_ledger(world.energy, archive);
   const Archive::Group inside(archive, "world");
   archive("active", p.active);
@@ -79,6 +94,8 @@ void keep_world(World& world, Archive& archive) {
   archive("dormant_time", p.dormant_time);
   archive("counters", world.counters);
   archive("maxima", world.maxima);
+  for (Index i = known; i < p.size(); ++i) p.x.add(i, p.v.vec(i) * p.dormant_time);
+  return known < p.size();
 }
 
 void keep_clock(Clock& clock, Archive& archive) {

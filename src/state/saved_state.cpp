@@ -73,6 +73,12 @@ void Archive::operator()(const std::string& name, std::vector<std::string>& line
   }
 }
 
+std::size_t Archive::count(const std::string& name) const {
+  const auto found = state_.find(prefix_ + name);
+  if (found == state_.end()) stop(name, "is not there");
+  return found->second.count();
+}
+
 void Archive::stop_for_leftovers() const {
   for (const auto& [path, array] : state_)
     if (path.rfind(prefix_, 0) == 0 && !asked_.contains(path))

@@ -102,6 +102,9 @@ class Archive {
     fixed(name, saved_type<T>(), rows.size(), count * sizeof(T), starts);
   }
 
+  /// Numbers saved under that name in all rows, while loading.
+  std::size_t count(const std::string& name) const;
+
   /// Throws RestartError if the state holds something that nobody asked for: it is from a run with other
   /// passes.
   void stop_for_leftovers() const;

@@ -134,6 +134,47 @@ TEST(Restart, MiddleOfAnInflow) {
   expect_same(s, {3, 60}, 200);
 }
 
+/// Water and an inlet of three nodes at its left side, no box.
+SmallScene with_inlet(const std::string& endtim) {
+  return {.start = "0.5,0.,0.",
+          .termination = endtim,
+          .extra =
+              "*NODE\n901,0.,0.05,0.\n902,0.,0.15,0.\n903,0.,0.25,0.\n*SET_NODE_LIST\n7\n901,902,903\n"
+              "*DEFINE_SPH_INJECTION\n1,7,0,2.\n"};
+}
+
+TEST(Restart, MiddleOfAnInjection) {
+  const SmallScene scene = with_inlet("4.");
+  const auto run = test::build(scene);
+  steps(*run, 200);
+  EXPECT_GT(run->world().particles.size(), run->world().particles.moving) << "some wait to the end";
+  EXPECT_GT(run->world().particles.active, 36) << "some are in";
+  expect_same(scene, {0, 3, 60}, 200);
+}
+
+TEST(Restart, InjectionWithAnotherEndTime) {
+  const auto shorter = test::build(with_inlet("0.4")), longer = test::build(with_inlet("1.2"));
+  ASSERT_TRUE(shorter && longer);
+  EXPECT_LT(shorter->world().particles.size(), longer->world().particles.size());
+  steps(*shorter, 120), steps(*longer, 120);
+  // the other end only, each way
+  const auto extended = test::build(with_inlet("1.2")), cut = test::build(with_inlet("0.4"));
+  load(*extended, saved(*shorter)), load(*cut, saved(*longer));
+  EXPECT_EQ(cut->world().particles.size(), longer->world().particles.size());
+  const auto by_id = [](Simulation& s) {
+    std::map<Id, Vec> out;
+    const Particles& p = s.world().particles;
+    for (Index i = 0; i < p.size(); ++i) out[p.id[i]] = p.place(i, s.clock().t);
+    return out;
+  };
+  while (longer->clock().t < 1.2) steps(*longer, 1), steps(*extended, 1), steps(*cut, 1);
+  const auto expected = by_id(*longer), got = by_id(*extended);
+  ASSERT_EQ(expected.size(), got.size());
+  for (const auto& [id, x] : expected) EXPECT_NEAR((got.at(id) - x).norm(), 0, 1e-6) << id;
+  EXPECT_EQ(difference(all_of(*cut), all_of(*longer)), "") << "nothing changes where fewer would do";
+  EXPECT_EQ(longer->world().particles.active, extended->world().particles.active);
+}
+
 TEST(Restart, OutflowWithViscosityAndBox) {
   expect_same({.n = 10,
                .start = "2.,0.,0.",

@@ -121,6 +121,30 @@ TEST(Neighbours, WakeParticlesInTimeAlsoWhereHGrows) {
   EXPECT_GT(p.moving, first);
 }
 
+TEST(Neighbours, TheLastDormantParticlesComeInWhereTheyShould) {
+  Cloud cloud(2, 40, 0.01, 0);
+  Particles& p = cloud.world.particles;
+  std::map<Id, Real> before;
+  for (Index i = 0; i < p.size(); ++i) {
+    p.v.set(i, {1, 0, 0});
+    p.h[i] *= 0.2;  // small, so that most are woken far away, and in batches
+    before[p.id[i]] = p.x.vec(i)[0];
+  }
+  cloud.neighbours =
+      std::make_shared<Neighbours>(0.0005, Neighbours::Region{Vec(0.385, -1, -1), Vec(9, 1, 1)});
+  cloud.refresh();
+  EXPECT_LT(p.moving, p.size());
+  for (int step = 1; step <= 500; ++step) {
+    for (Index i = 0; i < p.moving; ++i) p.x.add(i, p.v.vec(i) * 0.001);
+    cloud.clock.t += 0.001;
+    cloud.refresh();
+    for (Index i = 0; i < p.size(); ++i)
+      EXPECT_NEAR(p.place(i, cloud.clock.t)[0], before[p.id[i]] + 0.001 * step, 1e-12) << "step " << step;
+    if (HasFailure()) return;
+  }
+  EXPECT_EQ(p.active, p.size());
+}
+
 TEST(Neighbours, CrossingTheBorderOfTheBoxCountsAtOnce) {
   Cloud cloud(2, 10, 0.01, 0);
   Particles& p = cloud.world.particles;
