@@ -246,7 +246,7 @@ def choose(runs, options):
             say(f"--only: there is no run {', '.join(sorted(unknown))}; there are {', '.join(run.name for run in runs)}")
             sys.exit(2)
         return [run for run in runs if run.name in names]
-    groups = {"paper", "smooth", "better", "paper_setting" if options.paper_setting else "", "standing" if options.standing else ""}
+    groups = {"paper", "supported", "better", "paper_setting" if options.paper_setting else "", "standing" if options.standing else ""}
     return [run for run in runs if run.group in groups]
 
 

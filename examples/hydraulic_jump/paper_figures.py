@@ -157,7 +157,7 @@ def section(main, still, page_folder, project):
     folder.mkdir(parents=True, exist_ok=True)
     shown = []
     for run, _ in main:
-        ends = {"paper": "", "smooth": "_smooth", "better": "_better", "paper_setting": "_c1484"}[run.group]
+        ends = {"paper": "", "supported": "_supported", "better": "_better", "paper_setting": "_c1484"}[run.group]
         setting = f", {run.setting}"
         if run.case in ("d1/4", "d1/10"):
             number = 3 if run.case == "d1/4" else 4
