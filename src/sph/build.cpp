@@ -48,6 +48,7 @@ class Builder {
     read_pair_geometry();
     read_density_diffusion();
     if (const auto* c = deck_.last<CourantVolumeControl>()) settings_.volume_tau = c->tau;
+    settings_.reinitialisation = read_density_reinitialisation(deck_, model_, diagnostics_);
     read_shifting();
     read_xsph();
     return settings_;
@@ -419,6 +420,10 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   else
     left_out.push_back({"XSPH", "no *COURANT_XSPH"});
   if (s.xsph > 0 && !(s.shift.strength > 0)) add_drift_rate(s, world, neighbours, volumes);
+  if (s.reinitialisation.every > 0)
+    add_density_reinitialisation(s, world, neighbours, volumes);
+  else
+    left_out.push_back({"re-initialisation", "no *COURANT_DENSITY_REINITIALISATION"});
   if (s.geometry_eps == 0) left_out.push_back({"kept pair geometry", "no *COURANT_PAIR_GEOMETRY"});
   if (s.evolving_h)
     world.motions.push_back(make_smoothing_length(s, world));

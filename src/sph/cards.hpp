@@ -60,6 +60,11 @@ struct CourantVolumeControl : Entry {
   Real tau = 0;
 };
 
+/// *COURANT_DENSITY_REINITIALISATION, ours.
+struct CourantDensityReinitialisation : Entry {
+  int ncyc = 0, method = 0;
+};
+
 /// *COURANT_SHIFTING, ours.
 struct CourantShifting : Entry {
   Real strength = 0, pairing = 0, surface = 0;

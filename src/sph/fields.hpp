@@ -36,6 +36,10 @@ inline Field<Real>& density_diffusion(Particles& p) {
 inline Field<Real>& volume_rate(Particles& p) {
   return p.fields.add<Real>({.name = "volume_rate", .dimension = "M/L3T"});
 }
+/// Rate of density that re-initialises it within a step.
+inline Field<Real>& reinitialisation_rate(Particles& p) {
+  return p.fields.add<Real>({.name = "reinitialisation_rate", .dimension = "M/L3T", .restart = false});
+}
 /// -g.x of gravity; images have that of their particle, as they have its pressure.
 inline Field<Real>& potential(Particles& p) {
   return p.fields.add<Real>({.name = "potential", .dimension = "L2/T2", .exchange = Exchange::before_rates});

@@ -42,6 +42,12 @@ struct ShiftRules {
   bool correct = false;  ///< the velocity changes to that of the new place
 };
 
+/// *COURANT_DENSITY_REINITIALISATION.
+struct ReinitialisationRules {
+  int every = 0;        ///< NCYC; 0: never
+  bool linear = false;  ///< METHOD 1
+};
+
 struct SphSettings {
   int dim = 3;
   KernelChoice kernel = KernelChoice::cubic_spline;
@@ -57,6 +63,7 @@ struct SphSettings {
   Real density_diffusion = 0;          ///< *COURANT_DENSITY_DIFFUSION: delta; 0: none
   std::function<Vec(Real t)> gravity;  ///< acceleration at a time, for the diffusion of density [L/T2]
   Real volume_tau = 0;                 ///< *COURANT_VOLUME_CONTROL: TAU [T]; 0: none
+  ReinitialisationRules reinitialisation;
   ShiftRules shift;
   std::vector<ImagePlane> mirrors;  ///< symmetry planes, along which alone particles near them drift
   Real xsph = 0;                    ///< *COURANT_XSPH: EPS; 0: none
@@ -68,7 +75,9 @@ struct SphSettings {
   Real spacing = 0;                    ///< largest nearest-neighbour distance of all SPH parts [L]
 
   /// Something besides the motion of particles changes the density.
-  bool has_density_sources() const { return density_diffusion > 0 || volume_tau > 0; }
+  bool has_density_sources() const {
+    return density_diffusion > 0 || volume_tau > 0 || reinitialisation.every > 0;
+  }
 };
 
 /// Reads SECTION_SPH, CONTROL_SPH, HOURGLASS, CONTROL_BULK_VISCOSITY; fills world.particles (x, v, m, rho, h,
@@ -110,6 +119,10 @@ void add_density_diffusion(const SphSettings&, World&);
 /// Adds to the rates what brings the density back to what the places of particles say.
 void add_volume_control(const SphSettings&, World&, std::shared_ptr<Neighbours>,
                         std::shared_ptr<PairVolumes>);
+ReinitialisationRules read_density_reinitialisation(const Deck&, const Model&, Diagnostics&);
+/// Adds to the rates what smooths the density every few steps; behind all other rates of density.
+void add_density_reinitialisation(const SphSettings&, World&, std::shared_ptr<Neighbours>,
+                                  std::shared_ptr<PairVolumes>);
 /// Adds the motions by which particles drift, behind that by their velocity; what sets the velocities of
 /// drift comes with `add_sph_passes`. `gravity`: the acceleration at a time [L/T2].
 void add_drifts(const SphSettings&, const std::function<Vec(Real t)>& gravity, World&);

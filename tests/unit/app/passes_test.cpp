@@ -45,6 +45,7 @@ const Lists bare{
      "volume control no *COURANT_VOLUME_CONTROL",
      "shifting ISHIFT 0",
      "XSPH no *COURANT_XSPH",
+     "re-initialisation no *COURANT_DENSITY_REINITIALISATION",
      "kept pair geometry no *COURANT_PAIR_GEOMETRY",
      "smoothing length HMIN = HMAX = 1: h is constant",
      "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
@@ -185,6 +186,8 @@ TEST(Passes, DensityDiffusion) {
   expect_change(scene, {"density diffusion"}, {"rate density diffusion", "motion gravity's potential"});
   scene.extra = "*COURANT_VOLUME_CONTROL\n0.1\n";
   expect_change(scene, {"volume control"}, {"rate volume control"});
+  scene.extra = "*COURANT_DENSITY_REINITIALISATION\n20\n";
+  expect_change(scene, {"re-initialisation"}, {"rate density re-initialisation"});
 }
 
 TEST(Passes, Drifts) {

@@ -181,6 +181,15 @@ TEST(Restart, VolumeControl) {
               {20, 75}, 120);
 }
 
+TEST(Restart, DensityReinitialisation) {
+  for (const char* method : {"0", "1"})
+    expect_same({.n = 8,
+                 .start = "0.5,-0.5,0.",
+                 .extra = test::gravity_cards + test::floor_cards() +
+                          "*COURANT_DENSITY_REINITIALISATION\n7," + method + "\n"},
+                {20, 21, 75}, 120);
+}
+
 TEST(Restart, ShiftingWithCorrectionsAndXsph) {
   expect_same({.n = 10,
                .start = "1.5,-0.5,0.",
