@@ -51,6 +51,7 @@ class Builder {
     settings_.reinitialisation = read_density_reinitialisation(deck_, model_, diagnostics_);
     read_shifting();
     read_xsph();
+    read_riemann(deck_, model_, settings_, diagnostics_);
     return settings_;
   }
 
@@ -390,6 +391,17 @@ class Builder {
 
 }  // namespace
 
+std::string parts_of_several_materials(const Model& model) {
+  const ModelPart* first = nullptr;
+  for (const ModelPart& part : model.parts) {
+    if (!part.has_sph) continue;
+    if (first == nullptr) first = &part;
+    if (part.mid != first->mid || part.eosid != first->eosid)
+      return fmt::format("parts {} and {} differ in MID or EOSID", first->id, part.id);
+  }
+  return {};
+}
+
 SphSettings build_particles(const Deck& deck, const Model& model,
                             const std::function<SphMaterial(Index part)>& material, World& world,
                             Diagnostics& diagnostics) {
@@ -403,10 +415,13 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
       std::make_shared<PairGeometry>(neighbours, s.uniform_h, PairGeometry::most_kept_bytes, s.geometry_eps);
   const auto volumes = make_pair_volumes(world);
   world.rates.push_back(make_rates(s, world, geometry, volumes));
-  if (s.density_diffusion > 0)
-    add_density_diffusion(s, world);
+  const bool riemann = std::holds_alternative<RiemannFlux>(s.viscosity);
+  if (riemann)
+    add_riemann(s, world, neighbours, volumes);
   else
-    left_out.push_back({"density diffusion", "no *COURANT_DENSITY_DIFFUSION"});
+    left_out.push_back({"Riemann flux", "no *COURANT_RIEMANN"});
+  if (s.density_diffusion > 0 || riemann) add_density_diffusion(s, world);
+  if (s.density_diffusion == 0) left_out.push_back({"density diffusion", "no *COURANT_DENSITY_DIFFUSION"});
   if (s.volume_tau > 0)
     add_volume_control(s, world, neighbours, volumes);
   else
@@ -432,7 +447,8 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   if (std::holds_alternative<BulkViscosity>(s.viscosity))
     world.materials.push_back(make_bulk_viscosity(s, world));
   else
-    left_out.push_back({"bulk viscosity", "IAVIS 0: Monaghan viscosity between pairs"});
+    left_out.push_back({"bulk viscosity", riemann ? "*COURANT_RIEMANN takes the place of viscosity"
+                                                  : "IAVIS 0: Monaghan viscosity between pairs"});
   if (!s.mu.empty())
     world.materials.push_back(make_viscous_stress(s, world));
   else

@@ -65,6 +65,11 @@ struct CourantDensityReinitialisation : Entry {
   int ncyc = 0, method = 0;
 };
 
+/// *COURANT_RIEMANN, ours.
+struct CourantRiemann : Entry {
+  Real eta = 0;
+};
+
 /// *COURANT_SHIFTING, ours.
 struct CourantShifting : Entry {
   Real strength = 0, pairing = 0, surface = 0;

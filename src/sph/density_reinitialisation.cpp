@@ -2,8 +2,6 @@
 #include <cmath>
 #include <Eigen/Eigenvalues>
 
-#include <fmt/format.h>
-
 #include "keyword/registry.hpp"
 #include "parallel/parallel.hpp"
 #include "sph/cards.hpp"
@@ -151,19 +149,12 @@ ReinitialisationRules read_density_reinitialisation(const Deck& deck, const Mode
                                                     Diagnostics& diagnostics) {
   const auto* c = deck.last<CourantDensityReinitialisation>();
   if (c == nullptr) return {};
-  const ModelPart* first = nullptr;
-  for (const ModelPart& part : model.parts) {
-    if (!part.has_sph) continue;
-    if (first == nullptr) first = &part;
-    if (c->ncyc == 0 || (part.mid == first->mid && part.eosid == first->eosid)) continue;
-    deck.error(
-        diagnostics, *c, "NCYC",
-        fmt::format("expected 0 where SPH parts are of several materials: parts {} and {} differ in MID "
-                    "or EOSID, and densities would be smoothed across",
-                    first->id, part.id),
-        "give all SPH parts one material and one equation of state, or leave the keyword out");
-    break;
-  }
+  const std::string differ = parts_of_several_materials(model);
+  if (c->ncyc > 0 && !differ.empty())
+    deck.error(diagnostics, *c, "NCYC",
+               "expected 0 where SPH parts are of several materials: " + differ +
+                   ", and densities would be smoothed across",
+               "give all SPH parts one material and one equation of state, or leave the keyword out");
   return {.every = c->ncyc, .linear = c->method == 1};
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "sph/fields.hpp"
 #include "sph/sph.hpp"
 
@@ -10,7 +12,7 @@ class DensitySource {
  public:
   /// `first`: of several in a scene.
   DensitySource(const SphSettings& s, World& world, bool first)
-      : first_(first && !std::holds_alternative<MonaghanViscosity>(s.viscosity)),
+      : first_(first && std::holds_alternative<BulkViscosity>(s.viscosity)),
         heat_(sph_fields::dissipation(world.particles)) {}
   /// `step`: over which the source acts, for sources that change much in one step: the pressure is then that
   /// of its middle, as the rates so far foretell it, and the change of m/rho exact; 0: those at its start.

@@ -16,7 +16,7 @@ inline Field<Real>& stress(Particles& p) {
       {.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = Exchange::before_forces});
 }
 
-/// q1 c at the last motion
+/// q1 c at the last motion; c for a Riemann flux
 inline Field<Real>& viscous_speed(Particles& p) {
   return p.fields.add<Real>(
       {.name = "viscous_speed", .dimension = "L/T", .restart = false, .exchange = Exchange::before_rates});

@@ -1,6 +1,8 @@
 #pragma once
 // SPH after Jonsson et al. 2016, eqs 6-18 (FORM 0 of LS-DYNA): the passes, and how a deck becomes particles.
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <variant>
 
@@ -18,7 +20,15 @@ struct MonaghanViscosity {
 };
 /// Pressure-like bulk viscosity (IAVIS 1): q = rho h (Q1 h d^2 - Q2 c d) where d = div v < 0, added to p.
 struct BulkViscosity {};
-using ArtificialViscosity = std::variant<MonaghanViscosity, BulkViscosity>;
+/// No viscosity but the dissipation of a Riemann problem between pairs (*COURANT_RIEMANN).
+struct RiemannFlux {
+  Real eta = 3;  ///< of the limiter; huge: none
+};
+/// Twice of what p* has beyond the mean of both pressures, where a pair approaches at speed `w` [M/LT2]
+inline Real riemann_excess(const RiemannFlux& flux, Real rho, Real c, Real w) {
+  return w > 0 ? rho * w * std::min(flux.eta * w, c) : 0;
+}
+using ArtificialViscosity = std::variant<MonaghanViscosity, BulkViscosity, RiemannFlux>;
 
 /// Coefficients of one part, LS-DYNA's names swapped to the paper's: q1 linear (HOURGLASS Q2), q2 quadratic
 /// (HOURGLASS Q1).
@@ -59,6 +69,7 @@ struct SphSettings {
   std::vector<Real> mu;                ///< per part, dynamic viscosity; empty if no part has any
   std::vector<char> heat_in_internal;  ///< per part; empty if in none
   Real tssfac = 0.9;
+  Real most_tssfac = std::numeric_limits<Real>::infinity();  ///< beyond which what is asked for is unstable
   Real geometry_eps = 0;  ///< *COURANT_PAIR_GEOMETRY: relative motion, of h, over which gradients are kept
   Real density_diffusion = 0;          ///< *COURANT_DENSITY_DIFFUSION: delta; 0: none
   std::function<Vec(Real t)> gravity;  ///< acceleration at a time, for the diffusion of density [L/T2]
@@ -114,11 +125,18 @@ std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<P
                                    std::shared_ptr<PairVolumes>);
 /// Adds itself to the refreshes of `world`; belongs behind its materials.
 std::shared_ptr<PairVolumes> make_pair_volumes(World&);
-/// Adds to the rates what density diffusion gave in the last forces.
+/// Behind the other settings that it may contradict.
+void read_riemann(const Deck&, const Model&, SphSettings&, Diagnostics&);
+/// Adds the dissipation of momentum to the rates, behind plain sums, and that of mass to the forces, for the
+/// next rates: `add_density_diffusion` takes it.
+void add_riemann(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);
+/// Adds to the rates what density diffusion, or a Riemann flux, gave in the last forces.
 void add_density_diffusion(const SphSettings&, World&);
 /// Adds to the rates what brings the density back to what the places of particles say.
 void add_volume_control(const SphSettings&, World&, std::shared_ptr<Neighbours>,
                         std::shared_ptr<PairVolumes>);
+/// "parts 1 and 2 differ in MID or EOSID"; empty where SPH parts do not.
+std::string parts_of_several_materials(const Model&);
 ReinitialisationRules read_density_reinitialisation(const Deck&, const Model&, Diagnostics&);
 /// Adds to the rates what smooths the density every few steps; behind all other rates of density.
 void add_density_reinitialisation(const SphSettings&, World&, std::shared_ptr<Neighbours>,

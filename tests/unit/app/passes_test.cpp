@@ -41,6 +41,7 @@ const Lists bare{
      "motion particle motion", "motion sph factors", "guard every 64 steps"},
     {"images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
      "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
+     "Riemann flux no *COURANT_RIEMANN",
      "density diffusion no *COURANT_DENSITY_DIFFUSION",
      "volume control no *COURANT_VOLUME_CONTROL",
      "shifting ISHIFT 0",
@@ -188,6 +189,15 @@ TEST(Passes, DensityDiffusion) {
   expect_change(scene, {"volume control"}, {"rate volume control"});
   scene.extra = "*COURANT_DENSITY_REINITIALISATION\n20\n";
   expect_change(scene, {"re-initialisation"}, {"rate density re-initialisation"});
+}
+
+TEST(Passes, RiemannFlux) {
+  SmallScene scene;
+  scene.extra = "*COURANT_RIEMANN\n3.\n";
+  expect_change(scene, {"Riemann flux", "bulk viscosity"},
+                {"rate Riemann flux (momentum)", "rate Riemann flux (density)", "force Riemann flux (mass)",
+                 "motion gravity's potential"},
+                {"bulk viscosity *COURANT_RIEMANN takes the place of viscosity"});
 }
 
 TEST(Passes, Drifts) {

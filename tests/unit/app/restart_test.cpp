@@ -190,6 +190,15 @@ TEST(Restart, DensityReinitialisation) {
                 {20, 21, 75}, 120);
 }
 
+TEST(Restart, RiemannFluxWithABox) {
+  expect_same({.n = 8,
+               .start = "0.5,-0.5,0.",
+               .box = "1",
+               .extra = test::gravity_cards + test::floor_cards() +
+                        "*COURANT_RIEMANN\n3.\n*DEFINE_BOX\n1,-1.,0.6,-1.,1.,-1.,1.\n"},
+              {1, 20, 75}, 120);
+}
+
 TEST(Restart, ShiftingWithCorrectionsAndXsph) {
   expect_same({.n = 10,
                .start = "1.5,-0.5,0.",
