@@ -52,6 +52,7 @@ class Builder {
     read_shifting();
     read_xsph();
     read_riemann(deck_, model_, settings_, diagnostics_);
+    read_form(deck_, settings_, diagnostics_);
     return settings_;
   }
 
@@ -415,6 +416,10 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
       std::make_shared<PairGeometry>(neighbours, s.uniform_h, PairGeometry::most_kept_bytes, s.geometry_eps);
   const auto volumes = make_pair_volumes(world);
   world.rates.push_back(make_rates(s, world, geometry, volumes));
+  if (s.renormalised)
+    add_renormalisation(s, world, neighbours, volumes);
+  else
+    left_out.push_back({"renormalisation", "FORM of *CONTROL_SPH is a plain one"});
   const bool riemann = std::holds_alternative<RiemannFlux>(s.viscosity);
   if (riemann)
     add_riemann(s, world, neighbours, volumes);

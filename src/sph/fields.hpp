@@ -36,6 +36,20 @@ inline Field<Real>& density_diffusion(Particles& p) {
 inline Field<Real>& volume_rate(Particles& p) {
   return p.fields.add<Real>({.name = "volume_rate", .dimension = "M/L3T"});
 }
+/// Inverse of the moment matrix, or 1, less 1
+inline Field<Real>& renormalisation(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "renormalisation", .dimension = "-", .components = 6, .exchange = Exchange::before_forces});
+}
+/// Moment matrix sum_j V_j (x_j - x_i) (x) grad W_ij
+inline Field<Real>& moment(Particles& p) {
+  return p.fields.add<Real>({.name = "moment", .dimension = "-", .components = 6, .restart = false});
+}
+/// sum_j V_j v_ij (x) grad W_ij, symmetric part
+inline Field<Real>& plain_gradient(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "plain_gradient", .dimension = "1/T", .components = 6, .restart = false});
+}
 /// Rate of density that re-initialises it within a step.
 inline Field<Real>& reinitialisation_rate(Particles& p) {
   return p.fields.add<Real>({.name = "reinitialisation_rate", .dimension = "M/L3T", .restart = false});

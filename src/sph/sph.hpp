@@ -61,6 +61,7 @@ struct ReinitialisationRules {
 struct SphSettings {
   int dim = 3;
   KernelChoice kernel = KernelChoice::cubic_spline;
+  bool renormalised = false;  ///< FORM: gradients corrected by the inverse moment matrix
   bool uniform_h = true;
   bool evolving_h = false;
   std::vector<Real> h_min_factor, h_max_factor;  ///< per part, of h/h0
@@ -125,6 +126,11 @@ std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<P
                                    std::shared_ptr<PairVolumes>);
 /// Adds itself to the refreshes of `world`; belongs behind its materials.
 std::shared_ptr<PairVolumes> make_pair_volumes(World&);
+/// FORM of CONTROL_SPH, behind the other settings that it may contradict.
+void read_form(const Deck&, SphSettings&, Diagnostics&);
+/// Adds to rates and forces what corrected gradients have beyond plain ones.
+void add_renormalisation(const SphSettings&, World&, std::shared_ptr<Neighbours>,
+                         std::shared_ptr<PairVolumes>);
 /// Behind the other settings that it may contradict.
 void read_riemann(const Deck&, const Model&, SphSettings&, Diagnostics&);
 /// Adds the dissipation of momentum to the rates, behind plain sums, and that of mass to the forces, for the

@@ -41,6 +41,7 @@ const Lists bare{
      "motion particle motion", "motion sph factors", "guard every 64 steps"},
     {"images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
      "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
+     "renormalisation FORM of *CONTROL_SPH is a plain one",
      "Riemann flux no *COURANT_RIEMANN",
      "density diffusion no *COURANT_DENSITY_DIFFUSION",
      "volume control no *COURANT_VOLUME_CONTROL",
@@ -189,6 +190,13 @@ TEST(Passes, DensityDiffusion) {
   expect_change(scene, {"volume control"}, {"rate volume control"});
   scene.extra = "*COURANT_DENSITY_REINITIALISATION\n20\n";
   expect_change(scene, {"re-initialisation"}, {"rate density re-initialisation"});
+}
+
+TEST(Passes, Renormalisation) {
+  SmallScene scene;
+  scene.control_sph = ",0,1";
+  expect_change(scene, {"renormalisation"},
+                {"rate renormalisation (rates)", "force renormalisation (forces)"});
 }
 
 TEST(Passes, RiemannFlux) {

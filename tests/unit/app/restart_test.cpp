@@ -190,6 +190,15 @@ TEST(Restart, DensityReinitialisation) {
                 {20, 21, 75}, 120);
 }
 
+TEST(Restart, Renormalisation) {
+  expect_same(
+      {.n = 8,
+       .start = "0.5,-1.,0.",
+       .control_sph = ",0,1",
+       .extra = std::string(test::gravity_cards) + "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n"},
+      {1, 20, 75}, 120);
+}
+
 TEST(Restart, RiemannFluxWithABox) {
   expect_same({.n = 8,
                .start = "0.5,-0.5,0.",
