@@ -48,8 +48,11 @@ class Builder {
     read_pair_geometry();
     read_density_diffusion();
     if (const auto* c = deck_.last<CourantVolumeControl>()) settings_.volume_tau = c->tau;
+    settings_.reinitialisation = read_density_reinitialisation(deck_, model_, diagnostics_);
     read_shifting();
     read_xsph();
+    read_riemann(deck_, model_, settings_, diagnostics_);
+    read_form(deck_, settings_, diagnostics_);
     return settings_;
   }
 
@@ -389,6 +392,17 @@ class Builder {
 
 }  // namespace
 
+std::string parts_of_several_materials(const Model& model) {
+  const ModelPart* first = nullptr;
+  for (const ModelPart& part : model.parts) {
+    if (!part.has_sph) continue;
+    if (first == nullptr) first = &part;
+    if (part.mid != first->mid || part.eosid != first->eosid)
+      return fmt::format("parts {} and {} differ in MID or EOSID", first->id, part.id);
+  }
+  return {};
+}
+
 SphSettings build_particles(const Deck& deck, const Model& model,
                             const std::function<SphMaterial(Index part)>& material, World& world,
                             Diagnostics& diagnostics) {
@@ -406,10 +420,17 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
     add_wall_support(s, world, neighbours);
   else
     left_out.push_back({"wall support", "no *COURANT_WALL_SUPPORT"});
-  if (s.density_diffusion > 0)
-    add_density_diffusion(s, world);
+  if (s.renormalised)
+    add_renormalisation(s, world, neighbours, volumes);
   else
-    left_out.push_back({"density diffusion", "no *COURANT_DENSITY_DIFFUSION"});
+    left_out.push_back({"renormalisation", "FORM of *CONTROL_SPH is a plain one"});
+  const bool riemann = std::holds_alternative<RiemannFlux>(s.viscosity);
+  if (riemann)
+    add_riemann(s, world, neighbours, volumes);
+  else
+    left_out.push_back({"Riemann flux", "no *COURANT_RIEMANN"});
+  if (s.density_diffusion > 0 || riemann) add_density_diffusion(s, world);
+  if (s.density_diffusion == 0) left_out.push_back({"density diffusion", "no *COURANT_DENSITY_DIFFUSION"});
   if (s.volume_tau > 0)
     add_volume_control(s, world, neighbours, volumes);
   else
@@ -423,6 +444,10 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   else
     left_out.push_back({"XSPH", "no *COURANT_XSPH"});
   if (s.xsph > 0 && !(s.shift.strength > 0)) add_drift_rate(s, world, neighbours, volumes);
+  if (s.reinitialisation.every > 0)
+    add_density_reinitialisation(s, world, neighbours, volumes);
+  else
+    left_out.push_back({"re-initialisation", "no *COURANT_DENSITY_REINITIALISATION"});
   if (s.geometry_eps == 0) left_out.push_back({"kept pair geometry", "no *COURANT_PAIR_GEOMETRY"});
   if (s.evolving_h)
     world.motions.push_back(make_smoothing_length(s, world));
@@ -431,7 +456,8 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   if (std::holds_alternative<BulkViscosity>(s.viscosity))
     world.materials.push_back(make_bulk_viscosity(s, world));
   else
-    left_out.push_back({"bulk viscosity", "IAVIS 0: Monaghan viscosity between pairs"});
+    left_out.push_back({"bulk viscosity", riemann ? "*COURANT_RIEMANN takes the place of viscosity"
+                                                  : "IAVIS 0: Monaghan viscosity between pairs"});
   if (!s.mu.empty())
     world.materials.push_back(make_viscous_stress(s, world));
   else

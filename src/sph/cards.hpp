@@ -67,6 +67,16 @@ struct CourantWallSupport : Entry {
   Real cf = 0;
 };
 
+/// *COURANT_DENSITY_REINITIALISATION, ours.
+struct CourantDensityReinitialisation : Entry {
+  int ncyc = 0, method = 0;
+};
+
+/// *COURANT_RIEMANN, ours.
+struct CourantRiemann : Entry {
+  Real eta = 0;
+};
+
 /// *COURANT_SHIFTING, ours.
 struct CourantShifting : Entry {
   Real strength = 0, pairing = 0, surface = 0;

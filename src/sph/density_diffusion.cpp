@@ -22,17 +22,20 @@ const RegisterKeyword<CourantDensityDiffusion> density_diffusion_keyword{
                             {.check = Check::not_negative}}}}}}};
 
 /// d rho/dt += D with the D that the forces of the step before worked out beside the pressure: they know the
-/// pressures of neighbours, which change while rates are worked out.
+/// pressures of neighbours, which change while rates are worked out. A Riemann flux takes much in one step.
 class DensityDiffusion : public Rate {
  public:
   DensityDiffusion(const SphSettings& s, World& world)
-      : source_(s, world, true), rate_(sph_fields::density_diffusion(world.particles)) {}
-  std::string name() const override { return "density diffusion"; }
-  void block(World& world, const Clock&, Index begin, Index end) override {
-    source_.add(world.particles, rate_.data(), begin, end);
+      : riemann_(std::holds_alternative<RiemannFlux>(s.viscosity)),
+        source_(s, world, true),
+        rate_(sph_fields::density_diffusion(world.particles)) {}
+  std::string name() const override { return riemann_ ? "Riemann flux (density)" : "density diffusion"; }
+  void block(World& world, const Clock& clock, Index begin, Index end) override {
+    source_.add(world.particles, rate_.data(), begin, end, riemann_ ? clock.dt_old : 0);
   }
 
  private:
+  bool riemann_;
   DensitySource source_;
   Field<Real>& rate_;
 };

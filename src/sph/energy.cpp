@@ -24,8 +24,8 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
         heat_(sph_fields::dissipation(world.particles)),
         reference_volume_(world.particles.fields.add<Real>({.name = "reference_volume", .dimension = "L3"})) {
     Particles& p = world.particles;
-    if (!std::holds_alternative<MonaghanViscosity>(s.viscosity))
-      total_pressure_ = &sph_fields::pressure_plus_q(p);
+    riemann_ = std::get_if<RiemannFlux>(&settings_.viscosity);
+    if (std::holds_alternative<BulkViscosity>(s.viscosity)) total_pressure_ = &sph_fields::pressure_plus_q(p);
     if (s.mu.empty()) return;
     viscous_ = &sph_fields::viscous_dissipation(p);
     tau_ = &sph_fields::stress(p);
@@ -140,7 +140,11 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
       if constexpr (Monaghan) pair.q2 = std::get<MonaghanViscosity>(settings_.viscosity).q2;
       const Vec d = p.x.vec(i) - p.x.vec(j), vi = p.v.vec(i), vj = p.v.vec(j);
       const Real r2 = d.squaredNorm() + pair.tiny;
-      const auto s = pair(r2, (vi - vj).dot(d), pressure[j], p.rho[j], qj.q1 * p.c[j], p.h[j]);
+      auto s = pair(r2, (vi - vj).dot(d), pressure[j], p.rho[j], qj.q1 * p.c[j], p.h[j]);
+      if (riemann_)  // q1 is 1
+        s.viscous = pair.inverse_rho * slope_over_r<Kernel, Dim>(r2, h) *
+                    riemann_excess(*riemann_, 0.5 * (p.rho[i] + p.rho[j]), 0.5 * (p.c[i] + p.c[j]),
+                                   -(vi - vj).dot(d) / std::sqrt(r2));
       // the work on i, less what i stores or burns of it by p_i v_ij.d, tau_i:D and its half of Pi
       Real power = -(s.pressure_i * vj + s.pressure_j * vi + 0.5 * s.viscous * (vi + vj)).dot(d);
       if (viscous_) {
@@ -164,6 +168,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
   std::shared_ptr<Neighbours> neighbours_;
   Field<Real>& heat_;
   Field<Real>& reference_volume_;
+  const RiemannFlux* riemann_ = nullptr;
   Field<Real>* viscous_ = nullptr;
   Field<Real>* total_pressure_ = nullptr;
   Field<Real>* tau_ = nullptr;

@@ -16,7 +16,7 @@ inline Field<Real>& stress(Particles& p) {
       {.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = Exchange::before_forces});
 }
 
-/// q1 c at the last motion
+/// q1 c at the last motion; c for a Riemann flux
 inline Field<Real>& viscous_speed(Particles& p) {
   return p.fields.add<Real>(
       {.name = "viscous_speed", .dimension = "L/T", .restart = false, .exchange = Exchange::before_rates});
@@ -35,6 +35,24 @@ inline Field<Real>& density_diffusion(Particles& p) {
 /// Rate of density by volume control, as of its last look.
 inline Field<Real>& volume_rate(Particles& p) {
   return p.fields.add<Real>({.name = "volume_rate", .dimension = "M/L3T"});
+}
+/// Inverse of the moment matrix, or 1, less 1
+inline Field<Real>& renormalisation(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "renormalisation", .dimension = "-", .components = 6, .exchange = Exchange::before_forces});
+}
+/// Moment matrix sum_j V_j (x_j - x_i) (x) grad W_ij
+inline Field<Real>& moment(Particles& p) {
+  return p.fields.add<Real>({.name = "moment", .dimension = "-", .components = 6, .restart = false});
+}
+/// sum_j V_j v_ij (x) grad W_ij, symmetric part
+inline Field<Real>& plain_gradient(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "plain_gradient", .dimension = "1/T", .components = 6, .restart = false});
+}
+/// Rate of density that re-initialises it within a step.
+inline Field<Real>& reinitialisation_rate(Particles& p) {
+  return p.fields.add<Real>({.name = "reinitialisation_rate", .dimension = "M/L3T", .restart = false});
 }
 /// -g.x of gravity; images have that of their particle, as they have its pressure.
 inline Field<Real>& potential(Particles& p) {

@@ -16,8 +16,7 @@ class PairForces : public Force {
              std::shared_ptr<PairVolumes> volumes)
       : geometry_(std::move(geometry)), volumes_(std::move(volumes)) {
     Particles& p = world.particles;
-    if (!std::holds_alternative<MonaghanViscosity>(s.viscosity))
-      total_pressure_ = &sph_fields::pressure_plus_q(p);
+    if (std::holds_alternative<BulkViscosity>(s.viscosity)) total_pressure_ = &sph_fields::pressure_plus_q(p);
     if (!s.mu.empty()) tau_ = &sph_fields::stress(p);
     if (s.density_diffusion > 0) {
       diffusion_ = &sph_fields::density_diffusion(p);

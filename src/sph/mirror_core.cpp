@@ -104,7 +104,7 @@ class MirrorCoreForce : public Force {
  public:
   MirrorCoreForce(const SphSettings& s, World& world, std::shared_ptr<MirrorCore> core)
       : core_(std::move(core)), pull_(mirror_pull(world.particles)) {
-    if (!std::holds_alternative<MonaghanViscosity>(s.viscosity))
+    if (std::holds_alternative<BulkViscosity>(s.viscosity))
       total_pressure_ = &sph_fields::pressure_plus_q(world.particles);
   }
   std::string name() const override { return "mirror core"; }

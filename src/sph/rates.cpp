@@ -111,7 +111,7 @@ class PairFactors : public Motion, public Refresh, public Keeper {
  public:
   PairFactors(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry)
       : geometry_(std::move(geometry)), q_(s.q) {
-    if (std::holds_alternative<MonaghanViscosity>(s.viscosity))
+    if (!std::holds_alternative<BulkViscosity>(s.viscosity))
       viscous_speed_ = &sph_fields::viscous_speed(world.particles);
   }
   std::string name() const override { return "sph factors"; }

@@ -1,6 +1,8 @@
 #pragma once
 // SPH after Jonsson et al. 2016, eqs 6-18 (FORM 0 of LS-DYNA): the passes, and how a deck becomes particles.
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <variant>
 
@@ -18,7 +20,15 @@ struct MonaghanViscosity {
 };
 /// Pressure-like bulk viscosity (IAVIS 1): q = rho h (Q1 h d^2 - Q2 c d) where d = div v < 0, added to p.
 struct BulkViscosity {};
-using ArtificialViscosity = std::variant<MonaghanViscosity, BulkViscosity>;
+/// No viscosity but the dissipation of a Riemann problem between pairs (*COURANT_RIEMANN).
+struct RiemannFlux {
+  Real eta = 3;  ///< of the limiter; huge: none
+};
+/// Twice of what p* has beyond the mean of both pressures, where a pair approaches at speed `w` [M/LT2]
+inline Real riemann_excess(const RiemannFlux& flux, Real rho, Real c, Real w) {
+  return w > 0 ? rho * w * std::min(flux.eta * w, c) : 0;
+}
+using ArtificialViscosity = std::variant<MonaghanViscosity, BulkViscosity, RiemannFlux>;
 
 /// Coefficients of one part, LS-DYNA's names swapped to the paper's: q1 linear (HOURGLASS Q2), q2 quadratic
 /// (HOURGLASS Q1).
@@ -48,9 +58,16 @@ struct SupportedWalls {
   std::vector<Real> cf;  ///< by segment; < 0 where it does not support [-]
 };
 
+/// *COURANT_DENSITY_REINITIALISATION.
+struct ReinitialisationRules {
+  int every = 0;        ///< NCYC; 0: never
+  bool linear = false;  ///< METHOD 1
+};
+
 struct SphSettings {
   int dim = 3;
   KernelChoice kernel = KernelChoice::cubic_spline;
+  bool renormalised = false;  ///< FORM: gradients corrected by the inverse moment matrix
   bool uniform_h = true;
   bool evolving_h = false;
   std::vector<Real> h_min_factor, h_max_factor;  ///< per part, of h/h0
@@ -59,11 +76,13 @@ struct SphSettings {
   std::vector<Real> mu;                ///< per part, dynamic viscosity; empty if no part has any
   std::vector<char> heat_in_internal;  ///< per part; empty if in none
   Real tssfac = 0.9;
+  Real most_tssfac = std::numeric_limits<Real>::infinity();  ///< beyond which what is asked for is unstable
   Real geometry_eps = 0;  ///< *COURANT_PAIR_GEOMETRY: relative motion, of h, over which gradients are kept
   Real density_diffusion = 0;          ///< *COURANT_DENSITY_DIFFUSION: delta; 0: none
   std::function<Vec(Real t)> gravity;  ///< acceleration at a time, for the diffusion of density [L/T2]
   Real volume_tau = 0;                 ///< *COURANT_VOLUME_CONTROL: TAU [T]; 0: none
   SupportedWalls walls;                ///< *COURANT_WALL_SUPPORT
+  ReinitialisationRules reinitialisation;
   ShiftRules shift;
   std::vector<ImagePlane> mirrors;  ///< symmetry planes, along which alone particles near them drift
   Real xsph = 0;                    ///< *COURANT_XSPH: EPS; 0: none
@@ -75,7 +94,9 @@ struct SphSettings {
   Real spacing = 0;                    ///< largest nearest-neighbour distance of all SPH parts [L]
 
   /// Something besides the motion of particles changes the density.
-  bool has_density_sources() const { return density_diffusion > 0 || volume_tau > 0; }
+  bool has_density_sources() const {
+    return density_diffusion > 0 || volume_tau > 0 || reinitialisation.every > 0;
+  }
 };
 
 /// Reads SECTION_SPH, CONTROL_SPH, HOURGLASS, CONTROL_BULK_VISCOSITY; fills world.particles (x, v, m, rho, h,
@@ -112,7 +133,17 @@ std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<P
                                    std::shared_ptr<PairVolumes>);
 /// Adds itself to the refreshes of `world`; belongs behind its materials.
 std::shared_ptr<PairVolumes> make_pair_volumes(World&);
-/// Adds to the rates what density diffusion gave in the last forces.
+/// FORM of CONTROL_SPH, behind the other settings that it may contradict.
+void read_form(const Deck&, SphSettings&, Diagnostics&);
+/// Adds to rates and forces what corrected gradients have beyond plain ones.
+void add_renormalisation(const SphSettings&, World&, std::shared_ptr<Neighbours>,
+                         std::shared_ptr<PairVolumes>);
+/// Behind the other settings that it may contradict.
+void read_riemann(const Deck&, const Model&, SphSettings&, Diagnostics&);
+/// Adds the dissipation of momentum to the rates, behind plain sums, and that of mass to the forces, for the
+/// next rates: `add_density_diffusion` takes it.
+void add_riemann(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);
+/// Adds to the rates what density diffusion, or a Riemann flux, gave in the last forces.
 void add_density_diffusion(const SphSettings&, World&);
 /// Adds to the rates what brings the density back to what the places of particles say.
 void add_volume_control(const SphSettings&, World&, std::shared_ptr<Neighbours>,
@@ -123,6 +154,12 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
                           Diagnostics& diagnostics);
 /// Adds the passes of supporting walls; belongs right behind the pair rates.
 void add_wall_support(const SphSettings&, World&, std::shared_ptr<Neighbours>);
+/// "parts 1 and 2 differ in MID or EOSID"; empty where SPH parts do not.
+std::string parts_of_several_materials(const Model&);
+ReinitialisationRules read_density_reinitialisation(const Deck&, const Model&, Diagnostics&);
+/// Adds to the rates what smooths the density every few steps; behind all other rates of density.
+void add_density_reinitialisation(const SphSettings&, World&, std::shared_ptr<Neighbours>,
+                                  std::shared_ptr<PairVolumes>);
 /// Adds the motions by which particles drift, behind that by their velocity; what sets the velocities of
 /// drift comes with `add_sph_passes`. `gravity`: the acceleration at a time [L/T2].
 void add_drifts(const SphSettings&, const std::function<Vec(Real t)>& gravity, World&);

@@ -13,7 +13,8 @@ namespace {
 /// NaN anywhere comes out as the smallest, so that the run stops there.
 class SphTimeLimit : public Tally, public TimeLimit {
  public:
-  SphTimeLimit(const SphSettings& s, const Model& model) : tssfac_(s.tssfac), mu_(s.mu) {
+  SphTimeLimit(const SphSettings& s, const Model& model)
+      : tssfac_(std::min(s.tssfac, s.most_tssfac)), mu_(s.mu) {
     for (const ModelPart& part : model.parts) part_ids_.push_back(part.id);
   }
   std::string name() const override { return "sph time step"; }

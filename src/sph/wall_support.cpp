@@ -314,9 +314,14 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
   SupportedWalls& walls = settings.walls;
   walls.cf.assign(world.segments.size(), -1);
   for (const auto& c : deck.all<CourantWallSupport>()) {
-    if (settings.evolving_h) {
-      diagnostics.error(deck.where(c), "*COURANT_WALL_SUPPORT: not beside smoothing lengths that evolve",
-                        "HMIN = HMAX = 1 in *SECTION_SPH keeps them constant");
+    if (settings.evolving_h || settings.renormalised) {
+      diagnostics.error(deck.where(c),
+                        settings.evolving_h
+                            ? "*COURANT_WALL_SUPPORT: not beside smoothing lengths that evolve"
+                            : "*COURANT_WALL_SUPPORT: not beside a renormalised FORM of *CONTROL_SPH, which "
+                              "completes the sums itself",
+                        settings.evolving_h ? "HMIN = HMAX = 1 in *SECTION_SPH keeps them constant"
+                                            : "use FORM 0, or leave the card out");
       return;
     }
     std::vector<char> chosen(model.parts.size(), 0);

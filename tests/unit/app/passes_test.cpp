@@ -43,10 +43,13 @@ const Lists bare{
      "images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
      "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
      "wall support no *COURANT_WALL_SUPPORT",
+     "renormalisation FORM of *CONTROL_SPH is a plain one",
+     "Riemann flux no *COURANT_RIEMANN",
      "density diffusion no *COURANT_DENSITY_DIFFUSION",
      "volume control no *COURANT_VOLUME_CONTROL",
      "shifting ISHIFT 0",
      "XSPH no *COURANT_XSPH",
+     "re-initialisation no *COURANT_DENSITY_REINITIALISATION",
      "kept pair geometry no *COURANT_PAIR_GEOMETRY",
      "smoothing length HMIN = HMAX = 1: h is constant",
      "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
@@ -187,6 +190,24 @@ TEST(Passes, DensityDiffusion) {
   expect_change(scene, {"density diffusion"}, {"rate density diffusion", "motion gravity's potential"});
   scene.extra = "*COURANT_VOLUME_CONTROL\n0.1\n";
   expect_change(scene, {"volume control"}, {"rate volume control"});
+  scene.extra = "*COURANT_DENSITY_REINITIALISATION\n20\n";
+  expect_change(scene, {"re-initialisation"}, {"rate density re-initialisation"});
+}
+
+TEST(Passes, Renormalisation) {
+  SmallScene scene;
+  scene.control_sph = ",0,1";
+  expect_change(scene, {"renormalisation"},
+                {"rate renormalisation (rates)", "force renormalisation (forces)"});
+}
+
+TEST(Passes, RiemannFlux) {
+  SmallScene scene;
+  scene.extra = "*COURANT_RIEMANN\n3.\n";
+  expect_change(scene, {"Riemann flux", "bulk viscosity"},
+                {"rate Riemann flux (momentum)", "rate Riemann flux (density)", "force Riemann flux (mass)",
+                 "motion gravity's potential"},
+                {"bulk viscosity *COURANT_RIEMANN takes the place of viscosity"});
 }
 
 TEST(Passes, Drifts) {

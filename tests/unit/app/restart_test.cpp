@@ -233,6 +233,33 @@ TEST(Restart, WallSupport) {
               {0, 1, 33, 80}, 140);
 }
 
+TEST(Restart, DensityReinitialisation) {
+  for (const char* method : {"0", "1"})
+    expect_same({.n = 8,
+                 .start = "0.5,-0.5,0.",
+                 .extra = test::gravity_cards + test::floor_cards() +
+                          "*COURANT_DENSITY_REINITIALISATION\n7," + method + "\n"},
+                {20, 21, 75}, 120);
+}
+
+TEST(Restart, Renormalisation) {
+  expect_same(
+      {.n = 8,
+       .start = "0.5,-1.,0.",
+       .control_sph = ",0,1",
+       .extra = std::string(test::gravity_cards) + "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n"},
+      {1, 20, 75}, 120);
+}
+
+TEST(Restart, RiemannFluxWithABox) {
+  expect_same({.n = 8,
+               .start = "0.5,-0.5,0.",
+               .box = "1",
+               .extra = test::gravity_cards + test::floor_cards() +
+                        "*COURANT_RIEMANN\n3.\n*DEFINE_BOX\n1,-1.,0.6,-1.,1.,-1.,1.\n"},
+              {1, 20, 75}, 120);
+}
+
 TEST(Restart, ShiftingWithCorrectionsAndXsph) {
   expect_same({.n = 10,
                .start = "1.5,-0.5,0.",

@@ -1,0 +1,37 @@
+#pragma once
+// The sums over pairs of renormalised forms: gradients corrected by the inverse of the moment matrix;
+// compiled once for each instruction set, as pair_loops.hpp. Cubic spline, one h for all.
+#include "base/real.hpp"
+
+namespace courant {
+
+/// What these loops read and write; arrays over all particles. Symmetric tensors: xx yy zz xy yz zx.
+struct RenormalArrays {
+  const Real* x[3];
+  const Real* v[3];
+  const Real* V;          ///< m/rho, see PairVolumes
+  Real* moment[6];        ///< sum_j V_j (x_j - x_i) (x) grad W_ij [-]
+  Real* gradient[6];      ///< sum_j V_j v_ij (x) grad W_ij, symmetric part, in the middle of the step [1/T]
+  const Real* excess[6];  ///< B - 1, B the inverse of `moment` or 1 [-]
+  const Real* p;          ///< pressure, plus bulk viscosity where there is any
+  Real* f[3];
+  Real h0;
+  Real half_step;  ///< [T]
+};
+
+/// The lists of particles [begin, end), as in PairLists.
+struct RenormalLists {
+  const Index* list;
+  const Index* start;
+  Index begin, end;
+};
+
+using RenormalLoop = void (*)(const RenormalArrays&, const RenormalLists&);
+
+/// Sets moment and gradient.
+RenormalLoop renormal_rates_loop(int dim);
+/// f_i -= V_i sum_j V_j (p_i (B_i - 1) + p_j (B_j - 1)) grad W_ij: what the corrected force has beyond the
+/// plain one.
+RenormalLoop renormal_forces_loop(int dim);
+
+}  // namespace courant

@@ -1,0 +1,26 @@
+#include "base/instruction_set.hpp"
+#include "sph/renormal_loops.hpp"
+
+namespace courant {
+
+namespace baseline {
+RenormalLoop renormal_rates_loop(int dim);
+RenormalLoop renormal_forces_loop(int dim);
+}  // namespace baseline
+namespace avx2 {
+RenormalLoop renormal_rates_loop(int dim);
+RenormalLoop renormal_forces_loop(int dim);
+}  // namespace avx2
+namespace avx512 {
+RenormalLoop renormal_rates_loop(int dim);
+RenormalLoop renormal_forces_loop(int dim);
+}  // namespace avx512
+
+RenormalLoop renormal_rates_loop(int dim) {
+  return COURANT_VARIANT(renormal_rates_loop)(dim);
+}
+RenormalLoop renormal_forces_loop(int dim) {
+  return COURANT_VARIANT(renormal_forces_loop)(dim);
+}
+
+}  // namespace courant

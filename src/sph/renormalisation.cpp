@@ -1,0 +1,180 @@
+// FORM of *CONTROL_SPH, and the renormalised ones among its values.
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Eigenvalues>
+
+#include <fmt/format.h>
+
+#include "search/neighbours.hpp"
+#include "sph/cards.hpp"
+#include "sph/fields.hpp"
+#include "sph/pair_volumes.hpp"
+#include "sph/renormal_loops.hpp"
+#include "sph/sph.hpp"
+#include "sph/view.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Least eigenvalue of the moment matrix up to which gradients are not corrected, and from which on they are
+/// to the full; 1 inside, 1/2 at a plane surface. Where water breaks up, full corrections are unstable.
+constexpr Real least_eigenvalue = 0.6, full_eigenvalue = 0.8;
+
+void take_arrays(RenormalArrays& a, World& world, const PairVolumes& volumes, Field<Real>& excess) {
+  Particles& p = world.particles;
+  for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.v[k] = p.v.data(k), a.f[k] = p.f.data(k);
+  for (int k = 0; k < 6; ++k) a.excess[k] = excess.data(k);
+  a.V = volumes.current(), a.h0 = p.active > 0 ? p.h[0] : 1;
+}
+
+/// B_i = (sum_j V_j (x_j - x_i) (x) grad W_ij)^-1 makes gradients of linear functions exact (Randles and
+/// Libersky 1996, Bonet and Lok 1999). Continuity becomes drho_i/dt = rho_i sum_j V_j v_ij . B_i grad W_ij,
+/// in the middle of the step as plain sums, with the mean of B before and after; the force, its transpose,
+///   -V_i sum_j V_j (p_i B_i + p_j B_j) grad W_ij.
+/// So pair forces cancel and energy is kept, but no longer angular momentum. This adds what plain sums lack.
+/// By the least eigenvalue of the matrix B goes over to 1 towards surfaces and where it is near singular:
+/// `renormalisation_left_out` counts the most particles at once that are not corrected at all.
+class RenormalRates : public Rate {
+ public:
+  RenormalRates(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+                std::shared_ptr<PairVolumes> volumes)
+      : dim_(s.dim),
+        loop_(renormal_rates_loop(s.dim)),
+        neighbours_(std::move(neighbours)),
+        volumes_(std::move(volumes)),
+        excess_(sph_fields::renormalisation(world.particles)),
+        moment_(sph_fields::moment(world.particles)),
+        gradient_(sph_fields::plain_gradient(world.particles)) {
+    for (Index i = 0; i < world.particles.size(); ++i) excess_.set_tensor(i, Matrix::Zero());
+    world.counters.try_emplace(counter, 0);
+  }
+  std::string name() const override { return "renormalisation (rates)"; }
+
+  void start(World& world, const Clock& clock) override {
+    take_arrays(a_, world, *volumes_, excess_);
+    for (int k = 0; k < 6; ++k) a_.moment[k] = moment_.data(k), a_.gradient[k] = gradient_.data(k);
+    a_.half_step = 0.5 * clock.dt_old;
+    left_out_.assign(static_cast<std::size_t>(block_count(world.particles.active)), 0);
+  }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    const Index b = begin / block_size;
+    loop_(a_, {neighbours_->list(b), neighbours_->starts(b), begin, end});
+    with_dimension(dim_, [&](auto dim) {
+      for (Index i = begin; i < end; ++i) correct<dim()>(world.particles, i);
+    });
+  }
+  void finish(World& world, const Clock&) override {
+    std::int64_t sum = 0;
+    for (const Index n : left_out_) sum += n;
+    auto& most = world.counters[counter];
+    most = std::max(most, sum);
+  }
+
+ private:
+  template <int Dim>
+  void correct(Particles& p, Index i) {
+    using Square = Eigen::Matrix<Real, Dim, Dim>;
+    const Square moment = moment_.tensor(i).template topLeftCorner<Dim, Dim>();
+    Eigen::SelfAdjointEigenSolver<Square> solver;
+    solver.computeDirect(moment, Eigen::EigenvaluesOnly);
+    const Real least = solver.eigenvalues()[0];
+    Matrix excess = Matrix::Zero();
+    if (least > least_eigenvalue) {
+      const Real share = std::min((least - least_eigenvalue) / (full_eigenvalue - least_eigenvalue), Real(1));
+      excess.template topLeftCorner<Dim, Dim>() = share * (moment.inverse() - Square::Identity());
+    } else {
+      ++left_out_[static_cast<std::size_t>(i / block_size)];
+    }
+    const Matrix mean = 0.5 * (excess_.tensor(i) + excess);
+    p.drhodt[i] += p.rho[i] * mean.cwiseProduct(gradient_.tensor(i)).sum();
+    excess_.set_tensor(i, excess);
+  }
+
+  static constexpr const char* counter = "renormalisation_left_out";
+  int dim_;
+  RenormalLoop loop_;
+  std::shared_ptr<Neighbours> neighbours_;
+  std::shared_ptr<PairVolumes> volumes_;
+  Field<Real>&excess_, &moment_, &gradient_;
+  std::vector<Index> left_out_;  ///< in each block
+  RenormalArrays a_{};
+};
+
+class RenormalForces : public Force {
+ public:
+  RenormalForces(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+                 std::shared_ptr<PairVolumes> volumes)
+      : loop_(renormal_forces_loop(s.dim)),
+        neighbours_(std::move(neighbours)),
+        volumes_(std::move(volumes)),
+        excess_(sph_fields::renormalisation(world.particles)) {
+    if (std::holds_alternative<BulkViscosity>(s.viscosity))
+      total_pressure_ = &sph_fields::pressure_plus_q(world.particles);
+  }
+  std::string name() const override { return "renormalisation (forces)"; }
+
+  void start(World& world, const Clock&) override {
+    take_arrays(a_, world, *volumes_, excess_);
+    a_.p = total_pressure_ ? total_pressure_->data() : world.particles.p.data();
+  }
+  void block(World&, const Clock&, Index begin, Index end) override {
+    const Index b = begin / block_size;
+    loop_(a_, {neighbours_->list(b), neighbours_->starts(b), begin, end});
+  }
+
+ private:
+  RenormalLoop loop_;
+  std::shared_ptr<Neighbours> neighbours_;
+  std::shared_ptr<PairVolumes> volumes_;
+  Field<Real>& excess_;
+  Field<Real>* total_pressure_ = nullptr;
+  RenormalArrays a_{};
+};
+
+bool is_renormalised(int form) {
+  return form == 1 || form == 3 || form == 6 || form == 16;
+}
+
+void warn_of_smoothing(const Deck& deck, const ControlSph& c, Diagnostics& diagnostics) {
+  if (c.form != 15 && c.form != 16) return;
+  deck.warning(
+      diagnostics, c, "FORM",
+      fmt::format("'{}' smooths densities and pressures in a way that is not published: taken as FORM "
+                  "{}, without smoothing",
+                  c.form, c.form == 15 ? 5 : 6),
+      "*COURANT_DENSITY_DIFFUSION evens out the noise of pressures");
+}
+
+}  // namespace
+
+void read_form(const Deck& deck, SphSettings& s, Diagnostics& diagnostics) {
+  const auto* c = deck.last<ControlSph>();
+  if (c == nullptr || c->form == 0) return;
+  const auto refuse = [&](const std::string& why, const std::string& hint) {
+    deck.error(diagnostics, *c, "FORM", fmt::format("expected 0 {}, got '{}'", why, c->form), hint);
+  };
+  s.renormalised = is_renormalised(c->form);
+  if (!s.uniform_h)
+    refuse("where h differs or changes",
+           "use HMIN = HMAX = 1 and one CSLH and spacing for all SPH parts, or FORM 0");
+  if (s.renormalised && s.kernel != KernelChoice::cubic_spline)
+    refuse(fmt::format("or a plain form beside the {}: corrected sums take the cubic spline",
+                       kernel_name(s.kernel)),
+           "FORM 0, 2 and 5 take every kernel");
+  if (s.renormalised && s.region)
+    refuse("or a plain form beside BOXID: beyond the box nothing is corrected", "FORM 0, 2 and 5 take a box");
+  if (s.renormalised && s.geometry_eps > 0)
+    refuse("or a plain form beside *COURANT_PAIR_GEOMETRY, which keeps gradients that are not corrected",
+           "leave one of the two out");
+  warn_of_smoothing(deck, *c, diagnostics);
+}
+
+void add_renormalisation(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+                         std::shared_ptr<PairVolumes> volumes) {
+  world.rates.push_back(std::make_shared<RenormalRates>(s, world, neighbours, volumes));
+  world.forces.push_back(
+      std::make_shared<RenormalForces>(s, world, std::move(neighbours), std::move(volumes)));
+}
+
+}  // namespace courant

@@ -1,0 +1,158 @@
+// *COURANT_RIEMANN: fluxes between pairs by a linearised Riemann problem instead of artificial viscosity.
+#include "sph/riemann_loops.hpp"
+
+#include <fmt/format.h>
+
+#include "keyword/registry.hpp"
+#include "search/neighbours.hpp"
+#include "sph/cards.hpp"
+#include "sph/fields.hpp"
+#include "sph/pair_volumes.hpp"
+#include "sph/sph.hpp"
+
+namespace courant {
+
+namespace {
+
+const RegisterKeyword<CourantRiemann> riemann_keyword{
+    {.names = {"COURANT_RIEMANN"},
+     .purpose = "low-dissipation Riemann flux between pairs instead of artificial viscosity",
+     .once = true,
+     .many = false,
+     .cards = {{.fields = {{"ETA",
+                            &CourantRiemann::eta,
+                            "-",
+                            "limits dissipation: min(ETA w/c, 1), w of approach; 0: no limiter; < 0: no flux",
+                            {.standard = 3, .zero_is_standard = false}}}}}}};
+
+/// Zhang, Hu and Adams 2017 (J. Comput. Phys. 335), eqs 12-20: along each pair
+///   p* = (p_i + p_j)/2 + 1/2 rho_bar c_bar beta w,  beta = min(eta max(w/c_bar, 0), 1),
+///   u* = mean + (p_i - p_j)/(2 rho_bar c_bar),
+/// w the speed of approach. The means are what plain sums have. Here is the rest of p*, a force; the rest of
+/// u* needs the pressures of neighbours and comes with the forces.
+class RiemannMomentum : public Rate {
+ public:
+  RiemannMomentum(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+                  std::shared_ptr<PairVolumes> volumes)
+      : loop_(riemann_momentum_loop(s.dim)),
+        eta_(std::get<RiemannFlux>(s.viscosity).eta),
+        c_(sph_fields::viscous_speed(world.particles)),
+        heat_(sph_fields::dissipation(world.particles)),
+        neighbours_(std::move(neighbours)),
+        volumes_(std::move(volumes)) {}
+  std::string name() const override { return "Riemann flux (momentum)"; }
+
+  void start(World& world, const Clock&) override {
+    Particles& p = world.particles;
+    for (int k = 0; k < 3; ++k) a_.x[k] = p.x.data(k), a_.v[k] = p.v.data(k), a_.f[k] = p.f.data(k);
+    a_.m = p.m.data(), a_.V = volumes_->current(), a_.c = c_.data(), a_.heat = heat_.data();
+    a_.h0 = p.active > 0 ? p.h[0] : 1, a_.eta = eta_;
+  }
+  void block(World&, const Clock&, Index begin, Index end) override {
+    const Index b = begin / block_size;
+    loop_(a_, {neighbours_->list(b), neighbours_->starts(b), begin, end});
+  }
+
+ private:
+  RiemannLoop loop_;
+  Real eta_;
+  Field<Real>&c_, &heat_;
+  std::shared_ptr<Neighbours> neighbours_;
+  std::shared_ptr<PairVolumes> volumes_;
+  RiemannArrays a_{};
+};
+
+/// What the next rates add to the density.
+class RiemannMass : public Force {
+ public:
+  RiemannMass(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+              std::shared_ptr<PairVolumes> volumes)
+      : loop_(riemann_mass_loop(s.dim)),
+        c_(sph_fields::viscous_speed(world.particles)),
+        potential_(sph_fields::potential(world.particles)),
+        rate_(sph_fields::density_diffusion(world.particles)),
+        neighbours_(std::move(neighbours)),
+        volumes_(std::move(volumes)) {}
+  std::string name() const override { return "Riemann flux (mass)"; }
+
+  void start(World& world, const Clock&) override {
+    Particles& p = world.particles;
+    for (int k = 0; k < 3; ++k) a_.x[k] = p.x.data(k);
+    a_.m = p.m.data(), a_.V = volumes_->current(), a_.c = c_.data(), a_.p = p.p.data();
+    a_.potential = potential_.data(), a_.rate = rate_.data();
+    a_.h0 = p.active > 0 ? p.h[0] : 1;
+  }
+  void block(World&, const Clock&, Index begin, Index end) override {
+    const Index b = begin / block_size;
+    loop_(a_, {neighbours_->list(b), neighbours_->starts(b), begin, end});
+  }
+
+ private:
+  RiemannLoop loop_;
+  Field<Real>&c_, &potential_, &rate_;
+  std::shared_ptr<Neighbours> neighbours_;
+  std::shared_ptr<PairVolumes> volumes_;
+  RiemannArrays a_{};
+};
+
+/// Coefficients of artificial viscosity that a deck gives and nobody will use.
+template <class T>
+void warn_of_viscosity(const Deck& deck, Diagnostics& diagnostics) {
+  constexpr Real off = 1e-9;
+  for (const T& c : deck.all<T>())
+    if (c.q1 > off || c.q2 > off)
+      deck.warning(diagnostics, c, c.q1 > off ? "Q1" : "Q2",
+                   "is not used: *COURANT_RIEMANN takes the place of artificial viscosity",
+                   "set Q1 and Q2 to 1.0E-20, or leave *COURANT_RIEMANN out");
+}
+
+/// Largest step, of h/c. In a checkerboard of pressures u* makes an explicit step unstable from 2/(sum V_j
+/// |W'| (1 - cos k.x) h) on: 0.73 to 0.85 on square and 0.62 to 0.69 on cubic lattices of h/dx 1 to 2.
+constexpr Real most_step_2d = 0.6, most_step_3d = 0.5;
+
+}  // namespace
+
+void read_riemann(const Deck& deck, const Model& model, SphSettings& s, Diagnostics& diagnostics) {
+  const auto* c = deck.last<CourantRiemann>();
+  if (c == nullptr || c->eta < 0) return;
+  bool refused = false;
+  const auto refuse = [&](const std::string& why, const std::string& hint) {
+    deck.error(diagnostics, *c, "ETA", "expected a number < 0, which means none, " + why, hint);
+    refused = true;
+  };
+  if (!s.uniform_h)
+    refuse("where h differs or changes: the flux takes one h for all",
+           "use HMIN = HMAX = 1 and one CSLH and spacing for all SPH parts, or leave the keyword out");
+  if (s.kernel != KernelChoice::cubic_spline)
+    refuse(fmt::format("beside the {}: the flux takes the cubic spline", kernel_name(s.kernel)),
+           "leave one of the two out");
+  if (std::holds_alternative<BulkViscosity>(s.viscosity))
+    refuse("beside IAVIS 1 of *CONTROL_SPH: the flux takes the place of artificial viscosity",
+           "use IAVIS 0, or leave the keyword out");
+  if (s.density_diffusion > 0)
+    refuse("beside *COURANT_DENSITY_DIFFUSION: the flux diffuses density itself", "leave one of the two out");
+  if (const std::string differ = parts_of_several_materials(model); !differ.empty())
+    refuse("where SPH parts are of several materials: " + differ + ", and the flux is that of one liquid",
+           "give all SPH parts one material and one equation of state, or leave the keyword out");
+  if (refused) return;
+  warn_of_viscosity<Hourglass>(deck, diagnostics);
+  warn_of_viscosity<ControlBulkViscosity>(deck, diagnostics);
+  constexpr Real without_limiter = 1e30;
+  s.viscosity = RiemannFlux{c->eta > 0 ? c->eta : without_limiter};
+  s.gravity = [loads = model.body_loads](Real t) { return gravity_at(loads, t); };
+  for (PartViscosity& q : s.q) q = {.q1 = 1, .q2 = 0};
+  s.most_tssfac = s.dim == 2 ? most_step_2d : most_step_3d;
+  if (s.tssfac > s.most_tssfac)
+    diagnostics.note(deck.where(*c),
+                     fmt::format("*COURANT_RIEMANN: TSSFAC is {:g} instead of {:g}, beyond which "
+                                 "the flux of mass is unstable",
+                                 s.most_tssfac, s.tssfac));
+}
+
+void add_riemann(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+                 std::shared_ptr<PairVolumes> volumes) {
+  world.rates.push_back(std::make_shared<RiemannMomentum>(s, world, neighbours, volumes));
+  world.forces.push_back(std::make_shared<RiemannMass>(s, world, std::move(neighbours), std::move(volumes)));
+}
+
+}  // namespace courant

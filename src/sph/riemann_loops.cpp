@@ -1,0 +1,74 @@
+// Compiled once for each instruction set; see docs/architecture.md.
+#include "sph/riemann_loops.hpp"
+
+#include "sph/pair_sums.hpp"
+
+namespace courant::COURANT_SIMD {
+
+namespace {
+
+COURANT_INLINE Pack smaller(const Pack& a, const Pack& b) {
+  return b - positive(b - a);
+}
+
+template <int Dim>
+void momentum(const RiemannArrays& a, const RiemannLists& lists) {
+  const Real hinv = 1 / a.h0, norm = gradient_norm<CubicSpline, Dim>(a.h0);
+  const Pack tiny = Pack::of(tiny_distance2 * a.h0 * a.h0);
+  for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
+    const Index count = lists.end - i < lanes ? lists.end - i : lanes;
+    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Pack Vi = Pack::load(a.V + i, count), rhoi = Pack::load(a.m + i, count) / Vi;
+    const Pack ci = Pack::load(a.c + i, count);
+    Sum<Dim> force;
+    Pack power = Pack::zero();
+    for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
+      const std::ptrdiff_t j = lists.list[k];
+      const Difference<Dim> d(xi, a.x, j), u(vi, a.v, j);
+      const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2), u_dot_d = dot(u, d);
+      const Pack approach = positive(0 - u_dot_d) * rinv;
+      const Pack excess = approach * smaller(a.eta * approach, 0.5 * (ci + a.c[j]));
+      const Pack w =
+          gradient_shape<CubicSpline>(r2 * rinv * hinv, rinv) * a.V[j] * (excess * (rhoi + a.m[j] / a.V[j]));
+      force.add(w, d);
+      power += w * u_dot_d;
+    }
+    const Pack factor = 0.5 * norm * Vi;
+    force.add_to(a.f, i, count, 0 - factor);
+    (0.5 * factor * power).store(a.heat + i, count);
+  }
+}
+
+template <int Dim>
+void mass(const RiemannArrays& a, const RiemannLists& lists) {
+  const Real hinv = 1 / a.h0, norm = gradient_norm<CubicSpline, Dim>(a.h0);
+  const Pack tiny = Pack::of(tiny_distance2 * a.h0 * a.h0);
+  for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
+    const Index count = lists.end - i < lanes ? lists.end - i : lanes;
+    const Places<Dim> xi(a.x, i, count);
+    const Pack rhoi = Pack::load(a.m + i, count) / Pack::load(a.V + i, count);
+    const Pack ci = Pack::load(a.c + i, count), pi = Pack::load(a.p + i, count);
+    const Pack potential = Pack::load(a.potential + i, count);
+    Pack sum = Pack::zero();
+    for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
+      const std::ptrdiff_t j = lists.list[k];
+      const Difference<Dim> d(xi, a.x, j);
+      const Pack r2 = dot(d, d) + tiny, R = r2 * rsqrt(r2) * hinv;
+      const Pack density = rhoi + a.m[j] / a.V[j];
+      sum += CubicSpline::gradient(R) * a.V[j] *
+             (2 * (pi - a.p[j]) + density * (potential - a.potential[j])) / (density * (ci + a.c[j]));
+    }
+    (2 * norm * rhoi * sum).store(a.rate + i, count);
+  }
+}
+
+}  // namespace
+
+RiemannLoop riemann_momentum_loop(int dim) {
+  return dim == 2 ? &momentum<2> : &momentum<3>;
+}
+RiemannLoop riemann_mass_loop(int dim) {
+  return dim == 2 ? &mass<2> : &mass<3>;
+}
+
+}  // namespace courant::COURANT_SIMD

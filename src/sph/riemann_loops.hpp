@@ -1,0 +1,41 @@
+#pragma once
+// The sums over pairs by which a Riemann flux differs from plain sums; compiled once for each instruction
+// set, as pair_loops.hpp. Cubic spline, one h for all.
+#include "base/real.hpp"
+
+namespace courant {
+
+/// What these loops read and write; arrays over all particles.
+struct RiemannArrays {
+  const Real* x[3];
+  const Real* v[3];
+  const Real* m;
+  const Real* V;          ///< m/rho, see PairVolumes
+  const Real* c;          ///< of the last motion [L/T]
+  const Real* p;          ///< [M/LT2]
+  const Real* potential;  ///< -g.x [L2/T2]
+  Real* f[3];
+  Real* heat;  ///< power that the flux of momentum turns into heat [ML2/T3]
+  Real* rate;  ///< of rho, by the flux of mass [M/L3T]
+  Real h0;
+  Real eta;  ///< of the limiter; huge: none
+};
+
+/// The lists of particles [begin, end), as in PairLists.
+struct RiemannLists {
+  const Index* list;
+  const Index* start;
+  Index begin, end;
+};
+
+using RiemannLoop = void (*)(const RiemannArrays&, const RiemannLists&);
+
+/// Adds to f_i, with w = -v_ij . x_ij / r > 0 where a pair approaches and bars for means of i and j,
+///   -V_i sum_j V_j rho_bar w min(eta w, c_bar) grad W_ij,
+/// which is what p* has beyond the mean of both pressures, and sets heat: half of what each pair loses.
+RiemannLoop riemann_momentum_loop(int dim);
+/// Sets rate_i = rho_i sum_j V_j (p_i - p_j + rho_bar (phi_i - phi_j)) / (rho_bar c_bar) dW/dr, which is what
+/// u* has beyond the mean of both velocities, less what gravity makes of p; phi its potential.
+RiemannLoop riemann_mass_loop(int dim);
+
+}  // namespace courant
