@@ -310,9 +310,7 @@ class Run {
 
   void write_fields(World& world, const Clock& clock) {
     s_.guard().look(world, clock);  // states that are written are sound
-    for (const auto& contact : s_.contacts()) contact->show_forces(world);
-    for (const auto& pass : world.energy_terms)
-      if (auto* walls = dynamic_cast<WallForceReporter*>(pass.get())) walls->show_forces(world);
+    s_.show_wall_forces();
     writer_.submit(
         [this, state = fields_.take(world, clock.t, state_++)]() mutable { fields_.write(std::move(state)); },
         weight_of_state);

@@ -116,6 +116,12 @@ void sample_boundary_forces(const World& world, const Clock& clock, std::vector<
 
 }  // namespace
 
+void Simulation::show_wall_forces() {
+  for (const auto& contact : contacts_) contact->show_forces(world_);
+  for (const auto& pass : world_.energy_terms)
+    if (auto* walls = dynamic_cast<WallForceReporter*>(pass.get())) walls->show_forces(world_);
+}
+
 Sample Simulation::sample(const std::string& dt_controlled_by) {
   sample_energy(world_, clock_);
   Sample s;

@@ -40,6 +40,8 @@ class Simulation {
   void evaluate(std::string& dt_controlled_by);
   /// Everything the histories print at the present time.
   Sample sample(const std::string& dt_controlled_by);
+  /// Adds the forces on walls that do not move to nodes and segments, until the next step.
+  void show_wall_forces();
 
   const DeckRecord& record() const { return record_; }  ///< the deck as it was read
   /// How the deck differs from that of the run before, a line for each difference.
