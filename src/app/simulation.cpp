@@ -10,6 +10,7 @@
 #include "model/included_entries.hpp"
 #include "parallel/parallel.hpp"
 #include "shell/shell.hpp"
+#include "sph/level_outlet.hpp"
 #include "sph/prescribed_particles.hpp"
 
 namespace courant {
@@ -113,6 +114,8 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
     world_.forces.push_back(make_gravity(model_, world_, neighbours_));
   else
     left_out_.push_back({"gravity", "no *LOAD_BODY"});
+  if (!add_level_outlets(deck_, model_, sph_, planes_, world_, diagnostics))
+    left_out_.push_back({"level outlet", "no *COURANT_LEVEL_OUTLET"});
   for (auto& contact : contacts_) {
     world_.forces.push_back(contact);
     world_.refreshes.push_back(contact);

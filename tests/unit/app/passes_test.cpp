@@ -57,6 +57,7 @@ const Lists bare{
      "speed limit MAXV none given",
      "computational box no BOXID",
      "gravity no *LOAD_BODY",
+     "level outlet no *COURANT_LEVEL_OUTLET",
      "contact no *CONTACT",
      "fixed particles no particle in *BOUNDARY_SPC",
      "rigid bodies no *MAT_RIGID",
@@ -120,6 +121,15 @@ TEST(Passes, Gravity) {
   SmallScene scene;
   scene.extra = test::gravity_cards;
   expect_change(scene, {"gravity"}, {"force gravity", "energy gravity"});
+}
+
+TEST(Passes, LevelOutlet) {
+  SmallScene scene;
+  scene.extra = std::string(test::gravity_cards) +
+                "*DEFINE_BOX\n7,0.,0.6,0.,1.,-1.,1.\n*COURANT_LEVEL_OUTLET\n7,0.4,0.05\n";
+  expect_change(scene, {"gravity", "level outlet"},
+                {"force gravity", "energy gravity", "force level outlet 7", "time limit level outlet 7",
+                 "energy level outlet 7"});
 }
 
 TEST(Passes, ContactWithAFloorThatIsHeld) {

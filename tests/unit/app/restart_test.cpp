@@ -251,6 +251,14 @@ TEST(Restart, Renormalisation) {
       {1, 20, 75}, 120);
 }
 
+TEST(Restart, LevelOutlet) {
+  expect_same({.n = 8,
+               .start = "0.5,0.,0.",
+               .extra = test::gravity_cards + test::floor_cards() +
+                        "*DEFINE_BOX\n7,0.3,1.,-0.1,1.,-1.,1.\n*COURANT_LEVEL_OUTLET\n7,0.4,0.05\n"},
+              {0, 1, 20, 75}, 120);
+}
+
 TEST(Restart, RiemannFluxWithABox) {
   expect_same({.n = 8,
                .start = "0.5,-0.5,0.",
