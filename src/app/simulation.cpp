@@ -104,8 +104,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
       world_, diagnostics);
   if (!diagnostics.ok()) return;
   world_.motions.push_back(make_particle_motion());
-  add_drifts(
-      sph_, [loads = model_.body_loads](Real t) { return gravity_at(loads, t); }, world_);
+  add_drifts(sph_, gravity_of(model_.body_loads), world_);
   if (mirrors_) world_.motions.push_back(mirrors_);
   add_sph_time_limit(sph_, model_, world_);
   for (PassNote& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
@@ -172,7 +171,7 @@ void Simulation::add_images(Real h, Diagnostics& diagnostics) {
   auto images = std::make_shared<Images>(planes_);
   neighbours_->set_images(images);
   world_.exchangers.push_back(images);
-  mirrors_ = images->make_mirrors([loads = model_.body_loads](Real t) { return gravity_at(loads, t); });
+  mirrors_ = images->make_mirrors(gravity_of(model_.body_loads));
 }
 
 void Simulation::add_prescribed_motions(Diagnostics& diagnostics) {
@@ -188,7 +187,7 @@ void Simulation::add_bodies() {
     left_out_.push_back({"rigid bodies", bodies_ ? "all are held in every direction" : "no *MAT_RIGID"});
     return;
   }
-  bodies_->set_gravity([loads = model_.body_loads](Real t) { return gravity_at(loads, t); });
+  bodies_->set_gravity(gravity_of(model_.body_loads));
   add_body_passes(world_, bodies_);
 }
 

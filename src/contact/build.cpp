@@ -4,6 +4,7 @@
 
 #include "contact/cards.hpp"
 #include "contact/contact.hpp"
+#include "model/named_parts.hpp"
 
 namespace courant {
 namespace {
@@ -20,7 +21,7 @@ class Builder {
     if (c.surfatyp == 5) return out;
     if (c.surfatyp == 4) return nodes_of_set(c, std::move(out));
     std::vector<bool> chosen(model_.parts.size(), false);
-    for (const Index part : parts(c, c.surfa, c.surfatyp, "SURFA")) {
+    for (const Index part : parts_named(deck_, model_, c, "SURFA", c.surfa, c.surfatyp, diagnostics_)) {
       chosen[part] = true;
       if (!model_.parts[part].has_sph)
         deck_.error(diagnostics_, c, "SURFA", fmt::format("part {} has no particles", model_.parts[part].id),
@@ -32,13 +33,8 @@ class Builder {
 
   /// Segments of SURFB
   std::vector<Index> segments(const ContactNodesToSurface& c) {
-    std::vector<bool> chosen(model_.parts.size(), false);
-    for (const Index part : parts(c, c.surfb, c.surfbtyp, "SURFB")) {
-      chosen[part] = true;
-      if (!model_.parts[part].has_shell)
-        deck_.error(diagnostics_, c, "SURFB", fmt::format("part {} has no shells", model_.parts[part].id),
-                    "SURFB must be parts of shells");
-    }
+    const std::vector<char> chosen =
+        shell_parts_named(deck_, model_, c, "SURFB", c.surfb, c.surfbtyp, diagnostics_);
     std::vector<Index> out;
     for (Index s = 0; s < world_.segments.size(); ++s)
       if (chosen[world_.segments.part[s]]) out.push_back(s);
@@ -46,24 +42,6 @@ class Builder {
   }
 
  private:
-  std::vector<Index> parts(const ContactNodesToSurface& c, Id id, int type, const char* field) {
-    if (type == 2) {
-      const auto set = model_.part_sets.find(id);
-      if (set == model_.part_sets.end())
-        deck_.error(diagnostics_, c, field, fmt::format("part set {} does not exist", id),
-                    "define it with *SET_PART_LIST");
-      else if (set->second.empty())
-        deck_.error(diagnostics_, c, field, fmt::format("part set {} is empty", id));
-      else
-        return set->second;
-    } else if (type == 3) {
-      const auto part = model_.part_of_id.find(id);
-      if (part != model_.part_of_id.end()) return {part->second};
-      deck_.error(diagnostics_, c, field, fmt::format("part {} does not exist", id), "define it with *PART");
-    }
-    return {};  // other types were refused by the card
-  }
-
   std::vector<bool> nodes_of_set(const ContactNodesToSurface& c, std::vector<bool> out) {
     const auto set = model_.node_sets.find(c.surfa);
     if (set == model_.node_sets.end()) {

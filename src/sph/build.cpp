@@ -130,7 +130,7 @@ class Builder {
     const auto* c = deck_.last<CourantDensityDiffusion>();
     if (c == nullptr) return;
     settings_.density_diffusion = c->delta;
-    settings_.gravity = [loads = model_.body_loads](Real t) { return gravity_at(loads, t); };
+    settings_.gravity = gravity_of(model_.body_loads);
     const Real most = most_diffusion * std::min(Real(1), stiffness<CubicSpline>() /
                                                              with_kernel(settings_.kernel, [&](auto kernel) {
                                                                return stiffness<decltype(kernel)>();
@@ -417,7 +417,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   const auto volumes = make_pair_volumes(world);
   world.rates.push_back(make_rates(s, world, geometry, volumes));
   if (!s.walls.segments.empty())
-    add_wall_support(s, world, neighbours);
+    add_wall_support(s, world, *neighbours);
   else
     left_out.push_back({"wall support", "no *COURANT_WALL_SUPPORT"});
   if (s.renormalised)

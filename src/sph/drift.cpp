@@ -193,8 +193,7 @@ class DriftRate : public Rate {
     density_->take_arrays(world.particles, clock, a_);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
-    const Index b = begin / block_size;
-    loop_(a_, {neighbours_->list(b), neighbours_->starts(b), begin, end});
+    loop_(a_, lists_of(*neighbours_, begin, end));
     density_->add(world.particles, begin, end);
   }
 

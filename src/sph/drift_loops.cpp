@@ -72,7 +72,7 @@ struct VelocityGradient {
 };
 
 template <int Dim, bool Correct>
-void shifting(const DriftArrays& a, const DriftLists& lists) {
+void shifting(const DriftArrays& a, const NeighbourLists& lists) {
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> xi(a.x, i, count);
@@ -113,7 +113,7 @@ void shifting(const DriftArrays& a, const DriftLists& lists) {
 }
 
 template <int Dim, bool UniformH>
-void xsph(const DriftArrays& a, const DriftLists& lists) {
+void xsph(const DriftArrays& a, const NeighbourLists& lists) {
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
@@ -138,7 +138,7 @@ void xsph(const DriftArrays& a, const DriftLists& lists) {
 }
 
 template <int Dim>
-void drift_rate(const DriftArrays& a, const DriftLists& lists) {
+void drift_rate(const DriftArrays& a, const NeighbourLists& lists) {
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> xi(a.x, i, count), vi(a.v, i, count), ui(a.drifted, i, count);

@@ -1,7 +1,7 @@
 #pragma once
 // The sums over pairs by which particles move besides their velocity (shifting, XSPH); compiled once for each
 // instruction set, as pair_loops.hpp.
-#include "base/real.hpp"
+#include "sph/neighbour_lists.hpp"
 
 namespace courant {
 
@@ -30,14 +30,7 @@ struct DriftArrays {
   Real half_step;    ///< [T]
 };
 
-/// The lists of particles [begin, end), as in PairLists.
-struct DriftLists {
-  const Index* list;
-  const Index* start;
-  Index begin, end;
-};
-
-using DriftLoop = void (*)(const DriftArrays&, const DriftLists&);
+using DriftLoop = void (*)(const DriftArrays&, const NeighbourLists&);
 
 /// Gradient of the concentration with h_i, Skillen, Lind, Stansby and Rogers 2013, eqs 14-16; what tells
 /// surfaces; the gradient of the velocity where `correct`;

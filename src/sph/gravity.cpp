@@ -10,6 +10,9 @@ Vec gravity_at(const std::vector<BodyLoad>& loads, Real t) {
     g[load.axis] -= load.sf * load.curve(t);  // the base accelerates, bodies feel the opposite
   return g;
 }
+std::function<Vec(Real t)> gravity_of(std::vector<BodyLoad> loads) {
+  return [loads = std::move(loads)](Real t) { return gravity_at(loads, t); };
+}
 
 namespace {
 

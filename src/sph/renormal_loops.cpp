@@ -48,7 +48,7 @@ COURANT_INLINE Difference<Dim> less(const Difference<Dim>& a, const Difference<D
 }
 
 template <int Dim>
-void renormal_rates(const RenormalArrays& a, const RenormalLists& lists) {
+void renormal_rates(const RenormalArrays& a, const NeighbourLists& lists) {
   const Real hinv = 1 / a.h0, norm = gradient_norm<CubicSpline, Dim>(a.h0);
   const Pack tiny = Pack::of(tiny_distance2 * a.h0 * a.h0);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
@@ -72,22 +72,20 @@ void renormal_rates(const RenormalArrays& a, const RenormalLists& lists) {
   }
 }
 
-template <int Dim>
-COURANT_INLINE void add_product(Sum<Dim>& to, const Pack& w, const Difference<Dim>& d, const Real* const B[6],
-                                std::ptrdiff_t j) {
-  const Pack x = w * d.x, y = w * d.y;
-  to.x += B[0][j] * x + B[3][j] * y;
-  to.y += B[3][j] * x + B[1][j] * y;
+/// Adds B . a, B(k) the components of a symmetric tensor.
+template <int Dim, class Tensor, class Vector>
+COURANT_INLINE void add_product(Sum<Dim>& to, const Tensor& B, const Vector& a) {
+  to.x += B(0) * a.x + B(3) * a.y;
+  to.y += B(3) * a.x + B(1) * a.y;
   if constexpr (Dim == 3) {
-    const Pack z = w * d.z;
-    to.x += B[5][j] * z;
-    to.y += B[4][j] * z;
-    to.z += B[5][j] * x + B[4][j] * y + B[2][j] * z;
+    to.x += B(5) * a.z;
+    to.y += B(4) * a.z;
+    to.z += B(5) * a.x + B(4) * a.y + B(2) * a.z;
   }
 }
 
 template <int Dim>
-void renormal_forces(const RenormalArrays& a, const RenormalLists& lists) {
+void renormal_forces(const RenormalArrays& a, const NeighbourLists& lists) {
   const Real hinv = 1 / a.h0, norm = gradient_norm<CubicSpline, Dim>(a.h0);
   const Pack tiny = Pack::of(tiny_distance2 * a.h0 * a.h0);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
@@ -100,17 +98,12 @@ void renormal_forces(const RenormalArrays& a, const RenormalLists& lists) {
       const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2);
       const Pack w = gradient_shape<CubicSpline>(r2 * rinv * hinv, rinv) * a.V[j];
       own.add(w, d);
-      add_product(others, w * a.p[j], d, a.excess, j);
+      add_product(
+          others, [&](int k) { return a.excess[k][j]; }, times(w * a.p[j], d));
     }
     const Pack pi = Pack::load(a.p + i, count);
-    const auto B = [&](int k) { return pi * Pack::load(a.excess[k] + i, count); };
-    others.x += B(0) * own.x + B(3) * own.y;
-    others.y += B(3) * own.x + B(1) * own.y;
-    if constexpr (Dim == 3) {
-      others.x += B(5) * own.z;
-      others.y += B(4) * own.z;
-      others.z += B(5) * own.x + B(4) * own.y + B(2) * own.z;
-    }
+    add_product(
+        others, [&](int k) { return pi * Pack::load(a.excess[k] + i, count); }, own);
     others.add_to(a.f, i, count, -norm * Pack::load(a.V + i, count));
   }
 }

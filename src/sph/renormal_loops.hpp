@@ -1,7 +1,7 @@
 #pragma once
 // The sums over pairs of renormalised forms: gradients corrected by the inverse of the moment matrix;
 // compiled once for each instruction set, as pair_loops.hpp. Cubic spline, one h for all.
-#include "base/real.hpp"
+#include "sph/neighbour_lists.hpp"
 
 namespace courant {
 
@@ -19,14 +19,7 @@ struct RenormalArrays {
   Real half_step;  ///< [T]
 };
 
-/// The lists of particles [begin, end), as in PairLists.
-struct RenormalLists {
-  const Index* list;
-  const Index* start;
-  Index begin, end;
-};
-
-using RenormalLoop = void (*)(const RenormalArrays&, const RenormalLists&);
+using RenormalLoop = void (*)(const RenormalArrays&, const NeighbourLists&);
 
 /// Sets moment and gradient.
 RenormalLoop renormal_rates_loop(int dim);

@@ -58,8 +58,7 @@ class RenormalRates : public Rate {
     left_out_.assign(static_cast<std::size_t>(block_count(world.particles.active)), 0);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
-    const Index b = begin / block_size;
-    loop_(a_, {neighbours_->list(b), neighbours_->starts(b), begin, end});
+    loop_(a_, lists_of(*neighbours_, begin, end));
     with_dimension(dim_, [&](auto dim) {
       for (Index i = begin; i < end; ++i) correct<dim()>(world.particles, i);
     });
@@ -119,8 +118,7 @@ class RenormalForces : public Force {
     a_.p = total_pressure_ ? total_pressure_->data() : world.particles.p.data();
   }
   void block(World&, const Clock&, Index begin, Index end) override {
-    const Index b = begin / block_size;
-    loop_(a_, {neighbours_->list(b), neighbours_->starts(b), begin, end});
+    loop_(a_, lists_of(*neighbours_, begin, end));
   }
 
  private:

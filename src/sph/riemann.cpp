@@ -9,6 +9,7 @@
 #include "sph/fields.hpp"
 #include "sph/pair_volumes.hpp"
 #include "sph/sph.hpp"
+#include "sph/view.hpp"
 
 namespace courant {
 
@@ -49,8 +50,7 @@ class RiemannMomentum : public Rate {
     a_.h0 = p.active > 0 ? p.h[0] : 1, a_.eta = eta_;
   }
   void block(World&, const Clock&, Index begin, Index end) override {
-    const Index b = begin / block_size;
-    loop_(a_, {neighbours_->list(b), neighbours_->starts(b), begin, end});
+    loop_(a_, lists_of(*neighbours_, begin, end));
   }
 
  private:
@@ -83,8 +83,7 @@ class RiemannMass : public Force {
     a_.h0 = p.active > 0 ? p.h[0] : 1;
   }
   void block(World&, const Clock&, Index begin, Index end) override {
-    const Index b = begin / block_size;
-    loop_(a_, {neighbours_->list(b), neighbours_->starts(b), begin, end});
+    loop_(a_, lists_of(*neighbours_, begin, end));
   }
 
  private:
@@ -139,7 +138,7 @@ void read_riemann(const Deck& deck, const Model& model, SphSettings& s, Diagnost
   warn_of_viscosity<ControlBulkViscosity>(deck, diagnostics);
   constexpr Real without_limiter = 1e30;
   s.viscosity = RiemannFlux{c->eta > 0 ? c->eta : without_limiter};
-  s.gravity = [loads = model.body_loads](Real t) { return gravity_at(loads, t); };
+  s.gravity = gravity_of(model.body_loads);
   for (PartViscosity& q : s.q) q = {.q1 = 1, .q2 = 0};
   s.most_tssfac = s.dim == 2 ? most_step_2d : most_step_3d;
   if (s.tssfac > s.most_tssfac)

@@ -12,7 +12,7 @@ COURANT_INLINE Pack smaller(const Pack& a, const Pack& b) {
 }
 
 template <int Dim>
-void momentum(const RiemannArrays& a, const RiemannLists& lists) {
+void momentum(const RiemannArrays& a, const NeighbourLists& lists) {
   const Real hinv = 1 / a.h0, norm = gradient_norm<CubicSpline, Dim>(a.h0);
   const Pack tiny = Pack::of(tiny_distance2 * a.h0 * a.h0);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
@@ -40,7 +40,7 @@ void momentum(const RiemannArrays& a, const RiemannLists& lists) {
 }
 
 template <int Dim>
-void mass(const RiemannArrays& a, const RiemannLists& lists) {
+void mass(const RiemannArrays& a, const NeighbourLists& lists) {
   const Real hinv = 1 / a.h0, norm = gradient_norm<CubicSpline, Dim>(a.h0);
   const Pack tiny = Pack::of(tiny_distance2 * a.h0 * a.h0);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {

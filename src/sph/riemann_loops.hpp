@@ -1,7 +1,7 @@
 #pragma once
 // The sums over pairs by which a Riemann flux differs from plain sums; compiled once for each instruction
 // set, as pair_loops.hpp. Cubic spline, one h for all.
-#include "base/real.hpp"
+#include "sph/neighbour_lists.hpp"
 
 namespace courant {
 
@@ -21,14 +21,7 @@ struct RiemannArrays {
   Real eta;  ///< of the limiter; huge: none
 };
 
-/// The lists of particles [begin, end), as in PairLists.
-struct RiemannLists {
-  const Index* list;
-  const Index* start;
-  Index begin, end;
-};
-
-using RiemannLoop = void (*)(const RiemannArrays&, const RiemannLists&);
+using RiemannLoop = void (*)(const RiemannArrays&, const NeighbourLists&);
 
 /// Adds to f_i, with w = -v_ij . x_ij / r > 0 where a pair approaches and bars for means of i and j,
 ///   -V_i sum_j V_j rho_bar w min(eta w, c_bar) grad W_ij,

@@ -95,10 +95,9 @@ class Shifting : public Rate, public Keeper {
     inside_.assign(static_cast<std::size_t>(block_count(p.active)), {});
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
-    const Index b = begin / block_size;
-    loop_(a_, {neighbours_->list(b), neighbours_->starts(b), begin, end});
+    loop_(a_, lists_of(*neighbours_, begin, end));
     density_->add(world.particles, begin, end);
-    Inside& inside = inside_[static_cast<std::size_t>(b)];
+    Inside& inside = inside_[static_cast<std::size_t>(begin / block_size)];
     const Particles& p = world.particles;
     for (Index i = begin; i < end; ++i) {
       drift_.set(i, known_ ? velocity(p, i) : Vec(Vec::Zero()));

@@ -153,7 +153,7 @@ void add_volume_control(const SphSettings&, World&, std::shared_ptr<Neighbours>,
 void read_supported_walls(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
                           Diagnostics& diagnostics);
 /// Adds the passes of supporting walls; belongs right behind the pair rates.
-void add_wall_support(const SphSettings&, World&, std::shared_ptr<Neighbours>);
+void add_wall_support(const SphSettings&, World&, const Neighbours&);
 /// "parts 1 and 2 differ in MID or EOSID"; empty where SPH parts do not.
 std::string parts_of_several_materials(const Model&);
 ReinitialisationRules read_density_reinitialisation(const Deck&, const Model&, Diagnostics&);
@@ -178,6 +178,8 @@ std::shared_ptr<EnergyTerm> make_sph_energy(const SphSettings&, World&, std::sha
 std::shared_ptr<Force> make_gravity(const Model&, World&, std::shared_ptr<Neighbours>);
 /// Acceleration that LOAD_BODY_X/Y/Z give to everything at time t [L/T2].
 Vec gravity_at(const std::vector<BodyLoad>& loads, Real t);
+/// The same as a function of time.
+std::function<Vec(Real t)> gravity_of(std::vector<BodyLoad> loads);
 /// nullptr where no particle is fixed. Call while particles stand in the order of the model.
 std::shared_ptr<Constraint> make_fixed_particles(const Model&, World&);
 std::shared_ptr<Constraint> make_speed_limit(const SphSettings&, std::shared_ptr<Neighbours>);

@@ -1,4 +1,6 @@
 #pragma once
+#include "search/neighbours.hpp"
+#include "sph/neighbour_lists.hpp"
 #include "sph/pair_loops.hpp"
 #include "state/world.hpp"
 
@@ -18,6 +20,12 @@ inline PairArrays particle_arrays(Particles& p) {
   a.drhodt = p.drhodt.data();
   a.h0 = p.active > 0 ? p.h[0] : 1;
   return a;
+}
+
+/// The lists that pair loops take for a block of particles.
+inline NeighbourLists lists_of(const Neighbours& neighbours, Index begin, Index end) {
+  const Index block = begin / block_size;
+  return {neighbours.list(block), neighbours.starts(block), begin, end};
 }
 
 /// Calls `f(std::bool_constant)` with a run-time bool: one place where a choice becomes a specialised loop.

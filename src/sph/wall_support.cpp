@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "keyword/registry.hpp"
+#include "model/named_parts.hpp"
 #include "parallel/parallel.hpp"
 #include "sph/cards.hpp"
 #include "sph/fields.hpp"
@@ -94,18 +95,18 @@ class WallTables {
 /// wall, given to the particles that see it, whose kernels make up half of 1 there.
 class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keeper, public WallForceReporter {
  public:
-  WallSupport(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours)
+  WallSupport(const SphSettings& s, World& world, const Neighbours& neighbours)
       : dim_(s.dim),
         table_(s.kernel, s.dim),
-        neighbours_(std::move(neighbours)),
         slope_(sph_fields::wall_slope(world.particles)),
         fill_(sph_fields::wall_fill(world.particles)),
         rubbing_(sph_fields::wall_rubbing(world.particles)),
         surface_(world, s.walls.segments, least_h(world) / points_per_h,
-                 table_.support() * most_h(world) + neighbours_->largest_skin()) {
+                 table_.support() * most_h(world) + neighbours.largest_skin()) {
     for (Index f = 0; f < surface_.faces(); ++f) {
       cf_.push_back(s.walls.cf[surface_.segment_of(f)]);
       one_cf_ &= cf_.back() == cf_.front();
+      rubs_ |= cf_.back() > 0;
     }
   }
   std::string name() const override { return "wall support"; }
@@ -143,6 +144,7 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
 
   // What friction takes over the step, by the mean of the velocities before and after the kick.
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
+    if (!rubs_) return;
     const Particles& p = world.particles;
     const Real power = sum(p.active, [&](Index i) {
       const Vec v = p.v.vec(i) + 0.5 * clock.dt_mean() / p.m[i] * p.f.vec(i);
@@ -240,7 +242,6 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
 
   int dim_;
   WallTables table_;
-  std::shared_ptr<Neighbours> neighbours_;
   Field<Real>&slope_, &fill_, &rubbing_;
   WallSurface surface_;
   std::vector<Real> cf_;  ///< of each face
@@ -248,6 +249,7 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
   std::vector<Index> view_;
   static constexpr Index nothing = -2, pieces = -1;
   bool one_cf_ = true;        ///< of all walls
+  bool rubs_ = false;         ///< any wall
   std::vector<Index> shown_;  ///< segments that have forces of this step
 };
 
@@ -265,32 +267,6 @@ class WallSupportForce : public Force {
  private:
   std::shared_ptr<WallSupport> support_;
 };
-
-/// Parts that a card names; none, with an error, where it names none of shells.
-std::vector<Index> parts_of(const CourantWallSupport& c, const Deck& deck, const Model& model,
-                            Diagnostics& diagnostics) {
-  std::vector<Index> parts;
-  if (c.surfbtyp == 2) {
-    const auto set = model.part_sets.find(c.surfb);
-    if (set == model.part_sets.end())
-      deck.error(diagnostics, c, "SURFB", fmt::format("part set {} does not exist", c.surfb),
-                 "define it with *SET_PART_LIST");
-    else
-      parts = set->second;
-  } else {
-    const auto part = model.part_of_id.find(c.surfb);
-    if (part == model.part_of_id.end())
-      deck.error(diagnostics, c, "SURFB", fmt::format("part {} does not exist", c.surfb),
-                 "define it with *PART");
-    else
-      parts = {part->second};
-  }
-  for (const Index part : parts)
-    if (!model.parts[part].has_shell)
-      deck.error(diagnostics, c, "SURFB", fmt::format("part {} has no shells", model.parts[part].id),
-                 "SURFB must be parts of shells");
-  return parts;
-}
 
 /// Warns where contact, which acts at half the thickness, does not hold particles half a spacing from the
 /// wall.
@@ -314,18 +290,17 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
   SupportedWalls& walls = settings.walls;
   walls.cf.assign(world.segments.size(), -1);
   for (const auto& c : deck.all<CourantWallSupport>()) {
-    if (settings.evolving_h || settings.renormalised) {
-      diagnostics.error(deck.where(c),
-                        settings.evolving_h
-                            ? "*COURANT_WALL_SUPPORT: not beside smoothing lengths that evolve"
-                            : "*COURANT_WALL_SUPPORT: not beside a renormalised FORM of *CONTROL_SPH, which "
-                              "completes the sums itself",
-                        settings.evolving_h ? "HMIN = HMAX = 1 in *SECTION_SPH keeps them constant"
-                                            : "use FORM 0, or leave the card out");
-      return;
-    }
-    std::vector<char> chosen(model.parts.size(), 0);
-    for (const Index part : parts_of(c, deck, model, diagnostics)) chosen[part] = 1;
+    if (settings.evolving_h)
+      return diagnostics.error(deck.where(c),
+                               "*COURANT_WALL_SUPPORT: not beside smoothing lengths that evolve",
+                               "HMIN = HMAX = 1 in *SECTION_SPH keeps them constant");
+    if (settings.renormalised)
+      return diagnostics.error(deck.where(c),
+                               "*COURANT_WALL_SUPPORT: not beside a renormalised FORM of *CONTROL_SPH, which "
+                               "completes the sums itself",
+                               "use FORM 0, or leave the card out");
+    const std::vector<char> chosen =
+        shell_parts_named(deck, model, c, "SURFB", c.surfb, c.surfbtyp, diagnostics);
     Real thickness = 0;
     for (Index s = 0; s < world.segments.size(); ++s) {
       if (!chosen[world.segments.part[s]]) continue;
@@ -351,8 +326,8 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
   }
 }
 
-void add_wall_support(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours) {
-  auto support = std::make_shared<WallSupport>(s, world, std::move(neighbours));
+void add_wall_support(const SphSettings& s, World& world, const Neighbours& neighbours) {
+  auto support = std::make_shared<WallSupport>(s, world, neighbours);
   world.rates.push_back(support);
   world.refreshes.push_back(support);
   world.energy_terms.push_back(support);

@@ -5,6 +5,7 @@
 #include "sph/drift_loops.hpp"
 #include "sph/pair_volumes.hpp"
 #include "sph/sph.hpp"
+#include "sph/view.hpp"
 
 namespace courant {
 
@@ -40,8 +41,7 @@ class Xsph : public Rate {
     a_.m = p.m.data(), a_.h = p.h.data(), a_.V = volumes_->current();
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
-    const Index b = begin / block_size;
-    loop_(a_, {neighbours_->list(b), neighbours_->starts(b), begin, end});
+    loop_(a_, lists_of(*neighbours_, begin, end));
     for (int k = 0; k < world.dim; ++k)
       for (Index i = begin; i < end; ++i) a_.drift[k][i] *= eps_;
   }
