@@ -4,7 +4,8 @@ Runs and evaluates the cases of Jonsson et al. (2016) and writes docs/hydraulic_
 
 usage: bash examples/hydraulic_jump/paper.sh [options]
 
-  --threads N       threads of each run (all cores)
+  --jobs N          runs at a time (1): two runs on a thread each take less time than one after the other on two
+  --threads N       threads of each run (all cores, shared among the jobs)
   --only NAME,...   these runs of paper_runs.yaml alone: d4,d5,d6,d10, d4_c1484, fr34, ...
   --paper-setting   also the paper's speed of sound, 1484 m/s: hours
   --standing        also jumps that stand still, Froude numbers 2.4 to 6.5
@@ -18,6 +19,7 @@ Exit code: 0 all is done, 1 a run or its evaluation failed, 2 the call was wrong
 
 """
 import argparse
+import concurrent.futures
 import os
 import pathlib
 import re
@@ -25,6 +27,7 @@ import signal
 import statistics
 import subprocess
 import sys
+import threading
 import time
 
 import yaml
@@ -45,7 +48,7 @@ class Run:
     """One line of paper_runs.yaml with its files and what is known of its size."""
 
     def __init__(self, entry, results, quick):
-        self.__dict__.update(segment=1, figures=False, toe=0)
+        self.__dict__.update(segment=1, figures=False, toe=0, cards="")
         self.__dict__.update(entry)
         self.parameters = dict(entry["parameters"])
         if quick:
@@ -99,7 +102,7 @@ class Program:
 # ---- decks
 
 def make_deck(run, program):
-    """Generates the deck, with a card for restart files; one that is as before keeps its age."""
+    """Generates the deck, with the run's own cards and one for restart files; one that is as before keeps its age."""
     fresh = run.deck.with_suffix(".new")
     words = [f"--param={name}={value}" for name, value in run.parameters.items()]
     program.call("generate", SCENES / run.scene, "-o", fresh, *words)
@@ -109,7 +112,7 @@ def make_deck(run, program):
     head, end, tail = text.rpartition("*END")
     if not end:
         raise Failure(f"{fresh} has no *END")
-    text = head + f"*DATABASE_BINARY_RUNRSF\n$#    cycl        nr\n{cycles:10.0f}         1\n" + end + tail
+    text = head + run.cards + f"*DATABASE_BINARY_RUNRSF\n$#    cycl        nr\n{cycles:10.0f}         1\n" + end + tail
     fresh.unlink()
     if not run.deck.exists() or run.deck.read_text() != text:
         run.deck.write_text(text)
@@ -166,11 +169,24 @@ def reached(run, interval=0.01):
     return max(0, len(list((run.folder / "fields").glob("*.vtp"))) - 1) * interval
 
 
-def watch(child, run, later, clock):
-    """Tells now and then how far a run is, until it ends. later: estimated seconds of the runs behind it."""
+class Queue:
+    """The runs that are still to do, which jobs take one after the other; `stop`: an interrupt has come."""
+
+    def __init__(self, runs, clock, jobs):
+        self.left, self.clock, self.jobs, self.stop = list(runs), clock, jobs, threading.Event()
+
+    def seconds(self):
+        """What those that nobody has taken yet will need."""
+        return sum(map(self.clock.seconds, self.left)) / self.jobs
+
+
+def watch(child, run, queue, clock):
+    """Tells now and then how far a run is, until it ends."""
     end, begin, start = run.parameters["endtim"], reached(run), time.time()
-    terminal, told = sys.stdout.isatty(), start
+    terminal, told = sys.stdout.isatty() and queue.jobs == 1, start
     while True:
+        if queue.stop.is_set():
+            raise KeyboardInterrupt
         try:
             child.wait(2)
             break
@@ -183,13 +199,16 @@ def watch(child, run, later, clock):
             left = clock.seconds(run) * (1 - begin / end) - (told - start)
         else:
             left = (told - start) * (end - t) / (t - begin)
-        text = f"  {run.name}: t = {t:.2f} of {end:g} s, {duration(max(0, left))} left; all runs {duration(max(0, left) + later)}"
+        text = f"  {run.name}: t = {t:.2f} of {end:g} s, {duration(max(0, left))} left; all runs {duration(max(0, left) + queue.seconds())}"
         print(f"\r{text:<78}" if terminal else text, end="" if terminal else "\n", flush=True)
     if terminal and told != start:
         print("\r" + " " * 78 + "\r", end="")
 
 
-def execute(run, program, threads, later, clock):
+def execute(run, program, threads, queue, clock):
+    if queue.stop.is_set():
+        raise KeyboardInterrupt
+    queue.left.remove(run)
     words = [program.courant, "run", run.deck, "-o", run.folder, "--threads", threads, "--quiet"]
     if can_go_on(run, program):
         words += ["--restart", run.folder]
@@ -203,7 +222,7 @@ def execute(run, program, threads, later, clock):
     log = open(run.folder / "messages.txt", "w")
     child = subprocess.Popen(list(map(str, words)), stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
     try:
-        watch(child, run, later, clock)
+        watch(child, run, queue, clock)
     except KeyboardInterrupt:
         child.send_signal(signal.SIGINT)
         child.wait()
@@ -215,7 +234,7 @@ def execute(run, program, threads, later, clock):
         reason = summary.get("reason") or (run.folder / "messages.txt").read_text()[-2000:].strip()
         raise Failure(f"the run ended with exit code {child.returncode}: {reason}")
     clock.learn(run)
-    say(f"  done in {duration(summary['wall_seconds'])}, {summary['ns_per_particle_step']:.0f} ns per particle and step")
+    say(f"  {run.name}: done in {duration(summary['wall_seconds'])}, {summary['ns_per_particle_step']:.0f} ns per particle and step")
 
 
 # ---- the whole
@@ -223,7 +242,8 @@ def execute(run, program, threads, later, clock):
 def read_options():
     parser = argparse.ArgumentParser(usage=__doc__, add_help=False)
     parser.add_argument("--courant", required=True)
-    parser.add_argument("--threads", type=int, default=os.cpu_count())
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--threads", type=int)
     parser.add_argument("--only", default="")
     parser.add_argument("--paper-setting", action="store_true")
     parser.add_argument("--standing", action="store_true")
@@ -231,8 +251,10 @@ def read_options():
     parser.add_argument("--page", type=pathlib.Path)
     parser.add_argument("--quick", action="store_true")
     options = parser.parse_args()
-    if options.threads < 1:
-        parser.error("--threads needs a number from 1 on")
+    if options.threads is None:
+        options.threads = max(1, os.cpu_count() // max(1, options.jobs))
+    if options.threads < 1 or options.jobs < 1:
+        parser.error("--threads and --jobs need a number from 1 on")
     options.results = (options.results or PROJECT / "results" / ("hydraulic_jump_quick" if options.quick else "hydraulic_jump_paper")).resolve()
     options.page = (options.page or (options.results / "page.md" if options.quick else PROJECT / "docs" / "hydraulic_jump_paper.md")).resolve()
     return options
@@ -258,16 +280,24 @@ def work_through(chosen, program, options):
     for run in chosen:
         say(f"  {run.name:<10} " + ("is complete" if run not in waiting else f"about {duration(clock.seconds(run))} on {options.threads} thread(s)"))
     if waiting:
-        say(f"  all together about {duration(sum(map(clock.seconds, waiting)))}; Ctrl-C stops, the same command goes on")
-    for run in chosen:
+        say(f"  all together about {duration(sum(map(clock.seconds, waiting)) / options.jobs)}; Ctrl-C stops, the same command goes on")
+    queue = Queue(waiting, clock, options.jobs)
+    if options.jobs > 1:  # the longest first, so that none is alone at the end
+        waiting.sort(key=clock.seconds, reverse=True)
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        jobs = {run: pool.submit(execute, run, program, options.threads, queue, clock) for run in waiting}
         try:
-            if run in waiting:
-                waiting.remove(run)
-                execute(run, program, options.threads, sum(map(clock.seconds, waiting)), clock)
-            paper_evaluate.evaluate(run, program, SCENES, options.threads, say)
-        except (Failure, OSError) as error:
-            failed.append(run.name)
-            say(f"FAILED {run.name}: {error}")
+            for run in chosen:
+                try:
+                    if run in jobs:
+                        jobs[run].result()
+                    paper_evaluate.evaluate(run, program, SCENES, options.threads, say)
+                except (Failure, OSError) as error:
+                    failed.append(run.name)
+                    say(f"FAILED {run.name}: {error}")
+        except BaseException:
+            queue.stop.set()
+            raise
     return failed
 
 

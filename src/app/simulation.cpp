@@ -19,6 +19,8 @@ namespace {
 
 /// Neighbour lists hold until something moved half the skin; of h. See docs/performance.md.
 constexpr Real least_skin = 0.02, first_skin = 0.1, most_skin = 0.4;
+/// Where gradients are kept over steps, entries out of reach are looked at once in a window only.
+constexpr Real skin_weight = 7, skin_weight_of_windows = 28;
 
 }  // namespace
 
@@ -92,7 +94,8 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
 void Simulation::add_passes(Diagnostics& diagnostics) {
   const Real h = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
   neighbours_ = std::make_shared<Neighbours>(first_skin * h, sph_.region, kernel_support(sph_.kernel));
-  neighbours_->adapt_skin(least_skin * h, most_skin * h);
+  neighbours_->adapt_skin(least_skin * h, most_skin * h,
+                          sph_.geometry_eps > 0 ? skin_weight_of_windows : skin_weight);
   make_injected_wait(injections_, world_, *neighbours_);
   if (injections_.inlets.empty()) left_out_.push_back({"inlets", "no *DEFINE_SPH_INJECTION"});
   add_images(h, diagnostics);

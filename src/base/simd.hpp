@@ -60,6 +60,27 @@ COURANT_INLINE Native native_rsqrt(Native x) {
 #endif
 }
 
+COURANT_INLINE Native native_from_single(const float* p) {
+#if COURANT_SIMD_BYTES == 64
+  return _mm512_cvtps_pd(_mm256_loadu_ps(p));
+#elif COURANT_SIMD_BYTES == 32
+  return _mm256_cvtps_pd(_mm_loadu_ps(p));
+#else
+  Native out;
+  for (int k = 0; k < native_lanes; ++k) out[k] = p[k];
+  return out;
+#endif
+}
+COURANT_INLINE void native_to_single(Native x, float* p) {
+#if COURANT_SIMD_BYTES == 64
+  _mm256_storeu_ps(p, _mm512_cvtpd_ps(x));
+#elif COURANT_SIMD_BYTES == 32
+  _mm_storeu_ps(p, _mm256_cvtpd_ps(x));
+#else
+  for (int k = 0; k < native_lanes; ++k) p[k] = static_cast<float>(x[k]);
+#endif
+}
+
 /// Eight numbers, in as few registers as the instruction set allows.
 struct Pack {
   Native part[parts];
@@ -82,6 +103,15 @@ struct Pack {
     Real copy[lanes];
     for (Index k = 0; k < lanes; ++k) copy[k] = p[k < n ? k : n - 1];
     return load(copy);
+  }
+  /// From and to single precision.
+  COURANT_INLINE static Pack load(const float* p) {
+    Pack out;
+    for (int k = 0; k < parts; ++k) out.part[k] = native_from_single(p + k * native_lanes);
+    return out;
+  }
+  COURANT_INLINE void store(float* p) const {
+    for (int k = 0; k < parts; ++k) native_to_single(part[k], p + k * native_lanes);
   }
   COURANT_INLINE void store(Real* p) const {
     for (int k = 0; k < parts; ++k) *reinterpret_cast<NativeInMemory*>(p + k * native_lanes) = part[k];

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 
 #include "base/run_error.hpp"
 #include "parallel/parallel.hpp"
+#include "state/particle_loops.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -113,29 +115,22 @@ class EosPass : public Material {
 
   /// The same with B = 0, in a form that vectorises: E only counts the work of the pressure.
   void advance_without(Particles& p, Real dt, Index begin, Index end, Index part, Real& lowest) {
-    const Real rho0 = part_.rho0[part], pc = part_.pc[part], inverse_rho0 = 1 / rho0, limit = rho_limit(part);
-    const Real* __restrict rate = p.drhodt.data();
-    Real* __restrict rho = p.rho.data(), * __restrict pressure = p.p.data(), * __restrict E = p.E.data(), * __restrict c = p.c.data();
+    const Real rho0 = part_.rho0[part];
     const Law law = law_;
-    Real least = lowest;
-    int broken = 0;
-#pragma omp simd reduction(min : least) reduction(| : broken)
-    for (Index i = begin; i < end; ++i) {
-      const Real before = rho[i], after = before + rate[i] * dt;
-      const Real mu = after * inverse_rho0 - 1;
-      const Real dv = rho0 * (before - after) / (before * after);
-      const Real p_new = std::max(law.A(mu), pc);
-      E[i] -= 0.5 * dv * (pressure[i] + p_new);
-      rho[i] = after;
-      pressure[i] = p_new;
-      c[i] = std::sqrt(std::max(law.dA(mu) * inverse_rho0, Real(0)));
-      least = std::min(least, after * inverse_rho0);
-      broken |= (after > 0 ? 0 : 1) | (after < limit ? 0 : 1);
-    }
-    lowest = broken ? 0 : least;
+    std::array<Real, block_size> mu, half_dv, A, dA;
+    loops_.compress(p.drhodt.data(), dt, rho0, p.rho.data(), mu.data(), half_dv.data(), begin, end);
+    for (Index k = 0; k < end - begin; ++k) A[k] = law.A(mu[k]), dA[k] = law.dA(mu[k]);
+    loops_.load({A.data(), dA.data(), half_dv.data(), rho0, part_.pc[part]}, p.p.data(), p.E.data(),
+                p.c.data(), begin, end);
+    const ParticleLoops::Range range = loops_.range(p.rho.data(), begin, end);
+    if (range.broken || !(range.most < rho_limit(part)))
+      lowest = 0;
+    else
+      lowest = std::min(lowest, range.least / rho0);
   }
 
   Law law_;
+  ParticleLoops loops_ = particle_loops();
   EosPart part_;
   Field<Real>& reference_volume_;
   const Field<Real>* heat_ = nullptr;     ///< null where no pass makes such heat

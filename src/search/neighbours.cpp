@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/run_error.hpp"
+#include "state/particle_loops.hpp"
 
 namespace courant {
 
@@ -71,40 +72,28 @@ class Neighbours::Watch : public Motion {
     moved2_.resize(stale_.size());
   }
   void look(const Particles& p, Index begin, Index end) {
-    const Real *x = p.x.data(0), *y = p.x.data(1), *z = p.x.data(2), *h = p.h.data();
-    const Real *xb = lists_.x_built_.data(), *yb = lists_.y_built_.data(), *zb = lists_.z_built_.data(),
-               *hb = lists_.h_built_.data();
-    const Real reach = 0.5 * lists_.skin_;
-    Real most = 0;
-    int stale = 0;
-#pragma omp simd reduction(max : most) reduction(| : stale)
-    for (Index i = begin; i < end; ++i) {
-      const Real dx = x[i] - xb[i], dy = y[i] - yb[i], dz = z[i] - zb[i];
-      const Real moved2 = dx * dx + dy * dy + dz * dz;
-      const Real room = std::max(reach - std::max(h[i] - hb[i], Real(0)), Real(0));
-      stale |= moved2 < room * room ? 0 : 1;  // 1 also for NaN
-      most = std::max(most, moved2);
-    }
+    const Real* const x[3] = {p.x.data(0), p.x.data(1), p.x.data(2)};
+    const auto [most2, within] =
+        loops_.moved({{x[0], x[1], x[2]},
+                      p.h.data(),
+                      {lists_.x_built_.data(), lists_.y_built_.data(), lists_.z_built_.data()},
+                      lists_.h_built_.data()},
+                     0.5 * lists_.skin_, begin, end);
+    bool stale = !within;
+    const auto inside = [&](Index first, Index last) {
+      return loops_.inside(lists_.region_->low.data(), lists_.region_->high.data(), x, first, last);
+    };
     const Index active_end = std::clamp(p.active, begin, end);
-    if (lists_.region_) stale |= inside(*lists_.region_, x, y, z, begin, active_end) != active_end - begin;
+    if (lists_.region_) stale |= inside(begin, active_end) != active_end - begin;
     if (lists_.inlet_)
-      for (Index i = active_end; i < end; ++i) stale |= lists_.is_solved_for(p, i) ? 1 : 0;
+      for (Index i = active_end; i < end; ++i) stale |= lists_.is_solved_for(p, i);
     else if (lists_.region_)
-      stale |= inside(*lists_.region_, x, y, z, active_end, end) != 0;
-    stale_[begin / block_size] = stale != 0;
-    moved2_[begin / block_size] = most;
-  }
-  static Index inside(const Region& region, const Real* x, const Real* y, const Real* z, Index begin,
-                      Index end) {
-    const Vec low = region.low, high = region.high;
-    Index count = 0;
-#pragma omp simd reduction(+ : count)
-    for (Index i = begin; i < end; ++i)
-      count += (x[i] >= low[0]) & (x[i] <= high[0]) & (y[i] >= low[1]) & (y[i] <= high[1]) &
-               (z[i] >= low[2]) & (z[i] <= high[2]);
-    return count;
+      stale |= inside(active_end, end) != 0;
+    stale_[begin / block_size] = stale;
+    moved2_[begin / block_size] = most2;
   }
   const Neighbours& lists_;
+  ParticleLoops loops_ = particle_loops();
   bool looked_ = false;
   std::vector<char> stale_;
   std::vector<Real> moved2_;
@@ -119,7 +108,8 @@ Neighbours::Neighbours(Real skin, std::optional<Region> region, Real support)
       find_near_(courant::find_near()),
       watch_(std::make_shared<Watch>(*this)) {}
 
-void Neighbours::adapt_skin(Real least, Real most) {
+void Neighbours::adapt_skin(Real least, Real most, Real weight) {
+  skin_weight_ = weight;
   least_skin_ = least;
   most_skin_ = most;
   skin_ = std::clamp(skin_, least, most);
@@ -247,7 +237,7 @@ void Neighbours::stop_for_leaps(const World& world, const Clock& clock) const {
 void Neighbours::choose_skin(const Clock& clock) {
   if (least_skin_ == most_skin_ || !built_ || clock.cycle <= built_cycle_) return;
   const Real move = watch_->largest_move() / static_cast<Real>(clock.cycle - built_cycle_);
-  skin_ = std::clamp(std::sqrt(7 * move * h_max_), least_skin_, most_skin_);
+  skin_ = std::clamp(std::sqrt(skin_weight_ * move * h_max_), least_skin_, most_skin_);
 }
 
 void Neighbours::sort(World& world, const Clock& clock, Index n) {

@@ -30,8 +30,9 @@ class Neighbours {
   /// `skin`: > 0 [L]. `support`: how far the kernel reaches, in h.
   Neighbours(Real skin, std::optional<Region> region, Real support = 2);
   /// Chooses the skin anew at each rebuild, between the given bounds [L], so that rebuilding and looking at
-  /// pairs out of reach together cost least at the present speed of particles.
-  void adapt_skin(Real least, Real most);
+  /// pairs out of reach together cost least at the present speed of particles: sqrt(weight h d) where they
+  /// move d in a step. `weight`: what rebuilding costs against looking at entries, by measurement.
+  void adapt_skin(Real least, Real most, Real weight);
 
   /// From now on the lists also hold images of particles behind planes.
   void set_images(std::shared_ptr<Images> images) { images_ = std::move(images); }
@@ -108,6 +109,7 @@ class Neighbours {
   void find_moving_nodes(const World& world);
 
   Real skin_, least_skin_, most_skin_;
+  Real skin_weight_ = 0;
   Real support_;  ///< of the kernel, in h
   std::optional<Region> region_;
   std::vector<InletPlane> inlets_;

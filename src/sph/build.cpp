@@ -6,6 +6,7 @@
 #include "parallel/parallel.hpp"
 #include "search/nearest_distance.hpp"
 #include "sph/cards.hpp"
+#include "sph/kept_pairs.hpp"
 #include "sph/pair_geometry.hpp"
 #include "sph/pair_volumes.hpp"
 #include "sph/sph.hpp"
@@ -409,13 +410,23 @@ SphSettings build_particles(const Deck& deck, const Model& model,
   return Builder(deck, model, material, world, diagnostics).build();
 }
 
+namespace {
+
+PairPasses make_pair_passes(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+                            std::shared_ptr<PairVolumes> volumes) {
+  if (s.geometry_eps > 0) return make_kept_passes(s, world, std::move(neighbours), std::move(volumes));
+  const auto geometry = std::make_shared<PairGeometry>(std::move(neighbours), s.uniform_h);
+  return {make_rates(s, world, geometry, volumes), make_forces(s, world, geometry, volumes)};
+}
+
+}  // namespace
+
 std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
                                      std::shared_ptr<Neighbours> neighbours) {
   std::vector<PassNote> left_out;
-  const auto geometry =
-      std::make_shared<PairGeometry>(neighbours, s.uniform_h, PairGeometry::most_kept_bytes, s.geometry_eps);
   const auto volumes = make_pair_volumes(world);
-  world.rates.push_back(make_rates(s, world, geometry, volumes));
+  const PairPasses pairs = make_pair_passes(s, world, neighbours, volumes);
+  world.rates.push_back(pairs.rates);
   if (!s.walls.segments.empty())
     add_wall_support(s, world, *neighbours);
   else
@@ -463,7 +474,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   else
     left_out.push_back({"viscous stress", "MU is 0 in all SPH materials"});
   world.materials.push_back(volumes);
-  world.forces.push_back(make_forces(s, world, geometry, volumes));
+  world.forces.push_back(pairs.forces);
   if (s.maxv != 0)
     world.constraints.push_back(make_speed_limit(s, neighbours));
   else

@@ -1,6 +1,7 @@
 #pragma once
 // The kernel of a run, chosen by the deck: one for all particles.
 #include <array>
+#include <cmath>
 
 #include "sph/kernel.hpp"
 
@@ -44,6 +45,12 @@ inline const char* kernel_name(KernelChoice choice) {
 /// How far the kernel reaches, in h.
 inline Real kernel_support(KernelChoice choice) {
   return with_kernel(choice, [](auto kernel) { return decltype(kernel)::support; });
+}
+/// What turns `gradient` of a kernel into dW/dr [1/L^(dim + 1)].
+inline Real gradient_norm(KernelChoice choice, int dim, Real h) {
+  return with_kernel(choice, [&](auto kernel) {
+    return decltype(kernel)::gradient_factor * decltype(kernel)::C(dim) / std::pow(h, dim + 1);
+  });
 }
 
 }  // namespace courant

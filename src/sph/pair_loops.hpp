@@ -43,15 +43,14 @@ enum class Geometry { compute, store, load };
 using PairLoop = void (*)(const PairArrays&, const PairLists&);
 
 /// Eq. 6: drho_i/dt = rho_i sum_j V_j v_ij . grad_i W_ij (with h_i, FORM 0), in the middle of the step, to
-/// which the velocities belong: less half_step v_ij . (grad grad W) . v_ij (not where gradients are taken
-/// from memory). With the places at its end, noise would seem to compress, and energy come from nowhere, in
-/// proportion to the step. `viscous`: eqs 15-16, Monaghan's viscosity, adds to f and sets heat. `gradient`:
-/// sets the symmetric velocity gradient, -1/2 sum_j V_j (v_ij,a grad_b W + v_ij,b grad_a W), components xx yy
-/// zz xy yz zx.
+/// which the velocities belong: less half_step v_ij . (grad grad W) . v_ij. With the places at its end, noise
+/// would seem to compress, and energy come from nowhere, in proportion to the step. `viscous`: eqs 15-16,
+/// Monaghan's viscosity, adds to f and sets heat. `gradient`: sets the symmetric velocity gradient, -1/2
+/// sum_j V_j (v_ij,a grad_b W + v_ij,b grad_a W), components xx yy zz xy yz zx.
 struct RatesChoice {
   int dim;
   bool uniform_h, viscous, gradient;
-  Geometry geometry;  ///< compute where h differs
+  Geometry geometry;  ///< compute where h differs, or store
   KernelChoice kernel = KernelChoice::cubic_spline;
 };
 PairLoop rates_loop(const RatesChoice& choice);
@@ -68,10 +67,15 @@ struct ForcesChoice {
 };
 PairLoop forces_loop(const ForcesChoice& choice);
 
-/// The loops of one kernel.
+struct KeptLists;
+/// Of particles of one h.
+using KeptLoop = void (*)(const PairArrays&, const KeptLists&);
+
+/// The loops of one kernel; the last one is fix_loop of kept_loops.hpp.
 struct PairLoops {
   PairLoop (*rates)(const RatesChoice&);
   PairLoop (*forces)(const ForcesChoice&);
+  KeptLoop (*fix)(int dim);
 };
 
 }  // namespace courant

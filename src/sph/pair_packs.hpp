@@ -13,13 +13,19 @@ struct Places {
     if constexpr (Dim == 3) z = Pack::load(p[2] + i, count);
   }
 };
-/// x_i - x_j
+/// x_i - x_j, or another vector of a pair
 template <int Dim>
 struct Difference {
   Pack x, y, z;
+  Difference() = default;
   COURANT_INLINE Difference(const Places<Dim>& i, const Real* const p[3], std::ptrdiff_t j)
       : x(i.x - p[0][j]), y(i.y - p[1][j]), z(Pack::zero()) {
     if constexpr (Dim == 3) z = i.z - p[2][j];
+  }
+  COURANT_INLINE void advance(Real time, const Difference& velocity) {
+    x += time * velocity.x;
+    y += time * velocity.y;
+    if constexpr (Dim == 3) z += time * velocity.z;
   }
 };
 template <int Dim>

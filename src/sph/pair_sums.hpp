@@ -1,6 +1,7 @@
 #pragma once
 // The loops over pairs for any kernel, included by one file *_loops.cpp for each kernel, which is compiled
 // once for each instruction set; see docs/architecture.md.
+#include "sph/kept_loops.hpp"
 #include "sph/kernel.hpp"
 #include "sph/pair_loops.hpp"
 #include "sph/pair_packs.hpp"
@@ -66,18 +67,12 @@ void rates(const PairArrays& a, const PairLists& lists) {
       const std::ptrdiff_t j = lists.list[k];
       const Difference<Dim> d(xi, a.x, j), u(vi, a.v, j);
       const Pack r2 = dot(d, d) + tiny, u_dot_d = dot(u, d);
-      Pack w, rinv = Pack::zero();
-      if constexpr (geometry == Geometry::load) {
-        w = Pack::load(lists.g + std::ptrdiff_t(k) * lanes) * a.V[j];
-        div += w * u_dot_d;
-      } else {
-        rinv = rsqrt(r2);
-        const MovingShape<Kernel> kernel(r2 * rinv * hinv, rinv, two_hinv, u_dot_d * rinv, dot(u, u), r2,
-                                         a.half_step);
-        if constexpr (geometry == Geometry::store) kernel.shape.store(lists.g + std::ptrdiff_t(k) * lanes);
-        w = kernel.shape * a.V[j];
-        div += w * u_dot_d - kernel.later * (a.half_step * a.V[j]);
-      }
+      const Pack rinv = rsqrt(r2);
+      const MovingShape<Kernel> kernel(r2 * rinv * hinv, rinv, two_hinv, u_dot_d * rinv, dot(u, u), r2,
+                                       a.half_step);
+      if constexpr (geometry == Geometry::store) kernel.shape.store(lists.g + std::ptrdiff_t(k) * lanes);
+      const Pack w = kernel.shape * a.V[j];
+      div += w * u_dot_d - kernel.later * (a.half_step * a.V[j]);
       if constexpr (Viscous) {
         Pack h = hi, pair = w;  // (dW/dr)/r V_j / norm, mean of both where h differs
         if constexpr (!UniformH) {
@@ -175,7 +170,6 @@ template <class Kernel, int Dim, bool UniformH, bool Viscous, bool Gradient>
 PairLoop rates_of(Geometry geometry) {
   if constexpr (UniformH) {
     if (geometry == Geometry::store) return &rates<Kernel, Dim, true, Viscous, Gradient, Geometry::store>;
-    if (geometry == Geometry::load) return &rates<Kernel, Dim, true, Viscous, Gradient, Geometry::load>;
   }
   return &rates<Kernel, Dim, UniformH, Viscous, Gradient, Geometry::compute>;
 }
@@ -210,9 +204,48 @@ PairLoop forces_of(const ForcesChoice& c) {
   return c.dim == 2 ? forces_of<Kernel, 2>(c) : forces_of<Kernel, 3>(c);
 }
 
+template <class Kernel, int Dim>
+void fix(const PairArrays& a, const KeptLists& lists) {
+  const Real hinv = 1 / a.h0;
+  const Pack tiny = Pack::of(tiny_distance2 * a.h0 * a.h0), eta2 = Pack::of(0.01 * a.h0 * a.h0);
+  const Pack least = Pack::of(1e-20 * hinv);  // for out of reach, where the approach is multiplied by 0
+  Index kept = 0;
+  for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
+    const Index count = lists.end - i < lanes ? lists.end - i : lanes;
+    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Pack mi = Pack::load(a.m + i, count), Vi = Pack::load(a.V + i, count);
+    lists.start[g] = kept;
+    for (Index k = lists.all_start[g]; k < lists.all_start[g + 1]; ++k) {
+      const std::ptrdiff_t j = lists.all[k];
+      Difference<Dim> d(xi, a.x, j);
+      d.advance(lists.ahead, Difference<Dim>(vi, a.v, j));
+      const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2);
+      const Pack shape = gradient_shape<Kernel>(r2 * rinv * hinv, rinv);
+      if (!any_less(Pack::zero(), shape)) continue;
+      float* G = lists.gradients + std::ptrdiff_t(kept) * (Dim * lanes);
+      (shape * d.x).store(G);
+      (shape * d.y).store(G + lanes);
+      if constexpr (Dim == 3) (shape * d.z).store(G + 2 * lanes);
+      float* factor = lists.factors + std::ptrdiff_t(kept) * (lists.factor_count * lanes);
+      if (lists.viscous) {
+        (-a.h0 / (max(shape, least) * (r2 + eta2))).store(factor);
+        (lists.mV / (mi * a.V[j] + Vi * a.m[j])).store(factor + lanes);
+      }
+      if (lists.diffusion) (a.h0 * shape).store(factor + (lists.factor_count - 1) * lanes);
+      lists.list[kept++] = lists.all[k];
+    }
+    lists.start[g + 1] = kept;
+  }
+}
+
+template <class Kernel>
+KeptLoop fix_of(int dim) {
+  return dim == 2 ? &fix<Kernel, 2> : &fix<Kernel, 3>;
+}
+
 template <class Kernel>
 PairLoops loops_of() {
-  return {&rates_of<Kernel>, &forces_of<Kernel>};
+  return {&rates_of<Kernel>, &forces_of<Kernel>, &fix_of<Kernel>};
 }
 
 }  // namespace courant::COURANT_SIMD

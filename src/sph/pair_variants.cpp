@@ -1,4 +1,5 @@
 #include "base/instruction_set.hpp"
+#include "sph/kept_loops.hpp"
 #include "sph/pair_loops.hpp"
 
 namespace courant {
@@ -30,6 +31,9 @@ PairLoop rates_loop(const RatesChoice& choice) {
 }
 PairLoop forces_loop(const ForcesChoice& choice) {
   return loops_of(choice.kernel).forces(choice);
+}
+KeptLoop fix_loop(KernelChoice kernel, int dim) {
+  return loops_of(kernel).fix(dim);
 }
 
 }  // namespace courant

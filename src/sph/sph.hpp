@@ -126,7 +126,11 @@ void add_mirror_core(const SphSettings& settings, const std::vector<ImagePlane>&
 
 class PairGeometry;
 class PairVolumes;
-/// Adds to the motions of `world` what keeps q1 c for neighbours.
+/// "sph rates", with the kernel where it is not the cubic spline.
+std::string rates_name(const SphSettings&);
+/// Adds to the motions of `world` what keeps q1 c for neighbours, where rates need it.
+void add_viscous_speed(const SphSettings&, World&);
+/// Adds that, too.
 std::shared_ptr<Rate> make_rates(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
                                  std::shared_ptr<PairVolumes>);
 std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<PairGeometry>,

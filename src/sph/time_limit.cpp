@@ -4,6 +4,7 @@
 
 #include "parallel/parallel.hpp"
 #include "sph/sph.hpp"
+#include "state/particle_loops.hpp"
 
 namespace courant {
 
@@ -21,18 +22,11 @@ class SphTimeLimit : public Tally, public TimeLimit {
   void start(World& world, const Clock&) override { smallest_.resize(block_count(world.particles.active)); }
   void block(World& world, const Clock&, Index begin, Index end) override {
     const Particles& p = world.particles;
-    const Real *vx = p.v.data(0), *vy = p.v.data(1), *vz = p.v.data(2), *h = p.h.data(), *c = p.c.data();
-    Real smallest = std::numeric_limits<Real>::infinity();
-    int broken = 0;
-#pragma omp simd reduction(min : smallest) reduction(| : broken)
-    for (Index i = begin; i < end; ++i) {
-      const Real dt = h[i] / (c[i] + std::sqrt(vx[i] * vx[i] + vy[i] * vy[i] + vz[i] * vz[i]));
-      smallest = std::min(smallest, dt);
-      broken |= dt == dt ? 0 : 1;
-    }
+    const Real* const v[3] = {p.v.data(0), p.v.data(1), p.v.data(2)};
+    Real smallest = loops_.least_crossing(p.h.data(), p.c.data(), v, begin, end);
     if (!mu_.empty())
       for (Index i = begin; i < end; ++i) smallest = std::min(smallest, viscous_limit(p, i));
-    smallest_[begin / block_size] = broken ? std::nan("") : smallest;
+    smallest_[begin / block_size] = smallest;
   }
 
   Limit limit(const World& world, const Clock&) override {
@@ -66,6 +60,7 @@ class SphTimeLimit : public Tally, public TimeLimit {
     return mu_.empty() ? std::numeric_limits<Real>::infinity()
                        : 0.125 * p.rho[i] * p.h[i] * p.h[i] / mu_[p.part[i]];
   }
+  ParticleLoops loops_ = particle_loops();
   Real tssfac_;
   std::vector<Real> mu_;
   std::vector<Id> part_ids_;

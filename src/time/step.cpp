@@ -6,6 +6,7 @@
 
 #include "base/run_error.hpp"
 #include "parallel/parallel.hpp"
+#include "state/particle_loops.hpp"
 
 namespace courant {
 
@@ -117,14 +118,14 @@ class ParticleMotion : public Motion {
     Particles& p = world.particles;
     const Real dt = clock.dt, dt_kick = clock.dt_mean();
     const Index active_end = std::min(end, p.active);
-    const Real* m = p.m.data();
     for (int k = 0; k < world.dim; ++k) {
-      Real *x = p.x.data(k), *v = p.v.data(k);
-      const Real* f = p.f.data(k);
-      for (Index i = begin; i < active_end; ++i) v[i] += f[i] / m[i] * dt_kick;
-      for (Index i = begin; i < end; ++i) x[i] += v[i] * dt;
+      loops_.kick(p.v.data(k), p.f.data(k), p.m.data(), dt_kick, begin, active_end);
+      loops_.drift(p.x.data(k), p.v.data(k), dt, begin, end);
     }
   }
+
+ private:
+  ParticleLoops loops_ = particle_loops();
 };
 
 }  // namespace

@@ -61,7 +61,7 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   stop_for(diagnostics);
   const Real h = world_.particles.h[0];
   neighbours_ = std::make_shared<Neighbours>(0.1 * h, settings.region);
-  neighbours_->adapt_skin(0.02 * h, 0.4 * h);
+  neighbours_->adapt_skin(0.02 * h, 0.4 * h, 7);
   add_eos_passes(world_, model, materials);
   world_.motions.push_back(make_particle_motion());
   add_sph_time_limit(settings, model, world_);

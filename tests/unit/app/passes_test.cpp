@@ -159,7 +159,7 @@ TEST(Passes, BulkViscosity) {
   SmallScene scene;
   scene.dim = 3, scene.n = 3;
   scene.control_sph = "\n0,0,0,0,0,0,1";
-  expect_change(scene, {"bulk viscosity"}, {"material bulk viscosity"});
+  expect_change(scene, {"bulk viscosity"}, {"material bulk viscosity"}, {}, {"motion sph factors"});
 }
 
 TEST(Passes, SmoothingLengthsThatChange) {
@@ -242,7 +242,7 @@ TEST(Passes, PrescribedMotionOfParticles) {
 TEST(Passes, KeptPairGeometry) {
   SmallScene scene;
   scene.extra = "*COURANT_PAIR_GEOMETRY\n0.005\n";
-  expect_change(scene, {"kept pair geometry"}, {});
+  expect_change(scene, {"kept pair geometry"}, {"motion kept pair geometry"});
 }
 
 TEST(Passes, AnotherEquationOfState) {

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "../run_pass.hpp"
+#include "sph/kept_pairs.hpp"
 #include "sph/pair_geometry.hpp"
 #include "sph/pair_volumes.hpp"
 #include "sph/sph.hpp"
@@ -51,6 +52,12 @@ struct Cloud {
     const auto volumes = make_pair_volumes(world);
     rates = make_rates(settings, world, geometry, volumes);
     forces = make_forces(settings, world, geometry, volumes);
+  }
+  /// The same two, that keep gradients over steps.
+  void make_kept_pairs() {
+    const auto volumes = make_pair_volumes(world);
+    PairPasses passes = make_kept_passes(settings, world, neighbours, volumes);
+    rates = std::move(passes.rates), forces = std::move(passes.forces);
   }
   void run(BlockPass& pass) { test::run(pass, world, clock); }
   std::shared_ptr<Rate> rates;

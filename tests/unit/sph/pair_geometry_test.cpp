@@ -6,6 +6,7 @@
 
 #include "cloud.hpp"
 #include "materials/material_pass.hpp"
+#include "sph/kept_pairs.hpp"
 #include "time/step.hpp"
 
 using namespace courant;
@@ -79,17 +80,36 @@ Real distance(const Result& a, const Result& b) {
 
 }  // namespace
 
-TEST(PairGeometry, KeptGradientsConserveAndTheirErrorFallsWithEps) {
-  const Result exact = run(0), fine = run(0.002), coarse = run(0.02);
+TEST(PairGeometry, KeptGradientsConserveAndTheirErrorGoesWithTheSquareOfEps) {
+  const Result exact = run(0), fine = run(0.02), coarse = run(0.08);
   for (const Result& r : {exact, fine, coarse}) {
     EXPECT_LT(r.drift, 1e-12);
-    EXPECT_LT(r.residual, 0.01);
+    EXPECT_LT(r.residual, 2e-6);
   }
   const Real travelled = 4000 * 2e-6;  // at 1 m/s
   EXPECT_GT(distance(exact, fine), 0);
   EXPECT_LT(distance(exact, fine), 1e-5 * travelled);
-  EXPECT_GT(distance(exact, coarse), distance(exact, fine));
   EXPECT_LT(distance(exact, coarse), 1e-4 * travelled);
+  EXPECT_GT(distance(exact, coarse), 6 * distance(exact, fine));  // 4 would be the first order
+}
+
+TEST(PairGeometry, WindowLastsUntilTheFastestMayHaveMovedHalfOfEps) {
+  Window window(0.02);
+  const Real h = 0.1, dt = 1e-4, v = 0.95;  // EPS h/2 = 10.5 v dt: the eleventh step passes the bound
+  ASSERT_TRUE(window.open(h, dt));
+  EXPECT_EQ(window.ahead(), 0);  // no step yet tells how fast particles are
+  for (int turn = 0; turn < 2; ++turn) {
+    for (int k = 0; k < 10; ++k) {
+      window.moved(v, h, dt);
+      EXPECT_TRUE(window.is_open());
+      EXPECT_FALSE(window.open(h, dt));
+    }
+    window.moved(v, h, dt);
+    EXPECT_FALSE(window.is_open());
+    EXPECT_TRUE(window.open(h, dt));
+    // rates hold at -1/2 to 9 1/2 steps from now, forces at 0 to 10
+    EXPECT_NEAR(window.ahead(), (0.5 * 10 - 0.25) * dt, 1e-12 * dt);
+  }
 }
 
 TEST(PairGeometry, KeptGradientsGiveTheSameBitsOnAnyNumberOfThreads) {

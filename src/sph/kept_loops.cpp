@@ -1,0 +1,134 @@
+// Compiled once for each instruction set; see docs/architecture.md.
+#include "sph/kept_loops.hpp"
+
+#include "sph/pair_packs.hpp"
+
+namespace courant::COURANT_SIMD {
+
+namespace {
+
+/// Of entry k.
+template <int Dim>
+COURANT_INLINE Difference<Dim> gradient_of(const KeptLists& lists, std::ptrdiff_t k) {
+  const float* kept = lists.gradients + k * (Dim * lanes);
+  __builtin_prefetch(kept + 8 * Dim * lanes);
+  Difference<Dim> G;
+  G.x = Pack::load(kept), G.y = Pack::load(kept + lanes), G.z = Pack::zero();
+  if constexpr (Dim == 3) G.z = Pack::load(kept + 2 * lanes);
+  return G;
+}
+
+template <int Dim, bool Viscous, bool Gradient>
+void rates(const PairArrays& a, const KeptLists& lists) {
+  const std::ptrdiff_t stride = lists.factor_count * lanes;
+  const Real twice_q2 = 2 * a.q2;
+  for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
+    const Index count = lists.end - i < lanes ? lists.end - i : lanes;
+    const Places<Dim> vi(a.v, i, count);
+    const Pack mi = Viscous ? Pack::load(a.m + i, count) : Pack::zero();
+    const Pack qci = Viscous ? Pack::load(a.qc + i, count) : Pack::zero();
+    Pack div = Pack::zero(), power = Pack::zero();
+    Pack xx = div, yy = div, zz = div, xy = div, yz = div, zx = div;
+    Sum<Dim> force;
+    for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
+      const std::ptrdiff_t j = lists.list[k];
+      const Difference<Dim> G = gradient_of<Dim>(lists, k), u(vi, a.v, j);
+      const Pack u_dot_G = dot(u, G);
+      div += u_dot_G * a.V[j];
+      if constexpr (Viscous) {
+        // as in pair_sums.hpp, mu = approach / D
+        const float* factor = lists.factors + k * stride;
+        __builtin_prefetch(factor + 8 * stride);
+        const Pack mu = max(Pack::load(factor) * u_dot_G, Pack::zero());
+        const Pack w = Pack::load(factor + lanes) * (a.m[j] * a.V[j]);
+        const Pack viscous = w * (mu * (twice_q2 * mu + (qci + a.qc[j])));
+        force.add(viscous, G);
+        power += viscous * u_dot_G;
+      }
+      if constexpr (Gradient) {
+        const Pack x = G.x * a.V[j], y = G.y * a.V[j];
+        xx -= u.x * x;
+        yy -= u.y * y;
+        xy -= u.x * y + u.y * x;
+        if constexpr (Dim == 3) {
+          const Pack z = G.z * a.V[j];
+          zz -= u.z * z;
+          yz -= u.y * z + u.z * y;
+          zx -= u.z * x + u.x * z;
+        }
+      }
+    }
+    (Pack::load(a.rho + i, count) * lists.norm * div).store(a.drhodt + i, count);
+    if constexpr (Viscous) {
+      const Pack factor = mi * Pack::load(a.V + i, count) * (lists.norm / lists.mV);
+      force.add_to(a.f, i, count, 0 - factor);
+      (0.5 * factor * power).store(a.heat + i, count);  // each partner takes half
+    }
+    if constexpr (Gradient) {
+      const Pack d[6] = {xx, yy, zz, 0.5 * xy, 0.5 * yz, 0.5 * zx};
+      for (int k = 0; k < 6; ++k) (lists.norm * d[k]).store(a.strain[k] + i, count);
+    }
+  }
+}
+
+template <int Dim, bool Stress, bool Diffusion>
+void forces(const PairArrays& a, const KeptLists& lists) {
+  const std::ptrdiff_t stride = lists.factor_count * lanes;
+  for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
+    const Index count = lists.end - i < lanes ? lists.end - i : lanes;
+    const Pack pi = Pack::load(a.p + i, count);
+    Pack ti[6];
+    if constexpr (Stress)
+      for (int k = 0; k < 6; ++k) ti[k] = Pack::load(a.tau[k] + i, count);
+    const Pack rhoi = Diffusion ? Pack::load(a.rho + i, count) : Pack::zero();
+    const Pack potential = Diffusion ? Pack::load(a.potential + i, count) : Pack::zero();
+    Sum<Dim> push, pull;
+    Pack spread = Pack::zero();
+    for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
+      const std::ptrdiff_t j = lists.list[k];
+      const Difference<Dim> G = gradient_of<Dim>(lists, k);
+      push.add((pi + a.p[j]) * a.V[j], G);
+      if constexpr (Diffusion)
+        spread += Pack::load(lists.factors + (k + 1) * stride - lanes) *
+                  (a.V[j] * (a.p[j] - pi + rhoi * (a.potential[j] - potential)));
+      if constexpr (Stress) {
+        Pack s[6];
+        for (int c = 0; c < 6; ++c) s[c] = (ti[c] + a.tau[c][j]) * a.V[j];
+        pull.x += s[0] * G.x + s[3] * G.y;
+        pull.y += s[3] * G.x + s[1] * G.y;
+        if constexpr (Dim == 3) {
+          pull.x += s[5] * G.z;
+          pull.y += s[4] * G.z;
+          pull.z += s[5] * G.x + s[4] * G.y + s[2] * G.z;
+        }
+      }
+    }
+    const Pack factor = Pack::load(a.V + i, count) * lists.norm;
+    push.add_to(a.f, i, count, 0 - factor);
+    if constexpr (Stress) pull.add_to(a.f, i, count, factor);
+    if constexpr (Diffusion)
+      (-2 * a.delta * lists.norm * spread / Pack::load(a.c + i, count)).store(a.diffusion + i, count);
+  }
+}
+
+template <int Dim>
+KeptLoop rates_of(const KeptChoice& c) {
+  if (c.viscous) return c.gradient ? &rates<Dim, true, true> : &rates<Dim, true, false>;
+  return c.gradient ? &rates<Dim, false, true> : &rates<Dim, false, false>;
+}
+template <int Dim>
+KeptLoop forces_of(const KeptChoice& c) {
+  if (c.diffusion) return c.stress ? &forces<Dim, true, true> : &forces<Dim, false, true>;
+  return c.stress ? &forces<Dim, true, false> : &forces<Dim, false, false>;
+}
+
+}  // namespace
+
+KeptLoop kept_rates_loop(const KeptChoice& c) {
+  return c.dim == 2 ? rates_of<2>(c) : rates_of<3>(c);
+}
+KeptLoop kept_forces_loop(const KeptChoice& c) {
+  return c.dim == 2 ? forces_of<2>(c) : forces_of<3>(c);
+}
+
+}  // namespace courant::COURANT_SIMD

@@ -1,0 +1,198 @@
+#include "sph/kept_pairs.hpp"
+
+#include <cmath>
+
+#include "sph/pair_fields.hpp"
+#include "sph/pair_volumes.hpp"
+#include "sph/view.hpp"
+#include "state/keeper.hpp"
+#include "state/particle_loops.hpp"
+
+namespace courant {
+
+bool Window::open(Real h, Real dt) {
+  if (open_) return false;
+  // rates hold in the middle of a step, forces at its end: the mean of both, over the steps to come
+  const Real steps = std::floor(0.5 * eps_ * h / std::max(fastest_ * dt, tiny_distance2 * h));
+  ahead_ = fastest_ > 0 ? (0.5 * steps - 0.25) * dt : 0;
+  moved_ = 0;
+  return open_ = true;
+}
+
+void Window::moved(Real fastest, Real h, Real dt) {
+  fastest_ = fastest;
+  moved_ += fastest * dt;
+  if (2 * moved_ > eps_ * h) close();
+}
+
+void Window::keep(Archive& archive) {
+  archive("moved", moved_);
+  archive("fastest", fastest_);
+  archive("ahead", ahead_);
+  archive("open", open_);
+}
+
+KeptPairs::KeptPairs(const SphSettings& s, std::shared_ptr<Neighbours> neighbours, bool viscous,
+                     bool diffusion)
+    : window(s.geometry_eps), neighbours_(std::move(neighbours)), kernel_(s.kernel), dim_(s.dim) {
+  shape_.viscous = viscous, shape_.diffusion = diffusion;
+  shape_.factor_count = 2 * int(viscous) + int(diffusion);
+}
+
+void KeptPairs::prepare(const PairArrays& a) {
+  blocks_.resize(static_cast<std::size_t>(neighbours_->blocks()));
+  shape_.ahead = window.ahead();
+  shape_.norm = gradient_norm(kernel_, dim_, a.h0);
+  shape_.mV = a.m[0] * a.V[0];
+}
+
+KeptLists KeptPairs::lists(Index begin, Index end) {
+  const Index b = begin / block_size;
+  Block& block = blocks_[static_cast<std::size_t>(b)];
+  const auto entries = static_cast<std::size_t>(neighbours_->entries(b));
+  KeptLists out = shape_;
+  out.all = neighbours_->list(b), out.all_start = neighbours_->starts(b);
+  out.list = block.list.grow_to(entries), out.start = block.start.data();
+  out.gradients = block.gradients.grow_to(entries * static_cast<std::size_t>(dim_) * Neighbours::lanes);
+  out.factors =
+      block.factors.grow_to(entries * static_cast<std::size_t>(shape_.factor_count) * Neighbours::lanes);
+  out.begin = begin, out.end = end;
+  return out;
+}
+
+namespace {
+
+class KeptRates : public Rate, public Keeper {
+ public:
+  KeptRates(const SphSettings& s, RateFields fields, std::shared_ptr<KeptPairs> pairs,
+            std::shared_ptr<PairVolumes> volumes)
+      : name_(rates_name(s)),
+        pairs_(std::move(pairs)),
+        volumes_(std::move(volumes)),
+        fields_(fields),
+        fix_(fix_loop(s.kernel, s.dim)),
+        loop_(kept_rates_loop({s.dim, fields.viscous(), fields.gradient(), false, false})) {}
+  std::string name() const override { return name_; }
+
+  void start(World& world, const Clock& clock) override {
+    const Particles& p = world.particles;
+    a_ = fields_.arrays(world.particles, *volumes_);
+    opens_ = pairs_->window.open(a_.h0, clock.dt_old);
+    if (!opens_) return;
+    pairs_->prepare(a_);
+    for (int k = 0; k < 3; ++k) copy(p.x.data(k), p.moving, x_[k]), copy(p.v.data(k), p.moving, v_[k]);
+  }
+  void block(World&, const Clock&, Index begin, Index end) override {
+    const KeptLists lists = pairs_->lists(begin, end);
+    if (opens_) fix_(a_, lists);
+    loop_(a_, lists);
+  }
+
+  // Not the gradients: they follow from the places and velocities of when the window opened.
+  void keep(Archive& archive) override {
+    pairs_->window.keep(archive);
+    if (!pairs_->window.is_open()) return;
+    for (int k = 0; k < 3; ++k) {
+      archive(std::string("window_") + "xyz"[k], x_[k]);
+      archive(std::string("window_v") + "xyz"[k], v_[k]);
+    }
+  }
+  void loaded(World& world) override {
+    if (!pairs_->window.is_open()) return;
+    exchange(world);
+    a_ = fields_.arrays(world.particles, *volumes_);
+    pairs_->prepare(a_);
+    for_each_block(world.particles.active,
+                   [&](Index begin, Index end) { fix_(a_, pairs_->lists(begin, end)); });
+    exchange(world);
+  }
+
+ private:
+  static void copy(const Real* from, Index n, Array<Real>& to) {
+    to.resize(n);
+    for_each_block(n,
+                   [&](Index begin, Index end) { std::copy(from + begin, from + end, to.data() + begin); });
+  }
+  /// Moving particles and their images are where and as fast as they were when the window opened, or back.
+  void exchange(World& world) {
+    Particles& p = world.particles;
+    for (int k = 0; k < 3; ++k) {
+      std::swap_ranges(x_[k].begin(), x_[k].end(), p.x.data(k));
+      std::swap_ranges(v_[k].begin(), v_[k].end(), p.v.data(k));
+    }
+    for (const auto& e : world.exchangers) e->before_rates(world);
+  }
+
+  std::string name_;
+  std::shared_ptr<KeptPairs> pairs_;
+  std::shared_ptr<PairVolumes> volumes_;
+  RateFields fields_;
+  KeptLoop fix_, loop_;
+  PairArrays a_{};
+  bool opens_ = false;
+  Array<Real> x_[3], v_[3];  ///< when the window opened [L], [L/T]
+};
+
+class KeptForces : public Force {
+ public:
+  KeptForces(const SphSettings& s, ForceFields fields, std::shared_ptr<KeptPairs> pairs,
+             std::shared_ptr<PairVolumes> volumes)
+      : pairs_(std::move(pairs)),
+        volumes_(std::move(volumes)),
+        fields_(fields),
+        loop_(kept_forces_loop({s.dim, false, false, fields.stress(), fields.diffusion()})) {}
+  std::string name() const override { return "sph forces"; }
+  void start(World& world, const Clock&) override { a_ = fields_.arrays(world.particles, *volumes_); }
+  void block(World&, const Clock&, Index begin, Index end) override { loop_(a_, pairs_->lists(begin, end)); }
+
+ private:
+  std::shared_ptr<KeptPairs> pairs_;
+  std::shared_ptr<PairVolumes> volumes_;
+  ForceFields fields_;
+  KeptLoop loop_;
+  PairArrays a_{};
+};
+
+/// Closes the window when particles have moved too far, or their order changes.
+class WindowWatch : public Motion, public Refresh {
+ public:
+  explicit WindowWatch(std::shared_ptr<KeptPairs> pairs) : pairs_(std::move(pairs)) {}
+  std::string name() const override { return "kept pair geometry"; }
+  void start(World& world, const Clock&) override {
+    fastest2_.assign(static_cast<std::size_t>(block_count(world.particles.moving)), 0);
+  }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    const Particles& p = world.particles;
+    const Real* const v[3] = {p.v.data(0), p.v.data(1), p.v.data(2)};
+    fastest2_[static_cast<std::size_t>(begin / block_size)] = loops_.fastest2(v, begin, end);
+  }
+  void finish(World& world, const Clock& clock) override {
+    Real most = 0;
+    for (const Real v2 : fastest2_) most = std::max(most, v2);
+    if (world.particles.active > 0) pairs_->window.moved(std::sqrt(most), world.particles.h[0], clock.dt);
+  }
+  void refreshed(World&, const Clock&, std::span<const Index>) override { pairs_->window.close(); }
+
+ private:
+  std::shared_ptr<KeptPairs> pairs_;
+  ParticleLoops loops_ = particle_loops();
+  std::vector<Real> fastest2_;  ///< in each block [L2/T2]
+};
+
+}  // namespace
+
+PairPasses make_kept_passes(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+                            std::shared_ptr<PairVolumes> volumes) {
+  const RateFields rates(s, world.particles);
+  const ForceFields forces(s, world.particles);
+  const auto pairs =
+      std::make_shared<KeptPairs>(s, std::move(neighbours), rates.viscous(), forces.diffusion());
+  auto watch = std::make_shared<WindowWatch>(pairs);
+  add_viscous_speed(s, world);
+  world.motions.push_back(watch);
+  world.refreshes.push_back(watch);
+  return {std::make_shared<KeptRates>(s, rates, pairs, volumes),
+          std::make_shared<KeptForces>(s, forces, pairs, volumes)};
+}
+
+}  // namespace courant

@@ -1,0 +1,69 @@
+#pragma once
+// *COURANT_PAIR_GEOMETRY: kernel gradients that are kept over several steps (a window), where sound is much
+// faster than the flow.
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "parallel/buffer.hpp"
+#include "search/neighbours.hpp"
+#include "sph/kept_loops.hpp"
+#include "sph/sph.hpp"
+
+namespace courant {
+
+/// How long a window lasts: until two particles may have moved EPS h towards each other, by the speed of the
+/// fastest, or lists are built anew.
+class Window {
+ public:
+  explicit Window(Real eps) : eps_(eps) {}
+  /// Begins a window if none is open; true if it did. h [L], the last step dt [T].
+  bool open(Real h, Real dt);
+  /// From now to the middle of the window: gradients of that place err by the square of EPS, not by EPS. [T]
+  Real ahead() const { return ahead_; }
+  bool is_open() const { return open_; }
+  void close() { open_ = false; }
+  /// After a step of dt in which the fastest particle had the speed `fastest` [L/T]: closes it if another
+  /// like that would pass the bound.
+  void moved(Real fastest, Real h, Real dt);
+  void keep(Archive& archive);
+
+ private:
+  Real eps_;
+  bool open_ = false;
+  Real moved_ = 0, fastest_ = 0;  ///< bound of what a particle moved since it opened [L]; [L/T]
+  Real ahead_ = 0;
+};
+
+/// The window and the memory for its gradients.
+class KeptPairs {
+ public:
+  KeptPairs(const SphSettings& settings, std::shared_ptr<Neighbours> neighbours, bool viscous,
+            bool diffusion);
+  Window window;
+  /// Before the lists of a window that just opened are filled.
+  void prepare(const PairArrays&);
+  KeptLists lists(Index begin, Index end);
+
+ private:
+  struct Block {
+    Buffer<Index> list;
+    Buffer<float> gradients, factors;
+    std::array<Index, Neighbours::groups_per_block + 1> start;
+  };
+  std::shared_ptr<Neighbours> neighbours_;
+  KernelChoice kernel_;
+  int dim_;
+  KeptLists shape_{};  ///< what is the same for all lists
+  std::vector<Block> blocks_;
+};
+
+struct PairPasses {
+  std::shared_ptr<Rate> rates;
+  std::shared_ptr<Force> forces;
+};
+/// Take the place of make_rates and make_forces. Adds to the motions of `world` what they need.
+PairPasses make_kept_passes(const SphSettings&, World&, std::shared_ptr<Neighbours>,
+                            std::shared_ptr<PairVolumes>);
+
+}  // namespace courant

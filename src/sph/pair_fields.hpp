@@ -1,0 +1,40 @@
+#pragma once
+// What the loops over pairs read and write of a scene, whatever way gradients come.
+#include "sph/pair_loops.hpp"
+#include "sph/sph.hpp"
+
+namespace courant {
+
+/// Of the rates: continuity, and what else needs the velocities of neighbours: Monaghan's viscosity and the
+/// velocity gradient.
+class RateFields {
+ public:
+  RateFields(const SphSettings& s, Particles& p);
+  bool viscous() const { return viscous_speed_ != nullptr; }
+  bool gradient() const { return strain_ != nullptr; }
+  PairArrays arrays(Particles& p, const PairVolumes& volumes) const;
+
+ private:
+  Field<Real>* heat_;
+  Field<Real>* viscous_speed_ = nullptr;
+  Field<Real>* strain_ = nullptr;
+  Real q2_ = 0;
+};
+
+/// Of the forces: pressure and viscous stress of eq. 7, and what density diffusion will do; artificial
+/// viscosity comes with the rates.
+class ForceFields {
+ public:
+  ForceFields(const SphSettings& s, Particles& p);
+  bool stress() const { return tau_ != nullptr; }
+  bool diffusion() const { return diffusion_ != nullptr; }
+  PairArrays arrays(Particles& p, const PairVolumes& volumes) const;
+
+ private:
+  Field<Real>* total_pressure_ = nullptr;
+  Field<Real>* tau_ = nullptr;
+  Field<Real>*diffusion_ = nullptr, *potential_ = nullptr;
+  Real delta_;
+};
+
+}  // namespace courant

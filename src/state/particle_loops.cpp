@@ -1,0 +1,113 @@
+// Compiled once for each instruction set; see docs/architecture.md. Nothing here may be shared with other
+// files, so there is no function of the standard library but the root, which is an instruction.
+#include "state/particle_loops.hpp"
+
+#include "base/simd.hpp"
+
+namespace courant::COURANT_SIMD {
+
+namespace {
+
+void kick(Real* __restrict v, const Real* __restrict f, const Real* __restrict m, Real dt, Index begin,
+          Index end) {
+  for (Index i = begin; i < end; ++i) v[i] += f[i] / m[i] * dt;
+}
+
+void drift(Real* __restrict x, const Real* __restrict v, Real dt, Index begin, Index end) {
+  for (Index i = begin; i < end; ++i) x[i] += v[i] * dt;
+}
+
+Real fastest2(const Real* const v[3], Index begin, Index end) {
+  const Real *vx = v[0], *vy = v[1], *vz = v[2];
+  Real most = 0;
+#pragma omp simd reduction(max : most)
+  for (Index i = begin; i < end; ++i) {
+    const Real v2 = vx[i] * vx[i] + vy[i] * vy[i] + vz[i] * vz[i];
+    most = most < v2 ? v2 : most;
+  }
+  return most;
+}
+
+Real least_crossing(const Real* h, const Real* c, const Real* const v[3], Index begin, Index end) {
+  const Real *vx = v[0], *vy = v[1], *vz = v[2];
+  Real least = __builtin_inf();
+  int broken = 0;
+#pragma omp simd reduction(min : least) reduction(| : broken)
+  for (Index i = begin; i < end; ++i) {
+    const Real dt = h[i] / (c[i] + __builtin_sqrt(vx[i] * vx[i] + vy[i] * vy[i] + vz[i] * vz[i]));
+    least = dt < least ? dt : least;
+    broken |= dt == dt ? 0 : 1;
+  }
+  return broken ? __builtin_nan("") : least;
+}
+
+ParticleLoops::Moved moved(const ParticleLoops::Places& q, Real reach, Index begin, Index end) {
+  const Real *x = q.x[0], *y = q.x[1], *z = q.x[2], *h = q.h;
+  const Real *xb = q.x_before[0], *yb = q.x_before[1], *zb = q.x_before[2], *hb = q.h_before;
+  Real most = 0;
+  int beyond = 0;
+#pragma omp simd reduction(max : most) reduction(| : beyond)
+  for (Index i = begin; i < end; ++i) {
+    const Real dx = x[i] - xb[i], dy = y[i] - yb[i], dz = z[i] - zb[i];
+    const Real moved2 = dx * dx + dy * dy + dz * dz;
+    const Real grown = h[i] - hb[i], left = reach - (grown > 0 ? grown : 0), room = left > 0 ? left : 0;
+    beyond |= moved2 < room * room ? 0 : 1;  // 1 also for NaN
+    most = most < moved2 ? moved2 : most;
+  }
+  return {most, beyond == 0};
+}
+
+Index inside(const Real low[3], const Real high[3], const Real* const at[3], Index begin, Index end) {
+  const Real *x = at[0], *y = at[1], *z = at[2];
+  const Real x0 = low[0], y0 = low[1], z0 = low[2], x1 = high[0], y1 = high[1], z1 = high[2];
+  Index count = 0;
+#pragma omp simd reduction(+ : count)
+  for (Index i = begin; i < end; ++i)
+    count += (x[i] >= x0) & (x[i] <= x1) & (y[i] >= y0) & (y[i] <= y1) & (z[i] >= z0) & (z[i] <= z1);
+  return count;
+}
+
+void compress(const Real* __restrict drhodt, Real dt, Real rho0, Real* __restrict rho, Real* __restrict mu,
+              Real* __restrict half_dv, Index begin, Index end) {
+  const Real inverse_rho0 = 1 / rho0, half_rho0 = 0.5 * rho0;
+  for (Index i = begin; i < end; ++i) {
+    const Real before = rho[i], after = before + drhodt[i] * dt;
+    mu[i - begin] = after * inverse_rho0 - 1;
+    half_dv[i - begin] = half_rho0 * (before - after) / (before * after);
+    rho[i] = after;
+  }
+}
+
+void load(const ParticleLoops::Law& law, Real* __restrict p, Real* __restrict E, Real* __restrict c,
+          Index begin, Index end) {
+  const Real *A = law.A - begin, *dA = law.dA - begin, *half_dv = law.half_dv - begin;
+  const Real inverse_rho0 = 1 / law.rho0, pc = law.pc;
+#pragma omp simd
+  for (Index i = begin; i < end; ++i) {
+    const Real after = A[i] > pc ? A[i] : pc, c2 = dA[i] * inverse_rho0;
+    E[i] -= half_dv[i] * (p[i] + after);
+    p[i] = after;
+    c[i] = __builtin_sqrt(c2 > 0 ? c2 : 0);
+  }
+}
+
+ParticleLoops::Range range(const Real* values, Index begin, Index end) {
+  Real least = __builtin_inf(), most = -__builtin_inf();
+  int broken = 0;
+#pragma omp simd reduction(min : least) reduction(max : most) reduction(| : broken)
+  for (Index i = begin; i < end; ++i) {
+    const Real a = values[i];
+    least = a < least ? a : least;
+    most = most < a ? a : most;
+    broken |= a == a ? 0 : 1;
+  }
+  return {least, most, broken != 0};
+}
+
+}  // namespace
+
+ParticleLoops particle_loops() {
+  return {&kick, &drift, &fastest2, &least_crossing, &moved, &inside, &compress, &load, &range};
+}
+
+}  // namespace courant::COURANT_SIMD

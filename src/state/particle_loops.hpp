@@ -1,0 +1,54 @@
+#pragma once
+// Loops over single particles that many steps go through, compiled once for each instruction set. Arrays are
+// those of fields; a loop works on entries [begin, end).
+#include "base/real.hpp"
+
+namespace courant {
+
+struct ParticleLoops {
+  /// v += dt f/m
+  void (*kick)(Real* v, const Real* f, const Real* m, Real dt, Index begin, Index end);
+  /// x += dt v
+  void (*drift)(Real* x, const Real* v, Real dt, Index begin, Index end);
+
+  /// Largest v.v; not a number counts as 0.
+  Real (*fastest2)(const Real* const v[3], Index begin, Index end);
+  /// Least h/(c + |v|); not a number where one of them is not. [T]
+  Real (*least_crossing)(const Real* h, const Real* c, const Real* const v[3], Index begin, Index end);
+
+  /// How far particles are from where they were: the largest square, and whether all are, and will be until
+  /// h has grown by as much, less than `reach`.
+  struct Moved {
+    Real most2;
+    bool within;  ///< false also where something is not a number
+  };
+  struct Places {
+    const Real *x[3], *h, *x_before[3], *h_before;
+  };
+  Moved (*moved)(const Places& places, Real reach, Index begin, Index end);
+  /// How many are in a box, its faces included.
+  Index (*inside)(const Real low[3], const Real high[3], const Real* const x[3], Index begin, Index end);
+
+  /// Advances densities by a step, for an equation of state whose pressure needs no energy: rho += dt drhodt;
+  /// mu = rho/rho0 - 1 and half the change of the relative volume, by entry - begin.
+  void (*compress)(const Real* drhodt, Real dt, Real rho0, Real* rho, Real* mu, Real* half_dv, Index begin,
+                   Index end);
+  /// What follows from the law's pressure A(mu) and slope dA/dmu, by entry - begin: p not below pc, the work
+  /// that E counts, c.
+  struct Law {
+    const Real *A, *dA, *half_dv;
+    Real rho0, pc;
+  };
+  void (*load)(const Law& law, Real* p, Real* E, Real* c, Index begin, Index end);
+  /// Least and largest; `broken` where one is not a number.
+  struct Range {
+    Real least, most;
+    bool broken;
+  };
+  Range (*range)(const Real* values, Index begin, Index end);
+};
+
+/// For the machine the program runs on.
+ParticleLoops particle_loops();
+
+}  // namespace courant
