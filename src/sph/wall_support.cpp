@@ -90,7 +90,7 @@ class WallTables {
 /// The sums of a particle beside a wall lack what is behind it. With the divergence theorem that is an
 /// integral over the wall (De Leffe et al. 2009): b_i = int n W dS, n out of the water. Behind it stands the
 /// mirror image of particle i itself, with its pressure and the opposite velocity through the wall:
-///   d rho_i/dt += 2 rho_i v_i.b_i,   f_i -= 2 V_i p_i b_i.
+///   d rho_i/dt += 2 rho_i v_i.b_i,   f_i -= 2 V_i p_i b_i, p with that of bulk viscosity.
 /// The second is what belongs to the first, so that energy is kept. Friction: tau = CF rho v^2/2 along the
 /// wall, given to the particles that see it, whose kernels make up half of 1 there.
 class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keeper, public WallForceReporter {
@@ -100,6 +100,9 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
         table_(s.kernel, s.dim),
         slope_(sph_fields::wall_slope(world.particles)),
         fill_(sph_fields::wall_fill(world.particles)),
+        pressure_(std::holds_alternative<BulkViscosity>(s.viscosity)
+                      ? sph_fields::pressure_plus_q(world.particles)
+                      : world.particles.p),
         rubbing_(sph_fields::wall_rubbing(world.particles)),
         surface_(world, s.walls.segments, least_h(world) / points_per_h,
                  table_.support() * most_h(world) + neighbours.largest_skin()) {
@@ -126,7 +129,7 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
 
   /// Force of the walls on a particle, pressure and friction.
   Vec force_on(const Particles& p, Index i) const {
-    return friction_on(p, i, p.v.vec(i)) - (2 * p.m[i] / p.rho[i] * p.p[i]) * slope_.vec(i);
+    return friction_on(p, i, p.v.vec(i)) - (2 * p.m[i] / p.rho[i] * pressure_[i]) * slope_.vec(i);
   }
   bool is_near(Index i) const { return view_[i] != nothing; }
 
@@ -242,7 +245,9 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
 
   int dim_;
   WallTables table_;
-  Field<Real>&slope_, &fill_, &rubbing_;
+  Field<Real>&slope_, &fill_;
+  Field<Real>& pressure_;  ///< with that of bulk viscosity, as pair forces take it
+  Field<Real>& rubbing_;
   WallSurface surface_;
   std::vector<Real> cf_;  ///< of each face
   /// Of active particles, until the next refresh: `nothing`, `pieces` or a face of the one plane they see.
