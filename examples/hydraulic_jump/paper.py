@@ -282,19 +282,24 @@ def work_through(chosen, program, options):
     if waiting:
         say(f"  all together about {duration(sum(map(clock.seconds, waiting)) / options.jobs)}; Ctrl-C stops, the same command goes on")
     queue = Queue(waiting, clock, options.jobs)
+    order = list(chosen)
     if options.jobs > 1:  # the longest first, so that none is alone at the end
-        waiting.sort(key=clock.seconds, reverse=True)
+        order.sort(key=lambda run: clock.seconds(run) if run in waiting else 0, reverse=True)
+
+    def work(run):
+        if run in waiting:
+            execute(run, program, options.threads, queue, clock)
+        paper_evaluate.evaluate(run, program, SCENES, options.threads, say)
+
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        jobs = {run: pool.submit(execute, run, program, options.threads, queue, clock) for run in waiting}
         try:
-            for run in chosen:
+            jobs = {pool.submit(work, run): run for run in order}
+            for job in concurrent.futures.as_completed(jobs):
                 try:
-                    if run in jobs:
-                        jobs[run].result()
-                    paper_evaluate.evaluate(run, program, SCENES, options.threads, say)
+                    job.result()
                 except (Failure, OSError) as error:
-                    failed.append(run.name)
-                    say(f"FAILED {run.name}: {error}")
+                    failed.append(jobs[job].name)
+                    say(f"FAILED {jobs[job].name}: {error}")
         except BaseException:
             queue.stop.set()
             raise

@@ -119,6 +119,7 @@ class EosPass : public Material {
     const Law law = law_;
     std::array<Real, block_size> mu, half_dv, A, dA;
     loops_.compress(p.drhodt.data(), dt, rho0, p.rho.data(), mu.data(), half_dv.data(), begin, end);
+#pragma omp simd
     for (Index k = 0; k < end - begin; ++k) A[k] = law.A(mu[k]), dA[k] = law.dA(mu[k]);
     loops_.load({A.data(), dA.data(), half_dv.data(), rho0, part_.pc[part]}, p.p.data(), p.E.data(),
                 p.c.data(), begin, end);

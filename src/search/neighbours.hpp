@@ -68,6 +68,8 @@ class Neighbours {
   const Index* list(Index b) const { return blocks_[b].list.data(); }
 
   Real skin() const { return skin_; }
+  /// So far every particle may still move before the lists must be built anew, as of the last `refresh`. [L]
+  Real room(const Clock& clock) const;
   Real largest_skin() const { return most_skin_; }
   Real support() const { return support_; }
   const std::optional<Region>& region() const { return region_; }

@@ -202,6 +202,13 @@ class Builder {
       deck_.error(diagnostics_, *c, "EPS",
                   fmt::format("expected 0 where h differs or changes, got '{:g}'", c->eps),
                   "use HMIN = HMAX = 1 and one CSLH and spacing for all SPH parts, or leave the keyword out");
+    const bool kink = with_kernel(settings_.kernel, [](auto kernel) { return decltype(kernel)::kink; });
+    if (c->eps > 0 && kink)
+      deck_.error(diagnostics_, *c, "EPS",
+                  fmt::format("expected 0 beside the {}: particles that pass each other closely turn its "
+                              "gradient round within a step",
+                              kernel_name(settings_.kernel)),
+                  "use another kernel, or leave the keyword out");
   }
 
   /// The quadratic coefficient of the pair loop, which has only one.

@@ -30,7 +30,7 @@ struct KeptLists {
   Index begin, end;
 };
 
-/// Fills list, start and records, which have room for all.
+/// Fills list, start, gradients and factors, which have room for all.
 KeptLoop fix_loop(KernelChoice kernel, int dim);
 
 /// As rates_loop and forces_loop of pair_loops.hpp, but for places, which are those of the records.

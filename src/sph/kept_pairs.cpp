@@ -10,10 +10,11 @@
 
 namespace courant {
 
-bool Window::open(Real h, Real dt) {
+bool Window::open(Real h, Real dt, Real room) {
   if (open_) return false;
   // rates hold in the middle of a step, forces at its end: the mean of both, over the steps to come
-  const Real steps = std::floor(0.5 * eps_ * h / std::max(fastest_ * dt, tiny_distance2 * h));
+  const Real steps = std::floor(std::min(0.5 * eps_ * h, std::max(room, Real(0))) /
+                                std::max(fastest_ * dt, tiny_distance2 * h));
   ahead_ = fastest_ > 0 ? (0.5 * steps - 0.25) * dt : 0;
   moved_ = 0;
   return open_ = true;
@@ -37,6 +38,10 @@ KeptPairs::KeptPairs(const SphSettings& s, std::shared_ptr<Neighbours> neighbour
     : window(s.geometry_eps), neighbours_(std::move(neighbours)), kernel_(s.kernel), dim_(s.dim) {
   shape_.viscous = viscous, shape_.diffusion = diffusion;
   shape_.factor_count = 2 * int(viscous) + int(diffusion);
+}
+
+bool KeptPairs::open(Real h, const Clock& clock) {
+  return window.open(h, clock.dt_old, neighbours_->room(clock));
 }
 
 void KeptPairs::prepare(const PairArrays& a) {
@@ -77,9 +82,10 @@ class KeptRates : public Rate, public Keeper {
   void start(World& world, const Clock& clock) override {
     const Particles& p = world.particles;
     a_ = fields_.arrays(world.particles, *volumes_);
-    opens_ = pairs_->window.open(a_.h0, clock.dt_old);
+    opens_ = pairs_->open(a_.h0, clock);
     if (!opens_) return;
     pairs_->prepare(a_);
+    copy(a_.V, p.moving, V_);
     for (int k = 0; k < 3; ++k) copy(p.x.data(k), p.moving, x_[k]), copy(p.v.data(k), p.moving, v_[k]);
   }
   void block(World&, const Clock&, Index begin, Index end) override {
@@ -88,17 +94,20 @@ class KeptRates : public Rate, public Keeper {
     loop_(a_, lists);
   }
 
-  // Not the gradients: they follow from the places and velocities of when the window opened.
+  // Not the gradients and factors: they follow from places, velocities and volumes of when the window opened.
   void keep(Archive& archive) override {
     pairs_->window.keep(archive);
     if (!pairs_->window.is_open()) return;
+    archive("window_volume", V_);
     for (int k = 0; k < 3; ++k) {
       archive(std::string("window_") + "xyz"[k], x_[k]);
       archive(std::string("window_v") + "xyz"[k], v_[k]);
     }
   }
+  // Rates load before materials, so the volumes are themselves again afterwards.
   void loaded(World& world) override {
     if (!pairs_->window.is_open()) return;
+    volumes_->pretend(V_);
     exchange(world);
     a_ = fields_.arrays(world.particles, *volumes_);
     pairs_->prepare(a_);
@@ -130,7 +139,7 @@ class KeptRates : public Rate, public Keeper {
   KeptLoop fix_, loop_;
   PairArrays a_{};
   bool opens_ = false;
-  Array<Real> x_[3], v_[3];  ///< when the window opened [L], [L/T]
+  Array<Real> x_[3], v_[3], V_;  ///< when the window opened [L], [L/T], [L3]
 };
 
 class KeptForces : public Force {

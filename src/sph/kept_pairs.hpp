@@ -17,14 +17,15 @@ namespace courant {
 class Window {
  public:
   explicit Window(Real eps) : eps_(eps) {}
-  /// Begins a window if none is open; true if it did. h [L], the last step dt [T].
-  bool open(Real h, Real dt);
+  /// Begins a window if none is open; true if it did. h [L]; the last step dt [T]; how far particles may move
+  /// before lists end the window, `room` [L]: beyond that they are not complete.
+  bool open(Real h, Real dt, Real room);
   /// From now to the middle of the window: gradients of that place err by the square of EPS, not by EPS. [T]
   Real ahead() const { return ahead_; }
   bool is_open() const { return open_; }
   void close() { open_ = false; }
-  /// After a step of dt in which the fastest particle had the speed `fastest` [L/T]: closes it if another
-  /// like that would pass the bound.
+  /// After a step of dt in which the fastest particle had the speed `fastest` [L/T]: closes it once the bound
+  /// is passed.
   void moved(Real fastest, Real h, Real dt);
   void keep(Archive& archive);
 
@@ -41,6 +42,7 @@ class KeptPairs {
   KeptPairs(const SphSettings& settings, std::shared_ptr<Neighbours> neighbours, bool viscous,
             bool diffusion);
   Window window;
+  bool open(Real h, const Clock& clock);
   /// Before the lists of a window that just opened are filled.
   void prepare(const PairArrays&);
   KeptLists lists(Index begin, Index end);

@@ -1,5 +1,7 @@
 #include "sph/pair_volumes.hpp"
 
+#include <algorithm>
+
 #include "parallel/parallel.hpp"
 #include "sph/sph.hpp"
 
@@ -17,6 +19,10 @@ void PairVolumes::block(World& world, const Clock&, Index begin, Index end) {
   const Real *m = world.particles.m.data(), *rho = world.particles.rho.data();
   Real* V = fields_[1 - current_]->data();
   for (Index i = begin; i < end; ++i) V[i] = m[i] / rho[i];
+}
+
+void PairVolumes::pretend(const Array<Real>& volumes) {
+  std::copy(volumes.begin(), volumes.end(), fields_[current_]->data());
 }
 
 // The rim, too: its density does not change, so nobody works on it in between.

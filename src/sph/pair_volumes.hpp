@@ -1,5 +1,6 @@
 #pragma once
 // m/rho of particles as pair loops read it of neighbours.
+#include "parallel/array.hpp"
 #include "state/keeper.hpp"
 #include "state/world.hpp"
 
@@ -14,6 +15,8 @@ class PairVolumes : public Material, public Refresh, public Keeper {
   std::string name() const override { return "sph volumes"; }
   /// Of the latest density all of which is known [L3]; shape: (particles and images)
   const Real* current() const { return fields_[current_]->data(); }
+  /// While a state is loaded, until `loaded`: as if those of the first particles were these.
+  void pretend(const Array<Real>& volumes);
 
   void block(World& world, const Clock&, Index begin, Index end) override;
   void finish(World&, const Clock&) override { current_ = 1 - current_; }

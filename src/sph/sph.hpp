@@ -130,7 +130,7 @@ class PairVolumes;
 std::string rates_name(const SphSettings&);
 /// Adds to the motions of `world` what keeps q1 c for neighbours, where rates need it.
 void add_viscous_speed(const SphSettings&, World&);
-/// Adds that, too.
+/// Calls add_viscous_speed.
 std::shared_ptr<Rate> make_rates(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
                                  std::shared_ptr<PairVolumes>);
 std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<PairGeometry>,

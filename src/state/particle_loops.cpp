@@ -1,5 +1,6 @@
 // Compiled once for each instruction set; see docs/architecture.md. Nothing here may be shared with other
-// files, so there is no function of the standard library but the root, which is an instruction.
+// files, so there is no function of the standard library but the root, which is an instruction. Comparisons
+// stand so that what is not a number stays so.
 #include "state/particle_loops.hpp"
 
 #include "base/simd.hpp"
@@ -50,7 +51,7 @@ ParticleLoops::Moved moved(const ParticleLoops::Places& q, Real reach, Index beg
   for (Index i = begin; i < end; ++i) {
     const Real dx = x[i] - xb[i], dy = y[i] - yb[i], dz = z[i] - zb[i];
     const Real moved2 = dx * dx + dy * dy + dz * dz;
-    const Real grown = h[i] - hb[i], left = reach - (grown > 0 ? grown : 0), room = left > 0 ? left : 0;
+    const Real grown = h[i] - hb[i], left = reach - (grown < 0 ? 0 : grown), room = left < 0 ? 0 : left;
     beyond |= moved2 < room * room ? 0 : 1;  // 1 also for NaN
     most = most < moved2 ? moved2 : most;
   }
@@ -80,14 +81,15 @@ void compress(const Real* __restrict drhodt, Real dt, Real rho0, Real* __restric
 
 void load(const ParticleLoops::Law& law, Real* __restrict p, Real* __restrict E, Real* __restrict c,
           Index begin, Index end) {
-  const Real *A = law.A - begin, *dA = law.dA - begin, *half_dv = law.half_dv - begin;
+  const Real *A = law.A, *dA = law.dA, *half_dv = law.half_dv;
   const Real inverse_rho0 = 1 / law.rho0, pc = law.pc;
 #pragma omp simd
   for (Index i = begin; i < end; ++i) {
-    const Real after = A[i] > pc ? A[i] : pc, c2 = dA[i] * inverse_rho0;
-    E[i] -= half_dv[i] * (p[i] + after);
+    const Real pressure = A[i - begin], after = pressure < pc ? pc : pressure,
+               c2 = dA[i - begin] * inverse_rho0;
+    E[i] -= half_dv[i - begin] * (p[i] + after);
     p[i] = after;
-    c[i] = __builtin_sqrt(c2 > 0 ? c2 : 0);
+    c[i] = __builtin_sqrt(c2 < 0 ? 0 : c2);
   }
 }
 

@@ -14,7 +14,6 @@
 #include "pair_loops.hpp"
 #include "parallel/parallel.hpp"
 #include "scenes.hpp"
-#include "work.hpp"
 
 using namespace courant;
 using namespace courant::benchmarks;
@@ -41,19 +40,19 @@ void add(const std::string& name, const std::function<double(benchmark::State&)>
 using Build = std::function<std::unique_ptr<Simulation>()>;
 
 void tell_sizes(benchmark::State& state, const Sizes& z) {
-  const double flops = z.entries * pair_work(z.dim, z.kept).both() + particle_work;
+  const double flops = z.entries * pair_work(z.dim, z.gradients).both() + particle_work;
   auto& c = state.counters;
   c["dim"] = z.dim;
   c["active"] = z.active;
   c["pairs"] = z.pairs;
   c["entries"] = z.entries;
-  c["kept"] = z.kept;
+  c["kept"] = z.gradients != Gradients::again;
   c["field_bytes"] = z.field_bytes;
   c["list_bytes"] = z.list_bytes;
   c["kept_bytes"] = z.kept_bytes;
   c["flops"] = flops;
-  c["useful_flops"] = z.pairs * pair_work(z.dim, z.kept).both() + particle_work;
-  c["bytes_streamed"] = bytes_streamed(z.dim, z.entries, z.kept);
+  c["useful_flops"] = z.pairs * pair_work(z.dim, z.gradients).both() + particle_work;
+  c["bytes_streamed"] = bytes_streamed(z.dim, z.entries, z.gradients);
 }
 
 double measure_step(benchmark::State& state, const Build& build, const Effort& effort) {
@@ -84,8 +83,8 @@ Build scene(const std::string& path, const Parameters& parameters, int warm_up) 
   };
 }
 
-/// A jump that a soft liquid (c0 = 30 m/s) took to time `t`, then some hundred steps with `c0`.
-Build jump(int resolution, int c0, Real t, Size size) {
+/// A jump that a soft liquid (c0 = 30 m/s) took to time `t`, then some hundred steps with `c0` and `cards`.
+Build jump(int resolution, int c0, Real t, Size size, const std::string& cards = "") {
   return [=] {
     const std::string path = "keyword_decks/hydraulic_jump/scene.yaml";
     Parameters parameters{{"resolution", std::to_string(resolution)}, {"c0", "30"}, {"endtim", "2"}};
@@ -93,7 +92,7 @@ Build jump(int resolution, int c0, Real t, Size size) {
     run_until(*s, t, size == Size::smoke ? 5 : 1000000);
     if (c0 == 30) return s;
     parameters["c0"] = std::to_string(c0);
-    auto stiff = build_scene(path, parameters);
+    auto stiff = build_scene(path, parameters, cards);
     start_from(*stiff, *s, c0, 30, 1000);
     take_steps(*stiff, size == Size::smoke ? 5 : 600);
     return stiff;
@@ -110,13 +109,16 @@ Build block(int dim, int n) {
 }
 
 void add_scenes(Size size) {
+  const std::string windows = "*COURANT_PAIR_GEOMETRY\n0.04\n";
   const Effort effort = effort_of(size);
   const int some = size == Size::smoke ? 3 : 300;
   add_step("jump d1/4 c0 30", effort, jump(4, 30, 1, size));
   add_step("jump d1/4 c0 1484", effort, jump(4, 1484, 1, size));
+  add_step("jump d1/4 c0 1484 windows", effort, jump(4, 1484, 1, size, windows));
   add_step("dam 2D 5k", effort, dam_2d(50, some));
   if (size == Size::smoke) return;
   add_step("jump d1/10 c0 1484", effort, jump(10, 1484, 0.2, size));
+  add_step("jump d1/10 c0 1484 windows", effort, jump(10, 1484, 0.2, size, windows));
   add_step("dam 2D 20k", effort, dam_2d(100, 300));
   add_step("dam 2D 100k", effort, dam_2d(224, 150));
   const std::string dam = "keyword_decks/dam_break_3d/scene.yaml";
@@ -181,8 +183,8 @@ double measure_pair_loops(benchmark::State& state, const Build& build, int repea
   measure(name_of(usual) + std::string("/2"), 2);
   const int dim = s->world().dim;
   state.counters["active"] = active;
-  state.counters["flops kept"] = loops.entries() * pair_work(dim, true).both();
-  state.counters["flops again"] = loops.entries() * pair_work(dim, false).both();
+  state.counters["flops kept"] = loops.entries() * pair_work(dim, Gradients::kept).both();
+  state.counters["flops again"] = loops.entries() * pair_work(dim, Gradients::again).both();
   return quickest;
 }
 

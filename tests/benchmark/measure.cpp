@@ -62,6 +62,25 @@ Measured measure(Simulation& s, const Effort& effort) {
   return m;
 }
 
+namespace {
+
+/// Entries that a window keeps: in reach of any of their eight.
+double entries_in_reach(const Particles& p, const Neighbours& lists) {
+  double out = 0;
+  for (Index i = 0; i < p.active; i += Neighbours::lanes) {
+    const Index end = std::min(i + Neighbours::lanes, p.active);
+    const Real reach = lists.support() * p.h[i];
+    for (const Index j : lists.of_group(i / Neighbours::lanes)) {
+      bool near = false;
+      for (Index k = i; k < end; ++k) near = near || (p.x.vec(k) - p.x.vec(j)).squaredNorm() < reach * reach;
+      out += near;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 Sizes sizes_of(const Simulation& s) {
   const Particles& p = s.world().particles;
   const Neighbours& lists = s.neighbours();
@@ -75,12 +94,20 @@ Sizes sizes_of(const Simulation& s) {
     out.pairs += static_cast<double>(lists.of(p, i).size());
   out.pairs /= sampled;
   const double entries = static_cast<double>(lists.entries());
-  out.entries = entries * Neighbours::lanes / active;
+  double looked_at = entries;
   const double gradients = entries * Neighbours::lanes * sizeof(Real);
-  out.kept = s.sph().uniform_h && gradients <= static_cast<double>(PairGeometry::most_kept_bytes);
+  if (s.sph().geometry_eps > 0) {
+    out.gradients = Gradients::window;
+    looked_at = entries_in_reach(p, lists);
+    // gradients, two factors and the entry
+    out.kept_bytes = looked_at * (Neighbours::lanes * (out.dim + 2) * sizeof(float) + sizeof(Index)) / active;
+  } else if (s.sph().uniform_h && gradients <= static_cast<double>(PairGeometry::most_kept_bytes)) {
+    out.gradients = Gradients::kept;
+    out.kept_bytes = gradients / active;
+  }
+  out.entries = looked_at * Neighbours::lanes / active;
   out.field_bytes = static_cast<double>(p.fields.bytes_per_entity()) * p.moving / active;
   out.list_bytes = entries * sizeof(Index) / active;
-  out.kept_bytes = out.kept ? gradients / active : 0;
   return out;
 }
 

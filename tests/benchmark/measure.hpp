@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/simulation.hpp"
+#include "work.hpp"
 
 namespace courant::benchmarks {
 
@@ -38,7 +39,7 @@ struct Sizes {
   Index active = 0;
   double pairs = 0;    ///< neighbours within 2h per active particle
   double entries = 0;  ///< lanes looked at per active particle, in each of the two pair loops
-  bool kept = false;   ///< gradients are kept from the rates for the forces
+  Gradients gradients = Gradients::again;
   double field_bytes = 0, list_bytes = 0, kept_bytes = 0;  ///< per active particle
 };
 Sizes sizes_of(const Simulation& s);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -15,15 +16,26 @@ namespace {
 
 void nothing(World&, const Clock&, const std::string&) {}
 
+/// In front of *END.
+void add_cards(const std::filesystem::path& deck, const std::string& cards) {
+  std::ifstream in(deck);
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  text.insert(text.rfind("*END"), cards);
+  std::ofstream(deck) << text;
+}
+
 }  // namespace
 
-std::unique_ptr<Simulation> build_scene(const std::string& path, const Parameters& parameters) {
+std::unique_ptr<Simulation> build_scene(const std::string& path, const Parameters& parameters,
+                                        const std::string& cards) {
   const auto deck =
       std::filesystem::temp_directory_path() / ("courant_benchmark_" + std::to_string(::getpid()) + ".k");
   Diagnostics diagnostics;
   std::unique_ptr<Simulation> s;
-  if (generate_deck(std::string(SOURCE_DIR) + "/" + path, deck.string(), parameters, diagnostics))
-    s = Simulation::build(deck.string(), {}, diagnostics);
+  const bool made =
+      generate_deck(std::string(SOURCE_DIR) + "/" + path, deck.string(), parameters, diagnostics);
+  if (made && !cards.empty()) add_cards(deck, cards);
+  if (made) s = Simulation::build(deck.string(), {}, diagnostics);
   std::filesystem::remove(deck);
   if (!s) throw std::runtime_error(path + ": " + diagnostics.text());
   return s;

@@ -10,9 +10,10 @@ namespace courant::benchmarks {
 
 using Parameters = std::map<std::string, std::string>;
 
-/// The simulation of a scene; `path` counts from the root of the project. Throws std::runtime_error where the
-/// scene or the deck has faults.
-std::unique_ptr<Simulation> build_scene(const std::string& path, const Parameters& parameters);
+/// The simulation of a scene; `path` counts from the root of the project, `cards` are added to its deck.
+/// Throws std::runtime_error where the scene or the deck has faults.
+std::unique_ptr<Simulation> build_scene(const std::string& path, const Parameters& parameters,
+                                        const std::string& cards = {});
 
 void take_steps(Simulation& s, std::int64_t steps);
 /// At most `most_steps`.

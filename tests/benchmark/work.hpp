@@ -10,6 +10,10 @@ struct PairWork {
   int both() const { return rates + forces; }
 };
 
+/// Where forces have gradients from: worked out again, kept from the rates, or rates and forces from a window
+/// of steps.
+enum class Gradients { again, kept, window };
+
 /// Floating-point operations of src/sph/pair_sums.hpp per entry of a list and lane, for the cubic spline, one
 /// h, Monaghan viscosity and no MU. Each + - * / and max is one; a reciprocal root is ten, what the avx512
 /// variant spells it out as (the others take a root and a quotient, which keep the processor busy for
@@ -21,15 +25,28 @@ struct PairWork {
 ///   r2                        4   6   rates; forces only where gradients are worked out
 ///   u . d                     3   5   rates
 ///   w: 2 + 10 + 9 + 1        22  22   where gradients are worked out
-///   div                       2   2   rates
+///   in the middle of the step: curvature 2, u . u, q 2, sum 5, times volume 1
+///                            13  15   rates
+///   div                       3   3   rates
 ///   viscosity: approach 3, D 1, numerator 6, denominator 5, quotient 1, times w 1
 ///                            17  17   rates
 ///   its force and power       6   8   rates
 ///   w (p_i + p_j)             2   2   forces
 ///   pressure force            4   6   forces
-constexpr PairWork pair_work(int dim, bool kept) {
+///
+/// and of src/sph/kept_loops.hpp, per entry in reach:
+///   v_i - v_j, u . G          5   8   rates
+///   div                       2   2   rates
+///   mu 2, viscosity 6         8   8   rates
+///   its force and power       6   8   rates
+///   V (p_i + p_j)             2   2   forces
+///   pressure force            4   6   forces
+/// Opening a window costs some 70 operations for each entry, which are left out.
+constexpr PairWork pair_work(int dim, Gradients gradients) {
   const int d = dim == 2 ? 2 : 3, r2 = dim == 2 ? 4 : 6, dot = dim == 2 ? 3 : 5, add = 2 * d, gradient = 22;
-  return {2 * d + r2 + dot + gradient + 2 + 17 + add + 2, d + (kept ? 0 : r2 + gradient) + 2 + add};
+  if (gradients == Gradients::window) return {d + dot + 2 + 8 + add + 2, 2 + add};
+  const int forces = d + (gradients == Gradients::kept ? 0 : r2 + gradient) + 2 + add;
+  return {2 * d + r2 + dot + gradient + 10 + dot + 3 + 17 + add + 2, forces};
 }
 
 /// Operations of the other passes per particle: factors, equation of state, step size, motion, watch;
@@ -51,11 +68,14 @@ constexpr int numbers_streamed(int dim) {
   return 3 + (4 * dim + 6) + 8 + 6 + (3 * dim + 2) + 3 + (5 * dim + 1) + 6 + 8;
 }
 
-/// Bytes per particle and step: fields, lists (read by both pair loops), kept gradients (stored and loaded).
-/// entries: of the lists, per group of eight and so also lanes looked at per particle.
-constexpr Real bytes_streamed(int dim, Real entries, bool kept) {
-  const Real per_particle = entries / 8;
-  return 8.0 * numbers_streamed(dim) + per_particle * (2 * sizeof(Index) + (kept ? 2 * 64 : 0));
+/// Bytes per particle and step: fields, lists (read by both pair loops), kept gradients (stored and loaded;
+/// in windows loaded twice, and two factors once, four bytes each). entries: of the lists, per group of eight
+/// and so also lanes looked at per particle.
+constexpr Real bytes_streamed(int dim, Real entries, Gradients gradients) {
+  const Real of_pairs = gradients == Gradients::window ? (2 * dim + 2) * 32
+                        : gradients == Gradients::kept ? 2 * 64
+                                                       : 0;
+  return 8.0 * numbers_streamed(dim) + entries / 8 * (2 * sizeof(Index) + of_pairs);
 }
 
 }  // namespace courant::benchmarks

@@ -96,20 +96,23 @@ TEST(PairGeometry, KeptGradientsConserveAndTheirErrorGoesWithTheSquareOfEps) {
 TEST(PairGeometry, WindowLastsUntilTheFastestMayHaveMovedHalfOfEps) {
   Window window(0.02);
   const Real h = 0.1, dt = 1e-4, v = 0.95;  // EPS h/2 = 10.5 v dt: the eleventh step passes the bound
-  ASSERT_TRUE(window.open(h, dt));
+  ASSERT_TRUE(window.open(h, dt, 1));
   EXPECT_EQ(window.ahead(), 0);  // no step yet tells how fast particles are
   for (int turn = 0; turn < 2; ++turn) {
     for (int k = 0; k < 10; ++k) {
       window.moved(v, h, dt);
       EXPECT_TRUE(window.is_open());
-      EXPECT_FALSE(window.open(h, dt));
+      EXPECT_FALSE(window.open(h, dt, 1));
     }
     window.moved(v, h, dt);
     EXPECT_FALSE(window.is_open());
-    EXPECT_TRUE(window.open(h, dt));
+    EXPECT_TRUE(window.open(h, dt, 1));
     // rates hold at -1/2 to 9 1/2 steps from now, forces at 0 to 10
     EXPECT_NEAR(window.ahead(), (0.5 * 10 - 0.25) * dt, 1e-12 * dt);
   }
+  window.close();  // lists that hold for four steps more
+  EXPECT_TRUE(window.open(h, dt, 4.5 * v * dt));
+  EXPECT_NEAR(window.ahead(), (0.5 * 4 - 0.25) * dt, 1e-12 * dt);
 }
 
 TEST(PairGeometry, KeptGradientsGiveTheSameBitsOnAnyNumberOfThreads) {
