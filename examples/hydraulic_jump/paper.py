@@ -7,7 +7,7 @@ usage: bash examples/hydraulic_jump/paper.sh [options]
   --jobs N          runs at a time (1): two runs on a thread each take less time than one after the other on two
   --threads N       threads of each run (all cores, shared among the jobs)
   --only NAME,...   these runs of paper_runs.yaml alone: d4,d5,d6,d10, d4_c1484, fr34, ...
-  --paper-setting   also the paper's speed of sound, 1484 m/s: hours
+  --paper-setting   also the paper's speed of sound, 1484 m/s: over two hours of processor time
   --standing        also jumps that stand still, Froude numbers 2.4 to 6.5
   --results FOLDER  where runs go (results/hydraulic_jump_paper)
   --page FILE       the page (docs/hydraulic_jump_paper.md); its figures go to figures/hydraulic_jump beside it
