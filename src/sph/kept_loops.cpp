@@ -28,7 +28,7 @@ void rates(const PairArrays& a, const KeptLists& lists) {
     const Pack mi = Viscous ? Pack::load(a.m + i, count) : Pack::zero();
     const Pack qci = Viscous ? Pack::load(a.qc + i, count) : Pack::zero();
     Pack div = Pack::zero(), power = Pack::zero();
-    Pack xx = div, yy = div, zz = div, xy = div, yz = div, zx = div;
+    Dyads<Dim> gradient;
     Sum<Dim> force;
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
@@ -45,18 +45,7 @@ void rates(const PairArrays& a, const KeptLists& lists) {
         force.add(viscous, G);
         power += viscous * u_dot_G;
       }
-      if constexpr (Gradient) {
-        const Pack x = G.x * a.V[j], y = G.y * a.V[j];
-        xx -= u.x * x;
-        yy -= u.y * y;
-        xy -= u.x * y + u.y * x;
-        if constexpr (Dim == 3) {
-          const Pack z = G.z * a.V[j];
-          zz -= u.z * z;
-          yz -= u.y * z + u.z * y;
-          zx -= u.z * x + u.x * z;
-        }
-      }
+      if constexpr (Gradient) gradient.add(u, times(Pack::of(a.V[j]), G));
     }
     (Pack::load(a.rho + i, count) * lists.norm * div).store(a.drhodt + i, count);
     if constexpr (Viscous) {
@@ -64,10 +53,7 @@ void rates(const PairArrays& a, const KeptLists& lists) {
       force.add_to(a.f, i, count, 0 - factor);
       (0.5 * factor * power).store(a.heat + i, count);  // each partner takes half
     }
-    if constexpr (Gradient) {
-      const Pack d[6] = {xx, yy, zz, 0.5 * xy, 0.5 * yz, 0.5 * zx};
-      for (int k = 0; k < 6; ++k) (lists.norm * d[k]).store(a.strain[k] + i, count);
-    }
+    if constexpr (Gradient) gradient.store(a.strain, i, count, -lists.norm);
   }
 }
 
@@ -91,17 +77,9 @@ void forces(const PairArrays& a, const KeptLists& lists) {
       if constexpr (Diffusion)
         spread += Pack::load(lists.factors + (k + 1) * stride - lanes) *
                   (a.V[j] * (a.p[j] - pi + rhoi * (a.potential[j] - potential)));
-      if constexpr (Stress) {
-        Pack s[6];
-        for (int c = 0; c < 6; ++c) s[c] = (ti[c] + a.tau[c][j]) * a.V[j];
-        pull.x += s[0] * G.x + s[3] * G.y;
-        pull.y += s[3] * G.x + s[1] * G.y;
-        if constexpr (Dim == 3) {
-          pull.x += s[5] * G.z;
-          pull.y += s[4] * G.z;
-          pull.z += s[5] * G.x + s[4] * G.y + s[2] * G.z;
-        }
-      }
+      if constexpr (Stress)
+        add_product(
+            pull, [&](int c) { return (ti[c] + a.tau[c][j]) * a.V[j]; }, G);
     }
     const Pack factor = Pack::load(a.V + i, count) * lists.norm;
     push.add_to(a.f, i, count, 0 - factor);

@@ -25,7 +25,7 @@ struct KeptLists {
   int factor_count;  ///< of an entry
   bool viscous, diffusion;
   Real norm;   ///< the constant of the kernel [1/L^(dim + 1)]
-  Real mV;     ///< as above; keeps records within single precision in any units [ML3]
+  Real mV;     ///< as above; keeps factors within single precision in any units [ML3]
   Real ahead;  ///< gradients are those of places v `ahead` from now [T]
   Index begin, end;
 };
@@ -33,7 +33,7 @@ struct KeptLists {
 /// Fills list, start, gradients and factors, which have room for all.
 KeptLoop fix_loop(KernelChoice kernel, int dim);
 
-/// As rates_loop and forces_loop of pair_loops.hpp, but for places, which are those of the records.
+/// As rates_loop and forces_loop of pair_loops.hpp, but for gradients, which are those of the window.
 struct KeptChoice {
   int dim;
   bool viscous, gradient;  ///< of the rates, as in RatesChoice

@@ -4,7 +4,6 @@
 
 #include "sph/pair_fields.hpp"
 #include "sph/pair_volumes.hpp"
-#include "sph/view.hpp"
 #include "state/keeper.hpp"
 #include "state/particle_loops.hpp"
 

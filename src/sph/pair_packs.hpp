@@ -50,4 +50,51 @@ struct Sum {
   }
 };
 
+template <int Dim>
+COURANT_INLINE Difference<Dim> times(const Pack& w, const Difference<Dim>& d) {
+  Difference<Dim> out = d;
+  out.x = w * d.x, out.y = w * d.y;
+  if constexpr (Dim == 3) out.z = w * d.z;
+  return out;
+}
+
+/// Symmetric part of a sum of dyads: xx yy zz xy yz zx.
+template <int Dim>
+struct Dyads {
+  Pack xx = Pack::zero(), yy = xx, zz = xx, xy = xx, yz = xx, zx = xx;
+  COURANT_INLINE void add(const Difference<Dim>& a, const Difference<Dim>& b) {
+    xx += a.x * b.x;
+    yy += a.y * b.y;
+    xy += a.x * b.y + a.y * b.x;
+    if constexpr (Dim == 3) {
+      zz += a.z * b.z;
+      yz += a.y * b.z + a.z * b.y;
+      zx += a.z * b.x + a.x * b.z;
+    }
+  }
+  /// `factor`: a number, or one for each i.
+  template <class Factor>
+  COURANT_INLINE void store(Real* const to[6], Index i, Index count, const Factor& factor) const {
+    const Factor half = 0.5 * factor;
+    (factor * xx).store(to[0] + i, count);
+    (factor * yy).store(to[1] + i, count);
+    (factor * zz).store(to[2] + i, count);
+    (half * xy).store(to[3] + i, count);
+    (half * yz).store(to[4] + i, count);
+    (half * zx).store(to[5] + i, count);
+  }
+};
+
+/// Adds B . a, B(k) the components of a symmetric tensor: xx yy zz xy yz zx.
+template <int Dim, class Tensor, class Vector>
+COURANT_INLINE void add_product(Sum<Dim>& to, const Tensor& B, const Vector& a) {
+  to.x += B(0) * a.x + B(3) * a.y;
+  to.y += B(3) * a.x + B(1) * a.y;
+  if constexpr (Dim == 3) {
+    to.x += B(5) * a.z;
+    to.y += B(4) * a.z;
+    to.z += B(5) * a.x + B(4) * a.y + B(2) * a.z;
+  }
+}
+
 }  // namespace courant::COURANT_SIMD

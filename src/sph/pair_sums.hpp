@@ -61,7 +61,7 @@ void rates(const PairArrays& a, const PairLists& lists) {
     const Pack Vi = Viscous ? Pack::load(a.V + i, count) : Pack::zero();
     const Pack qci = Viscous ? 0.5 * Pack::load(a.qc + i, count) : Pack::zero();
     Pack div = Pack::zero(), power = Pack::zero();
-    Pack xx = div, yy = div, zz = div, xy = div, yz = div, zx = div;
+    Dyads<Dim> gradient;
     Sum<Dim> force;
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
@@ -87,16 +87,7 @@ void rates(const PairArrays& a, const PairLists& lists) {
         force.add(viscous, d);
         power += viscous * u_dot_d;
       }
-      if constexpr (Gradient) {
-        xx -= w * (u.x * d.x);
-        yy -= w * (u.y * d.y);
-        xy -= w * (u.x * d.y + u.y * d.x);
-        if constexpr (Dim == 3) {
-          zz -= w * (u.z * d.z);
-          yz -= w * (u.y * d.z + u.z * d.y);
-          zx -= w * (u.z * d.x + u.x * d.z);
-        }
-      }
+      if constexpr (Gradient) gradient.add(u, times(w, d));
     }
     (Pack::load(a.rho + i, count) * norm * div).store(a.drhodt + i, count);
     if constexpr (Viscous) {
@@ -104,10 +95,7 @@ void rates(const PairArrays& a, const PairLists& lists) {
       force.add_to(a.f, i, count, 0 - factor);
       (0.5 * factor * power).store(a.heat + i, count);  // each partner takes half
     }
-    if constexpr (Gradient) {
-      const Pack d[6] = {xx, yy, zz, 0.5 * xy, 0.5 * yz, 0.5 * zx};
-      for (int k = 0; k < 6; ++k) (norm * d[k]).store(a.strain[k] + i, count);
-    }
+    if constexpr (Gradient) gradient.store(a.strain, i, count, 0 - norm);
   }
 }
 
@@ -146,17 +134,9 @@ void forces(const PairArrays& a, const PairLists& lists) {
       else
         push.add(w * pi + wj * a.p[j], d);
       if constexpr (Diffusion) spread += w * (a.p[j] - pi + rhoi * (a.potential[j] - potential));
-      if constexpr (Stress) {
-        Pack s[6];
-        for (int c = 0; c < 6; ++c) s[c] = w * ti[c] + wj * a.tau[c][j];
-        pull.x += s[0] * d.x + s[3] * d.y;
-        pull.y += s[3] * d.x + s[1] * d.y;
-        if constexpr (Dim == 3) {
-          pull.x += s[5] * d.z;
-          pull.y += s[4] * d.z;
-          pull.z += s[5] * d.x + s[4] * d.y + s[2] * d.z;
-        }
-      }
+      if constexpr (Stress)
+        add_product(
+            pull, [&](int c) { return w * ti[c] + wj * a.tau[c][j]; }, d);
     }
     const Pack factor = Pack::load(a.V + i, count) * norm;
     push.add_to(a.f, i, count, 0 - factor);
