@@ -28,12 +28,13 @@ def call(*words):
 
 
 def write(name, tssfac, **settings):
-    deck(name, **settings)
+    """A deck whose steps are short up to time 2, then as long as TSSFAC allows."""
+    deck(name, more="*DEFINE_CURVE\n9\n0.,0.002\n2.,0.002\n2.001,1.\n30.,1.\n", **settings)
     with open(name + ".k") as file:
         text = file.read()
     assert "*CONTROL_TIMESTEP\n0.,0.9\n" in text
     with open(name + ".k", "w") as file:
-        file.write(text.replace("*CONTROL_TIMESTEP\n0.,0.9\n", f"*CONTROL_TIMESTEP\n0.,{tssfac}\n"))
+        file.write(text.replace("*CONTROL_TIMESTEP\n0.,0.9\n", f"*CONTROL_TIMESTEP\n0.,{tssfac},0,0,0.,9\n"))
 
 
 def same(a, b):
@@ -41,8 +42,8 @@ def same(a, b):
     return text_of(a).split("\n", 1)[1] == text_of(b).split("\n", 1)[1]
 
 
-# A step too long by so little that the run lasts almost two thousand cycles.
-TSSFAC, END = 1.3, 20
+# About a thousand good cycles, then steps so long that the run stops within a few whatever the last bits are.
+TSSFAC, END = 3, 20
 write("long", TSSFAC, runrsf=0, end=END)
 code, text = call("run", "long.k", "-o", "long", "--threads", "1")
 file = "long/restart/before_error.h5"
@@ -83,7 +84,7 @@ check(not wrong, f"history.h5 goes on as if never stopped {wrong[:5]}")
 # --- with a smaller TSSFAC the run goes on
 write("slower", 0.8, runrsf=0, end=arrays(file, "/state")["clock/t"][0] + 0.2)
 code, text = call("run", "slower.k", "-o", "long", "--restart", "long", "--threads", "1")
-holds(code == 0 and "changed in the deck: *CONTROL_TIMESTEP TSSFAC: '0.8', was '1.3'" in text, f"with TSSFAC 0.8 it goes on -> {code}", text)
+holds(code == 0 and "changed in the deck: *CONTROL_TIMESTEP TSSFAC: '0.8', was '3'" in text, f"with TSSFAC 0.8 it goes on -> {code}", text)
 check("Warning: after this state" not in text, "without that warning")
 code, text = call("run", "slower.k", "-o", "long", "--restart", "long/restart/before_error.h5", "--threads", "1")
 check(code == 0, f"the file is still there, and can be named -> {code}")
