@@ -6,6 +6,9 @@
 #include <immintrin.h>
 #endif
 
+#include <bit>
+
+#include "base/narrow.hpp"
 #include "base/real.hpp"
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
@@ -60,24 +63,54 @@ COURANT_INLINE Native native_rsqrt(Native x) {
 #endif
 }
 
-COURANT_INLINE Native native_from_single(const float* p) {
+COURANT_INLINE Native native_from(const Short* p) {
 #if COURANT_SIMD_BYTES == 64
-  return _mm512_cvtps_pd(_mm256_loadu_ps(p));
+  return _mm512_cvtepi32_pd(_mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))));
 #elif COURANT_SIMD_BYTES == 32
-  return _mm256_cvtps_pd(_mm_loadu_ps(p));
+  return _mm256_cvtepi32_pd(_mm_cvtepi16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p))));
 #else
   Native out;
   for (int k = 0; k < native_lanes; ++k) out[k] = p[k];
   return out;
 #endif
 }
-COURANT_INLINE void native_to_single(Native x, float* p) {
+COURANT_INLINE Native native_from(const Brief* p) {
 #if COURANT_SIMD_BYTES == 64
-  _mm256_storeu_ps(p, _mm512_cvtpd_ps(x));
+  const __m256i wide = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
+  return _mm512_cvtps_pd(_mm256_castsi256_ps(_mm256_slli_epi32(wide, 16)));
 #elif COURANT_SIMD_BYTES == 32
-  _mm_storeu_ps(p, _mm256_cvtpd_ps(x));
+  const __m128i wide = _mm_cvtepu16_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
+  return _mm256_cvtps_pd(_mm_castsi128_ps(_mm_slli_epi32(wide, 16)));
 #else
-  for (int k = 0; k < native_lanes; ++k) p[k] = static_cast<float>(x[k]);
+  Native out;
+  for (int k = 0; k < native_lanes; ++k)
+    out[k] = std::bit_cast<float>(static_cast<std::uint32_t>(p[k]) << 16);
+  return out;
+#endif
+}
+/// To the nearest. What is not a number becomes some integer.
+COURANT_INLINE void native_to(Native x, Short* p) {
+#if COURANT_SIMD_BYTES == 64
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvtsepi32_epi16(_mm512_cvtpd_epi32(x)));
+#elif COURANT_SIMD_BYTES == 32
+  const __m128i wide = _mm256_cvtpd_epi32(x);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_packs_epi32(wide, wide));
+#else
+  for (int k = 0; k < native_lanes; ++k)
+    p[k] = x[k] == x[k] ? static_cast<Short>(x[k] < 0 ? x[k] - 0.5 : x[k] + 0.5) : Short(0);
+#endif
+}
+COURANT_INLINE void native_to(Native x, Brief* p) {
+#if COURANT_SIMD_BYTES == 64
+  const __m256i bits = _mm256_add_epi32(_mm256_castps_si256(_mm512_cvtpd_ps(x)), _mm256_set1_epi32(0x8000));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvtepi32_epi16(_mm256_srli_epi32(bits, 16)));
+#elif COURANT_SIMD_BYTES == 32
+  const __m128i bits = _mm_add_epi32(_mm_castps_si128(_mm256_cvtpd_ps(x)), _mm_set1_epi32(0x8000));
+  const __m128i half = _mm_srli_epi32(bits, 16);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_packus_epi32(half, half));
+#else
+  for (int k = 0; k < native_lanes; ++k)
+    p[k] = static_cast<Brief>((std::bit_cast<std::uint32_t>(static_cast<float>(x[k])) + 0x8000u) >> 16);
 #endif
 }
 
@@ -104,14 +137,16 @@ struct Pack {
     for (Index k = 0; k < lanes; ++k) copy[k] = p[k < n ? k : n - 1];
     return load(copy);
   }
-  /// From and to single precision.
-  COURANT_INLINE static Pack load(const float* p) {
+  /// From and to 16 bits: Short or Brief.
+  template <class T>
+  COURANT_INLINE static Pack widen(const T* p) {
     Pack out;
-    for (int k = 0; k < parts; ++k) out.part[k] = native_from_single(p + k * native_lanes);
+    for (int k = 0; k < parts; ++k) out.part[k] = native_from(p + k * native_lanes);
     return out;
   }
-  COURANT_INLINE void store(float* p) const {
-    for (int k = 0; k < parts; ++k) native_to_single(part[k], p + k * native_lanes);
+  template <class T>
+  COURANT_INLINE void narrow(T* p) const {
+    for (int k = 0; k < parts; ++k) native_to(part[k], p + k * native_lanes);
   }
   COURANT_INLINE void store(Real* p) const {
     for (int k = 0; k < parts; ++k) *reinterpret_cast<NativeInMemory*>(p + k * native_lanes) = part[k];

@@ -7,26 +7,25 @@ namespace courant::COURANT_SIMD {
 
 namespace {
 
+constexpr std::ptrdiff_t ahead = 16;  ///< entries from the one in work to the one asked for from memory
+
 /// Of entry k.
 template <int Dim>
 COURANT_INLINE Difference<Dim> gradient_of(const KeptLists& lists, std::ptrdiff_t k) {
-  const float* kept = lists.gradients + k * (Dim * lanes);
-  __builtin_prefetch(kept + 8 * Dim * lanes);
+  const Short* kept = lists.gradients + k * (Dim * lanes);
+  __builtin_prefetch(kept + ahead * Dim * lanes);
   Difference<Dim> G;
-  G.x = Pack::load(kept), G.y = Pack::load(kept + lanes), G.z = Pack::zero();
-  if constexpr (Dim == 3) G.z = Pack::load(kept + 2 * lanes);
+  G.x = Pack::widen(kept), G.y = Pack::widen(kept + lanes), G.z = Pack::zero();
+  if constexpr (Dim == 3) G.z = Pack::widen(kept + 2 * lanes);
   return G;
 }
 
-template <int Dim, bool Viscous, bool Gradient>
+template <int Dim, bool Viscous, bool Quadratic, bool Gradient>
 void rates(const PairArrays& a, const KeptLists& lists) {
   const std::ptrdiff_t stride = lists.factor_count * lanes;
-  const Real twice_q2 = 2 * a.q2;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> vi(a.v, i, count);
-    const Pack mi = Viscous ? Pack::load(a.m + i, count) : Pack::zero();
-    const Pack qci = Viscous ? Pack::load(a.qc + i, count) : Pack::zero();
     Pack div = Pack::zero(), power = Pack::zero();
     Dyads<Dim> gradient;
     Sum<Dim> force;
@@ -36,12 +35,12 @@ void rates(const PairArrays& a, const KeptLists& lists) {
       const Pack u_dot_G = dot(u, G);
       div += u_dot_G * a.V[j];
       if constexpr (Viscous) {
-        // as in pair_sums.hpp, mu = approach / D
-        const float* factor = lists.factors + k * stride;
-        __builtin_prefetch(factor + 8 * stride);
-        const Pack mu = max(Pack::load(factor) * u_dot_G, Pack::zero());
-        const Pack w = Pack::load(factor + lanes) * (a.m[j] * a.V[j]);
-        const Pack viscous = w * (mu * (twice_q2 * mu + (qci + a.qc[j])));
+        const Brief* factor = lists.factors + k * stride;
+        __builtin_prefetch(factor + ahead * stride);
+        const Pack approach = max(u_dot_G, Pack::zero());
+        Pack viscous = Pack::widen(factor);
+        if constexpr (Quadratic) viscous += Pack::widen(factor + lanes) * approach;
+        viscous *= approach;
         force.add(viscous, G);
         power += viscous * u_dot_G;
       }
@@ -49,7 +48,7 @@ void rates(const PairArrays& a, const KeptLists& lists) {
     }
     (Pack::load(a.rho + i, count) * lists.norm * div).store(a.drhodt + i, count);
     if constexpr (Viscous) {
-      const Pack factor = mi * Pack::load(a.V + i, count) * (lists.norm / lists.mV);
+      const Pack factor = Pack::of(lists.norm * lists.mV);
       force.add_to(a.f, i, count, 0 - factor);
       (0.5 * factor * power).store(a.heat + i, count);  // each partner takes half
     }
@@ -75,7 +74,7 @@ void forces(const PairArrays& a, const KeptLists& lists) {
       const Difference<Dim> G = gradient_of<Dim>(lists, k);
       push.add((pi + a.p[j]) * a.V[j], G);
       if constexpr (Diffusion)
-        spread += Pack::load(lists.factors + (k + 1) * stride - lanes) *
+        spread += Pack::widen(lists.factors + (k + 1) * stride - lanes) *
                   (a.V[j] * (a.p[j] - pi + rhoi * (a.potential[j] - potential)));
       if constexpr (Stress)
         add_product(
@@ -85,14 +84,18 @@ void forces(const PairArrays& a, const KeptLists& lists) {
     push.add_to(a.f, i, count, 0 - factor);
     if constexpr (Stress) pull.add_to(a.f, i, count, factor);
     if constexpr (Diffusion)
-      (-2 * a.delta * lists.norm * spread / Pack::load(a.c + i, count)).store(a.diffusion + i, count);
+      (2 * a.delta * lists.norm * spread / Pack::load(a.c + i, count)).store(a.diffusion + i, count);
   }
 }
 
+template <int Dim, bool Viscous, bool Quadratic>
+KeptLoop rates_of(const KeptChoice& c) {
+  return c.gradient ? &rates<Dim, Viscous, Quadratic, true> : &rates<Dim, Viscous, Quadratic, false>;
+}
 template <int Dim>
 KeptLoop rates_of(const KeptChoice& c) {
-  if (c.viscous) return c.gradient ? &rates<Dim, true, true> : &rates<Dim, true, false>;
-  return c.gradient ? &rates<Dim, false, true> : &rates<Dim, false, false>;
+  if (!c.viscous) return rates_of<Dim, false, false>(c);
+  return c.quadratic ? rates_of<Dim, true, true>(c) : rates_of<Dim, true, false>(c);
 }
 template <int Dim>
 KeptLoop forces_of(const KeptChoice& c) {

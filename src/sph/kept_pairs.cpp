@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sph/fields.hpp"
 #include "sph/pair_fields.hpp"
 #include "sph/pair_volumes.hpp"
 #include "state/keeper.hpp"
@@ -32,11 +33,11 @@ void Window::keep(Archive& archive) {
   archive("open", open_);
 }
 
-KeptPairs::KeptPairs(const SphSettings& s, std::shared_ptr<Neighbours> neighbours, bool viscous,
-                     bool diffusion)
+KeptPairs::KeptPairs(const SphSettings& s, std::shared_ptr<Neighbours> neighbours, const KeptChoice& choice)
     : window(s.geometry_eps), neighbours_(std::move(neighbours)), kernel_(s.kernel), dim_(s.dim) {
-  shape_.viscous = viscous, shape_.diffusion = diffusion;
-  shape_.factor_count = 2 * int(viscous) + int(diffusion);
+  shape_.viscous = choice.viscous, shape_.quadratic = choice.quadratic, shape_.diffusion = choice.diffusion;
+  shape_.factor_count = int(choice.viscous) + int(choice.quadratic) + int(choice.diffusion);
+  shape_.scale = largest_short / steepest_gradient(kernel_);
 }
 
 bool KeptPairs::open(Real h, const Clock& clock) {
@@ -46,7 +47,7 @@ bool KeptPairs::open(Real h, const Clock& clock) {
 void KeptPairs::prepare(const PairArrays& a) {
   blocks_.resize(static_cast<std::size_t>(neighbours_->blocks()));
   shape_.ahead = window.ahead();
-  shape_.norm = gradient_norm(kernel_, dim_, a.h0);
+  shape_.norm = -gradient_norm(kernel_, dim_, a.h0) / shape_.scale;
   shape_.mV = a.m[0] * a.V[0];
 }
 
@@ -68,14 +69,14 @@ namespace {
 
 class KeptRates : public Rate, public Keeper {
  public:
-  KeptRates(const SphSettings& s, RateFields fields, std::shared_ptr<KeptPairs> pairs,
-            std::shared_ptr<PairVolumes> volumes)
+  KeptRates(const SphSettings& s, const KeptChoice& choice, RateFields fields,
+            std::shared_ptr<KeptPairs> pairs, std::shared_ptr<PairVolumes> volumes)
       : name_(rates_name(s)),
         pairs_(std::move(pairs)),
         volumes_(std::move(volumes)),
         fields_(fields),
         fix_(fix_loop(s.kernel, s.dim)),
-        loop_(kept_rates_loop({s.dim, fields.viscous(), fields.gradient(), false, false})) {}
+        loop_(kept_rates_loop(choice)) {}
   std::string name() const override { return name_; }
 
   void start(World& world, const Clock& clock) override {
@@ -85,6 +86,7 @@ class KeptRates : public Rate, public Keeper {
     if (!opens_) return;
     pairs_->prepare(a_);
     copy(a_.V, p.moving, V_);
+    if (fields_.viscous()) copy(a_.qc, p.moving, qc_);
     for (int k = 0; k < 3; ++k) copy(p.x.data(k), p.moving, x_[k]), copy(p.v.data(k), p.moving, v_[k]);
   }
   void block(World&, const Clock&, Index begin, Index end) override {
@@ -93,11 +95,12 @@ class KeptRates : public Rate, public Keeper {
     loop_(a_, lists);
   }
 
-  // Not the gradients and factors: they follow from places, velocities and volumes of when the window opened.
+  // Not the gradients and factors: they follow from the state in which the window opened.
   void keep(Archive& archive) override {
     pairs_->window.keep(archive);
     if (!pairs_->window.is_open()) return;
     archive("window_volume", V_);
+    if (fields_.viscous()) archive("window_viscous_speed", qc_);
     for (int k = 0; k < 3; ++k) {
       archive(std::string("window_") + "xyz"[k], x_[k]);
       archive(std::string("window_v") + "xyz"[k], v_[k]);
@@ -121,13 +124,14 @@ class KeptRates : public Rate, public Keeper {
     for_each_block(n,
                    [&](Index begin, Index end) { std::copy(from + begin, from + end, to.data() + begin); });
   }
-  /// Moving particles and their images are where and as fast as they were when the window opened, or back.
+  /// Moving particles and their images are as they were when the window opened, or back.
   void exchange(World& world) {
     Particles& p = world.particles;
     for (int k = 0; k < 3; ++k) {
       std::swap_ranges(x_[k].begin(), x_[k].end(), p.x.data(k));
       std::swap_ranges(v_[k].begin(), v_[k].end(), p.v.data(k));
     }
+    if (fields_.viscous()) std::swap_ranges(qc_.begin(), qc_.end(), sph_fields::viscous_speed(p).data());
     for (const auto& e : world.exchangers) e->before_rates(world);
   }
 
@@ -138,17 +142,17 @@ class KeptRates : public Rate, public Keeper {
   KeptLoop fix_, loop_;
   PairArrays a_{};
   bool opens_ = false;
-  Array<Real> x_[3], v_[3], V_;  ///< when the window opened [L], [L/T], [L3]
+  Array<Real> x_[3], v_[3], V_, qc_;  ///< when the window opened [L], [L/T], [L3], [L/T]
 };
 
 class KeptForces : public Force {
  public:
-  KeptForces(const SphSettings& s, ForceFields fields, std::shared_ptr<KeptPairs> pairs,
+  KeptForces(const KeptChoice& choice, ForceFields fields, std::shared_ptr<KeptPairs> pairs,
              std::shared_ptr<PairVolumes> volumes)
       : pairs_(std::move(pairs)),
         volumes_(std::move(volumes)),
         fields_(fields),
-        loop_(kept_forces_loop({s.dim, false, false, fields.stress(), fields.diffusion()})) {}
+        loop_(kept_forces_loop(choice)) {}
   std::string name() const override { return "sph forces"; }
   void start(World& world, const Clock&) override { a_ = fields_.arrays(world.particles, *volumes_); }
   void block(World&, const Clock&, Index begin, Index end) override { loop_(a_, pairs_->lists(begin, end)); }
@@ -193,14 +197,15 @@ PairPasses make_kept_passes(const SphSettings& s, World& world, std::shared_ptr<
                             std::shared_ptr<PairVolumes> volumes) {
   const RateFields rates(s, world.particles);
   const ForceFields forces(s, world.particles);
-  const auto pairs =
-      std::make_shared<KeptPairs>(s, std::move(neighbours), rates.viscous(), forces.diffusion());
+  const KeptChoice choice{s.dim,           rates.viscous(),    rates.gradient(),
+                          forces.stress(), forces.diffusion(), rates.quadratic()};
+  const auto pairs = std::make_shared<KeptPairs>(s, std::move(neighbours), choice);
   auto watch = std::make_shared<WindowWatch>(pairs);
   add_viscous_speed(s, world);
   world.motions.push_back(watch);
   world.refreshes.push_back(watch);
-  return {std::make_shared<KeptRates>(s, rates, pairs, volumes),
-          std::make_shared<KeptForces>(s, forces, pairs, volumes)};
+  return {std::make_shared<KeptRates>(s, choice, rates, pairs, volumes),
+          std::make_shared<KeptForces>(choice, forces, pairs, volumes)};
 }
 
 }  // namespace courant

@@ -39,8 +39,7 @@ class Window {
 /// The window and the memory for its gradients.
 class KeptPairs {
  public:
-  KeptPairs(const SphSettings& settings, std::shared_ptr<Neighbours> neighbours, bool viscous,
-            bool diffusion);
+  KeptPairs(const SphSettings& settings, std::shared_ptr<Neighbours> neighbours, const KeptChoice& choice);
   Window window;
   bool open(Real h, const Clock& clock);
   /// Before the lists of a window that just opened are filled.
@@ -50,7 +49,8 @@ class KeptPairs {
  private:
   struct Block {
     Buffer<Index> list;
-    Buffer<float> gradients, factors;
+    Buffer<Short> gradients;
+    Buffer<Brief> factors;
     std::array<Index, Neighbours::groups_per_block + 1> start;
   };
   std::shared_ptr<Neighbours> neighbours_;

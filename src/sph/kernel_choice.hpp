@@ -52,5 +52,10 @@ inline Real gradient_norm(KernelChoice choice, int dim, Real h) {
     return decltype(kernel)::gradient_factor * decltype(kernel)::C(dim) / std::pow(h, dim + 1);
   });
 }
+/// The largest value of `gradient` of a kernel.
+inline Real steepest_gradient(KernelChoice choice) {
+  return with_kernel(
+      choice, [](auto kernel) { return decltype(kernel)::gradient(Real(decltype(kernel)::steepest)); });
+}
 
 }  // namespace courant

@@ -11,6 +11,8 @@ class RateFields {
  public:
   RateFields(const SphSettings& s, Particles& p);
   bool viscous() const { return viscous_speed_ != nullptr; }
+  /// Viscosity has its quadratic part: no velocity is so high that less would matter. Decks cannot say 0.
+  bool quadratic() const { return viscous() && q2_ > 1e-12; }
   bool gradient() const { return strain_ != nullptr; }
   PairArrays arrays(Particles& p, const PairVolumes& volumes) const;
 

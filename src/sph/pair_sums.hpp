@@ -186,32 +186,37 @@ PairLoop forces_of(const ForcesChoice& c) {
 
 template <class Kernel, int Dim>
 void fix(const PairArrays& a, const KeptLists& lists) {
-  const Real hinv = 1 / a.h0;
+  const Real hinv = 1 / a.h0, twice_q2 = 2 * a.q2;
   const Pack tiny = Pack::of(tiny_distance2 * a.h0 * a.h0), eta2 = Pack::of(0.01 * a.h0 * a.h0);
-  const Pack least = Pack::of(1e-20 * hinv);  // for out of reach, where the approach is multiplied by 0
+  const Pack least = Pack::of(1e-3 * hinv);  // gradients less steep are rounded to 0
   Index kept = 0;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
-    const Pack mi = Pack::load(a.m + i, count), Vi = Pack::load(a.V + i, count);
+    const Pack mi = Pack::load(a.m + i, count), rhoi = mi / Pack::load(a.V + i, count);
+    const Pack qci = lists.viscous ? Pack::load(a.qc + i, count) : Pack::zero();
     lists.start[g] = kept;
     for (Index k = lists.all_start[g]; k < lists.all_start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.all[k];
       Difference<Dim> d(xi, a.x, j);
       d.advance(lists.ahead, Difference<Dim>(vi, a.v, j));
       const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2);
-      const Pack shape = gradient_shape<Kernel>(r2 * rinv * hinv, rinv);
+      const Pack shape = lists.scale * gradient_shape<Kernel>(r2 * rinv * hinv, rinv);
       if (!any_less(Pack::zero(), shape)) continue;
-      float* G = lists.gradients + std::ptrdiff_t(kept) * (Dim * lanes);
-      (shape * d.x).store(G);
-      (shape * d.y).store(G + lanes);
-      if constexpr (Dim == 3) (shape * d.z).store(G + 2 * lanes);
-      float* factor = lists.factors + std::ptrdiff_t(kept) * (lists.factor_count * lanes);
+      const Difference<Dim> G = times(0 - shape, d);
+      Short* gradient = lists.gradients + std::ptrdiff_t(kept) * (Dim * lanes);
+      G.x.narrow(gradient), G.y.narrow(gradient + lanes);
+      if constexpr (Dim == 3) G.z.narrow(gradient + 2 * lanes);
+      Brief* factor = lists.factors + std::ptrdiff_t(kept) * (lists.factor_count * lanes);
       if (lists.viscous) {
-        (-a.h0 / (max(shape, least) * (r2 + eta2))).store(factor);
-        (lists.mV / (mi * a.V[j] + Vi * a.m[j])).store(factor + lanes);
+        // the mu of eq. 16 is s h/D, and m_i m_j Pi is m_i m_j/(rho_i + rho_j) mu (q_i c_i + q_j c_j + 2 q2
+        // mu)
+        const Pack D = max(shape, least) * (r2 + eta2);
+        const Pack w = a.h0 * (mi * a.m[j]) / (D * ((rhoi + a.m[j] / a.V[j]) * lists.mV));
+        ((qci + a.qc[j]) * w).narrow(factor);
+        if (lists.quadratic) (twice_q2 * a.h0 / D * w).narrow(factor + lanes);
       }
-      if (lists.diffusion) (a.h0 * shape).store(factor + (lists.factor_count - 1) * lanes);
+      if (lists.diffusion) (a.h0 * shape).narrow(factor + (lists.factor_count - 1) * lanes);
       lists.list[kept++] = lists.all[k];
     }
     lists.start[g + 1] = kept;
