@@ -29,6 +29,16 @@ std::string energy_warning(const EnergyLedger& e) {
       std::abs(percent), percent > 0 ? "came from nowhere" : "was lost");
 }
 
+/// Opening a window costs more than one that lasts for a step saves. The first opens blind.
+std::string windows_warning(const Summary& s) {
+  const auto windows = s.counters.find("pair_geometry_windows");
+  if (windows == s.counters.end() || windows->second < 10 || s.steps >= 2 * windows->second) return {};
+  return fmt::format(
+      "warning: the {} windows of *COURANT_PAIR_GEOMETRY lasted {:.1f} steps on average and cost more than "
+      "they saved: leave it out, or raise EPS",
+      windows->second, static_cast<Real>(s.steps) / static_cast<Real>(windows->second));
+}
+
 void add_timing(const Summary& s, std::vector<std::string>& out) {
   const double total = s.read_seconds + s.wall_seconds;
   const auto row = [&](const std::string& name, double seconds) {
@@ -75,6 +85,7 @@ std::vector<std::string> end_warnings(const Summary& s) {
                     "for what hits the wall so fast",
                     s.leaked_particles, s.leaked_particles == 1 ? "" : "s"));
   if (const std::string text = energy_warning(s.energy); !text.empty()) out.push_back(text);
+  if (const std::string text = windows_warning(s); !text.empty()) out.push_back(text);
   for (std::string& text : range_warnings(s.ranges)) out.push_back(std::move(text));
   return out;
 }

@@ -63,7 +63,7 @@ COURANT_INLINE Native native_rsqrt(Native x) {
 #endif
 }
 
-COURANT_INLINE Native native_from(const Short* p) {
+COURANT_INLINE Native native_from(const Fixed16* p) {
 #if COURANT_SIMD_BYTES == 64
   return _mm512_cvtepi32_pd(_mm256_cvtepi16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))));
 #elif COURANT_SIMD_BYTES == 32
@@ -74,7 +74,7 @@ COURANT_INLINE Native native_from(const Short* p) {
   return out;
 #endif
 }
-COURANT_INLINE Native native_from(const Brief* p) {
+COURANT_INLINE Native native_from(const Float16* p) {
 #if COURANT_SIMD_BYTES == 64
   const __m256i wide = _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)));
   return _mm512_cvtps_pd(_mm256_castsi256_ps(_mm256_slli_epi32(wide, 16)));
@@ -89,7 +89,7 @@ COURANT_INLINE Native native_from(const Brief* p) {
 #endif
 }
 /// To the nearest. What is not a number becomes some integer.
-COURANT_INLINE void native_to(Native x, Short* p) {
+COURANT_INLINE void native_to(Native x, Fixed16* p) {
 #if COURANT_SIMD_BYTES == 64
   _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvtsepi32_epi16(_mm512_cvtpd_epi32(x)));
 #elif COURANT_SIMD_BYTES == 32
@@ -97,10 +97,10 @@ COURANT_INLINE void native_to(Native x, Short* p) {
   _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_packs_epi32(wide, wide));
 #else
   for (int k = 0; k < native_lanes; ++k)
-    p[k] = x[k] == x[k] ? static_cast<Short>(x[k] < 0 ? x[k] - 0.5 : x[k] + 0.5) : Short(0);
+    p[k] = x[k] == x[k] ? static_cast<Fixed16>(x[k] < 0 ? x[k] - 0.5 : x[k] + 0.5) : Fixed16(0);
 #endif
 }
-COURANT_INLINE void native_to(Native x, Brief* p) {
+COURANT_INLINE void native_to(Native x, Float16* p) {
 #if COURANT_SIMD_BYTES == 64
   const __m256i bits = _mm256_add_epi32(_mm256_castps_si256(_mm512_cvtpd_ps(x)), _mm256_set1_epi32(0x8000));
   _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvtepi32_epi16(_mm256_srli_epi32(bits, 16)));
@@ -110,7 +110,7 @@ COURANT_INLINE void native_to(Native x, Brief* p) {
   _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_packus_epi32(half, half));
 #else
   for (int k = 0; k < native_lanes; ++k)
-    p[k] = static_cast<Brief>((std::bit_cast<std::uint32_t>(static_cast<float>(x[k])) + 0x8000u) >> 16);
+    p[k] = static_cast<Float16>((std::bit_cast<std::uint32_t>(static_cast<float>(x[k])) + 0x8000u) >> 16);
 #endif
 }
 
@@ -137,7 +137,7 @@ struct Pack {
     for (Index k = 0; k < lanes; ++k) copy[k] = p[k < n ? k : n - 1];
     return load(copy);
   }
-  /// From and to 16 bits: Short or Brief.
+  /// From and to 16 bits: Fixed16 or Float16.
   template <class T>
   COURANT_INLINE static Pack widen(const T* p) {
     Pack out;

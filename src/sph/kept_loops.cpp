@@ -7,13 +7,13 @@ namespace courant::COURANT_SIMD {
 
 namespace {
 
-constexpr std::ptrdiff_t ahead = 16;  ///< entries from the one in work to the one asked for from memory
+constexpr std::ptrdiff_t prefetch_distance = 16;  ///< entries from the one in work to the one asked for
 
 /// Of entry k.
 template <int Dim>
 COURANT_INLINE Difference<Dim> gradient_of(const KeptLists& lists, std::ptrdiff_t k) {
-  const Short* kept = lists.gradients + k * (Dim * lanes);
-  __builtin_prefetch(kept + ahead * Dim * lanes);
+  const Fixed16* kept = lists.gradients + k * (Dim * lanes);
+  __builtin_prefetch(kept + prefetch_distance * Dim * lanes);
   Difference<Dim> G;
   G.x = Pack::widen(kept), G.y = Pack::widen(kept + lanes), G.z = Pack::zero();
   if constexpr (Dim == 3) G.z = Pack::widen(kept + 2 * lanes);
@@ -35,8 +35,8 @@ void rates(const PairArrays& a, const KeptLists& lists) {
       const Pack u_dot_G = dot(u, G);
       div += u_dot_G * a.V[j];
       if constexpr (Viscous) {
-        const Brief* factor = lists.factors + k * stride;
-        __builtin_prefetch(factor + ahead * stride);
+        const Float16* factor = lists.factors + k * stride;
+        __builtin_prefetch(factor + prefetch_distance * stride);
         const Pack approach = max(u_dot_G, Pack::zero());
         Pack viscous = Pack::widen(factor);
         if constexpr (Quadratic) viscous += Pack::widen(factor + lanes) * approach;

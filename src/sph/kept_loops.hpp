@@ -10,20 +10,20 @@ namespace courant {
 /// The lists of particles [begin, end), without the entries that are out of reach of all eight, and for each
 /// entry eight times these numbers, of 16 bits:
 ///   gradients: G = grad W / norm [-], `dim` components, rounded to integers: by 1.5e-5 of the steepest
-///   factors, rounded by 0.2 % of themselves, what else is asked for, in this order:
+///   factors, rounded by up to 0.4 % of themselves, what else is asked for, in this order:
 ///     if `viscous`: Q [L/T], and if `quadratic` P [-]; Monaghan's m_i m_j Pi / mV is s (Q + P s) for
 ///       s = v_ij.G > 0, two particles that approach, else 0 (eqs 15-16)
 ///     if `diffusion`: h |G| / r [-]
-/// Of a pair and the same pair the other way round, G are opposite and factors equal to the last bit, so that
-/// momentum and energy are kept. Two arrays, since forces rarely need more than gradients and wait for
-/// memory.
+/// Of a pair of particles and the same pair the other way round, G are opposite and factors equal to the last
+/// bit, so that momentum and energy are kept. Two arrays, since forces rarely need more than gradients and
+/// wait for memory.
 struct KeptLists {
   const Index* all;        ///< entries of the search, of which a window keeps some
   const Index* all_start;  ///< of each group of eight, and the end
   Index* list;
   Index* start;
-  Short* gradients;
-  Brief* factors;
+  Fixed16* gradients;
+  Float16* factors;
   int factor_count;  ///< of an entry
   bool viscous, quadratic, diffusion;
   Real scale;  ///< turns the kernel's `gradient` into |G|: its largest is the largest integer

@@ -37,7 +37,7 @@ KeptPairs::KeptPairs(const SphSettings& s, std::shared_ptr<Neighbours> neighbour
     : window(s.geometry_eps), neighbours_(std::move(neighbours)), kernel_(s.kernel), dim_(s.dim) {
   shape_.viscous = choice.viscous, shape_.quadratic = choice.quadratic, shape_.diffusion = choice.diffusion;
   shape_.factor_count = int(choice.viscous) + int(choice.quadratic) + int(choice.diffusion);
-  shape_.scale = largest_short / steepest_gradient(kernel_);
+  shape_.scale = largest_fixed16 / steepest_gradient(kernel_);
 }
 
 bool KeptPairs::open(Real h, const Clock& clock) {
@@ -74,16 +74,24 @@ class KeptRates : public Rate, public Keeper {
       : name_(rates_name(s)),
         pairs_(std::move(pairs)),
         volumes_(std::move(volumes)),
+        q_(s.q),
         fields_(fields),
         fix_(fix_loop(s.kernel, s.dim)),
         loop_(kept_rates_loop(choice)) {}
   std::string name() const override { return name_; }
 
   void start(World& world, const Clock& clock) override {
-    const Particles& p = world.particles;
-    a_ = fields_.arrays(world.particles, *volumes_);
+    Particles& p = world.particles;
+    a_ = fields_.arrays(p, *volumes_);
     opens_ = pairs_->open(a_.h0, clock);
     if (!opens_) return;
+    ++world.counters["pair_geometry_windows"];
+    if (fields_.viscous()) {
+      Real* qc = sph_fields::viscous_speed(p).data();
+      for_each_block(p.moving,
+                     [&](Index begin, Index end) { work_out_viscous_speed(q_, p, begin, end, qc); });
+      for (const auto& e : world.exchangers) e->before_rates(world);  // images have it, too
+    }
     pairs_->prepare(a_);
     copy(a_.V, p.moving, V_);
     if (fields_.viscous()) copy(a_.qc, p.moving, qc_);
@@ -138,6 +146,7 @@ class KeptRates : public Rate, public Keeper {
   std::string name_;
   std::shared_ptr<KeptPairs> pairs_;
   std::shared_ptr<PairVolumes> volumes_;
+  std::vector<PartViscosity> q_;
   RateFields fields_;
   KeptLoop fix_, loop_;
   PairArrays a_{};
@@ -201,7 +210,6 @@ PairPasses make_kept_passes(const SphSettings& s, World& world, std::shared_ptr<
                           forces.stress(), forces.diffusion(), rates.quadratic()};
   const auto pairs = std::make_shared<KeptPairs>(s, std::move(neighbours), choice);
   auto watch = std::make_shared<WindowWatch>(pairs);
-  add_viscous_speed(s, world);
   world.motions.push_back(watch);
   world.refreshes.push_back(watch);
   return {std::make_shared<KeptRates>(s, choice, rates, pairs, volumes),

@@ -49,8 +49,8 @@ class KeptPairs {
  private:
   struct Block {
     Buffer<Index> list;
-    Buffer<Short> gradients;
-    Buffer<Brief> factors;
+    Buffer<Fixed16> gradients;
+    Buffer<Float16> factors;
     std::array<Index, Neighbours::groups_per_block + 1> start;
   };
   std::shared_ptr<Neighbours> neighbours_;

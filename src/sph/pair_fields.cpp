@@ -6,6 +6,12 @@
 
 namespace courant {
 
+void work_out_viscous_speed(const std::vector<PartViscosity>& q, const Particles& p, Index begin, Index end,
+                            Real* qc) {
+  const Real* c = p.c.data();
+  for (Index i = begin; i < end; ++i) qc[i] = q[p.part[i]].q1 * c[i];
+}
+
 RateFields::RateFields(const SphSettings& s, Particles& p) : heat_(&sph_fields::dissipation(p)) {
   if (const auto* monaghan = std::get_if<MonaghanViscosity>(&s.viscosity)) {
     viscous_speed_ = &sph_fields::viscous_speed(p);

@@ -5,6 +5,10 @@
 
 namespace courant {
 
+/// q1 c of particles [begin, end), as pair loops read it of neighbours; q: of each part.
+void work_out_viscous_speed(const std::vector<PartViscosity>& q, const Particles& p, Index begin, Index end,
+                            Real* qc);
+
 /// Of the rates: continuity, and what else needs the velocities of neighbours: Monaghan's viscosity and the
 /// velocity gradient.
 class RateFields {

@@ -188,7 +188,8 @@ template <class Kernel, int Dim>
 void fix(const PairArrays& a, const KeptLists& lists) {
   const Real hinv = 1 / a.h0, twice_q2 = 2 * a.q2;
   const Pack tiny = Pack::of(tiny_distance2 * a.h0 * a.h0), eta2 = Pack::of(0.01 * a.h0 * a.h0);
-  const Pack least = Pack::of(1e-3 * hinv);  // gradients less steep are rounded to 0
+  // |G|/r below which G is rounded to 0 anywhere within 3 h, so that it does not matter what D is
+  const Pack least = Pack::of(1e-3 * hinv);
   Index kept = 0;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
@@ -204,10 +205,10 @@ void fix(const PairArrays& a, const KeptLists& lists) {
       const Pack shape = lists.scale * gradient_shape<Kernel>(r2 * rinv * hinv, rinv);
       if (!any_less(Pack::zero(), shape)) continue;
       const Difference<Dim> G = times(0 - shape, d);
-      Short* gradient = lists.gradients + std::ptrdiff_t(kept) * (Dim * lanes);
+      Fixed16* gradient = lists.gradients + std::ptrdiff_t(kept) * (Dim * lanes);
       G.x.narrow(gradient), G.y.narrow(gradient + lanes);
       if constexpr (Dim == 3) G.z.narrow(gradient + 2 * lanes);
-      Brief* factor = lists.factors + std::ptrdiff_t(kept) * (lists.factor_count * lanes);
+      Float16* factor = lists.factors + std::ptrdiff_t(kept) * (lists.factor_count * lanes);
       if (lists.viscous) {
         // the mu of eq. 16 is s h/D, and m_i m_j Pi is m_i m_j/(rho_i + rho_j) mu (q_i c_i + q_j c_j + 2 q2
         // mu)

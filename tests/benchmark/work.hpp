@@ -37,14 +37,14 @@ enum class Gradients { again, kept, window };
 /// and of src/sph/kept_loops.hpp, per entry in reach:
 ///   v_i - v_j, u . G          5   8   rates
 ///   div                       2   2   rates
-///   mu 2, viscosity 6         8   8   rates
+///   viscosity, linear         2   2   rates (4 with its quadratic part, which no benchmark has)
 ///   its force and power       6   8   rates
 ///   V (p_i + p_j)             2   2   forces
 ///   pressure force            4   6   forces
 /// Opening a window costs some 70 operations for each entry, which are left out.
 constexpr PairWork pair_work(int dim, Gradients gradients) {
   const int d = dim == 2 ? 2 : 3, r2 = dim == 2 ? 4 : 6, dot = dim == 2 ? 3 : 5, add = 2 * d, gradient = 22;
-  if (gradients == Gradients::window) return {d + dot + 2 + 8 + add + 2, 2 + add};
+  if (gradients == Gradients::window) return {d + dot + 2 + 2 + add + 2, 2 + add};
   const int forces = d + (gradients == Gradients::kept ? 0 : r2 + gradient) + 2 + add;
   return {2 * d + r2 + dot + gradient + 10 + dot + 3 + 17 + add + 2, forces};
 }
@@ -69,10 +69,10 @@ constexpr int numbers_streamed(int dim) {
 }
 
 /// Bytes per particle and step: fields, lists (read by both pair loops), kept gradients (stored and loaded;
-/// in windows loaded twice, and two factors once, four bytes each). entries: of the lists, per group of eight
+/// in windows loaded twice, and one factor once, two bytes each). entries: of the lists, per group of eight
 /// and so also lanes looked at per particle.
 constexpr Real bytes_streamed(int dim, Real entries, Gradients gradients) {
-  const Real of_pairs = gradients == Gradients::window ? (2 * dim + 2) * 32
+  const Real of_pairs = gradients == Gradients::window ? (2 * dim + 1) * 16
                         : gradients == Gradients::kept ? 2 * 64
                                                        : 0;
   return 8.0 * numbers_streamed(dim) + entries / 8 * (2 * sizeof(Index) + of_pairs);

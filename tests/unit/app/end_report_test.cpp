@@ -36,6 +36,18 @@ TEST(EndReport, WarnsOfLeaksAndOfALedgerThatDoesNotClose) {
   EXPECT_THAT(end_warnings(s), IsEmpty());
 }
 
+TEST(EndReport, WarnsOfWindowsThatLastForLessThanTwoSteps) {
+  Summary s = closed();
+  s.steps = 300;
+  s.counters["pair_geometry_windows"] = 150;
+  EXPECT_THAT(end_warnings(s), IsEmpty());
+  s.counters["pair_geometry_windows"] = 200;
+  EXPECT_THAT(end_warnings(s),
+              ElementsAre(HasSubstr("200 windows of *COURANT_PAIR_GEOMETRY lasted 1.5 steps")));
+  s.steps = s.counters["pair_geometry_windows"] = 1;  // a run that ends at once
+  EXPECT_THAT(end_warnings(s), IsEmpty());
+}
+
 TEST(EndReport, TableHoldsEveryRowAndTheTotal) {
   Summary s = closed();
   s.read_seconds = 1, s.wall_seconds = 3;

@@ -242,7 +242,7 @@ TEST(Passes, PrescribedMotionOfParticles) {
 TEST(Passes, KeptPairGeometry) {
   SmallScene scene;
   scene.extra = "*COURANT_PAIR_GEOMETRY\n0.005\n";
-  expect_change(scene, {"kept pair geometry"}, {"motion kept pair geometry"});
+  expect_change(scene, {"kept pair geometry"}, {"motion kept pair geometry"}, {}, {"motion sph factors"});
 }
 
 TEST(Passes, AnotherEquationOfState) {

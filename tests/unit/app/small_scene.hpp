@@ -20,8 +20,9 @@ struct SmallScene {
   std::string section = "1,1.2,1.,1.";
   std::string material = "1,1000.,-1.E20";
   std::string eos = "*EOS_LINEAR_POLYNOMIAL\n1,0.,9.E5\n";
-  std::string box = "";    ///< number of a box in *CONTROL_SPH
-  std::string extra = "";  ///< keywords
+  std::string hourglass = "1,0,0,0,1.E-20,0.1";  ///< Q1 (the quadratic coefficient), Q2 (the linear one)
+  std::string box = "";                          ///< number of a box in *CONTROL_SPH
+  std::string extra = "";                        ///< keywords
 
   std::string text() const {
     std::string nodes, particles;
@@ -36,7 +37,7 @@ struct SmallScene {
         }
     return "*KEYWORD\n*NODE\n" + nodes + "*ELEMENT_SPH\n" + particles +
            "*PART\nwater\n1,1,1,1,1\n*SECTION_SPH\n" + section + "\n*MAT_NULL\n" + material + "\n" + eos +
-           "*HOURGLASS\n1,0,0,0,1.E-20,0.1\n*CONTROL_SPH\n1," + (box.empty() ? "0" : box) +
+           "*HOURGLASS\n" + hourglass + "\n*CONTROL_SPH\n1," + (box.empty() ? "0" : box) +
            fmt::format(",1.E20,{}", dim) + control_sph + "\n" +
            (timestep.empty() ? "" : "*CONTROL_TIMESTEP\n" + timestep + "\n") + "*CONTROL_TERMINATION\n" +
            termination + "\n*INITIAL_VELOCITY\n0\n" + start + "\n" + extra + "*END\n";
