@@ -210,8 +210,8 @@ void fix(const PairArrays& a, const KeptLists& lists) {
       if constexpr (Dim == 3) G.z.narrow(gradient + 2 * lanes);
       Float16* factor = lists.factors + std::ptrdiff_t(kept) * (lists.factor_count * lanes);
       if (lists.viscous) {
-        // the mu of eq. 16 is s h/D, and m_i m_j Pi is m_i m_j/(rho_i + rho_j) mu (q_i c_i + q_j c_j + 2 q2
-        // mu)
+        // eq. 16: mu = s h/D; eq. 15: m_i m_j Pi = m_i m_j/(rho_i + rho_j) mu (Q' + 2 q2 mu), where Q' is
+        // q1_i c_i + q1_j c_j
         const Pack D = max(shape, least) * (r2 + eta2);
         const Pack w = a.h0 * (mi * a.m[j]) / (D * ((rhoi + a.m[j] / a.V[j]) * lists.mV));
         ((qci + a.qc[j]) * w).narrow(factor);
