@@ -93,6 +93,10 @@ class WallTables {
 ///   d rho_i/dt += 2 rho_i v_i.b_i,   f_i -= 2 V_i p_i b_i, p with that of bulk viscosity.
 /// The second is what belongs to the first, so that energy is kept. Friction: tau = CF rho v^2/2 along the
 /// wall, given to the particles that see it, whose kernels make up half of 1 there.
+///
+/// Spray, which has fewer neighbours than it takes to span the plane or space, has no sums to complete;
+/// contact alone holds it off. Else its own mirror image would hold a drop to the wall by tension, for ever,
+/// and the drop would swing against the stiff contact until it is driven through.
 class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keeper, public WallForceReporter {
  public:
   WallSupport(const SphSettings& s, World& world, const Neighbours& neighbours)
@@ -104,6 +108,7 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
                       ? sph_fields::pressure_plus_q(world.particles)
                       : world.particles.p),
         rubbing_(sph_fields::wall_rubbing(world.particles)),
+        neighbours_(neighbours),
         surface_(world, s.walls.segments, least_h(world) / points_per_h,
                  table_.support() * most_h(world) + neighbours.largest_skin()) {
     for (Index f = 0; f < surface_.faces(); ++f) {
@@ -138,7 +143,7 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
     view_.assign(p.active, nothing);
     for_each(p.active, [&](Index i) {
       const WallSurface::View view = surface_.view_from(p.x.vec(i));
-      if (!view.nothing) view_[i] = one_cf_ && view.flat >= 0 ? view.flat : pieces;
+      if (!view.nothing && !is_spray(p, i)) view_[i] = one_cf_ && view.flat >= 0 ? view.flat : pieces;
       slope_.set(i, Vec::Zero());
       fill_[i] = rubbing_[i] = 0;
     });
@@ -192,6 +197,15 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
   }
 
  private:
+  bool is_spray(const Particles& p, Index i) const {
+    const Real reach2 = power<2>(table_.support() * p.h[i] + neighbours_.skin());
+    int others = 0;
+    for (const Index j : neighbours_.of_group(i / Neighbours::lanes)) {
+      if (j != i && (p.x.vec(j) - p.x.vec(i)).squaredNorm() < reach2) ++others;
+      if (others == dim_) return false;
+    }
+    return true;
+  }
   Vec friction_on(const Particles& p, Index i, const Vec& v) const {
     if (!(rubbing_[i] > 0)) return Vec::Zero();
     const Vec n = slope_.vec(i).normalized(), along = v - v.dot(n) * n;
@@ -248,6 +262,7 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
   Field<Real>&slope_, &fill_;
   Field<Real>& pressure_;  ///< with that of bulk viscosity, as pair forces take it
   Field<Real>& rubbing_;
+  const Neighbours& neighbours_;
   WallSurface surface_;
   std::vector<Real> cf_;  ///< of each face
   /// Of active particles, until the next refresh: `nothing`, `pieces` or a face of the one plane they see.

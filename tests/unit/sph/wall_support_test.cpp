@@ -233,6 +233,25 @@ TEST(WallSupport, FrictionIsHalfRhoVSquaredTimesCf) {
   EXPECT_NEAR(drag / (-0.5 * 1000 * 4 * 0.004 * 1.2), 1, 0.02);
 }
 
+TEST(WallSupport, ADropOfOneOrTwoParticlesIsNotHeldByItsMirrorImage) {
+  for (const std::string second : {"", "*NODE\n2,0.15,0.05,0.\n*ELEMENT_SPH\n2,1,10.\n"}) {
+    test::SmallScene scene;
+    scene.n = 1;
+    scene.section = "1,1.2,1.,1.,0.12";
+    scene.start = "0.,-3.,0.";
+    scene.extra = floor_cards() + support + second + test::gravity_cards;
+    const auto s = test::build_deck(scene.text(), false);
+    Real lowest = 1;
+    while (s->clock().t < 0.2) {
+      s->step([](World&, const Clock&, const std::string&) {});
+      lowest = std::min(lowest, s->world().particles.x.vec(0)[1]);
+    }
+    const Particles& p = s->world().particles;
+    EXPECT_GT(lowest, 0);
+    for (Index i = 0; i < p.active; ++i) EXPECT_GT(p.v.vec(i)[1], 0.5) << "particle " << i;  // it flies up
+  }
+}
+
 TEST(WallSupport, EnergyOfAnImpactIsKeptAsWellAsWithoutIt) {
   const auto residual = [&](const std::string& more, const std::string& control_sph) {
     const auto s =
