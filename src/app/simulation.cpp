@@ -96,6 +96,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   neighbours_ = std::make_shared<Neighbours>(first_skin * h, sph_.region, kernel_support(sph_.kernel));
   neighbours_->adapt_skin(least_skin * h, most_skin * h,
                           sph_.geometry_eps > 0 ? skin_weight_of_windows : skin_weight);
+  if (!sph_.evolving_h) neighbours_->keep_h();
   make_injected_wait(injections_, world_, *neighbours_);
   if (injections_.inlets.empty()) left_out_.push_back({"inlets", "no *DEFINE_SPH_INJECTION"});
   add_images(h, diagnostics);

@@ -73,12 +73,12 @@ class Neighbours::Watch : public Motion {
   }
   void look(const Particles& p, Index begin, Index end) {
     const Real* const x[3] = {p.x.data(0), p.x.data(1), p.x.data(2)};
-    const auto [most2, within] =
-        loops_.moved({{x[0], x[1], x[2]},
-                      p.h.data(),
-                      {lists_.x_built_.data(), lists_.y_built_.data(), lists_.z_built_.data()},
-                      lists_.h_built_.data()},
-                     0.5 * lists_.skin_, begin, end);
+    const auto [most2, within] = loops_.moved({{x[0], x[1], x[2]},
+                                               p.h.data(),
+                                               {lists_.x_built_.data(), lists_.y_built_.data(),
+                                                lists_.z_built_.empty() ? nullptr : lists_.z_built_.data()},
+                                               lists_.h_built_.empty() ? nullptr : lists_.h_built_.data()},
+                                              0.5 * lists_.skin_, begin, end);
     bool stale = !within;
     const auto inside = [&](Index first, Index last) {
       return loops_.inside(lists_.region_->low.data(), lists_.region_->high.data(), x, first, last);
@@ -221,7 +221,7 @@ void Neighbours::stop_for_leaps(const World& world, const Clock& clock) const {
   const Particles& p = world.particles;
   if (!(watch_->largest_move() > longest_leap * h_max_)) return;
   for (Index i = 0; i < p.active; ++i) {
-    const Vec before(x_built_[i], y_built_[i], z_built_[i]);
+    const Vec before(x_built_[i], y_built_[i], world.dim == 3 ? z_built_[i] : p.x.vec(i)[2]);
     const Real moved = (p.x.vec(i) - before).norm();
     if (!(moved - 0.5 * skin_ > longest_leap * p.h[i]) || !std::isfinite(moved)) continue;
     throw RunError(
@@ -417,13 +417,15 @@ void Neighbours::build_lists(World& world) {
 void Neighbours::remember_places(const World& world, const Clock& clock) {
   const Particles& p = world.particles;
   const Index n = p.moving;
-  for (auto* copy : {&x_built_, &y_built_, &z_built_, &h_built_}) copy->resize(n);
-  for_each_block(n, [&](Index begin, Index end) {
-    std::copy(p.x.data(0) + begin, p.x.data(0) + end, x_built_.data() + begin);
-    std::copy(p.x.data(1) + begin, p.x.data(1) + end, y_built_.data() + begin);
-    std::copy(p.x.data(2) + begin, p.x.data(2) + end, z_built_.data() + begin);
-    std::copy(p.h.data() + begin, p.h.data() + end, h_built_.data() + begin);
-  });
+  const auto copy = [n](const Real* from, Array<Real>& to) {
+    to.resize(n);
+    for_each_block(n,
+                   [&](Index begin, Index end) { std::copy(from + begin, from + end, to.data() + begin); });
+  };
+  copy(p.x.data(0), x_built_), copy(p.x.data(1), y_built_);
+  z_built_.clear(), h_built_.clear();
+  if (world.dim == 3) copy(p.x.data(2), z_built_);
+  if (h_changes_) copy(p.h.data(), h_built_);
   built_cycle_ = clock.cycle;
   if (rebuilds_ == 0) find_moving_nodes(world);
   nodes_built_.clear();

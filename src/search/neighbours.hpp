@@ -34,6 +34,9 @@ class Neighbours {
   /// move d in a step. `weight`: what rebuilding costs against looking at entries, by measurement.
   void adapt_skin(Real least, Real most, Real weight);
 
+  /// Smoothing lengths never change, so nobody need look whether they have grown.
+  void keep_h() { h_changes_ = false; }
+
   /// From now on the lists also hold images of particles behind planes.
   void set_images(std::shared_ptr<Images> images) { images_ = std::move(images); }
   const Images* images() const { return images_.get(); }
@@ -117,7 +120,7 @@ class Neighbours {
   std::vector<InletPlane> inlets_;
   const Field<Index>* inlet_ = nullptr;  ///< of waiting particles; null: there are none
   FindNear find_near_;
-  bool built_ = false;
+  bool built_ = false, h_changes_ = true;
   std::int64_t built_cycle_ = 0;
   Real h_max_ = 0, h_min_ = 0;
   CellGrid grid_;
@@ -134,7 +137,7 @@ class Neighbours {
   std::vector<signed char> group_;
   std::vector<Index> moving_nodes_;  ///< shell nodes that are not held: contact relies on the skin, too
   std::vector<Vec> nodes_built_;
-  Array<Real> x_built_, y_built_, z_built_, h_built_;
+  Array<Real> x_built_, y_built_, z_built_, h_built_;  ///< z and h: empty where they do not change
   std::shared_ptr<Watch> watch_;
   std::vector<Index> entered_, left_;
   std::int64_t rebuilds_ = 0;

@@ -42,6 +42,7 @@ Real least_crossing(const Real* h, const Real* c, const Real* const v[3], Index 
   return broken ? __builtin_nan("") : least;
 }
 
+template <bool Spatial, bool Grows>
 ParticleLoops::Moved moved(const ParticleLoops::Places& q, Real reach, Index begin, Index end) {
   const Real *x = q.x[0], *y = q.x[1], *z = q.x[2], *h = q.h;
   const Real *xb = q.x_before[0], *yb = q.x_before[1], *zb = q.x_before[2], *hb = q.h_before;
@@ -49,13 +50,19 @@ ParticleLoops::Moved moved(const ParticleLoops::Places& q, Real reach, Index beg
   int beyond = 0;
 #pragma omp simd reduction(max : most) reduction(| : beyond)
   for (Index i = begin; i < end; ++i) {
-    const Real dx = x[i] - xb[i], dy = y[i] - yb[i], dz = z[i] - zb[i];
+    const Real dx = x[i] - xb[i], dy = y[i] - yb[i], dz = Spatial ? z[i] - zb[i] : 0;
     const Real moved2 = dx * dx + dy * dy + dz * dz;
-    const Real grown = h[i] - hb[i], left = reach - (grown < 0 ? 0 : grown), room = left < 0 ? 0 : left;
+    const Real grown = Grows ? h[i] - hb[i] : 0, left = reach - (grown < 0 ? 0 : grown),
+               room = left < 0 ? 0 : left;
     beyond |= moved2 < room * room ? 0 : 1;  // 1 also for NaN
     most = most < moved2 ? moved2 : most;
   }
   return {most, beyond == 0};
+}
+ParticleLoops::Moved moved(const ParticleLoops::Places& q, Real reach, Index begin, Index end) {
+  if (q.x_before[2])
+    return q.h_before ? moved<true, true>(q, reach, begin, end) : moved<true, false>(q, reach, begin, end);
+  return q.h_before ? moved<false, true>(q, reach, begin, end) : moved<false, false>(q, reach, begin, end);
 }
 
 Index inside(const Real low[3], const Real high[3], const Real* const at[3], Index begin, Index end) {

@@ -23,7 +23,7 @@ struct ParticleLoops {
     bool within;  ///< false also where something is not a number
   };
   struct Places {
-    const Real *x[3], *h, *x_before[3], *h_before;
+    const Real *x[3], *h, *x_before[3], *h_before;  ///< x_before[2], h_before: null where they do not change
   };
   Moved (*moved)(const Places& places, Real reach, Index begin, Index end);
   /// How many are in a box, its faces included.
