@@ -20,7 +20,7 @@ namespace {
 /// Neighbour lists hold until something moved half the skin; of h. See docs/performance.md.
 constexpr Real least_skin = 0.02, first_skin = 0.1, most_skin = 0.4;
 /// Where gradients are kept over steps, entries out of reach are looked at once in a window only.
-constexpr Real skin_weight = 7, skin_weight_of_windows = 28;
+constexpr Real skin_weight = 14, skin_weight_of_windows = 28;
 
 }  // namespace
 

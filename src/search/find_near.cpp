@@ -4,13 +4,13 @@
 namespace courant {
 
 namespace baseline {
-Index find_near(const NearQuery&, Index, Index, Index*);
+void find_near(const NearQuery&, Index, Index, NearFound&);
 }
 namespace avx2 {
-Index find_near(const NearQuery&, Index, Index, Index*);
+void find_near(const NearQuery&, Index, Index, NearFound&);
 }
 namespace avx512 {
-Index find_near(const NearQuery&, Index, Index, Index*);
+void find_near(const NearQuery&, Index, Index, NearFound&);
 }
 
 FindNear find_near() {

@@ -13,9 +13,15 @@ struct NearQuery {
   bool uniform_h;             ///< all h are that of particle `first`
 };
 
-/// Writes those of particles [begin, end) to `out` that are within support max(h_i, h_j) + skin of any
-/// particle i of the group; returns how many.
-using FindNear = Index (*)(const NearQuery& query, Index begin, Index end, Index* out);
+/// What was found so far, behind which there is room for all that is looked at next.
+struct NearFound {
+  Index *within, *beyond;
+  Index within_count = 0, beyond_count = 0;
+};
+
+/// Adds those of particles [begin, end) that are within support max(h_i, h_j) of any particle i of the group
+/// to `within`, those that are but within support max(h_i, h_j) + skin to `beyond`.
+using FindNear = void (*)(const NearQuery& query, Index begin, Index end, NearFound& found);
 
 /// For the machine the program runs on.
 FindNear find_near();

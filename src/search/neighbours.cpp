@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/run_error.hpp"
+#include "parallel/copy.hpp"
 #include "state/particle_loops.hpp"
 
 namespace courant {
@@ -349,7 +350,15 @@ void Neighbours::queue_dormant(const Particles& p) {
   waking_time_ = fastest > 0 ? waking_margin * h_max_ / fastest : 0;
 }
 
-Index Neighbours::list_of_group(const World& world, const NearQuery& q, std::vector<Index>& found) const {
+void Neighbours::Scratch::make_room(Index more) {
+  const auto grow = [more](std::vector<Index>& to, Index count) {
+    if (static_cast<Index>(to.size()) <= count + more) to.resize(2 * (count + more) + 64);
+  };
+  grow(within, found.within_count), grow(beyond, found.beyond_count);
+  found.within = within.data(), found.beyond = beyond.data();
+}
+
+void Neighbours::find_list_of_group(const World& world, const NearQuery& q, Scratch& scratch) const {
   const Particles& p = world.particles;
   Vec low = p.x.vec(q.first), high = low;
   for (Index k = 1; k < q.count; ++k) {
@@ -357,18 +366,16 @@ Index Neighbours::list_of_group(const World& world, const NearQuery& q, std::vec
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  Index count = 0;
+  scratch.found = {};
   grid_.near(low, high, support_ * h_max_ + skin_, [&](Index first, Index last) {
     for (const auto* start : {&active_start_, &rim_start_, &image_start_}) {
       if (start->empty()) continue;
       const Index begin = (*start)[first], end = (*start)[last + 1];
       if (begin == end) continue;
-      if (static_cast<Index>(found.size()) <= count + (end - begin))
-        found.resize(2 * (count + (end - begin)) + 64);
-      count += find_near_(q, begin, end, found.data() + count);
+      scratch.make_room(end - begin);
+      find_near_(q, begin, end, scratch.found);
     }
   });
-  return count;
 }
 
 void Neighbours::build_images(World& world) {
@@ -396,14 +403,17 @@ void Neighbours::build_lists(World& world) {
   for_each_block(n, [&](Index begin, Index end) {
     Block& b = blocks_[begin / block_size];
     NearQuery q{p.x.data(0), p.x.data(1), p.x.data(2), p.h.data(), 0, 0, skin_, support_, h_min_ == h_max_};
-    std::vector<Index> found(512), all;
+    Scratch scratch;
+    std::vector<Index> all;
     for (Index k = 0; k < groups_per_block; ++k) {
-      b.start[k] = static_cast<Index>(all.size());
+      b.start[k] = b.beyond[k] = static_cast<Index>(all.size());
       q.first = begin + k * lanes;
       q.count = std::min(lanes, end - q.first);
       if (q.count <= 0) continue;
-      const Index count = list_of_group(world, q, found);
-      all.insert(all.end(), found.begin(), found.begin() + count);
+      find_list_of_group(world, q, scratch);
+      all.insert(all.end(), scratch.within.begin(), scratch.within.begin() + scratch.found.within_count);
+      b.beyond[k] = static_cast<Index>(all.size());
+      all.insert(all.end(), scratch.beyond.begin(), scratch.beyond.begin() + scratch.found.beyond_count);
     }
     b.start[groups_per_block] = static_cast<Index>(all.size());
     std::copy(all.begin(), all.end(), b.list.grow_to(all.size()));
@@ -417,15 +427,10 @@ void Neighbours::build_lists(World& world) {
 void Neighbours::remember_places(const World& world, const Clock& clock) {
   const Particles& p = world.particles;
   const Index n = p.moving;
-  const auto copy = [n](const Real* from, Array<Real>& to) {
-    to.resize(n);
-    for_each_block(n,
-                   [&](Index begin, Index end) { std::copy(from + begin, from + end, to.data() + begin); });
-  };
-  copy(p.x.data(0), x_built_), copy(p.x.data(1), y_built_);
+  copy(p.x.data(0), n, x_built_), copy(p.x.data(1), n, y_built_);
   z_built_.clear(), h_built_.clear();
-  if (world.dim == 3) copy(p.x.data(2), z_built_);
-  if (h_changes_) copy(p.h.data(), h_built_);
+  if (world.dim == 3) copy(p.x.data(2), n, z_built_);
+  if (h_changes_) copy(p.h.data(), n, h_built_);
   built_cycle_ = clock.cycle;
   if (rebuilds_ == 0) find_moving_nodes(world);
   nodes_built_.clear();

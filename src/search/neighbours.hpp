@@ -19,8 +19,9 @@ namespace courant {
 /// Sorts particles so that near ones stand together, sets which of them are active, and keeps a Verlet list
 /// for every eight active particles in a row (a group): all particles within support max(h_i, h_j) + skin of
 /// any of them, itself included. So a pair loop loads eight particles i at once and takes one j after the
-/// other, without gathering; a kernel of zero sorts out those that only other lanes need. The lists hold
-/// until something (particles, or shell nodes that contact looks at) moved or grew by half the skin.
+/// other, without gathering; a kernel of zero sorts out those that only other lanes need. Entries that none
+/// of the eight had within its support when lists were built stand last. The lists hold until something
+/// (particles, or shell nodes that contact looks at) moved or grew by half the skin.
 class Neighbours {
  public:
   static constexpr Index lanes = 8;
@@ -68,6 +69,8 @@ class Neighbours {
   Index entries(Index b) const { return blocks_[b].start[groups_per_block]; }
   Index blocks() const { return static_cast<Index>(blocks_.size()); }
   const Index* starts(Index b) const { return blocks_[b].start.data(); }
+  /// Where those of the k-th group begin that were beyond the support of all eight.
+  const Index* beyond(Index b) const { return blocks_[b].beyond.data(); }
   const Index* list(Index b) const { return blocks_[b].list.data(); }
 
   Real skin() const { return skin_; }
@@ -89,6 +92,12 @@ class Neighbours {
   struct Block {
     Buffer<Index> list;
     std::array<Index, groups_per_block + 1> start;
+    std::array<Index, groups_per_block> beyond;
+  };
+  struct Scratch {
+    std::vector<Index> within = std::vector<Index>(512), beyond = within;
+    void make_room(Index more);
+    NearFound found{};
   };
   class Watch;
 
@@ -108,7 +117,7 @@ class Neighbours {
   void build_images(World& world);
   void count_cells(const World& world);
   void build_lists(World& world);
-  Index list_of_group(const World& world, const NearQuery& query, std::vector<Index>& found) const;
+  void find_list_of_group(const World& world, const NearQuery& query, Scratch& scratch) const;
   void remember_places(const World& world, const Clock& clock);
   bool nodes_moved(const World& world) const;
   void find_moving_nodes(const World& world);

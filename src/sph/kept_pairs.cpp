@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "parallel/copy.hpp"
 #include "sph/fields.hpp"
 #include "sph/pair_fields.hpp"
 #include "sph/pair_volumes.hpp"
@@ -127,11 +128,6 @@ class KeptRates : public Rate, public Keeper {
   }
 
  private:
-  static void copy(const Real* from, Index n, Array<Real>& to) {
-    to.resize(n);
-    for_each_block(n,
-                   [&](Index begin, Index end) { std::copy(from + begin, from + end, to.data() + begin); });
-  }
   /// Moving particles and their images are as they were when the window opened, or back.
   void exchange(World& world) {
     Particles& p = world.particles;

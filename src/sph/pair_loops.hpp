@@ -31,9 +31,13 @@ struct PairArrays {
 /// The lists of particles [begin, end); end - begin <= block_size.
 struct PairLists {
   const Index* list;
-  const Index* start;  ///< of each group of eight, and the end
-  Real* g;             ///< eight numbers for each entry, see Geometry
+  const Index* start;   ///< of each group of eight, and the end
+  const Index* beyond;  ///< where those begin that were beyond the support of all eight, of each group
   Index begin, end;
+  // What the loop that stores finds within the support now, and with it eight numbers for each; else null.
+  Index* kept;
+  Index* kept_start;
+  Real* g;
 };
 
 /// Whether (dW/dr)/r of the pairs (but for a constant) is worked out, or also stored, or taken from where

@@ -47,8 +47,16 @@ struct MovingShape {
   }
 };
 
+/// Whether entry k, of pairs of r2, may be left out: none of the eight has it within its support.
+template <class Kernel, bool UniformH>
+COURANT_INLINE bool is_beyond(const PairArrays& a, const Pack& hi, std::ptrdiff_t j, const Pack& r2) {
+  const Pack reach = Kernel::support * (UniformH ? hi : max(hi, Pack::of(a.h[j])));
+  return !any_less(r2, reach * reach);
+}
+
 template <class Kernel, int Dim, bool UniformH, bool Viscous, bool Gradient, Geometry geometry>
 void rates(const PairArrays& a, const PairLists& lists) {
+  Index kept = 0;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
@@ -63,14 +71,22 @@ void rates(const PairArrays& a, const PairLists& lists) {
     Pack div = Pack::zero(), power = Pack::zero();
     Dyads<Dim> gradient;
     Sum<Dim> force;
+    if constexpr (geometry == Geometry::store) lists.kept_start[g] = kept;
+    const Index beyond = lists.beyond[g];
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
-      const Difference<Dim> d(xi, a.x, j), u(vi, a.v, j);
-      const Pack r2 = dot(d, d) + tiny, u_dot_d = dot(u, d);
+      const Difference<Dim> d(xi, a.x, j);
+      const Pack r2 = dot(d, d) + tiny;
+      if (k >= beyond && is_beyond<Kernel, UniformH>(a, hi, j, r2)) continue;
+      const Difference<Dim> u(vi, a.v, j);
+      const Pack u_dot_d = dot(u, d);
       const Pack rinv = rsqrt(r2);
       const MovingShape<Kernel> kernel(r2 * rinv * hinv, rinv, two_hinv, u_dot_d * rinv, dot(u, u), r2,
                                        a.half_step);
-      if constexpr (geometry == Geometry::store) kernel.shape.store(lists.g + std::ptrdiff_t(k) * lanes);
+      if constexpr (geometry == Geometry::store) {
+        kernel.shape.store(lists.g + std::ptrdiff_t(kept) * lanes);
+        lists.kept[kept++] = lists.list[k];
+      }
       const Pack w = kernel.shape * a.V[j];
       div += w * u_dot_d - kernel.later * (a.half_step * a.V[j]);
       if constexpr (Viscous) {
@@ -96,6 +112,7 @@ void rates(const PairArrays& a, const PairLists& lists) {
       (0.5 * factor * power).store(a.heat + i, count);  // each partner takes half
     }
     if constexpr (Gradient) gradient.store(a.strain, i, count, 0 - norm);
+    if constexpr (geometry == Geometry::store) lists.kept_start[g + 1] = kept;
   }
 }
 
@@ -116,14 +133,18 @@ void forces(const PairArrays& a, const PairLists& lists) {
     const Pack potential = Diffusion ? Pack::load(a.potential + i, count) : Pack::zero();
     Sum<Dim> push, pull;
     Pack spread = Pack::zero();
-    for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
-      const std::ptrdiff_t j = lists.list[k];
+    const Index* const list = geometry == Geometry::load ? lists.kept : lists.list;
+    const Index* const start = geometry == Geometry::load ? lists.kept_start : lists.start;
+    for (Index k = start[g]; k < start[g + 1]; ++k) {
+      const std::ptrdiff_t j = list[k];
       const Difference<Dim> d(xi, a.x, j);
       Pack w, wj;  // with h_i and with h_j
       if constexpr (geometry == Geometry::load) {
         w = wj = Pack::load(lists.g + std::ptrdiff_t(k) * lanes) * a.V[j];
       } else {
-        const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2);
+        const Pack r2 = dot(d, d) + tiny;
+        if (k >= lists.beyond[g] && is_beyond<Kernel, UniformH>(a, hi, j, r2)) continue;
+        const Pack rinv = rsqrt(r2);
         w = wj = gradient_shape<Kernel>(r2 * rinv * hinv, rinv) * a.V[j];
         if constexpr (!UniformH)
           wj = gradient_shape<Kernel>(r2 * rinv * (1 / a.h[j]), rinv) *

@@ -50,6 +50,27 @@ TEST(Neighbours, FindPairsOfUnequalSmoothingLengths) {
   expect_complete(cloud);
 }
 
+TEST(Neighbours, PutWhatIsBeyondTheSupportOfAGroupLast) {
+  Cloud cloud(2, 25, 0.01, 0.3);
+  for (Index i = 0; i < cloud.world.particles.size(); i += 7) cloud.world.particles.h[i] *= 1.5;
+  cloud.refresh();
+  const Particles& p = cloud.world.particles;
+  const Neighbours& lists = *cloud.neighbours;
+  Index beyond = 0;
+  for (Index i = 0; i < p.active; i += Neighbours::lanes) {
+    const Index b = i / block_size, g = i % block_size / Neighbours::lanes;
+    for (Index k = lists.starts(b)[g]; k < lists.starts(b)[g + 1]; ++k) {
+      const Index j = lists.list(b)[k];
+      bool within = false;
+      for (Index l = i; l < std::min(i + Neighbours::lanes, p.active); ++l)
+        within |= (p.x.vec(l) - p.x.vec(j)).norm() < 2 * std::max(p.h[l], p.h[j]);
+      EXPECT_EQ(within, k < lists.beyond(b)[g]);
+      beyond += within ? 0 : 1;
+    }
+  }
+  EXPECT_GT(beyond, 0.1 * lists.entries());
+}
+
 TEST(Neighbours, StayCompleteUntilTheyRebuildThemselves) {
   Cloud cloud(2, 20, 0.01, 0.2);
   cloud.refresh();
