@@ -39,7 +39,7 @@ from paper_evaluate import Failure, age
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 SCENES = PROJECT / "keyword_decks" / "hydraulic_jump"
-FIRST_GUESS = 150        # ns per particle and step on one thread, until a run has told
+FIRST_GUESS = {False: 140, True: 50}  # ns per particle and step on one thread without and with windows, until a run has told
 RESTART_WORK = 1.0e9     # particle-steps between restart files: a minute or two
 QUICK = {"endtim": 0.2, "settled": [0.05, 0.2], "segment": 0.15}
 
@@ -58,6 +58,7 @@ class Run:
         self.deck = results / f"{self.name}.k"
         self.summary_file = self.folder / "summary.yaml"
         self.work = self.steps = self.particles = 0  # particle-steps, steps, particles
+        self.windows = "*COURANT_PAIR_GEOMETRY" in self.cards
 
     def summary(self):
         try:
@@ -144,10 +145,10 @@ def can_go_on(run, program):
 # ---- running
 
 class Clock:
-    """Estimates: particles x steps x ns per particle and step, the last one from the runs that are done."""
+    """Estimates: particles x steps x ns per particle and step, the last one from runs of the kind that are done."""
 
     def __init__(self, runs, threads):
-        self.threads, self.rates, self.ratios = threads, [], []
+        self.threads, self.rates, self.ratios = threads, {False: [], True: []}, []
         for run in runs:
             self.learn(run)
 
@@ -155,11 +156,12 @@ class Clock:
         summary = run.summary()
         if summary.get("termination") != "normal" or summary.get("threads") != self.threads or not run.work:
             return
-        self.rates.append(summary["ns_per_particle_step"])
+        self.rates[run.windows].append(summary["ns_per_particle_step"])
         self.ratios.append(summary["particle_steps"] / run.work)
 
     def seconds(self, run):
-        ns = statistics.median(self.rates) if self.rates else FIRST_GUESS / self.threads**0.8
+        rates = self.rates[run.windows]
+        ns = statistics.median(rates) if rates else FIRST_GUESS[run.windows] / self.threads**0.8
         work = statistics.median(self.ratios) if self.ratios else 1
         return run.work * work * ns * 1e-9
 

@@ -2,10 +2,10 @@
 #include <exception>
 
 #include "app/cli.hpp"
-#include "parallel/parallel.hpp"
+#include "parallel/start_over.hpp"
 
 int main(int argc, char** argv) {
-  courant::let_waiting_threads_sleep(argv);
+  courant::start_over_for_speed(argv);
   try {
     return courant::command_line(argc, argv);
   } catch (const std::exception& error) {

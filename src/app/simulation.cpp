@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/field_options.hpp"
+#include "app/skin.hpp"
 #include "materials/initial_stress.hpp"
 #include "model/build_model.hpp"
 #include "model/included_entries.hpp"
@@ -14,15 +15,6 @@
 #include "sph/prescribed_particles.hpp"
 
 namespace courant {
-
-namespace {
-
-/// Neighbour lists hold until something moved half the skin; of h. See docs/performance.md.
-constexpr Real least_skin = 0.02, first_skin = 0.1, most_skin = 0.4;
-/// Where gradients are kept over steps, entries out of reach are looked at once in a window only.
-constexpr Real skin_weight = 14, skin_weight_of_windows = 28;
-
-}  // namespace
 
 std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, const ReadOptions& options,
                                               Diagnostics& diagnostics, const DeckRecord* before) {

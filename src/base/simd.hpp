@@ -46,6 +46,18 @@ COURANT_INLINE Native native_max(Native a, Native b) {
 #endif
 }
 
+COURANT_INLINE Native native_min(Native a, Native b) {
+#if COURANT_SIMD_BYTES == 64
+  return _mm512_min_pd(a, b);
+#elif COURANT_SIMD_BYTES == 32
+  return _mm256_min_pd(a, b);
+#elif defined(__SSE2__)
+  return _mm_min_pd(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+
 /// 1/sqrt(x) for normal x > 0, within a few units of the last place.
 COURANT_INLINE Native native_rsqrt(Native x) {
 #if COURANT_SIMD_BYTES == 64
@@ -187,6 +199,11 @@ COURANT_PACK_OPERATOR(/)
 COURANT_INLINE Pack max(const Pack& a, const Pack& b) {
   Pack out;
   for (int k = 0; k < parts; ++k) out.part[k] = native_max(a.part[k], b.part[k]);
+  return out;
+}
+COURANT_INLINE Pack min(const Pack& a, const Pack& b) {
+  Pack out;
+  for (int k = 0; k < parts; ++k) out.part[k] = native_min(a.part[k], b.part[k]);
   return out;
 }
 COURANT_INLINE Pack rsqrt(const Pack& a) {

@@ -12,12 +12,6 @@ namespace courant {
 void set_threads(int threads);  ///< 0: as many as the machine has cores
 int threads();
 
-/// Starts the program over once with threads that soon sleep instead of spinning on when they wait for each
-/// other, unless the user has chosen a policy (OMP_WAIT_POLICY, GOMP_SPINCOUNT): the OpenMP library reads
-/// that only at start. On a machine busy with other work, spinning threads take the time slices of those they
-/// wait for. Figures: docs/performance.md.
-void let_waiting_threads_sleep(char** argv);
-
 inline constexpr Index block_size = 64;
 inline Index block_count(Index n) {
   return (n + block_size - 1) / block_size;

@@ -233,12 +233,13 @@ void Neighbours::stop_for_leaps(const World& world, const Clock& clock) const {
   }
 }
 
-// A skin s costs pairs out of reach, about 0.7 s/h of those within, in every step, and a rebuild, some two to
-// three steps' pairs, every s/(2 move) steps. The sum is least for s of about sqrt(2 x 2.5/0.7 move h).
 Real Neighbours::room(const Clock& clock) const {
   return 0.5 * skin_ - (clock.cycle > built_cycle_ ? watch_->largest_move() : 0);
 }
 
+// A skin s costs pairs out of reach, about 0.7 s/h of those within, which take half the time of others, in
+// every step, and a rebuild, some two to three steps' pairs, every s/(2 move) steps. The sum is least for s
+// of about sqrt(2 x 2.5/0.35 move h).
 void Neighbours::choose_skin(const Clock& clock) {
   if (least_skin_ == most_skin_ || !built_ || clock.cycle <= built_cycle_) return;
   const Real move = watch_->largest_move() / static_cast<Real>(clock.cycle - built_cycle_);

@@ -25,7 +25,7 @@ PairArrays RateFields::arrays(Particles& p, const PairVolumes& volumes) const {
   a.V = volumes.current();
   a.qc = viscous_speed_ ? viscous_speed_->data() : nullptr;
   a.heat = heat_->data();
-  a.q2 = q2_;
+  a.q2 = quadratic() ? q2_ : 0;
   for (int k = 0; k < 6; ++k) a.strain[k] = strain_ ? strain_->data(k) : nullptr;
   return a;
 }

@@ -24,8 +24,9 @@ struct PairArrays {
   Real* diffusion;        ///< rate of rho by diffusion [M/L3T]
   const Real* potential;  ///< -g.x [L2/T2]
   Real* heat;             ///< power that artificial viscosity turns into heat [ML2/T3]
-  Real h0, q2, delta;     ///< h0: the h of all where it does not differ; delta: strength of the diffusion
-  Real half_step;         ///< half of the step that led here: continuity holds in its middle [T]
+  Real h0, q2, delta;  ///< h0: the h of all where it does not differ; q2: 0 where viscosity has no quadratic
+                       ///< part; delta: strength of the diffusion
+  Real half_step;      ///< half of the step that led here: continuity holds in its middle [T]
 };
 
 /// The lists of particles [begin, end); end - begin <= block_size.
@@ -34,7 +35,7 @@ struct PairLists {
   const Index* start;   ///< of each group of eight, and the end
   const Index* beyond;  ///< where those begin that were beyond the support of all eight, of each group
   Index begin, end;
-  // What the loop that stores finds within the support now, and with it eight numbers for each; else null.
+  // What the loop that stores works on, and with it eight numbers for each; else null.
   Index* kept;
   Index* kept_start;
   Real* g;

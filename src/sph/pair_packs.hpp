@@ -35,6 +35,14 @@ COURANT_INLINE Pack dot(const Difference<Dim>& a, const Difference<Dim>& b) {
   return two;
 }
 
+/// The same plus a number; one instruction less.
+template <int Dim>
+COURANT_INLINE Pack dot_plus(const Difference<Dim>& a, const Difference<Dim>& b, const Pack& c) {
+  const Pack two = a.y * b.y + (a.x * b.x + c);
+  if constexpr (Dim == 3) return a.z * b.z + two;
+  return two;
+}
+
 template <int Dim>
 struct Sum {
   Pack x = Pack::zero(), y = Pack::zero(), z = Pack::zero();

@@ -68,6 +68,7 @@ void rates(const PairArrays& a, const PairLists& lists) {
     const Pack mi = Viscous ? Pack::load(a.m + i, count) : Pack::zero();
     const Pack Vi = Viscous ? Pack::load(a.V + i, count) : Pack::zero();
     const Pack qci = Viscous ? 0.5 * Pack::load(a.qc + i, count) : Pack::zero();
+    const bool quadratic = Viscous && a.q2 != 0;
     Pack div = Pack::zero(), power = Pack::zero();
     Dyads<Dim> gradient;
     Sum<Dim> force;
@@ -76,7 +77,7 @@ void rates(const PairArrays& a, const PairLists& lists) {
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
       const Difference<Dim> d(xi, a.x, j);
-      const Pack r2 = dot(d, d) + tiny;
+      const Pack r2 = dot_plus(d, d, tiny);
       if (k >= beyond && is_beyond<Kernel, UniformH>(a, hi, j, r2)) continue;
       const Difference<Dim> u(vi, a.v, j);
       const Pack u_dot_d = dot(u, d);
@@ -88,18 +89,22 @@ void rates(const PairArrays& a, const PairLists& lists) {
         lists.kept[kept++] = lists.list[k];
       }
       const Pack w = kernel.shape * a.V[j];
-      div += w * u_dot_d - kernel.later * (a.half_step * a.V[j]);
+      div += a.V[j] * (kernel.shape * u_dot_d - a.half_step * kernel.later);
       if constexpr (Viscous) {
         Pack h = hi, pair = w;  // (dW/dr)/r V_j / norm, mean of both where h differs
+        Pack qc = qci + 0.5 * a.qc[j];
         if constexpr (!UniformH) {
           const Real hj = a.h[j], ratio = gradient_norm<Kernel, Dim>(hj);
           h = 0.5 * (hi + hj);
           pair = 0.5 * (w + gradient_shape<Kernel>(r2 * rinv * (1 / hj), rinv) * (a.V[j] * ratio) / norm);
         }
-        // m_j Pi V_i / V_j with 1/(rho_i + rho_j) = V_i V_j / (m_i V_j + m_j V_i)
-        const Pack approach = h * max(0 - u_dot_d, Pack::zero()), D = r2 + 0.01 * (h * h);
-        const Pack viscous = pair * (a.m[j] * approach * (a.q2 * approach + (qci + 0.5 * a.qc[j]) * D) /
-                                     (D * D * (mi * a.V[j] + Vi * a.m[j])));
+        // pair times -m_j Pi / (2 V_i V_j) with 1/(rho_i + rho_j) = V_i V_j / (m_i V_j + m_j V_i); where all
+        // have one h, also without its factor h
+        const Pack approach = min(u_dot_d, Pack::zero()), D = r2 + 0.01 * (h * h);
+        Pack below = D * (mi * a.V[j] + Vi * a.m[j]);
+        if (quadratic) qc = qc * D - a.q2 * h * approach, below *= D;
+        if constexpr (!UniformH) qc *= h;
+        const Pack viscous = pair * (a.m[j] * approach * qc / below);
         force.add(viscous, d);
         power += viscous * u_dot_d;
       }
@@ -107,9 +112,9 @@ void rates(const PairArrays& a, const PairLists& lists) {
     }
     (Pack::load(a.rho + i, count) * norm * div).store(a.drhodt + i, count);
     if constexpr (Viscous) {
-      const Pack factor = 2 * mi * Vi * norm;
-      force.add_to(a.f, i, count, 0 - factor);
-      (0.5 * factor * power).store(a.heat + i, count);  // each partner takes half
+      const Pack factor = 2 * mi * Vi * norm * (UniformH ? hi : Pack::of(1));
+      force.add_to(a.f, i, count, factor);
+      (-0.5 * factor * power).store(a.heat + i, count);  // each partner takes half
     }
     if constexpr (Gradient) gradient.store(a.strain, i, count, 0 - norm);
     if constexpr (geometry == Geometry::store) lists.kept_start[g + 1] = kept;
@@ -142,7 +147,7 @@ void forces(const PairArrays& a, const PairLists& lists) {
       if constexpr (geometry == Geometry::load) {
         w = wj = Pack::load(lists.g + std::ptrdiff_t(k) * lanes) * a.V[j];
       } else {
-        const Pack r2 = dot(d, d) + tiny;
+        const Pack r2 = dot_plus(d, d, tiny);
         if (k >= lists.beyond[g] && is_beyond<Kernel, UniformH>(a, hi, j, r2)) continue;
         const Pack rinv = rsqrt(r2);
         w = wj = gradient_shape<Kernel>(r2 * rinv * hinv, rinv) * a.V[j];

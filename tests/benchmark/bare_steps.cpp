@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "app/skin.hpp"
 #include "materials/materials.hpp"
 #include "model/build_model.hpp"
 #include "sph/pair_geometry.hpp"
@@ -60,8 +61,9 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   const SphSettings settings = build_particles(deck, model, material, world_, diagnostics);
   stop_for(diagnostics);
   const Real h = world_.particles.h[0];
-  neighbours_ = std::make_shared<Neighbours>(0.1 * h, settings.region);
-  neighbours_->adapt_skin(0.02 * h, 0.4 * h, 7);
+  neighbours_ = std::make_shared<Neighbours>(first_skin * h, settings.region);
+  neighbours_->adapt_skin(least_skin * h, most_skin * h, skin_weight);
+  if (!settings.evolving_h) neighbours_->keep_h();
   add_eos_passes(world_, model, materials);
   world_.motions.push_back(make_particle_motion());
   add_sph_time_limit(settings, model, world_);

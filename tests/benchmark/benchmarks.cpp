@@ -13,6 +13,7 @@
 #include "measure.hpp"
 #include "pair_loops.hpp"
 #include "parallel/parallel.hpp"
+#include "parallel/start_over.hpp"
 #include "scenes.hpp"
 
 using namespace courant;
@@ -231,7 +232,7 @@ Size size_of(int& argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  let_waiting_threads_sleep(argv);
+  start_over_for_speed(argv);
   try {
     const Size size = size_of(argc, argv);
     benchmark::Initialize(&argc, argv);

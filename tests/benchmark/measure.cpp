@@ -63,24 +63,21 @@ Measured measure(Simulation& s, const Effort& effort) {
   return m;
 }
 
-namespace {
-
-/// Entries that a window keeps: in reach of any of their eight.
-double entries_in_reach(const Particles& p, const Neighbours& lists) {
+double entries_worked_on(const Particles& p, const Neighbours& lists, Gradients gradients) {
   double out = 0;
   for (Index i = 0; i < p.active; i += Neighbours::lanes) {
     const Index end = std::min(i + Neighbours::lanes, p.active);
     const Real reach = lists.support() * p.h[i];
-    for (const Index j : lists.of_group(i / Neighbours::lanes)) {
-      bool near = false;
+    const Index b = i / block_size, g = i % block_size / Neighbours::lanes;
+    for (Index e = lists.starts(b)[g]; e < lists.starts(b)[g + 1]; ++e) {
+      const Index j = lists.list(b)[e];
+      bool near = gradients != Gradients::window && e < lists.beyond(b)[g];
       for (Index k = i; k < end; ++k) near = near || (p.x.vec(k) - p.x.vec(j)).squaredNorm() < reach * reach;
       out += near;
     }
   }
   return out;
 }
-
-}  // namespace
 
 Sizes sizes_of(const Simulation& s) {
   const Particles& p = s.world().particles;
@@ -95,18 +92,18 @@ Sizes sizes_of(const Simulation& s) {
     out.pairs += static_cast<double>(lists.of(p, i).size());
   out.pairs /= sampled;
   const double entries = static_cast<double>(lists.entries());
-  double looked_at = entries;
-  const double gradients = entries * Neighbours::lanes * sizeof(Real);
-  if (s.sph().geometry_eps > 0) {
+  const double room = entries * Neighbours::lanes * sizeof(Real);
+  if (s.sph().geometry_eps > 0)
     out.gradients = Gradients::window;
-    looked_at = entries_in_reach(p, lists);
-    // gradients, the factor of linear viscosity (no benchmark has the quadratic one) and the entry
+  else if (s.sph().uniform_h && room <= static_cast<double>(PairGeometry::most_kept_bytes))
+    out.gradients = Gradients::kept;
+  const double looked_at = entries_worked_on(p, lists, out.gradients);
+  if (out.gradients == Gradients::window)  // gradients, the factor of linear viscosity (no benchmark has the
+                                           // quadratic one), entry
     out.kept_bytes =
         looked_at * (Neighbours::lanes * (out.dim + 1) * sizeof(Fixed16) + sizeof(Index)) / active;
-  } else if (s.sph().uniform_h && gradients <= static_cast<double>(PairGeometry::most_kept_bytes)) {
-    out.gradients = Gradients::kept;
-    out.kept_bytes = gradients / active;
-  }
+  if (out.gradients == Gradients::kept)
+    out.kept_bytes = looked_at * (Neighbours::lanes * sizeof(Real) + sizeof(Index)) / active;
   out.entries = looked_at * Neighbours::lanes / active;
   out.field_bytes = static_cast<double>(p.fields.bytes_per_entity()) * p.moving / active;
   out.list_bytes = entries * sizeof(Index) / active;

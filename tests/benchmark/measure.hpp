@@ -38,10 +38,13 @@ struct Sizes {
   int dim = 2;
   Index active = 0;
   double pairs = 0;    ///< neighbours within 2h per active particle
-  double entries = 0;  ///< lanes looked at per active particle, in each of the two pair loops
+  double entries = 0;  ///< lanes in reach per active particle, in each of the two pair loops
   Gradients gradients = Gradients::again;
   double field_bytes = 0, list_bytes = 0, kept_bytes = 0;  ///< per active particle
 };
 Sizes sizes_of(const Simulation& s);
+/// Entries of the lists that pair loops do not leave out, where all have one h: in reach of any of their
+/// eight now, or for plain loops when the lists were built.
+double entries_worked_on(const Particles& p, const Neighbours& lists, Gradients gradients);
 
 }  // namespace courant::benchmarks

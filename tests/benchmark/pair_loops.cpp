@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "measure.hpp"
 #include "sph/pair_geometry.hpp"
 #include "sph/pair_volumes.hpp"
 
@@ -15,7 +16,8 @@ PairLoopsAlone::PairLoopsAlone(Simulation& s)
 }
 
 double PairLoopsAlone::entries() const {
-  return static_cast<double>(neighbours_->entries()) * Neighbours::lanes / s_.world().particles.active;
+  const Particles& p = s_.world().particles;
+  return entries_worked_on(p, *neighbours_, Gradients::again) * Neighbours::lanes / p.active;
 }
 
 PairTimes PairLoopsAlone::measure(bool kept, int threads, int repeats) {

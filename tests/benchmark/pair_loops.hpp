@@ -14,7 +14,7 @@ class PairLoopsAlone {
  public:
   explicit PairLoopsAlone(Simulation& s);
   PairTimes measure(bool kept, int threads, int repeats);
-  double entries() const;  ///< lanes looked at per active particle
+  double entries() const;  ///< lanes in reach per active particle
 
  private:
   Simulation& s_;

@@ -180,7 +180,7 @@ The machine, measured by chains of FMAs and by a triad beyond the caches:
 
 {machine(groups)}
 
-Cost per active particle and step. Pairs: neighbours within 2h; lanes: entries looked at, in each of the two pair loops. ns are
+Cost per active particle and step. Pairs: neighbours within 2h; lanes: eight for each entry in reach of its group, in each of the two pair loops. ns are
 wall time on 1 and on 2 threads, the quickest of several chunks; processor ns the least processor time on 1 thread, which load
 from others disturbs less. Efficiency: 1 thread / (2 x 2 threads), meaningless where others take the second core. ns per pair:
 of processor ns.

@@ -14,10 +14,10 @@ struct PairWork {
 /// of steps.
 enum class Gradients { again, kept, window };
 
-/// Floating-point operations of src/sph/pair_sums.hpp per entry of a list and lane, for the cubic spline, one
-/// h, Monaghan viscosity and no MU. Each + - * / and max is one; a reciprocal root is ten, what the avx512
-/// variant spells it out as (the others take a root and a quotient, which keep the processor busy for
-/// longer).
+/// Floating-point operations of src/sph/pair_sums.hpp per entry in reach of its eight and lane, for the cubic
+/// spline, one h, Monaghan viscosity and no MU. Each + - * / and max is one; a reciprocal root is ten, what
+/// the avx512 variant spells it out as (the others take a root and a quotient, which keep the processor busy
+/// for longer).
 ///
 ///                            2D  3D
 ///   x_i - x_j                 2   3   rates, forces
@@ -25,16 +25,17 @@ enum class Gradients { again, kept, window };
 ///   r2                        4   6   rates; forces only where gradients are worked out
 ///   u . d                     3   5   rates
 ///   w: 2 + 10 + 9 + 1        22  22   where gradients are worked out
-///   in the middle of the step: curvature 2, u . u, q 2, sum 5, times volume 1
-///                            13  15   rates
+///   in the middle of the step: curvature 2, u . u, q 2, sum 5, half step 2
+///                            14  16   rates
 ///   div                       3   3   rates
-///   viscosity: approach 3, D 1, numerator 6, denominator 5, quotient 1, times w 1
-///                            17  17   rates
+///   viscosity, linear: approach 1, D 1, numerator 4, denominator 4, quotient 1, times w 1
+///                            12  12   rates (17 with its quadratic part, which no benchmark has)
 ///   its force and power       6   8   rates
 ///   w (p_i + p_j)             2   2   forces
 ///   pressure force            4   6   forces
+/// Entries out of reach, 6 or 9 operations to see that they are, are left out.
 ///
-/// and of src/sph/kept_loops.hpp, per entry in reach:
+/// And of src/sph/kept_loops.hpp:
 ///   v_i - v_j, u . G          5   8   rates
 ///   div                       2   2   rates
 ///   viscosity, linear         2   2   rates (4 with its quadratic part, which no benchmark has)
@@ -46,7 +47,7 @@ constexpr PairWork pair_work(int dim, Gradients gradients) {
   const int d = dim == 2 ? 2 : 3, r2 = dim == 2 ? 4 : 6, dot = dim == 2 ? 3 : 5, add = 2 * d, gradient = 22;
   if (gradients == Gradients::window) return {d + dot + 2 + 2 + add + 2, 2 + add};
   const int forces = d + (gradients == Gradients::kept ? 0 : r2 + gradient) + 2 + add;
-  return {2 * d + r2 + dot + gradient + 10 + dot + 3 + 17 + add + 2, forces};
+  return {2 * d + r2 + dot + gradient + 11 + dot + 3 + 12 + add + 2, forces};
 }
 
 /// Operations of the other passes per particle: factors, equation of state, step size, motion, watch;
@@ -63,18 +64,18 @@ constexpr int particle_work = 70;
 ///   gravity         3                    m; f twice
 ///   motion          5 dim + 1            v x twice, f; m
 ///   factors         6                    m rho c part V qc
-///   watch           8                    x h, now and when the lists were built
+///   watch           2 dim                x now and when the lists were built
 constexpr int numbers_streamed(int dim) {
-  return 3 + (4 * dim + 6) + 8 + 6 + (3 * dim + 2) + 3 + (5 * dim + 1) + 6 + 8;
+  return 3 + (4 * dim + 6) + 8 + 6 + (3 * dim + 2) + 3 + (5 * dim + 1) + 6 + 2 * dim;
 }
 
 /// Bytes per particle and step: fields, lists (read by both pair loops), kept gradients (stored and loaded;
-/// in windows loaded twice, and one factor once, two bytes each). entries: of the lists, per group of eight
-/// and so also lanes looked at per particle. In windows pair loops read no places, no m and no qc, which
-/// nobody works out between them: 2 dim + 5 numbers less.
+/// with their entry; in windows loaded twice, and one factor once, two bytes each). entries: in reach, per
+/// group of eight and so also lanes looked at per particle. In windows pair loops read no places, no m and no
+/// qc, which nobody works out between them: 2 dim + 5 numbers less.
 constexpr Real bytes_streamed(int dim, Real entries, Gradients gradients) {
   const Real of_pairs = gradients == Gradients::window ? (2 * dim + 1) * 16
-                        : gradients == Gradients::kept ? 2 * 64
+                        : gradients == Gradients::kept ? 2 * 64 + sizeof(Index)
                                                        : 0;
   const int numbers = numbers_streamed(dim) - (gradients == Gradients::window ? 2 * dim + 5 : 0);
   return 8.0 * numbers + entries / 8 * (2 * sizeof(Index) + of_pairs);
