@@ -100,11 +100,16 @@ def places_only(mutant):
     return [{key: place[key] for key in ("file", "find", "replace")} for place in places(mutant)]
 
 
+def misfit(place):
+    """Empty where what a mutant replaces stands exactly once in its file."""
+    count = (ROOT / place["file"]).read_text().count(place["find"])
+    return "" if count == 1 else f"'{place['find']}' stands {count} times in {place['file']}, not once"
+
+
 def mutated(place):
-    text = (ROOT / place["file"]).read_text()
-    if text.count(place["find"]) != 1:
-        sys.exit(f"mutants.py: '{place['find']}' stands {text.count(place['find'])} times in {place['file']}, not once")
-    return text.replace(place["find"], place["replace"]).encode()
+    if misfit(place):
+        sys.exit(f"mutants.py: {misfit(place)}")
+    return (ROOT / place["file"]).read_text().replace(place["find"], place["replace"]).encode()
 
 
 def bounded_suite(suite):
