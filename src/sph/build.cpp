@@ -44,6 +44,7 @@ class Builder {
     read_viscosities();
     read_control();
     fill_particles();
+    read_eddy_viscosity(deck_, model_, settings_, diagnostics_);
     set_smoothing_lengths();
     choose_h_form();
     read_pair_geometry();
@@ -476,6 +477,10 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   else
     left_out.push_back({"bulk viscosity", riemann ? "*COURANT_RIEMANN takes the place of viscosity"
                                                   : "IAVIS 0: Monaghan viscosity between pairs"});
+  if (s.mixing_length.most > 0)
+    world.materials.push_back(make_eddy_viscosity(s, world));
+  else
+    left_out.push_back({"eddy viscosity", "no *COURANT_EDDY_VISCOSITY"});
   if (!s.mu.empty())
     world.materials.push_back(make_viscous_stress(s, world));
   else

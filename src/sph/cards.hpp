@@ -72,6 +72,12 @@ struct CourantDensityReinitialisation : Entry {
   int ncyc = 0, method = 0;
 };
 
+/// *COURANT_EDDY_VISCOSITY, ours.
+struct CourantEddyViscosity : Entry {
+  Real lmax = 0, cmu = 0.09, kappa = 0.41;
+  Real vtx = 0, vty = 0, vtz = 0, vhx = 0, vhy = 0, vhz = 0;
+};
+
 /// *COURANT_RIEMANN, ours.
 struct CourantRiemann : Entry {
   Real eta = 0;

@@ -21,6 +21,10 @@ inline Field<Real>& viscous_speed(Particles& p) {
   return p.fields.add<Real>(
       {.name = "viscous_speed", .dimension = "L/T", .restart = false, .exchange = Exchange::before_rates});
 }
+/// MU and eddy viscosity, of the last materials
+inline Field<Real>& viscosity(Particles& p) {
+  return p.fields.add<Real>({.name = "viscosity", .dimension = "M/LT"});
+}
 /// p + q of the bulk viscosity
 inline Field<Real>& pressure_plus_q(Particles& p) {
   return p.fields.add<Real>({.name = "pressure_plus_q",

@@ -58,6 +58,16 @@ struct SupportedWalls {
   std::vector<Real> cf;  ///< by segment; < 0 where it does not support [-]
 };
 
+/// *COURANT_EDDY_VISCOSITY.
+struct MixingLength {
+  Real most = 0;  ///< LMAX; 0: no eddy viscosity [L]
+  Real cmu = 0.09, kappa = 0.41;
+  Vec wall = Vec::Zero(), normal = Vec::Zero();  ///< a point on the wall; out of it, 0: no wall
+  Real length(const Vec& x) const {
+    return normal.isZero() ? most : std::clamp(kappa * (x - wall).dot(normal), Real(0), most);
+  }
+};
+
 /// *COURANT_DENSITY_REINITIALISATION.
 struct ReinitialisationRules {
   int every = 0;        ///< NCYC; 0: never
@@ -74,6 +84,7 @@ struct SphSettings {
   ArtificialViscosity viscosity = MonaghanViscosity{};
   std::vector<PartViscosity> q;        ///< per part
   std::vector<Real> mu;                ///< per part, dynamic viscosity; empty if no part has any
+  MixingLength mixing_length;          ///< where there is one, mu is not empty
   std::vector<char> heat_in_internal;  ///< per part; empty if in none
   Real tssfac = 0.9;
   Real most_tssfac = std::numeric_limits<Real>::infinity();  ///< beyond which what is asked for is unstable
@@ -174,6 +185,10 @@ void add_shifting(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::
 /// Adds to the rates what smooths the velocities with which particles move.
 void add_xsph(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);
 std::shared_ptr<Material> make_bulk_viscosity(const SphSettings&, World&);
+/// Behind the viscosity MU of the materials.
+void read_eddy_viscosity(const Deck&, const Model&, SphSettings&, Diagnostics&);
+/// Before the viscous stress, which takes it.
+std::shared_ptr<Material> make_eddy_viscosity(const SphSettings&, World&);
 std::shared_ptr<Material> make_viscous_stress(const SphSettings&, World&);
 std::shared_ptr<Motion> make_smoothing_length(const SphSettings&, World&);
 /// Eq. 18; the first of the world's time limits.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "parallel/parallel.hpp"
+#include "sph/fields.hpp"
 #include "sph/sph.hpp"
 #include "state/particle_loops.hpp"
 
@@ -14,8 +15,9 @@ namespace {
 /// NaN anywhere comes out as the smallest, so that the run stops there.
 class SphTimeLimit : public Tally, public TimeLimit {
  public:
-  SphTimeLimit(const SphSettings& s, const Model& model)
+  SphTimeLimit(const SphSettings& s, const Model& model, World& world)
       : tssfac_(std::min(s.tssfac, s.most_tssfac)), mu_(s.mu) {
+    if (s.mixing_length.most > 0) viscosity_ = &sph_fields::viscosity(world.particles);
     for (const ModelPart& part : model.parts) part_ids_.push_back(part.id);
   }
   std::string name() const override { return "sph time step"; }
@@ -57,12 +59,13 @@ class SphTimeLimit : public Tally, public TimeLimit {
     return out;
   }
   Real viscous_limit(const Particles& p, Index i) const {
-    return mu_.empty() ? std::numeric_limits<Real>::infinity()
-                       : 0.125 * p.rho[i] * p.h[i] * p.h[i] / mu_[p.part[i]];
+    if (mu_.empty()) return std::numeric_limits<Real>::infinity();
+    return 0.125 * p.rho[i] * p.h[i] * p.h[i] / (viscosity_ ? (*viscosity_)[i] : mu_[p.part[i]]);
   }
   ParticleLoops loops_ = particle_loops();
   Real tssfac_;
   std::vector<Real> mu_;
+  const Field<Real>* viscosity_ = nullptr;  ///< where it is not MU
   std::vector<Id> part_ids_;
   std::vector<Real> smallest_;  ///< of each block [T]
 };
@@ -106,7 +109,7 @@ class SpeedLimit : public Constraint {
 }  // namespace
 
 void add_sph_time_limit(const SphSettings& s, const Model& model, World& world) {
-  auto limit = std::make_shared<SphTimeLimit>(s, model);
+  auto limit = std::make_shared<SphTimeLimit>(s, model, world);
   world.tallies.push_back(limit);
   world.time_limits.push_back(limit);
 }

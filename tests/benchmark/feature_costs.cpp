@@ -106,6 +106,7 @@ std::vector<Feature> all_features(int n) {
   add("gravity",
       [](SquareOfWater& w) { w.keywords = "*LOAD_BODY_Y\n1\n*DEFINE_CURVE\n1\n0.,9.81\n1.E6,9.81\n"; });
   add("viscous stress, MU > 0", [](SquareOfWater& w) { w.mu = "0.001"; });
+  add("*COURANT_EDDY_VISCOSITY", [](SquareOfWater& w) { w.keywords = "*COURANT_EDDY_VISCOSITY\n0.001\n"; });
   add("bulk viscosity, IAVIS 1", [](SquareOfWater& w) { w.iavis = 1; });
   add("evolving h", [](SquareOfWater& w) { w.h_bounds = "0.2,2."; });
   add("contact, wall out of reach", [](SquareOfWater& w) { w.keywords = floor_at(-5); });

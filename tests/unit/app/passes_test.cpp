@@ -53,6 +53,7 @@ const Lists bare{
      "kept pair geometry no *COURANT_PAIR_GEOMETRY",
      "smoothing length HMIN = HMAX = 1: h is constant",
      "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
+     "eddy viscosity no *COURANT_EDDY_VISCOSITY",
      "viscous stress MU is 0 in all SPH materials",
      "speed limit MAXV none given",
      "computational box no BOXID",
@@ -153,6 +154,13 @@ TEST(Passes, Viscous) {
   SmallScene scene;
   scene.material = "1,1000.,-1.E20,0.001";
   expect_change(scene, {"viscous stress"}, {"material viscous stress"});
+}
+
+TEST(Passes, EddyViscosity) {
+  SmallScene scene;
+  scene.extra = "*COURANT_EDDY_VISCOSITY\n0.1\n";
+  expect_change(scene, {"eddy viscosity", "viscous stress"},
+                {"material eddy viscosity", "material viscous stress"});
 }
 
 TEST(Passes, BulkViscosity) {

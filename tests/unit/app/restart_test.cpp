@@ -241,6 +241,14 @@ TEST(Restart, VolumeControl) {
               {20, 75}, 120);
 }
 
+TEST(Restart, EddyViscosity) {
+  expect_same({.n = 8,
+               .start = "0.5,-0.5,0.",
+               .extra = test::gravity_cards + test::floor_cards() +
+                        "*COURANT_EDDY_VISCOSITY\n0.3,0.09,0.41\n0.,0.,0.,0.,1.,0.\n"},
+              {0, 1, 20, 75}, 120);
+}
+
 TEST(Restart, WallSupport) {
   // the edge of the floor is in the water, so that some particles see one plane and others pieces of it
   const std::string floor = "*NODE\n9001,-2.,0.,-2.\n9002,0.4,0.,-2.\n9003,0.4,0.,3.\n9004,-2.,0.,3.\n";
