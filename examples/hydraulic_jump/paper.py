@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """
-Runs and evaluates the cases of Jonsson et al. (2016) and writes docs/hydraulic_jump_paper.md.
+Runs and evaluates the cases of Jonsson et al. (2016) and writes docs/hydraulic_jump_paper.md and docs/hydraulic_jump_standing.md.
 
 usage: bash examples/hydraulic_jump/paper.sh [options]
 
@@ -10,11 +10,11 @@ usage: bash examples/hydraulic_jump/paper.sh [options]
   --paper-setting   also the paper's speed of sound, 1484 m/s: over two hours of processor time
   --standing        also jumps that stand still, Froude numbers 2.4 to 6.5
   --results FOLDER  where runs go (results/hydraulic_jump_paper)
-  --page FILE       the page (docs/hydraulic_jump_paper.md); its figures go to figures/hydraulic_jump beside it
+  --page FILE       the page (docs/hydraulic_jump_paper.md); beside it go that of standing jumps, ..._standing.md, and figures/hydraulic_jump
   --quick           0.2 s in place of each run, to try the script: results/hydraulic_jump_quick, and the page in there
 
 A complete run that is younger than its deck and the program is taken over. One that was stopped (Ctrl-C) or killed goes on from its
-restart file. A run that fails is reported, the others go on. The page shows all runs that are complete in the folder.
+restart file. A run that fails is reported, the others go on. The pages show all runs that are complete in the folder.
 Exit code: 0 all is done, 1 a run or its evaluation failed, 2 the call was wrong, 130 interrupted.
 
 """
@@ -39,7 +39,7 @@ from paper_evaluate import Failure, age
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 SCENES = PROJECT / "keyword_decks" / "hydraulic_jump"
-FIRST_GUESS = {False: 140, True: 50}  # ns per particle and step on one thread without and with windows, until a run has told
+FIRST_GUESS = {"windows": 50, "eddy viscosity": 300, "others": 140}  # ns per particle and step on one thread, until a run has told
 RESTART_WORK = 1.0e9     # particle-steps between restart files: a minute or two
 QUICK = {"endtim": 0.2, "settled": [0.05, 0.2], "segment": 0.15}
 
@@ -58,7 +58,7 @@ class Run:
         self.deck = results / f"{self.name}.k"
         self.summary_file = self.folder / "summary.yaml"
         self.work = self.steps = self.particles = 0  # particle-steps, steps, particles
-        self.windows = "*COURANT_PAIR_GEOMETRY" in self.cards
+        self.kind = "windows" if "*COURANT_PAIR_GEOMETRY" in self.cards else "eddy viscosity" if self.parameters.get("mixing", 0) > 0 else "others"
 
     def summary(self):
         try:
@@ -148,7 +148,7 @@ class Clock:
     """Estimates: particles x steps x ns per particle and step, the last one from runs of the kind that are done."""
 
     def __init__(self, runs, threads):
-        self.threads, self.rates, self.ratios = threads, {False: [], True: []}, []
+        self.threads, self.rates, self.ratios = threads, {kind: [] for kind in FIRST_GUESS}, []
         for run in runs:
             self.learn(run)
 
@@ -156,12 +156,12 @@ class Clock:
         summary = run.summary()
         if summary.get("termination") != "normal" or summary.get("threads") != self.threads or not run.work:
             return
-        self.rates[run.windows].append(summary["ns_per_particle_step"])
+        self.rates[run.kind].append(summary["ns_per_particle_step"])
         self.ratios.append(summary["particle_steps"] / run.work)
 
     def seconds(self, run):
-        rates = self.rates[run.windows]
-        ns = statistics.median(rates) if rates else FIRST_GUESS[run.windows] / self.threads**0.8
+        rates = self.rates[run.kind]
+        ns = statistics.median(rates) if rates else FIRST_GUESS[run.kind] / self.threads**0.8
         work = statistics.median(self.ratios) if self.ratios else 1
         return run.work * work * ns * 1e-9
 
@@ -321,14 +321,15 @@ def main():
         for run in chosen:
             make_deck(run, program)
         failed = work_through(chosen, program, options)
-        paper_page.write(options, runs, table["paper"], program, PROJECT)
+        pages = paper_page.write(options, runs, chosen, table["paper"], program, PROJECT)
     except Failure as error:
         say(f"Stopped: {error}")
         return 1
     except KeyboardInterrupt:
         say("\nInterrupted; the same command goes on from here.")
         return 130
-    say(f"Page: {options.page}")
+    for page in pages:
+        say(f"Page: {page}")
     if failed:
         say(f"{len(failed)} of {len(chosen)} runs failed: {', '.join(failed)}")
     return 1 if failed else 0

@@ -151,12 +151,20 @@ def order(one):
     return (not one[0].startswith("fig"), one[0].startswith("standing"), one[0])
 
 
-def section(main, still, page_folder, project):
-    """Draws and copies figures beside the page; the page's section that shows them."""
+def section(shown, page_folder):
+    """The page's section that shows these figures."""
+    size = sum(path.stat().st_size for path in (page_folder / FOLDER).iterdir()) / 1e6
+    if size > 2:
+        print(f"warning: the figures take {size:.1f} MB, more than the 2 MB meant for them")
+    return "## Figures\n\n" + "\n\n".join(f"*{caption}*\n\n![{caption}]({FOLDER}/{name})" for name, caption in sorted(shown, key=order)) + "\n" if shown else ""
+
+
+def of_cases(runs, page_folder, project):
+    """Draws and copies figures of the paper's cases beside the page; its section."""
     folder = page_folder / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
     shown = []
-    for run, _ in main:
+    for run, _ in runs:
         ends = {"paper": "", "supported": "_supported", "better": "_better", "paper_setting": "_c1484"}[run.group]
         setting = f", {run.setting}"
         if run.case in ("d1/4", "d1/10"):
@@ -165,12 +173,14 @@ def section(main, still, page_folder, project):
         if run.figures:
             wanted = [one for one in OF_A_RUN if run.group == "better" or one[0].startswith(OF_THE_SETTING)]
             shown += copied(run, [("paper/" + name, name.replace(".", ends + "."), caption + setting) for name, caption in wanted], folder)
-    for run, found in still:
+    return section(shown + draw(over_cases(runs), folder, project), page_folder)
+
+
+def of_standing(runs, page_folder, project):
+    """The same of jumps that stand still."""
+    folder = page_folder / FOLDER
+    folder.mkdir(parents=True, exist_ok=True)
+    shown = []
+    for run, found in runs:
         shown += copied(run, [("standing/streamlines.png", f"standing_{run.name}.png", f"Mean flow, Fr1 = {found['values']['froude']:g}")], folder)
-    shown += draw(over_cases(main) + over_froude(still) + along_jump(still), folder, project)
-    if not shown:
-        return ""
-    size = sum(path.stat().st_size for path in folder.iterdir()) / 1e6
-    if size > 2:
-        print(f"warning: the figures take {size:.1f} MB, more than the 2 MB meant for them")
-    return "## Figures\n\n" + "\n\n".join(f"*{caption}*\n\n![{caption}]({FOLDER}/{name})" for name, caption in sorted(shown, key=order)) + "\n"
+    return section(shown + draw(over_froude(runs) + along_jump(runs), folder, project), page_folder)

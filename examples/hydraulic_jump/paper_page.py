@@ -1,4 +1,4 @@
-"""Writes the page: tables from what `paper_evaluate` gathered, figures from what `courant post` drew."""
+"""Writes the pages, one of the paper's cases and one of jumps that stand still: tables from what `paper_evaluate` gathered, figures from what `courant post` drew."""
 import math
 import os
 import pathlib
@@ -69,10 +69,10 @@ def command(options):
     return " ".join(["bash examples/hydraulic_jump/paper.sh", f"--threads {options.threads}", *words])
 
 
-def top(options, program, project, shown):
+def top(title, options, program, project, shown):
     version = subprocess.run([program.courant, "--version"], capture_output=True, text=True).stdout.strip() or "courant"
     old = [run.name for run, _ in shown if age(run.folder / EVALUATED) < program.age]
-    text = (f"# The numbers and figures of Jonsson et al. (2016)\n\nWritten by `{command(options)}` on {time.strftime('%Y-%m-%d')}; do not edit, run it again. "
+    text = (f"# {title}\n\nWritten by `{command(options)}` on {time.strftime('%Y-%m-%d')}; do not edit, run it again. "
             f"{version}{revision(project)}, on {machine()}. What the runs are and how they compare is discussed in [hydraulic_jump.md](hydraulic_jump.md); how each "
             "number is measured stands in [post.md](post.md) and in the recipes of `keyword_decks/hydraulic_jump`. The paper's numbers carry their place in it.\n")
     if options.quick:
@@ -171,7 +171,7 @@ def standing(shown):
     place, ratios = [], []
     for run, found in sorted(shown, key=lambda one: one[1]["values"]["froude"]):
         v, here, roller, toe = found["values"], found["local"], found["analyses"]["roller"], found["analyses"]["toe"]
-        place.append([f"{v['froude']:g}", f"{run.parameters['reynolds']:g}", "{:g}-{:g}".format(*found["run"]["settled"]), f"{v['discharge']:g}", number(1000 * v["height"], "{:.1f}"), f"{toe['toe_mean']:.3f} ± {toe['toe_deviation']:.3f}" + (" (gate)" if here["at_gate"] else ""),
+        place.append([f"{v['froude']:g}", f"{v['reynolds']:g}", f"{v['cmu']:g}" if v["mixing"] > 0 else "-", "{:g}-{:g}".format(*found["run"]["settled"]), f"{v['discharge']:g}", number(1000 * v["height"], "{:.1f}"), f"{toe['toe_mean']:.3f} ± {toe['toe_deviation']:.3f}" + (" (gate)" if here["at_gate"] else ""),
                       number(1000 * toe["toe_speed"], "{:+.1f}"), number(1000 * here["d1"], "{:.1f}"), number(here["v1"], "{:.3f}"), number(here["froude"], "{:.2f}"),
                       number(1000 * here["d2"], "{:.1f}"), number(1000 * here["d2_filled"], "{:.1f}"), number(1000 * here["d2_theory"], "{:.1f}"),
                       number(here["d2"] / here["d2_theory"], "{:.3f}"), number(here["d2_filled"] / here["d2_theory"], "{:.3f}"), found["run"]["leaked_particles"],
@@ -180,28 +180,39 @@ def standing(shown):
                        number(roller["roller_length_reference"], "{:.1f}"), percent(roller["decay_rms"]),
                        number(roller["deviation_largest"], "{:.3f}"), number(roller["deviation_largest_reference"], "{:.3f}"), number(roller["deviation_largest_at"], "{:.1f}"),
                        number(roller["frequency"], "{:.2f}"), number(roller["strouhal"], "{:.4f}"), number(roller["strouhal_reference"], "{:.4f}")])
-    head = ["Fr1 of the inflow", "Re", "means over [s]", "coefficient of the weir", "its height [mm]", "toe [m]", "drift [mm/s]", "d1 before the toe [mm]", "v1 there [m/s]", "Fr1 there", "d2 [mm]", "filled [mm]",
+    head = ["Fr1 of the inflow", "Re", "c_μ", "means over [s]", "coefficient of the weir", "its height [mm]", "toe [m]", "drift [mm/s]", "d1 before the toe [mm]", "v1 there [m/s]", "Fr1 there", "d2 [mm]", "filled [mm]",
             "Bélanger [mm]", "d2/Bélanger", "filled/Bélanger", "leaked", "energy residual"]
     against = ["Fr1 before the toe", "Lr/d1: mean velocity nowhere negative", "stagnation point", "eq. 2", "V_max, rms to eq. 3", "(η'/d1)max", "eq. 4", "at (x - x1)/d1", "f [Hz]", "St", "eq. 5"]
-    return ("## Jumps that stand still\n\n" + table(head, place) + "\n\n" + table(against, ratios) +
-            "\n\n`keyword_decks/hydraulic_jump/standing.yaml`, d1/4, recipe `keyword_decks/hydraulic_jump/standing_figures.yaml`. Re = v1 d1/ν of the eddy viscosity, "
-            "chosen for each Froude number. The height of the weir follows from Bélanger's depth, critical flow over its crest and a coefficient for what is lost there. Depth and velocity of the jet are taken three depths "
+    return (table(head, place) + "\n\n" + table(against, ratios) +
+            "\n\n`keyword_decks/hydraulic_jump/standing.yaml`, d1/4, recipe `keyword_decks/hydraulic_jump/standing_figures.yaml`. Re = v1 d1/ν: the artificial viscosity as an eddy viscosity; "
+            "where a c_μ is given, that is a mixing length (`*COURANT_EDDY_VISCOSITY`, LMAX half of d2) and Re tells of the artificial viscosity beside it. Both are chosen for each Froude number. The height of the weir follows from Bélanger's depth, critical flow over its crest and a coefficient for what is lost there. Depth and velocity of the jet are taken three depths "
             "(or three deviations of the toe) upstream of the toe, d2 one to two d2 before the weir; d1 and v1 in all ratios are these.\n")
 
 
-def write(options, runs, paper, program, project):
-    """The page of all runs that are complete and evaluated."""
-    shown = [(run, found) for run in runs if (found := evaluated(run))]
-    main = [one for one in shown if one[0].group != "standing"]
-    still = [one for one in shown if one[0].group == "standing"]
-    parts = [top(options, program, project, shown)]
-    if main:
-        parts += [table1(main, paper), table2(main), course(main, paper), settled(main, paper), checks(main)]
-    if still:
-        parts.append(standing(still))
-    missing = [run.name for run in runs if not evaluated(run)]
-    if missing:
-        parts.append(f"Not run: {', '.join(missing)}.\n")
-    parts.append(paper_figures.section(main, still, options.page.parent, project))
-    options.page.parent.mkdir(parents=True, exist_ok=True)
-    options.page.write_text("\n".join(part for part in parts if part))
+def standing_page(page):
+    """The page of jumps that stand still, beside that of the paper's cases."""
+    return page.with_name(page.stem.removesuffix("_paper") + "_standing" + page.suffix)
+
+
+def write(options, runs, chosen, paper, program, project):
+    """The pages of all runs that are complete and evaluated, but for pages of which no run was chosen; those that were written."""
+    def cases(shown):
+        return [table1(shown, paper), table2(shown), course(shown, paper), settled(shown, paper), checks(shown), paper_figures.of_cases(shown, options.page.parent, project)]
+
+    def still(shown):
+        return [standing(shown), paper_figures.of_standing(shown, options.page.parent, project)]
+
+    written = []
+    for page, title, sections, own in ((options.page, "The numbers and figures of Jonsson et al. (2016)", cases, [run for run in runs if run.group != "standing"]),
+                                       (standing_page(options.page), "Jumps that stand still", still, [run for run in runs if run.group == "standing"])):
+        shown = [(run, found) for run in own if (found := evaluated(run)) and (sections is cases or "mixing" in found["values"])]  # else of an older scene
+        if not shown or not set(own) & set(chosen):
+            continue
+        missing = [run.name for run in own if run not in [one for one, _ in shown]]
+        parts = [top(title, options, program, project, shown), *sections(shown)]
+        if missing:
+            parts.insert(-1, f"Not run: {', '.join(missing)}.\n")
+        page.parent.mkdir(parents=True, exist_ok=True)
+        page.write_text("\n".join(part for part in parts if part))
+        written.append(page)
+    return written

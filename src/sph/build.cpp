@@ -44,7 +44,7 @@ class Builder {
     read_viscosities();
     read_control();
     fill_particles();
-    read_eddy_viscosity(deck_, model_, settings_, diagnostics_);
+    read_eddy_viscosity(deck_, model_, world_.particles, settings_, diagnostics_);
     set_smoothing_lengths();
     choose_h_form();
     read_pair_geometry();

@@ -74,7 +74,7 @@ struct CourantDensityReinitialisation : Entry {
 
 /// *COURANT_EDDY_VISCOSITY, ours.
 struct CourantEddyViscosity : Entry {
-  Real lmax = 0, cmu = 0.09, kappa = 0.41;
+  Real lmax = 0, cmu = 0, kappa = 0;
   Real vtx = 0, vty = 0, vtz = 0, vhx = 0, vhy = 0, vhz = 0;
 };
 

@@ -11,27 +11,42 @@ namespace courant {
 
 namespace {
 
+/// LMAX has no direction to be stretched in.
+std::string refuse_stretching(CourantEddyViscosity&, const Affine& motion) {
+  const Matrix turn = motion.linear();
+  return (turn.transpose() * turn).isIdentity(1e-9)
+             ? ""
+             : "a mixing length can be turned and shifted, but not stretched";
+}
+
 KeywordOf<CourantEddyViscosity> courant_eddy_viscosity() {
   using T = CourantEddyViscosity;
-  const FieldRules not_negative{.check = Check::not_negative};
-  return {
-      .names = {"COURANT_EDDY_VISCOSITY"},
-      .purpose = "eddy viscosity by a mixing length that grows with the distance from a wall",
-      .once = true,
-      .many = false,
-      .cards = {
-          {.fields = {{"LMAX", &T::lmax, "L", "largest mixing length; 0: no eddy viscosity", not_negative},
-                      {"CMU", &T::cmu, "-", "factor of l^2 |S|", not_negative},
-                      {"KAPPA", &T::kappa, "-", "mixing length over the distance from the wall",
-                       not_negative}}},
-          {.fields = {{"VTX", &T::vtx, "L", "tail: a point on the wall; tail and head alike: no wall",
-                       rules::point},
-                      {"VTY", &T::vty, "L", "tail: a point on the wall"},
-                      {"VTZ", &T::vtz, "L", "tail: a point on the wall"},
-                      {"VHX", &T::vhx, "L", "head: from the tail into the water", rules::point},
-                      {"VHY", &T::vhy, "L", "head: from the tail into the water"},
-                      {"VHZ", &T::vhz, "L", "head: from the tail into the water"}},
-           .optional = true}}};
+  return {.names = {"COURANT_EDDY_VISCOSITY"},
+          .purpose = "eddy viscosity by a mixing length that grows with the distance from a wall",
+          .once = true,
+          .many = false,
+          .cards =
+              {{.fields =
+                    {{"LMAX",
+                      &T::lmax,
+                      "L",
+                      "largest mixing length; 0: no eddy viscosity",
+                      {.check = Check::not_negative}},
+                     {"CMU", &T::cmu, "-", "factor of l^2 |S|", {.standard = 0.09, .check = Check::positive}},
+                     {"KAPPA",
+                      &T::kappa,
+                      "-",
+                      "mixing length over the distance from the wall",
+                      {.standard = 0.41, .check = Check::positive}}}},
+               {.fields = {{"VTX", &T::vtx, "L", "tail: a point on the wall; tail and head alike: no wall",
+                            rules::point},
+                           {"VTY", &T::vty, "L", "tail: a point on the wall"},
+                           {"VTZ", &T::vtz, "L", "tail: a point on the wall"},
+                           {"VHX", &T::vhx, "L", "head: from the tail into the water", rules::point},
+                           {"VHY", &T::vhy, "L", "head: from the tail into the water"},
+                           {"VHZ", &T::vhz, "L", "head: from the tail into the water"}},
+                .optional = true}},
+          .move = refuse_stretching};
 }
 const RegisterKeyword<CourantEddyViscosity> eddy_viscosity_keyword{courant_eddy_viscosity()};
 
@@ -44,7 +59,9 @@ class EddyViscosity : public Material {
       : rules_(s.mixing_length),
         mu_(s.mu),
         rate_(sph_fields::strain_rate(world.particles)),
-        viscosity_(sph_fields::viscosity(world.particles)) {}
+        viscosity_(sph_fields::viscosity(world.particles)) {
+    for (Index i = 0; i < world.particles.size(); ++i) viscosity_[i] = mu_[world.particles.part[i]];
+  }
   std::string name() const override { return "eddy viscosity"; }
   void block(World& world, const Clock&, Index begin, Index end) override {
     const Particles& p = world.particles;
@@ -64,16 +81,25 @@ class EddyViscosity : public Material {
 
 }  // namespace
 
-void read_eddy_viscosity(const Deck& deck, const Model& model, SphSettings& s, Diagnostics& diagnostics) {
+void read_eddy_viscosity(const Deck& deck, const Model& model, const Particles& p, SphSettings& s,
+                         Diagnostics& diagnostics) {
   const auto* c = deck.last<CourantEddyViscosity>();
   if (c == nullptr || c->lmax == 0) return;
   const Vec tail(c->vtx, c->vty, c->vtz), n = Vec(c->vhx, c->vhy, c->vhz) - tail;
   if (s.dim == 2 && std::abs(n[2]) > 1e-6 * n.norm())
-    deck.error(diagnostics, *c, "VHZ",
-               "in 2D the wall must stand upright on the plane of the particles: the vector points out of it",
-               "give tail and head the same z");
+    return deck.error(
+        diagnostics, *c, "VHZ",
+        "in 2D the wall must stand upright on the plane of the particles: the vector points out of it",
+        "give tail and head the same z");
   s.mixing_length = {.most = c->lmax, .cmu = c->cmu, .kappa = c->kappa, .wall = tail};
-  if (n.norm() > 0) s.mixing_length.normal = n.normalized();
+  if (n.norm() > 0) {
+    s.mixing_length.normal = n.normalized();
+    Index before = 0;
+    while (before < p.size() && !(s.mixing_length.length(p.x.vec(before)) > 0)) ++before;
+    if (before == p.size() && before > 0)
+      deck.error(diagnostics, *c, "VHX", "all particles are behind the wall, where the mixing length is 0",
+                 "the vector points from the wall into the water");
+  }
   if (s.mu.empty()) s.mu.assign(model.parts.size(), 0);
 }
 

@@ -61,7 +61,7 @@ struct SupportedWalls {
 /// *COURANT_EDDY_VISCOSITY.
 struct MixingLength {
   Real most = 0;  ///< LMAX; 0: no eddy viscosity [L]
-  Real cmu = 0.09, kappa = 0.41;
+  Real cmu = 0, kappa = 0;
   Vec wall = Vec::Zero(), normal = Vec::Zero();  ///< a point on the wall; out of it, 0: no wall
   Real length(const Vec& x) const {
     return normal.isZero() ? most : std::clamp(kappa * (x - wall).dot(normal), Real(0), most);
@@ -186,7 +186,7 @@ void add_shifting(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::
 void add_xsph(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);
 std::shared_ptr<Material> make_bulk_viscosity(const SphSettings&, World&);
 /// Behind the viscosity MU of the materials.
-void read_eddy_viscosity(const Deck&, const Model&, SphSettings&, Diagnostics&);
+void read_eddy_viscosity(const Deck&, const Model&, const Particles&, SphSettings&, Diagnostics&);
 /// Before the viscous stress, which takes it.
 std::shared_ptr<Material> make_eddy_viscosity(const SphSettings&, World&);
 std::shared_ptr<Material> make_viscous_stress(const SphSettings&, World&);

@@ -65,6 +65,13 @@ code, out = call("d4_better")
 after = (results / "d4_better" / "summary.yaml").stat().st_mtime_ns, (results / "d4_better" / "evaluated.yaml").stat().st_mtime_ns
 check(code == 0 and before == after and "is complete" in out, "a complete run is neither run nor evaluated again")
 
+# ---- jumps that stand still have a page of their own
+code, out = call("fr24")
+page = (results / "page_standing.md").read_text()
+check(code == 0 and page.startswith("# Jumps that stand still") and "| 2.4 | 22 |" in page, "Fr1 = 2.4 with its Reynolds number")
+check("Not run: fr34, fr31" in page and "d4" not in page.split("Not run:")[1].split("\n")[0], "and what was not run of its kind")
+check("| 2.4 |" not in (results / "page.md").read_text(), "not on the page of the paper's cases")
+
 # ---- interrupted, and gone on with
 running = subprocess.Popen(words("d10"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True)
 end = time.time() + 120

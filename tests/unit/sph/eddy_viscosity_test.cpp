@@ -44,10 +44,11 @@ void run(Simulation& s, Real until) {
   while (s.clock().t < until) s.step([](World&, const Clock&, const std::string&) {});
 }
 
-TEST(EddyViscosity, IsThatOfTheMixingLength) {
+class EddyViscosity : public testing::TestWithParam<const char*> {};
+
+TEST_P(EddyViscosity, IsThatOfTheMixingLength) {
   const Real shear = 0.5;
-  const auto s =
-      test::build_deck(layer([&](Real y) { return shear * y; }, eddy("0.8,0.09,0.41\n0,-6,0,0,0,0")));
+  const auto s = test::build_deck(layer([&](Real y) { return shear * y; }, eddy(GetParam())));
   run(*s, 1e-6);
   Particles& p = s->world().particles;
   const Field<Real>& viscosity = sph_fields::viscosity(p);
@@ -62,7 +63,10 @@ TEST(EddyViscosity, IsThatOfTheMixingLength) {
   EXPECT_GT(at_most, 300);
 }
 
-TEST(EddyViscosity, WithoutAWallTheLengthIsTheLargestAndMUComesOnTop) {
+INSTANTIATE_TEST_SUITE_P(GivenAndStandardNumbers, EddyViscosity,
+                         testing::Values("0.8,0.09,0.41\n0,-6,0,0,0,0", "0.8\n0,-6,0,0,0,0"));
+
+TEST_F(EddyViscosity, WithoutAWallTheLengthIsTheLargestAndMUComesOnTop) {
   std::string deck = layer([](Real y) { return 0.5 * y; }, eddy("0.8,0.09"));
   const std::string null = "*MAT_NULL\n1,1000.0\n";
   deck.replace(deck.find(null), null.size(), "*MAT_NULL\n1,1000.0,,7\n");
@@ -80,7 +84,7 @@ Real jet(Real y, Real s) {
   return edge > 0 ? std::pow(s, -0.25) * edge * edge : 0;
 }
 
-TEST(EddyViscosity, SpreadsAJetAsTheSolutionOfBarenblattDoes) {
+TEST_F(EddyViscosity, SpreadsAJetAsTheSolutionOfBarenblattDoes) {
   const auto s = test::build_deck(layer([](Real y) { return jet(y, 1); }, eddy("1,1")));
   run(*s, 1);
   const Particles& p = s->world().particles;
@@ -96,7 +100,7 @@ TEST(EddyViscosity, SpreadsAJetAsTheSolutionOfBarenblattDoes) {
   EXPECT_NEAR(e.residual(), 0, 0.01 * e.dissipated);
 }
 
-TEST(EddyViscosity, ShortensTheStep) {
+TEST_F(EddyViscosity, ShortensTheStep) {
   const auto with = test::build_deck(layer([](Real y) { return 0.5 * y; }, eddy("10,0.09")));
   const auto without = test::build_deck(layer([](Real y) { return 0.5 * y; }, ""));
   run(*with, 1e-2), run(*without, 1e-2);
