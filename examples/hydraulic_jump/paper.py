@@ -14,7 +14,8 @@ usage: bash examples/hydraulic_jump/paper.sh [options]
   --quick           0.2 s in place of each run, to try the script: results/hydraulic_jump_quick, and the page in there
 
 A complete run that is younger than its deck and the program is taken over. One that was stopped (Ctrl-C) or killed goes on from its
-restart file. A run that fails is reported, the others go on. The pages show all runs that are complete in the folder.
+restart file. A run that fails is reported, the others go on. The pages show all runs that are complete in the folder; a call that runs
+none of a page leaves it alone.
 Exit code: 0 all is done, 1 a run or its evaluation failed, 2 the call was wrong, 130 interrupted.
 
 """
