@@ -151,6 +151,13 @@ def order(one):
     return (not one[0].startswith("fig"), one[0].startswith("standing"), one[0])
 
 
+def figure_folder(page_folder):
+    """Beside the page, made if it is not there."""
+    folder = page_folder / FOLDER
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
 def section(shown, page_folder):
     """The page's section that shows these figures."""
     size = sum(path.stat().st_size for path in (page_folder / FOLDER).iterdir()) / 1e6
@@ -161,8 +168,7 @@ def section(shown, page_folder):
 
 def of_cases(runs, page_folder, project):
     """Draws and copies figures of the paper's cases beside the page; its section."""
-    folder = page_folder / FOLDER
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = figure_folder(page_folder)
     shown = []
     for run, _ in runs:
         ends = {"paper": "", "supported": "_supported", "better": "_better", "paper_setting": "_c1484"}[run.group]
@@ -178,8 +184,7 @@ def of_cases(runs, page_folder, project):
 
 def of_standing(runs, page_folder, project):
     """The same of jumps that stand still."""
-    folder = page_folder / FOLDER
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = figure_folder(page_folder)
     shown = []
     for run, found in runs:
         shown += copied(run, [("standing/streamlines.png", f"standing_{run.name}.png", f"Mean flow, Fr1 = {found['values']['froude']:g}")], folder)

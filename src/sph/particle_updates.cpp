@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "parallel/parallel.hpp"
+#include "sph/dynamic_viscosity.hpp"
 #include "sph/fields.hpp"
 #include "sph/sph.hpp"
 #include "state/keeper.hpp"
@@ -51,17 +52,15 @@ class BulkViscosityPass : public Material, public Refresh, public Keeper {
 class ViscousStress : public Material {
  public:
   ViscousStress(const SphSettings& s, World& world)
-      : mu_(s.mu),
+      : viscosity_(s, world),
         rate_(sph_fields::strain_rate(world.particles)),
         tau_(sph_fields::stress(world.particles)),
-        power_(sph_fields::viscous_dissipation(world.particles)) {
-    if (s.mixing_length.most > 0) viscosity_ = &sph_fields::viscosity(world.particles);
-  }
+        power_(sph_fields::viscous_dissipation(world.particles)) {}
   std::string name() const override { return "viscous stress"; }
   void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
     for (Index i = begin; i < end; ++i) {
-      const Real mu = viscosity_ ? (*viscosity_)[i] : mu_[p.part[i]];
+      const Real mu = viscosity_.of(p, i);
       const Real third = (rate(0, i) + rate(1, i) + rate(2, i)) / 3;
       Real power = 0;
       for (int k = 0; k < 6; ++k) {
@@ -75,9 +74,8 @@ class ViscousStress : public Material {
 
  private:
   Real rate(int k, Index i) const { return rate_.data(k)[i]; }
-  std::vector<Real> mu_;
+  DynamicViscosity viscosity_;
   Field<Real>&rate_, &tau_, &power_;
-  const Field<Real>* viscosity_ = nullptr;  ///< where it is not MU
 };
 
 /// DERIV 0: dh/dt = h div v / dim, within HMIN h0 and HMAX h0. Particles at a bound are counted. Neighbours

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "parallel/parallel.hpp"
-#include "sph/fields.hpp"
+#include "sph/dynamic_viscosity.hpp"
 #include "sph/sph.hpp"
 #include "state/particle_loops.hpp"
 
@@ -16,8 +16,7 @@ namespace {
 class SphTimeLimit : public Tally, public TimeLimit {
  public:
   SphTimeLimit(const SphSettings& s, const Model& model, World& world)
-      : tssfac_(std::min(s.tssfac, s.most_tssfac)), mu_(s.mu) {
-    if (s.mixing_length.most > 0) viscosity_ = &sph_fields::viscosity(world.particles);
+      : tssfac_(std::min(s.tssfac, s.most_tssfac)), viscosity_(s, world) {
     for (const ModelPart& part : model.parts) part_ids_.push_back(part.id);
   }
   std::string name() const override { return "sph time step"; }
@@ -26,7 +25,7 @@ class SphTimeLimit : public Tally, public TimeLimit {
     const Particles& p = world.particles;
     const Real* const v[3] = {p.v.data(0), p.v.data(1), p.v.data(2)};
     Real smallest = loops_.least_crossing(p.h.data(), p.c.data(), v, begin, end);
-    if (!mu_.empty())
+    if (!viscosity_.none())
       for (Index i = begin; i < end; ++i) smallest = std::min(smallest, viscous_limit(p, i));
     smallest_[begin / block_size] = smallest;
   }
@@ -59,13 +58,12 @@ class SphTimeLimit : public Tally, public TimeLimit {
     return out;
   }
   Real viscous_limit(const Particles& p, Index i) const {
-    if (mu_.empty()) return std::numeric_limits<Real>::infinity();
-    return 0.125 * p.rho[i] * p.h[i] * p.h[i] / (viscosity_ ? (*viscosity_)[i] : mu_[p.part[i]]);
+    if (viscosity_.none()) return std::numeric_limits<Real>::infinity();
+    return 0.125 * p.rho[i] * p.h[i] * p.h[i] / viscosity_.of(p, i);
   }
   ParticleLoops loops_ = particle_loops();
   Real tssfac_;
-  std::vector<Real> mu_;
-  const Field<Real>* viscosity_ = nullptr;  ///< where it is not MU
+  DynamicViscosity viscosity_;
   std::vector<Id> part_ids_;
   std::vector<Real> smallest_;  ///< of each block [T]
 };
