@@ -50,6 +50,21 @@ void for_each(Index n, const Body& body) {
   });
 }
 
+/// What `body(begin, end, out)` appends to `out` for all blocks of [0, n), in block order.
+template <class T, class Body>
+void collect(Index n, std::vector<T>& out, const Body& body) {
+  const std::size_t blocks = block_count(n), shares = blocks > 1 ? threads() : 1;
+  std::vector<std::vector<T>> found(shares);
+  on_threads(static_cast<int>(shares), [&](int t) {
+    for (std::size_t b = blocks * t / shares; b < blocks * (t + 1) / shares; ++b) {
+      const Index begin = static_cast<Index>(b) * block_size;
+      body(begin, std::min(n, begin + block_size), found[t]);
+    }
+  });
+  out.clear();
+  for (const auto& some : found) out.insert(out.end(), some.begin(), some.end());
+}
+
 /// Combines `body(begin, end)` of all blocks in block order. T needs no more than a copy and `combine(T, T)`.
 template <class T, class Body, class Combine>
 T reduce(Index n, T start, const Body& body, const Combine& combine) {

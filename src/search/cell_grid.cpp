@@ -17,6 +17,13 @@ void CellGrid::cover(const Vec& low, const Vec& high, Real row, Real bin, Real m
   }
 }
 
+CellFrame CellGrid::frame() const {
+  CellFrame f;
+  for (int d = 0; d < 3; ++d)
+    f.origin[d] = origin_[d], f.inverse_size[d] = inverse_[d], f.cells[d] = cells_[d];
+  return f;
+}
+
 void CellGrid::keep(Archive& archive) {
   archive("origin", origin_);
   archive("size", size_);

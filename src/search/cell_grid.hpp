@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/real.hpp"
+#include "search/near_loops.hpp"
 #include "state/saved_state.hpp"
 
 namespace courant {
@@ -18,8 +19,8 @@ class CellGrid {
   void cover(const Vec& low, const Vec& high, Real row, Real bin, Real most);
 
   Index total() const { return cells_[0] * cells_[1] * cells_[2]; }
-  /// Place of the cell in the snake. Points outside belong to the cell at the border.
-  Index cell_of(Real x, Real y, Real z) const { return place(at(x, 0), row_at(at(y, 1), at(z, 2))); }
+  /// For the loop that finds the cells of particles.
+  CellFrame frame() const;
 
   void keep(Archive& archive);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "parallel/parallel.hpp"
 
@@ -32,7 +31,7 @@ class Mirrors : public Motion {
   // What gravity did behind the mirror is taken back twice, which errs by half a step of it, m g v dt/2, to
   // the safe side: without that a lattice that trembles on a mirror gains energy.
   void reflect(Particles& p, const ImagePlane& plane, Index begin, Index end) {
-    if (!(least_depth(plane, p, begin, end) < 0)) return;
+    if (!(depth_range(loops_, plane, p, begin, end).least < 0)) return;
     const Real pull = -g_.dot(plane.normal);
     for (Index i = begin; i < end; ++i) {
       const Real d = depth(plane, p.x.vec(i));
@@ -47,6 +46,7 @@ class Mirrors : public Motion {
       ++crossings_[begin / block_size];
     }
   }
+  ParticleLoops loops_ = particle_loops();
   std::vector<ImagePlane> mirrors_;
   std::function<Vec(Real)> gravity_;
   Vec g_ = Vec::Zero();
@@ -56,12 +56,10 @@ class Mirrors : public Motion {
 
 }  // namespace
 
-Real least_depth(const ImagePlane& plane, const Particles& p, Index begin, Index end) {
-  const Real *x = p.x.data(0), *y = p.x.data(1), *z = p.x.data(2);
-  Real least = std::numeric_limits<Real>::infinity();
-#pragma omp simd reduction(min : least)
-  for (Index i = begin; i < end; ++i) least = std::min(least, depth(plane, x[i], y[i], z[i]));
-  return least;
+ParticleLoops::Range depth_range(const ParticleLoops& loops, const ImagePlane& plane, const Particles& p,
+                                 Index begin, Index end) {
+  const Real* const x[3] = {p.x.data(0), p.x.data(1), p.x.data(2)};
+  return loops.depths(plane.normal.data(), plane.point.data(), x, begin, end);
 }
 
 Images::Images(std::vector<ImagePlane> planes) : planes_(std::move(planes)) {
@@ -91,19 +89,24 @@ void Images::bring_back(World& world, Index n) {
   for (std::size_t k = 0; k < planes_.size(); ++k) {
     const ImagePlane& plane = planes_[k];
     const bool mirror = plane.kind == ImagePlane::Kind::mirror;
-    for (Index i = 0; i < n; ++i) {
+    const auto is_outside = [&](Real d) { return d < 0 || (!mirror && d >= plane.period); };
+    collect(n, scratch_, [&](Index begin, Index end, std::vector<Index>& outside) {
+      const auto [least, most, broken] = depth_range(loops_, plane, p, begin, end);
+      if (!is_outside(least) && !is_outside(most)) return;
+      for (Index i = begin; i < end; ++i)
+        if (is_outside(depth(plane, p.x.vec(i)))) outside.push_back(i);
+    });
+    for (const Index i : scratch_) {
       const Vec before = p.x.vec(i);
-      const Real d = depth(plane, before);
-      const bool outside = mirror ? d < 0 : d < 0 || d >= plane.period;
-      if (!outside || p.state[i] == particle_deactivated || !before.allFinite()) continue;
+      if (p.state[i] == particle_deactivated || !before.allFinite()) continue;
       if (mirror) {
         p.x.set(i, mirror_[k].of(before));
         p.v.set(i, mirror_[k].A * p.v.vec(i));
+        ++world.counters["mirror_crossings"];
       } else {  // far out after a step that was much too long: the run stops for other reasons soon
-        p.x.set(i, before - std::floor(d / plane.period) * mirror_[k].b);
+        p.x.set(i, before - std::floor(depth(plane, before) / plane.period) * mirror_[k].b);
+        if (i < p.active) brought_back_ += p.m[i] * (p.x.vec(i) - before);
       }
-      if (mirror) ++world.counters["mirror_crossings"];
-      if (!mirror && i < p.active) brought_back_ += p.m[i] * (p.x.vec(i) - before);
     }
   }
 }
@@ -114,11 +117,11 @@ void Images::build(World& world, Real reach) {
   motion_.clear();
   motions_.assign(1, Motion{});
   for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const ImagePlane& plane = planes_[k];
     const Index before = count();
-    const auto add = [&](const Motion& motion, auto&& wanted) {
+    const auto add = [&](const Motion& motion, const auto& is_near) {
       std::vector<Index> composed(motions_.size(), -1);
       const auto image = [&](Index source, Index first) {
-        if (!wanted(motions_[first].of(p.x.vec(source)))) return;
         if (composed[first] < 0) {
           composed[first] = static_cast<Index>(motions_.size());
           motions_.push_back(motion.after(motions_[first]));
@@ -126,17 +129,25 @@ void Images::build(World& world, Real reach) {
         source_.push_back(source);
         motion_.push_back(composed[first]);
       };
-      for (Index i = 0; i < p.moving; ++i) image(i, 0);
-      for (Index m = 0; m < before; ++m) image(source_[m], motion_[m]);  // corners: images of images
+      collect(p.moving, scratch_, [&](Index begin, Index end, std::vector<Index>& near) {
+        const auto [least, most, broken] = depth_range(loops_, plane, p, begin, end);
+        if (!is_near(least) && !is_near(most)) return;
+        for (Index i = begin; i < end; ++i)
+          if (is_near(depth(plane, p.x.vec(i)))) near.push_back(i);
+      });
+      for (const Index i : scratch_) image(i, 0);
+      for (Index m = 0; m < before; ++m)  // corners: images of images
+        if (is_near(depth(plane, motions_[motion_[m]].of(p.x.vec(source_[m])))))
+          image(source_[m], motion_[m]);
     };
-    const ImagePlane& plane = planes_[k];
-    const auto near = [&](const Vec& x) { return depth(plane, x) < reach; };
-    const auto near_other = [&](const Vec& x) { return plane.period - depth(plane, x) < reach; };
-    add(mirror_[k], near);
-    if (plane.kind == ImagePlane::Kind::periodic) add(Motion{Matrix::Identity(), -mirror_[k].b}, near_other);
+    add(mirror_[k], [&](Real d) { return d < reach; });
+    if (plane.kind == ImagePlane::Kind::periodic)
+      add(Motion{Matrix::Identity(), -mirror_[k].b}, [&](Real d) { return plane.period - d < reach; });
   }
   p.fields.make_room_for_images(count());
-  copy_field(p.x, p.size(), true);  // places are what images are sorted by
+  for_each_block(count(), [&](Index begin, Index end) {  // places are what images are sorted by
+    copy_block(p.x, p.size(), true, begin, end);
+  });
 }
 
 void Images::sort(World& world, std::span<const Index> order) {
@@ -150,27 +161,33 @@ void Images::sort(World& world, std::span<const Index> order) {
 
 void Images::copy(World& world, Exchange when) const {
   Particles& p = world.particles;
-  for (const auto& field : p.fields.all()) {
-    if (field->info().exchange != when && field->info().exchange != Exchange::always) continue;
-    auto& values = dynamic_cast<Field<Real>&>(*field);
-    copy_field(values, p.size(), &values == &p.x);
-  }
+  std::vector<Field<Real>*> fields;
+  for (const auto& field : p.fields.all())
+    if (field->info().exchange == when || field->info().exchange == Exchange::always)
+      fields.push_back(&dynamic_cast<Field<Real>&>(*field));
+  for_each_block(count(), [&](Index begin, Index end) {
+    for (Field<Real>* field : fields) copy_block(*field, p.size(), field == &p.x, begin, end);
+  });
 }
 
-void Images::copy_field(Field<Real>& field, Index first, bool place) const {
-  const Index n = count();
-  if (field.info().components == 1)
-    return for_each(n, [&, values = field.data()](Index k) { values[first + k] = values[source_[k]]; });
-  if (field.info().components == 3)
-    return for_each(n, [&](Index k) {
-      const Motion& m = motions_[motion_[k]];
-      const Vec value = field.vec(source_[k]);
-      field.set(first + k, place ? m.of(value) : Vec(m.A * value));
-    });
-  for_each(n, [&](Index k) {
-    const Matrix& A = motions_[motion_[k]].A;
-    field.set_tensor(first + k, A * field.tensor(source_[k]) * A.transpose());
-  });
+/// To entities from `to` on.
+void Images::copy_block(Field<Real>& field, Index to, bool place, Index begin, Index end) const {
+  for (Index k = begin; k < end; ++k) {
+    const Index source = source_[k];
+    const Motion& m = motions_[motion_[k]];
+    switch (field.info().components) {
+      case 1:
+        field[to + k] = field[source];
+        break;
+      case 3: {
+        const Vec value = field.vec(source);
+        field.set(to + k, place ? m.of(value) : Vec(m.A * value));
+        break;
+      }
+      default:
+        field.set_tensor(to + k, m.A * field.tensor(source) * m.A.transpose());
+    }
+  }
 }
 
 }  // namespace courant

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "state/particle_loops.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -26,9 +27,10 @@ inline Real depth(const ImagePlane& plane, Real x, Real y, Real z) {
 inline Real depth(const ImagePlane& plane, const Vec& x) {
   return depth(plane, x[0], x[1], x[2]);
 }
-/// Distance of the particle among [begin, end) that is nearest to the plane, or farthest behind it [L]: so
-/// that blocks of particles far from it cost next to nothing.
-Real least_depth(const ImagePlane& plane, const Particles& p, Index begin, Index end);
+/// Distances from the plane of the particles [begin, end), so that blocks of them far from it cost next to
+/// nothing; within round-off of `depth`. [L]
+ParticleLoops::Range depth_range(const ParticleLoops& loops, const ImagePlane& plane, const Particles& p,
+                                 Index begin, Index end);
 
 /// Acceleration towards a mirror that does not turn round behind it, as it should; whoever adds such a force
 /// tells it here, gravity apart [L/T2]
@@ -77,8 +79,9 @@ class Images : public Exchanger {
     Vec of(const Vec& x) const { return A * x + b; }
   };
   void copy(World& world, Exchange when) const;
-  void copy_field(Field<Real>& field, Index first, bool place) const;
+  void copy_block(Field<Real>& field, Index to, bool place, Index begin, Index end) const;
 
+  ParticleLoops loops_ = particle_loops();
   std::vector<ImagePlane> planes_;
   std::vector<Motion> mirror_;          ///< of each plane; periodic ones: the shift by +period
   std::vector<Index> source_, motion_;  ///< of each image: the particle, and an index of motions_

@@ -6,16 +6,21 @@ namespace courant::COURANT_SIMD {
 
 namespace {
 
-template <bool UniformH>
+template <bool Spatial, bool UniformH>
 void near(const NearQuery& q, Index begin, Index end, NearFound& found) {
   const Pack xi = Pack::load(q.x + q.first, q.count), yi = Pack::load(q.y + q.first, q.count),
-             zi = Pack::load(q.z + q.first, q.count), hi = Pack::load(q.h + q.first, q.count);
+             zi = Spatial ? Pack::load(q.z + q.first, q.count) : Pack::zero(),
+             hi = Pack::load(q.h + q.first, q.count);
   Pack reach = q.support * hi, wide = reach + q.skin;
   Pack reach2 = reach * reach, wide2 = wide * wide;
   Index within = found.within_count, beyond = found.beyond_count;
   for (Index j = begin; j < end; ++j) {
-    const Pack dx = xi - q.x[j], dy = yi - q.y[j], dz = zi - q.z[j];
-    const Pack r2 = dx * dx + dy * dy + dz * dz;
+    const Pack dx = xi - q.x[j], dy = yi - q.y[j];
+    Pack r2 = dx * dx + dy * dy;
+    if constexpr (Spatial) {
+      const Pack dz = zi - q.z[j];
+      r2 = r2 + dz * dz;
+    }
     if constexpr (!UniformH) {
       reach = q.support * max(hi, Pack::of(q.h[j])), wide = reach + q.skin;
       reach2 = reach * reach, wide2 = wide * wide;
@@ -28,10 +33,35 @@ void near(const NearQuery& q, Index begin, Index end, NearFound& found) {
   found.within_count = within, found.beyond_count = beyond;
 }
 
+void find(const NearQuery& q, Index begin, Index end, NearFound& found) {
+  if (q.z)
+    q.uniform_h ? near<true, true>(q, begin, end, found) : near<true, false>(q, begin, end, found);
+  else
+    q.uniform_h ? near<false, true>(q, begin, end, found) : near<false, false>(q, begin, end, found);
+}
+
+void cells(const CellFrame& f, const Real* const at[3], Index begin, Index end, Index* __restrict cell) {
+  const Real *x = at[0], *y = at[1], *z = at[2];
+  const Real x0 = f.origin[0], y0 = f.origin[1], z0 = f.origin[2];
+  const Real ax = f.inverse_size[0], ay = f.inverse_size[1], az = f.inverse_size[2];
+  const Index mx = f.cells[0] - 1, my = f.cells[1] - 1, mz = f.cells[2] - 1;
+  const auto along = [](Real k, Index last) {  // what is not a number: 0
+    const Real most = last, up = k < most ? k : most;
+    return static_cast<Index>(k > 0 ? up : 0);
+  };
+#pragma omp simd
+  for (Index i = begin; i < end; ++i) {
+    const Index kx = along((x[i] - x0) * ax, mx), ky = along((y[i] - y0) * ay, my),
+                kz = along((z[i] - z0) * az, mz);
+    const Index row = kz * (my + 1) + (kz & 1 ? my - ky : ky);
+    cell[i - begin] = row * (mx + 1) + (row & 1 ? mx - kx : kx);
+  }
+}
+
 }  // namespace
 
-void find_near(const NearQuery& q, Index begin, Index end, NearFound& found) {
-  q.uniform_h ? near<true>(q, begin, end, found) : near<false>(q, begin, end, found);
+NearLoops near_loops() {
+  return {&find, &cells};
 }
 
 }  // namespace courant::COURANT_SIMD

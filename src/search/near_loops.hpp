@@ -1,12 +1,12 @@
 #pragma once
-// The inner loop of the neighbour search, compiled once for each instruction set.
+// The inner loops of the neighbour search, compiled once for each instruction set.
 #include "base/real.hpp"
 
 namespace courant {
 
 /// Eight particles in a row (fewer at the end) and those that may be near them.
 struct NearQuery {
-  const Real *x, *y, *z, *h;  ///< of all particles
+  const Real *x, *y, *z, *h;  ///< of all particles; z: null in 2D
   Index first, count;         ///< the group: particles [first, first + count), 1 <= count <= 8
   Real skin;                  ///< [L]
   Real support;               ///< of the kernel, in h
@@ -19,11 +19,22 @@ struct NearFound {
   Index within_count = 0, beyond_count = 0;
 };
 
-/// Adds those of particles [begin, end) that are within support max(h_i, h_j) of any particle i of the group
-/// to `within`, those that are but within support max(h_i, h_j) + skin to `beyond`.
-using FindNear = void (*)(const NearQuery& query, Index begin, Index end, NearFound& found);
+/// Where cells stand, and how many there are along each axis.
+struct CellFrame {
+  Real origin[3], inverse_size[3];  ///< [L], [1/L]
+  Index cells[3];
+};
+
+struct NearLoops {
+  /// Adds those of particles [begin, end) that are within support max(h_i, h_j) of any particle i of the
+  /// group to `within`, those that are but within support max(h_i, h_j) + skin to `beyond`.
+  void (*find)(const NearQuery& query, Index begin, Index end, NearFound& found);
+  /// The cells of particles [begin, end), by their place in the snake (see CellGrid): cell[0] is that of
+  /// particle `begin`. Points outside belong to the cell at the border.
+  void (*cells)(const CellFrame& frame, const Real* const x[3], Index begin, Index end, Index* cell);
+};
 
 /// For the machine the program runs on.
-FindNear find_near();
+NearLoops near_loops();
 
 }  // namespace courant

@@ -7,33 +7,12 @@
 
 #include "base/run_error.hpp"
 #include "parallel/copy.hpp"
-#include "state/particle_loops.hpp"
+#include "parallel/counting_sort.hpp"
 
 namespace courant {
 
 namespace {
 
-/// What decides how particles are sorted.
-struct Extent {
-  Vec low = Vec::Constant(std::numeric_limits<Real>::infinity()), high = -low;
-  Real h_max = 0, h_min = std::numeric_limits<Real>::infinity(), volume = 0;
-  Index count = 0;
-  bool lost = false;  ///< a place or h is not a finite number
-  void add(const Extent& other) {
-    low = low.cwiseMin(other.low), high = high.cwiseMax(other.high);
-    h_max = std::max(h_max, other.h_max), h_min = std::min(h_min, other.h_min);
-    volume += other.volume, count += other.count;
-    lost = lost || other.lost;
-  }
-};
-
-enum Group : signed char { group_active = 0, group_rim = 1, group_dormant = 2 };
-
-/// Particles that wait or have gone are woken this many smoothing lengths before they can matter, so that
-/// whole batches are.
-constexpr Real waking_margin = 8;
-/// By so much h may grow before it is worked out anew when dormant particles are due.
-constexpr Real h_growth = 1.2;
 /// A step that moves a particle this many smoothing lengths has left every limit: TSSFAC h/(c + v) is less
 /// than one.
 constexpr Real longest_leap = 2;
@@ -74,15 +53,16 @@ class Neighbours::Watch : public Motion {
   }
   void look(const Particles& p, Index begin, Index end) {
     const Real* const x[3] = {p.x.data(0), p.x.data(1), p.x.data(2)};
-    const auto [most2, within] = loops_.moved({{x[0], x[1], x[2]},
-                                               p.h.data(),
-                                               {lists_.x_built_.data(), lists_.y_built_.data(),
-                                                lists_.z_built_.empty() ? nullptr : lists_.z_built_.data()},
-                                               lists_.h_built_.empty() ? nullptr : lists_.h_built_.data()},
-                                              0.5 * lists_.skin_, begin, end);
+    const auto [most2, within] =
+        lists_.loops_.moved({{x[0], x[1], x[2]},
+                             p.h.data(),
+                             {lists_.x_built_.data(), lists_.y_built_.data(),
+                              lists_.z_built_.empty() ? nullptr : lists_.z_built_.data()},
+                             lists_.h_built_.empty() ? nullptr : lists_.h_built_.data()},
+                            0.5 * lists_.skin_, begin, end);
     bool stale = !within;
     const auto inside = [&](Index first, Index last) {
-      return loops_.inside(lists_.region_->low.data(), lists_.region_->high.data(), x, first, last);
+      return lists_.loops_.inside(lists_.region_->low.data(), lists_.region_->high.data(), x, first, last);
     };
     const Index active_end = std::clamp(p.active, begin, end);
     if (lists_.region_) stale |= inside(begin, active_end) != active_end - begin;
@@ -94,7 +74,6 @@ class Neighbours::Watch : public Motion {
     moved2_[begin / block_size] = most2;
   }
   const Neighbours& lists_;
-  ParticleLoops loops_ = particle_loops();
   bool looked_ = false;
   std::vector<char> stale_;
   std::vector<Real> moved2_;
@@ -106,7 +85,6 @@ Neighbours::Neighbours(Real skin, std::optional<Region> region, Real support)
       most_skin_(skin),
       support_(support),
       region_(std::move(region)),
-      find_near_(courant::find_near()),
       watch_(std::make_shared<Watch>(*this)) {}
 
 void Neighbours::adapt_skin(Real least, Real most, Real weight) {
@@ -146,8 +124,7 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   if (built_) stop_for_leaps(world, clock);
   Particles& p = world.particles;
   const Index active_before = p.active;
-  const bool h_grew = h_max_ > 0.5 * (1 + h_growth) * h_queued_;  // with room for what grows until next time
-  bool all = !built_ || too_many_gone(world) || h_grew;
+  bool all = !built_ || must_wake_all(world);
   if (all) wake_all(world, clock.t);
   const Index n = all ? p.size() : p.moving + take_due(world, clock.t);
   if (n == p.size()) {  // the last ones were due: those that are still far sleep on from where they are now
@@ -157,63 +134,16 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   choose_skin(clock);
   if (images_) images_->bring_back(world, n);
   sort(world, clock, n);
-  std::vector<Index>& old_of_new = order_;
-  p.fields.permute(old_of_new);
-  note_changes(p, old_of_new, active_before);
+  p.fields.permute(order_);
+  note_changes(p, active_before);
   if (all) queue_dormant(p);
   if (images_) build_images(world);
   build_lists(world);
   remember_places(world, clock);
   built_ = true;
   ++rebuilds_;
-  for (auto& r : world.refreshes) r->refreshed(world, clock, old_of_new);
+  for (auto& r : world.refreshes) r->refreshed(world, clock, order_);
   return true;
-}
-
-// Dormant particles stand in the order in which they can come within reach, so the first ones are due first.
-Index Neighbours::take_due(World& world, Real t) {
-  Particles& p = world.particles;
-  Index n = 0;
-  while (first_due_ < due_.size() && due_[first_due_] <= t + waking_time_) {
-    const Index i = p.moving + n;
-    p.x.set(i, p.x.vec(i) + p.v.vec(i) * (t - p.dormant_time));
-    ++first_due_;
-    ++n;
-  }
-  return n;
-}
-
-void Neighbours::wake_all(World& world, Real t) {
-  Particles& p = world.particles;
-  if (rebuilds_ > 0) {
-    const Real dt = t - p.dormant_time;
-    const Index first = p.moving;
-    for (int d = 0; d < 3; ++d) {
-      Real* x = p.x.data(d);
-      const Real* v = p.v.data(d);
-      for_each(p.size() - first, [=](Index k) { x[first + k] += v[first + k] * dt; });
-    }
-  }
-  p.dormant_time = t;
-}
-
-bool Neighbours::too_many_gone(const World& world) const {
-  return gone_ > 64 + world.particles.moving / 4;
-}
-
-void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock, Index n) const {
-  const Particles& p = world.particles;
-  for (Index i = 0; i < n; ++i) {
-    const Vec x = p.x.vec(i);
-    if (x.allFinite() && std::isfinite(p.h[i])) continue;
-    throw RunError(
-        fmt::format(
-            "particle {} of part {} went to x = ({:.5g}, {:.5g}, {:.5g}) with h = {:.5g} [L] at time {:.6g}, "
-            "cycle {}: the run is "
-            "unstable",
-            p.id[i], world.part_id(i), x[0], x[1], x[2], p.h[i], clock.t, clock.cycle),
-        StopCause::not_finite);
-  }
 }
 
 // Before their last step particles had moved half a skin at most, or the lists would be younger. Who goes
@@ -246,111 +176,6 @@ void Neighbours::choose_skin(const Clock& clock) {
   skin_ = std::clamp(std::sqrt(skin_weight_ * move * h_max_), least_skin_, most_skin_);
 }
 
-void Neighbours::sort(World& world, const Clock& clock, Index n) {
-  Particles& p = world.particles;
-  const bool all = n == p.size();
-  if (all) h_max_ = n > 0 ? maximum(n, [&](Index i) { return p.h[i]; }) : 0;
-  const Real near = support_ * h_max_ + most_skin_ + waking_margin * h_max_;
-  group_.resize(n);
-  key_.resize(n);
-  const auto extent_of = [&](Index begin, Index end) {
-    Extent e;
-    for (Index i = begin; i < end; ++i) {
-      const Vec x = p.x.vec(i);
-      e.lost = e.lost || !std::isfinite(x.sum() + p.h[i]);
-      const bool active = is_solved_for(p, i);
-      const bool far = !active && all && time_to_reach(p, i, near) > 0;
-      group_[i] = p.state[i] == particle_deactivated || far ? group_dormant
-                  : active                                  ? group_active
-                                                            : group_rim;
-      if (group_[i] == group_dormant) continue;
-      e.low = e.low.cwiseMin(x), e.high = e.high.cwiseMax(x);
-      e.h_max = std::max(e.h_max, p.h[i]), e.h_min = std::min(e.h_min, p.h[i]);
-      e.volume += p.m[i] / p.rho[i];
-      ++e.count;
-    }
-    return e;
-  };
-  Extent e = reduce(n, Extent{}, extent_of, [](Extent a, const Extent& b) {
-    a.add(b);
-    return a;
-  });
-  if (e.lost) stop_for_lost_particles(world, clock, n);
-  if (e.count == 0) e.low = e.high = Vec::Zero(), e.h_min = e.h_max = h_max_, e.volume = 1, e.count = 1;
-  h_max_ = e.h_max;
-  h_min_ = e.h_min;
-
-  // rows as wide as eight particles that stand together, so that groups are compact
-  Real spacing = std::min(std::pow(e.volume / e.count, 1.0 / world.dim), 1.2 * h_max_);
-  if (!(spacing >= 0.3 * h_max_)) spacing = 0.3 * h_max_;  // also where volumes are no numbers
-  if (!(spacing > 0)) spacing = 1;
-  if (images_) {  // cells beyond the particles, where images may stand
-    const Vec reach = Vec::Constant(support_ * h_max_ + most_skin_);
-    e.low -= reach, e.high += reach;
-    if (world.dim == 2) e.low[2] += reach[2], e.high[2] -= reach[2];
-  }
-  grid_.cover(e.low, e.high, (world.dim == 2 ? std::sqrt(Real(lanes)) : 2) * spacing, 0.5 * spacing,
-              16.0 * e.count + 4096);
-  const Index cells = grid_.total();
-  for_each(n, [&](Index i) {
-    const Index cell = grid_.cell_of(p.x.data(0)[i], p.x.data(1)[i], p.x.data(2)[i]);
-    key_[i] = group_[i] == group_dormant ? 2 * cells : group_[i] * cells + cell;
-  });
-  start_.assign(2 * cells + 2, 0);  // counting sort, stable
-  for (Index i = 0; i < n; ++i) ++start_[key_[i] + 1];
-  for (std::size_t k = 1; k < start_.size(); ++k) start_[k] += start_[k - 1];
-  active_start_.assign(start_.begin(), start_.begin() + cells + 1);
-  rim_start_.assign(start_.begin() + cells, start_.begin() + 2 * cells + 1);
-  p.active = start_[cells];
-  p.moving = start_[2 * cells];
-  order_.resize(n);
-  for (Index i = 0; i < n; ++i) order_[start_[key_[i]]++] = i;
-  if (all) order_dormant(p);
-}
-
-// When a dormant particle can be within reach of the box.
-Real Neighbours::due_time(const Particles& p, Index i) const {
-  if (p.state[i] == particle_deactivated) return std::numeric_limits<Real>::infinity();
-  const Real reach = support_ * h_growth * h_max_ + most_skin_;
-  return p.dormant_time + time_to_reach(p, i, reach);
-}
-
-// Behind the moving particles: those first that can be within reach first.
-void Neighbours::order_dormant(const Particles& p) {
-  std::vector<Real> due(p.size());
-  for (std::size_t k = p.moving; k < order_.size(); ++k) due[order_[k]] = due_time(p, order_[k]);
-  std::stable_sort(order_.begin() + p.moving, order_.end(),
-                   [&](Index a, Index b) { return due[a] < due[b]; });
-}
-
-void Neighbours::note_changes(Particles& p, const std::vector<Index>& old_of_new, Index active_before) {
-  entered_.clear();
-  left_.clear();
-  gone_ = 0;
-  const Real near = 2 * (support_ * h_max_ + most_skin_ + waking_margin * h_max_);
-  for (Index i = 0; i < static_cast<Index>(old_of_new.size()); ++i) {
-    // not by the state field: what MAXV switched off leaves, too
-    const bool now = i < p.active, before = old_of_new[i] < active_before;
-    if (now && !before) entered_.push_back(i);
-    if (!now && before) left_.push_back(i);
-    if (p.state[i] != particle_deactivated && (now || p.state[i] != particle_waiting))
-      p.state[i] = now ? particle_active : particle_outside;
-    if (!now && i < p.moving && time_to_reach(p, i, near) > 0) ++gone_;
-  }
-}
-
-void Neighbours::queue_dormant(const Particles& p) {
-  due_.clear();
-  first_due_ = 0;
-  Real fastest = 0;
-  for (Index i = p.moving; i < p.size(); ++i) {
-    due_.push_back(due_time(p, i));
-    if (p.state[i] != particle_deactivated) fastest = std::max(fastest, p.v.vec(i).norm());
-  }
-  h_queued_ = h_max_;
-  waking_time_ = fastest > 0 ? waking_margin * h_max_ / fastest : 0;
-}
-
 void Neighbours::Scratch::make_room(Index more) {
   const auto grow = [more](std::vector<Index>& to, Index count) {
     if (static_cast<Index>(to.size()) <= count + more) to.resize(2 * (count + more) + 64);
@@ -369,12 +194,12 @@ void Neighbours::find_list_of_group(const World& world, const NearQuery& q, Scra
   }
   scratch.found = {};
   grid_.near(low, high, support_ * h_max_ + skin_, [&](Index first, Index last) {
-    for (const auto* start : {&active_start_, &rim_start_, &image_start_}) {
-      if (start->empty()) continue;
-      const Index begin = (*start)[first], end = (*start)[last + 1];
+    for (const auto& start : {active_start_, rim_start_, image_start_}) {
+      if (start.empty()) continue;
+      const Index begin = start[first], end = start[last + 1];
       if (begin == end) continue;
       scratch.make_room(end - begin);
-      find_near_(q, begin, end, scratch.found);
+      near_.find(q, begin, end, scratch.found);
     }
   });
 }
@@ -382,18 +207,13 @@ void Neighbours::find_list_of_group(const World& world, const NearQuery& q, Scra
 void Neighbours::build_images(World& world) {
   Particles& p = world.particles;
   images_->build(world, support_ * h_max_ + skin_);
-  const Index n = images_->count(), cells = grid_.total(), first = p.size();
-  std::vector<Index> cell_of(n), order(n);
-  image_start_.assign(cells + 1, 0);
-  for (Index k = 0; k < n; ++k) {
-    const Index i = first + k;
-    cell_of[k] = grid_.cell_of(p.x.data(0)[i], p.x.data(1)[i], p.x.data(2)[i]);
-    ++image_start_[cell_of[k] + 1];
-  }
-  image_start_[0] = first;
-  for (Index c = 0; c < cells; ++c) image_start_[c + 1] += image_start_[c];
-  std::vector<Index> next(image_start_.begin(), image_start_.end() - 1);
-  for (Index k = 0; k < n; ++k) order[next[cell_of[k]]++ - first] = k;
+  const Index n = images_->count(), first = p.size();
+  key_.resize(n);
+  find_cells(p, first, first + n, key_.data());
+  std::vector<Index> order;
+  counting_sort(key_, grid_.total(), image_starts_, order);
+  for (Index& start : image_starts_) start += first;
+  image_start_ = image_starts_;
   images_->sort(world, order);
 }
 
@@ -403,9 +223,11 @@ void Neighbours::build_lists(World& world) {
   blocks_.resize(block_count(n));
   for_each_block(n, [&](Index begin, Index end) {
     Block& b = blocks_[begin / block_size];
-    NearQuery q{p.x.data(0), p.x.data(1), p.x.data(2), p.h.data(), 0, 0, skin_, support_, h_min_ == h_max_};
-    Scratch scratch;
-    std::vector<Index> all;
+    NearQuery q{p.x.data(0), p.x.data(1),     world.dim == 3 ? p.x.data(2) : nullptr, p.h.data(), 0, 0, skin_,
+                support_,    h_min_ == h_max_};
+    thread_local Scratch scratch;
+    std::vector<Index>& all = scratch.all;
+    all.clear();
     for (Index k = 0; k < groups_per_block; ++k) {
       b.start[k] = b.beyond[k] = static_cast<Index>(all.size());
       q.first = begin + k * lanes;

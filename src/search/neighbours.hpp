@@ -12,6 +12,7 @@
 #include "search/near_loops.hpp"
 #include "search/region.hpp"
 #include "state/keeper.hpp"
+#include "state/particle_loops.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -95,7 +96,8 @@ class Neighbours {
     std::array<Index, groups_per_block> beyond;
   };
   struct Scratch {
-    std::vector<Index> within = std::vector<Index>(512), beyond = within;
+    std::vector<Index> within, beyond;  ///< of a group
+    std::vector<Index> all;             ///< of a block
     void make_room(Index more);
     NearFound found{};
   };
@@ -105,15 +107,18 @@ class Neighbours {
   Real time_to_reach(const Particles& p, Index i, Real reach) const;
   Index take_due(World& world, Real t);
   void wake_all(World& world, Real t);
-  bool too_many_gone(const World& world) const;
+  bool must_wake_all(const World& world) const;
   void stop_for_leaps(const World& world, const Clock& clock) const;
   void stop_for_lost_particles(const World& world, const Clock& clock, Index n) const;
   void choose_skin(const Clock& clock);
+  bool all_active(const Particles& p, Index begin, Index end) const;
   void sort(World& world, const Clock& clock, Index n);
+  void find_cells(const Particles& p, Index first, Index last, Index* cell) const;
+  void take_cell_starts(Index cells);
   void order_dormant(const Particles& p);
   void queue_dormant(const Particles& p);
   Real due_time(const Particles& p, Index i) const;
-  void note_changes(Particles& p, const std::vector<Index>& old_of_new, Index active_before);
+  void note_changes(Particles& p, Index active_before);
   void build_images(World& world);
   void count_cells(const World& world);
   void build_lists(World& world);
@@ -128,21 +133,24 @@ class Neighbours {
   std::optional<Region> region_;
   std::vector<InletPlane> inlets_;
   const Field<Index>* inlet_ = nullptr;  ///< of waiting particles; null: there are none
-  FindNear find_near_;
+  NearLoops near_ = near_loops();
+  ParticleLoops loops_ = particle_loops();
   bool built_ = false, h_changes_ = true;
   std::int64_t built_cycle_ = 0;
   Real h_max_ = 0, h_min_ = 0;
   CellGrid grid_;
-  std::shared_ptr<Images> images_;               ///< null: none
-  std::vector<Index> active_start_, rim_start_;  ///< first sorted particle of each cell, and the end
-  std::vector<Index> image_start_;               ///< the same of images; empty: there are none
+  std::shared_ptr<Images> images_;  ///< null: none
+  /// First sorted particle of each cell, and the end: parts of starts_ and image_starts_; empty: there are
+  /// none.
+  std::span<const Index> active_start_, rim_start_, image_start_;
+  std::vector<Index> starts_, image_starts_;
   std::vector<Block> blocks_;
-  std::vector<Real> due_;      ///< when dormant particle moving + k may come within reach, ascending [T]
-  std::size_t first_due_ = 0;  ///< the entry of due_ that belongs to particle `moving`
-  Real waking_time_ = 0;       ///< those due that soon are woken together [T]
-  Real h_queued_ = 0;          ///< h_max_ when due_ was made
-  Index gone_ = 0;             ///< rim particles that are far from the box
-  std::vector<Index> order_, key_, start_;  // scratch of sorting
+  std::vector<Real> due_;           ///< when dormant particle moving + k may come within reach, ascending [T]
+  std::size_t first_due_ = 0;       ///< the entry of due_ that belongs to particle `moving`
+  Real waking_time_ = 0;            ///< those due that soon are woken together [T]
+  Real h_queued_ = 0;               ///< h_max_ when due_ was made
+  Index gone_ = 0;                  ///< rim particles that are far from the box
+  std::vector<Index> order_, key_;  // of sorting: before, by place; cells
   std::vector<signed char> group_;
   std::vector<Index> moving_nodes_;  ///< shell nodes that are not held: contact relies on the skin, too
   std::vector<Vec> nodes_built_;

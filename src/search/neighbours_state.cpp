@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "parallel/counting_sort.hpp"
+
 namespace courant {
 
 void Neighbours::keep(Archive& archive) {
@@ -49,16 +51,11 @@ void Neighbours::restore(World& world, const std::vector<std::pair<std::string, 
 void Neighbours::count_cells(const World& world) {
   const Particles& p = world.particles;
   const Index cells = grid_.total();
-  const auto count = [&](Index begin, Index end) {
-    std::vector<Index> start(cells + 1, 0);
-    for (Index i = begin; i < end; ++i)
-      ++start[grid_.cell_of(p.x.data(0)[i], p.x.data(1)[i], p.x.data(2)[i]) + 1];
-    start[0] = begin;
-    for (Index c = 0; c < cells; ++c) start[c + 1] += start[c];
-    return start;
-  };
-  active_start_ = count(0, p.active);
-  rim_start_ = count(p.active, p.moving);
+  key_.resize(p.moving);
+  find_cells(p, 0, p.moving, key_.data());
+  for (Index i = p.active; i < p.moving; ++i) key_[i] += cells;
+  counting_sort(key_, p.moving > p.active ? 2 * cells : cells, starts_, order_);
+  take_cell_starts(cells);
 }
 
 }  // namespace courant

@@ -60,7 +60,7 @@ class MirrorCore : public Rate {
   template <class F>
   void for_each_at_mirror(const Particles& p, Index begin, Index end, F&& f) const {
     for (const ImagePlane& plane : mirrors_) {
-      if (!(least_depth(plane, p, begin, end) < 2 * reach_)) continue;
+      if (!(depth_range(loops_, plane, p, begin, end).least < 2 * reach_)) continue;
       for (Index i = begin; i < end; ++i)
         if (const Real d = std::abs(depth(plane, p.x.vec(i))); d < 2 * reach_) f(i, plane.normal, d);
     }
@@ -97,7 +97,8 @@ class MirrorCore : public Rate {
   bool kink_ = false;
   std::vector<ImagePlane> mirrors_;
   std::vector<Real> core_;  ///< R of particle and image up to which the slope is kept, by part
-  Real reach_ = 0;          ///< largest distance from a mirror where something lacks [L]
+  ParticleLoops loops_ = particle_loops();
+  Real reach_ = 0;  ///< largest distance from a mirror where something lacks [L]
 };
 
 class MirrorCoreForce : public Force {

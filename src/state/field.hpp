@@ -3,16 +3,17 @@
 // exchange walk the registry, so a new field appears there without any edit.
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <typeindex>
 #include <utility>
 #include <vector>
 
 #include "base/real.hpp"
 #include "parallel/array.hpp"
-#include "parallel/buffer.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
@@ -42,9 +43,15 @@ class FieldBase {
   virtual void resize(Index n) = 0;
   /// Room for `images` entities behind the n there are; theirs are not set.
   virtual void make_room(Index n, Index images) = 0;
-  /// Entity i of a component becomes what entity old_of_new[i] was, for as many as are given; those behind
-  /// stay.
-  virtual void permute(int component, std::span<const Index> old_of_new, Buffer<std::byte>& scratch) = 0;
+  /// As many entities for the spare, a field of the same type with one component, as a component of this has;
+  /// theirs are not set.
+  virtual void fit(FieldBase& spare) const = 0;
+  /// Entities from[begin], ..., from[end - 1] of a component become [begin, end) of the spare.
+  virtual void gather(int component, const Index* from, Index begin, Index end, FieldBase& spare) const = 0;
+  /// Copies entities [begin, end) of the spare to a component.
+  virtual void take(int component, Index begin, Index end, const FieldBase& spare) = 0;
+  /// The spare becomes the component, and the other way round.
+  virtual void swap(int component, FieldBase& spare) = 0;
   virtual std::size_t bytes_per_entity() const = 0;
 
  private:
@@ -101,15 +108,28 @@ class Field : public FieldBase {
       c.resize(n + images);
     }
   }
-  void permute(int component, std::span<const Index> old_of_new, Buffer<std::byte>& scratch) override {
-    T* values = component_[component].data();
-    T* spare = reinterpret_cast<T*>(scratch.grow_to(old_of_new.size() * sizeof(T)));
-    for (std::size_t i = 0; i < old_of_new.size(); ++i) spare[i] = values[old_of_new[i]];
-    std::copy_n(spare, old_of_new.size(), values);
+  void fit(FieldBase& spare) const override {
+    Array<T>& to = of(spare);
+    if (to.capacity() < component_[0].size()) {
+      to.clear();  // nothing of it need be moved
+      to.reserve(component_[0].capacity());
+    }
+    to.resize(component_[0].size());
   }
+  void gather(int component, const Index* from, Index begin, Index end, FieldBase& spare) const override {
+    const T* values = component_[component].data();
+    T* to = of(spare).data();
+    for (Index i = begin; i < end; ++i) to[i] = values[from[i]];
+  }
+  void take(int component, Index begin, Index end, const FieldBase& spare) override {
+    const T* values = static_cast<const Field<T>&>(spare).data();
+    std::copy(values + begin, values + end, component_[component].data() + begin);
+  }
+  void swap(int component, FieldBase& spare) override { component_[component].swap(of(spare)); }
   std::size_t bytes_per_entity() const override { return sizeof(T) * component_.size(); }
 
  private:
+  static Array<T>& of(FieldBase& spare) { return static_cast<Field<T>&>(spare).component_[0]; }
   std::vector<Array<T>> component_;
 };
 
@@ -128,6 +148,8 @@ class FieldSet {
     field->resize(size_);
     Field<T>& out = *field;
     fields_.push_back(std::move(field));
+    auto& spare = spare_[typeid(Field<T>)];
+    if (!spare) spare = std::make_unique<Field<T>>(FieldInfo{.name = "spare", .dimension = "-"});
     return out;
   }
   FieldBase* find(const std::string& name) const {
@@ -145,32 +167,38 @@ class FieldSet {
     for (auto& f : fields_)
       if (f->info().exchange != Exchange::never) f->make_room(size_, count);
   }
-  /// New entity i is old entity old_of_new[i], for as many as are given; those behind stay. Each thread sorts
-  /// arrays of its own.
+  /// New entity i is old entity old_of_new[i], for as many as are given; those behind stay. Each thread
+  /// sorts, and then has in its cache, the entities that it works on afterwards. Arrays change their place
+  /// in memory.
   void permute(std::span<const Index> old_of_new) {
-    std::vector<std::pair<FieldBase*, int>> arrays;
-    for (const auto& f : fields_)
-      for (int k = 0; k < f->info().components; ++k) arrays.emplace_back(f.get(), k);
-    const int n = std::min<int>(threads(), old_of_new.size() > 1000 ? most_sorters : 1);
-    if (static_cast<int>(scratch_.size()) < n) scratch_.resize(n);
-    on_threads(n, [&](int t) {
-      for (std::size_t a = t; a < arrays.size(); a += n)
-        arrays[a].first->permute(arrays[a].second, old_of_new, scratch_[t]);
-    });
+    const Index n = static_cast<Index>(old_of_new.size());
+    for (const auto& field : fields_) {
+      const FieldBase& kind = *field;
+      const auto& spare = spare_.at(typeid(kind));
+      for (int k = 0; k < field->info().components; ++k) {
+        field->fit(*spare);
+        for_each_block(
+            n, [&](Index begin, Index end) { field->gather(k, old_of_new.data(), begin, end, *spare); });
+        if (n == size_)
+          field->swap(k, *spare);
+        else  // mostly few of many
+          for_each_block(n, [&](Index begin, Index end) { field->take(k, begin, end, *spare); });
+      }
+    }
   }
-  /// What one more entity takes: its fields and its share of the scratch for sorting.
+  /// What one more entity takes: its fields and those for sorting.
   std::size_t bytes_per_entity() const {
-    std::size_t bytes = sizeof(Real) * static_cast<std::size_t>(std::min(threads(), most_sorters));
+    std::size_t bytes = 0;
     for (const auto& f : fields_) bytes += f->bytes_per_entity();
+    for (const auto& [type, spare] : spare_) bytes += spare->bytes_per_entity();
     return bytes;
   }
   const std::vector<std::unique_ptr<FieldBase>>& all() const { return fields_; }
 
  private:
-  static constexpr int most_sorters = 4;  ///< sorting is bound by memory, and each has a scratch array
   Index size_ = 0;
   std::vector<std::unique_ptr<FieldBase>> fields_;
-  std::vector<Buffer<std::byte>> scratch_;  ///< of each thread
+  std::map<std::type_index, std::unique_ptr<FieldBase>> spare_;  ///< of each type, for sorting
 };
 
 }  // namespace courant

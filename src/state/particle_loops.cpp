@@ -75,6 +75,37 @@ Index inside(const Real low[3], const Real high[3], const Real* const at[3], Ind
   return count;
 }
 
+ParticleLoops::Bounds bounds(const ParticleLoops::Bodies& q, Index begin, Index end) {
+  constexpr Real infinity = __builtin_inf();
+  ParticleLoops::Bounds out{{}, {}, infinity, -infinity, 0, false};
+  int broken = 0;
+  for (int d = 0; d < 3; ++d) {
+    const Real* x = q.x[d];
+    Real low = infinity, high = -infinity;
+#pragma omp simd reduction(min : low) reduction(max : high) reduction(| : broken)
+    for (Index i = begin; i < end; ++i) {
+      const Real a = x[i];
+      low = a < low ? a : low;
+      high = high < a ? a : high;
+      broken |= a - a == 0 ? 0 : 1;
+    }
+    out.low[d] = low, out.high[d] = high;
+  }
+  const Real *h = q.h, *m = q.m, *rho = q.rho;
+  Real least = infinity, most = -infinity, volume = 0;
+#pragma omp simd reduction(min : least) reduction(max : most) reduction(+ : volume) reduction(| : broken)
+  for (Index i = begin; i < end; ++i) {
+    const Real a = h[i];
+    least = a < least ? a : least;
+    most = most < a ? a : most;
+    broken |= a - a == 0 ? 0 : 1;
+    volume += m[i] / rho[i];
+  }
+  out.h_min = least, out.h_max = most, out.volume = volume;
+  out.broken = broken != 0;
+  return out;
+}
+
 void compress(const Real* __restrict drhodt, Real dt, Real rho0, Real* __restrict rho, Real* __restrict mu,
               Real* __restrict half_dv, Index begin, Index end) {
   const Real inverse_rho0 = 1 / rho0, half_rho0 = 0.5 * rho0;
@@ -113,10 +144,27 @@ ParticleLoops::Range range(const Real* values, Index begin, Index end) {
   return {least, most, broken != 0};
 }
 
+ParticleLoops::Range depths(const Real normal[3], const Real point[3], const Real* const at[3], Index begin,
+                            Index end) {
+  const Real *x = at[0], *y = at[1], *z = at[2];
+  const Real nx = normal[0], ny = normal[1], nz = normal[2], px = point[0], py = point[1], pz = point[2];
+  Real least = __builtin_inf(), most = -__builtin_inf();
+  int broken = 0;
+#pragma omp simd reduction(min : least) reduction(max : most) reduction(| : broken)
+  for (Index i = begin; i < end; ++i) {
+    const Real d = nx * (x[i] - px) + ny * (y[i] - py) + nz * (z[i] - pz);
+    least = d < least ? d : least;
+    most = most < d ? d : most;
+    broken |= d == d ? 0 : 1;
+  }
+  return {least, most, broken != 0};
+}
+
 }  // namespace
 
 ParticleLoops particle_loops() {
-  return {&kick, &drift, &fastest2, &least_crossing, &moved, &inside, &compress, &load, &range};
+  return {&kick,   &drift,    &fastest2, &least_crossing, &moved, &inside,
+          &bounds, &compress, &load,     &range,          &depths};
 }
 
 }  // namespace courant::COURANT_SIMD

@@ -29,6 +29,17 @@ struct ParticleLoops {
   /// How many are in a box, its faces included.
   Index (*inside)(const Real low[3], const Real high[3], const Real* const x[3], Index begin, Index end);
 
+  /// The box around particles, their extreme h, the sum of m/rho, and whether a place or h is no finite
+  /// number.
+  struct Bounds {
+    Real low[3], high[3], h_min, h_max, volume;
+    bool broken;
+  };
+  struct Bodies {
+    const Real *x[3], *h, *m, *rho;
+  };
+  Bounds (*bounds)(const Bodies& particles, Index begin, Index end);
+
   /// Advances densities by a step, for an equation of state whose pressure needs no energy: rho += dt drhodt;
   /// mu = rho/rho0 - 1 and half the change of the relative volume, by entry - begin.
   void (*compress)(const Real* drhodt, Real dt, Real rho0, Real* rho, Real* mu, Real* half_dv, Index begin,
@@ -46,6 +57,8 @@ struct ParticleLoops {
     bool broken;
   };
   Range (*range)(const Real* values, Index begin, Index end);
+  /// The same of distances from a plane through `point`, in the direction of `normal` of length 1. [L]
+  Range (*depths)(const Real normal[3], const Real point[3], const Real* const x[3], Index begin, Index end);
 };
 
 /// For the machine the program runs on.
