@@ -11,6 +11,10 @@ inline const FieldRules direction{.spatial = Spatial::direction};
 inline FieldRules required_id_of(IdSpace space) {
   return {.required = true, .check = Check::positive, .refers = space};
 }
+/// 0: none.
+inline FieldRules optional_id_of(IdSpace space) {
+  return {.check = Check::not_negative, .refers = space};
+}
 /// Any integer: signs of ids are flags in some keywords.
 inline FieldRules id_of(IdSpace space) {
   return {.refers = space};

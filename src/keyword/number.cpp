@@ -10,10 +10,6 @@ namespace courant {
 
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 /// "d-3", "D3", "-3", "+3" as "e-3", ...; empty if it is none of these.
 std::string exponent_of(std::string_view tail) {
   if (tail.empty()) return {};

@@ -8,6 +8,10 @@
 
 namespace courant {
 
+inline bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
 /// `text` without blanks around it. False if it is no finite number, or too large or too small for a double.
 bool parse_real(std::string_view text, Real& value);
 

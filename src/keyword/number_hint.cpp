@@ -6,10 +6,6 @@ namespace courant {
 
 namespace {
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 /// Mantissa and exponent of a number, whose value may be beyond the range of a double.
 bool looks_like_number(std::string_view text) {
   const std::size_t letter = text.find_first_of("eEdD");

@@ -1,4 +1,5 @@
 // Tables of initial conditions, constraints and loads.
+#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
 #include "model/transformation.hpp"
@@ -7,12 +8,8 @@ namespace courant {
 
 namespace {
 
-FieldRules required_of(IdSpace space) {
-  return {.required = true, .check = Check::positive, .refers = space};
-}
-FieldRules optional_of(IdSpace space) {
-  return {.check = Check::not_negative, .refers = space};
-}
+using namespace rules;
+
 const FieldRules local_system{.honour = Honour::no, .refers = IdSpace::coordinate_system};
 const FieldRules system_id{.check = Check::not_negative, .refers = IdSpace::coordinate_system};
 const FieldRules flag{.allowed = {0, 1}};
@@ -27,10 +24,10 @@ const RegisterKeyword<V> initial_velocity{
     {.names = {"INITIAL_VELOCITY"},
      .purpose = "initial velocity of a node set or of all nodes",
      .cards = {{.fields = {{"NSID", &V::nsid, "-", "node set id, 0 all nodes",
-                            optional_of(IdSpace::node_set)},
+                            optional_id_of(IdSpace::node_set)},
                            {"NSIDEX", &V::nsidex, "-", "node set id of excepted nodes",
-                            optional_of(IdSpace::node_set)},
-                           {"BOXID", &V::boxid, "-", "only nodes in this box", optional_of(IdSpace::box)},
+                            optional_id_of(IdSpace::node_set)},
+                           {"BOXID", &V::boxid, "-", "only nodes in this box", optional_id_of(IdSpace::box)},
                            {"IRIGID", &V::irigid, "-", "overwrites PART_INERTIA velocities", unsupported},
                            {"ICID", &V::icid, "-", "system of the velocities, 0 global", system_id}}},
                {.fields = {{"VX", &V::vx, "L/T", "velocity in x"},
@@ -52,7 +49,7 @@ using VN = InitialVelocityNodeCard;
 const RegisterKeyword<VN> initial_velocity_node{
     {.names = {"INITIAL_VELOCITY_NODE"},
      .purpose = "initial velocity of single nodes; stands above the other INITIAL_VELOCITY keywords",
-     .cards = {{.fields = {{"NID", &VN::nid, "-", "node id", required_of(IdSpace::node)},
+     .cards = {{.fields = {{"NID", &VN::nid, "-", "node id", required_id_of(IdSpace::node)},
                            {"VX", &VN::vx, "L/T", "velocity in x"},
                            {"VY", &VN::vy, "L/T", "velocity in y"},
                            {"VZ", &VN::vz, "L/T", "velocity in z"},
@@ -136,7 +133,7 @@ KeywordOf<T> boundary_spc(std::string name, std::string purpose, std::string fie
           .id_option = true,
           .title = &T::title,
           .id = &T::id,
-          .cards = {{.fields = {{std::move(field), &T::nid, "-", std::move(meaning), required_of(refers)},
+          .cards = {{.fields = {{std::move(field), &T::nid, "-", std::move(meaning), required_id_of(refers)},
                                 {"CID", &T::cid, "-", "system of the directions, 0 global", system_id},
                                 {"DOFX", &T::dofx, "-", "1 holds the translation in x", flag},
                                 {"DOFY", &T::dofy, "-", "1 holds the translation in y", flag},
@@ -157,18 +154,18 @@ const RegisterKeyword<L> load_body{
      .purpose = "acceleration of the base along an axis: bodies feel the opposite (gravity along -z: "
                 "LOAD_BODY_Z with +g)",
      .many = false,
-     .cards = {
-         {.fields = {{"LCID", &L::lcid, "-", "curve of acceleration over time", required_of(IdSpace::curve)},
-                     {"SF", &L::sf, "-", "scale of the curve", {.standard = 1}},
-                     {"LCIDDR",
-                      &L::lciddr,
-                      "-",
-                      "curve for dynamic relaxation",
-                      {.honour = Honour::ignored, .refers = IdSpace::curve}},
-                     {"XC", &L::xc, "L", "x of the centre of rotation", no_effect},
-                     {"YC", &L::yc, "L", "y of the centre of rotation", no_effect},
-                     {"ZC", &L::zc, "L", "z of the centre of rotation", no_effect},
-                     {"CID", &L::cid, "-", "coordinate system id", local_system}}}}}};
+     .cards = {{.fields = {{"LCID", &L::lcid, "-", "curve of acceleration over time",
+                            required_id_of(IdSpace::curve)},
+                           {"SF", &L::sf, "-", "scale of the curve", {.standard = 1}},
+                           {"LCIDDR",
+                            &L::lciddr,
+                            "-",
+                            "curve for dynamic relaxation",
+                            {.honour = Honour::ignored, .refers = IdSpace::curve}},
+                           {"XC", &L::xc, "L", "x of the centre of rotation", no_effect},
+                           {"YC", &L::yc, "L", "y of the centre of rotation", no_effect},
+                           {"ZC", &L::zc, "L", "z of the centre of rotation", no_effect},
+                           {"CID", &L::cid, "-", "coordinate system id", local_system}}}}}};
 
 }  // namespace
 

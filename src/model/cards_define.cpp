@@ -1,4 +1,5 @@
 // Tables of *DEFINE_TABLE, local boxes, coordinate systems and vectors.
+#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/define_cards.hpp"
 
@@ -6,16 +7,9 @@ namespace courant {
 
 namespace {
 
-const FieldRules required_id{.required = true, .check = Check::positive};
-const FieldRules point{.spatial = Spatial::point}, direction{.spatial = Spatial::direction};
-const FieldRules cartesian{.allowed = {0}};
+using namespace rules;
 
-FieldRules id_of(IdSpace space) {
-  return {.check = Check::not_negative, .refers = space};
-}
-FieldRules required_id_of(IdSpace space) {
-  return {.required = true, .check = Check::positive, .refers = space};
-}
+const FieldRules cartesian{.allowed = {0}};
 
 /// The sides stand along the axes as lengths: they can be turned and shifted, not stretched.
 std::string refuse_stretching(DefineBoxLocalCard&, const Affine& motion) {
@@ -64,7 +58,7 @@ const RegisterKeyword<S> coordinate_system{
                            {"YL", &S::yl, "L", "point on the local x axis, y"},
                            {"ZL", &S::zl, "L", "point on the local x axis, z"},
                            {"CIDL", &S::cidl, "-", "system in which the points are given, 0 global",
-                            id_of(IdSpace::coordinate_system)}}},
+                            optional_id_of(IdSpace::coordinate_system)}}},
                {.fields = {{"XP", &S::xp, "L", "point in the local xy plane, x", point},
                            {"YP", &S::yp, "L", "point in the local xy plane, y"},
                            {"ZP", &S::zp, "L", "point in the local xy plane, z"},
@@ -93,15 +87,15 @@ const RegisterKeyword<V> coordinate_vector{
      .id_space = IdSpace::coordinate_system,
      .title_option = true,
      .title = &V::title,
-     .cards = {
-         {.fields = {{"CID", &V::cid, "-", "system id", required_id},
-                     {"XX", &V::xx, "-", "local x axis, x", direction},
-                     {"YX", &V::yx, "-", "local x axis, y"},
-                     {"ZX", &V::zx, "-", "local x axis, z"},
-                     {"XV", &V::xv, "-", "a vector in the local xy plane, x", direction},
-                     {"YV", &V::yv, "-", "a vector in the local xy plane, y"},
-                     {"ZV", &V::zv, "-", "a vector in the local xy plane, z"},
-                     {"NID", &V::nid, "-", "the system turns with this node", id_of(IdSpace::node)}}}}}};
+     .cards = {{.fields = {{"CID", &V::cid, "-", "system id", required_id},
+                           {"XX", &V::xx, "-", "local x axis, x", direction},
+                           {"YX", &V::yx, "-", "local x axis, y"},
+                           {"ZX", &V::zx, "-", "local x axis, z"},
+                           {"XV", &V::xv, "-", "a vector in the local xy plane, x", direction},
+                           {"YV", &V::yv, "-", "a vector in the local xy plane, y"},
+                           {"ZV", &V::zv, "-", "a vector in the local xy plane, z"},
+                           {"NID", &V::nid, "-", "the system turns with this node",
+                            optional_id_of(IdSpace::node)}}}}}};
 
 using D = DefineVectorCard;
 const RegisterKeyword<D> define_vector{
@@ -118,7 +112,7 @@ const RegisterKeyword<D> define_vector{
                            {"YH", &D::yh, "L", "head, y"},
                            {"ZH", &D::zh, "L", "head, z"},
                            {"CID", &D::cid, "-", "system in which they are given, 0 global",
-                            id_of(IdSpace::coordinate_system)}}}}}};
+                            optional_id_of(IdSpace::coordinate_system)}}}}}};
 
 using DN = DefineVectorNodesCard;
 const RegisterKeyword<DN> define_vector_nodes{

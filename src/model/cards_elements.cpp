@@ -1,30 +1,32 @@
 // Tables of solid elements, of masses on nodes and parts, and of sections that go with them. Nothing computes
 // them yet: they are read and checked, and the deck is refused by name.
 #include "model/cards_elements.hpp"
+#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
 
 namespace {
 
-FieldRules id_of(IdSpace space, int width = 8) {
+using namespace rules;
+
+FieldRules narrow_id_of(IdSpace space, int width = 8) {
   return {.check = Check::not_negative, .width = width, .refers = space};
 }
-FieldRules required_id_of(IdSpace space, int width = 8) {
+FieldRules narrow_required_id_of(IdSpace space, int width = 8) {
   return {.required = true, .check = Check::positive, .width = width, .refers = space};
 }
 const FieldRules element_id{.required = true, .check = Check::positive, .width = 8};
-const FieldRules required_id{.required = true, .check = Check::positive};
 
 using E = ElementSolidCard;
 
 /// One line of eight nodes, or, where it ends behind PID, a second line of up to ten.
 std::vector<CardOf<E>> solid_cards(bool ortho) {
-  const FieldRules corner = id_of(IdSpace::node);
+  const FieldRules corner = narrow_id_of(IdSpace::node);
   const auto asks_for_line_2 = [](const E& e) { return e.n1 == 0; };
   std::vector<CardOf<E>> cards = {
       {.fields = {{"EID", &E::eid, "-", "element id", element_id},
-                  {"PID", &E::pid, "-", "part id", required_id_of(IdSpace::part)},
+                  {"PID", &E::pid, "-", "part id", narrow_required_id_of(IdSpace::part)},
                   {"N1", &E::n1, "-", "node 1; blank: all nodes stand on the next line", corner},
                   {"N2", &E::n2, "-", "node 2", corner},
                   {"N3", &E::n3, "-", "node 3", corner},
@@ -33,7 +35,7 @@ std::vector<CardOf<E>> solid_cards(bool ortho) {
                   {"N6", &E::n6, "-", "node 6", corner},
                   {"N7", &E::n7, "-", "node 7", corner},
                   {"N8", &E::n8, "-", "node 8", corner}}},
-      {.fields = {{"N1", &E::n1, "-", "node 1", required_id_of(IdSpace::node)},
+      {.fields = {{"N1", &E::n1, "-", "node 1", narrow_required_id_of(IdSpace::node)},
                   {"N2", &E::n2, "-", "node 2", corner},
                   {"N3", &E::n3, "-", "node 3", corner},
                   {"N4", &E::n4, "-", "node 4", corner},
@@ -73,14 +75,15 @@ struct ElementMass : Entry {
 using M = ElementMass;
 
 KeywordOf<M> element_mass(std::string name, std::string purpose, std::string field, IdSpace space) {
-  return {.names = {std::move(name)},
-          .purpose = std::move(purpose),
-          .id_space = IdSpace::mass,
-          .lacking = "masses on nodes",
-          .cards = {{.fields = {{"EID", &M::eid, "-", "element id", element_id},
-                                {std::move(field), &M::nid, "-", "what carries it", required_id_of(space)},
-                                {"MASS", &M::mass, "M", "mass of each node", {.width = 16}},
-                                {"PID", &M::pid, "-", "part id, for output", id_of(IdSpace::part)}}}}};
+  return {
+      .names = {std::move(name)},
+      .purpose = std::move(purpose),
+      .id_space = IdSpace::mass,
+      .lacking = "masses on nodes",
+      .cards = {{.fields = {{"EID", &M::eid, "-", "element id", element_id},
+                            {std::move(field), &M::nid, "-", "what carries it", narrow_required_id_of(space)},
+                            {"MASS", &M::mass, "M", "mass of each node", {.width = 16}},
+                            {"PID", &M::pid, "-", "part id, for output", narrow_id_of(IdSpace::part)}}}}};
 }
 const RegisterKeyword<M> element_mass_node{
     element_mass("ELEMENT_MASS", "masses on single nodes", "NID", IdSpace::node)};
@@ -99,11 +102,12 @@ KeywordOf<P> element_mass_part(std::string name, std::string purpose, std::strin
       .names = {std::move(name)},
       .purpose = std::move(purpose),
       .lacking = "masses added to parts",
-      .cards = {{.fields = {{std::move(field), &P::pid, "-", "what gets it", required_id_of(space)},
-                            {"ADDMASS", &P::addmass, "M", "added mass", {.width = 16}},
-                            {"FINMASS", &P::finmass, "M", "mass after the addition", {.width = 16}},
-                            {"LCID", &P::lcid, "-", "curve of the mass over time", id_of(IdSpace::curve, 16)},
-                            {"MWD", &P::mwd, "-", "how it is spread over the nodes", {.width = 8}}}}}};
+      .cards = {{.fields = {
+                     {std::move(field), &P::pid, "-", "what gets it", narrow_required_id_of(space)},
+                     {"ADDMASS", &P::addmass, "M", "added mass", {.width = 16}},
+                     {"FINMASS", &P::finmass, "M", "mass after the addition", {.width = 16}},
+                     {"LCID", &P::lcid, "-", "curve of the mass over time", narrow_id_of(IdSpace::curve, 16)},
+                     {"MWD", &P::mwd, "-", "how it is spread over the nodes", {.width = 8}}}}}};
 }
 const RegisterKeyword<P> mass_part{
     element_mass_part("ELEMENT_MASS_PART", "mass added to parts", "PID", IdSpace::part)};
@@ -116,23 +120,23 @@ struct SectionSolid : Entry {
   int elform = 1, aet = 0;
   Real cohoff = 0, gaskett = 0;
 };
-using S = SectionSolid;
+using SS = SectionSolid;
 
-const RegisterKeyword<S> section_solid{
+const RegisterKeyword<SS> section_solid{
     {.names = {"SECTION_SOLID"},
      .purpose = "formulation of solid elements",
      .id_space = IdSpace::section,
      .title_option = true,
-     .title = &S::title,
+     .title = &SS::title,
      .lacking = "sections of solid elements",
-     .cards = {{.fields = {{"SECID", &S::secid, "-", "id that *PART refers to", required_id},
-                           {"ELFORM", &S::elform, "-", "formulation", {.standard = 1}},
-                           {"AET", &S::aet, "-", "ambient elements"},
+     .cards = {{.fields = {{"SECID", &SS::secid, "-", "id that *PART refers to", required_id},
+                           {"ELFORM", &SS::elform, "-", "formulation", {.standard = 1}},
+                           {"AET", &SS::aet, "-", "ambient elements"},
                            {},
                            {},
                            {},
-                           {"COHOFF", &S::cohoff, "-", "place of the cohesive layer"},
-                           {"GASKETT", &S::gaskett, "L", "thickness of the gasket"}}}}}};
+                           {"COHOFF", &SS::cohoff, "-", "place of the cohesive layer"},
+                           {"GASKETT", &SS::gaskett, "L", "thickness of the gasket"}}}}}};
 
 }  // namespace
 

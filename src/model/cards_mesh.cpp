@@ -1,4 +1,5 @@
 // Tables of nodes, elements, parts, curves and boxes.
+#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
 #include "model/transformation.hpp"
@@ -6,6 +7,8 @@
 namespace courant {
 
 namespace {
+
+using namespace rules;
 
 using N = NodeCard;
 std::string move_node(N& node, const Affine& motion) {
@@ -92,14 +95,6 @@ const RegisterKeyword<S> element_shell{
                            {"N7", &S::n7, "-", "mid-side node", mid_side},
                            {"N8", &S::n8, "-", "mid-side node", mid_side}}}}}};
 
-const FieldRules required_id{.required = true, .check = Check::positive};
-FieldRules required_of(IdSpace space) {
-  return {.required = true, .check = Check::positive, .refers = space};
-}
-FieldRules optional_of(IdSpace space) {
-  return {.check = Check::not_negative, .refers = space};
-}
-
 using P = PartCard;
 const RegisterKeyword<P> part{
     {.names = {"PART"},
@@ -108,11 +103,11 @@ const RegisterKeyword<P> part{
      .heading = true,
      .title = &P::title,
      .cards = {{.fields = {{"PID", &P::pid, "-", "part id", required_id},
-                           {"SECID", &P::secid, "-", "section id", required_of(IdSpace::section)},
-                           {"MID", &P::mid, "-", "material id", required_of(IdSpace::material)},
-                           {"EOSID", &P::eosid, "-", "equation of state id", optional_of(IdSpace::eos)},
+                           {"SECID", &P::secid, "-", "section id", required_id_of(IdSpace::section)},
+                           {"MID", &P::mid, "-", "material id", required_id_of(IdSpace::material)},
+                           {"EOSID", &P::eosid, "-", "equation of state id", optional_id_of(IdSpace::eos)},
                            {"HGID", &P::hgid, "-", "hourglass and bulk viscosity id",
-                            optional_of(IdSpace::hourglass)},
+                            optional_id_of(IdSpace::hourglass)},
                            {"GRAV", &P::grav, "-", "gravity preload", unsupported},
                            {"ADPOPT", &P::adpopt, "-", "adaptivity", unsupported},
                            {"TMID",

@@ -1,4 +1,5 @@
 // *PART_CONTACT: a part with data for contacts.
+#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
 
@@ -6,14 +7,8 @@ namespace courant {
 
 namespace {
 
-const FieldRules required_id{.required = true, .check = Check::positive};
+using namespace rules;
 
-FieldRules required_id_of(IdSpace space) {
-  return {.required = true, .check = Check::positive, .refers = space};
-}
-FieldRules id_of(IdSpace space) {
-  return {.check = Check::not_negative, .refers = space};
-}
 /// Contacts read the friction of parts where their own FS is -1, which they refuse: no effect.
 const FieldRules scale{.standard = 1, .honour = Honour::no};
 
@@ -24,27 +19,27 @@ const RegisterKeyword<P> part_contact{
      .id_space = IdSpace::part,
      .heading = true,
      .title = &P::title,
-     .cards = {
-         {.fields = {{"PID", &P::pid, "-", "part id", required_id},
-                     {"SECID", &P::secid, "-", "section id", required_id_of(IdSpace::section)},
-                     {"MID", &P::mid, "-", "material id", required_id_of(IdSpace::material)},
-                     {"EOSID", &P::eosid, "-", "equation of state id", id_of(IdSpace::eos)},
-                     {"HGID", &P::hgid, "-", "hourglass and bulk viscosity id", id_of(IdSpace::hourglass)},
-                     {"GRAV", &P::grav, "-", "gravity preload", unsupported},
-                     {"ADPOPT", &P::adpopt, "-", "adaptivity", unsupported},
-                     {"TMID",
-                      &P::tmid,
-                      "-",
-                      "thermal material id",
-                      {.honour = Honour::no, .refers = IdSpace::material}}}},
-         {.fields = {{"FS", &P::fs, "-", "static friction", no_effect},
-                     {"FD", &P::fd, "-", "dynamic friction", no_effect},
-                     {"DC", &P::dc, "T/L", "decay of the friction", no_effect},
-                     {"VC", &P::vc, "M/LT2", "largest friction stress", no_effect},
-                     {"OPTT", &P::optt, "L", "contact thickness", unsupported},
-                     {"SFT", &P::sft, "-", "scale of the contact thickness", scale},
-                     {"SSF", &P::ssf, "-", "scale of the stiffness", scale},
-                     {"CPARM8", &P::cparm8, "-", "beams left out of contact", no_effect}}}}}};
+     .cards = {{.fields = {{"PID", &P::pid, "-", "part id", required_id},
+                           {"SECID", &P::secid, "-", "section id", required_id_of(IdSpace::section)},
+                           {"MID", &P::mid, "-", "material id", required_id_of(IdSpace::material)},
+                           {"EOSID", &P::eosid, "-", "equation of state id", optional_id_of(IdSpace::eos)},
+                           {"HGID", &P::hgid, "-", "hourglass and bulk viscosity id",
+                            optional_id_of(IdSpace::hourglass)},
+                           {"GRAV", &P::grav, "-", "gravity preload", unsupported},
+                           {"ADPOPT", &P::adpopt, "-", "adaptivity", unsupported},
+                           {"TMID",
+                            &P::tmid,
+                            "-",
+                            "thermal material id",
+                            {.honour = Honour::no, .refers = IdSpace::material}}}},
+               {.fields = {{"FS", &P::fs, "-", "static friction", no_effect},
+                           {"FD", &P::fd, "-", "dynamic friction", no_effect},
+                           {"DC", &P::dc, "T/L", "decay of the friction", no_effect},
+                           {"VC", &P::vc, "M/LT2", "largest friction stress", no_effect},
+                           {"OPTT", &P::optt, "L", "contact thickness", unsupported},
+                           {"SFT", &P::sft, "-", "scale of the contact thickness", scale},
+                           {"SSF", &P::ssf, "-", "scale of the stiffness", scale},
+                           {"CPARM8", &P::cparm8, "-", "beams left out of contact", no_effect}}}}}};
 
 }  // namespace
 

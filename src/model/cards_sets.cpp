@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
 #include "model/set_cards.hpp"
@@ -49,11 +50,7 @@ const char* member_field(SetKind kind, SetForm form) {
 
 namespace {
 
-const FieldRules required_id{.required = true, .check = Check::positive};
-
-FieldRules id_in(IdSpace space) {
-  return {.check = Check::not_negative, .refers = space};
-}
+using namespace rules;
 
 /// The first card of all sets. The attributes are defaults for what members carry into tiebreak contacts,
 /// thermal and airbag loads; nothing that is computed here reads them.
@@ -73,13 +70,14 @@ CardOf<T> set_card() {
 
 template <class T>
 CardOf<T> list_card(std::string meaning, IdSpace space) {
-  return {.fields = {{member_field(T::kind, T::form), &T::ids, "-", std::move(meaning), id_in(space)}},
-          .repeat = true};
+  return {
+      .fields = {{member_field(T::kind, T::form), &T::ids, "-", std::move(meaning), optional_id_of(space)}},
+      .repeat = true};
 }
 
 template <class T>
 CardOf<T> increment_card() {
-  const FieldRules id = id_in(member_space(T::kind));
+  const FieldRules id = optional_id_of(member_space(T::kind));
   return {.fields = {{"BBEG", &T::ids, "-", "first id", id},
                      {"BEND", &T::e2, "-", "last id", id},
                      {"INCR", &T::e3, "-", "step, 0 means 1", {.check = Check::not_negative}}},
@@ -89,7 +87,7 @@ CardOf<T> increment_card() {
 template <class T>
 CardOf<T> column_card() {
   return {.fields = {{member_field(T::kind, T::form), &T::ids, "-", fmt::format("{} id", set_word(T::kind)),
-                      id_in(member_space(T::kind))},
+                      optional_id_of(member_space(T::kind))},
                      {},  // A1 to A4, attributes
                      {},
                      {},
@@ -99,7 +97,7 @@ CardOf<T> column_card() {
 
 template <class T>
 CardOf<T> segment_card() {
-  const FieldRules corner = id_in(IdSpace::node);
+  const FieldRules corner = optional_id_of(IdSpace::node);
   return {.fields = {{"N1", &T::ids, "-", "corner node 1", corner},
                      {"N2", &T::e2, "-", "corner node 2", corner},
                      {"N3", &T::e3, "-", "corner node 3; 0 with N4 = 0: a line, in 2D", corner},

@@ -8,14 +8,14 @@
 #include "output/hdf5.hpp"
 
 namespace courant {
-namespace {
-
 /// Values of a dataset as they lie in the file; shape: (rows, components).
-struct Dataset {
+struct HistoryDataset {
   int components = 0;
   std::vector<Real> values;
   std::string dimension = "-";
 };
+
+namespace {
 
 /// The attribute `dimension`, a text of fixed length.
 std::string dimension_of(hid_t dataset) {
@@ -34,14 +34,14 @@ herr_t note_dataset(hid_t, const char* name, const H5O_info_t* info, void* to) {
   return 0;
 }
 
-std::optional<Dataset> load(hid_t file, const std::string& path) {
+std::optional<HistoryDataset> load(hid_t file, const std::string& path) {
   const Hdf5Handle dataset(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose);
   if (dataset < 0) return std::nullopt;
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   hsize_t size[2] = {0, 1};
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 1 || rank > 2 || H5Sget_simple_extent_dims(space, size, nullptr) < 0) return std::nullopt;
-  Dataset out{static_cast<int>(size[1]), std::vector<Real>(size[0] * size[1]), dimension_of(dataset)};
+  HistoryDataset out{static_cast<int>(size[1]), std::vector<Real>(size[0] * size[1]), dimension_of(dataset)};
   if (!out.values.empty() &&
       H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.values.data()) < 0)
     return std::nullopt;
@@ -51,7 +51,7 @@ std::optional<Dataset> load(hid_t file, const std::string& path) {
 }  // namespace
 
 struct HistoryFile::Content {
-  std::map<std::string, Dataset> datasets;
+  std::map<std::string, HistoryDataset> datasets;
   std::vector<std::string> names;
   std::size_t rows = 0;
 };
@@ -105,7 +105,7 @@ std::optional<std::vector<Real>> HistoryFile::column(const std::string& path, in
   const auto found = content_->datasets.find(path);
   if (found == content_->datasets.end() || component < 0 || component >= found->second.components)
     return std::nullopt;
-  const Dataset& data = found->second;
+  const HistoryDataset& data = found->second;
   const auto width = static_cast<std::size_t>(data.components);
   // rows before a dataset was there are not in the file
   std::vector<Real> out(content_->rows, std::nan(""));

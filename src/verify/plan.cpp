@@ -20,7 +20,7 @@ std::string folder_name(const std::string& text, std::set<std::string>& taken) {
     const bool plain = std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+';
     if (plain || name.empty() || name.back() != '_') name += plain ? c : '_';
   }
-  if (name.empty() || name[0] == '.') name.insert(0, "_");
+  if (name.empty() || name[0] == '.') name = '_' + name;
   std::string unique = name;
   for (int k = 2; !taken.insert(unique).second; ++k) unique = fmt::format("{}_{}", name, k);
   return unique;

@@ -21,7 +21,7 @@ std::string csv_cell(const std::string& text) {
   return out + "\"";
 }
 
-std::string number(const std::optional<Real>& value) {
+std::string in_full(const std::optional<Real>& value) {
   return value ? fmt::format("{:.10g}", *value) : "";
 }
 
@@ -35,8 +35,8 @@ std::string row(const CaseResult& c, std::size_t k, const Observed& o) {
   for (const std::string& exceeded : run.exceeded) reason += (reason.empty() ? "" : "; ") + exceeded;
   return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.4f},{:.4f},{},{},{},{},{},{},{},{}\n",
                      c.definition.name, csv_cell(run.setting), csv_cell(run.resolution),
-                     run.size > 0 ? number(run.size) : "", o.name, number(o.value), number(o.reference),
-                     number(o.error), check_of_row(c, k, o.name), word_for(run.verdict),
+                     run.size > 0 ? in_full(run.size) : "", o.name, in_full(o.value), in_full(o.reference),
+                     in_full(o.error), check_of_row(c, k, o.name), word_for(run.verdict),
                      run.as_required ? "yes" : "no", run.wall_seconds, run.cpu_seconds, run.particles,
                      run.steps, run.particle_steps, run.peak_memory_bytes, run.exit_code,
                      csv_cell(run.termination), csv_cell(reason), csv_cell(o.why));

@@ -13,7 +13,6 @@ namespace courant::report {
 namespace {
 
 // Of letters of the size chart_letters, in a broad face: mean of words, and digits.
-constexpr Real letter_width = 7.3, digit_width = 8.6;
 constexpr Real plot_top = 30, plot_height = 225, row = 21;
 constexpr int colours = 7;  // of the style sheet
 

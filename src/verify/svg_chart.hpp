@@ -9,6 +9,9 @@
 
 namespace courant::report {
 
+/// Of letters and digits in the page's font, in the units of a chart, for room beside them.
+inline constexpr Real letter_width = 7.3, digit_width = 8.6;
+
 struct ChartPoint {
   Real x = 0, y = 0;
   std::string hover{};  ///< what is told when the point is pointed at

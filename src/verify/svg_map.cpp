@@ -13,11 +13,12 @@
 namespace courant::report {
 namespace {
 
-constexpr Real letter_width = 7.3, digit_width = 8.6, cell_height = 40, least_width = 46;
+constexpr Real cell_height = 40, least_width = 46;
 constexpr std::size_t most_letters = 14;  // of a value of a swept parameter, or in a cell
 constexpr std::size_t in_a_row = 7;       // more columns than that had better be rows
 
-std::string text_at(Real x, Real y, std::string_view anchor, std::string_view css, std::string_view text) {
+std::string styled_text(Real x, Real y, std::string_view anchor, std::string_view css,
+                        std::string_view text) {
   return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}" class="{}">{}</text>)", x, y, anchor,
                      css, escape_xml(text));
 }
@@ -45,7 +46,8 @@ bool has(const RunResult& run, const std::string& name, const std::string& value
 
 void show(MapCell& cell, const RunResult& run) {
   const bool worse = !cell.verdict || run.verdict > *cell.verdict || (cell.as_required && !run.as_required);
-  cell.hover += (cell.hover.empty() ? "" : "\n") + hover_of(run);
+  if (!cell.hover.empty()) cell.hover += '\n';
+  cell.hover += hover_of(run);
   if (!worse) return;
   cell.verdict = run.verdict;
   cell.value = value_of(run);
@@ -87,9 +89,10 @@ std::string draw_cell(const MapCell& cell, Real x, Real y, Real width) {
   std::string letter = cell.verdict ? std::string(1, verdict_letter(*cell.verdict)) : "–";
   if (!cell.as_required) letter += " ✗";
   const bool alone = cell.value.empty();
-  out += text_at(x + width / 2, y + (alone ? 25 : 17), "middle", "symbol on-cell on-" + name, letter);
+  out += styled_text(x + width / 2, y + (alone ? 25 : 17), "middle", "symbol on-cell on-" + name, letter);
   if (!alone)
-    out += text_at(x + width / 2, y + 33, "middle", "on-cell on-" + name, shorten(cell.value, most_letters));
+    out +=
+        styled_text(x + width / 2, y + 33, "middle", "on-cell on-" + name, shorten(cell.value, most_letters));
   return out + "</g>";
 }
 
@@ -101,14 +104,14 @@ std::string draw_block(const StabilityMap& map, std::size_t first, std::size_t c
   for (std::size_t c = 0; c < count; ++c) {
     const std::string& value = map.columns[first + c];
     out += "<g><title>" + escape_xml(map.column_name + " = " + value) + "</title>" +
-           text_at(left + (static_cast<Real>(c) + 0.5) * width, y + 14, "middle", "",
-                   shorten(value, most_letters)) +
+           styled_text(left + (static_cast<Real>(c) + 0.5) * width, y + 14, "middle", "",
+                       shorten(value, most_letters)) +
            "</g>";
   }
   y += 20;
   for (std::size_t r = 0; r < std::max<std::size_t>(map.rows.size(), 1); ++r) {
     if (!map.rows.empty())
-      out += text_at(left - 8, y + cell_height / 2 + 4.5, "end", "", shorten(map.rows[r], most_letters));
+      out += styled_text(left - 8, y + cell_height / 2 + 4.5, "end", "", shorten(map.rows[r], most_letters));
     for (std::size_t c = 0; c < count; ++c)
       out += draw_cell(map.cells[r * map.columns.size() + first + c], left + static_cast<Real>(c) * width, y,
                        width);
@@ -145,9 +148,9 @@ std::string draw_legend(const StabilityMap& map, Real full_width, Real& y) {
                                : sample.verdict    ? std::string(1, verdict_letter(*sample.verdict))
                                                    : "–";
     const bool own_paper = sample.verdict.has_value();
-    out += text_at(x + 11, y + 15, "middle",
-                   own_paper ? "symbol on-cell on-" + css_name(sample) : "symbol on-none", letter);
-    out += text_at(x + 28, y + 15, "start", "", text);
+    out += styled_text(x + 11, y + 15, "middle",
+                       own_paper ? "symbol on-cell on-" + css_name(sample) : "symbol on-none", letter);
+    out += styled_text(x + 28, y + 15, "start", "", text);
     x += width;
   };
   for (const Verdict v : all_verdicts) {
@@ -236,7 +239,7 @@ std::string svg_map(const StabilityMap& map) {
   std::string names = map.column_name.empty() ? "" : map.column_name + " →";
   if (!map.rows.empty()) names = map.row_name + " ↓, " + names;
   std::string body;
-  if (!names.empty()) body += text_at(8, y + 12, "start", "symbol", shorten(names, 54)), y += 20;
+  if (!names.empty()) body += styled_text(8, y + 12, "start", "symbol", shorten(names, 54)), y += 20;
   for (std::size_t first = 0; first < map.columns.size(); first += count) {
     body += draw_block(map, first, std::min(count, map.columns.size() - first), left, width, y);
     y += 8;

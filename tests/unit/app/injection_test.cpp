@@ -11,6 +11,9 @@
 namespace courant {
 namespace {
 
+using test::run;
+using test::steps;
+
 constexpr Real dx = 0.125;  // exact, as all places below: so results can be compared bit by bit
 constexpr Real v = 2;
 
@@ -53,14 +56,6 @@ struct Inflow {
 };
 
 const char* const box_at_the_plane = "*DEFINE_BOX\n1,0.,9.,-9.,9.,-9.,9.\n";
-
-void steps(Simulation& s, int n) {
-  for (int k = 0; k < n; ++k) s.step([](World&, const Clock&, const std::string&) {});
-}
-
-void run_to(Simulation& s, Real t) {
-  while (s.clock().t < t) s.step([](World&, const Clock&, const std::string&) {});
-}
 
 struct State {
   Vec x, v;
@@ -218,7 +213,7 @@ TEST(Injection, WaitingParticlesFillTheKernelOfThoseInside) {
 TEST(Injection, WaterMayFlowBackThroughThePlane) {
   const auto s = test::build_deck(Inflow{.endtim = "0.4"}.text());
   ASSERT_TRUE(s);
-  run_to(*s, 0.4);
+  run(*s, 0.4);
   const Particles& p = s->world().particles;
   Index back = 0;
   for (Index i = 0; i < p.active; ++i) back += p.x.vec(i)[0] < 0 ? 1 : 0;
@@ -232,7 +227,7 @@ TEST(Injection, BringsInDensityTimesSpeedTimesArea) {
   ASSERT_TRUE(s);
   const Real area = 4 * dx, flow = 1000 * v * area;
   for (const Real t : {1.0, 2.0, 3.0}) {
-    run_to(*s, t);
+    run(*s, t);
     const Sample sample = s->sample("");
     const Real now = s->clock().t;
     EXPECT_NEAR(sample.mass, flow * now, 0.51 * 1000 * dx * area) << "half a layer";
@@ -242,9 +237,9 @@ TEST(Injection, BringsInDensityTimesSpeedTimesArea) {
   // whole layers: no rounding to layers left
   const auto t = test::build_deck(scene.text());
   const Real layer = dx / v;
-  run_to(*t, 8.2 * layer);
+  run(*t, 8.2 * layer);
   const Real before = t->sample("").mass;
-  run_to(*t, 40.2 * layer);
+  run(*t, 40.2 * layer);
   EXPECT_NEAR((t->sample("").mass - before) / (32 * layer), flow, 1e-9 * flow);
 }
 
@@ -313,9 +308,9 @@ TEST(Injection, RoundSetOfNodesIn3D) {
   const auto s = test::build_deck(scene.text());
   ASSERT_TRUE(s);
   const Real area = 49 * dx * dx, layer = dx / 2;
-  run_to(*s, 2.2 * layer);
+  run(*s, 2.2 * layer);
   const Real before = s->sample("").mass, t = s->clock().t;
-  run_to(*s, t + 16 * layer);
+  run(*s, t + 16 * layer);
   const Sample after = s->sample("");
   EXPECT_NEAR((after.mass - before) / (16 * layer), 1000 * 2 * area, 1e-3 * 1000 * 2 * area);
   EXPECT_NEAR(after.mass * after.velocity[2] / after.mass, -2, 1e-9);
@@ -330,7 +325,7 @@ TEST(Injection, EndsAtItsEndTimeAndGoesOnBeyondThatOfTheRun) {
   scene.inlet = Inflow{}.inlet;
   const auto goes_on = test::build_deck(scene.text());
   // at the end the kernel of the last one inside is still full
-  run_to(*goes_on, 0.5);
+  run(*goes_on, 0.5);
   const Particles& p = goes_on->world().particles;
   Real furthest = 0;
   for (Index i = 0; i < p.size(); ++i) furthest = std::min(furthest, p.place(i, goes_on->clock().t)[0]);

@@ -10,6 +10,8 @@
 namespace courant {
 namespace {
 
+using test::steps;
+
 using test::SmallScene;
 
 /// Everything that can be compared: what is saved, and all that can be read of active particles.
@@ -44,10 +46,6 @@ std::string difference(const SavedState& a, const SavedState& b) {
     if (!both || x->second.bytes != y->second.bytes) names += " " + path;
   }
   return names;
-}
-
-void steps(Simulation& s, int n) {
-  for (int k = 0; k < n; ++k) s.step([](World&, const Clock&, const std::string&) {});
 }
 
 SavedState saved(Simulation& s) {

@@ -60,6 +60,14 @@ inline std::string floor_cards(Real y = -0.025, Real sfsa = 1, const std::string
       y, sfsa, rigid);
 }
 
+/// Steps until `until` [T], without output.
+inline void run(Simulation& s, Real until) {
+  while (s.clock().t < until) s.step([](World&, const Clock&, const std::string&) {});
+}
+inline void steps(Simulation& s, int n) {
+  for (int k = 0; k < n; ++k) s.step([](World&, const Clock&, const std::string&) {});
+}
+
 /// The deck `text` read, which must be without a word of warning unless `silent` is off. Null where it was
 /// refused, which fails the test.
 inline std::unique_ptr<Simulation> build_deck(const std::string& text, bool silent = true) {

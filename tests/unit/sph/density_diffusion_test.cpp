@@ -11,6 +11,8 @@ namespace courant {
 
 namespace {
 
+using test::run;
+
 /// A tank of water, 10 by 10 with spacing 0.1 and c0 = 20, between mirrors, from its hydrostatic pressure;
 /// every second particle of a checkerboard has `noise` more pressure.
 std::unique_ptr<Simulation> tank(const std::string& more, Real noise) {
@@ -33,10 +35,6 @@ std::unique_ptr<Simulation> tank(const std::string& more, Real noise) {
 }
 
 const std::string on = "*COURANT_DENSITY_DIFFUSION\n0.1\n";
-
-void run(Simulation& s, Real until) {
-  while (s.clock().t < until) s.step([](World&, const Clock&, const std::string&) {});
-}
 
 /// Mean square of what two neighbours in a row differ by, less the change along the row that goes over two of
 /// them.

@@ -13,6 +13,9 @@ namespace courant {
 
 namespace {
 
+using test::run;
+using test::steps;
+
 const std::string everywhere =
     "*DEFINE_VECTOR\n1,0,0,0,1,0,0\n2,1,0,0,0,0,0\n3,0,0,0,0,1,0\n4,0,1,0,0,0,0\n"
     "*BOUNDARY_SPH_PERIODIC\n1,2\n3,4\n";
@@ -40,13 +43,6 @@ std::string cloud(Real disorder, bool shift, const std::string& more, const char
   const std::string none = "*NODE\n*ELEMENT_SPH\n";
   text.erase(text.find(none), none.size());
   return text;
-}
-
-void run(Simulation& s, Real until) {
-  while (s.clock().t < until) s.step([](World&, const Clock&, const std::string&) {});
-}
-void steps(Simulation& s, int n) {
-  for (int k = 0; k < n; ++k) s.step([](World&, const Clock&, const std::string&) {});
 }
 
 /// Mean square of the gradient of concentration

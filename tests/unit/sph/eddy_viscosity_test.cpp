@@ -13,6 +13,8 @@
 namespace courant {
 namespace {
 
+using test::run;
+
 constexpr Real dx = 0.2;
 constexpr int columns = 8, rows = 60;
 
@@ -38,10 +40,6 @@ std::string layer(const std::function<Real(Real y)>& u, const std::string& more)
 
 std::string eddy(const std::string& numbers) {
   return "*COURANT_EDDY_VISCOSITY\n" + numbers + "\n";
-}
-
-void run(Simulation& s, Real until) {
-  while (s.clock().t < until) s.step([](World&, const Clock&, const std::string&) {});
 }
 
 class EddyViscosity : public testing::TestWithParam<const char*> {};

@@ -12,6 +12,8 @@
 namespace courant {
 namespace {
 
+using test::run;
+
 using test::kernel_cards;
 
 const std::string heading =
@@ -37,10 +39,6 @@ const std::string plates =
     "*ELEMENT_SHELL\n1,2,9001,9002,9003,9004\n2,2,9005,9006,9007,9008\n3,2,9009,9010,9011,9012\n"
     "*PART\nwalls\n2,2,2\n*SECTION_SHELL\n2,2\n0.05\n*MAT_RIGID\n2,7850.,2.1E11,0.3\n1,7,7\n"
     "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n1,2,3,3\n0.\n10.\n";
-
-void run(Simulation& s, Real until) {
-  while (s.clock().t < until) s.step([](World&, const Clock&, const std::string&) {});
-}
 
 class WithKernel : public testing::TestWithParam<KernelChoice> {};
 

@@ -14,6 +14,8 @@
 namespace courant {
 namespace {
 
+using test::run;
+
 using test::Cloud;
 
 /// States of two particles, and what Zhang, Hu and Adams make of them.
@@ -175,10 +177,6 @@ std::unique_ptr<Simulation> tank(const std::string& more, Real noise) {
     text += fmt::format("{},{:.17g},{:.17g},{:.17g},0,0,0,0\n", k + 1, -p, -p, -p);
   }
   return test::build_deck(text + "*END\n");
-}
-
-void run(Simulation& s, Real until) {
-  while (s.clock().t < until) s.step([](World&, const Clock&, const std::string&) {});
 }
 
 const std::string on = "*COURANT_RIEMANN\n";

@@ -11,6 +11,8 @@
 namespace courant {
 namespace {
 
+using test::run;
+
 /// 10 x 10 particles 0.1 apart, of density 1000 and the given mass; 10 would fit the spacing.
 std::string lattice(Real mass, const std::string& more) {
   std::string text =
@@ -42,10 +44,6 @@ const std::string tank =
 Real mean_height(const Simulation& s) {
   const Particles& p = s.world().particles;
   return sum(p.active, [&](Index i) { return p.x.vec(i)[1]; }) / static_cast<Real>(p.active);
-}
-
-void run(Simulation& s, Real until) {
-  while (s.clock().t < until) s.step([](World&, const Clock&, const std::string&) {});
 }
 
 TEST(VolumeControl, BringsTheDensityToWhatThePlacesSay) {
