@@ -25,7 +25,9 @@ struct EosMurnaghan : Entry {
   Real e0() const { return 0; }
   Real v0() const { return V0; }
 };
-const RegisterEos<EosMurnaghan> murnaghan_card{
+using Card = EosMurnaghan;
+
+const RegisterEos<Card> registered{
     "p = K0 ((rho/rho0)^GAMMA - 1)",
     "Murnaghan 1944; as Cole's law for water in Monaghan 1994: K0 = rho0 c0^2 / 7, GAMMA = 7",
     {{"         1       7.0     1.0E6       1.0\n", 0.0, 0, 0},
@@ -34,27 +36,25 @@ const RegisterEos<EosMurnaghan> murnaghan_card{
      .purpose = "stiff power law for weakly compressible water",
      .id_space = IdSpace::eos,
      .title_option = true,
-     .title = &EosMurnaghan::title,
-     .cards = {{.fields = {{"EOSID",
-                            &EosMurnaghan::eosid,
-                            "-",
-                            "id that *PART refers to",
-                            {.required = true, .check = Check::positive}},
-                           {"GAMMA",
-                            &EosMurnaghan::gamma,
-                            "-",
-                            "exponent, 7 for water",
-                            {.required = true, .check = Check::positive}},
-                           {"K0",
-                            &EosMurnaghan::k0,
-                            "M/LT2",
-                            "rho0 c0^2 / GAMMA",
-                            {.required = true, .check = Check::positive}},
-                           {"V0",
-                            &EosMurnaghan::V0,
-                            "-",
-                            "initial relative volume rho0/rho",
-                            {.standard = 1, .check = Check::positive}}}}}}};
+     .title = &Card::title,
+     .cards = {
+         {.fields = {
+              {"EOSID",
+               &Card::eosid,
+               "-",
+               "id that *PART refers to",
+               {.required = true, .check = Check::positive}},
+              {"GAMMA",
+               &Card::gamma,
+               "-",
+               "exponent, 7 for water",
+               {.required = true, .check = Check::positive}},
+              {"K0", &Card::k0, "M/LT2", "rho0 c0^2 / GAMMA", {.required = true, .check = Check::positive}},
+              {"V0",
+               &Card::V0,
+               "-",
+               "initial relative volume rho0/rho",
+               {.standard = 1, .check = Check::positive}}}}}}};
 
 }  // namespace
 

@@ -120,23 +120,23 @@ struct SectionSolid : Entry {
   int elform = 1, aet = 0;
   Real cohoff = 0, gaskett = 0;
 };
-using SS = SectionSolid;
+using S = SectionSolid;
 
-const RegisterKeyword<SS> section_solid{
+const RegisterKeyword<S> section_solid{
     {.names = {"SECTION_SOLID"},
      .purpose = "formulation of solid elements",
      .id_space = IdSpace::section,
      .title_option = true,
-     .title = &SS::title,
+     .title = &S::title,
      .lacking = "sections of solid elements",
-     .cards = {{.fields = {{"SECID", &SS::secid, "-", "id that *PART refers to", required_id},
-                           {"ELFORM", &SS::elform, "-", "formulation", {.standard = 1}},
-                           {"AET", &SS::aet, "-", "ambient elements"},
+     .cards = {{.fields = {{"SECID", &S::secid, "-", "id that *PART refers to", required_id},
+                           {"ELFORM", &S::elform, "-", "formulation", {.standard = 1}},
+                           {"AET", &S::aet, "-", "ambient elements"},
                            {},
                            {},
                            {},
-                           {"COHOFF", &SS::cohoff, "-", "place of the cohesive layer"},
-                           {"GASKETT", &SS::gaskett, "L", "thickness of the gasket"}}}}}};
+                           {"COHOFF", &S::cohoff, "-", "place of the cohesive layer"},
+                           {"GASKETT", &S::gaskett, "L", "thickness of the gasket"}}}}}};
 
 }  // namespace
 

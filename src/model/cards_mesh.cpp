@@ -2,6 +2,7 @@
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
+#include "model/part_card.hpp"
 #include "model/transformation.hpp"
 
 namespace courant {
@@ -96,25 +97,12 @@ const RegisterKeyword<S> element_shell{
                            {"N8", &S::n8, "-", "mid-side node", mid_side}}}}}};
 
 using P = PartCard;
-const RegisterKeyword<P> part{
-    {.names = {"PART"},
-     .purpose = "parts: elements of one section and material",
-     .id_space = IdSpace::part,
-     .heading = true,
-     .title = &P::title,
-     .cards = {{.fields = {{"PID", &P::pid, "-", "part id", required_id},
-                           {"SECID", &P::secid, "-", "section id", required_id_of(IdSpace::section)},
-                           {"MID", &P::mid, "-", "material id", required_id_of(IdSpace::material)},
-                           {"EOSID", &P::eosid, "-", "equation of state id", optional_id_of(IdSpace::eos)},
-                           {"HGID", &P::hgid, "-", "hourglass and bulk viscosity id",
-                            optional_id_of(IdSpace::hourglass)},
-                           {"GRAV", &P::grav, "-", "gravity preload", unsupported},
-                           {"ADPOPT", &P::adpopt, "-", "adaptivity", unsupported},
-                           {"TMID",
-                            &P::tmid,
-                            "-",
-                            "thermal material id",
-                            {.honour = Honour::no, .refers = IdSpace::material}}}}}}};
+const RegisterKeyword<P> part{{.names = {"PART"},
+                               .purpose = "parts: elements of one section and material",
+                               .id_space = IdSpace::part,
+                               .heading = true,
+                               .title = &P::title,
+                               .cards = {part_card<P>()}}};
 
 using C = DefineCurveCard;
 const RegisterKeyword<C> define_curve{

@@ -83,6 +83,16 @@ std::shared_ptr<::courant::Motion> Images::make_mirrors(std::function<Vec(Real)>
   return std::make_shared<Mirrors>(std::move(mirrors), std::move(gravity));
 }
 
+template <class Wanted>
+void Images::find(const ImagePlane& plane, const Particles& p, Index n, const Wanted& is_wanted) {
+  collect(n, scratch_, [&](Index begin, Index end, std::vector<Index>& found) {
+    const auto [least, most, broken] = depth_range(loops_, plane, p, begin, end);
+    if (!is_wanted(least) && !is_wanted(most)) return;
+    for (Index i = begin; i < end; ++i)
+      if (is_wanted(depth(plane, p.x.vec(i)))) found.push_back(i);
+  });
+}
+
 void Images::bring_back(World& world, Index n) {
   Particles& p = world.particles;
   brought_back_.setZero();
@@ -90,12 +100,7 @@ void Images::bring_back(World& world, Index n) {
     const ImagePlane& plane = planes_[k];
     const bool mirror = plane.kind == ImagePlane::Kind::mirror;
     const auto is_outside = [&](Real d) { return d < 0 || (!mirror && d >= plane.period); };
-    collect(n, scratch_, [&](Index begin, Index end, std::vector<Index>& outside) {
-      const auto [least, most, broken] = depth_range(loops_, plane, p, begin, end);
-      if (!is_outside(least) && !is_outside(most)) return;
-      for (Index i = begin; i < end; ++i)
-        if (is_outside(depth(plane, p.x.vec(i)))) outside.push_back(i);
-    });
+    find(plane, p, n, is_outside);
     for (const Index i : scratch_) {
       const Vec before = p.x.vec(i);
       if (p.state[i] == particle_deactivated || !before.allFinite()) continue;
@@ -129,12 +134,7 @@ void Images::build(World& world, Real reach) {
         source_.push_back(source);
         motion_.push_back(composed[first]);
       };
-      collect(p.moving, scratch_, [&](Index begin, Index end, std::vector<Index>& near) {
-        const auto [least, most, broken] = depth_range(loops_, plane, p, begin, end);
-        if (!is_near(least) && !is_near(most)) return;
-        for (Index i = begin; i < end; ++i)
-          if (is_near(depth(plane, p.x.vec(i)))) near.push_back(i);
-      });
+      find(plane, p, p.moving, is_near);
       for (const Index i : scratch_) image(i, 0);
       for (Index m = 0; m < before; ++m)  // corners: images of images
         if (is_near(depth(plane, motions_[motion_[m]].of(p.x.vec(source_[m])))))

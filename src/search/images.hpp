@@ -78,6 +78,10 @@ class Images : public Exchanger {
     Motion after(const Motion& first) const { return {A * first.A, A * first.b + b}; }
     Vec of(const Vec& x) const { return A * x + b; }
   };
+  /// Leaves in scratch_ those of particles [0, n) whose depth is wanted; no depth may be wanted between two
+  /// that are not.
+  template <class Wanted>
+  void find(const ImagePlane& plane, const Particles& p, Index n, const Wanted& is_wanted);
   void copy(World& world, Exchange when) const;
   void copy_block(Field<Real>& field, Index to, bool place, Index begin, Index end) const;
 
