@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "materials/eos.hpp"
+#include "materials/eos_fields.hpp"
 
 namespace courant {
 
@@ -98,11 +99,7 @@ const RegisterEos<Card> registered{
      .id_space = IdSpace::eos,
      .title_option = true,
      .title = &Card::title,
-     .cards = {{.fields = {{"EOSID",
-                            &Card::eosid,
-                            "-",
-                            "id that *PART refers to",
-                            {.required = true, .check = Check::positive}},
+     .cards = {{.fields = {eosid_field<Card>(),
                            {"C",
                             &Card::C,
                             "L/T",
@@ -114,11 +111,7 @@ const RegisterEos<Card> registered{
                            {"GAMMA0", &Card::gamma0, "-", "Grueneisen gamma", {.check = Check::not_negative}},
                            {"A", &Card::a, "-", "first-order volume correction to gamma", {}},
                            {"E0", &Card::E0, "M/LT2", "initial internal energy per reference volume", {}}}},
-               {.fields = {{"V0",
-                            &Card::V0,
-                            "-",
-                            "initial relative volume rho0/rho",
-                            {.standard = 1, .check = Check::positive}},
+               {.fields = {v0_field<Card>(),
                            {},
                            {"LCID",
                             &Card::lcid,

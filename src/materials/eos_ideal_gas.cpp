@@ -1,4 +1,5 @@
 #include "materials/eos.hpp"
+#include "materials/eos_fields.hpp"
 
 namespace courant {
 
@@ -41,21 +42,13 @@ const RegisterEos<Card> registered{
      .title_option = true,
      .title = &Card::title,
      .cards = {
-         {.fields = {{"EOSID",
-                      &Card::eosid,
-                      "-",
-                      "id that *PART refers to",
-                      {.required = true, .check = Check::positive}},
+         {.fields = {eosid_field<Card>(),
                      {"CVMAS", &Card::cv, "L2/T2", "heat capacity at constant volume, per mass", required},
                      {"CPMAS", &Card::cp, "L2/T2", "heat capacity at constant pressure, per mass", required},
                      {"B", &Card::cl, "L2/T2", "linear temperature coefficient of both", unsupported},
                      {"C", &Card::cq, "L2/T2", "quadratic temperature coefficient", unsupported},
                      {"T0", &Card::T0, "-", "initial temperature", required},
-                     {"V0",
-                      &Card::V0,
-                      "-",
-                      "initial relative volume rho0/rho",
-                      {.standard = 1, .check = Check::positive}},
+                     v0_field<Card>(),
                      {"VC0", &Card::vc0, "-", "van der Waals covolume", unsupported}}},
          {.fields = {{"ADIAB", &Card::adiab, "-", "1 adiabatic law", unsupported}}, .optional = true}}}};
 

@@ -1,4 +1,5 @@
 #include "materials/eos.hpp"
+#include "materials/eos_fields.hpp"
 
 namespace courant {
 
@@ -45,11 +46,7 @@ const RegisterEos<Card> registered{
      .id_space = IdSpace::eos,
      .title_option = true,
      .title = &Card::title,
-     .cards = {{.fields = {{"EOSID",
-                            &Card::eosid,
-                            "-",
-                            "id that *PART refers to",
-                            {.required = true, .check = Check::positive}},
+     .cards = {{.fields = {eosid_field<Card>(),
                            {"C0", &Card::c0, "M/LT2", "pressure at mu = 0", {}},
                            {"C1", &Card::c1, "M/LT2", "bulk modulus, rho0 c0^2", {}},
                            {"C2", &Card::c2, "M/LT2", "factor of mu^2, in compression", {}},
@@ -58,11 +55,7 @@ const RegisterEos<Card> registered{
                            {"C5", &Card::c5, "-", "factor of mu E", {}},
                            {"C6", &Card::c6, "-", "factor of mu^2 E, in compression", {}}}},
                {.fields = {{"E0", &Card::E0, "M/LT2", "initial internal energy per reference volume", {}},
-                           {"V0",
-                            &Card::V0,
-                            "-",
-                            "initial relative volume rho0/rho",
-                            {.standard = 1, .check = Check::positive}}},
+                           v0_field<Card>()},
                 .optional = true}}}};
 
 }  // namespace

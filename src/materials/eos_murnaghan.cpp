@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "materials/eos.hpp"
+#include "materials/eos_fields.hpp"
 
 namespace courant {
 
@@ -39,22 +40,14 @@ const RegisterEos<Card> registered{
      .title = &Card::title,
      .cards = {
          {.fields = {
-              {"EOSID",
-               &Card::eosid,
-               "-",
-               "id that *PART refers to",
-               {.required = true, .check = Check::positive}},
+              eosid_field<Card>(),
               {"GAMMA",
                &Card::gamma,
                "-",
                "exponent, 7 for water",
                {.required = true, .check = Check::positive}},
               {"K0", &Card::k0, "M/LT2", "rho0 c0^2 / GAMMA", {.required = true, .check = Check::positive}},
-              {"V0",
-               &Card::V0,
-               "-",
-               "initial relative volume rho0/rho",
-               {.standard = 1, .check = Check::positive}}}}}}};
+              v0_field<Card>()}}}}};
 
 }  // namespace
 
