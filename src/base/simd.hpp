@@ -149,6 +149,21 @@ struct Pack {
     for (Index k = 0; k < lanes; ++k) copy[k] = p[k < n ? k : n - 1];
     return load(copy);
   }
+  /// Every `stride`-th of the numbers from p on.
+  COURANT_INLINE static Pack every(Index stride, const Real* p) {
+    Pack out;
+    for (int k = 0; k < parts; ++k, p += stride * (lanes / parts)) {
+#if COURANT_SIMD_BYTES == 64
+      out.part[k] = Native{p[0],          p[stride],     p[2 * stride], p[3 * stride],
+                           p[4 * stride], p[5 * stride], p[6 * stride], p[7 * stride]};
+#elif COURANT_SIMD_BYTES == 32
+      out.part[k] = Native{p[0], p[stride], p[2 * stride], p[3 * stride]};
+#else
+      out.part[k] = Native{p[0], p[stride]};
+#endif
+    }
+    return out;
+  }
   /// From and to 16 bits: Fixed16 or Float16.
   template <class T>
   COURANT_INLINE static Pack widen(const T* p) {
@@ -223,6 +238,51 @@ COURANT_INLINE bool any_less(const Pack& a, const Pack& b) {
   for (int k = 0; k < parts; ++k)
     for (int l = 0; l < native_lanes; ++l) any |= a.part[k][l] < b.part[k][l];
   return any;
+#endif
+}
+
+#if COURANT_SIMD_BYTES >= 32
+/// Sums of the two halves, of the four quarters in pairs.
+COURANT_INLINE __m256d halved(const Pack& a) {
+#if COURANT_SIMD_BYTES == 64
+  return _mm512_castpd512_pd256(a.part[0]) + _mm512_extractf64x4_pd(a.part[0], 1);
+#else
+  return a.part[0] + a.part[1];
+#endif
+}
+COURANT_INLINE __m128d halved(const __m256d& a) {
+  return _mm256_castpd256_pd128(a) + _mm256_extractf128_pd(a, 1);
+}
+COURANT_INLINE __m256d added_in_pairs(const __m256d& a, const __m256d& b) {
+  return _mm256_unpacklo_pd(a, b) + _mm256_unpackhi_pd(a, b);
+}
+#endif
+
+/// Adds the sum over the eight numbers of each pack to numbers in memory.
+COURANT_INLINE void add_sum(const Pack& a, Real* to) {
+#if COURANT_SIMD_BYTES >= 32
+  const __m128d sums = halved(halved(a));
+  *to += sums[0] + sums[1];
+#else
+  Native sum = a.part[0];
+  for (int k = 1; k < parts; ++k) sum += a.part[k];
+  *to += sum[0] + sum[1];
+#endif
+}
+COURANT_INLINE void add_sums(const Pack& a, const Pack& b, Real* to) {
+#if COURANT_SIMD_BYTES >= 32
+  _mm_storeu_pd(to, _mm_loadu_pd(to) + halved(added_in_pairs(halved(a), halved(b))));
+#else
+  add_sum(a, to), add_sum(b, to + 1);
+#endif
+}
+COURANT_INLINE void add_sums(const Pack& a, const Pack& b, const Pack& c, const Pack& d, Real* to) {
+#if COURANT_SIMD_BYTES >= 32
+  const __m256d ab = added_in_pairs(halved(a), halved(b)), cd = added_in_pairs(halved(c), halved(d));
+  const __m256d sums = _mm256_permute2f128_pd(ab, cd, 0x20) + _mm256_permute2f128_pd(ab, cd, 0x31);
+  _mm256_storeu_pd(to, _mm256_loadu_pd(to) + sums);
+#else
+  add_sums(a, b, to), add_sums(c, d, to + 2);
 #endif
 }
 

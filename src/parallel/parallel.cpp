@@ -14,8 +14,12 @@ void set_threads(int threads) {
 }
 
 Shares Shares::of(const std::vector<double>& cost) {
+  return of(cost, courant::threads());
+}
+
+Shares Shares::of(const std::vector<double>& cost, int parts) {
   const Index blocks = static_cast<Index>(cost.size());
-  const int n = std::max(1, std::min<int>(courant::threads(), blocks));
+  const int n = std::max(1, std::min<int>(parts, blocks));
   double total = 0, done = 0;
   for (const double c : cost) total += c;
   Shares shares;

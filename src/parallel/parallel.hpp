@@ -22,8 +22,9 @@ inline Index block_count(Index n) {
 struct Shares {
   std::vector<Index> first{0, 0};
   int threads() const { return static_cast<int>(first.size()) - 1; }
-  /// Cuts blocks of the given costs into shares of about equal cost for all threads.
+  /// Cuts blocks of the given costs into shares of about equal cost for all threads, or so many parts.
   static Shares of(const std::vector<double>& cost);
+  static Shares of(const std::vector<double>& cost, int parts);
   static Shares even(Index blocks);
 };
 

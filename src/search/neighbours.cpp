@@ -176,7 +176,7 @@ void Neighbours::choose_skin(const Clock& clock) {
   skin_ = std::clamp(std::sqrt(skin_weight_ * move * h_max_), least_skin_, most_skin_);
 }
 
-void Neighbours::Scratch::make_room(Index more) {
+void Neighbours::Found::make_room(Index more) {
   const auto grow = [more](std::vector<Index>& to, Index count) {
     if (static_cast<Index>(to.size()) <= count + more) to.resize(2 * (count + more) + 64);
   };
@@ -192,15 +192,20 @@ void Neighbours::find_list_of_group(const World& world, const NearQuery& q, Scra
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  scratch.found = {};
-  grid_.near(low, high, support_ * h_max_ + skin_, [&](Index first, Index last) {
-    for (const auto& start : {active_start_, rim_start_, image_start_}) {
-      if (start.empty()) continue;
-      const Index begin = start[first], end = start[last + 1];
-      if (begin == end) continue;
-      scratch.make_room(end - begin);
-      near_.find(q, begin, end, scratch.found);
-    }
+  for (Found* to : {&scratch.other, &scratch.later, &scratch.earlier}) to->found = {};
+  const auto look = [&](Index begin, Index end, Found& to) {
+    if (begin >= end) return;
+    to.make_room(end - begin);
+    near_.find(q, begin, end, to.found);
+  };
+  const Index last = q.first + q.count;
+  grid_.near(low, high, support_ * h_max_ + skin_, [&](Index first_cell, Index last_cell) {
+    const Index begin = active_start_[first_cell], end = active_start_[last_cell + 1];
+    if (whole()) look(begin, std::min(end, q.first), scratch.earlier);
+    look(std::max(begin, q.first), std::min(end, last), scratch.other);
+    look(std::max(begin, last), end, scratch.later);
+    for (const auto& start : {rim_start_, image_start_})
+      if (!start.empty()) look(start[first_cell], start[last_cell + 1], scratch.other);
   });
 }
 
@@ -228,23 +233,69 @@ void Neighbours::build_lists(World& world) {
     thread_local Scratch scratch;
     std::vector<Index>& all = scratch.all;
     all.clear();
+    b.reach = end;
+    const auto add = [&all](const std::vector<Index>& from, Index count) {
+      all.insert(all.end(), from.begin(), from.begin() + count);
+      return static_cast<Index>(all.size());
+    };
     for (Index k = 0; k < groups_per_block; ++k) {
-      b.start[k] = b.beyond[k] = static_cast<Index>(all.size());
+      const auto start = static_cast<Index>(all.size());
+      ListSections& at = b.sections[k] = {start, start, start, start, start};
+      b.start[k] = start;
       q.first = begin + k * lanes;
       q.count = std::min(lanes, end - q.first);
       if (q.count <= 0) continue;
       find_list_of_group(world, q, scratch);
-      all.insert(all.end(), scratch.within.begin(), scratch.within.begin() + scratch.found.within_count);
-      b.beyond[k] = static_cast<Index>(all.size());
-      all.insert(all.end(), scratch.beyond.begin(), scratch.beyond.begin() + scratch.found.beyond_count);
+      const Found &other = scratch.other, &later = scratch.later, &earlier = scratch.earlier;
+      at.later = add(other.within, other.found.within_count);
+      at.beyond = add(later.within, later.found.within_count);
+      at.later_end = add(later.beyond, later.found.beyond_count);
+      if (at.later_end > at.later)
+        b.reach = std::max(b.reach, 1 + *std::max_element(all.begin() + at.later, all.end()));
+      at.earlier = add(other.beyond, other.found.beyond_count);
+      at.earlier_beyond = add(earlier.within, earlier.found.within_count);
+      add(earlier.beyond, earlier.found.beyond_count);
     }
     b.start[groups_per_block] = static_cast<Index>(all.size());
     std::copy(all.begin(), all.end(), b.list.grow_to(all.size()));
   });
+  std::vector<Index> reach;
+  entries_ = entries_once_ = 0;
+  for (Index b = 0; b < blocks(); ++b) {
+    entries_ += entries(b), entries_once_ += entries_once(b);
+    reach.push_back(blocks_[b].reach);
+  }
+  if (strips_wanted_) strips_.cut(n, block_costs(), reach);
+  share_blocks(world);
+}
+
+std::vector<double> Neighbours::block_costs() const {
   std::vector<double> cost;
-  for (Index b = 0; b < block_count(n); ++b) cost.push_back(entries(b) + 2.0 * block_size);
-  world.shares = Shares::of(cost);
-  world.moving_shares = Shares::even(block_count(p.moving));
+  for (Index b = 0; b < blocks(); ++b)
+    cost.push_back((strips_wanted_ ? entries_once(b) : entries(b)) + 2.0 * block_size);
+  return cost;
+}
+
+void Neighbours::share_blocks(World& world) const {
+  world.shares = strips_wanted_ ? strips_.shares() : Shares::of(block_costs());
+  world.moving_shares = Shares::even(block_count(world.particles.moving));
+}
+
+void Neighbours::cut_strips() {
+  if (built_ && !strips_wanted_) throw std::logic_error("strips are asked for too late");
+  strips_wanted_ = true;
+}
+
+void Neighbours::need_whole_lists() {
+  if (built_ && !whole()) throw std::logic_error("whole lists are asked for too late");
+  whole_needed_ = true;
+}
+
+Index Neighbours::entries_once(Index b) const {
+  const Block& block = blocks_[b];
+  Index n = 0;
+  for (Index k = 0; k < groups_per_block; ++k) n += block.sections[k].earlier - block.start[k];
+  return n;
 }
 
 void Neighbours::remember_places(const World& world, const Clock& clock) {
@@ -272,16 +323,21 @@ bool Neighbours::nodes_moved(const World& world) const {
   return false;
 }
 
-std::int64_t Neighbours::entries() const {
-  std::int64_t n = 0;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) n += entries(static_cast<Index>(b));
-  return n;
-}
-
 std::vector<Index> Neighbours::of(const Particles& p, Index i) const {
   std::vector<Index> out;
-  for (const Index j : of_group(i / lanes))
+  const auto add_if_near = [&](Index j) {
     if (j != i && (p.x.vec(i) - p.x.vec(j)).norm() < support_ * std::max(p.h[i], p.h[j])) out.push_back(j);
+  };
+  for (const Index j : listed(i / lanes)) add_if_near(j);
+  if (whole()) return out;
+  const Strips::Strip& first = strips_[strips_[strips_.of_block(i / block_size)].earliest];
+  for (Index g = first.begin / lanes; g < i / lanes; ++g) {
+    const Block& b = blocks_[g / groups_per_block];
+    const ListSections& at = b.sections[g % groups_per_block];
+    const Index *later = b.list.data() + at.later, *end = b.list.data() + at.later_end;
+    if (std::find(later, end, i) == end) continue;
+    for (Index j = g * lanes; j < (g + 1) * lanes; ++j) add_if_near(j);
+  }
   return out;
 }
 

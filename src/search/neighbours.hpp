@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "parallel/buffer.hpp"
@@ -9,8 +10,10 @@
 #include "search/cell_grid.hpp"
 #include "search/images.hpp"
 #include "search/inlet_plane.hpp"
+#include "search/list_sections.hpp"
 #include "search/near_loops.hpp"
 #include "search/region.hpp"
+#include "search/strips.hpp"
 #include "state/keeper.hpp"
 #include "state/particle_loops.hpp"
 #include "state/world.hpp"
@@ -20,9 +23,11 @@ namespace courant {
 /// Sorts particles so that near ones stand together, sets which of them are active, and keeps a Verlet list
 /// for every eight active particles in a row (a group): all particles within support max(h_i, h_j) + skin of
 /// any of them, itself included. So a pair loop loads eight particles i at once and takes one j after the
-/// other, without gathering; a kernel of zero sorts out those that only other lanes need. Entries that none
-/// of the eight had within its support when lists were built stand last. The lists hold until something
-/// (particles, or shell nodes that contact looks at) moved or grew by half the skin.
+/// other, without gathering; a kernel of zero sorts out those that only other lanes need. ListSections tells
+/// which entries none of the eight had within its support when lists were built, and which pairs the list of
+/// another group has, too: a loop may work out each pair but once, from the entries of later groups, if it
+/// adds to both particles. The lists hold until something (particles, or shell nodes that contact looks at)
+/// moved or grew by half the skin.
 class Neighbours {
  public:
   static constexpr Index lanes = 8;
@@ -60,18 +65,36 @@ class Neighbours {
   /// Looks, as the last pass of the motion stage, whether the lists still hold, so that `refresh` need not.
   std::shared_ptr<Motion> watch();
 
+  /// From now on blocks are shared by whole strips, for loops that work out each pair once, and lists lack
+  /// particles of earlier groups where nobody needs them.
+  void cut_strips();
+  const Strips& strips() const { return strips_; }
+  /// Who reads whole lists must have said so before the first refresh; with_whole_lists does.
+  void need_whole_lists();
+  bool whole() const { return whole_needed_ || !strips_wanted_; }
+  /// Shares blocks among as many threads as there are now; `refresh` does it, too.
+  void share_blocks(World& world) const;
+
   /// The particles that group `g` = particles [8 g, 8 g + 8) looks at.
   std::span<const Index> of_group(Index g) const {
+    expect_whole();
+    return listed(g);
+  }
+  /// The same, or only those whose pairs no earlier group has.
+  std::span<const Index> listed(Index g) const {
     const Block& b = blocks_[g / groups_per_block];
     const Index k = g % groups_per_block;
     return {b.list.data() + b.start[k], static_cast<std::size_t>(b.start[k + 1] - b.start[k])};
   }
+  void expect_whole() const {
+    if (!whole()) throw std::logic_error("lists of neighbours hold each pair once");
+  }
   /// Entries of the lists of block `b`, and where the list of its k-th group starts among them.
   Index entries(Index b) const { return blocks_[b].start[groups_per_block]; }
+  Index entries_once(Index b) const;  ///< of block `b`, but for those of particles of earlier groups
   Index blocks() const { return static_cast<Index>(blocks_.size()); }
   const Index* starts(Index b) const { return blocks_[b].start.data(); }
-  /// Where those of the k-th group begin that were beyond the support of all eight.
-  const Index* beyond(Index b) const { return blocks_[b].beyond.data(); }
+  const ListSections* sections(Index b) const { return blocks_[b].sections.data(); }
   const Index* list(Index b) const { return blocks_[b].list.data(); }
 
   Real skin() const { return skin_; }
@@ -85,21 +108,28 @@ class Neighbours {
   const std::vector<Index>& entered() const { return entered_; }
   const std::vector<Index>& left() const { return left_; }
   std::int64_t rebuilds() const { return rebuilds_; }
-  std::int64_t entries() const;  ///< of all lists
-  /// Others within support max(h_i, h_j) of particle i. For tests and reports: slow.
+  std::int64_t entries() const { return entries_; }  ///< of all lists
+  std::int64_t entries_once() const { return entries_once_; }
+
+  /// Others within support max(h_i, h_j) of particle i, active here. For tests and reports: slow.
   std::vector<Index> of(const Particles& p, Index i) const;
 
  private:
   struct Block {
     Buffer<Index> list;
     std::array<Index, groups_per_block + 1> start;
-    std::array<Index, groups_per_block> beyond;
+    std::array<ListSections, groups_per_block> sections;
+    Index reach;  ///< behind the last particle that has a list among its entries
+  };
+  /// What the search finds for a group among particles of one kind.
+  struct Found {
+    std::vector<Index> within, beyond;
+    NearFound found{};
+    void make_room(Index more);
   };
   struct Scratch {
-    std::vector<Index> within, beyond;  ///< of a group
-    std::vector<Index> all;             ///< of a block
-    void make_room(Index more);
-    NearFound found{};
+    Found other, later, earlier;  ///< see ListSections
+    std::vector<Index> all;       ///< of a block
   };
   class Watch;
 
@@ -122,6 +152,7 @@ class Neighbours {
   void build_images(World& world);
   void count_cells(const World& world);
   void build_lists(World& world);
+  std::vector<double> block_costs() const;
   void find_list_of_group(const World& world, const NearQuery& query, Scratch& scratch) const;
   void remember_places(const World& world, const Clock& clock);
   bool nodes_moved(const World& world) const;
@@ -145,6 +176,9 @@ class Neighbours {
   std::span<const Index> active_start_, rim_start_, image_start_;
   std::vector<Index> starts_, image_starts_;
   std::vector<Block> blocks_;
+  std::int64_t entries_ = 0, entries_once_ = 0;
+  bool strips_wanted_ = false, whole_needed_ = false;
+  Strips strips_;
   std::vector<Real> due_;           ///< when dormant particle moving + k may come within reach, ascending [T]
   std::size_t first_due_ = 0;       ///< the entry of due_ that belongs to particle `moving`
   Real waking_time_ = 0;            ///< those due that soon are woken together [T]
@@ -159,5 +193,10 @@ class Neighbours {
   std::vector<Index> entered_, left_;
   std::int64_t rebuilds_ = 0;
 };
+
+inline std::shared_ptr<Neighbours> with_whole_lists(std::shared_ptr<Neighbours> neighbours) {
+  neighbours->need_whole_lists();
+  return neighbours;
+}
 
 }  // namespace courant

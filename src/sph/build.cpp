@@ -6,10 +6,7 @@
 #include "parallel/parallel.hpp"
 #include "search/nearest_distance.hpp"
 #include "sph/cards.hpp"
-#include "sph/kept_pairs.hpp"
-#include "sph/pair_geometry.hpp"
-#include "sph/pair_volumes.hpp"
-#include "sph/sph.hpp"
+#include "sph/pair_passes.hpp"
 #include "sph/view.hpp"
 
 namespace courant {
@@ -307,11 +304,13 @@ class Builder {
   }
 
   /// h0 = CSLH x largest nearest-neighbour distance, per part. A part in which one particle stands far off
-  /// would get an h of that distance, so such particles are refused.
+  /// would get an h of that distance, so such particles are refused. Parts whose h differ by no more than the
+  /// rounding of coordinates in decks get the h of the first: pair loops are quicker where all have one.
   void set_smoothing_lengths() {
     Particles& p = world_.particles;
     const std::vector<Real> nearest = nearest_distance(p.x.data(0), p.x.data(1), p.x.data(2), p.size());
     report_coincident_particles(nearest);
+    std::vector<Real> used;
     for (std::size_t k = 0; k < model_.parts.size(); ++k) {
       if (!model_.parts[k].has_sph) continue;
       std::vector<Real> distances;
@@ -329,6 +328,13 @@ class Builder {
         h = smoothing_[k].cslh * largest;
       }
       if (std::isfinite(largest)) settings_.spacing = std::max(settings_.spacing, largest);
+      const auto same = std::find_if(used.begin(), used.end(), [h](Real other) {
+        return std::abs(h - other) <= rounding_of_decks * other;
+      });
+      if (same != used.end())
+        h = *same;
+      else
+        used.push_back(h);
       for_each(p.size(), [&](Index i) {
         if (p.part[i] == static_cast<Index>(k)) p.h[i] = h;
       });
@@ -395,8 +401,9 @@ class Builder {
   Diagnostics& diagnostics_;
   SphSettings settings_;
   std::vector<PartSmoothing> smoothing_;
-  static constexpr Real most_diffusion = 0.2;  ///< delta h c dt = dx^2/4 at TSSFAC 0.9, h = 1.2 dx
-  static constexpr Index max_reports = 20;     ///< of one kind of fault
+  static constexpr Real most_diffusion = 0.2;      ///< delta h c dt = dx^2/4 at TSSFAC 0.9, h = 1.2 dx
+  static constexpr Real rounding_of_decks = 1e-6;  ///< of a spacing
+  static constexpr Index max_reports = 20;         ///< of one kind of fault
 };
 
 }  // namespace
@@ -418,23 +425,12 @@ SphSettings build_particles(const Deck& deck, const Model& model,
   return Builder(deck, model, material, world, diagnostics).build();
 }
 
-namespace {
-
-PairPasses make_pair_passes(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
-                            std::shared_ptr<PairVolumes> volumes) {
-  if (s.geometry_eps > 0) return make_kept_passes(s, world, std::move(neighbours), std::move(volumes));
-  const auto geometry = std::make_shared<PairGeometry>(std::move(neighbours), s.uniform_h);
-  return {make_rates(s, world, geometry, volumes), make_forces(s, world, geometry, volumes)};
-}
-
-}  // namespace
-
 std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
                                      std::shared_ptr<Neighbours> neighbours) {
   std::vector<PassNote> left_out;
   const auto volumes = make_pair_volumes(world);
   const PairPasses pairs = make_pair_passes(s, world, neighbours, volumes);
-  world.rates.push_back(pairs.rates);
+  world.rates.insert(world.rates.end(), pairs.rates.begin(), pairs.rates.end());
   if (!s.walls.segments.empty())
     add_wall_support(s, world, *neighbours);
   else
@@ -486,7 +482,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   else
     left_out.push_back({"viscous stress", "MU is 0 in all SPH materials"});
   world.materials.push_back(volumes);
-  world.forces.push_back(pairs.forces);
+  world.forces.insert(world.forces.end(), pairs.forces.begin(), pairs.forces.end());
   if (s.maxv != 0)
     world.constraints.push_back(make_speed_limit(s, neighbours));
   else

@@ -52,7 +52,7 @@ class DensityReinitialisation : public Rate {
         dim_(s.dim),
         kernel_(s.kernel),
         rules_(s.reinitialisation),
-        neighbours_(std::move(neighbours)),
+        neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         rate_(sph_fields::reinitialisation_rate(world.particles)) {
     if (rules_.linear) world.counters.try_emplace(counter, 0);

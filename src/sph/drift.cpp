@@ -184,7 +184,7 @@ class DriftRate : public Rate {
   DriftRate(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
             std::shared_ptr<PairVolumes> volumes)
       : loop_(drift_rate_loop(s.dim)),
-        neighbours_(std::move(neighbours)),
+        neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         density_(add_drift_density(world)) {}
   std::string name() const override { return "drift (density)"; }

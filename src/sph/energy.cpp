@@ -93,7 +93,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
     rim_pairs_.clear();
     if (p.moving == p.active) return;
     for (Index g = 0; g * lanes < p.active; ++g)
-      for (const Index j : neighbours_->of_group(g))
+      for (const Index j : neighbours_->listed(g))
         if (j >= p.active && j < p.moving)  // the rim, not images
           for (Index i = g * lanes; i < std::min((g + 1) * lanes, p.active); ++i)
             if ((p.x.vec(i) - p.x.vec(j)).norm() <

@@ -1,7 +1,5 @@
 #include "sph/pair_fields.hpp"
-#include "sph/pair_geometry.hpp"
-#include "sph/pair_volumes.hpp"
-#include "sph/sph.hpp"
+#include "sph/pair_passes.hpp"
 
 namespace courant {
 
@@ -20,7 +18,10 @@ class PairForces : public Force {
   }
   std::string name() const override { return "sph forces"; }
 
-  void start(World& world, const Clock&) override { a_ = fields_.arrays(world.particles, *volumes_); }
+  void start(World& world, const Clock&) override {
+    geometry_->make_room_for_shares(forces_shares(world.dim, fields_.diffusion()), world.shares);
+    a_ = fields_.arrays(world.particles, *volumes_);
+  }
   void block(World&, const Clock&, Index begin, Index end) override {
     (geometry_->kept() ? load_ : compute_)(a_, geometry_->lists(begin, end));
   }

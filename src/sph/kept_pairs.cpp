@@ -5,7 +5,7 @@
 #include "parallel/copy.hpp"
 #include "sph/fields.hpp"
 #include "sph/pair_fields.hpp"
-#include "sph/pair_volumes.hpp"
+#include "sph/pair_passes.hpp"
 #include "state/keeper.hpp"
 #include "state/particle_loops.hpp"
 
@@ -35,7 +35,10 @@ void Window::keep(Archive& archive) {
 }
 
 KeptPairs::KeptPairs(const SphSettings& s, std::shared_ptr<Neighbours> neighbours, const KeptChoice& choice)
-    : window(s.geometry_eps), neighbours_(std::move(neighbours)), kernel_(s.kernel), dim_(s.dim) {
+    : window(s.geometry_eps),
+      neighbours_(with_whole_lists(std::move(neighbours))),
+      kernel_(s.kernel),
+      dim_(s.dim) {
   shape_.viscous = choice.viscous, shape_.quadratic = choice.quadratic, shape_.diffusion = choice.diffusion;
   shape_.factor_count = int(choice.viscous) + int(choice.quadratic) + int(choice.diffusion);
   shape_.scale = largest_fixed16 / steepest_gradient(kernel_);
@@ -208,8 +211,8 @@ PairPasses make_kept_passes(const SphSettings& s, World& world, std::shared_ptr<
   auto watch = std::make_shared<WindowWatch>(pairs);
   world.motions.push_back(watch);
   world.refreshes.push_back(watch);
-  return {std::make_shared<KeptRates>(s, choice, rates, pairs, volumes),
-          std::make_shared<KeptForces>(choice, forces, pairs, volumes)};
+  return {{std::make_shared<KeptRates>(s, choice, rates, pairs, volumes)},
+          {std::make_shared<KeptForces>(choice, forces, pairs, volumes)}};
 }
 
 }  // namespace courant

@@ -60,12 +60,4 @@ class KeptPairs {
   std::vector<Block> blocks_;
 };
 
-struct PairPasses {
-  std::shared_ptr<Rate> rates;
-  std::shared_ptr<Force> forces;
-};
-/// Take the place of make_rates and make_forces. Adds to the motions of `world` what they need.
-PairPasses make_kept_passes(const SphSettings&, World&, std::shared_ptr<Neighbours>,
-                            std::shared_ptr<PairVolumes>);
-
 }  // namespace courant

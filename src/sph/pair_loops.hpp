@@ -1,7 +1,8 @@
 #pragma once
 // The loops over pairs, compiled once for each instruction set. A loop takes eight particles i at once and
-// one neighbour j after the other; see docs/architecture.md. All sums are gathered, nothing is scattered.
+// one neighbour j after the other; see docs/architecture.md.
 #include "base/real.hpp"
+#include "search/list_sections.hpp"
 #include "sph/kernel_choice.hpp"
 
 namespace courant {
@@ -13,7 +14,7 @@ struct PairArrays {
   const Real* m;
   const Real* V;    ///< m/rho, see PairVolumes
   const Real* h;    ///< where it differs
-  const Real* rho;  ///< of particle i alone
+  const Real* rho;  ///< of particle i alone; of j, too, for diffusion
   const Real* qc;   ///< q1 c, for Monaghan viscosity
   const Real* p;    ///< pressure, plus bulk viscosity where there is any
   const Real* tau[6];
@@ -30,20 +31,37 @@ struct PairArrays {
 };
 
 /// The lists of particles [begin, end); end - begin <= block_size.
+///
+/// Where all have one h, a pair is worked out once, by the group that stands earlier, and what the particle j
+/// of the later group (the partner) gets is added to `shares`: as many numbers for each particle from the
+/// begin of the strip on as rates_shares or forces_shares say. They still lack the factors of the partner
+/// alone; see partner_loops.hpp.
 struct PairLists {
   const Index* list;
-  const Index* start;   ///< of each group of eight, and the end
-  const Index* beyond;  ///< where those begin that were beyond the support of all eight, of each group
+  const Index* start;  ///< of each group of eight, and the end
+  const ListSections* sections;
   Index begin, end;
-  // What the loop that stores works on, and with it eight numbers for each; else null.
-  Index* kept;
-  Index* kept_start;
-  Real* g;
+  Index strip_begin = 0;
+  Real* shares = nullptr;
+  // What the loop that stores works on, ~j for a partner j, and with it eight numbers for each; else null.
+  Index* kept = nullptr;
+  Index* kept_start = nullptr;
+  Real* g = nullptr;
 };
 
-/// Whether (dW/dr)/r of the pairs (but for a constant) is worked out, or also stored, or taken from where
-/// it was stored.
-enum class Geometry { compute, store, load };
+/// What partners get of the rates: sum of the rate of volume, of the force (dim), of the power, of the
+/// velocity gradient (xx yy xy or xx yy zz xy yz zx).
+constexpr int rates_shares(int dim, bool viscous, bool gradient) {
+  return 1 + (viscous ? dim + 1 : 0) + (gradient ? dim * (dim + 1) / 2 : 0);
+}
+/// What partners get of the forces: force (dim), diffusion.
+constexpr int forces_shares(int dim, bool diffusion) {
+  return dim + (diffusion ? 1 : 0);
+}
+
+/// Whether the forces work out (dW/dr)/r of the pairs (but for a constant), or take it from where the rates
+/// stored it, which they do where lists have room for it.
+enum class Geometry { compute, load };
 
 using PairLoop = void (*)(const PairArrays&, const PairLists&);
 
@@ -55,7 +73,6 @@ using PairLoop = void (*)(const PairArrays&, const PairLists&);
 struct RatesChoice {
   int dim;
   bool uniform_h, viscous, gradient;
-  Geometry geometry;  ///< compute where h differs, or store
   KernelChoice kernel = KernelChoice::cubic_spline;
 };
 PairLoop rates_loop(const RatesChoice& choice);
@@ -67,7 +84,7 @@ PairLoop rates_loop(const RatesChoice& choice);
 struct ForcesChoice {
   int dim;
   bool uniform_h, stress, diffusion;
-  Geometry geometry;  ///< compute or load
+  Geometry geometry;
   KernelChoice kernel = KernelChoice::cubic_spline;
 };
 PairLoop forces_loop(const ForcesChoice& choice);

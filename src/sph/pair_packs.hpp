@@ -22,6 +22,10 @@ struct Difference {
       : x(i.x - p[0][j]), y(i.y - p[1][j]), z(Pack::zero()) {
     if constexpr (Dim == 3) z = i.z - p[2][j];
   }
+  COURANT_INLINE void list(Pack* to) const {
+    to[0] = x, to[1] = y;
+    if constexpr (Dim == 3) to[2] = z;
+  }
   COURANT_INLINE void advance(Real time, const Difference& velocity) {
     x += time * velocity.x;
     y += time * velocity.y;
@@ -51,6 +55,11 @@ struct Sum {
     y += w * d.y;
     if constexpr (Dim == 3) z += w * d.z;
   }
+  COURANT_INLINE void add(const Difference<Dim>& d) {
+    x += d.x;
+    y += d.y;
+    if constexpr (Dim == 3) z += d.z;
+  }
   COURANT_INLINE void add_to(Real* const f[3], Index i, Index count, const Pack& factor) const {
     (Pack::load(f[0] + i, count) + factor * x).store(f[0] + i, count);
     (Pack::load(f[1] + i, count) + factor * y).store(f[1] + i, count);
@@ -66,6 +75,25 @@ COURANT_INLINE Difference<Dim> times(const Pack& w, const Difference<Dim>& d) {
   return out;
 }
 
+/// Packs of which a partner gets the sums over the lanes.
+template <int N>
+struct SharePacks {
+  Pack of[N]{};
+  /// Adds from the K-th on to numbers one after the other in memory.
+  template <int K = 0>
+  COURANT_INLINE void add_to(Real* to) const {
+    if constexpr (N - K >= 4) {
+      add_sums(of[K], of[K + 1], of[K + 2], of[K + 3], to + K);
+      add_to<K + 4>(to);
+    } else if constexpr (N - K >= 2) {
+      add_sums(of[K], of[K + 1], to + K);
+      add_to<K + 2>(to);
+    } else if constexpr (N - K == 1) {
+      add_sum(of[K], to + K);
+    }
+  }
+};
+
 /// Symmetric part of a sum of dyads: xx yy zz xy yz zx.
 template <int Dim>
 struct Dyads {
@@ -79,6 +107,13 @@ struct Dyads {
       yz += a.y * b.z + a.z * b.y;
       zx += a.z * b.x + a.x * b.z;
     }
+  }
+  /// Components that are not 0 in this dimension.
+  COURANT_INLINE void list(Pack* to) const {
+    *to++ = xx, *to++ = yy;
+    if constexpr (Dim == 3) *to++ = zz;
+    *to++ = xy;
+    if constexpr (Dim == 3) *to++ = yz, *to++ = zx;
   }
   /// `factor`: a number, or one for each i.
   template <class Factor>
@@ -94,8 +129,8 @@ struct Dyads {
 };
 
 /// Adds B . a, B(k) the components of a symmetric tensor: xx yy zz xy yz zx.
-template <int Dim, class Tensor, class Vector>
-COURANT_INLINE void add_product(Sum<Dim>& to, const Tensor& B, const Vector& a) {
+template <int Dim, template <int> class To, class Tensor, class Vector>
+COURANT_INLINE void add_product(To<Dim>& to, const Tensor& B, const Vector& a) {
   to.x += B(0) * a.x + B(3) * a.y;
   to.y += B(3) * a.x + B(1) * a.y;
   if constexpr (Dim == 3) {
@@ -104,5 +139,23 @@ COURANT_INLINE void add_product(Sum<Dim>& to, const Tensor& B, const Vector& a) 
     to.z += B(5) * a.x + B(4) * a.y + B(2) * a.z;
   }
 }
+
+/// Adds what a partner gets one entry late: then no later entry waits for the sums over the lanes.
+template <int N>
+class PendingShares {
+ public:
+  /// `nowhere`: N numbers that nobody reads.
+  COURANT_INLINE explicit PendingShares(Real* nowhere) : to_(nowhere) {}
+  COURANT_INLINE void add() const { shares_.add_to(to_); }
+  COURANT_INLINE void take(const SharePacks<N>& shares, Real* to) {
+    add();
+    shares_ = shares;
+    to_ = to;
+  }
+
+ private:
+  SharePacks<N> shares_;
+  Real* to_;
+};
 
 }  // namespace courant::COURANT_SIMD

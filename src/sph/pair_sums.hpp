@@ -54,8 +54,27 @@ COURANT_INLINE bool is_beyond(const PairArrays& a, const Pack& hi, std::ptrdiff_
   return !any_less(r2, reach * reach);
 }
 
-template <class Kernel, int Dim, bool UniformH, bool Viscous, bool Gradient, Geometry geometry>
-void rates(const PairArrays& a, const PairLists& lists) {
+/// Which of its entries a group looks at, and what the entry is.
+template <bool UniformH>
+struct Entries {
+  const ListSections at;
+  Index begin, end;
+  COURANT_INLINE Entries(const PairLists& lists, Index g)
+      : at(lists.sections[g]), begin(lists.start[g]), end(UniformH ? at.earlier : lists.start[g + 1]) {}
+  COURANT_INLINE bool maybe_beyond(Index k) const {
+    return UniformH ? k >= at.beyond : k >= at.beyond && (k < at.earlier || k >= at.earlier_beyond);
+  }
+  /// Where an entry has one, all eight i are particles: only the last group has fewer.
+  COURANT_INLINE bool has_partner(Index k) const { return UniformH && k >= at.later && k < at.later_end; }
+};
+
+template <class Kernel, int Dim, bool UniformH, bool Viscous, bool Gradient>
+void rates(const PairArrays& arrays, const PairLists& all_lists) {
+  const PairArrays a = arrays;  // so that nothing that the loop stores can change it
+  const PairLists lists = all_lists;
+  constexpr int share_count = rates_shares(Dim, Viscous, Gradient);
+  Real nowhere[share_count]{};
+  const bool stores = UniformH && lists.kept != nullptr;
   Index kept = 0;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
@@ -66,63 +85,85 @@ void rates(const PairArrays& a, const PairLists& lists) {
         UniformH ? Pack::of(gradient_norm<Kernel, Dim>(a.h0)) : gradient_norm<Kernel, Dim>(hinv);
     const Pack tiny = tiny_distance2 * hi * hi, two_hinv = 2 * hinv;
     const Pack mi = Viscous ? Pack::load(a.m + i, count) : Pack::zero();
-    const Pack Vi = Viscous ? Pack::load(a.V + i, count) : Pack::zero();
+    const Pack Vi = Pack::load(a.V + i, count);
+    const Pack mVi = mi * Vi;
     const Pack qci = Viscous ? 0.5 * Pack::load(a.qc + i, count) : Pack::zero();
     const bool quadratic = Viscous && a.q2 != 0;
     Pack div = Pack::zero(), power = Pack::zero();
     Dyads<Dim> gradient;
     Sum<Dim> force;
-    if constexpr (geometry == Geometry::store) lists.kept_start[g] = kept;
-    const Index beyond = lists.beyond[g];
-    for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
+    if (stores) lists.kept_start[g] = kept;
+    const Entries<UniformH> entries(lists, g);
+    PendingShares<share_count> pending(nowhere);
+    for (Index k = entries.begin; k < entries.end; ++k) {
       const std::ptrdiff_t j = lists.list[k];
+      const bool has_partner = entries.has_partner(k);
       const Difference<Dim> d(xi, a.x, j);
       const Pack r2 = dot_plus(d, d, tiny);
-      if (k >= beyond && is_beyond<Kernel, UniformH>(a, hi, j, r2)) continue;
+      if (entries.maybe_beyond(k) && is_beyond<Kernel, UniformH>(a, hi, j, r2)) continue;
       const Difference<Dim> u(vi, a.v, j);
       const Pack u_dot_d = dot(u, d);
       const Pack rinv = rsqrt(r2);
       const MovingShape<Kernel> kernel(r2 * rinv * hinv, rinv, two_hinv, u_dot_d * rinv, dot(u, u), r2,
                                        a.half_step);
-      if constexpr (geometry == Geometry::store) {
+      if (stores) {
         kernel.shape.store(lists.g + std::ptrdiff_t(kept) * lanes);
-        lists.kept[kept++] = lists.list[k];
+        lists.kept[kept++] = has_partner ? ~Index(j) : Index(j);
       }
-      const Pack w = kernel.shape * a.V[j];
-      div += a.V[j] * (kernel.shape * u_dot_d - a.half_step * kernel.later);
+      const Pack change = kernel.shape * u_dot_d - a.half_step * kernel.later;
+      div += a.V[j] * change;
+      Difference<Dim> drag;
+      Pack power_of_pair = Pack::zero();
       if constexpr (Viscous) {
-        Pack h = hi, pair = w;  // (dW/dr)/r V_j / norm, mean of both where h differs
+        Pack h = hi, pair = kernel.shape;  // (dW/dr)/r / norm, mean of both where h differs
         Pack qc = qci + 0.5 * a.qc[j];
         if constexpr (!UniformH) {
           const Real hj = a.h[j], ratio = gradient_norm<Kernel, Dim>(hj);
           h = 0.5 * (hi + hj);
-          pair = 0.5 * (w + gradient_shape<Kernel>(r2 * rinv * (1 / hj), rinv) * (a.V[j] * ratio) / norm);
+          pair = 0.5 * (pair + gradient_shape<Kernel>(r2 * rinv * (1 / hj), rinv) * ratio / norm);
         }
-        // pair times -m_j Pi / (2 V_i V_j) with 1/(rho_i + rho_j) = V_i V_j / (m_i V_j + m_j V_i); where all
-        // have one h, also without its factor h
+        // -m_i m_j Pi pair / 2 with 1/(rho_i + rho_j) = V_i V_j / (m_i V_j + m_j V_i); where all have one h,
+        // without its factor h
         const Pack approach = min(u_dot_d, Pack::zero()), D = r2 + 0.01 * (h * h);
         Pack below = D * (mi * a.V[j] + Vi * a.m[j]);
         if (quadratic) qc = qc * D - a.q2 * h * approach, below *= D;
         if constexpr (!UniformH) qc *= h;
-        const Pack viscous = pair * (a.m[j] * approach * qc / below);
-        force.add(viscous, d);
-        power += viscous * u_dot_d;
+        const Pack viscous = approach * qc * (mVi * a.m[j] * a.V[j]) / below * pair;
+        drag = times(viscous, d), power_of_pair = viscous * u_dot_d;
+        force.add(drag);
+        power += power_of_pair;
       }
-      if constexpr (Gradient) gradient.add(u, times(w, d));
+      if constexpr (Gradient) gradient.add(u, times(kernel.shape * a.V[j], d));
+      if (has_partner) {
+        SharePacks<share_count> shares;
+        shares.of[0] = Vi * change;
+        if constexpr (Viscous) drag.list(shares.of + 1), shares.of[Dim + 1] = power_of_pair;
+        if constexpr (Gradient) {
+          Dyads<Dim> own;
+          own.add(u, times(kernel.shape * Vi, d));
+          own.list(shares.of + (Viscous ? Dim + 2 : 1));
+        }
+        pending.take(shares, lists.shares + (j - lists.strip_begin) * share_count);
+      }
     }
+    pending.add();
     (Pack::load(a.rho + i, count) * norm * div).store(a.drhodt + i, count);
     if constexpr (Viscous) {
-      const Pack factor = 2 * mi * Vi * norm * (UniformH ? hi : Pack::of(1));
+      const Pack factor = 2 * norm * (UniformH ? hi : Pack::of(1));
       force.add_to(a.f, i, count, factor);
       (-0.5 * factor * power).store(a.heat + i, count);  // each partner takes half
     }
     if constexpr (Gradient) gradient.store(a.strain, i, count, 0 - norm);
-    if constexpr (geometry == Geometry::store) lists.kept_start[g + 1] = kept;
+    if (stores) lists.kept_start[g + 1] = kept;
   }
 }
 
 template <class Kernel, int Dim, bool UniformH, bool Stress, bool Diffusion, Geometry geometry>
-void forces(const PairArrays& a, const PairLists& lists) {
+void forces(const PairArrays& arrays, const PairLists& all_lists) {
+  const PairArrays a = arrays;  // so that nothing that the loop stores can change it
+  const PairLists lists = all_lists;
+  constexpr int share_count = forces_shares(Dim, Diffusion);
+  Real nowhere[share_count]{};
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> xi(a.x, i, count);
@@ -131,61 +172,72 @@ void forces(const PairArrays& a, const PairLists& lists) {
     const Pack norm =
         UniformH ? Pack::of(gradient_norm<Kernel, Dim>(a.h0)) : gradient_norm<Kernel, Dim>(hinv);
     const Pack tiny = tiny_distance2 * hi * hi, pi = Pack::load(a.p + i, count);
+    const Pack Vi = Pack::load(a.V + i, count);
     Pack ti[6];
     if constexpr (Stress)
       for (int k = 0; k < 6; ++k) ti[k] = Pack::load(a.tau[k] + i, count);
     const Pack rhoi = Diffusion ? Pack::load(a.rho + i, count) : Pack::zero();
     const Pack potential = Diffusion ? Pack::load(a.potential + i, count) : Pack::zero();
-    Sum<Dim> push, pull;
+    Sum<Dim> push;
     Pack spread = Pack::zero();
-    const Index* const list = geometry == Geometry::load ? lists.kept : lists.list;
-    const Index* const start = geometry == Geometry::load ? lists.kept_start : lists.start;
-    for (Index k = start[g]; k < start[g + 1]; ++k) {
-      const std::ptrdiff_t j = list[k];
+    const Entries<UniformH> entries(lists, g);
+    PendingShares<share_count> pending(nowhere);
+    const Index begin = geometry == Geometry::load ? lists.kept_start[g] : entries.begin;
+    const Index end = geometry == Geometry::load ? lists.kept_start[g + 1] : entries.end;
+    for (Index k = begin; k < end; ++k) {
+      Pack w, wj;  // (dW/dr)/r / norm with h_i and with h_j
+      Index entry = geometry == Geometry::load ? lists.kept[k] : lists.list[k];
+      const bool has_partner = geometry == Geometry::load ? entry < 0 : entries.has_partner(k);
+      if (geometry == Geometry::load && has_partner) entry = ~entry;
+      const std::ptrdiff_t j = entry;
       const Difference<Dim> d(xi, a.x, j);
-      Pack w, wj;  // with h_i and with h_j
       if constexpr (geometry == Geometry::load) {
-        w = wj = Pack::load(lists.g + std::ptrdiff_t(k) * lanes) * a.V[j];
+        w = wj = Pack::load(lists.g + std::ptrdiff_t(k) * lanes);
       } else {
         const Pack r2 = dot_plus(d, d, tiny);
-        if (k >= lists.beyond[g] && is_beyond<Kernel, UniformH>(a, hi, j, r2)) continue;
+        if (entries.maybe_beyond(k) && is_beyond<Kernel, UniformH>(a, hi, j, r2)) continue;
         const Pack rinv = rsqrt(r2);
-        w = wj = gradient_shape<Kernel>(r2 * rinv * hinv, rinv) * a.V[j];
+        w = wj = gradient_shape<Kernel>(r2 * rinv * hinv, rinv);
         if constexpr (!UniformH)
-          wj = gradient_shape<Kernel>(r2 * rinv * (1 / a.h[j]), rinv) *
-               (a.V[j] * gradient_norm<Kernel, Dim>(a.h[j])) / norm;
+          wj = gradient_shape<Kernel>(r2 * rinv * (1 / a.h[j]), rinv) * gradient_norm<Kernel, Dim>(a.h[j]) /
+               norm;
       }
-      if constexpr (UniformH)
-        push.add(w * (pi + a.p[j]), d);
-      else
-        push.add(w * pi + wj * a.p[j], d);
-      if constexpr (Diffusion) spread += w * (a.p[j] - pi + rhoi * (a.potential[j] - potential));
-      if constexpr (Stress)
+      const Pack volumes = Vi * a.V[j];
+      Difference<Dim> pair = times(volumes * (UniformH ? w * (pi + a.p[j]) : w * pi + wj * a.p[j]), d);
+      if constexpr (Stress) {
+        const Pack pull = 0 - volumes;
         add_product(
-            pull, [&](int c) { return w * ti[c] + wj * a.tau[c][j]; }, d);
+            pair,
+            [&](int c) {
+              return pull * (UniformH ? w * (ti[c] + a.tau[c][j]) : w * ti[c] + wj * a.tau[c][j]);
+            },
+            d);
+      }
+      push.add(pair);
+      const Pack dp = Diffusion ? a.p[j] - pi : Pack::zero(),
+                 dphi = Diffusion ? a.potential[j] - potential : Pack::zero();
+      if constexpr (Diffusion) spread += (w * a.V[j]) * (dp + rhoi * dphi);
+      if (has_partner) {
+        SharePacks<share_count> shares;
+        pair.list(shares.of);
+        if constexpr (Diffusion) shares.of[Dim] = (w * Vi) * (0 - dp - a.rho[j] * dphi);
+        pending.take(shares, lists.shares + (j - lists.strip_begin) * share_count);
+      }
     }
-    const Pack factor = Pack::load(a.V + i, count) * norm;
-    push.add_to(a.f, i, count, 0 - factor);
-    if constexpr (Stress) pull.add_to(a.f, i, count, factor);
+    pending.add();
+    push.add_to(a.f, i, count, 0 - norm);
     if constexpr (Diffusion)
       (-2 * a.delta * norm * hi * spread / Pack::load(a.c + i, count)).store(a.diffusion + i, count);
   }
 }
 
-template <class Kernel, int Dim, bool UniformH, bool Viscous, bool Gradient>
-PairLoop rates_of(Geometry geometry) {
-  if constexpr (UniformH) {
-    if (geometry == Geometry::store) return &rates<Kernel, Dim, true, Viscous, Gradient, Geometry::store>;
-  }
-  return &rates<Kernel, Dim, UniformH, Viscous, Gradient, Geometry::compute>;
-}
 template <class Kernel, int Dim, bool UniformH>
 PairLoop rates_of(const RatesChoice& c) {
   if (c.viscous)
-    return c.gradient ? rates_of<Kernel, Dim, UniformH, true, true>(c.geometry)
-                      : rates_of<Kernel, Dim, UniformH, true, false>(c.geometry);
-  return c.gradient ? rates_of<Kernel, Dim, UniformH, false, true>(c.geometry)
-                    : rates_of<Kernel, Dim, UniformH, false, false>(c.geometry);
+    return c.gradient ? &rates<Kernel, Dim, UniformH, true, true>
+                      : &rates<Kernel, Dim, UniformH, true, false>;
+  return c.gradient ? &rates<Kernel, Dim, UniformH, false, true>
+                    : &rates<Kernel, Dim, UniformH, false, false>;
 }
 template <class Kernel>
 PairLoop rates_of(const RatesChoice& c) {

@@ -1,8 +1,6 @@
 #include "sph/fields.hpp"
 #include "sph/pair_fields.hpp"
-#include "sph/pair_geometry.hpp"
-#include "sph/pair_volumes.hpp"
-#include "sph/sph.hpp"
+#include "sph/pair_passes.hpp"
 #include "state/keeper.hpp"
 
 namespace courant {
@@ -17,17 +15,14 @@ class PairRates : public Rate {
         geometry_(std::move(geometry)),
         volumes_(std::move(volumes)),
         fields_(s, world.particles) {
-    RatesChoice choice{s.dim,   s.uniform_h, fields_.viscous(), fields_.gradient(), Geometry::compute,
-                       s.kernel};
-    compute_ = rates_loop(choice);
-    choice.geometry = Geometry::store;
-    store_ = rates_loop(choice);
+    loop_ = rates_loop({s.dim, s.uniform_h, fields_.viscous(), fields_.gradient(), s.kernel});
   }
   std::string name() const override { return name_; }
 
   void start(World& world, const Clock& clock) override {
     geometry_->prepare();
-    loop_ = geometry_->kept() ? store_ : compute_;
+    geometry_->make_room_for_shares(rates_shares(world.dim, fields_.viscous(), fields_.gradient()),
+                                    world.shares);
     a_ = fields_.arrays(world.particles, *volumes_);
     a_.half_step = 0.5 * clock.dt_old;
   }
@@ -40,7 +35,7 @@ class PairRates : public Rate {
   std::shared_ptr<PairGeometry> geometry_;
   std::shared_ptr<PairVolumes> volumes_;
   RateFields fields_;
-  PairLoop compute_, store_, loop_ = nullptr;
+  PairLoop loop_;
   PairArrays a_{};
 };
 

@@ -41,7 +41,7 @@ class RenormalRates : public Rate {
                 std::shared_ptr<PairVolumes> volumes)
       : dim_(s.dim),
         loop_(renormal_rates_loop(s.dim)),
-        neighbours_(std::move(neighbours)),
+        neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         excess_(sph_fields::renormalisation(world.particles)),
         moment_(sph_fields::moment(world.particles)),
@@ -105,7 +105,7 @@ class RenormalForces : public Force {
   RenormalForces(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                  std::shared_ptr<PairVolumes> volumes)
       : loop_(renormal_forces_loop(s.dim)),
-        neighbours_(std::move(neighbours)),
+        neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         excess_(sph_fields::renormalisation(world.particles)) {
     if (std::holds_alternative<BulkViscosity>(s.viscosity))

@@ -39,7 +39,7 @@ class RiemannMomentum : public Rate {
         eta_(std::get<RiemannFlux>(s.viscosity).eta),
         c_(sph_fields::viscous_speed(world.particles)),
         heat_(sph_fields::dissipation(world.particles)),
-        neighbours_(std::move(neighbours)),
+        neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)) {}
   std::string name() const override { return "Riemann flux (momentum)"; }
 
@@ -71,7 +71,7 @@ class RiemannMass : public Force {
         c_(sph_fields::viscous_speed(world.particles)),
         potential_(sph_fields::potential(world.particles)),
         rate_(sph_fields::density_diffusion(world.particles)),
-        neighbours_(std::move(neighbours)),
+        neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)) {}
   std::string name() const override { return "Riemann flux (mass)"; }
 

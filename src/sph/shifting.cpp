@@ -56,7 +56,7 @@ class Shifting : public Rate, public Keeper {
         mirrors_(s.mirrors),
         dim_(s.dim),
         loop_(shifting_loop(s.dim, s.shift.correct)),
-        neighbours_(std::move(neighbours)),
+        neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         drift_(drift_velocity(world.particles, shift_statistics)),
         density_(add_drift_density(world)),

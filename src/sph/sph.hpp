@@ -135,17 +135,11 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& settings,
 /// What holds particles off mirrors among `planes`; nothing where there are none. Behind `add_sph_passes`.
 void add_mirror_core(const SphSettings& settings, const std::vector<ImagePlane>& planes, World& world);
 
-class PairGeometry;
 class PairVolumes;
 /// "sph rates", with the kernel where it is not the cubic spline.
 std::string rates_name(const SphSettings&);
 /// Adds to the motions of `world` what keeps q1 c for neighbours, where rates need it.
 void add_viscous_speed(const SphSettings&, World&);
-/// Calls add_viscous_speed.
-std::shared_ptr<Rate> make_rates(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
-                                 std::shared_ptr<PairVolumes>);
-std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
-                                   std::shared_ptr<PairVolumes>);
 /// Adds itself to the refreshes of `world`; belongs behind its materials.
 std::shared_ptr<PairVolumes> make_pair_volumes(World&);
 /// FORM of CONTROL_SPH, behind the other settings that it may contradict.
@@ -168,7 +162,7 @@ void add_volume_control(const SphSettings&, World&, std::shared_ptr<Neighbours>,
 void read_supported_walls(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
                           Diagnostics& diagnostics);
 /// Adds the passes of supporting walls; belongs right behind the pair rates.
-void add_wall_support(const SphSettings&, World&, const Neighbours&);
+void add_wall_support(const SphSettings&, World&, Neighbours&);
 /// "parts 1 and 2 differ in MID or EOSID"; empty where SPH parts do not.
 std::string parts_of_several_materials(const Model&);
 ReinitialisationRules read_density_reinitialisation(const Deck&, const Model&, Diagnostics&);

@@ -24,6 +24,7 @@ inline PairArrays particle_arrays(Particles& p) {
 
 /// The lists that pair loops take for a block of particles.
 inline NeighbourLists lists_of(const Neighbours& neighbours, Index begin, Index end) {
+  neighbours.expect_whole();
   const Index block = begin / block_size;
   return {neighbours.list(block), neighbours.starts(block), begin, end};
 }

@@ -48,7 +48,7 @@ class VolumeControl : public Rate, public Keeper {
                        with_kernel(s.kernel, [&](auto k) { return slope_at_plane<decltype(k)>(s.dim); }) /
                        slope_at_plane<CubicSpline>(s.dim)),
         tau_(s.volume_tau),
-        neighbours_(std::move(neighbours)),
+        neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         rate_(sph_fields::volume_rate(world.particles)) {
     if (!s.walls.segments.empty()) {

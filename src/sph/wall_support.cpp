@@ -346,7 +346,8 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
   }
 }
 
-void add_wall_support(const SphSettings& s, World& world, const Neighbours& neighbours) {
+void add_wall_support(const SphSettings& s, World& world, Neighbours& neighbours) {
+  neighbours.need_whole_lists();
   auto support = std::make_shared<WallSupport>(s, world, neighbours);
   world.rates.push_back(support);
   world.refreshes.push_back(support);

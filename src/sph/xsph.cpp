@@ -30,7 +30,7 @@ class Xsph : public Rate {
        std::shared_ptr<PairVolumes> volumes)
       : eps_(s.xsph),
         loop_(xsph_loop(s.dim, s.uniform_h)),
-        neighbours_(std::move(neighbours)),
+        neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         drift_(drift_velocity(world.particles, xsph_statistics)) {}
   std::string name() const override { return "XSPH"; }

@@ -47,10 +47,14 @@ struct Pass {
 };
 
 /// A pass whose work threads share by blocks of particles. A step is a few stages; in a stage every block
-/// goes through the block passes of that stage in order, with no waiting in between. So `block` writes only
-/// what belongs to particles [begin, end), and reads of other particles only what an earlier stage has
-/// finished.
+/// goes through the block passes of that stage in order, with no waiting in between but where a pass `waits`.
+/// So `block` writes only what belongs to particles [begin, end), and reads of other particles only what was
+/// finished before threads last waited for each other. A thread takes its blocks in ascending order; where
+/// World::shares holds whole Strips, passes of active particles may write what belongs to their strip.
 struct BlockPass : Pass {
+  /// Whether it needs what the passes before it in the stage wrote for all particles: then threads wait for
+  /// each other before it.
+  virtual bool waits() const { return false; }
   /// Before any block of the stage, on one thread.
   virtual void start(World& /*world*/, const Clock& /*clock*/) {}
   /// `begin` is a multiple of block_size; `end` may be beyond world.particles.active where the stage has the

@@ -7,7 +7,7 @@
 
 namespace courant {
 
-/// Block passes that threads work through without waiting for each other in between.
+/// Block passes that threads work through without waiting for each other in between, but where a pass waits.
 class Stage {
  public:
   explicit Stage(PassTimer& timer) : timer_(timer), waiting_(timer.row("waiting for threads")) {}
@@ -20,7 +20,8 @@ class Stage {
   void run(World& world, const Clock& clock, Index n, const Shares& shares);
 
  private:
-  void run_share(World& world, const Clock& clock, Index n, const Shares& shares, int thread);
+  void run_share(World& world, const Clock& clock, Index n, const Shares& shares, int thread,
+                 std::size_t first_pass, std::size_t last_pass);
   /// A thread's seconds in each pass; on lines of its own, so that threads do not share one.
   struct alignas(64) Seconds {
     std::vector<double> of_pass;
@@ -29,6 +30,7 @@ class Stage {
   std::size_t waiting_;
   std::vector<std::shared_ptr<BlockPass>> passes_;
   std::vector<std::size_t> rows_;
+  std::vector<std::size_t> parts_;  ///< where passes begin before which threads wait, and the end
   std::vector<double> serial_;
   std::vector<Seconds> seconds_;
 };

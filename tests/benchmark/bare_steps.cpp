@@ -7,8 +7,7 @@
 #include "app/skin.hpp"
 #include "materials/materials.hpp"
 #include "model/build_model.hpp"
-#include "sph/pair_geometry.hpp"
-#include "sph/pair_volumes.hpp"
+#include "sph/pair_passes.hpp"
 
 namespace courant::benchmarks {
 
@@ -69,9 +68,10 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   add_sph_time_limit(settings, model, world_);
   const auto geometry = std::make_shared<PairGeometry>(neighbours_, settings.uniform_h);
   const auto volumes = make_pair_volumes(world_);
-  world_.rates.push_back(make_rates(settings, world_, geometry, volumes));
+  const PairPasses pairs = make_plain_passes(settings, world_, geometry, volumes);
+  world_.rates.insert(world_.rates.end(), pairs.rates.begin(), pairs.rates.end());
   world_.materials.push_back(volumes);
-  world_.forces.push_back(make_forces(settings, world_, geometry, volumes));
+  world_.forces.insert(world_.forces.end(), pairs.forces.begin(), pairs.forces.end());
   if (ledger) world_.energy_terms.push_back(make_sph_energy(settings, world_, neighbours_));
   stepper_ = std::make_unique<Stepper>(world_, *neighbours_, StepRules{}, timer_);
 }

@@ -69,12 +69,33 @@ double entries_worked_on(const Particles& p, const Neighbours& lists, Gradients 
     const Index end = std::min(i + Neighbours::lanes, p.active);
     const Real reach = lists.support() * p.h[i];
     const Index b = i / block_size, g = i % block_size / Neighbours::lanes;
-    for (Index e = lists.starts(b)[g]; e < lists.starts(b)[g + 1]; ++e) {
+    const ListSections& at = lists.sections(b)[g];
+    // windows look at each pair from both sides
+    const Index last = gradients == Gradients::window ? lists.starts(b)[g + 1] : at.earlier;
+    for (Index e = lists.starts(b)[g]; e < last; ++e) {
       const Index j = lists.list(b)[e];
-      bool near = gradients != Gradients::window && e < lists.beyond(b)[g];
+      bool near = gradients != Gradients::window && e < at.beyond;
       for (Index k = i; k < end; ++k) near = near || (p.x.vec(k) - p.x.vec(j)).squaredNorm() < reach * reach;
       out += near;
     }
+  }
+  return out;
+}
+
+/// Counted for each of the two particles, where both are active.
+double pairs_within_support(const Particles& p, const Neighbours& lists) {
+  double out = 0;
+  for (Index i = 0; i < p.active; i += Neighbours::lanes) {
+    const Index end = std::min(i + Neighbours::lanes, p.active);
+    const Index b = i / block_size, g = i % block_size / Neighbours::lanes;
+    const ListSections& at = lists.sections(b)[g];
+    for (Index e = lists.starts(b)[g]; e < at.earlier; ++e)
+      for (Index k = i; k < end; ++k) {
+        const Index j = lists.list(b)[e];
+        if (j == k || (p.x.vec(k) - p.x.vec(j)).norm() >= lists.support() * std::max(p.h[k], p.h[j]))
+          continue;
+        out += e >= at.later && e < at.later_end ? 2 : 1;
+      }
   }
   return out;
 }
@@ -86,13 +107,9 @@ Sizes sizes_of(const Simulation& s) {
   out.dim = s.world().dim;
   out.active = p.active;
   const double active = p.active;
-  const Index stride = std::max<Index>(1, p.active / 20000);  // enough for a mean
-  double sampled = 0;
-  for (Index i = 0; i < p.active; i += stride, ++sampled)
-    out.pairs += static_cast<double>(lists.of(p, i).size());
-  out.pairs /= sampled;
+  out.pairs = pairs_within_support(p, lists) / active;
   const double entries = static_cast<double>(lists.entries());
-  const double room = entries * Neighbours::lanes * sizeof(Real);
+  const double room = static_cast<double>(lists.entries_once()) * Neighbours::lanes * sizeof(Real);
   if (s.sph().geometry_eps > 0)
     out.gradients = Gradients::window;
   else if (s.sph().uniform_h && room <= static_cast<double>(PairGeometry::most_kept_bytes))

@@ -3,8 +3,7 @@
 #include <limits>
 
 #include "measure.hpp"
-#include "sph/pair_geometry.hpp"
-#include "sph/pair_volumes.hpp"
+#include "sph/pair_passes.hpp"
 
 namespace courant::benchmarks {
 
@@ -12,6 +11,7 @@ PairLoopsAlone::PairLoopsAlone(Simulation& s)
     : s_(s),
       neighbours_(std::make_shared<Neighbours>(s.neighbours().skin(), s.neighbours().region(),
                                                s.neighbours().support())) {
+  neighbours_->cut_strips();
   neighbours_->refresh(s.world(), s.clock());
 }
 
@@ -25,23 +25,30 @@ PairTimes PairLoopsAlone::measure(bool kept, int threads, int repeats) {
   const std::int64_t most_kept = kept ? std::numeric_limits<std::int64_t>::max() : -1;
   const auto geometry = std::make_shared<PairGeometry>(neighbours_, s_.sph().uniform_h, most_kept);
   const auto volumes = make_pair_volumes(world);
-  const auto rates = make_rates(s_.sph(), world, geometry, volumes);
-  const auto forces = make_forces(s_.sph(), world, geometry, volumes);
-  const Index n = world.particles.active, blocks = block_count(n);
-  const auto seconds = [&](BlockPass& pass) {
-    const double start = PassTimer::now();
+  const PairPasses pairs = make_plain_passes(s_.sph(), world, geometry, volumes);
+  const Index n = world.particles.active;
+  const Strips& strips = neighbours_->strips();
+  const auto first_block = [&](int thread) {  // a strip belongs to one thread
+    const Index strip = strips.count() * thread / threads;
+    return strip < strips.count() ? strips[strip].begin / block_size : block_count(n);
+  };
+  const auto take = [&](BlockPass& pass) {
     pass.start(world, s_.clock());
     on_threads(threads, [&](int t) {
-      for (Index b = blocks * t / threads; b < blocks * (t + 1) / threads; ++b)
+      for (Index b = first_block(t); b < first_block(t + 1); ++b)
         pass.block(world, s_.clock(), b * block_size, std::min(n, (b + 1) * block_size));
     });
     pass.finish(world, s_.clock());
-    return PassTimer::now() - start;
+  };
+  const auto nanoseconds = [&](const auto& passes) {
+    const double start = PassTimer::now();
+    for (const auto& pass : passes) take(*pass);
+    return 1e9 * (PassTimer::now() - start) / n;
   };
   PairTimes best{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   for (int r = 0; r < repeats + 1; ++r) {
     world.particles.f.fill(0);
-    const double rates_ns = 1e9 * seconds(*rates) / n, forces_ns = 1e9 * seconds(*forces) / n;
+    const double rates_ns = nanoseconds(pairs.rates), forces_ns = nanoseconds(pairs.forces);
     if (r == 0) continue;  // memory is touched for the first time
     best.rates_ns = std::min(best.rates_ns, rates_ns);
     best.forces_ns = std::min(best.forces_ns, forces_ns);

@@ -67,11 +67,7 @@ void start_from(Simulation& to, Simulation& from, Real c0_to, Real c0_from, Real
 
 void use_threads(Simulation& s, int threads) {
   set_threads(threads);
-  const Neighbours& lists = s.neighbours();
-  std::vector<double> cost;  // as Neighbours shares them
-  for (Index b = 0; b < lists.blocks(); ++b) cost.push_back(lists.entries(b) + 2.0 * block_size);
-  s.world().shares = Shares::of(cost);
-  s.world().moving_shares = Shares::even(block_count(s.world().particles.moving));
+  s.neighbours().share_blocks(s.world());
 }
 
 }  // namespace courant::benchmarks

@@ -28,12 +28,13 @@ enum class Gradients { again, kept, window };
 ///   in the middle of the step: curvature 2, u . u, q 2, sum 5, half step 2
 ///                            14  16   rates
 ///   div                       3   3   rates
-///   viscosity, linear: approach 1, D 1, numerator 4, denominator 4, quotient 1, times w 1
-///                            12  12   rates (17 with its quadratic part, which no benchmark has)
+///   viscosity, linear: approach 1, D 1, speed of sound 1, denominator 4, the rest 6
+///                            13  13   rates (18 with its quadratic part, which no benchmark has)
 ///   its force and power       6   8   rates
-///   w (p_i + p_j)             2   2   forces
+///   V_i V_j w (p_i + p_j)     4   4   forces
 ///   pressure force            4   6   forces
-/// Entries out of reach, 6 or 9 operations to see that they are, are left out.
+/// Left out: entries out of reach, 6 or 9 operations to see that they are, and the sums over lanes for
+/// partners, the price of working out a pair once.
 ///
 /// And of src/sph/kept_loops.hpp:
 ///   v_i - v_j, u . G          5   8   rates
@@ -46,8 +47,8 @@ enum class Gradients { again, kept, window };
 constexpr PairWork pair_work(int dim, Gradients gradients) {
   const int d = dim == 2 ? 2 : 3, r2 = dim == 2 ? 4 : 6, dot = dim == 2 ? 3 : 5, add = 2 * d, gradient = 22;
   if (gradients == Gradients::window) return {d + dot + 2 + 2 + add + 2, 2 + add};
-  const int forces = d + (gradients == Gradients::kept ? 0 : r2 + gradient) + 2 + add;
-  return {2 * d + r2 + dot + gradient + 11 + dot + 3 + 12 + add + 2, forces};
+  const int forces = d + (gradients == Gradients::kept ? 0 : r2 + gradient) + 4 + add;
+  return {2 * d + r2 + dot + gradient + 11 + dot + 3 + 13 + add + 2, forces};
 }
 
 /// Operations of the other passes per particle: factors, equation of state, step size, motion, watch;
@@ -68,6 +69,11 @@ constexpr int particle_work = 70;
 constexpr int numbers_streamed(int dim) {
   return 3 + (4 * dim + 6) + 8 + 6 + (3 * dim + 2) + 3 + (5 * dim + 1) + 6 + 2 * dim;
 }
+/// The same where pairs are worked out once: numbers of partners set to 0, added to, and read by the passes
+/// of partners, with f, drhodt, heat twice and rho. Those beyond the end of a strip are left out.
+constexpr int numbers_of_partners(int dim) {
+  return 3 * (dim + 2) + (2 * dim + 5) + 3 * dim + 2 * dim;
+}
 
 /// Bytes per particle and step: fields, lists (read by both pair loops), kept gradients (stored and loaded;
 /// with their entry; in windows loaded twice, and one factor once, two bytes each). entries: in reach, per
@@ -77,7 +83,8 @@ constexpr Real bytes_streamed(int dim, Real entries, Gradients gradients) {
   const Real of_pairs = gradients == Gradients::window ? (2 * dim + 1) * 16
                         : gradients == Gradients::kept ? 2 * 64 + sizeof(Index)
                                                        : 0;
-  const int numbers = numbers_streamed(dim) - (gradients == Gradients::window ? 2 * dim + 5 : 0);
+  const int numbers =
+      numbers_streamed(dim) + (gradients == Gradients::window ? -(2 * dim + 5) : numbers_of_partners(dim));
   return 8.0 * numbers + entries / 8 * (2 * sizeof(Index) + of_pairs);
 }
 

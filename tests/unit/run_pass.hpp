@@ -7,9 +7,15 @@ namespace courant::test {
 
 /// One pass alone, as a stage would run it.
 inline void run(BlockPass& pass, World& world, const Clock& clock) {
-  const Index n = dynamic_cast<Motion*>(&pass) ? world.particles.moving : world.particles.active;
+  const bool moving = dynamic_cast<Motion*>(&pass) != nullptr;
+  const Index n = moving ? world.particles.moving : world.particles.active;
+  Shares shares = moving ? world.moving_shares : world.shares;
+  if (shares.first.back() != block_count(n)) shares = Shares::even(block_count(n));  // nobody has built lists
   pass.start(world, clock);
-  for_each_block(n, [&](Index begin, Index end) { pass.block(world, clock, begin, end); });
+  on_threads(shares.threads(), [&](int t) {
+    for (Index b = shares.first[t]; b < shares.first[t + 1]; ++b)
+      pass.block(world, clock, b * block_size, std::min(n, (b + 1) * block_size));
+  });
   pass.finish(world, clock);
 }
 

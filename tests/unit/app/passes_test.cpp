@@ -35,43 +35,43 @@ Lists lists_of(const SmallScene& scene) {
   return out;
 }
 
-const Lists bare{
-    {"rate sph rates", "material eos linear polynomial", "material sph volumes", "tally sph time step",
-     "tally sph energy", "force sph forces", "time limit sph time step", "energy sph energy",
-     "motion particle motion", "motion sph factors", "guard every 64 steps"},
-    {"inlets no *DEFINE_SPH_INJECTION",
-     "images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
-     "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
-     "wall support no *COURANT_WALL_SUPPORT",
-     "renormalisation FORM of *CONTROL_SPH is a plain one",
-     "Riemann flux no *COURANT_RIEMANN",
-     "density diffusion no *COURANT_DENSITY_DIFFUSION",
-     "volume control no *COURANT_VOLUME_CONTROL",
-     "shifting ISHIFT 0",
-     "XSPH no *COURANT_XSPH",
-     "re-initialisation no *COURANT_DENSITY_REINITIALISATION",
-     "kept pair geometry no *COURANT_PAIR_GEOMETRY",
-     "smoothing length HMIN = HMAX = 1: h is constant",
-     "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
-     "eddy viscosity no *COURANT_EDDY_VISCOSITY",
-     "viscous stress MU is 0 in all SPH materials",
-     "speed limit MAXV none given",
-     "computational box no BOXID",
-     "gravity no *LOAD_BODY",
-     "level outlet no *COURANT_LEVEL_OUTLET",
-     "contact no *CONTACT",
-     "fixed particles no particle in *BOUNDARY_SPC",
-     "rigid bodies no *MAT_RIGID",
-     "field states no *DATABASE_BINARY_D3PLOT",
-     "glstat no *DATABASE_GLSTAT",
-     "matsum no *DATABASE_MATSUM",
-     "rcforc no *DATABASE_RCFORC",
-     "sleout no *DATABASE_SLEOUT",
-     "sphout no *DATABASE_SPHOUT",
-     "nodout no *DATABASE_NODOUT",
-     "rbdout no *DATABASE_RBDOUT",
-     "bndout no *DATABASE_BNDOUT",
-     "spcforc no *DATABASE_SPCFORC"}};
+const Lists bare{{"rate sph rates", "rate sph rates of partners", "material eos linear polynomial",
+                  "material sph volumes", "tally sph time step", "tally sph energy", "force sph forces",
+                  "force sph forces of partners", "time limit sph time step", "energy sph energy",
+                  "motion particle motion", "motion sph factors", "guard every 64 steps"},
+                 {"inlets no *DEFINE_SPH_INJECTION",
+                  "images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
+                  "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
+                  "wall support no *COURANT_WALL_SUPPORT",
+                  "renormalisation FORM of *CONTROL_SPH is a plain one",
+                  "Riemann flux no *COURANT_RIEMANN",
+                  "density diffusion no *COURANT_DENSITY_DIFFUSION",
+                  "volume control no *COURANT_VOLUME_CONTROL",
+                  "shifting ISHIFT 0",
+                  "XSPH no *COURANT_XSPH",
+                  "re-initialisation no *COURANT_DENSITY_REINITIALISATION",
+                  "kept pair geometry no *COURANT_PAIR_GEOMETRY",
+                  "smoothing length HMIN = HMAX = 1: h is constant",
+                  "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
+                  "eddy viscosity no *COURANT_EDDY_VISCOSITY",
+                  "viscous stress MU is 0 in all SPH materials",
+                  "speed limit MAXV none given",
+                  "computational box no BOXID",
+                  "gravity no *LOAD_BODY",
+                  "level outlet no *COURANT_LEVEL_OUTLET",
+                  "contact no *CONTACT",
+                  "fixed particles no particle in *BOUNDARY_SPC",
+                  "rigid bodies no *MAT_RIGID",
+                  "field states no *DATABASE_BINARY_D3PLOT",
+                  "glstat no *DATABASE_GLSTAT",
+                  "matsum no *DATABASE_MATSUM",
+                  "rcforc no *DATABASE_RCFORC",
+                  "sleout no *DATABASE_SLEOUT",
+                  "sphout no *DATABASE_SPHOUT",
+                  "nodout no *DATABASE_NODOUT",
+                  "rbdout no *DATABASE_RBDOUT",
+                  "bndout no *DATABASE_BNDOUT",
+                  "spcforc no *DATABASE_SPCFORC"}};
 
 /// Compares with the barest scene's lists: `gone` of left_out (by their first words) have become `come` among
 /// the active; `other` left-out lines stand with another reason. Order within a list does not matter here:
@@ -173,7 +173,8 @@ TEST(Passes, BulkViscosity) {
 TEST(Passes, SmoothingLengthsThatChange) {
   SmallScene scene;
   scene.section = "1,1.2,0.2,2.";
-  expect_change(scene, {"smoothing length"}, {"motion smoothing length"});
+  expect_change(scene, {"smoothing length"}, {"motion smoothing length"}, {},
+                {"rate sph rates of partners", "force sph forces of partners"});
 }
 
 TEST(Passes, SpeedLimit) {
@@ -250,7 +251,8 @@ TEST(Passes, PrescribedMotionOfParticles) {
 TEST(Passes, KeptPairGeometry) {
   SmallScene scene;
   scene.extra = "*COURANT_PAIR_GEOMETRY\n0.005\n";
-  expect_change(scene, {"kept pair geometry"}, {"motion kept pair geometry"}, {}, {"motion sph factors"});
+  expect_change(scene, {"kept pair geometry"}, {"motion kept pair geometry"}, {},
+                {"motion sph factors", "rate sph rates of partners", "force sph forces of partners"});
 }
 
 TEST(Passes, AnotherEquationOfState) {
@@ -265,6 +267,20 @@ TEST(Passes, TwoPartsWithOneLawShareAPass) {
       "*PART\nmore water\n3,1,1,1,1\n*NODE\n901,0.05,0.65,0.\n902,0.15,0.65,0.\n"
       "*ELEMENT_SPH\n901,3,10.\n902,3,10.\n";
   expect_change(scene, {}, {});
+}
+
+TEST(Passes, PairsAreWorkedOutTwiceWherePartsHaveDifferentSmoothingLengths) {
+  const std::vector<std::string> of_partners{"rate sph rates of partners", "force sph forces of partners"};
+  for (const auto& [cslh, gone] : {std::pair{"1.3", of_partners},
+                                   {"1.20001", of_partners},
+                                   {"1.2000001", {}}}) {  // as coordinates are rounded in decks
+    SmallScene scene;
+    scene.extra = fmt::format(
+        "*SECTION_SPH\n2,{},1.,1.\n*PART\nmore water\n3,2,1,1,1\n*NODE\n901,0.05,0.65,0.\n902,0.15,0.65,0.\n"
+        "*ELEMENT_SPH\n901,3,10.\n902,3,10.\n",
+        cslh);
+    expect_change(scene, {}, {}, {}, gone);
+  }
 }
 
 TEST(Passes, OutputsThatAreAskedFor) {

@@ -29,7 +29,7 @@ SavedState all_of(Simulation& s) {
     }
   std::vector<Index> lists;
   for (Index g = 0; 8 * g < p.active; ++g)
-    for (const Index j : s.neighbours().of_group(g)) lists.push_back(j);
+    for (const Index j : s.neighbours().listed(g)) lists.push_back(j);
   archive("lists", lists);
   return state;
 }

@@ -50,25 +50,94 @@ TEST(Neighbours, FindPairsOfUnequalSmoothingLengths) {
   expect_complete(cloud);
 }
 
-TEST(Neighbours, PutWhatIsBeyondTheSupportOfAGroupLast) {
+TEST(Neighbours, SectionsTellWhoIsNearAndWhoseListHasThePairToo) {
   Cloud cloud(2, 25, 0.01, 0.3);
   for (Index i = 0; i < cloud.world.particles.size(); i += 7) cloud.world.particles.h[i] *= 1.5;
+  cloud.neighbours = std::make_shared<Neighbours>(0.003, Region{Vec(0.02, -1, -1), Vec(1, 1, 1)});
   cloud.refresh();
   const Particles& p = cloud.world.particles;
   const Neighbours& lists = *cloud.neighbours;
-  Index beyond = 0;
+  ASSERT_GT(p.moving, p.active) << "there is a rim";
+  Index beyond = 0, later = 0, once = 0;
   for (Index i = 0; i < p.active; i += Neighbours::lanes) {
     const Index b = i / block_size, g = i % block_size / Neighbours::lanes;
+    const Index end = std::min(i + Neighbours::lanes, p.active);
+    const ListSections& at = lists.sections(b)[g];
+    once += at.earlier - lists.starts(b)[g];
     for (Index k = lists.starts(b)[g]; k < lists.starts(b)[g + 1]; ++k) {
       const Index j = lists.list(b)[k];
+      EXPECT_EQ(j >= end && j < p.active, k >= at.later && k < at.later_end);
+      EXPECT_EQ(j < i, k >= at.earlier);
+      later += k >= at.later && k < at.later_end;
+      if (k >= at.earlier) continue;
       bool within = false;
-      for (Index l = i; l < std::min(i + Neighbours::lanes, p.active); ++l)
+      for (Index l = i; l < end; ++l)
         within |= (p.x.vec(l) - p.x.vec(j)).norm() < 2 * std::max(p.h[l], p.h[j]);
-      EXPECT_EQ(within, k < lists.beyond(b)[g]);
+      EXPECT_EQ(within, k < at.beyond);
       beyond += within ? 0 : 1;
     }
   }
-  EXPECT_GT(beyond, 0.1 * lists.entries());
+  EXPECT_GT(beyond, 0.05 * once);
+  EXPECT_EQ(once, lists.entries_once());
+  EXPECT_GT(later, 0.3 * lists.entries());
+}
+
+TEST(Neighbours, HoldEachPairOnceWhereNobodyNeedsItTwice) {
+  for (const int dim : {2, 3}) {
+    const int n = dim == 2 ? 25 : 9;
+    Cloud both(dim, n, 0.01, 0.3), once(dim, n, 0.01, 0.3), all_the_same(dim, n, 0.01, 0.3);
+    once.neighbours->cut_strips();
+    once.refresh(), both.refresh();
+    expect_complete(once);
+    EXPECT_LT(once.neighbours->entries(), 0.6 * both.neighbours->entries());
+    EXPECT_EQ(once.neighbours->entries(), both.neighbours->entries_once());
+    EXPECT_EQ(once.neighbours->entries(), once.neighbours->entries_once());
+    EXPECT_THROW(once.neighbours->of_group(0), std::logic_error);
+    with_whole_lists(all_the_same.neighbours)->cut_strips();
+    all_the_same.refresh();
+    EXPECT_EQ(all_the_same.neighbours->entries(), both.neighbours->entries());
+    EXPECT_FALSE(all_the_same.neighbours->of_group(0).empty());
+  }
+}
+
+TEST(Strips, CoverAllParticlesAndWhatTheirListsReach) {
+  for (const int side : {8, 15})
+    for (const int threads : {1, 3}) {
+      static std::vector<Index> cuts;
+      set_threads(threads);
+      Cloud cloud(3, side, 0.01, 0.2);
+      cloud.neighbours->cut_strips();
+      cloud.refresh();
+      const Neighbours& lists = *cloud.neighbours;
+      const Strips& strips = lists.strips();
+      const Index n = cloud.world.particles.active;
+      ASSERT_GE(strips.count(), 8);
+      Index begin = 0, room = 0;
+      std::vector<Index> found;
+      for (Index s = 0; s < strips.count(); ++s) {
+        EXPECT_EQ(strips[s].begin, begin);
+        EXPECT_EQ(strips[s].begin % block_size, 0);
+        EXPECT_EQ(strips[s].offset, room);
+        Index last = strips[s].end - 1;
+        for (Index b = strips[s].begin / block_size; b < block_count(strips[s].end); ++b) {
+          EXPECT_EQ(strips.of_block(b), s);
+          for (Index e = 0; e < lists.entries(b); ++e)
+            if (lists.list(b)[e] < n) last = std::max(last, lists.list(b)[e]);
+        }
+        EXPECT_EQ(strips[s].reach, last + 1);
+        for (Index other = 0; other < s; ++other)
+          EXPECT_TRUE(strips[other].reach <= strips[s].begin || other >= strips[s].earliest);
+        begin = strips[s].end, room += strips[s].reach - strips[s].begin;
+        found.push_back(strips[s].end);
+      }
+      EXPECT_EQ(begin, n);
+      EXPECT_EQ(strips.total(), room);
+      for (const Index b : cloud.world.shares.first)
+        EXPECT_TRUE(b == block_count(n) || strips[strips.of_block(b)].begin == b * block_size);
+      if (threads == 1) cuts = found;
+      EXPECT_EQ(found, cuts) << "as many threads as there may be";
+    }
+  set_threads(0);
 }
 
 TEST(Neighbours, StayCompleteUntilTheyRebuildThemselves) {

@@ -4,10 +4,7 @@
 #include <random>
 
 #include "../run_pass.hpp"
-#include "sph/kept_pairs.hpp"
-#include "sph/pair_geometry.hpp"
-#include "sph/pair_volumes.hpp"
-#include "sph/sph.hpp"
+#include "sph/pair_passes.hpp"
 #include "sph/view.hpp"
 
 namespace courant::test {
@@ -45,23 +42,24 @@ struct Cloud {
     neighbours = std::make_shared<Neighbours>(0.25 * h_over_dx * dx, std::nullopt);
   }
   void refresh() { neighbours->refresh(world, clock); }
-  /// The two pair passes; make them before `refresh`.
+  /// The pair passes; make them before `refresh`.
   void make_pairs(bool keep_gradients = true) {
-    const auto geometry = std::make_shared<PairGeometry>(neighbours, settings.uniform_h,
-                                                         keep_gradients ? PairGeometry::most_kept_bytes : -1);
-    const auto volumes = make_pair_volumes(world);
-    rates = make_rates(settings, world, geometry, volumes);
-    forces = make_forces(settings, world, geometry, volumes);
+    pairs =
+        make_plain_passes(settings, world,
+                          std::make_shared<PairGeometry>(neighbours, settings.uniform_h,
+                                                         keep_gradients ? PairGeometry::most_kept_bytes : -1),
+                          make_pair_volumes(world));
   }
-  /// The same two, that keep gradients over steps.
-  void make_kept_pairs() {
-    const auto volumes = make_pair_volumes(world);
-    PairPasses passes = make_kept_passes(settings, world, neighbours, volumes);
-    rates = std::move(passes.rates), forces = std::move(passes.forces);
-  }
+  /// The same, that keep gradients over steps.
+  void make_kept_pairs() { pairs = make_kept_passes(settings, world, neighbours, make_pair_volumes(world)); }
   void run(BlockPass& pass) { test::run(pass, world, clock); }
-  std::shared_ptr<Rate> rates;
-  std::shared_ptr<Force> forces;
+  void run_rates() {
+    for (const auto& pass : pairs.rates) run(*pass);
+  }
+  void run_forces() {
+    for (const auto& pass : pairs.forces) run(*pass);
+  }
+  PairPasses pairs;
 };
 
 }  // namespace courant::test

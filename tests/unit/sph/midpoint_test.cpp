@@ -31,7 +31,7 @@ std::vector<Real> density_rates(int dim, bool uniform_h, Real dt_old, Real back,
   cloud.make_pairs();
   cloud.refresh();
   cloud.clock.dt_old = dt_old;
-  cloud.run(*cloud.rates);
+  cloud.run_rates();
   std::vector<Real> out(p.size());
   for (Index i = 0; i < p.size(); ++i) out[p.id[i] - 1] = p.drhodt[i];
   return out;

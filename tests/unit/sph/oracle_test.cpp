@@ -139,10 +139,10 @@ void expect_near(const Vec& a, const Vec& b, Real error) {
 
 void evaluate(Cloud& cloud, const Case& c) {
   Particles& p = cloud.world.particles;
-  cloud.run(*cloud.rates);
+  cloud.run_rates();
   if (!c.monaghan)
     for (Index i = 0; i < p.moving; ++i) sph_fields::pressure_plus_q(p)[i] = p.p[i];
-  cloud.run(*cloud.forces);
+  cloud.run_forces();
 }
 
 /// A later step of the window: other velocities and pressures, which count, and other places, which do not.

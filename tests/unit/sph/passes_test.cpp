@@ -77,9 +77,9 @@ struct Evaluated {
     if (c.stress)  // rim particles keep the stress they had
       for (const int component : {0, 1, 3})
         for (Index i = p.active; i < p.moving; ++i) sph_fields::stress(p).data(component)[i] = 3.0 + i % 5;
-    cloud.run(*cloud.rates);
+    cloud.run_rates();
     for (auto& u : updates) cloud.run(*u);
-    cloud.run(*cloud.forces);
+    cloud.run_forces();
     auto& heat = p.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"});
     auto* viscous = dynamic_cast<Field<Real>*>(p.fields.find("viscous_dissipation"));
     for (Index i = 0; i < p.active; ++i) {
@@ -135,7 +135,7 @@ TEST(Continuity, GivesTheDivergenceOfALinearField) {
     cloud.settings.mu.assign(1, 1.0);
     cloud.make_pairs();
     cloud.refresh();
-    cloud.run(*cloud.rates);
+    cloud.run_rates();
     const Index i = middle(w);
     const Real div = dim == 2 ? 1.5 : 4.5;
     // plain SPH on a lattice with h = 1.2 dx: its discrete second moment misses 1 by a few per cent in 2D
@@ -154,8 +154,8 @@ TEST(Momentum, GivesTheGradientOfALinearPressure) {
     for (Index i = 0; i < w.particles.size(); ++i) w.particles.p[i] = 500 * w.particles.x.vec(i)[1];
     cloud.make_pairs();
     cloud.refresh();
-    cloud.run(*cloud.rates);
-    cloud.run(*cloud.forces);
+    cloud.run_rates();
+    cloud.run_forces();
     const Index i = middle(w);
     const Vec a = w.particles.f.vec(i) / w.particles.m[i];
     EXPECT_NEAR(a[1], -0.5, 0.015);
@@ -176,9 +176,9 @@ TEST(ViscousStress, GivesTheForceOfACurvedVelocityProfile) {
     cloud.make_pairs();
     auto stress = make_viscous_stress(cloud.settings, w);
     cloud.refresh();
-    cloud.run(*cloud.rates);
+    cloud.run_rates();
     cloud.run(*stress);
-    cloud.run(*cloud.forces);
+    cloud.run_forces();
     const Index i = middle(w);
     const Real expected = 2 * a * mu / 1000;
     EXPECT_NEAR(w.particles.f.vec(i)[0] / w.particles.m[i], expected, 0.05 * expected) << dim << "D";
@@ -202,8 +202,8 @@ TEST(Monaghan, ActsOnApproachOnlyAndHasTheSizeOfEquation15) {
     cloud.neighbours->force_refresh();
     cloud.make_pairs();
     cloud.refresh();
-    cloud.run(*cloud.rates);
-    cloud.run(*cloud.forces);
+    cloud.run_rates();
+    cloud.run_forces();
     const Real h = 0.012, phi = h * (-0.01 * approach) / (0.01 * 0.01 + 0.01 * h * h);
     const Real Pi = approach > 0 ? (-0.1 * 30 * phi + 2.0 * phi * phi) / 1000 : 0;
     const Real dW = kernel_slope_2d(0.01, h);
@@ -220,8 +220,8 @@ TEST(Sph, SameBitsOnAnyNumberOfThreads) {
     random_state(cloud);
     cloud.make_pairs();
     cloud.refresh();
-    cloud.run(*cloud.rates);
-    cloud.run(*cloud.forces);
+    cloud.run_rates();
+    cloud.run_forces();
     std::vector<Real> result;
     for (int k = 0; k < 3; ++k)
       result.insert(result.end(), cloud.world.particles.f.data(k),
