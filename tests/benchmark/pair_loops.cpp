@@ -27,15 +27,13 @@ PairTimes PairLoopsAlone::measure(bool kept, int threads, int repeats) {
   const auto volumes = make_pair_volumes(world);
   const PairPasses pairs = make_plain_passes(s_.sph(), world, geometry, volumes);
   const Index n = world.particles.active;
-  const Strips& strips = neighbours_->strips();
-  const auto first_block = [&](int thread) {  // a strip belongs to one thread
-    const Index strip = strips.count() * thread / threads;
-    return strip < strips.count() ? strips[strip].begin / block_size : block_count(n);
-  };
+  set_threads(threads);
+  neighbours_->share_blocks(world);
+  const Shares& shares = world.shares;
   const auto take = [&](BlockPass& pass) {
     pass.start(world, s_.clock());
-    on_threads(threads, [&](int t) {
-      for (Index b = first_block(t); b < first_block(t + 1); ++b)
+    on_threads(shares.threads(), [&](int t) {
+      for (Index b = shares.first[t]; b < shares.first[t + 1]; ++b)
         pass.block(world, s_.clock(), b * block_size, std::min(n, (b + 1) * block_size));
     });
     pass.finish(world, s_.clock());
