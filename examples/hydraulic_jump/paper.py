@@ -191,7 +191,7 @@ def watch(child, run, queue, clock):
         if queue.stop.is_set():
             raise KeyboardInterrupt
         try:
-            child.wait(2)
+            child.wait(0.1)  # an interrupt must not wait for long, either
             break
         except subprocess.TimeoutExpired:
             pass
