@@ -10,7 +10,7 @@ import paper_figures
 from paper_evaluate import EVALUATED, age, evaluated
 
 SETTINGS = ("*plates*: `scene.yaml` as the paper has it, with c0 = 30 m/s; *supported*: `supported_bed.yaml`, bed and weir complete the sums of the particles beside "
-            "them, all else as before; *better*: the same, an eddy viscosity of v1 d1/11 at all spacings (q1 = 0.12 to 0.30), density diffusion 0.1, volume control with TAU = 0.1 s; *c0 = 1484 m/s*: `scene.yaml` "
+            "them, all else as before; *better*: the same, an eddy viscosity of v1 d1/10 at all spacings (q1 = 0.13 to 0.33), density diffusion 0.1, volume control with TAU = 0.1 s; *c0 = 1484 m/s*: `scene.yaml` "
             "with the paper's speed of sound.\n")
 
 
@@ -171,7 +171,7 @@ def standing(shown):
     place, ratios = [], []
     for run, found in sorted(shown, key=lambda one: one[1]["values"]["froude"]):
         v, here, roller, toe = found["values"], found["local"], found["analyses"]["roller"], found["analyses"]["toe"]
-        place.append([f"{v['froude']:g}", f"{v['reynolds']:g}", f"{v['cmu']:g}" if v["mixing"] > 0 else "-", "{:g}-{:g}".format(*found["run"]["settled"]), f"{v['discharge']:g}", number(1000 * v["height"], "{:.1f}"), f"{toe['toe_mean']:.3f} ± {toe['toe_deviation']:.3f}" + (" (gate)" if here["at_gate"] else ""),
+        place.append([f"{v['froude']:g}", run.case, f"{v['reynolds']:g}", f"{v['cmu']:g}" if v["mixing"] > 0 else "-", "{:g}-{:g}".format(*found["run"]["settled"]), f"{v['discharge']:g}", number(1000 * v["height"], "{:.1f}"), f"{toe['toe_mean']:.3f} ± {toe['toe_deviation']:.3f}" + (" (gate)" if here["at_gate"] else ""),
                       number(1000 * toe["toe_speed"], "{:+.1f}"), number(1000 * here["d1"], "{:.1f}"), number(here["v1"], "{:.3f}"), number(here["froude"], "{:.2f}"),
                       number(1000 * here["d2"], "{:.1f}"), number(1000 * here["d2_filled"], "{:.1f}"), number(1000 * here["d2_theory"], "{:.1f}"),
                       number(here["d2"] / here["d2_theory"], "{:.3f}"), number(here["d2_filled"] / here["d2_theory"], "{:.3f}"), found["run"]["leaked_particles"],
@@ -180,11 +180,11 @@ def standing(shown):
                        number(roller["roller_length_reference"], "{:.1f}"), percent(roller["decay_rms"]),
                        number(roller["deviation_largest"], "{:.3f}"), number(roller["deviation_largest_reference"], "{:.3f}"), number(roller["deviation_largest_at"], "{:.1f}"),
                        number(roller["frequency"], "{:.2f}"), number(roller["strouhal"], "{:.4f}"), number(roller["strouhal_reference"], "{:.4f}")])
-    head = ["Fr1 of the inflow", "Re", "c_μ", "means over [s]", "coefficient of the weir", "its height [mm]", "toe [m]", "drift [mm/s]", "d1 before the toe [mm]", "v1 there [m/s]", "Fr1 there", "d2 [mm]", "filled [mm]",
+    head = ["Fr1 of the inflow", "case", "Re", "c_μ", "means over [s]", "coefficient of the weir", "its height [mm]", "toe [m]", "drift [mm/s]", "d1 before the toe [mm]", "v1 there [m/s]", "Fr1 there", "d2 [mm]", "filled [mm]",
             "Bélanger [mm]", "d2/Bélanger", "filled/Bélanger", "leaked", "energy residual"]
     against = ["Fr1 before the toe", "Lr/d1: mean velocity nowhere negative", "stagnation point", "eq. 2", "V_max, rms to eq. 3", "(η'/d1)max", "eq. 4", "at (x - x1)/d1", "f [Hz]", "St", "eq. 5"]
     return (table(head, place) + "\n\n" + table(against, ratios) +
-            "\n\n`keyword_decks/hydraulic_jump/standing.yaml`, d1/4, recipe `keyword_decks/hydraulic_jump/standing_figures.yaml`. Re = v1 d1/ν: the artificial viscosity as an eddy viscosity; "
+            "\n\n`keyword_decks/hydraulic_jump/standing.yaml`, recipe `keyword_decks/hydraulic_jump/standing_figures.yaml`. Re = v1 d1/ν: the artificial viscosity as an eddy viscosity; "
             "where a c_μ is given, that is a mixing length (`*COURANT_EDDY_VISCOSITY`, LMAX half of d2) and Re tells of the artificial viscosity beside it. Both are chosen for each Froude number. The height of the weir follows from Bélanger's depth, critical flow over its crest and a coefficient for what is lost there. Depth and velocity of the jet are taken three depths "
             "(or three deviations of the toe) upstream of the toe, d2 one to two d2 before the weir; d1 and v1 in all ratios are these.\n")
 

@@ -68,7 +68,7 @@ check(code == 0 and before == after and "is complete" in out, "a complete run is
 # ---- jumps that stand still have a page of their own
 code, out = call("fr24")
 page = (results / "page_standing.md").read_text()
-check(code == 0 and page.startswith("# Jumps that stand still") and "| 2.4 | 22 |" in page, "Fr1 = 2.4 with its Reynolds number")
+check(code == 0 and page.startswith("# Jumps that stand still") and "| 2.4 | d1/4 | 22 |" in page, "Fr1 = 2.4 with its Reynolds number")
 check("Not run: fr34, fr31" in page and "d4" not in page.split("Not run:")[1].split("\n")[0], "and what was not run of its kind")
 check("| 2.4 |" not in (results / "page.md").read_text(), "not on the page of the paper's cases")
 
