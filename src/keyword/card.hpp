@@ -12,8 +12,11 @@
 //           = 1.2}},
 //           {"DEATH", &SectionSph::death, "T", "time SPH stops", {.standard = 1e20, .honour = Honour::no}},
 //           ...}}}}};
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <initializer_list>
 #include <string>
 #include <variant>
 #include <vector>
@@ -47,40 +50,58 @@ enum class Check { any, positive, not_negative, not_positive };
 /// it.
 enum class Spatial { none, point, direction };
 
+/// The few integers that a field may have; none: any. A constant, as all of a field is: tables whose fields
+/// had to be built and taken down would be slow to compile.
+class Allowed {
+ public:
+  constexpr Allowed() = default;
+  constexpr Allowed(std::initializer_list<int> values) : size_(values.size()) {
+    std::copy(values.begin(), values.end(), values_.begin());
+  }
+  constexpr const int* begin() const { return values_.data(); }
+  constexpr const int* end() const { return values_.data() + size_; }
+  constexpr bool empty() const { return size_ == 0; }
+
+ private:
+  std::array<int, 8> values_{};
+  std::size_t size_ = 0;
+};
+
 struct FieldRules {
   Real standard = 0;  ///< value of a blank field; also of 0 when `zero_is_standard`
   bool zero_is_standard = true;
   bool required = false;  ///< blank (or 0 for ids) is an error
   Check check = Check::any;
   Honour honour = Honour::yes;
-  std::vector<int> allowed{};  ///< for integers: the supported values; others are refused by name. Empty: any
-  int width = 10;              ///< columns in standard format
+  Allowed allowed{};  ///< for integers: the supported values; others are refused by name. Empty: any
+  int width = 10;     ///< columns in standard format
   IdSpace refers =
       IdSpace::none;  ///< what the ids in this field number; for the first field KeywordOf::id_space
   Spatial spatial = Spatial::none;
 };
 
 // Rules that many tables share.
-inline const FieldRules no_effect{.honour = Honour::ignored};
-inline const FieldRules no_output{.honour = Honour::output_only};
-inline const FieldRules unsupported{.honour = Honour::no};
-inline FieldRules no_effect_but(Real standard) {
+inline constexpr FieldRules no_effect{.honour = Honour::ignored};
+inline constexpr FieldRules no_output{.honour = Honour::output_only};
+inline constexpr FieldRules unsupported{.honour = Honour::no};
+constexpr FieldRules no_effect_but(Real standard) {
   return {.standard = standard, .honour = Honour::ignored};
 }
 
 /// One field. `member` says where the value goes and so of which type it is: Id and int are I, Real is F,
 /// std::string A. A vector member takes this and all following columns of the card, and (on a repeated card)
 /// of all cards up to the next keyword; blank and 0 entries are skipped for Id. Two or more vectors on a card
-/// take one column each, as a table, and each card adds a row, blank fields as 0 or "".
+/// take one column each, as a table, and each card adds a row, blank fields as 0 or "". Its texts are
+/// literals: nobody keeps others.
 template <class T>
 struct FieldOf {
   /// monostate, the default: columns that are skipped
   using Member = std::variant<std::monostate, int T::*, Id T::*, Real T::*, std::string T::*,
                               std::vector<Id> T::*, std::vector<Real> T::*, std::vector<std::string> T::*>;
-  std::string name;
+  const char* name = "";
   Member member;
-  std::string dimension;
-  std::string meaning;
+  const char* dimension = "";
+  const char* meaning = "";
   FieldRules rules{};
   /// Where it depends on other fields (a type beside it) what the ids number; instead of rules.refers.
   IdSpace (*refers)(const T&) = nullptr;

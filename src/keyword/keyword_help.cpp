@@ -1,6 +1,8 @@
 // Texts about keywords for the user: messages, `courant keywords`, docs/keywords.md; all from the tables.
 #include <fmt/format.h>
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
@@ -108,7 +110,7 @@ constexpr const char* markdown_introduction =
     "`*CONTROL_OUTPUT`, "
     "`*CONTROL_PARALLEL`, `*CONTROL_MPP_...`, `*CONTROL_UNITS`), which give a warning.\n";
 
-std::string escaped(const std::string& text) {
+std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
     if (c == '|' || c == '*' || c == '_' || c == '<') out += '\\';

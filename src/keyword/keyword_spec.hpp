@@ -5,13 +5,11 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "keyword/card.hpp"
 #include "keyword/deck.hpp"
@@ -20,14 +18,15 @@ namespace courant {
 
 enum class FieldType { integer, id, real, text, ids, reals, texts, skip };
 
-/// One field of a card, with its place in standard format.
+/// One field of a card, with its place in standard format and in the keyword's struct.
 struct FieldSpec {
-  std::string name, dimension, meaning;
+  std::string_view name, dimension, meaning;
   FieldRules rules;
   FieldType type = FieldType::skip;
+  std::size_t offset = 0;   ///< of its value from the start of the entry
+  bool dependent = false;   ///< what its ids number depends on other fields
   int column = 0;           ///< first column in standard format, from 0
   bool takes_rest = false;  ///< a vector that takes all further columns of the card
-  std::size_t offset = 0;   ///< of a single number within its struct, for EntrySink::fields
   bool is_vector() const {
     return type == FieldType::ids || type == FieldType::reals || type == FieldType::texts;
   }
@@ -41,24 +40,6 @@ struct CardSpec {
   bool is_table = false;     ///< several vectors: each card adds one to each of them
 };
 
-/// Builds the entries of one keyword, one after the other, and stores them in a deck.
-class EntrySink {
- public:
-  virtual ~EntrySink() = default;
-  virtual void expect(std::size_t entries) = 0;  ///< room for so many more, a hint
-  virtual void begin(const Entry& where) = 0;    ///< a new entry, all fields at their standard values
-  virtual void set_integer(std::size_t card, std::size_t field, Id value) = 0;  ///< sets or appends
-  virtual void set_real(std::size_t card, std::size_t field, Real value) = 0;   ///< sets or appends
-  virtual void set_text(std::size_t card, std::size_t field, std::string_view value) = 0;
-  virtual void set_title(std::string_view title) = 0;
-  virtual void set_id(Id id) = 0;
-  virtual const Entry& entry() const = 0;  ///< the entry as read so far
-  virtual std::byte* fields() = 0;         ///< its numbers, each at FieldSpec::offset
-  /// Shifts ids and changes units, by the table; returns why it cannot be done, else nothing.
-  virtual std::string convert(const Conversion& conversion) = 0;
-  virtual void commit() = 0;  ///< stores the entry in the deck
-};
-
 /// An id in a field of an entry.
 struct IdUse {
   std::size_t card = 0, field = 0;
@@ -67,36 +48,78 @@ struct IdUse {
   bool defines = false;  ///< the entry's own id
 };
 
+class EntrySink;
+
+/// Entries that are handed in must be of this keyword.
 class KeywordSpec {
  public:
   virtual ~KeywordSpec() = default;
   virtual std::unique_ptr<EntrySink> sink(Deck& deck) const = 0;
-  /// Whether the card is there, as far as the entry was read. `entry` must be of this keyword.
+  /// Whether the card is there, as far as the entry was read.
   virtual bool has_card(const Entry& entry, std::size_t card) const = 0;
-  /// The entry's id (with _ID that of its line, else the first field), 0 where there is no id_space. `entry`
-  /// must be of this keyword.
-  virtual Id id_of(const Entry& entry) const = 0;
   /// All entries of the keyword with this place in the registry.
   virtual void for_each(const Deck& deck, std::int32_t keyword,
                         const std::function<void(const Entry&)>& visit) const = 0;
-  /// All ids in an entry's fields, its own first. `entry` must be of this keyword.
-  virtual void for_each_id(const Entry& entry, const std::function<void(const IdUse&)>& visit) const = 0;
-  /// The number in a field of an entry of this keyword; 0 for texts, lists and skipped columns.
-  virtual Real number_of(const Entry& entry, std::size_t card, std::size_t field) const = 0;
+
+  /// The entry's id (with _ID that of its line, else the first field), 0 where there is no id_space.
+  Id id_of(const Entry& entry) const;
+  /// All ids in an entry's fields, its own first.
+  void for_each_id(const Entry& entry, const std::function<void(const IdUse&)>& visit) const;
+  /// The number in a field of an entry; 0 for texts, lists and skipped columns.
+  Real number_of(const Entry& entry, std::size_t card, std::size_t field) const;
   /// Texts and lists in a field: their values with all digits, apart by blanks; "" for single numbers.
-  virtual std::string text_of(const Entry& entry, std::size_t card, std::size_t field) const = 0;
+  std::string text_of(const Entry& entry, std::size_t card, std::size_t field) const;
+  /// Shifts ids and changes units; returns why it cannot be done, else nothing.
+  std::string convert(Entry& entry, const Conversion& conversion) const;
   /// Moves the places and directions in the entries for which `motion_of` gives a motion. `refuse` hears why
   /// an entry cannot be moved.
-  virtual void move(Deck& deck, std::int32_t keyword,
-                    const std::function<const Affine*(const Entry&)>& motion_of,
-                    const std::function<void(const Entry&, const std::string&)>& refuse) const = 0;
+  void move(Deck& deck, std::int32_t keyword, const std::function<const Affine*(const Entry&)>& motion_of,
+            const std::function<void(const Entry&, const std::string&)>& refuse) const;
 
   std::vector<std::string> names;
   std::string purpose, lacking;
   IdSpace id_space = IdSpace::none;
   bool title_option = false, id_option = false, mpp_option = false, collect_option = false;
   bool heading = false, once = false, many = true;
+  std::optional<std::size_t> title, id;  ///< offsets of KeywordOf::title and id
   std::vector<CardSpec> cards;
+
+ protected:
+  /// Adds a card of which `fields` lack their columns, and sets the fields of `standard` to their defaults.
+  void add_card(CardSpec card, Entry& standard);
+
+ private:
+  virtual void change_each(Deck& deck, std::int32_t keyword,
+                           const std::function<void(Entry&)>& change) const = 0;
+  virtual IdSpace dependent_space(const Entry& entry, std::size_t card, std::size_t field) const = 0;
+  /// KeywordOf::convert and move.
+  virtual std::string convert_rest(Entry& entry, const Conversion& conversion) const = 0;
+  virtual std::string move_rest(Entry& entry, const Affine& motion) const = 0;
+
+  IdSpace space_of(const Entry& entry, std::size_t card, std::size_t field) const;
+  bool is_own_id(std::size_t card, std::size_t field) const;
+};
+
+/// Builds the entries of one keyword, one after the other, and stores them in a deck.
+class EntrySink {
+ public:
+  explicit EntrySink(const KeywordSpec& spec) : spec_(spec) {}
+  virtual ~EntrySink() = default;
+  virtual void expect(std::size_t entries) = 0;  ///< room for so many more, a hint
+  virtual void begin(const Entry& where) = 0;    ///< a new entry, all fields at their standard values
+  virtual Entry& entry() = 0;                    ///< the entry as read so far
+  virtual void commit() = 0;                     ///< stores the entry in the deck
+
+  void set_integer(std::size_t card, std::size_t field, Id value);  ///< sets or appends
+  void set_real(std::size_t card, std::size_t field, Real value);   ///< sets or appends
+  void set_text(std::size_t card, std::size_t field, std::string_view value);
+  void set_title(std::string_view title);
+  void set_id(Id id);
+  std::string convert(const Conversion& conversion) { return spec_.convert(entry(), conversion); }
+  std::byte* fields() { return reinterpret_cast<std::byte*>(&entry()); }  ///< see FieldSpec::offset
+
+ private:
+  const KeywordSpec& spec_;
 };
 
 namespace detail {
@@ -109,95 +132,29 @@ FieldType field_type(const typename FieldOf<T>::Member& member) {
   return types[member.index()];
 }
 
-template <class T>
-void set_number(T& entry, const typename FieldOf<T>::Member& member, auto value) {
-  switch (member.index()) {
-    case 1:
-      entry.*(*std::get_if<1>(&member)) = static_cast<int>(value);
-      break;
-    case 2:
-      entry.*(*std::get_if<2>(&member)) = static_cast<Id>(value);
-      break;
-    case 3:
-      entry.*(*std::get_if<3>(&member)) = static_cast<Real>(value);
-      break;
-    case 5:
-      (entry.*(*std::get_if<5>(&member))).push_back(static_cast<Id>(value));
-      break;
-    case 6:
-      (entry.*(*std::get_if<6>(&member))).push_back(static_cast<Real>(value));
-      break;
-    default:
-      break;
-  }
+/// Where a value stands in its struct.
+template <class T, class Value>
+std::size_t offset_of(const T& entry, Value T::*member) {
+  return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&(entry.*member)) -
+                                  reinterpret_cast<const std::byte*>(static_cast<const Entry*>(&entry)));
 }
-
-/// Where a single number stands in its struct.
 template <class T>
 std::size_t offset_of(const T& entry, const typename FieldOf<T>::Member& member) {
-  const auto place = [&](const auto& number) {
-    return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&number) -
-                                    reinterpret_cast<const std::byte*>(&entry));
+  std::size_t offset = 0;
+  const auto look = [&]<class Value>(Value T::*const* value) {
+    if (value) offset = offset_of(entry, *value);
   };
-  if (auto* integer = std::get_if<int T::*>(&member)) return place(entry.*(*integer));
-  if (auto* id = std::get_if<Id T::*>(&member)) return place(entry.*(*id));
-  if (auto* real = std::get_if<Real T::*>(&member)) return place(entry.*(*real));
-  return 0;
-}
-
-/// What the ids in a field number.
-template <class T>
-IdSpace space_of(const KeywordOf<T>& keyword, std::size_t card, std::size_t field, const T& entry) {
-  if (card == 0 && field == 0 && !keyword.id && keyword.id_space != IdSpace::none) return keyword.id_space;
-  const FieldOf<T>& f = keyword.cards[card].fields[field];
-  return f.refers ? f.refers(entry) : f.rules.refers;
-}
-
-template <class T>
-void convert_field(const KeywordOf<T>& keyword, std::size_t card, std::size_t field,
-                   const Conversion& conversion, T& entry) {
-  const FieldOf<T>& f = keyword.cards[card].fields[field];
-  const IdSpace space = space_of(keyword, card, field, entry);
-  const Real factor = conversion.units.of(f.dimension);
-  if (auto* id = std::get_if<Id T::*>(&f.member)) {
-    entry.*(*id) = conversion.offsets.shifted(space, entry.*(*id));
-  } else if (auto* ids = std::get_if<std::vector<Id> T::*>(&f.member)) {
-    for (Id& one : entry.*(*ids)) one = conversion.offsets.shifted(space, one);
-  } else if (auto* real = std::get_if<Real T::*>(&f.member)) {
-    // a standard value ("1e20", never) is no number in the file's units
-    if (entry.*(*real) != f.rules.standard) entry.*(*real) *= factor;
-  } else if (auto* reals = std::get_if<std::vector<Real> T::*>(&f.member)) {
-    for (Real& one : entry.*(*reals)) one *= factor;
-  }
-}
-
-/// A title with what *INCLUDE_TRANSFORM puts before and behind it.
-inline std::string converted_title(const Conversion& conversion, const std::string& title) {
-  std::string out = conversion.prefix.empty() ? title : conversion.prefix + "." + title;
-  return conversion.suffix.empty() ? out : out + "." + conversion.suffix;
-}
-
-template <class T>
-void move_fields(const KeywordOf<T>& keyword, const Affine& motion, T& entry) {
-  for (const CardOf<T>& card : keyword.cards) {
-    for (std::size_t f = 0; f + 2 < card.fields.size(); ++f) {
-      if (card.fields[f].rules.spatial == Spatial::none) continue;
-      const auto component = [&](std::size_t k) -> Real& {
-        return entry.*(*std::get_if<Real T::*>(&card.fields[f + k].member));
-      };
-      const Vec old(component(0), component(1), component(2));
-      const Vec now =
-          card.fields[f].rules.spatial == Spatial::point ? Vec(motion * old) : Vec(motion.linear() * old);
-      for (std::size_t k = 0; k < 3; ++k) component(k) = now[static_cast<Eigen::Index>(k)];
-    }
-  }
+  look(std::get_if<1>(&member)), look(std::get_if<2>(&member)), look(std::get_if<3>(&member));
+  look(std::get_if<4>(&member)), look(std::get_if<5>(&member)), look(std::get_if<6>(&member));
+  look(std::get_if<7>(&member));
+  return offset;
 }
 
 template <class T>
 class EntrySinkOf : public EntrySink {
  public:
-  EntrySinkOf(const KeywordOf<T>& keyword, const T& standard, std::vector<T>& store)
-      : keyword_(keyword), standard_(standard), store_(store) {}
+  EntrySinkOf(const KeywordSpec& spec, const T& standard, std::vector<T>& store)
+      : EntrySink(spec), standard_(standard), store_(store) {}
   void expect(std::size_t entries) override {
     const std::size_t wanted = store_.size() + entries;
     // at least twice as many, so that a thousand short blocks do not move what is there a thousand times
@@ -207,161 +164,87 @@ class EntrySinkOf : public EntrySink {
     entry_ = standard_;
     static_cast<Entry&>(entry_) = where;
   }
-  void set_integer(std::size_t card, std::size_t field, Id value) override {
-    set_number<T>(entry_, keyword_.cards[card].fields[field].member, value);
-  }
-  void set_real(std::size_t card, std::size_t field, Real value) override {
-    set_number<T>(entry_, keyword_.cards[card].fields[field].member, value);
-  }
-  void set_text(std::size_t card, std::size_t field, std::string_view value) override {
-    const auto& member = keyword_.cards[card].fields[field].member;
-    if (auto* text = std::get_if<std::string T::*>(&member)) entry_.*(*text) = value;
-    if (auto* texts = std::get_if<std::vector<std::string> T::*>(&member))
-      (entry_.*(*texts)).emplace_back(value);
-  }
-  void set_title(std::string_view title) override {
-    if (keyword_.title) entry_.*(keyword_.title) = title;
-  }
-  void set_id(Id id) override {
-    if (keyword_.id) entry_.*(keyword_.id) = id;
-  }
-  const Entry& entry() const override { return entry_; }
-  std::byte* fields() override { return reinterpret_cast<std::byte*>(&entry_); }
-  std::string convert(const Conversion& conversion) override {
-    for (std::size_t c = 0; c < keyword_.cards.size(); ++c)
-      for (std::size_t f = 0; f < keyword_.cards[c].fields.size(); ++f)
-        convert_field(keyword_, c, f, conversion, entry_);
-    if (keyword_.id)
-      entry_.*(keyword_.id) = conversion.offsets.shifted(keyword_.id_space, entry_.*(keyword_.id));
-    if (keyword_.title) entry_.*(keyword_.title) = converted_title(conversion, entry_.*(keyword_.title));
-    return keyword_.convert ? keyword_.convert(entry_, conversion) : std::string();
-  }
+  Entry& entry() override { return entry_; }
   void commit() override { store_.push_back(std::move(entry_)); }
 
  private:
-  const KeywordOf<T>& keyword_;
   const T& standard_;
   std::vector<T>& store_;
   T entry_{};
 };
 
+/// What takes the struct of a keyword; all else is done by KeywordSpec with the places of its fields. It is
+/// compiled for each keyword: every line counts.
 template <class T>
 class KeywordSpecOf : public KeywordSpec {
  public:
-  explicit KeywordSpecOf(KeywordOf<T> keyword) : keyword_(std::move(keyword)) {
-    names = keyword_.names;
-    purpose = keyword_.purpose;
-    id_space = keyword_.id_space;
-    lacking = keyword_.lacking;
-    title_option = keyword_.title_option;
-    id_option = keyword_.id_option;
-    mpp_option = keyword_.mpp_option;
-    collect_option = keyword_.collect_option;
-    heading = keyword_.heading;
-    once = keyword_.once;
-    many = keyword_.many;
-    for (const CardOf<T>& card : keyword_.cards) add_card(card);
+  explicit KeywordSpecOf(KeywordOf<T>&& keyword)
+      : own_cards_(std::move(keyword.cards)), convert_(keyword.convert), move_(keyword.move) {
+    names = std::move(keyword.names), purpose = std::move(keyword.purpose);
+    lacking = std::move(keyword.lacking), id_space = keyword.id_space;
+    title_option = keyword.title_option, id_option = keyword.id_option, mpp_option = keyword.mpp_option;
+    collect_option = keyword.collect_option, heading = keyword.heading;
+    once = keyword.once, many = keyword.many;
+    if (keyword.title) title = offset_of(standard_, keyword.title);
+    if (keyword.id) id = offset_of(standard_, keyword.id);
+    for (const CardOf<T>& card : own_cards_) {
+      CardSpec spec{.fields = std::vector<FieldSpec>(card.fields.size()),
+                    .optional = card.optional,
+                    .repeat = card.repeat,
+                    .conditional = card.when != nullptr};
+      for (std::size_t f = 0; f < card.fields.size(); ++f) {
+        const FieldOf<T>& field = card.fields[f];
+        spec.fields[f] = {field.name,
+                          field.dimension,
+                          field.meaning,
+                          field.rules,
+                          field_type<T>(field.member),
+                          offset_of(standard_, field.member),
+                          field.refers != nullptr};
+      }
+      add_card(std::move(spec), standard_);
+    }
   }
   std::unique_ptr<EntrySink> sink(Deck& deck) const override {
-    return std::make_unique<EntrySinkOf<T>>(keyword_, standard_, deck.store<T>());
+    return std::make_unique<EntrySinkOf<T>>(*this, standard_, deck.store<T>());
   }
   bool has_card(const Entry& entry, std::size_t card) const override {
-    const auto& when = keyword_.cards[card].when;
+    const auto when = own_cards_[card].when;
     return !when || when(static_cast<const T&>(entry));
-  }
-  Id id_of(const Entry& entry) const override {
-    if (id_space == IdSpace::none) return 0;
-    const T& e = static_cast<const T&>(entry);
-    if (keyword_.id) return e.*(keyword_.id);
-    const auto* member = std::get_if<Id T::*>(&keyword_.cards[0].fields[0].member);
-    return member ? e.*(*member) : 0;
   }
   void for_each(const Deck& deck, std::int32_t keyword,
                 const std::function<void(const Entry&)>& visit) const override {
     for (const T& entry : deck.all<T>())
       if (entry.keyword == keyword) visit(entry);
   }
-  void for_each_id(const Entry& entry, const std::function<void(const IdUse&)>& visit) const override {
-    const T& e = static_cast<const T&>(entry);
-    if (keyword_.id) visit({0, 0, id_space, e.*(keyword_.id), true});
-    for (std::size_t c = 0; c < keyword_.cards.size(); ++c) {
-      for (std::size_t f = 0; f < keyword_.cards[c].fields.size(); ++f) {
-        const IdSpace space = space_of(keyword_, c, f, e);
-        if (space == IdSpace::none) continue;
-        const bool own = c == 0 && f == 0 && !keyword_.id && id_space != IdSpace::none;
-        const auto& member = keyword_.cards[c].fields[f].member;
-        if (auto* id = std::get_if<Id T::*>(&member)) visit({c, f, space, e.*(*id), own});
-        if (auto* ids = std::get_if<std::vector<Id> T::*>(&member))
-          for (const Id one : e.*(*ids)) visit({c, f, space, one, own});
-      }
-    }
-  }
-  Real number_of(const Entry& entry, std::size_t card, std::size_t field) const override {
-    const T& e = static_cast<const T&>(entry);
-    const auto& member = keyword_.cards[card].fields[field].member;
-    if (auto* integer = std::get_if<int T::*>(&member)) return e.*(*integer);
-    if (auto* id = std::get_if<Id T::*>(&member)) return static_cast<Real>(e.*(*id));
-    if (auto* real = std::get_if<Real T::*>(&member)) return e.*(*real);
-    return 0;
-  }
-  std::string text_of(const Entry& entry, std::size_t card, std::size_t field) const override {
-    const T& e = static_cast<const T&>(entry);
-    const auto& member = keyword_.cards[card].fields[field].member;
-    if (auto* text = std::get_if<std::string T::*>(&member)) return e.*(*text);
-    std::string out;
-    const auto add = [&](const auto& values) {
-      for (const auto& value : values) out += fmt::format("{}{}", out.empty() ? "" : " ", value);
-    };
-    if (auto* ids = std::get_if<std::vector<Id> T::*>(&member)) add(e.*(*ids));
-    if (auto* reals = std::get_if<std::vector<Real> T::*>(&member)) add(e.*(*reals));
-    if (auto* texts = std::get_if<std::vector<std::string> T::*>(&member)) add(e.*(*texts));
-    return out;
-  }
-  void move(Deck& deck, std::int32_t keyword, const std::function<const Affine*(const Entry&)>& motion_of,
-            const std::function<void(const Entry&, const std::string&)>& refuse) const override {
-    for (T& entry : deck.store<T>()) {
-      const Affine* motion = entry.keyword == keyword ? motion_of(entry) : nullptr;
-      if (!motion) continue;
-      move_fields(keyword_, *motion, entry);
-      const std::string reason = keyword_.move ? keyword_.move(entry, *motion) : std::string();
-      if (!reason.empty()) refuse(entry, reason);
-    }
-  }
 
  private:
-  void add_card(const CardOf<T>& card) {
-    CardSpec spec{
-        .fields = {}, .optional = card.optional, .repeat = card.repeat, .conditional = card.when != nullptr};
-    int column = 0, vectors = 0;
-    for (const FieldOf<T>& f : card.fields) {
-      FieldSpec field{.name = f.name,
-                      .dimension = f.dimension,
-                      .meaning = f.meaning,
-                      .rules = f.rules,
-                      .type = field_type<T>(f.member),
-                      .column = column,
-                      .takes_rest = false,
-                      .offset = offset_of(standard_, f.member)};
-      column += f.rules.width;
-      vectors += field.is_vector();
-      if (!field.is_vector()) set_number<T>(standard_, f.member, f.rules.standard);
-      spec.fields.push_back(std::move(field));
-    }
-    // two vectors side by side are columns of a table (abscissa, ordinate); a single one is a list
-    spec.is_table = vectors > 1;
-    if (vectors == 1 && spec.fields.back().is_vector()) spec.fields.back().takes_rest = true;
-    cards.push_back(std::move(spec));
+  void change_each(Deck& deck, std::int32_t keyword,
+                   const std::function<void(Entry&)>& change) const override {
+    for (T& entry : deck.store<T>())
+      if (entry.keyword == keyword) change(entry);
+  }
+  IdSpace dependent_space(const Entry& entry, std::size_t card, std::size_t field) const override {
+    return own_cards_[card].fields[field].refers(static_cast<const T&>(entry));
+  }
+  std::string convert_rest(Entry& entry, const Conversion& conversion) const override {
+    return convert_ ? convert_(static_cast<T&>(entry), conversion) : std::string();
+  }
+  std::string move_rest(Entry& entry, const Affine& motion) const override {
+    return move_ ? move_(static_cast<T&>(entry), motion) : std::string();
   }
 
-  KeywordOf<T> keyword_;
+  std::vector<CardOf<T>> own_cards_;
+  std::string (*convert_)(T&, const Conversion&);
+  std::string (*move_)(T&, const Affine&);
   T standard_{};
 };
 
 }  // namespace detail
 
 template <class T>
-std::shared_ptr<const KeywordSpec> make_keyword_spec(KeywordOf<T> keyword) {
-  return std::make_shared<detail::KeywordSpecOf<T>>(std::move(keyword));
+std::unique_ptr<const KeywordSpec> make_keyword_spec(KeywordOf<T>&& keyword) {
+  return std::unique_ptr<const KeywordSpec>(new detail::KeywordSpecOf<T>(std::move(keyword)));
 }
 
 }  // namespace courant

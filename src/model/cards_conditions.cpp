@@ -125,7 +125,7 @@ std::string move_constraint(BoundarySpcCard& card, const Affine& motion) {
 }
 
 template <class T>
-KeywordOf<T> boundary_spc(std::string name, std::string purpose, std::string field, std::string meaning,
+KeywordOf<T> boundary_spc(std::string name, std::string purpose, const char* field, const char* meaning,
                           IdSpace refers) {
   return {.names = {std::move(name)},
           .purpose = std::move(purpose),
@@ -133,7 +133,7 @@ KeywordOf<T> boundary_spc(std::string name, std::string purpose, std::string fie
           .id_option = true,
           .title = &T::title,
           .id = &T::id,
-          .cards = {{.fields = {{std::move(field), &T::nid, "-", std::move(meaning), required_id_of(refers)},
+          .cards = {{.fields = {{field, &T::nid, "-", meaning, required_id_of(refers)},
                                 {"CID", &T::cid, "-", "system of the directions, 0 global", system_id},
                                 {"DOFX", &T::dofx, "-", "1 holds the translation in x", flag},
                                 {"DOFY", &T::dofy, "-", "1 holds the translation in y", flag},

@@ -145,7 +145,7 @@ const RegisterKeyword<T> define_table{
           .repeat = true}}}};
 
 template <class C>
-KeywordOf<C> table_of_ids(std::string name, std::string purpose, std::string field) {
+KeywordOf<C> table_of_ids(std::string name, std::string purpose, const char* field) {
   return {
       .names = {std::move(name)},
       .purpose = std::move(purpose),
@@ -154,7 +154,7 @@ KeywordOf<C> table_of_ids(std::string name, std::string purpose, std::string fie
       .title = &C::title,
       .cards = {table_card<C>(),
                 {.fields = {{"VALUE", &C::value, "-", "value of the parameter, increasing", {.width = 20}},
-                            {std::move(field),
+                            {field,
                              &C::curveid,
                              "-",
                              "id of what holds there",

@@ -41,7 +41,7 @@ std::string keep_axes(MotionCard& card, const Affine& motion) {
 }
 
 template <class T>
-KeywordOf<T> motion_keyword(std::string name, std::string purpose, std::string field, IdSpace refers,
+KeywordOf<T> motion_keyword(std::string name, std::string purpose, const char* field, IdSpace refers,
                             std::string lacking = {}) {
   const bool honoured = lacking.empty();
   const FieldRules id = required_id_of(refers);
@@ -57,7 +57,7 @@ KeywordOf<T> motion_keyword(std::string name, std::string purpose, std::string f
       .id = &T::entry_id,
       .lacking = std::move(lacking),
       .cards =
-          {{.fields = {{std::move(field), &T::id, "-", "what moves", id},
+          {{.fields = {{field, &T::id, "-", "what moves", id},
                        {"DOF", &T::dof, "-",
                         "direction: 1-3 x, y, z, 4 along VID; of bodies also 5-7 about x, y, z", dof},
                        {"VAD", &T::vad, "-", "0 velocity, 1 acceleration, 2 displacement"},

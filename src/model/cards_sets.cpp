@@ -69,10 +69,9 @@ CardOf<T> set_card() {
 }
 
 template <class T>
-CardOf<T> list_card(std::string meaning, IdSpace space) {
-  return {
-      .fields = {{member_field(T::kind, T::form), &T::ids, "-", std::move(meaning), optional_id_of(space)}},
-      .repeat = true};
+CardOf<T> list_card(const char* meaning, IdSpace space) {
+  return {.fields = {{member_field(T::kind, T::form), &T::ids, "-", meaning, optional_id_of(space)}},
+          .repeat = true};
 }
 
 template <class T>
@@ -86,8 +85,9 @@ CardOf<T> increment_card() {
 
 template <class T>
 CardOf<T> column_card() {
-  return {.fields = {{member_field(T::kind, T::form), &T::ids, "-", fmt::format("{} id", set_word(T::kind)),
-                      optional_id_of(member_space(T::kind))},
+  static constexpr const char* meanings[] = {"node id", "part id", "shell id"};
+  return {.fields = {{member_field(T::kind, T::form), &T::ids, "-",
+                      meanings[static_cast<std::size_t>(T::kind)], optional_id_of(member_space(T::kind))},
                      {},  // A1 to A4, attributes
                      {},
                      {},
@@ -113,7 +113,7 @@ template <class T>
 CardOf<T> advanced_card() {
   const FieldRules set{.check = Check::not_negative};
   const FieldRules kind{.check = Check::not_negative, .allowed = {0, 1, 2, 4, 5}};
-  const std::string words = "its kind: 1 node, 2 shell, 4 solid, 5 segment set";
+  const char* words = "its kind: 1 node, 2 shell, 4 solid, 5 segment set";
   return {.fields = {{"SID1", &T::ids, "-", "set id", set},
                      {"TYPE1", &T::e2, "-", words, kind},
                      {"SID2", &T::e3, "-", "set id", set},
@@ -147,11 +147,16 @@ CardOf<T> general_card() {
 
 template <class T>
 CardOf<T> members_card() {
-  const std::string word = set_word(T::kind);
+  static constexpr const char* members[] = {"node ids", "part ids", "shell ids", "solid ids"};
+  static constexpr const char* sets[] = {"ids of node sets", "ids of part sets", "ids of shell sets",
+                                         "ids of solid sets", "ids of segment sets"};
+  constexpr auto kind = static_cast<std::size_t>(T::kind);
   switch (T::form) {
     case SetForm::list:
-      if (T::kind == SetKind::segment) return segment_card<T>();
-      return list_card<T>(word + " ids", member_space(T::kind));
+      if constexpr (T::kind == SetKind::segment)
+        return segment_card<T>();
+      else
+        return list_card<T>(members[kind], member_space(T::kind));
     case SetForm::generate:
       return list_card<T>("first id, last id, first id, last id, ...", member_space(T::kind));
     case SetForm::increment:
@@ -160,7 +165,7 @@ CardOf<T> members_card() {
       return column_card<T>();
     case SetForm::add:
     case SetForm::intersect:
-      return list_card<T>("ids of " + word + " sets", set_space(T::kind));
+      return list_card<T>(sets[kind], set_space(T::kind));
     case SetForm::advanced:
       return advanced_card<T>();
     case SetForm::general:

@@ -76,7 +76,7 @@ void use(const Deck& deck, const Entry& entry, const KeywordSpec& spec, const Id
 
 }  // namespace
 
-const CurveDimensions* curve_dimensions(const std::string& keyword, const std::string& field) {
+const CurveDimensions* curve_dimensions(std::string_view keyword, std::string_view field) {
   for (const CurveDimensions& one : known)
     if (keyword == one.keyword && field == one.field) return &one;
   return nullptr;

@@ -1,4 +1,6 @@
 #pragma once
+#include <string_view>
+
 #include "base/diagnostic.hpp"
 #include "keyword/deck.hpp"
 
@@ -20,6 +22,6 @@ struct CurveDimensions {
   const char* ordinate;
 };
 /// Null if they are not known.
-const CurveDimensions* curve_dimensions(const std::string& keyword, const std::string& field);
+const CurveDimensions* curve_dimensions(std::string_view keyword, std::string_view field);
 
 }  // namespace courant

@@ -41,11 +41,11 @@ bool has_effect(const FieldSpec& field) {
 }
 
 std::string name_of(const KeywordSpec& spec, const FieldSpec& field) {
-  return spec.names[0] + " " + field.name;
+  return spec.names[0] + " " + std::string(field.name);
 }
 
 /// "M/LT2", "1/T", "L3", "-"
-bool is_dimension(const std::string& text) {
+bool is_dimension(std::string_view text) {
   if (text == "-" || text == "1") return true;
   bool divided = false, any = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
