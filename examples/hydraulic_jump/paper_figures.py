@@ -82,7 +82,7 @@ def over_froude(still):
                [equation(lambda f: 160 * math.tanh(f / 20) - 12, "Hager et al., eq. 2", 2, 6.6)]),
         figure("standing_deviation", "Largest standard deviation of the surface (as Figure 11)", x, "$(\\eta' / d_1)_{max}$ [-]", [curve(fr, of("deviation_largest"), "SPH", "points")],
                [equation(lambda f: 0.116 * (f - 1) ** 1.235, "Murzyn & Chanson, eq. 4", 1.5, 6.6)]),
-        figure("standing_strouhal", "Strouhal number of the surface (as Figure 14)", x, "$St = f d_1 / v_1$ [-]", [curve(fr, of("strouhal"), "SPH", "points")],
+        figure("standing_strouhal", "Strouhal number of the surface (as Figure 14)", x, "$St = f d_1 / v_1$ [-]", [curve(fr, of("strouhal"), "SPH, mean spectrum", "points"), curve(fr, of("strouhal_median"), "SPH, median over the roller", "points")],
                [equation(lambda f: 0.143 * math.exp(-0.27 * f), "Chachereau & Chanson, eq. 5", 2.4, 6.5)], y_range=[0, 0.1]),
     ]
 

@@ -182,7 +182,7 @@ def standing(shown):
                        number(roller["frequency"], "{:.2f}"), number(roller["strouhal"], "{:.4f}"), number(roller["strouhal_reference"], "{:.4f}")])
     head = ["Fr1 of the inflow", "case", "Re", "c_μ", "means over [s]", "coefficient of the weir", "its height [mm]", "toe [m]", "drift [mm/s]", "d1 before the toe [mm]", "v1 there [m/s]", "Fr1 there", "d2 [mm]", "filled [mm]",
             "Bélanger [mm]", "d2/Bélanger", "filled/Bélanger", "leaked", "energy residual"]
-    against = ["Fr1 before the toe", "Lr/d1: mean velocity nowhere negative", "stagnation point", "eq. 2", "V_max, rms to eq. 3", "(η'/d1)max", "eq. 4", "at (x - x1)/d1", "f [Hz]", "St", "eq. 5"]
+    against = ["Fr1 before the toe", "Lr/d1: mean velocity nowhere negative", "stagnation point", "eq. 2", "V_max, rms to eq. 3", "(η'/d1)max", "eq. 4", "at (x - x1)/d1", "f [Hz]", "St", "St, median over the roller", "eq. 5"]
     return (table(head, place) + "\n\n" + table(against, ratios) +
             "\n\n`keyword_decks/hydraulic_jump/standing.yaml`, recipe `keyword_decks/hydraulic_jump/standing_figures.yaml`. Re = v1 d1/ν: the artificial viscosity as an eddy viscosity; "
             "where a c_μ is given, that is a mixing length (`*COURANT_EDDY_VISCOSITY`, LMAX half of d2) and Re tells of the artificial viscosity beside it. Both are chosen for each Froude number. The height of the weir follows from Bélanger's depth, critical flow over its crest and a coefficient for what is lost there. Depth and velocity of the jet are taken three depths "

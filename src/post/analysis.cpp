@@ -100,6 +100,14 @@ Real RunningMoments::mean_or_nan() const {
   return n > 0 ? mean : std::nan("");
 }
 
+Real median(std::vector<Real> values) {
+  std::erase_if(values, [](Real v) { return std::isnan(v); });
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
 void read_window(const MapReader& map, TimeWindow& window) {
   map.number("from", window.from);
   map.number("to", window.to);

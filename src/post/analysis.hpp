@@ -121,6 +121,9 @@ struct RunningMoments {
   Real mean_or_nan() const;
 };
 
+/// NaN is left out; NaN if nothing is left.
+Real median(std::vector<Real> values);
+
 // Keys that several kinds share.
 void read_window(const MapReader& map, TimeWindow& window);  ///< from, to
 /// Text of a number for names of columns: "0.025".

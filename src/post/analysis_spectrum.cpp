@@ -10,14 +10,6 @@
 namespace courant {
 namespace {
 
-Real median(std::vector<Real> values) {
-  std::erase_if(values, [](Real v) { return std::isnan(v); });
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 class SpectrumAnalysis : public Analysis {
  public:
   SpectrumAnalysis(const MapReader& map, const PostSettings& settings)

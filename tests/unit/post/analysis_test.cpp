@@ -301,6 +301,33 @@ TEST(Roller, LengthAndDecay) {
   EXPECT_LT(run.scalar("jump", "decay_rms"), 0.002);
 }
 
+/// A slow swing at one gauge over the roller and at one behind it outweighs the rest: it is the dominant one
+/// of the mean spectrum, but not of the median over the roller.
+TEST(Roller, FrequencyOfMostGaugesOverIt) {
+  Analyses run(
+      "analyses:\n"
+      "  - {kind: surface, name: gauges, x: [0.12, 0.2, 0.3, 0.45, 0.48]}\n"
+      "  - {kind: spectrum, name: spectra, of: gauges, segment: 3, band: [0.5, 15]}\n"
+      "  - {kind: roller, name: jump, spectrum: spectra, toe: 0.1, v1: 1.5, d1: 0.02}\n");
+  const Real fast = 2.6, slow = 1;
+  for (int s = 0; s < 240; ++s) {
+    const Real t = 0.025 * s;
+    ParticleFrame frame;
+    for (int i = 0; i < 50; ++i)
+      for (int j = 0; j < 12; ++j) {
+        const Real x = (i + 0.5) * 0.01;
+        const bool swings = std::abs(x - 0.2) < 0.04 || x > 0.4;
+        const Real stretch =
+            1 + (swings ? 0.3 * std::sin(2 * pi * slow * t) : 0.1 * std::sin(2 * pi * fast * t));
+        test::add(frame, x, (j + 0.5) * 0.005 * stretch, 0.005 * std::sqrt(2 * stretch));
+      }
+    run.take(frame, t);
+  }
+  run.finish();
+  EXPECT_NEAR(run.scalar("jump", "strouhal"), slow * 0.02 / 1.5, 0.02 * slow * 0.02 / 1.5);
+  EXPECT_NEAR(run.scalar("jump", "strouhal_median"), fast * 0.02 / 1.5, 0.02 * fast * 0.02 / 1.5);
+}
+
 TEST(Force, OnTheWallsFromHistories) {
   Analyses run(
       "analyses:\n"
