@@ -70,6 +70,37 @@ TEST(VolumeControl, LeavesASurfaceAlone) {
   }
 }
 
+/// A drop of one particle, one of two in nearly the same place, and a row.
+TEST(VolumeControl, LeavesSprayAlone) {
+  const double places[][2] = {{0, 0}, {5, 0}, {5.002, 0}, {0, 5}, {0.1, 5}, {0.2, 5}, {0.3, 5}, {0.4, 5}};
+  std::string text =
+      "*KEYWORD\n*CONTROL_TERMINATION\n50.\n*CONTROL_SPH\n1,0,1e20,2\n0,0,0,0,0,0,0\n*PART\nwater\n1,1,1,1,"
+      "1\n*SECTION_SPH\n1,1.2,1,1,0.12\n*MAT_NULL\n1,1000.0\n*EOS_LINEAR_POLYNOMIAL\n1,0,4e5\n\n"
+      "*HOURGLASS\n1,0,0,0,1e-20,0.1\n" +
+      control(0.01) + "*NODE\n";
+  std::string elements = "*ELEMENT_SPH\n";
+  int id = 0;
+  for (const auto& [x, y] : places) {
+    text += fmt::format("{},{},{},0\n", ++id, x, y);
+    elements += fmt::format("{},1,10.\n", id);
+  }
+  // and a block
+  for (int k = 0; k < 100; ++k) {
+    text += fmt::format("{},{},{},0\n", ++id, 20 + 0.1 * (k % 10), 0.1 * (k / 10));
+    elements += fmt::format("{},1,10.\n", id);
+  }
+  const auto s = test::build_deck(text + elements + "*END\n");
+  run(*s, 0.002);
+  Particles& p = s->world().particles;
+  const Field<Real>& rate = sph_fields::volume_rate(p);
+  bool any = false;
+  for (Index i = 0; i < p.active; ++i) {
+    if (p.id[i] <= 8) EXPECT_EQ(rate[i], 0) << p.id[i];
+    any = any || rate[i] != 0;
+  }
+  EXPECT_TRUE(any);  // within the block
+}
+
 TEST(VolumeControl, WaterAtRestKeepsItsLevel) {
   const auto with = test::build_deck(lattice(10, tank + control(0.5)));
   const auto without = test::build_deck(lattice(10, tank));
