@@ -75,15 +75,14 @@ struct ElementMass : Entry {
 using M = ElementMass;
 
 KeywordOf<M> element_mass(std::string name, std::string purpose, const char* field, IdSpace space) {
-  return {
-      .names = {std::move(name)},
-      .purpose = std::move(purpose),
-      .id_space = IdSpace::mass,
-      .lacking = "masses on nodes",
-      .cards = {{.fields = {{"EID", &M::eid, "-", "element id", element_id},
-                            {field, &M::nid, "-", "what carries it", narrow_required_id_of(space)},
-                            {"MASS", &M::mass, "M", "mass of each node", {.width = 16}},
-                            {"PID", &M::pid, "-", "part id, for output", narrow_id_of(IdSpace::part)}}}}};
+  return {.names = {std::move(name)},
+          .purpose = std::move(purpose),
+          .id_space = IdSpace::mass,
+          .lacking = "masses on nodes",
+          .cards = {{.fields = {{"EID", &M::eid, "-", "element id", element_id},
+                                {field, &M::nid, "-", "what carries it", narrow_required_id_of(space)},
+                                {"MASS", &M::mass, "M", "mass of each node", {.width = 16}},
+                                {"PID", &M::pid, "-", "part id, for output", narrow_id_of(IdSpace::part)}}}}};
 }
 const RegisterKeyword<M> element_mass_node{
     element_mass("ELEMENT_MASS", "masses on single nodes", "NID", IdSpace::node)};
@@ -98,16 +97,15 @@ struct ElementMassPart : Entry {
 using P = ElementMassPart;
 
 KeywordOf<P> element_mass_part(std::string name, std::string purpose, const char* field, IdSpace space) {
-  return {
-      .names = {std::move(name)},
-      .purpose = std::move(purpose),
-      .lacking = "masses added to parts",
-      .cards = {{.fields = {
-                     {field, &P::pid, "-", "what gets it", narrow_required_id_of(space)},
-                     {"ADDMASS", &P::addmass, "M", "added mass", {.width = 16}},
-                     {"FINMASS", &P::finmass, "M", "mass after the addition", {.width = 16}},
-                     {"LCID", &P::lcid, "-", "curve of the mass over time", narrow_id_of(IdSpace::curve, 16)},
-                     {"MWD", &P::mwd, "-", "how it is spread over the nodes", {.width = 8}}}}}};
+  return {.names = {std::move(name)},
+          .purpose = std::move(purpose),
+          .lacking = "masses added to parts",
+          .cards = {{.fields = {{field, &P::pid, "-", "what gets it", narrow_required_id_of(space)},
+                                {"ADDMASS", &P::addmass, "M", "added mass", {.width = 16}},
+                                {"FINMASS", &P::finmass, "M", "mass after the addition", {.width = 16}},
+                                {"LCID", &P::lcid, "-", "curve of the mass over time",
+                                 narrow_id_of(IdSpace::curve, 16)},
+                                {"MWD", &P::mwd, "-", "how it is spread over the nodes", {.width = 8}}}}}};
 }
 const RegisterKeyword<P> mass_part{
     element_mass_part("ELEMENT_MASS_PART", "mass added to parts", "PID", IdSpace::part)};
