@@ -21,10 +21,6 @@ bool same(const Parameters::Value& a, const Parameters::Value& b) {
   return a.type == 'R' ? a.number.real == b.number.real : a.text == b.text;
 }
 
-std::string place_of(const Location& where) {
-  return fmt::format("{}:{}", where.file, where.line);
-}
-
 }  // namespace
 
 void Parameters::define(const Definition& definition, Diagnostics& diagnostics) {

@@ -35,11 +35,11 @@ Number negated(const Number& number) {
   return whole ? Number::of(-number.integer) : Number::of(-number.value());
 }
 
+}  // namespace
+
 std::string place_of(const Location& where) {
   return fmt::format("{}:{}", where.file, where.line);
 }
-
-}  // namespace
 
 Parameters::Parameters(const ReadOptions& options) {
   for (const auto& [name, text] : options.parameters) overrides_[upper_case(name)] = {name, text};

@@ -111,4 +111,7 @@ class Parameters {
   int duplication_ = 1;
 };
 
+/// "deck.k:12", for messages.
+std::string place_of(const Location& where);
+
 }  // namespace courant
