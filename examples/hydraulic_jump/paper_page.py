@@ -179,7 +179,7 @@ def standing(shown):
         ratios.append([number(here["froude"], "{:.2f}"), number(roller["roller_length"], "{:.1f}"), number(roller["roller_length_surface"], "{:.1f}"),
                        number(roller["roller_length_reference"], "{:.1f}"), percent(roller["decay_rms"]),
                        number(roller["deviation_largest"], "{:.3f}"), number(roller["deviation_largest_reference"], "{:.3f}"), number(roller["deviation_largest_at"], "{:.1f}"),
-                       number(roller["frequency"], "{:.2f}"), number(roller["strouhal"], "{:.4f}"), number(roller["strouhal_reference"], "{:.4f}")])
+                       number(roller["frequency"], "{:.2f}"), number(roller["strouhal"], "{:.4f}"), number(roller["strouhal_median"], "{:.4f}"), number(roller["strouhal_reference"], "{:.4f}")])
     head = ["Fr1 of the inflow", "case", "Re", "c_μ", "means over [s]", "coefficient of the weir", "its height [mm]", "toe [m]", "drift [mm/s]", "d1 before the toe [mm]", "v1 there [m/s]", "Fr1 there", "d2 [mm]", "filled [mm]",
             "Bélanger [mm]", "d2/Bélanger", "filled/Bélanger", "leaked", "energy residual"]
     against = ["Fr1 before the toe", "Lr/d1: mean velocity nowhere negative", "stagnation point", "eq. 2", "V_max, rms to eq. 3", "(η'/d1)max", "eq. 4", "at (x - x1)/d1", "f [Hz]", "St", "St, median over the roller", "eq. 5"]
