@@ -31,6 +31,8 @@ def hours(seconds):
 
 
 def table(head, rows):
+    if any(len(row) != len(head) for row in rows):
+        raise ValueError(f"a row of the table of '{head[0]}' has not the {len(head)} cells of its head")
     lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows])
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "../output/output_test.hpp"
 #include "output/file.hpp"
 #include "output/history.hpp"
@@ -157,6 +159,17 @@ TEST(Surface, DepthOverBedWithoutSpray) {
   EXPECT_EQ(run.column("top", "depth@0.3").size(), 1u);
 }
 
+/// Columns of particles up to y = 0.06 times stretch(x).
+ParticleFrame stretched_columns(const std::function<Real(Real)>& stretch_at) {
+  ParticleFrame frame;
+  for (int i = 0; i < 50; ++i)
+    for (int j = 0; j < 12; ++j) {
+      const Real x = (i + 0.5) * 0.01, stretch = stretch_at(x);
+      test::add(frame, x, (j + 0.5) * 0.005 * stretch, 0.005 * std::sqrt(2 * stretch));
+    }
+  return frame;
+}
+
 TEST(Surface, SpectrumOfATravellingWave) {
   Analyses run(
       "analyses:\n"
@@ -165,14 +178,9 @@ TEST(Surface, SpectrumOfATravellingWave) {
   const Real f = 2.6, k = 2 * pi / 0.4, amplitude = 0.01;
   for (int s = 0; s < 120; ++s) {
     const Real t = 0.025 * s;
-    ParticleFrame frame;
-    for (int i = 0; i < 50; ++i)
-      for (int j = 0; j < 12; ++j) {  // columns of particles that stretch with the wave
-        const Real x = (i + 0.5) * 0.01;
-        const Real stretch = 1 + amplitude / 0.06 * std::sin(k * x - 2 * pi * f * t);
-        test::add(frame, x, (j + 0.5) * 0.005 * stretch, 0.005 * std::sqrt(2 * stretch));
-      }
-    run.take(frame, t);
+    run.take(
+        stretched_columns([&](Real x) { return 1 + amplitude / 0.06 * std::sin(k * x - 2 * pi * f * t); }),
+        t);
   }
   run.finish();
   for (Real peak : run.column("spectra_peaks", "f")) EXPECT_NEAR(peak, f, 0.05);
@@ -312,16 +320,11 @@ TEST(Roller, FrequencyOfMostGaugesOverIt) {
   const Real fast = 2.6, slow = 1;
   for (int s = 0; s < 240; ++s) {
     const Real t = 0.025 * s;
-    ParticleFrame frame;
-    for (int i = 0; i < 50; ++i)
-      for (int j = 0; j < 12; ++j) {
-        const Real x = (i + 0.5) * 0.01;
-        const bool swings = std::abs(x - 0.2) < 0.04 || x > 0.4;
-        const Real stretch =
-            1 + (swings ? 0.3 * std::sin(2 * pi * slow * t) : 0.1 * std::sin(2 * pi * fast * t));
-        test::add(frame, x, (j + 0.5) * 0.005 * stretch, 0.005 * std::sqrt(2 * stretch));
-      }
-    run.take(frame, t);
+    run.take(stretched_columns([&](Real x) {
+               const bool swings = std::abs(x - 0.2) < 0.04 || x > 0.4;
+               return 1 + (swings ? 0.3 * std::sin(2 * pi * slow * t) : 0.1 * std::sin(2 * pi * fast * t));
+             }),
+             t);
   }
   run.finish();
   EXPECT_NEAR(run.scalar("jump", "strouhal"), slow * 0.02 / 1.5, 0.02 * slow * 0.02 / 1.5);

@@ -45,8 +45,9 @@ template <int Dim>
 Matrix excess(const Particles& p, Index i) {
   const auto M = moment<Dim>(p, i);
   Matrix out = Matrix::Zero();
-  if (least(M) <= 0.6) return out;
-  const Real share = std::min((least(M) - 0.6) / 0.2, 1.0);
+  const Real eigenvalue = least(M);
+  if (eigenvalue <= 0.6) return out;
+  const Real share = std::min((eigenvalue - 0.6) / 0.2, 1.0);
   out.topLeftCorner<Dim, Dim>() = share * (M.inverse() - Eigen::Matrix<Real, Dim, Dim>::Identity());
   return out;
 }

@@ -1,7 +1,9 @@
 // *COURANT_VOLUME_CONTROL: density and places agree again.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,20 +15,34 @@ namespace {
 
 using test::run;
 
-/// 10 x 10 particles 0.1 apart, of density 1000 and the given mass; 10 would fit the spacing.
-std::string lattice(Real mass, const std::string& more) {
-  std::string text =
+using Places = std::vector<std::array<double, 2>>;
+
+/// Particles of density 1000 and the given mass. `sphini`: smoothing length [L], 0: from the spacing.
+std::string deck_of(const Places& places, Real mass, const std::string& more, Real sphini = 0) {
+  std::string text = fmt::format(
       "*KEYWORD\n*CONTROL_TERMINATION\n50.\n*CONTROL_SPH\n1,0,1e20,2\n0,0,0,0,0,0,0\n*PART\nwater\n1,1,1,1,"
       "1\n"
-      "*SECTION_SPH\n1,1.2,1,1\n*MAT_NULL\n1,1000.0\n*EOS_LINEAR_POLYNOMIAL\n1,0,4e5\n\n"
-      "*HOURGLASS\n1,0,0,0,1e-20,0.1\n" +
-      more + "*NODE\n";
+      "*SECTION_SPH\n1,1.2,1,1,{}\n*MAT_NULL\n1,1000.0\n*EOS_LINEAR_POLYNOMIAL\n1,0,4e5\n\n"
+      "*HOURGLASS\n1,0,0,0,1e-20,0.1\n{}*NODE\n",
+      sphini, more);
   std::string elements = "*ELEMENT_SPH\n";
-  for (int k = 0; k < 100; ++k) {
-    text += fmt::format("{},{:.17g},{:.17g},0\n", k + 1, 0.1 * (k % 10) + 0.05, 0.1 * (k / 10) + 0.05);
-    elements += fmt::format("{},1,{}\n", k + 1, mass);
+  int id = 0;
+  for (const auto& [x, y] : places) {
+    text += fmt::format("{},{:.17g},{:.17g},0\n", ++id, x, y);
+    elements += fmt::format("{},1,{}\n", id, mass);
   }
   return text + elements + "*END\n";
+}
+
+/// 10 x 10 places 0.1 apart; a particle of 10 would fit that spacing.
+Places square(double x0, double y0) {
+  Places out;
+  for (int k = 0; k < 100; ++k) out.push_back({x0 + 0.1 * (k % 10), y0 + 0.1 * (k / 10)});
+  return out;
+}
+
+std::string lattice(Real mass, const std::string& more) {
+  return deck_of(square(0.05, 0.05), mass, more);
 }
 
 const std::string everywhere =
@@ -72,30 +88,17 @@ TEST(VolumeControl, LeavesASurfaceAlone) {
 
 /// A drop of one particle, one of two in nearly the same place, and a row.
 TEST(VolumeControl, LeavesSprayAlone) {
-  const double places[][2] = {{0, 0}, {5, 0}, {5.002, 0}, {0, 5}, {0.1, 5}, {0.2, 5}, {0.3, 5}, {0.4, 5}};
-  std::string text =
-      "*KEYWORD\n*CONTROL_TERMINATION\n50.\n*CONTROL_SPH\n1,0,1e20,2\n0,0,0,0,0,0,0\n*PART\nwater\n1,1,1,1,"
-      "1\n*SECTION_SPH\n1,1.2,1,1,0.12\n*MAT_NULL\n1,1000.0\n*EOS_LINEAR_POLYNOMIAL\n1,0,4e5\n\n"
-      "*HOURGLASS\n1,0,0,0,1e-20,0.1\n" +
-      control(0.01) + "*NODE\n";
-  std::string elements = "*ELEMENT_SPH\n";
-  int id = 0;
-  for (const auto& [x, y] : places) {
-    text += fmt::format("{},{},{},0\n", ++id, x, y);
-    elements += fmt::format("{},1,10.\n", id);
-  }
-  // and a block
-  for (int k = 0; k < 100; ++k) {
-    text += fmt::format("{},{},{},0\n", ++id, 20 + 0.1 * (k % 10), 0.1 * (k / 10));
-    elements += fmt::format("{},1,10.\n", id);
-  }
-  const auto s = test::build_deck(text + elements + "*END\n");
+  Places places{{0, 0}, {5, 0}, {5.002, 0}, {0, 5}, {0.1, 5}, {0.2, 5}, {0.3, 5}, {0.4, 5}};
+  const auto spray = static_cast<Id>(places.size());
+  const Places block = square(20, 0);
+  places.insert(places.end(), block.begin(), block.end());
+  const auto s = test::build_deck(deck_of(places, 10, control(0.01), 0.12));
   run(*s, 0.002);
   Particles& p = s->world().particles;
   const Field<Real>& rate = sph_fields::volume_rate(p);
   bool any = false;
   for (Index i = 0; i < p.active; ++i) {
-    if (p.id[i] <= 8) EXPECT_EQ(rate[i], 0) << p.id[i];
+    if (p.id[i] <= spray) EXPECT_EQ(rate[i], 0) << p.id[i];
     any = any || rate[i] != 0;
   }
   EXPECT_TRUE(any);  // within the block
