@@ -72,6 +72,7 @@ if "Free Software Foundation" in run(compiler, "--version"):
         for entry in compiling("/" + source):
             words = shlex.split(entry["command"])
             words[words.index("-o") + 1] = os.devnull
+            words[words.index("-c") + 1] = project + "/" + source  # alone, where others are compiled with it
             report = subprocess.run(words + ["-fopt-info-vec-optimized"], cwd=entry["directory"], capture_output=True, text=True)
             if report.returncode != 0:
                 sys.exit(report.stderr)

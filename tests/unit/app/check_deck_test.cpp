@@ -1,38 +1,20 @@
 // What `courant check` says of a deck before, and without, a run.
 #include <gtest/gtest.h>
 
-#include <map>
-
+#include "../keyword/decks_in_memory.hpp"
+#include "../text.hpp"
 #include "app/check.hpp"
 
 namespace courant {
 
 namespace {
 
-struct Read {
-  Deck deck;
-  Diagnostics diagnostics;
-};
-
-Read read_files(const std::map<std::string, std::string>& files) {
-  Read out;
-  ReadOptions options;
-  options.open = [&](const std::string& path) {
-    const auto it = files.find(path);
-    return it == files.end() ? std::nullopt : std::optional<std::string>(it->second);
-  };
-  out.deck = read_deck("deck.k", options, out.diagnostics);
-  return out;
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+using test::holds;
 
 TEST(CheckDeck, FilesAreATreeWithTheirPlaces) {
-  const Read read = read_files({{"deck.k", "*KEYWORD\n*INCLUDE\na.k\nb.k\n*END\n"},
-                                {"a.k", "*INCLUDE\nb.k\n"},
-                                {"b.k", "*TITLE\nb\n"}});
+  const ReadDeck read = read_in_memory(in_memory(Files{{"deck.k", "*KEYWORD\n*INCLUDE\na.k\nb.k\n*END\n"},
+                                                       {"a.k", "*INCLUDE\nb.k\n"},
+                                                       {"b.k", "*TITLE\nb\n"}}));
   const std::string text = files_text(read.deck);
   EXPECT_TRUE(holds(text, "\n  deck.k ")) << text;
   EXPECT_TRUE(holds(text, "\n    a.k ")) << text;
@@ -42,10 +24,10 @@ TEST(CheckDeck, FilesAreATreeWithTheirPlaces) {
 }
 
 TEST(CheckDeck, KeywordsWithWhatBecomesOfThem) {
-  const Read read =
-      read_files({{"deck.k",
-                   "*KEYWORD\n*NODE\n       1\n       2\n*DATABASE_FSI\n       0.1\n"
-                   "*AIRBAG_ALE\n         1\n$ comment\n         2\n*AIRBAG_ALE\n*COFFEE_BREAK\n*END\n"}});
+  const ReadDeck read = read_in_memory(in_memory(
+      Files{{"deck.k",
+             "*KEYWORD\n*NODE\n       1\n       2\n*DATABASE_FSI\n       0.1\n"
+             "*AIRBAG_ALE\n         1\n$ comment\n         2\n*AIRBAG_ALE\n*COFFEE_BREAK\n*END\n"}}));
   const std::string text = keywords_text(read.deck);
   EXPECT_TRUE(holds(text, "*NODE                                         1          2  honoured\n")) << text;
   EXPECT_TRUE(holds(text, "*DATABASE_FSI                                 1    1 lines  no effect: output\n"))
@@ -57,12 +39,12 @@ TEST(CheckDeck, KeywordsWithWhatBecomesOfThem) {
 }
 
 TEST(CheckDeck, MeshIsCountedWhateverElseIsWrong) {
-  const Read read = read_files(
-      {{"deck.k",
-        "*KEYWORD\n*NODE\n       1             1.0             2.0\n       2             4.0\n"
-        "*ELEMENT_SPH\n       1       7             2.5       4\n       5       7            -0.5\n"
-        "*ELEMENT_SEATBELT\n       1\n       2\n*PART\nwater\n         7         1         x\n"
-        "*PART\nlonely\n         8         1         1\n*END\n"}});
+  const ReadDeck read = read_in_memory(in_memory(
+      Files{{"deck.k",
+             "*KEYWORD\n*NODE\n       1             1.0             2.0\n       2             4.0\n"
+             "*ELEMENT_SPH\n       1       7             2.5       4\n       5       7            -0.5\n"
+             "*ELEMENT_SEATBELT\n       1\n       2\n*PART\nwater\n         7         1         x\n"
+             "*PART\nlonely\n         8         1         1\n*END\n"}}));
   EXPECT_FALSE(read.diagnostics.ok());
   const std::string text = mesh_text(gather_facts(read.deck));
   EXPECT_TRUE(holds(text, "  nodes                            2  from (1, 0, 0), size 3 x 2 x 0 [L]\n"))
@@ -76,8 +58,8 @@ TEST(CheckDeck, MeshIsCountedWhateverElseIsWrong) {
 }
 
 TEST(CheckDeck, NeedsAreWhatIsRefusedAndWhatIsMissing) {
-  const Read read = read_files(
-      {{"deck.k", "*KEYWORD\n*NODE\n       1\n*AIRBAG_ALE\n*AIRBAG_LINEAR_FLUID\n*EOS_JWL\n*END\n"}});
+  const ReadDeck read = read_in_memory(in_memory(
+      Files{{"deck.k", "*KEYWORD\n*NODE\n       1\n*AIRBAG_ALE\n*AIRBAG_LINEAR_FLUID\n*EOS_JWL\n*END\n"}}));
   EXPECT_EQ(needs_text(read.deck, gather_facts(read.deck)),
             "What a run would need\n"
             "  not supported: airbags: *AIRBAG_ALE, *AIRBAG_LINEAR_FLUID\n"
@@ -90,7 +72,8 @@ TEST(CheckDeck, NeedsAreWhatIsRefusedAndWhatIsMissing) {
 }
 
 TEST(CheckDeck, UnusedIdsAreListedWithTheirPlaces) {
-  const Read read = read_files({{"deck.k", "*KEYWORD\n*DEFINE_BOX\n         3\n*END\n"}});
+  const ReadDeck read =
+      read_in_memory(in_memory(Files{{"deck.k", "*KEYWORD\n*DEFINE_BOX\n         3\n*END\n"}}));
   UnusedIds unused;
   EXPECT_EQ(unused_text(read.deck, unused), "");
   Entry entry;

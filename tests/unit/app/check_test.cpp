@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include "../keyword/decks_in_memory.hpp"
+#include "../text.hpp"
 #include "app/check.hpp"
 
 namespace courant {
 
 namespace {
+
+using test::holds;
 
 /// 4 x 4 particles, 0.1 apart; `more` goes before *END, `sph` are the fields of *CONTROL_SPH.
 std::string deck(const std::string& more = "",
@@ -26,15 +30,7 @@ std::string deck(const std::string& more = "",
 }
 
 CheckResult check(const std::string& text, bool strict = false) {
-  ReadOptions options;
-  options.open = [&](const std::string& path) {
-    return path == "deck.k" ? std::optional<std::string>(text) : std::nullopt;
-  };
-  return check_deck("deck.k", options, strict);
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+  return check_deck("deck.k", in_memory(text), strict);
 }
 
 TEST(Check, SoundDeckIsShownWithItsNumbers) {
@@ -91,9 +87,7 @@ TEST(Check, RunThatCouldNotBeginIsRefused) {
 }
 
 TEST(Check, MissingDeckHasNothingToShow) {
-  ReadOptions options;
-  options.open = [](const std::string&) { return std::nullopt; };
-  const CheckResult result = check_deck("deck.k", options, false);
+  const CheckResult result = check_deck("deck.k", in_memory(Files{}), false);
   EXPECT_FALSE(result.sound);
   EXPECT_TRUE(holds(result.messages, "deck.k: error: cannot read the deck"));
 }

@@ -83,7 +83,7 @@ std::unique_ptr<Simulation> built(const std::string& scene) {
 }
 
 /// The ledger at the last time level before the end.
-EnergyLedger run(Simulation& s, Real until) {
+EnergyLedger last_ledger(Simulation& s, Real until) {
   EnergyLedger last;
   while (s.clock().t < until)
     s.step([&](World& world, const Clock& clock, const std::string&) {
@@ -122,7 +122,7 @@ TEST(PrescribedParticles, StandWhereTheIntegralOfTheirCurveSays) {
   const Vec corner = place(*s, 1), other = place(*s, 64);
   EnergyLedger e;
   for (const Real until : {0.005, 0.02, 0.05}) {
-    e = run(*s, until);
+    e = last_ledger(*s, until);
     const Real t = s->clock().t;
     const Vec moved = place(*s, 1) - corner;
     EXPECT_NEAR(moved[0], 2 * integral_of_curve(t), 1e-14);
@@ -147,7 +147,7 @@ TEST(PrescribedParticles, TakeTheirKineticEnergyFromTheDrive) {
   5,1,0,7,2.0
   5,2,1,7,50.0
 )");
-  const EnergyLedger e = run(*s, 0.008);
+  const EnergyLedger e = last_ledger(*s, 0.008);
   EXPECT_GT(e.kinetic, 100);
   EXPECT_NEAR(e.external_work, e.kinetic, 1e-9 * e.kinetic);
 }
@@ -159,7 +159,7 @@ TEST(PrescribedBodies, APistonPushesWaterAndTheLedgerCloses) {
   *BOUNDARY_PRESCRIBED_MOTION_RIGID
   2,1,0,8,2.0
 )");
-  const EnergyLedger e = run(*s, 0.05);
+  const EnergyLedger e = last_ledger(*s, 0.05);
   const RigidBodyReport body = s->bodies()->reports()[0];
   EXPECT_NEAR(body.x[0], -0.06 + 2 * s->clock().t, 1e-14);
   EXPECT_EQ(body.v[0], 2);
@@ -181,7 +181,7 @@ TEST(PrescribedBodies, TurnAndShiftAsTheirCurvesSay) {
 )");
   const Nodes& nodes = s->world().nodes;
   const Vec first = nodes.x.vec(0);
-  const EnergyLedger e = run(*s, 0.008);
+  const EnergyLedger e = last_ledger(*s, 0.008);
   const Real t = s->clock().t, angle = integral_of_curve(t);
   const Vec centre(-0.06, 0.4, 0), arm = first - centre;
   const Vec shift(-1000 * t * t * t / 6, -t, 0);
@@ -201,7 +201,7 @@ TEST(PrescribedMotions, HaveTheSameBitsOnAnyNumberOfThreads) {
   64,1,1,7,10.0
   60,2,0,7,1.0
 )");
-    run(*s, 0.02);
+    last_ledger(*s, 0.02);
     const Particles& p = s->world().particles;
     std::vector<Real> state{s->clock().t, s->world().energy.total(), s->world().energy.external_work};
     for (const auto* f : {&p.x, &p.v})

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "../keyword/decks_in_memory.hpp"
 #include "app/simulation.hpp"
 
 namespace courant::test {
@@ -72,10 +73,7 @@ inline void steps(Simulation& s, int n) {
 /// refused, which fails the test.
 inline std::unique_ptr<Simulation> build_deck(const std::string& text, bool silent = true) {
   Diagnostics diagnostics;
-  const ReadOptions options{.parameters = {}, .open = [&](const std::string& path) {
-                              return path == "deck.k" ? std::optional(text) : std::nullopt;
-                            }};
-  auto s = Simulation::build("deck.k", options, diagnostics);
+  auto s = Simulation::build("deck.k", in_memory(text), diagnostics);
   EXPECT_TRUE(s != nullptr && (!silent || diagnostics.text().empty())) << diagnostics.text();
   return s;
 }

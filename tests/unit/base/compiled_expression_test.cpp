@@ -10,17 +10,17 @@
 namespace courant {
 namespace {
 
-const std::vector<std::string> names = {"x", "y", "zero"};
+const std::vector<std::string> variables = {"x", "y", "zero"};
 const Real values[] = {1.75, -2.5, 0};
 
 ExpressionResult evaluated(const std::string& text) {
   ExpressionNames known;
   known.find = [](std::string_view name, std::string&) -> std::optional<Number> {
-    for (std::size_t k = 0; k < names.size(); ++k)
-      if (names[k] == name) return Number::of(values[k]);
+    for (std::size_t k = 0; k < variables.size(); ++k)
+      if (variables[k] == name) return Number::of(values[k]);
     return std::nullopt;
   };
-  known.all = [] { return names; };
+  known.all = [] { return variables; };
   return evaluate_expression(text, known, Arithmetic::real);
 }
 
@@ -63,7 +63,7 @@ TEST(CompiledExpression, AgreesWithTheEvaluator) {
                            "x - -y",
                            "zero**0",
                            "(x+(y+(x+(y+(x+(y+1))))))"}) {
-    const CompiledExpression compiled(text, names);
+    const CompiledExpression compiled(text, variables);
     ASSERT_TRUE(compiled.ok()) << text << ": " << compiled.error();
     const ExpressionResult expected = evaluated(text);
     ASSERT_TRUE(expected.ok()) << text << ": " << expected.error;
@@ -75,7 +75,7 @@ TEST(CompiledExpression, WhatTheEvaluatorRefusesIsNaN) {
   for (const char* text : {"1/zero", "1/(1/zero)", "zero**-1", "sqrt(y)", "log(zero)", "exp(1e9)",
                            "mod(1, zero)", "min(1, sqrt(y))", "max(sqrt(y), 1)", "(1/zero)**0", "1**sqrt(y)",
                            "sign(1, sqrt(y))", "floor(1e300)", "atan2(1/zero, 1)"}) {
-    const CompiledExpression compiled(text, names);
+    const CompiledExpression compiled(text, variables);
     ASSERT_TRUE(compiled.ok()) << text;
     EXPECT_FALSE(evaluated(text).ok()) << text;
     EXPECT_TRUE(std::isnan(compiled(values))) << text << " = " << compiled(values);
@@ -84,19 +84,19 @@ TEST(CompiledExpression, WhatTheEvaluatorRefusesIsNaN) {
 
 TEST(CompiledExpression, FaultsHaveTheWordsOfTheEvaluator) {
   for (const char* text : {"", "x+", "(x", "x)", "sine(x)", "atan2(x)", "3 x", "&", "1e999"}) {
-    const CompiledExpression compiled(text, names);
+    const CompiledExpression compiled(text, variables);
     EXPECT_FALSE(compiled.ok()) << text;
     EXPECT_EQ(compiled.error(), evaluated(text).error) << text;
     EXPECT_EQ(compiled.hint(), evaluated(text).hint) << text;
   }
-  const CompiledExpression unknown("x + zerro", names);
+  const CompiledExpression unknown("x + zerro", variables);
   EXPECT_EQ(unknown.error(), "unknown name 'zerro'");
   EXPECT_EQ(unknown.hint(), "did you mean zero?");
   EXPECT_FALSE(CompiledExpression().ok());
 }
 
 TEST(CompiledExpression, TellsWhatItUses) {
-  const CompiledExpression compiled("2 * y", names);
+  const CompiledExpression compiled("2 * y", variables);
   EXPECT_FALSE(compiled.uses(0));
   EXPECT_TRUE(compiled.uses(1));
   EXPECT_FALSE(compiled.uses(7));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "decks_in_memory.hpp"
+
 namespace courant {
 namespace {
 
@@ -14,10 +16,7 @@ const std::string first =
 
 Deck read(const std::string& text) {
   Diagnostics diagnostics;
-  const ReadOptions options{.parameters = {}, .open = [&](const std::string& path) {
-                              return path == "deck.k" ? std::optional(text) : std::nullopt;
-                            }};
-  Deck deck = read_deck("deck.k", options, diagnostics);
+  Deck deck = read_deck("deck.k", in_memory(text), diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << diagnostics.text();
   return deck;
 }

@@ -2,7 +2,7 @@
 // that the page shows the lines between the markers.
 #include <gtest/gtest.h>
 
-#include "keyword/deck.hpp"
+#include "decks_in_memory.hpp"
 
 // [example: keyword]
 #include "keyword/registry.hpp"
@@ -48,11 +48,7 @@ namespace courant {
 namespace {
 
 Deck read_text(const std::string& text, Diagnostics& diagnostics) {
-  ReadOptions options;
-  options.open = [&](const std::string& path) {
-    return path == "deck.k" ? std::optional<std::string>(text) : std::nullopt;
-  };
-  return read_deck("deck.k", options, diagnostics);
+  return read_deck("deck.k", in_memory(text), diagnostics);
 }
 
 TEST(ExampleKeyword, IsReadWithItsTitle) {

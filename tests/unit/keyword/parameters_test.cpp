@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <optional>
 #include <random>
 #include <string>
 
+#include "decks_in_memory.hpp"
 #include "keyword/source.hpp"
 #include "model/cards.hpp"
 
@@ -15,32 +15,19 @@ namespace courant {
 
 namespace {
 
-using Files = std::map<std::string, std::string>;
-
-struct Read {
-  Deck deck;
-  Diagnostics diagnostics;
-};
-
 /// Reads "main.k" of some files in memory.
-Read read(const Files& files, std::map<std::string, std::string> overrides = {}) {
-  Read out;
-  ReadOptions options;
+ReadDeck read(const Files& files, std::map<std::string, std::string> overrides = {}) {
+  ReadOptions options = in_memory(files);
   options.parameters = std::move(overrides);
-  options.open = [&](const std::string& path) -> std::optional<std::string> {
-    const auto it = files.find(path);
-    return it == files.end() ? std::nullopt : std::optional<std::string>(it->second);
-  };
-  out.deck = read_deck("main.k", options, out.diagnostics);
-  return out;
+  return read_in_memory(options, "main.k");
 }
 
-Read read_lines(const std::string& lines, std::map<std::string, std::string> overrides = {}) {
+ReadDeck read_lines(const std::string& lines, std::map<std::string, std::string> overrides = {}) {
   return read({{"main.k", "*KEYWORD\n" + lines + "*END\n"}}, std::move(overrides));
 }
 
 /// XMX of every *DEFINE_BOX by its id.
-std::map<Id, Real> boxes(const Read& read) {
+std::map<Id, Real> boxes(const ReadDeck& read) {
   std::map<Id, Real> out;
   for (const DefineBoxCard& box : read.deck.all<DefineBoxCard>()) out[box.boxid] = box.xmx;
   return out;
@@ -51,36 +38,38 @@ std::string box(int id, const std::string& xmx) {
 }
 
 TEST(ParameterScopes, ReachFilesIncludedLater) {
-  const Read r = read({{"main.k", "*KEYWORD\n*INCLUDE\nvalues.k\nuses.k\n*END\n"},
-                       {"values.k", "*KEYWORD\n*PARAMETER\nRwide         1234.0Inumber           56\n*END\n"},
-                       {"uses.k", "*KEYWORD\n" + box(1, "&wide") + box(2, "&number") + "*END\n"}});
+  const ReadDeck r =
+      read({{"main.k", "*KEYWORD\n*INCLUDE\nvalues.k\nuses.k\n*END\n"},
+            {"values.k", "*KEYWORD\n*PARAMETER\nRwide         1234.0Inumber           56\n*END\n"},
+            {"uses.k", "*KEYWORD\n" + box(1, "&wide") + box(2, "&number") + "*END\n"}});
   EXPECT_EQ(r.diagnostics.text(), "");
   EXPECT_EQ(boxes(r), (std::map<Id, Real>{{1, 1234}, {2, 56}}));
 }
 
 TEST(ParameterScopes, ReachFilesIncludedByIncludedOnes) {
-  const Read r = read({{"main.k", "*KEYWORD\n*PARAMETER\nRwide          100.0\n*INCLUDE\none.k\n*END\n"},
-                       {"one.k", box(1, "1.0") + "*INCLUDE\ntwo.k\n*END\n"},
-                       {"two.k", box(2, "&wide")}});
+  const ReadDeck r = read({{"main.k", "*KEYWORD\n*PARAMETER\nRwide          100.0\n*INCLUDE\none.k\n*END\n"},
+                           {"one.k", box(1, "1.0") + "*INCLUDE\ntwo.k\n*END\n"},
+                           {"two.k", box(2, "&wide")}});
   EXPECT_EQ(r.diagnostics.text(), "");
   EXPECT_EQ(boxes(r), (std::map<Id, Real>{{1, 1}, {2, 100}}));
 }
 
 TEST(ParameterScopes, KeepLocalOnesToTheirFile) {
   const std::string local = "*PARAMETER_LOCAL\nRscale        ";
-  const Read r = read({{"main.k", "*KEYWORD\n*INCLUDE\na.k\nb.k\n*END\n"},
-                       {"a.k", local + "1.0\n*INCLUDE\ninner.k\n" + box(1, "&scale")},
-                       {"b.k", local + "2.0\n" + box(2, "&scale")},
-                       {"inner.k", box(3, "&scale") + local + "3.0\n" + box(4, "&scale")}});
+  const ReadDeck r = read({{"main.k", "*KEYWORD\n*INCLUDE\na.k\nb.k\n*END\n"},
+                           {"a.k", local + "1.0\n*INCLUDE\ninner.k\n" + box(1, "&scale")},
+                           {"b.k", local + "2.0\n" + box(2, "&scale")},
+                           {"inner.k", box(3, "&scale") + local + "3.0\n" + box(4, "&scale")}});
   EXPECT_EQ(r.diagnostics.text(), "");
   EXPECT_EQ(boxes(r), (std::map<Id, Real>{{1, 1}, {2, 2}, {3, 1}, {4, 3}}));
 }
 
 TEST(ParameterScopes, HideLocalOnesFromIncludingFilesAndSiblings) {
-  const Read r = read({{"main.k", "*KEYWORD\n*PARAMETER\nRall           200.0\n*INCLUDE\na.k\nb.k\n" +
-                                      box(4, "&loc") + box(5, "&all") + "*END\n"},
-                       {"a.k", "*PARAMETER_LOCAL\nRloc           999.0\n" + box(1, "&loc") + box(2, "&all")},
-                       {"b.k", box(3, "&loc")}});
+  const ReadDeck r =
+      read({{"main.k", "*KEYWORD\n*PARAMETER\nRall           200.0\n*INCLUDE\na.k\nb.k\n" + box(4, "&loc") +
+                           box(5, "&all") + "*END\n"},
+            {"a.k", "*PARAMETER_LOCAL\nRloc           999.0\n" + box(1, "&loc") + box(2, "&all")},
+            {"b.k", box(3, "&loc")}});
   const std::string field = "*DEFINE_BOX field 3 (XMX, highest x [L]): parameter '&loc' is not defined\n";
   const std::string hint = "  hint: &loc is local to the file that defines it, at a.k:2\n";
   EXPECT_EQ(r.diagnostics.text(), "b.k:2:7: error: " + field + "  included from main.k:6\n" + hint +
@@ -91,19 +80,19 @@ TEST(ParameterScopes, HideLocalOnesFromIncludingFilesAndSiblings) {
 }
 
 TEST(ParameterScopes, GiveAFileReadTwiceItsOwnLocalOnes) {
-  const Read r = read({{"main.k",
-                        "*KEYWORD\n*PARAMETER_MUTABLE\nI id, 1\n*INCLUDE\na.k\n*PARAMETER_EXPRESSION\n"
-                        "I id      id+1\n*INCLUDE\na.k\n*END\n"},
-                       {"a.k", "*PARAMETER_EXPRESSION_LOCAL\nR x,10.0*id\n*DEFINE_BOX\n&id,0.0,&x\n"}});
+  const ReadDeck r = read({{"main.k",
+                            "*KEYWORD\n*PARAMETER_MUTABLE\nI id, 1\n*INCLUDE\na.k\n*PARAMETER_EXPRESSION\n"
+                            "I id      id+1\n*INCLUDE\na.k\n*END\n"},
+                           {"a.k", "*PARAMETER_EXPRESSION_LOCAL\nR x,10.0*id\n*DEFINE_BOX\n&id,0.0,&x\n"}});
   EXPECT_EQ(r.diagnostics.text(), "");
   EXPECT_EQ(boxes(r), (std::map<Id, Real>{{1, 10}, {2, 20}}));
 }
 
 TEST(ParameterDuplication, KeepsTheFirstWithAWarning) {
-  const Read r = read({{"main.k", "*KEYWORD\n*INCLUDE\na.k\nb.k\nc.k\n*END\n"},
-                       {"a.k", "*PARAMETER\nRscale        1.0\n" + box(1, "&scale")},
-                       {"b.k", "*PARAMETER\nRscale        2.0\n" + box(2, "&scale")},
-                       {"c.k", box(3, "&scale")}});
+  const ReadDeck r = read({{"main.k", "*KEYWORD\n*INCLUDE\na.k\nb.k\nc.k\n*END\n"},
+                           {"a.k", "*PARAMETER\nRscale        1.0\n" + box(1, "&scale")},
+                           {"b.k", "*PARAMETER\nRscale        2.0\n" + box(2, "&scale")},
+                           {"c.k", box(3, "&scale")}});
   EXPECT_EQ(r.diagnostics.errors(), 0);
   ASSERT_EQ(r.diagnostics.warnings(), 1);
   EXPECT_EQ(r.diagnostics.all()[0].where.file, "b.k");
@@ -112,8 +101,8 @@ TEST(ParameterDuplication, KeepsTheFirstWithAWarning) {
 
 TEST(ParameterDuplication, FollowsDflag) {
   const auto result = [](int dflag) {
-    const Read r = read_lines("*PARAMETER_DUPLICATION\n" + std::to_string(dflag) +
-                              "\n*PARAMETER\nR x, 1.0\nR x, 2.0\n" + box(1, "&x"));
+    const ReadDeck r = read_lines("*PARAMETER_DUPLICATION\n" + std::to_string(dflag) +
+                                  "\n*PARAMETER\nR x, 1.0\nR x, 2.0\n" + box(1, "&x"));
     return std::to_string(r.diagnostics.errors()) + " " + std::to_string(r.diagnostics.warnings()) + " " +
            std::to_string(static_cast<int>(boxes(r).at(1)));
   };
@@ -126,7 +115,7 @@ TEST(ParameterDuplication, FollowsDflag) {
 }
 
 TEST(ParameterValues, KeepTheirKindInExpressions) {
-  const Read r = read_lines(
+  const ReadDeck r = read_lines(
       "*PARAMETER\nI n, 5, R x, 5\n*PARAMETER_EXPRESSION\nR a, n/2\nR b, x/2\nI c, x/2\nI d       -7/2.0\n" +
       box(1, "&a") + box(2, "&b") + box(3, "&c") + box(4, "&d") + box(5, "<n/2>") + box(6, "-<x/2>"));
   EXPECT_EQ(r.diagnostics.text(), "");
@@ -134,7 +123,7 @@ TEST(ParameterValues, KeepTheirKindInExpressions) {
 }
 
 TEST(ParameterValues, MatchTheManualsPlotInterval) {
-  const Read r =
+  const ReadDeck r =
       read_lines("*PARAMETER\nrtErm,0.01,iStates,101\n*PARAMETER_EXPRESSION\nrPlot, tErm/(States-30)\n" +
                  box(1, "&PLOT") + box(2, "-&plot"));
   EXPECT_EQ(r.diagnostics.text(), "");
@@ -142,7 +131,7 @@ TEST(ParameterValues, MatchTheManualsPlotInterval) {
 }
 
 TEST(ParameterValues, AreReadWithOptionsInAnyOrder) {
-  const Read r = read_lines(
+  const ReadDeck r = read_lines(
       "*PARAMETER_NOECHO_LOCAL\nI a, 1\n*PARAMETER_LOCAL_MUTABLE_EXPRESSION\nI b, a+1\n"
       "*PARAMETER_EXPRESSION_GLOBAL_NOECHO\nI c, b+1\n*parameter_type\nI        d         4       NID\n"
       "*PARAMETER_EXPRESSION\nC title   water, with an odd ( and a comma\n*TITLE\n&title\n" +
@@ -157,11 +146,11 @@ TEST(ParameterOverrides, ReplaceNumbersTextsAndExpressions) {
       "*PARAMETER\nR x, 1.0, I n, 2, C name, one\n*PARAMETER_EXPRESSION\nR sum     x+n\n"
       "*TITLE\ntitle &name\n" +
       box(1, "&x") + box(2, "&n") + box(3, "&sum");
-  const Read r = read_lines(lines, {{"X", "4.5"}, {"n", "7"}, {"NAME", "two"}});
+  const ReadDeck r = read_lines(lines, {{"X", "4.5"}, {"n", "7"}, {"NAME", "two"}});
   EXPECT_EQ(r.diagnostics.text(), "");
   EXPECT_EQ(r.deck.title, "title two");
   EXPECT_EQ(boxes(r), (std::map<Id, Real>{{1, 4.5}, {2, 7}, {3, 11.5}}));
-  const Read sum = read_lines(lines, {{"sum", "-1"}});
+  const ReadDeck sum = read_lines(lines, {{"sum", "-1"}});
   EXPECT_EQ(sum.diagnostics.text(), "");  // x and n are in use all the same
   EXPECT_EQ(boxes(sum).at(3), -1);
   EXPECT_EQ(read_lines(lines, {{"n", "7.5"}}).diagnostics.text(),
@@ -170,7 +159,7 @@ TEST(ParameterOverrides, ReplaceNumbersTextsAndExpressions) {
 }
 
 TEST(ParameterList, TellsTypesValuesAndUse) {
-  const Read r = read_lines(
+  const ReadDeck r = read_lines(
       "*PARAMETER\nR dx, 8.-3, I unused, 2, C name, one\n*PARAMETER_EXPRESSION_LOCAL\nR sum     2*dx\n"
       "*TITLE\n&name\n" +
           box(1, "&sum"),
@@ -239,7 +228,7 @@ TEST(ParameterExpressions, SurviveRandomLines) {
   for (int k = 0; k < 2000; ++k) {
     std::string lines = "*PARAMETER\n";
     for (std::size_t j = random() % 30; j > 0; --j) lines += pieces[random() % std::size(pieces)];
-    const Read r = read_lines(lines + "\n");
+    const ReadDeck r = read_lines(lines + "\n");
     for (const Diagnostic& d : r.diagnostics.all()) EXPECT_GE(d.where.column, 0) << lines;
   }
 }

@@ -2,11 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <ctime>
-#include <map>
-#include <optional>
 
+#include "decks_in_memory.hpp"
 #include "keyword/conversion.hpp"
-#include "keyword/deck.hpp"
 #include "keyword/registry.hpp"
 #include "model/build_model.hpp"
 #include "model/cards.hpp"
@@ -15,18 +13,15 @@ namespace courant {
 
 namespace {
 
-struct Read {
+struct TimedRead {
   Diagnostics diagnostics;
   Model model;
   double seconds = 0;  ///< of processor time
 };
 
-Read read(const std::string& text) {
-  ReadOptions options;
-  options.open = [&](const std::string& path) -> std::optional<std::string> {
-    return path == "deck.k" ? std::optional<std::string>(text) : std::nullopt;
-  };
-  Read out;
+TimedRead timed_read(const std::string& text) {
+  const ReadOptions options = in_memory(text);
+  TimedRead out;
   const std::clock_t begin = std::clock();
   const Deck deck = read_deck("deck.k", options, out.diagnostics);
   if (out.diagnostics.ok()) out.model = build_model(deck, out.diagnostics);
@@ -100,53 +95,56 @@ TEST(Robust, OptionsStandInAnyOrder) {
 }
 
 TEST(Robust, BlankLinesTakeTimeInProportion) {
-  const Read r = read("*KEYWORD\n*DEFINE_CURVE\n1\n" + std::string(60000, '\n') + "1.0,2.0\n*END\n");
+  const TimedRead r =
+      timed_read("*KEYWORD\n*DEFINE_CURVE\n1\n" + std::string(60000, '\n') + "1.0,2.0\n*END\n");
   EXPECT_LT(r.seconds, soon);
 }
 
 TEST(Robust, UnknownKeywordsTakeTimeInProportion) {
-  EXPECT_LT(read("*KEYWORD\n" + repeated("*DATABASE_X\n", 60000) + "*END\n").seconds, soon);
-  EXPECT_LT(read("*KEYWORD\n" + repeated("*" + std::string(20000, 'Q') + "\n", 60000) + "*END\n").seconds,
-            soon);
+  EXPECT_LT(timed_read("*KEYWORD\n" + repeated("*DATABASE_X\n", 60000) + "*END\n").seconds, soon);
+  EXPECT_LT(
+      timed_read("*KEYWORD\n" + repeated("*" + std::string(20000, 'Q') + "\n", 60000) + "*END\n").seconds,
+      soon);
 }
 
 TEST(Robust, NamesOfAWholeLineTakeTimeInProportion) {
   const std::string name(20000, 'a');
-  EXPECT_LT(
-      read("*KEYWORD\n*PARAMETER\nR" + name + ",1.0\n*NODE\n" + "1,&b" + name + "\n1,&c" + name + "\n*END\n")
-          .seconds,
-      soon);
+  EXPECT_LT(timed_read("*KEYWORD\n*PARAMETER\nR" + name + ",1.0\n*NODE\n" + "1,&b" + name + "\n1,&c" + name +
+                       "\n*END\n")
+                .seconds,
+            soon);
 }
 
 TEST(Robust, RangesOfParticlesEndAtTheNodes) {
-  const Read r = read("*KEYWORD\n" + nodes(4000) + "*PART\n\n1,1,1\n*ELEMENT_SPH\n" +
-                      repeated("1,1,1.0,4000\n", 30000) + "*END\n");
+  const TimedRead r = timed_read("*KEYWORD\n" + nodes(4000) + "*PART\n\n1,1,1\n*ELEMENT_SPH\n" +
+                                 repeated("1,1,1.0,4000\n", 30000) + "*END\n");
   EXPECT_FALSE(r.diagnostics.ok());
   EXPECT_LE(r.model.sph.size(), 8000u);
   EXPECT_LT(r.seconds, soon);
 }
 
 TEST(Robust, RangesOfSetsMayOverlap) {
-  const Read r = read("*KEYWORD\n" + nodes(4000) + "*SET_NODE_LIST_GENERATE\n1\n" +
-                      repeated("1,9999,1,9999,1,9999,1,9999\n", 30000) + "*CONTROL_TERMINATION\n1.0\n*END\n");
+  const TimedRead r =
+      timed_read("*KEYWORD\n" + nodes(4000) + "*SET_NODE_LIST_GENERATE\n1\n" +
+                 repeated("1,9999,1,9999,1,9999,1,9999\n", 30000) + "*CONTROL_TERMINATION\n1.0\n*END\n");
   EXPECT_EQ(r.diagnostics.text(), "");
   EXPECT_EQ(r.model.node_sets.at(1).size(), 4000u);
   EXPECT_LT(r.seconds, soon);
 }
 
 TEST(Robust, RangesInStepsMayOverlap) {
-  const Read r = read("*KEYWORD\n" + nodes(4000) + "*SET_NODE_LIST_GENERATE_INCREMENT\n1\n" +
-                      repeated("1,9999,1\n", 3000) + "*CONTROL_TERMINATION\n1.0\n*END\n");
+  const TimedRead r = timed_read("*KEYWORD\n" + nodes(4000) + "*SET_NODE_LIST_GENERATE_INCREMENT\n1\n" +
+                                 repeated("1,9999,1\n", 3000) + "*CONTROL_TERMINATION\n1.0\n*END\n");
   EXPECT_EQ(r.diagnostics.text(), "");
   EXPECT_EQ(r.model.node_sets.at(1).size(), 4000u);
   EXPECT_LT(r.seconds, soon);
 }
 
 TEST(Robust, SetsMayBeNamedOften) {
-  const Read r = read("*KEYWORD\n" + nodes(2000) +
-                      "*PART\n\n1,1,1\n*ELEMENT_SPH\n1,1,1.0,2000\n*SET_NODE_LIST_GENERATE\n"
-                      "1\n1,2000\n*DATABASE_HISTORY_SPH_SET\n" +
-                      repeated("1,1,1,1,1,1,1,1\n", 40000) + "*CONTROL_TERMINATION\n1.0\n*END\n");
+  const TimedRead r = timed_read("*KEYWORD\n" + nodes(2000) +
+                                 "*PART\n\n1,1,1\n*ELEMENT_SPH\n1,1,1.0,2000\n*SET_NODE_LIST_GENERATE\n"
+                                 "1\n1,2000\n*DATABASE_HISTORY_SPH_SET\n" +
+                                 repeated("1,1,1,1,1,1,1,1\n", 40000) + "*CONTROL_TERMINATION\n1.0\n*END\n");
   EXPECT_EQ(r.diagnostics.text(), "");
   EXPECT_EQ(r.model.output.history_sph.size(), 2000u);
   EXPECT_LT(r.seconds, soon);
@@ -161,20 +159,15 @@ TEST(Robust, VelocitiesOfManyPartsTakeTimeInProportion) {
   for (int k = 1; k <= 800; ++k) text += std::to_string(k) + (k % 8 == 0 ? "\n" : ",");
   text +=
       "*INITIAL_VELOCITY_GENERATION\n" + repeated("1,1\n0\n", 20000) + "*CONTROL_TERMINATION\n1.0\n*END\n";
-  const Read r = read(text);
+  const TimedRead r = timed_read(text);
   EXPECT_EQ(r.diagnostics.text(), "");
   EXPECT_LT(r.seconds, soon);
 }
 
 TEST(Robust, FilesThatAreReadOftenTakeBoundedTime) {
-  const std::map<std::string, std::string> files = {
-      {"deck.k", "*KEYWORD\n*INCLUDE\n" + repeated("a\n", 20000) + "*END\n"},
-      {"a", "*COMMENT\n" + repeated("x\n", 40000)}};
-  ReadOptions options;
-  options.open = [&](const std::string& path) -> std::optional<std::string> {
-    const auto it = files.find(path);
-    return it == files.end() ? std::nullopt : std::optional<std::string>(it->second);
-  };
+  const Files files = {{"deck.k", "*KEYWORD\n*INCLUDE\n" + repeated("a\n", 20000) + "*END\n"},
+                       {"a", "*COMMENT\n" + repeated("x\n", 40000)}};
+  const ReadOptions options = in_memory(files);
   Diagnostics diagnostics;
   const std::clock_t begin = std::clock();
   const Deck deck = read_deck("deck.k", options, diagnostics);
@@ -187,15 +180,13 @@ TEST(Robust, FilesThatAreReadOftenTakeBoundedTime) {
 }
 
 TEST(Robust, AFileReadAgainBeginsInStandardFormat) {
-  const std::map<std::string, std::string> files = {
+  const Files files = {
       {"deck.k", "*KEYWORD\n*INCLUDE\na\na\n*END\n"},
       {"a",
        "*NODE\n       1             1.0\n*KEYWORD LONG=Y\n*NODE\n                   2                 "
        "2.0\n*END\n"}};
-  ReadOptions options;
-  options.open = [&](const std::string& path) { return std::optional<std::string>(files.at(path)); };
   Diagnostics diagnostics;
-  const Deck deck = read_deck("deck.k", options, diagnostics);
+  const Deck deck = read_deck("deck.k", in_memory(files), diagnostics);
   EXPECT_EQ(diagnostics.text(), "");
   ASSERT_EQ(deck.all<NodeCard>().size(), 4u);
   for (const NodeCard& node : deck.all<NodeCard>()) EXPECT_EQ(node.x, static_cast<Real>(node.nid));

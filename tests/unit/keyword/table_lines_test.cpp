@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "keyword/deck.hpp"
+#include "decks_in_memory.hpp"
 #include "keyword/number.hpp"
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
@@ -14,19 +14,6 @@
 namespace courant {
 
 namespace {
-
-struct Read {
-  Deck deck;
-  Diagnostics diagnostics;
-};
-
-Read read(const std::string& text) {
-  ReadOptions options;
-  options.open = [&](const std::string&) { return std::optional<std::string>(text); };
-  Read out;
-  out.deck = read_deck("deck.k", options, out.diagnostics);
-  return out;
-}
 
 /// One field as decks may hold it, right or wrong.
 std::string random_field(std::mt19937& random) {
@@ -93,8 +80,9 @@ TEST(TableLines, SayAndStoreWhatTheCarefulWayDoes) {
                     : field.substr(0, static_cast<std::size_t>(width[f]));
     }
     // errors end the reading, so each line is a deck of its own
-    const Read a = read(quick + line + "       0\n*END\n");
-    const Read b = read(careful + line + "      &z\n*END\n");  // a parameter sends the line the careful way
+    const ReadDeck a = read_in_memory(in_memory(quick + line + "       0\n*END\n"));
+    // a parameter sends the line the careful way
+    const ReadDeck b = read_in_memory(in_memory(careful + line + "      &z\n*END\n"));
     EXPECT_EQ(a.diagnostics.text(), b.diagnostics.text()) << line;
     EXPECT_EQ(describe(a.deck), describe(b.deck)) << line;
   }

@@ -1,7 +1,7 @@
 #pragma once
-#include <optional>
 #include <string>
 
+#include "../keyword/decks_in_memory.hpp"
 #include "model/build_model.hpp"
 
 namespace courant {
@@ -32,10 +32,7 @@ inline SmallModel small_model(const std::string& keywords) {
   SmallModel out;
   Diagnostics diagnostics;
   const std::string text = small_mesh + keywords + "*END\n";
-  const ReadOptions options{.parameters = {}, .open = [&](const std::string& path) {
-                              return path == "deck.k" ? std::optional(text) : std::nullopt;
-                            }};
-  out.deck = read_deck("deck.k", options, diagnostics);
+  out.deck = read_deck("deck.k", in_memory(text), diagnostics);
   out.model = build_model(out.deck, diagnostics);
   out.messages = diagnostics.text();
   return out;

@@ -1,6 +1,7 @@
 // Ids that nothing refers to, with keywords of this test's own: real ones change.
 #include <gtest/gtest.h>
 
+#include "../keyword/decks_in_memory.hpp"
 #include "keyword/registry.hpp"
 #include "model/unused_ids.hpp"
 
@@ -71,12 +72,8 @@ const RegisterKeyword<ThingGeneral> thing_general{
                 .repeat = true}}}};
 
 UnusedIds unused_of(const std::string& text, const std::string& messages = "") {
-  ReadOptions options;
-  options.open = [&](const std::string& path) {
-    return path == "deck.k" ? std::optional<std::string>("*KEYWORD\n" + text + "*END\n") : std::nullopt;
-  };
   Diagnostics diagnostics;
-  const Deck deck = read_deck("deck.k", options, diagnostics);
+  const Deck deck = read_deck("deck.k", in_memory("*KEYWORD\n" + text + "*END\n"), diagnostics);
   EXPECT_EQ(diagnostics.text(), messages);
   return find_unused_ids(deck);
 }

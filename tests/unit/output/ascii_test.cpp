@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "../text.hpp"
 #include "output/messag.hpp"
 #include "output/summary.hpp"
 #include "output_test.hpp"
@@ -151,14 +152,9 @@ TEST(Histories, EachFileAtItsOwnInterval) {
     histories.write(s, n == 16);
   }
   histories.finish();
-  const auto count = [](const std::string& text, const std::string& what) {
-    int found = 0;
-    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
-    return found;
-  };
   EXPECT_EQ(asked, 5);
-  EXPECT_EQ(count(test::read_text(dir / "glstat"), " time step."), 5);
-  EXPECT_EQ(count(test::read_text(dir / "rcforc"), "SURFA"), 3);
+  EXPECT_EQ(test::count(test::read_text(dir / "glstat"), " time step."), 5u);
+  EXPECT_EQ(test::count(test::read_text(dir / "rcforc"), "SURFA"), 3u);
   EXPECT_FALSE(std::filesystem::exists(dir / "matsum"));
   EXPECT_TRUE(std::filesystem::exists(dir / "history.h5"));
 }

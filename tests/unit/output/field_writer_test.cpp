@@ -19,6 +19,7 @@
 #include <csignal>
 #include <utility>
 
+#include "../text.hpp"
 #include "output_test.hpp"
 #include "parallel/job_queue.hpp"
 
@@ -188,10 +189,7 @@ TEST(FieldWriter, IndexIsWholeAndNeverFarBehind) {
     const std::string pvd = test::read_text(dir / "fields.pvd");
     const std::string end = "</VTKFile>\n";
     EXPECT_TRUE(pvd.size() > end.size() && pvd.substr(pvd.size() - end.size()) == end);
-    int count = 0;
-    for (auto at = pvd.find("particles_"); at != std::string::npos; at = pvd.find("particles_", at + 1))
-      ++count;
-    return count;
+    return static_cast<int>(test::count(pvd, "particles_"));
   };
   for (int state = 0; state < 100; ++state) {
     writer.write(world, 0.1 * state, state);

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
-#include "../app/small_scene.hpp"
+#include "checkerboard_tank.hpp"
 #include "cloud.hpp"
 #include "sph/fields.hpp"
 #include "sph/kernel.hpp"
@@ -14,6 +14,7 @@
 namespace courant {
 namespace {
 
+using test::checkerboard_tank;
 using test::Cloud;
 
 Real weight(KernelChoice choice, Real r, Real h) {
@@ -97,28 +98,6 @@ TEST(DensityReinitialisation, TakesAConstantWhereParticlesStandInALine) {
   EXPECT_EQ(cloud.world.counters.at("density_mls_to_shepard"), 64);
 }
 
-/// Water in a tank 10 x 10 spacings of 0.1, at rest, every second particle of a checkerboard with `noise`
-/// more pressure.
-std::unique_ptr<Simulation> tank(const std::string& more, Real noise, int iavis = 0) {
-  std::string text = fmt::format(
-      "*KEYWORD\n*CONTROL_TERMINATION\n5.\n*CONTROL_SPH\n1,0,1e20,2\n0,0,0,0,0,0,{}\n*PART\nwater\n1,1,1,1,"
-      "1\n"
-      "*SECTION_SPH\n1,1.2,1,1\n*MAT_NULL\n1,1000.0\n*EOS_LINEAR_POLYNOMIAL\n1,0,4e5\n\n"
-      "*HOURGLASS\n1,0,0,0,1e-20,1e-20\n"
-      "*BOUNDARY_SPH_SYMMETRY_PLANE\n0,0,0,0,1,0\n0,0,0,1,0,0\n1,0,0,0,0,0\n",
-      iavis);
-  text += test::gravity_cards + more + "*NODE\n";
-  std::string elements = "*ELEMENT_SPH\n", pressures = "*INITIAL_STRESS_SPH\n";
-  for (int k = 0; k < 100; ++k) {
-    const int column = k % 10, row = k / 10;
-    text += fmt::format("{},{:.17g},{:.17g},0\n", k + 1, 0.1 * column + 0.05, 0.1 * row + 0.05);
-    elements += fmt::format("{},1,10.0\n", k + 1);
-    const Real pressure = 9810 * (0.95 - 0.1 * row) + ((column + row) % 2 == 0 ? noise : 0);
-    pressures += fmt::format("{},{:.17g},{:.17g},{:.17g},0,0,0,0\n", k + 1, -pressure, -pressure, -pressure);
-  }
-  return test::build_deck(text + elements + pressures + "*END\n");
-}
-
 std::string every(int steps, int method) {
   return fmt::format("*COURANT_DENSITY_REINITIALISATION\n{},{}\n", steps, method);
 }
@@ -144,7 +123,8 @@ Real mean_residual(Simulation& s, int steps) {
 TEST(DensityReinitialisation, ComesEveryFewStepsAndIsCounted) {
   for (const int method : {0, 1})
     for (const int iavis : {0, 1}) {
-      const auto with = tank(every(10, method), 500, iavis), without = tank("", 500, iavis);
+      const auto with = checkerboard_tank(every(10, method), 500, iavis),
+                 without = checkerboard_tank("", 500, iavis);
       for (int k = 0; k < 10; ++k) step(*with), step(*without);
       EXPECT_EQ(noise_of(*with), noise_of(*without));
       step(*with), step(*without);  // cycle 10
@@ -158,7 +138,7 @@ TEST(DensityReinitialisation, ComesEveryFewStepsAndIsCounted) {
 }
 
 TEST(DensityReinitialisation, NeverIsNotThere) {
-  const auto a = tank(every(0, 1), 500), b = tank("", 500);
+  const auto a = checkerboard_tank(every(0, 1), 500), b = checkerboard_tank("", 500);
   for (int k = 0; k < 30; ++k) step(*a), step(*b);
   for (Index i = 0; i < 100; ++i) EXPECT_EQ(a->world().particles.x.vec(i), b->world().particles.x.vec(i));
   EXPECT_EQ(a->passes(), b->passes());

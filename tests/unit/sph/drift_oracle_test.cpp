@@ -132,8 +132,6 @@ void compare(bool uniform_h, bool alone, std::optional<Neighbours::Region> regio
 
 class DriftLoops : public testing::TestWithParam<InstructionSet> {};
 
-}  // namespace
-
 TEST_P(DriftLoops, GiveWhatTheSumOverAllPairsGives) {
   const InstructionSet before = instruction_set();
   use_instruction_set(GetParam());
@@ -151,3 +149,5 @@ TEST_P(DriftLoops, GiveWhatTheSumOverAllPairsGives) {
 
 INSTANTIATE_TEST_SUITE_P(All, DriftLoops, testing::ValuesIn(instruction_sets()),
                          [](const auto& set) { return std::string(name_of(set.param)); });
+
+}  // namespace

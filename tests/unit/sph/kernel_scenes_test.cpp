@@ -141,15 +141,10 @@ INSTANTIATE_TEST_SUITE_P(Every, WithKernel, testing::ValuesIn(every_kernel),
 /// A run with one kernel does not go on with another: the message names the field or the keyword.
 TEST(KernelOfARestart, MayNotChange) {
   const auto refusal = [](KernelChoice before, KernelChoice now) {
-    const auto options = [](const std::string& text) {
-      return ReadOptions{.parameters = {}, .open = [text](const std::string& path) {
-                           return path == "deck.k" ? std::optional(text) : std::nullopt;
-                         }};
-    };
     const auto first = test::build_deck(heading + kernel_cards(before) + lattice());
     Diagnostics diagnostics;
     const std::string text = heading + kernel_cards(now) + lattice();
-    const auto second = Simulation::build("deck.k", options(text), diagnostics, &first->record());
+    const auto second = Simulation::build("deck.k", in_memory(text), diagnostics, &first->record());
     EXPECT_FALSE(second);
     return diagnostics.text();
   };

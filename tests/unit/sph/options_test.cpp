@@ -4,31 +4,17 @@
 #include <cmath>
 
 #include "cloud.hpp"
+#include "liquid.hpp"
 #include "materials/material_pass.hpp"
 #include "sph/fields.hpp"
 #include "time/step.hpp"
 
 using namespace courant;
 using courant::test::Cloud;
+using courant::test::ConstantStep;
+using courant::test::Liquid;
 
 namespace {
-
-struct ConstantStep : TimeLimit {
-  explicit ConstantStep(Real dt) : dt_(dt) {}
-  std::string name() const override { return "constant"; }
-  Limit limit(const World&, const Clock&) override { return {dt_, "test"}; }
-  Real dt_;
-};
-
-/// p = rho0 c^2 mu with the cloud's density and sound speed
-struct Liquid {
-  static constexpr const char* name = "liquid";
-  Real A(Real mu) const { return 9e5 * mu; }
-  Real dA(Real) const { return 9e5; }
-  Real B(Real) const { return 0; }
-  Real dB(Real) const { return 0; }
-  bool uses_energy() const { return false; }
-};
 
 TimeLimit::Limit limit_of(Cloud& cloud, const Model& model) {
   World& w = cloud.world;
@@ -185,7 +171,7 @@ TEST(EnergyLedger, ClosesForACloudThatRunsIntoItself) {
     cloud.settings.mu.assign(1, 0.5);
     for (Index i = 0; i < p.size(); ++i) p.v.set(i, -2 * (p.x.vec(i) - Vec(0.075, 0.075, 0)) / 0.075);
     w.materials.push_back(
-        std::make_shared<EosPass<Liquid>>(Liquid{}, EosPart{{1}, true, {1000}, {-1e20}}, w));
+        std::make_shared<EosPass<Liquid>>(Liquid{9e5}, EosPart{{1}, true, {1000}, {-1e20}}, w));
     add_sph_passes(w, cloud.settings, cloud.neighbours);
     w.motions.push_back(make_particle_motion());
     w.time_limits.push_back(std::make_shared<ConstantStep>(2e-5));

@@ -13,7 +13,7 @@ using courant::test::Cloud;
 
 namespace {
 
-struct Case {
+struct Terms {
   int dim;
   bool uniform_h, monaghan, stress, keep_gradients;
   KernelChoice kernel = KernelChoice::cubic_spline;
@@ -54,7 +54,7 @@ Real rounded_to_float16(Real x) {
 template <int Dim>
 class Oracle {
  public:
-  Oracle(const Cloud& cloud, const Case& c)
+  Oracle(const Cloud& cloud, const Terms& c)
       : cloud_(cloud),
         p_(cloud.world.particles),
         case_(c),
@@ -129,7 +129,7 @@ class Oracle {
 
   const Cloud& cloud_;
   const Particles& p_;
-  Case case_;
+  Terms case_;
   const Field<Real>* tau_;
 };
 
@@ -137,7 +137,7 @@ void expect_near(const Vec& a, const Vec& b, Real error) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], error);
 }
 
-void evaluate(Cloud& cloud, const Case& c) {
+void evaluate(Cloud& cloud, const Terms& c) {
   Particles& p = cloud.world.particles;
   cloud.run_rates();
   if (!c.monaghan)
@@ -146,7 +146,7 @@ void evaluate(Cloud& cloud, const Case& c) {
 }
 
 /// A later step of the window: other velocities and pressures, which count, and other places, which do not.
-void evaluate_again(Cloud& cloud, const Case& c, std::mt19937& random) {
+void evaluate_again(Cloud& cloud, const Terms& c, std::mt19937& random) {
   Particles& p = cloud.world.particles;
   std::uniform_real_distribution<Real> u(-1, 1);
   std::vector<Vec> x;
@@ -172,7 +172,7 @@ void move_within_the_skin(Particles& p) {
 }
 
 template <int Dim>
-void compare(const Case& c, std::optional<Neighbours::Region> region) {
+void compare(const Terms& c, std::optional<Neighbours::Region> region) {
   Cloud cloud(Dim, Dim == 2 ? 21 : 9, 0.01, 0.25);
   World& w = cloud.world;
   Particles& p = w.particles;
@@ -234,14 +234,12 @@ const Neighbours::Region box{Vec(-1, 0.024, -1), Vec(1, 0.051, 1)};  // cuts the
 
 class PairSums : public testing::TestWithParam<InstructionSet> {};
 
-}  // namespace
-
 TEST_P(PairSums, GiveWhatTheSumOverAllPairsGives) {
   const InstructionSet before = instruction_set();
   use_instruction_set(GetParam());
   for (const int dim : {2, 3})
     for (int k = 0; k < 32; ++k) {
-      Case c{dim, (k & 1) != 0, (k & 2) != 0, (k & 4) != 0, (k & 8) != 0};
+      Terms c{dim, (k & 1) != 0, (k & 2) != 0, (k & 4) != 0, (k & 8) != 0};
       c.quadratic = (k & 16) == 0;
       if (!c.quadratic && !c.monaghan) continue;
       SCOPED_TRACE(testing::Message()
@@ -259,7 +257,7 @@ TEST_P(PairSums, GiveItForEveryKernel) {
   for (const KernelChoice kernel : every_kernel)
     for (const int dim : {2, 3})
       for (int k = 0; k < 4; ++k) {  // gradients worked out twice and kept, one h and several
-        const Case c{dim, (k & 1) != 0, true, true, (k & 2) != 0, kernel};
+        const Terms c{dim, (k & 1) != 0, true, true, (k & 2) != 0, kernel};
         SCOPED_TRACE(testing::Message() << kernel_name(kernel) << ", " << dim << "D, uniform h "
                                         << c.uniform_h << ", gradients kept " << c.keep_gradients);
         dim == 2 ? compare<2>(c, std::nullopt) : compare<3>(c, std::nullopt);
@@ -273,7 +271,7 @@ TEST_P(PairSums, GiveItWithGradientsKeptOverSteps) {
   for (const KernelChoice kernel : every_kernel)
     for (const int dim : {2, 3})
       for (int k = 0; k < 32; ++k) {
-        Case c{dim, true, (k & 1) != 0, (k & 2) != 0, false, kernel, true};
+        Terms c{dim, true, (k & 1) != 0, (k & 2) != 0, false, kernel, true};
         c.rounded = (k & 4) != 0, c.quadratic = (k & 8) != 0, c.diffusing = (k & 16) != 0;
         if (!c.quadratic && !(c.monaghan && c.rounded)) continue;
         // what a scene lacks has nothing to do with the kernel
@@ -290,3 +288,5 @@ TEST_P(PairSums, GiveItWithGradientsKeptOverSteps) {
 
 INSTANTIATE_TEST_SUITE_P(All, PairSums, testing::ValuesIn(instruction_sets()),
                          [](const auto& set) { return std::string(name_of(set.param)); });
+
+}  // namespace

@@ -5,29 +5,17 @@
 #include <map>
 
 #include "cloud.hpp"
+#include "liquid.hpp"
 #include "materials/material_pass.hpp"
 #include "sph/kept_pairs.hpp"
 #include "time/step.hpp"
 
 using namespace courant;
 using courant::test::Cloud;
+using courant::test::ConstantStep;
+using courant::test::Liquid;
 
 namespace {
-
-struct ConstantStep : TimeLimit {
-  std::string name() const override { return "constant"; }
-  Limit limit(const World&, const Clock&) override { return {2e-6, "test"}; }
-};
-
-/// p = rho0 c^2 mu with c = 300 m/s
-struct Liquid {
-  static constexpr const char* name = "liquid";
-  Real A(Real mu) const { return 9e7 * mu; }
-  Real dA(Real) const { return 9e7; }
-  Real B(Real) const { return 0; }
-  Real dB(Real) const { return 0; }
-  bool uses_energy() const { return false; }
-};
 
 struct Result {
   std::map<Id, Vec> x;
@@ -50,10 +38,11 @@ Result run(Real eps, int threads = 1) {
     momentum += p.m[i] * p.v.vec(i);
     scale += p.m[i] * p.v.vec(i).norm();
   }
-  w.materials.push_back(std::make_shared<EosPass<Liquid>>(Liquid{}, EosPart{{1}, true, {1000}, {-1e20}}, w));
+  w.materials.push_back(
+      std::make_shared<EosPass<Liquid>>(Liquid{9e7}, EosPart{{1}, true, {1000}, {-1e20}}, w));
   w.motions.push_back(make_particle_motion());
   add_sph_passes(w, cloud.settings, cloud.neighbours);
-  w.time_limits.push_back(std::make_shared<ConstantStep>());
+  w.time_limits.push_back(std::make_shared<ConstantStep>(2e-6));
   cloud.refresh();
   sample_energy(w, cloud.clock);
   w.energy.initial = w.energy.kinetic;

@@ -47,8 +47,6 @@ struct Case {
 };
 class Pairs : public testing::TestWithParam<Case> {};
 
-}  // namespace
-
 /// A random cloud with the passes of one case, evaluated once, and the powers that must balance.
 struct Evaluated {
   Cloud cloud;
@@ -231,3 +229,5 @@ TEST(Sph, SameBitsOnAnyNumberOfThreads) {
   }
   set_threads(0);
 }
+
+}  // namespace

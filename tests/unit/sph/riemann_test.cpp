@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "../app/small_scene.hpp"
 #include "base/instruction_set.hpp"
+#include "checkerboard_tank.hpp"
 #include "cloud.hpp"
 #include "sph/fields.hpp"
 #include "sph/kernel.hpp"
@@ -63,8 +63,8 @@ Flux oracle(const Particles& p, const std::vector<Real>& c, const Vec& gravity, 
 }
 
 /// A cloud of disorder and the two passes.
-struct Flow : Cloud {
-  Flow(int dim, Real eta, std::optional<Neighbours::Region> region = {})
+struct RiemannCloud : Cloud {
+  RiemannCloud(int dim, Real eta, std::optional<Neighbours::Region> region = {})
       : Cloud(dim, dim == 2 ? 21 : 9, 0.01, 0.25), c(static_cast<std::size_t>(world.particles.size())) {
     Particles& p = world.particles;
     settings.viscosity = RiemannFlux{eta > 0 ? eta : 1e30};
@@ -93,7 +93,7 @@ struct Flow : Cloud {
 
 template <int Dim>
 void compare(Real eta, std::optional<Neighbours::Region> region) {
-  Flow flow(Dim, eta, region);
+  RiemannCloud flow(Dim, eta, region);
   Particles& p = flow.world.particles;
   Real force = 0, rate = 0, heat = 0;
   std::vector<Flux> expected;
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(All, RiemannLoops, testing::ValuesIn(instruction_sets()
                          [](const auto& set) { return std::string(name_of(set.param)); });
 
 TEST(Riemann, KeepsMomentumAndVolumeAndTurnsWhatItTakesIntoHeat) {
-  Flow flow(2, 3);
+  RiemannCloud flow(2, 3);
   Particles& p = flow.world.particles;
   Vec force = Vec::Zero();
   Real power = 0, heat = 0, size = 0, volume = 0, rates = 0;
@@ -166,17 +166,9 @@ std::string water(int columns, int rows, Real u, const std::string& more) {
   return text + elements;
 }
 
-/// Water at rest in a tank 10 x 10 spacings, every second particle of a checkerboard with `noise` more
-/// pressure.
+/// With a TSSFAC for this scheme.
 std::unique_ptr<Simulation> tank(const std::string& more, Real noise) {
-  std::string text = water(
-      10, 10, 0, "*BOUNDARY_SPH_SYMMETRY_PLANE\n1,0,0,0,0,0\n" + std::string(test::gravity_cards) + more);
-  text += "*INITIAL_STRESS_SPH\n";
-  for (int k = 0; k < 100; ++k) {
-    const Real p = 9810 * (0.95 - 0.1 * (k / 10)) + ((k % 10 + k / 10) % 2 == 0 ? noise : 0);
-    text += fmt::format("{},{:.17g},{:.17g},{:.17g},0,0,0,0\n", k + 1, -p, -p, -p);
-  }
-  return test::build_deck(text + "*END\n");
+  return test::checkerboard_tank("*CONTROL_TIMESTEP\n0,0.6\n" + more, noise);
 }
 
 const std::string on = "*COURANT_RIEMANN\n";
@@ -193,22 +185,10 @@ TEST(Riemann, LeavesTheHydrostaticPressureAlone) {
   EXPECT_NEAR(top, 0.95, 0.02);
 }
 
-/// Mean square of what two neighbours in a row differ by, less the change along the row over two of them.
-Real roughness(const Simulation& s) {
-  const Particles& p = s.world().particles;
-  std::vector<Real> pressure(100);
-  for (Index i = 0; i < p.active; ++i) pressure[static_cast<std::size_t>(p.id[i] - 1)] = p.p[i];
-  Real sum = 0;
-  for (std::size_t k = 1; k < 99; ++k)
-    if (k % 10 != 0 && k % 10 != 9)
-      sum += std::pow(pressure[k] - 0.5 * (pressure[k - 1] + pressure[k + 1]), 2) / 80;
-  return sum;
-}
-
 TEST(Riemann, EvensOutACheckerboardOfPressuresAndCountsIt) {
   const auto with = tank(on + "3.\n", 500), without = tank("", 500);
   run(*with, 0.03), run(*without, 0.03);  // five times h/c
-  EXPECT_LT(roughness(*with), 0.05 * roughness(*without));
+  EXPECT_LT(test::roughness(*with), 0.05 * test::roughness(*without));
   EnergyLedger e;
   while (with->clock().t < 0.5)
     with->step([&](World&, const Clock&, const std::string& who) { e = with->sample(who).energy; });
@@ -269,10 +249,7 @@ TEST(Riemann, ShortensTheStepAndWarnsOfViscosityThatIsNotUsed) {
   scene.extra = on + "3.\n";
   std::string text = scene.text();
   Diagnostics diagnostics;
-  const ReadOptions options{.parameters = {}, .open = [&](const std::string& path) {
-                              return path == "deck.k" ? std::optional(text) : std::nullopt;
-                            }};
-  auto s = Simulation::build("deck.k", options, diagnostics);
+  auto s = Simulation::build("deck.k", in_memory(text), diagnostics);
   ASSERT_TRUE(s) << diagnostics.text();
   EXPECT_NE(diagnostics.text().find("TSSFAC is 0.6 instead of 0.9"), std::string::npos) << diagnostics.text();
   EXPECT_NE(diagnostics.text().find("*HOURGLASS"), std::string::npos) << diagnostics.text();

@@ -52,7 +52,7 @@ std::string control(Real tau) {
   return fmt::format("*COURANT_VOLUME_CONTROL\n{}\n", tau);
 }
 
-const std::string tank =
+const std::string tank_walls =
     "*BOUNDARY_SPH_SYMMETRY_PLANE\n0,0,0,0,1,0\n0,0,0,1,0,0\n1,0,0,0,0,0\n*LOAD_BODY_Y\n1\n*DEFINE_"
     "CURVE\n1\n"
     "0.,9.81\n100.,9.81\n";
@@ -105,8 +105,8 @@ TEST(VolumeControl, LeavesSprayAlone) {
 }
 
 TEST(VolumeControl, WaterAtRestKeepsItsLevel) {
-  const auto with = test::build_deck(lattice(10, tank + control(0.5)));
-  const auto without = test::build_deck(lattice(10, tank));
+  const auto with = test::build_deck(lattice(10, tank_walls + control(0.5)));
+  const auto without = test::build_deck(lattice(10, tank_walls));
   run(*with, 20), run(*without, 20);
   EXPECT_NEAR(mean_height(*with), mean_height(*without), 0.005);
   const EnergyLedger e = with->sample("").energy;
@@ -114,8 +114,8 @@ TEST(VolumeControl, WaterAtRestKeepsItsLevel) {
 }
 
 TEST(VolumeControl, WaterThatStandsTooFarApartSinksToItsVolume) {
-  const auto with = test::build_deck(lattice(8, tank + control(0.5)));
-  const auto without = test::build_deck(lattice(8, tank));
+  const auto with = test::build_deck(lattice(8, tank_walls + control(0.5)));
+  const auto without = test::build_deck(lattice(8, tank_walls));
   run(*with, 6), run(*without, 6);
   EXPECT_NEAR(mean_height(*with), 0.4, 0.008);  // 100 particles of 0.008 in a tank 1 wide
   EXPECT_GT(mean_height(*without), 0.47);

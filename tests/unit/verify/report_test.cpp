@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "../text.hpp"
 #include "made_suite.hpp"
 #include "output/file.hpp"
 #include "verify/report_charts.hpp"
@@ -15,14 +16,9 @@
 namespace courant::report {
 namespace {
 
+using test::count;
 using testing::HasSubstr;
 using testing::Not;
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
 
 std::string content(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);

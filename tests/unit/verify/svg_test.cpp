@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../text.hpp"
 #include "made_suite.hpp"
 #include "verify/report_charts.hpp"
 #include "verify/svg_axis.hpp"
@@ -10,6 +11,7 @@
 namespace courant::report {
 namespace {
 
+using test::count;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -22,12 +24,6 @@ std::vector<std::string> labels(const Axis& axis) {
 
 Axis axis(bool logarithmic, const std::vector<Real>& values, bool percentages = false) {
   return make_axis(logarithmic, values, percentages);
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
 }
 
 TEST(Axis, TicksAreRound) {
