@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -56,11 +57,13 @@ class Allowed {
  public:
   constexpr Allowed() = default;
   constexpr Allowed(std::initializer_list<int> values) : size_(values.size()) {
+    if (size_ > values_.size()) throw std::length_error("a field allows more values than there is room for");
     std::copy(values.begin(), values.end(), values_.begin());
   }
   constexpr const int* begin() const { return values_.data(); }
   constexpr const int* end() const { return values_.data() + size_; }
   constexpr bool empty() const { return size_ == 0; }
+  constexpr bool takes(Id value) const { return empty() || std::find(begin(), end(), value) != end(); }
 
  private:
   std::array<int, 8> values_{};

@@ -398,7 +398,7 @@ bool CardReader::passes(std::size_t card, std::size_t field, const Slice& slice,
 
 bool CardReader::is_allowed(std::size_t card, std::size_t field, const Slice& slice, Id value) {
   const auto& allowed = spec_->cards[card].fields[field].rules.allowed;
-  if (allowed.empty() || std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return true;
+  if (allowed.takes(value)) return true;
   field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text),
               fmt::format("supported values: {}", fmt::join(allowed, ", ")));
   return false;

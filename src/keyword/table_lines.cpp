@@ -34,7 +34,7 @@ TableLines::TableLines(const KeywordSpec& spec, CardFormat format) {
     column.zero_is_standard = field.rules.zero_is_standard && !field.rules.required;
     column.any_value = field.rules.honour == Honour::yes || field.rules.honour == Honour::ignored;
     column.standard = field.rules.standard;
-    column.allowed = field.rules.allowed.empty() ? nullptr : &field.rules.allowed;
+    column.allowed = field.rules.allowed;
     total_ += column.width;
     columns_.push_back(column);
   }
@@ -90,9 +90,7 @@ bool TableLines::read_integer(const Column& column, const char* begin, const cha
   const Id largest = column.type == FieldType::integer ? std::numeric_limits<int>::max() : largest_id;
   if (value > largest || value < -largest || !satisfies(column.check, static_cast<Real>(value))) return false;
   if (!column.any_value && static_cast<Real>(value) != column.standard) return false;
-  if (column.allowed &&
-      std::find(column.allowed->begin(), column.allowed->end(), value) == column.allowed->end())
-    return false;
+  if (!column.allowed.takes(value)) return false;
   if (column.type == FieldType::integer)
     store(entry, column.offset, static_cast<int>(value));
   else

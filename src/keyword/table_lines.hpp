@@ -32,7 +32,7 @@ class TableLines {
     bool required = false, zero_is_standard = true;
     bool any_value = true;  ///< whatever its value, nothing is to be said
     Real standard = 0;
-    const Allowed* allowed = nullptr;  ///< null: any
+    Allowed allowed;
   };
   bool read_columns(std::string_view line, std::byte* entry) const;
   bool read_commas(std::string_view line, std::byte* entry) const;
