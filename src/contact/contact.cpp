@@ -27,7 +27,8 @@ void give_stiffness(Facet& f, const ContactLaw& law, const World& world) {
   const bool triangle = a[2] == a[3];
   Real diagonal = std::max((x[2] - x[0]).norm(), (x[3] - x[1]).norm());
   if (triangle) diagonal = std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
-  f.k = law.slsfac * law.sfsb * g.K[f.segment] * area / diagonal;
+  // in 2D per unit of depth, and of a shell that is as long as its part in the plane, whatever its width
+  f.k = law.slsfac * law.sfsb * g.K[f.segment] * (world.dim == 3 ? area / diagonal : 1);
   f.r = law.sbst > 0 ? 0.5 * law.sbst : 0.5 * g.thickness[f.segment] * law.sfsbt;
   f.m = infinity;
   if (f.moves)

@@ -271,6 +271,7 @@ class Builder {
     });
     if (settings_.dim == 2) {
       report_off_plane();
+      warn_of_loads_along_z(deck_, diagnostics_);
       report_other_unit_of_length();
     }
   }

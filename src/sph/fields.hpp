@@ -128,6 +128,14 @@ inline Field<Real>& wall_rubbing(Particles& p) {
 inline Field<Real>& dissipation(Particles& p) {
   return p.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"});
 }
+/// That of bulk viscosity alone, of the step before until it is worked out anew
+inline Field<Real>& bulk_dissipation(Particles& p) {
+  return p.fields.add<Real>({.name = "bulk_dissipation", .dimension = "ML2/T3"});
+}
+/// What the rate of density holds besides the motion of particles
+inline Field<Real>& density_sources(Particles& p) {
+  return p.fields.add<Real>({.name = "density_sources", .dimension = "M/L3T", .restart = false});
+}
 /// Power that MU turns into heat
 inline Field<Real>& viscous_dissipation(Particles& p) {
   return p.fields.add<Real>({.name = "viscous_dissipation", .dimension = "ML2/T3"});

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include "model/cards.hpp"
 #include "parallel/parallel.hpp"
 #include "sph/sph.hpp"
 #include "state/keeper.hpp"
@@ -12,6 +15,14 @@ Vec gravity_at(const std::vector<BodyLoad>& loads, Real t) {
 }
 std::function<Vec(Real t)> gravity_of(std::vector<BodyLoad> loads) {
   return [loads = std::move(loads)](Real t) { return gravity_at(loads, t); };
+}
+
+void warn_of_loads_along_z(const Deck& deck, Diagnostics& diagnostics) {
+  for (const LoadBodyCard& card : deck.all<LoadBodyCard>())
+    if (card.name == 2 && card.sf != 0)
+      diagnostics.warning(deck.where(card),
+                          fmt::format("{}: in 2D nothing moves along z: no effect", deck.keyword(card)),
+                          "gravity of a 2D scene is *LOAD_BODY_X or *LOAD_BODY_Y");
 }
 
 namespace {

@@ -20,18 +20,24 @@ class BulkViscosityPass : public Material, public Refresh, public Keeper {
  public:
   BulkViscosityPass(const SphSettings& s, World& world)
       : q_(s.q),
-        after_sources_(s.has_density_sources()),
         total_(sph_fields::pressure_plus_q(world.particles)),
-        heat_(sph_fields::dissipation(world.particles)) {}
+        heat_(sph_fields::dissipation(world.particles)) {
+    if (!s.has_density_sources()) return;
+    bulk_ = &sph_fields::bulk_dissipation(world.particles);
+    sources_ = &sph_fields::density_sources(world.particles);
+  }
   std::string name() const override { return "bulk viscosity"; }
   void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
     for (Index i = begin; i < end; ++i) {
-      const Real d = std::min(-p.drhodt[i] / p.rho[i], Real(0));  // div v
+      const Real compression = p.drhodt[i] - (sources_ ? (*sources_)[i] : 0);
+      const Real d = std::min(-compression / p.rho[i], Real(0));  // div v
       const PartViscosity& k = q_[p.part[i]];
       const Real q = p.rho[i] * p.h[i] * (k.q2 * p.h[i] * d * d - k.q1 * p.c[i] * d);
       total_[i] = p.p[i] + q;
-      heat_[i] = (after_sources_ ? heat_[i] : 0) - q * d * p.m[i] / p.rho[i];
+      const Real power = -q * d * p.m[i] / p.rho[i];
+      heat_[i] = bulk_ ? heat_[i] - (*bulk_)[i] + power : power;
+      if (bulk_) (*bulk_)[i] = power;
     }
   }
   void refreshed(World& world, const Clock&, std::span<const Index>) override { loaded(world); }
@@ -43,9 +49,9 @@ class BulkViscosityPass : public Material, public Refresh, public Keeper {
 
  private:
   std::vector<PartViscosity> q_;
-  bool after_sources_;  ///< which have given heat already
   Field<Real>& total_;
   Field<Real>& heat_;
+  Field<Real>*bulk_ = nullptr, *sources_ = nullptr;  ///< of DensitySource, which has given its heat already
 };
 
 /// MAT_NULL: tau = 2 MU (D - tr D/3), eqs 11-12; MU with an eddy viscosity where there is one.

@@ -8,6 +8,7 @@
 #include "search/neighbours.hpp"
 #include "sph/cards.hpp"
 #include "sph/fields.hpp"
+#include "sph/injection.hpp"
 #include "sph/pair_volumes.hpp"
 #include "sph/renormal_loops.hpp"
 #include "sph/sph.hpp"
@@ -162,6 +163,9 @@ void read_form(const Deck& deck, SphSettings& s, Diagnostics& diagnostics) {
            "FORM 0, 2 and 5 take every kernel");
   if (s.renormalised && s.region)
     refuse("or a plain form beside BOXID: beyond the box nothing is corrected", "FORM 0, 2 and 5 take a box");
+  if (s.renormalised && first_injection(deck))
+    refuse("or a plain form beside *DEFINE_SPH_INJECTION: what waits behind an inlet is not corrected",
+           "FORM 0, 2 and 5 take inlets");
   if (s.renormalised && s.geometry_eps > 0)
     refuse("or a plain form beside *COURANT_PAIR_GEOMETRY, which keeps gradients that are not corrected",
            "leave one of the two out");

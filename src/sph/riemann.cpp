@@ -130,6 +130,9 @@ void read_riemann(const Deck& deck, const Model& model, SphSettings& s, Diagnost
            "use IAVIS 0, or leave the keyword out");
   if (s.density_diffusion > 0)
     refuse("beside *COURANT_DENSITY_DIFFUSION: the flux diffuses density itself", "leave one of the two out");
+  if (s.geometry_eps > 0)
+    refuse("beside *COURANT_PAIR_GEOMETRY, which keeps gradients for sums that the flux replaces",
+           "leave one of the two out");
   if (const std::string differ = parts_of_several_materials(model); !differ.empty())
     refuse("where SPH parts are of several materials: " + differ + ", and the flux is that of one liquid",
            "give all SPH parts one material and one equation of state, or leave the keyword out");

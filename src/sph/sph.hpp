@@ -193,6 +193,8 @@ std::shared_ptr<Force> make_gravity(const Model&, World&, std::shared_ptr<Neighb
 Vec gravity_at(const std::vector<BodyLoad>& loads, Real t);
 /// The same as a function of time.
 std::function<Vec(Real t)> gravity_of(std::vector<BodyLoad> loads);
+/// In 2D they do nothing.
+void warn_of_loads_along_z(const Deck&, Diagnostics&);
 /// nullptr where no particle is fixed. Call while particles stand in the order of the model.
 std::shared_ptr<Constraint> make_fixed_particles(const Model&, World&);
 std::shared_ptr<Constraint> make_speed_limit(const SphSettings&, std::shared_ptr<Neighbours>);

@@ -16,6 +16,25 @@ struct Random {
   }
 };
 
+/// In 2D the stiffness of a shell is per unit of depth, as a particle's: the unit of length and how far a
+/// plate happens to reach along z change nothing.
+TEST(ContactDynamics, In2DShellsAreAsStiffWhateverTheirWidthAndTheUnitOfLength) {
+  const auto step_of = [](Real width, Real unit) {
+    Scene s;
+    s.world.dim = 2;
+    s.law.penopt = 2;
+    s.K = 1e9 * unit;  // [M/LT2]
+    s.m = 0.1 * unit, s.rho = 1000 * unit * unit * unit, s.c = 10 / unit;
+    s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0) / unit, Vec(0, 0, width) / unit, 2, 1);
+    s.x = {Vec(0.04, 0.05, 0) / unit};
+    s.build();
+    return s.contact->limit(s.world, s.clock).dt;
+  };
+  const Real dt = step_of(1, 1);
+  EXPECT_NEAR(step_of(5, 1), dt, 1e-12 * dt);
+  EXPECT_NEAR(step_of(1, 1e-3), dt, 1e-12 * dt);
+}
+
 TEST(ContactDynamics, BounceConservesEnergy) {
   Scene s;
   s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0), 2, 2);
