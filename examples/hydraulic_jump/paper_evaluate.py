@@ -146,10 +146,17 @@ def evaluate_standing(run, program, scenes, threads):
 
 # ---- all
 
+def asked(run):
+    """What paper_runs.yaml asks of the evaluation: with other wishes it is made anew."""
+    return {"settled": list(run.settled), "segment": run.segment, "toe": run.toe, "figures": run.figures}
+
+
 def is_fresh(run, program, scenes):
     made_from = [run.summary_file, pathlib.Path(__file__), *scenes.glob("*.yaml")]
-    done = run.folder / EVALUATED
-    return age(done) > max(program.age, *map(age, made_from))
+    if age(run.folder / EVALUATED) <= max(program.age, *map(age, made_from)):
+        return False
+    before = evaluated(run)
+    return before is not None and before.get("asked") == asked(run)
 
 
 def evaluate(run, program, scenes, threads, say):
@@ -164,12 +171,16 @@ def evaluate(run, program, scenes, threads, say):
                                                 "ns_per_particle_step", "leaked_particles", "max_penetration")}
     out["run"]["residual"] = abs(energy["residual"]) / energy["throughput"]
     out["run"]["settled"] = list(run.settled)
-    (run.folder / EVALUATED).write_text(yaml.safe_dump(out, sort_keys=False))
+    out["asked"] = asked(run)
+    half = run.folder / (EVALUATED + ".tmp")  # a full disk or a kill leaves no half of the file under its name
+    half.write_text(yaml.safe_dump(out, sort_keys=False))
+    half.replace(run.folder / EVALUATED)
 
 
 def evaluated(run):
     """What `evaluate` found, or None."""
     try:
-        return yaml.safe_load((run.folder / EVALUATED).read_text())
-    except OSError:
+        found = yaml.safe_load((run.folder / EVALUATED).read_text())
+    except (OSError, yaml.YAMLError):
         return None
+    return found if isinstance(found, dict) else None

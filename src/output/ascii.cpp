@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <fstream>
 
 namespace courant {
 
@@ -19,6 +20,21 @@ std::string ascii_legend(const std::vector<Legend>& entries) {
   return out + "{END LEGEND}\n";
 }
 
+namespace {
+
+/// One that an earlier run left and this one does not write would pass for this one's. Others' files are
+/// theirs.
+void remove_ours(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::error_code ignored;  // a file that cannot be removed does no harm to this run
+  if (std::getline(stream, line) && std::getline(stream, line) &&
+      line.starts_with("                         courant "))
+    std::filesystem::remove(file, ignored);
+}
+
+}  // namespace
+
 Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
                      const HistoryPositions* resume)
     : dir_(dir) {
@@ -26,7 +42,10 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
       ascii_header(requests.title, fmt::format("{:%m/%d/%Y}", fmt::localtime(std::time(nullptr))));
   const auto open = [&](const char* name, const OutputSchedule& schedule, const std::string& legend,
                         std::string (*text)(const Sample&)) {
-    if (!schedule.is_wanted()) return;
+    if (!schedule.is_wanted()) {
+      if (!resume) remove_ours(dir / name);
+      return;
+    }
     const bool goes_on = resume && resume->bytes.contains(name);
     files_.push_back({schedule, name, TextFile(dir / name, goes_on), text});
     TextFile& file = files_.back().file;

@@ -28,7 +28,7 @@ struct FileCloser {
 
 OutputError::OutputError(const std::filesystem::path& file, const std::string& reason)
     : std::runtime_error(
-          fmt::format("cannot write '{}': {}\n  hint: {}", file.string(), reason, advice(reason))),
+          fmt::format("{}{}': {}\n  hint: {}", beginning, file.string(), reason, advice(reason))),
       file_(file) {}
 
 void make_folder(const std::filesystem::path& dir) {

@@ -15,6 +15,7 @@ namespace courant {
 /// do.
 class OutputError : public std::runtime_error {
  public:
+  static constexpr const char* beginning = "cannot write '";  ///< of what()
   /// `reason` as the system puts it, for example "No space left on device".
   OutputError(const std::filesystem::path& file, const std::string& reason);
   const std::filesystem::path& file() const { return file_; }

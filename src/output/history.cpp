@@ -81,7 +81,8 @@ class HistoryFile {
     if (H5Aexists(object, "title") <= 0) set_text(object, "title", title);
   }
 
-  /// Rows that all datasets have; `most` at most. Those behind are taken off.
+  /// Rows of the longest dataset; `most` at most. Those behind are taken off, and datasets that are shorter,
+  /// because a run that went on had nothing to say of them, get NaN.
   std::size_t cut(std::size_t most) {
     std::vector<std::string> paths;
     check(H5Ovisit(
@@ -91,7 +92,7 @@ class HistoryFile {
           return 0;
         },
         &paths));
-    std::size_t rows = paths.empty() ? 0 : most;
+    std::size_t rows = 0;
     for (const bool only_look : {true, false})
       for (const std::string& path : paths) {
         Hdf5Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
@@ -99,7 +100,7 @@ class HistoryFile {
         Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
         hsize_t size[2] = {0, 0};
         check(H5Sget_simple_extent_dims(space, size, nullptr));
-        if (only_look) rows = std::min<std::size_t>(rows, size[0]);
+        if (only_look) rows = std::min(most, std::max<std::size_t>(rows, size[0]));
         size[0] = rows;
         if (!only_look) check(H5Dset_extent(dataset, size));
       }

@@ -108,6 +108,10 @@ Real median(std::vector<Real> values) {
   return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
+Real slack_of(const std::vector<Real>& times) {
+  return times.size() > 1 ? 0.25 * (times.back() - times.front()) / static_cast<Real>(times.size() - 1) : 0;
+}
+
 void read_window(const MapReader& map, TimeWindow& window) {
   map.number("from", window.from);
   map.number("to", window.to);

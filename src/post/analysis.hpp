@@ -125,6 +125,8 @@ struct RunningMoments {
 Real median(std::vector<Real> values);
 
 // Keys that several kinds share.
+/// A quarter of the mean distance of states: what a window takes in beyond its ends. `times`: increasing.
+Real slack_of(const std::vector<Real>& times);
 void read_window(const MapReader& map, TimeWindow& window);  ///< from, to
 /// Text of a number for names of columns: "0.025".
 std::string short_number(Real value);

@@ -103,7 +103,7 @@ class HistoryAnalysis : public Analysis {
   void take_h5(const std::filesystem::path& dir, Diagnostics& diagnostics) {
     const auto file = HistoryFile::open(dir / "history.h5", diagnostics);
     if (!file) return;
-    begin_table(*file->column("/global/time"));
+    if (!begin_table(*file->column("/global/time"), diagnostics)) return;
     for (const Source& source : sources_) {
       auto values = file->column(source.path, source.component);
       if (!values) {
@@ -120,7 +120,15 @@ class HistoryAnalysis : public Analysis {
   void take_ascii(const std::filesystem::path& path, Diagnostics& diagnostics) {
     const auto file = AsciiHistory::open(path, diagnostics);
     if (!file) return;
-    begin_table(file->times());
+    if (!begin_table(file->times(), diagnostics)) return;
+    const auto repeated = std::adjacent_find(times_.begin(), times_.end());
+    if (repeated != times_.end())
+      diagnostics.warning(
+          where(),
+          fmt::format("analysis '{}': {} has states with the same time, {:g}, as it prints few "
+                      "digits: integrals and spectra of it are coarse",
+                      name(), path.string(), *repeated),
+          "history.h5 has all digits");
     for (const Source& source : sources_) {
       std::string why, hint;
       const AsciiColumn* column = file->find(source.key, why, hint);
@@ -134,9 +142,16 @@ class HistoryAnalysis : public Analysis {
     }
   }
 
-  void begin_table(std::vector<Real> times) {
+  /// False: no state is in the window.
+  bool begin_table(std::vector<Real> times, Diagnostics& diagnostics) {
     times_ = std::move(times);
+    slack_ = slack_of(times_);
+    if (std::none_of(times_.begin(), times_.end(), [&](Real t) { return window_.holds(t, slack_); })) {
+      fault(diagnostics, "the results have no state in its window in time");
+      return false;
+    }
     add_table().columns.push_back({"t", units_.of({0, 0, 1}), times_});
+    return true;
   }
 
   void add_column(const Source& source, std::vector<Real> values, const std::string& unit_of_file) {
@@ -192,21 +207,19 @@ class HistoryAnalysis : public Analysis {
   void add_statistics(const PostSeries& series) {
     RunningMoments moments;
     Real impulse = 0;
-    const Real spacing =
-        times_.size() > 1 ? (times_.back() - times_.front()) / static_cast<Real>(times_.size() - 1) : 0;
+    bool whole = true;  // no gap in the series
     for (std::size_t i = 0; i < times_.size(); ++i) {
-      if (!window_.holds(times_[i], 0.25 * spacing)) continue;
+      if (!window_.holds(times_[i], slack_)) continue;
       moments.add(series.values[i]);
-      const bool pair = i > 0 && window_.holds(times_[i - 1], 0.25 * spacing);
-      const Real piece =
-          pair ? 0.5 * (times_[i] - times_[i - 1]) * (series.values[i] + series.values[i - 1]) : 0;
-      if (!std::isnan(piece)) impulse += piece;
+      if (std::isnan(series.values[i])) whole = false;
+      if (i > 0 && whole && window_.holds(times_[i - 1], slack_))
+        impulse += 0.5 * (times_[i] - times_[i - 1]) * (series.values[i] + series.values[i - 1]);
     }
     add_scalar(series.name + "_mean", series.unit, moments.mean_or_nan());
     add_scalar(series.name + "_deviation", series.unit, moments.deviation());
     add_scalar(series.name + "_least", series.unit, moments.n > 0 ? moments.least : std::nan(""));
     add_scalar(series.name + "_most", series.unit, moments.n > 0 ? moments.most : std::nan(""));
-    add_scalar(series.name + "_integral", series.unit + " " + units_.time, impulse);
+    add_scalar(series.name + "_integral", series.unit + " " + units_.time, whole ? impulse : std::nan(""));
     result_.text +=
         fmt::format("  {}: mean {:.5g} {}, deviation {:.3g}, {:.5g} to {:.5g}\n", series.name,
                     moments.mean_or_nan(), series.unit, moments.deviation(), moments.least, moments.most);
@@ -214,6 +227,7 @@ class HistoryAnalysis : public Analysis {
 
   PostUnits units_;
   TimeWindow window_;
+  Real slack_ = 0;
   std::string ascii_;  // empty: history.h5
   std::vector<Source> sources_;
   std::vector<PostSeries> series_;

@@ -43,16 +43,21 @@ class SpectrumAnalysis : public Analysis {
     if (!find_window(source->times(), diagnostics)) return;
     for (const PostSeries& one : series) add_series(one, diagnostics);
     if (densities_.empty()) return fault(diagnostics, fmt::format("no series of '{}' is without gaps", of_));
-    write_tables(series);
+    const bool alike = std::all_of(densities_.begin(), densities_.end(),
+                                   [&](const PostColumn& c) { return c.unit == densities_.front().unit; });
+    if (!alike)
+      diagnostics.warning(
+          where(), fmt::format("analysis '{}': the series of '{}' have different units: they have no mean",
+                               name(), of_));
+    write_tables(series, alike);
   }
 
  private:
   bool find_window(const std::vector<Real>& times, Diagnostics& diagnostics) {
-    const Real spacing =
-        times.size() > 1 ? (times.back() - times.front()) / static_cast<Real>(times.size() - 1) : 0;
+    const Real slack = slack_of(times);
     first_ = times.size(), end_ = 0;
     for (std::size_t i = 0; i < times.size(); ++i)
-      if (window_.holds(times[i], 0.25 * spacing)) first_ = std::min(first_, i), end_ = i + 1;
+      if (window_.holds(times[i], slack)) first_ = std::min(first_, i), end_ = i + 1;
     if (end_ < first_ + 8) {
       fault(diagnostics, "fewer than eight states are in its window in time");
       return false;
@@ -95,17 +100,18 @@ class SpectrumAnalysis : public Analysis {
     unit_ = series.unit;
   }
 
-  void write_tables(const std::vector<PostSeries>& series) {
+  /// `alike`: the series have one unit.
+  void write_tables(const std::vector<PostSeries>& series, bool alike) {
     const std::string hertz = units_.of({0, 0, -1}), length = units_.of({0, 1, 0});
     PostTable& main = add_table();
     main.columns.push_back({"f", hertz, frequency_});
-    std::vector<Real> mean(frequency_.size(), 0);
+    std::vector<Real> mean(frequency_.size(), alike ? 0 : std::nan(""));
     for (const PostColumn& one : densities_)
       for (std::size_t k = 0; k < mean.size(); ++k)
         mean[k] += one.values[k] / static_cast<Real>(densities_.size());
     Spectrum over_all;
     over_all.frequency = frequency_, over_all.density = mean;
-    main.columns.push_back({"mean", densities_.front().unit, mean});
+    main.columns.push_back({"mean", alike ? densities_.front().unit : "?", mean});
     for (PostColumn& one : densities_) main.columns.push_back(std::move(one));
     const std::string unit = main.columns[1].unit;
     std::vector<Real> number;
@@ -114,7 +120,7 @@ class SpectrumAnalysis : public Analysis {
                                   {"x", length, places_},
                                   {"f", hertz, peaks_},
                                   {"density", unit, tops_},
-                                  {"deviation", unit_, deviations_},
+                                  {"deviation", alike ? unit_ : "?", deviations_},
                                   {"share_in_band", "-", shares_}};
     const Real dominant = over_all.dominant(band_.first, band_.second).value_or(std::nan(""));
     const Real df = frequency_[1];

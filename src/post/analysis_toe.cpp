@@ -58,14 +58,13 @@ class ToeAnalysis : public Analysis {
     const std::string length = units_.of({0, 1, 0}), time = units_.of({0, 0, 1}),
                       speed = units_.of({0, 1, -1});
     add_table().columns = {{"t", time, times_}, {"toe", length, toe_}};
-    const Real spacing =
-        times_.size() > 1 ? (times_.back() - times_.front()) / static_cast<Real>(times_.size() - 1) : 0;
+    const Real slack = slack_of(times_);
     RunningMoments x, t;
     for (std::size_t i = 0; i < times_.size(); ++i)
-      if (window_.holds(times_[i], 0.25 * spacing) && !std::isnan(toe_[i])) x.add(toe_[i]), t.add(times_[i]);
+      if (window_.holds(times_[i], slack) && !std::isnan(toe_[i])) x.add(toe_[i]), t.add(times_[i]);
     Real product = 0;
     for (std::size_t i = 0; i < times_.size(); ++i)
-      if (window_.holds(times_[i], 0.25 * spacing) && !std::isnan(toe_[i]))
+      if (window_.holds(times_[i], slack) && !std::isnan(toe_[i]))
         product += (toe_[i] - x.mean) * (times_[i] - t.mean);
     const Real slope = t.squares > 0 ? product / t.squares : std::nan("");
     add_scalar("toe_mean", length, x.mean_or_nan());

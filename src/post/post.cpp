@@ -58,7 +58,8 @@ void add_snapshot(const ParticleFrame& frame, Real t, const SnapshotRecipe& reci
       csv += fmt::format("{:g},{:.6g},{:.6g},{:.5g}\n", t, frame.x[i], frame.y[i], frame.speed[i]);
 }
 
-/// Which state shows which wanted time: the nearest one.
+/// Which state shows which wanted time: the nearest one. Where that is off by more than a tenth of what lies
+/// between states, the picture has the state's own time.
 std::multimap<std::size_t, Real> snapshot_states(const Recipe& recipe, const std::vector<StateFiles>& states,
                                                  Diagnostics& diagnostics) {
   std::multimap<std::size_t, Real> out;
@@ -69,9 +70,13 @@ std::multimap<std::size_t, Real> snapshot_states(const Recipe& recipe, const std
     const auto nearest = std::min_element(
         states.begin(), states.end(),
         [&](const StateFiles& a, const StateFiles& b) { return std::abs(a.t - t) < std::abs(b.t - t); });
-    if (std::abs(nearest->t - t) <= spacing + 1e-12)
-      out.emplace(static_cast<std::size_t>(nearest - states.begin()), t);
-    else
+    const Real off = std::abs(nearest->t - t);
+    const auto state = static_cast<std::size_t>(nearest - states.begin());
+    if (off <= 0.1 * spacing + 1e-12)
+      out.emplace(state, t);
+    else if (off <= spacing && out.count(state) == 0)
+      out.emplace(state, nearest->t);
+    else if (off > spacing)
       diagnostics.warning({recipe.file},
                           fmt::format("no picture of t = {:g}: the results go from {:g} to {:g}", t,
                                       states.front().t, states.back().t));

@@ -121,7 +121,7 @@ std::optional<std::vector<Real>> at_equal_steps(const std::vector<Real>& t, cons
     const Real at = t.front() + static_cast<Real>(i) * dt;
     while (k + 1 < there.size() && t[there[k]] < at) ++k;
     const Real a = t[there[k - 1]], b = t[there[k]];
-    const Real share = std::clamp<Real>((at - a) / (b - a), 0, 1);
+    const Real share = b > a ? std::clamp<Real>((at - a) / (b - a), 0, 1) : 1;
     out.push_back((1 - share) * values[there[k - 1]] + share * values[there[k]]);
   }
   return out;

@@ -11,6 +11,8 @@
 #include <set>
 #include <sstream>
 
+#include "keyword/deck.hpp"
+#include "keyword/source.hpp"
 #include "output/file.hpp"
 
 namespace courant {
@@ -40,25 +42,6 @@ T value(const YAML::Node& node, const char* key, T otherwise) {
   return found && YAML::convert<T>::decode(found, out) ? out : otherwise;
 }
 
-/// The files that lines below *INCLUDE name, relative to the deck's folder.
-void digest_deck(const std::filesystem::path& deck, std::string& sum, std::set<std::filesystem::path>& seen) {
-  if (!seen.insert(deck).second) return;
-  const auto text = content_of(deck);
-  sum = digest(text ? *text : deck.string(), sum);
-  if (!text || text->find("*INCLUDE") == std::string::npos) return;
-  std::istringstream lines(*text);
-  bool below_include = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with('*')) below_include = line.starts_with("*INCLUDE");
-    if (!below_include || line.starts_with('*') || line.starts_with('$')) continue;
-    const std::size_t begin = line.find_first_not_of(" \t"), end = line.find_last_not_of(" \t\r");
-    if (begin == std::string::npos) continue;
-    const std::filesystem::path named = deck.parent_path() / line.substr(begin, end - begin + 1);
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(named, ignored)) digest_deck(named, sum, seen);
-  }
-}
-
 /// The first error in what the run said, without the place in the deck's folder.
 std::string first_error_line(const std::filesystem::path& file) {
   std::ifstream stream(file);
@@ -79,7 +62,7 @@ void take_summary(const YAML::Node& y, RunResult& out, RunNumbers& numbers) {
   out.steps = value<std::int64_t>(y, "steps", 0);
   out.particle_steps = value<std::int64_t>(y, "particle_steps", 0);
   out.peak_memory_bytes = value(y, "peak_memory_bytes", out.peak_memory_bytes);
-  const YAML::Node energy = y["energy"];
+  const YAML::Node energy = y["energy"] ? y["energy"] : YAML::Node(YAML::NodeType::Map);
   const Real throughput = value(energy, "throughput", 0.0), residual = value(energy, "residual", 0.0);
   numbers.residual = throughput > 0           ? std::abs(residual) / throughput
                      : std::abs(residual) > 0 ? std::nan("")
@@ -130,6 +113,13 @@ std::optional<RunRecord> read_record(const std::filesystem::path& folder) {
   return out;
 }
 
+bool says_something_of_the_deck(const RunRecord& record, const RunResult& result) {
+  if (record.timed_out) return true;
+  const bool could_not_write = result.reason.find(OutputError::beginning) != std::string::npos;
+  return result.termination != "interrupted" && record.signal == 0 && record.exit_code <= 2 &&
+         !could_not_write;
+}
+
 RunResult result_of_run(const std::filesystem::path& folder, const RunRecord& record, RunNumbers& numbers) {
   RunResult out;
   out.folder = folder;
@@ -155,6 +145,7 @@ RunResult result_of_run(const std::filesystem::path& folder, const RunRecord& re
     out.verdict = Verdict::stopped;
     if (out.reason.empty()) out.reason = said;
     if (out.reason.empty()) broken("stopped without a reason (exit code 2)");
+    if (out.reason.find(OutputError::beginning) != std::string::npos) broken(out.reason);
   } else if (record.exit_code != 0) {
     broken(fmt::format("exit code {}{}{}", record.exit_code, said.empty() ? "" : ": ", said));
   } else if (!summary) {
@@ -175,10 +166,16 @@ std::string digest(const std::string& text, const std::string& before) {
   return fmt::format("{:016x}", sum);
 }
 
-std::string digest_of_deck(const std::filesystem::path& deck) {
-  std::string sum;
-  std::set<std::filesystem::path> seen;
-  digest_deck(deck, sum, seen);
+std::string digest_of_deck(const std::filesystem::path& deck,
+                           const std::map<std::string, std::string>& parameters) {
+  const auto text = content_of(deck);
+  std::string sum = digest(text ? *text : deck.string());
+  if (!text || upper_case(*text).find("*INCLUDE") == std::string::npos) return sum;
+  Diagnostics of_the_run;  // which tells them itself
+  const Deck read = read_deck(deck.string(), {.parameters = parameters, .open = {}}, of_the_run);
+  std::set<const SourceText*> seen;
+  for (const DeckFile& file : read.files)
+    if (file.source && seen.insert(file.source.get()).second) sum = digest(file.source->text, sum);
   return sum;
 }
 

@@ -2,6 +2,7 @@
 // What a finished run left behind besides its results: how it ended, and for which deck and build.
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -36,10 +37,16 @@ struct RunNumbers {
 /// `numbers`: filled where the run ended normally.
 RunResult result_of_run(const std::filesystem::path& folder, const RunRecord& record, RunNumbers& numbers);
 
+/// Whether a run ended for reasons of its own, so that it would end so again: nobody interrupted or killed
+/// it, it could be started, and there was room for what it wrote.
+bool says_something_of_the_deck(const RunRecord& record, const RunResult& result);
+
 /// 16 hexadecimal digits that tell texts apart (FNV-1a, 64 bits), going on from `before`.
 std::string digest(const std::string& text, const std::string& before = {});
-/// The digest of a deck with the files it includes. A file that cannot be read counts by its name.
-std::string digest_of_deck(const std::filesystem::path& deck);
+/// The digest of a deck with the files that a run with these parameters would read. A deck that cannot be
+/// read counts by its name.
+std::string digest_of_deck(const std::filesystem::path& deck,
+                           const std::map<std::string, std::string>& parameters = {});
 /// The digest of a program and the library with this function: another build has another one.
 std::string digest_of_build(const std::filesystem::path& executable);
 

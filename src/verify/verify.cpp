@@ -175,7 +175,9 @@ class Verification {
       run.deck = definition.deck;
       for (const auto& [name, value] : run.plan.parameters) parameters += name + "=" + value + "\n";
     }
-    run.key = digest(parameters + build_, digest_of_deck(run.deck));
+    run.key =
+        digest(parameters + build_,
+               digest_of_deck(run.deck, definition.scene.empty() ? run.plan.parameters : SuiteParameters{}));
     std::error_code unknown;
     const double bytes = static_cast<double>(std::filesystem::file_size(run.deck, unknown));
     // the number of steps grows with the resolution, in 2D like the root of the number of particles
@@ -223,8 +225,7 @@ class Verification {
     record.key = run.key;
     RunNumbers numbers;
     const RunResult result = result_of_run(run.folder, record, numbers);
-    // somebody else has ended it: that says nothing about the deck
-    if (result.termination != "interrupted" || record.timed_out) write_record(run.folder, record);
+    if (says_something_of_the_deck(record, result)) write_record(run.folder, record);
     run.record = record;
     const SuiteCase& definition = suite_.cases[run.plan.of_case];
     const std::string resolution = run.plan.resolution.empty()

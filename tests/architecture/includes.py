@@ -25,7 +25,7 @@ MAY_INCLUDE = {
     "time": ["state", "search", "output"],
     "post": ["base", "output"],
     "generate": ["base"],
-    "verify": ["post", "generate"],
+    "verify": ["post", "generate", "keyword"],
 }
 TOP = "app"  # may include everything; nothing includes it
 THREADS = re.compile(r"#\s*(pragma\s+omp\s+(?!simd|declare\s+simd)|include\s*<(omp\.h|thread|mutex|future|condition_variable)>)")

@@ -138,6 +138,24 @@ TEST(AsciiHeader, LegendAndTitle) {
   EXPECT_NE(header.find("date 11/21/2026\n"), std::string::npos);
 }
 
+TEST(Histories, OfAnEarlierRunDoNotStayBehind) {
+  ScratchFolder dir;
+  const auto run = [&](const HistoryRequests& wanted) {
+    Histories histories(dir.path(), wanted);
+    Sample s = made_sample();
+    s.dt = 0.1;
+    histories.write(s, true);
+    histories.finish();
+  };
+  write_file(dir / "matsum", " theirs\n                         ls-dyna\n");
+  run({.glstat = 0.25, .rcforc = 0.5, .title = "first"});
+  EXPECT_TRUE(std::filesystem::exists(dir / "rcforc"));
+  run({.glstat = 0.25, .title = "second"});
+  EXPECT_FALSE(std::filesystem::exists(dir / "rcforc")) << "it would pass for one of the second run";
+  EXPECT_TRUE(std::filesystem::exists(dir / "glstat"));
+  EXPECT_TRUE(std::filesystem::exists(dir / "matsum")) << "others' files are theirs";
+}
+
 TEST(Histories, EachFileAtItsOwnInterval) {
   ScratchFolder dir;
   Histories histories(dir.path(), {.glstat = 0.25, .rcforc = 0.5, .title = "channel"});

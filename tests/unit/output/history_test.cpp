@@ -123,6 +123,28 @@ TEST(History, QuantityThatAppearsLateOrVanishesIsNaNElsewhere) {
   H5Fclose(file);
 }
 
+TEST(History, WhatIsSilentAfterARestartTakesNoSamplesFromOthersAtTheNext) {
+  ScratchFolder dir;
+  for (const int begin : {0, 3, 6}) {
+    History history(dir / "history.h5");
+    EXPECT_EQ(history.resume(static_cast<std::size_t>(begin)), static_cast<std::size_t>(begin));
+    for (int i = begin; i < begin + 3; ++i) {
+      Sample s = sample_at(i);
+      if (begin > 0) s.particles.clear();  // it has left the box
+      history.record(s);
+    }
+    history.flush();
+  }
+  const hid_t file = H5Fopen((dir / "history.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const auto t = read(file, "/global/time"), p = read(file, "/particles/17/p");
+  H5Fclose(file);
+  ASSERT_EQ(t.size(), 9u);
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(t[i], static_cast<double>(i));
+  ASSERT_GE(p.size(), 6u);
+  EXPECT_EQ(p[2], 200);
+  for (std::size_t i = 3; i < p.size(); ++i) EXPECT_TRUE(std::isnan(p[i])) << i;
+}
+
 TEST(History, FullDiskThrowsAndLeavesNoFile) {
   ScratchFolder dir;
   const pid_t child = fork();

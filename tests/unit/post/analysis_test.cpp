@@ -361,6 +361,51 @@ TEST(Force, OnTheWallsFromHistories) {
   EXPECT_NE(test::read_text(run.out() / "wall.csv").find("force_y_contact7 [N]"), std::string::npos);
 }
 
+/// Fifty samples of a contact's force and the kinetic energy; those of the contact are lacking from t = 3
+/// to 4.
+void write_history_with_a_gap(const ScratchFolder& folder) {
+  History history(folder / "history.h5");
+  for (int s = 0; s <= 50; ++s) {
+    Sample sample;
+    sample.t = 0.1 * s;
+    sample.energy.kinetic = 1 + std::sin(sample.t);
+    sample.dt = 0.01 + 0.001 * std::sin(2 * sample.t);
+    InterfaceForce contact;
+    contact.id = 7;
+    contact.on_surfa = {1, 1, 0};
+    if (s < 30 || s > 40) sample.interfaces.push_back(contact);
+    history.record(sample);
+  }
+  history.flush();
+}
+
+TEST(Force, WithoutStatesOrWithAGapHasNoImpulse) {
+  Analyses early("analyses:\n  - {kind: force, name: wall, contacts: [7], from: 5.5, to: 7}\n");
+  write_history_with_a_gap(early.folder());
+  EXPECT_NE(early.fail().find("analysis 'wall': the results have no state in its window in time"),
+            std::string::npos);
+
+  Analyses run(
+      "analyses:\n  - {kind: force, name: before, contacts: [7], to: 2}\n"
+      "  - {kind: force, name: over, contacts: [7]}\n");
+  write_history_with_a_gap(run.folder());
+  run.finish();
+  EXPECT_NEAR(run.scalar("before", "force_x_contact7_integral"), -2, 1e-12);
+  EXPECT_NEAR(run.scalar("over", "force_x_contact7_mean"), -1, 1e-12);
+  EXPECT_TRUE(std::isnan(run.scalar("over", "force_x_contact7_integral"))) << "a gap is no force of 0";
+}
+
+TEST(SpectrumOf, SeriesOfDifferentUnitsHasNoMean) {
+  Analyses run(
+      "analyses:\n  - {kind: history, name: h, of: [global/kinetic, global/dt], to: 5}\n"
+      "  - {kind: spectrum, name: s, of: h, segment: 2}\n");
+  write_history_with_a_gap(run.folder());
+  EXPECT_NE(run.fail().find("have different units: they have no mean"), std::string::npos);
+  EXPECT_TRUE(std::isnan(run.scalar("s", "dominant_of_mean")));
+  EXPECT_TRUE(std::isnan(run.column("s", "mean")[1]));
+  EXPECT_GT(run.column("s", "global/kinetic")[1], 0);
+}
+
 TEST(History, OfAsciiFilesHereAndElsewhere) {
   Analyses run(
       "analyses:\n"

@@ -185,6 +185,47 @@ TEST(Judge, DigestsOfDecks) {
   EXPECT_NE(digest_of_deck(dir / "deck.k"), before) << "what a deck includes counts";
 }
 
+TEST(Judge, DigestsKnowIncludesAsTheReaderDoes) {
+  const ScratchFolder dir;
+  make_folder(dir / "mesh");
+  write_file(
+      dir / "deck.k",
+      "*KEYWORD\n*PARAMETER\nC    mesh    coarse\n*include_path_relative\nmesh\n*include\n&mesh\n*END\n");
+  for (const char* name : {"coarse", "fine"}) write_file(dir / "mesh" / name, "*NODE\n");
+  const auto sum = [&](const SuiteParameters& parameters) {
+    return digest_of_deck(dir / "deck.k", parameters);
+  };
+  const std::string coarse = sum({}), fine = sum({{"mesh", "fine"}});
+  write_file(dir / "mesh/coarse", "*NODE \n");
+  EXPECT_NE(sum({}), coarse);
+  EXPECT_EQ(sum({{"mesh", "fine"}}), fine);
+  write_file(dir / "mesh/fine", "*NODE \n");
+  EXPECT_NE(sum({{"mesh", "fine"}}), fine);
+}
+
+TEST(Judge, FaultsOfTheMachineSayNothingOfTheDeck) {
+  const ScratchFolder dir;
+  const auto says = [&](RunRecord record, const std::string& summary) {
+    write_file(dir / "summary.yaml", summary);
+    RunNumbers numbers;
+    return says_something_of_the_deck(record, result_of_run(dir.path(), record, numbers));
+  };
+  const std::string good = "termination: normal\nreason: done\nenergy: {total: 1.5, ratio: 1}\n";
+  EXPECT_TRUE(says({}, good));
+  EXPECT_TRUE(says({.exit_code = 2}, "termination: error\nreason: NaN at t = 1\n"));
+  EXPECT_TRUE(says({.signal = 9, .timed_out = true, .time_limit = 2}, good));
+  EXPECT_FALSE(says({.signal = 9}, good));
+  EXPECT_FALSE(says({.exit_code = 127}, good));
+  EXPECT_FALSE(says({}, "termination: interrupted\nreason: a signal\n"));
+  const RunRecord stopped{.exit_code = 2};
+  const std::string full = std::string("termination: error\nreason: \"") +
+                           OutputError("history.h5", "No space left on device").what() + "\"\n";
+  EXPECT_FALSE(says(stopped, full));
+  RunNumbers numbers;
+  EXPECT_EQ(result_of_run(dir.path(), stopped, numbers).verdict, Verdict::broken)
+      << "not what a case may ask for";
+}
+
 Comparison compared(const SuiteResult& before, const SuiteResult& now) {
   const ScratchFolder dir;
   write_file(dir / "old.csv", results_csv(before));
