@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t early = 2000;
 
 bool set_by_contact(const StopFacts& f) {
-  return f.dt_set_by.rfind("contact", 0) == 0 || f.contact_share > 0.95;
+  return f.dt_set_by.rfind("contact", 0) == 0;
 }
 
 std::string advice_for_start(const StopFacts& f) {
@@ -47,6 +47,11 @@ std::string advice_for_flow(const StopFacts& f) {
     return fmt::format(
         "{} set the step: its penalty is stiff for particles this light; lower SLSFAC of "
         "*CONTROL_CONTACT or SFSA of the contact",
+        f.dt_set_by);
+  if (f.has_contact && f.contact_share > 0.95)
+    return fmt::format(
+        "{} set the step, and contact allows hardly more: its penalty is stiff for particles this light; "
+        "lower SLSFAC of *CONTROL_CONTACT or SFSA of the contact",
         f.dt_set_by);
   if (f.leaked > 0)
     return fmt::format(

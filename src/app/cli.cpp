@@ -1,6 +1,7 @@
 #include "app/cli.hpp"
 
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -76,6 +77,10 @@ std::unique_ptr<Simulation> build(const Call& call, const DeckRecord* before,
 }
 
 int call_run(const Call& call) {
+  if (!std::isfinite(call.until)) {  // which CLI11 takes for positive
+    print_error(fmt::format("error: --until {}: expected a time\n", call.until));
+    return exit_input;
+  }
   set_threads(call.threads);
   std::optional<Restart> restart;
   try {
@@ -93,11 +98,13 @@ int call_run(const Call& call) {
   }
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
-  std::signal(SIGXFSZ,
-              SIG_IGN);  // a limit on file sizes is then a failed write, with a message and a summary
+  if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as nohup wants it
+  // A limit on file sizes is then a failed write, with a message and a summary. Ctrl-C also ends the `tee`
+  // that reads from here: the run still has its files to write.
+  for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
   RunOptions options;
   options.dir = call.dir, options.until = call.until, options.warnings = warnings,
-  options.stop = &stop_requested, options.dump_at_end = !call.no_final_dump;
+  options.params = call.params, options.stop = &stop_requested, options.dump_at_end = !call.no_final_dump;
   options.restart = restart ? &*restart : nullptr;
   if (!call.quiet) {
     options.print = [](const std::string& line) {
@@ -113,7 +120,7 @@ int call_run(const Call& call) {
       if (!summary.advice.empty()) print_error(fmt::format("  hint: {}\n", summary.advice));
       return exit_run;
     }
-    if (!call.quiet) fmt::print("results are in {}\n", call.dir);
+    if (!call.quiet) print_text(fmt::format("results are in {}\n", call.dir));
     return exit_ok;
   } catch (const RestartError& error) {
     print_error(

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 
 #include "app/restart_cards.hpp"
 #include "base/instruction_set.hpp"
@@ -129,7 +131,10 @@ Restart head_of(Simulation& simulation) {
 }
 
 RestartSchedule::RestartSchedule(const Deck& deck) {
-  const auto cycles = [](Real cycl) { return cycl > 0 ? std::max<std::int64_t>(1, std::llround(cycl)) : 0; };
+  constexpr Real never = 1e15;  // also what no integer holds
+  const auto cycles = [](Real cycl) {
+    return cycl > 0 && cycl < never ? std::max<std::int64_t>(1, std::llround(cycl)) : 0;
+  };
   if (const auto* card = deck.last<DatabaseRunrsfCard>()) {
     runrsf_ = cycles(card->cycl);
     files_ = std::max(card->nr, 1);
@@ -171,6 +176,29 @@ HistoryPositions positions_before(const RunOptions& options) {
   const Archive::Group inside(archive, "files");
   out.keep(archive);
   return out;
+}
+
+namespace {
+
+/// A word as a shell takes it.
+std::string in_shell(const std::string& word) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) || std::strchr("_-./=+,:@%", c) != nullptr;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+std::string call_to_go_on(const std::string& deck, const RunOptions& options, const std::string& file) {
+  std::string call =
+      fmt::format("courant run {} -o {} --restart {}", in_shell(deck), in_shell(options.dir), in_shell(file));
+  for (const std::string& param : options.params) call += " --param " + in_shell(param);
+  if (options.until > 0) call += fmt::format(" --until {}", options.until);
+  return call;
 }
 
 int retire_restart_files(const fs::path& dir, std::int64_t cycle, const fs::path& in_use) {

@@ -54,6 +54,9 @@ bool prepare_folder(const RunOptions& options);
 /// How far the files had come when the restart file was written.
 HistoryPositions positions_before(const RunOptions& options);
 
+/// The command by which a run of this deck goes on from a restart file.
+std::string call_to_go_on(const std::string& deck, const RunOptions& options, const std::string& file);
+
 /// Moves the restart files in `dir`/restart of states later than `cycle` to `dir`/restart_old, so that nobody
 /// takes those of another run, or of another branch of this one, for the latest. Returns their number.
 /// `in_use`: a file there that must not be replaced. Throws OutputError.

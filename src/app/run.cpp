@@ -383,7 +383,7 @@ class Run {
   }
 
   std::string restart_call(const std::string& file) const {
-    return fmt::format("courant run {} -o {} --restart {}", summary_.deck, options_.dir, file);
+    return call_to_go_on(summary_.deck, options_, file);
   }
 
   /// What can go on from where, for a run that did not reach its end.
@@ -427,7 +427,7 @@ class Run {
   }
 
   void show_progress() {
-    if (s_.clock().cycle - first_cycle_ < 64 && !estimated_) {
+    if (!estimated_) {
       estimated_ = true;
       messag_.line(fmt::format(" estimated clock time to complete    = {:10.0f} sec", seconds_left()));
     }

@@ -5,6 +5,7 @@
 
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -28,7 +29,8 @@ std::optional<SenseSwitch> sense_switch_of(const std::string& text) {
   if (word.rfind(end_time, 0) == 0) {
     const char *first = word.data() + end_time.size(), *last = word.data() + word.size();
     const auto [end, error] = std::from_chars(first, last, out.end_time);
-    if (error == std::errc() && end == last && out.end_time >= 0) out.kind = Kind::end_time;
+    if (error == std::errc() && end == last && out.end_time >= 0 && std::isfinite(out.end_time))
+      out.kind = Kind::end_time;
     return out;
   }
   if (word.ends_with('.')) word.pop_back();

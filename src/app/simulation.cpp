@@ -127,6 +127,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   rules_.dtinit = model_.dtinit;
   if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
   rules_.dtmin = model_.dtmin;
+  rules_.tssfac = model_.tssfac;
   rules_.guard = guard_ = std::make_shared<Guard>(reference_of_parts(), model_.endeng);
   stepper_ = std::make_unique<Stepper>(world_, *neighbours_, rules_, timer_);
 }
@@ -164,6 +165,7 @@ void Simulation::add_images(Real h, Diagnostics& diagnostics) {
       sph_.gravity = [g = sph_.gravity, n = plane.normal](Real t) { return Vec(g(t) - g(t).dot(n) * n); };
   for (const ImagePlane& plane : planes_)
     if (plane.kind == ImagePlane::Kind::mirror) sph_.mirrors.push_back(plane);
+  sph_.walls.planes = planes_;
   auto images = std::make_shared<Images>(planes_);
   neighbours_->set_images(images);
   world_.exchangers.push_back(images);

@@ -109,6 +109,7 @@ struct RunOptions {
   std::string dir = ".";                             ///< where results go
   Real until = 0;                                    ///< > 0: end time instead of ENDTIM [T]
   std::vector<std::string> warnings;                 ///< of the deck, for summary.yaml
+  std::vector<std::string> params;                   ///< NAME=VALUE, for the command that goes on
   std::function<void(const std::string&)> print;     ///< every line of messag
   std::function<void(const std::string&)> progress;  ///< one status line, about once a second
   const std::atomic<bool>* stop = nullptr;           ///< set by a signal: end cleanly after this step

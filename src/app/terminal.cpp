@@ -4,8 +4,6 @@
 
 #include <cstdio>
 
-#include <fmt/format.h>
-
 namespace courant {
 
 namespace {
@@ -20,22 +18,23 @@ bool keyboard_is_terminal() {
   return isatty(STDIN_FILENO) != 0;
 }
 
+void print_text(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);  // fmt::print throws where this returns less
+  std::fflush(stdout);
+}
+
 void clear_status_line() {
-  if (is_terminal()) fmt::print("\r\033[K");
+  if (is_terminal()) print_text("\r\033[K");
 }
 
 void print_line(const std::string& line) {
   clear_status_line();
-  fmt::print("{}\n", line);
-  std::fflush(stdout);
+  print_text(line + "\n");
 }
 
 std::function<void(const std::string&)> status_line() {
   if (!is_terminal()) return {};
-  return [](const std::string& line) {
-    fmt::print("\r\033[K{}", line);
-    std::fflush(stdout);
-  };
+  return [](const std::string& line) { print_text("\r\033[K" + line); };
 }
 
 }  // namespace courant

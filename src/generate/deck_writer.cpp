@@ -125,6 +125,24 @@ PlacedPart place_part(const ScenePart& part, Ids& ids, const Variables& variable
   return placed;
 }
 
+/// Whether ten columns hold a number as exactly as matters.
+bool fits(Real value) {
+  const std::string text = number_text(value, 10);
+  return !text.empty() && std::abs(std::stod(text) - value) <= 1e-6 * std::abs(value);
+}
+
+/// "$#      id      styp ...", each name at the right end of its field.
+template <class Out>
+void append_heading(Out put, std::initializer_list<const char*> names, int width) {
+  int columns = width - 2;
+  fmt::format_to(put, "$#");
+  for (const char* name : names) {
+    fmt::format_to(put, "{:>{}}", name, columns);
+    columns = width;
+  }
+  fmt::format_to(put, "\n");
+}
+
 std::string parts_text(const Scene& scene) {
   std::string out;
   const auto put = std::back_inserter(out);
@@ -136,14 +154,16 @@ std::string parts_text(const Scene& scene) {
   }
   for (const ScenePart& part : scene.parts) {
     if (!part.has_velocity) continue;
-    out +=
-        "*INITIAL_VELOCITY_GENERATION\n$#      id      styp     omega        vx        vy        vz     "
-        "ivatn      icid\n";
-    fmt::format_to(put, "{:10}         2         0{:>10}{:>10}{:>10}         0         0\n", part.id,
-                   number_text(part.velocity[0], 10), number_text(part.velocity[1], 10),
-                   number_text(part.velocity[2], 10));
-    out += "$#      xc        yc        zc        nx        ny        nz     phase    irigid\n";
-    out += "         0         0         0         0         0         0         0         0\n";
+    const bool wide = !fits(part.velocity[0]) || !fits(part.velocity[1]) || !fits(part.velocity[2]);
+    const int width = wide ? 20 : 10;  // + behind the keyword: fields of 20 columns
+    fmt::format_to(put, "*INITIAL_VELOCITY_GENERATION{}\n", wide ? " +" : "");
+    append_heading(put, {"id", "styp", "omega", "vx", "vy", "vz", "ivatn", "icid"}, width);
+    fmt::format_to(put, "{:{w}}{:{w}}{:{w}}{:>{w}}{:>{w}}{:>{w}}{:{w}}{:{w}}\n", part.id, 2, 0,
+                   number_text(part.velocity[0], width), number_text(part.velocity[1], width),
+                   number_text(part.velocity[2], width), 0, 0, fmt::arg("w", width));
+    append_heading(put, {"xc", "yc", "zc", "nx", "ny", "nz", "phase", "irigid"}, width);
+    for (int k = 0; k < 8; ++k) fmt::format_to(put, "{:{}}", 0, width);
+    out += '\n';
   }
   return out;
 }
@@ -211,6 +231,7 @@ std::string deck_text(const Scene& scene, const std::string& scene_name, Diagnos
       "$ Written by `courant generate {}`: change the scene, not this file.\n$ Parameters:\n", scene_name);
   for (const auto& [name, value] : scene.parameters)
     out += fmt::format("$   {} = {}\n", name, number_text(value));
+  const int errors = diagnostics.errors();
   Ids ids;
   std::vector<PlacedPart> placed;
   out += "$ Parts:\n";
@@ -221,6 +242,7 @@ std::string deck_text(const Scene& scene, const std::string& scene_name, Diagnos
     out += fmt::format("$   {} {}: {} {}\n", part.id, part.title,
                        particles ? p.particles.size() : p.shells.size(), particles ? "particles" : "shells");
   }
+  if (diagnostics.errors() > errors) return {};
   out += fmt::format("*KEYWORD\n*TITLE\n{}\n", scene.title);
   for (const std::string& block : scene.keywords) {
     out += block;

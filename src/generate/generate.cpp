@@ -48,6 +48,12 @@ bool generate_deck(const std::string& scene_path, const std::string& deck_path,
   const int before = diagnostics.errors();
   const Scene scene = read_scene(scene_path, params, diagnostics);
   if (diagnostics.errors() > before) return false;
+  for (const std::string& file : scene.files)
+    if (std::error_code ignored; std::filesystem::equivalent(file, deck_path, ignored)) {
+      diagnostics.error({deck_path, 0, 0}, "the deck would take the place of the scene, or of a base of it",
+                        "give the deck another name: -o DECK.k");
+      return false;
+    }
   const std::string text =
       deck_text(scene, std::filesystem::path(scene_path).filename().string(), diagnostics);
   if (diagnostics.errors() > before) return false;

@@ -42,6 +42,8 @@ class SceneReader {
     }
     check_keys(root, "the scene", {"title", "base", "parameters", "parts", "keywords"});
     load_bases(root["base"]);
+    scene.files = {path_};
+    for (const Base& base : bases_) scene.files.push_back(base.path);
     read_parameters(root["parameters"], scene);
     scene.title = root["title"] ? text(root["title"]) : std::string("untitled scene");
     if (scene.title.size() > 80) error(root["title"], "title: a deck's title has at most 80 characters");
@@ -356,6 +358,10 @@ class SceneReader {
                         lattice.jitter));
     if (lattice.dim != dim_high && lattice.dim && dim_high)
       error(node, "low and high of a lattice need the same number of components");
+    if (dim_ == 0) dim_ = lattice.dim;
+    if (lattice.dim != dim_ && lattice.dim)
+      error(node, fmt::format("a lattice of {} dimensions beside one of {}", lattice.dim, dim_),
+            "give low and high as many components in all lattices of a scene");
     if (diagnostics_.errors() > before) return lattice;
     Real total = 1;
     for (int k = 0; k < lattice.dim; ++k) {
@@ -375,6 +381,7 @@ class SceneReader {
       }
       lattice.n[k] = static_cast<Id>(n);
     }
+    add_entities(node, total);
     return lattice;
   }
 
@@ -401,7 +408,16 @@ class SceneReader {
       return plate;
     }
     plate.n = {static_cast<Id>(n1), static_cast<Id>(n2)};
+    add_entities(node, n1 * n2);
     return plate;
+  }
+
+  void add_entities(const YAML::Node& node, Real more) {
+    const bool told = entities_ > most_entities;
+    entities_ += more;
+    if (entities_ > most_entities && !told)
+      error(node, fmt::format("up to here the scene has {:.3g} particles and shells; {:.0e} are the limit",
+                              entities_, most_entities));
   }
 
   void read_keywords(const YAML::Node& node, Scene& scene) {
@@ -432,6 +448,8 @@ class SceneReader {
   };
   std::string path_;
   std::vector<Base> bases_;
+  int dim_ = 0;        // of all lattices
+  Real entities_ = 0;  // so far
   const std::map<std::string, std::string>& overrides_;
   Diagnostics& diagnostics_;
   Variables variables_{{"pi", pi}};

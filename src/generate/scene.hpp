@@ -54,6 +54,7 @@ struct Scene {
   Variables variables;                                   ///< the same by name
   std::vector<ScenePart> parts;
   std::vector<std::string> keywords;  ///< deck text, placeholders filled
+  std::vector<std::string> files;     ///< that it was read from
 };
 
 /// Reads and checks a scene. `overrides` replace values of `parameters`; one that names no parameter is an

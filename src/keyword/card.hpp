@@ -81,6 +81,7 @@ struct FieldRules {
   IdSpace refers =
       IdSpace::none;  ///< what the ids in this field number; for the first field KeywordOf::id_space
   Spatial spatial = Spatial::none;
+  bool pairs = false;  ///< of a list of ids: two and two on each card, so blank and 0 stay in it
 };
 
 // Rules that many tables share.
@@ -131,6 +132,9 @@ struct KeywordOf {
   bool heading = false;         ///< always starts with an A70 heading card (*PART)
   std::string T::*title = nullptr;
   Id T::*id = nullptr;
+  /// The coordinate system in which places and directions are given, 0 global. With one *INCLUDE_TRANSFORM
+  /// leaves them alone: the system has moved.
+  Id T::*local = nullptr;
   bool once = false;  ///< may stand only once in a deck
   bool many = true;   ///< several card sets may follow one keyword line
   /// Not empty: what Courant lacks to honour the keyword ("solid elements"). Its cards are read and checked,

@@ -228,6 +228,8 @@ void CardReader::read_card(const DataLines& data, std::size_t card, EntrySink& s
   const std::size_t fields = spec_->cards[card].fields.size();
   for (std::size_t i = 0; i < slices_.size(); ++i)
     read_field(card, std::min(i, fields - 1), slices_[i], sink);
+  if (spec_->cards[card].fields.back().rules.pairs && slices_.size() % 2 != 0)
+    sink.set_integer(card, fields - 1, 0);
   warn_of_cut_number(data.line(), spec_->cards[card], card);
   if (too_many > 0)
     diagnostics_.warning(
@@ -248,6 +250,11 @@ void CardReader::warn_of_cut_number(std::string_view line, const CardSpec& spec,
                   spec_->names[static_cast<std::size_t>(block_.match.name)], last, card + 1));
 }
 
+/// Of a list of ids, whether a blank field or 0 has a place in it.
+bool CardReader::keeps_zeros(std::size_t card, const FieldSpec& spec) const {
+  return spec.type == FieldType::ids && (spec_->cards[card].is_table || spec.rules.pairs);
+}
+
 void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, EntrySink& sink) {
   const FieldSpec& spec = spec_->cards[card].fields[field];
   if (spec.type == FieldType::skip) {
@@ -263,7 +270,7 @@ void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, En
                       : fmt::format("supported values: {}", fmt::join(spec.rules.allowed, ", ")));
     if (spec.type == FieldType::reals) sink.set_real(card, field, 0);
     if (spec.type == FieldType::texts) sink.set_text(card, field, "");
-    if (spec.type == FieldType::ids && spec_->cards[card].is_table) sink.set_integer(card, field, 0);
+    if (keeps_zeros(card, spec)) sink.set_integer(card, field, 0);
     return;  // the entry began with the standard values
   }
   std::string held;
@@ -293,7 +300,7 @@ void CardReader::read_integer(std::size_t card, std::size_t field, const Slice& 
     return;
   }
   if (value == 0 && spec.type == FieldType::ids) {
-    if (spec_->cards[card].is_table) sink.set_integer(card, field, 0);
+    if (keeps_zeros(card, spec)) sink.set_integer(card, field, 0);
     return;
   }
   if (value == 0 && spec.rules.zero_is_standard && !spec.rules.required) return;

@@ -148,7 +148,8 @@ void KeywordSpec::move(Deck& deck, std::int32_t keyword,
   change_each(deck, keyword, [&](Entry& entry) {
     const Affine* motion = motion_of(entry);
     if (!motion) return;
-    for (const CardSpec& card : cards) move_fields(entry, card, *motion);
+    if (!local || value_at<Id>(entry, *local) == 0)
+      for (const CardSpec& card : cards) move_fields(entry, card, *motion);
     const std::string reason = move_rest(entry, *motion);
     if (!reason.empty()) refuse(entry, reason);
   });

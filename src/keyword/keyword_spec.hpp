@@ -81,7 +81,7 @@ class KeywordSpec {
   IdSpace id_space = IdSpace::none;
   bool title_option = false, id_option = false, mpp_option = false, collect_option = false;
   bool heading = false, once = false, many = true;
-  std::optional<std::size_t> title, id;  ///< offsets of KeywordOf::title and id
+  std::optional<std::size_t> title, id, local;  ///< offsets of these members of KeywordOf
   std::vector<CardSpec> cards;
 
  protected:
@@ -187,6 +187,7 @@ class KeywordSpecOf : public KeywordSpec {
     once = keyword.once, many = keyword.many;
     if (keyword.title) title = offset_of(standard_, keyword.title);
     if (keyword.id) id = offset_of(standard_, keyword.id);
+    if (keyword.local) local = offset_of(standard_, keyword.local);
     for (const CardOf<T>& card : own_cards_) {
       CardSpec spec{.fields = std::vector<FieldSpec>(card.fields.size()),
                     .optional = card.optional,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -59,22 +60,25 @@ class EosPass : public Material {
     const FieldSet& fields = world.particles.fields;
     heat_ = dynamic_cast<const Field<Real>*>(fields.find("dissipation"));
     viscous_ = dynamic_cast<const Field<Real>*>(fields.find("viscous_dissipation"));
-    lowest_.resize(block_count(world.particles.active));
+    found_.resize(block_count(world.particles.active));
   }
 
   void block(World& world, const Clock& clock, Index begin, Index end) override {
-    Real& lowest = lowest_[begin / block_size] = 1;
-    if (same_for_all_) return advance(world.particles, clock.dt_old, begin, end, 0, lowest);
+    Found& found = found_[begin / block_size] = {};
+    if (same_for_all_) return advance(world.particles, clock.dt_old, begin, end, 0, found);
     const Index* part = world.particles.part.data();
     for (Index i = begin, next = i; i < end; i = next) {  // particles of one part in a row
       while (next < end && part[next] == part[i]) ++next;
-      if (part_.mine[part[i]]) advance(world.particles, clock.dt_old, i, next, part[i], lowest);
+      if (part_.mine[part[i]]) advance(world.particles, clock.dt_old, i, next, part[i], found);
     }
   }
 
   void finish(World& world, const Clock& clock) override {
-    for (std::size_t b = 0; b < lowest_.size(); ++b) {
-      if (lowest_[b] > 0) continue;
+    std::int64_t without_speed = 0;
+    for (const Found& found : found_) without_speed += found.without_speed;
+    if (without_speed > 0) world.counters["sound_speed_clamped"] += without_speed;
+    for (std::size_t b = 0; b < found_.size(); ++b) {
+      if (found_[b].lowest > 0) continue;
       for (Index i = static_cast<Index>(b) * block_size; i < world.particles.active; ++i)
         if (part_.mine[world.particles.part[i]] && !holds(world.particles, i))
           stop_for_density(world, clock, i, rho_limit(world.particles.part[i]));
@@ -82,18 +86,24 @@ class EosPass : public Material {
   }
 
  private:
+  /// In a block of particles.
+  struct Found {
+    Real lowest = 1;          ///< rho/rho0; 0 where the law does not hold
+    Index without_speed = 0;  ///< particles with c^2 < 0, whose c was set to 0
+  };
+
   Real rho_limit(Index part) const { return part_.rho0[part] * (1 + mu_limit_of(law_)); }
   /// Also false where the density is not a number.
   bool holds(const Particles& p, Index i) const { return p.rho[i] > 0 && p.rho[i] < rho_limit(p.part[i]); }
 
-  void advance(Particles& p, Real dt, Index begin, Index end, Index part, Real& lowest) {
+  void advance(Particles& p, Real dt, Index begin, Index end, Index part, Found& found) {
     if (law_.uses_energy())
-      advance_with_energy(p, dt, begin, end, part, lowest);
+      advance_with_energy(p, dt, begin, end, part, found);
     else
-      advance_without(p, dt, begin, end, part, lowest);
+      advance_without(p, dt, begin, end, part, found);
   }
 
-  void advance_with_energy(Particles& p, Real dt, Index begin, Index end, Index part, Real& lowest) {
+  void advance_with_energy(Particles& p, Real dt, Index begin, Index end, Index part, Found& found) {
     const Real rho0 = part_.rho0[part], pc = part_.pc[part], limit = rho_limit(part);
     for (Index i = begin; i < end; ++i) {
       const Real v_old = rho0 / p.rho[i];
@@ -107,27 +117,35 @@ class EosPass : public Material {
       E -= 0.5 * dv * pressure;
       p.p[i] = pressure;
       p.E[i] = E;
-      p.c[i] = std::sqrt(std::max(sound_speed2_of(law_, rho0, mu, E, pressure), Real(0)));
-      if (!(p.rho[i] >= lowest * rho0)) lowest = p.rho[i] / rho0;  // also where it is not a number
-      if (!(p.rho[i] < limit)) lowest = 0;
+      const Real c2 = sound_speed2_of(law_, rho0, mu, E, pressure);
+      p.c[i] = std::sqrt(std::max(c2, Real(0)));
+      found.without_speed += c2 < 0;
+      if (!(p.rho[i] >= found.lowest * rho0))
+        found.lowest = p.rho[i] / rho0;  // also where it is not a number
+      if (!(p.rho[i] < limit)) found.lowest = 0;
     }
   }
 
   /// The same with B = 0, in a form that vectorises: E only counts the work of the pressure.
-  void advance_without(Particles& p, Real dt, Index begin, Index end, Index part, Real& lowest) {
+  void advance_without(Particles& p, Real dt, Index begin, Index end, Index part, Found& found) {
     const Real rho0 = part_.rho0[part];
     const Law law = law_;
     std::array<Real, block_size> mu, half_dv, A, dA;
     loops_.compress(p.drhodt.data(), dt, rho0, p.rho.data(), mu.data(), half_dv.data(), begin, end);
-#pragma omp simd
-    for (Index k = 0; k < end - begin; ++k) A[k] = law.A(mu[k]), dA[k] = law.dA(mu[k]);
+    Index without_speed = 0;
+#pragma omp simd reduction(+ : without_speed)
+    for (Index k = 0; k < end - begin; ++k) {
+      A[k] = law.A(mu[k]), dA[k] = law.dA(mu[k]);
+      without_speed += dA[k] < 0;
+    }
+    found.without_speed += without_speed;
     loops_.load({A.data(), dA.data(), half_dv.data(), rho0, part_.pc[part]}, p.p.data(), p.E.data(),
                 p.c.data(), begin, end);
     const ParticleLoops::Range range = loops_.range(p.rho.data(), begin, end);
     if (range.broken || !(range.most < rho_limit(part)))
-      lowest = 0;
+      found.lowest = 0;
     else
-      lowest = std::min(lowest, range.least / rho0);
+      found.lowest = std::min(found.lowest, range.least / rho0);
   }
 
   Law law_;
@@ -136,8 +154,8 @@ class EosPass : public Material {
   Field<Real>& reference_volume_;
   const Field<Real>* heat_ = nullptr;     ///< null where no pass makes such heat
   const Field<Real>* viscous_ = nullptr;  ///< the same
-  std::vector<Real> lowest_;              ///< rho/rho0 in each block
-  bool same_for_all_ = false;             ///< every particle is mine, with one rho0 and one pc
+  std::vector<Found> found_;
+  bool same_for_all_ = false;  ///< every particle is mine, with one rho0 and one pc
 };
 
 }  // namespace courant

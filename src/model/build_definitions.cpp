@@ -1,6 +1,7 @@
 // Sets, curves and boxes.
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 #include "model/model_builder.hpp"
 #include "model/sets.hpp"
@@ -27,6 +28,11 @@ void ModelBuilder::build_curves() {
       curve.abscissa.push_back(card.sfa * (card.a[i] + card.offa));
       curve.ordinate.push_back(card.sfo * (card.o[i] + card.offo));
     }
+    const auto finite = [](Real v) { return std::isfinite(v); };
+    if (!std::all_of(curve.abscissa.begin(), curve.abscissa.end(), finite) ||
+        !std::all_of(curve.ordinate.begin(), curve.ordinate.end(), finite))
+      error(card, "A1", fmt::format("SFA, SFO, OFFA and OFFO make numbers of curve {} infinite", card.lcid),
+            "the numbers are too large");
     if (card.sfa < 0) {
       std::reverse(curve.abscissa.begin(), curve.abscissa.end());
       std::reverse(curve.ordinate.begin(), curve.ordinate.end());

@@ -32,10 +32,10 @@ Model ModelBuilder::build() {
   build_tables();
   build_boxes();
   build_local_boxes();
-  build_coordinate_systems();
-  build_vectors();
   build_sets();
   move_nodes();
+  build_coordinate_systems();  // of nodes: where these have gone
+  build_vectors();
   build_control();
   build_output();
   build_body_loads();

@@ -2,6 +2,7 @@
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/define_cards.hpp"
+#include "model/transformation.hpp"
 
 namespace courant {
 
@@ -16,6 +17,14 @@ std::string refuse_stretching(DefineBoxLocalCard&, const Affine& motion) {
   const Matrix turn = motion.linear();
   const bool rigid = (turn.transpose() * turn).isIdentity(1e-9) && turn.determinant() > 0;
   return rigid ? "" : "a local box can be turned and shifted, but not stretched or mirrored";
+}
+
+/// Places in a system of the file are told by its axes, which have length 1 whatever the file does.
+template <class T, Id T::*Local>
+std::string refuse_scaling(T& card, const Affine& motion) {
+  return card.*Local == 0 || keeps_lengths(motion) ? ""
+                                                   : "the file is scaled by a transformation, which leaves "
+                                                     "open whether places in a system are, too";
 }
 
 using B = DefineBoxLocalCard;
@@ -50,6 +59,7 @@ const RegisterKeyword<S> coordinate_system{
      .id_space = IdSpace::coordinate_system,
      .title_option = true,
      .title = &S::title,
+     .local = &S::cidl,
      .cards = {{.fields = {{"CID", &S::cid, "-", "system id", required_id},
                            {"XO", &S::xo, "L", "origin, x", point},
                            {"YO", &S::yo, "L", "origin, y"},
@@ -62,7 +72,8 @@ const RegisterKeyword<S> coordinate_system{
                {.fields = {{"XP", &S::xp, "L", "point in the local xy plane, x", point},
                            {"YP", &S::yp, "L", "point in the local xy plane, y"},
                            {"ZP", &S::zp, "L", "point in the local xy plane, z"},
-                           {"TYPE", &S::type, "-", "0 Cartesian", cartesian}}}}}};
+                           {"TYPE", &S::type, "-", "0 Cartesian", cartesian}}}},
+     .move = refuse_scaling<S, &S::cidl>}};
 
 using N = CoordinateNodesCard;
 const RegisterKeyword<N> coordinate_nodes{
@@ -104,6 +115,7 @@ const RegisterKeyword<D> define_vector{
      .id_space = IdSpace::vector,
      .title_option = true,
      .title = &D::title,
+     .local = &D::cid,
      .cards = {{.fields = {{"VID", &D::vid, "-", "vector id", required_id},
                            {"XT", &D::xt, "L", "tail, x", point},
                            {"YT", &D::yt, "L", "tail, y"},
@@ -112,7 +124,8 @@ const RegisterKeyword<D> define_vector{
                            {"YH", &D::yh, "L", "head, y"},
                            {"ZH", &D::zh, "L", "head, z"},
                            {"CID", &D::cid, "-", "system in which they are given, 0 global",
-                            optional_id_of(IdSpace::coordinate_system)}}}}}};
+                            optional_id_of(IdSpace::coordinate_system)}}}},
+     .move = refuse_scaling<D, &D::cid>}};
 
 using DN = DefineVectorNodesCard;
 const RegisterKeyword<DN> define_vector_nodes{

@@ -7,6 +7,7 @@
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/prescribed_motion.hpp"
+#include "model/transformation.hpp"
 
 namespace courant {
 
@@ -36,7 +37,12 @@ constexpr int along_vector = 4, first_rotation = 5;
 
 /// Directions are axes: they stay where a file is only shifted. Vectors move with their file.
 std::string keep_axes(MotionCard& card, const Affine& motion) {
-  if (card.dof == along_vector || motion.linear() == Matrix::Identity()) return {};
+  if (card.dof == along_vector)
+    return keeps_lengths(motion)
+               ? std::string()
+               : "the file is scaled by a transformation, which leaves open whether motions "
+                 "are, too";
+  if (motion.linear() == Matrix::Identity()) return {};
   return "its direction is an axis, which a transformation that turns or stretches the file would change";
 }
 

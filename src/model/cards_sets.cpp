@@ -69,9 +69,10 @@ CardOf<T> set_card() {
 }
 
 template <class T>
-CardOf<T> list_card(const char* meaning, IdSpace space) {
-  return {.fields = {{member_field(T::kind, T::form), &T::ids, "-", meaning, optional_id_of(space)}},
-          .repeat = true};
+CardOf<T> list_card(const char* meaning, IdSpace space, bool pairs = false) {
+  FieldRules rules = optional_id_of(space);
+  rules.pairs = pairs;
+  return {.fields = {{member_field(T::kind, T::form), &T::ids, "-", meaning, rules}}, .repeat = true};
 }
 
 template <class T>
@@ -158,7 +159,7 @@ CardOf<T> members_card() {
       else
         return list_card<T>(members[kind], member_space(T::kind));
     case SetForm::generate:
-      return list_card<T>("first id, last id, first id, last id, ...", member_space(T::kind));
+      return list_card<T>("first id, last id, first id, last id, ...", member_space(T::kind), true);
     case SetForm::increment:
       return increment_card<T>();
     case SetForm::column:
@@ -190,8 +191,8 @@ std::string shift_rows(T& card, const Conversion& conversion) {
   } else {
     for (std::size_t row = 0; row < card.option.size(); ++row) {
       const IdSpace fourth = row_space(T::kind, card.option[row], 3);
-      if (row < card.r4.size() && fourth != IdSpace::none)
-        card.r4[row] = static_cast<Real>(conversion.offsets.shifted(fourth, static_cast<Id>(card.r4[row])));
+      if (const auto node = card.fourth_node(row); node && row < card.r4.size() && fourth != IdSpace::none)
+        card.r4[row] = static_cast<Real>(conversion.offsets.shifted(fourth, *node));
       for (std::size_t k = 0; k < std::size(columns); ++k) {
         std::vector<Id>& column = card.*columns[k];
         if (row < column.size())

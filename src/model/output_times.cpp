@@ -12,9 +12,12 @@ constexpr Real never = std::numeric_limits<Real>::infinity();
 /// The smallest s > t with s = t + f(s), for f > 0: piece by piece, since f is linear in each.
 Real implicit_next(const Curve& f, Real t) {
   Real from = t;
-  for (const Real to : f.abscissa) {
+  for (std::size_t k = 0; k < f.abscissa.size(); ++k) {
+    const Real to = f.abscissa[k];
     if (to <= from) continue;
-    const Real left = from - t - f(from), right = to - t - f(to);  // left < 0
+    const Real left = from - t - f(from),
+               right = to - t - f.ordinate[k];  // f in front of a jump, if there is one
+    if (left >= 0) return from;                 // f has jumped across
     if (right >= 0) return from + (to - from) * (-left / (right - left));
     from = to;
   }

@@ -1,11 +1,14 @@
 #pragma once
 // Cards of all *SET_ keywords. They differ in what a set holds (SetKind) and in how its members are told
 // (SetForm); everything else is one.
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "keyword/card.hpp"
+#include "keyword/id_space.hpp"
 
 namespace courant {
 
@@ -33,7 +36,14 @@ struct SetCard : Entry {
   std::vector<Id> ids;                         ///< ids of a list; the first column of a table
   std::vector<Id> e2, e3, e4, e5, e6, e7, e8;  ///< further columns of a table
   std::vector<Real> r4;                        ///< _GENERAL of segments: E4, a node of SEG or an attribute
-  std::vector<std::string> option;             ///< _GENERAL: the word of each row
+  /// Node of SEG in r4; nothing where that is no whole number that an id may be.
+  std::optional<Id> fourth_node(std::size_t row) const {
+    const Real number = row < r4.size() ? r4[row] : 0;
+    if (!(number == std::floor(number) && std::abs(number) <= static_cast<Real>(largest_id)))
+      return std::nullopt;
+    return static_cast<Id>(number);
+  }
+  std::vector<std::string> option;  ///< _GENERAL: the word of each row
 };
 
 /// A cell of a table's column; 0 where a faulty field, which was refused, left the column short.

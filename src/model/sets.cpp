@@ -14,16 +14,12 @@ namespace {
 constexpr const char* keyword_of[] = {"*SET_NODE_LIST", "*SET_PART_LIST", "*SET_SHELL_LIST", "*SET_SOLID",
                                       "*SET_SEGMENT"};
 
-void sort_unique(std::vector<Index>& members) {
-  std::sort(members.begin(), members.end());
-  members.erase(std::unique(members.begin(), members.end()), members.end());
-}
-
 /// The ranges of first and last ids in turn, those that overlap taken together, so that what lies in many is
 /// looked at once. One that runs backwards stays as it is.
 std::vector<std::pair<Id, Id>> without_overlap(const std::vector<Id>& ids) {
   std::vector<std::pair<Id, Id>> given, out;
-  for (std::size_t r = 0; r + 1 < ids.size(); r += 2) given.emplace_back(ids[r], ids[r + 1]);
+  for (std::size_t r = 0; r + 1 < ids.size(); r += 2)
+    if (ids[r] != 0) given.emplace_back(ids[r], ids[r + 1]);
   std::sort(given.begin(), given.end());
   for (const auto& [begin, end] : given)
     if (out.empty() || begin > out.back().second || end < begin)
@@ -194,8 +190,12 @@ SetResolver::Found SetResolver::ranges(SetKind kind, const SetCard& card, SetFor
     }
     return out;
   }
-  if (card.ids.size() % 2 != 0) {
-    error(card, field, card.ids.back(), "the last range has a first id, but no last id");
+  for (std::size_t r = 0; r + 1 < card.ids.size(); r += 2) {
+    const Id begin = card.ids[r], end = card.ids[r + 1];
+    if ((begin == 0) == (end == 0)) continue;
+    error(card, field, begin + end,
+          begin == 0 ? fmt::format("the range to {} has no first id", end)
+                     : fmt::format("the range from {} has no last id", begin));
     return std::nullopt;
   }
   for (const auto& [begin, end] : without_overlap(card.ids))
@@ -236,13 +236,13 @@ SetResolver::Found SetResolver::combined(SetKind kind, const SetCard& card, SetF
   for (std::size_t i = 0; i < card.ids.size(); ++i) {
     const Members* next = other(card, field, kind, card.ids[i]);
     if (!next) return std::nullopt;
+    if (i == 0 || form != SetForm::intersect) {
+      out.insert(out.end(), next->begin(), next->end());
+      if (out.size() > 8 * count(kind) + 1000) sort_unique(out);  // sets may share many members
+      continue;
+    }
     Members both;
-    if (i == 0)
-      both = *next;
-    else if (form == SetForm::intersect)
-      std::set_intersection(out.begin(), out.end(), next->begin(), next->end(), std::back_inserter(both));
-    else
-      std::set_union(out.begin(), out.end(), next->begin(), next->end(), std::back_inserter(both));
+    std::set_intersection(out.begin(), out.end(), next->begin(), next->end(), std::back_inserter(both));
     out = std::move(both);
   }
   return out;
@@ -307,6 +307,12 @@ const SetResolver::Members* SetResolver::other(const SetCard& card, std::string_
     error(card, field, id,
           fmt::format("a set cannot be made of itself: {}{} set {}", chain, set_word(kind), id),
           "leave one of them out");
+    return nullptr;
+  }
+  constexpr std::size_t deepest = 1000;
+  if (it->second.state == State::open && path_.size() >= deepest) {
+    error(card, field, id, fmt::format("sets stand in sets more than {} deep", deepest),
+          "name the sets at the bottom themselves");
     return nullptr;
   }
   resolve(kind, id, it->second);

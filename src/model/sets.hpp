@@ -1,6 +1,7 @@
 #pragma once
 // The members of all *SET_ keywords, found once the mesh is there. Sets may be made of others; each is found
 // when it is first asked for.
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -25,6 +26,11 @@ IdSpace row_space(SetKind kind, std::string_view word, std::size_t k);
 
 /// What the code beside a set id of *SET_NODE_ADD_ADVANCED stands for.
 IdSpace advanced_space(Id type);
+
+inline void sort_unique(std::vector<Index>& members) {
+  std::sort(members.begin(), members.end());
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+}
 
 /// Gives back the cards of all sets, once the model holds their members.
 void release_set_cards(Deck& deck);

@@ -68,11 +68,6 @@ RowWord read_word(SetKind kind, std::string_view text) {
   return {};
 }
 
-/// SEG: E4 is a node there, and an attribute, a real, behind all other words.
-Id fourth_corner(const SetCard& card, std::size_t row) {
-  return row < card.r4.size() ? static_cast<Id>(card.r4[row]) : 0;
-}
-
 }  // namespace
 
 std::vector<std::string> set_words(SetKind kind) {
@@ -98,10 +93,15 @@ SetResolver::Found SetResolver::general(SetKind kind, const SetCard& card) {
             fmt::format("supported: {}; with D in front they take out", fmt::join(set_words(kind), ", ")));
       return std::nullopt;
     }
+    // SEG: E4 is a node there, and an attribute, a real, behind all other words
+    const std::optional<Id> fourth = card.fourth_node(r);
+    if (kind == SetKind::segment && asked.word->ids > 3 && !fourth) {
+      error(card, "E4", 0, fmt::format("expected a node id, got '{:g}'", card.r4[r]));
+      return std::nullopt;
+    }
     std::vector<Id> ids;
     for (std::size_t k = 0; k < asked.word->ids; ++k)
-      if (const Id id = k == 3 && kind == SetKind::segment ? fourth_corner(card, r) : cell(*columns[k], r);
-          id != 0)
+      if (const Id id = k == 3 && kind == SetKind::segment ? *fourth : cell(*columns[k], r); id != 0)
         ids.push_back(id);
     if (ids.empty() && asked.word->ids > 0) {
       error(card, "OPTION", 0, fmt::format("{} has no id behind it", card.option[r]));
@@ -113,16 +113,18 @@ SetResolver::Found SetResolver::general(SetKind kind, const SetCard& card) {
       const Members turned = turned_around(*found);
       found->insert(found->end(), turned.begin(), turned.end());
     }
-    std::sort(found->begin(), found->end());
-    found->erase(std::unique(found->begin(), found->end()), found->end());
+    if (!asked.out) {
+      out.insert(out.end(), found->begin(), found->end());
+      if (out.size() > 8 * count(kind) + 1000) sort_unique(out);  // rows may overlap many times
+      continue;
+    }
+    sort_unique(out);
+    sort_unique(*found);
     Members next;
-    if (asked.out)
-      std::set_difference(out.begin(), out.end(), found->begin(), found->end(), std::back_inserter(next));
-    else
-      std::set_union(out.begin(), out.end(), found->begin(), found->end(), std::back_inserter(next));
+    std::set_difference(out.begin(), out.end(), found->begin(), found->end(), std::back_inserter(next));
     out = std::move(next);
   }
-  return out;
+  return out;  // sorted by who asks
 }
 
 SetResolver::Found SetResolver::row(SetKind kind, const SetCard& card, std::string_view word,

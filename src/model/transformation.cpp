@@ -52,8 +52,8 @@ Affine about(const Vec& point, const Matrix& linear) {
 class Evaluation {
  public:
   using NodeOfId = std::function<std::optional<Vec>(const Card&, std::size_t row, Id)>;
-  Evaluation(const Deck& deck, const Card& card, NodeOfId node, Diagnostics& diagnostics)
-      : deck_(deck), card_(card), node_(std::move(node)), diagnostics_(diagnostics) {}
+  Evaluation(const Deck& deck, const Card& card, const NodeOfId& node, Diagnostics& diagnostics)
+      : deck_(deck), card_(card), node_(node), diagnostics_(diagnostics) {}
 
   Affine result() {
     for (row_ = 0; row_ < card_.rows(); ++row_) {
@@ -109,7 +109,10 @@ class Evaluation {
   }
 
   Affine rotate() {
-    if (a(4) == 0 && a(5) == 0 && a(6) == 0 && a(7) == 0) {  // by two POINTs
+    // by two POINTs, unless it is an axis without an angle: a turn by 0
+    const auto is_number = [](Real v) { return v > 0 && v == std::floor(v); };
+    const bool points = (is_number(a(1)) && is_number(a(2))) || (a(3) != 0 && !points_.empty());
+    if (points && a(4) == 0 && a(5) == 0 && a(6) == 0 && a(7) == 0) {
       const auto from = named_point("A1", a(1)), to = named_point("A2", a(2));
       return from && to ? turn("A1", *from, *to - *from, a(3)) : Affine::Identity();
     }
@@ -208,7 +211,7 @@ class Evaluation {
 
   const Deck& deck_;
   const Card& card_;
-  const NodeOfId node_;
+  const NodeOfId& node_;
   Diagnostics& diagnostics_;
   std::size_t row_ = 0;
   Affine motion_ = Affine::Identity();  // of the rows so far

@@ -3,6 +3,7 @@
 // any number of threads: each block is summed alone, then the blocks are added in order.
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "base/real.hpp"
@@ -69,6 +70,7 @@ void collect(Index n, std::vector<T>& out, const Body& body) {
 /// Combines `body(begin, end)` of all blocks in block order. T needs no more than a copy and `combine(T, T)`.
 template <class T, class Body, class Combine>
 T reduce(Index n, T start, const Body& body, const Combine& combine) {
+  static_assert(!std::is_same_v<T, bool>, "threads would write bits of one word: use char");
   const Index blocks = block_count(n);
   std::vector<T> part(blocks, start);
 #pragma omp parallel for schedule(static) if (blocks > 1)

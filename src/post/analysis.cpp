@@ -68,6 +68,10 @@ void Analysis::fault(Diagnostics& diagnostics, const std::string& message, const
   diagnostics.error(where_, fmt::format("analysis '{}': {}", name_, message), hint);
 }
 
+void Analysis::fault_no_state(Diagnostics& diagnostics) const {
+  fault(diagnostics, "the results have no state in its window in time");
+}
+
 const Analysis* find_analysis(const std::vector<std::unique_ptr<Analysis>>& earlier, const std::string& name,
                               const Analysis& asking, Diagnostics& diagnostics) {
   std::vector<std::string> names;
@@ -110,6 +114,11 @@ Real median(std::vector<Real> values) {
 
 Real slack_of(const std::vector<Real>& times) {
   return times.size() > 1 ? 0.25 * (times.back() - times.front()) / static_cast<Real>(times.size() - 1) : 0;
+}
+
+bool TimeWindow::holds_any(const std::vector<Real>& times) const {
+  const Real slack = slack_of(times);
+  return std::any_of(times.begin(), times.end(), [&](Real t) { return holds(t, slack); });
 }
 
 void read_window(const MapReader& map, TimeWindow& window) {

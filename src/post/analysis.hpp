@@ -29,6 +29,7 @@ struct PostSettings {
 struct TimeWindow {
   Real from = -std::numeric_limits<Real>::infinity(), to = std::numeric_limits<Real>::infinity();  ///< [T]
   bool holds(Real t, Real slack) const { return t >= from - slack && t <= to + slack; }
+  bool holds_any(const std::vector<Real>& times) const;  ///< with the slack of these times
 };
 
 /// One state, with what analyses have in common made once.
@@ -98,6 +99,7 @@ class Analysis {
   PostTable& add_table(const std::string& suffix = {});
   void add_scalar(const std::string& name, const std::string& unit, Real value);
   void fault(Diagnostics& diagnostics, const std::string& message, const std::string& hint = {}) const;
+  void fault_no_state(Diagnostics& diagnostics) const;  ///< in its window in time
 
   PostResult result_;
   std::vector<Real> times_;

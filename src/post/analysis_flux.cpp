@@ -96,7 +96,7 @@ class FluxAnalysis : public Analysis {
 
   void finish(const std::vector<std::unique_ptr<Analysis>>&, const std::filesystem::path&,
               Diagnostics& diagnostics) override {
-    if (window_states_ == 0) return fault(diagnostics, "the results have no state in its window in time");
+    if (window_states_ == 0) return fault_no_state(diagnostics);
     PostTable& over_time = add_table();
     over_time.columns.push_back({"t", units_.of({0, 0, 1}), times_});
     for (PostSeries& one : series()) over_time.columns.push_back({one.name, one.unit, std::move(one.values)});

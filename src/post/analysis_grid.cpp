@@ -59,7 +59,7 @@ class GridAnalysis : public Analysis {
 
   void finish(const std::vector<std::unique_ptr<Analysis>>&, const std::filesystem::path&,
               Diagnostics& diagnostics) override {
-    if (times_.empty()) return fault(diagnostics, "the results have no state in its window in time");
+    if (times_.empty()) return fault_no_state(diagnostics);
     const Real states = static_cast<Real>(times_.size());
     PostTable& table = add_table();
     const std::string length = units_.of({0, 1, 0});

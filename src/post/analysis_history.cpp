@@ -146,8 +146,8 @@ class HistoryAnalysis : public Analysis {
   bool begin_table(std::vector<Real> times, Diagnostics& diagnostics) {
     times_ = std::move(times);
     slack_ = slack_of(times_);
-    if (std::none_of(times_.begin(), times_.end(), [&](Real t) { return window_.holds(t, slack_); })) {
-      fault(diagnostics, "the results have no state in its window in time");
+    if (!window_.holds_any(times_)) {
+      fault_no_state(diagnostics);
       return false;
     }
     add_table().columns.push_back({"t", units_.of({0, 0, 1}), times_});

@@ -71,7 +71,7 @@ class SurfaceAnalysis : public Analysis {
 
   void finish(const std::vector<std::unique_ptr<Analysis>>&, const std::filesystem::path&,
               Diagnostics& diagnostics) override {
-    if (window_states_ == 0) return fault(diagnostics, "the results have no state in its window in time");
+    if (window_states_ == 0) return fault_no_state(diagnostics);
     const std::string length = units_.of({0, 1, 0}), time = units_.of({0, 0, 1});
     PostTable& over_time = add_table();
     over_time.columns.push_back({"t", time, times_});

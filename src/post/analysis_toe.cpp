@@ -32,6 +32,7 @@ class ToeAnalysis : public Analysis {
     if (source->kind() != "surface")
       return fault(diagnostics, fmt::format("'{}' is no surface but a {}", of_, source->kind()));
     const std::vector<PostSeries> depths = source->series();
+    if (!window_.holds_any(source->times())) return fault_no_state(diagnostics);
     times_ = source->times();
     for (std::size_t i = 0; i < times_.size(); ++i) toe_.push_back(toe_at(depths, i));
     write();

@@ -144,6 +144,7 @@ std::optional<ParticleFrame> read_particles(const StateFiles& state, bool with_s
 
   ParticleFrame out;
   for (const ParticleArray& array : arrays) {
+    if (array.optional && !data->GetPointData()->HasArray(array.name.c_str())) continue;
     vtkDataArray* from = find_array(data, array.name.c_str(), array.components, state.particles, diagnostics);
     if (!from) return std::nullopt;
     copy(from, out.arrays[array.name]);

@@ -40,6 +40,7 @@ std::vector<StateFiles> read_states(const std::filesystem::path& dir, Diagnostic
 struct ParticleArray {
   std::string name;
   int components = 1;
+  bool optional = false;  ///< no fault if the file lacks it
 };
 /// Particles of one state; with_speed: read velocities too. Faults are reported; then there is no value.
 std::optional<ParticleFrame> read_particles(const StateFiles& state, bool with_speed,

@@ -154,7 +154,11 @@ void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
   for (const RigidBody& b : bodies_)
     if (!b.fixed())
       for (int k = 0; k < 3; ++k)
-        if (!b.held[k]) ledger.external_work -= b.m * dg[k] * b.x[k];
+        if (!b.held[k]) {
+          const Real work = -b.m * dg[k] * b.x[k];
+          ledger.external_work += work;
+          ledger.throughput += std::abs(work);
+        }
 }
 
 void RigidBodies::sample(const World&, const Clock& clock, EnergyLedger& ledger) const {

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include <fmt/format.h>
+
+#include "base/run_error.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
@@ -62,7 +66,13 @@ ParticleLoops::Range depth_range(const ParticleLoops& loops, const ImagePlane& p
   return loops.depths(plane.normal.data(), plane.point.data(), x, begin, end);
 }
 
-Images::Images(std::vector<ImagePlane> planes) : planes_(std::move(planes)) {
+Images::Images(std::vector<ImagePlane> planes)
+    : planes_(std::move(planes)), narrowest_(std::numeric_limits<Real>::infinity()) {
+  for (const ImagePlane& a : planes_) {
+    if (a.period > 0) narrowest_ = std::min(narrowest_, a.period);
+    for (const ImagePlane& b : planes_)
+      if (a.normal.dot(b.normal) < -0.5) narrowest_ = std::min(narrowest_, std::abs(depth(a, b.point)));
+  }
   for (const ImagePlane& plane : planes_) {
     Motion m;
     if (plane.kind == ImagePlane::Kind::mirror) {
@@ -117,6 +127,11 @@ void Images::bring_back(World& world, Index n) {
 }
 
 void Images::build(World& world, Real reach) {
+  if (reach > narrowest_)
+    throw RunError(
+        fmt::format("planes with images are {:.4g} [L] apart, and particles now reach {:.4g}: they would see "
+                    "images twice; make the domain wider, or limit h by HMAX of *SECTION_SPH",
+                    narrowest_, reach));
   Particles& p = world.particles;
   source_.clear();
   motion_.clear();

@@ -61,9 +61,12 @@ class Images : public Exchanger {
   const Vec& brought_back() const { return brought_back_; }
 
   /// Finds which particles [0, moving) have images within `reach` of the planes, makes room for them and puts
-  /// them there; nothing of earlier images is kept. [L]
+  /// them there; nothing of earlier images is kept. Throws RunError where h has grown so much that an image
+  /// of an image would be in reach. [L]
   void build(World& world, Real reach);
   Index count() const { return static_cast<Index>(source_.size()); }
+  /// The particle of which image k, entity particles.size() + k, is an image.
+  Index source(Index k) const { return source_[k]; }
   /// Puts image k at order[k]'s place.
   void sort(World& world, std::span<const Index> order);
 
@@ -87,6 +90,7 @@ class Images : public Exchanger {
 
   ParticleLoops loops_ = particle_loops();
   std::vector<ImagePlane> planes_;
+  Real narrowest_;                      ///< distance of planes that face each other; infinite if none do [L]
   std::vector<Motion> mirror_;          ///< of each plane; periodic ones: the shift by +period
   std::vector<Index> source_, motion_;  ///< of each image: the particle, and an index of motions_
   std::vector<Motion> motions_;         ///< the first one is none

@@ -58,7 +58,8 @@ class Neighbours::Watch : public Motion {
                              p.h.data(),
                              {lists_.x_built_.data(), lists_.y_built_.data(),
                               lists_.z_built_.empty() ? nullptr : lists_.z_built_.data()},
-                             lists_.h_built_.empty() ? nullptr : lists_.h_built_.data()},
+                             lists_.h_built_.empty() ? nullptr : lists_.h_built_.data(),
+                             lists_.support_},
                             0.5 * lists_.skin_, begin, end);
     bool stale = !within;
     const auto inside = [&](Index first, Index last) {

@@ -53,9 +53,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
     Real power = 0;
     for (const Real p : power_) power += p;
     ledger.dissipated += power * clock.dt_mean();
-    ledger.throughput += power * clock.dt_mean() + inflow_;
-    ledger.external_work += exchanged_;
-    exchanged_ = inflow_ = 0;
+    ledger.throughput += power * clock.dt_mean();
     if (!rim_pairs_.empty()) {
       const Real work = rim_power(world) * clock.dt_mean();
       ledger.external_work += work;
@@ -73,37 +71,39 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
     const Particles& p = world.particles;
     if (first_) {  // what is active at the start is the initial energy, not inflow
       first_ = false;
-    } else {
-      for (const Index i : neighbours_->entered()) {
-        exchanged_ += kinetic_and_internal(p, reference_volume_, i);
-        inflow_ += kinetic_and_internal(p, reference_volume_, i);
-      }
-      for (const Index i : neighbours_->left()) exchanged_ -= kinetic_and_internal(p, reference_volume_, i);
+    } else {  // at once: from now on the sums over active particles are those of the others
+      Real in = 0, out = 0;
+      for (const Index i : neighbours_->entered()) in += kinetic_and_internal(p, reference_volume_, i);
+      for (const Index i : neighbours_->left()) out += kinetic_and_internal(p, reference_volume_, i);
+      world.energy.external_work += in - out;
+      world.energy.throughput += in;
     }
     relist(world);
   }
 
   void keep(Archive& archive) override {
     archive("first", first_);
-    archive("exchanged", exchanged_);
-    archive("inflow", inflow_);
   }
   void relist(World& world) override {
     const Particles& p = world.particles;
     rim_pairs_.clear();
     if (p.moving == p.active) return;
     for (Index g = 0; g * lanes < p.active; ++g)
-      for (const Index j : neighbours_->listed(g))
-        if (j >= p.active && j < p.moving)  // the rim, not images
-          for (Index i = g * lanes; i < std::min((g + 1) * lanes, p.active); ++i)
-            if ((p.x.vec(i) - p.x.vec(j)).norm() <
-                neighbours_->support() * std::max(p.h[i], p.h[j]) + neighbours_->skin())
-              rim_pairs_.push_back({i, j});
+      for (const Index j : neighbours_->listed(g)) {
+        const Index of = j < p.size() ? j : neighbours_->images()->source(j - p.size());
+        if (of < p.active)
+          continue;  // what active particles and images of such do to each other stays inside
+        for (Index i = g * lanes; i < std::min((g + 1) * lanes, p.active); ++i)
+          if ((p.x.vec(i) - p.x.vec(j)).norm() <
+              neighbours_->support() * std::max(p.h[i], p.h[of]) + neighbours_->skin())
+            rim_pairs_.push_back({i, j, of});
+      }
   }
 
  private:
+  /// An active particle and one of the rim, or an image of one.
   struct Pair {
-    Index i, j;
+    Index i, j, of;  ///< `of`: the rim particle; j, where its image counts, else the same
   };
 
   /// Power that rim particles j, whose state is frozen, put into active ones: the pair's part of the change
@@ -125,9 +125,9 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
     const Particles& p = world.particles;
     const Real* pressure = total_pressure_ ? total_pressure_->data() : p.p.data();
     Real total = 0;
-    for (const auto [i, j] : rim_pairs_) {
+    for (const auto [i, j, of] : rim_pairs_) {
       const Real h = p.h[i];
-      const PartViscosity &qi = settings_.q[p.part[i]], &qj = settings_.q[p.part[j]];
+      const PartViscosity &qi = settings_.q[p.part[i]], &qj = settings_.q[p.part[of]];
       MomentumPair<Kernel, Dim, UniformH, Monaghan> pair{h,
                                                          1 / h,
                                                          Kernel::C(Dim) / power<Dim + 1>(h),
@@ -140,19 +140,19 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
       if constexpr (Monaghan) pair.q2 = std::get<MonaghanViscosity>(settings_.viscosity).q2;
       const Vec d = p.x.vec(i) - p.x.vec(j), vi = p.v.vec(i), vj = p.v.vec(j);
       const Real r2 = d.squaredNorm() + pair.tiny;
-      auto s = pair(r2, (vi - vj).dot(d), pressure[j], p.rho[j], qj.q1 * p.c[j], p.h[j]);
+      auto s = pair(r2, (vi - vj).dot(d), pressure[of], p.rho[of], qj.q1 * p.c[of], p.h[of]);
       if (riemann_)  // q1 is 1
         s.viscous = pair.inverse_rho * slope_over_r<Kernel, Dim>(r2, h) *
-                    riemann_excess(*riemann_, 0.5 * (p.rho[i] + p.rho[j]), 0.5 * (p.c[i] + p.c[j]),
+                    riemann_excess(*riemann_, 0.5 * (p.rho[i] + p.rho[of]), 0.5 * (p.c[i] + p.c[of]),
                                    -(vi - vj).dot(d) / std::sqrt(r2));
       // the work on i, less what i stores or burns of it by p_i v_ij.d, tau_i:D and its half of Pi
       Real power = -(s.pressure_i * vj + s.pressure_j * vi + 0.5 * s.viscous * (vi + vj)).dot(d);
       if (viscous_) {
         const Real gi = slope_over_r<Kernel, Dim>(r2, h),
-                   gj = slope_over_r<Kernel, Dim>(r2, UniformH ? h : p.h[j]);
+                   gj = slope_over_r<Kernel, Dim>(r2, UniformH ? h : p.h[of]);
         power += pair.inverse_rho * (gi * (tau_->tensor(i) * d).dot(vj) + gj * (tau_->tensor(j) * d).dot(vi));
       }
-      total += p.m[i] * p.m[j] / p.rho[j] * power;
+      total += p.m[i] * p.m[of] / p.rho[of] * power;
     }
     return total;
   }
@@ -176,7 +176,6 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
   std::vector<Real> power_;  ///< dissipated in each block [ML2/T3]
   std::vector<Pair> rim_pairs_;
   bool first_ = true;
-  Real exchanged_ = 0, inflow_ = 0;
 };
 
 }  // namespace

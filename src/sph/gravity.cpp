@@ -54,9 +54,6 @@ class Gravity : public Force, public EnergyTerm, public Refresh, public Keeper {
   }
 
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
-    ledger.external_work += exchanged_;
-    ledger.throughput += std::abs(exchanged_);
-    exchanged_ = 0;
     const Vec change = gravity_at(loads_, clock.t + clock.dt) - gravity_at(loads_, clock.t);
     if (change.isZero(0)) return;
     const Real work = potential(world, change);
@@ -66,10 +63,13 @@ class Gravity : public Force, public EnergyTerm, public Refresh, public Keeper {
 
   void refreshed(World& world, const Clock& clock, std::span<const Index>) override {
     const Vec g = gravity_at(loads_, clock.t);
-    if (!first_) {
-      for (const Index i : neighbours_->entered()) exchanged_ += potential_of(world.particles, g, i);
-      for (const Index i : neighbours_->left()) exchanged_ -= potential_of(world.particles, g, i);
-      if (neighbours_->images()) exchanged_ -= g.dot(neighbours_->images()->brought_back());
+    if (!first_) {  // at once: from now on the potential energy is that of the other particles
+      Real exchanged = 0;
+      for (const Index i : neighbours_->entered()) exchanged += potential_of(world.particles, g, i);
+      for (const Index i : neighbours_->left()) exchanged -= potential_of(world.particles, g, i);
+      if (neighbours_->images()) exchanged -= g.dot(neighbours_->images()->brought_back());
+      world.energy.external_work += exchanged;
+      world.energy.throughput += std::abs(exchanged);
     }
     first_ = false;
   }
@@ -77,7 +77,6 @@ class Gravity : public Force, public EnergyTerm, public Refresh, public Keeper {
   void keep(Archive& archive) override {
     archive("origin", origin_);
     archive("first", first_);
-    archive("exchanged", exchanged_);
   }
 
   Real potential(const World& world, const Vec& g) const {
@@ -95,7 +94,6 @@ class Gravity : public Force, public EnergyTerm, public Refresh, public Keeper {
   std::shared_ptr<Neighbours> neighbours_;
   Vec origin_ = Vec::Zero();
   bool first_ = true;
-  Real exchanged_ = 0;
 };
 
 }  // namespace

@@ -55,7 +55,8 @@ struct ShiftRules {
 /// Shells that support particles, and their skin friction; none where `segments` is empty.
 struct SupportedWalls {
   std::vector<Index> segments;
-  std::vector<Real> cf;  ///< by segment; < 0 where it does not support [-]
+  std::vector<Real> cf;            ///< by segment; < 0 where it does not support [-]
+  std::vector<ImagePlane> planes;  ///< behind which their images support, too
 };
 
 /// *COURANT_EDDY_VISCOSITY.

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -16,7 +17,7 @@ namespace {
 class SphTimeLimit : public Tally, public TimeLimit {
  public:
   SphTimeLimit(const SphSettings& s, const Model& model, World& world)
-      : tssfac_(std::min(s.tssfac, s.most_tssfac)), viscosity_(s, world) {
+      : tssfac_(std::min(s.tssfac, s.most_tssfac)), viscosity_(s, world), region_(s.region) {
     for (const ModelPart& part : model.parts) part_ids_.push_back(part.id);
   }
   std::string name() const override { return "sph time step"; }
@@ -47,15 +48,19 @@ class SphTimeLimit : public Tally, public TimeLimit {
   }
 
  private:
-  /// Nothing is active, but some may wait to come in: their own limit brings the run to them.
+  /// Nothing is active, but some may be on their way in: their own limit brings the run to them.
   Limit limit_of_waiting(const Particles& p) const {
     Limit out{std::numeric_limits<Real>::infinity(), "no active particle"};
     for (Index i = 0; i < p.size(); ++i)
-      if (p.state[i] == particle_waiting)
+      if (p.state[i] == particle_waiting || comes_in(p, i))
         out = {
             std::min(out.dt, tssfac_ * std::min(p.h[i] / (p.c[i] + p.v.vec(i).norm()), viscous_limit(p, i))),
-            "particles that wait at an inlet"};
+            "particles on their way in"};
     return out;
+  }
+  bool comes_in(const Particles& p, Index i) const {
+    return p.state[i] == particle_outside && region_ &&
+           std::isfinite(region_->time_to_reach(p.x.vec(i), p.v.vec(i), 0));
   }
   Real viscous_limit(const Particles& p, Index i) const {
     if (viscosity_.none()) return std::numeric_limits<Real>::infinity();
@@ -64,6 +69,7 @@ class SphTimeLimit : public Tally, public TimeLimit {
   ParticleLoops loops_ = particle_loops();
   Real tssfac_;
   DynamicViscosity viscosity_;
+  std::optional<Region> region_;
   std::vector<Id> part_ids_;
   std::vector<Real> smallest_;  ///< of each block [T]
 };

@@ -110,7 +110,7 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
         rubbing_(sph_fields::wall_rubbing(world.particles)),
         neighbours_(neighbours),
         surface_(world, s.walls.segments, least_h(world) / points_per_h,
-                 table_.support() * most_h(world) + neighbours.largest_skin()) {
+                 table_.support() * most_h(world) + neighbours.largest_skin(), s.walls.planes) {
     for (Index f = 0; f < surface_.faces(); ++f) {
       cf_.push_back(s.walls.cf[surface_.segment_of(f)]);
       one_cf_ &= cf_.back() == cf_.front();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace courant {
 
@@ -12,8 +13,9 @@ constexpr Real small = 1e-9;  ///< of the reach: lengths below are zero
 
 }  // namespace
 
-WallSurface::WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach)
-    : dim_(world.dim), reach_(reach) {
+WallSurface::WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
+                         std::vector<ImagePlane> planes)
+    : dim_(world.dim), reach_(reach), planes_of_images_(std::move(planes)) {
   for (const Index s : segments) {
     const std::array<Index, 4> node = world.segments.nodes(s);
     if (dim_ == 2) {
@@ -27,6 +29,7 @@ WallSurface::WallSurface(const World& world, const std::vector<Index>& segments,
     add_face(face);
   }
   for (Index f = 0; f < faces(); ++f) cut(f, spacing);
+  for (int k = 0; k < static_cast<int>(planes_of_images_.size()); ++k) add_images(k);
   sort_into_cells();
 }
 
@@ -81,7 +84,11 @@ void WallSurface::cut(Index face, Real spacing) {
   const int n = pieces(std::max((b - a).norm(), (c - d).norm()));
   if (dim_ == 2) {
     const Vec one = in_plane(a), step = (in_plane(b) - one) / n;
-    for (int i = 0; i < n; ++i) points_.push_back({one + (i + 0.5) * step, step.norm() * f.n, face});
+    for (int i = 0; i < n; ++i) {
+      const Vec x = one + (i + 0.5) * step;
+      if (const Real share = share_in_front(x, step, Vec::Zero()); share > 0)
+        points_.push_back({x, share * step.norm() * f.n, face});
+    }
     return;
   }
   const int m = pieces(std::max((d - a).norm(), (c - b).norm()));
@@ -92,8 +99,77 @@ void WallSurface::cut(Index face, Real spacing) {
     for (int j = 0; j < m; ++j) {
       const Real s = Real(i) / n, t = Real(j) / m, s1 = Real(i + 1) / n, t1 = Real(j + 1) / m;
       const Vec p = at(s, t), q = at(s1, t), r = at(s1, t1), u = at(s, t1);
-      points_.push_back({0.25 * (p + q + r + u), 0.5 * (r - p).cross(u - q), face});
+      const Vec x = 0.25 * (p + q + r + u);
+      if (const Real share = share_in_front(x, 0.5 * (q - p + r - u), 0.5 * (u - p + r - q)); share > 0)
+        points_.push_back({x, share * 0.5 * (r - p).cross(u - q), face});
     }
+}
+
+/// Of a piece about x with these sides, what lies in front of all planes.
+Real WallSurface::share_in_front(const Vec& x, const Vec& along, const Vec& across) const {
+  Real share = 1;
+  for (const ImagePlane& plane : planes_of_images_) {
+    const Real wide = std::abs(plane.normal.dot(along)) + std::abs(plane.normal.dot(across)),
+               d = depth(plane, x);
+    const auto part = [&](Real inside) {
+      if (wide < small * reach_) return Real(inside > -small * reach_);
+      return std::clamp(0.5 + inside / wide, Real(0), Real(1));
+    };
+    share *= part(d);
+    if (plane.kind == ImagePlane::Kind::periodic) share *= part(plane.period - d);
+  }
+  return share;
+}
+
+/// Images of what is there so far, those of earlier planes among it, as far as anything can see them.
+void WallSurface::add_images(int k) {
+  const ImagePlane plane = planes_of_images_[k];
+  const Index known_points = points(), known_faces = faces();
+  const auto add = [&](Side side, const auto& is_near, const auto& place, const auto& direction) {
+    std::vector<Index> image(known_faces, -1);
+    for (Index q = 0; q < known_points; ++q) {
+      const WallPoint point = points_[q];
+      const Real d = depth(plane, point.x);
+      // a face in the mirror is its own image
+      const bool in_mirror = std::abs(d) < 1e-6 * reach_ &&
+                             (direction(point.area) + point.area).norm() < 1e-6 * point.area.norm();
+      if (!is_near(d) || in_mirror) continue;
+      if (image[point.face] < 0) {
+        Face face = faces_[point.face];
+        for (Vec& x : face.x) x = place(x);
+        face.side |= side << 2 * k;
+        image[point.face] = faces();
+        add_face(face);
+      }
+      points_.push_back({place(point.x), direction(point.area), image[point.face]});
+    }
+  };
+  const Vec n = plane.normal, shift = plane.period * n;
+  const auto same = [](const Vec& v) { return v; };
+  if (plane.kind == ImagePlane::Kind::mirror) {
+    add(
+        1, [&](Real d) { return d < reach_; }, [&](const Vec& x) { return Vec(x - 2 * depth(plane, x) * n); },
+        [&](const Vec& v) { return Vec(v - 2 * v.dot(n) * n); });
+  } else {
+    add(
+        2, [&](Real d) { return d < reach_; }, [&](const Vec& x) { return Vec(x + shift); }, same);
+    add(
+        1, [&](Real d) { return plane.period - d < reach_; }, [&](const Vec& x) { return Vec(x - shift); },
+        same);
+  }
+}
+
+/// What stands on a plane is on both of its sides.
+bool WallSurface::is_at(Side side, const Vec& x) const {
+  for (const ImagePlane& plane : planes_of_images_) {
+    const Real d = depth(plane, x), tolerance = small * reach_;
+    const Side here = side & 3;
+    side >>= 2;
+    const bool periodic = plane.kind == ImagePlane::Kind::periodic;
+    if (here == 1 ? d > tolerance : d < -tolerance) return false;
+    if (periodic && (here == 2 ? d < plane.period - tolerance : d > plane.period + tolerance)) return false;
+  }
+  return true;
 }
 
 void WallSurface::sort_into_cells() {
@@ -174,7 +250,7 @@ bool WallSurface::hidden(const WallPoint& point, const Vec& from, const std::vec
     const Real a = f.n.dot(from) - f.offset, b = f.n.dot(point.x) - f.offset;
     if (!(a * b < 0) || std::abs(b) < tolerance) continue;
     const Vec q = from + (point.x - from) * (a / (a - b));
-    bool inside = true;
+    bool inside = is_at(f.side, q);
     for (int e = 0; e < f.corners; ++e) inside &= f.inward[e].dot(q - f.x[e]) > -tolerance;
     if (inside) return true;
   }

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "search/images.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -18,11 +19,13 @@ struct WallPoint {
 };
 
 /// Flat faces cut into pieces of about one size. In 2D a shell counts by its line in the plane of flow, once
-/// however many shells it has across, and areas are lengths.
+/// however many shells it has across, and areas are lengths. Behind planes stands the image of what is in
+/// front of them, and nothing else.
 class WallSurface {
  public:
   /// `spacing`: of points [L]; `reach`: farthest that anything looks [L].
-  WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach);
+  WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
+              std::vector<ImagePlane> planes = {});
 
   Index faces() const { return static_cast<Index>(faces_.size()); }
   Index points() const { return static_cast<Index>(points_.size()); }
@@ -68,12 +71,15 @@ class WallSurface {
   }
 
  private:
+  /// Two bits for each plane with images: 0 in front of it, 1 behind, 2 behind the other one of a period.
+  using Side = std::uint64_t;
   struct Face {
     std::array<Vec, 4> x, inward;
     Vec n = Vec::Zero();
     Real offset = 0;
     int corners = 4;
     Index plane = 0, segment = 0;
+    Side side = 0;  ///< where it counts
     Face() {
       x.fill(Vec::Zero());
       inward.fill(Vec::Zero());
@@ -88,6 +94,9 @@ class WallSurface {
   void add_line(const Nodes& nodes, const std::array<Index, 4>& node, Index segment);
   void add_face(Face face);
   void cut(Index face, Real spacing);
+  Real share_in_front(const Vec& x, const Vec& along, const Vec& across) const;
+  void add_images(int plane);
+  bool is_at(Side side, const Vec& x) const;
   void sort_into_cells();
   Vec in_plane(const Vec& x) const { return dim_ == 2 ? Vec(x[0], x[1], 0) : x; }
   bool near(const WallPoint& point, const Vec& x) const {
@@ -99,6 +108,7 @@ class WallSurface {
 
   int dim_;
   Real reach_;
+  std::vector<ImagePlane> planes_of_images_;
   std::vector<Face> faces_;
   std::set<Key> lines_;
   std::map<Key, Index> planes_;

@@ -46,13 +46,14 @@ template <bool Spatial, bool Grows>
 ParticleLoops::Moved moved(const ParticleLoops::Places& q, Real reach, Index begin, Index end) {
   const Real *x = q.x[0], *y = q.x[1], *z = q.x[2], *h = q.h;
   const Real *xb = q.x_before[0], *yb = q.x_before[1], *zb = q.x_before[2], *hb = q.h_before;
+  const Real support = q.support;
   Real most = 0;
   int beyond = 0;
 #pragma omp simd reduction(max : most) reduction(| : beyond)
   for (Index i = begin; i < end; ++i) {
     const Real dx = x[i] - xb[i], dy = y[i] - yb[i], dz = Spatial ? z[i] - zb[i] : 0;
     const Real moved2 = dx * dx + dy * dy + dz * dz;
-    const Real grown = Grows ? h[i] - hb[i] : 0, left = reach - (grown < 0 ? 0 : grown),
+    const Real grown = Grows ? support * (h[i] - hb[i]) : 0, left = reach - (grown < 0 ? 0 : grown),
                room = left < 0 ? 0 : left;
     beyond |= moved2 < room * room ? 0 : 1;  // 1 also for NaN
     most = most < moved2 ? moved2 : most;

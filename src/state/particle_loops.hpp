@@ -16,14 +16,15 @@ struct ParticleLoops {
   /// Least h/(c + |v|); not a number where one of them is not. [T]
   Real (*least_crossing)(const Real* h, const Real* c, const Real* const v[3], Index begin, Index end);
 
-  /// How far particles are from where they were: the largest square, and whether all are, and will be until
-  /// h has grown by as much, less than `reach`.
+  /// How far particles are from where they were: the largest square, and whether this and what their support
+  /// has grown by make less than `reach` for each.
   struct Moved {
     Real most2;
     bool within;  ///< false also where something is not a number
   };
   struct Places {
     const Real *x[3], *h, *x_before[3], *h_before;  ///< x_before[2], h_before: null where they do not change
+    Real support;                                   ///< how far particles reach, of h
   };
   Moved (*moved)(const Places& places, Real reach, Index begin, Index end);
   /// How many are in a box, its faces included.

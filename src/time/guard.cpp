@@ -46,13 +46,13 @@ std::vector<Checked> numbers_of(const FieldSet& fields, Index count) {
 
 bool all_finite(const std::vector<Checked>& numbers, Index count) {
   return reduce(
-      count, true,
+      count, char(true),
       [&](Index begin, Index end) {
         for (const Checked& a : numbers)
-          if (!all_finite(a.values, begin, std::min(end, a.count))) return false;
-        return true;
+          if (!all_finite(a.values, begin, std::min(end, a.count))) return char(false);
+        return char(true);
       },
-      [](bool a, bool b) { return a && b; });
+      [](char a, char b) { return char(a && b); });
 }
 
 /// "velocity, force": the quantities of an entity that are no finite numbers, with the first such value.

@@ -21,13 +21,15 @@ class ClearForces : public Rate {
   }
 };
 
-void choose_dt(World& world, Clock& clock, const StepRules& rules, std::string& who) {
+/// Returns what the passes allow.
+TimeLimit::Limit choose_dt(World& world, Clock& clock, const StepRules& rules, std::string& who) {
   TimeLimit::Limit smallest{std::numeric_limits<Real>::infinity(), "nothing"};
   for (auto& limit : world.time_limits) {
     TimeLimit::Limit one = limit->limit(world, clock);
     // NaN is the smallest of all: the run must stop there
     if (!std::isnan(smallest.dt) && !(one.dt >= smallest.dt)) smallest = std::move(one);
   }
+  TimeLimit::Limit computed = smallest;
   if (clock.cycle == 0 && rules.dtinit > 0 && rules.dtinit < smallest.dt) smallest = {rules.dtinit, "DTINIT"};
   if (rules.dt_max) {
     const Real most = rules.dt_max(clock.t);
@@ -45,6 +47,7 @@ void choose_dt(World& world, Clock& clock, const StepRules& rules, std::string& 
                    StopCause::step_size);
   clock.dt = smallest.dt;
   who = std::move(smallest.who);
+  return computed;
 }
 
 }  // namespace
@@ -73,13 +76,13 @@ void Stepper::evaluate(Clock& clock, std::string& controlled_by) {
   rates_.run(world_, clock, world_.particles.active, world_.shares);
   for (auto& e : world_.exchangers) timer_.measure(e->name(), [&] { e->before_forces(world_); });
   forces_.run(world_, clock, world_.particles.active, world_.shares);
-  timer_.measure("time step", [&] { choose_dt(world_, clock, rules_, controlled_by); });
+  timer_.measure("time step", [&] { computed_ = choose_dt(world_, clock, rules_, controlled_by); });
 }
 
 void Stepper::step(Clock& clock, const AtTimeLevel& at_time_level) {
   std::string controlled_by;
   evaluate(clock, controlled_by);
-  stop_below_dtmin(clock, controlled_by);
+  stop_below_dtmin(clock);
   if (rules_.guard && clock.cycle % Guard::interval == 0)
     timer_.measure("guard", [&] { rules_.guard->look(world_, clock); });
   timer_.measure("output", [&] { at_time_level(world_, clock, controlled_by); });
@@ -92,14 +95,15 @@ void Stepper::step(Clock& clock, const AtTimeLevel& at_time_level) {
   ++clock.cycle;
 }
 
-// A first step that DTINIT chose says nothing of the scene.
-void Stepper::stop_below_dtmin(const Clock& clock, const std::string& controlled_by) {
-  if (first_dt_ == 0 && controlled_by != "DTINIT") first_dt_ = clock.dt;
-  if (!(clock.dt < rules_.dtmin * first_dt_)) return;
+// What DTINIT and LCTM chose says nothing of the scene.
+void Stepper::stop_below_dtmin(const Clock& clock) {
+  if (first_dt_ == 0) first_dt_ = computed_.dt, first_tssfac_ = rules_.tssfac;
+  const Real least = rules_.dtmin * first_dt_ * (rules_.tssfac / first_tssfac_);
+  if (!(computed_.dt < least)) return;
   throw RunError(
       fmt::format(
           "the step size {:.4g} fell below DTMIN x first step = {:.4g} at time {:.6g}, cycle {}, set by {}",
-          clock.dt, rules_.dtmin * first_dt_, clock.t, clock.cycle, controlled_by),
+          computed_.dt, least, clock.t, clock.cycle, computed_.who),
       StopCause::step_size);
 }
 

@@ -20,6 +20,7 @@ struct StepRules {
   Real dtinit = 0;                               ///< first step, 0: from the limits [T]
   std::function<Real(Real t)> dt_max = nullptr;  ///< LCTM curve
   Real dtmin = 0;                                ///< stop below this times the first computed step
+  Real tssfac = 1;                               ///< what limits are multiplied by; a restart may change it
   std::shared_ptr<Guard> guard = nullptr;        ///< looks at the state now and then
 };
 
@@ -34,17 +35,21 @@ class Stepper : public Keeper {
   void step(Clock& clock, const AtTimeLevel& at_time_level);
   /// Everything up to the choice of dt, without moving: for `courant check`.
   void evaluate(Clock& clock, std::string& controlled_by);
-  void keep(Archive& archive) override { archive("first_dt", first_dt_); }
+  void keep(Archive& archive) override {
+    archive("first_dt", first_dt_);
+    archive("first_tssfac", first_tssfac_);
+  }
 
  private:
-  void stop_below_dtmin(const Clock& clock, const std::string& controlled_by);
+  void stop_below_dtmin(const Clock& clock);
 
   World& world_;
   Neighbours& neighbours_;
   StepRules rules_;
   PassTimer& timer_;
   Stage rates_, forces_, motion_;
-  Real first_dt_ = 0;  ///< computed, which DTINIT is not [T]
+  TimeLimit::Limit computed_{0, {}};      ///< what passes allow, whatever DTINIT and LCTM say
+  Real first_dt_ = 0, first_tssfac_ = 1;  ///< of the first step: that [T], and TSSFAC
 };
 
 /// Moves active particles with their forces and rim particles with their velocity.

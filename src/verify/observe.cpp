@@ -249,7 +249,6 @@ bool needs(const ParticleTask& task, const std::vector<StateFiles>& states, std:
 void observe_states(std::vector<ParticleTask>& tasks, const std::vector<StateFiles>& states, bool all_states,
                     std::string& garbage) {
   StateTable::Used used{};
-  if (all_states) used.fill(true);
   for (ParticleTask& task : tasks) {
     if (!task.open) continue;
     task.note(used);
@@ -263,7 +262,7 @@ void observe_states(std::vector<ParticleTask>& tasks, const std::vector<StateFil
                                     [&](const ParticleTask& task) { return needs(task, states, i); });
     if (!needed && !all_states) continue;
     Diagnostics faults;
-    const StateTable table(states[i], used, faults);
+    const StateTable table(states[i], used, all_states, faults);
     if (!faults.ok()) {
       if (garbage.empty()) garbage = first_error(faults);
       for (ParticleTask& task : tasks)

@@ -40,18 +40,19 @@ constexpr Source sources[] = {{p_, "pressure"},        {rho_, "density"}, {m_, "
 
 }  // namespace
 
-StateTable::StateTable(const StateFiles& state, const Used& used_, Diagnostics& diagnostics) {
+StateTable::StateTable(const StateFiles& state, const Used& used_, bool all, Diagnostics& diagnostics) {
   Used used = used_;
   used[active_] = true;
   std::vector<ParticleArray> arrays;
   for (const Source& source : sources)
-    if (used[source.column]) arrays.push_back({source.array, 1});
-  if (used[vx_] || used[vy_] || used[vz_] || used[speed_]) arrays.push_back({"velocity", 3});
+    if (all || used[source.column]) arrays.push_back({source.array, 1, !used[source.column]});
+  const bool velocity = used[vx_] || used[vy_] || used[vz_] || used[speed_];
+  if (all || velocity) arrays.push_back({"velocity", 3, !velocity});
   const auto frame = read_particles(state, false, arrays, diagnostics);
   if (!frame) return;
   n_ = frame->size();
   t_ = frame->t;
-  fill(*frame, used);
+  fill(*frame);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     for (std::size_t i = 0; i < columns_[k].size(); ++i) {
       if (std::isfinite(columns_[k][i])) continue;
@@ -63,13 +64,12 @@ StateTable::StateTable(const StateFiles& state, const Used& used_, Diagnostics& 
   }
 }
 
-void StateTable::fill(const ParticleFrame& frame, const Used& used) {
+void StateTable::fill(const ParticleFrame& frame) {
   columns_[x_] = frame.x, columns_[y_] = frame.y, columns_[z_] = frame.z;
   columns_[h_column] = frame.h, columns_[V_] = frame.V;
   volume_ = frame.V, h_ = frame.h;
   for (const Source& source : sources)
-    if (const auto found = frame.arrays.find(source.array);
-        found != frame.arrays.end() && used[source.column])
+    if (const auto found = frame.arrays.find(source.array); found != frame.arrays.end())
       columns_[source.column] = found->second;
   if (const auto v = frame.arrays.find("velocity"); v != frame.arrays.end()) {
     for (std::size_t i = 0; i < n_; ++i) {

@@ -14,8 +14,9 @@ namespace courant {
 class StateTable {
  public:
   using Used = std::array<bool, particle_variable_count>;
-  /// Reads the variables in `used`. Faults, also numbers that are not finite, go to `diagnostics`.
-  StateTable(const StateFiles& state, const Used& used, Diagnostics& diagnostics);
+  /// Reads the variables in `used`, and with `all` what else the file has. Faults, also numbers that are not
+  /// finite, go to `diagnostics`.
+  StateTable(const StateFiles& state, const Used& used, bool all, Diagnostics& diagnostics);
 
   std::size_t size() const { return n_; }
   Real t() const { return t_; }
@@ -27,7 +28,7 @@ class StateTable {
 
  private:
   static constexpr std::size_t active_column = 15;
-  void fill(const ParticleFrame& frame, const Used& used);
+  void fill(const ParticleFrame& frame);
   std::size_t n_ = 0;
   Real t_ = 0;
   std::array<std::vector<Real>, particle_variable_count> columns_;

@@ -164,7 +164,7 @@ std::optional<ReportPicture> draw_particles(const SuiteCase& definition, const V
   StateTable::Used used{};
   note_used(of, used);
   note_used(where.formula(), used);
-  const StateTable state(states[static_cast<std::size_t>(index)], used, faults);
+  const StateTable state(states[static_cast<std::size_t>(index)], used, false, faults);
   if (!faults.ok()) return std::nullopt;
   const Dots dots = dots_of(state, of, where);
   if (dots.value.empty()) return std::nullopt;

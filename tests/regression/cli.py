@@ -99,6 +99,8 @@ ends(1, "run", err="DECK")
 ends(1, "run", "tiny.k", "--no-such-option", err="no-such-option")
 ends(1, "run", "tiny.k", "--until", "soon", err="soon")
 ends(1, "run", "tiny.k", "--until", "-1", err="-1")
+for time_of_no_end in ("nan", "inf"):
+    ends(1, "run", "tiny.k", "--until", time_of_no_end, err=time_of_no_end)
 ends(0, "keywords", out=r"\*MAT_NULL +fluid")
 ends(0, "keywords", "section_sph", out="CSLH")
 ends(0, "keywords", "*MAT_RIGID_TITLE", out="CMO")
@@ -228,7 +230,7 @@ for limit in (9000, 40000, 120000):
         check(len(h5py.File(folder + "/history.h5")["global/time"]) > 0, "history.h5 is readable")
 
 # --- signals
-for number in (signal.SIGINT, signal.SIGTERM):
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
     folder = f"stopped_{number.name}"
     process = running(folder)
     process.send_signal(number)
@@ -237,6 +239,15 @@ for number in (signal.SIGINT, signal.SIGTERM):
     check(process.returncode == 0 and end["termination"] == "interrupted", f"{number.name} -> {process.returncode}, {end['termination']}")
     check(len(states(folder)) >= 8, "fields.pvd is readable")
     check("stopped by a signal" in open(folder + "/messag").read(), "messag says why the run stopped")
+process = subprocess.Popen([courant, "run", "tiny.k", "-o", "unread", "--threads", "1", "--until", "1000"],
+                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+until(lambda: os.path.exists("unread/fields/particles_0003.vtp"), process)
+process.stdout.close()  # as `| head`, or a `tee` that Ctrl-C has ended
+process.send_signal(signal.SIGINT)
+process.wait(timeout=60)
+end = summary("unread")
+check(process.returncode == 0 and end["termination"] == "interrupted" and "--restart" in end["reason"],
+      f"a run whose output nobody reads ends well: {process.returncode}, {end}")
 os.makedirs("killed")
 with open("killed/summary.yaml", "w") as file:
     file.write("termination: normal\n")

@@ -64,6 +64,8 @@ TEST(Advice, StiffContact) {
   f.dt_set_by = "contact 1 (particle stiffness)";
   expect_hint(f, "contact 1 (particle stiffness) set the step");
   expect_hint(f, "lower SLSFAC");
+  f.dt_set_by = "sph 17 of part 1", f.contact_share = 0.97;
+  expect_hint(f, "sph 17 of part 1 set the step, and contact allows hardly more: its penalty is stiff");
   f.has_contact = false;
   f.cause = StopCause::step_size;
   expect_hint(f, "look at its speed");

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 
+#include "app/restart.hpp"
 #include "base/restart_error.hpp"
 #include "parallel/parallel.hpp"
 #include "small_scene.hpp"
@@ -440,6 +441,27 @@ TEST(Restart, RefusesTheStateOfAnotherRun) {
   more.try_emplace("state/passes/magnet/pull");
   EXPECT_EQ(message(more, s),
             "the saved state does not fit this run, which knows no 'state/passes/magnet/pull'");
+}
+
+TEST(Restart, TheCommandToGoOnIsWhatAShellTakes) {
+  RunOptions options;
+  options.dir = "my results";
+  EXPECT_EQ(call_to_go_on("d.k", options, "my results/restart/runrsf.h5"),
+            "courant run d.k -o 'my results' --restart 'my results/restart/runrsf.h5'");
+  options.dir = "out", options.params = {"c0=40", "name=it's"}, options.until = 0.25;
+  EXPECT_EQ(call_to_go_on("d.k", options, "out/restart/runrsf.h5"),
+            "courant run d.k -o out --restart out/restart/runrsf.h5 --param c0=40 --param 'name=it'\\''s' "
+            "--until 0.25");
+}
+
+TEST(Restart, AHugeNumberOfCyclesIsNever) {
+  const std::string text =
+      "*KEYWORD\n*DATABASE_BINARY_D3DUMP\n1.0E+20\n*DATABASE_BINARY_RUNRSF\n100,2\n*END\n";
+  const ReadDeck read = read_in_memory(in_memory(text));
+  ASSERT_EQ(read.diagnostics.text(), "");
+  RestartSchedule schedule(read.deck);
+  EXPECT_TRUE(schedule.due(1).empty());
+  EXPECT_EQ(schedule.due(100), std::vector<std::string>{"runrsf01"});
 }
 
 }  // namespace

@@ -145,6 +145,18 @@ TEST(Stop, DtinitDoesNotCountForDtmin) {
   expect_part(stopped.text, "fell below DTMIN x first step = ");
 }
 
+TEST(Stop, LctmDoesNotCountForDtmin) {
+  SmallScene scene;
+  scene.termination = "1.,0,0.5";
+  scene.timestep = "0.,0.9,0,0.,0.,2";
+  scene.extra = "*DEFINE_CURVE\n2\n0.,1.E-6\n0.001,1.E-6\n0.0011,1.\n9.,1.\n";
+  auto s = build(scene);
+  const Stopped stopped =
+      run_on(*s, 50, 10, [&](World& w) { w.particles.v.set(index_of(w, 7), Vec(0, 40, 0)); });
+  expect_part(stopped.text, "fell below DTMIN x first step = ");
+  expect_part(stopped.text, "set by sph 7 of part 1");
+}
+
 TEST(Stop, StepsBeyondTheStableOne) {
   SmallScene scene;
   scene.timestep = "0.,3.";
@@ -163,6 +175,20 @@ TEST(Stop, EverybodyLeaves) {
   const Stopped stopped = run_on(*s, 50);
   expect_part(stopped.text, "nothing limits the step size at time ");
   EXPECT_EQ(s->world().counters.at("deactivated_by_maxv"), 36);
+}
+
+// What comes towards an empty box gets there; what goes away does not.
+TEST(Stop, NobodyIsInTheBoxYet) {
+  SmallScene scene;
+  scene.n = 1, scene.box = "1", scene.start = "2.,0.,0.";
+  scene.section = "1,1.2,1.,1.,0.12";
+  scene.extra = "*DEFINE_BOX\n1,0.5,1.5,-9.,9.,-9.,9.\n";
+  auto coming = build(scene);
+  EXPECT_EQ(run_on(*coming, 110).text, "");
+  EXPECT_EQ(coming->world().particles.active, 1);
+  scene.start = "-2.,0.,0.";
+  auto going = build(scene);
+  expect_part(run_on(*going, 110).text, "nothing limits the step size at time 0");
 }
 
 // A liquid so soft that the step lets it fall through the floor at once.

@@ -199,6 +199,15 @@ TEST_F(Generate, RefusesBadPartsAndPlates) {
 
 TEST_F(Generate, RefusesHugeLattices) {
   refused(with(small, "spacing: dx", "spacing: 1 / 2^20"), "the lattice would have");
+  const std::string lattice = "      - {low: [-1, 0], high: [0, dx], spacing: dx}\n",
+                    large = "      - {low: [0, 0], high: [6000, 6000], spacing: 1}\n";
+  refused(with(small, lattice, large + large), "up to here the scene has 7.2e+07 particles and shells");
+}
+
+TEST_F(Generate, RefusesLatticesOfTwoAndOfThreeDimensions) {
+  const std::string lattice = "      - {low: [-1, 0], high: [0, dx], spacing: dx}\n",
+                    spatial = "      - {low: [1, 0, 0], high: [2, dx, 1], spacing: dx}\n";
+  refused(with(small, lattice, lattice + spatial), "a lattice of 3 dimensions beside one of 2");
 }
 
 TEST_F(Generate, LeavesNothingWhereItCannotWrite) {
@@ -214,7 +223,20 @@ TEST_F(Generate, LeavesNothingWhereItCannotWrite) {
   EXPECT_NE(fails(scene, folder_.string()).find("this is a folder"), std::string::npos);
   EXPECT_NE(fails((folder_ / "none.yaml").string(), (folder_ / "deck.k").string()).find("cannot be read"),
             std::string::npos);
+  EXPECT_NE(fails(scene, (folder_ / "." / "scene.yaml").string()).find("would take the place of the scene"),
+            std::string::npos);
+  EXPECT_EQ(read(scene), small);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(Generate, VelocitiesOfManyDigitsHaveWideFields) {
+  const std::string text = deck(with(small, "velocity: [c0 / 5, 0]", "velocity: [-1.23456789e-12, 2]"));
+  EXPECT_TRUE(ok_) << messages_;
+  const std::string heading = "*INITIAL_VELOCITY_GENERATION +\n$#                id";
+  EXPECT_NE(text.find(heading), std::string::npos) << text;
+  EXPECT_NE(text.find("     -1.23456789e-12                   2"), std::string::npos) << text;
+  const std::string round = deck(with(small, "velocity: [c0 / 5, 0]", "velocity: [-1.23456e-3, 2]"));
+  EXPECT_NE(round.find("        -0.00123456                   2"), std::string::npos) << round;
 }
 
 Id particles(const std::string& scene, const std::map<std::string, std::string>& params) {

@@ -32,13 +32,16 @@ std::shared_ptr<EosLaw> law_of(const EosEntry& kind, const std::string& cards, R
   return of_density ? of_density : law;
 }
 
+std::shared_ptr<EosLaw> polynomial_of(const std::string& cards) {
+  for (const EosEntry& kind : eos_registry())
+    if (kind.keyword == "EOS_LINEAR_POLYNOMIAL") return law_of(kind, cards);
+  return nullptr;
+}
+
 /// p = factor (1 + mu) E, an ideal gas of gamma = 1 + factor; with factor 0 a liquid of bulk modulus 9e5.
 std::shared_ptr<EosLaw> polynomial(Real factor) {
-  for (const EosEntry& kind : eos_registry())
-    if (kind.keyword == "EOS_LINEAR_POLYNOMIAL")
-      return law_of(kind, "1,0.0," + std::string(factor > 0 ? "0.0" : "9.0E5") + ",0.0,0.0," +
-                              std::to_string(factor) + "," + std::to_string(factor) + "\n0.0,1.0\n");
-  return nullptr;
+  return polynomial_of("1,0.0," + std::string(factor > 0 ? "0.0" : "9.0E5") + ",0.0,0.0," +
+                       std::to_string(factor) + "," + std::to_string(factor) + "\n0.0,1.0\n");
 }
 
 }  // namespace
@@ -156,4 +159,28 @@ TEST(EosPass, CutsTensionAtPcAndStopsAtNegativeDensity) {
         throw;
       },
       RunError);
+}
+
+TEST(EosPass, CountsParticlesWithoutSoundSpeed) {
+  // p = C1 mu + C3 mu^3 + C4 E with C1 = 3, C3 = -1: dp/dmu = 3 - 3 mu^2 < 0 beyond mu = 1; with C4 = 1e-6 by
+  // the pass that solves for the energy
+  for (const std::string factor : {"0.0", "1.0E-6"}) {
+    const auto law = polynomial_of("1,0.0,3.0,0.0,-1.0," + factor + "\n0.0,1.0\n");
+    World world;
+    Particles& p = world.particles;
+    p.fields.resize(3);
+    p.active = p.moving = 3;
+    for (Index i = 0; i < 3; ++i) p.rho[i] = 1 + 0.6 * i;  // mu = 0, 0.6, 1.2
+    auto pass = law->make_pass({{1}, true, {1}, {-1e20}}, world);
+    Clock clock;
+    courant::test::run(*pass, world, clock);
+    EXPECT_NEAR(p.c[1], std::sqrt(3 - 3 * 0.36), 1e-5) << factor;
+    EXPECT_EQ(p.c[2], 0) << factor;
+    EXPECT_EQ(world.counters, (Counters{{"sound_speed_clamped", 1}})) << factor;
+    courant::test::run(*pass, world, clock);
+    EXPECT_EQ(world.counters.at("sound_speed_clamped"), 2) << factor;
+    p.rho[2] = 1.8;
+    courant::test::run(*pass, world, clock);
+    EXPECT_EQ(world.counters.at("sound_speed_clamped"), 2) << factor;
+  }
 }

@@ -475,4 +475,28 @@ TEST(IncludeTransform, MovesManyNodesQuickly) {
   expect_near(Vec(last.x, last.y, last.z), turned({1, 0, 0}, 20) * Vec(2000, 1, 0), "x");
 }
 
+/// Places in a system move with the system, once.
+TEST(IncludeTransform, PlacesInASystemMoveOnce) {
+  const std::string system = "*DEFINE_COORDINATE_VECTOR\n7, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0\n",
+                    vector = "*DEFINE_VECTOR\n1, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 7\n",
+                    points = "*DEFINE_COORDINATE_SYSTEM\n8, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 7\n0.0, 1.0, 0.0\n";
+  const auto built_with = [&](const std::string& operation, Diagnostics& diagnostics) {
+    DecksInMemory decks{{{"main.k", control + "*DEFINE_TRANSFORMATION\n1\n" + operation + "\n" +
+                                        include_transform("part.k", {}, 1) + "*END\n"},
+                         {"part.k", system + vector + points}}};
+    Deck deck = decks.read("main.k", diagnostics);
+    move_included_entries(deck, diagnostics);
+    return build_model(deck, diagnostics);
+  };
+  Diagnostics diagnostics;
+  const Model m = built_with("ROTATE, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 90.0", diagnostics);
+  expect_near(m.vectors.at(1).head - m.vectors.at(1).tail, Vec(0, 1, 0), "vector");
+  expect_near(m.coordinate_systems.at(8).axes.col(0), Vec(0, 1, 0), "x axis");
+  expect_near(m.coordinate_systems.at(8).axes.col(1), Vec(-1, 0, 0), "y axis");
+  Diagnostics scaled;
+  built_with("SCALE, 2.0, 2.0, 2.0", scaled);
+  EXPECT_NE(scaled.text().find("leaves open whether places in a system are, too"), std::string::npos)
+      << scaled.text();
+}
+
 }  // namespace courant

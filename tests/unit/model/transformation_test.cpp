@@ -61,6 +61,7 @@ TEST(Transformation, RotatesAboutALine) {
   expect_moves(motion("ROTATE, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 30.0\n"), {4, 1, 0}, {4, c, s});
   // about the diagonal by a third of a turn: x to y to z
   expect_moves(motion("ROTATE, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 120.0\n"), {1, 2, 3}, {3, 1, 2});
+  expect_moves(motion("ROTATE, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0\n"), {1, 2, 3}, {1, 2, 3});
 }
 
 TEST(Transformation, IsExactForQuarterTurns) {

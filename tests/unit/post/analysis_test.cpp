@@ -288,6 +288,17 @@ TEST(Toe, FollowsAStep) {
   EXPECT_NEAR(run.scalar("toe", "toe_mean"), 0.45, 0.006);
 }
 
+TEST(Toe, WithoutStatesIsAFault) {
+  Analyses run(
+      "analyses:\n  - {kind: surface, name: s, x: 0.1}\n"
+      "  - {kind: toe, name: toe, of: s, depth: 0.05, from: 5}\n"
+      "  - {kind: spectrum, name: spectra, of: toe}\n");
+  for (int s = 0; s < 9; ++s) run.take(test::water({.x1 = 0.2}), 0.1 * s);
+  const std::string fault = run.fail();
+  EXPECT_NE(fault.find("analysis 'toe': the results have no state in its window"), std::string::npos)
+      << fault;
+}
+
 /// Mean velocity 1.5 m/s exp(-0.028 (x - x1)/d1) at the bed and a straight line to a surface velocity that
 /// changes its sign at x = 0.25.
 TEST(Roller, LengthAndDecay) {

@@ -154,6 +154,26 @@ TEST(Neighbours, StayCompleteUntilTheyRebuildThemselves) {
   EXPECT_LT(cloud.neighbours->rebuilds(), 60);
 }
 
+TEST(Neighbours, StayCompleteWhereSomeGrow) {
+  // every fifth particle grows, and the others come towards those in the middle
+  Cloud cloud(2, 20, 0.01, 0.2);
+  cloud.refresh();
+  Particles& p = cloud.world.particles;
+  const Vec middle(0.1, 0.1, 0);
+  for (int step = 0; step < 60; ++step) {
+    for (Index i = 0; i < p.size(); ++i) {
+      const Vec inwards = middle - p.x.vec(i);
+      if (p.id[i] % 5 == 0)
+        p.h[i] += 1e-4;
+      else
+        p.x.add(i, (1e-4 / (0.01 + inwards.norm())) * inwards);
+    }
+    cloud.refresh();
+    expect_complete(cloud);
+  }
+  EXPECT_LT(cloud.neighbours->rebuilds(), 60);
+}
+
 TEST(Neighbours, CopeWithAParticleFarAway) {
   Cloud cloud(3, 6, 0.01, 0.2);
   cloud.world.particles.x.set(0, {1e6, -1e6, 1e5});

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "../app/small_scene.hpp"
+#include "base/run_error.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
@@ -26,6 +27,7 @@ struct Tank {
   std::string planes;
   Real mu = 20, endtim = 0.05;
   std::string section = "1,1.2,1,1", gravity;
+  bool boxed = false;  ///< particles with |x| > 0.5 are outside the computational box
 
   static Id id_of(int column, int row) { return 1000 * (row + 100) + column + 100; }
   /// Symmetric about x = 0 and y = 0, of period 2 in x.
@@ -34,8 +36,9 @@ struct Tank {
   }
   std::string deck() const {
     std::string out = "*KEYWORD\n*CONTROL_TERMINATION\n" + fmt::format("{}\n", endtim) +
-                      "*CONTROL_SPH\n1,0,1e20,2\n0,0,0,0,0,0,0\n*PART\nwater\n1,1,1,1\n*SECTION_SPH\n" +
-                      section + "\n*MAT_NULL\n" +
+                      fmt::format("*CONTROL_SPH\n1,{},1e20,2\n0,0,0,0,0,0,0\n", boxed ? 1 : 0) +
+                      (boxed ? "*DEFINE_BOX\n1,-0.5,0.5,-9,9,-1,1\n" : "") +
+                      "*PART\nwater\n1,1,1,1\n*SECTION_SPH\n" + section + "\n*MAT_NULL\n" +
                       fmt::format("1,1000.0,-1e20,{}\n*EOS_LINEAR_POLYNOMIAL\n1,0,4e5\n\n", mu) + planes +
                       gravity;
     std::string nodes = "*NODE\n", elements = "*ELEMENT_SPH\n", velocities = "*INITIAL_VELOCITY_NODE\n";
@@ -104,6 +107,36 @@ TEST(Images, PartOfATankBehindMirrorsIsTheWholeTank) {
   EXPECT_EQ(of_half.external_work, 0);
 }
 
+TEST(Images, OfTheRimDoWorkAsTheRimDoes) {
+  // a stream out of both sides of a box, of which the upper half is computed
+  Simulation *kept_half = nullptr, *kept_whole = nullptr;
+  Tank tank{.left = -12, .nx = 24, .low = 0, .ny = 10, .planes = mirror_y, .endtim = 0.1, .boxed = true};
+  run(tank, &kept_half);
+  tank.low = -10, tank.ny = 20, tank.planes.clear();
+  run(tank, &kept_whole);
+  const std::unique_ptr<Simulation> a(kept_half), b(kept_whole);
+  ASSERT_GT(a->world().particles.moving, a->world().particles.active);
+  const EnergyLedger &of_half = a->world().energy, &of_whole = b->world().energy;
+  EXPECT_GT(std::abs(of_whole.external_work), 0.05 * of_whole.initial);
+  EXPECT_NEAR(2 * of_half.external_work, of_whole.external_work, 1e-9 * of_whole.initial);
+  EXPECT_NEAR(2 * of_half.throughput, of_whole.throughput, 1e-9 * of_whole.initial);
+}
+
+TEST(Images, EnergyOfWhatCrossesTheBoxCountsInTheStepInWhichItDoes) {
+  const auto s =
+      test::build_deck(Tank{.left = -12, .nx = 24, .low = 0, .ny = 10, .endtim = 0.1, .boxed = true}.deck());
+  ASSERT_TRUE(s);
+  Real worst = 0;
+  while (s->clock().t < 0.1)
+    s->step([&](World& world, const Clock& clock, const std::string&) {
+      sample_energy(world, clock);
+      if (clock.cycle == 0) world.energy.initial = world.energy.total();
+      worst = std::max(worst, std::abs(world.energy.residual()));
+    });
+  EXPECT_LT(s->world().particles.active, 100);  // columns of ten have left
+  EXPECT_LT(worst, 0.02 * s->world().energy.initial);
+}
+
 TEST(Images, AQuarterBehindTwoMirrorsIsTheWholeTank) {
   expect_same(run({.left = 0, .nx = 10, .low = 0, .ny = 10, .planes = mirror_x + mirror_y}),
               run({.left = -10, .nx = 20, .low = -10, .ny = 20}));
@@ -149,6 +182,18 @@ TEST(Images, WhatGoesThroughAMirrorComesBackAsItsImage) {
   EXPECT_EQ(world.counters.at("mirror_crossings"), 1);
   images.bring_back(world, 1);
   EXPECT_EQ(world.counters.at("mirror_crossings"), 1);
+}
+
+TEST(Images, StopsWhereParticlesReachAcrossTheDomain) {
+  World world;
+  Images between({{ImagePlane::Kind::mirror, Vec(1, 0, 0), Vec(1, 0, 0), 0},
+                  {ImagePlane::Kind::mirror, Vec(1.5, 0, 0), Vec(-1, 0, 0), 0},
+                  {ImagePlane::Kind::periodic, Vec(0, 2, 0), Vec(0, 1, 0), 0.7}});
+  EXPECT_NO_THROW(between.build(world, 0.49));
+  EXPECT_THROW(between.build(world, 0.51), RunError);
+  Images period({{ImagePlane::Kind::periodic, Vec(0, 2, 0), Vec(0, 1, 0), 0.7}});
+  EXPECT_NO_THROW(period.build(world, 0.69));
+  EXPECT_THROW(period.build(world, 0.71), RunError);
 }
 
 TEST(Images, GravityAlongAPeriodicChannelDoesWork) {

@@ -124,6 +124,86 @@ TEST(WallSurface, CutsFacesInThreeDimensions) {
   EXPECT_GT(area, pi * (3.7 * h) * (0.9 * h));
 }
 
+TEST(WallSurface, GoesOnBehindAMirrorAsItsImage) {
+  // half of a trench, its middle at x = 0
+  const Vec foot(0.1, -0.3, 0), edge(0.1, 0, 0);
+  const std::pair<Vec, Vec> bank{edge, Vec(1, 0, 0)}, side{foot, edge}, bed{Vec(0, -0.3, 0), foot};
+  const auto image = [](const std::pair<Vec, Vec>& line) {
+    const auto of = [](const Vec& x) { return Vec(-x[0], x[1], 0); };
+    return std::pair<Vec, Vec>(of(line.first), of(line.second));
+  };
+  World half, whole, too_long, across;
+  add_walls(half, {bank, side, bed});
+  add_walls(whole, {bank, side, bed, image(bank), image(side), image(bed)});
+  add_walls(too_long, {bank, side, {Vec(-0.32, -0.3, 0), foot}});
+  add_walls(across, {bank, side, {Vec(-0.1, -0.3, 0), foot}});  // the middle of its seven pieces at x = 0
+  const ImagePlane mirror{ImagePlane::Kind::mirror, Vec::Zero(), Vec(1, 0, 0), 0};
+  const WallSurface of_half(half, {0, 1, 2}, h / 4, 2 * h, {mirror});
+  const WallSurface of_whole(whole, {0, 1, 2, 3, 4, 5}, h / 4, 2 * h);
+  const WallSurface of_long(too_long, {0, 1, 2}, h / 4, 2 * h, {mirror});
+  const WallSurface of_across(across, {0, 1, 2}, h / 4, 2 * h, {mirror});
+  for (const Vec& x : {Vec(0.02, -0.25, 0), Vec(0.06, -0.1, 0), Vec(0.02, 0.05, 0), Vec(0.2, 0.05, 0)}) {
+    const Vec expected = slope_at(of_whole, x);
+    EXPECT_GT(expected.norm(), 0.01 / h);
+    EXPECT_LT((slope_at(of_half, x) - expected).norm(), 1e-12 / h) << x.transpose();
+    EXPECT_LT((slope_at(of_long, x) - expected).norm(), 0.01 / h) << x.transpose();
+    EXPECT_LT((slope_at(of_across, x) - expected).norm(), 0.01 / h) << x.transpose();
+  }
+}
+
+TEST(WallSurface, HidesNothingByWhatStandsBehindAMirror) {
+  // a plate that goes on through the mirror at x = 0 is a roof
+  const std::pair<Vec, Vec> right{Vec::Zero(), Vec(0.2, -0.1, 0)}, left{Vec::Zero(), Vec(-0.2, -0.1, 0)};
+  World through, roof;
+  add_walls(through, {{Vec(-0.2, 0.1, 0), Vec(0.2, -0.1, 0)}});
+  add_walls(roof, {right, left});
+  const WallSurface of_plate(through, {0}, h / 4, 2 * h,
+                             {{ImagePlane::Kind::mirror, Vec::Zero(), Vec(1, 0, 0), 0}});
+  const WallSurface of_roof(roof, {0, 1}, h / 4, 2 * h);
+  const Vec x(0.05, 0.05, 0), expected = slope_at(of_roof, x);
+  EXPECT_LT((slope_at(of_plate, x) - expected).norm(), 0.02 * expected.norm());
+}
+
+TEST(WallSurface, GoesOnBehindPeriodicPlanesAsTheOtherEnd) {
+  World one, three;
+  add_walls(one, {{Vec(0, 0, 0), Vec(0.5, 0, 0)},
+                  {Vec(0.5, 0, 0), Vec(0.5, 0.1, 0)},
+                  {Vec(0.5, 0.1, 0), Vec(1, 0.1, 0)}});
+  std::vector<std::pair<Vec, Vec>> lines;
+  for (const Real at : {-1., 0., 1.}) {
+    lines.push_back({Vec(at, 0, 0), Vec(at + 0.5, 0, 0)});
+    lines.push_back({Vec(at + 0.5, 0, 0), Vec(at + 0.5, 0.1, 0)});
+    lines.push_back({Vec(at + 0.5, 0.1, 0), Vec(at + 1, 0.1, 0)});
+  }
+  add_walls(three, lines);
+  const WallSurface of_one(one, {0, 1, 2}, h / 4, 2 * h,
+                           {{ImagePlane::Kind::periodic, Vec::Zero(), Vec(1, 0, 0), 1}});
+  const WallSurface of_three(three, {0, 1, 2, 3, 4, 5, 6, 7, 8}, h / 4, 2 * h);
+  for (const Vec& x : {Vec(0.03, 0.05, 0), Vec(0.97, 0.15, 0), Vec(0.5, 0.2, 0), Vec(0.03, 0.2, 0)})
+    EXPECT_LT((slope_at(of_one, x) - slope_at(of_three, x)).norm(), 1e-12 / h) << x.transpose();
+}
+
+TEST(WallSurface, HasImagesOfImagesWhereMirrorsMeet) {
+  World quarter, whole;
+  add_walls(quarter, {{Vec(0, 0, 0), Vec(1, 0, 0)}});
+  add_walls(whole, {{Vec(-1, 0, 0), Vec(1, 0, 0)}});
+  for (World* world : {&quarter, &whole}) {
+    world->dim = 3;
+    for (Index n = 0; n < 4; ++n) {
+      const Vec x = world->nodes.x.vec(n);
+      world->nodes.x.set(n, Vec(x[0], 0, x[2] > 0 ? 1 : world == &quarter ? 0 : -1));
+    }
+  }
+  const auto mirror = [](int axis) {
+    return ImagePlane{ImagePlane::Kind::mirror, Vec::Zero(), Vec::Unit(axis), 0};
+  };
+  const WallSurface of_quarter(quarter, {0}, h / 4, 2 * h, {mirror(0), mirror(2)});
+  const WallSurface of_whole(whole, {0}, h / 4, 2 * h);
+  const Vec x(0.03, 0.06, 0.05);
+  EXPECT_GE(of_quarter.view_from(x).flat, 0);
+  EXPECT_LT((slope_at(of_quarter, x) - slope_at(of_whole, x)).norm(), 1e-3 * slope_at(of_whole, x).norm());
+}
+
 /// A floor one spacing thick, its middle half a spacing under the lowest row.
 std::string floor_cards() {
   std::string cards = test::floor_cards(0);
@@ -174,6 +254,25 @@ TEST(WallSupport, KnowsHowMuchOfTheKernelLiesBehindTheWall) {
     const Vec x(0.25, y, 0);
     EXPECT_NEAR(fill[at(p, x)], volume(x, [](const Vec& place) { return place[1] < 0; }), 2e-3) << y;
   }
+}
+
+TEST(WallSupport, AFloorMayEndAtAMirror) {
+  const std::string mirror = "*BOUNDARY_SPH_SYMMETRY_PLANE\n0,0,0,1,0,0\n",
+                    through = on_floor(support + mirror);
+  std::string ends = through;
+  for (const std::string node : {"9001", "9004"}) ends.replace(ends.find(node + ",-2."), 8, node + ",0.0");
+  std::vector<Real> fill, pull;
+  for (const std::string& text : {through, ends}) {
+    const auto s = test::build_deck(text);
+    std::string who;
+    s->evaluate(who);
+    Particles& p = s->world().particles;
+    fill.push_back(sph_fields::wall_fill(p)[at(p, Vec(0.05, 0.05, 0))]);
+    pull.push_back(sph_fields::wall_slope(p).vec(at(p, Vec(0.05, 0.05, 0)))[1]);
+  }
+  EXPECT_NEAR(fill[0], volume(Vec(0.05, 0.05, 0), [](const Vec& place) { return place[1] < 0; }), 2e-3);
+  EXPECT_NEAR(fill[1], fill[0], 1e-3);
+  EXPECT_NEAR(pull[1], pull[0], 1e-3 * std::abs(pull[0]));
 }
 
 TEST(WallSupport, AUniformPressureDoesNotMoveTheLowestRow) {

@@ -188,6 +188,22 @@ TEST_F(Observe, GarbageIsFound) {
   EXPECT_EQ(measured(of(Kind::history, "global/kinetic", "max")).why, "not finite at t = 0.4");
 }
 
+TEST_F(Observe, FilesOfFewArraysAreNoGarbage) {
+  const SuiteCase definition;
+  for (const bool spoilt : {false, true}) {
+    const ScratchFolder few;
+    FieldWriter fields(few.path(), {.part_ids = {3},
+                                    .fields = {"active", "density", "mass", "smoothing_length", "velocity"}});
+    World& world = column(0);
+    if (spoilt) world.particles.v.set(4, {0, std::nan(""), 0});
+    fields.write(world, 0.25, 0);
+    fields.finish();
+    const std::string garbage = observe_run(definition, parameters, few.path(), true).garbage;
+    EXPECT_EQ(garbage.find("vy of a particle is not finite") != std::string::npos, spoilt) << garbage;
+    EXPECT_EQ(garbage.empty(), !spoilt) << garbage;
+  }
+}
+
 TEST_F(Observe, Picture) {
   SuiteCase definition;
   definition.picture_of = "p", definition.picture_title = "pressure", definition.picture_at = "0.5";
