@@ -56,18 +56,6 @@ TEST(CoordinateSystems, FromNodes) {
   expect_near(systems.at(9).axes.col(0), e_y);
 }
 
-TEST(CoordinateSystems, FromNodesThatWereMoved) {
-  const SmallModel m = small_model(
-      "*DEFINE_COORDINATE_NODES\n7,2,3,5\n*DEFINE_VECTOR_NODES\n2,2,3\n*SET_NODE\n1\n2,3,5\n"
-      "*DEFINE_TRANSFORMATION\n1\nROTATE,0.,0.,1.,0.,0.,0.,90.\n*NODE_TRANSFORM\n1,1\n");
-  EXPECT_EQ(m.messages, "");
-  const CoordinateSystem& s = m.model.coordinate_systems.at(7);
-  expect_near(s.origin, e_y);
-  expect_near(s.axes.col(0), e_y);
-  expect_near(s.axes.col(1), -e_x);
-  expect_near(m.model.vectors.at(2).head, 2 * e_y);
-}
-
 TEST(CoordinateSystems, FromVectors) {
   const SmallModel m = small_model("*DEFINE_COORDINATE_VECTOR\n7,0.,0.,2.,5.,0.,5.\n");
   EXPECT_EQ(m.messages, "");

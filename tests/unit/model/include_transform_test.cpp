@@ -475,6 +475,24 @@ TEST(IncludeTransform, MovesManyNodesQuickly) {
   expect_near(Vec(last.x, last.y, last.z), turned({1, 0, 0}, 20) * Vec(2000, 1, 0), "x");
 }
 
+TEST(NodeTransform, TakesAlongSystemsAndVectorsOfItsNodes) {
+  DecksInMemory decks{
+      {{"main.k", control + "*NODE\n1, 1.0\n2, 2.0\n3, 1.0, 1.0\n*SET_NODE\n1\n1, 2, 3\n"
+                            "*DEFINE_COORDINATE_NODES\n7, 1, 2, 3\n*DEFINE_VECTOR_NODES\n2, 1, 2\n"
+                            "*DEFINE_TRANSFORMATION\n1\nROTATE, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, "
+                            "90.0\n*NODE_TRANSFORM\n1, 1\n*END\n"}}};
+  Diagnostics diagnostics;
+  Deck deck = decks.read("main.k", diagnostics);
+  move_included_entries(deck, diagnostics);
+  const Model model = build_model(deck, diagnostics);
+  EXPECT_EQ(diagnostics.text(), "");
+  const CoordinateSystem& system = model.coordinate_systems.at(7);
+  expect_near(system.origin, Vec(0, 1, 0), "origin");
+  expect_near(system.axes.col(0), Vec(0, 1, 0), "x axis");
+  expect_near(system.axes.col(1), Vec(-1, 0, 0), "y axis");
+  expect_near(model.vectors.at(2).head, Vec(0, 2, 0), "head");
+}
+
 /// Places in a system move with the system, once.
 TEST(IncludeTransform, PlacesInASystemMoveOnce) {
   const std::string system = "*DEFINE_COORDINATE_VECTOR\n7, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0\n",

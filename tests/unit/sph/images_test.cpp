@@ -122,21 +122,6 @@ TEST(Images, OfTheRimDoWorkAsTheRimDoes) {
   EXPECT_NEAR(2 * of_half.throughput, of_whole.throughput, 1e-9 * of_whole.initial);
 }
 
-TEST(Images, EnergyOfWhatCrossesTheBoxCountsInTheStepInWhichItDoes) {
-  const auto s =
-      test::build_deck(Tank{.left = -12, .nx = 24, .low = 0, .ny = 10, .endtim = 0.1, .boxed = true}.deck());
-  ASSERT_TRUE(s);
-  Real worst = 0;
-  while (s->clock().t < 0.1)
-    s->step([&](World& world, const Clock& clock, const std::string&) {
-      sample_energy(world, clock);
-      if (clock.cycle == 0) world.energy.initial = world.energy.total();
-      worst = std::max(worst, std::abs(world.energy.residual()));
-    });
-  EXPECT_LT(s->world().particles.active, 100);  // columns of ten have left
-  EXPECT_LT(worst, 0.02 * s->world().energy.initial);
-}
-
 TEST(Images, AQuarterBehindTwoMirrorsIsTheWholeTank) {
   expect_same(run({.left = 0, .nx = 10, .low = 0, .ny = 10, .planes = mirror_x + mirror_y}),
               run({.left = -10, .nx = 20, .low = -10, .ny = 20}));
