@@ -126,12 +126,13 @@ void Images::bring_back(World& world, Index n) {
   }
 }
 
-void Images::build(World& world, Real reach) {
-  if (reach > narrowest_)
+void Images::build(World& world, Real support, Real skin) {
+  const Real reach = support + skin;
+  if (support > narrowest_)
     throw RunError(
         fmt::format("planes with images are {:.4g} [L] apart, and particles now reach {:.4g}: they would see "
                     "images twice; make the domain wider, or limit h by HMAX of *SECTION_SPH",
-                    narrowest_, reach));
+                    narrowest_, support));
   Particles& p = world.particles;
   source_.clear();
   motion_.clear();

@@ -60,10 +60,10 @@ class Images : public Exchanger {
   /// [ML]
   const Vec& brought_back() const { return brought_back_; }
 
-  /// Finds which particles [0, moving) have images within `reach` of the planes, makes room for them and puts
-  /// them there; nothing of earlier images is kept. Throws RunError where h has grown so much that an image
-  /// of an image would be in reach. [L]
-  void build(World& world, Real reach);
+  /// Finds which particles [0, moving) have images within `support` + `skin` of the planes, makes room for
+  /// them and puts them there; nothing of earlier images is kept. Throws RunError where h has grown so much
+  /// that support reaches from one plane to the one opposite. [L]
+  void build(World& world, Real support, Real skin);
   Index count() const { return static_cast<Index>(source_.size()); }
   /// The particle of which image k, entity particles.size() + k, is an image.
   Index source(Index k) const { return source_[k]; }

@@ -212,7 +212,7 @@ void Neighbours::find_list_of_group(const World& world, const NearQuery& q, Scra
 
 void Neighbours::build_images(World& world) {
   Particles& p = world.particles;
-  images_->build(world, support_ * h_max_ + skin_);
+  images_->build(world, support_ * h_max_, skin_);
   const Index n = images_->count(), first = p.size();
   key_.resize(n);
   find_cells(p, first, first + n, key_.data());

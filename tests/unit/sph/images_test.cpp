@@ -174,11 +174,11 @@ TEST(Images, StopsWhereParticlesReachAcrossTheDomain) {
   Images between({{ImagePlane::Kind::mirror, Vec(1, 0, 0), Vec(1, 0, 0), 0},
                   {ImagePlane::Kind::mirror, Vec(1.5, 0, 0), Vec(-1, 0, 0), 0},
                   {ImagePlane::Kind::periodic, Vec(0, 2, 0), Vec(0, 1, 0), 0.7}});
-  EXPECT_NO_THROW(between.build(world, 0.49));
-  EXPECT_THROW(between.build(world, 0.51), RunError);
+  EXPECT_NO_THROW(between.build(world, 0.49, 0.1));
+  EXPECT_THROW(between.build(world, 0.51, 0.1), RunError);
   Images period({{ImagePlane::Kind::periodic, Vec(0, 2, 0), Vec(0, 1, 0), 0.7}});
-  EXPECT_NO_THROW(period.build(world, 0.69));
-  EXPECT_THROW(period.build(world, 0.71), RunError);
+  EXPECT_NO_THROW(period.build(world, 0.69, 0.1));
+  EXPECT_THROW(period.build(world, 0.71, 0.1), RunError);
 }
 
 TEST(Images, GravityAlongAPeriodicChannelDoesWork) {
