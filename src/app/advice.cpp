@@ -48,7 +48,9 @@ std::string advice_for_flow(const StopFacts& f) {
         "{} set the step: its penalty is stiff for particles this light; lower SLSFAC of "
         "*CONTROL_CONTACT or SFSA of the contact",
         f.dt_set_by);
-  if (f.has_contact && f.contact_share > 0.95)
+  // what LCTM says is told of the last step, and hides who would have set it
+  const bool told = !f.dt_set_by.empty() && f.dt_set_by != "load curve";
+  if (f.has_contact && told && f.contact_share > 0.95)
     return fmt::format(
         "{} set the step, and contact allows hardly more: its penalty is stiff for particles this light; "
         "lower SLSFAC of *CONTROL_CONTACT or SFSA of the contact",
@@ -68,7 +70,7 @@ std::string advice_for_flow(const StopFacts& f) {
         "the density fell to {:.3g} RO in tension, which PC < 0 of *MAT_NULL allows: set PC = 0, "
         "or near it, so that the fluid parts instead",
         f.density_low);
-  if (f.cause == StopCause::step_size && !f.dt_set_by.empty())
+  if (f.cause == StopCause::step_size && told)
     return fmt::format(
         "{} set the step: look at its speed and sound speed there; MAXV of *CONTROL_SPH limits "
         "what single particles do",

@@ -416,8 +416,9 @@ class SceneReader {
     const bool told = entities_ > most_entities;
     entities_ += more;
     if (entities_ > most_entities && !told)
-      error(node, fmt::format("up to here the scene has {:.3g} particles and shells; {:.0e} are the limit",
-                              entities_, most_entities));
+      error(node,
+            fmt::format("up to here the scene has room for {:.3g} particles and shells; {:.0e} are the limit",
+                        entities_, most_entities));
   }
 
   void read_keywords(const YAML::Node& node, Scene& scene) {

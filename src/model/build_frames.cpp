@@ -50,6 +50,29 @@ void ModelBuilder::build_local_boxes() {
   }
 }
 
+namespace {
+
+/// Whether *INCLUDE_TRANSFORM moves an entry as it does the system that the entry is given in: only then does
+/// the entry go where its file goes.
+bool moved_alike(const Deck& deck, const Entry& entry, Id cid) {
+  const auto moved_by = [&](const Entry& e) -> const std::vector<Id>& {
+    return deck.files[static_cast<std::size_t>(e.file)].conversion.transformations;
+  };
+  const auto holds = [&](const auto& cards) {
+    for (const auto& card : cards)
+      if (card.cid == cid && moved_by(card) != moved_by(entry)) return false;
+    return true;
+  };
+  return holds(deck.all<CoordinateSystemCard>()) && holds(deck.all<CoordinateVectorCard>()) &&
+         holds(deck.all<CoordinateNodesCard>());
+}
+
+std::string moved_otherwise(Id cid) {
+  return fmt::format("system {} stands in a file that *INCLUDE_TRANSFORM moves otherwise", cid);
+}
+
+}  // namespace
+
 /// Systems may be given in others, in any order of the deck.
 void ModelBuilder::build_coordinate_systems() {
   for (const CoordinateVectorCard& card : deck_.all<CoordinateVectorCard>()) {
@@ -112,6 +135,8 @@ void ModelBuilder::add_system(const CoordinateSystemCard& card) {
   else
     error(card, "XL", fmt::format("the three points of system {} are on one line", card.cid));
   if (card.cidl != 0) {
+    if (!moved_alike(deck_, card, card.cidl))
+      error(card, "CIDL", moved_otherwise(card.cidl), "put both into one file");
     if (const CoordinateSystem* outer = coordinate_system(card, "CIDL", card.cidl)) {
       system.origin = outer->origin + outer->axes * system.origin;
       system.axes = outer->axes * system.axes;
@@ -127,6 +152,8 @@ void ModelBuilder::build_vectors() {
     if (v.tail == v.head)
       error(card, "XT", fmt::format("vector {} has no length: tail and head are one point", card.vid));
     if (card.cid != 0) {
+      if (!moved_alike(deck_, card, card.cid))
+        error(card, "CID", moved_otherwise(card.cid), "put both into one file");
       if (const CoordinateSystem* system = coordinate_system(card, "CID", card.cid)) {
         v.tail = system->origin + system->axes * v.tail;
         v.head = system->origin + system->axes * v.head;

@@ -22,9 +22,11 @@ std::string refuse_stretching(DefineBoxLocalCard&, const Affine& motion) {
 /// Places in a system of the file are told by its axes, which have length 1 whatever the file does.
 template <class T, Id T::*Local>
 std::string refuse_scaling(T& card, const Affine& motion) {
-  return card.*Local == 0 || keeps_lengths(motion) ? ""
-                                                   : "the file is scaled by a transformation, which leaves "
-                                                     "open whether places in a system are, too";
+  if (card.*Local == 0) return {};
+  if (motion.linear().determinant() < 0) return "the file is mirrored, and a system is right-handed";
+  return keeps_lengths(motion) ? ""
+                               : "the file is scaled by a transformation, which leaves open whether places "
+                                 "in a system are, too";
 }
 
 using B = DefineBoxLocalCard;

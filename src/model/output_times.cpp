@@ -21,7 +21,8 @@ Real implicit_next(const Curve& f, Real t) {
     if (right >= 0) return from + (to - from) * (-left / (right - left));
     from = to;
   }
-  return t + f(from);  // constant behind the last abscissa
+  return std::max(from,
+                  t + f(from));  // constant behind the last abscissa, at which it may have jumped across
 }
 
 }  // namespace

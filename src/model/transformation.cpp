@@ -111,7 +111,8 @@ class Evaluation {
   Affine rotate() {
     // by two POINTs, unless it is an axis without an angle: a turn by 0
     const auto is_number = [](Real v) { return v > 0 && v == std::floor(v); };
-    const bool points = (is_number(a(1)) && is_number(a(2))) || (a(3) != 0 && !points_.empty());
+    const bool one = (is_number(a(1)) && a(2) == 0) || (is_number(a(2)) && a(1) == 0);
+    const bool points = (is_number(a(1)) && is_number(a(2))) || (one && a(3) != 0);
     if (points && a(4) == 0 && a(5) == 0 && a(6) == 0 && a(7) == 0) {
       const auto from = named_point("A1", a(1)), to = named_point("A2", a(2));
       return from && to ? turn("A1", *from, *to - *from, a(3)) : Affine::Identity();

@@ -1,5 +1,6 @@
 #include "time/step.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -98,7 +99,8 @@ void Stepper::step(Clock& clock, const AtTimeLevel& at_time_level) {
 // What DTINIT and LCTM chose says nothing of the scene.
 void Stepper::stop_below_dtmin(const Clock& clock) {
   if (first_dt_ == 0) first_dt_ = computed_.dt, first_tssfac_ = rules_.tssfac;
-  const Real least = rules_.dtmin * first_dt_ * (rules_.tssfac / first_tssfac_);
+  const Real shorter = std::min(Real(1), rules_.tssfac / first_tssfac_);  // contact has a limit of its own
+  const Real least = rules_.dtmin * first_dt_ * shorter;
   if (!(computed_.dt < least)) return;
   throw RunError(
       fmt::format(

@@ -20,7 +20,7 @@ struct StepRules {
   Real dtinit = 0;                               ///< first step, 0: from the limits [T]
   std::function<Real(Real t)> dt_max = nullptr;  ///< LCTM curve
   Real dtmin = 0;                                ///< stop below this times the first computed step
-  Real tssfac = 1;                               ///< what limits are multiplied by; a restart may change it
+  Real tssfac = 1;                               ///< of most limits; a restart may change it
   std::shared_ptr<Guard> guard = nullptr;        ///< looks at the state now and then
 };
 

@@ -15,6 +15,8 @@ import xml.etree.ElementTree as ElementTree
 
 from checks import check, enter_empty_folder, failures
 
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # under nohup it is ignored, also by what is started here
+
 try:
     import h5py
 except ImportError:

@@ -515,6 +515,20 @@ TEST(IncludeTransform, PlacesInASystemMoveOnce) {
   built_with("SCALE, 2.0, 2.0, 2.0", scaled);
   EXPECT_NE(scaled.text().find("leaves open whether places in a system are, too"), std::string::npos)
       << scaled.text();
+  Diagnostics mirrored;
+  built_with("MIRROR, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0", mirrored);
+  EXPECT_NE(mirrored.text().find("the file is mirrored, and a system is right-handed"), std::string::npos)
+      << mirrored.text();
+  Diagnostics apart;
+  DecksInMemory decks{{{"main.k", control + system + "*DEFINE_TRANSFORMATION\n1\nTRANSL, 1.0\n" +
+                                      include_transform("part.k", {}, 1) + "*END\n"},
+                       {"part.k", vector}}};
+  Deck deck = decks.read("main.k", apart);
+  move_included_entries(deck, apart);
+  build_model(deck, apart);
+  EXPECT_NE(apart.text().find("system 7 stands in a file that *INCLUDE_TRANSFORM moves otherwise"),
+            std::string::npos)
+      << apart.text();
 }
 
 }  // namespace courant
