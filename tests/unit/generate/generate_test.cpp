@@ -201,7 +201,8 @@ TEST_F(Generate, RefusesHugeLattices) {
   refused(with(small, "spacing: dx", "spacing: 1 / 2^20"), "the lattice would have");
   const std::string lattice = "      - {low: [-1, 0], high: [0, dx], spacing: dx}\n",
                     large = "      - {low: [0, 0], high: [6000, 6000], spacing: 1}\n";
-  refused(with(small, lattice, large + large), "up to here the scene has room for 7.2e+07 particles and shells");
+  refused(with(small, lattice, large + large),
+          "up to here the scene has room for 7.2e+07 particles and shells");
 }
 
 TEST_F(Generate, RefusesLatticesOfTwoAndOfThreeDimensions) {
