@@ -123,12 +123,15 @@ TEST(Stop, SoundRunsGoOn) {
   }
 }
 
-TEST(Stop, TheStepFallsBelowDtmin) {
-  SmallScene scene;
+/// Particle 7 is flung away in cycle 10, where DTMIN is half the first step.
+Stopped stopped_by_a_fast_particle(SmallScene scene) {
   scene.termination = "1.,0,0.5";
   auto s = build(scene);
-  const Stopped stopped =
-      run_on(*s, 50, 10, [&](World& w) { w.particles.v.set(index_of(w, 7), Vec(0, 40, 0)); });
+  return run_on(*s, 50, 10, [&](World& w) { w.particles.v.set(index_of(w, 7), Vec(0, 40, 0)); });
+}
+
+TEST(Stop, TheStepFallsBelowDtmin) {
+  const Stopped stopped = stopped_by_a_fast_particle({});
   expect_part(stopped.text, "fell below DTMIN x first step = ");
   expect_part(stopped.text, "cycle 10, set by sph 7 of part 1");
   EXPECT_EQ(stopped.cause, StopCause::step_size);
@@ -137,22 +140,16 @@ TEST(Stop, TheStepFallsBelowDtmin) {
 // DTMIN scales the step that was computed, not the first one that DTINIT chose.
 TEST(Stop, DtinitDoesNotCountForDtmin) {
   SmallScene scene;
-  scene.termination = "1.,0,0.5";
   scene.timestep = "1.E-6";
-  auto s = build(scene);
-  const Stopped stopped =
-      run_on(*s, 50, 10, [&](World& w) { w.particles.v.set(index_of(w, 7), Vec(0, 40, 0)); });
+  const Stopped stopped = stopped_by_a_fast_particle(scene);
   expect_part(stopped.text, "fell below DTMIN x first step = ");
 }
 
 TEST(Stop, LctmDoesNotCountForDtmin) {
   SmallScene scene;
-  scene.termination = "1.,0,0.5";
   scene.timestep = "0.,0.9,0,0.,0.,2";
   scene.extra = "*DEFINE_CURVE\n2\n0.,1.E-6\n0.001,1.E-6\n0.0011,1.\n9.,1.\n";
-  auto s = build(scene);
-  const Stopped stopped =
-      run_on(*s, 50, 10, [&](World& w) { w.particles.v.set(index_of(w, 7), Vec(0, 40, 0)); });
+  const Stopped stopped = stopped_by_a_fast_particle(scene);
   expect_part(stopped.text, "fell below DTMIN x first step = ");
   expect_part(stopped.text, "set by sph 7 of part 1");
 }

@@ -49,11 +49,20 @@ struct Built {
   std::unique_ptr<Simulation> simulation;
 };
 
+/// The deck main.k, its files moved.
+Deck moved_deck(DecksInMemory& decks, Diagnostics& diagnostics) {
+  Deck deck = decks.read("main.k", diagnostics);
+  move_included_entries(deck, diagnostics);
+  return deck;
+}
+Model model_of(DecksInMemory decks, Diagnostics& diagnostics) {
+  return build_model(moved_deck(decks, diagnostics), diagnostics);
+}
+
 Built built(DecksInMemory decks) {
   Built out;
   Diagnostics diagnostics;
-  out.deck = decks.read("main.k", diagnostics);
-  move_included_entries(out.deck, diagnostics);
+  out.deck = moved_deck(decks, diagnostics);
   out.model = build_model(out.deck, diagnostics);
   EXPECT_EQ(diagnostics.text(), "");
   Diagnostics again;
@@ -290,9 +299,7 @@ TEST(IncludeTransform, TurnsByAnyAngleWhatIsNotBoundToAxes) {
   Built plain = built({{{"main.k", control + scene({.along_axes = false}) + "*END\n"}}});
   Diagnostics diagnostics;
   DecksInMemory decks{{{"main.k", control + main + "*END\n"}, {"scene.k", scene(w)}}};
-  Deck deck = decks.read("main.k", diagnostics);
-  move_included_entries(deck, diagnostics);
-  expect_same_mesh(plain.model, build_model(deck, diagnostics));
+  expect_same_mesh(plain.model, model_of(decks, diagnostics));
   EXPECT_EQ(diagnostics.text(),
             "scene.k:76:1: warning: *LOAD_BODY_Z: the load stays along the global axis, although its file is "
             "turned "
@@ -356,8 +363,7 @@ TEST(IncludeTransform, TakesTheSameFileTwice) {
                        {"again.k", mesh({})}}};
   // parts 1801 and 1802 do not exist: the copy needs its own
   Diagnostics diagnostics;
-  Deck deck = decks.read("main.k", diagnostics);
-  move_included_entries(deck, diagnostics);
+  const Deck deck = moved_deck(decks, diagnostics);
   EXPECT_EQ(diagnostics.text(), "");
   build_model(deck, diagnostics);
   EXPECT_NE(diagnostics.text().find("part 1801 does not exist"), std::string::npos);
@@ -414,8 +420,7 @@ TEST(IncludeTransform, ScalesGeometryWithoutParticles) {
         "1.0\n*INCLUDE_TRANSFORM\nmesh.k\n\n\n\n1\n*END\n"},
        {"mesh.k", "*NODE\n1, 1.0, 1.0, 1.0, 3\n*DEFINE_BOX\n1, 0.0, 1.0, -1.0, 1.0, 5.0, 6.0\n"}}};
   Diagnostics diagnostics;
-  Deck deck = decks.read("main.k", diagnostics);
-  move_included_entries(deck, diagnostics);
+  const Deck deck = moved_deck(decks, diagnostics);
   EXPECT_EQ(diagnostics.text(), "");
   EXPECT_EQ(deck.all<NodeCard>()[0].x, 2);
   EXPECT_EQ(deck.all<NodeCard>()[0].y, 3);
@@ -451,9 +456,7 @@ TEST(NodeTransform, CountsInTheFrameOfItsFile) {
         "*NODE\n1, 10.0\n2, 10.0\n*SET_NODE\n1\n2\n*DEFINE_TRANSFORMATION\n2\nTRANSL, 6.0\n"
         "*NODE_TRANSFORM\n2, 1, 1\n"}}};
   Diagnostics diagnostics;
-  Deck deck = decks.read("main.k", diagnostics);
-  move_included_entries(deck, diagnostics);
-  const Model model = build_model(deck, diagnostics);
+  const Model model = model_of(decks, diagnostics);
   EXPECT_EQ(diagnostics.text(), "");
   expect_near(model.nodes[0].x, Vec(4, 1, 0), "kept");
   expect_near(model.nodes[1].x, Vec(4, 4, 0), "moved");
@@ -468,8 +471,7 @@ TEST(IncludeTransform, MovesManyNodesQuickly) {
                       "*INCLUDE_TRANSFORM\nmesh.k\n\n\n\n1\n*END\n"},
        {"mesh.k", nodes}}};
   Diagnostics diagnostics;
-  Deck deck = decks.read("main.k", diagnostics);
-  move_included_entries(deck, diagnostics);
+  const Deck deck = moved_deck(decks, diagnostics);
   EXPECT_EQ(diagnostics.text(), "");
   const NodeCard& last = deck.all<NodeCard>().back();
   expect_near(Vec(last.x, last.y, last.z), turned({1, 0, 0}, 20) * Vec(2000, 1, 0), "x");
@@ -482,9 +484,7 @@ TEST(NodeTransform, TakesAlongSystemsAndVectorsOfItsNodes) {
                             "*DEFINE_TRANSFORMATION\n1\nROTATE, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, "
                             "90.0\n*NODE_TRANSFORM\n1, 1\n*END\n"}}};
   Diagnostics diagnostics;
-  Deck deck = decks.read("main.k", diagnostics);
-  move_included_entries(deck, diagnostics);
-  const Model model = build_model(deck, diagnostics);
+  const Model model = model_of(decks, diagnostics);
   EXPECT_EQ(diagnostics.text(), "");
   const CoordinateSystem& system = model.coordinate_systems.at(7);
   expect_near(system.origin, Vec(0, 1, 0), "origin");
@@ -502,9 +502,7 @@ TEST(IncludeTransform, PlacesInASystemMoveOnce) {
     DecksInMemory decks{{{"main.k", control + "*DEFINE_TRANSFORMATION\n1\n" + operation + "\n" +
                                         include_transform("part.k", {}, 1) + "*END\n"},
                          {"part.k", system + vector + points}}};
-    Deck deck = decks.read("main.k", diagnostics);
-    move_included_entries(deck, diagnostics);
-    return build_model(deck, diagnostics);
+    return model_of(decks, diagnostics);
   };
   Diagnostics diagnostics;
   const Model m = built_with("ROTATE, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 90.0", diagnostics);
@@ -523,9 +521,7 @@ TEST(IncludeTransform, PlacesInASystemMoveOnce) {
   DecksInMemory decks{{{"main.k", control + system + "*DEFINE_TRANSFORMATION\n1\nTRANSL, 1.0\n" +
                                       include_transform("part.k", {}, 1) + "*END\n"},
                        {"part.k", vector}}};
-  Deck deck = decks.read("main.k", apart);
-  move_included_entries(deck, apart);
-  build_model(deck, apart);
+  model_of(decks, apart);
   EXPECT_NE(apart.text().find("system 7 stands in a file that *INCLUDE_TRANSFORM moves otherwise"),
             std::string::npos)
       << apart.text();
