@@ -70,8 +70,8 @@ std::string move_generation(VG& card, const Affine& motion) {
   if (card.icid != 0) return {};
   std::string reason = move_velocity(card.vx, card.vy, card.vz, motion);
   if (!reason.empty() || card.omega == 0) return reason;
-  if (!keeps_lengths(motion))
-    return "the file is scaled by a transformation, which leaves open whether velocities are, too";
+  reason = refuse_stretch(motion, "velocities");
+  if (!reason.empty()) return reason;
   if (card.nx != axis_by_nodes) {
     const Vec axis = motion.linear() * Vec(card.nx, card.ny, card.nz);
     card.nx = axis[0], card.ny = axis[1], card.nz = axis[2];

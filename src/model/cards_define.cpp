@@ -24,9 +24,7 @@ template <class T, Id T::*Local>
 std::string refuse_scaling(T& card, const Affine& motion) {
   if (card.*Local == 0) return {};
   if (motion.linear().determinant() < 0) return "the file is mirrored, and a system is right-handed";
-  return keeps_lengths(motion) ? ""
-                               : "the file is scaled by a transformation, which leaves open whether places "
-                                 "in a system are, too";
+  return refuse_stretch(motion, "places in a system");
 }
 
 using B = DefineBoxLocalCard;

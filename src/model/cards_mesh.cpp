@@ -48,8 +48,10 @@ std::string convert_volume(E& element, const Conversion& conversion) {
   if (element.mass < 0) element.mass *= conversion.units.of("L3") / conversion.units.of("M");
   return {};
 }
-std::string keep_volume(E&, const Affine& motion) {
-  if (keeps_volume(motion)) return {};
+/// A stretch changes the volume that belongs to a mass or, where it does not, the lattice, whose h is one
+/// number.
+std::string keep_spacing(E&, const Affine& motion) {
+  if (keeps_lengths(motion)) return {};
   return "the file is scaled by a transformation, which leaves open what becomes of the particles' masses";
 }
 const RegisterKeyword<E> element_sph{
@@ -73,7 +75,7 @@ const RegisterKeyword<E> element_sph{
                        "particles NID to NEND get the same data",
                        {.check = Check::not_negative, .refers = IdSpace::node}}}}},
      .convert = convert_volume,
-     .move = keep_volume}};
+     .move = keep_spacing}};
 
 using S = ElementShellCard;
 const FieldRules element{.required = true, .check = Check::positive, .width = 8};

@@ -37,11 +37,7 @@ constexpr int along_vector = 4, first_rotation = 5;
 
 /// Directions are axes: they stay where a file is only shifted. Vectors move with their file.
 std::string keep_axes(MotionCard& card, const Affine& motion) {
-  if (card.dof == along_vector)
-    return keeps_lengths(motion)
-               ? std::string()
-               : "the file is scaled by a transformation, which leaves open whether motions "
-                 "are, too";
+  if (card.dof == along_vector) return refuse_stretch(motion, "motions");
   if (motion.linear() == Matrix::Identity()) return {};
   return "its direction is an axis, which a transformation that turns or stretches the file would change";
 }

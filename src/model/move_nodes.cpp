@@ -35,16 +35,15 @@ void ModelBuilder::move_nodes() {
     if (!own || !members) continue;
     const Affine frame = motion_of_file(deck_, deck_.files[static_cast<std::size_t>(card.file)]);
     const Affine motion = frame * *own * frame.inverse();
-    const bool stretches = !keeps_volume(motion);
+    const bool stretches = !keeps_lengths(motion);
     for (const Index n : *members) {
       ModelNode& node = model_.nodes[static_cast<std::size_t>(n)];
       node.x = motion * node.x;
       if (!stretches || !is_particle[static_cast<std::size_t>(n)]) continue;
       error(card, "NSID",
-            fmt::format(
-                "node {} of the set is a particle, and the transformation changes volumes, which leaves "
-                "open what becomes of masses",
-                node.id),
+            fmt::format("node {} of the set is a particle, and the transformation stretches, which leaves "
+                        "open what becomes of masses",
+                        node.id),
             "move particles without scaling them");
       break;
     }

@@ -303,10 +303,6 @@ bool keeps_lengths(const Affine& motion) {
   return (m.transpose() * m - Matrix::Identity()).cwiseAbs().maxCoeff() < tolerance;
 }
 
-bool keeps_volume(const Affine& motion) {
-  return std::abs(std::abs(motion.linear().determinant()) - 1) < tolerance;
-}
-
 bool maps_axes(const Affine& motion) {
   for (Eigen::Index k = 0; k < 3; ++k) {
     const Vec image = motion.linear().col(k).stableNormalized().cwiseAbs();
@@ -347,11 +343,16 @@ std::string move_held_axes(std::array<bool, 3>& held, const Affine& motion) {
   return {};
 }
 
+std::string refuse_stretch(const Affine& motion, std::string_view what) {
+  if (keeps_lengths(motion)) return {};
+  return "the file is scaled by a transformation, which leaves open whether " + std::string(what) +
+         " are, too";
+}
+
 std::string move_velocity(Real& x, Real& y, Real& z, const Affine& motion) {
   const Vec v(x, y, z);
   if (v == Vec::Zero() || motion.linear() == Matrix::Identity()) return {};
-  if (!keeps_lengths(motion))
-    return "the file is scaled by a transformation, which leaves open whether velocities are, too";
+  if (std::string reason = refuse_stretch(motion, "velocities"); !reason.empty()) return reason;
   const Vec now = motion.linear() * v;
   x = now[0], y = now[1], z = now[2];
   return {};

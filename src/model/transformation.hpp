@@ -2,6 +2,7 @@
 // *DEFINE_TRANSFORMATION: what its operations make of a point.
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "keyword/deck.hpp"
@@ -43,9 +44,6 @@ Matrix rotation(const Vec& axis, Real degrees);
 /// Neither stretches nor shears: distances stay what they are.
 bool keeps_lengths(const Affine& motion);
 
-/// Leaves volumes what they are.
-bool keeps_volume(const Affine& motion);
-
 /// Turns each axis into one of the axes, in one direction or the other.
 bool maps_axes(const Affine& motion);
 
@@ -57,6 +55,9 @@ int code_of_axes(const std::array<bool, 3>& held);
 
 /// What is held along axes must be along axes after the motion, too.
 std::string move_held_axes(std::array<bool, 3>& held, const Affine& motion);
+/// A stretched file leaves open whether `what` it tells in lengths (velocities, places in a system) is
+/// stretched, too.
+std::string refuse_stretch(const Affine& motion, std::string_view what);
 /// A velocity turns with its file. Under a scaling it could mean two things.
 std::string move_velocity(Real& x, Real& y, Real& z, const Affine& motion);
 
