@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 """
-Runs and evaluates the cases of Jonsson et al. (2016) and writes docs/hydraulic_jump_paper.md and docs/hydraulic_jump_standing.md.
+Runs and evaluates the cases of Jonsson et al. (2016) and writes docs/hydraulic_jump_paper.md, docs/hydraulic_jump_standing.md and docs/hydraulic_jump_study.md.
 
 usage: bash examples/hydraulic_jump/paper.sh [options]
 
   --jobs N          runs at a time (1): two runs on a thread each take less time than one after the other on two
   --threads N       threads of each run (all cores, shared among the jobs)
-  --only NAME,...   these runs of paper_runs.yaml alone: d4,d5,d6,d10, d4_c1484, fr34, ...
-  --paper-setting   also the paper's speed of sound, 1484 m/s: over two hours of processor time
+  --only NAME,...   these runs of paper_runs.yaml (d4,d5,d6,d10, d4_c1484, fr34, ...) and variants of study_runs.yaml (base, xsph, ...) alone
+  --paper-setting   also the paper's speed of sound, 1484 m/s: one to two hours of processor time
   --standing        also jumps that stand still, Froude numbers 2.4 to 6.5
+  --study           also the jump of d1/4 with each option and number of the deck changed in turn, several runs of each (study_runs.yaml):
+                    docs/hydraulic_jump_study.md, error against run time
   --results FOLDER  where runs go (results/hydraulic_jump_paper)
-  --page FILE       the page (docs/hydraulic_jump_paper.md); beside it go that of standing jumps, ..._standing.md, and figures/hydraulic_jump
+  --page FILE       the page (docs/hydraulic_jump_paper.md); beside it go that of standing jumps, ..._standing.md, that of the study, ..._study.md, and figures/hydraulic_jump
   --quick           0.2 s in place of each run, to try the script: results/hydraulic_jump_quick, and the page in there
 
 A complete run that is younger than its deck and the program is taken over. One that was stopped (Ctrl-C) or killed goes on from its
@@ -35,6 +37,7 @@ import yaml
 
 import paper_evaluate
 import paper_page
+import paper_study
 from paper_evaluate import Failure, age
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -46,11 +49,11 @@ QUICK = {"endtim": 0.2, "settled": [0.05, 0.2], "segment": 0.15}
 
 
 class Run:
-    """One line of paper_runs.yaml with its files and what is known of its size."""
+    """One line of paper_runs.yaml, or a run of a line of study_runs.yaml, with its files and what is known of its size."""
 
     def __init__(self, entry, results, quick):
-        self.__dict__.update(segment=1, figures=False, toe=0, cards="")
-        self.__dict__.update(entry)
+        self.__dict__.update(segment=1, figures=False, toe=0, cards="", replace=[])
+        self.__dict__.update({"variant": entry["name"]} | entry)
         self.parameters = dict(entry["parameters"])
         if quick:
             self.parameters["endtim"] = QUICK["endtim"]
@@ -105,12 +108,17 @@ class Program:
 
 def make_deck(run, program):
     """Generates the deck, with the run's own cards and one for restart files; one that is as before keeps its age."""
+    run.deck.parent.mkdir(parents=True, exist_ok=True)
     fresh = run.deck.with_suffix(".new")
     words = [f"--param={name}={value}" for name, value in run.parameters.items()]
     program.call("generate", SCENES / run.scene, "-o", fresh, *words)
     measure(run, program.call("check", fresh))
     cycles = max(1000, round(RESTART_WORK / (run.work / run.steps), -3))
     text = fresh.read_text()
+    for old, new in run.replace:
+        if text.count(old) != 1:
+            raise Failure(f"{run.name}: the deck has these cards {text.count(old)} times, expected once:\n{old}")
+        text = text.replace(old, new)
     head, end, tail = text.rpartition("*END")
     if not end:
         raise Failure(f"{fresh} has no *END")
@@ -167,8 +175,9 @@ class Clock:
         return run.work * work * ns * 1e-9
 
 
-def reached(run, interval=0.01):
+def reached(run):
     """The time of the last field state."""
+    interval = run.parameters.get("dt_plot", 0.01)
     return max(0, len(list((run.folder / "fields").glob("*.vtp"))) - 1) * interval
 
 
@@ -250,6 +259,7 @@ def read_options():
     parser.add_argument("--only", default="")
     parser.add_argument("--paper-setting", action="store_true")
     parser.add_argument("--standing", action="store_true")
+    parser.add_argument("--study", action="store_true")
     parser.add_argument("--results", type=pathlib.Path)
     parser.add_argument("--page", type=pathlib.Path)
     parser.add_argument("--quick", action="store_true")
@@ -265,13 +275,13 @@ def read_options():
 
 def choose(runs, options):
     if options.only:
-        names = options.only.split(",")
-        unknown = set(names) - {run.name for run in runs}
+        names = options.only.split(",")  # of a run, or of all runs of a variant
+        unknown = set(names) - {name for run in runs for name in (run.name, run.variant)}
         if unknown:
-            say(f"--only: there is no run {', '.join(sorted(unknown))}; there are {', '.join(run.name for run in runs)}")
+            say(f"--only: there is no run {', '.join(sorted(unknown))}; there are {', '.join(dict.fromkeys(run.variant for run in runs))}")
             sys.exit(2)
-        return [run for run in runs if run.name in names]
-    groups = {"paper", "supported", "better", "paper_setting" if options.paper_setting else "", "standing" if options.standing else ""}
+        return [run for run in runs if {run.name, run.variant} & set(names)]
+    groups = {"paper", "supported", "better"} | {group for group in ("paper_setting", "standing", "study") if getattr(options, group)}
     return [run for run in runs if run.group in groups]
 
 
@@ -315,7 +325,8 @@ def main():
         signal.signal(number, signal.default_int_handler)
     table = yaml.safe_load((HERE / "paper_runs.yaml").read_text())
     options.results.mkdir(parents=True, exist_ok=True)
-    runs = [Run(entry, options.results, options.quick) for entry in table["runs"]]
+    entries = table["runs"] + paper_study.entries(yaml.safe_load((HERE / "study_runs.yaml").read_text()))
+    runs = [Run(entry, options.results, options.quick) for entry in entries]
     chosen = choose(runs, options)
     program = Program(options.courant)
     try:

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Every number and figure of Jonsson et al. (2016): installs what is missing, builds, runs the paper's four cases, evaluates them, and
-# writes docs/hydraulic_jump_paper.md with its figures; --standing: jumps that stand still, docs/hydraulic_jump_standing.md. Stopped by Ctrl-C or killed, it goes on where it was when called again.
-#   bash examples/hydraulic_jump/paper.sh [--threads N] [--only NAME,...] [--paper-setting] [--standing] [--results FOLDER] [--page FILE] [--quick]
+# writes docs/hydraulic_jump_paper.md with its figures; --standing: jumps that stand still, docs/hydraulic_jump_standing.md; --study: each option and number
+# of the deck in turn, docs/hydraulic_jump_study.md. Stopped by Ctrl-C or killed, it goes on where it was when called again.
+#   bash examples/hydraulic_jump/paper.sh [--threads N] [--only NAME,...] [--paper-setting] [--standing] [--study] [--results FOLDER] [--page FILE] [--quick]
 #   bash examples/hydraulic_jump/paper.sh --help
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../lib/setup.sh"
@@ -20,5 +21,5 @@ install_packages "${build_packages[@]}" "${picture_packages[@]}" python3-yaml
   [ -f "$build/CMakeCache.txt" ] || options=(-DCOURANT_TESTS=OFF)
   configure "${options[@]}"
   build_targets courant) || exit 1
-need_space "$project" 2000 "the results of all runs"
+need_space "$project" 8000 "the results of all runs"
 exec "$python" "$script" --courant "$build/courant" "$@"

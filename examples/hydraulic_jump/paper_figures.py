@@ -8,23 +8,19 @@ import sys
 from paper_evaluate import read_table
 
 FOLDER = "figures/hydraulic_jump"
+ENDS = {"paper": "", "supported": "_supported", "better": "_better", "paper_setting": "_c1484"}  # of file names, by group
+# of the paper's case [m, m/s]: its jet, conjugate depth by eq. 1, and the depth that critical flow over the weir allows (theory.md)
+D1, V1, BELANGER, WEIR_DEPTH = 0.02, 1.5, 0.0863, 0.0817
+PAPER_ROLLER = 0.2235 / D1  # section 3
 PROGRAM = "src/post/plot_figures.py"
-# what `courant post` drew of the run with figures; fields as pixels, which are smaller
+# what `courant post` drew of a run alone; fields as pixels, which are smaller
 OF_A_RUN = [
-    ("fig05_depth.svg", "Depth at x = 1 m over 30 s (Figure 5 b)"),
     ("fig06_profiles.svg", "Mean velocity every 0.025 m (Figure 6)"),
-    ("fig07_decay.svg", "Largest mean velocity (Figure 7)"),
-    ("fig08_streamlines.png", "Streamlines of the mean flow (Figure 8 shows one moment)"),
-    ("fig09_surface.svg", "Mean surface (Figure 9)"),
-    ("fig10_deviation.svg", "Standard deviation of the surface (Figure 10)"),
-    ("fig12_spectra.svg", "Spectrum of the depth (Figure 12)"),
-    ("fig13_frequency.svg", "Dominant frequency of the depth (Figure 13)"),
-    ("fig06_roller.svg", "Length of the roller (section 3)"),
-    ("fig11_largest_deviation.svg", "Largest deviation of the surface (Figure 11)"),
-    ("fig14_strouhal.svg", "Strouhal number of the surface (Figure 14)"),
+    ("fig08_streamlines.png", "Streamlines of the mean flow"),
+    ("fig08_moment.png", "Streamlines at one moment, the end of the window (Figure 8)"),
     ("balance.svg", "Momentum and energy through vertical planes"),
 ]
-OF_THE_SETTING = ("fig05", "fig06_profiles", "fig07", "fig09")  # enough of the paper's speed of sound
+OF_THE_BEST = ("balance",)  # enough of one setting
 
 
 def plain(values):
@@ -49,18 +45,74 @@ def figure(name, title, x_label, y_label, curves, references=(), x_range=None, y
             "walls": False, "equal": False, "curves": curves, "references": list(references), "map": None}
 
 
+def bounded(table, x, y, low, high):
+    """Two columns where the first is within bounds."""
+    rows = [k for k, value in enumerate(table[x]) if low <= value <= high]
+    return [table[x][k] for k in rows], [table[y][k] for k in rows]
+
+
+def thinned(x, y, most=700):
+    """Every n-th point, so that a picture of a long series stays small."""
+    step = max(1, -(-len(x) // most))
+    return x[::step], y[::step]
+
+
 def over_cases(main):
-    """Figure 5 a: the depth of all cases of the recommended setting in one picture."""
-    curves = []
-    for run, _ in main:
-        table = read_table(run.folder / "depth.csv")
-        rows = [k for k, t in enumerate(table["t"]) if t <= 5.005]
-        if run.group == "better":
-            curves.append(curve([table["t"][k] for k in rows], [table["depth_over_theory"][k] for k in rows], f"${run.case.replace('d1', 'd_1')}$"))
-    if not curves:
+    """Figure 5 a: the depth of all cases, a picture for each setting."""
+    out = []
+    for group, ends in ENDS.items():
+        runs = [(run, found) for run, found in main if run.group == group]
+        curves = [curve(*bounded(read_table(run.folder / "depth.csv"), "t", "depth_over_theory", 0, 5.005), f"${run.case.replace('d1', 'd_1')}$") for run, _ in runs]
+        if curves:
+            out.append(figure(f"fig05a_depth{ends}", f"Depth at x = 1 m, {runs[0][0].setting} (Figure 5 a)", "time $t$ [s]", "$d_{2,SPH} / d_{2,THEORY}$ [-]", curves,
+                              [line("Bélanger, eq. 1", y=[1], across="y"), line("weir, critical flow", y=[WEIR_DEPTH / BELANGER], across="y"),
+                               line("paper: depth rises", x=[0.8], across="x"), line("paper: jump turns", x=[2], across="x")], y_range=[0, 1.4]))
+    return out
+
+
+def over_settings(main):
+    """Figures 5 b, 7 and 9 to 14: the settings of the long run in one picture, beside what the paper and its equations say."""
+    runs = [(run, found["analyses"]["roller"]) for run, found in main if "analyses" in found]
+    if not runs:
         return []
-    return [figure("fig05a_depth", "Depth at x = 1 m, all cases (Figure 5 a)", "time $t$ [s]", "$d_{2,SPH} / d_{2,THEORY}$ [-]", curves,
-                   [line("Bélanger, eq. 1", y=[1], across="y")], y_range=[0, 1.4])]
+
+    def curves(table, x, y, style="line", low=-math.inf, high=math.inf):
+        return [curve(*bounded(read_table(run.folder / "paper" / f"{table}.csv"), x, y, low, high), run.setting, style) for run, _ in runs]
+
+    def numbers(key):
+        return [curve([roller["Fr1"]], [roller[key]], run.setting, "points") for run, roller in runs]
+
+    def spectrum(run, roller):
+        """Of the gauge that is nearest to the paper's 8.75 d1 behind the toe."""
+        table = read_table(run.folder / "paper" / "spectra.csv")
+        places = {float(name.split("@")[1]): name for name in table if "@" in name}
+        place = min(places, key=lambda x: abs(x - roller["toe"] - 8.75 * D1))
+        return curve(*bounded(table, "f", places[place], 0, 8), f"{run.setting}, {(place - roller['toe']) / D1:.1f} $d_1$")
+    x, fr = "$(x - x_1) / d_1$ [-]", "$Fr_1$ [-]"
+    top, reference = runs[0][1]["deviation_largest_reference"], runs[0][1]["roller_length_reference"]
+    frequency = runs[0][1]["strouhal_reference"] * V1 / D1
+    depth = [curve(*thinned(*bounded(read_table(run.folder / "depth.csv"), "t", "depth_over_theory", 0, math.inf)), run.setting) for run, _ in runs]
+    return [
+        figure("fig05b_depth", "Depth at x = 1 m over 30 s (Figure 5 b)", "time $t$ [s]", "$d_{2,SPH} / d_{2,THEORY}$ [-]", depth,
+               [line("Bélanger, eq. 1", y=[1], across="y"), line("paper, A over 15-30 s", [22.5], [1.041], style="points"), line("paper: toe at the gate", x=[11], across="x")], y_range=[0, 1.8]),
+        figure("fig07_decay", "Largest mean velocity (Figure 7)", x, "$V_{max} / v_1$ [-]", curves("roller", "distance", "largest", low=0),
+               [equation(lambda d: math.exp(-0.028 * d), "Chanson, eq. 3", 0, 50)], y_range=[0, 1.2]),
+        figure("fig09_surface", "Mean surface (Figure 9)", x, "$\\eta / d_1$ [-]", curves("roller_surface", "distance", "mean", low=-5),
+               [line("Bélanger, eq. 1", y=[BELANGER / D1], across="y"), line("end of the roller, eq. 2", x=[reference], across="x"), line("end of the paper's roller", x=[PAPER_ROLLER], across="x")], y_range=[0, 8]),
+        figure("fig10_deviation", "Standard deviation of the surface (Figure 10)", x, "$\\eta' / d_1$ [-]", curves("roller_surface", "distance", "deviation", low=-5),
+               [line("largest one by eq. 4", y=[top], across="y"), line("where experiments have it (Kucukali & Chanson)", [10, 15], [top, top], style="line+points")]),
+        figure("fig11_largest_deviation", "Largest standard deviation of the surface (Figure 11)", fr, "$(\\eta' / d_1)_{max}$ [-]", numbers("deviation_largest"),
+               [equation(lambda f: 0.116 * (f - 1) ** 1.235, "Murzyn & Chanson, eq. 4", 2, 6.5)]),
+        figure("fig12_spectra", "Spectrum of the depth, in the paper at 8.75 $d_1$ behind the toe (Figure 12)", "frequency $f$ [Hz]", "spectral density [m$^2$ s]",
+               [spectrum(run, roller) for run, roller in runs],
+               [line("paper, 3.5 Hz", x=[3.5], across="x"), line("paper, band", x=[2], across="x"), line("", x=[5], across="x"), line("eq. 5", x=[frequency], across="x")]),
+        figure("fig13_frequency", "Dominant frequency of the depth (Figure 13)", x, "$F_{fs}$ [Hz]", curves("roller_frequency", "distance", "f", "points", 0),
+               [line("paper, 3.5 Hz", y=[3.5], across="y"), line("eq. 5", y=[frequency], across="y")], y_range=[0, 10]),
+        figure("fig14_strouhal", "Strouhal number of the surface (Figure 14)", fr, "$St = f d_1 / v_1$ [-]", numbers("strouhal"),
+               [equation(lambda f: 0.143 * math.exp(-0.27 * f), "Chachereau & Chanson, eq. 5", 2.4, 6.5), line("paper, 3.5 Hz", [3.4], [0.0467], style="points")], y_range=[0, 0.1]),
+        figure("roller_length", "Length of the roller (section 3)", fr, "$L_r / d_1$ [-]", numbers("roller_length"),
+               [equation(lambda f: 160 * math.tanh(f / 20) - 12, "Hager et al., eq. 2", 2, 6.5), line("paper", [3.4], [PAPER_ROLLER], style="points")]),
+    ]
 
 
 def over_froude(still):
@@ -171,15 +223,14 @@ def of_cases(runs, page_folder, project):
     folder = figure_folder(page_folder)
     shown = []
     for run, _ in runs:
-        ends = {"paper": "", "supported": "_supported", "better": "_better", "paper_setting": "_c1484"}[run.group]
-        setting = f", {run.setting}"
+        ends, setting = ENDS[run.group], f", {run.setting}"
         if run.case in ("d1/4", "d1/10"):
             number = 3 if run.case == "d1/4" else 4
             shown += copied(run, [("velocity.png", f"fig0{number}_speed{ends}.png", f"Speed of the water, {run.case}{setting} (Figure {number})")], folder)
         if run.figures:
-            wanted = [one for one in OF_A_RUN if run.group == "better" or one[0].startswith(OF_THE_SETTING)]
+            wanted = [one for one in OF_A_RUN if run.group == "better" or not one[0].startswith(OF_THE_BEST)]
             shown += copied(run, [("paper/" + name, name.replace(".", ends + "."), caption + setting) for name, caption in wanted], folder)
-    return section(shown + draw(over_cases(runs), folder, project), page_folder)
+    return section(shown + draw(over_cases(runs) + over_settings(runs), folder, project), page_folder)
 
 
 def of_standing(runs, page_folder, project):

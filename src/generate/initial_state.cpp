@@ -13,7 +13,7 @@ constexpr int long_field = 20;
 void append_velocities(const ScenePart& part, std::span<const PlacedNode> nodes, const Variables& variables,
                        std::string& out, Diagnostics& diagnostics) {
   out += "*INITIAL_VELOCITY_NODE +\n";
-  out += fmt::format("{:>20}{:>20}{:>20}{:>20}\n", "$#                nid", "vx", "vy", "vz");
+  out += fmt::format("{:>20}{:>20}{:>20}{:>20}\n", "$#               nid", "vx", "vy", "vz");
   for (const PlacedNode& node : nodes) {
     fmt::format_to(std::back_inserter(out), "{:20}", node.id);
     for (const PlaceExpression& component : part.velocity_of_place) {
@@ -29,7 +29,7 @@ void append_velocities(const ScenePart& part, std::span<const PlacedNode> nodes,
 void append_pressures(const ScenePart& part, std::span<const PlacedNode> nodes, const Variables& variables,
                       std::string& out, Diagnostics& diagnostics) {
   out += "*INITIAL_STRESS_SPH +\n";
-  out += fmt::format("{:>20}{:>20}{:>20}{:>20}\n", "$#                eid", "sigxx", "sigyy", "sigzz");
+  out += fmt::format("{:>20}{:>20}{:>20}{:>20}\n", "$#               eid", "sigxx", "sigyy", "sigzz");
   for (const PlacedNode& node : nodes) {
     const auto p = value_at(part.pressure, "pressure", node.x, variables, diagnostics);
     if (!p) return;

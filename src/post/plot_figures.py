@@ -20,6 +20,7 @@ LOOKS = {
     "points": {"linestyle": "none", "marker": "o", "markersize": 4},
     "line+points": {"linestyle": "-", "linewidth": 1.1, "marker": "o", "markersize": 3.5},
 }
+LOOKS["named"] = LOOKS["points"]  # the name stands beside the point
 MARKERS = "s^Dv*P"
 
 
@@ -54,7 +55,11 @@ def draw(data, one, folder):
         look = dict(LOOKS[curve["style"]])
         if "each" in curve:
             look.update(color=next(shades), linewidth=0.9)
-        axes.plot(numbers(curve["x"]), numbers(curve["y"]), label=curve["label"] or None, **look)
+        named = curve["style"] == "named"
+        x, y = numbers(curve["x"]), numbers(curve["y"])
+        axes.plot(x, y, label=None if named else curve["label"] or None, **look)
+        if named:
+            axes.annotate(curve["label"], (x[0], y[0]), xytext=(4, 2), textcoords="offset points", fontsize=7)
     for k, reference in enumerate(one["references"]):
         look = dict(LOOKS[reference["style"]])
         look["color"] = ("black", "tab:red", "tab:green", "tab:purple")[k % 4]

@@ -14,6 +14,8 @@ import time
 import yaml
 
 from checks import check, enter_empty_folder, failures
+sys.path.insert(0, str(pathlib.Path(sys.argv[2]) / "examples" / "hydraulic_jump"))
+import paper_evaluate  # noqa: E402
 
 courant, source = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 work = pathlib.Path(sys.argv[3]).resolve() / "paper"
@@ -42,8 +44,16 @@ def termination(name):
     return yaml.safe_load((results / name / "summary.yaml").read_text())["termination"]
 
 
+# ---- the loss-free bound of V_max: none of the energy is height, a half of it, all of it, where eq. 3 asks for 1 and for 1/2
+(work / "surface").mkdir()
+for height, decay, expected in ((0, 1, 0), (0.5, 1, 1 - 0.5**0.5), (1, 1, 1), (0.5, 0.5, 0)):
+    (work / "surface" / "roller_surface.csv").write_text("distance [-],mean [-]\n" + "".join(f"{x},{1 + height * 2.4**2 / 2}\n" for x in (0, 30)))
+    (work / "surface" / "roller.csv").write_text("distance [-],decay [-]\n" + f"-5,9\n10,{decay}\n20,{decay}\n25,9\n")
+    rms = paper_evaluate.least_decay_rms(work / "surface", 2.4)
+    check(abs(rms - expected) < 1e-12, f"water that has turned {height} of its energy into height is {rms:.3f} off at least")
+
 # ---- a run, its numbers and its figures
-code, out = call("d4_better")
+code, out = call("d4_better,d4")
 check(code == 0, f"exit code {code}")
 page = (results / "page.md").read_text()
 check("These numbers mean nothing" in page, "the page tells that it is a trial")
@@ -56,7 +66,7 @@ check(0.3 < found["bed"]["row1"] < 1.5 and 0.3 < found["bed"]["row2"] < 1.6, f"j
 check(abs(found["bed"]["filled"] / 0.02 - 1) < 0.02, f"water at rest at x = 1 m fills {1000 * found['bed']['filled']:.2f} mm of 20 mm")
 if pictures:
     shown = re.findall(r"\]\((figures/[^)]+)\)", page)
-    check(len(shown) == 14, f"{len(shown)} figures: 12 of the run, its speed, the depth of all cases")
+    check(len(shown) == 20, f"{len(shown)} figures: 4 and 3 of the runs, their speeds, for each the depth of all cases, 9 of both settings")
     check(all((results / name).stat().st_size > 3000 for name in shown), "they are there")
 
 # ---- a second call takes everything over
@@ -68,9 +78,19 @@ check(code == 0 and before == after and "is complete" in out, "a complete run is
 # ---- jumps that stand still have a page of their own
 code, out = call("fr24")
 page = (results / "page_standing.md").read_text()
-check(code == 0 and page.startswith("# Jumps that stand still") and "| 2.4 | d1/4 | 22 |" in page, "Fr1 = 2.4 with its Reynolds number")
+check(code == 0 and page.startswith("# Jumps that stand still") and "| 2.4 | d1/8 | 22 |" in page, "Fr1 = 2.4 with its Reynolds number")
 check("Not run: fr34, fr31" in page and "d4" not in page.split("Not run:")[1].split("\n")[0], "and what was not run of its kind")
 check("| 2.4 |" not in (results / "page.md").read_text(), "not on the page of the paper's cases")
+
+# ---- the study: several runs of each variant, which differ, and the base is what others are measured by
+code, out = call("base,better")
+page = (results / "page_study.md").read_text()
+rows = {line.split(" | ")[0].removeprefix("| "): line.split(" | ") for line in page.splitlines() if line.startswith("| ")}
+base, better = (next(row for name, row in rows.items() if name.startswith(start)) for start in ("nothing", "*better*"))
+check(code == 0 and base[1] == better[1] == "3" and base[-1].startswith("1.00"), f"three runs of each, the first costs {base[-1]} of itself")
+check("Not run: " in page and "shifting" in page.split("Not run:")[1], "and what was not run of it")
+decks = [(results / "study" / f"base.{k}.k").read_text() for k in (1, 2)]
+check(decks[0] != decks[1] and "v1 = 1.4999985" in decks[1], "the runs differ in v1 by a millionth")
 
 # ---- interrupted, and gone on with
 # the slowest loops: the run, else over in two seconds, must not end before the interrupt reaches it

@@ -260,8 +260,8 @@ TEST(Recipe, ThePapersFiguresAreSound) {
   const auto recipe =
       read_recipe(std::string(SOURCE_DIR) + "/keyword_decks/hydraulic_jump/paper_figures.yaml", diagnostics);
   ASSERT_TRUE(recipe) << diagnostics.text();
-  EXPECT_EQ(recipe->analyses.size(), 10u);
-  EXPECT_EQ(recipe->figures.size(), 12u);
+  EXPECT_EQ(recipe->analyses.size(), 11u);
+  EXPECT_EQ(recipe->figures.size(), 13u);
 }
 
 TEST(Recipe, BadFiles) {
