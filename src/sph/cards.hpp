@@ -89,6 +89,11 @@ struct CourantShifting : Entry {
   int correct = 0;
 };
 
+/// *COURANT_RENORMALISATION, ours.
+struct CourantRenormalisation : Entry {
+  int reverse = 0;
+};
+
 /// *COURANT_XSPH, ours.
 struct CourantXsph : Entry {
   Real eps = 0;

@@ -24,7 +24,7 @@ using RenormalLoop = void (*)(const RenormalArrays&, const NeighbourLists&);
 /// Sets moment and gradient.
 RenormalLoop renormal_rates_loop(int dim);
 /// f_i -= V_i sum_j V_j (p_i (B_i - 1) + p_j (B_j - 1)) grad W_ij: what the corrected force has beyond the
-/// plain one.
-RenormalLoop renormal_forces_loop(int dim);
+/// plain one; `reverse`: with p_i (B_j - 1) + p_j (B_i - 1).
+RenormalLoop renormal_forces_loop(int dim, bool reverse);
 
 }  // namespace courant

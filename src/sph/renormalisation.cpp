@@ -1,10 +1,11 @@
-// FORM of *CONTROL_SPH, and the renormalised ones among its values.
+// FORM of *CONTROL_SPH, the renormalised ones among its values, and *COURANT_RENORMALISATION.
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Eigenvalues>
 
 #include <fmt/format.h>
 
+#include "keyword/registry.hpp"
 #include "search/neighbours.hpp"
 #include "sph/cards.hpp"
 #include "sph/fields.hpp"
@@ -17,6 +18,18 @@
 namespace courant {
 
 namespace {
+
+const RegisterKeyword<CourantRenormalisation> renormalisation_keyword{
+    {.names = {"COURANT_RENORMALISATION"},
+     .purpose = "which matrix corrects a pressure where FORM of *CONTROL_SPH is 1, 3, 6 or 16",
+     .once = true,
+     .many = false,
+     .cards = {
+         {.fields = {{"REVERSE",
+                      &CourantRenormalisation::reverse,
+                      "-",
+                      "pressure forces: 0 p_i B_i + p_j B_j; 1 p_i B_j + p_j B_i, which do not keep energy",
+                      {.allowed = {0, 1}}}}}}}};
 
 /// Least eigenvalue of the moment matrix up to which gradients are not corrected, and from which on they are
 /// to the full; 1 inside, 1/2 at a plane surface. Where water breaks up, full corrections are unstable.
@@ -33,9 +46,12 @@ void take_arrays(RenormalArrays& a, World& world, const PairVolumes& volumes, Fi
 /// Libersky 1996, Bonet and Lok 1999). Continuity becomes drho_i/dt = rho_i sum_j V_j v_ij . B_i grad W_ij,
 /// in the middle of the step as plain sums, with the mean of B before and after; the force, its transpose,
 ///   -V_i sum_j V_j (p_i B_i + p_j B_j) grad W_ij.
-/// So pair forces cancel and energy is kept, but no longer angular momentum. This adds what plain sums lack.
-/// By the least eigenvalue of the matrix B goes over to 1 towards surfaces and where it is near singular:
-/// `renormalisation_left_out` counts the most particles at once that are not corrected at all.
+/// So pair forces cancel and energy is kept, but no longer angular momentum. With the reverse correction
+/// (Zhang et al. 2025) it is -V_i sum_j V_j (p_i B_j + p_j B_i) grad W_ij: where sum_j V_j (B_i + B_j) grad
+/// W_ij is small, as inside settled water, that is V_i B_i sum_j V_j (p_i - p_j) grad W_ij, exact for linear
+/// pressures. Pair forces cancel all the same, but it is no transpose of the continuity. This adds what plain
+/// sums lack. By the least eigenvalue of the matrix B goes over to 1 towards surfaces and where it is near
+/// singular: `renormalisation_left_out` counts the most particles at once that are not corrected at all.
 class RenormalRates : public Rate {
  public:
   RenormalRates(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
@@ -105,7 +121,7 @@ class RenormalForces : public Force {
  public:
   RenormalForces(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                  std::shared_ptr<PairVolumes> volumes)
-      : loop_(renormal_forces_loop(s.dim)),
+      : loop_(renormal_forces_loop(s.dim, s.reverse_correction)),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         excess_(sph_fields::renormalisation(world.particles)) {
@@ -145,10 +161,24 @@ void warn_of_smoothing(const Deck& deck, const ControlSph& c, Diagnostics& diagn
       "*COURANT_DENSITY_DIFFUSION evens out the noise of pressures");
 }
 
+void read_correction(const Deck& deck, const ControlSph* c, SphSettings& s, Diagnostics& diagnostics) {
+  const auto* r = deck.last<CourantRenormalisation>();
+  if (r == nullptr || r->reverse == 0) return;
+  s.reverse_correction = true;
+  if (c == nullptr || !is_renormalised(c->form))
+    deck.error(diagnostics, *r, "REVERSE", "nothing is corrected: FORM of *CONTROL_SPH is not 1, 3, 6 or 16",
+               "ask for a renormalised FORM, or leave the card out");
+  else if (s.density_diffusion == 0)
+    deck.warning(diagnostics, *r, "REVERSE",
+                 "without density diffusion these forces lose or gain much energy",
+                 "use *COURANT_DENSITY_DIFFUSION, and look at the residual of the energy ledger");
+}
+
 }  // namespace
 
 void read_form(const Deck& deck, SphSettings& s, Diagnostics& diagnostics) {
   const auto* c = deck.last<ControlSph>();
+  read_correction(deck, c, s, diagnostics);
   if (c == nullptr || c->form == 0) return;
   const auto refuse = [&](const std::string& why, const std::string& hint) {
     deck.error(diagnostics, *c, "FORM", fmt::format("expected 0 {}, got '{}'", why, c->form), hint);

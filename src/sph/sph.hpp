@@ -78,7 +78,8 @@ struct ReinitialisationRules {
 struct SphSettings {
   int dim = 3;
   KernelChoice kernel = KernelChoice::cubic_spline;
-  bool renormalised = false;  ///< FORM: gradients corrected by the inverse moment matrix
+  bool renormalised = false;        ///< FORM: gradients corrected by the inverse moment matrix
+  bool reverse_correction = false;  ///< *COURANT_RENORMALISATION: each pressure with the partner's matrix
   bool uniform_h = true;
   bool evolving_h = false;
   std::vector<Real> h_min_factor, h_max_factor;  ///< per part, of h/h0
