@@ -131,7 +131,7 @@ def settled(shown, paper):
     ]
     head = ["", "paper", "reference"] + [f"{run.case}, {run.setting}" for run, _ in runs]
     span = "{:g}-{:g} s".format(*runs[0][1]["run"]["settled"])
-    return f"## The settled state, {span}\n\n" + table(head, rows) + "\n\nRecipe `keyword_decks/hydraulic_jump/paper_figures.yaml`; x1 = 0 as in the paper; in *better*, whose toe does not reach the gate, the mean toe.\n"
+    return f"## The settled state, {span}\n\n" + table(head, rows) + "\n\nRecipe `keyword_decks/hydraulic_jump/paper_figures.yaml`; distances are from the gate, x1 = 0 as in the paper, wherever the mean toe (first row) is; in *better*, whose toe does not reach the gate, from the mean toe.\n"
 
 
 def drift(found):
@@ -216,7 +216,8 @@ def write(options, runs, chosen, paper, program, project):
         if failed:
             parts.insert(-1, "Stopped in error:\n\n" + "\n".join(f"- {run.name.removeprefix('study/')} ({run.setting}): {reason}" for run, reason in failed.items()) + "\n")
         if missing:
-            parts.insert(-1, f"Not run: {', '.join(missing)}.\n")
+            parts.insert(-1, f"Not run: {', '.join(missing)}." + (" The literal setting is discussed, with numbers of an earlier build, in [hydraulic_jump.md](hydraulic_jump.md#the-papers-numbers-taken-literally-c0--1484-ms-q1--01-q2--0)."
+                                                                if any(run.group == "paper_setting" for run in own if run.variant in missing) else "") + "\n")
         page.parent.mkdir(parents=True, exist_ok=True)
         page.write_text("\n".join(part for part in parts if part))
         written.append(page)
