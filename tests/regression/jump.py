@@ -84,7 +84,7 @@ else:
 
 # the analyses and figures of the paper, over what this short run has of a settled state
 recipe = open(os.path.join(scene, "paper_figures.yaml")).read()
-for long, short in (("&from 15", "&from 3.5"), ("&to 30", "&to 5"), ("segment: 5", "segment: 0.75")):
+for long, short in (("&from 15", "&from 3.5"), ("&to 30", "&to 5"), ("&moment 29.995", "&moment 4.995"), ("segment: 5", "segment: 0.75")):
     check(recipe.count(long) == 1, f"paper_figures.yaml has '{long}' once")
     recipe = recipe.replace(long, short)
 open(os.path.join(work, "short.yaml"), "w").write(recipe)
