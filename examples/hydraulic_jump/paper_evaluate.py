@@ -100,8 +100,8 @@ def volume_drift(run, program, scenes, threads):
     """Filled over depth from the middle of a run on and at its end, a sixth of it each, means over the basin: both are of the settled state."""
     out, sixth = {}, run.parameters["endtim"] / 6
     for name, begin in (("early", 3), ("late", 5)):
-        out[name + "_from"], out[name + "_to"] = round(begin * sixth, 6), round((begin + 1) * sixth, 6)
-        post(run, program, scenes / "bed_and_volume.yaml", bed_rows(run) | {"&from": out[name + "_from"], "&to": out[name + "_to"]}, threads)
+        part = {"&from": round(begin * sixth, 6), "&to": round((begin + 1) * sixth, 6)}
+        post(run, program, scenes / "bed_and_volume.yaml", bed_rows(run) | part, threads)
         out[name] = bed_and_volume(run.folder / "bed_and_volume")["filled_ratio_mean"]
     return out
 

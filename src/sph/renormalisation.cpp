@@ -47,11 +47,12 @@ void take_arrays(RenormalArrays& a, World& world, const PairVolumes& volumes, Fi
 /// in the middle of the step as plain sums, with the mean of B before and after; the force, its transpose,
 ///   -V_i sum_j V_j (p_i B_i + p_j B_j) grad W_ij.
 /// So pair forces cancel and energy is kept, but no longer angular momentum. With the reverse correction
-/// (Zhang et al. 2025) it is -V_i sum_j V_j (p_i B_j + p_j B_i) grad W_ij: where sum_j V_j (B_i + B_j) grad
-/// W_ij is small, as inside settled water, that is V_i B_i sum_j V_j (p_i - p_j) grad W_ij, exact for linear
-/// pressures. Pair forces cancel all the same, but it is no transpose of the continuity. This adds what plain
-/// sums lack. By the least eigenvalue of the matrix B goes over to 1 towards surfaces and where it is near
-/// singular: `renormalisation_left_out` counts the most particles at once that are not corrected at all.
+/// (Zhang et al., arXiv 2406.02222) it is -V_i sum_j V_j (p_i B_j + p_j B_i) grad W_ij: where sum_j V_j (B_i
+/// + B_j) grad W_ij is small, as inside settled water, that is V_i B_i sum_j V_j (p_i - p_j) grad W_ij, exact
+/// for linear pressures. Pair forces cancel all the same, but it is no transpose of the continuity. This adds
+/// what plain sums lack. By the least eigenvalue of the matrix B goes over to 1 towards surfaces and where it
+/// is near singular: `renormalisation_left_out` counts the most particles at once that are not corrected at
+/// all.
 class RenormalRates : public Rate {
  public:
   RenormalRates(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
