@@ -74,7 +74,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   const auto sph_material = [&](Index part) -> SphMaterial {
     const PartMaterial& m = materials_[part];
     if (!m.found) return {};
-    return {m.ro, m.eos->V0, m.mu, m.eos->uses_energy()};
+    return {m.ro, m.eos->V0, m.pc, m.mu, m.eos->uses_energy()};
   };
   sph_ = build_particles(deck_, model_, sph_material, world_,
                          diagnostics);  // sets world_.dim, which rigid bodies ask for

@@ -50,7 +50,7 @@ class Builder {
     settings_.reinitialisation = read_density_reinitialisation(deck_, model_, diagnostics_);
     read_shifting();
     read_xsph();
-    read_riemann(deck_, model_, settings_, diagnostics_);
+    read_riemann(deck_, model_, material_, settings_, diagnostics_);
     read_form(deck_, settings_, diagnostics_);
     return settings_;
   }

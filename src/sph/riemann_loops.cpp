@@ -7,10 +7,6 @@ namespace courant::COURANT_SIMD {
 
 namespace {
 
-COURANT_INLINE Pack smaller(const Pack& a, const Pack& b) {
-  return b - positive(b - a);
-}
-
 template <int Dim>
 void momentum(const RiemannArrays& a, const NeighbourLists& lists) {
   const Real hinv = 1 / a.h0, norm = gradient_norm<CubicSpline, Dim>(a.h0);
@@ -27,7 +23,7 @@ void momentum(const RiemannArrays& a, const NeighbourLists& lists) {
       const Difference<Dim> d(xi, a.x, j), u(vi, a.v, j);
       const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2), u_dot_d = dot(u, d);
       const Pack approach = positive(0 - u_dot_d) * rinv;
-      const Pack excess = approach * smaller(a.eta * approach, 0.5 * (ci + a.c[j]));
+      const Pack excess = approach * min(a.eta * approach, 0.5 * (ci + a.c[j]));
       const Pack w =
           gradient_shape<CubicSpline>(r2 * rinv * hinv, rinv) * a.V[j] * (excess * (rhoi + a.m[j] / a.V[j]));
       force.add(w, d);
@@ -49,16 +45,21 @@ void mass(const RiemannArrays& a, const NeighbourLists& lists) {
     const Pack rhoi = Pack::load(a.m + i, count) / Pack::load(a.V + i, count);
     const Pack ci = Pack::load(a.c + i, count), pi = Pack::load(a.p + i, count);
     const Pack potential = Pack::load(a.potential + i, count);
-    Pack sum = Pack::zero();
+    // 1 where the pressure is not cut off, 0 where it is
+    const Pack held = min(positive(1e30 * (pi - a.pc)), Pack::of(1));
+    Pack sum = Pack::zero(), weights = Pack::zero();
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
       const Difference<Dim> d(xi, a.x, j);
       const Pack r2 = dot(d, d) + tiny, R = r2 * rsqrt(r2) * hinv;
       const Pack density = rhoi + a.m[j] / a.V[j];
-      sum += CubicSpline::gradient(R) * a.V[j] *
-             (2 * (pi - a.p[j]) + density * (potential - a.potential[j])) / (density * (ci + a.c[j]));
+      const Real Vj = a.p[j] > a.pc ? a.V[j] : 0;
+      const Pack w = held * CubicSpline::gradient(R) * Vj / (density * (ci + a.c[j]));
+      sum += w * (2 * (pi - a.p[j]) + density * (potential - a.potential[j]));
+      weights += w;
     }
     (2 * norm * rhoi * sum).store(a.rate + i, count);
+    (0 - 4 * norm * rhoi * ci * ci * weights).store(a.decay + i, count);
   }
 }
 

@@ -15,10 +15,12 @@ struct RiemannArrays {
   const Real* p;          ///< [M/LT2]
   const Real* potential;  ///< -g.x [L2/T2]
   Real* f[3];
-  Real* heat;  ///< power that the flux of momentum turns into heat [ML2/T3]
-  Real* rate;  ///< of rho, by the flux of mass [M/L3T]
+  Real* heat;   ///< power that the flux of momentum turns into heat [ML2/T3]
+  Real* rate;   ///< of rho, by the flux of mass [M/L3T]
+  Real* decay;  ///< of a pressure that neighbours do not share, by the flux of mass [1/T]
   Real h0;
   Real eta;  ///< of the limiter; huge: none
+  Real pc;   ///< tensile cut-off of pressures [M/LT2]
 };
 
 using RiemannLoop = void (*)(const RiemannArrays&, const NeighbourLists&);
@@ -28,7 +30,10 @@ using RiemannLoop = void (*)(const RiemannArrays&, const NeighbourLists&);
 /// which is what p* has beyond the mean of both pressures, and sets heat: half of what each pair loses.
 RiemannLoop riemann_momentum_loop(int dim);
 /// Sets rate_i = rho_i sum_j V_j (p_i - p_j + rho_bar (phi_i - phi_j)) / (rho_bar c_bar) dW/dr, which is what
-/// u* has beyond the mean of both velocities, less what gravity makes of p; phi its potential.
+/// u* has beyond the mean of both velocities, less what gravity makes of p; phi its potential. And
+///   decay_i = -rho_i c_i^2 sum_j V_j/(rho_bar c_bar) dW/dr.
+/// Pairs of which one has parted (p is the cut-off) are left out: a void rests on nothing, and the water
+/// beside it would lose its pressure into it.
 RiemannLoop riemann_mass_loop(int dim);
 
 }  // namespace courant

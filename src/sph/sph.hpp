@@ -22,7 +22,8 @@ struct MonaghanViscosity {
 struct BulkViscosity {};
 /// No viscosity but the dissipation of a Riemann problem between pairs (*COURANT_RIEMANN).
 struct RiemannFlux {
-  Real eta = 3;  ///< of the limiter; huge: none
+  Real eta = 3;                                      ///< of the limiter; huge: none
+  Real pc = -std::numeric_limits<Real>::infinity();  ///< tensile cut-off of the liquid's pressure [M/LT2]
 };
 /// Twice of what p* has beyond the mean of both pressures, where a pair approaches at speed `w` [M/LT2]
 inline Real riemann_excess(const RiemannFlux& flux, Real rho, Real c, Real w) {
@@ -36,10 +37,11 @@ struct PartViscosity {
   Real q1 = 0.06, q2 = 1.5;
 };
 
-/// What the material of an SPH part must tell. [M/L3], [-], [M/LT]
+/// What the material of an SPH part must tell. [M/L3], [-], [M/LT2], [M/LT]
 struct SphMaterial {
   Real ro = 0;
   Real v0 = 1;                    ///< initial relative volume: rho = ro / v0
+  Real pc = 0;                    ///< tensile cut-off of the pressure, <= 0
   Real mu = 0;                    ///< dynamic viscosity
   bool heat_in_internal = false;  ///< the EOS uses energy, so viscous heat goes into E and is counted there
 };
@@ -89,7 +91,6 @@ struct SphSettings {
   MixingLength mixing_length;          ///< where there is one, mu is not empty
   std::vector<char> heat_in_internal;  ///< per part; empty if in none
   Real tssfac = 0.9;
-  Real most_tssfac = std::numeric_limits<Real>::infinity();  ///< beyond which what is asked for is unstable
   Real geometry_eps = 0;  ///< *COURANT_PAIR_GEOMETRY: relative motion, of h, over which gradients are kept
   Real density_diffusion = 0;          ///< *COURANT_DENSITY_DIFFUSION: delta; 0: none
   std::function<Vec(Real t)> gravity;  ///< acceleration at a time, for the diffusion of density [L/T2]
@@ -150,7 +151,8 @@ void read_form(const Deck&, SphSettings&, Diagnostics&);
 void add_renormalisation(const SphSettings&, World&, std::shared_ptr<Neighbours>,
                          std::shared_ptr<PairVolumes>);
 /// Behind the other settings that it may contradict.
-void read_riemann(const Deck&, const Model&, SphSettings&, Diagnostics&);
+void read_riemann(const Deck&, const Model&, const std::function<SphMaterial(Index part)>&, SphSettings&,
+                  Diagnostics&);
 /// Adds the dissipation of momentum to the rates, behind plain sums, and that of mass to the forces, for the
 /// next rates: `add_density_diffusion` takes it.
 void add_riemann(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);

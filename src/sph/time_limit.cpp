@@ -17,7 +17,7 @@ namespace {
 class SphTimeLimit : public Tally, public TimeLimit {
  public:
   SphTimeLimit(const SphSettings& s, const Model& model, World& world)
-      : tssfac_(std::min(s.tssfac, s.most_tssfac)), viscosity_(s, world), region_(s.region) {
+      : tssfac_(s.tssfac), viscosity_(s, world), region_(s.region) {
     for (const ModelPart& part : model.parts) part_ids_.push_back(part.id);
   }
   std::string name() const override { return "sph time step"; }

@@ -55,7 +55,7 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   stop_for(diagnostics);
   const auto material = [&](Index part) -> SphMaterial {
     const PartMaterial& m = materials[part];
-    return {m.ro, m.eos->V0, m.mu, m.eos->uses_energy()};
+    return {m.ro, m.eos->V0, m.pc, m.mu, m.eos->uses_energy()};
   };
   const SphSettings settings = build_particles(deck, model, material, world_, diagnostics);
   stop_for(diagnostics);

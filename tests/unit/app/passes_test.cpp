@@ -225,7 +225,7 @@ TEST(Passes, RiemannFlux) {
   scene.extra = "*COURANT_RIEMANN\n3.\n";
   expect_change(scene, {"Riemann flux", "bulk viscosity"},
                 {"rate Riemann flux (momentum)", "rate Riemann flux (density)", "force Riemann flux (mass)",
-                 "motion gravity's potential"},
+                 "time limit Riemann flux (mass)", "motion gravity's potential"},
                 {"bulk viscosity *COURANT_RIEMANN takes the place of viscosity"});
 }
 
