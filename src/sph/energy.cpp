@@ -26,6 +26,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
     Particles& p = world.particles;
     riemann_ = std::get_if<RiemannFlux>(&settings_.viscosity);
     if (std::holds_alternative<BulkViscosity>(s.viscosity)) total_pressure_ = &sph_fields::pressure_plus_q(p);
+    if (s.renormalised) excess_ = &sph_fields::renormalisation(p);
     if (s.mu.empty()) return;
     viscous_ = &sph_fields::viscous_dissipation(p);
     tau_ = &sph_fields::stress(p);
@@ -152,6 +153,11 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
                    gj = slope_over_r<Kernel, Dim>(r2, UniformH ? h : p.h[of]);
         power += pair.inverse_rho * (gi * (tau_->tensor(i) * d).dot(vj) + gj * (tau_->tensor(j) * d).dot(vi));
       }
+      if (excess_) {  // of j it is 0
+        const Vec e = excess_->tensor(i) * d;
+        power -= settings_.reverse_correction ? s.pressure_j * e.dot(vi) - s.pressure_i * e.dot(vi - vj)
+                                              : s.pressure_i * e.dot(vj);
+      }
       total += p.m[i] * p.m[of] / p.rho[of] * power;
     }
     return total;
@@ -172,6 +178,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
   Field<Real>* viscous_ = nullptr;
   Field<Real>* total_pressure_ = nullptr;
   Field<Real>* tau_ = nullptr;
+  Field<Real>* excess_ = nullptr;  ///< of renormalised forms
   static constexpr Index lanes = Neighbours::lanes;
   std::vector<Real> power_;  ///< dissipated in each block [ML2/T3]
   std::vector<Pair> rim_pairs_;

@@ -9,7 +9,6 @@
 #include "search/neighbours.hpp"
 #include "sph/cards.hpp"
 #include "sph/fields.hpp"
-#include "sph/injection.hpp"
 #include "sph/pair_volumes.hpp"
 #include "sph/renormal_loops.hpp"
 #include "sph/sph.hpp"
@@ -52,8 +51,8 @@ void take_arrays(RenormalArrays& a, World& world, const PairVolumes& volumes, Fi
 /// for linear pressures. Pair forces cancel all the same, but it is no transpose of the continuity. This adds
 /// what plain sums lack. By the least eigenvalue of the matrix B goes over to 1 towards surfaces and where it
 /// is near singular: `renormalisation_left_out` counts the most particles at once that are not corrected at
-/// all.
-class RenormalRates : public Rate {
+/// all. Particles beside the box keep their state, and B is 1 for them.
+class RenormalRates : public Rate, public Refresh {
  public:
   RenormalRates(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                 std::shared_ptr<PairVolumes> volumes)
@@ -80,6 +79,9 @@ class RenormalRates : public Rate {
     with_dimension(dim_, [&](auto dim) {
       for (Index i = begin; i < end; ++i) correct<dim()>(world.particles, i);
     });
+  }
+  void refreshed(World&, const Clock&, std::span<const Index>) override {
+    for (const Index i : neighbours_->left()) excess_.set_tensor(i, Matrix::Zero());
   }
   void finish(World& world, const Clock&) override {
     std::int64_t sum = 0;
@@ -192,11 +194,6 @@ void read_form(const Deck& deck, SphSettings& s, Diagnostics& diagnostics) {
     refuse(fmt::format("or a plain form beside the {}: corrected sums take the cubic spline",
                        kernel_name(s.kernel)),
            "FORM 0, 2 and 5 take every kernel");
-  if (s.renormalised && s.region)
-    refuse("or a plain form beside BOXID: beyond the box nothing is corrected", "FORM 0, 2 and 5 take a box");
-  if (s.renormalised && first_injection(deck))
-    refuse("or a plain form beside *DEFINE_SPH_INJECTION: what waits behind an inlet is not corrected",
-           "FORM 0, 2 and 5 take inlets");
   if (s.renormalised && s.geometry_eps > 0)
     refuse("or a plain form beside *COURANT_PAIR_GEOMETRY, which keeps gradients that are not corrected",
            "leave one of the two out");
@@ -205,7 +202,9 @@ void read_form(const Deck& deck, SphSettings& s, Diagnostics& diagnostics) {
 
 void add_renormalisation(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                          std::shared_ptr<PairVolumes> volumes) {
-  world.rates.push_back(std::make_shared<RenormalRates>(s, world, neighbours, volumes));
+  const auto rates = std::make_shared<RenormalRates>(s, world, neighbours, volumes);
+  world.rates.push_back(rates);
+  world.refreshes.push_back(rates);
   world.forces.push_back(
       std::make_shared<RenormalForces>(s, world, std::move(neighbours), std::move(volumes)));
 }

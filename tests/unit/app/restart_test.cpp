@@ -294,6 +294,15 @@ TEST(Restart, RiemannFluxWithABox) {
               {1, 20, 75}, 120);
 }
 
+TEST(Restart, RenormalisedFormWithABox) {
+  expect_same({.n = 8,
+               .start = "0.5,-0.5,0.",
+               .control_sph = ",0,1",
+               .box = "1",
+               .extra = test::gravity_cards + test::floor_cards() + "*DEFINE_BOX\n1,-1.,0.6,-1.,1.,-1.,1.\n"},
+              {1, 20, 75}, 120);
+}
+
 TEST(Restart, ShiftingWithCorrectionsAndXsph) {
   expect_same({.n = 10,
                .start = "1.5,-0.5,0.",
