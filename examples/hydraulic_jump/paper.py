@@ -60,7 +60,7 @@ class Run:
             self.settled, self.segment = QUICK["settled"], QUICK["segment"]
         self.folder = results / self.name
         self.deck = results / f"{self.name}.k"
-        self.summary_file = self.folder / "summary.yaml"
+        self.summary_file, self.index = self.folder / "summary.yaml", self.folder / "fields.pvd"
         self.work = self.steps = self.particles = 0  # particle-steps, steps, particles
         self.kind = "windows" if "*COURANT_PAIR_GEOMETRY" in self.cards else "eddy viscosity" if self.parameters.get("mixing", 0) > 0 else "others"
 
@@ -177,8 +177,8 @@ class Clock:
 
 def reached(run):
     """The time of the last field state."""
-    interval = run.parameters.get("dt_plot", 0.01)
-    return max(0, len(list((run.folder / "fields").glob("*.vtp"))) - 1) * interval
+    times = re.findall(r'timestep="([^"]*)"', run.index.read_text()) if run.index.is_file() else []
+    return float(times[-1]) if times else 0.0
 
 
 class Queue:
@@ -226,7 +226,7 @@ def execute(run, program, threads, queue, clock):
         words += ["--restart", run.folder]
         say(f"{run.name}: goes on from its restart file at t = {reached(run):.2f} s")
     else:
-        for stale in (run.summary_file, run.folder / paper_evaluate.EVALUATED):
+        for stale in (run.summary_file, run.folder / paper_evaluate.EVALUATED, run.index):
             stale.unlink(missing_ok=True)
         say(f"{run.name}: runs, {run.particles} particles, {run.steps} steps, about {duration(clock.seconds(run))}")
     run.folder.mkdir(parents=True, exist_ok=True)

@@ -84,7 +84,7 @@ def sections(shown, page_folder, project):
     base = next((spread([one["cpu"] for one in numbers])[0] for run, numbers in variants if run.variant == "base"), math.nan)
     head = ["changed", "runs", "A", "P", "depth at x = 1 m [mm]", f"against the weir's {1000 * WEIR_DEPTH:.1f} mm [%]", "jump turns [s]", "filled/depth [%]", "bed row/next [%]", "energy residual [%]", "leaked", "processor time [s]", "of the first"]
     threads = sorted({one["threads"] for _, numbers in variants for one in numbers})
-    parts = [f"d1/4, 2.5 to 5 s, threads: {', '.join(map(str, threads))}; mean ± standard deviation of single runs, which differ in v1 by a millionth. With three runs of each, two means are alike "
+    parts = [f"d1/4, 2.5 to 5 s, threads: {', '.join(map(str, threads))}; mean ± standard deviation of single runs, which differ in v1 by a millionth. Two means of three runs are alike "
              f"where they differ by less than about twice the larger deviation. Single runs have no deviation. A, P: Table 2 of the paper (0.969, 0.049 at d1/4), against Bélanger's {1000 * BELANGER:.1f} mm, from states 0.05 s apart, to the top of the highest water; the weir's "
              f"depth, {1000 * WEIR_DEPTH:.1f} mm, is what critical flow over it allows ([theory.md](theory.md#hydraulic-jump)). *Filled*: the depth at x = 1 m that the particles' own volume m/ρ fills over that of the surface. *Bed row*: mean "
              "velocity of the row of particles at the bed over the next, x = 0.1 to 1 m. *Residual*: of the energy ledger over what passed through. Kernels *as wide*: CSLH with the second moment of the cubic spline's 1.2. *ν*: of the "
