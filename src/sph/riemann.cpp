@@ -83,8 +83,6 @@ class RiemannMass : public Force, public TimeLimit {
         potential_(sph_fields::potential(world.particles)),
         rate_(sph_fields::density_diffusion(world.particles)),
         pc_(std::get<RiemannFlux>(s.viscosity).pc),
-        decay_(world.particles.fields.add<Real>(
-            {.name = "riemann_decay", .dimension = "1/T", .restart = false})),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)) {}
   std::string name() const override { return "Riemann flux (mass)"; }
@@ -94,6 +92,7 @@ class RiemannMass : public Force, public TimeLimit {
     for (int k = 0; k < 3; ++k) a_.x[k] = p.x.data(k);
     a_.m = p.m.data(), a_.V = volumes_->current(), a_.c = c_.data(), a_.p = p.p.data();
     a_.potential = potential_.data(), a_.rate = rate_.data();
+    decay_.resize(static_cast<std::size_t>(p.active));
     a_.decay = decay_.data(), a_.pc = pc_;
     a_.h0 = p.active > 0 ? p.h[0] : 1;
     fastest_.assign(block_count(p.active), 0);
@@ -112,8 +111,7 @@ class RiemannMass : public Force, public TimeLimit {
   RiemannLoop loop_;
   Field<Real>&c_, &potential_, &rate_;
   Real pc_;
-  Field<Real>& decay_;
-  std::vector<Real> fastest_;  ///< decay in each block [1/T]
+  std::vector<Real> decay_, fastest_;  ///< of each particle, of the fastest one of each block [1/T]
   std::shared_ptr<Neighbours> neighbours_;
   std::shared_ptr<PairVolumes> volumes_;
   RiemannArrays a_{};
