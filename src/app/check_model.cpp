@@ -146,7 +146,7 @@ std::string step_text(Simulation& s, const std::string& who, double seconds) {
   const Real dt = s.clock().dt, endtim = s.model().endtim;
   const double steps = std::ceil(endtim / dt);
   std::string text = fmt::format("First step {:.5g} [T], set by {}\n", dt, who);
-  for (const auto& limit : s.world().time_limits) {
+  for (TimeLimit* limit : s.world().passes.all<TimeLimit>()) {
     const TimeLimit::Limit one = limit->limit(s.world(), s.clock());
     if (std::isfinite(one.dt) && one.who != who)
       text += fmt::format("  {} would allow {:.5g}\n", one.who, one.dt);

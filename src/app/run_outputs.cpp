@@ -25,10 +25,10 @@ HistoryRequests history_requests(const Simulation& s) {
   for (const ModelPart& part : s.model().parts) h.parts.push_back({part.id, part.title});
   for (const auto& contact : s.contacts())
     h.contacts.push_back({contact->report().id, contact->report().title});
-  for_each_reporter<const WallForceReporter>(s.world().energy_terms, [&](const WallForceReporter& walls) {
-    const InterfaceForce all = walls.report(s.world());
+  for (const auto* walls : s.world().passes.all<const WallForceReporter>()) {
+    const InterfaceForce all = walls->report(s.world());
     h.contacts.push_back({all.id, all.title});
-  });
+  }
   return h;
 }
 

@@ -100,11 +100,9 @@ void sample_parts(const World& world, const Model& model, Sample& s) {
   if (s.mass > 0) s.velocity = momentum / s.mass;
 }
 
-/// Passes that impose motions stand among the constraints or among the energy terms.
 void sample_boundary_forces(const World& world, const Clock& clock, std::vector<BoundaryForce>& out) {
   const auto report = [&](const BoundaryForceReporter& one) { one.report_forces(world, clock, out); };
-  for_each_reporter<const BoundaryForceReporter>(world.constraints, report);
-  for_each_reporter<const BoundaryForceReporter>(world.energy_terms, report);
+  for (const auto* reporter : world.passes.all<const BoundaryForceReporter>()) report(*reporter);
   // particles stand in an order of their own, which changes
   std::sort(out.begin(), out.end(), [](const BoundaryForce& a, const BoundaryForce& b) {
     return a.kind != b.kind ? a.kind < b.kind : a.id < b.id;
@@ -115,8 +113,7 @@ void sample_boundary_forces(const World& world, const Clock& clock, std::vector<
 
 void Simulation::show_wall_forces() {
   for (const auto& contact : contacts_) contact->show_forces(world_);
-  for_each_reporter<WallForceReporter>(world_.energy_terms,
-                                       [&](WallForceReporter& walls) { walls.show_forces(world_); });
+  for (auto* walls : world_.passes.all<WallForceReporter>()) walls->show_forces(world_);
 }
 
 Sample Simulation::sample(const std::string& dt_controlled_by) {
@@ -127,9 +124,8 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   if (bodies_) s.bodies = bodies_->reports(), s.body_motions = bodies_->motions(clock_);
   sample_parts(world_, model_, s);
   for (const auto& contact : contacts_) s.interfaces.push_back(contact->report());
-  for_each_reporter<const WallForceReporter>(world_.energy_terms, [&](const WallForceReporter& walls) {
-    s.interfaces.push_back(walls.report(world_));
-  });
+  for (const auto* walls : world_.passes.all<const WallForceReporter>())
+    s.interfaces.push_back(walls->report(world_));
   sample_boundary_forces(world_, clock_, s.boundary_forces);
   const std::vector<Id>& wanted = model_.output.history_sph;
   const Particles& p = world_.particles;

@@ -13,6 +13,7 @@
 #include "shell/shell.hpp"
 #include "sph/level_outlet.hpp"
 #include "sph/prescribed_particles.hpp"
+#include "time/point_motion.hpp"
 
 namespace courant {
 
@@ -99,27 +100,23 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
       deck_, model_, {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->largest_skin()},
       world_, diagnostics);
   if (!diagnostics.ok()) return;
-  world_.motions.push_back(make_particle_motion());
+  world_.passes.add(make_clear_forces(points_of(world_.particles)));
+  world_.passes.add(make_point_motion(points_of(world_.particles)));
   add_drifts(sph_, gravity_of(model_.body_loads), world_);
-  if (mirrors_) world_.motions.push_back(mirrors_);
+  if (mirrors_) world_.passes.add(mirrors_);
   add_sph_time_limit(sph_, model_, world_);
   for (PassNote& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
   add_mirror_core(sph_, planes_, world_);
   if (!model_.body_loads.empty())
-    world_.forces.push_back(make_gravity(model_, world_, neighbours_));
+    world_.passes.add(make_gravity(model_, world_, neighbours_));
   else
     left_out_.push_back({"gravity", "no *LOAD_BODY"});
   if (!add_level_outlets(deck_, model_, sph_, planes_, world_, diagnostics))
     left_out_.push_back({"level outlet", "no *COURANT_LEVEL_OUTLET"});
-  for (auto& contact : contacts_) {
-    world_.forces.push_back(contact);
-    world_.refreshes.push_back(contact);
-    world_.time_limits.push_back(contact);
-    world_.energy_terms.push_back(contact);
-  }
+  for (auto& contact : contacts_) world_.passes.add(contact);
   if (contacts_.empty()) left_out_.push_back({"contact", "no *CONTACT"});
   if (auto fixed = make_fixed_particles(model_, world_))
-    world_.constraints.push_back(fixed);
+    world_.passes.add(fixed);
   else
     left_out_.push_back({"fixed particles", "no particle in *BOUNDARY_SPC"});
   add_bodies();
@@ -168,7 +165,7 @@ void Simulation::add_images(Real h, Diagnostics& diagnostics) {
   sph_.walls.planes = planes_;
   auto images = std::make_shared<Images>(planes_);
   neighbours_->set_images(images);
-  world_.exchangers.push_back(images);
+  world_.passes.add(images);
   mirrors_ = images->make_mirrors(gravity_of(model_.body_loads));
 }
 
@@ -218,21 +215,15 @@ std::vector<PassNote> Simulation::outputs(bool wanted) const {
 }
 
 std::string Simulation::passes() const {
-  std::string text = "active passes, in the order of a step:\n";
+  std::string text = "a step, by stages: phase, pass, the set it runs over\n" + stepper_->stages();
   const auto list = [&](const char* kind, const auto& passes) {
-    for (const auto& pass : passes) text += fmt::format("  {:<12}{}\n", kind, pass->name());
+    for (const auto* pass : passes) text += fmt::format("  {:<13}{}\n", kind, pass->name());
   };
-  list("exchange", world_.exchangers);
-  list("rate", world_.rates);
-  list("material", world_.materials);
-  list("tally", world_.tallies);
-  list("force", world_.forces);
-  list("constraint", world_.constraints);
-  list("time limit", world_.time_limits);
-  list("energy", world_.energy_terms);
-  list("motion", world_.motions);
-  text += fmt::format("  {:<12}every {} steps\n", "guard", Guard::interval);
-  for (const PassNote& output : outputs(true)) text += fmt::format("  {:<12}{}\n", "output", output.name);
+  list("exchange", world_.passes.all<Exchanger>());
+  list("time limit", world_.passes.all<TimeLimit>());
+  list("energy", world_.passes.all<EnergyTerm>());
+  text += fmt::format("  {:<13}every {} steps\n", "guard", Guard::interval);
+  for (const PassNote& output : outputs(true)) text += fmt::format("  {:<13}{}\n", "output", output.name);
   text += injections_text(injections_, model_);
   text += "not needed by this deck:\n";
   for (const PassNote& note : left_out_) text += fmt::format("  {:<20}{}\n", note.name, note.reason);

@@ -91,7 +91,7 @@ class Simulation {
   Injections injections_;
   std::vector<PartMaterial> materials_;
   std::shared_ptr<Neighbours> neighbours_;
-  std::shared_ptr<Motion> mirrors_;  ///< null: none
+  std::shared_ptr<Relocation> mirrors_;  ///< null: none
   std::vector<std::shared_ptr<Contact>> contacts_;
   std::shared_ptr<RigidBodies> bodies_;
   std::vector<ImagePlane> planes_;

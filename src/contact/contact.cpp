@@ -129,6 +129,22 @@ std::string Contact::name() const {
   return fmt::format("contact {}", law_.id ? law_.id : number_);
 }
 
+void Contact::declare(const World& world, Accesses& a) const {
+  const Particles& p = world.particles;
+  const Nodes& n = world.nodes;
+  a.reads(p.x).reads(p.v).reads(p.m).updates(p.f).reads(*k_particle_).updates(*ghost_);
+  if (radius_) a.reads(*radius_);
+  if (law_.vc > 0) a.reads(p.rho);
+  if (const FieldBase* near_wall = p.fields.find("near_wall")) a.updates(*near_wall);
+  if (friction_on_)
+    for (std::size_t j = 0; j < 3; ++j) a.updates(*friction_normal_[j]).updates(*friction_force_[j]);
+  if (!moving_.empty()) a.reads(n.v, Reach::others);
+  a.in_start().reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*ghost_);
+  a.reads(n.x, Reach::others).reads(n.v, Reach::others);
+  a.updates(n.f).updates(world.segments.contact_force);
+  a.in_finish().updates(*leaked_).updates(n.f).updates(world.segments.contact_force);
+}
+
 void Contact::update_facets(const World& world, const Clock& clock) {
   if (moving_.empty()) return;
   const Real moved2 = maximum(Index(moving_.size()), [&](Index k) {

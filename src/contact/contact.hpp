@@ -55,6 +55,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
           const std::vector<bool>& tracked, World& world);
 
   std::string name() const override;
+  void declare(const World& world, Accesses& a) const override;
   void start(World& world, const Clock& clock) override;
   void block(World& world, const Clock& clock, Index begin, Index end) override;
   void finish(World& world, const Clock& clock) override;

@@ -55,6 +55,13 @@ class EosPass : public Material {
       same_for_all_ = same_for_all_ && part_.rho0[k] == part_.rho0[0] && part_.pc[k] == part_.pc[0];
   }
   std::string name() const override { return std::string("eos ") + Law::name; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.drhodt).reads(p.part).reads(p.m).updates(p.rho).updates(p.p).updates(p.E).updates(p.c);
+    a.reads(reference_volume_).reads(p.x).reads(p.id);
+    for (const char* heat : {"dissipation", "viscous_dissipation"})
+      if (const FieldBase* field = p.fields.find(heat)) a.reads_before(*field);
+  }
 
   void start(World& world, const Clock&) override {
     const FieldSet& fields = world.particles.fields;

@@ -129,7 +129,7 @@ void add_eos_passes(World& world, const Model& model, const std::vector<PartMate
   }
   for (EosLaw* law : order) {
     parts_of_law[law].all_parts = order.size() == 1;
-    world.materials.push_back(law->make_pass(parts_of_law[law], world));
+    world.passes.add(law->make_pass(parts_of_law[law], world));
   }
 }
 

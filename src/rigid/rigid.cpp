@@ -105,6 +105,10 @@ class BodyForces : public Constraint {
  public:
   explicit BodyForces(std::shared_ptr<RigidBodies> bodies) : bodies_(std::move(bodies)) {}
   std::string name() const override { return bodies_->name(); }
+  const FieldSet& over(const World& world) const override { return world.nodes.fields; }
+  void declare(const World& world, Accesses& a) const override {
+    a.in_finish().reads(world.nodes.f).reads(world.nodes.x);
+  }
   void block(World&, const Clock&, Index, Index) override {}
   void finish(World& world, const Clock& clock) override { bodies_->apply(world, clock); }
 
@@ -115,7 +119,11 @@ class BodyForces : public Constraint {
 class BodyMotion : public Motion {
  public:
   explicit BodyMotion(std::shared_ptr<RigidBodies> bodies) : bodies_(std::move(bodies)) {}
-  std::string name() const override { return bodies_->name(); }
+  std::string name() const override { return bodies_->name() + " (motion)"; }
+  const FieldSet& over(const World& world) const override { return world.nodes.fields; }
+  void declare(const World& world, Accesses& a) const override {
+    a.in_finish().updates(world.nodes.x).updates(world.nodes.v);
+  }
   void block(World&, const Clock&, Index, Index) override {}
   void finish(World& world, const Clock& clock) override {
     bodies_->kick(world, clock);
@@ -129,9 +137,9 @@ class BodyMotion : public Motion {
 }  // namespace
 
 void add_body_passes(World& world, std::shared_ptr<RigidBodies> bodies) {
-  world.constraints.push_back(std::make_shared<BodyForces>(bodies));
-  world.motions.push_back(std::make_shared<BodyMotion>(bodies));
-  world.energy_terms.push_back(bodies);
+  world.passes.add(std::make_shared<BodyForces>(bodies));
+  world.passes.add(std::make_shared<BodyMotion>(bodies));
+  world.passes.add(bodies);
 }
 
 Real RigidBodies::kinetic_energy() const {

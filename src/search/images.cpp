@@ -13,11 +13,16 @@ namespace courant {
 
 namespace {
 
-class Mirrors : public Motion {
+class Mirrors : public Relocation {
  public:
   Mirrors(std::vector<ImagePlane> mirrors, std::function<Vec(Real)> gravity)
       : mirrors_(std::move(mirrors)), gravity_(std::move(gravity)) {}
   std::string name() const override { return "mirrors"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.revises(p.x).revises(p.v);
+    if (const FieldBase* pull = p.fields.find("mirror_pull")) a.reads(*pull);
+  }
   void start(World& world, const Clock& clock) override {
     g_ = gravity_(clock.t);
     pull_ = dynamic_cast<const Field<Real>*>(world.particles.fields.find("mirror_pull"));
@@ -85,7 +90,7 @@ Images::Images(std::vector<ImagePlane> planes)
   }
 }
 
-std::shared_ptr<::courant::Motion> Images::make_mirrors(std::function<Vec(Real)> gravity) const {
+std::shared_ptr<Relocation> Images::make_mirrors(std::function<Vec(Real)> gravity) const {
   std::vector<ImagePlane> mirrors;
   for (const ImagePlane& plane : planes_)
     if (plane.kind == ImagePlane::Kind::mirror) mirrors.push_back(plane);
@@ -172,18 +177,25 @@ void Images::sort(World& world, std::span<const Index> order) {
     for (std::size_t k = 0; k < order.size(); ++k) scratch_[k] = (*list)[order[k]];
     list->swap(scratch_);
   }
-  before_rates(world);
+  exchange_all(world);
 }
 
-void Images::copy(World& world, Exchange when) const {
+void Images::exchange(World& world, std::span<const FieldBase* const> fields) {
   Particles& p = world.particles;
-  std::vector<Field<Real>*> fields;
+  std::vector<Field<Real>*> reals;
   for (const auto& field : p.fields.all())
-    if (field->info().exchange == when || field->info().exchange == Exchange::always)
-      fields.push_back(&dynamic_cast<Field<Real>&>(*field));
+    if (std::find(fields.begin(), fields.end(), field.get()) != fields.end())
+      reals.push_back(&dynamic_cast<Field<Real>&>(*field));
   for_each_block(count(), [&](Index begin, Index end) {
-    for (Field<Real>* field : fields) copy_block(*field, p.size(), field == &p.x, begin, end);
+    for (Field<Real>* field : reals) copy_block(*field, p.size(), field == &p.x, begin, end);
   });
+}
+
+void Images::exchange_all(World& world) {
+  std::vector<const FieldBase*> fields;
+  for (const auto& field : world.particles.fields.all())
+    if (field->info().exchange) fields.push_back(field.get());
+  exchange(world, fields);
 }
 
 /// To entities from `to` on.

@@ -53,7 +53,7 @@ class Images : public Exchanger {
   /// `gravity`: the acceleration at a time [L/T2]. It pulled the whole way, towards the mirror and then away
   /// from it, where it would have turned round: the speed across the mirror gives back what that was too
   /// much.
-  std::shared_ptr<::courant::Motion> make_mirrors(std::function<Vec(Real t)> gravity) const;
+  std::shared_ptr<Relocation> make_mirrors(std::function<Vec(Real t)> gravity) const;
   /// Brings back particles [0, n) that are outside.
   void bring_back(World& world, Index n);
   /// Sum of mass times shift of the active particles that the last call brought back through periodic planes
@@ -70,8 +70,8 @@ class Images : public Exchanger {
   /// Puts image k at order[k]'s place.
   void sort(World& world, std::span<const Index> order);
 
-  void before_rates(World& world) override { copy(world, Exchange::before_rates); }
-  void before_forces(World& world) override { copy(world, Exchange::before_forces); }
+  void exchange(World& world, std::span<const FieldBase* const> fields) override;
+  void exchange_all(World& world) override;
 
  private:
   /// x -> A x + b for places, A v for vectors, A S A^T for tensors.
@@ -85,7 +85,6 @@ class Images : public Exchanger {
   /// that are not.
   template <class Wanted>
   void find(const ImagePlane& plane, const Particles& p, Index n, const Wanted& is_wanted);
-  void copy(World& world, Exchange when) const;
   void copy_block(Field<Real>& field, Index to, bool place, Index begin, Index end) const;
 
   ParticleLoops loops_ = particle_loops();

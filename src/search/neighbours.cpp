@@ -20,10 +20,15 @@ constexpr Real longest_leap = 2;
 }  // namespace
 
 /// Looks whether something moved so far that lists may miss a pair.
-class Neighbours::Watch : public Motion {
+class Neighbours::Watch : public Preparation {
  public:
   explicit Watch(const Neighbours& lists) : lists_(lists) {}
   std::string name() const override { return "neighbours"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.x).reads(p.h);
+    if (lists_.inlet_) a.reads(p.state).reads(*lists_.inlet_);
+  }
 
   void start(World& world, const Clock&) override { prepare(world); }
   void block(World& world, const Clock&, Index begin, Index end) override {
@@ -116,7 +121,7 @@ Real Neighbours::time_to_reach(const Particles& p, Index i, Real reach) const {
   return time;
 }
 
-std::shared_ptr<Motion> Neighbours::watch() {
+std::shared_ptr<Preparation> Neighbours::watch() {
   return watch_;
 }
 
@@ -143,7 +148,7 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   remember_places(world, clock);
   built_ = true;
   ++rebuilds_;
-  for (auto& r : world.refreshes) r->refreshed(world, clock, order_);
+  for (Refresh* r : world.passes.all<Refresh>()) r->refreshed(world, clock, order_);
   return true;
 }
 

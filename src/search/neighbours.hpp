@@ -63,7 +63,7 @@ class Neighbours {
   void restore(World& world, const std::vector<std::pair<std::string, Keeper*>>& keepers);
 
   /// Looks, as the last pass of the motion stage, whether the lists still hold, so that `refresh` need not.
-  std::shared_ptr<Motion> watch();
+  std::shared_ptr<Preparation> watch();
 
   /// From now on blocks are shared by whole strips, for loops that work out each pair once, and lists lack
   /// particles of earlier groups where nobody needs them.

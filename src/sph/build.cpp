@@ -431,7 +431,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   std::vector<PassNote> left_out;
   const auto volumes = make_pair_volumes(world);
   const PairPasses pairs = make_pair_passes(s, world, neighbours, volumes);
-  world.rates.insert(world.rates.end(), pairs.rates.begin(), pairs.rates.end());
+  for (const auto& pass : pairs.rates) world.passes.add(pass);
   if (!s.walls.segments.empty())
     add_wall_support(s, world, *neighbours);
   else
@@ -466,30 +466,29 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
     left_out.push_back({"re-initialisation", "no *COURANT_DENSITY_REINITIALISATION"});
   if (s.geometry_eps == 0) left_out.push_back({"kept pair geometry", "no *COURANT_PAIR_GEOMETRY"});
   if (s.evolving_h)
-    world.motions.push_back(make_smoothing_length(s, world));
+    world.passes.add(make_smoothing_length(s, world));
   else
     left_out.push_back({"smoothing length", "HMIN = HMAX = 1: h is constant"});
   if (std::holds_alternative<BulkViscosity>(s.viscosity))
-    world.materials.push_back(make_bulk_viscosity(s, world));
+    world.passes.add(make_bulk_viscosity(s, world));
   else
     left_out.push_back({"bulk viscosity", riemann ? "*COURANT_RIEMANN takes the place of viscosity"
                                                   : "IAVIS 0: Monaghan viscosity between pairs"});
   if (s.mixing_length.most > 0)
-    world.materials.push_back(make_eddy_viscosity(s, world));
+    world.passes.add(make_eddy_viscosity(s, world));
   else
     left_out.push_back({"eddy viscosity", "no *COURANT_EDDY_VISCOSITY"});
   if (!s.mu.empty())
-    world.materials.push_back(make_viscous_stress(s, world));
+    world.passes.add(make_viscous_stress(s, world));
   else
     left_out.push_back({"viscous stress", "MU is 0 in all SPH materials"});
-  world.materials.push_back(volumes);
-  world.forces.insert(world.forces.end(), pairs.forces.begin(), pairs.forces.end());
+  for (const auto& pass : pairs.forces) world.passes.add(pass);
   if (s.maxv != 0)
-    world.constraints.push_back(make_speed_limit(s, neighbours));
+    world.passes.add(make_speed_limit(s, neighbours));
   else
     left_out.push_back({"speed limit MAXV", "none given"});
   if (!s.region) left_out.push_back({"computational box", "no BOXID"});
-  world.energy_terms.push_back(make_sph_energy(s, world, neighbours));
+  make_sph_energy(s, world, neighbours);
   return left_out;
 }
 

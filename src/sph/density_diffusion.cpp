@@ -30,6 +30,10 @@ class DensityDiffusion : public Rate {
         source_(s, world, true),
         rate_(sph_fields::density_diffusion(world.particles)) {}
   std::string name() const override { return riemann_ ? "Riemann flux (density)" : "density diffusion"; }
+  void declare(const World& world, Accesses& a) const override {
+    source_.declare(world.particles, a, riemann_);
+    a.reads(rate_);
+  }
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     source_.add(world.particles, rate_.data(), begin, end, riemann_ ? clock.dt_old : 0);
   }
@@ -41,11 +45,14 @@ class DensityDiffusion : public Rate {
 };
 
 /// -g.x as pair loops read it of neighbours.
-class GravityPotential : public Motion, public Refresh {
+class GravityPotential : public Preparation, public Refresh {
  public:
   GravityPotential(const SphSettings& s, World& world)
       : gravity_(s.gravity), potential_(sph_fields::potential(world.particles)) {}
   std::string name() const override { return "gravity's potential"; }
+  void declare(const World& world, Accesses& a) const override {
+    a.reads(world.particles.x).writes(potential_);
+  }
   void start(World&, const Clock& clock) override { g_ = gravity_(clock.t + clock.dt); }
   void block(World& world, const Clock&, Index begin, Index end) override {
     const Field<Real>& x = world.particles.x;
@@ -65,10 +72,8 @@ class GravityPotential : public Motion, public Refresh {
 }  // namespace
 
 void add_density_diffusion(const SphSettings& s, World& world) {
-  world.rates.push_back(std::make_shared<DensityDiffusion>(s, world));
-  const auto potential = std::make_shared<GravityPotential>(s, world);
-  world.motions.push_back(potential);
-  world.refreshes.push_back(potential);
+  world.passes.add(std::make_shared<DensityDiffusion>(s, world));
+  world.passes.add(std::make_shared<GravityPotential>(s, world));
 }
 
 }  // namespace courant

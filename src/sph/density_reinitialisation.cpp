@@ -58,6 +58,12 @@ class DensityReinitialisation : public Rate {
     if (rules_.linear) world.counters.try_emplace(counter, 0);
   }
   std::string name() const override { return "density re-initialisation"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    source_.declare(p, a, true);
+    a.reads(p.x, Reach::others).reads(p.m, Reach::others).reads(p.h);
+    a.reads(volumes_->before(), Reach::others).updates(rate_);
+  }
 
   void start(World& world, const Clock& clock) override {
     due_ = clock.cycle > 0 && clock.cycle % rules_.every == 0;
@@ -160,7 +166,7 @@ ReinitialisationRules read_density_reinitialisation(const Deck& deck, const Mode
 
 void add_density_reinitialisation(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                                   std::shared_ptr<PairVolumes> volumes) {
-  world.rates.push_back(
+  world.passes.add(
       std::make_shared<DensityReinitialisation>(s, world, std::move(neighbours), std::move(volumes)));
 }
 

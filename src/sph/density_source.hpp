@@ -30,6 +30,19 @@ class DensitySource {
       heat[i] -= (pressure[i] + 0.5 * c[i] * c[i] * change) * m[i] / (rho[i] * (rho[i] + change)) * source[i];
     }
   }
+  /// `with_step`: whether `add` is given one.
+  void declare(const Particles& p, Accesses& a, bool with_step = false) const {
+    a.reads_before(p.rho).reads(p.m).reads_before(p.p).reads_before(p.c);
+    if (with_step)
+      a.revises(p.drhodt);
+    else
+      a.updates(p.drhodt);
+    if (first_ && bulk_)
+      a.writes(heat_).writes(*sources_).reads(*bulk_);
+    else
+      a.updates(heat_);
+    if (!first_ && sources_) a.updates(*sources_);
+  }
   /// The same for no source. Bulk viscosity's heat of this step is not known yet: the equation of state takes
   /// that of the step before, with the sources' of this one.
   void none(Index begin, Index end) {

@@ -35,6 +35,20 @@ Drift::Drift(DriftRules rules, std::vector<ImagePlane> mirrors, std::function<Ve
   if (std::isfinite(rules_.longest)) world.counters.try_emplace(rules_.statistics + "_shortened", 0);
 }
 
+void Drift::declare(const World& world, Accesses& a) const {
+  const Particles& p = world.particles;
+  a.updates(p.x).reads(p.h).reads(p.m).reads(velocity_).reads(near_wall_);
+  if (rules_.first)
+    a.writes(drifted_);
+  else
+    a.updates(drifted_);
+  for (const char* name : {"fixed", "prescribed_motion"})
+    if (const FieldBase* field = p.fields.find(name)) a.reads(*field);
+  if (!rules_.correct) return;
+  a.updates(p.v);
+  for (const Field<Real>* gradient : velocity_gradient_) a.reads(*gradient);
+}
+
 void Drift::start(World& world, const Clock& clock) {
   const FieldSet& fields = world.particles.fields;
   fixed_ = dynamic_cast<const Field<Index>*>(fields.find("fixed"));
@@ -117,9 +131,7 @@ void note_farthest(World& world, const std::string& statistic, Real value) {
 
 void add_drifts(const SphSettings& s, const std::function<Vec(Real t)>& gravity, World& world) {
   const auto add = [&](DriftRules rules) {
-    auto drift = std::make_shared<Drift>(std::move(rules), s.mirrors, gravity, world);
-    world.motions.push_back(drift);
-    world.refreshes.push_back(drift);
+    world.passes.add(std::make_shared<Drift>(std::move(rules), s.mirrors, gravity, world));
   };
   constexpr Real longest_shift = 0.1;
   const bool shifts = s.shift.strength > 0;
@@ -135,6 +147,17 @@ DriftDensity::DriftDensity(World& world)
     : drifted_(sph_fields::drifted(world.particles)),
       rate_(sph_fields::drift_rate(world.particles)),
       pressure_(sph_fields::pressure_before(world.particles)) {}
+
+void DriftDensity::declare(const World& world, Accesses& a) const {
+  const Particles& p = world.particles;
+  a.reads(p.rho).reads(p.drhodt).reads(p.p).reads(p.m).reads(pressure_).reads(rate_);
+}
+
+void DriftDensity::declare_rate(const World& world, Accesses& a) const {
+  const Particles& p = world.particles;
+  a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(drifted_, Reach::others);
+  a.reads_before(p.rho).updates(p.drhodt).writes(rate_).reads_before(p.p).writes(pressure_);
+}
 
 void DriftDensity::take_arrays(Particles& p, const Clock& clock, DriftArrays& a) {
   for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.v[k] = p.v.data(k), a.drifted[k] = drifted_.data(k);
@@ -171,10 +194,7 @@ void DriftDensity::record(World&, const Clock&, EnergyLedger& ledger) {
 }
 
 std::shared_ptr<DriftDensity> add_drift_density(World& world) {
-  auto density = std::make_shared<DriftDensity>(world);
-  world.tallies.push_back(density);
-  world.energy_terms.push_back(density);
-  return density;
+  return world.passes.add(std::make_shared<DriftDensity>(world));
 }
 
 namespace {
@@ -188,6 +208,10 @@ class DriftRate : public Rate {
         volumes_(std::move(volumes)),
         density_(add_drift_density(world)) {}
   std::string name() const override { return "drift (density)"; }
+  void declare(const World& world, Accesses& a) const override {
+    density_->declare_rate(world, a);
+    a.reads(world.particles.h).reads(volumes_->before(), Reach::others);
+  }
   void start(World& world, const Clock& clock) override {
     a_.h = world.particles.h.data(), a_.V = volumes_->current();
     density_->take_arrays(world.particles, clock, a_);
@@ -209,7 +233,7 @@ class DriftRate : public Rate {
 
 void add_drift_rate(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                     std::shared_ptr<PairVolumes> volumes) {
-  world.rates.push_back(std::make_shared<DriftRate>(s, world, std::move(neighbours), std::move(volumes)));
+  world.passes.add(std::make_shared<DriftRate>(s, world, std::move(neighbours), std::move(volumes)));
 }
 
 }  // namespace courant

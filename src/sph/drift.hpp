@@ -27,10 +27,11 @@ struct DriftRules {
 /// density does is a rate of the next step. What stands near a wall of contact does not drift, nor do
 /// particles that are held or driven; none drifts across a mirror. What potential and kinetic energy lose
 /// counts as dissipated.
-class Drift : public Motion, public Refresh {
+class Drift : public Relocation, public Refresh {
  public:
   Drift(DriftRules rules, std::vector<ImagePlane> mirrors, std::function<Vec(Real t)> gravity, World& world);
   std::string name() const override { return rules_.name; }
+  void declare(const World& world, Accesses& a) const override;
   void start(World& world, const Clock& clock) override;
   void block(World& world, const Clock& clock, Index begin, Index end) override;
   void finish(World& world, const Clock& clock) override;
@@ -65,6 +66,9 @@ class DriftDensity : public Tally, public EnergyTerm {
  public:
   explicit DriftDensity(World& world);
   std::string name() const override { return "drift work"; }
+  void declare(const World& world, Accesses& a) const override;
+  /// What `take_arrays` and `add` touch, for the rate that calls them.
+  void declare_rate(const World& world, Accesses& a) const;
   /// Places, velocities, drifts and densities for the loops.
   void take_arrays(Particles& p, const Clock& clock, DriftArrays& a);
   /// Among the rates: what the loop has found out.

@@ -13,6 +13,13 @@ class DynamicViscosity {
   DynamicViscosity(const SphSettings& s, World& world)
       : mu_(s.mu), both_(s.mixing_length.most > 0 ? &sph_fields::viscosity(world.particles) : nullptr) {}
   bool none() const { return mu_.empty(); }
+  void declare(const Particles& p, Accesses& a) const {
+    if (none()) return;
+    if (both_)
+      a.reads(*both_);
+    else
+      a.reads(p.part);
+  }
   /// Where there is some.
   Real of(const Particles& p, Index i) const { return both_ ? (*both_)[i] : mu_[p.part[i]]; }
 

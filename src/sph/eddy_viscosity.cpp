@@ -63,6 +63,10 @@ class EddyViscosity : public Material {
     for (Index i = 0; i < world.particles.size(); ++i) viscosity_[i] = mu_[world.particles.part[i]];
   }
   std::string name() const override { return "eddy viscosity"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(rate_).reads(p.x).reads(p.part).reads(p.rho).writes(viscosity_);
+  }
   void block(World& world, const Clock&, Index begin, Index end) override {
     const Particles& p = world.particles;
     for (Index i = begin; i < end; ++i) {

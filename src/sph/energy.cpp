@@ -32,6 +32,10 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
     tau_ = &sph_fields::stress(p);
   }
   std::string name() const override { return "sph energy"; }
+  void declare(const World& world, Accesses& a) const override {
+    a.reads(heat_).reads(world.particles.part);
+    if (viscous_) a.reads(*viscous_);
+  }
 
   void start(World& world, const Clock&) override { power_.resize(block_count(world.particles.active)); }
   void block(World& world, const Clock&, Index begin, Index end) override {
@@ -189,10 +193,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
 
 std::shared_ptr<EnergyTerm> make_sph_energy(const SphSettings& s, World& world,
                                             std::shared_ptr<Neighbours> neighbours) {
-  auto energy = std::make_shared<SphEnergy>(s, world, std::move(neighbours));
-  world.tallies.push_back(energy);
-  world.refreshes.push_back(energy);
-  return energy;
+  return world.passes.add(std::make_shared<SphEnergy>(s, world, std::move(neighbours)));
 }
 
 }  // namespace courant

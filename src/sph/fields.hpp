@@ -13,13 +13,13 @@ inline Field<Real>& strain_rate(Particles& p) {
 /// Viscous stress: xx yy zz xy yz zx. Particles beside the box keep that of when they were active.
 inline Field<Real>& stress(Particles& p) {
   return p.fields.add<Real>(
-      {.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = Exchange::before_forces});
+      {.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = true});
 }
 
 /// q1 c at the last motion; c for a Riemann flux
 inline Field<Real>& viscous_speed(Particles& p) {
   return p.fields.add<Real>(
-      {.name = "viscous_speed", .dimension = "L/T", .restart = false, .exchange = Exchange::before_rates});
+      {.name = "viscous_speed", .dimension = "L/T", .restart = false, .exchange = true});
 }
 /// MU and eddy viscosity, of the last materials
 inline Field<Real>& viscosity(Particles& p) {
@@ -30,7 +30,7 @@ inline Field<Real>& pressure_plus_q(Particles& p) {
   return p.fields.add<Real>({.name = "pressure_plus_q",
                              .dimension = "M/LT2",
                              .restart = false,
-                             .exchange = Exchange::before_forces});
+                             .exchange = true});
 }
 /// Rate of density by diffusion, of the last forces: the next rates take it.
 inline Field<Real>& density_diffusion(Particles& p) {
@@ -43,7 +43,7 @@ inline Field<Real>& volume_rate(Particles& p) {
 /// Inverse of the moment matrix, or 1, less 1
 inline Field<Real>& renormalisation(Particles& p) {
   return p.fields.add<Real>(
-      {.name = "renormalisation", .dimension = "-", .components = 6, .exchange = Exchange::before_forces});
+      {.name = "renormalisation", .dimension = "-", .components = 6, .exchange = true});
 }
 /// Moment matrix sum_j V_j (x_j - x_i) (x) grad W_ij
 inline Field<Real>& moment(Particles& p) {
@@ -60,11 +60,11 @@ inline Field<Real>& reinitialisation_rate(Particles& p) {
 }
 /// -g.x of gravity; images have that of their particle, as they have its pressure.
 inline Field<Real>& potential(Particles& p) {
-  return p.fields.add<Real>({.name = "potential", .dimension = "L2/T2", .exchange = Exchange::before_rates});
+  return p.fields.add<Real>({.name = "potential", .dimension = "L2/T2", .exchange = true});
 }
 /// sum_j V_j (x_j - x_i).grad W_ij, 2 or 3 inside, of the last rates, as neighbours read it.
 inline Field<Real>& spread(Particles& p) {
-  return p.fields.add<Real>({.name = "spread", .dimension = "-", .exchange = Exchange::before_rates});
+  return p.fields.add<Real>({.name = "spread", .dimension = "-", .exchange = true});
 }
 /// The same of the present rates.
 inline Field<Real>& new_spread(Particles& p) {
@@ -106,7 +106,7 @@ inline Field<Real>& pressure_before(Particles& p) {
 /// How places changed in the last step besides the velocity
 inline Field<Real>& drifted(Particles& p) {
   return p.fields.add<Real>(
-      {.name = "drifted", .dimension = "L/T", .components = 3, .exchange = Exchange::before_rates});
+      {.name = "drifted", .dimension = "L/T", .components = 3, .exchange = true});
 }
 /// 1/theta(dx/h) at the start, without the constant of theta
 inline Field<Real>& kernel_at_spacing(Particles& p) {

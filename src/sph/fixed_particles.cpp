@@ -22,6 +22,10 @@ class FixedParticles : public Constraint, public BoundaryForceReporter {
           {.name = "support_force", .dimension = "ML/T2", .components = 3, .restart = false});
   }
   std::string name() const override { return "fixed particles (SPC)"; }
+  void declare(const World& world, Accesses& a) const override {
+    a.reads(fixed_).revises(world.particles.f).updates(world.particles.v);
+    if (support_) a.writes(*support_);
+  }
   void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
     if (support_)

@@ -17,6 +17,10 @@ class PairForces : public Force {
     load_ = forces_loop(choice);
   }
   std::string name() const override { return "sph forces"; }
+  void declare(const World& world, Accesses& a) const override {
+    fields_.declare_pairs(world.particles, *volumes_, a);
+    a.writes(geometry_->partner_shares()).reads(geometry_->gradients());
+  }
 
   void start(World& world, const Clock&) override {
     geometry_->make_room_for_shares(forces_shares(world.dim, fields_.diffusion()), world.shares);

@@ -41,6 +41,9 @@ class Gravity : public Force, public EnergyTerm, public Refresh, public Keeper {
     }
   }
   std::string name() const override { return "gravity"; }
+  void declare(const World& world, Accesses& a) const override {
+    a.reads(world.particles.m).updates(world.particles.f);
+  }
 
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     Particles& p = world.particles;
@@ -100,10 +103,7 @@ class Gravity : public Force, public EnergyTerm, public Refresh, public Keeper {
 
 std::shared_ptr<Force> make_gravity(const Model& model, World& world,
                                     std::shared_ptr<Neighbours> neighbours) {
-  auto gravity = std::make_shared<Gravity>(model, world, std::move(neighbours));
-  world.refreshes.push_back(gravity);
-  world.energy_terms.push_back(gravity);
-  return gravity;
+  return std::make_shared<Gravity>(model, world, std::move(neighbours));
 }
 
 }  // namespace courant

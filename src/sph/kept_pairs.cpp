@@ -83,6 +83,12 @@ class KeptRates : public Rate, public Keeper {
         fix_(fix_loop(s.kernel, s.dim)),
         loop_(kept_rates_loop(choice)) {}
   std::string name() const override { return name_; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    fields_.declare_pairs(p, *volumes_, a);
+    a.writes(pairs_->gradients()).reads(p.part).reads(p.c);
+    if (fields_.viscous()) a.in_start().writes(fields_.viscous_speed());
+  }
 
   void start(World& world, const Clock& clock) override {
     Particles& p = world.particles;
@@ -91,10 +97,12 @@ class KeptRates : public Rate, public Keeper {
     if (!opens_) return;
     ++world.counters["pair_geometry_windows"];
     if (fields_.viscous()) {
+      const Field<Real>& speed = sph_fields::viscous_speed(p);
       Real* qc = sph_fields::viscous_speed(p).data();
       for_each_block(p.moving,
                      [&](Index begin, Index end) { work_out_viscous_speed(q_, p, begin, end, qc); });
-      for (const auto& e : world.exchangers) e->before_rates(world);  // images have it, too
+      const FieldBase* changed[] = {&speed};
+      for (Exchanger* e : world.passes.all<Exchanger>()) e->exchange(world, changed);
     }
     pairs_->prepare(a_);
     copy(a_.V, p.moving, V_);
@@ -139,7 +147,7 @@ class KeptRates : public Rate, public Keeper {
       std::swap_ranges(v_[k].begin(), v_[k].end(), p.v.data(k));
     }
     if (fields_.viscous()) std::swap_ranges(qc_.begin(), qc_.end(), sph_fields::viscous_speed(p).data());
-    for (const auto& e : world.exchangers) e->before_rates(world);
+    for (Exchanger* e : world.passes.all<Exchanger>()) e->exchange_all(world);
   }
 
   std::string name_;
@@ -162,6 +170,10 @@ class KeptForces : public Force {
         fields_(fields),
         loop_(kept_forces_loop(choice)) {}
   std::string name() const override { return "sph forces"; }
+  void declare(const World& world, Accesses& a) const override {
+    fields_.declare_pairs(world.particles, *volumes_, a);
+    a.reads(pairs_->gradients());
+  }
   void start(World& world, const Clock&) override { a_ = fields_.arrays(world.particles, *volumes_); }
   void block(World&, const Clock&, Index begin, Index end) override { loop_(a_, pairs_->lists(begin, end)); }
 
@@ -174,10 +186,14 @@ class KeptForces : public Force {
 };
 
 /// Closes the window when particles have moved too far, or their order changes.
-class WindowWatch : public Motion, public Refresh {
+class WindowWatch : public Preparation, public Refresh {
  public:
   explicit WindowWatch(std::shared_ptr<KeptPairs> pairs) : pairs_(std::move(pairs)) {}
   std::string name() const override { return "kept pair geometry"; }
+  void declare(const World& world, Accesses& a) const override {
+    a.reads(world.particles.v);
+    a.in_finish().reads(world.particles.h);
+  }
   void start(World& world, const Clock&) override {
     fastest2_.assign(static_cast<std::size_t>(block_count(world.particles.moving)), 0);
   }
@@ -208,9 +224,7 @@ PairPasses make_kept_passes(const SphSettings& s, World& world, std::shared_ptr<
   const KeptChoice choice{s.dim,           rates.viscous(),    rates.gradient(),
                           forces.stress(), forces.diffusion(), rates.quadratic()};
   const auto pairs = std::make_shared<KeptPairs>(s, std::move(neighbours), choice);
-  auto watch = std::make_shared<WindowWatch>(pairs);
-  world.motions.push_back(watch);
-  world.refreshes.push_back(watch);
+  world.passes.add(std::make_shared<WindowWatch>(pairs));
   return {{std::make_shared<KeptRates>(s, choice, rates, pairs, volumes)},
           {std::make_shared<KeptForces>(choice, forces, pairs, volumes)}};
 }

@@ -41,6 +41,7 @@ class KeptPairs {
  public:
   KeptPairs(const SphSettings& settings, std::shared_ptr<Neighbours> neighbours, const KeptChoice& choice);
   Window window;
+  const Resource& gradients() const { return gradients_; }
   bool open(Real h, const Clock& clock);
   /// Before the lists of a window that just opened are filled.
   void prepare(const PairArrays&);
@@ -53,6 +54,7 @@ class KeptPairs {
     Buffer<Float16> factors;
     std::array<Index, Neighbours::groups_per_block + 1> start;
   };
+  Resource gradients_{"kept gradients", "particles"};
   std::shared_ptr<Neighbours> neighbours_;
   KernelChoice kernel_;
   int dim_;

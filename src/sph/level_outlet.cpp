@@ -94,6 +94,10 @@ class LevelOutlet : public Force, public TimeLimit, public EnergyTerm, public Ke
  public:
   explicit LevelOutlet(Outlet outlet) : o_(std::move(outlet)), name_(fmt::format("level outlet {}", o_.id)) {}
   std::string name() const override { return name_; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.x).reads(p.v).reads(p.m).reads(p.rho).updates(p.f);
+  }
 
   void start(World& world, const Clock&) override {
     U_ = next_U_, works_ = next_works_;
@@ -304,10 +308,7 @@ bool add_level_outlets(const Deck& deck, const Model& model, const SphSettings& 
                        std::span<const ImagePlane> planes, World& world, Diagnostics& diagnostics) {
   const std::vector<Outlet> outlets = Builder(deck, model, settings, planes, world, diagnostics).build();
   for (const Outlet& outlet : outlets) {
-    const auto pass = std::make_shared<LevelOutlet>(outlet);
-    world.forces.push_back(pass);
-    world.time_limits.push_back(pass);
-    world.energy_terms.push_back(pass);
+    world.passes.add(std::make_shared<LevelOutlet>(outlet));
   }
   return !outlets.empty();
 }

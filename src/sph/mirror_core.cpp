@@ -41,6 +41,10 @@ class MirrorCore : public Rate {
     }
   }
   std::string name() const override { return "mirror core (rates)"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.x).reads(p.v).reads(p.m).reads(p.h).reads(p.part).updates(p.drhodt);
+  }
 
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     if (!(clock.dt_old > 0)) return;
@@ -109,6 +113,11 @@ class MirrorCoreForce : public Force {
       total_pressure_ = &sph_fields::pressure_plus_q(world.particles);
   }
   std::string name() const override { return "mirror core"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.x).reads(p.m).reads(p.rho).reads(p.h).reads(p.part);
+    a.reads(total_pressure_ ? *total_pressure_ : p.p).updates(p.f).writes(pull_);
+  }
 
   void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
@@ -136,8 +145,8 @@ void add_mirror_core(const SphSettings& settings, const std::vector<ImagePlane>&
     if (plane.kind == ImagePlane::Kind::mirror) mirrors.push_back(plane);
   if (mirrors.empty()) return;
   auto core = std::make_shared<MirrorCore>(settings, world, std::move(mirrors));
-  world.rates.push_back(core);
-  world.forces.push_back(std::make_shared<MirrorCoreForce>(settings, world, core));
+  world.passes.add(core);
+  world.passes.add(std::make_shared<MirrorCoreForce>(settings, world, core));
 }
 
 }  // namespace courant

@@ -22,12 +22,28 @@ RateFields::RateFields(const SphSettings& s, Particles& p) : heat_(&sph_fields::
 
 PairArrays RateFields::arrays(Particles& p, const PairVolumes& volumes) const {
   PairArrays a = particle_arrays(p);
+  for (int k = 0; k < 3; ++k) a.v[k] = p.v.data(k);
+  a.m = p.m.data(), a.rho = p.rho.data(), a.drhodt = p.drhodt.data();
   a.V = volumes.current();
   a.qc = viscous_speed_ ? viscous_speed_->data() : nullptr;
-  a.heat = heat_->data();
+  a.heat = viscous() ? heat_->data() : nullptr;
   a.q2 = quadratic() ? q2_ : 0;
   for (int k = 0; k < 6; ++k) a.strain[k] = strain_ ? strain_->data(k) : nullptr;
   return a;
+}
+
+void RateFields::declare_pairs(const Particles& p, const PairVolumes& volumes, Accesses& a) const {
+  a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.h, Reach::others).reads(p.m, Reach::others);
+  a.reads(volumes.before(), Reach::others).reads_before(p.rho).writes(p.drhodt);
+  a.updates(p.f);
+  if (viscous()) a.reads(*viscous_speed_, Reach::others).writes(*heat_);
+  if (strain_) a.writes(*strain_);
+}
+
+void RateFields::declare_partners(const Particles& p, Accesses& a) const {
+  a.reads(p.x).reads(p.v).reads(p.h).reads(p.m).reads_before(p.rho).updates(p.drhodt).updates(p.f);
+  if (viscous()) a.reads(*viscous_speed_).updates(*heat_);
+  if (strain_) a.updates(*strain_);
 }
 
 ForceFields::ForceFields(const SphSettings& s, Particles& p) : delta_(s.density_diffusion) {
@@ -44,6 +60,7 @@ PairArrays ForceFields::arrays(Particles& p, const PairVolumes& volumes) const {
   a.V = volumes.current();
   a.p = total_pressure_ ? total_pressure_->data() : p.p.data();
   if (diffusion_) {
+    a.rho = p.rho.data();
     a.c = p.c.data();
     a.diffusion = diffusion_->data();
     a.delta = delta_;
@@ -51,6 +68,20 @@ PairArrays ForceFields::arrays(Particles& p, const PairVolumes& volumes) const {
   }
   for (int k = 0; k < 6; ++k) a.tau[k] = tau_ ? tau_->data(k) : nullptr;
   return a;
+}
+
+void ForceFields::declare_pairs(const Particles& p, const PairVolumes& volumes, Accesses& a) const {
+  a.reads(p.x, Reach::others).reads(p.h, Reach::others).updates(p.f);
+  a.reads(volumes.now(), Reach::others).reads(total_pressure_ ? *total_pressure_ : p.p, Reach::others);
+  if (diffusion_)
+    a.reads(p.rho, Reach::others).reads(p.c).reads(*potential_, Reach::others).writes(*diffusion_);
+  if (tau_) a.reads(*tau_, Reach::others);
+}
+
+void ForceFields::declare_partners(const Particles& p, Accesses& a) const {
+  a.reads(p.x).reads(p.h).updates(p.f).reads(total_pressure_ ? *total_pressure_ : p.p);
+  if (diffusion_) a.reads(p.rho).reads(p.c).reads(*potential_).updates(*diffusion_);
+  if (tau_) a.reads(*tau_);
 }
 
 }  // namespace courant

@@ -15,10 +15,14 @@ class RateFields {
  public:
   RateFields(const SphSettings& s, Particles& p);
   bool viscous() const { return viscous_speed_ != nullptr; }
+  const Field<Real>& viscous_speed() const { return *viscous_speed_; }
   /// Viscosity has its quadratic part: no velocity is so high that less would matter. Decks cannot say 0.
   bool quadratic() const { return viscous() && q2_ > 1e-12; }
   bool gradient() const { return strain_ != nullptr; }
   PairArrays arrays(Particles& p, const PairVolumes& volumes) const;
+  /// What the loop over pairs does with them, and what the loop over partners does.
+  void declare_pairs(const Particles& p, const PairVolumes& volumes, Accesses& a) const;
+  void declare_partners(const Particles& p, Accesses& a) const;
 
  private:
   Field<Real>* heat_;
@@ -35,6 +39,8 @@ class ForceFields {
   bool stress() const { return tau_ != nullptr; }
   bool diffusion() const { return diffusion_ != nullptr; }
   PairArrays arrays(Particles& p, const PairVolumes& volumes) const;
+  void declare_pairs(const Particles& p, const PairVolumes& volumes, Accesses& a) const;
+  void declare_partners(const Particles& p, Accesses& a) const;
 
  private:
   Field<Real>* total_pressure_ = nullptr;

@@ -26,6 +26,10 @@ class PairGeometry {
       neighbours_->need_whole_lists();
   }
 
+  /// What the loops leave for partners, and gradients for the forces.
+  const Resource& partner_shares() const { return partner_shares_; }
+  const Resource& gradients() const { return gradients_; }
+
   /// Whether partners must get their shares from where the loops leave them.
   bool once() const { return once_; }
 
@@ -93,6 +97,7 @@ class PairGeometry {
     Buffer<Real> g;
     std::array<Index, Neighbours::groups_per_block + 1> start;
   };
+  Resource partner_shares_{"shares of partners", "particles"}, gradients_{"gradients of pairs", "particles"};
   std::shared_ptr<Neighbours> neighbours_;
   bool once_;
   std::int64_t most_kept_;

@@ -12,7 +12,12 @@ PairVolumes::PairVolumes(World& world) {
   const char* names[] = {"volume", "other_volume"};
   for (int k = 0; k < 2; ++k)
     fields_[k] = &fields.add<Real>(
-        {.name = names[k], .dimension = "L3", .restart = false, .exchange = Exchange::always});
+        {.name = names[k], .dimension = "L3", .restart = false, .exchange = true});
+}
+
+void PairVolumes::declare(const World& world, Accesses& a) const {
+  a.reads(world.particles.m).reads(world.particles.rho).writes(next_);
+  a.in_finish().writes(now_);
 }
 
 void PairVolumes::block(World& world, const Clock&, Index begin, Index end) {
@@ -34,9 +39,7 @@ void PairVolumes::fill(World& world) {
 }
 
 std::shared_ptr<PairVolumes> make_pair_volumes(World& world) {
-  auto volumes = std::make_shared<PairVolumes>(world);
-  world.refreshes.push_back(volumes);
-  return volumes;
+  return world.passes.add(std::make_shared<PairVolumes>(world));
 }
 
 }  // namespace courant

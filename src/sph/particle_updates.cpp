@@ -27,6 +27,12 @@ class BulkViscosityPass : public Material, public Refresh, public Keeper {
     sources_ = &sph_fields::density_sources(world.particles);
   }
   std::string name() const override { return "bulk viscosity"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.drhodt).reads(p.rho).reads(p.h).reads(p.c).reads(p.p).reads(p.m).reads(p.part).writes(total_);
+    a.updates(heat_);
+    if (bulk_) a.updates(*bulk_).reads(*sources_);
+  }
   void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
     for (Index i = begin; i < end; ++i) {
@@ -63,6 +69,11 @@ class ViscousStress : public Material {
         tau_(sph_fields::stress(world.particles)),
         power_(sph_fields::viscous_dissipation(world.particles)) {}
   std::string name() const override { return "viscous stress"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    viscosity_.declare(p, a);
+    a.reads(rate_).reads(p.m).reads(p.rho).writes(tau_).writes(power_);
+  }
   void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
     for (Index i = begin; i < end; ++i) {
@@ -86,7 +97,7 @@ class ViscousStress : public Material {
 
 /// DERIV 0: dh/dt = h div v / dim, within HMIN h0 and HMAX h0. Particles at a bound are counted. Neighbours
 /// read h during the rates, so it follows the density at the end of the step.
-class SmoothingLength : public Motion {
+class SmoothingLength : public Preparation {
  public:
   SmoothingLength(const SphSettings& s, World& world)
       : low_(s.h_min_factor),
@@ -96,6 +107,10 @@ class SmoothingLength : public Motion {
     world.counters["smoothing_length_at_bound"] = 0;
   }
   std::string name() const override { return "smoothing length"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.drhodt).reads(p.rho).reads(p.part).reads(h0_).updates(p.h);
+  }
   void start(World& world, const Clock&) override {
     at_bound_.assign(block_count(world.particles.moving), 0);
   }
@@ -122,14 +137,12 @@ class SmoothingLength : public Motion {
 }  // namespace
 
 std::shared_ptr<Material> make_bulk_viscosity(const SphSettings& s, World& world) {
-  auto pass = std::make_shared<BulkViscosityPass>(s, world);
-  world.refreshes.push_back(pass);
-  return pass;
+  return std::make_shared<BulkViscosityPass>(s, world);
 }
 std::shared_ptr<Material> make_viscous_stress(const SphSettings& s, World& world) {
   return std::make_shared<ViscousStress>(s, world);
 }
-std::shared_ptr<Motion> make_smoothing_length(const SphSettings& s, World& world) {
+std::shared_ptr<Preparation> make_smoothing_length(const SphSettings& s, World& world) {
   return std::make_shared<SmoothingLength>(s, world);
 }
 

@@ -1,5 +1,7 @@
 // What particles get of pairs that the group of the other particle has worked out, once all threads have left
 // their shares.
+#include <type_traits>
+
 #include "sph/pair_fields.hpp"
 #include "sph/pair_passes.hpp"
 #include "sph/partner_loops.hpp"
@@ -22,7 +24,10 @@ class Partners : public Kind {
         volumes_(std::move(volumes)),
         loop_(loop) {}
   std::string name() const override { return name_; }
-  bool waits() const override { return true; }
+  void declare(const World& world, Accesses& a) const override {
+    fields_.declare_partners(world.particles, a);
+    a.reads(turn()).reads(geometry_->partner_shares(), Reach::others);
+  }
 
   void start(World& world, const Clock&) override {
     a_ = fields_.arrays(world.particles, *volumes_);
@@ -34,6 +39,9 @@ class Partners : public Kind {
   }
 
  private:
+  const Resource& turn() const {
+    return std::is_same_v<Kind, Rate> ? volumes_->before() : volumes_->now();
+  }
   std::string name_;
   KernelChoice kernel_;
   Fields fields_;

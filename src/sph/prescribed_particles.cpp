@@ -17,12 +17,15 @@ using Group = std::vector<std::size_t>;
 
 /// Gives driven particles the velocity of the coming half step before they are kicked and moved, and takes
 /// the force along it away. What the drive does of work is external.
-class PrescribedParticles : public Motion, public EnergyTerm, public BoundaryForceReporter {
+class PrescribedParticles : public Drive, public EnergyTerm, public BoundaryForceReporter {
  public:
   PrescribedParticles(std::vector<PrescribedMotion> motions, std::vector<Group> groups, Field<Index>& group,
                       Field<Real>* work)
       : motions_(std::move(motions)), groups_(std::move(groups)), group_(group), work_(work) {}
   std::string name() const override { return "prescribed particles"; }
+  void declare(const World& world, Accesses& a) const override {
+    a.updates(world.particles.v).updates(world.particles.f).reads(group_);
+  }
 
   void start(World&, const Clock& clock) override { choose(clock); }
   void block(World& world, const Clock&, Index begin, Index end) override {
@@ -212,9 +215,7 @@ bool add_prescribed_particles(const std::vector<PrescribedMotion>& motions, cons
   for (const PrescribedMotion& motion : motions)
     if (motion.part < 0) builder.add(motion);
   if (!builder.any() || !diagnostics.ok()) return false;
-  const auto pass = builder.finish(world);
-  world.motions.push_back(pass);
-  world.energy_terms.push_back(pass);
+  world.passes.add(builder.finish(world));
   return true;
 }
 

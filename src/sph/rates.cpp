@@ -18,6 +18,10 @@ class PairRates : public Rate {
     loop_ = rates_loop({s.dim, s.uniform_h, fields_.viscous(), fields_.gradient(), s.kernel});
   }
   std::string name() const override { return name_; }
+  void declare(const World& world, Accesses& a) const override {
+    fields_.declare_pairs(world.particles, *volumes_, a);
+    a.writes(geometry_->partner_shares()).writes(geometry_->gradients());
+  }
 
   void start(World& world, const Clock& clock) override {
     geometry_->prepare();
@@ -41,11 +45,14 @@ class PairRates : public Rate {
 
 /// Keeps q1 c as pair loops read it of neighbours: while threads work on the rates, the sound speed already
 /// changes.
-class ViscousSpeed : public Motion, public Refresh, public Keeper {
+class ViscousSpeed : public Preparation, public Refresh, public Keeper {
  public:
   ViscousSpeed(const SphSettings& s, World& world)
       : q_(s.q), speed_(sph_fields::viscous_speed(world.particles)) {}
   std::string name() const override { return "sph factors"; }
+  void declare(const World& world, Accesses& a) const override {
+    a.reads(world.particles.c).reads(world.particles.part).writes(speed_);
+  }
   void block(World& world, const Clock&, Index begin, Index end) override {
     work_out_viscous_speed(q_, world.particles, begin, end, speed_.data());
   }
@@ -69,9 +76,7 @@ std::string rates_name(const SphSettings& s) {
 
 void add_viscous_speed(const SphSettings& s, World& world) {
   if (std::holds_alternative<BulkViscosity>(s.viscosity)) return;
-  auto speed = std::make_shared<ViscousSpeed>(s, world);
-  world.motions.push_back(speed);
-  world.refreshes.push_back(speed);
+  world.passes.add(std::make_shared<ViscousSpeed>(s, world));
 }
 
 std::shared_ptr<Rate> make_rates(const SphSettings& s, World& world, std::shared_ptr<PairGeometry> geometry,

@@ -67,6 +67,12 @@ class RenormalRates : public Rate, public Refresh {
     world.counters.try_emplace(counter, 0);
   }
   std::string name() const override { return "renormalisation (rates)"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.h).reads(volumes_->before(), Reach::others);
+    a.reads_before(p.rho).updates(p.drhodt).updates(p.f);  // forces only give their address
+    a.updates(excess_).writes(moment_).writes(gradient_);
+  }
 
   void start(World& world, const Clock& clock) override {
     take_arrays(a_, world, *volumes_, excess_);
@@ -132,6 +138,12 @@ class RenormalForces : public Force {
       total_pressure_ = &sph_fields::pressure_plus_q(world.particles);
   }
   std::string name() const override { return "renormalisation (forces)"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.x, Reach::others).reads(p.v).reads(p.h).reads(volumes_->now(), Reach::others);
+    a.reads(excess_, Reach::others).reads(total_pressure_ ? *total_pressure_ : p.p, Reach::others);
+    a.updates(p.f);
+  }
 
   void start(World& world, const Clock&) override {
     take_arrays(a_, world, *volumes_, excess_);
@@ -202,10 +214,8 @@ void read_form(const Deck& deck, SphSettings& s, Diagnostics& diagnostics) {
 
 void add_renormalisation(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                          std::shared_ptr<PairVolumes> volumes) {
-  const auto rates = std::make_shared<RenormalRates>(s, world, neighbours, volumes);
-  world.rates.push_back(rates);
-  world.refreshes.push_back(rates);
-  world.forces.push_back(
+  world.passes.add(std::make_shared<RenormalRates>(s, world, neighbours, volumes));
+  world.passes.add(
       std::make_shared<RenormalForces>(s, world, std::move(neighbours), std::move(volumes)));
 }
 

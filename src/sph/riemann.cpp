@@ -46,6 +46,11 @@ class RiemannMomentum : public Rate {
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)) {}
   std::string name() const override { return "Riemann flux (momentum)"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.m, Reach::others).reads(p.h);
+    a.reads(volumes_->before(), Reach::others).reads(c_, Reach::others).updates(p.f).writes(heat_);
+  }
 
   void start(World& world, const Clock&) override {
     Particles& p = world.particles;
@@ -86,6 +91,11 @@ class RiemannMass : public Force, public TimeLimit {
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)) {}
   std::string name() const override { return "Riemann flux (mass)"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.x, Reach::others).reads(p.m, Reach::others).reads(p.h).reads(volumes_->now(), Reach::others);
+    a.reads(c_, Reach::others).reads(p.p, Reach::others).reads(potential_, Reach::others).writes(rate_);
+  }
 
   void start(World& world, const Clock&) override {
     Particles& p = world.particles;
@@ -172,10 +182,8 @@ void read_riemann(const Deck& deck, const Model& model,
 
 void add_riemann(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                  std::shared_ptr<PairVolumes> volumes) {
-  world.rates.push_back(std::make_shared<RiemannMomentum>(s, world, neighbours, volumes));
-  const auto mass = std::make_shared<RiemannMass>(s, world, std::move(neighbours), std::move(volumes));
-  world.forces.push_back(mass);
-  world.time_limits.push_back(mass);
+  world.passes.add(std::make_shared<RiemannMomentum>(s, world, neighbours, volumes));
+  world.passes.add(std::make_shared<RiemannMass>(s, world, std::move(neighbours), std::move(volumes)));
 }
 
 }  // namespace courant

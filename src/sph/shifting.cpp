@@ -78,6 +78,14 @@ class Shifting : public Rate, public Keeper {
     for (int k = 0; k < 3; ++k) velocity_gradient_[k] = &sph_fields::velocity_gradient(world.particles, k);
   }
   std::string name() const override { return "shifting (gradient)"; }
+  void declare(const World& world, Accesses& a) const override {
+    density_->declare_rate(world, a);
+    a.reads(world.particles.h).reads(volumes_->before(), Reach::others).writes(drift_);
+    a.writes(gradient_).writes(normal_).reads(spread_, Reach::others).writes(new_spread_).writes(edge_);
+    a.writes(filling_).reads(at_spacing_);
+    if (rules_.correct)
+      for (const Field<Real>* gradient : velocity_gradient_) a.writes(*gradient);
+  }
 
   void start(World& world, const Clock& clock) override {
     Particles& p = world.particles;
@@ -161,11 +169,14 @@ class Shifting : public Rate, public Keeper {
 };
 
 /// Tells neighbours what the rates, in which they look, have found out about surfaces.
-class SurfaceNote : public Motion {
+class SurfaceNote : public Preparation {
  public:
   explicit SurfaceNote(World& world)
       : spread_(sph_fields::spread(world.particles)), new_spread_(sph_fields::new_spread(world.particles)) {}
   std::string name() const override { return "surfaces"; }
+  void declare(const World&, Accesses& a) const override {
+    a.updates(spread_).reads(new_spread_);
+  }
   void block(World& world, const Clock&, Index begin, Index end) override {
     end = std::min(end, world.particles.active);
     for (Index i = begin; i < end; ++i) spread_[i] = new_spread_[i];
@@ -179,8 +190,8 @@ class SurfaceNote : public Motion {
 
 void add_shifting(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                   std::shared_ptr<PairVolumes> volumes) {
-  world.rates.push_back(std::make_shared<Shifting>(s, world, std::move(neighbours), std::move(volumes)));
-  world.motions.push_back(std::make_shared<SurfaceNote>(world));
+  world.passes.add(std::make_shared<Shifting>(s, world, std::move(neighbours), std::move(volumes)));
+  world.passes.add(std::make_shared<SurfaceNote>(world));
 }
 
 }  // namespace courant

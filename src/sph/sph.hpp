@@ -143,7 +143,7 @@ class PairVolumes;
 std::string rates_name(const SphSettings&);
 /// Adds to the motions of `world` what keeps q1 c for neighbours, where rates need it.
 void add_viscous_speed(const SphSettings&, World&);
-/// Adds itself to the refreshes of `world`; belongs behind its materials.
+/// Adds them to the passes of `world`.
 std::shared_ptr<PairVolumes> make_pair_volumes(World&);
 /// FORM of CONTROL_SPH, behind the other settings that it may contradict.
 void read_form(const Deck&, SphSettings&, Diagnostics&);
@@ -188,7 +188,7 @@ void read_eddy_viscosity(const Deck&, const Model&, const Particles&, SphSetting
 /// Before the viscous stress, which takes it.
 std::shared_ptr<Material> make_eddy_viscosity(const SphSettings&, World&);
 std::shared_ptr<Material> make_viscous_stress(const SphSettings&, World&);
-std::shared_ptr<Motion> make_smoothing_length(const SphSettings&, World&);
+std::shared_ptr<Preparation> make_smoothing_length(const SphSettings&, World&);
 /// Eq. 18; the first of the world's time limits.
 void add_sph_time_limit(const SphSettings&, const Model&, World&);
 std::shared_ptr<EnergyTerm> make_sph_energy(const SphSettings&, World&, std::shared_ptr<Neighbours>);

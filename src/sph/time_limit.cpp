@@ -21,6 +21,12 @@ class SphTimeLimit : public Tally, public TimeLimit {
     for (const ModelPart& part : model.parts) part_ids_.push_back(part.id);
   }
   std::string name() const override { return "sph time step"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.h).reads(p.c).reads(p.v);
+    viscosity_.declare(p, a);
+    if (!viscosity_.none()) a.reads(p.rho);
+  }
   void start(World& world, const Clock&) override { smallest_.resize(block_count(world.particles.active)); }
   void block(World& world, const Clock&, Index begin, Index end) override {
     const Particles& p = world.particles;
@@ -81,6 +87,10 @@ class SpeedLimit : public Constraint {
   SpeedLimit(const SphSettings& s, std::shared_ptr<Neighbours> neighbours)
       : maxv_(s.maxv), neighbours_(std::move(neighbours)) {}
   std::string name() const override { return "speed limit MAXV"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.in_finish().reads(p.m).revises(p.v).revises(p.f).updates(p.state);
+  }
   void block(World&, const Clock&, Index, Index) override {}
   void finish(World& world, const Clock&) override {
     Particles& p = world.particles;
@@ -113,9 +123,7 @@ class SpeedLimit : public Constraint {
 }  // namespace
 
 void add_sph_time_limit(const SphSettings& s, const Model& model, World& world) {
-  auto limit = std::make_shared<SphTimeLimit>(s, model, world);
-  world.tallies.push_back(limit);
-  world.time_limits.push_back(limit);
+  world.passes.add(std::make_shared<SphTimeLimit>(s, model, world));
 }
 std::shared_ptr<Constraint> make_speed_limit(const SphSettings& s, std::shared_ptr<Neighbours> neighbours) {
   return std::make_shared<SpeedLimit>(s, std::move(neighbours));

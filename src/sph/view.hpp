@@ -6,18 +6,14 @@
 
 namespace courant {
 
-/// The arrays that every pair loop works with; the rest is null.
+/// The arrays that every pair loop works with (places, forces, h); the rest is null.
 inline PairArrays particle_arrays(Particles& p) {
   PairArrays a{};
   for (int k = 0; k < 3; ++k) {
     a.x[k] = p.x.data(k);
-    a.v[k] = p.v.data(k);
     a.f[k] = p.f.data(k);
   }
-  a.m = p.m.data();
   a.h = p.h.data();
-  a.rho = p.rho.data();
-  a.drhodt = p.drhodt.data();
   a.h0 = p.active > 0 ? p.h[0] : 1;
   return a;
 }

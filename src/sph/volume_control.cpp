@@ -66,6 +66,12 @@ class VolumeControl : public Rate, public Keeper {
     if (i >= 0) lattice_ = lattice_sum(p.h[i] / std::pow(p.m[i] / p.rho[i], 1.0 / dim_));
   }
   std::string name() const override { return "volume control"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    source_.declare(p, a);
+    a.reads(p.x, Reach::others).reads(p.h).reads(volumes_->before(), Reach::others).updates(rate_);
+    if (wall_slope_) a.reads(*wall_slope_).reads(*wall_fill_);
+  }
 
   void start(World&, const Clock& clock) override {
     due_ = clock.t >= next_look_;
@@ -148,7 +154,7 @@ class VolumeControl : public Rate, public Keeper {
 
 void add_volume_control(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                         std::shared_ptr<PairVolumes> volumes) {
-  world.rates.push_back(std::make_shared<VolumeControl>(s, world, std::move(neighbours), std::move(volumes)));
+  world.passes.add(std::make_shared<VolumeControl>(s, world, std::move(neighbours), std::move(volumes)));
 }
 
 }  // namespace courant

@@ -118,6 +118,11 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
     }
   }
   std::string name() const override { return "wall support"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.x).reads(p.v).reads(p.h).reads_before(p.rho).updates(p.drhodt);
+    a.updates(slope_).updates(fill_).updates(rubbing_);
+  }
 
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     Particles& p = world.particles;
@@ -135,6 +140,13 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
   /// Force of the walls on a particle, pressure and friction.
   Vec force_on(const Particles& p, Index i) const {
     return friction_on(p, i, p.v.vec(i)) - (2 * p.m[i] / p.rho[i] * pressure_[i]) * slope_.vec(i);
+  }
+  void declare_force(const World& world, Accesses& a) const {
+    const Particles& p = world.particles;
+    a.reads(p.v).reads(p.m).reads(p.rho).reads(pressure_).reads(slope_).reads(rubbing_).updates(p.f);
+    const Segments& s = world.segments;
+    a.in_start().reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
+    a.updates(s.contact_force).updates(world.nodes.f);
   }
   bool is_near(Index i) const { return view_[i] != nothing; }
 
@@ -277,6 +289,9 @@ class WallSupportForce : public Force {
  public:
   explicit WallSupportForce(std::shared_ptr<WallSupport> support) : support_(std::move(support)) {}
   std::string name() const override { return "wall support (forces)"; }
+  void declare(const World& world, Accesses& a) const override {
+    support_->declare_force(world, a);
+  }
   void start(World& world, const Clock&) override { support_->take_back_forces(world); }
   void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
@@ -348,11 +363,8 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
 
 void add_wall_support(const SphSettings& s, World& world, Neighbours& neighbours) {
   neighbours.need_whole_lists();
-  auto support = std::make_shared<WallSupport>(s, world, neighbours);
-  world.rates.push_back(support);
-  world.refreshes.push_back(support);
-  world.energy_terms.push_back(support);
-  world.forces.push_back(std::make_shared<WallSupportForce>(support));
+  const auto support = world.passes.add(std::make_shared<WallSupport>(s, world, neighbours));
+  world.passes.add(std::make_shared<WallSupportForce>(support));
 }
 
 }  // namespace courant

@@ -34,6 +34,11 @@ class Xsph : public Rate {
         volumes_(std::move(volumes)),
         drift_(drift_velocity(world.particles, xsph_statistics)) {}
   std::string name() const override { return "XSPH"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.m, Reach::others).reads(p.h, Reach::others);
+    a.reads(volumes_->before(), Reach::others).writes(drift_);
+  }
 
   void start(World& world, const Clock&) override {
     const Particles& p = world.particles;
@@ -59,7 +64,7 @@ class Xsph : public Rate {
 
 void add_xsph(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
               std::shared_ptr<PairVolumes> volumes) {
-  world.rates.push_back(std::make_shared<Xsph>(s, world, std::move(neighbours), std::move(volumes)));
+  world.passes.add(std::make_shared<Xsph>(s, world, std::move(neighbours), std::move(volumes)));
 }
 
 }  // namespace courant

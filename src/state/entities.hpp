@@ -12,27 +12,27 @@ namespace courant {
 /// only when neighbours are refreshed. Those made for an inlet are outside, too, until they have crossed its
 /// plane.
 struct Particles {
-  FieldSet fields;
+  FieldSet fields{"particles"};
   Field<Real>& x = fields.add<Real>(
-      {.name = "position", .dimension = "L", .components = 3, .exchange = Exchange::before_rates});
+      {.name = "position", .dimension = "L", .components = 3, .exchange = true});
   Field<Real>& v = fields.add<Real>({.name = "velocity",
                                      .dimension = "L/T",
                                      .components = 3,
                                      .output = true,
-                                     .exchange = Exchange::before_rates});
+                                     .exchange = true});
   Field<Real>& f =
       fields.add<Real>({.name = "force", .dimension = "ML/T2", .components = 3, .restart = false});
   Field<Real>& m = fields.add<Real>(
-      {.name = "mass", .dimension = "M", .output = true, .exchange = Exchange::before_rates});
+      {.name = "mass", .dimension = "M", .output = true, .exchange = true});
   Field<Real>& rho = fields.add<Real>({.name = "density", .dimension = "M/L3", .output = true});
   Field<Real>& drhodt = fields.add<Real>({.name = "density_rate", .dimension = "M/L3/T"});
   Field<Real>& p = fields.add<Real>(
-      {.name = "pressure", .dimension = "M/LT2", .output = true, .exchange = Exchange::before_forces});
+      {.name = "pressure", .dimension = "M/LT2", .output = true, .exchange = true});
   Field<Real>& c = fields.add<Real>({.name = "sound_speed", .dimension = "L/T"});
   Field<Real>& E = fields.add<Real>(
       {.name = "internal_energy", .dimension = "M/LT2", .output = true});  ///< per reference volume
   Field<Real>& h = fields.add<Real>(
-      {.name = "smoothing_length", .dimension = "L", .output = true, .exchange = Exchange::before_rates});
+      {.name = "smoothing_length", .dimension = "L", .output = true, .exchange = true});
   Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
   Field<Index>& part =
       fields.add<Index>({.name = "part", .dimension = "-"});  ///< index into the model's parts
@@ -55,10 +55,11 @@ enum ParticleState : Index {
   particle_waiting = 3,      ///< made for an inlet and not yet through its plane: like outside
 };
 
-/// Nodes of shells. Contact adds forces to f; whoever owns the nodes (rigid bodies) moves them. Forces on
-/// walls that are held move nothing: they are there only once somebody asks for them (Contact::show_forces).
+/// Nodes of shells and solids. Contact and elements add forces to f. Nodes of rigid bodies go where these go;
+/// others move by their forces. Forces on walls that are held move nothing: they are there only once somebody
+/// asks for them (Contact::show_forces).
 struct Nodes {
-  FieldSet fields;
+  FieldSet fields{"nodes"};
   Field<Real>& x = fields.add<Real>({.name = "position", .dimension = "L", .components = 3});
   Field<Real>& v =
       fields.add<Real>({.name = "velocity", .dimension = "L/T", .components = 3, .output = true});
@@ -68,12 +69,14 @@ struct Nodes {
   Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
   Field<Index>& held =
       fields.add<Index>({.name = "held", .dimension = "-"});  ///< 1: its body cannot move at all
+  Field<Index>& follow =
+      fields.add<Index>({.name = "follow", .dimension = "-"});  ///< 1: a rigid body moves it
   Index size() const { return fields.size(); }
 };
 
 /// Shell faces that contact can act on. A triangle repeats its third node: node[2] == node[3].
 struct Segments {
-  FieldSet fields;
+  FieldSet fields{"segments"};
   Field<Index>& node0 = fields.add<Index>({.name = "node0", .dimension = "-"});
   Field<Index>& node1 = fields.add<Index>({.name = "node1", .dimension = "-"});
   Field<Index>& node2 = fields.add<Index>({.name = "node2", .dimension = "-"});

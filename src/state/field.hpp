@@ -15,16 +15,9 @@
 #include "base/real.hpp"
 #include "parallel/array.hpp"
 #include "parallel/parallel.hpp"
+#include "state/access.hpp"
 
 namespace courant {
-
-/// When pair loops need a field of neighbours that are copies of particles elsewhere (images).
-enum class Exchange {
-  never,
-  before_rates,   ///< changes with the motion
-  before_forces,  ///< changes with the rates and materials
-  always,
-};
 
 struct FieldInfo {
   std::string name;
@@ -32,14 +25,15 @@ struct FieldInfo {
   int components = 1;     ///< 1, 3 (vector) or 6 (symmetric tensor: xx yy zz xy yz zx)
   bool output = false;    ///< written to the field files
   bool restart = true;    ///< needed to continue a run bitwise
-  Exchange exchange = Exchange::never;
+  bool exchange = false;  ///< neighbours that are copies of entities elsewhere (images) have it, too
 };
 
-class FieldBase {
+class FieldBase : public Resource {
  public:
-  explicit FieldBase(FieldInfo info) : info_(std::move(info)) {}
-  virtual ~FieldBase() = default;
+  explicit FieldBase(FieldInfo info, const std::string& set = "")
+      : Resource(info.name, set), info_(std::move(info)) {}
   const FieldInfo& info() const { return info_; }
+  const FieldBase* field() const override { return this; }
   virtual void resize(Index n) = 0;
   /// Room for `images` entities behind the n there are; theirs are not set.
   virtual void make_room(Index n, Index images) = 0;
@@ -62,34 +56,36 @@ class FieldBase {
 template <class T>
 class Field : public FieldBase {
  public:
-  explicit Field(FieldInfo info) : FieldBase(info), component_(info.components) {}
+  explicit Field(FieldInfo info, const std::string& set = "")
+      : FieldBase(info, set), component_(info.components) {}
 
-  T* data(int component = 0) { return component_[component].data(); }
-  const T* data(int component = 0) const { return component_[component].data(); }
-  T& operator[](Index i) { return component_[0][i]; }
-  const T& operator[](Index i) const { return component_[0][i]; }
+  T* data(int component = 0) { return values(component); }
+  const T* data(int component = 0) const { return values(component); }
+  T& operator[](Index i) { return values(0)[i]; }
+  const T& operator[](Index i) const { return values(0)[i]; }
 
   /// Component access as a vector, for fields of three components. shape: 3
-  Vec vec(Index i) const { return {component_[0][i], component_[1][i], component_[2][i]}; }
+  Vec vec(Index i) const { return {values(0)[i], values(1)[i], values(2)[i]}; }
   void set(Index i, const Vec& value) {
-    for (int k = 0; k < 3; ++k) component_[k][i] = value[k];
+    for (int k = 0; k < 3; ++k) values(k)[i] = value[k];
   }
   void add(Index i, const Vec& value) {
-    for (int k = 0; k < 3; ++k) component_[k][i] += value[k];
+    for (int k = 0; k < 3; ++k) values(k)[i] += value[k];
   }
   /// The same as a symmetric tensor, for fields of six components.
   Matrix tensor(Index i) const {
-    const auto c = [&](int k) { return component_[k][i]; };
+    const auto c = [&](int k) { return values(k)[i]; };
     Matrix t;
     t << c(0), c(3), c(5), c(3), c(1), c(4), c(5), c(4), c(2);
     return t;
   }
   void set_tensor(Index i, const Matrix& t) {
     const Real value[6] = {t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0)};
-    for (int k = 0; k < 6; ++k) component_[k][i] = value[k];
+    for (int k = 0; k < 6; ++k) values(k)[i] = value[k];
   }
   void fill(T value) {
-    for (auto& c : component_) std::fill(c.begin(), c.end(), value);
+    for (int k = 0; k < info().components; ++k)
+      std::fill(values(k), values(k) + component_[static_cast<std::size_t>(k)].size(), value);
   }
 
   /// New entities are zero; the threads that will work on them touch them first.
@@ -130,12 +126,23 @@ class Field : public FieldBase {
 
  private:
   static Array<T>& of(FieldBase& spare) { return static_cast<Field<T>&>(spare).component_[0]; }
+  T* values(int component) {
+    note_access(*this);
+    return component_[component].data();
+  }
+  const T* values(int component) const {
+    note_access(*this);
+    return component_[component].data();
+  }
   std::vector<Array<T>> component_;
 };
 
-/// The fields of one kind of entity (particles, nodes, segments); all have the same length.
+/// An entity set: the fields of one kind of entity (particles, nodes, segments, elements of a group, bodies);
+/// all have the same length. Passes run over the blocks of a set.
 class FieldSet {
  public:
+  explicit FieldSet(std::string name) : name_(std::move(name)) {}
+  const std::string& name() const { return name_; }
   /// Registers a field, or returns the one of that name. Throws std::logic_error on a clash of type.
   template <class T>
   Field<T>& add(FieldInfo info) {
@@ -144,7 +151,7 @@ class FieldSet {
       if (!same) throw std::logic_error("field '" + info.name + "' is registered with another type");
       return *same;
     }
-    auto field = std::make_unique<Field<T>>(std::move(info));
+    auto field = std::make_unique<Field<T>>(std::move(info), name_);
     field->resize(size_);
     Field<T>& out = *field;
     fields_.push_back(std::move(field));
@@ -165,7 +172,7 @@ class FieldSet {
   /// Room behind the entities for `count` images in all fields that are exchanged. Arrays may move.
   void make_room_for_images(Index count) {
     for (auto& f : fields_)
-      if (f->info().exchange != Exchange::never) f->make_room(size_, count);
+      if (f->info().exchange) f->make_room(size_, count);
   }
   /// New entity i is old entity old_of_new[i], for as many as are given; those behind stay. Each thread
   /// sorts, and then has in its cache, the entities that it works on afterwards. Arrays change their place
@@ -196,6 +203,7 @@ class FieldSet {
   const std::vector<std::unique_ptr<FieldBase>>& all() const { return fields_; }
 
  private:
+  std::string name_;
   Index size_ = 0;
   std::vector<std::unique_ptr<FieldBase>> fields_;
   std::map<std::type_index, std::unique_ptr<FieldBase>> spare_;  ///< of each type, for sorting

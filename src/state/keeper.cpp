@@ -59,25 +59,16 @@ std::vector<std::pair<std::string, Keeper*>> keepers_of(const World& world) {
   std::vector<std::pair<std::string, Keeper*>> out;
   std::set<std::string> names;
   std::set<Keeper*> known;
-  const auto add = [&](const auto& passes) {
-    for (const auto& pass : passes) {
-      auto* keeper = dynamic_cast<Keeper*>(pass.get());
-      if (!keeper || !known.insert(keeper).second) continue;
-      std::string name = pass->name();
-      for (int k = 2; !names.insert(name).second; ++k) name = pass->name() + " " + std::to_string(k);
-      out.emplace_back(name, keeper);
-    }
+  const auto add = [&](Pass& pass) {
+    auto* keeper = dynamic_cast<Keeper*>(&pass);
+    if (!keeper || !known.insert(keeper).second) return;
+    std::string name = pass.name();
+    for (int k = 2; !names.insert(name).second; ++k) name = pass.name() + " " + std::to_string(k);
+    out.emplace_back(name, keeper);
   };
-  add(world.exchangers);
-  add(world.rates);
-  add(world.materials);
-  add(world.tallies);
-  add(world.forces);
-  add(world.constraints);
-  add(world.motions);
-  add(world.time_limits);
-  add(world.refreshes);
-  add(world.energy_terms);
+  for (int k = 0; k <= static_cast<int>(Phase::preparation); ++k)
+    for (BlockPass* pass : world.passes.in_phase(static_cast<Phase>(k), world)) add(*pass);
+  for (Pass* pass : world.passes.all<Pass>()) add(*pass);
   return out;
 }
 
@@ -87,6 +78,7 @@ bool keep_world(World& world, Archive& archive) {
   keep_fields("particles", p.fields, known, archive);
   keep_fields("nodes", world.nodes.fields, world.nodes.size(), archive);
   keep_fields("segments", world.segments.fields, world.segments.size(), archive);
+  for (const auto& set : world.other_sets) keep_fields(set->name(), *set, set->size(), archive);
   keep_ledger(world.energy, archive);
   const Archive::Group inside(archive, "world");
   archive("active", p.active);

@@ -36,13 +36,6 @@ struct WallForceReporter {
   virtual void show_forces(World& world) = 0;
 };
 
-/// Calls f with every pass of a list that is a Reporter.
-template <class Reporter, class Passes, class F>
-void for_each_reporter(const Passes& passes, F&& f) {
-  for (const auto& pass : passes)
-    if (auto* one = dynamic_cast<Reporter*>(pass.get())) f(*one);
-}
-
 /// How a rigid body moves at t^n; velocities are those of the last half step.
 struct RigidBodyMotion {
   Id part = 0;

@@ -7,25 +7,17 @@
 
 #include "base/run_error.hpp"
 #include "parallel/parallel.hpp"
-#include "state/particle_loops.hpp"
+#include "time/schedule.hpp"
 
 namespace courant {
 
 namespace {
 
-class ClearForces : public Rate {
- public:
-  std::string name() const override { return "clear forces"; }
-  void block(World& world, const Clock&, Index begin, Index end) override {
-    for (int k = 0; k < 3; ++k)
-      std::fill(world.particles.f.data(k) + begin, world.particles.f.data(k) + end, 0.0);
-  }
-};
-
 /// Returns what the passes allow.
-TimeLimit::Limit choose_dt(World& world, Clock& clock, const StepRules& rules, std::string& who) {
+TimeLimit::Limit choose_dt(World& world, const std::vector<TimeLimit*>& limits, Clock& clock,
+                           const StepRules& rules, std::string& who) {
   TimeLimit::Limit smallest{std::numeric_limits<Real>::infinity(), "nothing"};
-  for (auto& limit : world.time_limits) {
+  for (TimeLimit* limit : limits) {
     TimeLimit::Limit one = limit->limit(world, clock);
     // NaN is the smallest of all: the run must stop there
     if (!std::isnan(smallest.dt) && !(one.dt >= smallest.dt)) smallest = std::move(one);
@@ -58,26 +50,23 @@ Stepper::Stepper(World& world, Neighbours& neighbours, StepRules rules, PassTime
       neighbours_(neighbours),
       rules_(std::move(rules)),
       timer_(timer),
-      rates_(timer),
-      forces_(timer),
-      motion_(timer) {
-  rates_.add(std::make_shared<ClearForces>());
-  rates_.add_all(world.rates);
-  rates_.add_all(world.materials);
-  rates_.add_all(world.tallies);
-  forces_.add_all(world.forces);
-  forces_.add_all(world.constraints);
-  motion_.add_all(world.motions);
-  motion_.add(neighbours.watch());
+      exchangers_(world.passes.all<Exchanger>()),
+      limits_(world.passes.all<TimeLimit>()),
+      terms_(world.passes.all<EnergyTerm>()) {
+  world.passes.add(neighbours.watch());
+  Schedule schedule = make_schedule(world);
+  stages_ = text_of(schedule);
+  for (StagePlan& plan : schedule.forces) forces_.emplace_back(std::move(plan), world, timer);
+  for (StagePlan& plan : schedule.motion) motion_.emplace_back(std::move(plan), world, timer);
 }
 
 void Stepper::evaluate(Clock& clock, std::string& controlled_by) {
-  timer_.measure("neighbours", [&] { neighbours_.refresh(world_, clock); });
-  for (auto& e : world_.exchangers) timer_.measure(e->name(), [&] { e->before_rates(world_); });
-  rates_.run(world_, clock, world_.particles.active, world_.shares);
-  for (auto& e : world_.exchangers) timer_.measure(e->name(), [&] { e->before_forces(world_); });
-  forces_.run(world_, clock, world_.particles.active, world_.shares);
-  timer_.measure("time step", [&] { computed_ = choose_dt(world_, clock, rules_, controlled_by); });
+  bool rebuilt = false;
+  timer_.measure("neighbours", [&] { rebuilt = neighbours_.refresh(world_, clock); });
+  if (rebuilt)
+    for (Exchanger* e : exchangers_) timer_.measure(e->name(), [&] { e->exchange_all(world_); });
+  for (Stage& stage : forces_) stage.run(world_, clock);
+  timer_.measure("time step", [&] { computed_ = choose_dt(world_, limits_, clock, rules_, controlled_by); });
 }
 
 void Stepper::step(Clock& clock, const AtTimeLevel& at_time_level) {
@@ -88,9 +77,9 @@ void Stepper::step(Clock& clock, const AtTimeLevel& at_time_level) {
     timer_.measure("guard", [&] { rules_.guard->look(world_, clock); });
   timer_.measure("output", [&] { at_time_level(world_, clock, controlled_by); });
   timer_.measure("energy", [&] {
-    for (auto& term : world_.energy_terms) term->record(world_, clock, world_.energy);
+    for (EnergyTerm* term : terms_) term->record(world_, clock, world_.energy);
   });
-  motion_.run(world_, clock, world_.particles.moving, world_.moving_shares);
+  for (Stage& stage : motion_) stage.run(world_, clock);
   clock.t += clock.dt;
   clock.dt_old = clock.dt;
   ++clock.cycle;
@@ -112,32 +101,7 @@ void Stepper::stop_below_dtmin(const Clock& clock) {
 void sample_energy(World& world, const Clock& clock) {
   EnergyLedger& e = world.energy;
   e.kinetic = e.internal = e.potential = e.contact = 0;
-  for (auto& term : world.energy_terms) term->sample(world, clock, e);
-}
-
-namespace {
-
-class ParticleMotion : public Motion {
- public:
-  std::string name() const override { return "particle motion"; }
-  void block(World& world, const Clock& clock, Index begin, Index end) override {
-    Particles& p = world.particles;
-    const Real dt = clock.dt, dt_kick = clock.dt_mean();
-    const Index active_end = std::min(end, p.active);
-    for (int k = 0; k < world.dim; ++k) {
-      loops_.kick(p.v.data(k), p.f.data(k), p.m.data(), dt_kick, begin, active_end);
-      loops_.drift(p.x.data(k), p.v.data(k), dt, begin, end);
-    }
-  }
-
- private:
-  ParticleLoops loops_ = particle_loops();
-};
-
-}  // namespace
-
-std::shared_ptr<Motion> make_particle_motion() {
-  return std::make_shared<ParticleMotion>();
+  for (EnergyTerm* term : world.passes.all<EnergyTerm>()) term->sample(world, clock, e);
 }
 
 }  // namespace courant

@@ -29,12 +29,13 @@ struct StepRules {
 /// density and energy advance with the velocity of the last kick, before the pressure is used.
 class Stepper : public Keeper {
  public:
-  /// The passes of `world` must not change afterwards.
+  /// Adds what watches the lists to the passes of `world`, which must not change afterwards.
   Stepper(World& world, Neighbours& neighbours, StepRules rules, PassTimer& timer);
 
   void step(Clock& clock, const AtTimeLevel& at_time_level);
   /// Everything up to the choice of dt, without moving: for `courant check`.
   void evaluate(Clock& clock, std::string& controlled_by);
+  const std::string& stages() const { return stages_; }  ///< as text
   void keep(Archive& archive) override {
     archive("first_dt", first_dt_);
     archive("first_tssfac", first_tssfac_);
@@ -47,13 +48,14 @@ class Stepper : public Keeper {
   Neighbours& neighbours_;
   StepRules rules_;
   PassTimer& timer_;
-  Stage rates_, forces_, motion_;
+  std::string stages_;
+  std::vector<Exchanger*> exchangers_;
+  std::vector<TimeLimit*> limits_;
+  std::vector<EnergyTerm*> terms_;
+  std::vector<Stage> forces_, motion_;
   TimeLimit::Limit computed_{0, {}};      ///< what passes allow, whatever DTINIT and LCTM say
   Real first_dt_ = 0, first_tssfac_ = 1;  ///< of the first step: that [T], and TSSFAC
 };
-
-/// Moves active particles with their forces and rim particles with their velocity.
-std::shared_ptr<Motion> make_particle_motion();
 
 /// Energies at t^n into world.energy (the accumulated ones stay).
 void sample_energy(World& world, const Clock& clock);

@@ -7,6 +7,7 @@
 #include "app/skin.hpp"
 #include "materials/materials.hpp"
 #include "model/build_model.hpp"
+#include "time/point_motion.hpp"
 #include "sph/pair_passes.hpp"
 
 namespace courant::benchmarks {
@@ -64,15 +65,15 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   neighbours_->adapt_skin(least_skin * h, most_skin * h, skin_weight);
   if (!settings.evolving_h) neighbours_->keep_h();
   add_eos_passes(world_, model, materials);
-  world_.motions.push_back(make_particle_motion());
+  world_.passes.add(make_clear_forces(points_of(world_.particles)));
+  world_.passes.add(make_point_motion(points_of(world_.particles)));
   add_sph_time_limit(settings, model, world_);
   const auto geometry = std::make_shared<PairGeometry>(neighbours_, settings.uniform_h);
   const auto volumes = make_pair_volumes(world_);
   const PairPasses pairs = make_plain_passes(settings, world_, geometry, volumes);
-  world_.rates.insert(world_.rates.end(), pairs.rates.begin(), pairs.rates.end());
-  world_.materials.push_back(volumes);
-  world_.forces.insert(world_.forces.end(), pairs.forces.begin(), pairs.forces.end());
-  if (ledger) world_.energy_terms.push_back(make_sph_energy(settings, world_, neighbours_));
+  for (const auto& pass : pairs.rates) world_.passes.add(pass);
+  for (const auto& pass : pairs.forces) world_.passes.add(pass);
+  if (ledger) make_sph_energy(settings, world_, neighbours_);
   stepper_ = std::make_unique<Stepper>(world_, *neighbours_, StepRules{}, timer_);
 }
 

@@ -7,7 +7,7 @@ namespace courant::test {
 
 /// One pass alone, as a stage would run it.
 inline void run(BlockPass& pass, World& world, const Clock& clock) {
-  const bool moving = dynamic_cast<Motion*>(&pass) != nullptr;
+  const bool moving = pass.phase() >= Phase::drive;
   const Index n = moving ? world.particles.moving : world.particles.active;
   Shares shares = moving ? world.moving_shares : world.shares;
   if (shares.first.back() != block_count(n)) shares = Shares::even(block_count(n));  // nobody has built lists

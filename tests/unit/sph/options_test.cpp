@@ -8,6 +8,7 @@
 #include "materials/material_pass.hpp"
 #include "sph/fields.hpp"
 #include "time/step.hpp"
+#include "time/point_motion.hpp"
 
 using namespace courant;
 using courant::test::Cloud;
@@ -82,9 +83,10 @@ TEST(SpeedLimit, SwitchesOffOrClipsAndCounts) {
     const Id fast = w.particles.id[3];
     cloud.settings.maxv = maxv;
     w.constraints.push_back(make_speed_limit(cloud.settings, cloud.neighbours));
-    w.motions.push_back(make_particle_motion());
-    w.time_limits.push_back(std::make_shared<ConstantStep>(1e-5));
-    w.energy_terms.push_back(make_sph_energy(cloud.settings, w, cloud.neighbours));
+    w.passes.add(make_clear_forces(points_of(w.particles)));
+    w.passes.add(make_point_motion(points_of(w.particles)));
+    w.passes.add(std::make_shared<ConstantStep>(1e-5));
+    w.passes.add(make_sph_energy(cloud.settings, w, cloud.neighbours));
     w.energy.initial = 0.5 * w.particles.m[3] * 50 * 50;
     step(cloud, 3);
     sample_energy(w, cloud.clock);
@@ -170,11 +172,12 @@ TEST(EnergyLedger, ClosesForACloudThatRunsIntoItself) {
     if (!monaghan) cloud.settings.viscosity = BulkViscosity{};
     cloud.settings.mu.assign(1, 0.5);
     for (Index i = 0; i < p.size(); ++i) p.v.set(i, -2 * (p.x.vec(i) - Vec(0.075, 0.075, 0)) / 0.075);
-    w.materials.push_back(
+    w.passes.add(
         std::make_shared<EosPass<Liquid>>(Liquid{9e5}, EosPart{{1}, true, {1000}, {-1e20}}, w));
     add_sph_passes(w, cloud.settings, cloud.neighbours);
-    w.motions.push_back(make_particle_motion());
-    w.time_limits.push_back(std::make_shared<ConstantStep>(2e-5));
+    w.passes.add(make_clear_forces(points_of(w.particles)));
+    w.passes.add(make_point_motion(points_of(w.particles)));
+    w.passes.add(std::make_shared<ConstantStep>(2e-5));
     cloud.refresh();
     sample_energy(w, cloud.clock);
     w.energy.initial = w.energy.kinetic;
@@ -197,9 +200,10 @@ TEST(ParticleMotion, RimParticlesGoOnWithTheirVelocityAndFeelNoForce) {
       std::make_shared<Neighbours>(0.003, Neighbours::Region{Vec(-1, -1, -1), Vec(0.045, 1, 1)});
   Model model;
   model.body_loads.push_back({1, {.id = 1, .abscissa = {0, 1}, .ordinate = {1, 1}}, 1});
-  w.forces.push_back(make_gravity(model, w, cloud.neighbours));
-  w.motions.push_back(make_particle_motion());
-  w.time_limits.push_back(std::make_shared<ConstantStep>(1e-4));
+  w.passes.add(make_gravity(model, w, cloud.neighbours));
+  w.passes.add(make_clear_forces(points_of(w.particles)));
+  w.passes.add(make_point_motion(points_of(w.particles)));
+  w.passes.add(std::make_shared<ConstantStep>(1e-4));
   std::map<Id, Vec> before;
   for (Index i = 0; i < w.particles.size(); ++i)
     w.particles.v.set(i, {0, 1, 0}), before[w.particles.id[i]] = w.particles.x.vec(i);
@@ -227,10 +231,11 @@ TEST(Gravity, ALoadCurveThatChangesDoesExternalWork) {
   World& w = cloud.world;
   Model model;
   model.body_loads.push_back({1, {.id = 1, .abscissa = {0, 0.5, 1}, .ordinate = {0, 9.81, 2}}, 1});
-  w.forces.push_back(make_gravity(model, w, cloud.neighbours));
-  w.energy_terms.push_back(make_sph_energy(cloud.settings, w, cloud.neighbours));
-  w.motions.push_back(make_particle_motion());
-  w.time_limits.push_back(std::make_shared<ConstantStep>(1e-4));
+  w.passes.add(make_gravity(model, w, cloud.neighbours));
+  w.passes.add(make_sph_energy(cloud.settings, w, cloud.neighbours));
+  w.passes.add(make_clear_forces(points_of(w.particles)));
+  w.passes.add(make_point_motion(points_of(w.particles)));
+  w.passes.add(std::make_shared<ConstantStep>(1e-4));
   step(cloud, 1);
   sample_energy(w, cloud.clock);
   w.energy.initial = w.energy.total() - w.energy.external_work;

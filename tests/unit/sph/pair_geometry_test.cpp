@@ -9,6 +9,7 @@
 #include "materials/material_pass.hpp"
 #include "sph/kept_pairs.hpp"
 #include "time/step.hpp"
+#include "time/point_motion.hpp"
 
 using namespace courant;
 using courant::test::Cloud;
@@ -38,11 +39,12 @@ Result run(Real eps, int threads = 1) {
     momentum += p.m[i] * p.v.vec(i);
     scale += p.m[i] * p.v.vec(i).norm();
   }
-  w.materials.push_back(
+  w.passes.add(
       std::make_shared<EosPass<Liquid>>(Liquid{9e7}, EosPart{{1}, true, {1000}, {-1e20}}, w));
-  w.motions.push_back(make_particle_motion());
+  w.passes.add(make_clear_forces(points_of(w.particles)));
+  w.passes.add(make_point_motion(points_of(w.particles)));
   add_sph_passes(w, cloud.settings, cloud.neighbours);
-  w.time_limits.push_back(std::make_shared<ConstantStep>(2e-6));
+  w.passes.add(std::make_shared<ConstantStep>(2e-6));
   cloud.refresh();
   sample_energy(w, cloud.clock);
   w.energy.initial = w.energy.kinetic;

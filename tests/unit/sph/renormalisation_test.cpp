@@ -72,12 +72,12 @@ struct Flow : Cloud {
     clock.dt_old = 2 * half_step;
     rates_again();
     rates_again();
-    run(*world.forces.back());
+    run(*world.passes.in_phase(Phase::forces, world).back());
   }
   void rates_again() {
     Particles& p = world.particles;
     for (Index i = 0; i < p.active; ++i) p.drhodt[i] = 0, p.f.set(i, Vec::Zero());
-    run(*world.rates.back());
+    run(*world.passes.in_phase(Phase::rates, world).back());
   }
 };
 
@@ -188,7 +188,7 @@ Real error_of_linear_pressure(bool reverse) {
     if (least(moment<2>(p, k)) < 0.95) continue;
     const Vec x = p.x.vec(k);
     for (Index i = 0; i < p.size(); ++i) p.p[i] = slope.dot(p.x.vec(i) - x), p.f.set(i, Vec::Zero());
-    flow.run(*flow.world.forces.back());
+    flow.run(*flow.world.passes.in_phase(Phase::forces, flow.world).back());
     Vec force = p.f.vec(k) * p.rho[k] / p.m[k];
     for (Index j = 0; j < p.active; ++j)
       force -= p.m[j] / p.rho[j] * p.p[j] * gradient<2>(x - p.x.vec(j), p.h[k]);

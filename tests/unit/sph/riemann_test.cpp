@@ -88,8 +88,8 @@ struct RiemannCloud : Cloud {
       sph_fields::potential(p)[i] = -gravity.dot(p.x.vec(i));
       p.f.set(i, Vec::Zero());
     }
-    run(*world.rates.back());
-    run(*world.forces.back());
+    run(*world.passes.in_phase(Phase::rates, world).back());
+    run(*world.passes.in_phase(Phase::forces, world).back());
   }
   Vec gravity{300, -2000, 0};
   std::vector<Real> c;  ///< by id
@@ -113,7 +113,7 @@ void compare(Real eta, std::optional<Neighbours::Region> region, Real pc) {
     EXPECT_NEAR(sph_fields::dissipation(p)[i], e.heat, 1e-12 * heat);
     EXPECT_NEAR(sph_fields::density_diffusion(p)[i], e.density, 1e-11 * rate);
   }
-  EXPECT_NEAR(flow.world.time_limits.back()->limit(flow.world, {}).dt, 1.25 / decay, 1e-12 / decay);
+  EXPECT_NEAR(flow.world.passes.all<TimeLimit>().back()->limit(flow.world, {}).dt, 1.25 / decay, 1e-12 / decay);
 }
 
 class RiemannLoops : public testing::TestWithParam<InstructionSet> {};

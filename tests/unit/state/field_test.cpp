@@ -11,7 +11,7 @@ constexpr Index many = 3 * block_size + 17;  // several blocks and a part of one
 }  // namespace
 
 TEST(Field, NewEntitiesAreZeroAndOldOnesStay) {
-  FieldSet set;
+  FieldSet set("test");
   Field<Real>& a = set.add<Real>({.name = "a", .dimension = "-", .components = 3});
   set.resize(2);
   a.set(0, {1, 2, 3});
@@ -35,7 +35,7 @@ class Permutation : public testing::TestWithParam<Index> {};
 INSTANTIATE_TEST_SUITE_P(AllAndSome, Permutation, testing::Values(many, many - 9));
 
 TEST_P(Permutation, SortsFieldsOfAllTypesAndKeepsWhatStandsBehind) {
-  FieldSet set;
+  FieldSet set("test");
   Field<Real>& x = set.add<Real>({.name = "x", .dimension = "L", .components = 3});
   Field<Real>& m = set.add<Real>({.name = "m", .dimension = "M"});
   Field<Id>& id = set.add<Id>({.name = "id", .dimension = "-"});
@@ -59,7 +59,7 @@ TEST_P(Permutation, SortsFieldsOfAllTypesAndKeepsWhatStandsBehind) {
 }
 
 TEST(FieldSet, CountsItsBytes) {
-  FieldSet set;
+  FieldSet set("test");
   EXPECT_EQ(set.bytes_per_entity(), 0u);
   set.add<Real>({.name = "x", .dimension = "L", .components = 3});
   set.add<Id>({.name = "id", .dimension = "-"});

@@ -4,6 +4,7 @@
 
 #include "../sph/cloud.hpp"
 #include "base/run_error.hpp"
+#include "time/point_motion.hpp"
 
 using namespace courant;
 using courant::test::Cloud;
@@ -28,9 +29,10 @@ TEST(Step, FreeFallIsExactWithChangingSteps) {
   Cloud cloud(2, 1, 0.01, 0);
   Model model;
   model.body_loads.push_back({1, constant(9.81), 1});
-  cloud.world.forces.push_back(make_gravity(model, cloud.world, cloud.neighbours));
-  cloud.world.motions.push_back(make_particle_motion());
-  cloud.world.time_limits.push_back(std::make_shared<ChangingSteps>());
+  cloud.world.passes.add(make_gravity(model, cloud.world, cloud.neighbours));
+  cloud.world.passes.add(make_clear_forces(points_of(cloud.world.particles)));
+  cloud.world.passes.add(make_point_motion(points_of(cloud.world.particles)));
+  cloud.world.passes.add(std::make_shared<ChangingSteps>());
   cloud.world.particles.v.set(0, {1, 2, 0});
   PassTimer timer;
   Stepper stepper(cloud.world, *cloud.neighbours, {}, timer);
@@ -46,8 +48,8 @@ TEST(Step, StopsWhereTheStepSizeIsNotANumber) {
     Limit limit(const World&, const Clock&) override { return {std::nan(""), "sph 1 of part 1"}; }
   };
   Cloud cloud(2, 2, 0.01, 0);
-  cloud.world.time_limits.push_back(std::make_shared<Broken>());
-  cloud.world.time_limits.push_back(std::make_shared<ChangingSteps>());
+  cloud.world.passes.add(std::make_shared<Broken>());
+  cloud.world.passes.add(std::make_shared<ChangingSteps>());
   PassTimer timer;
   Stepper stepper(cloud.world, *cloud.neighbours, {}, timer);
   EXPECT_THROW(stepper.step(cloud.clock, [](World&, const Clock&, const std::string&) {}), RunError);
