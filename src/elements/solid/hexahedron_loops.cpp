@@ -74,7 +74,7 @@ COURANT_INLINE Triple triple(const Real (*rows)[block_size], Index k) {
 /// x^(-1/3) for normal x > 0, to the last few bits: a guess from the exponent within a tenth, then three
 /// steps of third order.
 COURANT_INLINE Native inverse_cube_root(Native x) {
-  using Bits [[gnu::vector_size(COURANT_SIMD_BYTES)]] = unsigned long long;
+  using Bits = unsigned long long __attribute__((vector_size(COURANT_SIMD_BYTES)));
   constexpr unsigned long long large = 0x4330000000000000;  // of 2^52, whose last bits count ones
   const Native high = Native((Bits(x) >> 32) | large) - 0x1p52;
   Native y = Native(Bits((1429986000.0 - high * (1.0 / 3)) + 0x1p52) << 32);
@@ -91,9 +91,8 @@ COURANT_INLINE void modes_of(const Native p[8], Native out[7]) {
   const Native s45 = p[5] + p[4], d45 = p[5] - p[4], s76 = p[6] + p[7], d76 = p[6] - p[7];
   const Native ss0 = s32 + s01, sd0 = s32 - s01, ds0 = d32 + d01, dd0 = d32 - d01;
   const Native ss1 = s76 + s45, sd1 = s76 - s45, ds1 = d76 + d45, dd1 = d76 - d45;
-  out[0] = 0.125 * (ds1 + ds0), out[1] = 0.125 * (sd1 + sd0), out[2] = 0.125 * (ss1 - ss0);
-  out[3] = 0.125 * (sd1 - sd0), out[4] = 0.125 * (ds1 - ds0), out[5] = 0.125 * (dd1 + dd0);
-  out[6] = 0.125 * (dd1 - dd0);
+  out[0] = ds1 + ds0, out[1] = sd1 + sd0, out[2] = ss1 - ss0;
+  out[3] = sd1 - sd0, out[4] = ds1 - ds0, out[5] = dd1 + dd0, out[6] = dd1 - dd0;
 }
 
 /// The numbers at the corners that have these modes, and no mode 0.
@@ -107,55 +106,51 @@ COURANT_INLINE void corners_of(const Native m[7], Native out[8]) {
   out[7] = high1 - (c1 + d1), out[6] = high1 + (c1 + d1);
 }
 
-/// dV/da_k of modes 1 to 6, the volume, and of the pairs of opposite faces the square of the larger area.
+/// 64 dV/da_k of modes 1 to 6, and 64 V.
 struct Geometry {
   Triple g[6];
-  Native V, inverse_V;
+  Native V64;
 };
 COURANT_INLINE Geometry geometry(const Triple a[7]) {
-  constexpr Real third = 8.0 / 3;
+  constexpr Real third = 1.0 / 3;
   Geometry out;
-  out.g[0] = 8.0 * cross(a[1], a[2]) + third * cross(a[5], a[4]);
-  out.g[1] = 8.0 * cross(a[2], a[0]) + third * cross(a[3], a[5]);
-  out.g[2] = 8.0 * cross(a[0], a[1]) + third * cross(a[4], a[3]);
+  out.g[0] = cross(a[1], a[2]) + third * cross(a[5], a[4]);
+  out.g[1] = cross(a[2], a[0]) + third * cross(a[3], a[5]);
+  out.g[2] = cross(a[0], a[1]) + third * cross(a[4], a[3]);
   out.g[3] = third * (cross(a[2], a[4]) + cross(a[5], a[1]));
   out.g[4] = third * (cross(a[3], a[2]) + cross(a[0], a[5]));
   out.g[5] = third * (cross(a[1], a[3]) + cross(a[4], a[0]));
-  out.V = dot(a[0], out.g[0]) + dot(a[3], out.g[3]);
-  out.inverse_V = 1.0 / out.V;
+  out.V64 = dot(a[0], out.g[0]) + dot(a[3], out.g[3]);
   return out;
 }
-COURANT_INLINE Native volume(const Triple a[7]) {
-  return 8.0 * dot(a[0], cross(a[1], a[2])) +
-         (8.0 / 3) * (dot(a[0], cross(a[5], a[4])) + dot(a[3], cross(a[2], a[4]) + cross(a[5], a[1])));
+COURANT_INLINE Native volume64(const Triple a[7]) {
+  return dot(a[0], cross(a[1], a[2])) +
+         (1.0 / 3) * (dot(a[0], cross(a[5], a[4])) + dot(a[3], cross(a[2], a[4]) + cross(a[5], a[1])));
 }
 
-/// Squares of the vectors of two opposite faces, 4 (b +- f) x (c +- e): the larger one.
+/// Squares of the vectors of two opposite faces, (b +- f) x (c +- e)/16, times 256: the larger one.
 COURANT_INLINE Native larger_face2(const Triple& b, const Triple& f, const Triple& c, const Triple& e) {
   const Triple even = cross(b, c) + cross(f, e), odd = cross(b, e) + cross(f, c);
   const Native twice = 2.0 * dot(even, odd);
-  return 16.0 * (dot(even, even) + dot(odd, odd) + native_max(twice, -twice));
+  return dot(even, even) + dot(odd, odd) + native_max(twice, -twice);
 }
-COURANT_INLINE Native largest_face2(const Triple a[7]) {
-  return native_max(larger_face2(a[1], a[5], a[2], a[4]),
-                    native_max(larger_face2(a[2], a[3], a[0], a[5]), larger_face2(a[0], a[4], a[1], a[3])));
-}
-
-/// V L: rows are components of v. Modes above 6 have no part in it.
-COURANT_INLINE void velocity_gradient(const Triple w[7], const Geometry& q, Triple L[3]) {
-  for (int i = 0; i < 3; ++i) L[i] = {all(0), all(0), all(0)};
-  for (int k = 0; k < 6; ++k) {
-    const Triple& g = q.g[k];
-    L[0] = {L[0].x + w[k].x * g.x, L[0].y + w[k].x * g.y, L[0].z + w[k].x * g.z};
-    L[1] = {L[1].x + w[k].y * g.x, L[1].y + w[k].y * g.y, L[1].z + w[k].y * g.z};
-    L[2] = {L[2].x + w[k].z * g.x, L[2].y + w[k].z * g.y, L[2].z + w[k].z * g.z};
-  }
+COURANT_INLINE Native largest_face(const Triple a[7]) {
+  return 0.0625 * root(native_max(larger_face2(a[1], a[5], a[2], a[4]),
+                                  native_max(larger_face2(a[2], a[3], a[0], a[5]),
+                                             larger_face2(a[0], a[4], a[1], a[3]))));
 }
 
-/// Modes of places and velocities, kept for the forces.
+/// 64 V times the gradient of one component of v, given by its modes. Those above 6 have no part in it.
+COURANT_INLINE Triple gradient64(const Native w[7], const Triple g[6]) {
+  Triple out{w[0] * g[0].x, w[0] * g[0].y, w[0] * g[0].z};
+  for (int k = 1; k < 6; ++k) out = {out.x + w[k] * g[k].x, out.y + w[k] * g[k].y, out.z + w[k] * g[k].z};
+  return out;
+}
+
+/// Modes of places and velocities, kept for the forces, too.
 COURANT_INLINE void gather_modes(const HexahedronMesh& mesh, Index first, Index n, Index k,
-                                 HexahedronScratch& scratch, Triple a[7], Triple w[7]) {
-  Native px[3][8], pv[3][8], x[3][7], v[3][7];
+                                 HexahedronScratch& scratch, Native x[3][7], Native v[3][7]) {
+  Native px[3][8], pv[3][8];
   Index last[8][native_lanes];
   const Index* nodes[8];
   for (int c = 0; c < 8; ++c) {
@@ -167,24 +162,28 @@ COURANT_INLINE void gather_modes(const HexahedronMesh& mesh, Index first, Index 
   for (int c = 0; c < 8; ++c)  // not by component: each index is read once
     for (int d = 0; d < 3; ++d)
       px[d][c] = gather(mesh.x[d], nodes[c]), pv[d][c] = gather(mesh.v[d], nodes[c]);
-  for (int d = 0; d < 3; ++d) modes_of(px[d], x[d]), modes_of(pv[d], v[d]);
-  for (int m = 0; m < 7; ++m) {
-    a[m] = {x[0][m], x[1][m], x[2][m]}, w[m] = {v[0][m], v[1][m], v[2][m]};
-    for (int d = 0; d < 3; ++d)
+  for (int d = 0; d < 3; ++d) {
+    modes_of(px[d], x[d]), modes_of(pv[d], v[d]);
+    for (int m = 0; m < 7; ++m)
       store(scratch.place[3 * m + d] + k, x[d][m]), store(scratch.speed[3 * m + d] + k, v[d][m]);
   }
 }
 
 COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const HexahedronMesh& mesh,
                               const HexahedronState& state, HexahedronScratch& scratch) {
-  Triple a[7], w[7], L[3];
-  gather_modes(mesh, first, n, k, scratch, a, w);
-  store(scratch.compression + k, load(state.V0 + first, n) / volume(a) - 1.0);
-  for (int m = 0; m < 6; ++m) a[m] = a[m] + (-0.5 * dt) * w[m];
+  Native x[3][7], v[3][7];
+  gather_modes(mesh, first, n, k, scratch, x, v);
+  Triple a[7], L[3];
+  for (int m = 0; m < 7; ++m) a[m] = {x[0][m], x[1][m], x[2][m]};
+  store(scratch.compression + k, 64.0 * load(state.V0 + first, n) / volume64(a) - 1.0);
+  const Real back = -0.5 * dt;
+  for (int m = 0; m < 6; ++m)
+    a[m] = {x[0][m] + back * v[0][m], x[1][m] + back * v[1][m], x[2][m] + back * v[2][m]};
   const Geometry middle = geometry(a);
-  store(scratch.middle_volume + k, middle.V);
-  velocity_gradient(w, middle, L);
-  const Native scale = middle.inverse_V, half = 0.5 * scale, turn = 0.5 * dt * half;
+  for (int i = 0; i < 3; ++i) L[i] = gradient64(v[i], middle.g);
+  const Native scale = 1.0 / middle.V64, half = 0.5 * scale, turn = 0.5 * dt * half;
+  const Native V = 0.015625 * middle.V64;
+  store(scratch.middle_volume + k, V);
   Native D[6] = {scale * L[0].x,           scale * L[1].y,           scale * L[2].z,
                  half * (L[0].y + L[1].x), half * (L[1].z + L[2].y), half * (L[2].x + L[0].z)};
   const Triple h{turn * (L[2].y - L[1].z), turn * (L[0].z - L[2].x), turn * (L[1].x - L[0].y)};
@@ -195,46 +194,35 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Hexa
   for (int j = 0; j < 6; ++j) store(state.stress[j] + first, s[j], n);
   const Native power =
       s[0] * D[0] + s[1] * D[1] + s[2] * D[2] + 2.0 * (s[3] * D[3] + s[4] * D[4] + s[5] * D[5]);
-  store(scratch.work + k, 0.5 * dt * middle.V * power);
+  store(scratch.work + k, 0.5 * dt * V * power);
 }
 
-/// Modes of the corner forces, -T b and those of hourglass control; returns the power of the latter.
+/// One component of the corner forces, by its modes: -T b and those of hourglass control, -a Gamma (rate).
+/// With the modes gamma that linear fields leave alone, gamma = Gamma - b.(sum x Gamma)/V, the second term of
+/// the forces has the form of a stress.
 struct Hourglass {
   Native a;  ///< force over rate of a mode [M/T]
   bool plain;
+  Native inverse_V64;
 };
-COURANT_INLINE Native force_modes(const Triple a[7], const Triple w[7], const Geometry& q, Triple T[3],
-                                  const Hourglass& h, Native out[3][7]) {
-  Triple rate[4];
-  const Native per_volume = 8.0 * q.inverse_V;
-  for (int m = 0; m < 4; ++m) rate[m] = 8.0 * w[3 + m];
+COURANT_INLINE Native force_modes(const Triple a[7], const Native w[7], const Geometry& q, Triple T,
+                                  const Hourglass& h, Native out[7]) {
+  Native rate[4] = {w[3], w[4], w[5], w[6]};
   if (!h.plain) {
-    Triple L[3];
-    velocity_gradient(w, q, L);
-    for (int m = 0; m < 4; ++m) {
-      const Triple& place = a[3 + m];
-      rate[m].x -= per_volume * dot(L[0], place);
-      rate[m].y -= per_volume * dot(L[1], place);
-      rate[m].z -= per_volume * dot(L[2], place);
-    }
-    const Native share = h.a * per_volume;
-    for (int m = 0; m < 4; ++m) {
-      const Native x = share * rate[m].x, y = share * rate[m].y, z = share * rate[m].z;
-      const Triple& place = a[3 + m];
-      T[0] = {T[0].x - x * place.x, T[0].y - x * place.y, T[0].z - x * place.z};
-      T[1] = {T[1].x - y * place.x, T[1].y - y * place.y, T[1].z - y * place.z};
-      T[2] = {T[2].x - z * place.x, T[2].y - z * place.y, T[2].z - z * place.z};
-    }
+    const Triple L = gradient64(w, q.g);
+    for (int m = 0; m < 4; ++m) rate[m] -= h.inverse_V64 * dot(L, a[3 + m]);
   }
-  for (int m = 0; m < 6; ++m)
-    for (int i = 0; i < 3; ++i) out[i][m] = -0.125 * dot(T[i], q.g[m]);
-  for (int i = 0; i < 3; ++i) out[i][6] = all(0);
   Native power = all(0);
-  for (int m = 0; m < 4; ++m) {
-    out[0][3 + m] -= h.a * rate[m].x, out[1][3 + m] -= h.a * rate[m].y, out[2][3 + m] -= h.a * rate[m].z;
-    power += dot(rate[m], rate[m]);
-  }
-  return h.a * power;
+  for (int m = 0; m < 4; ++m) power += rate[m] * rate[m], rate[m] *= h.a;
+  if (!h.plain)
+    for (int m = 0; m < 4; ++m) {
+      const Native share = 64.0 * h.inverse_V64 * rate[m];
+      T = {T.x - share * a[3 + m].x, T.y - share * a[3 + m].y, T.z - share * a[3 + m].z};
+    }
+  for (int m = 0; m < 6; ++m) out[m] = -0.015625 * dot(T, q.g[m]);
+  for (int m = 0; m < 3; ++m) out[3 + m] -= rate[m];
+  out[6] = -rate[3];
+  return power;
 }
 
 COURANT_INLINE void add(Real* p, Native a, Index n) {
@@ -243,37 +231,36 @@ COURANT_INLINE void add(Real* p, Native a, Index n) {
 
 COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const HexahedronControl& control,
                               const HexahedronState& state, HexahedronScratch& scratch) {
-  Triple a[7], w[7];
-  for (int m = 0; m < 7; ++m)
-    a[m] = triple(scratch.place + 3 * m, k), w[m] = triple(scratch.speed + 3 * m, k);
+  Triple a[7];
+  for (int m = 0; m < 7; ++m) a[m] = triple(scratch.place + 3 * m, k);
+  const Native area = largest_face(a);
   const Geometry now = geometry(a);
-  const Native V0 = load(state.V0 + first, n), rho = load(state.rho0 + first, n) * V0 * now.inverse_V;
-  store(scratch.relative_volume + k, now.V / V0);
+  const Native V = 0.015625 * now.V64, inverse_V64 = 1.0 / now.V64;
+  const Native V0 = load(state.V0 + first, n), rho = 64.0 * load(state.rho0 + first, n) * V0 * inverse_V64;
+  store(scratch.relative_volume + k, V / V0);
 
   // bulk viscosity q = rho l (Q1 l e^2 - Q2 c e) in compression, e = tr D < 0
-  const Native c = load(scratch.sound_speed + k, n), r = inverse_cube_root(now.V), l = now.V * r * r;
+  const Native c = load(scratch.sound_speed + k, n), r = inverse_cube_root(V), l = V * r * r;
   const Native trace = load(scratch.rate[0] + k) + load(scratch.rate[1] + k) + load(scratch.rate[2] + k);
   const Native closing = native_max(-trace, all(0));
-  const Native on = closing > 0.0 ? all(1) : all(0);
-  const Native viscosity = rho * l * closing * (control.Q1 * l * closing + control.Q2 * c);
-  const Native middle = dt * load(scratch.middle_volume + k);
-
-  const Native length = now.V / root(largest_face2(a));
-  const Native Q = on * (control.Q2 * c + control.Q1 * length * closing);
+  const Native q = rho * l * closing * (control.Q1 * l * closing + control.Q2 * c);
+  const Native length = V / area;
+  const Native Q = closing > 0.0 ? control.Q2 * c + control.Q1 * length * closing : all(0);
   store(scratch.step_limit + k, length / (Q + root(Q * Q + c * c)));
+  add(state.bulk_viscosity_energy + first, dt * load(scratch.middle_volume + k) * q * closing, n);
 
-  Native s[6], modes[3][7], f[8];
+  Native s[6], w[7], modes[7], f[8], power = all(0);
   for (int j = 0; j < 6; ++j) s[j] = load(state.stress[j] + first, n);
-  const Native p = state.pressure ? viscosity + load(state.pressure + first, n) : viscosity;
-  Triple T[3] = {{s[0] - p, s[3], s[5]}, {s[3], s[1] - p, s[4]}, {s[5], s[4], s[2] - p}};
-  const Hourglass hourglass{0.25 * control.QM * rho * c * l * l, control.hourglass == 1};
-  const Native power = force_modes(a, w, now, T, hourglass, modes);
+  const Native p = state.pressure ? q + load(state.pressure + first, n) : q;
+  const Triple T[3] = {{s[0] - p, s[3], s[5]}, {s[3], s[1] - p, s[4]}, {s[5], s[4], s[2] - p}};
+  const Hourglass hourglass{0.25 * control.QM * rho * c * l * l, control.hourglass == 1, inverse_V64};
   for (int i = 0; i < 3; ++i) {
-    corners_of(modes[i], f);
+    for (int m = 0; m < 7; ++m) w[m] = load(scratch.speed[3 * m + i] + k);
+    power += force_modes(a, w, now, T[i], hourglass, modes);
+    corners_of(modes, f);
     for (int j = 0; j < 8; ++j) store(state.corner_force[3 * j + i] + first, f[j], n);
   }
-  add(state.hourglass_energy + first, dt * power, n);
-  add(state.bulk_viscosity_energy + first, middle * viscosity * closing, n);
+  add(state.hourglass_energy + first, dt * hourglass.a * power, n);
   if (state.internal_energy) add(state.internal_energy + first, load(scratch.work + k), n);
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 // The hexahedron with one point (ELFORM 1) on a block of elements, compiled once for each instruction set.
 //
-// Places and velocities of an element are taken as their eight modes: x_I = sum_k H_Ik a_k, with H the signs
-// of 1, xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta at corner I. The volume of a hexahedron with
-// bilinear faces is a polynomial in the a_k,
-//   V = 8 [a1.(a2 x a3) + (a5.(a4 x a3) + a6.(a2 x a4) + a1.(a6 x a5))/3],
-// so its derivatives by the corners, b_I = dV/dx_I = 1/8 sum_k H_Ik dV/da_k, are exact and cost a few cross
+// Places and velocities of an element are taken as eight modes: a_k = sum_I H_Ik x_I, with H the signs of 1,
+// xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta at corner I. The volume of a hexahedron with bilinear
+// faces is a polynomial in them,
+//   64 V = a1.(a2 x a3) + (a5.(a4 x a3) + a6.(a2 x a4) + a1.(a6 x a5))/3,
+// so its derivatives by the corners, b_I = dV/dx_I = sum_k H_Ik dV/da_k, are exact and cost a few cross
 // products, and the modes of hourglass control (Flanagan & Belytschko 1981) are those from a4 on.
 #include "base/real.hpp"
 #include "parallel/parallel.hpp"
