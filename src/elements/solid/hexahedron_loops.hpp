@@ -18,9 +18,7 @@ struct HexahedronMesh {
   const Index* corner[8];   ///< by element: its nodes in LS-DYNA's order
 };
 
-/// Arrays over the elements of a group. The loops touch entries of their block alone, so pointers may as well
-/// be set for each block: forces in blocks of 24 x 64 numbers, written in one go, are a little quicker, as
-/// arrays that begin on pages of memory compete for the same lines of the cache.
+/// Arrays over the elements of a group. The loops touch the entries of their block alone.
 struct HexahedronState {
   Real* stress[6];        ///< Cauchy, xx yy zz xy yz zx; the deviator where there is a pressure [M/LT2]
   const Real* pressure;   ///< of the part's equation of state; null where it has none [M/LT2]
