@@ -11,31 +11,30 @@ using namespace rules;
 
 namespace {
 
-struct MatElastic : Entry {
+struct MatElasticFluid : Entry {
   std::string title;
   Id mid = 0;
   Real ro = 0, e = 0, pr = 0, da = 0, db = 0, k = 0, vc = 0, cp = 0;
 };
-KeywordOf<MatElastic> mat_elastic() {
-  using T = MatElastic;
-  return {.names = {"MAT_ELASTIC", "MAT_001", "MAT_ELASTIC_FLUID", "MAT_001_FLUID"},
-          .purpose = "linear elasticity; _FLUID: a fluid with a bulk modulus K",
+KeywordOf<MatElasticFluid> mat_elastic_fluid() {
+  using T = MatElasticFluid;
+  return {.names = {"MAT_ELASTIC_FLUID", "MAT_001_FLUID"},
+          .purpose = "a fluid with a bulk modulus K",
           .id_space = IdSpace::material,
           .title_option = true,
           .title = &T::title,
           .lacking = "elastic materials",
           .cards = {{.fields = {{"MID", &T::mid, "-", "id that *PART refers to", required_id},
                                 {"RO", &T::ro, "M/L3", "density"},
-                                {"E", &T::e, "M/LT2", "Young's modulus; negative: a curve"},
+                                {"E", &T::e, "M/LT2", "Young's modulus"},
                                 {"PR", &T::pr, "-", "Poisson ratio"},
                                 {"DA", &T::da, "-", "axial damping of beams"},
                                 {"DB", &T::db, "-", "bending damping of beams"},
-                                {"K", &T::k, "M/LT2", "bulk modulus of _FLUID"}}},
+                                {"K", &T::k, "M/LT2", "bulk modulus"}}},
                     {.fields = {{"VC", &T::vc, "-", "tensor viscosity coefficient"},
-                                {"CP", &T::cp, "M/LT2", "cavitation pressure", or_blank(1e20)}},
-                     .when = [](const T& e) { return e.name >= 2; }}}};
+                                {"CP", &T::cp, "M/LT2", "cavitation pressure", or_blank(1e20)}}}}};
 }
-const RegisterKeyword<MatElastic> mat_elastic_keyword{mat_elastic()};
+const RegisterKeyword<MatElasticFluid> mat_elastic_fluid_keyword{mat_elastic_fluid()};
 
 struct MatPlasticKinematic : Entry {
   std::string title;
@@ -86,7 +85,7 @@ KeywordOf<MatViscoelastic> mat_viscoelastic() {
 }
 const RegisterKeyword<MatViscoelastic> mat_viscoelastic_keyword{mat_viscoelastic()};
 
-struct MatElasticPlasticHydro : Entry {
+struct MatElasticPlasticHydroSpall : Entry {
   std::string title;
   Id mid = 0;
   Real ro = 0, g = 0, sigy = 0, eh = 0, pc = 0, fs = 0, charl = 0, a1 = 0, a2 = 0, spall = 0, eps1 = 0,
@@ -95,61 +94,60 @@ struct MatElasticPlasticHydro : Entry {
        es6 = 0, es7 = 0, es8 = 0, es9 = 0, es10 = 0, es11 = 0, es12 = 0, es13 = 0, es14 = 0, es15 = 0,
        es16 = 0;
 };
-KeywordOf<MatElasticPlasticHydro> mat_elastic_plastic_hydro() {
-  using T = MatElasticPlasticHydro;
-  return {
-      .names = {"MAT_ELASTIC_PLASTIC_HYDRO", "MAT_010", "MAT_ELASTIC_PLASTIC_HYDRO_SPALL", "MAT_010_SPALL"},
-      .purpose = "elasticity and plasticity beside an equation of state",
-      .id_space = IdSpace::material,
-      .title_option = true,
-      .title = &T::title,
-      .lacking = "plastic materials",
-      .cards = {{.fields = {{"MID", &T::mid, "-", "material id, referenced by *PART", required_id},
-                            {"RO", &T::ro, "M/L3", "mass density"},
-                            {"G", &T::g, "M/LT2", "shear modulus"},
-                            {"SIGY", &T::sigy, "M/LT2", "initial yield stress"},
-                            {"EH", &T::eh, "M/LT2", "plastic hardening modulus"},
-                            {"PC", &T::pc, "M/LT2", "pressure cutoff <= 0 (0 = -infinity)"},
-                            {"FS", &T::fs, "-", "failure strain"},
-                            {"CHARL", &T::charl, "L", "2D boundary-element thickness for deletion"}}},
-                {.fields = {{"A1", &T::a1, "-", "pressure hardening, linear"},
-                            {"A2", &T::a2, "-", "pressure hardening, square root"},
-                            {"SPALL", &T::spall, "-", "kind of spall: 1, 2, 3"}},
-                 .when = [](const T& e) { return e.name >= 2; }},
-                {.fields = {{"EPS1", &T::eps1, "-", "plastic-strain abscissae 1-8"},
-                            {"EPS2", &T::eps2, "-", "plastic-strain abscissae 1-8"},
-                            {"EPS3", &T::eps3, "-", "plastic-strain abscissae 1-8"},
-                            {"EPS4", &T::eps4, "-", "plastic-strain abscissae 1-8"},
-                            {"EPS5", &T::eps5, "-", "plastic-strain abscissae 1-8"},
-                            {"EPS6", &T::eps6, "-", "plastic-strain abscissae 1-8"},
-                            {"EPS7", &T::eps7, "-", "plastic-strain abscissae 1-8"},
-                            {"EPS8", &T::eps8, "-", "plastic-strain abscissae 1-8"}}},
-                {.fields = {{"EPS9", &T::eps9, "-", "plastic-strain abscissae 9-16"},
-                            {"EPS10", &T::eps10, "-", "plastic-strain abscissae 9-16"},
-                            {"EPS11", &T::eps11, "-", "plastic-strain abscissae 9-16"},
-                            {"EPS12", &T::eps12, "-", "plastic-strain abscissae 9-16"},
-                            {"EPS13", &T::eps13, "-", "plastic-strain abscissae 9-16"},
-                            {"EPS14", &T::eps14, "-", "plastic-strain abscissae 9-16"},
-                            {"EPS15", &T::eps15, "-", "plastic-strain abscissae 9-16"},
-                            {"EPS16", &T::eps16, "-", "plastic-strain abscissae 9-16"}}},
-                {.fields = {{"ES1", &T::es1, "M/LT2", "yield stress at EPS1-8"},
-                            {"ES2", &T::es2, "M/LT2", "yield stress at EPS1-8"},
-                            {"ES3", &T::es3, "M/LT2", "yield stress at EPS1-8"},
-                            {"ES4", &T::es4, "M/LT2", "yield stress at EPS1-8"},
-                            {"ES5", &T::es5, "M/LT2", "yield stress at EPS1-8"},
-                            {"ES6", &T::es6, "M/LT2", "yield stress at EPS1-8"},
-                            {"ES7", &T::es7, "M/LT2", "yield stress at EPS1-8"},
-                            {"ES8", &T::es8, "M/LT2", "yield stress at EPS1-8"}}},
-                {.fields = {{"ES9", &T::es9, "M/LT2", "yield stress at EPS9-16"},
-                            {"ES10", &T::es10, "M/LT2", "yield stress at EPS9-16"},
-                            {"ES11", &T::es11, "M/LT2", "yield stress at EPS9-16"},
-                            {"ES12", &T::es12, "M/LT2", "yield stress at EPS9-16"},
-                            {"ES13", &T::es13, "M/LT2", "yield stress at EPS9-16"},
-                            {"ES14", &T::es14, "M/LT2", "yield stress at EPS9-16"},
-                            {"ES15", &T::es15, "M/LT2", "yield stress at EPS9-16"},
-                            {"ES16", &T::es16, "M/LT2", "yield stress at EPS9-16"}}}}};
+KeywordOf<MatElasticPlasticHydroSpall> mat_elastic_plastic_hydro_spall() {
+  using T = MatElasticPlasticHydroSpall;
+  return {.names = {"MAT_ELASTIC_PLASTIC_HYDRO_SPALL", "MAT_010_SPALL"},
+          .purpose = "elasticity and plasticity beside an equation of state, with spall",
+          .id_space = IdSpace::material,
+          .title_option = true,
+          .title = &T::title,
+          .lacking = "plastic materials",
+          .cards = {{.fields = {{"MID", &T::mid, "-", "material id, referenced by *PART", required_id},
+                                {"RO", &T::ro, "M/L3", "mass density"},
+                                {"G", &T::g, "M/LT2", "shear modulus"},
+                                {"SIGY", &T::sigy, "M/LT2", "initial yield stress"},
+                                {"EH", &T::eh, "M/LT2", "plastic hardening modulus"},
+                                {"PC", &T::pc, "M/LT2", "pressure cutoff <= 0 (0 = -infinity)"},
+                                {"FS", &T::fs, "-", "failure strain"},
+                                {"CHARL", &T::charl, "L", "2D boundary-element thickness for deletion"}}},
+                    {.fields = {{"A1", &T::a1, "-", "pressure hardening, linear"},
+                                {"A2", &T::a2, "-", "pressure hardening, square root"},
+                                {"SPALL", &T::spall, "-", "kind of spall: 1, 2, 3"}}},
+                    {.fields = {{"EPS1", &T::eps1, "-", "plastic-strain abscissae 1-8"},
+                                {"EPS2", &T::eps2, "-", "plastic-strain abscissae 1-8"},
+                                {"EPS3", &T::eps3, "-", "plastic-strain abscissae 1-8"},
+                                {"EPS4", &T::eps4, "-", "plastic-strain abscissae 1-8"},
+                                {"EPS5", &T::eps5, "-", "plastic-strain abscissae 1-8"},
+                                {"EPS6", &T::eps6, "-", "plastic-strain abscissae 1-8"},
+                                {"EPS7", &T::eps7, "-", "plastic-strain abscissae 1-8"},
+                                {"EPS8", &T::eps8, "-", "plastic-strain abscissae 1-8"}}},
+                    {.fields = {{"EPS9", &T::eps9, "-", "plastic-strain abscissae 9-16"},
+                                {"EPS10", &T::eps10, "-", "plastic-strain abscissae 9-16"},
+                                {"EPS11", &T::eps11, "-", "plastic-strain abscissae 9-16"},
+                                {"EPS12", &T::eps12, "-", "plastic-strain abscissae 9-16"},
+                                {"EPS13", &T::eps13, "-", "plastic-strain abscissae 9-16"},
+                                {"EPS14", &T::eps14, "-", "plastic-strain abscissae 9-16"},
+                                {"EPS15", &T::eps15, "-", "plastic-strain abscissae 9-16"},
+                                {"EPS16", &T::eps16, "-", "plastic-strain abscissae 9-16"}}},
+                    {.fields = {{"ES1", &T::es1, "M/LT2", "yield stress at EPS1-8"},
+                                {"ES2", &T::es2, "M/LT2", "yield stress at EPS1-8"},
+                                {"ES3", &T::es3, "M/LT2", "yield stress at EPS1-8"},
+                                {"ES4", &T::es4, "M/LT2", "yield stress at EPS1-8"},
+                                {"ES5", &T::es5, "M/LT2", "yield stress at EPS1-8"},
+                                {"ES6", &T::es6, "M/LT2", "yield stress at EPS1-8"},
+                                {"ES7", &T::es7, "M/LT2", "yield stress at EPS1-8"},
+                                {"ES8", &T::es8, "M/LT2", "yield stress at EPS1-8"}}},
+                    {.fields = {{"ES9", &T::es9, "M/LT2", "yield stress at EPS9-16"},
+                                {"ES10", &T::es10, "M/LT2", "yield stress at EPS9-16"},
+                                {"ES11", &T::es11, "M/LT2", "yield stress at EPS9-16"},
+                                {"ES12", &T::es12, "M/LT2", "yield stress at EPS9-16"},
+                                {"ES13", &T::es13, "M/LT2", "yield stress at EPS9-16"},
+                                {"ES14", &T::es14, "M/LT2", "yield stress at EPS9-16"},
+                                {"ES15", &T::es15, "M/LT2", "yield stress at EPS9-16"},
+                                {"ES16", &T::es16, "M/LT2", "yield stress at EPS9-16"}}}}};
 }
-const RegisterKeyword<MatElasticPlasticHydro> mat_elastic_plastic_hydro_keyword{mat_elastic_plastic_hydro()};
+const RegisterKeyword<MatElasticPlasticHydroSpall> mat_elastic_plastic_hydro_spall_keyword{
+    mat_elastic_plastic_hydro_spall()};
 
 struct MatJohnsonCook : Entry {
   std::string title;

@@ -1,0 +1,78 @@
+#pragma once
+// The hexahedron with one point (ELFORM 1) on a block of elements, compiled once for each instruction set.
+//
+// Places and velocities of an element are taken as eight modes: a_k = sum_I H_Ik x_I, with H the signs of 1,
+// xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta at corner I. The volume of a hexahedron with bilinear
+// faces is a polynomial in them,
+//   64 V = a1.(a2 x a3) + (a5.(a4 x a3) + a6.(a2 x a4) + a1.(a6 x a5))/3,
+// so its derivatives by the corners, b_I = dV/dx_I = sum_k H_Ik dV/da_k, are exact and cost a few cross
+// products, and the modes of hourglass control (Flanagan & Belytschko 1981) are those from a4 on.
+#include "base/real.hpp"
+#include "parallel/parallel.hpp"
+
+namespace courant {
+
+/// Corners of the elements of a group, and the nodes they stand at.
+struct HexahedronMesh {
+  const Real *x[3], *v[3];  ///< of nodes: place at the end of the step [L], velocity through it [L/T]
+  const Index* corner[8];   ///< by element: its nodes in LS-DYNA's order
+};
+
+/// Arrays over the elements of a group. The loops touch the entries of their block alone.
+struct HexahedronState {
+  Real* stress[6];        ///< Cauchy, xx yy zz xy yz zx; the deviator where there is a pressure [M/LT2]
+  const Real* pressure;   ///< of the part's equation of state; null where it has none [M/LT2]
+  const Real *V0, *rho0;  ///< reference volume and density [L3], [M/L3]
+  Real* internal_energy;  ///< the work of stress is added; null: not asked for [ML2/T2]
+  Real *hourglass_energy, *bulk_viscosity_energy;  ///< what they took is added [ML2/T2]
+  Real* corner_force[24];  ///< out: of corner c in direction k at [3 c + k], on the node [ML/T2]
+};
+
+/// *CONTROL_HOURGLASS or *HOURGLASS, and *CONTROL_BULK_VISCOSITY.
+struct HexahedronControl {
+  /// IHQ: 1 viscous on the plain modes Gamma, else (2, 3) on those orthogonal to linear fields.
+  int hourglass = 2;
+  Real QM = 0.1, Q1 = 1.5, Q2 = 0.06;
+};
+
+/// What a thread keeps of the block it works on, from one loop to the next.
+struct HexahedronScratch {
+  alignas(64) Real rate[6][block_size];  ///< D of mid-step in the axes at its end: xx yy zz xy yz zx [1/T]
+  Real place[21][block_size];            ///< modes 1 to 7 of x, three components each [L]
+  Real speed[21][block_size];            ///< the same of v [L/T]
+  Real compression[block_size];          ///< rho/rho0 - 1 at the end of the step [-]
+  Real middle_volume[block_size];        ///< at mid-step [L3]
+  Real work[block_size];                 ///< of stress over the step, once `work` was called [ML2/T2]
+  Real sound_speed[block_size];          ///< the law writes it before `forces` [L/T]
+  Real step_limit[block_size];           ///< out: stable step [T]
+  Real relative_volume[block_size];      ///< out: V/V0 [-]
+};
+
+struct HexahedronLoops {
+  /// Elements [begin, begin + count) of the group, count <= block_size.
+  struct Block {
+    Index begin, count;
+    Real dt;  ///< of the step that led here; 0: none yet [T]
+  };
+  /// Gathers corners; D, and stress turned by the spin (Hughes-Winget), with the geometry in the middle of
+  /// the step.
+  void (*strain)(const Block& block, const HexahedronMesh& mesh, const HexahedronState& state,
+                 HexahedronScratch& scratch);
+  /// Behind the law: completes the work of stress, (old turned + new stress)/2 : D V dt of the middle.
+  /// Without pressure: that of the equation of state is worked out with the energy.
+  void (*work)(const Block& block, const HexahedronState& state, HexahedronScratch& scratch);
+  /// Corner forces with the geometry at the end of the step, energies, stable step.
+  struct Found {
+    Real step;          ///< least stable step; not a number where that of an element is [T]
+    Index shortest;     ///< whose it is, of the group
+    Real least_volume;  ///< least V/V0; not a number where one is
+    Index smallest;     ///< whose it is
+  };
+  Found (*forces)(const Block& block, const HexahedronControl& control, const HexahedronState& state,
+                  HexahedronScratch& scratch);
+};
+
+/// For the machine the program runs on.
+HexahedronLoops hexahedron_loops();
+
+}  // namespace courant

@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+#include <cmath>
+
+#include "laws/strength/strength.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Linear between the rates of strain and of (turned) stress: sigma += (lambda tr(D) 1 + 2 G D) dt.
+class Elastic : public StrengthLaw {
+ public:
+  Elastic(Real density, Real E, Real nu)
+      : lambda_(E * nu / ((1 + nu) * (1 - 2 * nu))), shear_(E / (2 * (1 + nu))) {
+    ro = density;
+  }
+  Real bulk_modulus() const override { return lambda_ + 2 * shear_ / 3; }
+  Real shear_modulus() const override { return shear_; }
+
+  void update(const PointBlock& block) const override {
+    const Real volumetric = lambda_ * block.dt, twice = 2 * shear_ * block.dt;
+    const Real *dxx = block.rate[0], *dyy = block.rate[1], *dzz = block.rate[2];
+    Real* __restrict xx = block.stress[0], * __restrict yy = block.stress[1], * __restrict zz = block.stress[2];
+    for (Index i = 0; i < block.count; ++i) {
+      const Real common = volumetric * (dxx[i] + dyy[i] + dzz[i]);
+      xx[i] += common + twice * dxx[i];
+      yy[i] += common + twice * dyy[i];
+      zz[i] += common + twice * dzz[i];
+    }
+    for (int k = 3; k < 6; ++k) {
+      const Real* d = block.rate[k];
+      Real* __restrict s = block.stress[k];
+      for (Index i = 0; i < block.count; ++i) s[i] += twice * d[i];
+    }
+    const Real c0 = sound_speed();
+    Real* __restrict c = block.sound_speed;
+    const Real* mu = block.compression;
+    for (Index i = 0; i < block.count; ++i) c[i] = mu ? c0 / std::sqrt(1 + mu[i]) : c0;
+  }
+
+ private:
+  Real lambda_, shear_;
+};
+
+struct MatElastic : Entry {
+  std::string title;
+  Id mid = 0;
+  Real ro = 0, E = 0, pr = 0, da = 0, db = 0, k = 0;
+  std::shared_ptr<StrengthLaw> law() const { return std::make_shared<Elastic>(ro, E, pr); }
+  void check(const Deck& deck, Diagnostics& diagnostics) const {
+    if (!(pr < 0.5))
+      deck.error(diagnostics, *this, "PR", fmt::format("expected a number < 0.5, got '{:g}'", pr),
+                 "a material that keeps its volume has no finite bulk modulus");
+  }
+};
+using Card = MatElastic;
+
+const FieldRules required_positive{.required = true, .check = Check::positive};
+
+// By hand: E = 2.5, PR = 1/4: lambda = G = 1, K = 5/3.
+const RegisterStrength<Card> registered{
+    "dsigma/dt = lambda tr(D) 1 + 2 G D, turned with the body; lambda = E PR/((1 + PR)(1 - 2 PR)), G = E/(2 "
+    "(1 + PR))",
+    "Hooke's law between rates (hypoelastic), with the objective update of Hughes & Winget 1980",
+    {{"1,2.0,2.5,0.25\n", {0.1, 0, 0, 0, 0, 0}, {1, 2, 3, 4, 5, 6}, {1.3, 2.1, 3.1, 4, 5, 6}},
+     {"1,2.0,2.5,0.25\n", {0, 0, 0, 0.1, 0.2, 0.3}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0.2, 0.4, 0.6}}},
+    {.names = {"MAT_ELASTIC", "MAT_001"},
+     .purpose = "linear elasticity",
+     .id_space = IdSpace::material,
+     .title_option = true,
+     .title = &Card::title,
+     .cards = {{.fields = {{"MID",
+                            &Card::mid,
+                            "-",
+                            "id that *PART refers to",
+                            {.required = true, .check = Check::positive}},
+                           {"RO", &Card::ro, "M/L3", "density", required_positive},
+                           {"E", &Card::E, "M/LT2", "Young's modulus", required_positive},
+                           {"PR", &Card::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
+                           {"DA", &Card::da, "-", "axial damping of beams", unsupported},
+                           {"DB", &Card::db, "-", "bending damping of beams", unsupported},
+                           {"K", &Card::k, "M/LT2", "bulk modulus of _FLUID", no_effect}}}}}};
+
+}  // namespace
+
+}  // namespace courant

@@ -1,0 +1,211 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "laws/strength/strength.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Yield stress over effective plastic strain, straight between points and beyond the last. [M/LT2]
+struct Hardening {
+  std::vector<Real> strain, stress;  ///< at least two points, strain from 0 on, strictly increasing
+
+  Real slope(std::size_t k) const { return (stress[k + 1] - stress[k]) / (strain[k + 1] - strain[k]); }
+  std::size_t piece(Real e) const {
+    std::size_t k = 0;
+    while (k + 2 < strain.size() && e >= strain[k + 1]) ++k;
+    return k;
+  }
+  Real at(Real e) const {
+    const std::size_t k = piece(e);
+    return stress[k] + slope(k) * (e - strain[k]);
+  }
+  /// The plastic strain de at which q - 3 G de is the yield stress at e + de; q is above that at e. Exact:
+  /// the pieces are walked through, on each of which this is linear.
+  Real increment(Real q, Real three_g, Real e) const {
+    for (std::size_t k = piece(e);; ++k) {
+      const Real h = slope(k);
+      const Real de = (q - stress[k] - h * (e - strain[k])) / (three_g + h);
+      if (k + 2 == strain.size() || e + de <= strain[k + 1]) return de;
+    }
+  }
+};
+
+/// J2 plasticity with isotropic hardening beside an equation of state: s_tr = s + 2 G dev(D) dt is returned
+/// along itself to q = sqrt(3/2 s:s) = yield stress at e + de with q_tr - q = 3 G de.
+class ElasticPlasticHydro : public StrengthLaw {
+ public:
+  ElasticPlasticHydro(Real density, Real G, Real cutoff, Hardening hardening)
+      : shear_(G), cutoff_(cutoff), hardening_(std::move(hardening)) {
+    ro = density;
+  }
+  bool deviator_only() const override { return true; }
+  std::vector<HistoryVariable> history() const override { return {{"plastic_strain", "-"}}; }
+  Real bulk_modulus() const override { return 0; }
+  Real shear_modulus() const override { return shear_; }
+  Real pressure_cutoff() const override { return cutoff_; }
+
+  void update(const PointBlock& block) const override {
+    const Real twice = 2 * shear_ * block.dt, c0 = sound_speed();
+    for (Index i = 0; i < block.count; ++i) {
+      const Real mean = (block.rate[0][i] + block.rate[1][i] + block.rate[2][i]) / 3;
+      for (int k = 0; k < 6; ++k) block.stress[k][i] += twice * (block.rate[k][i] - (k < 3 ? mean : 0));
+      return_to_yield(block, i);
+      const Real mu = block.compression ? block.compression[i] : 0;
+      block.sound_speed[i] = c0 / std::sqrt(1 + mu);
+    }
+  }
+
+ private:
+  void return_to_yield(const PointBlock& block, Index i) const {
+    const auto& s = block.stress;
+    const Real j2 = 0.5 * (s[0][i] * s[0][i] + s[1][i] * s[1][i] + s[2][i] * s[2][i]) + s[3][i] * s[3][i] +
+                    s[4][i] * s[4][i] + s[5][i] * s[5][i];
+    const Real q = std::sqrt(3 * j2);
+    Real& plastic = block.history[0][i];
+    if (!(q > std::max(hardening_.at(plastic), Real(0)))) return;
+    // softening ends at no strength at all, not beyond
+    const Real de = std::min(hardening_.increment(q, 3 * shear_, plastic), q / (3 * shear_));
+    for (int k = 0; k < 6; ++k) s[k][i] *= 1 - 3 * shear_ * de / q;
+    plastic += de;
+  }
+
+  Real shear_, cutoff_;
+  Hardening hardening_;
+};
+
+struct MatElasticPlasticHydro : Entry {
+  std::string title;
+  Id mid = 0;
+  Real ro = 0, G = 0, sigy = 0, eh = 0, pc = 0, fs = 0, charl = 0;
+  Real eps1 = 0, eps2 = 0, eps3 = 0, eps4 = 0, eps5 = 0, eps6 = 0, eps7 = 0, eps8 = 0, eps9 = 0, eps10 = 0,
+       eps11 = 0, eps12 = 0, eps13 = 0, eps14 = 0, eps15 = 0, eps16 = 0;
+  Real es1 = 0, es2 = 0, es3 = 0, es4 = 0, es5 = 0, es6 = 0, es7 = 0, es8 = 0, es9 = 0, es10 = 0, es11 = 0,
+       es12 = 0, es13 = 0, es14 = 0, es15 = 0, es16 = 0;
+
+  /// The points of the table; none where the cards have none. Zeros behind the last are blank fields.
+  Hardening table() const {
+    Hardening out{{eps1, eps2, eps3, eps4, eps5, eps6, eps7, eps8, eps9, eps10, eps11, eps12, eps13, eps14,
+                   eps15, eps16},
+                  {es1, es2, es3, es4, es5, es6, es7, es8, es9, es10, es11, es12, es13, es14, es15, es16}};
+    while (!out.strain.empty() && out.strain.back() == 0 && out.stress.back() == 0)
+      out.strain.pop_back(), out.stress.pop_back();
+    return out;
+  }
+  std::shared_ptr<StrengthLaw> law() const {
+    Hardening hardening = table();
+    if (hardening.strain.empty()) hardening = {{0, 1}, {sigy, sigy + eh}};
+    const Real cutoff = pc < 0 ? pc : -std::numeric_limits<Real>::infinity();
+    return std::make_shared<ElasticPlasticHydro>(ro, G, cutoff, std::move(hardening));
+  }
+  void check(const Deck& deck, Diagnostics& diagnostics) const {
+    const Hardening points = table();
+    const std::size_t n = points.strain.size();
+    if (n == 0) {
+      if (!(sigy > 0))
+        deck.error(diagnostics, *this, "SIGY", fmt::format("expected a number > 0, got '{:g}'", sigy),
+                   "the yield stress comes from SIGY and EH, or from the table of EPS and ES");
+      return;
+    }
+    if (n == 1)
+      deck.error(diagnostics, *this, "EPS2", "expected a second point of the table",
+                 "a constant yield stress is SIGY without a table");
+    if (points.strain[0] != 0)
+      deck.error(diagnostics, *this, "EPS1", fmt::format("expected 0, got '{:g}'", points.strain[0]),
+                 "the table starts where plastic strain does");
+    for (std::size_t k = 0; k < n; ++k) {
+      if (k > 0 && !(points.strain[k] > points.strain[k - 1]))
+        deck.error(
+            diagnostics, *this, fmt::format("EPS{}", k + 1),
+            fmt::format("expected a number > {:g}, got '{:g}'", points.strain[k - 1], points.strain[k]),
+            "plastic strains of the table increase");
+      if (!(points.stress[k] > 0))
+        deck.error(diagnostics, *this, fmt::format("ES{}", k + 1),
+                   fmt::format("expected a number > 0, got '{:g}'", points.stress[k]));
+      if (k > 0 && points.strain[k] > points.strain[k - 1] && !(points.slope(k - 1) > -3 * G))
+        deck.error(diagnostics, *this, fmt::format("ES{}", k + 1),
+                   "the yield stress falls faster than 3 G: stress has no unique answer");
+    }
+  }
+};
+using Card = MatElasticPlasticHydro;
+
+const FieldRules required_positive{.required = true, .check = Check::positive};
+
+#define EPS(k)                                                                                \
+  FieldOf<Card> {                                                                             \
+    "EPS" #k, &Card::eps##k, "-", "effective plastic strain of point " #k " of the table", {} \
+  }
+#define ES(k)                                                    \
+  FieldOf<Card> {                                                \
+    "ES" #k, &Card::es##k, "M/LT2", "yield stress at EPS" #k, {} \
+  }
+
+// By hand. G = 1, SIGY = 3, EH = 2, shear from rest: s_xy = 2 G e = 4, q = 4 sqrt(3). Perfect for EH = 0:
+// s_xy = sqrt(3). With EH = 2: de = (4 sqrt(3) - 3)/5, s_xy = 4 - sqrt(3) de. Pulling by dev e = (2, -1, -1):
+// s = (4, -2, -2), q = 6, de = 3/5, q = 6 - 9/5 = 4.2: s = 0.7 (4, -2, -2). Table (0, 3) (0.25, 4) (1.25, 4):
+// at e = 0 the first piece, slope 4, would give de = 3/7 > 1/4, so the second: 6 - 3 de = 4, de = 2/3, s =
+// 2/3 (4, -2, -2).
+const Real root3 = 1.7320508075688772935;
+const RegisterStrength<Card> registered{
+    "s_tr = s + 2 G dev(D) dt; q = sqrt(3/2 s:s) <= SIGY + EH e, or the table ES(EPS); return along s_tr",
+    "J2 plasticity with radial return: Wilkins 1964; hardening solved exactly, piece by piece",
+    {{"1,2.0,1.0,3.0,0.0\n", {0, 0, 0, 2, 0, 0}, {}, {0, 0, 0, root3, 0, 0}},
+     {"1,2.0,1.0,3.0,2.0\n",
+      {0, 0, 0, 2, 0, 0},
+      {},
+      {0, 0, 0, 4 - root3*(4 * root3 - 3) / 5, 0, 0},
+      {0},
+      {(4 * root3 - 3) / 5}},
+     {"1,2.0,1.0,3.0,2.0\n", {2.5, -0.5, -0.5, 0, 0, 0}, {}, {2.8, -1.4, -1.4, 0, 0, 0}, {0}, {0.6}},
+     {"1,2.0,1.0,3.0,2.0\n", {0.5, 0.5, 0.5, 0, 0.5, 0}, {1, -1, 0}, {1, -1, 0, 0, 1, 0}, {0.1}, {0.1}},
+     {"1,2.0,1.0\n0.0,0.25,1.25\n\n3.0,4.0,4.0\n\n",
+      {2, -1, -1, 0, 0, 0},
+      {},
+      {8.0 / 3, -4.0 / 3, -4.0 / 3, 0, 0, 0},
+      {0},
+      {2.0 / 3}}},
+    {.names = {"MAT_ELASTIC_PLASTIC_HYDRO", "MAT_010"},
+     .purpose = "elasticity and plasticity beside an equation of state",
+     .id_space = IdSpace::material,
+     .title_option = true,
+     .title = &Card::title,
+     .cards = {
+         {.fields = {{"MID",
+                      &Card::mid,
+                      "-",
+                      "id that *PART refers to",
+                      {.required = true, .check = Check::positive}},
+                     {"RO", &Card::ro, "M/L3", "density", required_positive},
+                     {"G", &Card::G, "M/LT2", "shear modulus", required_positive},
+                     {"SIGY",
+                      &Card::sigy,
+                      "M/LT2",
+                      "yield stress at the start, where there is no table",
+                      {.check = Check::not_negative}},
+                     {"EH",
+                      &Card::eh,
+                      "M/LT2",
+                      "its slope over effective plastic strain",
+                      {.check = Check::not_negative}},
+                     {"PC",
+                      &Card::pc,
+                      "M/LT2",
+                      "tensile pressure cut-off; 0: none",
+                      {.check = Check::not_positive}},
+                     {"FS", &Card::fs, "-", "effective plastic strain at failure", unsupported},
+                     {"CHARL", &Card::charl, "L", "thickness at failure, of a rezoned plane mesh",
+                      unsupported}}},
+         {.fields = {EPS(1), EPS(2), EPS(3), EPS(4), EPS(5), EPS(6), EPS(7), EPS(8)}, .optional = true},
+         {.fields = {EPS(9), EPS(10), EPS(11), EPS(12), EPS(13), EPS(14), EPS(15), EPS(16)},
+          .optional = true},
+         {.fields = {ES(1), ES(2), ES(3), ES(4), ES(5), ES(6), ES(7), ES(8)}, .optional = true},
+         {.fields = {ES(9), ES(10), ES(11), ES(12), ES(13), ES(14), ES(15), ES(16)}, .optional = true}}}};
+#undef EPS
+#undef ES
+
+}  // namespace
+
+}  // namespace courant

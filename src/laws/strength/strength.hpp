@@ -1,0 +1,86 @@
+#pragma once
+// Strength: the stress that a material answers a strain rate with. One file per law registers it with its
+// card, and nothing else is edited.
+#include <array>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "keyword/deck.hpp"
+#include "keyword/registry.hpp"
+#include "laws/point_block.hpp"
+
+namespace courant {
+
+/// A number that a law keeps for each point from step to step, 0 at the start.
+struct HistoryVariable {
+  std::string name, dimension;
+};
+
+/// A law read from the deck, or made for a test. It holds no state: that is in the block.
+class StrengthLaw {
+ public:
+  virtual ~StrengthLaw() = default;
+  /// Advances a block by its dt; with dt = 0 it gives the sound speed only.
+  virtual void update(const PointBlock& block) const = 0;
+  virtual std::vector<HistoryVariable> history() const { return {}; }
+  /// The law gives the deviator only: pressure comes from an equation of state that the part must have.
+  virtual bool deviator_only() const { return false; }
+  virtual Real bulk_modulus() const = 0;   ///< at rest; 0 with `deviator_only` [M/LT2]
+  virtual Real shear_modulus() const = 0;  ///< at rest [M/LT2]
+  /// Pressure of the equation of state is cut off below this. [M/LT2]
+  virtual Real pressure_cutoff() const { return -std::numeric_limits<Real>::infinity(); }
+  /// Of compression waves at rest: sqrt((K + 4G/3)/RO). [L/T]
+  Real sound_speed() const;
+  Real ro = 0;  ///< reference density [M/L3]
+};
+
+/// A step that a law must answer with this stress, computed by hand from its formula: the generic test
+/// checks.
+struct StrengthReference {
+  std::string deck;                            ///< the keyword's cards, as in a deck
+  std::array<Real, 6> strain;                  ///< D dt, of the tensor [-]
+  std::array<Real, 6> before, after;           ///< stress [M/LT2]
+  std::vector<Real> history{}, new_history{};  ///< before (empty: 0) and after (empty: not compared)
+};
+
+struct StrengthEntry {
+  std::string keyword, equation, source;
+  std::vector<StrengthReference> references;
+  /// Every law of this kind in a deck, by the id of its material.
+  std::function<std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>>(const Deck&)> all;
+  /// Reports what the table of the keyword cannot tell of its cards.
+  std::function<void(const Deck&, Diagnostics&)> check;
+};
+
+std::vector<StrengthEntry>& strength_registry();
+
+/// Card must have a member mid and a function law(), a std::shared_ptr<StrengthLaw> made from valid cards,
+/// and may have check(deck, diagnostics).
+template <class Card>
+struct RegisterStrength {
+  RegisterStrength(std::string equation, std::string source, std::vector<StrengthReference> references,
+                   KeywordOf<Card> keyword) {
+    StrengthEntry entry;
+    entry.keyword = keyword.names.front();
+    entry.equation = std::move(equation);
+    entry.source = std::move(source);
+    entry.references = std::move(references);
+    entry.all = [](const Deck& deck) {
+      std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>> laws;
+      for (const Card& card : deck.all<Card>()) laws.emplace_back(card.mid, card.law());
+      return laws;
+    };
+    entry.check = [](const Deck& deck, Diagnostics& diagnostics) {
+      if constexpr (requires(const Card& card) { card.check(deck, diagnostics); })
+        for (const Card& card : deck.all<Card>()) card.check(deck, diagnostics);
+    };
+    strength_registry().push_back(std::move(entry));
+    register_keyword(make_keyword_spec<Card>(std::move(keyword)));
+  }
+};
+
+}  // namespace courant
