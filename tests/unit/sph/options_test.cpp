@@ -196,7 +196,8 @@ TEST(ParticleMotion, RimParticlesGoOnWithTheirVelocityAndFeelNoForce) {
   cloud.neighbours =
       std::make_shared<Neighbours>(0.003, Neighbours::Region{Vec(-1, -1, -1), Vec(0.045, 1, 1)});
   Model model;
-  model.body_loads.push_back({1, {.id = 1, .abscissa = {0, 1}, .ordinate = {1, 1}}, 1});
+  model.body_loads.push_back(
+      {.direction = Vec::UnitY(), .curve = {.id = 1, .abscissa = {0, 1}, .ordinate = {1, 1}}});
   w.forces.push_back(make_gravity(model, w, cloud.neighbours));
   w.motions.push_back(make_particle_motion());
   w.time_limits.push_back(std::make_shared<ConstantStep>(1e-4));
@@ -226,7 +227,8 @@ TEST(Gravity, ALoadCurveThatChangesDoesExternalWork) {
   Cloud cloud(2, 3, 0.01, 0);
   World& w = cloud.world;
   Model model;
-  model.body_loads.push_back({1, {.id = 1, .abscissa = {0, 0.5, 1}, .ordinate = {0, 9.81, 2}}, 1});
+  model.body_loads.push_back(
+      {.direction = Vec::UnitY(), .curve = {.id = 1, .abscissa = {0, 0.5, 1}, .ordinate = {0, 9.81, 2}}});
   w.forces.push_back(make_gravity(model, w, cloud.neighbours));
   w.energy_terms.push_back(make_sph_energy(cloud.settings, w, cloud.neighbours));
   w.motions.push_back(make_particle_motion());

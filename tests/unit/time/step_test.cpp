@@ -27,7 +27,7 @@ Curve constant(Real value) {
 TEST(Step, FreeFallIsExactWithChangingSteps) {
   Cloud cloud(2, 1, 0.01, 0);
   Model model;
-  model.body_loads.push_back({1, constant(9.81), 1});
+  model.body_loads.push_back({.direction = Vec::UnitY(), .curve = constant(9.81)});
   cloud.world.forces.push_back(make_gravity(model, cloud.world, cloud.neighbours));
   cloud.world.motions.push_back(make_particle_motion());
   cloud.world.time_limits.push_back(std::make_shared<ChangingSteps>());
