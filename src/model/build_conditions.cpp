@@ -10,6 +10,15 @@
 
 namespace courant {
 
+namespace {
+
+std::vector<Index> sorted(std::vector<Index> indices) {
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
+}  // namespace
+
 void ModelBuilder::build_control() {
   if (const auto* card = deck_.last<ControlTerminationCard>()) {
     model_.endtim = card->endtim;
@@ -82,7 +91,7 @@ void ModelBuilder::build_body_loads() {
          .centre = Vec(card.xc, card.yc, card.zc),
          .sf = card.sf});
   build_gravity_of_parts();
-  refuse_loads_without_pass();
+  if (errors_ == 0) refuse_loads_without_pass();
 }
 
 /// Those of *LOAD_BODY_PARTS; none: all.
@@ -91,7 +100,7 @@ std::vector<Index> ModelBuilder::loaded_parts() {
   if (!card) return {};
   const std::vector<Index>* members = part_set(*card, "PSID", card->psid);
   if (members && members->empty()) error(*card, "PSID", fmt::format("part set {} is empty", card->psid));
-  return members ? *members : std::vector<Index>{};
+  return members ? sorted(*members) : std::vector<Index>{};
 }
 
 void ModelBuilder::build_gravity_of_parts() {
@@ -101,7 +110,7 @@ void ModelBuilder::build_gravity_of_parts() {
     if (!card.of_sets()) {
       if (const Index p = part(card, "PID", card.pid); p >= 0) parts = {p};
     } else if (const std::vector<Index>* members = part_set(card, "PID", card.pid)) {
-      parts = *members;
+      parts = sorted(*members);
       if (parts.empty()) error(card, "PID", fmt::format("part set {} is empty", card.pid));
     }
     if (!found || parts.empty() || card.dof < 1 || card.dof > 3) continue;
