@@ -47,6 +47,8 @@ void ModelBuilder::build_solids() {
   std::unordered_map<Id, const ElementSolidCard*> first;
   first.reserve(cards.size());
   model_.solids.reserve(cards.size());
+  std::vector<bool> told(model_.parts.size(),
+                         false);  // of which parts was said that they hold something else
   for (const ElementSolidCard& card : cards) {
     const auto [it, is_new] = first.try_emplace(card.eid, &card);
     if (!is_new) duplicate(card, "EID", "solid element", card.eid, deck_.where(*it->second));
@@ -67,18 +69,23 @@ void ModelBuilder::build_solids() {
       whole = false;
     }
     if (!whole) continue;
-    add_to_part(card, solid);
+    add_to_part(card, solid, told);
     model_.solids.push_back(solid);
     solid_cards_.push_back(&card);
   }
 }
 
-void ModelBuilder::add_to_part(const ElementSolidCard& card, const ModelSolid& solid) {
-  ModelPart& p = model_.parts[static_cast<std::size_t>(solid.part)];
-  if (!p.has_solid && (p.has_sph || p.has_shell))
+void ModelBuilder::add_to_part(const ElementSolidCard& card, const ModelSolid& solid,
+                               std::vector<bool>& told) {
+  const auto index = static_cast<std::size_t>(solid.part);
+  ModelPart& p = model_.parts[index];
+  if (!p.has_sph && !p.has_shell) {
+    p.has_solid = true;
+  } else if (!told[index]) {
+    told[index] = true;
     error(card, "PID", fmt::format("part {} has {} already", p.id, p.has_sph ? "particles" : "shells"),
           "give the solids a part of their own");
-  p.has_solid = true;
+  }
 }
 
 /// Once nodes are where the run starts.

@@ -129,17 +129,15 @@ const FieldRules narrow{.honour = Honour::ignored, .width = 8};
 
 const RegisterKeyword<C> control_solid{
     {.names = {"CONTROL_SOLID"},
-     .purpose = "options of solids that are no plain hexahedra: solids must be hexahedra",
+     .purpose = "options of solids: all are hexahedra, and ESORT, FMATRIX and PSFAIL must be 0",
      .once = true,
      .many = false,
      .cards = {
-         {.fields = {{"ESORT", &C::esort, "-",
-                      "formulation of degenerate solids; only 0 where there are solids"},
-                     {"FMATRIX", &C::fmatrix, "-", "deformation gradient; only 0 where there are solids"},
+         {.fields = {{"ESORT", &C::esort, "-", "formulation of degenerate solids"},
+                     {"FMATRIX", &C::fmatrix, "-", "deformation gradient"},
                      {"NIPTETS", &C::niptets, "-", "points of tetrahedra", no_effect_but(4)},
                      {"SWLOCL", &C::swlocl, "-", "output of spot welds", no_effect_but(1)},
-                     {"PSFAIL", &C::psfail, "-",
-                      "parts whose solids may fail by their volume; only 0 where there are solids",
+                     {"PSFAIL", &C::psfail, "-", "parts whose solids may fail by their volume",
                       id_of(IdSpace::part_set)},
                      {"T10JTOL", &C::t10jtol, "-", "warnings about tetrahedra", no_effect},
                      {"ICOH", &C::icoh, "-", "cohesive solids", no_effect},

@@ -15,7 +15,7 @@ constexpr FieldRules coefficient(Real standard) {
 
 const RegisterKeyword<Hourglass> hourglass{
     {.names = {"HOURGLASS"},
-     .purpose = "bulk viscosity and hourglass control of the parts that name it (HGID)",
+     .purpose = "bulk viscosity of the parts that name it (HGID), and hourglass control of their solids",
      .id_space = IdSpace::hourglass,
      .title_option = true,
      .title = &Hourglass::title,
@@ -23,11 +23,8 @@ const RegisterKeyword<Hourglass> hourglass{
          {.fields = {
               {"HGID", &Hourglass::hgid, "-", "id that *PART refers to", required_id},
               {"IHQ", &Hourglass::ihq, "-",
-               "hourglass control of solids: 1 viscous, 2 Flanagan-Belytschko viscous, 3 the same with "
-               "exact volume, 0 that of *CONTROL_HOURGLASS; particles have none"},
-              {"QM", &Hourglass::qm, "-",
-               "hourglass coefficient; 0: 0.1, with IHQ 0 QH of *CONTROL_HOURGLASS; write 1.0E-20 for "
-               "none"},
+               "hourglass control of solids: 1 to 3 viscous, 0 that of *CONTROL_HOURGLASS"},
+              {"QM", &Hourglass::qm, "-", "its coefficient; 0: 0.1, with IHQ 0 that of *CONTROL_HOURGLASS"},
               {"IBQ", &Hourglass::ibq, "-", "not used", no_effect},
               {"Q1", &Hourglass::q1, "-",
                "quadratic viscosity (beta); 0 is the default, write 1.0E-20 for none", coefficient(1.5)},
@@ -44,7 +41,7 @@ const RegisterKeyword<H> control_hourglass{
      .purpose = "hourglass control of solids without an *HOURGLASS; particles and rigid shells have none",
      .once = true,
      .many = false,
-     .cards = {{.fields = {{"IHQ", &H::ihq, "-", "kind, as in *HOURGLASS; 0: 1 for solids"},
+     .cards = {{.fields = {{"IHQ", &H::ihq, "-", "1 to 3 viscous, 0 as 1"},
                            {"QH", &H::qh, "-", "coefficient; 0 is the default, write 1.0E-20 for none",
                             or_blank(0.1)}}}}}};
 

@@ -32,7 +32,7 @@ class ModelBuilder {
   void check_shared_nodes();
   // build_solids.cpp
   void build_solids();
-  void add_to_part(const ElementSolidCard& card, const ModelSolid& solid);
+  void add_to_part(const ElementSolidCard& card, const ModelSolid& solid, std::vector<bool>& told);
   void check_shared_nodes_of_solids(const std::vector<Index>& owner, std::vector<bool>& told);
   void check_solids();
   void check_solid_shapes();

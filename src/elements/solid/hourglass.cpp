@@ -65,7 +65,7 @@ class Reader {
     } else if (told_.insert({&card, field}).second) {
       deck_.error(diagnostics_, card, field,
                   fmt::format("'{}' is not supported for solids, as those of part {}", ihq, part.id),
-                  "supported values: 0, 1, 2, 3, which are viscous; *CONTROL_HOURGLASS tells what 0 is");
+                  "supported values: 0, 1, 2, 3; 1 to 3 are viscous");
     }
   }
 
@@ -78,7 +78,7 @@ class Reader {
       deck_.warning(
           diagnostics_, card, field,
           fmt::format("viscous hourglass control with a coefficient of {:g} may be unstable", value),
-          fmt::format("keep it below {:g}", stable_qm));
+          fmt::format("keep it at {:g} or below", stable_qm));
   }
 
   const Deck& deck_;

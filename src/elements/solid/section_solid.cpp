@@ -17,20 +17,18 @@ using S = SectionSolid;
 
 const RegisterKeyword<S> section_solid{
     {.names = {"SECTION_SOLID"},
-     .purpose = "formulation of solid elements",
+     .purpose = "formulation of solid elements: ELFORM 1, the hexahedron with one point",
      .id_space = IdSpace::section,
      .title_option = true,
      .title = &S::title,
-     .cards = {
-         {.fields = {{"SECID", &S::secid, "-", "id that *PART refers to", required_id},
-                     {"ELFORM", &S::elform, "-",
-                      "formulation; solids may have 0 or 1, the hexahedron with one point", or_blank(1)},
-                     {"AET", &S::aet, "-", "ambient elements; solids may have 0"},
-                     {},
-                     {},
-                     {},
-                     {"COHOFF", &S::cohoff, "-", "place of the cohesive layer; solids may have 0"},
-                     {"GASKETT", &S::gaskett, "L", "thickness of the gasket; solids may have 0"}}}}}};
+     .cards = {{.fields = {{"SECID", &S::secid, "-", "id that *PART refers to", required_id},
+                           {"ELFORM", &S::elform, "-", "formulation; 0 as 1", or_blank(1)},
+                           {"AET", &S::aet, "-", "ambient elements"},
+                           {},
+                           {},
+                           {},
+                           {"COHOFF", &S::cohoff, "-", "place of the cohesive layer"},
+                           {"GASKETT", &S::gaskett, "L", "thickness of the gasket"}}}}}};
 
 void check_fields(const Deck& deck, const S& s, Diagnostics& diagnostics) {
   constexpr int one_point = 1;
