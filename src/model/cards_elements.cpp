@@ -142,7 +142,16 @@ const RegisterKeyword<C> control_solid{
                      {"T10JTOL", &C::t10jtol, "-", "warnings about tetrahedra", no_effect},
                      {"ICOH", &C::icoh, "-", "cohesive solids", no_effect},
                      {"TET13K", &C::tet13k, "-", "stiffness of tetrahedra", no_effect}}},
-         {.fields = {{"PM1", &C::pm, "-", "order of the nodes of tetrahedra, PM1 to PM10", narrow}},
+         {.fields = {{"PM1", &C::pm1, "-", "order of the nodes of tetrahedra", narrow},
+                     {"PM2", &C::pm2, "-", "the same", narrow},
+                     {"PM3", &C::pm3, "-", "the same", narrow},
+                     {"PM4", &C::pm4, "-", "the same", narrow},
+                     {"PM5", &C::pm5, "-", "the same", narrow},
+                     {"PM6", &C::pm6, "-", "the same", narrow},
+                     {"PM7", &C::pm7, "-", "the same", narrow},
+                     {"PM8", &C::pm8, "-", "the same", narrow},
+                     {"PM9", &C::pm9, "-", "the same", narrow},
+                     {"PM10", &C::pm10, "-", "the same", narrow}},
           .optional = true},
          {.fields = {{"TET13V", &C::tet13v, "-", "pressure of tetrahedra", no_effect}}, .optional = true}}}};
 

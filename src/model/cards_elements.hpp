@@ -1,7 +1,5 @@
 #pragma once
 // Solid elements, and what goes for all of them.
-#include <vector>
-
 #include "keyword/card.hpp"
 
 namespace courant {
@@ -17,7 +15,7 @@ struct ControlSolid : Entry {
   Id psfail = 0;
   Real t10jtol = 0;
   int icoh = 0, tet13k = 0;
-  std::vector<Id> pm;
+  int pm1 = 0, pm2 = 0, pm3 = 0, pm4 = 0, pm5 = 0, pm6 = 0, pm7 = 0, pm8 = 0, pm9 = 0, pm10 = 0;
   int tet13v = 0;
 };
 

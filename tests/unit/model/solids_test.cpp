@@ -53,7 +53,7 @@ TEST(Solids, InAMirrorStayTheRightWayOut) {
 
 TEST(Solids, ControlWithoutAnyIsANote) {
   EXPECT_EQ(small_model("*CONTROL_SOLID\n1,1\n").messages,
-            "deck.k:43:1: note: *CONTROL_SOLID: the deck has no solids: no effect\n");
+            "deck.k:34:1: note: *CONTROL_SOLID: the deck has no solids: no effect\n");
   EXPECT_EQ(small_model(cube + "*CONTROL_SOLID\n0,0,5,1,0,0.1,1,1\n").messages, "");
 }
 
