@@ -1,11 +1,23 @@
 // Control, output requests, loads, constraints and initial velocities.
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "model/model_builder.hpp"
 
 namespace courant {
+
+namespace {
+
+std::vector<Index> sorted(std::vector<Index> indices) {
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
+}  // namespace
 
 void ModelBuilder::build_control() {
   if (const auto* card = deck_.last<ControlTerminationCard>()) {
@@ -48,9 +60,74 @@ void ModelBuilder::build_output() {
 }
 
 void ModelBuilder::build_body_loads() {
+  const std::vector<Index> parts = loaded_parts();
+  const auto add = [&](const Entry& card, Id lcid, BodyLoad load) {
+    const Curve* found = curve(card, "LCID", lcid);
+    if (!found) return;
+    load.curve = *found;
+    load.parts = parts;
+    model_.body_loads.push_back(std::move(load));
+  };
   for (const LoadBodyCard& card : deck_.all<LoadBodyCard>())
-    if (const Curve* found = curve(card, "LCID", card.lcid))
-      model_.body_loads.push_back({.axis = card.name, .curve = *found, .sf = card.sf});
+    add(card, card.lcid, {.direction = Vec::Unit(card.name), .sf = card.sf});
+  for (const LoadBodyVectorCard& card : deck_.all<LoadBodyVectorCard>()) {
+    const Vec v(card.v1, card.v2, card.v3);
+    constexpr Real rounded = 0.01;
+    if (v.norm() == 0) {
+      error(card, "V1", "the load has no direction", "give V1, V2, V3, not all zero");
+      continue;
+    }
+    if (std::abs(v.norm() - 1) > rounded)
+      deck_.warning(
+          diagnostics_, card, "V1",
+          fmt::format("the vector tells the direction only, its length of {:g} has no effect", v.norm()),
+          "SF and the curve tell how large the acceleration is; give a vector of length 1");
+    add(card, card.lcid, {.direction = v.normalized(), .sf = card.sf});
+  }
+  for (const LoadBodyRotationCard& card : deck_.all<LoadBodyRotationCard>())
+    add(card, card.lcid,
+        {.kind = BodyLoad::Kind::rotation,
+         .direction = Vec::Unit(card.name),
+         .centre = Vec(card.xc, card.yc, card.zc),
+         .sf = card.sf});
+  build_gravity_of_parts();
+  if (errors_ == 0) refuse_loads_without_pass();
+}
+
+/// Those of *LOAD_BODY_PARTS; none: all.
+std::vector<Index> ModelBuilder::loaded_parts() {
+  const auto* card = deck_.last<LoadBodyPartsCard>();
+  if (!card) return {};
+  const std::vector<Index>* members = part_set(*card, "PSID", card->psid);
+  if (members && members->empty()) error(*card, "PSID", fmt::format("part set {} is empty", card->psid));
+  return members ? sorted(*members) : std::vector<Index>{};
+}
+
+void ModelBuilder::build_gravity_of_parts() {
+  for (const LoadGravityPartCard& card : deck_.all<LoadGravityPartCard>()) {
+    const Curve* found = curve(card, "LC", card.lc);
+    std::vector<Index> parts;
+    if (!card.of_sets()) {
+      if (const Index p = part(card, "PID", card.pid); p >= 0) parts = {p};
+    } else if (const std::vector<Index>* members = part_set(card, "PID", card.pid)) {
+      parts = sorted(*members);
+      if (parts.empty()) error(card, "PID", fmt::format("part set {} is empty", card.pid));
+    }
+    if (!found || parts.empty() || card.dof < 1 || card.dof > 3) continue;
+    model_.body_loads.push_back(
+        {.direction = Vec::Unit(card.dof - 1), .curve = *found, .sf = card.accel, .parts = parts});
+  }
+}
+
+/// Loads that the model holds and no pass computes yet.
+void ModelBuilder::refuse_loads_without_pass() {
+  const auto refuse = [&](const auto& cards, const char* what) {
+    for (const Entry& card : cards) error(card, "", fmt::format("{} are not computed yet", what));
+  };
+  refuse(deck_.all<LoadBodyRotationCard>(), "rotational body loads");
+  refuse(deck_.all<LoadBodyVectorCard>(), "body loads along a vector");
+  refuse(deck_.all<LoadBodyPartsCard>(), "body loads on some of the parts");
+  refuse(deck_.all<LoadGravityPartCard>(), "body loads on some of the parts");
 }
 
 void ModelBuilder::build_constraints() {
@@ -176,6 +253,10 @@ std::vector<Index> ModelBuilder::nodes_of_parts(const std::vector<Index>& parts)
     if (wanted(sph.part)) nodes.push_back(sph.node);
   for (const ModelShell& shell : model_.shells)
     if (wanted(shell.part)) nodes.insert(nodes.end(), shell.node.begin(), shell.node.end());
+  for (const ModelSolid& solid : model_.solids)
+    if (wanted(solid.part))
+      std::copy_if(solid.node.begin(), solid.node.end(), std::back_inserter(nodes),
+                   [](Index n) { return n >= 0; });
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

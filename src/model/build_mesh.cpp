@@ -158,6 +158,7 @@ void ModelBuilder::check_shared_nodes() {
                          "give the particle a node of its own");
     }
   }
+  check_shared_nodes_of_solids(owner, told);
 }
 
 }  // namespace courant

@@ -34,6 +34,7 @@ Model ModelBuilder::build() {
   build_local_boxes();
   build_sets();
   move_nodes();
+  check_solids();
   build_coordinate_systems();  // of nodes: where these have gone
   build_vectors();
   build_control();

@@ -91,6 +91,22 @@ struct LoadBodyCard : Entry {  ///< Entry::name is the axis
   Real xc, yc, zc;
   Id cid;
 };
+struct LoadBodyRotationCard : LoadBodyCard {};
+struct LoadBodyVectorCard : LoadBodyCard {
+  Real v1, v2, v3;
+};
+struct LoadBodyPartsCard : Entry {
+  Id psid;
+};
+struct LoadGravityPartCard : Entry {
+  bool of_sets() const { return name == 1; }
+  Id pid;  ///< part, or part set
+  int dof;
+  Id lc;
+  Real accel;
+  Id lcdr;
+  int stga, stgr;
+};
 
 struct ControlTerminationCard : Entry {
   Real endtim;

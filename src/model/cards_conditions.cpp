@@ -1,4 +1,6 @@
 // Tables of initial conditions, constraints and loads.
+#include <cmath>
+
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
@@ -148,24 +150,92 @@ const RegisterKeyword<BoundarySpcNodeCard> boundary_spc_node{boundary_spc<Bounda
 const RegisterKeyword<BoundarySpcSetCard> boundary_spc_set{boundary_spc<BoundarySpcSetCard>(
     "BOUNDARY_SPC_SET", "holds translations of node sets", "NSID", "node set id", IdSpace::node_set)};
 
+template <class T>
+CardOf<T> load_body_card(const char* curve, Honour centre) {
+  return {.fields = {{"LCID", &T::lcid, "-", curve, required_id_of(IdSpace::curve)},
+                     {"SF", &T::sf, "-", "scale of the curve", {.standard = 1}},
+                     {"LCIDDR",
+                      &T::lciddr,
+                      "-",
+                      "curve for dynamic relaxation",
+                      {.honour = Honour::ignored, .refers = IdSpace::curve}},
+                     {"XC",
+                      &T::xc,
+                      "L",
+                      "x of the centre of rotation",
+                      {.honour = centre, .spatial = centre == Honour::yes ? Spatial::point : Spatial::none}},
+                     {"YC", &T::yc, "L", "y of the centre of rotation", {.honour = centre}},
+                     {"ZC", &T::zc, "L", "z of the centre of rotation", {.honour = centre}},
+                     {"CID", &T::cid, "-", "coordinate system id", local_system}}};
+}
+
 using L = LoadBodyCard;
 const RegisterKeyword<L> load_body{
     {.names = {"LOAD_BODY_X", "LOAD_BODY_Y", "LOAD_BODY_Z"},
      .purpose = "acceleration of the base along an axis: bodies feel the opposite (gravity along -z: "
                 "LOAD_BODY_Z with +g)",
      .many = false,
-     .cards = {{.fields = {{"LCID", &L::lcid, "-", "curve of acceleration over time",
-                            required_id_of(IdSpace::curve)},
-                           {"SF", &L::sf, "-", "scale of the curve", {.standard = 1}},
-                           {"LCIDDR",
-                            &L::lciddr,
-                            "-",
-                            "curve for dynamic relaxation",
-                            {.honour = Honour::ignored, .refers = IdSpace::curve}},
-                           {"XC", &L::xc, "L", "x of the centre of rotation", no_effect},
-                           {"YC", &L::yc, "L", "y of the centre of rotation", no_effect},
-                           {"ZC", &L::zc, "L", "z of the centre of rotation", no_effect},
-                           {"CID", &L::cid, "-", "coordinate system id", local_system}}}}}};
+     .cards = {load_body_card<L>("curve of acceleration over time", Honour::ignored)}}};
+
+using LV = LoadBodyVectorCard;
+const RegisterKeyword<LV> load_body_vector{
+    {.names = {"LOAD_BODY_VECTOR"},
+     .purpose = "acceleration of the base along a vector: bodies feel the opposite",
+     .many = false,
+     .cards = {load_body_card<LV>("curve of acceleration over time", Honour::ignored),
+               {.fields = {{"V1", &LV::v1, "-", "direction of the acceleration, x", direction},
+                           {"V2", &LV::v2, "-", "direction of the acceleration, y"},
+                           {"V3", &LV::v3, "-", "direction of the acceleration, z"}}}}}};
+
+using LR = LoadBodyRotationCard;
+std::string move_rotation(LR& card, const Affine& motion) {
+  const std::string reason = refuse_stretch(motion, "angular velocities");
+  if (!reason.empty()) return reason;
+  const Vec axis = Vec::Unit(card.name), turned = motion.linear() * axis;
+  constexpr Real along = 1 - 1e-9;  // cosine; which way it points does not matter
+  return std::abs(turned.dot(axis)) < along
+             ? "the axis of the rotation would not be along the same global axis"
+             : std::string();
+}
+const RegisterKeyword<LR> load_body_rotation{
+    {.names = {"LOAD_BODY_RX", "LOAD_BODY_RY", "LOAD_BODY_RZ"},
+     .purpose =
+         "angular velocity of the base about an axis through XC, YC, ZC: bodies feel the centrifugal force",
+     .many = false,
+     .cards = {load_body_card<LR>("curve of angular velocity over time", Honour::yes)},
+     .move = move_rotation}};
+
+using LP = LoadBodyPartsCard;
+const RegisterKeyword<LP> load_body_parts{
+    {.names = {"LOAD_BODY_PARTS"},
+     .purpose = "the parts on which all LOAD_BODY keywords act",
+     .once = true,
+     .many = false,
+     .cards = {{.fields = {{"PSID", &LP::psid, "-", "part set id", required_id_of(IdSpace::part_set)}}}}}};
+
+using LG = LoadGravityPartCard;
+const RegisterKeyword<LG> load_gravity_part{
+    {.names = {"LOAD_GRAVITY_PART", "LOAD_GRAVITY_PART_SET"},
+     .purpose =
+         "acceleration of the base under parts: bodies feel the opposite (gravity along -z: DOF 3, ACCEL "
+         "with +g)",
+     .cards = {
+         {.fields = {{"PID",
+                      &LG::pid,
+                      "-",
+                      "part id; _SET: part set id",
+                      {.required = true, .check = Check::positive},
+                      [](const LG& card) { return card.of_sets() ? IdSpace::part_set : IdSpace::part; }},
+                     {"DOF", &LG::dof, "-", "axis: 1 x, 2 y, 3 z", {.required = true, .allowed = {1, 2, 3}}},
+                     {"LC", &LG::lc, "-", "curve of a factor over time", required_id_of(IdSpace::curve)},
+                     {"ACCEL", &LG::accel, "L/T2", "acceleration, times that factor"},
+                     {"LCDR",
+                      &LG::lcdr,
+                      "-",
+                      "curve for dynamic relaxation",
+                      {.honour = Honour::no, .refers = IdSpace::curve}},
+                     {"STGA", &LG::stga, "-", "stage at which the part is added", unsupported},
+                     {"STGR", &LG::stgr, "-", "stage at which it is removed", unsupported}}}}}};
 
 }  // namespace
 

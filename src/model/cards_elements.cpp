@@ -1,6 +1,9 @@
-// Tables of solid elements, of masses on nodes and parts, and of sections that go with them. Nothing computes
-// them yet: they are read and checked, and the deck is refused by name.
+// Tables of solid elements, and of masses on nodes and parts. What is `lacking` is read and checked, and the
+// deck is refused by name.
 #include "model/cards_elements.hpp"
+
+#include <utility>
+
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 
@@ -57,15 +60,24 @@ std::vector<CardOf<E>> solid_cards(bool ortho) {
   return cards;
 }
 
+/// A mirror turns elements inside out: with the lower face as the upper one they are what they were.
+std::string move_solid(E& card, const Affine& motion) {
+  if (motion.linear().determinant() < 0 && card.n8 != 0) {
+    std::swap(card.n1, card.n5), std::swap(card.n2, card.n6);
+    std::swap(card.n3, card.n7), std::swap(card.n4, card.n8);
+  }
+  return {};
+}
+
 const RegisterKeyword<E> element_solid{{.names = {"ELEMENT_SOLID"},
-                                        .purpose = "solid elements of 4 to 10 nodes",
+                                        .purpose = "solid elements: hexahedra of eight different nodes",
                                         .id_space = IdSpace::solid,
-                                        .lacking = "solid elements",
-                                        .cards = solid_cards(false)}};
+                                        .cards = solid_cards(false),
+                                        .move = move_solid}};
 const RegisterKeyword<E> element_solid_ortho{{.names = {"ELEMENT_SOLID_ORTHO"},
                                               .purpose = "solid elements with directions of the material",
                                               .id_space = IdSpace::solid,
-                                              .lacking = "solid elements",
+                                              .lacking = "directions of the material in solids",
                                               .cards = solid_cards(true)}};
 
 struct ElementMass : Entry {
@@ -112,29 +124,36 @@ const RegisterKeyword<P> mass_part{
 const RegisterKeyword<P> mass_part_set{
     element_mass_part("ELEMENT_MASS_PART_SET", "mass added to part sets", "PSID", IdSpace::part_set)};
 
-struct SectionSolid : Entry {
-  std::string title;
-  Id secid = 0;
-  int elform = 1, aet = 0;
-  Real cohoff = 0, gaskett = 0;
-};
-using S = SectionSolid;
+using C = ControlSolid;
+const FieldRules narrow{.honour = Honour::ignored, .width = 8};
 
-const RegisterKeyword<S> section_solid{
-    {.names = {"SECTION_SOLID"},
-     .purpose = "formulation of solid elements",
-     .id_space = IdSpace::section,
-     .title_option = true,
-     .title = &S::title,
-     .lacking = "sections of solid elements",
-     .cards = {{.fields = {{"SECID", &S::secid, "-", "id that *PART refers to", required_id},
-                           {"ELFORM", &S::elform, "-", "formulation", {.standard = 1}},
-                           {"AET", &S::aet, "-", "ambient elements"},
-                           {},
-                           {},
-                           {},
-                           {"COHOFF", &S::cohoff, "-", "place of the cohesive layer"},
-                           {"GASKETT", &S::gaskett, "L", "thickness of the gasket"}}}}}};
+const RegisterKeyword<C> control_solid{
+    {.names = {"CONTROL_SOLID"},
+     .purpose = "options of solids: all are hexahedra, and ESORT, FMATRIX and PSFAIL must be 0",
+     .once = true,
+     .many = false,
+     .cards = {
+         {.fields = {{"ESORT", &C::esort, "-", "formulation of degenerate solids"},
+                     {"FMATRIX", &C::fmatrix, "-", "deformation gradient"},
+                     {"NIPTETS", &C::niptets, "-", "points of tetrahedra", no_effect_but(4)},
+                     {"SWLOCL", &C::swlocl, "-", "output of spot welds", no_effect_but(1)},
+                     {"PSFAIL", &C::psfail, "-", "parts whose solids may fail by their volume",
+                      id_of(IdSpace::part_set)},
+                     {"T10JTOL", &C::t10jtol, "-", "warnings about tetrahedra", no_effect},
+                     {"ICOH", &C::icoh, "-", "cohesive solids", no_effect},
+                     {"TET13K", &C::tet13k, "-", "stiffness of tetrahedra", no_effect}}},
+         {.fields = {{"PM1", &C::pm1, "-", "order of the nodes of tetrahedra", narrow},
+                     {"PM2", &C::pm2, "-", "the same", narrow},
+                     {"PM3", &C::pm3, "-", "the same", narrow},
+                     {"PM4", &C::pm4, "-", "the same", narrow},
+                     {"PM5", &C::pm5, "-", "the same", narrow},
+                     {"PM6", &C::pm6, "-", "the same", narrow},
+                     {"PM7", &C::pm7, "-", "the same", narrow},
+                     {"PM8", &C::pm8, "-", "the same", narrow},
+                     {"PM9", &C::pm9, "-", "the same", narrow},
+                     {"PM10", &C::pm10, "-", "the same", narrow}},
+          .optional = true},
+         {.fields = {{"TET13V", &C::tet13v, "-", "pressure of tetrahedra", no_effect}}, .optional = true}}}};
 
 }  // namespace
 

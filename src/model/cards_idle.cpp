@@ -138,21 +138,6 @@ KeywordOf<ControlRigid> control_rigid() {
 }
 const RegisterKeyword<ControlRigid> control_rigid_keyword{control_rigid()};
 
-struct ControlHourglass : Entry {
-  int ihq = 0;
-  Real qh = 0;
-};
-KeywordOf<ControlHourglass> control_hourglass() {
-  using T = ControlHourglass;
-  return {.names = {"CONTROL_HOURGLASS"},
-          .purpose = "hourglass control: particles and rigid shells have none",
-          .once = true,
-          .many = false,
-          .cards = {{.fields = {{"IHQ", &T::ihq, "-", "default type (0 -> per-element default)", no_effect},
-                                {"QH", &T::qh, "-", "default coefficient", no_effect_but(0.1)}}}}};
-}
-const RegisterKeyword<ControlHourglass> control_hourglass_keyword{control_hourglass()};
-
 struct ControlShell : Entry {
   int esort = 0, irnxx = 0, istupd = 0, theory = 0, bwc = 0, miter = 0, proj = 0, intgrd = 0, lamsht = 0,
       cstyp6 = 0, tshell = 0, psstupd = 0, sidt4tu = 0, cntco = 0, itsflg = 0, irquad = 0, icrq = 0,

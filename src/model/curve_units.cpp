@@ -13,6 +13,9 @@ namespace {
 
 constexpr CurveDimensions known[] = {
     {"LOAD_BODY_X", "LCID", "T", "L/T2"},
+    {"LOAD_BODY_VECTOR", "LCID", "T", "L/T2"},
+    {"LOAD_BODY_RX", "LCID", "T", "1/T"},
+    {"LOAD_GRAVITY_PART", "LC", "T", "-"},
     {"CONTROL_TIMESTEP", "LCTM", "T", "T"},
     {"DATABASE_BINARY_D3PLOT", "LCDT", "T", "T"},
     {"DATABASE_GLSTAT", "LCUR", "T", "T"},

@@ -51,13 +51,14 @@ class Refusals {
 
 /// Gravity has one direction, whatever is done to the file that names it.
 void warn_of_loads(const Deck& deck, const std::vector<Affine>& motions, Diagnostics& diagnostics) {
-  for (const LoadBodyCard& card : deck.all<LoadBodyCard>()) {
-    const Vec axis = Vec::Unit(card.name);
+  const auto warn = [&](const Entry& card, const Vec& axis) {
     const Vec turned = motions[static_cast<std::size_t>(card.file)].linear() * axis;
     if (!turned.normalized().isApprox(axis))
       deck.warning(diagnostics, card, "",
                    "the load stays along the global axis, although its file is turned by a transformation");
-  }
+  };
+  for (const LoadBodyCard& card : deck.all<LoadBodyCard>()) warn(card, Vec::Unit(card.name));
+  for (const LoadGravityPartCard& card : deck.all<LoadGravityPartCard>()) warn(card, Vec::Unit(card.dof - 1));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct ModelPart {
   Id secid = 0, mid = 0, eosid = 0, hgid = 0;
   Location where;  ///< of the PART card, for messages
   Entry card;      ///< the PART card, for messages about one of its fields
-  bool has_sph = false, has_shell = false;
+  bool has_sph = false, has_shell = false, has_solid = false;
   bool velocity_given = false;  ///< INITIAL_VELOCITY_GENERATION names this part
 };
 
@@ -45,11 +45,12 @@ struct ModelShell {
   std::array<Index, 4> node = {0, 0, 0, 0};  ///< triangle: node[3] == node[2]
 };
 
-/// Solids are known to sets and counts only.
+/// A hexahedron: nodes 1 to 4 run around the lower face, counter-clockwise seen from the upper one, 5 to 8
+/// stand above them. Other shapes are refused; sets know them all the same.
 struct ModelSolid {
   Id id = 0;
   Index part = 0;
-  std::array<Index, 10> node{};  ///< in the deck's order, repeated ones too; -1 behind the last
+  std::array<Index, 10> node{};  ///< in the deck's order; -1 behind the last
 };
 
 /// A face told by its corners; triangle: node[3] == node[2], line in 2D: node[3] == node[2] == node[1]. Its
@@ -101,11 +102,18 @@ struct Box {
   }
 };
 
-/// LOAD_BODY_X/Y/Z: base acceleration SF curve(t) along an axis; the bodies feel the opposite.
+/// LOAD_BODY_X/Y/Z, _VECTOR, LOAD_GRAVITY_PART: the base is accelerated by SF curve(t) along `direction`, and
+/// the bodies feel the opposite, -SF curve(t) direction. LOAD_GRAVITY_PART has this sign, too: ACCEL > 0 with
+/// DOF 3 is gravity along -z. LOAD_BODY_RX/RY/RZ: the base turns with SF curve(t) about `direction` through
+/// `centre`, and the bodies feel the centrifugal acceleration -omega x (omega x r) of where they are now;
+/// nothing follows from a change of omega, so its sign does not matter.
 struct BodyLoad {
-  int axis = 0;
-  Curve curve;
-  Real sf = 1;
+  enum class Kind { translation, rotation } kind = Kind::translation;
+  Vec direction = Vec::UnitX();  ///< unit vector
+  Vec centre = Vec::Zero();      ///< of a rotation [L]
+  Curve curve{};                 ///< over time
+  Real sf = 1;                   ///< SF curve(t): acceleration [L/T2], or angular velocity [1/T]
+  std::vector<Index> parts{};    ///< on which it acts, sorted; empty: on all
 };
 
 /// When an output is due.

@@ -10,6 +10,7 @@
 
 #include "keyword/deck.hpp"
 #include "model/cards.hpp"
+#include "model/cards_elements.hpp"
 #include "model/define_cards.hpp"
 #include "model/id_index.hpp"
 #include "model/model.hpp"
@@ -27,9 +28,16 @@ class ModelBuilder {
   void build_parts();
   void build_particles();
   void build_shells();
-  void build_solids();
   void add_particle(const ElementSphCard& card, Id nid, Index part);
   void check_shared_nodes();
+  // build_solids.cpp
+  void build_solids();
+  void add_to_part(const ElementSolidCard& card, const ModelSolid& solid, std::vector<bool>& told);
+  void check_shared_nodes_of_solids(const std::vector<Index>& owner, std::vector<bool>& told);
+  void check_solids();
+  void check_solid_shapes();
+  Real volume_at_centre(const ModelSolid& solid) const;
+  void check_control_solid(const ControlSolid& card);
   // build_histories.cpp
   void build_histories();
   void build_history_sph();
@@ -60,6 +68,9 @@ class ModelBuilder {
   void build_control();
   void build_output();
   void build_body_loads();
+  void build_gravity_of_parts();
+  void refuse_loads_without_pass();
+  std::vector<Index> loaded_parts();
   void build_constraints();
   std::array<bool, 3> held_directions(const BoundarySpcCard& card);
   Matrix axes_of(const Entry& card, Id icid);
@@ -89,6 +100,7 @@ class ModelBuilder {
   Diagnostics& diagnostics_;
   Model model_;
   IdIndex node_of_id_;
+  std::vector<const ElementSolidCard*> solid_cards_;  ///< of model_.solids
   int errors_ = 0;
 };
 

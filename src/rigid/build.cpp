@@ -188,8 +188,16 @@ std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& m
                                                 Diagnostics& diagnostics) {
   Builder builder(deck, model, world, diagnostics);
   for (Index part = 0; part < Index(model.parts.size()); ++part) {
-    const MatRigid* m = model.parts[part].has_shell ? find(deck, model.parts[part].mid) : nullptr;
-    if (m) builder.add(part, *m);
+    const ModelPart& p = model.parts[part];
+    const MatRigid* m = p.has_shell || p.has_solid ? find(deck, p.mid) : nullptr;
+    if (m && p.has_solid)
+      deck.error(
+          diagnostics, p.card, "MID",
+          fmt::format("rigid bodies of solids are not supported, and material {} of part {} is a *MAT_RIGID",
+                      p.mid, p.id),
+          "give its skin as shells of a part of their own");
+    else if (m)
+      builder.add(part, *m);
   }
   return builder.finish();
 }

@@ -488,7 +488,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   else
     left_out.push_back({"speed limit MAXV", "none given"});
   if (!s.region) left_out.push_back({"computational box", "no BOXID"});
-  make_sph_energy(s, world, neighbours);
+  world.passes.add(make_sph_energy(s, world, neighbours));
   return left_out;
 }
 

@@ -119,56 +119,6 @@ const RegisterKeyword<ControlSph> control_sph{
                       {.allowed = {0, 1}}}},
           .optional = true}}}};
 
-const RegisterKeyword<Hourglass> hourglass{
-    {.names = {"HOURGLASS"},
-     .purpose = "bulk viscosity coefficients of the parts that name it (HGID)",
-     .id_space = IdSpace::hourglass,
-     .title_option = true,
-     .title = &Hourglass::title,
-     .cards = {{.fields = {{"HGID",
-                            &Hourglass::hgid,
-                            "-",
-                            "id that *PART refers to",
-                            {.required = true, .check = Check::positive}},
-                           {"IHQ", &Hourglass::ihq, "-", "hourglass type; particles have none", no_effect},
-                           {"QM", &Hourglass::qm, "-", "hourglass coefficient", no_effect_but(0.1)},
-                           {"IBQ", &Hourglass::ibq, "-", "not used", no_effect},
-                           {"Q1",
-                            &Hourglass::q1,
-                            "-",
-                            "quadratic viscosity (beta); 0 is the default, write 1.0E-20 for none",
-                            {.standard = 1.5, .check = Check::not_negative}},
-                           {"Q2",
-                            &Hourglass::q2,
-                            "-",
-                            "linear viscosity (alpha); 0 is the default, write 1.0E-20 for none",
-                            {.standard = 0.06, .check = Check::not_negative}},
-                           {"QB/VDC", &Hourglass::qb, "-", "shell bending coefficient", no_effect_but(0.1)},
-                           {"QW", &Hourglass::qw, "-", "shell warping coefficient", no_effect_but(0.1)}}}}}};
-
-const RegisterKeyword<ControlBulkViscosity> bulk_viscosity{
-    {.names = {"CONTROL_BULK_VISCOSITY"},
-     .purpose = "artificial viscosity coefficients of parts without an *HOURGLASS",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"Q1",
-                            &ControlBulkViscosity::q1,
-                            "-",
-                            "quadratic viscosity (beta); 0 is the default, write 1.0E-20 for none",
-                            {.standard = 1.5, .check = Check::not_negative}},
-                           {"Q2",
-                            &ControlBulkViscosity::q2,
-                            "-",
-                            "linear viscosity (alpha); 0 is the default, write 1.0E-20 for none",
-                            {.standard = 0.06, .check = Check::not_negative}},
-                           {"TYPE",
-                            &ControlBulkViscosity::type,
-                            "-",
-                            "1 standard (-1, -2: also in shells, which are rigid here)",
-                            {.standard = 1, .allowed = {-2, -1, 1}}},
-                           {"BTYPE", &ControlBulkViscosity::btype, "-", "beams", no_effect},
-                           {"TSTYPE", &ControlBulkViscosity::tstype, "-", "thick shells", no_effect}}}}}};
-
 }  // namespace
 
 }  // namespace courant

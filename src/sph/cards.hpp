@@ -1,5 +1,6 @@
 #pragma once
 #include "keyword/deck.hpp"
+#include "model/viscosity_cards.hpp"
 
 namespace courant {
 
@@ -22,22 +23,6 @@ struct ControlSph : Entry {
   int ithk = 0, istab = 0;
   Real ql = 0;
   int sphsort = 0, ishift = 0;
-};
-
-/// *HOURGLASS: for SPH parts only its bulk viscosity coefficients matter.
-struct Hourglass : Entry {
-  Id hgid = 0;
-  int ihq = 0;
-  Real qm = 0;
-  int ibq = 0;
-  Real q1 = 0, q2 = 0, qb = 0, qw = 0;
-  std::string title;
-};
-
-/// *CONTROL_BULK_VISCOSITY: coefficients of parts without an *HOURGLASS.
-struct ControlBulkViscosity : Entry {
-  Real q1 = 0, q2 = 0;
-  int type = 0, btype = 0, tstype = 0;
 };
 
 /// *COURANT_PAIR_GEOMETRY, ours.

@@ -193,7 +193,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
 
 std::shared_ptr<EnergyTerm> make_sph_energy(const SphSettings& s, World& world,
                                             std::shared_ptr<Neighbours> neighbours) {
-  return world.passes.add(std::make_shared<SphEnergy>(s, world, std::move(neighbours)));
+  return std::make_shared<SphEnergy>(s, world, std::move(neighbours));
 }
 
 }  // namespace courant

@@ -10,7 +10,8 @@ namespace courant {
 Vec gravity_at(const std::vector<BodyLoad>& loads, Real t) {
   Vec g = Vec::Zero();
   for (const BodyLoad& load : loads)
-    g[load.axis] -= load.sf * load.curve(t);  // the base accelerates, bodies feel the opposite
+    if (load.kind == BodyLoad::Kind::translation && load.parts.empty())
+      g -= load.sf * load.curve(t) * load.direction;  // the base accelerates, bodies feel the opposite
   return g;
 }
 std::function<Vec(Real t)> gravity_of(std::vector<BodyLoad> loads) {

@@ -19,7 +19,7 @@ MAY_INCLUDE = {
     "sph": ["search", "state", "keyword", "model"],
     "rigid": ["search", "state", "keyword", "model"],
     "shell": ["search", "state", "keyword", "model"],
-    "solid": ["search", "state", "keyword", "model"],
+    "elements": ["search", "state", "keyword", "model"],
     "contact": ["search", "state", "keyword", "model"],
     "output": ["state"],
     "time": ["state", "search", "output"],

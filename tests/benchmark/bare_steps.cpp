@@ -73,7 +73,7 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   const PairPasses pairs = make_plain_passes(settings, world_, geometry, volumes);
   for (const auto& pass : pairs.rates) world_.passes.add(pass);
   for (const auto& pass : pairs.forces) world_.passes.add(pass);
-  if (ledger) make_sph_energy(settings, world_, neighbours_);
+  if (ledger) world_.passes.add(make_sph_energy(settings, world_, neighbours_));
   stepper_ = std::make_unique<Stepper>(world_, *neighbours_, StepRules{}, timer_);
 }
 

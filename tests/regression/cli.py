@@ -167,11 +167,12 @@ with open("refused.k", "w") as file:
     file.write(text.replace("*END", "*INCLUDE\nsolids.k\n*AIRBAG_ALE\n1\n*AIRBAG_ALE\n2\n*END"))
 with open("solids.k", "w") as file:
     file.write("*NODE\n" + "".join(f"{900001 + i:8d}{i % 2:16d}{i // 2 % 2:16d}{i // 4:16d}\n" for i in range(8))
-               + "*ELEMENT_SOLID\n" + 2 * ("  900001     900" + "".join(f"{900001 + i:8d}" for i in range(8)) + "\n"))
+               + "*ELEMENT_SOLID_ORTHO\n" + 2 * ("  900001     900" + "".join(f"{900001 + i:8d}" for i in range(8)) + "\n"
+                                                  + f"{1:16d}{0:16d}{0:16d}\n" + f"{0:16d}{1:16d}{0:16d}\n"))
 stdout, stderr = ends(1, "check", "refused.k", out="What a run would need",
                       err=r"AIRBAG_ALE: airbags are not supported \(here and in 1 more place\)\n(.*\n)*2 errors, 0 warnings.*; the deck cannot be run\n$")
 for part in (r"Files\n  refused.k .*\n    solids.k .*included by refused.k:\d+", r"  SPH particles +64 ", r"  solids +2\n",
-             r"\*ELEMENT_SOLID .*REFUSED: solid elements", r"  not supported: airbags: \*AIRBAG_ALE\n"):
+             r"\*ELEMENT_SOLID_ORTHO .*REFUSED: directions of the material in solids", r"  not supported: airbags: \*AIRBAG_ALE\n"):
     check(re.search(part, stdout), f"check says {part!r} of a refused deck")
 check("First step" not in stdout, "no step is promised for a deck that cannot be run")
 ends(1, "check", "bad.k", out=r"(?s)\*MAT_NUL .*REFUSED: unknown", err="1 error")

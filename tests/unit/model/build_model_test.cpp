@@ -68,7 +68,7 @@ TEST_P(AcceptDeck, GivesConditions) {
   EXPECT_EQ(m.nodes[1].fixed, (std::array<bool, 3>{false, false, false}));
   EXPECT_EQ(m.nodes[4].fixed, (std::array<bool, 3>{false, true, false}));
   ASSERT_EQ(m.body_loads.size(), 1u);
-  EXPECT_EQ(m.body_loads[0].axis, 2);
+  EXPECT_EQ(m.body_loads[0].direction, Vec::UnitZ());
   EXPECT_EQ(m.body_loads[0].sf, 9.81);
   EXPECT_EQ(m.body_loads[0].curve.id, 9);
 }

@@ -44,7 +44,7 @@ std::vector<Real> smoothed(Cloud& cloud, bool linear) {
   cloud.refresh();
   cloud.clock.dt_old = 1e-3, cloud.clock.cycle = 10;
   std::fill_n(w.particles.drhodt.data(), w.particles.active, 0.0);
-  cloud.run(*w.rates.back());
+  cloud.run(*w.passes.in_phase(Phase::rates, w).back());
   std::vector<Real> rho;
   for (Index i = 0; i < w.particles.active; ++i)
     rho.push_back(w.particles.rho[i] + cloud.clock.dt_old * w.particles.drhodt[i]);

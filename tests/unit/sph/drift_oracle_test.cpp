@@ -110,7 +110,7 @@ void compare(bool uniform_h, bool alone, std::optional<Neighbours::Region> regio
     sph_fields::drifted(p).set(i, {u(random), u(random), Dim == 3 ? u(random) : 0});
   cloud.clock.dt_old = 1e-3;
   for (Index i = 0; i < p.active; ++i) p.drhodt[i] = 0;
-  for (const auto& rate : w.rates) cloud.run(*rate);
+  for (BlockPass* rate : w.passes.in_phase(Phase::rates, w)) cloud.run(*rate);
   for (Index i = 0; i < p.active; ++i) {
     const Expected e = oracle<Dim>(p, i, Dim - 0.5, 5e-4);
     const auto vec = [&](const Field<Real>& f) {

@@ -199,7 +199,8 @@ TEST(ParticleMotion, RimParticlesGoOnWithTheirVelocityAndFeelNoForce) {
   cloud.neighbours =
       std::make_shared<Neighbours>(0.003, Neighbours::Region{Vec(-1, -1, -1), Vec(0.045, 1, 1)});
   Model model;
-  model.body_loads.push_back({1, {.id = 1, .abscissa = {0, 1}, .ordinate = {1, 1}}, 1});
+  model.body_loads.push_back(
+      {.direction = Vec::UnitY(), .curve = {.id = 1, .abscissa = {0, 1}, .ordinate = {1, 1}}});
   w.passes.add(make_gravity(model, w, cloud.neighbours));
   w.passes.add(make_clear_forces(points_of(w.particles)));
   w.passes.add(make_point_motion(points_of(w.particles)));
@@ -230,7 +231,8 @@ TEST(Gravity, ALoadCurveThatChangesDoesExternalWork) {
   Cloud cloud(2, 3, 0.01, 0);
   World& w = cloud.world;
   Model model;
-  model.body_loads.push_back({1, {.id = 1, .abscissa = {0, 0.5, 1}, .ordinate = {0, 9.81, 2}}, 1});
+  model.body_loads.push_back(
+      {.direction = Vec::UnitY(), .curve = {.id = 1, .abscissa = {0, 0.5, 1}, .ordinate = {0, 9.81, 2}}});
   w.passes.add(make_gravity(model, w, cloud.neighbours));
   w.passes.add(make_sph_energy(cloud.settings, w, cloud.neighbours));
   w.passes.add(make_clear_forces(points_of(w.particles)));

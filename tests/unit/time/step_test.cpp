@@ -28,7 +28,7 @@ Curve constant(Real value) {
 TEST(Step, FreeFallIsExactWithChangingSteps) {
   Cloud cloud(2, 1, 0.01, 0);
   Model model;
-  model.body_loads.push_back({1, constant(9.81), 1});
+  model.body_loads.push_back({.direction = Vec::UnitY(), .curve = constant(9.81)});
   cloud.world.passes.add(make_gravity(model, cloud.world, cloud.neighbours));
   cloud.world.passes.add(make_clear_forces(points_of(cloud.world.particles)));
   cloud.world.passes.add(make_point_motion(points_of(cloud.world.particles)));

@@ -1,0 +1,103 @@
+#include "elements/solid/hourglass.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "model/viscosity_cards.hpp"
+
+namespace courant {
+
+namespace {
+
+constexpr int last_viscous = 3;
+constexpr Real stable_qm =
+    0.15;  ///< LS-DYNA's advice: above it hourglass forces may make the solids unstable
+
+class Reader {
+ public:
+  Reader(const Deck& deck, Diagnostics& diagnostics)
+      : deck_(deck), diagnostics_(diagnostics), control_(deck.last<ControlHourglass>()) {
+    for (const Hourglass& card : deck.all<Hourglass>()) cards_.emplace(card.hgid, &card);
+    if (const auto* bulk = deck.last<ControlBulkViscosity>())
+      standard_.q1 = bulk->q1, standard_.q2 = bulk->q2;
+  }
+
+  SolidViscosity of(const ModelPart& part) {
+    SolidViscosity out = standard_;
+    if (part.hgid == 0) {
+      take_global(part, out);
+      return out;
+    }
+    const auto found = cards_.find(part.hgid);
+    if (found == cards_.end()) {
+      deck_.error(diagnostics_, part.card, "HGID", fmt::format("hourglass {} does not exist", part.hgid),
+                  "define it with *HOURGLASS, or leave the field blank");
+      return out;
+    }
+    const Hourglass& card = *found->second;
+    out.q1 = card.q1, out.q2 = card.q2;
+    if (card.ihq == 0)
+      take_global(part, out);
+    else
+      take(card, "IHQ", card.ihq, part, out);
+    if (card.qm != 0) {
+      out.qm = card.qm;
+      check_coefficient(card, "QM", card.qm);
+    }
+    return out;
+  }
+
+ private:
+  void take_global(const ModelPart& part, SolidViscosity& out) {
+    if (!control_) return;
+    if (control_->ihq != 0) take(*control_, "IHQ", control_->ihq, part, out);
+    out.qm = control_->qh;
+    check_coefficient(*control_, "QH", control_->qh);
+  }
+
+  void take(const Entry& card, const char* field, int ihq, const ModelPart& part, SolidViscosity& out) {
+    if (ihq > 0 && ihq <= last_viscous) {
+      out.ihq = ihq;
+    } else if (told_.insert({&card, field}).second) {
+      deck_.error(diagnostics_, card, field,
+                  fmt::format("'{}' is not supported for solids, as those of part {}", ihq, part.id),
+                  "supported values: 0, 1, 2, 3; 1 to 3 are viscous");
+    }
+  }
+
+  void check_coefficient(const Entry& card, const char* field, Real value) {
+    if (value >= 0 && value <= stable_qm) return;
+    if (!told_.insert({&card, field}).second) return;
+    if (value < 0)
+      deck_.error(diagnostics_, card, field, fmt::format("expected a number >= 0, got '{:g}'", value));
+    else
+      deck_.warning(
+          diagnostics_, card, field,
+          fmt::format("viscous hourglass control with a coefficient of {:g} may be unstable", value),
+          fmt::format("keep it at {:g} or below", stable_qm));
+  }
+
+  const Deck& deck_;
+  Diagnostics& diagnostics_;
+  const ControlHourglass* control_;
+  std::map<Id, const Hourglass*> cards_;
+  SolidViscosity standard_;
+  std::set<std::pair<const Entry*, std::string>> told_;  ///< card and field
+};
+
+}  // namespace
+
+std::vector<SolidViscosity> read_solid_viscosity(const Deck& deck, const Model& model,
+                                                 Diagnostics& diagnostics) {
+  std::vector<SolidViscosity> out(model.parts.size());
+  Reader reader(deck, diagnostics);
+  for (std::size_t k = 0; k < out.size(); ++k)
+    if (model.parts[k].has_solid) out[k] = reader.of(model.parts[k]);
+  return out;
+}
+
+}  // namespace courant

@@ -1,0 +1,23 @@
+#pragma once
+#include <vector>
+
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+
+namespace courant {
+
+/// Hourglass control and bulk viscosity of the solids of a part.
+struct SolidViscosity {
+  int ihq = 1;     ///< 1 viscous, 2 Flanagan-Belytschko viscous, 3 the same with exact volume
+  Real qm = 0.1;   ///< hourglass coefficient
+  Real q1 = 1.5;   ///< quadratic bulk viscosity
+  Real q2 = 0.06;  ///< linear bulk viscosity
+};
+
+/// *HOURGLASS where a part names one, else *CONTROL_HOURGLASS and *CONTROL_BULK_VISCOSITY, else the values
+/// above. One for each part of the model; those of parts without solids mean nothing. Kinds of hourglass
+/// control that are not there are an error where a part with solids asks for them.
+std::vector<SolidViscosity> read_solid_viscosity(const Deck& deck, const Model& model,
+                                                 Diagnostics& diagnostics);
+
+}  // namespace courant

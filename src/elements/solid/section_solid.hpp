@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+
+namespace courant {
+
+/// *SECTION_SOLID
+struct SectionSolid : Entry {
+  std::string title;
+  Id secid = 0;
+  int elform = 0, aet = 0;
+  Real cohoff = 0, gaskett = 0;
+};
+
+/// Checks that each part with solids has a section with the one-point hexahedron. Sections that no such part
+/// names may be of any kind.
+void check_solid_sections(const Deck& deck, const Model& model, Diagnostics& diagnostics);
+
+}  // namespace courant
