@@ -107,10 +107,14 @@ class PassList {
   /// Returns the pass. Throws std::logic_error where it is in the list already.
   template <class P>
   std::shared_ptr<P> add(std::shared_ptr<P> pass) {
-    for (const auto& known : passes_)
-      if (known == pass) throw std::logic_error("pass '" + pass->name() + "' is added twice");
+    if (contains(*pass)) throw std::logic_error("pass '" + pass->name() + "' is added twice");
     passes_.push_back(pass);
     return pass;
+  }
+  bool contains(const Pass& pass) const {
+    for (const auto& known : passes_)
+      if (known.get() == &pass) return true;
+    return false;
   }
   /// All that are also a `Role`, in the order of adding.
   template <class Role>

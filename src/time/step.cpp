@@ -53,7 +53,7 @@ Stepper::Stepper(World& world, Neighbours& neighbours, StepRules rules, PassTime
       exchangers_(world.passes.all<Exchanger>()),
       limits_(world.passes.all<TimeLimit>()),
       terms_(world.passes.all<EnergyTerm>()) {
-  world.passes.add(neighbours.watch());
+  if (!world.passes.contains(*neighbours.watch())) world.passes.add(neighbours.watch());
   Schedule schedule = make_schedule(world);
   stages_ = text_of(schedule);
   for (StagePlan& plan : schedule.forces) forces_.emplace_back(std::move(plan), world, timer);

@@ -19,10 +19,10 @@ namespace {
 
 TimeLimit::Limit limit_of(Cloud& cloud, const Model& model) {
   World& w = cloud.world;
-  w.tallies.clear(), w.time_limits.clear();
+  w.passes = {};
   add_sph_time_limit(cloud.settings, model, w);
-  cloud.run(*w.tallies.at(0));
-  return w.time_limits.at(0)->limit(w, cloud.clock);
+  cloud.run(*w.passes.in_phase(Phase::tallies, w).at(0));
+  return w.passes.all<TimeLimit>().at(0)->limit(w, cloud.clock);
 }
 
 void step(Cloud& cloud, int times) {
@@ -82,7 +82,7 @@ TEST(SpeedLimit, SwitchesOffOrClipsAndCounts) {
     w.particles.v.set(3, {30, 40, 0});
     const Id fast = w.particles.id[3];
     cloud.settings.maxv = maxv;
-    w.constraints.push_back(make_speed_limit(cloud.settings, cloud.neighbours));
+    w.passes.add(make_speed_limit(cloud.settings, cloud.neighbours));
     w.passes.add(make_clear_forces(points_of(w.particles)));
     w.passes.add(make_point_motion(points_of(w.particles)));
     w.passes.add(std::make_shared<ConstantStep>(1e-5));
