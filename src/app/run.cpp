@@ -63,6 +63,7 @@ class Run {
     summary_.deck = deck_path;
     summary_.threads = threads();
     summary_.particles = s_.world().particles.size();
+    for (const auto& group : s_.world().groups) summary_.elements += group->size();
     summary_.warnings = options.warnings;
     summary_.dt_min = std::numeric_limits<Real>::infinity();
   }
@@ -88,8 +89,8 @@ class Run {
   void print_start() {
     messag_.line(fmt::format("Courant {}", COURANT_VERSION));
     messag_.line(fmt::format("deck {}: {}", summary_.deck, summary_.title));
-    messag_.line(fmt::format("{} particles in {}D, {} shell nodes, {} segments, {} threads",
-                             summary_.particles, s_.world().dim, s_.world().nodes.size(),
+    messag_.line(fmt::format("{} particles in {}D, {} solids, {} nodes, {} segments, {} threads",
+                             summary_.particles, s_.world().dim, summary_.elements, s_.world().nodes.size(),
                              s_.world().segments.size(), summary_.threads));
     for (const std::string& warning : options_.warnings) messag_.line(warning);
     messag_.line(s_.passes());
@@ -138,6 +139,7 @@ class Run {
     archive("dt_min", y.dt_min);
     archive("dt_max", y.dt_max);
     archive("particle_steps", y.particle_steps);
+    archive("element_steps", y.element_steps);
     archive("restarts", y.restarts);
     archive("wall_seconds", wall);
     archive("cpu_seconds", cpu);
@@ -280,6 +282,7 @@ class Run {
         at_time_level(world, clock, who);
       });
       summary_.particle_steps += s_.world().particles.active;
+      summary_.element_steps += summary_.elements;
       for (const std::string& name : restart_schedule_.due(s_.clock().cycle)) write_restart(name);
       if (copies_.is_due(s_.clock())) copy_state();
       if (const auto order = switches_.take(); order && !obey(*order)) return;
@@ -321,7 +324,8 @@ class Run {
   void write_histories(bool always) {
     const Histories::Due due = histories_.take(s_.clock().t, s_.clock().dt, always);
     Sample sample = s_.sample(who_);
-    const double steps = static_cast<double>(std::max<std::int64_t>(summary_.particle_steps, 1));
+    const double steps =
+        static_cast<double>(std::max<std::int64_t>(summary_.particle_steps + summary_.element_steps, 1));
     sample.ns_per_zone_cycle = 1e9 * wall_seconds() / steps;
     if (!std::isfinite(sample.energy.total())) s_.guard().look(s_.world(), s_.clock());
     writer_.submit([this, sample = std::move(sample), due] { histories_.write(sample, due); });

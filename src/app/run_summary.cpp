@@ -18,7 +18,7 @@ void note_end(Summary& y, Simulation& s) {
   y.leaked_particles = y.counters.contains("leaked_particles") ? y.counters.at("leaked_particles") : 0;
   y.max_penetration = y.maxima.contains("max_penetration") ? y.maxima.at("max_penetration") : 0;
   if (!std::isfinite(y.dt_min)) y.dt_min = 0;
-  y.counters["neighbour_rebuilds"] = s.neighbours().rebuilds();
+  if (s.has_particles()) y.counters["neighbour_rebuilds"] = s.neighbours().rebuilds();
 }
 
 void note_times(Summary& summary, const PassTimer& timer) {

@@ -75,6 +75,16 @@ void sample_nodes(const std::vector<HistoryNode>& wanted, const World& world, co
   }
 }
 
+void sample_elements(const World& world, Sample& s) {
+  std::vector<PartSums> sums(s.parts.size());
+  for (const auto* reporter : world.passes.all<const PartReporter>()) reporter->report_part(world, sums);
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    PartSample& part = s.parts[k];
+    part.mass += sums[k].mass, part.momentum += sums[k].momentum;
+    part.internal += sums[k].internal, part.kinetic += sums[k].kinetic, part.hourglass += sums[k].hourglass;
+  }
+}
+
 void sample_parts(const World& world, const Model& model, Sample& s) {
   const Particles& p = world.particles;
   const auto* volume = dynamic_cast<const Field<Real>*>(p.fields.find("reference_volume"));
@@ -88,6 +98,7 @@ void sample_parts(const World& world, const Model& model, Sample& s) {
     part.kinetic += 0.5 * m * v.squaredNorm();
     part.internal += p.E[i] * (*volume)[i];
   }
+  sample_elements(world, s);
   for (const RigidBodyReport& body : s.bodies) {
     PartSample& part = s.parts[model.part_of_id.at(body.part)];
     part.mass = body.mass;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/build_nodes.hpp"
 #include "app/field_options.hpp"
 #include "app/skin.hpp"
 #include "materials/initial_stress.hpp"
@@ -48,9 +49,12 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
   s->injections_ = add_injected_particles(s->deck_, s->model_, diagnostics);
   const bool model_is_whole = diagnostics.ok();
   s->build_parts(diagnostics);
-  if (s->model_.sph.empty() && model_is_whole)
-    diagnostics.error({deck_path, 0, 0}, "the deck has no *ELEMENT_SPH: there is nothing to compute",
-                      "Courant needs at least one SPH particle");
+  const bool bodies_move = s->bodies_ && s->bodies_->any_moves();
+  if (s->model_.sph.empty() && s->model_.solids.empty() && !bodies_move && model_is_whole)
+    diagnostics.error({deck_path, 0, 0},
+                      "the deck has no *ELEMENT_SPH, no *ELEMENT_SOLID and no rigid body that can move: there "
+                      "is nothing to compute",
+                      "give it particles, solids, or a rigid body that is not held in all directions");
   if (model_is_whole) s->add_passes(diagnostics);
   if (!diagnostics.ok()) return nullptr;
   s->release_tables();
@@ -79,12 +83,48 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   };
   sph_ = build_particles(deck_, model_, sph_material, world_,
                          diagnostics);  // sets world_.dim, which rigid bodies ask for
-  build_segments(deck_, model_, shell_material, world_, diagnostics);
+  const std::vector<Index> node_of = build_nodes(model_, world_);
+  build_segments(deck_, model_, shell_material, node_of, world_, diagnostics);
+  solids_ = find_solid_parts(deck_, model_, diagnostics);
+  if (diagnostics.ok()) {
+    build_solids(model_, solids_, node_of, world_);
+    add_solid_passes(model_, solids_, world_);
+  }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
 }
 
 void Simulation::add_passes(Diagnostics& diagnostics) {
+  if (world_.particles.size() > 0)
+    add_particle_passes(diagnostics);
+  else
+    left_out_.push_back({"particles", "no *ELEMENT_SPH"});
+  if (!diagnostics.ok()) return;
+  add_node_passes(diagnostics);
+  if (!diagnostics.ok()) return;
+  rules_.dtinit = model_.dtinit;
+  if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
+  rules_.dtmin = model_.dtmin;
+  rules_.tssfac = model_.tssfac;
+  rules_.guard = guard_ = std::make_shared<Guard>(reference_of_parts(), model_.endeng);
+  stepper_ = std::make_unique<Stepper>(world_, neighbours_.get(), rules_, timer_);
+}
+
+// Nodes of elements move by their forces; those of rigid bodies with these.
+void Simulation::add_node_passes(Diagnostics& diagnostics) {
+  if (world_.particles.size() == 0) add_prescribed_motions(diagnostics);
+  add_bodies();
+  const bool bodies_move = bodies_ && bodies_->any_moves();
+  if (bodies_move || !world_.groups.empty())
+    world_.passes.add(make_clear_forces(points_of(world_.nodes)));
+  else
+    left_out_.push_back({"forces on nodes", "no node moves"});
+  if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
+  world_.passes.add(make_point_motion(points_of(world_.nodes)));
+  world_.passes.add(make_kinetic_energy(points_of(world_.nodes)));
+}
+
+void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   const Real h = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
   neighbours_ = std::make_shared<Neighbours>(first_skin * h, sph_.region, kernel_support(sph_.kernel));
   neighbours_->adapt_skin(least_skin * h, most_skin * h,
@@ -97,7 +137,11 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
   add_prescribed_motions(diagnostics);
   contacts_ = build_contacts(
-      deck_, model_, {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->largest_skin()},
+      deck_, model_,
+      {.skip_inactive = sph_.skip_inactive_contact,
+       .thickness_from_volume = sph_.thickness_from_volume,
+       .bulk_modulus = [this](Index part) { return solids_[part].law->bulk_modulus(); },
+       .reach_margin = neighbours_->largest_skin()},
       world_, diagnostics);
   if (!diagnostics.ok()) return;
   world_.passes.add(make_clear_forces(points_of(world_.particles)));
@@ -113,20 +157,13 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
     left_out_.push_back({"gravity", "no *LOAD_BODY"});
   if (!add_level_outlets(deck_, model_, sph_, planes_, world_, diagnostics))
     left_out_.push_back({"level outlet", "no *COURANT_LEVEL_OUTLET"});
-  for (auto& contact : contacts_) world_.passes.add(contact);
+  for (auto& contact : contacts_) add_contact(world_, contact);
   if (contacts_.empty()) left_out_.push_back({"contact", "no *CONTACT"});
   if (auto fixed = make_fixed_particles(model_, world_))
     world_.passes.add(fixed);
   else
     left_out_.push_back({"fixed particles", "no particle in *BOUNDARY_SPC"});
-  add_bodies();
   check_field_names(deck_, model_.output.fields, world_, diagnostics);
-  rules_.dtinit = model_.dtinit;
-  if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
-  rules_.dtmin = model_.dtmin;
-  rules_.tssfac = model_.tssfac;
-  rules_.guard = guard_ = std::make_shared<Guard>(reference_of_parts(), model_.endeng);
-  stepper_ = std::make_unique<Stepper>(world_, *neighbours_, rules_, timer_);
 }
 
 // Before the first step, so that c0 is that of the material at rest.

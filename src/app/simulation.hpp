@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "elements/solid/solids.hpp"
 #include "keyword/deck.hpp"
 #include "keyword/deck_record.hpp"
 #include "materials/materials.hpp"
@@ -52,8 +53,10 @@ class Simulation {
   const World& world() const { return world_; }
   Clock& clock() { return clock_; }
   const SphSettings& sph() const { return sph_; }
-  const Neighbours& neighbours() const { return *neighbours_; }
+  bool has_particles() const { return neighbours_ != nullptr; }
+  const Neighbours& neighbours() const { return *neighbours_; }  ///< where there are particles
   const std::vector<PartMaterial>& materials() const { return materials_; }
+  const std::vector<SolidPart>& solids() const { return solids_; }
   const std::vector<std::shared_ptr<Contact>>& contacts() const { return contacts_; }
   const RigidBodies* bodies() const { return bodies_.get(); }
   const Injections& injections() const { return injections_; }
@@ -75,6 +78,8 @@ class Simulation {
   void release_tables();
   void note_read_seconds(double reading, double building);
   void add_passes(Diagnostics& diagnostics);
+  void add_particle_passes(Diagnostics& diagnostics);
+  void add_node_passes(Diagnostics& diagnostics);
   void add_images(Real h, Diagnostics& diagnostics);
   void add_prescribed_motions(Diagnostics& diagnostics);
   void add_bodies();
@@ -90,7 +95,8 @@ class Simulation {
   SphSettings sph_;
   Injections injections_;
   std::vector<PartMaterial> materials_;
-  std::shared_ptr<Neighbours> neighbours_;
+  std::vector<SolidPart> solids_;  ///< by part of the model
+  std::shared_ptr<Neighbours> neighbours_;  ///< null: no particles
   std::shared_ptr<Relocation> mirrors_;  ///< null: none
   std::vector<std::shared_ptr<Contact>> contacts_;
   std::shared_ptr<RigidBodies> bodies_;

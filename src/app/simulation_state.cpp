@@ -11,7 +11,7 @@ void Simulation::keep(Archive& archive) {
   auto keepers = keepers_of(world_);
   keepers.emplace_back("guard", guard_.get());
   keepers.emplace_back("stepper", stepper_.get());
-  neighbours_->keep(archive);
+  if (neighbours_) neighbours_->keep(archive);
   {
     const Archive::Group passes(archive, "passes");
     for (const auto& [name, keeper] : keepers) {
@@ -21,7 +21,7 @@ void Simulation::keep(Archive& archive) {
   }
   if (!archive.loading()) return;
   archive.stop_for_leftovers();
-  neighbours_->restore(world_, keepers);
+  if (neighbours_) neighbours_->restore(world_, keepers);
   for (const auto& [name, keeper] : keepers) keeper->loaded(world_);
   if (more_wait) neighbours_->force_refresh();
 }

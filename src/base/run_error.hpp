@@ -10,6 +10,7 @@ enum class StopCause {
   not_finite,  ///< NaN or infinity in the state
   density,     ///< rho <= 0
   leap,        ///< a particle moved too far in one step
+  element,     ///< an element without volume
   step_size,   ///< below DTMIN, or nothing limits it
   energy,      ///< more than came in, or beyond ENDENG
 };

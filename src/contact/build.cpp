@@ -5,14 +5,16 @@
 #include "contact/cards.hpp"
 #include "contact/contact.hpp"
 #include "model/named_parts.hpp"
+#include "surfaces/skin.hpp"
 
 namespace courant {
 namespace {
 
 class Builder {
  public:
-  Builder(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {}
+  Builder(const Deck& deck, const Model& model, const ContactOptions& options, World& world,
+          Diagnostics& diagnostics)
+      : deck_(deck), model_(model), options_(options), world_(world), diagnostics_(diagnostics) {}
 
   /// Particles of SURFA; reports an empty or missing side.
   std::vector<bool> tracked(const ContactNodesToSurface& c) {
@@ -33,11 +35,24 @@ class Builder {
 
   /// Segments of SURFB
   std::vector<Index> segments(const ContactNodesToSurface& c) {
-    const std::vector<char> chosen =
-        shell_parts_named(deck_, model_, c, "SURFB", c.surfb, c.surfbtyp, diagnostics_);
-    std::vector<Index> out;
+    std::vector<char> chosen(model_.parts.size(), 0);
+    std::vector<Index> out, skin;
+    for (const Index part : parts_named(deck_, model_, c, "SURFB", c.surfb, c.surfbtyp, diagnostics_)) {
+      const ModelPart& named = model_.parts[part];
+      chosen[part] = named.has_shell;
+      if (!named.has_shell && !named.has_solid)
+        deck_.error(diagnostics_, c, "SURFB", fmt::format("part {} has no shells and no solids", named.id),
+                    "SURFB must be parts of shells or solids");
+      if (!named.has_solid) continue;
+      for (const Index s : add_skin(world_, {part, options_.bulk_modulus(part)})) skin.push_back(s);
+    }
+    if (!skin.empty() && !(c.sast > 0) && !(c.sbst > 0) && !options_.thickness_from_volume)
+      deck_.error(diagnostics_, c, "SAST",
+                  "neither particles nor the faces of solids have a thickness, so they would never touch",
+                  "give SAST, or SBST, twice the distance at which they touch; or ITHK 1 of *CONTROL_SPH");
     for (Index s = 0; s < world_.segments.size(); ++s)
       if (chosen[world_.segments.part[s]]) out.push_back(s);
+    out.insert(out.end(), skin.begin(), skin.end());
     return out;
   }
 
@@ -68,6 +83,7 @@ class Builder {
 
   const Deck& deck_;
   const Model& model_;
+  const ContactOptions& options_;
   World& world_;
   Diagnostics& diagnostics_;
 };
@@ -95,7 +111,7 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
                                                      const ContactOptions& options, World& world,
                                                      Diagnostics& diagnostics) {
   std::vector<std::shared_ptr<Contact>> out;
-  Builder builder(deck, model, world, diagnostics);
+  Builder builder(deck, model, options, world, diagnostics);
   int number = 0;
   for (const ContactNodesToSurface& c : deck.all<ContactNodesToSurface>()) {
     ++number;

@@ -35,7 +35,7 @@ const RegisterKeyword<C> contact_nodes_to_surface{
                 {"SURFB",
                  &C::surfb,
                  "-",
-                 "shells: part set or part",
+                 "shells or solids: part set or part",
                  {.required = true, .check = Check::positive},
                  [](const C& card) { return space_of_type(card.surfbtyp); }},
                 {"SURFATYP",

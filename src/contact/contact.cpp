@@ -17,7 +17,8 @@ constexpr Real infinity = std::numeric_limits<Real>::infinity();
 /// tolerances less deep, so that the order in which facets are looked at does not matter.
 constexpr Real apart_of_contact_distance = 2e-4;
 
-/// Stiffness K A / (longest diagonal) of a shell segment and the least mass of its nodes.
+/// Stiffness of a segment, K A / (longest diagonal) of a shell, K A^2 / V of the skin of a solid, and the least
+/// mass of its nodes.
 void give_stiffness(Facet& f, const ContactLaw& law, const World& world) {
   const Segments& g = world.segments;
   const auto a = g.nodes(f.segment);
@@ -28,7 +29,9 @@ void give_stiffness(Facet& f, const ContactLaw& law, const World& world) {
   Real diagonal = std::max((x[2] - x[0]).norm(), (x[3] - x[1]).norm());
   if (triangle) diagonal = std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
   // in 2D per unit of depth, and of a shell that is as long as its part in the plane, whatever its width
-  f.k = law.slsfac * law.sfsb * g.K[f.segment] * (world.dim == 3 ? area / diagonal : 1);
+  const Real V = g.volume[f.segment];
+  const Real length = world.dim == 2 ? 1 : V > 0 ? area * area / V : area / diagonal;
+  f.k = law.slsfac * law.sfsb * g.K[f.segment] * length;
   f.r = law.sbst > 0 ? 0.5 * law.sbst : 0.5 * g.thickness[f.segment] * law.sfsbt;
   f.m = infinity;
   if (f.moves)
@@ -77,7 +80,7 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
     k_facet = std::max(k_facet, f.k);
     m_facet = std::min(m_facet, f.m);
   }
-  if (!moving_.empty()) before_.resize(facets_.size());
+  if (!moving_.empty()) before_.resize(facets_.size()), find_incidence(world);
   Real radius = radius_all_;
   limit_ = infinity;
   for (Index i = 0; i < p.size(); ++i) {
@@ -142,7 +145,7 @@ void Contact::declare(const World& world, Accesses& a) const {
   a.in_start().reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*ghost_);
   a.reads(n.x, Reach::others).reads(n.v, Reach::others);
   a.updates(n.f).updates(world.segments.contact_force);
-  a.in_finish().updates(*leaked_).updates(n.f).updates(world.segments.contact_force);
+  a.in_finish().updates(*leaked_).writes(reactions_resource_);
 }
 
 void Contact::update_facets(const World& world, const Clock& clock) {
@@ -177,7 +180,8 @@ void Contact::fall_asleep(World& world) {
 void Contact::start(World& world, const Clock& clock) {
   for (const Index s : written_) {
     const Facet& f = facets_[s];
-    for (int e = 0; e < f.corners; ++e) world.nodes.f.set(f.node[e], Vec::Zero());
+    if (!f.moves)  // others are cleared with the forces of all nodes
+      for (int e = 0; e < f.corners; ++e) world.nodes.f.set(f.node[e], Vec::Zero());
     world.segments.contact_force.set(f.segment, Vec::Zero());
   }
   written_.clear();
@@ -202,14 +206,13 @@ void Contact::count_leaks(World& world, const std::vector<Index>& particles) {
   }
 }
 
-// Serial and in the order of particles: sums have the same bits on any number of threads.
 void Contact::finish(World& world, const Clock&) {
   Real deepest = 0;
   for (const Block& b : blocks_) {
     deepest = std::max(deepest, b.deepest);
     count_leaks(world, b.crossed);
-    for (const Reaction& r : b.reactions) give_to_wall(world, b, r.touch, r.share);
   }
+  if (!moving_.empty()) fill_slots();
   if (deepest > 0) {
     Real& most = world.maxima["max_penetration"];
     most = std::max(most, deepest);

@@ -1,7 +1,8 @@
 #pragma once
-// Penalty contact of SPH particles with shell segments, in 3D and (walls extruded in z) in 2D. See
+// Penalty contact of SPH particles with shells and the skins of solids, in 3D and (walls extruded in z) in 2D. See
 // docs/theory.md.
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -22,6 +23,8 @@ struct ContactOptions {
   bool skip_inactive = true;  ///< ICONT 1. Particles outside the box move with constant velocity either way
   bool thickness_from_volume =
       false;              ///< ITHK 1: contact radius of a particle is 0.5 V^(1/dim) where SAST is 0
+  /// Bulk modulus of the solids of a part [M/LT2]
+  std::function<Real(Index part)> bulk_modulus = nullptr;
   Real reach_margin = 0;  ///< particles and nodes move at most half of this between two refreshes [L]
   bool shortcuts = true;  ///< off: every candidate is looked at in every step, with the same result
 };
@@ -62,6 +65,13 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   /// Adds the forces on fixed walls to nodes.f and segments.contact_force. No motion depends on these, so
   /// this is left to who wants to see them; before particles move again.
   void show_forces(World& world);
+  /// What touches leave for the faces and nodes of walls that move; complete after `finish`.
+  const Resource& reactions() const { return reactions_resource_; }
+  /// Adds the force that a node, or a segment, got from touches on walls that move, in the order of facets and
+  /// particles.
+  void add_reaction_on_node(Index node, Vec& force) const;
+  void add_reaction_on_segment(Index segment, Vec& force) const;
+  bool has_moving_walls() const { return !moving_.empty(); }
   void refreshed(World& world, const Clock& clock, std::span<const Index> old_of_new) override;
   Limit limit(const World& world, const Clock& clock) override;
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
@@ -110,6 +120,24 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   struct Reaction {  ///< of a touch on a wall that moves
     Index touch;
     std::array<Real, 4> share;  ///< of the facet's corners [-]
+  };
+  /// Touches on walls that move, by facet: the slots from which faces and nodes gather.
+  struct Slots {
+    struct Slot {
+      Vec force = Vec::Zero();     ///< on the facet [ML/T2]
+      std::array<Real, 4> share{};  ///< of its corners [-]
+    };
+    std::vector<Index> first;  ///< of each facet, and the end
+    std::vector<Slot> slots;
+  };
+  /// Which facets a node or a segment has.
+  struct Incidence {
+    struct Corner {
+      Index facet;
+      int corner;  ///< of a node; -1: of a segment
+    };
+    std::vector<Index> first;
+    std::vector<Corner> corners;
   };
   struct alignas(64) Block {  ///< of particles; what one thread works on
     std::vector<Slot> slots;
@@ -160,6 +188,8 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   void keep_friction(const Block& b, Index particle, std::size_t first_touch);
   Vec force_of(const Block& b, std::size_t touch) const;
   void give_to_wall(World& world, const Block& b, std::size_t touch, const std::array<Real, 4>& share);
+  void find_incidence(const World& world);
+  void fill_slots();
   Vec wall_velocity(const World& world, const Facet& f, const Vec& q) const;
   Real stiffness(Index i, Real kn, Real kf, const Facet& f, const World& world) const;
   const Corners& before(Index facet) const {
@@ -195,10 +225,16 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
 
   std::vector<Block> blocks_;
   Index listed_ = 0;            ///< particles that were active at the last refresh
-  std::vector<Index> written_;  ///< facets whose nodes and segments have forces of this interface
+  Resource reactions_resource_{"contact reactions"};
+  Slots slots_;
+  Incidence of_node_, of_segment_;
+  std::vector<Index> written_;  ///< held facets whose nodes and segments have forces of this interface
   bool shown_ = false;
   Real damping_work_ = 0, friction_work_ = 0;
 };
+
+/// Adds an interface to the passes of `world`, with those that gather its reactions where walls move.
+void add_contact(World& world, const std::shared_ptr<Contact>& contact);
 
 /// Reads all *CONTACT_AUTOMATIC_NODES_TO_SURFACE of the deck. Particles and segments must exist (x, v, m,
 /// rho, c, part, id; Nodes::held set by the rigid bodies). Reports what is missing or not supported, and

@@ -15,7 +15,7 @@ std::string matsum_text(const Sample& s) {
     out += fmt::sprintf(" x-rbv=%13.4E     y-rbv=%13.4E     z-rbv=%13.4E\n", p.rigid_velocity.x(),
                         p.rigid_velocity.y(), p.rigid_velocity.z());
     out += fmt::sprintf("                         hgeng=%13.4E     +mass=%13.4E     eroded_he=%13.4E\n\n",
-                        0.0, 0.0, 0.0);
+                        p.hourglass, 0.0, 0.0);
   }
   return out;
 }

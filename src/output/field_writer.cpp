@@ -54,16 +54,19 @@ FieldWriter::FieldWriter(std::filesystem::path dir, FieldWriterOptions options)
     : dir_(std::move(dir)),
       options_(std::move(options)),
       particle_encoder_(options_.compression),
-      shell_encoder_(options_.compression) {
+      shell_encoder_(options_.compression),
+      solid_encoder_(options_.compression) {
   make_folder(dir_ / "fields");
 }
 
 FieldState FieldWriter::take(const World& world, Real t, int number) const {
-  FieldState state{
-      number, t, particle_data(world.particles, all_of(world.particles.size()), t, options_), {}};
+  FieldState state{.number = number, .t = t, .particles = {}, .shells = {}, .solids = {}};
+  if (world.particles.size() > 0)
+    state.particles = particle_data(world.particles, all_of(world.particles.size()), t, options_);
   if (world.segments.size() > 0) state.shells = shell_data(world, options_);
-  state.particles.t = t;
-  if (state.shells) state.shells->t = t;
+  if (!world.groups.empty()) state.solids = solid_data(world, options_);
+  for (auto* data : {&state.particles, &state.shells, &state.solids})
+    if (*data) (*data)->t = t;
   return state;
 }
 
@@ -74,9 +77,16 @@ void FieldWriter::write(FieldState state) {
                     state.t, part, name, file);
   };
   ++states_not_listed_;
-  std::string file = fmt::format("fields/particles_{:04d}.vtp", state.number);
-  put(file, particle_encoder_, std::move(state.particles));
-  add_entry(0, "particles", file);
+  if (state.particles) {
+    const std::string file = fmt::format("fields/particles_{:04d}.vtp", state.number);
+    put(file, particle_encoder_, std::move(*state.particles));
+    add_entry(0, "particles", file);
+  }
+  if (state.solids) {
+    const std::string file = fmt::format("fields/solids_{:04d}.vtu", state.number);
+    put(file, solid_encoder_, std::move(*state.solids));
+    add_entry(2, "solids", file);
+  }
   if (state.shells) {
     if (!options_.sparse_shells || shell_file_.empty() || state.shells->sections != shells_before_) {
       shell_file_ = fmt::format("fields/shells_{:04d}.vtu", state.number);
@@ -103,7 +113,6 @@ void FieldWriter::write_failed(const World& world, Real t) {
     return x.allFinite() && x.cwiseAbs().maxCoeff() < std::numeric_limits<float>::max();
   };
   std::erase_if(which, [&](Index i) { return !has_place(p.x.vec(i)); });
-  if (which.empty()) return;
   FieldWriterOptions all = options_;  // of what went wrong nothing is rounded or hidden
   all.eps = all.epsx = 0;
   all.inside = {};
@@ -111,9 +120,10 @@ void FieldWriter::write_failed(const World& world, Real t) {
     data.t = t;
     put(std::string("fields/") + file, encoder, std::move(data));
   };
-  put_failed("failed.vtp", particle_encoder_, particle_data(p, std::move(which), t, all));
+  if (!which.empty()) put_failed("failed.vtp", particle_encoder_, particle_data(p, std::move(which), t, all));
   for (Index k = 0; k < world.nodes.size(); ++k)
     if (!has_place(world.nodes.x.vec(k))) return;
+  if (!world.groups.empty()) put_failed("failed_solids.vtu", solid_encoder_, solid_data(world, all));
   if (world.segments.size() > 0) put_failed("failed_shells.vtu", shell_encoder_, shell_data(world, all));
 }
 
@@ -130,6 +140,7 @@ void FieldWriter::keep(Archive& archive) {
   };
   keep_encoder("particles", particle_encoder_);
   keep_encoder("shells", shell_encoder_);
+  keep_encoder("solids", solid_encoder_);
 }
 
 void FieldWriter::cut(int number) {

@@ -39,12 +39,13 @@ std::vector<std::string> particle_array_names(const World& world);
 struct FieldState {
   int number = 0;
   Real t = 0;  ///< [T]
-  VtkDataSet particles;
+  std::optional<VtkDataSet> particles;  ///< none without particles
   std::optional<VtkDataSet> shells;  ///< none without segments
+  std::optional<VtkDataSet> solids;  ///< none without elements
 };
 
-/// Writes `fields/particles_NNNN.vtp`, `fields/shells_NNNN.vtu` (if there are segments) and `fields.pvd`
-/// under a folder. All registry fields flagged `output` are written, reals as float32, plus `part` (deck
+/// Writes `fields/particles_NNNN.vtp`, `fields/shells_NNNN.vtu`, `fields/solids_NNNN.vtu`, as far as there are
+/// particles, segments, solids, and `fields.pvd` under a folder. All registry fields flagged `output` are written, reals as float32, plus `part` (deck
 /// number) and, for particles, `active` (1 or 0), unless the options choose otherwise. Places are float64
 /// where float32 would be off by more than a thousandth of h. Particles stand in the order of their ids, so
 /// that a point keeps its place over time. Each array carries its dimension (M, L, T) as VTK's UNITS_LABEL,
@@ -87,7 +88,7 @@ class FieldWriter {
   std::filesystem::path dir_;
   FieldWriterOptions options_;
   std::string entries_;  // the <DataSet> lines of fields.pvd so far
-  VtkEncoder particle_encoder_, shell_encoder_;
+  VtkEncoder particle_encoder_, shell_encoder_, solid_encoder_;
   std::vector<VtkSection> shells_before_;
   std::string shell_file_;  // where these stand
   static constexpr std::chrono::seconds longest_wait_{1};

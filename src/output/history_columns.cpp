@@ -43,6 +43,8 @@ void History::put_global(const Sample& s) {
   put("/global/internal", energy, s.energy.internal);
   put("/global/potential", energy, s.energy.potential);
   put("/global/contact", energy, s.energy.contact);
+  put("/global/hourglass", energy, s.energy.hourglass);
+  put("/global/bulk_viscosity", energy, s.energy.bulk_viscosity);
   put("/global/dissipated", energy, s.energy.dissipated);
   put("/global/external_work", energy, s.energy.external_work);
   put("/global/total", energy, s.energy.total());
@@ -110,6 +112,7 @@ void History::put_entities(const Sample& s) {
     put(group + "/kinetic", energy, part.kinetic);
     put(group + "/internal", energy, part.internal);
     put(group + "/momentum", "ML/T", part.momentum);
+    put(group + "/hourglass", energy, part.hourglass);
   }
   for (const InterfaceForce& contact : s.interfaces) {
     const std::string group = fmt::format("/contacts/{}", contact.id);

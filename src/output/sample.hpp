@@ -15,6 +15,7 @@ struct PartSample {
   std::string title;
   Real mass = 0;                     ///< of active particles, or of the body [M]
   Real internal = 0, kinetic = 0;    ///< [ML2/T2]
+  Real hourglass = 0;                ///< [ML2/T2]
   Vec momentum = Vec::Zero();        ///< [ML/T]
   Vec rigid_velocity = Vec::Zero();  ///< of the centre of mass [L/T]
 };

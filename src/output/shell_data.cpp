@@ -39,8 +39,10 @@ void add_fields(const FieldSet& fields, const std::vector<Index>& which, const F
       to.push_back(copy_of(*field, which, options.float64, options.eps));
 }
 
-/// Shells are seldom far smaller than their distance from the origin; where a particle's places need
-/// float64, so may theirs.
+}  // namespace
+
+// Shells are seldom far smaller than their distance from the origin; where a particle's places need float64,
+// so may theirs.
 VtkArray node_places(const World& world, const std::vector<Index>& nodes, const FieldWriterOptions& options) {
   constexpr Real round_off = 0x1p-24, most = 1e-3;
   Real h = std::numeric_limits<Real>::infinity(), far = 0;
@@ -52,8 +54,6 @@ VtkArray node_places(const World& world, const std::vector<Index>& nodes, const 
   out.dimension.clear();  // VTK keeps none with the points
   return out;
 }
-
-}  // namespace
 
 VtkDataSet shell_data(const World& world, const FieldWriterOptions& options) {
   const std::vector<Index> nodes = all_of(world.nodes.size());

@@ -15,6 +15,7 @@ void emit_energy(YAML::Emitter& out, const Summary& s) {
       {"contact", e.contact},       {"dissipated", e.dissipated}, {"external_work", e.external_work},
       {"initial", e.initial},       {"total", e.total()},         {"residual", e.residual()},
       {"throughput", e.throughput}, {"ratio", s.energy_ratio()},
+      {"hourglass", e.hourglass},   {"bulk_viscosity", e.bulk_viscosity},
   };
   out << YAML::Key << "energy" << YAML::Value << YAML::BeginMap;
   for (const auto& [key, value] : entries) out << YAML::Key << key << YAML::Value << value;
@@ -79,6 +80,10 @@ double Summary::ns_per_particle_step() const {
   return particle_steps > 0 ? 1e9 * wall_seconds / static_cast<double>(particle_steps) : 0;
 }
 
+double Summary::ns_per_element_step() const {
+  return element_steps > 0 ? 1e9 * wall_seconds / static_cast<double>(element_steps) : 0;
+}
+
 Real Summary::energy_ratio() const {
   const Real expected = energy.initial + energy.external_work;
   if (expected == 0) return energy.total() == 0 ? 1 : std::numeric_limits<Real>::quiet_NaN();
@@ -111,6 +116,9 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
   entry("active_particles", s.active_particles);
   entry("particle_steps", s.particle_steps);
   entry("ns_per_particle_step", s.ns_per_particle_step());
+  entry("elements", s.elements);
+  entry("element_steps", s.element_steps);
+  entry("ns_per_element_step", s.ns_per_element_step());
   entry("peak_memory_bytes", s.peak_memory_bytes);
   entry("dt_min", s.dt_min);
   entry("dt_max", s.dt_max);

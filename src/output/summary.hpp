@@ -34,6 +34,8 @@ struct Summary {
   std::int64_t particles = 0;         ///< in the model
   std::int64_t active_particles = 0;  ///< at the end
   std::int64_t particle_steps = 0;    ///< sum over steps of active particles
+  std::int64_t elements = 0;          ///< solids
+  std::int64_t element_steps = 0;     ///< sum over steps of elements
   std::int64_t peak_memory_bytes = 0;
   Real dt_min = 0, dt_max = 0;  ///< [T]
   EnergyLedger energy;          ///< at the end
@@ -53,6 +55,7 @@ struct Summary {
   Output output;
 
   double ns_per_particle_step() const;  ///< wall time; 0 if no step was taken
+  double ns_per_element_step() const;   ///< the same
   Real energy_ratio() const;            ///< total / (initial + external work); 1 where both are 0
 };
 

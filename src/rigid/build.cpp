@@ -119,8 +119,7 @@ class Builder {
 
   std::shared_ptr<RigidBodies> finish() {
     for (const RigidBody& b : bodies_)
-      if (b.fixed())
-        for (const Index n : b.nodes) world_.nodes.held[n] = 1;
+      for (const Index n : b.nodes) world_.nodes.follow[n] = 1, world_.nodes.held[n] = b.fixed() ? 1 : 0;
     return bodies_.empty() ? nullptr : std::make_shared<RigidBodies>(std::move(bodies_));
   }
 

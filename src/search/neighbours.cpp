@@ -318,9 +318,12 @@ void Neighbours::remember_places(const World& world, const Clock& clock) {
 }
 
 void Neighbours::find_moving_nodes(const World& world) {
+  std::vector<char> on_face(static_cast<std::size_t>(world.nodes.size()), 0);
+  for (Index s = 0; s < world.segments.size(); ++s)
+    for (const Index k : world.segments.nodes(s)) on_face[static_cast<std::size_t>(k)] = 1;
   moving_nodes_.clear();
   for (Index k = 0; k < world.nodes.size(); ++k)
-    if (!world.nodes.held[k]) moving_nodes_.push_back(k);
+    if (!world.nodes.held[k] && on_face[static_cast<std::size_t>(k)]) moving_nodes_.push_back(k);
 }
 
 bool Neighbours::nodes_moved(const World& world) const {

@@ -53,30 +53,17 @@ std::vector<ShellPart> read_parts(const Deck& deck, const Model& model,
 }  // namespace
 
 void build_segments(const Deck& deck, const Model& model,
-                    const std::function<std::optional<ShellMaterial>(Index part)>& material, World& world,
-                    Diagnostics& diagnostics) {
+                    const std::function<std::optional<ShellMaterial>(Index part)>& material,
+                    const std::vector<Index>& node_of, World& world, Diagnostics& diagnostics) {
   const std::vector<ShellPart> parts = read_parts(deck, model, material, diagnostics);
-  std::vector<Index> position(model.nodes.size(), -1);
-  for (const ModelShell& shell : model.shells)
-    for (const Index n : shell.node) position[n] = 0;
-  Index count = 0;
-  for (Index& p : position)
-    if (p == 0) p = count++;
   Nodes& nodes = world.nodes;
-  nodes.fields.resize(count);
-  for (std::size_t n = 0; n < position.size(); ++n) {
-    if (position[n] < 0) continue;
-    nodes.x.set(position[n], model.nodes[n].x);
-    nodes.v.set(position[n], model.nodes[n].v);
-    nodes.id[position[n]] = model.nodes[n].id;
-  }
   Segments& g = world.segments;
   g.fields.resize(Index(model.shells.size()));
   for (Index s = 0; s < g.size(); ++s) {
     const ModelShell& shell = model.shells[s];
     const ShellPart& part = parts[shell.part];
     std::array<Index, 4> a;
-    for (int e = 0; e < 4; ++e) a[e] = position[shell.node[e]];
+    for (int e = 0; e < 4; ++e) a[e] = node_of[shell.node[e]];
     g.node0[s] = a[0], g.node1[s] = a[1], g.node2[s] = a[2], g.node3[s] = a[3];
     g.part[s] = shell.part;
     g.id[s] = shell.id;

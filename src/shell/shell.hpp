@@ -15,12 +15,12 @@ struct ShellMaterial {
   Real pr = 0;  ///< Poisson ratio [-]
 };
 
-/// Fills world.nodes (the nodes that shells use, in the order of the model; mass RO t A shared equally by an
-/// element's corners) and world.segments (K = E/(3(1 - 2 PR)), thickness of *SECTION_SHELL). `material(part)`
+/// Adds the masses of shells (RO t A, shared equally by an element's corners) to world.nodes, and fills
+/// world.segments (K = E/(3(1 - 2 PR)), thickness of *SECTION_SHELL). `material(part)`
 /// gives the material of a part (index into Model::parts), nothing for a part whose material is not rigid:
-/// such shells are refused, once per part.
+/// such shells are refused, once per part. `node_of`: the node of the world of each node of the model.
 void build_segments(const Deck& deck, const Model& model,
-                    const std::function<std::optional<ShellMaterial>(Index part)>& material, World& world,
-                    Diagnostics& diagnostics);
+                    const std::function<std::optional<ShellMaterial>(Index part)>& material,
+                    const std::vector<Index>& node_of, World& world, Diagnostics& diagnostics);
 
 }  // namespace courant

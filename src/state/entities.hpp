@@ -71,10 +71,12 @@ struct Nodes {
       fields.add<Index>({.name = "held", .dimension = "-"});  ///< 1: its body cannot move at all
   Field<Index>& follow =
       fields.add<Index>({.name = "follow", .dimension = "-"});  ///< 1: a rigid body moves it
+  Field<Index>& part =
+      fields.add<Index>({.name = "part", .dimension = "-"});  ///< of one of its elements, by index
   Index size() const { return fields.size(); }
 };
 
-/// Shell faces that contact can act on. A triangle repeats its third node: node[2] == node[3].
+/// Faces that contact can act on: shells, and the skin of solids. A triangle repeats its third node: node[2] == node[3].
 struct Segments {
   FieldSet fields{"segments"};
   Field<Index>& node0 = fields.add<Index>({.name = "node0", .dimension = "-"});
@@ -83,13 +85,37 @@ struct Segments {
   Field<Index>& node3 = fields.add<Index>({.name = "node3", .dimension = "-"});
   Field<Real>& thickness = fields.add<Real>({.name = "thickness", .dimension = "L", .output = true});
   Field<Real>& K = fields.add<Real>(
-      {.name = "bulk_modulus", .dimension = "M/LT2"});  ///< E/(3(1-2 nu)) of the shell's material
+      {.name = "bulk_modulus", .dimension = "M/LT2"});  ///< E/(3(1-2 nu)) of the material
+  Field<Real>& volume = fields.add<Real>(
+      {.name = "element_volume", .dimension = "L3"});  ///< of the solid behind the face; 0: a shell
   Field<Real>& contact_force = fields.add<Real>(
       {.name = "contact_force", .dimension = "ML/T2", .components = 3, .output = true, .restart = false});
   Field<Index>& part = fields.add<Index>({.name = "part", .dimension = "-"});
   Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
   Index size() const { return fields.size(); }
   std::array<Index, 4> nodes(Index s) const { return {node0[s], node1[s], node2[s], node3[s]}; }
+};
+
+/// Elements of one kind and one part, whose forces on their nodes are gathered by a pass over the nodes.
+struct ElementGroup {
+  ElementGroup(FieldSet& set, Index part_index, int corners)
+      : fields(set),
+        node(set.add<Index>({.name = "node", .dimension = "-", .components = corners})),
+        corner_force(set.add<Real>(
+            {.name = "corner_force", .dimension = "ML/T2", .components = 3 * corners, .restart = false})),
+        V0(set.add<Real>({.name = "reference_volume", .dimension = "L3"})),
+        mass(set.add<Real>({.name = "mass", .dimension = "M"})),
+        id(set.add<Id>({.name = "id", .dimension = "-", .output = true})),
+        part(part_index) {}
+  FieldSet& fields;
+  Field<Index>& node;         ///< component c: index of corner c into World::nodes
+  Field<Real>& corner_force;  ///< component 3 c + k: on corner c in direction k
+  Field<Real>& V0;            ///< volume at the start [L3]
+  Field<Real>& mass;          ///< shared equally by the corners
+  Field<Id>& id;
+  Index part;  ///< index into the model's parts
+  int corners() const { return node.info().components; }
+  Index size() const { return fields.size(); }
 };
 
 }  // namespace courant

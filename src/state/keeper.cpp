@@ -47,6 +47,8 @@ void keep_ledger(EnergyLedger& e, Archive& archive) {
   archive("internal", e.internal);
   archive("potential", e.potential);
   archive("contact", e.contact);
+  archive("hourglass", e.hourglass);
+  archive("bulk_viscosity", e.bulk_viscosity);
   archive("dissipated", e.dissipated);
   archive("external_work", e.external_work);
   archive("throughput", e.throughput);

@@ -95,8 +95,8 @@ struct Refresh : virtual Pass {
 /// f . (v^{n-1/2} + v^{n+1/2})/2 dt_mean, which makes the change of kinetic energy exact.
 struct EnergyTerm : virtual Pass {
   virtual void record(World& world, const Clock& clock, EnergyLedger& ledger) = 0;
-  /// Adds what holds at t^n (not what accumulates) to kinetic, internal, potential, contact, which are zero
-  /// before. Called only when somebody wants to know.
+  /// Adds what holds at t^n (not what accumulates) to kinetic, internal, potential, contact, hourglass,
+  /// bulk_viscosity, which are zero before. Called only when somebody wants to know.
   virtual void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const = 0;
 };
 

@@ -20,7 +20,7 @@ inline Points points_of(Particles& p) {
   return {&p.fields, &p.x, &p.v, &p.f, &p.m, &p.id, &p.part, nullptr};
 }
 inline Points points_of(Nodes& n) {
-  return {&n.fields, &n.x, &n.v, &n.f, &n.m, &n.id, nullptr, &n.follow};
+  return {&n.fields, &n.x, &n.v, &n.f, &n.m, &n.id, &n.part, &n.follow};
 }
 
 }  // namespace courant

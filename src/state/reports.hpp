@@ -27,6 +27,19 @@ struct BoundaryForceReporter {
                              std::vector<BoundaryForce>& out) const = 0;
 };
 
+/// Sums over what belongs to a part.
+struct PartSums {
+  Real mass = 0;                                ///< [M]
+  Real internal = 0, kinetic = 0, hourglass = 0;  ///< [ML2/T2]
+  Vec momentum = Vec::Zero();                   ///< [ML/T]
+};
+/// A pass over elements of parts.
+struct PartReporter {
+  virtual ~PartReporter() = default;
+  /// Adds to the sums; one for each part of the model.
+  virtual void report_part(const World& world, std::vector<PartSums>& parts) const = 0;
+};
+
 /// A pass that pushes particles off walls besides contact.
 struct WallForceReporter {
   virtual ~WallForceReporter() = default;

@@ -19,13 +19,15 @@ struct EnergyLedger {
   Real internal = 0;       ///< of active particles: volume work (and heat where the EOS uses it)
   Real potential = 0;      ///< - sum m g.x of active particles and bodies
   Real contact = 0;        ///< stored in penalty springs
+  Real hourglass = 0;      ///< taken by hourglass control of elements
+  Real bulk_viscosity = 0;  ///< taken by bulk viscosity of elements
   Real dissipated = 0;     ///< by viscosity, contact damping, friction (accumulates)
   Real external_work = 0;  ///< work done on the active particles from outside: load curves, box boundary,
                            ///< inflow minus outflow (accumulates)
   Real throughput =
       0;  ///< energy that passed through so far: sum of |work| of all kinds and of inflow (accumulates)
   Real initial = 0;  ///< total at t = 0
-  Real total() const { return kinetic + internal + potential + contact + dissipated; }
+  Real total() const { return kinetic + internal + potential + contact + hourglass + bulk_viscosity + dissipated; }
   Real residual() const { return total() - initial - external_work; }
 };
 
@@ -38,8 +40,9 @@ struct World {
   std::vector<Id> part_ids;  ///< number in the deck of each part index
   Nodes nodes;
   Segments segments;
-  /// Entity sets that physics add beside those: elements of a group, bodies.
+  /// Entity sets that physics add beside those.
   std::vector<std::unique_ptr<FieldSet>> other_sets;
+  std::vector<std::unique_ptr<ElementGroup>> groups;  ///< solids; their fields are among `other_sets`
   EnergyLedger energy;
   Counters counters;
   std::map<std::string, Real> maxima;  ///< largest values over the run, for summary.yaml: max_penetration

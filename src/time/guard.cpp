@@ -82,6 +82,7 @@ std::string broken_quantities(const FieldSet& fields, Index i, Real& first) {
 
 Real size_of(const EnergyLedger& e) {
   return std::abs(e.kinetic) + std::abs(e.internal) + std::abs(e.potential) + std::abs(e.contact) +
+         std::abs(e.hourglass) + std::abs(e.bulk_viscosity) +
          std::abs(e.dissipated) + std::abs(e.external_work);
 }
 

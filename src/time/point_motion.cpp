@@ -54,6 +54,22 @@ class PointMotion : public Motion {
   ParticleLoops loops_ = particle_loops();
 };
 
+class KineticEnergy : public EnergyTerm {
+ public:
+  explicit KineticEnergy(Points points) : points_(points) {}
+  std::string name() const override { return "kinetic energy of " + points_.fields().name(); }
+  void record(World&, const Clock&, EnergyLedger&) override {}
+  void sample(const World&, const Clock&, EnergyLedger& ledger) const override {
+    ledger.kinetic += sum(points_.fields().size(), [&](Index i) {
+      if (points_.follow && (*points_.follow)[i]) return Real(0);
+      return 0.5 * (*points_.m)[i] * points_.v->vec(i).squaredNorm();
+    });
+  }
+
+ private:
+  Points points_;
+};
+
 }  // namespace
 
 std::shared_ptr<Rate> make_clear_forces(Points points) {
@@ -61,6 +77,9 @@ std::shared_ptr<Rate> make_clear_forces(Points points) {
 }
 std::shared_ptr<Motion> make_point_motion(Points points) {
   return std::make_shared<PointMotion>(points);
+}
+std::shared_ptr<EnergyTerm> make_kinetic_energy(Points points) {
+  return std::make_shared<KineticEnergy>(points);
 }
 
 }  // namespace courant

@@ -35,7 +35,8 @@ TimeLimit::Limit choose_dt(World& world, const std::vector<TimeLimit*>& limits, 
                    StopCause::step_size);
   }
   if (std::isinf(smallest.dt))
-    throw RunError(fmt::format("nothing limits the step size at time {:.6g}, cycle {}: no particle is active",
+    throw RunError(fmt::format("nothing limits the step size at time {:.6g}, cycle {}: no particle is active, and "
+                             "there are no elements",
                                clock.t, clock.cycle),
                    StopCause::step_size);
   clock.dt = smallest.dt;
@@ -45,7 +46,7 @@ TimeLimit::Limit choose_dt(World& world, const std::vector<TimeLimit*>& limits, 
 
 }  // namespace
 
-Stepper::Stepper(World& world, Neighbours& neighbours, StepRules rules, PassTimer& timer)
+Stepper::Stepper(World& world, Neighbours* neighbours, StepRules rules, PassTimer& timer)
     : world_(world),
       neighbours_(neighbours),
       rules_(std::move(rules)),
@@ -53,7 +54,7 @@ Stepper::Stepper(World& world, Neighbours& neighbours, StepRules rules, PassTime
       exchangers_(world.passes.all<Exchanger>()),
       limits_(world.passes.all<TimeLimit>()),
       terms_(world.passes.all<EnergyTerm>()) {
-  if (!world.passes.contains(*neighbours.watch())) world.passes.add(neighbours.watch());
+  if (neighbours && !world.passes.contains(*neighbours->watch())) world.passes.add(neighbours->watch());
   Schedule schedule = make_schedule(world);
   stages_ = text_of(schedule);
   for (StagePlan& plan : schedule.forces) forces_.emplace_back(std::move(plan), world, timer);
@@ -62,7 +63,7 @@ Stepper::Stepper(World& world, Neighbours& neighbours, StepRules rules, PassTime
 
 void Stepper::evaluate(Clock& clock, std::string& controlled_by) {
   bool rebuilt = false;
-  timer_.measure("neighbours", [&] { rebuilt = neighbours_.refresh(world_, clock); });
+  if (neighbours_) timer_.measure("neighbours", [&] { rebuilt = neighbours_->refresh(world_, clock); });
   if (rebuilt)
     for (Exchanger* e : exchangers_) timer_.measure(e->name(), [&] { e->exchange_all(world_); });
   for (Stage& stage : forces_) stage.run(world_, clock);
@@ -100,7 +101,7 @@ void Stepper::stop_below_dtmin(const Clock& clock) {
 
 void sample_energy(World& world, const Clock& clock) {
   EnergyLedger& e = world.energy;
-  e.kinetic = e.internal = e.potential = e.contact = 0;
+  e.kinetic = e.internal = e.potential = e.contact = e.hourglass = e.bulk_viscosity = 0;
   for (EnergyTerm* term : world.passes.all<EnergyTerm>()) term->sample(world, clock, e);
 }
 

@@ -29,8 +29,9 @@ struct StepRules {
 /// density and energy advance with the velocity of the last kick, before the pressure is used.
 class Stepper : public Keeper {
  public:
-  /// Adds what watches the lists to the passes of `world`, which must not change afterwards.
-  Stepper(World& world, Neighbours& neighbours, StepRules rules, PassTimer& timer);
+  /// Adds what watches the lists to the passes of `world`, which must not change afterwards. `neighbours`:
+  /// null where there are no particles.
+  Stepper(World& world, Neighbours* neighbours, StepRules rules, PassTimer& timer);
 
   void step(Clock& clock, const AtTimeLevel& at_time_level);
   /// Everything up to the choice of dt, without moving: for `courant check`.
@@ -45,7 +46,7 @@ class Stepper : public Keeper {
   void stop_below_dtmin(const Clock& clock);
 
   World& world_;
-  Neighbours& neighbours_;
+  Neighbours* neighbours_;
   StepRules rules_;
   PassTimer& timer_;
   std::string stages_;

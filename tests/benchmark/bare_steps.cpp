@@ -74,7 +74,7 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   for (const auto& pass : pairs.rates) world_.passes.add(pass);
   for (const auto& pass : pairs.forces) world_.passes.add(pass);
   if (ledger) world_.passes.add(make_sph_energy(settings, world_, neighbours_));
-  stepper_ = std::make_unique<Stepper>(world_, *neighbours_, StepRules{}, timer_);
+  stepper_ = std::make_unique<Stepper>(world_, neighbours_.get(), StepRules{}, timer_);
 }
 
 double BareSteps::take(int steps) {

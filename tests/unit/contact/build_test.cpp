@@ -83,7 +83,7 @@ TEST(BuildContacts, MissingSidesAreNamed) {
   EXPECT_NE(c.failure().find("part set 9 does not exist"), std::string::npos);
   Case d;
   d.card.surfb = 1;
-  EXPECT_NE(d.failure().find("part 1 has no shells"), std::string::npos);
+  EXPECT_NE(d.failure().find("part 1 has no shells and no solids"), std::string::npos);
   Case e;
   e.card.surfa = 2;
   EXPECT_NE(e.failure().find("part 2 has no particles"), std::string::npos);

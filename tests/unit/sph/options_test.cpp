@@ -27,7 +27,7 @@ TimeLimit::Limit limit_of(Cloud& cloud, const Model& model) {
 
 void step(Cloud& cloud, int times) {
   PassTimer timer;
-  Stepper stepper(cloud.world, *cloud.neighbours, {}, timer);
+  Stepper stepper(cloud.world, cloud.neighbours.get(), {}, timer);
   for (int k = 0; k < times; ++k) stepper.step(cloud.clock, [](World&, const Clock&, const std::string&) {});
 }
 

@@ -49,7 +49,7 @@ Result run(Real eps, int threads = 1) {
   sample_energy(w, cloud.clock);
   w.energy.initial = w.energy.kinetic;
   PassTimer timer;
-  Stepper stepper(w, *cloud.neighbours, {}, timer);
+  Stepper stepper(w, cloud.neighbours.get(), {}, timer);
   for (int k = 0; k < 4000; ++k) stepper.step(cloud.clock, [](World&, const Clock&, const std::string&) {});
   sample_energy(w, cloud.clock);
   Result out;

@@ -35,7 +35,7 @@ TEST(Step, FreeFallIsExactWithChangingSteps) {
   cloud.world.passes.add(std::make_shared<ChangingSteps>());
   cloud.world.particles.v.set(0, {1, 2, 0});
   PassTimer timer;
-  Stepper stepper(cloud.world, *cloud.neighbours, {}, timer);
+  Stepper stepper(cloud.world, cloud.neighbours.get(), {}, timer);
   for (int k = 0; k < 100; ++k) stepper.step(cloud.clock, [](World&, const Clock&, const std::string&) {});
   const Real t = cloud.clock.t;
   EXPECT_NEAR(cloud.world.particles.x.vec(0)[0], t, 1e-12);
@@ -51,6 +51,6 @@ TEST(Step, StopsWhereTheStepSizeIsNotANumber) {
   cloud.world.passes.add(std::make_shared<Broken>());
   cloud.world.passes.add(std::make_shared<ChangingSteps>());
   PassTimer timer;
-  Stepper stepper(cloud.world, *cloud.neighbours, {}, timer);
+  Stepper stepper(cloud.world, cloud.neighbours.get(), {}, timer);
   EXPECT_THROW(stepper.step(cloud.clock, [](World&, const Clock&, const std::string&) {}), RunError);
 }

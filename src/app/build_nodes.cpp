@@ -1,0 +1,31 @@
+#include "app/build_nodes.hpp"
+
+namespace courant {
+
+std::vector<Index> build_nodes(const Model& model, World& world) {
+  std::vector<Index> node_of(model.nodes.size(), -1), part(model.nodes.size(), 0);
+  const auto use = [&](Index node, Index of_part) {
+    if (node < 0 || node_of[node] == 0) return;
+    node_of[node] = 0, part[node] = of_part;
+  };
+  for (const ModelShell& shell : model.shells)
+    for (const Index n : shell.node) use(n, shell.part);
+  for (const ModelSolid& solid : model.solids)
+    for (const Index n : solid.node) use(n, solid.part);
+  Index count = 0;
+  for (Index& n : node_of)
+    if (n == 0) n = count++;
+  Nodes& nodes = world.nodes;
+  nodes.fields.resize(count);
+  for (std::size_t k = 0; k < node_of.size(); ++k) {
+    const Index n = node_of[k];
+    if (n < 0) continue;
+    nodes.x.set(n, model.nodes[k].x);
+    nodes.v.set(n, model.nodes[k].v);
+    nodes.id[n] = model.nodes[k].id;
+    nodes.part[n] = part[k];
+  }
+  return node_of;
+}
+
+}  // namespace courant

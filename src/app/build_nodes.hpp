@@ -1,0 +1,13 @@
+#pragma once
+#include <vector>
+
+#include "model/model.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+/// Fills places, velocities, ids and parts of world.nodes: the nodes that shells and solids use, in the order
+/// of the model. Returns the node of the world of each node of the model, -1 where it has none.
+std::vector<Index> build_nodes(const Model& model, World& world);
+
+}  // namespace courant

@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/run_error.hpp"
+#include "elements/corner_gather.hpp"
+#include "elements/solid/solids.hpp"
+#include "state/reports.hpp"
+
+namespace courant {
+
+namespace {
+
+/// One-point hexahedra of a part: strain rates of the last motion, the law, hourglass control, bulk viscosity,
+/// and the forces on the corners, which a pass over the nodes gathers. Formulae: hexahedron_loops.hpp.
+class SolidForces : public Material, public TimeLimit, public EnergyTerm, public PartReporter {
+ public:
+  SolidForces(const SolidPart& part, const ElementGroup& group, Id part_id, Real tssfac, World& world)
+      : group_(group),
+        law_(part.law),
+        part_id_(part_id),
+        tssfac_(tssfac),
+        stress_(group.fields.add<Real>(
+            {.name = "stress", .dimension = "M/LT2", .components = 6, .output = true})),
+        V0_(group.V0),
+        rho0_(group.fields.add<Real>({.name = "reference_density", .dimension = "M/L3"})),
+        internal_(group.fields.add<Real>(
+            {.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
+        hourglass_(group.fields.add<Real>(
+            {.name = "hourglass_energy", .dimension = "ML2/T2", .output = true})),
+        bulk_viscosity_(group.fields.add<Real>({.name = "bulk_viscosity_energy", .dimension = "ML2/T2"})) {
+    control_ = {.hourglass = part.viscosity.ihq,
+                .QM = part.viscosity.qm,
+                .Q1 = part.viscosity.q1,
+                .Q2 = part.viscosity.q2};
+    for (const HistoryVariable& h : law_->history())
+      history_.push_back(&group.fields.add<Real>({.name = h.name, .dimension = h.dimension, .output = true}));
+    start_state(world);
+  }
+  std::string name() const override { return group_.fields.name(); }
+  const FieldSet& over(const World&) const override { return group_.fields; }
+  void declare(const World& world, Accesses& a) const override {
+    a.reads(world.nodes.x, Reach::others).reads(world.nodes.v, Reach::others).reads(group_.node);
+    a.reads(V0_).reads(rho0_).updates(stress_).updates(internal_).updates(hourglass_);
+    a.updates(bulk_viscosity_).writes(group_.corner_force);
+    for (const Field<Real>* h : history_) a.updates(*h);
+    a.in_finish().reads(group_.id);
+  }
+
+  void start(World& world, const Clock&) override {
+    for (int k = 0; k < 3; ++k) mesh_.x[k] = world.nodes.x.data(k), mesh_.v[k] = world.nodes.v.data(k);
+    for (int c = 0; c < group_.corners(); ++c) mesh_.corner[c] = group_.node.data(c);
+    for (int k = 0; k < 6; ++k) state_.stress[k] = stress_.data(k);
+    state_.pressure = nullptr;
+    state_.V0 = V0_.data(), state_.rho0 = rho0_.data();
+    state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
+    state_.bulk_viscosity_energy = bulk_viscosity_.data();
+    for (int k = 0; k < 3 * group_.corners(); ++k) state_.corner_force[k] = group_.corner_force.data(k);
+    history_data_.clear();
+    for (Field<Real>* h : history_) history_data_.push_back(h->data());
+    found_.resize(static_cast<std::size_t>(block_count(group_.size())));
+  }
+  void block(World&, const Clock& clock, Index begin, Index end) override {
+    HexahedronScratch scratch;
+    const HexahedronLoops::Block block{begin, end - begin, clock.dt_old};
+    loops_.strain(block, mesh_, state_, scratch);
+    std::array<Real*, most_history> history{};
+    PointBlock points;
+    points.count = end - begin;
+    points.dt = clock.dt_old;
+    for (std::size_t k = 0; k < 6; ++k)
+      points.rate[k] = scratch.rate[k], points.stress[k] = state_.stress[k] + begin;
+    points.compression = scratch.compression;
+    points.sound_speed = scratch.sound_speed;
+    for (std::size_t k = 0; k < history_data_.size(); ++k) history[k] = history_data_[k] + begin;
+    points.history = std::span<Real* const>(history.data(), history_data_.size());
+    law_->update(points);
+    loops_.work(block, state_, scratch);
+    found_[static_cast<std::size_t>(begin / block_size)] = loops_.forces(block, control_, state_, scratch);
+  }
+  void finish(World&, const Clock& clock) override {
+    for (const HexahedronLoops::Found& found : found_)
+      if (!(found.least_volume > 0)) stop_for_volume(found, clock);
+  }
+
+  Limit limit(const World&, const Clock&) override {
+    const HexahedronLoops::Found* least = &found_.front();
+    for (const HexahedronLoops::Found& found : found_)
+      if (!std::isnan(least->step) && !(found.step >= least->step)) least = &found;
+    return {tssfac_ * least->step, fmt::format("solid {} of part {}", group_.id[least->shortest], part_id_)};
+  }
+
+  void record(World&, const Clock&, EnergyLedger&) override {}
+  void sample(const World&, const Clock&, EnergyLedger& ledger) const override {
+    ledger.internal += total(internal_);
+    ledger.hourglass += total(hourglass_);
+    ledger.bulk_viscosity += total(bulk_viscosity_);
+  }
+  void report_part(const World& world, std::vector<PartSums>& parts) const override {
+    PartSums& out = parts[static_cast<std::size_t>(group_.part)];
+    out.internal += total(internal_) + total(bulk_viscosity_);
+    out.hourglass += total(hourglass_);
+    for (Index e = 0; e < group_.size(); ++e) {
+      const Real share = group_.mass[e] / group_.corners();
+      out.mass += group_.mass[e];
+      for (int c = 0; c < group_.corners(); ++c) {
+        const Vec v = world.nodes.v.vec(group_.node.data(c)[e]);
+        out.momentum += share * v;
+        out.kinetic += 0.5 * share * v.squaredNorm();
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t most_history = 16;
+
+  /// Reference volumes and densities; the mass of an element goes to its corners in equal shares.
+  void start_state(World& world) {
+    if (history_.size() > most_history)
+      throw std::logic_error("a law with more than 16 history variables");
+    // volumes by the loops themselves: what they give for V0 = 1
+    const Index n = group_.size();
+    for (Index e = 0; e < n; ++e) V0_[e] = 1, rho0_[e] = law_->ro;
+    start(world, {});
+    for (Index begin = 0; begin < n; begin += block_size) {
+      HexahedronScratch scratch;
+      const HexahedronLoops::Block block{begin, std::min<Index>(block_size, n - begin), 0};
+      loops_.strain(block, mesh_, state_, scratch);
+      std::fill(scratch.sound_speed, scratch.sound_speed + block.count, law_->sound_speed());
+      loops_.forces(block, control_, state_, scratch);
+      for (Index k = 0; k < block.count; ++k) {
+        const Index e = begin + k;
+        V0_[e] = scratch.relative_volume[k];
+        group_.mass[e] = law_->ro * V0_[e];
+        for (int c = 0; c < group_.corners(); ++c)
+          world.nodes.m[group_.node.data(c)[e]] += group_.mass[e] / group_.corners();
+      }
+    }
+    for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) field->fill(0);
+    group_.corner_force.fill(0);
+  }
+  Real total(const Field<Real>& field) const {
+    return sum(group_.size(), [&](Index e) { return field[e]; });
+  }
+  [[noreturn]] void stop_for_volume(const HexahedronLoops::Found& found, const Clock& clock) const {
+    throw RunError(fmt::format("solid {} of part {} has {} at time {:.6g}, cycle {}", group_.id[found.smallest],
+                               part_id_,
+                               std::isnan(found.least_volume)
+                                   ? std::string("a volume that is no number")
+                                   : fmt::format("turned inside out (volume {:.4g} of its first)",
+                                                 found.least_volume),
+                               clock.t, clock.cycle),
+                   std::isnan(found.least_volume) ? StopCause::not_finite : StopCause::element);
+  }
+
+  const ElementGroup& group_;
+  std::shared_ptr<StrengthLaw> law_;
+  Id part_id_;
+  Real tssfac_;
+  HexahedronLoops loops_ = hexahedron_loops();
+  HexahedronControl control_;
+  Field<Real>&stress_, &V0_, &rho0_, &internal_, &hourglass_, &bulk_viscosity_;
+  std::vector<Field<Real>*> history_;
+  HexahedronMesh mesh_{};
+  HexahedronState state_{};
+  std::vector<Real*> history_data_;
+  std::vector<HexahedronLoops::Found> found_;  ///< in each block
+};
+
+}  // namespace
+
+void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts, World& world) {
+  for (const auto& group : world.groups) {
+    const auto part = static_cast<std::size_t>(group->part);
+    world.passes.add(
+        std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac, world));
+  }
+  if (!world.groups.empty()) world.passes.add(make_corner_gather(world));
+}
+
+}  // namespace courant

@@ -1,0 +1,32 @@
+#pragma once
+// Solid elements in the world: a group for each part, and the passes over it.
+#include <memory>
+#include <vector>
+
+#include "elements/solid/hexahedron_loops.hpp"
+#include "elements/solid/hourglass.hpp"
+#include "laws/strength/strength.hpp"
+#include "model/model.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+/// What solids of a part are made of.
+struct SolidPart {
+  std::shared_ptr<StrengthLaw> law;  ///< null: the part has no solids
+  SolidViscosity viscosity;
+};
+
+/// The law and viscosity of each part with solids. Missing or unsuitable materials, and sections of other
+/// formulations, are errors.
+std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics);
+
+/// Adds a group of elements for each part with solids, and their masses to world.nodes. `node_of`: the node of
+/// the world of each node of the model.
+void build_solids(const Model& model, const std::vector<SolidPart>& parts, const std::vector<Index>& node_of,
+                  World& world);
+
+/// Adds the forces of solids to the passes of `world`, and what gathers them at the nodes.
+void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts, World& world);
+
+}  // namespace courant

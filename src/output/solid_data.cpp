@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "output/field_data.hpp"
+#include "output/vtk_arrays.hpp"
+
+namespace courant {
+namespace {
+
+using Groups = std::vector<const ElementGroup*>;
+
+Groups groups_shown(const World& world, const FieldWriterOptions& options) {
+  Groups out;
+  for (const auto& group : world.groups)
+    if (!std::binary_search(options.left_out.begin(), options.left_out.end(), group->part))
+      out.push_back(group.get());
+  return out;
+}
+
+/// Nodes that elements use, ascending, and where each stands among them.
+std::vector<Index> nodes_used(const World& world, const Groups& groups, std::vector<Index>& place) {
+  place.assign(static_cast<std::size_t>(world.nodes.size()), -1);
+  for (const ElementGroup* group : groups)
+    for (int c = 0; c < group->corners(); ++c)
+      for (Index e = 0; e < group->size(); ++e)
+        place[static_cast<std::size_t>(group->node.data(c)[e])] = 0;
+  std::vector<Index> out;
+  for (Index n = 0; n < world.nodes.size(); ++n)
+    if (place[static_cast<std::size_t>(n)] == 0) {
+      place[static_cast<std::size_t>(n)] = static_cast<Index>(out.size());
+      out.push_back(n);
+    }
+  return out;
+}
+
+VtkSection cells(const Groups& groups, const std::vector<Index>& place) {
+  constexpr std::uint8_t hexahedron = 12;  // VTK_HEXAHEDRON, with LS-DYNA's order of corners
+  std::vector<Index> corners, ends;
+  for (const ElementGroup* group : groups)
+    for (Index e = 0; e < group->size(); ++e) {
+      for (int c = 0; c < group->corners(); ++c)
+        corners.push_back(place[static_cast<std::size_t>(group->node.data(c)[e])]);
+      ends.push_back(static_cast<Index>(corners.size()));
+    }
+  const auto array = [](const char* name, const std::vector<Index>& values) {
+    return make_array<Index, 1>(name, "", values.size(), [&](std::size_t i, Index* to) { *to = values[i]; });
+  };
+  return {"Cells",
+          {array("connectivity", corners), array("offsets", ends),
+           make_array<std::uint8_t, 1>("types", "", ends.size(),
+                                       [](std::size_t, std::uint8_t* to) { *to = hexahedron; })}};
+}
+
+/// The fields flagged `output` that all groups have.
+std::vector<VtkArray> cell_data(const Groups& groups, const FieldWriterOptions& options) {
+  std::vector<VtkArray> out;
+  if (groups.empty()) return out;
+  for (const auto& field : groups.front()->fields.all()) {
+    if (!field->info().output) continue;
+    VtkArray all;
+    bool everywhere = true;
+    for (const ElementGroup* group : groups) {
+      const FieldBase* mine = group->fields.find(field->info().name);
+      if (!(everywhere = mine != nullptr)) break;
+      VtkArray one = copy_of(*mine, all_of(group->size()), options.float64, 0);
+      if (all.name.empty())
+        all = std::move(one);
+      else
+        all.bytes.insert(all.bytes.end(), one.bytes.begin(), one.bytes.end());
+    }
+    if (everywhere) out.push_back(std::move(all));
+  }
+  return out;
+}
+
+}  // namespace
+
+VtkDataSet solid_data(const World& world, const FieldWriterOptions& options) {
+  const Groups groups = groups_shown(world, options);
+  std::vector<Index> place;
+  const std::vector<Index> nodes = nodes_used(world, groups, place);
+  std::vector<VtkArray> of_nodes, of_elements = cell_data(groups, options);
+  for (const auto& field : world.nodes.fields.all())
+    if (field->info().output) of_nodes.push_back(copy_of(*field, nodes, options.float64, 0));
+  std::vector<Id> part;
+  for (const ElementGroup* group : groups)
+    part.insert(part.end(), static_cast<std::size_t>(group->size()),
+                options.part_ids.at(static_cast<std::size_t>(group->part)));
+  of_elements.push_back(
+      make_array<Id, 1>("part", "", part.size(), [&](std::size_t i, Id* to) { *to = part[i]; }));
+  VtkDataSet out{"UnstructuredGrid",
+                 fmt::format("NumberOfPoints=\"{}\" NumberOfCells=\"{}\"", nodes.size(), part.size()),
+                 0,
+                 {}};
+  out.sections.push_back({"PointData", std::move(of_nodes)});
+  out.sections.push_back({"CellData", std::move(of_elements)});
+  out.sections.push_back({"Points", {node_places(world, nodes, options)}});
+  out.sections.push_back(cells(groups, place));
+  return out;
+}
+
+}  // namespace courant
