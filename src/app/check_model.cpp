@@ -73,6 +73,7 @@ void add_shells(const Simulation& s, std::vector<PartRow>& rows) {
   const World& world = s.world();
   std::vector<Real> area(rows.size(), 0);
   for (Index k = 0; k < world.segments.size(); ++k) {
+    if (world.segments.volume[k] > 0) continue;  // the skin of solids
     const Index part = world.segments.part[k];
     PartRow& row = rows[part];
     if (row.count++ == 0) row.kind = "shell", row.volume = 0;
@@ -94,10 +95,30 @@ void add_shells(const Simulation& s, std::vector<PartRow>& rows) {
     }
 }
 
+void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
+  const World& world = s.world();
+  for (const auto& group : world.groups) {
+    PartRow& row = rows[group->part];
+    const StrengthLaw& law = *s.solids()[group->part].law;
+    row = {.count = group->size(),
+           .kind = "solid",
+           .mass = 0,
+           .volume = 0,
+           .rho = law.ro,
+           .c = law.sound_speed()};
+    for (Index e = 0; e < group->size(); ++e) row.mass += group->mass[e], row.volume += group->V0[e];
+    row.spacing = std::cbrt(row.volume / row.count);
+    for (int c = 0; c < group->corners(); ++c)
+      for (Index e = 0; e < group->size(); ++e)
+        row.speed = std::max(row.speed, world.nodes.v.vec(group->node.data(c)[e]).norm());
+  }
+}
+
 std::string part_table(const Simulation& s, std::vector<Real>& sound_speeds) {
   std::vector<PartRow> rows(s.model().parts.size());
   add_particles(s, rows);
   add_shells(s, rows);
+  add_solids(s, rows);
   std::string text =
       fmt::format("Parts in the run\n{:>8} {:<15}{:>9} {:<5}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "part",
                   "title", "elements", "kind", "mass", "volume", "density", "sound", "spacing", "h");
@@ -163,9 +184,10 @@ std::string model_text(Simulation& s, std::vector<Real>& sound_speeds) {
   s.evaluate(who);
   const Particles& p = s.world().particles;
   std::string text = part_table(s, sound_speeds);
-  text += fmt::format(
-      "  {}D, spacing {:.6g} [L], {} particles of which {} are active now, {:.1f} neighbours each\n",
-      s.world().dim, s.sph().spacing, p.size(), p.active, mean_neighbours(s));
+  if (p.size() > 0)
+    text += fmt::format(
+        "  {}D, spacing {:.6g} [L], {} particles of which {} are active now, {:.1f} neighbours each\n",
+        s.world().dim, s.sph().spacing, p.size(), p.active, mean_neighbours(s));
   const auto& counters = s.world().counters;
   if (const auto found = counters.find("initial_penetrations"); found != counters.end())
     text += fmt::format("  initial penetrations: {}\n", found->second);

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/check.hpp"
+#include "app/load_extension.hpp"
 #include "app/restart.hpp"
 #include "app/simulation.hpp"
 #include "app/terminal.hpp"
@@ -35,7 +36,7 @@ void request_stop(int) {
 
 struct Call {
   std::string deck, dir = ".", scene, output, recipe, keyword, restart;
-  std::vector<std::string> params;
+  std::vector<std::string> params, loads;
   int threads = 0;
   Real until = 0;
   VerifyCall verify;
@@ -237,6 +238,11 @@ int command_line(int argc, char** argv) {
   run_->add_option("--threads", call.threads, "threads; 0: all cores")->check(CLI::NonNegativeNumber);
   run_->add_option("--until", call.until, "end time instead of ENDTIM")->check(CLI::PositiveNumber);
   run_->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER")->allow_extra_args(false);
+  const auto add_load = [&](CLI::App* to) {
+    to->add_option("--load", call.loads, "FILE.so with laws, loads, elements of your own")
+        ->allow_extra_args(false);
+  };
+  add_load(run_);
   run_->add_option("--restart", call.restart,
                    "go on from this restart file, or from the latest in this folder of results");
   run_->add_flag("--no-final-dump", call.no_final_dump, "write no restart file at the end or when stopped");
@@ -245,10 +251,12 @@ int command_line(int argc, char** argv) {
   auto* check = app.add_subcommand("check", "read, validate and build a deck; run nothing");
   check->add_option("DECK", call.deck, "keyword deck")->required();
   check->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER")->allow_extra_args(false);
+  add_load(check);
   check->add_flag("--strict", call.strict, "warnings, and ids that nothing refers to, are errors");
 
   auto* keywords = app.add_subcommand("keywords", "list the supported keywords, or show the cards of one");
   keywords->add_option("NAME", call.keyword, "keyword, with or without '*'");
+  add_load(keywords);
   keywords->add_flag("--markdown", call.markdown, "all cards as docs/keywords.md");
 
   auto* generate = app.add_subcommand("generate", "write a keyword deck from a YAML scene");
@@ -298,6 +306,11 @@ int command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_ok : exit_input;
   }
+  for (const std::string& file : call.loads)
+    if (const std::string why = load_extension(file); !why.empty()) {
+      print_error(fmt::format("error: --load: {}\n", why));
+      return exit_input;
+    }
   if (*run_) return call_run(call);
   if (*check) return call_check(call);
   if (*keywords) return call_keywords(call);

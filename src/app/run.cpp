@@ -59,11 +59,8 @@ class Run {
         switches_(options.dir, options.keyboard),
         copies_(simulation.world(), options.dump_at_end, simulation.clock().cycle),
         facts_(std::move(facts)) {
-    summary_.title = s_.model().title;
-    summary_.deck = deck_path;
-    summary_.threads = threads();
-    summary_.particles = s_.world().particles.size();
-    for (const auto& group : s_.world().groups) summary_.elements += group->size();
+    summary_.title = s_.model().title, summary_.deck = deck_path, summary_.threads = threads();
+    summary_.particles = s_.world().particles.size(), summary_.elements = s_.world().elements();
     summary_.warnings = options.warnings;
     summary_.dt_min = std::numeric_limits<Real>::infinity();
   }
@@ -281,8 +278,7 @@ class Run {
       s_.step([this](World& world, const Clock& clock, const std::string& who) {
         at_time_level(world, clock, who);
       });
-      summary_.particle_steps += s_.world().particles.active;
-      summary_.element_steps += summary_.elements;
+      summary_.particle_steps += s_.world().particles.active, summary_.element_steps += summary_.elements;
       for (const std::string& name : restart_schedule_.due(s_.clock().cycle)) write_restart(name);
       if (copies_.is_due(s_.clock())) copy_state();
       if (const auto order = switches_.take(); order && !obey(*order)) return;
@@ -324,9 +320,8 @@ class Run {
   void write_histories(bool always) {
     const Histories::Due due = histories_.take(s_.clock().t, s_.clock().dt, always);
     Sample sample = s_.sample(who_);
-    const double steps =
-        static_cast<double>(std::max<std::int64_t>(summary_.particle_steps + summary_.element_steps, 1));
-    sample.ns_per_zone_cycle = 1e9 * wall_seconds() / steps;
+    const auto steps = std::max<std::int64_t>(summary_.particle_steps + summary_.element_steps, 1);
+    sample.ns_per_zone_cycle = 1e9 * wall_seconds() / static_cast<double>(steps);
     if (!std::isfinite(sample.energy.total())) s_.guard().look(s_.world(), s_.clock());
     writer_.submit([this, sample = std::move(sample), due] { histories_.write(sample, due); });
   }

@@ -1,5 +1,6 @@
 #include "app/run_outputs.hpp"
 
+#include "extension/additions.hpp"
 #include "model/output_times.hpp"
 
 namespace courant {
@@ -29,6 +30,8 @@ HistoryRequests history_requests(const Simulation& s) {
     const InterfaceForce all = walls->report(s.world());
     h.contacts.push_back({all.id, all.title});
   }
+  for (const AsciiHistory& added : ascii_histories())
+    h.added.emplace_back(added.name, OutputSchedule(added.interval(s.deck())));
   return h;
 }
 

@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "app/simulation.hpp"
+#include "extension/additions.hpp"
 
 namespace courant {
 
@@ -138,6 +139,8 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   for (const auto* walls : world_.passes.all<const WallForceReporter>())
     s.interfaces.push_back(walls->report(world_));
   sample_boundary_forces(world_, clock_, s.boundary_forces);
+  for (const AsciiHistory& added : ascii_histories())
+    s.added.push_back(added.interval(deck_) > 0 ? added.text(world_, clock_) : std::string());
   const std::vector<Id>& wanted = model_.output.history_sph;
   const Particles& p = world_.particles;
   const auto index = places_of(wanted, p.id, p.size());

@@ -7,6 +7,8 @@
 #include "app/build_nodes.hpp"
 #include "app/field_options.hpp"
 #include "app/skin.hpp"
+#include "elements/corner_gather.hpp"
+#include "extension/additions.hpp"
 #include "materials/initial_stress.hpp"
 #include "model/build_model.hpp"
 #include "model/included_entries.hpp"
@@ -51,10 +53,11 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
   s->build_parts(diagnostics);
   const bool bodies_move = s->bodies_ && s->bodies_->any_moves();
   if (s->model_.sph.empty() && s->model_.solids.empty() && !bodies_move && model_is_whole)
-    diagnostics.error({deck_path, 0, 0},
-                      "the deck has no *ELEMENT_SPH, no *ELEMENT_SOLID and no rigid body that can move: there "
-                      "is nothing to compute",
-                      "give it particles, solids, or a rigid body that is not held in all directions");
+    diagnostics.error(
+        {deck_path, 0, 0},
+        "the deck has no *ELEMENT_SPH, no *ELEMENT_SOLID and no rigid body that can move: there "
+        "is nothing to compute",
+        "give it particles, solids, or a rigid body that is not held in all directions");
   if (model_is_whole) s->add_passes(diagnostics);
   if (!diagnostics.ok()) return nullptr;
   s->release_tables();
@@ -114,12 +117,14 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
 void Simulation::add_node_passes(Diagnostics& diagnostics) {
   if (world_.particles.size() == 0) add_prescribed_motions(diagnostics);
   add_bodies();
+  for (const Addition& addition : additions()) addition.build(deck_, model_, world_, diagnostics);
   const bool bodies_move = bodies_ && bodies_->any_moves();
   if (bodies_move || !world_.groups.empty())
     world_.passes.add(make_clear_forces(points_of(world_.nodes)));
   else
     left_out_.push_back({"forces on nodes", "no node moves"});
   if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
+  world_.passes.add(make_corner_gather(world_));
   world_.passes.add(make_point_motion(points_of(world_.nodes)));
   world_.passes.add(make_kinetic_energy(points_of(world_.nodes)));
 }
@@ -136,13 +141,13 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
   add_prescribed_motions(diagnostics);
-  contacts_ = build_contacts(
-      deck_, model_,
-      {.skip_inactive = sph_.skip_inactive_contact,
-       .thickness_from_volume = sph_.thickness_from_volume,
-       .bulk_modulus = [this](Index part) { return solids_[part].law->bulk_modulus(); },
-       .reach_margin = neighbours_->largest_skin()},
-      world_, diagnostics);
+  contacts_ =
+      build_contacts(deck_, model_,
+                     {.skip_inactive = sph_.skip_inactive_contact,
+                      .thickness_from_volume = sph_.thickness_from_volume,
+                      .bulk_modulus = [this](Index part) { return solids_[part].law->bulk_modulus(); },
+                      .reach_margin = neighbours_->largest_skin()},
+                     world_, diagnostics);
   if (!diagnostics.ok()) return;
   world_.passes.add(make_clear_forces(points_of(world_.particles)));
   world_.passes.add(make_point_motion(points_of(world_.particles)));

@@ -95,9 +95,9 @@ class Simulation {
   SphSettings sph_;
   Injections injections_;
   std::vector<PartMaterial> materials_;
-  std::vector<SolidPart> solids_;  ///< by part of the model
+  std::vector<SolidPart> solids_;           ///< by part of the model
   std::shared_ptr<Neighbours> neighbours_;  ///< null: no particles
-  std::shared_ptr<Relocation> mirrors_;  ///< null: none
+  std::shared_ptr<Relocation> mirrors_;     ///< null: none
   std::vector<std::shared_ptr<Contact>> contacts_;
   std::shared_ptr<RigidBodies> bodies_;
   std::vector<ImagePlane> planes_;

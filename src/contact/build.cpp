@@ -88,6 +88,15 @@ class Builder {
   Diagnostics& diagnostics_;
 };
 
+}  // namespace
+
+std::vector<InterfaceLawsOf>& interface_law_registry() {
+  static std::vector<InterfaceLawsOf> registry;
+  return registry;
+}
+
+namespace {
+
 ContactLaw law_of(const ContactNodesToSurface& c, const ControlContact* control, int number) {
   ContactLaw law;
   law.id = c.cid > 0 ? c.cid : number;
@@ -124,6 +133,9 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
     if (diagnostics.errors() > errors || segments.empty()) continue;
     auto contact = std::make_shared<Contact>(law_of(c, deck.last<ControlContact>(), number), options, number,
                                              segments, tracked, world);
+    for (const auto& laws : interface_law_registry())
+      for (const auto& [id, interface_law] : laws(deck))
+        if (id == contact->report().id) contact->add_law(interface_law);
     const Contact::Penetrations p = contact->penetrations(world);
     world.counters["initial_penetrations"] += p.count;
     if (p.count > 0)

@@ -17,8 +17,8 @@ constexpr Real infinity = std::numeric_limits<Real>::infinity();
 /// tolerances less deep, so that the order in which facets are looked at does not matter.
 constexpr Real apart_of_contact_distance = 2e-4;
 
-/// Stiffness of a segment, K A / (longest diagonal) of a shell, K A^2 / V of the skin of a solid, and the least
-/// mass of its nodes.
+/// Stiffness of a segment, K A / (longest diagonal) of a shell, K A^2 / V of the skin of a solid, and the
+/// least mass of its nodes.
 void give_stiffness(Facet& f, const ContactLaw& law, const World& world) {
   const Segments& g = world.segments;
   const auto a = g.nodes(f.segment);
@@ -260,7 +260,7 @@ void Contact::record(World& world, const Clock& clock, EnergyLedger& ledger) {
       const Vec v = p.v.vec(i) + 0.5 * clock.dt_mean() / p.m[i] * p.f.vec(i) -
                     wall_velocity(world, facets_[a.facet], a.q);
       b.damping_work -= b.drags[t].damping * a.n.dot(v) * clock.dt_mean();
-      b.friction_work -= b.drags[t].friction.dot(v) * clock.dt_mean();
+      b.friction_work -= (b.drags[t].friction + b.drags[t].other).dot(v) * clock.dt_mean();
     }
   });
   for (const Block& b : blocks_) {

@@ -1,6 +1,6 @@
 #pragma once
-// Penalty contact of SPH particles with shells and the skins of solids, in 3D and (walls extruded in z) in 2D. See
-// docs/theory.md.
+// Penalty contact of SPH particles with shells and the skins of solids, in 3D and (walls extruded in z) in
+// 2D. See docs/theory.md.
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -10,6 +10,7 @@
 
 #include "contact/facet.hpp"
 #include "contact/facet_grid.hpp"
+#include "contact/interface_law.hpp"
 #include "contact/push_out.hpp"
 #include "contact/wall.hpp"
 #include "keyword/deck.hpp"
@@ -22,7 +23,7 @@ namespace courant {
 struct ContactOptions {
   bool skip_inactive = true;  ///< ICONT 1. Particles outside the box move with constant velocity either way
   bool thickness_from_volume =
-      false;              ///< ITHK 1: contact radius of a particle is 0.5 V^(1/dim) where SAST is 0
+      false;  ///< ITHK 1: contact radius of a particle is 0.5 V^(1/dim) where SAST is 0
   /// Bulk modulus of the solids of a part [M/LT2]
   std::function<Real(Index part)> bulk_modulus = nullptr;
   Real reach_margin = 0;  ///< particles and nodes move at most half of this between two refreshes [L]
@@ -58,6 +59,8 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
           const std::vector<bool>& tracked, World& world);
 
   std::string name() const override;
+  /// Adds what touches do besides.
+  void add_law(std::shared_ptr<InterfaceLaw> law) { laws_.push_back(std::move(law)), drag_on_ = true; }
   void declare(const World& world, Accesses& a) const override;
   void start(World& world, const Clock& clock) override;
   void block(World& world, const Clock& clock, Index begin, Index end) override;
@@ -67,8 +70,8 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   void show_forces(World& world);
   /// What touches leave for the faces and nodes of walls that move; complete after `finish`.
   const Resource& reactions() const { return reactions_resource_; }
-  /// Adds the force that a node, or a segment, got from touches on walls that move, in the order of facets and
-  /// particles.
+  /// Adds the force that a node, or a segment, got from touches on walls that move, in the order of facets
+  /// and particles.
   void add_reaction_on_node(Index node, Vec& force) const;
   void add_reaction_on_segment(Index segment, Vec& force) const;
   bool has_moving_walls() const { return !moving_.empty(); }
@@ -101,6 +104,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   struct Drag {        ///< what friction and damping add to a touch
     Real damping = 0;  ///< part of the normal force that is damping [ML/T2]
     Vec friction;      ///< force on the particle [ML/T2]
+    Vec other;         ///< of interface laws [ML/T2]
   };
   struct Slot {  ///< a particle with walls near it
     Index particle = 0;
@@ -124,7 +128,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   /// Touches on walls that move, by facet: the slots from which faces and nodes gather.
   struct Slots {
     struct Slot {
-      Vec force = Vec::Zero();     ///< on the facet [ML/T2]
+      Vec force = Vec::Zero();      ///< on the facet [ML/T2]
       std::array<Real, 4> share{};  ///< of its corners [-]
     };
     std::vector<Index> first;  ///< of each facet, and the end
@@ -200,6 +204,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   }
 
   ContactLaw law_;
+  std::vector<std::shared_ptr<InterfaceLaw>> laws_;
   ContactOptions options_;
   int number_, dim_;
   bool friction_on_, drag_on_, asleep_ = false;
@@ -224,7 +229,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   std::array<Field<Real>*, 3> friction_normal_{}, friction_force_{};
 
   std::vector<Block> blocks_;
-  Index listed_ = 0;            ///< particles that were active at the last refresh
+  Index listed_ = 0;  ///< particles that were active at the last refresh
   Resource reactions_resource_{"contact reactions"};
   Slots slots_;
   Incidence of_node_, of_segment_;

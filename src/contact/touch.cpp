@@ -216,7 +216,7 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
     if (f.moves) b.reactions.push_back({Index(b.touches.size()) - 1, shape_functions(f, p.q)});
     if (drag_on_) {
       const Vec v = world.particles.v.vec(i) - wall_velocity(world, f, p.q);
-      Drag& drag = b.drags.emplace_back(Drag{.damping = 0, .friction = Vec::Zero()});
+      Drag& drag = b.drags.emplace_back(Drag{.damping = 0, .friction = Vec::Zero(), .other = Vec::Zero()});
       Real fn = k * p.share;
       if (law_.vdc > 0) {
         // omega = sqrt(k (m_s + m_m)/(m_s m_m)), m = min(m_s, m_m); the smaller share where two walls say
@@ -227,7 +227,11 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
         fn += drag.damping;
       }
       if (friction_on_) drag.friction = friction_force(world, clock, i, fn, v, p.n, k);
-      if (dim_ == 2) drag.friction.z() = 0;
+      for (const auto& law : laws_)
+        drag.other += law->force(
+            {.particle = i, .n = p.n, .velocity = v, .push = fn, .depth = p.depth, .stiffness = k, .mass = m},
+            clock);
+      if (dim_ == 2) drag.friction.z() = drag.other.z() = 0;
     }
     total += force_of(b, b.touches.size() - 1);
   }
@@ -238,7 +242,8 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
 Vec Contact::force_of(const Block& b, std::size_t touch) const {
   const Touch& a = b.touches[touch];
   Vec f = a.k * a.share * a.n;
-  if (drag_on_) f = (a.k * a.share + b.drags[touch].damping) * a.n + b.drags[touch].friction;
+  if (drag_on_)
+    f = (a.k * a.share + b.drags[touch].damping) * a.n + b.drags[touch].friction + b.drags[touch].other;
   if (dim_ == 2) f.z() = 0;
   return f;
 }

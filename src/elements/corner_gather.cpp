@@ -48,7 +48,8 @@ class CornerGather : public Force {
       Real sum[3] = {0, 0, 0};
       for (Index k = first_[static_cast<std::size_t>(n)]; k < first_[static_cast<std::size_t>(n) + 1]; ++k) {
         const Corner& corner = corners_[static_cast<std::size_t>(k)];
-        const Real* const* of = force_.data() + base_[static_cast<std::size_t>(corner.group)] + 3 * corner.corner;
+        const Real* const* of =
+            force_.data() + base_[static_cast<std::size_t>(corner.group)] + 3 * corner.corner;
         for (int c = 0; c < 3; ++c) sum[c] += of[c][corner.element];
       }
       for (int c = 0; c < 3; ++c) f[c][n] += sum[c];

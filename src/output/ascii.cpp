@@ -41,13 +41,13 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
   const std::string header =
       ascii_header(requests.title, fmt::format("{:%m/%d/%Y}", fmt::localtime(std::time(nullptr))));
   const auto open = [&](const char* name, const OutputSchedule& schedule, const std::string& legend,
-                        std::string (*text)(const Sample&)) {
+                        std::function<std::string(const Sample&)> text) {
     if (!schedule.is_wanted()) {
       if (!resume) remove_ours(dir / name);
       return;
     }
     const bool goes_on = resume && resume->bytes.contains(name);
-    files_.push_back({schedule, name, TextFile(dir / name, goes_on), text});
+    files_.push_back({schedule, name, TextFile(dir / name, goes_on), std::move(text)});
     TextFile& file = files_.back().file;
     if (goes_on) {
       const auto bytes = static_cast<std::uintmax_t>(resume->bytes.at(name));
@@ -66,6 +66,9 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
   open("rbdout", requests.rbdout, "", rbdout_text);
   open("bndout", requests.bndout, "", bndout_text);
   open("spcforc", requests.spcforc, "", spcforc_text);
+  for (std::size_t k = 0; k < requests.added.size(); ++k)
+    open(requests.added[k].first.c_str(), requests.added[k].second, "",
+         [k](const Sample& s) { return k < s.added.size() ? s.added[k] : std::string(); });
   choose_h5_times(requests.h5);
   if (!h5_schedules_.empty()) h5_.emplace(dir / "history.h5");
   if (!resume) return;

@@ -2,6 +2,7 @@
 // LS-DYNA's ASCII histories. Layouts: those that LS-DYNA R16 prints, measured on real files.
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -57,6 +58,8 @@ struct HistoryRequests {
   /// history.h5; where it is not wanted: with the file of the shortest interval, and with those that a curve
   /// times; none if there is no other.
   OutputSchedule h5{};
+  /// Histories that files add: name and schedule, in the order of their registry.
+  std::vector<std::pair<std::string, OutputSchedule>> added{};
   std::string title{};
   std::vector<Legend> parts{}, contacts{}, nodes{};
 };
@@ -112,8 +115,8 @@ class Histories {
     OutputSchedule schedule;
     std::string name;
     TextFile file;
-    std::string (*text)(const Sample&);  // null: glstat, which needs the first potential
-    Real last = -1;                      // time of the last state
+    std::function<std::string(const Sample&)> text;  // empty: glstat, which needs the first potential
+    Real last = -1;                                  // time of the last state
   };
   std::filesystem::path dir_;
   std::vector<Ascii> files_;

@@ -38,18 +38,18 @@ std::vector<std::string> particle_array_names(const World& world);
 /// What the field files of one time hold: a copy, so that the world may go on.
 struct FieldState {
   int number = 0;
-  Real t = 0;  ///< [T]
+  Real t = 0;                           ///< [T]
   std::optional<VtkDataSet> particles;  ///< none without particles
-  std::optional<VtkDataSet> shells;  ///< none without segments
-  std::optional<VtkDataSet> solids;  ///< none without elements
+  std::optional<VtkDataSet> shells;     ///< none without segments
+  std::optional<VtkDataSet> solids;     ///< none without elements
 };
 
-/// Writes `fields/particles_NNNN.vtp`, `fields/shells_NNNN.vtu`, `fields/solids_NNNN.vtu`, as far as there are
-/// particles, segments, solids, and `fields.pvd` under a folder. All registry fields flagged `output` are written, reals as float32, plus `part` (deck
-/// number) and, for particles, `active` (1 or 0), unless the options choose otherwise. Places are float64
-/// where float32 would be off by more than a thousandth of h. Particles stand in the order of their ids, so
-/// that a point keeps its place over time. Each array carries its dimension (M, L, T) as VTK's UNITS_LABEL,
-/// each file its time as field data `TimeValue`.
+/// Writes `fields/particles_NNNN.vtp`, `fields/shells_NNNN.vtu`, `fields/solids_NNNN.vtu`, as far as there
+/// are particles, segments, solids, and `fields.pvd` under a folder. All registry fields flagged `output` are
+/// written, reals as float32, plus `part` (deck number) and, for particles, `active` (1 or 0), unless the
+/// options choose otherwise. Places are float64 where float32 would be off by more than a thousandth of h.
+/// Particles stand in the order of their ids, so that a point keeps its place over time. Each array carries
+/// its dimension (M, L, T) as VTK's UNITS_LABEL, each file its time as field data `TimeValue`.
 class FieldWriter {
  public:
   /// Makes the folders. Throws OutputError.

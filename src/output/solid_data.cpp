@@ -23,8 +23,7 @@ std::vector<Index> nodes_used(const World& world, const Groups& groups, std::vec
   place.assign(static_cast<std::size_t>(world.nodes.size()), -1);
   for (const ElementGroup* group : groups)
     for (int c = 0; c < group->corners(); ++c)
-      for (Index e = 0; e < group->size(); ++e)
-        place[static_cast<std::size_t>(group->node.data(c)[e])] = 0;
+      for (Index e = 0; e < group->size(); ++e) place[static_cast<std::size_t>(group->node.data(c)[e])] = 0;
   std::vector<Index> out;
   for (Index n = 0; n < world.nodes.size(); ++n)
     if (place[static_cast<std::size_t>(n)] == 0) {
@@ -34,22 +33,29 @@ std::vector<Index> nodes_used(const World& world, const Groups& groups, std::vec
   return out;
 }
 
+/// LS-DYNA's order of corners is VTK's.
+std::uint8_t vtk_type_of(int corners) {
+  constexpr std::uint8_t line = 3, tetrahedron = 10, hexahedron = 12;
+  return corners == 2 ? line : corners == 4 ? tetrahedron : hexahedron;
+}
+
 VtkSection cells(const Groups& groups, const std::vector<Index>& place) {
-  constexpr std::uint8_t hexahedron = 12;  // VTK_HEXAHEDRON, with LS-DYNA's order of corners
   std::vector<Index> corners, ends;
+  std::vector<std::uint8_t> types;
   for (const ElementGroup* group : groups)
     for (Index e = 0; e < group->size(); ++e) {
       for (int c = 0; c < group->corners(); ++c)
         corners.push_back(place[static_cast<std::size_t>(group->node.data(c)[e])]);
       ends.push_back(static_cast<Index>(corners.size()));
+      types.push_back(vtk_type_of(group->corners()));
     }
   const auto array = [](const char* name, const std::vector<Index>& values) {
     return make_array<Index, 1>(name, "", values.size(), [&](std::size_t i, Index* to) { *to = values[i]; });
   };
   return {"Cells",
           {array("connectivity", corners), array("offsets", ends),
-           make_array<std::uint8_t, 1>("types", "", ends.size(),
-                                       [](std::size_t, std::uint8_t* to) { *to = hexahedron; })}};
+           make_array<std::uint8_t, 1>("types", "", types.size(),
+                                       [&](std::size_t i, std::uint8_t* to) { *to = types[i]; })}};
 }
 
 /// The fields flagged `output` that all groups have.

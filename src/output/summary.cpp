@@ -11,11 +11,19 @@ namespace {
 void emit_energy(YAML::Emitter& out, const Summary& s) {
   const EnergyLedger& e = s.energy;
   const std::pair<const char*, Real> entries[] = {
-      {"kinetic", e.kinetic},       {"internal", e.internal},     {"potential", e.potential},
-      {"contact", e.contact},       {"dissipated", e.dissipated}, {"external_work", e.external_work},
-      {"initial", e.initial},       {"total", e.total()},         {"residual", e.residual()},
-      {"throughput", e.throughput}, {"ratio", s.energy_ratio()},
-      {"hourglass", e.hourglass},   {"bulk_viscosity", e.bulk_viscosity},
+      {"kinetic", e.kinetic},
+      {"internal", e.internal},
+      {"potential", e.potential},
+      {"contact", e.contact},
+      {"dissipated", e.dissipated},
+      {"external_work", e.external_work},
+      {"initial", e.initial},
+      {"total", e.total()},
+      {"residual", e.residual()},
+      {"throughput", e.throughput},
+      {"ratio", s.energy_ratio()},
+      {"hourglass", e.hourglass},
+      {"bulk_viscosity", e.bulk_viscosity},
   };
   out << YAML::Key << "energy" << YAML::Value << YAML::BeginMap;
   for (const auto& [key, value] : entries) out << YAML::Key << key << YAML::Value << value;

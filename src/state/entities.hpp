@@ -13,26 +13,22 @@ namespace courant {
 /// plane.
 struct Particles {
   FieldSet fields{"particles"};
-  Field<Real>& x = fields.add<Real>(
-      {.name = "position", .dimension = "L", .components = 3, .exchange = true});
-  Field<Real>& v = fields.add<Real>({.name = "velocity",
-                                     .dimension = "L/T",
-                                     .components = 3,
-                                     .output = true,
-                                     .exchange = true});
+  Field<Real>& x =
+      fields.add<Real>({.name = "position", .dimension = "L", .components = 3, .exchange = true});
+  Field<Real>& v = fields.add<Real>(
+      {.name = "velocity", .dimension = "L/T", .components = 3, .output = true, .exchange = true});
   Field<Real>& f =
       fields.add<Real>({.name = "force", .dimension = "ML/T2", .components = 3, .restart = false});
-  Field<Real>& m = fields.add<Real>(
-      {.name = "mass", .dimension = "M", .output = true, .exchange = true});
+  Field<Real>& m = fields.add<Real>({.name = "mass", .dimension = "M", .output = true, .exchange = true});
   Field<Real>& rho = fields.add<Real>({.name = "density", .dimension = "M/L3", .output = true});
   Field<Real>& drhodt = fields.add<Real>({.name = "density_rate", .dimension = "M/L3/T"});
-  Field<Real>& p = fields.add<Real>(
-      {.name = "pressure", .dimension = "M/LT2", .output = true, .exchange = true});
+  Field<Real>& p =
+      fields.add<Real>({.name = "pressure", .dimension = "M/LT2", .output = true, .exchange = true});
   Field<Real>& c = fields.add<Real>({.name = "sound_speed", .dimension = "L/T"});
   Field<Real>& E = fields.add<Real>(
       {.name = "internal_energy", .dimension = "M/LT2", .output = true});  ///< per reference volume
-  Field<Real>& h = fields.add<Real>(
-      {.name = "smoothing_length", .dimension = "L", .output = true, .exchange = true});
+  Field<Real>& h =
+      fields.add<Real>({.name = "smoothing_length", .dimension = "L", .output = true, .exchange = true});
   Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
   Field<Index>& part =
       fields.add<Index>({.name = "part", .dimension = "-"});  ///< index into the model's parts
@@ -76,7 +72,8 @@ struct Nodes {
   Index size() const { return fields.size(); }
 };
 
-/// Faces that contact can act on: shells, and the skin of solids. A triangle repeats its third node: node[2] == node[3].
+/// Faces that contact can act on: shells, and the skin of solids. A triangle repeats its third node: node[2]
+/// == node[3].
 struct Segments {
   FieldSet fields{"segments"};
   Field<Index>& node0 = fields.add<Index>({.name = "node0", .dimension = "-"});
@@ -84,8 +81,8 @@ struct Segments {
   Field<Index>& node2 = fields.add<Index>({.name = "node2", .dimension = "-"});
   Field<Index>& node3 = fields.add<Index>({.name = "node3", .dimension = "-"});
   Field<Real>& thickness = fields.add<Real>({.name = "thickness", .dimension = "L", .output = true});
-  Field<Real>& K = fields.add<Real>(
-      {.name = "bulk_modulus", .dimension = "M/LT2"});  ///< E/(3(1-2 nu)) of the material
+  Field<Real>& K =
+      fields.add<Real>({.name = "bulk_modulus", .dimension = "M/LT2"});  ///< E/(3(1-2 nu)) of the material
   Field<Real>& volume = fields.add<Real>(
       {.name = "element_volume", .dimension = "L3"});  ///< of the solid behind the face; 0: a shell
   Field<Real>& contact_force = fields.add<Real>(

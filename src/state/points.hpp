@@ -1,14 +1,14 @@
 #pragma once
-// What moves by v += a dt, x += v dt: particles, nodes, and whatever else has these fields. Loads, constraints
-// and motion are written once, for points.
+// What moves by v += a dt, x += v dt: particles, nodes, and whatever else has these fields. Loads,
+// constraints and motion are written once, for points.
 #include "state/entities.hpp"
 
 namespace courant {
 
 struct Points {
   FieldSet* set;
-  Field<Real>*x, *v, *f;       ///< [L], [L/T], [ML/T2]
-  const Field<Real>* m;        ///< [M]
+  Field<Real>*x, *v, *f;  ///< [L], [L/T], [ML/T2]
+  const Field<Real>* m;   ///< [M]
   const Field<Id>* id;
   const Field<Index>* part;    ///< index into the model's parts; null: they belong to none
   const Field<Index>* follow;  ///< != 0 where something else moves the point (a rigid body); null: nowhere

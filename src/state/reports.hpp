@@ -29,9 +29,9 @@ struct BoundaryForceReporter {
 
 /// Sums over what belongs to a part.
 struct PartSums {
-  Real mass = 0;                                ///< [M]
+  Real mass = 0;                                  ///< [M]
   Real internal = 0, kinetic = 0, hourglass = 0;  ///< [ML2/T2]
-  Vec momentum = Vec::Zero();                   ///< [ML/T]
+  Vec momentum = Vec::Zero();                     ///< [ML/T]
 };
 /// A pass over elements of parts.
 struct PartReporter {

@@ -4,6 +4,12 @@
 
 namespace courant {
 
+Index World::elements() const {
+  Index count = 0;
+  for (const auto& group : groups) count += group->size();
+  return count;
+}
+
 FieldSet& World::add_set(const std::string& name) {
   for (const FieldSet* set : sets())
     if (set->name() == name) throw std::logic_error("there is an entity set '" + name + "' already");

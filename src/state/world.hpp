@@ -15,19 +15,21 @@ namespace courant {
 
 /// Energies that accumulate over the run or hold at t^n. dimension of all: ML2/T2 (in 2D per unit depth)
 struct EnergyLedger {
-  Real kinetic = 0;        ///< of particles and bodies, with half-step velocities as LS-DYNA does
-  Real internal = 0;       ///< of active particles: volume work (and heat where the EOS uses it)
-  Real potential = 0;      ///< - sum m g.x of active particles and bodies
-  Real contact = 0;        ///< stored in penalty springs
-  Real hourglass = 0;      ///< taken by hourglass control of elements
+  Real kinetic = 0;         ///< of particles and bodies, with half-step velocities as LS-DYNA does
+  Real internal = 0;        ///< of active particles: volume work (and heat where the EOS uses it)
+  Real potential = 0;       ///< - sum m g.x of active particles and bodies
+  Real contact = 0;         ///< stored in penalty springs
+  Real hourglass = 0;       ///< taken by hourglass control of elements
   Real bulk_viscosity = 0;  ///< taken by bulk viscosity of elements
-  Real dissipated = 0;     ///< by viscosity, contact damping, friction (accumulates)
-  Real external_work = 0;  ///< work done on the active particles from outside: load curves, box boundary,
-                           ///< inflow minus outflow (accumulates)
+  Real dissipated = 0;      ///< by viscosity, contact damping, friction (accumulates)
+  Real external_work = 0;   ///< work done on the active particles from outside: load curves, box boundary,
+                            ///< inflow minus outflow (accumulates)
   Real throughput =
       0;  ///< energy that passed through so far: sum of |work| of all kinds and of inflow (accumulates)
   Real initial = 0;  ///< total at t = 0
-  Real total() const { return kinetic + internal + potential + contact + hourglass + bulk_viscosity + dissipated; }
+  Real total() const {
+    return kinetic + internal + potential + contact + hourglass + bulk_viscosity + dissipated;
+  }
   Real residual() const { return total() - initial - external_work; }
 };
 
@@ -50,6 +52,7 @@ struct World {
   /// choose. Blocks of other sets are shared evenly.
   Shares shares, moving_shares;
 
+  Index elements() const;  ///< of all groups
   /// A new entity set, empty. Throws std::logic_error where there is one of that name.
   FieldSet& add_set(const std::string& name);
   /// All entity sets.

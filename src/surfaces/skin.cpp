@@ -9,7 +9,8 @@ namespace courant {
 namespace {
 
 /// Corners of the faces of a hexahedron, counter-clockwise seen from outside.
-constexpr int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+constexpr int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                             {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
 struct Face {
   Index element;
@@ -22,7 +23,7 @@ std::vector<Face> outer_faces(const ElementGroup& group) {
     std::sort(node.begin(), node.end());
     return node;
   };
-  const auto nodes = [&](Index e, const int (&face)[4]) {
+  const auto nodes = [&](Index e, const int(&face)[4]) {
     std::array<Index, 4> out;
     for (std::size_t c = 0; c < 4; ++c) out[c] = group.node.data(face[c])[e];
     return out;

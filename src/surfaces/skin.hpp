@@ -8,7 +8,7 @@ namespace courant {
 
 /// What contact needs to know of the solids of a part.
 struct SkinStiffness {
-  Index part = 0;        ///< index into the model's parts
+  Index part = 0;         ///< index into the model's parts
   Real bulk_modulus = 0;  ///< of their material [M/LT2]
 };
 

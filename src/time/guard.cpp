@@ -82,8 +82,8 @@ std::string broken_quantities(const FieldSet& fields, Index i, Real& first) {
 
 Real size_of(const EnergyLedger& e) {
   return std::abs(e.kinetic) + std::abs(e.internal) + std::abs(e.potential) + std::abs(e.contact) +
-         std::abs(e.hourglass) + std::abs(e.bulk_viscosity) +
-         std::abs(e.dissipated) + std::abs(e.external_work);
+         std::abs(e.hourglass) + std::abs(e.bulk_viscosity) + std::abs(e.dissipated) +
+         std::abs(e.external_work);
 }
 
 void note(PartRange& range, Real speed, Real density, Id id, Real t) {

@@ -35,10 +35,11 @@ TimeLimit::Limit choose_dt(World& world, const std::vector<TimeLimit*>& limits, 
                    StopCause::step_size);
   }
   if (std::isinf(smallest.dt))
-    throw RunError(fmt::format("nothing limits the step size at time {:.6g}, cycle {}: no particle is active, and "
-                             "there are no elements",
-                               clock.t, clock.cycle),
-                   StopCause::step_size);
+    throw RunError(
+        fmt::format("nothing limits the step size at time {:.6g}, cycle {}: no particle is active, and "
+                    "there are no elements",
+                    clock.t, clock.cycle),
+        StopCause::step_size);
   clock.dt = smallest.dt;
   who = std::move(smallest.who);
   return computed;

@@ -18,6 +18,7 @@ MAY_INCLUDE = {
     "materials": ["state", "keyword", "model"],
     "laws": ["parallel", "keyword", "model"],
     "surfaces": ["state"],
+    "extension": ["state", "keyword", "model"],
     "sph": ["search", "state", "keyword", "model"],
     "rigid": ["search", "state", "keyword", "model"],
     "shell": ["search", "state", "keyword", "model"],

@@ -7,8 +7,8 @@
 #include "app/skin.hpp"
 #include "materials/materials.hpp"
 #include "model/build_model.hpp"
-#include "time/point_motion.hpp"
 #include "sph/pair_passes.hpp"
+#include "time/point_motion.hpp"
 
 namespace courant::benchmarks {
 

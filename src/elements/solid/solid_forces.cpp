@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "base/run_error.hpp"
-#include "elements/corner_gather.hpp"
 #include "elements/solid/solids.hpp"
 #include "state/reports.hpp"
 
@@ -14,8 +13,9 @@ namespace courant {
 
 namespace {
 
-/// One-point hexahedra of a part: strain rates of the last motion, the law, hourglass control, bulk viscosity,
-/// and the forces on the corners, which a pass over the nodes gathers. Formulae: hexahedron_loops.hpp.
+/// One-point hexahedra of a part: strain rates of the last motion, the law, hourglass control, bulk
+/// viscosity, and the forces on the corners, which a pass over the nodes gathers. Formulae:
+/// hexahedron_loops.hpp.
 class SolidForces : public Material, public TimeLimit, public EnergyTerm, public PartReporter {
  public:
   SolidForces(const SolidPart& part, const ElementGroup& group, Id part_id, Real tssfac, World& world)
@@ -27,10 +27,9 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
             {.name = "stress", .dimension = "M/LT2", .components = 6, .output = true})),
         V0_(group.V0),
         rho0_(group.fields.add<Real>({.name = "reference_density", .dimension = "M/L3"})),
-        internal_(group.fields.add<Real>(
-            {.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
-        hourglass_(group.fields.add<Real>(
-            {.name = "hourglass_energy", .dimension = "ML2/T2", .output = true})),
+        internal_(group.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
+        hourglass_(
+            group.fields.add<Real>({.name = "hourglass_energy", .dimension = "ML2/T2", .output = true})),
         bulk_viscosity_(group.fields.add<Real>({.name = "bulk_viscosity_energy", .dimension = "ML2/T2"})) {
     control_ = {.hourglass = part.viscosity.ihq,
                 .QM = part.viscosity.qm,
@@ -119,8 +118,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
 
   /// Reference volumes and densities; the mass of an element goes to its corners in equal shares.
   void start_state(World& world) {
-    if (history_.size() > most_history)
-      throw std::logic_error("a law with more than 16 history variables");
+    if (history_.size() > most_history) throw std::logic_error("a law with more than 16 history variables");
     // volumes by the loops themselves: what they give for V0 = 1
     const Index n = group_.size();
     for (Index e = 0; e < n; ++e) V0_[e] = 1, rho0_[e] = law_->ro;
@@ -146,14 +144,14 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     return sum(group_.size(), [&](Index e) { return field[e]; });
   }
   [[noreturn]] void stop_for_volume(const HexahedronLoops::Found& found, const Clock& clock) const {
-    throw RunError(fmt::format("solid {} of part {} has {} at time {:.6g}, cycle {}", group_.id[found.smallest],
-                               part_id_,
-                               std::isnan(found.least_volume)
-                                   ? std::string("a volume that is no number")
-                                   : fmt::format("turned inside out (volume {:.4g} of its first)",
-                                                 found.least_volume),
-                               clock.t, clock.cycle),
-                   std::isnan(found.least_volume) ? StopCause::not_finite : StopCause::element);
+    throw RunError(
+        fmt::format("solid {} of part {} has {} at time {:.6g}, cycle {}", group_.id[found.smallest],
+                    part_id_,
+                    std::isnan(found.least_volume)
+                        ? std::string("a volume that is no number")
+                        : fmt::format("turned inside out (volume {:.4g} of its first)", found.least_volume),
+                    clock.t, clock.cycle),
+        std::isnan(found.least_volume) ? StopCause::not_finite : StopCause::element);
   }
 
   const ElementGroup& group_;
@@ -178,7 +176,6 @@ void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts, W
     world.passes.add(
         std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac, world));
   }
-  if (!world.groups.empty()) world.passes.add(make_corner_gather(world));
 }
 
 }  // namespace courant

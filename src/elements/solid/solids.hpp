@@ -21,12 +21,12 @@ struct SolidPart {
 /// formulations, are errors.
 std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
-/// Adds a group of elements for each part with solids, and their masses to world.nodes. `node_of`: the node of
-/// the world of each node of the model.
+/// Adds a group of elements for each part with solids, and their masses to world.nodes. `node_of`: the node
+/// of the world of each node of the model.
 void build_solids(const Model& model, const std::vector<SolidPart>& parts, const std::vector<Index>& node_of,
                   World& world);
 
-/// Adds the forces of solids to the passes of `world`, and what gathers them at the nodes.
+/// Adds the forces of solids to the passes of `world`.
 void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts, World& world);
 
 }  // namespace courant

@@ -8,8 +8,8 @@
 #include "liquid.hpp"
 #include "materials/material_pass.hpp"
 #include "sph/kept_pairs.hpp"
-#include "time/step.hpp"
 #include "time/point_motion.hpp"
+#include "time/step.hpp"
 
 using namespace courant;
 using courant::test::Cloud;
@@ -39,8 +39,7 @@ Result run(Real eps, int threads = 1) {
     momentum += p.m[i] * p.v.vec(i);
     scale += p.m[i] * p.v.vec(i).norm();
   }
-  w.passes.add(
-      std::make_shared<EosPass<Liquid>>(Liquid{9e7}, EosPart{{1}, true, {1000}, {-1e20}}, w));
+  w.passes.add(std::make_shared<EosPass<Liquid>>(Liquid{9e7}, EosPart{{1}, true, {1000}, {-1e20}}, w));
   w.passes.add(make_clear_forces(points_of(w.particles)));
   w.passes.add(make_point_motion(points_of(w.particles)));
   add_sph_passes(w, cloud.settings, cloud.neighbours);

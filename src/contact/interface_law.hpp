@@ -1,0 +1,41 @@
+#pragma once
+// Laws of an interface besides the penalty: what a touch does in addition to being pushed off.
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "keyword/deck.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+/// A particle that touches a wall.
+struct TouchState {
+  Index particle = 0;
+  Vec n = Vec::Zero();         ///< out of the wall [-]
+  Vec velocity = Vec::Zero();  ///< of the particle, relative to the wall [L/T]
+  Real push = 0;               ///< of the penalty, with damping, along n [ML/T2]
+  Real depth = 0;              ///< below the contact distance [L]
+  Real stiffness = 0;          ///< of the penalty [M/T2]
+  Real mass = 0;               ///< of the particle [M]
+};
+
+/// One file per law registers it with its keyword; nothing else is edited. Called by several threads at once.
+class InterfaceLaw {
+ public:
+  virtual ~InterfaceLaw() = default;
+  /// On the particle; the wall gets the opposite. Its work on the sliding velocity counts as friction.
+  /// [ML/T2]
+  virtual Vec force(const TouchState& touch, const Clock& clock) const = 0;
+};
+
+/// Laws that a deck asks for, by the id of the *CONTACT.
+using InterfaceLawsOf = std::function<std::vector<std::pair<Id, std::shared_ptr<InterfaceLaw>>>(const Deck&)>;
+std::vector<InterfaceLawsOf>& interface_law_registry();
+
+struct RegisterInterfaceLaw {
+  explicit RegisterInterfaceLaw(InterfaceLawsOf laws) { interface_law_registry().push_back(std::move(laws)); }
+};
+
+}  // namespace courant

@@ -1,0 +1,47 @@
+#pragma once
+// What one file adds to every world whose deck asks for it: a load, an element, an output. The file registers
+// its keywords and an addition, inside the library or in a shared object that `courant run --load` brings in;
+// nothing else is edited.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+struct Addition {
+  std::string name;  ///< for messages
+  /// Reads its cards and adds passes, fields or element groups to the world. Called when particles, nodes,
+  /// elements, bodies and contacts are there, before stages are made; particles stand in the order of the
+  /// model. Faults go to the diagnostics.
+  std::function<void(const Deck&, const Model&, World&, Diagnostics&)> build;
+};
+
+std::vector<Addition>& additions();
+
+struct RegisterAddition {
+  RegisterAddition(std::string name,
+                   std::function<void(const Deck&, const Model&, World&, Diagnostics&)> build) {
+    additions().push_back({std::move(name), std::move(build)});
+  }
+};
+
+/// An ASCII history that a file adds.
+struct AsciiHistory {
+  std::string name;  ///< of the file in the run's folder
+  /// Interval that a deck asks for; 0: not asked for [T]
+  std::function<Real(const Deck&)> interval;
+  /// One state, taken at t^n with x, p and f known.
+  std::function<std::string(const World&, const Clock&)> text;
+};
+
+std::vector<AsciiHistory>& ascii_histories();
+
+struct RegisterAsciiHistory {
+  explicit RegisterAsciiHistory(AsciiHistory history) { ascii_histories().push_back(std::move(history)); }
+};
+
+}  // namespace courant
