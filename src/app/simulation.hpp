@@ -10,7 +10,7 @@
 #include "contact/contact.hpp"
 #include "keyword/deck.hpp"
 #include "keyword/deck_record.hpp"
-#include "materials/materials.hpp"
+#include "sph/materials.hpp"
 #include "model/model.hpp"
 #include "output/sample.hpp"
 #include "output/summary.hpp"

@@ -6,7 +6,6 @@
 
 #include "cloud.hpp"
 #include "liquid.hpp"
-#include "materials/material_pass.hpp"
 #include "sph/kept_pairs.hpp"
 #include "time/step.hpp"
 #include "time/point_motion.hpp"
@@ -14,7 +13,7 @@
 using namespace courant;
 using courant::test::Cloud;
 using courant::test::ConstantStep;
-using courant::test::Liquid;
+using courant::test::liquid_pass;
 
 namespace {
 
@@ -40,7 +39,7 @@ Result run(Real eps, int threads = 1) {
     scale += p.m[i] * p.v.vec(i).norm();
   }
   w.passes.add(
-      std::make_shared<EosPass<Liquid>>(Liquid{9e7}, EosPart{{1}, true, {1000}, {-1e20}}, w));
+      liquid_pass(9e7, w));
   w.passes.add(make_clear_forces(points_of(w.particles)));
   w.passes.add(make_point_motion(points_of(w.particles)));
   add_sph_passes(w, cloud.settings, cloud.neighbours);
