@@ -9,11 +9,11 @@
 #include "app/skin.hpp"
 #include "elements/corner_gather.hpp"
 #include "extension/additions.hpp"
-#include "materials/initial_stress.hpp"
 #include "model/build_model.hpp"
 #include "model/included_entries.hpp"
 #include "parallel/parallel.hpp"
 #include "shell/shell.hpp"
+#include "sph/initial_stress.hpp"
 #include "sph/level_outlet.hpp"
 #include "sph/prescribed_particles.hpp"
 #include "time/point_motion.hpp"
@@ -139,7 +139,7 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   if (injections_.inlets.empty()) left_out_.push_back({"inlets", "no *DEFINE_SPH_INJECTION"});
   add_images(h, diagnostics);
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
-  if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
+  if (diagnostics.ok()) add_equations_of_state(world_, model_, materials_, !sph_.mu.empty());
   add_prescribed_motions(diagnostics);
   contacts_ =
       build_contacts(deck_, model_,

@@ -11,7 +11,7 @@
 #include "elements/solid/solids.hpp"
 #include "keyword/deck.hpp"
 #include "keyword/deck_record.hpp"
-#include "materials/materials.hpp"
+#include "sph/materials.hpp"
 #include "model/model.hpp"
 #include "output/sample.hpp"
 #include "output/summary.hpp"

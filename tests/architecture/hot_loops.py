@@ -65,8 +65,8 @@ for path in sorted(objects):
 # Loops over single particles
 compiler = shlex.split(entry["command"])[0]
 if "Free Software Foundation" in run(compiler, "--version"):
-    for source in ["src/state/particle_loops.cpp", "src/sph/energy.cpp", "src/time/guard.cpp", "src/materials/eos_linear_polynomial.cpp"]:
-        where = "src/materials/material_pass.hpp" if "materials" in source else source
+    for source in ["src/state/particle_loops.cpp", "src/sph/energy.cpp", "src/time/guard.cpp", "src/laws/eos/eos_linear_polynomial.cpp"]:
+        where = "src/laws/eos/eos.hpp" if "eos" in source else source
         lines = open(os.path.join(project, where)).read().splitlines()
         wanted = r"for \(" if "_loops" in source else r"#pragma omp simd"
         for entry in compiling("/" + source):

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "app/skin.hpp"
-#include "materials/materials.hpp"
+#include "sph/materials.hpp"
 #include "model/build_model.hpp"
 #include "sph/pair_passes.hpp"
 #include "time/point_motion.hpp"
@@ -64,7 +64,7 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   neighbours_ = std::make_shared<Neighbours>(first_skin * h, settings.region);
   neighbours_->adapt_skin(least_skin * h, most_skin * h, skin_weight);
   if (!settings.evolving_h) neighbours_->keep_h();
-  add_eos_passes(world_, model, materials);
+  add_equations_of_state(world_, model, materials, !settings.mu.empty());
   world_.passes.add(make_clear_forces(points_of(world_.particles)));
   world_.passes.add(make_point_motion(points_of(world_.particles)));
   add_sph_time_limit(settings, model, world_);

@@ -1,6 +1,6 @@
 #pragma once
 // A linear liquid and a step of constant size, for clouds without a deck.
-#include "state/world.hpp"
+#include "sph/equation_of_state.hpp"
 
 namespace courant::test {
 
@@ -23,5 +23,12 @@ struct Liquid {
   Real dB(Real) const { return 0; }
   bool uses_energy() const { return false; }
 };
+
+/// The pass of a liquid of density 1000 and that stiffness, whose tension is not cut off.
+inline std::shared_ptr<EquationOfState> liquid_pass(Real stiffness, World& world) {
+  return std::make_shared<EquationOfState>(std::make_shared<EosLawOf<Liquid>>(Liquid{stiffness}),
+                                           EosParts{{1}, true, {1000}, {-1e20}},
+                                           std::vector<const Field<Real>*>{}, world);
+}
 
 }  // namespace courant::test

@@ -6,7 +6,6 @@
 
 #include "cloud.hpp"
 #include "liquid.hpp"
-#include "materials/material_pass.hpp"
 #include "sph/kept_pairs.hpp"
 #include "time/point_motion.hpp"
 #include "time/step.hpp"
@@ -14,7 +13,7 @@
 using namespace courant;
 using courant::test::Cloud;
 using courant::test::ConstantStep;
-using courant::test::Liquid;
+using courant::test::liquid_pass;
 
 namespace {
 
@@ -39,7 +38,8 @@ Result run(Real eps, int threads = 1) {
     momentum += p.m[i] * p.v.vec(i);
     scale += p.m[i] * p.v.vec(i).norm();
   }
-  w.passes.add(std::make_shared<EosPass<Liquid>>(Liquid{9e7}, EosPart{{1}, true, {1000}, {-1e20}}, w));
+  w.passes.add(
+      liquid_pass(9e7, w));
   w.passes.add(make_clear_forces(points_of(w.particles)));
   w.passes.add(make_point_motion(points_of(w.particles)));
   add_sph_passes(w, cloud.settings, cloud.neighbours);

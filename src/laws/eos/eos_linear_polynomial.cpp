@@ -1,5 +1,5 @@
-#include "materials/eos.hpp"
-#include "materials/eos_fields.hpp"
+#include "laws/eos/eos.hpp"
+#include "laws/eos/eos_fields.hpp"
 
 namespace courant {
 

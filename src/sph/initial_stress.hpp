@@ -1,6 +1,6 @@
 #pragma once
 #include "keyword/deck.hpp"
-#include "materials/materials.hpp"
+#include "sph/materials.hpp"
 
 namespace courant {
 

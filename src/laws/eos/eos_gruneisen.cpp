@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "materials/eos.hpp"
-#include "materials/eos_fields.hpp"
+#include "laws/eos/eos.hpp"
+#include "laws/eos/eos_fields.hpp"
 
 namespace courant {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "materials/eos.hpp"
-#include "materials/eos_fields.hpp"
+#include "laws/eos/eos.hpp"
+#include "laws/eos/eos_fields.hpp"
 
 namespace courant {
 

@@ -1,33 +1,15 @@
-#include "materials/materials.hpp"
+#include "sph/materials.hpp"
 
 #include <cmath>
 #include <map>
 
 #include <fmt/format.h>
 
-#include "materials/mat_null.hpp"
+#include "laws/fluid/mat_null.hpp"
+#include "sph/equation_of_state.hpp"
+#include "sph/fields.hpp"
 
 namespace courant {
-
-std::vector<EosEntry>& eos_registry() {
-  static std::vector<EosEntry> registry;
-  return registry;
-}
-
-void stop_for_density(const World& world, const Clock& clock, Index i, Real rho_limit) {
-  const Particles& p = world.particles;
-  const Vec x = p.x.vec(i);
-  const std::string beyond =
-      p.rho[i] >= rho_limit && std::isfinite(p.rho[i])
-          ? fmt::format(": its equation of state ends at {:.4g}, where the pressure becomes infinite",
-                        rho_limit)
-          : std::string();
-  throw RunError(
-      fmt::format("density of particle {} of part {} became {:.4g} [M/L3] at time {:.6g}, cycle "
-                  "{}, x = ({:.5g}, {:.5g}, {:.5g}){}",
-                  p.id[i], world.part_id(i), p.rho[i], clock.t, clock.cycle, x[0], x[1], x[2], beyond),
-      std::isfinite(p.rho[i]) ? StopCause::density : StopCause::not_finite);
-}
 
 namespace {
 
@@ -58,6 +40,7 @@ std::string known_laws() {
 }  // namespace
 
 std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  for (const EosEntry& kind : eos_registry()) kind.check(deck, diagnostics);
   const LawOfId laws = all_laws(deck);
   LawOfDensity laws_of_density;
   std::map<Id, const MatNull*> nulls;
@@ -103,7 +86,8 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
   return out;
 }
 
-void add_eos_passes(World& world, const Model& model, const std::vector<PartMaterial>& materials) {
+void add_equations_of_state(World& world, const Model& model, const std::vector<PartMaterial>& materials,
+                            bool viscous) {
   Particles& p = world.particles;
   for (Index i = 0; i < p.size(); ++i) {
     const PartMaterial& m = materials[p.part[i]];
@@ -112,13 +96,15 @@ void add_eos_passes(World& world, const Model& model, const std::vector<PartMate
     p.p[i] = std::max(m.eos->pressure(mu, m.eos->E0), m.pc);
     p.c[i] = std::sqrt(m.eos->sound_speed2(m.ro, mu, m.eos->E0));
   }
-  std::map<EosLaw*, EosPart> parts_of_law;
-  std::vector<EosLaw*> order;
+  std::vector<const Field<Real>*> heat{&sph_fields::dissipation(p)};
+  if (viscous) heat.push_back(&sph_fields::viscous_dissipation(p));
+  std::map<EosLaw*, EosParts> parts_of_law;
+  std::vector<std::shared_ptr<EosLaw>> order;
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     if (!materials[k].found) continue;
-    EosPart& mine = parts_of_law[materials[k].eos.get()];
+    EosParts& mine = parts_of_law[materials[k].eos.get()];
     if (mine.mine.empty()) {
-      order.push_back(materials[k].eos.get());
+      order.push_back(materials[k].eos);
       mine.mine.assign(model.parts.size(), 0);
       mine.rho0.assign(model.parts.size(), 0);
       mine.pc.assign(model.parts.size(), 0);
@@ -127,9 +113,9 @@ void add_eos_passes(World& world, const Model& model, const std::vector<PartMate
     mine.rho0[k] = materials[k].ro;
     mine.pc[k] = materials[k].pc;
   }
-  for (EosLaw* law : order) {
-    parts_of_law[law].all_parts = order.size() == 1;
-    world.passes.add(law->make_pass(parts_of_law[law], world));
+  for (const auto& law : order) {
+    parts_of_law[law.get()].all_parts = order.size() == 1;
+    world.passes.add(std::make_shared<EquationOfState>(law, parts_of_law[law.get()], heat, world));
   }
 }
 

@@ -6,9 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "../run_pass.hpp"
 #include "keyword/deck.hpp"
-#include "materials/eos.hpp"
+#include "laws/eos/eos.hpp"
 
 using namespace courant;
 
@@ -25,16 +24,6 @@ std::shared_ptr<EosLaw> law_of(const std::string& keyword, const std::string& ca
   for (const EosEntry& kind : eos_registry())
     for (const auto& [id, law] : kind.all(deck)) return law->at_density(rho0);
   return nullptr;
-}
-
-/// One particle at density rho0 with the rate drhodt, after one step of 1.
-World particle(Real rho, Real rate) {
-  World world;
-  Particles& p = world.particles;
-  p.fields.resize(1);
-  p.rho[0] = rho, p.drhodt[0] = rate, p.id[0] = 17;
-  p.active = p.moving = 1;
-  return world;
 }
 
 }  // namespace
@@ -70,28 +59,6 @@ TEST(Gruneisen, EndsAtThePoleOfItsHugoniot) {
   ASSERT_LT(mu, 10);
   EXPECT_NEAR(D(mu), 0, 1e-14);
   for (int k = 0; k < 1000; ++k) EXPECT_GT(D(mu * k / 1000), 0);
-}
-
-TEST(Gruneisen, StopsBeyondThePoleAndNamesTheParticle) {
-  for (const std::string gamma : {"0.0", "0.5"}) {  // without energy, and with it: two loops
-    const auto law = law_of("EOS_GRUNEISEN", "1,1484.0,2.0,0.0,0.0," + gamma, 1000);
-    Clock clock;
-    clock.t = 0.25, clock.dt_old = 1;
-    World below = particle(1000, 990), beyond = particle(1000, 1010);
-    auto pass = law->make_pass({{1}, true, {1000}, {-1e20}}, below);
-    courant::test::run(*pass, below, clock);
-    EXPECT_GT(below.particles.p[0], 1e12);
-    auto stops = law->make_pass({{1}, true, {1000}, {-1e20}}, beyond);
-    try {
-      courant::test::run(*stops, beyond, clock);
-      FAIL() << "the density is beyond the pole";
-    } catch (const RunError& e) {
-      EXPECT_STREQ(e.what(),
-                   "density of particle 17 of part 0 became 2010 [M/L3] at time 0.25, cycle 0, x = (0, 0, "
-                   "0): its equation "
-                   "of state ends at 2000, where the pressure becomes infinite");
-    }
-  }
 }
 
 TEST(IdealGas, TakesItsEnergyFromTheTemperature) {

@@ -1,5 +1,5 @@
 // *INITIAL_STRESS_SPH: particles that start under pressure.
-#include "materials/initial_stress.hpp"
+#include "sph/initial_stress.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "materials/mat_null.hpp"
+#include "laws/fluid/mat_null.hpp"
 
 #include "keyword/registry.hpp"
 

@@ -1,6 +1,7 @@
 #pragma once
-#include "materials/eos.hpp"
+#include "laws/eos/eos.hpp"
 #include "model/model.hpp"
+#include "state/world.hpp"
 
 namespace courant {
 
@@ -17,7 +18,9 @@ struct PartMaterial {
 /// errors.
 std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
-/// Sets p, c, E of all particles from rho, and adds one EOS pass per law to the world.
-void add_eos_passes(World& world, const Model& model, const std::vector<PartMaterial>& materials);
+/// Sets p, c, E of all particles from rho, and adds one pass per equation of state to the world. `viscous`:
+/// some part has a viscosity MU, whose heat goes into E, too.
+void add_equations_of_state(World& world, const Model& model, const std::vector<PartMaterial>& materials,
+                            bool viscous);
 
 }  // namespace courant

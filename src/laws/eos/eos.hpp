@@ -1,33 +1,44 @@
 #pragma once
 // Equations of state p = A(mu) + B(mu) E with mu = rho/rho0 - 1 and E the internal energy per reference
 // volume. A law is a small struct with A, B and their derivatives; one file per law registers it with its
-// card, and nothing else is edited.
+// card, and nothing else is edited. Laws know no particles, elements or world.
 #include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "keyword/deck.hpp"
 #include "keyword/registry.hpp"
-#include "materials/material_pass.hpp"
 
 namespace courant {
+
+/// Points of one material that a law is asked for at once, as plain arrays. [M/LT2], [-]
+struct EosBlock {
+  Index count = 0;
+  const Real* mu = nullptr;  ///< rho/rho0 - 1
+  Real *A = nullptr, *dA = nullptr;
+  Real *B = nullptr, *dB = nullptr;  ///< null: not asked for
+};
 
 /// A law read from the deck, or made for a test.
 class EosLaw {
  public:
   virtual ~EosLaw() = default;
-  virtual Real pressure(Real mu, Real E) const = 0;                 ///< [M/LT2]
-  virtual Real slope(Real mu, Real E) const = 0;                    ///< dp/dmu at constant E [M/LT2]
-  virtual Real sound_speed2(Real rho0, Real mu, Real E) const = 0;  ///< dp/drho at constant entropy [L2/T2]
+  virtual std::string name() const = 0;
+  /// A and dA/dmu of a block, and B and dB/dmu where they are asked for.
+  virtual void evaluate(const EosBlock& block) const = 0;
+  virtual Real pressure(Real mu, Real E) const = 0;  ///< [M/LT2]
+  virtual Real slope(Real mu, Real E) const = 0;     ///< dp/dmu at constant E [M/LT2]
+  /// c^2 = dp/drho at constant entropy = (dp/dmu + B p / (1 + mu)^2) / rho0, from dE = -p dv with v = 1/(1 +
+  /// mu). [L2/T2]
+  virtual Real sound_speed2(Real rho0, Real mu, Real E) const = 0;
   virtual bool uses_energy() const = 0;
   virtual Real mu_limit() const = 0;  ///< the law holds below; infinite if it always holds
   /// The same law for a material with another reference density than 1; nullptr where that makes no
   /// difference.
   virtual std::shared_ptr<EosLaw> at_density(Real rho0) const = 0;
-  virtual std::shared_ptr<Material> make_pass(EosPart part, World& world) const = 0;
   Real E0 = 0;           ///< initial internal energy per reference volume [M/LT2]
   Real V0 = 1;           ///< initial relative volume rho0/rho
   Real specific_E0 = 0;  ///< added to E0, times the reference density [L2/T2]
@@ -45,6 +56,8 @@ struct EosEntry {
   std::vector<EosReference> references;
   std::function<std::vector<std::pair<Id, std::shared_ptr<EosLaw>>>(const Deck&)>
       all;  ///< every law of this kind in a deck
+  /// Reports what the table of the keyword cannot tell of its cards.
+  std::function<void(const Deck&, Diagnostics&)> check;
 };
 
 std::vector<EosEntry>& eos_registry();
@@ -53,21 +66,34 @@ template <class Law>
 class EosLawOf : public EosLaw {
  public:
   explicit EosLawOf(Law law) : law_(law) {}
-  Real pressure(Real mu, Real E) const override { return law_.A(mu) + law_.B(mu) * E; }
-  Real sound_speed2(Real rho0, Real mu, Real E) const override {
-    return sound_speed2_of(law_, rho0, mu, E, pressure(mu, E));
+  std::string name() const override { return Law::name; }
+  void evaluate(const EosBlock& block) const override {
+    const Law law = law_;
+    const Real* mu = block.mu;
+    Real *A = block.A, *dA = block.dA;
+#pragma omp simd
+    for (Index k = 0; k < block.count; ++k) A[k] = law.A(mu[k]), dA[k] = law.dA(mu[k]);
+    if (!block.B) return;
+    Real *B = block.B, *dB = block.dB;
+    for (Index k = 0; k < block.count; ++k) B[k] = law.B(mu[k]), dB[k] = law.dB(mu[k]);
   }
+  Real pressure(Real mu, Real E) const override { return law_.A(mu) + law_.B(mu) * E; }
   Real slope(Real mu, Real E) const override { return law_.dA(mu) + law_.dB(mu) * E; }
+  Real sound_speed2(Real rho0, Real mu, Real E) const override {
+    return (law_.dA(mu) + law_.dB(mu) * E + law_.B(mu) * pressure(mu, E) / ((1 + mu) * (1 + mu))) / rho0;
+  }
   bool uses_energy() const override { return law_.uses_energy(); }
-  Real mu_limit() const override { return mu_limit_of(law_); }
+  Real mu_limit() const override {
+    if constexpr (requires { law_.mu_limit(); })
+      return law_.mu_limit();
+    else
+      return std::numeric_limits<Real>::infinity();
+  }
   std::shared_ptr<EosLaw> at_density(Real rho0) const override {
     if constexpr (requires { law_.at_density(rho0); })
       return with_law(law_.at_density(rho0), rho0);
     else
       return specific_E0 == 0 ? nullptr : with_law(law_, rho0);
-  }
-  std::shared_ptr<Material> make_pass(EosPart part, World& world) const override {
-    return std::make_shared<EosPass<Law>>(law_, std::move(part), world);
   }
 
  private:
@@ -82,7 +108,7 @@ class EosLawOf : public EosLaw {
 
 /// Card must have members eosid and functions law(), e0(), v0(), and may have specific_e0(). A law whose
 /// formula holds the reference density gives A and dA for the density 1 and has at_density(rho0); one that
-/// ends somewhere in compression has mu_limit().
+/// ends somewhere in compression has mu_limit(). The card may have check(deck, diagnostics).
 template <class Card>
 struct RegisterEos {
   RegisterEos(std::string equation, std::string source, std::vector<EosReference> references,
@@ -102,6 +128,10 @@ struct RegisterEos {
         laws.emplace_back(card.eosid, law);
       }
       return laws;
+    };
+    entry.check = [](const Deck& deck, Diagnostics& diagnostics) {
+      if constexpr (requires(const Card& card) { card.check(deck, diagnostics); })
+        for (const Card& card : deck.all<Card>()) card.check(deck, diagnostics);
     };
     eos_registry().push_back(std::move(entry));
     register_keyword(make_keyword_spec<Card>(std::move(keyword)));
