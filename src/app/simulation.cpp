@@ -6,13 +6,13 @@
 
 #include "app/field_options.hpp"
 #include "app/skin.hpp"
+#include "loads/loads.hpp"
 #include "materials/initial_stress.hpp"
 #include "model/build_model.hpp"
 #include "model/included_entries.hpp"
 #include "parallel/parallel.hpp"
 #include "shell/shell.hpp"
 #include "sph/level_outlet.hpp"
-#include "sph/prescribed_particles.hpp"
 #include "time/point_motion.hpp"
 
 namespace courant {
@@ -96,29 +96,40 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) add_eos_passes(world_, model_, materials_);
   add_prescribed_motions(diagnostics);
+  const std::vector<NodalLoad> forces_on_nodes = nodal_loads(deck_, model_, world_, diagnostics);
+  const std::vector<Damping> damping = damping_of(deck_, model_, world_, diagnostics);
   contacts_ = build_contacts(
       deck_, model_, {sph_.skip_inactive_contact, sph_.thickness_from_volume, neighbours_->largest_skin()},
       world_, diagnostics);
   if (!diagnostics.ok()) return;
   world_.passes.add(make_clear_forces(points_of(world_.particles)));
   world_.passes.add(make_point_motion(points_of(world_.particles)));
-  add_drifts(sph_, gravity_of(model_.body_loads), world_);
+  add_drifts(sph_, acceleration_of_particles(model_), world_);
   if (mirrors_) world_.passes.add(mirrors_);
   add_sph_time_limit(sph_, model_, world_);
   for (PassNote& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
   add_mirror_core(sph_, planes_, world_);
   if (!model_.body_loads.empty())
-    world_.passes.add(make_gravity(model_, world_, neighbours_));
+    world_.passes.add(
+        make_body_load(acceleration_of_particles(model_), points_of(world_.particles), world_, neighbours_));
   else
-    left_out_.push_back({"gravity", "no *LOAD_BODY"});
+    left_out_.push_back({"body loads", "no *LOAD_BODY"});
+  if (auto pass = make_nodal_loads(forces_on_nodes, model_, points_of(world_.particles), world_))
+    world_.passes.add(pass);
+  else
+    left_out_.push_back({"nodal forces", "no particle in *LOAD_NODE"});
   if (!add_level_outlets(deck_, model_, sph_, planes_, world_, diagnostics))
     left_out_.push_back({"level outlet", "no *COURANT_LEVEL_OUTLET"});
   for (auto& contact : contacts_) world_.passes.add(contact);
   if (contacts_.empty()) left_out_.push_back({"contact", "no *CONTACT"});
-  if (auto fixed = make_fixed_particles(model_, world_))
+  if (auto fixed = make_fixed_points(model_, points_of(world_.particles), world_))
     world_.passes.add(fixed);
   else
     left_out_.push_back({"fixed particles", "no particle in *BOUNDARY_SPC"});
+  if (auto pass = make_damping(damping, points_of(world_.particles), world_))
+    world_.passes.add(pass);
+  else
+    left_out_.push_back({"damping", "no *DAMPING"});
   add_bodies();
   check_field_names(deck_, model_.output.fields, world_, diagnostics);
   rules_.dtinit = model_.dtinit;
@@ -157,22 +168,27 @@ void Simulation::add_images(Real h, Diagnostics& diagnostics) {
   planes_ = build_image_planes(deck_, model_, sph_, reach, world_, diagnostics);
   if (planes_.empty())
     return left_out_.push_back({"images", "no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC"});
-  for (const ImagePlane& plane : planes_)  // along a period nothing rests on anything
-    if (plane.kind == ImagePlane::Kind::periodic && sph_.gravity)
-      sph_.gravity = [g = sph_.gravity, n = plane.normal](Real t) { return Vec(g(t) - g(t).dot(n) * n); };
+  for (const ImagePlane& plane : planes_) {
+    if (plane.kind != ImagePlane::Kind::periodic) continue;
+    sph_.loads = sph_.loads.without(plane.normal);  // along a period nothing rests on anything
+    check_body_loads_periodic(deck_, plane.normal, diagnostics);
+  }
   for (const ImagePlane& plane : planes_)
     if (plane.kind == ImagePlane::Kind::mirror) sph_.mirrors.push_back(plane);
   sph_.walls.planes = planes_;
   auto images = std::make_shared<Images>(planes_);
   neighbours_->set_images(images);
   world_.passes.add(images);
-  mirrors_ = images->make_mirrors(gravity_of(model_.body_loads));
+  mirrors_ = images->make_mirrors(acceleration_of_particles(model_));
 }
 
 void Simulation::add_prescribed_motions(Diagnostics& diagnostics) {
   const std::vector<PrescribedMotion> motions = prescribed_motions(deck_, model_, diagnostics);
   if (motions.empty()) left_out_.push_back({"prescribed motion", "no *BOUNDARY_PRESCRIBED_MOTION"});
-  add_prescribed_particles(motions, deck_, model_, sph_, planes_, world_, diagnostics);
+  MotionLimits limits{.dim = sph_.dim, .boxed = sph_.region.has_value()};
+  for (const ImagePlane& plane : planes_)
+    if (plane.kind == ImagePlane::Kind::mirror) limits.mirrors.push_back(plane.normal);
+  add_prescribed_points(motions, deck_, model_, limits, world_, diagnostics);
   RigidBodies none({});
   (bodies_ ? *bodies_ : none).follow(motions, deck_, model_, diagnostics);
 }
@@ -182,7 +198,7 @@ void Simulation::add_bodies() {
     left_out_.push_back({"rigid bodies", bodies_ ? "all are held in every direction" : "no *MAT_RIGID"});
     return;
   }
-  bodies_->set_gravity(gravity_of(model_.body_loads));
+  bodies_->set_loads(BodyAcceleration(model_.body_loads));
   add_body_passes(world_, bodies_);
 }
 
