@@ -108,7 +108,9 @@ StopFacts facts_at_start(Simulation& s) {
     low = low.cwiseMin(p.x.vec(i)), high = high.cwiseMax(p.x.vec(i));
   }
   for (Index k = 0; k < w.nodes.size(); ++k) f.start_speed = std::max(f.start_speed, w.nodes.v.vec(k).norm());
-  const Vec g = gravity_at(s.model().body_loads, 0);
+  const BodyAcceleration::At loads = acceleration_of_particles(s.model()).at(0);
+  Vec g = Vec::Zero();
+  for (Index i = 0; i < p.size(); ++i) g = g.cwiseMax(loads(p.x.vec(i), p.part[i]).cwiseAbs());
   f.fall_speed = std::sqrt(2 * std::abs((high - low).cwiseProduct(g).cwiseAbs().sum()));
   const auto counter = w.counters.find("initial_penetrations");
   if (counter == w.counters.end() || counter->second == 0) return f;

@@ -23,7 +23,7 @@ std::unordered_map<Id, Index> places_of(const Ids& wanted, const Field<Id>& id, 
 Vec force_on(const std::vector<BoundaryForce>& forces, Id particle) {
   Vec sum = Vec::Zero();
   for (const BoundaryForce& force : forces)
-    if (force.kind == BoundaryForce::Kind::driven_particle && force.id == particle) sum += force.force;
+    if (force.kind == BoundaryForce::Kind::driven_point && force.id == particle) sum += force.force;
   return sum;
 }
 

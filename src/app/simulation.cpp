@@ -9,13 +9,13 @@
 #include "app/skin.hpp"
 #include "elements/corner_gather.hpp"
 #include "extension/additions.hpp"
+#include "loads/loads.hpp"
 #include "model/build_model.hpp"
 #include "model/included_entries.hpp"
 #include "parallel/parallel.hpp"
 #include "shell/shell.hpp"
 #include "sph/initial_stress.hpp"
 #include "sph/level_outlet.hpp"
-#include "sph/prescribed_particles.hpp"
 #include "time/point_motion.hpp"
 
 namespace courant {
@@ -125,8 +125,30 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
     left_out_.push_back({"forces on nodes", "no node moves"});
   if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
   world_.passes.add(make_corner_gather(world_));
+  add_loads(points_of(world_.nodes), BodyAcceleration(model_.body_loads), diagnostics);
   world_.passes.add(make_point_motion(points_of(world_.nodes)));
   world_.passes.add(make_kinetic_energy(points_of(world_.nodes)));
+}
+
+// The same for everything that moves.
+void Simulation::add_loads(const Points& points, const BodyAcceleration& acceleration,
+                           Diagnostics& diagnostics) {
+  const std::string& set = points.fields().name();
+  const auto add = [&](const std::shared_ptr<BlockPass>& pass, const char* what, const char* keyword) {
+    if (pass)
+      world_.passes.add(pass);
+    else
+      left_out_.push_back({fmt::format("{} on {}", what, set), fmt::format("no {}", keyword)});
+  };
+  const bool particles = points.set == &world_.particles.fields;
+  add(model_.body_loads.empty()
+          ? nullptr
+          : make_body_load(acceleration, points, world_, particles ? neighbours_ : nullptr),
+      "body loads", "*LOAD_BODY, *LOAD_GRAVITY_PART");
+  add(make_nodal_loads(nodal_loads(deck_, model_, world_, diagnostics), model_, points, world_),
+      "nodal forces", "*LOAD_NODE");
+  add(make_fixed_points(model_, points, world_), "SPC", "*BOUNDARY_SPC");
+  add(make_damping(damping_of(deck_, model_, world_, diagnostics), points, world_), "damping", "*DAMPING");
 }
 
 void Simulation::add_particle_passes(Diagnostics& diagnostics) {
@@ -151,23 +173,16 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   if (!diagnostics.ok()) return;
   world_.passes.add(make_clear_forces(points_of(world_.particles)));
   world_.passes.add(make_point_motion(points_of(world_.particles)));
-  add_drifts(sph_, gravity_of(model_.body_loads), world_);
+  add_drifts(sph_, acceleration_of_particles(model_), world_);
   if (mirrors_) world_.passes.add(mirrors_);
   add_sph_time_limit(sph_, model_, world_);
   for (PassNote& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
   add_mirror_core(sph_, planes_, world_);
-  if (!model_.body_loads.empty())
-    world_.passes.add(make_gravity(model_, world_, neighbours_));
-  else
-    left_out_.push_back({"gravity", "no *LOAD_BODY"});
+  add_loads(points_of(world_.particles), acceleration_of_particles(model_), diagnostics);
   if (!add_level_outlets(deck_, model_, sph_, planes_, world_, diagnostics))
     left_out_.push_back({"level outlet", "no *COURANT_LEVEL_OUTLET"});
   for (auto& contact : contacts_) add_contact(world_, contact);
   if (contacts_.empty()) left_out_.push_back({"contact", "no *CONTACT"});
-  if (auto fixed = make_fixed_particles(model_, world_))
-    world_.passes.add(fixed);
-  else
-    left_out_.push_back({"fixed particles", "no particle in *BOUNDARY_SPC"});
   check_field_names(deck_, model_.output.fields, world_, diagnostics);
 }
 
@@ -199,22 +214,27 @@ void Simulation::add_images(Real h, Diagnostics& diagnostics) {
   planes_ = build_image_planes(deck_, model_, sph_, reach, world_, diagnostics);
   if (planes_.empty())
     return left_out_.push_back({"images", "no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC"});
-  for (const ImagePlane& plane : planes_)  // along a period nothing rests on anything
-    if (plane.kind == ImagePlane::Kind::periodic && sph_.gravity)
-      sph_.gravity = [g = sph_.gravity, n = plane.normal](Real t) { return Vec(g(t) - g(t).dot(n) * n); };
+  for (const ImagePlane& plane : planes_) {
+    if (plane.kind != ImagePlane::Kind::periodic) continue;
+    sph_.loads = sph_.loads.without(plane.normal);  // along a period nothing rests on anything
+    check_body_loads_periodic(deck_, plane.normal, diagnostics);
+  }
   for (const ImagePlane& plane : planes_)
     if (plane.kind == ImagePlane::Kind::mirror) sph_.mirrors.push_back(plane);
   sph_.walls.planes = planes_;
   auto images = std::make_shared<Images>(planes_);
   neighbours_->set_images(images);
   world_.passes.add(images);
-  mirrors_ = images->make_mirrors(gravity_of(model_.body_loads));
+  mirrors_ = images->make_mirrors(acceleration_of_particles(model_));
 }
 
 void Simulation::add_prescribed_motions(Diagnostics& diagnostics) {
   const std::vector<PrescribedMotion> motions = prescribed_motions(deck_, model_, diagnostics);
   if (motions.empty()) left_out_.push_back({"prescribed motion", "no *BOUNDARY_PRESCRIBED_MOTION"});
-  add_prescribed_particles(motions, deck_, model_, sph_, planes_, world_, diagnostics);
+  MotionLimits limits{.dim = sph_.dim, .boxed = sph_.region.has_value()};
+  for (const ImagePlane& plane : planes_)
+    if (plane.kind == ImagePlane::Kind::mirror) limits.mirrors.push_back(plane.normal);
+  add_prescribed_points(motions, deck_, model_, limits, world_, diagnostics);
   RigidBodies none({});
   (bodies_ ? *bodies_ : none).follow(motions, deck_, model_, diagnostics);
 }
@@ -224,7 +244,7 @@ void Simulation::add_bodies() {
     left_out_.push_back({"rigid bodies", bodies_ ? "all are held in every direction" : "no *MAT_RIGID"});
     return;
   }
-  bodies_->set_gravity(gravity_of(model_.body_loads));
+  bodies_->set_loads(BodyAcceleration(model_.body_loads));
   add_body_passes(world_, bodies_);
 }
 

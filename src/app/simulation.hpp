@@ -11,6 +11,7 @@
 #include "elements/solid/solids.hpp"
 #include "keyword/deck.hpp"
 #include "keyword/deck_record.hpp"
+#include "loads/loads.hpp"
 #include "sph/materials.hpp"
 #include "model/model.hpp"
 #include "output/sample.hpp"
@@ -80,6 +81,7 @@ class Simulation {
   void add_passes(Diagnostics& diagnostics);
   void add_particle_passes(Diagnostics& diagnostics);
   void add_node_passes(Diagnostics& diagnostics);
+  void add_loads(const Points& points, const BodyAcceleration& acceleration, Diagnostics& diagnostics);
   void add_images(Real h, Diagnostics& diagnostics);
   void add_prescribed_motions(Diagnostics& diagnostics);
   void add_bodies();

@@ -91,7 +91,6 @@ void ModelBuilder::build_body_loads() {
          .centre = Vec(card.xc, card.yc, card.zc),
          .sf = card.sf});
   build_gravity_of_parts();
-  if (errors_ == 0) refuse_loads_without_pass();
 }
 
 /// Those of *LOAD_BODY_PARTS; none: all.
@@ -117,17 +116,6 @@ void ModelBuilder::build_gravity_of_parts() {
     model_.body_loads.push_back(
         {.direction = Vec::Unit(card.dof - 1), .curve = *found, .sf = card.accel, .parts = parts});
   }
-}
-
-/// Loads that the model holds and no pass computes yet.
-void ModelBuilder::refuse_loads_without_pass() {
-  const auto refuse = [&](const auto& cards, const char* what) {
-    for (const Entry& card : cards) error(card, "", fmt::format("{} are not computed yet", what));
-  };
-  refuse(deck_.all<LoadBodyRotationCard>(), "rotational body loads");
-  refuse(deck_.all<LoadBodyVectorCard>(), "body loads along a vector");
-  refuse(deck_.all<LoadBodyPartsCard>(), "body loads on some of the parts");
-  refuse(deck_.all<LoadGravityPartCard>(), "body loads on some of the parts");
 }
 
 void ModelBuilder::build_constraints() {

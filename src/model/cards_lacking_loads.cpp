@@ -1,4 +1,4 @@
-// Initial velocities, loads, walls and damping whose physics is not here: their cards are read and
+// Initial velocities, loads and walls whose physics is not here: their cards are read and
 // checked, and the deck is refused by name.
 #include <string>
 
@@ -32,52 +32,6 @@ KeywordOf<InitialVelocityRigidBody> initial_velocity_rigid_body() {
 }
 const RegisterKeyword<InitialVelocityRigidBody> initial_velocity_rigid_body_keyword{
     initial_velocity_rigid_body()};
-
-struct LoadNodePoint : Entry {
-  Id nid = 0, lcid = 0, cid = 0, m1 = 0, m2 = 0, m3 = 0;
-  int dof = 0;
-  Real sf = 0;
-};
-KeywordOf<LoadNodePoint> load_node_point() {
-  using T = LoadNodePoint;
-  return {.names = {"LOAD_NODE_POINT"},
-          .purpose = "forces on nodes",
-          .lacking = "forces on nodes",
-          .cards = {{.fields = {
-                         {"NID", &T::nid, "-", "where it acts", required_id_of(IdSpace::node)},
-                         {"DOF", &T::dof, "-",
-                          "direction: 1-3 force, 4 follower force, 5-7 moment, 8 follower moment"},
-                         {"LCID", &T::lcid, "-", "curve over time", id_of(IdSpace::curve)},
-                         {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
-                         {"CID", &T::cid, "-", "system of the directions", id_of(IdSpace::coordinate_system)},
-                         {"M1", &T::m1, "-", "node of a follower load", id_of(IdSpace::node)},
-                         {"M2", &T::m2, "-", "node of a follower load", id_of(IdSpace::node)},
-                         {"M3", &T::m3, "-", "node of a follower load", id_of(IdSpace::node)}}}}};
-}
-const RegisterKeyword<LoadNodePoint> load_node_point_keyword{load_node_point()};
-
-struct LoadNodeSet : Entry {
-  Id nsid = 0, lcid = 0, cid = 0, m1 = 0, m2 = 0, m3 = 0;
-  int dof = 0;
-  Real sf = 0;
-};
-KeywordOf<LoadNodeSet> load_node_set() {
-  using T = LoadNodeSet;
-  return {.names = {"LOAD_NODE_SET"},
-          .purpose = "forces on node sets",
-          .lacking = "forces on nodes",
-          .cards = {{.fields = {
-                         {"NSID", &T::nsid, "-", "where it acts", required_id_of(IdSpace::node_set)},
-                         {"DOF", &T::dof, "-",
-                          "direction: 1-3 force, 4 follower force, 5-7 moment, 8 follower moment"},
-                         {"LCID", &T::lcid, "-", "curve over time", id_of(IdSpace::curve)},
-                         {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
-                         {"CID", &T::cid, "-", "system of the directions", id_of(IdSpace::coordinate_system)},
-                         {"M1", &T::m1, "-", "node of a follower load", id_of(IdSpace::node)},
-                         {"M2", &T::m2, "-", "node of a follower load", id_of(IdSpace::node)},
-                         {"M3", &T::m3, "-", "node of a follower load", id_of(IdSpace::node)}}}}};
-}
-const RegisterKeyword<LoadNodeSet> load_node_set_keyword{load_node_set()};
 
 struct LoadRigidBody : Entry {
   Id pid = 0, lcid = 0, cid = 0, m1 = 0, m2 = 0, m3 = 0;
@@ -317,26 +271,6 @@ KeywordOf<RigidwallGeometricFlat> rigidwall_geometric_flat() {
                      .when = [](const T& e) { return e.name >= 6; }}}};
 }
 const RegisterKeyword<RigidwallGeometricFlat> rigidwall_geometric_flat_keyword{rigidwall_geometric_flat()};
-
-struct DampingGlobal : Entry {
-  Id lcid = 0;
-  Real valdmp = 0, stx = 0, sty = 0, stz = 0, srx = 0, sry = 0, srz = 0;
-};
-KeywordOf<DampingGlobal> damping_global() {
-  using T = DampingGlobal;
-  return {.names = {"DAMPING_GLOBAL"},
-          .purpose = "damping force -D m v on all nodes",
-          .lacking = "damping forces",
-          .cards = {{.fields = {{"LCID", &T::lcid, "-", "damping curve, 0 constant", id_of(IdSpace::curve)},
-                                {"VALDMP", &T::valdmp, "1/T", "constant damping (1/time)"},
-                                {"STX", &T::stx, "-", "scale on translations"},
-                                {"STY", &T::sty, "-", "scale on translations"},
-                                {"STZ", &T::stz, "-", "scale on translations"},
-                                {"SRX", &T::srx, "-", "scale on rotations"},
-                                {"SRY", &T::sry, "-", "scale on rotations"},
-                                {"SRZ", &T::srz, "-", "scale on rotations"}}}}};
-}
-const RegisterKeyword<DampingGlobal> damping_global_keyword{damping_global()};
 
 }  // namespace
 

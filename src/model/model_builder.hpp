@@ -69,7 +69,6 @@ class ModelBuilder {
   void build_output();
   void build_body_loads();
   void build_gravity_of_parts();
-  void refuse_loads_without_pass();
   std::vector<Index> loaded_parts();
   void build_constraints();
   std::array<bool, 3> held_directions(const BoundarySpcCard& card);

@@ -16,7 +16,7 @@ std::string bndout_text(const Sample& s) {
     total += b.force, work += b.work;
   };
   for (const BoundaryForce& b : s.boundary_forces)
-    if (b.kind == BoundaryForce::Kind::driven_particle) line(" nd#", b);
+    if (b.kind == BoundaryForce::Kind::driven_point) line(" nd#", b);
   for (const BoundaryForce& b : s.boundary_forces)
     if (b.kind == BoundaryForce::Kind::driven_body) {
       line("mat#", b);

@@ -74,7 +74,7 @@ void History::put_bodies(const Sample& s) {
     const std::string group = fmt::format(fmt::runtime(groups[static_cast<int>(b.kind)]), b.id);
     put(group + "/force", "ML/T2", b.force);
     if (b.kind == BoundaryForce::Kind::driven_body) put(group + "/moment", "ML2/T2", b.moment);
-    if (b.kind != BoundaryForce::Kind::held_particle) put(group + "/work", energy, b.work);
+    if (b.kind != BoundaryForce::Kind::held_point) put(group + "/work", energy, b.work);
   }
 }
 

@@ -91,6 +91,7 @@ class Builder {
   void add(Index part, const MatRigid& m) {
     RigidBody b;
     b.part = model_.parts[part].id;
+    b.part_index = part;
     Diagnostics told_before;
     read_constraints(deck_, m, b, checked_.insert(&m).second ? diagnostics_ : told_before);
     std::set<Index> nodes;
@@ -119,7 +120,10 @@ class Builder {
 
   std::shared_ptr<RigidBodies> finish() {
     for (const RigidBody& b : bodies_)
-      for (const Index n : b.nodes) world_.nodes.follow[n] = 1, world_.nodes.held[n] = b.fixed() ? 1 : 0;
+      for (const Index n : b.nodes) {
+        world_.nodes.follow[n] = 1;
+        if (b.fixed()) world_.nodes.held[n] = 1;
+      }
     return bodies_.empty() ? nullptr : std::make_shared<RigidBodies>(std::move(bodies_));
   }
 

@@ -55,13 +55,15 @@ bool RigidBodies::any_moves() const {
 }
 
 void RigidBodies::apply(World& world, const Clock& clock) {
-  const Vec g = gravity_ ? gravity_(clock.t) : Vec(Vec::Zero());
+  const BodyAcceleration::At now = loads_.at(clock.t);
   for (RigidBody& b : bodies_) {
     if (b.fixed()) continue;
-    b.force = b.m * g;
+    b.force = b.m * now.everywhere();
     b.moment.setZero();
     for (const Index n : b.nodes) {
-      const Vec f = world.nodes.f.vec(n);
+      Vec f = world.nodes.f.vec(n);
+      if (!loads_.uniform())
+        f += world.nodes.m[n] * (now(world.nodes.x.vec(n), b.part_index) - now.everywhere());
       b.force += f;
       b.moment += (world.nodes.x.vec(n) - b.x).cross(f);
     }
@@ -108,6 +110,7 @@ class BodyForces : public Constraint {
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.in_finish().reads(world.nodes.f).reads(world.nodes.x);
+    if (!bodies_->loads_are_uniform()) a.reads(world.nodes.m);
   }
   void block(World&, const Clock&, Index, Index) override {}
   void finish(World& world, const Clock& clock) override { bodies_->apply(world, clock); }
@@ -149,34 +152,45 @@ Real RigidBodies::kinetic_energy() const {
   return e;
 }
 
-void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
+// Of each axis along which the body can move, and of what is not the same everywhere.
+std::array<Real, 4> RigidBodies::potential(const RigidBody& b, const World& world,
+                                           const BodyAcceleration::At& now) const {
+  std::array<Real, 4> sums{};
+  if (b.fixed()) return sums;
+  const Vec& g = now.everywhere();
+  for (int k = 0; k < 3; ++k)
+    if (!b.held[k]) sums[static_cast<std::size_t>(k)] = -b.m * g[k] * b.x[k];
+  if (loads_.uniform()) return sums;
+  for (const Index n : b.nodes) {
+    const Vec x = world.nodes.x.vec(n);
+    sums[3] += world.nodes.m[n] * (now.potential(x, b.part_index) + g.dot(x));
+  }
+  return sums;
+}
+
+void RigidBodies::record(World& world, const Clock& clock, EnergyLedger& ledger) {
   for (RigidBody& b : bodies_) {
     const Real work = b.motions.empty() ? 0 : work_of_drives(b, clock);
     b.drive_work += work;
     ledger.external_work += work;
     ledger.throughput += std::abs(work);
   }
-  if (!gravity_) return;
   // Potential energy is -m g(t).x: a change of g alone is work from outside.
-  const Vec dg = gravity_(clock.t + clock.dt) - gravity_(clock.t);
+  const BodyAcceleration::At change = loads_.change(clock.t, clock.t + clock.dt);
+  if (change.zero()) return;
   for (const RigidBody& b : bodies_)
-    if (!b.fixed())
-      for (int k = 0; k < 3; ++k)
-        if (!b.held[k]) {
-          const Real work = -b.m * dg[k] * b.x[k];
-          ledger.external_work += work;
-          ledger.throughput += std::abs(work);
-        }
+    for (const Real work : potential(b, world, change)) {
+      ledger.external_work += work;
+      ledger.throughput += std::abs(work);
+    }
 }
 
-void RigidBodies::sample(const World&, const Clock& clock, EnergyLedger& ledger) const {
+void RigidBodies::sample(const World& world, const Clock& clock, EnergyLedger& ledger) const {
   ledger.kinetic += kinetic_energy();
-  if (!gravity_) return;
-  const Vec g = gravity_(clock.t);
+  if (loads_.none()) return;
+  const BodyAcceleration::At now = loads_.at(clock.t);
   for (const RigidBody& b : bodies_)
-    if (!b.fixed())
-      for (int k = 0; k < 3; ++k)
-        if (!b.held[k]) ledger.potential -= b.m * g[k] * b.x[k];
+    for (const Real energy : potential(b, world, now)) ledger.potential += energy;
 }
 
 std::vector<RigidBodyReport> RigidBodies::reports() const {

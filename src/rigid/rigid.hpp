@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "keyword/deck.hpp"
+#include "loads/body_acceleration.hpp"
 #include "model/model.hpp"
 #include "model/prescribed_motion.hpp"
 #include "state/keeper.hpp"
@@ -31,6 +31,7 @@ std::optional<RigidMaterial> rigid_material(const Deck& deck, const Model& model
 /// One rigid part.
 struct RigidBody {
   Id part = 0;
+  Index part_index = -1;                  ///< in Model::parts
   std::vector<Index> nodes;               ///< indices into World::nodes
   std::vector<Vec> X;                     ///< their places about the centre at t = 0 [L]
   std::array<bool, 3> held{}, no_turn{};  ///< global axes without translation, rotation
@@ -72,8 +73,10 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Keep
     for (RigidBody& body : bodies_) body.x0 = body.x;
   }
 
-  /// Acceleration of gravity over time [L/T2]
-  void set_gravity(std::function<Vec(Real t)> gravity) { gravity_ = std::move(gravity); }
+  void set_loads(BodyAcceleration loads) { loads_ = std::move(loads); }
+
+  /// Forces depend on where nodes are and on their masses.
+  bool loads_are_uniform() const { return loads_.uniform(); }
 
   std::string name() const override { return "rigid bodies"; }
   /// Sums the forces on the bodies' nodes.
@@ -101,15 +104,17 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Keep
   void keep(Archive& archive) override;
 
  private:
+  std::array<Real, 4> potential(const RigidBody& body, const World& world,
+                                const BodyAcceleration::At& now) const;
   std::vector<RigidBody> bodies_;
-  std::function<Vec(Real)> gravity_;
+  BodyAcceleration loads_;
 };
 
 /// Puts the bodies into the lists of `world`: their forces among the constraints, their motion and energy.
 void add_body_passes(World& world, std::shared_ptr<RigidBodies> bodies);
 
 /// One body per shell part of *MAT_RIGID, with mass, centre and inertia from the nodal masses that
-/// build_segments gave (call that first). Sets Nodes::held. nullptr if there is none. Refuses by name: local
+/// build_segments gave (call that first). Sets Nodes::held and Nodes::follow. nullptr if there is none. Refuses by name: local
 /// and point constraints, SPC on nodes of rigid bodies, nodes shared by two bodies of which one can move,
 /// inertia that does not allow a free rotation.
 std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& model, World& world,

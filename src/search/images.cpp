@@ -15,16 +15,16 @@ namespace {
 
 class Mirrors : public Relocation {
  public:
-  Mirrors(std::vector<ImagePlane> mirrors, std::function<Vec(Real)> gravity)
-      : mirrors_(std::move(mirrors)), gravity_(std::move(gravity)) {}
+  Mirrors(std::vector<ImagePlane> mirrors, Acceleration loads)
+      : mirrors_(std::move(mirrors)), loads_(std::move(loads)) {}
   std::string name() const override { return "mirrors"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
-    a.revises(p.x).revises(p.v);
+    a.revises(p.x).revises(p.v).reads(p.part);
     if (const FieldBase* pull = p.fields.find("mirror_pull")) a.reads(*pull);
   }
   void start(World& world, const Clock& clock) override {
-    g_ = gravity_(clock.t);
+    t_ = clock.t;
     pull_ = dynamic_cast<const Field<Real>*>(world.particles.fields.find("mirror_pull"));
     crossings_.assign(block_count(world.particles.moving), 0);
   }
@@ -37,14 +37,14 @@ class Mirrors : public Relocation {
   }
 
  private:
-  // What gravity did behind the mirror is taken back twice, which errs by half a step of it, m g v dt/2, to
+  // What loads did behind the mirror is taken back twice, which errs by half a step of it, m g v dt/2, to
   // the safe side: without that a lattice that trembles on a mirror gains energy.
   void reflect(Particles& p, const ImagePlane& plane, Index begin, Index end) {
     if (!(depth_range(loops_, plane, p, begin, end).least < 0)) return;
-    const Real pull = -g_.dot(plane.normal);
     for (Index i = begin; i < end; ++i) {
       const Real d = depth(plane, p.x.vec(i));
       if (!(d < 0)) continue;
+      const Real pull = -loads_(p.x.vec(i), t_, p.part[i]).dot(plane.normal);
       const Real across = -p.v.vec(i).dot(plane.normal);  // outwards
       const Real back =
           i < p.active && across > 0
@@ -57,9 +57,9 @@ class Mirrors : public Relocation {
   }
   ParticleLoops loops_ = particle_loops();
   std::vector<ImagePlane> mirrors_;
-  std::function<Vec(Real)> gravity_;
-  Vec g_ = Vec::Zero();
-  const Field<Real>* pull_ = nullptr;  ///< of others than gravity
+  Acceleration loads_;
+  Real t_ = 0;
+  const Field<Real>* pull_ = nullptr;  ///< of others than body loads
   std::vector<Index> crossings_;       ///< in each block
 };
 
@@ -90,12 +90,12 @@ Images::Images(std::vector<ImagePlane> planes)
   }
 }
 
-std::shared_ptr<Relocation> Images::make_mirrors(std::function<Vec(Real)> gravity) const {
+std::shared_ptr<Relocation> Images::make_mirrors(Acceleration loads) const {
   std::vector<ImagePlane> mirrors;
   for (const ImagePlane& plane : planes_)
     if (plane.kind == ImagePlane::Kind::mirror) mirrors.push_back(plane);
   if (mirrors.empty()) return nullptr;
-  return std::make_shared<Mirrors>(std::move(mirrors), std::move(gravity));
+  return std::make_shared<Mirrors>(std::move(mirrors), std::move(loads));
 }
 
 template <class Wanted>
@@ -110,7 +110,7 @@ void Images::find(const ImagePlane& plane, const Particles& p, Index n, const Wa
 
 void Images::bring_back(World& world, Index n) {
   Particles& p = world.particles;
-  brought_back_.setZero();
+  brought_back_.clear();
   for (std::size_t k = 0; k < planes_.size(); ++k) {
     const ImagePlane& plane = planes_[k];
     const bool mirror = plane.kind == ImagePlane::Kind::mirror;
@@ -125,7 +125,8 @@ void Images::bring_back(World& world, Index n) {
         ++world.counters["mirror_crossings"];
       } else {  // far out after a step that was much too long: the run stops for other reasons soon
         p.x.set(i, before - std::floor(depth(plane, before) / plane.period) * mirror_[k].b);
-        if (i < p.active) brought_back_ += p.m[i] * (p.x.vec(i) - before);
+        if (i < p.active)
+          brought_back_.try_emplace(p.part[i], Vec::Zero()).first->second += p.m[i] * (p.x.vec(i) - before);
       }
     }
   }

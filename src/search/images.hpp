@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -38,6 +39,9 @@ inline Field<Real>& mirror_pull(Particles& p) {
   return p.fields.add<Real>({.name = "mirror_pull", .dimension = "L/T2", .restart = false});
 }
 
+/// What loads give at a place, a time, to a part [L/T2]
+using Acceleration = std::function<Vec(const Vec& x, Real t, Index part)>;
+
 /// Images of particles behind planes: neighbours that the pair loops take like any other. A particle within
 /// reach of a mirror has a copy behind it with reflected velocity and stress; one near a periodic plane has a
 /// copy beyond the other plane. Images stand behind all particles in the fields that are exchanged, from
@@ -50,15 +54,15 @@ class Images : public Exchanger {
   std::string name() const override { return "images"; }
 
   /// A pass that reflects at the end of each step what went through a mirror in it; null without mirrors.
-  /// `gravity`: the acceleration at a time [L/T2]. It pulled the whole way, towards the mirror and then away
-  /// from it, where it would have turned round: the speed across the mirror gives back what that was too
+  /// `loads`: the acceleration of body loads [L/T2]. It pulled the whole way, towards the mirror and then
+  /// away from it, where it would have turned round: the speed across the mirror gives back what that was too
   /// much.
-  std::shared_ptr<Relocation> make_mirrors(std::function<Vec(Real t)> gravity) const;
+  std::shared_ptr<Relocation> make_mirrors(Acceleration loads) const;
   /// Brings back particles [0, n) that are outside.
   void bring_back(World& world, Index n);
-  /// Sum of mass times shift of the active particles that the last call brought back through periodic planes
-  /// [ML]
-  const Vec& brought_back() const { return brought_back_; }
+  /// Of each part, sum of mass times shift of the active particles that the last call brought back through
+  /// periodic planes [ML]
+  const std::map<Index, Vec>& brought_back() const { return brought_back_; }
 
   /// Finds which particles [0, moving) have images within `support` + `skin` of the planes, makes room for
   /// them and puts them there; nothing of earlier images is kept. Throws RunError where h has grown so much
@@ -93,7 +97,7 @@ class Images : public Exchanger {
   std::vector<Motion> mirror_;          ///< of each plane; periodic ones: the shift by +period
   std::vector<Index> source_, motion_;  ///< of each image: the particle, and an index of motions_
   std::vector<Motion> motions_;         ///< the first one is none
-  Vec brought_back_ = Vec::Zero();
+  std::map<Index, Vec> brought_back_;
   std::vector<Index> scratch_;
 };
 

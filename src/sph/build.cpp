@@ -129,7 +129,11 @@ class Builder {
     const auto* c = deck_.last<CourantDensityDiffusion>();
     if (c == nullptr) return;
     settings_.density_diffusion = c->delta;
-    settings_.gravity = gravity_of(model_.body_loads);
+    settings_.loads = acceleration_of_particles(model_);
+    if (settings_.loads.by_parts())
+      deck_.error(diagnostics_, *c, "DELTA",
+                  "density diffusion takes body loads that act on all SPH parts alike, which these do not",
+                  "let loads act on all SPH parts or on none, or leave the card out");
     const Real most = most_diffusion * std::min(Real(1), stiffness<CubicSpline>() /
                                                              with_kernel(settings_.kernel, [&](auto kernel) {
                                                                return stiffness<decltype(kernel)>();
@@ -271,7 +275,7 @@ class Builder {
     });
     if (settings_.dim == 2) {
       report_off_plane();
-      warn_of_loads_along_z(deck_, diagnostics_);
+      check_body_loads_2d(deck_, diagnostics_);
       report_other_unit_of_length();
     }
   }

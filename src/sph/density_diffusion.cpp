@@ -44,36 +44,42 @@ class DensityDiffusion : public Rate {
   Field<Real>& rate_;
 };
 
-/// -g.x as pair loops read it of neighbours.
-class GravityPotential : public Preparation, public Refresh {
+/// The potential of body loads as pair loops read it of neighbours.
+class LoadPotential : public Preparation, public Refresh {
  public:
-  GravityPotential(const SphSettings& s, World& world)
-      : gravity_(s.gravity), potential_(sph_fields::potential(world.particles)) {}
-  std::string name() const override { return "gravity's potential"; }
+  LoadPotential(const SphSettings& s, World& world)
+      : loads_(s.loads), potential_(sph_fields::potential(world.particles)) {}
+  std::string name() const override { return "potential of body loads"; }
   void declare(const World& world, Accesses& a) const override {
     a.reads(world.particles.x).writes(potential_);
+    if (!loads_.uniform()) a.reads(world.particles.part);
   }
-  void start(World&, const Clock& clock) override { g_ = gravity_(clock.t + clock.dt); }
+  void start(World&, const Clock& clock) override { now_ = loads_.at(clock.t + clock.dt); }
   void block(World& world, const Clock&, Index begin, Index end) override {
     const Field<Real>& x = world.particles.x;
-    for (Index i = begin; i < end; ++i) potential_[i] = -g_.dot(x.vec(i));
+    if (loads_.uniform()) {
+      const Vec g = now_.everywhere();
+      for (Index i = begin; i < end; ++i) potential_[i] = -g.dot(x.vec(i));
+    } else {
+      for (Index i = begin; i < end; ++i) potential_[i] = now_.potential(x.vec(i), world.particles.part[i]);
+    }
   }
   void refreshed(World& world, const Clock& clock, std::span<const Index>) override {
-    g_ = gravity_(clock.t);
+    now_ = loads_.at(clock.t);
     for_each_block(world.particles.moving, [&](Index begin, Index end) { block(world, clock, begin, end); });
   }
 
  private:
-  std::function<Vec(Real t)> gravity_;
+  BodyAcceleration loads_;
+  BodyAcceleration::At now_;
   Field<Real>& potential_;
-  Vec g_ = Vec::Zero();
 };
 
 }  // namespace
 
 void add_density_diffusion(const SphSettings& s, World& world) {
   world.passes.add(std::make_shared<DensityDiffusion>(s, world));
-  world.passes.add(std::make_shared<GravityPotential>(s, world));
+  world.passes.add(std::make_shared<LoadPotential>(s, world));
 }
 
 }  // namespace courant

@@ -10,11 +10,10 @@
 
 namespace courant {
 
-Drift::Drift(DriftRules rules, std::vector<ImagePlane> mirrors, std::function<Vec(Real t)> gravity,
-             World& world)
+Drift::Drift(DriftRules rules, std::vector<ImagePlane> mirrors, BodyAcceleration loads, World& world)
     : rules_(std::move(rules)),
       mirrors_(std::move(mirrors)),
-      gravity_(std::move(gravity)),
+      loads_(std::move(loads)),
       velocity_(drift_velocity(world.particles, rules_.statistics)),
       drifted_(sph_fields::drifted(world.particles)),
       near_wall_(world.particles.fields.add<Index>({.name = "near_wall", .dimension = "-"})) {
@@ -44,6 +43,7 @@ void Drift::declare(const World& world, Accesses& a) const {
     a.updates(drifted_);
   for (const char* name : {"fixed", "prescribed_motion"})
     if (const FieldBase* field = p.fields.find(name)) a.reads(*field);
+  if (!loads_.uniform()) a.reads(p.part);
   if (!rules_.correct) return;
   a.updates(p.v);
   for (const Field<Real>* gradient : velocity_gradient_) a.reads(*gradient);
@@ -53,7 +53,7 @@ void Drift::start(World& world, const Clock& clock) {
   const FieldSet& fields = world.particles.fields;
   fixed_ = dynamic_cast<const Field<Index>*>(fields.find("fixed"));
   driven_ = dynamic_cast<const Field<Index>*>(fields.find("prescribed_motion"));
-  g_ = gravity_(clock.t + clock.dt);
+  now_ = loads_.at(clock.t + clock.dt);
   sums_.assign(static_cast<std::size_t>(block_count(world.particles.moving)), {});
 }
 
@@ -69,9 +69,9 @@ void Drift::block(World& world, const Clock& clock, Index begin, Index end) {
       shift *= most / length;
       ++sums.shortened;
     }
+    sums.potential += p.m[i] * now_.rise(p.x.vec(i), shift, loads_.uniform() ? 0 : p.part[i]);
     p.x.add(i, shift);
     drifted_.add(i, shift / clock.dt);
-    sums.potential -= p.m[i] * g_.dot(shift);
     sums.farthest = std::max(sums.farthest, shift.norm() / p.h[i]);
     if (rules_.correct) correct(p, i, shift, sums);
   }
@@ -129,9 +129,9 @@ void note_farthest(World& world, const std::string& statistic, Real value) {
   if (std::abs(value) > std::abs(farthest)) farthest = value;
 }
 
-void add_drifts(const SphSettings& s, const std::function<Vec(Real t)>& gravity, World& world) {
+void add_drifts(const SphSettings& s, const BodyAcceleration& loads, World& world) {
   const auto add = [&](DriftRules rules) {
-    world.passes.add(std::make_shared<Drift>(std::move(rules), s.mirrors, gravity, world));
+    world.passes.add(std::make_shared<Drift>(std::move(rules), s.mirrors, loads, world));
   };
   constexpr Real longest_shift = 0.1;
   const bool shifts = s.shift.strength > 0;

@@ -1,12 +1,12 @@
 #pragma once
 // Particles that move besides their velocity: shifting and XSPH.
 #include <array>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "loads/body_acceleration.hpp"
 #include "search/images.hpp"
 #include "sph/drift_loops.hpp"
 #include "state/world.hpp"
@@ -29,7 +29,7 @@ struct DriftRules {
 /// counts as dissipated.
 class Drift : public Relocation, public Refresh {
  public:
-  Drift(DriftRules rules, std::vector<ImagePlane> mirrors, std::function<Vec(Real t)> gravity, World& world);
+  Drift(DriftRules rules, std::vector<ImagePlane> mirrors, BodyAcceleration loads, World& world);
   std::string name() const override { return rules_.name; }
   void declare(const World& world, Accesses& a) const override;
   void start(World& world, const Clock& clock) override;
@@ -50,12 +50,12 @@ class Drift : public Relocation, public Refresh {
 
   DriftRules rules_;
   std::vector<ImagePlane> mirrors_;
-  std::function<Vec(Real)> gravity_;
+  BodyAcceleration loads_;
+  BodyAcceleration::At now_;
   Field<Real>&velocity_, &drifted_;
   Field<Index>& near_wall_;
   std::array<Field<Real>*, 3> velocity_gradient_{};  ///< null: no corrections
   const Field<Index>*fixed_ = nullptr, *driven_ = nullptr;
-  Vec g_ = Vec::Zero();
   std::vector<Sums> sums_;
 };
 

@@ -228,7 +228,13 @@ class Builder {
     o.axis = std::abs(card.dir) - 1, o.sign = card.dir > 0 ? 1 : -1;
     if (o.axis >= settings_.dim)
       return refuse(card, "DIR", "in 2D nothing flows along z", "use 1, -1, 2 or -2");
-    const Vec g = gravity_at(model_.body_loads, 0);
+    const BodyAcceleration loads = acceleration_of_particles(model_);
+    if (!loads.uniform())
+      return refuse(
+          card, "DIR",
+          "body loads that turn, or act on some of the SPH parts, leave no depth of the water to keep",
+          "give gravity by *LOAD_BODY, and leave those loads or the outlet out");
+    const Vec g = loads.at(0).everywhere();
     int across = 0;
     for (int k = 0; k < settings_.dim; ++k)
       if (k != o.axis && g[k] != 0) o.up = k, ++across;
@@ -240,8 +246,8 @@ class Builder {
                       across == 0 ? "no component" : "two components"),
           "give gravity by one *LOAD_BODY across the flow; one more along it may stand for a slope");
     const Real down = g[o.up] < 0 ? -1 : 1;
-    o.gravity = [loads = model_.body_loads, up = o.up, down](Real t) {
-      return std::max(Real(0), down * gravity_at(loads, t)[up]);
+    o.gravity = [loads, up = o.up, down](Real t) {
+      return std::max(Real(0), down * loads.at(t).everywhere()[up]);
     };
     for (int k = 0; k < settings_.dim; ++k)
       if (k != o.axis && k != o.up) o.width = o.high[k] - o.low[k];

@@ -167,6 +167,8 @@ void read_riemann(const Deck& deck, const Model& model,
   if (const std::string differ = parts_of_several_materials(model); !differ.empty())
     refuse("where SPH parts are of several materials: " + differ + ", and the flux is that of one liquid",
            "give all SPH parts one material and one equation of state, or leave the keyword out");
+  if (acceleration_of_particles(model).by_parts())
+    refuse("where body loads do not act on all SPH parts alike", "let them act on all or on none");
   if (refused) return;
   warn_of_viscosity<Hourglass>(deck, diagnostics);
   warn_of_viscosity<ControlBulkViscosity>(deck, diagnostics);
@@ -176,7 +178,7 @@ void read_riemann(const Deck& deck, const Model& model,
   RiemannFlux flux{.eta = c->eta > 0 ? c->eta : without_limiter};
   if (liquid != model.parts.end()) flux.pc = material(static_cast<Index>(liquid - model.parts.begin())).pc;
   s.viscosity = flux;
-  s.gravity = gravity_of(model.body_loads);
+  s.loads = acceleration_of_particles(model);
   for (PartViscosity& q : s.q) q = {.q1 = 1, .q2 = 0};
 }
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "keyword/deck.hpp"
+#include "loads/body_acceleration.hpp"
 #include "model/model.hpp"
 #include "search/neighbours.hpp"
 #include "sph/kernel_choice.hpp"
@@ -92,10 +93,10 @@ struct SphSettings {
   std::vector<char> heat_in_internal;  ///< per part; empty if in none
   Real tssfac = 0.9;
   Real geometry_eps = 0;  ///< *COURANT_PAIR_GEOMETRY: relative motion, of h, over which gradients are kept
-  Real density_diffusion = 0;          ///< *COURANT_DENSITY_DIFFUSION: delta; 0: none
-  std::function<Vec(Real t)> gravity;  ///< acceleration at a time, for the diffusion of density [L/T2]
-  Real volume_tau = 0;                 ///< *COURANT_VOLUME_CONTROL: TAU [T]; 0: none
-  SupportedWalls walls;                ///< *COURANT_WALL_SUPPORT
+  Real density_diffusion = 0;  ///< *COURANT_DENSITY_DIFFUSION: delta; 0: none
+  BodyAcceleration loads;      ///< without what is along a period: for the diffusion of density
+  Real volume_tau = 0;         ///< *COURANT_VOLUME_CONTROL: TAU [T]; 0: none
+  SupportedWalls walls;        ///< *COURANT_WALL_SUPPORT
   ReinitialisationRules reinitialisation;
   ShiftRules shift;
   std::vector<ImagePlane> mirrors;  ///< symmetry planes, along which alone particles near them drift
@@ -174,8 +175,8 @@ ReinitialisationRules read_density_reinitialisation(const Deck&, const Model&, D
 void add_density_reinitialisation(const SphSettings&, World&, std::shared_ptr<Neighbours>,
                                   std::shared_ptr<PairVolumes>);
 /// Adds the motions by which particles drift, behind that by their velocity; what sets the velocities of
-/// drift comes with `add_sph_passes`. `gravity`: the acceleration at a time [L/T2].
-void add_drifts(const SphSettings&, const std::function<Vec(Real t)>& gravity, World&);
+/// drift comes with `add_sph_passes`.
+void add_drifts(const SphSettings&, const BodyAcceleration& loads, World&);
 /// Adds to the rates what the last drift did to the density; `add_shifting` does so, too.
 void add_drift_rate(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);
 /// Adds to the rates what shifts particles.
@@ -192,15 +193,6 @@ std::shared_ptr<Preparation> make_smoothing_length(const SphSettings&, World&);
 /// Eq. 18; the first of the world's time limits.
 void add_sph_time_limit(const SphSettings&, const Model&, World&);
 std::shared_ptr<EnergyTerm> make_sph_energy(const SphSettings&, World&, std::shared_ptr<Neighbours>);
-std::shared_ptr<Force> make_gravity(const Model&, World&, std::shared_ptr<Neighbours>);
-/// Acceleration that LOAD_BODY_X/Y/Z give to everything at time t [L/T2].
-Vec gravity_at(const std::vector<BodyLoad>& loads, Real t);
-/// The same as a function of time.
-std::function<Vec(Real t)> gravity_of(std::vector<BodyLoad> loads);
-/// In 2D they do nothing.
-void warn_of_loads_along_z(const Deck&, Diagnostics&);
-/// nullptr where no particle is fixed. Call while particles stand in the order of the model.
-std::shared_ptr<Constraint> make_fixed_particles(const Model&, World&);
 std::shared_ptr<Constraint> make_speed_limit(const SphSettings&, std::shared_ptr<Neighbours>);
 
 }  // namespace courant

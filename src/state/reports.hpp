@@ -9,12 +9,12 @@ namespace courant {
 /// Force by which a boundary condition acts on what it drives or holds, at t^n.
 struct BoundaryForce {
   enum class Kind {
-    driven_particle,  ///< *BOUNDARY_PRESCRIBED_MOTION_NODE, _SET
-    driven_body,      ///< *BOUNDARY_PRESCRIBED_MOTION_RIGID
-    held_particle,    ///< *BOUNDARY_SPC
+    driven_point,  ///< *BOUNDARY_PRESCRIBED_MOTION_NODE, _SET
+    driven_body,   ///< *BOUNDARY_PRESCRIBED_MOTION_RIGID
+    held_point,    ///< *BOUNDARY_SPC
   };
-  Kind kind = Kind::driven_particle;
-  Id id = 0;                                      ///< of the particle, or the body's part
+  Kind kind = Kind::driven_point;
+  Id id = 0;                                      ///< of the particle or node, or the body's part
   Vec force = Vec::Zero(), moment = Vec::Zero();  ///< [ML/T2], [ML2/T2]
   Real work = 0;                                  ///< done so far [ML2/T2]
 };

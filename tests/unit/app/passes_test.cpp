@@ -57,10 +57,12 @@ const Lists bare{{"rate sph rates", "rate sph rates of partners", "material eos 
                   "viscous stress MU is 0 in all SPH materials",
                   "speed limit MAXV none given",
                   "computational box no BOXID",
-                  "gravity no *LOAD_BODY",
+                  "body loads no *LOAD_BODY",
+                  "nodal forces no particle in *LOAD_NODE",
                   "level outlet no *COURANT_LEVEL_OUTLET",
                   "contact no *CONTACT",
                   "fixed particles no particle in *BOUNDARY_SPC",
+                  "damping no *DAMPING",
                   "rigid bodies no *MAT_RIGID",
                   "field states no *DATABASE_BINARY_D3PLOT",
                   "glstat no *DATABASE_GLSTAT",
@@ -121,15 +123,15 @@ TEST(Passes, AnotherKernelIsNamed) {
 TEST(Passes, Gravity) {
   SmallScene scene;
   scene.extra = test::gravity_cards;
-  expect_change(scene, {"gravity"}, {"force gravity", "energy gravity"});
+  expect_change(scene, {"body loads"}, {"force body loads", "energy body loads"});
 }
 
 TEST(Passes, LevelOutlet) {
   SmallScene scene;
   scene.extra = std::string(test::gravity_cards) +
                 "*DEFINE_BOX\n7,0.,0.6,0.,1.,-1.,1.\n*COURANT_LEVEL_OUTLET\n7,0.4,0.05\n";
-  expect_change(scene, {"gravity", "level outlet"},
-                {"force gravity", "energy gravity", "force level outlet 7", "time limit level outlet 7",
+  expect_change(scene, {"body loads", "level outlet"},
+                {"force body loads", "energy body loads", "force level outlet 7", "time limit level outlet 7",
                  "energy level outlet 7"});
 }
 
@@ -206,7 +208,7 @@ TEST(Passes, ImagesBehindAPlane) {
 TEST(Passes, DensityDiffusion) {
   SmallScene scene;
   scene.extra = "*COURANT_DENSITY_DIFFUSION\n0.1\n";
-  expect_change(scene, {"density diffusion"}, {"rate density diffusion", "motion gravity's potential"});
+  expect_change(scene, {"density diffusion"}, {"rate density diffusion", "motion potential of body loads"});
   scene.extra = "*COURANT_VOLUME_CONTROL\n0.1\n";
   expect_change(scene, {"volume control"}, {"rate volume control"});
   scene.extra = "*COURANT_DENSITY_REINITIALISATION\n20\n";
@@ -225,7 +227,7 @@ TEST(Passes, RiemannFlux) {
   scene.extra = "*COURANT_RIEMANN\n3.\n";
   expect_change(scene, {"Riemann flux", "bulk viscosity"},
                 {"rate Riemann flux (momentum)", "rate Riemann flux (density)", "force Riemann flux (mass)",
-                 "time limit Riemann flux (mass)", "motion gravity's potential"},
+                 "time limit Riemann flux (mass)", "motion potential of body loads"},
                 {"bulk viscosity *COURANT_RIEMANN takes the place of viscosity"});
 }
 

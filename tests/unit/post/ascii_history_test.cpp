@@ -111,9 +111,9 @@ Sample sample(int k) {
     b.work = 7 * a;
     return b;
   };
-  s.boundary_forces = {force(BoundaryForce::Kind::driven_particle, 30, 1.5),
+  s.boundary_forces = {force(BoundaryForce::Kind::driven_point, 30, 1.5),
                        force(BoundaryForce::Kind::driven_body, 30, -2.5),
-                       force(BoundaryForce::Kind::held_particle, 20, 3.5)};
+                       force(BoundaryForce::Kind::held_point, 20, 3.5)};
   return s;
 }
 

@@ -163,7 +163,7 @@ TEST(Images, WhatGoesThroughAMirrorComesBackAsItsImage) {
   images.bring_back(world, 1);
   EXPECT_LT((p.x.vec(0) - Vec(0.7, 0, 0)).norm(), 1e-15);
   EXPECT_LT((p.v.vec(0) - Vec(1, 2, 0)).norm(), 1e-15);
-  EXPECT_EQ(images.brought_back()[0], 0);
+  EXPECT_TRUE(images.brought_back().empty());
   EXPECT_EQ(world.counters.at("mirror_crossings"), 1);
   images.bring_back(world, 1);
   EXPECT_EQ(world.counters.at("mirror_crossings"), 1);

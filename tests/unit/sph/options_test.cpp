@@ -5,6 +5,7 @@
 
 #include "cloud.hpp"
 #include "liquid.hpp"
+#include "loads/loads.hpp"
 #include "sph/fields.hpp"
 #include "time/point_motion.hpp"
 #include "time/step.hpp"
@@ -148,9 +149,9 @@ TEST(FixedParticles, HoldTheirDirectionsOnly) {
   Model model;
   model.nodes.resize(8);
   for (Index i = 0; i < 8; ++i) model.sph.push_back({i, 0, 1.0, {}});
-  EXPECT_EQ(make_fixed_particles(model, cloud.world), nullptr);
+  EXPECT_EQ(make_fixed_points(model, points_of(cloud.world.particles), cloud.world), nullptr);
   model.nodes[5].fixed = {true, false, true};
-  auto pass = make_fixed_particles(model, cloud.world);
+  auto pass = make_fixed_points(model, points_of(cloud.world.particles), cloud.world);
   ASSERT_NE(pass, nullptr);
   cloud.refresh();
   for (Index i = 0; i < 8; ++i)
@@ -200,7 +201,7 @@ TEST(ParticleMotion, RimParticlesGoOnWithTheirVelocityAndFeelNoForce) {
   Model model;
   model.body_loads.push_back(
       {.direction = Vec::UnitY(), .curve = {.id = 1, .abscissa = {0, 1}, .ordinate = {1, 1}}});
-  w.passes.add(make_gravity(model, w, cloud.neighbours));
+  w.passes.add(make_body_load(acceleration_of_particles(model), points_of(w.particles), w, cloud.neighbours));
   w.passes.add(make_clear_forces(points_of(w.particles)));
   w.passes.add(make_point_motion(points_of(w.particles)));
   w.passes.add(std::make_shared<ConstantStep>(1e-4));
@@ -232,7 +233,7 @@ TEST(Gravity, ALoadCurveThatChangesDoesExternalWork) {
   Model model;
   model.body_loads.push_back(
       {.direction = Vec::UnitY(), .curve = {.id = 1, .abscissa = {0, 0.5, 1}, .ordinate = {0, 9.81, 2}}});
-  w.passes.add(make_gravity(model, w, cloud.neighbours));
+  w.passes.add(make_body_load(acceleration_of_particles(model), points_of(w.particles), w, cloud.neighbours));
   w.passes.add(make_sph_energy(cloud.settings, w, cloud.neighbours));
   w.passes.add(make_clear_forces(points_of(w.particles)));
   w.passes.add(make_point_motion(points_of(w.particles)));

@@ -4,6 +4,7 @@
 
 #include "../sph/cloud.hpp"
 #include "base/run_error.hpp"
+#include "loads/loads.hpp"
 #include "time/point_motion.hpp"
 
 using namespace courant;
@@ -29,7 +30,8 @@ TEST(Step, FreeFallIsExactWithChangingSteps) {
   Cloud cloud(2, 1, 0.01, 0);
   Model model;
   model.body_loads.push_back({.direction = Vec::UnitY(), .curve = constant(9.81)});
-  cloud.world.passes.add(make_gravity(model, cloud.world, cloud.neighbours));
+  cloud.world.passes.add(make_body_load(acceleration_of_particles(model), points_of(cloud.world.particles),
+                                        cloud.world, cloud.neighbours));
   cloud.world.passes.add(make_clear_forces(points_of(cloud.world.particles)));
   cloud.world.passes.add(make_point_motion(points_of(cloud.world.particles)));
   cloud.world.passes.add(std::make_shared<ChangingSteps>());

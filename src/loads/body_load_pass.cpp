@@ -1,0 +1,125 @@
+// *LOAD_BODY and *LOAD_GRAVITY_PART as forces on points.
+#include "loads/loads.hpp"
+#include "parallel/parallel.hpp"
+#include "state/keeper.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Potential energy is sum m phi(x, t), phi that of BodyAcceleration; where the loads change in time or
+/// particles enter and leave, the difference is external work.
+class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Keeper {
+ public:
+  BodyLoadPass(BodyAcceleration acceleration, Points points, World& world,
+               std::shared_ptr<Neighbours> neighbours)
+      : acceleration_(std::move(acceleration)), points_(points), neighbours_(std::move(neighbours)) {
+    // heights count from the lowest point against gravity
+    const Vec g = acceleration_.at(0).everywhere();
+    bool any = false;
+    for (Index i = 0; i < points_.set->size(); ++i) {
+      if (!acts_on(i)) continue;
+      const Vec x = points_.x->vec(i);
+      if (!any || -g.dot(x) < -g.dot(origin_)) origin_ = x;
+      any = true;
+    }
+    particles_ = points_.set == &world.particles.fields;
+  }
+  std::string name() const override {
+    return particles_ ? "body loads" : "body loads of " + points_.fields().name();
+  }
+  const FieldSet& over(const World&) const override { return points_.fields(); }
+  void declare(const World&, Accesses& a) const override {
+    a.reads(*points_.m).updates(*points_.f);
+    if (points_.follow) a.reads(*points_.follow);
+    if (acceleration_.uniform()) return;
+    a.reads(*points_.x);
+    if (points_.part) a.reads(*points_.part);
+  }
+
+  void start(World&, const Clock& clock) override { now_ = acceleration_.at(clock.t); }
+  void block(World&, const Clock&, Index begin, Index end) override {
+    if (acceleration_.uniform()) return add_uniform(now_.everywhere(), begin, end);
+    for (Index i = begin; i < end; ++i)
+      if (acts_on(i)) points_.f->add(i, (*points_.m)[i] * now_(points_.x->vec(i), part_of(i)));
+  }
+
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
+    const BodyAcceleration::At change = acceleration_.change(clock.t, clock.t + clock.dt);
+    if (change.zero()) return;
+    const Real work = potential(world, change);
+    ledger.external_work += work;
+    ledger.throughput += std::abs(work);
+  }
+  void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override {
+    ledger.potential += potential(world, acceleration_.at(clock.t));
+  }
+
+  void refreshed(World& world, const Clock& clock, std::span<const Index>) override {
+    if (!neighbours_) return;
+    const BodyAcceleration::At now = acceleration_.at(clock.t);
+    if (!first_) {  // at once: from now on the potential energy is that of the other particles
+      Real exchanged = 0;
+      for (const Index i : neighbours_->entered()) exchanged += potential_of(now, i);
+      for (const Index i : neighbours_->left()) exchanged -= potential_of(now, i);
+      if (neighbours_->images()) exchanged += rise_of_brought_back(now, *neighbours_->images());
+      world.energy.external_work += exchanged;
+      world.energy.throughput += std::abs(exchanged);
+    }
+    first_ = false;
+  }
+
+  void keep(Archive& archive) override {
+    archive("origin", origin_);
+    archive("first", first_);
+  }
+
+ private:
+  bool acts_on(Index i) const { return !points_.follow || !(*points_.follow)[i]; }
+  Index part_of(Index i) const { return points_.part ? (*points_.part)[i] : -1; }
+
+  void add_uniform(const Vec& g, Index begin, Index end) {
+    for (int k = 0; k < 3; ++k) {
+      if (g[k] == 0) continue;
+      Real* f = points_.f->data(k);
+      const Real *m = points_.m->data(), gk = g[k];
+      if (points_.follow) {
+        const Index* follow = points_.follow->data();
+        for (Index i = begin; i < end; ++i) f[i] += follow[i] ? 0 : m[i] * gk;
+      } else {
+        for (Index i = begin; i < end; ++i) f[i] += m[i] * gk;
+      }
+    }
+  }
+
+  // Loads that are not uniform do not change along a period (check_body_loads_periodic).
+  static Real rise_of_brought_back(const BodyAcceleration::At& now, const Images& images) {
+    Real sum = 0;
+    for (const auto& [part, shift] : images.brought_back()) sum += now.rise(Vec::Zero(), shift, part);
+    return sum;
+  }
+
+  Real potential_of(const BodyAcceleration::At& now, Index i) const {
+    return acts_on(i) ? (*points_.m)[i] * now.rise(origin_, points_.x->vec(i) - origin_, part_of(i)) : 0;
+  }
+  Real potential(const World& world, const BodyAcceleration::At& now) const {
+    return sum(loaded_points(points_, world), [&](Index i) { return potential_of(now, i); });
+  }
+
+  BodyAcceleration acceleration_;
+  BodyAcceleration::At now_;
+  Points points_;
+  std::shared_ptr<Neighbours> neighbours_;
+  bool particles_ = false;
+  Vec origin_ = Vec::Zero();
+  bool first_ = true;
+};
+
+}  // namespace
+
+std::shared_ptr<Force> make_body_load(BodyAcceleration acceleration, Points points, World& world,
+                                      std::shared_ptr<Neighbours> neighbours) {
+  return std::make_shared<BodyLoadPass>(std::move(acceleration), points, world, std::move(neighbours));
+}
+
+}  // namespace courant

@@ -1,0 +1,248 @@
+// *DAMPING_GLOBAL and *DAMPING_PART_MASS: forces against the velocity, in proportion to the mass.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "loads/loads.hpp"
+#include "loads/middle_velocity.hpp"
+#include "model/transformation.hpp"
+#include "parallel/parallel.hpp"
+
+namespace courant {
+
+namespace {
+
+struct DampingCard : Entry {
+  Id lcid = 0;
+  Real stx = 0, sty = 0, stz = 0, srx = 0, sry = 0, srz = 0;
+  Vec scale() const { return {stx, sty, stz}; }
+};
+struct DampingGlobal : DampingCard {
+  Real valdmp = 0;
+};
+struct DampingPartMass : DampingCard {
+  bool of_sets() const { return name == 1; }
+  Id pid = 0;
+  Real sf = 0;
+  int flag = 0;
+};
+
+std::string keep_scales(const Vec& scale, const Affine& motion) {
+  if (scale == Vec::Constant(scale[0]) || motion.linear() == Matrix::Identity()) return {};
+  return "its scales are along axes, which a transformation that turns or stretches the file would change";
+}
+
+using DG = DampingGlobal;
+const RegisterKeyword<DG> damping_global_keyword{
+    {.names = {"DAMPING_GLOBAL"},
+     .purpose = "damping force -D m v on all that moves",
+     .once = true,
+     .many = false,
+     .cards = {{.fields = {{"LCID", &DG::lcid, "-", "curve of D over time, 0 constant",
+                            rules::optional_id_of(IdSpace::curve)},
+                           {"VALDMP",
+                            &DG::valdmp,
+                            "1/T",
+                            "constant D, where there is no curve",
+                            {.check = Check::not_negative}},
+                           {"STX", &DG::stx, "-", "scale of D along x; all six 0: 1"},
+                           {"STY", &DG::sty, "-", "scale of D along y"},
+                           {"STZ", &DG::stz, "-", "scale of D along z"},
+                           {"SRX", &DG::srx, "-", "scale on rotations, which nothing has here"},
+                           {"SRY", &DG::sry, "-", "scale on rotations"},
+                           {"SRZ", &DG::srz, "-", "scale on rotations"}}}},
+     .move = [](DG& card, const Affine& motion) { return keep_scales(card.scale(), motion); }}};
+
+using DP = DampingPartMass;
+const RegisterKeyword<DP> damping_part_mass_keyword{
+    {.names = {"DAMPING_PART_MASS", "DAMPING_PART_MASS_SET"},
+     .purpose = "damping force -D m v on parts",
+     .cards = {{.fields = {{"PID",
+                            &DP::pid,
+                            "-",
+                            "part id; _SET: part set id",
+                            {.required = true, .check = Check::positive},
+                            [](const DP& card) {
+                              return card.of_sets() ? IdSpace::part_set : IdSpace::part;
+                            }},
+                           {"LCID", &DP::lcid, "-", "curve of D over time [1/T]",
+                            rules::required_id_of(IdSpace::curve)},
+                           {"SF", &DP::sf, "-", "scale of the curve", rules::or_blank(1)},
+                           {"FLAG", &DP::flag, "-", "1: a card of scales follows", {.allowed = {0, 1}}}}},
+               {.fields = {{"STX", &DP::stx, "-", "scale of D along x"},
+                           {"STY", &DP::sty, "-", "scale of D along y"},
+                           {"STZ", &DP::stz, "-", "scale of D along z"},
+                           {"SRX", &DP::srx, "-", "scale on rotations, which nothing has here"},
+                           {"SRY", &DP::sry, "-", "scale on rotations"},
+                           {"SRZ", &DP::srz, "-", "scale on rotations"}},
+                .when = [](const DP& card) { return card.flag == 1; }}},
+     .move = [](DP& card, const Affine& motion) { return keep_scales(card.scale(), motion); }}};
+
+class DampingReader {
+ public:
+  DampingReader(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), diagnostics_(diagnostics) {
+    for (Index i = 0; i < world.nodes.size(); ++i)
+      body_moves_ = body_moves_ || (world.nodes.follow[i] && !world.nodes.held[i]);
+  }
+
+  void add(const DampingGlobal& card) {
+    Damping d{.curve = {}, .sf = card.valdmp, .scale = card.scale(), .parts = {}};
+    if (d.scale.isZero(0) && card.srx == 0 && card.sry == 0 && card.srz == 0) d.scale = Vec::Ones();
+    if (card.lcid != 0) d.sf = 1;
+    if (!read_curve(card, d)) return;
+    if (body_moves_)
+      return error(card, "", "damping of rigid bodies is not supported, and there is one that can move",
+                   "name the other parts by *DAMPING_PART_MASS");
+    damping_.push_back(std::move(d));
+  }
+  void add(const DampingPartMass& card) {
+    Damping d{.curve = {}, .sf = card.sf, .scale = card.flag == 1 ? card.scale() : Vec::Ones(), .parts = {}};
+    if (!read_curve(card, d)) return;
+    if (card.of_sets()) {
+      const auto set = model_.part_sets.find(card.pid);
+      if (set == model_.part_sets.end())
+        return error(card, "PID", fmt::format("part set {} does not exist", card.pid),
+                     "define it with *SET_PART");
+      d.parts = set->second;
+    } else {
+      const auto part = model_.part_of_id.find(card.pid);
+      if (part == model_.part_of_id.end())
+        return error(card, "PID", fmt::format("part {} does not exist", card.pid), "define it with *PART");
+      d.parts = {part->second};
+    }
+    std::sort(d.parts.begin(), d.parts.end());
+    for (const Index p : d.parts) {
+      const ModelPart& part = model_.parts[static_cast<std::size_t>(p)];
+      if (part.has_shell && body_moves_)
+        return error(card, "PID", fmt::format("damping of rigid bodies is not supported: part {}", part.id),
+                     "name particles and deformable parts only");
+      if (!seen_.insert(p).second)
+        return error(card, "PID", fmt::format("part {} is damped twice", part.id), "name each part once");
+    }
+    if (!d.parts.empty()) damping_.push_back(std::move(d));
+  }
+  std::vector<Damping> finish() { return std::move(damping_); }
+
+ private:
+  void error(const Entry& card, const char* field, std::string message, std::string hint) {
+    deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
+  }
+  bool read_curve(const DampingCard& card, Damping& d) {
+    if (card.lcid != 0) {
+      const auto curve = model_.curves.find(card.lcid);
+      if (curve == model_.curves.end()) {
+        error(card, "LCID", fmt::format("curve {} does not exist", card.lcid),
+              "define it with *DEFINE_CURVE");
+        return false;
+      }
+      d.curve = curve->second;
+    }
+    const auto& values = d.curve.ordinate;
+    const Real least = values.empty() ? 1 : *std::min_element(values.begin(), values.end());
+    const Real most = values.empty() ? 1 : *std::max_element(values.begin(), values.end());
+    if (std::min(least * d.sf, most * d.sf) >= 0 && d.scale.minCoeff() >= 0) return true;
+    error(card, "", "the damping constant gets below 0, which would drive what it acts on",
+          "give curves and scales that are not negative");
+    return false;
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  Diagnostics& diagnostics_;
+  bool body_moves_ = false;
+  std::set<Index> seen_;
+  std::vector<Damping> damping_;
+};
+
+/// With d = D dt/2: v+ = ((1 - d) v- + f dt/m)/(1 + d), which damps at any step; so f becomes
+/// (f - D m v-)/(1 + d). The step is not known yet: the one before stands for it, what is taken from the
+/// energy is counted with the kick that is done, and no step may be so much longer that v+ turns round.
+class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
+ public:
+  MassDamping(std::vector<Damping> damping, Points points) : damping_(std::move(damping)), points_(points) {
+    for (const Damping& d : damping_) by_parts_ = by_parts_ || !d.parts.empty();
+  }
+  std::string name() const override { return "damping of " + points_.fields().name(); }
+  const FieldSet& over(const World&) const override { return points_.fields(); }
+  void declare(const World&, Accesses& a) const override {
+    a.reads(*points_.v).reads(*points_.m).revises(*points_.f);
+    if (points_.follow) a.reads(*points_.follow);
+    if (by_parts_ && points_.part) a.reads(*points_.part);
+  }
+
+  void start(World&, const Clock& clock) override {
+    constants_.clear();
+    for (const Damping& d : damping_) constants_.push_back(d.at(clock.t) * d.scale);
+    half_ = 0.5 * clock.dt_old;
+  }
+  void block(World&, const Clock&, Index begin, Index end) override {
+    for (Index i = begin; i < end; ++i) {
+      if (points_.follow && (*points_.follow)[i]) continue;
+      const Vec D = constant(i);
+      for (int k = 0; k < 3; ++k) {
+        Real& f = points_.f->data(k)[i];
+        f = (f - D[k] * (*points_.m)[i] * points_.v->data(k)[i]) / (1 + D[k] * half_);
+      }
+    }
+  }
+
+  Limit limit(const World&, const Clock& clock) override {
+    Real most = 0;
+    for (const Vec& d : constants_) most += d.maxCoeff();
+    return {most > 0 ? clock.dt_old + 2 / most : std::numeric_limits<Real>::infinity(), name()};
+  }
+
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
+    const MiddleVelocity v(points_, clock);
+    const Real lost = sum(loaded_points(points_, world), [&](Index i) -> Real {
+      if (points_.follow && (*points_.follow)[i]) return 0;
+      const Vec D = constant(i);
+      const Vec force = D.cwiseProduct((*points_.m)[i] * points_.v->vec(i) + half_ * points_.f->vec(i));
+      return force.dot(v(i)) * clock.dt_mean();
+    });
+    ledger.dissipated += lost;
+    ledger.throughput += std::abs(lost);
+  }
+  void sample(const World&, const Clock&, EnergyLedger&) const override {}
+
+ private:
+  /// Of each axis [1/T]
+  Vec constant(Index i) const {
+    Vec sum = Vec::Zero();
+    const Index part = by_parts_ && points_.part ? (*points_.part)[i] : -1;
+    for (std::size_t k = 0; k < damping_.size(); ++k) {
+      const std::vector<Index>& parts = damping_[k].parts;
+      if (parts.empty() || std::binary_search(parts.begin(), parts.end(), part)) sum += constants_[k];
+    }
+    return sum;
+  }
+
+  std::vector<Damping> damping_;
+  Points points_;
+  bool by_parts_ = false;
+  std::vector<Vec> constants_;  ///< of each of them now [1/T]
+  Real half_ = 0;               ///< half of a step [T]
+};
+
+}  // namespace
+
+std::vector<Damping> damping_of(const Deck& deck, const Model& model, const World& world,
+                                Diagnostics& diagnostics) {
+  DampingReader reader(deck, model, world, diagnostics);
+  for (const DampingGlobal& card : deck.all<DampingGlobal>()) reader.add(card);
+  for (const DampingPartMass& card : deck.all<DampingPartMass>()) reader.add(card);
+  return reader.finish();
+}
+
+std::shared_ptr<Constraint> make_damping(std::vector<Damping> damping, Points points, World&) {
+  if (damping.empty()) return nullptr;
+  return std::make_shared<MassDamping>(std::move(damping), points);
+}
+
+}  // namespace courant

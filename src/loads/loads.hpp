@@ -1,0 +1,77 @@
+#pragma once
+// Loads and constraints for all that moves: each is one file, written once for Points. `points`: particles
+// while they stand in the order of the model, or nodes.
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "keyword/deck.hpp"
+#include "loads/body_acceleration.hpp"
+#include "model/model.hpp"
+#include "model/prescribed_motion.hpp"
+#include "search/neighbours.hpp"
+#include "state/points.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+/// Those on which loads act: active particles, all nodes.
+inline Index loaded_points(const Points& points, const World& world) {
+  return points.set == &world.particles.fields ? world.particles.active : points.set->size();
+}
+
+/// Of each point of the world, an index into Model::nodes.
+std::vector<Index> model_nodes(const Model& model, const World& world, const Points& points);
+
+/// m a of the body loads, and their energy. `neighbours`: of particles, who tells which of them come and go;
+/// null for nodes.
+std::shared_ptr<Force> make_body_load(BodyAcceleration acceleration, Points points, World& world,
+                                      std::shared_ptr<Neighbours> neighbours = nullptr);
+
+/// BOUNDARY_SPC and TC of *NODE. nullptr where no point is fixed, or only such as follow a rigid body.
+std::shared_ptr<Constraint> make_fixed_points(const Model& model, Points points, World& world);
+
+/// What prescribed motions of points have to respect.
+struct MotionLimits {
+  int dim = 3;
+  bool boxed = false;          ///< particles are in a computational box, outside of which nothing is driven
+  std::vector<Vec> mirrors{};  ///< normals of symmetry planes
+};
+/// Adds the passes that move particles and nodes as *BOUNDARY_PRESCRIBED_MOTION_NODE and _SET ask; false if
+/// none is driven. Refuses by name: nodes that are neither particles nor move by their forces, directions
+/// that are held or driven twice, motions out of the plane of a 2D scene or across a mirror, and a
+/// computational box.
+bool add_prescribed_points(const std::vector<PrescribedMotion>& motions, const Deck& deck, const Model& model,
+                           const MotionLimits& limits, World& world, Diagnostics& diagnostics);
+
+/// One direction of one *LOAD_NODE_POINT or _SET.
+struct NodalLoad {
+  Vec direction = Vec::Zero();  ///< unit
+  Curve curve{};                ///< of time
+  Real sf = 1;                  ///< SF curve(t): force on each node [ML/T2]
+  std::vector<Index> nodes{};   ///< indices into Model::nodes
+  Entry card{};                 ///< for messages
+};
+/// Refuses by name: follower loads, moments, systems that move, nodes that are neither particles nor move by
+/// their forces.
+std::vector<NodalLoad> nodal_loads(const Deck& deck, const Model& model, const World& world,
+                                   Diagnostics& diagnostics);
+/// nullptr where none acts on these points.
+std::shared_ptr<Force> make_nodal_loads(const std::vector<NodalLoad>& loads, const Model& model,
+                                        Points points, World& world);
+
+/// *DAMPING_GLOBAL and *DAMPING_PART_MASS: what they take of the velocity.
+struct Damping {
+  Curve curve{};               ///< of time; empty: constant
+  Real sf = 0;                 ///< SF curve(t), or SF alone: the damping constant [1/T]
+  Vec scale = Vec::Ones();     ///< of the axes
+  std::vector<Index> parts{};  ///< sorted; empty: all
+  Real at(Real t) const { return curve.abscissa.empty() ? sf : sf * curve(t); }
+};
+/// Refuses by name: rigid bodies, parts that are named twice, constants below 0.
+std::vector<Damping> damping_of(const Deck& deck, const Model& model, const World& world,
+                                Diagnostics& diagnostics);
+/// f -= c m v, with the v of the middle of the kick. nullptr where there is none.
+std::shared_ptr<Constraint> make_damping(std::vector<Damping> damping, Points points, World& world);
+
+}  // namespace courant

@@ -1,0 +1,227 @@
+// *LOAD_NODE_POINT and _SET: forces on particles and nodes.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "loads/loads.hpp"
+#include "loads/middle_velocity.hpp"
+#include "model/transformation.hpp"
+#include "parallel/parallel.hpp"
+
+namespace courant {
+
+namespace {
+
+struct LoadNodeCard : Entry {
+  Id nid = 0, lcid = 0, cid = 0, m1 = 0, m2 = 0, m3 = 0;
+  int dof = 0;
+  Real sf = 0;
+};
+struct LoadNodePoint : LoadNodeCard {
+  static constexpr const char* field = "NID";
+};
+struct LoadNodeSet : LoadNodeCard {
+  static constexpr const char* field = "NSID";
+};
+
+/// Directions are axes; those of a system of their own move with it.
+std::string keep_force_axes(const LoadNodeCard& card, const Affine& motion) {
+  if (card.cid != 0 || motion.linear() == Matrix::Identity()) return {};
+  return "its direction is an axis, which a transformation that turns or stretches the file would change";
+}
+
+template <class T>
+KeywordOf<T> load_node_keyword(std::string name, std::string purpose, IdSpace refers) {
+  using namespace rules;
+  return {.names = {std::move(name)},
+          .purpose = std::move(purpose),
+          .cards = {{.fields = {{T::field, &T::nid, "-", "where it acts", required_id_of(refers)},
+                                {"DOF", &T::dof, "-", "direction: 1 x, 2 y, 3 z", {.required = true}},
+                                {"LCID", &T::lcid, "-", "curve of the force on each node over time",
+                                 required_id_of(IdSpace::curve)},
+                                {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
+                                {"CID",
+                                 &T::cid,
+                                 "-",
+                                 "system of the directions, 0 global",
+                                 {.check = Check::not_negative, .refers = IdSpace::coordinate_system}},
+                                {"M1", &T::m1, "-", "node of a follower load", no_effect},
+                                {"M2", &T::m2, "-", "node of a follower load", no_effect},
+                                {"M3", &T::m3, "-", "node of a follower load", no_effect}}}},
+          .move = [](T& card, const Affine& motion) { return keep_force_axes(card, motion); }};
+}
+const RegisterKeyword<LoadNodePoint> load_node_point_keyword{
+    load_node_keyword<LoadNodePoint>("LOAD_NODE_POINT", "force on a node", IdSpace::node)};
+const RegisterKeyword<LoadNodeSet> load_node_set_keyword{
+    load_node_keyword<LoadNodeSet>("LOAD_NODE_SET", "force on each node of a set", IdSpace::node_set)};
+
+class NodalLoadReader {
+ public:
+  NodalLoadReader(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
+    for (std::size_t n = 0; n < model.nodes.size(); ++n)
+      node_of_id_[model.nodes[n].id] = static_cast<Index>(n);
+    is_loaded_.assign(model.nodes.size(), 0);
+    for (const ModelSph& s : model.sph) is_loaded_[static_cast<std::size_t>(s.node)] = 1;
+    const Nodes& nodes = world.nodes;
+    for (Index i = 0; i < nodes.size(); ++i)
+      if (const auto n = node_of_id_.find(nodes.id[i]); n != node_of_id_.end() && !nodes.follow[i])
+        is_loaded_[static_cast<std::size_t>(n->second)] = 1;
+  }
+
+  void add(const LoadNodeCard& card, const char* field, std::vector<Index> nodes) {
+    NodalLoad load{.direction = {}, .curve = {}, .sf = card.sf, .nodes = std::move(nodes), .card = card};
+    const auto curve = model_.curves.find(card.lcid);
+    if (curve == model_.curves.end())
+      return error(card, "LCID", fmt::format("curve {} does not exist", card.lcid),
+                   "define it with *DEFINE_CURVE");
+    load.curve = curve->second;
+    if (!read_direction(card, load.direction)) return;
+    for (const Index n : load.nodes)
+      if (!is_loaded_[static_cast<std::size_t>(n)])
+        return error(card, field,
+                     fmt::format("node {} is neither a particle nor a node of deformable elements, on which "
+                                 "alone forces act",
+                                 model_.nodes[static_cast<std::size_t>(n)].id),
+                     "leave it out");
+    loads_.push_back(std::move(load));
+  }
+  void add(const LoadNodePoint& card) {
+    const auto n = node_of_id_.find(card.nid);
+    if (n == node_of_id_.end())
+      return error(card, "NID", fmt::format("node {} does not exist", card.nid), "define it with *NODE");
+    add(card, "NID", {n->second});
+  }
+  void add(const LoadNodeSet& card) {
+    const auto set = model_.node_sets.find(card.nid);
+    if (set == model_.node_sets.end())
+      return error(card, "NSID", fmt::format("node set {} does not exist", card.nid),
+                   "define it with *SET_NODE");
+    add(card, "NSID", set->second);
+  }
+  std::vector<NodalLoad> finish() { return std::move(loads_); }
+
+ private:
+  void error(const LoadNodeCard& card, const char* field, std::string message, std::string hint) {
+    deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
+  }
+
+  bool read_direction(const LoadNodeCard& card, Vec& direction) {
+    const int size = std::abs(card.dof);
+    if (card.dof < 1 || card.dof > 3) {
+      error(card, "DOF",
+            size == 4 || size == 8
+                ? fmt::format("a load that follows its nodes (DOF {}) is not supported", card.dof)
+            : size >= 5 && size <= 7 ? fmt::format("a moment (DOF {}) is not supported", card.dof)
+                                     : fmt::format("expected 1, 2 or 3, got '{}'", card.dof),
+            "use DOF 1, 2, 3: a force along x, y, z");
+      return false;
+    }
+    Matrix axes = Matrix::Identity();
+    if (card.cid != 0) {
+      const auto system = model_.coordinate_systems.find(card.cid);
+      const bool known = system != model_.coordinate_systems.end();
+      if (!known || system->second.moves) {
+        error(card, "CID",
+              known ? fmt::format("system {} turns with nodes, which forces do not", card.cid)
+                    : fmt::format("coordinate system {} does not exist", card.cid),
+              known ? "use a system that stands still" : "define it with *DEFINE_COORDINATE_SYSTEM");
+        return false;
+      }
+      axes = system->second.axes;
+    }
+    direction = axes.col(card.dof - 1);
+    if (world_.dim == 3 || direction[2] == 0) return true;
+    error(card, "DOF", "in 2D nothing moves along z", "use DOF 1 or 2");
+    return false;
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  const World& world_;
+  Diagnostics& diagnostics_;
+  std::map<Id, Index> node_of_id_;
+  std::vector<char> is_loaded_;  ///< of the model's nodes
+  std::vector<NodalLoad> loads_;
+};
+
+/// Loads that act on a point all at once.
+using Loads = std::vector<std::size_t>;
+
+class NodalForces : public Force, public EnergyTerm {
+ public:
+  NodalForces(std::vector<NodalLoad> loads, std::vector<Loads> groups, Points points, Field<Index>& group)
+      : loads_(std::move(loads)), groups_(std::move(groups)), points_(points), group_(group) {}
+  std::string name() const override { return "forces on " + points_.fields().name(); }
+  const FieldSet& over(const World&) const override { return points_.fields(); }
+  void declare(const World&, Accesses& a) const override { a.updates(*points_.f).reads(group_); }
+
+  void start(World&, const Clock& clock) override {
+    forces_.assign(groups_.size(), Vec::Zero());
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      for (const std::size_t k : groups_[g])
+        forces_[g] += loads_[k].sf * loads_[k].curve(clock.t) * loads_[k].direction;
+  }
+  void block(World&, const Clock&, Index begin, Index end) override {
+    for (Index i = begin; i < end; ++i)
+      if (group_[i] != 0) points_.f->add(i, force(i));
+  }
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
+    const MiddleVelocity v(points_, clock);
+    const auto work_on = [&](Index i) { return group_[i] == 0 ? 0 : force(i).dot(v(i)) * clock.dt_mean(); };
+    const Index n = loaded_points(points_, world);
+    ledger.external_work += sum(n, work_on);
+    ledger.throughput += sum(n, [&](Index i) { return std::abs(work_on(i)); });
+  }
+  void sample(const World&, const Clock&, EnergyLedger&) const override {}
+
+ private:
+  const Vec& force(Index i) const { return forces_[static_cast<std::size_t>(group_[i])]; }
+  std::vector<NodalLoad> loads_;
+  std::vector<Loads> groups_;  ///< the first one is empty
+  Points points_;
+  Field<Index>& group_;      ///< of each point
+  std::vector<Vec> forces_;  ///< of each group now
+};
+
+}  // namespace
+
+std::vector<NodalLoad> nodal_loads(const Deck& deck, const Model& model, const World& world,
+                                   Diagnostics& diagnostics) {
+  const auto& points = deck.all<LoadNodePoint>();
+  const auto& sets = deck.all<LoadNodeSet>();
+  if (points.empty() && sets.empty()) return {};
+  NodalLoadReader reader(deck, model, world, diagnostics);
+  for (const LoadNodePoint& card : points) reader.add(card);
+  for (const LoadNodeSet& card : sets) reader.add(card);
+  return reader.finish();
+}
+
+std::shared_ptr<Force> make_nodal_loads(const std::vector<NodalLoad>& loads, const Model& model,
+                                        Points points, World& world) {
+  if (loads.empty()) return nullptr;
+  std::vector<Loads> loads_of(model.nodes.size());
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    for (const Index n : loads[k].nodes) loads_of[static_cast<std::size_t>(n)].push_back(k);
+  const std::vector<Index> node = model_nodes(model, world, points);
+  std::vector<Index> group_of(node.size(), 0);
+  std::map<Loads, Index> known{{Loads(), 0}};
+  std::vector<Loads> groups{Loads()};
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    if (node[i] < 0 || (points.follow && (*points.follow)[static_cast<Index>(i)])) continue;
+    const Loads& mine = loads_of[static_cast<std::size_t>(node[i])];
+    const auto [it, is_new] = known.try_emplace(mine, static_cast<Index>(groups.size()));
+    if (is_new) groups.push_back(mine);
+    group_of[i] = it->second;
+  }
+  if (groups.size() == 1) return nullptr;
+  auto& group = points.set->add<Index>({.name = "nodal_loads", .dimension = "-"});
+  for (std::size_t i = 0; i < node.size(); ++i) group[static_cast<Index>(i)] = group_of[i];
+  return std::make_shared<NodalForces>(loads, std::move(groups), points, group);
+}
+
+}  // namespace courant

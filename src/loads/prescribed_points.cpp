@@ -1,0 +1,263 @@
+// *BOUNDARY_PRESCRIBED_MOTION_NODE and _SET.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "loads/loads.hpp"
+
+#include "parallel/parallel.hpp"
+#include "state/reports.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Motions of which a point follows all at once.
+using Group = std::vector<std::size_t>;
+
+/// Gives driven points the velocity of the coming half step before they are kicked and moved, and takes
+/// the force along it away. What the drive does of work is external.
+class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceReporter {
+ public:
+  PrescribedPoints(std::vector<PrescribedMotion> motions, std::vector<Group> groups, Points points,
+                   Field<Index>& group, Field<Real>* work)
+      : points_(points),
+        motions_(std::move(motions)),
+        groups_(std::move(groups)),
+        group_(group),
+        work_(work) {}
+  std::string name() const override { return "prescribed " + points_.fields().name(); }
+  const FieldSet& over(const World&) const override { return points_.fields(); }
+  void declare(const World&, Accesses& a) const override {
+    a.updates(*points_.v).updates(*points_.f).reads(group_);
+  }
+
+  void start(World&, const Clock& clock) override { choose(clock); }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    for (Index i = begin; i < std::min(end, loaded_points(points_, world)); ++i) {
+      if (group_[i] == 0) continue;
+      for (const Drive* drive : drives_[static_cast<std::size_t>(group_[i])]) {
+        const Vec &d = drive->direction, v = points_.v->vec(i), f = points_.f->vec(i);
+        points_.v->add(i, (drive->velocity(v) - v.dot(d)) * d);
+        points_.f->add(i, -f.dot(d) * d);
+      }
+    }
+  }
+
+  /// The force of the drive makes m dv = (f + drive) dt; its work is drive . (v + dv/2) dt.
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
+    choose(clock);
+    const Index n = loaded_points(points_, world);
+    const Real dt = clock.dt_mean();
+    const auto work_on = [&](Index i) {
+      Real work = 0;
+      if (group_[i] == 0) return work;
+      for (const Drive* drive : drives_[static_cast<std::size_t>(group_[i])]) {
+        const Vec v = points_.v->vec(i);
+        const Real before = v.dot(drive->direction), after = drive->velocity(v);
+        const Real force = points_.f->vec(i).dot(drive->direction);
+        work += ((*points_.m)[i] * (after - before) - force * dt) * 0.5 * (before + after);
+      }
+      return work;
+    };
+    if (work_)
+      for (Index i = 0; i < n; ++i) (*work_)[i] += work_on(i);
+    ledger.external_work += sum(n, work_on);
+    ledger.throughput += sum(n, [&](Index i) { return std::abs(work_on(i)); });
+  }
+  void sample(const World&, const Clock&, EnergyLedger&) const override {}
+
+  void report_forces(const World& world, const Clock& clock, std::vector<BoundaryForce>& out) const override {
+    if (!work_) return;
+    for (Index i = 0; i < loaded_points(points_, world); ++i) {
+      if (group_[i] == 0) continue;
+      BoundaryForce force{BoundaryForce::Kind::driven_point, (*points_.id)[i], Vec::Zero(), Vec::Zero(),
+                          (*work_)[i]};
+      for (const std::size_t k : groups_[static_cast<std::size_t>(group_[i])]) {
+        const PrescribedMotion& m = motions_[k];
+        if (!m.drives(clock.t, clock.dt)) continue;
+        const Vec& d = m.direction;
+        const Real before = points_.v->vec(i).dot(d);
+        const Real after = m.velocity(clock.t, clock.dt, clock.dt_old, before);
+        const Real acceleration = (after - before) / clock.dt_mean();
+        force.force += ((*points_.m)[i] * acceleration - points_.f->vec(i).dot(d)) * d;
+      }
+      out.push_back(force);
+    }
+  }
+
+ private:
+  /// What a motion does in the coming step: v.direction becomes `at_zero` + `keep` v.direction.
+  struct Drive {
+    Vec direction = Vec::Zero();
+    Real at_zero = 0, keep = 0;
+    Real velocity(const Vec& v) const { return at_zero + keep * v.dot(direction); }
+  };
+
+  void choose(const Clock& clock) {
+    all_.assign(motions_.size(), {});
+    for (std::size_t k = 0; k < motions_.size(); ++k) {
+      const PrescribedMotion& m = motions_[k];
+      if (m.drives(clock.t, clock.dt))
+        all_[k] = {m.direction, m.velocity(clock.t, clock.dt, clock.dt_old, 0),
+                   m.kind == PrescribedMotion::Kind::acceleration ? 1.0 : 0.0};
+    }
+    drives_.assign(groups_.size(), {});
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      for (const std::size_t k : groups_[g])
+        if (motions_[k].drives(clock.t, clock.dt)) drives_[g].push_back(&all_[k]);
+  }
+
+  Points points_;
+  std::vector<PrescribedMotion> motions_;
+  std::vector<Group> groups_;                      ///< the first one is empty
+  Field<Index>& group_;                            ///< of each point
+  Field<Real>* work_;                              ///< on each point so far; null: nobody asks
+  std::vector<Drive> all_;                         ///< of each motion
+  std::vector<std::vector<const Drive*>> drives_;  ///< of each group, those that drive in this step
+};
+
+/// A set of points, and where the model's nodes are in it.
+struct Driven {
+  Points points;
+  std::vector<Index> point_of_node;  ///< -1: it is not there
+  std::vector<Group> groups_of;      ///< of each point
+  bool any = false;
+};
+
+class PrescribedBuilder {
+ public:
+  PrescribedBuilder(const Deck& deck, const Model& model, const MotionLimits& limits, World& world,
+                    Diagnostics& diagnostics)
+      : deck_(deck), model_(model), limits_(limits), diagnostics_(diagnostics) {
+    for (const Points& points : {points_of(world.particles), points_of(world.nodes)}) {
+      Driven set{points, std::vector<Index>(model.nodes.size(), -1), {}, false};
+      const std::vector<Index> node = model_nodes(model, world, points);
+      for (std::size_t i = 0; i < node.size(); ++i) {
+        const bool follows = points.follow && (*points.follow)[static_cast<Index>(i)];
+        if (node[i] >= 0 && !follows)
+          set.point_of_node[static_cast<std::size_t>(node[i])] = static_cast<Index>(i);
+      }
+      set.groups_of.resize(node.size());
+      sets_.push_back(std::move(set));
+    }
+  }
+
+  void add(const PrescribedMotion& motion) {
+    if (limits_.dim == 2 && motion.direction[2] != 0)
+      return error(motion, "in 2D particles stay in their plane, so nothing moves along z", "use DOF 1 or 2");
+    motions_.push_back(motion);
+    for (const Index n : motion.nodes)
+      if (!add(motion, n)) return;  // one message for each card
+  }
+
+  /// Adds a pass for each set of which points are driven; false: there is none.
+  bool finish(World& world) {
+    bool any = false;
+    for (const Driven& set : sets_) {
+      if (!set.any) continue;
+      any = true;
+      world.passes.add(pass_of(set));
+    }
+    return any;
+  }
+
+ private:
+  void error(const PrescribedMotion& motion, std::string message, std::string hint) {
+    deck_.error(diagnostics_, motion.card, "DOF", std::move(message), std::move(hint));
+  }
+
+  std::shared_ptr<PrescribedPoints> pass_of(const Driven& set) const {
+    auto& group = set.points.set->add<Index>({.name = "prescribed_motion", .dimension = "-"});
+    std::map<Group, Index> known{{Group(), 0}};
+    std::vector<Group> groups{Group()};
+    for (std::size_t i = 0; i < set.groups_of.size(); ++i) {
+      const auto [it, is_new] = known.try_emplace(set.groups_of[i], static_cast<Index>(groups.size()));
+      if (is_new) groups.push_back(set.groups_of[i]);
+      group[static_cast<Index>(i)] = it->second;
+    }
+    Field<Real>* work = nullptr;
+    if (model_.output.bndout.asked())
+      work = &set.points.set->add<Real>({.name = "drive_work", .dimension = "ML2/T2"});
+    return std::make_shared<PrescribedPoints>(motions_, std::move(groups), set.points, group, work);
+  }
+
+  bool add(const PrescribedMotion& motion, Index n) {
+    const ModelNode& node = model_.nodes[static_cast<std::size_t>(n)];
+    const auto set = std::find_if(sets_.begin(), sets_.end(), [&](const Driven& s) {
+      return s.point_of_node[static_cast<std::size_t>(n)] >= 0;
+    });
+    if (set == sets_.end()) {
+      error(motion,
+            fmt::format("node {} is neither a particle nor a node of deformable elements, which alone can be "
+                        "driven beside rigid bodies",
+                        node.id),
+            "drive rigid bodies by *BOUNDARY_PRESCRIBED_MOTION_RIGID");
+      return false;
+    }
+    const bool particle = set == sets_.begin();
+    if (particle && !allowed_for_particles(motion)) return false;
+    const char* const what = particle ? "particle" : "node";
+    for (int k = 0; k < 3; ++k)
+      if (node.fixed[static_cast<std::size_t>(k)] && motion.direction[k] != 0) {
+        error(motion, fmt::format("{} {} is held in {} by *BOUNDARY_SPC or TC", what, node.id, "xyz"[k]),
+              "leave out one of the two");
+        return false;
+      }
+    const Index i = set->point_of_node[static_cast<std::size_t>(n)];
+    Group& mine = set->groups_of[static_cast<std::size_t>(i)];
+    for (const std::size_t other : mine)
+      if (const std::string why = clash(motions_[other], motion); !why.empty()) {
+        error(motion, fmt::format("of {} {}, {} {}", what, node.id, deck_.place(motions_[other].card), why),
+              "let one end (DEATH) before the other starts (BIRTH), or leave it out");
+        return false;
+      }
+    mine.push_back(motions_.size() - 1);
+    set->any = true;
+    return true;
+  }
+
+  bool allowed_for_particles(const PrescribedMotion& motion) {
+    if (limits_.boxed) {
+      error(motion,
+            "prescribed motions and the box BOXID of *CONTROL_SPH exclude each other: outside of it "
+            "particles keep their velocity",
+            "leave BOXID blank");
+      return false;
+    }
+    constexpr Real along = 1e-9;  // cosine
+    for (const Vec& normal : limits_.mirrors)
+      if (std::abs(normal.dot(motion.direction)) > along) {
+        error(motion,
+              "the direction is not along a symmetry plane, which would reflect what is driven through it",
+              "drive along the plane, or use a driven rigid plate as the wall");
+        return false;
+      }
+    return true;
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  const MotionLimits& limits_;
+  Diagnostics& diagnostics_;
+  std::vector<Driven> sets_;
+  std::vector<PrescribedMotion> motions_;
+};
+
+}  // namespace
+
+bool add_prescribed_points(const std::vector<PrescribedMotion>& motions, const Deck& deck, const Model& model,
+                           const MotionLimits& limits, World& world, Diagnostics& diagnostics) {
+  const auto drives_nodes = [](const PrescribedMotion& motion) { return motion.part < 0; };
+  if (std::none_of(motions.begin(), motions.end(), drives_nodes)) return false;
+  PrescribedBuilder builder(deck, model, limits, world, diagnostics);
+  for (const PrescribedMotion& motion : motions)
+    if (drives_nodes(motion)) builder.add(motion);
+  return diagnostics.ok() && builder.finish(world);
+}
+
+}  // namespace courant
