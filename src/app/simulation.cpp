@@ -98,6 +98,8 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
 }
 
 void Simulation::add_passes(Diagnostics& diagnostics) {
+  nodal_loads_ = nodal_loads(deck_, model_, world_, diagnostics);
+  damping_ = damping_of(deck_, model_, world_, diagnostics);
   if (world_.particles.size() > 0)
     add_particle_passes(diagnostics);
   else
@@ -125,14 +127,13 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
     left_out_.push_back({"forces on nodes", "no node moves"});
   if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
   world_.passes.add(make_corner_gather(world_));
-  add_loads(points_of(world_.nodes), BodyAcceleration(model_.body_loads), diagnostics);
+  add_loads(points_of(world_.nodes), BodyAcceleration(model_.body_loads));
   world_.passes.add(make_point_motion(points_of(world_.nodes)));
   world_.passes.add(make_kinetic_energy(points_of(world_.nodes)));
 }
 
 // The same for everything that moves.
-void Simulation::add_loads(const Points& points, const BodyAcceleration& acceleration,
-                           Diagnostics& diagnostics) {
+void Simulation::add_loads(const Points& points, const BodyAcceleration& acceleration) {
   const std::string& set = points.fields().name();
   const auto add = [&](const std::shared_ptr<BlockPass>& pass, const char* what, const char* keyword) {
     if (pass)
@@ -145,10 +146,9 @@ void Simulation::add_loads(const Points& points, const BodyAcceleration& acceler
           ? nullptr
           : make_body_load(acceleration, points, world_, particles ? neighbours_ : nullptr),
       "body loads", "*LOAD_BODY, *LOAD_GRAVITY_PART");
-  add(make_nodal_loads(nodal_loads(deck_, model_, world_, diagnostics), model_, points, world_),
-      "nodal forces", "*LOAD_NODE");
+  add(make_nodal_loads(nodal_loads_, model_, points, world_), "nodal forces", "*LOAD_NODE");
   add(make_fixed_points(model_, points, world_), "SPC", "*BOUNDARY_SPC");
-  add(make_damping(damping_of(deck_, model_, world_, diagnostics), points, world_), "damping", "*DAMPING");
+  add(make_damping(damping_, points, world_), "damping", "*DAMPING");
 }
 
 void Simulation::add_particle_passes(Diagnostics& diagnostics) {
@@ -178,7 +178,7 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   add_sph_time_limit(sph_, model_, world_);
   for (PassNote& note : add_sph_passes(world_, sph_, neighbours_)) left_out_.push_back(std::move(note));
   add_mirror_core(sph_, planes_, world_);
-  add_loads(points_of(world_.particles), acceleration_of_particles(model_), diagnostics);
+  add_loads(points_of(world_.particles), acceleration_of_particles(model_));
   if (!add_level_outlets(deck_, model_, sph_, planes_, world_, diagnostics))
     left_out_.push_back({"level outlet", "no *COURANT_LEVEL_OUTLET"});
   for (auto& contact : contacts_) add_contact(world_, contact);

@@ -81,7 +81,7 @@ class Simulation {
   void add_passes(Diagnostics& diagnostics);
   void add_particle_passes(Diagnostics& diagnostics);
   void add_node_passes(Diagnostics& diagnostics);
-  void add_loads(const Points& points, const BodyAcceleration& acceleration, Diagnostics& diagnostics);
+  void add_loads(const Points& points, const BodyAcceleration& acceleration);
   void add_images(Real h, Diagnostics& diagnostics);
   void add_prescribed_motions(Diagnostics& diagnostics);
   void add_bodies();
@@ -97,6 +97,8 @@ class Simulation {
   SphSettings sph_;
   Injections injections_;
   std::vector<PartMaterial> materials_;
+  std::vector<NodalLoad> nodal_loads_;
+  std::vector<Damping> damping_;
   std::vector<SolidPart> solids_;           ///< by part of the model
   std::shared_ptr<Neighbours> neighbours_;  ///< null: no particles
   std::shared_ptr<Relocation> mirrors_;     ///< null: none
