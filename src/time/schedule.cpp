@@ -73,10 +73,8 @@ class Planner {
           entry.why = fmt::format("{} of {}", now.what->name(), open.entries[k].pass->name());
         }
     const std::vector<const Resource*> stale = take_stale(entry);
-    if (!stale.empty() && !open.entries.empty()) {
-      if (need != Need::stage) entry.why = "images";
-      need = Need::stage;
-    }
+    for (const Resource* r : stale)  // what changed before the stage is exchanged before it
+      if (need != Need::stage && changes(open, *r)) need = Need::stage, entry.why = "images";
     if (need == Need::stage) stages.emplace_back(), part = 0;
     StagePlan& stage = stages.back();
     if (need == Need::wait) entry.waits = true, part = stage.entries.size();
@@ -84,6 +82,13 @@ class Planner {
     for (const Access& a : entry.accesses.all())
       if (a.changes()) stale_.insert(a.what);
     stage.entries.push_back(std::move(entry));
+  }
+
+  static bool changes(const StagePlan& stage, const Resource& resource) {
+    for (const StagePlan::Entry& entry : stage.entries)
+      for (const Access& a : entry.accesses.all())
+        if (a.changes() && a.what == &resource) return true;
+    return false;
   }
 
   /// What the pass reads of others and images do not have yet.

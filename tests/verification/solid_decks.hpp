@@ -1,0 +1,67 @@
+#pragma once
+// Decks of blocks of hexahedra, with particles or without, written by tests.
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/simulation.hpp"
+
+namespace courant::test {
+
+struct SolidDeck {
+  std::vector<Vec> nodes;
+  std::string elements, cards;
+
+  /// A block from the origin; `shape` moves its nodes before they are written. Returns its first node.
+  std::size_t block(const Vec& size, int nx, int ny, int nz, int part,
+                    const std::function<Vec(const Vec&)>& shape = nullptr) {
+    const std::size_t first = nodes.size() + 1;
+    for (int k = 0; k <= nz; ++k)
+      for (int j = 0; j <= ny; ++j)
+        for (int i = 0; i <= nx; ++i) {
+          const Vec x(size[0] * i / nx, size[1] * j / ny, size[2] * k / nz);
+          nodes.push_back(shape ? shape(x) : x);
+        }
+    const auto n = [&](int i, int j, int k) { return first + std::size_t(i + (nx + 1) * (j + (ny + 1) * k)); };
+    for (int k = 0; k < nz; ++k)
+      for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i)
+          elements += fmt::format("{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}\n", ++element_, part, n(i, j, k),
+                                  n(i + 1, j, k), n(i + 1, j + 1, k), n(i, j + 1, k), n(i, j, k + 1),
+                                  n(i + 1, j, k + 1), n(i + 1, j + 1, k + 1), n(i, j + 1, k + 1));
+    return first;
+  }
+  /// A *SET_NODE_LIST of those nodes for which `wanted` holds.
+  void node_set(int id, const std::function<bool(const Vec&)>& wanted) {
+    cards += fmt::format("*SET_NODE_LIST\n{:10}\n", id);
+    int column = 0;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      if (wanted(nodes[n])) cards += fmt::format("{:10}{}", n + 1, ++column % 8 == 0 ? "\n" : "");
+    if (column % 8 != 0) cards += "\n";
+  }
+  std::string text(Real endtim) const {
+    std::string out = fmt::format("*KEYWORD\n*CONTROL_TERMINATION\n{:10.4g}\n", endtim) + cards + "*NODE\n";
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      out += fmt::format("{:8}{:16.9e}{:16.9e}{:16.9e}\n", n + 1, nodes[n][0], nodes[n][1], nodes[n][2]);
+    return out + "*ELEMENT_SOLID\n" + elements + particles + "*END\n";
+  }
+  std::string particles;
+
+ private:
+  int element_ = 0;
+};
+
+/// A simulation of the deck with its ledger at the start.
+inline std::unique_ptr<Simulation> simulation_of(const std::string& text) {
+  Diagnostics diagnostics;
+  ReadOptions options;
+  options.open = [text](const std::string&) { return text; };
+  auto s = Simulation::build("test.k", options, diagnostics);
+  EXPECT_TRUE(s != nullptr) << diagnostics.text();
+  return s;
+}
+
+}  // namespace courant::test
