@@ -17,7 +17,7 @@ namespace courant {
 struct EnergyLedger {
   Real kinetic = 0;        ///< of particles and bodies, with half-step velocities as LS-DYNA does
   Real internal = 0;       ///< of active particles: volume work (and heat where the EOS uses it)
-  Real potential = 0;      ///< - sum m g.x of active particles and bodies
+  Real potential = 0;      ///< of body loads: sum m phi of active particles, nodes and bodies
   Real contact = 0;        ///< stored in penalty springs
   Real dissipated = 0;     ///< by viscosity, contact damping, friction (accumulates)
   Real external_work = 0;  ///< work done on the active particles from outside: load curves, box boundary,
