@@ -167,7 +167,7 @@ constexpr Family families[] = {
     {"LOAD_BODY_RZ", "rotational body loads"},
     {"LOAD_GRAVITY", "gravity that is switched on in stages"},
     {"LOAD_HEAT", "thermal loads"},
-    {"LOAD_NODE", "forces on nodes"},
+    {"LOAD_NODE", "this kind of force on nodes"},
     {"LOAD_RIGID_BODY", "forces on rigid bodies"},
     {"LOAD_SEGMENT", "pressures on segments"},
     {"LOAD_SEISMIC", "seismic loads"},

@@ -321,6 +321,8 @@ TEST(Damping, ActsOnItsPartsOnlyAndAtAnyStep) {
   const Damping stiff{.curve = {}, .sf = 1e4, .scale = Vec::Ones(), .parts = {0}};
   for (const Points& p : s.sets()) s.w.passes.add(make_damping({stiff}, p, s.w));
   s.start(1e-3);
+  s.steps(1);
+  EXPECT_LE(std::abs(s.w.particles.v.vec(0)[0]), 1) << "the first step, which follows none";
   s.steps(50);
   EXPECT_LT(std::abs(s.w.particles.v.vec(0)[0]), 1e-6);
   EXPECT_EQ(s.w.nodes.v.vec(0)[0], 1);

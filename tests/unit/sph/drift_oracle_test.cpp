@@ -90,8 +90,7 @@ void compare(bool uniform_h, bool alone, std::optional<Neighbours::Region> regio
   cloud.settings.xsph = eps;
   cloud.neighbours = std::make_shared<Neighbours>(cloud.neighbours->skin(), region);
   const auto volumes = make_pair_volumes(w);
-  add_drifts(
-      cloud.settings, [](Real) { return Vec(Vec::Zero()); }, w);
+  add_drifts(cloud.settings, BodyAcceleration(), w);
   if (!alone) add_shifting(cloud.settings, w, cloud.neighbours, volumes);
   add_xsph(cloud.settings, w, cloud.neighbours, volumes);
   if (alone) add_drift_rate(cloud.settings, w, cloud.neighbours, volumes);
