@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "laws/fluid/mat_null.hpp"
 #include "sph/equation_of_state.hpp"
@@ -48,11 +46,6 @@ struct Known {
     for (const MatNull& m : deck.all<MatNull>()) fluids.emplace(m.mid, &m);
     for (const StrengthEntry& kind : strength_registry())
       for (const auto& [id, law] : kind.all(deck)) strengths.emplace(id, law);
-  }
-  static std::string names() {
-    std::set<std::string> names{"*MAT_NULL"};
-    for (const StrengthEntry& kind : strength_registry()) names.insert("*" + kind.keyword);
-    return fmt::format("{}", fmt::join(names, ", "));
   }
 };
 
@@ -114,8 +107,8 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
     const auto law = laws.find(part.eosid);
     if (missing)
       deck.error(diagnostics, part.card, "MID",
-                 fmt::format("the particles of part {} need a material with id {}, one of {}; {}", part.id,
-                             part.mid, Known::names(), deck.found_instead(IdSpace::material, part.mid)),
+                 fmt::format("the particles of part {} need a *MAT_NULL or a material with strength, id {}; {}",
+                             part.id, part.mid, deck.found_instead(IdSpace::material, part.mid)),
                  "add the material, or correct the id here");
     if (alone && part.eosid != 0)
       deck.error(diagnostics, part.card, "EOSID",
