@@ -79,11 +79,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     if (!m) return std::nullopt;
     return ShellMaterial{m->ro, m->E, m->pr};
   };
-  const auto sph_material = [&](Index part) -> SphMaterial {
-    const PartMaterial& m = materials_[part];
-    if (!m.found) return {};
-    return {m.ro, m.eos->V0, m.pc, m.mu, m.eos->uses_energy()};
-  };
+  const auto sph_material = [&](Index part) { return materials_[part].for_particles(); };
   sph_ = build_particles(deck_, model_, sph_material, world_,
                          diagnostics);  // sets world_.dim, which rigid bodies ask for
   const std::vector<Index> node_of = build_nodes(model_, world_);
@@ -194,8 +190,8 @@ Ranges Simulation::reference_of_parts() const {
     const PartMaterial& m = materials_[k];
     if (!m.found) continue;
     out[k].rho0 = m.ro;
-    out[k].c0 = std::sqrt(m.eos->sound_speed2(m.ro, 1 / m.eos->V0 - 1, m.eos->E0));
-    out[k].liquid = m.eos->sound_speed2(m.ro, 0, 0) > 0;  // a gas has no pressure without heat
+    out[k].c0 = m.c0();
+    out[k].liquid = m.holds_cold();  // a gas has no pressure without heat
   }
   return out;
 }

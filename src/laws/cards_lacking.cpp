@@ -11,31 +11,6 @@ using namespace rules;
 
 namespace {
 
-struct MatElasticFluid : Entry {
-  std::string title;
-  Id mid = 0;
-  Real ro = 0, e = 0, pr = 0, da = 0, db = 0, k = 0, vc = 0, cp = 0;
-};
-KeywordOf<MatElasticFluid> mat_elastic_fluid() {
-  using T = MatElasticFluid;
-  return {.names = {"MAT_ELASTIC_FLUID", "MAT_001_FLUID"},
-          .purpose = "a fluid with a bulk modulus K",
-          .id_space = IdSpace::material,
-          .title_option = true,
-          .title = &T::title,
-          .lacking = "elastic materials",
-          .cards = {{.fields = {{"MID", &T::mid, "-", "id that *PART refers to", required_id},
-                                {"RO", &T::ro, "M/L3", "density"},
-                                {"E", &T::e, "M/LT2", "Young's modulus"},
-                                {"PR", &T::pr, "-", "Poisson ratio"},
-                                {"DA", &T::da, "-", "axial damping of beams"},
-                                {"DB", &T::db, "-", "bending damping of beams"},
-                                {"K", &T::k, "M/LT2", "bulk modulus"}}},
-                    {.fields = {{"VC", &T::vc, "-", "tensor viscosity coefficient"},
-                                {"CP", &T::cp, "M/LT2", "cavitation pressure", or_blank(1e20)}}}}};
-}
-const RegisterKeyword<MatElasticFluid> mat_elastic_fluid_keyword{mat_elastic_fluid()};
-
 struct MatPlasticKinematic : Entry {
   std::string title;
   Id mid = 0;

@@ -7,6 +7,7 @@
 #include "search/nearest_distance.hpp"
 #include "sph/cards.hpp"
 #include "sph/pair_passes.hpp"
+#include "sph/strength.hpp"
 #include "sph/view.hpp"
 
 namespace courant {
@@ -52,6 +53,7 @@ class Builder {
     read_xsph();
     read_riemann(deck_, model_, material_, settings_, diagnostics_);
     read_form(deck_, settings_, diagnostics_);
+    read_strength(deck_, model_, settings_, diagnostics_);
     return settings_;
   }
 
@@ -253,6 +255,10 @@ class Builder {
         materials[k] = material_(static_cast<Index>(k));
         mu[k] = materials[k].mu;
         any_mu |= mu[k] > 0;
+        if (materials[k].strength) {
+          settings_.strength.resize(model_.parts.size());
+          settings_.strength[k] = materials[k].strength;
+        }
         if (materials[k].heat_in_internal) {
           settings_.heat_in_internal.resize(model_.parts.size(), 0);
           settings_.heat_in_internal[k] = 1;
@@ -413,17 +419,6 @@ class Builder {
 
 }  // namespace
 
-std::string parts_of_several_materials(const Model& model) {
-  const ModelPart* first = nullptr;
-  for (const ModelPart& part : model.parts) {
-    if (!part.has_sph) continue;
-    if (first == nullptr) first = &part;
-    if (part.mid != first->mid || part.eosid != first->eosid)
-      return fmt::format("parts {} and {} differ in MID or EOSID", first->id, part.id);
-  }
-  return {};
-}
-
 SphSettings build_particles(const Deck& deck, const Model& model,
                             const std::function<SphMaterial(Index part)>& material, World& world,
                             Diagnostics& diagnostics) {
@@ -486,6 +481,10 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
     world.passes.add(make_viscous_stress(s, world));
   else
     left_out.push_back({"viscous stress", "MU is 0 in all SPH materials"});
+  if (!s.strength.empty())
+    add_strength(s, world, neighbours, volumes);
+  else
+    left_out.push_back({"strength", "all SPH materials are fluids"});
   for (const auto& pass : pairs.forces) world.passes.add(pass);
   if (s.maxv != 0)
     world.passes.add(make_speed_limit(s, neighbours));

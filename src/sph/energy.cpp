@@ -27,9 +27,8 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
     riemann_ = std::get_if<RiemannFlux>(&settings_.viscosity);
     if (std::holds_alternative<BulkViscosity>(s.viscosity)) total_pressure_ = &sph_fields::pressure_plus_q(p);
     if (s.renormalised) excess_ = &sph_fields::renormalisation(p);
-    if (s.mu.empty()) return;
-    viscous_ = &sph_fields::viscous_dissipation(p);
-    tau_ = &sph_fields::stress(p);
+    if (!s.mu.empty()) viscous_ = &sph_fields::viscous_dissipation(p);
+    if (!s.mu.empty() || !s.strength.empty()) tau_ = &sph_fields::stress(p);
   }
   std::string name() const override { return "sph energy"; }
   void declare(const World& world, Accesses& a) const override {
@@ -152,7 +151,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
                                    -(vi - vj).dot(d) / std::sqrt(r2));
       // the work on i, less what i stores or burns of it by p_i v_ij.d, tau_i:D and its half of Pi
       Real power = -(s.pressure_i * vj + s.pressure_j * vi + 0.5 * s.viscous * (vi + vj)).dot(d);
-      if (viscous_) {
+      if (tau_) {
         const Real gi = slope_over_r<Kernel, Dim>(r2, h),
                    gj = slope_over_r<Kernel, Dim>(r2, UniformH ? h : p.h[of]);
         power += pair.inverse_rho * (gi * (tau_->tensor(i) * d).dot(vj) + gj * (tau_->tensor(j) * d).dot(vi));

@@ -10,12 +10,33 @@ namespace courant::sph_fields {
 inline Field<Real>& strain_rate(Particles& p) {
   return p.fields.add<Real>({.name = "strain_rate", .dimension = "1/T", .components = 6, .restart = false});
 }
-/// Viscous stress: xx yy zz xy yz zx. Particles beside the box keep that of when they were active.
+/// Stress beside the pressure, viscous and of strength: xx yy zz xy yz zx. Particles beside the box keep that of
+/// when they were active.
 inline Field<Real>& stress(Particles& p) {
   return p.fields.add<Real>(
       {.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = true});
 }
 
+/// Half of the curl of the velocity
+inline Field<Real>& spin(Particles& p) {
+  return p.fields.add<Real>({.name = "spin", .dimension = "1/T", .components = 3, .restart = false});
+}
+/// Of the law of strength: Cauchy stress, the deviator where the part has an equation of state
+inline Field<Real>& law_stress(Particles& p) {
+  return p.fields.add<Real>({.name = "law_stress", .dimension = "M/LT2", .components = 6});
+}
+/// Against tension, as it acts between particles that stand at their first distance
+inline Field<Real>& artificial_stress(Particles& p) {
+  return p.fields.add<Real>({.name = "artificial_stress",
+                             .dimension = "M/LT2",
+                             .components = 6,
+                             .restart = false,
+                             .exchange = true});
+}
+inline Field<Real>& artificial_stress_force(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "artificial_stress_force", .dimension = "ML/T2", .components = 3, .restart = false});
+}
 /// q1 c at the last motion; c for a Riemann flux
 inline Field<Real>& viscous_speed(Particles& p) {
   return p.fields.add<Real>(

@@ -15,6 +15,8 @@
 
 namespace courant {
 
+class StrengthLaw;
+
 /// Artificial viscosity between pairs (IAVIS 0), eqs 15-16; q1 comes per particle as viscous_speed = q1 c.
 struct MonaghanViscosity {
   Real q2 = 0;
@@ -45,6 +47,13 @@ struct SphMaterial {
   Real pc = 0;                    ///< tensile cut-off of the pressure, <= 0
   Real mu = 0;                    ///< dynamic viscosity
   bool heat_in_internal = false;  ///< the EOS uses energy, so viscous heat goes into E and is counted there
+  std::shared_ptr<const StrengthLaw> strength{};  ///< null: a fluid
+};
+
+/// *COURANT_ARTIFICIAL_STRESS
+struct ArtificialStressRules {
+  Real eps = 0;  ///< 0: none
+  int n = 4;
 };
 
 /// ISHIFT of *CONTROL_SPH with *COURANT_SHIFTING.
@@ -91,6 +100,9 @@ struct SphSettings {
   std::vector<Real> mu;                ///< per part, dynamic viscosity; empty if no part has any
   MixingLength mixing_length;          ///< where there is one, mu is not empty
   std::vector<char> heat_in_internal;  ///< per part; empty if in none
+  /// Per part, null where it has none; empty if no part has any.
+  std::vector<std::shared_ptr<const StrengthLaw>> strength;
+  ArtificialStressRules artificial_stress;
   Real tssfac = 0.9;
   Real geometry_eps = 0;  ///< *COURANT_PAIR_GEOMETRY: relative motion, of h, over which gradients are kept
   Real density_diffusion = 0;  ///< *COURANT_DENSITY_DIFFUSION: delta; 0: none

@@ -15,7 +15,6 @@ namespace courant {
 
 /// Energies that accumulate over the run or hold at t^n. dimension of all: ML2/T2 (in 2D per unit depth)
 struct EnergyLedger {
-<<<<<<< HEAD
   Real kinetic = 0;         ///< of particles and bodies, with half-step velocities as LS-DYNA does
   Real internal = 0;        ///< of active particles: volume work (and heat where the EOS uses it)
   Real potential = 0;       ///< - sum m g.x of active particles and bodies
@@ -23,17 +22,8 @@ struct EnergyLedger {
   Real hourglass = 0;       ///< taken by hourglass control of elements
   Real bulk_viscosity = 0;  ///< taken by bulk viscosity of elements
   Real dissipated = 0;      ///< by viscosity, contact damping, friction (accumulates)
-  Real external_work = 0;   ///< work done on the active particles from outside: load curves, box boundary,
-                            ///< inflow minus outflow (accumulates)
-=======
-  Real kinetic = 0;        ///< of particles and bodies, with half-step velocities as LS-DYNA does
-  Real internal = 0;       ///< of active particles: volume work (and heat where the EOS uses it)
-  Real potential = 0;      ///< of body loads: sum m phi of active particles, nodes and bodies
-  Real contact = 0;        ///< stored in penalty springs
-  Real dissipated = 0;     ///< by viscosity, contact damping, friction (accumulates)
   Real external_work = 0;  ///< work done on the active particles from outside: load curves, box boundary,
                            ///< inflow minus outflow (accumulates)
->>>>>>> 04c918c
   Real throughput =
       0;  ///< energy that passed through so far: sum of |work| of all kinds and of inflow (accumulates)
   Real initial = 0;  ///< total at t = 0

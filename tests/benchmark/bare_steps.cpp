@@ -54,10 +54,7 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   const Model model = build_model(deck, diagnostics);
   const auto materials = find_materials(deck, model, diagnostics);
   stop_for(diagnostics);
-  const auto material = [&](Index part) -> SphMaterial {
-    const PartMaterial& m = materials[part];
-    return {m.ro, m.eos->V0, m.pc, m.mu, m.eos->uses_energy()};
-  };
+  const auto material = [&](Index part) { return materials[part].for_particles(); };
   const SphSettings settings = build_particles(deck, model, material, world_, diagnostics);
   stop_for(diagnostics);
   const Real h = world_.particles.h[0];

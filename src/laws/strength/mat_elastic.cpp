@@ -79,7 +79,7 @@ const RegisterStrength<Card> registered{
                            {"PR", &Card::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
                            {"DA", &Card::da, "-", "axial damping of beams", unsupported},
                            {"DB", &Card::db, "-", "bending damping of beams", unsupported},
-                           {"K", &Card::k, "M/LT2", "bulk modulus of _FLUID", no_effect}}}}}};
+                           {"K", &Card::k, "M/LT2", "bulk modulus of *MAT_ELASTIC_FLUID", no_effect}}}}}};
 
 }  // namespace
 
