@@ -156,7 +156,7 @@ TEST(Strength, TheLedgerClosesForABodyThatSpreadsAndTurns) {
     sample_energy(w, cloud.clock);
     w.energy.initial = w.energy.kinetic;
     PassTimer timer;
-    Stepper stepper(w, *cloud.neighbours, {}, timer);
+    Stepper stepper(w, cloud.neighbours.get(), {}, timer);
     Real most = 0;
     for (int k = 0; k < 1000; ++k) {
       stepper.step(cloud.clock, [](World&, const Clock&, const std::string&) {});

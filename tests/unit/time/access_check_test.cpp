@@ -17,7 +17,7 @@ using namespace courant;
 
 namespace {
 
-struct Deck {
+struct DeckFile {
   std::filesystem::path file;
   std::unique_ptr<Simulation> build() const {
     Diagnostics diagnostics;
@@ -25,12 +25,12 @@ struct Deck {
   }
 };
 
-std::vector<Deck> decks_that_run() {
-  std::vector<Deck> out;
+std::vector<DeckFile> decks_that_run() {
+  std::vector<DeckFile> out;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(SOURCE_DIR) + "/tests/decks/accept"))
     if (entry.path().extension() == ".k")
-      if (const Deck deck{entry.path()}; deck.build()) out.push_back(deck);
-  std::sort(out.begin(), out.end(), [](const Deck& a, const Deck& b) { return a.file < b.file; });
+      if (const DeckFile deck{entry.path()}; deck.build()) out.push_back(deck);
+  std::sort(out.begin(), out.end(), [](const DeckFile& a, const DeckFile& b) { return a.file < b.file; });
   return out;
 }
 
@@ -43,7 +43,7 @@ void take_steps(Simulation& s) {
 
 TEST(AccessCheck, PassesOfAllDecksTouchWhatTheyDeclare) {
   if (!checks_accesses) GTEST_SKIP() << "this build does not check";
-  for (const Deck& deck : decks_that_run()) {
+  for (const DeckFile& deck : decks_that_run()) {
     auto s = deck.build();
     try {
       take_steps(*s);
@@ -59,7 +59,7 @@ TEST(AccessCheck, AMissingDeclarationIsNoticed) {
   std::set<std::pair<std::string, std::string>> tried;
   int noticed = 0;
   std::string missed;
-  for (const Deck& deck : decks_that_run()) {
+  for (const DeckFile& deck : decks_that_run()) {
     auto s = deck.build();
     std::vector<std::pair<std::string, std::string>> here;
     const Schedule schedule = make_schedule(s->world());
