@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "app/skin.hpp"
-#include "sph/materials.hpp"
 #include "model/build_model.hpp"
-#include "time/point_motion.hpp"
+#include "sph/materials.hpp"
 #include "sph/pair_passes.hpp"
+#include "time/point_motion.hpp"
 
 namespace courant::benchmarks {
 
