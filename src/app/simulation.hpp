@@ -12,12 +12,12 @@
 #include "keyword/deck.hpp"
 #include "keyword/deck_record.hpp"
 #include "loads/loads.hpp"
-#include "sph/materials.hpp"
 #include "model/model.hpp"
 #include "output/sample.hpp"
 #include "output/summary.hpp"
 #include "rigid/rigid.hpp"
 #include "sph/injection.hpp"
+#include "sph/materials.hpp"
 #include "sph/sph.hpp"
 #include "time/step.hpp"
 

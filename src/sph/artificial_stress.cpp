@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "keyword/registry.hpp"
 #include "laws/strength/strength.hpp"
@@ -145,8 +145,7 @@ void read_artificial_stress(const Deck& deck, SphSettings& s, Diagnostics& diagn
                         "leave the keyword out");
   s.artificial_stress = {c->eps, c->n};
   if (c->eps > 1)
-    deck.error(diagnostics, *c, "EPS", fmt::format("expected at most 1, got '{:g}'", c->eps),
-               "0.3 is usual");
+    deck.error(diagnostics, *c, "EPS", fmt::format("expected at most 1, got '{:g}'", c->eps), "0.3 is usual");
   if (!s.uniform_h)
     deck.error(diagnostics, *c, "EPS", "needs one h that does not change: W(dx) is that of all particles",
                "use HMIN = HMAX = 1 and one CSLH and spacing for all SPH parts, or leave the keyword out");
@@ -162,15 +161,17 @@ void read_strength(const Deck& deck, const Model& model, SphSettings& s, Diagnos
   const auto refuse = [&](bool asked, const char* keyword, const char* why) {
     if (!asked) return;
     deck.error(diagnostics, part.card, "MID",
-               fmt::format("part {} has a material with strength, beside which {} is not supported: {}", part.id,
-                           keyword, why),
+               fmt::format("part {} has a material with strength, beside which {} is not supported: {}",
+                           part.id, keyword, why),
                "leave one of the two out");
   };
   refuse(s.renormalised, "a FORM of *CONTROL_SPH with corrected gradients",
          "its forces and its rates of strain would not fit each other");
-  refuse(std::holds_alternative<RiemannFlux>(s.viscosity), "*COURANT_RIEMANN", "its flux is that of a liquid");
+  refuse(std::holds_alternative<RiemannFlux>(s.viscosity), "*COURANT_RIEMANN",
+         "its flux is that of a liquid");
   refuse(s.geometry_eps > 0, "*COURANT_PAIR_GEOMETRY", "spins are not among what it keeps");
-  refuse(s.density_diffusion > 0, "*COURANT_DENSITY_DIFFUSION", "it changes densities that stress knows nothing of");
+  refuse(s.density_diffusion > 0, "*COURANT_DENSITY_DIFFUSION",
+         "it changes densities that stress knows nothing of");
   refuse(s.volume_tau > 0, "*COURANT_VOLUME_CONTROL", "it changes densities that stress knows nothing of");
   refuse(s.reinitialisation.every > 0, "*COURANT_DENSITY_REINITIALISATION",
          "it changes densities that stress knows nothing of");

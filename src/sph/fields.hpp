@@ -10,11 +10,10 @@ namespace courant::sph_fields {
 inline Field<Real>& strain_rate(Particles& p) {
   return p.fields.add<Real>({.name = "strain_rate", .dimension = "1/T", .components = 6, .restart = false});
 }
-/// Stress beside the pressure, viscous and of strength: xx yy zz xy yz zx. Particles beside the box keep that of
-/// when they were active.
+/// Stress beside the pressure, viscous and of strength: xx yy zz xy yz zx. Particles beside the box keep that
+/// of when they were active.
 inline Field<Real>& stress(Particles& p) {
-  return p.fields.add<Real>(
-      {.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = true});
+  return p.fields.add<Real>({.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = true});
 }
 
 /// Half of the curl of the velocity
@@ -48,10 +47,8 @@ inline Field<Real>& viscosity(Particles& p) {
 }
 /// p + q of the bulk viscosity
 inline Field<Real>& pressure_plus_q(Particles& p) {
-  return p.fields.add<Real>({.name = "pressure_plus_q",
-                             .dimension = "M/LT2",
-                             .restart = false,
-                             .exchange = true});
+  return p.fields.add<Real>(
+      {.name = "pressure_plus_q", .dimension = "M/LT2", .restart = false, .exchange = true});
 }
 /// Rate of density by diffusion, of the last forces: the next rates take it.
 inline Field<Real>& density_diffusion(Particles& p) {
@@ -63,8 +60,7 @@ inline Field<Real>& volume_rate(Particles& p) {
 }
 /// Inverse of the moment matrix, or 1, less 1
 inline Field<Real>& renormalisation(Particles& p) {
-  return p.fields.add<Real>(
-      {.name = "renormalisation", .dimension = "-", .components = 6, .exchange = true});
+  return p.fields.add<Real>({.name = "renormalisation", .dimension = "-", .components = 6, .exchange = true});
 }
 /// Moment matrix sum_j V_j (x_j - x_i) (x) grad W_ij
 inline Field<Real>& moment(Particles& p) {
@@ -126,8 +122,7 @@ inline Field<Real>& pressure_before(Particles& p) {
 }
 /// How places changed in the last step besides the velocity
 inline Field<Real>& drifted(Particles& p) {
-  return p.fields.add<Real>(
-      {.name = "drifted", .dimension = "L/T", .components = 3, .exchange = true});
+  return p.fields.add<Real>({.name = "drifted", .dimension = "L/T", .components = 3, .exchange = true});
 }
 /// 1/theta(dx/h) at the start, without the constant of theta
 inline Field<Real>& kernel_at_spacing(Particles& p) {

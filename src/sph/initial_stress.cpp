@@ -113,7 +113,8 @@ class Pressures {
   void set(const InitialStressSph& card, Index i) {
     const PartMaterial& m = materials_[static_cast<std::size_t>(model_.sph[i].part)];
     if (!m.eos || m.strength) {
-      error(card, "EID", fmt::format("particle {} is of a material with strength, whose stress starts at 0", card.eid),
+      error(card, "EID",
+            fmt::format("particle {} is of a material with strength, whose stress starts at 0", card.eid),
             "particles of *MAT_NULL alone can start under pressure");
       return;
     }

@@ -55,7 +55,9 @@ void check_cards(const Deck& deck, const Model& model, const Known& known, Diagn
   const bool strong = std::any_of(model.parts.begin(), model.parts.end(), [&](const ModelPart& part) {
     return part.has_sph && known.strengths.count(part.mid) > 0;
   });
-  if (strong)
+  const bool solids = std::any_of(model.parts.begin(), model.parts.end(),
+                                  [](const ModelPart& part) { return part.has_solid; });  // which check them, too
+  if (strong && !solids)
     for (const StrengthEntry& kind : strength_registry()) kind.check(deck, diagnostics);
 }
 
@@ -64,11 +66,12 @@ void check_start(const Deck& deck, const ModelPart& part, const PartMaterial& m,
   const EosLaw& eos = *m.eos;
   const Real mu = 1 / eos.V0 - 1, c2 = eos.sound_speed2(m.ro, mu, eos.E0);
   if (!(mu < eos.mu_limit()))
-    deck.error(diagnostics, part.card, "EOSID",
-               fmt::format("part {} starts beyond the end of equation of state {}: rho/RO = {:g}, the law ends "
-                           "at {:g}",
-                           part.id, part.eosid, 1 + mu, 1 + eos.mu_limit()),
-               "correct V0 of the equation of state");
+    deck.error(
+        diagnostics, part.card, "EOSID",
+        fmt::format("part {} starts beyond the end of equation of state {}: rho/RO = {:g}, the law ends "
+                    "at {:g}",
+                    part.id, part.eosid, 1 + mu, 1 + eos.mu_limit()),
+        "correct V0 of the equation of state");
   else if (!(c2 > 0))
     deck.error(
         diagnostics, part.card, "EOSID",
@@ -106,14 +109,15 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
     const bool alone = strength != known.strengths.end() && !strength->second->deviator_only();
     const auto law = laws.find(part.eosid);
     if (missing)
-      deck.error(diagnostics, part.card, "MID",
-                 fmt::format("the particles of part {} need a *MAT_NULL or a material with strength, id {}; {}",
-                             part.id, part.mid, deck.found_instead(IdSpace::material, part.mid)),
-                 "add the material, or correct the id here");
+      deck.error(
+          diagnostics, part.card, "MID",
+          fmt::format("the particles of part {} need a *MAT_NULL or a material with strength, id {}; {}",
+                      part.id, part.mid, deck.found_instead(IdSpace::material, part.mid)),
+          "add the material, or correct the id here");
     if (alone && part.eosid != 0)
       deck.error(diagnostics, part.card, "EOSID",
-                 fmt::format("expected 0, got '{}': the material of part {} has a pressure of its own", part.eosid,
-                             part.id),
+                 fmt::format("expected 0, got '{}': the material of part {} has a pressure of its own",
+                             part.eosid, part.id),
                  "leave the field blank, or use *MAT_ELASTIC_PLASTIC_HYDRO");
     else if (!alone && law == laws.end())
       deck.error(diagnostics, part.card, "EOSID",

@@ -27,8 +27,8 @@ struct PartMaterial {
 /// errors.
 std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
-/// Sets p, c, E of particles with an equation of state from rho, and adds one pass per equation of state to the world. `viscous`:
-/// some part has a viscosity MU, whose heat goes into E, too.
+/// Sets p, c, E of particles with an equation of state from rho, and adds one pass per equation of state to
+/// the world. `viscous`: some part has a viscosity MU, whose heat goes into E, too.
 void add_equations_of_state(World& world, const Model& model, const std::vector<PartMaterial>& materials,
                             bool viscous);
 

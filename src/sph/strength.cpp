@@ -158,7 +158,8 @@ class StrengthStress : public Material {
   /// Compression, change of relative volume, and rate and spin of the middle of the step, in the axes at its
   /// end. Pair sums give the gradient over the places at the end, L: over those of the middle it is L (1 - L
   /// dt/2)^-1. The trace is that of the density.
-  void find_rates(const Particles& p, Real dt, int dim, Real rho0, Index begin, Index end, Points64& at) const {
+  void find_rates(const Particles& p, Real dt, int dim, Real rho0, Index begin, Index end,
+                  Points64& at) const {
     for (Index i = begin, k = 0; i < end; ++i, ++k) {
       const Real rho = p.rho[i], change = p.drhodt[i] * dt;
       at.mu[k] = rho / rho0 - 1;
@@ -187,7 +188,8 @@ class StrengthStress : public Material {
     for (int c = 0; c < 3; ++c) at.spin[c][k] = w[c];
   }
 
-  static void add_to_equation_of_state(Particles& p, Index begin, const Points64& at, const PointBlock& block) {
+  static void add_to_equation_of_state(Particles& p, Index begin, const Points64& at,
+                                       const PointBlock& block) {
     for (Index k = 0; k < block.count; ++k) {
       Real& c = p.c[begin + k];
       c = std::sqrt(c * c + at.c[k] * at.c[k]);
@@ -215,7 +217,7 @@ class StrengthStress : public Material {
 
   static constexpr std::size_t most_history = 16;
   std::vector<std::shared_ptr<const StrengthLaw>> laws_;
-  bool adds_;           ///< to a viscous stress
+  bool adds_;  ///< to a viscous stress
   Field<Real>&rate_, &spin_, &kept_, &stress_;
   std::vector<std::vector<Field<Real>*>> history_;  ///< of each part
   std::vector<char> broken_;                        ///< blocks with a density that is none
@@ -239,8 +241,7 @@ void add_strength(const SphSettings& s, World& world, std::shared_ptr<Neighbours
   set_initial_state(s, world);
   world.passes.add(std::make_shared<Spin>(s, world, neighbours, volumes));
   world.passes.add(std::make_shared<StrengthStress>(s, world));
-  if (s.artificial_stress.eps > 0)
-    add_artificial_stress(s, world, std::move(neighbours), std::move(volumes));
+  if (s.artificial_stress.eps > 0) add_artificial_stress(s, world, std::move(neighbours), std::move(volumes));
 }
 
 }  // namespace courant

@@ -11,13 +11,13 @@ struct StrengthArrays {
   const Real* x[3];
   const Real* v[3];
   const Real* h;
-  const Real* V;    ///< m/rho, see PairVolumes
-  Real* spin[3];    ///< half of the curl of the velocity, of particles with strength [1/T]
-  const Real* R[6]; ///< artificial stress: xx yy zz xy yz zx [M/LT2]
-  Real* f[3];       ///< [ML/T2]
-  Real h0;          ///< of all particles, for the force [L]
-  Real at_spacing;  ///< 1/theta(dx/h), theta without its constant [-]
-  int n;            ///< exponent of W/W(dx)
+  const Real* V;     ///< m/rho, see PairVolumes
+  Real* spin[3];     ///< half of the curl of the velocity, of particles with strength [1/T]
+  const Real* R[6];  ///< artificial stress: xx yy zz xy yz zx [M/LT2]
+  Real* f[3];        ///< [ML/T2]
+  Real h0;           ///< of all particles, for the force [L]
+  Real at_spacing;   ///< 1/theta(dx/h), theta without its constant [-]
+  int n;             ///< exponent of W/W(dx)
 };
 
 using StrengthLoop = void (*)(const StrengthArrays&, const NeighbourLists&);

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "app/skin.hpp"
-#include "sph/materials.hpp"
 #include "model/build_model.hpp"
+#include "sph/materials.hpp"
 #include "sph/pair_passes.hpp"
 #include "time/point_motion.hpp"
 

@@ -77,12 +77,18 @@ class EosLawOf : public EosLaw {
     Real *B = block.B, *dB = block.dB;
     for (Index k = 0; k < block.count; ++k) B[k] = law.B(mu[k]), dB[k] = law.dB(mu[k]);
   }
-  Real pressure(Real mu, Real E) const override { return law_.A(mu) + law_.B(mu) * E; }
-  Real slope(Real mu, Real E) const override { return law_.dA(mu) + law_.dB(mu) * E; }
+  Real pressure(Real mu, Real E) const override {
+    return law_.A(mu) + law_.B(mu) * E;
+  }
+  Real slope(Real mu, Real E) const override {
+    return law_.dA(mu) + law_.dB(mu) * E;
+  }
   Real sound_speed2(Real rho0, Real mu, Real E) const override {
     return (law_.dA(mu) + law_.dB(mu) * E + law_.B(mu) * pressure(mu, E) / ((1 + mu) * (1 + mu))) / rho0;
   }
-  bool uses_energy() const override { return law_.uses_energy(); }
+  bool uses_energy() const override {
+    return law_.uses_energy();
+  }
   Real mu_limit() const override {
     if constexpr (requires { law_.mu_limit(); })
       return law_.mu_limit();

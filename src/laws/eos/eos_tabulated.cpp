@@ -82,12 +82,12 @@ using Card = EosTabulated;
 
 const FieldRules wide{.width = 16};
 
-#define EV(k)                                                                          \
-  FieldOf<Card> {                                                                      \
+#define EV(k)                                                                     \
+  FieldOf<Card> {                                                                 \
     "EV" #k, &Card::ev##k, "-", "ln(V) of point " #k ", < 0 in compression", wide \
   }
-#define C(k)                                                          \
-  FieldOf<Card> {                                                     \
+#define C(k)                                                               \
+  FieldOf<Card> {                                                          \
     "C" #k, &Card::c##k, "M/LT2", "pressure without energy at EV" #k, wide \
   }
 #define T(k)                                                    \
@@ -97,8 +97,7 @@ const FieldRules wide{.width = 16};
 
 // By hand: EV 0.1, 0, -0.5; C -1, 0, 10; T 1, 1, 3; GAMA 1/2, E 4. At eV = -1/4 C = 5, T = 2, p = 5 + 4 = 9;
 // at eV = 0.05 C = -1/2, T = 1, p = 3/2; beyond the last point, at eV = -1, C = 20, T = 5, p = 30.
-const char* const example =
-    "1,0.5\n0.1,0.0,-0.5\n\n-1.0,0.0,10.0\n\n1.0,1.0,3.0\n\n";
+const char* const example = "1,0.5\n0.1,0.0,-0.5\n\n-1.0,0.0,10.0\n\n1.0,1.0,3.0\n\n";
 // The same towards expansion, without energy.
 const char* const cold = "1,0.5\n-0.5,0.0,0.1\n\n10.0,0.0,-1.0\n\n";
 const RegisterEos<Card> registered{

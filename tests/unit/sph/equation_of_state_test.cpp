@@ -35,7 +35,6 @@ std::shared_ptr<EosLaw> polynomial(Real factor) {
                        std::to_string(factor) + "," + std::to_string(factor) + "\n0.0,1.0\n");
 }
 
-
 std::shared_ptr<EquationOfState> pass_of(std::shared_ptr<EosLaw> law, Real rho0, Real pc, World& world) {
   return std::make_shared<EquationOfState>(
       law, EosParts{{1}, true, {rho0}, {pc}},
@@ -53,7 +52,6 @@ World particle(Real rho, Real rate) {
   p.active = p.moving = 1;
   return world;
 }
-
 
 }  // namespace
 

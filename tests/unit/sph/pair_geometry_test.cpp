@@ -38,8 +38,7 @@ Result run(Real eps, int threads = 1) {
     momentum += p.m[i] * p.v.vec(i);
     scale += p.m[i] * p.v.vec(i).norm();
   }
-  w.passes.add(
-      liquid_pass(9e7, w));
+  w.passes.add(liquid_pass(9e7, w));
   w.passes.add(make_clear_forces(points_of(w.particles)));
   w.passes.add(make_point_motion(points_of(w.particles)));
   add_sph_passes(w, cloud.settings, cloud.neighbours);

@@ -1,6 +1,7 @@
 // Particles with strength: spin, stress that turns with the body, energy, artificial stress, what is refused.
 #include "sph/strength.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,8 +34,8 @@ std::shared_ptr<StrengthLaw> law_of(const std::string& keyword, const std::strin
   return nullptr;
 }
 std::shared_ptr<StrengthLaw> rubber() {
-  return law_of("MAT_ELASTIC", fmt::format("1,1000.0,{},{}\n", 9 * K * G / (3 * K + G),
-                                           (3 * K - 2 * G) / (6 * K + 2 * G)));
+  return law_of("MAT_ELASTIC",
+                fmt::format("1,1000.0,{},{}\n", 9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)));
 }
 
 BlockPass& pass_of(World& w, Phase phase, const std::string& name) {
@@ -113,7 +114,8 @@ TEST(Strength, StressTurnsWithTheBodyForAHundredTurns) {
   Matrix turned;
   turned << -50, -30, 0, -30, 100, 0, 0, 0, 20;
   EXPECT_LT((kept.tensor(0) - turned).norm(), 1e-8 * sigma.norm());
-  EXPECT_LT((sph_fields::stress(p).tensor(0) - p.p[0] * Matrix::Identity() - turned).norm(), 1e-8 * sigma.norm());
+  EXPECT_LT((sph_fields::stress(p).tensor(0) - p.p[0] * Matrix::Identity() - turned).norm(),
+            1e-8 * sigma.norm());
 }
 
 TEST(Strength, UniaxialStrainHasTheModulusOfCompressionWaves) {
