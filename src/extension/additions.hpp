@@ -12,6 +12,9 @@
 
 namespace courant {
 
+/// ElementGroup::part of elements that belong to no *PART.
+inline constexpr Index no_part = -1;
+
 struct Addition {
   std::string name;  ///< for messages
   /// Reads its cards and adds passes, fields or element groups to the world. Called when particles, nodes,
