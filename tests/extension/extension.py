@@ -185,6 +185,30 @@ with open(deck) as file, open("no_node.k", "w") as out:
     out.write(file.read().replace("101,12,21,250.", "101,12,99,250."))
 code, text = call("run", "no_node.k", "-o", "no_node", *loads("element"))
 check(code == 1 and "(N2" in text and "ELEMENT_EXAMPLE_SPRING" in text, "springs: refused between nodes of nothing")
+lone = """*KEYWORD
+*NODE
+1,0.,0.,0.
+2,0.1,0.,0.
+*ELEMENT_EXAMPLE_SPRING
+1,1,2,1000.,2.
+*INITIAL_VELOCITY_NODE
+1,0.1
+2,-0.1
+*CONTROL_TIMESTEP
+0.,0.05
+*CONTROL_TERMINATION
+1.
+*DATABASE_GLSTAT
+0.002
+*END
+"""
+for name, text in (("lone", lone), ("massless", lone.replace("1000.,2.", "1000."))):
+    with open(f"{name}.k", "w") as file:
+        file.write(text)
+fine("run", "lone.k", "-o", "lone", "--quiet", *loads("element"))
+near(period(history("lone", "global/time"), history("lone", "global/kinetic")), numpy.pi / numpy.sqrt(2000), 0.002, "springs: between nodes of nothing else, period")
+code, text = call("run", "massless.k", "-o", "massless", *loads("element"))
+check(code == 1 and "node 1 moves by its forces and has no mass" in text, "springs: nodes without mass are refused")
 copies(deck, "springs_many.k", 20)
 same_bits("springs_many", "springs_many.k", ["element"], 1000)
 
