@@ -144,7 +144,9 @@ same_bits("strength_many", "strength_many.k", ["strength_law"], 100)
 fine("generate", f"{decks}/equation_of_state.yaml", "-o", "gas.k")
 fine("run", "gas.k", "-o", "gas", "--quiet", *loads("equation_of_state"))
 near(period(glstat("gas", "time"), glstat("gas", "kinetic energy")), 0.05, 0.015, "stiffened gas: period of the kinetic energy")
-same_bits("gas", "gas.k", ["equation_of_state"], 100)
+with open("gas.k") as file, open("free_gas.k", "w") as out:  # with a surface, so that energy and density change much
+    out.write(re.sub(r"^\*BOUNDARY_SPH_PERIODIC\n.*\n.*\n", "", file.read(), flags=re.M))
+same_bits("free_gas", "free_gas.k", ["equation_of_state"], 100)
 
 # --- a load: exponential approach of particles and solids to the wind, and its work
 fine("run", f"{decks}/load.k", "-o", "wind", "--quiet", *loads("load", "ascii_history"))
