@@ -2,7 +2,7 @@
 
 namespace courant {
 
-std::vector<Index> build_nodes(const Model& model, World& world) {
+std::vector<Index> build_nodes(const Model& model, const std::vector<Index>& more, World& world) {
   std::vector<Index> node_of(model.nodes.size(), -1), part(model.nodes.size(), 0);
   const auto use = [&](Index node, Index of_part) {
     if (node < 0 || node_of[node] == 0) return;
@@ -12,6 +12,11 @@ std::vector<Index> build_nodes(const Model& model, World& world) {
     for (const Index n : shell.node) use(n, shell.part);
   for (const ModelSolid& solid : model.solids)
     for (const Index n : solid.node) use(n, solid.part);
+  std::vector<char> particle(more.empty() ? 0 : model.nodes.size(), 0);
+  if (!more.empty())
+    for (const ModelSph& s : model.sph) particle[s.node] = 1;
+  for (const Index n : more)
+    if (!particle[n]) use(n, -1);
   Index count = 0;
   for (Index& n : node_of)
     if (n == 0) n = count++;

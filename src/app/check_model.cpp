@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "app/check.hpp"
+#include "extension/additions.hpp"
 #include "parallel/parallel.hpp"
 #include "search/nearest_distance.hpp"
 
@@ -98,6 +99,7 @@ void add_shells(const Simulation& s, std::vector<PartRow>& rows) {
 void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
   const World& world = s.world();
   for (const auto& group : world.groups) {
+    if (group->part == no_part) continue;
     PartRow& row = rows[group->part];
     const StrengthLaw& law = *s.solids()[group->part].law;
     row = {.count = group->size(),

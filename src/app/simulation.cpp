@@ -52,7 +52,8 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
   const bool model_is_whole = diagnostics.ok();
   s->build_parts(diagnostics);
   const bool bodies_move = s->bodies_ && s->bodies_->any_moves();
-  if (s->model_.sph.empty() && s->model_.solids.empty() && !bodies_move && model_is_whole)
+  if (s->model_.sph.empty() && s->model_.solids.empty() && !bodies_move &&
+      added_nodes(s->deck_, s->model_).empty() && model_is_whole)
     diagnostics.error(
         {deck_path, 0, 0},
         "the deck has no *ELEMENT_SPH, no *ELEMENT_SOLID and no rigid body that can move: there "
@@ -82,7 +83,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   const auto sph_material = [&](Index part) { return materials_[part].for_particles(); };
   sph_ = build_particles(deck_, model_, sph_material, world_,
                          diagnostics);  // sets world_.dim, which rigid bodies ask for
-  const std::vector<Index> node_of = build_nodes(model_, world_);
+  const std::vector<Index> node_of = build_nodes(model_, added_nodes(deck_, model_), world_);
   build_segments(deck_, model_, shell_material, node_of, world_, diagnostics);
   solids_ = find_solid_parts(deck_, model_, diagnostics);
   if (diagnostics.ok()) {
@@ -122,6 +123,11 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
   else
     left_out_.push_back({"forces on nodes", "no node moves"});
   if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
+  for (Index n = 0; n < world_.nodes.size(); ++n)
+    if (!world_.nodes.follow[n] && !(world_.nodes.m[n] > 0))
+      return diagnostics.error(
+          {deck_.files[0].name},
+          fmt::format("node {} moves by its forces and has no mass", world_.nodes.id[n]));
   world_.passes.add(make_corner_gather(world_));
   add_loads(points_of(world_.nodes), BodyAcceleration(model_.body_loads));
   world_.passes.add(make_point_motion(points_of(world_.nodes)));

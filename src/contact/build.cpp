@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <set>
 #include <unordered_set>
 
 #include "contact/cards.hpp"
@@ -114,6 +115,22 @@ ContactLaw law_of(const ContactNodesToSurface& c, const ControlContact* control,
   return law;
 }
 
+std::vector<AskedInterfaceLaw> interface_laws(const Deck& deck, Diagnostics& diagnostics) {
+  std::vector<AskedInterfaceLaw> out;
+  std::set<Id> contacts;
+  Id number = 0;
+  for (const ContactNodesToSurface& c : deck.all<ContactNodesToSurface>())
+    ++number, contacts.insert(c.cid > 0 ? c.cid : number);
+  for (const InterfaceLawsOf& laws : interface_law_registry())
+    for (AskedInterfaceLaw& one : laws(deck)) {
+      if (!contacts.contains(one.contact))
+        deck.error(diagnostics, one.card, "", fmt::format("contact {} does not exist", one.contact),
+                   "give the id of a *CONTACT");
+      out.push_back(std::move(one));
+    }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Model& model,
@@ -122,6 +139,7 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
   std::vector<std::shared_ptr<Contact>> out;
   Builder builder(deck, model, options, world, diagnostics);
   int number = 0;
+  const std::vector<AskedInterfaceLaw> laws = interface_laws(deck, diagnostics);
   for (const ContactNodesToSurface& c : deck.all<ContactNodesToSurface>()) {
     ++number;
     const int errors = diagnostics.errors();
@@ -133,9 +151,8 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
     if (diagnostics.errors() > errors || segments.empty()) continue;
     auto contact = std::make_shared<Contact>(law_of(c, deck.last<ControlContact>(), number), options, number,
                                              segments, tracked, world);
-    for (const auto& laws : interface_law_registry())
-      for (const auto& [id, interface_law] : laws(deck))
-        if (id == contact->report().id) contact->add_law(interface_law);
+    for (const AskedInterfaceLaw& one : laws)
+      if (one.contact == contact->report().id) contact->add_law(one.law);
     const Contact::Penetrations p = contact->penetrations(world);
     world.counters["initial_penetrations"] += p.count;
     if (p.count > 0)

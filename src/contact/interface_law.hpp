@@ -2,7 +2,6 @@
 // Laws of an interface besides the penalty: what a touch does in addition to being pushed off.
 #include <functional>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "keyword/deck.hpp"
@@ -30,8 +29,14 @@ class InterfaceLaw {
   virtual Vec force(const TouchState& touch, const Clock& clock) const = 0;
 };
 
-/// Laws that a deck asks for, by the id of the *CONTACT.
-using InterfaceLawsOf = std::function<std::vector<std::pair<Id, std::shared_ptr<InterfaceLaw>>>(const Deck&)>;
+struct AskedInterfaceLaw {
+  Id contact = 0;  ///< id of the *CONTACT
+  std::shared_ptr<InterfaceLaw> law;
+  Entry card{};  ///< for messages
+};
+
+/// Laws that a deck asks for. One for a contact that is not there is refused.
+using InterfaceLawsOf = std::function<std::vector<AskedInterfaceLaw>(const Deck&)>;
 std::vector<InterfaceLawsOf>& interface_law_registry();
 
 struct RegisterInterfaceLaw {

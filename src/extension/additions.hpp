@@ -12,20 +12,29 @@
 
 namespace courant {
 
+/// ElementGroup::part of elements that belong to no *PART.
+inline constexpr Index no_part = -1;
+
 struct Addition {
   std::string name;  ///< for messages
   /// Reads its cards and adds passes, fields or element groups to the world. Called when particles, nodes,
   /// elements, bodies and contacts are there, before stages are made; particles stand in the order of the
   /// model. Faults go to the diagnostics.
   std::function<void(const Deck&, const Model&, World&, Diagnostics&)> build;
+  /// Nodes of its elements, indices into Model::nodes: they are in World::nodes then, whether shells and
+  /// solids use them or not; particles never are. Somebody has to give them mass. Empty: no nodes.
+  std::function<std::vector<Index>(const Deck&, const Model&)> nodes{};
 };
 
 std::vector<Addition>& additions();
+/// Those of all additions.
+std::vector<Index> added_nodes(const Deck& deck, const Model& model);
 
 struct RegisterAddition {
   RegisterAddition(std::string name,
-                   std::function<void(const Deck&, const Model&, World&, Diagnostics&)> build) {
-    additions().push_back({std::move(name), std::move(build)});
+                   std::function<void(const Deck&, const Model&, World&, Diagnostics&)> build,
+                   std::function<std::vector<Index>(const Deck&, const Model&)> nodes = {}) {
+    additions().push_back({std::move(name), std::move(build), std::move(nodes)});
   }
 };
 

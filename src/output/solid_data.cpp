@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
 
 #include "output/field_data.hpp"
 #include "output/vtk_arrays.hpp"
@@ -58,25 +61,30 @@ VtkSection cells(const Groups& groups, const std::vector<Index>& place) {
                                        [&](std::size_t i, std::uint8_t* to) { *to = types[i]; })}};
 }
 
-/// The fields flagged `output` that all groups have.
+bool same_kind(const VtkArray& a, const VtkArray& b) {
+  return std::string_view(a.type) == b.type && a.components == b.components && a.dimension == b.dimension;
+}
+
+/// The fields flagged `output`, each 0 in groups that have none of that name and kind.
 std::vector<VtkArray> cell_data(const Groups& groups, const FieldWriterOptions& options) {
   std::vector<VtkArray> out;
-  if (groups.empty()) return out;
-  for (const auto& field : groups.front()->fields.all()) {
-    if (!field->info().output) continue;
-    VtkArray all;
-    bool everywhere = true;
-    for (const ElementGroup* group : groups) {
-      const FieldBase* mine = group->fields.find(field->info().name);
-      if (!(everywhere = mine != nullptr)) break;
-      VtkArray one = copy_of(*mine, all_of(group->size()), options.float64, 0);
-      if (all.name.empty())
-        all = std::move(one);
-      else
-        all.bytes.insert(all.bytes.end(), one.bytes.begin(), one.bytes.end());
+  std::set<std::string> done;
+  for (const ElementGroup* owner : groups)
+    for (const auto& field : owner->fields.all()) {
+      if (!field->info().output || !done.insert(field->info().name).second) continue;
+      VtkArray all = copy_of(*field, {0}, options.float64, 0);
+      const std::size_t width = all.bytes.size();
+      all.bytes.clear();
+      for (const ElementGroup* group : groups) {
+        const std::size_t end = all.bytes.size() + width * static_cast<std::size_t>(group->size());
+        if (const FieldBase* mine = group->fields.find(field->info().name)) {
+          const VtkArray one = copy_of(*mine, all_of(group->size()), options.float64, 0);
+          if (same_kind(one, all)) all.bytes.insert(all.bytes.end(), one.bytes.begin(), one.bytes.end());
+        }
+        all.bytes.resize(end);
+      }
+      out.push_back(std::move(all));
     }
-    if (everywhere) out.push_back(std::move(all));
-  }
   return out;
 }
 
@@ -92,7 +100,7 @@ VtkDataSet solid_data(const World& world, const FieldWriterOptions& options) {
   std::vector<Id> part;
   for (const ElementGroup* group : groups)
     part.insert(part.end(), static_cast<std::size_t>(group->size()),
-                options.part_ids.at(static_cast<std::size_t>(group->part)));
+                group->part < 0 ? 0 : options.part_ids.at(static_cast<std::size_t>(group->part)));
   of_elements.push_back(
       make_array<Id, 1>("part", "", part.size(), [&](std::size_t i, Id* to) { *to = part[i]; }));
   VtkDataSet out{"UnstructuredGrid",

@@ -43,7 +43,7 @@ struct Plate {
       if (!m) return std::nullopt;
       return ShellMaterial{m->ro, m->E, m->pr};
     };
-    build_segments(deck, model, material, build_nodes(model, world), world, diagnostics);
+    build_segments(deck, model, material, build_nodes(model, {}, world), world, diagnostics);
     bodies = build_rigid_bodies(deck, model, world, diagnostics);
   }
   void step(Clock& clock, Real dt) {

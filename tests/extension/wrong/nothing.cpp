@@ -1,0 +1,4 @@
+// Registers nothing.
+int nothing() {
+  return 0;
+}
