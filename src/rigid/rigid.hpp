@@ -114,9 +114,9 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Keep
 void add_body_passes(World& world, std::shared_ptr<RigidBodies> bodies);
 
 /// One body per shell part of *MAT_RIGID, with mass, centre and inertia from the nodal masses that
-/// build_segments gave (call that first). Sets Nodes::held and Nodes::follow. nullptr if there is none. Refuses by name: local
-/// and point constraints, SPC on nodes of rigid bodies, nodes shared by two bodies of which one can move,
-/// inertia that does not allow a free rotation.
+/// build_segments gave (call that first). Sets Nodes::held and Nodes::follow. nullptr if there is none.
+/// Refuses by name: local and point constraints, SPC on nodes of rigid bodies, nodes shared by two bodies of
+/// which one can move, inertia that does not allow a free rotation.
 std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& model, World& world,
                                                 Diagnostics& diagnostics);
 

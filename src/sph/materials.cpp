@@ -55,8 +55,9 @@ void check_cards(const Deck& deck, const Model& model, const Known& known, Diagn
   const bool strong = std::any_of(model.parts.begin(), model.parts.end(), [&](const ModelPart& part) {
     return part.has_sph && known.strengths.count(part.mid) > 0;
   });
-  const bool solids = std::any_of(model.parts.begin(), model.parts.end(),
-                                  [](const ModelPart& part) { return part.has_solid; });  // which check them, too
+  const bool solids = std::any_of(model.parts.begin(), model.parts.end(), [](const ModelPart& part) {
+    return part.has_solid;
+  });  // which check them, too
   if (strong && !solids)
     for (const StrengthEntry& kind : strength_registry()) kind.check(deck, diagnostics);
 }

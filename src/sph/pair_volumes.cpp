@@ -11,8 +11,7 @@ PairVolumes::PairVolumes(World& world) {
   FieldSet& fields = world.particles.fields;
   const char* names[] = {"volume", "other_volume"};
   for (int k = 0; k < 2; ++k)
-    fields_[k] = &fields.add<Real>(
-        {.name = names[k], .dimension = "L3", .restart = false, .exchange = true});
+    fields_[k] = &fields.add<Real>({.name = names[k], .dimension = "L3", .restart = false, .exchange = true});
 }
 
 void PairVolumes::declare(const World& world, Accesses& a) const {

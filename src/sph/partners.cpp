@@ -39,9 +39,7 @@ class Partners : public Kind {
   }
 
  private:
-  const Resource& turn() const {
-    return std::is_same_v<Kind, Rate> ? volumes_->before() : volumes_->now();
-  }
+  const Resource& turn() const { return std::is_same_v<Kind, Rate> ? volumes_->before() : volumes_->now(); }
   std::string name_;
   KernelChoice kernel_;
   Fields fields_;

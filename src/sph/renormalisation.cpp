@@ -215,8 +215,7 @@ void read_form(const Deck& deck, SphSettings& s, Diagnostics& diagnostics) {
 void add_renormalisation(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                          std::shared_ptr<PairVolumes> volumes) {
   world.passes.add(std::make_shared<RenormalRates>(s, world, neighbours, volumes));
-  world.passes.add(
-      std::make_shared<RenormalForces>(s, world, std::move(neighbours), std::move(volumes)));
+  world.passes.add(std::make_shared<RenormalForces>(s, world, std::move(neighbours), std::move(volumes)));
 }
 
 }  // namespace courant

@@ -174,9 +174,7 @@ class SurfaceNote : public Preparation {
   explicit SurfaceNote(World& world)
       : spread_(sph_fields::spread(world.particles)), new_spread_(sph_fields::new_spread(world.particles)) {}
   std::string name() const override { return "surfaces"; }
-  void declare(const World&, Accesses& a) const override {
-    a.updates(spread_).reads(new_spread_);
-  }
+  void declare(const World&, Accesses& a) const override { a.updates(spread_).reads(new_spread_); }
   void block(World& world, const Clock&, Index begin, Index end) override {
     end = std::min(end, world.particles.active);
     for (Index i = begin; i < end; ++i) spread_[i] = new_spread_[i];

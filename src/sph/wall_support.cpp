@@ -289,9 +289,7 @@ class WallSupportForce : public Force {
  public:
   explicit WallSupportForce(std::shared_ptr<WallSupport> support) : support_(std::move(support)) {}
   std::string name() const override { return "wall support (forces)"; }
-  void declare(const World& world, Accesses& a) const override {
-    support_->declare_force(world, a);
-  }
+  void declare(const World& world, Accesses& a) const override { support_->declare_force(world, a); }
   void start(World& world, const Clock&) override { support_->take_back_forces(world); }
   void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;

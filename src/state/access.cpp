@@ -11,9 +11,9 @@ const char* name_of(Phase phase) {
 }
 
 void Accesses::drop(const std::string& resource) {
-  all_.erase(std::remove_if(all_.begin(), all_.end(),
-                            [&](const Access& a) { return a.what->name() == resource; }),
-             all_.end());
+  all_.erase(
+      std::remove_if(all_.begin(), all_.end(), [&](const Access& a) { return a.what->name() == resource; }),
+      all_.end());
 }
 
 }  // namespace courant

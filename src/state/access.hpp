@@ -56,9 +56,7 @@ struct Access {
   Mode mode = Mode::reads;
   Reach reach = Reach::own;
   When when = When::block;
-  bool changes() const {
-    return mode == Mode::writes || mode == Mode::updates || mode == Mode::revises;
-  }
+  bool changes() const { return mode == Mode::writes || mode == Mode::updates || mode == Mode::revises; }
 };
 
 /// The declarations of one pass, as BlockPass::declare makes them.

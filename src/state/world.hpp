@@ -22,8 +22,8 @@ struct EnergyLedger {
   Real hourglass = 0;       ///< taken by hourglass control of elements
   Real bulk_viscosity = 0;  ///< taken by bulk viscosity of elements
   Real dissipated = 0;      ///< by viscosity, contact damping, friction (accumulates)
-  Real external_work = 0;  ///< work done on the active particles from outside: load curves, box boundary,
-                           ///< inflow minus outflow (accumulates)
+  Real external_work = 0;   ///< work done on the active particles from outside: load curves, box boundary,
+                            ///< inflow minus outflow (accumulates)
   Real throughput =
       0;  ///< energy that passed through so far: sum of |work| of all kinds and of inflow (accumulates)
   Real initial = 0;  ///< total at t = 0

@@ -29,8 +29,7 @@ bool declares_change(const Accesses& accesses, const FieldBase& field, Access::W
 [[noreturn]] void stop_for(const std::string& what, const Resource& resource) {
   const std::string pass = at_work->pass->name();
   at_work = nullptr;
-  throw std::logic_error(
-      fmt::format("pass '{}' {} {} of {}", pass, what, resource.name(), resource.set()));
+  throw std::logic_error(fmt::format("pass '{}' {} {} of {}", pass, what, resource.name(), resource.set()));
 }
 
 template <class T>
@@ -70,7 +69,8 @@ void run_checked(const StagePlan::Entry& entry, Access::When when, const World& 
     const auto old = before.find(field);
     if (old == before.end() || old->second == hash) continue;
     // two turns of one resource: which of them it was is known before or after the work only
-    if (!declares_change(entry.accesses, *field, when)) stop_for("changes, without having declared it,", *field);
+    if (!declares_change(entry.accesses, *field, when))
+      stop_for("changes, without having declared it,", *field);
   }
   at_work = nullptr;
 }
@@ -91,8 +91,8 @@ void run_block_checked(const StagePlan::Entry& entry, World&, Index begin, Index
   for (const auto& field : entry.over->all()) {
     auto* reals = dynamic_cast<Field<Real>*>(field.get());
     if (!reals || !declares(entry.accesses, *field)) continue;
-    const bool others = std::any_of(
-        entry.accesses.all().begin(), entry.accesses.all().end(), [&](const Access& a) {
+    const bool others =
+        std::any_of(entry.accesses.all().begin(), entry.accesses.all().end(), [&](const Access& a) {
           return (a.what == field.get() || a.what->field() == field.get()) && a.reach == Reach::others;
         });
     if (others) continue;
@@ -120,7 +120,8 @@ const std::pair<std::string, std::string>& left_out_declaration() {
 
 #ifdef COURANT_CHECK_ACCESSES
 void note_access(const Resource& resource) {
-  if (at_work && !declares(at_work->accesses, resource)) stop_for("asks, without having declared it, for", resource);
+  if (at_work && !declares(at_work->accesses, resource))
+    stop_for("asks, without having declared it, for", resource);
 }
 #endif
 

@@ -15,8 +15,8 @@ inline constexpr bool checks_accesses = true;
 inline constexpr bool checks_accesses = false;
 #endif
 
-/// Calls `work`, a function of the entry's pass. Throws std::logic_error, which names pass and resource, where
-/// it asks for what it has not declared, or changes what it has not declared to change.
+/// Calls `work`, a function of the entry's pass. Throws std::logic_error, which names pass and resource,
+/// where it asks for what it has not declared, or changes what it has not declared to change.
 void run_checked(const StagePlan::Entry& entry, Access::When when, const World& world,
                  const std::function<void()>& work);
 

@@ -29,8 +29,8 @@ Need need_of(const Access& before, const FieldSet& over_before, const Access& no
   if (now.when == When::finish) return Need::nothing;
   if (now.when == When::start) return before.when == When::start ? Need::nothing : Need::stage;
   if (before.when == When::start || waited) return Need::nothing;
-  const bool foreign = (before.changes() && of_others(now, over_now)) ||
-                       (now.changes() && of_others(before, over_before));
+  const bool foreign =
+      (before.changes() && of_others(now, over_now)) || (now.changes() && of_others(before, over_before));
   return foreign ? Need::wait : Need::nothing;
 }
 

@@ -26,10 +26,10 @@ struct Schedule {
   std::vector<StagePlan> forces, motion;
 };
 
-/// A pass waits where it reads of others what an earlier pass of the stage changed, or changes what an earlier
-/// one reads of others. It begins a new stage where that change comes in a `finish`, where its `start` needs
-/// it, or where images have to be exchanged in between. Throws std::logic_error where a pass changes a field
-/// of another set than its own otherwise than in `start` or `finish`.
+/// A pass waits where it reads of others what an earlier pass of the stage changed, or changes what an
+/// earlier one reads of others. It begins a new stage where that change comes in a `finish`, where its
+/// `start` needs it, or where images have to be exchanged in between. Throws std::logic_error where a pass
+/// changes a field of another set than its own otherwise than in `start` or `finish`.
 Schedule make_schedule(const World& world);
 
 /// The stages as text, a line for each pass, for `courant run` and the docs.

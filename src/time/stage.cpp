@@ -16,7 +16,8 @@ Stage::Stage(StagePlan plan, const World& world, PassTimer& timer)
     const StagePlan::Entry& e = plan_.entries[k];
     rows_.push_back(timer_.row(e.pass->name()));
     if (k == 0 || e.waits) parts_.push_back(k);
-    const bool known = std::any_of(even_.begin(), even_.end(), [&](const auto& s) { return s.set == e.over; });
+    const bool known =
+        std::any_of(even_.begin(), even_.end(), [&](const auto& s) { return s.set == e.over; });
     if (!known) even_.push_back({e.over});
   }
   parts_.push_back(plan_.entries.size());
@@ -47,8 +48,7 @@ void Stage::exchange(World& world) {
   if (plan_.exchange.empty()) return;
   std::vector<const FieldBase*> fields;
   for (const Resource* r : plan_.exchange) fields.push_back(r->field());
-  for (Exchanger* e : exchangers_)
-    timer_.measure(e->name(), [&] { e->exchange(world, fields); });
+  for (Exchanger* e : exchangers_) timer_.measure(e->name(), [&] { e->exchange(world, fields); });
 }
 
 void Stage::run_share(World& world, const Clock& clock, int thread, std::size_t first_pass,

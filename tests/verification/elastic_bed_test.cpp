@@ -4,8 +4,8 @@
 #include "solid_decks.hpp"
 
 using namespace courant;
-using test::SolidDeck;
 using test::simulation_of;
+using test::SolidDeck;
 
 namespace {
 
@@ -24,7 +24,8 @@ void add_water(SolidDeck& deck, const Vec& low, const Vec& size, Real dx, Real t
   for (std::size_t p = first; p <= deck.nodes.size(); ++p)
     deck.particles += fmt::format("{:8}{:8}{:16.9e}\n", p, 1, rho_w * dx * dx * dx);
   deck.cards += fmt::format(
-      "*PART\nwater\n         1         1         1         1         1\n*PART\nblock\n         2         2         2\n"
+      "*PART\nwater\n         1         1         1         1         1\n*PART\nblock\n         2         2  "
+      "       2\n"
       "*CONTROL_SPH\n         1         0    1.0e20         3\n*MAT_NULL\n         1{:10.4g}    -1e20\n"
       "*EOS_LINEAR_POLYNOMIAL\n         1         0{:10.4g}\n         0       1.0\n"
       "*SECTION_SPH\n         1       1.2       1.0       1.0\n"
@@ -44,23 +45,27 @@ std::string pool(Real dx, Real mesh) {
   deck.node_set(2, [](const Vec& x) { return x[2] < 1e-9; });
   add_water(deck, Vec(0, 0, L), Vec(W, W, H), dx, dx);
   deck.cards += fmt::format(
-      "*BOUNDARY_SPC_SET\n         1         0         1         1         0\n         2         0         0         0"
-      "         1\n*LOAD_BODY_Z\n         1       1.0\n*DEFINE_CURVE\n         1\n{0:20}{0:20}\n{1:20}{2:20}\n"
-      "              1000.0{2:20}\n*DAMPING_PART_MASS\n         2         2       1.0\n*DEFINE_CURVE\n         2\n"
+      "*BOUNDARY_SPC_SET\n         1         0         1         1         0\n         2         0         0 "
+      "        0"
+      "         1\n*LOAD_BODY_Z\n         1       1.0\n*DEFINE_CURVE\n         "
+      "1\n{0:20}{0:20}\n{1:20}{2:20}\n"
+      "              1000.0{2:20}\n*DAMPING_PART_MASS\n         2         2       1.0\n*DEFINE_CURVE\n       "
+      "  2\n"
       "                 0.0                60.0\n              1000.0                60.0\n",
       0.0, 0.1, g);
   for (const char* axis : {"x", "y"})
     for (const bool far : {false, true}) {
       const Vec n_in = (far ? -1 : 1) * (*axis == 'x' ? Vec::UnitX() : Vec::UnitY());
       const Vec tail = far ? Vec(-W * n_in) : Vec(Vec::Zero()), head = tail + n_in;
-      deck.cards += fmt::format("*BOUNDARY_SPH_SYMMETRY_PLANE\n{:10.4g}{:10.4g}{:10.4g}{:10.4g}{:10.4g}{:10.4g}\n",
-                                tail[0], tail[1], tail[2], head[0], head[1], head[2]);
+      deck.cards +=
+          fmt::format("*BOUNDARY_SPH_SYMMETRY_PLANE\n{:10.4g}{:10.4g}{:10.4g}{:10.4g}{:10.4g}{:10.4g}\n",
+                      tail[0], tail[1], tail[2], head[0], head[1], head[2]);
     }
   return deck.text(1);
 }
 
 struct Settled {
-  Real top = 0;                ///< of the expected settlement [-]
+  Real top = 0;                      ///< of the expected settlement [-]
   Real face_low = 1, face_high = 1;  ///< force on a face over its share of the weight [-]
 };
 
@@ -117,11 +122,13 @@ TEST(ElasticBed, MomentumStaysWhereABlockTurnsAndDeforms) {
   SolidDeck deck;
   const Real tilt = 0.3;
   deck.block(Vec(W, W, 0.06), 4, 4, 3, 2, [&](const Vec& x) {
-    return Vec(std::cos(tilt) * x[0] - std::sin(tilt) * x[2], x[1], std::sin(tilt) * x[0] + std::cos(tilt) * x[2]);
+    return Vec(std::cos(tilt) * x[0] - std::sin(tilt) * x[2], x[1],
+               std::sin(tilt) * x[0] + std::cos(tilt) * x[2]);
   });
   const auto solids = Index(deck.nodes.size());
   add_water(deck, Vec(0.01, 0.02, 0.09), Vec(0.03, 0.04, 0.03), 0.01, 0.01);
-  deck.node_set(3, [&](const Vec& x) { return x[2] > 0.09 + 1e-9 && x[0] > 0.01 && x[0] < 0.04 && x[1] > 0.02; });
+  deck.node_set(
+      3, [&](const Vec& x) { return x[2] > 0.09 + 1e-9 && x[0] > 0.01 && x[0] < 0.04 && x[1] > 0.02; });
   deck.cards += "*INITIAL_VELOCITY\n         3\n       0.0       0.0      -4.0\n";
   auto s = simulation_of(deck.text(1));
   World& w = s->world();
@@ -142,6 +149,7 @@ TEST(ElasticBed, MomentumStaysWhereABlockTurnsAndDeforms) {
   momenta(p, l);
   EXPECT_GT(s->world().maxima.at("max_penetration"), 0) << "nothing touched";
   EXPECT_LT((p - linear).norm(), 1e-12 * linear.norm());
-  // forces of a particle on a face act where it stands, half the contact distance off the face: along the normal
+  // forces of a particle on a face act where it stands, half the contact distance off the face: along the
+  // normal
   EXPECT_LT((l - angular).norm(), 1e-3 * std::max(angular.norm(), linear.norm() * W));
 }

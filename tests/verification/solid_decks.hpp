@@ -25,7 +25,9 @@ struct SolidDeck {
           const Vec x(size[0] * i / nx, size[1] * j / ny, size[2] * k / nz);
           nodes.push_back(shape ? shape(x) : x);
         }
-    const auto n = [&](int i, int j, int k) { return first + std::size_t(i + (nx + 1) * (j + (ny + 1) * k)); };
+    const auto n = [&](int i, int j, int k) {
+      return first + std::size_t(i + (nx + 1) * (j + (ny + 1) * k));
+    };
     for (int k = 0; k < nz; ++k)
       for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i)

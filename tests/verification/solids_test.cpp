@@ -7,17 +7,18 @@
 #include "state/keeper.hpp"
 
 using namespace courant;
-using test::SolidDeck;
 using test::simulation_of;
+using test::SolidDeck;
 
 namespace {
 
 constexpr auto nothing = [](World&, const Clock&, const std::string&) {};
 
 std::string elastic(int part, Real ro, Real E, Real pr) {
-  return fmt::format("*PART\nblock\n{0:10}{0:10}{0:10}\n*SECTION_SOLID\n{0:10}         1\n*MAT_ELASTIC\n"
-                     "{0:10}{1:10.4g}{2:10.4g}{3:10.4g}\n",
-                     part, ro, E, pr);
+  return fmt::format(
+      "*PART\nblock\n{0:10}{0:10}{0:10}\n*SECTION_SOLID\n{0:10}         1\n*MAT_ELASTIC\n"
+      "{0:10}{1:10.4g}{2:10.4g}{3:10.4g}\n",
+      part, ro, E, pr);
 }
 
 /// A bar along x of which the left half starts with 1 m/s: a wave runs right from its middle.
@@ -57,13 +58,15 @@ std::vector<Real> state_of(const World& world) {
 /// Skewed, squeezed and moving: every term of the elements is at work.
 SolidDeck moving_block() {
   SolidDeck deck;
-  deck.block(Vec(0.4, 0.3, 0.2), 8, 6, 4, 1,
-             [](const Vec& x) { return Vec(x[0] + 0.2 * x[1] * x[2] / 0.06 * 0.05, x[1], x[2] + 0.1 * x[0]); });
+  deck.block(Vec(0.4, 0.3, 0.2), 8, 6, 4, 1, [](const Vec& x) {
+    return Vec(x[0] + 0.2 * x[1] * x[2] / 0.06 * 0.05, x[1], x[2] + 0.1 * x[0]);
+  });
   deck.cards = elastic(1, 1000, 1e6, 0.3);
   deck.node_set(1, [](const Vec& x) { return x[0] > 0.2; });
   deck.cards += "*INITIAL_VELOCITY\n         1\n      -1.0       0.5       0.2\n";
-  deck.cards += "*LOAD_BODY_Z\n         1       1.0\n*DEFINE_CURVE\n         1\n                 0.0            9.81\n"
-                "               100.0            9.81\n";
+  deck.cards +=
+      "*LOAD_BODY_Z\n         1       1.0\n*DEFINE_CURVE\n         1\n                 0.0            9.81\n"
+      "               100.0            9.81\n";
   return deck;
 }
 
@@ -87,7 +90,9 @@ TEST(Solids, TheLedgerClosesAndMomentumStays) {
     EnergyLedger& e = s->world().energy;
     e.initial = e.total();
     const Nodes& nodes = s->world().nodes;
-    const auto momentum = [&] { return sum(nodes.size(), [&](Index i) { return nodes.m[i] * nodes.v.data(0)[i]; }); };
+    const auto momentum = [&] {
+      return sum(nodes.size(), [&](Index i) { return nodes.m[i] * nodes.v.data(0)[i]; });
+    };
     const Real start = momentum();
     while (s->clock().t < 3e-4) s->step(nothing);
     sample_energy(s->world(), s->clock());
@@ -121,8 +126,8 @@ TEST(Solids, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
   EXPECT_TRUE(reference == state_of(second->world())) << "after a restart";
 }
 
-// One degree of freedom: the top of a column held at the sides swings by 2 (rho g L^2/2)/E' and settles at half
-// of that.
+// One degree of freedom: the top of a column held at the sides swings by 2 (rho g L^2/2)/E' and settles at
+// half of that.
 TEST(Solids, AColumnSettlesUnderItsOwnWeight) {
   for (const auto& [n, bound] : {std::pair(5, 0.01), {10, 0.003}}) {
     constexpr Real L = 0.2, E = 1e7, nu = 0.3, rho = 2000, g = 9.81;
@@ -131,10 +136,11 @@ TEST(Solids, AColumnSettlesUnderItsOwnWeight) {
     deck.cards = elastic(1, rho, E, nu);
     deck.node_set(1, [](const Vec&) { return true; });
     deck.node_set(2, [](const Vec& x) { return x[2] < 1e-9; });
-    deck.cards += "*BOUNDARY_SPC_SET\n         1         0         1         1         0\n"
-                  "         2         0         0         0         1\n*LOAD_BODY_Z\n         1       1.0\n"
-                  "*DEFINE_CURVE\n         1\n                 0.0            9.81\n               100.0            "
-                  "9.81\n*DAMPING_GLOBAL\n         0     120.0\n";
+    deck.cards +=
+        "*BOUNDARY_SPC_SET\n         1         0         1         1         0\n"
+        "         2         0         0         0         1\n*LOAD_BODY_Z\n         1       1.0\n"
+        "*DEFINE_CURVE\n         1\n                 0.0            9.81\n               100.0            "
+        "9.81\n*DAMPING_GLOBAL\n         0     120.0\n";
     auto s = simulation_of(deck.text(1));
     while (s->clock().t < 0.3) s->step(nothing);
     const Real stiff = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu));

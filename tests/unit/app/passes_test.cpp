@@ -28,7 +28,8 @@ Lists lists_of(const SmallScene& scene) {
       continue;
     }
     std::string words;  // blanks in a row are columns
-    if (line.rfind("  stage", 0) == 0 || line.rfind("    --", 0) == 0 || line.rfind("  choice", 0) == 0) continue;
+    if (line.rfind("  stage", 0) == 0 || line.rfind("    --", 0) == 0 || line.rfind("  choice", 0) == 0)
+      continue;
     for (const char c : line.substr(2))
       if (c != ' ' || (!words.empty() && words.back() != ' ')) words += c;
     if (line.rfind("    ", 0) == 0) words.erase(words.rfind(' '));  // the set that a pass runs over
@@ -37,49 +38,49 @@ Lists lists_of(const SmallScene& scene) {
   return out;
 }
 
-const Lists bare{{"rates clear forces", "rates sph rates", "rates sph rates of partners",
-                  "laws eos linear polynomial", "laws sph volumes", "tallies sph time step", "tallies sph energy",
-                  "forces sph forces", "forces sph forces of partners", "motion motion of particles",
-                  "preparation sph factors", "preparation neighbours", "time limit sph time step",
-                  "energy sph energy", "guard every 64 steps"},
-                 {"inlets no *DEFINE_SPH_INJECTION",
-                  "images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
-                  "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
-                  "wall support no *COURANT_WALL_SUPPORT",
-                  "renormalisation FORM of *CONTROL_SPH is a plain one",
-                  "Riemann flux no *COURANT_RIEMANN",
-                  "density diffusion no *COURANT_DENSITY_DIFFUSION",
-                  "volume control no *COURANT_VOLUME_CONTROL",
-                  "shifting ISHIFT 0",
-                  "XSPH no *COURANT_XSPH",
-                  "re-initialisation no *COURANT_DENSITY_REINITIALISATION",
-                  "kept pair geometry no *COURANT_PAIR_GEOMETRY",
-                  "smoothing length HMIN = HMAX = 1: h is constant",
-                  "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
-                  "eddy viscosity no *COURANT_EDDY_VISCOSITY",
-                  "viscous stress MU is 0 in all SPH materials",
-                  "strength all SPH materials are fluids",
-                  "speed limit MAXV none given",
-                  "computational box no BOXID",
-                  "body loads on particles no *LOAD_BODY, *LOAD_GRAVITY_PART",
-                  "nodal forces on particles no *LOAD_NODE",
-                  "SPC on particles no *BOUNDARY_SPC",
-                  "damping on particles no *DAMPING",
-                  "level outlet no *COURANT_LEVEL_OUTLET",
-                  "contact no *CONTACT",
-                  "rigid bodies no *MAT_RIGID",
-                  "forces on nodes no node moves",
-                  "solids no *ELEMENT_SOLID",
-                  "field states no *DATABASE_BINARY_D3PLOT",
-                  "glstat no *DATABASE_GLSTAT",
-                  "matsum no *DATABASE_MATSUM",
-                  "rcforc no *DATABASE_RCFORC",
-                  "sleout no *DATABASE_SLEOUT",
-                  "sphout no *DATABASE_SPHOUT",
-                  "nodout no *DATABASE_NODOUT",
-                  "rbdout no *DATABASE_RBDOUT",
-                  "bndout no *DATABASE_BNDOUT",
-                  "spcforc no *DATABASE_SPCFORC"}};
+const Lists bare{
+    {"rates clear forces", "rates sph rates", "rates sph rates of partners", "laws eos linear polynomial",
+     "laws sph volumes", "tallies sph time step", "tallies sph energy", "forces sph forces",
+     "forces sph forces of partners", "motion motion of particles", "preparation sph factors",
+     "preparation neighbours", "time limit sph time step", "energy sph energy", "guard every 64 steps"},
+    {"inlets no *DEFINE_SPH_INJECTION",
+     "images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
+     "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
+     "wall support no *COURANT_WALL_SUPPORT",
+     "renormalisation FORM of *CONTROL_SPH is a plain one",
+     "Riemann flux no *COURANT_RIEMANN",
+     "density diffusion no *COURANT_DENSITY_DIFFUSION",
+     "volume control no *COURANT_VOLUME_CONTROL",
+     "shifting ISHIFT 0",
+     "XSPH no *COURANT_XSPH",
+     "re-initialisation no *COURANT_DENSITY_REINITIALISATION",
+     "kept pair geometry no *COURANT_PAIR_GEOMETRY",
+     "smoothing length HMIN = HMAX = 1: h is constant",
+     "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
+     "eddy viscosity no *COURANT_EDDY_VISCOSITY",
+     "viscous stress MU is 0 in all SPH materials",
+     "strength all SPH materials are fluids",
+     "speed limit MAXV none given",
+     "computational box no BOXID",
+     "body loads on particles no *LOAD_BODY, *LOAD_GRAVITY_PART",
+     "nodal forces on particles no *LOAD_NODE",
+     "SPC on particles no *BOUNDARY_SPC",
+     "damping on particles no *DAMPING",
+     "level outlet no *COURANT_LEVEL_OUTLET",
+     "contact no *CONTACT",
+     "rigid bodies no *MAT_RIGID",
+     "forces on nodes no node moves",
+     "solids no *ELEMENT_SOLID",
+     "field states no *DATABASE_BINARY_D3PLOT",
+     "glstat no *DATABASE_GLSTAT",
+     "matsum no *DATABASE_MATSUM",
+     "rcforc no *DATABASE_RCFORC",
+     "sleout no *DATABASE_SLEOUT",
+     "sphout no *DATABASE_SPHOUT",
+     "nodout no *DATABASE_NODOUT",
+     "rbdout no *DATABASE_RBDOUT",
+     "bndout no *DATABASE_BNDOUT",
+     "spcforc no *DATABASE_SPCFORC"}};
 
 /// Compares with the barest scene's lists: `gone` of left_out (by their first words) have become `come` among
 /// the active; `other` left-out lines stand with another reason. Order within a list does not matter here:
@@ -137,8 +138,8 @@ TEST(Passes, LevelOutlet) {
   scene.extra = std::string(test::gravity_cards) +
                 "*DEFINE_BOX\n7,0.,0.6,0.,1.,-1.,1.\n*COURANT_LEVEL_OUTLET\n7,0.4,0.05\n";
   expect_change(scene, {"body loads", "level outlet"},
-                {"forces body loads", "energy body loads", "forces level outlet 7", "time limit level outlet 7",
-                 "energy level outlet 7"});
+                {"forces body loads", "energy body loads", "forces level outlet 7",
+                 "time limit level outlet 7", "energy level outlet 7"});
 }
 
 TEST(Passes, ContactWithAFloorThatIsHeld) {
@@ -154,9 +155,9 @@ TEST(Passes, ABodyThatMoves) {
   scene.dim = 3, scene.n = 3;
   scene.extra = test::floor_cards(-0.025, 1, "1,5,7");
   expect_change(scene, {"contact", "rigid bodies", "forces on nodes"},
-                {"rates clear forces", "forces contact 1", "forces contact 1 (nodes)", "forces contact 1 (faces)",
-                 "time limit contact 1", "energy contact 1", "constraints rigid bodies",
-                 "energy rigid bodies", "motion rigid bodies (motion)"});
+                {"rates clear forces", "forces contact 1", "forces contact 1 (nodes)",
+                 "forces contact 1 (faces)", "time limit contact 1", "energy contact 1",
+                 "constraints rigid bodies", "energy rigid bodies", "motion rigid bodies (motion)"});
 }
 
 TEST(Passes, Viscous) {
@@ -168,8 +169,7 @@ TEST(Passes, Viscous) {
 TEST(Passes, EddyViscosity) {
   SmallScene scene;
   scene.extra = "*COURANT_EDDY_VISCOSITY\n0.1\n";
-  expect_change(scene, {"eddy viscosity", "viscous stress"},
-                {"laws eddy viscosity", "laws viscous stress"});
+  expect_change(scene, {"eddy viscosity", "viscous stress"}, {"laws eddy viscosity", "laws viscous stress"});
 }
 
 TEST(Passes, BulkViscosity) {
@@ -215,7 +215,8 @@ TEST(Passes, ImagesBehindAPlane) {
 TEST(Passes, DensityDiffusion) {
   SmallScene scene;
   scene.extra = "*COURANT_DENSITY_DIFFUSION\n0.1\n";
-  expect_change(scene, {"density diffusion"}, {"rates density diffusion", "preparation potential of body loads"});
+  expect_change(scene, {"density diffusion"},
+                {"rates density diffusion", "preparation potential of body loads"});
   scene.extra = "*COURANT_VOLUME_CONTROL\n0.1\n";
   expect_change(scene, {"volume control"}, {"rates volume control"});
   scene.extra = "*COURANT_DENSITY_REINITIALISATION\n20\n";
@@ -232,23 +233,24 @@ TEST(Passes, Renormalisation) {
 TEST(Passes, RiemannFlux) {
   SmallScene scene;
   scene.extra = "*COURANT_RIEMANN\n3.\n";
-  expect_change(scene, {"Riemann flux", "bulk viscosity"},
-                {"rates Riemann flux (momentum)", "rates Riemann flux (density)", "forces Riemann flux (mass)",
-                 "time limit Riemann flux (mass)", "preparation potential of body loads"},
-                {"bulk viscosity *COURANT_RIEMANN takes the place of viscosity"});
+  expect_change(
+      scene, {"Riemann flux", "bulk viscosity"},
+      {"rates Riemann flux (momentum)", "rates Riemann flux (density)", "forces Riemann flux (mass)",
+       "time limit Riemann flux (mass)", "preparation potential of body loads"},
+      {"bulk viscosity *COURANT_RIEMANN takes the place of viscosity"});
 }
 
 TEST(Passes, Drifts) {
   SmallScene scene;
   scene.control_sph = test::shifting_cards;
   expect_change(scene, {"shifting"},
-                {"rates shifting (gradient)", "tallies drift work", "energy drift work", "relocation shifting",
-                 "preparation surfaces"});
+                {"rates shifting (gradient)", "tallies drift work", "energy drift work",
+                 "relocation shifting", "preparation surfaces"});
   scene.control_sph = "";
   scene.extra = "*COURANT_XSPH\n0.5\n";
-  expect_change(
-      scene, {"XSPH"},
-      {"rates XSPH", "rates drift (density)", "tallies drift work", "energy drift work", "relocation XSPH motion"});
+  expect_change(scene, {"XSPH"},
+                {"rates XSPH", "rates drift (density)", "tallies drift work", "energy drift work",
+                 "relocation XSPH motion"});
 }
 
 TEST(Passes, PrescribedMotionOfParticles) {

@@ -113,7 +113,8 @@ void compare(Real eta, std::optional<Neighbours::Region> region, Real pc) {
     EXPECT_NEAR(sph_fields::dissipation(p)[i], e.heat, 1e-12 * heat);
     EXPECT_NEAR(sph_fields::density_diffusion(p)[i], e.density, 1e-11 * rate);
   }
-  EXPECT_NEAR(flow.world.passes.all<TimeLimit>().back()->limit(flow.world, {}).dt, 1.25 / decay, 1e-12 / decay);
+  EXPECT_NEAR(flow.world.passes.all<TimeLimit>().back()->limit(flow.world, {}).dt, 1.25 / decay,
+              1e-12 / decay);
 }
 
 class RiemannLoops : public testing::TestWithParam<InstructionSet> {};

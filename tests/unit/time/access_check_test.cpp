@@ -27,7 +27,8 @@ struct DeckFile {
 
 std::vector<DeckFile> decks_that_run() {
   std::vector<DeckFile> out;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(SOURCE_DIR) + "/tests/decks/accept"))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(SOURCE_DIR) + "/tests/decks/accept"))
     if (entry.path().extension() == ".k")
       if (const DeckFile deck{entry.path()}; deck.build()) out.push_back(deck);
   std::sort(out.begin(), out.end(), [](const DeckFile& a, const DeckFile& b) { return a.file < b.file; });
