@@ -13,6 +13,7 @@
 #include "model/build_model.hpp"
 #include "model/included_entries.hpp"
 #include "parallel/parallel.hpp"
+#include "rigid/time_limit.hpp"
 #include "shell/shell.hpp"
 #include "sph/initial_stress.hpp"
 #include "sph/level_outlet.hpp"
@@ -122,6 +123,8 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
     world_.passes.add(make_clear_forces(points_of(world_.nodes)));
   else
     left_out_.push_back({"forces on nodes", "no node moves"});
+  if (bodies_move && world_.groups.empty() && world_.particles.size() == 0)
+    world_.passes.add(make_body_time_limit(bodies_, model_.endtim));
   if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
   for (Index n = 0; n < world_.nodes.size(); ++n)
     if (!world_.nodes.follow[n] && !(world_.nodes.m[n] > 0))
