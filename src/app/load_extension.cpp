@@ -3,8 +3,6 @@
 #include <dlfcn.h>
 
 #include <cstddef>
-#include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <set>
@@ -33,21 +31,6 @@ std::string keyword_twice(std::size_t first) {
   return "";
 }
 
-std::string loading;  ///< for end_program
-
-/// What a static object of a file throws cannot get past dlopen, which is C: it ends here.
-[[noreturn]] void end_program() {
-  std::string why = "unknown reason";
-  try {
-    if (std::current_exception()) std::rethrow_exception(std::current_exception());
-  } catch (const std::exception& fault) {
-    why = fault.what();
-  } catch (...) {
-  }
-  fmt::print(stderr, "error: --load: {} failed while it was loaded: {}\n", loading, why);
-  std::_Exit(1);
-}
-
 }  // namespace
 
 // Never closed: what it registered points into it.
@@ -58,10 +41,16 @@ std::string load_extension(const std::string& file) {
       std::filesystem::absolute(file, error);  // dlopen looks for plain names elsewhere
   if (dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD)) return "";
   const std::size_t before = registered(), keywords = keyword_registry().size();
-  loading = file;
-  const std::terminate_handler usual = std::set_terminate(end_program);
-  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  std::set_terminate(usual);
+  // C's declaration promises that nothing is thrown; static objects of the file may do so all the same.
+  void* (*volatile const open)(const char*, int) = dlopen;
+  void* handle = nullptr;
+  try {
+    handle = open(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  } catch (const std::exception& fault) {
+    return fmt::format("{} failed while it was loaded: {}", file, fault.what());
+  } catch (...) {
+    return fmt::format("{} failed while it was loaded", file);
+  }
   if (!handle) {
     const char* why = dlerror();
     return fmt::format("{} cannot be loaded: {}", file, why ? why : "unknown reason");

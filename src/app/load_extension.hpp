@@ -4,8 +4,8 @@
 namespace courant {
 
 /// Brings in a shared object, whose static objects register keywords, laws and additions. Returns why it
-/// cannot be loaded, registers nothing, or a keyword that is there already; empty where all is well. One that
-/// throws while it is loaded ends the program with exit code 1 and a message.
+/// cannot be loaded: it throws, registers nothing, or a keyword that is there already; empty where all is
+/// well. After a failure part of it may be registered: the program should end.
 std::string load_extension(const std::string& file);
 
 }  // namespace courant
