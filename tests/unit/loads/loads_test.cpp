@@ -71,7 +71,7 @@ struct Scene {
       w.passes.add(make_point_motion(p));
     }
     w.passes.add(std::make_shared<Steps>(dt, change));
-    stepper = std::make_unique<Stepper>(w, *cloud.neighbours, StepRules{}, timer);
+    stepper = std::make_unique<Stepper>(w, cloud.neighbours.get(), StepRules{}, timer);
   }
   /// The energy that the ledger does not know of: 0 where all is counted.
   Real residual() const {

@@ -17,7 +17,7 @@ using namespace courant;
 
 namespace {
 
-struct DeckFile {
+struct AcceptedDeck {
   std::filesystem::path file;
   std::unique_ptr<Simulation> build() const {
     Diagnostics diagnostics;
@@ -25,13 +25,13 @@ struct DeckFile {
   }
 };
 
-std::vector<DeckFile> decks_that_run() {
-  std::vector<DeckFile> out;
+std::vector<AcceptedDeck> decks_that_run() {
+  std::vector<AcceptedDeck> out;
   for (const auto& entry :
        std::filesystem::directory_iterator(std::string(SOURCE_DIR) + "/tests/decks/accept"))
     if (entry.path().extension() == ".k")
-      if (const DeckFile deck{entry.path()}; deck.build()) out.push_back(deck);
-  std::sort(out.begin(), out.end(), [](const DeckFile& a, const DeckFile& b) { return a.file < b.file; });
+      if (const AcceptedDeck deck{entry.path()}; deck.build()) out.push_back(deck);
+  std::sort(out.begin(), out.end(), [](const AcceptedDeck& a, const AcceptedDeck& b) { return a.file < b.file; });
   return out;
 }
 
@@ -44,7 +44,7 @@ void take_steps(Simulation& s) {
 
 TEST(AccessCheck, PassesOfAllDecksTouchWhatTheyDeclare) {
   if (!checks_accesses) GTEST_SKIP() << "this build does not check";
-  for (const DeckFile& deck : decks_that_run()) {
+  for (const AcceptedDeck& deck : decks_that_run()) {
     auto s = deck.build();
     try {
       take_steps(*s);
@@ -60,7 +60,7 @@ TEST(AccessCheck, AMissingDeclarationIsNoticed) {
   std::set<std::pair<std::string, std::string>> tried;
   int noticed = 0;
   std::string missed;
-  for (const DeckFile& deck : decks_that_run()) {
+  for (const AcceptedDeck& deck : decks_that_run()) {
     auto s = deck.build();
     std::vector<std::pair<std::string, std::string>> here;
     const Schedule schedule = make_schedule(s->world());
