@@ -293,8 +293,8 @@ std::string Simulation::passes() const {
   for (const PassNote& output : outputs(true)) text += fmt::format("  {:<13}{}\n", "output", output.name);
   text += injections_text(injections_, model_);
   text += "not needed by this deck:\n";
-  for (const PassNote& note : left_out_) text += fmt::format("  {:<20}{}\n", note.name, note.reason);
-  for (const PassNote& note : outputs(false)) text += fmt::format("  {:<20}{}\n", note.name, note.reason);
+  for (const PassNote& note : left_out_) text += fmt::format("  {:<28}{}\n", note.name, note.reason);
+  for (const PassNote& note : outputs(false)) text += fmt::format("  {:<28}{}\n", note.name, note.reason);
   return text;
 }
 

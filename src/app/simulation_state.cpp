@@ -23,7 +23,8 @@ void Simulation::keep(Archive& archive) {
   archive.stop_for_leftovers();
   if (neighbours_) neighbours_->restore(world_, keepers);
   for (const auto& [name, keeper] : keepers) keeper->loaded(world_);
-  for (Exchanger* e : world_.passes.all<Exchanger>()) e->exchange_all(world_);  // what `loaded` made anew, too
+  for (Exchanger* e : world_.passes.all<Exchanger>())
+    e->exchange_all(world_);  // what `loaded` made anew, too
   if (more_wait) neighbours_->force_refresh();
 }
 

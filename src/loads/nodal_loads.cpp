@@ -37,6 +37,8 @@ std::string keep_force_axes(const LoadNodeCard& card, const Affine& motion) {
 template <class T>
 KeywordOf<T> load_node_keyword(std::string name, std::string purpose, IdSpace refers) {
   using namespace rules;
+  FieldRules follower = no_effect;
+  follower.refers = IdSpace::node;
   return {.names = {std::move(name)},
           .purpose = std::move(purpose),
           .cards = {{.fields = {{T::field, &T::nid, "-", "where it acts", required_id_of(refers)},
@@ -49,9 +51,9 @@ KeywordOf<T> load_node_keyword(std::string name, std::string purpose, IdSpace re
                                  "-",
                                  "system of the directions, 0 global",
                                  {.check = Check::not_negative, .refers = IdSpace::coordinate_system}},
-                                {"M1", &T::m1, "-", "node of a follower load", no_effect},
-                                {"M2", &T::m2, "-", "node of a follower load", no_effect},
-                                {"M3", &T::m3, "-", "node of a follower load", no_effect}}}},
+                                {"M1", &T::m1, "-", "node of a follower load", follower},
+                                {"M2", &T::m2, "-", "node of a follower load", follower},
+                                {"M3", &T::m3, "-", "node of a follower load", follower}}}},
           .move = [](T& card, const Affine& motion) { return keep_force_axes(card, motion); }};
 }
 const RegisterKeyword<LoadNodePoint> load_node_point_keyword{

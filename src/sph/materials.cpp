@@ -119,7 +119,7 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
       deck.error(diagnostics, part.card, "EOSID",
                  fmt::format("expected 0, got '{}': the material of part {} has a pressure of its own",
                              part.eosid, part.id),
-                 "leave the field blank, or use *MAT_ELASTIC_PLASTIC_HYDRO");
+                 "leave the field blank, or use a material that gives the deviator only");
     else if (!alone && law == laws.end())
       deck.error(diagnostics, part.card, "EOSID",
                  part.eosid == 0

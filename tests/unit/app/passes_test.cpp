@@ -154,10 +154,11 @@ TEST(Passes, ABodyThatMoves) {
   SmallScene scene;
   scene.dim = 3, scene.n = 3;
   scene.extra = test::floor_cards(-0.025, 1, "1,5,7");
-  expect_change(scene, {"contact", "rigid bodies", "forces on nodes"},
-                {"rates clear forces", "forces contact 1", "forces contact 1 (nodes)",
-                 "forces contact 1 (faces)", "time limit contact 1", "energy contact 1",
-                 "constraints rigid bodies", "energy rigid bodies", "motion rigid bodies (motion)"});
+  expect_change(
+      scene, {"contact", "rigid bodies", "forces on nodes"},
+      {"rates clear forces", "rates clear contact forces", "forces contact 1", "forces contact 1 (nodes)",
+       "forces contact 1 (faces)", "time limit contact 1", "energy contact 1", "constraints rigid bodies",
+       "energy rigid bodies", "motion rigid bodies (motion)"});
 }
 
 TEST(Passes, Viscous) {

@@ -445,7 +445,7 @@ TEST(Restart, RefusesTheStateOfAnotherRun) {
   EXPECT_NE(message(state, other).find("has another length"), std::string::npos);
   other = s;
   other.extra = test::gravity_cards;
-  EXPECT_NE(message(state, other).find("'state/passes/gravity/origin' is not there"), std::string::npos);
+  EXPECT_NE(message(state, other).find("'state/passes/body loads/origin' is not there"), std::string::npos);
   SavedState more = state;
   more.try_emplace("state/passes/magnet/pull");
   EXPECT_EQ(message(more, s),

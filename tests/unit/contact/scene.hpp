@@ -72,6 +72,27 @@ struct Scene {
       std::fill_n(world.nodes.f.data(k), world.nodes.size(), 0.0);
     }
   }
+  /// What nodes and faces of walls that move get of an interface, as the passes behind it do.
+  void gather(const Contact& from) {
+    if (!from.has_moving_walls()) return;
+    for (Index n = 0; n < world.nodes.size(); ++n) {
+      Vec force = Vec::Zero();
+      from.add_reaction_on_node(n, force);
+      world.nodes.f.add(n, force);
+    }
+    for (Index s = 0; s < world.segments.size(); ++s) {
+      Vec force = Vec::Zero();
+      from.add_reaction_on_segment(s, force);
+      world.segments.contact_force.add(s, force);
+    }
+  }
+  /// Forces on walls that move are cleared in each step; those on walls that are held, by the interface.
+  void clear_walls() {
+    for (int k = 0; k < 3 && !held; ++k) {
+      std::fill_n(world.nodes.f.data(k), world.nodes.size(), 0.0);
+      std::fill_n(world.segments.contact_force.data(k), world.segments.size(), 0.0);
+    }
+  }
 
   Vec force(const Vec& at) {
     world.particles.x.set(0, at);
@@ -87,6 +108,7 @@ struct Scene {
     if (clock.cycle % refresh_every == 0) refresh();
     clear();
     courant::test::run(*contact, world, clock);
+    gather(*contact);
     contact->record(world, clock, world.energy);
     before_move();
     Particles& p = world.particles;

@@ -319,6 +319,7 @@ TEST(Damping, ActsOnItsPartsOnlyAndAtAnyStep) {
   Scene s;
   s.place(Vec::Zero(), Vec(1, 0, 0));
   const Damping stiff{.curve = {}, .sf = 1e4, .scale = Vec::Ones(), .parts = {0}};
+  s.w.nodes.part[0] = 1;
   for (const Points& p : s.sets()) s.w.passes.add(make_damping({stiff}, p, s.w));
   s.start(1e-3);
   s.steps(1);

@@ -91,7 +91,8 @@ TEST(FieldWriter, HidesInactiveParticles) {
 TEST(FieldWriter, IndexNamesEachStateAndNoShellsWithoutSegments) {
   ScratchFolder dir;
   World world;
-  FieldWriter writer(dir.path(), {});
+  world.particles.fields.resize(1);
+  FieldWriter writer(dir.path(), {.part_ids = {1}});
   writer.write(world, 0, 0);
   writer.write(world, 0.5, 1);
   const std::string pvd = test::read_text(dir / "fields.pvd");

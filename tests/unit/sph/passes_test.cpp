@@ -70,7 +70,7 @@ struct Evaluated {
     std::vector<std::shared_ptr<Material>> updates;
     if (!c.monaghan) updates.push_back(make_bulk_viscosity(cloud.settings, w));
     if (c.stress) updates.push_back(make_viscous_stress(cloud.settings, w));
-    ledger = make_sph_energy(cloud.settings, w, cloud.neighbours);
+    ledger = w.passes.add(make_sph_energy(cloud.settings, w, cloud.neighbours));
     cloud.refresh();
     if (c.stress)  // rim particles keep the stress they had
       for (const int component : {0, 1, 3})
