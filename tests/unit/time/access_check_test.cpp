@@ -31,7 +31,8 @@ std::vector<AcceptedDeck> decks_that_run() {
        std::filesystem::directory_iterator(std::string(SOURCE_DIR) + "/tests/decks/accept"))
     if (entry.path().extension() == ".k")
       if (const AcceptedDeck deck{entry.path()}; deck.build()) out.push_back(deck);
-  std::sort(out.begin(), out.end(), [](const AcceptedDeck& a, const AcceptedDeck& b) { return a.file < b.file; });
+  std::sort(out.begin(), out.end(),
+            [](const AcceptedDeck& a, const AcceptedDeck& b) { return a.file < b.file; });
   return out;
 }
 
