@@ -150,3 +150,24 @@ TEST(Solids, AColumnSettlesUnderItsOwnWeight) {
     EXPECT_NEAR((L - nodes.x.data(2)[nodes.size() - 1]) / (rho * g * L * L / 2 / stiff), 1, bound) << n;
   }
 }
+
+// A deck of one rigid body, with no particle and no element that limits the step.
+TEST(Bodies, FallAlone) {
+  constexpr Real g = 9.81;
+  const std::string deck =
+      "*KEYWORD\n*CONTROL_TERMINATION\n       1.0\n*PART\nplate\n         1         1         1\n"
+      "*SECTION_SHELL\n         1         2\n      0.01      0.01      0.01      0.01\n"
+      "*MAT_RIGID\n         1    1000.0     1e9       0.3\n*LOAD_BODY_Z\n         1       1.0\n"
+      "*DEFINE_CURVE\n         1\n                 0.0                9.81\n               100.0             "
+      "   9.81\n"
+      "*NODE\n       1             0.0             0.0             0.0\n       2             1.0             "
+      "0.0"
+      "             0.0\n       3             1.0             1.0             0.0\n       4             0.0"
+      "             1.0             0.0\n*ELEMENT_SHELL\n       1       1       1       2       3       "
+      "4\n*END\n";
+  auto s = simulation_of(deck);
+  while (s->clock().t < 0.5) s->step(nothing);
+  const Real t = s->clock().t;
+  EXPECT_NEAR(s->bodies()->bodies()[0].x[2], -0.5 * g * t * t, 1e-12);
+  EXPECT_FALSE(s->has_particles());
+}
