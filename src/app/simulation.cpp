@@ -168,13 +168,16 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) add_equations_of_state(world_, model_, materials_, !sph_.mu.empty());
   add_prescribed_motions(diagnostics);
-  contacts_ =
-      build_contacts(deck_, model_,
-                     {.skip_inactive = sph_.skip_inactive_contact,
-                      .thickness_from_volume = sph_.thickness_from_volume,
-                      .bulk_modulus = [this](Index part) { return solids_[part].law->bulk_modulus(); },
-                      .reach_margin = neighbours_->largest_skin()},
-                     world_, diagnostics);
+  contacts_ = build_contacts(deck_, model_,
+                             {.skip_inactive = sph_.skip_inactive_contact,
+                              .thickness_from_volume = sph_.thickness_from_volume,
+                              .bulk_modulus =
+                                  [this](Index part) {  // a part without a law has been reported
+                                    const auto& law = solids_[part].law;
+                                    return law ? law->bulk_modulus() : Real(0);
+                                  },
+                              .reach_margin = neighbours_->largest_skin()},
+                             world_, diagnostics);
   if (!diagnostics.ok()) return;
   world_.passes.add(make_clear_forces(points_of(world_.particles)));
   world_.passes.add(make_point_motion(points_of(world_.particles)));

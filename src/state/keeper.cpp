@@ -69,7 +69,8 @@ std::vector<std::pair<std::string, Keeper*>> keepers_of(const World& world) {
     out.emplace_back(name, keeper);
   };
   for (int k = 0; k <= static_cast<int>(Phase::preparation); ++k)
-    for (BlockPass* pass : world.passes.in_phase(static_cast<Phase>(k), world)) add(*pass);
+    for (BlockPass* pass : world.passes.all<BlockPass>())
+      if (pass->phase() == static_cast<Phase>(k)) add(*pass);
   for (Pass* pass : world.passes.all<Pass>()) add(*pass);
   return out;
 }
