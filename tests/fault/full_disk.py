@@ -111,10 +111,8 @@ def ballast():
             pass
 
 
-for name, settings, expected in (("fields", {"runrsf": 0, "histories": False, "plot": 0.02}, r"fields/|fields.pvd"),
-                                 ("histories", {"runrsf": 0, "plot": 0}, r"glstat|matsum|rcforc|sphout|history.h5"),
-                                 ("restart", {"runrsf": 20, "plot": 0, "histories": False}, r"restart/runrsf.h5"),
-                                 ("summary", {"runrsf": 0, "plot": 0, "histories": False}, r"summary.yaml|messag")):
+def run_into_full_disk(name, settings):
+    """Exit code and text of a run whose disk becomes full after its first step."""
     fresh()
     resize(8 << 20)
     deck(name, end=1000, **settings)
@@ -129,7 +127,19 @@ for name, settings, expected in (("fields", {"runrsf": 0, "histories": False, "p
     if name == "summary":
         process.terminate()
     text = process.communicate(timeout=120)[0]
-    file = told(process.returncode, text, name)
+    return process.returncode, text
+
+
+for name, settings, expected in (("fields", {"runrsf": 0, "histories": False, "plot": 0.02}, r"fields/|fields.pvd"),
+                                 ("histories", {"runrsf": 0, "plot": 0}, r"glstat|matsum|rcforc|sphout|history.h5"),
+                                 ("restart", {"runrsf": 20, "plot": 0, "histories": False}, r"restart/runrsf.h5"),
+                                 ("summary", {"runrsf": 0, "plot": 0, "histories": False}, r"summary.yaml|messag")):
+    for attempt in range(5):
+        code, text = run_into_full_disk(name, settings)
+        file = told(code, text, name)
+        if re.search(expected, file) or not file.endswith("messag"):
+            break
+        print(f"{name}: a line of messag began a new page of the disk before that: once more")
     check(re.search(expected, file) is not None, f"{name}: {file} is the file that failed")
     everything_is_whole("disk/run", name)
     os.remove("disk/ballast")
