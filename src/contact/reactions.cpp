@@ -2,7 +2,7 @@
 // faces gather theirs on all threads, in a fixed order.
 #include "contact/contact.hpp"
 
-#include <algorithm>
+#include "surfaces/face_forces.hpp"
 
 namespace courant {
 
@@ -89,20 +89,6 @@ class NodeReactions : public Force {
   std::shared_ptr<const Contact> contact_;
 };
 
-/// Several interfaces may act on a face.
-class ClearFaceForces : public Rate {
- public:
-  std::string name() const override { return "clear contact forces"; }
-  const FieldSet& over(const World& world) const override { return world.segments.fields; }
-  void declare(const World& world, Accesses& a) const override { a.writes(world.segments.contact_force); }
-  void block(World& world, const Clock&, Index begin, Index end) override {
-    for (int k = 0; k < 3; ++k) {
-      Real* force = world.segments.contact_force.data(k);
-      std::fill(force + begin, force + end, 0.0);
-    }
-  }
-};
-
 class FaceReactions : public Force {
  public:
   explicit FaceReactions(std::shared_ptr<const Contact> contact) : contact_(std::move(contact)) {}
@@ -128,7 +114,7 @@ class FaceReactions : public Force {
 void add_contact(World& world, const std::shared_ptr<Contact>& contact) {
   world.passes.add(contact);
   if (!contact->has_moving_walls()) return;
-  if (world.passes.all<ClearFaceForces>().empty()) world.passes.add(std::make_shared<ClearFaceForces>());
+  add_clear_face_forces(world);
   world.passes.add(std::make_shared<NodeReactions>(contact));
   world.passes.add(std::make_shared<FaceReactions>(contact));
 }

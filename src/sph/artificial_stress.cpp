@@ -95,7 +95,7 @@ class ArtificialStressForce : public Force, public EnergyTerm {
         force_(sph_fields::artificial_stress_force(world.particles)),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)) {
-    a_.n = s.artificial_stress.n;
+    a_.kernel = &any_kernel(s.kernel), a_.n = s.artificial_stress.n;
     const Real h = world.particles.size() > 0 ? world.particles.h[0] : 1;
     a_.at_spacing =
         1 / with_kernel(s.kernel, [&](auto kernel) { return decltype(kernel)::shape(s.spacing / h); });
@@ -103,14 +103,15 @@ class ArtificialStressForce : public Force, public EnergyTerm {
   std::string name() const override { return "artificial stress (forces)"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
-    a.reads(p.x, Reach::others).reads(p.h).reads(volumes_->now(), Reach::others).reads(R_, Reach::others);
+    a.reads(p.x, Reach::others).reads(p.h, Reach::others).reads(volumes_->now(), Reach::others);
+    a.reads(R_, Reach::others);
     a.writes(force_).updates(p.f);
   }
   void start(World& world, const Clock&) override {
     const Particles& p = world.particles;
     for (int k = 0; k < 3; ++k) a_.x[k] = p.x.data(k), a_.f[k] = force_.data(k);
     for (int k = 0; k < 6; ++k) a_.R[k] = R_.data(k);
-    a_.V = volumes_->current(), a_.h0 = p.active > 0 ? p.h[0] : 1;
+    a_.V = volumes_->current(), a_.h = p.h.data();
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
     loop_(a_, lists_of(*neighbours_, begin, end));
@@ -146,9 +147,6 @@ void read_artificial_stress(const Deck& deck, SphSettings& s, Diagnostics& diagn
   s.artificial_stress = {c->eps, c->n};
   if (c->eps > 1)
     deck.error(diagnostics, *c, "EPS", fmt::format("expected at most 1, got '{:g}'", c->eps), "0.3 is usual");
-  if (!s.uniform_h)
-    deck.error(diagnostics, *c, "EPS", "needs one h that does not change: W(dx) is that of all particles",
-               "use HMIN = HMAX = 1 and one CSLH and spacing for all SPH parts, or leave the keyword out");
 }
 
 }  // namespace
@@ -165,19 +163,17 @@ void read_strength(const Deck& deck, const Model& model, SphSettings& s, Diagnos
                            part.id, keyword, why),
                "leave one of the two out");
   };
-  refuse(s.renormalised, "a FORM of *CONTROL_SPH with corrected gradients",
-         "its forces and its rates of strain would not fit each other");
   refuse(std::holds_alternative<RiemannFlux>(s.viscosity), "*COURANT_RIEMANN",
          "its flux is that of a liquid");
-  refuse(s.geometry_eps > 0, "*COURANT_PAIR_GEOMETRY", "spins are not among what it keeps");
   refuse(s.density_diffusion > 0, "*COURANT_DENSITY_DIFFUSION",
          "it changes densities that stress knows nothing of");
   refuse(s.volume_tau > 0, "*COURANT_VOLUME_CONTROL", "it changes densities that stress knows nothing of");
   refuse(s.reinitialisation.every > 0, "*COURANT_DENSITY_REINITIALISATION",
          "it changes densities that stress knows nothing of");
   refuse(s.shift.strength > 0, "ISHIFT of *CONTROL_SPH", "stresses belong to the places of the material");
-  refuse(s.xsph > 0, "*COURANT_XSPH", "rates of strain are those of the velocities");
-  refuse(s.mixing_length.most > 0, "*COURANT_EDDY_VISCOSITY", "it is that of a liquid");
+  refuse(s.reverse_correction, "REVERSE of *COURANT_RENORMALISATION",
+         "it is a correction of pressures alone");
+  refuse(s.xsph > 0, "*COURANT_XSPH", "stresses follow the velocities, not the smoothed ones");
 }
 
 void add_artificial_stress(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,

@@ -150,7 +150,7 @@ class Builder {
   /// Integral of -(dW/dr)/r, times h^2: how stiff diffusion between neighbours is; in 2D.
   template <class Kernel>
   static Real stiffness() {
-    return 2 * pi * Kernel::C(2) * Kernel::shape(0);
+    return 2 * pi * Kernel::C(2) * Kernel::shape(0.0);
   }
 
   void read_shifting() {
@@ -171,7 +171,6 @@ class Builder {
                   fmt::format("expected a number below {}, which is div r inside, got '{:g}'", settings_.dim,
                               c->surface),
                   "1.5 in 2D and 2.5 in 3D tell a surface from the inside");
-    refuse_beside_drift(*control, "ISHIFT");
   }
 
   void read_xsph() {
@@ -181,21 +180,6 @@ class Builder {
     if (c->eps > 1)
       deck_.error(diagnostics_, *c, "EPS", fmt::format("expected at most 1, got '{:g}'", c->eps),
                   "0.5 is usual; with 1 particles move with the mean velocity of their neighbours");
-    if (c->eps > 0) refuse_beside_drift(*c, "EPS");
-  }
-
-  /// What cannot stand beside ways that are not those of the velocity.
-  template <class T>
-  void refuse_beside_drift(const T& entry, const char* field) {
-    if (settings_.geometry_eps > 0)
-      deck_.error(diagnostics_, entry, field,
-                  "expected 0 beside *COURANT_PAIR_GEOMETRY, which follows the velocities alone",
-                  "leave one of the two out");
-    if (settings_.kernel != KernelChoice::cubic_spline)
-      deck_.error(diagnostics_, entry, field,
-                  fmt::format("expected 0 beside the {}: its sums take the cubic spline",
-                              kernel_name(settings_.kernel)),
-                  "leave one of the two out");
   }
 
   void read_pair_geometry() {

@@ -203,10 +203,12 @@ class DriftRate : public Rate {
  public:
   DriftRate(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
             std::shared_ptr<PairVolumes> volumes)
-      : loop_(drift_rate_loop(s.dim)),
+      : loop_(drift_rate_loop(s.kernel, s.dim)),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
-        density_(add_drift_density(world)) {}
+        density_(add_drift_density(world)) {
+    a_.kernel = &any_kernel(s.kernel);
+  }
   std::string name() const override { return "drift (density)"; }
   void declare(const World& world, Accesses& a) const override {
     density_->declare_rate(world, a);

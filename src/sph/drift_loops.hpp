@@ -1,6 +1,7 @@
 #pragma once
 // The sums over pairs by which particles move besides their velocity (shifting, XSPH); compiled once for each
 // instruction set, as pair_loops.hpp.
+#include "sph/kernel_choice.hpp"
 #include "sph/neighbour_lists.hpp"
 
 namespace courant {
@@ -26,8 +27,9 @@ struct DriftArrays {
   const Real* drifted[3];         ///< by how much places changed besides the velocity in the last step [L/T]
   const Real* rho;                ///< of particle i alone
   Real* drhodt;
-  Real* drift_rate;  ///< of the density [M/L3T]
-  Real half_step;    ///< [T]
+  Real* drift_rate;         ///< of the density [M/L3T]
+  Real half_step;           ///< [T]
+  const AnyKernel* kernel;  ///< that of the run
 };
 
 using DriftLoop = void (*)(const DriftArrays&, const NeighbourLists&);
@@ -35,13 +37,13 @@ using DriftLoop = void (*)(const DriftArrays&, const NeighbourLists&);
 /// Gradient of the concentration with h_i, Skillen, Lind, Stansby and Rogers 2013, eqs 14-16; what tells
 /// surfaces; the gradient of the velocity where `correct`;
 /// and what `drift_rate_loop` does.
-DriftLoop shifting_loop(int dim, bool correct);
+DriftLoop shifting_loop(KernelChoice kernel, int dim, bool correct);
 /// Monaghan 1989: rho_ij the mean of both densities, W_ij that of the kernels with h_i and with h_j.
-DriftLoop xsph_loop(int dim, bool uniform_h);
+DriftLoop xsph_loop(KernelChoice kernel, int dim, bool uniform_h);
 /// Density after a drift u beside the velocity v, both in the middle of the step as in `rates_loop`:
 /// drhodt_i -= rho_i half_step sum_j V_j v_ij . (grad grad W) . u_ij brings eq. 6 there;
 /// drift_rate_i = rho_i sum_j V_j (u_ij . grad W - half_step u_ij . (grad grad W) . (v_ij + u_ij)) is eq. 6
 /// of the drift.
-DriftLoop drift_rate_loop(int dim);
+DriftLoop drift_rate_loop(KernelChoice kernel, int dim);
 
 }  // namespace courant

@@ -58,6 +58,7 @@ class EddyViscosity : public Material {
   EddyViscosity(const SphSettings& s, World& world)
       : rules_(s.mixing_length),
         mu_(s.mu),
+        strength_(s.strength),
         rate_(sph_fields::strain_rate(world.particles)),
         viscosity_(sph_fields::viscosity(world.particles)) {
     for (Index i = 0; i < world.particles.size(); ++i) viscosity_[i] = mu_[world.particles.part[i]];
@@ -72,7 +73,8 @@ class EddyViscosity : public Material {
     for (Index i = begin; i < end; ++i) {
       Real square = 0;  // 2 D:D
       for (int k = 0; k < 6; ++k) square += (k < 3 ? 2 : 4) * rate_.data(k)[i] * rate_.data(k)[i];
-      const Real l = rules_.length(p.x.vec(i));
+      const bool liquid = strength_.empty() || !strength_[p.part[i]];
+      const Real l = liquid ? rules_.length(p.x.vec(i)) : 0;
       viscosity_[i] = mu_[p.part[i]] + p.rho[i] * rules_.cmu * l * l * std::sqrt(square);
     }
   }
@@ -80,6 +82,7 @@ class EddyViscosity : public Material {
  private:
   MixingLength rules_;
   std::vector<Real> mu_;
+  std::vector<std::shared_ptr<const StrengthLaw>> strength_;  ///< per part
   Field<Real>&rate_, &viscosity_;
 };
 

@@ -140,6 +140,18 @@ inline Field<Real>& wall_fill(Particles& p) {
 inline Field<Real>& wall_rubbing(Particles& p) {
   return p.fields.add<Real>({.name = "wall_rubbing", .dimension = "1/L", .restart = false});
 }
+/// What walls add to `moment`: int (x' - x) (x) n W dS + wall_fill
+inline Field<Real>& wall_moment(Particles& p) {
+  return p.fields.add<Real>({.name = "wall_moment", .dimension = "-", .components = 6, .restart = false});
+}
+/// What walls add to `plain_gradient`: 2 int (v - v_wall) (x) n W dS, symmetric part
+inline Field<Real>& wall_gradient(Particles& p) {
+  return p.fields.add<Real>({.name = "wall_gradient", .dimension = "1/T", .components = 6, .restart = false});
+}
+/// Mean velocity of the walls in sight
+inline Field<Real>& wall_velocity(Particles& p) {
+  return p.fields.add<Real>({.name = "wall_velocity", .dimension = "L/T", .components = 3, .restart = false});
+}
 /// Power that artificial viscosity turns into heat
 inline Field<Real>& dissipation(Particles& p) {
   return p.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"});

@@ -188,31 +188,39 @@ class KeptForces : public Force {
 /// Closes the window when particles have moved too far, or their order changes.
 class WindowWatch : public Preparation, public Refresh {
  public:
-  explicit WindowWatch(std::shared_ptr<KeptPairs> pairs) : pairs_(std::move(pairs)) {}
+  WindowWatch(const SphSettings& s, World& world, std::shared_ptr<KeptPairs> pairs)
+      : pairs_(std::move(pairs)) {
+    if (s.xsph > 0 || s.shift.strength > 0) drifted_ = &sph_fields::drifted(world.particles);
+  }
   std::string name() const override { return "kept pair geometry"; }
   void declare(const World& world, Accesses& a) const override {
     a.reads(world.particles.v);
+    if (drifted_) a.reads(*drifted_);
     a.in_finish().reads(world.particles.h);
   }
   void start(World& world, const Clock&) override {
-    fastest2_.assign(static_cast<std::size_t>(block_count(world.particles.moving)), 0);
+    fastest_.assign(static_cast<std::size_t>(block_count(world.particles.moving)), 0);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
-    const Particles& p = world.particles;
-    const Real* const v[3] = {p.v.data(0), p.v.data(1), p.v.data(2)};
-    fastest2_[static_cast<std::size_t>(begin / block_size)] = loops_.fastest2(v, begin, end);
+    const auto fastest = [&](const Field<Real>& f) {
+      const Real* const v[3] = {f.data(0), f.data(1), f.data(2)};
+      return std::sqrt(loops_.fastest2(v, begin, end));
+    };
+    fastest_[static_cast<std::size_t>(begin / block_size)] =
+        fastest(world.particles.v) + (drifted_ ? fastest(*drifted_) : 0);
   }
   void finish(World& world, const Clock& clock) override {
     Real most = 0;
-    for (const Real v2 : fastest2_) most = std::max(most, v2);
-    if (world.particles.active > 0) pairs_->window.moved(std::sqrt(most), world.particles.h[0], clock.dt);
+    for (const Real v : fastest_) most = std::max(most, v);
+    if (world.particles.active > 0) pairs_->window.moved(most, world.particles.h[0], clock.dt);
   }
   void refreshed(World&, const Clock&, std::span<const Index>) override { pairs_->window.close(); }
 
  private:
   std::shared_ptr<KeptPairs> pairs_;
   ParticleLoops loops_ = particle_loops();
-  std::vector<Real> fastest2_;  ///< in each block [L2/T2]
+  const Field<Real>* drifted_ = nullptr;  ///< where particles drift
+  std::vector<Real> fastest_;             ///< in each block [L/T]
 };
 
 }  // namespace
@@ -224,7 +232,7 @@ PairPasses make_kept_passes(const SphSettings& s, World& world, std::shared_ptr<
   const KeptChoice choice{s.dim,           rates.viscous(),    rates.gradient(),
                           forces.stress(), forces.diffusion(), rates.quadratic()};
   const auto pairs = std::make_shared<KeptPairs>(s, std::move(neighbours), choice);
-  world.passes.add(std::make_shared<WindowWatch>(pairs));
+  world.passes.add(std::make_shared<WindowWatch>(s, world, pairs));
   return {{std::make_shared<KeptRates>(s, choice, rates, pairs, volumes)},
           {std::make_shared<KeptForces>(choice, forces, pairs, volumes)}};
 }

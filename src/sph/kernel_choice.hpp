@@ -39,6 +39,14 @@ decltype(auto) with_kernel(KernelChoice choice, F&& f) {
   }
 }
 
+/// The same kernel for loops that are not compiled for it; lives as long as the program.
+inline const AnyKernel& any_kernel(KernelChoice choice) {
+  return with_kernel(choice, [](auto kernel) -> const AnyKernel& {
+    static constexpr AnyKernel any = AnyKernel::of<decltype(kernel)>();
+    return any;
+  });
+}
+
 inline const char* kernel_name(KernelChoice choice) {
   return with_kernel(choice, [](auto kernel) { return decltype(kernel)::name; });
 }

@@ -12,7 +12,8 @@ void work_out_viscous_speed(const std::vector<PartViscosity>& q, const Particles
   for (Index i = begin; i < end; ++i) qc[i] = q[p.part[i]].q1 * c[i];
 }
 
-RateFields::RateFields(const SphSettings& s, Particles& p) : heat_(&sph_fields::dissipation(p)) {
+RateFields::RateFields(const SphSettings& s, Particles& p)
+    : kernel_(&any_kernel(s.kernel)), heat_(&sph_fields::dissipation(p)) {
   if (const auto* monaghan = std::get_if<MonaghanViscosity>(&s.viscosity)) {
     viscous_speed_ = &sph_fields::viscous_speed(p);
     q2_ = monaghan->q2;
@@ -22,6 +23,7 @@ RateFields::RateFields(const SphSettings& s, Particles& p) : heat_(&sph_fields::
 
 PairArrays RateFields::arrays(Particles& p, const PairVolumes& volumes) const {
   PairArrays a = particle_arrays(p);
+  a.kernel = kernel_;
   for (int k = 0; k < 3; ++k) a.v[k] = p.v.data(k);
   a.m = p.m.data(), a.rho = p.rho.data(), a.drhodt = p.drhodt.data();
   a.V = volumes.current();
@@ -46,7 +48,8 @@ void RateFields::declare_partners(const Particles& p, Accesses& a) const {
   if (strain_) a.updates(*strain_);
 }
 
-ForceFields::ForceFields(const SphSettings& s, Particles& p) : delta_(s.density_diffusion) {
+ForceFields::ForceFields(const SphSettings& s, Particles& p)
+    : kernel_(&any_kernel(s.kernel)), delta_(s.density_diffusion) {
   if (std::holds_alternative<BulkViscosity>(s.viscosity)) total_pressure_ = &sph_fields::pressure_plus_q(p);
   if (!s.mu.empty() || !s.strength.empty()) tau_ = &sph_fields::stress(p);
   if (s.density_diffusion > 0) {
@@ -57,6 +60,7 @@ ForceFields::ForceFields(const SphSettings& s, Particles& p) : delta_(s.density_
 
 PairArrays ForceFields::arrays(Particles& p, const PairVolumes& volumes) const {
   PairArrays a = particle_arrays(p);
+  a.kernel = kernel_;
   a.V = volumes.current();
   a.p = total_pressure_ ? total_pressure_->data() : p.p.data();
   if (diffusion_) {

@@ -25,6 +25,7 @@ class RateFields {
   void declare_partners(const Particles& p, Accesses& a) const;
 
  private:
+  const AnyKernel* kernel_;
   Field<Real>* heat_;
   Field<Real>* viscous_speed_ = nullptr;
   Field<Real>* strain_ = nullptr;
@@ -43,6 +44,7 @@ class ForceFields {
   void declare_partners(const Particles& p, Accesses& a) const;
 
  private:
+  const AnyKernel* kernel_;
   Field<Real>* total_pressure_ = nullptr;
   Field<Real>* tau_ = nullptr;
   Field<Real>*diffusion_ = nullptr, *potential_ = nullptr;

@@ -28,6 +28,7 @@ struct PairArrays {
   Real h0, q2, delta;  ///< h0: the h of all where it does not differ; q2: 0 where viscosity has no quadratic
                        ///< part; delta: strength of the diffusion
   Real half_step;      ///< half of the step that led here: continuity holds in its middle [T]
+  const AnyKernel* kernel;  ///< that of the run
 };
 
 /// The lists of particles [begin, end); end - begin <= block_size.

@@ -1,33 +1,11 @@
 #pragma once
-// The loops over pairs for any kernel, included by one file *_loops.cpp for each kernel, which is compiled
-// once for each instruction set; see docs/architecture.md.
+// The loops over pairs for a kernel as a type, included by files *_loops.cpp, which are compiled once for
+// each instruction set; see docs/architecture.md.
 #include "sph/kept_loops.hpp"
-#include "sph/kernel.hpp"
+#include "sph/kernel_packs.hpp"
 #include "sph/pair_loops.hpp"
-#include "sph/pair_packs.hpp"
 
 namespace courant::COURANT_SIMD {
-
-COURANT_INLINE Pack positive(const Pack& a) {
-  return max(a, Pack::zero());
-}
-
-/// The factor that turns `gradient_shape` into (dW/dr)/r.
-template <class Kernel, int Dim>
-COURANT_INLINE Real gradient_norm(Real h) {
-  constexpr Real C = Kernel::gradient_factor * Kernel::C(Dim);
-  return C / power<Dim + 1>(h);
-}
-template <class Kernel, int Dim>
-COURANT_INLINE Pack gradient_norm(const Pack& hinv) {
-  constexpr Real C = Kernel::gradient_factor * Kernel::C(Dim);
-  return C * hinv * hinv * hinv * (Dim == 3 ? hinv : Pack::of(1));
-}
-/// Slope of the kernel, but for a constant, over r.
-template <class Kernel>
-COURANT_INLINE Pack gradient_shape(const Pack& R, const Pack& rinv) {
-  return Kernel::gradient(R) * rinv;
-}
 
 /// The same, and how it changes with time, times u.d: (dW/dr)'/r of the radial velocity q, and what turning
 /// does. `u2`: u.u; `half_step`: half of the step. Where the slope is not 0 at r = 0, a pair that passes
@@ -35,12 +13,12 @@ COURANT_INLINE Pack gradient_shape(const Pack& R, const Pack& rinv) {
 template <class Kernel>
 struct MovingShape {
   Pack shape, later;
-  COURANT_INLINE MovingShape(const Pack& R, const Pack& rinv, const Pack& two_hinv, const Pack& q,
-                             const Pack& u2, [[maybe_unused]] const Pack& r2, [[maybe_unused]] Real half_step)
+  COURANT_INLINE MovingShape(const Kernel& kernel, const Pack& R, const Pack& rinv, const Pack& two_hinv,
+                             const Pack& q, const Pack& u2, const Pack& r2, Real half_step)
       : shape(Pack::zero()), later(Pack::zero()) {
-    const Pack gradient = Kernel::gradient(R), half_curvature = Kernel::half_curvature(R), q2 = q * q;
+    const Pack gradient = kernel.gradient(R), half_curvature = kernel.half_curvature(R), q2 = q * q;
     shape = gradient * rinv;
-    if constexpr (Kernel::kink)
+    if (kernel.kink)
       later = half_curvature * two_hinv * q2 + gradient * rsqrt(r2 + half_step * half_step * u2) * (u2 - q2);
     else
       later = half_curvature * two_hinv * q2 + shape * (u2 - q2);
@@ -48,9 +26,10 @@ struct MovingShape {
 };
 
 /// Whether entry k, of pairs of r2, may be left out: none of the eight has it within its support.
-template <class Kernel, bool UniformH>
-COURANT_INLINE bool is_beyond(const PairArrays& a, const Pack& hi, std::ptrdiff_t j, const Pack& r2) {
-  const Pack reach = Kernel::support * (UniformH ? hi : max(hi, Pack::of(a.h[j])));
+template <bool UniformH, class Kernel>
+COURANT_INLINE bool is_beyond(const Kernel& kernel, const PairArrays& a, const Pack& hi, std::ptrdiff_t j,
+                              const Pack& r2) {
+  const Pack reach = kernel.support * (UniformH ? hi : max(hi, Pack::of(a.h[j])));
   return !any_less(r2, reach * reach);
 }
 
@@ -72,6 +51,7 @@ template <class Kernel, int Dim, bool UniformH, bool Viscous, bool Gradient>
 void rates(const PairArrays& arrays, const PairLists& all_lists) {
   const PairArrays a = arrays;  // so that nothing that the loop stores can change it
   const PairLists lists = all_lists;
+  const Kernel kernel = kernel_of<Kernel>(a.kernel);
   constexpr int share_count = rates_shares(Dim, Viscous, Gradient);
   Real nowhere[share_count]{};
   const bool stores = UniformH && lists.kept != nullptr;
@@ -82,7 +62,7 @@ void rates(const PairArrays& arrays, const PairLists& all_lists) {
     const Pack hi = UniformH ? Pack::of(a.h0) : Pack::load(a.h + i, count);
     const Pack hinv = UniformH ? Pack::of(1 / a.h0) : 1 / hi;
     const Pack norm =
-        UniformH ? Pack::of(gradient_norm<Kernel, Dim>(a.h0)) : gradient_norm<Kernel, Dim>(hinv);
+        UniformH ? Pack::of(gradient_norm<Dim>(kernel, a.h0)) : gradient_norm<Dim>(kernel, hinv);
     const Pack tiny = tiny_distance2 * hi * hi, two_hinv = 2 * hinv;
     const Pack mi = Viscous ? Pack::load(a.m + i, count) : Pack::zero();
     const Pack Vi = Pack::load(a.V + i, count);
@@ -100,27 +80,27 @@ void rates(const PairArrays& arrays, const PairLists& all_lists) {
       const bool has_partner = entries.has_partner(k);
       const Difference<Dim> d(xi, a.x, j);
       const Pack r2 = dot_plus(d, d, tiny);
-      if (entries.maybe_beyond(k) && is_beyond<Kernel, UniformH>(a, hi, j, r2)) continue;
+      if (entries.maybe_beyond(k) && is_beyond<UniformH>(kernel, a, hi, j, r2)) continue;
       const Difference<Dim> u(vi, a.v, j);
       const Pack u_dot_d = dot(u, d);
       const Pack rinv = rsqrt(r2);
-      const MovingShape<Kernel> kernel(r2 * rinv * hinv, rinv, two_hinv, u_dot_d * rinv, dot(u, u), r2,
-                                       a.half_step);
+      const MovingShape<Kernel> moving(kernel, r2 * rinv * hinv, rinv, two_hinv, u_dot_d * rinv, dot(u, u),
+                                       r2, a.half_step);
       if (stores) {
-        kernel.shape.store(lists.g + std::ptrdiff_t(kept) * lanes);
+        moving.shape.store(lists.g + std::ptrdiff_t(kept) * lanes);
         lists.kept[kept++] = has_partner ? ~Index(j) : Index(j);
       }
-      const Pack change = kernel.shape * u_dot_d - a.half_step * kernel.later;
+      const Pack change = moving.shape * u_dot_d - a.half_step * moving.later;
       div += a.V[j] * change;
       Difference<Dim> drag;
       Pack power_of_pair = Pack::zero();
       if constexpr (Viscous) {
-        Pack h = hi, pair = kernel.shape;  // (dW/dr)/r / norm, mean of both where h differs
+        Pack h = hi, pair = moving.shape;  // (dW/dr)/r / norm, mean of both where h differs
         Pack qc = qci + 0.5 * a.qc[j];
         if constexpr (!UniformH) {
-          const Real hj = a.h[j], ratio = gradient_norm<Kernel, Dim>(hj);
+          const Real hj = a.h[j], ratio = gradient_norm<Dim>(kernel, hj);
           h = 0.5 * (hi + hj);
-          pair = 0.5 * (pair + gradient_shape<Kernel>(r2 * rinv * (1 / hj), rinv) * ratio / norm);
+          pair = 0.5 * (pair + gradient_shape(kernel, r2 * rinv * (1 / hj), rinv) * ratio / norm);
         }
         // -m_i m_j Pi pair / 2 with 1/(rho_i + rho_j) = V_i V_j / (m_i V_j + m_j V_i); where all have one h,
         // without its factor h
@@ -133,14 +113,14 @@ void rates(const PairArrays& arrays, const PairLists& all_lists) {
         force.add(drag);
         power += power_of_pair;
       }
-      if constexpr (Gradient) gradient.add(u, times(kernel.shape * a.V[j], d));
+      if constexpr (Gradient) gradient.add(u, times(moving.shape * a.V[j], d));
       if (has_partner) {
         SharePacks<share_count> shares;
         shares.of[0] = Vi * change;
         if constexpr (Viscous) drag.list(shares.of + 1), shares.of[Dim + 1] = power_of_pair;
         if constexpr (Gradient) {
           Dyads<Dim> own;
-          own.add(u, times(kernel.shape * Vi, d));
+          own.add(u, times(moving.shape * Vi, d));
           own.list(shares.of + (Viscous ? Dim + 2 : 1));
         }
         pending.take(shares, lists.shares + (j - lists.strip_begin) * share_count);
@@ -162,6 +142,7 @@ template <class Kernel, int Dim, bool UniformH, bool Stress, bool Diffusion, Geo
 void forces(const PairArrays& arrays, const PairLists& all_lists) {
   const PairArrays a = arrays;  // so that nothing that the loop stores can change it
   const PairLists lists = all_lists;
+  const Kernel kernel = kernel_of<Kernel>(a.kernel);
   constexpr int share_count = forces_shares(Dim, Diffusion);
   Real nowhere[share_count]{};
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
@@ -170,7 +151,7 @@ void forces(const PairArrays& arrays, const PairLists& all_lists) {
     const Pack hi = UniformH ? Pack::of(a.h0) : Pack::load(a.h + i, count);
     const Pack hinv = UniformH ? Pack::of(1 / a.h0) : 1 / hi;
     const Pack norm =
-        UniformH ? Pack::of(gradient_norm<Kernel, Dim>(a.h0)) : gradient_norm<Kernel, Dim>(hinv);
+        UniformH ? Pack::of(gradient_norm<Dim>(kernel, a.h0)) : gradient_norm<Dim>(kernel, hinv);
     const Pack tiny = tiny_distance2 * hi * hi, pi = Pack::load(a.p + i, count);
     const Pack Vi = Pack::load(a.V + i, count);
     Pack ti[6];
@@ -195,11 +176,11 @@ void forces(const PairArrays& arrays, const PairLists& all_lists) {
         w = wj = Pack::load(lists.g + std::ptrdiff_t(k) * lanes);
       } else {
         const Pack r2 = dot_plus(d, d, tiny);
-        if (entries.maybe_beyond(k) && is_beyond<Kernel, UniformH>(a, hi, j, r2)) continue;
+        if (entries.maybe_beyond(k) && is_beyond<UniformH>(kernel, a, hi, j, r2)) continue;
         const Pack rinv = rsqrt(r2);
-        w = wj = gradient_shape<Kernel>(r2 * rinv * hinv, rinv);
+        w = wj = gradient_shape(kernel, r2 * rinv * hinv, rinv);
         if constexpr (!UniformH)
-          wj = gradient_shape<Kernel>(r2 * rinv * (1 / a.h[j]), rinv) * gradient_norm<Kernel, Dim>(a.h[j]) /
+          wj = gradient_shape(kernel, r2 * rinv * (1 / a.h[j]), rinv) * gradient_norm<Dim>(kernel, a.h[j]) /
                norm;
       }
       const Pack volumes = Vi * a.V[j];
@@ -264,6 +245,7 @@ PairLoop forces_of(const ForcesChoice& c) {
 
 template <class Kernel, int Dim>
 void fix(const PairArrays& a, const KeptLists& lists) {
+  const Kernel kernel = kernel_of<Kernel>(a.kernel);
   const Real hinv = 1 / a.h0, twice_q2 = 2 * a.q2;
   const Pack tiny = Pack::of(tiny_distance2 * a.h0 * a.h0), eta2 = Pack::of(0.01 * a.h0 * a.h0);
   // |G|/r below which G is rounded to 0 anywhere within 3 h, so that it does not matter what D is
@@ -280,7 +262,7 @@ void fix(const PairArrays& a, const KeptLists& lists) {
       Difference<Dim> d(xi, a.x, j);
       d.advance(lists.ahead, Difference<Dim>(vi, a.v, j));
       const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2);
-      const Pack shape = lists.scale * gradient_shape<Kernel>(r2 * rinv * hinv, rinv);
+      const Pack shape = lists.scale * gradient_shape(kernel, r2 * rinv * hinv, rinv);
       if (!any_less(Pack::zero(), shape)) continue;
       const Difference<Dim> G = times(0 - shape, d);
       Fixed16* gradient = lists.gradients + std::ptrdiff_t(kept) * (Dim * lanes);

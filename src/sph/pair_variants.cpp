@@ -4,7 +4,8 @@
 
 namespace courant {
 
-// One file *_loops.cpp for each kernel has them.
+// any_kernel_loops.cpp has them for all instruction sets; the kernels that have a file *_loops.cpp of their
+// own have them for those beyond the baseline.
 namespace baseline {
 template <class Kernel>
 PairLoops loops_of();
@@ -20,8 +21,16 @@ PairLoops loops_of();
 
 namespace {
 
+using LoopsOf = PairLoops (*)();
+
 PairLoops loops_of(KernelChoice choice) {
-  return with_kernel(choice, [](auto kernel) { return COURANT_VARIANT(loops_of<decltype(kernel)>)(); });
+  LoopsOf own = nullptr;
+  if (choice == KernelChoice::cubic_spline)
+    own =
+        variant<LoopsOf>(nullptr, COURANT_AVX2(loops_of<CubicSpline>), COURANT_AVX512(loops_of<CubicSpline>));
+  if (choice == KernelChoice::wendland_c2)
+    own = variant<LoopsOf>(nullptr, COURANT_AVX2(loops_of<WendlandC2>), COURANT_AVX512(loops_of<WendlandC2>));
+  return own != nullptr ? own() : COURANT_VARIANT(loops_of<AnyKernel>)();
 }
 
 }  // namespace

@@ -4,23 +4,23 @@
 namespace courant {
 
 namespace baseline {
-RenormalLoop renormal_rates_loop(int dim);
-RenormalLoop renormal_forces_loop(int dim, bool reverse);
+RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim);
+RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what);
 }  // namespace baseline
 namespace avx2 {
-RenormalLoop renormal_rates_loop(int dim);
-RenormalLoop renormal_forces_loop(int dim, bool reverse);
+RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim);
+RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what);
 }  // namespace avx2
 namespace avx512 {
-RenormalLoop renormal_rates_loop(int dim);
-RenormalLoop renormal_forces_loop(int dim, bool reverse);
+RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim);
+RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what);
 }  // namespace avx512
 
-RenormalLoop renormal_rates_loop(int dim) {
-  return COURANT_VARIANT(renormal_rates_loop)(dim);
+RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim) {
+  return COURANT_VARIANT(renormal_rates_loop)(kernel, dim);
 }
-RenormalLoop renormal_forces_loop(int dim, bool reverse) {
-  return COURANT_VARIANT(renormal_forces_loop)(dim, reverse);
+RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what) {
+  return COURANT_VARIANT(renormal_forces_loop)(kernel, dim, uniform_h, what);
 }
 
 }  // namespace courant

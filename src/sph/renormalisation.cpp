@@ -32,13 +32,18 @@ const RegisterKeyword<CourantRenormalisation> renormalisation_keyword{
 
 /// Least eigenvalue of the moment matrix up to which gradients are not corrected, and from which on they are
 /// to the full; 1 inside, 1/2 at a plane surface. Where water breaks up, full corrections are unstable.
-constexpr Real least_eigenvalue = 0.6, full_eigenvalue = 0.8;
+struct Eigenvalues {
+  Real least, full;
+};
+constexpr Eigenvalues of_liquids{0.6, 0.8};
+/// Solids keep their neighbours, so that sums at their surfaces (1/2) and edges (1/4) are corrected, too.
+constexpr Eigenvalues of_solids{0.1, 0.2};
 
 void take_arrays(RenormalArrays& a, World& world, const PairVolumes& volumes, Field<Real>& excess) {
   Particles& p = world.particles;
   for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.v[k] = p.v.data(k), a.f[k] = p.f.data(k);
   for (int k = 0; k < 6; ++k) a.excess[k] = excess.data(k);
-  a.V = volumes.current(), a.h0 = p.active > 0 ? p.h[0] : 1;
+  a.V = volumes.current(), a.h = p.h.data();
 }
 
 /// B_i = (sum_j V_j (x_j - x_i) (x) grad W_ij)^-1 makes gradients of linear functions exact (Randles and
@@ -57,12 +62,18 @@ class RenormalRates : public Rate, public Refresh {
   RenormalRates(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                 std::shared_ptr<PairVolumes> volumes)
       : dim_(s.dim),
-        loop_(renormal_rates_loop(s.dim)),
+        loop_(renormal_rates_loop(s.kernel, s.dim)),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         excess_(sph_fields::renormalisation(world.particles)),
         moment_(sph_fields::moment(world.particles)),
-        gradient_(sph_fields::plain_gradient(world.particles)) {
+        gradient_(sph_fields::plain_gradient(world.particles)),
+        strength_(s.strength) {
+    a_.kernel = &any_kernel(s.kernel);
+    if (!s.walls.segments.empty()) {
+      wall_moment_ = &sph_fields::wall_moment(world.particles);
+      wall_gradient_ = &sph_fields::wall_gradient(world.particles);
+    }
     for (Index i = 0; i < world.particles.size(); ++i) excess_.set_tensor(i, Matrix::Zero());
     world.counters.try_emplace(counter, 0);
   }
@@ -72,6 +83,8 @@ class RenormalRates : public Rate, public Refresh {
     a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.h).reads(volumes_->before(), Reach::others);
     a.reads_before(p.rho).updates(p.drhodt).updates(p.f);  // forces only give their address
     a.updates(excess_).writes(moment_).writes(gradient_);
+    if (wall_moment_) a.reads(*wall_moment_).reads(*wall_gradient_);
+    if (!strength_.empty()) a.reads(p.part);
   }
 
   void start(World& world, const Clock& clock) override {
@@ -100,19 +113,22 @@ class RenormalRates : public Rate, public Refresh {
   template <int Dim>
   void correct(Particles& p, Index i) {
     using Square = Eigen::Matrix<Real, Dim, Dim>;
-    const Square moment = moment_.tensor(i).template topLeftCorner<Dim, Dim>();
+    Matrix whole = moment_.tensor(i), gradient = gradient_.tensor(i);
+    if (wall_moment_) whole += wall_moment_->tensor(i), gradient += wall_gradient_->tensor(i);
+    const Square moment = whole.template topLeftCorner<Dim, Dim>();
     Eigen::SelfAdjointEigenSolver<Square> solver;
     solver.computeDirect(moment, Eigen::EigenvaluesOnly);
     const Real least = solver.eigenvalues()[0];
+    const Eigenvalues& from = !strength_.empty() && strength_[p.part[i]] ? of_solids : of_liquids;
     Matrix excess = Matrix::Zero();
-    if (least > least_eigenvalue) {
-      const Real share = std::min((least - least_eigenvalue) / (full_eigenvalue - least_eigenvalue), Real(1));
+    if (least > from.least) {
+      const Real share = std::min((least - from.least) / (from.full - from.least), Real(1));
       excess.template topLeftCorner<Dim, Dim>() = share * (moment.inverse() - Square::Identity());
     } else {
       ++left_out_[static_cast<std::size_t>(i / block_size)];
     }
     const Matrix mean = 0.5 * (excess_.tensor(i) + excess);
-    p.drhodt[i] += p.rho[i] * mean.cwiseProduct(gradient_.tensor(i)).sum();
+    p.drhodt[i] += p.rho[i] * mean.cwiseProduct(gradient).sum();
     excess_.set_tensor(i, excess);
   }
 
@@ -122,31 +138,67 @@ class RenormalRates : public Rate, public Refresh {
   std::shared_ptr<Neighbours> neighbours_;
   std::shared_ptr<PairVolumes> volumes_;
   Field<Real>&excess_, &moment_, &gradient_;
-  std::vector<Index> left_out_;  ///< in each block
+  Field<Real>*wall_moment_ = nullptr, *wall_gradient_ = nullptr;  ///< where walls support particles
+  std::vector<std::shared_ptr<const StrengthLaw>> strength_;      ///< per part; empty: none has any
+  std::vector<Index> left_out_;                                   ///< in each block
   RenormalArrays a_{};
+};
+
+/// The velocity gradient L = D + W of plain sums, with D its symmetric part and W its spin, becomes L B. With
+/// it forces of stress are the transpose of the rates of strain, so that energy is kept.
+class RenormalStrain : public Rate {
+ public:
+  explicit RenormalStrain(World& world)
+      : excess_(sph_fields::renormalisation(world.particles)),
+        rate_(sph_fields::strain_rate(world.particles)),
+        spin_(sph_fields::spin(world.particles)) {}
+  std::string name() const override { return "renormalisation (strain)"; }
+  void declare(const World&, Accesses& a) const override { a.reads(excess_).revises(rate_).revises(spin_); }
+  void block(World&, const Clock&, Index begin, Index end) override {
+    for (Index i = begin; i < end; ++i) {
+      const Vec w = spin_.vec(i);
+      Matrix L = rate_.tensor(i);
+      L(0, 1) -= w[2], L(1, 0) += w[2];
+      L(1, 2) -= w[0], L(2, 1) += w[0];
+      L(2, 0) -= w[1], L(0, 2) += w[1];
+      L += (L * excess_.tensor(i)).eval();
+      rate_.set_tensor(i, 0.5 * (L + L.transpose()));
+      spin_.set(i, 0.5 * Vec(L(2, 1) - L(1, 2), L(0, 2) - L(2, 0), L(1, 0) - L(0, 1)));
+    }
+  }
+
+ private:
+  Field<Real>&excess_, &rate_, &spin_;
 };
 
 class RenormalForces : public Force {
  public:
   RenormalForces(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                  std::shared_ptr<PairVolumes> volumes)
-      : loop_(renormal_forces_loop(s.dim, s.reverse_correction)),
+      : loop_(renormal_forces_loop(s.kernel, s.dim, s.uniform_h,
+                                   s.reverse_correction ? RenormalForce::reverse
+                                   : s.strength.empty() ? RenormalForce::pressure
+                                                        : RenormalForce::stress)),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         excess_(sph_fields::renormalisation(world.particles)) {
+    a_.kernel = &any_kernel(s.kernel);
     if (std::holds_alternative<BulkViscosity>(s.viscosity))
       total_pressure_ = &sph_fields::pressure_plus_q(world.particles);
+    if (!s.strength.empty()) tau_ = &sph_fields::stress(world.particles);
   }
   std::string name() const override { return "renormalisation (forces)"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
-    a.reads(p.x, Reach::others).reads(p.v).reads(p.h).reads(volumes_->now(), Reach::others);
+    a.reads(p.x, Reach::others).reads(p.v).reads(p.h, Reach::others).reads(volumes_->now(), Reach::others);
     a.reads(excess_, Reach::others).reads(total_pressure_ ? *total_pressure_ : p.p, Reach::others);
+    if (tau_) a.reads(*tau_, Reach::others);
     a.updates(p.f);
   }
 
   void start(World& world, const Clock&) override {
     take_arrays(a_, world, *volumes_, excess_);
+    for (int k = 0; tau_ && k < 6; ++k) a_.tau[k] = tau_->data(k);
     a_.p = total_pressure_ ? total_pressure_->data() : world.particles.p.data();
   }
   void block(World&, const Clock&, Index begin, Index end) override {
@@ -158,7 +210,7 @@ class RenormalForces : public Force {
   std::shared_ptr<Neighbours> neighbours_;
   std::shared_ptr<PairVolumes> volumes_;
   Field<Real>& excess_;
-  Field<Real>* total_pressure_ = nullptr;
+  Field<Real>*total_pressure_ = nullptr, *tau_ = nullptr;
   RenormalArrays a_{};
 };
 
@@ -199,22 +251,16 @@ void read_form(const Deck& deck, SphSettings& s, Diagnostics& diagnostics) {
     deck.error(diagnostics, *c, "FORM", fmt::format("expected 0 {}, got '{}'", why, c->form), hint);
   };
   s.renormalised = is_renormalised(c->form);
-  if (!s.uniform_h)
-    refuse("where h differs or changes",
-           "use HMIN = HMAX = 1 and one CSLH and spacing for all SPH parts, or FORM 0");
-  if (s.renormalised && s.kernel != KernelChoice::cubic_spline)
-    refuse(fmt::format("or a plain form beside the {}: corrected sums take the cubic spline",
-                       kernel_name(s.kernel)),
-           "FORM 0, 2 and 5 take every kernel");
-  if (s.renormalised && s.geometry_eps > 0)
-    refuse("or a plain form beside *COURANT_PAIR_GEOMETRY, which keeps gradients that are not corrected",
-           "leave one of the two out");
+  if (!s.uniform_h && c->form != 1)
+    refuse("or 1 where h differs or changes",
+           "use HMIN = HMAX = 1 and one CSLH and spacing for all SPH parts, or FORM 0 or 1");
   warn_of_smoothing(deck, *c, diagnostics);
 }
 
 void add_renormalisation(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                          std::shared_ptr<PairVolumes> volumes) {
   world.passes.add(std::make_shared<RenormalRates>(s, world, neighbours, volumes));
+  if (!s.strength.empty()) world.passes.add(std::make_shared<RenormalStrain>(world));
   world.passes.add(std::make_shared<RenormalForces>(s, world, std::move(neighbours), std::move(volumes)));
 }
 

@@ -39,16 +39,19 @@ class RiemannMomentum : public Rate {
  public:
   RiemannMomentum(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                   std::shared_ptr<PairVolumes> volumes)
-      : loop_(riemann_momentum_loop(s.dim)),
+      : loop_(riemann_momentum_loop(s.kernel, s.dim, s.uniform_h)),
         eta_(std::get<RiemannFlux>(s.viscosity).eta),
         c_(sph_fields::viscous_speed(world.particles)),
         heat_(sph_fields::dissipation(world.particles)),
         neighbours_(with_whole_lists(std::move(neighbours))),
-        volumes_(std::move(volumes)) {}
+        volumes_(std::move(volumes)) {
+    a_.kernel = &any_kernel(s.kernel);
+  }
   std::string name() const override { return "Riemann flux (momentum)"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
-    a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.m, Reach::others).reads(p.h);
+    a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.m, Reach::others);
+    a.reads(p.h, Reach::others);
     a.reads(volumes_->before(), Reach::others).reads(c_, Reach::others).updates(p.f).writes(heat_);
   }
 
@@ -56,7 +59,7 @@ class RiemannMomentum : public Rate {
     Particles& p = world.particles;
     for (int k = 0; k < 3; ++k) a_.x[k] = p.x.data(k), a_.v[k] = p.v.data(k), a_.f[k] = p.f.data(k);
     a_.m = p.m.data(), a_.V = volumes_->current(), a_.c = c_.data(), a_.heat = heat_.data();
-    a_.h0 = p.active > 0 ? p.h[0] : 1, a_.eta = eta_;
+    a_.h = p.h.data(), a_.h0 = p.active > 0 ? p.h[0] : 1, a_.eta = eta_;
   }
   void block(World&, const Clock&, Index begin, Index end) override {
     loop_(a_, lists_of(*neighbours_, begin, end));
@@ -83,17 +86,20 @@ class RiemannMass : public Force, public TimeLimit {
  public:
   RiemannMass(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
               std::shared_ptr<PairVolumes> volumes)
-      : loop_(riemann_mass_loop(s.dim)),
+      : loop_(riemann_mass_loop(s.kernel, s.dim, s.uniform_h)),
         c_(sph_fields::viscous_speed(world.particles)),
         potential_(sph_fields::potential(world.particles)),
         rate_(sph_fields::density_diffusion(world.particles)),
         pc_(std::get<RiemannFlux>(s.viscosity).pc),
         neighbours_(with_whole_lists(std::move(neighbours))),
-        volumes_(std::move(volumes)) {}
+        volumes_(std::move(volumes)) {
+    a_.kernel = &any_kernel(s.kernel);
+  }
   std::string name() const override { return "Riemann flux (mass)"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
-    a.reads(p.x, Reach::others).reads(p.m, Reach::others).reads(p.h).reads(volumes_->now(), Reach::others);
+    a.reads(p.x, Reach::others).reads(p.m, Reach::others).reads(p.h, Reach::others);
+    a.reads(volumes_->now(), Reach::others);
     a.reads(c_, Reach::others).reads(p.p, Reach::others).reads(potential_, Reach::others).writes(rate_);
   }
 
@@ -104,7 +110,7 @@ class RiemannMass : public Force, public TimeLimit {
     a_.potential = potential_.data(), a_.rate = rate_.data();
     decay_.resize(static_cast<std::size_t>(p.active));
     a_.decay = decay_.data(), a_.pc = pc_;
-    a_.h0 = p.active > 0 ? p.h[0] : 1;
+    a_.h = p.h.data(), a_.h0 = p.active > 0 ? p.h[0] : 1;
     fastest_.assign(block_count(p.active), 0);
   }
   void block(World&, const Clock&, Index begin, Index end) override {
@@ -150,20 +156,11 @@ void read_riemann(const Deck& deck, const Model& model,
     deck.error(diagnostics, *c, "ETA", "expected a number < 0, which means none, " + why, hint);
     refused = true;
   };
-  if (!s.uniform_h)
-    refuse("where h differs or changes: the flux takes one h for all",
-           "use HMIN = HMAX = 1 and one CSLH and spacing for all SPH parts, or leave the keyword out");
-  if (s.kernel != KernelChoice::cubic_spline)
-    refuse(fmt::format("beside the {}: the flux takes the cubic spline", kernel_name(s.kernel)),
-           "leave one of the two out");
   if (std::holds_alternative<BulkViscosity>(s.viscosity))
     refuse("beside IAVIS 1 of *CONTROL_SPH: the flux takes the place of artificial viscosity",
            "use IAVIS 0, or leave the keyword out");
   if (s.density_diffusion > 0)
     refuse("beside *COURANT_DENSITY_DIFFUSION: the flux diffuses density itself", "leave one of the two out");
-  if (s.geometry_eps > 0)
-    refuse("beside *COURANT_PAIR_GEOMETRY, which keeps gradients for sums that the flux replaces",
-           "leave one of the two out");
   if (const std::string differ = parts_of_several_materials(model); !differ.empty())
     refuse("where SPH parts are of several materials: " + differ + ", and the flux is that of one liquid",
            "give all SPH parts one material and one equation of state, or leave the keyword out");

@@ -55,7 +55,7 @@ class Shifting : public Rate, public Keeper {
       : rules_(s.shift),
         mirrors_(s.mirrors),
         dim_(s.dim),
-        loop_(shifting_loop(s.dim, s.shift.correct)),
+        loop_(shifting_loop(s.kernel, s.dim, s.shift.correct)),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         drift_(drift_velocity(world.particles, shift_statistics)),
@@ -67,11 +67,14 @@ class Shifting : public Rate, public Keeper {
         edge_(sph_fields::surface_near(world.particles)),
         filling_(sph_fields::filling(world.particles)),
         at_spacing_(sph_fields::kernel_at_spacing(world.particles)) {
+    a_.kernel = &any_kernel(s.kernel);
     const Particles& p = world.particles;
     for (Index i = 0; i < p.size(); ++i) {
       spread_[i] = dim_;
       const Real R = std::pow(p.m[i] / p.rho[i], 1.0 / dim_) / p.h[i];
-      at_spacing_[i] = 1 / std::max(CubicSpline::shape(R), least_shape);
+      at_spacing_[i] = with_kernel(s.kernel, [R](auto kernel) {
+        return 1 / std::max(kernel.shape(R), least_shape * kernel.shape(Real(0)));
+      });
     }
     world.maxima.try_emplace(volume_statistic, 0);
     if (!rules_.correct) return;

@@ -174,8 +174,7 @@ void add_density_diffusion(const SphSettings&, World&);
 /// Adds to the rates what brings the density back to what the places of particles say.
 void add_volume_control(const SphSettings&, World&, std::shared_ptr<Neighbours>,
                         std::shared_ptr<PairVolumes>);
-/// Reads *COURANT_WALL_SUPPORT into the settings. Call when segments and bodies are built: walls must not
-/// move.
+/// Reads *COURANT_WALL_SUPPORT into the settings. Call when segments and bodies are built.
 void read_supported_walls(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
                           Diagnostics& diagnostics);
 /// Adds the passes of supporting walls; belongs right behind the pair rates.

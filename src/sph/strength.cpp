@@ -23,7 +23,9 @@ class Spin : public Rate {
       : loop_(spin_loop(s.kernel, s.dim)),
         spin_(sph_fields::spin(world.particles)),
         neighbours_(with_whole_lists(std::move(neighbours))),
-        volumes_(std::move(volumes)) {}
+        volumes_(std::move(volumes)) {
+    a_.kernel = &any_kernel(s.kernel);
+  }
   std::string name() const override { return "spin"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;

@@ -18,12 +18,13 @@ WallSurface::WallSurface(const World& world, const std::vector<Index>& segments,
     : dim_(world.dim), reach_(reach), planes_of_images_(std::move(planes)) {
   for (const Index s : segments) {
     const std::array<Index, 4> node = world.segments.nodes(s);
-    if (dim_ == 2) {
-      add_line(world.nodes, node, s);
-      continue;
-    }
     Face face;
     face.segment = s;
+    for (int e = 0; e < 4; ++e) face.v[e] = world.nodes.v.vec(node[e]);
+    if (dim_ == 2) {
+      add_line(world.nodes, node, face);
+      continue;
+    }
     face.corners = node[3] == node[2] ? 3 : 4;
     for (int e = 0; e < 4; ++e) face.x[e] = world.nodes.x.vec(node[e]);
     add_face(face);
@@ -44,7 +45,7 @@ WallSurface::Key WallSurface::key(const Vec& a, const Vec& b) const {
 
 /// The face of a shell that is extruded across the plane of flow: its trace, made one reach wide to each
 /// side.
-void WallSurface::add_line(const Nodes& nodes, const std::array<Index, 4>& node, Index segment) {
+void WallSurface::add_line(const Nodes& nodes, const std::array<Index, 4>& node, Face face) {
   std::pair<Vec, Vec> ends;
   Real longest = 0;
   for (int a = 0; a < 4; ++a)
@@ -55,9 +56,9 @@ void WallSurface::add_line(const Nodes& nodes, const std::array<Index, 4>& node,
   if (longest < small * reach_) return;
   const Key one = key(ends.first, ends.second), other = key(ends.second, ends.first);
   if (!lines_.insert(std::min(one, other)).second) return;  // another shell of the same wall, beside this one
-  const Vec z(0, 0, reach_);
-  Face face;
-  face.segment = segment;
+  const Vec z(0, 0, reach_), direction = (ends.second - ends.first) / longest;
+  for (int e = 0; e < 4; ++e)
+    face.along[e] = (in_plane(nodes.x.vec(node[e])) - ends.first).dot(direction) > 0.5 * longest ? 1 : 0;
   face.x = {Vec(ends.first - z), Vec(ends.second - z), Vec(ends.second + z), Vec(ends.first + z)};
   add_face(face);
 }
@@ -84,10 +85,14 @@ void WallSurface::cut(Index face, Real spacing) {
   const int n = pieces(std::max((b - a).norm(), (c - d).norm()));
   if (dim_ == 2) {
     const Vec one = in_plane(a), step = (in_plane(b) - one) / n;
+    const Real at_end = f.along[0] + f.along[1] + f.along[2] + f.along[3];
     for (int i = 0; i < n; ++i) {
-      const Vec x = one + (i + 0.5) * step;
+      const Real s = (i + 0.5) / n;
+      const Vec x = one + n * s * step;
+      std::array<Real, 4> weight{};
+      for (int e = 0; e < 4; ++e) weight[e] = f.along[e] > 0 ? s / at_end : (1 - s) / (4 - at_end);
       if (const Real share = share_in_front(x, step, Vec::Zero()); share > 0)
-        points_.push_back({x, share * step.norm() * f.n, face});
+        add_point(f, face, x, share * step.norm() * f.n, weight);
     }
     return;
   }
@@ -100,9 +105,19 @@ void WallSurface::cut(Index face, Real spacing) {
       const Real s = Real(i) / n, t = Real(j) / m, s1 = Real(i + 1) / n, t1 = Real(j + 1) / m;
       const Vec p = at(s, t), q = at(s1, t), r = at(s1, t1), u = at(s, t1);
       const Vec x = 0.25 * (p + q + r + u);
+      const Real sm = 0.5 * (s + s1), tm = 0.5 * (t + t1);
       if (const Real share = share_in_front(x, 0.5 * (q - p + r - u), 0.5 * (u - p + r - q)); share > 0)
-        points_.push_back({x, share * 0.5 * (r - p).cross(u - q), face});
+        add_point(f, face, x, share * 0.5 * (r - p).cross(u - q),
+                  {(1 - sm) * (1 - tm), sm * (1 - tm), sm * tm, (1 - sm) * tm});
     }
+}
+
+void WallSurface::add_point(const Face& face, Index index, const Vec& x, const Vec& area,
+                            const std::array<Real, 4>& weight) {
+  WallPoint point{.x = x, .area = area, .face = index, .weight = weight};
+  for (int e = 0; e < 4; ++e) point.v += weight[e] * face.v[e];
+  if (dim_ == 2) point.v[2] = 0;
+  points_.push_back(point);
 }
 
 /// Of a piece about x with these sides, what lies in front of all planes.
@@ -137,11 +152,16 @@ void WallSurface::add_images(int k) {
       if (image[point.face] < 0) {
         Face face = faces_[point.face];
         for (Vec& x : face.x) x = place(x);
+        for (int c = 0; c < 3; ++c)
+          face.from_image.col(c) = faces_[point.face].from_image * direction(Vec::Unit(c));
         face.side |= side << 2 * k;
         image[point.face] = faces();
         add_face(face);
       }
-      points_.push_back({place(point.x), direction(point.area), image[point.face]});
+      WallPoint at_image = point;
+      at_image.x = place(point.x), at_image.area = direction(point.area), at_image.v = direction(point.v);
+      at_image.face = image[point.face];
+      points_.push_back(at_image);
     }
   };
   const Vec n = plane.normal, shift = plane.period * n;

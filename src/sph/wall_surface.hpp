@@ -1,5 +1,5 @@
 #pragma once
-// The surface of shells that do not move, as points that each stand for a piece of it.
+// The surface of shells at one moment, as points that each stand for a piece of it.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -16,6 +16,8 @@ struct WallPoint {
   Vec x = Vec::Zero();
   Vec area = Vec::Zero();  ///< of the piece, along the normal of its face [L^(dim-1)]
   Index face = 0;
+  Vec v = Vec::Zero();           ///< [L/T]
+  std::array<Real, 4> weight{};  ///< of the nodes of its segment, as they interpolate [-]
 };
 
 /// Flat faces cut into pieces of about one size. In 2D a shell counts by its line in the plane of flow, once
@@ -30,6 +32,8 @@ class WallSurface {
   Index faces() const { return static_cast<Index>(faces_.size()); }
   Index points() const { return static_cast<Index>(points_.size()); }
   Index segment_of(Index face) const { return faces_[face].segment; }
+  /// A vector at the image of a face, as it is at the face itself.
+  Vec from_image(Index face, const Vec& v) const { return faces_[face].from_image * v; }
 
   /// Where x sees one flat wall and none of its edges: a face of it; else -1. `nothing`: it sees no wall.
   struct View {
@@ -75,15 +79,15 @@ class WallSurface {
   using Side = std::uint64_t;
   struct Face {
     std::array<Vec, 4> x, inward;
+    std::array<Vec, 4> v;                    ///< of the segment's nodes
+    std::array<Real, 4> along{};             ///< in 2D: 1 for nodes at the line's end, 0 at its begin
+    Matrix from_image = Matrix::Identity();  ///< turns directions at an image back
     Vec n = Vec::Zero();
     Real offset = 0;
     int corners = 4;
     Index plane = 0, segment = 0;
     Side side = 0;  ///< where it counts
-    Face() {
-      x.fill(Vec::Zero());
-      inward.fill(Vec::Zero());
-    }
+    Face() { x.fill(Vec::Zero()), inward.fill(Vec::Zero()), v.fill(Vec::Zero()); }
   };
 
   /// What is alike to 1e-6 of the reach has one key.
@@ -91,7 +95,9 @@ class WallSurface {
   Key key(const Vec& a, const Vec& b) const;
 
   Real height(Index face, const Vec& x) const { return faces_[face].n.dot(x) - faces_[face].offset; }
-  void add_line(const Nodes& nodes, const std::array<Index, 4>& node, Index segment);
+  void add_line(const Nodes& nodes, const std::array<Index, 4>& node, Face face);
+  void add_point(const Face& face, Index index, const Vec& x, const Vec& area,
+                 const std::array<Real, 4>& weight);
   void add_face(Face face);
   void cut(Index face, Real spacing);
   Real share_in_front(const Vec& x, const Vec& along, const Vec& across) const;

@@ -29,10 +29,12 @@ class Xsph : public Rate {
   Xsph(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
        std::shared_ptr<PairVolumes> volumes)
       : eps_(s.xsph),
-        loop_(xsph_loop(s.dim, s.uniform_h)),
+        loop_(xsph_loop(s.kernel, s.dim, s.uniform_h)),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
-        drift_(drift_velocity(world.particles, xsph_statistics)) {}
+        drift_(drift_velocity(world.particles, xsph_statistics)) {
+    a_.kernel = &any_kernel(s.kernel);
+  }
   std::string name() const override { return "XSPH"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;

@@ -19,7 +19,7 @@ MAY_INCLUDE = {
     "surfaces": ["state"],
     "extension": ["state", "keyword", "model"],
     "loads": ["search", "state", "keyword", "model", "extension"],
-    "sph": ["loads", "search", "state", "keyword", "model", "laws"],
+    "sph": ["loads", "search", "state", "keyword", "model", "laws", "surfaces"],
     "rigid": ["loads", "search", "state", "keyword", "model"],
     "shell": ["search", "state", "keyword", "model"],
     "elements": ["loads", "search", "state", "keyword", "model", "laws", "extension"],

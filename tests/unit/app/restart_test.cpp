@@ -259,6 +259,16 @@ TEST(Restart, WallSupport) {
               {0, 1, 33, 80}, 140);
 }
 
+TEST(Restart, WallSupportOfAFloorThatMovesWhereHChanges) {
+  std::string cards = test::floor_cards(0);
+  cards.replace(cards.find("1,7,7"), 5, "0");  // free
+  expect_same({.start = "0.5,-0.3,0.",
+               .control_sph = ",0,1",
+               .section = "1,1.2,0.5,2.",
+               .extra = test::gravity_cards + cards + "*COURANT_WALL_SUPPORT\n2,3,0.004\n"},
+              {0, 1, 33, 80}, 140);
+}
+
 TEST(Restart, DensityReinitialisation) {
   for (const char* method : {"0", "1"})
     expect_same({.n = 8,

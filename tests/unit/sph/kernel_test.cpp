@@ -48,12 +48,32 @@ TYPED_TEST(EveryKernel, SlopeIsTheDerivativeOfTheShape) {
   const Real d = 1e-6;
   at_places<TypeParam>([&](Real R) {
     const Real differences = (TypeParam::shape(R + d) - TypeParam::shape(R - d)) / (2 * d);
-    EXPECT_NEAR(TypeParam::slope(R), differences, 1e-8 * TypeParam::shape(0)) << R;
+    EXPECT_NEAR(TypeParam::slope(R), differences, 1e-8 * TypeParam::shape(0.0)) << R;
   });
 }
 
+TYPED_TEST(EveryKernel, IsTheSameWhereItIsKnownOnlyAtRunTime) {
+  const AnyKernel any = AnyKernel::of<TypeParam>();
+  for (int dim = 1; dim <= 3; ++dim) EXPECT_EQ(any.C(dim), TypeParam::C(dim));
+  EXPECT_EQ(any.support, TypeParam::support);
+  EXPECT_EQ(any.gradient_factor, TypeParam::gradient_factor);
+  EXPECT_EQ(any.kink, TypeParam::kink);
+  const auto compare = [&](Real R) {
+    EXPECT_NEAR(any.shape(R), TypeParam::shape(R), 1e-14 * TypeParam::shape(0.0)) << R;
+    const Real steepest = TypeParam::gradient(Real(TypeParam::steepest));
+    EXPECT_NEAR(any.gradient(R), TypeParam::gradient(R), 1e-14 * std::abs(steepest) + 1e-13) << R;
+    EXPECT_NEAR(any.half_curvature(R), TypeParam::half_curvature(R), 1e-13 * std::abs(steepest) + 1e-13) << R;
+  };
+  at_places<TypeParam>(compare);
+  for (const Real R : {TypeParam::support, TypeParam::support + 0.5, 10.0}) {
+    EXPECT_EQ(any.shape(R), 0);
+    EXPECT_EQ(any.gradient(R), 0);
+    EXPECT_EQ(any.half_curvature(R), 0);
+  }
+}
+
 TYPED_TEST(EveryKernel, FallsToNothingAtItsSupport) {
-  Real before = TypeParam::shape(0);
+  Real before = TypeParam::shape(0.0);
   at_places<TypeParam>([&](Real R) {
     EXPECT_LT(TypeParam::shape(R), before) << R;
     before = TypeParam::shape(R);
@@ -71,10 +91,10 @@ TYPED_TEST(EveryKernel, PairLoopsTakeTheSameSlope) {
   const Real d = 1e-6;
   at_places<TypeParam>([&](Real R) {
     EXPECT_NEAR(TypeParam::gradient_factor * TypeParam::gradient(R), TypeParam::slope(R),
-                1e-14 * TypeParam::shape(0))
+                1e-14 * TypeParam::shape(0.0))
         << R;
     const Real differences = (TypeParam::gradient(R + d) - TypeParam::gradient(R - d)) / (2 * d);
-    EXPECT_NEAR(2 * TypeParam::half_curvature(R), differences, 1e-7 * TypeParam::shape(0)) << R;
+    EXPECT_NEAR(2 * TypeParam::half_curvature(R), differences, 1e-7 * TypeParam::shape(0.0)) << R;
   });
 }
 
@@ -83,32 +103,32 @@ TYPED_TEST(EveryKernel, IsSteepestWhereItSays) {
   at_places<TypeParam>([&](Real R) { EXPECT_LE(-TypeParam::slope(R), -TypeParam::slope(steepest)) << R; });
   for (int k = 0; k <= 20; ++k) {
     const Real R = steepest * k / 20;
-    EXPECT_NEAR(TypeParam::dip(R), TypeParam::shape(0) - TypeParam::shape(R), 1e-14 * TypeParam::shape(0));
-    EXPECT_NEAR(TypeParam::steepness(R), -TypeParam::slope(R), 1e-14 * TypeParam::shape(0));
+    EXPECT_NEAR(TypeParam::dip(R), TypeParam::shape(0.0) - TypeParam::shape(R), 1e-14 * TypeParam::shape(0.0));
+    EXPECT_NEAR(TypeParam::steepness(R), -TypeParam::slope(R), 1e-14 * TypeParam::shape(0.0));
   }
   EXPECT_EQ(TypeParam::kink, TypeParam::slope(0) != 0);
 }
 
 TEST(CubicSpline, HasTheShapeOfEquation10) {
-  EXPECT_DOUBLE_EQ(CubicSpline::shape(0), 1);
-  EXPECT_DOUBLE_EQ(CubicSpline::shape(1), 0.25);
+  EXPECT_DOUBLE_EQ(CubicSpline::shape(0.0), 1);
+  EXPECT_DOUBLE_EQ(CubicSpline::shape(1.0), 0.25);
   EXPECT_DOUBLE_EQ(CubicSpline::shape(0.5), 1 - 1.5 * 0.25 + 0.75 * 0.125);
-  EXPECT_DOUBLE_EQ(CubicSpline::shape(2), 0);
+  EXPECT_DOUBLE_EQ(CubicSpline::shape(2.0), 0);
   EXPECT_DOUBLE_EQ(CubicSpline::slope(3), 0);
 }
 
 /// Values from the formulas as they are printed, worked out with fractions.
 TEST(EveryKernelOf, TheLiteratureHasItsValues) {
-  EXPECT_DOUBLE_EQ(QuinticSpline::shape(0), 66);
-  EXPECT_DOUBLE_EQ(QuinticSpline::shape(1), 26);
-  EXPECT_DOUBLE_EQ(QuinticSpline::shape(2), 1);
-  EXPECT_DOUBLE_EQ(QuadraticSpline::shape(0), 0.75);
-  EXPECT_DOUBLE_EQ(QuadraticSpline::shape(1), 3.0 / 16 - 3.0 / 4 + 3.0 / 4);
-  EXPECT_DOUBLE_EQ(QuarticSpline::shape(0), 14.375);
+  EXPECT_DOUBLE_EQ(QuinticSpline::shape(0.0), 66);
+  EXPECT_DOUBLE_EQ(QuinticSpline::shape(1.0), 26);
+  EXPECT_DOUBLE_EQ(QuinticSpline::shape(2.0), 1);
+  EXPECT_DOUBLE_EQ(QuadraticSpline::shape(0.0), 0.75);
+  EXPECT_DOUBLE_EQ(QuadraticSpline::shape(1.0), 3.0 / 16 - 3.0 / 4 + 3.0 / 4);
+  EXPECT_DOUBLE_EQ(QuarticSpline::shape(0.0), 14.375);
   EXPECT_DOUBLE_EQ(QuarticSpline::shape(0.5), 11);
   EXPECT_DOUBLE_EQ(QuarticSpline::shape(1.5), 1);
-  EXPECT_DOUBLE_EQ(WendlandC2::shape(1), 3.0 / 16);
-  EXPECT_DOUBLE_EQ(WendlandC4::shape(1), (1 + 3 + 35.0 / 12) / 64);
+  EXPECT_DOUBLE_EQ(WendlandC2::shape(1.0), 3.0 / 16);
+  EXPECT_DOUBLE_EQ(WendlandC4::shape(1.0), (1 + 3 + 35.0 / 12) / 64);
 }
 
 TEST(KernelChoice, LeadsToItsKernel) {

@@ -365,5 +365,122 @@ TEST(WallSupport, EnergyOfAnImpactIsKeptAsWellAsWithoutIt) {
   EXPECT_LT(residual(support, "\n0,0,0,0,0,0,1"), 0.01);  // IAVIS 1: q adds to the pressure on the wall, too
 }
 
+/// The floor of `on_floor`, with other motions than none.
+std::string with_floor(std::string text, const std::string& rigid) {
+  return text.replace(text.find("\n1,7,7\n"), 7, "\n" + rigid + "\n");
+}
+std::string driven(const Vec& v) {
+  std::string cards;
+  for (int k = 0; k < 2; ++k)
+    cards += fmt::format("*BOUNDARY_PRESCRIBED_MOTION_RIGID\n2,{},0,{}\n*DEFINE_CURVE\n{}\n0.,{}\n100.,{}\n", k + 1,
+                         10 + k, 10 + k, v[k], v[k]);
+  return cards;
+}
+
+TEST(WallSupport, OnlyTheVelocityOverTheWallCounts) {
+  const std::string rubs = "*COURANT_WALL_SUPPORT\n2,3,0.004\n";
+  const auto at_rest = test::build_deck(on_floor(rubs, "0.3,-0.5,0."), false);
+  const auto carried =
+      test::build_deck(with_floor(on_floor(rubs + driven(Vec(2, 1, 0)), "2.3,0.5,0."), "0"), false);
+  std::string who;
+  at_rest->evaluate(who), carried->evaluate(who);
+  const Particles &p = at_rest->world().particles, &q = carried->world().particles;
+  Real seen = 0;
+  for (Index i = 0; i < p.active; ++i) {
+    const Index j = at(q, p.x.vec(i));
+    seen = std::max(seen, std::abs(p.drhodt[i]));
+    EXPECT_NEAR(q.drhodt[j], p.drhodt[i], 1e-3 * 1000 * 0.5 / h) << p.id[i];  // plane in one, pieces in the other
+    EXPECT_LT((q.f.vec(j) - p.f.vec(i)).norm(), 1e-3 * 1000 * 0.004 * 0.1) << p.id[i];
+  }
+  EXPECT_GT(seen, 100);
+}
+
+// A plate as heavy as the water, free: what the water loses it gets, turning included.
+TEST(WallSupport, WaterAndAFreeWallKeepTheirMomentum) {
+  for (const std::string& form : {"0", "1"})
+    for (const std::string& iavis : {"0", "1"}) {
+      std::string text = with_floor(on_floor("*COURANT_WALL_SUPPORT\n2,3,0.01\n", "0.7,-1.,0.", 6,
+                                             ",0," + form + "\n0,0,0,0,0,0," + iavis),
+                                    "0");
+      text.replace(text.find("2,7850."), 7, "2,144.");  // 144 * 0.1 * 25 = 360
+      const auto s = test::build_deck(text, false);
+      const auto momentum = [&] {
+        const Sample now = s->sample("");
+        return Vec(now.mass * now.velocity);
+      };
+      const auto turning = [&] {
+        const World& w = s->world();
+        Real sum = 0;
+        for (Index i = 0; i < w.particles.active; ++i)
+          sum += w.particles.m[i] * w.particles.x.vec(i).cross(w.particles.v.vec(i))[2];
+        for (Index n = 0; n < w.nodes.size(); ++n)
+          sum += w.nodes.m[n] * w.nodes.x.vec(n).cross(w.nodes.v.vec(n))[2];
+        return sum;
+      };
+      const Vec before = momentum();
+      const Real turning_before = turning();
+      test::run(*s, 0.15);
+      EXPECT_LT((momentum() - before).norm(), 1e-11 * before.norm()) << form << iavis;
+      // friction acts at the wall, the particle it acts on stands half a spacing off
+      EXPECT_LT(std::abs(turning() - turning_before), 0.02 * std::abs(turning_before)) << form << iavis;
+      const Vec plate = s->sample("").bodies.at(0).v;
+      EXPECT_LT(plate[1], -0.2) << form << iavis;  // pushed off
+      EXPECT_LT(std::abs(s->sample("").energy.residual()), 0.01 * 0.5 * 360 * 1.49) << form << iavis;
+    }
+}
+
+TEST(WallSupport, AForceOnAPistonIsThatOfTheWaterHammer) {
+  // a floor that begins to rise with 0.1 m/s under water at rest: p = rho c v where the wave has not turned back
+  test::SmallScene scene;
+  scene.n = 16;
+  scene.extra = floor_cards() + support + driven(Vec(0, 0.1, 0)) +
+                "*BOUNDARY_SPH_SYMMETRY_PLANE\n0,0,0,1,0,0\n1.6,0,0,0,0,0\n";
+  const auto s = test::build_deck(with_floor(scene.text(), "0"), false);
+  Real sum = 0, n = 0;
+  while (s->clock().t < 0.08) {  // 1.6 m at 30 m/s: the top answers after 0.053 s there, 0.107 s back
+    s->step([](World&, const Clock&, const std::string&) {});
+    if (s->clock().t < 0.04) continue;
+    Real on_water = 0;
+    for (const InterfaceForce& f : s->sample("").interfaces) on_water += f.on_surfa[1];
+    sum += on_water / 1.6, ++n;
+  }
+  EXPECT_NEAR(sum / n / (1000 * 30 * 0.1), 1, 0.05);
+}
+
+TEST(WallSupport, CompletesTheMomentMatrixOfRenormalisedForms) {
+  const auto s = test::build_deck(on_floor(support, "0.,0.,0.", 12, ",0,1"), false);
+  std::string who;
+  s->evaluate(who);
+  Particles& p = s->world().particles;
+  for (const Real y : {0.05, 0.15}) {
+    const Index i = at(p, Vec(0.55, y, 0));
+    const Matrix whole = sph_fields::moment(p).tensor(i) + sph_fields::wall_moment(p).tensor(i);
+    for (int a = 0; a < 2; ++a)
+      for (int b = 0; b < 2; ++b) EXPECT_NEAR(whole(a, b), a == b, 0.05) << y << a << b;
+    EXPECT_LT(sph_fields::renormalisation(p).tensor(i).norm(), 0.07) << y;
+  }
+}
+
+TEST(WallSupport, FollowsAnHThatChanges) {
+  for (const std::string& form : {"0", "1"}) {
+    std::string text = on_floor(support + test::gravity_cards +
+                                    "*BOUNDARY_SPH_SYMMETRY_PLANE\n0,0,0,1,0,0\n1,0,0,0,0,0\n",
+                                "0.,0.,0.", 10, ",0," + form);
+    const std::string old = "1,1.2,1.,1.";
+    text.replace(text.find(old), old.size(), "1,1.2,0.5,2.");
+    text.replace(text.find("*CONTROL_TERMINATION\n1."), 24, "*CONTROL_TERMINATION\n9.");
+    const auto s = test::build_deck(text, false);
+    Real on_water = 0, times = 0;
+    while (s->clock().t < 4) {
+      s->step([](World&, const Clock&, const std::string&) {});
+      if (s->clock().t < 2 || s->clock().cycle % 16 != 0) continue;
+      for (const InterfaceForce& f : s->sample("").interfaces) on_water += f.on_surfa[1];
+      ++times;
+    }
+    EXPECT_NEAR(on_water / times / (1000 * g), 1, 0.01) << form;
+    EXPECT_LT(std::abs(s->sample("").energy.residual()), 5e-3 * 1000 * g * 0.5) << form;
+  }
+}
+
 }  // namespace
 }  // namespace courant

@@ -3,6 +3,6 @@
 
 namespace courant::COURANT_SIMD {
 
-template PairLoops loops_of<QuadraticSpline>();
+template PairLoops loops_of<AnyKernel>();
 
 }  // namespace courant::COURANT_SIMD
