@@ -1,6 +1,6 @@
 #pragma once
-// Penalty contact of SPH particles with shells and the skins of solids, in 3D and (walls extruded in z) in
-// 2D. See docs/theory.md.
+// Penalty contact of SPH particles with shells and exterior faces of solids, in 3D and (walls extruded in z)
+// in 2D. See docs/theory.md.
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -45,10 +45,10 @@ struct ContactLaw {
 
 /// The interface at work. A particle with distance d < r to the walls is pushed by k (r - d) along the
 /// shortest way out; where several walls meet, to the nearest place that keeps distance r from all (see
-/// push_out.hpp). Each particle has a place in front of the walls that its path belongs to, its ghost: the
-/// particle itself, unless its path went through a mid-surface. It is then pulled back to the ghost's side,
-/// which the ghost only leaves around a free edge, never through a wall. What outlives a search of neighbours
-/// is in particle fields, so sorting keeps it.
+/// push_out.hpp). Each particle has a last admissible position, here called its ghost (no ghost particle):
+/// the particle itself, unless its path went through a mid-surface. It is then pulled back to the ghost's
+/// side, which the ghost only leaves around a free edge, never through a wall. What outlives a search of
+/// neighbours is in particle fields, so sorting keeps it.
 ///
 /// Most particles near walls are far from touching, or touch one fixed flat wall or a corner of few. For
 /// these there are shortcuts (quick_touch.cpp) that give the same bits as the full search (touch.cpp).

@@ -5,8 +5,8 @@
 
 namespace courant {
 
-/// Adds to the force of each node what elements of all groups left for it, in a fixed order: the same bits on
-/// any number of threads. Call when all groups are built.
+/// Assembly of nodal forces: a gather over the nodes of what elements of all groups left for them, in a fixed
+/// order: the same bits on any number of threads. Call when all groups are built.
 std::shared_ptr<Force> make_corner_gather(const World& world);
 
 }  // namespace courant

@@ -12,7 +12,7 @@
 
 namespace courant {
 
-/// Where the world of particles goes on as an image of itself.
+/// A symmetry or periodic plane, behind which particles have ghost particles, here called images.
 struct ImagePlane {
   enum class Kind { mirror, periodic } kind = Kind::mirror;
   Vec point = Vec::Zero();   ///< on the plane [L]

@@ -5,9 +5,9 @@
 
 namespace courant {
 
-/// Runs of blocks, on each of which one thread works from its begin to its end: within a strip, a loop may
-/// add to particles of other blocks, if what goes beyond the strip goes to memory of the strip's own. Where
-/// they are cut depends on the lists of neighbours alone, so sums have the same bits on any number of
+/// The tasks that threads share: contiguous ranges of blocks, each done by one thread: within a strip, a loop
+/// may add to particles of other blocks, if what goes beyond the strip goes to memory of the strip's own.
+/// Where they are cut depends on the lists of neighbours alone, so sums have the same bits on any number of
 /// threads.
 class Strips {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// *COURANT_PAIR_GEOMETRY: kernel gradients that are kept over several steps (a window), where sound is much
+// *COURANT_PAIR_GEOMETRY: kernel gradients that are frozen over several steps (a window), where sound is much
 // faster than the flow.
 #include <array>
 #include <memory>

@@ -1,5 +1,5 @@
-// What particles get of pairs that the group of the other particle has worked out, once all threads have left
-// their shares.
+// Each pair is evaluated once, for its first particle; contributions to the second, the partner, are
+// scattered to an accumulation buffer of the strip. These passes reduce the buffers, in the order of strips.
 #include <type_traits>
 
 #include "sph/pair_fields.hpp"

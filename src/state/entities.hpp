@@ -7,10 +7,10 @@
 namespace courant {
 
 /// SPH particles, sorted as [active | rim | dormant]. Active particles are inside the computational box: the
-/// equations are solved for them. Rim particles are outside but within reach of an active one: they act as
-/// neighbours and move with constant velocity every step. Dormant particles are out of reach and are touched
-/// only when neighbours are refreshed. Those made for an inlet are outside, too, until they have crossed its
-/// plane.
+/// equations are solved for them. Rim particles (the halo) are outside but within reach of an active one:
+/// they act as neighbours and move with constant velocity every step. Dormant particles are out of reach and
+/// are touched only when neighbours are refreshed. Those made for an inlet are outside, too, until they have
+/// crossed its plane.
 struct Particles {
   FieldSet fields{"particles"};
   Field<Real>& x =

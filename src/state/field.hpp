@@ -1,6 +1,6 @@
 #pragma once
-// Named structure-of-arrays fields. A field is registered once; output, restart, sorting and (later) ghost
-// exchange walk the registry, so a new field appears there without any edit.
+// Named structure-of-arrays fields. A field is registered once; output, restart, sorting and the exchange
+// with ghost particles (images) walk the registry, so a new field appears there without any edit.
 #include <algorithm>
 #include <cstddef>
 #include <map>

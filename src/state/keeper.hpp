@@ -1,5 +1,5 @@
 #pragma once
-// What survives a step outside of fields, and how all of a world is saved and loaded.
+// Restart: what survives a step outside of fields, and how all of a world is saved and loaded.
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// The outer faces of solids, as segments that contact can act on.
+// The exterior faces of solids (their skin), as segments that contact can act on.
 #include <vector>
 
 #include "state/world.hpp"

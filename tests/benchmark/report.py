@@ -187,7 +187,7 @@ of processor ns.
 
 {costs(scenes)}
 
-Where the time goes on 1 thread, % (neighbours: rebuilding the lists, and watching whether they still hold):
+Where the time goes on 1 thread, % (neighbours: rebuilding the lists, and checking whether they still hold):
 
 {passes(scenes)}
 

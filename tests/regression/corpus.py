@@ -222,18 +222,21 @@ def main():
 
 
 def page(rows, kinds, reasons, uncounted):
-    sources = {}
-    manifest = os.path.join(corpus, "MANIFEST.tsv")
-    if os.path.exists(manifest):
-        for line in open(manifest, encoding="utf-8").read().splitlines()[1:]:
-            cells = line.split("\t")
-            sources[cells[1]] = cells[3][:10]
+    sources = set()  # (repository, commit); several repositories stand with a + between them, their commits with a ;
+    for folder, _, files in sorted(os.walk(corpus)):
+        if "MANIFEST.tsv" in files:
+            for line in open(os.path.join(folder, "MANIFEST.tsv"), encoding="utf-8").read().splitlines()[1:]:
+                cells = line.split("\t")
+                repositories = cells[1].split(",")[0].split(" + ")
+                sources |= {(r, c.strip()[:10]) for r, c in zip(repositories, cells[3].split(";")) if re.match("[0-9a-f]{10}", c.strip())}
     cell = lambda text: str(text).replace("|", "\\|").replace("*", "\\*").replace("<", "\\<")
+    own = sum(row[0].startswith("structures/own/") for row in rows)
     out = ["# Conformance", "",
            "Decks written by other programs and people, as `courant check` sees them. Made by `tests/regression/corpus.py --write`, which also",
            "proves that every file ends with exit code 0 or 1, that nodes, elements and masses are those of a plain count, and that no",
-           "keyword of LS-DYNA is called unknown. The decks are not part of the project"
-           + (": " + ", ".join(f"{r} at {c}" for r, c in sorted(sources.items())) if sources else "") + ".", "",
+           "keyword of LS-DYNA is called unknown. The decks are not kept with the project"
+           + (": " + ", ".join(f"{r} at {c}" for r, c in sorted(sources)) if sources else "")
+           + (f"; {own} decks of structures (`structures/own`) were written for this test." if own else "."), "",
            f"| of {len(rows)} files | |", "|---|---|"]
     meaning = {"fully honoured": "runs as it is", "read, incomplete as a deck": "every card is honoured, but the file alone is no whole model",
                "read, with refusals": "every card is read; some physics is refused by name", "rejected": "a fault of the deck, or a card that is not understood"}
