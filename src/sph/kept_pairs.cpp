@@ -233,6 +233,7 @@ PairPasses make_kept_passes(const SphSettings& s, World& world, std::shared_ptr<
                           forces.stress(), forces.diffusion(), rates.quadratic()};
   const auto pairs = std::make_shared<KeptPairs>(s, std::move(neighbours), choice);
   world.passes.add(std::make_shared<WindowWatch>(s, world, pairs));
+  if (!rates.viscous()) add_viscous_speed(s, world);  // rates of a window look after their own
   return {{std::make_shared<KeptRates>(s, choice, rates, pairs, volumes)},
           {std::make_shared<KeptForces>(choice, forces, pairs, volumes)}};
 }

@@ -66,17 +66,14 @@ Real deviatoric_power(const std::array<Real*, 6>& stress, const Points64& points
 
 /// Advances the stress of particles with strength over dt_old: turned by the spin of the middle of the step,
 /// then by the law. Where the law gives all of the stress the density advances here, p = -tr/3, and the work
-/// of p is as that of equations of state; the deviator goes to the stress that pair forces read, its work
-/// into E.
+/// of p is as that of equations of state; the work of the deviator goes into E.
 class StrengthStress : public Material {
  public:
   StrengthStress(const SphSettings& s, World& world)
       : laws_(s.strength),
-        adds_(!s.mu.empty()),
         rate_(sph_fields::strain_rate(world.particles)),
         spin_(sph_fields::spin(world.particles)),
-        kept_(sph_fields::law_stress(world.particles)),
-        stress_(sph_fields::stress(world.particles)) {
+        kept_(sph_fields::law_stress(world.particles)) {
     for (const auto& law : laws_) {
       history_.emplace_back();
       if (!law) continue;
@@ -90,10 +87,6 @@ class StrengthStress : public Material {
     const Particles& p = world.particles;
     a.reads(rate_).reads(spin_).reads(p.drhodt).reads(p.part).reads(p.id).reads(p.x);
     a.updates(p.rho).updates(p.p).updates(p.E).updates(p.c).updates(kept_);
-    if (adds_)
-      a.updates(stress_);
-    else
-      a.writes(stress_);
     for (const auto& fields : history_)
       for (const Field<Real>* field : fields) a.updates(*field);
   }
@@ -101,12 +94,10 @@ class StrengthStress : public Material {
   void start(World& world, const Clock&) override { broken_.assign(block_count(world.particles.active), 0); }
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     Particles& p = world.particles;
-    if (!adds_)
-      for (int k = 0; k < 6; ++k) std::fill(stress_.data(k) + begin, stress_.data(k) + end, 0.0);
     const Index* part = p.part.data();
     for (Index i = begin, next = i; i < end; i = next) {  // particles of one part in a row
       while (next < end && part[next] == part[i]) ++next;
-      if (laws_[part[i]]) advance(p, clock.dt_old, world.dim, i, next);
+      if (laws_[part[i]]) advance(p, clock.dt_old, i, next);
     }
   }
   void finish(World& world, const Clock& clock) override {
@@ -118,11 +109,11 @@ class StrengthStress : public Material {
   }
 
  private:
-  void advance(Particles& p, Real dt, int dim, Index begin, Index end) {
+  void advance(Particles& p, Real dt, Index begin, Index end) {
     const StrengthLaw& law = *laws_[p.part[begin]];
     Points64 at;
     if (!law.deviator_only()) advance_density(p, dt, begin, end);
-    find_rates(p, dt, dim, law.ro, begin, end, at);
+    find_rates(p, dt, law.ro, begin, end, at);
 
     PointBlock block;
     block.count = end - begin, block.dt = dt;
@@ -145,7 +136,7 @@ class StrengthStress : public Material {
       add_to_equation_of_state(p, begin, at, block);
     else
       take_pressure(p, begin, at, block);
-    give_deviator(p, dt, begin, at, block);
+    add_work(p, dt, begin, at, block);
   }
 
   void advance_density(Particles& p, Real dt, Index begin, Index end) {
@@ -159,9 +150,9 @@ class StrengthStress : public Material {
 
   /// Compression, change of relative volume, and rate and spin of the middle of the step, in the axes at its
   /// end. Pair sums give the gradient over the places at the end, L: over those of the middle it is L (1 - L
-  /// dt/2)^-1. The trace is that of the density.
-  void find_rates(const Particles& p, Real dt, int dim, Real rho0, Index begin, Index end,
-                  Points64& at) const {
+  /// dt/2)^-1. The trace is that of the density; the rest of it is alike in all directions, in 2D, too, so
+  /// that it does no work on the deviator: no force of the deviator belongs to it.
+  void find_rates(const Particles& p, Real dt, Real rho0, Index begin, Index end, Points64& at) const {
     for (Index i = begin, k = 0; i < end; ++i, ++k) {
       const Real rho = p.rho[i], change = p.drhodt[i] * dt;
       at.mu[k] = rho / rho0 - 1;
@@ -171,8 +162,7 @@ class StrengthStress : public Material {
       L(1, 0) += w[2], L(0, 1) -= w[2], L(0, 2) += w[1], L(2, 0) -= w[1], L(2, 1) += w[0], L(1, 2) -= w[0];
       L = L * (Matrix::Identity() - 0.5 * dt * L).inverse();
       const Real divergence = -p.drhodt[i] / (rho - 0.5 * change);
-      const Real missing = (divergence - L.trace()) / dim;
-      for (int d = 0; d < dim; ++d) L(d, d) += missing;
+      L += (divergence - L.trace()) / 3 * Matrix::Identity();
       store(L, dt, k, at);
     }
   }
@@ -207,22 +197,49 @@ class StrengthStress : public Material {
       p.c[i] = at.c[k];
     }
   }
-  void give_deviator(Particles& p, Real dt, Index begin, const Points64& at, const PointBlock& block) {
-    const auto& s = block.stress;
+  static void add_work(Particles& p, Real dt, Index begin, const Points64& at, const PointBlock& block) {
     for (Index k = 0; k < block.count; ++k) {
       const Real v = 1 / (1 + at.mu[k]);
-      p.E[begin + k] += at.work[k] + 0.5 * dt * v * deviatoric_power(s, at, k);
-      const Real mean = (s[0][k] + s[1][k] + s[2][k]) / 3;
-      for (int c = 0; c < 6; ++c) stress_.data(c)[begin + k] += s[c][k] - (c < 3 ? mean : 0);
+      p.E[begin + k] += at.work[k] + 0.5 * dt * v * deviatoric_power(block.stress, at, k);
     }
   }
 
   static constexpr std::size_t most_history = 16;
   std::vector<std::shared_ptr<const StrengthLaw>> laws_;
-  bool adds_;  ///< to a viscous stress
-  Field<Real>&rate_, &spin_, &kept_, &stress_;
+  Field<Real>&rate_, &spin_, &kept_;
   std::vector<std::vector<Field<Real>*>> history_;  ///< of each part
   std::vector<char> broken_;                        ///< blocks with a density that is none
+};
+
+/// Gives the deviator to the stress that pair forces read; that of laws is 0 for liquids. Behind a viscous
+/// stress, which needs the density that laws have advanced.
+class StrengthDeviator : public Material {
+ public:
+  StrengthDeviator(const SphSettings& s, World& world)
+      : adds_(!s.mu.empty()),
+        kept_(sph_fields::law_stress(world.particles)),
+        stress_(sph_fields::stress(world.particles)) {}
+  std::string name() const override { return "strength (deviator)"; }
+  void declare(const World&, Accesses& a) const override {
+    a.reads(kept_);
+    if (adds_)
+      a.updates(stress_);
+    else
+      a.writes(stress_);
+  }
+  void block(World&, const Clock&, Index begin, Index end) override {
+    for (Index i = begin; i < end; ++i) {
+      const Real mean = (kept_.data(0)[i] + kept_.data(1)[i] + kept_.data(2)[i]) / 3;
+      for (int c = 0; c < 6; ++c) {
+        Real& to = stress_.data(c)[i];
+        to = (adds_ ? to : 0) + kept_.data(c)[i] - (c < 3 ? mean : 0);
+      }
+    }
+  }
+
+ private:
+  bool adds_;  ///< to a viscous stress
+  Field<Real>&kept_, &stress_;
 };
 
 /// Pressure, energy and sound speed at the start, without stress.
@@ -243,6 +260,7 @@ void add_strength(const SphSettings& s, World& world, std::shared_ptr<Neighbours
   set_initial_state(s, world);
   world.passes.add(std::make_shared<Spin>(s, world, neighbours, volumes));
   world.passes.add(std::make_shared<StrengthStress>(s, world));
+  world.passes.add(std::make_shared<StrengthDeviator>(s, world));
   if (s.artificial_stress.eps > 0) add_artificial_stress(s, world, std::move(neighbours), std::move(volumes));
 }
 

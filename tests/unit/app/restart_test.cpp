@@ -261,7 +261,9 @@ TEST(Restart, WallSupport) {
 
 TEST(Restart, WallSupportOfAFloorThatMovesWhereHChanges) {
   std::string cards = test::floor_cards(0);
-  cards.replace(cards.find("1,7,7"), 5, "0");  // free
+  cards.replace(cards.find("1,7,7"), 5, "0");                                                // free
+  for (const std::string node : {"9001,-2.,0,", "9002,3.,0,", "9003,3.,0,", "9004,-2.,0,"})  // one deep
+    cards.replace(cards.find(node) + node.size(), node < "9003" ? 3 : 2, node < "9003" ? "0." : "1.");
   expect_same({.start = "0.5,-0.3,0.",
                .control_sph = ",0,1",
                .section = "1,1.2,0.5,2.",

@@ -103,7 +103,8 @@ TYPED_TEST(EveryKernel, IsSteepestWhereItSays) {
   at_places<TypeParam>([&](Real R) { EXPECT_LE(-TypeParam::slope(R), -TypeParam::slope(steepest)) << R; });
   for (int k = 0; k <= 20; ++k) {
     const Real R = steepest * k / 20;
-    EXPECT_NEAR(TypeParam::dip(R), TypeParam::shape(0.0) - TypeParam::shape(R), 1e-14 * TypeParam::shape(0.0));
+    EXPECT_NEAR(TypeParam::dip(R), TypeParam::shape(0.0) - TypeParam::shape(R),
+                1e-14 * TypeParam::shape(0.0));
     EXPECT_NEAR(TypeParam::steepness(R), -TypeParam::slope(R), 1e-14 * TypeParam::shape(0.0));
   }
   EXPECT_EQ(TypeParam::kink, TypeParam::slope(0) != 0);
