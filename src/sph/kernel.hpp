@@ -276,6 +276,7 @@ class AnyKernel {
         to.gradient[m] = -(n + m) * piece.c[m] / Kernel::gradient_factor;
         to.half_curvature[m] = 0.5 * (n + m) * (n + m - 1) * piece.c[m] / Kernel::gradient_factor;
       }
+      out.powers_ = out.powers_ && piece.c[1] == 0 && piece.c[2] == 0;
     }
     return out;
   }
@@ -295,6 +296,17 @@ class AnyKernel {
   COURANT_KERNEL_INLINE T half_curvature(const T& R) const {
     return sum<0>(R, &Piece::half_curvature);
   }
+  /// `gradient` and `half_curvature` at once.
+  template <NumberOrPack T>
+  COURANT_KERNEL_INLINE void slopes(const T& R, T& gradient, T& half_curvature) const {
+    gradient = half_curvature = 0 * R;
+    for (int k = 0; k < count_; ++k) {
+      const Piece& piece = pieces_[k];
+      const T t = positive(piece.end - R), factor = below(t);
+      half_curvature = half_curvature + times(factor, piece.half_curvature, t);
+      gradient = gradient + times(factor * t, piece.gradient, t);
+    }
+  }
 
  private:
   struct Piece {
@@ -306,13 +318,17 @@ class AnyKernel {
   COURANT_KERNEL_INLINE T sum(const T& R, const Real (Piece::*of)[3]) const {
     T out = 0 * R;
     for (int k = 0; k < count_; ++k) {
-      const Real(&c)[3] = pieces_[k].*of;
       const T t = positive(pieces_[k].end - R);
       T factor = below(t);
       for (int m = 0; m < Raise; ++m) factor = factor * t;
-      out = out + factor * (c[0] + t * (c[1] + c[2] * t));
+      out = out + times(factor, pieces_[k].*of, t);
     }
     return out;
+  }
+  template <class T>
+  COURANT_KERNEL_INLINE T times(const T& factor, const Real (&c)[3], const T& t) const {
+    if (powers_) return factor * c[0];
+    return factor * (c[0] + t * (c[1] + c[2] * t));
   }
   /// t^(n - 2); 0 for t = 0.
   template <class T>
@@ -324,6 +340,7 @@ class AnyKernel {
   }
 
   int n_ = 0, count_ = 0;
+  bool powers_ = true;  ///< pieces are single powers of t
   Real C_[4]{};
   Piece pieces_[3];
 };

@@ -38,6 +38,14 @@ template <int Dim, class Kernel>
 COURANT_INLINE Pack gradient_norm(const Kernel& kernel, const Pack& hinv) {
   return kernel.gradient_factor * kernel.C(Dim) * hinv * hinv * hinv * (Dim == 3 ? hinv : Pack::of(1));
 }
+/// `gradient` and `half_curvature` of the kernel.
+template <class Kernel>
+COURANT_INLINE void slopes_at(const Kernel& kernel, const Pack& R, Pack& gradient, Pack& half_curvature) {
+  if constexpr (std::is_same_v<Kernel, AnyKernel>)
+    kernel.slopes(R, gradient, half_curvature);
+  else
+    gradient = kernel.gradient(R), half_curvature = kernel.half_curvature(R);
+}
 /// Slope of the kernel, but for a constant, over r.
 template <class Kernel>
 COURANT_INLINE Pack gradient_shape(const Kernel& kernel, const Pack& R, const Pack& rinv) {

@@ -16,7 +16,9 @@ struct MovingShape {
   COURANT_INLINE MovingShape(const Kernel& kernel, const Pack& R, const Pack& rinv, const Pack& two_hinv,
                              const Pack& q, const Pack& u2, const Pack& r2, Real half_step)
       : shape(Pack::zero()), later(Pack::zero()) {
-    const Pack gradient = kernel.gradient(R), half_curvature = kernel.half_curvature(R), q2 = q * q;
+    Pack gradient = Pack::zero(), half_curvature = Pack::zero();
+    slopes_at(kernel, R, gradient, half_curvature);
+    const Pack q2 = q * q;
     shape = gradient * rinv;
     if (kernel.kink)
       later = half_curvature * two_hinv * q2 + gradient * rsqrt(r2 + half_step * half_step * u2) * (u2 - q2);
