@@ -44,12 +44,11 @@ void renormal_rates(const RenormalArrays& a, const NeighbourLists& lists) {
 }
 
 /// (p - tau) . a, of eight particles or of one
-template <int Dim, RenormalForce what, class Pressure, class Stress>
+template <int Dim, class Pressure, class Stress>
 COURANT_INLINE Difference<Dim> stress_on(const Pressure& p, const Stress& tau, const Difference<Dim>& a) {
   Difference<Dim> out = times(Pack::zero() + p, a);
-  if constexpr (what == RenormalForce::stress)
-    add_product(
-        out, [&](int c) { return Pack::zero() - tau(c); }, a);
+  add_product(
+      out, [&](int c) { return Pack::zero() - tau(c); }, a);
   return out;
 }
 template <int Dim, class Tensor>
@@ -84,19 +83,19 @@ void renormal_forces(const RenormalArrays& a, const NeighbourLists& lists) {
       const Pack mine = reverse ? w * a.p[j] : w;
       own.x += mine * d.x, own.y += mine * d.y;
       if constexpr (Dim == 3) own.z += mine * d.z;
-      const Difference<Dim> corrected = product([&](int c) { return a.excess[c][j]; }, times(wj, d));
-      if constexpr (reverse)
-        others.add(pi, corrected);
+      const auto excess = [&](int c) { return a.excess[c][j]; };
+      if constexpr (what == RenormalForce::stress)
+        others.add(stress_on(
+            a.p[j], [&](int c) { return a.tau[c][j]; }, product(excess, times(wj, d))));
       else
-        others.add(stress_on<Dim, what>(
-            a.p[j], [&](int c) { return a.tau[c][j]; }, corrected));
+        add_product(others, excess, times(wj * (reverse ? pi : Pack::of(a.p[j])), d));
     }
-    const Difference<Dim> corrected = product([&](int c) { return Pack::load(a.excess[c] + i, count); }, own);
-    if constexpr (reverse)
-      others.add(corrected);
+    const auto excess = [&](int c) { return Pack::load(a.excess[c] + i, count); };
+    const auto tau = [&](int c) { return Pack::load(a.tau[c] + i, count); };
+    if constexpr (what == RenormalForce::stress)
+      others.add(stress_on(pi, tau, product(excess, own)));
     else
-      others.add(stress_on<Dim, what>(
-          pi, [&](int c) { return Pack::load(a.tau[c] + i, count); }, corrected));
+      add_product(others, excess, reverse ? own : times(pi, own));
     others.add_to(a.f, i, count, 0 - norm * Pack::load(a.V + i, count));
   }
 }

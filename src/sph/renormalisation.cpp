@@ -95,8 +95,14 @@ class RenormalRates : public Rate, public Refresh {
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
     loop_(a_, lists_of(*neighbours_, begin, end));
+    const Particles& p = world.particles;
     with_dimension(dim_, [&](auto dim) {
-      for (Index i = begin; i < end; ++i) correct<dim()>(world.particles, i);
+      with_bool(wall_moment_ != nullptr, [&](auto walls) {
+        for (Index i = begin; i < end; ++i) {
+          const bool solid = !strength_.empty() && strength_[p.part[i]];
+          correct<dim(), walls()>(world.particles, i, solid ? of_solids : of_liquids);
+        }
+      });
     });
   }
   void refreshed(World&, const Clock&, std::span<const Index>) override {
@@ -110,16 +116,21 @@ class RenormalRates : public Rate, public Refresh {
   }
 
  private:
-  template <int Dim>
-  void correct(Particles& p, Index i) {
+  static Real least_eigenvalue(const Eigen::Matrix<Real, 2, 2>& M) {
+    const Real half_difference = 0.5 * (M(0, 0) - M(1, 1));
+    return 0.5 * M.trace() - std::sqrt(half_difference * half_difference + M(0, 1) * M(0, 1));
+  }
+  static Real least_eigenvalue(const Eigen::Matrix<Real, 3, 3>& M) {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix<Real, 3, 3>> solver;
+    solver.computeDirect(M, Eigen::EigenvaluesOnly);
+    return solver.eigenvalues()[0];
+  }
+  template <int Dim, bool Walls>
+  void correct(Particles& p, Index i, const Eigenvalues& from) {
     using Square = Eigen::Matrix<Real, Dim, Dim>;
-    Matrix whole = moment_.tensor(i), gradient = gradient_.tensor(i);
-    if (wall_moment_) whole += wall_moment_->tensor(i), gradient += wall_gradient_->tensor(i);
-    const Square moment = whole.template topLeftCorner<Dim, Dim>();
-    Eigen::SelfAdjointEigenSolver<Square> solver;
-    solver.computeDirect(moment, Eigen::EigenvaluesOnly);
-    const Real least = solver.eigenvalues()[0];
-    const Eigenvalues& from = !strength_.empty() && strength_[p.part[i]] ? of_solids : of_liquids;
+    Square moment = moment_.tensor(i).template topLeftCorner<Dim, Dim>();
+    if constexpr (Walls) moment += wall_moment_->tensor(i).template topLeftCorner<Dim, Dim>();
+    const Real least = least_eigenvalue(moment);
     Matrix excess = Matrix::Zero();
     if (least > from.least) {
       const Real share = std::min((least - from.least) / (from.full - from.least), Real(1));
@@ -128,7 +139,8 @@ class RenormalRates : public Rate, public Refresh {
       ++left_out_[static_cast<std::size_t>(i / block_size)];
     }
     const Matrix mean = 0.5 * (excess_.tensor(i) + excess);
-    p.drhodt[i] += p.rho[i] * mean.cwiseProduct(gradient).sum();
+    p.drhodt[i] += p.rho[i] * mean.cwiseProduct(gradient_.tensor(i)).sum();
+    if constexpr (Walls) p.drhodt[i] += p.rho[i] * mean.cwiseProduct(wall_gradient_->tensor(i)).sum();
     excess_.set_tensor(i, excess);
   }
 
