@@ -135,17 +135,21 @@ std::string Contact::name() const {
 void Contact::declare(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
   const Nodes& n = world.nodes;
-  a.reads(p.x).reads(p.v).reads(p.m).updates(p.f).reads(*k_particle_).updates(*ghost_);
+  a.reads(p.x).reads(p.v).reads(p.m).updates(p.f).updates(*ghost_);
   if (radius_) a.reads(*radius_);
-  if (law_.vc > 0) a.reads(p.rho);
-  if (const FieldBase* near_wall = p.fields.find("near_wall")) a.updates(*near_wall);
-  if (friction_on_)
+  if (friction_on_) {
+    if (law_.vc > 0) a.reads(p.rho);
     for (std::size_t j = 0; j < 3; ++j) a.updates(*friction_normal_[j]).updates(*friction_force_[j]);
-  if (!moving_.empty()) a.reads(n.v, Reach::others);
-  a.in_start().reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*ghost_);
-  a.reads(n.x, Reach::others).reads(n.v, Reach::others);
-  a.updates(n.f).updates(world.segments.contact_force);
-  a.in_finish().updates(*leaked_).writes(reactions_resource_);
+  }
+  const bool moves = !moving_.empty(), held = moving_.size() != facets_.size();
+  const bool sleeps = law_.birth > 0 || law_.death < ContactLaw().death;
+  if (moves && drag_on_) a.reads(n.v, Reach::others);
+  a.in_start();
+  if (sleeps) a.reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*ghost_);
+  if (moves) a.reads(n.x, Reach::others).reads(n.v, Reach::others);
+  if (held) a.updates(n.f).updates(world.segments.contact_force);
+  a.in_finish().updates(*leaked_);
+  if (moves) a.writes(reactions_resource_);
 }
 
 void Contact::update_facets(const World& world, const Clock& clock) {
