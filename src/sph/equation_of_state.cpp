@@ -8,12 +8,13 @@
 
 #include "base/run_error.hpp"
 #include "parallel/parallel.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
 void stop_for_density(const World& world, const Clock& clock, Index i, Real rho_limit) {
-  const Particles& p = world.particles;
   const ReadsForMessage unchecked;
+  const Particles& p = world.particles;
   const Vec x = p.x.vec(i);
   const std::string beyond =
       p.rho[i] >= rho_limit && std::isfinite(p.rho[i])
@@ -32,7 +33,7 @@ EquationOfState::EquationOfState(std::shared_ptr<const EosLaw> law, EosParts par
     : law_(std::move(law)),
       parts_(std::move(parts)),
       heat_(std::move(heat)),
-      reference_volume_(world.particles.fields.add<Real>({.name = "reference_volume", .dimension = "L3"})),
+      reference_volume_(shared_fields::reference_volume.add(world.particles.fields)),
       mu_limit_(law_->mu_limit()) {
   same_for_all_ = parts_.all_parts;
   for (std::size_t k = 1; k < parts_.rho0.size(); ++k)
@@ -64,8 +65,8 @@ void EquationOfState::finish(World& world, const Clock& clock) {
   if (without_speed > 0) world.counters["sound_speed_clamped"] += without_speed;
   for (std::size_t b = 0; b < found_.size(); ++b) {
     if (found_[b].lowest > 0) continue;
-    for (Index i = static_cast<Index>(b) * block_size; i < world.particles.active; ++i)
     const ReadsForMessage unchecked;
+    for (Index i = static_cast<Index>(b) * block_size; i < world.particles.active; ++i)
       if (parts_.mine[world.particles.part[i]] && !holds(world.particles, i))
         stop_for_density(world, clock, i, rho_limit(world.particles.part[i]));
   }
