@@ -118,7 +118,6 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
 
 // Nodes of elements move by their forces; those of rigid bodies with these.
 void Simulation::add_node_passes(Diagnostics& diagnostics) {
-  if (world_.particles.size() == 0) add_prescribed_motions(diagnostics);
   add_bodies();
   for (const Addition& addition : additions()) addition.build(deck_, model_, world_, diagnostics);
   const bool bodies_move = bodies_ && bodies_->any_moves();
@@ -167,10 +166,10 @@ void Simulation::add_neighbours(Diagnostics& diagnostics) {
   if (!sph_.evolving_h) neighbours_->keep_h();
   make_injected_wait(injections_, world_, *neighbours_);
   if (injections_.inlets.empty()) left_out_.push_back({"inlets", "no *DEFINE_SPH_INJECTION"});
+  add_images(h, diagnostics);
 }
 
 void Simulation::add_particle_passes(Diagnostics& diagnostics) {
-  add_images(h, diagnostics);
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) add_equations_of_state(world_, model_, materials_, !sph_.mu.empty());
   contacts_ = build_contacts(deck_, model_,

@@ -87,8 +87,11 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
     (*k_particle_)[i] = 0;
     if (!tracked[i]) continue;
     const Real dx = std::pow(p.m[i] / p.rho[i], 1.0 / world.dim);
-    // rho c^2 A^2 / V of a cube of the particle's volume; in 2D per unit depth
-    (*k_particle_)[i] = law_.slsfac * law_.sfsa * p.rho[i] * p.c[i] * p.c[i] * (world.dim == 3 ? dx : 1.0);
+    // K A^2 / V of a cube of the particle's volume; in 2D per unit depth. K is rho c^2 of the equation of
+    // state: strength adds its waves to c later.
+    const Real of_law = options_.bulk_modulus(p.part[i]);
+    const Real K = of_law > 0 ? of_law : p.rho[i] * p.c[i] * p.c[i];
+    (*k_particle_)[i] = law_.slsfac * law_.sfsa * K * (world.dim == 3 ? dx : 1.0);
     if (radius_) radius = std::max(radius, (*radius_)[i] = 0.5 * dx * law_.sfsat);
     Facet stiffest;
     stiffest.m = m_facet;
