@@ -5,12 +5,16 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "contact/interface_law.hpp"
 #include "extension/additions.hpp"
+#include "extension/compiled_against.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
@@ -31,6 +35,23 @@ std::string keyword_twice(std::size_t first) {
   return "";
 }
 
+/// Why a file must not run: objects of other headers have another layout, and it would crash. Empty for what
+/// is no shared object: the linker says why.
+std::string compiled_against_others(const std::filesystem::path& file) {
+  if (std::error_code error; !std::filesystem::is_regular_file(file, error)) return "";
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (bytes.compare(0, 4, "\177ELF") != 0) return "";
+  const std::string_view mine(compiled_against, sizeof compiled_against);  // with the 0 at its end
+  if (bytes.find(mine) != std::string::npos) return "";
+  const std::string_view begin = mine.substr(0, mine.rfind(' ') + 1);
+  return bytes.find(begin) == std::string::npos
+             ? "does not say which headers it was compiled against: it lacks #include "
+               "\"extension/compiled_against.hpp\""
+             : "was compiled against the headers of another Courant: compile it anew against those of this "
+               "one";
+}
+
 }  // namespace
 
 // Never closed: what it registered points into it.
@@ -40,6 +61,8 @@ std::string load_extension(const std::string& file) {
   const std::filesystem::path path =
       std::filesystem::absolute(file, error);  // dlopen looks for plain names elsewhere
   if (dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD)) return "";
+  if (const std::string why = compiled_against_others(path); !why.empty())
+    return fmt::format("{} {}", file, why);
   const std::size_t before = registered(), keywords = keyword_registry().size();
   // C's declaration promises that nothing is thrown; static objects of the file may do so all the same.
   void* (*volatile const open)(const char*, int) = dlopen;

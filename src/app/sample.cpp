@@ -4,6 +4,7 @@
 
 #include "app/simulation.hpp"
 #include "extension/additions.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -35,7 +36,7 @@ ParticleSample particle_sample(const World& world, const Neighbours& neighbours,
   out.part = world.part_id(i);
   out.h = p.h[i];
   if (active) out.neighbours = static_cast<std::int64_t>(neighbours.of(p, i).size());
-  if (const auto* tau = dynamic_cast<const Field<Real>*>(p.fields.find("stress")); tau && active)
+  if (const auto* tau = shared_fields::stress.find(p.fields); tau && active)
     for (int k = 0; k < 6; ++k) out.tau[static_cast<std::size_t>(k)] = tau->data(k)[i];
   return out;
 }
@@ -88,7 +89,7 @@ void sample_elements(const World& world, Sample& s) {
 
 void sample_parts(const World& world, const Model& model, Sample& s) {
   const Particles& p = world.particles;
-  const auto* volume = dynamic_cast<const Field<Real>*>(p.fields.find("reference_volume"));
+  const auto* volume = shared_fields::reference_volume.find(p.fields);
   for (const ModelPart& part : model.parts) s.parts.push_back({.id = part.id, .title = part.title});
   for (Index i = 0; i < p.active; ++i) {
     PartSample& part = s.parts[p.part[i]];

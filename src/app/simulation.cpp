@@ -98,10 +98,13 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
 void Simulation::add_passes(Diagnostics& diagnostics) {
   nodal_loads_ = nodal_loads(deck_, model_, world_, diagnostics);
   damping_ = damping_of(deck_, model_, world_, diagnostics);
-  if (world_.particles.size() > 0)
-    add_particle_passes(diagnostics);
+  const bool particles = world_.particles.size() > 0;
+  if (particles)
+    add_neighbours(diagnostics);
   else
     left_out_.push_back({"particles", "no *ELEMENT_SPH"});
+  add_prescribed_motions(diagnostics);
+  if (particles) add_particle_passes(diagnostics);
   if (!diagnostics.ok()) return;
   add_node_passes(diagnostics);
   if (!diagnostics.ok()) return;
@@ -115,7 +118,6 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
 
 // Nodes of elements move by their forces; those of rigid bodies with these.
 void Simulation::add_node_passes(Diagnostics& diagnostics) {
-  if (world_.particles.size() == 0) add_prescribed_motions(diagnostics);
   add_bodies();
   for (const Addition& addition : additions()) addition.build(deck_, model_, world_, diagnostics);
   const bool bodies_move = bodies_ && bodies_->any_moves();
@@ -156,7 +158,7 @@ void Simulation::add_loads(const Points& points, const BodyAcceleration& acceler
   add(make_damping(damping_, points, world_), "damping", "*DAMPING");
 }
 
-void Simulation::add_particle_passes(Diagnostics& diagnostics) {
+void Simulation::add_neighbours(Diagnostics& diagnostics) {
   const Real h = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
   neighbours_ = std::make_shared<Neighbours>(first_skin * h, sph_.region, kernel_support(sph_.kernel));
   neighbours_->adapt_skin(least_skin * h, most_skin * h,
@@ -165,15 +167,18 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   make_injected_wait(injections_, world_, *neighbours_);
   if (injections_.inlets.empty()) left_out_.push_back({"inlets", "no *DEFINE_SPH_INJECTION"});
   add_images(h, diagnostics);
+}
+
+void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) add_equations_of_state(world_, model_, materials_, !sph_.mu.empty());
-  add_prescribed_motions(diagnostics);
   contacts_ = build_contacts(deck_, model_,
                              {.skip_inactive = sph_.skip_inactive_contact,
                               .thickness_from_volume = sph_.thickness_from_volume,
                               .bulk_modulus =
-                                  [this](Index part) {  // a part without a law has been reported
-                                    const auto& law = solids_[part].law;
+                                  [this](Index part) {  // solids without a law have been reported
+                                    const auto& solids = solids_[part].law;
+                                    const auto& law = solids ? solids : materials_[part].strength;
                                     return law ? law->bulk_modulus() : Real(0);
                                   },
                               .reach_margin = neighbours_->largest_skin()},

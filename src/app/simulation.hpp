@@ -79,6 +79,7 @@ class Simulation {
   void release_tables();
   void note_read_seconds(double reading, double building);
   void add_passes(Diagnostics& diagnostics);
+  void add_neighbours(Diagnostics& diagnostics);
   void add_particle_passes(Diagnostics& diagnostics);
   void add_node_passes(Diagnostics& diagnostics);
   void add_loads(const Points& points, const BodyAcceleration& acceleration);

@@ -4,6 +4,7 @@
 
 #include "contact/near.hpp"
 #include "parallel/parallel.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -12,7 +13,7 @@ void Contact::refreshed(World& world, const Clock& clock, std::span<const Index>
   if (!moving_.empty()) grid_.build(facets_, reach_);
   forget_left(world, old_of_new);
   listed_ = world.particles.active;
-  near_wall_ = dynamic_cast<Field<Index>*>(world.particles.fields.find("near_wall"));
+  near_wall_ = shared_fields::near_wall.find(world.particles.fields);
   blocks_.resize(block_count(listed_));
   for_each_block(listed_, [&](Index begin, Index end) { list_block(world, clock, begin, end); });
   for (const Block& b : blocks_) count_leaks(world, b.leapt);

@@ -87,8 +87,11 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
     (*k_particle_)[i] = 0;
     if (!tracked[i]) continue;
     const Real dx = std::pow(p.m[i] / p.rho[i], 1.0 / world.dim);
-    // rho c^2 A^2 / V of a cube of the particle's volume; in 2D per unit depth
-    (*k_particle_)[i] = law_.slsfac * law_.sfsa * p.rho[i] * p.c[i] * p.c[i] * (world.dim == 3 ? dx : 1.0);
+    // K A^2 / V of a cube of the particle's volume; in 2D per unit depth. K is rho c^2 of the equation of
+    // state: strength adds its waves to c later.
+    const Real of_law = options_.bulk_modulus(p.part[i]);
+    const Real K = of_law > 0 ? of_law : p.rho[i] * p.c[i] * p.c[i];
+    (*k_particle_)[i] = law_.slsfac * law_.sfsa * K * (world.dim == 3 ? dx : 1.0);
     if (radius_) radius = std::max(radius, (*radius_)[i] = 0.5 * dx * law_.sfsat);
     Facet stiffest;
     stiffest.m = m_facet;
@@ -135,17 +138,21 @@ std::string Contact::name() const {
 void Contact::declare(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
   const Nodes& n = world.nodes;
-  a.reads(p.x).reads(p.v).reads(p.m).updates(p.f).reads(*k_particle_).updates(*ghost_);
+  a.reads(p.x).reads(p.v).reads(p.m).updates(p.f).updates(*ghost_);
   if (radius_) a.reads(*radius_);
-  if (law_.vc > 0) a.reads(p.rho);
-  if (const FieldBase* near_wall = p.fields.find("near_wall")) a.updates(*near_wall);
-  if (friction_on_)
+  if (friction_on_) {
+    if (law_.vc > 0) a.reads(p.rho);
     for (std::size_t j = 0; j < 3; ++j) a.updates(*friction_normal_[j]).updates(*friction_force_[j]);
-  if (!moving_.empty()) a.reads(n.v, Reach::others);
-  a.in_start().reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*ghost_);
-  a.reads(n.x, Reach::others).reads(n.v, Reach::others);
-  a.updates(n.f).updates(world.segments.contact_force);
-  a.in_finish().updates(*leaked_).writes(reactions_resource_);
+  }
+  const bool moves = !moving_.empty(), held = moving_.size() != facets_.size();
+  const bool sleeps = law_.birth > 0 || law_.death < ContactLaw().death;
+  if (moves && drag_on_) a.reads(n.v, Reach::others);
+  a.in_start();
+  if (sleeps) a.reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*ghost_);
+  if (moves) a.reads(n.x, Reach::others).reads(n.v, Reach::others);
+  if (held) a.updates(n.f).updates(world.segments.contact_force);
+  a.in_finish().updates(*leaked_);
+  if (moves) a.writes(reactions_resource_);
 }
 
 void Contact::update_facets(const World& world, const Clock& clock) {

@@ -24,8 +24,9 @@ struct ContactOptions {
   bool skip_inactive = true;  ///< ICONT 1. Particles outside the box move with constant velocity either way
   bool thickness_from_volume =
       false;  ///< ITHK 1: contact radius of a particle is 0.5 V^(1/dim) where SAST is 0
-  /// Bulk modulus of the solids of a part [M/LT2]
-  std::function<Real(Index part)> bulk_modulus = nullptr;
+  /// Bulk modulus of the law of strength of a part; 0: none, or one that leaves pressure to an equation of
+  /// state. [M/LT2]
+  std::function<Real(Index part)> bulk_modulus = [](Index) { return Real(0); };
   Real reach_margin = 0;  ///< particles and nodes move at most half of this between two refreshes [L]
   bool shortcuts = true;  ///< off: every candidate is looked at in every step, with the same result
 };

@@ -29,6 +29,7 @@ void Contact::find_incidence(const World& world) {
 
 // Blocks, and with them touches, stand in the order of particles.
 void Contact::fill_slots() {
+  note_access(reactions_resource_);
   slots_.first.assign(facets_.size() + 1, 0);
   for (const Block& b : blocks_)
     for (const Reaction& r : b.reactions)
@@ -45,6 +46,7 @@ void Contact::fill_slots() {
 }
 
 void Contact::add_reaction_on_node(Index node, Vec& force) const {
+  note_access(reactions_resource_);
   if (slots_.slots.empty()) return;
   const auto n = static_cast<std::size_t>(node);
   for (Index k = of_node_.first[n]; k < of_node_.first[n + 1]; ++k) {
@@ -58,6 +60,7 @@ void Contact::add_reaction_on_node(Index node, Vec& force) const {
 }
 
 void Contact::add_reaction_on_segment(Index segment, Vec& force) const {
+  note_access(reactions_resource_);
   if (slots_.slots.empty()) return;
   const auto n = static_cast<std::size_t>(segment);
   for (Index k = of_segment_.first[n]; k < of_segment_.first[n + 1]; ++k) {

@@ -1,6 +1,7 @@
 // *BOUNDARY_SPC and TC of *NODE.
 #include "loads/loads.hpp"
 #include "state/reports.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -11,7 +12,7 @@ class FixedPoints : public Constraint, public BoundaryForceReporter {
  public:
   /// `node`: of each point, index into Model::nodes.
   FixedPoints(const Model& model, std::span<const Index> node, Points points)
-      : points_(points), fixed_(points.set->add<Index>({.name = "fixed", .dimension = "-"})) {
+      : points_(points), fixed_(shared_fields::held_axes.add(*points.set)) {
     for (Index i = 0; i < points.set->size(); ++i) {
       const Index n = node[static_cast<std::size_t>(i)];
       if (n < 0 || (points.follow && (*points.follow)[i])) continue;

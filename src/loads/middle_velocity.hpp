@@ -1,5 +1,6 @@
 #pragma once
 #include "state/points.hpp"
+#include "state/shared_fields.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -11,7 +12,7 @@ class MiddleVelocity {
   MiddleVelocity(const Points& points, const Clock& clock)
       : points_(points),
         half_(0.5 * clock.dt_mean()),
-        driven_(dynamic_cast<const Field<Index>*>(points.set->find("prescribed_motion"))) {}
+        driven_(shared_fields::prescribed_motion.find(*points.set)) {}
   Vec operator()(Index i) const {
     const Vec v = points_.v->vec(i);
     if (driven_ && (*driven_)[i] != 0) return v;

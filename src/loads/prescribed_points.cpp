@@ -11,6 +11,7 @@
 
 #include "parallel/parallel.hpp"
 #include "state/reports.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -172,7 +173,7 @@ class PrescribedBuilder {
   }
 
   std::shared_ptr<PrescribedPoints> pass_of(const Driven& set) const {
-    auto& group = set.points.set->add<Index>({.name = "prescribed_motion", .dimension = "-"});
+    auto& group = shared_fields::prescribed_motion.add(*set.points.set);
     std::map<Group, Index> known{{Group(), 0}};
     std::vector<Group> groups{Group()};
     for (std::size_t i = 0; i < set.groups_of.size(); ++i) {

@@ -102,6 +102,7 @@ class Builder {
           refuse_spc(part, model_.nodes[n]);
         }
     b.nodes.assign(nodes.begin(), nodes.end());
+    if (!b.fixed()) warn_of_shared_nodes(part, b);
     sum_mass(b, world_);
     if (!(b.m > 0)) return;  // the shells' own errors tell why
     if (world_.dim == 2) in_plane(part, b);
@@ -134,6 +135,29 @@ class Builder {
                        fmt::format("*BOUNDARY_SPC or TC on node {} of rigid part {} is not supported",
                                    node.id, model_.parts[part].id),
                        "hold the body with CMO = 1, CON1 and CON2 of its *MAT_RIGID");
+  }
+
+  // As LS-DYNA does; `sum_mass` finds what solids have given these nodes.
+  void warn_of_shared_nodes(Index part, const RigidBody& b) {
+    const std::set<Index> mine(b.nodes.begin(), b.nodes.end());
+    std::set<Index> shared;
+    Real mass = 0;
+    for (const auto& group : world_.groups)
+      for (int c = 0; c < group->corners(); ++c)
+        for (Index e = 0; e < group->size(); ++e) {
+          const Index n = group->node.data(c)[e];
+          if (!mine.contains(n)) continue;
+          shared.insert(n);
+          mass += group->mass[e] / group->corners();
+        }
+    if (shared.empty()) return;
+    diagnostics_.warning(
+        model_.parts[part].where,
+        fmt::format(
+            "*PART {}: {} of the nodes of the rigid body, the first is {}, are corners of solids, too: "
+            "they move with the body, which takes the mass of the solids there, {:.4g} [M]",
+            b.part, shared.size(), world_.nodes.id[*shared.begin()], mass),
+        "give the solids nodes of their own where they are not to be fixed to the body");
   }
 
   // A body of a plane scene stays in the plane; particles have mass per unit depth, so the body must be one

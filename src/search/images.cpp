@@ -8,6 +8,7 @@
 
 #include "base/run_error.hpp"
 #include "parallel/parallel.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -21,11 +22,11 @@ class Mirrors : public Relocation {
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
     a.revises(p.x).revises(p.v).reads(p.part);
-    if (const FieldBase* pull = p.fields.find("mirror_pull")) a.reads(*pull);
+    if (const auto* pull = shared_fields::mirror_pull.find(p.fields)) a.reads(*pull);
   }
   void start(World& world, const Clock& clock) override {
     t_ = clock.t;
-    pull_ = dynamic_cast<const Field<Real>*>(world.particles.fields.find("mirror_pull"));
+    pull_ = shared_fields::mirror_pull.find(world.particles.fields);
     crossings_.assign(block_count(world.particles.moving), 0);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {

@@ -33,12 +33,6 @@ inline Real depth(const ImagePlane& plane, const Vec& x) {
 ParticleLoops::Range depth_range(const ParticleLoops& loops, const ImagePlane& plane, const Particles& p,
                                  Index begin, Index end);
 
-/// Acceleration towards a mirror that does not turn round behind it, as it should; whoever adds such a force
-/// tells it here, gravity apart [L/T2]
-inline Field<Real>& mirror_pull(Particles& p) {
-  return p.fields.add<Real>({.name = "mirror_pull", .dimension = "L/T2", .restart = false});
-}
-
 /// What loads give at a place, a time, to a part [L/T2]
 using Acceleration = std::function<Vec(const Vec& x, Real t, Index part)>;
 

@@ -9,6 +9,7 @@
 #include "sph/pair_passes.hpp"
 #include "sph/strength.hpp"
 #include "sph/view.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -230,7 +231,7 @@ class Builder {
   void fill_particles() {
     Particles& p = world_.particles;
     p.fields.resize(static_cast<Index>(model_.sph.size()));
-    Field<Real>& volume = p.fields.add<Real>({.name = "reference_volume", .dimension = "L3"});
+    Field<Real>& volume = shared_fields::reference_volume.add(p.fields);
     bool any_mu = false;
     std::vector<SphMaterial> materials(model_.parts.size());
     std::vector<Real> mu(model_.parts.size(), 0);

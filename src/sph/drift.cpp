@@ -7,6 +7,7 @@
 #include "sph/pair_volumes.hpp"
 #include "sph/sph.hpp"
 #include "sph/view.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -16,7 +17,7 @@ Drift::Drift(DriftRules rules, std::vector<ImagePlane> mirrors, BodyAcceleration
       loads_(std::move(loads)),
       velocity_(drift_velocity(world.particles, rules_.statistics)),
       drifted_(sph_fields::drifted(world.particles)),
-      near_wall_(world.particles.fields.add<Index>({.name = "near_wall", .dimension = "-"})) {
+      near_wall_(shared_fields::near_wall.add(world.particles.fields)) {
   Particles& p = world.particles;
   for (Index i = 0; i < p.size(); ++i) {
     velocity_.set(i, Vec::Zero());
@@ -41,8 +42,8 @@ void Drift::declare(const World& world, Accesses& a) const {
     a.writes(drifted_);
   else
     a.updates(drifted_);
-  for (const char* name : {"fixed", "prescribed_motion"})
-    if (const FieldBase* field = p.fields.find(name)) a.reads(*field);
+  for (const auto* field : {&shared_fields::held_axes, &shared_fields::prescribed_motion})
+    if (const auto* there = field->find(p.fields)) a.reads(*there);
   if (!loads_.uniform()) a.reads(p.part);
   if (!rules_.correct) return;
   a.updates(p.v);
@@ -51,8 +52,8 @@ void Drift::declare(const World& world, Accesses& a) const {
 
 void Drift::start(World& world, const Clock& clock) {
   const FieldSet& fields = world.particles.fields;
-  fixed_ = dynamic_cast<const Field<Index>*>(fields.find("fixed"));
-  driven_ = dynamic_cast<const Field<Index>*>(fields.find("prescribed_motion"));
+  fixed_ = shared_fields::held_axes.find(fields);
+  driven_ = shared_fields::prescribed_motion.find(fields);
   now_ = loads_.at(clock.t + clock.dt);
   sums_.assign(static_cast<std::size_t>(block_count(world.particles.moving)), {});
 }

@@ -6,6 +6,7 @@
 #include "sph/momentum.hpp"
 #include "sph/sph.hpp"
 #include "state/keeper.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -22,7 +23,7 @@ class SphEnergy : public Tally, public EnergyTerm, public Refresh, public Keeper
       : settings_(s),
         neighbours_(std::move(neighbours)),
         heat_(sph_fields::dissipation(world.particles)),
-        reference_volume_(world.particles.fields.add<Real>({.name = "reference_volume", .dimension = "L3"})) {
+        reference_volume_(shared_fields::reference_volume.add(world.particles.fields)) {
     Particles& p = world.particles;
     riemann_ = std::get_if<RiemannFlux>(&settings_.viscosity);
     if (std::holds_alternative<BulkViscosity>(s.viscosity)) total_pressure_ = &sph_fields::pressure_plus_q(p);

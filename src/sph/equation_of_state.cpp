@@ -8,10 +8,12 @@
 
 #include "base/run_error.hpp"
 #include "parallel/parallel.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
 void stop_for_density(const World& world, const Clock& clock, Index i, Real rho_limit) {
+  const ReadsForMessage unchecked;
   const Particles& p = world.particles;
   const Vec x = p.x.vec(i);
   const std::string beyond =
@@ -31,7 +33,7 @@ EquationOfState::EquationOfState(std::shared_ptr<const EosLaw> law, EosParts par
     : law_(std::move(law)),
       parts_(std::move(parts)),
       heat_(std::move(heat)),
-      reference_volume_(world.particles.fields.add<Real>({.name = "reference_volume", .dimension = "L3"})),
+      reference_volume_(shared_fields::reference_volume.add(world.particles.fields)),
       mu_limit_(law_->mu_limit()) {
   same_for_all_ = parts_.all_parts;
   for (std::size_t k = 1; k < parts_.rho0.size(); ++k)
@@ -40,10 +42,11 @@ EquationOfState::EquationOfState(std::shared_ptr<const EosLaw> law, EosParts par
 
 void EquationOfState::declare(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
-  a.reads(p.drhodt).reads(p.part).reads(p.m).updates(p.rho).updates(p.p).updates(p.E).updates(p.c);
-  a.reads(reference_volume_).reads(p.x).reads(p.id);
-  if (law_->uses_energy())
-    for (const Field<Real>* heat : heat_) a.reads_before(*heat);
+  a.reads(p.drhodt).updates(p.rho).updates(p.p).updates(p.E).updates(p.c);
+  if (!same_for_all_) a.reads(p.part);
+  if (!law_->uses_energy() || heat_.empty()) return;
+  a.reads(reference_volume_);
+  for (const Field<Real>* heat : heat_) a.reads_before(*heat);
 }
 
 void EquationOfState::block(World& world, const Clock& clock, Index begin, Index end) {
@@ -62,6 +65,7 @@ void EquationOfState::finish(World& world, const Clock& clock) {
   if (without_speed > 0) world.counters["sound_speed_clamped"] += without_speed;
   for (std::size_t b = 0; b < found_.size(); ++b) {
     if (found_[b].lowest > 0) continue;
+    const ReadsForMessage unchecked;
     for (Index i = static_cast<Index>(b) * block_size; i < world.particles.active; ++i)
       if (parts_.mine[world.particles.part[i]] && !holds(world.particles, i))
         stop_for_density(world, clock, i, rho_limit(world.particles.part[i]));
@@ -87,11 +91,9 @@ void EquationOfState::advance_with_energy(Particles& p, Real dt, Index begin, In
   law_->evaluate({end - begin, mu.data(), A.data(), dA.data(), B.data(), dB.data()});
   for (Index i = begin, k = 0; i < end; ++i, ++k) {
     Real E = p.E[i] - 0.5 * dv[k] * p.p[i];
-    if (reference_volume_[i] > 0) {
-      Real power = 0;
-      for (const Field<Real>* heat : heat_) power += (*heat)[i];
-      E += power * dt / reference_volume_[i];
-    }
+    Real power = 0;
+    for (const Field<Real>* heat : heat_) power += (*heat)[i];
+    if (!heat_.empty() && reference_volume_[i] > 0) E += power * dt / reference_volume_[i];
     const Real pressure = std::max((A[k] + B[k] * E) / (1 + 0.5 * B[k] * dv[k]), pc);
     E -= 0.5 * dv[k] * pressure;
     p.p[i] = pressure;

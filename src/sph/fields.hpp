@@ -3,6 +3,7 @@
 #include <string>
 
 #include "state/entities.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant::sph_fields {
 
@@ -10,10 +11,8 @@ namespace courant::sph_fields {
 inline Field<Real>& strain_rate(Particles& p) {
   return p.fields.add<Real>({.name = "strain_rate", .dimension = "1/T", .components = 6, .restart = false});
 }
-/// Stress beside the pressure, viscous and of strength: xx yy zz xy yz zx. Particles beside the box keep that
-/// of when they were active.
 inline Field<Real>& stress(Particles& p) {
-  return p.fields.add<Real>({.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = true});
+  return shared_fields::stress.add(p.fields);
 }
 
 /// Half of the curl of the velocity

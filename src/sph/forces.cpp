@@ -19,7 +19,7 @@ class PairForces : public Force {
   std::string name() const override { return "sph forces"; }
   void declare(const World& world, Accesses& a) const override {
     fields_.declare_pairs(world.particles, *volumes_, a);
-    a.writes(geometry_->partner_shares()).reads(geometry_->gradients());
+    geometry_->declare_forces(a);
   }
 
   void start(World& world, const Clock&) override {

@@ -6,6 +6,7 @@
 
 #include "sph/cards.hpp"
 #include "sph/injection.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -148,7 +149,7 @@ Injections add_injected_particles(const Deck& deck, Model& model, Diagnostics& d
 void make_injected_wait(const Injections& injections, World& world, Neighbours& neighbours) {
   if (injections.inlets.empty()) return;
   Particles& p = world.particles;
-  auto& inlet = p.fields.add<Index>({.name = "inlet", .dimension = "-"});
+  auto& inlet = shared_fields::inlet.add(p.fields);
   for (std::size_t k = 0; k < injections.inlet_of.size(); ++k) {
     const Index i = injections.first + static_cast<Index>(k);
     inlet[i] = injections.inlet_of[k];

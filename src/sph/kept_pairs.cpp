@@ -57,6 +57,7 @@ void KeptPairs::prepare(const PairArrays& a) {
 
 KeptLists KeptPairs::lists(Index begin, Index end) {
   const Index b = begin / block_size;
+  note_access(gradients_);
   Block& block = blocks_[static_cast<std::size_t>(b)];
   const auto entries = static_cast<std::size_t>(neighbours_->entries(b));
   KeptLists out = shape_;

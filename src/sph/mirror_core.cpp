@@ -5,6 +5,7 @@
 #include "sph/kernel.hpp"
 #include "sph/sph.hpp"
 #include "sph/view.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -108,7 +109,7 @@ class MirrorCore : public Rate {
 class MirrorCoreForce : public Force {
  public:
   MirrorCoreForce(const SphSettings& s, World& world, std::shared_ptr<MirrorCore> core)
-      : core_(std::move(core)), pull_(mirror_pull(world.particles)) {
+      : core_(std::move(core)), pull_(shared_fields::mirror_pull.add(world.particles.fields)) {
     if (std::holds_alternative<BulkViscosity>(s.viscosity))
       total_pressure_ = &sph_fields::pressure_plus_q(world.particles);
   }

@@ -26,9 +26,15 @@ class PairGeometry {
       neighbours_->need_whole_lists();
   }
 
-  /// What the loops leave for partners, and gradients for the forces.
-  const Resource& partner_shares() const { return partner_shares_; }
-  const Resource& gradients() const { return gradients_; }
+  /// What `lists` gives to the loop of the rates and to that of the forces, and `shares` to those of
+  /// partners.
+  void declare_rates(Accesses& a) const {
+    if (once_) a.writes(partner_shares_).writes(gradients_);
+  }
+  void declare_forces(Accesses& a) const {
+    if (once_) a.writes(partner_shares_).reads(gradients_);
+  }
+  void declare_partners(Accesses& a) const { a.reads(partner_shares_, Reach::others); }
 
   /// Whether partners must get their shares from where the loops leave them.
   bool once() const { return once_; }
@@ -62,6 +68,7 @@ class PairGeometry {
                   .begin = begin,
                   .end = end};
     if (once_) {
+      note_access(partner_shares_);
       const Strips::Strip& strip = neighbours_->strips()[neighbours_->strips().of_block(b)];
       out.strip_begin = strip.begin;
       out.shares = shares_.data() + std::size_t(strip.offset) * share_size_;
@@ -69,6 +76,7 @@ class PairGeometry {
         std::fill_n(out.shares, std::size_t(strip.reach - strip.begin) * share_size_, 0.0);
     }
     if (!kept_) return out;
+    note_access(gradients_);
     const std::size_t entries = neighbours_->entries_once(b);
     out.kept = blocks_[b].list.grow_to(entries), out.kept_start = blocks_[b].start.data();
     out.g = blocks_[b].g.grow_to(entries * lanes);
@@ -78,6 +86,7 @@ class PairGeometry {
   using Sources = std::array<PartnerShares::Source, Strips::most>;
   /// What particles of the block [begin, end) got as partners; `sources` is room for it.
   PartnerShares shares(Index begin, Index end, Sources& sources) const {
+    note_access(partner_shares_);
     const Strips& strips = neighbours_->strips();
     const Index own = strips.of_block(begin / block_size);
     PartnerShares::Source* next = sources.data();

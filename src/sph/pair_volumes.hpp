@@ -24,7 +24,10 @@ class PairVolumes : public Material, public Refresh, public Keeper {
   void pretend(const Array<Real>& volumes);
 
   void block(World& world, const Clock&, Index begin, Index end) override;
-  void finish(World&, const Clock&) override { current_ = 1 - current_; }
+  void finish(World&, const Clock&) override {
+    note_access(now_);
+    current_ = 1 - current_;
+  }
   void refreshed(World& world, const Clock&, std::span<const Index>) override { fill(world); }
   void keep(Archive& archive) override { archive("current", current_); }
   void loaded(World& world) override { fill(world); }

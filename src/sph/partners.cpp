@@ -26,7 +26,8 @@ class Partners : public Kind {
   std::string name() const override { return name_; }
   void declare(const World& world, Accesses& a) const override {
     fields_.declare_partners(world.particles, a);
-    a.reads(turn()).reads(geometry_->partner_shares(), Reach::others);
+    a.reads(turn());
+    geometry_->declare_partners(a);
   }
 
   void start(World& world, const Clock&) override {

@@ -20,7 +20,7 @@ class PairRates : public Rate {
   std::string name() const override { return name_; }
   void declare(const World& world, Accesses& a) const override {
     fields_.declare_pairs(world.particles, *volumes_, a);
-    a.writes(geometry_->partner_shares()).writes(geometry_->gradients());
+    geometry_->declare_rates(a);
   }
 
   void start(World& world, const Clock& clock) override {

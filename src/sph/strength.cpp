@@ -85,7 +85,7 @@ class StrengthStress : public Material {
   std::string name() const override { return "strength"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
-    a.reads(rate_).reads(spin_).reads(p.drhodt).reads(p.part).reads(p.id).reads(p.x);
+    a.reads(rate_).reads(spin_).reads(p.drhodt).reads(p.part);
     a.updates(p.rho).updates(p.p).updates(p.E).updates(p.c).updates(kept_);
     for (const auto& fields : history_)
       for (const Field<Real>* field : fields) a.updates(*field);
@@ -101,6 +101,7 @@ class StrengthStress : public Material {
     }
   }
   void finish(World& world, const Clock& clock) override {
+    const ReadsForMessage unchecked;
     const Particles& p = world.particles;
     for (std::size_t b = 0; b < broken_.size(); ++b)
       for (Index i = static_cast<Index>(b) * block_size; broken_[b] && i < p.active; ++i)

@@ -91,11 +91,29 @@ class Accesses {
 };
 
 #ifdef COURANT_CHECK_ACCESSES
-/// Builds that check declarations: called wherever a resource's values are asked for. Throws std::logic_error
-/// where the pass that is at work has not declared it.
+/// Builds that check declarations: called wherever a resource's values are asked for. Where the pass at work
+/// has not declared it, the run stops with a std::logic_error once the pass is done.
 void note_access(const Resource& resource);
 #else
 inline void note_access(const Resource&) {}
 #endif
+
+/// While it lives, nothing is held against the pass at work: what only the message of a fault reads (ids,
+/// places) is not declared, so that no other pass waits for it.
+class ReadsForMessage {
+ public:
+#ifdef COURANT_CHECK_ACCESSES
+  ReadsForMessage();
+  ~ReadsForMessage();
+
+ private:
+  const void* at_work_;
+#else
+  ReadsForMessage() {}
+  ~ReadsForMessage() {}
+#endif
+  ReadsForMessage(const ReadsForMessage&) = delete;
+  ReadsForMessage& operator=(const ReadsForMessage&) = delete;
+};
 
 }  // namespace courant

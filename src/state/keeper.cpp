@@ -3,6 +3,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "state/shared_fields.hpp"
+
 namespace courant {
 namespace {
 
@@ -33,7 +35,7 @@ void keep_fields(const std::string& group, FieldSet& fields, Index n, Archive& a
 Index particles_to_load(Particles& p, Archive& archive) {
   const Archive::Group inside(archive, "particles");
   const auto saved = static_cast<Index>(archive.count("id"));
-  const bool has_inlets = p.fields.find("inlet") != nullptr;
+  const bool has_inlets = shared_fields::inlet.find(p.fields) != nullptr;
   if (saved == p.size() || !has_inlets) return p.size();
   if (saved > p.size()) p.fields.resize(saved);
   for (Index i = saved; i < p.size(); ++i)

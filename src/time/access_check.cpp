@@ -1,6 +1,7 @@
 #include "time/access_check.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -13,6 +14,14 @@ namespace courant {
 namespace {
 
 const StagePlan::Entry* at_work = nullptr;
+/// An entry at work; nobody is once it has gone, also where its pass throws.
+struct AtWork {
+  explicit AtWork(const StagePlan::Entry& entry) { at_work = &entry; }
+  ~AtWork() { at_work = nullptr; }
+};
+/// What it has asked for without having declared it, first. Kept until it is done: it may be at work on
+/// several threads, which nothing that is thrown may leave.
+std::atomic<const Resource*> undeclared = nullptr;
 std::pair<std::string, std::string> left_out;
 
 bool declares(const Accesses& accesses, const Resource& resource) {
@@ -26,10 +35,9 @@ bool declares_change(const Accesses& accesses, const FieldBase& field, Access::W
   });
 }
 
-[[noreturn]] void stop_for(const std::string& what, const Resource& resource) {
-  const std::string pass = at_work->pass->name();
-  at_work = nullptr;
-  throw std::logic_error(fmt::format("pass '{}' {} {} of {}", pass, what, resource.name(), resource.set()));
+[[noreturn]] void stop_for(const StagePlan::Entry& entry, const std::string& what, const Resource& resource) {
+  throw std::logic_error(
+      fmt::format("pass '{}' {} {} of {}", entry.pass->name(), what, resource.name(), resource.set()));
 }
 
 template <class T>
@@ -58,21 +66,23 @@ std::map<const FieldBase*, std::size_t> hashes(const World& world) {
 
 void run_checked(const StagePlan::Entry& entry, Access::When when, const World& world,
                  const std::function<void()>& work) {
-  at_work = nullptr;
   const auto before = hashes(world);
-  at_work = &entry;
-  work();
-  at_work = nullptr;
+  undeclared = nullptr;
+  try {
+    const AtWork now(entry);
+    work();
+  } catch (const std::exception&) {  // perhaps because of it
+    if (!undeclared) throw;
+  }
+  if (undeclared) stop_for(entry, "asks, without having declared it, for", *undeclared);
   const auto after = hashes(world);
-  at_work = &entry;
   for (const auto& [field, hash] : after) {
     const auto old = before.find(field);
     if (old == before.end() || old->second == hash) continue;
     // two turns of one resource: which of them it was is known before or after the work only
     if (!declares_change(entry.accesses, *field, when))
-      stop_for("changes, without having declared it,", *field);
+      stop_for(entry, "changes, without having declared it,", *field);
   }
-  at_work = nullptr;
 }
 
 void run_block_checked(const StagePlan::Entry& entry, World&, Index begin, Index end,
@@ -120,8 +130,12 @@ const std::pair<std::string, std::string>& left_out_declaration() {
 
 #ifdef COURANT_CHECK_ACCESSES
 void note_access(const Resource& resource) {
-  if (at_work && !declares(at_work->accesses, resource))
-    stop_for("asks, without having declared it, for", resource);
+  const Resource* none = nullptr;
+  if (at_work && !declares(at_work->accesses, resource)) undeclared.compare_exchange_strong(none, &resource);
+}
+ReadsForMessage::ReadsForMessage() : at_work_(std::exchange(at_work, nullptr)) {}
+ReadsForMessage::~ReadsForMessage() {
+  at_work = static_cast<const StagePlan::Entry*>(at_work_);
 }
 #endif
 

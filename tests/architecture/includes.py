@@ -35,6 +35,7 @@ THREADS = re.compile(r"#\s*(pragma\s+omp\s+(?!simd|declare\s+simd)|include\s*<(o
 ENDS = re.compile(r"(?<![\w:.>])(?:std::)?(?:exit|abort|_Exit|quick_exit|terminate)\s*\(")
 PRINTS = re.compile(r"\bstd::(cout|cerr|clog)\b|(?<![\w:.])f?printf\s*\(|\bfmt::print\b")
 CATCH_ALL = re.compile(r"catch\s*\(\s*\.\.\.\s*\)")
+FIELD_BY_LITERAL = re.compile(r'\b(?:fields(?:\(\))?|set)\s*(?:\.|->)\s*find\(\s*"')
 LONGEST = 500
 
 
@@ -73,6 +74,8 @@ def faults_of_file(name, room, text, rooms):
             faults.append(where + "the library never prints")
         if room != TOP and CATCH_ALL.search(code):
             faults.append(where + "catch (...) hides faults")
+        if FIELD_BY_LITERAL.search(line.split("//")[0]):
+            faults.append(where + "a field of another folder by a literal name; it belongs in state/shared_fields.hpp")
     lines = text.count("\n")
     if lines > LONGEST:
         faults.append(f"{name}: {lines} lines; split it below {LONGEST}")
@@ -111,9 +114,12 @@ def self_test():
         ("model", "  std::exit(1);\n"): "never ends",
         ("model", '  std::cout << "x";\n'): "never prints",
         ("model", "} catch (...) {\n"): "hides",
+        ("contact", 'p.fields.find("near_wall")\n'): "literal name",
+        ("loads", 'points.set->find("fixed")\n'): "literal name",
         ("model", "\n" * (LONGEST + 1)): "split",
     }
     good = [
+        ("contact", "shared_fields::near_wall.find(p.fields); p.fields.find(name)\n"),
         ("sph", '#include "parallel/parallel.hpp"\n#pragma omp simd\n'),
         ("app", '#include "contact/contact.hpp"\nstd::cout << 1;\n'),
         ("model", "// exit(1) in a comment\nstd::snprintf(b, 8, \"printf(\");\n"),

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "extension/additions.hpp"
+#include "extension/compiled_against.hpp"
 #include "keyword/registry.hpp"
 #include "parallel/parallel.hpp"
 

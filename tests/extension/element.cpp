@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "extension/additions.hpp"
+#include "extension/compiled_against.hpp"
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "parallel/parallel.hpp"

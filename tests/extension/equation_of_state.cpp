@@ -1,4 +1,5 @@
 // *EOS_EXAMPLE_STIFFENED_GAS: a gas that attraction holds together, for liquids under shocks.
+#include "extension/compiled_against.hpp"
 #include "laws/eos/eos.hpp"
 #include "laws/eos/eos_fields.hpp"
 

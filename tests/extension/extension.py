@@ -240,7 +240,9 @@ with open("text.so", "w") as file:
 for file, says in (("missing.so", "the file missing.so does not exist"), ("text.so", "text.so cannot be loaded: .*invalid ELF header|text.so cannot be loaded: .*file too short"),
                    (f"{objects}/throws.so", "throws.so failed while it was loaded: no licence for this law"),
                    (f"{objects}/twice.so", r"twice.so registers \*MAT_ELASTIC, which is there already"),
-                   (f"{objects}/nothing.so", "nothing.so registers nothing"), (".", "cannot be loaded")):
+                   (f"{objects}/nothing.so", "nothing.so registers nothing"),
+                   (f"{objects}/other_headers.so", "other_headers.so was compiled against the headers of another Courant"),
+                   (f"{objects}/unstamped.so", "unstamped.so does not say which headers it was compiled against"), (".", "cannot be loaded")):
     code, text = call("run", deck, "-o", "wrong", "--load", file)
     check(code == 1 and re.search("^error: --load: .*" + f"(?:{says})", text, re.M) is not None and not os.path.exists("wrong"), f"--load {os.path.basename(file)}: {text.strip()[:200]}")
 

@@ -1,6 +1,7 @@
 // *CONTACT_EXAMPLE_VISCOUS_SLIP: what touches and slides is slowed in proportion to its speed, as by a film
 // of oil.
 #include "contact/interface_law.hpp"
+#include "extension/compiled_against.hpp"
 #include "keyword/registry.hpp"
 
 namespace {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "extension/additions.hpp"
+#include "extension/compiled_against.hpp"
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "loads/loads.hpp"

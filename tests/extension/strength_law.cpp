@@ -2,6 +2,7 @@
 // held fades away.
 #include <cmath>
 
+#include "extension/compiled_against.hpp"
 #include "laws/strength/strength.hpp"
 
 namespace {

@@ -19,7 +19,7 @@ std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Di
   const int errors = diagnostics.errors();
   for (const StrengthEntry& kind : strength_registry()) {
     kind.check(deck, diagnostics);
-    known += (known.empty() ? "*" : ", *") + kind.keyword;
+    if (!kind.deviator_only) known += (known.empty() ? "*" : ", *") + kind.keyword;
   }
   if (diagnostics.errors() == errors)  // a law is made from valid cards
     for (const StrengthEntry& kind : strength_registry())
@@ -43,7 +43,7 @@ std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Di
                  fmt::format("the material of part {} takes its pressure from an equation of state, which is "
                              "not supported for solids",
                              part.id),
-                 "use *MAT_ELASTIC");
+                 "use one of " + known);
     } else {
       out[k].law = law->second;
     }

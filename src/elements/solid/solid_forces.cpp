@@ -46,7 +46,6 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     a.reads(V0_).reads(rho0_).updates(stress_).updates(internal_).updates(hourglass_);
     a.updates(bulk_viscosity_).writes(group_.corner_force);
     for (const Field<Real>* h : history_) a.updates(*h);
-    a.in_finish().reads(group_.id);
   }
 
   void start(World& world, const Clock&) override {
@@ -144,6 +143,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     return sum(group_.size(), [&](Index e) { return field[e]; });
   }
   [[noreturn]] void stop_for_volume(const HexahedronLoops::Found& found, const Clock& clock) const {
+    const ReadsForMessage unchecked;
     throw RunError(
         fmt::format("solid {} of part {} has {} at time {:.6g}, cycle {}", group_.id[found.smallest],
                     part_id_,

@@ -77,6 +77,7 @@ class ElasticPlasticHydro : public StrengthLaw {
 };
 
 struct MatElasticPlasticHydro : Entry {
+  static constexpr bool deviator_only = true;
   std::string title;
   Id mid = 0;
   Real ro = 0, G = 0, sigy = 0, eh = 0, pc = 0, fs = 0, charl = 0;

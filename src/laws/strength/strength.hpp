@@ -49,6 +49,7 @@ struct StrengthReference {
 
 struct StrengthEntry {
   std::string keyword, equation, source;
+  bool deviator_only = false;  ///< as StrengthLaw::deviator_only of its laws
   std::vector<StrengthReference> references;
   /// Every law of this kind in a deck, by the id of its material.
   std::function<std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>>(const Deck&)> all;
@@ -59,7 +60,8 @@ struct StrengthEntry {
 std::vector<StrengthEntry>& strength_registry();
 
 /// Card must have a member mid and a function law(), a std::shared_ptr<StrengthLaw> made from valid cards,
-/// and may have check(deck, diagnostics).
+/// and may have check(deck, diagnostics); with laws that are `deviator_only` a static constexpr bool of that
+/// name, so that messages offer the keyword only where it serves.
 template <class Card>
 struct RegisterStrength {
   RegisterStrength(std::string equation, std::string source, std::vector<StrengthReference> references,
@@ -69,6 +71,7 @@ struct RegisterStrength {
     entry.equation = std::move(equation);
     entry.source = std::move(source);
     entry.references = std::move(references);
+    if constexpr (requires { Card::deviator_only; }) entry.deviator_only = Card::deviator_only;
     entry.all = [](const Deck& deck) {
       std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>> laws;
       for (const Card& card : deck.all<Card>()) laws.emplace_back(card.mid, card.law());

@@ -1,4 +1,6 @@
 // Registers nothing.
+#include "extension/compiled_against.hpp"
+
 int nothing() {
   return 0;
 }

@@ -1,6 +1,8 @@
 // Fails while it is loaded.
 #include <stdexcept>
 
+#include "extension/compiled_against.hpp"
+
 namespace {
 
 struct Thrower {

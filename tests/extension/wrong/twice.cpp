@@ -1,4 +1,5 @@
 // Registers a keyword of the library.
+#include "extension/compiled_against.hpp"
 #include "keyword/registry.hpp"
 
 namespace {

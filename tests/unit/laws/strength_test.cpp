@@ -137,6 +137,12 @@ TEST(StrengthRegistry, SoundSpeedIsTheSlopeOfStressInUniaxialStrain) {
   });
 }
 
+TEST(StrengthRegistry, KindsSayWhetherTheirLawsGiveTheDeviatorOnly) {
+  for_each_law([](const StrengthEntry& kind, const StrengthReference&, const StrengthLaw& law) {
+    EXPECT_EQ(kind.deviator_only, law.deviator_only()) << kind.keyword;
+  });
+}
+
 TEST(StrengthRegistry, DeviatorsHaveNoTrace) {
   for_each_law([](const StrengthEntry& kind, const StrengthReference& r, const StrengthLaw& law) {
     if (!law.deviator_only()) return;

@@ -1,0 +1,44 @@
+#pragma once
+// Fields by which folders meet that never include each other: each is described here alone. One of them adds
+// the field, and others heed it where it is there.
+#include "state/field.hpp"
+
+namespace courant {
+
+template <class T>
+class SharedField {
+ public:
+  explicit SharedField(FieldInfo info) : info_(std::move(info)) {}
+  /// Registers it, if nobody has yet.
+  Field<T>& add(FieldSet& set) const { return set.add<T>(info_); }
+  /// nullptr: nobody has registered it.
+  Field<T>* find(const FieldSet& set) const { return dynamic_cast<Field<T>*>(set.find(info_.name)); }
+
+ private:
+  FieldInfo info_;
+};
+
+namespace shared_fields {
+
+/// Particles: 1 where a wall is within reach of contact, which marks it; who adds the field clears it when
+/// neighbours are refreshed.
+inline const SharedField<Index> near_wall{{.name = "near_wall", .dimension = "-"}};
+/// Points: axes along which SPC hold them, 1 x + 2 y + 4 z.
+inline const SharedField<Index> held_axes{{.name = "fixed", .dimension = "-"}};
+/// Points: != 0 where a prescribed motion drives them.
+inline const SharedField<Index> prescribed_motion{{.name = "prescribed_motion", .dimension = "-"}};
+/// Particles: acceleration towards a mirror that does not turn round behind it, as it should; whoever adds
+/// such a force tells it here, gravity apart.
+inline const SharedField<Real> mirror_pull{{.name = "mirror_pull", .dimension = "L/T2", .restart = false}};
+/// Particles: the inlet they wait at or came from.
+inline const SharedField<Index> inlet{{.name = "inlet", .dimension = "-"}};
+/// Particles: m/RO, to which internal energy belongs.
+inline const SharedField<Real> reference_volume{{.name = "reference_volume", .dimension = "L3"}};
+/// Particles: stress beside the pressure, viscous and of strength: xx yy zz xy yz zx. Those beside the box
+/// keep that of when they were active.
+inline const SharedField<Real> stress{
+    {.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = true}};
+
+}  // namespace shared_fields
+
+}  // namespace courant
