@@ -94,6 +94,7 @@ class Table {
     for (const std::string& name : list(entry["also"])) names_.push_back(name);
     names_ = combined(names_, list(entry["combine"]));
     if (!entry["cards"]) fail(entry, "no cards");
+    if (names_.size() > 64) fail(entry, "more than 64 names");
     for (const YAML::Node& card : entry["cards"])
       for (const YAML::Node& field : card)
         if (field.IsSequence()) find_room(field);
@@ -161,15 +162,14 @@ class Table {
 
   std::string condition(const YAML::Node& card) const {
     std::string out;
-    if (const Words with = list(card["with"]); !with.empty()) {
-      unsigned long long mask = 0;
+    unsigned long long mask = 0;
+    for (const std::string& word : list(card["with"])) {
+      bool found = false;
       for (std::size_t n = 0; n < names_.size(); ++n)
-        for (const std::string& word : split(names_[n], '_'))
-          if (has(with, word)) mask |= 1ull << n;
-      if (mask == 0 || names_.size() > 64)
-        fail(card, "no name has this word, or there are more than 64 names");
-      out = fmt::format("(({}ull >> e.name) & 1) != 0", mask);
+        if (has(split(names_[n], '_'), word)) mask |= 1ull << n, found = true;
+      if (!found) fail(card, "no name has the word '" + word + "'");
     }
+    if (mask != 0) out = fmt::format("(({}ull >> e.name) & 1) != 0", mask);
     if (card["when"]) {
       const Words words = split(card["when"].Scalar(), ' ');
       if (words.size() != 3 || (words[1] != "==" && words[1] != "!="))
