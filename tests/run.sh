@@ -26,7 +26,7 @@ build_targets
 
 passed=$logs/tests.passed  # the closing line of the last run in which every test passed
 if [ -z "$again" ] && [ $# -eq 0 ] && [ -f "$passed" ] &&
-  [ -z "$(find src tests keyword_decks examples docs CMakeLists.txt README.md "$build"/courant "$build"/libcourant.so \
+  [ -z "$(find src cmake tests keyword_decks examples docs CMakeLists.txt README.md "$build"/courant "$build"/libcourant.so \
     "$build"/tests/*_tests -newer "$passed" -type f -not -path '*/__pycache__*' -print -quit)" ]; then
   say "Nothing has changed since all tests passed here ($(date -r "$passed" '+%F %T')); --again runs them."
   cat "$passed"

@@ -8,7 +8,8 @@ import sys
 from paper_evaluate import read_table
 
 FOLDER = "figures/hydraulic_jump"
-ENDS = {"paper": "", "supported": "_supported", "better": "_better", "paper_setting": "_c1484"}  # of file names, by group
+# Of file names, by group. *Supported*, between *plates* and *better*, has no pictures of its own: its curves are in those over settings.
+ENDS = {"paper": "", "better": "_better", "paper_setting": "_c1484"}
 # of the paper's case [m, m/s]: its jet, conjugate depth by eq. 1, and the depth that critical flow over the weir allows (theory.md)
 D1, V1, BELANGER, WEIR_DEPTH = 0.02, 1.5, 0.0863, 0.0817
 PAPER_ROLLER = 0.2235 / D1  # section 3
@@ -223,6 +224,8 @@ def of_cases(runs, page_folder, project):
     folder = figure_folder(page_folder)
     shown = []
     for run, _ in runs:
+        if run.group not in ENDS:
+            continue
         ends, setting = ENDS[run.group], f", {run.setting}"
         if run.case in ("d1/4", "d1/10"):
             number = 3 if run.case == "d1/4" else 4

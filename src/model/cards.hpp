@@ -132,10 +132,6 @@ struct ControlTimestepCard : Entry {
   int dtdynv;
 };
 
-struct ControlEnergyCard : Entry {
-  int hgen, rwen, slnten, rylen, irgen, maten, drlen, disen;
-};
-
 struct DatabaseD3plotCard : Entry {
   Real dt;
   Id lcdt;

@@ -68,21 +68,6 @@ const RegisterKeyword<S> control_timestep{
                            {"DTDYNV", &S::dtdynv, "-", "viscous limit of solids", no_effect}},
                 .optional = true}}}};
 
-using E = ControlEnergyCard;
-const RegisterKeyword<E> control_energy{
-    {.names = {"CONTROL_ENERGY"},
-     .purpose = "which energies are computed: here all of them, always",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"HGEN", &E::hgen, "-", "hourglass energy", no_effect_but(1)},
-                           {"RWEN", &E::rwen, "-", "rigid wall energy", no_effect_but(2)},
-                           {"SLNTEN", &E::slnten, "-", "contact energy", no_effect_but(1)},
-                           {"RYLEN", &E::rylen, "-", "damping energy", no_effect_but(1)},
-                           {"IRGEN", &E::irgen, "-", "energy of the reference geometry", no_effect_but(2)},
-                           {"MATEN", &E::maten, "-", "split of the material energy", no_effect_but(1)},
-                           {"DRLEN", &E::drlen, "-", "drilling energy", no_effect_but(1)},
-                           {"DISEN", &E::disen, "-", "dissipated energy", no_effect_but(1)}}}}}};
-
 using D = DatabaseD3plotCard;
 const RegisterKeyword<D> database_binary_d3plot{
     {.names = {"DATABASE_BINARY_D3PLOT"},

@@ -1,8 +1,8 @@
-// Tables of solid elements, and of masses on nodes and parts. What is `lacking` is read and checked, and the
-// deck is refused by name.
+// Tables of solid elements.
 #include "model/cards_elements.hpp"
 
 #include <utility>
+#include <vector>
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
@@ -79,50 +79,6 @@ const RegisterKeyword<E> element_solid_ortho{{.names = {"ELEMENT_SOLID_ORTHO"},
                                               .id_space = IdSpace::solid,
                                               .lacking = "directions of the material in solids",
                                               .cards = solid_cards(true)}};
-
-struct ElementMass : Entry {
-  Id eid = 0, nid = 0, pid = 0;
-  Real mass = 0;
-};
-using M = ElementMass;
-
-KeywordOf<M> element_mass(std::string name, std::string purpose, const char* field, IdSpace space) {
-  return {.names = {std::move(name)},
-          .purpose = std::move(purpose),
-          .id_space = IdSpace::mass,
-          .lacking = "masses on nodes",
-          .cards = {{.fields = {{"EID", &M::eid, "-", "element id", element_id},
-                                {field, &M::nid, "-", "what carries it", narrow_required_id_of(space)},
-                                {"MASS", &M::mass, "M", "mass of each node", {.width = 16}},
-                                {"PID", &M::pid, "-", "part id, for output", narrow_id_of(IdSpace::part)}}}}};
-}
-const RegisterKeyword<M> element_mass_node{
-    element_mass("ELEMENT_MASS", "masses on single nodes", "NID", IdSpace::node)};
-const RegisterKeyword<M> element_mass_node_set{
-    element_mass("ELEMENT_MASS_NODE_SET", "masses on all nodes of a set", "NSID", IdSpace::node_set)};
-
-struct ElementMassPart : Entry {
-  Id pid = 0, lcid = 0;
-  Real addmass = 0, finmass = 0;
-  int mwd = 0;
-};
-using P = ElementMassPart;
-
-KeywordOf<P> element_mass_part(std::string name, std::string purpose, const char* field, IdSpace space) {
-  return {.names = {std::move(name)},
-          .purpose = std::move(purpose),
-          .lacking = "masses added to parts",
-          .cards = {{.fields = {{field, &P::pid, "-", "what gets it", narrow_required_id_of(space)},
-                                {"ADDMASS", &P::addmass, "M", "added mass", {.width = 16}},
-                                {"FINMASS", &P::finmass, "M", "mass after the addition", {.width = 16}},
-                                {"LCID", &P::lcid, "-", "curve of the mass over time",
-                                 narrow_id_of(IdSpace::curve, 16)},
-                                {"MWD", &P::mwd, "-", "how it is spread over the nodes", {.width = 8}}}}}};
-}
-const RegisterKeyword<P> mass_part{
-    element_mass_part("ELEMENT_MASS_PART", "mass added to parts", "PID", IdSpace::part)};
-const RegisterKeyword<P> mass_part_set{
-    element_mass_part("ELEMENT_MASS_PART_SET", "mass added to part sets", "PSID", IdSpace::part_set)};
 
 using C = ControlSolid;
 const FieldRules narrow{.honour = Honour::ignored, .width = 8};

@@ -63,7 +63,7 @@ def self_test():
 
 if __name__ == "__main__":
     project = pathlib.Path(sys.argv[1])
-    paths = [p for folder in ("src", "tests/extension") for p in (project / folder).rglob("*") if p.suffix in (".cpp", ".hpp", ".py")]
+    paths = [p for folder in ("src", "tests/extension") for p in (project / folder).rglob("*") if p.suffix in (".cpp", ".hpp", ".py", ".yaml")]
     rows = rows_of((project / PAGE).read_text(encoding="utf-8"))
     messages = faults(rows, {str(p.relative_to(project)): p.read_text(encoding="utf-8") for p in paths})
     if len(rows) < 10:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every path that README.md and docs/*.md name in `code` or in a link exists.
+"""Every path that README.md and docs/*.md name in `code` or in a link exists, and every figure in docs/ is shown by a page.
 
 usage: docs_paths.py PROJECT_FOLDER
 """
@@ -26,7 +26,7 @@ def paths_in(text):
     plain = re.sub(r"https?://\S+", "", text)
     for word in re.findall(r"(?<![\w./-])((?:%s)/[\w./{},*-]*)" % "|".join(re.escape(t) for t in TOPS), plain):
         own += expand(word.rstrip(".,"))
-    for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", text):
+    for target in re.findall(r"\]\(<?([^)#\s>]+)[^)]*\)", text):
         if "://" not in target and not target.startswith("mailto:"):
             links.append(target)
     return own, links
@@ -39,6 +39,12 @@ def exists(folder, path):
     if any(c in path for c in "*<>"):
         return any(folder.glob(path)) if "<" not in path else True
     return (folder / path).exists()
+
+
+def unshown(project, pages):
+    """Figures that no page shows."""
+    shown = {(page.parent / target).resolve() for page in pages for target in re.findall(r"!\[[^\]]*\]\(<?([^)\s>]+)", page.read_text(encoding="utf-8"))}
+    return [p for ending in ("png", "svg") for p in sorted((project / "docs").rglob("*." + ending)) if p.resolve() not in shown]
 
 
 def check(project):
@@ -54,14 +60,15 @@ def check(project):
             where = f"{page.relative_to(project)}:{number}: "
             faults += [where + f"'{p}' does not exist" for p in own if not exists(project, p)]
             faults += [where + f"link to '{p}' leads nowhere" for p in links if not exists(page.parent, p)]
+    faults += [f"{p.relative_to(project)}: no page shows this figure" for p in unshown(project, pages)]
     if len(pages) < 2:
         faults.append("no pages found")
     return faults
 
 
 def self_test():
-    own, links = paths_in("see `src/none.cpp`, `src/{a,b}.cpp` and [x](y.md#part), not https://a.b/src/c")
-    if own != ["src/none.cpp", "src/a.cpp", "src/b.cpp"] or links != ["y.md"]:
+    own, links = paths_in("see `src/none.cpp`, `src/{a,b}.cpp` and [x](y.md#part), ![z](<z.svg>), not https://a.b/src/c")
+    if own != ["src/none.cpp", "src/a.cpp", "src/b.cpp"] or links != ["y.md", "z.svg"]:
         return [f"self test: {own} {links}"]
     return []
 

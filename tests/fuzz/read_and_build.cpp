@@ -1,7 +1,10 @@
 #include "read_and_build.hpp"
 
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "keyword/deck.hpp"
@@ -31,15 +34,29 @@ std::map<std::string, std::string> split_files(std::string_view input) {
   return files;
 }
 
+/// What the decks of tests/decks include, by the names that they use.
+const std::map<std::string, std::string>& bases() {
+  static const std::map<std::string, std::string> files = [] {
+    std::map<std::string, std::string> out;
+    for (const auto& file : std::filesystem::directory_iterator(BASE_DECKS)) {
+      std::stringstream text;
+      text << std::ifstream(file.path()).rdbuf();
+      out.emplace("../base/" + file.path().filename().string(), text.str());
+    }
+    return out;
+  }();
+  return files;
+}
+
 }  // namespace
 
 void read_and_build(std::string_view input) {
   const std::map<std::string, std::string> files = split_files(input);
   ReadOptions options;
   options.open = [&](const std::string& path) -> std::optional<std::string> {
-    const auto it = files.find(path);
-    if (it == files.end()) return std::nullopt;
-    return it->second;
+    if (const auto it = files.find(path); it != files.end()) return it->second;
+    if (const auto it = bases().find(path); it != bases().end()) return it->second;
+    return std::nullopt;
   };
   Diagnostics diagnostics;
   const Deck deck = read_deck("deck.k", options, diagnostics);

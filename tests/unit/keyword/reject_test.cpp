@@ -1,6 +1,7 @@
 // Decks as a user gives them. Every deck in tests/decks/reject must be refused with exactly the messages in
-// the .txt file beside it; every deck in tests/decks/warn must build with exactly the warnings beside it;
-// tests/decks/accept/whole*.k are the same scene without a fault.
+// the .txt file beside it; what is not wrong in it, it includes from tests/decks/base. Every deck in
+// tests/decks/warn must build with exactly the warnings beside it; tests/decks/accept/whole*.k are the same
+// scene without a fault.
 #include <gtest/gtest.h>
 
 #include <algorithm>
