@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/run_error.hpp"
-#include "model/included_entries.hpp"
+#include "model/transforms/included_entries.hpp"
 
 namespace courant {
 

@@ -5,7 +5,7 @@
 
 #include "app/deck_facts.hpp"
 #include "app/simulation.hpp"
-#include "model/unused_ids.hpp"
+#include "model/sets/unused_ids.hpp"
 
 namespace courant {
 

@@ -1,7 +1,7 @@
 #include "app/run_outputs.hpp"
 
 #include "extension/additions.hpp"
-#include "model/output_times.hpp"
+#include "model/requests/output_times.hpp"
 
 namespace courant {
 namespace {

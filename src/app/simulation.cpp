@@ -7,16 +7,16 @@
 #include "app/build_nodes.hpp"
 #include "app/field_options.hpp"
 #include "app/skin.hpp"
-#include "elements/corner_gather.hpp"
+#include "elements/nodal_assembly.hpp"
 #include "extension/additions.hpp"
 #include "loads/loads.hpp"
 #include "model/build_model.hpp"
-#include "model/included_entries.hpp"
+#include "model/transforms/included_entries.hpp"
 #include "parallel/parallel.hpp"
 #include "rigid/time_limit.hpp"
 #include "shell/shell.hpp"
-#include "sph/initial_stress.hpp"
-#include "sph/level_outlet.hpp"
+#include "sph/boundaries/level_outlet.hpp"
+#include "sph/materials/initial_stress.hpp"
 #include "time/point_motion.hpp"
 
 namespace courant {
@@ -133,7 +133,7 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
       return diagnostics.error(
           {deck_.files[0].name},
           fmt::format("node {} moves by its forces and has no mass", world_.nodes.id[n]));
-  world_.passes.add(make_corner_gather(world_));
+  world_.passes.add(make_nodal_assembly(world_));
   add_loads(points_of(world_.nodes), BodyAcceleration(model_.body_loads));
   world_.passes.add(make_point_motion(points_of(world_.nodes)));
   world_.passes.add(make_kinetic_energy(points_of(world_.nodes)));

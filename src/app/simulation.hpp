@@ -16,8 +16,8 @@
 #include "output/sample.hpp"
 #include "output/summary.hpp"
 #include "rigid/rigid.hpp"
-#include "sph/injection.hpp"
-#include "sph/materials.hpp"
+#include "sph/boundaries/injection.hpp"
+#include "sph/materials/materials.hpp"
 #include "sph/sph.hpp"
 #include "time/step.hpp"
 

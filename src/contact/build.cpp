@@ -5,7 +5,7 @@
 
 #include "contact/cards.hpp"
 #include "contact/contact.hpp"
-#include "model/named_parts.hpp"
+#include "model/mesh/named_parts.hpp"
 #include "surfaces/skin.hpp"
 
 namespace courant {

@@ -7,8 +7,8 @@
 
 #include "keyword/deck.hpp"
 #include "loads/body_acceleration.hpp"
+#include "model/conditions/prescribed_motion.hpp"
 #include "model/model.hpp"
-#include "model/prescribed_motion.hpp"
 #include "search/neighbours.hpp"
 #include "state/points.hpp"
 #include "state/world.hpp"

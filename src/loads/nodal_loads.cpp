@@ -9,7 +9,7 @@
 #include "keyword/registry.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
-#include "model/transformation.hpp"
+#include "model/transforms/transformation.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "model/cards_elements.hpp"
+#include "model/mesh/cards_elements.hpp"
 #include "model/model_builder.hpp"
-#include "model/sets.hpp"
+#include "model/sets/sets.hpp"
 
 namespace courant {
 

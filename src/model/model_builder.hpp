@@ -10,10 +10,10 @@
 
 #include "keyword/deck.hpp"
 #include "model/cards.hpp"
-#include "model/cards_elements.hpp"
-#include "model/define_cards.hpp"
-#include "model/id_index.hpp"
+#include "model/definitions/define_cards.hpp"
+#include "model/mesh/cards_elements.hpp"
 #include "model/model.hpp"
+#include "model/sets/id_index.hpp"
 
 namespace courant {
 

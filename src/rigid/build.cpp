@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "model/transformation.hpp"
+#include "model/transforms/transformation.hpp"
 #include "rigid/mat_rigid.hpp"
 #include "rigid/rigid.hpp"
 

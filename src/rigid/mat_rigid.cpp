@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "keyword/registry.hpp"
-#include "model/transformation.hpp"
+#include "model/transforms/transformation.hpp"
 
 namespace courant {
 namespace {

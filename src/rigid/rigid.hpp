@@ -10,8 +10,8 @@
 
 #include "keyword/deck.hpp"
 #include "loads/body_acceleration.hpp"
+#include "model/conditions/prescribed_motion.hpp"
 #include "model/model.hpp"
-#include "model/prescribed_motion.hpp"
 #include "state/keeper.hpp"
 #include "state/reports.hpp"
 #include "state/world.hpp"

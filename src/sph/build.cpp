@@ -6,9 +6,9 @@
 #include "parallel/parallel.hpp"
 #include "search/nearest_distance.hpp"
 #include "sph/cards.hpp"
-#include "sph/pair_passes.hpp"
-#include "sph/strength.hpp"
-#include "sph/view.hpp"
+#include "sph/core/pair_passes.hpp"
+#include "sph/core/view.hpp"
+#include "sph/materials/strength.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
@@ -448,7 +448,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
     add_density_reinitialisation(s, world, neighbours, volumes);
   else
     left_out.push_back({"re-initialisation", "no *COURANT_DENSITY_REINITIALISATION"});
-  if (s.geometry_eps == 0) left_out.push_back({"kept pair geometry", "no *COURANT_PAIR_GEOMETRY"});
+  if (s.geometry_eps == 0) left_out.push_back({"frozen gradients", "no *COURANT_PAIR_GEOMETRY"});
   if (s.evolving_h)
     world.passes.add(make_smoothing_length(s, world));
   else

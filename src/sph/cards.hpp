@@ -1,6 +1,6 @@
 #pragma once
 #include "keyword/deck.hpp"
-#include "model/viscosity_cards.hpp"
+#include "model/conditions/viscosity_cards.hpp"
 
 namespace courant {
 

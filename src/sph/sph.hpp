@@ -10,7 +10,7 @@
 #include "loads/body_acceleration.hpp"
 #include "model/model.hpp"
 #include "search/neighbours.hpp"
-#include "sph/kernel_choice.hpp"
+#include "sph/core/kernel_choice.hpp"
 #include "state/world.hpp"
 
 namespace courant {

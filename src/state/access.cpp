@@ -5,7 +5,7 @@
 namespace courant {
 
 const char* name_of(Phase phase) {
-  constexpr const char* names[] = {"rates", "laws",   "tallies",    "forces",     "constraints",
+  constexpr const char* names[] = {"rates", "laws",   "reductions", "forces",     "constraints",
                                    "drive", "motion", "relocation", "preparation"};
   return names[static_cast<std::size_t>(phase)];
 }

@@ -27,7 +27,7 @@ class Resource {
 enum class Phase {
   rates,        ///< from x and v of the last motion; velocities of neighbours
   laws,         ///< density, energy and stress advance; corner forces of elements
-  tallies,      ///< sums and searches once laws are known
+  reductions,   ///< sums and searches once laws are known
   forces,       ///< what needs pressures and stresses of neighbours; external forces
   constraints,  ///< changes of forces once all are known
   drive,        ///< after dt is chosen: velocities that are prescribed

@@ -60,7 +60,7 @@ struct PassOf : BlockPass {
 using Rate = PassOf<Phase::rates>;
 /// Advances density, energy or stress over dt_old with the rates.
 using Material = PassOf<Phase::laws>;
-using Tally = PassOf<Phase::tallies>;
+using Reduction = PassOf<Phase::reductions>;
 /// Adds to forces. Who adds to nodes.f or segments.contact_force (in `finish`) first takes back in `start`
 /// what it added a step ago.
 using Force = PassOf<Phase::forces>;

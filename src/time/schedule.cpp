@@ -111,7 +111,7 @@ class Planner {
 
 Schedule make_schedule(const World& world) {
   Planner planner(world, !world.passes.all<Exchanger>().empty());
-  const std::vector<Phase> before{Phase::rates, Phase::laws, Phase::tallies, Phase::forces,
+  const std::vector<Phase> before{Phase::rates, Phase::laws, Phase::reductions, Phase::forces,
                                   Phase::constraints};
   const std::vector<Phase> after{Phase::drive, Phase::motion, Phase::relocation, Phase::preparation};
   planner.plan(before), planner.plan(after);  // a step before tells what is stale at the start of one
@@ -137,7 +137,7 @@ std::string text_of(const Schedule& schedule) {
     }
   };
   list(schedule.forces);
-  text += "  choice of dt, outputs, energy ledger\n";
+  text += "  time step, outputs, energy balance\n";
   list(schedule.motion);
   return text;
 }

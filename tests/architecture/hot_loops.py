@@ -26,7 +26,7 @@ def compiling(source):
     return found or sys.exit(f"nothing compiles {source}; correct this test")
 
 
-entry = compiling("/src/sph/time_limit.cpp")[0]
+entry = compiling("/src/sph/core/time_limit.cpp")[0]
 if not any(re.fullmatch(r"-O[23]", w) for w in shlex.split(entry["command"])):
     print("skipped: this build is not optimised")
     sys.exit(77)
@@ -58,14 +58,14 @@ for path in sorted(objects):
             faults.append(f"{name}: uses %{register}, which its processors lack")
     fused = len(re.findall(rf"vfn?m(?:add|sub)\d+pd.*%{own}", code)) if own != "xmm" else wide[own]
     print(f"{name}: {fused} {'fused operations' if own != 'xmm' else 'uses'} of %{own}")
-    least = 30 if re.search("sph/(riemann|renormal|kept|partner)_loops", path) else 200  # files of a few short loops
-    if re.search(r"sph/\w+_loops", path) and fused < least:
+    least = 30 if re.search(r"sph/\w+/(riemann|renormal|kept|partner)_loops", path) else 200  # files of a few short loops
+    if re.search(r"sph/\w+/\w+_loops", path) and fused < least:
         faults.append(f"{name}: the loops over pairs do not use %{own}")
 
 # Loops over single particles
 compiler = shlex.split(entry["command"])[0]
 if "Free Software Foundation" in run(compiler, "--version"):
-    for source in ["src/state/particle_loops.cpp", "src/sph/energy.cpp", "src/time/guard.cpp", "src/laws/eos/eos_linear_polynomial.cpp"]:
+    for source in ["src/state/particle_loops.cpp", "src/sph/core/energy.cpp", "src/time/guard.cpp", "src/laws/eos/eos_linear_polynomial.cpp"]:
         where = "src/laws/eos/eos.hpp" if "eos" in source else source
         lines = open(os.path.join(project, where)).read().splitlines()
         wanted = r"for \(" if "_loops" in source else r"#pragma omp simd"

@@ -6,8 +6,8 @@
 
 #include "app/skin.hpp"
 #include "model/build_model.hpp"
-#include "sph/materials.hpp"
-#include "sph/pair_passes.hpp"
+#include "sph/core/pair_passes.hpp"
+#include "sph/materials/materials.hpp"
 #include "time/point_motion.hpp"
 
 namespace courant::benchmarks {

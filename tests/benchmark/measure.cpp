@@ -5,7 +5,7 @@
 
 #include "base/narrow.hpp"
 #include "scenes.hpp"
-#include "sph/pair_geometry.hpp"
+#include "sph/core/pair_geometry.hpp"
 
 namespace courant::benchmarks {
 

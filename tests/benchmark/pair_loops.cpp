@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "measure.hpp"
-#include "sph/pair_passes.hpp"
+#include "sph/core/pair_passes.hpp"
 
 namespace courant::benchmarks {
 

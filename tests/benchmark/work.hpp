@@ -14,10 +14,10 @@ struct PairWork {
 /// of steps.
 enum class Gradients { again, kept, window };
 
-/// Floating-point operations of src/sph/pair_sums.hpp per entry in reach of its eight and lane, for the cubic
-/// spline, one h, Monaghan viscosity and no MU. Each + - * / and max is one; a reciprocal root is ten, what
-/// the avx512 variant spells it out as (the others take a root and a quotient, which keep the processor busy
-/// for longer).
+/// Floating-point operations of src/sph/core/pair_sums.hpp per entry in reach of its eight and lane, for the
+/// cubic spline, one h, Monaghan viscosity and no MU. Each + - * / and max is one; a reciprocal root is ten,
+/// what the avx512 variant spells it out as (the others take a root and a quotient, which keep the processor
+/// busy for longer).
 ///
 ///                            2D  3D
 ///   x_i - x_j                 2   3   rates, forces
@@ -36,7 +36,7 @@ enum class Gradients { again, kept, window };
 /// Left out: entries out of reach, 6 or 9 operations to see that they are, and the sums over lanes for
 /// partners, the price of working out a pair once.
 ///
-/// And of src/sph/kept_loops.hpp:
+/// And of src/sph/options/kept_loops.hpp:
 ///   v_i - v_j, u . G          5   8   rates
 ///   div                       2   2   rates
 ///   viscosity, linear         2   2   rates (4 with its quadratic part, which no benchmark has)

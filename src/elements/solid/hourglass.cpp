@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "model/viscosity_cards.hpp"
+#include "model/conditions/viscosity_cards.hpp"
 
 namespace courant {
 

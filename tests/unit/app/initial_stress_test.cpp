@@ -9,7 +9,7 @@
 
 #include "app/simulation.hpp"
 #include "generate/generate.hpp"
-#include "sph/initial_stress.hpp"
+#include "sph/materials/initial_stress.hpp"
 
 namespace courant {
 namespace {

@@ -39,9 +39,9 @@ Lists lists_of(const SmallScene& scene) {
 }
 
 const Lists bare{
-    {"rates clear forces", "rates sph rates", "rates sph rates of partners", "laws eos linear polynomial",
-     "laws sph volumes", "tallies sph time step", "tallies sph energy", "forces sph forces",
-     "forces sph forces of partners", "motion motion of particles", "preparation sph factors",
+    {"rates clear forces", "rates sph rates", "rates sph rates, reduction", "laws eos linear polynomial",
+     "laws sph volumes", "reductions sph time step", "reductions sph energy", "forces sph forces",
+     "forces sph forces, reduction", "motion motion of particles", "preparation sph viscous speed",
      "preparation neighbours", "time limit sph time step", "energy sph energy", "guard every 64 steps"},
     {"inlets no *DEFINE_SPH_INJECTION",
      "images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
@@ -54,7 +54,7 @@ const Lists bare{
      "shifting ISHIFT 0",
      "XSPH no *COURANT_XSPH",
      "re-initialisation no *COURANT_DENSITY_REINITIALISATION",
-     "kept pair geometry no *COURANT_PAIR_GEOMETRY",
+     "frozen gradients no *COURANT_PAIR_GEOMETRY",
      "smoothing length HMIN = HMAX = 1: h is constant",
      "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
      "eddy viscosity no *COURANT_EDDY_VISCOSITY",
@@ -177,14 +177,14 @@ TEST(Passes, BulkViscosity) {
   SmallScene scene;
   scene.dim = 3, scene.n = 3;
   scene.control_sph = "\n0,0,0,0,0,0,1";
-  expect_change(scene, {"bulk viscosity"}, {"laws bulk viscosity"}, {}, {"preparation sph factors"});
+  expect_change(scene, {"bulk viscosity"}, {"laws bulk viscosity"}, {}, {"preparation sph viscous speed"});
 }
 
 TEST(Passes, SmoothingLengthsThatChange) {
   SmallScene scene;
   scene.section = "1,1.2,0.2,2.";
   expect_change(scene, {"smoothing length"}, {"preparation smoothing length"}, {},
-                {"rates sph rates of partners", "forces sph forces of partners"});
+                {"rates sph rates, reduction", "forces sph forces, reduction"});
 }
 
 TEST(Passes, SpeedLimit) {
@@ -245,12 +245,12 @@ TEST(Passes, Drifts) {
   SmallScene scene;
   scene.control_sph = test::shifting_cards;
   expect_change(scene, {"shifting"},
-                {"rates shifting (gradient)", "tallies drift work", "energy drift work",
+                {"rates shifting (gradient)", "reductions drift work", "energy drift work",
                  "relocation shifting", "preparation surfaces"});
   scene.control_sph = "";
   scene.extra = "*COURANT_XSPH\n0.5\n";
   expect_change(scene, {"XSPH"},
-                {"rates XSPH", "rates drift (density)", "tallies drift work", "energy drift work",
+                {"rates XSPH", "rates drift (density)", "reductions drift work", "energy drift work",
                  "relocation XSPH motion"});
 }
 
@@ -263,8 +263,9 @@ TEST(Passes, PrescribedMotionOfParticles) {
 TEST(Passes, KeptPairGeometry) {
   SmallScene scene;
   scene.extra = "*COURANT_PAIR_GEOMETRY\n0.005\n";
-  expect_change(scene, {"kept pair geometry"}, {"preparation kept pair geometry"}, {},
-                {"preparation sph factors", "rates sph rates of partners", "forces sph forces of partners"});
+  expect_change(
+      scene, {"frozen gradients"}, {"preparation frozen gradients"}, {},
+      {"preparation sph viscous speed", "rates sph rates, reduction", "forces sph forces, reduction"});
 }
 
 TEST(Passes, AnotherEquationOfState) {
@@ -282,7 +283,7 @@ TEST(Passes, TwoPartsWithOneLawShareAPass) {
 }
 
 TEST(Passes, PairsAreWorkedOutTwiceWherePartsHaveDifferentSmoothingLengths) {
-  const std::vector<std::string> of_partners{"rates sph rates of partners", "forces sph forces of partners"};
+  const std::vector<std::string> of_partners{"rates sph rates, reduction", "forces sph forces, reduction"};
   for (const auto& [cslh, gone] : {std::pair{"1.3", of_partners},
                                    {"1.20001", of_partners},
                                    {"1.2000001", {}}}) {  // as coordinates are rounded in decks

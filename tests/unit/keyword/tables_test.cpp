@@ -5,7 +5,7 @@
 #include <set>
 
 #include "keyword/registry.hpp"
-#include "model/included_entries.hpp"
+#include "model/transforms/included_entries.hpp"
 
 namespace courant {
 

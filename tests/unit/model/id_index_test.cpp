@@ -1,4 +1,4 @@
-#include "model/id_index.hpp"
+#include "model/sets/id_index.hpp"
 
 #include <gtest/gtest.h>
 

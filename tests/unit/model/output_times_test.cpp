@@ -1,4 +1,4 @@
-#include "model/output_times.hpp"
+#include "model/requests/output_times.hpp"
 
 #include <gtest/gtest.h>
 

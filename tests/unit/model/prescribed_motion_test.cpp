@@ -1,4 +1,4 @@
-#include "model/prescribed_motion.hpp"
+#include "model/conditions/prescribed_motion.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "model/cards.hpp"
-#include "model/included_entries.hpp"
+#include "model/transforms/included_entries.hpp"
 
 using namespace courant;
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "keyword/registry.hpp"
-#include "model/set_cards.hpp"
+#include "model/sets/set_cards.hpp"
 #include "small_deck.hpp"
 
 namespace courant {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "../keyword/decks_in_memory.hpp"
-#include "model/included_entries.hpp"
+#include "model/transforms/included_entries.hpp"
 #include "small_deck.hpp"
 
 namespace courant {

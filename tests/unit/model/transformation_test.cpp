@@ -1,12 +1,12 @@
 // *DEFINE_TRANSFORMATION: each operation against its meaning, order, and faults.
-#include "model/transformation.hpp"
+#include "model/transforms/transformation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "../keyword/decks_in_memory.hpp"
-#include "model/included_entries.hpp"
+#include "model/transforms/included_entries.hpp"
 
 namespace courant {
 

@@ -3,7 +3,7 @@
 
 #include "../keyword/decks_in_memory.hpp"
 #include "keyword/registry.hpp"
-#include "model/unused_ids.hpp"
+#include "model/sets/unused_ids.hpp"
 
 namespace courant {
 

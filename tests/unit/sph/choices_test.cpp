@@ -65,7 +65,7 @@ const std::vector<Choice>& choices() {
        [](Scene& s) { s.ishift = "1", s.extra += "*COURANT_SHIFTING\n2.,0.2,0.,1\n"; }, false},
       {"wall support", "wall", [](Scene& s) { s.wall = Scene::still; }, false},
       {"wall support, moving", "wall", [](Scene& s) { s.wall = Scene::free; }},
-      {"kept pair geometry", "kept", [](Scene& s) { s.extra += "*COURANT_PAIR_GEOMETRY\n0.01\n"; }},
+      {"frozen gradients", "kept", [](Scene& s) { s.extra += "*COURANT_PAIR_GEOMETRY\n0.01\n"; }},
       {"strength", "strength", [](Scene& s) { s.strength = true; }},
       {"strength, artificial stress", "strength",
        [](Scene& s) { s.strength = true, s.extra += "*COURANT_ARTIFICIAL_STRESS\n0.3\n"; }},

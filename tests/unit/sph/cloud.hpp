@@ -4,8 +4,8 @@
 #include <random>
 
 #include "../run_pass.hpp"
-#include "sph/pair_passes.hpp"
-#include "sph/view.hpp"
+#include "sph/core/pair_passes.hpp"
+#include "sph/core/view.hpp"
 
 namespace courant::test {
 

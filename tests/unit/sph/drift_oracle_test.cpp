@@ -5,9 +5,9 @@
 
 #include "base/instruction_set.hpp"
 #include "cloud.hpp"
-#include "sph/drift.hpp"
-#include "sph/fields.hpp"
-#include "sph/kernel.hpp"
+#include "sph/core/fields.hpp"
+#include "sph/core/kernel.hpp"
+#include "sph/options/drift.hpp"
 
 using namespace courant;
 using courant::test::Cloud;

@@ -6,8 +6,8 @@
 
 #include "../app/small_scene.hpp"
 #include "parallel/parallel.hpp"
-#include "sph/drift.hpp"
-#include "sph/fields.hpp"
+#include "sph/core/fields.hpp"
+#include "sph/options/drift.hpp"
 
 namespace courant {
 

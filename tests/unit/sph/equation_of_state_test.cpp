@@ -1,5 +1,5 @@
 // Density, energy and pressure of particles with an equation of state.
-#include "sph/equation_of_state.hpp"
+#include "sph/materials/equation_of_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "../run_pass.hpp"
 #include "base/run_error.hpp"
-#include "sph/fields.hpp"
+#include "sph/core/fields.hpp"
 
 using namespace courant;
 

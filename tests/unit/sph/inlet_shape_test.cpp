@@ -1,5 +1,5 @@
 // Where particles of a layer stand, and the area that each has.
-#include "sph/inlet_shape.hpp"
+#include "sph/boundaries/inlet_shape.hpp"
 
 #include <gtest/gtest.h>
 

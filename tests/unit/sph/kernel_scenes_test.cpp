@@ -7,7 +7,7 @@
 #include "../app/small_scene.hpp"
 #include "kernel_scene.hpp"
 #include "parallel/parallel.hpp"
-#include "sph/fields.hpp"
+#include "sph/core/fields.hpp"
 
 namespace courant {
 namespace {

@@ -1,11 +1,11 @@
-#include "sph/kernel.hpp"
+#include "sph/core/kernel.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <type_traits>
 
-#include "sph/kernel_choice.hpp"
+#include "sph/core/kernel_choice.hpp"
 
 using namespace courant;
 

@@ -1,6 +1,6 @@
 #pragma once
 // A linear liquid and a step of constant size, for clouds without a deck.
-#include "sph/equation_of_state.hpp"
+#include "sph/materials/equation_of_state.hpp"
 
 namespace courant::test {
 

@@ -6,7 +6,7 @@
 #include "cloud.hpp"
 #include "liquid.hpp"
 #include "loads/loads.hpp"
-#include "sph/fields.hpp"
+#include "sph/core/fields.hpp"
 #include "time/point_motion.hpp"
 #include "time/step.hpp"
 
@@ -21,7 +21,7 @@ TimeLimit::Limit limit_of(Cloud& cloud, const Model& model) {
   World& w = cloud.world;
   w.passes = {};
   add_sph_time_limit(cloud.settings, model, w);
-  cloud.run(*w.passes.in_phase(Phase::tallies, w).at(0));
+  cloud.run(*w.passes.in_phase(Phase::reductions, w).at(0));
   return w.passes.all<TimeLimit>().at(0)->limit(w, cloud.clock);
 }
 

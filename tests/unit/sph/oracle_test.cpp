@@ -5,8 +5,8 @@
 
 #include "base/instruction_set.hpp"
 #include "cloud.hpp"
-#include "sph/fields.hpp"
-#include "sph/kernel.hpp"
+#include "sph/core/fields.hpp"
+#include "sph/core/kernel.hpp"
 
 using namespace courant;
 using courant::test::Cloud;

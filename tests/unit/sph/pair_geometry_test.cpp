@@ -6,7 +6,7 @@
 
 #include "cloud.hpp"
 #include "liquid.hpp"
-#include "sph/kept_pairs.hpp"
+#include "sph/options/kept_pairs.hpp"
 #include "time/point_motion.hpp"
 #include "time/step.hpp"
 

@@ -4,8 +4,8 @@
 
 #include "cloud.hpp"
 #include "parallel/parallel.hpp"
-#include "sph/fields.hpp"
-#include "sph/kernel.hpp"
+#include "sph/core/fields.hpp"
+#include "sph/core/kernel.hpp"
 
 using namespace courant;
 using courant::test::Cloud;

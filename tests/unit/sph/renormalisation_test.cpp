@@ -10,8 +10,8 @@
 #include "../app/small_scene.hpp"
 #include "base/instruction_set.hpp"
 #include "cloud.hpp"
-#include "sph/fields.hpp"
-#include "sph/kernel.hpp"
+#include "sph/core/fields.hpp"
+#include "sph/core/kernel.hpp"
 
 namespace courant {
 namespace {

@@ -8,8 +8,8 @@
 #include "base/instruction_set.hpp"
 #include "checkerboard_tank.hpp"
 #include "cloud.hpp"
-#include "sph/fields.hpp"
-#include "sph/kernel.hpp"
+#include "sph/core/fields.hpp"
+#include "sph/core/kernel.hpp"
 
 namespace courant {
 namespace {

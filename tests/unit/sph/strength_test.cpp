@@ -1,5 +1,5 @@
 // Particles with strength: spin, stress that turns with the body, energy, artificial stress, what is refused.
-#include "sph/strength.hpp"
+#include "sph/materials/strength.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include "cloud.hpp"
 #include "laws/strength/strength.hpp"
 #include "liquid.hpp"
-#include "sph/fields.hpp"
+#include "sph/core/fields.hpp"
 #include "time/point_motion.hpp"
 #include "time/step.hpp"
 
@@ -210,7 +210,7 @@ TEST(ArtificialStress, ActsAgainstTensionAlone) {
     p.p[i] = 7;
     sph_fields::stress(p).set_tensor(i, sigma + 7 * Matrix::Identity());
   }
-  cloud.run(pass_of(w, Phase::tallies, "artificial stress"));
+  cloud.run(pass_of(w, Phase::reductions, "artificial stress"));
   const Matrix expected = turn * Vec(-30, 0, 0).asDiagonal() * turn.transpose();
   EXPECT_LT((sph_fields::artificial_stress(p).tensor(0) - expected).norm(), 1e-11);
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "../app/small_scene.hpp"
-#include "sph/fields.hpp"
+#include "sph/core/fields.hpp"
 
 namespace courant {
 namespace {

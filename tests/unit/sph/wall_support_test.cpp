@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "../app/small_scene.hpp"
-#include "sph/fields.hpp"
-#include "sph/wall_surface.hpp"
+#include "sph/boundaries/wall_surface.hpp"
+#include "sph/core/fields.hpp"
 
 namespace courant {
 namespace {

@@ -1,0 +1,217 @@
+// *BOUNDARY_PRESCRIBED_MOTION_NODE, _SET and _RIGID: their table, and what they mean.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <unordered_map>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "model/conditions/prescribed_motion.hpp"
+#include "model/transforms/transformation.hpp"
+
+namespace courant {
+
+using namespace rules;
+
+namespace {
+
+struct MotionCard : Entry {
+  std::string title;
+  Id entry_id = 0;
+  Id id = 0, lcid = 0, vid = 0, lrb = 0, node1 = 0, node2 = 0;
+  int dof = 0, vad = 0;
+  Real sf = 0, death = 0, birth = 0, offset1 = 0, offset2 = 0;
+};
+struct MotionOfNode : MotionCard {
+  static constexpr const char* field = "NID";
+};
+struct MotionOfSet : MotionCard {
+  static constexpr const char* field = "NSID";
+};
+struct MotionOfRigid : MotionCard {
+  static constexpr const char* field = "PID";
+};
+struct MotionOfRigidLocal : MotionCard {};
+
+constexpr int along_vector = 4, first_rotation = 5;
+
+/// Directions are axes: they stay where a file is only shifted. Vectors move with their file.
+std::string keep_axes(MotionCard& card, const Affine& motion) {
+  if (card.dof == along_vector) return refuse_stretch(motion, "motions");
+  if (motion.linear() == Matrix::Identity()) return {};
+  return "its direction is an axis, which a transformation that turns or stretches the file would change";
+}
+
+template <class T>
+KeywordOf<T> motion_keyword(std::string name, std::string purpose, const char* field, IdSpace refers,
+                            std::string lacking = {}) {
+  const bool honoured = lacking.empty();
+  const FieldRules id = required_id_of(refers);
+  const FieldRules curve = honoured ? required_id_of(IdSpace::curve) : id_of(IdSpace::curve);
+  const FieldRules dof{.required = honoured};
+  const FieldRules time{.check = honoured ? Check::not_negative : Check::any};
+  return {
+      .names = {std::move(name)},
+      .purpose = std::move(purpose),
+      .id_space = IdSpace::boundary,
+      .id_option = true,
+      .title = &T::title,
+      .id = &T::entry_id,
+      .lacking = std::move(lacking),
+      .cards =
+          {{.fields = {{field, &T::id, "-", "what moves", id},
+                       {"DOF", &T::dof, "-",
+                        "direction: 1-3 x, y, z, 4 along VID; of bodies also 5-7 about x, y, z", dof},
+                       {"VAD", &T::vad, "-", "0 velocity, 1 acceleration, 2 displacement"},
+                       {"LCID", &T::lcid, "-", "curve of the motion, over t - BIRTH", curve},
+                       {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
+                       {"VID", &T::vid, "-", "vector; negative: coordinate system", id_of(IdSpace::vector)},
+                       {"DEATH", &T::death, "T", "end time", or_blank(1e28)},
+                       {"BIRTH", &T::birth, "T", "start time", time}}},
+           {.fields = {{"OFFSET1", &T::offset1, "L", "offset of the axis"},
+                       {"OFFSET2", &T::offset2, "L", "offset of the axis"},
+                       {"LRB", &T::lrb, "-", "body to which the motion is relative", id_of(IdSpace::part)},
+                       {"NODE1", &T::node1, "-", "node of the orientation", id_of(IdSpace::node)},
+                       {"NODE2", &T::node2, "-", "node of the orientation", id_of(IdSpace::node)}},
+            .when = [](const T& e) { return std::abs(e.dof) >= 9 || e.vad == 4; }}},
+      .move = [](T& card, const Affine& motion) { return keep_axes(card, motion); }};
+}
+
+const RegisterKeyword<MotionOfNode> of_node{motion_keyword<MotionOfNode>(
+    "BOUNDARY_PRESCRIBED_MOTION_NODE", "prescribed motion of particles", MotionOfNode::field, IdSpace::node)};
+const RegisterKeyword<MotionOfSet> of_set{
+    motion_keyword<MotionOfSet>("BOUNDARY_PRESCRIBED_MOTION_SET", "prescribed motion of sets of particles",
+                                MotionOfSet::field, IdSpace::node_set)};
+const RegisterKeyword<MotionOfRigid> of_rigid{
+    motion_keyword<MotionOfRigid>("BOUNDARY_PRESCRIBED_MOTION_RIGID", "prescribed motion of rigid bodies",
+                                  MotionOfRigid::field, IdSpace::part)};
+const RegisterKeyword<MotionOfRigidLocal> of_rigid_local{motion_keyword<MotionOfRigidLocal>(
+    "BOUNDARY_PRESCRIBED_MOTION_RIGID_LOCAL", "prescribed motion of rigid bodies along axes of their own",
+    "PID", IdSpace::part, "motions along the axes of a body")};
+
+class Reader {
+ public:
+  Reader(const Deck& deck, const Model& model, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), diagnostics_(diagnostics) {}
+
+  std::vector<PrescribedMotion> read() {
+    for (const auto& card : deck_.all<MotionOfNode>())
+      if (const Index n = node(card); n >= 0) add(card, {n}, -1);
+    for (const auto& card : deck_.all<MotionOfSet>()) {
+      const auto found = model_.node_sets.find(card.id);
+      if (found == model_.node_sets.end())
+        missing(card, MotionOfSet::field, "node set", card.id, "*SET_NODE");
+      else
+        add(card, found->second, -1);
+    }
+    for (const auto& card : deck_.all<MotionOfRigid>()) {
+      const auto found = model_.part_of_id.find(card.id);
+      if (found == model_.part_of_id.end())
+        missing(card, MotionOfRigid::field, "part", card.id, "*PART");
+      else
+        add(card, {}, found->second);
+    }
+    return std::move(motions_);
+  }
+
+ private:
+  void missing(const Entry& card, const char* field, const char* what, Id id, const char* keyword) {
+    deck_.error(diagnostics_, card, field, fmt::format("{} {} does not exist", what, id),
+                fmt::format("define it with {}", keyword));
+  }
+
+  Index node(const MotionOfNode& card) {
+    if (node_of_id_.empty())
+      for (std::size_t n = 0; n < model_.nodes.size(); ++n)
+        node_of_id_.emplace(model_.nodes[n].id, static_cast<Index>(n));
+    const auto found = node_of_id_.find(card.id);
+    if (found != node_of_id_.end()) return found->second;
+    missing(card, MotionOfNode::field, "node", card.id, "*NODE");
+    return -1;
+  }
+
+  bool supported(const MotionCard& card, bool of_body) {
+    const int most = of_body ? first_rotation + 2 : along_vector;
+    const bool direction = card.dof >= 1 && card.dof <= most, kind = card.vad >= 0 && card.vad <= 2;
+    if (!direction)
+      deck_.error(diagnostics_, card, "DOF", fmt::format("'{}' is not supported", card.dof),
+                  fmt::format("supported: 1 to {}", most));
+    if (!kind)
+      deck_.error(diagnostics_, card, "VAD", fmt::format("'{}' is not supported", card.vad),
+                  "supported: 0 to 2; curves of time, in the global system");
+    return direction && kind;
+  }
+
+  void add(const MotionCard& card, std::vector<Index> nodes, Index part) {
+    if (!supported(card, part >= 0)) return;
+    const auto curve = model_.curves.find(card.lcid);
+    if (curve == model_.curves.end()) return missing(card, "LCID", "curve", card.lcid, "*DEFINE_CURVE");
+    PrescribedMotion motion;
+    motion.kind = static_cast<PrescribedMotion::Kind>(card.vad);
+    motion.turns = card.dof >= first_rotation;
+    motion.curve = curve->second;
+    motion.sf = card.sf;
+    motion.birth = card.birth;
+    motion.death = card.death;
+    motion.nodes = std::move(nodes);
+    motion.part = part;
+    motion.card = card;
+    if (card.dof == along_vector) {
+      if (!set_vector(card, motion)) return;
+    } else {
+      motion.direction[motion.turns ? card.dof - first_rotation : card.dof - 1] = 1;
+      if (card.vid != 0)
+        return deck_.error(diagnostics_, card, "VID",
+                           fmt::format("'{}' is not supported with DOF {}: the direction is a global axis",
+                                       card.vid, card.dof),
+                           "leave VID blank, or use DOF 4");
+    }
+    if (motion.kind == PrescribedMotion::Kind::displacement && jumps(motion.curve))
+      return deck_.error(
+          diagnostics_, card, "LCID",
+          fmt::format("curve {} jumps, so that displacements would need an infinite velocity", card.lcid),
+          "give the jump some time");
+    motions_.push_back(std::move(motion));
+  }
+
+  bool set_vector(const MotionCard& card, PrescribedMotion& motion) {
+    const auto vector = model_.vectors.find(card.vid);
+    if (vector == model_.vectors.end()) {
+      missing(card, "VID", "vector", card.vid, "*DEFINE_VECTOR");
+      return false;
+    }
+    const Vec along = vector->second.head - vector->second.tail;
+    const bool usable = !vector->second.moves && along.norm() > 0;
+    if (!usable)
+      deck_.error(
+          diagnostics_, card, "VID",
+          fmt::format("vector {} {}", card.vid,
+                      vector->second.moves ? "turns with nodes, which is not supported" : "has no direction"),
+          "give it by two places that differ");
+    else
+      motion.direction = along.normalized();
+    return usable;
+  }
+
+  static bool jumps(const Curve& curve) {
+    for (std::size_t k = 1; k < curve.abscissa.size(); ++k)
+      if (curve.abscissa[k] == curve.abscissa[k - 1] && curve.ordinate[k] != curve.ordinate[k - 1])
+        return true;
+    return false;
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  Diagnostics& diagnostics_;
+  std::unordered_map<Id, Index> node_of_id_;
+  std::vector<PrescribedMotion> motions_;
+};
+
+}  // namespace
+
+std::vector<PrescribedMotion> prescribed_motions(const Deck& deck, const Model& model,
+                                                 Diagnostics& diagnostics) {
+  return Reader(deck, model, diagnostics).read();
+}
+
+}  // namespace courant

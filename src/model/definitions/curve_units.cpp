@@ -1,0 +1,115 @@
+// Unit factors of curves in files that *INCLUDE_TRANSFORM reads.
+#include <fmt/format.h>
+#include <cstdlib>
+#include <map>
+
+#include "keyword/registry.hpp"
+#include "model/cards.hpp"
+#include "model/transforms/included_entries.hpp"
+
+namespace courant {
+
+namespace {
+
+constexpr CurveDimensions known[] = {
+    {"LOAD_BODY_X", "LCID", "T", "L/T2"},
+    {"LOAD_BODY_VECTOR", "LCID", "T", "L/T2"},
+    {"LOAD_BODY_RX", "LCID", "T", "1/T"},
+    {"LOAD_GRAVITY_PART", "LC", "T", "-"},
+    {"LOAD_NODE_POINT", "LCID", "T", "ML/T2"},
+    {"LOAD_NODE_SET", "LCID", "T", "ML/T2"},
+    {"DAMPING_GLOBAL", "LCID", "T", "1/T"},
+    {"DAMPING_PART_MASS", "LCID", "T", "1/T"},
+    {"CONTROL_TIMESTEP", "LCTM", "T", "T"},
+    {"DATABASE_BINARY_D3PLOT", "LCDT", "T", "T"},
+    {"DATABASE_GLSTAT", "LCUR", "T", "T"},
+    // VAD 0; of the others `of_motion` tells
+    {"BOUNDARY_PRESCRIBED_MOTION_NODE", "LCID", "T", "L/T"},
+    {"BOUNDARY_PRESCRIBED_MOTION_SET", "LCID", "T", "L/T"},
+    {"BOUNDARY_PRESCRIBED_MOTION_RIGID", "LCID", "T", "L/T"},
+};
+
+/// Values by VAD and by what DOF drives: a translation, a rotation.
+constexpr const char* motion_values[3][2] = {{"L/T", "1/T"}, {"L/T2", "1/T2"}, {"L", "-"}};
+
+/// The ordinate's dimension where it depends on other fields of the entry, else nothing.
+const char* of_motion(const KeywordSpec& spec, const Entry& entry) {
+  constexpr std::size_t dof_field = 1, vad_field = 2;
+  if (spec.names[0].rfind("BOUNDARY_PRESCRIBED_MOTION", 0) != 0) return nullptr;
+  const Real dof = spec.number_of(entry, 0, dof_field), vad = spec.number_of(entry, 0, vad_field);
+  if (!(vad >= 0 && vad <= 2)) return nullptr;  // refused later
+  return motion_values[static_cast<int>(vad)][dof >= 5];
+}
+
+struct ConvertedCurve {
+  DefineCurveCard* card = nullptr;
+  Real abscissa = 1, ordinate = 1;
+  Entry user{};  ///< who told the factors
+  bool used = false;
+};
+
+void use(const Deck& deck, const Entry& entry, const KeywordSpec& spec, const IdUse& id,
+         ConvertedCurve& curve, Diagnostics& diagnostics) {
+  const FieldSpec& field = spec.cards[id.card].fields[id.field];
+  if (field.rules.honour != Honour::yes || !spec.lacking.empty()) return;  // no effect, or refused already
+  const CurveDimensions* dimensions = curve_dimensions(spec.names[0], field.name);
+  const char* of_entry = of_motion(spec, entry);
+  const char* hint =
+      "give the curve in the deck's own units: in a file without unit factors, or through SFA and SFO";
+  if (!dimensions) {
+    deck.error(
+        diagnostics, entry, field.name,
+        fmt::format("curve {} stands in a file with unit factors, and the dimensions of its numbers are "
+                    "not known here",
+                    std::abs(id.id)),
+        hint);
+    return;
+  }
+  const UnitFactors& units = deck.files[static_cast<std::size_t>(curve.card->file)].conversion.units;
+  const Real abscissa = units.of(dimensions->abscissa),
+             ordinate = units.of(of_entry ? of_entry : dimensions->ordinate);
+  if (curve.used && (curve.abscissa != abscissa || curve.ordinate != ordinate))
+    deck.error(
+        diagnostics, entry, field.name,
+        fmt::format("curve {} stands in a file with unit factors, and its numbers have another dimension "
+                    "here than for {} at {}",
+                    std::abs(id.id), deck.keyword(curve.user), deck.place(curve.user)),
+        hint);
+  curve.abscissa = abscissa;
+  curve.ordinate = ordinate;
+  curve.user = entry;
+  curve.used = true;
+}
+
+}  // namespace
+
+const CurveDimensions* curve_dimensions(std::string_view keyword, std::string_view field) {
+  for (const CurveDimensions& one : known)
+    if (keyword == one.keyword && field == one.field) return &one;
+  return nullptr;
+}
+
+void convert_curves(Deck& deck, Diagnostics& diagnostics) {
+  std::map<Id, ConvertedCurve> curves;
+  for (DefineCurveCard& card : deck.store<DefineCurveCard>())
+    if (deck.files[static_cast<std::size_t>(card.file)].conversion.units.any())
+      curves[card.lcid].card = &card;
+  if (curves.empty()) return;
+  const auto& registry = keyword_registry();
+  for (std::size_t k = 0; k < registry.size(); ++k) {
+    const KeywordSpec& spec = *registry[k];
+    spec.for_each(deck, static_cast<std::int32_t>(k), [&](const Entry& entry) {
+      spec.for_each_id(entry, [&](const IdUse& id) {
+        if (id.space != IdSpace::curve || id.defines) return;
+        const auto it = curves.find(std::abs(id.id));
+        if (it != curves.end()) use(deck, entry, spec, id, it->second, diagnostics);
+      });
+    });
+  }
+  for (auto& [id, curve] : curves) {
+    curve.card->sfa *= curve.abscissa;
+    curve.card->sfo *= curve.ordinate;
+  }
+}
+
+}  // namespace courant

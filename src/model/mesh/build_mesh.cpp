@@ -1,0 +1,164 @@
+// Nodes, parts and elements.
+#include <fmt/format.h>
+#include <algorithm>
+
+#include "model/model_builder.hpp"
+#include "model/transforms/transformation.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Corners without repetition, as a triangle (last one repeated) or a quad; fewer than three: false.
+bool normalise_corners(std::array<Index, 4>& corner) {
+  std::vector<Index> distinct;
+  for (const Index c : corner)
+    if (std::find(distinct.begin(), distinct.end(), c) == distinct.end()) distinct.push_back(c);
+  if (distinct.size() < 3) return false;
+  for (std::size_t k = 0; k < 4; ++k) corner[k] = distinct[std::min(k, distinct.size() - 1)];
+  return true;
+}
+
+bool has_area(const std::vector<ModelNode>& nodes, const std::array<Index, 4>& corner) {
+  const auto x = [&](std::size_t k) -> const Vec& { return nodes[static_cast<std::size_t>(corner[k])].x; };
+  const Vec d1 = x(2) - x(0), d2 = x(3) == x(2) ? Vec(x(2) - x(1)) : Vec(x(3) - x(1));
+  Real edge2 = 0;
+  for (std::size_t k = 0; k < 4; ++k) edge2 = std::max(edge2, (x((k + 1) % 4) - x(k)).squaredNorm());
+  constexpr Real sliver = 1e-10;  // height over length: below it round-off decides the normal
+  return 0.5 * d1.cross(d2).norm() > sliver * edge2;
+}
+
+}  // namespace
+
+void ModelBuilder::build_nodes() {
+  const auto& cards = deck_.all<NodeCard>();
+  model_.nodes.reserve(cards.size());
+  const auto ids = std::minmax_element(cards.begin(), cards.end(),
+                                       [](const NodeCard& a, const NodeCard& b) { return a.nid < b.nid; });
+  if (!cards.empty()) node_of_id_ = IdIndex(ids.first->nid, ids.second->nid, cards.size());
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    const NodeCard& card = cards[i];
+    if (node_of_id_.insert(card.nid, static_cast<Index>(model_.nodes.size())) >= 0) {
+      if (errors_ >= max_errors) {  // each search runs over all nodes
+        ++errors_;
+        continue;
+      }
+      const auto first =
+          std::find_if(cards.begin(), cards.end(), [&](const NodeCard& c) { return c.nid == card.nid; });
+      duplicate(card, "NID", "node", card.nid, deck_.where(*first));
+      continue;
+    }
+    const Vec x(card.x, card.y, card.z);
+    if (!x.allFinite())
+      error(card, "X", "the coordinates are too large after a change of units or a motion of the file");
+    model_.nodes.push_back({.id = card.nid, .x = x, .v = Vec::Zero(), .fixed = axes_of_code(card.tc)});
+  }
+}
+
+void ModelBuilder::build_parts() {
+  const auto add = [&](const PartCard& card) {
+    if (!model_.part_of_id.try_emplace(card.pid, static_cast<Index>(model_.parts.size())).second)
+      return;  // the reader has refused it
+    ModelPart part;
+    part.id = card.pid;
+    part.title = card.title;
+    part.secid = card.secid;
+    part.mid = card.mid;
+    part.eosid = card.eosid;
+    part.hgid = card.hgid;
+    part.where = deck_.where(card, "PID");
+    part.card = card;
+    model_.parts.push_back(std::move(part));
+  };
+  for (const PartCard& card : deck_.all<PartCard>()) add(card);
+  for (const PartContactCard& card : deck_.all<PartContactCard>()) add(card);
+}
+
+void ModelBuilder::build_particles() {
+  const auto& cards = deck_.all<ElementSphCard>();
+  model_.sph.reserve(cards.size());
+  for (const ElementSphCard& card : cards) {
+    const Index p = part(card, "PID", card.pid);
+    if (card.mass == 0)
+      error(card, "MASS", "the particle has no mass", "give a mass > 0, or a volume as a negative number");
+    if (card.nend != 0 && card.nend < card.nid)
+      error(card, "NEND", fmt::format("expected an id not below NID = {}, got '{}'", card.nid, card.nend));
+    if (p < 0) continue;
+    model_.parts[static_cast<std::size_t>(p)].has_sph = true;
+    const Id last = std::max(card.nid, card.nend);
+    const int before = errors_;
+    // a faulty range may name millions of nodes: the first missing one is enough. Nor need more particles
+    // than nodes be kept: some node has two of them, which check_shared_nodes says
+    for (Id nid = card.nid; nid <= last && errors_ == before && model_.sph.size() <= model_.nodes.size();
+         ++nid)
+      add_particle(card, nid, p);
+  }
+}
+
+void ModelBuilder::add_particle(const ElementSphCard& card, Id nid, Index p) {
+  const Index n = node(card, "NID", nid);
+  if (n < 0) return;
+  model_.sph.push_back({.node = n, .part = p, .mass = card.mass, .card = card});
+}
+
+void ModelBuilder::build_shells() {
+  const auto& cards = deck_.all<ElementShellCard>();
+  std::unordered_map<Id, const ElementShellCard*> first;
+  first.reserve(cards.size());
+  model_.shells.reserve(cards.size());
+  for (const ElementShellCard& card : cards) {
+    const auto [it, is_new] = first.try_emplace(card.eid, &card);
+    if (!is_new) duplicate(card, "EID", "shell", card.eid, deck_.where(*it->second));
+    ModelShell shell;
+    shell.id = card.eid;
+    shell.part = part(card, "PID", card.pid);
+    shell.node = {node(card, "N1", card.n1), node(card, "N2", card.n2), node(card, "N3", card.n3),
+                  card.n4 == 0 ? 0 : node(card, "N4", card.n4)};
+    if (card.n4 == 0) shell.node[3] = shell.node[2];
+    if (shell.part < 0 || *std::min_element(shell.node.begin(), shell.node.end()) < 0) continue;
+    if (!normalise_corners(shell.node) || !has_area(model_.nodes, shell.node)) {
+      error(card, "EID", fmt::format("shell {} has no area", card.eid),
+            "its corners must be three or four points that are not on one line");
+      continue;
+    }
+    ModelPart& p = model_.parts[static_cast<std::size_t>(shell.part)];
+    if (p.has_sph && !p.has_shell)
+      error(card, "PID", fmt::format("part {} has particles already", p.id),
+            "give the shells a part of their own");
+    p.has_shell = true;
+    model_.shells.push_back(shell);
+  }
+}
+
+void ModelBuilder::check_shared_nodes() {
+  constexpr Index nobody = -1;
+  std::vector<Index> owner(model_.nodes.size(), nobody);
+  for (std::size_t i = 0; i < model_.sph.size(); ++i) {
+    Index& o = owner[static_cast<std::size_t>(model_.sph[i].node)];
+    if (o == nobody) {
+      o = static_cast<Index>(i);
+      continue;
+    }
+    if (++errors_ > max_errors) continue;
+    const Id id = model_.nodes[static_cast<std::size_t>(model_.sph[i].node)].id;
+    diagnostics_.error(deck_.where(model_.sph[i].card),
+                       fmt::format("*ELEMENT_SPH: node {} is used by two particles, first at {}", id,
+                                   deck_.place(model_.sph[static_cast<std::size_t>(o)].card)));
+  }
+  std::vector<bool> told(model_.nodes.size(), false);
+  for (const ModelShell& shell : model_.shells) {
+    for (const Index n : shell.node) {
+      const Index o = owner[static_cast<std::size_t>(n)];
+      if (o == nobody || told[static_cast<std::size_t>(n)]) continue;
+      told[static_cast<std::size_t>(n)] = true;
+      if (++errors_ > max_errors) continue;
+      diagnostics_.error(deck_.where(model_.sph[static_cast<std::size_t>(o)].card),
+                         fmt::format("*ELEMENT_SPH: node {} is also a corner of shell {}",
+                                     model_.nodes[static_cast<std::size_t>(n)].id, shell.id),
+                         "give the particle a node of its own");
+    }
+  }
+  check_shared_nodes_of_solids(owner, told);
+}
+
+}  // namespace courant

@@ -1,0 +1,177 @@
+// Solid elements.
+#include <fmt/format.h>
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include "model/mesh/cards_elements.hpp"
+#include "model/model_builder.hpp"
+
+namespace courant {
+
+namespace {
+
+constexpr const char* inside_out = "inside out, or without a volume";
+constexpr std::size_t least_corners = 4, corners_of_hexahedron = 8;
+
+/// What a solid is that is no hexahedron of eight nodes; nullptr for one.
+const char* other_shape(const ModelSolid& solid) {
+  const auto& node = solid.node;
+  if (std::any_of(node.begin() + corners_of_hexahedron, node.end(), [](Index n) { return n >= 0; }))
+    return "a tetrahedron of ten nodes";
+  std::array<Index, corners_of_hexahedron> corner{};
+  std::copy_n(node.begin(), corner.size(), corner.begin());
+  std::sort(corner.begin(), corner.end());
+  const auto begin = std::upper_bound(corner.begin(), corner.end(), Index(-1));
+  switch (std::unique(begin, corner.end()) - begin) {
+    case 4:
+      return "a tetrahedron";
+    case 5:
+      return "a pyramid";
+    case 6:
+      return "a pentahedron";
+    case 7:
+      return "a hexahedron with a node that stands twice";
+    case 8:
+      return nullptr;
+    default:
+      return "of less than four different nodes";
+  }
+}
+
+}  // namespace
+
+void ModelBuilder::build_solids() {
+  const auto& cards = deck_.all<ElementSolidCard>();
+  std::unordered_map<Id, const ElementSolidCard*> first;
+  first.reserve(cards.size());
+  model_.solids.reserve(cards.size());
+  std::vector<bool> told(model_.parts.size(),
+                         false);  // of which parts was said that they hold something else
+  for (const ElementSolidCard& card : cards) {
+    const auto [it, is_new] = first.try_emplace(card.eid, &card);
+    if (!is_new) duplicate(card, "EID", "solid element", card.eid, deck_.where(*it->second));
+    const Id ids[] = {card.n1, card.n2, card.n3, card.n4, card.n5,
+                      card.n6, card.n7, card.n8, card.n9, card.n10};
+    ModelSolid solid;
+    solid.id = card.eid;
+    solid.part = part(card, "PID", card.pid);
+    solid.node.fill(-1);
+    bool whole = solid.part >= 0;
+    for (std::size_t k = 0; k < solid.node.size(); ++k) {
+      if (ids[k] == 0) continue;
+      solid.node[k] = node(card, "EID", ids[k]);
+      whole = whole && solid.node[k] >= 0;
+    }
+    if (std::find(ids, ids + least_corners, 0) != ids + least_corners) {
+      error(card, "EID", fmt::format("solid element {} has less than four nodes", card.eid));
+      whole = false;
+    }
+    if (!whole) continue;
+    add_to_part(card, solid, told);
+    model_.solids.push_back(solid);
+    solid_cards_.push_back(&card);
+  }
+}
+
+void ModelBuilder::add_to_part(const ElementSolidCard& card, const ModelSolid& solid,
+                               std::vector<bool>& told) {
+  const auto index = static_cast<std::size_t>(solid.part);
+  ModelPart& p = model_.parts[index];
+  if (!p.has_sph && !p.has_shell) {
+    p.has_solid = true;
+  } else if (!told[index]) {
+    told[index] = true;
+    error(card, "PID", fmt::format("part {} has {} already", p.id, p.has_sph ? "particles" : "shells"),
+          "give the solids a part of their own");
+  }
+}
+
+/// Once nodes are where the run starts.
+void ModelBuilder::check_solids() {
+  check_solid_shapes();
+  if (const auto* control = deck_.last<ControlSolid>()) check_control_solid(*control);
+}
+
+void ModelBuilder::check_solid_shapes() {
+  // a mesh has many of a kind: the first one of a part stands for all
+  std::map<std::pair<Index, std::string>, std::pair<const ElementSolidCard*, int>> found;
+  std::vector<std::pair<Index, std::string>> order;
+  const auto note = [&](const ElementSolidCard* card, Index part, const char* what) {
+    auto& [first, count] = found[{part, what}];
+    if (++count > 1) return;
+    first = card;
+    order.emplace_back(part, what);
+  };
+  for (std::size_t k = 0; k < model_.solids.size(); ++k) {
+    const ModelSolid& solid = model_.solids[k];
+    const char* shape = other_shape(solid);
+    if (shape)
+      note(solid_cards_[k], solid.part, shape);
+    else if (!(volume_at_centre(solid) > 0))
+      note(solid_cards_[k], solid.part, inside_out);
+  }
+  for (const auto& key : order) {
+    const auto& [card, count] = found[key];
+    const bool turned = key.second == inside_out;
+    const std::string others = count > 1 ? fmt::format(" (and so {} {} more of part {})",
+                                                       count > 2 ? "are" : "is", count - 1, card->pid)
+                                         : "";
+    error(
+        *card, "EID",
+        turned
+            ? fmt::format("solid element {} is {}{}", card->eid, inside_out, others)
+            : fmt::format("solid element {} is {}, which is not supported{}", card->eid, key.second, others),
+        turned
+            ? "N1 to N4 run around one face, counter-clockwise seen from the other one, N5 to N8 stand above "
+              "them"
+            : "solids must be hexahedra: give them eight different nodes");
+  }
+}
+
+/// 8 x the determinant of the Jacobian there: the volume of a parallelepiped [L3].
+Real ModelBuilder::volume_at_centre(const ModelSolid& solid) const {
+  const auto x = [&](std::size_t k) -> const Vec& {
+    return model_.nodes[static_cast<std::size_t>(solid.node[k])].x;
+  };
+  const Vec a = x(1) + x(2) + x(5) + x(6) - x(0) - x(3) - x(4) - x(7),
+            b = x(2) + x(3) + x(6) + x(7) - x(0) - x(1) - x(4) - x(5),
+            c = x(4) + x(5) + x(6) + x(7) - x(0) - x(1) - x(2) - x(3);
+  return a.cross(b).dot(c) / 64;
+}
+
+void ModelBuilder::check_control_solid(const ControlSolid& card) {
+  if (model_.solids.empty()) {
+    if (deck_.all<ElementSolidCard>().empty())
+      diagnostics_.note(deck_.where(card),
+                        fmt::format("{}: the deck has no solids: no effect", deck_.keyword(card)));
+    return;
+  }
+  const auto refuse = [&](const char* field, Id value, const char* what) {
+    if (value != 0)
+      error(card, field, fmt::format("'{}' is not supported: {}", value, what), "leave the field blank");
+  };
+  refuse("ESORT", card.esort,
+         "solids must be hexahedra of formulation 1, and none is turned into another one");
+  refuse("FMATRIX", card.fmatrix, "nothing here follows the deformation gradient");
+  refuse("PSFAIL", card.psfail, "no solid is taken out of the run by its volume");
+}
+
+/// `owner`: the particle that a node carries, or -1. `told`: nodes of which a message was given.
+void ModelBuilder::check_shared_nodes_of_solids(const std::vector<Index>& owner, std::vector<bool>& told) {
+  for (const ModelSolid& solid : model_.solids) {
+    for (const Index n : solid.node) {
+      const Index o = n < 0 ? -1 : owner[static_cast<std::size_t>(n)];
+      if (o < 0 || told[static_cast<std::size_t>(n)]) continue;
+      told[static_cast<std::size_t>(n)] = true;
+      if (++errors_ > max_errors) continue;
+      diagnostics_.error(deck_.where(model_.sph[static_cast<std::size_t>(o)].card),
+                         fmt::format("*ELEMENT_SPH: node {} is also a corner of solid element {}",
+                                     model_.nodes[static_cast<std::size_t>(n)].id, solid.id),
+                         "give the particle a node of its own");
+    }
+  }
+}
+
+}  // namespace courant

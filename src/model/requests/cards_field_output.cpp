@@ -1,0 +1,91 @@
+// Tables of what the field files hold.
+#include "keyword/registry.hpp"
+#include "model/requests/output_cards.hpp"
+
+namespace courant {
+
+namespace {
+
+KeywordOf<DatabaseExtentBinary> database_extent_binary() {
+  using T = DatabaseExtentBinary;
+  return {
+      .names = {"DATABASE_EXTENT_BINARY"},
+      .purpose = "extra fields in d3plot: the field files hold what the run has",
+      .once = true,
+      .many = false,
+      .cards = {
+          {.fields = {{"NEIPH", &T::neiph, "-",
+                       "extra variables of SPH: stress, strain_rate, sound_speed, density_rate",
+                       FieldRules{.check = Check::not_negative}},
+                      {"NEIPS", &T::neips, "-", "extra history variables, shells", no_effect},
+                      {"MAXINT", &T::maxint, "-", "shell integration points written", no_effect_but(3)},
+                      {"STRFLG", &T::strflg, "-", "1 write strain tensor", no_output},
+                      {"SIGFLG", &T::sigflg, "-", "1 stress / plastic strain in", no_effect_but(1)},
+                      {"EPSFLG", &T::epsflg, "-", "1 stress / plastic strain in", no_effect_but(1)},
+                      {"RLTFLG", &T::rltflg, "-", "1 resultants / energy, thickness in", no_effect_but(1)},
+                      {"ENGFLG", &T::engflg, "-", "1 resultants / energy, thickness in", no_effect_but(1)}}},
+          {.fields = {{"CMPFLG", &T::cmpflg, "-", "material axes flag", no_effect},
+                      {"IEVERP", &T::ieverp, "-", "1 one state per file", no_effect},
+                      {"BEAMIP", &T::beamip, "-", "beam integration points", no_effect},
+                      {"DCOMP", &T::dcomp, "-", "rigid-data compression 1-6", no_effect_but(1)},
+                      {"SHGE", &T::shge, "-", "shell hourglass energy 2 on", no_effect_but(1)},
+                      {"STSSZ", &T::stssz, "-", "time step / mass output", no_effect_but(1)},
+                      {"N3THDT", &T::n3thdt, "-", "material energies in d3thdt", no_effect_but(2)},
+                      {"IALEMAT", &T::ialemat, "-", "ALE part list", no_effect_but(1)}},
+           .optional = true},
+          {.fields = {{"NINTSLD", &T::nintsld, "-", "solid points written 1 or 8", no_effect},
+                      {"PKP_SEN", &T::pkp_sen, "-", "peak pressure and energy in intfor", no_effect},
+                      {"SCLP", &T::sclp, "-", "scale on that", no_effect_but(1)},
+                      {"HYDRO", &T::hydro, "-", "1 adds 3, 2 adds 5 shock variables", no_effect},
+                      {"MSSCL", &T::msscl, "-", "added-mass output", no_effect},
+                      {"THERM", &T::therm, "-", "thermal output", no_effect},
+                      {"INTOUT", &T::intout, "-", "detailed element output words", no_effect},
+                      {"NODOUT", &T::nodout, "-", "detailed element output words", no_effect}},
+           .optional = true},
+          {.fields = {{"DTDT", &T::dtdt, "-", "temperature rate", no_effect},
+                      {"RESPLT", &T::resplt, "-", "1 writes the array force", FieldRules{.allowed = {0, 1}}},
+                      {"NEIPB", &T::neipb, "-", "beam history variables", no_effect},
+                      {"QUADSLD", &T::quadsld, "-", "higher-order solids output", no_effect},
+                      {"CUBSLD", &T::cubsld, "-", "higher-order solids output", no_effect},
+                      {"DELERES", &T::deleres, "-", "results of deleted elements", no_effect}},
+           .optional = true}}};
+}
+const RegisterKeyword<DatabaseExtentBinary> database_extent_binary_keyword{database_extent_binary()};
+
+using C = CourantOutputCard;
+const FieldRules share{.standard = -1, .zero_is_standard = false};
+const FieldRules choice{.standard = -1, .zero_is_standard = false};
+const RegisterKeyword<C> courant_output{
+    {.names = {"COURANT_OUTPUT"},
+     .purpose = "content, precision and packing of the field files",
+     .once = true,
+     .many = false,
+     .cards = {
+         {.fields = {{"SMALL",
+                      &C::small,
+                      "-",
+                      "1 small files: few arrays, rounded, packed by xz",
+                      {.allowed = {0, 1}}},
+                     {"BITS", &C::bits, "-", "of real numbers", {.standard = 32, .allowed = {32, 64}}},
+                     {"COMP", &C::comp, "-", "packing: 0 none, 1 zlib, 2 xz; -1 is 1, with SMALL 2", choice},
+                     {"LEVEL", &C::level, "-", "0 fast to 9 small; -1 is 1, with SMALL 2", choice},
+                     {"EPS", &C::eps, "-",
+                      "error of values, of the range of their array; -1 is 0, with SMALL 1/256", share},
+                     {"EPSX", &C::epsx, "-", "error of places, of h; -1 is 0, with SMALL 1/64", share},
+                     {"PSET",
+                      &C::pset,
+                      "-",
+                      "parts to write, 0 all",
+                      {.check = Check::not_negative, .refers = IdSpace::part_set}},
+                     {"BOXID",
+                      &C::boxid,
+                      "-",
+                      "box in which particles are written, 0 everywhere",
+                      {.check = Check::not_negative, .refers = IdSpace::box}}}},
+         {.fields = {{"FIELDS", &C::fields, "-", "arrays of particles, by name", {.width = 20}}},
+          .optional = true,
+          .repeat = true}}}};
+
+}  // namespace
+
+}  // namespace courant

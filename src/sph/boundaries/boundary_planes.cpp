@@ -1,0 +1,185 @@
+// *BOUNDARY_SPH_SYMMETRY_PLANE and *BOUNDARY_SPH_PERIODIC: planes behind which particles have images.
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "sph/boundaries/injection.hpp"
+#include "sph/sph.hpp"
+
+namespace courant {
+
+namespace {
+
+using namespace rules;
+
+struct BoundarySphSymmetryPlane : Entry {
+  Real vtx = 0, vty = 0, vtz = 0, vhx = 0, vhy = 0, vhz = 0;
+};
+KeywordOf<BoundarySphSymmetryPlane> boundary_sph_symmetry_plane() {
+  using T = BoundarySphSymmetryPlane;
+  return {
+      .names = {"BOUNDARY_SPH_SYMMETRY_PLANE"},
+      .purpose = "plane that mirrors particles: a frictionless wall that neither lacks neighbours nor leaks",
+      .cards = {{.fields = {{"VTX", &T::vtx, "L", "tail: a point on the plane", point},
+                            {"VTY", &T::vty, "L", "tail: a point on the plane"},
+                            {"VTZ", &T::vtz, "L", "tail: a point on the plane"},
+                            {"VHX", &T::vhx, "L", "head: from the tail into the material", point},
+                            {"VHY", &T::vhy, "L", "head: from the tail into the material"},
+                            {"VHZ", &T::vhz, "L", "head: from the tail into the material"}}}}};
+}
+const RegisterKeyword<BoundarySphSymmetryPlane> symmetry_keyword{boundary_sph_symmetry_plane()};
+
+struct BoundarySphPeriodic : Entry {
+  Id vid1 = 0, vid2 = 0;
+};
+KeywordOf<BoundarySphPeriodic> boundary_sph_periodic() {
+  using T = BoundarySphPeriodic;
+  return {.names = {"BOUNDARY_SPH_PERIODIC"},
+          .purpose = "two planes: what leaves through one enters through the other",
+          .cards = {
+              {.fields = {{"VID1", &T::vid1, "-", "vector from a point on the first plane into the material",
+                           required_id_of(IdSpace::vector)},
+                          {"VID2", &T::vid2, "-", "the same for the second plane, in the opposite direction",
+                           required_id_of(IdSpace::vector)}}}}};
+}
+const RegisterKeyword<BoundarySphPeriodic> periodic_keyword{boundary_sph_periodic()};
+
+class PlaneBuilder {
+ public:
+  PlaneBuilder(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {}
+
+  std::vector<ImagePlane> build(const SphSettings& settings, Real reach) {
+    for (const auto& card : deck_.all<BoundarySphSymmetryPlane>()) add_mirror(card);
+    for (const auto& card : deck_.all<BoundarySphPeriodic>()) {
+      if (first_injection(deck_))
+        diagnostics_.error(deck_.where(card), "*BOUNDARY_SPH_PERIODIC: not beside an inlet of particles",
+                           "use symmetry planes");
+      if (settings.region)
+        diagnostics_.error(deck_.where(card),
+                           "*BOUNDARY_SPH_PERIODIC: not beside a computational box (BOXID)",
+                           "leave BOXID of *CONTROL_SPH blank, or use symmetry planes");
+      add_periodic(card);
+    }
+    if (diagnostics_.ok()) check_together(reach);
+    if (diagnostics_.ok()) check_particles();
+    return planes_;
+  }
+
+ private:
+  void add_mirror(const BoundarySphSymmetryPlane& c) {
+    const Vec tail(c.vtx, c.vty, c.vtz), head(c.vhx, c.vhy, c.vhz);
+    if (!normal_is_good(c, tail, head)) return;
+    add({ImagePlane::Kind::mirror, tail, (head - tail).normalized(), 0}, c);
+  }
+
+  void add_periodic(const BoundarySphPeriodic& c) {
+    const auto first = model_.vectors.find(c.vid1), second = model_.vectors.find(c.vid2);
+    for (const auto& [found, field, id] : {std::tuple{first, "VID1", c.vid1}, {second, "VID2", c.vid2}}) {
+      if (found == model_.vectors.end())
+        return deck_.error(diagnostics_, c, field, fmt::format("vector {} does not exist", id),
+                           "define it with *DEFINE_VECTOR");
+      if (found->second.moves)
+        return deck_.error(diagnostics_, c, field, fmt::format("vector {} moves with nodes", id),
+                           "give the plane by *DEFINE_VECTOR");
+      if (!normal_is_good(c, found->second.tail, found->second.head)) return;
+    }
+    const Vec n = (first->second.head - first->second.tail).normalized(),
+              other = (second->second.head - second->second.tail).normalized();
+    const Real period = (second->second.tail - first->second.tail).dot(n);
+    if ((n + other).norm() > parallel || !(period > 0))
+      return deck_.error(diagnostics_, c, "VID2",
+                         "the planes of VID1 and VID2 do not face each other: expected vectors in opposite "
+                         "directions, each from its plane towards the other",
+                         "*DEFINE_VECTOR: tail on the plane, head inside");
+    add({ImagePlane::Kind::periodic, first->second.tail, n, period}, c);
+  }
+
+  bool normal_is_good(const Entry& card, const Vec& tail, const Vec& head) {
+    const Vec n = head - tail;
+    const bool in_plane = world_.dim == 3 || std::abs(n[2]) <= parallel * n.norm();
+    if (n.norm() > 0 && in_plane) return true;
+    diagnostics_.error(
+        deck_.where(card),
+        fmt::format("{}: {}", deck_.keyword(card),
+                    in_plane ? "tail and head of the vector are the same point"
+                             : "in 2D the plane must stand upright on the plane of the particles: "
+                               "the vector points out of it"),
+        "give a vector from a point on the plane into the material");
+    return false;
+  }
+
+  std::string place(const Entry& card) const {
+    const Location at = deck_.where(card);
+    return fmt::format("{}:{}", at.file, at.line);
+  }
+
+  void add(ImagePlane plane, const Entry& card) {
+    planes_.push_back(std::move(plane));
+    cards_.push_back(&card);
+  }
+
+  void check_together(Real reach) {
+    for (std::size_t a = 0; a < planes_.size(); ++a) {
+      if (planes_[a].period > 0 && planes_[a].period < reach) report_narrow(a, planes_[a].period, reach);
+      for (std::size_t b = 0; b < a; ++b) check_pair(a, b, reach);
+    }
+  }
+
+  void check_pair(std::size_t a, std::size_t b, Real reach) {
+    const Real cosine = planes_[a].normal.dot(planes_[b].normal);
+    if (std::abs(cosine) <= parallel) return;
+    const Real apart = std::abs((planes_[a].point - planes_[b].point).dot(planes_[a].normal));
+    const bool mirrors = planes_[a].period == 0 && planes_[b].period == 0;
+    if (std::abs(cosine + 1) <= parallel && mirrors) {
+      if (apart < reach) report_narrow(a, apart, reach);
+      return;
+    }
+    diagnostics_.error(deck_.where(*cards_[a]),
+                       fmt::format("{}: the plane stands neither upright on that of {} nor opposite to it",
+                                   deck_.keyword(*cards_[a]), place(*cards_[b])),
+                       "planes with images must be at right angles, or face each other");
+  }
+
+  void report_narrow(std::size_t a, Real apart, Real reach) {
+    diagnostics_.error(
+        deck_.where(*cards_[a]),
+        fmt::format("{}: the planes are {:.4g} [L] apart; particles reach {:.4g}, and would see images twice",
+                    deck_.keyword(*cards_[a]), apart, reach),
+        "make the domain wider or h smaller");
+  }
+
+  void check_particles() {
+    const Particles& p = world_.particles;
+    for (std::size_t k = 0; k < planes_.size(); ++k)
+      for (Index i = 0; i < p.size(); ++i) {
+        const Real d = (p.x.vec(i) - planes_[k].point).dot(planes_[k].normal);
+        if (d >= 0 && (planes_[k].period == 0 || d < planes_[k].period)) continue;
+        diagnostics_.error(deck_.where(model_.sph[i].card),
+                           fmt::format("{}: particle {} stands behind the plane of {}",
+                                       deck_.keyword(model_.sph[i].card), p.id[i], place(*cards_[k])),
+                           "the vector of the plane points into the material");
+        break;
+      }
+  }
+
+  static constexpr Real parallel = 1e-9;
+  const Deck& deck_;
+  const Model& model_;
+  const World& world_;
+  Diagnostics& diagnostics_;
+  std::vector<ImagePlane> planes_;
+  std::vector<const Entry*> cards_;
+};
+
+}  // namespace
+
+std::vector<ImagePlane> build_image_planes(const Deck& deck, const Model& model, const SphSettings& settings,
+                                           Real reach, const World& world, Diagnostics& diagnostics) {
+  return PlaneBuilder(deck, model, world, diagnostics).build(settings, reach);
+}
+
+}  // namespace courant

@@ -1,0 +1,403 @@
+// *COURANT_WALL_SUPPORT: what walls of shells add to sums that they cut off, and their skin friction.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "keyword/registry.hpp"
+#include "model/mesh/named_parts.hpp"
+#include "parallel/parallel.hpp"
+#include "sph/boundaries/wall_support.hpp"
+#include "sph/cards.hpp"
+#include "sph/core/fields.hpp"
+#include "surfaces/face_forces.hpp"
+
+namespace courant {
+
+namespace {
+
+const RegisterKeyword<CourantWallSupport> wall_support_keyword{
+    {.names = {"COURANT_WALL_SUPPORT"},
+     .purpose = "completes the sums of particles beside shells, still or moving; skin friction of the shells",
+     .cards = {{.fields = {{"SURFB",
+                            &CourantWallSupport::surfb,
+                            "-",
+                            "the shells: a part or a set of parts",
+                            {.required = true, .check = Check::positive},
+                            [](const CourantWallSupport& c) {
+                              return c.surfbtyp == 2 ? IdSpace::part_set : IdSpace::part;
+                            }},
+                           {"SURFBTYP",
+                            &CourantWallSupport::surfbtyp,
+                            "-",
+                            "2 part set, 3 part",
+                            {.standard = 3, .allowed = {2, 3}}},
+                           {"CF",
+                            &CourantWallSupport::cf,
+                            "-",
+                            "skin friction: shear stress over rho v^2/2; 0: the wall is smooth",
+                            {.check = Check::not_negative}}}}}}};
+
+constexpr Real points_per_h = 4;  ///< the kernel's integral over a plane is then right to 1e-5 from 0.3 h on
+constexpr Real most_points_per_h = 16;  ///< of the largest h, where h differs
+
+}  // namespace
+
+WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& neighbours)
+    : dim_(s.dim),
+      evolving_h_(s.evolving_h),
+      table_(s.kernel, s.dim),
+      slope_(sph_fields::wall_slope(world.particles)),
+      fill_(sph_fields::wall_fill(world.particles)),
+      pressure_(std::holds_alternative<BulkViscosity>(s.viscosity)
+                    ? sph_fields::pressure_plus_q(world.particles)
+                    : world.particles.p),
+      rubbing_(sph_fields::wall_rubbing(world.particles)),
+      neighbours_(neighbours),
+      walls_(s.walls) {
+  moves_.assign(static_cast<std::size_t>(world.segments.size()), 0);
+  for (const Index segment : walls_.segments)
+    for (const Index n : world.segments.nodes(segment))
+      if (!world.nodes.held[n]) moves_[static_cast<std::size_t>(segment)] = 1;
+  any_moves_ = std::count(moves_.begin(), moves_.end(), 1) > 0;
+  if (any_moves_) velocity_ = &sph_fields::wall_velocity(world.particles);
+  if (s.renormalised) {
+    moment_ = &sph_fields::wall_moment(world.particles);
+    gradient_ = &sph_fields::wall_gradient(world.particles);
+    excess_ = &sph_fields::renormalisation(world.particles);
+  }
+  measure_h(world);
+  rebuild(world);
+}
+
+void WallSupport::rebuild(const World& world) {
+  const Real spacing = std::max(least_h_ / points_per_h, most_h_ / most_points_per_h);
+  surface_.emplace(world, walls_.segments, spacing, table_.support() * most_h_ + neighbours_.largest_skin(),
+                   walls_.planes);
+  cf_.clear();
+  for (Index f = 0; f < surface_->faces(); ++f) {
+    cf_.push_back(walls_.cf[surface_->segment_of(f)]);
+    one_cf_ &= cf_.back() == cf_.front();
+    rubs_ |= cf_.back() > 0;
+  }
+}
+
+void WallSupport::measure_h(const World& world) {
+  const auto& h = world.particles.h;
+  most_h_ = maximum(world.particles.size(), [&](Index i) { return h[i]; });
+  least_h_ = -maximum(world.particles.size(), [&](Index i) { return -h[i]; });
+}
+
+void WallSupport::declare(const World& world, Accesses& a) const {
+  const Particles& p = world.particles;
+  a.reads(p.x).reads(p.v).reads(p.h).reads_before(p.rho).updates(p.drhodt);
+  a.updates(slope_).updates(fill_).updates(rubbing_);
+  if (moment_) a.updates(*moment_).updates(*gradient_);
+  if (!any_moves_) return;
+  a.updates(*velocity_).reads(p.x, Reach::others);
+  const Segments& s = world.segments;
+  a.in_start().reads(world.nodes.x).reads(world.nodes.v);
+  a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
+}
+
+void WallSupport::start(World& world, const Clock&) {
+  if (any_moves_) rebuild(world);
+}
+
+void WallSupport::block(World& world, const Clock& clock, Index begin, Index end) {
+  Particles& p = world.particles;
+  for (Index i = begin; i < end; ++i) {
+    if (any_moves_ && (view_[i] = look(p, i)) == nothing) set(i, {});
+    if (view_[i] == nothing) continue;
+    const Vec x = p.x.vec(i), v = p.v.vec(i);
+    const Real half_step = 0.5 * clock.dt_old;
+    const Sums sums = view_[i] >= 0 ? sums_over_plane(view_[i], p.h[i], x, v, half_step)
+                                    : sums_over_points(p.h[i], x, v, half_step);
+    set(i, sums);
+    p.drhodt[i] += 2 * p.rho[i] * sums.squeeze;
+  }
+}
+
+void WallSupport::set(Index i, const Sums& sums) {
+  slope_.set(i, sums.slope);
+  fill_[i] = sums.fill, rubbing_[i] = sums.rubbing;
+  if (velocity_) velocity_->set(i, sums.wall_velocity);
+  if (!moment_) return;
+  moment_->set_tensor(i, sums.moment);
+  gradient_->set_tensor(i, sums.gradient);
+}
+
+Vec WallSupport::corrected_slope(Index i) const {
+  const Vec b = slope_.vec(i);
+  return excess_ ? Vec(b + excess_->tensor(i) * b) : b;
+}
+
+Vec WallSupport::force_on(const Particles& p, Index i) const {
+  return friction_on(p, i, p.v.vec(i)) - (2 * p.m[i] / p.rho[i] * pressure_[i]) * corrected_slope(i);
+}
+
+void WallSupport::declare_force(const World& world, Accesses& a) const {
+  const Particles& p = world.particles;
+  a.reads(p.v).reads(p.m).reads(p.rho).reads(pressure_).reads(slope_).reads(rubbing_).updates(p.f);
+  if (excess_) a.reads(*excess_);
+  const Segments& s = world.segments;
+  if (any_moves_) {
+    a.reads(*velocity_).reads(p.x).reads(p.h);
+    a.in_finish().updates(s.contact_force).updates(world.nodes.f);
+    a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
+  }
+  a.in_start().reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
+  a.updates(s.contact_force).updates(world.nodes.f);
+}
+
+void WallSupport::add_reactions(const Particles& p, Index i, std::vector<Reaction>& to) const {
+  const Vec friction = friction_on(p, i, p.v.vec(i));
+  const Real twice_pV = 2 * p.m[i] / p.rho[i] * pressure_[i];
+  const Matrix B = excess_ ? Matrix(Matrix::Identity() + excess_->tensor(i)) : Matrix(Matrix::Identity());
+  const std::size_t first = to.size();
+  surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
+    const Index segment = surface_->segment_of(q.face);
+    if (!moves_[static_cast<std::size_t>(segment)]) return;
+    const Real W = kernel(p.h[i], q.x - p.x.vec(i));
+    Vec force = twice_pV * W * (B * away);
+    if (rubbing_[i] > 0) force -= cf_[q.face] * away.norm() * W / rubbing_[i] * friction;
+    force = surface_->from_image(q.face, force);
+    auto known = std::find_if(to.begin() + static_cast<std::ptrdiff_t>(first), to.end(),
+                              [segment](const Reaction& r) { return r.segment == segment; });
+    if (known == to.end()) {
+      to.push_back({segment, {Vec::Zero(), Vec::Zero(), Vec::Zero(), Vec::Zero()}});
+      known = to.end() - 1;
+    }
+    for (std::size_t e = 0; e < 4; ++e) known->on_node[e] += q.weight[e] * force;
+  });
+}
+
+void WallSupport::refreshed(World& world, const Clock&, std::span<const Index>) {
+  Particles& p = world.particles;
+  if (evolving_h_) {
+    measure_h(world);
+    rebuild(world);
+  }
+  view_.assign(p.active, nothing);
+  for_each(p.active, [&](Index i) {
+    view_[i] = look(p, i);
+    set(i, {});
+  });
+}
+
+Index WallSupport::look(const Particles& p, Index i) const {
+  const WallSurface::View view = surface_->view_from(p.x.vec(i));
+  if (view.nothing || is_spray(p, i)) return nothing;
+  return one_cf_ && !any_moves_ && view.flat >= 0 ? view.flat : pieces;
+}
+
+void WallSupport::keep(Archive& archive) {
+  archive("view", view_);
+  if (!evolving_h_) return;
+  archive("least_h", least_h_);
+  archive("most_h", most_h_);
+}
+
+void WallSupport::record(World& world, const Clock& clock, EnergyLedger& ledger) {
+  if (!rubs_) return;
+  const Particles& p = world.particles;
+  const Real power = sum(p.active, [&](Index i) {
+    const Vec v = p.v.vec(i) + 0.5 * clock.dt_mean() / p.m[i] * p.f.vec(i);
+    const Vec over_wall = velocity_ ? Vec(v - velocity_->vec(i)) : v;
+    return is_near(i) ? -friction_on(p, i, p.v.vec(i)).dot(over_wall) : Real(0);
+  });
+  ledger.dissipated += power * clock.dt_mean();
+  ledger.throughput += std::abs(power) * clock.dt_mean();
+}
+
+InterfaceForce WallSupport::report(const World& world) const {
+  InterfaceForce out;
+  out.title = name();
+  for (Index i = 0; i < world.particles.active; ++i)
+    if (is_near(i)) out.on_surfa += force_on(world.particles, i);
+  return out;
+}
+
+void WallSupport::show_forces(World& world) {
+  if (!shown_.empty()) return;
+  const Particles& p = world.particles;
+  const auto give = [&](Index segment, const Vec& force) {
+    if (moves_[static_cast<std::size_t>(segment)]) return;  // it has its force already
+    world.segments.contact_force.add(segment, force);
+    for (const Index n : world.segments.nodes(segment)) world.nodes.f.add(n, 0.25 * force);
+    if (shown_.empty() || shown_.back() != segment) shown_.push_back(segment);
+  };
+  for (Index i = 0; i < p.active; ++i) {
+    if (!is_near(i)) continue;
+    const Vec force = force_on(p, i);
+    Real weight = 0;
+    surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
+      weight += away.norm() * kernel(p.h[i], q.x - p.x.vec(i));
+    });
+    if (!(weight > 0)) continue;
+    surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
+      const Real share = away.norm() * kernel(p.h[i], q.x - p.x.vec(i)) / weight;
+      give(surface_->segment_of(q.face), -share * force);
+    });
+  }
+}
+
+void WallSupport::take_back_forces(World& world) {
+  for (const Index s : shown_) {
+    world.segments.contact_force.set(s, Vec::Zero());
+    for (const Index n : world.segments.nodes(s)) world.nodes.f.set(n, Vec::Zero());
+  }
+  shown_.clear();
+}
+
+bool WallSupport::is_spray(const Particles& p, Index i) const {
+  const Real reach2 = power<2>(table_.support() * p.h[i] + neighbours_.skin());
+  int others = 0;
+  for (const Index j : neighbours_.of_group(i / Neighbours::lanes)) {
+    if (j != i && (p.x.vec(j) - p.x.vec(i)).squaredNorm() < reach2) ++others;
+    if (others == dim_) return false;
+  }
+  return true;
+}
+
+Vec WallSupport::friction_on(const Particles& p, Index i, const Vec& v) const {
+  if (!(rubbing_[i] > 0)) return Vec::Zero();
+  const Vec over_wall = velocity_ ? Vec(v - velocity_->vec(i)) : v;
+  const Vec n = slope_.vec(i).normalized(), along = over_wall - over_wall.dot(n) * n;
+  return -(p.m[i] * rubbing_[i] * along.norm()) * along;
+}
+
+WallSupport::Sums WallSupport::sums_over_points(Real h, const Vec& x, const Vec& v, Real half_step) const {
+  Sums s;
+  Real weight = 0;
+  surface_->for_each_seen(x, [&](const WallPoint& q, const Vec& away) {
+    const Vec d = q.x - x, u = v - q.v;
+    const Real W = kernel(h, d), before = kernel(h, d + half_step * u), behind = volume_behind(h, d, away);
+    s.slope += away * W;
+    s.squeeze += u.dot(away) * before;
+    s.fill += behind;
+    s.rubbing += cf_[q.face] * away.norm() * W;
+    if (velocity_) s.wall_velocity += away.norm() * W * q.v, weight += away.norm() * W;
+    if (!moment_) return;
+    s.moment += W * d * away.transpose();
+    s.gradient += before * (u * away.transpose() + away * u.transpose());
+  });
+  if (weight > 0) s.wall_velocity /= weight;
+  if (moment_) s.moment = 0.5 * (s.moment + s.moment.transpose().eval()) + s.fill * Matrix::Identity();
+  return s;
+}
+
+WallSupport::Sums WallSupport::sums_over_plane(Index face, Real h, const Vec& x, const Vec& v,
+                                               Real half_step) const {
+  const Vec away = surface_->away(face, x);
+  const Real d = surface_->distance(face, x), W = table_.plane(d / h) / h;
+  const Real before = table_.plane(surface_->distance(face, x - half_step * v) / h) / h;
+  Sums s{.slope = W * away,
+         .squeeze = before * v.dot(away),
+         .fill = table_.behind(d / h),
+         .rubbing = cf_[face] * W};
+  if (!moment_) return s;
+  s.moment = d * W * away * away.transpose() + s.fill * Matrix::Identity();
+  s.gradient = before * (v * away.transpose() + away * v.transpose());
+  return s;
+}
+
+Real WallSupport::kernel(Real h, const Vec& d) const {
+  return table_.kernel(d.norm() / h) / (dim_ == 2 ? power<2>(h) : power<3>(h));
+}
+
+/// Of the kernel's integral, what lies in the shadow of a piece of wall. Nearer than the pieces are large,
+/// r is that of their edge.
+Real WallSupport::volume_behind(Real h, const Vec& d, const Vec& away) const {
+  const Real r = std::max(d.norm(), 0.3 * h / points_per_h), R = r / h;
+  return away.dot(d) / power<2>(r) * table_.tail(R) / (dim_ == 2 ? 1 : r);
+}
+
+namespace {
+
+/// Walls that move get what particles lose; the sums over particles are worked out on all threads and given
+/// to the segments one after the other.
+class WallSupportForce : public Force {
+ public:
+  explicit WallSupportForce(std::shared_ptr<WallSupport> support) : support_(std::move(support)) {}
+  std::string name() const override { return "wall support (forces)"; }
+  void declare(const World& world, Accesses& a) const override { support_->declare_force(world, a); }
+  void start(World& world, const Clock&) override {
+    support_->take_back_forces(world);
+    reactions_.resize(static_cast<std::size_t>(block_count(world.particles.active)));
+  }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    Particles& p = world.particles;
+    auto& reactions = reactions_[static_cast<std::size_t>(begin / block_size)];
+    reactions.clear();
+    for (Index i = begin; i < end; ++i) {
+      if (!support_->is_near(i)) continue;
+      p.f.add(i, support_->force_on(p, i));
+      if (support_->any_moves()) support_->add_reactions(p, i, reactions);
+    }
+  }
+  void finish(World& world, const Clock&) override {
+    for (const auto& block : reactions_)
+      for (const WallSupport::Reaction& r : block) {
+        const auto nodes = world.segments.nodes(r.segment);
+        for (std::size_t e = 0; e < 4; ++e) {
+          world.segments.contact_force.add(r.segment, r.on_node[e]);
+          world.nodes.f.add(nodes[e], r.on_node[e]);
+        }
+      }
+  }
+
+ private:
+  std::shared_ptr<WallSupport> support_;
+  std::vector<std::vector<WallSupport::Reaction>> reactions_;  ///< of each block
+};
+
+/// Warns where contact, which acts at half the thickness, does not hold particles half a spacing from the
+/// wall.
+void check_thickness(const CourantWallSupport& c, Real thickness, const Deck& deck, const World& world,
+                     Diagnostics& diagnostics) {
+  const Particles& p = world.particles;
+  const Real dx = p.size() > 0 ? std::pow(p.m[0] / p.rho[0], 1.0 / world.dim) : 0;
+  if (std::abs(thickness / dx - 1) > 0.1)
+    diagnostics.warning(
+        deck.where(c),
+        fmt::format("*COURANT_WALL_SUPPORT: contact holds particles {:g} off the middle of the "
+                    "shells, where the sums are complete for {:g}, half a spacing",
+                    0.5 * thickness, 0.5 * dx),
+        "let the shells be one spacing of the particles thick");
+}
+
+}  // namespace
+
+void read_supported_walls(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
+                          Diagnostics& diagnostics) {
+  SupportedWalls& walls = settings.walls;
+  walls.cf.assign(world.segments.size(), -1);
+  for (const auto& c : deck.all<CourantWallSupport>()) {
+    const std::vector<char> chosen =
+        shell_parts_named(deck, model, c, "SURFB", c.surfb, c.surfbtyp, diagnostics);
+    Real thickness = 0;
+    for (Index s = 0; s < world.segments.size(); ++s) {
+      if (!chosen[world.segments.part[s]]) continue;
+      thickness = world.segments.thickness[s];
+      if (walls.cf[s] >= 0) {
+        deck.error(diagnostics, c, "SURFB",
+                   fmt::format("part {} is named twice", model.parts[world.segments.part[s]].id),
+                   "name each part by one card");
+        return;
+      }
+      walls.segments.push_back(s);
+      walls.cf[s] = c.cf;
+    }
+    if (thickness > 0) check_thickness(c, thickness, deck, world, diagnostics);
+  }
+}
+
+void add_wall_support(const SphSettings& s, World& world, Neighbours& neighbours) {
+  neighbours.need_whole_lists();
+  const auto support = world.passes.add(std::make_shared<WallSupport>(s, world, neighbours));
+  if (support->any_moves()) add_clear_face_forces(world);
+  world.passes.add(std::make_shared<WallSupportForce>(support));
+}
+
+}  // namespace courant

@@ -1,0 +1,107 @@
+#pragma once
+// What walls of shells add to the sums of particles that they cut off.
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sph/boundaries/wall_surface.hpp"
+#include "sph/boundaries/wall_tables.hpp"
+#include "sph/sph.hpp"
+#include "state/keeper.hpp"
+#include "state/reports.hpp"
+
+namespace courant {
+
+/// The sums of a particle beside a wall lack what is behind it. With the divergence theorem that is an
+/// integral over the wall (De Leffe et al. 2009): b_i = int n W dS, n out of the water. Behind it stands the
+/// mirror image of particle i itself, with its pressure and the opposite velocity through the wall, that of
+/// the wall being w:
+///   d rho_i/dt += 2 rho_i int (v_i - w).n W dS,   f_i -= 2 V_i p_i b_i, p with that of bulk viscosity.
+/// The second is what belongs to the first, so that energy is kept. Where gradients are renormalised, walls
+/// complete the moment matrix by int (x' - x_i) (x) n W dS + 1 int W dV behind the wall, and its inverse B
+/// stands before b and n as before other gradients. Friction: tau = CF rho |v - w|^2/2 along the wall, given
+/// to the particles that see it, whose kernels make up half of 1 there.
+///
+/// Walls that move get what particles lose, piece by piece, on the nodes of the segment as it interpolates.
+///
+/// Spray, which has fewer neighbours than it takes to span the plane or space, has no sums to complete;
+/// contact alone holds it off. Else its own mirror image would hold a drop to the wall by tension, for ever,
+/// and the drop would swing against the stiff contact until it is driven through.
+class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keeper, public WallForceReporter {
+ public:
+  WallSupport(const SphSettings& s, World& world, const Neighbours& neighbours);
+  std::string name() const override { return "wall support"; }
+  void declare(const World& world, Accesses& a) const override;
+  void start(World& world, const Clock& clock) override;
+  void block(World& world, const Clock& clock, Index begin, Index end) override;
+
+  /// Force of the walls on a particle, pressure and friction.
+  Vec force_on(const Particles& p, Index i) const;
+  void declare_force(const World& world, Accesses& a) const;
+  bool is_near(Index i) const { return view_[i] != nothing; }
+  bool any_moves() const { return any_moves_; }
+
+  /// What a particle does to a segment that moves.
+  struct Reaction {
+    Index segment;
+    std::array<Vec, 4> on_node;  ///< forces [ML/T2]
+  };
+  /// Appends those of particle i.
+  void add_reactions(const Particles& p, Index i, std::vector<Reaction>& to) const;
+
+  void refreshed(World& world, const Clock&, std::span<const Index>) override;
+  void keep(Archive& archive) override;
+  void relist(World& world) override { rebuild(world); }
+
+  // What friction takes over the step, by the mean of the velocities before and after the kick.
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
+  void sample(const World&, const Clock&, EnergyLedger&) const override {}
+
+  InterfaceForce report(const World& world) const override;
+  /// Shares the force on a particle among the shells that it sees and that do not move.
+  void show_forces(World& world) override;
+  void take_back_forces(World& world);
+
+ private:
+  struct Sums {
+    Vec slope = Vec::Zero(), wall_velocity = Vec::Zero();
+    Real squeeze = 0;  ///< int (v - w).n W dS in the middle of the step [1/T]
+    Real fill = 0, rubbing = 0;
+    Matrix moment = Matrix::Zero(), gradient = Matrix::Zero();
+  };
+  void rebuild(const World& world);
+  void measure_h(const World& world);
+  Index look(const Particles& p, Index i) const;
+  bool is_spray(const Particles& p, Index i) const;
+  void set(Index i, const Sums& sums);
+  Vec corrected_slope(Index i) const;
+  Vec friction_on(const Particles& p, Index i, const Vec& v) const;
+  Sums sums_over_points(Real h, const Vec& x, const Vec& v, Real half_step) const;
+  Sums sums_over_plane(Index face, Real h, const Vec& x, const Vec& v, Real half_step) const;
+  Real kernel(Real h, const Vec& d) const;
+  Real volume_behind(Real h, const Vec& d, const Vec& away) const;
+
+  int dim_;
+  bool evolving_h_, any_moves_ = false;
+  WallTables table_;
+  Field<Real>&slope_, &fill_;
+  Field<Real>& pressure_;  ///< with that of bulk viscosity, as pair forces take it
+  Field<Real>& rubbing_;
+  Field<Real>* velocity_ = nullptr;                                         ///< where walls move
+  Field<Real>*moment_ = nullptr, *gradient_ = nullptr, *excess_ = nullptr;  ///< where forms are renormalised
+  const Neighbours& neighbours_;
+  SupportedWalls walls_;
+  std::vector<char> moves_;        ///< by segment
+  Real least_h_ = 0, most_h_ = 0;  ///< when neighbours were searched last [L]
+  std::optional<WallSurface> surface_;
+  std::vector<Real> cf_;  ///< of each face
+  /// Of active particles, until the next refresh, or where walls move the next step: `nothing`, `pieces` or a
+  /// face of the one plane they see.
+  std::vector<Index> view_;
+  static constexpr Index nothing = -2, pieces = -1;
+  bool one_cf_ = true;        ///< of all walls
+  bool rubs_ = false;         ///< any wall
+  std::vector<Index> shown_;  ///< segments that have forces of this step
+};
+
+}  // namespace courant

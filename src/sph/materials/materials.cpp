@@ -1,0 +1,193 @@
+#include "sph/materials/materials.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "laws/fluid/mat_null.hpp"
+#include "sph/core/fields.hpp"
+#include "sph/materials/equation_of_state.hpp"
+
+namespace courant {
+
+namespace {
+
+using LawOfId = std::map<Id, std::shared_ptr<EosLaw>>;
+/// Parts with the same law and the same reference density share one pass.
+using LawOfDensity = std::map<std::pair<Id, Real>, std::shared_ptr<EosLaw>>;
+
+LawOfId all_laws(const Deck& deck) {
+  LawOfId laws;
+  for (const EosEntry& kind : eos_registry())
+    for (const auto& [id, law] : kind.all(deck)) laws.emplace(id, law);
+  return laws;
+}
+
+std::shared_ptr<EosLaw> law_at_density(LawOfDensity& known, Id id, const std::shared_ptr<EosLaw>& law,
+                                       Real rho0) {
+  auto& found = known[{id, rho0}];
+  if (!found) found = law->at_density(rho0);
+  return found ? found : found = law;
+}
+
+std::string known_laws() {
+  std::string names;
+  for (const EosEntry& kind : eos_registry()) names += (names.empty() ? "*" : ", *") + kind.keyword;
+  return names;
+}
+
+/// Materials that SPH parts may have, by their ids.
+struct Known {
+  std::map<Id, const MatNull*> fluids;
+  std::map<Id, std::shared_ptr<StrengthLaw>> strengths;
+  explicit Known(const Deck& deck) {
+    for (const MatNull& m : deck.all<MatNull>()) fluids.emplace(m.mid, &m);
+    for (const StrengthEntry& kind : strength_registry())
+      for (const auto& [id, law] : kind.all(deck)) strengths.emplace(id, law);
+  }
+};
+
+/// Cards that the tables of their keywords cannot judge; those of strength only where particles have it.
+void check_cards(const Deck& deck, const Model& model, const Known& known, Diagnostics& diagnostics) {
+  for (const EosEntry& kind : eos_registry()) kind.check(deck, diagnostics);
+  const bool strong = std::any_of(model.parts.begin(), model.parts.end(), [&](const ModelPart& part) {
+    return part.has_sph && known.strengths.count(part.mid) > 0;
+  });
+  const bool solids = std::any_of(model.parts.begin(), model.parts.end(), [](const ModelPart& part) {
+    return part.has_solid;
+  });  // which check them, too
+  if (strong && !solids)
+    for (const StrengthEntry& kind : strength_registry()) kind.check(deck, diagnostics);
+}
+
+/// The equation of state must give the part a density and a sound speed at the start.
+void check_start(const Deck& deck, const ModelPart& part, const PartMaterial& m, Diagnostics& diagnostics) {
+  const EosLaw& eos = *m.eos;
+  const Real mu = 1 / eos.V0 - 1, c2 = eos.sound_speed2(m.ro, mu, eos.E0);
+  if (!(mu < eos.mu_limit()))
+    deck.error(
+        diagnostics, part.card, "EOSID",
+        fmt::format("part {} starts beyond the end of equation of state {}: rho/RO = {:g}, the law ends "
+                    "at {:g}",
+                    part.id, part.eosid, 1 + mu, 1 + eos.mu_limit()),
+        "correct V0 of the equation of state");
+  else if (!(c2 > 0))
+    deck.error(
+        diagnostics, part.card, "EOSID",
+        fmt::format("equation of state {} gives part {} no sound speed: c^2 = {:.4g} [L2/T2] at the start",
+                    part.eosid, part.id, c2),
+        "give it a bulk modulus > 0: C1 = RO c0^2 of *EOS_LINEAR_POLYNOMIAL, K0 and GAMMA of "
+        "*EOS_MURNAGHAN");
+}
+
+}  // namespace
+
+Real PartMaterial::c0() const {
+  const Real bulk = eos ? eos->sound_speed2(ro, 1 / eos->V0 - 1, eos->E0) : 0;
+  const Real strong = strength ? strength->sound_speed() : 0;
+  return std::sqrt(bulk + strong * strong);
+}
+
+SphMaterial PartMaterial::for_particles() const {
+  if (!found) return {};
+  return {ro, eos ? eos->V0 : 1, pc, mu, eos && eos->uses_energy(), strength};
+}
+
+std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  const Known known(deck);
+  check_cards(deck, model, known, diagnostics);
+  const LawOfId laws = all_laws(deck);
+  LawOfDensity laws_of_density;
+  std::vector<PartMaterial> out(model.parts.size());
+  for (std::size_t k = 0; k < model.parts.size(); ++k) {
+    const ModelPart& part = model.parts[k];
+    if (!part.has_sph) continue;
+    const auto fluid = known.fluids.find(part.mid);
+    const auto strength = known.strengths.find(part.mid);
+    const bool missing = fluid == known.fluids.end() && strength == known.strengths.end();
+    const bool alone = strength != known.strengths.end() && !strength->second->deviator_only();
+    const auto law = laws.find(part.eosid);
+    if (missing)
+      deck.error(
+          diagnostics, part.card, "MID",
+          fmt::format("the particles of part {} need a *MAT_NULL or a material with strength, id {}; {}",
+                      part.id, part.mid, deck.found_instead(IdSpace::material, part.mid)),
+          "add the material, or correct the id here");
+    if (alone && part.eosid != 0)
+      deck.error(diagnostics, part.card, "EOSID",
+                 fmt::format("expected 0, got '{}': the material of part {} has a pressure of its own",
+                             part.eosid, part.id),
+                 "leave the field blank, or use a material that gives the deviator only");
+    else if (!alone && law == laws.end())
+      deck.error(diagnostics, part.card, "EOSID",
+                 part.eosid == 0
+                     ? fmt::format("the particles of part {} need an equation of state, got none", part.id)
+                     : fmt::format("there is no equation of state with id {} for the particles of part {}",
+                                   part.eosid, part.id),
+                 "add one of " + known_laws() + " and give its id here");
+    if (missing || alone == (part.eosid != 0) || (!alone && law == laws.end())) continue;
+    PartMaterial& m = out[k];
+    m.found = true;
+    if (fluid != known.fluids.end()) {
+      m.ro = fluid->second->ro, m.pc = fluid->second->pc, m.mu = fluid->second->mu;
+    } else {
+      m.strength = strength->second;
+      m.ro = m.strength->ro, m.pc = m.strength->pressure_cutoff();
+    }
+    if (alone) continue;
+    m.eos = law_at_density(laws_of_density, part.eosid, law->second, m.ro);
+    check_start(deck, part, m, diagnostics);
+  }
+  return out;
+}
+
+std::string parts_of_several_materials(const Model& model) {
+  const ModelPart* first = nullptr;
+  for (const ModelPart& part : model.parts) {
+    if (!part.has_sph) continue;
+    if (first == nullptr) first = &part;
+    if (part.mid != first->mid || part.eosid != first->eosid)
+      return fmt::format("parts {} and {} differ in MID or EOSID", first->id, part.id);
+  }
+  return {};
+}
+
+void add_equations_of_state(World& world, const Model& model, const std::vector<PartMaterial>& materials,
+                            bool viscous) {
+  Particles& p = world.particles;
+  for (Index i = 0; i < p.size(); ++i) {
+    const PartMaterial& m = materials[p.part[i]];
+    if (!m.eos) continue;
+    const Real mu = p.rho[i] / m.ro - 1;
+    p.E[i] = m.eos->E0;
+    p.p[i] = std::max(m.eos->pressure(mu, m.eos->E0), m.pc);
+    p.c[i] = std::sqrt(m.eos->sound_speed2(m.ro, mu, m.eos->E0));
+  }
+  std::vector<const Field<Real>*> heat{&sph_fields::dissipation(p)};
+  if (viscous) heat.push_back(&sph_fields::viscous_dissipation(p));
+  std::map<EosLaw*, EosParts> parts_of_law;
+  std::vector<std::shared_ptr<EosLaw>> order;
+  bool some_without = false;
+  for (std::size_t k = 0; k < model.parts.size(); ++k) {
+    some_without |= materials[k].found && !materials[k].eos;
+    if (!materials[k].eos) continue;
+    EosParts& mine = parts_of_law[materials[k].eos.get()];
+    if (mine.mine.empty()) {
+      order.push_back(materials[k].eos);
+      mine.mine.assign(model.parts.size(), 0);
+      mine.rho0.assign(model.parts.size(), 0);
+      mine.pc.assign(model.parts.size(), 0);
+    }
+    mine.mine[k] = 1;
+    mine.rho0[k] = materials[k].ro;
+    mine.pc[k] = materials[k].pc;
+  }
+  for (const auto& law : order) {
+    parts_of_law[law.get()].all_parts = order.size() == 1 && !some_without;
+    world.passes.add(std::make_shared<EquationOfState>(law, parts_of_law[law.get()], heat, world));
+  }
+}
+
+}  // namespace courant

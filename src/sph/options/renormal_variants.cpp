@@ -1,0 +1,26 @@
+#include "base/instruction_set.hpp"
+#include "sph/options/renormal_loops.hpp"
+
+namespace courant {
+
+namespace baseline {
+RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim);
+RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what);
+}  // namespace baseline
+namespace avx2 {
+RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim);
+RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what);
+}  // namespace avx2
+namespace avx512 {
+RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim);
+RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what);
+}  // namespace avx512
+
+RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim) {
+  return COURANT_VARIANT(renormal_rates_loop)(kernel, dim);
+}
+RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what) {
+  return COURANT_VARIANT(renormal_forces_loop)(kernel, dim, uniform_h, what);
+}
+
+}  // namespace courant

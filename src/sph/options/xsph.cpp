@@ -1,0 +1,72 @@
+// *COURANT_XSPH: particles go with the mean velocity of their neighbourhood.
+#include "keyword/registry.hpp"
+#include "sph/cards.hpp"
+#include "sph/core/pair_volumes.hpp"
+#include "sph/core/view.hpp"
+#include "sph/options/drift.hpp"
+#include "sph/options/drift_loops.hpp"
+#include "sph/sph.hpp"
+
+namespace courant {
+
+namespace {
+
+const RegisterKeyword<CourantXsph> xsph_keyword{
+    {.names = {"COURANT_XSPH"},
+     .purpose = "particles move with a velocity smoothed over their neighbours (XSPH)",
+     .once = true,
+     .many = false,
+     .cards = {{.fields = {{"EPS",
+                            &CourantXsph::eps,
+                            "-",
+                            "share of the mean velocity of neighbours, usually 0.5, at most 1; 0: none",
+                            {.check = Check::not_negative}}}}}}};
+
+/// u_i = EPS sum_j m_j/rho_ij (v_j - v_i) W_ij, of the velocities and places after the last motion; the next
+/// motion takes it.
+class Xsph : public Rate {
+ public:
+  Xsph(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+       std::shared_ptr<PairVolumes> volumes)
+      : eps_(s.xsph),
+        loop_(xsph_loop(s.kernel, s.dim, s.uniform_h)),
+        neighbours_(with_whole_lists(std::move(neighbours))),
+        volumes_(std::move(volumes)),
+        drift_(drift_velocity(world.particles, xsph_statistics)) {
+    a_.kernel = &any_kernel(s.kernel);
+  }
+  std::string name() const override { return "XSPH"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.m, Reach::others).reads(p.h, Reach::others);
+    a.reads(volumes_->before(), Reach::others).writes(drift_);
+  }
+
+  void start(World& world, const Clock&) override {
+    const Particles& p = world.particles;
+    for (int k = 0; k < 3; ++k) a_.x[k] = p.x.data(k), a_.v[k] = p.v.data(k), a_.drift[k] = drift_.data(k);
+    a_.m = p.m.data(), a_.h = p.h.data(), a_.V = volumes_->current();
+  }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    loop_(a_, lists_of(*neighbours_, begin, end));
+    for (int k = 0; k < world.dim; ++k)
+      for (Index i = begin; i < end; ++i) a_.drift[k][i] *= eps_;
+  }
+
+ private:
+  Real eps_;
+  DriftLoop loop_;
+  std::shared_ptr<Neighbours> neighbours_;
+  std::shared_ptr<PairVolumes> volumes_;
+  Field<Real>& drift_;
+  DriftArrays a_{};
+};
+
+}  // namespace
+
+void add_xsph(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+              std::shared_ptr<PairVolumes> volumes) {
+  world.passes.add(std::make_shared<Xsph>(s, world, std::move(neighbours), std::move(volumes)));
+}
+
+}  // namespace courant

@@ -1,8 +1,0 @@
-// Compiled once for each instruction set; see docs/architecture.md.
-#include "sph/pair_sums.hpp"
-
-namespace courant::COURANT_SIMD {
-
-template PairLoops loops_of<WendlandC2>();
-
-}  // namespace courant::COURANT_SIMD
