@@ -59,11 +59,11 @@ TEST(CheckDeck, MeshIsCountedWhateverElseIsWrong) {
 
 TEST(CheckDeck, NeedsAreWhatIsRefusedAndWhatIsMissing) {
   const ReadDeck read = read_in_memory(in_memory(
-      Files{{"deck.k", "*KEYWORD\n*NODE\n       1\n*AIRBAG_ALE\n*AIRBAG_LINEAR_FLUID\n*EOS_JWL\n*END\n"}}));
+      Files{{"deck.k", "*KEYWORD\n*NODE\n       1\n*AIRBAG_ALE\n*AIRBAG_LINEAR_FLUID\n*EOS_JWLB\n*END\n"}}));
   EXPECT_EQ(needs_text(read.deck, gather_facts(read.deck)),
             "What a run would need\n"
             "  not supported: airbags: *AIRBAG_ALE, *AIRBAG_LINEAR_FLUID\n"
-            "  not supported: this equation of state (EOS_002): *EOS_JWL\n"
+            "  not supported: this equation of state (EOS_014): *EOS_JWLB\n"
             "  not in the deck: *ELEMENT_SPH (at least one particle)\n"
             "  not in the deck: *PART (what the particles are made of)\n"
             "  not in the deck: *SECTION_SPH (smoothing length)\n"

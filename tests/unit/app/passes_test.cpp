@@ -28,7 +28,7 @@ Lists lists_of(const SmallScene& scene) {
       continue;
     }
     std::string words;  // blanks in a row are columns
-    if (line.rfind("  stage", 0) == 0 || line.rfind("    --", 0) == 0 || line.rfind("  choice", 0) == 0)
+    if (line.rfind("  stage", 0) == 0 || line.rfind("    --", 0) == 0 || line.rfind("  time step,", 0) == 0)
       continue;
     for (const char c : line.substr(2))
       if (c != ' ' || (!words.empty() && words.back() != ' ')) words += c;
