@@ -49,14 +49,16 @@ const RegisterEos<Card> registered{
      .id_space = IdSpace::eos,
      .title_option = true,
      .title = &Card::title,
-     .cards = {{.fields = {eosid_field<Card>(),
-                           {"A", &Card::A, "M/LT2", "factor of exp(-R1 V)", {.required = true}},
-                           {"B", &Card::B, "M/LT2", "factor of exp(-R2 V)", {}},
-                           {"R1", &Card::r1, "-", "exponent", {.required = true, .check = Check::positive}},
-                           {"R2", &Card::r2, "-", "exponent", {.required = true, .check = Check::positive}},
-                           {"OMEG", &Card::omeg, "-", "factor of E/V", {.check = Check::not_negative}},
-                           {"E0", &Card::E0, "M/LT2", "initial internal energy per reference volume", {}},
-                           v0_field<Card>()}}}}};
+     .cards = {
+         {.fields = {
+              eosid_field<Card>(),
+              {"A", &Card::A, "M/LT2", "factor of exp(-R1 V)", {.required = true, .check = Check::positive}},
+              {"B", &Card::B, "M/LT2", "factor of exp(-R2 V)", {}},
+              {"R1", &Card::r1, "-", "exponent", {.required = true, .check = Check::positive}},
+              {"R2", &Card::r2, "-", "exponent", {.required = true, .check = Check::positive}},
+              {"OMEG", &Card::omeg, "-", "factor of E/V", {.check = Check::not_negative}},
+              {"E0", &Card::E0, "M/LT2", "initial internal energy per reference volume", {}},
+              v0_field<Card>()}}}}};
 
 }  // namespace
 
