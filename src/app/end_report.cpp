@@ -23,7 +23,7 @@ std::string energy_warning(const EnergyLedger& e) {
   const Real percent = residual_percent(e);
   if (!(std::abs(percent) > most_residual) || std::abs(e.residual()) < round_off * size_of(e)) return {};
   return fmt::format(
-      "warning: energy: the ledger does not close: {:.3g} % of what passed through {}; lower TSSFAC, and "
+      "warning: the energy balance does not close: {:.3g} % of what passed through {}; lower TSSFAC, and "
       "look "
       "at contact stiffness (SFSA, SLSFAC) and at where particles leave the box",
       std::abs(percent), percent > 0 ? "came from nowhere" : "was lost");

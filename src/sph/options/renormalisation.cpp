@@ -250,7 +250,7 @@ void read_correction(const Deck& deck, const ControlSph* c, SphSettings& s, Diag
   else if (s.density_diffusion == 0)
     deck.warning(diagnostics, *r, "REVERSE",
                  "without density diffusion these forces lose or gain much energy",
-                 "use *COURANT_DENSITY_DIFFUSION, and look at the residual of the energy ledger");
+                 "use *COURANT_DENSITY_DIFFUSION, and look at the residual of the energy balance");
 }
 
 }  // namespace
