@@ -10,7 +10,7 @@ namespace courant {
 
 namespace {
 
-constexpr Real most_residual = 5;  // percent of what passed through
+constexpr Real most_residual = 5;  // percent
 
 /// The sum of what may cancel in a residual: where that is round-off of it, nothing is wrong.
 Real size_of(const EnergyLedger& e) {
@@ -18,15 +18,23 @@ Real size_of(const EnergyLedger& e) {
          std::abs(e.dissipated) + std::abs(e.external_work);
 }
 
+/// Where next to nothing passed through (a gas that expands, a block that flies), the residual is compared
+/// with the energy itself.
+bool hardly_passes(const EnergyLedger& e) {
+  return !(e.throughput > 1e-3 * size_of(e));
+}
+const char* residual_of(const EnergyLedger& e) {
+  return hardly_passes(e) ? "the energy" : "what passed through";
+}
+
 std::string energy_warning(const EnergyLedger& e) {
   constexpr Real round_off = 1e-9;
   const Real percent = residual_percent(e);
   if (!(std::abs(percent) > most_residual) || std::abs(e.residual()) < round_off * size_of(e)) return {};
   return fmt::format(
-      "warning: the energy balance does not close: {:.3g} % of what passed through {}; lower TSSFAC, and "
-      "look "
+      "warning: the energy balance does not close: {:.3g} % of {} {}; lower TSSFAC, and look "
       "at contact stiffness (SFSA, SLSFAC) and at where particles leave the box",
-      std::abs(percent), percent > 0 ? "came from nowhere" : "was lost");
+      std::abs(percent), residual_of(e), percent > 0 ? "came from nowhere" : "was lost");
 }
 
 /// Opening a window costs more than one that lasts for a step saves. The first opens blind.
@@ -66,7 +74,8 @@ std::string output_line(const Summary& s) {
 }  // namespace
 
 Real residual_percent(const EnergyLedger& e) {
-  return e.throughput > 0 ? 100 * e.residual() / e.throughput : 0;
+  const Real whole = hardly_passes(e) ? size_of(e) : e.throughput;
+  return whole > 0 ? 100 * e.residual() / whole : 0;
 }
 
 std::string duration(double seconds) {
@@ -100,9 +109,8 @@ std::vector<std::string> end_report(const Summary& s) {
                   s.cpu_seconds, s.wall_seconds, s.ns_per_particle_step()));
   out.push_back(output_line(s));
   out.push_back(
-      fmt::format(" leaked particles {}, largest penetration {:.4g} [L], energy residual {:.3g} % of what "
-                  "passed through",
-                  s.leaked_particles, s.max_penetration, residual_percent(s.energy)));
+      fmt::format(" leaked particles {}, largest penetration {:.4g} [L], energy residual {:.3g} % of {}",
+                  s.leaked_particles, s.max_penetration, residual_percent(s.energy), residual_of(s.energy)));
   for (const std::string& line : range_lines(s.ranges)) out.push_back(line);
   for (const std::string& warning : end_warnings(s)) out.push_back(" " + warning);
   return out;

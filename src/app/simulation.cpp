@@ -102,7 +102,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   if (particles)
     add_neighbours(diagnostics);
   else
-    left_out_.push_back({"particles", "no *ELEMENT_SPH"});
+    report_what_needs_particles(diagnostics);
   add_prescribed_motions(diagnostics);
   if (particles) add_particle_passes(diagnostics);
   if (!diagnostics.ok()) return;
@@ -114,6 +114,23 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   rules_.tssfac = model_.tssfac;
   rules_.guard = guard_ = std::make_shared<Guard>(reference_of_parts(), model_.endeng);
   stepper_ = std::make_unique<Stepper>(world_, neighbours_.get(), rules_, timer_);
+}
+
+void Simulation::report_what_needs_particles(Diagnostics& diagnostics) {
+  left_out_.push_back({"particles", "no *ELEMENT_SPH"});
+  contacts_ = build_contacts(deck_, model_, {}, world_, diagnostics);
+  for (const auto& [name, use] : deck_.keywords) {
+    if (use.treatment != Treatment::honoured || name == "COURANT_OUTPUT") continue;
+    for (const char* begin : {"COURANT_", "BOUNDARY_SPH_", "DEFINE_SPH_"})
+      if (name.starts_with(begin))
+        diagnostics.warning({deck_.files[0].name},
+                            fmt::format("*{} does nothing: the deck has no particles", name),
+                            "leave it out, or give the deck particles");
+  }
+  const FieldRequests& wanted = model_.output.fields;
+  if (!wanted.fields.empty())
+    deck_.warning(diagnostics, wanted.card, "FIELDS",
+                  "chooses arrays of particles, of which the deck has none");
 }
 
 // Nodes of elements move by their forces; those of rigid bodies with these.

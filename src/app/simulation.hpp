@@ -81,6 +81,8 @@ class Simulation {
   void add_passes(Diagnostics& diagnostics);
   void add_neighbours(Diagnostics& diagnostics);
   void add_particle_passes(Diagnostics& diagnostics);
+  /// Of a deck without particles.
+  void report_what_needs_particles(Diagnostics& diagnostics);
   void add_node_passes(Diagnostics& diagnostics);
   void add_loads(const Points& points, const BodyAcceleration& acceleration);
   void add_images(Real h, Diagnostics& diagnostics);

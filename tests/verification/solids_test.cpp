@@ -151,6 +151,37 @@ TEST(Solids, AColumnSettlesUnderItsOwnWeight) {
   }
 }
 
+// Damping must not take part in the force of a drive or of a support: one solid, pulled by 1 % and held
+// there.
+TEST(Solids, ReactionsOfDrivenAndFixedNodesAreThoseOfTheForcesAlone) {
+  constexpr Real L = 0.1, E = 1e6, pulled = 1e-3;
+  SolidDeck deck;
+  deck.block(Vec(L, L, L), 1, 1, 1, 1);
+  deck.cards = elastic(1, 1000, E, 0);
+  deck.node_set(1, [](const Vec& x) { return x[2] < 1e-9; });
+  deck.node_set(2, [](const Vec& x) { return x[2] > 1e-9; });
+  deck.cards +=
+      "*BOUNDARY_SPC_SET\n         1         0         1         1         1\n"
+      "*BOUNDARY_PRESCRIBED_MOTION_SET\n         2         3         2         2       1.0\n"
+      "*DEFINE_CURVE\n         2\n                 0.0                 0.0\n                0.01             "
+      "  0.001\n"
+      "               100.0               0.001\n*DAMPING_GLOBAL\n         0     200.0\n"
+      "*DATABASE_BNDOUT\n      0.01\n*DATABASE_SPCFORC\n      0.01\n";
+  auto s = simulation_of(deck.text(1));
+  Real drive = 0, support = 0;
+  while (s->clock().t < 0.1)
+    s->step([&](World&, const Clock&, const std::string& who) {
+      drive = support = 0;
+      for (const BoundaryForce& f : s->sample(who).boundary_forces)
+        (f.kind == BoundaryForce::Kind::driven_point ? drive : support) += f.force[2];
+    });
+  EXPECT_NEAR(drive, E * L * pulled, 0.02 * E * L * pulled);  // a hypoelastic law: 1 % of strain
+  EXPECT_NEAR(support, -drive, 1e-3 * drive);
+  const EnergyLedger energy = s->sample("").energy;
+  EXPECT_GT(energy.dissipated, -1e-9);
+  EXPECT_NEAR(energy.external_work, 0.5 * E * L * pulled * pulled, 0.05 * energy.external_work);
+}
+
 // A deck of one rigid body, with no particle and no element that limits the step.
 TEST(Bodies, FallAlone) {
   constexpr Real g = 9.81;

@@ -32,8 +32,10 @@ TEST(EndReport, WarnsOfLeaksAndOfALedgerThatDoesNotClose) {
   EXPECT_THAT(end_warnings(s), ElementsAre(HasSubstr("10 % of what passed through was lost")));
   s.energy = {.kinetic = 1e9 + 1e-3, .throughput = 1e-3, .initial = 1e9};  // round-off of what is there
   EXPECT_THAT(end_warnings(s), IsEmpty());
-  s.energy = {.kinetic = 1};  // nothing passed through
+  s.energy = {.kinetic = 1, .initial = 1};  // nothing passed through
   EXPECT_THAT(end_warnings(s), IsEmpty());
+  s.energy = {.kinetic = 2, .initial = 1};
+  EXPECT_THAT(end_warnings(s), ElementsAre(HasSubstr("50 % of the energy came from nowhere")));
 }
 
 TEST(EndReport, WarnsOfWindowsThatLastForLessThanTwoSteps) {
