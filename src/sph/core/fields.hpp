@@ -125,7 +125,7 @@ inline Field<Real>& drifted(Particles& p) {
 }
 /// 1/theta(dx/h) at the start, without the constant of theta
 inline Field<Real>& kernel_at_spacing(Particles& p) {
-  return p.fields.add<Real>({.name = "kernel_at_spacing", .dimension = "-"});
+  return p.fields.add<Real>({.name = "kernel_at_spacing", .dimension = "-", .exchange = true});
 }
 /// int n W dS over the walls in sight, n out of the water
 inline Field<Real>& wall_slope(Particles& p) {
