@@ -269,20 +269,20 @@ Vec WallSupport::friction_on(const Particles& p, Index i, const Vec& v) const {
 
 WallSupport::Sums WallSupport::sums_over_points(Real h, const Vec& x, const Vec& v, Real half_step) const {
   Sums s;
-  Real weight = 0;
   surface_->for_each_seen(x, [&](const WallPoint& q, const Vec& away) {
     const Vec d = q.x - x, u = v - q.v;
     const Real W = kernel(h, d), before = kernel(h, d + half_step * u), behind = volume_behind(h, d, away);
     s.slope += away * W;
     s.squeeze += u.dot(away) * before;
     s.fill += behind;
-    s.rubbing += cf_[q.face] * away.norm() * W;
-    if (velocity_) s.wall_velocity += away.norm() * W * q.v, weight += away.norm() * W;
+    const Real rubbing = cf_[q.face] * away.norm() * W;
+    s.rubbing += rubbing;
+    if (velocity_) s.wall_velocity += rubbing * q.v;
     if (!moment_) return;
     s.moment += W * d * away.transpose();
     s.gradient += before * (u * away.transpose() + away * u.transpose());
   });
-  if (weight > 0) s.wall_velocity /= weight;
+  if (s.rubbing > 0) s.wall_velocity /= s.rubbing;
   if (moment_) s.moment = 0.5 * (s.moment + s.moment.transpose().eval()) + s.fill * Matrix::Identity();
   return s;
 }
