@@ -434,6 +434,29 @@ TEST(WallSupport, OnlyTheVelocityOverTheWallCounts) {
   EXPECT_GT(seen, 100);
 }
 
+TEST(WallSupport, ASmoothWallThatMovesChangesNothingInTheFrictionOfARoughOne) {
+  // a smooth plate beside the water, at rest and rising, above a rough floor over which the water flows
+  const auto under_friction = [](const std::string& speed) {
+    const std::string side =
+        "*NODE\n9101,-0.05,-0.05,0.\n9102,-0.05,3.,0.\n9103,-0.05,3.,1.\n9104,-0.05,-0.05,1.\n"
+        "*ELEMENT_SHELL\n2,3,9101,9102,9103,9104\n*PART\nside\n3,2,3\n*MAT_RIGID\n3,7850.,2.1E11,0.3\n0\n"
+        "*INITIAL_VELOCITY_NODE\n";
+    std::string moves;
+    for (int n = 9101; n <= 9104; ++n) moves += std::to_string(n) + ",0.," + speed + ",0.\n";
+    const auto s = test::build_deck(
+        on_floor("*COURANT_WALL_SUPPORT\n2,3,0.004\n*COURANT_WALL_SUPPORT\n3,3\n" + side + moves, "2.,0.,0."),
+        false);
+    std::string who;
+    s->evaluate(who);
+    Particles& p = s->world().particles;
+    const Index corner = at(p, Vec(0.05, 0.05, 0));
+    EXPECT_GT(sph_fields::wall_rubbing(p)[corner], 0);
+    return sph_fields::wall_velocity(p).vec(corner);
+  };
+  EXPECT_EQ(under_friction("0.").norm(), 0);
+  EXPECT_LT(under_friction("5.").norm(), 1e-12);
+}
+
 // A plate as heavy as the water, free: what the water loses it gets, turning included.
 TEST(WallSupport, WaterAndAFreeWallKeepTheirMomentum) {
   for (const std::string& form : {"0", "1"})
@@ -465,29 +488,6 @@ TEST(WallSupport, WaterAndAFreeWallKeepTheirMomentum) {
       EXPECT_LT((momentum() - before).norm(), 1e-11 * before.norm()) << form << iavis;
       // friction acts at the wall, the particle it acts on stands half a spacing off
       EXPECT_LT(std::abs(turning() - turning_before), 0.02 * std::abs(turning_before)) << form << iavis;
-TEST(WallSupport, ASmoothWallThatMovesChangesNothingInTheFrictionOfARoughOne) {
-  // a smooth plate beside the water, at rest and rising, above a rough floor over which the water flows
-  const auto under_friction = [](const std::string& speed) {
-    const std::string side =
-        "*NODE\n9101,-0.05,-0.05,0.\n9102,-0.05,3.,0.\n9103,-0.05,3.,1.\n9104,-0.05,-0.05,1.\n"
-        "*ELEMENT_SHELL\n2,3,9101,9102,9103,9104\n*PART\nside\n3,2,3\n*MAT_RIGID\n3,7850.,2.1E11,0.3\n0\n"
-        "*INITIAL_VELOCITY_NODE\n";
-    std::string moves;
-    for (int n = 9101; n <= 9104; ++n) moves += std::to_string(n) + ",0.," + speed + ",0.\n";
-    const auto s = test::build_deck(
-        on_floor("*COURANT_WALL_SUPPORT\n2,3,0.004\n*COURANT_WALL_SUPPORT\n3,3\n" + side + moves, "2.,0.,0."),
-        false);
-    std::string who;
-    s->evaluate(who);
-    Particles& p = s->world().particles;
-    const Index corner = at(p, Vec(0.05, 0.05, 0));
-    EXPECT_GT(sph_fields::wall_rubbing(p)[corner], 0);
-    return sph_fields::wall_velocity(p).vec(corner);
-  };
-  EXPECT_EQ(under_friction("0.").norm(), 0);
-  EXPECT_LT(under_friction("5.").norm(), 1e-12);
-}
-
       const Vec plate = s->sample("").bodies.at(0).v;
       EXPECT_LT(plate[1], -0.2) << form << iavis;  // pushed off
       EXPECT_LT(std::abs(s->sample("").energy.residual()), 0.01 * 0.5 * 360 * 1.49) << form << iavis;
