@@ -37,6 +37,7 @@ class Builder {
     settings_.h_min_factor.assign(model_.parts.size(), 1);
     settings_.h_max_factor.assign(model_.parts.size(), 1);
     settings_.q.resize(model_.parts.size());
+    settings_.spacing_of_part.resize(model_.parts.size());
     smoothing_.resize(model_.parts.size());
     read_sections();
     settings_.kernel = read_kernel(deck_, model_, diagnostics_);
@@ -323,7 +324,10 @@ class Builder {
         report_lone_particles(static_cast<Index>(k), nearest, median);
         h = smoothing_[k].cslh * largest;
       }
-      if (std::isfinite(largest)) settings_.spacing = std::max(settings_.spacing, largest);
+      if (std::isfinite(largest)) {
+        settings_.spacing_of_part[k] = largest;
+        settings_.spacing = std::max(settings_.spacing, largest);
+      }
       const auto same = std::find_if(used.begin(), used.end(), [h](Real other) {
         return std::abs(h - other) <= rounding_of_decks * other;
       });

@@ -119,6 +119,7 @@ struct SphSettings {
   bool skip_inactive_contact = false;  ///< ICONT
   bool thickness_from_volume = false;  ///< ITHK
   Real spacing = 0;                    ///< largest nearest-neighbour distance of all SPH parts [L]
+  std::vector<Real> spacing_of_part;   ///< the same of each part [L]
 
   /// Something besides the motion of particles changes the density.
   bool has_density_sources() const {

@@ -72,8 +72,10 @@ WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& n
 
 void WallSupport::rebuild(const World& world) {
   const Real spacing = std::max(least_h_ / points_per_h, most_h_ / most_points_per_h);
-  surface_.emplace(world, walls_.segments, spacing, table_.support() * most_h_ + neighbours_.largest_skin(),
-                   walls_.planes);
+  const Real reach = table_.support() * most_h_ + neighbours_.largest_skin();
+  std::optional<Lookouts> from;  // a surface of every step is that of what water can see
+  if (any_moves_ && world.particles.active > 0) from.emplace(world.particles, reach, walls_.planes);
+  surface_.emplace(world, walls_.segments, spacing, reach, walls_.planes, from ? &*from : nullptr);
   cf_.clear();
   for (Index f = 0; f < surface_->faces(); ++f) {
     cf_.push_back(walls_.cf[surface_->segment_of(f)]);
@@ -96,7 +98,7 @@ void WallSupport::declare(const World& world, Accesses& a) const {
   if (!any_moves_) return;
   a.updates(*velocity_).reads(p.x, Reach::others);
   const Segments& s = world.segments;
-  a.in_start().reads(world.nodes.x).reads(world.nodes.v);
+  a.in_start().reads(world.nodes.x).reads(world.nodes.v).reads(p.x, Reach::others);
   a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
 }
 
@@ -269,20 +271,20 @@ Vec WallSupport::friction_on(const Particles& p, Index i, const Vec& v) const {
 
 WallSupport::Sums WallSupport::sums_over_points(Real h, const Vec& x, const Vec& v, Real half_step) const {
   Sums s;
-  Real weight = 0;
   surface_->for_each_seen(x, [&](const WallPoint& q, const Vec& away) {
     const Vec d = q.x - x, u = v - q.v;
     const Real W = kernel(h, d), before = kernel(h, d + half_step * u), behind = volume_behind(h, d, away);
     s.slope += away * W;
     s.squeeze += u.dot(away) * before;
     s.fill += behind;
-    s.rubbing += cf_[q.face] * away.norm() * W;
-    if (velocity_) s.wall_velocity += away.norm() * W * q.v, weight += away.norm() * W;
+    const Real rubbing = cf_[q.face] * away.norm() * W;
+    s.rubbing += rubbing;
+    if (velocity_) s.wall_velocity += rubbing * q.v;
     if (!moment_) return;
     s.moment += W * d * away.transpose();
     s.gradient += before * (u * away.transpose() + away * u.transpose());
   });
-  if (weight > 0) s.wall_velocity /= weight;
+  if (s.rubbing > 0) s.wall_velocity /= s.rubbing;
   if (moment_) s.moment = 0.5 * (s.moment + s.moment.transpose().eval()) + s.fill * Matrix::Identity();
   return s;
 }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "parallel/parallel.hpp"
+
 namespace courant {
 
 namespace {
@@ -13,10 +15,78 @@ constexpr Real small = 1e-9;  ///< of the reach: lengths below are zero
 
 }  // namespace
 
+Lookouts::Lookouts(const Particles& p, Real reach, const std::vector<ImagePlane>& planes)
+    : reach_(1.1 * reach) {  // particles may stand a little behind a mirror
+  for (const ImagePlane& plane : planes) {
+    // in a mirror an image is never nearer to what looks than the face itself
+    if (plane.kind != ImagePlane::Kind::periodic) continue;
+    const std::size_t known = shifts_.size();
+    for (const Real way : {-plane.period, plane.period})
+      for (std::size_t k = 0; k < known; ++k) shifts_.push_back(shifts_[k] + way * plane.normal);
+  }
+  Vec high;
+  for (int k = 0; k < 3; ++k) {
+    const Real* x = p.x.data(k);
+    high[k] = maximum(p.active, [x](Index i) { return x[i]; });
+    low_[k] = -maximum(p.active, [x](Index i) { return -x[i]; });
+  }
+  if (!(p.active > 0 && low_.allFinite() && high.allFinite())) return;
+  const Real most = std::max<Real>(4096, p.active);
+  cell_ = reach_;
+  const auto count = [&] {
+    Real all = 1;
+    for (int k = 0; k < 3; ++k) all *= 1 + std::floor((high[k] - low_[k]) / cell_);
+    return all;
+  };
+  while (count() > most) cell_ *= 1.25;
+  for (int k = 0; k < 3; ++k) cells_[k] = 1 + static_cast<Index>((high[k] - low_[k]) / cell_);
+  taken_.assign(std::size_t(cells_[0]) * cells_[1] * cells_[2], 0);
+  for (Index i = 0; i < p.active; ++i) {
+    std::size_t c = 0;
+    for (int k = 0; k < 3; ++k)
+      c = c * cells_[k] + static_cast<std::size_t>((p.x.data(k)[i] - low_[k]) / cell_);
+    taken_[c] = 1;
+  }
+}
+
+bool Lookouts::any_near(const Vec& low, const Vec& high) const {
+  if (taken_.empty() || !low.allFinite() || !high.allFinite()) return true;
+  for (const Vec& shift : shifts_)
+    if (any_in(low + shift, high + shift)) return true;
+  return false;
+}
+
+bool Lookouts::any_in(const Vec& low, const Vec& high) const {
+  std::array<Index, 3> first{}, last{};
+  for (int k = 0; k < 3; ++k) {
+    const Real from = (low[k] - reach_ - low_[k]) / cell_, to = (high[k] + reach_ - low_[k]) / cell_;
+    if (to < 0 || from >= Real(cells_[k])) return false;
+    first[k] = static_cast<Index>(std::max(from, Real(0)));
+    last[k] = static_cast<Index>(std::min(to, Real(cells_[k] - 1)));
+  }
+  for (Index i = first[0]; i <= last[0]; ++i)
+    for (Index j = first[1]; j <= last[1]; ++j)
+      for (Index k = first[2]; k <= last[2]; ++k)
+        if (taken_[(std::size_t(i) * cells_[1] + j) * cells_[2] + k]) return true;
+  return false;
+}
+
 WallSurface::WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
-                         std::vector<ImagePlane> planes)
+                         std::vector<ImagePlane> planes, const Lookouts* from)
     : dim_(world.dim), reach_(reach), planes_of_images_(std::move(planes)) {
-  for (const Index s : segments) {
+  std::vector<char> seen(segments.size(), 1);
+  if (from)
+    for_each(static_cast<Index>(segments.size()), [&](Index k) {
+      const auto nodes = world.segments.nodes(segments[k]);
+      Vec low = world.nodes.x.vec(nodes[0]), high = low;
+      for (const Index n : nodes)
+        low = low.cwiseMin(world.nodes.x.vec(n)), high = high.cwiseMax(world.nodes.x.vec(n));
+      if (dim_ == 2) low[2] = -std::numeric_limits<Real>::max(), high[2] = std::numeric_limits<Real>::max();
+      seen[k] = from->any_near(low, high);
+    });
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    const Index s = segments[k];
+    if (!seen[k]) continue;
     const std::array<Index, 4> node = world.segments.nodes(s);
     Face face;
     face.segment = s;
@@ -209,11 +279,16 @@ void WallSurface::sort_into_cells() {
     for (int k = 0; k < 3; ++k) c = c * cells_[k] + static_cast<Index>((p.x[k] - low_[k]) / cell_);
     return c;
   };
-  std::stable_sort(points_.begin(), points_.end(),
-                   [&](const WallPoint& a, const WallPoint& b) { return cell_of(a) < cell_of(b); });
+  std::vector<Index> cell(points_.size());
+  for_each(points(), [&](Index q) { cell[q] = cell_of(points_[q]); });
   first_.assign(std::size_t(cells_[0]) * cells_[1] * cells_[2] + 1, 0);
-  for (const WallPoint& p : points_) ++first_[cell_of(p) + 1];
+  for (const Index c : cell) ++first_[c + 1];
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+  std::vector<Index> place(first_.begin(), first_.end() - 1);
+  for (Index& c : cell) c = place[c]++;
+  std::vector<WallPoint> sorted(points_.size());
+  for_each(points(), [&](Index q) { sorted[cell[q]] = points_[q]; });
+  points_ = std::move(sorted);
 }
 
 int WallSurface::cells_around(const Vec& x, std::array<Index, 27>& cells) const {

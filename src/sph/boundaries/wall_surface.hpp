@@ -20,14 +20,32 @@ struct WallPoint {
   std::array<Real, 4> weight{};  ///< of the nodes of its segment, as they interpolate [-]
 };
 
+/// Where somebody may look from: cells about `reach` wide, and which of them particles stand in.
+class Lookouts {
+ public:
+  Lookouts(const Particles& p, Real reach, const std::vector<ImagePlane>& planes);
+  /// Whether anything within the reach of this box, or of its image across a period, stands there; true where
+  /// that is not known.
+  bool any_near(const Vec& low, const Vec& high) const;
+
+ private:
+  bool any_in(const Vec& low, const Vec& high) const;
+  Real reach_, cell_ = 1;
+  Vec low_ = Vec::Zero();
+  std::array<Index, 3> cells_{0, 0, 0};
+  std::vector<char> taken_;  ///< empty: anywhere
+  std::vector<Vec> shifts_{Vec::Zero()};
+};
+
 /// Flat faces cut into pieces of about one size. In 2D a shell counts by its line in the plane of flow, once
 /// however many shells it has across, and areas are lengths. Behind planes stands the image of what is in
 /// front of them, and nothing else.
 class WallSurface {
  public:
-  /// `spacing`: of points [L]; `reach`: farthest that anything looks [L].
+  /// `spacing`: of points [L]; `reach`: farthest that anything looks [L]. `from`: what nothing there can see
+  /// is left out.
   WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
-              std::vector<ImagePlane> planes = {});
+              std::vector<ImagePlane> planes = {}, const Lookouts* from = nullptr);
 
   Index faces() const { return static_cast<Index>(faces_.size()); }
   Index points() const { return static_cast<Index>(points_.size()); }

@@ -125,7 +125,7 @@ inline Field<Real>& drifted(Particles& p) {
 }
 /// 1/theta(dx/h) at the start, without the constant of theta
 inline Field<Real>& kernel_at_spacing(Particles& p) {
-  return p.fields.add<Real>({.name = "kernel_at_spacing", .dimension = "-"});
+  return p.fields.add<Real>({.name = "kernel_at_spacing", .dimension = "-", .exchange = true});
 }
 /// int n W dS over the walls in sight, n out of the water
 inline Field<Real>& wall_slope(Particles& p) {
@@ -147,7 +147,7 @@ inline Field<Real>& wall_moment(Particles& p) {
 inline Field<Real>& wall_gradient(Particles& p) {
   return p.fields.add<Real>({.name = "wall_gradient", .dimension = "1/T", .components = 6, .restart = false});
 }
-/// Mean velocity of the walls in sight
+/// Mean velocity of the walls in sight, each by its friction
 inline Field<Real>& wall_velocity(Particles& p) {
   return p.fields.add<Real>({.name = "wall_velocity", .dimension = "L/T", .components = 3, .restart = false});
 }

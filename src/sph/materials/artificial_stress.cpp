@@ -84,8 +84,8 @@ class ArtificialStress : public PassOf<Phase::reductions> {
   Field<Real>&stress_, &R_;
 };
 
-/// Adds (W/W(dx))^n (R_i + R_j) to the stresses of pairs. What it takes from the motion counts as dissipated;
-/// it gives some of it back.
+/// Adds (W/W(dx))^n (R_i + R_j) to the stresses of pairs, 1/W(dx) the mean of both particles. What it takes
+/// from the motion counts as dissipated; it gives some of it back.
 class ArtificialStressForce : public Force, public EnergyTerm {
  public:
   ArtificialStressForce(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
@@ -93,25 +93,27 @@ class ArtificialStressForce : public Force, public EnergyTerm {
       : loop_(artificial_stress_loop(s.kernel, s.dim)),
         R_(sph_fields::artificial_stress(world.particles)),
         force_(sph_fields::artificial_stress_force(world.particles)),
+        at_spacing_(sph_fields::kernel_at_spacing(world.particles)),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)) {
     a_.kernel = &any_kernel(s.kernel), a_.n = s.artificial_stress.n;
-    const Real h = world.particles.size() > 0 ? world.particles.h[0] : 1;
-    a_.at_spacing =
-        1 / with_kernel(s.kernel, [&](auto kernel) { return decltype(kernel)::shape(s.spacing / h); });
+    const Particles& p = world.particles;
+    for (Index i = 0; i < p.size(); ++i)
+      at_spacing_[i] =
+          kernel_at_spacing(s.kernel, s.spacing_of_part[static_cast<std::size_t>(p.part[i])] / p.h[i]);
   }
   std::string name() const override { return "artificial stress (forces)"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
     a.reads(p.x, Reach::others).reads(p.h, Reach::others).reads(volumes_->now(), Reach::others);
-    a.reads(R_, Reach::others);
+    a.reads(R_, Reach::others).reads(at_spacing_, Reach::others);
     a.writes(force_).updates(p.f);
   }
   void start(World& world, const Clock&) override {
     const Particles& p = world.particles;
     for (int k = 0; k < 3; ++k) a_.x[k] = p.x.data(k), a_.f[k] = force_.data(k);
     for (int k = 0; k < 6; ++k) a_.R[k] = R_.data(k);
-    a_.V = volumes_->current(), a_.h = p.h.data();
+    a_.V = volumes_->current(), a_.h = p.h.data(), a_.at_spacing = at_spacing_.data();
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
     loop_(a_, lists_of(*neighbours_, begin, end));
@@ -132,7 +134,7 @@ class ArtificialStressForce : public Force, public EnergyTerm {
 
  private:
   StrengthLoop loop_;
-  Field<Real>&R_, &force_;
+  Field<Real>&R_, &force_, &at_spacing_;
   std::shared_ptr<Neighbours> neighbours_;
   std::shared_ptr<PairVolumes> volumes_;
   StrengthArrays a_{};

@@ -41,6 +41,7 @@ void artificial_stress(const StrengthArrays& a, const NeighbourLists& lists) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> xi(a.x, i, count);
     const Pack hi = Pack::load(a.h + i, count), tiny = tiny_distance2 * hi * hi;
+    const Pack at_spacing = 0.5 * Pack::load(a.at_spacing + i, count);
     Pack Ri[6];
     for (int c = 0; c < 6; ++c) Ri[c] = Pack::load(a.R[c] + i, count);
     Sum<Dim> force;
@@ -49,7 +50,7 @@ void artificial_stress(const StrengthArrays& a, const NeighbourLists& lists) {
       const Difference<Dim> d(xi, a.x, j);
       const Pack hinv = 2 / (hi + a.h[j]);
       const Pack r2 = dot_plus(d, d, tiny), rinv = rsqrt(r2), R = r2 * rinv * hinv;
-      const Pack ratio = a.at_spacing * kernel.shape(R);
+      const Pack ratio = (at_spacing + 0.5 * a.at_spacing[j]) * kernel.shape(R);
       Pack weight = gradient_norm<Dim>(kernel, hinv) * gradient_shape(kernel, R, rinv) * a.V[j];
       for (int power = 0; power < a.n; ++power) weight = weight * ratio;
       Difference<Dim> pair = times(Pack::zero(), d);

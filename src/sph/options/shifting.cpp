@@ -72,9 +72,7 @@ class Shifting : public Rate, public Keeper {
     for (Index i = 0; i < p.size(); ++i) {
       spread_[i] = dim_;
       const Real R = std::pow(p.m[i] / p.rho[i], 1.0 / dim_) / p.h[i];
-      at_spacing_[i] = with_kernel(s.kernel, [R](auto kernel) {
-        return 1 / std::max(kernel.shape(R), least_shape * kernel.shape(Real(0)));
-      });
+      at_spacing_[i] = kernel_at_spacing(s.kernel, R);
     }
     world.maxima.try_emplace(volume_statistic, 0);
     if (!rules_.correct) return;
@@ -153,7 +151,6 @@ class Shifting : public Rate, public Keeper {
     return shift;
   }
 
-  static constexpr Real least_shape = 0.05;  ///< where h is given much smaller than the spacing
   static constexpr const char* volume_statistic = "shift_volume_drift";
   ShiftRules rules_;
   std::vector<ImagePlane> mirrors_;

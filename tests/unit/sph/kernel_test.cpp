@@ -63,6 +63,10 @@ TYPED_TEST(EveryKernel, IsTheSameWhereItIsKnownOnlyAtRunTime) {
     const Real steepest = TypeParam::gradient(Real(TypeParam::steepest));
     EXPECT_NEAR(any.gradient(R), TypeParam::gradient(R), 1e-14 * std::abs(steepest) + 1e-13) << R;
     EXPECT_NEAR(any.half_curvature(R), TypeParam::half_curvature(R), 1e-13 * std::abs(steepest) + 1e-13) << R;
+    Real gradient = 0, half_curvature = 0;
+    any.slopes(R, gradient, half_curvature);
+    EXPECT_NEAR(gradient, any.gradient(R), 1e-14 * std::abs(steepest) + 1e-13) << R;
+    EXPECT_NEAR(half_curvature, any.half_curvature(R), 1e-13 * std::abs(steepest) + 1e-13) << R;
   };
   at_places<TypeParam>(compare);
   for (const Real R : {TypeParam::support, TypeParam::support + 0.5, 10.0}) {

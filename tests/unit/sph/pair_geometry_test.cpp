@@ -6,6 +6,7 @@
 
 #include "cloud.hpp"
 #include "liquid.hpp"
+#include "sph/core/fields.hpp"
 #include "sph/options/kept_pairs.hpp"
 #include "time/point_motion.hpp"
 #include "time/step.hpp"
@@ -106,4 +107,22 @@ TEST(PairGeometry, WindowLastsUntilTheFastestMayHaveMovedHalfOfEps) {
 
 TEST(PairGeometry, KeptGradientsGiveTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(run(0.01, 1).x, run(0.01, 2).x);
+}
+
+TEST(PairGeometry, AWindowEndsWhereParticlesDriftAsWhereTheyMove) {
+  for (const Real drift : {0.0, 1.0}) {
+    Cloud cloud(2, 8, 0.01, 0.1);
+    World& w = cloud.world;
+    Particles& p = w.particles;
+    cloud.settings.geometry_eps = 0.1, cloud.settings.xsph = 0.5;
+    cloud.make_kept_pairs();
+    cloud.refresh();
+    for (Index i = 0; i < p.size(); ++i) sph_fields::drifted(p).set(i, Vec(0, drift, 0));
+    cloud.clock.dt = cloud.clock.dt_old = 2e-4;  // three steps at 1 m/s are half of EPS h
+    cloud.run_rates();
+    for (int k = 0; k < 4; ++k)
+      for (BlockPass* pass : w.passes.in_phase(Phase::preparation, w)) cloud.run(*pass);
+    cloud.run_rates();
+    EXPECT_EQ(w.counters.at("pair_geometry_windows"), drift > 0 ? 2 : 1) << drift;
+  }
 }

@@ -48,7 +48,7 @@ BlockPass& pass_of(World& w, Phase phase, const std::string& name) {
 struct Rubber : Cloud {
   Rubber(int dim, int n, Real jitter = 0) : Cloud(dim, n, 0.01, jitter, 1.3) {
     settings.strength = {rubber()};
-    settings.spacing = 0.01;
+    settings.spacing_of_part = {0.01};
   }
   void add(Real eps = 0) {
     settings.artificial_stress.eps = eps;
@@ -234,4 +234,34 @@ TEST(ArtificialStress, ActsAgainstTensionAlone) {
     by_hand += V * V * std::pow(CubicSpline::shape(r / h) / at, 4) * slope / r * (2 * expected * d);
   }
   EXPECT_LT((p.f.vec(i) - by_hand).norm(), 1e-10 * by_hand.norm());
+}
+
+TEST(ArtificialStress, TakesEachPartBesideItsOwnSpacing) {
+  // pairs of one part have the force that they have alone, whichever part comes first
+  const auto force = [](const std::vector<Real>& spacing) {
+    Rubber cloud(2, 8);
+    World& w = cloud.world;
+    Particles& p = w.particles;
+    cloud.settings.strength.assign(spacing.size(), rubber());
+    cloud.settings.spacing_of_part = spacing;
+    const Index last = static_cast<Index>(spacing.size()) - 1;
+    for (Index i = 0; i < p.size(); ++i) p.part[i] = last;
+    if (last > 0) p.part[0] = 0, p.h[0] = 1.3 * spacing[0], p.x.set(0, Vec(-1, 0, 0));
+    cloud.settings.uniform_h = last == 0;
+    cloud.add(0.3);
+    cloud.refresh();
+    sph_fields::artificial_stress(p).fill(0);
+    for (Index i = 0; i < p.size(); ++i)
+      sph_fields::artificial_stress(p).set_tensor(i, -30 * Matrix::Identity());
+    p.f.fill(0);
+    cloud.run(pass_of(w, Phase::forces, "artificial stress (forces)"));
+    Real most = 0;
+    for (Index i = 0; i < p.size(); ++i)
+      if (p.x.vec(i)[0] > 0.035) most = std::max(most, p.f.vec(i).norm());
+    return most;
+  };
+  const Real alone = force({0.01});
+  EXPECT_GT(alone, 0);
+  EXPECT_NEAR(force({0.005, 0.01}), alone, 1e-12 * alone);
+  EXPECT_NEAR(force({0.02, 0.01}), alone, 1e-12 * alone);
 }

@@ -204,6 +204,37 @@ TEST(WallSurface, HasImagesOfImagesWhereMirrorsMeet) {
   EXPECT_LT((slope_at(of_quarter, x) - slope_at(of_whole, x)).norm(), 1e-3 * slope_at(of_whole, x).norm());
 }
 
+TEST(WallSurface, LeavesOutNothingThatParticlesCanSee) {
+  // a long wall of short lines, a few particles beside it, one at the far end of a period
+  std::vector<std::pair<Vec, Vec>> lines;
+  std::vector<Index> all;
+  for (int k = 0; k < 400; ++k) {
+    lines.push_back({Vec(0.05 * k, 0.02 * (k % 2), 0), Vec(0.05 * (k + 1), 0.02 * ((k + 1) % 2), 0)});
+    all.push_back(k);
+  }
+  World world;
+  add_walls(world, lines);
+  Particles& p = world.particles;
+  const std::vector<Vec> places{Vec(3.01, 0.1, 0), Vec(3.2, 0.25, 0), Vec(7, -0.12, 0), Vec(19.97, 0.07, 0),
+                                Vec(11, 5, 0)};
+  p.fields.resize(static_cast<Index>(places.size()));
+  p.active = p.size();
+  for (Index i = 0; i < p.size(); ++i) p.x.set(i, places[i]);
+  const ImagePlane period{ImagePlane::Kind::periodic, Vec::Zero(), Vec(1, 0, 0), 20};
+  const ImagePlane mirror{ImagePlane::Kind::mirror, Vec(19.98, 0, 0), Vec(-1, 0, 0), 0};
+  for (const std::vector<ImagePlane>& planes : {std::vector<ImagePlane>{}, {period}, {mirror}}) {
+    const Lookouts from(p, 2 * h, planes);
+    const WallSurface whole(world, all, h / 4, 2 * h, planes), seen(world, all, h / 4, 2 * h, planes, &from);
+    EXPECT_LT(seen.points(), whole.points() / 4);
+    for (const Vec& x : places) {
+      EXPECT_LT((slope_at(seen, x) - slope_at(whole, x)).norm(), 1e-12 / h) << x.transpose();
+      EXPECT_EQ(seen.view_from(x).nothing, whole.view_from(x).nothing);
+    }
+    EXPECT_GT(slope_at(seen, places[0]).norm(), 0.1 / h);
+    EXPECT_GT(slope_at(seen, places[3]).norm(), 0.1 / h);
+  }
+}
+
 /// A floor one spacing thick, its middle half a spacing under the lowest row.
 std::string floor_cards() {
   std::string cards = test::floor_cards(0);
@@ -401,6 +432,29 @@ TEST(WallSupport, OnlyTheVelocityOverTheWallCounts) {
     EXPECT_LT((q.f.vec(j) - p.f.vec(i)).norm(), 1e-3 * 1000 * 0.004 * 0.1) << p.id[i];
   }
   EXPECT_GT(seen, 100);
+}
+
+TEST(WallSupport, ASmoothWallThatMovesChangesNothingInTheFrictionOfARoughOne) {
+  // a smooth plate beside the water, at rest and rising, above a rough floor over which the water flows
+  const auto under_friction = [](const std::string& speed) {
+    const std::string side =
+        "*NODE\n9101,-0.05,-0.05,0.\n9102,-0.05,3.,0.\n9103,-0.05,3.,1.\n9104,-0.05,-0.05,1.\n"
+        "*ELEMENT_SHELL\n2,3,9101,9102,9103,9104\n*PART\nside\n3,2,3\n*MAT_RIGID\n3,7850.,2.1E11,0.3\n0\n"
+        "*INITIAL_VELOCITY_NODE\n";
+    std::string moves;
+    for (int n = 9101; n <= 9104; ++n) moves += std::to_string(n) + ",0.," + speed + ",0.\n";
+    const auto s = test::build_deck(
+        on_floor("*COURANT_WALL_SUPPORT\n2,3,0.004\n*COURANT_WALL_SUPPORT\n3,3\n" + side + moves, "2.,0.,0."),
+        false);
+    std::string who;
+    s->evaluate(who);
+    Particles& p = s->world().particles;
+    const Index corner = at(p, Vec(0.05, 0.05, 0));
+    EXPECT_GT(sph_fields::wall_rubbing(p)[corner], 0);
+    return sph_fields::wall_velocity(p).vec(corner);
+  };
+  EXPECT_EQ(under_friction("0.").norm(), 0);
+  EXPECT_LT(under_friction("5.").norm(), 1e-12);
 }
 
 // A plate as heavy as the water, free: what the water loses it gets, turning included.
