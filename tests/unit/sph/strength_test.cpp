@@ -243,6 +243,7 @@ TEST(ArtificialStress, TakesEachPartBesideItsOwnSpacing) {
     World& w = cloud.world;
     Particles& p = w.particles;
     cloud.settings.strength.assign(spacing.size(), rubber());
+    cloud.settings.q.resize(spacing.size(), cloud.settings.q[0]);
     cloud.settings.spacing_of_part = spacing;
     const Index last = static_cast<Index>(spacing.size()) - 1;
     for (Index i = 0; i < p.size(); ++i) p.part[i] = last;
