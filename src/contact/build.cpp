@@ -139,16 +139,16 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
   std::vector<std::shared_ptr<Contact>> out;
   Builder builder(deck, model, options, world, diagnostics);
   int number = 0;
-  if (world.particles.size() == 0)
-    for (const ContactNodesToSurface& c : deck.all<ContactNodesToSurface>()) {
-      diagnostics.error(
-          deck.where(c),
-          deck.keyword(c) + ": contact keeps SPH particles off surfaces, and the deck has no particles",
-          "contact between bodies, shells and solids is not supported yet: leave it out");
-      return out;
-    }
+  const std::vector<ContactNodesToSurface>& asked = deck.all<ContactNodesToSurface>();
+  if (world.particles.size() == 0 && !asked.empty()) {
+    diagnostics.error(deck.where(asked.front()),
+                      deck.keyword(asked.front()) +
+                          ": contact keeps SPH particles off surfaces, and the deck has no particles",
+                      "contact between bodies, shells and solids is not supported yet: leave it out");
+    return out;
+  }
   const std::vector<AskedInterfaceLaw> laws = interface_laws(deck, diagnostics);
-  for (const ContactNodesToSurface& c : deck.all<ContactNodesToSurface>()) {
+  for (const ContactNodesToSurface& c : asked) {
     ++number;
     const int errors = diagnostics.errors();
     if (c.fs == 2)

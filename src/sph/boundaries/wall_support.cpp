@@ -205,8 +205,7 @@ void WallSupport::record(World& world, const Clock& clock, EnergyLedger& ledger)
   const Particles& p = world.particles;
   const Real power = sum(p.active, [&](Index i) {
     const Vec v = p.v.vec(i) + 0.5 * clock.dt_mean() / p.m[i] * p.f.vec(i);
-    const Vec over_wall = velocity_ ? Vec(v - velocity_->vec(i)) : v;
-    return is_near(i) ? -friction_on(p, i, p.v.vec(i)).dot(over_wall) : Real(0);
+    return is_near(i) ? -friction_on(p, i, p.v.vec(i)).dot(over_wall(i, v)) : Real(0);
   });
   ledger.dissipated += power * clock.dt_mean();
   ledger.throughput += std::abs(power) * clock.dt_mean();
@@ -262,10 +261,13 @@ bool WallSupport::is_spray(const Particles& p, Index i) const {
   return true;
 }
 
+Vec WallSupport::over_wall(Index i, const Vec& v) const {
+  return velocity_ ? Vec(v - velocity_->vec(i)) : v;
+}
+
 Vec WallSupport::friction_on(const Particles& p, Index i, const Vec& v) const {
   if (!(rubbing_[i] > 0)) return Vec::Zero();
-  const Vec over_wall = velocity_ ? Vec(v - velocity_->vec(i)) : v;
-  const Vec n = slope_.vec(i).normalized(), along = over_wall - over_wall.dot(n) * n;
+  const Vec u = over_wall(i, v), n = slope_.vec(i).normalized(), along = u - u.dot(n) * n;
   return -(p.m[i] * rubbing_[i] * along.norm()) * along;
 }
 

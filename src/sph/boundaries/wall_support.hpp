@@ -75,6 +75,8 @@ class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keepe
   bool is_spray(const Particles& p, Index i) const;
   void set(Index i, const Sums& sums);
   Vec corrected_slope(Index i) const;
+  /// A velocity of particle i less that of the walls that rub it.
+  Vec over_wall(Index i, const Vec& v) const;
   Vec friction_on(const Particles& p, Index i, const Vec& v) const;
   Sums sums_over_points(Real h, const Vec& x, const Vec& v, Real half_step) const;
   Sums sums_over_plane(Index face, Real h, const Vec& x, const Vec& v, Real half_step) const;
