@@ -183,7 +183,7 @@ void Simulation::add_neighbours(Diagnostics& diagnostics) {
   if (!sph_.evolving_h) neighbours_->keep_h();
   make_injected_wait(injections_, world_, *neighbours_);
   if (injections_.inlets.empty()) left_out_.push_back({"inlets", "no *DEFINE_SPH_INJECTION"});
-  add_images(h, diagnostics);
+  add_ghosts(h, diagnostics);
 }
 
 void Simulation::add_particle_passes(Diagnostics& diagnostics) {
@@ -239,31 +239,32 @@ std::string Simulation::lacks_particles(Real end) const {
   return "";
 }
 
-void Simulation::add_images(Real h, Diagnostics& diagnostics) {
+void Simulation::add_ghosts(Real h, Diagnostics& diagnostics) {
   const Real reach = neighbours_->support() * h + neighbours_->largest_skin();
-  planes_ = build_image_planes(deck_, model_, sph_, reach, world_, diagnostics);
+  planes_ = build_ghost_planes(deck_, model_, sph_, reach, world_, diagnostics);
   if (planes_.empty())
-    return left_out_.push_back({"images", "no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC"});
-  for (const ImagePlane& plane : planes_) {
-    if (plane.kind != ImagePlane::Kind::periodic) continue;
+    return left_out_.push_back(
+        {"ghost particles", "no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC"});
+  for (const GhostPlane& plane : planes_) {
+    if (plane.kind != GhostPlane::Kind::periodic) continue;
     sph_.loads = sph_.loads.without(plane.normal);  // along a period nothing rests on anything
     check_body_loads_periodic(deck_, plane.normal, diagnostics);
   }
-  for (const ImagePlane& plane : planes_)
-    if (plane.kind == ImagePlane::Kind::mirror) sph_.mirrors.push_back(plane);
+  for (const GhostPlane& plane : planes_)
+    if (plane.kind == GhostPlane::Kind::mirror) sph_.mirrors.push_back(plane);
   sph_.walls.planes = planes_;
-  auto images = std::make_shared<Images>(planes_);
-  neighbours_->set_images(images);
-  world_.passes.add(images);
-  mirrors_ = images->make_mirrors(acceleration_of_particles(model_));
+  auto ghosts = std::make_shared<GhostParticles>(planes_);
+  neighbours_->set_ghosts(ghosts);
+  world_.passes.add(ghosts);
+  mirrors_ = ghosts->make_mirrors(acceleration_of_particles(model_));
 }
 
 void Simulation::add_prescribed_motions(Diagnostics& diagnostics) {
   const std::vector<PrescribedMotion> motions = prescribed_motions(deck_, model_, diagnostics);
   if (motions.empty()) left_out_.push_back({"prescribed motion", "no *BOUNDARY_PRESCRIBED_MOTION"});
   MotionLimits limits{.dim = sph_.dim, .boxed = sph_.region.has_value()};
-  for (const ImagePlane& plane : planes_)
-    if (plane.kind == ImagePlane::Kind::mirror) limits.mirrors.push_back(plane.normal);
+  for (const GhostPlane& plane : planes_)
+    if (plane.kind == GhostPlane::Kind::mirror) limits.mirrors.push_back(plane.normal);
   add_prescribed_points(motions, deck_, model_, limits, world_, diagnostics);
   RigidBodies none({});
   (bodies_ ? *bodies_ : none).follow(motions, deck_, model_, diagnostics);

@@ -85,7 +85,7 @@ class Simulation {
   void report_what_needs_particles(Diagnostics& diagnostics);
   void add_node_passes(Diagnostics& diagnostics);
   void add_loads(const Points& points, const BodyAcceleration& acceleration);
-  void add_images(Real h, Diagnostics& diagnostics);
+  void add_ghosts(Real h, Diagnostics& diagnostics);
   void add_prescribed_motions(Diagnostics& diagnostics);
   void add_bodies();
   std::vector<PassNote> outputs(bool wanted) const;
@@ -107,7 +107,7 @@ class Simulation {
   std::shared_ptr<Relocation> mirrors_;     ///< null: none
   std::vector<std::shared_ptr<Contact>> contacts_;
   std::shared_ptr<RigidBodies> bodies_;
-  std::vector<ImagePlane> planes_;
+  std::vector<GhostPlane> planes_;
   std::vector<PassNote> left_out_;
   StepRules rules_;
   std::shared_ptr<Guard> guard_;

@@ -1,6 +1,6 @@
 // What a restart file holds of a simulation.
 #include "app/simulation.hpp"
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 
 namespace courant {
 
@@ -8,21 +8,21 @@ void Simulation::keep(Archive& archive) {
   const Archive::Group inside(archive, "state");
   keep_clock(clock_, archive);
   const bool more_wait = keep_world(world_, archive);
-  auto keepers = keepers_of(world_);
-  keepers.emplace_back("guard", guard_.get());
-  keepers.emplace_back("stepper", stepper_.get());
+  auto restartables = restartables_of(world_);
+  restartables.emplace_back("guard", guard_.get());
+  restartables.emplace_back("stepper", stepper_.get());
   if (neighbours_) neighbours_->keep(archive);
   {
     const Archive::Group passes(archive, "passes");
-    for (const auto& [name, keeper] : keepers) {
+    for (const auto& [name, restartable] : restartables) {
       const Archive::Group pass(archive, name);
-      keeper->keep(archive);
+      restartable->keep(archive);
     }
   }
   if (!archive.loading()) return;
   archive.stop_for_leftovers();
-  if (neighbours_) neighbours_->restore(world_, keepers);
-  for (const auto& [name, keeper] : keepers) keeper->loaded(world_);
+  if (neighbours_) neighbours_->restore(world_, restartables);
+  for (const auto& [name, restartable] : restartables) restartable->loaded(world_);
   for (Exchanger* e : world_.passes.all<Exchanger>())
     e->exchange_all(world_);  // what `loaded` made anew, too
   if (more_wait) neighbours_->force_refresh();

@@ -23,7 +23,7 @@ void Contact::refreshed(World& world, const Clock& clock, std::span<const Index>
 void Contact::forget_left(const World& world, std::span<const Index> old_of_new) {
   for (Index i = world.particles.active; i < Index(old_of_new.size()); ++i) {
     if (old_of_new[i] >= listed_) continue;
-    ghost_->set(i, Vec::Zero());
+    admissible_->set(i, Vec::Zero());
     if (friction_on_)
       for (int k = 0; k < 3; ++k) friction_force_[k]->set(i, Vec::Zero());
   }
@@ -44,7 +44,7 @@ void Contact::list_block(World& world, const Clock& clock, Index begin, Index en
     if (slot.k > 0 && list_candidates(b, p.x.vec(i), slot.facet[0])) {
       slot.last = Index(b.candidate.size());
       b.side.resize(b.candidate.size());
-      slot.behind = !ghost_->vec(i).isZero(0);
+      slot.behind = !admissible_->vec(i).isZero(0);
       learn_sides(world, clock, b, slot);
       note_planes(b, slot);
       b.slots.push_back(slot);
@@ -53,7 +53,7 @@ void Contact::list_block(World& world, const Clock& clock, Index begin, Index en
     }
     if (slot.k > 0 && leapt_over_wall(p.x.vec(i) - p.v.vec(i) * clock.dt_old, p.x.vec(i)))
       b.leapt.push_back(i);
-    ghost_->set(i, Vec::Zero());
+    admissible_->set(i, Vec::Zero());
     if (friction_on_)
       for (int k = 0; k < 3; ++k) friction_force_[k]->set(i, Vec::Zero());
   }
@@ -119,17 +119,18 @@ void Contact::note_planes(const Block& b, Slot& slot) const {
 // seen.
 void Contact::learn_sides(const World& world, const Clock& clock, Block& b, const Slot& slot) const {
   const Index i = slot.particle;
-  const Vec ghost = world.particles.x.vec(i) - world.particles.v.vec(i) * clock.dt_old + ghost_->vec(i);
+  const Vec admissible =
+      world.particles.x.vec(i) - world.particles.v.vec(i) * clock.dt_old + admissible_->vec(i);
   for (Index c = slot.first; c < slot.last; ++c) {
     const Facet& f = facets_[b.candidate[c]];
     if (!f.moves) {
-      b.side[c] = std::int8_t(side_of(plane_distance(walls_[b.candidate[c]], ghost)));
+      b.side[c] = std::int8_t(side_of(plane_distance(walls_[b.candidate[c]], admissible)));
       continue;
     }
     const Corners& x = before_[b.candidate[c]];
     const Vec n =
         f.corners == 4 ? Vec((x[2] - x[0]).cross(x[3] - x[1])) : Vec((x[1] - x[0]).cross(x[2] - x[0]));
-    b.side[c] = std::int8_t(side_of(n.dot(ghost - x[0])));
+    b.side[c] = std::int8_t(side_of(n.dot(admissible - x[0])));
   }
 }
 

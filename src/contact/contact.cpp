@@ -56,7 +56,7 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
   const std::string prefix = fmt::format("contact_{}_", number_);
   Particles& p = world.particles;
   k_particle_ = particle_field(world, prefix + "stiffness", "M/T2", 1);
-  ghost_ = particle_field(world, prefix + "ghost", "L", 3);
+  admissible_ = particle_field(world, prefix + "admissible", "L", 3);
   leaked_ = &p.fields.add<Index>({.name = "leaked", .dimension = "-"});
   if (friction_on_)
     for (int k = 0; k < 3; ++k) {
@@ -138,7 +138,7 @@ std::string Contact::name() const {
 void Contact::declare(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
   const Nodes& n = world.nodes;
-  a.reads(p.x).reads(p.v).reads(p.m).updates(p.f).updates(*ghost_);
+  a.reads(p.x).reads(p.v).reads(p.m).updates(p.f).updates(*admissible_);
   if (radius_) a.reads(*radius_);
   if (friction_on_) {
     if (law_.vc > 0) a.reads(p.rho);
@@ -148,7 +148,7 @@ void Contact::declare(const World& world, Accesses& a) const {
   const bool sleeps = law_.birth > 0 || law_.death < ContactLaw().death;
   if (moves && drag_on_) a.reads(n.v, Reach::others);
   a.in_start();
-  if (sleeps) a.reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*ghost_);
+  if (sleeps) a.reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*admissible_);
   if (moves) a.reads(n.x, Reach::others).reads(n.v, Reach::others);
   if (held) a.updates(n.f).updates(world.segments.contact_force);
   a.in_finish().updates(*leaked_);
@@ -180,7 +180,7 @@ void Contact::fall_asleep(World& world) {
     b.deepest = 0;
     for (Slot& slot : b.slots) slot.behind = false, slot.room = 0;
   }
-  for (int k = 0; k < 3; ++k) std::fill_n(ghost_->data(k), world.particles.size(), 0.0);
+  for (int k = 0; k < 3; ++k) std::fill_n(admissible_->data(k), world.particles.size(), 0.0);
   asleep_ = true;
 }
 
@@ -219,7 +219,7 @@ void Contact::finish(World& world, const Clock&) {
     deepest = std::max(deepest, b.deepest);
     count_leaks(world, b.crossed);
   }
-  if (!moving_.empty()) fill_slots();
+  if (!moving_.empty()) gather_reactions();
   if (deepest > 0) {
     Real& most = world.maxima["max_penetration"];
     most = std::max(most, deepest);

@@ -15,7 +15,7 @@
 #include "contact/wall.hpp"
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -46,14 +46,14 @@ struct ContactLaw {
 
 /// The interface at work. A particle with distance d < r to the walls is pushed by k (r - d) along the
 /// shortest way out; where several walls meet, to the nearest place that keeps distance r from all (see
-/// push_out.hpp). Each particle has a last admissible position, here called its ghost (no ghost particle):
-/// the particle itself, unless its path went through a mid-surface. It is then pulled back to the ghost's
-/// side, which the ghost only leaves around a free edge, never through a wall. What outlives a search of
+/// push_out.hpp). Each particle has a last admissible position:
+/// the particle itself, unless its path went through a mid-surface. It is then pulled back to that
+/// position's side, which it only leaves around a free edge, never through a wall. What outlives a search of
 /// neighbours is in particle fields, so sorting keeps it.
 ///
 /// Most particles near walls are far from touching, or touch one fixed flat wall or a corner of few. For
 /// these there are shortcuts (quick_touch.cpp) that give the same bits as the full search (touch.cpp).
-class Contact : public Force, public Refresh, public TimeLimit, public EnergyTerm, public Keeper {
+class Contact : public Force, public Refresh, public TimeLimit, public EnergyTerm, public Restartable {
  public:
   /// `tracked`: by particle index. `number` counts interfaces from 1 and keeps their fields apart.
   Contact(ContactLaw law, const ContactOptions& options, int number, const std::vector<Index>& segments,
@@ -113,7 +113,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
     std::int8_t walls = 0;      ///< planes of all its candidates; 0: too many or not known
     std::array<std::int8_t, 3> side{};
     std::array<Index, 3> facet{};  ///< of each plane the one it was over last, in ascending order
-    bool behind = false;           ///< its ghost is somewhere else
+    bool behind = false;           ///< its admissible position is somewhere else
     bool skipped = false;          ///< sides of candidates are out of date
     std::int8_t joints = 0;        ///< facets of a joint it was over at `seen`, if any
     std::array<Index, 4> joint{};
@@ -123,23 +123,22 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
     Vec seen = Vec::Zero();
   };
   struct Reaction {  ///< of a touch on a wall that moves
-    Index touch;
-    std::array<Real, 4> share;  ///< of the facet's corners [-]
+    Index facet = 0;
+    Vec force = Vec::Zero();      ///< on it [ML/T2]
+    std::array<Real, 4> share{};  ///< of its corners [-]
   };
-  /// Touches on walls that move, by facet: the slots from which faces and nodes gather.
-  struct Slots {
-    struct Slot {
-      Vec force = Vec::Zero();      ///< on the facet [ML/T2]
-      std::array<Real, 4> share{};  ///< of its corners [-]
-    };
-    std::vector<Index> first;  ///< of each facet, and the end
-    std::vector<Slot> slots;
+  /// Those of all blocks, from which faces and nodes gather: facet moving_[k] has
+  /// all[order[first[k]]], ..., all[order[first[k + 1] - 1]], in the order of particles.
+  struct Reactions {
+    std::vector<Index> begin;  ///< of each block's, and the end
+    std::vector<Reaction> all;
+    std::vector<Index> key, first, order;
   };
-  /// Which facets a node or a segment has.
+  /// Which facets that move a node or a segment has.
   struct Incidence {
     struct Corner {
-      Index facet;
-      int corner;  ///< of a node; -1: of a segment
+      Index moving;  ///< in moving_
+      int corner;    ///< of a node; -1: of a segment
     };
     std::vector<Index> first;
     std::vector<Corner> corners;
@@ -147,7 +146,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   struct alignas(64) Block {  ///< of particles; what one thread works on
     std::vector<Slot> slots;
     std::vector<Index> candidate;   ///< facets, ascending for each slot
-    std::vector<std::int8_t> side;  ///< of the ghost, per candidate
+    std::vector<std::int8_t> side;  ///< of the admissible position, per candidate
     std::vector<Touch> touches;     ///< now, in the order of particles
     std::vector<Drag> drags;        ///< per touch, if there is friction or damping
     std::vector<Index> crossed;     ///< particles whose path goes through a mid-surface now
@@ -182,7 +181,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   void take_facet(Slot& slot, int wall, Index facet) const;
   bool is_far(const Slot& slot, const Vec& x) const;
   void find_pushes(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes);
-  bool pull_back(Near& near, const Vec& ghost, Pushes& pushes, Vec& u) const;
+  bool pull_back(Near& near, const Vec& admissible, Pushes& pushes, Vec& u) const;
   void push_off(Near& near, Pushes& pushes, Vec& u) const;
   Real surely_deepest(const Near& near, const Vec& y, const Pushes& pushes) const;
   bool consider(const Near& near, Index c, const Vec& y, const Pushes& pushes, Push& worst,
@@ -194,7 +193,9 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   Vec force_of(const Block& b, std::size_t touch) const;
   void give_to_wall(World& world, const Block& b, std::size_t touch, const std::array<Real, 4>& share);
   void find_incidence(const World& world);
-  void fill_slots();
+  void gather_reactions();
+  template <class Add>
+  void for_each_reaction(const Incidence& of, Index at, const Add& add) const;
   Vec wall_velocity(const World& world, const Facet& f, const Vec& q) const;
   Real stiffness(Index i, Real kn, Real kf, const Facet& f, const World& world) const;
   const Corners& before(Index facet) const {
@@ -210,10 +211,11 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   int number_, dim_;
   bool friction_on_, drag_on_, asleep_ = false;
   std::vector<Facet> facets_;
-  std::vector<Wall> walls_;      ///< the same facets, for the search
-  std::vector<Corners> before_;  ///< corners one step ago, only for facets that move
-  std::vector<Index> moving_;    ///< facets
-  Real travel_ = 0;              ///< of the corners that move most, summed up [L]
+  std::vector<Wall> walls_;             ///< the same facets, for the search
+  std::vector<Corners> before_;         ///< corners one step ago, only for facets that move
+  std::vector<Index> moving_;           ///< facets
+  std::vector<Index> place_in_moving_;  ///< of each facet that moves
+  Real travel_ = 0;                     ///< of the corners that move most, summed up [L]
   FacetGrid grid_;
   Real reach_ = 0, radius_all_ = 0;
   Real r_most_ = 0;  ///< largest contact distance [L]
@@ -222,7 +224,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
 
   Field<Real>* k_particle_ = nullptr;  ///< penalty stiffness of the particle; 0: not tracked
   Field<Real>* radius_ = nullptr;      ///< only if it differs from particle to particle
-  Field<Real>* ghost_ = nullptr;       ///< ghost minus position, 0 for a particle in front
+  Field<Real>* admissible_ = nullptr;  ///< admissible position minus x, 0 for a particle in front
   Field<Index>* near_wall_ =
       nullptr;  ///< 1 where a wall is within reach, if anybody wants to know; whoever does clears it
   Field<Index>* leaked_ =
@@ -232,7 +234,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   std::vector<Block> blocks_;
   Index listed_ = 0;  ///< particles that were active at the last refresh
   Resource reactions_resource_{"contact reactions"};
-  Slots slots_;
+  Reactions reactions_;
   Incidence of_node_, of_segment_;
   std::vector<Index> written_;  ///< held facets whose nodes and segments have forces of this interface
   bool shown_ = false;

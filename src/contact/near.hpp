@@ -18,7 +18,7 @@ struct Contact::Near {
   std::span<const Index> candidate;  ///< facets
   std::span<std::int8_t> side;       ///< of the origin, by candidate
   Vec x = Vec::Zero();               ///< [L]
-  Vec origin = Vec::Zero();          ///< last admissible position: x itself, or the ghost [L]
+  Vec origin = Vec::Zero();          ///< last admissible position, most often x itself [L]
 };
 
 inline Real Contact::stiffness(Index i, Real kn, Real kf, const Facet& f, const World& world) const {

@@ -1,73 +1,80 @@
 // What contact does to walls that move: each touch leaves its force in a slot of its facet, and nodes and
 // faces gather theirs on all threads, in a fixed order.
 #include "contact/contact.hpp"
-
+#include "parallel/counting_sort.hpp"
+#include "parallel/parallel.hpp"
 #include "surfaces/face_forces.hpp"
 
 namespace courant {
 
 // Facets of a node or of a segment, ascending.
 void Contact::find_incidence(const World& world) {
-  const auto build = [&](Incidence& out, Index count, auto&& for_each) {
-    out.first.assign(static_cast<std::size_t>(count) + 1, 0);
-    for_each([&](Index at, Incidence::Corner) { ++out.first[static_cast<std::size_t>(at) + 1]; });
-    for (std::size_t k = 1; k < out.first.size(); ++k) out.first[k] += out.first[k - 1];
-    out.corners.resize(static_cast<std::size_t>(out.first.back()));
-    std::vector<Index> next(out.first.begin(), out.first.end() - 1);
-    for_each([&](Index at, Incidence::Corner corner) {
-      out.corners[static_cast<std::size_t>(next[static_cast<std::size_t>(at)]++)] = corner;
+  place_in_moving_.assign(facets_.size(), -1);
+  const auto moving = static_cast<Index>(moving_.size());
+  for (Index k = 0; k < moving; ++k) place_in_moving_[moving_[k]] = k;
+  const auto build = [&](Incidence& out, Index count, auto&& for_each_corner) {
+    std::vector<Index> owner, order;
+    std::vector<Incidence::Corner> corners;
+    for_each_corner([&](Index at, Incidence::Corner corner) {
+      owner.push_back(at);
+      corners.push_back(corner);
     });
+    counting_sort(owner, count, out.first, order);
+    for (const Index k : order) out.corners.push_back(corners[k]);
   };
   build(of_node_, world.nodes.size(), [&](auto&& add) {
-    for (const Index f : moving_)
-      for (int e = 0; e < facets_[f].corners; ++e) add(facets_[f].node[e], {f, e});
+    for (Index k = 0; k < moving; ++k)
+      for (int e = 0; e < facets_[moving_[k]].corners; ++e) add(facets_[moving_[k]].node[e], {k, e});
   });
   build(of_segment_, world.segments.size(), [&](auto&& add) {
-    for (const Index f : moving_) add(facets_[f].segment, {f, -1});
+    for (Index k = 0; k < moving; ++k) add(facets_[moving_[k]].segment, {k, -1});
   });
 }
 
 // Blocks, and with them touches, stand in the order of particles.
-void Contact::fill_slots() {
+void Contact::gather_reactions() {
   note_access(reactions_resource_);
-  slots_.first.assign(facets_.size() + 1, 0);
-  for (const Block& b : blocks_)
-    for (const Reaction& r : b.reactions)
-      ++slots_.first[static_cast<std::size_t>(b.touches[static_cast<std::size_t>(r.touch)].facet) + 1];
-  for (std::size_t k = 1; k < slots_.first.size(); ++k) slots_.first[k] += slots_.first[k - 1];
-  slots_.slots.resize(static_cast<std::size_t>(slots_.first.back()));
-  std::vector<Index> next(slots_.first.begin(), slots_.first.end() - 1);
-  for (const Block& b : blocks_)
-    for (const Reaction& r : b.reactions) {
-      const auto touch = static_cast<std::size_t>(r.touch);
-      const auto facet = static_cast<std::size_t>(b.touches[touch].facet);
-      slots_.slots[static_cast<std::size_t>(next[facet]++)] = {-force_of(b, touch), r.share};
+  Reactions& r = reactions_;
+  const auto blocks = static_cast<Index>(blocks_.size());
+  r.begin.assign(1, 0);
+  for (const Block& b : blocks_) r.begin.push_back(r.begin.back() + static_cast<Index>(b.reactions.size()));
+  const Index count = r.begin.back();
+  r.all.resize(count);
+  r.key.resize(count);
+  if (count == 0) return;
+  constexpr Index worth_threads = 2000;
+  const int shares = count < worth_threads ? 1 : threads();
+  on_threads(shares, [&](int t) {
+    for (Index b = blocks * t / shares; b < blocks * (t + 1) / shares; ++b) {
+      Index at = r.begin[b];
+      for (const Reaction& one : blocks_[b].reactions) {
+        r.all[at] = one;
+        r.key[at++] = place_in_moving_[one.facet];
+      }
     }
+  });
+  counting_sort(r.key, static_cast<Index>(moving_.size()), r.first, r.order);
+}
+
+// `add(reaction, corner)` for all reactions on the facets of a node or segment, by facet and particle.
+template <class Add>
+void Contact::for_each_reaction(const Incidence& of, Index at, const Add& add) const {
+  note_access(reactions_resource_);
+  const Reactions& r = reactions_;
+  if (r.all.empty()) return;
+  for (Index k = of.first[at]; k < of.first[at + 1]; ++k) {
+    const auto [moving, corner] = of.corners[k];
+    for (Index s = r.first[moving]; s < r.first[moving + 1]; ++s) add(r.all[r.order[s]], corner);
+  }
 }
 
 void Contact::add_reaction_on_node(Index node, Vec& force) const {
-  note_access(reactions_resource_);
-  if (slots_.slots.empty()) return;
-  const auto n = static_cast<std::size_t>(node);
-  for (Index k = of_node_.first[n]; k < of_node_.first[n + 1]; ++k) {
-    const auto [facet, corner] = of_node_.corners[static_cast<std::size_t>(k)];
-    const auto f = static_cast<std::size_t>(facet);
-    for (Index s = slots_.first[f]; s < slots_.first[f + 1]; ++s) {
-      const Slots::Slot& slot = slots_.slots[static_cast<std::size_t>(s)];
-      force += slot.share[static_cast<std::size_t>(corner)] * slot.force;
-    }
-  }
+  for_each_reaction(of_node_, node,
+                    [&](const Reaction& r, int corner) { force += r.share[corner] * r.force; });
 }
 
 void Contact::add_reaction_on_segment(Index segment, Vec& force) const {
-  note_access(reactions_resource_);
-  if (slots_.slots.empty()) return;
-  const auto n = static_cast<std::size_t>(segment);
-  for (Index k = of_segment_.first[n]; k < of_segment_.first[n + 1]; ++k) {
-    const auto f = static_cast<std::size_t>(of_segment_.corners[static_cast<std::size_t>(k)].facet);
-    for (Index s = slots_.first[f]; s < slots_.first[f + 1]; ++s)
-      force += slots_.slots[static_cast<std::size_t>(s)].force;
-  }
+  for_each_reaction(of_segment_, segment, [&](const Reaction& r, int) { force += r.force; });
 }
 
 namespace {

@@ -43,7 +43,7 @@ void Contact::find_pushes(World& world, const Clock& clock, Block& b, Slot& slot
     changed = changed || side_of(plane_distance(w, near.x)) != near.side[c];
     if (search_less_) nearest2 = std::min(nearest2, least_distance2(w, near.x));
   }
-  const Vec offset = ghost_->vec(i);
+  const Vec offset = admissible_->vec(i);
   slot.room = 0;
   slot.joints = 0;
   if (search_less_ && !changed && !slot.behind) {
@@ -60,10 +60,10 @@ void Contact::find_pushes(World& world, const Clock& clock, Block& b, Slot& slot
       near.side[c] = std::int8_t(side_of(plane_distance(walls_[near.candidate[c]], y)));
   };
   if (changed) {
-    const Vec ghost = near.x - world.particles.v.vec(i) * clock.dt_old + offset;
-    behind = pull_back(near, ghost, pushes, u);
+    const Vec admissible = near.x - world.particles.v.vec(i) * clock.dt_old + offset;
+    behind = pull_back(near, admissible, pushes, u);
     if (behind) {
-      near.origin = ghost;
+      near.origin = admissible;
       b.crossed.push_back(i);
     } else {
       learn(near.x);
@@ -72,25 +72,26 @@ void Contact::find_pushes(World& world, const Clock& clock, Block& b, Slot& slot
   push_off(near, pushes, u);
   slot.behind = behind;
   if (!behind) {
-    if (!offset.isZero(0)) ghost_->set(i, Vec::Zero());
+    if (!offset.isZero(0)) admissible_->set(i, Vec::Zero());
     return;
   }
-  // The ghost follows to where the walls let the particle be, unless that is behind another wall.
+  // The admissible position follows to where the walls let the particle be, unless that is behind another
+  // wall.
   Pushes none;
   Vec ignore = Vec::Zero();
   Near there = near;
   there.x = near.x + u;
   if (pull_back(there, near.origin, none, ignore)) {
-    ghost_->set(i, near.origin - near.x);
+    admissible_->set(i, near.origin - near.x);
     return;
   }
-  ghost_->set(i, u);
+  admissible_->set(i, u);
   learn(there.x);
 }
 
-// Walls that stand between the ghost and where the particle is (after each wall found: where it would be
-// pushed to). Returns whether there are any.
-bool Contact::pull_back(Near& near, const Vec& ghost, Pushes& pushes, Vec& u) const {
+// Walls that stand between the admissible position and where the particle is (after each wall found: where it
+// would be pushed to). Returns whether there are any.
+bool Contact::pull_back(Near& near, const Vec& admissible, Pushes& pushes, Vec& u) const {
   while (pushes.count < Pushes::capacity) {
     const Vec y = near.x + u;
     Real soonest = 2;
@@ -99,7 +100,7 @@ bool Contact::pull_back(Near& near, const Vec& ghost, Pushes& pushes, Vec& u) co
       const Index k = near.candidate[c];
       if (side_of(plane_distance(walls_[k], y)) == near.side[c] || pushes.has(k)) continue;
       Real t = 0;
-      if (passes_through(facets_[k], before(k), near.side[c], ghost, y, t) && t < soonest) {
+      if (passes_through(facets_[k], before(k), near.side[c], admissible, y, t) && t < soonest) {
         soonest = t;
         hit = Index(c);
       }
@@ -213,7 +214,6 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
     b.touches.push_back(
         {.particle = i, .facet = p.facet, .share = p.share, .depth = p.depth, .k = k, .n = p.n, .q = p.q});
     b.deepest = std::max(b.deepest, p.depth);
-    if (f.moves) b.reactions.push_back({Index(b.touches.size()) - 1, shape_functions(f, p.q)});
     if (drag_on_) {
       const Vec v = world.particles.v.vec(i) - wall_velocity(world, f, p.q);
       Drag& drag = b.drags.emplace_back(Drag{.damping = 0, .friction = Vec::Zero(), .other = Vec::Zero()});
@@ -233,7 +233,9 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
             clock);
       if (dim_ == 2) drag.friction.z() = drag.other.z() = 0;
     }
-    total += force_of(b, b.touches.size() - 1);
+    const Vec force = force_of(b, b.touches.size() - 1);
+    total += force;
+    if (f.moves) b.reactions.push_back({p.facet, -force, shape_functions(f, p.q)});
   }
   world.particles.f.add(i, total);
 }

@@ -1,7 +1,7 @@
 // *LOAD_BODY and *LOAD_GRAVITY_PART as forces on points.
 #include "loads/loads.hpp"
 #include "parallel/parallel.hpp"
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 
 namespace courant {
 
@@ -9,7 +9,7 @@ namespace {
 
 /// Potential energy is sum m phi(x, t), phi that of BodyAcceleration; where the loads change in time or
 /// particles enter and leave, the difference is external work.
-class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Keeper {
+class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Restartable {
  public:
   BodyLoadPass(BodyAcceleration acceleration, Points points, World& world,
                std::shared_ptr<Neighbours> neighbours)
@@ -62,7 +62,7 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Kee
       Real exchanged = 0;
       for (const Index i : neighbours_->entered()) exchanged += potential_of(now, i);
       for (const Index i : neighbours_->left()) exchanged -= potential_of(now, i);
-      if (neighbours_->images()) exchanged += rise_of_brought_back(now, *neighbours_->images());
+      if (neighbours_->ghosts()) exchanged += rise_of_brought_back(now, *neighbours_->ghosts());
       world.energy.external_work += exchanged;
       world.energy.throughput += std::abs(exchanged);
     }
@@ -93,9 +93,9 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Kee
   }
 
   // Loads that are not uniform do not change along a period (check_body_loads_periodic).
-  static Real rise_of_brought_back(const BodyAcceleration::At& now, const Images& images) {
+  static Real rise_of_brought_back(const BodyAcceleration::At& now, const GhostParticles& ghosts) {
     Real sum = 0;
-    for (const auto& [part, shift] : images.brought_back()) sum += now.rise(Vec::Zero(), shift, part);
+    for (const auto& [part, shift] : ghosts.brought_back()) sum += now.rise(Vec::Zero(), shift, part);
     return sum;
   }
 

@@ -68,7 +68,7 @@ class FieldWriter {
   std::int64_t bytes() const { return bytes_; }  ///< of all field files
 
   /// The state of a run that stopped in error, for those who want to look: `fields/failed.vtp` and
-  /// `fields/failed_shells.vtu`, which fields.pvd does not list. Active and rim particles whose places a
+  /// `fields/failed_shells.vtu`, which fields.pvd does not list. Active and halo particles whose places a
   /// float32 can hold; nothing where there is none. Other values may be NaN. Throws OutputError.
   void write_failed(const World& world, Real t);
 

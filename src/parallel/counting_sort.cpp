@@ -12,7 +12,7 @@ void counting_sort(std::span<const Index> key, Index keys, std::vector<Index>& s
                    std::vector<Index>& order) {
   const Index n = static_cast<Index>(key.size());
   constexpr Index worth_threads = 2000;
-  const int shares = n < worth_threads ? 1 : threads();
+  const int shares = std::max(n, keys) < worth_threads ? 1 : threads();
   start.resize(keys + 1);
   order.resize(n);
   std::vector<Index> total(shares + 1, 0);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "parallel/parallel.hpp"
+
 namespace courant {
 namespace {
 
@@ -17,15 +19,11 @@ Eigen::Quaterniond turned(const Vec& angle, const Eigen::Quaterniond& q) {
   return (Eigen::Quaterniond(Eigen::AngleAxisd(a, angle / a)) * q).normalized();
 }
 
-void place_nodes(const RigidBody& b, World& world, Real dt) {
-  const Matrix R = b.q.toRotationMatrix();
-  for (std::size_t k = 0; k < b.nodes.size(); ++k) {
-    const Index n = b.nodes[k];
-    const Vec old = world.nodes.x.vec(n), now = b.x + R * b.X[k];
-    // The chord of the step: contact finds where the node was from x - v dt.
-    if (dt > 0) world.nodes.v.set(n, (now - old) / dt);
-    world.nodes.x.set(n, now);
-  }
+/// Calls `work(body, piece)` for nodes [piece.begin, piece.end) of bodies, on all threads.
+template <class Work>
+void for_each_piece(std::vector<RigidBody>& bodies, std::vector<RigidBodies::Piece>& pieces,
+                    const Work& work) {
+  for_each(static_cast<Index>(pieces.size()), [&](Index k) { work(bodies[pieces[k].body], pieces[k]); });
 }
 
 }  // namespace
@@ -54,24 +52,44 @@ bool RigidBodies::any_moves() const {
   return std::any_of(bodies_.begin(), bodies_.end(), [](const RigidBody& b) { return !b.fixed(); });
 }
 
+RigidBodies::RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodies)) {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    RigidBody& body = bodies_[k];
+    body.x0 = body.x;
+    const auto nodes = static_cast<Index>(body.nodes.size());
+    if (body.fixed()) continue;
+    for (Index begin = 0; begin < nodes; begin += block_size)
+      pieces_.push_back({.body = k, .begin = begin, .end = std::min(nodes, begin + block_size)});
+  }
+}
+
 void RigidBodies::apply(World& world, const Clock& clock) {
   const BodyAcceleration::At now = loads_.at(clock.t);
+  for_each_piece(bodies_, pieces_, [&](const RigidBody& b, Piece& piece) {
+    piece.force.setZero(), piece.moment.setZero();
+    for (Index k = piece.begin; k < piece.end; ++k) {
+      const Index n = b.nodes[k];
+      Vec f = world.nodes.f.vec(n);
+      if (!loads_.uniform())
+        f += world.nodes.m[n] * (now(world.nodes.x.vec(n), b.part_index) - now.everywhere());
+      piece.force += f;
+      piece.moment += (world.nodes.x.vec(n) - b.x).cross(f);
+    }
+  });
   for (RigidBody& b : bodies_) {
     if (b.fixed()) continue;
     b.force = b.m * now.everywhere();
     b.moment.setZero();
-    for (const Index n : b.nodes) {
-      Vec f = world.nodes.f.vec(n);
-      if (!loads_.uniform())
-        f += world.nodes.m[n] * (now(world.nodes.x.vec(n), b.part_index) - now.everywhere());
-      b.force += f;
-      b.moment += (world.nodes.x.vec(n) - b.x).cross(f);
-    }
+  }
+  for (const Piece& piece : pieces_) {
+    bodies_[piece.body].force += piece.force;
+    bodies_[piece.body].moment += piece.moment;
+  }
+  for (RigidBody& b : bodies_)
     for (int k = 0; k < 3; ++k) {
       if (b.held[k]) b.force[k] = 0;
       if (b.no_turn[k]) b.moment[k] = 0;
     }
-  }
 }
 
 void RigidBodies::kick(World&, const Clock& clock) {
@@ -97,8 +115,17 @@ void RigidBodies::drift(World& world, const Clock& clock) {
     if (b.fixed()) continue;
     b.x += b.v * clock.dt;
     b.q = turned(clock.dt * b.omega, b.q);
-    place_nodes(b, world, clock.dt);
   }
+  for_each_piece(bodies_, pieces_, [&](const RigidBody& b, const Piece& piece) {
+    const Matrix R = b.q.toRotationMatrix();
+    for (Index k = piece.begin; k < piece.end; ++k) {
+      const Index n = b.nodes[k];
+      const Vec old = world.nodes.x.vec(n), now = b.x + R * b.X[k];
+      // The chord of the step: contact finds where the node was from x - v dt.
+      if (clock.dt > 0) world.nodes.v.set(n, (now - old) / clock.dt);
+      world.nodes.x.set(n, now);
+    }
+  });
 }
 
 namespace {

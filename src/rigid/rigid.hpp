@@ -12,8 +12,8 @@
 #include "loads/body_acceleration.hpp"
 #include "model/conditions/prescribed_motion.hpp"
 #include "model/model.hpp"
-#include "state/keeper.hpp"
 #include "state/reports.hpp"
+#include "state/restartable.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -67,11 +67,9 @@ BoundaryForce force_of_drives(const RigidBody& body, const Clock& clock);
 /// omega, which is J omega' = M - omega x J omega. Orientation by quaternion with the implicit midpoint rule,
 /// which keeps |L| exactly; nodes follow exactly. Bodies that are held in all directions are left out of
 /// every loop.
-class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Keeper {
+class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Restartable {
  public:
-  explicit RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodies)) {
-    for (RigidBody& body : bodies_) body.x0 = body.x;
-  }
+  explicit RigidBodies(std::vector<RigidBody> bodies);
 
   void set_loads(BodyAcceleration loads) { loads_ = std::move(loads); }
 
@@ -79,7 +77,8 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Keep
   bool loads_are_uniform() const { return loads_.uniform(); }
 
   std::string name() const override { return "rigid bodies"; }
-  /// Sums the forces on the bodies' nodes.
+  /// Sums the forces on the bodies' nodes: each piece alone, then the pieces in order, so that any number of
+  /// threads gives the same bits.
   void apply(World& world, const Clock& clock);
   void kick(World& world, const Clock& clock);
   void drift(World& world, const Clock& clock);
@@ -103,10 +102,17 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Keep
   /// Place, motion and orientation of each body, and the forces of the last step, which reports show.
   void keep(Archive& archive) override;
 
+  struct Piece {  ///< some of the nodes of a body that can move
+    std::size_t body = 0;
+    Index begin = 0, end = 0;  ///< in RigidBody::nodes
+    Vec force = Vec::Zero(), moment = Vec::Zero();
+  };
+
  private:
   std::array<Real, 4> potential(const RigidBody& body, const World& world,
                                 const BodyAcceleration::At& now) const;
   std::vector<RigidBody> bodies_;
+  std::vector<Piece> pieces_;
   BodyAcceleration loads_;
 };
 

@@ -138,12 +138,12 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
     p.dormant_time = clock.t;
   }
   choose_skin(clock);
-  if (images_) images_->bring_back(world, n);
+  if (ghosts_) ghosts_->bring_back(world, n);
   sort(world, clock, n);
   p.fields.permute(order_);
   note_changes(p, active_before);
   if (all) queue_dormant(p);
-  if (images_) build_images(world);
+  if (ghosts_) build_ghosts(world);
   build_lists(world);
   remember_places(world, clock);
   built_ = true;
@@ -210,22 +210,22 @@ void Neighbours::find_list_of_group(const World& world, const NearQuery& q, Scra
     if (whole()) look(begin, std::min(end, q.first), scratch.earlier);
     look(std::max(begin, q.first), std::min(end, last), scratch.other);
     look(std::max(begin, last), end, scratch.later);
-    for (const auto& start : {rim_start_, image_start_})
+    for (const auto& start : {halo_start_, ghost_start_})
       if (!start.empty()) look(start[first_cell], start[last_cell + 1], scratch.other);
   });
 }
 
-void Neighbours::build_images(World& world) {
+void Neighbours::build_ghosts(World& world) {
   Particles& p = world.particles;
-  images_->build(world, support_ * h_max_, skin_);
-  const Index n = images_->count(), first = p.size();
+  ghosts_->build(world, support_ * h_max_, skin_);
+  const Index n = ghosts_->count(), first = p.size();
   key_.resize(n);
   find_cells(p, first, first + n, key_.data());
   std::vector<Index> order;
-  counting_sort(key_, grid_.total(), image_starts_, order);
-  for (Index& start : image_starts_) start += first;
-  image_start_ = image_starts_;
-  images_->sort(world, order);
+  counting_sort(key_, grid_.total(), ghost_starts_, order);
+  for (Index& start : ghost_starts_) start += first;
+  ghost_start_ = ghost_starts_;
+  ghosts_->sort(world, order);
 }
 
 void Neighbours::build_lists(World& world) {
@@ -271,25 +271,25 @@ void Neighbours::build_lists(World& world) {
     entries_ += entries(b), entries_once_ += entries_once(b);
     reach.push_back(blocks_[b].reach);
   }
-  if (strips_wanted_) strips_.cut(n, block_costs(), reach);
+  if (tasks_wanted_) tasks_.cut(n, block_costs(), reach);
   share_blocks(world);
 }
 
 std::vector<double> Neighbours::block_costs() const {
   std::vector<double> cost;
   for (Index b = 0; b < blocks(); ++b)
-    cost.push_back((strips_wanted_ ? entries_once(b) : entries(b)) + 2.0 * block_size);
+    cost.push_back((tasks_wanted_ ? entries_once(b) : entries(b)) + 2.0 * block_size);
   return cost;
 }
 
 void Neighbours::share_blocks(World& world) const {
-  world.shares = strips_wanted_ ? strips_.shares() : Shares::of(block_costs());
+  world.shares = tasks_wanted_ ? tasks_.shares() : Shares::of(block_costs());
   world.moving_shares = Shares::even(block_count(world.particles.moving));
 }
 
-void Neighbours::cut_strips() {
-  if (built_ && !strips_wanted_) throw std::logic_error("strips are asked for too late");
-  strips_wanted_ = true;
+void Neighbours::cut_tasks() {
+  if (built_ && !tasks_wanted_) throw std::logic_error("tasks are asked for too late");
+  tasks_wanted_ = true;
 }
 
 void Neighbours::need_whole_lists() {
@@ -339,7 +339,7 @@ std::vector<Index> Neighbours::of(const Particles& p, Index i) const {
   };
   for (const Index j : listed(i / lanes)) add_if_near(j);
   if (whole()) return out;
-  const Strips::Strip& first = strips_[strips_[strips_.of_block(i / block_size)].earliest];
+  const Tasks::Task& first = tasks_[tasks_[tasks_.of_block(i / block_size)].earliest];
   for (Index g = first.begin / lanes; g < i / lanes; ++g) {
     const Block& b = blocks_[g / groups_per_block];
     const ListSections& at = b.sections[g % groups_per_block];

@@ -8,14 +8,14 @@
 #include "parallel/buffer.hpp"
 #include "parallel/parallel.hpp"
 #include "search/cell_grid.hpp"
-#include "search/images.hpp"
+#include "search/ghosts.hpp"
 #include "search/inlet_plane.hpp"
 #include "search/list_sections.hpp"
 #include "search/near_loops.hpp"
 #include "search/region.hpp"
-#include "search/strips.hpp"
-#include "state/keeper.hpp"
+#include "search/tasks.hpp"
 #include "state/particle_loops.hpp"
+#include "state/restartable.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -44,9 +44,9 @@ class Neighbours {
   /// Smoothing lengths never change, so nobody need look whether they have grown.
   void keep_h() { h_changes_ = false; }
 
-  /// From now on the lists also hold images of particles behind planes.
-  void set_images(std::shared_ptr<Images> images) { images_ = std::move(images); }
-  const Images* images() const { return images_.get(); }
+  /// From now on the lists also hold ghosts of particles behind planes.
+  void set_ghosts(std::shared_ptr<GhostParticles> ghosts) { ghosts_ = std::move(ghosts); }
+  const GhostParticles* ghosts() const { return ghosts_.get(); }
   /// Particles in the state particle_waiting become active when they cross the plane that `inlet` counts from
   /// 0 (and are inside the box, where there is one). Call before the first refresh.
   void set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet);
@@ -59,19 +59,19 @@ class Neighbours {
   /// What the next rebuild depends on, with the places of the last one. Lists are not kept: `restore` makes
   /// them anew from those places, the same entries in the same order.
   void keep(Archive& archive);
-  /// After loading: lists and images, and with them what `keepers` make of them.
-  void restore(World& world, const std::vector<std::pair<std::string, Keeper*>>& keepers);
+  /// After loading: lists and ghosts, and with them what `restartables` make of them.
+  void restore(World& world, const std::vector<std::pair<std::string, Restartable*>>& restartables);
 
   /// Looks, as the last pass of the motion stage, whether the lists still hold, so that `refresh` need not.
   std::shared_ptr<Preparation> watch();
 
-  /// From now on blocks are shared by whole strips, for loops that work out each pair once, and lists lack
+  /// From now on blocks are shared by whole tasks, for loops that work out each pair once, and lists lack
   /// particles of earlier groups where nobody needs them.
-  void cut_strips();
-  const Strips& strips() const { return strips_; }
+  void cut_tasks();
+  const Tasks& tasks() const { return tasks_; }
   /// Who reads whole lists must have said so before the first refresh; with_whole_lists does.
   void need_whole_lists();
-  bool whole() const { return whole_needed_ || !strips_wanted_; }
+  bool whole() const { return whole_needed_ || !tasks_wanted_; }
   /// Shares blocks among as many threads as there are now; `refresh` does it, too.
   void share_blocks(World& world) const;
 
@@ -149,7 +149,7 @@ class Neighbours {
   void queue_dormant(const Particles& p);
   Real due_time(const Particles& p, Index i) const;
   void note_changes(Particles& p, Index active_before);
-  void build_images(World& world);
+  void build_ghosts(World& world);
   void count_cells(const World& world);
   void build_lists(World& world);
   std::vector<double> block_costs() const;
@@ -170,20 +170,20 @@ class Neighbours {
   std::int64_t built_cycle_ = 0;
   Real h_max_ = 0, h_min_ = 0;
   CellGrid grid_;
-  std::shared_ptr<Images> images_;  ///< null: none
-  /// First sorted particle of each cell, and the end: parts of starts_ and image_starts_; empty: there are
+  std::shared_ptr<GhostParticles> ghosts_;  ///< null: none
+  /// First sorted particle of each cell, and the end: parts of starts_ and ghost_starts_; empty: there are
   /// none.
-  std::span<const Index> active_start_, rim_start_, image_start_;
-  std::vector<Index> starts_, image_starts_;
+  std::span<const Index> active_start_, halo_start_, ghost_start_;
+  std::vector<Index> starts_, ghost_starts_;
   std::vector<Block> blocks_;
   std::int64_t entries_ = 0, entries_once_ = 0;
-  bool strips_wanted_ = false, whole_needed_ = false;
-  Strips strips_;
+  bool tasks_wanted_ = false, whole_needed_ = false;
+  Tasks tasks_;
   std::vector<Real> due_;           ///< when dormant particle moving + k may come within reach, ascending [T]
   std::size_t first_due_ = 0;       ///< the entry of due_ that belongs to particle `moving`
   Real waking_time_ = 0;            ///< those due that soon are woken together [T]
   Real h_queued_ = 0;               ///< h_max_ when due_ was made
-  Index gone_ = 0;                  ///< rim particles that are far from the box
+  Index gone_ = 0;                  ///< halo particles that are far from the box
   std::vector<Index> order_, key_;  // of sorting: before, by place; cells
   std::vector<signed char> group_;
   std::vector<Index> moving_nodes_;  ///< shell nodes that are not held: contact relies on the skin, too

@@ -1,4 +1,4 @@
-// How particles are sorted: who is active, on the rim or dormant, and in which cell.
+// How particles are sorted: who is active, on the halo or dormant, and in which cell.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,17 +17,17 @@ namespace {
 struct Extent {
   Vec low = Vec::Constant(std::numeric_limits<Real>::infinity()), high = -low;
   Real h_max = 0, h_min = std::numeric_limits<Real>::infinity(), volume = 0;
-  Index active = 0, rim = 0;
+  Index active = 0, halo = 0;
   bool lost = false;  ///< a place or h is not a finite number
   void add(const Extent& other) {
     low = low.cwiseMin(other.low), high = high.cwiseMax(other.high);
     h_max = std::max(h_max, other.h_max), h_min = std::min(h_min, other.h_min);
-    volume += other.volume, active += other.active, rim += other.rim;
+    volume += other.volume, active += other.active, halo += other.halo;
     lost = lost || other.lost;
   }
 };
 
-enum Group : signed char { group_active = 0, group_rim = 1, group_dormant = 2 };
+enum Group : signed char { group_active = 0, group_halo = 1, group_dormant = 2 };
 
 /// Particles that wait or have gone are woken this many smoothing lengths before they can matter, so that
 /// whole batches are.
@@ -120,10 +120,10 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
       const bool far = !active && all && time_to_reach(p, i, near) > 0;
       group_[i] = p.state[i] == particle_deactivated || far ? group_dormant
                   : active                                  ? group_active
-                                                            : group_rim;
+                                                            : group_halo;
       e.lost = e.lost || one.lost;
       if (group_[i] == group_dormant) continue;
-      (group_[i] == group_active ? one.active : one.rim) = 1;
+      (group_[i] == group_active ? one.active : one.halo) = 1;
       e.add(one);
     }
     return e;
@@ -133,7 +133,7 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
     return a;
   });
   if (e.lost) stop_for_lost_particles(world, clock, n);
-  const Index count = e.active + e.rim;
+  const Index count = e.active + e.halo;
   if (count == 0) e.low = e.high = Vec::Zero(), e.h_min = e.h_max = h_max_;
   h_max_ = e.h_max;
   h_min_ = e.h_min;
@@ -142,7 +142,7 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
   Real spacing = count > 0 ? std::min(std::pow(e.volume / count, 1.0 / world.dim), 1.2 * h_max_) : 0;
   if (!(spacing >= 0.3 * h_max_)) spacing = 0.3 * h_max_;  // also where volumes are no numbers
   if (!(spacing > 0)) spacing = 1;
-  if (images_) {  // cells beyond the particles, where images may stand
+  if (ghosts_) {  // cells beyond the particles, where ghosts may stand
     const Vec reach = Vec::Constant(support_ * h_max_ + most_skin_);
     e.low -= reach, e.high += reach;
     if (world.dim == 2) e.low[2] += reach[2], e.high[2] -= reach[2];
@@ -173,12 +173,12 @@ void Neighbours::find_cells(const Particles& p, Index first, Index last, Index* 
 }
 
 /// starts_ holds where the active particles of each cell start, then, unless there are none, those of the
-/// rim.
+/// halo.
 void Neighbours::take_cell_starts(Index cells) {
   const auto starts = std::span<const Index>(starts_);
   active_start_ = starts.first(cells + 1);
-  rim_start_ = {};
-  if (Index(starts.size()) > cells + 1) rim_start_ = starts.subspan(cells, cells + 1);
+  halo_start_ = {};
+  if (Index(starts.size()) > cells + 1) halo_start_ = starts.subspan(cells, cells + 1);
 }
 
 // When a dormant particle can be within reach of the box.

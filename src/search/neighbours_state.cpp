@@ -34,16 +34,17 @@ static void exchange(Particles& p, Array<Real>* const built[4]) {
   for (int k = 0; k < 4; ++k) std::swap_ranges(built[k]->begin(), built[k]->end(), now[k]);
 }
 
-void Neighbours::restore(World& world, const std::vector<std::pair<std::string, Keeper*>>& keepers) {
+void Neighbours::restore(World& world,
+                         const std::vector<std::pair<std::string, Restartable*>>& restartables) {
   if (rebuilds_ == 0) return;  // saved before the first step: the lists are still to be built
   Particles& p = world.particles;
   Array<Real>* const built[4] = {&x_built_, &y_built_, &z_built_, &h_built_};
   find_moving_nodes(world);
   exchange(p, built);
   count_cells(world);
-  if (images_) build_images(world);
+  if (ghosts_) build_ghosts(world);
   build_lists(world);
-  for (const auto& [name, keeper] : keepers) keeper->relist(world);
+  for (const auto& [name, restartable] : restartables) restartable->relist(world);
   exchange(p, built);
 }
 

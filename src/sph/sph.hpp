@@ -68,7 +68,7 @@ struct ShiftRules {
 struct SupportedWalls {
   std::vector<Index> segments;
   std::vector<Real> cf;            ///< by segment; < 0 where it does not support [-]
-  std::vector<ImagePlane> planes;  ///< behind which their images support, too
+  std::vector<GhostPlane> planes;  ///< behind which their ghosts support, too
 };
 
 /// *COURANT_EDDY_VISCOSITY.
@@ -111,7 +111,7 @@ struct SphSettings {
   SupportedWalls walls;        ///< *COURANT_WALL_SUPPORT
   ReinitialisationRules reinitialisation;
   ShiftRules shift;
-  std::vector<ImagePlane> mirrors;  ///< symmetry planes, along which alone particles near them drift
+  std::vector<GhostPlane> mirrors;  ///< symmetry planes, along which alone particles near them drift
   Real xsph = 0;                    ///< *COURANT_XSPH: EPS; 0: none
   Real maxv = 0;                    ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
   std::optional<Neighbours::Region> region;
@@ -138,7 +138,7 @@ KernelChoice read_kernel(const Deck& deck, const Model& model, Diagnostics& diag
 
 /// The planes of BOUNDARY_SPH_SYMMETRY_PLANE and _PERIODIC. `reach`: how far a particle looks [L]. Call while
 /// particles stand in the order of the model.
-std::vector<ImagePlane> build_image_planes(const Deck& deck, const Model& model, const SphSettings& settings,
+std::vector<GhostPlane> build_ghost_planes(const Deck& deck, const Model& model, const SphSettings& settings,
                                            Real reach, const World& world, Diagnostics& diagnostics);
 
 /// Adds the SPH passes the settings ask for to the world, and names those left out with the reason.
@@ -150,7 +150,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& settings,
                                      std::shared_ptr<Neighbours> neighbours);
 
 /// What holds particles off mirrors among `planes`; nothing where there are none. Behind `add_sph_passes`.
-void add_mirror_core(const SphSettings& settings, const std::vector<ImagePlane>& planes, World& world);
+void add_mirror_core(const SphSettings& settings, const std::vector<GhostPlane>& planes, World& world);
 
 class PairVolumes;
 /// "sph rates", with the kernel where it is not the cubic spline.

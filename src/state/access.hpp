@@ -1,5 +1,5 @@
 #pragma once
-// What a pass says it touches. Stages, waiting and the exchange of images follow from it (time/schedule.hpp).
+// What a pass says it touches. Stages, waiting and the exchange of ghosts follow from it (time/schedule.hpp).
 #include <string>
 #include <vector>
 

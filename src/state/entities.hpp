@@ -6,8 +6,8 @@
 
 namespace courant {
 
-/// SPH particles, sorted as [active | rim | dormant]. Active particles are inside the computational box: the
-/// equations are solved for them. Rim particles (the halo) are outside but within reach of an active one:
+/// SPH particles, sorted as [active | halo | dormant]. Active particles are inside the computational box: the
+/// equations are solved for them. Particles of the halo are outside but within reach of an active one:
 /// they act as neighbours and move with constant velocity every step. Dormant particles are out of reach and
 /// are touched only when neighbours are refreshed. Those made for an inlet are outside, too, until they have
 /// crossed its plane.
@@ -35,7 +35,7 @@ struct Particles {
   Field<Index>& state = fields.add<Index>({.name = "state", .dimension = "-"});  ///< see ParticleState
 
   Index active = 0;       ///< particles [0, active) are active
-  Index moving = 0;       ///< particles [active, moving) are the rim
+  Index moving = 0;       ///< particles [active, moving) are the halo
   Real dormant_time = 0;  ///< when dormant particles were at x; since then they move with v [T]
   /// Where particle i is at time t, at which the moving ones are at x. [L]
   Vec place(Index i, Real t) const {

@@ -1,6 +1,6 @@
 #pragma once
 // Named structure-of-arrays fields. A field is registered once; output, restart, sorting and the exchange
-// with ghost particles (images) walk the registry, so a new field appears there without any edit.
+// with ghost particles walk the registry, so a new field appears there without any edit.
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -25,7 +25,7 @@ struct FieldInfo {
   int components = 1;     ///< 1, 3 (vector) or 6 (symmetric tensor: xx yy zz xy yz zx)
   bool output = false;    ///< written to the field files
   bool restart = true;    ///< needed to continue a run bitwise
-  bool exchange = false;  ///< neighbours that are copies of entities elsewhere (images) have it, too
+  bool exchange = false;  ///< neighbours that are copies of entities elsewhere (ghost particles) have it, too
 };
 
 class FieldBase : public Resource {
@@ -35,8 +35,8 @@ class FieldBase : public Resource {
   const FieldInfo& info() const { return info_; }
   const FieldBase* field() const override { return this; }
   virtual void resize(Index n) = 0;
-  /// Room for `images` entities behind the n there are; theirs are not set.
-  virtual void make_room(Index n, Index images) = 0;
+  /// Room for `ghosts` entities behind the n there are; theirs are not set.
+  virtual void make_room(Index n, Index ghosts) = 0;
   /// As many entities for the spare, a field of the same type with one component, as a component of this has;
   /// theirs are not set.
   virtual void fit(FieldBase& spare) const = 0;
@@ -98,10 +98,10 @@ class Field : public FieldBase {
       });
     }
   }
-  void make_room(Index n, Index images) override {
+  void make_room(Index n, Index ghosts) override {
     for (auto& c : component_) {
-      if (c.capacity() < static_cast<std::size_t>(n + images)) c.reserve(n + images + images / 4);
-      c.resize(n + images);
+      if (c.capacity() < static_cast<std::size_t>(n + ghosts)) c.reserve(n + ghosts + ghosts / 4);
+      c.resize(n + ghosts);
     }
   }
   void fit(FieldBase& spare) const override {
@@ -169,8 +169,8 @@ class FieldSet {
     size_ = n;
     for (auto& f : fields_) f->resize(n);
   }
-  /// Room behind the entities for `count` images in all fields that are exchanged. Arrays may move.
-  void make_room_for_images(Index count) {
+  /// Room behind the entities for `count` ghosts in all fields that are exchanged. Arrays may move.
+  void make_room_for_ghosts(Index count) {
     for (auto& f : fields_)
       if (f->info().exchange) f->make_room(size_, count);
   }

@@ -34,7 +34,7 @@ struct Pass {
 /// A pass whose work threads share by blocks of an entity set. Stages are made from what passes declare: in a
 /// stage every block goes through all passes in order, and threads wait for each other only where a pass
 /// reads of others what an earlier one changed. `block` changes only what belongs to entities [begin, end),
-/// or to the strip of its blocks where World::shares holds whole Strips. A thread takes its blocks in
+/// or to the task of its blocks where World::shares holds whole Tasks. A thread takes its blocks in
 /// ascending order.
 struct BlockPass : virtual Pass {
   virtual Phase phase() const = 0;
@@ -71,7 +71,7 @@ using Motion = PassOf<Phase::motion>;
 using Relocation = PassOf<Phase::relocation>;
 using Preparation = PassOf<Phase::preparation>;
 
-/// Brings copies of entities elsewhere (images behind planes) up to date, between stages.
+/// Brings copies of entities elsewhere (ghosts behind planes) up to date, between stages.
 struct Exchanger : virtual Pass {
   /// `fields`: those that changed and will be read of neighbours.
   virtual void exchange(World& world, std::span<const FieldBase* const> fields) = 0;

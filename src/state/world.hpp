@@ -48,7 +48,7 @@ struct World {
   EnergyLedger energy;
   Counters counters;
   std::map<std::string, Real> maxima;  ///< largest values over the run, for summary.yaml: max_penetration
-  /// Which thread works on which blocks of active particles, and of active and rim particles; neighbours
+  /// Which thread works on which blocks of active particles, and of active and halo particles; neighbours
   /// choose. Blocks of other sets are shared evenly.
   Shares shares, moving_shares;
 

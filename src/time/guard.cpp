@@ -107,7 +107,7 @@ void Guard::look(World& world, const Clock& clock) {
 void Guard::stop_for_numbers(const World& world, const Clock& clock) {
   const Particles& p = world.particles;
   std::vector<Checked> numbers = numbers_of(p.fields, p.active);
-  for (const Field<Real>* field : {&p.x, &p.v, &p.h})  // the rim has places and velocities only
+  for (const Field<Real>* field : {&p.x, &p.v, &p.h})  // the halo has places and velocities only
     for (int k = 0; k < field->info().components; ++k) numbers.push_back({field->data(k), p.moving});
   if (!all_finite(numbers, p.moving)) {
     for (Index i = 0; i < p.moving; ++i) {

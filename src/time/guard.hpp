@@ -2,15 +2,15 @@
 // What stops a run that has gone wrong before its results look like results.
 #include <functional>
 
-#include "state/keeper.hpp"
 #include "state/ranges.hpp"
+#include "state/restartable.hpp"
 #include "state/world.hpp"
 
 namespace courant {
 
 /// Looks at the whole state now and then: numbers that are none, energy from nowhere, how far speeds and
 /// densities went. A look reads some twenty arrays once, so it costs little against `interval` steps.
-class Guard : public Keeper {
+class Guard : public Restartable {
  public:
   static constexpr int interval = 64;  ///< steps from look to look
 

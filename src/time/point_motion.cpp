@@ -32,7 +32,7 @@ class PointMotion : public Motion {
     if (points_.follow) a.reads(*points_.follow);
   }
   void block(World& world, const Clock& clock, Index begin, Index end) override {
-    // rim particles move on, with no force
+    // halo particles move on, with no force
     const bool particles = points_.set == &world.particles.fields;
     const Index kicked = particles ? std::min(end, world.particles.active) : end;
     for (int k = 0; k < (particles ? world.dim : 3); ++k) {

@@ -43,7 +43,7 @@ void stop_for_foreign_change(const StagePlan::Entry& e) {
 
 class Planner {
  public:
-  Planner(const World& world, bool has_images) : world_(world), has_images_(has_images) {}
+  Planner(const World& world, bool has_ghosts) : world_(world), has_ghosts_(has_ghosts) {}
 
   std::vector<StagePlan> plan(const std::vector<Phase>& phases) {
     std::vector<StagePlan> stages(1);
@@ -74,7 +74,7 @@ class Planner {
         }
     const std::vector<const Resource*> stale = take_stale(entry);
     for (const Resource* r : stale)  // what changed before the stage is exchanged before it
-      if (need != Need::stage && changes(open, *r)) need = Need::stage, entry.why = "images";
+      if (need != Need::stage && changes(open, *r)) need = Need::stage, entry.why = "ghost particles";
     if (need == Need::stage) stages.emplace_back(), part = 0;
     StagePlan& stage = stages.back();
     if (need == Need::wait) entry.waits = true, part = stage.entries.size();
@@ -91,10 +91,10 @@ class Planner {
     return false;
   }
 
-  /// What the pass reads of others and images do not have yet.
+  /// What the pass reads of others and ghosts do not have yet.
   std::vector<const Resource*> take_stale(const StagePlan::Entry& entry) {
     std::vector<const Resource*> out;
-    if (!has_images_) return out;
+    if (!has_ghosts_) return out;
     for (const Access& a : entry.accesses.all())
       if (!a.changes() && a.reach == Reach::others && a.what->field() && a.what->field()->info().exchange &&
           stale_.erase(a.what) > 0)
@@ -103,8 +103,8 @@ class Planner {
   }
 
   const World& world_;
-  bool has_images_;
-  std::set<const Resource*> stale_;  ///< changed since their images were
+  bool has_ghosts_;
+  std::set<const Resource*> stale_;  ///< changed since their ghosts were
 };
 
 }  // namespace
@@ -129,7 +129,7 @@ std::string text_of(const Schedule& schedule) {
       std::string names;
       for (const Resource* r : stage.exchange) names += (names.empty() ? "" : ", ") + r->name();
       text += fmt::format("  stage {}{}\n", ++number,
-                          names.empty() ? "" : fmt::format(" (images get {})", names));
+                          names.empty() ? "" : fmt::format(" (ghost particles get {})", names));
       for (const StagePlan::Entry& e : stage.entries) {
         if (e.waits) text += fmt::format("    -- threads wait: {}\n", e.why);
         text += fmt::format("    {:<13}{:<28}{}\n", name_of(e.pass->phase()), e.pass->name(), e.over->name());

@@ -18,7 +18,7 @@ struct StagePlan {
     std::string why{};   ///< it waits, or begins a stage: the resource and who changes it
   };
   std::vector<Entry> entries;
-  std::vector<const Resource*> exchange;  ///< whose images are brought up to date before the stage
+  std::vector<const Resource*> exchange;  ///< whose ghosts are brought up to date before the stage
 };
 
 /// The stages of a step: those up to the choice of dt, and those that move.
@@ -28,7 +28,7 @@ struct Schedule {
 
 /// A pass waits where it reads of others what an earlier pass of the stage changed, or changes what an
 /// earlier one reads of others. It begins a new stage where that change comes in a `finish`, where its
-/// `start` needs it, or where images have to be exchanged in between. Throws std::logic_error where a pass
+/// `start` needs it, or where ghosts have to be exchanged in between. Throws std::logic_error where a pass
 /// changes a field of another set than its own otherwise than in `start` or `finish`.
 Schedule make_schedule(const World& world);
 

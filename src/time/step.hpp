@@ -27,7 +27,7 @@ struct StepRules {
 /// Takes steps of the staggered central difference,
 ///   v^{n+1/2} = v^{n-1/2} + a^n (dt_old + dt)/2,   x^{n+1} = x^n + v^{n+1/2} dt;
 /// density and energy advance with the velocity of the last kick, before the pressure is used.
-class Stepper : public Keeper {
+class Stepper : public Restartable {
  public:
   /// Adds what watches the lists to the passes of `world`, which must not change afterwards. `neighbours`:
   /// null where there are no particles.

@@ -11,7 +11,7 @@ PairLoopsAlone::PairLoopsAlone(Simulation& s)
     : s_(s),
       neighbours_(std::make_shared<Neighbours>(s.neighbours().skin(), s.neighbours().region(),
                                                s.neighbours().support())) {
-  neighbours_->cut_strips();
+  neighbours_->cut_tasks();
   neighbours_->refresh(s.world(), s.clock());
 }
 

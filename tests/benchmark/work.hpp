@@ -36,7 +36,7 @@ enum class Gradients { again, kept, window };
 /// Left out: entries out of reach, 6 or 9 operations to see that they are, and the sums over lanes for
 /// partners, the price of working out a pair once.
 ///
-/// And of src/sph/options/kept_loops.hpp:
+/// And of src/sph/options/frozen_loops.hpp:
 ///   v_i - v_j, u . G          5   8   rates
 ///   div                       2   2   rates
 ///   viscosity, linear         2   2   rates (4 with its quadratic part, which no benchmark has)
@@ -70,7 +70,7 @@ constexpr int numbers_streamed(int dim) {
   return 3 + (4 * dim + 6) + 8 + 6 + (3 * dim + 2) + 3 + (5 * dim + 1) + 6 + 2 * dim;
 }
 /// The same where pairs are worked out once: numbers of partners set to 0, added to, and read by the passes
-/// of partners, with f, drhodt, heat twice and rho. Those beyond the end of a strip are left out.
+/// of partners, with f, drhodt, heat twice and rho. Those beyond the end of a task are left out.
 constexpr int numbers_of_partners(int dim) {
   return 3 * (dim + 2) + (2 * dim + 5) + 3 * dim + 2 * dim;
 }

@@ -36,7 +36,7 @@ void add_water(SolidDeck& deck, const Vec& low, const Vec& size, Real dx, Real t
       rho_w, rho_w * c0 * c0, rho_s, E, nu, touch);
 }
 
-/// Between mirrors, so that there is no rim; gravity grows over 0.1 s, the block's motion is damped.
+/// Between mirrors, so that there is no halo; gravity grows over 0.1 s, the block's motion is damped.
 std::string pool(Real dx, Real mesh) {
   SolidDeck deck;
   const int n = int(std::lround(W / mesh));

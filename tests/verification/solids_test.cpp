@@ -4,7 +4,7 @@
 #include "output/restart_file.hpp"
 #include "parallel/parallel.hpp"
 #include "solid_decks.hpp"
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 
 using namespace courant;
 using test::simulation_of;

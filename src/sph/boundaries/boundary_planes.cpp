@@ -1,4 +1,4 @@
-// *BOUNDARY_SPH_SYMMETRY_PLANE and *BOUNDARY_SPH_PERIODIC: planes behind which particles have images.
+// *BOUNDARY_SPH_SYMMETRY_PLANE and *BOUNDARY_SPH_PERIODIC: planes behind which particles have ghosts.
 #include <cmath>
 #include <tuple>
 
@@ -52,7 +52,7 @@ class PlaneBuilder {
   PlaneBuilder(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
       : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {}
 
-  std::vector<ImagePlane> build(const SphSettings& settings, Real reach) {
+  std::vector<GhostPlane> build(const SphSettings& settings, Real reach) {
     for (const auto& card : deck_.all<BoundarySphSymmetryPlane>()) add_mirror(card);
     for (const auto& card : deck_.all<BoundarySphPeriodic>()) {
       if (first_injection(deck_))
@@ -73,7 +73,7 @@ class PlaneBuilder {
   void add_mirror(const BoundarySphSymmetryPlane& c) {
     const Vec tail(c.vtx, c.vty, c.vtz), head(c.vhx, c.vhy, c.vhz);
     if (!normal_is_good(c, tail, head)) return;
-    add({ImagePlane::Kind::mirror, tail, (head - tail).normalized(), 0}, c);
+    add({GhostPlane::Kind::mirror, tail, (head - tail).normalized(), 0}, c);
   }
 
   void add_periodic(const BoundarySphPeriodic& c) {
@@ -95,7 +95,7 @@ class PlaneBuilder {
                          "the planes of VID1 and VID2 do not face each other: expected vectors in opposite "
                          "directions, each from its plane towards the other",
                          "*DEFINE_VECTOR: tail on the plane, head inside");
-    add({ImagePlane::Kind::periodic, first->second.tail, n, period}, c);
+    add({GhostPlane::Kind::periodic, first->second.tail, n, period}, c);
   }
 
   bool normal_is_good(const Entry& card, const Vec& tail, const Vec& head) {
@@ -117,7 +117,7 @@ class PlaneBuilder {
     return fmt::format("{}:{}", at.file, at.line);
   }
 
-  void add(ImagePlane plane, const Entry& card) {
+  void add(GhostPlane plane, const Entry& card) {
     planes_.push_back(std::move(plane));
     cards_.push_back(&card);
   }
@@ -141,13 +141,13 @@ class PlaneBuilder {
     diagnostics_.error(deck_.where(*cards_[a]),
                        fmt::format("{}: the plane stands neither upright on that of {} nor opposite to it",
                                    deck_.keyword(*cards_[a]), place(*cards_[b])),
-                       "planes with images must be at right angles, or face each other");
+                       "planes with ghosts must be at right angles, or face each other");
   }
 
   void report_narrow(std::size_t a, Real apart, Real reach) {
     diagnostics_.error(
         deck_.where(*cards_[a]),
-        fmt::format("{}: the planes are {:.4g} [L] apart; particles reach {:.4g}, and would see images twice",
+        fmt::format("{}: the planes are {:.4g} [L] apart; particles reach {:.4g}, and would see ghosts twice",
                     deck_.keyword(*cards_[a]), apart, reach),
         "make the domain wider or h smaller");
   }
@@ -171,13 +171,13 @@ class PlaneBuilder {
   const Model& model_;
   const World& world_;
   Diagnostics& diagnostics_;
-  std::vector<ImagePlane> planes_;
+  std::vector<GhostPlane> planes_;
   std::vector<const Entry*> cards_;
 };
 
 }  // namespace
 
-std::vector<ImagePlane> build_image_planes(const Deck& deck, const Model& model, const SphSettings& settings,
+std::vector<GhostPlane> build_ghost_planes(const Deck& deck, const Model& model, const SphSettings& settings,
                                            Real reach, const World& world, Diagnostics& diagnostics) {
   return PlaneBuilder(deck, model, world, diagnostics).build(settings, reach);
 }

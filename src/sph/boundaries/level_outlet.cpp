@@ -8,7 +8,7 @@
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "parallel/parallel.hpp"
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 
 namespace courant {
 
@@ -90,7 +90,7 @@ Real draw_weight(Real s) {
 /// by sqrt(g/LEVEL) of each other: with just that between U and the depth, it goes out and leaves no other
 /// (Flather 1976). The velocity of the flow about which it swings is not known and is found by the integral
 /// of what the depth lacks, so that the mean depth is LEVEL whatever flows in.
-class LevelOutlet : public Force, public TimeLimit, public EnergyTerm, public Keeper {
+class LevelOutlet : public Force, public TimeLimit, public EnergyTerm, public Restartable {
  public:
   explicit LevelOutlet(Outlet outlet) : o_(std::move(outlet)), name_(fmt::format("level outlet {}", o_.id)) {}
   std::string name() const override { return name_; }
@@ -184,7 +184,7 @@ class LevelOutlet : public Force, public TimeLimit, public EnergyTerm, public Ke
 class Builder {
  public:
   Builder(const Deck& deck, const Model& model, const SphSettings& settings,
-          std::span<const ImagePlane> planes, const World& world, Diagnostics& diagnostics)
+          std::span<const GhostPlane> planes, const World& world, Diagnostics& diagnostics)
       : deck_(deck), model_(model), settings_(settings), planes_(planes), diagnostics_(diagnostics) {
     if (world.particles.size() > 0) plane_z_ = world.particles.x.vec(0)[2];
   }
@@ -273,7 +273,7 @@ class Builder {
       return refuse(card, "BOXID",
                     fmt::format("box {} reaches out of the computational box, where nothing is solved", o.id),
                     "let it end where the BOXID of *CONTROL_SPH does");
-    for (const ImagePlane& plane : planes_)
+    for (const GhostPlane& plane : planes_)
       if (behind(plane, o, slack))
         return refuse(
             card, "BOXID",
@@ -284,12 +284,12 @@ class Builder {
     return true;
   }
 
-  static bool behind(const ImagePlane& plane, const Outlet& o, Real slack) {
+  static bool behind(const GhostPlane& plane, const Outlet& o, Real slack) {
     for (int corner = 0; corner < 8; ++corner) {
       Vec x;
       for (int k = 0; k < 3; ++k) x[k] = corner & (1 << k) ? o.high[k] : o.low[k];
       const Real d = depth(plane, x);
-      if (d < -slack || (plane.kind == ImagePlane::Kind::periodic && d > plane.period + slack)) return true;
+      if (d < -slack || (plane.kind == GhostPlane::Kind::periodic && d > plane.period + slack)) return true;
     }
     return false;
   }
@@ -303,7 +303,7 @@ class Builder {
   const Deck& deck_;
   const Model& model_;
   const SphSettings& settings_;
-  std::span<const ImagePlane> planes_;
+  std::span<const GhostPlane> planes_;
   Diagnostics& diagnostics_;
   Real plane_z_ = 0;  ///< where all particles are in 2D
 };
@@ -311,7 +311,7 @@ class Builder {
 }  // namespace
 
 bool add_level_outlets(const Deck& deck, const Model& model, const SphSettings& settings,
-                       std::span<const ImagePlane> planes, World& world, Diagnostics& diagnostics) {
+                       std::span<const GhostPlane> planes, World& world, Diagnostics& diagnostics) {
   const std::vector<Outlet> outlets = Builder(deck, model, settings, planes, world, diagnostics).build();
   for (const Outlet& outlet : outlets) {
     world.passes.add(std::make_shared<LevelOutlet>(outlet));

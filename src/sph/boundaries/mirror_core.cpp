@@ -24,7 +24,7 @@ namespace {
 /// each crossing.
 class MirrorCore : public Rate {
  public:
-  MirrorCore(const SphSettings& s, const World& world, std::vector<ImagePlane> mirrors)
+  MirrorCore(const SphSettings& s, const World& world, std::vector<GhostPlane> mirrors)
       : dim_(s.dim), kernel_(s.kernel), mirrors_(std::move(mirrors)), core_(world.part_ids.size(), 1) {
     with_kernel(kernel_, [&](auto kernel) {
       using Kernel = decltype(kernel);
@@ -64,7 +64,7 @@ class MirrorCore : public Rate {
   /// Calls f(i, normal, distance) for what lacks something or may have lacked it a step ago.
   template <class F>
   void for_each_at_mirror(const Particles& p, Index begin, Index end, F&& f) const {
-    for (const ImagePlane& plane : mirrors_) {
+    for (const GhostPlane& plane : mirrors_) {
       if (!(depth_range(loops_, plane, p, begin, end).least < 2 * reach_)) continue;
       for (Index i = begin; i < end; ++i)
         if (const Real d = std::abs(depth(plane, p.x.vec(i))); d < 2 * reach_) f(i, plane.normal, d);
@@ -100,7 +100,7 @@ class MirrorCore : public Rate {
   KernelChoice kernel_;
   Real C_ = 0;
   bool kink_ = false;
-  std::vector<ImagePlane> mirrors_;
+  std::vector<GhostPlane> mirrors_;
   std::vector<Real> core_;  ///< R of particle and image up to which the slope is kept, by part
   ParticleLoops loops_ = particle_loops();
   Real reach_ = 0;  ///< largest distance from a mirror where something lacks [L]
@@ -140,10 +140,10 @@ class MirrorCoreForce : public Force {
 
 }  // namespace
 
-void add_mirror_core(const SphSettings& settings, const std::vector<ImagePlane>& planes, World& world) {
-  std::vector<ImagePlane> mirrors;
-  for (const ImagePlane& plane : planes)
-    if (plane.kind == ImagePlane::Kind::mirror) mirrors.push_back(plane);
+void add_mirror_core(const SphSettings& settings, const std::vector<GhostPlane>& planes, World& world) {
+  std::vector<GhostPlane> mirrors;
+  for (const GhostPlane& plane : planes)
+    if (plane.kind == GhostPlane::Kind::mirror) mirrors.push_back(plane);
   if (mirrors.empty()) return;
   auto core = std::make_shared<MirrorCore>(settings, world, std::move(mirrors));
   world.passes.add(core);

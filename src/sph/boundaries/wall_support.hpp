@@ -7,8 +7,8 @@
 #include "sph/boundaries/wall_surface.hpp"
 #include "sph/boundaries/wall_tables.hpp"
 #include "sph/sph.hpp"
-#include "state/keeper.hpp"
 #include "state/reports.hpp"
+#include "state/restartable.hpp"
 
 namespace courant {
 
@@ -27,7 +27,11 @@ namespace courant {
 /// Spray, which has fewer neighbours than it takes to span the plane or space, has no sums to complete;
 /// contact alone holds it off. Else its own mirror image would hold a drop to the wall by tension, for ever,
 /// and the drop would swing against the stiff contact until it is driven through.
-class WallSupport : public Rate, public Refresh, public EnergyTerm, public Keeper, public WallForceReporter {
+class WallSupport : public Rate,
+                    public Refresh,
+                    public EnergyTerm,
+                    public Restartable,
+                    public WallForceReporter {
  public:
   WallSupport(const SphSettings& s, World& world, const Neighbours& neighbours);
   std::string name() const override { return "wall support"; }

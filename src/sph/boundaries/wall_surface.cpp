@@ -15,11 +15,11 @@ constexpr Real small = 1e-9;  ///< of the reach: lengths below are zero
 
 }  // namespace
 
-Lookouts::Lookouts(const Particles& p, Real reach, const std::vector<ImagePlane>& planes)
+Lookouts::Lookouts(const Particles& p, Real reach, const std::vector<GhostPlane>& planes)
     : reach_(1.1 * reach) {  // particles may stand a little behind a mirror
-  for (const ImagePlane& plane : planes) {
+  for (const GhostPlane& plane : planes) {
     // in a mirror an image is never nearer to what looks than the face itself
-    if (plane.kind != ImagePlane::Kind::periodic) continue;
+    if (plane.kind != GhostPlane::Kind::periodic) continue;
     const std::size_t known = shifts_.size();
     for (const Real way : {-plane.period, plane.period})
       for (std::size_t k = 0; k < known; ++k) shifts_.push_back(shifts_[k] + way * plane.normal);
@@ -72,8 +72,8 @@ bool Lookouts::any_in(const Vec& low, const Vec& high) const {
 }
 
 WallSurface::WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
-                         std::vector<ImagePlane> planes, const Lookouts* from)
-    : dim_(world.dim), reach_(reach), planes_of_images_(std::move(planes)) {
+                         std::vector<GhostPlane> planes, const Lookouts* from)
+    : dim_(world.dim), reach_(reach), planes_of_ghosts_(std::move(planes)) {
   std::vector<char> seen(segments.size(), 1);
   if (from)
     for_each(static_cast<Index>(segments.size()), [&](Index k) {
@@ -100,7 +100,7 @@ WallSurface::WallSurface(const World& world, const std::vector<Index>& segments,
     add_face(face);
   }
   for (Index f = 0; f < faces(); ++f) cut(f, spacing);
-  for (int k = 0; k < static_cast<int>(planes_of_images_.size()); ++k) add_images(k);
+  for (int k = 0; k < static_cast<int>(planes_of_ghosts_.size()); ++k) add_ghosts(k);
   sort_into_cells();
 }
 
@@ -193,7 +193,7 @@ void WallSurface::add_point(const Face& face, Index index, const Vec& x, const V
 /// Of a piece about x with these sides, what lies in front of all planes.
 Real WallSurface::share_in_front(const Vec& x, const Vec& along, const Vec& across) const {
   Real share = 1;
-  for (const ImagePlane& plane : planes_of_images_) {
+  for (const GhostPlane& plane : planes_of_ghosts_) {
     const Real wide = std::abs(plane.normal.dot(along)) + std::abs(plane.normal.dot(across)),
                d = depth(plane, x);
     const auto part = [&](Real inside) {
@@ -201,14 +201,14 @@ Real WallSurface::share_in_front(const Vec& x, const Vec& along, const Vec& acro
       return std::clamp(0.5 + inside / wide, Real(0), Real(1));
     };
     share *= part(d);
-    if (plane.kind == ImagePlane::Kind::periodic) share *= part(plane.period - d);
+    if (plane.kind == GhostPlane::Kind::periodic) share *= part(plane.period - d);
   }
   return share;
 }
 
 /// Images of what is there so far, those of earlier planes among it, as far as anything can see them.
-void WallSurface::add_images(int k) {
-  const ImagePlane plane = planes_of_images_[k];
+void WallSurface::add_ghosts(int k) {
+  const GhostPlane plane = planes_of_ghosts_[k];
   const Index known_points = points(), known_faces = faces();
   const auto add = [&](Side side, const auto& is_near, const auto& place, const auto& direction) {
     std::vector<Index> image(known_faces, -1);
@@ -236,7 +236,7 @@ void WallSurface::add_images(int k) {
   };
   const Vec n = plane.normal, shift = plane.period * n;
   const auto same = [](const Vec& v) { return v; };
-  if (plane.kind == ImagePlane::Kind::mirror) {
+  if (plane.kind == GhostPlane::Kind::mirror) {
     add(
         1, [&](Real d) { return d < reach_; }, [&](const Vec& x) { return Vec(x - 2 * depth(plane, x) * n); },
         [&](const Vec& v) { return Vec(v - 2 * v.dot(n) * n); });
@@ -251,11 +251,11 @@ void WallSurface::add_images(int k) {
 
 /// What stands on a plane is on both of its sides.
 bool WallSurface::is_at(Side side, const Vec& x) const {
-  for (const ImagePlane& plane : planes_of_images_) {
+  for (const GhostPlane& plane : planes_of_ghosts_) {
     const Real d = depth(plane, x), tolerance = small * reach_;
     const Side here = side & 3;
     side >>= 2;
-    const bool periodic = plane.kind == ImagePlane::Kind::periodic;
+    const bool periodic = plane.kind == GhostPlane::Kind::periodic;
     if (here == 1 ? d > tolerance : d < -tolerance) return false;
     if (periodic && (here == 2 ? d < plane.period - tolerance : d > plane.period + tolerance)) return false;
   }

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "search/images.hpp"
+#include "search/ghosts.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -23,7 +23,7 @@ struct WallPoint {
 /// Where somebody may look from: cells about `reach` wide, and which of them particles stand in.
 class Lookouts {
  public:
-  Lookouts(const Particles& p, Real reach, const std::vector<ImagePlane>& planes);
+  Lookouts(const Particles& p, Real reach, const std::vector<GhostPlane>& planes);
   /// Whether anything within the reach of this box, or of its image across a period, stands there; true where
   /// that is not known.
   bool any_near(const Vec& low, const Vec& high) const;
@@ -45,7 +45,7 @@ class WallSurface {
   /// `spacing`: of points [L]; `reach`: farthest that anything looks [L]. `from`: what nothing there can see
   /// is left out.
   WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
-              std::vector<ImagePlane> planes = {}, const Lookouts* from = nullptr);
+              std::vector<GhostPlane> planes = {}, const Lookouts* from = nullptr);
 
   Index faces() const { return static_cast<Index>(faces_.size()); }
   Index points() const { return static_cast<Index>(points_.size()); }
@@ -119,7 +119,7 @@ class WallSurface {
   void add_face(Face face);
   void cut(Index face, Real spacing);
   Real share_in_front(const Vec& x, const Vec& along, const Vec& across) const;
-  void add_images(int plane);
+  void add_ghosts(int plane);
   bool is_at(Side side, const Vec& x) const;
   void sort_into_cells();
   Vec in_plane(const Vec& x) const { return dim_ == 2 ? Vec(x[0], x[1], 0) : x; }
@@ -132,7 +132,7 @@ class WallSurface {
 
   int dim_;
   Real reach_;
-  std::vector<ImagePlane> planes_of_images_;
+  std::vector<GhostPlane> planes_of_ghosts_;
   std::vector<Face> faces_;
   std::set<Key> lines_;
   std::map<Key, Index> planes_;

@@ -5,7 +5,7 @@
 #include "sph/core/fields.hpp"
 #include "sph/core/momentum.hpp"
 #include "sph/sph.hpp"
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
@@ -17,7 +17,7 @@ Real kinetic_and_internal(const Particles& p, const Field<Real>& reference_volum
   return 0.5 * p.m[i] * p.v.vec(i).squaredNorm() + p.E[i] * reference_volume[i];
 }
 
-class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Keeper {
+class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Restartable {
  public:
   SphEnergy(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours)
       : settings_(s),
@@ -59,8 +59,8 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Ke
     for (const Real p : power_) power += p;
     ledger.dissipated += power * clock.dt_mean();
     ledger.throughput += power * clock.dt_mean();
-    if (!rim_pairs_.empty()) {
-      const Real work = rim_power(world) * clock.dt_mean();
+    if (!halo_pairs_.empty()) {
+      const Real work = halo_power(world) * clock.dt_mean();
       ledger.external_work += work;
       ledger.throughput += std::abs(work);
     }
@@ -91,34 +91,34 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Ke
   }
   void relist(World& world) override {
     const Particles& p = world.particles;
-    rim_pairs_.clear();
+    halo_pairs_.clear();
     if (p.moving == p.active) return;
     for (Index g = 0; g * lanes < p.active; ++g)
       for (const Index j : neighbours_->listed(g)) {
-        const Index of = j < p.size() ? j : neighbours_->images()->source(j - p.size());
+        const Index of = j < p.size() ? j : neighbours_->ghosts()->source(j - p.size());
         if (of < p.active)
-          continue;  // what active particles and images of such do to each other stays inside
+          continue;  // what active particles and ghosts of such do to each other stays inside
         for (Index i = g * lanes; i < std::min((g + 1) * lanes, p.active); ++i)
           if ((p.x.vec(i) - p.x.vec(j)).norm() <
               neighbours_->support() * std::max(p.h[i], p.h[of]) + neighbours_->skin())
-            rim_pairs_.push_back({i, j, of});
+            halo_pairs_.push_back({i, j, of});
       }
   }
 
  private:
-  /// An active particle and one of the rim, or an image of one.
+  /// An active particle and one of the halo, or a ghost of one.
   struct Pair {
-    Index i, j, of;  ///< `of`: the rim particle; j, where its image counts, else the same
+    Index i, j, of;  ///< `of`: the halo particle; j, where its ghost counts, else the same
   };
 
-  /// Power that rim particles j, whose state is frozen, put into active ones: the pair's part of the change
+  /// Power that halo particles j, whose state is frozen, put into active ones: the pair's part of the change
   /// of kinetic and internal energy of i and of the dissipation counted for i.
-  Real rim_power(World& world) const {
+  Real halo_power(World& world) const {
     return with_kernel(settings_.kernel, [&](auto kernel) {
       return with_dimension(world.dim, [&](auto dim) {
         return with_bool(settings_.uniform_h, [&](auto uniform) {
           return with_bool(std::holds_alternative<MonaghanViscosity>(settings_.viscosity), [&](auto visc) {
-            return rim_power_of<decltype(kernel), dim.value, uniform.value, visc.value>(world);
+            return halo_power_of<decltype(kernel), dim.value, uniform.value, visc.value>(world);
           });
         });
       });
@@ -126,11 +126,11 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Ke
   }
 
   template <class Kernel, int Dim, bool UniformH, bool Monaghan>
-  Real rim_power_of(World& world) const {
+  Real halo_power_of(World& world) const {
     const Particles& p = world.particles;
     const Real* pressure = total_pressure_ ? total_pressure_->data() : p.p.data();
     Real total = 0;
-    for (const auto [i, j, of] : rim_pairs_) {
+    for (const auto [i, j, of] : halo_pairs_) {
       const Real h = p.h[i];
       const PartViscosity &qi = settings_.q[p.part[i]], &qj = settings_.q[p.part[of]];
       MomentumPair<Kernel, Dim, UniformH, Monaghan> pair{h,
@@ -185,7 +185,7 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Ke
   Field<Real>* excess_ = nullptr;  ///< of renormalised forms
   static constexpr Index lanes = Neighbours::lanes;
   std::vector<Real> power_;  ///< dissipated in each block [ML2/T3]
-  std::vector<Pair> rim_pairs_;
+  std::vector<Pair> halo_pairs_;
   bool first_ = true;
 };
 

@@ -74,7 +74,7 @@ inline Field<Real>& plain_gradient(Particles& p) {
 inline Field<Real>& reinitialisation_rate(Particles& p) {
   return p.fields.add<Real>({.name = "reinitialisation_rate", .dimension = "M/L3T", .restart = false});
 }
-/// Of body loads, -g.x where they are gravity; images have that of their particle, as they have its pressure.
+/// Of body loads, -g.x where they are gravity; ghosts have that of their particle, as they have its pressure.
 inline Field<Real>& potential(Particles& p) {
   return p.fields.add<Real>({.name = "potential", .dimension = "L2/T2", .exchange = true});
 }

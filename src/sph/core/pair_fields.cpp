@@ -42,7 +42,7 @@ void RateFields::declare_pairs(const Particles& p, const PairVolumes& volumes, A
   if (strain_) a.writes(*strain_);
 }
 
-void RateFields::declare_partners(const Particles& p, Accesses& a) const {
+void RateFields::declare_reduction(const Particles& p, Accesses& a) const {
   a.reads(p.x).reads(p.v).reads(p.h).reads(p.m).reads_before(p.rho).updates(p.drhodt).updates(p.f);
   if (viscous()) a.reads(*viscous_speed_).updates(*heat_);
   if (strain_) a.updates(*strain_);
@@ -82,7 +82,7 @@ void ForceFields::declare_pairs(const Particles& p, const PairVolumes& volumes, 
   if (tau_) a.reads(*tau_, Reach::others);
 }
 
-void ForceFields::declare_partners(const Particles& p, Accesses& a) const {
+void ForceFields::declare_reduction(const Particles& p, Accesses& a) const {
   a.reads(p.x).reads(p.h).updates(p.f).reads(total_pressure_ ? *total_pressure_ : p.p);
   if (diffusion_) a.reads(p.rho).reads(p.c).reads(*potential_).updates(*diffusion_);
   if (tau_) a.reads(*tau_);

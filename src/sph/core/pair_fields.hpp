@@ -22,7 +22,7 @@ class RateFields {
   PairArrays arrays(Particles& p, const PairVolumes& volumes) const;
   /// What the loop over pairs does with them, and what the loop over partners does.
   void declare_pairs(const Particles& p, const PairVolumes& volumes, Accesses& a) const;
-  void declare_partners(const Particles& p, Accesses& a) const;
+  void declare_reduction(const Particles& p, Accesses& a) const;
 
  private:
   const AnyKernel* kernel_;
@@ -41,7 +41,7 @@ class ForceFields {
   bool diffusion() const { return diffusion_ != nullptr; }
   PairArrays arrays(Particles& p, const PairVolumes& volumes) const;
   void declare_pairs(const Particles& p, const PairVolumes& volumes, Accesses& a) const;
-  void declare_partners(const Particles& p, Accesses& a) const;
+  void declare_reduction(const Particles& p, Accesses& a) const;
 
  private:
   const AnyKernel* kernel_;

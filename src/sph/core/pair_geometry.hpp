@@ -8,7 +8,7 @@
 
 #include "parallel/buffer.hpp"
 #include "search/neighbours.hpp"
-#include "sph/core/partner_loops.hpp"
+#include "sph/core/reduction_loops.hpp"
 
 namespace courant {
 
@@ -21,7 +21,7 @@ class PairGeometry {
                std::int64_t most_kept = most_kept_bytes)
       : neighbours_(std::move(neighbours)), once_(uniform_h), most_kept_(uniform_h ? most_kept : -1) {
     if (once_)
-      neighbours_->cut_strips();
+      neighbours_->cut_tasks();
     else
       neighbours_->need_whole_lists();
   }
@@ -29,12 +29,12 @@ class PairGeometry {
   /// What `lists` gives to the loop of the rates and to that of the forces, and `shares` to those of
   /// partners.
   void declare_rates(Accesses& a) const {
-    if (once_) a.writes(partner_shares_).writes(gradients_);
+    if (once_) a.writes(contributions_).writes(gradients_);
   }
   void declare_forces(Accesses& a) const {
-    if (once_) a.writes(partner_shares_).reads(gradients_);
+    if (once_) a.writes(contributions_).reads(gradients_);
   }
-  void declare_partners(Accesses& a) const { a.reads(partner_shares_, Reach::others); }
+  void declare_reduction(Accesses& a) const { a.reads(contributions_, Reach::others); }
 
   /// Whether partners must get their shares from where the loops leave them.
   bool once() const { return once_; }
@@ -51,15 +51,15 @@ class PairGeometry {
   /// At the start of rates and forces: `numbers` for each partner. `threads`: who will work on which blocks.
   void make_room_for_shares(Index numbers, const Shares& threads) {
     if (!once_) return;
-    const Strips& strips = neighbours_->strips();
+    const Tasks& tasks = neighbours_->tasks();
     for (const Index b : threads.first)
-      if (b < neighbours_->blocks() && strips[strips.of_block(b)].begin != b * block_size)
-        throw std::logic_error("two threads would work on one strip");
+      if (b < neighbours_->blocks() && tasks[tasks.of_block(b)].begin != b * block_size)
+        throw std::logic_error("two threads would work on one task");
     share_size_ = numbers;
-    shares_.grow_to(std::size_t(strips.total()) * numbers);
+    shares_.grow_to(std::size_t(tasks.total()) * numbers);
   }
 
-  /// Blocks of a strip are asked for in order, by one thread.
+  /// Blocks of a task are asked for in order, by one thread.
   PairLists lists(Index begin, Index end) {
     const Index b = begin / block_size;
     PairLists out{.list = neighbours_->list(b),
@@ -68,12 +68,12 @@ class PairGeometry {
                   .begin = begin,
                   .end = end};
     if (once_) {
-      note_access(partner_shares_);
-      const Strips::Strip& strip = neighbours_->strips()[neighbours_->strips().of_block(b)];
-      out.strip_begin = strip.begin;
-      out.shares = shares_.data() + std::size_t(strip.offset) * share_size_;
-      if (begin == strip.begin)
-        std::fill_n(out.shares, std::size_t(strip.reach - strip.begin) * share_size_, 0.0);
+      note_access(contributions_);
+      const Tasks::Task& task = neighbours_->tasks()[neighbours_->tasks().of_block(b)];
+      out.task_begin = task.begin;
+      out.shares = shares_.data() + std::size_t(task.offset) * share_size_;
+      if (begin == task.begin)
+        std::fill_n(out.shares, std::size_t(task.reach - task.begin) * share_size_, 0.0);
     }
     if (!kept_) return out;
     note_access(gradients_);
@@ -83,18 +83,17 @@ class PairGeometry {
     return out;
   }
 
-  using Sources = std::array<PartnerShares::Source, Strips::most>;
+  using Sources = std::array<Contributions::Source, Tasks::most>;
   /// What particles of the block [begin, end) got as partners; `sources` is room for it.
-  PartnerShares shares(Index begin, Index end, Sources& sources) const {
-    note_access(partner_shares_);
-    const Strips& strips = neighbours_->strips();
-    const Index own = strips.of_block(begin / block_size);
-    PartnerShares::Source* next = sources.data();
-    for (Index s = strips[own].earliest; s <= own; ++s) {
-      const Strips::Strip& strip = strips[s];
-      if (strip.reach > begin)
-        *next++ = {shares_.data() + std::size_t(strip.offset + begin - strip.begin) * share_size_,
-                   strip.reach};
+  Contributions shares(Index begin, Index end, Sources& sources) const {
+    note_access(contributions_);
+    const Tasks& tasks = neighbours_->tasks();
+    const Index own = tasks.of_block(begin / block_size);
+    Contributions::Source* next = sources.data();
+    for (Index s = tasks[own].earliest; s <= own; ++s) {
+      const Tasks::Task& task = tasks[s];
+      if (task.reach > begin)
+        *next++ = {shares_.data() + std::size_t(task.offset + begin - task.begin) * share_size_, task.reach};
     }
     return {sources.data(), next, begin, end};
   }
@@ -106,7 +105,7 @@ class PairGeometry {
     Buffer<Real> g;
     std::array<Index, Neighbours::groups_per_block + 1> start;
   };
-  Resource partner_shares_{"contributions to j", "particles"}, gradients_{"gradients of pairs", "particles"};
+  Resource contributions_{"contributions to j", "particles"}, gradients_{"gradients of pairs", "particles"};
   std::shared_ptr<Neighbours> neighbours_;
   bool once_;
   std::int64_t most_kept_;

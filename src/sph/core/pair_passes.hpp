@@ -22,8 +22,8 @@ PairPasses make_pair_passes(const SphSettings&, World&, std::shared_ptr<Neighbou
 PairPasses make_plain_passes(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
                              std::shared_ptr<PairVolumes>);
 /// With gradients that are kept over steps.
-PairPasses make_kept_passes(const SphSettings&, World&, std::shared_ptr<Neighbours>,
-                            std::shared_ptr<PairVolumes>);
+PairPasses make_frozen_passes(const SphSettings&, World&, std::shared_ptr<Neighbours>,
+                              std::shared_ptr<PairVolumes>);
 
 // What plain passes are made of. Calls add_viscous_speed:
 std::shared_ptr<Rate> make_rates(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
@@ -31,9 +31,9 @@ std::shared_ptr<Rate> make_rates(const SphSettings&, World&, std::shared_ptr<Pai
 std::shared_ptr<Force> make_forces(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
                                    std::shared_ptr<PairVolumes>);
 /// What particles get of pairs that are worked out once (PairGeometry::once).
-std::shared_ptr<Rate> make_rates_of_partners(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
+std::shared_ptr<Rate> make_rates_reduction(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
+                                           std::shared_ptr<PairVolumes>);
+std::shared_ptr<Force> make_forces_reduction(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
                                              std::shared_ptr<PairVolumes>);
-std::shared_ptr<Force> make_forces_of_partners(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
-                                               std::shared_ptr<PairVolumes>);
 
 }  // namespace courant

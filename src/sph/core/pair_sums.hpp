@@ -3,7 +3,7 @@
 // each instruction set; see docs/architecture.md.
 #include "sph/core/kernel_packs.hpp"
 #include "sph/core/pair_loops.hpp"
-#include "sph/options/kept_loops.hpp"
+#include "sph/options/frozen_loops.hpp"
 
 namespace courant::COURANT_SIMD {
 
@@ -125,7 +125,7 @@ void rates(const PairArrays& arrays, const PairLists& all_lists) {
           own.add(u, times(moving.shape * Vi, d));
           own.list(shares.of + (Viscous ? Dim + 2 : 1));
         }
-        pending.take(shares, lists.shares + (j - lists.strip_begin) * share_count);
+        pending.take(shares, lists.shares + (j - lists.task_begin) * share_count);
       }
     }
     pending.add();
@@ -204,7 +204,7 @@ void forces(const PairArrays& arrays, const PairLists& all_lists) {
         SharePacks<share_count> shares;
         pair.list(shares.of);
         if constexpr (Diffusion) shares.of[Dim] = (w * Vi) * (0 - dp - a.rho[j] * dphi);
-        pending.take(shares, lists.shares + (j - lists.strip_begin) * share_count);
+        pending.take(shares, lists.shares + (j - lists.task_begin) * share_count);
       }
     }
     pending.add();
@@ -246,7 +246,7 @@ PairLoop forces_of(const ForcesChoice& c) {
 }
 
 template <class Kernel, int Dim>
-void fix(const PairArrays& a, const KeptLists& lists) {
+void fix(const PairArrays& a, const FrozenLists& lists) {
   const Kernel kernel = kernel_of<Kernel>(a.kernel);
   const Real hinv = 1 / a.h0, twice_q2 = 2 * a.q2;
   const Pack tiny = Pack::of(tiny_distance2 * a.h0 * a.h0), eta2 = Pack::of(0.01 * a.h0 * a.h0);
@@ -287,7 +287,7 @@ void fix(const PairArrays& a, const KeptLists& lists) {
 }
 
 template <class Kernel>
-KeptLoop fix_of(int dim) {
+FrozenLoop fix_of(int dim) {
   return dim == 2 ? &fix<Kernel, 2> : &fix<Kernel, 3>;
 }
 

@@ -1,6 +1,6 @@
 #include "base/instruction_set.hpp"
 #include "sph/core/pair_loops.hpp"
-#include "sph/options/kept_loops.hpp"
+#include "sph/options/frozen_loops.hpp"
 
 namespace courant {
 
@@ -41,7 +41,7 @@ PairLoop rates_loop(const RatesChoice& choice) {
 PairLoop forces_loop(const ForcesChoice& choice) {
   return loops_of(choice.kernel).forces(choice);
 }
-KeptLoop fix_loop(KernelChoice kernel, int dim) {
+FrozenLoop fix_loop(KernelChoice kernel, int dim) {
   return loops_of(kernel).fix(dim);
 }
 

@@ -29,7 +29,7 @@ void PairVolumes::pretend(const Array<Real>& volumes) {
   std::copy(volumes.begin(), volumes.end(), fields_[current_]->data());
 }
 
-// The rim, too: its density does not change, so nobody works on it in between.
+// The halo, too: its density does not change, so nobody works on it in between.
 void PairVolumes::fill(World& world) {
   const Particles& p = world.particles;
   const Real *m = p.m.data(), *rho = p.rho.data();

@@ -1,7 +1,7 @@
 #pragma once
 // m/rho of particles as pair loops read it of neighbours.
 #include "parallel/array.hpp"
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -9,7 +9,7 @@ namespace courant {
 /// While threads work on the rates, density already changes: the loops of the rates read the volumes before
 /// that, those of the forces the volumes after. With older ones in the forces, pressure would give back less
 /// work than it took, in proportion to the step.
-class PairVolumes : public Material, public Refresh, public Keeper {
+class PairVolumes : public Material, public Refresh, public Restartable {
  public:
   explicit PairVolumes(World& world);
   std::string name() const override { return "sph volumes"; }
@@ -18,7 +18,7 @@ class PairVolumes : public Material, public Refresh, public Keeper {
   const Resource& before() const { return before_; }
   /// Of this step: what `current` gives in the forces.
   const Resource& now() const { return now_; }
-  /// Of the latest density all of which is known [L3]; shape: (particles and images)
+  /// Of the latest density all of which is known [L3]; shape: (particles and ghosts)
   const Real* current() const { return fields_[current_]->data(); }
   /// While a state is loaded, until `loaded`: as if those of the first particles were these.
   void pretend(const Array<Real>& volumes);

@@ -8,7 +8,7 @@
 #include "sph/core/fields.hpp"
 #include "sph/materials/dynamic_viscosity.hpp"
 #include "sph/sph.hpp"
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 
 namespace courant {
 
@@ -16,7 +16,7 @@ namespace {
 
 /// IAVIS 1: q = rho h (Q1 h d^2 - Q2 c d) for d = div v < 0, else 0, the form of solid elements with the
 /// length h.
-class BulkViscosityPass : public Material, public Refresh, public Keeper {
+class BulkViscosityPass : public Material, public Refresh, public Restartable {
  public:
   BulkViscosityPass(const SphSettings& s, World& world)
       : q_(s.q),
@@ -50,7 +50,7 @@ class BulkViscosityPass : public Material, public Refresh, public Keeper {
   void keep(Archive&) override {}
   void loaded(World& world) override {
     const Particles& p = world.particles;
-    for (Index i = p.active; i < p.moving; ++i) total_[i] = p.p[i];  // the rim's pressure does not change
+    for (Index i = p.active; i < p.moving; ++i) total_[i] = p.p[i];  // the halo's pressure does not change
   }
 
  private:

@@ -1,7 +1,7 @@
 #include "sph/core/fields.hpp"
 #include "sph/core/pair_fields.hpp"
 #include "sph/core/pair_passes.hpp"
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 
 namespace courant {
 
@@ -45,7 +45,7 @@ class PairRates : public Rate {
 
 /// Keeps q1 c as pair loops read it of neighbours: while threads work on the rates, the sound speed already
 /// changes.
-class ViscousSpeed : public Preparation, public Refresh, public Keeper {
+class ViscousSpeed : public Preparation, public Refresh, public Restartable {
  public:
   ViscousSpeed(const SphSettings& s, World& world)
       : q_(s.q), speed_(sph_fields::viscous_speed(world.particles)) {}

@@ -11,7 +11,7 @@
 
 namespace courant {
 
-Drift::Drift(DriftRules rules, std::vector<ImagePlane> mirrors, BodyAcceleration loads, World& world)
+Drift::Drift(DriftRules rules, std::vector<GhostPlane> mirrors, BodyAcceleration loads, World& world)
     : rules_(std::move(rules)),
       mirrors_(std::move(mirrors)),
       loads_(std::move(loads)),
@@ -87,8 +87,8 @@ void Drift::correct(Particles& p, Index i, const Vec& shift, Sums& sums) {
 }
 
 // What holds a particle off a mirror counts its way by its velocity (mirror_core.cpp).
-Vec along_mirrors(const std::vector<ImagePlane>& mirrors, const Vec& x, Real h, Vec u) {
-  for (const ImagePlane& plane : mirrors)
+Vec along_mirrors(const std::vector<GhostPlane>& mirrors, const Vec& x, Real h, Vec u) {
+  for (const GhostPlane& plane : mirrors)
     if (depth(plane, x) < 0.5 * h) u -= u.dot(plane.normal) * plane.normal;
   return u;
 }

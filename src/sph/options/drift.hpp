@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "loads/body_acceleration.hpp"
-#include "search/images.hpp"
+#include "search/ghosts.hpp"
 #include "sph/options/drift_loops.hpp"
 #include "state/world.hpp"
 
@@ -29,7 +29,7 @@ struct DriftRules {
 /// counts as dissipated.
 class Drift : public Relocation, public Refresh {
  public:
-  Drift(DriftRules rules, std::vector<ImagePlane> mirrors, BodyAcceleration loads, World& world);
+  Drift(DriftRules rules, std::vector<GhostPlane> mirrors, BodyAcceleration loads, World& world);
   std::string name() const override { return rules_.name; }
   void declare(const World& world, Accesses& a) const override;
   void start(World& world, const Clock& clock) override;
@@ -49,7 +49,7 @@ class Drift : public Relocation, public Refresh {
   Vec where_free(Index i, Vec u) const;
 
   DriftRules rules_;
-  std::vector<ImagePlane> mirrors_;
+  std::vector<GhostPlane> mirrors_;
   BodyAcceleration loads_;
   BodyAcceleration::At now_;
   Field<Real>&velocity_, &drifted_;
@@ -94,7 +94,7 @@ inline constexpr const char* shift_statistics = "shift";
 inline constexpr const char* xsph_statistics = "xsph";
 
 /// A particle that stands so near to a mirror that its own image matters drifts along it only.
-Vec along_mirrors(const std::vector<ImagePlane>& mirrors, const Vec& x, Real h, Vec u);
+Vec along_mirrors(const std::vector<GhostPlane>& mirrors, const Vec& x, Real h, Vec u);
 
 /// The value of `statistic` that is farthest from 0 over the run.
 void note_farthest(World& world, const std::string& statistic, Real value);

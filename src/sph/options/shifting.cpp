@@ -12,7 +12,7 @@
 #include "sph/options/drift.hpp"
 #include "sph/options/drift_loops.hpp"
 #include "sph/sph.hpp"
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 
 namespace courant {
 
@@ -48,7 +48,7 @@ const RegisterKeyword<CourantShifting> shifting_keyword{
 /// the coefficient of Skillen et al. 2013). What stands at a surface is not shifted, by div r = sum_j V_j
 /// (x_j - x_i).grad W_ij; what has such a neighbour moves along the surface only, and the less the more it
 /// lacks.
-class Shifting : public Rate, public Keeper {
+class Shifting : public Rate, public Restartable {
  public:
   Shifting(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
            std::shared_ptr<PairVolumes> volumes)
@@ -153,7 +153,7 @@ class Shifting : public Rate, public Keeper {
 
   static constexpr const char* volume_statistic = "shift_volume_drift";
   ShiftRules rules_;
-  std::vector<ImagePlane> mirrors_;
+  std::vector<GhostPlane> mirrors_;
   int dim_;
   DriftLoop loop_;
   std::shared_ptr<Neighbours> neighbours_;

@@ -11,7 +11,7 @@
 #include "sph/core/view.hpp"
 #include "sph/options/density_source.hpp"
 #include "sph/sph.hpp"
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 
 namespace courant {
 
@@ -43,7 +43,7 @@ constexpr Real looks_per_tau = 50;
 /// Drops of one particle, of two in one place and rows of particles have no slope either, and a sum far below
 /// S: w_i falls to 0 where -sum_j V_j r dW/dr / dim, 1 in water and 0.5 at its surface, falls from 0.5 to
 /// 0.3. Else their density would fall to a third, and what tension then held together would be thrown apart.
-class VolumeControl : public Rate, public Keeper {
+class VolumeControl : public Rate, public Restartable {
  public:
   VolumeControl(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                 std::shared_ptr<PairVolumes> volumes)
@@ -125,8 +125,8 @@ class VolumeControl : public Rate, public Keeper {
       return sum * (dim_ == 3 ? Kernel::C(3) / power<3>(h) : Kernel::C(2) / power<2>(h));
     });
   }
-  /// Integral of the kernel over a line (2D) or plane (3D) through its middle, times h: h |grad S| at the rim
-  /// of a half-space.
+  /// Integral of the kernel over a line (2D) or plane (3D) through its middle, times h: h |grad S| at the
+  /// halo of a half-space.
   template <class Kernel>
   static Real slope_at_plane(int dim) {
     constexpr int n = 1000;

@@ -44,7 +44,7 @@ const Lists bare{
      "forces sph forces, reduction", "motion motion of particles", "preparation sph viscous speed",
      "preparation neighbours", "time limit sph time step", "energy sph energy", "guard every 64 steps"},
     {"inlets no *DEFINE_SPH_INJECTION",
-     "images no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
+     "ghost particles no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
      "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
      "wall support no *COURANT_WALL_SUPPORT",
      "renormalisation FORM of *CONTROL_SPH is a plain one",
@@ -206,11 +206,12 @@ TEST(Passes, FixedParticles) {
   expect_change(scene, {"SPC"}, {"constraints fixed particles (SPC)"});
 }
 
-TEST(Passes, ImagesBehindAPlane) {
+TEST(Passes, GhostsBehindAPlane) {
   SmallScene scene;
   scene.extra = "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n";
-  expect_change(scene, {"images"},
-                {"exchange images", "rates mirror core (rates)", "forces mirror core", "relocation mirrors"});
+  expect_change(
+      scene, {"ghost particles"},
+      {"exchange ghost particles", "rates mirror core (rates)", "forces mirror core", "relocation mirrors"});
 }
 
 TEST(Passes, DensityDiffusion) {

@@ -97,7 +97,7 @@ TEST(Refreshed, ForgetsThoseThatLeave) {
   Particles& p = s.world.particles;
   auto& ghost = *dynamic_cast<Field<Real>*>(p.fields.find("contact_1_ghost"));
   ASSERT_GT(ghost.vec(1).norm(), 0);
-  p.active = 1;  // the other one is in the rim now
+  p.active = 1;  // the other one is in the halo now
   s.refresh();
   EXPECT_EQ(ghost.vec(1).norm(), 0);
 }

@@ -57,7 +57,7 @@ TEST(Neighbours, SectionsTellWhoIsNearAndWhoseListHasThePairToo) {
   cloud.refresh();
   const Particles& p = cloud.world.particles;
   const Neighbours& lists = *cloud.neighbours;
-  ASSERT_GT(p.moving, p.active) << "there is a rim";
+  ASSERT_GT(p.moving, p.active) << "there is a halo";
   Index beyond = 0, later = 0, once = 0;
   for (Index i = 0; i < p.active; i += Neighbours::lanes) {
     const Index b = i / block_size, g = i % block_size / Neighbours::lanes;
@@ -85,54 +85,54 @@ TEST(Neighbours, HoldEachPairOnceWhereNobodyNeedsItTwice) {
   for (const int dim : {2, 3}) {
     const int n = dim == 2 ? 25 : 9;
     Cloud both(dim, n, 0.01, 0.3), once(dim, n, 0.01, 0.3), all_the_same(dim, n, 0.01, 0.3);
-    once.neighbours->cut_strips();
+    once.neighbours->cut_tasks();
     once.refresh(), both.refresh();
     expect_complete(once);
     EXPECT_LT(once.neighbours->entries(), 0.6 * both.neighbours->entries());
     EXPECT_EQ(once.neighbours->entries(), both.neighbours->entries_once());
     EXPECT_EQ(once.neighbours->entries(), once.neighbours->entries_once());
     EXPECT_THROW(once.neighbours->of_group(0), std::logic_error);
-    with_whole_lists(all_the_same.neighbours)->cut_strips();
+    with_whole_lists(all_the_same.neighbours)->cut_tasks();
     all_the_same.refresh();
     EXPECT_EQ(all_the_same.neighbours->entries(), both.neighbours->entries());
     EXPECT_FALSE(all_the_same.neighbours->of_group(0).empty());
   }
 }
 
-TEST(Strips, CoverAllParticlesAndWhatTheirListsReach) {
+TEST(Tasks, CoverAllParticlesAndWhatTheirListsReach) {
   for (const int side : {8, 15})
     for (const int threads : {1, 3}) {
       static std::vector<Index> cuts;
       set_threads(threads);
       Cloud cloud(3, side, 0.01, 0.2);
-      cloud.neighbours->cut_strips();
+      cloud.neighbours->cut_tasks();
       cloud.refresh();
       const Neighbours& lists = *cloud.neighbours;
-      const Strips& strips = lists.strips();
+      const Tasks& tasks = lists.tasks();
       const Index n = cloud.world.particles.active;
-      ASSERT_GE(strips.count(), 8);
+      ASSERT_GE(tasks.count(), 8);
       Index begin = 0, room = 0;
       std::vector<Index> found;
-      for (Index s = 0; s < strips.count(); ++s) {
-        EXPECT_EQ(strips[s].begin, begin);
-        EXPECT_EQ(strips[s].begin % block_size, 0);
-        EXPECT_EQ(strips[s].offset, room);
-        Index last = strips[s].end - 1;
-        for (Index b = strips[s].begin / block_size; b < block_count(strips[s].end); ++b) {
-          EXPECT_EQ(strips.of_block(b), s);
+      for (Index s = 0; s < tasks.count(); ++s) {
+        EXPECT_EQ(tasks[s].begin, begin);
+        EXPECT_EQ(tasks[s].begin % block_size, 0);
+        EXPECT_EQ(tasks[s].offset, room);
+        Index last = tasks[s].end - 1;
+        for (Index b = tasks[s].begin / block_size; b < block_count(tasks[s].end); ++b) {
+          EXPECT_EQ(tasks.of_block(b), s);
           for (Index e = 0; e < lists.entries(b); ++e)
             if (lists.list(b)[e] < n) last = std::max(last, lists.list(b)[e]);
         }
-        EXPECT_EQ(strips[s].reach, last + 1);
+        EXPECT_EQ(tasks[s].reach, last + 1);
         for (Index other = 0; other < s; ++other)
-          EXPECT_TRUE(strips[other].reach <= strips[s].begin || other >= strips[s].earliest);
-        begin = strips[s].end, room += strips[s].reach - strips[s].begin;
-        found.push_back(strips[s].end);
+          EXPECT_TRUE(tasks[other].reach <= tasks[s].begin || other >= tasks[s].earliest);
+        begin = tasks[s].end, room += tasks[s].reach - tasks[s].begin;
+        found.push_back(tasks[s].end);
       }
       EXPECT_EQ(begin, n);
-      EXPECT_EQ(strips.total(), room);
+      EXPECT_EQ(tasks.total(), room);
       for (const Index b : cloud.world.shares.first)
-        EXPECT_TRUE(b == block_count(n) || strips[strips.of_block(b)].begin == b * block_size);
+        EXPECT_TRUE(b == block_count(n) || tasks[tasks.of_block(b)].begin == b * block_size);
       if (threads == 1) cuts = found;
       EXPECT_EQ(found, cuts) << "as many threads as there may be";
     }

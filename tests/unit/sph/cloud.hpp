@@ -51,7 +51,9 @@ struct Cloud {
                           make_pair_volumes(world));
   }
   /// The same, that keep gradients over steps.
-  void make_kept_pairs() { pairs = make_kept_passes(settings, world, neighbours, make_pair_volumes(world)); }
+  void make_kept_pairs() {
+    pairs = make_frozen_passes(settings, world, neighbours, make_pair_volumes(world));
+  }
   void run(BlockPass& pass) { test::run(pass, world, clock); }
   void run_rates() {
     for (const auto& pass : pairs.rates) run(*pass);

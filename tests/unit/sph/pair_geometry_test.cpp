@@ -7,7 +7,7 @@
 #include "cloud.hpp"
 #include "liquid.hpp"
 #include "sph/core/fields.hpp"
-#include "sph/options/kept_pairs.hpp"
+#include "sph/options/frozen_pairs.hpp"
 #include "time/point_motion.hpp"
 #include "time/step.hpp"
 

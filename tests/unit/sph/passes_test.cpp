@@ -72,7 +72,7 @@ struct Evaluated {
     if (c.stress) updates.push_back(make_viscous_stress(cloud.settings, w));
     ledger = w.passes.add(make_sph_energy(cloud.settings, w, cloud.neighbours));
     cloud.refresh();
-    if (c.stress)  // rim particles keep the stress they had
+    if (c.stress)  // halo particles keep the stress they had
       for (const int component : {0, 1, 3})
         for (Index i = p.active; i < p.moving; ++i) sph_fields::stress(p).data(component)[i] = 3.0 + i % 5;
     cloud.run_rates();

@@ -137,7 +137,7 @@ TEST(WallSurface, GoesOnBehindAMirrorAsItsImage) {
   add_walls(whole, {bank, side, bed, image(bank), image(side), image(bed)});
   add_walls(too_long, {bank, side, {Vec(-0.32, -0.3, 0), foot}});
   add_walls(across, {bank, side, {Vec(-0.1, -0.3, 0), foot}});  // the middle of its seven pieces at x = 0
-  const ImagePlane mirror{ImagePlane::Kind::mirror, Vec::Zero(), Vec(1, 0, 0), 0};
+  const GhostPlane mirror{GhostPlane::Kind::mirror, Vec::Zero(), Vec(1, 0, 0), 0};
   const WallSurface of_half(half, {0, 1, 2}, h / 4, 2 * h, {mirror});
   const WallSurface of_whole(whole, {0, 1, 2, 3, 4, 5}, h / 4, 2 * h);
   const WallSurface of_long(too_long, {0, 1, 2}, h / 4, 2 * h, {mirror});
@@ -158,7 +158,7 @@ TEST(WallSurface, HidesNothingByWhatStandsBehindAMirror) {
   add_walls(through, {{Vec(-0.2, 0.1, 0), Vec(0.2, -0.1, 0)}});
   add_walls(roof, {right, left});
   const WallSurface of_plate(through, {0}, h / 4, 2 * h,
-                             {{ImagePlane::Kind::mirror, Vec::Zero(), Vec(1, 0, 0), 0}});
+                             {{GhostPlane::Kind::mirror, Vec::Zero(), Vec(1, 0, 0), 0}});
   const WallSurface of_roof(roof, {0, 1}, h / 4, 2 * h);
   const Vec x(0.05, 0.05, 0), expected = slope_at(of_roof, x);
   EXPECT_LT((slope_at(of_plate, x) - expected).norm(), 0.02 * expected.norm());
@@ -177,7 +177,7 @@ TEST(WallSurface, GoesOnBehindPeriodicPlanesAsTheOtherEnd) {
   }
   add_walls(three, lines);
   const WallSurface of_one(one, {0, 1, 2}, h / 4, 2 * h,
-                           {{ImagePlane::Kind::periodic, Vec::Zero(), Vec(1, 0, 0), 1}});
+                           {{GhostPlane::Kind::periodic, Vec::Zero(), Vec(1, 0, 0), 1}});
   const WallSurface of_three(three, {0, 1, 2, 3, 4, 5, 6, 7, 8}, h / 4, 2 * h);
   for (const Vec& x : {Vec(0.03, 0.05, 0), Vec(0.97, 0.15, 0), Vec(0.5, 0.2, 0), Vec(0.03, 0.2, 0)})
     EXPECT_LT((slope_at(of_one, x) - slope_at(of_three, x)).norm(), 1e-12 / h) << x.transpose();
@@ -195,7 +195,7 @@ TEST(WallSurface, HasImagesOfImagesWhereMirrorsMeet) {
     }
   }
   const auto mirror = [](int axis) {
-    return ImagePlane{ImagePlane::Kind::mirror, Vec::Zero(), Vec::Unit(axis), 0};
+    return GhostPlane{GhostPlane::Kind::mirror, Vec::Zero(), Vec::Unit(axis), 0};
   };
   const WallSurface of_quarter(quarter, {0}, h / 4, 2 * h, {mirror(0), mirror(2)});
   const WallSurface of_whole(whole, {0}, h / 4, 2 * h);
@@ -220,9 +220,9 @@ TEST(WallSurface, LeavesOutNothingThatParticlesCanSee) {
   p.fields.resize(static_cast<Index>(places.size()));
   p.active = p.size();
   for (Index i = 0; i < p.size(); ++i) p.x.set(i, places[i]);
-  const ImagePlane period{ImagePlane::Kind::periodic, Vec::Zero(), Vec(1, 0, 0), 20};
-  const ImagePlane mirror{ImagePlane::Kind::mirror, Vec(19.98, 0, 0), Vec(-1, 0, 0), 0};
-  for (const std::vector<ImagePlane>& planes : {std::vector<ImagePlane>{}, {period}, {mirror}}) {
+  const GhostPlane period{GhostPlane::Kind::periodic, Vec::Zero(), Vec(1, 0, 0), 20};
+  const GhostPlane mirror{GhostPlane::Kind::mirror, Vec(19.98, 0, 0), Vec(-1, 0, 0), 0};
+  for (const std::vector<GhostPlane>& planes : {std::vector<GhostPlane>{}, {period}, {mirror}}) {
     const Lookouts from(p, 2 * h, planes);
     const WallSurface whole(world, all, h / 4, 2 * h, planes), seen(world, all, h / 4, 2 * h, planes, &from);
     EXPECT_LT(seen.points(), whole.points() / 4);

@@ -1,4 +1,4 @@
-#include "state/keeper.hpp"
+#include "state/restartable.hpp"
 
 #include <set>
 #include <stdexcept>
@@ -59,16 +59,16 @@ void keep_ledger(EnergyLedger& e, Archive& archive) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, Keeper*>> keepers_of(const World& world) {
-  std::vector<std::pair<std::string, Keeper*>> out;
+std::vector<std::pair<std::string, Restartable*>> restartables_of(const World& world) {
+  std::vector<std::pair<std::string, Restartable*>> out;
   std::set<std::string> names;
-  std::set<Keeper*> known;
+  std::set<Restartable*> known;
   const auto add = [&](Pass& pass) {
-    auto* keeper = dynamic_cast<Keeper*>(&pass);
-    if (!keeper || !known.insert(keeper).second) return;
+    auto* restartable = dynamic_cast<Restartable*>(&pass);
+    if (!restartable || !known.insert(restartable).second) return;
     std::string name = pass.name();
     for (int k = 2; !names.insert(name).second; ++k) name = pass.name() + " " + std::to_string(k);
-    out.emplace_back(name, keeper);
+    out.emplace_back(name, restartable);
   };
   for (int k = 0; k <= static_cast<int>(Phase::preparation); ++k)
     for (BlockPass* pass : world.passes.all<BlockPass>())

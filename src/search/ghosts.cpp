@@ -1,4 +1,4 @@
-#include "search/images.hpp"
+#include "search/ghosts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 class Mirrors : public Relocation {
  public:
-  Mirrors(std::vector<ImagePlane> mirrors, Acceleration loads)
+  Mirrors(std::vector<GhostPlane> mirrors, Acceleration loads)
       : mirrors_(std::move(mirrors)), loads_(std::move(loads)) {}
   std::string name() const override { return "mirrors"; }
   void declare(const World& world, Accesses& a) const override {
@@ -30,7 +30,7 @@ class Mirrors : public Relocation {
     crossings_.assign(block_count(world.particles.moving), 0);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
-    for (const ImagePlane& plane : mirrors_) reflect(world.particles, plane, begin, end);
+    for (const GhostPlane& plane : mirrors_) reflect(world.particles, plane, begin, end);
   }
   void finish(World& world, const Clock&) override {
     for (const Index n : crossings_)
@@ -40,7 +40,7 @@ class Mirrors : public Relocation {
  private:
   // What loads did behind the mirror is taken back twice, which errs by half a step of it, m g v dt/2, to
   // the safe side: without that a lattice that trembles on a mirror gains energy.
-  void reflect(Particles& p, const ImagePlane& plane, Index begin, Index end) {
+  void reflect(Particles& p, const GhostPlane& plane, Index begin, Index end) {
     if (!(depth_range(loops_, plane, p, begin, end).least < 0)) return;
     for (Index i = begin; i < end; ++i) {
       const Real d = depth(plane, p.x.vec(i));
@@ -57,7 +57,7 @@ class Mirrors : public Relocation {
     }
   }
   ParticleLoops loops_ = particle_loops();
-  std::vector<ImagePlane> mirrors_;
+  std::vector<GhostPlane> mirrors_;
   Acceleration loads_;
   Real t_ = 0;
   const Field<Real>* pull_ = nullptr;  ///< of others than body loads
@@ -66,22 +66,22 @@ class Mirrors : public Relocation {
 
 }  // namespace
 
-ParticleLoops::Range depth_range(const ParticleLoops& loops, const ImagePlane& plane, const Particles& p,
+ParticleLoops::Range depth_range(const ParticleLoops& loops, const GhostPlane& plane, const Particles& p,
                                  Index begin, Index end) {
   const Real* const x[3] = {p.x.data(0), p.x.data(1), p.x.data(2)};
   return loops.depths(plane.normal.data(), plane.point.data(), x, begin, end);
 }
 
-Images::Images(std::vector<ImagePlane> planes)
+GhostParticles::GhostParticles(std::vector<GhostPlane> planes)
     : planes_(std::move(planes)), narrowest_(std::numeric_limits<Real>::infinity()) {
-  for (const ImagePlane& a : planes_) {
+  for (const GhostPlane& a : planes_) {
     if (a.period > 0) narrowest_ = std::min(narrowest_, a.period);
-    for (const ImagePlane& b : planes_)
+    for (const GhostPlane& b : planes_)
       if (a.normal.dot(b.normal) < -0.5) narrowest_ = std::min(narrowest_, std::abs(depth(a, b.point)));
   }
-  for (const ImagePlane& plane : planes_) {
+  for (const GhostPlane& plane : planes_) {
     Motion m;
-    if (plane.kind == ImagePlane::Kind::mirror) {
+    if (plane.kind == GhostPlane::Kind::mirror) {
       m.A = Matrix::Identity() - 2 * plane.normal * plane.normal.transpose();
       m.b = 2 * plane.point.dot(plane.normal) * plane.normal;
     } else {
@@ -91,16 +91,16 @@ Images::Images(std::vector<ImagePlane> planes)
   }
 }
 
-std::shared_ptr<Relocation> Images::make_mirrors(Acceleration loads) const {
-  std::vector<ImagePlane> mirrors;
-  for (const ImagePlane& plane : planes_)
-    if (plane.kind == ImagePlane::Kind::mirror) mirrors.push_back(plane);
+std::shared_ptr<Relocation> GhostParticles::make_mirrors(Acceleration loads) const {
+  std::vector<GhostPlane> mirrors;
+  for (const GhostPlane& plane : planes_)
+    if (plane.kind == GhostPlane::Kind::mirror) mirrors.push_back(plane);
   if (mirrors.empty()) return nullptr;
   return std::make_shared<Mirrors>(std::move(mirrors), std::move(loads));
 }
 
 template <class Wanted>
-void Images::find(const ImagePlane& plane, const Particles& p, Index n, const Wanted& is_wanted) {
+void GhostParticles::find(const GhostPlane& plane, const Particles& p, Index n, const Wanted& is_wanted) {
   collect(n, scratch_, [&](Index begin, Index end, std::vector<Index>& found) {
     const auto [least, most, broken] = depth_range(loops_, plane, p, begin, end);
     if (!is_wanted(least) && !is_wanted(most)) return;
@@ -109,12 +109,12 @@ void Images::find(const ImagePlane& plane, const Particles& p, Index n, const Wa
   });
 }
 
-void Images::bring_back(World& world, Index n) {
+void GhostParticles::bring_back(World& world, Index n) {
   Particles& p = world.particles;
   brought_back_.clear();
   for (std::size_t k = 0; k < planes_.size(); ++k) {
-    const ImagePlane& plane = planes_[k];
-    const bool mirror = plane.kind == ImagePlane::Kind::mirror;
+    const GhostPlane& plane = planes_[k];
+    const bool mirror = plane.kind == GhostPlane::Kind::mirror;
     const auto is_outside = [&](Real d) { return d < 0 || (!mirror && d >= plane.period); };
     find(plane, p, n, is_outside);
     for (const Index i : scratch_) {
@@ -133,23 +133,23 @@ void Images::bring_back(World& world, Index n) {
   }
 }
 
-void Images::build(World& world, Real support, Real skin) {
+void GhostParticles::build(World& world, Real support, Real skin) {
   const Real reach = support + skin;
   if (support > narrowest_)
     throw RunError(
-        fmt::format("planes with images are {:.4g} [L] apart, and particles now reach {:.4g}: they would see "
-                    "images twice; make the domain wider, or limit h by HMAX of *SECTION_SPH",
+        fmt::format("planes with ghosts are {:.4g} [L] apart, and particles now reach {:.4g}: they would see "
+                    "ghosts twice; make the domain wider, or limit h by HMAX of *SECTION_SPH",
                     narrowest_, support));
   Particles& p = world.particles;
   source_.clear();
   motion_.clear();
   motions_.assign(1, Motion{});
   for (std::size_t k = 0; k < planes_.size(); ++k) {
-    const ImagePlane& plane = planes_[k];
+    const GhostPlane& plane = planes_[k];
     const Index before = count();
     const auto add = [&](const Motion& motion, const auto& is_near) {
       std::vector<Index> composed(motions_.size(), -1);
-      const auto image = [&](Index source, Index first) {
+      const auto ghost = [&](Index source, Index first) {
         if (composed[first] < 0) {
           composed[first] = static_cast<Index>(motions_.size());
           motions_.push_back(motion.after(motions_[first]));
@@ -158,22 +158,22 @@ void Images::build(World& world, Real support, Real skin) {
         motion_.push_back(composed[first]);
       };
       find(plane, p, p.moving, is_near);
-      for (const Index i : scratch_) image(i, 0);
-      for (Index m = 0; m < before; ++m)  // corners: images of images
+      for (const Index i : scratch_) ghost(i, 0);
+      for (Index m = 0; m < before; ++m)  // corners: copies of copies
         if (is_near(depth(plane, motions_[motion_[m]].of(p.x.vec(source_[m])))))
-          image(source_[m], motion_[m]);
+          ghost(source_[m], motion_[m]);
     };
     add(mirror_[k], [&](Real d) { return d < reach; });
-    if (plane.kind == ImagePlane::Kind::periodic)
+    if (plane.kind == GhostPlane::Kind::periodic)
       add(Motion{Matrix::Identity(), -mirror_[k].b}, [&](Real d) { return plane.period - d < reach; });
   }
-  p.fields.make_room_for_images(count());
-  for_each_block(count(), [&](Index begin, Index end) {  // places are what images are sorted by
+  p.fields.make_room_for_ghosts(count());
+  for_each_block(count(), [&](Index begin, Index end) {  // places are what ghosts are sorted by
     copy_block(p.x, p.size(), true, begin, end);
   });
 }
 
-void Images::sort(World& world, std::span<const Index> order) {
+void GhostParticles::sort(World& world, std::span<const Index> order) {
   for (auto* list : {&source_, &motion_}) {
     scratch_.resize(list->size());
     for (std::size_t k = 0; k < order.size(); ++k) scratch_[k] = (*list)[order[k]];
@@ -182,7 +182,7 @@ void Images::sort(World& world, std::span<const Index> order) {
   exchange_all(world);
 }
 
-void Images::exchange(World& world, std::span<const FieldBase* const> fields) {
+void GhostParticles::exchange(World& world, std::span<const FieldBase* const> fields) {
   Particles& p = world.particles;
   std::vector<Field<Real>*> reals;
   for (const auto& field : p.fields.all())
@@ -193,7 +193,7 @@ void Images::exchange(World& world, std::span<const FieldBase* const> fields) {
   });
 }
 
-void Images::exchange_all(World& world) {
+void GhostParticles::exchange_all(World& world) {
   std::vector<const FieldBase*> fields;
   for (const auto& field : world.particles.fields.all())
     if (field->info().exchange) fields.push_back(field.get());
@@ -201,7 +201,7 @@ void Images::exchange_all(World& world) {
 }
 
 /// To entities from `to` on.
-void Images::copy_block(Field<Real>& field, Index to, bool place, Index begin, Index end) const {
+void GhostParticles::copy_block(Field<Real>& field, Index to, bool place, Index begin, Index end) const {
   for (Index k = begin; k < end; ++k) {
     const Index source = source_[k];
     const Motion& m = motions_[motion_[k]];

@@ -11,8 +11,8 @@ namespace courant {
 
 /// A pass, or another object of a run, whose members survive a step. Members that a pass sets before it reads
 /// them are left out, as is what the deck says.
-struct Keeper {
-  virtual ~Keeper() = default;
+struct Restartable {
+  virtual ~Restartable() = default;
   /// Hands every member that later steps depend on to the archive, which saves or loads it. Between two
   /// steps.
   virtual void keep(Archive& archive) = 0;
@@ -24,7 +24,7 @@ struct Keeper {
 };
 
 /// The passes of a world that keep something, each once, by name.
-std::vector<std::pair<std::string, Keeper*>> keepers_of(const World& world);
+std::vector<std::pair<std::string, Restartable*>> restartables_of(const World& world);
 
 /// Fields that a restart needs, particle groups, ledger, counters and maxima. Loading throws RestartError
 /// where the state is that of another world. Loading returns true where particles that wait at inlets follow

@@ -6,7 +6,7 @@
 namespace courant {
 
 /// What the loops over pairs have left for particles [begin, end).
-struct PartnerShares {
+struct Contributions {
   struct Source {
     const Real* numbers;  ///< from particle `begin` on
     Index end;            ///< particles from here on got nothing
@@ -17,9 +17,9 @@ struct PartnerShares {
 };
 
 /// Adds them to what the loops of the rates or of the forces have set. `norm`: gradient_norm of the h of all.
-using PartnerLoop = void (*)(const PairArrays&, const PartnerShares&, Real norm);
+using ReductionLoop = void (*)(const PairArrays&, const Contributions&, Real norm);
 /// `choice`: that of the loop over pairs; any kernel.
-PartnerLoop partner_rates_loop(const RatesChoice& choice);
-PartnerLoop partner_forces_loop(const ForcesChoice& choice);
+ReductionLoop rates_reduction_loop(const RatesChoice& choice);
+ReductionLoop forces_reduction_loop(const ForcesChoice& choice);
 
 }  // namespace courant

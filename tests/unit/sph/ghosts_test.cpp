@@ -1,4 +1,4 @@
-// Images behind planes against the same flow computed whole.
+// GhostParticles behind planes against the same flow computed whole.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -94,7 +94,7 @@ const std::string periodic_x =
 
 }  // namespace
 
-TEST(Images, PartOfATankBehindMirrorsIsTheWholeTank) {
+TEST(GhostParticles, PartOfATankBehindMirrorsIsTheWholeTank) {
   Simulation *kept_half = nullptr, *kept_whole = nullptr;
   const States half = run({.left = 0, .nx = 10, .low = 0, .ny = 10, .planes = mirror_x}, &kept_half);
   const States whole = run({.left = -10, .nx = 20, .low = 0, .ny = 10}, &kept_whole);
@@ -107,7 +107,7 @@ TEST(Images, PartOfATankBehindMirrorsIsTheWholeTank) {
   EXPECT_EQ(of_half.external_work, 0);
 }
 
-TEST(Images, OfTheRimDoWorkAsTheRimDoes) {
+TEST(GhostParticles, OfTheRimDoWorkAsTheRimDoes) {
   // a stream out of both sides of a box, of which the upper half is computed
   Simulation *kept_half = nullptr, *kept_whole = nullptr;
   Tank tank{.left = -12, .nx = 24, .low = 0, .ny = 10, .planes = mirror_y, .endtim = 0.1, .boxed = true};
@@ -122,24 +122,24 @@ TEST(Images, OfTheRimDoWorkAsTheRimDoes) {
   EXPECT_NEAR(2 * of_half.throughput, of_whole.throughput, 1e-9 * of_whole.initial);
 }
 
-TEST(Images, AQuarterBehindTwoMirrorsIsTheWholeTank) {
+TEST(GhostParticles, AQuarterBehindTwoMirrorsIsTheWholeTank) {
   expect_same(run({.left = 0, .nx = 10, .low = 0, .ny = 10, .planes = mirror_x + mirror_y}),
               run({.left = -10, .nx = 20, .low = -10, .ny = 20}));
 }
 
-TEST(Images, SmoothingLengthsThatChangeAreMirrored) {
+TEST(GhostParticles, SmoothingLengthsThatChangeAreMirrored) {
   expect_same(run({.left = 0, .nx = 10, .low = 0, .ny = 10, .planes = mirror_x, .section = "1,1.2,0.5,2"}),
               run({.left = -10, .nx = 20, .low = 0, .ny = 10, .section = "1,1.2,0.5,2"}));
 }
 
-TEST(Images, APeriodicTankIsTwoOfThemInARow) {
+TEST(GhostParticles, APeriodicTankIsTwoOfThemInARow) {
   const std::string twice =
       "*DEFINE_VECTOR\n1,-1,0,0,5,0,0\n2,3,0.3,0,-1,0.3,0\n*BOUNDARY_SPH_PERIODIC\n1,2\n";
   expect_same(run({.left = -10, .nx = 20, .low = 0, .ny = 10, .planes = periodic_x, .endtim = 0.2}),
               run({.left = -10, .nx = 40, .low = 0, .ny = 10, .planes = twice, .endtim = 0.2}), 2);
 }
 
-TEST(Images, SameBitsOnAnyNumberOfThreads) {
+TEST(GhostParticles, SameBitsOnAnyNumberOfThreads) {
   std::vector<States> all;
   for (const int n : {1, 2, 4}) {
     set_threads(n);
@@ -154,34 +154,34 @@ TEST(Images, SameBitsOnAnyNumberOfThreads) {
     }
 }
 
-TEST(Images, WhatGoesThroughAMirrorComesBackAsItsImage) {
+TEST(GhostParticles, WhatGoesThroughAMirrorComesBackAsItsImage) {
   World world;
   Particles& p = world.particles;
   p.fields.resize(1);
   p.x.set(0, {0.3, 0, 0}), p.v.set(0, {-1, 2, 0}), p.m[0] = 2, p.active = 1;
-  Images images({{ImagePlane::Kind::mirror, {0.5, 0, 0}, {1, 0, 0}, 0}});
-  images.bring_back(world, 1);
+  GhostParticles ghosts({{GhostPlane::Kind::mirror, {0.5, 0, 0}, {1, 0, 0}, 0}});
+  ghosts.bring_back(world, 1);
   EXPECT_LT((p.x.vec(0) - Vec(0.7, 0, 0)).norm(), 1e-15);
   EXPECT_LT((p.v.vec(0) - Vec(1, 2, 0)).norm(), 1e-15);
-  EXPECT_TRUE(images.brought_back().empty());
+  EXPECT_TRUE(ghosts.brought_back().empty());
   EXPECT_EQ(world.counters.at("mirror_crossings"), 1);
-  images.bring_back(world, 1);
+  ghosts.bring_back(world, 1);
   EXPECT_EQ(world.counters.at("mirror_crossings"), 1);
 }
 
-TEST(Images, StopsWhereParticlesReachAcrossTheDomain) {
+TEST(GhostParticles, StopsWhereParticlesReachAcrossTheDomain) {
   World world;
-  Images between({{ImagePlane::Kind::mirror, Vec(1, 0, 0), Vec(1, 0, 0), 0},
-                  {ImagePlane::Kind::mirror, Vec(1.5, 0, 0), Vec(-1, 0, 0), 0},
-                  {ImagePlane::Kind::periodic, Vec(0, 2, 0), Vec(0, 1, 0), 0.7}});
+  GhostParticles between({{GhostPlane::Kind::mirror, Vec(1, 0, 0), Vec(1, 0, 0), 0},
+                          {GhostPlane::Kind::mirror, Vec(1.5, 0, 0), Vec(-1, 0, 0), 0},
+                          {GhostPlane::Kind::periodic, Vec(0, 2, 0), Vec(0, 1, 0), 0.7}});
   EXPECT_NO_THROW(between.build(world, 0.49, 0.1));
   EXPECT_THROW(between.build(world, 0.51, 0.1), RunError);
-  Images period({{ImagePlane::Kind::periodic, Vec(0, 2, 0), Vec(0, 1, 0), 0.7}});
+  GhostParticles period({{GhostPlane::Kind::periodic, Vec(0, 2, 0), Vec(0, 1, 0), 0.7}});
   EXPECT_NO_THROW(period.build(world, 0.69, 0.1));
   EXPECT_THROW(period.build(world, 0.71, 0.1), RunError);
 }
 
-TEST(Images, GravityAlongAPeriodicChannelDoesWork) {
+TEST(GhostParticles, GravityAlongAPeriodicChannelDoesWork) {
   // falls freely through the planes again and again; potential energy jumps there, the ledger must not
   Simulation* kept = nullptr;
   run({.left = -10,
@@ -200,7 +200,7 @@ TEST(Images, GravityAlongAPeriodicChannelDoesWork) {
   EXPECT_LT(std::abs(e.residual()), 0.01 * e.throughput);           // a jump that is forgotten would be 80 %
 }
 
-TEST(Images, AParticleThatBouncesOnAMirrorKeepsItsEnergy) {
+TEST(GhostParticles, AParticleThatBouncesOnAMirrorKeepsItsEnergy) {
   const std::string deck =
       "*KEYWORD\n*CONTROL_TERMINATION\n6\n*CONTROL_SPH\n1,0,1e20,2\n0,0,0,0,0,0,0\n*PART\nwater\n1,1,1,1,1\n*"
       "HOURGLASS\n1,0,0,0,1e-20,1e-20\n"

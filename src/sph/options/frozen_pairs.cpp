@@ -1,4 +1,4 @@
-#include "sph/options/kept_pairs.hpp"
+#include "sph/options/frozen_pairs.hpp"
 
 #include <cmath>
 
@@ -6,8 +6,8 @@
 #include "sph/core/fields.hpp"
 #include "sph/core/pair_fields.hpp"
 #include "sph/core/pair_passes.hpp"
-#include "state/keeper.hpp"
 #include "state/particle_loops.hpp"
+#include "state/restartable.hpp"
 
 namespace courant {
 
@@ -34,7 +34,8 @@ void Window::keep(Archive& archive) {
   archive("open", open_);
 }
 
-KeptPairs::KeptPairs(const SphSettings& s, std::shared_ptr<Neighbours> neighbours, const KeptChoice& choice)
+FrozenPairs::FrozenPairs(const SphSettings& s, std::shared_ptr<Neighbours> neighbours,
+                         const FrozenChoice& choice)
     : window(s.geometry_eps),
       neighbours_(with_whole_lists(std::move(neighbours))),
       kernel_(s.kernel),
@@ -44,23 +45,23 @@ KeptPairs::KeptPairs(const SphSettings& s, std::shared_ptr<Neighbours> neighbour
   shape_.scale = largest_fixed16 / steepest_gradient(kernel_);
 }
 
-bool KeptPairs::open(Real h, const Clock& clock) {
+bool FrozenPairs::open(Real h, const Clock& clock) {
   return window.open(h, clock.dt_old, neighbours_->room(clock));
 }
 
-void KeptPairs::prepare(const PairArrays& a) {
+void FrozenPairs::prepare(const PairArrays& a) {
   blocks_.resize(static_cast<std::size_t>(neighbours_->blocks()));
   shape_.ahead = window.ahead();
   shape_.norm = -gradient_norm(kernel_, dim_, a.h0) / shape_.scale;
   shape_.mV = a.m[0] * a.V[0];
 }
 
-KeptLists KeptPairs::lists(Index begin, Index end) {
+FrozenLists FrozenPairs::lists(Index begin, Index end) {
   const Index b = begin / block_size;
   note_access(gradients_);
   Block& block = blocks_[static_cast<std::size_t>(b)];
   const auto entries = static_cast<std::size_t>(neighbours_->entries(b));
-  KeptLists out = shape_;
+  FrozenLists out = shape_;
   out.all = neighbours_->list(b), out.all_start = neighbours_->starts(b);
   out.list = block.list.grow_to(entries), out.start = block.start.data();
   out.gradients = block.gradients.grow_to(entries * static_cast<std::size_t>(dim_) * Neighbours::lanes);
@@ -72,17 +73,17 @@ KeptLists KeptPairs::lists(Index begin, Index end) {
 
 namespace {
 
-class KeptRates : public Rate, public Keeper {
+class FrozenRates : public Rate, public Restartable {
  public:
-  KeptRates(const SphSettings& s, const KeptChoice& choice, RateFields fields,
-            std::shared_ptr<KeptPairs> pairs, std::shared_ptr<PairVolumes> volumes)
+  FrozenRates(const SphSettings& s, const FrozenChoice& choice, RateFields fields,
+              std::shared_ptr<FrozenPairs> pairs, std::shared_ptr<PairVolumes> volumes)
       : name_(rates_name(s)),
         pairs_(std::move(pairs)),
         volumes_(std::move(volumes)),
         q_(s.q),
         fields_(fields),
         fix_(fix_loop(s.kernel, s.dim)),
-        loop_(kept_rates_loop(choice)) {}
+        loop_(frozen_rates_loop(choice)) {}
   std::string name() const override { return name_; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
@@ -111,7 +112,7 @@ class KeptRates : public Rate, public Keeper {
     for (int k = 0; k < 3; ++k) copy(p.x.data(k), p.moving, x_[k]), copy(p.v.data(k), p.moving, v_[k]);
   }
   void block(World&, const Clock&, Index begin, Index end) override {
-    const KeptLists lists = pairs_->lists(begin, end);
+    const FrozenLists lists = pairs_->lists(begin, end);
     if (opens_) fix_(a_, lists);
     loop_(a_, lists);
   }
@@ -140,7 +141,7 @@ class KeptRates : public Rate, public Keeper {
   }
 
  private:
-  /// Moving particles and their images are as they were when the window opened, or back.
+  /// Moving particles and their ghosts are as they were when the window opened, or back.
   void exchange(World& world) {
     Particles& p = world.particles;
     for (int k = 0; k < 3; ++k) {
@@ -152,24 +153,24 @@ class KeptRates : public Rate, public Keeper {
   }
 
   std::string name_;
-  std::shared_ptr<KeptPairs> pairs_;
+  std::shared_ptr<FrozenPairs> pairs_;
   std::shared_ptr<PairVolumes> volumes_;
   std::vector<PartViscosity> q_;
   RateFields fields_;
-  KeptLoop fix_, loop_;
+  FrozenLoop fix_, loop_;
   PairArrays a_{};
   bool opens_ = false;
   Array<Real> x_[3], v_[3], V_, qc_;  ///< when the window opened [L], [L/T], [L3], [L/T]
 };
 
-class KeptForces : public Force {
+class FrozenForces : public Force {
  public:
-  KeptForces(const KeptChoice& choice, ForceFields fields, std::shared_ptr<KeptPairs> pairs,
-             std::shared_ptr<PairVolumes> volumes)
+  FrozenForces(const FrozenChoice& choice, ForceFields fields, std::shared_ptr<FrozenPairs> pairs,
+               std::shared_ptr<PairVolumes> volumes)
       : pairs_(std::move(pairs)),
         volumes_(std::move(volumes)),
         fields_(fields),
-        loop_(kept_forces_loop(choice)) {}
+        loop_(frozen_forces_loop(choice)) {}
   std::string name() const override { return "sph forces"; }
   void declare(const World& world, Accesses& a) const override {
     fields_.declare_pairs(world.particles, *volumes_, a);
@@ -179,17 +180,17 @@ class KeptForces : public Force {
   void block(World&, const Clock&, Index begin, Index end) override { loop_(a_, pairs_->lists(begin, end)); }
 
  private:
-  std::shared_ptr<KeptPairs> pairs_;
+  std::shared_ptr<FrozenPairs> pairs_;
   std::shared_ptr<PairVolumes> volumes_;
   ForceFields fields_;
-  KeptLoop loop_;
+  FrozenLoop loop_;
   PairArrays a_{};
 };
 
 /// Closes the window when particles have moved too far, or their order changes.
 class WindowWatch : public Preparation, public Refresh {
  public:
-  WindowWatch(const SphSettings& s, World& world, std::shared_ptr<KeptPairs> pairs)
+  WindowWatch(const SphSettings& s, World& world, std::shared_ptr<FrozenPairs> pairs)
       : pairs_(std::move(pairs)) {
     if (s.xsph > 0 || s.shift.strength > 0) drifted_ = &sph_fields::drifted(world.particles);
   }
@@ -218,7 +219,7 @@ class WindowWatch : public Preparation, public Refresh {
   void refreshed(World&, const Clock&, std::span<const Index>) override { pairs_->window.close(); }
 
  private:
-  std::shared_ptr<KeptPairs> pairs_;
+  std::shared_ptr<FrozenPairs> pairs_;
   ParticleLoops loops_ = particle_loops();
   const Field<Real>* drifted_ = nullptr;  ///< where particles drift
   std::vector<Real> fastest_;             ///< in each block [L/T]
@@ -226,17 +227,17 @@ class WindowWatch : public Preparation, public Refresh {
 
 }  // namespace
 
-PairPasses make_kept_passes(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
-                            std::shared_ptr<PairVolumes> volumes) {
+PairPasses make_frozen_passes(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+                              std::shared_ptr<PairVolumes> volumes) {
   const RateFields rates(s, world.particles);
   const ForceFields forces(s, world.particles);
-  const KeptChoice choice{s.dim,           rates.viscous(),    rates.gradient(),
-                          forces.stress(), forces.diffusion(), rates.quadratic()};
-  const auto pairs = std::make_shared<KeptPairs>(s, std::move(neighbours), choice);
+  const FrozenChoice choice{s.dim,           rates.viscous(),    rates.gradient(),
+                            forces.stress(), forces.diffusion(), rates.quadratic()};
+  const auto pairs = std::make_shared<FrozenPairs>(s, std::move(neighbours), choice);
   world.passes.add(std::make_shared<WindowWatch>(s, world, pairs));
   if (!rates.viscous()) add_viscous_speed(s, world);  // rates of a window look after their own
-  return {{std::make_shared<KeptRates>(s, choice, rates, pairs, volumes)},
-          {std::make_shared<KeptForces>(choice, forces, pairs, volumes)}};
+  return {{std::make_shared<FrozenRates>(s, choice, rates, pairs, volumes)},
+          {std::make_shared<FrozenForces>(choice, forces, pairs, volumes)}};
 }
 
 }  // namespace courant

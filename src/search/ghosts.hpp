@@ -12,8 +12,8 @@
 
 namespace courant {
 
-/// A symmetry or periodic plane, behind which particles have ghost particles, here called images.
-struct ImagePlane {
+/// A symmetry or periodic plane, behind which particles have ghost particles.
+struct GhostPlane {
   enum class Kind { mirror, periodic } kind = Kind::mirror;
   Vec point = Vec::Zero();   ///< on the plane [L]
   Vec normal = Vec::Zero();  ///< into the material, of length 1
@@ -21,31 +21,31 @@ struct ImagePlane {
 };
 
 /// Distance from the plane, into the material [L].
-inline Real depth(const ImagePlane& plane, Real x, Real y, Real z) {
+inline Real depth(const GhostPlane& plane, Real x, Real y, Real z) {
   const Vec &n = plane.normal, &p = plane.point;
   return n[0] * (x - p[0]) + n[1] * (y - p[1]) + n[2] * (z - p[2]);
 }
-inline Real depth(const ImagePlane& plane, const Vec& x) {
+inline Real depth(const GhostPlane& plane, const Vec& x) {
   return depth(plane, x[0], x[1], x[2]);
 }
 /// Distances from the plane of the particles [begin, end), so that blocks of them far from it cost next to
 /// nothing; within round-off of `depth`. [L]
-ParticleLoops::Range depth_range(const ParticleLoops& loops, const ImagePlane& plane, const Particles& p,
+ParticleLoops::Range depth_range(const ParticleLoops& loops, const GhostPlane& plane, const Particles& p,
                                  Index begin, Index end);
 
 /// What loads give at a place, a time, to a part [L/T2]
 using Acceleration = std::function<Vec(const Vec& x, Real t, Index part)>;
 
-/// Images of particles behind planes: neighbours that the pair loops take like any other. A particle within
+/// Ghost particles behind planes: neighbours that the pair loops take like any other. A particle within
 /// reach of a mirror has a copy behind it with reflected velocity and stress; one near a periodic plane has a
-/// copy beyond the other plane. Images stand behind all particles in the fields that are exchanged, from
-/// index particles.size() on. A particle that has gone through a mirror changes places with its image, which
+/// copy beyond the other plane. Ghosts stand behind all particles in the fields that are exchanged, from
+/// index particles.size() on. A particle that has gone through a mirror changes places with its ghost, which
 /// is the same flow; one that has gone through a periodic plane comes back at the other.
-class Images : public Exchanger {
+class GhostParticles : public Exchanger {
  public:
   /// Planes must be perpendicular to each other, or parallel and farther apart than particles reach.
-  explicit Images(std::vector<ImagePlane> planes);
-  std::string name() const override { return "images"; }
+  explicit GhostParticles(std::vector<GhostPlane> planes);
+  std::string name() const override { return "ghost particles"; }
 
   /// A pass that reflects at the end of each step what went through a mirror in it; null without mirrors.
   /// `loads`: the acceleration of body loads [L/T2]. It pulled the whole way, towards the mirror and then
@@ -58,14 +58,14 @@ class Images : public Exchanger {
   /// periodic planes [ML]
   const std::map<Index, Vec>& brought_back() const { return brought_back_; }
 
-  /// Finds which particles [0, moving) have images within `support` + `skin` of the planes, makes room for
-  /// them and puts them there; nothing of earlier images is kept. Throws RunError where h has grown so much
+  /// Finds which particles [0, moving) have ghosts within `support` + `skin` of the planes, makes room for
+  /// them and puts them there; nothing of earlier ghosts is kept. Throws RunError where h has grown so much
   /// that support reaches from one plane to the one opposite. [L]
   void build(World& world, Real support, Real skin);
   Index count() const { return static_cast<Index>(source_.size()); }
-  /// The particle of which image k, entity particles.size() + k, is an image.
+  /// The particle of which ghost k, entity particles.size() + k, is a copy.
   Index source(Index k) const { return source_[k]; }
-  /// Puts image k at order[k]'s place.
+  /// Puts ghost k at order[k]'s place.
   void sort(World& world, std::span<const Index> order);
 
   void exchange(World& world, std::span<const FieldBase* const> fields) override;
@@ -82,14 +82,14 @@ class Images : public Exchanger {
   /// Leaves in scratch_ those of particles [0, n) whose depth is wanted; no depth may be wanted between two
   /// that are not.
   template <class Wanted>
-  void find(const ImagePlane& plane, const Particles& p, Index n, const Wanted& is_wanted);
+  void find(const GhostPlane& plane, const Particles& p, Index n, const Wanted& is_wanted);
   void copy_block(Field<Real>& field, Index to, bool place, Index begin, Index end) const;
 
   ParticleLoops loops_ = particle_loops();
-  std::vector<ImagePlane> planes_;
+  std::vector<GhostPlane> planes_;
   Real narrowest_;                      ///< distance of planes that face each other; infinite if none do [L]
   std::vector<Motion> mirror_;          ///< of each plane; periodic ones: the shift by +period
-  std::vector<Index> source_, motion_;  ///< of each image: the particle, and an index of motions_
+  std::vector<Index> source_, motion_;  ///< of each ghost: the particle, and an index of motions_
   std::vector<Motion> motions_;         ///< the first one is none
   std::map<Index, Vec> brought_back_;
   std::vector<Index> scratch_;

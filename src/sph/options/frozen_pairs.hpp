@@ -7,7 +7,7 @@
 
 #include "parallel/buffer.hpp"
 #include "search/neighbours.hpp"
-#include "sph/options/kept_loops.hpp"
+#include "sph/options/frozen_loops.hpp"
 #include "sph/sph.hpp"
 
 namespace courant {
@@ -37,15 +37,16 @@ class Window {
 };
 
 /// The window and the memory for its gradients.
-class KeptPairs {
+class FrozenPairs {
  public:
-  KeptPairs(const SphSettings& settings, std::shared_ptr<Neighbours> neighbours, const KeptChoice& choice);
+  FrozenPairs(const SphSettings& settings, std::shared_ptr<Neighbours> neighbours,
+              const FrozenChoice& choice);
   Window window;
   const Resource& gradients() const { return gradients_; }
   bool open(Real h, const Clock& clock);
   /// Before the lists of a window that just opened are filled.
   void prepare(const PairArrays&);
-  KeptLists lists(Index begin, Index end);
+  FrozenLists lists(Index begin, Index end);
 
  private:
   struct Block {
@@ -54,11 +55,11 @@ class KeptPairs {
     Buffer<Float16> factors;
     std::array<Index, Neighbours::groups_per_block + 1> start;
   };
-  Resource gradients_{"kept gradients", "particles"};
+  Resource gradients_{"frozen gradients", "particles"};
   std::shared_ptr<Neighbours> neighbours_;
   KernelChoice kernel_;
   int dim_;
-  KeptLists shape_{};  ///< what is the same for all lists
+  FrozenLists shape_{};  ///< what is the same for all lists
   std::vector<Block> blocks_;
 };
 

@@ -1,5 +1,5 @@
 // Compiled once for each instruction set; see docs/architecture.md.
-#include "sph/core/partner_loops.hpp"
+#include "sph/core/reduction_loops.hpp"
 
 #include <algorithm>
 
@@ -13,9 +13,9 @@ namespace {
 template <int N>
 struct SharesOfEight {
   Pack of[N];
-  COURANT_INLINE SharesOfEight(const PartnerShares& shares, Index j, Index count) {
+  COURANT_INLINE SharesOfEight(const Contributions& shares, Index j, Index count) {
     Real sums[N * lanes] = {};
-    for (const PartnerShares::Source* s = shares.first; s != shares.last; ++s) {
+    for (const Contributions::Source* s = shares.first; s != shares.last; ++s) {
       const Index numbers = std::min(count, s->end - j) * N;
       const Real* const from = s->numbers + std::ptrdiff_t(j - shares.begin) * N;
       for (Index k = 0; k < numbers; ++k) sums[k] += from[k];
@@ -29,7 +29,7 @@ COURANT_INLINE void add(const Pack& a, Real* to, Index count) {
 }
 
 template <int Dim, bool Viscous, bool Gradient>
-void rates(const PairArrays& a, const PartnerShares& shares, Real norm) {
+void rates(const PairArrays& a, const Contributions& shares, Real norm) {
   for (Index j = shares.begin; j < shares.end; j += lanes) {
     const Index count = std::min(lanes, shares.end - j);
     const SharesOfEight<rates_shares(Dim, Viscous, Gradient)> sums(shares, j, count);
@@ -51,7 +51,7 @@ void rates(const PairArrays& a, const PartnerShares& shares, Real norm) {
 }
 
 template <int Dim, bool Diffusion>
-void forces(const PairArrays& a, const PartnerShares& shares, Real norm) {
+void forces(const PairArrays& a, const Contributions& shares, Real norm) {
   for (Index j = shares.begin; j < shares.end; j += lanes) {
     const Index count = std::min(lanes, shares.end - j);
     const SharesOfEight<forces_shares(Dim, Diffusion)> sums(shares, j, count);
@@ -62,21 +62,21 @@ void forces(const PairArrays& a, const PartnerShares& shares, Real norm) {
 }
 
 template <int Dim>
-PartnerLoop rates_of(const RatesChoice& c) {
+ReductionLoop rates_of(const RatesChoice& c) {
   if (c.viscous) return c.gradient ? &rates<Dim, true, true> : &rates<Dim, true, false>;
   return c.gradient ? &rates<Dim, false, true> : &rates<Dim, false, false>;
 }
 template <int Dim>
-PartnerLoop forces_of(const ForcesChoice& c) {
+ReductionLoop forces_of(const ForcesChoice& c) {
   return c.diffusion ? &forces<Dim, true> : &forces<Dim, false>;
 }
 
 }  // namespace
 
-PartnerLoop partner_rates_loop(const RatesChoice& c) {
+ReductionLoop rates_reduction_loop(const RatesChoice& c) {
   return c.dim == 2 ? rates_of<2>(c) : rates_of<3>(c);
 }
-PartnerLoop partner_forces_loop(const ForcesChoice& c) {
+ReductionLoop forces_reduction_loop(const ForcesChoice& c) {
   return c.dim == 2 ? forces_of<2>(c) : forces_of<3>(c);
 }
 

@@ -17,7 +17,7 @@ namespace courant {
 /// Of a pair of particles and the same pair the other way round, G are opposite and factors equal to the last
 /// bit, so that momentum and energy are kept. Two arrays, since forces rarely need more than gradients and
 /// wait for memory.
-struct KeptLists {
+struct FrozenLists {
   const Index* all;        ///< entries of the search, of which a window keeps some
   const Index* all_start;  ///< of each group of eight, and the end
   Index* list;
@@ -34,16 +34,16 @@ struct KeptLists {
 };
 
 /// Fills list, start, gradients and factors, which have room for all.
-KeptLoop fix_loop(KernelChoice kernel, int dim);
+FrozenLoop fix_loop(KernelChoice kernel, int dim);
 
 /// As rates_loop and forces_loop of pair_loops.hpp, but for gradients, which are those of the window.
-struct KeptChoice {
+struct FrozenChoice {
   int dim;
   bool viscous, gradient;  ///< of the rates, as in RatesChoice
   bool stress, diffusion;  ///< of the forces, as in ForcesChoice
   bool quadratic;          ///< of the rates: viscosity has its quadratic part
 };
-KeptLoop kept_rates_loop(const KeptChoice& choice);
-KeptLoop kept_forces_loop(const KeptChoice& choice);
+FrozenLoop frozen_rates_loop(const FrozenChoice& choice);
+FrozenLoop frozen_forces_loop(const FrozenChoice& choice);
 
 }  // namespace courant

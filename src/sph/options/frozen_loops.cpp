@@ -1,5 +1,5 @@
 // Compiled once for each instruction set; see docs/architecture.md.
-#include "sph/options/kept_loops.hpp"
+#include "sph/options/frozen_loops.hpp"
 
 #include "sph/core/pair_packs.hpp"
 
@@ -11,7 +11,7 @@ constexpr std::ptrdiff_t prefetch_distance = 16;  ///< entries from the one in w
 
 /// Of entry k.
 template <int Dim>
-COURANT_INLINE Difference<Dim> gradient_of(const KeptLists& lists, std::ptrdiff_t k) {
+COURANT_INLINE Difference<Dim> gradient_of(const FrozenLists& lists, std::ptrdiff_t k) {
   const Fixed16* kept = lists.gradients + k * (Dim * lanes);
   __builtin_prefetch(kept + prefetch_distance * Dim * lanes);
   Difference<Dim> G;
@@ -21,7 +21,7 @@ COURANT_INLINE Difference<Dim> gradient_of(const KeptLists& lists, std::ptrdiff_
 }
 
 template <int Dim, bool Viscous, bool Quadratic, bool Gradient>
-void rates(const PairArrays& a, const KeptLists& lists) {
+void rates(const PairArrays& a, const FrozenLists& lists) {
   const std::ptrdiff_t stride = lists.factor_count * lanes;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
@@ -57,7 +57,7 @@ void rates(const PairArrays& a, const KeptLists& lists) {
 }
 
 template <int Dim, bool Stress, bool Diffusion>
-void forces(const PairArrays& a, const KeptLists& lists) {
+void forces(const PairArrays& a, const FrozenLists& lists) {
   const std::ptrdiff_t stride = lists.factor_count * lanes;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
@@ -89,26 +89,26 @@ void forces(const PairArrays& a, const KeptLists& lists) {
 }
 
 template <int Dim, bool Viscous, bool Quadratic>
-KeptLoop rates_of(const KeptChoice& c) {
+FrozenLoop rates_of(const FrozenChoice& c) {
   return c.gradient ? &rates<Dim, Viscous, Quadratic, true> : &rates<Dim, Viscous, Quadratic, false>;
 }
 template <int Dim>
-KeptLoop rates_of(const KeptChoice& c) {
+FrozenLoop rates_of(const FrozenChoice& c) {
   if (!c.viscous) return rates_of<Dim, false, false>(c);
   return c.quadratic ? rates_of<Dim, true, true>(c) : rates_of<Dim, true, false>(c);
 }
 template <int Dim>
-KeptLoop forces_of(const KeptChoice& c) {
+FrozenLoop forces_of(const FrozenChoice& c) {
   if (c.diffusion) return c.stress ? &forces<Dim, true, true> : &forces<Dim, false, true>;
   return c.stress ? &forces<Dim, true, false> : &forces<Dim, false, false>;
 }
 
 }  // namespace
 
-KeptLoop kept_rates_loop(const KeptChoice& c) {
+FrozenLoop frozen_rates_loop(const FrozenChoice& c) {
   return c.dim == 2 ? rates_of<2>(c) : rates_of<3>(c);
 }
-KeptLoop kept_forces_loop(const KeptChoice& c) {
+FrozenLoop frozen_forces_loop(const FrozenChoice& c) {
   return c.dim == 2 ? forces_of<2>(c) : forces_of<3>(c);
 }
 
