@@ -45,6 +45,19 @@ Function variant(Function baseline, Function avx2, Function avx512) {
 #define COURANT_AVX512(function) nullptr
 #endif
 
+/// Declares, in the namespace of each instruction set, the function that a file *_loops.cpp defines there: of
+/// the same name and type as the one of namespace courant that picks among them.
+#define COURANT_DECLARE_VARIANTS(function) \
+  namespace baseline {                     \
+  decltype(::courant::function) function;  \
+  }                                        \
+  namespace avx2 {                         \
+  decltype(::courant::function) function;  \
+  }                                        \
+  namespace avx512 {                       \
+  decltype(::courant::function) function;  \
+  }
+
 /// `variant` of a function that each instruction set's namespace has under the same name.
 #define COURANT_VARIANT(function)                                                     \
   variant<decltype(&baseline::function)>(&baseline::function, COURANT_AVX2(function), \

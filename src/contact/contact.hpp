@@ -46,10 +46,9 @@ struct ContactLaw {
 
 /// The interface at work. A particle with distance d < r to the walls is pushed by k (r - d) along the
 /// shortest way out; where several walls meet, to the nearest place that keeps distance r from all (see
-/// push_out.hpp). Each particle has a last admissible position:
-/// the particle itself, unless its path went through a mid-surface. It is then pulled back to that
-/// position's side, which it only leaves around a free edge, never through a wall. What outlives a search of
-/// neighbours is in particle fields, so sorting keeps it.
+/// push_out.hpp). Each particle has a last admissible position: its own place, unless its path went through a
+/// mid-surface. It is then pulled back to the side of that position, which leaves it around a free edge only,
+/// never through a wall. What outlives a search of neighbours is in particle fields, so sorting keeps it.
 ///
 /// Most particles near walls are far from touching, or touch one fixed flat wall or a corner of few. For
 /// these there are shortcuts (quick_touch.cpp) that give the same bits as the full search (touch.cpp).

@@ -1,5 +1,5 @@
-// What contact does to walls that move: each touch leaves its force in a slot of its facet, and nodes and
-// faces gather theirs on all threads, in a fixed order.
+// What contact does to walls that move: each touch leaves its force in its block, facets find theirs, and
+// nodes and faces gather theirs on all threads, in a fixed order.
 #include "contact/contact.hpp"
 #include "parallel/counting_sort.hpp"
 #include "parallel/parallel.hpp"

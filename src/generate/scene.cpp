@@ -17,9 +17,9 @@
 namespace courant {
 namespace {
 
-constexpr Real largest_id = 99999999;  // I8
-constexpr Real most_entities = 5e7;    // a typing error in a spacing should not fill the memory
-constexpr Real most_jitter = 0.5;      // from there on two particles may meet
+constexpr Real largest_i8 = 99999999;
+constexpr Real most_entities = 5e7;  // a typing error in a spacing should not fill the memory
+constexpr Real most_jitter = 0.5;    // from there on two particles may meet
 
 void report_yaml_fault(const std::string& path, const YAML::Exception& fault, Diagnostics& diagnostics) {
   const bool somewhere = !fault.mark.is_null();
@@ -203,7 +203,7 @@ class SceneReader {
       return 0;
     }
     const Real value = number(node, key);
-    if (value < 0 || value > largest_id || value != std::floor(value) || (required && value == 0)) {
+    if (value < 0 || value > largest_i8 || value != std::floor(value) || (required && value == 0)) {
       error(node, fmt::format("{}: expected a whole number from {} to 99999999, got {}", key,
                               required ? 1 : 0, value));
       return 0;

@@ -5,6 +5,7 @@
 namespace courant::rules {
 
 inline constexpr FieldRules required_id{.required = true, .check = Check::positive};
+inline constexpr FieldRules required_positive{.required = true, .check = Check::positive};
 inline constexpr FieldRules point{.spatial = Spatial::point};
 inline constexpr FieldRules direction{.spatial = Spatial::direction};
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -150,10 +151,11 @@ std::size_t offset_of(const T& entry, const typename FieldOf<T>::Member& member)
   return offset;
 }
 
-template <class T>
+/// `Table`: the struct whose members the cards fill, T itself or a base of it that has all its members.
+template <class T, class Table>
 class EntrySinkOf : public EntrySink {
  public:
-  EntrySinkOf(const KeywordSpec& spec, const T& standard, std::vector<T>& store)
+  EntrySinkOf(const KeywordSpec& spec, const Table& standard, std::vector<T>& store)
       : EntrySink(spec), standard_(standard), store_(store) {}
   void expect(std::size_t entries) override {
     const std::size_t wanted = store_.size() + entries;
@@ -161,24 +163,24 @@ class EntrySinkOf : public EntrySink {
     if (wanted > store_.capacity()) store_.reserve(std::max(wanted, 2 * store_.capacity()));
   }
   void begin(const Entry& where) override {
-    entry_ = standard_;
+    static_cast<Table&>(entry_) = standard_;
     static_cast<Entry&>(entry_) = where;
   }
   Entry& entry() override { return entry_; }
   void commit() override { store_.push_back(std::move(entry_)); }
 
  private:
-  const T& standard_;
+  const Table& standard_;
   std::vector<T>& store_;
   T entry_{};
 };
 
-/// What takes the struct of a keyword; all else is done by KeywordSpec with the places of its fields. It is
-/// compiled for each keyword: every line counts.
-template <class T>
-class KeywordSpecOf : public KeywordSpec {
+/// What takes the struct of the cards; all else is done by KeywordSpec with the places of its fields. It is
+/// compiled for each such struct: every line counts.
+template <class Table>
+class TableSpec : public KeywordSpec {
  public:
-  explicit KeywordSpecOf(KeywordOf<T>&& keyword)
+  explicit TableSpec(KeywordOf<Table>&& keyword)
       : own_cards_(std::move(keyword.cards)), convert_(keyword.convert), move_(keyword.move) {
     names = std::move(keyword.names), purpose = std::move(keyword.purpose);
     lacking = std::move(keyword.lacking), id_space = keyword.id_space;
@@ -188,30 +190,57 @@ class KeywordSpecOf : public KeywordSpec {
     if (keyword.title) title = offset_of(standard_, keyword.title);
     if (keyword.id) id = offset_of(standard_, keyword.id);
     if (keyword.local) local = offset_of(standard_, keyword.local);
-    for (const CardOf<T>& card : own_cards_) {
+    for (const CardOf<Table>& card : own_cards_) {
       CardSpec spec{.fields = std::vector<FieldSpec>(card.fields.size()),
                     .optional = card.optional,
                     .repeat = card.repeat,
                     .conditional = card.when != nullptr};
       for (std::size_t f = 0; f < card.fields.size(); ++f) {
-        const FieldOf<T>& field = card.fields[f];
+        const FieldOf<Table>& field = card.fields[f];
         spec.fields[f] = {field.name,
                           field.dimension,
                           field.meaning,
                           field.rules,
-                          field_type<T>(field.member),
+                          field_type<Table>(field.member),
                           offset_of(standard_, field.member),
                           field.refers != nullptr};
       }
       add_card(std::move(spec), standard_);
     }
   }
-  std::unique_ptr<EntrySink> sink(Deck& deck) const override {
-    return std::make_unique<EntrySinkOf<T>>(*this, standard_, deck.store<T>());
-  }
   bool has_card(const Entry& entry, std::size_t card) const override {
     const auto when = own_cards_[card].when;
-    return !when || when(static_cast<const T&>(entry));
+    return !when || when(static_cast<const Table&>(entry));
+  }
+
+ protected:
+  Table standard_{};
+
+ private:
+  IdSpace dependent_space(const Entry& entry, std::size_t card, std::size_t field) const override {
+    return own_cards_[card].fields[field].refers(static_cast<const Table&>(entry));
+  }
+  std::string convert_rest(Entry& entry, const Conversion& conversion) const override {
+    return convert_ ? convert_(static_cast<Table&>(entry), conversion) : std::string();
+  }
+  std::string move_rest(Entry& entry, const Affine& motion) const override {
+    return move_ ? move_(static_cast<Table&>(entry), motion) : std::string();
+  }
+
+  std::vector<CardOf<Table>> own_cards_;
+  std::string (*convert_)(Table&, const Conversion&);
+  std::string (*move_)(Table&, const Affine&);
+};
+
+/// What takes the type by which the deck stores the entries.
+template <class T, class Table>
+class KeywordSpecOf : public TableSpec<Table> {
+  static_assert(std::is_base_of_v<Table, T> && sizeof(T) == sizeof(Table));
+
+ public:
+  using TableSpec<Table>::TableSpec;
+  std::unique_ptr<EntrySink> sink(Deck& deck) const override {
+    return std::make_unique<EntrySinkOf<T, Table>>(*this, this->standard_, deck.store<T>());
   }
   void for_each(const Deck& deck, std::int32_t keyword,
                 const std::function<void(const Entry&)>& visit) const override {
@@ -225,27 +254,14 @@ class KeywordSpecOf : public KeywordSpec {
     for (T& entry : deck.store<T>())
       if (entry.keyword == keyword) change(entry);
   }
-  IdSpace dependent_space(const Entry& entry, std::size_t card, std::size_t field) const override {
-    return own_cards_[card].fields[field].refers(static_cast<const T&>(entry));
-  }
-  std::string convert_rest(Entry& entry, const Conversion& conversion) const override {
-    return convert_ ? convert_(static_cast<T&>(entry), conversion) : std::string();
-  }
-  std::string move_rest(Entry& entry, const Affine& motion) const override {
-    return move_ ? move_(static_cast<T&>(entry), motion) : std::string();
-  }
-
-  std::vector<CardOf<T>> own_cards_;
-  std::string (*convert_)(T&, const Conversion&);
-  std::string (*move_)(T&, const Affine&);
-  T standard_{};
 };
 
 }  // namespace detail
 
-template <class T>
-std::unique_ptr<const KeywordSpec> make_keyword_spec(KeywordOf<T>&& keyword) {
-  return std::unique_ptr<const KeywordSpec>(new detail::KeywordSpecOf<T>(std::move(keyword)));
+/// Of a keyword whose entries are stored as T and whose cards fill the members of `Table`.
+template <class T, class Table>
+std::unique_ptr<const KeywordSpec> make_keyword_spec(KeywordOf<Table>&& keyword) {
+  return std::unique_ptr<const KeywordSpec>(new detail::KeywordSpecOf<T, Table>(std::move(keyword)));
 }
 
 }  // namespace courant

@@ -207,7 +207,7 @@ bool parse(std::string_view text, Trailer& to) {
          number(trailer_bytes - crc_bytes, crc_bytes - 1, to.crc, 16) && text == trailer_of(to);
 }
 
-std::string content(const fs::path& file) {
+std::string whole_content(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error)) refuse(file, "it is a folder");
   std::ifstream stream(file, std::ios::binary);
@@ -266,7 +266,7 @@ void write_restart_file(const fs::path& file, SavedState& state, std::int64_t cy
 }
 
 SavedState read_restart_file(const fs::path& file) {
-  std::string bytes = content(file);
+  std::string bytes = whole_content(file);
   check(file, bytes);
   const Hdf5Silence silence;
   Image image(file.string());

@@ -118,7 +118,7 @@ class HistoryAnalysis : public Analysis {
   }
 
   void take_ascii(const std::filesystem::path& path, Diagnostics& diagnostics) {
-    const auto file = AsciiHistory::open(path, diagnostics);
+    const auto file = AsciiFile::open(path, diagnostics);
     if (!file) return;
     if (!begin_table(file->times(), diagnostics)) return;
     const auto repeated = std::adjacent_find(times_.begin(), times_.end());

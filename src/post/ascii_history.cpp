@@ -161,7 +161,7 @@ std::string dimension_of(const std::string& kind, const std::string& name) {
 
 }  // namespace
 
-std::optional<AsciiHistory> AsciiHistory::open(const std::filesystem::path& file, Diagnostics& diagnostics) {
+std::optional<AsciiFile> AsciiFile::open(const std::filesystem::path& file, Diagnostics& diagnostics) {
   const auto lines = read_lines(file, diagnostics);
   if (!lines) return std::nullopt;
   const AsciiKind* kind = kind_of(*lines);
@@ -186,14 +186,14 @@ std::optional<AsciiHistory> AsciiHistory::open(const std::filesystem::path& file
                         fmt::format("times go back, as where a run was restarted: {} states before that were "
                                     "replaced by later ones",
                                     states.dropped()));
-  AsciiHistory out;
+  AsciiFile out;
   out.kind_ = kind->name;
   out.t_ = states.times();
   out.columns_ = states.take_columns();
   return out;
 }
 
-const AsciiColumn* AsciiHistory::find(const AsciiKey& key, std::string& why, std::string& hint) const {
+const AsciiColumn* AsciiFile::find(const AsciiKey& key, std::string& why, std::string& hint) const {
   AsciiKey asked = key;
   if (kind_ == "sleout" && asked.name == "total friction") asked.name = "friction energy";
   if (asked.side == "slave") asked.side = "SURFA";
@@ -224,7 +224,7 @@ const AsciiColumn* AsciiHistory::find(const AsciiKey& key, std::string& why, std
   return nullptr;
 }
 
-std::string AsciiHistory::dimension(const AsciiColumn& column) const {
+std::string AsciiFile::dimension(const AsciiColumn& column) const {
   return dimension_of(kind_, column.key.name);
 }
 

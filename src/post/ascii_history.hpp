@@ -29,10 +29,10 @@ struct AsciiColumn {
 /// is told by the content, not by the name. Taken as they come: titles, legends, columns that newer versions
 /// append, slave and master for SURFA and SURFB, exponents without E (0.1-100), stars for numbers that did
 /// not fit. Where a run was restarted and its times go back, the later states count.
-class AsciiHistory {
+class AsciiFile {
  public:
   /// Faults are reported with file and line; then there is no value.
-  static std::optional<AsciiHistory> open(const std::filesystem::path& file, Diagnostics& diagnostics);
+  static std::optional<AsciiFile> open(const std::filesystem::path& file, Diagnostics& diagnostics);
 
   const std::string& kind() const { return kind_; }      ///< "glstat", ...
   const std::vector<Real>& times() const { return t_; }  ///< as printed [T]

@@ -23,7 +23,10 @@ Eigen::Quaterniond turned(const Vec& angle, const Eigen::Quaterniond& q) {
 template <class Work>
 void for_each_piece(std::vector<RigidBody>& bodies, std::vector<RigidBodies::Piece>& pieces,
                     const Work& work) {
-  for_each(static_cast<Index>(pieces.size()), [&](Index k) { work(bodies[pieces[k].body], pieces[k]); });
+  for_each_block(static_cast<Index>(pieces.size()) * block_size, [&](Index begin, Index) {
+    RigidBodies::Piece& piece = pieces[begin / block_size];
+    work(bodies[piece.body], piece);
+  });
 }
 
 }  // namespace

@@ -3,15 +3,7 @@
 
 namespace courant {
 
-namespace baseline {
-NearLoops near_loops();
-}
-namespace avx2 {
-NearLoops near_loops();
-}
-namespace avx512 {
-NearLoops near_loops();
-}
+COURANT_DECLARE_VARIANTS(near_loops)
 
 NearLoops near_loops() {
   return COURANT_VARIANT(near_loops)();

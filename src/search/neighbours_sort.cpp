@@ -1,4 +1,4 @@
-// How particles are sorted: who is active, on the halo or dormant, and in which cell.
+// How particles are sorted: who is active, in the halo or dormant, and in which cell.
 #include <algorithm>
 #include <cmath>
 #include <limits>

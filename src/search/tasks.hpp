@@ -5,8 +5,8 @@
 
 namespace courant {
 
-/// The tasks that threads share: contiguous ranges of blocks, each done by one thread: within a task, a loop
-/// may add to particles of other blocks, if what goes beyond the task goes to memory of the task's own.
+/// The tasks that threads share: contiguous ranges of blocks, each done by one thread. Within a task a loop
+/// may add to particles of other blocks, if what goes beyond the task goes to a buffer of its own.
 /// Where they are cut depends on the lists of neighbours alone, so sums have the same bits on any number of
 /// threads.
 class Tasks {

@@ -68,7 +68,7 @@ struct ShiftRules {
 struct SupportedWalls {
   std::vector<Index> segments;
   std::vector<Real> cf;            ///< by segment; < 0 where it does not support [-]
-  std::vector<GhostPlane> planes;  ///< behind which their ghosts support, too
+  std::vector<GhostPlane> planes;  ///< behind which their images support, too
 };
 
 /// *COURANT_EDDY_VISCOSITY.
@@ -104,7 +104,7 @@ struct SphSettings {
   std::vector<std::shared_ptr<const StrengthLaw>> strength;
   ArtificialStressRules artificial_stress;
   Real tssfac = 0.9;
-  Real geometry_eps = 0;  ///< *COURANT_PAIR_GEOMETRY: relative motion, of h, over which gradients are kept
+  Real geometry_eps = 0;  ///< *COURANT_PAIR_GEOMETRY: relative motion, of h, over which gradients are frozen
   Real density_diffusion = 0;  ///< *COURANT_DENSITY_DIFFUSION: delta; 0: none
   BodyAcceleration loads;      ///< without what is along a period: for the diffusion of density
   Real volume_tau = 0;         ///< *COURANT_VOLUME_CONTROL: TAU [T]; 0: none

@@ -3,15 +3,7 @@
 
 namespace courant {
 
-namespace baseline {
-ParticleLoops particle_loops();
-}
-namespace avx2 {
-ParticleLoops particle_loops();
-}
-namespace avx512 {
-ParticleLoops particle_loops();
-}
+COURANT_DECLARE_VARIANTS(particle_loops)
 
 ParticleLoops particle_loops() {
   return COURANT_VARIANT(particle_loops)();

@@ -34,7 +34,7 @@ struct Pass {
 /// A pass whose work threads share by blocks of an entity set. Stages are made from what passes declare: in a
 /// stage every block goes through all passes in order, and threads wait for each other only where a pass
 /// reads of others what an earlier one changed. `block` changes only what belongs to entities [begin, end),
-/// or to the task of its blocks where World::shares holds whole Tasks. A thread takes its blocks in
+/// or to the task of its blocks where World::shares holds whole tasks. A thread takes its blocks in
 /// ascending order.
 struct BlockPass : virtual Pass {
   virtual Phase phase() const = 0;

@@ -151,7 +151,7 @@ std::optional<Real> number_of_table(const SuiteObservation& o, const Measured& m
                                     std::string& why) {
   const Series table = scaled_table(o.reference, variables, why);
   if (!why.empty()) return std::nullopt;
-  const Window range = window_of(o, variables);
+  const MeasuredTimes range = window_of(o, variables);
   if (o.take == "final" || o.take == "at") {
     const Real x = o.take == "at" ? *range.at : m.series.x.back();
     const auto value = value_at(table, x);

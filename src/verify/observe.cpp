@@ -16,7 +16,7 @@
 namespace courant {
 namespace {
 
-using Kind = SuiteObservation::Kind;
+using ObservationKind = SuiteObservation::Kind;
 
 Measured nothing(std::string why) {
   Measured out;
@@ -32,14 +32,14 @@ std::string first_error(const Diagnostics& diagnostics) {
 
 /// The part of a series that counts: its window with a slack of a quarter of the mean distance of samples,
 /// because a sample is written up to one step early.
-Series in_window(const Series& series, const Window& window) {
+Series in_window(const Series& series, const MeasuredTimes& window) {
   const Real range = series.size() > 1 ? series.x.back() - series.x.front() : 0;
   const Real slack = series.size() > 1 ? 0.25 * range / static_cast<Real>(series.size() - 1) : 0;
   return courant::window(series, window.from - slack, window.to + slack);
 }
 
 /// The number of a scalar observation, from its series.
-Measured taken(const SuiteObservation& o, Series series, const Window& window) {
+Measured taken(const SuiteObservation& o, Series series, const MeasuredTimes& window) {
   Measured out;
   if (series.size() == 0) return nothing("no sample lies in the window");
   if (o.take != "curve") {
@@ -65,7 +65,7 @@ class HistoryObserver {
     words.push_back("t");
     Formula formula(text.text, words, variables_);
     if (!formula.ok()) return nothing(formula.error());
-    const Window window = window_of(o, variables_);
+    const MeasuredTimes window = window_of(o, variables_);
     if (!window.why.empty()) return nothing(window.why);
     std::vector<std::vector<Real>> columns;
     std::vector<char> there(time().size(), 1);
@@ -131,7 +131,7 @@ struct ParticleTask {
   Measured& out;
   Formula of, along, reference;
   Selection where;
-  Window window;
+  MeasuredTimes window;
   int state = -1;  // of a profile
   std::vector<Real> volumes_of_profile;
   bool open = true;
@@ -150,7 +150,7 @@ struct ParticleTask {
     if (!window.why.empty()) close(window.why);
   }
   static bool with_formula(const SuiteObservation& o) {
-    return o.kind == Kind::profile && o.reference.kind == SuiteReference::Kind::formula;
+    return o.kind == ObservationKind::profile && o.reference.kind == SuiteReference::Kind::formula;
   }
   std::array<const Formula*, 4> formulas() const { return {&of, &along, &reference, &where.formula()}; }
   void close(const std::string& why) {
@@ -170,14 +170,14 @@ struct ParticleTask {
       volumes.push_back(state.volume(i));
       if (!std::isfinite(values.back()))
         return close(fmt::format("'of' is not finite for a particle at t = {:.6g}", state.t()));
-      if (o.kind != Kind::profile) continue;
+      if (o.kind != ObservationKind::profile) continue;
       volumes_of_profile.push_back(volumes.back());
       out.series.x.push_back(along(row.data()));
       out.series.y.push_back(values.back());
       if (with_formula(o)) out.formula.push_back(reference(row.data()));
       if (!std::isfinite(out.series.x.back())) return close("'along' is not finite for a particle");
     }
-    if (o.kind == Kind::profile) return;
+    if (o.kind == ObservationKind::profile) return;
     const Real value = reduce(o.reduce, std::move(values), volumes);
     if (!std::isfinite(value)) return close(fmt::format("no particle counts at t = {:.6g}", state.t()));
     out.series.x.push_back(state.t());
@@ -186,7 +186,7 @@ struct ParticleTask {
 
   void finish() {
     if (!open) return;
-    if (o.kind == Kind::particles) {
+    if (o.kind == ObservationKind::particles) {
       out = taken(o, std::move(out.series), window);
     } else if (out.series.size() == 0) {
       close("no particle counts");
@@ -240,7 +240,7 @@ struct ParticleTask {
 /// Whether a task needs the state with this index.
 bool needs(const ParticleTask& task, const std::vector<StateFiles>& states, std::size_t i) {
   if (!task.open) return false;
-  if (task.o.kind == Kind::profile) return task.state == static_cast<int>(i);
+  if (task.o.kind == ObservationKind::profile) return task.state == static_cast<int>(i);
   const Real range = states.back().t - states.front().t;
   const Real slack = states.size() > 1 ? 0.25 * range / static_cast<Real>(states.size() - 1) : 0;
   return states[i].t >= task.window.from - slack && states[i].t <= task.window.to + slack;
@@ -252,7 +252,7 @@ void observe_states(std::vector<ParticleTask>& tasks, const std::vector<StateFil
   for (ParticleTask& task : tasks) {
     if (!task.open) continue;
     task.note(used);
-    if (task.o.kind != Kind::profile) continue;
+    if (task.o.kind != ObservationKind::profile) continue;
     task.state =
         task.window.at ? nearest_state(states, *task.window.at) : static_cast<int>(states.size()) - 1;
     if (task.state < 0) task.close(fmt::format("there is no field state at t = {:.6g}", *task.window.at));
@@ -277,9 +277,9 @@ void observe_states(std::vector<ParticleTask>& tasks, const std::vector<StateFil
 
 }  // namespace
 
-Window window_of(const SuiteObservation& o, const Variables& variables) {
+MeasuredTimes window_of(const SuiteObservation& o, const Variables& variables) {
   constexpr Real infinity = std::numeric_limits<Real>::infinity();
-  Window out{-infinity, infinity, {}, {}};
+  MeasuredTimes out{-infinity, infinity, {}, {}};
   if (o.from) out.from = constant_value(*o.from, variables, out.why);
   if (o.to) out.to = constant_value(*o.to, variables, out.why);
   if (o.at) out.at = constant_value(*o.at, variables, out.why);
@@ -296,7 +296,7 @@ Measurements observe_run(const SuiteCase& definition, const Variables& variables
   tasks.reserve(out.observations.size());
   for (std::size_t k = 0; k < out.observations.size(); ++k) {
     const SuiteObservation& o = definition.observations[k];
-    if (o.kind != Kind::history)
+    if (o.kind != ObservationKind::history)
       tasks.emplace_back(o, out.observations[k], variables);
     else if (file)
       out.observations[k] = HistoryObserver(*file, variables).observe(o);

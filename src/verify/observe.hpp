@@ -33,12 +33,12 @@ Measurements observe_run(const SuiteCase& definition, const Variables& variables
                          const std::filesystem::path& folder, bool all_states);
 
 /// A window or moment of an observation in its values; infinite where it is open.
-struct Window {
+struct MeasuredTimes {
   Real from = 0, to = 0;
   std::optional<Real> at;
   std::string why;  ///< an expression has no value; blank: all is well
 };
-Window window_of(const SuiteObservation& observation, const Variables& variables);
+MeasuredTimes window_of(const SuiteObservation& observation, const Variables& variables);
 
 /// Compares with the reference. `finest`: the same observation in the finest run of the setting, if the
 /// reference asks for it and this is another run.

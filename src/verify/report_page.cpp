@@ -17,7 +17,7 @@ namespace courant {
 namespace report {
 namespace {
 
-constexpr std::size_t most_open_rows = 30;  // of a table; a longer one is opened by the reader
+constexpr std::size_t most_plain_rows = 30;  // of a table; a longer one is opened by the reader
 
 /// Where pictures go, and how the page names them.
 struct Pictures {
@@ -55,7 +55,7 @@ std::string table_markdown(const Table& table) {
 
 /// A long table is folded; what stands out in it is shown above.
 std::string folded_markdown(const Table& table, std::string_view what) {
-  if (table.rows.size() <= most_open_rows) return table_markdown(table);
+  if (table.rows.size() <= most_plain_rows) return table_markdown(table);
   Table bad{table.columns, {}};
   std::copy_if(table.rows.begin(), table.rows.end(), std::back_inserter(bad.rows),
                [](const auto& r) { return r.bad; });

@@ -15,22 +15,22 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
 }
 
-Schedule::Schedule(std::vector<Run> runs, int at_once) : at_once_(std::max(1, at_once)) {
+RunSchedule::RunSchedule(std::vector<Run> runs, int at_once) : at_once_(std::max(1, at_once)) {
   for (const Run& run : runs) runs_.push_back({{run}});
 }
 
-void Schedule::started(std::size_t run) {
+void RunSchedule::started(std::size_t run) {
   runs_[run].state = State::running;
   runs_[run].start = std::chrono::steady_clock::now();
 }
 
-void Schedule::ended(std::size_t run, double wall_seconds) {
+void RunSchedule::ended(std::size_t run, double wall_seconds) {
   runs_[run].state = State::done;
   runs_[run].seconds = wall_seconds;
   ++done_;
 }
 
-double Schedule::seconds_left() const {
+double RunSchedule::seconds_left() const {
   struct Sum {
     double seconds = 0, cost = 0;
   };

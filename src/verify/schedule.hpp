@@ -11,13 +11,13 @@ std::string duration_text(double seconds);
 
 /// Runs are expected to take as long as their cost (in any unit), in proportion to runs of the same case that
 /// are done, or to all that are done while there are none of the case.
-class Schedule {
+class RunSchedule {
  public:
   struct Run {
     std::size_t of_case = 0;
     double cost = 0;
   };
-  Schedule(std::vector<Run> runs, int at_once);
+  RunSchedule(std::vector<Run> runs, int at_once);
   void started(std::size_t run);
   void ended(std::size_t run, double wall_seconds);
   std::size_t done() const { return done_; }

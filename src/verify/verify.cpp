@@ -116,12 +116,12 @@ class Verification {
       print(fmt::format("{} of {} runs are taken over from an earlier call", runs_.size() - order.size(),
                         runs_.size()));
     std::vector<ProcessJob> jobs;
-    std::vector<Schedule::Run> costs;
+    std::vector<RunSchedule::Run> costs;
     for (const std::size_t k : order) {
       jobs.push_back(job_of(runs_[k]));
       costs.push_back({runs_[k].plan.of_case, runs_[k].cost});
     }
-    Schedule schedule(std::move(costs), jobs_);
+    RunSchedule schedule(std::move(costs), jobs_);
     ProcessCalls calls;
     calls.started = [&](std::size_t j) { schedule.started(j); };
     calls.ended = [&](std::size_t j, const RunRecord& record) {
@@ -221,7 +221,7 @@ class Verification {
     }
   }
 
-  void ended(PreparedRun& run, RunRecord record, const Schedule& schedule) {
+  void ended(PreparedRun& run, RunRecord record, const RunSchedule& schedule) {
     record.key = run.key;
     RunNumbers numbers;
     const RunResult result = result_of_run(run.folder, record, numbers);

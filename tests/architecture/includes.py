@@ -37,6 +37,9 @@ PRINTS = re.compile(r"\bstd::(cout|cerr|clog)\b|(?<![\w:.])f?printf\s*\(|\bfmt::
 CATCH_ALL = re.compile(r"catch\s*\(\s*\.\.\.\s*\)")
 FIELD_BY_LITERAL = re.compile(r'\b(?:fields(?:\(\))?|set)\s*(?:\.|->)\s*find\(\s*"')
 LONGEST = 500
+# A type of namespace courant: clang-format puts it at the begin of its line.
+TYPE = re.compile(r"^(?:class|struct|enum class|enum)\s+(?:alignas\([^)]*\)\s*)?(\w+)\b(?!::)[^;\n]*$", re.M)
+NAMESPACE = re.compile(r"^namespace (\S+) \{", re.M)
 
 
 def closure(room):
@@ -82,19 +85,35 @@ def faults_of_file(name, room, text, rooms):
     return faults
 
 
+def faults_of_types(headers):
+    """Two types of one name, in headers that nobody includes together, are one to the linker. `headers`: name -> text."""
+    seen, faults = {}, []
+    for name, text in headers.items():
+        inside = NAMESPACE.search(text)
+        for found in TYPE.finditer(text):
+            other = seen.setdefault((inside.group(1) if inside else "", found.group(1)), name)
+            if other != name:
+                faults.append(f"{name}: {found.group(1)} is a type of {other}, too")
+    return faults
+
+
 def check(project):
     """All messages on a project."""
     source = project / "src"
     rooms = {p.name for p in source.iterdir() if p.is_dir()}
     faults = [f"src/{r}: a new room needs a line in tests/architecture/includes.py" for r in sorted(rooms - set(MAY_INCLUDE) - {TOP})]
-    files = 0
+    files, headers = 0, {}
     for path in sorted(source.rglob("*")):
         if path.suffix not in (".hpp", ".cpp", ".h"):
             continue
         room = path.relative_to(source).parts[0]
         if room in MAY_INCLUDE or room == TOP:
             files += 1
-            faults += faults_of_file(str(path.relative_to(project)), room, path.read_text(encoding="utf-8"), rooms)
+            text = path.read_text(encoding="utf-8")
+            faults += faults_of_file(str(path.relative_to(project)), room, text, rooms)
+            if path.suffix != ".cpp":
+                headers[str(path.relative_to(project))] = text
+    faults += faults_of_types(headers)
     if files == 0:
         faults.append("src/ holds no source file")
     return faults
@@ -127,6 +146,9 @@ def self_test():
     for (room, text), message in bad.items():
         if not any(message in f for f in faults_of_file("x", room, text, rooms)):
             return [f"self test: {room}: {text.strip()[:60]!r} was not seen"]
+    twice = {"a.hpp": "class A {\n};\nclass B;\n", "b.hpp": "struct A : C {\n};\nclass B {\n};\n"}
+    if len(faults_of_types(twice)) != 1 or faults_of_types({"a.hpp": "class B;\n", "b.hpp": "enum class B {\n"}):
+        return ["self test: types of one name"]
     for room, text in good:
         if faults_of_file("x", room, text, rooms):
             return [f"self test: {faults_of_file('x', room, text, rooms)[0]}"]

@@ -116,7 +116,7 @@ std::vector<Feature> all_features(int n) {
     w.box = 1;
     w.keywords = "*DEFINE_BOX\n1,-9.,99.,-9.,99.,-9.,99.\n";
   });
-  add("images behind a symmetry plane",
+  add("ghost particles behind a symmetry plane",
       [](SquareOfWater& w) { w.keywords = "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n"; });
   add("fixed particles, a row of them", [n](SquareOfWater& w) {
     for (int i = 0; i < n; ++i) w.keywords += fmt::format("*BOUNDARY_SPC_NODE\n{},0,0,0,1\n", i + 1);

@@ -69,8 +69,8 @@ constexpr int particle_work = 70;
 constexpr int numbers_streamed(int dim) {
   return 3 + (4 * dim + 6) + 8 + 6 + (3 * dim + 2) + 3 + (5 * dim + 1) + 6 + 2 * dim;
 }
-/// The same where pairs are worked out once: numbers of partners set to 0, added to, and read by the passes
-/// of partners, with f, drhodt, heat twice and rho. Those beyond the end of a task are left out.
+/// The same where pairs are worked out once: numbers of partners set to 0, added to, and read by the
+/// reductions, with f, drhodt, heat twice and rho. Those beyond the end of a task are left out.
 constexpr int numbers_of_partners(int dim) {
   return 3 * (dim + 2) + (2 * dim + 5) + 3 * dim + 2 * dim;
 }

@@ -12,7 +12,7 @@ using test::SolidDeck;
 
 namespace {
 
-constexpr auto nothing = [](World&, const Clock&, const std::string&) {};
+constexpr auto do_nothing = [](World&, const Clock&, const std::string&) {};
 
 std::string elastic(int part, Real ro, Real E, Real pr) {
   return fmt::format(
@@ -37,7 +37,7 @@ Real arrival(int n) {
   const Nodes& nodes = s->world().nodes;
   Real before = 0, t_before = 0;
   while (s->clock().t < 2e-4) {
-    s->step(nothing);
+    s->step(do_nothing);
     const Real v = nodes.v.data(0)[nodes.size() - 1], t = s->clock().t - 0.5 * s->clock().dt;
     if (v > 0.5) return t_before + (0.5 - before) / (v - before) * (t - t_before);
     before = v, t_before = t;
@@ -96,7 +96,7 @@ TEST(Solids, TheLedgerClosesAndMomentumStays) {
       return sum(nodes.size(), [&](Index i) { return nodes.m[i] * nodes.v.data(0)[i]; });
     };
     const Real start = momentum();
-    while (s->clock().t < 3e-4) s->step(nothing);
+    while (s->clock().t < 3e-4) s->step(do_nothing);
     sample_energy(s->world(), s->clock());
     EXPECT_LT(std::abs(e.residual()), bound * e.initial) << n;
     EXPECT_LT(e.hourglass, 0.1 * e.internal) << n;
@@ -110,21 +110,21 @@ TEST(Solids, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
   for (const int threads : {1, 2, 4}) {
     set_threads(threads);
     auto s = simulation_of(deck);
-    for (int k = 0; k < 60; ++k) s->step(nothing);
+    for (int k = 0; k < 60; ++k) s->step(do_nothing);
     const std::vector<Real> state = state_of(s->world());
     if (reference.empty()) reference = state;
     EXPECT_TRUE(reference == state) << threads << " threads";
   }
   set_threads(0);
   auto first = simulation_of(deck);
-  for (int k = 0; k < 25; ++k) first->step(nothing);
+  for (int k = 0; k < 25; ++k) first->step(do_nothing);
   SavedState saved;
   Archive save = Archive::saver(saved);
   first->keep(save);
   auto second = simulation_of(deck);
   Archive load = Archive::loader(saved);
   second->keep(load);
-  for (int k = 0; k < 35; ++k) second->step(nothing);
+  for (int k = 0; k < 35; ++k) second->step(do_nothing);
   EXPECT_TRUE(reference == state_of(second->world())) << "after a restart";
 }
 
@@ -144,7 +144,7 @@ TEST(Solids, AColumnSettlesUnderItsOwnWeight) {
         "*DEFINE_CURVE\n         1\n                 0.0            9.81\n               100.0            "
         "9.81\n*DAMPING_GLOBAL\n         0     120.0\n";
     auto s = simulation_of(deck.text(1));
-    while (s->clock().t < 0.3) s->step(nothing);
+    while (s->clock().t < 0.3) s->step(do_nothing);
     const Real stiff = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
     const Nodes& nodes = s->world().nodes;
     EXPECT_NEAR((L - nodes.x.data(2)[nodes.size() - 1]) / (rho * g * L * L / 2 / stiff), 1, bound) << n;
@@ -197,7 +197,7 @@ TEST(Bodies, FallAlone) {
       "             1.0             0.0\n*ELEMENT_SHELL\n       1       1       1       2       3       "
       "4\n*END\n";
   auto s = simulation_of(deck);
-  while (s->clock().t < 0.5) s->step(nothing);
+  while (s->clock().t < 0.5) s->step(do_nothing);
   const Real t = s->clock().t;
   EXPECT_NEAR(s->bodies()->bodies()[0].x[2], -0.5 * g * t * t, 1e-12);
   EXPECT_FALSE(s->has_particles());

@@ -3,15 +3,7 @@
 
 namespace courant {
 
-namespace baseline {
-HexahedronLoops hexahedron_loops();
-}
-namespace avx2 {
-HexahedronLoops hexahedron_loops();
-}
-namespace avx512 {
-HexahedronLoops hexahedron_loops();
-}
+COURANT_DECLARE_VARIANTS(hexahedron_loops)
 
 HexahedronLoops hexahedron_loops() {
   return COURANT_VARIANT(hexahedron_loops)();

@@ -79,14 +79,13 @@ struct EosGruneisen : Entry {
   Real e0() const { return E0; }
   Real v0() const { return V0; }
 };
-using Card = EosGruneisen;
 
 // By hand. Water-like, C = 2, S1 = 2, rho0 = 3, mu = 0.25: rho0 C^2 = 12, D = 1 - 0.25 = 3/4,
 // numerator 12 . 1/4 (1 + 1/4) = 15/4, p = 15/4 . 16/9 = 20/3. All terms, mu = 1: GAMMA0 = 1, A = 1/2, S1
 // = 1.25, S2 = 1/4, S3 = 1/2: D = 1 - 1/4 - 1/8 - 1/8 = 1/2, numerator 1 + 1/2 - 1/4 = 5/4, p = C^2
 // (5/4)/(1/4)
 // + (3/2) E = 4 . 5 + 3 = 23. Tension, mu = -1/2: p = -2 + (1 - 1/4) 2 = -1/2.
-const RegisterEos<Card> registered{
+const RegisterEos<EosGruneisen> eos_gruneisen{
     "mu > 0: p = RO C^2 mu [1 + (1 - GAMMA0/2) mu - A/2 mu^2] / [1 - (S1 - 1) mu - S2 mu^2/(mu + 1) - S3 "
     "mu^3/(mu + "
     "1)^2]^2 + (GAMMA0 + A mu) E; mu < 0: p = RO C^2 mu + (GAMMA0 + A mu) E",
@@ -98,27 +97,29 @@ const RegisterEos<Card> registered{
      .purpose = "shock Hugoniot us(up) of a liquid or solid, with energy by the Grueneisen gamma",
      .id_space = IdSpace::eos,
      .title_option = true,
-     .title = &Card::title,
-     .cards = {{.fields = {eosid_field<Card>(),
-                           {"C",
-                            &Card::C,
-                            "L/T",
-                            "shock velocity us at particle velocity up = 0, the sound speed",
-                            {.required = true, .check = Check::positive}},
-                           {"S1", &Card::s1, "-", "slope of us over up", {}},
-                           {"S2", &Card::s2, "-", "factor of (up/us) up", {}},
-                           {"S3", &Card::s3, "-", "factor of (up/us)^2 up", {}},
-                           {"GAMMA0", &Card::gamma0, "-", "Grueneisen gamma", {.check = Check::not_negative}},
-                           {"A", &Card::a, "-", "first-order volume correction to gamma", {}},
-                           {"E0", &Card::E0, "M/LT2", "initial internal energy per reference volume", {}}}},
-               {.fields = {v0_field<Card>(),
-                           {},
-                           {"LCID",
-                            &Card::lcid,
-                            "-",
-                            "curve of energy deposition",
-                            {.honour = Honour::no, .refers = IdSpace::curve}}},
-                .optional = true}}}};
+     .title = &EosGruneisen::title,
+     .cards = {
+         {.fields =
+              {eosid_field<EosGruneisen>(),
+               {"C",
+                &EosGruneisen::C,
+                "L/T",
+                "shock velocity us at particle velocity up = 0, the sound speed",
+                {.required = true, .check = Check::positive}},
+               {"S1", &EosGruneisen::s1, "-", "slope of us over up", {}},
+               {"S2", &EosGruneisen::s2, "-", "factor of (up/us) up", {}},
+               {"S3", &EosGruneisen::s3, "-", "factor of (up/us)^2 up", {}},
+               {"GAMMA0", &EosGruneisen::gamma0, "-", "Grueneisen gamma", {.check = Check::not_negative}},
+               {"A", &EosGruneisen::a, "-", "first-order volume correction to gamma", {}},
+               {"E0", &EosGruneisen::E0, "M/LT2", "initial internal energy per reference volume", {}}}},
+         {.fields = {v0_field<EosGruneisen>(),
+                     {},
+                     {"LCID",
+                      &EosGruneisen::lcid,
+                      "-",
+                      "curve of energy deposition",
+                      {.honour = Honour::no, .refers = IdSpace::curve}}},
+          .optional = true}}}};
 
 }  // namespace
 

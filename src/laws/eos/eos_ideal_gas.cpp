@@ -25,12 +25,11 @@ struct EosIdealGas : Entry {
   Real specific_e0() const { return cv * T0; }
   Real v0() const { return V0; }
 };
-using Card = EosIdealGas;
 
 const FieldRules required{.required = true, .check = Check::positive};
 
 // By hand: air, CP/CV = 1005/718 - 1 = 287/718; E = 718 . 1.2 . 300, mu = 0: p = 1.2 . 287 . 300 = 103320.
-const RegisterEos<Card> registered{
+const RegisterEos<EosIdealGas> eos_ideal_gas{
     "p = rho (CPMAS - CVMAS) T, T = E/(RO CVMAS)",
     "thermal equation of state of a perfect gas with constant heat capacities",
     {{"1,718.0,1005.0,,,300.0,1.0\n", 0, 718 * 1.2 * 300, 103320},
@@ -40,17 +39,19 @@ const RegisterEos<Card> registered{
      .purpose = "perfect gas with constant heat capacities",
      .id_space = IdSpace::eos,
      .title_option = true,
-     .title = &Card::title,
+     .title = &EosIdealGas::title,
      .cards = {
-         {.fields = {eosid_field<Card>(),
-                     {"CVMAS", &Card::cv, "L2/T2", "heat capacity at constant volume, per mass", required},
-                     {"CPMAS", &Card::cp, "L2/T2", "heat capacity at constant pressure, per mass", required},
-                     {"B", &Card::cl, "L2/T2", "linear temperature coefficient of both", unsupported},
-                     {"C", &Card::cq, "L2/T2", "quadratic temperature coefficient", unsupported},
-                     {"T0", &Card::T0, "-", "initial temperature", required},
-                     v0_field<Card>(),
-                     {"VC0", &Card::vc0, "-", "van der Waals covolume", unsupported}}},
-         {.fields = {{"ADIAB", &Card::adiab, "-", "1 adiabatic law", unsupported}}, .optional = true}}}};
+         {.fields =
+              {eosid_field<EosIdealGas>(),
+               {"CVMAS", &EosIdealGas::cv, "L2/T2", "heat capacity at constant volume, per mass", required},
+               {"CPMAS", &EosIdealGas::cp, "L2/T2", "heat capacity at constant pressure, per mass", required},
+               {"B", &EosIdealGas::cl, "L2/T2", "linear temperature coefficient of both", unsupported},
+               {"C", &EosIdealGas::cq, "L2/T2", "quadratic temperature coefficient", unsupported},
+               {"T0", &EosIdealGas::T0, "-", "initial temperature", required},
+               v0_field<EosIdealGas>(),
+               {"VC0", &EosIdealGas::vc0, "-", "van der Waals covolume", unsupported}}},
+         {.fields = {{"ADIAB", &EosIdealGas::adiab, "-", "1 adiabatic law", unsupported}},
+          .optional = true}}}};
 
 }  // namespace
 

@@ -34,12 +34,11 @@ struct EosJwl : Entry {
   Real e0() const { return E0; }
   Real v0() const { return V0; }
 };
-using Card = EosJwl;
 
 // By hand, with A and B that take the exponentials away. V = 1, R1 = 2, R2 = 1, A = 100 e^2, B = 10 e, OMEG =
 // 1/2, E = 10: 100 (1 - 1/4) + 10 (1 - 1/2) + 5 = 85. V = 2, A = 10 e^4, B = 4 e^2, OMEG = 1/2, E = 8: 10 (1
 // - 1/8) + 4 (1 - 1/4) + 2 = 13.75.
-const RegisterEos<Card> registered{
+const RegisterEos<EosJwl> eos_jwl{
     "p = A (1 - OMEG/(R1 V)) exp(-R1 V) + B (1 - OMEG/(R2 V)) exp(-R2 V) + OMEG E/V, V = rho0/rho",
     "Jones, Wilkins and Lee: Lee, Hornig and Kury 1968, UCRL-50422",
     {{"1,738.9056098930650,27.18281828459045,2.0,1.0,0.5\n", 0, 10, 85},
@@ -48,17 +47,19 @@ const RegisterEos<Card> registered{
      .purpose = "gaseous products of a detonation",
      .id_space = IdSpace::eos,
      .title_option = true,
-     .title = &Card::title,
-     .cards = {
-         {.fields = {
-              eosid_field<Card>(),
-              {"A", &Card::A, "M/LT2", "factor of exp(-R1 V)", {.required = true, .check = Check::positive}},
-              {"B", &Card::B, "M/LT2", "factor of exp(-R2 V)", {}},
-              {"R1", &Card::r1, "-", "exponent", {.required = true, .check = Check::positive}},
-              {"R2", &Card::r2, "-", "exponent", {.required = true, .check = Check::positive}},
-              {"OMEG", &Card::omeg, "-", "factor of E/V", {.check = Check::not_negative}},
-              {"E0", &Card::E0, "M/LT2", "initial internal energy per reference volume", {}},
-              v0_field<Card>()}}}}};
+     .title = &EosJwl::title,
+     .cards = {{.fields = {eosid_field<EosJwl>(),
+                           {"A",
+                            &EosJwl::A,
+                            "M/LT2",
+                            "factor of exp(-R1 V)",
+                            {.required = true, .check = Check::positive}},
+                           {"B", &EosJwl::B, "M/LT2", "factor of exp(-R2 V)", {}},
+                           {"R1", &EosJwl::r1, "-", "exponent", {.required = true, .check = Check::positive}},
+                           {"R2", &EosJwl::r2, "-", "exponent", {.required = true, .check = Check::positive}},
+                           {"OMEG", &EosJwl::omeg, "-", "factor of E/V", {.check = Check::not_negative}},
+                           {"E0", &EosJwl::E0, "M/LT2", "initial internal energy per reference volume", {}},
+                           v0_field<EosJwl>()}}}}};
 
 }  // namespace
 

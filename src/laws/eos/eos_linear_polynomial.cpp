@@ -24,9 +24,8 @@ struct EosLinearPolynomial : Entry {
   Real e0() const { return E0; }
   Real v0() const { return V0; }
 };
-using Card = EosLinearPolynomial;
 
-const RegisterEos<Card> registered{
+const RegisterEos<EosLinearPolynomial> eos_linear_polynomial{
     "p = C0 + C1 mu + C2 mu^2 + C3 mu^3 + (C4 + C5 mu + C6 mu^2) E",
     "Jonsson et al. 2016, eqs 13-14; water: C1 = rho0 c0^2",
     {{"         1       0.0     9.0E5       0.0       0.0       0.0       0.0       0.0\n       0.0       "
@@ -45,18 +44,20 @@ const RegisterEos<Card> registered{
      .purpose = "pressure as a polynomial of compression, with energy",
      .id_space = IdSpace::eos,
      .title_option = true,
-     .title = &Card::title,
-     .cards = {{.fields = {eosid_field<Card>(),
-                           {"C0", &Card::c0, "M/LT2", "pressure at mu = 0", {}},
-                           {"C1", &Card::c1, "M/LT2", "bulk modulus, rho0 c0^2", {}},
-                           {"C2", &Card::c2, "M/LT2", "factor of mu^2, in compression", {}},
-                           {"C3", &Card::c3, "M/LT2", "factor of mu^3", {}},
-                           {"C4", &Card::c4, "-", "factor of E", {}},
-                           {"C5", &Card::c5, "-", "factor of mu E", {}},
-                           {"C6", &Card::c6, "-", "factor of mu^2 E, in compression", {}}}},
-               {.fields = {{"E0", &Card::E0, "M/LT2", "initial internal energy per reference volume", {}},
-                           v0_field<Card>()},
-                .optional = true}}}};
+     .title = &EosLinearPolynomial::title,
+     .cards = {
+         {.fields = {eosid_field<EosLinearPolynomial>(),
+                     {"C0", &EosLinearPolynomial::c0, "M/LT2", "pressure at mu = 0", {}},
+                     {"C1", &EosLinearPolynomial::c1, "M/LT2", "bulk modulus, rho0 c0^2", {}},
+                     {"C2", &EosLinearPolynomial::c2, "M/LT2", "factor of mu^2, in compression", {}},
+                     {"C3", &EosLinearPolynomial::c3, "M/LT2", "factor of mu^3", {}},
+                     {"C4", &EosLinearPolynomial::c4, "-", "factor of E", {}},
+                     {"C5", &EosLinearPolynomial::c5, "-", "factor of mu E", {}},
+                     {"C6", &EosLinearPolynomial::c6, "-", "factor of mu^2 E, in compression", {}}}},
+         {.fields =
+              {{"E0", &EosLinearPolynomial::E0, "M/LT2", "initial internal energy per reference volume", {}},
+               v0_field<EosLinearPolynomial>()},
+          .optional = true}}}};
 
 }  // namespace
 

@@ -26,9 +26,8 @@ struct EosMurnaghan : Entry {
   Real e0() const { return 0; }
   Real v0() const { return V0; }
 };
-using Card = EosMurnaghan;
 
-const RegisterEos<Card> registered{
+const RegisterEos<EosMurnaghan> eos_murnaghan{
     "p = K0 ((rho/rho0)^GAMMA - 1)",
     "Murnaghan 1944; as Cole's law for water in Monaghan 1994: K0 = rho0 c0^2 / 7, GAMMA = 7",
     {{"         1       7.0     1.0E6       1.0\n", 0.0, 0, 0},
@@ -37,17 +36,19 @@ const RegisterEos<Card> registered{
      .purpose = "stiff power law for weakly compressible water",
      .id_space = IdSpace::eos,
      .title_option = true,
-     .title = &Card::title,
-     .cards = {
-         {.fields = {
-              eosid_field<Card>(),
-              {"GAMMA",
-               &Card::gamma,
-               "-",
-               "exponent, 7 for water",
-               {.required = true, .check = Check::positive}},
-              {"K0", &Card::k0, "M/LT2", "rho0 c0^2 / GAMMA", {.required = true, .check = Check::positive}},
-              v0_field<Card>()}}}}};
+     .title = &EosMurnaghan::title,
+     .cards = {{.fields = {eosid_field<EosMurnaghan>(),
+                           {"GAMMA",
+                            &EosMurnaghan::gamma,
+                            "-",
+                            "exponent, 7 for water",
+                            {.required = true, .check = Check::positive}},
+                           {"K0",
+                            &EosMurnaghan::k0,
+                            "M/LT2",
+                            "rho0 c0^2 / GAMMA",
+                            {.required = true, .check = Check::positive}},
+                           v0_field<EosMurnaghan>()}}}}};
 
 }  // namespace
 

@@ -78,21 +78,20 @@ struct EosTabulated : Entry {
                           "give at least two points, from expansion (EV > 0) to compression (EV < 0)");
   }
 };
-using Card = EosTabulated;
 
 const FieldRules wide{.width = 16};
 
-#define EV(k)                                                                     \
-  FieldOf<Card> {                                                                 \
-    "EV" #k, &Card::ev##k, "-", "ln(V) of point " #k ", < 0 in compression", wide \
+#define EV(k)                                                                             \
+  FieldOf<EosTabulated> {                                                                 \
+    "EV" #k, &EosTabulated::ev##k, "-", "ln(V) of point " #k ", < 0 in compression", wide \
   }
-#define C(k)                                                               \
-  FieldOf<Card> {                                                          \
-    "C" #k, &Card::c##k, "M/LT2", "pressure without energy at EV" #k, wide \
+#define C(k)                                                                       \
+  FieldOf<EosTabulated> {                                                          \
+    "C" #k, &EosTabulated::c##k, "M/LT2", "pressure without energy at EV" #k, wide \
   }
-#define T(k)                                                    \
-  FieldOf<Card> {                                               \
-    "T" #k, &Card::t##k, "-", "factor of GAMA E at EV" #k, wide \
+#define T(k)                                                            \
+  FieldOf<EosTabulated> {                                               \
+    "T" #k, &EosTabulated::t##k, "-", "factor of GAMA E at EV" #k, wide \
   }
 
 // By hand: EV 0.1, 0, -0.5; C -1, 0, 10; T 1, 1, 3; GAMA 1/2, E 4. At eV = -1/4 C = 5, T = 2, p = 5 + 4 = 9;
@@ -100,7 +99,7 @@ const FieldRules wide{.width = 16};
 const char* const example = "1,0.5\n0.1,0.0,-0.5\n\n-1.0,0.0,10.0\n\n1.0,1.0,3.0\n\n";
 // The same towards expansion, without energy.
 const char* const cold = "1,0.5\n-0.5,0.0,0.1\n\n10.0,0.0,-1.0\n\n";
-const RegisterEos<Card> registered{
+const RegisterEos<EosTabulated> eos_tabulated{
     "p = C(eV) + GAMA T(eV) E, eV = ln V = -ln(rho/RO); C and T straight between points",
     "a table of pressures, Mie-Grueneisen in form",
     {{example, 0.2840254166877414, 4, 9},
@@ -112,27 +111,28 @@ const RegisterEos<Card> registered{
      .purpose = "pressure from a table over the volumetric strain, with energy",
      .id_space = IdSpace::eos,
      .title_option = true,
-     .title = &Card::title,
-     .cards = {{.fields = {eosid_field<Card>(),
-                           {"GAMA", &Card::gama, "-", "factor of T E", {}},
-                           {"E0", &Card::E0, "M/LT2", "initial internal energy per reference volume", {}},
-                           v0_field<Card>(),
-                           {"LCC",
-                            &Card::lcc,
-                            "-",
-                            "curve of C instead of points",
-                            {.honour = Honour::no, .refers = IdSpace::curve}},
-                           {"LCT",
-                            &Card::lct,
-                            "-",
-                            "curve of T instead of points",
-                            {.honour = Honour::no, .refers = IdSpace::curve}}}},
-               {.fields = {EV(1), EV(2), EV(3), EV(4), EV(5)}},
-               {.fields = {EV(6), EV(7), EV(8), EV(9), EV(10)}},
-               {.fields = {C(1), C(2), C(3), C(4), C(5)}},
-               {.fields = {C(6), C(7), C(8), C(9), C(10)}},
-               {.fields = {T(1), T(2), T(3), T(4), T(5)}, .optional = true},
-               {.fields = {T(6), T(7), T(8), T(9), T(10)}, .optional = true}}}};
+     .title = &EosTabulated::title,
+     .cards = {
+         {.fields = {eosid_field<EosTabulated>(),
+                     {"GAMA", &EosTabulated::gama, "-", "factor of T E", {}},
+                     {"E0", &EosTabulated::E0, "M/LT2", "initial internal energy per reference volume", {}},
+                     v0_field<EosTabulated>(),
+                     {"LCC",
+                      &EosTabulated::lcc,
+                      "-",
+                      "curve of C instead of points",
+                      {.honour = Honour::no, .refers = IdSpace::curve}},
+                     {"LCT",
+                      &EosTabulated::lct,
+                      "-",
+                      "curve of T instead of points",
+                      {.honour = Honour::no, .refers = IdSpace::curve}}}},
+         {.fields = {EV(1), EV(2), EV(3), EV(4), EV(5)}},
+         {.fields = {EV(6), EV(7), EV(8), EV(9), EV(10)}},
+         {.fields = {C(1), C(2), C(3), C(4), C(5)}},
+         {.fields = {C(6), C(7), C(8), C(9), C(10)}},
+         {.fields = {T(1), T(2), T(3), T(4), T(5)}, .optional = true},
+         {.fields = {T(6), T(7), T(8), T(9), T(10)}, .optional = true}}}};
 #undef EV
 #undef C
 #undef T

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <cmath>
 
+#include "keyword/common_rules.hpp"
 #include "laws/strength/strength.hpp"
 
 namespace courant {
@@ -53,12 +54,9 @@ struct MatElastic : Entry {
                  "a material that keeps its volume has no finite bulk modulus");
   }
 };
-using Card = MatElastic;
-
-const FieldRules required_positive{.required = true, .check = Check::positive};
 
 // By hand: E = 2.5, PR = 1/4: lambda = G = 1, K = 5/3.
-const RegisterStrength<Card> registered{
+const RegisterStrength<MatElastic> mat_elastic{
     "dsigma/dt = lambda tr(D) 1 + 2 G D, turned with the body; lambda = E PR/((1 + PR)(1 - 2 PR)), G = E/(2 "
     "(1 + PR))",
     "Hooke's law between rates (hypoelastic), with the objective update of Hughes & Winget 1980",
@@ -68,18 +66,19 @@ const RegisterStrength<Card> registered{
      .purpose = "linear elasticity",
      .id_space = IdSpace::material,
      .title_option = true,
-     .title = &Card::title,
-     .cards = {{.fields = {{"MID",
-                            &Card::mid,
-                            "-",
-                            "id that *PART refers to",
-                            {.required = true, .check = Check::positive}},
-                           {"RO", &Card::ro, "M/L3", "density", required_positive},
-                           {"E", &Card::E, "M/LT2", "Young's modulus", required_positive},
-                           {"PR", &Card::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
-                           {"DA", &Card::da, "-", "axial damping of beams", unsupported},
-                           {"DB", &Card::db, "-", "bending damping of beams", unsupported},
-                           {"K", &Card::k, "M/LT2", "bulk modulus of *MAT_ELASTIC_FLUID", no_effect}}}}}};
+     .title = &MatElastic::title,
+     .cards = {
+         {.fields = {{"MID",
+                      &MatElastic::mid,
+                      "-",
+                      "id that *PART refers to",
+                      {.required = true, .check = Check::positive}},
+                     {"RO", &MatElastic::ro, "M/L3", "density", rules::required_positive},
+                     {"E", &MatElastic::E, "M/LT2", "Young's modulus", rules::required_positive},
+                     {"PR", &MatElastic::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
+                     {"DA", &MatElastic::da, "-", "axial damping of beams", unsupported},
+                     {"DB", &MatElastic::db, "-", "bending damping of beams", unsupported},
+                     {"K", &MatElastic::k, "M/LT2", "bulk modulus of *MAT_ELASTIC_FLUID", no_effect}}}}}};
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "keyword/common_rules.hpp"
 #include "laws/strength/strength.hpp"
 
 namespace courant {
@@ -49,13 +50,10 @@ struct MatElasticFluid : Entry {
                  "a material that keeps its volume has no finite bulk modulus");
   }
 };
-using Card = MatElasticFluid;
-
-const FieldRules required_positive{.required = true, .check = Check::positive};
 
 // By hand: K = 3, tr(D) dt = 0.1: p falls by 0.3. E = 3, PR = 1/4: K = 2. Cavitation at 0.5: tension of 0.9
 // is cut.
-const RegisterStrength<Card> registered{
+const RegisterStrength<MatElasticFluid> mat_elastic_fluid{
     "dp/dt = -K tr(D), K = E/(3 (1 - 2 PR)) where it is 0; p >= -CP; no shear stress",
     "linear compressibility; Hooke's law without shear",
     {{"1,2.0,,,,,3.0\n\n", {0.1, 0, 0, 0.5, 0, 0}, {-1, -1, -1}, {-0.7, -0.7, -0.7}},
@@ -65,23 +63,30 @@ const RegisterStrength<Card> registered{
      .purpose = "fluid with a bulk modulus; needs no equation of state",
      .id_space = IdSpace::material,
      .title_option = true,
-     .title = &Card::title,
+     .title = &MatElasticFluid::title,
      .cards = {
-         {.fields =
-              {{"MID",
-                &Card::mid,
-                "-",
-                "id that *PART refers to",
-                {.required = true, .check = Check::positive}},
-               {"RO", &Card::ro, "M/L3", "density", required_positive},
-               {"E", &Card::E, "M/LT2", "Young's modulus, where K is 0", {.check = Check::not_negative}},
-               {"PR", &Card::pr, "-", "Poisson ratio, where K is 0", {.check = Check::not_negative}},
-               {"DA", &Card::da, "-", "axial damping of beams", unsupported},
-               {"DB", &Card::db, "-", "bending damping of beams", unsupported},
-               {"K", &Card::k, "M/LT2", "bulk modulus", {.check = Check::not_negative}}}},
-         {.fields = {{"VC", &Card::vc, "-", "tensor viscosity coefficient", unsupported},
+         {.fields = {{"MID",
+                      &MatElasticFluid::mid,
+                      "-",
+                      "id that *PART refers to",
+                      {.required = true, .check = Check::positive}},
+                     {"RO", &MatElasticFluid::ro, "M/L3", "density", rules::required_positive},
+                     {"E",
+                      &MatElasticFluid::E,
+                      "M/LT2",
+                      "Young's modulus, where K is 0",
+                      {.check = Check::not_negative}},
+                     {"PR",
+                      &MatElasticFluid::pr,
+                      "-",
+                      "Poisson ratio, where K is 0",
+                      {.check = Check::not_negative}},
+                     {"DA", &MatElasticFluid::da, "-", "axial damping of beams", unsupported},
+                     {"DB", &MatElasticFluid::db, "-", "bending damping of beams", unsupported},
+                     {"K", &MatElasticFluid::k, "M/LT2", "bulk modulus", {.check = Check::not_negative}}}},
+         {.fields = {{"VC", &MatElasticFluid::vc, "-", "tensor viscosity coefficient", unsupported},
                      {"CP",
-                      &Card::cp,
+                      &MatElasticFluid::cp,
                       "M/LT2",
                       "cavitation pressure: the largest tension",
                       {.standard = 1e20, .check = Check::positive}}},

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyword/common_rules.hpp"
 #include "laws/strength/strength.hpp"
 
 namespace courant {
@@ -131,17 +132,15 @@ struct MatElasticPlasticHydro : Entry {
     }
   }
 };
-using Card = MatElasticPlasticHydro;
 
-const FieldRules required_positive{.required = true, .check = Check::positive};
-
-#define EPS(k)                                                                                \
-  FieldOf<Card> {                                                                             \
-    "EPS" #k, &Card::eps##k, "-", "effective plastic strain of point " #k " of the table", {} \
+#define EPS(k)                                                                                               \
+  FieldOf<MatElasticPlasticHydro> {                                                                          \
+    "EPS" #k, &MatElasticPlasticHydro::eps##k, "-", "effective plastic strain of point " #k " of the table", \
+    {}                                                                                                       \
   }
-#define ES(k)                                                    \
-  FieldOf<Card> {                                                \
-    "ES" #k, &Card::es##k, "M/LT2", "yield stress at EPS" #k, {} \
+#define ES(k)                                                                      \
+  FieldOf<MatElasticPlasticHydro> {                                                \
+    "ES" #k, &MatElasticPlasticHydro::es##k, "M/LT2", "yield stress at EPS" #k, {} \
   }
 
 // By hand. G = 1, SIGY = 3, EH = 2, shear from rest: s_xy = 2 G e = 4, q = 4 sqrt(3). Perfect for EH = 0:
@@ -150,7 +149,7 @@ const FieldRules required_positive{.required = true, .check = Check::positive};
 // at e = 0 the first piece, slope 4, would give de = 3/7 > 1/4, so the second: 6 - 3 de = 4, de = 2/3, s =
 // 2/3 (4, -2, -2).
 const Real root3 = 1.7320508075688772935;
-const RegisterStrength<Card> registered{
+const RegisterStrength<MatElasticPlasticHydro> mat_elastic_plastic_hydro{
     "s_tr = s + 2 G dev(D) dt; q = sqrt(3/2 s:s) <= SIGY + EH e, or the table ES(EPS); return along s_tr",
     "J2 plasticity with radial return: Wilkins 1964; hardening solved exactly, piece by piece",
     {{"1,2.0,1.0,3.0,0.0\n", {0, 0, 0, 2, 0, 0}, {}, {0, 0, 0, root3, 0, 0}},
@@ -172,33 +171,34 @@ const RegisterStrength<Card> registered{
      .purpose = "elasticity and plasticity beside an equation of state",
      .id_space = IdSpace::material,
      .title_option = true,
-     .title = &Card::title,
+     .title = &MatElasticPlasticHydro::title,
      .cards = {
          {.fields = {{"MID",
-                      &Card::mid,
+                      &MatElasticPlasticHydro::mid,
                       "-",
                       "id that *PART refers to",
                       {.required = true, .check = Check::positive}},
-                     {"RO", &Card::ro, "M/L3", "density", required_positive},
-                     {"G", &Card::G, "M/LT2", "shear modulus", required_positive},
+                     {"RO", &MatElasticPlasticHydro::ro, "M/L3", "density", rules::required_positive},
+                     {"G", &MatElasticPlasticHydro::G, "M/LT2", "shear modulus", rules::required_positive},
                      {"SIGY",
-                      &Card::sigy,
+                      &MatElasticPlasticHydro::sigy,
                       "M/LT2",
                       "yield stress at the start, where there is no table",
                       {.check = Check::not_negative}},
                      {"EH",
-                      &Card::eh,
+                      &MatElasticPlasticHydro::eh,
                       "M/LT2",
                       "its slope over effective plastic strain",
                       {.check = Check::not_negative}},
                      {"PC",
-                      &Card::pc,
+                      &MatElasticPlasticHydro::pc,
                       "M/LT2",
                       "tensile pressure cut-off; 0: none",
                       {.check = Check::not_positive}},
-                     {"FS", &Card::fs, "-", "effective plastic strain at failure", unsupported},
-                     {"CHARL", &Card::charl, "L", "thickness at failure, of a rezoned plane mesh",
-                      unsupported}}},
+                     {"FS", &MatElasticPlasticHydro::fs, "-", "effective plastic strain at failure",
+                      unsupported},
+                     {"CHARL", &MatElasticPlasticHydro::charl, "L",
+                      "thickness at failure, of a rezoned plane mesh", unsupported}}},
          {.fields = {EPS(1), EPS(2), EPS(3), EPS(4), EPS(5), EPS(6), EPS(7), EPS(8)}, .optional = true},
          {.fields = {EPS(9), EPS(10), EPS(11), EPS(12), EPS(13), EPS(14), EPS(15), EPS(16)},
           .optional = true},

@@ -34,6 +34,10 @@ void ModelBuilder::build_control() {
   if (const auto* card = deck_.last<ControlTimestepCard>()) {
     model_.dtinit = card->dtinit;
     model_.tssfac = card->tssfac;
+    if (card->tssfac > 1)
+      deck_.warning(diagnostics_, *card, "TSSFAC",
+                    "steps may be longer than the stable one, and the run then stops",
+                    "0.9 or less is usual");
     if (card->lctm != 0) {
       if (const Curve* found = curve(*card, "LCTM", card->lctm)) {
         model_.dt_max_given = true;

@@ -54,41 +54,38 @@ using namespace rules;
 
 /// The first card of all sets. The attributes are defaults for what members carry into tiebreak contacts,
 /// thermal and airbag loads; nothing that is computed here reads them.
-template <class T>
-CardOf<T> set_card() {
-  if (T::kind == SetKind::solid)  // solids have no attributes
-    return {.fields = {{"SID", &T::sid, "-", "set id", required_id},
-                       {"SOLVER", &T::solver, "-", "solver that owns the set", no_effect}}};
-  return {.fields = {{"SID", &T::sid, "-", "set id", required_id},
-                     {"DA1", &T::da1, "-", "attribute 1", no_effect},
-                     {"DA2", &T::da2, "-", "attribute 2", no_effect},
-                     {"DA3", &T::da3, "-", "attribute 3", no_effect},
-                     {"DA4", &T::da4, "-", "attribute 4", no_effect},
-                     {"SOLVER", &T::solver, "-", "solver that owns the set", no_effect},
-                     {"ITS", &T::its, "-", "two-scale flag", no_effect_but(1)}}};
+CardOf<SetCard> set_card(SetKind kind) {
+  if (kind == SetKind::solid)  // solids have no attributes
+    return {.fields = {{"SID", &SetCard::sid, "-", "set id", required_id},
+                       {"SOLVER", &SetCard::solver, "-", "solver that owns the set", no_effect}}};
+  return {.fields = {{"SID", &SetCard::sid, "-", "set id", required_id},
+                     {"DA1", &SetCard::da1, "-", "attribute 1", no_effect},
+                     {"DA2", &SetCard::da2, "-", "attribute 2", no_effect},
+                     {"DA3", &SetCard::da3, "-", "attribute 3", no_effect},
+                     {"DA4", &SetCard::da4, "-", "attribute 4", no_effect},
+                     {"SOLVER", &SetCard::solver, "-", "solver that owns the set", no_effect},
+                     {"ITS", &SetCard::its, "-", "two-scale flag", no_effect_but(1)}}};
 }
 
-template <class T>
-CardOf<T> list_card(const char* meaning, IdSpace space, bool pairs = false) {
+CardOf<SetCard> list_card(SetKind kind, SetForm form, const char* meaning, IdSpace space,
+                          bool pairs = false) {
   FieldRules rules = optional_id_of(space);
   rules.pairs = pairs;
-  return {.fields = {{member_field(T::kind, T::form), &T::ids, "-", meaning, rules}}, .repeat = true};
+  return {.fields = {{member_field(kind, form), &SetCard::ids, "-", meaning, rules}}, .repeat = true};
 }
 
-template <class T>
-CardOf<T> increment_card() {
-  const FieldRules id = optional_id_of(member_space(T::kind));
-  return {.fields = {{"BBEG", &T::ids, "-", "first id", id},
-                     {"BEND", &T::e2, "-", "last id", id},
-                     {"INCR", &T::e3, "-", "step, 0 means 1", {.check = Check::not_negative}}},
+CardOf<SetCard> increment_card(SetKind kind) {
+  const FieldRules id = optional_id_of(member_space(kind));
+  return {.fields = {{"BBEG", &SetCard::ids, "-", "first id", id},
+                     {"BEND", &SetCard::e2, "-", "last id", id},
+                     {"INCR", &SetCard::e3, "-", "step, 0 means 1", {.check = Check::not_negative}}},
           .repeat = true};
 }
 
-template <class T>
-CardOf<T> column_card() {
+CardOf<SetCard> column_card(SetKind kind) {
   static constexpr const char* meanings[] = {"node id", "part id", "shell id"};
-  return {.fields = {{member_field(T::kind, T::form), &T::ids, "-",
-                      meanings[static_cast<std::size_t>(T::kind)], optional_id_of(member_space(T::kind))},
+  return {.fields = {{member_field(kind, SetForm::column), &SetCard::ids, "-",
+                      meanings[static_cast<std::size_t>(kind)], optional_id_of(member_space(kind))},
                      {},  // A1 to A4, attributes
                      {},
                      {},
@@ -96,13 +93,12 @@ CardOf<T> column_card() {
           .repeat = true};
 }
 
-template <class T>
-CardOf<T> segment_card() {
+CardOf<SetCard> segment_card() {
   const FieldRules corner = optional_id_of(IdSpace::node);
-  return {.fields = {{"N1", &T::ids, "-", "corner node 1", corner},
-                     {"N2", &T::e2, "-", "corner node 2", corner},
-                     {"N3", &T::e3, "-", "corner node 3; 0 with N4 = 0: a line, in 2D", corner},
-                     {"N4", &T::e4, "-", "corner node 4; N3 or 0: a triangle", corner},
+  return {.fields = {{"N1", &SetCard::ids, "-", "corner node 1", corner},
+                     {"N2", &SetCard::e2, "-", "corner node 2", corner},
+                     {"N3", &SetCard::e3, "-", "corner node 3; 0 with N4 = 0: a line, in 2D", corner},
+                     {"N4", &SetCard::e4, "-", "corner node 4; N3 or 0: a triangle", corner},
                      {},  // A1 to A4, attributes
                      {},
                      {},
@@ -110,94 +106,93 @@ CardOf<T> segment_card() {
           .repeat = true};
 }
 
-template <class T>
-CardOf<T> advanced_card() {
+CardOf<SetCard> advanced_card() {
   const FieldRules set{.check = Check::not_negative};
   const FieldRules kind{.check = Check::not_negative, .allowed = {0, 1, 2, 4, 5}};
   const char* words = "its kind: 1 node, 2 shell, 4 solid, 5 segment set";
-  return {.fields = {{"SID1", &T::ids, "-", "set id", set},
-                     {"TYPE1", &T::e2, "-", words, kind},
-                     {"SID2", &T::e3, "-", "set id", set},
-                     {"TYPE2", &T::e4, "-", "its kind", kind},
-                     {"SID3", &T::e5, "-", "set id", set},
-                     {"TYPE3", &T::e6, "-", "its kind", kind},
-                     {"SID4", &T::e7, "-", "set id", set},
-                     {"TYPE4", &T::e8, "-", "its kind", kind}},
+  return {.fields = {{"SID1", &SetCard::ids, "-", "set id", set},
+                     {"TYPE1", &SetCard::e2, "-", words, kind},
+                     {"SID2", &SetCard::e3, "-", "set id", set},
+                     {"TYPE2", &SetCard::e4, "-", "its kind", kind},
+                     {"SID3", &SetCard::e5, "-", "set id", set},
+                     {"TYPE3", &SetCard::e6, "-", "its kind", kind},
+                     {"SID4", &SetCard::e7, "-", "set id", set},
+                     {"TYPE4", &SetCard::e8, "-", "its kind", kind}},
           .repeat = true};
 }
 
-template <class T>
-CardOf<T> general_card() {
+CardOf<SetCard> general_card(SetKind kind) {
   const FieldRules id{.check = Check::not_negative};
-  CardOf<T> card{.fields = {{"OPTION", &T::option, "-", "what to take in; with D in front: out"},
-                            {"E1", &T::ids, "-", "id", id},
-                            {"E2", &T::e2, "-", "id", id},
-                            {"E3", &T::e3, "-", "id", id}},
-                 .repeat = true};
-  if (T::kind == SetKind::segment) {
-    card.fields.push_back({"E4", &T::r4, "-", "corner node 4 of SEG, else an attribute without effect"});
+  CardOf<SetCard> card{.fields = {{"OPTION", &SetCard::option, "-", "what to take in; with D in front: out"},
+                                  {"E1", &SetCard::ids, "-", "id", id},
+                                  {"E2", &SetCard::e2, "-", "id", id},
+                                  {"E3", &SetCard::e3, "-", "id", id}},
+                       .repeat = true};
+  if (kind == SetKind::segment) {
+    card.fields.push_back(
+        {"E4", &SetCard::r4, "-", "corner node 4 of SEG, else an attribute without effect"});
     for (int attribute = 5; attribute <= 7; ++attribute) card.fields.push_back({});
     return card;
   }
-  card.fields.push_back({"E4", &T::e4, "-", "id", id});
-  card.fields.push_back({"E5", &T::e5, "-", "id", id});
-  card.fields.push_back({"E6", &T::e6, "-", "id", id});
-  card.fields.push_back({"E7", &T::e7, "-", "id", id});
+  card.fields.push_back({"E4", &SetCard::e4, "-", "id", id});
+  card.fields.push_back({"E5", &SetCard::e5, "-", "id", id});
+  card.fields.push_back({"E6", &SetCard::e6, "-", "id", id});
+  card.fields.push_back({"E7", &SetCard::e7, "-", "id", id});
   return card;
 }
 
-template <class T>
-CardOf<T> members_card() {
+CardOf<SetCard> members_card(SetKind kind, SetForm form) {
   static constexpr const char* members[] = {"node ids", "part ids", "shell ids", "solid ids"};
   static constexpr const char* sets[] = {"ids of node sets", "ids of part sets", "ids of shell sets",
                                          "ids of solid sets", "ids of segment sets"};
-  constexpr auto kind = static_cast<std::size_t>(T::kind);
-  switch (T::form) {
+  const auto k = static_cast<std::size_t>(kind);
+  switch (form) {
     case SetForm::list:
-      if constexpr (T::kind == SetKind::segment)
-        return segment_card<T>();
-      else
-        return list_card<T>(members[kind], member_space(T::kind));
+      if (kind == SetKind::segment) return segment_card();
+      return list_card(kind, form, members[k], member_space(kind));
     case SetForm::generate:
-      return list_card<T>("first id, last id, first id, last id, ...", member_space(T::kind), true);
+      return list_card(kind, form, "first id, last id, first id, last id, ...", member_space(kind), true);
     case SetForm::increment:
-      return increment_card<T>();
+      return increment_card(kind);
     case SetForm::column:
-      return column_card<T>();
+      return column_card(kind);
     case SetForm::add:
     case SetForm::intersect:
-      return list_card<T>(sets[kind], set_space(T::kind));
+      return list_card(kind, form, sets[k], set_space(kind));
     case SetForm::advanced:
-      return advanced_card<T>();
+      return advanced_card();
     case SetForm::general:
       break;
   }
-  return general_card<T>();
+  return general_card(kind);
+}
+
+constexpr std::vector<Id> SetCard::*columns[] = {&SetCard::ids, &SetCard::e2, &SetCard::e3, &SetCard::e4,
+                                                 &SetCard::e5,  &SetCard::e6, &SetCard::e7, &SetCard::e8};
+
+/// Shifts the ids of sets, whose kind stands beside them.
+std::string shift_pairs(SetCard& card, const Conversion& conversion) {
+  for (std::size_t row = 0; row < card.ids.size(); ++row)
+    for (std::size_t k = 0; k < std::size(columns); k += 2) {
+      std::vector<Id>& column = card.*columns[k];
+      if (row < column.size())
+        column[row] =
+            conversion.offsets.shifted(advanced_space(cell(card.*columns[k + 1], row)), column[row]);
+    }
+  return {};
 }
 
 /// Shifts the ids that depend on a word in their row.
-template <class T>
-std::string shift_rows(T& card, const Conversion& conversion) {
-  std::vector<Id> T::*columns[] = {&T::ids, &T::e2, &T::e3, &T::e4, &T::e5, &T::e6, &T::e7};
-  if constexpr (T::form == SetForm::advanced) {
-    constexpr std::size_t pairs = 4;
-    std::vector<Id> T::*types[] = {&T::e2, &T::e4, &T::e6, &T::e8};
-    for (std::size_t row = 0; row < card.ids.size(); ++row)
-      for (std::size_t p = 0; p < pairs; ++p) {
-        std::vector<Id>& column = card.*columns[2 * p];
-        if (row < column.size())
-          column[row] = conversion.offsets.shifted(advanced_space(cell(card.*types[p], row)), column[row]);
-      }
-  } else {
-    for (std::size_t row = 0; row < card.option.size(); ++row) {
-      const IdSpace fourth = row_space(T::kind, card.option[row], 3);
-      if (const auto node = card.fourth_node(row); node && row < card.r4.size() && fourth != IdSpace::none)
-        card.r4[row] = static_cast<Real>(conversion.offsets.shifted(fourth, *node));
-      for (std::size_t k = 0; k < std::size(columns); ++k) {
-        std::vector<Id>& column = card.*columns[k];
-        if (row < column.size())
-          column[row] = conversion.offsets.shifted(row_space(T::kind, card.option[row], k), column[row]);
-      }
+template <SetKind kind>
+std::string shift_rows(SetCard& card, const Conversion& conversion) {
+  for (std::size_t row = 0; row < card.option.size(); ++row) {
+    const IdSpace fourth = row_space(kind, card.option[row], 3);
+    if (const auto node = card.fourth_node(row); node && row < card.r4.size() && fourth != IdSpace::none)
+      card.r4[row] = static_cast<Real>(conversion.offsets.shifted(fourth, *node));
+    for (std::size_t k = 0; k + 1 < std::size(columns); ++k) {
+      std::vector<Id>& column = card.*columns[k];
+      if (row < column.size())
+        column[row] = conversion.offsets.shifted(row_space(kind, card.option[row], k), column[row]);
     }
   }
   return {};
@@ -240,16 +235,21 @@ std::vector<std::string> names_of(SetKind kind, SetForm form) {
   return {base + "_LIST" + suffix, base + suffix};
 }
 
+KeywordOf<SetCard> keyword_of(SetKind kind, SetForm form) {
+  return {.names = names_of(kind, form),
+          .purpose = purpose_of(kind, form),
+          .id_space = set_space(kind),
+          .title_option = true,
+          .collect_option = true,
+          .title = &SetCard::title,
+          .cards = {set_card(kind), members_card(kind, form)}};
+}
+
 template <class T>
 void register_set() {
-  KeywordOf<T> keyword{.names = names_of(T::kind, T::form),
-                       .purpose = purpose_of(T::kind, T::form),
-                       .id_space = set_space(T::kind),
-                       .title_option = true,
-                       .collect_option = true,
-                       .title = &T::title,
-                       .cards = {set_card<T>(), members_card<T>()}};
-  if constexpr (T::form == SetForm::advanced || T::form == SetForm::general) keyword.convert = shift_rows<T>;
+  KeywordOf<SetCard> keyword = keyword_of(T::kind, T::form);
+  if constexpr (T::form == SetForm::advanced) keyword.convert = shift_pairs;
+  if constexpr (T::form == SetForm::general) keyword.convert = shift_rows<T::kind>;
   register_keyword(make_keyword_spec<T>(std::move(keyword)));
 }
 

@@ -11,8 +11,8 @@ namespace courant {
 
 namespace {
 
-constexpr const char* keyword_of[] = {"*SET_NODE_LIST", "*SET_PART_LIST", "*SET_SHELL_LIST", "*SET_SOLID",
-                                      "*SET_SEGMENT"};
+constexpr const char* usual_keyword[] = {"*SET_NODE_LIST", "*SET_PART_LIST", "*SET_SHELL_LIST", "*SET_SOLID",
+                                         "*SET_SEGMENT"};
 
 /// The ranges of first and last ids in turn, those that overlap taken together, so that what lies in many is
 /// looked at once. One that runs backwards stays as it is.
@@ -296,7 +296,7 @@ const SetResolver::Members* SetResolver::other(const SetCard& card, std::string_
   const auto it = slots.find(id);
   if (it == slots.end()) {
     error(card, field, id, fmt::format("{} set {} does not exist", set_word(kind), id),
-          fmt::format("define it with {}", keyword_of[static_cast<std::size_t>(kind)]));
+          fmt::format("define it with {}", usual_keyword[static_cast<std::size_t>(kind)]));
     return nullptr;
   }
   if (it->second.state == State::busy) {

@@ -141,15 +141,15 @@ class PlaneBuilder {
     diagnostics_.error(deck_.where(*cards_[a]),
                        fmt::format("{}: the plane stands neither upright on that of {} nor opposite to it",
                                    deck_.keyword(*cards_[a]), place(*cards_[b])),
-                       "planes with ghosts must be at right angles, or face each other");
+                       "planes with ghost particles must be at right angles, or face each other");
   }
 
   void report_narrow(std::size_t a, Real apart, Real reach) {
-    diagnostics_.error(
-        deck_.where(*cards_[a]),
-        fmt::format("{}: the planes are {:.4g} [L] apart; particles reach {:.4g}, and would see ghosts twice",
-                    deck_.keyword(*cards_[a]), apart, reach),
-        "make the domain wider or h smaller");
+    diagnostics_.error(deck_.where(*cards_[a]),
+                       fmt::format("{}: the planes are {:.4g} [L] apart; particles reach {:.4g}, and would "
+                                   "see ghost particles twice",
+                                   deck_.keyword(*cards_[a]), apart, reach),
+                       "make the domain wider or h smaller");
   }
 
   void check_particles() {

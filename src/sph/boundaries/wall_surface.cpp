@@ -73,7 +73,7 @@ bool Lookouts::any_in(const Vec& low, const Vec& high) const {
 
 WallSurface::WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
                          std::vector<GhostPlane> planes, const Lookouts* from)
-    : dim_(world.dim), reach_(reach), planes_of_ghosts_(std::move(planes)) {
+    : dim_(world.dim), reach_(reach), mirrors_and_periods_(std::move(planes)) {
   std::vector<char> seen(segments.size(), 1);
   if (from)
     for_each(static_cast<Index>(segments.size()), [&](Index k) {
@@ -100,7 +100,7 @@ WallSurface::WallSurface(const World& world, const std::vector<Index>& segments,
     add_face(face);
   }
   for (Index f = 0; f < faces(); ++f) cut(f, spacing);
-  for (int k = 0; k < static_cast<int>(planes_of_ghosts_.size()); ++k) add_ghosts(k);
+  for (int k = 0; k < static_cast<int>(mirrors_and_periods_.size()); ++k) add_images(k);
   sort_into_cells();
 }
 
@@ -193,7 +193,7 @@ void WallSurface::add_point(const Face& face, Index index, const Vec& x, const V
 /// Of a piece about x with these sides, what lies in front of all planes.
 Real WallSurface::share_in_front(const Vec& x, const Vec& along, const Vec& across) const {
   Real share = 1;
-  for (const GhostPlane& plane : planes_of_ghosts_) {
+  for (const GhostPlane& plane : mirrors_and_periods_) {
     const Real wide = std::abs(plane.normal.dot(along)) + std::abs(plane.normal.dot(across)),
                d = depth(plane, x);
     const auto part = [&](Real inside) {
@@ -207,8 +207,8 @@ Real WallSurface::share_in_front(const Vec& x, const Vec& along, const Vec& acro
 }
 
 /// Images of what is there so far, those of earlier planes among it, as far as anything can see them.
-void WallSurface::add_ghosts(int k) {
-  const GhostPlane plane = planes_of_ghosts_[k];
+void WallSurface::add_images(int k) {
+  const GhostPlane plane = mirrors_and_periods_[k];
   const Index known_points = points(), known_faces = faces();
   const auto add = [&](Side side, const auto& is_near, const auto& place, const auto& direction) {
     std::vector<Index> image(known_faces, -1);
@@ -251,7 +251,7 @@ void WallSurface::add_ghosts(int k) {
 
 /// What stands on a plane is on both of its sides.
 bool WallSurface::is_at(Side side, const Vec& x) const {
-  for (const GhostPlane& plane : planes_of_ghosts_) {
+  for (const GhostPlane& plane : mirrors_and_periods_) {
     const Real d = depth(plane, x), tolerance = small * reach_;
     const Side here = side & 3;
     side >>= 2;

@@ -93,7 +93,7 @@ class WallSurface {
   }
 
  private:
-  /// Two bits for each plane with images: 0 in front of it, 1 behind, 2 behind the other one of a period.
+  /// Two bits for each of these planes: 0 in front of it, 1 behind, 2 behind the other one of a period.
   using Side = std::uint64_t;
   struct Face {
     std::array<Vec, 4> x, inward;
@@ -119,7 +119,7 @@ class WallSurface {
   void add_face(Face face);
   void cut(Index face, Real spacing);
   Real share_in_front(const Vec& x, const Vec& along, const Vec& across) const;
-  void add_ghosts(int plane);
+  void add_images(int plane);
   bool is_at(Side side, const Vec& x) const;
   void sort_into_cells();
   Vec in_plane(const Vec& x) const { return dim_ == 2 ? Vec(x[0], x[1], 0) : x; }
@@ -132,7 +132,7 @@ class WallSurface {
 
   int dim_;
   Real reach_;
-  std::vector<GhostPlane> planes_of_ghosts_;
+  std::vector<GhostPlane> mirrors_and_periods_;
   std::vector<Face> faces_;
   std::set<Key> lines_;
   std::map<Key, Index> planes_;

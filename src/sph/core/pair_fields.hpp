@@ -20,7 +20,7 @@ class RateFields {
   bool quadratic() const { return viscous() && q2_ > 1e-12; }
   bool gradient() const { return strain_ != nullptr; }
   PairArrays arrays(Particles& p, const PairVolumes& volumes) const;
-  /// What the loop over pairs does with them, and what the loop over partners does.
+  /// What the loop over pairs does with them, and what the reduction does.
   void declare_pairs(const Particles& p, const PairVolumes& volumes, Accesses& a) const;
   void declare_reduction(const Particles& p, Accesses& a) const;
 

@@ -26,8 +26,7 @@ class PairGeometry {
       neighbours_->need_whole_lists();
   }
 
-  /// What `lists` gives to the loop of the rates and to that of the forces, and `shares` to those of
-  /// partners.
+  /// What `lists` gives to the loop of the rates and to that of the forces, and `shares` to the reductions.
   void declare_rates(Accesses& a) const {
     if (once_) a.writes(contributions_).writes(gradients_);
   }

@@ -21,7 +21,7 @@ PairPasses make_pair_passes(const SphSettings&, World&, std::shared_ptr<Neighbou
 /// With gradients of the present places, of which as much is kept for the forces as PairGeometry says.
 PairPasses make_plain_passes(const SphSettings&, World&, std::shared_ptr<PairGeometry>,
                              std::shared_ptr<PairVolumes>);
-/// With gradients that are kept over steps.
+/// With gradients that are frozen over steps.
 PairPasses make_frozen_passes(const SphSettings&, World&, std::shared_ptr<Neighbours>,
                               std::shared_ptr<PairVolumes>);
 

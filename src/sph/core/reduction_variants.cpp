@@ -3,18 +3,8 @@
 
 namespace courant {
 
-namespace baseline {
-ReductionLoop rates_reduction_loop(const RatesChoice& choice);
-ReductionLoop forces_reduction_loop(const ForcesChoice& choice);
-}  // namespace baseline
-namespace avx2 {
-ReductionLoop rates_reduction_loop(const RatesChoice& choice);
-ReductionLoop forces_reduction_loop(const ForcesChoice& choice);
-}  // namespace avx2
-namespace avx512 {
-ReductionLoop rates_reduction_loop(const RatesChoice& choice);
-ReductionLoop forces_reduction_loop(const ForcesChoice& choice);
-}  // namespace avx512
+COURANT_DECLARE_VARIANTS(rates_reduction_loop)
+COURANT_DECLARE_VARIANTS(forces_reduction_loop)
 
 ReductionLoop rates_reduction_loop(const RatesChoice& choice) {
   return COURANT_VARIANT(rates_reduction_loop)(choice);

@@ -3,18 +3,8 @@
 
 namespace courant {
 
-namespace baseline {
-StrengthLoop spin_loop(KernelChoice kernel, int dim);
-StrengthLoop artificial_stress_loop(KernelChoice kernel, int dim);
-}  // namespace baseline
-namespace avx2 {
-StrengthLoop spin_loop(KernelChoice kernel, int dim);
-StrengthLoop artificial_stress_loop(KernelChoice kernel, int dim);
-}  // namespace avx2
-namespace avx512 {
-StrengthLoop spin_loop(KernelChoice kernel, int dim);
-StrengthLoop artificial_stress_loop(KernelChoice kernel, int dim);
-}  // namespace avx512
+COURANT_DECLARE_VARIANTS(spin_loop)
+COURANT_DECLARE_VARIANTS(artificial_stress_loop)
 
 StrengthLoop spin_loop(KernelChoice kernel, int dim) {
   return COURANT_VARIANT(spin_loop)(kernel, dim);

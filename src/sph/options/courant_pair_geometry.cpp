@@ -13,7 +13,7 @@ const RegisterKeyword<CourantPairGeometry> pair_geometry{
      .cards = {{.fields = {{"EPS",
                             &CourantPairGeometry::eps,
                             "-",
-                            "relative motion, in h, over which kernel gradients are kept; 0: none",
+                            "relative motion, in h, over which kernel gradients are frozen; 0: none",
                             {.check = Check::not_negative}}}}}}};
 
 }  // namespace

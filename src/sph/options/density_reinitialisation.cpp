@@ -1,7 +1,7 @@
 // *COURANT_DENSITY_REINITIALISATION: every few steps density becomes what that of the neighbours says.
 #include <cmath>
-#include <Eigen/Eigenvalues>
 
+#include "base/eigenvalues.hpp"
 #include "keyword/registry.hpp"
 #include "parallel/parallel.hpp"
 #include "sph/cards.hpp"
@@ -72,9 +72,7 @@ class DensityReinitialisation : public Rate {
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     Particles& p = world.particles;
     if (!due_) return source_.none(begin, end);
-    with_kernel(kernel_, [&](auto k) {
-      with_dimension(dim_, [&](auto d) { look<decltype(k), d()>(p, clock.dt_old, begin, end); });
-    });
+    with_dimension(dim_, [&](auto d) { look<d()>(p, clock.dt_old, begin, end); });
     source_.add(p, rate_.data(), begin, end, clock.dt_old);
   }
   void finish(World& world, const Clock&) override {
@@ -83,12 +81,12 @@ class DensityReinitialisation : public Rate {
   }
 
  private:
-  template <class Kernel, int Dim>
+  template <int Dim>
   void look(const Particles& p, Real dt, Index begin, Index end) {
     for (Index g = begin / Neighbours::lanes; g * Neighbours::lanes < end; ++g)
       for (Index i = g * Neighbours::lanes; i < std::min(end, (g + 1) * Neighbours::lanes); ++i) {
         Moments<Dim> m;
-        sum_up<Kernel>(m, p, i, neighbours_->of_group(g));
+        sum_up(m, p, i, neighbours_->of_group(g));
         Real change = m.change / m.weight;
         if (rules_.linear && !add_slope(m, change)) ++constant_[static_cast<std::size_t>(begin / block_size)];
         rate_[i] = change / dt;
@@ -104,16 +102,18 @@ class DensityReinitialisation : public Rate {
     Eigen::Matrix<Real, Dim, Dim> places = Eigen::Matrix<Real, Dim, Dim>::Zero();
   };
 
-  template <class Kernel, int Dim>
+  template <int Dim>
   void sum_up(Moments<Dim>& m, const Particles& p, Index i, std::span<const Index> neighbours) const {
+    const AnyKernel& kernel = any_kernel(kernel_);
+    const Real support = kernel_support(kernel_), support2 = support * support;
     const Real* V = volumes_->current();
     const Vec xi = p.x.vec(i);
     const Real h = p.h[i], rho = p.rho[i];
     for (const Index j : neighbours) {
       const Vec d = (p.x.vec(j) - xi) / h;
       const Real R2 = d.squaredNorm();
-      if (!(R2 < Kernel::support * Kernel::support)) continue;
-      const Real weight = V[j] * Kernel::shape(std::sqrt(R2)), change = weight * (p.m[j] / V[j] - rho);
+      if (!(R2 < support2)) continue;
+      const Real weight = V[j] * kernel.shape(std::sqrt(R2)), change = weight * (p.m[j] / V[j] - rho);
       m.weight += weight;
       m.change += change;
       if (!rules_.linear) continue;
@@ -129,10 +129,8 @@ class DensityReinitialisation : public Rate {
   static bool add_slope(const Moments<Dim>& m, Real& change) {
     const auto mean = (m.place / m.weight).eval();
     const Eigen::Matrix<Real, Dim, Dim> C = m.places / m.weight - mean * mean.transpose();
-    if (!(Eigen::SelfAdjointEigenSolver<Eigen::Matrix<Real, Dim, Dim>>(C, Eigen::EigenvaluesOnly)
-              .eigenvalues()[0] > least_moment))
-      return false;
-    change -= mean.dot(C.ldlt().solve(m.place_change / m.weight - mean * change));
+    if (!(least_eigenvalue(C) > least_moment)) return false;
+    change -= mean.dot(C.inverse() * (m.place_change / m.weight - mean * change));
     return true;
   }
 

@@ -3,21 +3,9 @@
 
 namespace courant {
 
-namespace baseline {
-DriftLoop shifting_loop(KernelChoice kernel, int dim, bool correct);
-DriftLoop drift_rate_loop(KernelChoice kernel, int dim);
-DriftLoop xsph_loop(KernelChoice kernel, int dim, bool uniform_h);
-}  // namespace baseline
-namespace avx2 {
-DriftLoop shifting_loop(KernelChoice kernel, int dim, bool correct);
-DriftLoop drift_rate_loop(KernelChoice kernel, int dim);
-DriftLoop xsph_loop(KernelChoice kernel, int dim, bool uniform_h);
-}  // namespace avx2
-namespace avx512 {
-DriftLoop shifting_loop(KernelChoice kernel, int dim, bool correct);
-DriftLoop drift_rate_loop(KernelChoice kernel, int dim);
-DriftLoop xsph_loop(KernelChoice kernel, int dim, bool uniform_h);
-}  // namespace avx512
+COURANT_DECLARE_VARIANTS(shifting_loop)
+COURANT_DECLARE_VARIANTS(drift_rate_loop)
+COURANT_DECLARE_VARIANTS(xsph_loop)
 
 DriftLoop shifting_loop(KernelChoice kernel, int dim, bool correct) {
   return COURANT_VARIANT(shifting_loop)(kernel, dim, correct);

@@ -3,18 +3,8 @@
 
 namespace courant {
 
-namespace baseline {
-FrozenLoop frozen_rates_loop(const FrozenChoice&);
-FrozenLoop frozen_forces_loop(const FrozenChoice&);
-}  // namespace baseline
-namespace avx2 {
-FrozenLoop frozen_rates_loop(const FrozenChoice&);
-FrozenLoop frozen_forces_loop(const FrozenChoice&);
-}  // namespace avx2
-namespace avx512 {
-FrozenLoop frozen_rates_loop(const FrozenChoice&);
-FrozenLoop frozen_forces_loop(const FrozenChoice&);
-}  // namespace avx512
+COURANT_DECLARE_VARIANTS(frozen_rates_loop)
+COURANT_DECLARE_VARIANTS(frozen_forces_loop)
 
 FrozenLoop frozen_rates_loop(const FrozenChoice& choice) {
   return COURANT_VARIANT(frozen_rates_loop)(choice);

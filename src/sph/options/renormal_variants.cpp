@@ -3,18 +3,8 @@
 
 namespace courant {
 
-namespace baseline {
-RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim);
-RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what);
-}  // namespace baseline
-namespace avx2 {
-RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim);
-RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what);
-}  // namespace avx2
-namespace avx512 {
-RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim);
-RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what);
-}  // namespace avx512
+COURANT_DECLARE_VARIANTS(renormal_rates_loop)
+COURANT_DECLARE_VARIANTS(renormal_forces_loop)
 
 RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim) {
   return COURANT_VARIANT(renormal_rates_loop)(kernel, dim);

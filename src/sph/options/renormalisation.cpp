@@ -1,10 +1,10 @@
 // FORM of *CONTROL_SPH, the renormalised ones among its values, and *COURANT_RENORMALISATION.
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Eigenvalues>
 
 #include <fmt/format.h>
 
+#include "base/eigenvalues.hpp"
 #include "keyword/registry.hpp"
 #include "search/neighbours.hpp"
 #include "sph/cards.hpp"
@@ -116,15 +116,6 @@ class RenormalRates : public Rate, public Refresh {
   }
 
  private:
-  static Real least_eigenvalue(const Eigen::Matrix<Real, 2, 2>& M) {
-    const Real half_difference = 0.5 * (M(0, 0) - M(1, 1));
-    return 0.5 * M.trace() - std::sqrt(half_difference * half_difference + M(0, 1) * M(0, 1));
-  }
-  static Real least_eigenvalue(const Eigen::Matrix<Real, 3, 3>& M) {
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix<Real, 3, 3>> solver;
-    solver.computeDirect(M, Eigen::EigenvaluesOnly);
-    return solver.eigenvalues()[0];
-  }
   template <int Dim, bool Walls>
   void correct(Particles& p, Index i, const Eigenvalues& from) {
     using Square = Eigen::Matrix<Real, Dim, Dim>;

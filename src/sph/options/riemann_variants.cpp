@@ -3,18 +3,8 @@
 
 namespace courant {
 
-namespace baseline {
-RiemannLoop riemann_momentum_loop(KernelChoice kernel, int dim, bool uniform_h);
-RiemannLoop riemann_mass_loop(KernelChoice kernel, int dim, bool uniform_h);
-}  // namespace baseline
-namespace avx2 {
-RiemannLoop riemann_momentum_loop(KernelChoice kernel, int dim, bool uniform_h);
-RiemannLoop riemann_mass_loop(KernelChoice kernel, int dim, bool uniform_h);
-}  // namespace avx2
-namespace avx512 {
-RiemannLoop riemann_momentum_loop(KernelChoice kernel, int dim, bool uniform_h);
-RiemannLoop riemann_mass_loop(KernelChoice kernel, int dim, bool uniform_h);
-}  // namespace avx512
+COURANT_DECLARE_VARIANTS(riemann_momentum_loop)
+COURANT_DECLARE_VARIANTS(riemann_mass_loop)
 
 RiemannLoop riemann_momentum_loop(KernelChoice kernel, int dim, bool uniform_h) {
   return COURANT_VARIANT(riemann_momentum_loop)(kernel, dim, uniform_h);

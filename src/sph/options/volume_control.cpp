@@ -126,7 +126,7 @@ class VolumeControl : public Rate, public Restartable {
     });
   }
   /// Integral of the kernel over a line (2D) or plane (3D) through its middle, times h: h |grad S| at the
-  /// halo of a half-space.
+  /// edge of a half-space.
   template <class Kernel>
   static Real slope_at_plane(int dim) {
     constexpr int n = 1000;

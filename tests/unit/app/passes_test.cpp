@@ -261,7 +261,7 @@ TEST(Passes, PrescribedMotionOfParticles) {
   expect_change(scene, {"prescribed motion"}, {"energy prescribed particles", "drive prescribed particles"});
 }
 
-TEST(Passes, KeptPairGeometry) {
+TEST(Passes, FrozenGradients) {
   SmallScene scene;
   scene.extra = "*COURANT_PAIR_GEOMETRY\n0.005\n";
   expect_change(
@@ -284,9 +284,9 @@ TEST(Passes, TwoPartsWithOneLawShareAPass) {
 }
 
 TEST(Passes, PairsAreWorkedOutTwiceWherePartsHaveDifferentSmoothingLengths) {
-  const std::vector<std::string> of_partners{"rates sph rates, reduction", "forces sph forces, reduction"};
-  for (const auto& [cslh, gone] : {std::pair{"1.3", of_partners},
-                                   {"1.20001", of_partners},
+  const std::vector<std::string> reductions{"rates sph rates, reduction", "forces sph forces, reduction"};
+  for (const auto& [cslh, gone] : {std::pair{"1.3", reductions},
+                                   {"1.20001", reductions},
                                    {"1.2000001", {}}}) {  // as coordinates are rounded in decks
     SmallScene scene;
     scene.extra = fmt::format(

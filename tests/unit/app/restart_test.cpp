@@ -200,7 +200,7 @@ TEST(Restart, BulkViscosityWithABox) {
               {20, 75}, 118);
 }
 
-TEST(Restart, KeptPairGeometry) {
+TEST(Restart, FrozenGradients) {
   const std::string cards = test::gravity_cards + test::floor_cards() + "*COURANT_PAIR_GEOMETRY\n0.05\n";
   // so stiff that a window lasts for some fifteen steps; with C2 the speed of sound changes
   const std::string linear = "*EOS_LINEAR_POLYNOMIAL\n1,0.,9.E7\n",

@@ -10,7 +10,7 @@ using courant::test::Scene;
 
 namespace {
 
-struct Random {
+struct RandomVectors {
   std::uint64_t seed = 99;
   Real operator()() {
     seed = seed * 6364136223846793005ull + 1442695040888963407ull;
@@ -30,7 +30,7 @@ struct Trace {
   }
 };
 
-struct Case {
+struct WallCase {
   std::function<void(Scene&)> make;
   std::function<void(Scene&, int step)> move = [](Scene&, int) {};
   Vec gravity = Vec::Zero();
@@ -39,7 +39,7 @@ struct Case {
   int refresh_every = 7;
 };
 
-Trace run(const Case& c, bool shortcuts) {
+Trace run(const WallCase& c, bool shortcuts) {
   Scene s;
   s.options.shortcuts = shortcuts;
   c.make(s);
@@ -66,7 +66,7 @@ Trace run(const Case& c, bool shortcuts) {
   return trace;
 }
 
-Trace expect_same_bits(const Case& c) {
+Trace expect_same_bits(const WallCase& c) {
   const Trace with = run(c, true), without = run(c, false);
   EXPECT_EQ(with.values.size(), without.values.size());
   EXPECT_EQ(std::memcmp(with.values.data(), without.values.data(), with.values.size() * sizeof(Real)), 0);
@@ -100,7 +100,7 @@ void channel(Scene& s) {
 }
 
 TEST(Shortcuts, RestOverJointsIn2D) {
-  Case c;
+  WallCase c;
   c.make = channel;
   c.gravity = Vec(0, -9.81, 0);
   c.steps = 1500;
@@ -109,10 +109,10 @@ TEST(Shortcuts, RestOverJointsIn2D) {
 
 TEST(Shortcuts, MotionAlongAndAcrossWallsIn2D) {
   for (const Real speed : {0.05, 2.0}) {
-    Case c;
+    WallCase c;
     c.make = [=](Scene& s) {
       channel(s);
-      Random random;
+      RandomVectors random;
       for (Vec& v : s.v) {
         v = 2 * speed * random.vec();
         v.z() = 0;
@@ -127,12 +127,12 @@ TEST(Shortcuts, MotionAlongAndAcrossWallsIn2D) {
 
 TEST(Shortcuts, BoxOfPatchesWithEdgesAndCorners) {
   for (const Real speed : {0.2, 6.0}) {
-    Case c;
+    WallCase c;
     c.make = [=](Scene& s) {
       s.thickness = 0.004;
       if (speed > 1) s.options.reach_margin = 0.05;
       box(s, 0.1);
-      Random random;
+      RandomVectors random;
       for (int i = 0; i < 300; ++i) {
         s.x.push_back(Vec(0.05, 0.05, 0.05) + 0.095 * random.vec());
         // on the bisectors of edges and in corners, where two or three walls are equally deep
@@ -151,9 +151,9 @@ TEST(Shortcuts, BoxOfPatchesWithEdgesAndCorners) {
 // Triangles, warped and overlapping shells, in the order and at the size that chance gives.
 TEST(Shortcuts, RandomShells) {
   for (int seed = 1; seed <= 12; ++seed) {
-    Case c;
+    WallCase c;
     c.make = [=](Scene& s) {
-      Random random;
+      RandomVectors random;
       random.seed = 1000 * std::uint64_t(seed);
       s.law.penopt = 1 + seed % 3;
       for (int k = 0; k < 25; ++k) {
@@ -180,14 +180,14 @@ TEST(Shortcuts, RandomShells) {
 
 TEST(Shortcuts, FrictionDampingAndSoft) {
   for (int kind = 0; kind < 3; ++kind) {
-    Case c;
+    WallCase c;
     c.make = [=](Scene& s) {
       s.thickness = 0.004;
       box(s, 0.1);
       s.law.soft = kind == 0 ? 1 : 0;
       if (kind == 1) s.law.vdc = 20;
       if (kind == 2) s.law.fs = s.law.fd = 0.2;
-      Random random;
+      RandomVectors random;
       for (int i = 0; i < 200; ++i) {
         s.x.push_back(Vec(0.05, 0.05, 0.05) + 0.095 * random.vec());
         s.v.push_back(0.4 * random.vec());
@@ -201,12 +201,12 @@ TEST(Shortcuts, FrictionDampingAndSoft) {
 
 // Half of the walls move and turn, also through particles that were far away.
 TEST(Shortcuts, MovingWalls) {
-  Case c;
+  WallCase c;
   c.make = [](Scene& s) {
     s.held = false;
     s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0), 3, 3);
     s.plate(Vec(0, 0, 0.06), Vec(0.1, 0, 0), Vec(0, 0.1, 0), 2, 2);
-    Random random;
+    RandomVectors random;
     for (int i = 0; i < 300; ++i) {
       s.x.push_back(Vec(0.05, 0.05, 0.03) + Vec(0.12, 0.12, 0.08).cwiseProduct(random.vec()));
       s.v.push_back(0.3 * random.vec());
@@ -228,7 +228,7 @@ TEST(Shortcuts, MovingWalls) {
 
 // Shells of one plane whose normals point either way, as meshes from several sources have them.
 TEST(Shortcuts, NeighboursThatFaceEitherWay) {
-  Case c;
+  WallCase c;
   c.make = [](Scene& s) {
     const Real a = 0.02;
     const Vec X(a, 0, 0), Y(0, a, 0), Z(0, 0, a);
@@ -237,7 +237,7 @@ TEST(Shortcuts, NeighboursThatFaceEitherWay) {
         s.plate(i * X + j * Y, (i + j) % 2 ? X : Y, (i + j) % 2 ? Y : X);
         s.plate(i * X + j * Z, (i + j) % 3 ? X : Z, (i + j) % 3 ? Z : X);
       }
-    Random random;
+    RandomVectors random;
     for (int i = 0; i < 200; ++i) {
       s.x.push_back(Vec(0.06, 0.06, 0.02) + Vec(0.1, 0.1, 0.02).cwiseProduct(random.vec()));
       s.v.push_back(Vec(random() - 0.5, random() - 0.6, -0.1));
@@ -252,7 +252,7 @@ TEST(Shortcuts, NeighboursThatFaceEitherWay) {
 // Round a free edge and back while candidates stay the same, each time down to a touch on the other side:
 // what was on one side when it was last looked at must not seem to come through the wall.
 TEST(Shortcuts, RoundAnEdge) {
-  Case c;
+  WallCase c;
   const std::vector<Vec> corners = {Vec(-0.03, 0.05, 0.009), Vec(-0.03, 0.05, 0.06),
                                     Vec(0.04, 0.05, 0.06),   Vec(0.04, 0.05, -0.06),
                                     Vec(-0.03, 0.05, -0.06), Vec(-0.03, 0.05, -0.009)};
@@ -279,7 +279,7 @@ TEST(Shortcuts, RoundAnEdge) {
 }
 
 TEST(Shortcuts, BirthAndDeath) {
-  Case c;
+  WallCase c;
   c.make = [](Scene& s) {
     channel(s);
     s.law.birth = 0.01, s.law.death = 0.05;

@@ -13,7 +13,7 @@ namespace courant {
 
 namespace {
 
-using Lines = std::vector<std::string_view>;
+using SourceLines = std::vector<std::string_view>;
 
 class SourceFile : public testing::Test {
  protected:
@@ -29,21 +29,21 @@ class SourceFile : public testing::Test {
 };
 
 TEST(Source, EndsLinesWithAnyOfTheThreeKinds) {
-  const Lines expected = {"*A", "1", "", "2"};
+  const SourceLines expected = {"*A", "1", "", "2"};
   for (const char* text : {"*A\n1\n\n2\n", "*A\r\n1\r\n\r\n2\r\n", "*A\r1\r\r2\r", "*A\r\n1\n\n2"})
     EXPECT_EQ(make_source(text)->lines, expected) << text;
 }
 
 TEST(Source, TakesSeveralReturnsBeforeALineFeedForOneLineEnd) {
-  EXPECT_EQ(make_source("*A\r\r\n1\r\r\n")->lines, (Lines{"*A", "1"}));
+  EXPECT_EQ(make_source("*A\r\r\n1\r\r\n")->lines, (SourceLines{"*A", "1"}));
 }
 
 TEST(Source, DropsTheEndOfFileCharacterOfMsDos) {
-  EXPECT_EQ(make_source("*A\r\n*END\r\n\x1A")->lines, (Lines{"*A", "*END"}));
+  EXPECT_EQ(make_source("*A\r\n*END\r\n\x1A")->lines, (SourceLines{"*A", "*END"}));
 }
 
 TEST(Source, ExpandsTabsFromTheBeginOfEachLine) {
-  EXPECT_EQ(make_source("*A\r\tx\r12\ty")->lines, (Lines{"*A", "        x", "12      y"}));
+  EXPECT_EQ(make_source("*A\r\tx\r12\ty")->lines, (SourceLines{"*A", "        x", "12      y"}));
 }
 
 TEST(Source, CountsColumnsInBytes) {

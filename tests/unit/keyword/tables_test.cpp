@@ -40,7 +40,7 @@ bool has_effect(const FieldSpec& field) {
   return field.rules.honour == Honour::yes;
 }
 
-std::string name_of(const KeywordSpec& spec, const FieldSpec& field) {
+std::string full_name_of(const KeywordSpec& spec, const FieldSpec& field) {
   return spec.names[0] + " " + std::string(field.name);
 }
 
@@ -94,7 +94,7 @@ TEST(Tables, TellWhatIdsNumber) {
       for (std::size_t f = 0; f < spec->cards[c].fields.size(); ++f) {
         const FieldSpec& field = spec->cards[c].fields[f];
         if (field.type != FieldType::id && field.type != FieldType::ids) continue;
-        const std::string name = name_of(*spec, field);
+        const std::string name = full_name_of(*spec, field);
         if (depends_on_row(*spec, field)) continue;
         EXPECT_EQ(known.count({c, f}) + plain_numbers.count(name), 1u)
             << name << ": give the field `refers` (or the keyword an id_space), or list it above";
@@ -106,14 +106,14 @@ TEST(Tables, TellDimensionsThatCanBeConverted) {
   for_each_field([](const KeywordSpec& spec, std::size_t c, std::size_t f) {
     const FieldSpec& field = spec.cards[c].fields[f];
     if (field.type == FieldType::skip) return;
-    EXPECT_TRUE(is_dimension(field.dimension)) << name_of(spec, field) << ": " << field.dimension;
+    EXPECT_TRUE(is_dimension(field.dimension)) << full_name_of(spec, field) << ": " << field.dimension;
     const bool number = field.type == FieldType::real || field.type == FieldType::reals;
-    if (!number) EXPECT_EQ(field.dimension, "-") << name_of(spec, field) << " is no real number";
+    if (!number) EXPECT_EQ(field.dimension, "-") << full_name_of(spec, field) << " is no real number";
     // a standard value is not converted: it must be "none" or "never"
     constexpr Real never = 1e15;
     if (number && field.dimension != "-" && spec.lacking.empty())
       EXPECT_TRUE(field.rules.standard == 0 || std::abs(field.rules.standard) >= never)
-          << name_of(spec, field);
+          << full_name_of(spec, field);
   });
 }
 
@@ -123,9 +123,9 @@ TEST(Tables, TellPlacesAsThreeLengthsInARow) {
     const auto& fields = spec.cards[c].fields;
     if (fields[f].rules.spatial == Spatial::none) return;
     ++count;
-    ASSERT_LT(f + 2, fields.size()) << name_of(spec, fields[f]);
+    ASSERT_LT(f + 2, fields.size()) << full_name_of(spec, fields[f]);
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(fields[f + k].type, FieldType::real) << name_of(spec, fields[f + k]);
+      EXPECT_EQ(fields[f + k].type, FieldType::real) << full_name_of(spec, fields[f + k]);
       if (fields[f].rules.spatial == Spatial::point) EXPECT_EQ(fields[f + k].dimension, "L");
     }
   });
@@ -138,7 +138,7 @@ TEST(Tables, DimensionsOfCurvesAreKnown) {
     if (field.rules.refers != IdSpace::curve || !has_effect(field) || !spec.lacking.empty()) return;
     if (spec.names[0].rfind("DEFINE_TABLE", 0) == 0) return;  // refused in a file with unit factors
     const CurveDimensions* curve = curve_dimensions(spec.names[0], field.name);
-    ASSERT_NE(curve, nullptr) << name_of(spec, field) << ": add it to curve_units.cpp";
+    ASSERT_NE(curve, nullptr) << full_name_of(spec, field) << ": add it to curve_units.cpp";
     EXPECT_TRUE(is_dimension(curve->abscissa) && is_dimension(curve->ordinate));
   });
 }

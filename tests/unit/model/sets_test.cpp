@@ -28,7 +28,7 @@ Ids ids_of(const std::vector<Entity>& entities, const std::vector<Index>& member
   return out;
 }
 
-const auto name_of = [](const auto& test) { return std::string(test.param.name); };
+const auto name_of_set_case = [](const auto& test) { return std::string(test.param.name); };
 
 class NodeSet : public testing::TestWithParam<Case> {};
 
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"GeneralSetShell", "*SET_NODE_GENERAL\n1\nSET_SHELL,2\n*SET_SHELL\n2\n4\n", {5, 6, 9}},
         Case{
             "GeneralDsetShell", "*SET_NODE_GENERAL\n1\nPART,3\nDSET_SHELL,2\n*SET_SHELL\n2\n4\n", {4, 7, 8}}),
-    name_of);
+    name_of_set_case);
 
 class PartSet : public testing::TestWithParam<Case> {};
 
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"GeneralSet",
                          "*SET_PART_GENERAL\n1\nPART,1\nSET,2\nDSET,3\n*SET_PART\n2\n2,3\n*SET_PART\n3\n1\n",
                          {2, 3}}),
-    name_of);
+    name_of_set_case);
 
 class ShellSet : public testing::TestWithParam<Case> {};
 
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(
              "*SET_SHELL_GENERAL\n1\nBOX,4\n*DEFINE_BOX\n4,0.,2.,0.,1.5,0.,0.\n",
              {1, 2}},
         Case{"GeneralSet", "*SET_SHELL_GENERAL\n1\nALL\nDSET,2\n*SET_SHELL\n2\n3,4\n", {1, 2}}),
-    name_of);
+    name_of_set_case);
 
 struct SegmentCase {
   const char* name;
@@ -173,15 +173,15 @@ INSTANTIATE_TEST_SUITE_P(
         SegmentCase{"GeneralDset",
                     "*SET_SEGMENT_GENERAL\n1\nPART,2\nDSET,2\n*SET_SEGMENT\n2\n1,2,5,4\n",
                     {{2, 3, 6, 5}}}),
-    name_of);
+    name_of_set_case);
 
-struct Fault {
+struct SetFault {
   const char* name;
   const char* keywords;
   const char* message;
 };
 
-class FaultySet : public testing::TestWithParam<Fault> {};
+class FaultySet : public testing::TestWithParam<SetFault> {};
 
 TEST_P(FaultySet, IsRefused) {
   const SmallModel m = small_model(GetParam().keywords);
@@ -191,58 +191,61 @@ TEST_P(FaultySet, IsRefused) {
 INSTANTIATE_TEST_SUITE_P(
     Reasons, FaultySet,
     testing::Values(
-        Fault{"NodeMissing", "*SET_NODE_COLUMN\n1\n5\n10\n",
-              "(NID, node id [-]): node 10 has no coordinates"},
-        Fault{"ShellMissing", "*SET_SHELL\n1\n5\n",
-              "shell 5 does not exist\n  hint: define it with *ELEMENT_SHELL"},
-        Fault{"SolidMissing", "*SET_SOLID\n1\n5\n",
-              "solid 5 does not exist\n  hint: define it with *ELEMENT_SOLID"},
-        Fault{"SetMissing", "*SET_NODE_ADD\n1\n2\n",
-              "node set 2 does not exist\n  hint: define it with *SET_NODE_LIST"},
-        Fault{"Itself", "*SET_NODE_ADD\n1\n1\n",
-              "a set cannot be made of itself: node set 1 needs node set 1\n"},
-        Fault{"Cycle",
-              "*SET_NODE_ADD\n1\n2\n*SET_NODE_INTERSECT\n2\n3\n*SET_NODE_GENERAL\n3\nSET_SHELL,4\n"
-              "*SET_SHELL_ADD\n4\n5\n*SET_SHELL_ADD\n5\n4\n",
-              "a set cannot be made of itself: shell set 4 needs shell set 5 needs shell set 4\n"},
-        Fault{"NothingShared", "*SET_NODE_INTERSECT\n1\n2,3\n*SET_NODE\n2\n5\n*SET_NODE\n3\n6\n",
-              "the set is empty\n  hint: its sets share no node"},
-        Fault{"NothingLeft", "*SET_PART_GENERAL\n1\nPART,1\nDPART,1\n",
-              "the set is empty\n  hint: its rows leave no part"},
-        Fault{"NoRows", "*SET_SHELL_GENERAL\n1\n",
-              "the set is empty\n  hint: give a row such as ALL or PART"},
-        Fault{"NoSets", "*SET_SHELL_INTERSECT\n1\n",
-              "the set is empty\n  hint: list its sets below the first card"},
-        Fault{"RowUnknown", "*SET_NODE_GENERAL\n1\nVOL,3\n",
-              "'VOL' is not supported\n  hint: supported: ALL, NODE, PART, BOX, SET_SHELL, SET_SOLID; with D "
-              "in front"},
-        Fault{"RowDall", "*SET_NODE_GENERAL\n1\nDALL\n", "'DALL' is not supported"},
-        Fault{"RowOfHalfANode", "*SET_SEGMENT_GENERAL\n1\nSEG,1,2,3,4.6\n", "expected a node id, got '4.6'"},
-        Fault{"RowWithoutId", "*SET_NODE_GENERAL\n1\nPART\n", "PART has no id behind it"},
-        Fault{"RowPartMissing", "*SET_SHELL_GENERAL\n1\nPART,9\n", "part 9 does not exist"},
-        Fault{"RowBoxMissing", "*SET_SHELL_GENERAL\n1\nDBOX,9\n",
-              "box 9 does not exist\n  hint: define it with *DEFINE_BOX"},
-        Fault{"RangeBackwards", "*SET_SHELL_GENERATE\n1\n4,2\n", "the range 4 to 2 runs backwards"},
-        Fault{"RangeWithoutEnd", "*SET_PART_LIST_GENERATE\n1\n4\n", "the range from 4 has no last id"},
-        Fault{"RangeWithoutEndInTheMiddle", "*SET_NODE_LIST_GENERATE\n1\n5,,12,0\n",
-              "the range from 5 has no last id"},
-        Fault{"RangeWithoutEndOnItsCard", "*SET_NODE_LIST_GENERATE\n1\n2,4,8\n10,12\n",
-              "the range from 8 has no last id"},
-        Fault{"RangeWithoutBegin", "*SET_NODE_LIST_GENERATE\n1\n0,4\n", "the range to 4 has no first id"},
-        Fault{"RangeEmpty", "*SET_SHELL_GENERATE_INCREMENT\n1\n5,90,5\n",
-              "there is no shell with an id from 5 to 90 in steps of 5"},
-        Fault{"SegmentOfOneNode", "*SET_SEGMENT\n1\n3,3,3,3\n",
-              "the segment of nodes 3 3 3 3 has less than two corners"},
-        Fault{"SegmentNodeMissing", "*SET_SEGMENT\n1\n1,2,10,4\n", "node 10 has no coordinates"},
-        Fault{"AdvancedWithoutKind", "*SET_NODE_ADD_ADVANCED\n1\n2\n*SET_NODE\n2\n5\n",
-              "set 2 has no kind beside it"},
-        Fault{"AdvancedBeams", "*SET_NODE_ADD_ADVANCED\n1\n2,3\n",
-              "'3' is not supported\n  hint: supported values: 0, 1, 2, 4, 5"},
-        Fault{"Twice", "*SET_SEGMENT\n1\n1,2\n*SET_SEGMENT_ADD\n1\n1\n",
-              "segment set 1 is defined twice, first as *SET_SEGMENT at deck.k"},
-        Fault{"FacesOfSolids", "*ELEMENT_SOLID\n1,1,1,2,5,4,11,11,11,11\n*SET_SEGMENT_GENERAL\n1\nPART,1\n",
-              "segments on the faces of solid elements are not supported"}),
-    name_of);
+        SetFault{"NodeMissing", "*SET_NODE_COLUMN\n1\n5\n10\n",
+                 "(NID, node id [-]): node 10 has no coordinates"},
+        SetFault{"ShellMissing", "*SET_SHELL\n1\n5\n",
+                 "shell 5 does not exist\n  hint: define it with *ELEMENT_SHELL"},
+        SetFault{"SolidMissing", "*SET_SOLID\n1\n5\n",
+                 "solid 5 does not exist\n  hint: define it with *ELEMENT_SOLID"},
+        SetFault{"SetMissing", "*SET_NODE_ADD\n1\n2\n",
+                 "node set 2 does not exist\n  hint: define it with *SET_NODE_LIST"},
+        SetFault{"Itself", "*SET_NODE_ADD\n1\n1\n",
+                 "a set cannot be made of itself: node set 1 needs node set 1\n"},
+        SetFault{"Cycle",
+                 "*SET_NODE_ADD\n1\n2\n*SET_NODE_INTERSECT\n2\n3\n*SET_NODE_GENERAL\n3\nSET_SHELL,4\n"
+                 "*SET_SHELL_ADD\n4\n5\n*SET_SHELL_ADD\n5\n4\n",
+                 "a set cannot be made of itself: shell set 4 needs shell set 5 needs shell set 4\n"},
+        SetFault{"NothingShared", "*SET_NODE_INTERSECT\n1\n2,3\n*SET_NODE\n2\n5\n*SET_NODE\n3\n6\n",
+                 "the set is empty\n  hint: its sets share no node"},
+        SetFault{"NothingLeft", "*SET_PART_GENERAL\n1\nPART,1\nDPART,1\n",
+                 "the set is empty\n  hint: its rows leave no part"},
+        SetFault{"NoRows", "*SET_SHELL_GENERAL\n1\n",
+                 "the set is empty\n  hint: give a row such as ALL or PART"},
+        SetFault{"NoSets", "*SET_SHELL_INTERSECT\n1\n",
+                 "the set is empty\n  hint: list its sets below the first card"},
+        SetFault{
+            "RowUnknown", "*SET_NODE_GENERAL\n1\nVOL,3\n",
+            "'VOL' is not supported\n  hint: supported: ALL, NODE, PART, BOX, SET_SHELL, SET_SOLID; with D "
+            "in front"},
+        SetFault{"RowDall", "*SET_NODE_GENERAL\n1\nDALL\n", "'DALL' is not supported"},
+        SetFault{"RowOfHalfANode", "*SET_SEGMENT_GENERAL\n1\nSEG,1,2,3,4.6\n",
+                 "expected a node id, got '4.6'"},
+        SetFault{"RowWithoutId", "*SET_NODE_GENERAL\n1\nPART\n", "PART has no id behind it"},
+        SetFault{"RowPartMissing", "*SET_SHELL_GENERAL\n1\nPART,9\n", "part 9 does not exist"},
+        SetFault{"RowBoxMissing", "*SET_SHELL_GENERAL\n1\nDBOX,9\n",
+                 "box 9 does not exist\n  hint: define it with *DEFINE_BOX"},
+        SetFault{"RangeBackwards", "*SET_SHELL_GENERATE\n1\n4,2\n", "the range 4 to 2 runs backwards"},
+        SetFault{"RangeWithoutEnd", "*SET_PART_LIST_GENERATE\n1\n4\n", "the range from 4 has no last id"},
+        SetFault{"RangeWithoutEndInTheMiddle", "*SET_NODE_LIST_GENERATE\n1\n5,,12,0\n",
+                 "the range from 5 has no last id"},
+        SetFault{"RangeWithoutEndOnItsCard", "*SET_NODE_LIST_GENERATE\n1\n2,4,8\n10,12\n",
+                 "the range from 8 has no last id"},
+        SetFault{"RangeWithoutBegin", "*SET_NODE_LIST_GENERATE\n1\n0,4\n", "the range to 4 has no first id"},
+        SetFault{"RangeEmpty", "*SET_SHELL_GENERATE_INCREMENT\n1\n5,90,5\n",
+                 "there is no shell with an id from 5 to 90 in steps of 5"},
+        SetFault{"SegmentOfOneNode", "*SET_SEGMENT\n1\n3,3,3,3\n",
+                 "the segment of nodes 3 3 3 3 has less than two corners"},
+        SetFault{"SegmentNodeMissing", "*SET_SEGMENT\n1\n1,2,10,4\n", "node 10 has no coordinates"},
+        SetFault{"AdvancedWithoutKind", "*SET_NODE_ADD_ADVANCED\n1\n2\n*SET_NODE\n2\n5\n",
+                 "set 2 has no kind beside it"},
+        SetFault{"AdvancedBeams", "*SET_NODE_ADD_ADVANCED\n1\n2,3\n",
+                 "'3' is not supported\n  hint: supported values: 0, 1, 2, 4, 5"},
+        SetFault{"Twice", "*SET_SEGMENT\n1\n1,2\n*SET_SEGMENT_ADD\n1\n1\n",
+                 "segment set 1 is defined twice, first as *SET_SEGMENT at deck.k"},
+        SetFault{"FacesOfSolids",
+                 "*ELEMENT_SOLID\n1,1,1,2,5,4,11,11,11,11\n*SET_SEGMENT_GENERAL\n1\nPART,1\n",
+                 "segments on the faces of solid elements are not supported"}),
+    name_of_set_case);
 
 TEST(Sets, OfSolids) {
   const SmallModel m = small_model(

@@ -21,11 +21,11 @@ class Read {
  public:
   explicit Read(const std::string& text) {
     write_file(folder_ / "file", text);
-    file_ = AsciiHistory::open(folder_ / "file", diagnostics_);
+    file_ = AsciiFile::open(folder_ / "file", diagnostics_);
   }
   bool whole() const { return file_.has_value(); }
-  const AsciiHistory& operator*() const { return *file_; }
-  const AsciiHistory* operator->() const { return &*file_; }
+  const AsciiFile& operator*() const { return *file_; }
+  const AsciiFile* operator->() const { return &*file_; }
   /// Messages, the folder's name left out.
   std::string faults() const {
     std::string text = diagnostics_.text();
@@ -53,7 +53,7 @@ class Read {
  private:
   ScratchFolder folder_;
   Diagnostics diagnostics_;
-  std::optional<AsciiHistory> file_;
+  std::optional<AsciiFile> file_;
 };
 
 /// Every number another one; `k` tells states apart.
@@ -129,7 +129,7 @@ void expect_printed(Real is, Real ought, int digits) {
   EXPECT_NEAR(is, ought, std::abs(ought) * 0.5001 * std::pow(10.0, 1 - digits));
 }
 
-TEST(AsciiHistory, GlstatOfOurs) {
+TEST(AsciiFile, GlstatOfOurs) {
   const Read glstat(file([](const Sample& s) { return glstat_text(s, 4); }));
   ASSERT_TRUE(glstat.whole()) << glstat.faults();
   EXPECT_EQ(glstat->kind(), "glstat");
@@ -148,7 +148,7 @@ TEST(AsciiHistory, GlstatOfOurs) {
   EXPECT_EQ(glstat->columns().size(), 20u);
 }
 
-TEST(AsciiHistory, MatsumOfOurs) {
+TEST(AsciiFile, MatsumOfOurs) {
   const Read matsum(file(matsum_text, true));
   EXPECT_EQ(matsum.column({"inten", 1}), (std::vector<Real>{1.25, 2.25, 3.25}));
   EXPECT_EQ(matsum.last({"kinen", 50000}), -9);
@@ -161,7 +161,7 @@ TEST(AsciiHistory, MatsumOfOurs) {
   EXPECT_EQ(matsum.why({"x_mom", 1}), "matsum has no 'x_mom'; did you mean 'x-mom'?");
 }
 
-TEST(AsciiHistory, ContactsOfOurs) {
+TEST(AsciiFile, ContactsOfOurs) {
   const Read rcforc(file(rcforc_text, true));
   EXPECT_EQ(rcforc->times().size(), 3u);
   EXPECT_EQ(rcforc.column({"y", 4, "SURFA"}), (std::vector<Real>{0, -196.2, -392.4}));
@@ -177,7 +177,7 @@ TEST(AsciiHistory, ContactsOfOurs) {
   EXPECT_EQ(sleout.last({"total friction", {}}), 12);
 }
 
-TEST(AsciiHistory, NodesAndBodiesOfOurs) {
+TEST(AsciiFile, NodesAndBodiesOfOurs) {
   const Read nodout(file(nodout_text, true));
   EXPECT_EQ(nodout->times().size(), 3u);
   EXPECT_EQ(nodout.column({"z-disp", 90000001}), (std::vector<Real>{3, 4, 5}));
@@ -201,7 +201,7 @@ TEST(AsciiHistory, NodesAndBodiesOfOurs) {
   EXPECT_EQ(rbdout.unit({"velocities x", 5}), "L/T");
 }
 
-TEST(AsciiHistory, BoundariesAndParticlesOfOurs) {
+TEST(AsciiFile, BoundariesAndParticlesOfOurs) {
   const Read bndout(file(bndout_text));
   EXPECT_EQ(bndout.column({"zforce", 30, "nd#"}), (std::vector<Real>{0, 4.5, 9}));
   EXPECT_EQ(bndout.last({"energy", 30, "velocity mat#"}), -17.5);
@@ -225,7 +225,7 @@ TEST(AsciiHistory, BoundariesAndParticlesOfOurs) {
 
 const std::string head = " a title\n                    ls-dyna smp d R16 R16.1_180 date 07/09/2025\n";
 
-TEST(AsciiHistory, GlstatOfLsDyna) {
+TEST(AsciiFile, GlstatOfLsDyna) {
   const std::string more =
       "\n\n number of shell elements that  \n reached the minimum time step..    3\n\n"
       "\n added mass.....................   0.28468E-03\n percentage increase............   0.22936E+05\n";
@@ -253,7 +253,7 @@ TEST(AsciiHistory, GlstatOfLsDyna) {
   EXPECT_EQ(glstat.unit({"percentage increase", {}}), "%");
 }
 
-TEST(AsciiHistory, ContactsOfLsDyna) {
+TEST(AsciiFile, ContactsOfLsDyna) {
   const Read rcforc(
       head +
       "\n{BEGIN LEGEND}\n Entity #        Title\n        1     SURFA 3 time to slip\n{END LEGEND}\n\n"
@@ -289,7 +289,7 @@ TEST(AsciiHistory, ContactsOfLsDyna) {
   EXPECT_EQ(sleout.last({"cycle", {}}), 1852);
 }
 
-TEST(AsciiHistory, MatsumOfLsDyna) {
+TEST(AsciiFile, MatsumOfLsDyna) {
   const auto state = [](const char* t, const char* energy) {
     return "\n\n time =" + std::string(t) + "\n mat.#=   21             inten=" + energy +
            "     kinen=   1.0000E+00\n x-mom=   2.0000E+00     y-mom=  -3.0000E+00     z-mom=   4.0000E+00\n"
@@ -303,7 +303,7 @@ TEST(AsciiHistory, MatsumOfLsDyna) {
   EXPECT_EQ(matsum.last({"+mass", 21}), 6);
 }
 
-TEST(AsciiHistory, OthersOfLsDyna) {
+TEST(AsciiFile, OthersOfLsDyna) {
   const Read nodout(
       head +
       "\n\n\n n o d a l   p r i n t   o u t   f o r   t i m e  s t e p       1                       "
@@ -342,7 +342,7 @@ TEST(AsciiHistory, OthersOfLsDyna) {
   EXPECT_EQ(spcforc.unit({"moments z", 1}), "ML2/T2");
 }
 
-TEST(AsciiHistory, RestartsReplaceWhatWasBefore) {
+TEST(AsciiFile, RestartsReplaceWhatWasBefore) {
   const auto line = [](const char* t, const char* x) {
     return fmt::format(
         "  SURFA           1 time {}  x {}  y  0.00000E+00  z  0.00000E+00 mass  0.00000E+00\n", t, x);
@@ -357,7 +357,7 @@ TEST(AsciiHistory, RestartsReplaceWhatWasBefore) {
 
 // --- files that are not whole
 
-TEST(AsciiHistory, CutOffAnywhere) {
+TEST(AsciiFile, CutOffAnywhere) {
   using Text = std::string (*)(const Sample&);
   const Text texts[] = {[](const Sample& s) { return glstat_text(s, 4); },
                         matsum_text,
@@ -390,7 +390,7 @@ TEST(AsciiHistory, CutOffAnywhere) {
   }
 }
 
-TEST(AsciiHistory, ForeignFiles) {
+TEST(AsciiFile, ForeignFiles) {
   EXPECT_EQ(Read("").faults().find(
                 "file: error: up to its end the file has no state of a history\n  hint: glstat, "),
             0u)
@@ -413,7 +413,7 @@ TEST(AsciiHistory, ForeignFiles) {
   EXPECT_NE(Read(broken).faults().find("'time step' stands before the time of its state"), std::string::npos);
 }
 
-TEST(AsciiHistory, Numbers) {
+TEST(AsciiFile, Numbers) {
   const auto numbers = [](std::string_view text) { return take_numbers(text, 12); };
   EXPECT_EQ(numbers(" 1 -2.5 +.5 1.e3 1D2 1.5d-2 -1.0-100+2.0+100 3.0E-101-4.0"),
             (std::vector<Real>{1, -2.5, 0.5, 1000, 100, 0.015, -1e-100, 2e100, 3e-101, -4}));

@@ -9,29 +9,30 @@ namespace {
 
 using test::all_of;
 
-constexpr Real dx = 0.005;
+constexpr Real spacing = 0.005;
 
 TEST(WaterBody, PlateUnderADetachedDrop) {
   ParticleFrame frame = test::water({.x1 = 0.5, .y1 = 0.05});
   const std::size_t plate = frame.size();
-  test::fill(frame, {.x0 = 0.24, .x1 = 0.26, .y0 = 0.07, .y1 = 0.08});  // 8 particles, 4 dx above the plate
+  // 8 particles, 4 spacings above the plate
+  test::fill(frame, {.x0 = 0.24, .x1 = 0.26, .y0 = 0.07, .y1 = 0.08});
   const ParticleGrid all = all_of(frame);
   const ParticleGrid water = water_body(all, {});
   EXPECT_EQ(water.particles().size(), plate);
   const auto on_line = [](const ParticleGrid& grid) { return water_on_line(grid, {0.25, 0, 0}, 1); };
   ASSERT_EQ(on_line(water).size(), 1u);
-  EXPECT_NEAR(on_line(water)[0].low, 0, 0.1 * dx);
-  EXPECT_NEAR(on_line(water)[0].high, 0.05, 0.1 * dx);
+  EXPECT_NEAR(on_line(water)[0].low, 0, 0.1 * spacing);
+  EXPECT_NEAR(on_line(water)[0].high, 0.05, 0.1 * spacing);
 
   ASSERT_EQ(on_line(all).size(), 2u);  // both surfaces of the drop are seen where it counts
-  EXPECT_NEAR(on_line(all)[1].low, 0.07, 0.25 * dx);
-  EXPECT_NEAR(on_line(all)[1].high, 0.08, 0.25 * dx);
+  EXPECT_NEAR(on_line(all)[1].low, 0.07, 0.25 * spacing);
+  EXPECT_NEAR(on_line(all)[1].high, 0.08, 0.25 * spacing);
   EXPECT_EQ(water_body(all, {.link = 1.5, .share = 0}).particles().size(), frame.size());
 }
 
 TEST(WaterBody, ADropThatTouchesBelongsToTheWater) {
   ParticleFrame frame = test::water({.x1 = 0.5, .y1 = 0.05});
-  for (int k = 0; k < 4; ++k) test::add(frame, 0.2525, 0.05 + (k + 0.5) * dx, dx);
+  for (int k = 0; k < 4; ++k) test::add(frame, 0.2525, 0.05 + (k + 0.5) * spacing, spacing);
   EXPECT_EQ(water_body(all_of(frame), {}).particles().size(), frame.size());
 }
 
@@ -57,9 +58,9 @@ TEST(WaterOnLine, AnOverhangHasSeveralPieces) {
   EXPECT_EQ(water.particles().size(), frame.size());
   const auto pieces = water_on_line(water, {0.2, 0, 0}, 1);
   ASSERT_EQ(pieces.size(), 2u);
-  EXPECT_NEAR(pieces[0].high, 0.03, 0.1 * dx);
-  EXPECT_NEAR(pieces[1].low, 0.06, 0.1 * dx);
-  EXPECT_NEAR(pieces[1].high, 0.09, 0.1 * dx);
+  EXPECT_NEAR(pieces[0].high, 0.03, 0.1 * spacing);
+  EXPECT_NEAR(pieces[1].low, 0.06, 0.1 * spacing);
+  EXPECT_NEAR(pieces[1].high, 0.09, 0.1 * spacing);
 }
 
 TEST(WaterOnLine, FilledIsTheVolumeOfTheParticles) {
@@ -68,7 +69,7 @@ TEST(WaterOnLine, FilledIsTheVolumeOfTheParticles) {
   Real filled = -1;
   const auto pieces = water_on_line(all_of(frame), {0.2512, 0, 0}, 1, &filled);
   ASSERT_EQ(pieces.size(), 1u);
-  EXPECT_NEAR(pieces[0].high, 0.05, 0.1 * dx);
+  EXPECT_NEAR(pieces[0].high, 0.05, 0.1 * spacing);
   EXPECT_NEAR(filled, 0.95 * 0.05, 0.002 * 0.05);
   water_on_line(all_of(frame), {3, 0, 0}, 1, &filled);
   EXPECT_EQ(filled, 0);
@@ -79,15 +80,16 @@ TEST(WaterOnLine, AlongEachAxisInSpace) {
   frame.dim = 3;
   for (int i = 0; i < 10; ++i)
     for (int j = 0; j < 12; ++j)
-      for (int k = 0; k < 14; ++k) test::add(frame, (i + 0.5) * dx, (j + 0.5) * dx, dx, (k + 0.5) * dx);
+      for (int k = 0; k < 14; ++k)
+        test::add(frame, (i + 0.5) * spacing, (j + 0.5) * spacing, spacing, (k + 0.5) * spacing);
   const ParticleGrid water = water_body(all_of(frame), {});
   EXPECT_EQ(water.particles().size(), frame.size());
-  const Point middle{5 * dx, 6 * dx, 7 * dx};
+  const Point middle{5 * spacing, 6 * spacing, 7 * spacing};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto pieces = water_on_line(water, middle, axis);
     ASSERT_EQ(pieces.size(), 1u) << axis;
-    EXPECT_NEAR(pieces[0].low, 0, 0.1 * dx) << axis;
-    EXPECT_NEAR(pieces[0].high, static_cast<Real>(10 + 2 * axis) * dx, 0.1 * dx) << axis;
+    EXPECT_NEAR(pieces[0].low, 0, 0.1 * spacing) << axis;
+    EXPECT_NEAR(pieces[0].high, static_cast<Real>(10 + 2 * axis) * spacing, 0.1 * spacing) << axis;
   }
 }
 

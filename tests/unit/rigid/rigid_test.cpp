@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "parallel/parallel.hpp"
 #include "rigid/mat_rigid.hpp"
 #include "shell/section_shell.hpp"
 #include "shell/shell.hpp"
@@ -130,6 +131,53 @@ TEST(Rigid, ForceOffTheCentreTurnsAndMoves) {
   EXPECT_NEAR((b.v - Vec(0, 0, 2.0 / 5 * 1e-3)).norm(), 0, 1e-15);
   EXPECT_NEAR((b.L - Vec(0.5, 0.25, 0).cross(Vec(0, 0, 2)) * 1e-3).norm(), 0, 1e-15);
   EXPECT_NEAR((p.bodies->reports()[0].force - Vec(0, 0, 2)).norm(), 0, 1e-15);
+}
+
+/// Two bodies of thousands of nodes, pushed unevenly: their motion and places of nodes after some steps.
+std::vector<Real> many_nodes(int on_threads) {
+  const int before = threads();
+  set_threads(on_threads);
+  World world;
+  constexpr Index count = 10000, second = 4001;
+  world.nodes.fields.resize(count);
+  std::vector<RigidBody> made(2);
+  for (Index n = 0; n < count; ++n) {
+    RigidBody& b = made[n >= second];
+    const Vec at(std::sin(n), std::cos(3 * n), 0.001 * n);
+    world.nodes.x.set(n, at);
+    world.nodes.f.set(n, Vec(std::sin(7 * n), 0.3, std::cos(n)));
+    b.nodes.push_back(n), b.X.push_back(at);
+  }
+  for (RigidBody& b : made) b.m = 100, b.J0 = 5 * Matrix::Identity();
+  RigidBodies bodies(std::move(made));
+  Clock clock;
+  clock.dt_old = 1e-3;
+  std::vector<Real> out;
+  for (int k = 0; k < 3; ++k) {
+    clock.dt = 1e-3;
+    bodies.apply(world, clock);
+    for (const RigidBody& b : bodies.bodies()) {
+      Vec force = Vec::Zero(), moment = Vec::Zero();
+      for (const Index n : b.nodes) {
+        force += world.nodes.f.vec(n);
+        moment += (world.nodes.x.vec(n) - b.x).cross(world.nodes.f.vec(n));
+      }
+      EXPECT_NEAR((b.force - force).norm(), 0, 1e-9);
+      EXPECT_NEAR((b.moment - moment).norm(), 0, 1e-9);
+    }
+    bodies.kick(world, clock);
+    bodies.drift(world, clock);
+    for (const RigidBody& b : bodies.bodies())
+      for (const Vec& value : {b.v, b.L, b.x}) out.insert(out.end(), value.begin(), value.end());
+  }
+  for (Index n = 0; n < count; ++n) out.push_back(world.nodes.x.vec(n).sum());
+  set_threads(before);
+  return out;
+}
+
+TEST(Rigid, ManyNodesMoveWithTheSameBitsOnAnyNumberOfThreads) {
+  const std::vector<Real> one = many_nodes(1);
+  for (const int n : {2, 3, 4}) EXPECT_EQ(many_nodes(n), one) << n << " threads";
 }
 
 TEST(Rigid, ConstraintCodesHoldTheirAxes) {

@@ -11,14 +11,14 @@ using namespace courant;
 
 namespace {
 
-struct Points {
+struct Places {
   std::vector<Real> x, y, z;
   void add(Real a, Real b, Real c) { x.push_back(a), y.push_back(b), z.push_back(c); }
   Index size() const { return static_cast<Index>(x.size()); }
   std::vector<Real> nearest() const { return nearest_distance(x.data(), y.data(), z.data(), size()); }
 };
 
-Real by_trying_all(const Points& p, Index i) {
+Real by_trying_all(const Places& p, Index i) {
   Real best2 = std::numeric_limits<Real>::infinity();
   for (Index j = 0; j < p.size(); ++j)
     if (j != i)
@@ -29,7 +29,7 @@ Real by_trying_all(const Points& p, Index i) {
 }  // namespace
 
 TEST(NearestDistance, OfALatticeIsItsSpacing) {
-  Points p;
+  Places p;
   for (int a = 0; a < 30; ++a)
     for (int b = 0; b < 20; ++b) p.add(0.5 * a, 0.5 * b, 3);
   for (const Real d : p.nearest()) EXPECT_NEAR(d, 0.5, 1e-12);
@@ -41,7 +41,7 @@ TEST(NearestDistance, IsWhatTryingAllPairsFinds) {
   std::mt19937 random(7);
   std::uniform_real_distribution<Real> u(0, 1);
   for (const auto& side : {Vec(1, 1, 1), Vec(1, 0.01, 1), Vec(3, 0, 0), Vec(0.2, 5, 0)}) {
-    Points p;
+    Places p;
     for (int k = 0; k < 700; ++k)  // half of them crowded in one corner
       p.add(side[0] * std::pow(u(random), 1 + k % 2 * 4), side[1] * u(random), side[2] * u(random) - 2);
     const std::vector<Real> nearest = p.nearest();
@@ -52,7 +52,7 @@ TEST(NearestDistance, IsWhatTryingAllPairsFinds) {
 TEST(NearestDistance, TakesNoLongerForPointsFarOff) {
   std::mt19937 random(11);
   std::uniform_real_distribution<Real> u(0, 1);
-  Points p;
+  Places p;
   constexpr int crowd = 200000;  // trying all pairs would take minutes
   for (int k = 0; k < crowd; ++k) p.add(u(random), u(random), u(random));
   for (int k = 0; k < 20; ++k) p.add(1e4 * u(random), -1e5 * u(random), 300 + 2e4 * u(random));
@@ -64,7 +64,7 @@ TEST(NearestDistance, TakesNoLongerForPointsFarOff) {
 }
 
 TEST(NearestDistance, OfFewPoints) {
-  Points p;
+  Places p;
   EXPECT_TRUE(p.nearest().empty());
   p.add(1, 2, 3);
   EXPECT_TRUE(std::isinf(p.nearest()[0]));

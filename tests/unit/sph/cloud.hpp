@@ -50,8 +50,8 @@ struct Cloud {
                                                          keep_gradients ? PairGeometry::most_kept_bytes : -1),
                           make_pair_volumes(world));
   }
-  /// The same, that keep gradients over steps.
-  void make_kept_pairs() {
+  /// The same, with gradients that are frozen over steps.
+  void make_frozen_pairs() {
     pairs = make_frozen_passes(settings, world, neighbours, make_pair_volumes(world));
   }
   void run(BlockPass& pass) { test::run(pass, world, clock); }

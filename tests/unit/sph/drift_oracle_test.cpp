@@ -17,7 +17,7 @@ namespace {
 constexpr Real eps = 0.4, strength = 1.5, pairing = 0.3;
 
 /// What the passes must give for particle i.
-struct Expected {
+struct ExpectedDrift {
   Vec gradient = Vec::Zero(), normal = Vec::Zero(), xsph = Vec::Zero();
   Matrix velocity_gradient = Matrix::Zero();
   Real spread = 0, filling = 0, rate = 0, drift_rate = 0;
@@ -35,8 +35,8 @@ Real slope(Real r, Real h) {
 }
 
 template <int Dim>
-Expected oracle(Particles& p, Index i, Real surface, Real half_step) {
-  Expected e;
+ExpectedDrift oracle(Particles& p, Index i, Real surface, Real half_step) {
+  ExpectedDrift e;
   const Field<Real>&spread = sph_fields::spread(p), &drifted = sph_fields::drifted(p);
   const Real h = p.h[i];
   for (Index j = 0; j < p.moving; ++j) {
@@ -111,7 +111,7 @@ void compare(bool uniform_h, bool alone, std::optional<Neighbours::Region> regio
   for (Index i = 0; i < p.active; ++i) p.drhodt[i] = 0;
   for (BlockPass* rate : w.passes.in_phase(Phase::rates, w)) cloud.run(*rate);
   for (Index i = 0; i < p.active; ++i) {
-    const Expected e = oracle<Dim>(p, i, Dim - 0.5, 5e-4);
+    const ExpectedDrift e = oracle<Dim>(p, i, Dim - 0.5, 5e-4);
     const auto vec = [&](const Field<Real>& f) {
       return Vec(f.data(0)[i], f.data(1)[i], Dim == 3 ? f.data(2)[i] : 0);
     };

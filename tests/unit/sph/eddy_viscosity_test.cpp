@@ -15,7 +15,7 @@ namespace {
 
 using test::run;
 
-constexpr Real dx = 0.2;
+constexpr Real jet_dx = 0.2;
 constexpr int columns = 8, rows = 60;
 
 /// A layer from y = -6 to 6, periodic along x, between mirrors, that flows along x with u(y).
@@ -30,9 +30,9 @@ std::string layer(const std::function<Real(Real y)>& u, const std::string& more)
       more + "*NODE\n";
   std::string elements = "*ELEMENT_SPH\n", velocities = "*INITIAL_VELOCITY_NODE\n";
   for (int k = 0; k < columns * rows; ++k) {
-    const Real y = (k / columns + 0.5 - rows / 2) * dx;
-    text += fmt::format("{},{:.17g},{:.17g},0\n", k + 1, (k % columns + 0.5) * dx, y);
-    elements += fmt::format("{},1,{}\n", k + 1, 1000 * dx * dx);
+    const Real y = (k / columns + 0.5 - rows / 2) * jet_dx;
+    text += fmt::format("{},{:.17g},{:.17g},0\n", k + 1, (k % columns + 0.5) * jet_dx, y);
+    elements += fmt::format("{},1,{}\n", k + 1, 1000 * jet_dx * jet_dx);
     velocities += fmt::format("{},{:.17g}\n", k + 1, u(y));
   }
   return text + elements + velocities + "*END\n";
@@ -90,7 +90,8 @@ TEST_F(EddyViscosity, SpreadsAJetAsTheSolutionOfBarenblattDoes) {
   for (Index i = 0; i < p.active; ++i) {
     const Real error = p.v.vec(i)[0] - jet(p.x.vec(i)[1], 2);
     square += error * error / static_cast<Real>(p.active);
-    momentum += p.v.vec(i)[0] - jet((static_cast<Real>((p.id[i] - 1) / columns) + 0.5 - rows / 2) * dx, 1);
+    momentum +=
+        p.v.vec(i)[0] - jet((static_cast<Real>((p.id[i] - 1) / columns) + 0.5 - rows / 2) * jet_dx, 1);
   }
   EXPECT_LT(std::sqrt(square), 0.004);  // the peak falls from 1 to 0.84
   EXPECT_NEAR(momentum, 0, 1e-10);
@@ -102,7 +103,7 @@ TEST_F(EddyViscosity, ShortensTheStep) {
   const auto with = test::build_deck(layer([](Real y) { return 0.5 * y; }, eddy("10,0.09")));
   const auto without = test::build_deck(layer([](Real y) { return 0.5 * y; }, ""));
   run(*with, 1e-2), run(*without, 1e-2);
-  const Real h = 1.3 * dx;
+  const Real h = 1.3 * jet_dx;
   EXPECT_GT(without->clock().dt, 0.8 * 0.9 * h / 20);
   EXPECT_LT(with->clock().dt, 1.1 * 0.9 * 0.125 * h * h / (0.09 * 100 * 0.5));
 }

@@ -1,4 +1,4 @@
-// GhostParticles behind planes against the same flow computed whole.
+// Ghost particles behind planes against the same flow computed whole.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -107,7 +107,7 @@ TEST(GhostParticles, PartOfATankBehindMirrorsIsTheWholeTank) {
   EXPECT_EQ(of_half.external_work, 0);
 }
 
-TEST(GhostParticles, OfTheRimDoWorkAsTheRimDoes) {
+TEST(GhostParticles, OfTheHaloDoWorkAsTheHaloDoes) {
   // a stream out of both sides of a box, of which the upper half is computed
   Simulation *kept_half = nullptr, *kept_whole = nullptr;
   Tank tank{.left = -12, .nx = 24, .low = 0, .ny = 10, .planes = mirror_y, .endtim = 0.1, .boxed = true};
@@ -154,7 +154,7 @@ TEST(GhostParticles, SameBitsOnAnyNumberOfThreads) {
     }
 }
 
-TEST(GhostParticles, WhatGoesThroughAMirrorComesBackAsItsImage) {
+TEST(GhostParticles, WhatGoesThroughAMirrorComesBackAsItsGhost) {
   World world;
   Particles& p = world.particles;
   p.fields.resize(1);

@@ -13,11 +13,11 @@ namespace {
 
 using test::SmallScene;
 
-constexpr Real g = 9.81;
+constexpr Real g_earth = 9.81;
 
 /// The law once more, for the block of a SmallScene; flow along `axis`, the band from `from` to `to` [L].
 struct Law {
-  Real level = 0.4, tau = 0.05, gain = 1, tint = 20 * std::sqrt(0.4 / g);
+  Real level = 0.4, tau = 0.05, gain = 1, tint = 20 * std::sqrt(0.4 / g_earth);
   int axis = 0;
   Real from = 0.1, to = 0.6, width = 1, lowest = 0, mean = 0, U = 0;
   bool started = false;
@@ -40,7 +40,8 @@ struct Law {
       const Real V = (1 - std::cos(4 * pi * s)) * p.m[i] / p.rho[i];
       volume += V, flow += V * p.v.vec(i)[axis] * (to > from ? 1 : -1);
     }
-    const Real excess = gain * std::sqrt(g / level) * (volume / (0.5 * std::abs(to - from) * width) - level);
+    const Real excess =
+        gain * std::sqrt(g_earth / level) * (volume / (0.5 * std::abs(to - from) * width) - level);
     mean = started ? mean + excess * dt_old / tint : flow / volume;
     mean = std::max(mean, 0.0), U = std::max(mean + excess, 0.0);
     started = true;
@@ -151,22 +152,23 @@ TEST(LevelOutlet, LimitsTheStep) {
   EXPECT_EQ(who, "TAU of level outlet 7");
 }
 
-constexpr Real dx = 0.024, length = 1.2, start_depth = 0.096, level = 0.12, q = 0.04;
+constexpr Real outlet_dx = 0.024, length = 1.2, start_depth = 0.096, level = 0.12, q = 0.04;
 
 /// A channel over a symmetry plane; at first its water is lower than what flows in, and than the level.
 std::string channel() {
   std::string nodes = "*NODE\n", elements = "*ELEMENT_SPH\n";
   Id id = 0;
-  const int columns = static_cast<int>(length / dx + 0.5), rows = static_cast<int>(start_depth / dx + 0.5);
+  const int columns = static_cast<int>(length / outlet_dx + 0.5),
+            rows = static_cast<int>(start_depth / outlet_dx + 0.5);
   for (int i = 0; i < columns; ++i)
     for (int j = 0; j < rows; ++j) {
-      nodes += fmt::format("{},{:.6g},{:.6g},0.\n", ++id, (i + 0.5) * dx, (j + 0.5) * dx);
-      elements += fmt::format("{},1,{:.6g}\n", id, 1000 * dx * dx);
+      nodes += fmt::format("{},{:.6g},{:.6g},0.\n", ++id, (i + 0.5) * outlet_dx, (j + 0.5) * outlet_dx);
+      elements += fmt::format("{},1,{:.6g}\n", id, 1000 * outlet_dx * outlet_dx);
     }
   return "*KEYWORD\n*CONTROL_TERMINATION\n10.\n*CONTROL_SPH\n1,1,1e20,2\n0,0,0,0,0,0,0\n" +
          fmt::format("*DEFINE_BOX\n1,0.,{0},-1.,1.,-1.,1.\n2,{1},{0},0.,0.5,0.,0.\n", length, length - 0.4) +
          fmt::format("*DEFINE_SPH_INJECTION_SIMPLIFIED\n1,{},{},{}\n0.,{},0.,1.,0.,0.\n", q / level,
-                     level / 2, dx, level / 2) +
+                     level / 2, outlet_dx, level / 2) +
          fmt::format("*INITIAL_VELOCITY\n0\n{},0.,0.\n", q / start_depth) +
          "*PART\nwater\n1,1,1,1,1\n*SECTION_SPH\n1,1.2,1,1\n*MAT_NULL\n1,1000.0\n"
          "*EOS_LINEAR_POLYNOMIAL\n1,0,1e5\n\n*HOURGLASS\n1,0,0,0,1e-20,0.05\n"
@@ -175,22 +177,22 @@ std::string channel() {
          gravity() + fmt::format("*COURANT_LEVEL_OUTLET\n2,{},0.02\n", level) + nodes + elements + "*END\n";
 }
 
-struct Flow {
+struct OutletFlow {
   Real depth = 0;        ///< mean between 0.3 and 0.8 [L]
   Real in = 0, out = 0;  ///< per unit of width [L2/T]
 };
 
 /// From the particles that are there, that entered (less those that splash back over the inlet, some 3 %) and
 /// that left between `from` and `to`.
-Flow flow(Simulation& s, Real from, Real to) {
-  Flow f, first;
+OutletFlow flow(Simulation& s, Real from, Real to) {
+  OutletFlow f, first;
   Real begin = -1, end = 0;
   int states = 0;
   while (s.clock().t < to)
     s.step([&](World& world, const Clock& clock, const std::string&) {
       if (clock.t < from || clock.cycle % 20 != 0) return;
       const Particles& p = world.particles;
-      Flow now;
+      OutletFlow now;
       for (Index i = 0; i < p.size(); ++i) {
         const Real x = p.place(i, clock.t)[0], V = p.m[i] / 1000;
         if (p.state[i] == particle_waiting || x < 0) continue;
@@ -209,7 +211,7 @@ TEST(LevelOutlet, AChannelSettlesToTheLevel) {
   set_threads(1);
   const auto s = test::build_deck(channel());
   ASSERT_TRUE(s);
-  const Flow f = flow(*s, 5, 10);
+  const OutletFlow f = flow(*s, 5, 10);
   EXPECT_NEAR(f.depth, level, 0.02 * level);
   EXPECT_NEAR(f.in, q, 0.05 * q);
   EXPECT_NEAR(f.out, f.in, 0.02 * q);

@@ -198,7 +198,7 @@ void compare(const Terms& c, std::optional<Neighbours::Region> region) {
       for (int k = 0; k < 6; ++k) tau->data(k)[i] = Dim == 3 || k < 2 || k == 3 ? 500 * u(random) : 0;
   }
   cloud.neighbours = std::make_shared<Neighbours>(cloud.neighbours->skin(), region, kernel_support(c.kernel));
-  c.windows ? cloud.make_kept_pairs() : cloud.make_pairs(c.keep_gradients);
+  c.windows ? cloud.make_frozen_pairs() : cloud.make_pairs(c.keep_gradients);
   cloud.refresh();
   if (!c.windows) move_within_the_skin(p);
   if (c.diffusing)
@@ -265,7 +265,7 @@ TEST_P(PairSums, GiveItForEveryKernel) {
   use_instruction_set(before);
 }
 
-TEST_P(PairSums, GiveItWithGradientsKeptOverSteps) {
+TEST_P(PairSums, GiveItWithFrozenGradients) {
   const InstructionSet before = instruction_set();
   use_instruction_set(GetParam());
   for (const KernelChoice kernel : every_kernel)

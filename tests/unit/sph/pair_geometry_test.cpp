@@ -70,7 +70,7 @@ Real distance(const Result& a, const Result& b) {
 
 }  // namespace
 
-TEST(PairGeometry, KeptGradientsConserveAndTheirErrorGoesWithTheSquareOfEps) {
+TEST(PairGeometry, FrozenGradientsConserveAndTheirErrorGoesWithTheSquareOfEps) {
   const Result exact = run(0), fine = run(0.02), coarse = run(0.08);
   for (const Result& r : {exact, fine, coarse}) {
     EXPECT_LT(r.drift, 1e-12);
@@ -105,7 +105,7 @@ TEST(PairGeometry, WindowLastsUntilTheFastestMayHaveMovedHalfOfEps) {
   EXPECT_NEAR(window.ahead(), (0.5 * 4 - 0.25) * dt, 1e-12 * dt);
 }
 
-TEST(PairGeometry, KeptGradientsGiveTheSameBitsOnAnyNumberOfThreads) {
+TEST(PairGeometry, FrozenGradientsGiveTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(run(0.01, 1).x, run(0.01, 2).x);
 }
 
@@ -115,7 +115,7 @@ TEST(PairGeometry, AWindowEndsWhereParticlesDriftAsWhereTheyMove) {
     World& w = cloud.world;
     Particles& p = w.particles;
     cloud.settings.geometry_eps = 0.1, cloud.settings.xsph = 0.5;
-    cloud.make_kept_pairs();
+    cloud.make_frozen_pairs();
     cloud.refresh();
     for (Index i = 0; i < p.size(); ++i) sph_fields::drifted(p).set(i, Vec(0, drift, 0));
     cloud.clock.dt = cloud.clock.dt_old = 2e-4;  // three steps at 1 m/s are half of EPS h

@@ -39,13 +39,13 @@ Real kernel_slope_2d(Real r, Real h) {
   return CubicSpline::C(2) * CubicSpline::slope(r / h) / (h * h * h);
 }
 
-struct Case {
+struct SumCase {
   int dim;
   bool uniform;
   bool monaghan;
   bool stress;
 };
-class Pairs : public testing::TestWithParam<Case> {};
+class Pairs : public testing::TestWithParam<SumCase> {};
 
 /// A random cloud with the passes of one case, evaluated once, and the powers that must balance.
 struct Evaluated {
@@ -54,7 +54,7 @@ struct Evaluated {
   Vec force = Vec::Zero();
   Real scale = 0, kinetic = 0, internal = 0, dissipated = 0;
 
-  Evaluated(const Case& c, std::optional<Neighbours::Region> region)
+  Evaluated(const SumCase& c, std::optional<Neighbours::Region> region)
       : cloud(c.dim, c.dim == 2 ? 20 : 8, 0.01, 0.2) {
     World& w = cloud.world;
     Particles& p = w.particles;
@@ -116,11 +116,11 @@ TEST_P(Pairs, CountTheWorkOfParticlesOutsideTheBox) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Pairs,
-                         testing::Values(Case{2, true, true, false}, Case{2, false, true, false},
-                                         Case{2, true, false, false}, Case{2, true, true, true},
-                                         Case{2, false, false, true}, Case{3, true, true, false},
-                                         Case{3, false, true, false}, Case{3, true, false, true},
-                                         Case{3, false, true, true}));
+                         testing::Values(SumCase{2, true, true, false}, SumCase{2, false, true, false},
+                                         SumCase{2, true, false, false}, SumCase{2, true, true, true},
+                                         SumCase{2, false, false, true}, SumCase{3, true, true, false},
+                                         SumCase{3, false, true, false}, SumCase{3, true, false, true},
+                                         SumCase{3, false, true, true}));
 
 TEST(Continuity, GivesTheDivergenceOfALinearField) {
   for (const int dim : {2, 3}) {

@@ -180,10 +180,10 @@ std::unique_ptr<Simulation> tank(const std::string& more, Real noise) {
   return test::checkerboard_tank("*CONTROL_TIMESTEP\n0,0.6\n" + more, noise);
 }
 
-const std::string on = "*COURANT_RIEMANN\n";
+const std::string riemann_on = "*COURANT_RIEMANN\n";
 
 TEST(Riemann, LeavesTheHydrostaticPressureAlone) {
-  const auto s = tank(on + "\n", 0);
+  const auto s = tank(riemann_on + "\n", 0);
   run(*s, 2);
   const Particles& p = s->world().particles;
   Real top = 0;
@@ -195,7 +195,7 @@ TEST(Riemann, LeavesTheHydrostaticPressureAlone) {
 }
 
 TEST(Riemann, EvensOutACheckerboardOfPressuresAndCountsIt) {
-  const auto with = tank(on + "3.\n", 500), without = tank("", 500);
+  const auto with = tank(riemann_on + "3.\n", 500), without = tank("", 500);
   run(*with, 0.03), run(*without, 0.03);  // five times h/c
   EXPECT_LT(test::roughness(*with), 0.05 * test::roughness(*without));
   EnergyLedger e;
@@ -208,8 +208,8 @@ TEST(Riemann, EvensOutACheckerboardOfPressuresAndCountsIt) {
 // Behind a shock at the wall p = rho0 c0 u (1 + u/c0 + ..): mass and momentum with p = c0^2 (rho - rho0).
 TEST(Riemann, WaterThatHitsAWallStopsBehindAShock) {
   const Real u = 1;
-  const auto s =
-      test::build_deck(water(60, 8, u, on + "3.\n*BOUNDARY_SPH_SYMMETRY_PLANE\n0,0.8,0,0,0,0\n") + "*END\n");
+  const auto s = test::build_deck(
+      water(60, 8, u, riemann_on + "3.\n*BOUNDARY_SPH_SYMMETRY_PLANE\n0,0.8,0,0,0,0\n") + "*END\n");
   EnergyLedger e;
   while (s->clock().t < 0.15)  // the shock is near 2.9
     s->step([&](World&, const Clock&, const std::string& who) { e = s->sample(who).energy; });
@@ -234,7 +234,7 @@ TEST(Riemann, CountsTheWorkAcrossABox) {
   scene.n = 12, scene.start = "2.,0.,0.", scene.box = "1";
   scene.timestep = "0,0.5";
   scene.eos = "*EOS_LINEAR_POLYNOMIAL\n1,0.,1.E5\n";
-  scene.extra = on + "0.\n*DEFINE_BOX\n1,0.55,2.,-1.,5.,-1.,1.\n" +
+  scene.extra = riemann_on + "0.\n*DEFINE_BOX\n1,0.55,2.,-1.,5.,-1.,1.\n" +
                 "*INITIAL_VELOCITY_NODE\n67,-2.,0.,0.\n68,-2.,0.,0.\n69,-2.,0.,0.\n79,-2.,0.,0.\n80,-2.,0.,0."
                 "\n81,-2.,0.,0.\n";
   const auto s = test::build(scene);
@@ -255,7 +255,7 @@ TEST(Riemann, WithNegativeLimiterIsNotThere) {
 
 TEST(Riemann, WarnsOfViscosityThatIsNotUsed) {
   test::SmallScene scene;
-  scene.extra = on + "3.\n";
+  scene.extra = riemann_on + "3.\n";
   std::string text = scene.text();
   Diagnostics diagnostics;
   auto s = Simulation::build("deck.k", in_memory(text), diagnostics);
@@ -268,7 +268,7 @@ TEST(Riemann, WarnsOfViscosityThatIsNotUsed) {
 TEST(Riemann, StepsAreAsShortAsCrowdedParticlesAsk) {
   std::string who;
   const auto step = [&](int copies) {
-    const auto s = test::checkerboard_tank(on + "3.\n*CONTROL_TIMESTEP\n0,0.9\n", 0, 0, copies);
+    const auto s = test::checkerboard_tank(riemann_on + "3.\n*CONTROL_TIMESTEP\n0,0.9\n", 0, 0, copies);
     s->evaluate(who);
     return s->clock().dt;
   };
@@ -277,7 +277,7 @@ TEST(Riemann, StepsAreAsShortAsCrowdedParticlesAsk) {
   EXPECT_NEAR(step(2), lattice / 2, 0.01 * lattice);
   EXPECT_EQ(who, "Riemann flux");
 
-  const auto crowded = test::checkerboard_tank(on + "3.\n*CONTROL_TIMESTEP\n0,0.9\n", 500, 0, 2);
+  const auto crowded = test::checkerboard_tank(riemann_on + "3.\n*CONTROL_TIMESTEP\n0,0.9\n", 500, 0, 2);
   crowded->evaluate(who);
   const Real before = test::roughness(*crowded);
   run(*crowded, 0.03);

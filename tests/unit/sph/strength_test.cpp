@@ -21,7 +21,7 @@ namespace {
 
 constexpr Real K = 9e5, G = 3e5;
 
-std::shared_ptr<StrengthLaw> law_of(const std::string& keyword, const std::string& cards) {
+std::shared_ptr<StrengthLaw> strength_of(const std::string& keyword, const std::string& cards) {
   ReadOptions options;
   options.open = [&](const std::string&) {
     return std::optional<std::string>("*KEYWORD\n*" + keyword + "\n" + cards + "*END\n");
@@ -34,8 +34,8 @@ std::shared_ptr<StrengthLaw> law_of(const std::string& keyword, const std::strin
   return nullptr;
 }
 std::shared_ptr<StrengthLaw> rubber() {
-  return law_of("MAT_ELASTIC",
-                fmt::format("1,1000.0,{},{}\n", 9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)));
+  return strength_of("MAT_ELASTIC", fmt::format("1,1000.0,{},{}\n", 9 * K * G / (3 * K + G),
+                                                (3 * K - 2 * G) / (6 * K + 2 * G)));
 }
 
 BlockPass& pass_of(World& w, Phase phase, const std::string& name) {
@@ -177,7 +177,7 @@ TEST(Strength, ADeviatorBesideAnEquationOfStateAddsToPressureAndSpeed) {
   Rubber cloud(3, 2);
   World& w = cloud.world;
   Particles& p = w.particles;
-  cloud.settings.strength = {law_of("MAT_ELASTIC_PLASTIC_HYDRO", "1,1000.0,3.0e5,1.0e3\n")};
+  cloud.settings.strength = {strength_of("MAT_ELASTIC_PLASTIC_HYDRO", "1,1000.0,3.0e5,1.0e3\n")};
   w.passes.add(courant::test::liquid_pass(9e5, w));
   cloud.add();
   cloud.refresh();

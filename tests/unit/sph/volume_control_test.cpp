@@ -45,7 +45,7 @@ std::string lattice(Real mass, const std::string& more) {
   return deck_of(square(0.05, 0.05), mass, more);
 }
 
-const std::string everywhere =
+const std::string whole_scene =
     "*DEFINE_VECTOR\n1,0,0,0,1,0,0\n2,1,0,0,0,0,0\n3,0,0,0,0,1,0\n4,0,1,0,0,0,0\n"
     "*BOUNDARY_SPH_PERIODIC\n1,2\n3,4\n";
 std::string control(Real tau) {
@@ -64,7 +64,7 @@ Real mean_height(const Simulation& s) {
 
 TEST(VolumeControl, BringsTheDensityToWhatThePlacesSay) {
   for (const Real mass : {9.0, 11.0}) {
-    const auto s = test::build_deck(lattice(mass, everywhere + control(0.5)));
+    const auto s = test::build_deck(lattice(mass, whole_scene + control(0.5)));
     run(*s, 0.3);
     const Particles& p = s->world().particles;
     // d ln(rho)/dt = (100 m / rho - 1) / TAU

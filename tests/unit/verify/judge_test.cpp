@@ -288,8 +288,8 @@ TEST(Judge, TableForTheTerminal) {
   EXPECT_NE(results_yaml(result).find("ok: false"), std::string::npos);
 }
 
-TEST(Schedule, TimeLeft) {
-  Schedule schedule({{0, 8}, {0, 1}, {1, 2}, {1, 1}}, 2);
+TEST(RunSchedule, TimeLeft) {
+  RunSchedule schedule({{0, 8}, {0, 1}, {1, 2}, {1, 1}}, 2);
   EXPECT_LT(schedule.seconds_left(), 0) << "nothing is known yet";
   schedule.started(1);
   schedule.ended(1, 2);
