@@ -1,7 +1,7 @@
 #include "post/interpolation.hpp"
 
 #include <cmath>
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "post/free_surface.hpp"
 
@@ -29,10 +29,10 @@ bool make_linear(const ParticleGrid& grid, const Point& x, PointWeights& weights
     M += w * p * p.transpose();
   }
   constexpr Real least_rcond = 1e-4;  // particles in a line, or on one side only of a thin sheet
-  const Eigen::LDLT<Moments> solver(M);
-  if (solver.info() != Eigen::Success || !solver.isPositive() || !(solver.rcond() > least_rcond))
-    return false;
-  const Base a = solver.solve(Base::Unit(0));
+  const Moments inverse = M.inverse();
+  const auto norm = [](const Moments& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
+  if (!(norm(M) * norm(inverse) < 1 / least_rcond)) return false;
+  const Base a = inverse.col(0);
   for (auto& [k, w] : weights.of) w *= a.dot(base(k));
   return true;
 }

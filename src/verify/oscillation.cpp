@@ -1,5 +1,5 @@
 // Period and decay of a series.
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -37,18 +37,17 @@ std::vector<Real> upward_crossings(const Series& s, const Line& line, Real margi
 
 /// The line in the least squares fit of line + sine of this period.
 Line trend(const Series& s, Real period) {
-  const auto n = static_cast<Eigen::Index>(s.size());
-  Eigen::MatrixXd columns(n, 4);
-  Eigen::VectorXd y(n);
+  Eigen::Matrix4d M = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
   // about the middle and in units of the range, for the conditioning of the fit
   const Real middle = (s.x.front() + s.x.back()) / 2, range = s.x.back() - s.x.front();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
+  for (std::size_t k = 0; k < s.size(); ++k) {
     const Real phase = 2 * pi * s.x[k] / period;
-    columns.row(i) << 1, (s.x[k] - middle) / range, std::cos(phase), std::sin(phase);
-    y[i] = s.y[k];
+    const Eigen::Vector4d terms(1, (s.x[k] - middle) / range, std::cos(phase), std::sin(phase));
+    M += terms * terms.transpose();
+    right += s.y[k] * terms;
   }
-  const Eigen::VectorXd fit = columns.colPivHouseholderQr().solve(y);
+  const Eigen::Vector4d fit = M.inverse() * right;
   const Real slope = fit[1] / range;
   return {fit[0] - slope * middle, slope};
 }

@@ -1,7 +1,5 @@
 #include "verify/series.hpp"
 
-#include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
 
