@@ -35,22 +35,18 @@ void Contact::find_incidence(const World& world) {
 void Contact::gather_reactions() {
   note_access(reactions_resource_);
   Reactions& r = reactions_;
-  const auto blocks = static_cast<Index>(blocks_.size());
   r.begin.assign(1, 0);
   for (const Block& b : blocks_) r.begin.push_back(r.begin.back() + static_cast<Index>(b.reactions.size()));
   const Index count = r.begin.back();
   r.all.resize(count);
   r.key.resize(count);
   if (count == 0) return;
-  constexpr Index worth_threads = 2000;
-  const int shares = count < worth_threads ? 1 : threads();
-  on_threads(shares, [&](int t) {
-    for (Index b = blocks * t / shares; b < blocks * (t + 1) / shares; ++b) {
-      Index at = r.begin[b];
-      for (const Reaction& one : blocks_[b].reactions) {
-        r.all[at] = one;
-        r.key[at++] = place_in_moving_[one.facet];
-      }
+  for_each_block(listed_, [&](Index begin, Index) {
+    const Index b = begin / block_size;
+    Index at = r.begin[b];
+    for (const Reaction& one : blocks_[b].reactions) {
+      r.all[at] = one;
+      r.key[at++] = place_in_moving_[one.facet];
     }
   });
   counting_sort(r.key, static_cast<Index>(moving_.size()), r.first, r.order);

@@ -16,8 +16,6 @@
 namespace courant {
 namespace {
 
-constexpr Id largest_id = 99999999;
-
 struct PlacedShell {
   Id id;
   std::array<Id, 4> node;
@@ -119,9 +117,9 @@ PlacedPart place_part(const ScenePart& part, Ids& ids, const Variables& variable
   NodePlacer nodes(part.merge, ids.node, placed);
   for (const ScenePlate& plate : part.plates) place_plate(plate, 1e-6 * side, nodes, ids.shell, placed);
   if (!part.plates.empty()) ids.node = nodes.next();
-  if (std::max(ids.node, ids.shell) - 1 > largest_id)
+  if (std::max(ids.node, ids.shell) - 1 > largest_i8)
     diagnostics.error(part.where, fmt::format("part {}: ids reach {}, the format ends at {}", part.id,
-                                              std::max(ids.node, ids.shell) - 1, largest_id));
+                                              std::max(ids.node, ids.shell) - 1, largest_i8));
   return placed;
 }
 

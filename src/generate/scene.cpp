@@ -17,7 +17,6 @@
 namespace courant {
 namespace {
 
-constexpr Real largest_i8 = 99999999;
 constexpr Real most_entities = 5e7;  // a typing error in a spacing should not fill the memory
 constexpr Real most_jitter = 0.5;    // from there on two particles may meet
 
@@ -203,7 +202,8 @@ class SceneReader {
       return 0;
     }
     const Real value = number(node, key);
-    if (value < 0 || value > largest_i8 || value != std::floor(value) || (required && value == 0)) {
+    if (value < 0 || value > static_cast<Real>(largest_i8) || value != std::floor(value) ||
+        (required && value == 0)) {
       error(node, fmt::format("{}: expected a whole number from {} to 99999999, got {}", key,
                               required ? 1 : 0, value));
       return 0;

@@ -12,6 +12,9 @@
 
 namespace courant {
 
+/// Ids of nodes and elements have eight columns.
+inline constexpr Id largest_i8 = 99999999;
+
 /// A box filled with particles at the centres of cubes (squares in 2D) of side `spacing`.
 struct SceneLattice {
   int dim = 3;                      ///< 2: low and high have two components, particles lie in the plane z = 0

@@ -50,8 +50,7 @@ table{font-size:7.5pt}th,td{white-space:normal;padding:2px 4px;min-width:0!impor
 .verdict,.badge,th,tr.bad td,.chart{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 )";
 
-constexpr std::size_t most_open_rows = 30;  // of a table; a longer one is opened by the reader
-constexpr std::size_t long_cell = 44;       // longer texts are broken into lines
+constexpr std::size_t long_cell = 44;  // longer texts are broken into lines
 
 std::string table_html(const Table& table, const std::vector<std::string>& links = {}) {
   std::string out = R"(<div class="scroll" tabindex="0"><table><thead><tr>)";

@@ -17,8 +17,6 @@ namespace courant {
 namespace report {
 namespace {
 
-constexpr std::size_t most_plain_rows = 30;  // of a table; a longer one is opened by the reader
-
 /// Where pictures go, and how the page names them.
 struct Pictures {
   std::filesystem::path folder;
@@ -55,7 +53,7 @@ std::string table_markdown(const Table& table) {
 
 /// A long table is folded; what stands out in it is shown above.
 std::string folded_markdown(const Table& table, std::string_view what) {
-  if (table.rows.size() <= most_plain_rows) return table_markdown(table);
+  if (table.rows.size() <= most_open_rows) return table_markdown(table);
   Table bad{table.columns, {}};
   std::copy_if(table.rows.begin(), table.rows.end(), std::back_inserter(bad.rows),
                [](const auto& r) { return r.bad; });

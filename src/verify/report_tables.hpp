@@ -8,6 +8,8 @@
 
 namespace courant::report {
 
+inline constexpr std::size_t most_open_rows = 30;  ///< of a table; a longer one is opened by the reader
+
 struct Table {
   struct Column {
     std::string head;

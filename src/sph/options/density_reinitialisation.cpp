@@ -50,7 +50,7 @@ class DensityReinitialisation : public Rate {
                           std::shared_ptr<PairVolumes> volumes)
       : source_(s, world, s.density_diffusion == 0 && s.volume_tau == 0),
         dim_(s.dim),
-        kernel_(s.kernel),
+        kernel_(&any_kernel(s.kernel)),
         rules_(s.reinitialisation),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
@@ -104,8 +104,7 @@ class DensityReinitialisation : public Rate {
 
   template <int Dim>
   void sum_up(Moments<Dim>& m, const Particles& p, Index i, std::span<const Index> neighbours) const {
-    const AnyKernel& kernel = any_kernel(kernel_);
-    const Real support = kernel_support(kernel_), support2 = support * support;
+    const Real support2 = kernel_->support * kernel_->support;
     const Real* V = volumes_->current();
     const Vec xi = p.x.vec(i);
     const Real h = p.h[i], rho = p.rho[i];
@@ -113,7 +112,7 @@ class DensityReinitialisation : public Rate {
       const Vec d = (p.x.vec(j) - xi) / h;
       const Real R2 = d.squaredNorm();
       if (!(R2 < support2)) continue;
-      const Real weight = V[j] * kernel.shape(std::sqrt(R2)), change = weight * (p.m[j] / V[j] - rho);
+      const Real weight = V[j] * kernel_->shape(std::sqrt(R2)), change = weight * (p.m[j] / V[j] - rho);
       m.weight += weight;
       m.change += change;
       if (!rules_.linear) continue;
@@ -137,7 +136,7 @@ class DensityReinitialisation : public Rate {
   static constexpr const char* counter = "density_mls_to_shepard";
   DensitySource source_;
   int dim_;
-  KernelChoice kernel_;
+  const AnyKernel* kernel_;
   ReinitialisationRules rules_;
   bool due_ = false;
   std::vector<Index> constant_;  ///< in each block: particles without a slope
