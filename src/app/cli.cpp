@@ -122,7 +122,10 @@ int call_run(const Call& call) {
       return exit_run;
     }
     if (!call.quiet) print_text(fmt::format("results are in {}\n", call.dir));
-    return exit_ok;
+    if (summary.verdict != "broken") return exit_ok;
+    print_error("error: the run ended, but its results cannot be trusted (verdict: broken)\n");
+    for (const std::string& reason : summary.verdict_reasons) print_error(fmt::format("  {}\n", reason));
+    return exit_run;
   } catch (const RestartError& error) {
     print_error(
         fmt::format("error: {}\n  hint: use the program that wrote the file, with the requests for output of "

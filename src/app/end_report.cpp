@@ -5,37 +5,11 @@
 #include <cmath>
 
 #include "app/range_warnings.hpp"
+#include "app/verdict.hpp"
 
 namespace courant {
 
 namespace {
-
-constexpr Real most_residual = 5;  // percent
-
-/// The sum of what may cancel in a residual: where that is round-off of it, nothing is wrong.
-Real size_of(const EnergyLedger& e) {
-  return std::abs(e.kinetic) + std::abs(e.internal) + std::abs(e.potential) + std::abs(e.contact) +
-         std::abs(e.dissipated) + std::abs(e.external_work);
-}
-
-/// Where next to nothing passed through (a gas that expands, a block that flies), the residual is compared
-/// with the energy itself.
-bool hardly_passes(const EnergyLedger& e) {
-  return !(e.throughput > 1e-3 * size_of(e));
-}
-const char* residual_of(const EnergyLedger& e) {
-  return hardly_passes(e) ? "the energy" : "what passed through";
-}
-
-std::string energy_warning(const EnergyLedger& e) {
-  constexpr Real round_off = 1e-9;
-  const Real percent = residual_percent(e);
-  if (!(std::abs(percent) > most_residual) || std::abs(e.residual()) < round_off * size_of(e)) return {};
-  return fmt::format(
-      "warning: the energy balance does not close: {:.3g} % of {} {}; lower TSSFAC, and look "
-      "at contact stiffness (SFSA, SLSFAC) and at where particles leave the box",
-      std::abs(percent), residual_of(e), percent > 0 ? "came from nowhere" : "was lost");
-}
 
 /// Opening a window costs more than one that lasts for a step saves. The first opens blind.
 std::string windows_warning(const Summary& s) {
@@ -60,6 +34,20 @@ void add_timing(const Summary& s, std::vector<std::string>& out) {
       fmt::format("  {:<38}{:10.3f}", "(writer's CPU time, beside all this)", s.writer_cpu_seconds));
 }
 
+/// Of limits that the deck gave, too.
+std::string verdict_line(const Summary& s) {
+  std::string text = fmt::format(" verdict: {}", s.verdict);
+  if (s.limits.given)
+    text += fmt::format(
+        " by *COURANT_VERDICT (energy {:g} and {:g}, leaks {:g} and {:g}, hourglass {:g} and {:g}, speed "
+        "{:g}, "
+        "density {:g})",
+        s.limits.residual_doubtful, s.limits.residual_broken, s.limits.leaks_doubtful, s.limits.leaks_broken,
+        s.limits.hourglass_doubtful, s.limits.hourglass_broken, s.limits.mach_doubtful,
+        s.limits.density_doubtful);
+  return text;
+}
+
 std::string output_line(const Summary& s) {
   const double states = static_cast<double>(std::max<std::int64_t>(s.output.states, 1));
   return fmt::format(
@@ -73,11 +61,6 @@ std::string output_line(const Summary& s) {
 
 }  // namespace
 
-Real residual_percent(const EnergyLedger& e) {
-  const Real whole = hardly_passes(e) ? size_of(e) : e.throughput;
-  return whole > 0 ? 100 * e.residual() / whole : 0;
-}
-
 std::string duration(double seconds) {
   if (seconds < 60) return fmt::format("{:.0f} s", seconds);
   if (seconds < 3600)
@@ -87,15 +70,9 @@ std::string duration(double seconds) {
 
 std::vector<std::string> end_warnings(const Summary& s) {
   std::vector<std::string> out;
-  if (s.leaked_particles > 0)
-    out.push_back(
-        fmt::format("warning: {} particle{} leaked through a wall: make the contact stiffer (SFSA, SLSFAC), "
-                    "or lower TSSFAC "
-                    "for what hits the wall so fast",
-                    s.leaked_particles, s.leaked_particles == 1 ? "" : "s"));
-  if (const std::string text = energy_warning(s.energy); !text.empty()) out.push_back(text);
-  if (const std::string text = windows_warning(s); !text.empty()) out.push_back(text);
-  for (std::string& text : range_warnings(s.ranges)) out.push_back(std::move(text));
+  for (const Finding& finding : findings(s))
+    if (finding.text != s.reason) out.push_back("warning: " + finding.text);
+  if (std::string text = windows_warning(s); !text.empty()) out.push_back(std::move(text));
   return out;
 }
 
@@ -108,11 +85,11 @@ std::vector<std::string> end_report(const Summary& s) {
       fmt::format(" Total CPU time     = {:.1f} s, elapsed {:.1f} s, {:.0f} ns per particle and step",
                   s.cpu_seconds, s.wall_seconds, s.ns_per_particle_step()));
   out.push_back(output_line(s));
-  out.push_back(
-      fmt::format(" leaked particles {}, largest penetration {:.4g} [L], energy residual {:.3g} % of {}",
-                  s.leaked_particles, s.max_penetration, residual_percent(s.energy), residual_of(s.energy)));
+  out.push_back(fmt::format(" leaked particles {}, largest penetration {:.4g} [L], {}", s.leaked_particles,
+                            s.max_penetration, energy_line(s.energy)));
   for (const std::string& line : range_lines(s.ranges)) out.push_back(line);
   for (const std::string& warning : end_warnings(s)) out.push_back(" " + warning);
+  if (!s.verdict.empty()) out.push_back(verdict_line(s));
   return out;
 }
 

@@ -13,6 +13,7 @@
 #include "app/sense_switches.hpp"
 #include "app/simulation.hpp"
 #include "app/state_copies.hpp"
+#include "app/verdict.hpp"
 #include "base/run_error.hpp"
 #include "output/ascii.hpp"
 #include "output/field_writer.hpp"
@@ -61,7 +62,7 @@ class Run {
         facts_(std::move(facts)) {
     summary_.title = s_.model().title, summary_.deck = deck_path, summary_.threads = threads();
     summary_.particles = s_.world().particles.size(), summary_.elements = s_.world().elements();
-    summary_.warnings = options.warnings;
+    summary_.warnings = options.warnings, summary_.limits = verdict_limits(s_.deck());
     summary_.dt_min = std::numeric_limits<Real>::infinity();
   }
 
@@ -374,9 +375,11 @@ class Run {
     y.restart_file = newest_restart_;
     y.read_seconds = read_before_ + s_.read_seconds();
     note_end(y, s_);
+    judge(y);
     for (const std::string& warning : end_warnings(y)) y.warnings.push_back(warning);
     note_times(y, s_.timer());
-    note_output();
+    y.output.states = fields_.states(), y.output.field_bytes = fields_.bytes();
+    y.output.history_bytes = histories_.bytes();
     attempt([&] { print_end(); });
     attempt([&] { write_summary(std::filesystem::path(options_.dir) / "summary.yaml", y); });
   }
@@ -408,6 +411,7 @@ class Run {
       summary_.termination = "error";
       summary_.reason = error.what();
       failure_ = " *** Error: " + summary_.reason;
+      judge(summary_);
     }
   }
 
@@ -415,14 +419,8 @@ class Run {
     if (!failure_.empty()) messag_.line(failure_);
     if (summary_.termination == "interrupted") messag_.line(fmt::format(" *** {} ***", summary_.reason));
     for (const std::string& line : end_report(summary_)) messag_.line(line);
-    const bool ok = summary_.termination != "error";
+    const bool ok = summary_.termination != "error" && summary_.verdict != "broken";
     messag_.banner(ok ? " N o r m a l    t e r m i n a t i o n" : " E r r o r    t e r m i n a t i o n");
-  }
-
-  void note_output() {
-    summary_.output.states = fields_.states();
-    summary_.output.field_bytes = fields_.bytes();
-    summary_.output.history_bytes = histories_.bytes();
   }
 
   void show_progress() {

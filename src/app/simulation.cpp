@@ -112,7 +112,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
   rules_.dtmin = model_.dtmin;
   rules_.tssfac = model_.tssfac;
-  rules_.guard = guard_ = std::make_shared<Guard>(reference_of_parts(), model_.endeng);
+  rules_.guard = guard_ = std::make_shared<Guard>(reference_of_parts(), model_.endeng, rest_energy());
   stepper_ = std::make_unique<Stepper>(world_, neighbours_.get(), rules_, timer_);
 }
 
@@ -203,6 +203,7 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   if (!diagnostics.ok()) return;
   world_.passes.add(make_clear_forces(points_of(world_.particles)));
   world_.passes.add(make_point_motion(points_of(world_.particles)));
+  world_.passes.add(make_kinetic_energy(points_of(world_.particles)));
   add_drifts(sph_, acceleration_of_particles(model_), world_);
   if (mirrors_) world_.passes.add(mirrors_);
   add_sph_time_limit(sph_, model_, world_);
@@ -228,6 +229,18 @@ Ranges Simulation::reference_of_parts() const {
     out[k].liquid = m.holds_cold();  // a gas has no pressure without heat
   }
   return out;
+}
+
+// Sum of m c^2: far above all energies of a scene, and known before anything moves.
+Real Simulation::rest_energy() const {
+  const Particles& p = world_.particles;
+  Real e = sum(p.size(), [&](Index i) { return p.m[i] * std::pow(materials_[p.part[i]].c0(), 2); });
+  for (const auto& group : world_.groups) {
+    const auto part = static_cast<std::size_t>(group->part);
+    const Real c = part < solids_.size() && solids_[part].law ? solids_[part].law->sound_speed() : 0;
+    e += c * c * sum(group->size(), [&](Index k) { return group->mass[k]; });
+  }
+  return bodies_ ? e + bodies_->rest_energy() : e;
 }
 
 std::string Simulation::lacks_particles(Real end) const {

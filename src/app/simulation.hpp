@@ -90,6 +90,7 @@ class Simulation {
   void add_bodies();
   std::vector<PassNote> outputs(bool wanted) const;
   Ranges reference_of_parts() const;
+  Real rest_energy() const;
 
   Deck deck_;
   DeckRecord record_;

@@ -2,7 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <limits>
+#include <cmath>
 #include <utility>
 
 namespace courant {
@@ -11,21 +11,32 @@ namespace {
 void emit_energy(YAML::Emitter& out, const Summary& s) {
   const EnergyLedger& e = s.energy;
   const std::pair<const char*, Real> entries[] = {
-      {"kinetic", e.kinetic},
-      {"internal", e.internal},
-      {"potential", e.potential},
-      {"contact", e.contact},
-      {"dissipated", e.dissipated},
-      {"external_work", e.external_work},
-      {"initial", e.initial},
-      {"total", e.total()},
-      {"residual", e.residual()},
-      {"throughput", e.throughput},
-      {"ratio", s.energy_ratio()},
-      {"hourglass", e.hourglass},
-      {"bulk_viscosity", e.bulk_viscosity},
+      {"kinetic", e.kinetic},       {"internal", e.internal},     {"potential", e.potential},
+      {"contact", e.contact},       {"dissipated", e.dissipated}, {"external_work", e.external_work},
+      {"initial", e.initial},       {"total", e.total()},         {"residual", e.residual()},
+      {"throughput", e.throughput}, {"ratio", s.energy_ratio()},  {"scale", e.scale()},
+      {"error", e.error()},         {"hourglass", e.hourglass},   {"bulk_viscosity", e.bulk_viscosity},
   };
   out << YAML::Key << "energy" << YAML::Value << YAML::BeginMap;
+  for (const auto& [key, value] : entries) out << YAML::Key << key << YAML::Value << value;
+  out << YAML::EndMap;
+}
+
+void emit_verdict(YAML::Emitter& out, const Summary& s) {
+  if (s.verdict.empty()) return;
+  out << YAML::Key << "verdict" << YAML::Value << s.verdict;
+  out << YAML::Key << "verdict_reasons" << YAML::Value << YAML::BeginSeq;
+  for (const std::string& reason : s.verdict_reasons) out << reason;
+  out << YAML::EndSeq;
+  if (!s.limits.given) return;
+  const VerdictLimits& l = s.limits;
+  const std::pair<const char*, Real> entries[] = {
+      {"residual_doubtful", l.residual_doubtful},   {"residual_broken", l.residual_broken},
+      {"leaks_doubtful", l.leaks_doubtful},         {"leaks_broken", l.leaks_broken},
+      {"hourglass_doubtful", l.hourglass_doubtful}, {"hourglass_broken", l.hourglass_broken},
+      {"mach_doubtful", l.mach_doubtful},           {"density_doubtful", l.density_doubtful},
+  };
+  out << YAML::Key << "verdict_limits" << YAML::Value << YAML::BeginMap;
   for (const auto& [key, value] : entries) out << YAML::Key << key << YAML::Value << value;
   out << YAML::EndMap;
 }
@@ -94,8 +105,7 @@ double Summary::ns_per_element_step() const {
 
 Real Summary::energy_ratio() const {
   const Real expected = energy.initial + energy.external_work;
-  if (expected == 0) return energy.total() == 0 ? 1 : std::numeric_limits<Real>::quiet_NaN();
-  return energy.total() / expected;
+  return std::abs(expected) > 1e-9 * energy.scale() ? energy.total() / expected : 1 + energy.error();
 }
 
 void write_summary(const std::filesystem::path& file, const Summary& s) {
@@ -111,6 +121,7 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
   entry("termination", s.termination);
   entry("reason", s.reason);
   if (!s.advice.empty()) entry("advice", s.advice);
+  emit_verdict(out, s);
   entry("time", s.time);
   entry("steps", s.steps);
   if (s.restarts > 0) entry("restarts", s.restarts);

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,6 +12,15 @@
 
 namespace courant {
 
+/// Beyond what a run is no longer sound. Shares: of energies, of particles, of the sound speed, of RO.
+struct VerdictLimits {
+  Real residual_doubtful = 0.01, residual_broken = 0.1;  ///< of EnergyLedger::scale
+  Real leaks_doubtful = 0, leaks_broken = 0.001;         ///< of the particles of the model
+  Real hourglass_doubtful = 0.1, hourglass_broken = std::numeric_limits<Real>::infinity();  ///< of internal
+  Real mach_doubtful = 0.2, density_doubtful = 0.1;                                         ///< of liquids
+  bool given = false;  ///< by the deck: then the summary tells them
+};
+
 /// What a run came to, for scripts: the content of summary.yaml.
 struct Summary {
   struct PassTime {
@@ -18,12 +28,15 @@ struct Summary {
     double seconds = 0;  ///< wall time in this pass over the run
     std::int64_t calls = 0;
   };
-  std::string title;        ///< of the deck
-  std::string deck;         ///< path of the deck
-  std::string termination;  ///< "normal", "error", "interrupted", ...
-  std::string reason;       ///< in words
-  std::string advice;       ///< what to change, where the run stopped in error; may be empty
-  Real time = 0;            ///< time reached [T]
+  std::string title;                         ///< of the deck
+  std::string deck;                          ///< path of the deck
+  std::string termination;                   ///< "normal", "error", "interrupted", ...
+  std::string reason;                        ///< in words
+  std::string advice;                        ///< what to change, where the run stopped in error; may be empty
+  std::string verdict;                       ///< "sound", "doubtful", "broken"; empty: nobody has judged yet
+  std::vector<std::string> verdict_reasons;  ///< what speaks against it
+  VerdictLimits limits;
+  Real time = 0;  ///< time reached [T]
   std::int64_t steps = 0;
   int restarts = 0;          ///< parts that the run was made in, but one
   std::string restart_file;  ///< the latest whole one that was written; empty: none
@@ -56,7 +69,9 @@ struct Summary {
 
   double ns_per_particle_step() const;  ///< wall time; 0 if no step was taken
   double ns_per_element_step() const;   ///< the same
-  Real energy_ratio() const;            ///< total / (initial + external work); 1 where both are 0
+  /// Total over initial energy plus external work; where that is next to nothing (a fall from the height that
+  /// potential energy counts from), 1 plus the error of the balance.
+  Real energy_ratio() const;
 };
 
 /// Writes the summary as YAML, whole or not at all. Throws OutputError.

@@ -92,6 +92,7 @@ class Builder {
     RigidBody b;
     b.part = model_.parts[part].id;
     b.part_index = part;
+    b.c2 = m.ro > 0 ? m.E / m.ro : 0;
     Diagnostics told_before;
     read_constraints(deck_, m, b, checked_.insert(&m).second ? diagnostics_ : told_before);
     std::set<Index> nodes;

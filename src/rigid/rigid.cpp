@@ -182,6 +182,13 @@ Real RigidBodies::kinetic_energy() const {
   return e;
 }
 
+Real RigidBodies::rest_energy() const {
+  Real e = 0;
+  for (const RigidBody& b : bodies_)
+    if (!b.fixed()) e += b.m * b.c2;
+  return e;
+}
+
 // Of each axis along which the body can move, and of what is not the same everywhere.
 std::array<Real, 4> RigidBodies::potential(const RigidBody& b, const World& world,
                                            const BodyAcceleration::At& now) const {
@@ -217,6 +224,10 @@ void RigidBodies::record(World& world, const Clock& clock, EnergyLedger& ledger)
 
 void RigidBodies::sample(const World& world, const Clock& clock, EnergyLedger& ledger) const {
   ledger.kinetic += kinetic_energy();
+  for (const RigidBody& b : bodies_)
+    if (!b.fixed())
+      ledger.half_step += 0.5 * clock.dt_old *
+                          (b.force.dot(b.v + 0.25 * clock.dt_old / b.m * b.force) + b.moment.dot(b.omega));
   if (loads_.none()) return;
   const BodyAcceleration::At now = loads_.at(clock.t);
   for (const RigidBody& b : bodies_)

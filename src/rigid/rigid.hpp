@@ -36,6 +36,7 @@ struct RigidBody {
   std::vector<Vec> X;                     ///< their places about the centre at t = 0 [L]
   std::array<bool, 3> held{}, no_turn{};  ///< global axes without translation, rotation
   Real m = 0;                             ///< [M]
+  Real c2 = 0;                            ///< E/RO of its material, of sound squared [L2/T2]
   Matrix J0 = Matrix::Zero();             ///< inertia about the centre at t = 0, global axes [ML2]
   Vec x = Vec::Zero(), v = Vec::Zero();   ///< centre [L], [L/T]
   Vec x0 = Vec::Zero();                   ///< centre at t = 0 [L]
@@ -83,6 +84,7 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   void kick(World& world, const Clock& clock);
   void drift(World& world, const Clock& clock);
   Real kinetic_energy() const;  ///< of the bodies that can move [ML2/T2]
+  Real rest_energy() const;     ///< m c^2 of those: a scale far above all that they may have [ML2/T2]
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   /// Adds kinetic and potential energy of the bodies that can move.
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;

@@ -55,6 +55,8 @@ void keep_ledger(EnergyLedger& e, Archive& archive) {
   archive("external_work", e.external_work);
   archive("throughput", e.throughput);
   archive("initial", e.initial);
+  archive("half_step", e.half_step);
+  archive("peak", e.peak);
 }
 
 }  // namespace

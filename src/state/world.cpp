@@ -1,8 +1,24 @@
 #include "state/world.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace courant {
+
+Real EnergyLedger::unexplained() const {
+  const Real here = residual(), there = residual() + half_step;
+  if (here * there <= 0) return 0;
+  return std::abs(here) < std::abs(there) ? here : there;
+}
+
+Real EnergyLedger::error() const {
+  constexpr Real round_off = 1e-9;
+  const Real terms = std::abs(kinetic) + std::abs(internal) + std::abs(potential) + std::abs(contact) +
+                     std::abs(hourglass) + std::abs(bulk_viscosity) + std::abs(dissipated) +
+                     std::abs(external_work);
+  const Real lost = unexplained();
+  return std::abs(lost) <= round_off * terms || !(scale() > 0) ? 0 : lost / scale();
+}
 
 Index World::elements() const {
   Index count = 0;

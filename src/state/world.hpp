@@ -27,10 +27,21 @@ struct EnergyLedger {
   Real throughput =
       0;  ///< energy that passed through so far: sum of |work| of all kinds and of inflow (accumulates)
   Real initial = 0;  ///< total at t = 0
+  /// Net work that the forces at t^n did since the half step that `kinetic` is of: how far apart the times
+  /// of the terms are.
+  Real half_step = 0;
+  Real peak = 0;  ///< largest `present` that the guard saw, and at least round-off of the rest energy m c^2
   Real total() const {
     return kinetic + internal + potential + contact + hourglass + bulk_viscosity + dissipated;
   }
   Real residual() const { return total() - initial - external_work; }
+  /// What of the residual is no matter of half a step: 0 where `half_step` explains it.
+  Real unexplained() const;
+  /// Energy that this scene is about, wherever heights count from: the largest that it held, and what passed
+  /// through. The measure of a residual. Not 0 once the guard has looked.
+  Real scale() const { return peak + throughput; }
+  /// Share of `scale` that came from nowhere (> 0) or was lost; 0 where it is round-off of the terms.
+  Real error() const;
 };
 
 /// Named counters that end up in summary.yaml: clamps, deactivations, leaks. Never silently wrong.

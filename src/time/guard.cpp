@@ -19,6 +19,12 @@ constexpr Real most_energy = 10;
 /// Of the sum of all energies: differences below are round-off.
 constexpr Real round_off = 1e-9;
 
+/// What there is of energy now, but potential.
+Real held_by(const EnergyLedger& e) {
+  return std::abs(e.kinetic) + std::abs(e.internal) + std::abs(e.contact) + std::abs(e.hourglass) +
+         std::abs(e.bulk_viscosity);
+}
+
 bool is_finite(Real a) {
   return a - a == 0;
 }
@@ -81,9 +87,7 @@ std::string broken_quantities(const FieldSet& fields, Index i, Real& first) {
 }
 
 Real size_of(const EnergyLedger& e) {
-  return std::abs(e.kinetic) + std::abs(e.internal) + std::abs(e.potential) + std::abs(e.contact) +
-         std::abs(e.hourglass) + std::abs(e.bulk_viscosity) + std::abs(e.dissipated) +
-         std::abs(e.external_work);
+  return held_by(e) + std::abs(e.potential) + std::abs(e.dissipated) + std::abs(e.external_work);
 }
 
 void note(PartRange& range, Real speed, Real density, Id id, Real t) {
@@ -100,6 +104,7 @@ void Guard::look(World& world, const Clock& clock) {
   note_ranges(world, clock);
   sample_energy(world, clock);
   if (clock.cycle == 0) start(world.energy);
+  note_peak(world.energy);
   stop_for_energy(world.energy, clock);
   if (clock.cycle == 0) world.energy.initial = world.energy.total();
 }
@@ -178,10 +183,15 @@ void Guard::keep(Archive& archive) {
   }
 }
 
-void Guard::start(const EnergyLedger& e) {
-  initial_size_ = std::abs(e.kinetic) + std::abs(e.internal) + std::abs(e.contact);
+void Guard::start(EnergyLedger& e) {
+  e.peak = least_energy_;
+  initial_size_ = held_by(e);
   initial_potential_ = e.potential;
   initial_internal_ = e.internal;
+}
+
+void Guard::note_peak(EnergyLedger& e) const {
+  e.peak = std::max(e.peak, held_by(e) + std::max(initial_potential_ - e.potential, Real(0)));
 }
 
 // What came in: the energy at the start, work and inflow, and what fell or expanded. Dissipation is part of
@@ -192,10 +202,10 @@ void Guard::stop_for_energy(const EnergyLedger& e, const Clock& clock) const {
                                e.total(), clock.t, clock.cycle),
                    StopCause::not_finite);
   if (clock.cycle == 0 || clock.cycle % interval != 0) return;  // whoever else asks for a look, at outputs
-  const Real entered = initial_size_ + std::max(e.throughput - e.dissipated, Real(0)) +
+  const Real entered = least_energy_ + initial_size_ + std::max(e.throughput - e.dissipated, Real(0)) +
                        std::max(initial_potential_ - e.potential, Real(0)) +
                        std::max(initial_internal_ - e.internal, Real(0));
-  if (e.residual() > most_energy * entered + round_off * size_of(e))
+  if (e.unexplained() > most_energy * entered + round_off * size_of(e))
     throw RunError(fmt::format("the energy ran away: {:.4g} [ML2/T2] came from nowhere by time {:.6g}, cycle "
                                "{}, where {:.4g} entered; kinetic {:.4g}, internal {:.4g}, contact {:.4g}",
                                e.residual(), clock.t, clock.cycle, entered, e.kinetic, e.internal, e.contact),
@@ -210,8 +220,9 @@ void Guard::stop_for_energy(const EnergyLedger& e, const Clock& clock) const {
 
 Real energy_ratio_change(const EnergyLedger& e) {
   const Real expected = e.initial + e.external_work - e.potential;  // where heights count from cancels
-  if (std::abs(e.residual()) <= round_off * size_of(e)) return 0;
-  return 100 * e.residual() / expected;
+  const Real change = e.unexplained();
+  if (std::abs(change) <= round_off * size_of(e)) return 0;
+  return 100 * change / expected;
 }
 
 }  // namespace courant

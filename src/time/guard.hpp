@@ -12,11 +12,14 @@ namespace courant {
 /// densities went. A look reads some twenty arrays once, so it costs little against `interval` steps.
 class Guard : public Restartable {
  public:
-  static constexpr int interval = 64;  ///< steps from look to look
+  static constexpr int interval = 64;         ///< steps from look to look
+  static constexpr Real least_share = 1e-12;  ///< of the rest energy: less is no energy
 
   /// parts: rho0, c0, liquid and number of each part of the model. endeng: percent, 0 none
-  /// (CONTROL_TERMINATION).
-  explicit Guard(Ranges parts, Real endeng = 0) : ranges_(std::move(parts)), endeng_(endeng) {}
+  /// (CONTROL_TERMINATION). rest_energy: sum of m c^2 over all that may move, of which energies below 1e-12
+  /// are round-off [ML2/T2].
+  explicit Guard(Ranges parts, Real endeng = 0, Real rest_energy = 0)
+      : ranges_(std::move(parts)), endeng_(endeng), least_energy_(least_share * rest_energy) {}
 
   /// At t^n, forces and pressures known. At cycle 0 it sets the ledger's initial energy; how much energy
   /// there may be is judged at multiples of `interval` only. Throws RunError, which names the quantity.
@@ -29,11 +32,13 @@ class Guard : public Restartable {
   void keep(Archive& archive) override;
 
  private:
-  void start(const EnergyLedger& e);
+  void start(EnergyLedger& e);
+  void note_peak(EnergyLedger& e) const;
   void stop_for_energy(const EnergyLedger& e, const Clock& clock) const;
 
   Ranges ranges_;
   Real endeng_;
+  Real least_energy_;           ///< below it is round-off [ML2/T2]
   Real initial_size_ = 0;       ///< of the energies at the start, but potential [ML2/T2]
   Real initial_potential_ = 0;  ///< [ML2/T2]
   Real initial_internal_ = 0;   ///< [ML2/T2]

@@ -59,10 +59,18 @@ class KineticEnergy : public EnergyTerm {
   explicit KineticEnergy(Points points) : points_(points) {}
   std::string name() const override { return "kinetic energy of " + points_.fields().name(); }
   void record(World&, const Clock&, EnergyLedger&) override {}
-  void sample(const World&, const Clock&, EnergyLedger& ledger) const override {
-    ledger.kinetic += sum(points_.fields().size(), [&](Index i) {
-      if (points_.follow && (*points_.follow)[i]) return Real(0);
-      return 0.5 * (*points_.m)[i] * points_.v->vec(i).squaredNorm();
+  void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override {
+    const Real half = 0.5 * clock.dt_old;
+    const Index count =
+        points_.set == &world.particles.fields ? world.particles.active : points_.fields().size();
+    const auto over_own = [&](const auto& value) {
+      return sum(count, [&](Index i) { return points_.follow && (*points_.follow)[i] ? Real(0) : value(i); });
+    };
+    ledger.kinetic +=
+        over_own([&](Index i) { return 0.5 * (*points_.m)[i] * points_.v->vec(i).squaredNorm(); });
+    ledger.half_step += over_own([&](Index i) {
+      const Vec f = points_.f->vec(i);
+      return half * f.dot(points_.v->vec(i) + 0.5 * half / (*points_.m)[i] * f);
     });
   }
 

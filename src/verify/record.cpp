@@ -141,6 +141,12 @@ RunResult result_of_run(const std::filesystem::path& folder, const RunRecord& re
     out.verdict = Verdict::refused;
     out.reason = said;
     if (said.empty()) broken("refused without a reason (exit code 1)");
+  } else if (record.exit_code == 2 && out.termination == "normal" && out.verdict != Verdict::broken) {
+    out.verdict = Verdict::degraded;  // it came to its end: limits and bounds of the suite count, too
+    const YAML::Node reasons = (*summary)["verdict_reasons"];
+    out.reason = "its results cannot be trusted";
+    if (reasons && reasons.IsSequence() && reasons.size() > 0)
+      out.reason += ": " + reasons[0].as<std::string>("");
   } else if (record.exit_code == 2) {
     out.verdict = Verdict::stopped;
     if (out.reason.empty()) out.reason = said;

@@ -274,7 +274,7 @@ class Verification {
     result.size = run.plan.size;
     result.reused = run.reused;
     Measurements out;
-    if (result.verdict == Verdict::stable) {
+    if (result.verdict == Verdict::stable || result.verdict == Verdict::degraded) {
       out = observe_run(definition, run.plan.variables, run.folder, definition.stability.has_value());
       if (out.garbage.empty()) return out;
       result.verdict = Verdict::broken;

@@ -64,6 +64,7 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   add_equations_of_state(world_, model, materials, !settings.mu.empty());
   world_.passes.add(make_clear_forces(points_of(world_.particles)));
   world_.passes.add(make_point_motion(points_of(world_.particles)));
+  world_.passes.add(make_kinetic_energy(points_of(world_.particles)));
   add_sph_time_limit(settings, model, world_);
   const auto geometry = std::make_shared<PairGeometry>(neighbours_, settings.uniform_h);
   const auto volumes = make_pair_volumes(world_);

@@ -25,7 +25,7 @@ def deck(name, *, end=0.6, runrsf=40, d3dump=0, plot=0.02, columns=24, rows=16, 
     text += ("*PART\nwater\n1,1,1,1,1\n*PART\nfloor\n2,2,2\n*PART\nplate\n3,2,3\n*SECTION_SPH\n1,1.2,0.8,1.2\n*SECTION_SHELL\n2,2\n0.05\n"
              "*MAT_NULL\n1,1000.,-1.E20,0.1\n*EOS_LINEAR_POLYNOMIAL\n1,0.,9.E5\n*MAT_RIGID\n2,7850.,2.1E11,0.3\n1,7,7\n"
              "*MAT_RIGID\n3,7850.,2.1E11,0.3\n1,6,7\n*HOURGLASS\n1,0,0,0,1.E-20,0.1\n*DEFINE_BOX\n1,0.8,9.,-9.,9.,-9.,9.\n*CONTROL_SPH\n1,1,1.E20,2\n"
-             "*LOAD_BODY_Y\n1\n*DEFINE_CURVE\n1\n0.,9.81\n9.,9.81\n*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n1,2,3,3\n0.2,0.1,1.,0.,10.\n1.\n"
+             "*LOAD_BODY_Y\n1\n*DEFINE_CURVE\n1\n0.,9.81\n9.,9.81\n*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n1,2,3,3\n0.2,0.1,1.,0.,10.\n10.\n"
              f"*CONTROL_TERMINATION\n{end}\n*CONTROL_TIMESTEP\n0.,0.9\n*INITIAL_VELOCITY\n0\n1.5,0.,0.\n")
     text += "".join(f"*DATABASE_{kind}\n{value}\n" for kind, value in
                     (("BINARY_D3PLOT", plot), ("GLSTAT", glstat * histories), ("MATSUM", 0.013 * histories), ("RCFORC", 0.01 * histories),

@@ -21,7 +21,7 @@ courant, work = os.path.abspath(sys.argv[1]), os.path.join(os.path.abspath(sys.a
 enter_empty_folder(work)
 
 
-def deck(name, *, modulus=9e5, pc=-1e20, start=0.0, termination="2.", timestep="0.,0.9", floor=-0.025, thickness=0.05, sfsa=1.0, more=""):
+def deck(name, *, modulus=9e5, pc=-1e20, start=0.0, termination="2.", timestep="0.,0.9", floor=-0.025, thickness=0.05, sfsa=10.0, more=""):
     """A square of water, 8 x 8 particles 0.1 apart, above a floor that pushes from half its thickness on."""
     nodes = [(0.05 + 0.1 * i, 0.05 + 0.1 * j) for j in range(8) for i in range(8)]
     text = "*KEYWORD\n*TITLE\n" + name + "\n*NODE\n"
@@ -78,15 +78,30 @@ done = subprocess.run([courant, "run", "unstable.k", "-o", "unstable", "--thread
 check(done.returncode == 0 and "hint" not in done.stdout, f"a sound deck -> {done.returncode}")
 check(not os.path.exists("unstable/fields/failed.vtp"), "the failed state of an older run is gone")
 text = open("unstable/summary.yaml").read()
-check("advice" not in text and text.count('- "warning: ') == 1, "no advice, and one warning")
-check(re.search(r"^leaked_particles: 6$", text, re.M) and "6 particles leaked" in text and "6 particles leaked" in done.stdout, "which is of the particles that leaked")
+check("advice" not in text and "warning" not in text.replace("warnings:", ""), "no advice and no warning")
+check("\nverdict: sound\n" in text and "\n verdict: sound\n" in done.stdout and " N o r m a l    t e r m i n a t i o n" in done.stdout, "its verdict is sound")
 
-# --- a liquid that is compressed far: it ends, with warnings that are counted
+# --- one that reaches its end with particles below the floor: nobody takes it for a result
+deck("leaks", sfsa=1.0)
+done = subprocess.run([courant, "run", "leaks.k", "-o", "leaks", "--threads", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                      text=True, timeout=120)
+text = open("leaks/summary.yaml").read()
+check(done.returncode == 2 and "\ntermination: normal\n" in text and "\nverdict: broken\n" in text, f"leaks -> {done.returncode}, verdict broken")
+check(re.search(r"^leaked_particles: 6$", text, re.M) and text.count("6 particles leaked") == 2 and "6 particles leaked" in done.stdout, "for the particles that leaked")
+check("cannot be trusted (verdict: broken)\n  6 particles leaked" in done.stderr and " E r r o r    t e r m i n a t i o n" in done.stdout, "and says so")
+deck("leaks", sfsa=1.0, more="*COURANT_VERDICT\n,,0.05,0.1\n")
+done = subprocess.run([courant, "run", "leaks.k", "-o", "leaks", "--threads", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                      text=True, timeout=120)
+text = open("leaks/summary.yaml").read()
+check(done.returncode == 0 and "\nverdict: doubtful\n" in text and "  leaks_broken: 0.1\n" in text, f"with limits of its own -> {done.returncode}, doubtful")
+check(" verdict: doubtful by *COURANT_VERDICT (energy 0.01 and 0.1, leaks 0.05 and 0.1, " in done.stdout, "which are told")
+
+# --- a liquid that is compressed far, and pressed through the floor: it ends, with warnings that are counted
 deck("compressed", start=-20.0, termination="0.1")
 done = subprocess.run([courant, "run", "compressed.k", "-o", "compressed", "--threads", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                       text=True, timeout=120)
 text = open("compressed/summary.yaml").read()
-check(done.returncode == 0 and text.count("no longer nearly incompressible") == 2, f"compressed -> {done.returncode}, two warnings in the summary")
+check(done.returncode == 2 and text.count("no longer nearly incompressible") == 4, f"compressed -> {done.returncode}, two reasons and warnings in the summary")
 check(done.stdout.count("no longer nearly incompressible") == 2, "and in messag")
 
 sys.exit(f"{len(failures)} failed" if failures else 0)

@@ -58,7 +58,7 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Re
     Real power = 0;
     for (const Real p : power_) power += p;
     ledger.dissipated += power * clock.dt_mean();
-    ledger.throughput += power * clock.dt_mean();
+    ledger.throughput += std::abs(power) * clock.dt_mean();
     if (!halo_pairs_.empty()) {
       const Real work = halo_power(world) * clock.dt_mean();
       ledger.external_work += work;
@@ -68,7 +68,6 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Re
 
   void sample(const World& world, const Clock&, EnergyLedger& ledger) const override {
     const Particles& p = world.particles;
-    ledger.kinetic += sum(p.active, [&](Index i) { return 0.5 * p.m[i] * p.v.vec(i).squaredNorm(); });
     ledger.internal += sum(p.active, [&](Index i) { return p.E[i] * reference_volume_[i]; });
   }
 
@@ -81,7 +80,7 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Re
       for (const Index i : neighbours_->entered()) in += kinetic_and_internal(p, reference_volume_, i);
       for (const Index i : neighbours_->left()) out += kinetic_and_internal(p, reference_volume_, i);
       world.energy.external_work += in - out;
-      world.energy.throughput += in;
+      world.energy.throughput += in + out;
     }
     relist(world);
   }

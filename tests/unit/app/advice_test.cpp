@@ -100,29 +100,29 @@ PartRange calm() {
 }
 
 TEST(RangeWarnings, NothingOfWhatIsCalmAGasOrNotThere) {
-  EXPECT_TRUE(range_warnings({calm()}).empty());
+  EXPECT_TRUE(range_warnings({calm()}, 0.2, 0.1).empty());
   PartRange gas = calm();
   gas.speed.value = 100, gas.density_low.value = 0.1, gas.liquid = false;
   PartRange absent = gas;
   absent.liquid = true, absent.seen = false;
-  EXPECT_TRUE(range_warnings({gas, absent}).empty());
+  EXPECT_TRUE(range_warnings({gas, absent}, 0.2, 0.1).empty());
   EXPECT_EQ(range_lines({gas, absent}).size(), 1u);
 }
 
 TEST(RangeWarnings, SpeedAndDensityEachHaveALine) {
   PartRange r = calm();
   r.speed.value = 6.1;
-  ASSERT_EQ(range_warnings({r}).size(), 1u);
-  EXPECT_NE(range_warnings({r})[0].find("part 3: the largest speed 6.1 (particle 17 at 0.1)"),
+  ASSERT_EQ(range_warnings({r}, 0.2, 0.1).size(), 1u);
+  EXPECT_NE(range_warnings({r}, 0.2, 0.1)[0].find("part 3: the largest speed 6.1 (particle 17 at 0.1)"),
             std::string::npos);
   r.density_low.value = 0.89;
-  ASSERT_EQ(range_warnings({r}).size(), 2u);
-  EXPECT_NE(range_warnings({r})[1].find("density over RO went to 0.89 (particle 18 at 0.2)"),
+  ASSERT_EQ(range_warnings({r}, 0.2, 0.1).size(), 2u);
+  EXPECT_NE(range_warnings({r}, 0.2, 0.1)[1].find("density over RO went to 0.89 (particle 18 at 0.2)"),
             std::string::npos);
   r = calm();
   r.density_high.value = 1.11;
-  ASSERT_EQ(range_warnings({r}).size(), 1u);
-  EXPECT_NE(range_warnings({r})[0].find("1.11 (particle 19 at 0.3)"), std::string::npos);
+  ASSERT_EQ(range_warnings({r}, 0.2, 0.1).size(), 1u);
+  EXPECT_NE(range_warnings({r}, 0.2, 0.1)[0].find("1.11 (particle 19 at 0.3)"), std::string::npos);
 }
 
 }  // namespace

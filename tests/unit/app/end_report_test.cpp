@@ -17,27 +17,6 @@ Summary closed() {
   return s;
 }
 
-TEST(EndReport, WarnsOfLeaksAndOfALedgerThatDoesNotClose) {
-  EXPECT_THAT(end_warnings(closed()), IsEmpty());
-  EXPECT_THAT(end_warnings(Summary()), IsEmpty());
-  Summary s = closed();
-  s.leaked_particles = 2;
-  EXPECT_THAT(end_warnings(s), ElementsAre(HasSubstr("2 particles leaked")));
-  s = closed();
-  s.energy.kinetic = 1.049;
-  EXPECT_THAT(end_warnings(s), IsEmpty());
-  s.energy.kinetic = 1.06;
-  EXPECT_THAT(end_warnings(s), ElementsAre(HasSubstr("6 % of what passed through came from nowhere")));
-  s.energy.kinetic = 0.9;
-  EXPECT_THAT(end_warnings(s), ElementsAre(HasSubstr("10 % of what passed through was lost")));
-  s.energy = {.kinetic = 1e9 + 1e-3, .throughput = 1e-3, .initial = 1e9};  // round-off of what is there
-  EXPECT_THAT(end_warnings(s), IsEmpty());
-  s.energy = {.kinetic = 1, .initial = 1};  // nothing passed through
-  EXPECT_THAT(end_warnings(s), IsEmpty());
-  s.energy = {.kinetic = 2, .initial = 1};
-  EXPECT_THAT(end_warnings(s), ElementsAre(HasSubstr("50 % of the energy came from nowhere")));
-}
-
 TEST(EndReport, WarnsOfWindowsThatLastForLessThanTwoSteps) {
   Summary s = closed();
   s.steps = 300;

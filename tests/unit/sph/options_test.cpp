@@ -85,6 +85,7 @@ TEST(SpeedLimit, SwitchesOffOrClipsAndCounts) {
     w.passes.add(make_speed_limit(cloud.settings, cloud.neighbours));
     w.passes.add(make_clear_forces(points_of(w.particles)));
     w.passes.add(make_point_motion(points_of(w.particles)));
+    w.passes.add(make_kinetic_energy(points_of(w.particles)));
     w.passes.add(std::make_shared<ConstantStep>(1e-5));
     w.passes.add(make_sph_energy(cloud.settings, w, cloud.neighbours));
     w.energy.initial = 0.5 * w.particles.m[3] * 50 * 50;
@@ -176,6 +177,7 @@ TEST(EnergyLedger, ClosesForACloudThatRunsIntoItself) {
     add_sph_passes(w, cloud.settings, cloud.neighbours);
     w.passes.add(make_clear_forces(points_of(w.particles)));
     w.passes.add(make_point_motion(points_of(w.particles)));
+    w.passes.add(make_kinetic_energy(points_of(w.particles)));
     w.passes.add(std::make_shared<ConstantStep>(2e-5));
     cloud.refresh();
     sample_energy(w, cloud.clock);
@@ -203,6 +205,7 @@ TEST(ParticleMotion, RimParticlesGoOnWithTheirVelocityAndFeelNoForce) {
   w.passes.add(make_body_load(acceleration_of_particles(model), points_of(w.particles), w, cloud.neighbours));
   w.passes.add(make_clear_forces(points_of(w.particles)));
   w.passes.add(make_point_motion(points_of(w.particles)));
+  w.passes.add(make_kinetic_energy(points_of(w.particles)));
   w.passes.add(std::make_shared<ConstantStep>(1e-4));
   std::map<Id, Vec> before;
   for (Index i = 0; i < w.particles.size(); ++i)
@@ -236,6 +239,7 @@ TEST(Gravity, ALoadCurveThatChangesDoesExternalWork) {
   w.passes.add(make_sph_energy(cloud.settings, w, cloud.neighbours));
   w.passes.add(make_clear_forces(points_of(w.particles)));
   w.passes.add(make_point_motion(points_of(w.particles)));
+  w.passes.add(make_kinetic_energy(points_of(w.particles)));
   w.passes.add(std::make_shared<ConstantStep>(1e-4));
   step(cloud, 1);
   sample_energy(w, cloud.clock);

@@ -55,6 +55,7 @@ struct Rubber : Cloud {
     add_sph_passes(world, settings, neighbours);
     world.passes.add(make_clear_forces(points_of(world.particles)));
     world.passes.add(make_point_motion(points_of(world.particles)));
+    world.passes.add(make_kinetic_energy(points_of(world.particles)));
   }
 };
 

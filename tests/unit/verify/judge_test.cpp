@@ -162,6 +162,11 @@ TEST(Judge, HowARunEnded) {
   record.exit_code = 2;
   EXPECT_EQ(ended(record).verdict, Verdict::stopped);
   EXPECT_EQ(ended(record).reason, "NaN at t = 1");
+  write_file(dir / "summary.yaml",
+             "termination: normal\nreason: done\nverdict: broken\nverdict_reasons: [it leaks]\nenergy: "
+             "{total: 1}\n");
+  EXPECT_EQ(ended(record).verdict, Verdict::degraded);
+  EXPECT_EQ(ended(record).reason, "its results cannot be trusted: it leaks");
 
   record.key = "abc", record.wall_seconds = 1.25, record.timed_out = true;
   write_record(dir.path(), record);

@@ -1,0 +1,147 @@
+#include "app/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/range_warnings.hpp"
+#include "keyword/registry.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Fields that are 0 or blank keep the usual limit.
+struct VerdictCard : Entry {
+  Real resd = 0, resb = 0, leakd = 0, leakb = 0, hgd = 0, hgb = 0, machd = 0, densd = 0;
+};
+
+const FieldRules share{.check = Check::not_negative};
+
+using V = VerdictCard;
+const RegisterKeyword<V> verdict_card{
+    {.names = {"COURANT_VERDICT"},
+     .purpose = "limits beyond which the results of a run are doubtful or broken",
+     .once = true,
+     .many = false,
+     .cards = {
+         {.fields = {
+              {"RESD", &V::resd, "-",
+               "doubtful above this error of the energy balance, of the scene's energy; 0: 0.01", share},
+              {"RESB", &V::resb, "-", "broken above this error of the energy balance; 0: 0.1", share},
+              {"LEAKD", &V::leakd, "-", "doubtful above this share of leaked particles; 0: any leak", share},
+              {"LEAKB", &V::leakb, "-", "broken above this share of leaked particles; 0: 0.001", share},
+              {"HGD", &V::hgd, "-", "doubtful above this hourglass energy, of the internal; 0: 0.1", share},
+              {"HGB", &V::hgb, "-", "broken above this hourglass energy, of the internal; 0: never", share},
+              {"MACHD", &V::machd, "-", "doubtful above this speed of a liquid, of its sound; 0: 0.2", share},
+              {"DENSD", &V::densd, "-", "doubtful above this change of a liquid's density; 0: 0.1",
+               share}}}}}};
+
+/// Hourglass energy below this share of all that the scene is about does no harm.
+constexpr Real least_hourglass = 1e-3;
+
+void add_energy(const Summary& s, std::vector<Finding>& out) {
+  const EnergyLedger& e = s.energy;
+  const Real error = e.error();
+  if (!std::isfinite(e.total())) {
+    out.push_back({true, "the energy is no finite number"});
+    return;
+  }
+  if (!(std::abs(error) > s.limits.residual_doubtful)) return;
+  out.push_back(
+      {std::abs(error) > s.limits.residual_broken,
+       fmt::format("the energy balance does not close: {:.4g} [ML2/T2] {}, {:.3g} % of the {:.4g} that the "
+                   "scene held and passed; lower TSSFAC, and look at contact stiffness (SFSA, SLSFAC) and at "
+                   "where particles leave the box",
+                   std::abs(e.unexplained()), error > 0 ? "came from nowhere" : "were lost",
+                   100 * std::abs(error), e.scale())});
+}
+
+void add_leaks(const Summary& s, std::vector<Finding>& out) {
+  if (s.leaked_particles <= 0) return;
+  const Real part = static_cast<Real>(s.leaked_particles) /
+                    static_cast<Real>(std::max<std::int64_t>(s.particles, s.leaked_particles));
+  if (!(part > s.limits.leaks_doubtful)) return;
+  out.push_back(
+      {part > s.limits.leaks_broken,
+       fmt::format("{} particle{} leaked through a wall, {:.2g} % of all: make the contact stiffer (SFSA, "
+                   "SLSFAC), or lower TSSFAC for what hits the wall so fast",
+                   s.leaked_particles, s.leaked_particles == 1 ? "" : "s", 100 * part)});
+}
+
+void add_hourglass(const Summary& s, std::vector<Finding>& out) {
+  const EnergyLedger& e = s.energy;
+  const Real share = e.hourglass / std::max(std::abs(e.internal), std::abs(e.hourglass) * 1e-12);
+  if (!(e.hourglass > least_hourglass * e.scale()) || !(share > s.limits.hourglass_doubtful)) return;
+  out.push_back(
+      {share > s.limits.hourglass_broken,
+       fmt::format("hourglass energy is {:.3g} % of the internal energy: refine the mesh, or choose "
+                   "another IHQ or QM of *HOURGLASS",
+                   100 * share)});
+}
+
+void add_clamps(const Summary& s, std::vector<Finding>& out) {
+  const auto count = [&](const char* name) {
+    const auto found = s.counters.find(name);
+    return found == s.counters.end() ? std::int64_t(0) : found->second;
+  };
+  if (const auto n = count("sound_speed_clamped"); n > 0)
+    out.push_back(
+        {false, fmt::format("the sound speed was set to 0 {} times: the constants of the equation of "
+                            "state do not suit these densities",
+                            n)});
+  if (const auto n = count("deactivated_by_maxv"); n > 0)
+    out.push_back({false, fmt::format("{} particles were faster than MAXV and switched off", n)});
+  if (const auto n = count("speed_clipped"); n > 0)
+    out.push_back({false, fmt::format("speeds were cut to MAXV {} times", n)});
+}
+
+}  // namespace
+
+std::vector<Finding> findings(const Summary& s) {
+  std::vector<Finding> out;
+  if (s.termination == "error") out.push_back({true, s.reason});
+  add_leaks(s, out);
+  add_energy(s, out);
+  add_hourglass(s, out);
+  add_clamps(s, out);
+  for (std::string& text : range_warnings(s.ranges, s.limits.mach_doubtful, s.limits.density_doubtful))
+    out.push_back({false, std::move(text)});
+  return out;
+}
+
+std::string verdict_of(const std::vector<Finding>& found) {
+  if (found.empty()) return "sound";
+  for (const Finding& f : found)
+    if (f.breaks) return "broken";
+  return "doubtful";
+}
+
+void judge(Summary& s) {
+  const std::vector<Finding> found = findings(s);
+  s.verdict = verdict_of(found);
+  s.verdict_reasons.clear();
+  for (const Finding& finding : found) s.verdict_reasons.push_back(finding.text);
+}
+
+VerdictLimits verdict_limits(const Deck& deck) {
+  VerdictLimits out;
+  for (const VerdictCard& card : deck.all<VerdictCard>()) {
+    out.given = true;
+    const auto take = [](Real field, Real& limit) {
+      if (field > 0) limit = field;
+    };
+    take(card.resd, out.residual_doubtful), take(card.resb, out.residual_broken);
+    take(card.leakd, out.leaks_doubtful), take(card.leakb, out.leaks_broken);
+    take(card.hgd, out.hourglass_doubtful), take(card.hgb, out.hourglass_broken);
+    take(card.machd, out.mach_doubtful), take(card.densd, out.density_doubtful);
+  }
+  return out;
+}
+
+std::string energy_line(const EnergyLedger& e) {
+  return fmt::format("energy residual {:.3g} % of the {:.4g} [ML2/T2] that the scene held and passed",
+                     100 * e.error(), e.scale());
+}
+
+}  // namespace courant

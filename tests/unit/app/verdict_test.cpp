@@ -1,0 +1,165 @@
+// Whether a run can be trusted: limits, the scale of energies, and scenes that were judged wrongly.
+#include "app/verdict.hpp"
+
+#include <gmock/gmock.h>
+
+#include "small_scene.hpp"
+#include "time/guard.hpp"
+
+namespace courant {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+std::vector<std::string> texts(const std::vector<Finding>& found) {
+  std::vector<std::string> out;
+  for (const Finding& f : found) out.push_back(f.text);
+  return out;
+}
+std::string verdict(const Summary& s) {
+  return verdict_of(findings(s));
+}
+
+/// Energies of which `error` of 1 came from nowhere.
+Summary with_error(Real error) {
+  Summary s;
+  s.particles = 10000;
+  s.energy = {.kinetic = 0.5 + error, .external_work = 0.5, .throughput = 0.5, .peak = 0.5};
+  return s;
+}
+
+TEST(Verdict, EnergyErrorIsSoundBelowOnePerCentAndBrokenAboveTen) {
+  EXPECT_EQ(verdict(Summary()), "sound");
+  for (const Real sign : {-1, 1}) {
+    EXPECT_EQ(verdict(with_error(sign * 0.0099)), "sound");
+    EXPECT_EQ(verdict(with_error(sign * 0.0101)), "doubtful");
+    EXPECT_EQ(verdict(with_error(sign * 0.0999)), "doubtful");
+    EXPECT_EQ(verdict(with_error(sign * 0.1001)), "broken");
+  }
+  EXPECT_THAT(texts(findings(with_error(0.02))),
+              ElementsAre(HasSubstr("0.02 [ML2/T2] came from nowhere, 2 % of the 1 ")));
+  EXPECT_THAT(texts(findings(with_error(-0.02))),
+              ElementsAre(HasSubstr("0.02 [ML2/T2] were lost, 2 % of the 1 ")));
+  EXPECT_EQ(verdict(with_error(std::nan(""))), "broken");
+}
+
+// What the forces do within half a step is no error: kinetic energy is of half a step before.
+TEST(Verdict, HalfAStepIsNoError) {
+  Summary s = with_error(-0.2);
+  s.energy.half_step = 0.25;
+  EXPECT_EQ(s.energy.error(), 0);
+  s.energy.half_step = 0.15;
+  EXPECT_NEAR(s.energy.error(), -0.05, 1e-12);
+  s.energy.half_step = -0.1;  // away from it
+  EXPECT_NEAR(s.energy.error(), -0.2, 1e-12);
+}
+
+// Differences of large numbers, wherever heights count from.
+TEST(Verdict, RoundOffIsNoError) {
+  Summary s;
+  s.energy = {.potential = 1e9 + 1e-3, .initial = 1e9, .peak = 1e-3};
+  EXPECT_EQ(s.energy.error(), 0);
+  s.energy.potential = 1e9 + 10;
+  EXPECT_GT(s.energy.error(), 1);
+}
+
+TEST(Verdict, LeaksAreDoubtfulAndManyOfThemBroken) {
+  Summary s = with_error(0);
+  s.leaked_particles = 1;
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("1 particle leaked through a wall, 0.01 % of all")));
+  EXPECT_EQ(verdict(s), "doubtful");
+  s.leaked_particles = 10;
+  EXPECT_EQ(verdict(s), "doubtful");
+  s.leaked_particles = 11;
+  EXPECT_EQ(verdict(s), "broken");
+}
+
+TEST(Verdict, HourglassEnergyAboveATenthOfTheInternalIsDoubtful) {
+  Summary s = with_error(0);
+  s.energy = {.kinetic = 0.5, .internal = 0.4, .hourglass = 0.039, .initial = 0.939, .peak = 1};
+  EXPECT_EQ(verdict(s), "sound");
+  s.energy.hourglass = 0.041;
+  EXPECT_THAT(texts(findings(s)),
+              ElementsAre(HasSubstr("hourglass energy is 10.2 % of the internal energy")));
+  EXPECT_EQ(verdict(s), "doubtful");
+  s.energy = {
+      .kinetic = 1, .internal = 1e-6, .hourglass = 1e-5, .initial = 1, .peak = 1};  // a block that flies
+  EXPECT_EQ(verdict(s), "sound");
+}
+
+TEST(Verdict, ClampsErrorsAndRangesSpeakAgainstARun) {
+  Summary s = with_error(0);
+  s.counters = {
+      {"deactivated_by_maxv", 2}, {"speed_clipped", 3}, {"sound_speed_clamped", 4}, {"mirror_crossings", 5}};
+  EXPECT_THAT(findings(s), SizeIs(3));
+  EXPECT_EQ(verdict(s), "doubtful");
+  s = with_error(0);
+  s.ranges = {{.part = 1,
+               .c0 = 10,
+               .seen = true,
+               .speed = {2.1, 7, 0.5},
+               .density_low = {1, 0, 0},
+               .density_high = {1, 0, 0}}};
+  EXPECT_THAT(texts(findings(s)),
+              ElementsAre(HasSubstr("part 1: the largest speed 2.1 (particle 7 at 0.5) is above 0.2")));
+  s.limits.mach_doubtful = 0.3;
+  EXPECT_THAT(findings(s), IsEmpty());
+  s.termination = "error", s.reason = "it fell over";
+  EXPECT_THAT(texts(findings(s)), ElementsAre("it fell over"));
+  EXPECT_EQ(verdict(s), "broken");
+}
+
+TEST(Verdict, TheDeckSetsLimits) {
+  const auto limits = [](const std::string& cards) {
+    test::SmallScene scene;
+    scene.extra = cards;
+    return verdict_limits(test::build(scene)->deck());
+  };
+  EXPECT_FALSE(limits("").given);
+  const VerdictLimits some = limits("*COURANT_VERDICT\n0.02,,0.001,0.01\n");
+  EXPECT_TRUE(some.given);
+  EXPECT_EQ(some.residual_doubtful, 0.02);
+  EXPECT_EQ(some.residual_broken, 0.1);
+  EXPECT_EQ(some.leaks_doubtful, 0.001);
+  EXPECT_EQ(some.leaks_broken, 0.01);
+  EXPECT_EQ(some.mach_doubtful, 0.2);
+  const VerdictLimits others = limits("*COURANT_VERDICT\n,0.3,,,0.2,0.5,0.4,0.15\n");
+  EXPECT_EQ(others.residual_doubtful, 0.01);
+  EXPECT_EQ(others.residual_broken, 0.3);
+  EXPECT_EQ(others.hourglass_doubtful, 0.2);
+  EXPECT_EQ(others.hourglass_broken, 0.5);
+  EXPECT_EQ(others.mach_doubtful, 0.4);
+  EXPECT_EQ(others.density_doubtful, 0.15);
+}
+
+/// The error that the balance shows after n steps, with the forces there.
+Real error_after(const test::SmallScene& scene, int n) {
+  auto s = test::build(scene);
+  test::steps(*s, n);
+  std::string who;
+  s->evaluate(who);
+  s->guard().look(s->world(), s->clock());
+  return s->world().energy.error();
+}
+
+// At rest with a load that does not act yet, round-off of the forces is all the energy that there is.
+TEST(Verdict, RestIsSound) {
+  test::SmallScene scene;
+  scene.extra = "*LOAD_BODY_Y\n1\n*DEFINE_CURVE\n1\n0.,0.\n5.,0.\n5.1,1.\n";
+  EXPECT_LT(std::abs(error_after(scene, 3 * Guard::interval)), 1e-12);
+}
+
+// A fall loses nothing, after however few steps, and wherever heights count from.
+TEST(Verdict, FreeFallIsSound) {
+  for (const int n : {1, 2, 5, 20, 3 * Guard::interval}) {
+    test::SmallScene scene;
+    scene.extra = test::gravity_cards;
+    EXPECT_LT(std::abs(error_after(scene, n)), 1e-3) << n;
+  }
+}
+
+}  // namespace
+}  // namespace courant
