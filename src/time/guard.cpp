@@ -172,6 +172,7 @@ void Guard::keep(Archive& archive) {
   archive("initial_size", initial_size_);
   archive("initial_potential", initial_potential_);
   archive("initial_internal", initial_internal_);
+  archive("entered", entered_);
   for (std::size_t k = 0; k < ranges_.size(); ++k) {
     PartRange& r = ranges_[k];
     const Archive::Group inside(archive, fmt::format("part {}", r.part));
@@ -196,15 +197,17 @@ void Guard::note_peak(EnergyLedger& e) const {
 
 // What came in: the energy at the start, work and inflow, and what fell or expanded. Dissipation is part of
 // throughput but brings nothing in: without it an instability cannot hide behind its own friction.
-void Guard::stop_for_energy(const EnergyLedger& e, const Clock& clock) const {
+void Guard::stop_for_energy(const EnergyLedger& e, const Clock& clock) {
   if (!is_finite(e.total()))
     throw RunError(fmt::format("the energy became {} at time {:.6g}, cycle {}: the run is unstable",
                                e.total(), clock.t, clock.cycle),
                    StopCause::not_finite);
   if (clock.cycle == 0 || clock.cycle % interval != 0) return;  // whoever else asks for a look, at outputs
-  const Real entered = least_energy_ + initial_size_ + std::max(e.throughput - e.dissipated, Real(0)) +
-                       std::max(initial_potential_ - e.potential, Real(0)) +
-                       std::max(initial_internal_ - e.internal, Real(0));
+  const Real now = least_energy_ + initial_size_ + std::max(e.throughput - e.dissipated, Real(0)) +
+                   std::max(initial_potential_ - e.potential, Real(0)) +
+                   std::max(initial_internal_ - e.internal, Real(0));
+  entered_ = std::max(entered_, now);  // what fell may have risen again
+  const Real entered = entered_;
   if (e.unexplained() > most_energy * entered + round_off * size_of(e))
     throw RunError(fmt::format("the energy ran away: {:.4g} [ML2/T2] came from nowhere by time {:.6g}, cycle "
                                "{}, where {:.4g} entered; kinetic {:.4g}, internal {:.4g}, contact {:.4g}",

@@ -34,7 +34,7 @@ class Guard : public Restartable {
  private:
   void start(EnergyLedger& e);
   void note_peak(EnergyLedger& e) const;
-  void stop_for_energy(const EnergyLedger& e, const Clock& clock) const;
+  void stop_for_energy(const EnergyLedger& e, const Clock& clock);
 
   Ranges ranges_;
   Real endeng_;
@@ -42,6 +42,7 @@ class Guard : public Restartable {
   Real initial_size_ = 0;       ///< of the energies at the start, but potential [ML2/T2]
   Real initial_potential_ = 0;  ///< [ML2/T2]
   Real initial_internal_ = 0;   ///< [ML2/T2]
+  Real entered_ = 0;            ///< most energy that had come in by a look [ML2/T2]
   std::vector<char> beaten_;    ///< blocks of particles with one beyond a range
 };
 

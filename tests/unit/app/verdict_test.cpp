@@ -161,5 +161,25 @@ TEST(Verdict, FreeFallIsSound) {
   }
 }
 
+// Up again where it began, a particle has no energy but that of its height: what fell is remembered.
+TEST(Verdict, ABounceIsJudgedByTheHeightItFell) {
+  test::SmallScene scene;
+  scene.n = 1, scene.section = "1,1.2,1.,1.,0.12";
+  scene.eos = "*EOS_LINEAR_POLYNOMIAL\n1,0.,1.E8\n", scene.timestep = "0.,0.1";
+  scene.extra = std::string(test::gravity_cards) + test::floor_cards(-0.225, 1);
+  auto s = test::build(scene);
+  Real lowest = 1, back = -1;
+  while (s->clock().t < 0.5) {  // up again at 0.45
+    test::steps(*s, 1);
+    const Real y = s->world().particles.x.vec(0)[1];
+    if (y < lowest) lowest = back = y;
+    back = std::max(back, y);
+  }
+  s->guard().look(s->world(), s->clock());
+  EXPECT_LT(std::abs(s->world().energy.error()), 1e-3);
+  EXPECT_NEAR(lowest, -0.2, 0.02);
+  EXPECT_NEAR(back, 0.05, 1e-3);
+}
+
 }  // namespace
 }  // namespace courant
