@@ -198,6 +198,7 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
                                     const auto& law = solids ? solids : materials_[part].strength;
                                     return law ? law->bulk_modulus() : Real(0);
                                   },
+                              .body_mass = bodies_ ? bodies_->mass_by_node(world_) : std::vector<Real>{},
                               .reach_margin = neighbours_->largest_skin()},
                              world_, diagnostics);
   if (!diagnostics.ok()) return;
@@ -234,7 +235,9 @@ Ranges Simulation::reference_of_parts() const {
 // Sum of m c^2: far above all energies of a scene, and known before anything moves.
 Real Simulation::rest_energy() const {
   const Particles& p = world_.particles;
-  Real e = sum(p.size(), [&](Index i) { return p.m[i] * std::pow(materials_[p.part[i]].c0(), 2); });
+  Real e = sum(p.size(), [&](Index i) {  // of inlets none, as their particles are made up to ENDTIM
+    return p.state[i] == particle_waiting ? Real(0) : p.m[i] * std::pow(materials_[p.part[i]].c0(), 2);
+  });
   for (const auto& group : world_.groups) {
     const auto part = static_cast<std::size_t>(group->part);
     const Real c = part < solids_.size() && solids_[part].law ? solids_[part].law->sound_speed() : 0;

@@ -37,6 +37,20 @@ const RegisterKeyword<V> verdict_card{
               {"DENSD", &V::densd, "-", "doubtful above this change of a liquid's density; 0: 0.1",
                share}}}}}};
 
+/// What walls did beyond their penalty matters where it took energy.
+void add_held(const Summary& s, std::vector<Finding>& out) {
+  const auto energy = s.maxima.find("contact_held_energy");
+  if (energy == s.maxima.end()) return;
+  const Real share = energy->second / s.energy.scale();
+  if (!(share > s.limits.residual_doubtful)) return;
+  out.push_back(
+      {false,
+       fmt::format("walls stopped particles that their penalty could not hold, which took {:.3g} % of the "
+                   "scene's energy as a plastic impact does: make the contact stiffer (SFSA, SLSFAC, SOFT 1) "
+                   "where the rebound matters",
+                   100 * share)});
+}
+
 /// Hourglass energy below this share of all that the scene is about does no harm.
 constexpr Real least_hourglass = 1e-3;
 
@@ -102,6 +116,7 @@ std::vector<Finding> findings(const Summary& s) {
   std::vector<Finding> out;
   if (s.termination == "error") out.push_back({true, s.reason});
   add_leaks(s, out);
+  add_held(s, out);
   add_energy(s, out);
   add_hourglass(s, out);
   add_clamps(s, out);

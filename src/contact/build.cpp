@@ -98,7 +98,8 @@ std::vector<InterfaceLawsOf>& interface_law_registry() {
 
 namespace {
 
-ContactLaw law_of(const ContactNodesToSurface& c, const ControlContact* control, int number) {
+ContactLaw law_of(const Deck& deck, const ContactNodesToSurface& c, int number) {
+  const ControlContact* control = deck.last<ControlContact>();
   ContactLaw law;
   law.id = c.cid > 0 ? c.cid : number;
   law.title = c.title;
@@ -112,6 +113,8 @@ ContactLaw law_of(const ContactNodesToSurface& c, const ControlContact* control,
   law.vdc = c.vdc;
   law.birth = c.bt, law.death = c.dt;
   law.soft = c.soft, law.sofscl = c.sofscl, law.dtstif = c.dtstif;
+  for (const LiteralPenalty& card : deck.all<LiteralPenalty>())
+    law.literal = law.literal || card.cid == 0 || card.cid == law.id;
   return law;
 }
 
@@ -121,6 +124,10 @@ std::vector<AskedInterfaceLaw> interface_laws(const Deck& deck, Diagnostics& dia
   Id number = 0;
   for (const ContactNodesToSurface& c : deck.all<ContactNodesToSurface>())
     ++number, contacts.insert(c.cid > 0 ? c.cid : number);
+  for (const LiteralPenalty& card : deck.all<LiteralPenalty>())
+    if (card.cid > 0 && !contacts.contains(card.cid))
+      deck.error(diagnostics, card, "CID", fmt::format("contact {} does not exist", card.cid),
+                 "give the id of a *CONTACT");
   for (const InterfaceLawsOf& laws : interface_law_registry())
     for (AskedInterfaceLaw& one : laws(deck)) {
       if (!contacts.contains(one.contact))
@@ -157,8 +164,8 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
     const std::vector<bool> tracked = builder.tracked(c);
     const std::vector<Index> segments = builder.segments(c);
     if (diagnostics.errors() > errors || segments.empty()) continue;
-    auto contact = std::make_shared<Contact>(law_of(c, deck.last<ControlContact>(), number), options, number,
-                                             segments, tracked, world);
+    auto contact =
+        std::make_shared<Contact>(law_of(deck, c, number), options, number, segments, tracked, world);
     for (const AskedInterfaceLaw& one : laws)
       if (one.contact == contact->report().id) contact->add_law(one.law);
     const Contact::Penetrations p = contact->penetrations(world);

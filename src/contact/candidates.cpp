@@ -10,7 +10,7 @@ namespace courant {
 
 void Contact::refreshed(World& world, const Clock& clock, std::span<const Index> old_of_new) {
   update_facets(world, clock);
-  if (!moving_.empty()) grid_.build(facets_, reach_);
+  look_further(world);
   forget_left(world, old_of_new);
   listed_ = world.particles.active;
   near_wall_ = shared_fields::near_wall.find(world.particles.fields);
@@ -32,9 +32,8 @@ void Contact::forget_left(const World& world, std::span<const Index> old_of_new)
 void Contact::list_block(World& world, const Clock& clock, Index begin, Index end) {
   Block& b = blocks_[begin / block_size];
   b.slots.clear(), b.candidate.clear(), b.side.clear();
-  b.touches.clear(), b.drags.clear(), b.crossed.clear(), b.reactions.clear();
+  b.clear_touches();
   b.leapt.clear();
-  b.deepest = 0;
   const Particles& p = world.particles;
   for (Index i = begin; i < end; ++i) {
     Slot slot;

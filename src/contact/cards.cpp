@@ -270,5 +270,14 @@ const RegisterKeyword<K> control_contact{
                      {"PSTIFF", &K::pstiff, "-", "option of SOFT 2", {.honour = ignored}}},
           .optional = true}}}};
 
+const RegisterKeyword<LiteralPenalty> literal_penalty{
+    {.names = {"COURANT_LITERAL_PENALTY"},
+     .purpose = "contact whose walls do nothing but their penalty, whoever goes through",
+     .cards = {{.fields = {{"CID",
+                            &LiteralPenalty::cid,
+                            "-",
+                            "id of the *CONTACT, or its number among those without; 0: all",
+                            {.check = Check::not_negative}}}}}}};
+
 }  // namespace
 }  // namespace courant

@@ -24,6 +24,11 @@ struct ContactNodesToSurface : Entry {
   Real fricsf = 1;
 };
 
+/// *COURANT_LITERAL_PENALTY
+struct LiteralPenalty : Entry {
+  Id cid = 0;
+};
+
 /// *CONTROL_CONTACT
 struct ControlContact : Entry {
   Real slsfac = 0.1, rwpnal = 0, xpene = 4;

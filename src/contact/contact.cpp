@@ -19,7 +19,7 @@ constexpr Real apart_of_contact_distance = 2e-4;
 
 /// Stiffness of a segment, K A / (longest diagonal) of a shell, K A^2 / V of the skin of a solid, and the
 /// least mass of its nodes.
-void give_stiffness(Facet& f, const ContactLaw& law, const World& world) {
+void give_stiffness(Facet& f, const ContactLaw& law, const std::vector<Real>& body_mass, const World& world) {
   const Segments& g = world.segments;
   const auto a = g.nodes(f.segment);
   Corners x;
@@ -33,9 +33,10 @@ void give_stiffness(Facet& f, const ContactLaw& law, const World& world) {
   const Real length = world.dim == 2 ? 1 : V > 0 ? area * area / V : area / diagonal;
   f.k = law.slsfac * law.sfsb * g.K[f.segment] * length;
   f.r = law.sbst > 0 ? 0.5 * law.sbst : 0.5 * g.thickness[f.segment] * law.sfsbt;
-  f.m = infinity;
-  if (f.moves)
-    for (const Index n : a) f.m = std::min(f.m, world.nodes.m[n]);
+  f.m = infinity, f.body = infinity;
+  if (!f.moves) return;
+  f.body = body_mass.empty() ? 0 : body_mass[static_cast<std::size_t>(f.node[0])];
+  for (const Index n : a) f.m = std::min(f.m, world.nodes.m[n]);
 }
 
 Field<Real>* particle_field(World& world, const std::string& name, const std::string& dimension,
@@ -52,7 +53,8 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
       number_(number),
       dim_(world.dim),
       friction_on_(law_.fs > 0 || law_.fd > 0),
-      drag_on_(friction_on_ || law_.vdc > 0) {
+      drag_on_(friction_on_ || law_.vdc > 0),
+      hold_(!law_.literal) {
   const std::string prefix = fmt::format("contact_{}_", number_);
   Particles& p = world.particles;
   k_particle_ = particle_field(world, prefix + "stiffness", "M/T2", 1);
@@ -73,7 +75,7 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
   facets_ = make_facets(world, segments);
   Real r = 0, k_facet = 0, m_facet = infinity;
   for (Facet& f : facets_) {
-    give_stiffness(f, law_, world);
+    give_stiffness(f, law_, options_.body_mass, world);
     if (f.moves) moving_.push_back(Index(&f - facets_.data()));
     walls_.push_back(make_wall(f));
     r = std::max(r, f.r);
@@ -104,25 +106,32 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
   limit_ *= std::min(Real(1), 0.9 * std::sqrt(Real(2)) * (std::sqrt(1 + xi * xi) - xi));
   // The second wall of an obtuse corner acts up to 1.4 r away from it, so the list looks a little beyond r.
   r_most_ = r + radius;
+  find_least_distance(p);
   reach_ = 1.5 * r_most_ + options_.reach_margin;
   grid_.build(facets_, reach_);
-  choose_shortcuts(world);
+  choose_shortcuts();
+}
+
+void Contact::find_least_distance(const Particles& p) {
+  r_least_ = infinity;
+  for (const Facet& f : facets_) r_least_ = std::min(r_least_, f.r);
+  Real radius = radius_ ? infinity : radius_all_;
+  if (radius_)
+    for (Index i = 0; i < p.size(); ++i)
+      if ((*k_particle_)[i] > 0) radius = std::min(radius, (*radius_)[i]);
+  r_least_ += radius;
 }
 
 // Where coordinates are so large that round-off is no longer far below the margins of the shortcuts, there
 // are none.
-void Contact::choose_shortcuts(const World& world) {
+void Contact::choose_shortcuts() {
   if (!options_.shortcuts || facets_.empty()) return;
-  Real r = infinity, size = infinity, largest = 0;
+  Real size = infinity, largest = 0;
   for (const Facet& f : facets_) {
-    r = std::min(r, f.r), size = std::min(size, f.radius);
+    size = std::min(size, f.radius);
     for (int e = 0; e < f.corners; ++e) largest = std::max(largest, f.x[e].cwiseAbs().maxCoeff());
   }
-  Real radius = radius_ ? infinity : radius_all_;
-  if (radius_)
-    for (Index i = 0; i < world.particles.size(); ++i)
-      if ((*k_particle_)[i] > 0) radius = std::min(radius, (*radius_)[i]);
-  r += radius;
+  const Real r = r_least_;
   if (!std::isfinite(r)) return;
   // with room for walls that move away
   const Real round_off = 4 * std::numeric_limits<Real>::epsilon() * (largest + 100 * reach_);
@@ -146,7 +155,7 @@ void Contact::declare(const World& world, Accesses& a) const {
   }
   const bool moves = !moving_.empty(), held = moving_.size() != facets_.size();
   const bool sleeps = law_.birth > 0 || law_.death < ContactLaw().death;
-  if (moves && drag_on_) a.reads(n.v, Reach::others);
+  if (moves) a.reads(n.v, Reach::others);
   a.in_start();
   if (sleeps) a.reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*admissible_);
   if (moves) a.reads(n.x, Reach::others).reads(n.v, Reach::others);
@@ -171,13 +180,18 @@ void Contact::update_facets(const World& world, const Clock& clock) {
     return most;
   });
   travel_ += std::sqrt(moved2) * (1 + clear_margin);
+  wall_speed_ = std::sqrt(maximum(Index(moving_.size()), [&](Index k) {
+    Real most = 0;
+    for (const Index n : facets_[moving_[k]].node)
+      if (n >= 0) most = std::max(most, world.nodes.v.vec(n).squaredNorm());
+    return most;
+  }));
 }
 
 void Contact::fall_asleep(World& world) {
   if (asleep_) return;
   for (Block& b : blocks_) {
-    b.touches.clear(), b.drags.clear(), b.crossed.clear(), b.reactions.clear();
-    b.deepest = 0;
+    b.clear_touches();
     for (Slot& slot : b.slots) slot.behind = false, slot.room = 0;
   }
   for (int k = 0; k < 3; ++k) std::fill_n(admissible_->data(k), world.particles.size(), 0.0);
@@ -215,10 +229,15 @@ void Contact::count_leaks(World& world, const std::vector<Index>& particles) {
 
 void Contact::finish(World& world, const Clock&) {
   Real deepest = 0;
+  held_now_ = touching_ = 0;
+  tight_ = false;
   for (const Block& b : blocks_) {
     deepest = std::max(deepest, b.deepest);
+    tight_ = tight_ || b.tight;
+    held_now_ += b.held, touching_ += static_cast<Index>(b.touches.size());
     count_leaks(world, b.crossed);
   }
+  if (held_now_ > 0) world.counters["contact_held"] += held_now_;
   if (!moving_.empty()) gather_reactions();
   if (deepest > 0) {
     Real& most = world.maxima["max_penetration"];
@@ -246,15 +265,23 @@ void Contact::give_to_wall(World& world, const Block& b, std::size_t touch,
   written_.push_back(s);
 }
 
-TimeLimit::Limit Contact::limit(const World&, const Clock&) {
+TimeLimit::Limit Contact::limit(const World& world, const Clock& clock) {
   Real dt = limit_;
+  std::string who = name() + " (particle stiffness)";
   const Real soft = law_.dtstif > 0 ? law_.dtstif : soft_dt_;
   if (law_.soft == 1 && soft > 0) dt = std::min(dt, 2 * soft / std::sqrt(law_.sofscl));
-  return {dt, name() + " (particle stiffness)"};
+  if (const Real longest = longest_step(clock.dt_old); longest < dt)
+    dt = longest, who = name() + " (particles held)";
+  for (const Block& b : blocks_)
+    if (b.approaching >= 0 && b.approach_dt < dt)
+      dt = b.approach_dt,
+      who = fmt::format("{} (approach of particle {})", name(), world.particles.id[b.approaching]);
+  return {dt, who};
 }
 
 // Work of the step from the force at t^n and the mean of the velocities before and after the kick.
 void Contact::record(World& world, const Clock& clock, EnergyLedger& ledger) {
+  record_held(world, clock, ledger);
   if (!drag_on_) return;
   const Particles& p = world.particles;
   const Real before = damping_work_ + friction_work_;

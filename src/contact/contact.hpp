@@ -3,6 +3,7 @@
 // in 2D. See docs/theory.md.
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -27,6 +28,8 @@ struct ContactOptions {
   /// Bulk modulus of the law of strength of a part; 0: none, or one that leaves pressure to an equation of
   /// state. [M/LT2]
   std::function<Real(Index part)> bulk_modulus = [](Index) { return Real(0); };
+  /// By node of the world: see Facet::body. Empty: there are no rigid bodies.
+  std::vector<Real> body_mass{};
   Real reach_margin = 0;  ///< particles and nodes move at most half of this between two refreshes [L]
   bool shortcuts = true;  ///< off: every candidate is looked at in every step, with the same result
 };
@@ -42,6 +45,7 @@ struct ContactLaw {
   Real birth = 0, death = 1e20;                   ///< [T]
   Real sofscl = 0.1, dtstif = 0;                  ///< SOFT 1: scale [-] and step if given [T]
   int soft = 0, penopt = 1;
+  bool literal = false;  ///< the penalty alone acts, whoever goes through
 };
 
 /// The interface at work. A particle with distance d < r to the walls is pushed by k (r - d) along the
@@ -100,6 +104,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
     Index particle, facet;
     Real share, depth, k;
     Vec n, q;
+    Real held = 0;  ///< what the wall adds along n to the penalty (hold.cpp) [ML/T2]
   };
   struct Drag {        ///< what friction and damping add to a touch
     Real damping = 0;  ///< part of the normal force that is damping [ML/T2]
@@ -153,12 +158,26 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
     Real deepest = 0;               ///< touch [L]
     std::vector<Reaction> reactions;
     Real damping_work = 0, friction_work = 0;  ///< dissipated in this step [ML2/T2]
+    bool tight = false;                        ///< a longer step would need more of them
+    Index held = 0;                            ///< touches that the penalty alone cannot hold
+    Real approach_dt = 0;                      ///< longest step before a particle is seen again [T]
+    Index approaching = -1;                    ///< that particle
+    void clear_touches() {
+      touches.clear(), drags.clear(), crossed.clear(), reactions.clear();
+      deepest = 0, held = 0, tight = false, approaching = -1,
+      approach_dt = std::numeric_limits<Real>::infinity();
+    }
   };
   struct Near;  ///< scratch of one particle's search
+  struct Holding {
+    Real force = 0;      ///< [ML/T2]
+    bool tight = false;  ///< the coming step must not be longer than the last one
+  };
 
   void keep_slots(Archive& archive);
   void keep_walls(Archive& archive);
-  void choose_shortcuts(const World& world);
+  void find_least_distance(const Particles& particles);
+  void choose_shortcuts();
   void update_facets(const World& world, const Clock& clock);
   void forget_left(const World& world, std::span<const Index> old_of_new);
   void list_block(World& world, const Clock& clock, Index begin, Index end);
@@ -169,7 +188,8 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   void learn_sides(const World& world, const Clock& clock, Block& b, const Slot& slot) const;
   void fall_asleep(World& world);
   void touch(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes);
-  bool touch_one_wall(const World& world, Block& b, Slot& slot, const Vec& x, Real* const f[]) const;
+  bool touch_one_wall(const World& world, const Clock& clock, Block& b, Slot& slot, const Vec& x,
+                      Real* const f[]) const;
   bool quick_touch(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const;
   bool quick_pushes(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const;
   bool is_at_joint(const Slot& slot, const Vec& x) const;
@@ -186,6 +206,14 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   bool consider(const Near& near, Index c, const Vec& y, const Pushes& pushes, Push& worst,
                 Real& violation) const;
   void forces_of(World& world, const Clock& clock, Block& b, const Slot& slot, const Pushes& pushes);
+  void look_further(const World& world);
+  void note_approach(const World& world, Block& b, const Slot& slot, Real dt) const;
+  Holding holding(Index i, const Push& p, const Facet& f, const Vec& relative, const Vec& force,
+                  const World& world, Real dt) const;
+  Real longest_step(Real dt_old) const;
+  void hold(World& world, const Clock& clock, Block& b, Index i, const Pushes& pushes,
+            std::size_t first_touch, Vec& total);
+  void record_held(World& world, const Clock& clock, EnergyLedger& ledger);
   Vec friction_force(const World& world, const Clock& clock, Index i, Real fn, const Vec& v, const Vec& n,
                      Real k) const;
   void keep_friction(const Block& b, Index particle, std::size_t first_touch);
@@ -218,7 +246,14 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   FacetGrid grid_;
   Real reach_ = 0, radius_all_ = 0;
   Real r_most_ = 0;  ///< largest contact distance [L]
-  Real limit_ = 0, soft_dt_ = 0;
+  Real limit_ = 0;
+  Real soft_dt_ = 0;          ///< longest step so far [T]
+  bool hold_ = true;          ///< particles that the penalty does not
+  Real r_least_ = 0;          ///< smallest contact distance [L]
+  Real wall_speed_ = 0;       ///< largest, of the corners [L/T]
+  Index touching_ = 0;        ///< touches of the latest evaluation
+  Index held_now_ = 0;        ///< those of them that are held
+  bool tight_ = false;        ///< the next step must not be longer than the last one
   bool search_less_ = false;  ///< options_.shortcuts, unless round-off forbids them
 
   Field<Real>* k_particle_ = nullptr;  ///< penalty stiffness of the particle; 0: not tracked

@@ -16,6 +16,8 @@ constexpr Real surely_out = 0.5 * depth_tolerance, surely_in = 2 * depth_toleran
 /// 1 - cos of a push that goes less than half a margin sideways (apart_of_contact_distance).
 constexpr Real straight = 1e-8;
 
+constexpr Real infinite = std::numeric_limits<Real>::infinity();
+
 /// Pair loops push walls out of the cache in every step, and a slot takes less time than it takes to fetch
 /// its wall.
 constexpr std::ptrdiff_t slots_ahead = 8;
@@ -30,25 +32,30 @@ void fetch(const Wall& wall) {
 void Contact::block(World& world, const Clock& clock, Index begin, Index) {
   if (asleep_) return;
   Block& b = blocks_[begin / block_size];
-  b.touches.clear(), b.drags.clear(), b.crossed.clear(), b.reactions.clear();
-  b.deepest = 0;
+  b.clear_touches();
+  const Real dt = soft_dt_ > 0 ? soft_dt_ : limit_;
+  const Real calm = std::max(0.5 * r_least_ / dt - wall_speed_, Real(0)),
+             calm2 = hold_ ? calm * calm : infinite;
   const auto& x = world.particles.x;
   const Real* const at[3] = {x.data(0), x.data(1), x.data(2)};
+  const auto& v = world.particles.v;
   Real* const f[3] = {world.particles.f.data(0), world.particles.f.data(1), world.particles.f.data(2)};
   Pushes pushes;
   const Slot* const end_of_slots = b.slots.data() + b.slots.size();
   for (Slot& slot : b.slots) {
     const Index i = slot.particle;
     if (end_of_slots - &slot > slots_ahead) fetch(walls_[(&slot + slots_ahead)->facet[0]]);
+    if (v.vec(i).squaredNorm() > calm2) note_approach(world, b, slot, dt);
     if (slot.walls == 1 && !drag_on_ && !slot.behind &&
-        touch_one_wall(world, b, slot, Vec(at[0][i], at[1][i], at[2][i]), f))
+        touch_one_wall(world, clock, b, slot, Vec(at[0][i], at[1][i], at[2][i]), f))
       continue;
     touch(world, clock, b, slot, pushes);
   }
 }
 
 // By far the most frequent case, so without the detour over pushes. Returns false where that is not sure.
-bool Contact::touch_one_wall(const World& world, Block& b, Slot& slot, const Vec& x, Real* const f[]) const {
+bool Contact::touch_one_wall(const World& world, const Clock& clock, Block& b, Slot& slot, const Vec& x,
+                             Real* const f[]) const {
   const Wall* w = &walls_[slot.facet[0]];
   const Index i = slot.particle;
   const Real r = contact_distance(i, *w);
@@ -62,9 +69,15 @@ bool Contact::touch_one_wall(const World& world, Block& b, Slot& slot, const Vec
   }
   const Real depth = r - a;
   if (!(depth > surely_in * r) || !(a > clear_margin * r)) return false;
-  slot.room = 0;
   const Vec n = slot.side[0] * w->n;
   const Real k = stiffness(i, slot.k, w->k, facets_[slot.facet[0]], world);
+  if (hold_ && clock.dt_old > 0) {
+    const Push push{.facet = slot.facet[0], .n = n, .depth = depth};
+    const Vec force = Vec(f[0][i], f[1][i], f[2][i]) + k * depth * n;
+    if (holding(i, push, facets_[push.facet], world.particles.v.vec(i), force, world, clock.dt_old).tight)
+      return false;
+  }
+  slot.room = 0;
   b.touches.push_back({.particle = i,
                        .facet = slot.facet[0],
                        .share = depth,

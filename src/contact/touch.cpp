@@ -206,6 +206,7 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
   const Index i = slot.particle;
   const Real m = world.particles.m[i];
   Vec total = Vec::Zero();
+  const std::size_t first_touch = b.touches.size();
   for (int j = 0; j < pushes.count; ++j) {
     const Push& p = pushes.at[j];
     if (!(p.share > 0)) continue;
@@ -237,15 +238,17 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
     total += force;
     if (f.moves) b.reactions.push_back({p.facet, -force, shape_functions(f, p.q)});
   }
+  hold(world, clock, b, i, pushes, first_touch, total);
   world.particles.f.add(i, total);
 }
 
 /// On the particle
 Vec Contact::force_of(const Block& b, std::size_t touch) const {
   const Touch& a = b.touches[touch];
-  Vec f = a.k * a.share * a.n;
+  Vec f = (a.k * a.share + a.held) * a.n;
   if (drag_on_)
-    f = (a.k * a.share + b.drags[touch].damping) * a.n + b.drags[touch].friction + b.drags[touch].other;
+    f = (a.k * a.share + b.drags[touch].damping + a.held) * a.n + b.drags[touch].friction +
+        b.drags[touch].other;
   if (dim_ == 2) f.z() = 0;
   return f;
 }

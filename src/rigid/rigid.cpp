@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "parallel/parallel.hpp"
@@ -180,6 +181,15 @@ Real RigidBodies::kinetic_energy() const {
   for (const RigidBody& b : bodies_)
     if (!b.fixed()) e += b.kinetic_energy();
   return e;
+}
+
+std::vector<Real> RigidBodies::mass_by_node(const World& world) const {
+  std::vector<Real> out(static_cast<std::size_t>(world.nodes.size()), 0);
+  for (const RigidBody& b : bodies_)
+    for (const Index n : b.nodes)
+      out[static_cast<std::size_t>(n)] =
+          b.fixed() || !b.motions.empty() ? std::numeric_limits<Real>::infinity() : b.m;
+  return out;
 }
 
 Real RigidBodies::rest_energy() const {

@@ -93,6 +93,9 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   /// directions that are held or driven twice, rotations of bodies that may turn about another axis, too.
   void follow(const std::vector<PrescribedMotion>& motions, const Deck& deck, const Model& model,
               Diagnostics& diagnostics);
+  /// By node of the world: mass of its body, infinity where the body is held or driven, 0 where there is
+  /// none.
+  std::vector<Real> mass_by_node(const World& world) const;
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   /// Force and moment are those on the free body; zero for bodies that are fixed.

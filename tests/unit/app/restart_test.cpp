@@ -94,6 +94,11 @@ TEST(Restart, FallingBlockOnAFloor) {
               {0, 1, 7, 60, 113}, 170);
 }
 
+// At the speed of sound: before walls are near, while they hold particles, and after.
+TEST(Restart, ParticlesThatAWallHolds) {
+  expect_same({.start = "3.,-30.,0.", .extra = test::floor_cards(-0.225)}, {1, 6, 15, 40}, 90);
+}
+
 TEST(Restart, EveryKernel) {
   for (const char* section : {"1,1.2,1.,1.,0.,0.,0.,1", "1,1.2,0.5,2.,0.,0.,0.,2", "1,1.2,1.,1.,0.,0.,0.,3"})
     expect_same({.section = section, .extra = test::gravity_cards + test::floor_cards()}, {40}, 90);

@@ -207,6 +207,7 @@ TEST(Stop, LeaksThroughThinWallsAreCounted) {
   scene.extra = test::floor_cards(-0.4);
   const std::string thick = "2,2\n0.05\n";
   scene.extra.replace(scene.extra.find(thick), thick.size(), "2,2\n0.001\n");
+  scene.extra += "*COURANT_LITERAL_PENALTY\n0\n";
   auto s = build(scene);
   EXPECT_EQ(run_on(*s, 40).text, "");
   EXPECT_LT(s->world().particles.x.vec(0)[1], -1);
