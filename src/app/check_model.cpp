@@ -116,6 +116,20 @@ void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
   }
 }
 
+/// Of a body that can turn: what it has, and with all mass at its nodes.
+std::string inertia_text(const Simulation& s, Id part) {
+  if (!s.bodies()) return {};
+  for (const RigidBody& b : s.bodies()->bodies()) {
+    if (b.part != part || (b.no_turn[0] && b.no_turn[1] && b.no_turn[2])) continue;
+    const Vec own = b.J0.diagonal(), lumped = b.J_lumped.diagonal();
+    return fmt::format(
+        "  part {}: Jxx, Jyy, Jzz {:.5g} {:.5g} {:.5g} [ML2]; were all mass at the nodes {:.5g} {:.5g} "
+        "{:.5g}\n",
+        part, own[0], own[1], own[2], lumped[0], lumped[1], lumped[2]);
+  }
+  return {};
+}
+
 std::string part_table(const Simulation& s, std::vector<Real>& sound_speeds) {
   std::vector<PartRow> rows(s.model().parts.size());
   add_particles(s, rows);
@@ -137,6 +151,7 @@ std::string part_table(const Simulation& s, std::vector<Real>& sound_speeds) {
     if (r.nearest < 0.9 * r.spacing)
       remarks += fmt::format("  part {}: nearest neighbours are {:.4g} to {:.4g} [L] apart\n", part.id,
                              r.nearest, r.spacing);
+    remarks += inertia_text(s, part.id);
     if (r.count == 0) remarks += fmt::format("  part {}: no elements\n", part.id);
   }
   return text + remarks;

@@ -6,7 +6,9 @@
 #include <map>
 #include <set>
 
+#include "keyword/registry.hpp"
 #include "model/transforms/transformation.hpp"
+#include "rigid/inertia.hpp"
 #include "rigid/mat_rigid.hpp"
 #include "rigid/rigid.hpp"
 
@@ -40,22 +42,59 @@ void read_constraints(const Deck& deck, const MatRigid& m, RigidBody& body, Diag
   body.no_turn = axes_of_code(code("CON2", m.con2));
 }
 
-void sum_mass(RigidBody& b, const World& world) {
+/// *COURANT_RIGID_INERTIA
+struct RigidInertia : Entry {
+  int lumped = 0;
+};
+const RegisterKeyword<RigidInertia> rigid_inertia{
+    {.names = {"COURANT_RIGID_INERTIA"},
+     .purpose = "where the mass of rigid bodies is",
+     .once = true,
+     .many = false,
+     .cards = {{.fields = {{"LUMPED",
+                            &RigidInertia::lumped,
+                            "-",
+                            "0: spread over the elements, 1: at their nodes, in equal shares",
+                            {.allowed = {0, 1}}}}}}}};
+
+/// Masses at the nodes of the body, in equal shares of each element.
+MassIntegrals lumped(const RigidBody& b, const World& world) {
   const Nodes& nodes = world.nodes;
-  Vec momentum = Vec::Zero();
-  for (const Index n : b.nodes) {
-    b.m += nodes.m[n];
-    b.x += nodes.m[n] * nodes.x.vec(n);
-    momentum += nodes.m[n] * nodes.v.vec(n);
+  MassIntegrals out{.origin = nodes.x.vec(b.nodes.front())};
+  for (const Index n : b.nodes) out.add_point(nodes.m[n], nodes.x.vec(n), nodes.v.vec(n));
+  return out;
+}
+
+/// Over the shells of the body, which have one thickness and density, and its nodes' shares of solids that
+/// are fixed to it. `total`: the mass of all of that [M].
+MassIntegrals integrated(const RigidBody& b, Real total, const World& world) {
+  const Nodes& nodes = world.nodes;
+  const Segments& g = world.segments;
+  const Vec origin = nodes.x.vec(b.nodes.front());
+  MassIntegrals solids{.origin = origin}, out{.origin = origin};
+  const std::set<Index> mine(b.nodes.begin(), b.nodes.end());
+  for (const auto& group : world.groups)
+    for (int c = 0; c < group->corners(); ++c)
+      for (Index e = 0; e < group->size(); ++e)
+        if (const Index n = group->node.data(c)[e]; mine.contains(n))
+          solids.add_point(group->mass[e] / group->corners(), nodes.x.vec(n), nodes.v.vec(n));
+  for (Index s = 0; s < g.size(); ++s) {
+    if (g.part[s] != b.part_index) continue;
+    const std::array<Index, 4> a = g.nodes(s);
+    Quadrilateral x, v;
+    for (std::size_t e = 0; e < 4; ++e) x[e] = nodes.x.vec(a[e]), v[e] = nodes.v.vec(a[e]);
+    add_shell(x, v, g.thickness[s], out);
   }
-  b.x /= b.m;
-  b.v = momentum / b.m;
-  for (const Index n : b.nodes) {
-    const Vec X = nodes.x.vec(n) - b.x;
-    b.X.push_back(X);
-    b.J0 += nodes.m[n] * (X.squaredNorm() * Matrix::Identity() - X * X.transpose());
-    b.L += nodes.m[n] * X.cross(nodes.v.vec(n) - b.v);
-  }
+  out *= (total - solids.m) / out.m;  // so far it was the area
+  out += solids;
+  return out;
+}
+
+void take_mass(RigidBody& b, const MassIntegrals& sums, const World& world) {
+  b.m = sums.m, b.x = sums.centre();
+  b.v = sums.momentum / b.m, b.L = sums.angular_momentum();
+  b.J0 = sums.inertia();
+  for (const Index n : b.nodes) b.X.push_back(world.nodes.x.vec(n) - b.x);
 }
 
 // Inertia of the axes that may turn; singular if all nodes lie on a line.
@@ -104,8 +143,11 @@ class Builder {
         }
     b.nodes.assign(nodes.begin(), nodes.end());
     if (!b.fixed()) warn_of_shared_nodes(part, b);
-    sum_mass(b, world_);
-    if (!(b.m > 0)) return;  // the shells' own errors tell why
+    const MassIntegrals at_nodes = lumped(b, world_);
+    if (!(at_nodes.m > 0)) return;  // the shells' own errors tell why
+    b.J_lumped = at_nodes.inertia();
+    const RigidInertia* asked = deck_.last<RigidInertia>();
+    take_mass(b, asked && asked->lumped == 1 ? at_nodes : integrated(b, at_nodes.m, world_), world_);
     if (world_.dim == 2) in_plane(part, b);
     if (!can_turn(b))
       diagnostics_.error(
@@ -138,7 +180,7 @@ class Builder {
                        "hold the body with CMO = 1, CON1 and CON2 of its *MAT_RIGID");
   }
 
-  // As LS-DYNA does; `sum_mass` finds what solids have given these nodes.
+  // As LS-DYNA does: what solids have given these nodes counts.
   void warn_of_shared_nodes(Index part, const RigidBody& b) {
     const std::set<Index> mine(b.nodes.begin(), b.nodes.end());
     std::set<Index> shared;

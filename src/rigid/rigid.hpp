@@ -38,6 +38,7 @@ struct RigidBody {
   Real m = 0;                             ///< [M]
   Real c2 = 0;                            ///< E/RO of its material, of sound squared [L2/T2]
   Matrix J0 = Matrix::Zero();             ///< inertia about the centre at t = 0, global axes [ML2]
+  Matrix J_lumped = Matrix::Zero();       ///< the same with all mass at the nodes, to compare
   Vec x = Vec::Zero(), v = Vec::Zero();   ///< centre [L], [L/T]
   Vec x0 = Vec::Zero();                   ///< centre at t = 0 [L]
   Vec L = Vec::Zero();                    ///< angular momentum about the centre [ML2/T]

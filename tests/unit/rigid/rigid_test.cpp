@@ -85,15 +85,18 @@ TEST(Shell, MissingSectionIsNamed) {
   EXPECT_NE(p.diagnostics.text().find("*SECTION_SHELL with id 4"), std::string::npos);
 }
 
-TEST(Rigid, MassCentreAndInertiaComeFromTheNodes) {
+// A plate of sides a = 1 and b = 0.5 and thickness t: J = m/12 (b^2 + t^2, a^2 + t^2, a^2 + b^2).
+TEST(Rigid, MassCentreAndInertiaAreThoseOfThePlate) {
   Plate p;
   p.build();
   const RigidBody& b = p.bodies->bodies()[0];
   EXPECT_NEAR(b.m, 5, 1e-12);
   EXPECT_NEAR((b.x - Vec(0.5, 0.25, 0.1)).norm(), 0, 1e-12);
+  const Matrix exact = (5.0 / 12 * Vec(0.25 + 1e-4, 1 + 1e-4, 1.25)).asDiagonal();
+  EXPECT_NEAR((b.J0 - exact).norm(), 0, 1e-13);
   // lumped: sum m x^2 of 5 columns of nodes with end columns half
-  EXPECT_NEAR(b.J0(1, 1), 5.0 / 4 * (2 * 0.5 * 0.25 + 2 * 0.0625), 1e-12);
-  EXPECT_NEAR(b.J0(0, 0) + b.J0(1, 1), b.J0(2, 2), 1e-12);
+  EXPECT_NEAR(b.J_lumped(1, 1), 5.0 / 4 * (2 * 0.5 * 0.25 + 2 * 0.0625), 1e-12);
+  EXPECT_NEAR(b.J_lumped(0, 0) + b.J_lumped(1, 1), b.J_lumped(2, 2), 1e-12);
 }
 
 TEST(Rigid, FreeRotationKeepsAngularMomentumAndEnergy) {
