@@ -15,13 +15,19 @@ constexpr Real most_residual = 5;  // percent
 /// The sum of what may cancel in a residual: where that is round-off of it, nothing is wrong.
 Real size_of(const EnergyLedger& e) {
   return std::abs(e.kinetic) + std::abs(e.internal) + std::abs(e.potential) + std::abs(e.contact) +
-         std::abs(e.dissipated) + std::abs(e.external_work);
+         std::abs(e.dissipated) + std::abs(e.external_work) + e.hourglass + e.bulk_viscosity;
+}
+
+/// What elements hold and have taken went through them, too.
+Real passed_through(const EnergyLedger& e) {
+  const bool has_elements = e.hourglass + e.bulk_viscosity > 0;
+  return e.throughput + (has_elements ? std::abs(e.internal) + e.hourglass + e.bulk_viscosity : 0);
 }
 
 /// Where next to nothing passed through (a gas that expands, a block that flies), the residual is compared
 /// with the energy itself.
 bool hardly_passes(const EnergyLedger& e) {
-  return !(e.throughput > 1e-3 * size_of(e));
+  return !(passed_through(e) > 1e-3 * size_of(e));
 }
 const char* residual_of(const EnergyLedger& e) {
   return hardly_passes(e) ? "the energy" : "what passed through";
@@ -74,7 +80,7 @@ std::string output_line(const Summary& s) {
 }  // namespace
 
 Real residual_percent(const EnergyLedger& e) {
-  const Real whole = hardly_passes(e) ? size_of(e) : e.throughput;
+  const Real whole = hardly_passes(e) ? size_of(e) : passed_through(e);
   return whole > 0 ? 100 * e.residual() / whole : 0;
 }
 
