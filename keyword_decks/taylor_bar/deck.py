@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Writes the deck of a Taylor bar: a quarter of a copper cylinder that hits a rigid wall along its axis.
 
-usage: deck.py [--n N] [--hourglass IHQ QM] [--tssfac F] [--fields DT] > taylor_bar.k
-The section is a square of N x N hexahedra in the middle and two rings of N x N around it, 3 N^2; along the bar they are as long as across, about
-20 N. Units: mm, ms, kg, kN, GPa. x = 0 and z = 0 are planes of symmetry, the wall is y = 0.
+usage: deck.py [--n N] [--layers L] [--hourglass IHQ QM] [--tssfac F] [--fields DT] > taylor_bar.k
+The section is a square of N x N hexahedra in the middle and two rings of N x N around it, 3 N^2; along the bar there are L layers, or 13.5 N,
+half as long again as they are across. Units: mm, ms, kg, kN, GPa. x = 0 and z = 0 are planes of symmetry, the wall is y = 0.
 """
 import argparse
 import math
@@ -50,9 +50,9 @@ def section(n):
     return places, cells
 
 
-def deck(n, hourglass=(1, 0.1), tssfac=0.9, fields=0.0):
+def deck(n, layers=0, hourglass=(1, 0.1), tssfac=0.9, fields=0.0):
     places, cells = section(n)
-    layers = round(LENGTH / (RADIUS / (2 * n)))
+    layers = layers or round(13.5 * n)
     per_layer = len(places)
     nodes, elements = [], []
     for k in range(layers + 1):
@@ -97,8 +97,9 @@ def deck(n, hourglass=(1, 0.1), tssfac=0.9, fields=0.0):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--n", type=int, default=4, help="elements across the square in the middle of the section")
+    parser.add_argument("--layers", type=int, default=0, help="elements along the bar; 0: 13.5 N")
     parser.add_argument("--hourglass", nargs=2, default=["1", "0.1"], metavar=("IHQ", "QM"))
     parser.add_argument("--tssfac", type=float, default=0.9)
     parser.add_argument("--fields", type=float, default=0.0, help="interval of field files, ms")
     a = parser.parse_args()
-    print(deck(a.n, (int(a.hourglass[0]), float(a.hourglass[1])), a.tssfac, a.fields), end="")
+    print(deck(a.n, a.layers, (int(a.hourglass[0]), float(a.hourglass[1])), a.tssfac, a.fields), end="")

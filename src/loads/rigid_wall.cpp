@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -19,6 +20,16 @@
 namespace courant {
 
 namespace {
+
+/// reduce(), which wakes no threads for a few points: a step may ask for it many times.
+template <class T, class Body, class Combine>
+T add_up(Index n, T start, const Body& body, const Combine& combine) {
+  constexpr Index few = 4096;
+  if (n > few) return reduce(n, start, body, combine);
+  for (Index begin = 0; begin < n; begin += block_size)
+    start = combine(start, body(begin, std::min(n, begin + block_size)));
+  return start;
+}
 
 /// A plane: what it is made of, and where it is.
 struct Plane {
@@ -82,7 +93,7 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     next_ = common_speed(world, clock);
     Sums all;
     for (std::size_t s = 0; s < sets_.size(); ++s)
-      all = reduce(
+      all = add_up(
           static_cast<Index>((*near_)[s].size()), all,
           [&](Index begin, Index end) {
             Sums some;
@@ -178,7 +189,7 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     for (int round = 0; round < most_rounds; ++round) {
       Body all{plane_.mass, plane_.mass * speed_};
       for (std::size_t s = 0; s < sets_.size(); ++s)
-        all = reduce(
+        all = add_up(
             static_cast<Index>((*near_)[s].size()), all,
             [&](Index begin, Index end) {
               Body some{};
@@ -281,11 +292,13 @@ class RigidWalls : public Impact {
 class RigidWallReader {
  public:
   RigidWallReader(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {}
+      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
+    for (const RigidWallPlanar& card : deck.all<RigidWallPlanar>()) taken_.insert(card.id);
+  }
 
   void add(const RigidWallPlanar& card) {
     ++number_;
-    Plane plane{.id = card.id > 0 ? card.id : number_, .title = card.title, .tail = card.tail()};
+    Plane plane{.id = card.id > 0 ? card.id : free_id(), .title = card.title, .tail = card.tail()};
     if (!read_plane(card, plane) || !read_friction(card, plane) || !read_nodes(card)) return;
     std::vector<RigidWall::Held> sets;
     Count count;
@@ -316,6 +329,13 @@ class RigidWallReader {
     Real deepest = 0;
     Id driven_id = 0, rigid_id = 0;
   };
+
+  /// Its number in the deck, unless another wall has that as its id.
+  Id free_id() {
+    Id id = number_;
+    while (!taken_.insert(id).second) ++id;
+    return id;
+  }
 
   bool error(const Entry& card, const char* field, std::string message, std::string hint) {
     deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
@@ -434,6 +454,7 @@ class RigidWallReader {
   World& world_;
   Diagnostics& diagnostics_;
   Id number_ = 0;
+  std::set<Id> taken_;
   std::vector<char> chosen_;  ///< of the model's nodes
   std::vector<std::shared_ptr<RigidWall>> walls_;
 };

@@ -160,6 +160,20 @@ TEST(Solids, PlasticOnesAtWallsHaveTheSameBitsToo) {
   expect_same_bits(crushed_block().text(1), 200);
 }
 
+// In free fall, before any stress: nodout has the acceleration of gravity.
+TEST(Solids, TellTheAccelerationOfTheirNodes) {
+  SolidDeck deck = moving_block();
+  deck.cards.erase(deck.cards.find("*INITIAL_VELOCITY"),
+                   deck.cards.find("*LOAD_BODY") - deck.cards.find("*INITIAL_VELOCITY"));
+  deck.cards += "*DATABASE_NODOUT\n      0.01\n*DATABASE_HISTORY_NODE\n         1        50\n";
+  auto s = simulation_of(deck.text(1));
+  std::string who;
+  s->evaluate(who);
+  const Sample sample = s->sample(who);
+  ASSERT_EQ(sample.nodes.size(), 2u);
+  for (const NodeSample& node : sample.nodes) EXPECT_NEAR((node.a - Vec(0, 0, -9.81)).norm(), 0, 1e-12);
+}
+
 // Walls, block and gravity: momentum along the normal of the moving wall to round-off. What the ledger lacks
 // is the bulk viscosity of the impact, as above: of the first order in the step.
 TEST(Solids, PlasticOnesAtAMovingWallKeepMomentumAndEnergy) {

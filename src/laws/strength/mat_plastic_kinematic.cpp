@@ -126,16 +126,16 @@ class PlasticKinematic : public StrengthLaw {
     if (!(q > yield)) return 0;
     const Real scale = a_.C * dt, most = (q - yield) / (stiffness + a_.isotropic);
     Real low = 0, high = std::pow(most / scale, 1 / a_.P), u = high;
-    constexpr int rounds = 200;
-    constexpr Real close = 1e-15;
-    for (int k = 0; k < rounds && high - low > close * high; ++k) {
+    constexpr int rounds = 100;
+    constexpr Real close = 1e-14;
+    for (int k = 0; k < rounds; ++k) {
       const Real de = scale * std::pow(u, a_.P), slope = u > 0 ? a_.P * de / u : 0;
       const Real excess = q - stiffness * de - (1 + u) * (yield + a_.isotropic * de);
       (excess > 0 ? low : high) = u;
       const Real fall = stiffness * slope + yield + a_.isotropic * (de + (1 + u) * slope);
-      const Real next = u + excess / fall;
-      if (next == u) break;
-      u = next > low && next < high ? next : 0.5 * (low + high);
+      const Real newton = u + excess / fall, before = u;
+      u = newton >= low && newton <= high ? newton : 0.5 * (low + high);
+      if (std::abs(u - before) <= close * u) break;
     }
     return scale * std::pow(u, a_.P);
   }

@@ -38,6 +38,14 @@ TEST(EndReport, WarnsOfLeaksAndOfALedgerThatDoesNotClose) {
   EXPECT_THAT(end_warnings(s), ElementsAre(HasSubstr("50 % of the energy came from nowhere")));
 }
 
+TEST(EndReport, WhatElementsTakeUpPassedThroughThem) {
+  Summary s;
+  s.energy = {.kinetic = 1, .internal = 97, .hourglass = 2, .dissipated = 1, .throughput = 1, .initial = 100};
+  EXPECT_THAT(end_warnings(s), IsEmpty()) << "1 of 101";
+  s.energy.internal = 103;
+  EXPECT_THAT(end_warnings(s), ElementsAre(HasSubstr("6.6 % of what passed through came from nowhere")));
+}
+
 TEST(EndReport, WarnsOfWindowsThatLastForLessThanTwoSteps) {
   Summary s = closed();
   s.steps = 300;

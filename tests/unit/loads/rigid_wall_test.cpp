@@ -363,6 +363,16 @@ TEST(RigidWall, HasTheSameBitsOnAnyNumberOfThreads) {
   for (const int threads : {2, 4}) EXPECT_EQ(run(threads), one) << threads;
 }
 
+TEST(RigidWall, HasItsIdOrItsNumberOrTheNextFreeOne) {
+  WallScene s;
+  s.walls("*RIGIDWALL_PLANAR_ID\n         2anvil\n0\n0.,0.,0.,0.,1.,0.\n" + floor_at_0 + "0.0\n" +
+          floor_at_0 + "0.0\n");
+  EXPECT_EQ(s.wall(0).id, 2);
+  EXPECT_EQ(s.wall(0).title, "anvil");
+  EXPECT_EQ(s.wall(1).id, 3) << "2 is taken";
+  EXPECT_EQ(s.wall(2).id, 4);
+}
+
 TEST(RigidWall, IsRefusedByName) {
   const auto faults = [](const std::string& cards) {
     WallScene s;
