@@ -19,7 +19,7 @@ HistoryRequests history_requests(const Simulation& s) {
   h.glstat = schedule(wanted.glstat), h.matsum = schedule(wanted.matsum), h.rcforc = schedule(wanted.rcforc);
   h.sleout = schedule(wanted.sleout), h.sphout = schedule(wanted.sphout), h.nodout = schedule(wanted.nodout);
   h.rbdout = schedule(wanted.rbdout), h.bndout = schedule(wanted.bndout);
-  h.spcforc = schedule(wanted.spcforc);
+  h.spcforc = schedule(wanted.spcforc), h.rwforc = schedule(wanted.rwforc);
   for (const HistoryNode& node : wanted.history_node)
     if (!node.title.empty()) h.nodes.push_back({node.id, node.title});
   h.title = s.model().title;
@@ -29,6 +29,10 @@ HistoryRequests history_requests(const Simulation& s) {
   for (const auto* walls : s.world().passes.all<const WallForceReporter>()) {
     const InterfaceForce all = walls->report(s.world());
     h.contacts.push_back({all.id, all.title});
+  }
+  for (const auto* wall : s.world().passes.all<const RigidWallReporter>()) {
+    const RigidWallForce one = wall->report_wall();
+    h.rigid_walls.push_back({one.id, one.title});
   }
   for (const AsciiHistory& added : ascii_histories())
     h.added.emplace_back(added.name, OutputSchedule(added.interval(s.deck())));

@@ -70,7 +70,10 @@ void sample_nodes(const std::vector<HistoryNode>& wanted, const World& world, co
     } else if (const Index n = shell_node.at(one.id); n >= 0) {
       node.x = world.nodes.x.vec(n);
       node.v = world.nodes.v.vec(n);
-      if (const auto body = body_of.find(n); body != body_of.end()) follow(*body->second, node);
+      if (const auto body = body_of.find(n); body != body_of.end())
+        follow(*body->second, node);
+      else if (!world.nodes.follow[n] && world.nodes.m[n] > 0)
+        node.a = (world.nodes.f.vec(n) + force_on(s.boundary_forces, one.id)) / world.nodes.m[n];
     }
     node.displacement = node.x - one.X;
     s.nodes.push_back(node);
@@ -140,6 +143,8 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   for (const auto* walls : world_.passes.all<const WallForceReporter>())
     s.interfaces.push_back(walls->report(world_));
   sample_boundary_forces(world_, clock_, s.boundary_forces);
+  for (const auto* wall : world_.passes.all<const RigidWallReporter>())
+    s.rigid_walls.push_back(wall->report_wall());
   for (const AsciiHistory& added : ascii_histories())
     s.added.push_back(added.interval(deck_) > 0 ? added.text(world_, clock_) : std::string());
   const std::vector<Id>& wanted = model_.output.history_sph;

@@ -104,6 +104,13 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   else
     report_what_needs_particles(diagnostics);
   add_prescribed_motions(diagnostics);
+  if (!add_rigid_walls(deck_, model_, world_, diagnostics))
+    left_out_.push_back({"rigid walls", "no *RIGIDWALL_PLANAR"});
+  else if (sph_.xsph > 0 || sph_.shift.strength > 0)
+    diagnostics.warning({deck_.files[0].name},
+                        "rigid walls stop the velocity of particles, not what shifting or averaged "
+                        "velocities move them by: they may get a little behind a wall",
+                        "use neither, or plates with *CONTACT as walls");
   if (particles) add_particle_passes(diagnostics);
   if (!diagnostics.ok()) return;
   add_node_passes(diagnostics);
@@ -316,6 +323,7 @@ std::vector<PassNote> Simulation::outputs(bool wanted) const {
       {{"rbdout", "no *DATABASE_RBDOUT"}, out.rbdout.asked()},
       {{"bndout", "no *DATABASE_BNDOUT"}, out.bndout.asked()},
       {{"spcforc", "no *DATABASE_SPCFORC"}, out.spcforc.asked()},
+      {{"rwforc", "no *DATABASE_RWFORC"}, out.rwforc.asked()},
   };
   std::vector<PassNote> notes;
   for (const auto& [note, on] : all)
@@ -330,6 +338,7 @@ std::string Simulation::passes() const {
   };
   list("exchange", world_.passes.all<Exchanger>());
   list("time limit", world_.passes.all<TimeLimit>());
+  list("impact", world_.passes.all<Impact>());
   list("energy", world_.passes.all<EnergyTerm>());
   text += fmt::format("  {:<13}every {} steps\n", "guard", Guard::interval);
   for (const PassNote& output : outputs(true)) text += fmt::format("  {:<13}{}\n", "output", output.name);

@@ -22,7 +22,8 @@ struct PointBlock {
   /// Out. Of a law that gives the deviator only: its share sqrt(4G/(3 rho)), to which the square of the
   /// equation of state's is to be added. [L/T]
   Real* sound_speed = nullptr;
-  std::span<Real* const> history{};  ///< one array for each of StrengthLaw::history()
+  /// One array for each component of each of StrengthLaw::history(), in order.
+  std::span<Real* const> history{};
 };
 
 }  // namespace courant

@@ -159,7 +159,7 @@ struct FieldRequests {
 struct OutputRequests {
   OutputTimes d3plot;
   int d3plot_count = 0;  ///< NPLTC: interval is ENDTIM / NPLTC if given
-  OutputTimes glstat, matsum, rcforc, sleout, sphout, nodout, rbdout, bndout, spcforc;
+  OutputTimes glstat, matsum, rcforc, sleout, sphout, nodout, rbdout, bndout, spcforc, rwforc;
   std::vector<Id> history_sph;            ///< particles in sphout
   std::vector<HistoryNode> history_node;  ///< nodes in nodout
   FieldRequests fields;

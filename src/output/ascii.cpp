@@ -66,6 +66,7 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
   open("rbdout", requests.rbdout, "", rbdout_text);
   open("bndout", requests.bndout, "", bndout_text);
   open("spcforc", requests.spcforc, "", spcforc_text);
+  open("rwforc", requests.rwforc, ascii_legend(requests.rigid_walls), rwforc_text);
   for (std::size_t k = 0; k < requests.added.size(); ++k)
     open(requests.added[k].first.c_str(), requests.added[k].second, "",
          [k](const Sample& s) { return k < s.added.size() ? s.added[k] : std::string(); });

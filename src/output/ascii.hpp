@@ -28,9 +28,9 @@ std::string ascii_legend(const std::vector<Legend>& entries);
 
 /// One state of glstat. LS-DYNA knows no potential energy: it counts the work of gravity as external work.
 /// Therefore external work here is `external_work + first_potential - potential`, total energy is without the
-/// potential, sliding energy holds springs, contact damping and friction, internal energy the rest of what
-/// was dissipated. The ratio is total / (initial + external work), 1 exactly when the ledger's residual is 0.
-/// first_potential: potential energy at the first state [ML2/T2].
+/// potential, sliding energy holds springs, contact damping and friction, stonewall energy what rigid walls
+/// took, internal energy the rest of what was dissipated. The ratio is total / (initial + external work), 1
+/// exactly when the ledger's residual is 0. first_potential: potential energy at the first state [ML2/T2].
 std::string glstat_text(const Sample& sample, Real first_potential);
 /// One state of matsum: per part energies, momentum, rigid body velocity.
 std::string matsum_text(const Sample& sample);
@@ -53,15 +53,19 @@ std::string bndout_text(const Sample& sample);
 /// One state of spcforc: the forces that hold particles.
 std::string spcforc_text(const Sample& sample);
 
+/// One state of rwforc: the force on each rigid wall.
+std::string rwforc_text(const Sample& sample);
+
 struct HistoryRequests {
-  OutputSchedule glstat{}, matsum{}, rcforc{}, sleout{}, sphout{}, nodout{}, rbdout{}, bndout{}, spcforc{};
+  OutputSchedule glstat{}, matsum{}, rcforc{}, sleout{}, sphout{}, nodout{}, rbdout{}, bndout{}, spcforc{},
+      rwforc{};
   /// history.h5; where it is not wanted: with the file of the shortest interval, and with those that a curve
   /// times; none if there is no other.
   OutputSchedule h5{};
   /// Histories that files add: name and schedule, in the order of their registry.
   std::vector<std::pair<std::string, OutputSchedule>> added{};
   std::string title{};
-  std::vector<Legend> parts{}, contacts{}, nodes{};
+  std::vector<Legend> parts{}, contacts{}, nodes{}, rigid_walls{};
 };
 
 /// How far the files of a run have come: what a restart cuts them back to.

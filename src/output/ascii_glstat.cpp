@@ -28,7 +28,9 @@ std::string glstat_text(const Sample& s, Real first_potential) {
   const EnergyLedger& e = s.energy;
   Real contact_dissipated = 0;
   for (const InterfaceForce& i : s.interfaces) contact_dissipated += i.energy_damping + i.energy_friction;
-  const Real internal = e.internal + e.bulk_viscosity + e.dissipated - contact_dissipated;
+  Real at_walls = 0;
+  for (const RigidWallForce& wall : s.rigid_walls) at_walls += wall.dissipated;
+  const Real internal = e.internal + e.bulk_viscosity + e.dissipated - contact_dissipated - at_walls;
   const Real external_work = e.external_work + first_potential - e.potential;
   const Real total = e.total() - e.potential;
   const Real expected = e.initial - first_potential + external_work;
@@ -38,8 +40,12 @@ std::string glstat_text(const Sample& s, Real first_potential) {
   out += line("time", s.t) + line("time step", s.dt);
   out += line("kinetic energy", e.kinetic) + line("internal energy", internal);
   if (e.hourglass != 0) out += line("hourglass energy", e.hourglass);
-  out += line("stonewall energy", 0) + line("rigid body stopper energy", 0) +
-         line("spring and damper energy", 0);
+  for (const RigidWallForce& wall : s.rigid_walls) {
+    out += line("stonewall energy", wall.dissipated);
+    out.insert(out.size() - 1, fmt::sprintf(" wall#%6d", wall.id));
+  }
+  if (s.rigid_walls.empty()) out += line("stonewall energy", 0);
+  out += line("rigid body stopper energy", 0) + line("spring and damper energy", 0);
   out += line("system damping energy", 0) + line("sliding interface energy", e.contact + contact_dissipated);
   out += line("external work", external_work);
   out += line("eroded kinetic energy", 0) + line("eroded internal energy", 0) +

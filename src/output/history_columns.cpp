@@ -122,6 +122,15 @@ void History::put_entities(const Sample& s) {
     put(group + "/energy_damping", energy, contact.energy_damping);
     put(group + "/energy_friction", energy, contact.energy_friction);
   }
+  for (const RigidWallForce& wall : s.rigid_walls) {
+    const std::string group = fmt::format("/rigid_walls/{}", wall.id);
+    titles_[group] = wall.title;
+    put(group + "/force", "ML/T2", wall.force);
+    put(group + "/impulse", "ML/T", wall.impulse);
+    put(group + "/v", "L/T", wall.v);
+    put(group + "/displacement", "L", wall.displacement);
+    put(group + "/dissipated", energy, wall.dissipated);
+  }
   put_bodies(s);
   put_points(s);
 }

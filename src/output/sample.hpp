@@ -58,6 +58,7 @@ struct Sample {
   std::vector<ParticleSample> particles;      ///< those of DATABASE_HISTORY_SPH, by id
   std::vector<NodeSample> nodes;              ///< those of DATABASE_HISTORY_NODE, by id
   std::vector<BoundaryForce> boundary_forces;
+  std::vector<RigidWallForce> rigid_walls;
   std::vector<std::string> added;  ///< states of histories that files add, in the order of their registry
 };
 

@@ -14,7 +14,7 @@ namespace courant {
 namespace {
 
 constexpr const char* known_kinds =
-    "glstat, matsum, rcforc, sleout, nodout, rbdout, bndout, spcforc and sphout are read";
+    "glstat, matsum, rcforc, sleout, nodout, rbdout, bndout, spcforc, rwforc and sphout are read";
 
 /// The lines of a file in order; each without its end.
 struct Lines {
@@ -136,6 +136,7 @@ constexpr NamedDimension dimensions[] = {
     {"bndout", "energy", energy},
     {"bndout", "etotal", energy},
     {"bndout", "", force},
+    {"rwforc", "", force},
     {"sphout", "density", "M/L3"},
     {"sphout", "smooth", "L"},
     {"sphout", "neigh", "-"},

@@ -25,10 +25,10 @@ struct AsciiColumn {
   std::vector<Real> values;  ///< one per time; NaN: not there, or stars
 };
 
-/// A glstat, matsum, rcforc, sleout, nodout, rbdout, bndout, spcforc or sphout that was read whole. The kind
-/// is told by the content, not by the name. Taken as they come: titles, legends, columns that newer versions
-/// append, slave and master for SURFA and SURFB, exponents without E (0.1-100), stars for numbers that did
-/// not fit. Where a run was restarted and its times go back, the later states count.
+/// A glstat, matsum, rcforc, sleout, nodout, rbdout, bndout, spcforc, rwforc or sphout that was read whole.
+/// The kind is told by the content, not by the name. Taken as they come: titles, legends, columns that newer
+/// versions append, slave and master for SURFA and SURFB, exponents without E (0.1-100), stars for numbers
+/// that did not fit. Where a run was restarted and its times go back, the later states count.
 class AsciiFile {
  public:
   /// Faults are reported with file and line; then there is no value.

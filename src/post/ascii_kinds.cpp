@@ -319,6 +319,30 @@ class Spcforc : public AsciiReader {
   }
 };
 
+class Rwforc : public AsciiReader {
+ public:
+  void line(std::string_view text, AsciiStates& states) override {
+    if (has(text, "normal-force")) {
+      rows_ = true, first_ = true;
+      return;
+    }
+    std::string_view rest = text;
+    if (!rows_ || stripped(text).empty()) return;
+    Real time = 0;
+    std::int64_t wall = 0;
+    if (!take_number(rest, time, 12) || !std::isfinite(time))
+      throw AsciiFault("no time at the begin of a row");
+    if (!take_id(rest, wall)) throw AsciiFault("no wall behind the time");
+    if (first_ || time != time_) states.begin(time);
+    first_ = false, time_ = time;
+    put_row(rest, {"normal", "x", "y", "z"}, 15, {"", wall}, states);
+  }
+
+ private:
+  bool rows_ = false, first_ = true;
+  Real time_ = 0;
+};
+
 class Sphout : public AsciiReader {
   std::vector<std::string> names_;
 
@@ -379,6 +403,7 @@ const std::vector<AsciiKind>& ascii_kinds() {
       {"rbdout", [](Line line) { return has(line, "r i g i d   b o d y   m o t i o n"); }, make<Rbdout>},
       {"bndout", [](Line line) { return has(line, "n o d a l   f o r c e/e n e r g y"); }, make<Bndout>},
       {"spcforc", [](Line line) { return has(line, "output at time ="); }, make<Spcforc>},
+      {"rwforc", [](Line line) { return has(line, "wall#") && has(line, "normal-force"); }, make<Rwforc>},
       {"sphout", [](Line line) { return has(line, "S P H   o u t p u t"); }, make<Sphout>}};
   return kinds;
 }

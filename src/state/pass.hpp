@@ -79,6 +79,12 @@ struct Exchanger : virtual Pass {
   virtual void exchange_all(World& world) = 0;
 };
 
+/// Changes forces once dt is chosen, before outputs and the energy balance see them: where points would be at
+/// t + dt, and so what a wall does to them, is known only then. On one thread; its loops are shared.
+struct Impact : virtual Pass {
+  virtual void strike(World& world, const Clock& clock) = 0;
+};
+
 struct TimeLimit : virtual Pass {
   struct Limit {
     Real dt;          ///< [T], infinity where there is none

@@ -49,6 +49,21 @@ struct WallForceReporter {
   virtual void show_forces(World& world) = 0;
 };
 
+/// A rigid wall (*RIGIDWALL) at t^n.
+struct RigidWallForce {
+  Id id = 0;
+  std::string title;
+  Real normal = 0;            ///< along the normal, with which all points push the wall: > 0 [ML/T2]
+  Vec force = Vec::Zero();    ///< on the wall, friction included [ML/T2]
+  Vec impulse = Vec::Zero();  ///< of that so far [ML/T]
+  Vec v = Vec::Zero(), displacement = Vec::Zero();  ///< of the wall [L/T], [L]
+  Real dissipated = 0;                              ///< energy lost at the wall so far [ML2/T2]
+};
+struct RigidWallReporter {
+  virtual ~RigidWallReporter() = default;
+  virtual RigidWallForce report_wall() const = 0;
+};
+
 /// How a rigid body moves at t^n; velocities are those of the last half step.
 struct RigidBodyMotion {
   Id part = 0;

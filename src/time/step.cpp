@@ -54,6 +54,7 @@ Stepper::Stepper(World& world, Neighbours* neighbours, StepRules rules, PassTime
       timer_(timer),
       exchangers_(world.passes.all<Exchanger>()),
       limits_(world.passes.all<TimeLimit>()),
+      impacts_(world.passes.all<Impact>()),
       terms_(world.passes.all<EnergyTerm>()) {
   if (neighbours && !world.passes.contains(*neighbours->watch())) world.passes.add(neighbours->watch());
   Schedule schedule = make_schedule(world);
@@ -69,6 +70,7 @@ void Stepper::evaluate(Clock& clock, std::string& controlled_by) {
     for (Exchanger* e : exchangers_) timer_.measure(e->name(), [&] { e->exchange_all(world_); });
   for (Stage& stage : forces_) stage.run(world_, clock);
   timer_.measure("time step", [&] { computed_ = choose_dt(world_, limits_, clock, rules_, controlled_by); });
+  for (Impact* impact : impacts_) timer_.measure(impact->name(), [&] { impact->strike(world_, clock); });
 }
 
 void Stepper::step(Clock& clock, const AtTimeLevel& at_time_level) {

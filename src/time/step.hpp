@@ -34,7 +34,8 @@ class Stepper : public Restartable {
   Stepper(World& world, Neighbours* neighbours, StepRules rules, PassTimer& timer);
 
   void step(Clock& clock, const AtTimeLevel& at_time_level);
-  /// Everything up to the choice of dt, without moving: for `courant check`.
+  /// Everything up to the choice of dt and the impacts that depend on it, without moving: for `courant
+  /// check`.
   void evaluate(Clock& clock, std::string& controlled_by);
   const std::string& stages() const { return stages_; }  ///< as text
   void keep(Archive& archive) override {
@@ -52,6 +53,7 @@ class Stepper : public Restartable {
   std::string stages_;
   std::vector<Exchanger*> exchangers_;
   std::vector<TimeLimit*> limits_;
+  std::vector<Impact*> impacts_;
   std::vector<EnergyTerm*> terms_;
   std::vector<Stage> forces_, motion_;
   TimeLimit::Limit computed_{0, {}};      ///< what passes allow, whatever DTINIT and LCTM say

@@ -192,6 +192,12 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Hexa
   for (int j = 0; j < 6; ++j) store(scratch.rate[j] + k, D[j]), s[j] = load(state.stress[j] + first, n);
   turn_tensor(h.x, h.y, h.z, s[0], s[1], s[2], s[3], s[4], s[5]);
   for (int j = 0; j < 6; ++j) store(state.stress[j] + first, s[j], n);
+  for (int t = 0; t < state.tensors; ++t) {
+    Native kept[6];
+    for (int j = 0; j < 6; ++j) kept[j] = load(state.tensor[t][j] + first, n);
+    turn_tensor(h.x, h.y, h.z, kept[0], kept[1], kept[2], kept[3], kept[4], kept[5]);
+    for (int j = 0; j < 6; ++j) store(state.tensor[t][j] + first, kept[j], n);
+  }
   const Native power =
       s[0] * D[0] + s[1] * D[1] + s[2] * D[2] + 2.0 * (s[3] * D[3] + s[4] * D[4] + s[5] * D[5]);
   store(scratch.work + k, 0.5 * dt * V * power);
@@ -245,7 +251,9 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Hexa
   const Native closing = native_max(-trace, all(0));
   const Native q = rho * l * closing * (control.Q1 * l * closing + control.Q2 * c);
   const Native length = V / area;
-  const Native Q = closing > 0.0 ? control.Q2 * c + control.Q1 * length * closing : all(0);
+  // damping ratio Q/c of a wave through the thickness of the element, of which q makes more than usual where
+  // it is flatter than a cube
+  const Native Q = closing > 0.0 ? l / length * (control.Q2 * c + control.Q1 * l * closing) : all(0);
   store(scratch.step_limit + k, length / (Q + root(Q * Q + c * c)));
   add(state.bulk_viscosity_energy + first, dt * load(scratch.middle_volume + k) * q * closing, n);
 

@@ -20,7 +20,10 @@ struct HexahedronMesh {
 
 /// Arrays over the elements of a group. The loops touch the entries of their block alone.
 struct HexahedronState {
-  Real* stress[6];        ///< Cauchy, xx yy zz xy yz zx; the deviator where there is a pressure [M/LT2]
+  static constexpr int most_tensors = 2;
+  Real* stress[6];  ///< Cauchy, xx yy zz xy yz zx; the deviator where there is a pressure [M/LT2]
+  int tensors = 0;  ///< how many tensors of the law are turned with the stress
+  Real* tensor[most_tensors][6];
   const Real* pressure;   ///< of the part's equation of state; null where it has none [M/LT2]
   const Real *V0, *rho0;  ///< reference volume and density [L3], [M/L3]
   Real* internal_energy;  ///< the work of stress is added; null: not asked for [ML2/T2]
@@ -54,8 +57,8 @@ struct HexahedronLoops {
     Index begin, count;
     Real dt;  ///< of the step that led here; 0: none yet [T]
   };
-  /// Gathers corners; D, and stress turned by the spin (Hughes-Winget), with the geometry in the middle of
-  /// the step.
+  /// Gathers corners; D, and stress and tensors of the law turned by the spin (Hughes-Winget), with the
+  /// geometry in the middle of the step.
   void (*strain)(const Block& block, const HexahedronMesh& mesh, const HexahedronState& state,
                  HexahedronScratch& scratch);
   /// Behind the law: completes the work of stress, (old turned + new stress)/2 : D V dt of the middle.

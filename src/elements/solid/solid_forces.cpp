@@ -36,7 +36,8 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
                 .Q1 = part.viscosity.q1,
                 .Q2 = part.viscosity.q2};
     for (const HistoryVariable& h : law_->history())
-      history_.push_back(&group.fields.add<Real>({.name = h.name, .dimension = h.dimension, .output = true}));
+      history_.push_back(&group.fields.add<Real>(
+          {.name = h.name, .dimension = h.dimension, .components = h.components, .output = true}));
     start_state(world);
   }
   std::string name() const override { return group_.fields.name(); }
@@ -58,7 +59,14 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     state_.bulk_viscosity_energy = bulk_viscosity_.data();
     for (int k = 0; k < 3 * group_.corners(); ++k) state_.corner_force[k] = group_.corner_force.data(k);
     history_data_.clear();
-    for (Field<Real>* h : history_) history_data_.push_back(h->data());
+    state_.tensors = 0;
+    for (Field<Real>* h : history_) {
+      const int components = h->info().components;
+      for (int k = 0; k < components; ++k) history_data_.push_back(h->data(k));
+      if (components != 6) continue;
+      for (int k = 0; k < 6; ++k) state_.tensor[state_.tensors][k] = h->data(k);
+      ++state_.tensors;
+    }
     found_.resize(static_cast<std::size_t>(block_count(group_.size())));
   }
   void block(World&, const Clock& clock, Index begin, Index end) override {
@@ -117,7 +125,10 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
 
   /// Reference volumes and densities; the mass of an element goes to its corners in equal shares.
   void start_state(World& world) {
-    if (history_.size() > most_history) throw std::logic_error("a law with more than 16 history variables");
+    int numbers = 0, tensors = 0;
+    for (const HistoryVariable& h : law_->history()) numbers += h.components, tensors += h.is_tensor();
+    if (numbers > static_cast<int>(most_history) || tensors > HexahedronState::most_tensors)
+      throw std::logic_error("a law with more than 16 history numbers, or more than 2 tensors");
     // volumes by the loops themselves: what they give for V0 = 1
     const Index n = group_.size();
     for (Index e = 0; e < n; ++e) V0_[e] = 1, rho0_[e] = law_->ro;

@@ -15,9 +15,12 @@
 
 namespace courant {
 
-/// A number that a law keeps for each point from step to step, 0 at the start.
+/// What a law keeps for each point from step to step, 0 at the start: a number, or with six components a
+/// symmetric tensor xx yy zz xy yz zx, which comes to the law turned with the body as the stress does.
 struct HistoryVariable {
   std::string name, dimension;
+  int components = 1;
+  bool is_tensor() const { return components == 6; }
 };
 
 /// A law read from the deck, or made for a test. It holds no state: that is in the block.
@@ -41,10 +44,11 @@ class StrengthLaw {
 /// A step that a law must answer with this stress, computed by hand from its formula: the generic test
 /// checks.
 struct StrengthReference {
-  std::string deck;                            ///< the keyword's cards, as in a deck
-  std::array<Real, 6> strain;                  ///< D dt, of the tensor [-]
-  std::array<Real, 6> before, after;           ///< stress [M/LT2]
-  std::vector<Real> history{}, new_history{};  ///< before (empty: 0) and after (empty: not compared)
+  std::string deck;                   ///< the keyword's cards, as in a deck
+  std::array<Real, 6> strain;         ///< D dt, of the tensor [-]
+  std::array<Real, 6> before, after;  ///< stress [M/LT2]
+  /// By component, before (empty: 0) and after (empty: not compared).
+  std::vector<Real> history{}, new_history{};
 };
 
 struct StrengthEntry {

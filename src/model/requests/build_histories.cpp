@@ -23,8 +23,8 @@ void ModelBuilder::build_output_curve(const Entry& card, std::string_view field,
 
 void ModelBuilder::build_histories() {
   OutputRequests& out = model_.output;
-  OutputTimes* const times[] = {&out.glstat, &out.matsum, &out.rcforc, &out.sphout, &out.sleout,
-                                &out.nodout, &out.rbdout, &out.bndout, &out.spcforc};
+  OutputTimes* const times[] = {&out.glstat, &out.matsum, &out.rcforc, &out.sphout,  &out.sleout,
+                                &out.nodout, &out.rbdout, &out.bndout, &out.spcforc, &out.rwforc};
   constexpr int sphout = 3, nodout = 5, bndout = 7;
   build_history_sph();
   build_history_node();

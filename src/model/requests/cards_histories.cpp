@@ -11,9 +11,10 @@ const FieldRules optional_id{.check = Check::not_negative};
 using A = DatabaseAsciiCard;
 const RegisterKeyword<A> database_ascii{
     {.names = {"DATABASE_GLSTAT", "DATABASE_MATSUM", "DATABASE_RCFORC", "DATABASE_SPHOUT", "DATABASE_SLEOUT",
-               "DATABASE_NODOUT", "DATABASE_RBDOUT", "DATABASE_BNDOUT", "DATABASE_SPCFORC"},
+               "DATABASE_NODOUT", "DATABASE_RBDOUT", "DATABASE_BNDOUT", "DATABASE_SPCFORC",
+               "DATABASE_RWFORC"},
      .purpose = "interval of a history: energies, parts, contacts, particles, nodes, rigid bodies, "
-                "prescribed motions, supports",
+                "prescribed motions, supports, rigid walls",
      .once = true,
      .many = false,
      .cards = {{.fields = {{"DT", &A::dt, "T", "interval, 0 none"},

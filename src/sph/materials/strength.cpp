@@ -78,8 +78,8 @@ class StrengthStress : public Material {
       history_.emplace_back();
       if (!law) continue;
       for (const HistoryVariable& h : law->history())
-        history_.back().push_back(
-            &world.particles.fields.add<Real>({.name = h.name, .dimension = h.dimension, .output = true}));
+        history_.back().push_back(&world.particles.fields.add<Real>(
+            {.name = h.name, .dimension = h.dimension, .components = h.components, .output = true}));
     }
   }
   std::string name() const override { return "strength"; }
@@ -123,10 +123,15 @@ class StrengthStress : public Material {
     if (law.deviator_only()) block.pressure = p.p.data() + begin;
     std::array<Real*, most_history> history{};
     const auto& fields = history_[p.part[begin]];
-    for (std::size_t k = 0; k < fields.size(); ++k) history[k] = fields[k]->data() + begin;
-    block.history = {history.data(), fields.size()};
-
     const Real* const spin[3] = {at.spin[0].data(), at.spin[1].data(), at.spin[2].data()};
+    std::size_t numbers = 0;
+    for (Field<Real>* field : fields) {
+      Real** const first = &history[numbers];
+      for (int k = 0; k < field->info().components; ++k) history[numbers++] = field->data(k) + begin;
+      if (field->info().components == 6) turn_stress(spin, dt, first, block.count);
+    }
+    block.history = {history.data(), numbers};
+
     turn_stress(spin, dt, block.stress.data(), block.count);
     for (Index k = 0; k < block.count; ++k) {  // of the volume at the start of the step
       const Real v = 1 / (1 + at.mu[k]) - at.dv[k];

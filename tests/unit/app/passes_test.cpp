@@ -46,6 +46,7 @@ const Lists bare{
     {"inlets no *DEFINE_SPH_INJECTION",
      "ghost particles no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
      "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",
+     "rigid walls no *RIGIDWALL_PLANAR",
      "wall support no *COURANT_WALL_SUPPORT",
      "renormalisation FORM of *CONTROL_SPH is a plain one",
      "Riemann flux no *COURANT_RIEMANN",
@@ -80,7 +81,8 @@ const Lists bare{
      "nodout no *DATABASE_NODOUT",
      "rbdout no *DATABASE_RBDOUT",
      "bndout no *DATABASE_BNDOUT",
-     "spcforc no *DATABASE_SPCFORC"}};
+     "spcforc no *DATABASE_SPCFORC",
+     "rwforc no *DATABASE_RWFORC"}};
 
 /// Compares with the barest scene's lists: `gone` of left_out (by their first words) have become `come` among
 /// the active; `other` left-out lines stand with another reason. Order within a list does not matter here:

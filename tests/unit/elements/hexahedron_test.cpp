@@ -187,6 +187,22 @@ TEST(Hexahedron, BulkViscosityIsPressureInCompressionAlone) {
   }
 }
 
+// Of a plate of thickness h = 0.1: q is that of l = V^(1/3), so that a wave through the thickness is damped
+// by Q/c = (l/h) (Q2 c + Q1 l e)/c of critical damping; the central difference is stable up to h/(Q +
+// sqrt(Q^2 + c^2)).
+TEST(Hexahedron, TheStepOfAFlatOneHeedsItsBulkViscosity) {
+  Hexahedra g = Hexahedra::brick({1, 1, 1}, {1, 1, 0.1}, 0);
+  g.control = {2, 0.1, 1.5, 0.06};
+  g.lambda = 2, g.shear = 1, g.rho0[0] = 1;
+  for (int c = 0; c < 8; ++c) g.v[c] = -0.5 * Vec(0, 0, g.x[c][2]);
+  const Real l = std::cbrt(0.1), Q = l / 0.1 * (0.06 * 2 + 1.5 * l * 0.5);
+  EXPECT_NEAR(g.advance(0).step, 0.1 / (Q + std::sqrt(Q * Q + 4)), 1e-12);
+  // no faster than that: a kick of the upper face by the step of undamped waves would grow
+  const Real m = 0.1 / 4, dt = 0.1 / 2, q = l * (0.06 * 2 + 1.5 * l * 0.5) * 0.5;
+  EXPECT_NEAR(g.corner_force[3 * 4 + 2][0], q / 4, 1e-12);
+  EXPECT_GT(q / 4 / m * dt, 2 * 0.5 * 0.1 / 2) << "it turns round each end of the plate within one step";
+}
+
 TEST(Hexahedron, TheStepFollowsTheLargestFace) {
   Hexahedra g = Hexahedra::brick({1, 1, 1}, {0.5, 2, 3}, 0);
   g.lambda = 2, g.shear = 1, g.rho0[0] = 1;

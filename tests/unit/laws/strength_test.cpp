@@ -38,10 +38,16 @@ std::shared_ptr<StrengthLaw> law_of(const std::string& keyword, const std::strin
 
 /// One point that a law works on.
 struct Point {
-  explicit Point(const StrengthLaw& of) : law(of), history(of.history().size(), 0.0) {}
+  explicit Point(const StrengthLaw& of) : law(of) {
+    for (const HistoryVariable& h : of.history()) {
+      if (h.is_tensor()) tensors.push_back(history.size());
+      history.resize(history.size() + h.components, 0.0);
+    }
+  }
   const StrengthLaw& law;
   Tensor stress{};
   std::vector<Real> history;
+  std::vector<std::size_t> tensors{};  ///< where in `history` they start
   Real compression = 0, c = 0, dt = 1;
 
   void strain(const Tensor& increment) {
@@ -60,7 +66,14 @@ struct Point {
     const Real* const w[3] = {&spin[0], &spin[1], &spin[2]};
     Real* const s[6] = {&stress[0], &stress[1], &stress[2], &stress[3], &stress[4], &stress[5]};
     turn_stress(w, dt, s, 1);
+    for (const std::size_t t : tensors) {
+      Real* const a[6] = {&history[t],     &history[t + 1], &history[t + 2],
+                          &history[t + 3], &history[t + 4], &history[t + 5]};
+      turn_stress(w, dt, a, 1);
+    }
   }
+  /// History with its tensors as they look from axes turned by R.
+  std::vector<Real> seen_from(const Matrix& R) const;
 };
 
 Matrix matrix(const Tensor& t) {
@@ -70,6 +83,16 @@ Matrix matrix(const Tensor& t) {
 }
 Tensor tensor(const Matrix& m) {
   return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)};
+}
+std::vector<Real> Point::seen_from(const Matrix& R) const {
+  std::vector<Real> out = history;
+  for (const std::size_t t : tensors) {
+    Tensor a;
+    std::copy_n(history.begin() + static_cast<long>(t), 6, a.begin());
+    a = tensor(R * matrix(a) * R.transpose());
+    std::copy_n(a.begin(), 6, out.begin() + static_cast<long>(t));
+  }
+  return out;
 }
 /// Of Hughes and Winget: (1 - W/2)^-1 (1 + W/2).
 Matrix rotation(const Vec& angle) {
@@ -106,6 +129,7 @@ TEST(StrengthRegistry, HoldsTheLawsAndEachHasReferences) {
   }
   EXPECT_TRUE(names.contains("MAT_ELASTIC"));
   EXPECT_TRUE(names.contains("MAT_ELASTIC_PLASTIC_HYDRO"));
+  EXPECT_TRUE(names.contains("MAT_PLASTIC_KINEMATIC"));
 }
 
 TEST(StrengthRegistry, EveryLawGivesItsReferenceValues) {
@@ -173,8 +197,10 @@ TEST(StrengthRegistry, AnswersDoNotDependOnTheAxes) {
     const Real scale = 1e-12 * (1 + s.norm());
     expect_near(turned.stress, tensor(R * s * R.transpose()), scale, kind.keyword);
     expect_near(turning.stress, tensor(now * s * now.transpose()), scale, kind.keyword + " turning");
+    const std::vector<Real> as_turned = still.seen_from(R), as_turning = still.seen_from(now);
     for (std::size_t k = 0; k < still.history.size(); ++k) {
-      EXPECT_NEAR(turned.history[k], still.history[k], 1e-12) << kind.keyword;
+      EXPECT_NEAR(turned.history[k], as_turned[k], 1e-12) << kind.keyword;
+      EXPECT_NEAR(turning.history[k], as_turning[k], 1e-12) << kind.keyword << " turning";
     }
   });
 }
@@ -272,4 +298,122 @@ TEST(MatElasticPlasticHydro, SofteningEndsAtNoStrength) {
   Point point(*law);
   for (int k = 0; k < 100; ++k) point.strain({0, 0, 0, 0.01, 0, 0});
   EXPECT_NEAR(point.stress[3], 0, 1e-14);
+}
+
+namespace {
+
+/// Pulls a bar, the sides free of stress, by small steps up to the axial strains, one after the other: the
+/// axial stress at each of them.
+std::vector<Real> pull(Point& point, const std::vector<Real>& strains, Real step) {
+  std::vector<Real> out;
+  Real e = 0;
+  for (const Real goal : strains) {
+    const int n = static_cast<int>(std::ceil(std::abs(goal - e) / step));
+    for (int k = 0; k < n; ++k) {
+      const Point before = point;
+      Real low = -2 * std::abs(goal - e) / n, high = -low;  // of the sides: their stress grows with it
+      for (int b = 0; b < 60; ++b) {
+        const Real side = 0.5 * (low + high);
+        point.stress = before.stress, point.history = before.history;
+        point.strain({(goal - e) / n, side, side, 0, 0, 0});
+        (point.stress[1] > 0 ? high : low) = side;
+      }
+    }
+    e = goal;
+    out.push_back(point.stress[0]);
+  }
+  return out;
+}
+
+}  // namespace
+
+// Closed form in uniaxial stress: slope E up to SIGY, then ETAN; the elastic range behind a turn is 2 SIGY
+// (kinematic), 2 s_turn (isotropic), and 2 (SIGY + BETA (s_turn - SIGY)) between; beyond it ETAN again.
+TEST(MatPlasticKinematic, PulledToAndFroShowsTheBauschingerEffect) {
+  const Real E = 200, SIGY = 0.4, ETAN = 20;
+  for (const Real beta : {0.0, 0.4, 1.0}) {
+    const auto law =
+        law_of("MAT_PLASTIC_KINEMATIC", "1,7.8,200.0,0.3,0.4,20.0," + std::to_string(beta) + "\n");
+    Point point(*law);
+    const Real top = SIGY + ETAN * (0.01 - SIGY / E);
+    const Real range = 2 * (SIGY + beta * (top - SIGY));
+    const Real bottom = top - range - ETAN * (0.02 - range / E);
+    const std::vector<Real> s = pull(point, {0.001, 0.01, 0.01 - 0.99 * range / E, -0.01}, 2e-4);
+    EXPECT_NEAR(s[0], E * 0.001, 1e-9);
+    EXPECT_NEAR(s[1], top, 1e-9);
+    EXPECT_NEAR(s[2], top - 0.99 * range, 1e-9) << "elastic up to the end of the range, BETA " << beta;
+    EXPECT_NEAR(s[3], bottom, 1e-9) << "BETA " << beta;
+  }
+}
+
+TEST(MatPlasticKinematic, ShearedToAndFroInOneStepOrMany) {
+  // G = 80, yield in shear k = SIGY/sqrt(3), slope G Ep/(3 G + Ep) beyond it; kinematic: yields back after 2
+  // k
+  const Real E = 208, nu = 0.3, G = E / (2 * (1 + nu)), ETAN = 30, Ep = E * ETAN / (E - ETAN);
+  const Real k = 0.5 / std::sqrt(3.0), slope = G * Ep / (3 * G + Ep), g = 0.02;  // g: engineering shear
+  const auto law = law_of("MAT_PLASTIC_KINEMATIC", "1,7.8,208.0,0.3,0.5,30.0,0.0\n");
+  for (const int n : {1, 50}) {
+    Point point(*law);
+    for (int j = 0; j < n; ++j) point.strain({0, 0, 0, 0.5 * g / n, 0, 0});
+    const Real top = k + slope * (g - k / G);
+    EXPECT_NEAR(point.stress[3], top, 1e-12);
+    for (int j = 0; j < n; ++j) point.strain({0, 0, 0, -0.5 * g / n, 0, 0});
+    EXPECT_NEAR(point.stress[3], top - 2 * k - slope * (g - 2 * k / G), 1e-12);
+  }
+}
+
+TEST(MatPlasticKinematic, FollowsTheRateOfStrain) {
+  // perfectly plastic, SIGY 0.3, C 40, P 5: (1 + (rate/C)^(1/P)) SIGY; pulled so far that all strain is
+  // plastic
+  for (const int vp : {0, 1})
+    for (const Real rate : {0.0125, 40.0, 1e4}) {
+      const auto law = law_of("MAT_PLASTIC_KINEMATIC",
+                              "1,7.8,200.0,0.3,0.3,0.0,1.0\n40.0,5.0,0.0," + std::to_string(vp) + "\n");
+      Point point(*law);
+      const Real step = 1e-3;
+      point.dt = step / rate;
+      for (int k = 0; k < 100; ++k) point.strain({step, -0.5 * step, -0.5 * step, 0, 0, 0});
+      const Real q = point.stress[0] - point.stress[1];
+      EXPECT_NEAR(q, 0.3 * (1 + std::pow(rate / 40, 0.2)), 1e-9) << "VP " << vp << " rate " << rate;
+    }
+}
+
+TEST(MatPlasticKinematic, WithAndWithoutHardeningByPlasticRateSolvesItsEquation) {
+  // VP 1: q = (1 + (de/(C dt))^(1/P)) (SIGY + BETA Ep e), at e behind the step; q and de as the step left
+  // them
+  for (const Real P : {0.5, 1.0, 4.0, 8.0})
+    for (const Real dt : {1e-7, 1e-3, 10.0}) {
+      const auto law = law_of("MAT_PLASTIC_KINEMATIC",
+                              "1,7.8,200.0,0.3,0.3,10.0,0.5\n40.0," + std::to_string(P) + ",0.0,1\n");
+      Point point(*law);
+      point.dt = dt;
+      point.strain({0.02, -0.01, -0.01, 0.003, 0, 0});
+      const Real de = point.history[0], Ep = 200.0 * 10 / 190;
+      Tensor xi = point.stress;
+      for (int k = 0; k < 6; ++k) xi[k] -= point.history[1 + k];
+      const Real mean = (xi[0] + xi[1] + xi[2]) / 3;
+      for (int k = 0; k < 3; ++k) xi[k] -= mean;
+      const Real q = std::sqrt(1.5 * contract(xi, xi));
+      EXPECT_GT(de, 0);
+      EXPECT_NEAR(q, (1 + std::pow(de / (40 * dt), 1 / P)) * (0.3 + 0.5 * Ep * de), 1e-9 * q)
+          << P << " " << dt;
+    }
+}
+
+TEST(MatPlasticKinematic, ChecksItsCards) {
+  const auto faults_of = [](const std::string& cards) {
+    std::string faults;
+    law_of("MAT_PLASTIC_KINEMATIC", cards, &faults);
+    return faults;
+  };
+  EXPECT_EQ(faults_of("1,7.8,200.0,0.3,0.4\n"), "");
+  EXPECT_EQ(faults_of("1,7.8,200.0,0.3,0.4,1.0,0.5\n40.0,5.0,0.0,1\n"), "");
+  EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4\n0.0,0.0,0.5\n").find("FS"), std::string::npos);
+  EXPECT_NE(faults_of("1,7.8,200.0,0.3\n").find("SIGY"), std::string::npos);
+  EXPECT_NE(faults_of("1,7.8,200.0,0.5,0.4\n").find("expected a number < 0.5, got '0.5'"), std::string::npos);
+  EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4,200.0\n").find("ETAN"), std::string::npos);
+  EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4,1.0,1.5\n").find("BETA"), std::string::npos);
+  EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4,1.0,1.0\n40.0\n").find("SRP"), std::string::npos);
+  EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4,1.0,1.0\n0.0,5.0\n").find("SRC"), std::string::npos);
+  EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4,1.0,1.0\n0.0,0.0,0.0,2\n").find("VP"), std::string::npos);
 }

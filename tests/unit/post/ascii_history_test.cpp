@@ -114,6 +114,8 @@ Sample sample(int k) {
   s.boundary_forces = {force(BoundaryForce::Kind::driven_point, 30, 1.5),
                        force(BoundaryForce::Kind::driven_body, 30, -2.5),
                        force(BoundaryForce::Kind::held_point, 20, 3.5)};
+  s.rigid_walls = {{.id = 7, .normal = 12.5 * k, .force = Vec(0, -12.5 * k, 0), .dissipated = 3.5 * k},
+                   {.id = 8, .normal = 0.5}};
   return s;
 }
 
@@ -145,7 +147,7 @@ TEST(AsciiFile, GlstatOfOurs) {
   EXPECT_EQ(glstat.unit({"kinetic energy", {}}), "ML2/T2");
   EXPECT_EQ(glstat.unit({"total energy / initial energy", {}}), "-");
   EXPECT_EQ(glstat.unit({"global x velocity", {}}), "L/T");
-  EXPECT_EQ(glstat->columns().size(), 20u);
+  EXPECT_EQ(glstat->columns().size(), 21u);
 }
 
 TEST(AsciiFile, MatsumOfOurs) {
@@ -211,6 +213,13 @@ TEST(AsciiFile, BoundariesAndParticlesOfOurs) {
   const Read spcforc(file(spcforc_text));
   EXPECT_EQ(spcforc.column({"forces z", 20}), (std::vector<Real>{0, 10.5, 21}));
   EXPECT_EQ(spcforc.last({"force resultants y", {}}), 7);
+  const Read rwforc(file(rwforc_text));
+  EXPECT_EQ(rwforc.column({"normal", 7}), (std::vector<Real>{0, 12.5, 25}));
+  EXPECT_EQ(rwforc.last({"y", 7}), -25);
+  EXPECT_EQ(rwforc.last({"normal", 8}), 0.5);
+  EXPECT_EQ(rwforc.unit({"x", 7}), "ML/T2");
+  const Read glstat(file([](const Sample& s) { return glstat_text(s, 0); }));
+  EXPECT_EQ(glstat.column({"stonewall energy", 7}), (std::vector<Real>{0, 3.5, 7}));
   const Read sphout(file(sphout_text));
   EXPECT_EQ(sphout.column({"sig-zz", 17}), (std::vector<Real>{-3 - 1234.5, -3 - 2469.0, -3 - 3703.5}));
   EXPECT_EQ(sphout.last({"sig-zx", 17}), 6);

@@ -1,0 +1,293 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "keyword/common_rules.hpp"
+#include "laws/strength/strength.hpp"
+#include "parallel/parallel.hpp"
+
+namespace courant {
+
+namespace {
+
+/// What a material of *MAT_PLASTIC_KINEMATIC is made of.
+struct PlasticKinematicData {
+  Real lambda = 0, G = 0;             ///< Lame's constants [M/LT2]
+  Real yield = 0;                     ///< at the start [M/LT2]
+  Real isotropic = 0, kinematic = 0;  ///< shares of the plastic modulus Ep: BETA Ep, (1 - BETA) Ep [M/LT2]
+  Real C = 0, P = 0;                  ///< of Cowper and Symonds [1/T], [-]; C = 0: no influence of the rate
+  bool of_plastic_rate = false;       ///< VP 1: the rate is that of plastic strain, else that of all strain
+};
+
+/// Of points of a block: q = sqrt(3/2 xi:xi) of the trial state, xi = s - alpha, and the yield stress.
+struct Trial {
+  Real q[block_size], plastic[block_size];  ///< [M/LT2]; increment of effective plastic strain [-]
+};
+
+/// J2 plasticity with linear isotropic and kinematic hardening: s_tr = s + 2 G dev(D) dt is returned along
+/// xi_tr = s_tr - alpha, with de = (q_tr - sigma_y)/(3 G + Ep) where the rate has no influence. Trial and
+/// return have no branches, so that they go through registers of several points.
+class PlasticKinematic : public StrengthLaw {
+ public:
+  PlasticKinematic(Real density, const PlasticKinematicData& data) : a_(data) { ro = density; }
+  Real bulk_modulus() const override { return a_.lambda + 2 * a_.G / 3; }
+  Real shear_modulus() const override { return a_.G; }
+  std::vector<HistoryVariable> history() const override {
+    std::vector<HistoryVariable> out{{"plastic_strain", "-"}};
+    if (a_.kinematic > 0) out.push_back({"back_stress", "M/LT2", 6});
+    return out;
+  }
+
+  void update(const PointBlock& block) const override {
+    Trial trial;
+    if (a_.kinematic > 0) {
+      go_elastically(block, Moving{block.history.data() + 1}, trial);
+      harden(block, trial);
+      give_back(block, Moving{block.history.data() + 1}, trial);
+    } else {
+      go_elastically(block, Still{}, trial);
+      harden(block, trial);
+      give_back(block, Still{}, trial);
+    }
+    const Real c0 = sound_speed();
+    const Real* mu = block.compression;
+    for (Index i = 0; i < block.count; ++i) block.sound_speed[i] = mu ? c0 / std::sqrt(1 + mu[i]) : c0;
+  }
+
+ private:
+  /// The centre of the yield surface: one that moves, by component of the back stress, and one that does not.
+  struct Moving {
+    Real* const* alpha;
+    Real at(int k, Index i) const { return alpha[k][i]; }
+    void add(int k, Index i, Real by) const { alpha[k][i] += by; }
+  };
+  struct Still {
+    Real at(int, Index) const { return 0; }
+    void add(int, Index, Real) const {}
+  };
+
+  template <class Centre>
+  void go_elastically(const PointBlock& block, const Centre& centre, Trial& trial) const {
+    const Real volumetric = a_.lambda * block.dt, twice = 2 * a_.G * block.dt;
+    const Real *dxx = block.rate[0], *dyy = block.rate[1], *dzz = block.rate[2], *dxy = block.rate[3],
+               *dyz = block.rate[4], *dzx = block.rate[5];
+    Real *xx = block.stress[0], *yy = block.stress[1], *zz = block.stress[2], *xy = block.stress[3],
+         *yz = block.stress[4], *zx = block.stress[5];
+#pragma omp simd
+    for (Index i = 0; i < block.count; ++i) {
+      const Real common = volumetric * (dxx[i] + dyy[i] + dzz[i]);
+      xx[i] += common + twice * dxx[i], yy[i] += common + twice * dyy[i], zz[i] += common + twice * dzz[i];
+      xy[i] += twice * dxy[i], yz[i] += twice * dyz[i], zx[i] += twice * dzx[i];
+      const Real mean = (xx[i] + yy[i] + zz[i]) / 3;
+      const Real a = xx[i] - mean - centre.at(0, i), b = yy[i] - mean - centre.at(1, i),
+                 c = zz[i] - mean - centre.at(2, i), d = xy[i] - centre.at(3, i), e = yz[i] - centre.at(4, i),
+                 f = zx[i] - centre.at(5, i);
+      trial.q[i] = std::sqrt(1.5 * (a * a + b * b + c * c) + 3 * (d * d + e * e + f * f));
+    }
+  }
+
+  /// The increments of plastic strain.
+  void harden(const PointBlock& block, Trial& trial) const {
+    const Real stiffness = 3 * a_.G + a_.isotropic + a_.kinematic;
+    Real* plastic = block.history[0];
+    if (a_.C > 0 && block.dt > 0)
+      for (Index i = 0; i < block.count; ++i)
+        trial.plastic[i] = a_.of_plastic_rate ? overstressed(trial.q[i], plastic[i], block.dt)
+                                              : faster(trial.q[i], plastic[i], rate_of(block, i));
+    else
+#pragma omp simd
+      for (Index i = 0; i < block.count; ++i)
+        trial.plastic[i] = std::max(trial.q[i] - a_.yield - a_.isotropic * plastic[i], Real(0)) / stiffness;
+#pragma omp simd
+    for (Index i = 0; i < block.count; ++i) plastic[i] += trial.plastic[i];
+  }
+
+  /// sqrt(2/3 D':D') of the deviator of the rate of strain: in uniaxial stress at constant volume that of the
+  /// axis.
+  static Real rate_of(const PointBlock& block, Index i) {
+    const auto& D = block.rate;
+    const Real mean = (D[0][i] + D[1][i] + D[2][i]) / 3;
+    const Real a = D[0][i] - mean, b = D[1][i] - mean, c = D[2][i] - mean;
+    return std::sqrt(2.0 / 3 * (a * a + b * b + c * c) +
+                     4.0 / 3 * (D[3][i] * D[3][i] + D[4][i] * D[4][i] + D[5][i] * D[5][i]));
+  }
+  /// sigma_y = (1 + (rate/C)^(1/P)) (SIGY + BETA Ep e): linear in the increment.
+  Real faster(Real q, Real plastic, Real rate) const {
+    const Real scale = 1 + std::pow(rate / a_.C, 1 / a_.P);
+    const Real over = q - scale * (a_.yield + a_.isotropic * plastic);
+    return over > 0 ? over / (3 * a_.G + a_.kinematic + scale * a_.isotropic) : 0;
+  }
+  /// The same with the rate of plastic strain, de/dt. In u = (de/(C dt))^(1/P) the excess
+  ///   q - (3 G + (1 - BETA) Ep) de - (1 + u) (SIGY + BETA Ep (e + de)),  de = C dt u^P,
+  /// falls without a kink: Newton's method, held between bounds, from the answer without the rate.
+  Real overstressed(Real q, Real plastic, Real dt) const {
+    const Real yield = a_.yield + a_.isotropic * plastic, stiffness = 3 * a_.G + a_.kinematic;
+    if (!(q > yield)) return 0;
+    const Real scale = a_.C * dt, most = (q - yield) / (stiffness + a_.isotropic);
+    Real low = 0, high = std::pow(most / scale, 1 / a_.P), u = high;
+    constexpr int rounds = 100;
+    constexpr Real close = 1e-14;
+    for (int k = 0; k < rounds; ++k) {
+      const Real de = scale * std::pow(u, a_.P), slope = u > 0 ? a_.P * de / u : 0;
+      const Real excess = q - stiffness * de - (1 + u) * (yield + a_.isotropic * de);
+      (excess > 0 ? low : high) = u;
+      const Real fall = stiffness * slope + yield + a_.isotropic * (de + (1 + u) * slope);
+      const Real newton = u + excess / fall, before = u;
+      u = newton >= low && newton <= high ? newton : 0.5 * (low + high);
+      if (std::abs(u - before) <= close * u) break;
+    }
+    return scale * std::pow(u, a_.P);
+  }
+
+  template <class Centre>
+  void give_back(const PointBlock& block, const Centre& centre, const Trial& trial) const {
+    Real *xx = block.stress[0], *yy = block.stress[1], *zz = block.stress[2], *xy = block.stress[3],
+         *yz = block.stress[4], *zx = block.stress[5];
+#pragma omp simd
+    for (Index i = 0; i < block.count; ++i) {
+      const Real mean = (xx[i] + yy[i] + zz[i]) / 3;
+      const Real share = trial.plastic[i] / std::max(trial.q[i], a_.yield), back = 3 * a_.G * share,
+                 forth = a_.kinematic * share;
+      const Real a = xx[i] - mean - centre.at(0, i), b = yy[i] - mean - centre.at(1, i),
+                 c = zz[i] - mean - centre.at(2, i), d = xy[i] - centre.at(3, i), e = yz[i] - centre.at(4, i),
+                 f = zx[i] - centre.at(5, i);
+      xx[i] -= back * a, yy[i] -= back * b, zz[i] -= back * c;
+      xy[i] -= back * d, yz[i] -= back * e, zx[i] -= back * f;
+      centre.add(0, i, forth * a), centre.add(1, i, forth * b), centre.add(2, i, forth * c);
+      centre.add(3, i, forth * d), centre.add(4, i, forth * e), centre.add(5, i, forth * f);
+    }
+  }
+
+  PlasticKinematicData a_;
+};
+
+struct MatPlasticKinematic : Entry {
+  std::string title;
+  Id mid = 0;
+  Real ro = 0, E = 0, pr = 0, sigy = 0, etan = 0, beta = 0, src = 0, srp = 0, fs = 0;
+  int vp = 0;
+  std::shared_ptr<StrengthLaw> law() const {
+    const Real Ep = E * etan / (E - etan);
+    PlasticKinematicData data{.lambda = E * pr / ((1 + pr) * (1 - 2 * pr)), .G = E / (2 * (1 + pr))};
+    data.yield = sigy, data.isotropic = beta * Ep, data.kinematic = (1 - beta) * Ep;
+    data.C = src, data.P = srp, data.of_plastic_rate = vp == 1;
+    return std::make_shared<PlasticKinematic>(ro, data);
+  }
+  void check(const Deck& deck, Diagnostics& diagnostics) const {
+    const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
+      if (!holds)
+        deck.error(diagnostics, *this, field, fmt::format("expected a number {}, got '{:g}'", what, value),
+                   hint);
+    };
+    expect(pr < 0.5, "PR", "< 0.5", pr, "a material that keeps its volume has no finite bulk modulus");
+    expect(etan < E, "ETAN", "below E", etan, "beyond the yield stress the material is softer than before");
+    expect(beta <= 1, "BETA", "from 0 to 1", beta, "0 is kinematic hardening, 1 isotropic");
+    expect((src > 0) == (srp > 0), src > 0 ? "SRP" : "SRC", "> 0", 0,
+           "the rate of strain counts by SRC and SRP together; leave both blank where it does not");
+  }
+};
+
+// By hand. E = 2.5, PR = 1/4: lambda = G = 1, 3 G = 3. ETAN = 0.5: Ep = 2.5 0.5/2 = 5/8. SIGY = 3 and dev e =
+// (2, -1, -1): xi = (4, -2, -2), q = 6, over by 3: de = 3/(3 + 5/8) = 24/29, and s loses 3 de/6 = 12/29 of
+// xi: s = 17/29 (4, -2, -2). Kinematic: alpha = (5/8) de/6 xi = (5/58) xi for BETA 0, half of it for 1/2.
+// A back stress 1 in shear: xi_xy = 2 - 1, q = sqrt(3) = sigma_y: no flow yet.
+// Rates (dt = 1/2): shear e_xy = 2 in 1/2: D_xy = 4, rate sqrt(4/3) 4 = 8/sqrt(3); SRC = that, SRP = 3:
+// factor 2. s_xy = 4, q = 4 sqrt(3), sigma_y = 2 sqrt(3) for SIGY = sqrt(3), ETAN = 0: s_xy = 2. VP 1: SIGY =
+// 1, SRP = 1, ETAN = 0, C dt = 1/2: 6 - 3 de = 1 + 2 de: de = 1, q = 3.
+const RegisterStrength<MatPlasticKinematic> mat_plastic_kinematic{
+    "s_tr = s + 2 G dev(D) dt; q = sqrt(3/2 xi:xi) <= (1 + (rate/SRC)^(1/SRP)) (SIGY + BETA Ep e), xi = s - "
+    "alpha, Ep = E ETAN/(E - ETAN); return along xi_tr; dalpha = (1 - BETA) Ep de xi/q; pressure by Hooke's "
+    "law",
+    "J2 plasticity, radial return with kinematic hardening: Krieg & Key 1976; rates: Cowper & Symonds 1957",
+    {{"1,2.0,2.5,0.25,3.0,0.5,1.0\n", {0.1, 0, 0, 0, 0, 0}, {1, 1, 1}, {1.3, 1.1, 1.1, 0, 0, 0}, {0}, {0}},
+     {"1,2.0,2.5,0.25,3.0,0.5,1.0\n",
+      {2, -1, -1, 0, 0, 0},
+      {},
+      {68.0 / 29, -34.0 / 29, -34.0 / 29, 0, 0, 0},
+      {0},
+      {24.0 / 29}},
+     {"1,2.0,2.5,0.25,3.0,0.5,0.0\n",
+      {2, -1, -1, 0, 0, 0},
+      {5, 5, 5},
+      {5 + 68.0 / 29, 5 - 34.0 / 29, 5 - 34.0 / 29, 0, 0, 0},
+      {0, 0, 0, 0, 0, 0, 0},
+      {24.0 / 29, 10.0 / 29, -5.0 / 29, -5.0 / 29, 0, 0, 0}},
+     {"1,2.0,2.5,0.25,3.0,0.5,0.5\n",
+      {2, -1, -1, 0, 0, 0},
+      {},
+      {68.0 / 29, -34.0 / 29, -34.0 / 29, 0, 0, 0},
+      {0, 0, 0, 0, 0, 0, 0},
+      {24.0 / 29, 5.0 / 29, -2.5 / 29, -2.5 / 29, 0, 0, 0}},
+     {"1,2.0,2.5,0.25,1.7320508075688774,0.5,0.0\n",
+      {0, 0, 0, 0.5, 0, 0},
+      {0, 0, 0, 1, 0, 0},
+      {0, 0, 0, 2, 0, 0},
+      {0.5, 0, 0, 0, 1, 0, 0},
+      {0.5, 0, 0, 0, 1, 0, 0}},
+     {"1,2.0,2.5,0.25,1.7320508075688772,0.0,1.0\n4.6188021535170063,3.0\n",
+      {0, 0, 0, 2, 0, 0},
+      {},
+      {0, 0, 0, 2, 0, 0},
+      {0},
+      {1.1547005383792515}},
+     {"1,2.0,2.5,0.25,1.0,0.0,1.0\n1.0,1.0,0.0,1\n",
+      {2, -1, -1, 0, 0, 0},
+      {},
+      {2, -1, -1, 0, 0, 0},
+      {0},
+      {1}}},
+    {.names = {"MAT_PLASTIC_KINEMATIC", "MAT_003"},
+     .purpose =
+         "elasticity and plasticity with linear isotropic, kinematic or mixed hardening, and influence "
+         "of the rate of strain",
+     .id_space = IdSpace::material,
+     .title_option = true,
+     .title = &MatPlasticKinematic::title,
+     .cards = {
+         {.fields = {{"MID",
+                      &MatPlasticKinematic::mid,
+                      "-",
+                      "id that *PART refers to",
+                      {.required = true, .check = Check::positive}},
+                     {"RO", &MatPlasticKinematic::ro, "M/L3", "density", rules::required_positive},
+                     {"E", &MatPlasticKinematic::E, "M/LT2", "Young's modulus", rules::required_positive},
+                     {"PR",
+                      &MatPlasticKinematic::pr,
+                      "-",
+                      "Poisson ratio, below 0.5",
+                      {.check = Check::not_negative}},
+                     {"SIGY", &MatPlasticKinematic::sigy, "M/LT2", "yield stress at the start",
+                      rules::required_positive},
+                     {"ETAN",
+                      &MatPlasticKinematic::etan,
+                      "M/LT2",
+                      "slope of stress over strain beyond it, below E",
+                      {.check = Check::not_negative}},
+                     {"BETA",
+                      &MatPlasticKinematic::beta,
+                      "-",
+                      "hardening: 0 kinematic, 1 isotropic, mixed between",
+                      {.check = Check::not_negative}}}},
+         {.fields = {{"SRC",
+                      &MatPlasticKinematic::src,
+                      "1/T",
+                      "C of Cowper and Symonds, 0: the rate has no influence",
+                      {.check = Check::not_negative}},
+                     {"SRP",
+                      &MatPlasticKinematic::srp,
+                      "-",
+                      "P of Cowper and Symonds",
+                      {.check = Check::not_negative}},
+                     {"FS", &MatPlasticKinematic::fs, "-",
+                      "effective plastic strain at which elements are deleted", unsupported},
+                     {"VP",
+                      &MatPlasticKinematic::vp,
+                      "-",
+                      "rate of all strain (0) or of plastic strain (1)",
+                      {.allowed = {0, 1}}}},
+          .optional = true}}}};
+
+}  // namespace
+
+}  // namespace courant
