@@ -6,6 +6,7 @@
 
 #include "app/build_nodes.hpp"
 #include "app/field_options.hpp"
+#include "app/scene_warnings.hpp"
 #include "app/skin.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "extension/additions.hpp"
@@ -62,6 +63,7 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
         "give it particles, solids, or a rigid body that is not held in all directions");
   if (model_is_whole) s->add_passes(diagnostics);
   if (!diagnostics.ok()) return nullptr;
+  warn_of_scene(*s, diagnostics);
   s->release_tables();
   return s;
 }
@@ -225,7 +227,7 @@ Ranges Simulation::reference_of_parts() const {
     if (!m.found) continue;
     out[k].rho0 = m.ro;
     out[k].c0 = m.c0();
-    out[k].liquid = m.holds_cold();  // a gas has no pressure without heat
+    out[k].liquid = m.holds_cold() && m.starts_at_rest();  // a gas has no pressure without heat
   }
   return out;
 }

@@ -38,6 +38,7 @@ class Builder {
     settings_.h_max_factor.assign(model_.parts.size(), 1);
     settings_.q.resize(model_.parts.size());
     settings_.spacing_of_part.resize(model_.parts.size());
+    settings_.usual_spacing.resize(model_.parts.size());
     smoothing_.resize(model_.parts.size());
     read_sections();
     settings_.kernel = read_kernel(deck_, model_, diagnostics_);
@@ -326,6 +327,7 @@ class Builder {
       }
       if (std::isfinite(largest)) {
         settings_.spacing_of_part[k] = largest;
+        settings_.usual_spacing[k] = median;
         settings_.spacing = std::max(settings_.spacing, largest);
       }
       const auto same = std::find_if(used.begin(), used.end(), [h](Real other) {

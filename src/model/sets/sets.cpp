@@ -149,15 +149,18 @@ SetResolver::Found SetResolver::listed(SetKind kind, const SetCard& card, SetFor
       out.push_back(found);
       continue;
     }
+    if (kind == SetKind::part) {  // of a model of which only some parts are here
+      report_(Severity::warning, card, member_field(kind, form), {row_, id},
+              fmt::format("part {} does not exist", id), "leave it out, or define it with *PART");
+      continue;
+    }
     whole = false;
     if (kind == SetKind::node)
       error(card, member_field(kind, form), id, fmt::format("node {} has no coordinates", id),
             "define it with *NODE");
     else
       error(card, member_field(kind, form), id, fmt::format("{} {} does not exist", set_word(kind), id),
-            fmt::format("define it with {}", kind == SetKind::part    ? "*PART"
-                                             : kind == SetKind::shell ? "*ELEMENT_SHELL"
-                                                                      : "*ELEMENT_SOLID"));
+            fmt::format("define it with {}", kind == SetKind::shell ? "*ELEMENT_SHELL" : "*ELEMENT_SOLID"));
   }
   if (!whole) return std::nullopt;
   return out;
