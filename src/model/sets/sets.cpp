@@ -227,9 +227,13 @@ bool SetResolver::add_range(SetKind kind, const SetCard& card, SetForm form, Id 
     if (out.size() > 8 * count(kind) + 1000) sort_unique(out);  // ranges in steps may overlap many times
     return true;
   }
-  error(card, field, begin,
-        fmt::format("there is no {} with an id from {} to {}{}", set_word(kind), begin, end,
-                    step == 1 ? "" : fmt::format(" in steps of {}", step)));
+  const std::string what = fmt::format("there is no {} with an id from {} to {}{}", set_word(kind), begin,
+                                       end, step == 1 ? "" : fmt::format(" in steps of {}", step));
+  if (kind == SetKind::part) {  // as where they are listed
+    report_(Severity::warning, card, field, {row_, begin}, what, "leave the range out");
+    return true;
+  }
+  error(card, field, begin, what);
   return false;
 }
 
