@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/restart_error.hpp"
 #include "parallel/counting_sort.hpp"
 
 namespace courant {
@@ -39,6 +40,9 @@ void Neighbours::restore(World& world,
   if (rebuilds_ == 0) return;  // saved before the first step: the lists are still to be built
   Particles& p = world.particles;
   Array<Real>* const built[4] = {&x_built_, &y_built_, &z_built_, &h_built_};
+  for (const Array<Real>* places : built)
+    if (places->size() > static_cast<std::size_t>(p.size()))
+      throw RestartError("the saved state does not fit this run: its neighbour lists are of other particles");
   find_moving_nodes(world);
   exchange(p, built);
   count_cells(world);

@@ -43,6 +43,16 @@ Index particles_to_load(Particles& p, Archive& archive) {
   return saved;
 }
 
+/// What other arrays are indexed by.
+void check_particles(const World& world, const Archive& archive) {
+  const Particles& p = world.particles;
+  if (p.active < 0 || p.active > p.moving || p.moving > p.size())
+    archive.stop("active", "counts particles that are not there");
+  for (Index i = 0; i < p.size() && !world.part_ids.empty(); ++i)
+    if (p.part[i] < 0 || static_cast<std::size_t>(p.part[i]) >= world.part_ids.size())
+      archive.stop("part", "names a part that is not there");
+}
+
 void keep_ledger(EnergyLedger& e, Archive& archive) {
   const Archive::Group inside(archive, "energy");
   archive("kinetic", e.kinetic);
@@ -89,6 +99,7 @@ bool keep_world(World& world, Archive& archive) {
   archive("active", p.active);
   archive("moving", p.moving);
   archive("dormant_time", p.dormant_time);
+  if (archive.loading()) check_particles(world, archive);
   archive("counters", world.counters);
   archive("maxima", world.maxima);
   for (Index i = known; i < p.size(); ++i) p.x.add(i, p.v.vec(i) * p.dormant_time);
