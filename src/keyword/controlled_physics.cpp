@@ -20,7 +20,7 @@ const std::vector<ControlledPhysics>& all_physics() {
       {"CONTROL_CPM", "corpuscular gas particles", {"AIRBAG", "PARTICLE", "DEFINE_CPM"}},
       {"CONTROL_DISCRETE_ELEMENT",
        "discrete element spheres",
-       {"ELEMENT_DISCRETE_SPHERE", "DEFINE_DE", "BOUNDARY_DE"}},
+       {"ELEMENT_DISCRETE_SPHERE", "DEFINE_DE_", "BOUNDARY_DE_"}},
       {"CONTROL_EFG", "element-free Galerkin methods", {"SECTION_SOLID_EFG", "SECTION_SHELL_EFG"}},
       {"CONTROL_PORE", "pore pressures", {"BOUNDARY_PORE", "BOUNDARY_PWP", "INITIAL_PWP", "MAT_ADD_PORE"}},
       {"CONTROL_SPH", "particles", {"ELEMENT_SPH", "DEFINE_SPH", "DEFINE_ADAPTIVE_SOLID_TO_SPH"}},

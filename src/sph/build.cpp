@@ -45,6 +45,7 @@ class Builder {
     read_viscosities();
     read_control();
     fill_particles();
+    if (model_.sph.empty()) return settings_;
     read_eddy_viscosity(deck_, model_, world_.particles, settings_, diagnostics_);
     set_smoothing_lengths();
     choose_h_form();
@@ -104,7 +105,7 @@ class Builder {
   void read_control() {
     const ControlSph* c = deck_.last<ControlSph>();
     const ControlSph standard{};
-    if (c == nullptr) c = &standard;
+    if (c == nullptr || model_.sph.empty()) c = &standard;  // rigid bodies alone are in space
     world_.dim = c->idim == 2 ? 2 : c->idim == 3 ? 3 : dimension_of_geometry();
     settings_.dim = world_.dim;
     settings_.maxv = std::abs(c->maxv) >= 1e15 ? 0 : c->maxv;
