@@ -77,6 +77,10 @@ void Contact::keep_slots(Archive& archive) {
     if (candidates.size() != slots.size() || sides.size() != facets.size() ||
         std::any_of(facets.begin(), facets.end(), beyond))
       archive.stop("facets", "belongs to other walls");
+    std::int64_t all = 0;
+    for (const Index n : slots) all += std::max<Index>(n, 0);
+    if (static_cast<std::size_t>(all) * indices_of_slot != archive.count("slot_indices"))
+      archive.stop("slots", "has another length");
     blocks_.assign(slots.size(), {});
     std::size_t at = 0;
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
