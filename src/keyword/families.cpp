@@ -344,7 +344,7 @@ Refusal Families::refusal(const std::string& name) const {
   const bool longer_family = family && std::string(family->prefix).size() > base.size();
   if (!base.empty() && base.size() >= law_length && !longer_family) return option(name, base);
   if (law && std::string(law->name) == "HIGH_EXPLOSIVE_BURN")
-    return {"burning of explosives",
+    return {"burning explosives",
             "where all has burnt at the start, *MAT_NULL with *EOS_JWL and its E0 serves; the way of the "
             "detonation through the charge is not computed"};
   if (law) {
