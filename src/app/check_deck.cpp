@@ -161,15 +161,25 @@ std::string needs_text(const Deck& deck, const DeckFacts& facts) {
     const auto at = deck.keywords.lower_bound(begin);
     return at != deck.keywords.end() && at->first.rfind(begin, 0) == 0;
   };
-  const bool particles = std::any_of(facts.elements.begin(), facts.elements.end(),
-                                     [](const ElementFacts& e) { return e.kind == "SPH particles"; });
+  const auto holds = [&](const char* kind) {
+    return std::any_of(facts.elements.begin(), facts.elements.end(),
+                       [&](const ElementFacts& e) { return e.kind == kind && e.count + e.unread > 0; });
+  };
+  const bool solids = holds("solids"), particles = holds("SPH particles") || has("DEFINE_SPH_INJECTION");
+  // rigid bodies of shells may be all that moves
+  const bool bodies = !particles && !solids && holds("shells") && has("MAT_RIGID");
   std::vector<std::pair<const char*, const char*>> missing;
   if (facts.nodes == 0) missing.emplace_back("*NODE", "coordinates");
-  if (!particles) missing.emplace_back("*ELEMENT_SPH", "at least one particle");
-  if (!has("PART")) missing.emplace_back("*PART", "what the particles are made of");
-  if (!has("SECTION_SPH")) missing.emplace_back("*SECTION_SPH", "smoothing length");
-  if (!has("MAT_")) missing.emplace_back("*MAT_NULL", "density of the particles' material");
-  if (!has("EOS_")) missing.emplace_back("*EOS_...", "equation of state of the particles");
+  if (!particles && !solids && !bodies)
+    missing.emplace_back("*ELEMENT_SPH or *ELEMENT_SOLID", "particles, or solids");
+  const bool of_particles = particles || (!solids && !bodies);
+  if (!has("PART")) missing.emplace_back("*PART", "what the elements are made of");
+  if (of_particles && !has("SECTION_SPH")) missing.emplace_back("*SECTION_SPH", "smoothing length");
+  if (solids && !has("SECTION_SOLID")) missing.emplace_back("*SECTION_SOLID", "formulation of the solids");
+  if (of_particles && !has("MAT_")) missing.emplace_back("*MAT_NULL", "density of the particles' material");
+  if (solids && !has("MAT_")) missing.emplace_back("*MAT_ELASTIC", "what the solids are made of");
+  if (of_particles && !has("EOS_") && !has("MAT_ELASTIC") && !has("MAT_001"))
+    missing.emplace_back("*EOS_...", "equation of state of the particles");
   if (!has("CONTROL_TERMINATION")) missing.emplace_back("*CONTROL_TERMINATION", "end time");
   std::string out;
   for (const auto& [what, names] : keywords_of) {

@@ -21,6 +21,7 @@
 #include "keyword/registry.hpp"
 #include "output/file.hpp"
 #include "parallel/parallel.hpp"
+#include "parallel/thread_limit.hpp"
 #include "post/post.hpp"
 
 namespace courant {
@@ -81,6 +82,10 @@ int call_run(const Call& call) {
   if (!std::isfinite(call.until)) {  // which CLI11 takes for positive
     print_error(fmt::format("error: --until {}: expected a time\n", call.until));
     return exit_input;
+  }
+  if (const std::string why = why_not_threads(call.threads); !why.empty()) {
+    print_error(fmt::format("error: {}\n", why));
+    return exit_other;
   }
   set_threads(call.threads);
   std::optional<Restart> restart;
@@ -184,6 +189,10 @@ int call_generate(const Call& call) {
 
 int call_post(const Call& call) {
   Diagnostics diagnostics;
+  if (const std::string why = why_not_threads(call.threads); !why.empty()) {
+    print_error(fmt::format("error: {}\n", why));
+    return exit_other;
+  }
   set_threads(call.threads);
   const auto say = [](std::string_view text) {
     clear_status_line();

@@ -1,15 +1,66 @@
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <new>
 
 #include "app/cli.hpp"
 #include "parallel/start_over.hpp"
 
-int main(int argc, char** argv) {
-  courant::start_over_for_speed(argv);
+namespace {
+
+constexpr int exit_run = 2, exit_other = 3;
+
+/// Without asking for memory, which there is none of.
+void tell_of_memory() {
+  rusage usage{};
+  rlimit limit{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  ::getrlimit(RLIMIT_AS, &limit);
+  char text[600], bound[100] = "";
+  constexpr double mega = 1e6, kilo = 1e3;
+  if (limit.rlim_cur != RLIM_INFINITY)
+    std::snprintf(bound, sizeof bound, ", and its limit (ulimit -v) is %.0f MB of addresses",
+                  static_cast<double>(limit.rlim_cur) / mega);
+  std::snprintf(
+      text, sizeof text,
+      "error: memory is exhausted: the process has used %.0f MB%s\n"
+      "  hint: use fewer --threads, a higher limit, a machine with more memory, or a smaller scene\n",
+      static_cast<double>(usage.ru_maxrss) * kilo / mega, bound);
+  if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
+}
+
+/// Where an exception leaves a loop over threads, nobody can catch it.
+[[noreturn]] void end() {
   try {
-    return courant::command_line(argc, argv);
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    tell_of_memory();
+    std::_Exit(exit_other);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "courant: %s\n", error.what());
-    return 3;
+  }
+  std::abort();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  courant::start_over_for_speed(argv);
+  std::set_terminate(end);
+  try {
+    const int code = courant::command_line(argc, argv);
+    // libraries that have run out of memory, as HDF5, may crash when they clean up
+    if (code == exit_run && std::fflush(nullptr) == 0) std::_Exit(code);
+    return code;
+  } catch (const std::bad_alloc&) {
+    tell_of_memory();
+    return exit_other;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "courant: %s\n", error.what());
+    return exit_other;
   }
 }

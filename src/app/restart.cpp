@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "app/restart_cards.hpp"
+#include "app/result_folder.hpp"
 #include "base/instruction_set.hpp"
 #include "output/restart_file.hpp"
 
@@ -34,9 +35,13 @@ void keep_deck(DeckRecord& deck, Archive& archive) {
   archive("lines", lines);
   if (!archive.loading()) return;
   deck.clear();
+  if (entries.size() != names.size() || sums.size() != names.size() || line_counts.size() != names.size())
+    archive.stop("keywords", "has another length than its numbers");
   auto line = lines.begin();
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto end = line + line_counts.at(k);
+    if (line_counts[k] < 0 || line_counts[k] > lines.end() - line)
+      archive.stop("line_counts", "counts lines that are not there");
+    const auto end = line + line_counts[k];
     deck.push_back({names[k], entries.at(k), static_cast<std::uint64_t>(sums.at(k)), {line, end}});
     line = end;
   }
@@ -154,18 +159,22 @@ std::vector<std::string> RestartSchedule::due(std::int64_t cycle) {
   return names;
 }
 
-bool prepare_folder(const RunOptions& options) {
+bool prepare_folder(const RunOptions& options, const Deck& deck) {
   const fs::path dir = options.dir;
   std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is told then
   const bool goes_on = options.restart && fs::equivalent(fs::absolute(options.restart->file).parent_path(),
                                                          dir / "restart", ignored);
+  std::vector<fs::path> inputs;
+  for (const DeckFile& file : deck.files) inputs.push_back(file.name);
+  if (options.restart && !goes_on) inputs.push_back(options.restart->file);
+  check_result_folder(dir, inputs);
   make_folder(dir / "restart");
   retire_restart_files(dir, goes_on ? options.restart->cycle : -1,
                        options.restart ? options.restart->file : fs::path());
-  for (const char* name : {"summary.yaml", "fields/failed.vtp", "fields/failed_shells.vtu"})
+  for (const char* name :
+       {"summary.yaml", "fields/failed.vtp", "fields/failed_shells.vtu", "fields/failed_solids.vtu"})
     fs::remove(dir / name, ignored);
-  if (!goes_on)
-    for (const char* name : {"fields.pvd", "history.h5"}) fs::remove(dir / name, ignored);
+  if (!goes_on) remove_results(dir);
   return goes_on;
 }
 

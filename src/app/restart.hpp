@@ -49,8 +49,9 @@ class RestartSchedule {
 
 /// Makes the folder of results and takes away what an older run's results could pass for this one's by, if
 /// this one is killed. Returns whether the run goes on in the folder that it was in before, and so with the
-/// files there. Throws OutputError.
-bool prepare_folder(const RunOptions& options);
+/// files there. Throws OutputError, before anything has changed where a result would go over a file of the
+/// deck or through a link.
+bool prepare_folder(const RunOptions& options, const Deck& deck);
 /// How far the files had come when the restart file was written.
 HistoryPositions positions_before(const RunOptions& options);
 

@@ -45,7 +45,7 @@ class Run {
         options_(options),
         end_(options.until > 0 ? options.until : simulation.model().endtim),
         lock_(options.dir),
-        goes_on_(prepare_folder(options)),
+        goes_on_(prepare_folder(options, simulation.deck())),
         messag_(
             std::filesystem::path(options.dir) / "messag",
             [this](std::string_view line) {

@@ -48,6 +48,8 @@ std::optional<SenseSwitch> SenseSwitches::take() {
 }
 
 std::optional<SenseSwitch> SenseSwitches::take_file(const std::filesystem::path& file) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(file, missing)) return std::nullopt;  // a pipe would hold the run up
   std::ifstream stream(file);
   if (!stream) return std::nullopt;
   std::string line;

@@ -6,6 +6,7 @@
 
 #include "app/build_nodes.hpp"
 #include "app/field_options.hpp"
+#include "app/scene_warnings.hpp"
 #include "app/skin.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "extension/additions.hpp"
@@ -20,6 +21,24 @@
 #include "time/point_motion.hpp"
 
 namespace courant {
+
+namespace {
+
+/// Whether nodes stand where distances can be computed; the rest of the set-up would take for ever. Those
+/// that motions bring there are told here, others by the model.
+bool holds_places(const std::string& deck_path, const Model& model, Diagnostics& diagnostics) {
+  for (const ModelNode& node : model.nodes) {
+    if (node.x.cwiseAbs().maxCoeff() < largest_coordinate) continue;
+    if (diagnostics.ok())
+      diagnostics.error({deck_path, 0, 0},
+                        fmt::format("node {} is moved to ({:g}, {:g}, {:g}), which is too large", node.id,
+                                    node.x[0], node.x[1], node.x[2]));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, const ReadOptions& options,
                                               Diagnostics& diagnostics, const DeckRecord* before) {
@@ -48,6 +67,7 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
   s->record_ = record_deck(s->deck_);
   if (before) s->changes_ = compare_decks(*before, s->deck_, s->record_, diagnostics);
   s->model_ = build_model(s->deck_, diagnostics);
+  if (!holds_places(deck_path, s->model_, diagnostics)) return nullptr;
   release_mesh_cards(s->deck_);
   s->injections_ = add_injected_particles(s->deck_, s->model_, diagnostics);
   const bool model_is_whole = diagnostics.ok();
@@ -62,6 +82,7 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
         "give it particles, solids, or a rigid body that is not held in all directions");
   if (model_is_whole) s->add_passes(diagnostics);
   if (!diagnostics.ok()) return nullptr;
+  warn_of_scene(*s, diagnostics);
   s->release_tables();
   return s;
 }
@@ -234,7 +255,7 @@ Ranges Simulation::reference_of_parts() const {
     if (!m.found) continue;
     out[k].rho0 = m.ro;
     out[k].c0 = m.c0();
-    out[k].liquid = m.holds_cold();  // a gas has no pressure without heat
+    out[k].liquid = m.holds_cold() && m.starts_at_rest();  // a gas has no pressure without heat
   }
   return out;
 }

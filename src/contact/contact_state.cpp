@@ -1,5 +1,7 @@
 // What the contact knows from one step to the next. Shortcuts give the same bits as the full search, but on
 // which side of a wall a particle is may have been learned many steps ago.
+#include <algorithm>
+
 #include "contact/contact.hpp"
 
 namespace courant {
@@ -74,9 +76,19 @@ void Contact::keep_slots(Archive& archive) {
   archive("facets", facets);
   archive("sides", sides);
   if (loading) {
+    const auto beyond = [&](Index facet) { return facet < 0 || facet >= static_cast<Index>(facets_.size()); };
+    if (candidates.size() != slots.size() || sides.size() != facets.size() ||
+        std::any_of(facets.begin(), facets.end(), beyond))
+      archive.stop("facets", "belongs to other walls");
+    std::int64_t all = 0;
+    for (const Index n : slots) all += std::max<Index>(n, 0);
+    if (static_cast<std::size_t>(all) * indices_of_slot != archive.count("slot_indices"))
+      archive.stop("slots", "has another length");
     blocks_.assign(slots.size(), {});
     std::size_t at = 0;
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      if (slots[k] < 0 || candidates[k] < 0 || static_cast<std::size_t>(candidates[k]) > facets.size() - at)
+        archive.stop("candidates", "counts facets that are not there");
       blocks_[k].slots.resize(slots[k]);
       const std::size_t end = at + static_cast<std::size_t>(candidates[k]);
       blocks_[k].candidate.assign(facets.begin() + at, facets.begin() + end);

@@ -89,6 +89,7 @@ class SceneReader {
   void load_base(const YAML::Node& node) {
     const std::string path = (std::filesystem::path(path_).parent_path() / text(node)).string();
     try {
+      if (std::filesystem::is_directory(path)) throw YAML::BadFile(path);
       bases_.push_back({path, YAML::LoadFile(path)});
     } catch (const YAML::BadFile&) {
       return error(node, fmt::format("base: the file '{}' cannot be read", path));

@@ -135,8 +135,9 @@ struct KeywordOf {
   /// The coordinate system in which places and directions are given, 0 global. With one *INCLUDE_TRANSFORM
   /// leaves them alone: the system has moved.
   Id T::*local = nullptr;
-  bool once = false;  ///< may stand only once in a deck
-  bool many = true;   ///< several card sets may follow one keyword line
+  /// Counts once in a deck, with one set of cards: of several the last.
+  bool once = false;
+  bool many = true;  ///< several card sets may follow one keyword line
   /// Not empty: what Courant lacks to honour the keyword ("solid elements"). Its cards are read and checked,
   /// counted by `courant check`, and the deck is refused.
   std::string lacking{};

@@ -41,8 +41,9 @@ bool is_table(const KeywordSpec& spec, const KeywordMatch& match) {
 
 }  // namespace
 
-void CardReader::read(const Block& block) {
+void CardReader::read(const Block& block, Diagnostics& diagnostics) {
   block_ = block;
+  diagnostics_ = &diagnostics;
   spec_ = keyword_registry()[static_cast<std::size_t>(block.match.keyword)].get();
   line_ = static_cast<int>(block.line) + 1;
   const auto sink = spec_->sink(deck_);
@@ -59,7 +60,7 @@ void CardReader::read(const Block& block) {
     if (!first && only_blanks_left(data)) break;
     line_ = static_cast<int>(data.index()) + 1;
     if (!first && !spec_->many) {
-      diagnostics_.error(
+      diagnostics_->error(
           here(1),
           fmt::format("*{}: one line too many", spec_->names[static_cast<std::size_t>(block_.match.name)]),
           "the keyword takes one set of cards; compare `courant keywords " +
@@ -112,7 +113,7 @@ void CardReader::convert(EntrySink& sink) {
   if (!conversion.any()) return;
   const std::string reason = sink.convert(conversion);
   if (!reason.empty())
-    diagnostics_.error(
+    diagnostics_->error(
         here(1), fmt::format("*{}: {}", spec_->names[static_cast<std::size_t>(block_.match.name)], reason));
 }
 
@@ -122,7 +123,7 @@ void CardReader::refuse_second_definition(const Entry& entry) {
   if (id <= 0 || is_mesh(spec_->id_space) || may_repeat(spec_->id_space)) return;
   const Entry* first = deck_.define(spec_->id_space, id, entry);
   if (!first || block_.match.collect) return;
-  deck_.error(diagnostics_, entry, block_.match.id ? "" : spec_->cards[0].fields[0].name,
+  deck_.error(*diagnostics_, entry, block_.match.id ? "" : spec_->cards[0].fields[0].name,
               fmt::format("{} {} is defined twice, first as {} at {}", id_word(spec_->id_space), id,
                           deck_.keyword(*first), deck_.place(*first)),
               fmt::format("give every {} an id of its own{}", id_word(spec_->id_space),
@@ -187,10 +188,10 @@ void CardReader::read_id_line(std::string_view line, int number, EntrySink& sink
   }
   line_ = number;
   if (!fault.empty())
-    diagnostics_.error(here(1),
-                       fmt::format("*{}_ID field 1 (ID, number of the entry [-]): {}",
-                                   spec_->names[static_cast<std::size_t>(block_.match.name)], fault),
-                       hint);
+    diagnostics_->error(here(1),
+                        fmt::format("*{}_ID field 1 (ID, number of the entry [-]): {}",
+                                    spec_->names[static_cast<std::size_t>(block_.match.name)], fault),
+                        hint);
   sink.set_id(id);
   sink.set_title(
       parameters_.with_texts(trimmed(line.substr(std::min(end + (comma < width ? 1 : 0), line.size())))));
@@ -232,7 +233,7 @@ void CardReader::read_card(const DataLines& data, std::size_t card, EntrySink& s
     sink.set_integer(card, fields - 1, 0);
   warn_of_cut_number(data.line(), spec_->cards[card], card);
   if (too_many > 0)
-    diagnostics_.warning(
+    diagnostics_->warning(
         here(1),
         fmt::format("*{}: card {} has {} fields; values behind them ({}) are not read",
                     spec_->names[static_cast<std::size_t>(block_.match.name)], card + 1, fields, too_many));
@@ -244,7 +245,7 @@ void CardReader::warn_of_cut_number(std::string_view line, const CardSpec& spec,
   if (type == FieldType::text || type == FieldType::texts || type == FieldType::skip ||
       !runs_across(line, last) || line.substr(0, last).find(',') != std::string_view::npos)
     return;
-  diagnostics_.warning(
+  diagnostics_->warning(
       here(static_cast<int>(last)),
       fmt::format("*{}: a number runs across column {}, the last of card {}; what stands behind is not read",
                   spec_->names[static_cast<std::size_t>(block_.match.name)], last, card + 1));
@@ -348,7 +349,7 @@ bool CardReader::substitute(std::size_t card, std::size_t field, Slice& slice, s
     const bool named = !origin_.empty();
     Id whole = 0;
     if (named && parse_integer(value.text, whole)) {  // as 5.0 in a field for integers
-      diagnostics_.warning(
+      diagnostics_->warning(
           here(slice.column),
           fmt::format("{}: '{}' is a real (R) parameter, taken as {}",
                       describe_field(*spec_, block_.match.name, card, field), slice.text, whole),
@@ -397,9 +398,9 @@ bool CardReader::passes(std::size_t card, std::size_t field, const Slice& slice,
     return false;
   }
   if (spec.rules.honour == Honour::output_only)
-    diagnostics_.warning(here(slice.column),
-                         fmt::format("{}: '{}' is not supported and has no effect",
-                                     describe_field(*spec_, block_.match.name, card, field), slice.text));
+    diagnostics_->warning(here(slice.column),
+                          fmt::format("{}: '{}' is not supported and has no effect",
+                                      describe_field(*spec_, block_.match.name, card, field), slice.text));
   return true;
 }
 
@@ -414,16 +415,16 @@ bool CardReader::is_allowed(std::size_t card, std::size_t field, const Slice& sl
 void CardReader::field_error(std::size_t card, std::size_t field, const Slice& slice,
                              const std::string& message, std::string hint) {
   if (!origin_.empty()) hint += (hint.empty() ? "" : "; ") + origin_;
-  diagnostics_.error(here(slice.column),
-                     describe_field(*spec_, block_.match.name, card, field) + ": " + message,
-                     std::move(hint));
+  diagnostics_->error(here(slice.column),
+                      describe_field(*spec_, block_.match.name, card, field) + ": " + message,
+                      std::move(hint));
 }
 
 void CardReader::missing(const DataLines& data, const std::string& what) {
   line_ = static_cast<int>(data.index());  // the last line that is there
   const std::string name = spec_->names[static_cast<std::size_t>(block_.match.name)];
-  diagnostics_.error(here(1), fmt::format("*{}: {} is missing", name, what),
-                     fmt::format("`courant keywords {}` shows its cards", name));
+  diagnostics_->error(here(1), fmt::format("*{}: {} is missing", name, what),
+                      fmt::format("`courant keywords {}` shows its cards", name));
 }
 
 }  // namespace courant

@@ -18,7 +18,7 @@ class CardReader {
   static constexpr int max_errors = 100;
 
   CardReader(Deck& deck, Parameters& parameters, Diagnostics& diagnostics)
-      : deck_(deck), parameters_(parameters), diagnostics_(diagnostics) {}
+      : deck_(deck), parameters_(parameters), all_(diagnostics) {}
 
   struct Block {
     std::int32_t file = 0;
@@ -27,10 +27,11 @@ class CardReader {
     KeywordMatch match;
     CardFormat format = CardFormat::standard;
   };
-  void read(const Block& block);
+  /// Faults of the cards go to `diagnostics`.
+  void read(const Block& block, Diagnostics& diagnostics);
   /// Entries read since the last call.
   std::size_t take_count() { return std::exchange(count_, 0); }
-  bool full() const { return diagnostics_.errors() >= max_errors; }
+  bool full() const { return all_.errors() >= max_errors; }
 
  private:
   void find_end();
@@ -61,7 +62,8 @@ class CardReader {
 
   Deck& deck_;
   Parameters& parameters_;
-  Diagnostics& diagnostics_;
+  Diagnostics& all_;                    ///< of the deck
+  Diagnostics* diagnostics_ = nullptr;  ///< of the block
   Block block_;
   const KeywordSpec* spec_ = nullptr;
   int line_ = 0;         ///< number of the line being read

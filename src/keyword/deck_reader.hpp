@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "keyword/card_reader.hpp"
+#include "keyword/controlled_physics.hpp"
 #include "keyword/families.hpp"
 #include "keyword/refusal_log.hpp"
 
@@ -90,7 +91,7 @@ class DeckReader {
   bool too_many_files_ = false;
   std::optional<Families> families_;
   RefusalLog refusals_;
-  std::map<std::pair<int, int>, Location> seen_;
+  HeldControls controls_;
 };
 
 }  // namespace courant

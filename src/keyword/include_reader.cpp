@@ -80,7 +80,8 @@ void DeckReader::read_include_transform(const File& file, std::size_t line, cons
                .source = file.source.get(),
                .line = line,
                .match = index_.match(keyword.name),
-               .format = keyword.format});
+               .format = keyword.format},
+              diagnostics_);
   cards_.take_count();  // else the included file's first keyword would count it
   if (diagnostics_.errors() > errors) return;
   const IncludeTransformCard card = deck_.store<IncludeTransformCard>().back();

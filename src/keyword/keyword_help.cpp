@@ -79,7 +79,7 @@ std::string options_line(const KeywordSpec& spec) {
   if (spec.id_option) out += "Option _ID: a line with ID (columns 1-10) and heading (11-80) comes first. ";
   if (spec.mpp_option) out += "Option _MPP: one or two lines for parallel runs come first, without effect. ";
   if (spec.collect_option) out += "Option _COLLECT: adds to the set that has the same id already. ";
-  if (spec.once) out += "May stand only once in a deck. ";
+  if (spec.once) out += "Where it stands more than once, the last counts. ";
   if (!out.empty()) out.pop_back();
   return out;
 }

@@ -61,6 +61,8 @@ class KeywordSpec {
   /// All entries of the keyword with this place in the registry.
   virtual void for_each(const Deck& deck, std::int32_t keyword,
                         const std::function<void(const Entry&)>& visit) const = 0;
+  /// Drops the entries of this keyword under one of its names but the last.
+  virtual void keep_last(Deck& deck, std::int32_t keyword, std::int32_t name) const = 0;
 
   /// The entry's id (with _ID that of its line, else the first field), 0 where there is no id_space.
   Id id_of(const Entry& entry) const;
@@ -246,6 +248,12 @@ class KeywordSpecOf : public TableSpec<Table> {
                 const std::function<void(const Entry&)>& visit) const override {
     for (const T& entry : deck.all<T>())
       if (entry.keyword == keyword) visit(entry);
+  }
+  void keep_last(Deck& deck, std::int32_t keyword, std::int32_t name) const override {
+    const auto is_one = [&](const Entry& entry) { return entry.keyword == keyword && entry.name == name; };
+    std::vector<T>& all = deck.store<T>();
+    const auto last = std::find_if(all.rbegin(), all.rend(), is_one);
+    if (last != all.rend()) all.erase(std::remove_if(all.begin(), last.base() - 1, is_one), last.base() - 1);
   }
 
  private:

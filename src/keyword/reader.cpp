@@ -5,8 +5,18 @@
 
 #include "keyword/deck_reader.hpp"
 #include "keyword/families.hpp"
+#include "keyword/repeated_cards.hpp"
 
 namespace courant {
+
+namespace {
+
+bool is_blank(const SourceText& source) {
+  return std::all_of(source.lines.begin(), source.lines.end(),
+                     [](std::string_view line) { return trimmed(line).empty(); });
+}
+
+}  // namespace
 
 Deck read_deck(const std::string& path, const ReadOptions& options, Diagnostics& diagnostics) {
   return DeckReader(options, diagnostics).read(path);
@@ -20,6 +30,7 @@ Deck DeckReader::read(const std::string& path) {
     return std::move(deck_);
   }
   read_file({.name = path}, std::move(source));
+  controls_.close(deck_, diagnostics_);
   refusals_.close(diagnostics_);
   if (cards_.full())
     diagnostics_.note({path, 0, 0}, fmt::format("reading stopped after {} errors", CardReader::max_errors));
@@ -64,13 +75,20 @@ void DeckReader::check_end(const File& file) {
     return !trimmed(lines[i]).empty() && lines[i][0] != '*' && lines[i][0] != '$';
   };
   const bool within_data = file.source->ends_within_line && is_data(last);
-  if (file.index == 0 && within_data) {
-    diagnostics_.error(place(file, last), "the deck ends within a line and without *END: is it cut off?",
-                       "if its last line is whole, end the deck with *END");
+  const bool shorter = within_data && last > 0 && is_data(last - 1) &&
+                       lines[last].size() < lines[last - 1].size() &&
+                       lines[last].find(',') == std::string_view::npos;
+  if (file.index == 0 && shorter) {
+    diagnostics_.error(place(file, last),
+                       "the deck ends without *END and within a line that is shorter than the one above: is "
+                       "it cut off?",
+                       "if its last line is whole, end it, or end the deck with *END");
+  } else if (file.index == 0 && within_data) {
+    diagnostics_.warning(place(file, last), "the deck ends within a line and without *END: is it cut off?",
+                         "if its last line is whole, end the deck with *END");
   } else if (file.index == 0 && !deck_.keywords.empty()) {
     diagnostics_.warning(place(file, last, 0), "*END is missing: is the deck complete?");
-  } else if (within_data && last > 0 && is_data(last - 1) && lines[last].size() < lines[last - 1].size() &&
-             lines[last].find(',') == std::string_view::npos) {
+  } else if (shorter) {
     // included files need no *END, and some editors write no last line end
     diagnostics_.warning(
         place(file, last),
@@ -92,8 +110,8 @@ std::size_t DeckReader::skip_text_before_keywords(const File& file) {
                        "is this a keyword deck? Only comments ($) may stand there");
   else if (first == file.source->lines.size() && file.index == 0)
     diagnostics_.error({deck_.files[0].name, 0, 0}, "the deck holds no keyword");
-  else if (first == file.source->lines.size())
-    diagnostics_.warning(place(file, 0, 0), "the file holds no keyword");
+  else if (first == file.source->lines.size() && is_blank(*file.source))
+    diagnostics_.warning(place(file, 0, 0), "the file is empty");
   return first;
 }
 
@@ -158,17 +176,16 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
     return refuse(keyword.name, where);
   }
   const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(match.keyword)];
-  const auto [first, is_new] = seen_.try_emplace({match.keyword, match.name}, where);
-  if (spec.once && !is_new) {
-    diagnostics_.error(where, fmt::format("*{} may stand only once in a deck, first at {}:{}", keyword.name,
-                                          first->second.file, first->second.line));
-    return Treatment::honoured;
-  }
-  cards_.read({.file = file.index,
-               .source = file.source.get(),
-               .line = line,
-               .match = match,
-               .format = keyword.format});
+  const CardReader::Block block{.file = file.index,
+                                .source = file.source.get(),
+                                .line = line,
+                                .match = match,
+                                .format = keyword.format};
+  if (const ControlledPhysics* physics = controlled_physics(keyword.name); physics && spec.lacking.empty())
+    cards_.read(block, controls_.held(keyword.name, *physics, where));
+  else
+    cards_.read(block, diagnostics_);
+  if (spec.once) keep_last_cards(deck_, match.keyword, match.name, diagnostics_);
   if (spec.lacking.empty()) return Treatment::honoured;
   if (refusals_.is_first(keyword.name, diagnostics_))
     diagnostics_.error(where, fmt::format("*{}: {}", keyword.name, not_supported(spec.lacking)));
@@ -187,6 +204,13 @@ Treatment DeckReader::refuse(const std::string& name, const Location& where) {
     diagnostics_.warning(where, "");  // only counted: a hint would take a look at all keywords in vain
     return treatment;
   }
+  if (controls_.holds(name)) return treatment;
+  if (const ControlledPhysics* physics = controlled_physics(name))
+    if (const Refusal why = families().refusal(name); !why.lacking.empty()) {
+      controls_.held(name, *physics, where)
+          .error(where, fmt::format("*{}: {}", name, not_supported(why.lacking)), why.hint);
+      return treatment;
+    }
   if (!refusals_.is_first(name, diagnostics_)) return treatment;
   if (is_output) {
     diagnostics_.warning(where, fmt::format("*{}: this request is not supported and has no effect", name),

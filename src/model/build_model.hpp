@@ -6,6 +6,9 @@
 
 namespace courant {
 
+/// Of a node [L]: powers of distances, and numbers of 4 bytes in field files, hold what is less.
+inline constexpr Real largest_coordinate = 1e30;
+
 /// All faults go to `diagnostics` (at most 100 of them); the model is of use only if there is none.
 /// Initial velocities: INITIAL_VELOCITY in deck order, then _GENERATION in deck order, then _NODE.
 Model build_model(const Deck& deck, Diagnostics& diagnostics);

@@ -38,6 +38,8 @@ void keep_sections(const std::string& name, std::vector<VtkSection>& sections, A
   for (const std::int64_t count : arrays) {
     VtkSection section{"", {}};
     for (std::int64_t n = 0; n < count; ++n, ++k) {
+      if (k >= names.size() || k >= sizes.size() || sizes[k] < 0 || sizes[k] > values.end() - at)
+        archive.stop("sizes", "counts values that are not there");
       VtkArray array;
       array.name = names.at(k);
       array.bytes.assign(at, at + sizes.at(k));

@@ -1,6 +1,9 @@
 #include "output/file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -17,12 +20,23 @@ std::string advice(const std::string& reason) {
   if (reason == std::strerror(EFBIG)) return "raise the limit on file sizes (ulimit -f) and run again";
   if (reason == std::strerror(EACCES) || reason == std::strerror(EROFS) || reason == std::strerror(EPERM))
     return "make the folder writable, or choose another with -o";
+  if (reason.rfind("no memory", 0) == 0 || reason.find("allocate memory") != std::string::npos ||
+      reason == "HDF5 failed" || reason == std::strerror(ENOMEM))
+    return "give the run more memory (ulimit -v, fewer --threads), or ask for no restart file "
+           "(--no-final-dump)";
+  if (reason.rfind("it is ", 0) == 0)
+    return "rename or remove it, or choose another folder with -o; nothing was changed";
   return "check the folder and the disk, or choose another folder with -o";
 }
 
 struct FileCloser {
   void operator()(std::FILE* f) const { std::fclose(f); }
 };
+
+/// What the system says; of a link not that there are too many levels of them.
+std::string reason_of(int number) {
+  return number == ELOOP ? "it is a link, and results are not written through links" : std::strerror(number);
+}
 
 }  // namespace
 
@@ -37,6 +51,11 @@ void make_folder(const std::filesystem::path& dir) {
   if (error) throw OutputError(dir, error.message());
 }
 
+int make_new_file(const std::filesystem::path& file) {
+  if (::unlink(file.c_str()) != 0 && errno != ENOENT) return -1;
+  return ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
+
 void write_file(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces) {
   std::filesystem::path temporary = file;
   temporary += ".tmp";
@@ -45,8 +64,9 @@ void write_file(const std::filesystem::path& file, std::initializer_list<std::st
     std::filesystem::remove(temporary, ignored);
     throw OutputError(file, std::strerror(number));
   };
-  std::unique_ptr<std::FILE, FileCloser> out(std::fopen(temporary.c_str(), "wb"));
-  if (!out) throw OutputError(file, std::strerror(errno));
+  const int descriptor = make_new_file(temporary);
+  if (descriptor < 0) throw OutputError(file, std::strerror(errno));
+  std::unique_ptr<std::FILE, FileCloser> out(::fdopen(descriptor, "wb"));
   for (const std::string_view piece : pieces)
     if (std::fwrite(piece.data(), 1, piece.size(), out.get()) != piece.size()) fail(errno);
   if (std::fflush(out.get()) != 0) fail(errno);
@@ -54,9 +74,18 @@ void write_file(const std::filesystem::path& file, std::initializer_list<std::st
   if (std::rename(temporary.c_str(), file.c_str()) != 0) fail(errno);
 }
 
-TextFile::TextFile(std::filesystem::path file, bool append)
-    : file_(std::move(file)), stream_(std::fopen(file_.c_str(), append ? "ab" : "wb")) {
-  if (!stream_) throw OutputError(file_, std::strerror(errno));
+TextFile::TextFile(std::filesystem::path file, bool append) : file_(std::move(file)) {
+  // nothing waits for the other end of a pipe
+  const int flags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | (append ? O_APPEND : 0);
+  const int descriptor = ::open(file_.c_str(), flags, 0666);
+  if (descriptor < 0) throw OutputError(file_, reason_of(errno));
+  stream_.reset(::fdopen(descriptor, append ? "ab" : "wb"));
+  struct stat status {};
+  const bool known = ::fstat(descriptor, &status) == 0;
+  if (!known || S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode))
+    throw OutputError(file_, "it is no file");
+  if (!append && S_ISREG(status.st_mode) && ::ftruncate(descriptor, 0) != 0)
+    throw OutputError(file_, std::strerror(errno));
   std::setvbuf(stream_.get(), nullptr, _IONBF, 0);  // nothing may be left over that is tried again on closing
   std::error_code unknown;
   if (append) size_ = std::filesystem::file_size(file_, unknown);

@@ -27,6 +27,10 @@ class OutputError : public std::runtime_error {
 /// Makes the folder and its parents. Throws OutputError.
 void make_folder(const std::filesystem::path& dir);
 
+/// Makes an empty file for writing in place of one of that name, or of a link: nothing goes through it.
+/// Returns its descriptor, or -1 with errno.
+int make_new_file(const std::filesystem::path& file);
+
 /// Writes the pieces, one after the other, to `file.tmp` and renames it to `file`, so that readers see the
 /// old file or the whole new one. Throws OutputError; `file` is then as it was before and `file.tmp` is gone.
 void write_file(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces);

@@ -34,8 +34,10 @@ bool is_at(int descriptor, const std::filesystem::path& file) {
 FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".courant_lock") {
   make_folder(folder);
   while (true) {
-    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) throw OutputError(file_, std::strerror(errno));
+    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    if (descriptor_ < 0)
+      throw OutputError(file_, errno == ELOOP ? "it is a link, and results are not written through links"
+                                              : std::strerror(errno));
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       const int number = errno;
       const std::string who = holder(descriptor_);

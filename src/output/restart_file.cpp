@@ -112,7 +112,7 @@ bool put(hid_t file, const std::string& path, const SavedArray& array) {
 
 /// All of the state as the bytes of an HDF5 file. Throws OutputError.
 std::string image_of(const fs::path& file, SavedState& state) {
-  const auto stop = [&] { throw OutputError(file, "HDF5 failed"); };
+  const auto stop = [&] { throw OutputError(file, "no memory for a copy of the state in HDF5's form"); };
   const Hdf5Silence silence;
   Image image(file.string());
   Hdf5Handle h5(image.create(), H5Fclose);
@@ -170,7 +170,7 @@ void write_to_disk(const fs::path& file, std::string_view bytes, std::string_vie
     fs::remove(temporary, ignored);
     throw OutputError(file, std::strerror(number));
   };
-  Descriptor out(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  Descriptor out(make_new_file(temporary));
   if (out.number() < 0) throw OutputError(file, std::strerror(errno));
   if (!write_all(out.number(), bytes) || !write_all(out.number(), trailer)) fail(errno);
   if (::fsync(out.number()) != 0 && errno != EINVAL && errno != ENOSYS) fail(errno);  // a pipe cannot
@@ -210,6 +210,7 @@ bool parse(std::string_view text, Trailer& to) {
 std::string whole_content(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error)) refuse(file, "it is a folder");
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) refuse(file, "it is no file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuse(file, std::strerror(errno));
   const auto size = fs::file_size(file, error);
@@ -250,8 +251,12 @@ bool get(hid_t file, const std::string& path, SavedArray& to) {
   hsize_t size[2] = {1, 1};
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank != 1 && rank != 2) return false;
-  H5Sget_simple_extent_dims(space, size, nullptr);
+  if (H5Sget_simple_extent_dims(space, size, nullptr) < 0) return false;
   to.rows = rank == 2 ? size[0] : 1;
+  // no more than the file can hold, compressed as far as deflate goes, before memory is asked for
+  constexpr double most_compression = 1100, slack = 4096;
+  const double bytes = static_cast<double>(size[0]) * static_cast<double>(size[1]) * to.width();
+  if (bytes > most_compression * static_cast<double>(H5Dget_storage_size(dataset)) + slack) return false;
   to.bytes.resize(size[0] * size[1] * to.width());
   return to.bytes.empty() ||
          H5Dread(dataset, type_in_memory(to.type), H5S_ALL, H5S_ALL, H5P_DEFAULT, to.bytes.data()) >= 0;
@@ -295,7 +300,8 @@ std::vector<RestartFile> restart_files(const fs::path& folder) {
   std::vector<Found> found;
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (it->path().extension() != ".h5") continue;
+    std::error_code no_file;
+    if (it->path().extension() != ".h5" || !it->is_regular_file(no_file)) continue;
     std::ifstream stream(it->path(), std::ios::binary);
     std::string text(trailer_bytes, '\0');
     stream.seekg(-static_cast<std::streamoff>(trailer_bytes), std::ios::end);

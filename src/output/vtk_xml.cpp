@@ -180,6 +180,7 @@ void VtkEncoder::keep(Archive& archive) {
   if (!archive.loading()) return;
   auto at = marks.begin();
   for (const auto& [name, count] : counts) {
+    if (count < 0 || count > marks.end() - at) archive.stop("blocks", "counts marks that are not there");
     Memory& memory = memory_[name];
     memory.states_to_store = static_cast<int>(states[name]);
     memory.before_restart.assign(at, at + count);

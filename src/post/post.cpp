@@ -108,6 +108,7 @@ StateReader measuring_reader(const Recipe& recipe, const std::multimap<std::size
 std::string read_title(const std::filesystem::path& dir, Diagnostics& diagnostics) {
   const std::string file = (dir / "summary.yaml").string();
   try {
+    if (std::filesystem::is_directory(file)) return {};
     const YAML::Node summary = YAML::LoadFile(file);
     if (summary.IsMap() && summary["title"] && summary["title"].IsScalar()) return summary["title"].Scalar();
   } catch (const YAML::BadFile&) {  // a run that still goes on has none yet

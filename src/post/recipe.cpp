@@ -106,8 +106,8 @@ void read_one_analysis(const MapReader& list, const YAML::Node& node, Recipe& re
     return std::any_of(recipe.analyses.begin(), recipe.analyses.end(),
                        [&](const auto& other) { return other->name() == wanted; });
   };
-  if (named(analysis->name()))
-    map.error(*map.get("name", false), fmt::format("two analyses are named '{}'", analysis->name()));
+  if (const auto at = map.get("name", false); at && named(analysis->name()))
+    map.error(*at, fmt::format("two analyses are named '{}'", analysis->name()));
   for (const auto& [key, wanted] : analysis->refers())
     if (const auto at = map.get(key, false); at && !named(wanted))
       map.error(*at, fmt::format("'{}.{}': there is no analysis '{}' above it", map.name(), key, wanted),

@@ -21,6 +21,8 @@
 #include <map>
 #include <string>
 
+#include "post/field_file_sizes.hpp"
+
 namespace courant {
 namespace {
 
@@ -60,7 +62,7 @@ bool load(Reader* reader, VtkMessages& messages, const std::filesystem::path& fi
     return false;
   }
   reader->SetFileName(file.c_str());
-  if (reader->CanReadFile(file.c_str()) == 1) {
+  if (sizes_fit(file) && reader->CanReadFile(file.c_str()) == 1) {
     reader->Update();
     if (reader->GetErrorCode() == 0 && !messages.any()) return true;
   }
@@ -126,7 +128,7 @@ std::optional<ParticleFrame> read_particles(const StateFiles& state, bool with_s
   VtkMessages messages;
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(state.particles.c_str());
-  if (is_readable(state.particles)) reader->UpdateInformation();
+  if (is_readable(state.particles) && sizes_fit(state.particles)) reader->UpdateInformation();
   reader->GetPointDataArraySelection()->DisableAllArrays();  // reading less is most of the speed
   for (const char* name : {"mass", "density", "smoothing_length"})
     reader->GetPointDataArraySelection()->EnableArray(name);

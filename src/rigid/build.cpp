@@ -139,7 +139,7 @@ class Builder {
       if (shell.part == part)
         for (const Index n : shell.node) {
           nodes.insert(world_node_.at(model_.nodes[n].id));
-          refuse_spc(part, model_.nodes[n]);
+          if (!b.fixed()) refuse_spc(part, model_.nodes[n]);
         }
     b.nodes.assign(nodes.begin(), nodes.end());
     if (!b.fixed()) warn_of_shared_nodes(part, b);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace courant {
 
@@ -29,6 +30,12 @@ void CellGrid::keep(Archive& archive) {
   archive("size", size_);
   archive("inverse", inverse_);
   archive.rows("cells", std::vector<Index*>{cells_.data()}, cells_.size());
+  if (!archive.loading()) return;
+  double cells = 1;
+  for (const Index n : cells_) cells *= static_cast<double>(n);
+  const bool negative = std::any_of(cells_.begin(), cells_.end(), [](Index n) { return n < 0; });
+  if (negative || cells > std::numeric_limits<Index>::max() / 2)
+    archive.stop("cells", "holds more cells than can be counted");
 }
 
 }  // namespace courant

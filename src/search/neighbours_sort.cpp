@@ -7,6 +7,7 @@
 
 #include "base/run_error.hpp"
 #include "parallel/counting_sort.hpp"
+#include "search/most_cells.hpp"
 #include "search/neighbours.hpp"
 
 namespace courant {
@@ -148,7 +149,7 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
     if (world.dim == 2) e.low[2] += reach[2], e.high[2] -= reach[2];
   }
   grid_.cover(e.low, e.high, (world.dim == 2 ? std::sqrt(Real(lanes)) : 2) * spacing, 0.5 * spacing,
-              16.0 * count + 4096);
+              most_cells(count));
   const Index cells = grid_.total();
   key_.resize(n);
   find_cells(p, 0, n, key_.data());

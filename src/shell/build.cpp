@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 #include <vector>
 
 #include "shell/section_shell.hpp"
@@ -22,11 +23,19 @@ std::vector<ShellPart> read_parts(const Deck& deck, const Model& model,
   std::map<Id, const SectionShell*> sections;
   for (const SectionShell& s : deck.all<SectionShell>()) {
     sections[s.secid] = &s;
+    if (s.user_defined())
+      deck.error(diagnostics, s, "ELFORM",
+                 fmt::format("user-defined shells ({}) are not supported", s.elform),
+                 "use 2 (Belytschko-Tsay) or 16; rigid shells make no difference between them");
+    if (s.icomp != 0)
+      deck.error(diagnostics, s, "ICOMP", fmt::format("layered composites ({}) are not supported", s.icomp),
+                 "leave the field blank or 0");
     if (s.elform >= 13 && s.elform <= 15)
       deck.error(diagnostics, s, "ELFORM", fmt::format("{} is a 2D solid, not a shell", s.elform),
                  "use 2 (Belytschko-Tsay) or 16; rigid shells make no difference between them");
   }
   std::vector<ShellPart> out(model.parts.size());
+  std::set<const SectionShell*> told;  // several parts may name one
   for (Index k = 0; k < Index(model.parts.size()); ++k) {
     const ModelPart& part = model.parts[k];
     if (!part.has_shell || part.has_sph) continue;  // a part of both kinds was refused by the model
@@ -44,6 +53,9 @@ std::vector<ShellPart> read_parts(const Deck& deck, const Model& model,
                  "shells are rigid walls here; deformable ones are not supported");
     if (!m || section == sections.end()) continue;
     const SectionShell& s = *section->second;
+    if (!(s.t1 > 0) && told.insert(&s).second)
+      deck.error(diagnostics, s, "T1", fmt::format("the shells of part {} have no thickness", part.id),
+                 "give a thickness > 0");
     const auto corner = [&](Real t) { return t > 0 ? t : s.t1; };
     out[k] = {true, *m, 0.25 * (s.t1 + corner(s.t2) + corner(s.t3) + corner(s.t4)), s.marea};
   }

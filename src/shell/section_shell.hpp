@@ -1,4 +1,7 @@
 #pragma once
+#include <string>
+#include <vector>
+
 #include "keyword/card.hpp"
 
 namespace courant {
@@ -9,6 +12,8 @@ struct SectionShell : Entry {
   Id secid = 0;
   int elform = 2, nip = 2, irid = 0, icomp = 0, setyp = 1, edgset = 0;
   Real shrf = 1, propt = 1;
+  std::vector<std::string> user{};  ///< cards of what is not supported
+  bool user_defined() const { return elform >= 101 && elform <= 105; }
   Real t1 = 0, t2 = 0, t3 = 0, t4 = 0, nloc = 0, marea = 0, idof = 0;
 };
 

@@ -38,12 +38,14 @@ class Builder {
     settings_.h_max_factor.assign(model_.parts.size(), 1);
     settings_.q.resize(model_.parts.size());
     settings_.spacing_of_part.resize(model_.parts.size());
+    settings_.usual_spacing.resize(model_.parts.size());
     smoothing_.resize(model_.parts.size());
     read_sections();
     settings_.kernel = read_kernel(deck_, model_, diagnostics_);
     read_viscosities();
     read_control();
     fill_particles();
+    if (model_.sph.empty()) return settings_;
     read_eddy_viscosity(deck_, model_, world_.particles, settings_, diagnostics_);
     set_smoothing_lengths();
     choose_h_form();
@@ -103,7 +105,7 @@ class Builder {
   void read_control() {
     const ControlSph* c = deck_.last<ControlSph>();
     const ControlSph standard{};
-    if (c == nullptr) c = &standard;
+    if (c == nullptr || model_.sph.empty()) c = &standard;  // rigid bodies alone are in space
     world_.dim = c->idim == 2 ? 2 : c->idim == 3 ? 3 : dimension_of_geometry();
     settings_.dim = world_.dim;
     settings_.maxv = std::abs(c->maxv) >= 1e15 ? 0 : c->maxv;
@@ -326,6 +328,7 @@ class Builder {
       }
       if (std::isfinite(largest)) {
         settings_.spacing_of_part[k] = largest;
+        settings_.usual_spacing[k] = median;
         settings_.spacing = std::max(settings_.spacing, largest);
       }
       const auto same = std::find_if(used.begin(), used.end(), [h](Real other) {

@@ -120,6 +120,7 @@ struct SphSettings {
   bool thickness_from_volume = false;  ///< ITHK
   Real spacing = 0;                    ///< largest nearest-neighbour distance of all SPH parts [L]
   std::vector<Real> spacing_of_part;   ///< the same of each part [L]
+  std::vector<Real> usual_spacing;     ///< median of these distances in each part, 0: none [L]
 
   /// Something besides the motion of particles changes the density.
   bool has_density_sources() const {
@@ -136,10 +137,11 @@ SphSettings build_particles(const Deck& deck, const Model& model,
 /// The kernel that SPHKERN of SECTION_SPH or COURANT_KERNEL asks for.
 KernelChoice read_kernel(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
-/// The planes of BOUNDARY_SPH_SYMMETRY_PLANE and _PERIODIC. `reach`: how far a particle looks [L]. Call while
+/// The planes of BOUNDARY_SPH_SYMMETRY_PLANE and _PERIODIC. `reach`: how far a particle looks [L]. Particles
+/// on the second of two periodic planes, which is the same place as the first, are moved to that. Call while
 /// particles stand in the order of the model.
 std::vector<GhostPlane> build_ghost_planes(const Deck& deck, const Model& model, const SphSettings& settings,
-                                           Real reach, const World& world, Diagnostics& diagnostics);
+                                           Real reach, World& world, Diagnostics& diagnostics);
 
 /// Adds the SPH passes the settings ask for to the world, and names those left out with the reason.
 struct PassNote {

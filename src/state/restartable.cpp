@@ -43,6 +43,31 @@ Index particles_to_load(Particles& p, Archive& archive) {
   return saved;
 }
 
+/// Stops where one of the first n is no index into so many.
+void check_indices(const Field<Index>& field, Index n, std::size_t many, const Archive& archive) {
+  for (Index i = 0; i < n; ++i)
+    if (field[i] < 0 || static_cast<std::size_t>(field[i]) >= many)
+      archive.stop(field.info().name, "names what is not there");
+}
+
+/// What other arrays are indexed by.
+void check_world(const World& world, const Archive& archive) {
+  const Particles& p = world.particles;
+  const Segments& g = world.segments;
+  if (p.active < 0 || p.active > p.moving || p.moving > p.size())
+    archive.stop("active", "counts particles that are not there");
+  const std::size_t parts = world.part_ids.size(), nodes = static_cast<std::size_t>(world.nodes.size());
+  if (parts > 0) check_indices(p.part, p.size(), parts, archive);
+  if (parts > 0) check_indices(g.part, g.size(), parts, archive);
+  for (const Field<Index>* corner : {&g.node0, &g.node1, &g.node2, &g.node3})
+    check_indices(*corner, g.size(), nodes, archive);
+  for (const auto& group : world.groups)
+    for (int c = 0; c < group->corners(); ++c)
+      for (Index e = 0; e < group->size(); ++e)
+        if (const Index n = group->node.data(c)[e]; n < 0 || static_cast<std::size_t>(n) >= nodes)
+          archive.stop(group->node.info().name, "names what is not there");
+}
+
 void keep_ledger(EnergyLedger& e, Archive& archive) {
   const Archive::Group inside(archive, "energy");
   archive("kinetic", e.kinetic);
@@ -91,6 +116,7 @@ bool keep_world(World& world, Archive& archive) {
   archive("active", p.active);
   archive("moving", p.moving);
   archive("dormant_time", p.dormant_time);
+  if (archive.loading()) check_world(world, archive);
   archive("counters", world.counters);
   archive("maxima", world.maxima);
   for (Index i = known; i < p.size(); ++i) p.x.add(i, p.v.vec(i) * p.dormant_time);

@@ -156,6 +156,52 @@ ends(1, "check", "warns.k", "--strict", err="1 warning")
 ends(1, "run", "tiny.k", "-o", "never", "--restart", "d3dump01", err="cannot restart from .d3dump01.: No such file")
 check(not os.path.exists("never"), "no folder was made")
 
+# --- a folder that was used before: nothing of the old run stays, nothing that is not its own goes
+with open("well/notes.txt", "w") as file:
+    file.write("mine")
+ends(0, "run", "tiny.k", "-o", "well", "--threads", "1", "--quiet", "--until", "0.015")
+check(len(glob.glob("well/fields/*.vt?")) == len(set(states("well"))), "field files are those of the new run alone")
+check(open("well/notes.txt").read() == "mine", "the files of others stay")
+
+# --- results go neither over the input nor through links, and wait for nobody
+os.makedirs("taken")
+for name in ("messag", "glstat", "summary.yaml"):
+    with open(f"taken/{name}", "w") as file:
+        file.write(text)
+    ends(1, "run", name, "--until", "0.01", cwd="taken", err=f"cannot write './{name}': it is the input '{name}'.*\n  hint: rename")
+    check(open(f"taken/{name}").read() == text and os.listdir("taken") == [name], "the deck is as it was, and nothing beside it")
+    os.remove(f"taken/{name}")
+os.symlink("../tiny.k", "taken/history.h5")
+ends(1, "run", "tiny.k", "-o", "taken", err="taken/history.h5': it is a link")
+check(open("tiny.k").read() == text, "what the link leads to is as it was")
+os.remove("taken/history.h5")
+os.mkfifo("taken/messag")
+ends(1, "run", "tiny.k", "-o", "taken", err="taken/messag': it is no file")
+
+# --- what no machine has
+ends(3, "run", "tiny.k", "-o", "never", "--threads", "100000", err="--threads 100000: no more than 1024")
+with open("far.k", "w") as file:
+    file.write(text.replace("*END", "*NODE\n99999991,1e160,0,0\n*END"))
+ends(1, "check", "far.k", err="coordinates .* are too large")
+with open("here.yaml", "w") as file:
+    file.write("title: x\nbase: .\nparts: []\n")
+ends(1, "generate", "here.yaml", "-o", "here.k", err="base: the file '.*' cannot be read")
+strange = os.fsdecode(b"bad\xff.k")
+with open(strange, "w") as file:
+    file.write(text)
+ends(0, "run", strange, "-o", "strange", "--quiet", "--until", "0.002")
+check("deck: \"bad" in (said := open("strange/summary.yaml", encoding="utf-8").read()) or "deck: bad\ufffd.k" in said, "summary.yaml is UTF-8 whatever the name of the deck")
+
+def with_addresses(megabytes, *words):
+    """Exit code and stderr of a call that may use so many MB of addresses."""
+    done = subprocess.run([courant, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=120,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20)))
+    return done.returncode, done.stderr
+
+
+code, said = with_addresses(1000, "run", "tiny.k", "-o", "never", "--threads", "500")
+check(code == 3 and "500 threads take" in said and "ulimit -v" in said, f"threads that do not fit -> {code}, {said!r}")
+
 # --- check: what it says of good, refused and broken decks
 stdout, _ = ends(0, "check", "tiny.k", "--strict", out=r"The deck can be run: 0 errors, 0 warnings\n$")
 for part in (r"Files\n  tiny.k +\d+ lines", r"\*ELEMENT_SPH +1 +64  honoured", r"  nodes +\d+  from \(", r"  SPH particles +64 ",

@@ -28,7 +28,11 @@ const RegisterKeyword<S> section_solid{
                            {},
                            {},
                            {"COHOFF", &S::cohoff, "-", "place of the cohesive layer"},
-                           {"GASKETT", &S::gaskett, "L", "thickness of the gasket"}}}}}};
+                           {"GASKETT", &S::gaskett, "L", "thickness of the gasket"}}},
+               // how many lines these have, their own numbers tell; parts that use such sections are refused
+               {.fields = {{"USER", &S::user, "-", "user-defined formulation (ELFORM 101 to 105)"}},
+                .repeat = true,
+                .when = [](const S& s) { return s.elform >= 101 && s.elform <= 105; }}}}};
 
 void check_fields(const Deck& deck, const S& s, Diagnostics& diagnostics) {
   constexpr int one_point = 1;

@@ -12,6 +12,7 @@ struct SectionSolid : Entry {
   std::string title;
   Id secid = 0;
   int elform = 0, aet = 0;
+  std::vector<std::string> user{};  ///< cards of what is not supported
   Real cohoff = 0, gaskett = 0;
 };
 

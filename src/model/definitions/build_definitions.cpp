@@ -9,11 +9,11 @@
 namespace courant {
 
 void ModelBuilder::build_sets() {
-  const auto report = [this](const Entry& entry, std::string_view field, Deck::Repeat repeat,
-                             std::string message, std::string hint) {
-    if (++errors_ <= max_errors)
-      diagnostics_.error(deck_.where(entry, field, repeat), deck_.describe(entry, field) + ": " + message,
-                         std::move(hint));
+  const auto report = [this](Severity severity, const Entry& entry, std::string_view field,
+                             Deck::Repeat repeat, std::string message, std::string hint) {
+    if (severity == Severity::error && ++errors_ > max_errors) return;
+    diagnostics_.add({severity, deck_.where(entry, field, repeat),
+                      deck_.describe(entry, field) + ": " + message, std::move(hint)});
   };
   SetResolver(deck_, model_, node_of_id_, report).resolve_all();
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "model/build_model.hpp"
 #include "model/model_builder.hpp"
 #include "model/transforms/transformation.hpp"
 
@@ -49,8 +50,13 @@ void ModelBuilder::build_nodes() {
       continue;
     }
     const Vec x(card.x, card.y, card.z);
-    if (!x.allFinite())
-      error(card, "X", "the coordinates are too large after a change of units or a motion of the file");
+    if (!(x.cwiseAbs().maxCoeff() < largest_coordinate))
+      error(
+          card, "X",
+          fmt::format("the coordinates ({:g}, {:g}, {:g}) are too large, perhaps after a change of units or "
+                      "a motion of the file",
+                      x[0], x[1], x[2]),
+          fmt::format("the largest that can be computed with is {:g}", largest_coordinate));
     model_.nodes.push_back({.id = card.nid, .x = x, .v = Vec::Zero(), .fixed = axes_of_code(card.tc)});
   }
 }

@@ -10,8 +10,8 @@ CardOf<P> part_card() {
   using namespace rules;
   return {.fields = {
               {"PID", &P::pid, "-", "part id", required_id},
-              {"SECID", &P::secid, "-", "section id", required_id_of(IdSpace::section)},
-              {"MID", &P::mid, "-", "material id", required_id_of(IdSpace::material)},
+              {"SECID", &P::secid, "-", "section id", optional_id_of(IdSpace::section)},
+              {"MID", &P::mid, "-", "material id", optional_id_of(IdSpace::material)},
               {"EOSID", &P::eosid, "-", "equation of state id", optional_id_of(IdSpace::eos)},
               {"HGID", &P::hgid, "-", "hourglass and bulk viscosity id", optional_id_of(IdSpace::hourglass)},
               {"GRAV", &P::grav, "-", "gravity preload", unsupported},

@@ -149,15 +149,18 @@ SetResolver::Found SetResolver::listed(SetKind kind, const SetCard& card, SetFor
       out.push_back(found);
       continue;
     }
+    if (kind == SetKind::part) {  // of a model of which only some parts are here
+      report_(Severity::warning, card, member_field(kind, form), {row_, id},
+              fmt::format("part {} does not exist", id), "leave it out, or define it with *PART");
+      continue;
+    }
     whole = false;
     if (kind == SetKind::node)
       error(card, member_field(kind, form), id, fmt::format("node {} has no coordinates", id),
             "define it with *NODE");
     else
       error(card, member_field(kind, form), id, fmt::format("{} {} does not exist", set_word(kind), id),
-            fmt::format("define it with {}", kind == SetKind::part    ? "*PART"
-                                             : kind == SetKind::shell ? "*ELEMENT_SHELL"
-                                                                      : "*ELEMENT_SOLID"));
+            fmt::format("define it with {}", kind == SetKind::shell ? "*ELEMENT_SHELL" : "*ELEMENT_SOLID"));
   }
   if (!whole) return std::nullopt;
   return out;
@@ -224,9 +227,13 @@ bool SetResolver::add_range(SetKind kind, const SetCard& card, SetForm form, Id 
     if (out.size() > 8 * count(kind) + 1000) sort_unique(out);  // ranges in steps may overlap many times
     return true;
   }
-  error(card, field, begin,
-        fmt::format("there is no {} with an id from {} to {}{}", set_word(kind), begin, end,
-                    step == 1 ? "" : fmt::format(" in steps of {}", step)));
+  const std::string what = fmt::format("there is no {} with an id from {} to {}{}", set_word(kind), begin,
+                                       end, step == 1 ? "" : fmt::format(" in steps of {}", step));
+  if (kind == SetKind::part) {  // as where they are listed
+    report_(Severity::warning, card, field, {row_, begin}, what, "leave the range out");
+    return true;
+  }
+  error(card, field, begin, what);
   return false;
 }
 

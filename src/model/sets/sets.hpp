@@ -37,7 +37,7 @@ void release_set_cards(Deck& deck);
 
 class SetResolver {
  public:
-  using Report = std::function<void(const Entry&, std::string_view field, Deck::Repeat repeat,
+  using Report = std::function<void(Severity, const Entry&, std::string_view field, Deck::Repeat repeat,
                                     std::string message, std::string hint)>;
   /// Nodes, parts, elements and boxes of `model` must be there. Faults go to `report`.
   SetResolver(const Deck& deck, Model& model, const IdIndex& node_of_id, Report report);
@@ -94,7 +94,7 @@ class SetResolver {
   /// `value`: the id at fault, 0 if it is not one alone.
   void error(const Entry& entry, std::string_view field, Id value, std::string message,
              std::string hint = {}) {
-    report_(entry, field, {row_, value}, std::move(message), std::move(hint));
+    report_(Severity::error, entry, field, {row_, value}, std::move(message), std::move(hint));
   }
 
   const Deck& deck_;

@@ -6,6 +6,7 @@
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "search/nearest_distance.hpp"
 #include "sph/boundaries/injection.hpp"
 #include "sph/sph.hpp"
 
@@ -49,7 +50,7 @@ const RegisterKeyword<BoundarySphPeriodic> periodic_keyword{boundary_sph_periodi
 
 class PlaneBuilder {
  public:
-  PlaneBuilder(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
+  PlaneBuilder(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics)
       : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {}
 
   std::vector<GhostPlane> build(const SphSettings& settings, Real reach) {
@@ -154,22 +155,58 @@ class PlaneBuilder {
 
   void check_particles() {
     const Particles& p = world_.particles;
-    for (std::size_t k = 0; k < planes_.size(); ++k)
+    for (std::size_t k = 0; k < planes_.size(); ++k) {
+      if (planes_[k].period > 0) wrap(k);
       for (Index i = 0; i < p.size(); ++i) {
         const Real d = (p.x.vec(i) - planes_[k].point).dot(planes_[k].normal);
         if (d >= 0 && (planes_[k].period == 0 || d < planes_[k].period)) continue;
-        diagnostics_.error(deck_.where(model_.sph[i].card),
-                           fmt::format("{}: particle {} stands behind the plane of {}",
-                                       deck_.keyword(model_.sph[i].card), p.id[i], place(*cards_[k])),
-                           "the vector of the plane points into the material");
+        diagnostics_.error(
+            deck_.where(model_.sph[i].card),
+            fmt::format("{}: particle {} stands behind the {}plane of {}", deck_.keyword(model_.sph[i].card),
+                        p.id[i], d < 0 ? "" : "second ", place(*cards_[k])),
+            d < 0 ? "the vector of the plane points into the material"
+                  : fmt::format("the second plane is {:.6g} [L] from the first, the particle "
+                                "{:.6g}: move the plane, or the particle",
+                                planes_[k].period, d));
         break;
       }
+    }
+  }
+
+  /// Lattices that end on both planes count each particle there twice.
+  void wrap(std::size_t k) {
+    Particles& p = world_.particles;
+    const GhostPlane& plane = planes_[k];
+    std::vector<Index> wrapped;
+    for (Index i = 0; i < p.size(); ++i) {
+      const Real d = (p.x.vec(i) - plane.point).dot(plane.normal);
+      const Real rounding = rounding_of_decks * plane.period;
+      if (std::abs(d - plane.period) > rounding && !(d < 0 && d > -rounding)) continue;
+      const Vec before = p.x.vec(i);
+      Vec x = before - d * plane.normal;
+      for (Real push = 1e-16 * plane.period; (x - plane.point).dot(plane.normal) < 0; push *= 2)
+        x = before - (d - push) * plane.normal;  // round-off must not leave it behind the plane
+      p.x.set(i, x);
+      wrapped.push_back(i);
+    }
+    if (wrapped.empty()) return;
+    const std::vector<Real> nearest = nearest_distance(p.x.data(0), p.x.data(1), p.x.data(2), p.size());
+    for (const Index i : wrapped) {
+      if (nearest[i] > rounding_of_decks * plane.period) continue;
+      diagnostics_.error(deck_.where(model_.sph[i].card),
+                         fmt::format("{}: particle {} stands on a plane of {}, which is the same place as "
+                                     "the other one, where another particle is",
+                                     deck_.keyword(model_.sph[i].card), p.id[i], place(*cards_[k])),
+                         "leave out the particles on one of the two planes");
+      return;
+    }
   }
 
   static constexpr Real parallel = 1e-9;
+  static constexpr Real rounding_of_decks = 1e-6;  ///< of a period
   const Deck& deck_;
   const Model& model_;
-  const World& world_;
+  World& world_;
   Diagnostics& diagnostics_;
   std::vector<GhostPlane> planes_;
   std::vector<const Entry*> cards_;
@@ -178,7 +215,7 @@ class PlaneBuilder {
 }  // namespace
 
 std::vector<GhostPlane> build_ghost_planes(const Deck& deck, const Model& model, const SphSettings& settings,
-                                           Real reach, const World& world, Diagnostics& diagnostics) {
+                                           Real reach, World& world, Diagnostics& diagnostics) {
   return PlaneBuilder(deck, model, world, diagnostics).build(settings, reach);
 }
 

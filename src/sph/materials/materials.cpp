@@ -78,8 +78,9 @@ void check_start(const Deck& deck, const ModelPart& part, const PartMaterial& m,
         diagnostics, part.card, "EOSID",
         fmt::format("equation of state {} gives part {} no sound speed: c^2 = {:.4g} [L2/T2] at the start",
                     part.eosid, part.id, c2),
-        "give it a bulk modulus > 0: C1 = RO c0^2 of *EOS_LINEAR_POLYNOMIAL, K0 and GAMMA of "
-        "*EOS_MURNAGHAN");
+        eos.name() == "jwl" ? "products of a detonation begin with the energy E0 of *EOS_JWL, and A > 0"
+                            : "give it a bulk modulus > 0: C1 = RO c0^2 of *EOS_LINEAR_POLYNOMIAL, K0 and "
+                              "GAMMA of *EOS_MURNAGHAN");
 }
 
 }  // namespace
@@ -88,6 +89,13 @@ Real PartMaterial::c0() const {
   const Real bulk = eos ? eos->sound_speed2(ro, 1 / eos->V0 - 1, eos->E0) : 0;
   const Real strong = strength ? strength->sound_speed() : 0;
   return std::sqrt(bulk + strong * strong);
+}
+
+bool PartMaterial::starts_at_rest() const {
+  if (!eos) return true;
+  constexpr Real small = 0.1;
+  const Real mu = 1 / eos->V0 - 1;
+  return std::abs(eos->pressure(mu, eos->E0)) < small * ro * eos->sound_speed2(ro, mu, eos->E0);
 }
 
 SphMaterial PartMaterial::for_particles() const {

@@ -20,6 +20,9 @@ struct PartMaterial {
   Real c0() const;
   /// It has a sound speed without heat, as liquids and solids do, and gases do not.
   bool holds_cold() const { return !eos || eos->sound_speed2(ro, 0, 0) > 0; }
+  /// Its pressure at the start is small beside its bulk modulus, not that of a gas or of the products of a
+  /// detonation, which expand.
+  bool starts_at_rest() const;
   SphMaterial for_particles() const;
 };
 

@@ -64,11 +64,24 @@ TEST(CheckDeck, NeedsAreWhatIsRefusedAndWhatIsMissing) {
             "What a run would need\n"
             "  not supported: airbags: *AIRBAG_ALE, *AIRBAG_LINEAR_FLUID\n"
             "  not supported: this equation of state (EOS_014): *EOS_JWLB\n"
-            "  not in the deck: *ELEMENT_SPH (at least one particle)\n"
-            "  not in the deck: *PART (what the particles are made of)\n"
+            "  not in the deck: *ELEMENT_SPH or *ELEMENT_SOLID (particles, or solids)\n"
+            "  not in the deck: *PART (what the elements are made of)\n"
             "  not in the deck: *SECTION_SPH (smoothing length)\n"
             "  not in the deck: *MAT_NULL (density of the particles' material)\n"
             "  not in the deck: *CONTROL_TERMINATION (end time)\n");
+}
+
+TEST(CheckDeck, NeedsOfSolidsAreNotThoseOfParticles) {
+  const ReadDeck read = read_in_memory(in_memory(Files{
+      {"deck.k",
+       "*KEYWORD\n*NODE\n       1\n*PART\nblock\n         1         1         1\n*AIRBAG_ALE\n"
+       "*ELEMENT_SOLID\n       1       1       1       1       1       1       1       1       1       1\n"
+       "*CONTROL_TERMINATION\n       1.0\n*END\n"}}));
+  EXPECT_EQ(needs_text(read.deck, gather_facts(read.deck)),
+            "What a run would need\n"
+            "  not supported: airbags: *AIRBAG_ALE\n"
+            "  not in the deck: *SECTION_SOLID (formulation of the solids)\n"
+            "  not in the deck: *MAT_ELASTIC (what the solids are made of)\n");
 }
 
 TEST(CheckDeck, UnusedIdsAreListedWithTheirPlaces) {

@@ -469,6 +469,36 @@ TEST(Restart, RefusesTheStateOfAnotherRun) {
             "the saved state does not fit this run, which knows no 'state/passes/magnet/pull'");
 }
 
+/// Whatever counts and indices a state holds, it is loaded or refused: nothing is read or written elsewhere.
+TEST(Restart, SurvivesWrongCountsAndIndices) {
+  SmallScene s;
+  s.extra = test::floor_cards(0.02);
+  s.start = "0.,-1.,0.";
+  const auto a = test::build(s);
+  steps(*a, 30);
+  const SavedState state = saved(*a);
+  int refused = 0;
+  for (const auto& [path, array] : state) {
+    if (array.type != SavedType::integer32 && array.type != SavedType::integer64) continue;
+    const std::size_t n = array.count(), width = array.width();
+    for (const std::size_t at : std::set<std::size_t>{0, n / 2, n - 1})
+      for (const std::int64_t value : {std::int64_t(-1), std::int64_t(1) << 29}) {
+        if (n == 0) continue;
+        SavedState changed = state;
+        std::memcpy(changed.at(path).bytes.data() + at * width, &value, width);
+        const auto b = test::build(s);
+        try {
+          load(*b, std::move(changed));
+        } catch (const RestartError&) {
+          ++refused;
+        } catch (const std::bad_alloc&) {
+          ADD_FAILURE() << path << " number " << at << " of " << n << ": " << value;
+        }
+      }
+  }
+  EXPECT_GT(refused, 10);
+}
+
 TEST(Restart, TheCommandToGoOnIsWhatAShellTakes) {
   RunOptions options;
   options.dir = "my results";

@@ -31,6 +31,17 @@ std::string node_lines(int first, int count) {
   return text;
 }
 
+TEST(Deck, KeepsTheLastOfACardThatCountsOnce) {
+  const ReadDeck read = read_in_memory(
+      in_memory("*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*DATABASE_GLSTAT\n0.1\n*DATABASE_MATSUM\n0.2\n"
+                "*CONTROL_TERMINATION\n3.0\n*DATABASE_GLSTAT\n0.1\n*END\n"));
+  ASSERT_EQ(read.deck.all<ControlTerminationCard>().size(), 1u);
+  EXPECT_EQ(read.deck.last<ControlTerminationCard>()->endtim, 3.0);
+  EXPECT_EQ(read.deck.all<DatabaseAsciiCard>().size(), 2u);
+  EXPECT_EQ(read.diagnostics.warnings(), 1) << read.diagnostics.text();  // none where both say the same
+  EXPECT_TRUE(read.diagnostics.ok());
+}
+
 }  // namespace
 
 TEST(Deck, AllocatesATableOnce) {

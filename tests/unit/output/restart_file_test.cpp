@@ -1,13 +1,16 @@
 #include "output/restart_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <fstream>
 #include <numeric>
 #include <sstream>
 
 #include "output/folder_lock.hpp"
+#include "output/hdf5.hpp"
 
 namespace courant {
 namespace {
@@ -88,6 +91,36 @@ TEST_F(RestartFiles, AreRefusedForOneWrongBitAnywhere) {
   }
   std::ofstream(file, std::ios::binary) << whole;
   EXPECT_EQ(fault(file), "");
+}
+
+/// A file whose checksum holds, but whose array claims numbers that nobody wrote.
+TEST_F(RestartFiles, AskForNoMoreMemoryThanTheyCanFill) {
+  const fs::path image = folder_ / "image.h5", file = folder_ / "a.h5";
+  {
+    const hsize_t size[] = {1, hsize_t(1) << 40}, chunk[] = {1, 1 << 16};
+    const Hdf5Handle h5(H5Fcreate(image.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+    const Hdf5Handle space(H5Screate_simple(2, size, nullptr), H5Sclose);
+    const Hdf5Handle options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_chunk(options, 2, chunk);
+    const Hdf5Handle dataset(H5Dcreate2(h5, "huge", H5T_IEEE_F64LE, space, H5P_DEFAULT, options, H5P_DEFAULT),
+                             H5Dclose);
+    ASSERT_GE(hid_t(dataset), 0);
+  }
+  std::ifstream stream(image, std::ios::binary);
+  std::stringstream bytes;
+  bytes << stream.rdbuf();
+  SavedState none;
+  write_restart_file(file, none, 3);  // for the form of the last line
+  std::ifstream whole(file, std::ios::binary);
+  std::stringstream written;
+  written << whole.rdbuf();
+  const std::string last = written.str().substr(written.str().size() - 74);
+  std::string crafted = bytes.str() + last.substr(0, 65);
+  const auto crc =
+      ::crc32(0, reinterpret_cast<const Bytef*>(crafted.data()), static_cast<uInt>(crafted.size()));
+  crafted += fmt::format("{:08x}\n", crc);
+  std::ofstream(file, std::ios::binary) << crafted;
+  EXPECT_NE(fault(file).find("HDF5 cannot read 'huge'"), std::string::npos) << fault(file);
 }
 
 TEST_F(RestartFiles, AreListedFromTheLatestOn) {

@@ -1,4 +1,5 @@
 #include "post/post.hpp"
+#include "post/field_file_sizes.hpp"
 
 #include <yaml-cpp/yaml.h>
 
@@ -10,6 +11,7 @@
 #include "output/field_writer.hpp"
 #include "output/summary.hpp"
 #include "parallel/parallel.hpp"
+#include "post/field_file_sizes.hpp"
 #include "post/recipe.hpp"
 
 namespace courant {
@@ -137,6 +139,32 @@ TEST(Post, TruncatedFieldFile) {
   }
 }
 
+TEST(Post, FieldFileThatAsksForMoreThanItHolds) {
+  ScratchFolder dir;
+  write_state(dir);
+  const auto file = dir / "fields/particles_0000.vtp";
+  EXPECT_TRUE(sizes_fit(file));
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream bytes;
+  bytes << stream.rdbuf();
+  const std::string whole = bytes.str();
+  const std::string points = "NumberOfPoints=\"";
+  const std::size_t data = whole.find('_', whole.find("<AppendedData")) + 1,
+                    count = whole.find(points) + points.size();
+  std::string blocks = whole, crowd = whole;
+  blocks.replace(data, 4, "\xff\xff\xff\x7f");  // of the first array
+  crowd.insert(count, "9999999");
+  for (const std::string& damaged : {blocks, crowd}) {
+    write_file(file, damaged);
+    EXPECT_FALSE(sizes_fit(file));
+    Diagnostics diagnostics;
+    EXPECT_FALSE(run_post(
+        jump_recipe, dir.path(), [](std::string_view) {}, diagnostics));
+    EXPECT_NE(diagnostics.text().find("particles_0000.vtp: error: not a field file"), std::string::npos)
+        << diagnostics.text();
+  }
+}
+
 TEST(Post, IndexThatIsNoXml) {
   ScratchFolder dir;
   write_file(dir / "fields.pvd", "<VTKFile><Coll");
@@ -179,6 +207,9 @@ TEST(Recipe, FaultsOfAnalysesWithTheirPlaces) {
     return out;
   };
   const auto analysis = [&](const std::string& keys) { return message("analyses:\n  - {" + keys + "}\n"); };
+  const std::string nameless = message("analyses:\n  - {kind: surface, x: 1}\n  - {kind: surface, x: 2}\n");
+  EXPECT_NE(nameless.find("R:2:5: error: 'analyses' lacks the key 'name'"), std::string::npos) << nameless;
+  EXPECT_NE(nameless.find("R:3:5: error: 'analyses' lacks the key 'name'"), std::string::npos) << nameless;
   EXPECT_EQ(analysis("kind: surfce, name: a, x: 1"),
             "R:2:12: error: there is no kind of analysis 'surfce'\n"
             "  hint: did you mean surface? kinds: probe, surface, grid, profile, spectrum, flux, history, "

@@ -33,7 +33,8 @@ inline std::unique_ptr<Simulation> checkerboard_tank(const std::string& more, Re
     const Real p = 9810 * (0.95 - 0.1 * row) + ((column + row) % 2 == 0 ? noise : 0);
     pressures += fmt::format("{},{:.17g},{:.17g},{:.17g},0,0,0,0\n", k + 1, -p, -p, -p);
   }
-  return build_deck(text + elements + pressures + "*END\n");
+  return build_deck(text + elements + pressures + "*END\n",
+                    copies == 1);  // copies are too heavy for their place
 }
 
 /// Mean square of what two neighbours in a row of that tank differ by, less the change along the row that

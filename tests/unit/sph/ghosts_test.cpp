@@ -92,6 +92,30 @@ const std::string mirror_y = "*BOUNDARY_SPH_SYMMETRY_PLANE\n7,0,0,7,2,0\n";
 const std::string periodic_x =
     "*DEFINE_VECTOR\n1,-1,0,0,5,0,0\n2,1,0.3,0,-1,0.3,0\n*BOUNDARY_SPH_PERIODIC\n1,2\n";
 
+TEST(Ghosts, TheSecondPeriodicPlaneIsTheFirst) {
+  std::string text =
+                  "*KEYWORD\n*CONTROL_TERMINATION\n1.\n*CONTROL_SPH\n1,0,1e20,2\n*PART\nwater\n1,1,1,1\n*"
+                  "SECTION_SPH\n1,1.2\n"
+                  "*MAT_NULL\n1,1000.0\n*EOS_LINEAR_POLYNOMIAL\n1,0,9e5\n*DEFINE_VECTOR\n1,0.3,0,0,1,0,0\n2,"
+                  "0.9,0,0,0,0,0\n"
+                  "*BOUNDARY_SPH_PERIODIC\n1,2\n*NODE\n",
+              elements = "*ELEMENT_SPH\n";
+  for (int k = 0; k < 12; ++k) {  // x = 0.4 to 0.9, and the planes at 0.3 and 0.9
+    text += fmt::format("{},{:.17g},{:.17g},0\n", k + 1, 0.1 * (k % 6) + 0.4, 0.1 * (k / 6));
+    elements += fmt::format("{},1,10.0\n", k + 1);
+  }
+  const auto s = test::build_deck(text + elements + "*END\n");
+  ASSERT_NE(s, nullptr);
+  Index wrapped = 0;
+  const Particles& p = s->world().particles;
+  for (Index i = 0; i < p.size(); ++i) {
+    EXPECT_GE(p.x.vec(i)[0], 0.3);
+    EXPECT_LT(p.x.vec(i)[0], 0.85);
+    wrapped += std::abs(p.x.vec(i)[0] - 0.3) < 1e-12;
+  }
+  EXPECT_EQ(wrapped, 2);
+}
+
 }  // namespace
 
 TEST(GhostParticles, PartOfATankBehindMirrorsIsTheWholeTank) {
