@@ -42,7 +42,7 @@ const Lists bare{
     {"rates clear forces", "rates sph rates", "rates sph rates, reduction", "laws eos linear polynomial",
      "laws sph volumes", "reductions sph time step", "reductions sph energy", "forces sph forces",
      "forces sph forces, reduction", "motion motion of particles", "preparation sph viscous speed",
-     "preparation neighbours", "time limit sph time step", "energy sph energy", "guard every 64 steps"},
+     "preparation neighbours", "time limit sph time step", "energy kinetic energy of particles", "energy sph energy", "guard every 64 steps"},
     {"inlets no *DEFINE_SPH_INJECTION",
      "ghost particles no *BOUNDARY_SPH_SYMMETRY_PLANE, no *BOUNDARY_SPH_PERIODIC",
      "prescribed motion no *BOUNDARY_PRESCRIBED_MOTION",

@@ -21,6 +21,7 @@ const std::map<std::string, const char*> plain_numbers = {
     {"INCLUDE_TRANSFORM IDFOFF", "an offset"},
     {"INCLUDE_TRANSFORM IDDOFF", "an offset"},
     {"INCLUDE_TRANSFORM IDROFF", "an offset"},
+    {"COURANT_LITERAL_PENALTY CID", "an id, or a number among contacts without"},
     {"CONTROL_TERMINATION ENDCYC", "a number of steps, which may be large"},
 };
 
