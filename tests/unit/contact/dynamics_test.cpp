@@ -35,6 +35,37 @@ TEST(ContactDynamics, In2DShellsAreAsStiffWhateverTheirWidthAndTheUnitOfLength) 
   EXPECT_NEAR(step_of(1, 1e-3), dt, 1e-12 * dt);
 }
 
+/// Stable step of a particle of mass 1 at a wall of nodes of mass `wall`, 0: held; stiffness 0.1 rho c^2 dx =
+/// 1000.
+Real stable_step(Real wall, Real vdc) {
+  Scene s;
+  s.m = 1, s.rho = 1000, s.c = 10;
+  s.held = wall == 0;
+  s.law.vdc = vdc;
+  s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0));
+  s.x = {Vec(0.05, 0.05, 0.5)};
+  s.build(wall > 0 ? wall : 1);
+  return s.contact->limit(s.world, s.clock).dt;
+}
+
+/// A spring between two masses swings by their reduced one: quicker at a wall that gives way.
+TEST(ContactDynamics, TheStepIsThatOfTheReducedMassOfParticleAndWall) {
+  EXPECT_NEAR(stable_step(0, 0), std::sqrt(2 / 1000.), 1e-12);
+  EXPECT_NEAR(stable_step(1, 0), std::sqrt(1 / 1000.), 1e-12);
+  EXPECT_NEAR(stable_step(0.25, 0), std::sqrt(0.4 / 1000.), 1e-12);
+}
+
+/// Velocities of the step before damp: stable for w dt < 2 (sqrt(1 + xi^2) - xi), the root of w^2 dt^2 + 4 xi
+/// w dt = 4. Nine tenths of that, and no more than without damping.
+TEST(ContactDynamics, DampingShortensTheStep) {
+  const Real w = std::sqrt(1000.);
+  for (const Real vdc : {50., 100., 300.}) {
+    const Real a = w * stable_step(0, vdc) / 0.9;
+    EXPECT_NEAR(a * a + 4 * 0.01 * vdc * a, 4, 1e-9) << vdc;
+  }
+  EXPECT_EQ(stable_step(0, 1), stable_step(0, 0));
+}
+
 TEST(ContactDynamics, BounceConservesEnergy) {
   Scene s;
   s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0), 2, 2);

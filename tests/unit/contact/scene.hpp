@@ -31,14 +31,14 @@ struct Scene {
       }
   }
 
-  void build() {
+  void build(Real node_mass = 1) {
     world.nodes.fields.resize(Index(4 * quads.size()));
     Segments& g = world.segments;
     g.fields.resize(Index(quads.size()));
     for (Index s = 0; s < g.size(); ++s) {
       for (int e = 0; e < 4; ++e) {
         world.nodes.x.set(4 * s + e, quads[s][e]);
-        world.nodes.m[4 * s + e] = 1;
+        world.nodes.m[4 * s + e] = node_mass;
         world.nodes.held[4 * s + e] = held ? 1 : 0;
       }
       g.node0[s] = 4 * s, g.node1[s] = 4 * s + 1, g.node2[s] = 4 * s + 2, g.node3[s] = 4 * s + 3;

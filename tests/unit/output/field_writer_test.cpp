@@ -59,6 +59,25 @@ TEST(FieldWriter, ParticlesComeBackInOrderOfIds) {
   EXPECT_FALSE(fields->HasArray("density_rate"));  // not flagged for output
 }
 
+TEST(FieldWriter, AccelerationIsForceOverMassInsideTheBox) {
+  ScratchFolder dir;
+  World world;
+  test::fill_small_world(world);
+  Particles& p = world.particles;
+  p.active = 2;  // the one with id 20 is beside the box
+  for (Index i = 0; i < 3; ++i) p.m[i] = 0.5 * (i + 1), p.f.set(i, {3.0, -6.0, 1.5});
+  FieldWriter(dir.path(), {.part_ids = {7, 8}, .extra = {"acceleration"}}).write(world, 0, 0);
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((dir / "fields/particles_0000.vtp").c_str());
+  reader->Update();
+  vtkDataArray* a = reader->GetOutput()->GetPointData()->GetArray("acceleration");
+  ASSERT_NE(a, nullptr);
+  EXPECT_STREQ(a->GetInformation()->Get(vtkDataArray::UNITS_LABEL()), "L/T2");
+  const double expected[3][3] = {{3, -6, 1.5}, {0, 0, 0}, {6, -12, 3}};  // ids 10, 20, 30
+  for (int i = 0; i < 3; ++i)
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(a->GetComponent(i, c), expected[i][c]) << i << ' ' << c;
+}
+
 TEST(FieldWriter, ShellsComeBackWithContactForce) {
   ScratchFolder dir;
   World world;

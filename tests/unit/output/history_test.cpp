@@ -105,6 +105,28 @@ TEST(History, GrowsOverSeveralFlushesAndComesBack) {
   H5Fclose(file);
 }
 
+TEST(History, ForcesAndMomentsOnBodiesTellTheirDimensions) {
+  ScratchFolder dir;
+  Sample s = sample_at(1);
+  s.bodies = {{.part = 3, .force = Vec(1, 2, 3), .moment = Vec(4, 5, 6)}};
+  s.boundary_forces = {{.kind = BoundaryForce::Kind::driven_body, .id = 3, .moment = Vec(7, 8, 9)}};
+  History history(dir / "history.h5");
+  history.record(s);
+  history.flush();
+  const hid_t file = H5Fopen((dir / "history.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  EXPECT_EQ(read(file, "/rigid_bodies/3/moment"), (std::vector<double>{4, 5, 6}));
+  EXPECT_EQ(read(file, "/driven_bodies/3/moment"), (std::vector<double>{7, 8, 9}));
+  // force M L/T^2 times arm L; force times way L; M L^2 times (L/T over L)^2
+  for (const char* path : {"/rigid_bodies/3/moment", "/driven_bodies/3/moment", "/driven_bodies/3/work",
+                           "/rigid_bodies/3/kinetic"})
+    EXPECT_EQ(attribute(file, path, "dimension"), "ML2/T2") << path;
+  for (const char* path : {"/rigid_bodies/3/force", "/driven_bodies/3/force"})
+    EXPECT_EQ(attribute(file, path, "dimension"), "ML/T2") << path;
+  EXPECT_EQ(attribute(file, "/rigid_bodies/3/omega", "dimension"), "1/T");
+  H5Fclose(file);
+}
+
 TEST(History, QuantityThatAppearsLateOrVanishesIsNaNElsewhere) {
   ScratchFolder dir;
   History history(dir / "history.h5", 2);

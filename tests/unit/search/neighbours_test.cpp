@@ -154,6 +154,33 @@ TEST(Neighbours, StayCompleteUntilTheyRebuildThemselves) {
   EXPECT_LT(cloud.neighbours->rebuilds(), 60);
 }
 
+// Contact looks at the walls that are near when lists are built; they must be built anew before others are.
+TEST(Neighbours, RebuildWhenAWallHasMovedByHalfTheSkin) {
+  Cloud cloud(2, 6, 0.01, 0);
+  World& world = cloud.world;
+  world.nodes.fields.resize(6);
+  for (Index k = 0; k < 6; ++k) world.nodes.x.set(k, {0.01 * k, -0.05, 0});
+  world.nodes.held[3] = 1;
+  Segments& s = world.segments;
+  s.fields.resize(1);
+  s.node0[0] = 0, s.node1[0] = 1, s.node2[0] = 2, s.node3[0] = 3;  // 4 and 5 are on no face
+  const Real skin = cloud.neighbours->skin();
+  cloud.refresh();
+  const auto rebuilds_after = [&](Index node, const Vec& move) {
+    world.nodes.x.add(node, move);
+    ++cloud.clock.cycle;
+    cloud.refresh();
+    return cloud.neighbours->rebuilds();
+  };
+  EXPECT_EQ(rebuilds_after(2, {0, 0.45 * skin, 0}), 1);
+  EXPECT_EQ(rebuilds_after(2, {0, 0.1 * skin, 0}), 2);
+  EXPECT_EQ(rebuilds_after(2, {0, 0, -0.45 * skin}), 2);  // from where it was then
+  EXPECT_EQ(rebuilds_after(1, {0, 0, 0.55 * skin}), 3);
+  EXPECT_EQ(rebuilds_after(0, {-0.3 * skin, 0.3 * skin, 0.3 * skin}), 4);
+  EXPECT_EQ(rebuilds_after(3, {0, 5 * skin, 0}), 4);
+  EXPECT_EQ(rebuilds_after(4, {0, 5 * skin, 0}), 4);
+}
+
 TEST(Neighbours, StayCompleteWhereSomeGrow) {
   // every fifth particle grows, and the others come towards those in the middle
   Cloud cloud(2, 20, 0.01, 0.2);

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "../app/small_scene.hpp"
+#include "../run_pass.hpp"
 #include "parallel/parallel.hpp"
 #include "sph/core/fields.hpp"
 #include "sph/options/drift.hpp"
@@ -132,6 +133,64 @@ TEST(Shifting, EnergyIsKept) {
     EXPECT_LT(std::abs(e.residual()), std::abs(without) + 0.01 * e.throughput) << correct;
     EXPECT_NE(s->world().maxima.at("shift_potential_energy"), 0);
   }
+}
+
+/// One particle of mass 2 and density 1000.
+void make_particle(World& world) {
+  Particles& p = world.particles;
+  p.fields.resize(1);
+  p.active = p.moving = 1;
+  p.id[0] = 1, p.m[0] = 2, p.rho[0] = 1000, p.h[0] = 0.1;
+  p.x.set(0, {0.3, 0.4, 0});
+  p.v.set(0, {3, 0, 0});
+}
+
+/// The energy that a drift by 0.01 x (0.2, 0.5) takes out of what the ledger calls dissipated, with velocity
+/// gradients where `correct`.
+Real taken_by_drift(bool correct, Real g) {
+  World world;
+  make_particle(world);
+  Particles& p = world.particles;
+  const BodyLoad gravity{.direction = Vec::UnitY(), .curve = {1, {0, 1}, {g, g}}};  // a = -g e_y
+  Drift drift({.name = "shifting", .statistics = shift_statistics, .correct = correct}, {},
+              BodyAcceleration({gravity}), world);
+  drift_velocity(p, shift_statistics).set(0, {0.2, 0.5, 0});
+  if (correct) sph_fields::velocity_gradient(p, 0).set(0, {10, 20, 0});
+  test::run(drift, world, {.t = 0.5, .dt = 0.01, .dt_old = 0.01});
+  EXPECT_NEAR(p.x.vec(0)[1], 0.405, 1e-15);
+  EXPECT_NEAR(p.v.vec(0)[0], correct ? 3 + 10 * 0.002 + 20 * 0.005 : 3, 1e-14);
+  EXPECT_GT(world.energy.throughput, 0);
+  return -world.energy.dissipated;
+}
+
+// Who drifts upwards gains potential energy, and who takes the velocity of a quicker place kinetic energy,
+// out of nothing: so that the balance stays, the ledger has dissipated so much less.
+TEST(Drift, GainsOfPotentialAndKineticEnergyAreDissipationLess) {
+  EXPECT_NEAR(taken_by_drift(false, 9.81), 2 * 9.81 * 0.005, 1e-13);
+  EXPECT_NEAR(taken_by_drift(true, 0), 0.5 * 2 * (3.12 * 3.12 - 9), 1e-13);
+  EXPECT_NEAR(taken_by_drift(true, 9.81), 2 * 9.81 * 0.005 + 0.5 * 2 * (3.12 * 3.12 - 9), 1e-13);
+}
+
+// Shifting and XSPH change densities against pressure: internal energy grows by p dV, out of nothing as well.
+TEST(Drift, GainsOfInternalEnergyAreDissipationLess) {
+  World world;
+  make_particle(world);
+  Particles& p = world.particles;
+  DriftDensity density(world);
+  const Clock clock{.t = 0.5, .dt = 0.01, .dt_old = 0.01};
+  const Real rate = 50;  // of the density, by drift alone, over the whole step
+  sph_fields::drift_rate(p)[0] = rate;
+  p.p[0] = 2e4;
+  p.drhodt[0] = 0;
+  density.add(p, 0, 1);
+  EXPECT_EQ(p.drhodt[0], rate);
+  p.rho[0] += rate * clock.dt_old, p.p[0] = 2.2e4;
+  test::run(density, world, clock);
+  EnergyLedger ledger;
+  density.record(world, clock, ledger);
+  const Real dV = 2 / 1000.5 - 2 / 1000.;  // < 0: pressed together
+  EXPECT_NEAR(ledger.dissipated, 2.1e4 * dV, 1e-9 * 2.1e4 * std::abs(dV));
+  EXPECT_NEAR(ledger.throughput, 2.1e4 * std::abs(dV), 1e-9 * 2.1e4 * std::abs(dV));
 }
 
 TEST(Shifting, LeavesHeldDrivenAndTouchingParticlesAlone) {
