@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* ascii_names[] = {"glstat", "matsum", "rcforc",  "sphout", "sleout",
-                                       "nodout", "rbdout", "spcforc", "bndout"};
+                                       "nodout", "rbdout", "spcforc", "bndout", "rwforc"};
 constexpr const char* own_names[] = {"messag", "summary.yaml", "history.h5", "fields.pvd", ".courant_lock"};
 constexpr const char* folders[] = {"fields", "restart", "restart_old"};
 

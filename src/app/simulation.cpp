@@ -226,7 +226,7 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
                                     const auto& law = solids ? solids : materials_[part].strength;
                                     return law ? law->bulk_modulus() : Real(0);
                                   },
-                              .body_mass = bodies_ ? bodies_->mass_by_node(world_) : std::vector<Real>{},
+                              .bodies = bodies_ ? bodies_->wall_bodies(world_) : WallBodies{},
                               .reach_margin = neighbours_->largest_skin()},
                              world_, diagnostics);
   if (!diagnostics.ok()) return;
@@ -255,7 +255,8 @@ Ranges Simulation::reference_of_parts() const {
     if (!m.found) continue;
     out[k].rho0 = m.ro;
     out[k].c0 = m.c0();
-    out[k].liquid = m.holds_cold() && m.starts_at_rest();  // a gas has no pressure without heat
+    // a gas has no pressure without heat; solids have a law of strength
+    out[k].liquid = m.holds_cold() && m.starts_at_rest() && !m.strength;
   }
   return out;
 }

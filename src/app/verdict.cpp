@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/range_warnings.hpp"
@@ -57,11 +58,11 @@ constexpr Real least_hourglass = 1e-3;
 void add_energy(const Summary& s, std::vector<Finding>& out) {
   const EnergyLedger& e = s.energy;
   const Real error = e.error();
-  if (!std::isfinite(e.total())) {
+  if (!std::isfinite(e.total()) || !std::isfinite(error)) {
     out.push_back({true, "the energy is no finite number"});
     return;
   }
-  if (!(std::abs(error) > s.limits.residual_doubtful)) return;
+  if (!(std::abs(error) > std::min(s.limits.residual_doubtful, s.limits.residual_broken))) return;
   out.push_back(
       {std::abs(error) > s.limits.residual_broken,
        fmt::format("the energy balance does not close: {:.4g} [ML2/T2] {}, {:.3g} % of the {:.4g} that the "
@@ -75,7 +76,7 @@ void add_leaks(const Summary& s, std::vector<Finding>& out) {
   if (s.leaked_particles <= 0) return;
   const Real part = static_cast<Real>(s.leaked_particles) /
                     static_cast<Real>(std::max<std::int64_t>(s.particles, s.leaked_particles));
-  if (!(part > s.limits.leaks_doubtful)) return;
+  if (!(part > std::min(s.limits.leaks_doubtful, s.limits.leaks_broken))) return;
   out.push_back(
       {part > s.limits.leaks_broken,
        fmt::format("{} particle{} leaked through a wall, {:.2g} % of all: make the contact stiffer (SFSA, "
@@ -86,7 +87,9 @@ void add_leaks(const Summary& s, std::vector<Finding>& out) {
 void add_hourglass(const Summary& s, std::vector<Finding>& out) {
   const EnergyLedger& e = s.energy;
   const Real share = e.hourglass / std::max(std::abs(e.internal), std::abs(e.hourglass) * 1e-12);
-  if (!(e.hourglass > least_hourglass * e.scale()) || !(share > s.limits.hourglass_doubtful)) return;
+  if (!(e.hourglass > least_hourglass * e.scale()) ||
+      !(share > std::min(s.limits.hourglass_doubtful, s.limits.hourglass_broken)))
+    return;
   out.push_back(
       {share > s.limits.hourglass_broken,
        fmt::format("hourglass energy is {:.3g} % of the internal energy: refine the mesh, or choose "

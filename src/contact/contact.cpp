@@ -19,7 +19,7 @@ constexpr Real apart_of_contact_distance = 2e-4;
 
 /// Stiffness of a segment, K A / (longest diagonal) of a shell, K A^2 / V of the skin of a solid, and the
 /// least mass of its nodes.
-void give_stiffness(Facet& f, const ContactLaw& law, const std::vector<Real>& body_mass, const World& world) {
+void give_stiffness(Facet& f, const ContactLaw& law, const WallBodies& bodies, const World& world) {
   const Segments& g = world.segments;
   const auto a = g.nodes(f.segment);
   Corners x;
@@ -33,9 +33,9 @@ void give_stiffness(Facet& f, const ContactLaw& law, const std::vector<Real>& bo
   const Real length = world.dim == 2 ? 1 : V > 0 ? area * area / V : area / diagonal;
   f.k = law.slsfac * law.sfsb * g.K[f.segment] * length;
   f.r = law.sbst > 0 ? 0.5 * law.sbst : 0.5 * g.thickness[f.segment] * law.sfsbt;
-  f.m = infinity, f.body = infinity;
+  f.m = infinity;
   if (!f.moves) return;
-  f.body = body_mass.empty() ? 0 : body_mass[static_cast<std::size_t>(f.node[0])];
+  f.body = bodies.body(f.node[0]);
   for (const Index n : a) f.m = std::min(f.m, world.nodes.m[n]);
 }
 
@@ -75,7 +75,7 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
   facets_ = make_facets(world, segments);
   Real r = 0, k_facet = 0, m_facet = infinity;
   for (Facet& f : facets_) {
-    give_stiffness(f, law_, options_.body_mass, world);
+    give_stiffness(f, law_, options_.bodies, world);
     if (f.moves) moving_.push_back(Index(&f - facets_.data()));
     walls_.push_back(make_wall(f));
     r = std::max(r, f.r);
@@ -229,15 +229,10 @@ void Contact::count_leaks(World& world, const std::vector<Index>& particles) {
 
 void Contact::finish(World& world, const Clock&) {
   Real deepest = 0;
-  held_now_ = touching_ = 0;
-  tight_ = false;
   for (const Block& b : blocks_) {
     deepest = std::max(deepest, b.deepest);
-    tight_ = tight_ || b.tight;
-    held_now_ += b.held, touching_ += static_cast<Index>(b.touches.size());
     count_leaks(world, b.crossed);
   }
-  if (held_now_ > 0) world.counters["contact_held"] += held_now_;
   if (!moving_.empty()) gather_reactions();
   if (deepest > 0) {
     Real& most = world.maxima["max_penetration"];
@@ -265,13 +260,11 @@ void Contact::give_to_wall(World& world, const Block& b, std::size_t touch,
   written_.push_back(s);
 }
 
-TimeLimit::Limit Contact::limit(const World& world, const Clock& clock) {
+TimeLimit::Limit Contact::limit(const World& world, const Clock&) {
   Real dt = limit_;
   std::string who = name() + " (particle stiffness)";
   const Real soft = law_.dtstif > 0 ? law_.dtstif : soft_dt_;
   if (law_.soft == 1 && soft > 0) dt = std::min(dt, 2 * soft / std::sqrt(law_.sofscl));
-  if (const Real longest = longest_step(clock.dt_old); longest < dt)
-    dt = longest, who = name() + " (particles held)";
   for (const Block& b : blocks_)
     if (b.approaching >= 0 && b.approach_dt < dt)
       dt = b.approach_dt,

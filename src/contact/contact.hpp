@@ -17,6 +17,7 @@
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
 #include "state/restartable.hpp"
+#include "state/wall_bodies.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -28,8 +29,7 @@ struct ContactOptions {
   /// Bulk modulus of the law of strength of a part; 0: none, or one that leaves pressure to an equation of
   /// state. [M/LT2]
   std::function<Real(Index part)> bulk_modulus = [](Index) { return Real(0); };
-  /// By node of the world: see Facet::body. Empty: there are no rigid bodies.
-  std::vector<Real> body_mass{};
+  WallBodies bodies{};    ///< whose faces it touches
   Real reach_margin = 0;  ///< particles and nodes move at most half of this between two refreshes [L]
   bool shortcuts = true;  ///< off: every candidate is looked at in every step, with the same result
 };
@@ -56,7 +56,12 @@ struct ContactLaw {
 ///
 /// Most particles near walls are far from touching, or touch one fixed flat wall or a corner of few. For
 /// these there are shortcuts (quick_touch.cpp) that give the same bits as the full search (touch.cpp).
-class Contact : public Force, public Refresh, public TimeLimit, public EnergyTerm, public Restartable {
+class Contact : public Force,
+                public Refresh,
+                public TimeLimit,
+                public Impact,
+                public EnergyTerm,
+                public Restartable {
  public:
   /// `tracked`: by particle index. `number` counts interfaces from 1 and keeps their fields apart.
   Contact(ContactLaw law, const ContactOptions& options, int number, const std::vector<Index>& segments,
@@ -81,6 +86,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   bool has_moving_walls() const { return !moving_.empty(); }
   void refreshed(World& world, const Clock& clock, std::span<const Index> old_of_new) override;
   Limit limit(const World& world, const Clock& clock) override;
+  void strike(World& world, const Clock& clock) override;
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
   InterfaceForce report() const;
@@ -158,21 +164,14 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
     Real deepest = 0;               ///< touch [L]
     std::vector<Reaction> reactions;
     Real damping_work = 0, friction_work = 0;  ///< dissipated in this step [ML2/T2]
-    bool tight = false;                        ///< a longer step would need more of them
-    Index held = 0;                            ///< touches that the penalty alone cannot hold
     Real approach_dt = 0;                      ///< longest step before a particle is seen again [T]
     Index approaching = -1;                    ///< that particle
     void clear_touches() {
       touches.clear(), drags.clear(), crossed.clear(), reactions.clear();
-      deepest = 0, held = 0, tight = false, approaching = -1,
-      approach_dt = std::numeric_limits<Real>::infinity();
+      deepest = 0, approaching = -1, approach_dt = std::numeric_limits<Real>::infinity();
     }
   };
   struct Near;  ///< scratch of one particle's search
-  struct Holding {
-    Real force = 0;      ///< [ML/T2]
-    bool tight = false;  ///< the coming step must not be longer than the last one
-  };
 
   void keep_slots(Archive& archive);
   void keep_walls(Archive& archive);
@@ -188,8 +187,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   void learn_sides(const World& world, const Clock& clock, Block& b, const Slot& slot) const;
   void fall_asleep(World& world);
   void touch(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes);
-  bool touch_one_wall(const World& world, const Clock& clock, Block& b, Slot& slot, const Vec& x,
-                      Real* const f[]) const;
+  bool touch_one_wall(const World& world, Block& b, Slot& slot, const Vec& x, Real* const f[]) const;
   bool quick_touch(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const;
   bool quick_pushes(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const;
   bool is_at_joint(const Slot& slot, const Vec& x) const;
@@ -208,11 +206,8 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   void forces_of(World& world, const Clock& clock, Block& b, const Slot& slot, const Pushes& pushes);
   void look_further(const World& world);
   void note_approach(const World& world, Block& b, const Slot& slot, Real dt) const;
-  Holding holding(Index i, const Push& p, const Facet& f, const Vec& relative, const Vec& force,
-                  const World& world, Real dt) const;
-  Real longest_step(Real dt_old) const;
-  void hold(World& world, const Clock& clock, Block& b, Index i, const Pushes& pushes,
-            std::size_t first_touch, Vec& total);
+  Vec in_plane(Vec v) const;
+  Real correct(World& world, const Clock& clock, Touch& touch) const;
   void record_held(World& world, const Clock& clock, EnergyLedger& ledger);
   Vec friction_force(const World& world, const Clock& clock, Index i, Real fn, const Vec& v, const Vec& n,
                      Real k) const;
@@ -251,9 +246,7 @@ class Contact : public Force, public Refresh, public TimeLimit, public EnergyTer
   bool hold_ = true;          ///< particles that the penalty does not
   Real r_least_ = 0;          ///< smallest contact distance [L]
   Real wall_speed_ = 0;       ///< largest, of the corners [L/T]
-  Index touching_ = 0;        ///< touches of the latest evaluation
-  Index held_now_ = 0;        ///< those of them that are held
-  bool tight_ = false;        ///< the next step must not be longer than the last one
+  Index held_now_ = 0;        ///< touches that are held in this step
   bool search_less_ = false;  ///< options_.shortcuts, unless round-off forbids them
 
   Field<Real>* k_particle_ = nullptr;  ///< penalty stiffness of the particle; 0: not tracked

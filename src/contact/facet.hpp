@@ -24,7 +24,7 @@ struct Facet {
   Real r = 0;                   ///< contact distance of the segment, half its thickness [L]
   Real k = 0;                   ///< stiffness of the segment, SLSFAC and SFSB included [M/T2]
   Real m = 0;                   ///< least mass of its nodes, infinity where they cannot move [M]
-  Real body = 0;  ///< mass of its rigid body, infinity where that is driven or held; 0: of no body [M]
+  Index body = -1;              ///< rigid body it belongs to; -1: none
 };
 
 /// Facets of the given segments with their present shape. Flat convex quads stay whole, others become two

@@ -1,11 +1,12 @@
 // What a penalty cannot hold: particles so fast, or under such a pressure, that they would be through the
 // wall within the step. The step is shortened until each is seen in front of the wall, and there the wall
-// takes the velocity that would carry it on, as in a plastic impact. Slow scenes are not touched by it, to
-// the last bit.
+// takes the velocity that would carry it on, as in a plastic impact.
+#include <algorithm>
 #include <cmath>
 
 #include "contact/near.hpp"
 #include "parallel/parallel.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -13,16 +14,17 @@ namespace {
 
 /// No particle comes nearer to a mid-surface, of the contact distance.
 constexpr Real closest = 0.1;
-/// Of a step over the last one, where particles touch walls.
-constexpr Real growth = 1.2;
 
 }  // namespace
 
-// Nobody may come from out of reach to a wall within one step.
+// Nobody may come from out of reach to a wall within one step: particles make no step longer than h, walls as
+// they please.
 void Contact::look_further(const World& world) {
   const Particles& p = world.particles;
   const Real fastest = std::sqrt(maximum(p.active, [&](Index i) { return p.v.vec(i).squaredNorm(); }));
-  const Real wanted = r_most_ + 1.1 * soft_dt_ * (fastest + wall_speed_) + options_.reach_margin;
+  const Real h = maximum(p.active, [&](Index i) { return p.h[i]; });
+  const Real wanted =
+      r_most_ + 1.1 * (std::min(soft_dt_ * fastest, h) + soft_dt_ * wall_speed_) + options_.reach_margin;
   Real reach = 1.5 * r_most_ + options_.reach_margin;
   while (hold_ && reach < wanted) reach *= 1.5;  // in leaps, so that the grid is seldom made anew
   if (reach == reach_ && moving_.empty()) return;
@@ -46,65 +48,92 @@ void Contact::note_approach(const World& world, Block& b, const Slot& slot, Real
   }
 }
 
-// The force along n that leaves the particle in front of the wall after the coming step, where that is as
-// long as the last one. `force`: on the particle so far. Contact::limit sees to it that the step is not
-// longer where particles are held, or would be if it grew as it may.
-Contact::Holding Contact::holding(Index i, const Push& p, const Facet& f, const Vec& relative,
-                                  const Vec& force, const World& world, Real dt) const {
-  const Real r = contact_distance(i, walls_[p.facet]), m = world.particles.m[i];
-  const Real room = std::max(r - p.depth - closest * r, Real(0));
-  const Real v = relative.dot(p.n), a = force.dot(p.n) / m, longer = growth * dt;
-  const Real too_fast = -room / dt - (v + a * dt);
-  if (!(too_fast > 0)) return {0, -room / longer > v + a * longer};
-  // a body is shared by all that touch it, or many light blows at once would throw it back
-  const Real wall = f.body > 0 ? f.body / std::max(touching_, Index(1)) : f.m;
-  return {too_fast / dt / (1 / m + 1 / wall), true};
-}
-
-// The step may grow by so much where particles touch walls, and not at all where one is held.
-Real Contact::longest_step(Real dt_old) const {
-  if (!hold_ || !(dt_old > 0) || touching_ == 0) return std::numeric_limits<Real>::infinity();
-  return tight_ ? dt_old : growth * dt_old;
-}
-
-// Over the same walls once more: what one gives, the next one sees.
-void Contact::hold(World& world, const Clock& clock, Block& b, Index i, const Pushes& pushes,
-                   std::size_t first_touch, Vec& total) {
-  if (!hold_ || !(clock.dt_old > 0)) return;
-  std::size_t touch = first_touch;
-  for (int j = 0; j < pushes.count; ++j) {
-    const Push& p = pushes.at[j];
-    if (!(p.share > 0)) continue;
-    Touch& a = b.touches[touch++];
-    const Facet& f = facets_[p.facet];
-    const Vec relative = world.particles.v.vec(i) - wall_velocity(world, f, p.q);
-    const Vec before = world.particles.f.vec(i) + total;
-    const Holding holding_now = holding(i, p, f, relative, before, world, clock.dt_old);
-    b.tight = b.tight || holding_now.tight;
-    a.held = holding_now.force;
-    if (!(a.held > 0)) continue;
-    ++b.held;
-    Vec more = a.held * a.n;
-    if (dim_ == 2) more.z() = 0;
-    total += more;
-    if (f.moves) b.reactions.push_back({p.facet, -more, shape_functions(f, p.q)});
+// Now that the step is known. Particles that touch no body are held each alone, by all threads; those that
+// do, one after the other and again, as what one gives a body the others see.
+void Contact::strike(World& world, const Clock& clock) {
+  held_now_ = 0;
+  if (!hold_ || asleep_) return;
+  const bool bodies =
+      std::any_of(moving_.begin(), moving_.end(), [&](Index s) { return facets_[s].body >= 0; });
+  for_each_block(listed_, [&](Index begin, Index) {
+    Block& b = blocks_[begin / block_size];
+    for (Touch& a : b.touches) a.held = 0;
+    if (bodies) return;
+    for (Touch& a : b.touches) correct(world, clock, a);
+  });
+  constexpr int most_sweeps = 200;
+  constexpr Real enough = 1e-4;  // of the largest force
+  for (int sweep = 0; bodies && sweep < most_sweeps; ++sweep) {
+    Real largest = 0, changed = 0;
+    for (Block& b : blocks_)
+      for (Touch& a : b.touches) {
+        changed = std::max(changed, std::abs(correct(world, clock, a)));
+        largest = std::max(largest, a.held);
+      }
+    if (changed <= enough * largest) break;
   }
+  for (const Block& b : blocks_)
+    for (const Touch& a : b.touches) {
+      if (!(a.held > 0)) continue;
+      ++held_now_;
+      const Facet& f = facets_[a.facet];
+      if (!f.moves) continue;
+      const auto share = shape_functions(f, a.q);
+      for (int e = 0; e < f.corners; ++e) world.nodes.f.add(f.node[e], -share[e] * a.held * in_plane(a.n));
+    }
+  if (held_now_ > 0) world.counters["contact_held"] += held_now_;
 }
 
-// As in Contact::record.
+Vec Contact::in_plane(Vec v) const {
+  if (dim_ == 2) v.z() = 0;
+  return v;
+}
+
+// Makes the held force what the coming step needs of it, given all others; returns by how much it changed.
+// What is driven, or held along an axis, is not moved there. [ML/T2]
+Real Contact::correct(World& world, const Clock& clock, Touch& a) const {
+  Particles& p = world.particles;
+  const Index i = a.particle;
+  const Facet& f = facets_[a.facet];
+  const Real dt = clock.dt, kick = clock.dt_mean(), r = contact_distance(i, walls_[a.facet]), m = p.m[i];
+  const Real room = std::max(r - a.depth - closest * r, Real(0));
+  Real v = p.v.vec(i).dot(a.n) + kick / m * p.f.vec(i).dot(a.n);
+  if (f.moves) v -= wall_velocity(world, f, a.q).dot(a.n);
+  if (a.held == 0 && v * dt > -0.5 * room) return 0;  // far from it, whatever the body does
+  if (f.body >= 0) v -= options_.bodies.change(f.body, a.q, clock).dot(a.n);
+  const Real too_fast = -room / dt - v;
+  if (!(too_fast > 0) && a.held == 0) return 0;
+  Vec along = in_plane(a.n);
+  if (const auto* driven = shared_fields::prescribed_motion.find(p.fields); driven && (*driven)[i]) return 0;
+  if (const auto* axes = shared_fields::held_axes.find(p.fields))
+    for (int k = 0; k < 3; ++k)
+      if ((*axes)[i] & (1 << k)) along[k] = 0;
+  const Real give = !f.moves ? 0 : f.body >= 0 ? options_.bodies.give(f.body, a.q, a.n) : 1 / f.m;
+  const Real mobility = along.squaredNorm() / m + give;
+  if (!(mobility > 1e-6 / m)) return 0;
+  const Real change = std::max(too_fast / kick / mobility, -a.held);
+  a.held += change;
+  p.f.add(i, change * along);
+  if (f.body >= 0) options_.bodies.push(f.body, a.q, -change * in_plane(a.n));
+  return change;
+}
+
+// Work on the mean velocities of particle and wall over the step, as in Contact::record.
 void Contact::record_held(World& world, const Clock& clock, EnergyLedger& ledger) {
   if (held_now_ == 0) return;
   const Particles& p = world.particles;
+  const Real dt = clock.dt_mean();
   Real work = 0;
-  for (const Block& b : blocks_) {
-    if (b.held == 0) continue;
+  for (const Block& b : blocks_)
     for (const Touch& a : b.touches) {
       if (!(a.held > 0)) continue;
-      const Vec v = p.v.vec(a.particle) + 0.5 * clock.dt_mean() / p.m[a.particle] * p.f.vec(a.particle) -
-                    wall_velocity(world, facets_[a.facet], a.q);
-      work -= a.held * a.n.dot(v) * clock.dt_mean();
+      const Facet& f = facets_[a.facet];
+      Vec v = p.v.vec(a.particle) + 0.5 * dt / p.m[a.particle] * p.f.vec(a.particle) -
+              wall_velocity(world, f, a.q);
+      if (f.body >= 0) v -= 0.5 * options_.bodies.change(f.body, a.q, clock);
+      if (f.moves && f.body < 0) v += 0.5 * dt * a.held / f.m * a.n;
+      work -= a.held * a.n.dot(v) * dt;
     }
-  }
   world.maxima["contact_held_energy"] += work;
   ledger.dissipated += work;
   ledger.throughput += std::abs(work);

@@ -47,15 +47,14 @@ void Contact::block(World& world, const Clock& clock, Index begin, Index) {
     if (end_of_slots - &slot > slots_ahead) fetch(walls_[(&slot + slots_ahead)->facet[0]]);
     if (v.vec(i).squaredNorm() > calm2) note_approach(world, b, slot, dt);
     if (slot.walls == 1 && !drag_on_ && !slot.behind &&
-        touch_one_wall(world, clock, b, slot, Vec(at[0][i], at[1][i], at[2][i]), f))
+        touch_one_wall(world, b, slot, Vec(at[0][i], at[1][i], at[2][i]), f))
       continue;
     touch(world, clock, b, slot, pushes);
   }
 }
 
 // By far the most frequent case, so without the detour over pushes. Returns false where that is not sure.
-bool Contact::touch_one_wall(const World& world, const Clock& clock, Block& b, Slot& slot, const Vec& x,
-                             Real* const f[]) const {
+bool Contact::touch_one_wall(const World& world, Block& b, Slot& slot, const Vec& x, Real* const f[]) const {
   const Wall* w = &walls_[slot.facet[0]];
   const Index i = slot.particle;
   const Real r = contact_distance(i, *w);
@@ -71,12 +70,6 @@ bool Contact::touch_one_wall(const World& world, const Clock& clock, Block& b, S
   if (!(depth > surely_in * r) || !(a > clear_margin * r)) return false;
   const Vec n = slot.side[0] * w->n;
   const Real k = stiffness(i, slot.k, w->k, facets_[slot.facet[0]], world);
-  if (hold_ && clock.dt_old > 0) {
-    const Push push{.facet = slot.facet[0], .n = n, .depth = depth};
-    const Vec force = Vec(f[0][i], f[1][i], f[2][i]) + k * depth * n;
-    if (holding(i, push, facets_[push.facet], world.particles.v.vec(i), force, world, clock.dt_old).tight)
-      return false;
-  }
   slot.room = 0;
   b.touches.push_back({.particle = i,
                        .facet = slot.facet[0],

@@ -206,7 +206,6 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
   const Index i = slot.particle;
   const Real m = world.particles.m[i];
   Vec total = Vec::Zero();
-  const std::size_t first_touch = b.touches.size();
   for (int j = 0; j < pushes.count; ++j) {
     const Push& p = pushes.at[j];
     if (!(p.share > 0)) continue;
@@ -238,7 +237,6 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
     total += force;
     if (f.moves) b.reactions.push_back({p.facet, -force, shape_functions(f, p.q)});
   }
-  hold(world, clock, b, i, pushes, first_touch, total);
   world.particles.f.add(i, total);
 }
 

@@ -39,9 +39,12 @@ bool RigidBody::fixed() const {
 // With some rotations held only the rows of L = J omega along the free axes count; the others hold the
 // reaction.
 Vec RigidBody::omega_of(const Eigen::Quaterniond& orientation) const {
+  return turning_by(L, orientation);
+}
+Vec RigidBody::turning_by(const Vec& angular_momentum, const Eigen::Quaterniond& orientation) const {
   const Matrix R = orientation.toRotationMatrix();
   Matrix J = R * J0 * R.transpose();
-  Vec rhs = L;
+  Vec rhs = angular_momentum;
   for (int k = 0; k < 3; ++k) {
     if (!no_turn[k]) continue;
     J.row(k).setZero();
@@ -183,12 +186,40 @@ Real RigidBodies::kinetic_energy() const {
   return e;
 }
 
-std::vector<Real> RigidBodies::mass_by_node(const World& world) const {
-  std::vector<Real> out(static_cast<std::size_t>(world.nodes.size()), 0);
-  for (const RigidBody& b : bodies_)
-    for (const Index n : b.nodes)
-      out[static_cast<std::size_t>(n)] =
-          b.fixed() || !b.motions.empty() ? std::numeric_limits<Real>::infinity() : b.m;
+WallBodies RigidBodies::wall_bodies(const World& world) {
+  WallBodies out;
+  out.of_node.assign(static_cast<std::size_t>(world.nodes.size()), -1);
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+    for (const Index n : bodies_[k].nodes) out.of_node[static_cast<std::size_t>(n)] = static_cast<Index>(k);
+  out.give = [this](Index body, const Vec& q, const Vec& n) {
+    const RigidBody& b = bodies_[static_cast<std::size_t>(body)];
+    Vec free = n, arm = (q - b.x).cross(n);
+    for (int k = 0; k < 3; ++k) {
+      if (b.held[k]) free[k] = 0;
+      if (b.no_turn[k]) arm[k] = 0;
+    }
+    for (const PrescribedMotion& motion : b.motions) {
+      if (motion.turns)
+        arm -= arm.dot(motion.direction) * motion.direction;
+      else
+        free -= free.dot(motion.direction) * motion.direction;
+    }
+    return free.squaredNorm() / b.m + arm.dot(b.turning_by(arm, b.q));
+  };
+  out.change = [this](Index body, const Vec& q, const Clock& clock) -> Vec {
+    const RigidBody& b = bodies_[static_cast<std::size_t>(body)];
+    if (b.fixed()) return Vec::Zero();
+    const HalfStep next = next_half_step(b, clock);
+    return next.v - b.v + b.turning_by(next.L - b.L, b.q).cross(q - b.x);
+  };
+  out.push = [this](Index body, const Vec& q, const Vec& force) {
+    RigidBody& b = bodies_[static_cast<std::size_t>(body)];
+    const Vec moment = (q - b.x).cross(force);
+    for (int k = 0; k < 3; ++k) {
+      if (!b.held[k]) b.force[k] += force[k];
+      if (!b.no_turn[k]) b.moment[k] += moment[k];
+    }
+  };
   return out;
 }
 

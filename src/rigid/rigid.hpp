@@ -14,6 +14,7 @@
 #include "model/model.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
+#include "state/wall_bodies.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -52,6 +53,8 @@ struct RigidBody {
   Real kinetic_energy() const { return 0.5 * (m * v.squaredNorm() + omega.dot(L)); }
   /// Angular velocity that belongs to L in orientation q, with rotations held about some axes.
   Vec omega_of(const Eigen::Quaterniond& orientation) const;
+  /// The same of any angular momentum. [1/T]
+  Vec turning_by(const Vec& angular_momentum, const Eigen::Quaterniond& orientation) const;
 };
 
 /// Velocity and angular momentum of the half step to come.
@@ -94,9 +97,8 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   /// directions that are held or driven twice, rotations of bodies that may turn about another axis, too.
   void follow(const std::vector<PrescribedMotion>& motions, const Deck& deck, const Model& model,
               Diagnostics& diagnostics);
-  /// By node of the world: mass of its body, infinity where the body is held or driven, 0 where there is
-  /// none.
-  std::vector<Real> mass_by_node(const World& world) const;
+  /// For contact with their faces. Refers to this object.
+  WallBodies wall_bodies(const World& world);
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   /// Force and moment are those on the free body; zero for bodies that are fixed.

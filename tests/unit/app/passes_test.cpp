@@ -149,7 +149,7 @@ TEST(Passes, ContactWithAFloorThatIsHeld) {
   SmallScene scene;
   scene.extra = test::floor_cards();
   expect_change(scene, {"contact", "rigid bodies"},
-                {"forces contact 1", "time limit contact 1", "energy contact 1"},
+                {"forces contact 1", "time limit contact 1", "impact contact 1", "energy contact 1"},
                 {"rigid bodies all are held in every direction"});
 }
 
@@ -160,8 +160,8 @@ TEST(Passes, ABodyThatMoves) {
   expect_change(
       scene, {"contact", "rigid bodies", "forces on nodes"},
       {"rates clear forces", "rates clear contact forces", "forces contact 1", "forces contact 1 (nodes)",
-       "forces contact 1 (faces)", "time limit contact 1", "energy contact 1", "constraints rigid bodies",
-       "energy rigid bodies", "motion rigid bodies (motion)"});
+       "forces contact 1 (faces)", "time limit contact 1", "impact contact 1", "energy contact 1",
+       "constraints rigid bodies", "energy rigid bodies", "motion rigid bodies (motion)"});
 }
 
 TEST(Passes, Viscous) {

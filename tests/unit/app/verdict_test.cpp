@@ -46,6 +46,16 @@ TEST(Verdict, EnergyErrorIsSoundBelowOnePerCentAndBrokenAboveTen) {
   EXPECT_EQ(verdict(with_error(std::nan(""))), "broken");
 }
 
+// A limit of its own may be the stricter one.
+TEST(Verdict, BrokenLimitsBelowTheDoubtfulOnesCount) {
+  Summary s = with_error(0.03);
+  s.limits.residual_doubtful = 0.5, s.limits.residual_broken = 0.02;
+  EXPECT_EQ(verdict(s), "broken");
+  s = with_error(0);
+  s.leaked_particles = 100, s.limits.leaks_doubtful = 0.5;
+  EXPECT_EQ(verdict(s), "broken");
+}
+
 // What the forces do within half a step is no error: kinetic energy is of half a step before.
 TEST(Verdict, HalfAStepIsNoError) {
   Summary s = with_error(-0.2);

@@ -109,6 +109,7 @@ struct Scene {
     clear();
     courant::test::run(*contact, world, clock);
     gather(*contact);
+    contact->strike(world, clock);
     contact->record(world, clock, world.energy);
     before_move();
     Particles& p = world.particles;

@@ -1,0 +1,24 @@
+#pragma once
+// What contact has to know of the rigid bodies whose faces it touches.
+#include <functional>
+#include <vector>
+
+#include "base/real.hpp"
+#include "state/pass.hpp"
+
+namespace courant {
+
+struct WallBodies {
+  std::vector<Index> of_node;  ///< body that a node of the world belongs to, -1: none; empty: no bodies
+  /// By how much the velocity of place q of a body changes along n for an impulse along n there: 0 where it
+  /// is held or driven. [1/M]
+  std::function<Real(Index body, const Vec& q, const Vec& n)> give;
+  /// Change of the velocity of place q over the coming step, by all forces and drives known so far. [L/T]
+  std::function<Vec(Index body, const Vec& q, const Clock& clock)> change;
+  /// Adds a force at q to what moves the body in the coming step, after forces were summed. [ML/T2]
+  std::function<void(Index body, const Vec& q, const Vec& force)> push;
+
+  Index body(Index node) const { return of_node.empty() ? -1 : of_node[static_cast<std::size_t>(node)]; }
+};
+
+}  // namespace courant
