@@ -34,8 +34,9 @@ void Contact::block(World& world, const Clock& clock, Index begin, Index) {
   Block& b = blocks_[begin / block_size];
   b.clear_touches();
   const Real dt = soft_dt_ > 0 ? soft_dt_ : limit_;
-  const Real calm = std::max(0.5 * r_least_ / dt - wall_speed_, Real(0)),
-             calm2 = hold_ ? calm * calm : infinite;
+  const Real calm =
+      0.5 * r_least_ / dt - wall_speed_;  // nobody slower comes that far; all may where it is < 0
+  const Real calm2 = !hold_ ? infinite : calm > 0 ? calm * calm : -1;
   const auto& x = world.particles.x;
   const Real* const at[3] = {x.data(0), x.data(1), x.data(2)};
   const auto& v = world.particles.v;

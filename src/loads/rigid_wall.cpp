@@ -222,6 +222,8 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     const Vec change = force - set.push.vec(i);
     set.push.set(i, force), set.points.f->add(i, change);
     out.force += force, out.change += change.norm();
+    // the wall pushes along its normal; what supports take of that does not move the point
+    if (!force.isZero(0)) out.force += a.inertia * (next_ - a.u) / clock.dt_mean() * (plane_.n - a.along);
   }
   Vec force_on(const Approach& a, Real w, Real m, Real dt) const {
     const Real normal = a.inertia * (w - a.u) / dt;

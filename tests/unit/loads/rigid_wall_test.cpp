@@ -343,6 +343,8 @@ TEST(RigidWall, PushesAlongTheAxesThatSupportsLeaveFree) {
     EXPECT_EQ(p.x->vec(0)[0], 0);
   }
   EXPECT_NEAR(s.wall().dissipated, 2, 1e-13);
+  // without friction it pushes along its normal, whatever the supports take of that
+  EXPECT_NEAR((s.wall().impulse - Vec(-4, -4, 0)).norm(), 0, 1e-13);
 }
 
 TEST(RigidWall, HasTheSameBitsOnAnyNumberOfThreads) {
