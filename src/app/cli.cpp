@@ -28,8 +28,6 @@ namespace courant {
 
 namespace {
 
-enum ExitCode { exit_ok = 0, exit_input = 1, exit_run = 2, exit_other = 3 };
-
 std::atomic<bool> stop_requested{false};
 void request_stop(int) {
   stop_requested = true;

@@ -2,8 +2,10 @@
 
 namespace courant {
 
-/// The command line, section by section in `courant help`. Returns the exit code: 0 normal, 1 the input is
-/// wrong, 2 the run ended in error, 3 anything else.
+/// Normal, the input is wrong, the run ended in error or is broken, anything else.
+enum ExitCode { exit_ok = 0, exit_input = 1, exit_run = 2, exit_other = 3 };
+
+/// The command line, section by section in `courant help`. Returns an ExitCode.
 int command_line(int argc, char** argv);
 
 }  // namespace courant

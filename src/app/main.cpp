@@ -12,8 +12,6 @@
 
 namespace {
 
-constexpr int exit_run = 2, exit_other = 3;
-
 /// Without asking for memory, which there is none of.
 void tell_of_memory() {
   rusage usage{};
@@ -39,7 +37,7 @@ void tell_of_memory() {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
     tell_of_memory();
-    std::_Exit(exit_other);
+    std::_Exit(courant::exit_other);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "courant: %s\n", error.what());
   }
@@ -54,13 +52,13 @@ int main(int argc, char** argv) {
   try {
     const int code = courant::command_line(argc, argv);
     // libraries that have run out of memory, as HDF5, may crash when they clean up
-    if (code == exit_run && std::fflush(nullptr) == 0) std::_Exit(code);
+    if (code == courant::exit_run && std::fflush(nullptr) == 0) std::_Exit(code);
     return code;
   } catch (const std::bad_alloc&) {
     tell_of_memory();
-    return exit_other;
+    return courant::exit_other;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "courant: %s\n", error.what());
-    return exit_other;
+    return courant::exit_other;
   }
 }

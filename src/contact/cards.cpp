@@ -202,7 +202,7 @@ const RegisterKeyword<K> control_contact{
                      {"RWPNAL",
                       &K::rwpnal,
                       "-",
-                      "penalty of rigid nodes at rigid walls, of which there are none",
+                      "penalty of nodes of rigid bodies at rigid walls, which do not hold them",
                       {.honour = ignored}},
                      {"ISLCHK",
                       &K::islchk,

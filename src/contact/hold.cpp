@@ -48,8 +48,8 @@ void Contact::note_approach(const World& world, Block& b, const Slot& slot, Real
   }
 }
 
-// Now that the step is known. Particles that touch no body are held each alone, by all threads; those that
-// do, one after the other and again, as what one gives a body the others see.
+// Now that the step is known. Where no wall belongs to a body, particles are held each alone, by all threads;
+// else one after the other and again, as what one gives a body the others see.
 void Contact::strike(World& world, const Clock& clock) {
   held_now_ = 0;
   if (!hold_ || asleep_) return;
