@@ -18,12 +18,12 @@ std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Di
   std::string known;
   const int errors = diagnostics.errors();
   for (const StrengthEntry& kind : strength_registry()) {
-    kind.check(deck, diagnostics);
+    kind.check(deck, model, diagnostics);
     if (!kind.deviator_only) known += (known.empty() ? "*" : ", *") + kind.keyword;
   }
   if (diagnostics.errors() == errors)  // a law is made from valid cards
     for (const StrengthEntry& kind : strength_registry())
-      for (const auto& [id, law] : kind.all(deck)) laws.emplace(id, law);
+      for (const auto& [id, law] : kind.all(deck, model)) laws.emplace(id, law);
   else
     return out;
   for (std::size_t k = 0; k < model.parts.size(); ++k) {

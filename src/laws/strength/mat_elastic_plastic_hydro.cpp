@@ -3,36 +3,12 @@
 #include <cmath>
 
 #include "keyword/common_rules.hpp"
+#include "laws/strength/hardening.hpp"
 #include "laws/strength/strength.hpp"
 
 namespace courant {
 
 namespace {
-
-/// Yield stress over effective plastic strain, straight between points and beyond the last. [M/LT2]
-struct Hardening {
-  std::vector<Real> strain, stress;  ///< at least two points, strain from 0 on, strictly increasing
-
-  Real slope(std::size_t k) const { return (stress[k + 1] - stress[k]) / (strain[k + 1] - strain[k]); }
-  std::size_t piece(Real e) const {
-    std::size_t k = 0;
-    while (k + 2 < strain.size() && e >= strain[k + 1]) ++k;
-    return k;
-  }
-  Real at(Real e) const {
-    const std::size_t k = piece(e);
-    return stress[k] + slope(k) * (e - strain[k]);
-  }
-  /// The plastic strain de at which q - 3 G de is the yield stress at e + de; q is above that at e. Exact:
-  /// the pieces are walked through, on each of which this is linear.
-  Real increment(Real q, Real three_g, Real e) const {
-    for (std::size_t k = piece(e);; ++k) {
-      const Real h = slope(k);
-      const Real de = (q - stress[k] - h * (e - strain[k])) / (three_g + h);
-      if (k + 2 == strain.size() || e + de <= strain[k + 1]) return de;
-    }
-  }
-};
 
 /// J2 plasticity with isotropic hardening beside an equation of state: s_tr = s + 2 G dev(D) dt is returned
 /// along itself to q = sqrt(3/2 s:s) = yield stress at e + de with q_tr - q = 3 G de.
@@ -87,13 +63,12 @@ struct MatElasticPlasticHydro : Entry {
   Real es1 = 0, es2 = 0, es3 = 0, es4 = 0, es5 = 0, es6 = 0, es7 = 0, es8 = 0, es9 = 0, es10 = 0, es11 = 0,
        es12 = 0, es13 = 0, es14 = 0, es15 = 0, es16 = 0;
 
-  /// The points of the table; none where the cards have none. Zeros behind the last are blank fields.
+  /// The points of the table; none where the cards have none.
   Hardening table() const {
     Hardening out{{eps1, eps2, eps3, eps4, eps5, eps6, eps7, eps8, eps9, eps10, eps11, eps12, eps13, eps14,
                    eps15, eps16},
                   {es1, es2, es3, es4, es5, es6, es7, es8, es9, es10, es11, es12, es13, es14, es15, es16}};
-    while (!out.strain.empty() && out.strain.back() == 0 && out.stress.back() == 0)
-      out.strain.pop_back(), out.stress.pop_back();
+    drop_blank_points(out);
     return out;
   }
   std::shared_ptr<StrengthLaw> law() const {
@@ -104,32 +79,10 @@ struct MatElasticPlasticHydro : Entry {
   }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
     const Hardening points = table();
-    const std::size_t n = points.strain.size();
-    if (n == 0) {
-      if (!(sigy > 0))
-        deck.error(diagnostics, *this, "SIGY", fmt::format("expected a number > 0, got '{:g}'", sigy),
-                   "the yield stress comes from SIGY and EH, or from the table of EPS and ES");
-      return;
-    }
-    if (n == 1)
-      deck.error(diagnostics, *this, "EPS2", "expected a second point of the table",
-                 "a constant yield stress is SIGY without a table");
-    if (points.strain[0] != 0)
-      deck.error(diagnostics, *this, "EPS1", fmt::format("expected 0, got '{:g}'", points.strain[0]),
-                 "the table starts where plastic strain does");
-    for (std::size_t k = 0; k < n; ++k) {
-      if (k > 0 && !(points.strain[k] > points.strain[k - 1]))
-        deck.error(
-            diagnostics, *this, fmt::format("EPS{}", k + 1),
-            fmt::format("expected a number > {:g}, got '{:g}'", points.strain[k - 1], points.strain[k]),
-            "plastic strains of the table increase");
-      if (!(points.stress[k] > 0))
-        deck.error(diagnostics, *this, fmt::format("ES{}", k + 1),
-                   fmt::format("expected a number > 0, got '{:g}'", points.stress[k]));
-      if (k > 0 && points.strain[k] > points.strain[k - 1] && !(points.slope(k - 1) > -3 * G))
-        deck.error(diagnostics, *this, fmt::format("ES{}", k + 1),
-                   "the yield stress falls faster than 3 G: stress has no unique answer");
-    }
+    if (!points.strain.empty()) return check_points(deck, *this, points, G, diagnostics);
+    if (!(sigy > 0))
+      deck.error(diagnostics, *this, "SIGY", fmt::format("expected a number > 0, got '{:g}'", sigy),
+                 "the yield stress comes from SIGY and EH, or from the table of EPS and ES");
   }
 };
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "keyword/common_rules.hpp"
+#include "laws/strength/radial_return.hpp"
 #include "laws/strength/strength.hpp"
-#include "parallel/parallel.hpp"
 
 namespace courant {
 
@@ -18,11 +18,6 @@ struct PlasticKinematicData {
   Real isotropic = 0, kinematic = 0;  ///< shares of the plastic modulus Ep: BETA Ep, (1 - BETA) Ep [M/LT2]
   Real C = 0, P = 0;                  ///< of Cowper and Symonds [1/T], [-]; C = 0: no influence of the rate
   bool of_plastic_rate = false;       ///< VP 1: the rate is that of plastic strain, else that of all strain
-};
-
-/// Of points of a block: q = sqrt(3/2 xi:xi) of the trial state, xi = s - alpha, and the yield stress.
-struct Trial {
-  Real q[block_size], plastic[block_size];  ///< [M/LT2]; increment of effective plastic strain [-]
 };
 
 /// J2 plasticity with linear isotropic and kinematic hardening: s_tr = s + 2 G dev(D) dt is returned along
@@ -40,61 +35,31 @@ class PlasticKinematic : public StrengthLaw {
   }
 
   void update(const PointBlock& block) const override {
-    Trial trial;
-    if (a_.kinematic > 0) {
-      go_elastically(block, Moving{block.history.data() + 1}, trial);
-      harden(block, trial);
-      give_back(block, Moving{block.history.data() + 1}, trial);
-    } else {
-      go_elastically(block, Still{}, trial);
-      harden(block, trial);
-      give_back(block, Still{}, trial);
-    }
-    const Real c0 = sound_speed();
-    const Real* mu = block.compression;
-    for (Index i = 0; i < block.count; ++i) block.sound_speed[i] = mu ? c0 / std::sqrt(1 + mu[i]) : c0;
+    if (a_.kinematic > 0)
+      update(block, MovingCentre{block.history.data() + 1});
+    else
+      update(block, FixedCentre{});
+    keep_stiffness(block, sound_speed());
   }
 
  private:
-  /// The centre of the yield surface: one that moves, by component of the back stress, and one that does not.
-  struct Moving {
-    Real* const* alpha;
-    Real at(int k, Index i) const { return alpha[k][i]; }
-    void add(int k, Index i, Real by) const { alpha[k][i] += by; }
-  };
-  struct Still {
-    Real at(int, Index) const { return 0; }
-    void add(int, Index, Real) const {}
-  };
-
   template <class Centre>
-  void go_elastically(const PointBlock& block, const Centre& centre, Trial& trial) const {
-    const Real volumetric = a_.lambda * block.dt, twice = 2 * a_.G * block.dt;
-    const Real *dxx = block.rate[0], *dyy = block.rate[1], *dzz = block.rate[2], *dxy = block.rate[3],
-               *dyz = block.rate[4], *dzx = block.rate[5];
-    Real *xx = block.stress[0], *yy = block.stress[1], *zz = block.stress[2], *xy = block.stress[3],
-         *yz = block.stress[4], *zx = block.stress[5];
-#pragma omp simd
-    for (Index i = 0; i < block.count; ++i) {
-      const Real common = volumetric * (dxx[i] + dyy[i] + dzz[i]);
-      xx[i] += common + twice * dxx[i], yy[i] += common + twice * dyy[i], zz[i] += common + twice * dzz[i];
-      xy[i] += twice * dxy[i], yz[i] += twice * dyz[i], zx[i] += twice * dzx[i];
-      const Real mean = (xx[i] + yy[i] + zz[i]) / 3;
-      const Real a = xx[i] - mean - centre.at(0, i), b = yy[i] - mean - centre.at(1, i),
-                 c = zz[i] - mean - centre.at(2, i), d = xy[i] - centre.at(3, i), e = yz[i] - centre.at(4, i),
-                 f = zx[i] - centre.at(5, i);
-      trial.q[i] = std::sqrt(1.5 * (a * a + b * b + c * c) + 3 * (d * d + e * e + f * f));
-    }
+  void update(const PointBlock& block, const Centre& centre) const {
+    PlasticTrial trial;
+    go_elastically(a_.lambda, a_.G, block, centre, trial);
+    harden(block, trial);
+    return_radially(a_.G, a_.kinematic, a_.yield, block, centre, trial);
   }
 
   /// The increments of plastic strain.
-  void harden(const PointBlock& block, Trial& trial) const {
+  void harden(const PointBlock& block, PlasticTrial& trial) const {
     const Real stiffness = 3 * a_.G + a_.isotropic + a_.kinematic;
     Real* plastic = block.history[0];
     if (a_.C > 0 && block.dt > 0)
       for (Index i = 0; i < block.count; ++i)
-        trial.plastic[i] = a_.of_plastic_rate ? overstressed(trial.q[i], plastic[i], block.dt)
-                                              : faster(trial.q[i], plastic[i], rate_of(block, i));
+        trial.plastic[i] = a_.of_plastic_rate
+                               ? overstressed(trial.q[i], plastic[i], block.dt)
+                               : faster(trial.q[i], plastic[i], effective_rate(block, i, true));
     else
 #pragma omp simd
       for (Index i = 0; i < block.count; ++i)
@@ -103,15 +68,6 @@ class PlasticKinematic : public StrengthLaw {
     for (Index i = 0; i < block.count; ++i) plastic[i] += trial.plastic[i];
   }
 
-  /// sqrt(2/3 D':D') of the deviator of the rate of strain: in uniaxial stress at constant volume that of the
-  /// axis.
-  static Real rate_of(const PointBlock& block, Index i) {
-    const auto& D = block.rate;
-    const Real mean = (D[0][i] + D[1][i] + D[2][i]) / 3;
-    const Real a = D[0][i] - mean, b = D[1][i] - mean, c = D[2][i] - mean;
-    return std::sqrt(2.0 / 3 * (a * a + b * b + c * c) +
-                     4.0 / 3 * (D[3][i] * D[3][i] + D[4][i] * D[4][i] + D[5][i] * D[5][i]));
-  }
   /// sigma_y = (1 + (rate/C)^(1/P)) (SIGY + BETA Ep e): linear in the increment.
   Real faster(Real q, Real plastic, Real rate) const {
     const Real scale = 1 + std::pow(rate / a_.C, 1 / a_.P);
@@ -138,25 +94,6 @@ class PlasticKinematic : public StrengthLaw {
       if (std::abs(u - before) <= close * u) break;
     }
     return scale * std::pow(u, a_.P);
-  }
-
-  template <class Centre>
-  void give_back(const PointBlock& block, const Centre& centre, const Trial& trial) const {
-    Real *xx = block.stress[0], *yy = block.stress[1], *zz = block.stress[2], *xy = block.stress[3],
-         *yz = block.stress[4], *zx = block.stress[5];
-#pragma omp simd
-    for (Index i = 0; i < block.count; ++i) {
-      const Real mean = (xx[i] + yy[i] + zz[i]) / 3;
-      const Real share = trial.plastic[i] / std::max(trial.q[i], a_.yield), back = 3 * a_.G * share,
-                 forth = a_.kinematic * share;
-      const Real a = xx[i] - mean - centre.at(0, i), b = yy[i] - mean - centre.at(1, i),
-                 c = zz[i] - mean - centre.at(2, i), d = xy[i] - centre.at(3, i), e = yz[i] - centre.at(4, i),
-                 f = zx[i] - centre.at(5, i);
-      xx[i] -= back * a, yy[i] -= back * b, zz[i] -= back * c;
-      xy[i] -= back * d, yz[i] -= back * e, zx[i] -= back * f;
-      centre.add(0, i, forth * a), centre.add(1, i, forth * b), centre.add(2, i, forth * c);
-      centre.add(3, i, forth * d), centre.add(4, i, forth * e), centre.add(5, i, forth * f);
-    }
   }
 
   PlasticKinematicData a_;

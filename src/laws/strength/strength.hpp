@@ -12,6 +12,7 @@
 #include "keyword/deck.hpp"
 #include "keyword/registry.hpp"
 #include "laws/point_block.hpp"
+#include "model/model.hpp"
 
 namespace courant {
 
@@ -55,17 +56,18 @@ struct StrengthEntry {
   std::string keyword, equation, source;
   bool deviator_only = false;  ///< as StrengthLaw::deviator_only of its laws
   std::vector<StrengthReference> references;
-  /// Every law of this kind in a deck, by the id of its material.
-  std::function<std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>>(const Deck&)> all;
+  /// Every law of this kind in a deck, by the id of its material. The model has the curves and tables.
+  std::function<std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>>(const Deck&, const Model&)> all;
   /// Reports what the table of the keyword cannot tell of its cards.
-  std::function<void(const Deck&, Diagnostics&)> check;
+  std::function<void(const Deck&, const Model&, Diagnostics&)> check;
 };
 
 std::vector<StrengthEntry>& strength_registry();
 
 /// Card must have a member mid and a function law(), a std::shared_ptr<StrengthLaw> made from valid cards,
-/// and may have check(deck, diagnostics); with laws that are `deviator_only` a static constexpr bool of that
-/// name, so that messages offer the keyword only where it serves.
+/// and may have check(deck, diagnostics), both with the model as last but one or only argument where they
+/// need its curves; with laws that are `deviator_only` a static constexpr bool of that name, so that messages
+/// offer the keyword only where it serves.
 template <class Card>
 struct RegisterStrength {
   RegisterStrength(std::string equation, std::string source, std::vector<StrengthReference> references,
@@ -76,14 +78,21 @@ struct RegisterStrength {
     entry.source = std::move(source);
     entry.references = std::move(references);
     if constexpr (requires { Card::deviator_only; }) entry.deviator_only = Card::deviator_only;
-    entry.all = [](const Deck& deck) {
+    entry.all = [](const Deck& deck, const Model& model) {
       std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>> laws;
-      for (const Card& card : deck.all<Card>()) laws.emplace_back(card.mid, card.law());
+      for (const Card& card : deck.all<Card>())
+        if constexpr (requires { card.law(model); })
+          laws.emplace_back(card.mid, card.law(model));
+        else
+          laws.emplace_back(card.mid, card.law());
       return laws;
     };
-    entry.check = [](const Deck& deck, Diagnostics& diagnostics) {
-      if constexpr (requires(const Card& card) { card.check(deck, diagnostics); })
-        for (const Card& card : deck.all<Card>()) card.check(deck, diagnostics);
+    entry.check = [](const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+      for (const Card& card : deck.all<Card>())
+        if constexpr (requires { card.check(deck, model, diagnostics); })
+          card.check(deck, model, diagnostics);
+        else if constexpr (requires { card.check(deck, diagnostics); })
+          card.check(deck, diagnostics);
     };
     strength_registry().push_back(std::move(entry));
     register_keyword(make_keyword_spec<Card>(std::move(keyword)));

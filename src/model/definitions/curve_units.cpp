@@ -23,6 +23,8 @@ constexpr CurveDimensions known[] = {
     {"CONTROL_TIMESTEP", "LCTM", "T", "T"},
     {"DATABASE_BINARY_D3PLOT", "LCDT", "T", "T"},
     {"DATABASE_GLSTAT", "LCUR", "T", "T"},
+    {"MAT_PIECEWISE_LINEAR_PLASTICITY", "LCSS", "-", "M/LT2"},
+    {"MAT_PIECEWISE_LINEAR_PLASTICITY", "LCSR", "1/T", "-"},
     // VAD 0; of the others `of_motion` tells
     {"BOUNDARY_PRESCRIBED_MOTION_NODE", "LCID", "T", "L/T"},
     {"BOUNDARY_PRESCRIBED_MOTION_SET", "LCID", "T", "L/T"},

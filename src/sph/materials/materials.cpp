@@ -42,10 +42,10 @@ std::string known_laws() {
 struct Known {
   std::map<Id, const MatNull*> fluids;
   std::map<Id, std::shared_ptr<StrengthLaw>> strengths;
-  explicit Known(const Deck& deck) {
+  Known(const Deck& deck, const Model& model) {
     for (const MatNull& m : deck.all<MatNull>()) fluids.emplace(m.mid, &m);
     for (const StrengthEntry& kind : strength_registry())
-      for (const auto& [id, law] : kind.all(deck)) strengths.emplace(id, law);
+      for (const auto& [id, law] : kind.all(deck, model)) strengths.emplace(id, law);
   }
 };
 
@@ -59,7 +59,7 @@ void check_cards(const Deck& deck, const Model& model, const Known& known, Diagn
     return part.has_solid;
   });  // which check them, too
   if (strong && !solids)
-    for (const StrengthEntry& kind : strength_registry()) kind.check(deck, diagnostics);
+    for (const StrengthEntry& kind : strength_registry()) kind.check(deck, model, diagnostics);
 }
 
 /// The equation of state must give the part a density and a sound speed at the start.
@@ -104,7 +104,7 @@ SphMaterial PartMaterial::for_particles() const {
 }
 
 std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
-  const Known known(deck);
+  const Known known(deck, model);
   check_cards(deck, model, known, diagnostics);
   const LawOfId laws = all_laws(deck);
   LawOfDensity laws_of_density;

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "laws/objective.hpp"
+#include "model/build_model.hpp"
 
 using namespace courant;
 
@@ -22,15 +24,17 @@ std::shared_ptr<StrengthLaw> law_of(const std::string& keyword, const std::strin
   };
   Diagnostics diagnostics;
   const Deck deck = read_deck("m.k", options, diagnostics);
+  Diagnostics of_no_whole_model;
+  const Model model = build_model(deck, of_no_whole_model);
   for (const StrengthEntry& kind : strength_registry()) {
     if (kind.keyword != keyword) continue;
-    kind.check(deck, diagnostics);
+    kind.check(deck, model, diagnostics);
     if (faults)
       *faults = diagnostics.text();
     else {
       EXPECT_TRUE(diagnostics.ok()) << diagnostics.text();
     }
-    const auto laws = kind.all(deck);
+    const auto laws = kind.all(deck, model);
     if (laws.size() == 1) return laws[0].second;
   }
   return nullptr;
@@ -130,6 +134,7 @@ TEST(StrengthRegistry, HoldsTheLawsAndEachHasReferences) {
   EXPECT_TRUE(names.contains("MAT_ELASTIC"));
   EXPECT_TRUE(names.contains("MAT_ELASTIC_PLASTIC_HYDRO"));
   EXPECT_TRUE(names.contains("MAT_PLASTIC_KINEMATIC"));
+  EXPECT_TRUE(names.contains("MAT_PIECEWISE_LINEAR_PLASTICITY"));
 }
 
 TEST(StrengthRegistry, EveryLawGivesItsReferenceValues) {
@@ -416,4 +421,83 @@ TEST(MatPlasticKinematic, ChecksItsCards) {
   EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4,1.0,1.0\n40.0\n").find("SRP"), std::string::npos);
   EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4,1.0,1.0\n0.0,5.0\n").find("SRC"), std::string::npos);
   EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4,1.0,1.0\n0.0,0.0,0.0,2\n").find("VP"), std::string::npos);
+}
+
+namespace {
+
+/// Yield stress 1 to 2 at rest, 3 to 3.5 at rate 10 and faster, at plastic strains 0 and 1; a factor of 1 to
+/// 2 up to rate 5.
+const std::string curves_of_rates =
+    "*DEFINE_CURVE\n1\n0.0,1.0\n1.0,2.0\n*DEFINE_CURVE\n2\n0.0,3.0\n1.0,3.5\n*DEFINE_TABLE_2D\n3\n0.0,1\n"
+    "10.0,2\n*DEFINE_CURVE\n4\n0.0,1.0\n5.0,2.0\n";
+
+struct RateCase {
+  const char* cards;
+  std::function<Real(Real plastic, Real strain_rate, Real plastic_rate)> yield;
+};
+const RateCase rate_cases[] = {{"1,1.0,260.0,0.3\n,,3\n\n\n",
+                                [](Real e, Real r, Real) {
+                                  const Real w = std::min(r / 10, 1.0);
+                                  return (1 - w) * (1 + e) + w * (3 + 0.5 * e);
+                                }},
+                               {"1,1.0,260.0,0.3\n,,3,,1\n\n\n",
+                                [](Real e, Real, Real p) {
+                                  const Real w = std::min(p / 10, 1.0);
+                                  return (1 - w) * (1 + e) + w * (3 + 0.5 * e);
+                                }},
+                               {"1,1.0,260.0,0.3\n,,1,4\n\n\n",
+                                [](Real e, Real r, Real) { return (1 + e) * (1 + std::min(r / 5, 1.0)); }},
+                               {"1,1.0,260.0,0.3\n2.0,3.0,1,,1\n\n\n",
+                                [](Real e, Real, Real p) { return (1 + e) * (1 + std::cbrt(p / 2)); }},
+                               {"1,1.0,260.0,0.3,0.5\n2.0,3.0,1,,1\n\n\n",
+                                [](Real e, Real, Real p) { return 1 + e + 0.5 * std::cbrt(p / 2); }},
+                               {"1,1.0,260.0,0.3\n2.0,3.0,1\n\n\n",
+                                [](Real e, Real r, Real) { return (1 + e) * (1 + std::cbrt(r / 2)); }}};
+
+}  // namespace
+
+TEST(MatPiecewiseLinearPlasticity, StaysOnTheYieldStressOfItsRate) {
+  for (const RateCase& a : rate_cases)
+    for (const Real rate : {0.1, 1.0, 7.0, 40.0}) {
+      const auto law = law_of("MAT_PIECEWISE_LINEAR_PLASTICITY", std::string(a.cards) + curves_of_rates);
+      ASSERT_NE(law, nullptr);
+      Point point(*law);
+      point.dt = 0.02 / rate;
+      for (int k = 0; k < 30; ++k) {
+        const Real before = point.history[0];
+        point.strain({0, 0, 0, std::sqrt(0.75) * rate * point.dt, 0, 0});
+        const Real e = point.history[0], q = std::sqrt(3.0) * point.stress[3];
+        if (k > 3) {
+          EXPECT_NEAR(q, a.yield(e, rate, (e - before) / point.dt), 1e-11) << a.cards << rate;
+        }
+      }
+    }
+}
+
+TEST(MatPiecewiseLinearPlasticity, ChecksItsCards) {
+  const auto faults_of = [](const std::string& cards) {
+    std::string faults;
+    law_of("MAT_PIECEWISE_LINEAR_PLASTICITY", cards, &faults);
+    return faults;
+  };
+  EXPECT_EQ(faults_of("1,1.0,1.0,0.3,0.1\n"), "");
+  const auto complains = [&](const std::string& cards, const char* of) {
+    const std::string faults = faults_of(cards);
+    EXPECT_NE(faults.find(of), std::string::npos) << cards << faults;
+  };
+  complains("1,1.0,1.0,0.3\n", "SIGY");
+  complains("1,1.0,1.0,0.5,0.1\n", "PR");
+  complains("1,1.0,1.0,0.3,0.1,1.0\n", "ETAN");
+  complains("1,1.0,1.0,0.3,0.1,,0.2\n", "FAIL");
+  complains("1,1.0,1.0,0.3,0.1,,,0.2\n", "TDEL");
+  complains("1,1.0,1.0,0.3,0.1\n1.0\n", "(P,");
+  complains("1,1.0,1.0,0.3,0.1\n,1.0\n", "(C,");
+  complains("1,1.0,1.0,0.3,0.1\n,,9\n", "there is no curve or table 9");
+  complains("1,1.0,1.0,0.3,0.1\n,,,9\n", "curve 9 does not exist");
+  complains("1,1.0,1.0,0.3,0.1\n,,,,3\n", "VP");
+  complains("1,1.0,1.0,0.3\n\n0.1,0.2\n1.0,2.0\n", "EPS1");
+  complains("1,1.0,1.0,0.3\n,,1\n\n\n*DEFINE_CURVE\n1\n0.0,0.0\n1.0,1.0\n", "yield stresses > 0");
+  complains("1,1.0,1.0,0.3\n,,1\n\n\n*DEFINE_CURVE\n1\n0.0,1.0\n0.0,2.0\n", "jumps");
+  complains("1,1.0,1.0,0.3\n,,1\n\n\n*DEFINE_CURVE\n1\n0.0,1.0\n0.1,0.5\n", "3 G");
+  complains("1,1.0,1.0,0.3\n,,1\n\n\n*DEFINE_CURVE\n1\n0.01,1.0\n0.1,1.5\n", "begins at");
 }
