@@ -94,6 +94,13 @@ void add_shells(const Simulation& s, std::vector<PartRow>& rows) {
       row.mass = body.mass;
       row.speed = body.v.norm();
     }
+  if (s.bodies())
+    for (const RigidBody& b : s.bodies()->bodies()) {
+      if (b.solids == 0) continue;
+      PartRow& row = rows[static_cast<std::size_t>(b.part_index)];
+      row.count = b.solids, row.volume = b.volume, row.rho = b.m / b.volume;
+      row.spacing = std::cbrt(b.volume / b.solids);
+    }
 }
 
 void add_solids(const Simulation& s, std::vector<PartRow>& rows) {

@@ -95,7 +95,10 @@ void Simulation::release_tables() {
 }
 
 void Simulation::build_parts(Diagnostics& diagnostics) {
-  for (const ModelPart& part : model_.parts) world_.part_ids.push_back(part.id);
+  for (ModelPart& part : model_.parts) {
+    world_.part_ids.push_back(part.id);
+    part.rigid = rigid_material(deck_, model_, model_.part_of_id.at(part.id)).has_value();
+  }
   materials_ = find_materials(deck_, model_, diagnostics);
   const auto shell_material = [&](Index part) -> std::optional<ShellMaterial> {
     const auto m = rigid_material(deck_, model_, part);
@@ -110,7 +113,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   solids_ = find_solid_parts(deck_, model_, diagnostics);
   if (diagnostics.ok()) {
     build_solids(model_, solids_, node_of, world_);
-    add_solid_passes(model_, solids_, world_);
+    add_solid_passes(model_, solids_, node_of, world_);
   }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
@@ -170,6 +173,10 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
     world_.passes.add(make_clear_forces(points_of(world_.nodes)));
   else
     left_out_.push_back({"forces on nodes", "no node moves"});
+  if (const auto pressure = make_segment_pressure(deck_, model_, world_, diagnostics))
+    world_.passes.add(pressure);
+  else
+    left_out_.push_back({"pressure on segments", "no *LOAD_SEGMENT"});
   if (bodies_move && world_.groups.empty() && world_.particles.size() == 0)
     world_.passes.add(make_body_time_limit(bodies_, model_.endtim));
   if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});

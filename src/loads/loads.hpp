@@ -60,6 +60,11 @@ std::vector<NodalLoad> nodal_loads(const Deck& deck, const Model& model, const W
 std::shared_ptr<Force> make_nodal_loads(const std::vector<NodalLoad>& loads, const Model& model,
                                         Points points, World& world);
 
+/// *LOAD_SEGMENT and _SET: pressure on faces between nodes; nullptr where there is none. Refuses by name:
+/// faces whose corners belong to no element.
+std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& model, World& world,
+                                             Diagnostics& diagnostics);
+
 /// *DAMPING_GLOBAL and *DAMPING_PART_MASS: what they take of the velocity.
 struct Damping {
   Curve curve{};               ///< of time; empty: constant

@@ -14,6 +14,31 @@ Real Curve::operator()(Real a) const {
   return ordinate[i - 1] + s * (ordinate[i] - ordinate[i - 1]);
 }
 
+namespace {
+
+/// The different nodes of a solid's first eight, in the order of their first places; how many there are.
+int different_nodes(const ModelSolid& solid, std::array<Index, 8>& out) {
+  auto end = out.begin();
+  for (auto n = solid.node.begin(); n != solid.node.begin() + 8; ++n)
+    if (*n >= 0 && std::find(out.begin(), end, *n) == end) *end++ = *n;
+  return static_cast<int>(end - out.begin());
+}
+
+}  // namespace
+
+std::array<Index, 8> ModelSolid::corners() const {
+  std::array<Index, 8> out{}, different{};
+  std::copy_n(node.begin(), out.size(), out.begin());
+  if (different_nodes(*this, different) != 4) return out;
+  const auto [a, b, c, d] = std::array{different[0], different[1], different[2], different[3]};
+  return {a, b, c, c, d, d, d, d};
+}
+
+int ModelSolid::different_corners() const {
+  std::array<Index, 8> different{};
+  return different_nodes(*this, different);
+}
+
 void Model::release_mesh() {
   std::vector<ModelNode>().swap(nodes);  // clear() would keep the memory
   std::vector<ModelSph>().swap(sph);

@@ -29,6 +29,7 @@ struct ModelPart {
   Location where;  ///< of the PART card, for messages
   Entry card;      ///< the PART card, for messages about one of its fields
   bool has_sph = false, has_shell = false, has_solid = false;
+  bool rigid = false;           ///< its material is a *MAT_RIGID
   bool velocity_given = false;  ///< INITIAL_VELOCITY_GENERATION names this part
 };
 
@@ -46,11 +47,18 @@ struct ModelShell {
 };
 
 /// A hexahedron: nodes 1 to 4 run around the lower face, counter-clockwise seen from the upper one, 5 to 8
-/// stand above them. Other shapes are refused; sets know them all the same.
+/// stand above them; or what becomes of it where nodes stand several times: pentahedra, pyramids, tetrahedra.
+/// Those of ten nodes are refused; sets know them all the same.
 struct ModelSolid {
   Id id = 0;
   Index part = 0;
   std::array<Index, 10> node{};  ///< in the deck's order; -1 behind the last
+
+  /// As corners of a hexahedron. Of a tetrahedron with nodes a, b, c, d, however often it repeats which of
+  /// them: a b c c d d d d, since other ways to repeat them leave a warped face.
+  std::array<Index, 8> corners() const;
+  /// Different nodes among these: 8 of a hexahedron, 6 of a pentahedron, 5 of a pyramid, 4 of a tetrahedron.
+  int different_corners() const;
 };
 
 /// A face told by its corners; triangle: node[3] == node[2], line in 2D: node[3] == node[2] == node[1]. Its

@@ -36,10 +36,22 @@ std::vector<Index> nodes_used(const World& world, const Groups& groups, std::vec
   return out;
 }
 
-/// LS-DYNA's order of corners is VTK's.
-std::uint8_t vtk_type_of(int corners) {
-  constexpr std::uint8_t line = 3, tetrahedron = 10, hexahedron = 12;
-  return corners == 2 ? line : corners == 4 ? tetrahedron : hexahedron;
+struct VtkCell {
+  std::uint8_t type;
+  std::vector<int> corners;  ///< of the element, in VTK's order
+};
+
+/// LS-DYNA's order of corners is VTK's, but for hexahedra whose nodes stand several times.
+VtkCell vtk_cell(const ElementGroup& group, Index e) {
+  constexpr std::uint8_t line = 3, tetrahedron = 10, hexahedron = 12, wedge = 13, pyramid = 14;
+  if (group.corners() == 2) return {line, {0, 1}};
+  if (group.corners() == 4) return {tetrahedron, {0, 1, 2, 3}};
+  const auto same = [&](int a, int b) { return group.node.data(a)[e] == group.node.data(b)[e]; };
+  const bool to_a_point = same(4, 5) && same(4, 6) && same(4, 7);
+  if (to_a_point) return same(2, 3) ? VtkCell{tetrahedron, {0, 1, 2, 4}} : VtkCell{pyramid, {0, 1, 2, 3, 4}};
+  if (same(4, 5) && same(6, 7)) return {wedge, {0, 1, 4, 3, 2, 6}};
+  if (same(2, 3) && same(6, 7)) return {wedge, {0, 2, 1, 4, 6, 5}};
+  return {hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}};
 }
 
 VtkSection cells(const Groups& groups, const std::vector<Index>& place) {
@@ -47,10 +59,11 @@ VtkSection cells(const Groups& groups, const std::vector<Index>& place) {
   std::vector<std::uint8_t> types;
   for (const ElementGroup* group : groups)
     for (Index e = 0; e < group->size(); ++e) {
-      for (int c = 0; c < group->corners(); ++c)
+      const VtkCell cell = vtk_cell(*group, e);
+      for (const int c : cell.corners)
         corners.push_back(place[static_cast<std::size_t>(group->node.data(c)[e])]);
       ends.push_back(static_cast<Index>(corners.size()));
-      types.push_back(vtk_type_of(group->corners()));
+      types.push_back(cell.type);
     }
   const auto array = [](const char* name, const std::vector<Index>& values) {
     return make_array<Index, 1>(name, "", values.size(), [&](std::size_t i, Index* to) { *to = values[i]; });

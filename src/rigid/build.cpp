@@ -11,6 +11,7 @@
 #include "rigid/inertia.hpp"
 #include "rigid/mat_rigid.hpp"
 #include "rigid/rigid.hpp"
+#include "surfaces/skin.hpp"
 
 namespace courant {
 namespace {
@@ -65,9 +66,10 @@ MassIntegrals lumped(const RigidBody& b, const World& world) {
   return out;
 }
 
-/// Over the shells of the body, which have one thickness and density, and its nodes' shares of solids that
-/// are fixed to it. `total`: the mass of all of that [M].
-MassIntegrals integrated(const RigidBody& b, Real total, const World& world) {
+/// Over the shells of the body, which have one thickness and density, or its solids, and its nodes' shares of
+/// deformable solids that are fixed to it. `total`: the mass of all of that [M].
+MassIntegrals integrated(const RigidBody& b, const std::vector<SkinCell>& cells, Real total,
+                         const World& world) {
   const Nodes& nodes = world.nodes;
   const Segments& g = world.segments;
   const Vec origin = nodes.x.vec(b.nodes.front());
@@ -77,15 +79,21 @@ MassIntegrals integrated(const RigidBody& b, Real total, const World& world) {
     for (int c = 0; c < group->corners(); ++c)
       for (Index e = 0; e < group->size(); ++e)
         if (const Index n = group->node.data(c)[e]; mine.contains(n))
-          solids.add_point(group->mass[e] / group->corners(), nodes.x.vec(n), nodes.v.vec(n));
+          solids.add_point(group->mass[e] * group->share(e, c), nodes.x.vec(n), nodes.v.vec(n));
   for (Index s = 0; s < g.size(); ++s) {
     if (g.part[s] != b.part_index) continue;
     const std::array<Index, 4> a = g.nodes(s);
     Quadrilateral x, v;
     for (std::size_t e = 0; e < 4; ++e) x[e] = nodes.x.vec(a[e]), v[e] = nodes.v.vec(a[e]);
-    add_shell(x, v, g.thickness[s], out);
+    if (!(g.volume[s] > 0)) add_shell(x, v, g.thickness[s], out);
   }
-  out *= (total - solids.m) / out.m;  // so far it was the area
+  for (const SkinCell& cell : cells) {
+    Hexahedron x, v;
+    for (std::size_t c = 0; c < x.size(); ++c)
+      x[c] = nodes.x.vec(cell.node[c]), v[c] = nodes.v.vec(cell.node[c]);
+    add_solid(x, v, out);
+  }
+  out *= (total - solids.m) / out.m;  // so far it was the area, or the volume
   out += solids;
   return out;
 }
@@ -141,13 +149,17 @@ class Builder {
           nodes.insert(world_node_.at(model_.nodes[n].id));
           if (!b.fixed()) refuse_spc(part, model_.nodes[n]);
         }
+    std::vector<SkinCell> cells = cells_of(part, nodes, b.fixed());
+    add_solid_masses(m, part, cells);
+    b.solids = static_cast<Index>(cells.size());
+    for (const SkinCell& cell : cells) b.volume += cell.volume;
     b.nodes.assign(nodes.begin(), nodes.end());
     if (!b.fixed()) warn_of_shared_nodes(part, b);
     const MassIntegrals at_nodes = lumped(b, world_);
-    if (!(at_nodes.m > 0)) return;  // the shells' own errors tell why
+    if (!(at_nodes.m > 0)) return;  // the elements' own errors tell why
     b.J_lumped = at_nodes.inertia();
     const RigidInertia* asked = deck_.last<RigidInertia>();
-    take_mass(b, asked && asked->lumped == 1 ? at_nodes : integrated(b, at_nodes.m, world_), world_);
+    take_mass(b, asked && asked->lumped == 1 ? at_nodes : integrated(b, cells, at_nodes.m, world_), world_);
     if (world_.dim == 2) in_plane(part, b);
     if (!can_turn(b))
       diagnostics_.error(
@@ -172,6 +184,37 @@ class Builder {
   }
 
  private:
+  /// The solids of a part; adds their nodes to those of its body.
+  std::vector<SkinCell> cells_of(Index part, std::set<Index>& nodes, bool fixed) {
+    std::vector<SkinCell> cells;
+    for (const ModelSolid& solid : model_.solids) {
+      if (solid.part != part) continue;
+      SkinCell& cell = cells.emplace_back(SkinCell{.id = solid.id});
+      const std::array<Index, 8> corner = solid.corners();
+      for (std::size_t c = 0; c < corner.size(); ++c) {
+        const ModelNode& node = model_.nodes[static_cast<std::size_t>(corner[c])];
+        nodes.insert(cell.node[c] = world_node_.at(node.id));
+        if (!fixed) refuse_spc(part, node);
+      }
+    }
+    return cells;
+  }
+
+  /// The mass of an element goes to its nodes in equal shares; its outer faces can be touched.
+  void add_solid_masses(const MatRigid& m, Index part, std::vector<SkinCell>& cells) {
+    if (cells.empty()) return;
+    for (SkinCell& cell : cells) {
+      Hexahedron x;
+      for (std::size_t c = 0; c < x.size(); ++c) x[c] = world_.nodes.x.vec(cell.node[c]);
+      MassIntegrals sums;
+      add_solid(x, x, sums);
+      cell.volume = sums.m;
+      const std::set<Index> different(cell.node.begin(), cell.node.end());
+      for (const Index n : different) world_.nodes.m[n] += m.ro * cell.volume / Real(different.size());
+    }
+    add_skin(world_, {part, m.E / (3 * (1 - 2 * m.pr))}, cells);
+  }
+
   void refuse_spc(Index part, const ModelNode& node) {
     if (!(node.fixed[0] || node.fixed[1] || node.fixed[2]) || !refused_.insert(part).second) return;
     diagnostics_.error(model_.parts[part].where,
@@ -191,7 +234,7 @@ class Builder {
           const Index n = group->node.data(c)[e];
           if (!mine.contains(n)) continue;
           shared.insert(n);
-          mass += group->mass[e] / group->corners();
+          mass += group->mass[e] * group->share(e, c);
         }
     if (shared.empty()) return;
     diagnostics_.warning(
@@ -260,14 +303,7 @@ std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& m
   for (Index part = 0; part < Index(model.parts.size()); ++part) {
     const ModelPart& p = model.parts[part];
     const MatRigid* m = p.has_shell || p.has_solid ? find(deck, p.mid) : nullptr;
-    if (m && p.has_solid)
-      deck.error(
-          diagnostics, p.card, "MID",
-          fmt::format("rigid bodies of solids are not supported, and material {} of part {} is a *MAT_RIGID",
-                      p.mid, p.id),
-          "give its skin as shells of a part of their own");
-    else if (m)
-      builder.add(part, *m);
+    if (m) builder.add(part, *m);
   }
   return builder.finish();
 }

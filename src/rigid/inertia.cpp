@@ -57,4 +57,22 @@ void add_shell(const Quadrilateral& x, const Quadrilateral& v, Real t, MassInteg
     }
 }
 
+void add_solid(const Hexahedron& x, const Hexahedron& v, MassIntegrals& sums) {
+  const std::array<Real, 3> at{-std::sqrt(Real(0.6)), 0, std::sqrt(Real(0.6))};
+  constexpr std::array<Real, 3> weight{5.0 / 9, 8.0 / 9, 5.0 / 9};
+  for (std::size_t i = 0; i < 27; ++i) {
+    const std::array<std::size_t, 3> k{i % 3, i / 3 % 3, i / 9};
+    Matrix jacobian = Matrix::Zero();
+    Vec place = Vec::Zero(), velocity = Vec::Zero();
+    for (std::size_t c = 0; c < 8; ++c) {
+      const Vec sign(c % 4 == 1 || c % 4 == 2 ? 1 : -1, c % 4 >= 2 ? 1 : -1, c >= 4 ? 1 : -1);
+      const Vec f(1 + sign[0] * at[k[0]], 1 + sign[1] * at[k[1]], 1 + sign[2] * at[k[2]]);
+      place += f.prod() / 8 * x[c], velocity += f.prod() / 8 * v[c];
+      jacobian +=
+          x[c] * Vec(sign[0] * f[1] * f[2], f[0] * sign[1] * f[2], f[0] * f[1] * sign[2]).transpose() / 8;
+    }
+    sums.add_point(weight[k[0]] * weight[k[1]] * weight[k[2]] * jacobian.determinant(), place, velocity);
+  }
+}
+
 }  // namespace courant

@@ -35,4 +35,10 @@ using Quadrilateral = std::array<Vec, 4>;  ///< corners in order; a triangle rep
 /// normal to the angular momentum.
 void add_shell(const Quadrilateral& x, const Quadrilateral& v, Real t, MassIntegrals& sums);
 
+using Hexahedron = std::array<Vec, 8>;  ///< corners in LS-DYNA's order; nodes may stand several times
+
+/// Adds a hexahedron of unit density, interpolated trilinearly between its corners, as are velocities v:
+/// three by three by three Gauss points, exact where its faces are not warped.
+void add_solid(const Hexahedron& x, const Hexahedron& v, MassIntegrals& sums);
+
 }  // namespace courant

@@ -36,6 +36,8 @@ struct RigidBody {
   std::vector<Index> nodes;               ///< indices into World::nodes
   std::vector<Vec> X;                     ///< their places about the centre at t = 0 [L]
   std::array<bool, 3> held{}, no_turn{};  ///< global axes without translation, rotation
+  Index solids = 0;                       ///< how many of them it is made of
+  Real volume = 0;                        ///< of these [L3]
   Real m = 0;                             ///< [M]
   Real c2 = 0;                            ///< E/RO of its material, of sound squared [L2/T2]
   Matrix J0 = Matrix::Zero();             ///< inertia about the centre at t = 0, global axes [ML2]

@@ -108,11 +108,22 @@ struct ElementGroup {
   Field<Index>& node;         ///< component c: index of corner c into World::nodes
   Field<Real>& corner_force;  ///< component 3 c + k: on corner c in direction k
   Field<Real>& V0;            ///< volume at the start [L3]
-  Field<Real>& mass;          ///< shared equally by the corners
+  Field<Real>& mass;          ///< for the corners by `share` [M]
   Field<Id>& id;
   Index part;  ///< index into the model's parts
   int corners() const { return node.info().components; }
   Index size() const { return fields.size(); }
+  /// Of the mass of an element, what a corner gets: the same for all nodes, however many corners they are.
+  /// [-]
+  Real share(Index e, int corner) const {
+    int different = 0, same = 0;
+    for (int c = 0; c < corners(); ++c) {
+      bool first = true;
+      for (int b = 0; b < c; ++b) first = first && node.data(b)[e] != node.data(c)[e];
+      different += first, same += node.data(c)[e] == node.data(corner)[e];
+    }
+    return Real(1) / (different * same);
+  }
 };
 
 }  // namespace courant

@@ -1,8 +1,8 @@
 #include "surfaces/skin.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
+#include <utility>
 
 namespace courant {
 
@@ -12,56 +12,70 @@ namespace {
 constexpr int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
                              {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
-struct Face {
-  Index element;
-  std::array<Index, 4> node;
-};
+using Face = std::array<Index, 4>;
 
-std::vector<Face> outer_faces(const ElementGroup& group) {
-  std::map<std::array<Index, 4>, int> count;
-  const auto key = [](std::array<Index, 4> node) {
-    std::sort(node.begin(), node.end());
-    return node;
-  };
-  const auto nodes = [&](Index e, const int(&face)[4]) {
-    std::array<Index, 4> out;
-    for (std::size_t c = 0; c < 4; ++c) out[c] = group.node.data(face[c])[e];
-    return out;
-  };
-  for (Index e = 0; e < group.size(); ++e)
-    for (const auto& face : faces) ++count[key(nodes(e, face))];
-  std::vector<Face> out;
-  for (Index e = 0; e < group.size(); ++e)
-    for (const auto& face : faces)
-      if (count[key(nodes(e, face))] == 1) out.push_back({e, nodes(e, face)});
-  return out;
+/// The nodes of a face, each once; of a triangle the third again. Less than three are no face: false.
+bool nodes_of_face(const SkinCell& cell, const int (&corners)[4], Face& out) {
+  std::size_t count = 0;
+  for (const int c : corners) {
+    const Index n = cell.node[static_cast<std::size_t>(c)];
+    if (std::find(out.begin(), out.begin() + count, n) == out.begin() + count) out[count++] = n;
+  }
+  if (count == 3) out[3] = out[2];
+  return count >= 3;
+}
+
+Face key(Face face) {
+  const bool three = face[2] == face[3];
+  std::sort(face.begin(), face.end() - three);
+  if (three) face[3] = face[2];
+  return face;
 }
 
 }  // namespace
 
-std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness) {
+std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness,
+                            const std::vector<SkinCell>& cells) {
+  std::map<Face, int> count;
+  Face face;
+  for (const SkinCell& cell : cells)
+    for (const auto& corners : faces)
+      if (nodes_of_face(cell, corners, face)) ++count[key(face)];
+  std::vector<std::pair<const SkinCell*, Face>> outer;
+  for (const SkinCell& cell : cells)
+    for (const auto& corners : faces)
+      if (nodes_of_face(cell, corners, face) && count[key(face)] == 1) outer.emplace_back(&cell, face);
   Segments& s = world.segments;
+  std::vector<Index> out;
+  Index at = s.size();
+  s.fields.resize(at + static_cast<Index>(outer.size()));
+  for (const auto& [cell, of_cell] : outer) {
+    face = of_cell;
+    s.node0[at] = face[0], s.node1[at] = face[1], s.node2[at] = face[2], s.node3[at] = face[3];
+    s.K[at] = stiffness.bulk_modulus;
+    s.volume[at] = cell->volume;
+    s.part[at] = stiffness.part;
+    s.id[at] = cell->id;
+    out.push_back(at++);
+  }
+  return out;
+}
+
+std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness) {
+  const Segments& s = world.segments;
   std::vector<Index> out;
   for (Index k = 0; k < s.size(); ++k)
     if (s.part[k] == stiffness.part && s.volume[k] > 0) out.push_back(k);
   if (!out.empty()) return out;
+  std::vector<SkinCell> cells;
   for (const auto& group : world.groups) {
-    if (group->part != stiffness.part) continue;
-    const std::vector<Face> skin = outer_faces(*group);
-    const Index first = s.size();
-    s.fields.resize(first + static_cast<Index>(skin.size()));
-    for (std::size_t k = 0; k < skin.size(); ++k) {
-      const Index at = first + static_cast<Index>(k);
-      s.node0[at] = skin[k].node[0], s.node1[at] = skin[k].node[1];
-      s.node2[at] = skin[k].node[2], s.node3[at] = skin[k].node[3];
-      s.K[at] = stiffness.bulk_modulus;
-      s.volume[at] = group->V0[skin[k].element];
-      s.part[at] = stiffness.part;
-      s.id[at] = group->id[skin[k].element];
-      out.push_back(at);
+    if (group->part != stiffness.part || group->corners() != 8) continue;
+    for (Index e = 0; e < group->size(); ++e) {
+      SkinCell& cell = cells.emplace_back(SkinCell{group->id[e], {}, group->V0[e]});
+      for (int c = 0; c < 8; ++c) cell.node[static_cast<std::size_t>(c)] = group->node.data(c)[e];
     }
   }
-  return out;
+  return add_skin(world, stiffness, cells);
 }
 
 }  // namespace courant

@@ -1,5 +1,6 @@
 #pragma once
 // The exterior faces of solids (their skin), as segments that contact can act on.
+#include <array>
 #include <vector>
 
 #include "state/world.hpp"
@@ -12,9 +13,19 @@ struct SkinStiffness {
   Real bulk_modulus = 0;  ///< of their material [M/LT2]
 };
 
-/// Adds the faces of a part's elements that no other of its elements has to world.segments, with normals that
-/// point outwards, in the order of elements and faces. A part whose skin is there already gets no second one.
-/// Returns the segments of its skin; none where the part has no solids.
+/// A hexahedron, or what becomes of it where nodes stand several times.
+struct SkinCell {
+  Id id = 0;
+  std::array<Index, 8> node{};  ///< of the world, in LS-DYNA's order
+  Real volume = 0;              ///< [L3]
+};
+
+/// Adds the faces of cells that no other of them has to world.segments, with normals that point outwards, in
+/// the order of cells and faces. Returns these segments.
+std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness, const std::vector<SkinCell>& cells);
+
+/// The same for the elements of a part in the world's groups. A part whose skin is there already gets no
+/// second one. Returns the segments of its skin; none where the part has no solids.
 std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness);
 
 }  // namespace courant

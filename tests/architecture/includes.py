@@ -20,7 +20,7 @@ MAY_INCLUDE = {
     "extension": ["state", "keyword", "model"],
     "loads": ["search", "state", "keyword", "model", "extension"],
     "sph": ["loads", "search", "state", "keyword", "model", "laws", "surfaces"],
-    "rigid": ["loads", "search", "state", "keyword", "model"],
+    "rigid": ["loads", "search", "state", "keyword", "model", "surfaces"],
     "shell": ["search", "state", "keyword", "model"],
     "elements": ["loads", "search", "state", "keyword", "model", "laws", "extension"],
     "contact": ["loads", "search", "state", "keyword", "model", "surfaces"],

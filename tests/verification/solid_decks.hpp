@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "../unit/elements/cell_shapes.hpp"
 #include "app/simulation.hpp"
 
 namespace courant::test {
@@ -14,6 +15,7 @@ namespace courant::test {
 struct SolidDeck {
   std::vector<Vec> nodes;
   std::string elements, cards;
+  CellShape cells = CellShape::hexahedron;  ///< not pyramids
 
   /// A block from the origin; `shape` moves its nodes before they are written. Returns its first node.
   std::size_t block(const Vec& size, int nx, int ny, int nz, int part,
@@ -26,14 +28,16 @@ struct SolidDeck {
           nodes.push_back(shape ? shape(x) : x);
         }
     const auto n = [&](int i, int j, int k) {
-      return first + std::size_t(i + (nx + 1) * (j + (ny + 1) * k));
+      return static_cast<Index>(first) + i + (nx + 1) * (j + (ny + 1) * k);
     };
     for (int k = 0; k < nz; ++k)
       for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i)
-          elements += fmt::format("{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}\n", ++element_, part, n(i, j, k),
-                                  n(i + 1, j, k), n(i + 1, j + 1, k), n(i, j + 1, k), n(i, j, k + 1),
-                                  n(i + 1, j, k + 1), n(i + 1, j + 1, k + 1), n(i, j + 1, k + 1));
+          for (const auto& c :
+               split(cells, {n(i, j, k), n(i + 1, j, k), n(i + 1, j + 1, k), n(i, j + 1, k), n(i, j, k + 1),
+                             n(i + 1, j, k + 1), n(i + 1, j + 1, k + 1), n(i, j + 1, k + 1)}))
+            elements += fmt::format("{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}\n", ++element_, part, c[0],
+                                    c[1], c[2], c[3], c[4], c[5], c[6], c[7]);
     return first;
   }
   /// A *SET_NODE_LIST of those nodes for which `wanted` holds.

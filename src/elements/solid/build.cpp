@@ -10,7 +10,7 @@ namespace courant {
 std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   std::vector<SolidPart> out(model.parts.size());
   bool any = false;
-  for (const ModelPart& part : model.parts) any = any || part.has_solid;
+  for (const ModelPart& part : model.parts) any = any || (part.has_solid && !part.rigid);
   if (!any) return out;
   check_solid_sections(deck, model, diagnostics);
   const std::vector<SolidViscosity> viscosity = read_solid_viscosity(deck, model, diagnostics);
@@ -28,16 +28,15 @@ std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Di
     return out;
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const ModelPart& part = model.parts[k];
-    if (!part.has_solid) continue;
+    if (!part.has_solid || part.rigid) continue;
     out[k].viscosity = viscosity[k];
     const auto law = laws.find(part.mid);
     const std::string instead = deck.found_instead(IdSpace::material, part.mid);
     if (law == laws.end()) {
-      if (instead.find("MAT_RIGID") == std::string::npos)  // the rigid bodies refuse those
-        deck.error(diagnostics, part.card, "MID",
-                   fmt::format("the solids of part {} need a material with strength and id {}; {}", part.id,
-                               part.mid, instead),
-                   "add one of " + known + " and give its id here");
+      deck.error(diagnostics, part.card, "MID",
+                 fmt::format("the solids of part {} need a material with strength and id {}; {}", part.id,
+                             part.mid, instead),
+                 "add one of " + known + ", or a *MAT_RIGID, and give its id here");
     } else if (law->second->deviator_only()) {
       deck.error(diagnostics, part.card, "MID",
                  fmt::format("the material of part {} takes its pressure from an equation of state, which is "
@@ -65,7 +64,8 @@ void build_solids(const Model& model, const std::vector<SolidPart>& parts, const
     for (Index e = 0; e < group.size(); ++e) {
       const ModelSolid& solid = *of_part[k][e];
       group.id[e] = solid.id;
-      for (int c = 0; c < corners; ++c) group.node.data(c)[e] = node_of[solid.node[c]];
+      const std::array<Index, corners> corner = solid.corners();
+      for (int c = 0; c < corners; ++c) group.node.data(c)[e] = node_of[corner[c]];
     }
   }
 }

@@ -96,7 +96,7 @@ std::vector<SolidViscosity> read_solid_viscosity(const Deck& deck, const Model& 
   std::vector<SolidViscosity> out(model.parts.size());
   Reader reader(deck, diagnostics);
   for (std::size_t k = 0; k < out.size(); ++k)
-    if (model.parts[k].has_solid) out[k] = reader.of(model.parts[k]);
+    if (model.parts[k].has_solid && !model.parts[k].rigid) out[k] = reader.of(model.parts[k]);
   return out;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -17,7 +19,8 @@ using S = SectionSolid;
 
 const RegisterKeyword<S> section_solid{
     {.names = {"SECTION_SOLID"},
-     .purpose = "formulation of solid elements: ELFORM 1, the hexahedron with one point",
+     .purpose =
+         "formulation of solid elements: one point (ELFORM 1; 10 for tetrahedra, 15 and 115 for pentahedra)",
      .id_space = IdSpace::section,
      .title_option = true,
      .title = &S::title,
@@ -34,11 +37,41 @@ const RegisterKeyword<S> section_solid{
                 .repeat = true,
                 .when = [](const S& s) { return s.elform >= 101 && s.elform <= 105; }}}}};
 
+/// Formulations with one point, by the number of different nodes of their elements; 0: any. `points`: what
+/// LS-DYNA has, where it is another number.
+struct Formulation {
+  int elform, nodes, points;
+  const char* shape;
+};
+constexpr Formulation formulations[] = {
+    {1, 0, 1, ""}, {10, 4, 1, "tetrahedra"}, {15, 6, 2, "pentahedra"}, {115, 6, 1, "pentahedra"}};
+
+const Formulation* formulation_of(const S& s) {
+  const auto* found = std::find_if(std::begin(formulations), std::end(formulations),
+                                   [&](const Formulation& f) { return f.elform == s.elform; });
+  return found == std::end(formulations) ? nullptr : found;
+}
+
+void check_shapes(const Deck& deck, const Model& model, Index part, const S& s, Diagnostics& diagnostics) {
+  const Formulation* found = formulation_of(s);
+  if (!found) return;
+  for (const ModelSolid& solid : model.solids)
+    if (solid.part == part && found->nodes != 0 && solid.different_corners() != found->nodes)
+      return deck.error(diagnostics, s, "ELFORM",
+                        fmt::format("{} is a formulation of {}, and solid {} of part {} is none", s.elform,
+                                    found->shape, solid.id, model.parts[static_cast<std::size_t>(part)].id),
+                        "1 takes all shapes");
+  if (found->points > 1)
+    deck.warning(diagnostics, s, "ELFORM",
+                 fmt::format("{} of part {} have one point here, not {}", found->shape,
+                             model.parts[static_cast<std::size_t>(part)].id, found->points));
+}
+
 void check_fields(const Deck& deck, const S& s, Diagnostics& diagnostics) {
-  constexpr int one_point = 1;
-  if (s.elform != one_point)
+  if (!formulation_of(s))
     deck.error(diagnostics, s, "ELFORM", fmt::format("'{}' is not supported", s.elform),
-               "supported values: 0, 1 (hexahedron with one point and hourglass control by *HOURGLASS)");
+               "supported values: 0, 1 (one point and hourglass control by *HOURGLASS), 10 (tetrahedra), 15 "
+               "and 115 (pentahedra)");
   const auto refuse = [&](const char* field, Real value, const char* what) {
     if (value != 0)
       deck.error(diagnostics, s, field, fmt::format("{} are not supported, got '{:g}'", what, value),
@@ -55,8 +88,9 @@ void check_solid_sections(const Deck& deck, const Model& model, Diagnostics& dia
   std::map<Id, const S*> sections;
   for (const S& s : deck.all<S>()) sections.emplace(s.secid, &s);
   std::set<const S*> checked;  // several parts may name one
-  for (const ModelPart& part : model.parts) {
-    if (!part.has_solid) continue;
+  for (std::size_t k = 0; k < model.parts.size(); ++k) {
+    const ModelPart& part = model.parts[k];
+    if (!part.has_solid || part.rigid) continue;
     const auto found = sections.find(part.secid);
     if (found == sections.end())
       deck.error(diagnostics, part.card, "SECID",
@@ -65,6 +99,8 @@ void check_solid_sections(const Deck& deck, const Model& model, Diagnostics& dia
                  "add the section, or correct the id here");
     else if (checked.insert(found->second).second)
       check_fields(deck, *found->second, diagnostics);
+    if (found != sections.end())
+      check_shapes(deck, model, static_cast<Index>(k), *found->second, diagnostics);
   }
 }
 

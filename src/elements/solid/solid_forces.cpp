@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/run_error.hpp"
+#include "elements/largest_frequency.hpp"
 #include "elements/solid/solids.hpp"
 #include "state/reports.hpp"
 
@@ -18,7 +19,8 @@ namespace {
 /// hexahedron_loops.hpp.
 class SolidForces : public Material, public TimeLimit, public EnergyTerm, public PartReporter {
  public:
-  SolidForces(const SolidPart& part, const ElementGroup& group, Id part_id, Real tssfac, World& world)
+  SolidForces(const SolidPart& part, const ElementGroup& group, Id part_id, Real tssfac,
+              const std::vector<std::array<bool, 3>>& held, World& world)
       : group_(group),
         law_(part.law),
         part_id_(part_id),
@@ -39,6 +41,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
       history_.push_back(&group.fields.add<Real>(
           {.name = h.name, .dimension = h.dimension, .components = h.components, .output = true}));
     start_state(world);
+    limit_to_frequency(held, world);
   }
   std::string name() const override { return group_.fields.name(); }
   const FieldSet& over(const World&) const override { return group_.fields; }
@@ -70,22 +73,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     found_.resize(static_cast<std::size_t>(block_count(group_.size())));
   }
   void block(World&, const Clock& clock, Index begin, Index end) override {
-    HexahedronScratch scratch;
-    const HexahedronLoops::Block block{begin, end - begin, clock.dt_old};
-    loops_.strain(block, mesh_, state_, scratch);
-    std::array<Real*, most_history> history{};
-    PointBlock points;
-    points.count = end - begin;
-    points.dt = clock.dt_old;
-    for (std::size_t k = 0; k < 6; ++k)
-      points.rate[k] = scratch.rate[k], points.stress[k] = state_.stress[k] + begin;
-    points.compression = scratch.compression;
-    points.sound_speed = scratch.sound_speed;
-    for (std::size_t k = 0; k < history_data_.size(); ++k) history[k] = history_data_[k] + begin;
-    points.history = std::span<Real* const>(history.data(), history_data_.size());
-    law_->update(points);
-    loops_.work(block, state_, scratch);
-    found_[static_cast<std::size_t>(begin / block_size)] = loops_.forces(block, control_, state_, scratch);
+    found_[static_cast<std::size_t>(begin / block_size)] = advance(mesh_, control_, clock.dt_old, begin, end);
   }
   void finish(World&, const Clock& clock) override {
     for (const HexahedronLoops::Found& found : found_)
@@ -96,7 +84,8 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     const HexahedronLoops::Found* least = &found_.front();
     for (const HexahedronLoops::Found& found : found_)
       if (!std::isnan(least->step) && !(found.step >= least->step)) least = &found;
-    return {tssfac_ * least->step, fmt::format("solid {} of part {}", group_.id[least->shortest], part_id_)};
+    return {tssfac_ * least->step, fmt::format("solid {} of part {}{}", group_.id[least->shortest], part_id_,
+                                               by_mesh_ ? " (frequency of its mesh)" : "")};
   }
 
   void record(World&, const Clock&, EnergyLedger&) override {}
@@ -110,9 +99,9 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     out.internal += total(internal_) + total(bulk_viscosity_);
     out.hourglass += total(hourglass_);
     for (Index e = 0; e < group_.size(); ++e) {
-      const Real share = group_.mass[e] / group_.corners();
       out.mass += group_.mass[e];
       for (int c = 0; c < group_.corners(); ++c) {
+        const Real share = group_.mass[e] * group_.share(e, c);
         const Vec v = world.nodes.v.vec(group_.node.data(c)[e]);
         out.momentum += share * v;
         out.kinetic += 0.5 * share * v.squaredNorm();
@@ -122,8 +111,70 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
 
  private:
   static constexpr std::size_t most_history = 16;
+  static constexpr Real small_strain = 1e-7;  ///< within which all is linear
 
-  /// Reference volumes and densities; the mass of an element goes to its corners in equal shares.
+  HexahedronLoops::Found advance(const HexahedronMesh& mesh, const HexahedronControl& control, Real dt,
+                                 Index begin, Index end) const {
+    HexahedronScratch scratch;
+    const HexahedronLoops::Block block{begin, end - begin, dt};
+    loops_.strain(block, mesh, state_, scratch);
+    std::array<Real*, most_history> history{};
+    PointBlock points;
+    points.count = end - begin;
+    points.dt = dt;
+    for (std::size_t k = 0; k < 6; ++k)
+      points.rate[k] = scratch.rate[k], points.stress[k] = state_.stress[k] + begin;
+    points.compression = scratch.compression;
+    points.sound_speed = scratch.sound_speed;
+    for (std::size_t k = 0; k < history_data_.size(); ++k) history[k] = history_data_[k] + begin;
+    points.history = std::span<Real* const>(history.data(), history_data_.size());
+    law_->update(points);
+    loops_.work(block, state_, scratch);
+    return loops_.forces(block, control, state_, scratch);
+  }
+
+  /// A free block of few elements is stable only below what a mesh of many is: the step keeps below 2 over
+  /// the largest frequency of the group, by the share of the elements' own step that this is at the start.
+  void limit_to_frequency(const std::vector<std::array<bool, 3>>& held, World& world) {
+    constexpr Real below = 0.97;  // the estimate comes from below
+    const Index nodes = world.nodes.size(), n = group_.size();
+    std::vector<Real> m(static_cast<std::size_t>(nodes), 0);
+    for (int c = 0; c < group_.corners(); ++c)
+      for (Index e = 0; e < n; ++e)
+        m[static_cast<std::size_t>(group_.node.data(c)[e])] += group_.mass[e] * group_.share(e, c);
+    const Real smallest = -maximum(n, [&](Index e) { return -V0_[e]; });
+    if (!(smallest > 0)) return;
+    HexahedronMesh mesh = mesh_;
+    const HexahedronControl elastic{.hourglass = control_.hourglass, .QM = 0, .Q1 = 0, .Q2 = 0};
+    std::vector<HexahedronLoops::Found> found(found_.size());
+    const Real omega = largest_frequency(
+        m, held, small_strain * std::cbrt(smallest), [&](const NodalVector& u, NodalVector& Ku) {
+          for (std::size_t k = 0; k < 3; ++k) mesh.v[k] = u[k].data();
+          reset(stress_);
+          for (Field<Real>* h : history_) reset(*h);
+          for_each_block(n, [&](Index begin, Index end) {
+            found[static_cast<std::size_t>(begin / block_size)] = advance(mesh, elastic, 1, begin, end);
+          });
+          for (std::size_t k = 0; k < 3; ++k) {
+            std::fill(Ku[k].begin(), Ku[k].end(), 0);
+            for (int c = 0; c < group_.corners(); ++c) {
+              const Real* f = group_.corner_force.data(3 * c + static_cast<int>(k));
+              const Index* node = group_.node.data(c);
+              for (Index e = 0; e < n; ++e) Ku[k][static_cast<std::size_t>(node[e])] -= f[e];
+            }
+          }
+        });
+    Real step = std::numeric_limits<Real>::infinity();
+    for (const HexahedronLoops::Found& f : found) step = std::min(step, f.step);
+    for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) reset(*field);
+    for (Field<Real>* h : history_) reset(*h);
+    group_.corner_force.fill(0);
+    if (omega > 0 && below * 2 / omega < tssfac_ * step)
+      tssfac_ = below * 2 / (omega * step), by_mesh_ = true;
+  }
+  static void reset(Field<Real>& field) { field.fill(0); }
+
+  /// Reference volumes and densities; the mass of an element goes to its nodes in equal shares.
   void start_state(World& world) {
     int numbers = 0, tensors = 0;
     for (const HistoryVariable& h : law_->history()) numbers += h.components, tensors += h.is_tensor();
@@ -144,7 +195,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
         V0_[e] = scratch.relative_volume[k];
         group_.mass[e] = law_->ro * V0_[e];
         for (int c = 0; c < group_.corners(); ++c)
-          world.nodes.m[group_.node.data(c)[e]] += group_.mass[e] / group_.corners();
+          world.nodes.m[group_.node.data(c)[e]] += group_.mass[e] * group_.share(e, c);
       }
     }
     for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) field->fill(0);
@@ -168,7 +219,8 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
   const ElementGroup& group_;
   std::shared_ptr<StrengthLaw> law_;
   Id part_id_;
-  Real tssfac_;
+  Real tssfac_;           ///< TSSFAC, or less where the mesh asks for it
+  bool by_mesh_ = false;  ///< it does
   HexahedronLoops loops_ = hexahedron_loops();
   HexahedronControl control_;
   Field<Real>&stress_, &V0_, &rho0_, &internal_, &hourglass_, &bulk_viscosity_;
@@ -181,11 +233,15 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
 
 }  // namespace
 
-void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts, World& world) {
+void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts,
+                      const std::vector<Index>& node_of, World& world) {
+  std::vector<std::array<bool, 3>> held(static_cast<std::size_t>(world.nodes.size()), {false, false, false});
+  for (std::size_t k = 0; k < node_of.size(); ++k)
+    if (node_of[k] >= 0) held[static_cast<std::size_t>(node_of[k])] = model.nodes[k].fixed;
   for (const auto& group : world.groups) {
     const auto part = static_cast<std::size_t>(group->part);
     world.passes.add(
-        std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac, world));
+        std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac, held, world));
   }
 }
 

@@ -26,7 +26,8 @@ std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Di
 void build_solids(const Model& model, const std::vector<SolidPart>& parts, const std::vector<Index>& node_of,
                   World& world);
 
-/// Adds the forces of solids to the passes of `world`.
-void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts, World& world);
+/// Adds the forces of solids to the passes of `world`. `node_of` as above.
+void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts,
+                      const std::vector<Index>& node_of, World& world);
 
 }  // namespace courant

@@ -18,6 +18,8 @@ constexpr CurveDimensions known[] = {
     {"LOAD_GRAVITY_PART", "LC", "T", "-"},
     {"LOAD_NODE_POINT", "LCID", "T", "ML/T2"},
     {"LOAD_NODE_SET", "LCID", "T", "ML/T2"},
+    {"LOAD_SEGMENT", "LCID", "T", "M/LT2"},
+    {"LOAD_SEGMENT_SET", "LCID", "T", "M/LT2"},
     {"DAMPING_GLOBAL", "LCID", "T", "1/T"},
     {"DAMPING_PART_MASS", "LCID", "T", "1/T"},
     {"CONTROL_TIMESTEP", "LCTM", "T", "T"},

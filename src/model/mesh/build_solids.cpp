@@ -15,29 +15,15 @@ namespace {
 constexpr const char* inside_out = "inside out, or without a volume";
 constexpr std::size_t least_corners = 4, corners_of_hexahedron = 8;
 
-/// What a solid is that is no hexahedron of eight nodes; nullptr for one.
-const char* other_shape(const ModelSolid& solid) {
+/// What is wrong with the nodes of a solid; nullptr: nothing.
+const char* wrong_nodes(const ModelSolid& solid) {
   const auto& node = solid.node;
   if (std::any_of(node.begin() + corners_of_hexahedron, node.end(), [](Index n) { return n >= 0; }))
     return "a tetrahedron of ten nodes";
-  std::array<Index, corners_of_hexahedron> corner{};
-  std::copy_n(node.begin(), corner.size(), corner.begin());
-  std::sort(corner.begin(), corner.end());
-  const auto begin = std::upper_bound(corner.begin(), corner.end(), Index(-1));
-  switch (std::unique(begin, corner.end()) - begin) {
-    case 4:
-      return "a tetrahedron";
-    case 5:
-      return "a pyramid";
-    case 6:
-      return "a pentahedron";
-    case 7:
-      return "a hexahedron with a node that stands twice";
-    case 8:
-      return nullptr;
-    default:
-      return "of less than four different nodes";
-  }
+  if (solid.different_corners() < static_cast<int>(least_corners)) return "of less than four different nodes";
+  const auto corner = solid.corners();
+  if (std::count(corner.begin(), corner.end(), Index(-1)) > 0) return "of five to seven nodes";
+  return nullptr;
 }
 
 }  // namespace
@@ -106,10 +92,10 @@ void ModelBuilder::check_solid_shapes() {
   };
   for (std::size_t k = 0; k < model_.solids.size(); ++k) {
     const ModelSolid& solid = model_.solids[k];
-    const char* shape = other_shape(solid);
-    if (shape)
-      note(solid_cards_[k], solid.part, shape);
-    else if (!(volume_at_centre(solid) > 0))
+    const char* wrong = wrong_nodes(solid);
+    if (wrong)
+      note(solid_cards_[k], solid.part, wrong);
+    else if (!(volume(solid) > 0))
       note(solid_cards_[k], solid.part, inside_out);
   }
   for (const auto& key : order) {
@@ -126,19 +112,28 @@ void ModelBuilder::check_solid_shapes() {
         turned
             ? "N1 to N4 run around one face, counter-clockwise seen from the other one, N5 to N8 stand above "
               "them"
-            : "solids must be hexahedra: give them eight different nodes");
+            : "give a hexahedron eight nodes, a pentahedron N1 N2 N3 N4 N5 N5 N6 N6, a pyramid N5 four "
+              "times, a "
+              "tetrahedron N4 five times");
   }
 }
 
-/// 8 x the determinant of the Jacobian there: the volume of a parallelepiped [L3].
-Real ModelBuilder::volume_at_centre(const ModelSolid& solid) const {
-  const auto x = [&](std::size_t k) -> const Vec& {
-    return model_.nodes[static_cast<std::size_t>(solid.node[k])].x;
-  };
-  const Vec a = x(1) + x(2) + x(5) + x(6) - x(0) - x(3) - x(4) - x(7),
-            b = x(2) + x(3) + x(6) + x(7) - x(0) - x(1) - x(4) - x(5),
-            c = x(4) + x(5) + x(6) + x(7) - x(0) - x(1) - x(2) - x(3);
-  return a.cross(b).dot(c) / 64;
+/// Of a hexahedron with bilinear faces, from its modes xi, eta, zeta, eta zeta, zeta xi, xi eta (elements).
+/// [L3]
+Real ModelBuilder::volume(const ModelSolid& solid) const {
+  constexpr int sign[6][8] = {{-1, 1, 1, -1, -1, 1, 1, -1}, {-1, -1, 1, 1, -1, -1, 1, 1},
+                              {-1, -1, -1, -1, 1, 1, 1, 1}, {1, 1, -1, -1, -1, -1, 1, 1},
+                              {1, -1, -1, 1, -1, 1, 1, -1}, {1, -1, 1, -1, 1, -1, 1, -1}};
+  const std::array<Index, 8> corner = solid.corners();
+  std::array<Vec, 6> a;
+  for (std::size_t m = 0; m < a.size(); ++m) {
+    a[m] = Vec::Zero();
+    for (std::size_t k = 0; k < corner.size(); ++k)
+      a[m] += sign[m][k] * model_.nodes[static_cast<std::size_t>(corner[k])].x;
+  }
+  return (a[0].dot(a[1].cross(a[2])) +
+          (a[0].dot(a[5].cross(a[4])) + a[3].dot(a[2].cross(a[4]) + a[5].cross(a[1]))) / 3) /
+         64;
 }
 
 void ModelBuilder::check_control_solid(const ControlSolid& card) {
@@ -152,8 +147,6 @@ void ModelBuilder::check_control_solid(const ControlSolid& card) {
     if (value != 0)
       error(card, field, fmt::format("'{}' is not supported: {}", value, what), "leave the field blank");
   };
-  refuse("ESORT", card.esort,
-         "solids must be hexahedra of formulation 1, and none is turned into another one");
   refuse("FMATRIX", card.fmatrix, "nothing here follows the deformation gradient");
   refuse("PSFAIL", card.psfail, "no solid is taken out of the run by its volume");
 }

@@ -85,10 +85,10 @@ const FieldRules narrow{.honour = Honour::ignored, .width = 8};
 
 const RegisterKeyword<Control> control_solid{
     {.names = {"CONTROL_SOLID"},
-     .purpose = "options of solids: all are hexahedra, and ESORT, FMATRIX and PSFAIL must be 0",
+     .purpose = "options of solids: FMATRIX and PSFAIL must be 0",
      .once = true,
      .many = false,
-     .cards = {{.fields = {{"ESORT", &Control::esort, "-", "formulation of degenerate solids"},
+     .cards = {{.fields = {{"ESORT", &Control::esort, "-", "formulation of degenerate solids", no_effect},
                            {"FMATRIX", &Control::fmatrix, "-", "deformation gradient"},
                            {"NIPTETS", &Control::niptets, "-", "points of tetrahedra", no_effect_but(4)},
                            {"SWLOCL", &Control::swlocl, "-", "output of spot welds", no_effect_but(1)},

@@ -72,6 +72,7 @@ const Lists bare{
      "contact no *CONTACT",
      "rigid bodies no *MAT_RIGID",
      "forces on nodes no node moves",
+     "pressure on segments no *LOAD_SEGMENT",
      "solids no *ELEMENT_SOLID",
      "field states no *DATABASE_BINARY_D3PLOT",
      "glstat no *DATABASE_GLSTAT",

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "cell_shapes.hpp"
 #include "elements/solid/hexahedron_loops.hpp"
 
 namespace courant::test {
@@ -51,20 +52,37 @@ struct Hexahedra {
             const Vec s = sign(c);
             g.corner[c].push_back(node(i + (s[0] > 0), j + (s[1] > 0), k + (s[2] > 0)));
           }
-    g.reference = g.x;
     if (cells == std::array<int, 3>{1, 1, 1}) g.order_corners();
-    g.v.assign(g.x.size(), Vec::Zero());
-    const std::size_t n = g.corner[0].size();
-    for (auto* a : {&g.V0, &g.rho0}) a->assign(n, 1);
-    for (auto* a : {&g.internal_energy, &g.hourglass_energy, &g.bulk_viscosity_energy, &g.limit})
-      a->assign(n, 0);
-    for (auto& a : g.stress) a.assign(n, 0);
-    for (auto& a : g.corner_force) a.assign(n, 0);
-    // the reference volumes come from the loops themselves: V/V0 with V0 = 1
-    g.visit(0, [&](Index begin, Index count) {
-      for (Index i = 0; i < count; ++i) g.V0[begin + i] = g.scratch.relative_volume[i];
-    });
+    g.start();
     return g;
+  }
+  void start() {
+    reference = x;
+    v.assign(x.size(), Vec::Zero());
+    const std::size_t n = corner[0].size();
+    for (auto* a : {&V0, &rho0}) a->assign(n, 1);
+    for (auto* a : {&internal_energy, &hourglass_energy, &bulk_viscosity_energy, &limit}) a->assign(n, 0);
+    for (auto& a : stress) a.assign(n, 0);
+    for (auto& a : corner_force) a.assign(n, 0);
+    // the reference volumes come from the loops themselves: V/V0 with V0 = 1
+    visit(0, [&](Index begin, Index count) {
+      for (Index i = 0; i < count; ++i) V0[begin + i] = scratch.relative_volume[i];
+    });
+  }
+
+  void split_cells(CellShape shape) {
+    const auto whole = corner;
+    for (auto& c : corner) c.clear();
+    for (std::size_t e = 0; e < whole[0].size(); ++e) {
+      std::array<Index, 8> n;
+      Vec middle = Vec::Zero();
+      for (std::size_t c = 0; c < 8; ++c) n[c] = whole[c][e], middle += 0.125 * x[n[c]];
+      const Index at = static_cast<Index>(x.size());
+      if (shape == CellShape::pyramids) x.push_back(middle), inside.push_back(1);
+      for (const auto& cell : split(shape, n, at))
+        for (std::size_t c = 0; c < 8; ++c) corner[c].push_back(cell[c]);
+    }
+    start();
   }
   /// Nodes of a single element in the order of its corners.
   void order_corners() {

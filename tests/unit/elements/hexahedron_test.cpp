@@ -31,6 +31,12 @@ Real gauss_volume(const std::vector<Vec>& x) {
   return volume;
 }
 
+Real sum_of(const std::vector<Real>& values) {
+  Real sum = 0;
+  for (const Real v : values) sum += v;
+  return sum;
+}
+
 constexpr Real gamma_modes[4][8] = {{1, 1, -1, -1, -1, -1, 1, 1},
                                     {1, -1, -1, 1, -1, 1, 1, -1},
                                     {1, -1, 1, -1, 1, -1, 1, -1},
@@ -56,8 +62,17 @@ TEST(Hexahedron, ForcesOfUnitPressureAreTheSlopesOfTheVolume) {
 TEST(Hexahedron, AnAffineVelocityGivesItsRateEverywhereAndNoHourglassForces) {
   Matrix L;
   L << 0.3, -0.2, 0.5, 0.1, -0.4, 0.7, -0.6, 0.2, 0.25;
-  for (const int hourglass : {2, 3}) {
-    Hexahedra g = Hexahedra::brick({4, 3, 5}, {1, 1, 1}, 0.25);
+  using Shape = test::CellShape;
+  int hourglass = 3;
+  for (const Shape shape : {Shape::hexahedron, Shape::hexahedron, Shape::wedges, Shape::wedges_from_quads,
+                            Shape::pyramids, Shape::tetrahedra}) {
+    Hexahedra g = Hexahedra::brick({4, 3, 5}, {1, 1, 1}, shape == Shape::hexahedron ? 0.25 : 0.1);
+    const Real whole = sum_of(g.V0);
+    g.split_cells(shape);
+    for (const Real V : g.V0) EXPECT_GT(V, 0);
+    // outside faces of wedges and tetrahedra are not quite those of the cells
+    EXPECT_NEAR(sum_of(g.V0), whole, shape == Shape::hexahedron || shape == Shape::pyramids ? 1e-12 : 2e-2);
+    hourglass = 5 - hourglass;
     g.control = {hourglass, 0.1, 0, 0};
     for (std::size_t n = 0; n < g.x.size(); ++n) g.v[n] = L * g.x[n] + Vec(1, 2, 3);
     g.lambda = 2, g.shear = 1;

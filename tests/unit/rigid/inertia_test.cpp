@@ -79,5 +79,60 @@ TEST(Inertia, AngularMomentumIsInertiaTimesTurning) {
   EXPECT_NEAR((sums.angular_momentum() - still.inertia() * omega).norm(), 0, 1e-12);
 }
 
+// A brick of edges a, b, c: m/12 of sums of squares. A tetrahedron and a wedge: sums of second moments over
+// simplices, V/20 (sum of x x^T + S S^T), S the sum of its corners.
+TEST(Inertia, OfSolidsIsExact) {
+  const Hexahedron still{};
+  const auto simplex = [](const std::array<Vec, 4>& x, MassIntegrals& sums) {
+    const Real V = (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6;
+    Vec S = Vec::Zero();
+    Matrix xx = Matrix::Zero();
+    for (const Vec& corner : x) S += corner, xx += corner * corner.transpose();
+    sums.m += V, sums.x += V / 4 * S, sums.xx += V / 20 * (xx + S * S.transpose());
+  };
+  const auto q = Eigen::Quaterniond(1, 2, -3, 0.5).normalized();
+  const Vec edges(1, 2, 3), c(4, -1, 2);
+  Hexahedron brick;
+  for (std::size_t k = 0; k < 8; ++k)
+    brick[k] = c + q * Vec(k % 4 == 1 || k % 4 == 2 ? 1 : 0, k % 4 >= 2 ? 2 : 0, k >= 4 ? 3 : 0);
+  MassIntegrals sums{.origin = Vec(1, 1, 1)};
+  add_solid(brick, still, sums);
+  const Vec second = edges.cwiseProduct(edges) / 2;
+  const Matrix turn = q.toRotationMatrix();
+  const Matrix exact = turn * (second.sum() * Vec::Ones() - second).asDiagonal() * turn.transpose();
+  EXPECT_NEAR(sums.m, 6, 1e-13);
+  EXPECT_NEAR((sums.centre() - c - q * Vec(0.5 * edges)).norm(), 0, 1e-13);
+  EXPECT_NEAR((sums.inertia() - exact).norm(), 0, 1e-12);
+
+  const Vec a(0, 0, 0), b(1, 0.2, 0), d(0.3, 1, 0.1), e(0.1, 0.2, 1.5), shift(0.2, -0.1, 2);
+  MassIntegrals tetrahedron, of_simplex;
+  add_solid({a, b, d, d, e, e, e, e}, still, tetrahedron);
+  simplex({a, b, d, e}, of_simplex);
+  EXPECT_NEAR(tetrahedron.m, of_simplex.m, 1e-15);
+  EXPECT_NEAR((tetrahedron.centre() - of_simplex.centre()).norm(), 0, 1e-14);
+  EXPECT_NEAR((tetrahedron.inertia() - of_simplex.inertia()).norm(), 0, 1e-14);
+  MassIntegrals wedge, of_three;
+  add_solid({a, b, d, d, a + shift, b + shift, d + shift, d + shift}, still, wedge);
+  simplex({a, b, d, a + shift}, of_three);
+  simplex({b, d, a + shift, b + shift}, of_three);
+  simplex({d, a + shift, b + shift, d + shift}, of_three);
+  EXPECT_NEAR(wedge.m, of_three.m, 1e-14);
+  EXPECT_NEAR((wedge.inertia() - of_three.inertia()).norm(), 0, 1e-13);
+}
+
+// v = v0 + omega x (x - c): momentum m v(centre), angular momentum J omega.
+TEST(Inertia, OfATurningSolidGivesItsMomenta) {
+  const Vec omega(0.3, -0.7, 1.1), v0(1, 2, 3);
+  Hexahedron x, v;
+  for (std::size_t k = 0; k < 8; ++k) {
+    x[k] = Vec(k % 4 == 1 || k % 4 == 2 ? 1 : 0, k % 4 >= 2 ? 2 : 0, k >= 4 ? 3 : 0);
+    v[k] = v0 + omega.cross(x[k]);
+  }
+  MassIntegrals sums{.origin = Vec(-1, 0, 2)};
+  add_solid(x, v, sums);
+  EXPECT_NEAR((sums.momentum - sums.m * (v0 + omega.cross(sums.centre()))).norm(), 0, 1e-12);
+  EXPECT_NEAR((sums.angular_momentum() - sums.inertia() * omega).norm(), 0, 1e-12);
+}
+
 }  // namespace
 }  // namespace courant

@@ -1,0 +1,58 @@
+#include "elements/largest_frequency.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace courant {
+
+namespace {
+
+Real largest_component(const NodalVector& u) {
+  Real most = 0;
+  for (const auto& of_axis : u)
+    for (const Real a : of_axis) most = std::max(most, std::abs(a));
+  return most;
+}
+
+}  // namespace
+
+Real largest_frequency(const std::vector<Real>& m, const std::vector<std::array<bool, 3>>& held, Real size,
+                       const std::function<void(const NodalVector& u, NodalVector& Ku)>& stiffness) {
+  constexpr int most_rounds = 60;
+  constexpr Real close = 1e-3;  // growth of the estimate over five rounds at which it is taken
+  const std::size_t n = m.size();
+  NodalVector u, Ku;
+  std::mt19937 random(1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    Ku[k].assign(n, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Real number = static_cast<Real>(random()) / static_cast<Real>(std::mt19937::max()) - 0.5;
+      u[k].push_back(m[i] > 0 && !held[i][k] ? number : 0);
+    }
+  }
+  Real estimate = 0, before = 0;
+  for (int round = 0; round < most_rounds; ++round) {
+    const Real most = largest_component(u);
+    if (!(most > 0)) return 0;
+    for (auto& of_axis : u)
+      for (Real& a : of_axis) a *= size / most;
+    stiffness(u, Ku);
+    Real old_norm = 0, new_norm = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < n; ++i) {
+        if (!(m[i] > 0) || held[i][k]) continue;
+        old_norm += m[i] * u[k][i] * u[k][i];
+        u[k][i] = Ku[k][i] / m[i];
+        new_norm += m[i] * u[k][i] * u[k][i];
+      }
+    if (!(old_norm > 0)) return 0;
+    estimate = std::sqrt(std::sqrt(new_norm / old_norm));
+    if (round % 5 != 4) continue;
+    if (estimate < (1 + close) * before) break;
+    before = estimate;
+  }
+  return estimate;
+}
+
+}  // namespace courant

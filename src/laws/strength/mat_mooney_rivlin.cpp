@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "keyword/common_rules.hpp"
+#include "laws/strength/strength.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Symmetric tensors xx yy zz xy yz zx of one point.
+struct Symmetric {
+  Real xx, yy, zz, xy, yz, zx;
+  Real trace() const { return xx + yy + zz; }
+  Real determinant() const {
+    return xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
+  }
+  Symmetric squared() const {
+    return {xx * xx + xy * xy + zx * zx, xy * xy + yy * yy + yz * yz, zx * zx + yz * yz + zz * zz,
+            xx * xy + xy * yy + zx * yz, xy * zx + yy * yz + yz * zz, zx * xx + yz * xy + zz * zx};
+  }
+  Matrix matrix() const {
+    Matrix m;
+    m << xx, xy, zx, xy, yy, yz, zx, yz, zz;
+    return m;
+  }
+};
+
+/// b, the left Cauchy-Green tensor F F^T, kept as b - 1, goes with the body and grows by A b A^T in a step, A
+/// = (1 - D dt/2)^-1 (1 + D dt/2). With its invariants I1, I2 and I3 = J^2
+///   sigma = 2/J ((A + B I1) b - B b^2 + I3 (2 D (I3 - 1) - 2 C I3^-3) 1).
+class MooneyRivlin : public StrengthLaw {
+ public:
+  MooneyRivlin(Real density, Real A, Real B, Real nu)
+      : A_(A), B_(B), C_(0.5 * A + B), D_((A * (5 * nu - 2) + B * (11 * nu - 5)) / (2 * (1 - 2 * nu))) {
+    ro = density;
+  }
+  // the modulus of uniaxial strain at rest is 2 A + 4 B + 20 C + 8 D
+  Real bulk_modulus() const override { return 2 * A_ + 4 * B_ + 20 * C_ + 8 * D_ - 4 * shear_modulus() / 3; }
+  Real shear_modulus() const override { return 2 * (A_ + B_); }
+  std::vector<HistoryVariable> history() const override { return {{"left_cauchy_green_less_1", "-", 6}}; }
+
+  void update(const PointBlock& block) const override {
+    for (Index i = 0; i < block.count; ++i) {
+      const Symmetric b = strained(block, i);
+      const Symmetric b2 = b.squared();
+      const Real I1 = b.trace(), I3 = b.determinant(), J = std::sqrt(I3);
+      const Real linear = 2 / J * (A_ + B_ * I1), square = 2 / J * B_;
+      const Real mean = 2 / J * I3 * (2 * D_ * (I3 - 1) - 2 * C_ / (I3 * I3 * I3));
+      const Real s[6] = {linear * b.xx - square * b2.xx + mean, linear * b.yy - square * b2.yy + mean,
+                         linear * b.zz - square * b2.zz + mean, linear * b.xy - square * b2.xy,
+                         linear * b.yz - square * b2.yz,        linear * b.zx - square * b2.zx};
+      for (std::size_t k = 0; k < 6; ++k) block.stress[k][i] = s[k];
+      block.sound_speed[i] = std::sqrt(stiffest(b, b2, I3) / ro);
+    }
+  }
+
+ private:
+  static Symmetric strained(const PointBlock& block, Index i) {
+    const auto& D = block.rate;
+    const auto& kept = block.history;
+    const Symmetric b{1 + kept[0][i], 1 + kept[1][i], 1 + kept[2][i], kept[3][i], kept[4][i], kept[5][i]};
+    const Symmetric half{0.5 * block.dt * D[0][i], 0.5 * block.dt * D[1][i], 0.5 * block.dt * D[2][i],
+                         0.5 * block.dt * D[3][i], 0.5 * block.dt * D[4][i], 0.5 * block.dt * D[5][i]};
+    const Matrix H = half.matrix();
+    const Matrix A = (Matrix::Identity() - H).inverse() * (Matrix::Identity() + H);
+    const Matrix now = A * b.matrix() * A.transpose();
+    const Symmetric out{now(0, 0), now(1, 1), now(2, 2), now(0, 1), now(1, 2), now(2, 0)};
+    kept[0][i] = out.xx - 1, kept[1][i] = out.yy - 1, kept[2][i] = out.zz - 1;
+    kept[3][i] = out.xy, kept[4][i] = out.yz, kept[5][i] = out.zx;
+    return out;
+  }
+  /// rho0 c^2 of a wave along a principal axis with stretch l: l^2 d2W/dl2 = 2 A l^2 + 2 B l^2 (I1 - l^2) +
+  /// 20 C/I3^2 + D (12 I3^2 - 4 I3), with a bound of the largest l^2.
+  Real stiffest(const Symmetric& b, const Symmetric& b2, Real I3) const {
+    const Real I1 = b.trace(), deviator2 = std::max(b2.trace() - I1 * I1 / 3, Real(0));
+    const Real l2 = I1 / 3 + std::sqrt(2.0 / 3 * deviator2), at = std::min(l2, 0.5 * I1);
+    return 2 * A_ * l2 + 2 * B_ * at * (I1 - at) + 20 * C_ / (I3 * I3) + D_ * (12 * I3 * I3 - 4 * I3);
+  }
+
+  Real A_, B_, C_, D_;
+};
+
+using Rubber = struct MatMooneyRivlinRubber;
+struct MatMooneyRivlinRubber : Entry {
+  std::string title;
+  Id mid = 0, lcid = 0;
+  Real ro = 0, pr = 0, a = 0, b = 0, ref = 0, sgl = 0, sw = 0, st = 0;
+  std::shared_ptr<StrengthLaw> law() const { return std::make_shared<MooneyRivlin>(ro, a, b, pr); }
+  void check(const Deck& deck, Diagnostics& diagnostics) const {
+    if (!(pr < 0.5))
+      deck.error(diagnostics, *this, "PR", fmt::format("expected a number < 0.5, got '{:g}'", pr),
+                 "0.49 to 0.495 is rubber that hardly changes its volume");
+    if (!(a + b > 0))
+      deck.error(diagnostics, *this, "A", fmt::format("expected A + B > 0, got '{:g}'", a + b),
+                 lcid != 0 ? "a fit to the curve of LCID is not supported: give A and B"
+                           : "the shear modulus is 2 (A + B)");
+  }
+};
+
+// By hand. Step exp about x: D dt = (2/3, 0, 0): A = 2, b = (4, 1, 1), I1 = 6, I3 = 4, J = 2. A = 1, B = 0,
+// PR 0.4: C = 1/2, D = 0: sigma = b - 1/16. A = B = 1, PR 0.45: C = 3/2, D = 1: 7 b - b^2 + 4 (6 - 3/64).
+// From there back by (-2/3, 0, 0) to rest.
+const RegisterStrength<Rubber> mat_mooney_rivlin{
+    "W = A (I1 - 3) + B (I2 - 3) + C (1/I3^2 - 1) + D (I3 - 1)^2, C = A/2 + B, D = (A (5 PR - 2) + B (11 PR "
+    "- "
+    "5))/(2 (1 - 2 PR)); sigma = 2/J b dW/db",
+    "Mooney 1940, Rivlin 1948; volume as in LS-DYNA",
+    {{"1,2.0,0.4,1.0,0.0\n", {2.0 / 3}, {}, {3.9375, 0.9375, 0.9375}, {}, {3, 0, 0, 0, 0, 0}},
+     {"1,2.0,0.45,1.0,1.0\n", {2.0 / 3}, {}, {35.8125, 29.8125, 29.8125}, {}, {3, 0, 0, 0, 0, 0}},
+     {"1,2.0,0.45,1.0,1.0\n", {-2.0 / 3}, {9, 9, 9}, {0, 0, 0}, {3, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}}},
+    {.names = {"MAT_MOONEY-RIVLIN_RUBBER", "MAT_027"},
+     .purpose = "rubber: Mooney-Rivlin hyperelasticity",
+     .id_space = IdSpace::material,
+     .title_option = true,
+     .title = &Rubber::title,
+     .cards = {
+         {.fields = {{"MID", &Rubber::mid, "-", "id that *PART refers to", rules::required_id},
+                     {"RO", &Rubber::ro, "M/L3", "density", rules::required_positive},
+                     {"PR", &Rubber::pr, "-", "Poisson ratio at rest, below 0.5", rules::required_positive},
+                     {"A", &Rubber::a, "M/LT2", "factor of I1 - 3", {}},
+                     {"B", &Rubber::b, "M/LT2", "factor of I2 - 3", {}},
+                     {"REF", &Rubber::ref, "-", "stress from a reference geometry", unsupported}}},
+         {.fields = {{"SGL", &Rubber::sgl, "L", "gauge length of the specimen", no_effect},
+                     {"SW", &Rubber::sw, "L", "its width", no_effect},
+                     {"ST", &Rubber::st, "L", "its thickness", no_effect},
+                     {"LCID",
+                      &Rubber::lcid,
+                      "-",
+                      "curve of force over elongation to which A and B are fitted",
+                      {.honour = Honour::no, .refers = IdSpace::curve}}},
+          .optional = true}}}};
+
+}  // namespace
+
+}  // namespace courant

@@ -1,0 +1,235 @@
+// *LOAD_SEGMENT and _SET: pressure on faces between nodes.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "loads/loads.hpp"
+#include "loads/middle_velocity.hpp"
+#include "parallel/parallel.hpp"
+
+namespace courant {
+
+namespace {
+
+using Segment = struct LoadSegment;
+struct LoadSegment : Entry {
+  std::string title;
+  Id id = 0, lcid = 0, n1 = 0, n2 = 0, n3 = 0, n4 = 0, n5 = 0, n6 = 0, n7 = 0, n8 = 0;
+  Real sf = 1, at = 0;
+};
+using SegmentSet = struct LoadSegmentSet;
+struct LoadSegmentSet : Entry {
+  std::string title;
+  Id id = 0, ssid = 0, lcid = 0;
+  Real sf = 1, at = 0;
+};
+
+constexpr FieldRules mid_side_node{.honour = Honour::no, .refers = IdSpace::node};
+constexpr FieldRules arrival{.check = Check::not_negative};
+
+const RegisterKeyword<Segment> load_segment_keyword{
+    {.names = {"LOAD_SEGMENT"},
+     .purpose =
+         "pressure on a face between nodes; where positive against its normal, which is up where N1 to N4 "
+         "run counter-clockwise",
+     .id_option = true,
+     .title = &Segment::title,
+     .id = &Segment::id,
+     .cards = {
+         {.fields = {{"LCID", &Segment::lcid, "-", "curve of the pressure over time",
+                      rules::required_id_of(IdSpace::curve)},
+                     {"SF", &Segment::sf, "-", "scale of the curve", rules::or_blank(1)},
+                     {"AT", &Segment::at, "T", "time at which the curve begins, no pressure before", arrival},
+                     {"N1", &Segment::n1, "-", "corner", rules::required_id_of(IdSpace::node)},
+                     {"N2", &Segment::n2, "-", "corner", rules::required_id_of(IdSpace::node)},
+                     {"N3", &Segment::n3, "-", "corner", rules::required_id_of(IdSpace::node)},
+                     {"N4", &Segment::n4, "-", "corner; of a triangle N3 or 0",
+                      rules::optional_id_of(IdSpace::node)},
+                     {"N5", &Segment::n5, "-", "node in the middle of an edge", mid_side_node}}},
+         {.fields = {{"N6", &Segment::n6, "-", "node in the middle of an edge", mid_side_node},
+                     {"N7", &Segment::n7, "-", "node in the middle of an edge", mid_side_node},
+                     {"N8", &Segment::n8, "-", "node in the middle of an edge", mid_side_node}},
+          .when = [](const Segment& s) { return s.n5 != 0; }}}}};
+
+const RegisterKeyword<SegmentSet> load_segment_set_keyword{
+    {.names = {"LOAD_SEGMENT_SET"},
+     .purpose = "pressure on the faces of a segment set, as by *LOAD_SEGMENT",
+     .id_option = true,
+     .title = &SegmentSet::title,
+     .id = &SegmentSet::id,
+     .cards = {{.fields = {{"SSID", &SegmentSet::ssid, "-", "segment set",
+                            rules::required_id_of(IdSpace::segment_set)},
+                           {"LCID", &SegmentSet::lcid, "-", "curve of the pressure over time",
+                            rules::required_id_of(IdSpace::curve)},
+                           {"SF", &SegmentSet::sf, "-", "scale of the curve", rules::or_blank(1)},
+                           {"AT", &SegmentSet::at, "T", "time at which the curve begins, no pressure before",
+                            arrival}}}}}};
+
+/// A pressure and where it acts: corners as nodes of the world, of a triangle the third again.
+struct PressureFace {
+  std::array<Index, 4> node{};
+  std::size_t load = 0;
+  int corners() const { return node[2] == node[3] ? 3 : 4; }
+};
+struct PressureLoad {
+  Curve curve{};
+  Real sf = 1, at = 0;
+  Real operator()(Real t) const { return t < at ? 0 : sf * curve(t - at); }  ///< [M/LT2]
+};
+
+/// -p A n, half the cross product of the diagonals, in equal shares for the corners. Each node works out the
+/// faces it is a corner of, in the order of the deck: the same bits on any number of threads.
+class SegmentPressure : public Force, public EnergyTerm {
+ public:
+  SegmentPressure(std::vector<PressureLoad> loads, std::vector<PressureFace> faces, World& world)
+      : loads_(std::move(loads)),
+        faces_(std::move(faces)),
+        nodes_(&world.nodes),
+        first_(static_cast<std::size_t>(world.nodes.size()) + 1, 0) {
+    for (const PressureFace& f : faces_)
+      for (int c = 0; c < f.corners(); ++c)
+        ++first_[static_cast<std::size_t>(f.node[static_cast<std::size_t>(c)]) + 1];
+    for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];
+    of_node_.resize(static_cast<std::size_t>(first_.back()));
+    std::vector<Index> next(first_.begin(), first_.end() - 1);
+    for (std::size_t k = 0; k < faces_.size(); ++k)
+      for (int c = 0; c < faces_[k].corners(); ++c)
+        of_node_[static_cast<std::size_t>(
+            next[static_cast<std::size_t>(faces_[k].node[static_cast<std::size_t>(c)])]++)] =
+            static_cast<Index>(k);
+  }
+  std::string name() const override { return "pressure on segments"; }
+  const FieldSet& over(const World& world) const override { return world.nodes.fields; }
+  void declare(const World& world, Accesses& a) const override {
+    a.reads(world.nodes.x, Reach::others).updates(world.nodes.f);
+  }
+
+  void start(World&, const Clock& clock) override {
+    pressure_.clear();
+    for (const PressureLoad& load : loads_) pressure_.push_back(load(clock.t));
+  }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    for (Index n = begin; n < end; ++n)
+      if (acts_on(n)) world.nodes.f.add(n, force(n));
+  }
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
+    const Points points = points_of(world.nodes);
+    const MiddleVelocity middle(points, clock);
+    const auto work_on = [&](Index n) -> Real {
+      if (!acts_on(n)) return 0;
+      return force(n).dot(nodes_->follow[n] ? nodes_->v.vec(n) : middle(n)) * clock.dt_mean();
+    };
+    ledger.external_work += sum(nodes_->size(), work_on);
+    ledger.throughput += sum(nodes_->size(), [&](Index n) { return std::abs(work_on(n)); });
+  }
+  void sample(const World&, const Clock&, EnergyLedger&) const override {}
+
+ private:
+  bool acts_on(Index n) const {
+    return first_[static_cast<std::size_t>(n)] < first_[static_cast<std::size_t>(n) + 1];
+  }
+  Vec force(Index n) const {
+    Vec out = Vec::Zero();
+    for (Index k = first_[static_cast<std::size_t>(n)]; k < first_[static_cast<std::size_t>(n) + 1]; ++k) {
+      const PressureFace& f = faces_[static_cast<std::size_t>(of_node_[static_cast<std::size_t>(k)])];
+      const auto x = [&](std::size_t c) { return nodes_->x.vec(f.node[c]); };
+      const Vec area = f.corners() == 3 ? Vec((x(1) - x(0)).cross(x(2) - x(0)) / 2)
+                                        : Vec((x(2) - x(0)).cross(x(3) - x(1)) / 2);
+      out -= pressure_[f.load] / f.corners() * area;
+    }
+    return out;
+  }
+
+  std::vector<PressureLoad> loads_;
+  std::vector<PressureFace> faces_;
+  const Nodes* nodes_;
+  std::vector<Index> first_, of_node_;  ///< faces of each node
+  std::vector<Real> pressure_;          ///< of each load now [M/LT2]
+};
+
+class PressureReader {
+ public:
+  PressureReader(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), diagnostics_(diagnostics) {
+    for (Index n = 0; n < world.nodes.size(); ++n) world_node_[world.nodes.id[n]] = n;
+  }
+  void add(const LoadSegment& card) {
+    std::array<Id, 4> id{card.n1, card.n2, card.n3, card.n4 == 0 ? card.n3 : card.n4};
+    if (id[3] == id[0]) id[3] = id[2];  // the other way to write a triangle
+    if (add_load(card, card.lcid, card.sf, card.at)) add_face(card, "N1", id);
+  }
+  void add(const LoadSegmentSet& card) {
+    const auto set = model_.segment_sets.find(card.ssid);
+    if (set == model_.segment_sets.end())
+      return deck_.error(diagnostics_, card, "SSID", fmt::format("segment set {} does not exist", card.ssid),
+                         "define it with *SET_SEGMENT");
+    if (!add_load(card, card.lcid, card.sf, card.at)) return;
+    for (const Index s : set->second) {
+      const auto& node = model_.segments[static_cast<std::size_t>(s)].node;
+      std::array<Id, 4> id{};
+      for (std::size_t c = 0; c < 4; ++c) id[c] = model_.nodes[static_cast<std::size_t>(node[c])].id;
+      if (!add_face(card, "SSID", id)) return;
+    }
+  }
+  std::vector<PressureLoad> loads;
+  std::vector<PressureFace> faces;
+
+ private:
+  template <class Card>
+  bool add_load(const Card& card, Id lcid, Real sf, Real at) {
+    const auto curve = model_.curves.find(lcid);
+    if (curve == model_.curves.end()) {
+      deck_.error(diagnostics_, card, "LCID", fmt::format("curve {} does not exist", lcid),
+                  "define it with *DEFINE_CURVE");
+      return false;
+    }
+    loads.push_back({curve->second, sf, at});
+    return true;
+  }
+  template <class Card>
+  bool add_face(const Card& card, const char* field, const std::array<Id, 4>& id) {
+    PressureFace face{.node = {}, .load = loads.size() - 1};
+    for (std::size_t c = 0; c < 4; ++c) {
+      const auto found = world_node_.find(id[c]);
+      if (found == world_node_.end()) {
+        deck_.error(diagnostics_, card, field,
+                    fmt::format("node {} of a face under pressure is no corner of an element", id[c]),
+                    "pressure acts on faces of solids and shells; that on particles comes from contact");
+        return false;
+      }
+      face.node[c] = found->second;
+    }
+    if (face.node[2] == face.node[1] || face.node[0] == face.node[1]) {
+      deck_.error(diagnostics_, card, field, "a face under pressure is a line",
+                  "give it three different nodes");
+      return false;
+    }
+    faces.push_back(face);
+    return true;
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  Diagnostics& diagnostics_;
+  std::map<Id, Index> world_node_;
+};
+
+}  // namespace
+
+std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& model, World& world,
+                                             Diagnostics& diagnostics) {
+  const auto& segments = deck.all<LoadSegment>();
+  const auto& sets = deck.all<LoadSegmentSet>();
+  if (segments.empty() && sets.empty()) return nullptr;
+  PressureReader reader(deck, model, world, diagnostics);
+  for (const LoadSegment& card : segments) reader.add(card);
+  for (const LoadSegmentSet& card : sets) reader.add(card);
+  if (reader.faces.empty()) return nullptr;
+  return std::make_shared<SegmentPressure>(std::move(reader.loads), std::move(reader.faces), world);
+}
+
+}  // namespace courant

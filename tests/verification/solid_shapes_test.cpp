@@ -1,0 +1,116 @@
+// Pentahedra and tetrahedra beside hexahedra, small free blocks at TSSFAC 0.9, and rigid bodies of solids.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "parallel/parallel.hpp"
+#include "rigid/rigid.hpp"
+#include "solid_decks.hpp"
+
+using namespace courant;
+using test::CellShape;
+using test::simulation_of;
+using test::SolidDeck;
+
+namespace {
+
+constexpr auto do_nothing = [](World&, const Clock&, const std::string&) {};
+
+std::string part_of(const char* material, int elform = 1) {
+  return fmt::format("*PART\nblock\n         1         1         1\n*SECTION_SOLID\n         1{:10}\n*{}\n",
+                     elform, material);
+}
+
+Real energy_of(Simulation& s) {
+  sample_energy(s.world(), s.clock());
+  const EnergyLedger& e = s.world().energy;
+  return e.kinetic + e.internal + e.hourglass + e.bulk_viscosity;
+}
+
+}  // namespace
+
+// A bar that rings along itself: omega = pi sqrt(E/ro)/L of a free bar, less 0.1 % as its sides move (nu = 0:
+// none). With n elements along it the lumped frequency is (2 n/pi) sin(pi/(2 n)) of that.
+TEST(SolidShapes, ABarRingsAtItsFrequency) {
+  for (const CellShape shape :
+       {CellShape::hexahedron, CellShape::wedges, CellShape::wedges_from_quads, CellShape::tetrahedra}) {
+    SolidDeck deck;
+    deck.cells = shape;
+    deck.block(Vec(1, 0.1, 0.1), 20, 2, 2, 1);
+    deck.cards = part_of("MAT_ELASTIC\n         1    1000.0     1.0E9       0.0") +
+                 "*CONTROL_BULK_VISCOSITY\n    1.0E-9    1.0E-9\n";
+    auto s = simulation_of(deck.text(1));
+    Nodes& nodes = s->world().nodes;
+    for (Index i = 0; i < nodes.size(); ++i) nodes.v.data(0)[i] = 1e-3 * std::cos(pi * nodes.x.data(0)[i]);
+    const Real half_period = std::sqrt(1000 / 1e9);
+    Real before = 1, t_before = 0, turned = 0;
+    while (turned == 0 && s->clock().t < 2 * half_period) {
+      s->step(do_nothing);
+      const Real v = nodes.v.data(0)[0], t = s->clock().t - 0.5 * s->clock().dt;
+      if (v < 0) turned = t_before + before / (before - v) * (t - t_before);
+      before = v, t_before = t;
+    }
+    EXPECT_NEAR(turned / (0.5 * half_period), 1, 0.005) << int(shape);
+  }
+}
+
+// A single cube is stable to 0.734 of V/A_max over c at nu 0.3, a tetrahedron to less of its height.
+TEST(SolidShapes, SmallFreeBlocksAreStableAtTssfac09) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<Real> number(-1, 1);
+  for (const CellShape shape : {CellShape::hexahedron, CellShape::wedges, CellShape::tetrahedra})
+    for (const char* nu : {"0.0", "0.3", "0.495"})
+      for (const auto& [nx, ny, nz] : {std::array{1, 1, 1}, {1, 1, 4}, {3, 3, 3}})
+        for (const Real flat : {1.0, 0.1}) {
+          SolidDeck deck;
+          deck.cells = shape;
+          deck.block(Vec(nx, ny, flat * nz), nx, ny, nz, 1, [&](const Vec& x) {
+            return Vec(x[0] + 0.3 * x[1] + 0.1 * number(random), x[1] + 0.1 * number(random),
+                       x[2] + 0.1 * flat * number(random));
+          });
+          deck.cards = part_of(fmt::format("MAT_ELASTIC\n         1       1.0       1.0{:>10}", nu).c_str()) +
+                       "*CONTROL_BULK_VISCOSITY\n    1.0E-9    1.0E-9\n*HOURGLASS\n         1         3    "
+                       "1.0E-9\n";
+          auto s = simulation_of(deck.text(1e9));
+          Nodes& nodes = s->world().nodes;
+          for (Index i = 0; i < nodes.size(); ++i)
+            nodes.v.set(i, 1e-8 * Vec(number(random), number(random), number(random)));
+          const Real before = energy_of(*s);
+          Real most = 0;
+          for (int k = 0; k < 3000; ++k) {
+            s->step(do_nothing);
+            if (k % 10 == 0) most = std::max(most, energy_of(*s));
+          }
+          EXPECT_LT(most, 3 * before) << int(shape) << " nu " << nu << " " << nx << ny << nz << " " << flat;
+        }
+}
+
+TEST(RigidSolids, TurnAndFallAsTheyShould) {
+  for (const CellShape shape : {CellShape::hexahedron, CellShape::wedges, CellShape::tetrahedra}) {
+    SolidDeck deck;
+    deck.cells = shape;
+    deck.block(Vec(0.2, 0.4, 0.6), 2, 3, 4, 1);
+    deck.cards =
+        part_of("MAT_RIGID\n         1    1000.0     1.0E9       0.3") +
+        "*LOAD_BODY_Z\n         1      10.0\n*DEFINE_CURVE\n         1\n                 0.0           "
+        "      1.0\n                 1.0                 1.0\n"
+        "*INITIAL_VELOCITY_GENERATION\n         1         2       3.0\n       0.1       0.2       0.3     "
+        "  0.0       0.0       1.0\n";
+    auto s = simulation_of(deck.text(0.5));
+    ASSERT_TRUE(s && s->bodies());
+    const RigidBody& b = s->bodies()->bodies().front();
+    EXPECT_NEAR(b.m, 48, 1e-11);
+    EXPECT_NEAR((b.x - Vec(0.1, 0.2, 0.3)).norm(), 0, 1e-14);
+    EXPECT_NEAR((b.J0.diagonal() - 4 * Vec(0.16 + 0.36, 0.04 + 0.36, 0.04 + 0.16)).norm(), 0, 1e-12);
+    EXPECT_NEAR((b.omega - Vec(0, 0, 3)).norm(), 0, 1e-12);
+    const Vec corner = s->world().nodes.x.vec(0) - b.x;
+    while (s->clock().t < 0.1) s->step(do_nothing);
+    const Real t = s->clock().t;
+    EXPECT_NEAR(b.x[2], 0.3 - 5 * t * t, 1e-12);
+    const Matrix turn = Eigen::AngleAxisd(3 * t, Vec::UnitZ()).toRotationMatrix();
+    EXPECT_NEAR((s->world().nodes.x.vec(0) - b.x - turn * corner).norm(), 0, 1e-12);
+    EXPECT_EQ(s->world().segments.size(),
+              2 * (2 * 3 + 3 * 4 + 2 * 4) * (shape == CellShape::tetrahedra ? 2 : 1) +
+                  (shape == CellShape::wedges ? 2 * 2 * 3 : 0));
+  }
+}
