@@ -1,5 +1,7 @@
 #include "app/run_outputs.hpp"
 
+#include <algorithm>
+
 #include "extension/additions.hpp"
 #include "model/requests/output_times.hpp"
 
@@ -26,6 +28,12 @@ HistoryRequests history_requests(const Simulation& s) {
   for (const ModelPart& part : s.model().parts) h.parts.push_back({part.id, part.title});
   for (const auto& contact : s.contacts())
     h.contacts.push_back({contact->report().id, contact->report().title});
+  for (const auto* nodes : s.world().passes.all<const InterfaceReporter>()) {
+    const InterfaceForce one = nodes->report();
+    const bool known = std::any_of(h.contacts.begin(), h.contacts.end(),
+                                   [&](const Legend& legend) { return legend.id == one.id; });
+    if (!known) h.contacts.push_back({one.id, one.title});
+  }
   for (const auto* walls : s.world().passes.all<const WallForceReporter>()) {
     const InterfaceForce all = walls->report(s.world());
     h.contacts.push_back({all.id, all.title});

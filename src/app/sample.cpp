@@ -125,6 +125,18 @@ void sample_boundary_forces(const World& world, const Clock& clock, std::vector<
   });
 }
 
+/// A contact may act on particles and on nodes.
+void add_interface(const InterfaceForce& one, std::vector<InterfaceForce>& all) {
+  for (InterfaceForce& known : all) {
+    if (known.id != one.id) continue;
+    known.on_surfa += one.on_surfa;
+    known.energy_stored += one.energy_stored, known.energy_damping += one.energy_damping;
+    known.energy_friction += one.energy_friction;
+    return;
+  }
+  all.push_back(one);
+}
+
 }  // namespace
 
 void Simulation::show_wall_forces() {
@@ -140,6 +152,8 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   if (bodies_) s.bodies = bodies_->reports(), s.body_motions = bodies_->motions(clock_);
   sample_parts(world_, model_, s);
   for (const auto& contact : contacts_) s.interfaces.push_back(contact->report());
+  for (const auto* nodes : world_.passes.all<const InterfaceReporter>())
+    add_interface(nodes->report(), s.interfaces);
   for (const auto* walls : world_.passes.all<const WallForceReporter>())
     s.interfaces.push_back(walls->report(world_));
   sample_boundary_forces(world_, clock_, s.boundary_forces);

@@ -62,7 +62,7 @@ class SceneWarnings {
 
   // --- contacts and walls
 
-  Sides sides_of(const ContactNodesToSurface& c) const {
+  Sides sides_of(const ContactCard& c) const {
     Sides out;
     Diagnostics told_before;
     const auto parts = [&](const char* field, Id id, int type) {
@@ -83,11 +83,11 @@ class SceneWarnings {
   }
 
   void contacts() {
-    const auto& cards = s_.deck().all<ContactNodesToSurface>();
+    const auto& cards = s_.deck().all<ContactCard>();
     std::vector<Sides> sides;
-    for (const ContactNodesToSurface& card : cards) {
+    for (const ContactCard& card : cards) {
       sides.push_back(sides_of(card));
-      met_.insert(sides.back().walls.begin(), sides.back().walls.end());
+      if (kind_of(card).nodes) met_.insert(sides.back().walls.begin(), sides.back().walls.end());
       for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
         const bool apart = cards[k].dt <= card.bt || card.dt <= cards[k].bt;
         if (apart || !(sides[k] == sides.back())) continue;

@@ -8,6 +8,7 @@
 #include "app/field_options.hpp"
 #include "app/scene_warnings.hpp"
 #include "app/skin.hpp"
+#include "contact/nodes/build.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "extension/additions.hpp"
 #include "loads/loads.hpp"
@@ -149,7 +150,6 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
 
 void Simulation::report_what_needs_particles(Diagnostics& diagnostics) {
   left_out_.push_back({"particles", "no *ELEMENT_SPH"});
-  contacts_ = build_contacts(deck_, model_, {}, world_, diagnostics);
   for (const auto& [name, use] : deck_.keywords) {
     if (use.treatment != Treatment::honoured || name == "COURANT_OUTPUT") continue;
     for (const char* begin : {"COURANT_", "BOUNDARY_SPH_", "DEFINE_SPH_"})
@@ -179,6 +179,7 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
     left_out_.push_back({"pressure on segments", "no *LOAD_SEGMENT"});
   if (bodies_move && world_.groups.empty() && world_.particles.size() == 0)
     world_.passes.add(make_body_time_limit(bodies_, model_.endtim));
+  add_contacts_of_nodes(diagnostics);
   if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
   for (Index n = 0; n < world_.nodes.size(); ++n)
     if (!world_.nodes.follow[n] && !(world_.nodes.m[n] > 0))
@@ -189,6 +190,24 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
   add_loads(points_of(world_.nodes), BodyAcceleration(model_.body_loads));
   world_.passes.add(make_point_motion(points_of(world_.nodes)));
   world_.passes.add(make_kinetic_energy(points_of(world_.nodes)));
+}
+
+void Simulation::add_contacts_of_nodes(Diagnostics& diagnostics) {
+  NodeContactOptions options;
+  options.bulk_modulus = [this](Index part) { return bulk_modulus(part); };
+  if (bodies_) options.bodies = bodies_->wall_bodies(world_);
+  options.tssfac = model_.tssfac;
+  for (const auto& contact : contacts_) options.with_particles.insert(contact->report().id);
+  add_node_contacts(deck_, model_, options, world_, diagnostics);
+}
+
+// For contact; solids without a law have been reported.
+Real Simulation::bulk_modulus(Index part) const {
+  const auto& solids = solids_[part].law;
+  const auto& law = solids ? solids : materials_[part].strength;
+  if (law) return law->bulk_modulus();
+  const auto rigid = rigid_material(deck_, model_, part);
+  return rigid ? rigid->E / (3 * (1 - 2 * rigid->pr)) : 0;
 }
 
 // The same for everything that moves.
@@ -227,12 +246,7 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   contacts_ = build_contacts(deck_, model_,
                              {.skip_inactive = sph_.skip_inactive_contact,
                               .thickness_from_volume = sph_.thickness_from_volume,
-                              .bulk_modulus =
-                                  [this](Index part) {  // solids without a law have been reported
-                                    const auto& solids = solids_[part].law;
-                                    const auto& law = solids ? solids : materials_[part].strength;
-                                    return law ? law->bulk_modulus() : Real(0);
-                                  },
+                              .bulk_modulus = [this](Index part) { return bulk_modulus(part); },
                               .bodies = bodies_ ? bodies_->wall_bodies(world_) : WallBodies{},
                               .reach_margin = neighbours_->largest_skin()},
                              world_, diagnostics);

@@ -84,6 +84,8 @@ class Simulation {
   /// Of a deck without particles.
   void report_what_needs_particles(Diagnostics& diagnostics);
   void add_node_passes(Diagnostics& diagnostics);
+  void add_contacts_of_nodes(Diagnostics& diagnostics);
+  Real bulk_modulus(Index part) const;
   void add_loads(const Points& points, const BodyAcceleration& acceleration);
   void add_ghosts(Real h, Diagnostics& diagnostics);
   void add_prescribed_motions(Diagnostics& diagnostics);

@@ -72,6 +72,24 @@ void add_energy(const Summary& s, std::vector<Finding>& out) {
                    100 * std::abs(error), e.scale())});
 }
 
+std::int64_t counted(const Summary& s, const char* name) {
+  const auto found = s.counters.find(name);
+  return found == s.counters.end() ? std::int64_t(0) : found->second;
+}
+
+/// Nodes of elements that contact could not keep in front of a face.
+void add_leaked_nodes(const Summary& s, std::vector<Finding>& out) {
+  const std::int64_t leaked = counted(s, "leaked_nodes");
+  if (leaked <= 0) return;
+  const Real part =
+      static_cast<Real>(leaked) / static_cast<Real>(std::max(counted(s, "contact_nodes"), leaked));
+  if (!(part > std::min(s.limits.leaks_doubtful, s.limits.leaks_broken))) return;
+  out.push_back({part > s.limits.leaks_broken,
+                 fmt::format("{} node{} went through a face, {:.2g} % of those in contacts: make the contact "
+                             "stiffer (SFSA, SLSFAC, SOFT 1), or the mesh finer where bodies meet",
+                             leaked, leaked == 1 ? "" : "s", 100 * part)});
+}
+
 void add_leaks(const Summary& s, std::vector<Finding>& out) {
   if (s.leaked_particles <= 0) return;
   const Real part = static_cast<Real>(s.leaked_particles) /
@@ -98,10 +116,7 @@ void add_hourglass(const Summary& s, std::vector<Finding>& out) {
 }
 
 void add_clamps(const Summary& s, std::vector<Finding>& out) {
-  const auto count = [&](const char* name) {
-    const auto found = s.counters.find(name);
-    return found == s.counters.end() ? std::int64_t(0) : found->second;
-  };
+  const auto count = [&](const char* name) { return counted(s, name); };
   if (const auto n = count("sound_speed_clamped"); n > 0)
     out.push_back(
         {false, fmt::format("the sound speed was set to 0 {} times: the constants of the equation of "
@@ -119,6 +134,7 @@ std::vector<Finding> findings(const Summary& s) {
   std::vector<Finding> out;
   if (s.termination == "error") out.push_back({true, s.reason});
   add_leaks(s, out);
+  add_leaked_nodes(s, out);
   add_held(s, out);
   add_energy(s, out);
   add_hourglass(s, out);

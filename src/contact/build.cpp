@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <unordered_set>
 
 #include "contact/cards.hpp"
 #include "contact/contact.hpp"
+#include "contact/nodes/build.hpp"
 #include "model/mesh/named_parts.hpp"
 #include "surfaces/skin.hpp"
 
@@ -17,25 +19,45 @@ class Builder {
           Diagnostics& diagnostics)
       : deck_(deck), model_(model), options_(options), world_(world), diagnostics_(diagnostics) {}
 
-  /// Particles of SURFA; reports an empty or missing side.
-  std::vector<bool> tracked(const ContactNodesToSurface& c) {
+  /// Particles of SURFA, which may have nodes of elements, too; reports a missing side.
+  std::vector<bool> tracked(const ContactCard& c) {
     const Particles& p = world_.particles;
-    std::vector<bool> out(p.size(), c.surfatyp == 5);
-    if (c.surfatyp == 5) return out;
-    if (c.surfatyp == 4) return nodes_of_set(c, std::move(out));
-    std::vector<bool> chosen(model_.parts.size(), false);
-    for (const Index part : parts_named(deck_, model_, c, "SURFA", c.surfa, c.surfatyp, diagnostics_)) {
-      chosen[part] = true;
-      if (!model_.parts[part].has_sph)
-        deck_.error(diagnostics_, c, "SURFA", fmt::format("part {} has no particles", model_.parts[part].id),
-                    "SURFA must be SPH parts or a node set of particles");
+    constexpr int node_set = 4, all = 5, all_but = 6;
+    std::vector<bool> out(p.size(), c.surfatyp == all);
+    if (c.surfatyp == node_set) return nodes_of_set(c, std::move(out));
+    std::vector<bool> chosen(model_.parts.size(), c.surfatyp == all_but);
+    const int type = c.surfatyp == all_but ? 2 : c.surfatyp;
+    for (const Index part : parts_named(deck_, model_, c, "SURFA", c.surfa, type, diagnostics_)) {
+      chosen[part] = c.surfatyp != all_but;
+      const ModelPart& named = model_.parts[part];
+      if (!named.has_sph && !named.has_shell && !named.has_solid)
+        deck_.error(diagnostics_, c, "SURFA", fmt::format("part {} has no elements", named.id),
+                    "SURFA must be parts of particles or elements, or a node set");
     }
-    for (Index i = 0; i < p.size(); ++i) out[i] = chosen[p.part[i]];
+    for (Index i = 0; i < p.size() && c.surfatyp != all; ++i) out[i] = chosen[p.part[i]];
     return out;
   }
 
+  /// What acts on faces only.
+  void refuse_for_particles(const ContactCard& c) {
+    const auto refuse = [&](const char* field, const auto& value, bool given, const char* instead) {
+      if (given)
+        deck_.error(diagnostics_, c, field,
+                    fmt::format("'{}' is not supported where SURFA has particles", value), instead);
+    };
+    refuse("SURFATYP", c.surfatyp, c.surfatyp == 0 || c.surfatyp == 1, "supported values: 2, 3, 4, 5, 6");
+    refuse("SABOXID", c.saboxid, c.saboxid != 0, "name the particles by a node set");
+    refuse("SBBOXID", c.sbboxid, c.sbboxid != 0, "give the faces a part of their own");
+    refuse("SOFT", c.soft, c.soft == 2, "supported values: 0, 1");
+    refuse("PENMAX", c.penmax, c.penmax > 0, "leave the field blank or 0");
+    refuse("SLDTHK", c.sldthk, c.sldthk > 0, "give SBST, twice the distance at which particles touch");
+    refuse("SLDSTF", c.sldstf, c.sldstf > 0, "scale the stiffness with SFSB");
+  }
+
   /// Segments of SURFB
-  std::vector<Index> segments(const ContactNodesToSurface& c) {
+  std::vector<Index> segments(const ContactCard& c) {
+    if ((c.surfbtyp != 2 && c.surfbtyp != 3) || c.surfb == 0)
+      return FaceFinder(deck_, model_, options_.bulk_modulus, world_, diagnostics_).faces(c, ContactSide::b);
     std::vector<char> chosen(model_.parts.size(), 0);
     std::vector<Index> out, skin;
     for (const Index part : parts_named(deck_, model_, c, "SURFB", c.surfb, c.surfbtyp, diagnostics_)) {
@@ -58,7 +80,7 @@ class Builder {
   }
 
  private:
-  std::vector<bool> nodes_of_set(const ContactNodesToSurface& c, std::vector<bool> out) {
+  std::vector<bool> nodes_of_set(const ContactCard& c, std::vector<bool> out) {
     const auto set = model_.node_sets.find(c.surfa);
     if (set == model_.node_sets.end()) {
       deck_.error(diagnostics_, c, "SURFA", fmt::format("node set {} does not exist", c.surfa),
@@ -74,11 +96,12 @@ class Builder {
         ++found;
       }
     if (ids.empty()) deck_.error(diagnostics_, c, "SURFA", fmt::format("node set {} is empty", c.surfa));
+    for (Index n = 0; n < world_.nodes.size(); ++n) found += ids.count(world_.nodes.id[n]);
     if (found < ids.size())
       deck_.error(diagnostics_, c, "SURFA",
-                  fmt::format("{} of the {} nodes of set {} are not SPH particles", ids.size() - found,
-                              ids.size(), c.surfa),
-                  "only particles can be the tracked side");
+                  fmt::format("{} of the {} nodes of set {} are neither particles nor nodes of elements",
+                              ids.size() - found, ids.size(), c.surfa),
+                  "leave them out");
     return out;
   }
 
@@ -98,7 +121,7 @@ std::vector<InterfaceLawsOf>& interface_law_registry() {
 
 namespace {
 
-ContactLaw law_of(const Deck& deck, const ContactNodesToSurface& c, int number) {
+ContactLaw law_of(const Deck& deck, const ContactCard& c, int number) {
   const ControlContact* control = deck.last<ControlContact>();
   ContactLaw law;
   law.id = c.cid > 0 ? c.cid : number;
@@ -122,8 +145,7 @@ std::vector<AskedInterfaceLaw> interface_laws(const Deck& deck, Diagnostics& dia
   std::vector<AskedInterfaceLaw> out;
   std::set<Id> contacts;
   Id number = 0;
-  for (const ContactNodesToSurface& c : deck.all<ContactNodesToSurface>())
-    ++number, contacts.insert(c.cid > 0 ? c.cid : number);
+  for (const ContactCard& c : deck.all<ContactCard>()) ++number, contacts.insert(c.cid > 0 ? c.cid : number);
   for (const LiteralPenalty& card : deck.all<LiteralPenalty>())
     if (card.cid > 0 && !contacts.contains(card.cid))
       deck.error(diagnostics, card, "CID", fmt::format("contact {} does not exist", card.cid),
@@ -146,22 +168,20 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
   std::vector<std::shared_ptr<Contact>> out;
   Builder builder(deck, model, options, world, diagnostics);
   int number = 0;
-  const std::vector<ContactNodesToSurface>& asked = deck.all<ContactNodesToSurface>();
-  if (world.particles.size() == 0 && !asked.empty()) {
-    diagnostics.error(deck.where(asked.front()),
-                      deck.keyword(asked.front()) +
-                          ": contact keeps SPH particles off surfaces, and the deck has no particles",
-                      "contact between bodies, shells and solids is not supported yet: leave it out");
-    return out;
-  }
+  const std::vector<ContactCard>& asked = deck.all<ContactCard>();
   const std::vector<AskedInterfaceLaw> laws = interface_laws(deck, diagnostics);
-  for (const ContactNodesToSurface& c : asked) {
+  for (const ContactCard& c : asked) {
     ++number;
     const int errors = diagnostics.errors();
     if (c.fs == 2)
       deck.error(diagnostics, c, "FS", "FS = 2 asks for a friction table, which is not supported",
                  "give a coefficient other than 2");
+    if (!kind_of(c).nodes || world.particles.size() == 0) continue;
     const std::vector<bool> tracked = builder.tracked(c);
+    if (diagnostics.errors() == errors &&
+        (c.surfatyp != 5 && std::find(tracked.begin(), tracked.end(), true) == tracked.end()))
+      continue;
+    builder.refuse_for_particles(c);
     const std::vector<Index> segments = builder.segments(c);
     if (diagnostics.errors() > errors || segments.empty()) continue;
     auto contact =
@@ -178,6 +198,13 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
           "they are pushed out by the penalty force; move the particles or reduce the thickness");
     out.push_back(contact);
   }
+  for (const AskedInterfaceLaw& one : laws)
+    if (diagnostics.ok() && std::none_of(out.begin(), out.end(), [&](const auto& contact) {
+          return contact->report().id == one.contact;
+        }))
+      deck.error(diagnostics, one.card, "",
+                 fmt::format("contact {} has no particles, on which this law acts", one.contact),
+                 "give the id of a *CONTACT whose SURFA has particles");
   return out;
 }
 

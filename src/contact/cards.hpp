@@ -3,8 +3,8 @@
 
 namespace courant {
 
-/// *CONTACT_AUTOMATIC_NODES_TO_SURFACE; field names and units as in the keyword's table.
-struct ContactNodesToSurface : Entry {
+/// *CONTACT_AUTOMATIC_NODES_TO_SURFACE and its kin; field names and units as in the keywords' table.
+struct ContactCard : Entry {
   Id cid = 0;
   std::string title;
   Id surfa = 0, surfb = 0, saboxid = 0, sbboxid = 0;
@@ -22,7 +22,19 @@ struct ContactNodesToSurface : Entry {
   Real dtpchk = 0, sfnbr = 0, fnlscl = 0, dnlscl = 0;
   int sharec = 0, cparm8 = 0, ipback = 0, srnde = 0, icor = 0, ftorq = 0, region = 0;
   Real fricsf = 1;
+  int pstiff = 0, ignroff = 0, binr = 0, ssftyp = 0, swtpr = 0;
+  Real fstol = 2, tetfac = 0, shloff = 0;
 };
+
+/// What the name of a *CONTACT says.
+struct ContactKind {
+  bool automatic = true;  ///< faces of shells act on both sides, with their thickness
+  bool single = false;    ///< one surface with itself
+  bool two_way = false;   ///< nodes of SURFB on faces of SURFA, too
+  bool nodes = false;     ///< SURFA gives nodes, which may be particles
+  bool edges = false;     ///< edges on edges, too
+};
+ContactKind kind_of(const ContactCard& card);
 
 /// *COURANT_LITERAL_PENALTY
 struct LiteralPenalty : Entry {
@@ -39,7 +51,8 @@ struct ControlContact : Entry {
   Real spothin = 0;
   int isym = 0, nserod = 0, rwgaps = 1, icov = 0, ithoff = 0;
   Real rwgdth = 0, rwksf = 1, swradf = 0;
-  int shledg = 0, pstiff = 0;
+  int shledg = 0, pstiff = 0, ithcnt = 0, tdcnof = 0, ftall = 0, igactc = 0;
+  Real shltrw = 0;
 };
 
 }  // namespace courant

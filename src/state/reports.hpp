@@ -49,6 +49,13 @@ struct WallForceReporter {
   virtual void show_forces(World& world) = 0;
 };
 
+/// An interface of nodes and faces.
+struct InterfaceReporter {
+  virtual ~InterfaceReporter() = default;
+  /// At t^n.
+  virtual InterfaceForce report() const = 0;
+};
+
 /// A rigid wall (*RIGIDWALL) at t^n.
 struct RigidWallForce {
   Id id = 0;

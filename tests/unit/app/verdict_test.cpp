@@ -87,6 +87,17 @@ TEST(Verdict, LeaksAreDoubtfulAndManyOfThemBroken) {
   EXPECT_EQ(verdict(s), "broken");
 }
 
+TEST(Verdict, SoAreNodesThatWentThroughAFace) {
+  Summary s = with_error(0);
+  s.counters["contact_nodes"] = 10000, s.counters["leaked_nodes"] = 0;
+  EXPECT_EQ(verdict(s), "sound");
+  s.counters["leaked_nodes"] = 10;
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("10 nodes went through a face, 0.1 % of those")));
+  EXPECT_EQ(verdict(s), "doubtful");
+  s.counters["leaked_nodes"] = 11;
+  EXPECT_EQ(verdict(s), "broken");
+}
+
 TEST(Verdict, HourglassEnergyAboveATenthOfTheInternalIsDoubtful) {
   Summary s = with_error(0);
   s.energy = {.kinetic = 0.5, .internal = 0.4, .hourglass = 0.039, .initial = 0.939, .peak = 1};

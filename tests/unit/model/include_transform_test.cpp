@@ -155,7 +155,7 @@ void expect_same_world(Simulation& a, Simulation& b) {
 }
 
 void expect_same_cards(const Deck& a, const Deck& b) {
-  const auto &c = a.all<ContactNodesToSurface>()[0], &d = b.all<ContactNodesToSurface>()[0];
+  const auto &c = a.all<ContactCard>()[0], &d = b.all<ContactCard>()[0];
   EXPECT_EQ(c.cid, d.cid);
   EXPECT_EQ(c.surfa, d.surfa);
   EXPECT_EQ(c.surfb, d.surfb);
@@ -226,7 +226,7 @@ TEST(IncludeTransform, ShiftsIdsByTheTypeBesideThem) {
   EXPECT_EQ(velocities[0].id, 35);   // part set
   EXPECT_EQ(velocities[1].id, 205);  // part
   EXPECT_EQ(velocities[2].id, 35);   // node set
-  const auto& contacts = deck.all<ContactNodesToSurface>();
+  const auto& contacts = deck.all<ContactCard>();
   ASSERT_EQ(contacts.size(), 4u);
   EXPECT_EQ(contacts[0].surfa, 35);
   EXPECT_EQ(contacts[0].surfb, 35);

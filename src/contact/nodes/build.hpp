@@ -1,0 +1,70 @@
+#pragma once
+// Contact of nodes with faces from the cards of a deck.
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "contact/cards.hpp"
+#include "contact/nodes/node_contact.hpp"
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+
+namespace courant {
+
+enum class ContactSide { a, b };
+
+/// The faces and nodes that the sides of a card name. Faces of solids are added to world.segments where they
+/// are not there yet. What is missing is reported.
+class FaceFinder {
+ public:
+  /// `bulk_modulus(part)` of solids.
+  FaceFinder(const Deck& deck, const Model& model, std::function<Real(Index)> bulk_modulus, World& world,
+             Diagnostics& diagnostics)
+      : deck_(deck),
+        model_(model),
+        bulk_modulus_(std::move(bulk_modulus)),
+        world_(world),
+        diagnostics_(diagnostics) {}
+  /// Indices into world.segments, ascending; none of a node set.
+  std::vector<Index> faces(const ContactCard& card, ContactSide side);
+  /// Indices into world.nodes, ascending: corners of the faces, or of a node set those that elements have.
+  std::vector<Index> nodes(const ContactCard& card, ContactSide side, const std::vector<Index>& faces);
+  /// All faces of the elements that nodes belong to.
+  std::vector<Index> faces_around(const std::vector<Index>& nodes);
+
+ private:
+  using Key = std::array<Index, 4>;
+  std::vector<Index> of_parts(const std::vector<char>& chosen);
+  std::vector<Index> of_segment_set(const ContactCard& card, const char* field, Id id);
+  std::vector<Index> of_shell_set(const ContactCard& card, const char* field, Id id);
+  std::vector<char> parts_of(const ContactCard& card, const char* field, Id id, int type);
+  const std::map<Id, Index>& node_of_id();
+  const std::map<Key, Index>& face_of_corners();
+
+  const Deck& deck_;
+  const Model& model_;
+  std::function<Real(Index)> bulk_modulus_;
+  World& world_;
+  Diagnostics& diagnostics_;
+  std::map<Id, Index> node_of_id_;
+  std::map<Key, Index> face_of_corners_;
+};
+
+struct NodeContactOptions {
+  /// Of the solids of a part. [M/LT2]
+  std::function<Real(Index part)> bulk_modulus = [](Index) { return Real(0); };
+  WallBodies bodies{};  ///< whose nodes and faces it touches
+  Real tssfac = 0.9;
+  std::set<Id> with_particles{};  ///< contacts that particles take part in
+};
+
+/// Contact of nodes for all *CONTACT cards of the deck, added to the passes of `world`; particles are left to
+/// build_contacts. Elements must be there, and Nodes::held, ::follow be set. Reports what is not supported,
+/// and as warnings initial penetrations and contacts of which nothing can touch.
+void add_node_contacts(const Deck& deck, const Model& model, const NodeContactOptions& options, World& world,
+                       Diagnostics& diagnostics);
+
+}  // namespace courant

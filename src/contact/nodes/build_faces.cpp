@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "contact/nodes/build.hpp"
+#include "model/mesh/named_parts.hpp"
+#include "surfaces/skin.hpp"
+
+namespace courant {
+
+namespace {
+
+enum SideType { segment_set, shell_set, part_set, part, node_set, all, all_but_parts };
+
+struct SideFields {
+  const char* field;
+  Id id;
+  int type;
+  Id box;
+  const char* box_field;
+};
+
+SideFields fields_of(const ContactCard& c, ContactSide side) {
+  if (side == ContactSide::a) return {"SURFA", c.surfa, c.surfatyp, c.saboxid, "SABOXID"};
+  return {"SURFB", c.surfb, c.surfbtyp, c.sbboxid, "SBBOXID"};
+}
+
+}  // namespace
+
+const std::map<Id, Index>& FaceFinder::node_of_id() {
+  if (node_of_id_.empty())
+    for (Index n = 0; n < world_.nodes.size(); ++n) node_of_id_[world_.nodes.id[n]] = n;
+  return node_of_id_;
+}
+
+// Of shells and the skins of all solids.
+const std::map<FaceFinder::Key, Index>& FaceFinder::face_of_corners() {
+  if (!face_of_corners_.empty()) return face_of_corners_;
+  of_parts(std::vector<char>(model_.parts.size(), 1));
+  for (Index s = 0; s < world_.segments.size(); ++s) {
+    Key key = world_.segments.nodes(s);
+    std::sort(key.begin(), key.end());
+    face_of_corners_.emplace(key, s);
+  }
+  return face_of_corners_;
+}
+
+std::vector<Index> FaceFinder::of_parts(const std::vector<char>& chosen) {
+  const Segments& g = world_.segments;
+  std::vector<Index> out;
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    if (chosen[k] && model_.parts[k].has_solid)
+      add_skin(world_, {static_cast<Index>(k), bulk_modulus_(static_cast<Index>(k))});
+  for (Index s = 0; s < g.size(); ++s)
+    if (chosen[static_cast<std::size_t>(g.part[s])]) out.push_back(s);
+  return out;
+}
+
+std::vector<char> FaceFinder::parts_of(const ContactCard& card, const char* field, Id id, int type) {
+  std::vector<char> out(model_.parts.size(), type == all || type == all_but_parts);
+  if (type == all) return out;
+  const int named_as = type == all_but_parts ? part_set : type;
+  for (const Index k : parts_named(deck_, model_, card, field, id, named_as, diagnostics_)) {
+    const ModelPart& named = model_.parts[static_cast<std::size_t>(k)];
+    out[static_cast<std::size_t>(k)] = type != all_but_parts;
+    if (type != all_but_parts && !named.has_shell && !named.has_solid &&
+        !(kind_of(card).nodes && field[4] == 'A'))
+      deck_.error(diagnostics_, card, field, fmt::format("part {} has no shells and no solids", named.id),
+                  named.has_sph ? "particles can be SURFA of *CONTACT_AUTOMATIC_NODES_TO_SURFACE"
+                                : "name parts of shells or solids");
+  }
+  return out;
+}
+
+std::vector<Index> FaceFinder::of_segment_set(const ContactCard& card, const char* field, Id id) {
+  std::vector<Index> out;
+  const auto set = model_.segment_sets.find(id);
+  if (set == model_.segment_sets.end()) {
+    deck_.error(diagnostics_, card, field, fmt::format("segment set {} does not exist", id),
+                "define it with *SET_SEGMENT");
+    return out;
+  }
+  for (const Index k : set->second) {
+    Key key;
+    std::string ids;
+    bool known = true;
+    for (std::size_t e = 0; e < key.size(); ++e) {
+      const Index corner = model_.segments[static_cast<std::size_t>(k)].node[e];
+      const Id node = model_.nodes[static_cast<std::size_t>(corner)].id;
+      const auto at = node_of_id().find(node);
+      known = known && at != node_of_id().end();
+      key[e] = known ? at->second : 0;
+      ids += fmt::format("{}{}", e == 0 ? "" : ", ", node);
+    }
+    std::sort(key.begin(), key.end());
+    const auto face = known ? face_of_corners().find(key) : face_of_corners().end();
+    if (face == face_of_corners().end()) {
+      deck_.error(diagnostics_, card, field,
+                  fmt::format("segment ({}) of set {} is no shell and no outer face of a solid", ids, id),
+                  "leave it out");
+      break;
+    }
+    out.push_back(face->second);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+std::vector<Index> FaceFinder::of_shell_set(const ContactCard& card, const char* field, Id id) {
+  std::vector<Index> out;
+  const auto set = model_.shell_sets.find(id);
+  if (set == model_.shell_sets.end()) {
+    deck_.error(diagnostics_, card, field, fmt::format("shell set {} does not exist", id),
+                "define it with *SET_SHELL");
+    return out;
+  }
+  std::vector<Id> ids;
+  for (const Index k : set->second) ids.push_back(model_.shells[static_cast<std::size_t>(k)].id);
+  std::sort(ids.begin(), ids.end());
+  const Segments& g = world_.segments;
+  for (Index s = 0; s < g.size(); ++s)
+    if (!(g.volume[s] > 0) && std::binary_search(ids.begin(), ids.end(), g.id[s])) out.push_back(s);
+  return out;
+}
+
+std::vector<Index> FaceFinder::faces(const ContactCard& card, ContactSide side) {
+  const SideFields f = fields_of(card, side);
+  const bool everything = f.type == all || (f.id == 0 && kind_of(card).single);
+  std::vector<Index> out;
+  if (f.type == node_set) return out;
+  if (f.id == 0 && !everything) {
+    deck_.error(diagnostics_, card, f.field, "names no surface", "give the id of a part, or of a set");
+    return out;
+  }
+  if (!everything && f.type == segment_set)
+    out = of_segment_set(card, f.field, f.id);
+  else if (!everything && f.type == shell_set)
+    out = of_shell_set(card, f.field, f.id);
+  else
+    out = of_parts(parts_of(card, f.field, f.id, everything ? all : f.type));
+  if (f.box == 0) return out;
+  const auto box = model_.boxes.find(f.box);
+  if (box == model_.boxes.end()) {
+    deck_.error(diagnostics_, card, f.box_field, fmt::format("box {} does not exist", f.box),
+                "define it with *DEFINE_BOX");
+    return out;
+  }
+  std::erase_if(out, [&](Index s) {
+    const auto corners = world_.segments.nodes(s);
+    return !std::all_of(corners.begin(), corners.end(),
+                        [&](Index n) { return box->second.contains(world_.nodes.x.vec(n)); });
+  });
+  return out;
+}
+
+std::vector<Index> FaceFinder::nodes(const ContactCard& card, ContactSide side,
+                                     const std::vector<Index>& faces) {
+  const SideFields f = fields_of(card, side);
+  std::vector<Index> out;
+  if (f.type != node_set) {
+    for (const Index s : faces)
+      for (const Index n : world_.segments.nodes(s)) out.push_back(n);
+  } else if (const auto set = model_.node_sets.find(f.id); set != model_.node_sets.end()) {
+    for (const Index n : set->second) {
+      const auto at = node_of_id().find(model_.nodes[static_cast<std::size_t>(n)].id);
+      if (at != node_of_id().end()) out.push_back(at->second);
+    }
+  } else if (world_.particles.size() == 0) {  // else those who look for particles tell it
+    deck_.error(diagnostics_, card, f.field, fmt::format("node set {} does not exist", f.id),
+                "define it with *SET_NODE_LIST");
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  if (const auto box = model_.boxes.find(f.box); f.box != 0 && box != model_.boxes.end())
+    std::erase_if(out, [&](Index n) { return !box->second.contains(world_.nodes.x.vec(n)); });
+  return out;
+}
+
+std::vector<Index> FaceFinder::faces_around(const std::vector<Index>& nodes) {
+  std::vector<char> chosen(model_.parts.size(), 0);
+  for (const Index n : nodes)
+    if (const Index k = world_.nodes.part[n]; k >= 0) chosen[static_cast<std::size_t>(k)] = 1;
+  return of_parts(chosen);
+}
+
+}  // namespace courant

@@ -1,0 +1,150 @@
+#include "contact/nodes/face.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace courant {
+
+namespace {
+
+constexpr Real infinite = std::numeric_limits<Real>::infinity();
+
+Projection at(const FaceCorners& x, Real s, Real t) {
+  Projection p;
+  p.N = {0.25 * (1 - s) * (1 - t), 0.25 * (1 + s) * (1 - t), 0.25 * (1 + s) * (1 + t),
+         0.25 * (1 - s) * (1 + t)};
+  p.q = p.N[0] * x[0] + p.N[1] * x[1] + p.N[2] * x[2] + p.N[3] * x[3];
+  const Vec xs = (1 - t) * (x[1] - x[0]) + (1 + t) * (x[2] - x[3]);
+  const Vec xt = (1 - s) * (x[3] - x[0]) + (1 + s) * (x[2] - x[1]);
+  p.n = xs.cross(xt).normalized();
+  return p;
+}
+
+Vec plane_normal(const FaceCorners& x) {
+  return (x[2] - x[0]).cross(x[3] - x[1]).normalized();
+}
+
+}  // namespace
+
+FaceShape shape_of(const FaceCorners& x, int corners) {
+  FaceShape out;
+  out.centre = corners == 4 ? Vec(0.25 * (x[0] + x[1] + x[2] + x[3])) : Vec((x[0] + x[1] + x[2]) / 3);
+  out.n = plane_normal(x);
+  for (int e = 0; e < corners; ++e) {
+    const Vec d = x[static_cast<std::size_t>(e)] - out.centre;
+    out.radius = std::max(out.radius, d.squaredNorm());
+    out.warp = std::max(out.warp, std::abs(d.dot(out.n)));
+  }
+  out.radius = std::sqrt(out.radius);
+  return out;
+}
+
+Projection project_on_rim(const FaceCorners& x, int corners, const Vec& y) {
+  Projection p;
+  Real least = infinite;
+  for (int e = 0; e < corners; ++e) {
+    const auto a = static_cast<std::size_t>(e), b = static_cast<std::size_t>((e + 1) % corners);
+    const Vec along = x[b] - x[a];
+    const Real u = std::clamp((y - x[a]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const Vec q = x[a] + u * along;
+    const Real d2 = (y - q).squaredNorm();
+    if (!(d2 < least)) continue;
+    least = d2;
+    p.q = q, p.N = {};
+    p.N[a] = 1 - u, p.N[b] += u;
+  }
+  p.n = corners == 3 ? plane_normal(x)
+                     : at(x, p.N[1] + p.N[2] - p.N[0] - p.N[3], p.N[2] + p.N[3] - p.N[0] - p.N[1]).n;
+  return p;
+}
+
+namespace {
+
+/// Newton's method for the nearest point of r(s, t): (r - y).r_s = (r - y).r_t = 0. Of a flat parallelogram
+/// the first step is exact.
+std::array<Real, 2> nearest_on_quadrilateral(const FaceCorners& x, const Vec& y) {
+  const Vec mean = 0.25 * (x[0] + x[1] + x[2] + x[3]), a = 0.25 * (x[1] - x[0] + x[2] - x[3]),
+            b = 0.25 * (x[3] - x[0] + x[2] - x[1]), c = 0.25 * (x[0] - x[1] + x[2] - x[3]);
+  constexpr Real enough = 1e-12, wild = 4;
+  constexpr int most = 12;
+  Real s = 0, t = 0;
+  for (int it = 0; it < most; ++it) {
+    const Vec w = mean + s * a + t * b + s * t * c - y, rs = a + t * c, rt = b + s * c;
+    const Real g = w.dot(rs), h = w.dot(rt), ss = rs.squaredNorm(), tt = rt.squaredNorm();
+    Real st = rs.dot(rt) + w.dot(c), det = ss * tt - st * st;
+    if (!(det > 0.05 * ss * tt)) st = rs.dot(rt), det = ss * tt - st * st;  // far off a warped face
+    const Real ds = (h * st - g * tt) / det, dt = (g * st - h * ss) / det;
+    s = std::clamp(s + ds, -wild, wild), t = std::clamp(t + dt, -wild, wild);
+    if (std::abs(ds) + std::abs(dt) < enough) break;
+  }
+  return {s, t};
+}
+
+Projection on_plane_of_triangle(const FaceCorners& x, const Vec& y) {
+  const Vec a = x[1] - x[0], b = x[2] - x[0], n = a.cross(b);
+  const Real n2 = n.squaredNorm();
+  const Vec w = y - x[0];
+  const Real u = w.cross(b).dot(n) / n2, v = a.cross(w).dot(n) / n2;
+  Projection p;
+  p.N = {1 - u - v, u, v, 0};
+  p.q = x[0] + u * a + v * b;
+  p.n = n / std::sqrt(n2);
+  return p;
+}
+
+}  // namespace
+
+Projection project(const FaceCorners& x, int corners, const Vec& y) {
+  if (corners == 3) {
+    Projection p = on_plane_of_triangle(x, y);
+    const Real least = std::min({p.N[0], p.N[1], p.N[2]});
+    p.inside = least >= 0, p.over = least >= -edge_margin;
+    return p.over ? p : project_on_rim(x, 3, y);
+  }
+  const auto [s, t] = nearest_on_quadrilateral(x, y);
+  const Real most = std::max(std::abs(s), std::abs(t));
+  if (!(most <= 1 + 2 * edge_margin)) return project_on_rim(x, 4, y);
+  Projection p = at(x, s, t);
+  p.over = true, p.inside = most <= 1;
+  return p;
+}
+
+bool project_beyond(const FaceCorners& x, int corners, const Vec& y, Projection& p) {
+  if (corners == 3) {
+    p = on_plane_of_triangle(x, y);
+    return true;
+  }
+  constexpr Real furthest = 3;  // a width of the face beside it
+  const auto [s, t] = nearest_on_quadrilateral(x, y);
+  if (!(std::max(std::abs(s), std::abs(t)) <= furthest)) return false;
+  p = at(x, s, t);
+  return true;
+}
+
+std::array<Real, 4> shape_change(const FaceCorners& x, int corners, const std::array<Real, 4>& N,
+                                 const Vec& along) {
+  // of the map's two directions: how each N changes along them
+  const Real s = -N[0] + N[1] + N[2] - N[3], t = -N[0] - N[1] + N[2] + N[3];
+  std::array<Real, 4> by_s{-0.25 * (1 - t), 0.25 * (1 - t), 0.25 * (1 + t), -0.25 * (1 + t)};
+  std::array<Real, 4> by_t{-0.25 * (1 - s), -0.25 * (1 + s), 0.25 * (1 + s), 0.25 * (1 - s)};
+  if (corners == 3) by_s = {-1, 1, 0, 0}, by_t = {-1, 0, 1, 0};
+  Vec xs = Vec::Zero(), xt = Vec::Zero();
+  for (std::size_t e = 0; e < 4; ++e) xs += by_s[e] * x[e], xt += by_t[e] * x[e];
+  const Real ss = xs.squaredNorm(), tt = xt.squaredNorm(), st = xs.dot(xt), det = ss * tt - st * st;
+  const Real a = (along.dot(xs) * tt - along.dot(xt) * st) / det,
+             b = (along.dot(xt) * ss - along.dot(xs) * st) / det;
+  std::array<Real, 4> out;
+  for (std::size_t e = 0; e < 4; ++e) out[e] = a * by_s[e] + b * by_t[e];
+  return out;
+}
+
+Real area_of(const FaceCorners& x) {
+  return 0.5 * (x[2] - x[0]).cross(x[3] - x[1]).norm();
+}
+
+Real longest_diagonal(const FaceCorners& x, int corners) {
+  if (corners == 3) return std::max({(x[1] - x[0]).norm(), (x[2] - x[1]).norm(), (x[0] - x[2]).norm()});
+  return std::max((x[2] - x[0]).norm(), (x[3] - x[1]).norm());
+}
+
+}  // namespace courant

@@ -1,0 +1,76 @@
+#pragma once
+// A face of an element that nodes touch: bilinear, whatever its warp.
+#include <array>
+#include <cmath>
+
+#include "state/world.hpp"
+
+namespace courant {
+
+/// What does not change of a face.
+struct ContactFace {
+  std::array<Index, 4> node{};  ///< indices into World::nodes; a triangle repeats its third
+  int corners = 4;
+  Index segment = 0;       ///< index into World::segments
+  bool two_sided = false;  ///< a shell; the face of a solid is touched from outside only
+  Real r = 0;              ///< nodes touch it at this distance, half its thickness [L]
+  Real k = 0;              ///< K A^2/V of a solid, K A/(longest diagonal) of a shell [M/T2]
+  Real area = 0;           ///< at the start [L2]
+  Real depth = 0;          ///< who is further behind it has gone through [L]
+  unsigned passes = 0;     ///< bit p: nodes of pass p touch it
+  bool has(Index n) const { return node[0] == n || node[1] == n || node[2] == n || node[3] == n; }
+  int shared(const ContactFace& other) const {  ///< corners that both have
+    int count = 0;
+    for (int e = 0; e < corners; ++e) count += other.has(node[static_cast<std::size_t>(e)]);
+    return count;
+  }
+};
+
+/// Where a face is now, roughly: what tells that a node is far from it.
+struct FaceShape {
+  Vec centre = Vec::Zero(), n = Vec::Zero();  ///< mean of the corners; unit normal [L], [-]
+  Real radius = 0;                            ///< of a sphere around the corners [L]
+  Real warp = 0;                              ///< of the corners from the mean plane [L]
+};
+
+/// Faces reach this much over their edges, of their width, so that rounding leaves no gap between neighbours.
+inline constexpr Real edge_margin = 0.0125;
+
+/// Edges that stand on each other may be off by this. [L]
+inline Real edge_of(const ContactFace& f) {
+  return 2 * edge_margin * std::sqrt(f.area);
+}
+
+using FaceCorners = std::array<Vec, 4>;
+
+/// The point of a face nearest to a place. Beyond an edge: still that of the bilinear map while `over` holds,
+/// else the nearest point of the edges.
+struct Projection {
+  Vec q = Vec::Zero();      ///< [L]
+  Vec n = Vec::Zero();      ///< unit normal of the face there [-]
+  std::array<Real, 4> N{};  ///< shape functions there, which sum to 1 [-]
+  bool inside = false;      ///< within the face
+  bool over = false;        ///< within the face, or beyond an edge by less than `edge_margin`
+};
+
+FaceShape shape_of(const FaceCorners& x, int corners);
+Projection project(const FaceCorners& x, int corners, const Vec& y);
+/// The nearest point of the face as it would go on beyond its edges, up to its width; returns false further
+/// away.
+bool project_beyond(const FaceCorners& x, int corners, const Vec& y, Projection& p);
+/// The nearest point of the edges, with the normal of the face there.
+Projection project_on_rim(const FaceCorners& x, int corners, const Vec& y);
+
+/// How the shape functions change along a vector of the face's plane, at a point given by its N. [1/L]
+std::array<Real, 4> shape_change(const FaceCorners& x, int corners, const std::array<Real, 4>& N,
+                                 const Vec& along);
+
+inline FaceCorners corners_of(const ContactFace& f, const Field<Real>& x) {
+  return {x.vec(f.node[0]), x.vec(f.node[1]), x.vec(f.node[2]), x.vec(f.node[3])};
+}
+
+/// Area of a face, and its longest diagonal (of a triangle: side). [L2], [L]
+Real area_of(const FaceCorners& x);
+Real longest_diagonal(const FaceCorners& x, int corners);
+
+}  // namespace courant

@@ -1,0 +1,178 @@
+// Forces of touches on nodes, gathered in a fixed order; the step that they allow; their energy.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "contact/nodes/node_contact.hpp"
+#include "parallel/counting_sort.hpp"
+#include "parallel/parallel.hpp"
+#include "state/shared_fields.hpp"
+#include "surfaces/face_forces.hpp"
+
+namespace courant {
+
+Real NodeContact::share_of(const Share& share) const {
+  return share.corner < 0
+             ? Real(1)
+             : -touches_[static_cast<std::size_t>(share.touch)].N[static_cast<std::size_t>(share.corner)];
+}
+
+Vec NodeContact::force_of(const Share& share) const {
+  const Touch& touch = touches_[static_cast<std::size_t>(share.touch)];
+  if (share.corner < 0) return touch.force;
+  const auto e = static_cast<std::size_t>(share.corner);
+  return -touch.N[e] * touch.force + touch.tilt[e] * touch.lever;
+}
+
+// Each touch has shares in its node and in the corners of its face; those of a node stand together, in the
+// order of touches.
+void NodeContact::gather(const World& world) {
+  note_access(touches_resource_);
+  key_.clear(), shares_.clear();
+  for (std::size_t t = 0; t < touches_.size(); ++t) {
+    const Touch& touch = touches_[t];
+    const ContactFace& f = face(touch.face);
+    key_.push_back(place_[static_cast<std::size_t>(touch.node)]);
+    shares_.push_back({static_cast<Index>(t), -1});
+    for (int e = 0; e < f.corners; ++e) {
+      key_.push_back(place_[static_cast<std::size_t>(f.node[static_cast<std::size_t>(e)])]);
+      shares_.push_back({static_cast<Index>(t), e});
+    }
+  }
+  stiffest_ = {};
+  if (shares_.empty()) return;
+  counting_sort(key_, static_cast<Index>(involved_.size()), first_, order_);
+  stiffest_ = reduce(
+      static_cast<Index>(involved_.size()), Stiffest(),
+      [&](Index begin, Index end) {
+        Stiffest out;
+        for (Index p = begin; p < end; ++p) {
+          const Index n = involved_[static_cast<std::size_t>(p)];
+          Real sum = 0;
+          for (Index s = first_[static_cast<std::size_t>(p)]; s < first_[static_cast<std::size_t>(p) + 1];
+               ++s) {
+            const Share& share = shares_[static_cast<std::size_t>(order_[static_cast<std::size_t>(s)])];
+            const Touch& touch = touches_[static_cast<std::size_t>(share.touch)];
+            sum += touch.k * std::abs(share_of(share)) * touch.spread;
+          }
+          const Real omega2 = sum / world.nodes.m[n];
+          if (omega2 > out.omega2 && !world.nodes.held[n]) out = {omega2, n};
+        }
+        return out;
+      },
+      [](const Stiffest& a, const Stiffest& b) { return b.omega2 > a.omega2 ? b : a; });
+}
+
+void NodeContact::add_force_on(Index node, Vec& force) const {
+  note_access(touches_resource_);
+  const Index p = place_[static_cast<std::size_t>(node)];
+  if (shares_.empty() || p < 0) return;
+  for (Index s = first_[static_cast<std::size_t>(p)]; s < first_[static_cast<std::size_t>(p) + 1]; ++s) {
+    force += force_of(shares_[static_cast<std::size_t>(order_[static_cast<std::size_t>(s)])]);
+  }
+}
+
+// Where springs k_t act on nodes with shares b_tn, no frequency is above max_n (sum_t k_t |b_tn| sum_j
+// |b_tj|) / m_n (Gershgorin). Elements leave 1 - TSSFAC^2 of the square of a stable step to others.
+TimeLimit::Limit NodeContact::limit(const World& world, const Clock&) {
+  if (!(stiffest_.omega2 > 0)) return {std::numeric_limits<Real>::infinity(), name()};
+  constexpr Real most_of_elements = 0.95;  // else nothing would be left
+  const Real s = std::min(law_.tssfac, most_of_elements), xi = 0.02 * law_.vdc;
+  return {2 / std::sqrt(stiffest_.omega2) * std::sqrt(1 - s * s) * (std::sqrt(1 + xi * xi) - xi),
+          fmt::format("{} (node {})", name(), world.nodes.id[stiffest_.node])};
+}
+
+// Mean over the step about to be taken; of driven nodes, which do not follow their forces, that before.
+Vec NodeContact::middle_velocity(const World& world, const Clock& clock, const Field<Index>* driven,
+                                 Index n) const {
+  const Nodes& nodes = world.nodes;
+  const Vec v = nodes.v.vec(n);
+  if (nodes.held[n] || (driven && (*driven)[n] != 0)) return v;
+  const Index body = bodies_.body(n);
+  if (body >= 0) return v + 0.5 * bodies_.change(body, nodes.x.vec(n), clock);
+  return v + 0.5 * clock.dt_mean() / nodes.m[n] * nodes.f.vec(n);
+}
+
+void NodeContact::record(World& world, const Clock& clock, EnergyLedger& ledger) {
+  if (!drag_on_ || touches_.empty()) return;
+  const auto* driven = shared_fields::prescribed_motion.find(world.nodes.fields);
+  struct Work {
+    Real damping = 0, friction = 0;
+  };
+  const Work work = reduce(
+      static_cast<Index>(touches_.size()), Work(),
+      [&](Index begin, Index end) {
+        Work out;
+        for (Index t = begin; t < end; ++t) {
+          const Touch& touch = touches_[static_cast<std::size_t>(t)];
+          const ContactFace& f = face(touch.face);
+          Vec v = middle_velocity(world, clock, driven, touch.node);
+          for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
+            v -= touch.N[e] * middle_velocity(world, clock, driven, f.node[e]);
+          out.damping -= touch.damping * touch.n.dot(v) * clock.dt_mean();
+          out.friction -= touch.friction.dot(v) * clock.dt_mean();
+        }
+        return out;
+      },
+      [](const Work& a, const Work& b) {
+        return Work{a.damping + b.damping, a.friction + b.friction};
+      });
+  damping_work_ += work.damping, friction_work_ += work.friction;
+  ledger.dissipated += work.damping + work.friction;
+  ledger.throughput += std::abs(work.damping + work.friction);
+}
+
+// Friction springs hold part of the friction work: what they store now is not dissipated yet.
+void NodeContact::sample(const World&, const Clock&, EnergyLedger& ledger) const {
+  for (const Touch& touch : touches_) ledger.contact += touch.stored;
+}
+
+InterfaceForce NodeContact::report() const {
+  InterfaceForce out;
+  out.id = law_.id ? law_.id : Id(number_);
+  out.title = law_.title;
+  Real springs = 0;
+  for (const Touch& touch : touches_) {
+    out.on_surfa += touch.pass == 0 ? touch.force : Vec(-touch.force);
+    out.energy_stored += touch.stored;
+    if (friction_on_) springs += 0.5 * touch.friction.squaredNorm() / touch.k;
+  }
+  out.energy_stored += springs;
+  out.energy_damping = damping_work_;
+  out.energy_friction = friction_work_ - springs;
+  return out;
+}
+
+namespace {
+
+class TouchForces : public Force {
+ public:
+  explicit TouchForces(std::shared_ptr<const NodeContact> contact) : contact_(std::move(contact)) {}
+  std::string name() const override { return contact_->name() + " (forces)"; }
+  const FieldSet& over(const World& world) const override { return world.nodes.fields; }
+  void declare(const World& world, Accesses& a) const override {
+    a.reads(contact_->touches(), Reach::others).updates(world.nodes.f);
+  }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    for (Index n = begin; n < end; ++n) {
+      Vec force = Vec::Zero();
+      contact_->add_force_on(n, force);
+      world.nodes.f.add(n, force);
+    }
+  }
+
+ private:
+  std::shared_ptr<const NodeContact> contact_;
+};
+
+}  // namespace
+
+void add_node_contact(World& world, const std::shared_ptr<NodeContact>& contact) {
+  add_clear_face_forces(world);
+  world.passes.add(contact);
+  world.passes.add(std::make_shared<TouchForces>(contact));
+}
+
+}  // namespace courant

@@ -1,0 +1,257 @@
+#include "contact/nodes/node_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "parallel/parallel.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Nodes are looked for this far in front of faces and behind them, of a usual face.
+constexpr Real least_reach = 0.3;
+/// Lists hold until nodes may have come nearer by this, of a usual face.
+constexpr Real list_margin = 0.3;
+
+template <class T>
+Field<T>& slot_field(FieldSet& set, const char* name, const char* dimension, int components) {
+  return set.add<T>({.name = name, .dimension = dimension, .components = components});
+}
+
+}  // namespace
+
+NodeContact::NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodies, int number, World& world)
+    : law_(std::move(law)),
+      bodies_(std::move(bodies)),
+      number_(number),
+      friction_on_(law_.fs > 0 || law_.fd > 0),
+      drag_on_(friction_on_ || law_.vdc > 0),
+      nodes_(std::move(sides.nodes)),
+      own_(std::move(sides.own)),
+      faces_(std::move(sides.faces)),
+      set_(&world.add_set(fmt::format("contact {} nodes", number))) {
+  in_touch_ = &slot_field<Index>(*set_, "in_touch", "-", most_touches);
+  leaked_ = &slot_field<Index>(*set_, "leaked", "-", 1);
+  side_ = &slot_field<Real>(*set_, "side", "-", most_touches);
+  k_ = &slot_field<Real>(*set_, "stiffness", "M/T2", most_touches);
+  slack_ = &slot_field<Real>(*set_, "slack", "L", most_touches);
+  area_ = &slot_field<Real>(*set_, "area", "L2", most_touches);
+  friction_ = &slot_field<Real>(*set_, "friction", "ML/T2", 3 * most_touches);
+  set_->resize(static_cast<Index>(nodes_.size()));
+  blocks_.resize(static_cast<std::size_t>(block_count(set_->size())));
+  world.counters.try_emplace("leaked_nodes", 0);
+  world.counters["contact_nodes"] += set_->size();
+  world.maxima.try_emplace("max_penetration", 0);
+  take_involved(world);
+  find_sizes();
+}
+
+void NodeContact::take_involved(const World& world) {
+  std::vector<char> is_in(static_cast<std::size_t>(world.nodes.size()), 0);
+  for (const ContactNode& n : nodes_) is_in[static_cast<std::size_t>(n.node)] = 1;
+  for (const ContactFace& f : faces_)
+    for (const Index n : f.node) is_in[static_cast<std::size_t>(n)] = 1;
+  place_.assign(is_in.size(), -1);
+  for (Index n = 0; n < world.nodes.size(); ++n) {
+    if (!is_in[static_cast<std::size_t>(n)]) continue;
+    place_[static_cast<std::size_t>(n)] = static_cast<Index>(involved_.size());
+    involved_.push_back(n);
+  }
+  listed_at_.assign(involved_.size(), Vec::Zero());
+}
+
+// Of the smaller half of the faces, so that few large ones make no long lists for all.
+void NodeContact::find_sizes() {
+  for (const ContactNode& n : nodes_) r_most_ = std::max(r_most_, n.r);
+  std::vector<Real> sizes;
+  for (const ContactFace& f : faces_) sizes.push_back(std::sqrt(f.area));
+  if (sizes.empty()) return;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  size_ = *middle;
+}
+
+std::string NodeContact::name() const {
+  return fmt::format("contact {} of nodes", law_.id ? law_.id : number_);
+}
+
+const FieldSet& NodeContact::over(const World&) const {
+  return *set_;
+}
+
+void NodeContact::declare(const World& world, Accesses& a) const {
+  const Nodes& n = world.nodes;
+  a.reads(n.x, Reach::others).reads(n.v, Reach::others).reads(n.m, Reach::others);
+  a.reads(n.held, Reach::others);
+  a.updates(*in_touch_).updates(*side_).updates(*k_).updates(*slack_).updates(*area_).updates(*friction_);
+  a.in_start().reads(n.x, Reach::others).reads(n.v, Reach::others).updates(*in_touch_);
+  a.reads(n.held, Reach::others);
+  a.in_finish().updates(*leaked_).writes(touches_resource_).updates(world.segments.contact_force);
+  a.reads(n.m, Reach::others).reads(n.held, Reach::others);
+}
+
+// Lists are made anew when nodes may have come nearer than lists reach.
+void NodeContact::follow(World& world, const Clock& clock) {
+  const Nodes& nodes = world.nodes;
+  struct Most {
+    Real moved2 = 0, v2 = 0;
+  };
+  const Most most = reduce(
+      static_cast<Index>(involved_.size()), Most(),
+      [&](Index begin, Index end) {
+        Most out;
+        for (Index k = begin; k < end; ++k) {
+          const Index n = involved_[static_cast<std::size_t>(k)];
+          out.moved2 =
+              std::max(out.moved2, (nodes.x.vec(n) - listed_at_[static_cast<std::size_t>(k)]).squaredNorm());
+          out.v2 = std::max(out.v2, nodes.v.vec(n).squaredNorm());
+        }
+        return out;
+      },
+      [](const Most& a, const Most& b) {
+        return Most{std::max(a.moved2, b.moved2), std::max(a.v2, b.v2)};
+      });
+  reach_ = std::max(least_reach * size_, 2.2 * std::sqrt(most.v2) * clock.dt_old);
+  if (listed_once_ && reach_ + 2.01 * std::sqrt(most.moved2) <= listed_reach_) return;
+  listed_reach_ = reach_ + std::max(list_margin * size_, reach_ - least_reach * size_);
+  list(world);
+}
+
+bool NodeContact::may_touch(const World& world, const ContactNode& n, const ContactFace& f) const {
+  if (!(f.passes & (1U << n.pass)) || f.has(n.node)) return false;
+  if (world.nodes.held[n.node] && world.nodes.held[f.node[0]]) return false;
+  const Index body = bodies_.body(n.node);
+  return body < 0 || body != bodies_.body(f.node[0]);
+}
+
+void NodeContact::list(World& world) {
+  const Nodes& nodes = world.nodes;
+  search_.build(faces_, nodes.x, r_most_ + listed_reach_);
+  for_each(static_cast<Index>(involved_.size()), [&](Index k) {
+    listed_at_[static_cast<std::size_t>(k)] = nodes.x.vec(involved_[static_cast<std::size_t>(k)]);
+  });
+  for_each_block(set_->size(), [&](Index begin, Index end) { list_block(world, begin, end); });
+  std::vector<char> wanted(faces_.size(), 0);
+  for (const Block& b : blocks_)
+    for (const Index f : b.candidate) wanted[static_cast<std::size_t>(f)] = 1;
+  listed_.clear();
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    if (wanted[f]) listed_.push_back(static_cast<Index>(f));
+  shapes_.resize(faces_.size());
+  listed_once_ = true;
+}
+
+void NodeContact::list_block(const World& world, Index begin, Index end) {
+  Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];
+  b.first.clear(), b.candidate.clear();
+  for (Index i = begin; i < end; ++i) {
+    b.first.push_back(static_cast<Index>(b.candidate.size()));
+    search_.near(world.nodes.x.vec(node(i).node), [&](Index f) {
+      if (may_touch(world, node(i), face(f))) b.candidate.push_back(f);
+    });
+  }
+  b.first.push_back(static_cast<Index>(b.candidate.size()));
+}
+
+void NodeContact::start(World& world, const Clock& clock) {
+  soft_dt_ = std::max(soft_dt_, clock.dt_old);
+  if (clock.t < law_.birth || clock.t > law_.death) {
+    if (!asleep_)
+      for (int k = 0; k < most_touches; ++k) std::fill_n(in_touch_->data(k), set_->size(), 0);
+    asleep_ = fresh_ = true;
+    return;
+  }
+  asleep_ = false;
+  follow(world, clock);
+  for_each(static_cast<Index>(listed_.size()), [&](Index k) {
+    const auto f = static_cast<std::size_t>(listed_[static_cast<std::size_t>(k)]);
+    shapes_[f] = shape_of(corners_of(faces_[f], world.nodes.x), faces_[f].corners);
+  });
+}
+
+void NodeContact::block(World& world, const Clock& clock, Index begin, Index end) {
+  Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];
+  b.touches.clear(), b.leaked.clear();
+  if (asleep_) return;
+  for (Index i = begin; i < end; ++i) touch(world, clock, b, i);
+}
+
+void NodeContact::finish(World& world, const Clock&) {
+  touches_.clear();
+  Real deepest = 0;
+  for (const Block& b : blocks_) {
+    touches_.insert(touches_.end(), b.touches.begin(), b.touches.end());
+    for (const Index i : b.leaked) {
+      if ((*leaked_)[i]) continue;
+      (*leaked_)[i] = 1;
+      ++world.counters["leaked_nodes"];
+    }
+  }
+  for (const Touch& touch : touches_) {
+    deepest = std::max(deepest, touch.depth);
+    world.segments.contact_force.add(face(touch.face).segment, -touch.force);
+  }
+  if (deepest > 0) {
+    Real& most = world.maxima["max_penetration"];
+    most = std::max(most, deepest);
+  }
+  if (!asleep_) fresh_ = false;
+  gather(world);
+}
+
+NodeContact::Slot NodeContact::load(Index i, int k) const {
+  Slot slot;
+  slot.face = in_touch_->data(k)[i] - 1;
+  slot.side = side_->data(k)[i], slot.k = k_->data(k)[i];
+  slot.slack = slack_->data(k)[i], slot.area = area_->data(k)[i];
+  for (int c = 0; c < 3; ++c) slot.friction[c] = friction_->data(3 * k + c)[i];
+  return slot;
+}
+
+void NodeContact::store(Index i, int k, const Slot& slot) {
+  in_touch_->data(k)[i] = slot.face + 1;
+  side_->data(k)[i] = slot.side, k_->data(k)[i] = slot.k;
+  slack_->data(k)[i] = slot.slack, area_->data(k)[i] = slot.area;
+  for (int c = 0; c < 3; ++c) friction_->data(3 * k + c)[i] = slot.friction[c];
+}
+
+void NodeContact::keep(Archive& archive) {
+  archive("fresh", fresh_);
+  archive("asleep", asleep_);
+  archive("soft_dt", soft_dt_);
+  archive("damping_work", damping_work_);
+  archive("friction_work", friction_work_);
+  if (archive.loading()) listed_once_ = false;
+}
+
+NodeContact::Penetrations NodeContact::penetrations(World& world) {
+  Penetrations out;
+  if (law_.birth > 0) return out;
+  follow(world, {});
+  for (const Index f : listed_)
+    shapes_[static_cast<std::size_t>(f)] = shape_of(corners_of(face(f), world.nodes.x), face(f).corners);
+  for (Index i = 0; i < set_->size(); ++i) {
+    Block& b = blocks_[static_cast<std::size_t>(i / block_size)];
+    look(world, b, i, world.nodes.x.vec(node(i).node));
+    Slots slots;
+    find_touches(world, {}, b, i, slots);
+    Real deepest = 0;
+    for (const Slot& slot : slots)
+      if (slot.face >= 0) deepest = std::max(deepest, -slot.gap);
+    if (!(deepest > 0)) continue;
+    ++out.count;
+    if (deepest > out.deepest) out.deepest = deepest, out.node = world.nodes.id[node(i).node];
+  }
+  return out;
+}
+
+Index NodeContact::candidates() const {
+  Index count = 0;
+  for (const Block& b : blocks_) count += static_cast<Index>(b.candidate.size());
+  return count;
+}
+
+}  // namespace courant

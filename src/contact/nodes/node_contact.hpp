@@ -1,0 +1,221 @@
+#pragma once
+// Penalty contact of nodes with faces of elements and rigid bodies. Equations: docs/theory.md.
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/nodes/face.hpp"
+#include "contact/nodes/face_search.hpp"
+#include "state/reports.hpp"
+#include "state/restartable.hpp"
+#include "state/wall_bodies.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+/// One interface as the deck gives it; names as on the card and in *CONTROL_CONTACT.
+struct NodeContactLaw {
+  Id id = 0;
+  std::string title;
+  Real slsfac = 0.1;
+  std::array<Real, 2> sfs{1, 1};        ///< of the nodes of each pass (SFSA, SFSB) [-]
+  Real fs = 0, fd = 0, dc = 0, vc = 0;  ///< friction [-, -, T/L, M/LT2]
+  Real vdc = 0;                         ///< damping, percent of critical
+  Real birth = 0, death = 1e20;         ///< [T]
+  int soft = 0, penopt = 1;
+  Real sofscl = 0.1, dtstif = 0;  ///< SOFT 1: scale [-] and step if given [T]
+  Real tssfac = 0.9;              ///< what elements leave of their own step
+};
+
+/// A node that touches faces.
+struct ContactNode {
+  Index node = 0;             ///< index into World::nodes
+  unsigned pass = 0;          ///< 0: of SURFA, on faces of SURFB; 1: the other way round
+  Real r = 0;                 ///< half its contact thickness [L]
+  Index first = 0, last = 0;  ///< the faces that it belongs to: of ContactSides::own
+};
+
+/// A face that a tracked node belongs to: its stiffness and area are shared by its corners.
+struct OwnFace {
+  std::array<Index, 4> node{};
+  bool two_sided = false;
+  Real k = 0, area = 0;  ///< share of the node [M/T2], [L2]
+};
+
+/// What touches what.
+struct ContactSides {
+  std::vector<ContactNode> nodes;
+  std::vector<OwnFace> own;
+  std::vector<ContactFace> faces;
+};
+
+/// The interface at work, see docs/theory.md. A node gets into touch with a face when it passes from in front
+/// of it to behind it, and stays in touch, whatever else is near, until it is in front again or goes on to a
+/// neighbour of the face; so no thickness of a body and no speed makes it go on the wrong side. Up to three
+/// faces at once hold it in corners. What survives a step are the touches, in fields of a set of its own.
+///
+/// Forces go to a list of touches, from which each node gathers its own in a fixed order.
+class NodeContact : public Force,
+                    public TimeLimit,
+                    public EnergyTerm,
+                    public Restartable,
+                    public InterfaceReporter {
+ public:
+  static constexpr int most_touches = 3;
+  /// A node that slides off an outer edge is pushed until it is this far beside it, of its depth.
+  static constexpr Real fading = 1;
+
+  /// `number` counts interfaces from 1 and keeps their sets apart. Adds a set of fields to `world`.
+  NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodies, int number, World& world);
+
+  std::string name() const override;
+  const FieldSet& over(const World& world) const override;
+  void declare(const World& world, Accesses& a) const override;
+  void start(World& world, const Clock& clock) override;
+  void block(World& world, const Clock& clock, Index begin, Index end) override;
+  void finish(World& world, const Clock& clock) override;
+  Limit limit(const World& world, const Clock& clock) override;
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
+  void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
+  InterfaceForce report() const override;
+  void keep(Archive& archive) override;
+
+  /// What touches leave for all nodes; complete after `finish`.
+  const Resource& touches() const { return touches_resource_; }
+  /// Adds what a node got from all touches, in the order of touches. [ML/T2]
+  void add_force_on(Index node, Vec& force) const;
+
+  struct Penetrations {
+    Index count = 0;
+    Real deepest = 0;  ///< [L]
+    Id node = 0;       ///< the deepest
+  };
+  /// Nodes that are behind faces now and would be pushed off them.
+  Penetrations penetrations(World& world);
+  Index tracked() const { return static_cast<Index>(nodes_.size()); }
+  Index candidates() const;  ///< pairs of node and face in the lists
+
+ private:
+  struct Slot {  ///< a touch, as its fields hold it
+    Index face = -1;
+    Real side = 1;               ///< of the face that the node is on [-]
+    Real k = 0;                  ///< [M/T2]
+    Real slack = 0;              ///< depth that gives no force: the node was there from the start [L]
+    Real area = 0;               ///< of the node, for VC [L2]
+    Vec friction = Vec::Zero();  ///< [ML/T2]
+    Vec n = Vec::Zero();         ///< towards the node, now
+    Real beyond = 0;             ///< an outer edge of the face, now [L]
+    Vec aside = Vec::Zero();     ///< unit vector away from that edge
+    Projection at{};             ///< now
+    Real gap = 0;                ///< now; < 0: in touch [L]
+  };
+  using Slots = std::array<Slot, most_touches>;
+
+  struct Touch {
+    Index node = 0, face = 0;  ///< of World::nodes; of faces_
+    unsigned pass = 0;
+    Real k = 0, depth = 0;  ///< [M/T2], below `slack` [L]
+    Vec n = Vec::Zero();    ///< towards the node
+    std::array<Real, 4> N{};
+    Real stored = 0;   ///< [ML2/T2]
+    Real spread = 0;   ///< sum of the shares of what can move, 1 for the node [-]
+    Real damping = 0;  ///< along n [ML/T2]
+    Vec friction = Vec::Zero();
+    Vec lever = Vec::Zero();     ///< normal of the face where `tilt` acts
+    std::array<Real, 4> tilt{};  ///< on the corners besides their shares, along it; sums to 0 [ML/T2]
+    Vec force = Vec::Zero();     ///< all of it, on the node [ML/T2]
+  };
+  struct Seen {  ///< a candidate, looked at now
+    Index face = 0;
+    Projection at;
+    Real d = 0;  ///< distance along the normal [L]
+  };
+  struct alignas(64) Block {       ///< of tracked nodes
+    std::vector<Index> first;      ///< of each node's candidates, and the end
+    std::vector<Index> candidate;  ///< ascending
+    std::vector<Touch> touches;
+    std::vector<Index> leaked;  ///< tracked nodes
+    std::vector<Seen> seen;     ///< scratch
+    Real damping_work = 0, friction_work = 0;
+  };
+  struct Stiffest {   ///< by what is in touch with it
+    Real omega2 = 0;  ///< bound of the largest frequency, squared [1/T2]
+    Index node = -1;  ///< of World::nodes
+  };
+  struct Share {  ///< of a touch
+    Index touch = 0;
+    int corner = -1;  ///< -1: the node itself
+  };
+
+  void follow(World& world, const Clock& clock);
+  void list(World& world);
+  void list_block(const World& world, Index begin, Index end);
+  void take_involved(const World& world);
+  void find_sizes();
+  bool may_touch(const World& world, const ContactNode& node, const ContactFace& face) const;
+  void touch(World& world, const Clock& clock, Block& b, Index i);
+  void look(const World& world, Block& b, Index i, const Vec& x) const;
+  bool hold(const World& world, Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot) const;
+  bool past_edge(const World& world, const Vec& x, bool wedge, Real r, Slot& slot) const;
+  bool move_on(const World& world, const Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot,
+               bool inside) const;
+  void find_touches(const World& world, const Clock& clock, const Block& b, Index i, Slots& slots) const;
+  bool arrives(const World& world, const Clock& clock, Index i, const Seen& seen, Slot& slot) const;
+  bool take(const World& world, Index i, const Slot& slot, Slots& slots) const;
+  bool is_taken(const Slots& slots, Index face) const;
+  void give_stiffness(const World& world, Index i, Slot& slot) const;
+  void fade(const World& world, const Slot& slot, Touch& touch) const;
+  void push(const World& world, const Clock& clock, Block& b, Index i, Slot& slot) const;
+  Vec friction_force(const Clock& clock, const Slot& slot, const Vec& n, const Vec& v, Real fn) const;
+  Vec velocity_of_face(const World& world, const ContactFace& f, const std::array<Real, 4>& N) const;
+  Real mass_of(const World& world, Index node) const;
+  Real share_of(const Share& share) const;
+  Vec force_of(const Share& share) const;
+  Slot load(Index i, int k) const;
+  void store(Index i, int k, const Slot& slot);
+  void gather(const World& world);
+  Vec middle_velocity(const World& world, const Clock& clock, const Field<Index>* driven, Index node) const;
+  const ContactFace& face(Index f) const { return faces_[static_cast<std::size_t>(f)]; }
+  const ContactNode& node(Index i) const { return nodes_[static_cast<std::size_t>(i)]; }
+
+  NodeContactLaw law_;
+  WallBodies bodies_;
+  int number_;
+  bool friction_on_, drag_on_;
+  std::vector<ContactNode> nodes_;
+  std::vector<OwnFace> own_;
+  std::vector<ContactFace> faces_;
+  FieldSet* set_;
+  Field<Index>*in_touch_, *leaked_;  ///< by slot: face + 1, or 0; by node
+  Field<Real>*side_, *k_, *slack_, *area_, *friction_;
+
+  FaceSearch search_;
+  Real r_most_ = 0;              ///< largest, of the nodes [L]
+  Real size_ = 0;                ///< usual, of a face [L]
+  Real reach_ = 0;               ///< faces further away than the contact distance and this are left alone [L]
+  Real listed_reach_ = 0;        ///< of the lists [L]
+  std::vector<Index> involved_;  ///< nodes of World, tracked or corners, ascending
+  std::vector<Index> place_;     ///< of each node of World in involved_, or -1
+  std::vector<Vec> listed_at_;   ///< where those were when lists were made
+  std::vector<Index> listed_;    ///< faces that are candidates, ascending
+  std::vector<FaceShape> shapes_;  ///< of those, by face
+  bool listed_once_ = false;
+  bool fresh_ = true;  ///< nodes may be behind faces without having come through them
+  bool asleep_ = false;
+  Real soft_dt_ = 0;  ///< longest step so far [T]
+
+  std::vector<Block> blocks_;
+  std::vector<Touch> touches_;  ///< of all blocks
+  std::vector<Share> shares_;
+  std::vector<Index> key_, first_, order_;  ///< shares_ by place in involved_
+  Stiffest stiffest_;
+  Resource touches_resource_{"touches of nodes"};
+  Real damping_work_ = 0, friction_work_ = 0;
+};
+
+/// Adds an interface to the passes of `world`, with the one that gathers its forces.
+void add_node_contact(World& world, const std::shared_ptr<NodeContact>& contact);
+
+}  // namespace courant

@@ -1,0 +1,123 @@
+// What a touch does: penalty, damping, friction.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/nodes/node_contact.hpp"
+
+namespace courant {
+
+namespace {
+
+constexpr Real unbounded = std::numeric_limits<Real>::infinity();
+
+}  // namespace
+
+Vec NodeContact::velocity_of_face(const World& world, const ContactFace& f,
+                                  const std::array<Real, 4>& N) const {
+  Vec v = Vec::Zero();
+  for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
+    v += N[e] * world.nodes.v.vec(f.node[e]);
+  return v;
+}
+
+Real NodeContact::mass_of(const World& world, Index n) const {
+  return world.nodes.held[n] ? unbounded : world.nodes.m[n];
+}
+
+// The face's, and the share that the node has in the faces around it, as far as they look at the touched one:
+// so that equal pressure makes equal depth up to the edges of a body. SOFT 1: at least what the step and the
+// masses allow.
+void NodeContact::give_stiffness(const World& world, Index i, Slot& slot) const {
+  const ContactFace& f = face(slot.face);
+  const ContactNode& who = node(i);
+  const Vec& n = slot.n;
+  Real k = 0, all = 0, area = 0;
+  for (Index o = who.first; o < who.last; ++o) {
+    const OwnFace& own = own_[static_cast<std::size_t>(o)];
+    const FaceCorners x{world.nodes.x.vec(own.node[0]), world.nodes.x.vec(own.node[1]),
+                        world.nodes.x.vec(own.node[2]), world.nodes.x.vec(own.node[3])};
+    const Real looks = -(x[2] - x[0]).cross(x[3] - x[1]).normalized().dot(n);
+    const Real share = own.two_sided ? std::abs(looks) : std::max(looks, Real(0));
+    k += share * own.k, area += share * own.area, all += own.k;
+  }
+  constexpr Real least = 0.1;  // of nodes whose faces all look elsewhere
+  k = who.first == who.last ? f.k : std::max(k, least * all);
+  slot.area = who.first == who.last || !(area > 0) ? f.area : area;
+  slot.k = law_.penopt == 2 ? f.k : law_.penopt == 3 ? k : std::min(k, f.k);
+  slot.k *= law_.slsfac * law_.sfs[who.pass];
+  const Real dt = law_.dtstif > 0 ? law_.dtstif : soft_dt_;
+  if (law_.soft == 0 || !(dt > 0)) return;
+  Real m = mass_of(world, who.node);
+  for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
+    m = std::min(m, mass_of(world, f.node[e]));
+  if (std::isfinite(m)) slot.k = std::max(slot.k, law_.sofscl * 0.5 * m / (dt * dt));
+}
+
+// Elastic predictor: the spring of the last step, turned into the tangent plane, plus -k times the slip since
+// then.
+Vec NodeContact::friction_force(const Clock& clock, const Slot& slot, const Vec& n, const Vec& v,
+                                Real fn) const {
+  const Vec turned = slot.friction - slot.friction.dot(n) * n;
+  const Real size = turned.norm();
+  const Vec old = size > 0 ? Vec(turned * (slot.friction.norm() / size)) : Vec(Vec::Zero());
+  const Vec slip = v - v.dot(n) * n;
+  const Vec trial = old - slot.k * clock.dt_old * slip;
+  Real most = (law_.fd + (law_.fs - law_.fd) * std::exp(-law_.dc * slip.norm())) * fn;
+  if (law_.vc > 0) most = std::min(most, law_.vc * slot.area);
+  const Real asked = trial.norm();
+  return asked > most ? Vec(trial * (most / asked)) : trial;
+}
+
+// Beside an outer edge: the energy k depth^2/2 times w(u) = 1 - 3 u^2 + 2 u^3, u = (beyond - margin)/(fading
+// depth), and the forces that follow from it: on the node, which is pushed off the edge, too, and on the
+// corners, as the face may turn about the edge.
+void NodeContact::fade(const World& world, const Slot& slot, Touch& touch) const {
+  const Real depth = touch.depth;
+  if (!(depth > 0)) return;
+  if (slot.beyond <= edge_of(face(slot.face))) return;
+  const Real past = std::max(slot.beyond - edge_of(face(slot.face)), Real(0));
+  const Real u = std::min(past / (fading * depth), Real(1)), w = 1 - u * u * (3 - 2 * u);
+  const Real normal = w + 3 * u * u * (1 - u), aside = 3 * u * (1 - u) / fading;
+  const Vec push = normal * slot.n + aside * slot.aside;
+  const ContactFace& f = face(slot.face);
+  touch.tilt = shape_change(corners_of(f, world.nodes.x), f.corners, slot.at.N, slot.aside);
+  for (Real& t : touch.tilt) t *= -touch.k * depth * aside * depth;
+  touch.lever = slot.n;
+  touch.stored *= w;
+  touch.depth = depth * push.norm();
+  if (touch.depth > 0) touch.n = push.normalized();
+}
+
+void NodeContact::push(const World& world, const Clock& clock, Block& b, Index i, Slot& slot) const {
+  const ContactFace& f = face(slot.face);
+  const ContactNode& who = node(i);
+  slot.slack = std::min(slot.slack, -slot.gap);
+  Touch touch;
+  touch.node = who.node, touch.face = slot.face, touch.pass = who.pass;
+  touch.k = slot.k, touch.depth = -slot.gap - slot.slack;
+  touch.n = slot.n, touch.N = slot.at.N;
+  touch.stored = 0.5 * touch.k * touch.depth * touch.depth;
+  if (slot.beyond > 0) fade(world, slot, touch);
+  const Real m = mass_of(world, who.node);
+  Real mobility = 0;  // of the face where it is touched [1/M]
+  for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e) {
+    if (world.nodes.held[f.node[e]]) continue;
+    mobility += touch.N[e] * touch.N[e] / world.nodes.m[f.node[e]];
+    touch.spread += std::abs(touch.N[e]);
+  }
+  if (std::isfinite(m)) touch.spread += 1;
+  Real fn = touch.k * touch.depth;
+  const Vec v = world.nodes.v.vec(who.node) - velocity_of_face(world, f, touch.N);
+  if (law_.vdc > 0 && touch.depth > 0) {
+    // of the critical damping of node and face: 2 m omega, m the smaller mass
+    const Real omega = std::sqrt(touch.k * (1 / m + mobility)), lighter = std::min(m, 1 / mobility);
+    touch.damping = std::max(-0.01 * law_.vdc * 2 * lighter * omega * v.dot(touch.n), -fn);  // never pulls
+    fn += touch.damping;
+  }
+  if (friction_on_) slot.friction = touch.friction = friction_force(clock, slot, touch.n, v, fn);
+  touch.force = fn * touch.n + touch.friction;
+  b.touches.push_back(touch);
+}
+
+}  // namespace courant

@@ -1,0 +1,226 @@
+// Which faces a node touches, from step to step.
+#include <cmath>
+
+#include "contact/nodes/node_contact.hpp"
+#include "parallel/parallel.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Who is behind a face and was no further behind it a step ago than this has come through it, of the depth
+/// at which a node counts as through.
+constexpr Real arrival_tolerance = 0.02;
+/// Nodes that start behind the face of a solid by less than this, of that depth, are taken for touching it.
+constexpr Real start_depth = 0.4;
+/// What is less deep at the start is rounding, of a usual face.
+constexpr Real start_rounding = 1e-6;
+/// Lengths that are rounding, of a usual face.
+constexpr Real rounding = 1e-9;
+/// A neighbour of a touching face is another wall where it rises this steeply in front of it (sine).
+constexpr Real rise = 0.25;
+/// Along faces that meet at less than this angle (cosine) a node goes on with the nearest.
+constexpr Real bent = 0.5;
+/// Neighbours whose normals differ by less go on in one another (cosine).
+constexpr Real smooth = 0.866;
+
+}  // namespace
+
+bool NodeContact::is_taken(const Slots& slots, Index face) const {
+  for (const Slot& slot : slots)
+    if (slot.face == face) return true;
+  return false;
+}
+
+// Candidates within reach, at the places of now: lists may hold more, or not, with the same result.
+void NodeContact::look(const World& world, Block& b, Index i, const Vec& x) const {
+  b.seen.clear();
+  const auto k = static_cast<std::size_t>(i % block_size);
+  for (Index c = b.first[k]; c < b.first[k + 1]; ++c) {
+    const Index s = b.candidate[static_cast<std::size_t>(c)];
+    const ContactFace& f = face(s);
+    const FaceShape& shape = shapes_[static_cast<std::size_t>(s)];
+    const Vec w = x - shape.centre;
+    const Real reach = f.r + node(i).r + reach_, around = 1.05 * shape.radius + reach;
+    if (w.squaredNorm() > around * around || std::abs(w.dot(shape.n)) > reach + 1.1 * shape.warp) continue;
+    Seen& seen = b.seen.emplace_back();
+    seen.face = s;
+    seen.at = project(corners_of(f, world.nodes.x), f.corners, x);
+    seen.d = seen.at.n.dot(x - seen.at.q);
+    if ((x - seen.at.q).squaredNorm() > reach * reach) b.seen.pop_back();
+  }
+}
+
+void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
+  const auto c = static_cast<std::size_t>(i % block_size);
+  bool any = false;
+  for (int k = 0; k < most_touches; ++k) any = any || in_touch_->data(k)[i] != 0;
+  if (!any && b.first[c] == b.first[c + 1]) return;
+  const Vec x = world.nodes.x.vec(node(i).node);
+  look(world, b, i, x);
+  Slots slots;
+  if (any)
+    for (int k = 0; k < most_touches; ++k) slots[static_cast<std::size_t>(k)] = load(i, k);
+  for (Slot& slot : slots)
+    if (slot.face >= 0 && !hold(world, b, i, x, slots, slot)) slot = Slot();
+  find_touches(world, clock, b, i, slots);
+  for (Slot& slot : slots)
+    if (slot.face >= 0) push(world, clock, b, i, slot);
+  for (int k = 0; k < most_touches; ++k) {
+    const Slot& slot = slots[static_cast<std::size_t>(k)];
+    if (any || slot.face >= 0) store(i, k, slot);
+  }
+}
+
+// Whether the touch lasts.
+bool NodeContact::hold(const World& world, Block& b, Index i, const Vec& x, const Slots& slots,
+                       Slot& slot) const {
+  const ContactFace& f = face(slot.face);
+  const FaceCorners corners = corners_of(f, world.nodes.x);
+  slot.at = project(corners, f.corners, x);
+  const bool inside = slot.at.inside;
+  if (!inside && slot.at.over) slot.at = project_on_rim(corners, f.corners, x);
+  slot.n = slot.side * slot.at.n;
+  slot.beyond = 0;
+  slot.gap = slot.n.dot(x - slot.at.q) - f.r - node(i).r;
+  if (!move_on(world, b, i, x, slots, slot, inside) || slot.gap >= 0) return false;
+  if (slot.beyond > 0 || slot.gap + f.r + node(i).r >= -face(slot.face).depth) return true;
+  b.leaked.push_back(i);
+  return false;
+}
+
+// Where the face goes on smoothly, the node is with the nearest of the faces that it is behind: so depth is
+// continuous. Beyond an edge of its face it goes on to a neighbour, too. Where it is in front of the one
+// across the edge, it has left the body round an outer edge.
+bool NodeContact::move_on(const World& world, const Block& b, Index i, const Vec& x, const Slots& slots,
+                          Slot& slot, bool inside) const {
+  const ContactFace& f = face(slot.face);
+  const auto at_rim = [&](const ContactFace& g) {
+    for (std::size_t e = 0; e < 4; ++e)
+      if (std::abs(slot.at.N[e]) > rounding && !g.has(f.node[e])) return false;
+    return true;
+  };
+  const Seen* best = nullptr;
+  Real best_gap = 0, best_side = 1;
+  bool best_is_smooth = false, outside = false, wedge = false;
+  for (const Seen& seen : b.seen) {
+    const ContactFace& g = face(seen.face);
+    if (seen.face == slot.face || f.shared(g) == 0) continue;
+    const Real along = slot.n.dot(seen.at.n), side = g.two_sided && along < 0 ? -1 : 1;
+    const Real gap = side * seen.at.n.dot(x - seen.at.q) - g.r - node(i).r;
+    const bool goes_on = side * along > bent, across = !inside && at_rim(g);
+    const bool rises = slot.n.dot(shapes_[static_cast<std::size_t>(seen.face)].centre - slot.at.q) > 0;
+    if (seen.at.inside && (goes_on || (across && rises && gap < 0))) {
+      if (inside && gap <= slot.gap + rounding * size_) continue;
+      if (best && (best_is_smooth > goes_on || (best_is_smooth == goes_on && gap <= best_gap))) continue;
+      best = &seen, best_gap = gap, best_side = side, best_is_smooth = goes_on;
+    } else if (across) {
+      (gap >= 0 || !(goes_on || rises) ? outside : wedge) = true;
+    }
+  }
+  if (!best || is_taken(slots, best->face) || (outside && !best_is_smooth))
+    return inside || past_edge(world, x, wedge && !outside, f.r + node(i).r, slot);
+  slot.face = best->face, slot.at = best->at, slot.gap = best_gap, slot.side = best_side;
+  slot.n = slot.side * slot.at.n;
+  return true;
+}
+
+// In the wedge between two faces that meet at an inner edge (or of two thick ones at an outer one) the edge
+// is nearest. Round an outer edge the push fades while the node goes off it, beyond a margin in which two
+// edges may stand on each other, as far as it was deep.
+bool NodeContact::past_edge(const World& world, const Vec& x, bool wedge, Real r, Slot& slot) const {
+  if (wedge) {
+    const Vec w = x - slot.at.q;
+    const Real length = w.norm(), side = slot.n.dot(w) < 0 ? -1 : 1;
+    if (length > rounding * size_) slot.n = side / length * w;
+    slot.gap = side * length - r;
+    return true;
+  }
+  const ContactFace& f = face(slot.face);
+  const FaceCorners corners = corners_of(f, world.nodes.x);
+  if (!project_beyond(corners, f.corners, x, slot.at)) return false;
+  slot.n = slot.side * slot.at.n;
+  slot.gap = slot.n.dot(x - slot.at.q) - r;
+  const Vec aside = slot.at.q - project_on_rim(corners, f.corners, slot.at.q).q;
+  slot.beyond = aside.norm();
+  if (!(slot.beyond - edge_of(f) < -fading * slot.gap)) return false;
+  slot.aside = slot.beyond > 0 ? Vec(aside / slot.beyond) : Vec(Vec::Zero());
+  return true;
+}
+
+// Whether the node came from in front of the face to behind it in this step, over the face: else it went
+// round an edge.
+bool NodeContact::arrives(const World& world, const Clock& clock, Index i, const Seen& seen,
+                          Slot& slot) const {
+  const ContactFace& f = face(seen.face);
+  const Nodes& nodes = world.nodes;
+  const Real r = f.r + node(i).r;
+  const Vec moved = (nodes.v.vec(node(i).node) - velocity_of_face(world, f, seen.at.N)) * clock.dt_old;
+  const Real before = seen.d - seen.at.n.dot(moved);
+  slot = Slot();
+  slot.face = seen.face, slot.at = seen.at;
+  slot.side = f.two_sided && before < 0 ? -1 : 1;
+  slot.n = slot.side * slot.at.n;
+  slot.gap = slot.side * seen.d - r;
+  if (slot.gap >= 0) return false;
+  if (fresh_) {
+    slot.slack = -slot.gap;
+    return -slot.gap > start_rounding * size_ && -slot.gap <= (f.two_sided ? r : start_depth * f.depth);
+  }
+  const Real gap_before = slot.side * before - r;
+  if (gap_before < -arrival_tolerance * f.depth) return false;
+  const Real way = gap_before - slot.gap, left = way > 0 ? std::min(-slot.gap / way, Real(1)) : Real(0);
+  if (moved.squaredNorm() * left * left < 1e-12 * f.area) return true;
+  const Vec there = nodes.x.vec(node(i).node) - left * moved;
+  return project(corners_of(f, nodes.x), f.corners, there).over;
+}
+
+// Puts a new touch beside those there are. A neighbour of a touching face is another wall only where it rises
+// in front of it. Round an outer edge the node is behind both faces: the deeper one holds it, or the first.
+bool NodeContact::take(const World& world, Index i, const Slot& slot, Slots& slots) const {
+  const ContactFace& f = face(slot.face);
+  Slot* to = nullptr;
+  for (Slot& other : slots) {
+    if (other.face < 0) {
+      if (!to) to = &other;
+      continue;
+    }
+    const ContactFace& g = face(other.face);
+    if (f.shared(g) == 0) continue;
+    const Vec apart = shape_of(corners_of(f, world.nodes.x), f.corners).centre -
+                      shape_of(corners_of(g, world.nodes.x), g.corners).centre;
+    if (other.n.dot(apart) > rise * apart.norm()) continue;
+    if (other.n.dot(slot.n) > smooth || slot.gap >= other.gap) return false;
+    to = &other;
+    break;
+  }
+  if (!to) return false;
+  *to = slot;
+  give_stiffness(world, i, *to);
+  return true;
+}
+
+void NodeContact::find_touches(const World& world, const Clock& clock, const Block& b, Index i,
+                               Slots& slots) const {
+  std::array<Slot, most_touches> found;
+  int count = 0;
+  for (const Seen& seen : b.seen) {
+    if (!seen.at.over || is_taken(slots, seen.face)) continue;
+    Slot slot;
+    if (!arrives(world, clock, i, seen, slot)) continue;
+    // the deepest first, of nodes that start there the least deep one; of equals the first face
+    int at = count;
+    const auto before = [&](const Slot& other) {
+      return fresh_ ? slot.gap > other.gap : slot.gap < other.gap;
+    };
+    while (at > 0 && before(found[static_cast<std::size_t>(at) - 1])) --at;
+    if (at == most_touches) continue;
+    count = std::min(count + 1, most_touches);
+    for (int k = count - 1; k > at; --k)
+      found[static_cast<std::size_t>(k)] = found[static_cast<std::size_t>(k) - 1];
+    found[static_cast<std::size_t>(at)] = slot;
+  }
+  for (int k = 0; k < count; ++k) take(world, i, found[static_cast<std::size_t>(k)], slots);
+}
+
+}  // namespace courant

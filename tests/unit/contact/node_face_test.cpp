@@ -1,0 +1,183 @@
+// Where a node is over a bilinear face, and what one touch does, against brute force and hand calculation.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "contact/nodes/node_contact.hpp"
+
+using namespace courant;
+
+namespace {
+
+Vec on_quad(const FaceCorners& x, Real s, Real t) {
+  return 0.25 * ((1 - s) * (1 - t) * x[0] + (1 + s) * (1 - t) * x[1] + (1 + s) * (1 + t) * x[2] +
+                 (1 - s) * (1 + t) * x[3]);
+}
+
+FaceCorners random_quad(std::mt19937& random) {
+  std::uniform_real_distribution<Real> some(-0.25, 0.25);
+  FaceCorners x{Vec(-1, -1, 0), Vec(1, -1, 0), Vec(1, 1, 0), Vec(-1, 1, 0)};
+  for (Vec& corner : x) corner += Vec(some(random), some(random), some(random));
+  return x;
+}
+
+/// A fixed square face in z = 0, side 2, its normal along z, of a solid as deep as it is wide; a free node
+/// above it, whose own face looks down.
+struct TouchScene {
+  World world;
+  Clock clock;
+  NodeContactLaw law;
+  std::shared_ptr<NodeContact> contact;
+  Vec at{0.5, 0.2, 0.001}, v{0, 0, -1};
+  bool held = true;
+
+  void build() {
+    Nodes& nodes = world.nodes;
+    nodes.fields.resize(8);
+    const FaceCorners x{Vec(-1, -1, 0), Vec(1, -1, 0), Vec(1, 1, 0), Vec(-1, 1, 0)};
+    for (Index n = 0; n < 4; ++n) {
+      nodes.x.set(n, x[static_cast<std::size_t>(n)]);
+      nodes.m[n] = 2, nodes.held[n] = held, nodes.id[n] = n + 1;
+      // the own face of node 4: (4, 5, 6, 7) clockwise seen from above
+      nodes.x.set(4 + n, at + Vec(n == 1 || n == 2, n >= 2, 0));
+      nodes.v.set(4 + n, v);
+      nodes.m[4 + n] = 1, nodes.id[4 + n] = n + 5;
+    }
+    world.segments.fields.resize(1);
+    ContactSides sides;
+    sides.faces.push_back({.node = {0, 1, 2, 3}, .k = 100, .area = 4, .depth = 2, .passes = 1});
+    sides.own.push_back({.node = {4, 7, 6, 5}, .k = 25, .area = 0.25});
+    ContactNode node;
+    node.node = 4, node.last = 1;
+    sides.nodes = {node};
+    contact = std::make_shared<NodeContact>(law, std::move(sides), WallBodies{}, 1, world);
+  }
+  /// Moves the free nodes on for dt and finds the forces.
+  void step(Real dt) {
+    clock.dt = clock.dt_old = dt;
+    for (Index n = 4; n < 8; ++n) world.nodes.x.add(n, dt * world.nodes.v.vec(n));
+    contact->start(world, clock);
+    contact->block(world, clock, 0, 1);
+    contact->finish(world, clock);
+  }
+  Vec force_on(Index n) const {
+    Vec f = Vec::Zero();
+    contact->add_force_on(n, f);
+    return f;
+  }
+};
+
+}  // namespace
+
+TEST(NodeFace, TheFootIsTheNearestPoint) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<Real> some(-1.5, 1.5);
+  for (int k = 0; k < 200; ++k) {
+    const FaceCorners x = random_quad(random);
+    const Vec y(some(random), some(random), 0.3 * some(random));
+    const Projection p = project(x, 4, y);
+    Real least = 1e9;
+    for (int i = -200; i <= 200; ++i)
+      for (int j = -200; j <= 200; ++j)
+        least = std::min(least, (y - on_quad(x, i / 200.0, j / 200.0)).norm());
+    EXPECT_NEAR((y - p.q).norm(), least, p.inside ? 1e-3 : 0.03) << k;
+    Vec q = Vec::Zero();
+    for (std::size_t e = 0; e < 4; ++e) q += p.N[e] * x[e];
+    EXPECT_NEAR((q - p.q).norm(), 0, 1e-12);
+    EXPECT_NEAR(p.N[0] + p.N[1] + p.N[2] + p.N[3], 1, 1e-12);
+    if (p.inside) EXPECT_NEAR((y - p.q).cross(p.n).norm(), 0, 1e-9) << "along the normal";
+  }
+}
+
+TEST(NodeFace, TrianglesHaveLinearShapes) {
+  const FaceCorners x{Vec(0, 0, 0), Vec(2, 0, 0), Vec(0, 1, 0), Vec(0, 1, 0)};
+  const Projection p = project(x, 3, Vec(0.5, 0.25, 0.3));
+  EXPECT_TRUE(p.inside);
+  EXPECT_NEAR((p.q - Vec(0.5, 0.25, 0)).norm(), 0, 1e-14);
+  EXPECT_NEAR(p.N[0], 0.5, 1e-14);
+  EXPECT_NEAR(p.N[1], 0.25, 1e-14);
+  EXPECT_NEAR(p.N[2], 0.25, 1e-14);
+  EXPECT_NEAR((p.n - Vec(0, 0, 1)).norm(), 0, 1e-14);
+  EXPECT_FALSE(project(x, 3, Vec(2, 1, 0)).over);
+  EXPECT_NEAR((project(x, 3, Vec(2, 1, 0)).q - Vec(1.6, 0.2, 0)).norm(), 0, 1e-14);
+}
+
+TEST(NodeFace, ShapesChangeAsByDifferences) {
+  std::mt19937 random(5);
+  const FaceCorners x = random_quad(random);
+  const Projection p = project(x, 4, on_quad(x, 0.3, -0.6));
+  const Vec along = (x[1] - x[0] + 0.3 * (x[3] - x[0])).normalized();
+  const Vec in_plane = (along - along.dot(p.n) * p.n).normalized();
+  const auto change = shape_change(x, 4, p.N, in_plane);
+  constexpr Real step = 1e-6;
+  const Projection ahead = project(x, 4, p.q + step * in_plane);
+  Real sum = 0;
+  for (std::size_t e = 0; e < 4; ++e) {
+    EXPECT_NEAR((ahead.N[e] - p.N[e]) / step, change[e], 1e-5);
+    sum += change[e];
+  }
+  EXPECT_NEAR(sum, 0, 1e-14);
+}
+
+// k = SLSFAC min(25, 100) = 2.5; depth 0.004: on the node upwards, on the corners by their shape functions.
+TEST(NodeContactTouch, PushesTheNodeAndTheCorners) {
+  TouchScene scene;
+  scene.held = false;
+  scene.build();
+  scene.step(0);
+  EXPECT_EQ(scene.force_on(4).norm(), 0) << "in front";
+  scene.step(0.005);
+  EXPECT_NEAR((scene.force_on(4) - Vec(0, 0, 2.5 * 0.004)).norm(), 0, 1e-15);
+  const Real N[4] = {0.25 * 0.5 * 0.8, 0.25 * 1.5 * 0.8, 0.25 * 1.5 * 1.2, 0.25 * 0.5 * 1.2};
+  for (Index n = 0; n < 4; ++n)
+    EXPECT_NEAR((scene.force_on(n) + Vec(0, 0, N[n] * 2.5 * 0.004)).norm(), 0, 1e-15) << n;
+  EXPECT_NEAR(scene.contact->report().energy_stored, 0.5 * 2.5 * 0.004 * 0.004, 1e-18);
+  // omega^2 <= 2.5 max(1 * 2/1, N (2)/2), of which elements leave 1 - 0.81
+  EXPECT_NEAR(scene.contact->limit(scene.world, scene.clock).dt, 2 / std::sqrt(5 / 0.19), 1e-12);
+}
+
+// A node that starts behind the face, as that of the far side of the same body, is never in touch with it.
+TEST(NodeContactTouch, IsWithWhoCameFromInFront) {
+  TouchScene scene;
+  scene.at = Vec(0.5, 0.2, -1);
+  scene.build();
+  for (int k = 0; k < 5; ++k) scene.step(0.01);
+  EXPECT_EQ(scene.force_on(4).norm(), 0);
+}
+
+// mu = 0.5: the spring of friction grows by k slip to mu k depth, not further. Slip 0.001 a step, depth
+// 0.004.
+TEST(NodeContactTouch, FrictionIsASpringUpToItsLimit) {
+  TouchScene scene;
+  scene.law.fs = scene.law.fd = 0.5;
+  scene.build();
+  scene.step(0);
+  scene.step(0.005);
+  for (Index n = 4; n < 8; ++n) scene.world.nodes.v.set(n, Vec(0.1, 0, 0));
+  for (const Real expected : {0.001, 0.002, 0.002, 0.002}) {
+    scene.step(0.01);
+    EXPECT_NEAR((scene.force_on(4) - 2.5 * Vec(-expected, 0, 0.004)).norm(), 0, 1e-14);
+  }
+}
+
+TEST(NodeContactTouch, GivesUpWhoIsThroughAndTellsIt) {
+  TouchScene scene;
+  scene.build();
+  scene.step(0);
+  scene.step(0.002);
+  scene.step(1.99);
+  EXPECT_GT(scene.force_on(4)[2], 0);
+  scene.step(0.02);
+  EXPECT_EQ(scene.force_on(4).norm(), 0);
+  EXPECT_EQ(scene.world.counters.at("leaked_nodes"), 1);
+}
+
+// SOFT 1: at least SOFSCL m/(2 dt^2), of the lightest of node and corners (held ones do not count).
+TEST(NodeContactTouch, SoftOneFollowsTheStep) {
+  TouchScene scene;
+  scene.law.soft = 1, scene.law.dtstif = 0.01, scene.law.sofscl = 0.2;
+  scene.build();
+  scene.step(0);
+  scene.step(0.005);
+  EXPECT_NEAR(scene.force_on(4)[2], 0.2 * 0.5 * 1 / 1e-4 * 0.004, 1e-10);
+}
