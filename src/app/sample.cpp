@@ -130,6 +130,7 @@ void sample_boundary_forces(const World& world, const Clock& clock, std::vector<
 void Simulation::show_wall_forces() {
   for (const auto& contact : contacts_) contact->show_forces(world_);
   for (auto* walls : world_.passes.all<WallForceReporter>()) walls->show_forces(world_);
+  for (auto* filler : world_.passes.all<FieldFiller>()) filler->fill_fields(world_);
 }
 
 Sample Simulation::sample(const std::string& dt_controlled_by) {

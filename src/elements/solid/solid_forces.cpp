@@ -184,6 +184,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
 void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts, World& world) {
   for (const auto& group : world.groups) {
     const auto part = static_cast<std::size_t>(group->part);
+    if (group->segment) continue;  // shells
     world.passes.add(
         std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac, world));
   }
