@@ -103,12 +103,25 @@ void add_shells(const Simulation& s, std::vector<PartRow>& rows) {
     }
 }
 
+void add_speed(const World& world, const ElementGroup& group, PartRow& row) {
+  for (int c = 0; c < group.corners(); ++c)
+    for (Index e = 0; e < group.size(); ++e)
+      row.speed = std::max(row.speed, world.nodes.v.vec(group.node.data(c)[e]).norm());
+}
+
 void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
   const World& world = s.world();
   for (const auto& group : world.groups) {
     if (group->part == no_part) continue;
     PartRow& row = rows[group->part];
-    const StrengthLaw& law = *s.solids()[group->part].law;
+    const StrengthLaw& law = *s.law_of_elements(group->part);
+    if (group->segment) {  // counted with the faces
+      row.rho = law.ro, row.c = law.sound_speed();
+      if (row.mass == none) row.mass = 0;
+      for (Index e = 0; e < group->size(); ++e) row.mass += group->mass[e];
+      add_speed(world, *group, row);
+      continue;
+    }
     row = {.count = group->size(),
            .kind = "solid",
            .mass = 0,
@@ -117,9 +130,7 @@ void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
            .c = law.sound_speed()};
     for (Index e = 0; e < group->size(); ++e) row.mass += group->mass[e], row.volume += group->V0[e];
     row.spacing = std::cbrt(row.volume / row.count);
-    for (int c = 0; c < group->corners(); ++c)
-      for (Index e = 0; e < group->size(); ++e)
-        row.speed = std::max(row.speed, world.nodes.v.vec(group->node.data(c)[e]).norm());
+    add_speed(world, *group, row);
   }
 }
 

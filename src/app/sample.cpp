@@ -142,6 +142,7 @@ void add_interface(const InterfaceForce& one, std::vector<InterfaceForce>& all) 
 void Simulation::show_wall_forces() {
   for (const auto& contact : contacts_) contact->show_forces(world_);
   for (auto* walls : world_.passes.all<WallForceReporter>()) walls->show_forces(world_);
+  for (auto* filler : world_.passes.all<FieldFiller>()) filler->fill_fields(world_);
 }
 
 Sample Simulation::sample(const std::string& dt_controlled_by) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/build_nodes.hpp"
@@ -74,7 +75,9 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
   const bool model_is_whole = diagnostics.ok();
   s->build_parts(diagnostics);
   const bool bodies_move = s->bodies_ && s->bodies_->any_moves();
-  if (s->model_.sph.empty() && s->model_.solids.empty() && !bodies_move &&
+  const bool shells_deform = std::any_of(s->shells_.begin(), s->shells_.end(),
+                                         [](const ShellPart& part) { return part.law != nullptr; });
+  if (s->model_.sph.empty() && s->model_.solids.empty() && !shells_deform && !bodies_move &&
       added_nodes(s->deck_, s->model_).empty() && model_is_whole)
     diagnostics.error(
         {deck_path, 0, 0},
@@ -101,10 +104,14 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     part.rigid = rigid_material(deck_, model_, model_.part_of_id.at(part.id)).has_value();
   }
   materials_ = find_materials(deck_, model_, diagnostics);
+  const auto is_rigid = [&](Index part) { return rigid_material(deck_, model_, part).has_value(); };
+  shells_ = find_shell_parts(deck_, model_, is_rigid, diagnostics);
   const auto shell_material = [&](Index part) -> std::optional<ShellMaterial> {
-    const auto m = rigid_material(deck_, model_, part);
-    if (!m) return std::nullopt;
-    return ShellMaterial{m->ro, m->E, m->pr};
+    if (const auto m = rigid_material(deck_, model_, part)) return ShellMaterial{m->ro, m->E, m->pr};
+    const std::shared_ptr<StrengthLaw>& law = shells_[part].law;
+    if (!law) return std::nullopt;
+    const ElasticConstants of_law = elastic_constants(*law);
+    return ShellMaterial{law->ro, of_law.E, of_law.nu};
   };
   const auto sph_material = [&](Index part) { return materials_[part].for_particles(); };
   sph_ = build_particles(deck_, model_, sph_material, world_,
@@ -114,9 +121,12 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   solids_ = find_solid_parts(deck_, model_, diagnostics);
   if (diagnostics.ok()) {
     build_solids(model_, solids_, node_of, world_);
+    build_shells(model_, shells_, node_of, world_, diagnostics);
     add_solid_passes(model_, solids_, node_of, world_);
+    add_shell_passes(model_, shells_, world_);
   }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
+  start_rotations(model_, node_of, world_);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
 }
 
@@ -181,6 +191,8 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
     world_.passes.add(make_body_time_limit(bodies_, model_.endtim));
   add_contacts_of_nodes(diagnostics);
   if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
+  const bool turn = has_rotations(world_.nodes);
+  if (turn) world_.passes.add(make_clear_forces(rotations_of(world_.nodes)));
   for (Index n = 0; n < world_.nodes.size(); ++n)
     if (!world_.nodes.follow[n] && !(world_.nodes.m[n] > 0))
       return diagnostics.error(
@@ -190,6 +202,19 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
   add_loads(points_of(world_.nodes), BodyAcceleration(model_.body_loads));
   world_.passes.add(make_point_motion(points_of(world_.nodes)));
   world_.passes.add(make_kinetic_energy(points_of(world_.nodes)));
+  if (turn) add_rotations();
+}
+
+// Rotations of nodes of shells obey the same equation as places.
+void Simulation::add_rotations() {
+  const Points rotations = rotations_of(world_.nodes);
+  world_.passes.add(make_moment_assembly(world_));
+  if (const auto loads = make_nodal_loads(nodal_loads_, model_, rotations, world_)) world_.passes.add(loads);
+  for (const auto& pass :
+       {make_fixed_points(model_, rotations, world_), make_damping(damping_, rotations, world_)})
+    if (pass) world_.passes.add(pass);
+  world_.passes.add(make_point_motion(rotations));
+  world_.passes.add(make_kinetic_energy(rotations));
 }
 
 void Simulation::add_contacts_of_nodes(Diagnostics& diagnostics) {
@@ -203,8 +228,8 @@ void Simulation::add_contacts_of_nodes(Diagnostics& diagnostics) {
 
 // For contact; solids without a law have been reported.
 Real Simulation::bulk_modulus(Index part) const {
-  const auto& solids = solids_[part].law;
-  const auto& law = solids ? solids : materials_[part].strength;
+  const auto& own = law_of_elements(part);
+  const auto& law = own ? own : materials_[part].strength;
   if (law) return law->bulk_modulus();
   const auto rigid = rigid_material(deck_, model_, part);
   return rigid ? rigid->E / (3 * (1 - 2 * rigid->pr)) : 0;
@@ -290,7 +315,9 @@ Real Simulation::rest_energy() const {
   });
   for (const auto& group : world_.groups) {
     const auto part = static_cast<std::size_t>(group->part);
-    const Real c = part < solids_.size() && solids_[part].law ? solids_[part].law->sound_speed() : 0;
+    const Real c = part < solids_.size() && law_of_elements(group->part)
+                       ? law_of_elements(group->part)->sound_speed()
+                       : 0;
     e += c * c * sum(group->size(), [&](Index k) { return group->mass[k]; });
   }
   return bodies_ ? e + bodies_->rest_energy() : e;

@@ -1,7 +1,11 @@
 #include "elements/nodal_assembly.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <vector>
+
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -13,10 +17,19 @@ namespace {
 /// is a list.
 class NodalAssembly : public Force {
  public:
-  explicit NodalAssembly(const World& world) : first_(static_cast<std::size_t>(world.nodes.size()) + 1, 0) {
+  /// Elements, and what they left for their corners.
+  struct Source {
+    const ElementGroup* group;
+    const Field<Real>* field;
+  };
+  NodalAssembly(const World& world, std::string name, Field<Real>& to, std::vector<Source> from)
+      : name_(std::move(name)),
+        to_(to),
+        from_(std::move(from)),
+        first_(static_cast<std::size_t>(world.nodes.size()) + 1, 0) {
     std::vector<Corner> rest;
     std::vector<Index> rest_node;
-    for (std::size_t g = 0; g < world.groups.size(); ++g) fill_tables(*world.groups[g], g, rest, rest_node);
+    for (std::size_t g = 0; g < from_.size(); ++g) fill_tables(*from_[g].group, g, rest, rest_node);
     for (const Index n : rest_node) ++first_[static_cast<std::size_t>(n) + 1];
     for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];
     corners_.resize(rest.size());
@@ -24,22 +37,22 @@ class NodalAssembly : public Force {
     for (std::size_t k = 0; k < rest.size(); ++k)
       corners_[static_cast<std::size_t>(next[static_cast<std::size_t>(rest_node[k])]++)] = rest[k];
   }
-  std::string name() const override { return "assembly of nodal forces"; }
+  std::string name() const override { return name_; }
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
-  void declare(const World& world, Accesses& a) const override {
-    a.updates(world.nodes.f);
-    for (const auto& group : world.groups) a.reads(group->corner_force, Reach::others);
+  void declare(const World&, Accesses& a) const override {
+    a.updates(to_);
+    for (const Source& source : from_) a.reads(*source.field, Reach::others);
   }
 
-  void start(World& world, const Clock&) override {
+  void start(World&, const Clock&) override {
     forces_.clear();
-    for (const auto& group : world.groups) {
+    for (const Source& source : from_) {
       auto& of_group = forces_.emplace_back();
-      for (int k = 0; k < 3 * group->corners(); ++k) of_group.push_back(group->corner_force.data(k));
+      for (int k = 0; k < 3 * source.group->corners(); ++k) of_group.push_back(source.field->data(k));
     }
   }
-  void block(World& world, const Clock&, Index begin, Index end) override {
-    Real* const f[3] = {world.nodes.f.data(0), world.nodes.f.data(1), world.nodes.f.data(2)};
+  void block(World&, const Clock&, Index begin, Index end) override {
+    Real* const f[3] = {to_.data(0), to_.data(1), to_.data(2)};
     for (const Table& table : tables_) {
       const Index from = std::max(begin, table.begin), to = std::min(end, table.end);
       if (from >= to) continue;
@@ -99,6 +112,9 @@ class NodalAssembly : public Force {
     }
   }
 
+  std::string name_;
+  Field<Real>& to_;  ///< of nodes
+  std::vector<Source> from_;
   std::vector<Table> tables_;                     ///< in the order of groups and corners
   std::vector<Index> first_;                      ///< of each node in corners_, and the end
   std::vector<Corner> corners_;                   ///< those of a node one after the other
@@ -107,8 +123,19 @@ class NodalAssembly : public Force {
 
 }  // namespace
 
-std::shared_ptr<Force> make_nodal_assembly(const World& world) {
-  return std::make_shared<NodalAssembly>(world);
+std::shared_ptr<Force> make_nodal_assembly(World& world) {
+  std::vector<NodalAssembly::Source> from;
+  for (const auto& group : world.groups) from.push_back({group.get(), &group->corner_force});
+  return std::make_shared<NodalAssembly>(world, "assembly of nodal forces", world.nodes.f, std::move(from));
+}
+
+std::shared_ptr<Force> make_moment_assembly(World& world) {
+  std::vector<NodalAssembly::Source> from;
+  for (const auto& group : world.groups)
+    if (group->corner_moment) from.push_back({group.get(), group->corner_moment});
+  if (from.empty()) return nullptr;
+  return std::make_shared<NodalAssembly>(world, "assembly of nodal moments",
+                                         *shared_fields::moment.find(world.nodes.fields), std::move(from));
 }
 
 }  // namespace courant

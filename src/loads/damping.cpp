@@ -22,6 +22,7 @@ struct DampingCard : Entry {
   Id lcid = 0;
   Real stx = 0, sty = 0, stz = 0, srx = 0, sry = 0, srz = 0;
   Vec scale() const { return {stx, sty, stz}; }
+  Vec turn_scale() const { return {srx, sry, srz}; }
 };
 struct DampingGlobal : DampingCard {
   Real valdmp = 0;
@@ -33,8 +34,9 @@ struct DampingPartMass : DampingCard {
   int flag = 0;
 };
 
-std::string keep_scales(const Vec& scale, const Affine& motion) {
-  if (scale == Vec::Constant(scale[0]) || motion.linear() == Matrix::Identity()) return {};
+std::string keep_scales(const Vec& scale, const Vec& turn_scale, const Affine& motion) {
+  const bool even = scale == Vec::Constant(scale[0]) && turn_scale == Vec::Constant(turn_scale[0]);
+  if (even || motion.linear() == Matrix::Identity()) return {};
   return "its scales are along axes, which a transformation that turns or stretches the file would change";
 }
 
@@ -54,10 +56,12 @@ const RegisterKeyword<DG> damping_global_keyword{
                            {"STX", &DG::stx, "-", "scale of D along x; all six 0: 1"},
                            {"STY", &DG::sty, "-", "scale of D along y"},
                            {"STZ", &DG::stz, "-", "scale of D along z"},
-                           {"SRX", &DG::srx, "-", "scale on rotations, which nothing has here"},
+                           {"SRX", &DG::srx, "-", "scale on rotations of nodes of shells"},
                            {"SRY", &DG::sry, "-", "scale on rotations"},
                            {"SRZ", &DG::srz, "-", "scale on rotations"}}}},
-     .move = [](DG& card, const Affine& motion) { return keep_scales(card.scale(), motion); }}};
+     .move = [](DG& card, const Affine& motion) {
+       return keep_scales(card.scale(), card.turn_scale(), motion);
+     }}};
 
 using DP = DampingPartMass;
 const RegisterKeyword<DP> damping_part_mass_keyword{
@@ -78,32 +82,36 @@ const RegisterKeyword<DP> damping_part_mass_keyword{
                {.fields = {{"STX", &DP::stx, "-", "scale of D along x"},
                            {"STY", &DP::sty, "-", "scale of D along y"},
                            {"STZ", &DP::stz, "-", "scale of D along z"},
-                           {"SRX", &DP::srx, "-", "scale on rotations, which nothing has here"},
+                           {"SRX", &DP::srx, "-", "scale on rotations of nodes of shells"},
                            {"SRY", &DP::sry, "-", "scale on rotations"},
                            {"SRZ", &DP::srz, "-", "scale on rotations"}},
                 .when = [](const DP& card) { return card.flag == 1; }}},
-     .move = [](DP& card, const Affine& motion) { return keep_scales(card.scale(), motion); }}};
+     .move = [](DP& card, const Affine& motion) {
+       return keep_scales(card.scale(), card.turn_scale(), motion);
+     }}};
 
 class DampingReader {
  public:
   DampingReader(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
       : deck_(deck), model_(model), diagnostics_(diagnostics) {
     for (Index i = 0; i < world.nodes.size(); ++i)
-      body_moves_ = body_moves_ || (world.nodes.follow[i] && !world.nodes.held[i]);
+      if (world.nodes.follow[i] && !world.nodes.held[i]) rigid_parts_.insert(world.nodes.part[i]);
   }
 
   void add(const DampingGlobal& card) {
-    Damping d{.curve = {}, .sf = card.valdmp, .scale = card.scale(), .parts = {}};
-    if (d.scale.isZero(0) && card.srx == 0 && card.sry == 0 && card.srz == 0) d.scale = Vec::Ones();
+    Damping d{
+        .curve = {}, .sf = card.valdmp, .scale = card.scale(), .turn_scale = card.turn_scale(), .parts = {}};
+    if (d.scale.isZero(0) && d.turn_scale.isZero(0)) d.scale = d.turn_scale = Vec::Ones();
     if (card.lcid != 0) d.sf = 1;
     if (!read_curve(card, d)) return;
-    if (body_moves_)
+    if (!rigid_parts_.empty())
       return error(card, "", "damping of rigid bodies is not supported, and there is one that can move",
                    "name the other parts by *DAMPING_PART_MASS");
     damping_.push_back(std::move(d));
   }
   void add(const DampingPartMass& card) {
-    Damping d{.curve = {}, .sf = card.sf, .scale = card.flag == 1 ? card.scale() : Vec::Ones(), .parts = {}};
+    Damping d{.curve = {}, .sf = card.sf, .parts = {}};
+    if (card.flag == 1) d.scale = card.scale(), d.turn_scale = card.turn_scale();
     if (!read_curve(card, d)) return;
     if (card.of_sets()) {
       const auto set = model_.part_sets.find(card.pid);
@@ -120,7 +128,7 @@ class DampingReader {
     std::sort(d.parts.begin(), d.parts.end());
     for (const Index p : d.parts) {
       const ModelPart& part = model_.parts[static_cast<std::size_t>(p)];
-      if (part.has_shell && body_moves_)
+      if (rigid_parts_.count(p) > 0)
         return error(card, "PID", fmt::format("damping of rigid bodies is not supported: part {}", part.id),
                      "name particles and deformable parts only");
       if (!seen_.insert(p).second)
@@ -147,7 +155,9 @@ class DampingReader {
     const auto& values = d.curve.ordinate;
     const Real least = values.empty() ? 1 : *std::min_element(values.begin(), values.end());
     const Real most = values.empty() ? 1 : *std::max_element(values.begin(), values.end());
-    if (std::min(least * d.sf, most * d.sf) >= 0 && d.scale.minCoeff() >= 0) return true;
+    if (std::min(least * d.sf, most * d.sf) >= 0 &&
+        std::min(d.scale.minCoeff(), d.turn_scale.minCoeff()) >= 0)
+      return true;
     error(card, "", "the damping constant gets below 0, which would drive what it acts on",
           "give curves and scales that are not negative");
     return false;
@@ -156,7 +166,7 @@ class DampingReader {
   const Deck& deck_;
   const Model& model_;
   Diagnostics& diagnostics_;
-  bool body_moves_ = false;
+  std::set<Index> rigid_parts_;  ///< with nodes of bodies that can move
   std::set<Index> seen_;
   std::vector<Damping> damping_;
 };
@@ -170,10 +180,10 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
  public:
   MassDamping(std::vector<Damping> damping, Points points) : damping_(std::move(damping)), points_(points) {
     for (const Damping& d : damping_) by_parts_ = by_parts_ || !d.parts.empty();
-    held_axes_ = shared_fields::held_axes.find(*points_.set);
-    driven_ = shared_fields::prescribed_motion.find(*points_.set);
+    held_axes_ = points_.held().find(*points_.set);
+    driven_ = points_.driven().find(*points_.set);
   }
-  std::string name() const override { return "damping of " + points_.fields().name(); }
+  std::string name() const override { return "damping of " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override {
     a.reads(*points_.v).reads(*points_.m).revises(*points_.f);
@@ -185,7 +195,8 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
 
   void start(World&, const Clock& clock) override {
     constants_.clear();
-    for (const Damping& d : damping_) constants_.push_back(d.at(clock.t) * d.scale);
+    for (const Damping& d : damping_)
+      constants_.push_back(d.at(clock.t) * (points_.turns ? d.turn_scale : d.scale));
     half_ = 0.5 * clock.dt_old;
   }
   void block(World&, const Clock&, Index begin, Index end) override {

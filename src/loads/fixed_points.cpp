@@ -7,25 +7,32 @@ namespace courant {
 
 namespace {
 
+/// Which directions the deck holds of a node of the model.
+std::array<bool, 3> held_by_deck(const Model& model, Index node, const Points& points) {
+  if (!points.turns) return model.nodes[static_cast<std::size_t>(node)].fixed;
+  const auto held = model.held_rotations.find(node);
+  return held == model.held_rotations.end() ? std::array<bool, 3>{} : held->second;
+}
+
 /// Neither force nor velocity along the fixed directions.
 class FixedPoints : public Constraint, public BoundaryForceReporter {
  public:
   /// `node`: of each point, index into Model::nodes.
   FixedPoints(const Model& model, std::span<const Index> node, Points points)
-      : points_(points), fixed_(shared_fields::held_axes.add(*points.set)) {
+      : points_(points), fixed_(points.held().add(*points.set)) {
     for (Index i = 0; i < points.set->size(); ++i) {
       const Index n = node[static_cast<std::size_t>(i)];
       if (n < 0 || (points.follow && (*points.follow)[i])) continue;
-      const auto& fixed = model.nodes[static_cast<std::size_t>(n)].fixed;
+      const std::array<bool, 3> fixed = held_by_deck(model, n, points);
       fixed_[i] = fixed[0] + 2 * fixed[1] + 4 * fixed[2];
       for (int k = 0; k < 3; ++k)  // outside the box, too, where the pass below does not come
         if (fixed_[i] & (1 << k)) points.v->data(k)[i] = 0;
     }
-    if (model.output.spcforc.asked())
+    if (model.output.spcforc.asked() && !points.turns)
       support_ = &points.set->add<Real>(
           {.name = "support_force", .dimension = "ML/T2", .components = 3, .restart = false});
   }
-  std::string name() const override { return "fixed " + points_.fields().name() + " (SPC)"; }
+  std::string name() const override { return "fixed " + points_.name() + " (SPC)"; }
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override {
     a.reads(fixed_).revises(*points_.f).updates(*points_.v);
@@ -59,7 +66,7 @@ std::shared_ptr<Constraint> make_fixed_points(const Model& model, Points points,
   const std::vector<Index> node = model_nodes(model, world, points);
   const auto is_fixed = [&](std::size_t i) {
     if (node[i] < 0 || (points.follow && (*points.follow)[static_cast<Index>(i)])) return false;
-    const auto& fixed = model.nodes[static_cast<std::size_t>(node[i])].fixed;
+    const std::array<bool, 3> fixed = held_by_deck(model, node[i], points);
     return fixed[0] || fixed[1] || fixed[2];
   };
   for (std::size_t i = 0; i < node.size(); ++i)

@@ -51,8 +51,9 @@ struct NodalLoad {
   Real sf = 1;                  ///< SF curve(t): force on each node [ML/T2]
   std::vector<Index> nodes{};   ///< indices into Model::nodes
   Entry card{};                 ///< for messages
+  bool turns = false;           ///< a moment about `direction`, on rotations [ML2/T2]
 };
-/// Refuses by name: follower loads, moments, systems that move, nodes that are neither particles nor move by
+/// Refuses by name: follower loads, moments on nodes that do not turn, systems that move, nodes that are neither particles nor move by
 /// their forces.
 std::vector<NodalLoad> nodal_loads(const Deck& deck, const Model& model, const World& world,
                                    Diagnostics& diagnostics);
@@ -67,10 +68,10 @@ std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& mode
 
 /// *DAMPING_GLOBAL and *DAMPING_PART_MASS: what they take of the velocity.
 struct Damping {
-  Curve curve{};               ///< of time; empty: constant
-  Real sf = 0;                 ///< SF curve(t), or SF alone: the damping constant [1/T]
-  Vec scale = Vec::Ones();     ///< of the axes
-  std::vector<Index> parts{};  ///< sorted; empty: all
+  Curve curve{};  ///< of time; empty: constant
+  Real sf = 0;    ///< SF curve(t), or SF alone: the damping constant [1/T]
+  Vec scale = Vec::Ones(), turn_scale = Vec::Ones();  ///< of the axes, of rotations about them
+  std::vector<Index> parts{};                         ///< sorted; empty: all
   Real at(Real t) const { return curve.abscissa.empty() ? sf : sf * curve(t); }
 };
 /// Refuses by name: rigid bodies, parts that are named twice, constants below 0.

@@ -10,9 +10,7 @@ namespace courant {
 class MiddleVelocity {
  public:
   MiddleVelocity(const Points& points, const Clock& clock)
-      : points_(points),
-        half_(0.5 * clock.dt_mean()),
-        driven_(shared_fields::prescribed_motion.find(*points.set)) {}
+      : points_(points), half_(0.5 * clock.dt_mean()), driven_(points.driven().find(*points.set)) {}
   Vec operator()(Index i) const {
     const Vec v = points_.v->vec(i);
     if (driven_ && (*driven_)[i] != 0) return v;

@@ -11,6 +11,7 @@
 #include "loads/middle_velocity.hpp"
 #include "model/transforms/transformation.hpp"
 #include "parallel/parallel.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -45,7 +46,7 @@ KeywordOf<T> load_node_keyword(std::string name, std::string purpose, IdSpace re
                                 {"DOF",
                                  &T::dof,
                                  "-",
-                                 "direction: 1 x, 2 y, 3 z",
+                                 "direction: 1 x, 2 y, 3 z; 5, 6, 7: a moment about x, y, z",
                                  {.required = true, .check = Check::positive}},
                                 {"LCID", &T::lcid, "-", "curve of the force on each node over time",
                                  required_id_of(IdSpace::curve)},
@@ -68,7 +69,11 @@ const RegisterKeyword<LoadNodeSet> load_node_set_keyword{
 class NodalLoadReader {
  public:
   NodalLoadReader(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
+      : deck_(deck),
+        model_(model),
+        world_(world),
+        diagnostics_(diagnostics),
+        has_rotations_(shared_fields::no_rotation.find(world.nodes.fields) != nullptr) {
     for (std::size_t n = 0; n < model.nodes.size(); ++n)
       node_of_id_[model.nodes[n].id] = static_cast<Index>(n);
     is_loaded_.assign(model.nodes.size(), 0);
@@ -77,6 +82,11 @@ class NodalLoadReader {
     for (Index i = 0; i < nodes.size(); ++i)
       if (const auto n = node_of_id_.find(nodes.id[i]); n != node_of_id_.end() && !nodes.follow[i])
         is_loaded_[static_cast<std::size_t>(n->second)] = 1;
+    turns_.assign(model.nodes.size(), 0);
+    const Field<Index>* none = shared_fields::no_rotation.find(nodes.fields);
+    for (Index i = 0; none && i < nodes.size(); ++i)
+      if (const auto n = node_of_id_.find(nodes.id[i]); n != node_of_id_.end() && (*none)[i] == 0)
+        turns_[static_cast<std::size_t>(n->second)] = 1;
   }
 
   void add(const LoadNodeCard& card, const char* field, std::vector<Index> nodes) {
@@ -87,8 +97,14 @@ class NodalLoadReader {
                    "define it with *DEFINE_CURVE");
     load.curve = curve->second;
     if (!read_direction(card, load.direction)) return;
+    load.turns = card.dof > 3;
     for (const Index n : load.nodes)
-      if (!is_loaded_[static_cast<std::size_t>(n)])
+      if (load.turns && !turns_[static_cast<std::size_t>(n)])
+        return error(card, field,
+                     fmt::format("node {} does not turn: only corners of shells that deform feel moments",
+                                 model_.nodes[static_cast<std::size_t>(n)].id),
+                     "leave it out");
+      else if (!is_loaded_[static_cast<std::size_t>(n)])
         return error(card, field,
                      fmt::format("node {} is neither a particle nor a node of deformable elements, on which "
                                  "alone forces act",
@@ -118,7 +134,8 @@ class NodalLoadReader {
 
   bool read_direction(const LoadNodeCard& card, Vec& direction) {
     const int size = std::abs(card.dof);
-    if (card.dof < 1 || card.dof > 3) {
+    const bool moment = card.dof >= 5 && card.dof <= 7 && has_rotations_;
+    if ((card.dof < 1 || card.dof > 3) && !moment) {
       error(card, "DOF",
             size == 4 || size == 8
                 ? fmt::format("a load that follows its nodes (DOF {}) is not supported", card.dof)
@@ -140,8 +157,8 @@ class NodalLoadReader {
       }
       axes = system->second.axes;
     }
-    direction = axes.col(card.dof - 1);
-    if (world_.dim == 3 || direction[2] == 0) return true;
+    direction = axes.col(moment ? card.dof - 5 : card.dof - 1);
+    if (moment || world_.dim == 3 || direction[2] == 0) return true;
     error(card, "DOF", "in 2D nothing moves along z", "use DOF 1 or 2");
     return false;
   }
@@ -151,7 +168,8 @@ class NodalLoadReader {
   const World& world_;
   Diagnostics& diagnostics_;
   std::map<Id, Index> node_of_id_;
-  std::vector<char> is_loaded_;  ///< of the model's nodes
+  bool has_rotations_ = false;
+  std::vector<char> is_loaded_, turns_;  ///< of the model's nodes
   std::vector<NodalLoad> loads_;
 };
 
@@ -162,7 +180,7 @@ class NodalForces : public Force, public EnergyTerm {
  public:
   NodalForces(std::vector<NodalLoad> loads, std::vector<Loads> groups, Points points, Field<Index>& group)
       : loads_(std::move(loads)), groups_(std::move(groups)), points_(points), group_(group) {}
-  std::string name() const override { return "forces on " + points_.fields().name(); }
+  std::string name() const override { return "forces on " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override { a.updates(*points_.f).reads(group_); }
 
@@ -212,7 +230,8 @@ std::shared_ptr<Force> make_nodal_loads(const std::vector<NodalLoad>& loads, con
   if (loads.empty()) return nullptr;
   std::vector<Loads> loads_of(model.nodes.size());
   for (std::size_t k = 0; k < loads.size(); ++k)
-    for (const Index n : loads[k].nodes) loads_of[static_cast<std::size_t>(n)].push_back(k);
+    if (loads[k].turns == points.turns)
+      for (const Index n : loads[k].nodes) loads_of[static_cast<std::size_t>(n)].push_back(k);
   const std::vector<Index> node = model_nodes(model, world, points);
   std::vector<Index> group_of(node.size(), 0);
   std::map<Loads, Index> known{{Loads(), 0}};
@@ -225,7 +244,8 @@ std::shared_ptr<Force> make_nodal_loads(const std::vector<NodalLoad>& loads, con
     group_of[i] = it->second;
   }
   if (groups.size() == 1) return nullptr;
-  auto& group = points.set->add<Index>({.name = "nodal_loads", .dimension = "-"});
+  auto& group =
+      points.set->add<Index>({.name = points.turns ? "nodal_moments" : "nodal_loads", .dimension = "-"});
   for (std::size_t i = 0; i < node.size(); ++i) group[static_cast<Index>(i)] = group_of[i];
   return std::make_shared<NodalForces>(loads, std::move(groups), points, group);
 }

@@ -31,7 +31,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
         groups_(std::move(groups)),
         group_(group),
         work_(work) {}
-  std::string name() const override { return "prescribed " + points_.fields().name(); }
+  std::string name() const override { return "prescribed " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override {
     a.updates(*points_.v).updates(*points_.f).reads(group_);
@@ -135,7 +135,9 @@ class PrescribedBuilder {
   PrescribedBuilder(const Deck& deck, const Model& model, const MotionLimits& limits, World& world,
                     Diagnostics& diagnostics)
       : deck_(deck), model_(model), limits_(limits), diagnostics_(diagnostics) {
-    for (const Points& points : {points_of(world.particles), points_of(world.nodes)}) {
+    std::vector<Points> all{points_of(world.particles), points_of(world.nodes)};
+    if (has_rotations(world.nodes)) all.push_back(rotations_of(world.nodes));
+    for (const Points& points : all) {
       Driven set{points, std::vector<Index>(model.nodes.size(), -1), {}, false};
       const std::vector<Index> node = model_nodes(model, world, points);
       for (std::size_t i = 0; i < node.size(); ++i) {
@@ -149,7 +151,7 @@ class PrescribedBuilder {
   }
 
   void add(const PrescribedMotion& motion) {
-    if (limits_.dim == 2 && motion.direction[2] != 0)
+    if (limits_.dim == 2 && !motion.turns && motion.direction[2] != 0)
       return error(motion, "in 2D particles stay in their plane, so nothing moves along z", "use DOF 1 or 2");
     motions_.push_back(motion);
     for (const Index n : motion.nodes)
@@ -173,7 +175,7 @@ class PrescribedBuilder {
   }
 
   std::shared_ptr<PrescribedPoints> pass_of(const Driven& set) const {
-    auto& group = shared_fields::prescribed_motion.add(*set.points.set);
+    auto& group = set.points.driven().add(*set.points.set);
     std::map<Group, Index> known{{Group(), 0}};
     std::vector<Group> groups{Group()};
     for (std::size_t i = 0; i < set.groups_of.size(); ++i) {
@@ -182,7 +184,7 @@ class PrescribedBuilder {
       group[static_cast<Index>(i)] = it->second;
     }
     Field<Real>* work = nullptr;
-    if (model_.output.bndout.asked())
+    if (model_.output.bndout.asked() && !set.points.turns)
       work = &set.points.set->add<Real>({.name = "drive_work", .dimension = "ML2/T2"});
     return std::make_shared<PrescribedPoints>(motions_, std::move(groups), set.points, group, work);
   }
@@ -190,8 +192,13 @@ class PrescribedBuilder {
   bool add(const PrescribedMotion& motion, Index n) {
     const ModelNode& node = model_.nodes[static_cast<std::size_t>(n)];
     const auto set = std::find_if(sets_.begin(), sets_.end(), [&](const Driven& s) {
-      return s.point_of_node[static_cast<std::size_t>(n)] >= 0;
+      return s.points.turns == motion.turns && s.point_of_node[static_cast<std::size_t>(n)] >= 0;
     });
+    if (set == sets_.end() && motion.turns) {
+      error(motion, fmt::format("node {} does not turn: only corners of shells that deform do", node.id),
+            "use DOF 1 to 4");
+      return false;
+    }
     if (set == sets_.end()) {
       error(motion,
             fmt::format("node {} is neither a particle nor a node of deformable elements, which alone can be "
@@ -203,9 +210,15 @@ class PrescribedBuilder {
     const bool particle = set == sets_.begin();
     if (particle && !allowed_for_particles(motion)) return false;
     const char* const what = particle ? "particle" : "node";
+    const auto turns_held = model_.held_rotations.find(n);
+    const std::array<bool, 3> fixed = !motion.turns                               ? node.fixed
+                                      : turns_held == model_.held_rotations.end() ? std::array<bool, 3>{}
+                                                                                  : turns_held->second;
     for (int k = 0; k < 3; ++k)
-      if (node.fixed[static_cast<std::size_t>(k)] && motion.direction[k] != 0) {
-        error(motion, fmt::format("{} {} is held in {} by *BOUNDARY_SPC or TC", what, node.id, "xyz"[k]),
+      if (fixed[static_cast<std::size_t>(k)] && motion.direction[k] != 0) {
+        error(motion,
+              fmt::format("{} {} is held {} {} by *BOUNDARY_SPC or {}", what, node.id,
+                          motion.turns ? "about" : "in", "xyz"[k], motion.turns ? "RC" : "TC"),
               "leave out one of the two");
         return false;
       }

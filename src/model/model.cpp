@@ -44,6 +44,9 @@ void Model::release_mesh() {
   std::vector<ModelSph>().swap(sph);
   std::vector<ModelSolid>().swap(solids);
   std::vector<ModelSegment>().swap(segments);
+  shell_thickness.clear();
+  held_rotations.clear();
+  angular_velocity.clear();
   node_sets.clear();
   shell_sets.clear();
   solid_sets.clear();

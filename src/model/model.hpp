@@ -180,7 +180,11 @@ struct Model {
   std::vector<ModelSph> sph;
   std::vector<ModelShell> shells;
   std::vector<ModelSolid> solids;
-  std::vector<ModelSegment> segments;  ///< those of all segment sets
+  std::unordered_map<Index, std::array<Real, 4>> shell_thickness;  ///< of shells with one of their own [L]
+  /// Of nodes, where the deck has shells: rotations that BOUNDARY_SPC or RC hold, initial angular velocity.
+  std::unordered_map<Index, std::array<bool, 3>> held_rotations;
+  std::unordered_map<Index, Vec> angular_velocity;  ///< [1/T]
+  std::vector<ModelSegment> segments;               ///< those of all segment sets
   std::unordered_map<Id, Index> part_of_id;
   std::map<Id, std::vector<Index>> node_sets;     ///< indices into nodes
   std::map<Id, std::vector<Index>> part_sets;     ///< indices into parts

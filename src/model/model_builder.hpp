@@ -71,7 +71,9 @@ class ModelBuilder {
   void build_gravity_of_parts();
   std::vector<Index> loaded_parts();
   void build_constraints();
-  std::array<bool, 3> held_directions(const BoundarySpcCard& card);
+  std::array<bool, 3> held_directions(const BoundarySpcCard& card, const std::array<bool, 3>& held,
+                                      const char* what);
+  void hold_rotations(Index n, const std::array<bool, 3>& held);
   Matrix axes_of(const Entry& card, Id icid);
   void build_velocities();
   void set_velocity(const InitialVelocityCard& card);

@@ -50,6 +50,12 @@ void keep_sections(const std::string& name, std::vector<VtkSection>& sections, A
   }
 }
 
+/// Groups of shells are shown with the faces.
+bool has_solids(const World& world) {
+  return std::any_of(world.groups.begin(), world.groups.end(),
+                     [](const auto& group) { return group->segment == nullptr; });
+}
+
 }  // namespace
 
 FieldWriter::FieldWriter(std::filesystem::path dir, FieldWriterOptions options)
@@ -66,7 +72,7 @@ FieldState FieldWriter::take(const World& world, Real t, int number) const {
   if (world.particles.size() > 0)
     state.particles = particle_data(world.particles, all_of(world.particles.size()), t, options_);
   if (world.segments.size() > 0) state.shells = shell_data(world, options_);
-  if (!world.groups.empty()) state.solids = solid_data(world, options_);
+  if (has_solids(world)) state.solids = solid_data(world, options_);
   for (auto* data : {&state.particles, &state.shells, &state.solids})
     if (*data) (*data)->t = t;
   return state;
@@ -125,7 +131,7 @@ void FieldWriter::write_failed(const World& world, Real t) {
   if (!which.empty()) put_failed("failed.vtp", particle_encoder_, particle_data(p, std::move(which), t, all));
   for (Index k = 0; k < world.nodes.size(); ++k)
     if (!has_place(world.nodes.x.vec(k))) return;
-  if (!world.groups.empty()) put_failed("failed_solids.vtu", solid_encoder_, solid_data(world, all));
+  if (has_solids(world)) put_failed("failed_solids.vtu", solid_encoder_, solid_data(world, all));
   if (world.segments.size() > 0) put_failed("failed_shells.vtu", shell_encoder_, shell_data(world, all));
 }
 

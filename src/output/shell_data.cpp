@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "output/field_data.hpp"
 #include "output/vtk_arrays.hpp"
@@ -39,6 +41,36 @@ void add_fields(const FieldSet& fields, const std::vector<Index>& which, const F
       to.push_back(copy_of(*field, which, options.float64, options.eps));
 }
 
+/// The fields flagged `output` of shells that deform, each 0 on other faces.
+void add_element_fields(const World& world, const std::vector<Index>& which,
+                        const FieldWriterOptions& options, std::vector<VtkArray>& to) {
+  std::vector<Index> place(static_cast<std::size_t>(world.segments.size()), -1);
+  for (std::size_t k = 0; k < which.size(); ++k)
+    place[static_cast<std::size_t>(which[k])] = static_cast<Index>(k);
+  std::map<std::string, std::size_t> known;  // place in `to`
+  for (const auto& group : world.groups) {
+    if (!group->segment) continue;
+    for (const auto& field : group->fields.all()) {
+      const FieldInfo& info = field->info();
+      if (!info.output || field.get() == &group->id) continue;
+      const VtkArray one = copy_of(*field, all_of(group->size()), options.float64, 0);
+      const std::size_t width = one.bytes.size() / static_cast<std::size_t>(group->size());
+      const auto [at, is_new] = known.try_emplace(info.name, to.size());
+      if (is_new) {
+        to.push_back(one);
+        to.back().bytes.assign(width * which.size(), {});
+      }
+      auto& bytes = to[at->second].bytes;
+      if (bytes.size() != width * which.size()) continue;
+      for (Index e = 0; e < group->size(); ++e)
+        if (const Index k = place[static_cast<std::size_t>((*group->segment)[e])]; k >= 0)
+          std::copy_n(one.bytes.begin() + static_cast<std::ptrdiff_t>(width * static_cast<std::size_t>(e)),
+                      width,
+                      bytes.begin() + static_cast<std::ptrdiff_t>(width * static_cast<std::size_t>(k)));
+    }
+  }
+}
+
 }  // namespace
 
 // Shells are seldom far smaller than their distance from the origin; where a particle's places need float64,
@@ -64,6 +96,7 @@ VtkDataSet shell_data(const World& world, const FieldWriterOptions& options) {
   std::vector<VtkArray> of_nodes, of_segments;
   add_fields(world.nodes.fields, nodes, options, of_nodes);
   add_fields(world.segments.fields, segments, options, of_segments);
+  add_element_fields(world, segments, options, of_segments);
   of_segments.push_back(make_array<Id, 1>("part", "", segments.size(), [&](std::size_t i, Id* to) {
     *to = options.part_ids.at(static_cast<std::size_t>(world.segments.part[segments[i]]));
   }));

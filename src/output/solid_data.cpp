@@ -16,7 +16,8 @@ using Groups = std::vector<const ElementGroup*>;
 Groups groups_shown(const World& world, const FieldWriterOptions& options) {
   Groups out;
   for (const auto& group : world.groups)
-    if (!std::binary_search(options.left_out.begin(), options.left_out.end(), group->part))
+    if (!group->segment &&  // shells stand with the faces
+        !std::binary_search(options.left_out.begin(), options.left_out.end(), group->part))
       out.push_back(group.get());
   return out;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "parallel/parallel.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 namespace {
@@ -72,6 +73,7 @@ RigidBodies::RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodi
 
 void RigidBodies::apply(World& world, const Clock& clock) {
   const BodyAcceleration::At now = loads_.at(clock.t);
+  const Field<Real>* moment = shared_fields::moment.find(world.nodes.fields);  // of shells that deform
   for_each_piece(bodies_, pieces_, [&](const RigidBody& b, Piece& piece) {
     piece.force.setZero(), piece.moment.setZero();
     for (Index k = piece.begin; k < piece.end; ++k) {
@@ -81,6 +83,7 @@ void RigidBodies::apply(World& world, const Clock& clock) {
         f += world.nodes.m[n] * (now(world.nodes.x.vec(n), b.part_index) - now.everywhere());
       piece.force += f;
       piece.moment += (world.nodes.x.vec(n) - b.x).cross(f);
+      if (moment) piece.moment += moment->vec(n);
     }
   });
   for (RigidBody& b : bodies_) {
@@ -123,6 +126,7 @@ void RigidBodies::drift(World& world, const Clock& clock) {
     b.x += b.v * clock.dt;
     b.q = turned(clock.dt * b.omega, b.q);
   }
+  Field<Real>* turning = shared_fields::angular_velocity.find(world.nodes.fields);
   for_each_piece(bodies_, pieces_, [&](const RigidBody& b, const Piece& piece) {
     const Matrix R = b.q.toRotationMatrix();
     for (Index k = piece.begin; k < piece.end; ++k) {
@@ -131,6 +135,7 @@ void RigidBodies::drift(World& world, const Clock& clock) {
       // The chord of the step: contact finds where the node was from x - v dt.
       if (clock.dt > 0) world.nodes.v.set(n, (now - old) / clock.dt);
       world.nodes.x.set(n, now);
+      if (turning) turning->set(n, b.omega);
     }
   });
 }
@@ -145,6 +150,7 @@ class BodyForces : public Constraint {
   void declare(const World& world, Accesses& a) const override {
     a.in_finish().reads(world.nodes.f).reads(world.nodes.x);
     if (!bodies_->loads_are_uniform()) a.reads(world.nodes.m);
+    if (const auto* moment = shared_fields::moment.find(world.nodes.fields)) a.reads(*moment);
   }
   void block(World&, const Clock&, Index, Index) override {}
   void finish(World& world, const Clock& clock) override { bodies_->apply(world, clock); }
@@ -160,6 +166,7 @@ class BodyMotion : public Motion {
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.in_finish().updates(world.nodes.x).updates(world.nodes.v);
+    if (const auto* turning = shared_fields::angular_velocity.find(world.nodes.fields)) a.updates(*turning);
   }
   void block(World&, const Clock&, Index, Index) override {}
   void finish(World& world, const Clock& clock) override {

@@ -10,14 +10,14 @@
 namespace courant {
 namespace {
 
-struct ShellPart {
+struct WallPart {
   bool usable = false;
   ShellMaterial material;
   Real thickness = 0;  ///< [L]
   Real marea = 0;      ///< [M/L2]
 };
 
-std::vector<ShellPart> read_parts(const Deck& deck, const Model& model,
+std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
                                   const std::function<std::optional<ShellMaterial>(Index)>& material,
                                   Diagnostics& diagnostics) {
   std::map<Id, const SectionShell*> sections;
@@ -26,15 +26,15 @@ std::vector<ShellPart> read_parts(const Deck& deck, const Model& model,
     if (s.user_defined())
       deck.error(diagnostics, s, "ELFORM",
                  fmt::format("user-defined shells ({}) are not supported", s.elform),
-                 "use 2 (Belytschko-Tsay) or 16; rigid shells make no difference between them");
+                 "use 2 (Belytschko-Tsay)");
     if (s.icomp != 0)
       deck.error(diagnostics, s, "ICOMP", fmt::format("layered composites ({}) are not supported", s.icomp),
                  "leave the field blank or 0");
     if (s.elform >= 13 && s.elform <= 15)
       deck.error(diagnostics, s, "ELFORM", fmt::format("{} is a 2D solid, not a shell", s.elform),
-                 "use 2 (Belytschko-Tsay) or 16; rigid shells make no difference between them");
+                 "use 2 (Belytschko-Tsay)");
   }
-  std::vector<ShellPart> out(model.parts.size());
+  std::vector<WallPart> out(model.parts.size());
   std::set<const SectionShell*> told;  // several parts may name one
   for (Index k = 0; k < Index(model.parts.size()); ++k) {
     const ModelPart& part = model.parts[k];
@@ -47,10 +47,11 @@ std::vector<ShellPart> read_parts(const Deck& deck, const Model& model,
                  "add the section, or correct the id here");
     const auto m = material(k);
     if (!m)
-      deck.error(diagnostics, part.card, "MID",
-                 fmt::format("the shells of part {} need a *MAT_RIGID with id {}; {}", part.id, part.mid,
-                             deck.found_instead(IdSpace::material, part.mid)),
-                 "shells are rigid walls here; deformable ones are not supported");
+      deck.error(
+          diagnostics, part.card, "MID",
+          fmt::format("the shells of part {} need a *MAT_RIGID, or a material with strength, with id {}; {}",
+                      part.id, part.mid, deck.found_instead(IdSpace::material, part.mid)),
+          "*MAT_RIGID makes them rigid walls; with a material as *MAT_ELASTIC they deform");
     if (!m || section == sections.end()) continue;
     const SectionShell& s = *section->second;
     if (!(s.t1 > 0) && told.insert(&s).second)
@@ -62,18 +63,29 @@ std::vector<ShellPart> read_parts(const Deck& deck, const Model& model,
   return out;
 }
 
+/// Mean of the corners' own thicknesses where a shell has some, else that of the section.
+Real thickness_of(const Model& model, Index shell, Real of_section) {
+  const auto own = model.shell_thickness.find(shell);
+  if (own == model.shell_thickness.end()) return of_section;
+  const auto& node = model.shells[shell].node;
+  const int corners = node[2] == node[3] ? 3 : 4;
+  Real sum = 0;
+  for (int c = 0; c < corners; ++c) sum += own->second[c] > 0 ? own->second[c] : of_section;
+  return sum / corners;
+}
+
 }  // namespace
 
 void build_segments(const Deck& deck, const Model& model,
                     const std::function<std::optional<ShellMaterial>(Index part)>& material,
                     const std::vector<Index>& node_of, World& world, Diagnostics& diagnostics) {
-  const std::vector<ShellPart> parts = read_parts(deck, model, material, diagnostics);
+  const std::vector<WallPart> parts = read_parts(deck, model, material, diagnostics);
   Nodes& nodes = world.nodes;
   Segments& g = world.segments;
   g.fields.resize(Index(model.shells.size()));
   for (Index s = 0; s < g.size(); ++s) {
     const ModelShell& shell = model.shells[s];
-    const ShellPart& part = parts[shell.part];
+    const WallPart& part = parts[shell.part];
     std::array<Index, 4> a;
     for (int e = 0; e < 4; ++e) a[e] = node_of[shell.node[e]];
     g.node0[s] = a[0], g.node1[s] = a[1], g.node2[s] = a[2], g.node3[s] = a[3];
@@ -87,10 +99,10 @@ void build_segments(const Deck& deck, const Model& model,
           fmt::format("*ELEMENT_SHELL {} of part {} has no area", shell.id, model.parts[shell.part].id),
           "its nodes coincide or lie on a line");
     if (!part.usable) continue;
-    g.thickness[s] = part.thickness;
+    g.thickness[s] = thickness_of(model, s, part.thickness);
     g.K[s] = part.material.E / (3 * (1 - 2 * part.material.pr));
     const int corners = a[2] == a[3] ? 3 : 4;
-    const Real m = (part.material.ro * part.thickness + part.marea) * area / corners;
+    const Real m = (part.material.ro * g.thickness[s] + part.marea) * area / corners;
     for (int e = 0; e < corners; ++e) nodes.m[a[e]] += m;
   }
 }

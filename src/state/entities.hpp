@@ -110,7 +110,9 @@ struct ElementGroup {
   Field<Real>& V0;            ///< volume at the start [L3]
   Field<Real>& mass;          ///< for the corners by `share` [M]
   Field<Id>& id;
-  Index part;  ///< index into the model's parts
+  Index part;                            ///< index into the model's parts
+  Field<Real>* corner_moment = nullptr;  ///< on rotations of the corners, as corner_force; null: solids
+  Field<Index>* segment = nullptr;       ///< shells: index into World::segments of each; null: solids
   int corners() const { return node.info().components; }
   Index size() const { return fields.size(); }
   /// Of the mass of an element, what a corner gets: the same for all nodes, however many corners they are.

@@ -2,6 +2,7 @@
 // What moves by v += a dt, x += v dt: particles, nodes, and whatever else has these fields. Loads,
 // constraints and motion are written once, for points.
 #include "state/entities.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -13,7 +14,16 @@ struct Points {
   const Field<Index>* part;    ///< index into the model's parts; null: they belong to none
   const Field<Index>* follow;  ///< != 0 where something else moves the point (a rigid body); null: nowhere
 
+  bool turns = false;  ///< these are rotations of the points: angles, angular velocities, moments
+
   const FieldSet& fields() const { return *set; }
+  std::string name() const { return (turns ? "rotations of " : "") + set->name(); }
+  const SharedField<Index>& held() const {
+    return turns ? shared_fields::held_rotations : shared_fields::held_axes;
+  }
+  const SharedField<Index>& driven() const {
+    return turns ? shared_fields::prescribed_rotation : shared_fields::prescribed_motion;
+  }
 };
 
 inline Points points_of(Particles& p) {
@@ -21,6 +31,25 @@ inline Points points_of(Particles& p) {
 }
 inline Points points_of(Nodes& n) {
   return {&n.fields, &n.x, &n.v, &n.f, &n.m, &n.id, &n.part, &n.follow};
+}
+
+/// Whether a scene has rotations of nodes: shells that deform register them.
+inline bool has_rotations(const Nodes& n) {
+  return shared_fields::rotary_inertia.find(n.fields) != nullptr;
+}
+/// They obey the same equation: moments are their forces, rotary inertia their mass. Only where a scene has
+/// them.
+inline Points rotations_of(Nodes& n) {
+  using namespace shared_fields;
+  return {&n.fields,
+          rotation.find(n.fields),
+          angular_velocity.find(n.fields),
+          moment.find(n.fields),
+          rotary_inertia.find(n.fields),
+          &n.id,
+          &n.part,
+          no_rotation.find(n.fields),
+          true};
 }
 
 }  // namespace courant

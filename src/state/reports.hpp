@@ -56,6 +56,12 @@ struct InterfaceReporter {
   virtual InterfaceForce report() const = 0;
 };
 
+/// A pass with fields that are only written: filled when somebody is about to.
+struct FieldFiller {
+  virtual ~FieldFiller() = default;
+  virtual void fill_fields(World& world) = 0;
+};
+
 /// A rigid wall (*RIGIDWALL) at t^n.
 struct RigidWallForce {
   Id id = 0;

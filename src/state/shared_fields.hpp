@@ -38,6 +38,20 @@ inline const SharedField<Real> reference_volume{{.name = "reference_volume", .di
 /// keep that of when they were active.
 inline const SharedField<Real> stress{
     {.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = true}};
+/// Nodes of shells that deform turn, too: angles about the axes so far, angular velocity, moment, and the
+/// inertia against that, the same about all axes. Nodes of no such shell have none of it.
+inline const SharedField<Real> rotation{
+    {.name = "rotation", .dimension = "-", .components = 3, .output = true}};
+inline const SharedField<Real> angular_velocity{
+    {.name = "angular_velocity", .dimension = "1/T", .components = 3, .output = true}};
+inline const SharedField<Real> moment{
+    {.name = "moment", .dimension = "ML2/T2", .components = 3, .restart = false}};
+inline const SharedField<Real> rotary_inertia{{.name = "rotary_inertia", .dimension = "ML2"}};
+/// Nodes: 1 where moments do not turn it: a rigid body does, or it belongs to no shell that deforms.
+inline const SharedField<Index> no_rotation{{.name = "no_rotation", .dimension = "-"}};
+/// As held_axes and prescribed_motion, of rotations.
+inline const SharedField<Index> held_rotations{{.name = "held_rotations", .dimension = "-"}};
+inline const SharedField<Index> prescribed_rotation{{.name = "prescribed_rotation", .dimension = "-"}};
 
 }  // namespace shared_fields
 

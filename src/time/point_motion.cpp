@@ -25,7 +25,7 @@ class ClearForces : public Rate {
 class PointMotion : public Motion {
  public:
   explicit PointMotion(Points points) : points_(points) {}
-  std::string name() const override { return "motion of " + points_.fields().name(); }
+  std::string name() const override { return "motion of " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override {
     a.reads(*points_.f).reads(*points_.m).updates(*points_.v).updates(*points_.x);
@@ -57,7 +57,7 @@ class PointMotion : public Motion {
 class KineticEnergy : public EnergyTerm {
  public:
   explicit KineticEnergy(Points points) : points_(points) {}
-  std::string name() const override { return "kinetic energy of " + points_.fields().name(); }
+  std::string name() const override { return "kinetic energy of " + points_.name(); }
   void record(World&, const Clock&, EnergyLedger&) override {}
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override {
     const Real half = 0.5 * clock.dt_old;

@@ -22,7 +22,7 @@ MAY_INCLUDE = {
     "sph": ["loads", "search", "state", "keyword", "model", "laws", "surfaces"],
     "rigid": ["loads", "search", "state", "keyword", "model", "surfaces"],
     "shell": ["search", "state", "keyword", "model"],
-    "elements": ["loads", "search", "state", "keyword", "model", "laws", "extension"],
+    "elements": ["loads", "search", "state", "keyword", "model", "laws", "extension", "shell"],
     "contact": ["loads", "search", "state", "keyword", "model", "surfaces"],
     "output": ["state"],
     "time": ["state", "search", "output"],

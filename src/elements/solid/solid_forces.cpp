@@ -240,6 +240,7 @@ void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts,
     if (node_of[k] >= 0) held[static_cast<std::size_t>(node_of[k])] = model.nodes[k].fixed;
   for (const auto& group : world.groups) {
     const auto part = static_cast<std::size_t>(group->part);
+    if (group->segment) continue;  // shells
     world.passes.add(
         std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac, held, world));
   }

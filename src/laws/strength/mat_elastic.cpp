@@ -33,13 +33,37 @@ class Elastic : public StrengthLaw {
       Real* __restrict s = block.stress[k];
       for (Index i = 0; i < block.count; ++i) s[i] += twice * d[i];
     }
+    give_sound_speed(block);
+  }
+
+  /// D zz = -lambda/(lambda + 2 G) (D xx + D yy).
+  void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
+    const Real thinning = -lambda_ / (lambda_ + 2 * shear_), twice = 2 * shear_ * block.dt;
+    const Real volumetric = lambda_ * (1 + thinning) * block.dt;
+    const Real *dxx = block.rate[0], *dyy = block.rate[1];
+    Real* __restrict xx = block.stress[0], * __restrict yy = block.stress[1], * __restrict zz = rate_zz;
+    for (Index i = 0; i < block.count; ++i) {
+      const Real trace = dxx[i] + dyy[i];
+      xx[i] += volumetric * trace + twice * dxx[i];
+      yy[i] += volumetric * trace + twice * dyy[i];
+      zz[i] = thinning * trace;
+    }
+    for (int k = 3; k < 6; ++k) {
+      const Real* d = block.rate[k];
+      Real* __restrict s = block.stress[k];
+      for (Index i = 0; i < block.count; ++i) s[i] += twice * d[i];
+    }
+    give_sound_speed(block);
+  }
+
+ private:
+  void give_sound_speed(const PointBlock& block) const {
     const Real c0 = sound_speed();
     Real* __restrict c = block.sound_speed;
     const Real* mu = block.compression;
     for (Index i = 0; i < block.count; ++i) c[i] = mu ? c0 / std::sqrt(1 + mu[i]) : c0;
   }
 
- private:
   Real lambda_, shear_;
 };
 

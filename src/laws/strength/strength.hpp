@@ -30,6 +30,10 @@ class StrengthLaw {
   virtual ~StrengthLaw() = default;
   /// Advances a block by its dt; with dt = 0 it gives the sound speed only.
   virtual void update(const PointBlock& block) const = 0;
+  /// The same in plane stress, zz = 0 before and after: rates zz of the block are not looked at, the one that
+  /// keeps the stress 0 is left in `rate_zz`, one for each point [1/T]. Unless a law knows better, it is
+  /// found by trial steps of `update` (plane_stress.cpp). Only of laws that give all of the stress.
+  virtual void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const;
   virtual std::vector<HistoryVariable> history() const { return {}; }
   /// The law gives the deviator only: pressure comes from an equation of state that the part must have.
   virtual bool deviator_only() const { return false; }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/model_builder.hpp"
+#include "model/transforms/transformation.hpp"
 
 namespace courant {
 
@@ -123,24 +124,45 @@ void ModelBuilder::build_gravity_of_parts() {
 }
 
 void ModelBuilder::build_constraints() {
-  const auto hold = [&](Index n, const std::array<bool, 3>& held) {
+  struct Held {
+    std::array<bool, 3> axes, turns;
+  };
+  const auto held_by = [&](const BoundarySpcCard& card) {
+    const std::array<bool, 3> none{}, turns = {card.dofrx == 1, card.dofry == 1, card.dofrz == 1};
+    const int before = errors_;
+    Held out{held_directions(card, {card.dofx == 1, card.dofy == 1, card.dofz == 1}, "translations"), none};
+    if (!model_.shells.empty() && turns != none && errors_ == before)
+      out.turns = held_directions(card, turns, "rotations");
+    return out;
+  };
+  const auto hold = [&](Index n, const Held& held) {
     auto& fixed = model_.nodes[static_cast<std::size_t>(n)].fixed;
-    for (std::size_t k = 0; k < 3; ++k) fixed[k] = fixed[k] || held[k];
+    for (std::size_t k = 0; k < 3; ++k) fixed[k] = fixed[k] || held.axes[k];
+    if (held.turns != std::array<bool, 3>{}) hold_rotations(n, held.turns);
   };
   for (const auto& card : deck_.all<BoundarySpcNodeCard>())
-    if (const Index n = node(card, "NID", card.nid); n >= 0) hold(n, held_directions(card));
+    if (const Index n = node(card, "NID", card.nid); n >= 0) hold(n, held_by(card));
   for (const auto& card : deck_.all<BoundarySpcSetCard>()) {
     const std::vector<Index>* members = node_set(card, "NSID", card.nid);
-    const std::array<bool, 3> held = held_directions(card);
+    const Held held = held_by(card);
     if (!members) continue;
     for (const Index n : *members) hold(n, held);
   }
+  if (model_.shells.empty()) return;
+  for (const NodeCard& card : deck_.all<NodeCard>())  // the first of each id is the node
+    if (const Index n = card.rc == 0 ? -1 : node_of_id_.find(card.nid); n >= 0)
+      hold_rotations(n, axes_of_code(card.rc));
+}
+
+void ModelBuilder::hold_rotations(Index n, const std::array<bool, 3>& held) {
+  auto& turns = model_.held_rotations[n];
+  for (std::size_t k = 0; k < 3; ++k) turns[k] = turns[k] || held[k];
 }
 
 /// The global directions that a card holds. In a system of its own that works as long as each held axis is
 /// along a global one, or all are held.
-std::array<bool, 3> ModelBuilder::held_directions(const BoundarySpcCard& card) {
-  const std::array<bool, 3> held = {card.dofx == 1, card.dofy == 1, card.dofz == 1};
+std::array<bool, 3> ModelBuilder::held_directions(const BoundarySpcCard& card,
+                                                  const std::array<bool, 3>& held, const char* what) {
   if (card.cid == 0 || held == std::array{true, true, true}) return held;
   std::array<bool, 3> out = {false, false, false};
   const CoordinateSystem* system = coordinate_system(card, "CID", card.cid);
@@ -154,7 +176,7 @@ std::array<bool, 3> ModelBuilder::held_directions(const BoundarySpcCard& card) {
       error(card, "CID",
             fmt::format("a constraint along the axes of system {} is not supported, as {}", card.cid,
                         system->moves ? "it turns with nodes" : "they are not along the global axes"),
-            "hold all three translations, or use a system along the global axes");
+            fmt::format("hold all three {}, or use a system along the global axes", what));
       return out;
     }
     out[static_cast<std::size_t>(nearest)] = true;
@@ -212,6 +234,7 @@ void ModelBuilder::set_velocity(const InitialVelocityGenerationCard& card) {
   for (const Index n : nodes_of(card)) {
     ModelNode& target = model_.nodes[static_cast<std::size_t>(n)];
     target.v = v + omega.cross(target.x - centre);
+    if (card.omega != 0 && !model_.shells.empty()) model_.angular_velocity[n] = omega;
   }
 }
 

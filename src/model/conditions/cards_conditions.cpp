@@ -129,21 +129,22 @@ std::string move_constraint(BoundarySpcCard& card, const Affine& motion) {
 template <class T>
 KeywordOf<T> boundary_spc(std::string name, std::string purpose, const char* field, const char* meaning,
                           IdSpace refers) {
-  return {.names = {std::move(name)},
-          .purpose = std::move(purpose),
-          .id_space = IdSpace::boundary,
-          .id_option = true,
-          .title = &T::title,
-          .id = &T::id,
-          .cards = {{.fields = {{field, &T::nid, "-", meaning, required_id_of(refers)},
-                                {"CID", &T::cid, "-", "system of the directions, 0 global", system_id},
-                                {"DOFX", &T::dofx, "-", "1 holds the translation in x", flag},
-                                {"DOFY", &T::dofy, "-", "1 holds the translation in y", flag},
-                                {"DOFZ", &T::dofz, "-", "1 holds the translation in z", flag},
-                                {"DOFRX", &T::dofrx, "-", "1 holds the rotation about x", no_effect},
-                                {"DOFRY", &T::dofry, "-", "1 holds the rotation about y", no_effect},
-                                {"DOFRZ", &T::dofrz, "-", "1 holds the rotation about z", no_effect}}}},
-          .move = [](T& card, const Affine& motion) { return move_constraint(card, motion); }};
+  return {
+      .names = {std::move(name)},
+      .purpose = std::move(purpose),
+      .id_space = IdSpace::boundary,
+      .id_option = true,
+      .title = &T::title,
+      .id = &T::id,
+      .cards = {{.fields = {{field, &T::nid, "-", meaning, required_id_of(refers)},
+                            {"CID", &T::cid, "-", "system of the directions, 0 global", system_id},
+                            {"DOFX", &T::dofx, "-", "1 holds the translation in x", flag},
+                            {"DOFY", &T::dofy, "-", "1 holds the translation in y", flag},
+                            {"DOFZ", &T::dofz, "-", "1 holds the translation in z", flag},
+                            {"DOFRX", &T::dofrx, "-", "1 holds the rotation of shell nodes about x", flag},
+                            {"DOFRY", &T::dofry, "-", "1 holds the rotation of shell nodes about y", flag},
+                            {"DOFRZ", &T::dofrz, "-", "1 holds the rotation of shell nodes about z", flag}}}},
+      .move = [](T& card, const Affine& motion) { return move_constraint(card, motion); }};
 }
 const RegisterKeyword<BoundarySpcNodeCard> boundary_spc_node{boundary_spc<BoundarySpcNodeCard>(
     "BOUNDARY_SPC_NODE", "holds translations of nodes", "NID", "node id", IdSpace::node)};

@@ -61,7 +61,7 @@ KeywordOf<T> motion_keyword(std::string name, std::string purpose, const char* f
       .cards =
           {{.fields = {{field, &T::id, "-", "what moves", id},
                        {"DOF", &T::dof, "-",
-                        "direction: 1-3 x, y, z, 4 along VID; of bodies also 5-7 about x, y, z", dof},
+                        "direction: 1-3 x, y, z, 4 along VID; of bodies and nodes of shells also 5-7 about x, y, z", dof},
                        {"VAD", &T::vad, "-", "0 velocity, 1 acceleration, 2 displacement"},
                        {"LCID", &T::lcid, "-", "curve of the motion, over t - BIRTH", curve},
                        {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
@@ -131,7 +131,7 @@ class Reader {
   }
 
   bool supported(const MotionCard& card, bool of_body) {
-    const int most = of_body ? first_rotation + 2 : along_vector;
+    const int most = of_body || !model_.shells.empty() ? first_rotation + 2 : along_vector;
     const bool direction = card.dof >= 1 && card.dof <= most, kind = card.vad >= 0 && card.vad <= 2;
     if (!direction)
       deck_.error(diagnostics_, card, "DOF", fmt::format("'{}' is not supported", card.dof),

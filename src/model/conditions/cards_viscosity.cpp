@@ -15,7 +15,7 @@ constexpr FieldRules coefficient(Real standard) {
 
 const RegisterKeyword<Hourglass> hourglass{
     {.names = {"HOURGLASS"},
-     .purpose = "bulk viscosity of the parts that name it (HGID), and hourglass control of their solids",
+     .purpose = "bulk viscosity of the parts that name it (HGID), and hourglass control of their elements",
      .id_space = IdSpace::hourglass,
      .title_option = true,
      .title = &Hourglass::title,
@@ -23,25 +23,23 @@ const RegisterKeyword<Hourglass> hourglass{
          {.fields = {
               {"HGID", &Hourglass::hgid, "-", "id that *PART refers to", required_id},
               {"IHQ", &Hourglass::ihq, "-",
-               "hourglass control of solids: 1 to 3 viscous, 0 that of *CONTROL_HOURGLASS"},
+               "1 to 3 viscous, of shells 4 and 5 a stiffness, 0 that of *CONTROL_HOURGLASS"},
               {"QM", &Hourglass::qm, "-", "its coefficient; 0: 0.1, with IHQ 0 that of *CONTROL_HOURGLASS"},
               {"IBQ", &Hourglass::ibq, "-", "not used", no_effect},
               {"Q1", &Hourglass::q1, "-",
                "quadratic viscosity (beta); 0 is the default, write 1.0E-20 for none", coefficient(1.5)},
               {"Q2", &Hourglass::q2, "-",
                "linear viscosity (alpha); 0 is the default, write 1.0E-20 for none", coefficient(0.06)},
-              {"QB/VDC", &Hourglass::qb, "-",
-               "bending of shells, damping of IHQ 6 and 7; solids with IHQ 1 to 3 have neither",
-               no_effect_but(0.1)},
-              {"QW", &Hourglass::qw, "-", "warping of shells; solids have none", no_effect_but(0.1)}}}}}};
+              {"QB/VDC", &Hourglass::qb, "-", "coefficient for bending of shells; 0: QM"},
+              {"QW", &Hourglass::qw, "-", "coefficient for warping of shells; 0: QM"}}}}}};
 
 using H = ControlHourglass;
 const RegisterKeyword<H> control_hourglass{
     {.names = {"CONTROL_HOURGLASS"},
-     .purpose = "hourglass control of solids without an *HOURGLASS; particles and rigid shells have none",
+     .purpose = "hourglass control of elements without an *HOURGLASS; particles and rigid shells have none",
      .once = true,
      .many = false,
-     .cards = {{.fields = {{"IHQ", &H::ihq, "-", "1 to 3 viscous, 0 as 1"},
+     .cards = {{.fields = {{"IHQ", &H::ihq, "-", "1 to 3 viscous, 0 as 1; of shells 4 and 5 a stiffness"},
                            {"QH", &H::qh, "-", "coefficient; 0 is the default, write 1.0E-20 for none",
                             or_blank(0.1)}}}}}};
 
@@ -60,7 +58,7 @@ const RegisterKeyword<B> bulk_viscosity{
               {"TYPE",
                &B::type,
                "-",
-               "1 standard (-1, -2: also in shells, which are rigid here)",
+               "1 in solids and particles; -1, -2: also in shells that deform",
                {.standard = 1, .allowed = {-2, -1, 1}}},
               {"BTYPE", &B::btype, "-", "beams", no_effect},
               {"TSTYPE", &B::tstype, "-", "thick shells", no_effect}}}}}};

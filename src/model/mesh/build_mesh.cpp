@@ -132,6 +132,9 @@ void ModelBuilder::build_shells() {
       error(card, "PID", fmt::format("part {} has particles already", p.id),
             "give the shells a part of their own");
     p.has_shell = true;
+    if (card.has_thickness())
+      model_.shell_thickness[static_cast<Index>(model_.shells.size())] = {card.thic1, card.thic2, card.thic3,
+                                                                          card.thic4};
     model_.shells.push_back(shell);
   }
 }

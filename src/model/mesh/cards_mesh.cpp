@@ -39,8 +39,8 @@ const RegisterKeyword<N> node{
                 {"RC",
                  &N::rc,
                  "-",
-                 "held rotations, same code",
-                 {.honour = Honour::ignored, .allowed = {0, 1, 2, 3, 4, 5, 6, 7}, .width = 8}}}}},
+                 "held rotations of nodes of shells that deform, same code",
+                 {.allowed = {0, 1, 2, 3, 4, 5, 6, 7}, .width = 8}}}}},
      .move = move_node}};
 
 using E = ElementSphCard;
@@ -83,9 +83,10 @@ const FieldRules of_part{.required = true, .check = Check::positive, .width = 8,
 const FieldRules corner{.required = true, .check = Check::positive, .width = 8, .refers = IdSpace::node};
 const FieldRules last_corner{.check = Check::not_negative, .width = 8, .refers = IdSpace::node};
 const FieldRules mid_side{.honour = Honour::no, .width = 8, .refers = IdSpace::node};
+const FieldRules thickness{.check = Check::not_negative, .width = 16};
 const RegisterKeyword<S> element_shell{
-    {.names = {"ELEMENT_SHELL"},
-     .purpose = "shells of 3 (N4 = N3 or 0) or 4 nodes",
+    {.names = {"ELEMENT_SHELL", "ELEMENT_SHELL_THICKNESS"},
+     .purpose = "shells of 3 (N4 = N3 or 0) or 4 nodes; _THICKNESS adds a card",
      .id_space = IdSpace::shell,
      .cards = {{.fields = {{"EID", &S::eid, "-", "element id", element},
                            {"PID", &S::pid, "-", "part id", of_part},
@@ -96,7 +97,17 @@ const RegisterKeyword<S> element_shell{
                            {"N5", &S::n5, "-", "mid-side node", mid_side},
                            {"N6", &S::n6, "-", "mid-side node", mid_side},
                            {"N7", &S::n7, "-", "mid-side node", mid_side},
-                           {"N8", &S::n8, "-", "mid-side node", mid_side}}}}}};
+                           {"N8", &S::n8, "-", "mid-side node", mid_side}}},
+               {.fields = {{"THIC1", &S::thic1, "L", "thickness at corner 1, 0: of the section", thickness},
+                           {"THIC2", &S::thic2, "L", "thickness at corner 2, 0: of the section", thickness},
+                           {"THIC3", &S::thic3, "L", "thickness at corner 3, 0: of the section", thickness},
+                           {"THIC4", &S::thic4, "L", "thickness at corner 4, 0: of the section", thickness},
+                           {"BETA",
+                            &S::beta,
+                            "-",
+                            "angle of the material, which no law here has",
+                            {.honour = Honour::ignored, .width = 16}}},
+                .when = [](const S& e) { return e.has_thickness(); }}}}};
 
 using P = PartCard;
 const RegisterKeyword<P> part{{.names = {"PART"},

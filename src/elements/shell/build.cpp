@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "elements/shell/cards_shell.hpp"
+#include "elements/shell/hourglass_shell.hpp"
+#include "elements/shell/shells.hpp"
+#include "model/cards.hpp"
+#include "model/conditions/viscosity_cards.hpp"
+#include "shell/section_shell.hpp"
+
+namespace courant {
+
+namespace {
+
+constexpr int belytschko_tsay = 2, flat_triangle = 4;
+
+/// Formulations that differ from Belytschko and Tsay's in details, and that it stands for with a warning.
+const std::map<int, const char*> similar = {{1, "Hughes-Liu"},
+                                            {6, "selectively reduced Hughes-Liu"},
+                                            {7, "selectively reduced Hughes-Liu"},
+                                            {10, "Belytschko-Wong-Chiang"},
+                                            {11, "fast Hughes-Liu"}};
+
+class ShellReader {
+ public:
+  ShellReader(const Deck& deck, Diagnostics& diagnostics)
+      : deck_(deck), diagnostics_(diagnostics), control_(deck.last<ControlShell>()), hourglass_(deck) {
+    for (const SectionShell& s : deck.all<SectionShell>()) sections_.emplace(s.secid, &s);
+    if (control_) check_control(*control_);
+  }
+
+  void read(const ModelPart& part, ShellPart& out) {
+    const auto section = sections_.find(part.secid);
+    if (section == sections_.end()) return;  // which the segments report
+    const SectionShell& s = *section->second;
+    if (checked_.insert(&s).second) check_section(s, part);
+    const int count = s.nip == 0 ? 2 : s.nip;
+    const bool lobatto = control_ && control_->intgrd == 1 && count > 2;
+    if (count >= 1 && count <= ShellState::most_points)
+      (lobatto ? lobatto_points : gauss_points)(count, out.zeta, out.share);
+    out.marea = s.marea;
+    out.rotary_scale = control_ ? control_->rotascl : 1;
+    out.warp_warning = control_ ? control_->wrpang : out.warp_warning;
+    const ElasticConstants of_law = elastic_constants(*out.law);
+    ShellControl& c = out.control;
+    c.E = of_law.E, c.G = out.law->shear_modulus(), c.plate_modulus = c.E / (1 - of_law.nu * of_law.nu);
+    c.shear_factor = s.shrf;
+    c.thins = control_ && control_->istupd == 1;
+    if (const auto* accuracy = deck_.last<ControlAccuracy>()) c.invariant_axes = accuracy->invariant_shells();
+    if (const auto* step = deck_.last<ControlTimestepCard>()) c.length_rule = step->isdo;
+    hourglass_.read(part, c, diagnostics_);
+  }
+
+ private:
+  void error(const Entry& card, const char* field, std::string message, std::string hint) {
+    deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
+  }
+
+  void check_section(const SectionShell& s, const ModelPart& part) {
+    const auto like = similar.find(s.elform);
+    if (like != similar.end())
+      deck_.warning(diagnostics_, s, "ELFORM",
+                    fmt::format("{} ({}) is not there for shells that deform, as those of part {}: 2 is used "
+                                "in its place",
+                                s.elform, like->second, part.id),
+                    "2 (Belytschko-Tsay) says the same without this warning");
+    else if (s.elform != belytschko_tsay && s.elform != flat_triangle)
+      error(
+          s, "ELFORM",
+          fmt::format("'{}' is not supported for shells that deform, as those of part {}", s.elform, part.id),
+          "supported values: 2 (Belytschko-Tsay), 4 for triangles; 1, 6, 7, 10 and 11 become 2");
+    if (s.nip < 0 || s.nip > ShellState::most_points)
+      error(s, "NIP", fmt::format("'{}' is not supported", s.nip),
+            "1 to 10 points; 2 are exact for elastic shells, plastic ones need 3 to 5");
+    if (s.irid != 0)
+      error(s, "QR/IRID", fmt::format("a rule of integration of its own ('{}') is not supported", s.irid),
+            "leave the field blank: points of Gauss, or of Lobatto by INTGRD of *CONTROL_SHELL");
+    if (s.idof == 3)
+      error(s, "IDOF", "'3' is not supported: contact does not squeeze shells", "leave it blank");
+    if (!(s.shrf > 0))
+      error(s, "SHRF", fmt::format("expected a number > 0, got '{:g}'", s.shrf), "5/6 is usual");
+  }
+
+  void check_control(const ControlShell& c) {
+    const auto refuse = [&](const char* field, bool wrong, Real value, const char* what) {
+      if (wrong)
+        error(c, field, fmt::format("'{:g}' is not supported: {}", value, what), "leave the field blank");
+    };
+    refuse("ESORT", c.esort != 0 && c.esort != 1, c.esort, "triangles are of formulation 4 (0 and 1)");
+    refuse("ISTUPD", c.istupd != 0 && c.istupd != 1, c.istupd,
+           "the thickness stays (0) or follows all of the strain (1)");
+    refuse("THEORY", c.theory != belytschko_tsay, c.theory, "the default formulation is 2");
+    refuse("BWC", c.bwc != 2, c.bwc, "warped shells have no stiffness of their own (2)");
+    refuse("MITER", c.miter != 1 && c.miter != 2, c.miter, "plane stress is iterated to convergence (1, 2)");
+    refuse("ROTASCL", !(c.rotascl > 0), c.rotascl, "rotary inertia must be above 0");
+    refuse("INTGRD", c.intgrd != 0 && c.intgrd != 1, c.intgrd, "points are of Gauss (0) or Lobatto (1)");
+    refuse("LAMSHT", c.lamsht != 0, c.lamsht, "shells are of one material");
+    refuse("PSSTUPD", c.psstupd != 0, static_cast<Real>(c.psstupd), "ISTUPD holds for all parts");
+    refuse("SIDT4TU", c.sidt4tu != 0, c.sidt4tu, "ISTUPD holds for all parts");
+    refuse("W-MODE", c.wmode != 0, c.wmode, "no shell is deleted");
+    refuse("STRETCH", c.stretch != 0, c.stretch, "no shell is deleted");
+    refuse("ICRQ", c.icrq != 0, c.icrq, "each shell has one thickness");
+    refuse("NFAIL1", c.nfail1 != 0, c.nfail1, "no shell is deleted");
+    refuse("DRCPSID", c.drcpsid != 0, static_cast<Real>(c.drcpsid), "rotations about the normal are free");
+  }
+
+  const Deck& deck_;
+  Diagnostics& diagnostics_;
+  const ControlShell* control_;
+  ShellHourglassReader hourglass_;
+  std::map<Id, const SectionShell*> sections_;
+  std::set<const SectionShell*> checked_;  ///< several parts may name one
+};
+
+}  // namespace
+
+ElasticConstants elastic_constants(const StrengthLaw& law) {
+  const Real K = law.bulk_modulus(), G = law.shear_modulus();
+  return {9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)};
+}
+
+std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model,
+                                        const std::function<bool(Index part)>& rigid,
+                                        Diagnostics& diagnostics) {
+  std::vector<ShellPart> out(model.parts.size());
+  std::vector<std::size_t> deforming;
+  bool solids = false;
+  for (std::size_t k = 0; k < model.parts.size(); ++k) {
+    const ModelPart& part = model.parts[k];
+    solids = solids || part.has_solid;
+    if (part.has_shell && !part.has_sph && !rigid(static_cast<Index>(k))) deforming.push_back(k);
+  }
+  if (deforming.empty()) return out;
+  const int errors = diagnostics.errors();
+  if (!solids)  // which check them, too
+    for (const StrengthEntry& kind : strength_registry()) kind.check(deck, diagnostics);
+  if (diagnostics.errors() > errors) return out;  // a law is made from valid cards
+  std::map<Id, std::shared_ptr<StrengthLaw>> laws;
+  for (const StrengthEntry& kind : strength_registry())
+    for (const auto& [id, law] : kind.all(deck)) laws.emplace(id, law);
+  ShellReader reader(deck, diagnostics);
+  for (const std::size_t k : deforming) {
+    const ModelPart& part = model.parts[k];
+    const auto law = laws.find(part.mid);
+    if (law == laws.end()) continue;  // reported with the segments
+    if (law->second->deviator_only()) {
+      deck.error(
+          diagnostics, part.card, "MID",
+          fmt::format("the material of part {} takes its pressure from an equation of state, which shells "
+                      "cannot have: their stress is plane",
+                      part.id),
+          "use a material that gives all of the stress");
+      continue;
+    }
+    out[k].law = law->second;
+    reader.read(part, out[k]);
+  }
+  return out;
+}
+
+}  // namespace courant

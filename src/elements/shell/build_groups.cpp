@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "elements/shell/shells.hpp"
+#include "state/shared_fields.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Degrees between the normals of the triangles on the two sides of a diagonal.
+Real warp_angle(const World& world, const std::array<Index, 4>& node) {
+  const auto x = [&](std::size_t c) { return world.nodes.x.vec(node[c]); };
+  const auto normal = [&](std::size_t a, std::size_t b, std::size_t c) -> Vec {
+    return (x(b) - x(a)).cross(x(c) - x(a)).normalized();
+  };
+  const Real cosine = std::min(normal(0, 1, 2).dot(normal(0, 2, 3)), normal(1, 2, 3).dot(normal(1, 3, 0)));
+  return std::acos(std::clamp<Real>(cosine, -1, 1)) * 180 / pi;
+}
+
+void warn_of_warp(const Model& model, const std::vector<ShellPart>& parts, const World& world,
+                  Diagnostics& diagnostics) {
+  struct Worst {
+    Index count = 0;
+    Real angle = 0;
+    Id id = 0;
+  };
+  std::vector<Worst> worst(parts.size());
+  for (std::size_t s = 0; s < model.shells.size(); ++s) {
+    const auto part = static_cast<std::size_t>(model.shells[s].part);
+    const auto node = world.segments.nodes(static_cast<Index>(s));
+    if (!parts[part].law || node[2] == node[3]) continue;
+    const Real angle = warp_angle(world, node);
+    if (!(angle > parts[part].warp_warning)) continue;
+    Worst& w = worst[part];
+    ++w.count;
+    if (angle > w.angle) w.angle = angle, w.id = model.shells[s].id;
+  }
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (worst[k].count > 0)
+      diagnostics.warning(
+          model.parts[k].where,
+          fmt::format(
+              "shells of part {} are warped by more than WRPANG = {:g} degrees: {}, and shell {} by {:.3g}; "
+              "formulation 2 takes them as flat, and is far too soft there",
+              model.parts[k].id, parts[k].warp_warning, worst[k].count, worst[k].id, worst[k].angle),
+          "use a finer mesh, or triangles");
+}
+
+struct RotationFields {
+  Field<Real>&angle, &speed, &moment, &inertia;
+  Field<Index>& none;
+  explicit RotationFields(FieldSet& nodes)
+      : angle(shared_fields::rotation.add(nodes)),
+        speed(shared_fields::angular_velocity.add(nodes)),
+        moment(shared_fields::moment.add(nodes)),
+        inertia(shared_fields::rotary_inertia.add(nodes)),
+        none(shared_fields::no_rotation.add(nodes)) {}
+};
+
+/// The length by which ISDO gives the step, see shell_loops.cpp. [L]
+Real longest_step_length(const std::array<Vec, 4>& x, Real area, int corners, int rule) {
+  Real longest = 0, shortest = std::numeric_limits<Real>::infinity();
+  for (int c = 0; c < corners; ++c) {
+    const Real side =
+        (x[static_cast<std::size_t>((c + 1) % corners)] - x[static_cast<std::size_t>(c)]).norm();
+    longest = std::max(longest, side), shortest = std::min(shortest, side);
+  }
+  const Real wide = (corners == 4 ? 1 : 2) * area / longest;
+  return rule == 2 ? std::max(shortest, wide) : wide;
+}
+
+ElementGroup& add_group(World& world, const std::string& name, std::size_t part, int corners, Index size) {
+  FieldSet& set = world.add_set(name);
+  set.resize(size);
+  ElementGroup& group =
+      *world.groups.emplace_back(std::make_unique<ElementGroup>(set, static_cast<Index>(part), corners));
+  group.corner_moment = &set.add<Real>(
+      {.name = "corner_moment", .dimension = "ML2/T2", .components = 3 * corners, .restart = false});
+  group.segment = &set.add<Index>({.name = "segment", .dimension = "-"});
+  return group;
+}
+
+}  // namespace
+
+// A rotation of all corners alike meets the shear stiffness K G t A alone, K the shear factor: with rotary
+// inertia m (t^2 + f l^2)/12 its frequency is sqrt(12 K G/(f rho))/l at most. With the l of the step's rule,
+// dt = l sqrt(rho/M), and f = 3 K G/M or more that is 2/dt at most: neither shear nor bending sets the step.
+void build_shells(const Model& model, const std::vector<ShellPart>& parts, const std::vector<Index>& node_of,
+                  World& world, Diagnostics& diagnostics) {
+  std::vector<std::array<std::vector<Index>, 2>> of_part(model.parts.size());  // quadrilaterals, triangles
+  for (std::size_t s = 0; s < model.shells.size(); ++s) {
+    const ModelShell& shell = model.shells[s];
+    const auto part = static_cast<std::size_t>(shell.part);
+    if (parts[part].law) of_part[part][shell.node[2] == shell.node[3]].push_back(static_cast<Index>(s));
+  }
+  const auto any =
+      std::find_if(parts.begin(), parts.end(), [](const ShellPart& p) { return p.law != nullptr; });
+  if (any == parts.end()) return;
+  if (world.dim == 2)
+    return diagnostics.error(model.parts[static_cast<std::size_t>(any - parts.begin())].where,
+                             "shells that deform are not supported in 2D scenes (IDIM 2)",
+                             "make the scene three-dimensional, or the shells rigid");
+  RotationFields rotations(world.nodes.fields);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (const bool triangles : {false, true}) {
+      const std::vector<Index>& which = of_part[k][triangles];
+      if (which.empty()) continue;
+      const int corners = triangles ? 3 : 4;
+      ElementGroup& group = add_group(
+          world, fmt::format("{} of part {}", triangles ? "triangles" : "shells", model.parts[k].id), k,
+          corners, static_cast<Index>(which.size()));
+      for (Index e = 0; e < group.size(); ++e) {
+        const Index s = which[static_cast<std::size_t>(e)];
+        const ModelShell& shell = model.shells[static_cast<std::size_t>(s)];
+        group.id[e] = shell.id, (*group.segment)[e] = s;
+        std::array<Vec, 4> x;
+        for (std::size_t c = 0; c < 4; ++c)
+          x[c] = world.nodes.x.vec(node_of[static_cast<std::size_t>(shell.node[c])]);
+        const Real area = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]).norm();
+        const Real t = world.segments.thickness[s];
+        group.V0[e] = area * t;
+        group.mass[e] = (parts[k].law->ro * t + parts[k].marea) * area;
+        const ShellControl& c = parts[k].control;
+        const Real length = longest_step_length(x, area, corners, c.length_rule);
+        const Real modulus = c.length_rule == 2 ? c.E : c.plate_modulus;
+        const Real f = std::max(Real(1), 3 * c.shear_factor * c.G / modulus);
+        const Real l2 = std::max(area, length * length);
+        const Real inertia = parts[k].rotary_scale * group.mass[e] / corners * (t * t + f * l2) / 12;
+        for (int corner = 0; corner < corners; ++corner) {
+          const Index n = node_of[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(corner)])];
+          group.node.data(corner)[e] = n;
+          rotations.inertia[n] += inertia;
+        }
+      }
+    }
+  warn_of_warp(model, parts, world, diagnostics);
+}
+
+void start_rotations(const Model& model, const std::vector<Index>& node_of, World& world) {
+  Field<Real>* inertia = shared_fields::rotary_inertia.find(world.nodes.fields);
+  if (!inertia) return;
+  const RotationFields rotations(world.nodes.fields);
+  for (Index n = 0; n < world.nodes.size(); ++n)
+    rotations.none[n] = world.nodes.follow[n] != 0 || !((*inertia)[n] > 0);
+  for (const auto& [node, omega] : model.angular_velocity)
+    if (const Index n = node_of[static_cast<std::size_t>(node)]; n >= 0 && rotations.none[n] == 0)
+      rotations.speed.set(n, omega);
+}
+
+}  // namespace courant

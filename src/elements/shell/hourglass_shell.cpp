@@ -1,0 +1,71 @@
+#include "elements/shell/hourglass_shell.hpp"
+
+#include <fmt/format.h>
+
+namespace courant {
+
+namespace {
+
+constexpr int last_viscous_kind = 3, last_stiffness_kind = 5;
+constexpr Real usual_coefficient = 0.1;
+constexpr Real largest_advised = 0.15;  ///< LS-DYNA's advice: above it hourglass forces may be unstable
+
+}  // namespace
+
+ShellHourglassReader::ShellHourglassReader(const Deck& deck)
+    : deck_(deck), control_(deck.last<ControlHourglass>()), bulk_(deck.last<ControlBulkViscosity>()) {
+  for (const Hourglass& card : deck.all<Hourglass>()) cards_.emplace(card.hgid, &card);
+}
+
+void ShellHourglassReader::read(const ModelPart& part, ShellControl& out, Diagnostics& diagnostics) {
+  const Hourglass* card = nullptr;
+  if (part.hgid != 0) {
+    const auto found = cards_.find(part.hgid);
+    if (found == cards_.end()) {
+      deck_.error(diagnostics, part.card, "HGID", fmt::format("hourglass {} does not exist", part.hgid),
+                  "define it with *HOURGLASS, or leave the field blank");
+      return;
+    }
+    card = found->second;
+  }
+  const bool own_kind = card && card->ihq != 0;
+  Real QM = usual_coefficient;
+  if (own_kind) {
+    take_kind(*card, card->ihq, part, out, diagnostics);
+  } else if (control_) {
+    if (control_->ihq != 0) take_kind(*control_, control_->ihq, part, out, diagnostics);
+    QM = control_->qh;
+    check(*control_, "QH", QM, diagnostics);
+  }
+  if (card && card->qm != 0) QM = card->qm, check(*card, "QM", QM, diagnostics);
+  out.QM = out.QB = out.QW = QM;
+  if (card && card->qb != 0) out.QB = card->qb, check(*card, "QB/VDC", out.QB, diagnostics);
+  if (card && card->qw != 0) out.QW = card->qw, check(*card, "QW", out.QW, diagnostics);
+  if (!bulk_ || bulk_->type >= 0) return;
+  out.Q1 = card ? card->q1 : bulk_->q1, out.Q2 = card ? card->q2 : bulk_->q2;
+}
+
+void ShellHourglassReader::take_kind(const Entry& card, int ihq, const ModelPart& part, ShellControl& out,
+                                     Diagnostics& diagnostics) {
+  if (ihq > 0 && ihq <= last_stiffness_kind) {
+    out.stiffness = ihq > last_viscous_kind;
+  } else if (told_.insert({&card, "IHQ"}).second) {
+    deck_.error(diagnostics, card, "IHQ",
+                fmt::format("'{}' is not supported for shells, as those of part {}", ihq, part.id),
+                "supported values: 0, 1 to 3 (viscous), 4 and 5 (stiffness)");
+  }
+}
+
+void ShellHourglassReader::check(const Entry& card, const char* field, Real value, Diagnostics& diagnostics) {
+  if (value >= 0 && value <= largest_advised) return;
+  if (!told_.insert({&card, field}).second) return;
+  if (value < 0)
+    deck_.error(diagnostics, card, field, fmt::format("expected a number >= 0, got '{:g}'", value));
+  else
+    deck_.warning(
+        diagnostics, card, field,
+        fmt::format("hourglass control of shells with a coefficient of {:g} may be unstable", value),
+        fmt::format("keep it at {:g} or below", largest_advised));
+}
+
+}  // namespace courant

@@ -1,0 +1,263 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/run_error.hpp"
+#include "elements/shell/shells.hpp"
+#include "state/reports.hpp"
+#include "state/shared_fields.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Shells of a part, all of one shape: strain rates of the last motion, the law at each point through the
+/// thickness, hourglass control, forces and moments on the corners, which passes over the nodes gather.
+/// Formulae: shell_loops.hpp.
+class ShellForces : public Material,
+                    public TimeLimit,
+                    public EnergyTerm,
+                    public PartReporter,
+                    public FieldFiller {
+ public:
+  ShellForces(const ShellPart& part, const ElementGroup& group, Id part_id, Real tssfac, bool shown,
+              World& world)
+      : group_(group),
+        law_(part.law),
+        part_id_(part_id),
+        tssfac_(tssfac),
+        w_(*shared_fields::angular_velocity.find(world.nodes.fields)),
+        inertia_(*shared_fields::rotary_inertia.find(world.nodes.fields)),
+        control_(part.control),
+        loops_(group.corners() == 3 ? triangle_loops() : quadrilateral_loops()),
+        stress_(group.fields.add<Real>({.name = "layer_stress",
+                                        .dimension = "M/LT2",
+                                        .components = 6 * static_cast<int>(part.zeta.size())})),
+        resultants_(group.fields.add<Real>({.name = "resultants", .dimension = "-", .components = 8})),
+        thickness_(group.fields.add<Real>({.name = "shell_thickness", .dimension = "L", .output = true})),
+        internal_(group.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
+        hourglass_(
+            group.fields.add<Real>({.name = "hourglass_energy", .dimension = "ML2/T2", .output = true})),
+        bulk_viscosity_(group.fields.add<Real>({.name = "bulk_viscosity_energy", .dimension = "ML2/T2"})) {
+    state_.points = static_cast<int>(part.zeta.size());
+    std::copy(part.zeta.begin(), part.zeta.end(), state_.zeta);
+    std::copy(part.share.begin(), part.share.end(), state_.share);
+    if (control_.stiffness && group.corners() == 4)
+      hourglass_force_ =
+          &group.fields.add<Real>({.name = "hourglass_force", .dimension = "-", .components = 5});
+    for (int p = 0; p < state_.points; ++p)
+      for (const HistoryVariable& h : law_->history())
+        history_.push_back(&group.fields.add<Real>({.name = fmt::format("{}_of_layer_{}", h.name, p + 1),
+                                                    .dimension = h.dimension,
+                                                    .components = h.components}));
+    if (shown) add_shown_fields();
+    for (Index e = 0; e < group_.size(); ++e) thickness_[e] = world.segments.thickness[(*group_.segment)[e]];
+    start(world, {});
+  }
+  std::string name() const override { return group_.fields.name(); }
+  const FieldSet& over(const World&) const override { return group_.fields; }
+  void declare(const World& world, Accesses& a) const override {
+    a.reads(world.nodes.x, Reach::others).reads(world.nodes.v, Reach::others).reads(w_, Reach::others);
+    a.reads(group_.node).reads(group_.mass).updates(stress_).updates(resultants_).updates(internal_);
+    a.updates(hourglass_).updates(bulk_viscosity_).updates(thickness_);
+    a.writes(group_.corner_force).writes(*group_.corner_moment);
+    if (hourglass_force_) a.updates(*hourglass_force_);
+    for (const Field<Real>* h : history_) a.updates(*h);
+  }
+
+  void start(World& world, const Clock&) override {
+    for (int k = 0; k < 3; ++k)
+      mesh_.x[k] = world.nodes.x.data(k), mesh_.v[k] = world.nodes.v.data(k), mesh_.w[k] = w_.data(k);
+    for (int c = 0; c < group_.corners(); ++c) mesh_.corner[c] = group_.node.data(c);
+    for (int k = 0; k < 6 * state_.points; ++k) state_.stress[k] = stress_.data(k);
+    for (int k = 0; k < 8; ++k) state_.resultant[k] = resultants_.data(k);
+    for (int k = 0; k < 5; ++k) state_.hourglass[k] = hourglass_force_ ? hourglass_force_->data(k) : nullptr;
+    state_.thickness = thickness_.data(), state_.mass = group_.mass.data();
+    state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
+    state_.bulk_viscosity_energy = bulk_viscosity_.data();
+    for (int k = 0; k < 3 * group_.corners(); ++k) {
+      state_.corner_force[k] = group_.corner_force.data(k);
+      state_.corner_moment[k] = group_.corner_moment->data(k);
+    }
+    history_data_.clear();
+    for (Field<Real>* h : history_)
+      for (int k = 0; k < h->info().components; ++k) history_data_.push_back(h->data(k));
+    found_.resize(static_cast<std::size_t>(block_count(group_.size())));
+  }
+  void block(World&, const Clock& clock, Index begin, Index end) override {
+    ShellScratch scratch;
+    const ShellLoops::Block block{begin, end - begin, clock.dt_old};
+    loops_.strain(block, control_, mesh_, scratch);
+    Real rate_zz[block_size], sound_speed[block_size];
+    std::fill(scratch.thickening, scratch.thickening + block.count, 0);
+    const std::size_t numbers = history_data_.size() / static_cast<std::size_t>(state_.points);
+    std::array<Real*, most_history> history{};
+    PointBlock points;
+    points.count = block.count;
+    points.dt = clock.dt_old;
+    points.sound_speed = sound_speed;
+    for (std::size_t k = 0; k < 6; ++k) points.rate[k] = scratch.rate[k];
+    for (int p = 0; p < state_.points; ++p) {
+      loops_.at_point(block, p, state_, scratch);
+      for (std::size_t k = 0; k < 6; ++k)
+        points.stress[k] = state_.stress[6 * static_cast<std::size_t>(p) + k] + begin;
+      for (std::size_t k = 0; k < numbers; ++k)
+        history[k] = history_data_[static_cast<std::size_t>(p) * numbers + k] + begin;
+      points.history = std::span<Real* const>(history.data(), numbers);
+      law_->update_in_plane_stress(points, rate_zz);
+      for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
+    }
+    found_[static_cast<std::size_t>(begin / block_size)] = loops_.forces(block, control_, state_, scratch);
+  }
+  void finish(World&, const Clock& clock) override {
+    if (!control_.thins) return;
+    for (Index e = 0; e < group_.size(); ++e)
+      if (!(state_.thickness[e] > 0)) stop_for_thickness(e, clock);
+  }
+
+  Limit limit(const World&, const Clock&) override {
+    const ShellLoops::Found* least = &found_.front();
+    for (const ShellLoops::Found& found : found_)
+      if (!std::isnan(least->step) && !(found.step >= least->step)) least = &found;
+    return {tssfac_ * least->step, fmt::format("shell {} of part {}", group_.id[least->shortest], part_id_)};
+  }
+
+  void record(World&, const Clock&, EnergyLedger&) override {}
+  void sample(const World&, const Clock&, EnergyLedger& ledger) const override {
+    ledger.internal += total(internal_);
+    ledger.hourglass += total(hourglass_);
+    ledger.bulk_viscosity += total(bulk_viscosity_);
+  }
+  void report_part(const World& world, std::vector<PartSums>& parts) const override {
+    PartSums& out = parts[static_cast<std::size_t>(group_.part)];
+    out.internal += total(internal_) + total(bulk_viscosity_);
+    out.hourglass += total(hourglass_);
+    for (Index e = 0; e < group_.size(); ++e) {
+      const Real share = group_.mass[e] / group_.corners();
+      out.mass += group_.mass[e];
+      for (int c = 0; c < group_.corners(); ++c) {
+        const Index n = group_.node.data(c)[e];
+        const Vec v = world.nodes.v.vec(n);
+        out.momentum += share * v;
+        out.kinetic += 0.5 * share * v.squaredNorm();
+        if (world.nodes.m[n] > 0)  // the rotations of a node, by shares of its mass
+          out.kinetic += 0.5 * share / world.nodes.m[n] * inertia_[n] * w_.vec(n).squaredNorm();
+      }
+    }
+  }
+
+  /// Stress of the outer points in global axes, resultants in those of the element.
+  void fill_fields(World& world) override {
+    if (!shown_stress_[0]) return;
+    for (Index e = 0; e < group_.size(); ++e) {
+      const Matrix axes = axes_of(world, e);
+      for (std::size_t side = 0; side < 2; ++side) {
+        const int at = 6 * (side == 0 ? 0 : state_.points - 1);
+        const auto s = [&](int k) { return stress_.data(at + k)[e]; };
+        Matrix local;
+        local << s(0), s(3), s(5), s(3), s(1), s(4), s(5), s(4), s(2);
+        shown_stress_[side]->set_tensor(e, axes * local * axes.transpose());
+      }
+      for (int k = 0; k < 3; ++k)
+        shown_force_->data(k)[e] = resultants_.data(k)[e],
+        shown_moment_->data(k)[e] = resultants_.data(3 + k)[e];
+      for (const auto& [to, first, layers] : shown_history_) {
+        Real most = first->data()[e];
+        for (const Field<Real>* layer : layers) most = std::max(most, layer->data()[e]);
+        (*to)[e] = most;
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t most_history = 16;
+
+  void add_shown_fields() {
+    const auto add = [&](const char* name, const char* dimension, int components) {
+      return &group_.fields.add<Real>(
+          {.name = name, .dimension = dimension, .components = components, .output = true, .restart = false});
+    };
+    shown_stress_ = {add("stress_lower", "M/LT2", 6), add("stress_upper", "M/LT2", 6)};
+    shown_force_ = add("membrane_force", "M/T2", 3), shown_moment_ = add("bending_moment", "ML/T2", 3);
+    const std::vector<HistoryVariable> kinds = law_->history();
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      if (kinds[k].components != 1) continue;
+      Largest largest{add(kinds[k].name.c_str(), kinds[k].dimension.c_str(), 1), history_[k], {}};
+      for (std::size_t at = k; at < history_.size(); at += kinds.size())
+        largest.layers.push_back(history_[at]);
+      shown_history_.push_back(std::move(largest));
+    }
+  }
+
+  /// The axes of an element as columns.
+  Matrix axes_of(const World& world, Index e) const {
+    std::array<Vec, 4> x;
+    for (std::size_t c = 0; c < x.size(); ++c)
+      x[c] = world.nodes.x.vec(group_.node.data(std::min(static_cast<int>(c), group_.corners() - 1))[e]);
+    const Vec e3 = (x[2] - x[0]).cross(x[3] - x[1]).normalized();
+    Vec e1 = x[1] - x[0];
+    if (control_.invariant_axes && group_.corners() == 4) {
+      const Vec xi = (x[1] + x[2] - x[0] - x[3]).normalized(), eta = (x[2] + x[3] - x[0] - x[1]).normalized();
+      e1 = (xi + eta).normalized();
+      e1 = Vec(e1 - e3.cross(e1));
+    }
+    e1 = Vec(e1 - e1.dot(e3) * e3).normalized();
+    Matrix out;
+    out.col(0) = e1, out.col(1) = e3.cross(e1), out.col(2) = e3;
+    return out;
+  }
+  Real total(const Field<Real>& field) const {
+    return sum(group_.size(), [&](Index e) { return field[e]; });
+  }
+  [[noreturn]] void stop_for_thickness(Index e, const Clock& clock) const {
+    const ReadsForMessage unchecked;
+    throw RunError(fmt::format("shell {} of part {} has the thickness {:.4g} at time {:.6g}, cycle {}",
+                               group_.id[e], part_id_, state_.thickness[e], clock.t, clock.cycle),
+                   std::isnan(state_.thickness[e]) ? StopCause::not_finite : StopCause::element);
+  }
+
+  /// The largest value over the layers, for the field files.
+  struct Largest {
+    Field<Real>* to;
+    const Field<Real>* first;
+    std::vector<const Field<Real>*> layers;
+  };
+
+  const ElementGroup& group_;
+  std::shared_ptr<StrengthLaw> law_;
+  Id part_id_;
+  Real tssfac_;
+  const Field<Real>&w_, &inertia_;  ///< of nodes
+  ShellControl control_;
+  ShellLoops loops_;
+  Field<Real>&stress_, &resultants_, &thickness_, &internal_, &hourglass_, &bulk_viscosity_;
+  Field<Real>* hourglass_force_ = nullptr;
+  std::vector<Field<Real>*> history_;  ///< of the first layer, of the second, ...
+  std::array<Field<Real>*, 2> shown_stress_{};
+  Field<Real>*shown_force_ = nullptr, *shown_moment_ = nullptr;
+  std::vector<Largest> shown_history_;
+  ShellMesh mesh_{};
+  ShellState state_{};
+  std::vector<Real*> history_data_;
+  std::vector<ShellLoops::Found> found_;  ///< in each block
+};
+
+}  // namespace
+
+void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts, World& world) {
+  const bool shown = model.output.d3plot.asked() || model.output.d3plot_count > 0;
+  for (const auto& group : world.groups) {
+    if (!group->segment) continue;
+    const auto part = static_cast<std::size_t>(group->part);
+    int numbers = 0;
+    for (const HistoryVariable& h : parts[part].law->history()) numbers += h.components;
+    if (numbers > 16) throw std::logic_error("a law with more than 16 history numbers");
+    world.passes.add(
+        std::make_shared<ShellForces>(parts[part], *group, model.parts[part].id, model.tssfac, shown, world));
+  }
+}
+
+}  // namespace courant

@@ -1,0 +1,373 @@
+// Compiled once for each instruction set; see docs/architecture.md. Nothing here may be shared with other
+// files. A register holds as many elements as it has room for; what is behind the last element of a block
+// repeats that one and is not stored.
+#include "elements/shell/shell_loops.hpp"
+
+#include "elements/native_math.hpp"
+
+namespace courant::COURANT_SIMD {
+
+namespace {
+
+constexpr int quad = 4;
+
+COURANT_INLINE void add_to(Real* p, Native a, Index n) {
+  store(p, load(p, n) + a, n);
+}
+COURANT_INLINE Triple unit(const Triple& a) {
+  return (1.0 / root(dot(a, a))) * a;
+}
+
+/// The axes of an element, and its differences in them.
+struct Flat {
+  Triple e1, e2, e3;
+  Native x0, y0, x1, y1, hx, hy;
+  Native A, inverse_A;
+};
+template <int corners>
+COURANT_INLINE Flat flat_of(const Triple d[3], bool invariant) {
+  Flat out;
+  const Triple n = cross(d[0], d[1]);
+  const Native twice = root(dot(n, n));
+  out.e3 = (1.0 / twice) * n;
+  if (corners != quad) {
+    out.e1 = unit(d[0]);
+  } else if (invariant) {  // 45 degrees before the bisector of the lines through the middles of the sides
+    constexpr Real half_root = 0.70710678118654752;
+    const Triple a = unit(unit(d[1] - d[0]) - unit(d[0] + d[1]));
+    out.e1 = half_root * (a - cross(out.e3, a));
+  } else {  // along side 1-2
+    const Triple side = d[1] - d[0] - d[2];
+    out.e1 = unit(side - dot(side, out.e3) * out.e3);
+  }
+  out.e2 = cross(out.e3, out.e1);
+  out.x0 = dot(d[0], out.e1), out.y0 = dot(d[0], out.e2);
+  out.x1 = dot(d[1], out.e1), out.y1 = dot(d[1], out.e2);
+  if (corners == quad) out.hx = dot(d[2], out.e1), out.hy = dot(d[2], out.e2);
+  out.A = 0.5 * twice, out.inverse_A = 2.0 / twice;
+  return out;
+}
+
+/// A times the slopes of a nodal value with these differences.
+struct Slopes {
+  Native x, y;
+};
+COURANT_INLINE Slopes slopes(const Flat& f, Native v0, Native v1) {
+  return {0.5 * (f.y1 * v0 - f.y0 * v1), 0.5 * (f.x0 * v1 - f.x1 * v0)};
+}
+/// The transpose: what a force P per slope x and R per slope y is along the differences.
+struct Along {
+  Native d0, d1;
+};
+COURANT_INLINE Along along(const Flat& f, Native P, Native R) {
+  return {0.5 * (f.y1 * P - f.x1 * R), 0.5 * (f.x0 * R - f.y0 * P)};
+}
+
+/// Of a triangle: 2 D xz has wy_I xy[I] - wx_I xx[I] besides the slope of vz, 2 D yz the same with y: the
+/// mean over the three corners of discrete shear gaps (Bletzinger, Bischoff & Ramm 2000).
+struct ShearGaps {
+  Native xy[3], xx[3], yy[3], yx[3];
+};
+COURANT_INLINE ShearGaps shear_gaps(const Flat& f) {
+  const Native px[3] = {all(0), f.x0, f.x1}, py[3] = {all(0), f.y0, f.y1};
+  ShearGaps out;
+  for (int i = 0; i < 3; ++i) out.xy[i] = out.xx[i] = out.yy[i] = out.yx[i] = all(0);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const Native a = px[j] - px[i], b = py[j] - py[i], c = py[k] - py[i], d = px[k] - px[i];
+    out.xy[i] += f.A, out.yx[i] += f.A;
+    out.xy[j] += 0.5 * a * c, out.xx[j] += 0.5 * b * c, out.yy[j] -= 0.5 * a * d, out.yx[j] -= 0.5 * b * d;
+    out.xy[k] -= 0.5 * b * d, out.xx[k] -= 0.5 * b * c, out.yy[k] += 0.5 * a * d, out.yx[k] += 0.5 * a * c;
+  }
+  const Native scale = (1.0 / 6) * f.inverse_A;
+  for (int i = 0; i < 3; ++i) out.xy[i] *= scale, out.xx[i] *= scale, out.yy[i] *= scale, out.yx[i] *= scale;
+  return out;
+}
+
+template <int corners>
+COURANT_INLINE void gather_corners(const ShellMesh& mesh, Index first, Index n, Triple x[corners],
+                                   Triple v[corners], Triple w[corners]) {
+  Index last[corners][native_lanes];
+  for (int c = 0; c < corners; ++c) {
+    const Index* nodes = mesh.corner[c] + first;
+    if (n < native_lanes) {
+      for (Index l = 0; l < native_lanes; ++l) last[c][l] = nodes[l < n ? l : n - 1];
+      nodes = last[c];
+    }
+    x[c] = {gather(mesh.x[0], nodes), gather(mesh.x[1], nodes), gather(mesh.x[2], nodes)};
+    v[c] = {gather(mesh.v[0], nodes), gather(mesh.v[1], nodes), gather(mesh.v[2], nodes)};
+    w[c] = {gather(mesh.w[0], nodes), gather(mesh.w[1], nodes), gather(mesh.w[2], nodes)};
+  }
+}
+template <int corners>
+COURANT_INLINE void differences(const Triple p[corners], Triple d[3]) {
+  if (corners == quad) {
+    const Triple a = p[0] + p[2], b = p[1] + p[corners - 1];
+    d[0] = p[0] - p[2], d[1] = p[1] - p[corners - 1], d[2] = a - b;
+  } else {
+    d[0] = p[1] - p[0], d[1] = p[2] - p[0];
+  }
+}
+
+template <int corners>
+COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const ShellControl& control,
+                              const ShellMesh& mesh, ShellScratch& s) {
+  Triple x[corners], v[corners], w[corners], d[3], dv[3], dw[3];
+  gather_corners<corners>(mesh, first, n, x, v, w);
+  differences<corners>(x, d), differences<corners>(v, dv), differences<corners>(w, dw);
+  constexpr int modes = corners == quad ? 3 : 2;
+  for (int m = 0; m < modes; ++m) {
+    store(s.place[3 * m] + k, d[m].x), store(s.place[3 * m + 1] + k, d[m].y);
+    store(s.place[3 * m + 2] + k, d[m].z);
+    d[m] = d[m] - (0.5 * dt) * dv[m];
+  }
+  const Flat f = flat_of<corners>(d, control.invariant_axes);
+  store(s.middle_area + k, f.A);
+  const Slopes vx = slopes(f, dot(dv[0], f.e1), dot(dv[1], f.e1)),
+               vy = slopes(f, dot(dv[0], f.e2), dot(dv[1], f.e2)),
+               vz = slopes(f, dot(dv[0], f.e3), dot(dv[1], f.e3)),
+               wx = slopes(f, dot(dw[0], f.e1), dot(dw[1], f.e1)),
+               wy = slopes(f, dot(dw[0], f.e2), dot(dw[1], f.e2));
+  const Native scale = f.inverse_A, half = 0.5 * scale;
+  store(s.membrane[0] + k, scale * vx.x), store(s.membrane[1] + k, scale * vy.y);
+  store(s.membrane[2] + k, half * (vx.y + vy.x));
+  store(s.curvature[0] + k, scale * wy.x), store(s.curvature[1] + k, -scale * wx.y);
+  store(s.curvature[2] + k, half * (wy.y - wx.x));
+  Native xz = scale * vz.x, yz = scale * vz.y;
+  if (corners == quad) {
+    const Triple sum = w[0] + w[1] + w[2] + w[corners - 1];
+    xz += 0.25 * dot(sum, f.e2), yz -= 0.25 * dot(sum, f.e1);
+    const Native a = f.hx * scale, b = f.hy * scale;
+    const Slopes g[5] = {vx, vy, vz, wx, wy};
+    const Native plain[5] = {dot(dv[2], f.e1), dot(dv[2], f.e2), dot(dv[2], f.e3), dot(dw[2], f.e1),
+                             dot(dw[2], f.e2)};
+    for (int m = 0; m < 5; ++m) store(s.hourglass_rate[m] + k, plain[m] - a * g[m].x - b * g[m].y);
+  } else {
+    const ShearGaps gaps = shear_gaps(f);
+    for (int i = 0; i < 3; ++i) {
+      const Native ax = dot(w[i], f.e1), ay = dot(w[i], f.e2);
+      xz += gaps.xy[i] * ay - gaps.xx[i] * ax, yz += gaps.yy[i] * ay - gaps.yx[i] * ax;
+    }
+  }
+  store(s.shear[0] + k, 0.5 * xz), store(s.shear[1] + k, 0.5 * yz);
+}
+
+void at_point(const ShellLoops::Block& block, int point, const ShellState& state, ShellScratch& s) {
+  const Real half = 0.5 * state.zeta[point];
+  const Real* t = state.thickness + block.begin;
+#pragma omp simd
+  for (Index i = 0; i < block.count; ++i) {
+    const Real z = half * t[i];
+    s.rate[0][i] = s.membrane[0][i] + z * s.curvature[0][i];
+    s.rate[1][i] = s.membrane[1][i] + z * s.curvature[1][i];
+    s.rate[3][i] = s.membrane[2][i] + z * s.curvature[2][i];
+    s.rate[4][i] = s.shear[1][i];
+    s.rate[5][i] = s.shear[0][i];
+  }
+}
+
+/// N, M and Q from the stress of the points; their work over the step joins the internal energy.
+COURANT_INLINE void integrate(Index first, Index n, Index k, Real dt, Real factor, Native t,
+                              const ShellState& state, const ShellScratch& s, Native R[8]) {
+  for (int m = 0; m < 8; ++m) R[m] = all(0);
+  const Native half = 0.5 * t;
+  for (int p = 0; p < state.points; ++p) {
+    const Real* const* stress = state.stress + 6 * p;
+    const Native w = state.share[p] * t, arm = state.zeta[p] * half;
+    const Native xx = w * load(stress[0] + first, n), yy = w * load(stress[1] + first, n),
+                 xy = w * load(stress[3] + first, n);
+    R[0] += xx, R[1] += yy, R[2] += xy;
+    R[3] += arm * xx, R[4] += arm * yy, R[5] += arm * xy;
+    R[6] += w * load(stress[5] + first, n), R[7] += w * load(stress[4] + first, n);
+  }
+  R[6] *= factor, R[7] *= factor;
+  Native old[8];
+  for (int m = 0; m < 8; ++m) {
+    old[m] = R[m] + load(state.resultant[m] + first, n);
+    store(state.resultant[m] + first, R[m], n);
+  }
+  const Native power = old[0] * load(s.membrane[0] + k) + old[1] * load(s.membrane[1] + k) +
+                       old[3] * load(s.curvature[0] + k) + old[4] * load(s.curvature[1] + k) +
+                       2.0 * (old[2] * load(s.membrane[2] + k) + old[5] * load(s.curvature[2] + k) +
+                              old[6] * load(s.shear[0] + k) + old[7] * load(s.shear[1] + k));
+  add_to(state.internal_energy + first, 0.5 * dt * load(s.middle_area + k) * power, n);
+}
+
+/// The length of ISDO over the speed that belongs to it, without viscosity: squares of both.
+struct Length {
+  Native l, c2;
+};
+template <int corners>
+COURANT_INLINE Length length_of(const Triple d[3], const Flat& f, const ShellControl& control, Native rho) {
+  Native longest, shortest;
+  if (corners == quad) {
+    const Triple a = d[0] + d[1], b = d[1] - d[0];
+    const Triple side[4] = {b - d[2], d[2] - a, b + d[2], d[2] + a};  // twice the sides
+    longest = shortest = 0.25 * dot(side[0], side[0]);
+    for (int m = 1; m < 4; ++m) {
+      const Native l2 = 0.25 * dot(side[m], side[m]);
+      longest = native_max(longest, l2), shortest = native_min(shortest, l2);
+    }
+    if (control.length_rule == 1) longest = native_max(dot(d[0], d[0]), dot(d[1], d[1]));
+  } else {
+    const Triple side = d[1] - d[0];
+    const Native a = dot(d[0], d[0]), b = dot(d[1], d[1]), c = dot(side, side);
+    longest = native_max(a, native_max(b, c)), shortest = native_min(a, native_min(b, c));
+  }
+  const Native wide = (corners == quad ? 1.0 : 2.0) * f.A / root(longest);
+  if (control.length_rule != 2) return {wide, control.plate_modulus / rho};
+  return {native_max(root(shortest), wide), control.E / rho};
+}
+
+/// Generalised forces of hourglass control; what they take is counted.
+COURANT_INLINE void hourglass_forces(Index first, Index n, Index k, Real dt, Native t, const Flat& f,
+                                     Native rho, const ShellControl& control, const ShellState& state,
+                                     const ShellScratch& s, Native Q[5]) {
+  Native membrane, warping, bending;
+  if (control.stiffness) {
+    const Native BB = 0.5 * f.inverse_A * (f.x0 * f.x0 + f.y0 * f.y0 + f.x1 * f.x1 + f.y1 * f.y1);  // times A
+    membrane = (control.QM * control.E / 8) * t * BB;
+    warping = (control.QW * control.shear_factor * control.G / 12) * t * t * t * BB * f.inverse_A;
+    bending = (control.QB * control.E / 192) * t * t * t * BB;
+  } else {
+    const Native impedance = 0.25 * root(control.plate_modulus * rho) * t;
+    membrane = control.QM * impedance * root(f.A);
+    warping = control.QW * impedance * t;
+    bending = (0.0722 * control.QB) * impedance * t * f.A;
+  }
+  const Native a[5] = {membrane, membrane, warping, bending, bending};
+  Native taken = all(0);
+  for (int m = 0; m < 5; ++m) {
+    const Native rate = load(s.hourglass_rate[m] + k);
+    if (control.stiffness) {
+      const Native old = load(state.hourglass[m] + first, n);
+      Q[m] = old + dt * a[m] * rate;
+      store(state.hourglass[m] + first, Q[m], n);
+      taken += 0.5 * (old + Q[m]) * rate;
+    } else {
+      Q[m] = a[m] * rate;
+      taken += Q[m] * rate;
+    }
+  }
+  add_to(state.hourglass_energy + first, dt * taken, n);
+}
+
+COURANT_INLINE void store_vector(Real* const* p, Index first, const Triple& a, Index n) {
+  store(p[0] + first, a.x, n), store(p[1] + first, a.y, n), store(p[2] + first, a.z, n);
+}
+
+/// Forces along the differences and the hourglass mode, turned to the global axes, become those on corners.
+template <int corners>
+COURANT_INLINE void to_corners(Real* const* out, Index first, Index n, const Triple& d0, const Triple& d1,
+                               const Triple& h) {
+  const Triple none{all(0), all(0), all(0)};
+  if (corners == quad) {
+    store_vector(out, first, none - d0 - h, n), store_vector(out + 3, first, h - d1, n);
+    store_vector(out + 6, first, d0 - h, n), store_vector(out + 9, first, d1 + h, n);
+  } else {
+    store_vector(out, first, d0 + d1, n), store_vector(out + 3, first, none - d0, n);
+    store_vector(out + 6, first, none - d1, n);
+  }
+}
+
+template <int corners>
+COURANT_INLINE void store_moments(Index first, Index n, const Flat& f, const Native R[8], const Native Q[5],
+                                  const ShellState& state) {
+  const Native a = f.hx * f.inverse_A, b = f.hy * f.inverse_A;
+  const bool has_hourglass = corners == quad;
+  const Native qx = has_hourglass ? Q[3] : all(0), qy = has_hourglass ? Q[4] : all(0);
+  const Along x = has_hourglass ? along(f, -R[5] - a * qx, -R[4] - b * qx) : along(f, -R[5], -R[4]),
+              y = has_hourglass ? along(f, R[3] - a * qy, R[5] - b * qy) : along(f, R[3], R[5]);
+  const Triple d0 = x.d0 * f.e1 + y.d0 * f.e2, d1 = x.d1 * f.e1 + y.d1 * f.e2;
+  Real* const* out = state.corner_moment;
+  if (corners == quad) {
+    const Triple h = qx * f.e1 + qy * f.e2;
+    const Native part = -0.25 * f.A;  // of shear, the same on all corners
+    const Triple s = (-part * R[7]) * f.e1 + (part * R[6]) * f.e2;
+    store_vector(out, first, s - d0 - h, n), store_vector(out + 3, first, s - d1 + h, n);
+    store_vector(out + 6, first, s + d0 - h, n), store_vector(out + 9, first, s + d1 + h, n);
+  } else {
+    const ShearGaps gaps = shear_gaps(f);
+    Triple s[3];
+    for (int i = 0; i < 3; ++i)
+      s[i] = (f.A * (gaps.xx[i] * R[6] + gaps.yx[i] * R[7])) * f.e1 -
+             (f.A * (gaps.xy[i] * R[6] + gaps.yy[i] * R[7])) * f.e2;
+    store_vector(out, first, s[0] + d0 + d1, n), store_vector(out + 3, first, s[1] - d0, n);
+    store_vector(out + 6, first, s[2] - d1, n);
+  }
+}
+
+template <int corners>
+COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const ShellControl& control,
+                              const ShellState& state, ShellScratch& s) {
+  Triple d[3];
+  for (int m = 0; m < (corners == quad ? 3 : 2); ++m)
+    d[m] = {load(s.place[3 * m] + k), load(s.place[3 * m + 1] + k), load(s.place[3 * m + 2] + k)};
+  const Flat f = flat_of<corners>(d, control.invariant_axes);
+  Native t = load(state.thickness + first, n);
+  if (control.thins) {
+    const Native half = (0.5 * dt) * load(s.thickening + k);
+    t *= (1.0 + half) / (1.0 - half);  // of second order
+    store(state.thickness + first, t, n);
+  }
+  Native R[8], Q[5];
+  integrate(first, n, k, dt, control.shear_factor, t, state, s, R);
+  const Native rho = load(state.mass + first, n) * f.inverse_A / t;
+  const Length length = length_of<corners>(d, f, control, rho);
+  // bulk viscosity q = rho l (Q1 l e^2 - Q2 c e) in compression, e = D xx + D yy < 0
+  const Native c = root(length.c2), l = root(f.A);
+  const Native closing = native_max(-load(s.membrane[0] + k) - load(s.membrane[1] + k), all(0));
+  const Native speed = control.Q1 * l * closing + control.Q2 * c;
+  const Native q = rho * l * closing * speed;
+  const Native damping = closing > 0.0 ? l / length.l * speed : all(0);
+  store(s.step_limit + k, length.l / (damping + root(damping * damping + length.c2)));
+  add_to(state.bulk_viscosity_energy + first, dt * load(s.middle_area + k) * t * q * closing, n);
+
+  const Native Nxx = R[0] - q * t, Nyy = R[1] - q * t;
+  Along x, y, z;
+  Triple h{all(0), all(0), all(0)};
+  if (corners == quad) {
+    hourglass_forces(first, n, k, dt, t, f, rho, control, state, s, Q);
+    const Native a = f.hx * f.inverse_A, b = f.hy * f.inverse_A;
+    x = along(f, Nxx - a * Q[0], R[2] - b * Q[0]), y = along(f, R[2] - a * Q[1], Nyy - b * Q[1]);
+    z = along(f, R[6] - a * Q[2], R[7] - b * Q[2]);
+    h = Q[0] * f.e1 + Q[1] * f.e2 + Q[2] * f.e3;
+  } else {
+    x = along(f, Nxx, R[2]), y = along(f, R[2], Nyy), z = along(f, R[6], R[7]);
+  }
+  to_corners<corners>(state.corner_force, first, n, x.d0 * f.e1 + y.d0 * f.e2 + z.d0 * f.e3,
+                      x.d1 * f.e1 + y.d1 * f.e2 + z.d1 * f.e3, h);
+  store_moments<corners>(first, n, f, R, Q, state);
+}
+
+template <int corners>
+void strain(const ShellLoops::Block& block, const ShellControl& control, const ShellMesh& mesh,
+            ShellScratch& scratch) {
+  for (Index k = 0; k < block.count; k += native_lanes)
+    strain_of<corners>(block.begin + k, block.count - k < native_lanes ? block.count - k : native_lanes, k,
+                       block.dt, control, mesh, scratch);
+}
+
+template <int corners>
+ShellLoops::Found forces(const ShellLoops::Block& block, const ShellControl& control, const ShellState& state,
+                         ShellScratch& scratch) {
+  for (Index k = 0; k < block.count; k += native_lanes)
+    forces_of<corners>(block.begin + k, block.count - k < native_lanes ? block.count - k : native_lanes, k,
+                       block.dt, control, state, scratch);
+  const Real* limit = scratch.step_limit;
+  Index at = 0;
+  for (Index i = 1; i < block.count; ++i)
+    if (!(limit[i] >= limit[at]) && limit[at] == limit[at]) at = i;
+  return {limit[at], block.begin + at};
+}
+
+}  // namespace
+
+ShellLoops quadrilateral_loops() {
+  return {&strain<quad>, &at_point, &forces<quad>};
+}
+ShellLoops triangle_loops() {
+  return {&strain<3>, &at_point, &forces<3>};
+}
+
+}  // namespace courant::COURANT_SIMD

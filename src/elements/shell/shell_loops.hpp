@@ -1,0 +1,85 @@
+#pragma once
+// The shell of Belytschko, Lin & Tsay (1984) with one point in its plane (ELFORM 2), and the flat triangle
+// (ELFORM 4), on a block of elements, compiled once for each instruction set.
+//
+// Quadrilateral: d0 = x1 - x3, d1 = x2 - x4 and h = x1 - x2 + x3 - x4 tell all that does not depend on where
+// it is; triangle: d0 = x2 - x1, d1 = x3 - x1. The normal e3 is along d0 x d1, A = |d0 x d1|/2, and of any
+// nodal value v, with its differences v0, v1 taken as d0, d1,
+//   A dv/dx = (y1 v0 - y0 v1)/2,   A dv/dy = (x0 v1 - x1 v0)/2
+// in the plane of the element. Theory, with the signs of moments: docs/theory.md.
+#include "base/real.hpp"
+#include "parallel/parallel.hpp"
+
+namespace courant {
+
+/// Corners of the elements of a group, and the nodes they stand at.
+struct ShellMesh {
+  const Real *x[3], *v[3], *w[3];  ///< of nodes: place at the end of the step [L], velocity and angular
+                                   ///< velocity through it [L/T], [1/T]
+  const Index* corner[4];          ///< by element: its nodes; of triangles the last is not looked at
+};
+
+/// Arrays over the elements of a group, in the axes of each element, which turn with it. The loops touch the
+/// entries of their block alone.
+struct ShellState {
+  static constexpr int most_points = 10;
+  int points = 2;                              ///< through the thickness
+  Real zeta[most_points], share[most_points];  ///< of each: height over half the thickness, weight (sum 1)
+  Real* stress[6 * most_points];               ///< of point p: xx yy zz xy yz zx at 6 p, zz is 0 [M/LT2]
+  Real* resultant[8];                          ///< N xx yy xy [M/T2], M xx yy xy [ML/T2], Q xz yz [M/T2]
+  Real* hourglass[5];  ///< of stiffness: generalised forces on vx vy vz wx wy; null with viscous control
+  Real* thickness;     ///< [L]
+  const Real* mass;    ///< [M]
+  Real *internal_energy, *hourglass_energy, *bulk_viscosity_energy;  ///< what they took is added [ML2/T2]
+  Real *corner_force[12], *corner_moment[12];  ///< out: of corner c in direction k at [3 c + k], on the node
+};
+
+/// What holds for all elements of a group.
+struct ShellControl {
+  bool stiffness = false;                ///< hourglass control by stiffness, else viscous
+  Real QM = 0.1, QB = 0.1, QW = 0.1;     ///< of membrane, bending, warping
+  Real Q1 = 0, Q2 = 0;                   ///< bulk viscosity
+  Real E = 0, G = 0, plate_modulus = 0;  ///< E/(1 - nu^2) [M/LT2]
+  Real shear_factor = 1;                 ///< SHRF
+  int length_rule = 0;                   ///< ISDO
+  bool thins = false;                    ///< ISTUPD 1
+  bool invariant_axes = false;           ///< INN 2, 4
+};
+
+/// What a thread keeps of the block it works on, from one loop to the next.
+struct ShellScratch {
+  Real place[9][block_size];      ///< d0, d1, h of the end of the step [L]
+  Real membrane[3][block_size];   ///< D xx yy xy of the middle surface, of the middle of the step [1/T]
+  Real curvature[3][block_size];  ///< the same per height [1/LT]
+  Real shear[2][block_size];      ///< D zx yz, of the tensor [1/T]
+  Real hourglass_rate[5][block_size];
+  Real middle_area[block_size];          ///< at mid-step [L2]
+  alignas(64) Real rate[6][block_size];  ///< of a point, `at_point` writes it; zz is left alone [1/T]
+  Real thickening[block_size];           ///< in: mean of D zz over the points [1/T]
+  Real step_limit[block_size];           ///< out: stable step [T]
+};
+
+struct ShellLoops {
+  /// Elements [begin, begin + count) of the group, count <= block_size.
+  struct Block {
+    Index begin, count;
+    Real dt;  ///< of the step that led here; 0: none yet [T]
+  };
+  struct Found {
+    Real step;       ///< least stable step; not a number where that of an element is [T]
+    Index shortest;  ///< whose it is, of the group
+  };
+  void (*strain)(const Block& block, const ShellControl& control, const ShellMesh& mesh,
+                 ShellScratch& scratch);
+  void (*at_point)(const Block& block, int point, const ShellState& state, ShellScratch& scratch);
+  /// Behind the law: resultants and their work, corner forces and moments with the geometry at the end of the
+  /// step, energies, thickness, stable step.
+  Found (*forces)(const Block& block, const ShellControl& control, const ShellState& state,
+                  ShellScratch& scratch);
+};
+
+/// For the machine the program runs on.
+ShellLoops quadrilateral_loops();
+ShellLoops triangle_loops();
+
+}  // namespace courant

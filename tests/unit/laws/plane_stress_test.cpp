@@ -1,0 +1,156 @@
+// Plane stress of laws of strength, by trial steps and in closed form, against return along the plane.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "laws/strength/strength.hpp"
+#include "parallel/parallel.hpp"
+
+using namespace courant;
+
+namespace {
+
+std::shared_ptr<StrengthLaw> plane_law(const std::string& keyword, const std::string& cards) {
+  ReadOptions options;
+  options.open = [&](const std::string&) {
+    return std::optional<std::string>("*KEYWORD\n*" + keyword + "\n" + cards + "*END\n");
+  };
+  Diagnostics diagnostics;
+  const Deck deck = read_deck("m.k", options, diagnostics);
+  EXPECT_TRUE(diagnostics.ok()) << diagnostics.text();
+  for (const StrengthEntry& kind : strength_registry())
+    if (kind.keyword == keyword) return kind.all(deck).at(0).second;
+  return nullptr;
+}
+
+/// A block of points with numbers of their own.
+struct SheetPoints {
+  static constexpr Index count = block_size;
+  Real rate[6][count] = {}, stress[6][count] = {}, history[8][count] = {}, speed[count], rate_zz[count];
+  std::vector<Real*> kept;
+
+  /// `generic`: by trial steps, whatever the law knows.
+  void step(const StrengthLaw& law, Real dt, bool generic) {
+    PointBlock block;
+    block.count = count, block.dt = dt, block.sound_speed = speed;
+    for (std::size_t k = 0; k < 6; ++k) block.rate[k] = rate[k], block.stress[k] = stress[k];
+    std::size_t numbers = 0;
+    for (const HistoryVariable& h : law.history()) numbers += static_cast<std::size_t>(h.components);
+    kept.clear();
+    for (std::size_t k = 0; k < numbers; ++k) kept.push_back(history[k]);
+    block.history = kept;
+    std::fill(rate[2], rate[2] + count, 1e3);  // must not be looked at
+    if (generic)
+      law.StrengthLaw::update_in_plane_stress(block, rate_zz);
+    else
+      law.update_in_plane_stress(block, rate_zz);
+  }
+  void fill_rates(Real size) {
+    for (int k = 0; k < 6; ++k)
+      for (Index i = 0; i < count; ++i)
+        rate[k][i] = size * (0.05 + (i % 4) / 3.0) * std::sin(1.0 + 3 * k + 0.37 * i);
+  }
+};
+
+Real mises(const SheetPoints& p, Index i) {
+  const auto& s = p.stress;
+  return std::sqrt(s[0][i] * s[0][i] - s[0][i] * s[1][i] + s[1][i] * s[1][i] +
+                   3 * (s[3][i] * s[3][i] + s[4][i] * s[4][i] + s[5][i] * s[5][i]));
+}
+
+/// Return along the plane (Simo & Taylor 1986) by halving: with a = (xx + yy)/sqrt(2), b = (yy - xx)/sqrt(2)
+/// of the trial stress and multiplier m, a/(1 + E m/(3 (1 - nu))), b and all shear over 1 + 2 G m.
+struct Returned {
+  Real xx, yy, xy, yz, zx, plastic;
+};
+Returned returned(const SheetPoints& trial, Index i, Real E, Real nu, Real yield, Real hardening) {
+  const Real G = E / (2 * (1 + nu));
+  const auto& s = trial.stress;
+  const auto at = [&](Real m) {
+    const Real f = 1 / (1 + E * m / (3 * (1 - nu))), g = 1 / (1 + 2 * G * m);
+    const Real a = f * (s[0][i] + s[1][i]), b = g * (s[1][i] - s[0][i]);
+    return Returned{0.5 * (a - b), 0.5 * (a + b), g * s[3][i], g * s[4][i], g * s[5][i], 0};
+  };
+  const auto q = [](const Returned& r) {
+    return std::sqrt(r.xx * r.xx - r.xx * r.yy + r.yy * r.yy + 3 * (r.xy * r.xy + r.yz * r.yz + r.zx * r.zx));
+  };
+  Real low = 0, high = 100 / E;
+  if (q(at(0)) <= yield) high = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Real m = 0.5 * (low + high), e = 2.0 / 3 * m * q(at(m));
+    (q(at(m)) > yield + hardening * e ? low : high) = m;
+  }
+  Returned out = at(high);
+  out.plastic = 2.0 / 3 * high * q(out);
+  return out;
+}
+
+}  // namespace
+
+TEST(PlaneStress, TrialStepsGiveWhatTheClosedFormGives) {
+  const auto law = plane_law("MAT_ELASTIC", "1,2.0,2.5,0.3\n");
+  SheetPoints a, b;
+  for (SheetPoints* p : {&a, &b}) {
+    p->fill_rates(0.1);
+    p->step(*law, 0.5, p == &a), p->step(*law, 0.25, p == &a);
+  }
+  for (Index i = 0; i < SheetPoints::count; ++i) {
+    EXPECT_NEAR(a.rate_zz[i], -0.3 / 0.7 * (a.rate[0][i] + a.rate[1][i]), 1e-10);
+    EXPECT_NEAR(b.rate_zz[i], -0.3 / 0.7 * (b.rate[0][i] + b.rate[1][i]), 1e-15);
+    EXPECT_NEAR(b.stress[0][i], 0.75 * 2.5 / 0.91 * (b.rate[0][i] + 0.3 * b.rate[1][i]), 1e-14);
+    EXPECT_NEAR(b.stress[3][i], 0.75 * 2.5 / 1.3 * b.rate[3][i], 1e-14);
+    for (int k = 0; k < 6; ++k) EXPECT_NEAR(a.stress[k][i], b.stress[k][i], 1e-10) << k;
+    EXPECT_EQ(a.stress[2][i], 0);
+    EXPECT_EQ(b.stress[2][i], 0);
+  }
+}
+
+// History counts once, however many trials there were.
+TEST(PlaneStress, PlasticPointsReturnAlongThePlane) {
+  const Real E = 2.5, nu = 0.3, Ep = E * 0.5 / (E - 0.5);
+  const auto law = plane_law("MAT_PLASTIC_KINEMATIC", "1,2.0,2.5,0.3,0.2,0.5,1.0\n");
+  const auto elastic = plane_law("MAT_ELASTIC", "1,2.0,2.5,0.3\n");
+  for (const bool generic : {false, true}) {
+    SheetPoints p, trial;
+    p.fill_rates(0.2), trial.fill_rates(0.2);
+    p.step(*law, 1, generic), trial.step(*elastic, 1, false);
+    int plastic = 0;
+    for (Index i = 0; i < SheetPoints::count; ++i) {
+      const Returned r = returned(trial, i, E, nu, 0.2, Ep);
+      plastic += r.plastic > 0;
+      EXPECT_NEAR(p.history[0][i], r.plastic, 1e-9) << i;
+      EXPECT_NEAR(p.stress[0][i], r.xx, 1e-9);
+      EXPECT_NEAR(p.stress[1][i], r.yy, 1e-9);
+      EXPECT_NEAR(p.stress[3][i], r.xy, 1e-9);
+      EXPECT_NEAR(p.stress[4][i], r.yz, 1e-9);
+      EXPECT_NEAR(p.stress[5][i], r.zx, 1e-9);
+      EXPECT_EQ(p.stress[2][i], 0);
+      // volume changes elastically: D zz = tr(stress)/(3 K) - D xx - D yy
+      const Real K = E / (3 * (1 - 2 * nu));
+      EXPECT_NEAR(p.rate_zz[i], (r.xx + r.yy) / (3 * K) - p.rate[0][i] - p.rate[1][i], 1e-8) << i;
+    }
+    EXPECT_GT(plastic, 10);
+    EXPECT_LT(plastic, SheetPoints::count);
+  }
+}
+
+// Any law of the registry: on its yield surface the trials leave no stress across the plane, and a second
+// step back and forth goes on from the history of the first.
+TEST(PlaneStress, KinematicHardeningWithRatesHasNoStressAcross) {
+  const auto law = plane_law("MAT_PLASTIC_KINEMATIC", "1,2.0,2.5,0.3,0.2,0.5,0.4\n10.0,4.0,0.0,1\n");
+  SheetPoints p;
+  p.fill_rates(4);
+  Real before[SheetPoints::count];
+  for (int k = 0; k < 4; ++k) {
+    std::copy_n(p.history[0], SheetPoints::count, before);
+    p.step(*law, 1, true);
+    for (Index i = 0; i < SheetPoints::count; ++i) {
+      EXPECT_EQ(p.stress[2][i], 0);
+      EXPECT_TRUE(std::isfinite(mises(p, i)));
+      EXPECT_GE(p.history[0][i], before[i]);
+      if (k == 3) {
+        EXPECT_GT(p.history[0][i], before[i]) << i;
+      }
+    }
+  }
+}
