@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -109,6 +110,18 @@ TEST(Post, ProbeOnTheLine) {
       << diagnostics.text();
   const YAML::Node results = YAML::LoadFile((dir / "results.yaml").string());
   EXPECT_NEAR(results["probes"][0]["last_depth"].as<double>(), 0.08, 5e-4);
+}
+
+TEST(Post, PicturesAloneReadTheirStates) {
+  ScratchFolder dir;
+  write_state(dir);
+  Diagnostics diagnostics;
+  ASSERT_TRUE(run_post(
+      write(dir, "snapshots: {times: [0]}\n"), dir.path(), [](std::string_view) {}, diagnostics))
+      << diagnostics.text();
+  const std::string csv = test::read_text(dir / "snapshots.csv");
+  // the channel has 100 columns of 4 and 120 of 16 particles
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 100 * 4 + 120 * 16);
 }
 
 TEST(Post, FolderWithoutResults) {
