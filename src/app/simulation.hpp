@@ -47,7 +47,8 @@ class Simulation {
   void show_wall_forces();
 
   const DeckRecord& record() const { return record_; }  ///< the deck as it was read
-  /// How the deck differs from that of the run before, a line for each difference.
+  /// How the deck, and once its state is loaded what was made of it, differs from that of the run before, a
+  /// line for each difference.
   const std::vector<std::string>& changes() const { return changes_; }
   const Deck& deck() const { return deck_; }     ///< without nodes, elements and text
   const Model& model() const { return model_; }  ///< without nodes and particles: the world holds them

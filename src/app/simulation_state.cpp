@@ -25,7 +25,13 @@ void Simulation::keep(Archive& archive) {
   for (const auto& [name, restartable] : restartables) restartable->loaded(world_);
   for (Exchanger* e : world_.passes.all<Exchanger>())
     e->exchange_all(world_);  // what `loaded` made anew, too
-  if (more_wait) neighbours_->force_refresh();
+  if (!more_wait) return;
+  neighbours_->force_refresh();
+  // their places are worked out from the start in one go, and the order in which particles wake is another
+  changes_.push_back(
+      "more particles wait in front of inlets than in the run so far: the last bits of what follows may "
+      "differ "
+      "from those of a run that had them from its start");
 }
 
 }  // namespace courant

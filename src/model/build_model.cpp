@@ -42,6 +42,7 @@ Model ModelBuilder::build() {
   build_body_loads();
   build_constraints();
   build_velocities();
+  warn_of_short_curves();
   if (errors_ > max_errors)
     diagnostics_.note({deck_.files.empty() ? "" : deck_.files[0].name, 0, 0},
                       fmt::format("{} more errors are not shown", errors_ - max_errors));

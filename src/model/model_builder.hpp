@@ -53,6 +53,8 @@ class ModelBuilder {
   void build_sets();
   void build_curves();
   void build_boxes();
+  // short_curves.cpp
+  void warn_of_short_curves();
   // move_nodes.cpp
   void move_nodes();
   // build_frames.cpp

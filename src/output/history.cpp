@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "output/hdf5.hpp"
+#include "output/history_checksum.hpp"
 
 namespace courant {
 namespace {
@@ -39,9 +40,14 @@ std::string content(const std::filesystem::path& file) {
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   std::ifstream stream(file, std::ios::binary);
   std::string bytes(error ? 0 : static_cast<std::size_t>(size), '\0');
-  if (bytes.empty() || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
+  if (bytes.empty() || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) ||
+      !take_history_checksum(bytes))
     throw OutputError(file, "what was written before cannot be read back");
   return bytes;
+}
+
+void write_checked(const std::filesystem::path& file, const std::string& bytes) {
+  write_file(file, {bytes, history_checksum(bytes)});
 }
 
 /// The file as HDF5 keeps it in memory: HDF5 never writes to the disk itself, because after a failed write
@@ -185,7 +191,7 @@ std::size_t History::resume(std::size_t rows) {
   if (!std::filesystem::exists(file_, none)) return 0;
   HistoryFile h5(file_, content(file_));
   rows_in_file_ = h5.cut(rows);
-  write_file(file_, h5.image());
+  write_checked(file_, h5.image());
   return rows_in_file_;
 }
 
@@ -218,7 +224,7 @@ void History::flush() {
     h5.append(path, c.dimension, c.components, c.values, rows_in_file_);
   }
   for (const auto& [group, title] : titles_) h5.set_title(group, title);
-  write_file(file_, h5.image());
+  write_checked(file_, h5.image());
   for (auto& [path, c] : columns_) c.values.clear();
   rows_in_file_ += rows_;
   rows_ = 0;

@@ -13,9 +13,11 @@ bool has(std::string_view text, std::string_view word) {
   return text.find(word) != std::string_view::npos;
 }
 
-/// What stands behind `word`.
+/// What stands behind `word`. Throws AsciiFault where it is not there.
 std::string_view behind(std::string_view text, std::string_view word) {
-  return text.substr(text.find(word) + word.size());
+  const std::size_t at = text.find(word);
+  if (at == std::string_view::npos) throw AsciiFault("'" + std::string(word) + "' is missing");
+  return text.substr(at + word.size());
 }
 
 Real number_behind(std::string_view text, std::string_view word, std::size_t width, const char* what) {
@@ -277,7 +279,7 @@ class Bndout : public AsciiReader {
   void line(std::string_view text, AsciiStates& states) override {
     if (has(text, "n o d a l   f o r c e/e n e r g y")) {
       section_ = "nodal";
-      const Real t = time_behind(text.substr(text.rfind("t=")), "t=", 9);
+      const Real t = time_behind(text.substr(std::min(text.rfind("t="), text.size())), "t=", 9);
       return states.begin(t);
     }
     const std::string_view row = stripped(text);

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <utility>
 
 #include "output/hdf5.hpp"
+#include "output/history_checksum.hpp"
 
 namespace courant {
 /// Values of a dataset as they lie in the file; shape: (rows, components).
@@ -21,11 +24,20 @@ namespace {
 std::string dimension_of(hid_t dataset) {
   if (H5Aexists(dataset, "dimension") <= 0) return "-";
   const Hdf5Handle attribute(H5Aopen(dataset, "dimension", H5P_DEFAULT), H5Aclose);
-  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  if (attribute < 0) return "-";
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return "-";
+  constexpr std::size_t longest = 1000;
+  if (H5Sget_simple_extent_npoints(space) != 1 || H5Tget_size(type) > longest) return "-";  // a damaged file
   std::string text(H5Tget_size(type), '\0');
   if (H5Aread(attribute, type, text.data()) < 0) return "-";
   return text.c_str();
+}
+
+bool is_whole(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  return take_history_checksum(bytes);
 }
 
 herr_t note_dataset(hid_t, const char* name, const H5O_info_t* info, void* to) {
@@ -67,6 +79,13 @@ std::optional<HistoryFile> HistoryFile::open(const std::filesystem::path& file, 
   if (!std::filesystem::is_regular_file(file, ignored)) {
     diagnostics.error({file.string()}, "no histories here: the file is missing",
                       "the deck needs a *DATABASE_GLSTAT card");
+    return std::nullopt;
+  }
+  if (!is_whole(file)) {
+    diagnostics.error({file.string()},
+                      "not a history file of `courant run`, or a damaged one: its checksum is not "
+                      "that of its content",
+                      "run the deck again");
     return std::nullopt;
   }
   const Hdf5Handle h5(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);

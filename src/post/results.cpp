@@ -1,19 +1,11 @@
 #include "post/results.hpp"
 
-#include <vtkCell.h>
-#include <vtkDataArray.h>
-#include <vtkDataArraySelection.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringOutputWindow.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkXMLDataElement.h>
-#include <vtkXMLPolyDataReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUtilities.h>
 
 #include <algorithm>
@@ -21,12 +13,12 @@
 #include <map>
 #include <string>
 
-#include "post/field_file_sizes.hpp"
+#include "post/field_file.hpp"
 
 namespace courant {
 namespace {
 
-/// Collects what VTK would print. Some of its readers' failures can be told by nothing else.
+/// Collects what VTK would print.
 class VtkMessages {
  public:
   VtkMessages()
@@ -40,7 +32,6 @@ class VtkMessages {
     vtkLogger::SetStderrVerbosity(verbosity_);
     vtkOutputWindow::SetInstance(before_);
   }
-  bool any() { return !messages_->GetOutput().empty(); }
 
  private:
   vtkSmartPointer<vtkOutputWindow> before_;
@@ -53,42 +44,36 @@ bool is_readable(const std::filesystem::path& file) {
   return std::filesystem::is_regular_file(file, ignored);
 }
 
-template <class Reader>
-bool load(Reader* reader, VtkMessages& messages, const std::filesystem::path& file,
-          Diagnostics& diagnostics) {
+std::optional<FieldFile> load(const std::filesystem::path& file, Diagnostics& diagnostics) {
   if (!is_readable(file)) {
     diagnostics.error({file.string()}, "the file is missing",
                       "fields.pvd names it; was the folder copied in full?");
-    return false;
+    return std::nullopt;
   }
-  reader->SetFileName(file.c_str());
-  if (sizes_fit(file) && reader->CanReadFile(file.c_str()) == 1) {
-    reader->Update();
-    if (reader->GetErrorCode() == 0 && !messages.any()) return true;
-  }
-  diagnostics.error({file.string()}, "not a field file that VTK can read",
-                    "it may be truncated; run the deck again");
-  return false;
+  auto out = FieldFile::open(file);
+  if (!out)
+    diagnostics.error({file.string()}, "not a field file of `courant run`",
+                      "it may be truncated; run the deck again");
+  return out;
 }
 
-vtkDataArray* find_array(vtkPolyData* data, const char* name, int components,
-                         const std::filesystem::path& file, Diagnostics& diagnostics) {
-  vtkDataArray* array = data->GetPointData()->GetArray(name);
-  if (array && array->GetNumberOfComponents() == components &&
-      array->GetNumberOfTuples() == data->GetNumberOfPoints())
-    return array;
-  diagnostics.error(
-      {file.string()}, std::string("the array '") + name + "' is missing or has the wrong shape",
-      "the file must come from `courant run`, and FIELDS of *COURANT_OUTPUT, if the deck has it, must "
-      "name the array");
-  return nullptr;
-}
-
-void copy(vtkDataArray* from, std::vector<Real>& to) {
-  const int components = from->GetNumberOfComponents();
-  to.reserve(static_cast<std::size_t>(from->GetNumberOfTuples() * components));
-  for (vtkIdType i = 0; i < from->GetNumberOfTuples(); ++i)
-    for (int k = 0; k < components; ++k) to.push_back(from->GetComponent(i, k));
+/// An array of points with so many components.
+std::optional<std::vector<Real>> read_array(FieldFile& from, const std::string& section,
+                                            const std::string& name, int components,
+                                            const std::filesystem::path& file, Diagnostics& diagnostics) {
+  if (from.components(section, name) != components) {
+    diagnostics.error(
+        {file.string()}, "the array '" + name + "' is missing or has the wrong shape",
+        "the file must come from `courant run`, and FIELDS of *COURANT_OUTPUT, if the deck has it, must "
+        "name the array");
+    return std::nullopt;
+  }
+  auto values = from.values(section, name, from.points());
+  if (!values)
+    diagnostics.error({file.string()},
+                      "not a field file of `courant run`: the data of '" + name + "' are damaged",
+                      "run the deck again");
+  return values;
 }
 
 }  // namespace
@@ -125,50 +110,42 @@ std::vector<StateFiles> read_states(const std::filesystem::path& dir, Diagnostic
 std::optional<ParticleFrame> read_particles(const StateFiles& state, bool with_speed,
                                             const std::vector<ParticleArray>& arrays,
                                             Diagnostics& diagnostics) {
-  VtkMessages messages;
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(state.particles.c_str());
-  if (is_readable(state.particles) && sizes_fit(state.particles)) reader->UpdateInformation();
-  reader->GetPointDataArraySelection()->DisableAllArrays();  // reading less is most of the speed
-  for (const char* name : {"mass", "density", "smoothing_length"})
-    reader->GetPointDataArraySelection()->EnableArray(name);
-  if (with_speed) reader->GetPointDataArraySelection()->EnableArray("velocity");
-  for (const ParticleArray& array : arrays)
-    reader->GetPointDataArraySelection()->EnableArray(array.name.c_str());
-  if (!load(reader.Get(), messages, state.particles, diagnostics)) return std::nullopt;
-
-  vtkPolyData* data = reader->GetOutput();
-  vtkDataArray* m = find_array(data, "mass", 1, state.particles, diagnostics);
-  vtkDataArray* rho = find_array(data, "density", 1, state.particles, diagnostics);
-  vtkDataArray* h = find_array(data, "smoothing_length", 1, state.particles, diagnostics);
-  vtkDataArray* v = with_speed ? find_array(data, "velocity", 3, state.particles, diagnostics) : nullptr;
+  const std::filesystem::path& path = state.particles;
+  auto file = load(path, diagnostics);
+  if (!file) return std::nullopt;
+  const auto read = [&](const char* section, const std::string& name, int components) {
+    return read_array(*file, section, name, components, path, diagnostics);
+  };
+  const auto m = read("PointData", "mass", 1), rho = read("PointData", "density", 1);
+  auto h = read("PointData", "smoothing_length", 1);
+  const auto v = with_speed ? read("PointData", "velocity", 3) : std::optional<std::vector<Real>>();
   if (!m || !rho || !h || (with_speed && !v)) return std::nullopt;
+  const auto x = read("Points", "Points", 3);
+  if (!x) return std::nullopt;
 
   ParticleFrame out;
   for (const ParticleArray& array : arrays) {
-    if (array.optional && !data->GetPointData()->HasArray(array.name.c_str())) continue;
-    vtkDataArray* from = find_array(data, array.name.c_str(), array.components, state.particles, diagnostics);
-    if (!from) return std::nullopt;
-    copy(from, out.arrays[array.name]);
+    if (array.optional && !file->has("PointData", array.name)) continue;
+    auto values = read("PointData", array.name, array.components);
+    if (!values) return std::nullopt;
+    out.arrays[array.name] = std::move(*values);
   }
   out.t = state.t;
-  const vtkIdType n = data->GetNumberOfPoints();
-  for (vtkIdType i = 0; i < n; ++i) {
-    const double* x = data->GetPoint(i);
-    out.x.push_back(x[0]);
-    out.y.push_back(x[1]);
-    out.z.push_back(x[2]);
-    out.V.push_back(m->GetComponent(i, 0) / rho->GetComponent(i, 0));
-    out.h.push_back(h->GetComponent(i, 0));
-    if (!(std::isfinite(out.V.back()) && out.V.back() > 0 && std::isfinite(x[0] + x[1] + x[2]) &&
-          out.h.back() > 0)) {
-      diagnostics.error({state.particles.string()},
+  out.h = std::move(*h);
+  for (std::size_t i = 0; i < m->size(); ++i) {
+    const Real* place = x->data() + 3 * i;
+    out.x.push_back(place[0]);
+    out.y.push_back(place[1]);
+    out.z.push_back(place[2]);
+    out.V.push_back((*m)[i] / (*rho)[i]);
+    if (!(std::isfinite(out.V.back()) && out.V.back() > 0 && std::isfinite(place[0] + place[1] + place[2]) &&
+          out.h[i] > 0)) {
+      diagnostics.error({path.string()},
                         "a particle has no finite position or no positive mass, density or smoothing length",
                         "the run was unstable there; look at an earlier time");
       return std::nullopt;
     }
-    if (v)
-      out.speed.push_back(std::hypot(v->GetComponent(i, 0), v->GetComponent(i, 1), v->GetComponent(i, 2)));
+    if (v) out.speed.push_back(std::hypot((*v)[3 * i], (*v)[3 * i + 1], (*v)[3 * i + 2]));
   }
   out.dim = std::all_of(out.z.begin(), out.z.end(), [&](Real z) { return z == out.z.front(); }) ? 2 : 3;
   return out;
@@ -176,23 +153,35 @@ std::optional<ParticleFrame> read_particles(const StateFiles& state, bool with_s
 
 std::vector<WallLine> read_walls(const StateFiles& state, Diagnostics& diagnostics) {
   if (state.shells.empty()) return {};
-  VtkMessages messages;
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  if (!load(reader.Get(), messages, state.shells, diagnostics)) return {};
+  auto file = load(state.shells, diagnostics);
+  if (!file) return {};
+  const auto x = read_array(*file, "Points", "Points", 3, state.shells, diagnostics);
+  if (!x) return {};
+  constexpr std::int64_t most_corners = 32;
+  const auto corners = file->integers("Cells", "connectivity", most_corners * file->cells());
+  const auto ends = file->integers("Cells", "offsets", file->cells());
+  const auto damaged = [&] {
+    diagnostics.error({state.shells.string()}, "not a field file of `courant run`: its cells are damaged",
+                      "run the deck again");
+    return std::vector<WallLine>();
+  };
+  if (!corners || !ends || static_cast<std::int64_t>(ends->size()) != file->cells()) return damaged();
   std::vector<WallLine> out;
-  vtkUnstructuredGrid* data = reader->GetOutput();
-  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c) {
-    vtkCell* cell = data->GetCell(c);
+  std::int64_t begin = 0;
+  for (const std::int64_t end : *ends) {
+    if (end < begin || end > static_cast<std::int64_t>(corners->size())) return damaged();
     WallLine longest{};
     Real length = -1;
-    for (vtkIdType i = 0; i < cell->GetNumberOfPoints(); ++i) {
-      std::array<double, 3> a{}, b{};
-      data->GetPoint(cell->GetPointId(static_cast<int>(i)), a.data());
-      data->GetPoint(cell->GetPointId(static_cast<int>((i + 1) % cell->GetNumberOfPoints())), b.data());
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::int64_t from = (*corners)[static_cast<std::size_t>(i)],
+                         to = (*corners)[static_cast<std::size_t>(i + 1 < end ? i + 1 : begin)];
+      if (std::min(from, to) < 0 || std::max(from, to) >= file->points()) return damaged();
+      const Real *a = x->data() + 3 * from, *b = x->data() + 3 * to;
       const Real l = std::hypot(b[0] - a[0], b[1] - a[1]);
       if (l > length) longest = {a[0], a[1], b[0], b[1]}, length = l;
     }
     out.push_back(longest);
+    begin = end;
   }
   return out;
 }

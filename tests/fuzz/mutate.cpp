@@ -1,6 +1,7 @@
 #include "mutate.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 
 #include "keyword/registry.hpp"
@@ -100,7 +101,11 @@ std::size_t line_end(const std::string& text, std::size_t at) {
 
 }  // namespace
 
-Mutator::Mutator(std::uint64_t seed) : random_(seed), keywords_(keyword_lines()) {}
+Mutator::Mutator(std::uint64_t seed) : Mutator(seed, pieces, keyword_lines()) {}
+
+Mutator::Mutator(std::uint64_t seed, const std::vector<std::string>& pieces,
+                 const std::vector<std::string>& lines)
+    : random_(seed), pieces_(pieces), keywords_(lines) {}
 
 std::size_t Mutator::below(std::size_t bound) {
   return bound == 0 ? 0 : static_cast<std::size_t>(random_() % bound);
@@ -129,7 +134,7 @@ void Mutator::change_bytes(std::string& deck) {
       deck.erase(at, 1 + below(12));
       break;
     case 2:
-      deck.insert(at, one_of(pieces));
+      deck.insert(at, one_of(pieces_));
       break;
     case 3:
       deck.insert(at, one_of(keywords_));
@@ -190,6 +195,48 @@ void Mutator::change_lines(std::string& deck, const std::string& other) {
       deck.replace(begin, end - begin, commas);
     }
   }
+}
+
+void change_binary(std::string& bytes, const std::string& other, std::size_t largest,
+                   std::mt19937_64& random) {
+  const auto below = [&](std::size_t bound) {
+    return bound == 0 ? 0 : static_cast<std::size_t>(random() % bound);
+  };
+  if (bytes.empty()) bytes = other;
+  for (std::size_t changes = 1 + below(4); changes > 0 && !bytes.empty(); --changes) {
+    const std::size_t at = below(bytes.size());
+    switch (below(8)) {
+      case 0:
+      case 1:
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
+        break;
+      case 2:
+        bytes[at] = static_cast<char>(random());
+        break;
+      case 3:
+      case 4: {
+        constexpr std::uint64_t limits[] = {0,       1,          0x7f,       0xff,        0x7fff,    0xffff,
+                                            1 << 24, 0x7fffffff, 0xffffffff, 1ull << 40u, ~0ull / 2, ~0ull};
+        const std::uint64_t value = limits[below(std::size(limits))];
+        const std::size_t width = std::size_t(1) << below(4);
+        for (std::size_t k = 0; k < width && at + k < bytes.size(); ++k)
+          bytes[at + k] = static_cast<char>(value >> 8 * k);
+        break;
+      }
+      case 5:
+        bytes.erase(at, 1 + below(below(2) == 0 ? 8 : 512));
+        break;
+      case 6:
+        bytes.insert(at, other, below(other.size()), 1 + below(64));
+        break;
+      default:
+        if (below(4) == 0)
+          bytes.resize(at);
+        else
+          bytes.insert(at, bytes.substr(at, 1 + below(32)));
+    }
+  }
+  if (bytes.size() > largest) bytes.resize(largest);
 }
 
 }  // namespace courant::fuzz

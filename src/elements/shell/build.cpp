@@ -137,11 +137,11 @@ std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model,
   if (deforming.empty()) return out;
   const int errors = diagnostics.errors();
   if (!solids)  // which check them, too
-    for (const StrengthEntry& kind : strength_registry()) kind.check(deck, diagnostics);
+    for (const StrengthEntry& kind : strength_registry()) kind.check(deck, model, diagnostics);
   if (diagnostics.errors() > errors) return out;  // a law is made from valid cards
   std::map<Id, std::shared_ptr<StrengthLaw>> laws;
   for (const StrengthEntry& kind : strength_registry())
-    for (const auto& [id, law] : kind.all(deck)) laws.emplace(id, law);
+    for (const auto& [id, law] : kind.all(deck, model)) laws.emplace(id, law);
   ShellReader reader(deck, diagnostics);
   for (const std::size_t k : deforming) {
     const ModelPart& part = model.parts[k];

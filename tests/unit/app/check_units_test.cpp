@@ -66,6 +66,20 @@ TEST(Units, NoLineIsWiderThanThePage) {
     EXPECT_LE(text.find('\n', at) - at, 100u) << text;
 }
 
+TEST(Units, AModulusAloneTells) {
+  // 5000 kg/m3 is no material that is known; 210 GPa is steel's modulus, in both systems whose stress is in
+  // MPa
+  EXPECT_EQ(verdict(facts({5e-9}, 0, 100, 1e-3, 2.1e5)),
+            "Units: tonne-mm-s (N, MPa) or g-mm-ms (N, MPa)  E = 210000 is steel");
+}
+
+TEST(Units, AnEndTimeDecidesBetweenSecondsAndMicroseconds) {
+  // a density of 1 is water in both; a run of 1e-3 microseconds, a nanosecond, is none
+  const std::string found = verdict(facts({1}, 0, 10, 1e-3));
+  EXPECT_EQ(found.rfind("Units: g-cm-s (", 0), 0u) << found;
+  EXPECT_EQ(found.find("g-cm-us"), std::string::npos) << found;
+}
+
 }  // namespace
 
 }  // namespace courant

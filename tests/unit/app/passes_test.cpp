@@ -310,5 +310,26 @@ TEST(Passes, OutputsThatAreAskedFor) {
                 {"output field states", "output glstat", "output matsum", "output sphout"});
 }
 
+TEST(Passes, ThreadsWaitForAReasonOnly) {
+  const auto s = test::build(SmallScene{});
+  ASSERT_TRUE(s);
+  EXPECT_EQ(s->passes().find("threads wait: \n"), std::string::npos) << s->passes();
+}
+
+TEST(Passes, SampleHasTheEnergyOfABody) {
+  SmallScene scene;
+  scene.dim = 3, scene.n = 2;
+  scene.extra = test::floor_cards(-5, 1, "1,5,7") + "*INITIAL_VELOCITY_GENERATION\n2,2,0.,3.,0.,0.\n\n";
+  const auto s = test::build(scene);
+  ASSERT_TRUE(s);
+  test::steps(*s, 2);
+  const Sample sample = s->sample("");
+  ASSERT_EQ(sample.parts.size(), 2u);
+  const Real m = 7850 * 5 * 5 * 0.05;  // the plate is 5 by 5, held but along x
+  EXPECT_NEAR(sample.parts[1].mass, m, 1e-9 * m);
+  EXPECT_NEAR(sample.parts[1].momentum[0], 3 * m, 1e-9 * m);
+  EXPECT_NEAR(sample.parts[1].kinetic, 0.5 * m * 3 * 3, 1e-9 * m);
+}
+
 }  // namespace
 }  // namespace courant

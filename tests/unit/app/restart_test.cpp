@@ -165,6 +165,9 @@ TEST(Restart, InjectionWithAnotherEndTime) {
   const auto extended = test::build(with_inlet("1.2")), cut = test::build(with_inlet("0.4"));
   load(*extended, saved(*shorter)), load(*cut, saved(*longer));
   EXPECT_EQ(cut->world().particles.size(), longer->world().particles.size());
+  ASSERT_EQ(extended->changes().size(), 1u) << "told, as last bits may differ";
+  EXPECT_EQ(extended->changes()[0].rfind("more particles wait in front of inlets", 0), 0u);
+  EXPECT_EQ(cut->changes().size(), 0u);
   const auto by_id = [](Simulation& s) {
     std::map<Id, Vec> out;
     const Particles& p = s.world().particles;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/facet_grid.hpp"
+#include "contact/wall.hpp"
 
 using namespace courant;
 
@@ -76,6 +77,32 @@ TEST(Facet, PathThroughAMovingFacetIsSeen) {
   EXPECT_TRUE(passes_through(f, f.x, 1, Vec(0.5, 1.1, 0.1), Vec(0.5, 0.8, -0.1), t));
   // round-off put the start on the wrong side of the plane: still a passage
   EXPECT_TRUE(passes_through(f, f.x, 1, Vec(0.5, 0.5, -1e-18), Vec(0.5, 0.5, -0.1), t));
+}
+
+// Of two squares of a plane the later one gives way along the edge that they share, and there only.
+TEST(Wall, IsSurelyOverUpToItsOtherEdges) {
+  World w = world_of({{Vec(0, 0, 0), Vec(1, 0, 0), Vec(1, 1, 0), Vec(0, 1, 0)},
+                      {Vec(1, 1, 0), Vec(1, 0, 0), Vec(2, 0, 0), Vec(2, 1, 0)}});
+  std::vector<Facet> facets = make_facets(w, {0, 1});
+  ASSERT_EQ(facets.size(), 2u);
+  for (Facet& f : facets) f.moves = false;
+  std::vector<Wall> walls{make_wall(facets[0]), make_wall(facets[1])};
+  const Real apart = 0.05;
+  find_planes(facets, 0.1, 1e-6, apart, walls);
+  ASSERT_GE(walls[1].plane, 0);
+  EXPECT_EQ(walls[0].plane, walls[1].plane);
+  EXPECT_TRUE(is_surely_over(walls[1], Vec(1.97, 0.5, 0.1)));
+  EXPECT_TRUE(is_surely_over(walls[1], Vec(1.5, 0.03, 0.1)));
+  EXPECT_FALSE(is_surely_over(walls[1], Vec(1.03, 0.5, 0.1))) << "here the other one may be nearer";
+  EXPECT_TRUE(is_surely_over(walls[1], Vec(1.2, 0.5, 0.1)));
+  EXPECT_FALSE(is_surely_over(walls[1], Vec(2.1, 0.5, 0.1)));
+}
+
+TEST(Wall, IsSurelyOverAtTheBorderItself) {
+  Wall w;
+  for (std::size_t e = 0; e < 4; ++e) w.inward[e] = Vec::UnitX(), w.sure[e] = 1;
+  EXPECT_TRUE(is_surely_over(w, Vec(1, 0, 0)));
+  EXPECT_FALSE(is_surely_over(w, Vec(0.999, 0, 0)));
 }
 
 TEST(FacetGrid, FindsEveryFacetInReach) {

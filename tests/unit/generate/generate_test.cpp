@@ -205,6 +205,14 @@ TEST_F(Generate, RefusesHugeLattices) {
           "up to here the scene has room for 7.2e+07 particles and shells");
 }
 
+TEST_F(Generate, RefusesManyPlatesThatAreHugeTogether) {
+  const std::string plate = "      - {origin: [0, 0, 0], edge1: [1, 0, 0], edge2: [0, 0, dx], mesh: dx}\n",
+                    large =
+                        "      - {origin: [0, 0, 0], edge1: [6000, 0, 0], edge2: [0, 0, 6000], mesh: 1}\n";
+  refused(with(small, plate, large + large),
+          "up to here the scene has room for 7.2e+07 particles and shells");
+}
+
 TEST_F(Generate, RefusesLatticesOfTwoAndOfThreeDimensions) {
   const std::string lattice = "      - {low: [-1, 0], high: [0, dx], spacing: dx}\n",
                     spatial = "      - {low: [1, 0, 0], high: [2, dx, 1], spacing: dx}\n";

@@ -65,6 +65,12 @@ TEST(CoordinateSystems, FromVectors) {
   expect_near(s.axes.col(2), e_y);
 }
 
+TEST(CoordinateSystems, HaveTitles) {
+  const SmallModel m = small_model("*DEFINE_COORDINATE_VECTOR_TITLE\nturned\n7,0.,0.,2.,5.,0.,5.\n");
+  EXPECT_EQ(m.messages, "");
+  EXPECT_EQ(m.model.coordinate_systems.count(7), 1u);
+}
+
 TEST(Vectors, FromPointsAndNodes) {
   const SmallModel m = small_model(
       "*DEFINE_VECTOR\n1,0.,0.,0.,1.,0.,0.,7\n*DEFINE_VECTOR_NODES\n2,1,9\n"

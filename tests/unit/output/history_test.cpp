@@ -8,6 +8,7 @@
 #include <csignal>
 
 #include "output_test.hpp"
+#include "post/history_file.hpp"
 
 namespace courant {
 namespace {
@@ -26,6 +27,10 @@ Sample sample_at(Real t) {
   s.interfaces = {contact};
   s.particles = {{.id = 17, .p = 100 * t}};
   return s;
+}
+
+bool post_history(const std::filesystem::path& name, Diagnostics& diagnostics) {
+  return HistoryFile::open(name, diagnostics).has_value();
 }
 
 std::vector<double> read(hid_t file, const char* path, std::vector<hsize_t>* shape = nullptr) {
@@ -103,6 +108,35 @@ TEST(History, GrowsOverSeveralFlushesAndComesBack) {
   EXPECT_EQ(attribute(file, "/parts/5/momentum", "dimension"), "ML/T");
   EXPECT_EQ(attribute(file, "/parts/5", "title"), "water");
   H5Fclose(file);
+}
+
+// HDF5 crashes on some damaged files: none gets that far.
+TEST(History, DamagedFilesAreRefused) {
+  ScratchFolder dir;
+  const auto name = dir / "history.h5";
+  {
+    History history(name);
+    for (int i = 0; i < 3; ++i) history.record(sample_at(0.5 * i));
+    history.flush();
+  }
+  EXPECT_EQ(History(name).resume(3), 3u) << "it goes on from there";
+  const std::string whole = test::read_text(name);
+  const auto opens = [&](const std::string& bytes) {
+    write_file(name, bytes);
+    Diagnostics diagnostics;
+    const auto file = post_history(name, diagnostics);
+    EXPECT_EQ(file, diagnostics.ok());
+    return file;
+  };
+  EXPECT_TRUE(opens(whole));
+  for (std::size_t at = 0; at < whole.size(); at += 997) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 4);
+    EXPECT_FALSE(opens(damaged)) << at;
+    EXPECT_THROW(History(name).resume(3), OutputError) << at;
+  }
+  for (const std::size_t left : {std::size_t(0), std::size_t(5), whole.size() / 2, whole.size() - 1})
+    EXPECT_FALSE(opens(whole.substr(0, left))) << left;
 }
 
 TEST(History, ForcesAndMomentsOnBodiesTellTheirDimensions) {

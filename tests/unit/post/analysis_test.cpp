@@ -10,6 +10,7 @@
 #include "output/file.hpp"
 #include "output/history.hpp"
 #include "particle_sets.hpp"
+#include "post/history_file.hpp"
 #include "post/recipe.hpp"
 #include "post/run_analyses.hpp"
 
@@ -370,6 +371,36 @@ TEST(Force, OnTheWallsFromHistories) {
   EXPECT_NEAR(run.scalar("wall", "force_y_contact7_integral"), 3.75, 1e-12);
   EXPECT_NEAR(run.column("h", "v")[3], 8, 1e-12);
   EXPECT_NE(test::read_text(run.out() / "wall.csv").find("force_y_contact7 [N]"), std::string::npos);
+}
+
+TEST(History, WhatIsSilentAfterARestartIsMissingFromThereOn) {
+  ScratchFolder folder;
+  const auto record = [](History& history, int from, bool contact) {
+    for (int s = from; s < from + 3; ++s) {
+      Sample sample;
+      sample.t = s;
+      InterfaceForce one;
+      one.id = 7;
+      one.on_surfa = {0, -1.0 - s, 0};
+      if (contact) sample.interfaces.push_back(one);
+      history.record(sample);
+    }
+    history.flush();
+  };
+  History first(folder / "history.h5");
+  record(first, 0, true);
+  History later(folder / "history.h5");
+  EXPECT_EQ(later.resume(3), 3u);
+  record(later, 3, false);
+  Diagnostics diagnostics;
+  const auto file = HistoryFile::open(folder / "history.h5", diagnostics);
+  ASSERT_TRUE(file) << diagnostics.text();
+  const auto force = file->column("/contacts/7/force", 1);
+  ASSERT_TRUE(force);
+  ASSERT_EQ(force->size(), 6u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ((*force)[i], -1.0 - static_cast<Real>(i));
+  for (std::size_t i = 3; i < 6; ++i) EXPECT_TRUE(std::isnan((*force)[i])) << (*force)[i];
+  EXPECT_EQ(file->sampled("/contacts/7/force"), (std::vector<char>{1, 1, 1, 0, 0, 0}));
 }
 
 /// Fifty samples of a contact's force and the kinetic energy; those of the contact are lacking from t = 3

@@ -432,5 +432,15 @@ TEST(AsciiFile, Numbers) {
   EXPECT_TRUE(numbers("- 1").empty() && numbers(". 1").empty() && numbers("x").empty());
 }
 
+TEST(AsciiHistory, LinesWithoutWhatTheyAreToldBy) {
+  // a head of bndout without "t=", of rcforc without its time
+  for (const char* text : {"\n n o d a l   f o r c e/e n e r g y    o u t p u t\n\n nd#  30 xforce=  0.1\n",
+                           "\n n o d a l   f o r c e/e n e r g y    o u t p u t   t\n"}) {
+    const Read read(text);
+    EXPECT_FALSE(read.whole());
+    EXPECT_NE(read.faults().find("file:2: error: "), std::string::npos) << read.faults();
+  }
+}
+
 }  // namespace
 }  // namespace courant

@@ -1,8 +1,8 @@
 #include "post/post.hpp"
-#include "post/field_file_sizes.hpp"
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -11,7 +11,6 @@
 #include "output/field_writer.hpp"
 #include "output/summary.hpp"
 #include "parallel/parallel.hpp"
-#include "post/field_file_sizes.hpp"
 #include "post/recipe.hpp"
 
 namespace courant {
@@ -113,6 +112,18 @@ TEST(Post, ProbeOnTheLine) {
   EXPECT_NEAR(results["probes"][0]["last_depth"].as<double>(), 0.08, 5e-4);
 }
 
+TEST(Post, PicturesAloneReadTheirStates) {
+  ScratchFolder dir;
+  write_state(dir);
+  Diagnostics diagnostics;
+  ASSERT_TRUE(run_post(
+      write(dir, "snapshots: {times: [0]}\n"), dir.path(), [](std::string_view) {}, diagnostics))
+      << diagnostics.text();
+  const std::string csv = test::read_text(dir / "snapshots.csv");
+  // the channel has 100 columns of 4 and 120 of 16 particles
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 100 * 4 + 120 * 16);
+}
+
 TEST(Post, FolderWithoutResults) {
   ScratchFolder dir;
   Diagnostics diagnostics;
@@ -139,30 +150,43 @@ TEST(Post, TruncatedFieldFile) {
   }
 }
 
-TEST(Post, FieldFileThatAsksForMoreThanItHolds) {
+TEST(Post, DamagedFieldFiles) {
   ScratchFolder dir;
   write_state(dir);
   const auto file = dir / "fields/particles_0000.vtp";
-  EXPECT_TRUE(sizes_fit(file));
-  std::ifstream stream(file, std::ios::binary);
-  std::stringstream bytes;
-  bytes << stream.rdbuf();
-  const std::string whole = bytes.str();
-  const std::string points = "NumberOfPoints=\"";
-  const std::size_t data = whole.find('_', whole.find("<AppendedData")) + 1,
-                    count = whole.find(points) + points.size();
-  std::string blocks = whole, crowd = whole;
-  blocks.replace(data, 4, "\xff\xff\xff\x7f");  // of the first array
-  crowd.insert(count, "9999999");
-  for (const std::string& damaged : {blocks, crowd}) {
+  const std::string whole = test::read_text(file);
+  const auto refused = [&](const std::string& damaged) {
     write_file(file, damaged);
-    EXPECT_FALSE(sizes_fit(file));
     Diagnostics diagnostics;
-    EXPECT_FALSE(run_post(
-        jump_recipe, dir.path(), [](std::string_view) {}, diagnostics));
-    EXPECT_NE(diagnostics.text().find("particles_0000.vtp: error: not a field file"), std::string::npos)
-        << diagnostics.text();
-  }
+    const bool done = run_post(
+        jump_recipe, dir.path(), [](std::string_view) {}, diagnostics);
+    return !done &&
+           diagnostics.text().find("particles_0000.vtp: error: not a field file") != std::string::npos;
+  };
+  const auto with = [&](const std::string& before, std::size_t skip, const std::string& bytes) {
+    std::string out = whole;
+    const std::size_t at = whole.find(before);
+    EXPECT_NE(at, std::string::npos) << before;
+    return out.replace(at + before.size() + skip, bytes.size(), bytes);
+  };
+  // where the data of an array begin: blocks, bytes of a block, bytes of the last one, packed bytes of each
+  const std::string offset = "Name=\"mass\" NumberOfComponents=\"1\" format=\"appended\" offset=\"",
+                    data = "<AppendedData encoding=\"raw\">\n_";
+  const auto mass = std::stoul(whole.substr(whole.find(offset) + offset.size()));
+  const std::string huge = "\xff\xff\xff\x7f", nought(4, '\0');
+  EXPECT_TRUE(refused(with(data, mass, huge))) << "blocks";
+  EXPECT_TRUE(refused(with(data, mass, nought))) << "no block";
+  EXPECT_TRUE(refused(with(data, mass + 4, nought))) << "blocks of nothing, by which VTK's reader divides";
+  EXPECT_TRUE(refused(with(data, mass + 4, huge))) << "a block of 2 GB";
+  EXPECT_TRUE(refused(with(data, mass + 8, huge))) << "the last block";
+  EXPECT_TRUE(refused(with(data, mass + 12, huge))) << "a packed block beyond the end";
+  EXPECT_TRUE(refused(with(data, mass + 24, huge))) << "packed data";
+  EXPECT_TRUE(refused(with("NumberOfPoints=\"", 0, "9"))) << "more points than values";
+  std::string crowd = whole;
+  EXPECT_TRUE(refused(crowd.insert(whole.find("NumberOfPoints=\"") + 16, "9999999"))) << "memory";
+  EXPECT_TRUE(refused(with(offset, 0, "9999999"))) << "data beyond the end";
+  EXPECT_TRUE(refused(with("header_type=\"", 0, "UInt64"))) << "what no run writes";
+  EXPECT_FALSE(refused(whole));
 }
 
 TEST(Post, IndexThatIsNoXml) {

@@ -275,6 +275,24 @@ TEST(WallSupport, ContinuityNoticesTheWall) {
   }
 }
 
+TEST(WallSupport, SpraySeesNoWall) {
+  // 0.1 apart and h = 0.03: nobody is in reach of another, though the lists of groups hold others; the floor
+  // is
+  const auto scene = [](const std::string& more) {
+    test::SmallScene out;
+    out.start = "0.3,-0.5,0.";
+    out.section = "1,1.2,1.,1.,0.03";
+    out.extra = floor_cards() + more;
+    return out.text();
+  };
+  const auto s = test::build_deck(scene(support), false);
+  ASSERT_TRUE(s);
+  std::string who;
+  s->evaluate(who);
+  const Particles& p = s->world().particles;
+  for (Index i = 0; i < p.active; ++i) EXPECT_EQ(p.drhodt[i], 0) << p.x.vec(i).transpose();
+}
+
 TEST(WallSupport, KnowsHowMuchOfTheKernelLiesBehindTheWall) {
   const auto s = test::build_deck(on_floor(support));
   std::string who;
