@@ -116,7 +116,11 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   const auto sph_material = [&](Index part) { return materials_[part].for_particles(); };
   sph_ = build_particles(deck_, model_, sph_material, world_,
                          diagnostics);  // sets world_.dim, which rigid bodies ask for
-  const std::vector<Index> node_of = build_nodes(model_, added_nodes(deck_, model_), world_);
+  std::vector<Index> more = added_nodes(deck_, model_);
+  Diagnostics told_with_bodies;
+  for (const auto& [part, nodes] : extra_nodes(deck_, model_, told_with_bodies))
+    for (const ExtraNode& extra : nodes) more.push_back(extra.node);
+  const std::vector<Index> node_of = build_nodes(model_, more, world_);
   build_segments(deck_, model_, shell_material, node_of, world_, diagnostics);
   solids_ = find_solid_parts(deck_, model_, diagnostics);
   if (diagnostics.ok()) {

@@ -32,6 +32,15 @@ template <class T>
   zx = cx * a0 + cy * a1 + cz * a2;
 }
 
+/// A vector with the body: R a. hx, hy, hz as above.
+template <class T>
+[[gnu::always_inline]] inline void turn_vector(const T& hx, const T& hy, const T& hz, T& x, T& y, T& z) {
+  const T f = 2.0 / (1.0 + hx * hx + hy * hy + hz * hz);
+  // a + f h x (a + h x a)
+  const T ax = x + hy * z - hz * y, ay = y + hz * x - hx * z, az = z + hx * y - hy * x;
+  x += f * (hy * az - hz * ay), y += f * (hz * ax - hx * az), z += f * (hx * ay - hy * ax);
+}
+
 /// A rate D of the middle of a step, in the axes at its end: D + (W D - D W) dt/2, exact to second order.
 /// Where it is left out, stress and its work are right to first order only. hx, hy, hz as above.
 template <class T>

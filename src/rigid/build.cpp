@@ -7,7 +7,9 @@
 #include <set>
 
 #include "keyword/registry.hpp"
+#include "model/mesh/part_inertia.hpp"
 #include "model/transforms/transformation.hpp"
+#include "rigid/body_cards.hpp"
 #include "rigid/inertia.hpp"
 #include "rigid/mat_rigid.hpp"
 #include "rigid/rigid.hpp"
@@ -61,7 +63,7 @@ const RegisterKeyword<RigidInertia> rigid_inertia{
 /// Masses at the nodes of the body, in equal shares of each element.
 MassIntegrals lumped(const RigidBody& b, const World& world) {
   const Nodes& nodes = world.nodes;
-  MassIntegrals out{.origin = nodes.x.vec(b.nodes.front())};
+  MassIntegrals out{.origin = b.nodes.empty() ? Vec(Vec::Zero()) : nodes.x.vec(b.nodes.front())};
   for (const Index n : b.nodes) out.add_point(nodes.m[n], nodes.x.vec(n), nodes.v.vec(n));
   return out;
 }
@@ -98,11 +100,10 @@ MassIntegrals integrated(const RigidBody& b, const std::vector<SkinCell>& cells,
   return out;
 }
 
-void take_mass(RigidBody& b, const MassIntegrals& sums, const World& world) {
+void take_mass(RigidBody& b, const MassIntegrals& sums) {
   b.m = sums.m, b.x = sums.centre();
   b.v = sums.momentum / b.m, b.L = sums.angular_momentum();
   b.J0 = sums.inertia();
-  for (const Index n : b.nodes) b.X.push_back(world.nodes.x.vec(n) - b.x);
 }
 
 // Inertia of the axes that may turn; singular if all nodes lie on a line.
@@ -130,7 +131,14 @@ void start_velocities(RigidBody& b, World& world) {
 class Builder {
  public:
   Builder(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
+      : deck_(deck),
+        model_(model),
+        world_(world),
+        diagnostics_(diagnostics),
+        extra_(extra_nodes(deck, model, diagnostics)),
+        starts_(body_starts(deck, model, diagnostics)),
+        loads_(body_force_loads(deck, model, diagnostics)) {
+    for (const PartInertiaCard& card : deck.all<PartInertiaCard>()) given_[card.pid] = &card;
     for (Index n = 0; n < world.nodes.size(); ++n) world_node_[world.nodes.id[n]] = n;
     owner_.assign(world.nodes.size(), -1);
   }
@@ -153,13 +161,26 @@ class Builder {
     add_solid_masses(m, part, cells);
     b.solids = static_cast<Index>(cells.size());
     for (const SkinCell& cell : cells) b.volume += cell.volume;
+    const std::set<Index> of_elements = nodes;
+    add_extra_nodes(part, b, nodes);
     b.nodes.assign(nodes.begin(), nodes.end());
-    if (!b.fixed()) warn_of_shared_nodes(part, b);
+    const auto given = given_.find(b.part);
+    if (!b.fixed() && given == given_.end()) warn_of_shared_nodes(part, of_elements);
     const MassIntegrals at_nodes = lumped(b, world_);
-    if (!(at_nodes.m > 0)) return;  // the elements' own errors tell why
-    b.J_lumped = at_nodes.inertia();
-    const RigidInertia* asked = deck_.last<RigidInertia>();
-    take_mass(b, asked && asked->lumped == 1 ? at_nodes : integrated(b, cells, at_nodes.m, world_), world_);
+    if (at_nodes.m > 0) b.J_lumped = at_nodes.inertia();
+    if (given != given_.end()) {
+      if (!take_given(b, *given->second)) return;
+    } else if (at_nodes.m > 0) {
+      const RigidInertia* asked = deck_.last<RigidInertia>();
+      take_mass(b, asked && asked->lumped == 1 ? at_nodes : integrated(b, cells, at_nodes.m, world_));
+    } else {
+      return;  // the elements' own errors tell why
+    }
+    if (const auto start = starts_.find(part); start != starts_.end())
+      b.v = start->second.v, b.L = b.J0 * start->second.omega;
+    for (const Index n : b.nodes) b.X.push_back(world_.nodes.x.vec(n) - b.x);
+    for (const BodyForceLoad& load : loads_)
+      if (load.part == part) b.loads.push_back(load);
     if (world_.dim == 2) in_plane(part, b);
     if (!can_turn(b))
       diagnostics_.error(
@@ -184,6 +205,60 @@ class Builder {
   }
 
  private:
+  void add_extra_nodes(Index part, const RigidBody& b, std::set<Index>& nodes) {
+    const auto extra = extra_.find(part);
+    if (extra == extra_.end()) return;
+    for (const ExtraNode& e : extra->second) {
+      const ModelNode& node = model_.nodes[static_cast<std::size_t>(e.node)];
+      nodes.insert(world_node_.at(node.id));
+      if (!b.fixed()) refuse_spc(part, node);
+    }
+  }
+
+  /// Mass, centre, inertia and velocity of *PART_INERTIA; false where they are none.
+  bool take_given(RigidBody& b, const PartInertiaCard& card) {
+    const auto error = [&](const char* field, std::string what, const char* hint) {
+      deck_.error(diagnostics_, card, field, std::move(what), hint);
+      return false;
+    };
+    b.m = card.tm, b.x = Vec(card.xc, card.yc, card.zc);
+    if (card.nodeid != 0) {
+      const auto node = std::find_if(model_.nodes.begin(), model_.nodes.end(),
+                                     [&](const ModelNode& n) { return n.id == card.nodeid; });
+      if (node == model_.nodes.end())
+        return error("NODEID", fmt::format("node {} does not exist", card.nodeid), "define it with *NODE");
+      b.x = node->x;
+    }
+    Matrix axes = Matrix::Identity();
+    if (card.ircs == 1 && card.cid != 0) {
+      const auto system = model_.coordinate_systems.find(card.cid);
+      if (system == model_.coordinate_systems.end())
+        return error("CID", fmt::format("coordinate system {} does not exist", card.cid),
+                     "define it with *DEFINE_COORDINATE_SYSTEM");
+      axes = system->second.axes;
+    } else if (card.ircs == 1) {
+      const Vec x(card.xl, card.yl, card.zl), in_plane(card.xlip, card.ylip, card.zlip);
+      const Vec z = x.cross(in_plane);
+      if (!(z.norm() > 0))
+        return error("XL", "the vectors of the local axes are parallel, or none",
+                     "XL is along the local x axis, XLIP another one in the local xy plane");
+      axes.col(0) = x.normalized(), axes.col(2) = z.normalized();
+      axes.col(1) = axes.col(2).cross(axes.col(0));
+    }
+    b.J0 = axes * card.inertia() * axes.transpose();
+    const Matrix second = 0.5 * b.J0.trace() * Matrix::Identity() - b.J0;  // of x x^T dm
+    if (!is_positive(second, 1e-9 * b.J0.trace()))
+      return error("IXX", "no body has such an inertia",
+                   "of the principal moments none is larger than the sum of the others");
+    b.v = Vec(card.vtx, card.vty, card.vtz), b.L = b.J0 * Vec(card.vrx, card.vry, card.vrz);
+    return true;
+  }
+  /// No eigenvalue is below 0 by more than `slack`.
+  static bool is_positive(const Matrix& a, Real slack) {
+    const Matrix b = a + slack * Matrix::Identity();
+    return b(0, 0) > 0 && b(0, 0) * b(1, 1) - b(0, 1) * b(1, 0) > 0 && b.determinant() > 0;
+  }
+
   /// The solids of a part; adds their nodes to those of its body.
   std::vector<SkinCell> cells_of(Index part, std::set<Index>& nodes, bool fixed) {
     std::vector<SkinCell> cells;
@@ -224,8 +299,7 @@ class Builder {
   }
 
   // As LS-DYNA does: what solids have given these nodes counts.
-  void warn_of_shared_nodes(Index part, const RigidBody& b) {
-    const std::set<Index> mine(b.nodes.begin(), b.nodes.end());
+  void warn_of_shared_nodes(Index part, const std::set<Index>& mine) {
     std::set<Index> shared;
     Real mass = 0;
     for (const auto& group : world_.groups)
@@ -242,7 +316,8 @@ class Builder {
         fmt::format(
             "*PART {}: {} of the nodes of the rigid body, the first is {}, are corners of solids, too: "
             "they move with the body, which takes the mass of the solids there, {:.4g} [M]",
-            b.part, shared.size(), world_.nodes.id[*shared.begin()], mass),
+            model_.parts[static_cast<std::size_t>(part)].id, shared.size(), world_.nodes.id[*shared.begin()],
+            mass),
         "give the solids nodes of their own where they are not to be fixed to the body");
   }
 
@@ -282,6 +357,10 @@ class Builder {
   const Model& model_;
   World& world_;
   Diagnostics& diagnostics_;
+  std::map<Index, std::vector<ExtraNode>> extra_;
+  std::map<Index, BodyStart> starts_;
+  std::vector<BodyForceLoad> loads_;
+  std::map<Id, const PartInertiaCard*> given_;
   std::map<Id, Index> world_node_;
   std::vector<Index> owner_;
   std::set<Index> refused_;
@@ -302,7 +381,7 @@ std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& m
   Builder builder(deck, model, world, diagnostics);
   for (Index part = 0; part < Index(model.parts.size()); ++part) {
     const ModelPart& p = model.parts[part];
-    const MatRigid* m = p.has_shell || p.has_solid ? find(deck, p.mid) : nullptr;
+    const MatRigid* m = p.has_sph ? nullptr : find(deck, p.mid);
     if (m) builder.add(part, *m);
   }
   return builder.finish();

@@ -37,6 +37,16 @@ bool RigidBody::fixed() const {
   return all(held) && all(no_turn);
 }
 
+std::array<Vec, 2> RigidBody::load_at(Real t) const {
+  std::array<Vec, 2> out{Vec::Zero(), Vec::Zero()};
+  for (const BodyForceLoad& load : loads) out[load.turns] += load.sf * load.curve(t) * load.direction;
+  for (int k = 0; k < 3; ++k) {
+    if (held[k]) out[0][k] = 0;
+    if (no_turn[k]) out[1][k] = 0;
+  }
+  return out;
+}
+
 // With some rotations held only the rows of L = J omega along the free axes count; the others hold the
 // reaction.
 Vec RigidBody::omega_of(const Eigen::Quaterniond& orientation) const {
@@ -88,8 +98,9 @@ void RigidBodies::apply(World& world, const Clock& clock) {
   });
   for (RigidBody& b : bodies_) {
     if (b.fixed()) continue;
-    b.force = b.m * now.everywhere();
-    b.moment.setZero();
+    const auto [force, moment] = b.load_at(clock.t);
+    b.force = b.m * now.everywhere() + force;
+    b.moment = moment;
   }
   for (const Piece& piece : pieces_) {
     bodies_[piece.body].force += piece.force;
@@ -257,6 +268,15 @@ void RigidBodies::record(World& world, const Clock& clock, EnergyLedger& ledger)
   for (RigidBody& b : bodies_) {
     const Real work = b.motions.empty() ? 0 : work_of_drives(b, clock);
     b.drive_work += work;
+    ledger.external_work += work;
+    ledger.throughput += std::abs(work);
+  }
+  for (const RigidBody& b : bodies_) {
+    if (b.fixed() || b.loads.empty()) continue;
+    const Real half = 0.5 * clock.dt_mean();
+    const auto [force, moment] = b.load_at(clock.t);
+    const Real work = clock.dt_mean() * (force.dot(b.v + half / b.m * b.force) +
+                                         moment.dot(b.omega + b.turning_by(half * b.moment, b.q)));
     ledger.external_work += work;
     ledger.throughput += std::abs(work);
   }

@@ -12,6 +12,7 @@
 #include "loads/body_acceleration.hpp"
 #include "model/conditions/prescribed_motion.hpp"
 #include "model/model.hpp"
+#include "rigid/body_cards.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
 #include "state/wall_bodies.hpp"
@@ -48,10 +49,13 @@ struct RigidBody {
   Vec omega = Vec::Zero();                ///< [1/T]
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
   Vec force = Vec::Zero(), moment = Vec::Zero();  ///< at the last force evaluation [ML/T2], [ML2/T2]
+  std::vector<BodyForceLoad> loads;               ///< *LOAD_RIGID_BODY
   std::vector<PrescribedMotion> motions;          ///< whose directions are global axes where they turn
   Real drive_work = 0;                            ///< by `motions` so far [ML2/T2]
 
   bool fixed() const;  ///< nothing can move
+  /// Sum of the forces and of the moments of `loads` at a time, as far as the body can follow.
+  std::array<Vec, 2> load_at(Real t) const;
   Real kinetic_energy() const { return 0.5 * (m * v.squaredNorm() + omega.dot(L)); }
   /// Angular velocity that belongs to L in orientation q, with rotations held about some axes.
   Vec omega_of(const Eigen::Quaterniond& orientation) const;

@@ -131,7 +131,7 @@ std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model,
   bool solids = false;
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const ModelPart& part = model.parts[k];
-    solids = solids || part.has_solid;
+    solids = solids || (part.has_solid && !part.rigid);
     if (part.has_shell && !part.has_sph && !rigid(static_cast<Index>(k))) deforming.push_back(k);
   }
   if (deforming.empty()) return out;

@@ -130,6 +130,8 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Hexa
   Native D[6] = {scale * L[0].x,           scale * L[1].y,           scale * L[2].z,
                  half * (L[0].y + L[1].x), half * (L[1].z + L[2].y), half * (L[2].x + L[0].z)};
   const Triple h{turn * (L[2].y - L[1].z), turn * (L[0].z - L[2].x), turn * (L[1].x - L[0].y)};
+  store(scratch.half_turn[0] + k, h.x), store(scratch.half_turn[1] + k, h.y);
+  store(scratch.half_turn[2] + k, h.z);
   turn_rate(h.x, h.y, h.z, D[0], D[1], D[2], D[3], D[4], D[5]);
   Native s[6];
   for (int j = 0; j < 6; ++j) store(scratch.rate[j] + k, D[j]), s[j] = load(state.stress[j] + first, n);
@@ -146,13 +148,15 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Hexa
   store(scratch.work + k, 0.5 * dt * V * power);
 }
 
-/// One component of the corner forces, by its modes: -T b and those of hourglass control, -a Gamma (rate).
+/// One component of the corner forces, by its modes: -T b and those of hourglass control, -a Gamma (rate), or
+/// -Gamma (what a stiffness has made of all rates). Returns the sum of squares of the rates, or the power.
 /// With the modes gamma that linear fields leave alone, gamma = Gamma - b.(sum x Gamma)/V, the second term of
 /// the forces has the form of a stress.
 struct Hourglass {
-  Native a;  ///< force over rate of a mode [M/T]
+  Native a;  ///< force over rate of a mode [M/T]; with a stiffness its growth in the step
   bool plain;
   Native inverse_V64;
+  Native* kept = nullptr;  ///< with a stiffness: forces of the four modes, turned; out: now [ML/T2]
 };
 COURANT_INLINE Native force_modes(const Triple a[7], const Native w[7], const Geometry& q, Triple T,
                                   const Hourglass& h, Native out[7]) {
@@ -162,7 +166,14 @@ COURANT_INLINE Native force_modes(const Triple a[7], const Native w[7], const Ge
     for (int m = 0; m < 4; ++m) rate[m] -= h.inverse_V64 * dot(L, a[3 + m]);
   }
   Native power = all(0);
-  for (int m = 0; m < 4; ++m) power += rate[m] * rate[m], rate[m] *= h.a;
+  if (h.kept)
+    for (int m = 0; m < 4; ++m) {
+      const Native now = h.kept[m] + h.a * rate[m];
+      power += 0.5 * (h.kept[m] + now) * rate[m];
+      rate[m] = h.kept[m] = now;
+    }
+  else
+    for (int m = 0; m < 4; ++m) power += rate[m] * rate[m], rate[m] *= h.a;
   if (!h.plain)
     for (int m = 0; m < 4; ++m) {
       const Native share = 64.0 * h.inverse_V64 * rate[m];
@@ -176,6 +187,24 @@ COURANT_INLINE Native force_modes(const Triple a[7], const Native w[7], const Ge
 
 COURANT_INLINE void add(Real* p, Native a, Index n) {
   store(p, load(p, n) + a, n);
+}
+
+/// k = QM rho c^2 b:b/(8 V), with which the modes are QM times as stiff as the stiffest uniform strain, b_I =
+/// dV/dx_I. [M/T2]
+COURANT_INLINE Native hourglass_stiffness(Native modulus, const Geometry& q, Native inverse_V64) {
+  Native squares = dot(q.g[0], q.g[0]);
+  for (int m = 1; m < 6; ++m) squares += dot(q.g[m], q.g[m]);
+  return 0.015625 * modulus * squares * inverse_V64;
+}
+
+/// Of each direction and mode those of the step before, turned with the element.
+COURANT_INLINE void turned_hourglass_forces(Index first, Index n, Index k, const HexahedronState& state,
+                                            const HexahedronScratch& scratch, Native kept[3][4]) {
+  const Triple h = triple(scratch.half_turn, k);
+  for (int m = 0; m < 4; ++m) {
+    for (int i = 0; i < 3; ++i) kept[i][m] = load(state.hourglass_force[3 * m + i] + first, n);
+    turn_vector(h.x, h.y, h.z, kept[0][m], kept[1][m], kept[2][m]);
+  }
 }
 
 COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const HexahedronControl& control,
@@ -204,14 +233,21 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Hexa
   for (int j = 0; j < 6; ++j) s[j] = load(state.stress[j] + first, n);
   const Native p = state.pressure ? q + load(state.pressure + first, n) : q;
   const Triple T[3] = {{s[0] - p, s[3], s[5]}, {s[3], s[1] - p, s[4]}, {s[5], s[4], s[2] - p}};
-  const Hourglass hourglass{0.25 * control.QM * rho * c * l * l, control.hourglass == 1, inverse_V64};
+  Native kept[3][4];
+  if (control.stiff()) turned_hourglass_forces(first, n, k, state, scratch, kept);
+  Hourglass hourglass{control.stiff() ? dt * hourglass_stiffness(control.QM * rho * c * c, now, inverse_V64)
+                                      : 0.25 * control.QM * rho * c * l * l,
+                      control.hourglass == 1, inverse_V64};
   for (int i = 0; i < 3; ++i) {
     for (int m = 0; m < 7; ++m) w[m] = load(scratch.speed[3 * m + i] + k);
+    if (control.stiff()) hourglass.kept = kept[i];
     power += force_modes(a, w, now, T[i], hourglass, modes);
     corners_of(modes, f);
     for (int j = 0; j < 8; ++j) store(state.corner_force[3 * j + i] + first, f[j], n);
+    if (control.stiff())
+      for (int m = 0; m < 4; ++m) store(state.hourglass_force[3 * m + i] + first, kept[i][m], n);
   }
-  add(state.hourglass_energy + first, dt * hourglass.a * power, n);
+  add(state.hourglass_energy + first, (control.stiff() ? all(dt) : dt * hourglass.a) * power, n);
   if (state.internal_energy) add(state.internal_energy + first, load(scratch.work + k), n);
 }
 

@@ -28,13 +28,16 @@ struct HexahedronState {
   const Real *V0, *rho0;  ///< reference volume and density [L3], [M/L3]
   Real* internal_energy;  ///< the work of stress is added; null: not asked for [ML2/T2]
   Real *hourglass_energy, *bulk_viscosity_energy;  ///< what they took is added [ML2/T2]
-  Real* corner_force[24];  ///< out: of corner c in direction k at [3 c + k], on the node [ML/T2]
+  Real* hourglass_force[12]{};  ///< of mode m in direction k at [3 m + k]; used with a stiffness [ML/T2]
+  Real* corner_force[24];       ///< out: of corner c in direction k at [3 c + k], on the node [ML/T2]
 };
 
 /// *CONTROL_HOURGLASS or *HOURGLASS, and *CONTROL_BULK_VISCOSITY.
 struct HexahedronControl {
-  /// IHQ: 1 viscous on the plain modes Gamma, else (2, 3) on those orthogonal to linear fields.
+  /// IHQ: 1 viscous on the plain modes Gamma, else on those orthogonal to linear fields, viscous (2, 3) or
+  /// a stiffness (4, 5).
   int hourglass = 2;
+  bool stiff() const { return hourglass >= 4; }
   Real QM = 0.1, Q1 = 1.5, Q2 = 0.06;
 };
 
@@ -43,6 +46,7 @@ struct HexahedronScratch {
   alignas(64) Real rate[6][block_size];  ///< D of mid-step in the axes at its end: xx yy zz xy yz zx [1/T]
   Real place[21][block_size];            ///< modes 1 to 7 of x, three components each [L]
   Real speed[21][block_size];            ///< the same of v [L/T]
+  Real half_turn[3][block_size];         ///< of the step, as in objective.hpp [-]
   Real compression[block_size];          ///< rho/rho0 - 1 at the end of the step [-]
   Real middle_volume[block_size];        ///< at mid-step [L3]
   Real work[block_size];                 ///< of stress over the step, once `work` was called [ML2/T2]

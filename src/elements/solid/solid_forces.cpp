@@ -40,6 +40,9 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     for (const HistoryVariable& h : law_->history())
       history_.push_back(&group.fields.add<Real>(
           {.name = h.name, .dimension = h.dimension, .components = h.components, .output = true}));
+    if (control_.stiff())
+      hourglass_force_ =
+          &group.fields.add<Real>({.name = "hourglass_force", .dimension = "ML/T2", .components = 12});
     start_state(world);
     limit_to_frequency(held, world);
   }
@@ -50,6 +53,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     a.reads(V0_).reads(rho0_).updates(stress_).updates(internal_).updates(hourglass_);
     a.updates(bulk_viscosity_).writes(group_.corner_force);
     for (const Field<Real>* h : history_) a.updates(*h);
+    if (hourglass_force_) a.updates(*hourglass_force_);
   }
 
   void start(World& world, const Clock&) override {
@@ -61,6 +65,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
     state_.bulk_viscosity_energy = bulk_viscosity_.data();
     for (int k = 0; k < 3 * group_.corners(); ++k) state_.corner_force[k] = group_.corner_force.data(k);
+    for (int k = 0; hourglass_force_ && k < 12; ++k) state_.hourglass_force[k] = hourglass_force_->data(k);
     history_data_.clear();
     state_.tensors = 0;
     for (Field<Real>* h : history_) {
@@ -145,13 +150,15 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     const Real smallest = -maximum(n, [&](Index e) { return -V0_[e]; });
     if (!(smallest > 0)) return;
     HexahedronMesh mesh = mesh_;
-    const HexahedronControl elastic{.hourglass = control_.hourglass, .QM = 0, .Q1 = 0, .Q2 = 0};
+    const HexahedronControl elastic{
+        .hourglass = control_.hourglass, .QM = control_.stiff() ? control_.QM : 0, .Q1 = 0, .Q2 = 0};
     std::vector<HexahedronLoops::Found> found(found_.size());
     const Real omega = largest_frequency(
         m, held, small_strain * std::cbrt(smallest), [&](const NodalVector& u, NodalVector& Ku) {
           for (std::size_t k = 0; k < 3; ++k) mesh.v[k] = u[k].data();
           reset(stress_);
           for (Field<Real>* h : history_) reset(*h);
+          if (hourglass_force_) reset(*hourglass_force_);
           for_each_block(n, [&](Index begin, Index end) {
             found[static_cast<std::size_t>(begin / block_size)] = advance(mesh, elastic, 1, begin, end);
           });
@@ -168,6 +175,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     for (const HexahedronLoops::Found& f : found) step = std::min(step, f.step);
     for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) reset(*field);
     for (Field<Real>* h : history_) reset(*h);
+    if (hourglass_force_) reset(*hourglass_force_);
     group_.corner_force.fill(0);
     if (omega > 0 && below * 2 / omega < tssfac_ * step)
       tssfac_ = below * 2 / (omega * step), by_mesh_ = true;
@@ -224,6 +232,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
   HexahedronLoops loops_ = hexahedron_loops();
   HexahedronControl control_;
   Field<Real>&stress_, &V0_, &rho0_, &internal_, &hourglass_, &bulk_viscosity_;
+  Field<Real>* hourglass_force_ = nullptr;  ///< of a stiffness
   std::vector<Field<Real>*> history_;
   HexahedronMesh mesh_{};
   HexahedronState state_{};

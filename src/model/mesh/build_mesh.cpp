@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/build_model.hpp"
+#include "model/mesh/part_inertia.hpp"
 #include "model/model_builder.hpp"
 #include "model/transforms/transformation.hpp"
 
@@ -78,6 +79,7 @@ void ModelBuilder::build_parts() {
   };
   for (const PartCard& card : deck_.all<PartCard>()) add(card);
   for (const PartContactCard& card : deck_.all<PartContactCard>()) add(card);
+  for (const PartInertiaCard& card : deck_.all<PartInertiaCard>()) add(card);
 }
 
 void ModelBuilder::build_particles() {

@@ -56,7 +56,7 @@ void check_cards(const Deck& deck, const Model& model, const Known& known, Diagn
     return part.has_sph && known.strengths.count(part.mid) > 0;
   });
   const bool solids = std::any_of(model.parts.begin(), model.parts.end(), [](const ModelPart& part) {
-    return part.has_solid;
+    return part.has_solid && !part.rigid;
   });  // which check them, too
   if (strong && !solids)
     for (const StrengthEntry& kind : strength_registry()) kind.check(deck, model, diagnostics);

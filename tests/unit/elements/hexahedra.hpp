@@ -20,6 +20,7 @@ struct Hexahedra {
   std::array<std::vector<Index>, 8> corner;
   std::array<Numbers, 6> stress;
   std::array<Numbers, 24> corner_force;
+  std::array<Numbers, 12> hourglass_force;
   Numbers V0, rho0, internal_energy, hourglass_energy, bulk_viscosity_energy, limit;
   Real lambda = 1, shear = 1;
   HexahedronControl control;
@@ -64,6 +65,7 @@ struct Hexahedra {
     for (auto* a : {&internal_energy, &hourglass_energy, &bulk_viscosity_energy, &limit}) a->assign(n, 0);
     for (auto& a : stress) a.assign(n, 0);
     for (auto& a : corner_force) a.assign(n, 0);
+    for (auto& a : hourglass_force) a.assign(n, 0);
     // the reference volumes come from the loops themselves: V/V0 with V0 = 1
     visit(0, [&](Index begin, Index count) {
       for (Index i = 0; i < count; ++i) V0[begin + i] = scratch.relative_volume[i];
@@ -103,6 +105,7 @@ struct Hexahedra {
     HexahedronState state{};
     for (int k = 0; k < 6; ++k) state.stress[k] = stress[k].data();
     for (int k = 0; k < 24; ++k) state.corner_force[k] = corner_force[k].data();
+    for (int k = 0; k < 12; ++k) state.hourglass_force[k] = hourglass_force[k].data();
     state.V0 = V0.data(), state.rho0 = rho0.data(), state.internal_energy = internal_energy.data();
     state.hourglass_energy = hourglass_energy.data();
     state.bulk_viscosity_energy = bulk_viscosity_energy.data();

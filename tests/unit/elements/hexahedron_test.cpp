@@ -72,7 +72,7 @@ TEST(Hexahedron, AnAffineVelocityGivesItsRateEverywhereAndNoHourglassForces) {
     for (const Real V : g.V0) EXPECT_GT(V, 0);
     // outside faces of wedges and tetrahedra are not quite those of the cells
     EXPECT_NEAR(sum_of(g.V0), whole, shape == Shape::hexahedron || shape == Shape::pyramids ? 1e-12 : 2e-2);
-    hourglass = 5 - hourglass;
+    hourglass = hourglass == 3 ? 2 : hourglass == 2 ? 5 : 3;
     g.control = {hourglass, 0.1, 0, 0};
     for (std::size_t n = 0; n < g.x.size(); ++n) g.v[n] = L * g.x[n] + Vec(1, 2, 3);
     g.lambda = 2, g.shear = 1;
@@ -102,6 +102,45 @@ TEST(Hexahedron, AnAffineVelocityGivesItsRateEverywhereAndNoHourglassForces) {
       EXPECT_NEAR(f[n].norm(), 0, 1e-14) << n;
     }
   }
+}
+
+// A mode u Gamma of one direction, with an eighth of the mass at each corner: omega^2 = 64 k/m, k = 3/16 QM
+// rho c^2 L of a cube.
+TEST(Hexahedron, HourglassModesSwingWithTheirStiffness) {
+  Hexahedra g = Hexahedra::brick({1, 1, 1}, {2, 2, 2}, 0);
+  g.lambda = 2, g.shear = 1;
+  g.control = {5, 0.1, 0, 0};
+  const Real k = 0.1875 * 0.1 * 4 * 2, m = 8, omega = std::sqrt(64 * k / m), dt = 1e-3 / omega;
+  for (int c = 0; c < 8; ++c) g.v[c] = Vec(0, 1e-6 * gamma_modes[2][c], 0);
+  const Real before = 0.5 * m * 1e-12;
+  for (int step = 0; step < 1000; ++step) {  // to a phase of 1
+    for (int c = 0; c < 8; ++c) g.x[c] += dt * g.v[c];
+    g.advance(dt);
+    const std::vector<Vec> f = g.nodal_forces();
+    for (int c = 0; c < 8; ++c) g.v[c] += dt / (m / 8) * f[c];
+  }
+  for (int c = 0; c < 8; ++c) EXPECT_NEAR(g.v[c][1], 1e-6 * gamma_modes[2][c] * std::cos(1.0), 1e-9) << c;
+  EXPECT_NEAR(g.hourglass_energy[0], before * std::pow(std::sin(1.0), 2), 2e-3 * before);
+}
+
+TEST(Hexahedron, HourglassForcesTurnWithTheElement) {
+  Hexahedra g = Hexahedra::brick({1, 1, 1}, {1, 1, 1}, 0.1);
+  g.lambda = 2, g.shear = 1;
+  g.control = {4, 0.1, 0, 0};
+  const Vec kept(0.3, -0.2, 0.7), axis = Vec(0.3, -0.5, 0.8).normalized();
+  for (int k = 0; k < 3; ++k) g.hourglass_force[3 + k][0] = kept[k];
+  const std::vector<Vec> start = g.x;
+  Real angle = 0;
+  for (int k = 1; k <= 45; ++k) {  // 8 degrees a step: a whole turn, and what is left of it
+    const Real next = angle + 2 * pi / 40;
+    const Matrix R = Eigen::AngleAxisd(next, axis).toRotationMatrix();
+    for (std::size_t n = 0; n < 8; ++n) g.v[n] = R * start[n] - g.x[n], g.x[n] = R * start[n];
+    g.advance(1);
+    angle = next;
+  }
+  const Vec expected = Eigen::AngleAxisd(angle, axis).toRotationMatrix() * kept;
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(g.hourglass_force[3 + k][0], expected[k], 1e-12);
+  EXPECT_NEAR(g.hourglass_energy[0], 0, 1e-12);
 }
 
 TEST(Hexahedron, ATurningBarKeepsItsStress) {

@@ -19,7 +19,7 @@ std::shared_ptr<StrengthLaw> plane_law(const std::string& keyword, const std::st
   const Deck deck = read_deck("m.k", options, diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << diagnostics.text();
   for (const StrengthEntry& kind : strength_registry())
-    if (kind.keyword == keyword) return kind.all(deck).at(0).second;
+    if (kind.keyword == keyword) return kind.all(deck, Model()).at(0).second;
   return nullptr;
 }
 
