@@ -38,6 +38,7 @@ class FaceFinder {
  private:
   using Key = std::array<Index, 4>;
   std::vector<Index> of_parts(const std::vector<char>& chosen);
+  std::vector<Index> of_parts(const ContactCard& card, const char* field, const std::vector<char>& chosen);
   std::vector<Index> of_segment_set(const ContactCard& card, const char* field, Id id);
   std::vector<Index> of_shell_set(const ContactCard& card, const char* field, Id id);
   std::vector<char> parts_of(const ContactCard& card, const char* field, Id id, int type);

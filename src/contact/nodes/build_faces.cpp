@@ -56,6 +56,19 @@ std::vector<Index> FaceFinder::of_parts(const std::vector<char>& chosen) {
   return out;
 }
 
+std::vector<Index> FaceFinder::of_parts(const ContactCard& card, const char* field,
+                                        const std::vector<char>& chosen) {
+  const std::vector<Index> out = of_parts(chosen);
+  std::vector<char> found(chosen.size(), 0);
+  for (const Index s : out) found[static_cast<std::size_t>(world_.segments.part[s])] = 1;
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    if (chosen[k] && model_.parts[k].has_solid && !found[k])
+      deck_.error(diagnostics_, card, field,
+                  fmt::format("the solids of part {} have no faces that contact knows", model_.parts[k].id),
+                  "leave the part out");
+  return out;
+}
+
 std::vector<char> FaceFinder::parts_of(const ContactCard& card, const char* field, Id id, int type) {
   std::vector<char> out(model_.parts.size(), type == all || type == all_but_parts);
   if (type == all) return out;
@@ -138,7 +151,7 @@ std::vector<Index> FaceFinder::faces(const ContactCard& card, ContactSide side) 
   else if (!everything && f.type == shell_set)
     out = of_shell_set(card, f.field, f.id);
   else
-    out = of_parts(parts_of(card, f.field, f.id, everything ? all : f.type));
+    out = of_parts(card, f.field, parts_of(card, f.field, f.id, everything ? all : f.type));
   if (f.box == 0) return out;
   const auto box = model_.boxes.find(f.box);
   if (box == model_.boxes.end()) {

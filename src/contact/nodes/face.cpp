@@ -65,7 +65,7 @@ namespace {
 std::array<Real, 2> nearest_on_quadrilateral(const FaceCorners& x, const Vec& y) {
   const Vec mean = 0.25 * (x[0] + x[1] + x[2] + x[3]), a = 0.25 * (x[1] - x[0] + x[2] - x[3]),
             b = 0.25 * (x[3] - x[0] + x[2] - x[1]), c = 0.25 * (x[0] - x[1] + x[2] - x[3]);
-  constexpr Real enough = 1e-12, wild = 4;
+  constexpr Real enough = 1e-7, wild = 4;  // the error is of the order of the last step squared
   constexpr int most = 12;
   Real s = 0, t = 0;
   for (int it = 0; it < most; ++it) {

@@ -165,6 +165,7 @@ class NodeContact : public Force,
   bool arrives(const World& world, const Clock& clock, Index i, const Seen& seen, Slot& slot) const;
   bool take(const World& world, Index i, const Slot& slot, Slots& slots) const;
   bool is_taken(const Slots& slots, Index face) const;
+  bool goes_on(const Slots& slots, const Seen& seen) const;
   void give_stiffness(const World& world, Index i, Slot& slot) const;
   void fade(const World& world, const Slot& slot, Touch& touch) const;
   void push(const World& world, const Clock& clock, Block& b, Index i, Slot& slot) const;

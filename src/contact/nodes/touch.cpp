@@ -1,4 +1,5 @@
 // Which faces a node touches, from step to step.
+#include <algorithm>
 #include <cmath>
 
 #include "contact/nodes/node_contact.hpp"
@@ -25,6 +26,15 @@ constexpr Real bent = 0.5;
 constexpr Real smooth = 0.866;
 
 }  // namespace
+
+// Whether the face goes on smoothly from one that the node touches.
+bool NodeContact::goes_on(const Slots& slots, const Seen& seen) const {
+  for (const Slot& slot : slots)
+    if (slot.face >= 0 && std::abs(slot.n.dot(seen.at.n)) > smooth &&
+        face(slot.face).shared(face(seen.face)) > 0)
+      return true;
+  return false;
+}
 
 bool NodeContact::is_taken(const Slots& slots, Index face) const {
   for (const Slot& slot : slots)
@@ -77,7 +87,9 @@ bool NodeContact::hold(const World& world, Block& b, Index i, const Vec& x, cons
                        Slot& slot) const {
   const ContactFace& f = face(slot.face);
   const FaceCorners corners = corners_of(f, world.nodes.x);
-  slot.at = project(corners, f.corners, x);
+  const auto seen =
+      std::find_if(b.seen.begin(), b.seen.end(), [&](const Seen& one) { return one.face == slot.face; });
+  slot.at = seen != b.seen.end() ? seen->at : project(corners, f.corners, x);
   const bool inside = slot.at.inside;
   if (!inside && slot.at.over) slot.at = project_on_rim(corners, f.corners, x);
   slot.n = slot.side * slot.at.n;
@@ -205,7 +217,7 @@ void NodeContact::find_touches(const World& world, const Clock& clock, const Blo
   std::array<Slot, most_touches> found;
   int count = 0;
   for (const Seen& seen : b.seen) {
-    if (!seen.at.over || is_taken(slots, seen.face)) continue;
+    if (!seen.at.over || is_taken(slots, seen.face) || goes_on(slots, seen)) continue;
     Slot slot;
     if (!arrives(world, clock, i, seen, slot)) continue;
     // the deepest first, of nodes that start there the least deep one; of equals the first face

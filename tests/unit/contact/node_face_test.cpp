@@ -30,6 +30,7 @@ struct TouchScene {
   std::shared_ptr<NodeContact> contact;
   Vec at{0.5, 0.2, 0.001}, v{0, 0, -1};
   bool held = true;
+  Real depth = 2;  ///< of the solid
 
   void build() {
     Nodes& nodes = world.nodes;
@@ -45,7 +46,7 @@ struct TouchScene {
     }
     world.segments.fields.resize(1);
     ContactSides sides;
-    sides.faces.push_back({.node = {0, 1, 2, 3}, .k = 100, .area = 4, .depth = 2, .passes = 1});
+    sides.faces.push_back({.node = {0, 1, 2, 3}, .k = 100, .area = 4, .depth = depth, .passes = 1});
     sides.own.push_back({.node = {4, 7, 6, 5}, .k = 25, .area = 0.25});
     ContactNode node;
     node.node = 4, node.last = 1;
@@ -139,7 +140,7 @@ TEST(NodeContactTouch, PushesTheNodeAndTheCorners) {
 // A node that starts behind the face, as that of the far side of the same body, is never in touch with it.
 TEST(NodeContactTouch, IsWithWhoCameFromInFront) {
   TouchScene scene;
-  scene.at = Vec(0.5, 0.2, -1);
+  scene.at = Vec(0.5, 0.2, -0.4), scene.depth = 0.5;
   scene.build();
   for (int k = 0; k < 5; ++k) scene.step(0.01);
   EXPECT_EQ(scene.force_on(4).norm(), 0);
