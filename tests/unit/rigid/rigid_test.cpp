@@ -74,7 +74,9 @@ TEST(Shell, MaterialThatIsNotRigidIsRefusedByName) {
   p.model.parts[0].mid = 8;
   p.build();
   EXPECT_EQ(p.diagnostics.errors(), 1);
-  EXPECT_NE(p.diagnostics.text().find("the shells of part 1 need a *MAT_RIGID, or a material with strength, with id 8"), std::string::npos);
+  EXPECT_NE(p.diagnostics.text().find(
+                "the shells of part 1 need a *MAT_RIGID, or a material with strength, with id 8"),
+            std::string::npos);
   EXPECT_EQ(p.bodies, nullptr);
 }
 
