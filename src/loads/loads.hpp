@@ -53,8 +53,8 @@ struct NodalLoad {
   Entry card{};                 ///< for messages
   bool turns = false;           ///< a moment about `direction`, on rotations [ML2/T2]
 };
-/// Refuses by name: follower loads, moments on nodes that do not turn, systems that move, nodes that are neither particles nor move by
-/// their forces.
+/// Refuses by name: follower loads, moments where nothing turns, systems that move, nodes that are neither
+/// particles nor move by their forces.
 std::vector<NodalLoad> nodal_loads(const Deck& deck, const Model& model, const World& world,
                                    Diagnostics& diagnostics);
 /// nullptr where none acts on these points.

@@ -18,8 +18,8 @@ struct WallPart {
 };
 
 std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
-                                  const std::function<std::optional<ShellMaterial>(Index)>& material,
-                                  Diagnostics& diagnostics) {
+                                 const std::function<std::optional<ShellMaterial>(Index)>& material,
+                                 Diagnostics& diagnostics) {
   std::map<Id, const SectionShell*> sections;
   for (const SectionShell& s : deck.all<SectionShell>()) {
     sections[s.secid] = &s;

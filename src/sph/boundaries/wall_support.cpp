@@ -371,6 +371,13 @@ void check_thickness(const CourantWallSupport& c, Real thickness, const Deck& de
         "let the shells be one spacing of the particles thick");
 }
 
+/// Whether a corner of a shell moves by its forces.
+bool deforms(const World& world, Index segment) {
+  for (const Index n : world.segments.nodes(segment))
+    if (world.nodes.follow[n] == 0) return true;
+  return false;
+}
+
 }  // namespace
 
 void read_supported_walls(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
@@ -383,6 +390,13 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
     Real thickness = 0;
     for (Index s = 0; s < world.segments.size(); ++s) {
       if (!chosen[world.segments.part[s]]) continue;
+      if (deforms(world, s)) {
+        deck.error(diagnostics, c, "SURFB",
+                   fmt::format("the shells of part {} deform, which is not supported here",
+                               model.parts[world.segments.part[s]].id),
+                   "name rigid parts; contact alone holds particles off shells that deform");
+        return;
+      }
       thickness = world.segments.thickness[s];
       if (walls.cf[s] >= 0) {
         deck.error(diagnostics, c, "SURFB",
