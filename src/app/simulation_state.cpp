@@ -27,7 +27,7 @@ void Simulation::keep(Archive& archive) {
     e->exchange_all(world_);  // what `loaded` made anew, too
   if (!more_wait) return;
   neighbours_->force_refresh();
-  // their places are worked out from the start in one go, and the order in which particles wake is another
+  // lists that are built anew now, earlier than in that run, put sums in another order
   changes_.push_back(
       "more particles wait in front of inlets than in the run so far: the last bits of what follows may "
       "differ "

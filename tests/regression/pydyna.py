@@ -29,7 +29,8 @@ sys.path.append(packages)
 try:
     import_pydyna()
 except ImportError as missing:
-    call = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--retries", "1", "--target", packages,
+    call = [sys.executable, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--retries", "0", "--timeout", "8",
+            "--target", packages,
             "ansys-dyna-core"]
     try:
         got = subprocess.run(call, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
