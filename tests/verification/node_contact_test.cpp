@@ -11,6 +11,7 @@
 using namespace courant;
 using test::simulation_of;
 using test::SolidDeck;
+using test::start_ledger;
 
 namespace {
 
@@ -87,13 +88,6 @@ Vec mean_velocity(const World& world, Index part) {
 
 InterfaceForce interface_of(const Simulation& s) {
   return s.world().passes.all<const InterfaceReporter>().at(0)->report();
-}
-
-void start_ledger(Simulation& s) {
-  std::string who;
-  s.evaluate(who);
-  sample_energy(s.world(), s.clock());
-  s.world().energy.initial = s.world().energy.total();
 }
 
 Real lost_share(Simulation& s) {

@@ -5,12 +5,12 @@
 #include "solid_decks.hpp"
 
 using namespace courant;
+using test::do_nothing;
 using test::simulation_of;
 using test::SolidDeck;
 
 namespace {
 
-constexpr auto do_nothing = [](World&, const Clock&, const std::string&) {};
 const char* const rigid =
     "*SECTION_SOLID\n         1         1\n*MAT_RIGID\n         1    1000.0     1.0E9       0.3\n";
 const char* const one =

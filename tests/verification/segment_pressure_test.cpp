@@ -6,12 +6,11 @@
 
 using namespace courant;
 using test::CellShape;
+using test::do_nothing;
 using test::simulation_of;
 using test::SolidDeck;
 
 namespace {
-
-constexpr auto do_nothing = [](World&, const Clock&, const std::string&) {};
 
 const char* const section =
     "*PART\nblock\n         1         1         1\n*SECTION_SOLID\n         1         1\n";

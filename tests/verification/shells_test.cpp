@@ -13,6 +13,7 @@
 using namespace courant;
 using test::ShellDeck;
 using test::simulation_of;
+using test::start_ledger;
 
 namespace {
 
@@ -26,12 +27,6 @@ Real energy_error(Simulation& s) {
   sample_energy(s.world(), s.clock());
   const EnergyLedger& e = s.world().energy;
   return std::abs(e.unexplained()) / (std::abs(e.initial) + std::abs(e.external_work));
-}
-void start_ledger(Simulation& s) {
-  std::string who;
-  s.evaluate(who);
-  sample_energy(s.world(), s.clock());
-  s.world().energy.initial = s.world().energy.total();
 }
 
 /// Frequency from the times at which a node crosses z = 0: each half a period after the one before.

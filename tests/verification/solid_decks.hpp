@@ -60,6 +60,8 @@ struct SolidDeck {
   int element_ = 0;
 };
 
+inline constexpr auto do_nothing = [](World&, const Clock&, const std::string&) {};
+
 /// A simulation of the deck with its ledger at the start.
 inline std::unique_ptr<Simulation> simulation_of(const std::string& text) {
   Diagnostics diagnostics;
@@ -68,6 +70,14 @@ inline std::unique_ptr<Simulation> simulation_of(const std::string& text) {
   auto s = Simulation::build("test.k", options, diagnostics);
   EXPECT_TRUE(s != nullptr) << diagnostics.text();
   return s;
+}
+
+/// Forces of the start, and the energy from which the ledger counts.
+inline void start_ledger(Simulation& s) {
+  std::string who;
+  s.evaluate(who);
+  sample_energy(s.world(), s.clock());
+  s.world().energy.initial = s.world().energy.total();
 }
 
 }  // namespace courant::test

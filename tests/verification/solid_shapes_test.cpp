@@ -9,12 +9,11 @@
 
 using namespace courant;
 using test::CellShape;
+using test::do_nothing;
 using test::simulation_of;
 using test::SolidDeck;
 
 namespace {
-
-constexpr auto do_nothing = [](World&, const Clock&, const std::string&) {};
 
 std::string part_of(const char* material, int elform = 1) {
   return fmt::format("*PART\nblock\n         1         1         1\n*SECTION_SOLID\n         1{:10}\n*{}\n",

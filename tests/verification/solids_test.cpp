@@ -8,12 +8,11 @@
 #include "state/restartable.hpp"
 
 using namespace courant;
+using test::do_nothing;
 using test::simulation_of;
 using test::SolidDeck;
 
 namespace {
-
-constexpr auto do_nothing = [](World&, const Clock&, const std::string&) {};
 
 std::string elastic(int part, Real ro, Real E, Real pr) {
   return fmt::format(
