@@ -5,6 +5,7 @@
 
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
+#include "model/mesh/part_inertia.hpp"
 
 namespace courant {
 
@@ -103,6 +104,10 @@ class FactGatherer {
       part.mass += number(spec, entry, tm);
     });
     for (const PartCard& card : deck_.all<PartCard>()) facts_.parts[card.pid].title = card.title;
+    for (const PartContactCard& card : deck_.all<PartContactCard>())
+      facts_.parts[card.pid].title = card.title;
+    for (const PartInertiaCard& card : deck_.all<PartInertiaCard>())
+      facts_.parts[card.pid].title = card.title;
   }
 
   void gather_materials(const KeywordSpec& spec, std::int32_t keyword) {

@@ -81,9 +81,9 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
       added_nodes(s->deck_, s->model_).empty() && model_is_whole)
     diagnostics.error(
         {deck_path, 0, 0},
-        "the deck has no *ELEMENT_SPH, no *ELEMENT_SOLID and no rigid body that can move: there "
+        "the deck has no *ELEMENT_SPH, no elements that deform and no rigid body that can move: there "
         "is nothing to compute",
-        "give it particles, solids, or a rigid body that is not held in all directions");
+        "give it particles, solids, shells, or a rigid body that is not held in all directions");
   if (model_is_whole) s->add_passes(diagnostics);
   if (!diagnostics.ok()) return nullptr;
   warn_of_scene(*s, diagnostics);
@@ -187,7 +187,8 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
     world_.passes.add(make_clear_forces(points_of(world_.nodes)));
   else
     left_out_.push_back({"forces on nodes", "no node moves"});
-  if (const auto pressure = make_segment_pressure(deck_, model_, world_, diagnostics))
+  if (const auto pressure = make_segment_pressure(
+          deck_, model_, bodies_ ? bodies_->wall_bodies(world_) : WallBodies{}, world_, diagnostics))
     world_.passes.add(pressure);
   else
     left_out_.push_back({"pressure on segments", "no *LOAD_SEGMENT"});

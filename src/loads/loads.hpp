@@ -11,6 +11,7 @@
 #include "model/model.hpp"
 #include "search/neighbours.hpp"
 #include "state/points.hpp"
+#include "state/wall_bodies.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -61,10 +62,10 @@ std::vector<NodalLoad> nodal_loads(const Deck& deck, const Model& model, const W
 std::shared_ptr<Force> make_nodal_loads(const std::vector<NodalLoad>& loads, const Model& model,
                                         Points points, World& world);
 
-/// *LOAD_SEGMENT and _SET: pressure on faces between nodes; nullptr where there is none. Refuses by name:
-/// faces whose corners belong to no element.
-std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& model, World& world,
-                                             Diagnostics& diagnostics);
+/// *LOAD_SEGMENT and _SET: pressure on faces between nodes; nullptr where there is none. `bodies`: whose
+/// nodes it may push. Refuses by name: faces whose corners belong to no element.
+std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& model, const WallBodies& bodies,
+                                             World& world, Diagnostics& diagnostics);
 
 /// *DAMPING_GLOBAL and *DAMPING_PART_MASS: what they take of the velocity.
 struct Damping {

@@ -85,8 +85,10 @@ struct PressureLoad {
 /// faces it is a corner of, in the order of the deck: the same bits on any number of threads.
 class SegmentPressure : public Force, public EnergyTerm {
  public:
-  SegmentPressure(std::vector<PressureLoad> loads, std::vector<PressureFace> faces, World& world)
-      : loads_(std::move(loads)),
+  SegmentPressure(std::vector<PressureLoad> loads, std::vector<PressureFace> faces, WallBodies bodies,
+                  World& world)
+      : bodies_(std::move(bodies)),
+        loads_(std::move(loads)),
         faces_(std::move(faces)),
         nodes_(&world.nodes),
         first_(static_cast<std::size_t>(world.nodes.size()) + 1, 0) {
@@ -121,7 +123,7 @@ class SegmentPressure : public Force, public EnergyTerm {
     const MiddleVelocity middle(points, clock);
     const auto work_on = [&](Index n) -> Real {
       if (!acts_on(n)) return 0;
-      return force(n).dot(nodes_->follow[n] ? nodes_->v.vec(n) : middle(n)) * clock.dt_mean();
+      return force(n).dot(nodes_->follow[n] ? middle_of_body(n, clock) : middle(n)) * clock.dt_mean();
     };
     ledger.external_work += sum(nodes_->size(), work_on);
     ledger.throughput += sum(nodes_->size(), [&](Index n) { return std::abs(work_on(n)); });
@@ -144,6 +146,14 @@ class SegmentPressure : public Force, public EnergyTerm {
     return out;
   }
 
+  /// Of the velocities before and after the kick to come, as for other nodes.
+  Vec middle_of_body(Index n, const Clock& clock) const {
+    const Index body = bodies_.of_node.empty() ? -1 : bodies_.of_node[static_cast<std::size_t>(n)];
+    if (body < 0) return nodes_->v.vec(n);
+    return nodes_->v.vec(n) + 0.5 * bodies_.change(body, nodes_->x.vec(n), clock);
+  }
+
+  WallBodies bodies_;
   std::vector<PressureLoad> loads_;
   std::vector<PressureFace> faces_;
   const Nodes* nodes_;
@@ -220,8 +230,8 @@ class PressureReader {
 
 }  // namespace
 
-std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& model, World& world,
-                                             Diagnostics& diagnostics) {
+std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& model, const WallBodies& bodies,
+                                             World& world, Diagnostics& diagnostics) {
   const auto& segments = deck.all<LoadSegment>();
   const auto& sets = deck.all<LoadSegmentSet>();
   if (segments.empty() && sets.empty()) return nullptr;
@@ -229,7 +239,7 @@ std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& mode
   for (const LoadSegment& card : segments) reader.add(card);
   for (const LoadSegmentSet& card : sets) reader.add(card);
   if (reader.faces.empty()) return nullptr;
-  return std::make_shared<SegmentPressure>(std::move(reader.loads), std::move(reader.faces), world);
+  return std::make_shared<SegmentPressure>(std::move(reader.loads), std::move(reader.faces), bodies, world);
 }
 
 }  // namespace courant

@@ -311,14 +311,13 @@ class Builder {
           mass += group->mass[e] * group->share(e, c);
         }
     if (shared.empty()) return;
-    diagnostics_.warning(
-        model_.parts[part].where,
-        fmt::format(
-            "*PART {}: {} of the nodes of the rigid body, the first is {}, are corners of solids, too: "
-            "they move with the body, which takes the mass of the solids there, {:.4g} [M]",
-            model_.parts[static_cast<std::size_t>(part)].id, shared.size(), world_.nodes.id[*shared.begin()],
-            mass),
-        "give the solids nodes of their own where they are not to be fixed to the body");
+    diagnostics_.warning(model_.parts[part].where,
+                         fmt::format("*PART {}: {} of the nodes of the rigid body, the first is {}, are "
+                                     "corners of deformable elements, too: "
+                                     "they move with the body, which takes their mass there, {:.4g} [M]",
+                                     model_.parts[static_cast<std::size_t>(part)].id, shared.size(),
+                                     world_.nodes.id[*shared.begin()], mass),
+                         "give these nodes of their own where they are not to be fixed to the body");
   }
 
   // A body of a plane scene stays in the plane; particles have mass per unit depth, so the body must be one

@@ -74,13 +74,14 @@ TEST(SolidShapes, SmallFreeBlocksAreStableAtTssfac09) {
           Nodes& nodes = s->world().nodes;
           for (Index i = 0; i < nodes.size(); ++i)
             nodes.v.set(i, 1e-8 * Vec(number(random), number(random), number(random)));
-          const Real before = energy_of(*s);
-          Real most = 0;
+          // the energy of half steps swings by 1/(1 - (omega dt/2)^2)
+          Real early = 0, late = 0;
           for (int k = 0; k < 3000; ++k) {
             s->step(do_nothing);
-            if (k % 10 == 0) most = std::max(most, energy_of(*s));
+            if (k < 1000) early = std::max(early, energy_of(*s));
+            if (k >= 2000) late = std::max(late, energy_of(*s));
           }
-          EXPECT_LT(most, 3 * before) << int(shape) << " nu " << nu << " " << nx << ny << nz << " " << flat;
+          EXPECT_LT(late, 1.5 * early) << int(shape) << " nu " << nu << " " << nx << ny << nz << " " << flat;
         }
 }
 

@@ -18,6 +18,7 @@ constexpr CurveDimensions known[] = {
     {"LOAD_GRAVITY_PART", "LC", "T", "-"},
     {"LOAD_NODE_POINT", "LCID", "T", "ML/T2"},
     {"LOAD_NODE_SET", "LCID", "T", "ML/T2"},
+    {"LOAD_RIGID_BODY", "LCID", "T", "ML/T2"},
     {"LOAD_SEGMENT", "LCID", "T", "M/LT2"},
     {"LOAD_SEGMENT_SET", "LCID", "T", "M/LT2"},
     {"DAMPING_GLOBAL", "LCID", "T", "1/T"},
@@ -27,7 +28,7 @@ constexpr CurveDimensions known[] = {
     {"DATABASE_GLSTAT", "LCUR", "T", "T"},
     {"MAT_PIECEWISE_LINEAR_PLASTICITY", "LCSS", "-", "M/LT2"},
     {"MAT_PIECEWISE_LINEAR_PLASTICITY", "LCSR", "1/T", "-"},
-    // VAD 0; of the others `of_motion` tells
+    // VAD 0; of the others `of_entry_itself` tells, and of moments
     {"BOUNDARY_PRESCRIBED_MOTION_NODE", "LCID", "T", "L/T"},
     {"BOUNDARY_PRESCRIBED_MOTION_SET", "LCID", "T", "L/T"},
     {"BOUNDARY_PRESCRIBED_MOTION_RIGID", "LCID", "T", "L/T"},
@@ -37,12 +38,15 @@ constexpr CurveDimensions known[] = {
 constexpr const char* motion_values[3][2] = {{"L/T", "1/T"}, {"L/T2", "1/T2"}, {"L", "-"}};
 
 /// The ordinate's dimension where it depends on other fields of the entry, else nothing.
-const char* of_motion(const KeywordSpec& spec, const Entry& entry) {
+const char* of_entry_itself(const KeywordSpec& spec, const Entry& entry) {
   constexpr std::size_t dof_field = 1, vad_field = 2;
+  constexpr Real first_rotation = 5;
+  if (spec.names[0].rfind("LOAD_NODE", 0) == 0 || spec.names[0] == "LOAD_RIGID_BODY")
+    return spec.number_of(entry, 0, dof_field) >= first_rotation ? "ML2/T2" : nullptr;
   if (spec.names[0].rfind("BOUNDARY_PRESCRIBED_MOTION", 0) != 0) return nullptr;
   const Real dof = spec.number_of(entry, 0, dof_field), vad = spec.number_of(entry, 0, vad_field);
   if (!(vad >= 0 && vad <= 2)) return nullptr;  // refused later
-  return motion_values[static_cast<int>(vad)][dof >= 5];
+  return motion_values[static_cast<int>(vad)][dof >= first_rotation];
 }
 
 struct ConvertedCurve {
@@ -57,7 +61,7 @@ void use(const Deck& deck, const Entry& entry, const KeywordSpec& spec, const Id
   const FieldSpec& field = spec.cards[id.card].fields[id.field];
   if (field.rules.honour != Honour::yes || !spec.lacking.empty()) return;  // no effect, or refused already
   const CurveDimensions* dimensions = curve_dimensions(spec.names[0], field.name);
-  const char* of_entry = of_motion(spec, entry);
+  const char* of_entry = of_entry_itself(spec, entry);
   const char* hint =
       "give the curve in the deck's own units: in a file without unit factors, or through SFA and SFO";
   if (!dimensions) {
