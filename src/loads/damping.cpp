@@ -94,8 +94,12 @@ class DampingReader {
  public:
   DampingReader(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
       : deck_(deck), model_(model), diagnostics_(diagnostics) {
-    for (Index i = 0; i < world.nodes.size(); ++i)
-      if (world.nodes.follow[i] && !world.nodes.held[i]) rigid_parts_.insert(world.nodes.part[i]);
+    for (Index i = 0; i < world.nodes.size(); ++i) {
+      const Index part = world.nodes.part[i];  // extra nodes of a body are those of deformable parts
+      if (world.nodes.follow[i] && !world.nodes.held[i] && part >= 0 &&
+          model.parts[static_cast<std::size_t>(part)].rigid)
+        rigid_parts_.insert(part);
+    }
   }
 
   void add(const DampingGlobal& card) {

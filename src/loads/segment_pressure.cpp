@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "keyword/registry.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
+#include "model/transforms/transformation.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
@@ -31,6 +33,12 @@ struct LoadSegmentSet : Entry {
 constexpr FieldRules mid_side_node{.honour = Honour::no, .refers = IdSpace::node};
 constexpr FieldRules arrival{.check = Check::not_negative};
 
+/// A mirror turns faces inside out.
+std::string keep_side(Segment& card, const Affine& motion) {
+  if (motion.linear().determinant() < 0) std::swap(card.n1, card.n3);
+  return {};
+}
+
 const RegisterKeyword<Segment> load_segment_keyword{
     {.names = {"LOAD_SEGMENT"},
      .purpose =
@@ -39,21 +47,22 @@ const RegisterKeyword<Segment> load_segment_keyword{
      .id_option = true,
      .title = &Segment::title,
      .id = &Segment::id,
-     .cards = {
-         {.fields = {{"LCID", &Segment::lcid, "-", "curve of the pressure over time",
-                      rules::required_id_of(IdSpace::curve)},
-                     {"SF", &Segment::sf, "-", "scale of the curve", rules::or_blank(1)},
-                     {"AT", &Segment::at, "T", "time at which the curve begins, no pressure before", arrival},
-                     {"N1", &Segment::n1, "-", "corner", rules::required_id_of(IdSpace::node)},
-                     {"N2", &Segment::n2, "-", "corner", rules::required_id_of(IdSpace::node)},
-                     {"N3", &Segment::n3, "-", "corner", rules::required_id_of(IdSpace::node)},
-                     {"N4", &Segment::n4, "-", "corner; of a triangle N3 or 0",
-                      rules::optional_id_of(IdSpace::node)},
-                     {"N5", &Segment::n5, "-", "node in the middle of an edge", mid_side_node}}},
-         {.fields = {{"N6", &Segment::n6, "-", "node in the middle of an edge", mid_side_node},
-                     {"N7", &Segment::n7, "-", "node in the middle of an edge", mid_side_node},
-                     {"N8", &Segment::n8, "-", "node in the middle of an edge", mid_side_node}},
-          .when = [](const Segment& s) { return s.n5 != 0; }}}}};
+     .cards = {{.fields = {{"LCID", &Segment::lcid, "-", "curve of the pressure over time",
+                            rules::required_id_of(IdSpace::curve)},
+                           {"SF", &Segment::sf, "-", "scale of the curve", rules::or_blank(1)},
+                           {"AT", &Segment::at, "T", "time at which the curve begins, no pressure before",
+                            arrival},
+                           {"N1", &Segment::n1, "-", "corner", rules::required_id_of(IdSpace::node)},
+                           {"N2", &Segment::n2, "-", "corner", rules::required_id_of(IdSpace::node)},
+                           {"N3", &Segment::n3, "-", "corner", rules::required_id_of(IdSpace::node)},
+                           {"N4", &Segment::n4, "-", "corner; of a triangle N3 or 0",
+                            rules::optional_id_of(IdSpace::node)},
+                           {"N5", &Segment::n5, "-", "node in the middle of an edge", mid_side_node}}},
+               {.fields = {{"N6", &Segment::n6, "-", "node in the middle of an edge", mid_side_node},
+                           {"N7", &Segment::n7, "-", "node in the middle of an edge", mid_side_node},
+                           {"N8", &Segment::n8, "-", "node in the middle of an edge", mid_side_node}},
+                .when = [](const Segment& s) { return s.n5 != 0; }}},
+     .move = keep_side}};
 
 const RegisterKeyword<SegmentSet> load_segment_set_keyword{
     {.names = {"LOAD_SEGMENT_SET"},
@@ -213,8 +222,9 @@ class PressureReader {
       }
       face.node[c] = found->second;
     }
-    if (face.node[2] == face.node[1] || face.node[0] == face.node[1]) {
-      deck_.error(diagnostics_, card, field, "a face under pressure is a line",
+    const std::set<Index> different(face.node.begin(), face.node.end());
+    if (static_cast<int>(different.size()) < face.corners()) {
+      deck_.error(diagnostics_, card, field, "a face under pressure has a corner twice",
                   "give it three different nodes");
       return false;
     }

@@ -46,6 +46,12 @@ struct InitialVelocityRigidBody : Entry {
   Id pid = 0, icid = 0;
   Real vx = 0, vy = 0, vz = 0, vxr = 0, vyr = 0, vzr = 0;
 };
+/// In a mirror the sense of a rotation is turned round.
+std::string mirror_rotation(Start& card, const Affine& motion) {
+  if (card.icid == 0 && motion.linear().determinant() < 0)
+    card.vxr = -card.vxr, card.vyr = -card.vyr, card.vzr = -card.vzr;
+  return {};
+}
 /// Directions of a system of their own move with it.
 const RegisterKeyword<Start> initial_velocity_keyword{
     {.names = {"INITIAL_VELOCITY_RIGID_BODY"},
@@ -59,7 +65,8 @@ const RegisterKeyword<Start> initial_velocity_keyword{
                            {"VYR", &Start::vyr, "1/T", "angular velocity"},
                            {"VZR", &Start::vzr, "1/T", "angular velocity"},
                            {"ICID", &Start::icid, "-", "system of these",
-                            rules::optional_id_of(IdSpace::coordinate_system)}}}}}};
+                            rules::optional_id_of(IdSpace::coordinate_system)}}}},
+     .move = mirror_rotation}};
 
 using Load = struct LoadRigidBody;
 struct LoadRigidBody : Entry {
@@ -177,6 +184,11 @@ std::map<Index, BodyStart> body_starts(const Deck& deck, const Model& model, Dia
   for (const InitialVelocityRigidBody& card : deck.all<InitialVelocityRigidBody>()) {
     const auto body = reader.body(card, card.pid);
     const auto axes = reader.axes(card, "ICID", card.icid);
+    if (body && out.contains(*body)) {
+      reader.error(card, "PID", fmt::format("part {} has an initial velocity already", card.pid),
+                   "give it once");
+      continue;
+    }
     if (body && axes)
       out[*body] = {*axes * Vec(card.vx, card.vy, card.vz), *axes * Vec(card.vxr, card.vyr, card.vzr)};
   }

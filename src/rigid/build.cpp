@@ -378,6 +378,11 @@ std::optional<RigidMaterial> rigid_material(const Deck& deck, const Model& model
 std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& model, World& world,
                                                 Diagnostics& diagnostics) {
   Builder builder(deck, model, world, diagnostics);
+  for (const PartInertiaCard& card : deck.all<PartInertiaCard>())
+    if (!find(deck, card.mid))
+      deck.error(diagnostics, card, "MID",
+                 fmt::format("*PART_INERTIA is for rigid parts, and material {} is no *MAT_RIGID", card.mid),
+                 "give it one, or use *PART");
   for (Index part = 0; part < Index(model.parts.size()); ++part) {
     const ModelPart& p = model.parts[part];
     const MatRigid* m = p.has_sph ? nullptr : find(deck, p.mid);

@@ -170,6 +170,35 @@ TEST(NodeContact, StressGoesOnFromBlockToBlock) {
 
 // a = g (sin alpha - mu cos alpha) above the angle of friction; below it the block creeps only as far as the
 // springs of friction give way, mu N / (k of all nodes).
+// Small solids on large ones, pressed in by a good part of their own size, cross the edges of the large ones.
+// A part far away with a fine mesh has no influence.
+TEST(NodeContact, ABlockOfSmallSolidsSlidesOverLargeOnes) {
+  for (const int fine : {1, 8}) {
+    SolidDeck deck;
+    deck.block(Vec(0.05, 0.05, 0.02), 10, 10, 4, 1);
+    deck.block(Vec(1, 0.4, 0.1), 5, 2, 1, 2, [](const Vec& x) { return Vec(x + Vec(-0.12, -0.17, -0.1)); });
+    deck.block(Vec(0.02, 0.02, 0.02), fine, fine, fine, 3,
+               [](const Vec& x) { return Vec(x + Vec(3, 3, 3)); });
+    const char* const held = "         2    7800.0     1e9       0.3\n       1.0         7         7\n";
+    deck.cards = elastic_part(1, 1000, 1e8, 0.3) +
+                 "*PART\nground\n         2         1         2\n*PART\nfar\n         3         1         2\n"
+                 "*MAT_RIGID\n" +
+                 held + "*SET_PART_LIST\n        20\n         2         3\n" + weight(3000) +
+                 "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n         1        20         3         2\n"
+                 "       0.0       0.0       0.0       0.0      20.0\n       0.3\n";
+    nodes_as_set(deck, 1, 1, 11 * 11 * 5);
+    deck.cards += initial_velocity(1, Vec(5, 0, 0));
+    auto s = simulation_of(deck.text(1));
+    start_ledger(*s);
+    const Real from = s->world().nodes.x.data(0)[0];
+    while (s->clock().t < 0.02) s->step(write_nothing);  // past an edge of the ground
+    const Real way = s->world().nodes.x.data(0)[0] - from;
+    EXPECT_NEAR(way / (5 * s->clock().t), 1, 0.01) << fine;
+    EXPECT_GT(s->world().nodes.x.data(2)[0], -2e-3) << fine;  // 2 mm is 0.4 of a small solid
+    EXPECT_EQ(s->world().counters["leaked_nodes"], 0) << fine;
+  }
+}
+
 TEST(NodeContact, ABlockSlidesOrSticksOnAnIncline) {
   constexpr Real g = 9.81, alpha = 0.5, L = 0.1;
   for (const Real mu : {0.0, 0.2, 0.4, 0.7}) {

@@ -49,7 +49,8 @@ TEST(SolidShapes, ABarRingsAtItsFrequency) {
       if (v < 0) turned = t_before + before / (before - v) * (t - t_before);
       before = v, t_before = t;
     }
-    EXPECT_NEAR(turned / (0.5 * half_period), 1, 0.005) << int(shape);
+    // those that are no cubes are somewhat stiffer: their strains are coupled
+    EXPECT_NEAR(turned / (0.5 * half_period), 1, shape == CellShape::hexahedron ? 0.005 : 0.01) << int(shape);
   }
 }
 
@@ -83,6 +84,29 @@ TEST(SolidShapes, SmallFreeBlocksAreStableAtTssfac09) {
           }
           EXPECT_LT(late, 1.5 * early) << int(shape) << " nu " << nu << " " << nx << ny << nz << " " << flat;
         }
+}
+
+// Without a card of hourglass control: nothing of it may act on a rigid rotation, whatever the shape.
+TEST(SolidShapes, FreeBlocksKeepTheirSpin) {
+  for (const CellShape shape :
+       {CellShape::hexahedron, CellShape::wedges, CellShape::wedges_from_quads, CellShape::tetrahedra}) {
+    SolidDeck deck;
+    deck.cells = shape;
+    deck.block(Vec(1, 1, 1), 2, 2, 2, 1);
+    deck.cards = part_of("MAT_ELASTIC\n         1    1000.0     1.0E8       0.3");
+    auto s = simulation_of(deck.text(1));
+    Nodes& nodes = s->world().nodes;
+    for (Index i = 0; i < nodes.size(); ++i)
+      nodes.v.set(i, Vec(0, 0, 2).cross(nodes.x.vec(i) - Vec(0.5, 0.5, 0.5)));
+    const auto spin = [&] {
+      return sum(nodes.size(), [&](Index i) { return nodes.m[i] * nodes.x.vec(i).cross(nodes.v.vec(i))[2]; });
+    };
+    const Real before = spin();
+    while (s->clock().t < 0.5) s->step(do_nothing);
+    EXPECT_NEAR(spin() / before, 1, 2e-3) << int(shape);
+    sample_energy(s->world(), s->clock());
+    EXPECT_LT(s->world().energy.hourglass, 1e-6 * s->world().energy.kinetic) << int(shape);
+  }
 }
 
 TEST(RigidSolids, TurnAndFallAsTheyShould) {

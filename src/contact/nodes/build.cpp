@@ -78,6 +78,13 @@ class NodeContactBuilder {
     if (c.soft == 2)
       deck_.warning(diagnostics_, c, "SOFT", "2 (faces on faces) runs as 1 (nodes on faces)",
                     "give 1 where that is meant");
+    const auto without_effect = [&](const char* field, bool given, const char* why) {
+      if (given)
+        deck_.warning(diagnostics_, c, field, fmt::format("has no effect: {}", why), "leave it blank");
+    };
+    if (kind.single) without_effect("SURFB", c.surfb != 0, "a single surface is SURFA alone");
+    if (!kind.two_way || kind.single)
+      without_effect("SFSB", c.sfsb != 1 && c.sfsb != 0, "nodes of SURFA alone are kept off faces");
   }
 
   void warn_of_nothing(const ContactCard& c, int number, bool has_nodes) {
@@ -187,11 +194,20 @@ class NodeContactBuilder {
   bool can_touch(const ContactSides& sides) const {
     using Kind = std::pair<bool, Index>;  // held, body
     const auto kind = [&](Index n) { return Kind(world_.nodes.held[n] != 0, options_.bodies.body(n)); };
+    const auto of_face = [&](const ContactFace& f) {
+      Kind out = kind(f.node[0]);
+      for (const Index n : f.node) {
+        const Kind corner = kind(n);
+        out.first = out.first && corner.first;
+        if (corner.second != out.second) out.second = -1;
+      }
+      return out;
+    };
     std::set<Kind> nodes[2], faces[2];
     for (const ContactNode& n : sides.nodes) nodes[n.pass].insert(kind(n.node));
     for (const ContactFace& f : sides.faces)
       for (const unsigned pass : {0U, 1U})
-        if (f.passes & (1U << pass)) faces[pass].insert(kind(f.node[0]));
+        if (f.passes & (1U << pass)) faces[pass].insert(of_face(f));
     for (const int pass : {0, 1})
       for (const Kind& n : nodes[pass])
         for (const Kind& f : faces[pass])
@@ -214,7 +230,13 @@ class NodeContactBuilder {
   }
 
   void report_penetrations(const ContactCard& c, const NodeContact::Penetrations& p) {
-    world_.counters["initial_penetrations"] += p.count;
+    world_.counters["initial_penetrations"] += p.count + p.lost;
+    if (p.lost > 0)
+      deck_.warning(
+          diagnostics_, c, "",
+          fmt::format("{} nodes start so deep inside other solids that this contact does not hold them",
+                      p.lost),
+          "move the parts apart: nodes may be inside by some 0.4 of the depth of an element");
     if (p.count == 0) return;
     diagnostics_.warning(
         deck_.where(c),

@@ -25,6 +25,14 @@ SideFields fields_of(const ContactCard& c, ContactSide side) {
   return {"SURFB", c.surfb, c.surfbtyp, c.sbboxid, "SBBOXID"};
 }
 
+/// The corners of a face, sorted; of a triangle, whichever corner it repeats, the last one again.
+std::array<Index, 4> sorted_corners(std::array<Index, 4> corner) {
+  std::sort(corner.begin(), corner.end());
+  const auto end = std::unique(corner.begin(), corner.end());
+  std::fill(end, corner.end(), *(end - 1));
+  return corner;
+}
+
 }  // namespace
 
 const std::map<Id, Index>& FaceFinder::node_of_id() {
@@ -38,9 +46,7 @@ const std::map<FaceFinder::Key, Index>& FaceFinder::face_of_corners() {
   if (!face_of_corners_.empty()) return face_of_corners_;
   of_parts(std::vector<char>(model_.parts.size(), 1));
   for (Index s = 0; s < world_.segments.size(); ++s) {
-    Key key = world_.segments.nodes(s);
-    std::sort(key.begin(), key.end());
-    face_of_corners_.emplace(key, s);
+    face_of_corners_.emplace(sorted_corners(world_.segments.nodes(s)), s);
   }
   return face_of_corners_;
 }
@@ -105,7 +111,7 @@ std::vector<Index> FaceFinder::of_segment_set(const ContactCard& card, const cha
       key[e] = known ? at->second : 0;
       ids += fmt::format("{}{}", e == 0 ? "" : ", ", node);
     }
-    std::sort(key.begin(), key.end());
+    key = sorted_corners(key);
     const auto face = known ? face_of_corners().find(key) : face_of_corners().end();
     if (face == face_of_corners().end()) {
       deck_.error(diagnostics_, card, field,

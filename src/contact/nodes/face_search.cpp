@@ -43,15 +43,16 @@ std::size_t FaceSearch::choose_size(Real usual) {
   }
 }
 
-void FaceSearch::build(const std::vector<ContactFace>& faces, const Field<Real>& x, Real reach) {
+void FaceSearch::build(const std::vector<ContactFace>& faces, const Field<Real>& x, Real reach, Real least) {
   const auto n = static_cast<Index>(faces.size());
   boxes_.resize(faces.size());
   for_each(n, [&](Index f) {
     const ContactFace& face = faces[static_cast<std::size_t>(f)];
     const FaceCorners c = corners_of(face, x);
     Box& box = boxes_[static_cast<std::size_t>(f)];
-    box.low = c[0].cwiseMin(c[1]).cwiseMin(c[2]).cwiseMin(c[3]).array() - (reach + face.r);
-    box.high = c[0].cwiseMax(c[1]).cwiseMax(c[2]).cwiseMax(c[3]).array() + (reach + face.r);
+    const Real around = reach + face.r + std::max(face.depth - least, Real(0));
+    box.low = c[0].cwiseMin(c[1]).cwiseMin(c[2]).cwiseMin(c[3]).array() - around;
+    box.high = c[0].cwiseMax(c[1]).cwiseMax(c[2]).cwiseMax(c[3]).array() + around;
   });
   if (n == 0) return;
   Real usual = 0;

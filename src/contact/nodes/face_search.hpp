@@ -8,9 +8,9 @@ namespace courant {
 
 class FaceSearch {
  public:
-  /// `reach`: of the boxes around the faces [L]. On all threads; the order within a cell is that of the
-  /// faces.
-  void build(const std::vector<ContactFace>& faces, const Field<Real>& x, Real reach);
+  /// `reach`: of the boxes around the faces; faces with a depth beyond `least` reach further by the
+  /// difference [L]. On all threads; the order within a cell is that of the faces.
+  void build(const std::vector<ContactFace>& faces, const Field<Real>& x, Real reach, Real least);
   /// Calls `found(face)` for each face whose box, widened by the reach, holds y; ascending.
   template <class Found>
   void near(const Vec& y, const Found& found) const {

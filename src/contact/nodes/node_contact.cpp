@@ -122,14 +122,15 @@ void NodeContact::follow(World& world, const Clock& clock) {
 
 bool NodeContact::may_touch(const World& world, const ContactNode& n, const ContactFace& f) const {
   if (!(f.passes & (1U << n.pass)) || f.has(n.node)) return false;
-  if (world.nodes.held[n.node] && world.nodes.held[f.node[0]]) return false;
+  const auto all = [&](const auto& holds) { return std::all_of(f.node.begin(), f.node.end(), holds); };
+  if (world.nodes.held[n.node] && all([&](Index c) { return world.nodes.held[c] != 0; })) return false;
   const Index body = bodies_.body(n.node);
-  return body < 0 || body != bodies_.body(f.node[0]);
+  return body < 0 || !all([&](Index c) { return bodies_.body(c) == body; });
 }
 
 void NodeContact::list(World& world) {
   const Nodes& nodes = world.nodes;
-  search_.build(faces_, nodes.x, r_most_ + listed_reach_);
+  search_.build(faces_, nodes.x, r_most_ + listed_reach_, least_reach * size_);
   for_each(static_cast<Index>(involved_.size()), [&](Index k) {
     listed_at_[static_cast<std::size_t>(k)] = nodes.x.vec(involved_[static_cast<std::size_t>(k)]);
   });
@@ -159,6 +160,8 @@ void NodeContact::list_block(const World& world, Index begin, Index end) {
 void NodeContact::start(World& world, const Clock& clock) {
   soft_dt_ = std::max(soft_dt_, clock.dt_old);
   if (clock.t < law_.birth || clock.t > law_.death) {
+    if (!asleep_)  // at its death what it stores is lost
+      for (const Touch& touch : touches_) let_go_ += touch.stored;
     if (!asleep_)
       for (int k = 0; k < most_touches; ++k) std::fill_n(in_touch_->data(k), set_->size(), 0);
     asleep_ = fresh_ = true;
@@ -235,13 +238,16 @@ NodeContact::Penetrations NodeContact::penetrations(World& world) {
     shapes_[static_cast<std::size_t>(f)] = shape_of(corners_of(face(f), world.nodes.x), face(f).corners);
   for (Index i = 0; i < set_->size(); ++i) {
     Block& b = blocks_[static_cast<std::size_t>(i / block_size)];
-    look(world, b, i, world.nodes.x.vec(node(i).node));
+    look(world, b, i, world.nodes.x.vec(node(i).node), true);
     Slots slots;
     find_touches(world, {}, b, i, slots);
     Real deepest = 0;
     for (const Slot& slot : slots)
       if (slot.face >= 0) deepest = std::max(deepest, -slot.gap);
-    if (!(deepest > 0)) continue;
+    if (!(deepest > 0)) {
+      out.lost += is_lost(world, b, i);
+      continue;
+    }
     ++out.count;
     if (deepest > out.deepest) out.deepest = deepest, out.node = world.nodes.id[node(i).node];
   }

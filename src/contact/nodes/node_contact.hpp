@@ -91,6 +91,7 @@ class NodeContact : public Force,
     Index count = 0;
     Real deepest = 0;  ///< [L]
     Id node = 0;       ///< the deepest
+    Index lost = 0;    ///< nodes that start too deep inside another part to be held
   };
   /// Nodes that are behind faces now and would be pushed off them.
   Penetrations penetrations(World& world);
@@ -156,7 +157,8 @@ class NodeContact : public Force,
   void find_sizes();
   bool may_touch(const World& world, const ContactNode& node, const ContactFace& face) const;
   void touch(World& world, const Clock& clock, Block& b, Index i);
-  void look(const World& world, Block& b, Index i, const Vec& x) const;
+  void look(const World& world, Block& b, Index i, const Vec& x, bool deep) const;
+  bool is_lost(const World& world, const Block& b, Index i) const;
   bool hold(const World& world, Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot) const;
   bool past_edge(const World& world, const Vec& x, bool wedge, Real r, Slot& slot) const;
   bool move_on(const World& world, const Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot,
@@ -214,6 +216,7 @@ class NodeContact : public Force,
   Stiffest stiffest_;
   Resource touches_resource_{"touches of nodes"};
   Real damping_work_ = 0, friction_work_ = 0;
+  Real let_go_ = 0;  ///< energy of touches that ended with the contact's life, not yet in the ledger [ML2/T2]
 };
 
 /// Adds an interface to the passes of `world`, with the one that gathers its forces.

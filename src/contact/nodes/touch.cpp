@@ -42,8 +42,9 @@ bool NodeContact::is_taken(const Slots& slots, Index face) const {
   return false;
 }
 
-// Candidates within reach, at the places of now: lists may hold more, or not, with the same result.
-void NodeContact::look(const World& world, Block& b, Index i, const Vec& x) const {
+// Candidates within reach, at the places of now: lists may hold more, or not, with the same result. `deep`:
+// as far behind faces as touches may be, so that a node in touch sees where its face goes on.
+void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, bool deep) const {
   b.seen.clear();
   const auto k = static_cast<std::size_t>(i % block_size);
   for (Index c = b.first[k]; c < b.first[k + 1]; ++c) {
@@ -51,7 +52,8 @@ void NodeContact::look(const World& world, Block& b, Index i, const Vec& x) cons
     const ContactFace& f = face(s);
     const FaceShape& shape = shapes_[static_cast<std::size_t>(s)];
     const Vec w = x - shape.centre;
-    const Real reach = f.r + node(i).r + reach_, around = 1.05 * shape.radius + reach;
+    const Real reach = f.r + node(i).r + (deep ? std::max(reach_, f.depth) : reach_),
+               around = 1.05 * shape.radius + reach;
     if (w.squaredNorm() > around * around || std::abs(w.dot(shape.n)) > reach + 1.1 * shape.warp) continue;
     Seen& seen = b.seen.emplace_back();
     seen.face = s;
@@ -67,7 +69,7 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   for (int k = 0; k < most_touches; ++k) any = any || in_touch_->data(k)[i] != 0;
   if (!any && b.first[c] == b.first[c + 1]) return;
   const Vec x = world.nodes.x.vec(node(i).node);
-  look(world, b, i, x);
+  look(world, b, i, x, any || fresh_);
   Slots slots;
   if (any)
     for (int k = 0; k < most_touches; ++k) slots[static_cast<std::size_t>(k)] = load(i, k);
@@ -185,6 +187,17 @@ bool NodeContact::arrives(const World& world, const Clock& clock, Index i, const
   if (moved.squaredNorm() * left * left < 1e-12 * f.area) return true;
   const Vec there = nodes.x.vec(node(i).node) - left * moved;
   return project(corners_of(f, nodes.x), f.corners, there).over;
+}
+
+// Whether a node starts so deep inside another part that no face takes it.
+bool NodeContact::is_lost(const World& world, const Block& b, Index i) const {
+  for (const Seen& seen : b.seen) {
+    const ContactFace& f = face(seen.face);
+    const bool other = world.segments.part[f.segment] != world.nodes.part[node(i).node];
+    const Real gap = seen.d - f.r - node(i).r;
+    if (other && !f.two_sided && seen.at.over && gap < -start_depth * f.depth && gap > -f.depth) return true;
+  }
+  return false;
 }
 
 // Puts a new touch beside those there are. A neighbour of a touching face is another wall only where it rises

@@ -27,8 +27,12 @@ const std::map<int, const char*> similar = {{1, "Hughes-Liu"},
 
 class ShellReader {
  public:
-  ShellReader(const Deck& deck, Diagnostics& diagnostics)
-      : deck_(deck), diagnostics_(diagnostics), control_(deck.last<ControlShell>()), hourglass_(deck) {
+  ShellReader(const Deck& deck, const Model& model, Diagnostics& diagnostics)
+      : deck_(deck),
+        model_(model),
+        diagnostics_(diagnostics),
+        control_(deck.last<ControlShell>()),
+        hourglass_(deck) {
     for (const SectionShell& s : deck.all<SectionShell>()) sections_.emplace(s.secid, &s);
     if (control_) check_control(*control_);
   }
@@ -73,6 +77,14 @@ class ShellReader {
           s, "ELFORM",
           fmt::format("'{}' is not supported for shells that deform, as those of part {}", s.elform, part.id),
           "supported values: 2 (Belytschko-Tsay), 4 for triangles; 1, 6, 7, 10 and 11 become 2");
+    const bool has_quads =
+        std::any_of(model_.shells.begin(), model_.shells.end(), [&](const ModelShell& shell) {
+          return model_.parts[static_cast<std::size_t>(shell.part)].id == part.id &&
+                 shell.node[2] != shell.node[3];
+        });
+    if (s.elform == flat_triangle && has_quads)
+      deck_.warning(diagnostics_, s, "ELFORM",
+                    fmt::format("4 is for triangles: 2 is used for the quadrilaterals of part {}", part.id));
     if (s.nip < 0 || s.nip > ShellState::most_points)
       error(s, "NIP", fmt::format("'{}' is not supported", s.nip),
             "1 to 10 points; 2 are exact for elastic shells, plastic ones need 3 to 5");
@@ -109,6 +121,7 @@ class ShellReader {
   }
 
   const Deck& deck_;
+  const Model& model_;
   Diagnostics& diagnostics_;
   const ControlShell* control_;
   ShellHourglassReader hourglass_;
@@ -142,7 +155,7 @@ std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model,
   std::map<Id, std::shared_ptr<StrengthLaw>> laws;
   for (const StrengthEntry& kind : strength_registry())
     for (const auto& [id, law] : kind.all(deck, model)) laws.emplace(id, law);
-  ShellReader reader(deck, diagnostics);
+  ShellReader reader(deck, model, diagnostics);
   for (const std::size_t k : deforming) {
     const ModelPart& part = model.parts[k];
     const auto law = laws.find(part.mid);

@@ -40,6 +40,8 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     for (const HistoryVariable& h : law_->history())
       history_.push_back(&group.fields.add<Real>(
           {.name = h.name, .dimension = h.dimension, .components = h.components, .output = true}));
+    // the plain modes of corners that coincide resist even a rigid rotation
+    if (control_.hourglass == 1 && has_repeated_nodes()) control_.hourglass = 2;
     if (control_.stiff())
       hourglass_force_ =
           &group.fields.add<Real>({.name = "hourglass_force", .dimension = "ML/T2", .components = 12});
@@ -177,10 +179,19 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     for (Field<Real>* h : history_) reset(*h);
     if (hourglass_force_) reset(*hourglass_force_);
     group_.corner_force.fill(0);
-    if (omega > 0 && below * 2 / omega < tssfac_ * step)
-      tssfac_ = below * 2 / (omega * step), by_mesh_ = true;
+    if (!(omega > 0 && step > 0)) return;
+    const Real critical = 2 / (omega * step), asked = tssfac_;  // of the elements' step
+    tssfac_ = std::min({asked, asked * critical, below * critical});
+    by_mesh_ = tssfac_ < asked;
   }
   static void reset(Field<Real>& field) { field.fill(0); }
+
+  bool has_repeated_nodes() const {
+    for (Index e = 0; e < group_.size(); ++e)
+      for (int c = 0; c < group_.corners(); ++c)
+        if (group_.share(e, c) * group_.corners() != 1) return true;
+    return false;
+  }
 
   /// Reference volumes and densities; the mass of an element goes to its nodes in equal shares.
   void start_state(World& world) {

@@ -158,6 +158,7 @@ struct MatPiecewiseLinearPlasticity : Entry {
 
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
   void check_curve(const Deck& deck, const Model& model, Id id, Diagnostics& diagnostics) const;
+  void check_factor(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
 };
 
 void M::check_curve(const Deck& deck, const Model& model, Id id, Diagnostics& diagnostics) const {
@@ -189,6 +190,19 @@ void M::check_curve(const Deck& deck, const Model& model, Id id, Diagnostics& di
                  "abscissae are effective plastic strains, without the elastic part");
 }
 
+void M::check_factor(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
+  if (lcsr == 0) return;
+  const Curve factor = curve_of(model, std::abs(lcsr));
+  const char* hint = "a *DEFINE_CURVE of the factor of the yield stress over the rate of strain";
+  if (factor.abscissa.empty())
+    deck.error(diagnostics, *this, "LCSR", fmt::format("curve {} does not exist", std::abs(lcsr)), hint);
+  else if (*std::min_element(factor.ordinate.begin(), factor.ordinate.end()) <= 0)
+    deck.error(diagnostics, *this, "LCSR",
+               fmt::format("curve {} has factors that are not > 0", std::abs(lcsr)), hint);
+  if (c > 0)
+    deck.error(diagnostics, *this, "LCSR", "stands beside C and P, which tell the same", "give one of them");
+}
+
 void M::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
   const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
     if (!holds)
@@ -216,9 +230,7 @@ void M::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) co
   } else {
     check_curve(deck, model, lcss, diagnostics);
   }
-  if (lcsr != 0 && model.curves.count(std::abs(lcsr)) == 0)
-    deck.error(diagnostics, *this, "LCSR", fmt::format("curve {} does not exist", std::abs(lcsr)),
-               "a *DEFINE_CURVE of the factor of the yield stress over the rate of strain");
+  check_factor(deck, model, diagnostics);
   expect((c > 0) == (p > 0), c > 0 ? "P" : "C", "a number > 0", 0,
          "the rate of strain counts by C and P together; leave both blank where it does not");
 }
