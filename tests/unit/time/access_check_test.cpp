@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -84,6 +85,19 @@ TEST(AccessCheck, PassesOfAllDecksTouchWhatTheyDeclare) {
   }
 }
 
+namespace {
+
+/// The same for all passes of a kind, of which a deck may have several that differ by a number.
+Declaration kind_of(const Declaration& d) {
+  const auto without_numbers = [](std::string text) {
+    std::erase_if(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+    return text;
+  };
+  return {without_numbers(d.first), without_numbers(d.second)};
+}
+
+}  // namespace
+
 // Each declaration is left out in the decks that have it, until one notices.
 TEST(AccessCheck, AMissingDeclarationIsNoticed) {
   if (!checks_accesses) GTEST_SKIP() << "this build does not check";
@@ -93,12 +107,12 @@ TEST(AccessCheck, AMissingDeclarationIsNoticed) {
     const std::set<Declaration> here = declarations(whole->world());
     const Outcome expected = steps_of(*whole);
     for (const Declaration& d : here) {
-      tried.insert(d);
-      if (noticed.contains(d)) continue;
+      tried.insert(kind_of(d));
+      if (noticed.contains(kind_of(d))) continue;
       leave_out_declaration(d.first, d.second);
       auto broken = deck.build();
       leave_out_declaration("", "");
-      if (steps_of(*broken) != expected) noticed.insert(d);
+      if (steps_of(*broken) != expected) noticed.insert(kind_of(d));
     }
   }
   std::string missed;
