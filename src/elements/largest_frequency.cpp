@@ -17,6 +17,38 @@ Real largest_component(const NodalVector& u) {
 
 }  // namespace
 
+GroupNodes::GroupNodes(const ElementGroup& group, const std::vector<std::array<bool, 3>>& held_in_world,
+                       const Nodes& nodes) {
+  std::vector<Index> used;
+  for (int c = 0; c < group.corners(); ++c)
+    used.insert(used.end(), group.node.data(c), group.node.data(c) + group.size());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const Index n : used) {
+    for (int k = 0; k < 3; ++k) x[static_cast<std::size_t>(k)].push_back(nodes.x.data(k)[n]);
+    held.push_back(held_in_world[static_cast<std::size_t>(n)]);
+  }
+  m.assign(used.size(), 0);
+  corner.resize(static_cast<std::size_t>(group.corners()));
+  for (int c = 0; c < group.corners(); ++c)
+    for (Index e = 0; e < group.size(); ++e) {
+      const auto place = std::lower_bound(used.begin(), used.end(), group.node.data(c)[e]) - used.begin();
+      corner[static_cast<std::size_t>(c)].push_back(static_cast<Index>(place));
+      m[static_cast<std::size_t>(place)] += group.mass[e] * group.share(e, c);
+    }
+}
+
+void GroupNodes::assemble(const Field<Real>& of_corners, Real factor, NodalVector& sums) const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::fill(sums[k].begin(), sums[k].end(), 0);
+    for (std::size_t c = 0; c < corner.size(); ++c) {
+      const Real* f = of_corners.data(static_cast<int>(3 * c + k));
+      for (std::size_t e = 0; e < corner[c].size(); ++e)
+        sums[k][static_cast<std::size_t>(corner[c][e])] += factor * f[e];
+    }
+  }
+}
+
 Real largest_frequency(const std::vector<Real>& m, const std::vector<std::array<bool, 3>>& held, Real size,
                        const std::function<void(const NodalVector& u, NodalVector& Ku)>& stiffness) {
   constexpr int most_rounds = 60;

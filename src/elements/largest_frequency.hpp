@@ -1,13 +1,26 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <vector>
 
-#include "base/real.hpp"
+#include "state/entities.hpp"
 
 namespace courant {
 
 /// Components of vectors over nodes: a number for each node.
 using NodalVector = std::array<std::vector<Real>, 3>;
+
+/// The nodes of a group alone, numbered from 0 in the order of the world's.
+struct GroupNodes {
+  /// `held`: axes along which nodes of the world are.
+  GroupNodes(const ElementGroup& group, const std::vector<std::array<bool, 3>>& held, const Nodes& nodes);
+  NodalVector x;                            ///< places [L]
+  std::vector<Real> m;                      ///< shares of the group's mass [M]
+  std::vector<std::array<bool, 3>> held{};  ///< of each of them
+  std::vector<std::vector<Index>> corner;   ///< of elements, by corner
+  /// Sums of what elements have for their corners, component 3 c + k of corner c, times a factor.
+  void assemble(const Field<Real>& of_corners, Real factor, NodalVector& sums) const;
+};
 
 /// The largest omega with K u = omega^2 M u, K symmetric, M of the masses of nodes `m` (0: the node has no
 /// part in it), by power iteration from a fixed random start: from below, within some percent where there are

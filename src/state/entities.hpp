@@ -112,12 +112,14 @@ struct ElementGroup {
   Field<Id>& id;
   Index part;                            ///< index into the model's parts
   Field<Real>* corner_moment = nullptr;  ///< on rotations of the corners, as corner_force; null: solids
+  bool repeats_nodes = false;            ///< some element has a node at several corners
   Field<Index>* segment = nullptr;       ///< shells: index into World::segments of each; null: solids
   int corners() const { return node.info().components; }
   Index size() const { return fields.size(); }
   /// Of the mass of an element, what a corner gets: the same for all nodes, however many corners they are.
   /// [-]
   Real share(Index e, int corner) const {
+    if (!repeats_nodes) return Real(1) / corners();
     int different = 0, same = 0;
     for (int c = 0; c < corners(); ++c) {
       bool first = true;

@@ -65,6 +65,7 @@ void build_solids(const Model& model, const std::vector<SolidPart>& parts, const
       const ModelSolid& solid = *of_part[k][e];
       group.id[e] = solid.id;
       const std::array<Index, corners> corner = solid.corners();
+      group.repeats_nodes = group.repeats_nodes || solid.different_corners() < corners;
       for (int c = 0; c < corners; ++c) group.node.data(c)[e] = node_of[corner[c]];
     }
   }

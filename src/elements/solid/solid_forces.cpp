@@ -41,7 +41,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
       history_.push_back(&group.fields.add<Real>(
           {.name = h.name, .dimension = h.dimension, .components = h.components, .output = true}));
     // the plain modes of corners that coincide resist even a rigid rotation
-    if (control_.hourglass == 1 && has_repeated_nodes()) control_.hourglass = 2;
+    if (control_.hourglass == 1 && group.repeats_nodes) control_.hourglass = 2;
     if (control_.stiff())
       hourglass_force_ =
           &group.fields.add<Real>({.name = "hourglass_force", .dimension = "ML/T2", .components = 12});
@@ -142,55 +142,42 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
 
   /// A free block of few elements is stable only below what a mesh of many is: the step keeps below 2 over
   /// the largest frequency of the group, by the share of the elements' own step that this is at the start.
-  void limit_to_frequency(const std::vector<std::array<bool, 3>>& held, World& world) {
+  void limit_to_frequency(const std::vector<std::array<bool, 3>>& held, const World& world) {
     constexpr Real below = 0.97;  // the estimate comes from below
-    const Index nodes = world.nodes.size(), n = group_.size();
-    std::vector<Real> m(static_cast<std::size_t>(nodes), 0);
-    for (int c = 0; c < group_.corners(); ++c)
-      for (Index e = 0; e < n; ++e)
-        m[static_cast<std::size_t>(group_.node.data(c)[e])] += group_.mass[e] * group_.share(e, c);
+    const Index n = group_.size();
     const Real smallest = -maximum(n, [&](Index e) { return -V0_[e]; });
     if (!(smallest > 0)) return;
-    HexahedronMesh mesh = mesh_;
+    const GroupNodes own(group_, held, world.nodes);
+    HexahedronMesh mesh;
+    for (std::size_t k = 0; k < 3; ++k) mesh.x[k] = own.x[k].data();
+    for (std::size_t c = 0; c < own.corner.size(); ++c) mesh.corner[c] = own.corner[c].data();
     const HexahedronControl elastic{
         .hourglass = control_.hourglass, .QM = control_.stiff() ? control_.QM : 0, .Q1 = 0, .Q2 = 0};
     std::vector<HexahedronLoops::Found> found(found_.size());
     const Real omega = largest_frequency(
-        m, held, small_strain * std::cbrt(smallest), [&](const NodalVector& u, NodalVector& Ku) {
+        own.m, own.held, small_strain * std::cbrt(smallest), [&](const NodalVector& u, NodalVector& Ku) {
           for (std::size_t k = 0; k < 3; ++k) mesh.v[k] = u[k].data();
-          reset(stress_);
-          for (Field<Real>* h : history_) reset(*h);
-          if (hourglass_force_) reset(*hourglass_force_);
+          reset();
           for_each_block(n, [&](Index begin, Index end) {
             found[static_cast<std::size_t>(begin / block_size)] = advance(mesh, elastic, 1, begin, end);
           });
-          for (std::size_t k = 0; k < 3; ++k) {
-            std::fill(Ku[k].begin(), Ku[k].end(), 0);
-            for (int c = 0; c < group_.corners(); ++c) {
-              const Real* f = group_.corner_force.data(3 * c + static_cast<int>(k));
-              const Index* node = group_.node.data(c);
-              for (Index e = 0; e < n; ++e) Ku[k][static_cast<std::size_t>(node[e])] -= f[e];
-            }
-          }
+          own.assemble(group_.corner_force, -1, Ku);
         });
     Real step = std::numeric_limits<Real>::infinity();
     for (const HexahedronLoops::Found& f : found) step = std::min(step, f.step);
-    for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) reset(*field);
-    for (Field<Real>* h : history_) reset(*h);
-    if (hourglass_force_) reset(*hourglass_force_);
-    group_.corner_force.fill(0);
+    reset();
     if (!(omega > 0 && step > 0)) return;
     const Real critical = 2 / (omega * step), asked = tssfac_;  // of the elements' step
     tssfac_ = std::min({asked, asked * critical, below * critical});
     by_mesh_ = tssfac_ < asked;
   }
-  static void reset(Field<Real>& field) { field.fill(0); }
 
-  bool has_repeated_nodes() const {
-    for (Index e = 0; e < group_.size(); ++e)
-      for (int c = 0; c < group_.corners(); ++c)
-        if (group_.share(e, c) * group_.corners() != 1) return true;
-    return false;
+  /// To the state of the start: without stress, history, energies and forces.
+  void reset() {
+    for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) field->fill(0);
+    for (Field<Real>* h : history_) h->fill(0);
+    if (hourglass_force_) hourglass_force_->fill(0);
+    group_.corner_force.fill(0);
   }
 
   /// Reference volumes and densities; the mass of an element goes to its nodes in equal shares.
@@ -217,8 +204,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
           world.nodes.m[group_.node.data(c)[e]] += group_.mass[e] * group_.share(e, c);
       }
     }
-    for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) field->fill(0);
-    group_.corner_force.fill(0);
+    reset();
   }
   Real total(const Field<Real>& field) const {
     return sum(group_.size(), [&](Index e) { return field[e]; });
