@@ -104,8 +104,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     part.rigid = rigid_material(deck_, model_, model_.part_of_id.at(part.id)).has_value();
   }
   materials_ = find_materials(deck_, model_, diagnostics);
-  const auto is_rigid = [&](Index part) { return rigid_material(deck_, model_, part).has_value(); };
-  shells_ = find_shell_parts(deck_, model_, is_rigid, diagnostics);
+  shells_ = find_shell_parts(deck_, model_, diagnostics);
   const auto shell_material = [&](Index part) -> std::optional<ShellMaterial> {
     if (const auto m = rigid_material(deck_, model_, part)) return ShellMaterial{m->ro, m->E, m->pr};
     const std::shared_ptr<StrengthLaw>& law = shells_[part].law;

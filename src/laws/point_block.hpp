@@ -2,6 +2,7 @@
 // Points of one part that a law works on at once. Laws know no particles, elements or world: an SPH particle,
 // the middle of a solid and a layer of a shell all come to them as entries of these plain arrays.
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "base/real.hpp"
@@ -25,5 +26,12 @@ struct PointBlock {
   /// One array for each component of each of StrengthLaw::history(), in order.
   std::span<Real* const> history{};
 };
+
+/// Of waves: that at rest, in a body that is denser by mu and as stiff as before.
+inline void keep_stiffness(const PointBlock& block, Real c0) {
+  Real* __restrict c = block.sound_speed;
+  const Real* mu = block.compression;
+  for (Index i = 0; i < block.count; ++i) c[i] = mu ? c0 / std::sqrt(1 + mu[i]) : c0;
+}
 
 }  // namespace courant

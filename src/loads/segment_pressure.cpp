@@ -11,6 +11,7 @@
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
 #include "model/transforms/transformation.hpp"
+#include "parallel/counting_sort.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
@@ -96,22 +97,14 @@ class SegmentPressure : public Force, public EnergyTerm {
  public:
   SegmentPressure(std::vector<PressureLoad> loads, std::vector<PressureFace> faces, WallBodies bodies,
                   World& world)
-      : bodies_(std::move(bodies)),
-        loads_(std::move(loads)),
-        faces_(std::move(faces)),
-        nodes_(&world.nodes),
-        first_(static_cast<std::size_t>(world.nodes.size()) + 1, 0) {
-    for (const PressureFace& f : faces_)
-      for (int c = 0; c < f.corners(); ++c)
-        ++first_[static_cast<std::size_t>(f.node[static_cast<std::size_t>(c)]) + 1];
-    for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];
-    of_node_.resize(static_cast<std::size_t>(first_.back()));
-    std::vector<Index> next(first_.begin(), first_.end() - 1);
+      : bodies_(std::move(bodies)), loads_(std::move(loads)), faces_(std::move(faces)), nodes_(&world.nodes) {
+    std::vector<Index> node, face;
     for (std::size_t k = 0; k < faces_.size(); ++k)
       for (int c = 0; c < faces_[k].corners(); ++c)
-        of_node_[static_cast<std::size_t>(
-            next[static_cast<std::size_t>(faces_[k].node[static_cast<std::size_t>(c)])]++)] =
-            static_cast<Index>(k);
+        node.push_back(faces_[k].node[static_cast<std::size_t>(c)]), face.push_back(static_cast<Index>(k));
+    std::vector<Index> order;
+    counting_sort(node, world.nodes.size(), first_, order);
+    for (const Index k : order) of_node_.push_back(face[static_cast<std::size_t>(k)]);
   }
   std::string name() const override { return "pressure on segments"; }
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
@@ -157,7 +150,7 @@ class SegmentPressure : public Force, public EnergyTerm {
 
   /// Of the velocities before and after the kick to come, as for other nodes.
   Vec middle_of_body(Index n, const Clock& clock) const {
-    const Index body = bodies_.of_node.empty() ? -1 : bodies_.of_node[static_cast<std::size_t>(n)];
+    const Index body = bodies_.body(n);
     if (body < 0) return nodes_->v.vec(n);
     return nodes_->v.vec(n) + 0.5 * bodies_.change(body, nodes_->x.vec(n), clock);
   }

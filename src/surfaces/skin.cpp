@@ -25,14 +25,14 @@ bool nodes_of_face(const SkinCell& cell, const int (&corners)[4], Face& out) {
   return count >= 3;
 }
 
-Face key(Face face) {
-  const bool three = face[2] == face[3];
-  std::sort(face.begin(), face.end() - three);
-  if (three) face[3] = face[2];
-  return face;
-}
-
 }  // namespace
+
+std::array<Index, 4> sorted_corners(std::array<Index, 4> corner) {
+  std::sort(corner.begin(), corner.end());
+  const auto end = std::unique(corner.begin(), corner.end());
+  std::fill(end, corner.end(), *(end - 1));
+  return corner;
+}
 
 std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness,
                             const std::vector<SkinCell>& cells) {
@@ -40,11 +40,12 @@ std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness,
   Face face;
   for (const SkinCell& cell : cells)
     for (const auto& corners : faces)
-      if (nodes_of_face(cell, corners, face)) ++count[key(face)];
+      if (nodes_of_face(cell, corners, face)) ++count[sorted_corners(face)];
   std::vector<std::pair<const SkinCell*, Face>> outer;
   for (const SkinCell& cell : cells)
     for (const auto& corners : faces)
-      if (nodes_of_face(cell, corners, face) && count[key(face)] == 1) outer.emplace_back(&cell, face);
+      if (nodes_of_face(cell, corners, face) && count[sorted_corners(face)] == 1)
+        outer.emplace_back(&cell, face);
   Segments& s = world.segments;
   std::vector<Index> out;
   Index at = s.size();

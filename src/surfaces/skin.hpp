@@ -20,6 +20,10 @@ struct SkinCell {
   Real volume = 0;              ///< [L3]
 };
 
+/// The corners of a face, sorted, which tell it whatever their order; of a triangle, whichever corner it
+/// repeats, the last one again.
+std::array<Index, 4> sorted_corners(std::array<Index, 4> corner);
+
 /// Adds the faces of cells that no other of them has to world.segments, with normals that point outwards, in
 /// the order of cells and faces. Returns these segments.
 std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness, const std::vector<SkinCell>& cells);

@@ -25,14 +25,6 @@ SideFields fields_of(const ContactCard& c, ContactSide side) {
   return {"SURFB", c.surfb, c.surfbtyp, c.sbboxid, "SBBOXID"};
 }
 
-/// The corners of a face, sorted; of a triangle, whichever corner it repeats, the last one again.
-std::array<Index, 4> sorted_corners(std::array<Index, 4> corner) {
-  std::sort(corner.begin(), corner.end());
-  const auto end = std::unique(corner.begin(), corner.end());
-  std::fill(end, corner.end(), *(end - 1));
-  return corner;
-}
-
 }  // namespace
 
 const std::map<Id, Index>& FaceFinder::node_of_id() {

@@ -136,16 +136,14 @@ ElasticConstants elastic_constants(const StrengthLaw& law) {
   return {9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)};
 }
 
-std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model,
-                                        const std::function<bool(Index part)>& rigid,
-                                        Diagnostics& diagnostics) {
+std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   std::vector<ShellPart> out(model.parts.size());
   std::vector<std::size_t> deforming;
   bool solids = false;
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const ModelPart& part = model.parts[k];
     solids = solids || (part.has_solid && !part.rigid);
-    if (part.has_shell && !part.has_sph && !rigid(static_cast<Index>(k))) deforming.push_back(k);
+    if (part.has_shell && !part.has_sph && !part.rigid) deforming.push_back(k);
   }
   if (deforming.empty()) return out;
   const int errors = diagnostics.errors();

@@ -1,7 +1,6 @@
 #pragma once
 // Shells that deform, in the world: groups of quadrilaterals and of triangles for each part, and the passes
 // over them. Rigid shells are walls only: src/shell.
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -32,12 +31,9 @@ ElasticConstants elastic_constants(const StrengthLaw& law);
 void gauss_points(int count, std::vector<Real>& zeta, std::vector<Real>& weight);
 void lobatto_points(int count, std::vector<Real>& zeta, std::vector<Real>& weight);
 
-/// The law and the options of each part with shells whose material is not rigid. `rigid(part)`: whether it
-/// is. Materials that shells cannot have, and options and formulations that are not there, are errors; a
-/// missing material is none here.
-std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model,
-                                        const std::function<bool(Index part)>& rigid,
-                                        Diagnostics& diagnostics);
+/// The law and the options of each part with shells whose material is not rigid. Materials that shells cannot
+/// have, and options and formulations that are not there, are errors; a missing material is none here.
+std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 /// Adds groups of elements, and the rotations of their nodes (state/shared_fields.hpp) with their inertia.
 /// The masses of the nodes are build_segments' business. `node_of`: the node of the world of each node of the

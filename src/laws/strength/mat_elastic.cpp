@@ -33,7 +33,7 @@ class Elastic : public StrengthLaw {
       Real* __restrict s = block.stress[k];
       for (Index i = 0; i < block.count; ++i) s[i] += twice * d[i];
     }
-    give_sound_speed(block);
+    keep_stiffness(block, sound_speed());
   }
 
   /// D zz = -lambda/(lambda + 2 G) (D xx + D yy).
@@ -53,17 +53,10 @@ class Elastic : public StrengthLaw {
       Real* __restrict s = block.stress[k];
       for (Index i = 0; i < block.count; ++i) s[i] += twice * d[i];
     }
-    give_sound_speed(block);
+    keep_stiffness(block, sound_speed());
   }
 
  private:
-  void give_sound_speed(const PointBlock& block) const {
-    const Real c0 = sound_speed();
-    Real* __restrict c = block.sound_speed;
-    const Real* mu = block.compression;
-    for (Index i = 0; i < block.count; ++i) c[i] = mu ? c0 / std::sqrt(1 + mu[i]) : c0;
-  }
-
   Real lambda_, shear_;
 };
 

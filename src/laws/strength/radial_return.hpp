@@ -79,10 +79,4 @@ inline Real effective_rate(const PointBlock& block, Index i, bool of_deviator) {
                    4.0 / 3 * (D[3][i] * D[3][i] + D[4][i] * D[4][i] + D[5][i] * D[5][i]));
 }
 
-/// Of waves: that at rest, in a body that is denser by mu and as stiff as before.
-inline void keep_stiffness(const PointBlock& block, Real c0) {
-  const Real* mu = block.compression;
-  for (Index i = 0; i < block.count; ++i) block.sound_speed[i] = mu ? c0 / std::sqrt(1 + mu[i]) : c0;
-}
-
 }  // namespace courant

@@ -3,25 +3,13 @@
 
 #include <cmath>
 
+#include "law_from_cards.hpp"
 #include "laws/strength/strength.hpp"
 #include "parallel/parallel.hpp"
 
 using namespace courant;
 
 namespace {
-
-std::shared_ptr<StrengthLaw> plane_law(const std::string& keyword, const std::string& cards) {
-  ReadOptions options;
-  options.open = [&](const std::string&) {
-    return std::optional<std::string>("*KEYWORD\n*" + keyword + "\n" + cards + "*END\n");
-  };
-  Diagnostics diagnostics;
-  const Deck deck = read_deck("m.k", options, diagnostics);
-  EXPECT_TRUE(diagnostics.ok()) << diagnostics.text();
-  for (const StrengthEntry& kind : strength_registry())
-    if (kind.keyword == keyword) return kind.all(deck, Model()).at(0).second;
-  return nullptr;
-}
 
 /// A block of points with numbers of their own.
 struct SheetPoints {
@@ -88,7 +76,7 @@ Returned returned(const SheetPoints& trial, Index i, Real E, Real nu, Real yield
 }  // namespace
 
 TEST(PlaneStress, TrialStepsGiveWhatTheClosedFormGives) {
-  const auto law = plane_law("MAT_ELASTIC", "1,2.0,2.5,0.3\n");
+  const auto law = test::law_from_cards("MAT_ELASTIC", "1,2.0,2.5,0.3\n");
   SheetPoints a, b;
   for (SheetPoints* p : {&a, &b}) {
     p->fill_rates(0.1);
@@ -108,8 +96,8 @@ TEST(PlaneStress, TrialStepsGiveWhatTheClosedFormGives) {
 // History counts once, however many trials there were.
 TEST(PlaneStress, PlasticPointsReturnAlongThePlane) {
   const Real E = 2.5, nu = 0.3, Ep = E * 0.5 / (E - 0.5);
-  const auto law = plane_law("MAT_PLASTIC_KINEMATIC", "1,2.0,2.5,0.3,0.2,0.5,1.0\n");
-  const auto elastic = plane_law("MAT_ELASTIC", "1,2.0,2.5,0.3\n");
+  const auto law = test::law_from_cards("MAT_PLASTIC_KINEMATIC", "1,2.0,2.5,0.3,0.2,0.5,1.0\n");
+  const auto elastic = test::law_from_cards("MAT_ELASTIC", "1,2.0,2.5,0.3\n");
   for (const bool generic : {false, true}) {
     SheetPoints p, trial;
     p.fill_rates(0.2), trial.fill_rates(0.2);
@@ -137,7 +125,8 @@ TEST(PlaneStress, PlasticPointsReturnAlongThePlane) {
 // Any law of the registry: on its yield surface the trials leave no stress across the plane, and a second
 // step back and forth goes on from the history of the first.
 TEST(PlaneStress, KinematicHardeningWithRatesHasNoStressAcross) {
-  const auto law = plane_law("MAT_PLASTIC_KINEMATIC", "1,2.0,2.5,0.3,0.2,0.5,0.4\n10.0,4.0,0.0,1\n");
+  const auto law =
+      test::law_from_cards("MAT_PLASTIC_KINEMATIC", "1,2.0,2.5,0.3,0.2,0.5,0.4\n10.0,4.0,0.0,1\n");
   SheetPoints p;
   p.fill_rates(4);
   Real before[SheetPoints::count];

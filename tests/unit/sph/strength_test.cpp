@@ -1,5 +1,6 @@
 // Particles with strength: spin, stress that turns with the body, energy, artificial stress, what is refused.
 #include "sph/materials/strength.hpp"
+#include "../laws/law_from_cards.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,21 +22,9 @@ namespace {
 
 constexpr Real K = 9e5, G = 3e5;
 
-std::shared_ptr<StrengthLaw> strength_of(const std::string& keyword, const std::string& cards) {
-  ReadOptions options;
-  options.open = [&](const std::string&) {
-    return std::optional<std::string>("*KEYWORD\n*" + keyword + "\n" + cards + "*END\n");
-  };
-  Diagnostics diagnostics;
-  const Deck deck = read_deck("m.k", options, diagnostics);
-  EXPECT_TRUE(diagnostics.ok()) << diagnostics.text();
-  for (const StrengthEntry& kind : strength_registry())
-    if (kind.keyword == keyword) return kind.all(deck, Model()).at(0).second;
-  return nullptr;
-}
 std::shared_ptr<StrengthLaw> rubber() {
-  return strength_of("MAT_ELASTIC", fmt::format("1,1000.0,{},{}\n", 9 * K * G / (3 * K + G),
-                                                (3 * K - 2 * G) / (6 * K + 2 * G)));
+  return test::law_from_cards("MAT_ELASTIC", fmt::format("1,1000.0,{},{}\n", 9 * K * G / (3 * K + G),
+                                                         (3 * K - 2 * G) / (6 * K + 2 * G)));
 }
 
 BlockPass& pass_of(World& w, Phase phase, const std::string& name) {
@@ -178,7 +167,7 @@ TEST(Strength, ADeviatorBesideAnEquationOfStateAddsToPressureAndSpeed) {
   Rubber cloud(3, 2);
   World& w = cloud.world;
   Particles& p = w.particles;
-  cloud.settings.strength = {strength_of("MAT_ELASTIC_PLASTIC_HYDRO", "1,1000.0,3.0e5,1.0e3\n")};
+  cloud.settings.strength = {test::law_from_cards("MAT_ELASTIC_PLASTIC_HYDRO", "1,1000.0,3.0e5,1.0e3\n")};
   w.passes.add(courant::test::liquid_pass(9e5, w));
   cloud.add();
   cloud.refresh();
