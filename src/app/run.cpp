@@ -115,6 +115,8 @@ class Run {
     if (before.file.filename() == before_error && s_.changes().empty())
       before.warnings.push_back("after this state the run stopped in error, and the deck is the same");
     for (const std::string& text : before.warnings) messag_.line(" *** Warning: " + text);
+    for (const auto& from : {before.warnings, s_.changes()})
+      summary_.restart_notes.insert(summary_.restart_notes.end(), from.begin(), from.end());
     for (const std::string& text : histories_.lost()) messag_.line(" *** Warning: " + text);
     for (const std::string& text : s_.changes()) messag_.line(" changed in the deck: " + text);
     before.state.clear();
@@ -139,6 +141,7 @@ class Run {
     archive("particle_steps", y.particle_steps);
     archive("element_steps", y.element_steps);
     archive("restarts", y.restarts);
+    archive("restart_notes", y.restart_notes);
     archive("wall_seconds", wall);
     archive("cpu_seconds", cpu);
     archive("writer_cpu_seconds", writer);

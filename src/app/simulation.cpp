@@ -126,7 +126,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     build_solids(model_, solids_, node_of, world_);
     build_shells(model_, shells_, node_of, world_, diagnostics);
     add_solid_passes(model_, solids_, node_of, world_);
-    add_shell_passes(model_, shells_, world_);
+    add_shell_passes(model_, shells_, node_of, world_);
   }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
   start_rotations(model_, node_of, world_);

@@ -207,7 +207,10 @@ class Contact : public Force,
   void look_further(const World& world);
   void note_approach(const World& world, Block& b, const Slot& slot, Real dt) const;
   Vec in_plane(Vec v) const;
+  bool balance(World& world, const Clock& clock);
   Real correct(World& world, const Clock& clock, Touch& touch) const;
+  bool join_struck(const World& world, const Clock& clock, Block& b) const;
+  Real gap_at_end(const World& world, const Clock& clock, Index particle, const Facet& f, Real side) const;
   void record_held(World& world, const Clock& clock, EnergyLedger& ledger);
   Vec friction_force(const World& world, const Clock& clock, Index i, Real fn, const Vec& v, const Vec& n,
                      Real k) const;

@@ -61,16 +61,9 @@ void Contact::strike(World& world, const Clock& clock) {
     if (bodies) return;
     for (Touch& a : b.touches) correct(world, clock, a);
   });
-  constexpr int most_sweeps = 200;
-  constexpr Real enough = 1e-4;  // of the largest force
-  for (int sweep = 0; bodies && sweep < most_sweeps; ++sweep) {
-    Real largest = 0, changed = 0;
-    for (Block& b : blocks_)
-      for (Touch& a : b.touches) {
-        changed = std::max(changed, std::abs(correct(world, clock, a)));
-        largest = std::max(largest, a.held);
-      }
-    if (changed <= enough * largest) break;
+  for (bool more = bodies; more && balance(world, clock);) {
+    more = false;
+    for (Block& b : blocks_) more = join_struck(world, clock, b) || more;
   }
   for (const Block& b : blocks_)
     for (const Touch& a : b.touches) {
@@ -84,9 +77,77 @@ void Contact::strike(World& world, const Clock& clock) {
   if (held_now_ > 0) world.counters["contact_held"] += held_now_;
 }
 
+// Whether any touch is held.
+bool Contact::balance(World& world, const Clock& clock) {
+  constexpr int most_sweeps = 200;
+  constexpr Real enough = 1e-4;  // of the largest force
+  Real largest = 0;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    Real changed = 0;
+    largest = 0;
+    for (Block& b : blocks_)
+      for (Touch& a : b.touches) {
+        changed = std::max(changed, std::abs(correct(world, clock, a)));
+        largest = std::max(largest, a.held);
+      }
+    if (changed <= enough * largest) break;
+  }
+  return largest > 0;
+}
+
+// A body that takes a blow may turn, within this very step, towards particles that it did not touch: they
+// join. Whether any did.
+bool Contact::join_struck(const World& world, const Clock& clock, Block& b) const {
+  const Particles& p = world.particles;
+  const Real dt = clock.dt, kick = clock.dt_mean();
+  bool any = false;
+  for (const Slot& slot : b.slots) {
+    const Index i = slot.particle;
+    const Vec x = p.x.vec(i), v = p.v.vec(i) + kick / p.m[i] * p.f.vec(i);
+    for (Index c = slot.first; c < slot.last; ++c) {
+      const Index k = b.candidate[c];
+      const Facet& f = facets_[k];
+      if (f.body < 0) continue;
+      const Real d = plane_distance(f, x), r = contact_distance(i, walls_[k]);
+      const bool over = is_over(f, x);
+      const Vec q = over ? Vec(x - d * f.n) : nearest_on_rim(f, x);
+      const Vec relative =
+          in_plane(v - wall_velocity(world, f, q) - options_.bodies.change(f.body, q, clock));
+      const Real gap = (x - q).norm(), side = d < 0 ? -1 : 1;
+      if (gap <= f.tolerance || gap < r) continue;
+      const Real end = gap_at_end(world, clock, i, f, side);
+      const Vec n = (x - q) / gap;
+      if (over ? end >= closest * r : end >= 0 || dt * relative.dot(n) >= closest * r - gap) continue;
+      const auto same = [&](const Touch& a) { return a.particle == i && a.facet == k; };
+      if (std::any_of(b.touches.begin(), b.touches.end(), same)) continue;
+      b.touches.push_back({.particle = i, .facet = k, .share = 0, .depth = r - gap, .k = 0, .n = n, .q = q});
+      if (drag_on_) b.drags.push_back({.damping = 0, .friction = Vec::Zero(), .other = Vec::Zero()});
+      any = true;
+    }
+  }
+  return any;
+}
+
 Vec Contact::in_plane(Vec v) const {
   if (dim_ == 2) v.z() = 0;
   return v;
+}
+
+// How far from the plane of a face of a body a particle stands at the end of the coming step, on that side.
+// The face turns on the way, so a particle that slides along it comes nearer by more than the velocities
+// along n say. [L]
+Real Contact::gap_at_end(const World& world, const Clock& clock, Index i, const Facet& f, Real side) const {
+  const Particles& p = world.particles;
+  Corners x{};
+  Vec centre = Vec::Zero();
+  for (int e = 0; e < f.corners; ++e) {
+    x[e] = f.x[e] + clock.dt * (world.nodes.v.vec(f.node[e]) + options_.bodies.change(f.body, f.x[e], clock));
+    centre += x[e] / f.corners;
+  }
+  const Vec n =
+      f.corners == 4 ? Vec((x[2] - x[0]).cross(x[3] - x[1])) : Vec((x[1] - x[0]).cross(x[2] - x[0]));
+  const Vec y = p.x.vec(i) + clock.dt * (p.v.vec(i) + clock.dt_mean() / p.m[i] * p.f.vec(i));
+  return side * in_plane(y - centre).dot(n) / n.norm();
 }
 
 // Makes the held force what the coming step needs of it, given all others; returns by how much it changed.
@@ -99,9 +160,14 @@ Real Contact::correct(World& world, const Clock& clock, Touch& a) const {
   const Real room = std::max(r - a.depth - closest * r, Real(0));
   Real v = p.v.vec(i).dot(a.n) + kick / m * p.f.vec(i).dot(a.n);
   if (f.moves) v -= wall_velocity(world, f, a.q).dot(a.n);
-  if (a.held == 0 && v * dt > -0.5 * room) return 0;  // far from it, whatever the body does
+  if (f.body < 0 && a.held == 0 && v * dt > -0.5 * room) return 0;  // far from it
   if (f.body >= 0) v -= options_.bodies.change(f.body, a.q, clock).dot(a.n);
-  const Real too_fast = -room / dt - v;
+  Real too_fast = -room / dt - v;
+  if (f.body >= 0 && is_over(f, p.x.vec(i))) {
+    const Real side = f.n.dot(a.n) < 0 ? -1 : 1;
+    const Real least = std::min(closest * r, r - a.depth);  // who is deeper is not thrown out
+    too_fast = std::max(too_fast, (least - gap_at_end(world, clock, i, f, side)) / dt);
+  }
   if (!(too_fast > 0) && a.held == 0) return 0;
   Vec along = in_plane(a.n);
   if (const auto* driven = shared_fields::prescribed_motion.find(p.fields); driven && (*driven)[i]) return 0;

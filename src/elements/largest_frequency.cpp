@@ -38,13 +38,14 @@ GroupNodes::GroupNodes(const ElementGroup& group, const std::vector<std::array<b
     }
 }
 
-void GroupNodes::assemble(const Field<Real>& of_corners, Real factor, NodalVector& sums) const {
+void GroupNodes::assemble(const Field<Real>& of_corners, Real factor, NodalVector& sums,
+                          std::size_t first) const {
   for (std::size_t k = 0; k < 3; ++k) {
-    std::fill(sums[k].begin(), sums[k].end(), 0);
+    Real* const to = sums[k].data() + first;
+    std::fill(to, to + m.size(), 0);
     for (std::size_t c = 0; c < corner.size(); ++c) {
       const Real* f = of_corners.data(static_cast<int>(3 * c + k));
-      for (std::size_t e = 0; e < corner[c].size(); ++e)
-        sums[k][static_cast<std::size_t>(corner[c][e])] += factor * f[e];
+      for (std::size_t e = 0; e < corner[c].size(); ++e) to[corner[c][e]] += factor * f[e];
     }
   }
 }

@@ -18,8 +18,9 @@ struct GroupNodes {
   std::vector<Real> m;                      ///< shares of the group's mass [M]
   std::vector<std::array<bool, 3>> held{};  ///< of each of them
   std::vector<std::vector<Index>> corner;   ///< of elements, by corner
-  /// Sums of what elements have for their corners, component 3 c + k of corner c, times a factor.
-  void assemble(const Field<Real>& of_corners, Real factor, NodalVector& sums) const;
+  /// Sums of what elements have for their corners, component 3 c + k of corner c, times a factor, into the
+  /// entries from `first` on.
+  void assemble(const Field<Real>& of_corners, Real factor, NodalVector& sums, std::size_t first = 0) const;
 };
 
 /// The largest omega with K u = omega^2 M u, K symmetric, M of the masses of nodes `m` (0: the node has no

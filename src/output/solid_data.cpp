@@ -7,6 +7,7 @@
 
 #include "output/field_data.hpp"
 #include "output/vtk_arrays.hpp"
+#include "output/vtk_cell.hpp"
 
 namespace courant {
 namespace {
@@ -35,24 +36,6 @@ std::vector<Index> nodes_used(const World& world, const Groups& groups, std::vec
       out.push_back(n);
     }
   return out;
-}
-
-struct VtkCell {
-  std::uint8_t type;
-  std::vector<int> corners;  ///< of the element, in VTK's order
-};
-
-/// LS-DYNA's order of corners is VTK's, but for hexahedra whose nodes stand several times.
-VtkCell vtk_cell(const ElementGroup& group, Index e) {
-  constexpr std::uint8_t line = 3, tetrahedron = 10, hexahedron = 12, wedge = 13, pyramid = 14;
-  if (group.corners() == 2) return {line, {0, 1}};
-  if (group.corners() == 4) return {tetrahedron, {0, 1, 2, 3}};
-  const auto same = [&](int a, int b) { return group.node.data(a)[e] == group.node.data(b)[e]; };
-  const bool to_a_point = same(4, 5) && same(4, 6) && same(4, 7);
-  if (to_a_point) return same(2, 3) ? VtkCell{tetrahedron, {0, 1, 2, 4}} : VtkCell{pyramid, {0, 1, 2, 3, 4}};
-  if (same(4, 5) && same(6, 7)) return {wedge, {0, 1, 4, 3, 2, 6}};
-  if (same(2, 3) && same(6, 7)) return {wedge, {0, 2, 1, 4, 6, 5}};
-  return {hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}};
 }
 
 VtkSection cells(const Groups& groups, const std::vector<Index>& place) {

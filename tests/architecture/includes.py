@@ -28,6 +28,7 @@ MAY_INCLUDE = {
     "time": ["state", "search", "output"],
     "post": ["base", "output"],
     "generate": ["base"],
+    "vtk": ["state", "output"],
     "verify": ["post", "generate", "keyword"],
 }
 TOP = "app"  # may include everything; nothing includes it

@@ -15,7 +15,7 @@ import sys
 import time
 
 from checks import check, enter_empty_folder, failures
-from restart_scene import arrays, cycle_of, deck, differences, latest, text_of
+from restart_scene import arrays, cycle_of, deck, differences, latest, text_of, yaml
 
 courant, work = os.path.abspath(sys.argv[1]), os.path.join(os.path.abspath(sys.argv[2]), "restart")
 enter_empty_folder(work)
@@ -47,6 +47,11 @@ def said(folder):
         return file.read()
 
 
+def notes(folder):
+    with open(f"{folder}/summary.yaml") as file:
+        return yaml.safe_load(file).get("restart_notes", [])
+
+
 deck("flow", runrsf=70, d3dump=120)
 ends(0, "run", "flow.k", "-o", "whole", "--quiet", "--threads", "1")
 check(sorted(os.listdir("whole/restart")) == ["d3dump01.h5", "d3dump02.h5", "runrsf.h5"], f"restart files: {sorted(os.listdir('whole/restart'))}")
@@ -75,6 +80,13 @@ shutil.copytree("whole", "more")
 deck("longer", end=0.7, glstat=0.007, runrsf=50)
 ends(0, "run", "longer.k", "-o", "more", "--restart", "more/restart/d3dump01.h5", says=r"changed in the deck: \*CONTROL_TERMINATION ENDTIM: '0.7', was '0.6'")
 check("*DATABASE_GLSTAT DT: '0.007', was '0.01'" in said("more"), "a changed interval is told")
+check(any("ENDTIM" in note for note in notes("more")) and not notes("part"), f"restart_notes of the summary: {notes('more')}, {notes('part')}")
+inlet = "*NODE\n90021,3.,2.5,0.\n90022,3.,2.6,0.\n*PART\ninflow\n4,1,1,1,1\n*DEFINE_SPH_INJECTION\n4,7,0,1.5\n*SET_NODE_LIST\n7\n90021,90022\n"
+deck("inflow", end=0.05, histories=False, more=inlet)
+deck("more_inflow", end=0.3, histories=False, more=inlet)
+ends(0, "run", "inflow.k", "-o", "inflow", "--quiet")
+ends(0, "run", "more_inflow.k", "-o", "inflow", "--restart", "inflow", says="more particles wait in front of inlets")
+check(any("last bits" in note for note in notes("inflow")), f"the summary says why bits may differ: {notes('inflow')}")
 text = open("flow.k").read()
 for old, new, message in (("*MAT_NULL\n1,1000.,", "*MAT_NULL\n1,900.,", r"other.k:\d+:\d+: error: \*MAT_NULL field 2 \(RO.*the run so far had '1000', the deck has '900'"),
                           ("1,1.2,0.8,1.2", "1,1.3,0.8,1.2", r"\*SECTION_SPH field 2 \(CSLH"),

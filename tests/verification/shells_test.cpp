@@ -1,7 +1,9 @@
 // Decks of shells that deform, against closed solutions of plates and beams.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <random>
 
 #include "output/restart_file.hpp"
 #include "parallel/parallel.hpp"
@@ -10,6 +12,7 @@
 #include "solid_decks.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
+#include "state/shared_fields.hpp"
 
 using namespace courant;
 using test::ShellDeck;
@@ -93,6 +96,55 @@ TEST(Shells, AMeshOfRightTrianglesIsStable) {
   start_ledger(*s);
   for (int k = 0; k < 2000; ++k) s->step(watch_nothing);
   EXPECT_LT(energy_error(*s), 0.1);
+}
+
+// Patches that nothing holds: warped at random and in the plane, thick and thin, up to nearly incompressible.
+// A free square was stable up to 0.877 L/c alone.
+TEST(Shells, SmallFreePatchesAreStableAtTssfac09) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<Real> number(-1, 1);
+  for (const bool triangles : {false, true})
+    for (const char* nu : {"0.0", "0.3", "0.49"})
+      for (const auto& [nx, ny] : {std::array{1, 1}, {1, 4}, {3, 3}})
+        for (const Real t : {0.01, 0.1, 0.7})
+          for (const int ihq : {3, 4})
+            for (const Real uneven : {0.0, 0.2}) {
+              ShellDeck deck;
+              deck.plate(
+                  nx, ny, nx, ny, 1,
+                  [&](const Vec& x) {
+                    const Vec by = uneven * Vec(number(random), number(random), 0.2 * number(random));
+                    return Vec(x + by + Vec(uneven * x[1], 0, 0));
+                  },
+                  triangles);
+              deck.part(1, t, fmt::format("*MAT_ELASTIC\n         1       1.0       1.0{:>10}\n", nu), 2,
+                        5.0 / 6, 1);
+              deck.cards += fmt::format(
+                  "*CONTROL_BULK_VISCOSITY\n    1.0E-9    1.0E-9\n*HOURGLASS\n         1{:10}{:>10}\n", ihq,
+                  ihq == 3 ? "1.0E-9" : "0.1");
+              deck.cards += "*CONTROL_TIMESTEP\n       0.0       0.9\n";
+              auto s = simulation_of(deck.text(1e9));
+              World& world = s->world();
+              Field<Real>& turning = *shared_fields::angular_velocity.find(world.nodes.fields);
+              for (Index i = 0; i < world.nodes.size(); ++i) {
+                world.nodes.v.set(i, 1e-9 * Vec(number(random), number(random), number(random)));
+                turning.set(i, 1e-9 * Vec(number(random), number(random), number(random)));
+              }
+              const auto fastest = [&] {
+                Real most = 0;
+                for (Index i = 0; i < world.nodes.size(); ++i)
+                  most = std::max({most, world.nodes.v.vec(i).norm(), turning.vec(i).norm()});
+                return most;
+              };
+              Real early = 0, late = 0;
+              for (int k = 0; k < 3000; ++k) {
+                s->step(watch_nothing);
+                if (k < 1000) early = std::max(early, fastest());
+                if (k >= 2000) late = std::max(late, fastest());
+              }
+              EXPECT_LT(late, 2 * early) << triangles << " nu " << nu << " " << nx << ny << " t " << t
+                                         << " IHQ " << ihq << " " << uneven;
+            }
 }
 
 // Nodes start without the turning of the mode, so that shear waves with frequencies near 2/dt are in it, of

@@ -86,6 +86,10 @@ ElementGroup& add_group(World& world, const std::string& name, std::size_t part,
 
 }  // namespace
 
+Field<Real>& corner_inertia_of(const ElementGroup& group) {
+  return group.fields.add<Real>({.name = "corner_inertia", .dimension = "ML2", .restart = false});
+}
+
 // A rotation of all corners alike meets the shear stiffness K G t A alone, K the shear factor: with rotary
 // inertia m (t^2 + f l^2)/12 its frequency is sqrt(12 K G/(f rho))/l at most. With the l of the step's rule,
 // dt = l sqrt(rho/M), and f = 3 K G/M or more that is 2/dt at most: neither shear nor bending sets the step.
@@ -113,6 +117,7 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
       ElementGroup& group = add_group(
           world, fmt::format("{} of part {}", triangles ? "triangles" : "shells", model.parts[k].id), k,
           corners, static_cast<Index>(which.size()));
+      Field<Real>& corner_inertia = corner_inertia_of(group);
       for (Index e = 0; e < group.size(); ++e) {
         const Index s = which[static_cast<std::size_t>(e)];
         const ModelShell& shell = model.shells[static_cast<std::size_t>(s)];
@@ -135,6 +140,7 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
           group.node.data(corner)[e] = n;
           rotations.inertia[n] += inertia;
         }
+        corner_inertia[e] = inertia;
       }
     }
   warn_of_warp(model, parts, world, diagnostics);

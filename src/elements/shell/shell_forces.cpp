@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/run_error.hpp"
+#include "elements/largest_frequency.hpp"
 #include "elements/shell/shells.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
@@ -24,7 +25,7 @@ class ShellForces : public Material,
                     public FieldFiller {
  public:
   ShellForces(const ShellPart& part, const ElementGroup& group, Id part_id, Real tssfac, bool shown,
-              World& world)
+              const std::vector<std::array<bool, 3>>& held, World& world)
       : group_(group),
         law_(part.law),
         part_id_(part_id),
@@ -41,7 +42,8 @@ class ShellForces : public Material,
         internal_(group.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
         hourglass_(
             group.fields.add<Real>({.name = "hourglass_energy", .dimension = "ML2/T2", .output = true})),
-        bulk_viscosity_(group.fields.add<Real>({.name = "bulk_viscosity_energy", .dimension = "ML2/T2"})) {
+        bulk_viscosity_(group.fields.add<Real>({.name = "bulk_viscosity_energy", .dimension = "ML2/T2"})),
+        corner_inertia_(corner_inertia_of(group)) {
     state_.points = static_cast<int>(part.zeta.size());
     std::copy(part.zeta.begin(), part.zeta.end(), state_.zeta);
     std::copy(part.share.begin(), part.share.end(), state_.share);
@@ -56,6 +58,7 @@ class ShellForces : public Material,
     if (shown) add_shown_fields();
     for (Index e = 0; e < group_.size(); ++e) thickness_[e] = world.segments.thickness[(*group_.segment)[e]];
     start(world, {});
+    limit_to_frequency(held, world);
   }
   std::string name() const override { return group_.fields.name(); }
   const FieldSet& over(const World&) const override { return group_.fields; }
@@ -88,29 +91,7 @@ class ShellForces : public Material,
     found_.resize(static_cast<std::size_t>(block_count(group_.size())));
   }
   void block(World&, const Clock& clock, Index begin, Index end) override {
-    ShellScratch scratch;
-    const ShellLoops::Block block{begin, end - begin, clock.dt_old};
-    loops_.strain(block, control_, mesh_, scratch);
-    Real rate_zz[block_size], sound_speed[block_size];
-    std::fill(scratch.thickening, scratch.thickening + block.count, 0);
-    const std::size_t numbers = history_data_.size() / static_cast<std::size_t>(state_.points);
-    std::array<Real*, most_history> history{};
-    PointBlock points;
-    points.count = block.count;
-    points.dt = clock.dt_old;
-    points.sound_speed = sound_speed;
-    for (std::size_t k = 0; k < 6; ++k) points.rate[k] = scratch.rate[k];
-    for (int p = 0; p < state_.points; ++p) {
-      loops_.at_point(block, p, state_, scratch);
-      for (std::size_t k = 0; k < 6; ++k)
-        points.stress[k] = state_.stress[6 * static_cast<std::size_t>(p) + k] + begin;
-      for (std::size_t k = 0; k < numbers; ++k)
-        history[k] = history_data_[static_cast<std::size_t>(p) * numbers + k] + begin;
-      points.history = std::span<Real* const>(history.data(), numbers);
-      law_->update_in_plane_stress(points, rate_zz);
-      for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
-    }
-    found_[static_cast<std::size_t>(begin / block_size)] = loops_.forces(block, control_, state_, scratch);
+    found_[static_cast<std::size_t>(begin / block_size)] = advance(mesh_, control_, clock.dt_old, begin, end);
   }
   void finish(World&, const Clock& clock) override {
     if (!control_.thins) return;
@@ -122,7 +103,8 @@ class ShellForces : public Material,
     const ShellLoops::Found* least = &found_.front();
     for (const ShellLoops::Found& found : found_)
       if (!std::isnan(least->step) && !(found.step >= least->step)) least = &found;
-    return {tssfac_ * least->step, fmt::format("shell {} of part {}", group_.id[least->shortest], part_id_)};
+    return {tssfac_ * least->step, fmt::format("shell {} of part {}{}", group_.id[least->shortest], part_id_,
+                                               by_mesh_ ? " (frequency of its mesh)" : "")};
   }
 
   void record(World&, const Clock&, EnergyLedger&) override {}
@@ -174,6 +156,84 @@ class ShellForces : public Material,
 
  private:
   static constexpr std::size_t most_history = 16;
+
+  ShellLoops::Found advance(const ShellMesh& mesh, const ShellControl& control, Real dt, Index begin,
+                            Index end) const {
+    ShellScratch scratch;
+    const ShellLoops::Block block{begin, end - begin, dt};
+    loops_.strain(block, control, mesh, scratch);
+    Real rate_zz[block_size], sound_speed[block_size];
+    std::fill(scratch.thickening, scratch.thickening + block.count, 0);
+    const std::size_t numbers = history_data_.size() / static_cast<std::size_t>(state_.points);
+    std::array<Real*, most_history> history{};
+    PointBlock points;
+    points.count = block.count;
+    points.dt = dt;
+    points.sound_speed = sound_speed;
+    for (std::size_t k = 0; k < 6; ++k) points.rate[k] = scratch.rate[k];
+    for (int p = 0; p < state_.points; ++p) {
+      loops_.at_point(block, p, state_, scratch);
+      for (std::size_t k = 0; k < 6; ++k)
+        points.stress[k] = state_.stress[6 * static_cast<std::size_t>(p) + k] + begin;
+      for (std::size_t k = 0; k < numbers; ++k)
+        history[k] = history_data_[static_cast<std::size_t>(p) * numbers + k] + begin;
+      points.history = std::span<Real* const>(history.data(), numbers);
+      law_->update_in_plane_stress(points, rate_zz);
+      for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
+    }
+    return loops_.forces(block, control, state_, scratch);
+  }
+
+  /// A free patch of few elements is stable only below what a mesh of many is: as for solids, the step keeps
+  /// below 2 over the largest frequency of the group, whose rotations stand behind the places of its nodes.
+  void limit_to_frequency(const std::vector<std::array<bool, 3>>& held, World& world) {
+    constexpr Real below = 0.97;  // the estimate comes from below
+    constexpr Real small = 1e-7;  // strains, within which all is linear
+    const Index n = group_.size();
+    const Real least_area = -maximum(n, [&](Index e) { return -group_.V0[e] / thickness_[e]; });
+    if (!(least_area > 0)) return;
+    const GroupNodes own(group_, held, world.nodes);
+    const std::size_t nodes = own.m.size();
+    std::vector<Real> mass = own.m;
+    std::vector<std::array<bool, 3>> all_held = own.held;
+    mass.resize(2 * nodes, 0), all_held.resize(2 * nodes, {false, false, false});
+    for (const std::vector<Index>& corner : own.corner)
+      for (std::size_t e = 0; e < corner.size(); ++e)
+        mass[nodes + static_cast<std::size_t>(corner[e])] += corner_inertia_[static_cast<Index>(e)];
+    ShellMesh mesh = mesh_;
+    for (std::size_t k = 0; k < 3; ++k) mesh.x[k] = own.x[k].data();
+    for (std::size_t c = 0; c < own.corner.size(); ++c) mesh.corner[c] = own.corner[c].data();
+    ShellControl elastic = control_;
+    elastic.Q1 = elastic.Q2 = 0, elastic.thins = false;
+    if (!control_.stiffness) elastic.QM = elastic.QB = elastic.QW = 0;
+    std::vector<ShellLoops::Found> found(found_.size());
+    const Real omega = largest_frequency(
+        mass, all_held, small * std::sqrt(least_area), [&](const NodalVector& u, NodalVector& Ku) {
+          for (std::size_t k = 0; k < 3; ++k) mesh.v[k] = u[k].data(), mesh.w[k] = u[k].data() + nodes;
+          reset();
+          for_each_block(n, [&](Index begin, Index end) {
+            found[static_cast<std::size_t>(begin / block_size)] = advance(mesh, elastic, 1, begin, end);
+          });
+          own.assemble(group_.corner_force, -1, Ku);
+          own.assemble(*group_.corner_moment, -1, Ku, nodes);
+        });
+    Real step = std::numeric_limits<Real>::infinity();
+    for (const ShellLoops::Found& f : found) step = std::min(step, f.step);
+    reset();
+    if (!(omega > 0 && step > 0)) return;
+    const Real critical = 2 / (omega * step), asked = tssfac_;  // of the elements' step
+    tssfac_ = std::min({asked, asked * critical, below * critical});
+    by_mesh_ = tssfac_ < asked;
+  }
+
+  /// To the state of the start: without stress, history, energies and forces.
+  void reset() {
+    for (Field<Real>* field : {&stress_, &resultants_, &internal_, &hourglass_, &bulk_viscosity_})
+      field->fill(0);
+    for (Field<Real>* h : history_) h->fill(0);
+    if (hourglass_force_) hourglass_force_->fill(0);
+    group_.corner_force.fill(0), group_.corner_moment->fill(0);
+  }
 
   void add_shown_fields() {
     const auto add = [&](const char* name, const char* dimension, int components) {
@@ -230,10 +290,12 @@ class ShellForces : public Material,
   std::shared_ptr<StrengthLaw> law_;
   Id part_id_;
   Real tssfac_;
+  bool by_mesh_ = false;            ///< the frequency of the mesh lowers the step
   const Field<Real>&w_, &inertia_;  ///< of nodes
   ShellControl control_;
   ShellLoops loops_;
   Field<Real>&stress_, &resultants_, &thickness_, &internal_, &hourglass_, &bulk_viscosity_;
+  const Field<Real>& corner_inertia_;  ///< rotary inertia for each corner [ML2]
   Field<Real>* hourglass_force_ = nullptr;
   std::vector<Field<Real>*> history_;  ///< of the first layer, of the second, ...
   std::array<Field<Real>*, 2> shown_stress_{};
@@ -247,16 +309,20 @@ class ShellForces : public Material,
 
 }  // namespace
 
-void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts, World& world) {
+void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
+                      const std::vector<Index>& node_of, World& world) {
   const bool shown = model.output.d3plot.asked() || model.output.d3plot_count > 0;
+  std::vector<std::array<bool, 3>> held(static_cast<std::size_t>(world.nodes.size()), {false, false, false});
+  for (std::size_t k = 0; k < node_of.size(); ++k)
+    if (node_of[k] >= 0) held[static_cast<std::size_t>(node_of[k])] = model.nodes[k].fixed;
   for (const auto& group : world.groups) {
     if (!group->segment) continue;
     const auto part = static_cast<std::size_t>(group->part);
     int numbers = 0;
     for (const HistoryVariable& h : parts[part].law->history()) numbers += h.components;
     if (numbers > 16) throw std::logic_error("a law with more than 16 history numbers");
-    world.passes.add(
-        std::make_shared<ShellForces>(parts[part], *group, model.parts[part].id, model.tssfac, shown, world));
+    world.passes.add(std::make_shared<ShellForces>(parts[part], *group, model.parts[part].id, model.tssfac,
+                                                   shown, held, world));
   }
 }
 

@@ -44,7 +44,12 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
 /// Once rigid bodies have their nodes: which of the nodes turn freely, and their initial angular velocities.
 void start_rotations(const Model& model, const std::vector<Index>& node_of, World& world);
 
-/// Adds the forces of shells to the passes of `world`.
-void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts, World& world);
+/// Rotary inertia that an element has for each of its corners; `build_shells` fills it. [ML2]
+Field<Real>& corner_inertia_of(const ElementGroup& group);
+
+/// Adds the forces of shells to the passes of `world`. Computes the largest frequency of each group, which
+/// bounds the step.
+void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
+                      const std::vector<Index>& node_of, World& world);
 
 }  // namespace courant

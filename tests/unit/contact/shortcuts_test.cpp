@@ -129,7 +129,7 @@ TEST(Shortcuts, BoxOfPatchesWithEdgesAndCorners) {
   for (const auto& [speed, literal] :
        std::vector<std::pair<Real, bool>>{{0.2, false}, {6.0, false}, {6.0, true}}) {
     WallCase c;
-    c.make = [=](Scene& s) {
+    c.make = [speed = speed, literal = literal](Scene& s) {
       s.law.literal = literal;
       s.thickness = 0.004;
       if (speed > 1) s.options.reach_margin = 0.05;
