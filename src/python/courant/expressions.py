@@ -64,6 +64,10 @@ def _greatest(*values: Array) -> Array:
     return out
 
 
+def _power(a: Array, b: Array) -> Array:
+    return np.square(a) if np.ndim(b) == 0 and b == 2 else np.power(a, b)  # rounded right, as that of C is
+
+
 _SAME = np.positive
 # name: (fewest arguments, most arguments or None for any number, function of arrays)
 FUNCTIONS: dict[str, tuple[int, int | None, Callable[..., Array]]] = {
@@ -80,7 +84,7 @@ FUNCTIONS: dict[str, tuple[int, int | None, Callable[..., Array]]] = {
     "round": (1, 1, _whole(_rounded)),
 }
 _OPERATORS: dict[str, Callable[..., Array]] = {"+": np.add, "-": np.subtract, "*": np.multiply,
-                                               "/": np.divide, "^": np.power}
+                                               "/": np.divide, "^": _power}
 
 
 def _fault_of(name: str, arguments: Sequence[Array], value: Array) -> str:

@@ -133,6 +133,11 @@ def digest_of_deck(deck: Path, parameters: Mapping[str, str] | None = None) -> s
     return digest(*(part for file in sorted(files.found) for part in (str(file), files.found[file])))
 
 
+def digest_of_files(files: list[Path]) -> str:
+    """Of the content of files; one that cannot be read counts as none."""
+    return digest(*(_content(file) or b"" for file in files))
+
+
 def _libraries(program: Path) -> list[Path]:
     """Libraries of Courant that a program loads."""
     environment = dict(os.environ, LD_TRACE_LOADED_OBJECTS="1")
@@ -161,5 +166,4 @@ def digest_of_build(executable: Path) -> str:
             waiting += sorted(library for word in list(waiting) for library in word.parent.glob("libcourant*.so*"))
         elif data.startswith(b"\x7fELF") and ".so" not in file.name:
             waiting += _libraries(file)
-    parts: list[str | bytes] = [str(executable)] if not files else [_content(file) or b"" for file in files]
-    return digest(*parts, os.environ.get("COURANT_SIMD", ""))
+    return digest(str(executable) if not files else digest_of_files(files), os.environ.get("COURANT_SIMD", ""))

@@ -17,7 +17,7 @@ from pathlib import Path
 from ..diagnostics import Diagnostics
 from ..files import OutputError, make_folder
 from ..words import nearest_word
-from .digest import digest, digest_of_build, digest_of_deck
+from .digest import digest, digest_of_build, digest_of_deck, digest_of_files
 from .errors import compare_observation
 from .judge import check_bounds, judge_stability, measured_orders
 from .model import Case, CaseResult, RunResult, Suite, SuiteResult, Verdict
@@ -26,6 +26,7 @@ from .picture import draw_particles
 from .plan import PlannedRun, plan_runs
 from .processes import ProcessJob, run_processes
 from .record import RunRecord, read_record, result_of_run, says_something_of_the_deck, write_record
+from .scene import scene_files
 from .schedule import RunSchedule, duration_text
 
 
@@ -107,6 +108,7 @@ class Verification:
         self.start = time.monotonic()
         self.build = digest_of_build(options.executable)
         self.runs: list[_PreparedRun] = []
+        self.scenes: dict[Path, str] = {}  # digests
 
     def version(self) -> str:
         try:
@@ -116,9 +118,21 @@ class Verification:
         words = said.split()
         return f"Courant {words[-1] if words else '?'} (build {self.build[:8]})"
 
+    def scene_of(self, run: PlannedRun) -> str:
+        """Digest of all that the deck of a run is made of; blank where the deck is given."""
+        scene = self.suite.cases[run.of_case].scene
+        if scene is None:
+            return ""
+        if scene not in self.scenes:
+            self.scenes[scene] = digest_of_files(scene_files(scene))
+        return digest(self.build, self.scenes[scene], scene.name, *(f"{name}={value}" for name, value in run.parameters.items()))
+
     def generate(self, run: PlannedRun, deck: Path) -> list[str]:
-        """Writes the deck of a run of a scene; returns what is wrong."""
-        if self.options.stopped():
+        """Writes the deck of a run of a scene, unless an earlier call has made the same one; returns what is wrong."""
+        folder = self.options.folder / run.folder
+        before = None if self.options.fresh else read_record(folder)
+        same = before is not None and before.scene == self.scene_of(run) and (folder / "deck.k").is_file()
+        if same or self.options.stopped():
             return []
         words = [str(self.options.executable), "generate", str(self.suite.cases[run.of_case].scene), "-o", str(deck)]
         for name, value in run.parameters.items():
@@ -182,7 +196,7 @@ class Verification:
         return ProcessJob(words, run.folder, case.time_limit)
 
     def ended(self, run: _PreparedRun, record: RunRecord, count: str) -> None:
-        record.key = run.key
+        record.key, record.scene = run.key, self.scene_of(run.plan)
         result = result_of_run(run.folder, record)
         if says_something_of_the_deck(record, result):
             write_record(run.folder, record)

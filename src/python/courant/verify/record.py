@@ -21,6 +21,7 @@ class RunRecord:
     """Content of record.yaml in the folder of a run. It is there only if the run has ended."""
 
     key: str = ""  # of deck, parameters and build; another key: the results are of something else
+    scene: str = ""  # of scene, parameters and build: the same ones make the same deck
     exit_code: int = 0
     signal: int = 0  # that ended it; 0: none
     timed_out: bool = False

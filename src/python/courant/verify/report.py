@@ -36,7 +36,7 @@ def verdict(result: SuiteResult) -> str:
 
 def chart_css() -> str:
     """Style sheet of the charts' classes, for the page they stand in."""
-    def lines(palette: list[str]) -> str:
+    def lines(palette: tuple[str, ...]) -> str:
         return "".join(f".chart .s{i}{{color:{colour}}}" for i, colour in enumerate(palette))
 
     sheet = (_TEMPLATES / "chart.css").read_text("utf-8")

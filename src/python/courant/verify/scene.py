@@ -74,13 +74,25 @@ class _Parameters:
         return True
 
 
+def scene_files(file: Path) -> list[Path]:
+    """The scene and its bases, as far as they can be read."""
+    try:
+        base = _value(_load(file), "base")
+    except _FaultyScene:
+        return [file]
+    return [file, *_bases(file, base)]
+
+
+def _bases(file: Path, base: Node | None) -> list[Path]:
+    nodes = [] if base is None else base.value if is_list(base) else [base]
+    return [file.parent / scalar_text(one) for one in nodes]
+
+
 def scene_values(file: Path, overrides: Mapping[str, str]) -> Variables | None:
     """Values of all parameters and of pi; None if the scene has a fault that keeps them from being known."""
     try:
         root = _load(file)
-        base = _value(root, "base")
-        names = [] if base is None else [scalar_text(one) for one in (base.value if is_list(base) else [base])]
-        bases = [_load(file.parent / name) for name in names]
+        bases = [_load(one) for one in _bases(file, _value(root, "base"))]
         own = list(_entries(root))
         found, done = _Parameters(overrides), set[tuple[int, int]]()
         own_names = {name for name, _, _ in own}
