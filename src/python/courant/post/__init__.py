@@ -1,0 +1,16 @@
+"""`courant post`: measures in the results of a run what a recipe asks for. See docs/post.md.
+
+Importing it registers the kinds of analyses; `analysis` and `chart` register more.
+"""
+
+from . import kinds_fields, kinds_series, kinds_flux, kinds_history, roller  # isort: skip  # the order in which messages name kinds
+from .analysis import Analysis, Run, Settings, TimeWindow, analysis
+from .figures import chart
+from .recipe import Recipe, read_recipe
+from .run import run_post
+from .tables import Column, Image, Result, Scalar, Series, Table
+
+__all__ = [
+    "Analysis", "Column", "Image", "Recipe", "Result", "Run", "Scalar", "Series", "Settings", "Table", "TimeWindow",
+    "analysis", "chart", "kinds_fields", "kinds_flux", "kinds_history", "kinds_series", "read_recipe", "roller", "run_post",
+]  # fmt: skip
