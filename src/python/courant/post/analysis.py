@@ -27,10 +27,11 @@ import numpy as np
 
 from ..diagnostics import Diagnostics, Location
 from ..fields import Wanted
+from ..registry import Registry
 from ..units import Dimension, Units
 from ..words import did_you_mean
 from ..yaml_map import YamlMap, as_number, is_list, is_scalar, scalar_text
-from .state import VARIABLES, State, wanted_array
+from .state import State, wanted_array
 from .tables import Result, Scalar, Series, Table
 
 _FILE_NAME = re.compile(r"[A-Za-z0-9_-]+")
@@ -222,7 +223,7 @@ class Analysis:
 
 
 Factory = Callable[[YamlMap, Settings], Analysis]
-_KINDS: dict[str, Factory] = {}
+KINDS: Registry[Factory] = Registry("kind of analysis")
 
 
 def analysis(kind: str, needs: Sequence[str] | None = None) -> Callable[[Any], Any]:
@@ -231,32 +232,25 @@ def analysis(kind: str, needs: Sequence[str] | None = None) -> Callable[[Any], A
     The function's further parameters are keys of the recipe; it gives a number for each name "column [unit]". `needs`: arrays of the
     field files ("velocity", ...); all that expressions may use, as far as the files have them, if not given.
     """
-    if kind in _KINDS:
-        raise ValueError(f"there is a kind of analysis '{kind}' already")
 
     def register(made: Any) -> Any:
         is_class = inspect.isclass(made) and issubclass(made, Analysis)
-        _KINDS[kind] = made if is_class else lambda keys, settings: FunctionAnalysis(keys, settings, made, needs)
+        KINDS.add(kind, made if is_class else lambda keys, settings: FunctionAnalysis(keys, settings, made, needs))
         return made
 
     return register
 
 
-def kinds() -> list[str]:
-    """Names of all kinds of analyses."""
-    return list(_KINDS)
-
-
 def read_analysis(keys: YamlMap, settings: Settings) -> Analysis | None:
     """Makes the analysis of one entry of `analyses`. Faults are told; then there may be None."""
     word = keys.text("kind", required=True)
-    if word in _KINDS:
-        made = _KINDS[word](keys, settings)
+    if word in KINDS:
+        made = KINDS[word](keys, settings)
         made.kind = word
         return made
     node = keys.get("kind")
     if node is not None and is_scalar(node):
-        keys.error(node, f"there is no kind of analysis '{word}'", f"{did_you_mean(word, _KINDS)}kinds: {', '.join(_KINDS)}")
+        keys.error(node, f"there is no kind of analysis '{word}'", f"{did_you_mean(word, KINDS.names())}kinds: {', '.join(KINDS.names())}")
     return None
 
 
@@ -309,6 +303,3 @@ class FunctionAnalysis(Analysis):
             self.add_scalar(f"{one.name}_deviation", one.unit, moments.deviation())
             self.say(f"  {one.name}: mean {moments.mean_or_nan():.5g} {one.unit}, deviation {moments.deviation():.3g}\n")
         return None
-
-
-__all__ = ["VARIABLES", "Analysis", "FunctionAnalysis", "Moments", "Run", "Settings", "TimeWindow", "analysis", "kinds", "median"]

@@ -9,8 +9,8 @@ from typing import NoReturn
 
 from ..diagnostics import Diagnostics
 from ..files import OutputError
-from ..load import LoadFault, load_user_file
 from ..optional import MissingModule
+from ..registry import LoadFault, load_file
 from ..terminal import clear_status_line, processors, say, status_line
 from .run import run_post
 
@@ -43,7 +43,7 @@ def main(words: Sequence[str]) -> int:
     diagnostics = Diagnostics()
     try:
         for file in call.load:
-            load_user_file(file)
+            load_file(file)
         done = run_post(call.recipe, call.folder, say, diagnostics, status_line(), processors(call.threads))
         code, fault = EXIT_OK if done else EXIT_INPUT, ""
     except LoadFault as error:

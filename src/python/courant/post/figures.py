@@ -17,12 +17,13 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
 from ..diagnostics import Diagnostics, Location
 from ..expressions import Formula
+from ..registry import Registry
 from ..words import did_you_mean
 from ..yaml_map import Node, YamlMap, as_number, is_list, is_map, scalar_text
 from .state import read_expression
@@ -31,20 +32,8 @@ from .tables import Image, Table
 STYLES = ("line", "dashed", "points", "line+points")
 SCALES = ("linear", "log_x", "log_y", "log")
 _KEYS = ("name", "title", "x_label", "y_label", "x_range", "y_range", "scale", "curves", "references", "map", "walls", "equal")
-CHARTS: dict[str, Callable[..., None]] = {}
-Chart = TypeVar("Chart", bound=Callable[..., None])
-
-
-def chart(name: str) -> Callable[[Chart], Chart]:
-    """Registers a function (axes, tables by name, **keys of the figure) that draws a figure."""
-    if name in CHARTS:
-        raise ValueError(f"there is a chart '{name}' already")
-
-    def register(function: Chart) -> Chart:
-        CHARTS[name] = function
-        return function
-
-    return register
+CHARTS: Registry[Callable[..., None]] = Registry("chart")
+chart = CHARTS  # the decorator: functions (axes, tables by name, **keys of the figure)
 
 
 @dataclass
@@ -108,7 +97,7 @@ def read_figure(parent: YamlMap, node: Node) -> Figure:
     keys = parent.element(node, "figures")
     own = keys.text("chart")
     if own and own not in CHARTS:
-        keys.error(keys.get("chart") or node, f"there is no chart '{own}'", f"{did_you_mean(own, CHARTS)}charts: {', '.join(CHARTS)}")
+        keys.error(keys.get("chart") or node, f"there is no chart '{own}'", f"{did_you_mean(own, CHARTS.names())}charts: {', '.join(CHARTS.names())}")
     if not own:
         keys.allow(*_KEYS)
     field_map = keys.map("map")

@@ -46,37 +46,39 @@ class Measured:
 
 def measure_depths(frame: ParticleFrame, recipe: Recipe, with_speed: bool) -> Depths:
     everything = ParticleSet.of(frame, np.ones(len(frame), dtype=bool))
-
-    def depth(x: float, z: float, bed: float) -> float:
-        return float(first_surface(everything, np.array([[x, 0, z]]), bed)[0])
-
-    jump, probes = recipe.jump, [depth(one.x, one.z, one.bed) for one in recipe.probes]
-    snapshot = None
+    jump, wanted = recipe.jump, [(one.x, one.z, one.bed) for one in recipe.probes]
+    if jump is not None:
+        wanted += [(jump.x, jump.z, jump.bed), (jump.x if jump.front_x is None else jump.front_x, jump.z, jump.bed)]
+    depths = np.zeros(len(wanted))
+    for bed in {one[2] for one in wanted}:
+        rows = [k for k, one in enumerate(wanted) if one[2] == bed]
+        depths[rows] = first_surface(everything, np.array([(x, 0, z) for x, z, _ in (wanted[k] for k in rows)]), bed)
+    probes, snapshot = depths[: len(recipe.probes)].tolist(), None
     if with_speed and recipe.snapshots:
         v = frame.arrays["velocity"]
         inside = _within(frame.x[:, 0], recipe.snapshots.x) & _within(frame.x[:, 1], recipe.snapshots.y)
         snapshot = np.column_stack([frame.x[:, :2], np.sqrt((v**2).sum(axis=1))])[inside]
     if jump is None:
         return Depths(math.nan, math.nan, math.nan, probes, snapshot)
-    front = math.nan if jump.front_x is None else depth(jump.front_x, jump.z, jump.bed)
-    return Depths(depth(jump.x, jump.z, jump.bed), _toe(everything, jump), front, probes, snapshot)
+    return Depths(float(depths[-2]), _toe(everything, jump), float(depths[-1]), probes, snapshot)
 
 
 def _within(values: np.ndarray, bounds: tuple[float, float] | None) -> np.ndarray:
     return np.ones(len(values), dtype=bool) if bounds is None else (values >= bounds[0]) & (values <= bounds[1])
 
 
-def _toe(particles: ParticleSet, jump: JumpRecipe, at_once: int = 24) -> float:
+def _toe(particles: ParticleSet, jump: JumpRecipe, at_once: int = 8) -> float:
     """The first x, on steps of d1/4, where the depth is over the threshold; NaN: none. [L]"""
     if jump.toe_range is None:
         return math.nan
     start, end = jump.toe_range
+    threshold = jump.toe_threshold * jump.d1
     step = 0.25 * jump.d1
     x = start + np.arange(math.floor((end - start) / step * (1 + 1e-12)) + 1) * step
     for low in range(0, len(x), at_once):
         part = x[low : low + at_once]
         places = np.column_stack([part, np.zeros_like(part), np.full_like(part, jump.z)])
-        over = np.flatnonzero(first_surface(particles, places, jump.bed) > jump.toe_threshold * jump.d1)
+        over = np.flatnonzero(first_surface(particles, places, jump.bed, threshold) > threshold)
         if len(over):
             return float(part[over[0]])
     return math.nan

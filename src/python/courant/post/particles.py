@@ -20,19 +20,18 @@ def cubic_spline(r: np.ndarray, h: np.ndarray, dim: int) -> np.ndarray:
 
     Source: Monaghan, Annu. Rev. Astron. Astrophys. 30 (1992), eq. 2.6 (there for all dimensions).
     """
-    norm = 10 / (7 * math.pi * h * h) if dim == 2 else 1 / (math.pi * h * h * h)
-    return norm * spline_shape(r / h)
+    return spline_norm(h, dim) * spline_shape(r / h)
 
 
 def spline_shape(q: np.ndarray) -> np.ndarray:
     """The cubic spline without its factor: 1 - 1.5 q^2 + 0.75 q^3 up to q = 1, (2 - q)^3 / 4 up to 2, 0 beyond."""
     outer, inner = np.maximum(2 - q, 0), np.maximum(1 - q, 0)
-    return 0.25 * outer**3 - inner**3
+    return 0.25 * outer * outer * outer - inner * inner * inner
 
 
 def spline_norm(h: np.ndarray, dim: int) -> np.ndarray:
     """The factor of the cubic spline in one, two or three dimensions. [1/L^dim]"""
-    return {1: 2 / (3 * h), 2: 10 / (7 * math.pi * h * h), 3: 1 / (math.pi * h * h * h)}[dim]
+    return {1: 2 / 3, 2: 10 / (7 * math.pi), 3: 1 / math.pi}[dim] / h**dim
 
 
 class SprayRule(NamedTuple):
@@ -77,6 +76,16 @@ class ParticleSet:
     @cached_property
     def largest_h(self) -> float:
         return float(self.h.max()) if len(self.h) else 0.0
+
+    @cached_property
+    def factor(self) -> np.ndarray:
+        """V times the factor of the kernel, (n,)."""
+        return self.V * spline_norm(self.h, self.dim)
+
+    @cached_property
+    def by_x(self) -> np.ndarray:
+        """Indices of the particles in the order of x, (n,)."""
+        return np.argsort(self.x[:, 0], kind="stable")
 
     @cached_property
     def tree(self):  # a scipy.spatial.cKDTree, which is imported where it is needed
@@ -126,7 +135,7 @@ def lines_near(
     flat = particles.dim == 2 and axis != 2 if flat is None else flat
     across = [a for a in ((0, 1) if flat else (0, 1, 2)) if a != axis]
     reach = 2 * particles.largest_h
-    order = np.argsort(particles.x[:, 0], kind="stable")
+    order = particles.by_x
     sorted_x = particles.x[order, 0]
     begin = np.searchsorted(sorted_x, places[:, 0] - reach, "left")
     end = np.searchsorted(sorted_x, places[:, 0] + reach, "right")
@@ -152,7 +161,7 @@ def colour_columns(
     out = np.zeros(lines * (steps + 2 * width))  # room for kernels that begin before, or end behind, the steps
     h, one_h = particles.h[k], bool((particles.h == particles.h[:1]).all())
     first = np.clip(np.ceil((above - 2 * h) / dy).astype(np.int64), -width, steps)
-    factor = particles.V[k] * spline_norm(h, particles.dim)
+    factor = particles.factor[k]
     start, across, step = (first * dy - above) / h, (aside / h) ** 2, dy / h
     at = line * (steps + 2 * width) + first + width
     ahead = np.arange(width)
@@ -209,17 +218,22 @@ def water_on_lines(water: ParticleSet, places: np.ndarray, axis: int) -> tuple[P
     return Pieces(line[thick], low[thick], high[thick]), filled
 
 
-def first_surface(particles: ParticleSet, places: np.ndarray, bed: float) -> np.ndarray:
+def first_surface(particles: ParticleSet, places: np.ndarray, bed: float, over: float = 0.0) -> np.ndarray:
     """Depth of the water over the bed on upright lines (y is up), 0 where it is dry; shape (lines,) [L].
 
     The surface is where C first falls below 1/2 above the bed: spray above a gap does not count. Nor does water whose underside is
-    more than 2h above the bed: the bed is dry there. Resolution h/16, linear in between. places: (lines, 3) [L].
+    more than 2h above the bed: the bed is dry there. Resolution h/16, linear in between. places: (lines, 3) [L]. `over`: lines whose
+    depth cannot be more may be given 0.
     """
-    depth = np.zeros(len(places))
+    depth, h = np.zeros(len(places)), particles.largest_h
     line, k, aside = lines_near(particles, places, 1, flat=particles.dim == 2)
+    if over > 0:
+        top = np.full(len(places), -np.inf)
+        np.maximum.at(top, line, particles.x[k, 1])
+        deep = (top - bed + 2 * h > over)[line]  # above all kernels there is no colour
+        line, k, aside = line[deep], k[deep], aside[deep]
     if len(k) == 0:
         return depth
-    h = particles.largest_h
     dy = h / _STEPS_PER_H
     above = particles.x[k, 1] - bed
     steps = math.ceil((max(0.0, above.max()) + 2 * h) / dy) + 34
@@ -276,42 +290,62 @@ def interpolate(water: ParticleSet, points: Points, linear: bool, wet: float) ->
     Krongauz, Organ, Fleming and Krysl, Comput. Methods Appl. Mech. Eng. 139 (1996), section 2.2.
     """
     count, dim = len(points.x), water.dim
-    none = np.zeros(count, dtype=bool)
+    fallback = np.zeros(count, dtype=bool)
     if len(water) == 0:
-        return Weights(np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0), np.zeros(count), none)
+        return Weights(np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0), np.zeros(count), fallback)
     pairs = points.tree(dim).sparse_distance_matrix(water.tree, 2 * water.largest_h, output_type="ndarray")
-    near = pairs["v"] < 2 * water.h[pairs["j"]]
-    point, k, r = pairs["i"][near], pairs["j"][near], pairs["v"][near]
-    weight = water.V[k] * cubic_spline(r, water.h[k], dim)
+    point, k = pairs["i"], pairs["j"]
+    weight = water.factor[k] * spline_shape(pairs["v"] / water.h[k])
     colour = np.bincount(point, weight, count)
     used = (weight > 0) & (colour[point] >= wet)
     point, k, weight = point[used], k[used], weight[used]
-    fallback = none
     if linear:
-        base = np.ones((len(k), dim + 1))
-        base[:, 1:] = (water.x[k, :dim] - points.x[point, :dim]) / water.largest_h
-        coefficients, possible = _linear_base(point, weight, base, count)
-        fallback = (colour >= wet) & ~possible
-        shepard = ~possible[point]
-        factor = np.einsum("ij,ij->i", base, coefficients[point])
-        weight = weight * np.where(shepard, 1 / colour[point], factor)
+        inside = np.flatnonzero(colour >= wet)
+        number = np.empty(count, np.int64)
+        number[inside] = np.arange(len(inside))  # of the points in the water
+        base = [np.ones(len(k)), *((water.x[k, a] - points.x[point, a]) / water.largest_h for a in range(dim))]
+        coefficients, possible = _linear_base(number[point], weight, base, len(inside))
+        coefficients[~possible] = 0
+        coefficients[~possible, 0] = 1 / colour[inside[~possible]]
+        fallback[inside] = ~possible
+        weight = weight * sum(of * coefficients[number[point], a] for a, of in enumerate(base))
     else:
         weight = weight / colour[point]
     return Weights(point, k, weight, colour, fallback)
 
 
-def _linear_base(point: np.ndarray, weight: np.ndarray, base: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _linear_base(point: np.ndarray, weight: np.ndarray, base: list[np.ndarray], count: int) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients a, (points, n), for which V W (a . p), p = (1, (x_j - x)/h, ...), sums linear fields exactly; and whether the
     moments allow it, (points,) of bool."""
-    n, least_rcond = base.shape[1], 1e-4  # particles in a line, or on one side only of a thin sheet
-    M = np.empty((count, n, n))
+    n, least_rcond = len(base), 1e-4  # particles in a line, or on one side only of a thin sheet
+    M = np.empty((n, n, count))
     for i in range(n):
-        weighted = weight * base[:, i]
+        weighted = weight * base[i]
         for j in range(i, n):
-            M[:, i, j] = M[:, j, i] = np.bincount(point, weighted * base[:, j], count)
+            M[i, j] = M[j, i] = np.bincount(point, weighted * base[j], count)
     with np.errstate(all="ignore"):
-        regular = np.linalg.det(M) != 0
-        M[~regular] = np.eye(n)
-        inverse = np.linalg.inv(M)
-        norms = np.abs(M).sum(axis=1).max(axis=1) * np.abs(inverse).sum(axis=1).max(axis=1)
-    return inverse[:, :, 0], regular & (norms < 1 / least_rcond)
+        inverse = _inverse(M)
+        norms = np.abs(M).sum(axis=0).max(axis=0) * np.abs(inverse).sum(axis=0).max(axis=0)
+    return inverse[0].T.copy(), norms < 1 / least_rcond  # false for NaN, too
+
+
+def _inverse(M: np.ndarray) -> np.ndarray:
+    """Inverses of symmetric matrices by their cofactors, without a look at whether they are regular; shape (n, n, count)."""
+    n = len(M)
+    out = np.empty_like(M)
+    for i in range(n):
+        for j in range(i, n):
+            rows, columns = [a for a in range(n) if a != i], [a for a in range(n) if a != j]
+            out[i, j] = out[j, i] = (-1) ** (i + j) * _determinant(M[np.ix_(rows, columns)])
+    return out / (M[0] * out[0]).sum(axis=0)
+
+
+def _determinant(M: np.ndarray) -> np.ndarray:
+    """Of matrices, (n, n, count) -> (count,)."""
+    n = len(M)
+    if n == 1:
+        return M[0, 0]
+    if n == 2:
+        return M[0, 0] * M[1, 1] - M[0, 1] * M[1, 0]
+    rest = [[a for a in range(n) if a != j] for j in range(n)]
+    return sum((-1) ** j * M[0, j] * _determinant(M[1:, rest[j]]) for j in range(n))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import traceback
 from collections.abc import Callable, Iterator
 from os import PathLike
 from pathlib import Path
@@ -13,7 +14,6 @@ import numpy as np
 from ..diagnostics import Diagnostics
 from ..fields import ParticleFrame, StateFiles, Wanted, read_particles, read_states, read_walls
 from ..files import make_folder, write_file
-from ..load import place_of
 from ..optional import MissingModule
 from ..yaml_map import YamlMap, is_map, parse_yaml
 from .analysis import Analysis, Run
@@ -60,8 +60,9 @@ class _Job:
             except (MemoryError, MissingModule):
                 raise
             except Exception as fault:  # a kind of the user's own may raise anything
-                message = f"analysis '{one.name}' at t = {frame.t:g}: {place_of(fault)}{type(fault).__name__}: {fault}"
-                diagnostics.error(one.where, message)
+                place = traceback.extract_tb(fault.__traceback__)[-1]
+                why = f"{type(fault).__name__} at {place.filename}:{place.lineno}: {fault}"
+                diagnostics.error(one.where, f"analysis '{one.name}' at t = {frame.t:g}: {why}")
                 out.append(None)
         return out
 
@@ -85,7 +86,7 @@ def _results(job: _Job, wanted: list[int], threads: int) -> Iterator[Any]:
     if job.analyses:
         from scipy import spatial  # noqa: F401  imported once, for all processes
     with multiprocessing.get_context("fork").Pool(min(threads, len(wanted))) as pool:
-        yield from pool.imap(_do, wanted, chunksize=4)
+        yield from pool.imap(_do, wanted, chunksize=max(1, min(8, len(wanted) // (4 * threads))))
 
 
 def _stream(job: _Job, threads: int, progress: Say | None, diagnostics: Diagnostics) -> Measured | None:
