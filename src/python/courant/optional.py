@@ -28,11 +28,3 @@ def module(name: str) -> ModuleType:
         package = _PACKAGES.get(name.partition(".")[0], name)
         how = package if package.startswith("pip") else f"apt-get install {package}"
         raise MissingModule(f"the Python module '{name}' is missing: {how}") from fault
-
-
-def pandas() -> ModuleType:
-    return module("pandas")
-
-
-def xarray() -> ModuleType:
-    return module("xarray")

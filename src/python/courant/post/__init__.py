@@ -8,7 +8,8 @@ from .analysis import Analysis, Run, Settings, TimeWindow, analysis
 from .figures import chart
 from .recipe import Recipe, read_recipe
 from .run import run_post
-from .tables import Column, Image, Result, Scalar, Series, Table
+from ..tables import Column, Table
+from .tables import Image, Result, Scalar, Series
 
 __all__ = [
     "Analysis", "Column", "Image", "Recipe", "Result", "Run", "Scalar", "Series", "Settings", "Table", "TimeWindow",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import numpy as np
 
 from ..ascii_histories import AsciiFile, AsciiKey
 from ..histories import HistoryFile
+from ..results import column_name
 from ..words import nearest_word
 from ..yaml_map import Node, YamlMap, is_map, is_scalar, scalar_text
 from .analysis import Analysis, Moments, Run, Settings, TimeWindow, analysis
@@ -36,12 +36,6 @@ def _split(text: str) -> tuple[str, int] | None:
     if not dot:
         return axis, 0
     return (path, "xyz".index(axis)) if axis in ("x", "y", "z") else None
-
-
-def _column_name(key: AsciiKey) -> str:
-    """ "kinetic energy" of nothing -> kinetic_energy, "x" of 4 SURFA -> x_4_SURFA."""
-    words = f"{key.name} {'' if key.id is None else key.id} {key.side}"
-    return re.sub("[^A-Za-z0-9]+", "_", words).strip("_")
 
 
 class _SeriesAnalysis(Analysis):
@@ -151,7 +145,7 @@ class HistoryAnalysis(_SeriesAnalysis):
             out.name = text
         if self.file:
             out.key = out.key._replace(name=text)
-            out.name = _column_name(out.key) if is_scalar(node) else out.name
+            out.name = column_name(out.key) if is_scalar(node) else out.name
             if not text:
                 hint = "for example kinetic energy, or {name: px, of: x-mom, id: 1}"
                 keys.error(node, f"'{keys.name}.of' must name a series of {self.file}", hint)

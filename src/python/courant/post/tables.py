@@ -1,4 +1,4 @@
-"""What analyses give: tables, numbers and gridded fields, and how they are written."""
+"""What analyses give: numbers, series and gridded fields beside tables, and how they are written."""
 
 from __future__ import annotations
 
@@ -13,52 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..files import OutputError, write_file
-
-
-@dataclass
-class Column:
-    """`name` without blanks or commas; `unit` "-": no dimension; `values`: (rows,), NaN: there is none."""
-
-    name: str
-    unit: str
-    values: np.ndarray
-
-    def __post_init__(self) -> None:
-        self.values = np.asarray(self.values, dtype=float)
-
-
-@dataclass
-class Table:
-    """Columns of the same length. `name`: of the file, without its ending."""
-
-    name: str
-    columns: list[Column] = field(default_factory=list)
-
-    def add(self, name: str, unit: str, values: Iterable[float] | np.ndarray) -> None:
-        self.columns.append(Column(name, unit, np.asarray(values, dtype=float)))
-
-    def find(self, name: str) -> Column | None:
-        return next((column for column in self.columns if column.name == name), None)
-
-    @property
-    def rows(self) -> int:
-        return len(self.columns[0].values) if self.columns else 0
-
-    def csv(self) -> str:
-        """Head "name [unit],..." and one line per row; NaN is "nan". Nine digits."""
-        head = ",".join(f"{column.name} [{column.unit}]" for column in self.columns) + "\n"
-        if not self.columns:
-            return head
-        line = ",".join(["%.9g"] * len(self.columns)) + "\n"
-        return head + "".join([line % row for row in zip(*(column.values.tolist() for column in self.columns), strict=True)])
-
-    def to_pandas(self):
-        """A pandas.DataFrame with the columns' names and, in its attrs, their units."""
-        from ..optional import pandas
-
-        frame = pandas().DataFrame({column.name: column.values for column in self.columns})
-        frame.attrs["units"] = {column.name: column.unit for column in self.columns}
-        return frame
+from ..tables import Column, Table
 
 
 class Scalar(NamedTuple):
