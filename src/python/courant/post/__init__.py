@@ -3,7 +3,7 @@
 Importing it registers the kinds of analyses; `analysis` and `chart` register more.
 """
 
-from . import kinds_fields, kinds_series, kinds_flux, kinds_history, roller  # isort: skip  # the order in which messages name kinds
+from . import kinds_fields, kinds_spectrum, kinds_flux, kinds_history, kinds_toe, kinds_roller  # isort: skip  # as messages name them
 from .analysis import Analysis, Run, Settings, TimeWindow, analysis
 from .figures import chart
 from .recipe import Recipe, read_recipe
@@ -13,5 +13,6 @@ from .tables import Image, Result, Scalar, Series
 
 __all__ = [
     "Analysis", "Column", "Image", "Recipe", "Result", "Run", "Scalar", "Series", "Settings", "Table", "TimeWindow",
-    "analysis", "chart", "kinds_fields", "kinds_flux", "kinds_history", "kinds_series", "read_recipe", "roller", "run_post",
+    "analysis", "chart", "kinds_fields", "kinds_flux", "kinds_history", "kinds_roller", "kinds_spectrum", "kinds_toe",
+    "read_recipe", "run_post",
 ]  # fmt: skip

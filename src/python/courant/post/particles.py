@@ -12,6 +12,7 @@ import numpy as np
 from ..fields import ParticleFrame
 
 _STEPS_PER_H = 16  # of the search for surfaces
+_MOST_STEPS = 4_000_000  # of all lines that are looked at together
 _PAIRS_AT_ONCE = 512  # whose columns stay in the processor's cache
 
 
@@ -207,6 +208,12 @@ def water_on_lines(water: ParticleSet, places: np.ndarray, axis: int) -> tuple[P
     dy = h / _STEPS_PER_H
     start = np.where(met, low - 2 * h - dy, 0)
     steps = math.ceil(((high - start)[met].max() + 2 * h) / dy) + 2
+    if len(places) > 1 and len(places) * steps > _MOST_STEPS:  # a particle that flew far away must not cost all lines that much
+        halves = [water_on_lines(water, half, axis) for half in np.array_split(places, 2)]
+        pieces = zip(*(one for one, _ in halves), strict=True)
+        lines, low, high = (np.concatenate(both) for both in pieces)
+        lines[len(halves[0][0].line) :] += len(halves[0][1])
+        return Pieces(lines, low, high), np.concatenate([one for _, one in halves])
     C = colour_columns(water, line, k, aside, height - start[line], (len(places), steps), dy)
     filled = dy * C.sum(axis=1)
     wet = C >= 0.5
