@@ -65,6 +65,11 @@ class Series:
         return None if math.isnan(value) else value
 
 
+def sum_of(values: np.ndarray) -> float:
+    """One after the other: what cancels does so to the same bits wherever numpy was built."""
+    return float(np.cumsum(values)[-1]) if len(values) else 0.0
+
+
 def slope_of(x: np.ndarray, y: np.ndarray) -> float | None:
     """Slope of the straight line by least squares; None with fewer than two different x."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
@@ -97,7 +102,7 @@ def final(series: Series, at: float | None) -> float:
 
 @take("mean")
 def mean(series: Series, at: float | None) -> float:
-    return float(np.mean(series.y))
+    return sum_of(series.y) / len(series)
 
 
 @take("min")
@@ -245,12 +250,12 @@ def take_number(series: Series, how: str, at: float | None = None) -> float:
 
 @reduction("mean")
 def mean_by_volume(values: np.ndarray, volumes: np.ndarray) -> float:
-    return float(np.sum(volumes * values) / np.sum(volumes)) if len(values) else math.nan
+    return sum_of(volumes * values) / sum_of(volumes) if len(values) else math.nan
 
 
 @reduction("sum")
 def total(values: np.ndarray, volumes: np.ndarray) -> float:
-    return float(np.sum(values))
+    return sum_of(values)
 
 
 @reduction("min")
