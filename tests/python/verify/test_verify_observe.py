@@ -245,4 +245,4 @@ def test_a_kind_of_ones_own(folder: Path) -> None:
         with pytest.raises(ValueError, match="already"):
             observation("states")(states)
     finally:
-        del KINDS["states"], KINDS["lost"]
+        del KINDS.functions["states"], KINDS.functions["lost"]

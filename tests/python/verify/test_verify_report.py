@@ -154,4 +154,4 @@ def test_a_chart_of_ones_own() -> None:
     try:
         assert "Cost of it all" in html(suite(one_run())) and "1.5 s" in html(suite(one_run()))
     finally:
-        del CHARTS["cost"]
+        del CHARTS.functions["cost"]

@@ -13,6 +13,7 @@ from ..diagnostics import Diagnostics
 from ..files import OutputError
 from ..optional import MissingModule
 from ..registry import LoadFault, load_file
+from ..terminal import clear_status_line, say, status_line
 from .changes import Comparison, compare_with
 from .driver import Interrupted, Options, Refused, verify_suite
 from .model import SuiteResult
@@ -61,21 +62,10 @@ def _executable(given: Path | None) -> Path:
     return Path(found) if found else Path("courant")
 
 
-class _Terminal:
-    """Lines on stdout; on a terminal also a status line that is replaced."""
-
-    def __init__(self) -> None:
-        self.clear = "\r\033[K" if sys.stdout.isatty() else ""
-
-    def line(self, text: str) -> None:
-        print(self.clear + text, flush=True)
-
-    def status(self, text: str) -> None:
-        print(self.clear + text, end="", flush=True)
-
-    def error(self, text: str) -> None:
-        sys.stdout.flush()
-        sys.stderr.write(text)
+def _complain(text: str) -> None:
+    clear_status_line()
+    sys.stdout.flush()
+    sys.stderr.write(text)
 
 
 def _changes_text(changes: Comparison) -> str:
@@ -83,66 +73,63 @@ def _changes_text(changes: Comparison) -> str:
     return f"Against {changes.earlier} ({changes.compared} rows in both):\n" + ("".join(lines) or "  nothing has changed\n")
 
 
-def _show_and_write(words: argparse.Namespace, result: SuiteResult, folder: Path, terminal: _Terminal) -> int:
-    for case in result.cases:
-        print(f"\n{case_table(case)}", end="")
-    print(f"\n{checks_text(result)}", end="", flush=True)
+def _show_and_write(words: argparse.Namespace, result: SuiteResult, folder: Path) -> int:
+    say("".join(f"\n{case_table(case)}" for case in result.cases) + f"\n{checks_text(result)}")
     changes, missed = None, not result.ok
     diagnostics = Diagnostics()
     if words.compare:  # before the files are written: the earlier results may be in the folder
         changes = compare_with(result, words.compare, diagnostics)
     write_result_files(result, folder)
     if words.compare and changes is None:
-        terminal.error(diagnostics.text())
+        _complain(diagnostics.text())
         return INPUT
     if changes is not None:
-        print(_changes_text(changes), end="", flush=True)
+        say(_changes_text(changes))
         missed = changes.regressed
     write_reports(result, folder, changes)
     if words.page:
         write_page(result, words.page, words.page.with_suffix(""))
-    print(f"results are in {folder}: report.html, results.csv, results.yaml", flush=True)
+    say(f"results are in {folder}: report.html, results.csv, results.yaml\n")
     return MISSED if missed else OK
 
 
-def _verify(words: argparse.Namespace, terminal: _Terminal, stop: list[int]) -> int:
+def _verify(words: argparse.Namespace, stop: list[int]) -> int:
     folder = words.output or Path(words.suite.stem + "_verify")
     diagnostics = Diagnostics()
     suite = read_suite(words.suite, diagnostics)
     if words.compare and not words.compare.is_file():
         diagnostics.error(words.compare, "cannot read the earlier results", "give the results.csv of an earlier call")
     only = [name for names in words.only for name in names.split(",")]
-    options = Options(folder, _executable(words.executable), words.jobs, words.fresh, only, lambda: bool(stop), terminal.line,
-                      terminal.status if terminal.clear else None)
+    options = Options(folder, _executable(words.executable), words.jobs, words.fresh, only, lambda: bool(stop),
+                      lambda line: say(line + "\n"), status_line())
     try:
         if not diagnostics.ok:
             raise Refused
         result = verify_suite(suite, options, diagnostics)
     except Refused:
         count = diagnostics.errors
-        terminal.error(f"{terminal.clear}{diagnostics.text()}{count} error{'' if count == 1 else 's'}; nothing was run\n")
+        _complain(f"{diagnostics.text()}{count} error{'' if count == 1 else 's'}; nothing was run\n")
         return INPUT
     except Interrupted:
-        terminal.error(f"{terminal.clear}\ninterrupted; the runs that ended are kept: call again to go on\n")
+        _complain("\ninterrupted; the runs that ended are kept: call again to go on\n")
         return MISSED
-    print(terminal.clear, end="")
-    return _show_and_write(words, result, folder, terminal)
+    return _show_and_write(words, result, folder)
 
 
 def main(arguments: Sequence[str]) -> int:
     """The words behind `courant verify`; returns the exit code."""
     words = _parser().parse_args(arguments)
-    terminal, stop = _Terminal(), list[int]()
+    stop: list[int] = []
     try:
         for file in words.load:
             load_file(file)
     except LoadFault as fault:
-        terminal.error(f"error: --load: {fault}\n")
+        _complain(f"error: --load: {fault}\n")
         return INPUT
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda signal_number, frame: stop.append(signal_number))
     try:
-        return _verify(words, terminal, stop)
+        return _verify(words, stop)
     except (OutputError, MissingModule) as fault:
-        terminal.error(f"error: {fault}\n")
+        _complain(f"error: {fault}\n")
         return OTHER

@@ -16,6 +16,7 @@ from pathlib import Path
 
 from ..diagnostics import Diagnostics
 from ..files import OutputError, make_folder
+from ..terminal import processors
 from ..words import nearest_word
 from .digest import digest, digest_of_build, digest_of_deck, digest_of_files
 from .errors import compare_observation
@@ -104,7 +105,7 @@ class Verification:
 
     def __init__(self, suite: Suite, options: Options) -> None:
         self.suite, self.options = suite, options
-        self.jobs = options.jobs or os.cpu_count() or 1
+        self.jobs = processors(options.jobs)
         self.start = time.monotonic()
         self.build = digest_of_build(options.executable)
         self.runs: list[_PreparedRun] = []

@@ -128,12 +128,11 @@ def map_figures(case: CaseResult) -> list[Figure]:
 
 
 def _drawn(case: CaseResult) -> Iterator[Figure]:
-    of_observations = [kind.draw for kind in CHARTS.values() if kind.of == "observation"]
+    kinds = list(CHARTS.functions.values())
     for k in range(len(case.definition.observations)):
-        yield from filter(None, (draw(case, k) for draw in of_observations))
-    for kind in CHARTS.values():
-        if kind.of == "case":
-            yield from kind.draw(case)
+        yield from filter(None, (kind.function(case, k) for kind in kinds if kind.of == "observation"))
+    for kind in kinds:
+        yield from kind.function(case) if kind.of == "case" else ()
 
 
 def figures(case: CaseResult) -> list[Figure]:

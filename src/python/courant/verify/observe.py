@@ -133,7 +133,7 @@ def _fault_of(name: HistoryName, file: HistoryFile) -> str:
     return ""
 
 
-@observation("history", over="histories")
+@observation("history", of="histories")
 def history(o: Observation, run: Run) -> Measured:
     """Datasets of history.h5 over time."""
     file = run.histories()
@@ -301,7 +301,7 @@ def observe_run(case: Case, variables: Variables, folder: Path, every_state: boo
     run = Run(folder, variables)
     tasks = [_Task() for _ in case.observations]
     for task, o in zip(tasks, case.observations, strict=True):
-        task.take(_attempt(lambda o=o: KINDS[o.kind].measure(o, run)))  # type: ignore[misc]
+        task.take(_attempt(lambda o=o: KINDS[o.kind].function(o, run)))  # type: ignore[misc]
     garbage = run.garbage()
     if every_state or any(task.looking for task in tasks):
         of_states = _look_through(tasks, run, every_state)

@@ -15,16 +15,12 @@ class NoValue(Exception):
     """There is no number; the text tells why."""
 
 
-def _nothing() -> np.ndarray:
-    return np.empty(0)
-
-
 @dataclass
 class Series:
     """A curve; x rises. Shape of both: (n,)."""
 
-    x: np.ndarray = field(default_factory=_nothing)
-    y: np.ndarray = field(default_factory=_nothing)
+    x: np.ndarray = field(default_factory=lambda: np.empty(0))
+    y: np.ndarray = field(default_factory=lambda: np.empty(0))
 
     def __post_init__(self) -> None:
         self.x, self.y = np.asarray(self.x, dtype=float), np.asarray(self.y, dtype=float)
@@ -80,39 +76,13 @@ def slope_of(x: np.ndarray, y: np.ndarray) -> float | None:
     return float(dx @ dy) / square if square > 0 else None
 
 
-@norm("l1")
-def mean_size(differences: np.ndarray) -> float:
-    return float(np.mean(np.abs(differences)))
-
-
-@norm("l2")
-def root_mean_square(differences: np.ndarray) -> float:
-    return math.sqrt(float(np.mean(np.square(differences))))
-
-
-@norm("linf")
-def largest_size(differences: np.ndarray) -> float:
-    return float(np.max(np.abs(differences)))
-
-
-@take("final")
-def final(series: Series, at: float | None) -> float:
-    return float(series.y[-1])
-
-
-@take("mean")
-def mean(series: Series, at: float | None) -> float:
-    return sum_of(series.y) / len(series)
-
-
-@take("min")
-def smallest(series: Series, at: float | None) -> float:
-    return float(np.min(series.y))
-
-
-@take("max")
-def largest(series: Series, at: float | None) -> float:
-    return float(np.max(series.y))
+norm.add("l1", lambda differences: float(np.mean(np.abs(differences))))
+norm.add("l2", lambda differences: math.sqrt(float(np.mean(np.square(differences)))))
+norm.add("linf", lambda differences: float(np.max(np.abs(differences))))
+take.add("final", lambda series, at: float(series.y[-1]))
+take.add("mean", lambda series, at: sum_of(series.y) / len(series))
+take.add("min", lambda series, at: float(np.min(series.y)))
+take.add("max", lambda series, at: float(np.max(series.y)))
 
 
 @take("at")
@@ -248,46 +218,16 @@ def take_number(series: Series, how: str, at: float | None = None) -> float:
     return float(take[how](series, at))
 
 
-@reduction("mean")
-def mean_by_volume(values: np.ndarray, volumes: np.ndarray) -> float:
-    return sum_of(volumes * values) / sum_of(volumes) if len(values) else math.nan
-
-
-@reduction("sum")
-def total(values: np.ndarray, volumes: np.ndarray) -> float:
-    return sum_of(values)
-
-
-@reduction("min")
-def least(values: np.ndarray, volumes: np.ndarray) -> float:
-    return float(np.min(values)) if len(values) else math.nan
-
-
-@reduction("max")
-def most(values: np.ndarray, volumes: np.ndarray) -> float:
-    return float(np.max(values)) if len(values) else math.nan
-
-
-@reduction("count")
-def count(values: np.ndarray, volumes: np.ndarray) -> float:
-    return float(len(values))
-
-
 def percentile(values: np.ndarray, share: float) -> float:
     """Interpolated between neighbours in order; NaN of none."""
     return float(np.quantile(values, share)) if len(values) else math.nan
 
 
-@reduction("median")
-def median(values: np.ndarray, volumes: np.ndarray) -> float:
-    return percentile(values, 0.5)
-
-
-@reduction("p01")
-def first_percentile(values: np.ndarray, volumes: np.ndarray) -> float:
-    return percentile(values, 0.01)
-
-
-@reduction("p99")
-def last_percentile(values: np.ndarray, volumes: np.ndarray) -> float:
-    return percentile(values, 0.99)
+reduction.add("mean", lambda values, volumes: sum_of(volumes * values) / sum_of(volumes) if len(values) else math.nan)
+reduction.add("sum", lambda values, volumes: sum_of(values))
+reduction.add("min", lambda values, volumes: float(np.min(values, initial=math.inf)))
+reduction.add("max", lambda values, volumes: float(np.max(values, initial=-math.inf)))
+reduction.add("count", lambda values, volumes: float(len(values)))
+reduction.add("median", lambda values, volumes: percentile(values, 0.5))
+reduction.add("p01", lambda values, volumes: percentile(values, 0.01))
+reduction.add("p99", lambda values, volumes: percentile(values, 0.99))

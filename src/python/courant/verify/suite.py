@@ -157,8 +157,8 @@ class _CaseReader:
         if map_.has("name") and not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", out.name):
             map_.error(map_.get("name") or map_.node, "'observation.name' is a word of letters, digits and _", "put the rest in 'title'")
         out.title, out.unit = map_.text("title") or out.name, map_.text("unit")
-        out.kind = _choice(map_, "kind", out.kind, list(KINDS))
-        out.of = self.expression(map_, "of", KINDS[out.kind].over if out.kind in KINDS else "particles", required=True)
+        out.kind = _choice(map_, "kind", out.kind, KINDS.names())
+        out.of = self.expression(map_, "of", KINDS[out.kind].of if out.kind in KINDS else "particles", required=True)
         out.where = self.expression(map_, "where", "particles")
         out.along = self.expression(map_, "along", "particles", required=out.is_profile)
         out.reduce = _choice(map_, "reduce", out.reduce, reduction.names())
