@@ -6,15 +6,17 @@ column of ten particles, p = g (1 - y) + t, the last one inactive.
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from courant.registry import LoadFault, load_file
 from courant.verify.errors import compare_observation, merged
-from courant.verify.model import Case, Observation, Observed, Reference
+from courant.verify.model import Case, CaseResult, Observation, Observed, Reference, RunResult
 from courant.verify.observe import Measured, observe_run
 from courant.verify.picture import draw_particles
-from courant.verify.registry import KINDS, observation
+from courant.verify.registry import CHARTS, KINDS, norm, observation, reduction, take
 from courant.verify.series import Series
 from made_results import write_history, write_states
 
@@ -246,3 +248,30 @@ def test_a_kind_of_ones_own(folder: Path) -> None:
             observation("states")(states)
     finally:
         del KINDS.functions["states"], KINDS.functions["lost"]
+
+
+def test_the_functions_of_the_user_guide(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+    guide = (Path(__file__).resolve().parents[3] / "docs" / "user_guide.md").read_text()
+    found = re.search(r"```\n(import numpy as np\nfrom courant\.verify.*?)```", guide, re.S)
+    assert found
+    own = tmp_path_factory.mktemp("own") / "own.py"
+    own.write_text(found[1])
+    load_file(own)
+    try:
+        assert number(folder, "history", "t", "spread") == pytest.approx(1)
+        assert number(folder, "particles", "p", "final", reduce="rms") == pytest.approx(np.sqrt(np.mean((11 - 10 * column(0)["Points"][:9, 1]) ** 2)))
+        assert number(folder, "distance", "y", "max") == pytest.approx(0.8)
+        o = Observation("o", of="t", reference=Reference("formula", "0 * t"), norm="l4", scale="1")
+        assert observed(folder, o).error == pytest.approx(np.mean((0.1 * np.arange(11)) ** 4) ** 0.25)
+        assert CHARTS["cost"].function(CaseResult(Case(), [RunResult(cpu_seconds=1.5)]))[0].notes == ["1.5 s in all"]
+    finally:
+        for registry, names in ((take, ["spread"]), (reduction, ["rms"]), (norm, ["l4"]), (KINDS, ["distance"]), (CHARTS, ["cost"])):
+            for name in names:
+                registry.functions.pop(name, None)
+    faulty = own.with_name("faulty.py")
+    for text, why in (("1 +", "SyntaxError"), ("import no_such_module", "ModuleNotFoundError")):
+        faulty.write_text(text)
+        with pytest.raises(LoadFault, match=why):
+            load_file(faulty)
+    with pytest.raises(LoadFault, match="is no Python file"):
+        load_file(own.with_name("none.py"))

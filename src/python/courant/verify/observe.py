@@ -31,6 +31,21 @@ class Measured:
     value: float | None = None  # of scalars
     formula: np.ndarray | None = None  # of profiles with a formula as reference: its values, shape (series)
 
+    @classmethod
+    def of(cls, o: Observation, run: Run, series: Series) -> Measured:
+        """What an observation takes of a series. Raises NotFound, ExpressionFault."""
+        if len(series) == 0:
+            raise NotFound("no sample lies in the window")
+        value = None
+        if o.take != "curve":
+            try:
+                value = take_number(series, o.take, Window.of(o, run.variables).at)
+            except NoValue as fault:
+                raise NotFound(str(fault)) from None
+            if not math.isfinite(value):
+                raise NotFound("the value is not finite")
+        return cls(True, series=series, value=value)
+
 
 class NotFound(Exception):
     """A run has nothing of the kind; the text tells why."""
@@ -106,21 +121,6 @@ class Run:
 Looking = Generator[int, StateTable, Measured]
 
 
-def taken(o: Observation, series: Series, window: Window) -> Measured:
-    """The number of a scalar observation, from its series. Raises NotFound."""
-    if len(series) == 0:
-        raise NotFound("no sample lies in the window")
-    value = None
-    if o.take != "curve":
-        try:
-            value = take_number(series, o.take, window.at)
-        except NoValue as fault:
-            raise NotFound(str(fault)) from None
-        if not math.isfinite(value):
-            raise NotFound("the value is not finite")
-    return Measured(True, series=series, value=value)
-
-
 def _fault_of(name: HistoryName, file: HistoryFile) -> str:
     components = file.components(name.path)
     if components == 0:
@@ -158,7 +158,7 @@ def history(o: Observation, run: Run) -> Measured:
     bad = np.flatnonzero(~np.isfinite(series.y))
     if len(bad):
         raise NotFound(f"not finite at t = {series.x[bad[0]]:.6g}")
-    return taken(o, series, window)
+    return Measured.of(o, run, series)
 
 
 def _values_of(state: StateTable, of: Formula, where: Selection) -> tuple[np.ndarray, np.ndarray]:
@@ -187,7 +187,7 @@ def particles(o: Observation, run: Run) -> Looking:
         if not math.isfinite(value):
             raise NotFound(f"no particle counts at t = {state.t:.6g}")
         points.append((state.t, value))
-    return taken(o, Series(*np.array(points).reshape(-1, 2).T), window)
+    return Measured.of(o, run, Series(*np.array(points).reshape(-1, 2).T))
 
 
 @observation("profile")
@@ -214,7 +214,7 @@ def profile(o: Observation, run: Run) -> Looking:
     order = np.argsort(x, kind="stable")
     series = Series(x[order], columns[0][order])
     if o.take != "curve":
-        return taken(o, series, window)
+        return Measured.of(o, run, series)
     return Measured(True, series=series, formula=columns[1][order] if compared else None)
 
 
