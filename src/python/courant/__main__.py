@@ -18,7 +18,7 @@ def main(words: list[str]) -> int:
     if words[0] == "post":
         from .post.command import main as call
     elif words[0] == "verify":
-        from .verify.cli import main as call
+        from .verify.cli import main as call  # type: ignore[assignment]
     else:
         hint = did_you_mean(words[0], calls).replace("did you mean ", "did you mean `courant ").replace("? ", "`?")
         sys.stderr.write(f"error: '{words[0]}' is no call of this package\n  hint: {hint or 'the calls are post and verify'}\n")

@@ -273,12 +273,14 @@ class _Rcforc(AsciiReader):
         if "time" not in row:
             raise AsciiFault("no time on this line")
         t = _time_behind(row, "time", 12)
-        at = take_number(row, _behind(row, "time"), 12)[1]
+        at = _behind(row, "time")
+        at = (take_number(row, at, 12) or (t, at))[1]
         if not states.times or states.times[-1] != t or states.holds(AsciiKey("x", id, side)):
             states.begin(t)
         count = 0
         while row[at:].strip(" \t"):
             name = self.component.match(row, at)
+            assert name is not None  # it may be empty
             found = take_number(row, name.end(), 12)
             if found is None:
                 raise AsciiFault(f"no number behind '{name[1]}'")
@@ -376,11 +378,12 @@ class _Rbdout(AsciiReader):
         if "output in principal" in text:
             self.local = True
         if found := self.quantity.match(text):
-            name, axes = found[1], ("a", "b", "c") if self.local else ("x", "y", "z")
+            name, axes = found[1], "abc" if self.local else "xyz"
+            names = tuple(axes)
             if self.local or name != "coordinates":
-                axes += tuple(f"{axis}-rot" for axis in axes)
+                names += tuple(f"{axis}-rot" for axis in axes)
             key = AsciiKey(f"{'local ' if self.local else ''}{name} ", self.body)
-            return _put_row(text, found.end(), axes, 12, key, states)
+            return _put_row(text, found.end(), names, 12, key, states)
         row = text.strip(" \t")
         if row.startswith("row"):
             k, at = _id_behind(row, "row")

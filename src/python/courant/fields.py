@@ -189,13 +189,13 @@ class FieldFile:
         try:
             if self._packing == "zlib":
                 unpacker = zlib.decompressobj()
-                data = unpacker.decompress(packed, size + 1)
+                data, whole = unpacker.decompress(packed, size + 1), unpacker.eof
             else:
-                unpacker = lzma.LZMADecompressor(lzma.FORMAT_XZ, memlimit=1 << 28)
-                data = unpacker.decompress(packed, size + 1)
+                of_xz = lzma.LZMADecompressor(lzma.FORMAT_XZ, memlimit=1 << 28)
+                data, whole = of_xz.decompress(packed, size + 1), of_xz.eof
         except (zlib.error, lzma.LZMAError, EOFError) as fault:
             raise FieldFault("a block of its data is damaged") from fault
-        if len(data) != size or not unpacker.eof:
+        if len(data) != size or not whole:
             raise FieldFault("a block of its data is damaged")
         return data
 
@@ -342,7 +342,7 @@ def read_walls(state: StateFiles, diagnostics: Diagnostics) -> np.ndarray:
     try:
         corners = file.integers("Cells", "connectivity", 32 * file.cells)
         ends = file.integers("Cells", "offsets", file.cells)
-        begins = np.concatenate(([0], ends[:-1]))
+        begins = np.concatenate((np.zeros(1, np.int64), ends[:-1]))[: len(ends)]
         damaged = len(ends) != file.cells or (ends < begins).any() or (len(ends) > 0 and ends[-1] > len(corners))
         used = corners[: 0 if damaged or len(ends) == 0 else ends[-1]]
         if damaged or (used < 0).any() or (used >= file.points).any():

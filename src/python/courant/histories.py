@@ -109,9 +109,10 @@ class HistoryFile:
         """Whether the group of a dataset was sampled, shape (rows,) of bool."""
         out = np.zeros(len(self.times), dtype=bool)
         group = path[: path.rfind("/") + 1]
-        for name in self.datasets:
+        for name, dataset in self.datasets.items():
             if name.startswith(group):
-                out |= ~np.isnan(self.values(name)).all(axis=1)
+                rows = min(len(out), len(dataset.values))
+                out[:rows] |= ~np.isnan(dataset.values[:rows]).all(axis=1)
         return out
 
 

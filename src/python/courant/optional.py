@@ -27,4 +27,5 @@ def module(name: str) -> ModuleType:
     except ImportError as fault:
         package = _PACKAGES.get(name.partition(".")[0], name)
         how = package if package.startswith("pip") else f"apt-get install {package}"
-        raise MissingModule(f"the Python module '{name}' is missing: {how}") from fault
+        within = "" if getattr(fault, "name", name) in (name, name.partition(".")[0]) else f" or lacks {fault.name}"
+        raise MissingModule(f"the Python module '{name}' is missing{within}: {how}") from fault

@@ -35,7 +35,7 @@ from .units import Dimension, Units
 ASCII_NAMES = ("glstat", "matsum", "rcforc", "sleout", "nodout", "rbdout", "bndout", "spcforc", "rwforc", "sphout")
 
 
-def open(folder: str | PathLike[str], units: Units = Units()) -> Results:  # as gzip.open: the word for it
+def open(folder: str | PathLike[str], units: Units = Units()) -> Results:  # noqa: A001, B008  as gzip.open; frozen
     """The results that `courant run -o DIR` wrote, or a folder of LS-DYNA's ASCII histories.
 
     Files are read when they are asked for. `units`: what the deck's units are called. Raises CourantError where the folder is missing.
@@ -318,7 +318,7 @@ class AsciiTables(Mapping[str, Table]):
 class Results:
     """The results in a folder. What a run did not write raises CourantError when it is asked for."""
 
-    def __init__(self, folder: str | PathLike[str], units: Units = Units()) -> None:
+    def __init__(self, folder: str | PathLike[str], units: Units = Units()) -> None:  # noqa: B008  frozen
         self.folder, self.units = Path(folder), units
         if not self.folder.is_dir():
             diagnostics = Diagnostics()

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import List  # list is a method here
 
 import yaml
 
@@ -74,7 +75,7 @@ def parse_yaml(data: bytes | str, file: str, diagnostics: Diagnostics) -> Node |
         for event in yaml.parse(data, _Loader):
             depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
             if depth > _DEEPEST:
-                raise yaml.MarkedYAMLError(problem="maps and lists are nested too deeply", problem_mark=event.start_mark)
+                raise yaml.MarkedYAMLError(problem="maps and lists are nested too deeply", problem_mark=event.start_mark)  # type: ignore[arg-type]
         loader = _Loader(data)
         try:
             node = loader.get_node() if loader.check_node() else None
@@ -149,7 +150,7 @@ class YamlMap:
         node = self.get(key, required)
         value = self.scalar(node, key) if node is not None else None
         if value is not None and not value > 0:
-            self.error(node, f"'{self.name}.{key}' must be greater than 0, got {shortest(value)}")
+            self.error(node or self.node, f"'{self.name}.{key}' must be greater than 0, got {shortest(value)}")
         return default if value is None else value
 
     def text(self, key: str, default: str = "", required: bool = False) -> str:
@@ -178,13 +179,13 @@ class YamlMap:
         self.error(self.get(key) or self.node, f"'{self.name}.{key}' cannot be '{word}'", f"it is one of {', '.join(words)}")
         return words[0]
 
-    def list(self, key: str, required: bool = False) -> list[Node]:
+    def list(self, key: str, required: bool = False) -> List[Node]:
         """The elements of a list, none if it is not there."""
         node = self.get(key, required)
         if node is None:
             return []
         if is_list(node):
-            return list(node.value)
+            return [*node.value]
         self.error(node, f"'{self.name}.{key}' must be a list", "write [a, b, ...]")
         return []
 
@@ -206,7 +207,7 @@ class YamlMap:
             return None
         return low, high
 
-    def places(self, key: str, required: bool = False) -> list[float]:
+    def places(self, key: str, required: bool = False) -> List[float]:
         """A number, a list of numbers, or {from, to, step}."""
         node = self.get(key, required)
         if node is None:
@@ -218,7 +219,7 @@ class YamlMap:
             self.error(node, f"'{self.name}.{key}' is empty")
         return [self.scalar(one, key) or 0.0 for one in nodes]
 
-    def steps(self, most: float = 1e5) -> list[float]:
+    def steps(self, most: float = 1e5) -> List[float]:
         """The places of this map: {from, to, step}."""
         self.allow("from", "to", "step")
         start, end = self.number("from", required=True), self.number("to", required=True)
@@ -228,7 +229,7 @@ class YamlMap:
         if not start <= end or (end - start) / step > most:
             self.error(self.node, f"'{self.name}' must go upwards in at most {most:g} steps")
             return []
-        out = []
+        out: List[float] = []
         while start + len(out) * step <= end + 1e-6 * step:
             out.append(start + len(out) * step)
         return out

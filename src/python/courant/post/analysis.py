@@ -153,7 +153,7 @@ class Analysis:
         self.where: Location = keys.where()
         self.units, self.settings = settings.units, settings
         self.result = Result()
-        self.times: list[float] | np.ndarray = []
+        self.times: Any = []  # (n,), a list or an array
         self.out = Path()  # for files of single states
         node = keys.get("name")
         if node is not None and is_scalar(node) and not _FILE_NAME.fullmatch(self.name):

@@ -30,7 +30,7 @@ def _numbers(values: Sequence[float | None]) -> np.ndarray:
     return np.array([np.nan if value is None else value for value in values], dtype=float)
 
 
-def _segments(axes: Any, walls: Sequence[Sequence[float]]) -> None:
+def _segments(axes: Any, walls: Any) -> None:
     """Traces of the shells: x0, y0, x1, y1 each."""
     lines = module("matplotlib.collections").LineCollection(np.reshape(np.asarray(walls, dtype=float), (-1, 2, 2)), **WALLS)
     axes.add_collection(lines)

@@ -97,7 +97,8 @@ def read_figure(parent: YamlMap, node: Node) -> Figure:
     keys = parent.element(node, "figures")
     own = keys.text("chart")
     if own and own not in CHARTS:
-        keys.error(keys.get("chart") or node, f"there is no chart '{own}'", f"{did_you_mean(own, CHARTS.names())}charts: {', '.join(CHARTS.names())}")
+        hint = f"{did_you_mean(own, CHARTS.names())}charts: {', '.join(CHARTS.names())}"
+        keys.error(keys.get("chart") or node, f"there is no chart '{own}'", hint)
     if not own:
         keys.allow(*_KEYS)
     field_map = keys.map("map")
@@ -201,7 +202,7 @@ class FiguresData:
             for one in figure.references
         ]
         curves = [data for curve in figure.curves for data in self._curves(curve)]
-        out = {"name": figure.name, "title": figure.title, "x_label": figure.x_label, "y_label": figure.y_label, "scale": figure.scale}
+        out: dict[str, Any] = {key: getattr(figure, key) for key in ("name", "title", "x_label", "y_label", "scale")}
         out |= {"x_range": _range(figure.x_range), "y_range": _range(figure.y_range), "walls": figure.walls, "equal": figure.equal}
         out |= {"curves": curves, "references": references, "map": self._map(figure.map) if figure.map else None}
         return out
@@ -227,12 +228,12 @@ class FiguresData:
             return []
         look = {"label": curve.label, "style": curve.style}
         if each is None:
-            return [look | {"x": _numbers(x), "y": _numbers(y)}]
-        out = []
+            return [{**look, "x": _numbers(x), "y": _numbers(y)}]
+        out: list[dict[str, Any]] = []
         for key in np.unique(each.values):
             rows = each.values == key
             one = {"each": float(f"{key:.7g}"), "x": _numbers(x[rows]), "y": _numbers(y[rows])}
-            out.append(look | {"label": "" if out else curve.label} | one)
+            out.append({**look, "label": "" if out else curve.label, **one})
         return out
 
     def _values(self, curve: Curve, table: Table, key: str) -> np.ndarray | None:
@@ -254,7 +255,8 @@ class FiguresData:
             return None
         nx, ny, _ = image.n
         places = zip(("x0", "y0", "dx", "dy"), (*image.origin[:2], *image.spacing[:2]), strict=True)
-        out = {"nx": nx, "ny": ny, **{key: float(f"{value:.9g}") for key, value in places}, "label": one.label, "range": _range(one.range)}
+        out: dict[str, Any] = {"nx": nx, "ny": ny, **{key: float(f"{value:.9g}") for key, value in places}}
+        out |= {"label": one.label, "range": _range(one.range)}
         wanted = [("field", one.field), *zip("uv", one.streamlines, strict=False)]
         for key, name in wanted:
             column = self._named(image.fields, name, "field", one.where)

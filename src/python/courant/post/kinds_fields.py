@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -86,7 +85,7 @@ class SurfaceAnalysis(Analysis):
         # across: the second coordinate that lies in the bed
         keys.allow("kind", "name", "where", "link", "share", "x", "across", "bed", "surface", "layers", "from", "to")
         self.which, self.spray, self.window = read_where(keys), read_spray(keys), TimeWindow.read(keys)
-        self.x = np.array(keys.places("x", required=True))
+        self.x: np.ndarray = np.array(keys.places("x", required=True))
         across = keys.number("across")
         self.first = keys.choice("surface", ("top", "first")) == "first"
         self.layers = keys.flag("layers")

@@ -25,7 +25,7 @@ class FluxAnalysis(Analysis):
         keys.allow("kind", "name", "where", "normal", "at", "x", "y", "z", "g", "level", "from", "to")
         self.which = read_where(keys)
         self.normal = "xyz".index(keys.choice("normal", ("x", "y", "z")))
-        self.at = np.array(keys.places("at", required=True))
+        self.at: np.ndarray = np.array(keys.places("at", required=True))
         self.extent: list[tuple[int, float, float]] = []
         for axis, key in enumerate("xyz"):
             bounds = keys.range(key)

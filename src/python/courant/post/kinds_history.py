@@ -170,7 +170,8 @@ class HistoryAnalysis(_SeriesAnalysis):
             return
         repeated = file.times[:-1][np.diff(file.times) == 0]
         if len(repeated):
-            message = f"{path} has states with the same time, {repeated[0]:g}, as it prints few digits: integrals and spectra of it are coarse"
+            why = "as it prints few digits: integrals and spectra of it are coarse"
+            message = f"{path} has states with the same time, {repeated[0]:g}, {why}"
             run.diagnostics.warning(self.where, f"analysis '{self.name}': {message}", "history.h5 has all digits")
         for source in self.sources:
             key, why, hint = file.find(source.key)

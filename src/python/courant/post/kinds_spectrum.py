@@ -73,7 +73,8 @@ class SpectrumAnalysis(Analysis):
         hertz, spectra = self.unit(T=-1), [spectrum for _, spectrum in found]
         first, frequency = found[0][0], spectra[0].frequency
         unit = self._unit(first) if alike else "?"
-        mean = Spectrum(frequency, sum(one.density for one in spectra) / len(spectra) if alike else np.full(len(frequency), np.nan))
+        densities = np.array([one.density for one in spectra])
+        mean = Spectrum(frequency, densities.sum(axis=0) / len(spectra) if alike else np.full(len(frequency), np.nan))
         table = self.add_table()
         table.add("f", hertz, frequency)
         table.add("mean", unit, mean.density)
@@ -81,7 +82,7 @@ class SpectrumAnalysis(Analysis):
             table.add(one.name, self._unit(one), spectrum.density)
         peaks = [one.dominant(*self.band) for one in spectra]
         variances = [one.variance(0, frequency[-1]) for one in spectra]
-        in_band = [one.variance(*self.band) / all_of_it if all_of_it > 0 else math.nan for one, all_of_it in zip(spectra, variances, strict=True)]
+        in_band = [one.variance(*self.band) / whole if whole > 0 else math.nan for one, whole in zip(spectra, variances, strict=True)]
         table = self.add_table("peaks")
         table.add("number", "-", np.arange(1, len(found) + 1))
         table.add("x", self.unit(L=1), [one.x for one, _ in found])

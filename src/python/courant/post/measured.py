@@ -17,7 +17,7 @@ from ..files import write_file
 from ..optional import MissingModule
 from .jump import JumpRecipe, JumpResult, froude
 from .particles import ParticleSet, first_surface
-from .recipe import ProbeRecipe, Recipe
+from .recipe import Recipe
 
 
 class Depths(NamedTuple):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import PurePosixPath
+from typing import Any
 
 from ..diagnostics import Diagnostics, Location
 from ..units import Units
@@ -103,7 +104,7 @@ def _read_jump(keys: YamlMap) -> JumpRecipe:
     v1, d1, g = keys.positive("v1", required=True), keys.positive("d1", required=True), keys.positive("g", 9.81)
     intervals = [keys.range_of(node, "intervals", _INTERVAL) or (0.0, 0.0) for node in keys.list("intervals", required=True)]
     published = [_read_row(keys.element(node, "published")) for node in keys.list("published")]
-    out = {"x": x, "z": z, "bed": bed, "v1": v1, "d1": d1, "g": g, "intervals": intervals, "published": published}
+    out: dict[str, Any] = {"x": x, "z": z, "bed": bed, "v1": v1, "d1": d1, "g": g, "intervals": intervals, "published": published}
     if toe := keys.map("toe"):
         toe.allow("x", "threshold")
         out |= {"toe_range": toe.range("x", required=True, example=_INTERVAL), "toe_threshold": toe.positive("threshold", 1.5)}

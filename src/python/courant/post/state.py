@@ -59,7 +59,8 @@ def variable_of(frame: ParticleFrame, name: str) -> np.ndarray | float:
     """Values of one of VARIABLES for all particles, shape (n,), or one number for all."""
     at = _VARIABLES[name]
     if not at.array:
-        return {"x": frame.x[:, 0], "y": frame.x[:, 1], "z": frame.x[:, 2], "h": frame.h, "V": frame.V, "t": frame.t}[name]
+        whole: dict[str, np.ndarray | float] = {"h": frame.h, "V": frame.V, "t": frame.t}
+        return whole[name] if name in whole else frame.x[:, at.component]
     values = frame.arrays[at.array]
     if at.component < 0:
         return np.hypot(np.hypot(values[:, 0], values[:, 1]), values[:, 2])
@@ -170,7 +171,7 @@ class State:
             self._selections[where.text] = ParticleSet.of(self.frame, (self.evaluate(where.of) > 0) & self.active)
         return self._selections[where.text]
 
-    def water(self, where: Where = EVERYWHERE, rule: SprayRule = SprayRule()) -> ParticleSet:
+    def water(self, where: Where = EVERYWHERE, rule: SprayRule = SprayRule()) -> ParticleSet:  # noqa: B008  frozen
         """Those of a selection that are no spray."""
         key = (rule, where.text)
         if key not in self._waters:

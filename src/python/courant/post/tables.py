@@ -39,9 +39,9 @@ class Image:
 
     name: str
     t: float
-    n: tuple[int, int, int]
-    origin: tuple[float, float, float]
-    spacing: tuple[float, float, float]
+    n: tuple[int, ...]
+    origin: tuple[float, ...]
+    spacing: tuple[float, ...]
     fields: list[Column] = field(default_factory=list)
 
 
