@@ -1,4 +1,5 @@
 """What the tests of `courant verify` share."""
+
 from __future__ import annotations
 
 import os
@@ -11,7 +12,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[2] / "src" / "python")]
 
 
-@pytest.fixture()
+@pytest.fixture
 def executable() -> Path:
     """The solver, where COURANT_EXECUTABLE names it."""
     if "COURANT_EXECUTABLE" not in os.environ:

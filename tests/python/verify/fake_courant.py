@@ -3,6 +3,7 @@
 
 The decks it writes are the parameters; `run` ends as `how` says: well, refused, stopped, hangs or crashes. Each run is noted in COUNT.
 """
+
 import os
 import signal
 import sys
@@ -39,4 +40,6 @@ if how == "slow":
     time.sleep(float(deck.get("seconds", "0.5")))
 t = np.linspace(0, 1, 11)
 write_history(out / "history.h5", {"/global/time": t, "/global/kinetic": t**2 * (1 + 1 / float(deck.get("n", "10")) ** 2)})
-(out / "summary.yaml").write_text("termination: normal\nreason: done\nsteps: 10\nparticles: 4\nparticle_steps: 40\nenergy: {total: 1, ratio: 1}\n")
+(out / "summary.yaml").write_text(
+    "termination: normal\nreason: done\nsteps: 10\nparticles: 4\nparticle_steps: 40\nenergy: {total: 1, ratio: 1}\n"
+)

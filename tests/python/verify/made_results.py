@@ -1,4 +1,5 @@
 """Results of a run that never was, in the files of `courant run`."""
+
 from __future__ import annotations
 
 import struct
@@ -29,15 +30,19 @@ def write_particles(file: Path, arrays: Mapping[str, np.ndarray]) -> None:
         packed = zlib.compress(data.tobytes())
         block = struct.pack("<4I", 1, data.nbytes, 0, len(packed)) + packed
         components = data.shape[1] if data.ndim > 1 else 1
-        heads[name] = (f'<DataArray type="{_TYPES[data.dtype.char.replace("l", "q")]}" Name="{name}" NumberOfComponents="{components}" '
-                       f'format="appended" offset="{offset}"/>\n')
+        heads[name] = (
+            f'<DataArray type="{_TYPES[data.dtype.char.replace("l", "q")]}" Name="{name}" NumberOfComponents="{components}" '
+            f'format="appended" offset="{offset}"/>\n'
+        )
         blocks.append(block)
         offset += len(block)
     points = heads.pop("Points")
-    head = ('<?xml version="1.0"?>\n<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt32" '
-            f'compressor="vtkZLibDataCompressor">\n<PolyData>\n<Piece NumberOfPoints="{len(arrays["Points"])}" NumberOfVerts="0">\n'
-            f'<PointData>\n{"".join(heads.values())}</PointData>\n<Points>\n{points}</Points>\n</Piece>\n</PolyData>\n'
-            '<AppendedData encoding="raw">\n_')
+    head = (
+        '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt32" '
+        f'compressor="vtkZLibDataCompressor">\n<PolyData>\n<Piece NumberOfPoints="{len(arrays["Points"])}" NumberOfVerts="0">\n'
+        f"<PointData>\n{''.join(heads.values())}</PointData>\n<Points>\n{points}</Points>\n</Piece>\n</PolyData>\n"
+        '<AppendedData encoding="raw">\n_'
+    )
     file.write_bytes(head.encode() + b"".join(blocks) + b"\n</AppendedData>\n</VTKFile>\n")
 
 
@@ -48,4 +53,6 @@ def write_states(folder: Path, states: Mapping[float, Mapping[str, np.ndarray]])
     for k, (t, arrays) in enumerate(states.items()):
         write_particles(folder / "fields" / f"p{k}.vtp", arrays)
         entries += f'<DataSet timestep="{t!r}" part="0" file="fields/p{k}.vtp"/>\n'
-    (folder / "fields.pvd").write_text(f'<?xml version="1.0"?>\n<VTKFile type="Collection"><Collection>\n{entries}</Collection></VTKFile>\n')
+    (folder / "fields.pvd").write_text(
+        f'<?xml version="1.0"?>\n<VTKFile type="Collection"><Collection>\n{entries}</Collection></VTKFile>\n'
+    )

@@ -1,4 +1,5 @@
 """Results of a suite that never ran: numbers from formulas, with everything in them that reports have to cope with."""
+
 from __future__ import annotations
 
 import math
@@ -6,13 +7,29 @@ from pathlib import Path
 
 import numpy as np
 
-from courant.verify.model import (BoundCheck, Case, CaseResult, Curve, MeasuredOrder, Observation, Observed, Picture, Reference, RunResult,
-                                  Setting, Stability, Suite, SuiteResult, Verdict)
+from courant.verify.model import (
+    BoundCheck,
+    Case,
+    CaseResult,
+    Curve,
+    MeasuredOrder,
+    Observation,
+    Observed,
+    Picture,
+    Reference,
+    RunResult,
+    Setting,
+    Stability,
+    Suite,
+    SuiteResult,
+    Verdict,
+)
 
 PICTURE = bytes.fromhex(  # a PNG file of 8 x 4 pixels
     "89504e470d0a1a0a0000000d49484452000000080000000408020000003cafe9a7000000494944415478da0dc9310100410803"
     "c188410c069041bf36ce0602108399fc4f3b120a94a8d1438b0e194954504935f5a8a58e32f5c704934c338f59e618337f3870"
-    "e2c60f2f3e6cfc0192632ed5249431da0000000049454e44ae426082")
+    "e2c60f2f3e6cfc0192632ed5249431da0000000049454e44ae426082"
+)
 
 
 def observation(name: str, kind: str) -> Observation:
@@ -21,8 +38,17 @@ def observation(name: str, kind: str) -> Observation:
 
 def run(setting: str, resolution: str, cpu: float) -> RunResult:
     particles = int(400 * (1 + cpu))
-    return RunResult(setting, resolution, cpu_seconds=cpu, wall_seconds=0.6 * cpu, particles=particles, steps=1200,
-                     particle_steps=particles * 1200, peak_memory_bytes=48_000_000, termination="normal")
+    return RunResult(
+        setting,
+        resolution,
+        cpu_seconds=cpu,
+        wall_seconds=0.6 * cpu,
+        particles=particles,
+        steps=1200,
+        particle_steps=particles * 1200,
+        peak_memory_bytes=48_000_000,
+        termination="normal",
+    )
 
 
 def error(name: str, value: float) -> Observed:
@@ -42,12 +68,20 @@ def wave() -> CaseResult:
     period.title, period.unit, period.take, period.bound, period.least_order = "period", "s", "period", 0.01, 1.0
     period.reference = Reference("formula", "2*pi/sqrt(g*k*tanh(k*d))", source="Lamb 1932, art. 228")
     height.title, height.unit, height.bound, height.reference.csv = "height at the wall", "m", 0.001, Path("data/height.csv")
-    d = Case("wave", 'Standing wave <in> a "tank" & more', resolution="n", resolutions=["10", "20", "40", "80"], observations=[period, height],
-             about="A wave of small amplitude: period and decay.\n\nThe period follows from the dispersion relation; what is lost to "
-                   "viscosity shows in the decay. <script>document.title = 'injected'</script>")
+    d = Case(
+        "wave",
+        'Standing wave <in> a "tank" & more',
+        resolution="n",
+        resolutions=["10", "20", "40", "80"],
+        observations=[period, height],
+        about="A wave of small amplitude: period and decay.\n\nThe period follows from the dispersion relation; what is lost to "
+        "viscosity shows in the decay. <script>document.title = 'injected'</script>",
+    )
     c = CaseResult(d, picture=Picture(PICTURE, "speed at t = 1 s", "0 m/s", "0.5 m/s"))
     t = 0.02 * np.arange(200)
-    for s, (name, pace, order) in enumerate((("cubic, h/dx = 1.2", 0.1, 1.0), ("Wendland C2, h/dx = 1.6", 0.21, 2.0), ("cubic, c0 halved", 0.05, 0.61))):
+    for s, (name, pace, order) in enumerate(
+        (("cubic, h/dx = 1.2", 0.1, 1.0), ("Wendland C2, h/dx = 1.6", 0.21, 2.0), ("cubic, c0 halved", 0.05, 0.61))
+    ):
         d.settings.append(Setting(name))
         for n in (10.0, 20.0, 40.0, 80.0):
             e = (0.5 / n, 3.2 / n**2, 0.01 + 0.4 / n)[s]
@@ -56,7 +90,10 @@ def wave() -> CaseResult:
             one.observed = [Observed("period", True, "", 1.27 * (1 + e), 1.27, e), Observed("height", True, error=3 * e, curve=curve)]
             c.runs.append(one)
         c.orders += [MeasuredOrder(name, "period", order), MeasuredOrder(name, "height", None)]
-        c.checks += [BoundCheck(name, "period", "error at most", 0.01, e, s != 2), BoundCheck(name, "period", "order at least", 1, order, s != 2)]
+        c.checks += [
+            BoundCheck(name, "period", "error at most", 0.01, e, s != 2),
+            BoundCheck(name, "period", "order at least", 1, order, s != 2),
+        ]
     return c
 
 
@@ -113,10 +150,18 @@ def stability(columns: int, rows: int) -> CaseResult:
 
 
 def suite(*cases: CaseResult) -> SuiteResult:
-    return SuiteResult(Suite(Path("suites/made.yaml"), "Made <suite>", "Numbers from formulas."), "0.1.0 (release)",
-                       "a processor, 2 cores, Debian 12", "2026-01-02T03:04:05Z", 754, 2, list(cases))
+    return SuiteResult(
+        Suite(Path("suites/made.yaml"), "Made <suite>", "Numbers from formulas."),
+        "0.1.0 (release)",
+        "a processor, 2 cores, Debian 12",
+        "2026-01-02T03:04:05Z",
+        754,
+        2,
+        list(cases),
+    )
 
 
 def whole_suite() -> SuiteResult:
-    return suite(wave(), strange(), one_run(), no_reference(), all_stopped(), stability(13, 6), stability(12, 0), stability(5, 4),
-                 stability(10, 9))
+    return suite(
+        wave(), strange(), one_run(), no_reference(), all_stopped(), stability(13, 6), stability(12, 0), stability(5, 4), stability(10, 9)
+    )

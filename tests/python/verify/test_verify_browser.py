@@ -3,6 +3,7 @@
 Bounds: all charts there, no message on the console, nothing loaded, the page no wider than the window, letters of charts at least 11
 pixels high, none outside its chart, none on top of another; light and dark page differ.
 """
+
 from __future__ import annotations
 
 import html
@@ -13,9 +14,10 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from made_suite import whole_suite
+
 from courant.verify.changes import Change, Comparison
 from courant.verify.report import write_reports
-from made_suite import whole_suite
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not here (Debian: apt-get install chromium)")
@@ -56,15 +58,30 @@ addEventListener('load', () => {
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("report")
-    write_reports(whole_suite(), out, Comparison("an earlier report <of yesterday>",
-                                                 [Change("wave is slower by 12 %", True), Change("strange is faster")]))
+    write_reports(
+        whole_suite(),
+        out,
+        Comparison("an earlier report <of yesterday>", [Change("wave is slower by 12 %", True), Change("strange is faster")]),
+    )
     return out
 
 
 def browse(page: Path, *options: str) -> subprocess.CompletedProcess[str]:
-    words = [str(CHROMIUM), "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--allow-file-access-from-files",
-             "--disable-background-networking", "--no-first-run", "--enable-logging=stderr", f"--user-data-dir={page.parent / 'chromium'}",
-             "--virtual-time-budget=5000", *options, f"file://{page}"]
+    words = [
+        str(CHROMIUM),
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--hide-scrollbars",
+        "--allow-file-access-from-files",
+        "--disable-background-networking",
+        "--no-first-run",
+        "--enable-logging=stderr",
+        f"--user-data-dir={page.parent / 'chromium'}",
+        "--virtual-time-budget=5000",
+        *options,
+        f"file://{page}",
+    ]
     return subprocess.run(words, capture_output=True, text=True, timeout=240, check=False)
 
 

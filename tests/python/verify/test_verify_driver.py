@@ -1,4 +1,5 @@
 """`courant verify` end to end with a solver that solves nothing."""
+
 from __future__ import annotations
 
 import csv
@@ -33,8 +34,12 @@ class Caller:
         self.folder = folder
         (folder / "scene.yaml").write_text("parameters: {n: 10, how: 0, seconds: 0.5}\n")
         self.write(SUITE)
-        self.environment = dict(os.environ, COUNT=str(folder / "count"), COURANT_EXECUTABLE=str(HERE / "fake_courant.py"),
-                                PYTHONPATH=str(HERE.parents[2] / "src" / "python"))
+        self.environment = dict(
+            os.environ,
+            COUNT=str(folder / "count"),
+            COURANT_EXECUTABLE=str(HERE / "fake_courant.py"),
+            PYTHONPATH=str(HERE.parents[2] / "src" / "python"),
+        )
 
     def write(self, text: str, how: str = "1") -> None:
         """`how` is no number to the scene's parameters where it is a word: suites of decks take it as it is."""
@@ -44,7 +49,9 @@ class Caller:
         return [sys.executable, "-c", "import sys; from courant.verify.cli import main; sys.exit(main(sys.argv[1:]))", "suite.yaml", *more]
 
     def __call__(self, *more: str, code: int = 0) -> str:
-        done = subprocess.run(self.words(*more), cwd=self.folder, env=self.environment, capture_output=True, text=True, timeout=120, check=False)
+        done = subprocess.run(
+            self.words(*more), cwd=self.folder, env=self.environment, capture_output=True, text=True, timeout=120, check=False
+        )
         assert done.returncode == code, done.stdout + done.stderr
         return done.stdout + done.stderr
 
@@ -60,7 +67,7 @@ class Caller:
             return list(csv.DictReader(file))
 
 
-@pytest.fixture()
+@pytest.fixture
 def call(tmp_path: Path) -> Caller:
     return Caller(tmp_path)
 
@@ -104,9 +111,14 @@ def test_missed_bounds_and_earlier_results(call: Caller) -> None:
 DECK = "cases:\n  - name: one\n    deck: deck.k\n    time_limit: LIMIT\n    parameters: {how: MORE}\n    observations: [{name: k, of: global/kinetic, take: max}]\n"
 
 
-@pytest.mark.parametrize(("how", "said"), [
-    ("refused", "default: refused: deck.k:1:1: error: no such keyword"), ("crashes", "default: broken: ended by signal 11 (Segmentation fault)"),
-    ("hangs", "default: broken: ran longer than 0.3 s")])
+@pytest.mark.parametrize(
+    ("how", "said"),
+    [
+        ("refused", "default: refused: deck.k:1:1: error: no such keyword"),
+        ("crashes", "default: broken: ended by signal 11 (Segmentation fault)"),
+        ("hangs", "default: broken: ran longer than 0.3 s"),
+    ],
+)
 def test_how_runs_end(call: Caller, how: str, said: str) -> None:
     (call.folder / "deck.k").write_text("*KEYWORD\n")
     call.write(DECK.replace("LIMIT", "0.3" if how == "hangs" else "60"), how)
@@ -154,13 +166,17 @@ def test_interrupted_and_killed_calls_go_on(call: Caller) -> None:
     (call.folder / "deck.k").write_text("*KEYWORD\n")
     call.write(DECK.replace("time_limit: LIMIT", "resolution: seconds\n    resolutions: [0.01, 0.02, 20]"), "slow")
     for signal_number, code in ((signal.SIGINT, 2), (signal.SIGKILL, -9)):
-        process = subprocess.Popen(call.words("--jobs", "1", "--fresh"), cwd=call.folder, env=call.environment, stdout=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            call.words("--jobs", "1", "--fresh"), cwd=call.folder, env=call.environment, stdout=subprocess.PIPE, text=True
+        )
         assert process.stdout is not None
         while not process.stdout.readline().startswith("[2/3]"):
             assert process.poll() is None
         time.sleep(0.2)
         assert "another `courant verify` works in this folder" in call(code=1)
-        children = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process.pid)], capture_output=True, text=True, check=True).stdout.split()
+        children = subprocess.run(
+            ["ps", "-o", "pid=", "--ppid", str(process.pid)], capture_output=True, text=True, check=True
+        ).stdout.split()
         process.send_signal(signal_number)
         process.communicate(timeout=20)
         assert process.returncode == code
@@ -173,8 +189,9 @@ def test_interrupted_and_killed_calls_go_on(call: Caller) -> None:
 
 
 def test_functions_of_ones_own(call: Caller) -> None:
-    (call.folder / "mine.py").write_text("from courant.verify import take\n\n\n@take('spread')\ndef spread(series, at):\n"
-                                         "    return float(series.y.max() - series.y.min())\n")
+    (call.folder / "mine.py").write_text(
+        "from courant.verify import take\n\n\n@take('spread')\ndef spread(series, at):\n    return float(series.y.max() - series.y.min())\n"
+    )
     call.write(SUITE.replace("take: final", "take: spread").replace("reference: t,", "reference: '1',"))
     assert "cannot be 'spread'" in call(code=1)
     assert "4 of 4 checks met" in call("--load", "mine.py")

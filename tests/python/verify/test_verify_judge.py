@@ -1,4 +1,5 @@
 """Orders, bounds, verdicts, records of runs, and what changed since an earlier call."""
+
 from __future__ import annotations
 
 import copy
@@ -9,24 +10,45 @@ from pathlib import Path
 
 import pytest
 import yaml
+from made_suite import stability, suite, whole_suite
+
 from courant.diagnostics import Diagnostics
 from courant.files import OutputError
 from courant.verify.changes import Comparison, compare_with
 from courant.verify.digest import digest_of_deck
 from courant.verify.judge import check_bounds, judge_stability, measured_orders
-from courant.verify.model import (Case, CaseResult, Limit, Observation, Observed, Reference, RunNumbers, RunResult, Setting, Stability, Suite,
-                                  SuiteResult, Verdict)
+from courant.verify.model import (
+    Case,
+    CaseResult,
+    Limit,
+    Observation,
+    Observed,
+    Reference,
+    RunNumbers,
+    RunResult,
+    Setting,
+    Stability,
+    Suite,
+    SuiteResult,
+    Verdict,
+)
 from courant.verify.record import RunRecord, read_record, result_of_run, says_something_of_the_deck, write_record
 from courant.verify.result_files import results_csv, results_yaml
 from courant.verify.schedule import RunSchedule, duration_text
 from courant.verify.terminal import case_table, checks_text
-from made_suite import stability, suite, whole_suite
 
 
 def made_case() -> CaseResult:
     """Errors 0.4 dx^2 at dx = 0.1, 0.05, 0.025 for setting a, none at the finest of setting b."""
-    c = CaseResult(Case("wave", resolution="n", size="dx", settings=[Setting("a"), Setting("b")],
-                        observations=[Observation("height", reference=Reference("formula"))]))
+    c = CaseResult(
+        Case(
+            "wave",
+            resolution="n",
+            size="dx",
+            settings=[Setting("a"), Setting("b")],
+            observations=[Observation("height", reference=Reference("formula"))],
+        )
+    )
     for setting in "ab":
         for k in range(3):
             run = RunResult(setting, str(10 << k), size=0.1 / (1 << k), cpu_seconds=1, particle_steps=1000000)
@@ -86,8 +108,13 @@ def test_verdicts_of_stability() -> None:
     deep = judged(0, Verdict.stable, penetration=0.06)  # 0.12 spacings
     assert (deep.exceeded, deep.verdict, deep.as_required) == (["depth = 0.12 > 0.1"], Verdict.degraded, False)
     assert judged(5, Verdict.stable, penetration=0.06).as_required, "nothing is required there"
-    required = [judged(5, Verdict.stopped), judged(5, Verdict.broken), judged(0, Verdict.stopped), judged(20, Verdict.stable),
-                judged(20, Verdict.refused)]
+    required = [
+        judged(5, Verdict.stopped),
+        judged(5, Verdict.broken),
+        judged(0, Verdict.stopped),
+        judged(20, Verdict.stable),
+        judged(20, Verdict.refused),
+    ]
     assert [run.as_required for run in required] == [True, False, False, False, True]
     assert judged(0, Verdict.stable, residual=math.nan).verdict == Verdict.degraded, "no number is no pass"
     growth.found, growth.value, growth.why = False, None, "no peaks"
@@ -99,19 +126,33 @@ def test_verdicts_of_stability() -> None:
 SUMMARY = "termination: normal\nreason: done\nsteps: 5\nenergy: {total: %s, ratio: 1}\n"
 
 
-@pytest.mark.parametrize(("record", "files", "verdict", "reason"), [
-    ({}, {}, "broken", "exit code 0, but there is no summary.yaml"), ({"exit_code": 3}, {}, "broken", "exit code 3"),
-    ({"exit_code": 2}, {}, "broken", "stopped without a reason (exit code 2)"),
-    ({"exit_code": 1}, {}, "broken", "refused without a reason (exit code 1)"),
-    ({"exit_code": 1}, {"errors.txt": "deck.k:3: warning: x\ndeck.k:4:1: error: no such thing\n"}, "refused", "deck.k:4:1: error: no such thing"),
-    ({"exit_code": -1, "signal": 11}, {}, "broken", "ended by signal 11 (Segmentation fault)"),
-    ({"timed_out": True, "time_limit": 2.5}, {}, "broken", "ran longer than 2.5 s"),
-    ({}, {"summary.yaml": SUMMARY % ".nan"}, "broken", "it ended normally, but its energy is not finite"),
-    ({}, {"summary.yaml": SUMMARY % "1.5"}, "stable", "done"),
-    ({}, {"summary.yaml": "termination: error\nreason: odd\n"}, "broken", "exit code 0 with the termination 'error': odd"),
-    ({"exit_code": 2}, {"summary.yaml": "termination: error\nreason: NaN at t = 1\nenergy: {total: 1.5}\n"}, "stopped", "NaN at t = 1"),
-    ({"exit_code": 2}, {"summary.yaml": SUMMARY % "1" + "verdict: broken\nverdict_reasons: [it leaks]\n"}, "degraded",
-     "its results cannot be trusted: it leaks")])
+@pytest.mark.parametrize(
+    ("record", "files", "verdict", "reason"),
+    [
+        ({}, {}, "broken", "exit code 0, but there is no summary.yaml"),
+        ({"exit_code": 3}, {}, "broken", "exit code 3"),
+        ({"exit_code": 2}, {}, "broken", "stopped without a reason (exit code 2)"),
+        ({"exit_code": 1}, {}, "broken", "refused without a reason (exit code 1)"),
+        (
+            {"exit_code": 1},
+            {"errors.txt": "deck.k:3: warning: x\ndeck.k:4:1: error: no such thing\n"},
+            "refused",
+            "deck.k:4:1: error: no such thing",
+        ),
+        ({"exit_code": -1, "signal": 11}, {}, "broken", "ended by signal 11 (Segmentation fault)"),
+        ({"timed_out": True, "time_limit": 2.5}, {}, "broken", "ran longer than 2.5 s"),
+        ({}, {"summary.yaml": SUMMARY % ".nan"}, "broken", "it ended normally, but its energy is not finite"),
+        ({}, {"summary.yaml": SUMMARY % "1.5"}, "stable", "done"),
+        ({}, {"summary.yaml": "termination: error\nreason: odd\n"}, "broken", "exit code 0 with the termination 'error': odd"),
+        ({"exit_code": 2}, {"summary.yaml": "termination: error\nreason: NaN at t = 1\nenergy: {total: 1.5}\n"}, "stopped", "NaN at t = 1"),
+        (
+            {"exit_code": 2},
+            {"summary.yaml": SUMMARY % "1" + "verdict: broken\nverdict_reasons: [it leaks]\n"},
+            "degraded",
+            "its results cannot be trusted: it leaks",
+        ),
+    ],
+)
 def test_how_a_run_ended(tmp_path: Path, record: dict, files: dict[str, str], verdict: str, reason: str) -> None:
     for name, text in files.items():
         (tmp_path / name).write_text(text)
@@ -120,8 +161,10 @@ def test_how_a_run_ended(tmp_path: Path, record: dict, files: dict[str, str], ve
 
 
 def test_numbers_of_a_summary(tmp_path: Path) -> None:
-    (tmp_path / "summary.yaml").write_text("termination: normal\nsteps: 5\nleaked_particles: 2\nmax_penetration: 1e-3\n"
-                                           "energy: {total: 1.5, ratio: 1, residual: -0.5, throughput: 2}\n")
+    (tmp_path / "summary.yaml").write_text(
+        "termination: normal\nsteps: 5\nleaked_particles: 2\nmax_penetration: 1e-3\n"
+        "energy: {total: 1.5, ratio: 1, residual: -0.5, throughput: 2}\n"
+    )
     numbers = result_of_run(tmp_path, RunRecord("k")).numbers
     assert numbers == RunNumbers(residual=0.25, ratio=1, leaked=2, penetration=1e-3, steps=5)
 
@@ -211,7 +254,9 @@ def test_what_got_worse(tmp_path: Path) -> None:
     runs[0].cpu_seconds, runs[1].observed[0].error = 1.4, 1e-3 / 2
     c = compared(tmp_path, before, now)
     assert [(line.text, line.worse) for line in c.lines] == [
-        ("wave: a, 10: 1400 ns of CPU time per particle and step, was 1000", True), ("wave: a, 20, height: error 0.0005, was 0.001", False)]
+        ("wave: a, 10: 1400 ns of CPU time per particle and step, was 1000", True),
+        ("wave: a, 20, height: error 0.0005, was 0.001", False),
+    ]
     assert not c.regressed
     runs[2].observed[0].error = 1
     judge(now.cases[0])
@@ -238,8 +283,10 @@ def test_table_for_the_terminal() -> None:
     result.cases[0].definition.observations[0].bound = 1e-5
     judge(result.cases[0])
     assert "0.025 %   2.00\n" in case_table(result.cases[0])
-    assert checks_text(result) == ("  MISSED  wave: a, height: error at most 1.0e-05: 0.025 %\n"
-                                   "  MISSED  wave: b, height: error at most 1.0e-05: nan\n0 of 2 checks met, 2 missed\n")
+    assert checks_text(result) == (
+        "  MISSED  wave: a, height: error at most 1.0e-05: 0.025 %\n"
+        "  MISSED  wave: b, height: error at most 1.0e-05: nan\n0 of 2 checks met, 2 missed\n"
+    )
     assert "ok: false" in results_yaml(result)
     assert checks_text(SuiteResult(Suite())) == "The suite states no bounds.\n"
     map_ = case_table(stability(3, 2))

@@ -3,6 +3,7 @@
 Histories at t = 0, 0.1, ... 1: kinetic energy t^2, force on contact 7 (t, -2 t, 0) in every second sample only; fields at 0, 0.5, 1: a
 column of ten particles, p = g (1 - y) + t, the last one inactive.
 """
+
 from __future__ import annotations
 
 import math
@@ -11,6 +12,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from made_results import write_history, write_states
+
 from courant.registry import LoadFault, load_file
 from courant.verify.errors import compare_observation, merged
 from courant.verify.model import Case, CaseResult, Observation, Observed, Reference, RunResult
@@ -18,7 +21,6 @@ from courant.verify.observe import Measured, observe_run
 from courant.verify.picture import draw_particles
 from courant.verify.registry import CHARTS, KINDS, norm, observation, reduction, take
 from courant.verify.series import Series
-from made_results import write_history, write_states
 
 PARAMETERS = {"g": 10.0, "dx": 0.1, "pi": math.pi}
 
@@ -27,9 +29,15 @@ def column(t: float) -> dict[str, np.ndarray]:
     y = 0.05 + 0.1 * np.arange(10)
     x = np.column_stack([0 * y, y, 0 * y]).astype("f4")
     full = {"mass": 10.0, "density": 1000.0, "smoothing_length": 0.12}
-    return {"Points": x, **{name: np.full(10, value) for name, value in full.items()}, "pressure": 10 * (1 - y) + t,
-            "velocity": np.tile([3.0, 4, 0], (10, 1)), "id": np.arange(1, 11, dtype="q"), "part": np.full(10, 3, dtype="i"),
-            "active": (np.arange(10) < 9).astype("B")}
+    return {
+        "Points": x,
+        **{name: np.full(10, value) for name, value in full.items()},
+        "pressure": 10 * (1 - y) + t,
+        "velocity": np.tile([3.0, 4, 0], (10, 1)),
+        "id": np.arange(1, 11, dtype="q"),
+        "part": np.full(10, 3, dtype="i"),
+        "active": (np.arange(10) < 9).astype("B"),
+    }
 
 
 def histories() -> dict[str, np.ndarray]:
@@ -39,7 +47,7 @@ def histories() -> dict[str, np.ndarray]:
     return {"/global/time": t, "/global/kinetic": t**2, "/contacts/7/force": force}
 
 
-@pytest.fixture()
+@pytest.fixture
 def folder(tmp_path: Path) -> Path:
     write_history(tmp_path / "history.h5", histories())
     write_states(tmp_path, {t: column(t) for t in (0.0, 0.5, 1.0)})
@@ -68,10 +76,13 @@ def test_histories(folder: Path) -> None:
     both = measured(folder, "history", "contacts/7/force.x + 0*global/kinetic", "curve")
     assert len(both.series) == 6, "only samples that have all of them count"
     assert number(folder, "history", "global/kinetic", "mean", start="0.4 + dx - 0.1", end="0.6") == pytest.approx((0.16 + 0.25 + 0.36) / 3)
-    for of, why in (("contacts/7/force", "'contacts/7/force' is a vector: add .x, .y or .z"),
-                    ("contacts/8/force.x", "history.h5 has no 'contacts/8/force'; did you mean contacts/7/force?"),
-                    ("global/kinetic.x", "'global/kinetic' is no vector"), ("1 / t", "not finite at t = 0"),
-                    ("t + nothing", "unknown name 'nothing'")):
+    for of, why in (
+        ("contacts/7/force", "'contacts/7/force' is a vector: add .x, .y or .z"),
+        ("contacts/8/force.x", "history.h5 has no 'contacts/8/force'; did you mean contacts/7/force?"),
+        ("global/kinetic.x", "'global/kinetic' is no vector"),
+        ("1 / t", "not finite at t = 0"),
+        ("t + nothing", "unknown name 'nothing'"),
+    ):
         assert measured(folder, "history", of, "max").why == why
     assert measured(folder, "history", "t", "max", start="1 / 0").why == "division by zero, got '1 / 0'"
     assert measured(folder, "history", "t", "max", start="5").why == "no sample lies in the window"
@@ -190,7 +201,7 @@ def test_damaged_states_are_told(folder: Path) -> None:
         data = bytearray(whole)
         for at in chance.integers(len(data), size=3):
             data[at] = chance.integers(256)
-        file.write_bytes(bytes(data)[:len(data) if chance.random() < 0.8 else int(chance.integers(len(data)))])
+        file.write_bytes(bytes(data)[: len(data) if chance.random() < 0.8 else int(chance.integers(len(data)))])
         m = measured(folder, "particles", "p", "mean")
         assert m.found or m.why
     file.unlink()
@@ -259,7 +270,9 @@ def test_the_functions_of_the_user_guide(folder: Path, tmp_path_factory: pytest.
     load_file(own)
     try:
         assert number(folder, "history", "t", "spread") == pytest.approx(1)
-        assert number(folder, "particles", "p", "final", reduce="rms") == pytest.approx(np.sqrt(np.mean((11 - 10 * column(0)["Points"][:9, 1]) ** 2)))
+        assert number(folder, "particles", "p", "final", reduce="rms") == pytest.approx(
+            np.sqrt(np.mean((11 - 10 * column(0)["Points"][:9, 1]) ** 2))
+        )
         assert number(folder, "distance", "y", "max") == pytest.approx(0.8)
         o = Observation("o", of="t", reference=Reference("formula", "0 * t"), norm="l4", scale="1")
         assert observed(folder, o).error == pytest.approx(np.mean((0.1 * np.arange(11)) ** 4) ** 0.25)

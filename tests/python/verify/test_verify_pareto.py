@@ -1,20 +1,31 @@
 """Which runs are worth their time."""
+
 from __future__ import annotations
 
 import math
 
 import pytest
+from made_suite import all_stopped, one_run, wave
+
 from courant.verify.model import Verdict
 from courant.verify.pareto import CostPoint, cheapest_within_bounds, choices, cost_points, pareto_front, recommendation
-from made_suite import all_stopped, one_run, wave
 
 INF, NAN = math.inf, math.nan
 
 
-@pytest.mark.parametrize(("points", "front"), [
-    ([(4, 0.1), (1, 0.5), (2, 0.6), (2, 0.2), (8, 0.1)], [1, 3, 0]), ([], []), ([(1, 1)], [0]),
-    ([(1, 0.5), (1, 0.5)], [0]), ([(1, 0.5), (1, 0.4)], [1]), ([(2, 0.5), (1, 0.5)], [1]),
-    ([(1, NAN), (NAN, 0.1), (1, INF), (5, 0.3), (-1, 0.1), (1, -0.1)], [3]), ([(0, 0.1), (1, 0)], [0, 1])])
+@pytest.mark.parametrize(
+    ("points", "front"),
+    [
+        ([(4, 0.1), (1, 0.5), (2, 0.6), (2, 0.2), (8, 0.1)], [1, 3, 0]),
+        ([], []),
+        ([(1, 1)], [0]),
+        ([(1, 0.5), (1, 0.5)], [0]),
+        ([(1, 0.5), (1, 0.4)], [1]),
+        ([(2, 0.5), (1, 0.5)], [1]),
+        ([(1, NAN), (NAN, 0.1), (1, INF), (5, 0.3), (-1, 0.1), (1, -0.1)], [3]),
+        ([(0, 0.1), (1, 0)], [0, 1]),
+    ],
+)
 def test_the_front_holds_what_nothing_else_beats(points: list[tuple[float, float]], front: list[int]) -> None:
     assert [p.run for p in pareto_front([CostPoint(i, *p) for i, p in enumerate(points)])] == front
 

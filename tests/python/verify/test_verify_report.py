@@ -1,4 +1,5 @@
 """The reports of a made suite: their words, tables and files."""
+
 from __future__ import annotations
 
 import math
@@ -6,6 +7,8 @@ import re
 from pathlib import Path
 
 import pytest
+from made_suite import PICTURE, all_stopped, no_reference, one_run, stability, strange, suite, wave, whole_suite
+
 from courant.files import OutputError
 from courant.verify import text
 from courant.verify.changes import Change, Comparison
@@ -14,25 +17,43 @@ from courant.verify.model import BoundCheck, CaseResult
 from courant.verify.registry import CHARTS, chart
 from courant.verify.report import html, verdict, write_page, write_reports
 from courant.verify.tables import runs_table
-from made_suite import PICTURE, all_stopped, no_reference, one_run, stability, strange, suite, wave, whole_suite
 
 
 def test_escaped_texts() -> None:
     assert text.escape_xml("<a href=\"x\" o='y'> & ü\n") == "&lt;a href=&quot;x&quot; o=&#39;y&#39;&gt; &amp; ü\n"
     assert text.escape_xml("a\x01z\udcff|\uffff") == "a?z?|?", "a control character, half a character, none of XML"
-    assert text.escape_markdown("a|b *c* _d_ `e` <f>\n[g] #1 $x$") == \
-        "a\\|b \\*c\\* \\_d\\_ \\`e\\` &lt;f&gt; \\[g\\] \\#1 \\$x\\$"
+    assert text.escape_markdown("a|b *c* _d_ `e` <f>\n[g] #1 $x$") == "a\\|b \\*c\\* \\_d\\_ \\`e\\` &lt;f&gt; \\[g\\] \\#1 \\$x\\$"
     assert text.escape_markdown("- no list - here") == "\\- no list - here"
 
 
-@pytest.mark.parametrize(("written", "expected"), [
-    (text.number(0), "0"), (text.number(-0.0), "0"), (text.number(1234.56, 3), "1235"), (text.number(0.0123456, 3), "0.0123"),
-    (text.number(1.2e-5, 3), "1.2e-5"), (text.number(-2.5e9, 3), "-2.5e9"), (text.number(math.nan), "not a number"),
-    (text.number(-math.inf), "-infinite"), (text.percent(0.0123), "1.2 %"), (text.percent(0.125), "12.5 %"), (text.percent(3.5), "350 %"),
-    (text.percent(1e-9), "1e-9"), (text.percent(math.inf), "infinite"), (text.seconds(3.14), "3.1 s"), (text.seconds(754), "12 min 34 s"),
-    (text.seconds(7380), "2 h 3 min"), (text.integer(-1234567), "-1 234 567"), (text.integer(999), "999"), (text.megabytes(12_340_000), "12.3"),
-    (text.shorten("dünn", 4), "dünn"), (text.shorten("dünner", 4), "dün…"), (text.file_stem("a/b: c.k"), "a-b-c-k"),
-    (text.file_stem("../"), "unnamed")])
+@pytest.mark.parametrize(
+    ("written", "expected"),
+    [
+        (text.number(0), "0"),
+        (text.number(-0.0), "0"),
+        (text.number(1234.56, 3), "1235"),
+        (text.number(0.0123456, 3), "0.0123"),
+        (text.number(1.2e-5, 3), "1.2e-5"),
+        (text.number(-2.5e9, 3), "-2.5e9"),
+        (text.number(math.nan), "not a number"),
+        (text.number(-math.inf), "-infinite"),
+        (text.percent(0.0123), "1.2 %"),
+        (text.percent(0.125), "12.5 %"),
+        (text.percent(3.5), "350 %"),
+        (text.percent(1e-9), "1e-9"),
+        (text.percent(math.inf), "infinite"),
+        (text.seconds(3.14), "3.1 s"),
+        (text.seconds(754), "12 min 34 s"),
+        (text.seconds(7380), "2 h 3 min"),
+        (text.integer(-1234567), "-1 234 567"),
+        (text.integer(999), "999"),
+        (text.megabytes(12_340_000), "12.3"),
+        (text.shorten("dünn", 4), "dünn"),
+        (text.shorten("dünner", 4), "dün…"),
+        (text.file_stem("a/b: c.k"), "a-b-c-k"),
+        (text.file_stem("../"), "unnamed"),
+    ],
+)
 def test_numbers_and_words(written: str, expected: str) -> None:
     assert written.replace("\u00a0", " ") == expected
 
@@ -97,8 +118,13 @@ def test_runs_have_their_cost_and_the_order_beside_the_finest() -> None:
     assert len(table.rows) == 12 and all(len(row.cells) == len(table.columns) for row in table.rows)
     heads = [column.head for column in table.columns]
     finest = dict(zip(heads, table.rows[3].cells, strict=True))
-    assert [finest[h] for h in ("n", "CPU time [s]", "CPU ns per particle-step", "period [s]", "period: order")] == \
-        ["80", "51.2", "2043", "1.2779", "1.00"], "51.2 s / (20880 * 1200)"
+    assert [finest[h] for h in ("n", "CPU time [s]", "CPU ns per particle-step", "period [s]", "period: order")] == [
+        "80",
+        "51.2",
+        "2043",
+        "1.2779",
+        "1.00",
+    ], "51.2 s / (20880 * 1200)"
     assert table.rows[2].cells[heads.index("period: order")] == ""
 
 

@@ -1,4 +1,5 @@
 """Numbers out of curves, against their theory."""
+
 from __future__ import annotations
 
 import math
@@ -6,8 +7,9 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from courant.verify.series import NoValue, Series, slope_of, take_number
+
 from courant.verify.registry import norm, reduction
+from courant.verify.series import NoValue, Series, slope_of, take_number
 
 
 def sampled(start: float, end: float, n: int, f: Callable[[np.ndarray], np.ndarray]) -> Series:
@@ -21,8 +23,13 @@ def test_simple_takes() -> None:
     assert found == pytest.approx({"final": -1, "mean": 1, "min": -1, "max": 3, "slope": -2, "growth": 1})
     assert take_number(s, "at", 0.75) == pytest.approx(1.5)
     assert take_number(s, "at", 2.000001) == -1, "a state may be written a little early"
-    for series, how, at in ((s, "at", 2.1), (s, "at", -0.1), (Series(), "mean", None), (Series([0], [1]), "slope", None),
-                            (Series([0, 1], [0, 1]), "growth", None)):
+    for series, how, at in (
+        (s, "at", 2.1),
+        (s, "at", -0.1),
+        (Series(), "mean", None),
+        (Series([0], [1]), "slope", None),
+        (Series([0, 1], [0, 1]), "growth", None),
+    ):
         with pytest.raises(NoValue):
             take_number(series, how, at)
 
@@ -46,10 +53,14 @@ def test_no_period(f: Callable[[np.ndarray], np.ndarray]) -> None:
         take_number(sampled(0, 1, 100, f), "period")
 
 
-@pytest.mark.parametrize(("f", "end", "rate"), [
-    (lambda t: np.exp(-0.4 * t) * np.cos(5 * t), 6, 0.4),
-    (lambda t: (np.exp(-0.4 * t) * np.cos(5 * t)) ** 2, 6, 0.8),  # as of a kinetic energy: it decays twice as fast
-    (lambda t: np.exp(0.2 * t) * np.sin(9 * t), 3, -0.2)])
+@pytest.mark.parametrize(
+    ("f", "end", "rate"),
+    [
+        (lambda t: np.exp(-0.4 * t) * np.cos(5 * t), 6, 0.4),
+        (lambda t: (np.exp(-0.4 * t) * np.cos(5 * t)) ** 2, 6, 0.8),  # as of a kinetic energy: it decays twice as fast
+        (lambda t: np.exp(0.2 * t) * np.sin(9 * t), 3, -0.2),
+    ],
+)
 def test_decay_of_peaks(f: Callable[[np.ndarray], np.ndarray], end: float, rate: float) -> None:
     assert take_number(sampled(0, end, 200 * end, f), "decay") == pytest.approx(rate, abs=4e-3)
 

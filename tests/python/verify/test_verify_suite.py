@@ -1,10 +1,12 @@
 """Suites are read whole, and every fault is told at its place before anything is run."""
+
 from __future__ import annotations
 
 import random
 from pathlib import Path
 
 import pytest
+
 from courant.diagnostics import Diagnostics
 from courant.verify.driver import Options, Verification
 from courant.verify.model import Suite
@@ -39,7 +41,9 @@ def read(folder: Path, text: str, executable: Path | None = None) -> tuple[Suite
 
 
 def test_all_keys(tmp_path: Path) -> None:
-    suite, said, runs = read(tmp_path, """
+    suite, said, runs = read(
+        tmp_path,
+        """
 title: everything
 about: for the test
 time_limit: 60
@@ -76,7 +80,8 @@ cases:
       limits: [{name: energy, value: growth + residual, at_most: 2 * g}]
       must_be_stable: 15 - c0
       must_stop: c0 - 15
-""")
+""",
+    )
     assert said == ""
     one, two = suite.cases
     assert (one.time_limit, two.time_limit, one.parameters, one.picture_where) == (10, 60, {"g": "1e-3"}, "0.5 - y")
@@ -95,20 +100,32 @@ cases:
     assert len({run.folder for run in runs}) == 13
 
 
-@pytest.mark.parametrize(("text", "said"), [
-    ("title: x\n", "suite.yaml:1:1: error: 'suite' lacks the key 'cases'\n"),
-    ("cases: []\n", "suite.yaml:1:1: error: the suite has no cases\n"),
-    (OBSERVING + "{name: a, of: global/kinetic, take: finl}\n",
-     "suite.yaml:5:45: error: 'observation.take' cannot be 'finl'\n  hint: did you mean final? it may be curve, final, mean, min, max, at, "
-     "period, decay, slope, growth\n"),
-    ("cases:\n  - name: one\n    scene: secne.yaml\n    observations: [{name: a, of: t}]\n",
-     "suite.yaml:3:12: error: 'case.scene': there is no file 'secne.yaml'\n  hint: paths count from the folder of the suite\n"),
-    (OBSERVING + "{name: a, of: global/kinetic / rho}\n", "suite.yaml:5:23: error: 'observation.of': unknown name 'rho'\n"),
-    (OBSERVING + "{name: a, kind: particles, of: p / dz}\n",
-     "suite.yaml:5:40: error: 'observation.of': unknown name 'dz'\n  hint: did you mean z?\n"),
-    (OBSERVING + "{name: a, of: kinetic}\n",
-     "suite.yaml:5:23: error: 'observation.of': unknown name 'kinetic'\n  hint: histories are named like global/kinetic, parts/1/mass or "
-     "contacts/1/force.y\n")])
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("title: x\n", "suite.yaml:1:1: error: 'suite' lacks the key 'cases'\n"),
+        ("cases: []\n", "suite.yaml:1:1: error: the suite has no cases\n"),
+        (
+            OBSERVING + "{name: a, of: global/kinetic, take: finl}\n",
+            "suite.yaml:5:45: error: 'observation.take' cannot be 'finl'\n  hint: did you mean final? it may be curve, final, mean, min, max, at, "
+            "period, decay, slope, growth\n",
+        ),
+        (
+            "cases:\n  - name: one\n    scene: secne.yaml\n    observations: [{name: a, of: t}]\n",
+            "suite.yaml:3:12: error: 'case.scene': there is no file 'secne.yaml'\n  hint: paths count from the folder of the suite\n",
+        ),
+        (OBSERVING + "{name: a, of: global/kinetic / rho}\n", "suite.yaml:5:23: error: 'observation.of': unknown name 'rho'\n"),
+        (
+            OBSERVING + "{name: a, kind: particles, of: p / dz}\n",
+            "suite.yaml:5:40: error: 'observation.of': unknown name 'dz'\n  hint: did you mean z?\n",
+        ),
+        (
+            OBSERVING + "{name: a, of: kinetic}\n",
+            "suite.yaml:5:23: error: 'observation.of': unknown name 'kinetic'\n  hint: histories are named like global/kinetic, parts/1/mass or "
+            "contacts/1/force.y\n",
+        ),
+    ],
+)
 def test_faults_have_their_place(tmp_path: Path, text: str, said: str) -> None:
     assert read(tmp_path, text)[1] == said
 
@@ -116,11 +133,13 @@ def test_faults_have_their_place(tmp_path: Path, text: str, said: str) -> None:
 def test_faults_begin_with_their_place(tmp_path: Path) -> None:
     assert read(tmp_path, "cases: [")[1].startswith("suite.yaml:")
     assert read(tmp_path, OBSERVING + "{name: a, of: global/kinetic, refernce: 1}\n")[1].startswith(
-        "suite.yaml:5:39: error: 'observation' does not know the key 'refernce'\n  hint: did you mean reference? known keys: name, title, ")
+        "suite.yaml:5:39: error: 'observation' does not know the key 'refernce'\n  hint: did you mean reference? known keys: name, title, "
+    )
 
 
 FAULTS = [
-    (HEAD, "the case observes nothing"), (OBSERVING + "{name: a b, of: t}\n", "'observation.name' is a word"),
+    (HEAD, "the case observes nothing"),
+    (OBSERVING + "{name: a b, of: t}\n", "'observation.name' is a word"),
     (OBSERVING + "{name: a, of: t}\n      - {name: a, of: t}\n", "two observations are called 'a'"),
     (OBSERVING + "{name: a, of: t}\n" + HEAD[7:] + "    observations: [{name: a, of: t}]\n", "two cases are called 'one'"),
     (OBSERVING + "{name: a, of: t, where: x}\n", "'where' belongs to particles"),
@@ -156,7 +175,10 @@ FAULTS = [
     (HEAD + "    stability: {sweep: {n: []}}\n", "swept over no values"),
     (HEAD + "    stability: {sweep: {n: [2], g: [1], c0: [1]}}\n", "at most two"),
     (HEAD + "    stability: {sweep: {n: [2]}, limits: [{name: a, value: residua, at_most: 1}]}\n", "did you mean residual?"),
-    (OBSERVING + "{name: a, of: t, reference: 1, bound: 1}\n    stability: {sweep: {n: [2]}}\n", "bounds of a stability case are its limits"),
+    (
+        OBSERVING + "{name: a, of: t, reference: 1, bound: 1}\n    stability: {sweep: {n: [2]}}\n",
+        "bounds of a stability case are its limits",
+    ),
 ]
 
 
@@ -193,10 +215,17 @@ def test_folders_have_names_of_their_own() -> None:
     assert [folder_name(text, taken) for text in ("h/dx 2, a", "h dx 2; a", ".", "")] == ["h_dx_2_a", "h_dx_2_a_2", "_.", "_"]
 
 
-@pytest.mark.parametrize(("text", "x", "y", "said"), [
-    ("a,b\n1,2\n3,4\n", "a", "b", ""), ("1 2\n3 4\n", "1", "2", ""), ("a,b\n1,2\n3,4\n", "a", "c", "the table has no column 'c'"),
-    ("1,2\n3,4\n", "1", "3", "the table has no column '3'"), ("a,b\n1,x\n3,4\n", "a", "b", "expected a number, got 'x'"),
-    ("a,b\n1,2\n3,\n", "a", "b", "the table has fewer than two rows with both columns")])
+@pytest.mark.parametrize(
+    ("text", "x", "y", "said"),
+    [
+        ("a,b\n1,2\n3,4\n", "a", "b", ""),
+        ("1 2\n3 4\n", "1", "2", ""),
+        ("a,b\n1,2\n3,4\n", "a", "c", "the table has no column 'c'"),
+        ("1,2\n3,4\n", "1", "3", "the table has no column '3'"),
+        ("a,b\n1,x\n3,4\n", "a", "b", "expected a number, got 'x'"),
+        ("a,b\n1,2\n3,\n", "a", "b", "the table has fewer than two rows with both columns"),
+    ],
+)
 def test_tables_and_their_faults(tmp_path: Path, text: str, x: str, y: str, said: str) -> None:
     (tmp_path / "t.csv").write_text(text)
     diagnostics = Diagnostics()
@@ -220,7 +249,9 @@ def test_damaged_suites_and_tables_are_told_not_crashed_on(tmp_path: Path) -> No
         data = bytearray(whole.encode())
         for _ in range(chance.randrange(1, 6)):
             at = chance.randrange(len(data))
-            data[at:at + chance.randrange(3)] = chance.choice([b"", b"{", b"]", b":", b"\x00", b"\xff", b"&a", b"*a", b"1e999", b"\n", b"'"])
+            data[at : at + chance.randrange(3)] = chance.choice(
+                [b"", b"{", b"]", b":", b"\x00", b"\xff", b"&a", b"*a", b"1e999", b"\n", b"'"]
+            )
         (tmp_path / "suite.yaml").write_bytes(bytes(data))
         (tmp_path / "scene.yaml").write_text(SCENE)
         table = bytearray(b"t,y\n0,1\n1,2\n")

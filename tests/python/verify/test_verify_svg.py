@@ -1,4 +1,5 @@
 """Axes, charts and maps as SVG."""
+
 from __future__ import annotations
 
 import math
@@ -6,12 +7,13 @@ import re
 from xml.etree import ElementTree
 
 import pytest
+from made_suite import stability, wave
+
 from courant.verify.figures import figures
 from courant.verify.model import Setting, Verdict
 from courant.verify.report import standalone_svg
 from courant.verify.svg import Axis, Chart, Line, Point, svg_chart
 from courant.verify.svg_map import stability_map, svg_map, verdict_counts
-from made_suite import stability, wave
 
 INF, NAN = math.inf, math.nan
 
@@ -20,12 +22,18 @@ def labels(logarithmic: bool, values: list[float], percentages: bool = False) ->
     return [label for _, label in Axis(logarithmic, values, percentages).ticks]
 
 
-@pytest.mark.parametrize(("logarithmic", "values", "expected"), [
-    (False, [0, 4], "0 1 2 3 4"), (False, [-0.1, 0.3], "-0.1 0 0.1 0.2 0.3"),
-    (False, [1000.001, 1000.003], "1000.001 1000.0015 1000.002 1000.0025 1000.003"),
-    (False, [101324.99991, 101325.00009], "101324.9999 101324.99995 101325 101325.00005 101325.0001"),
-    (False, [1.0e8, 1.02e8], "1e8 1.005e8 1.01e8 1.015e8 1.02e8"), (False, [0, 2e-5], "0 5e-6 1e-5 1.5e-5 2e-5"),
-    (True, [0.01, 100], "0.01 0.1 1 10 100")])
+@pytest.mark.parametrize(
+    ("logarithmic", "values", "expected"),
+    [
+        (False, [0, 4], "0 1 2 3 4"),
+        (False, [-0.1, 0.3], "-0.1 0 0.1 0.2 0.3"),
+        (False, [1000.001, 1000.003], "1000.001 1000.0015 1000.002 1000.0025 1000.003"),
+        (False, [101324.99991, 101325.00009], "101324.9999 101324.99995 101325 101325.00005 101325.0001"),
+        (False, [1.0e8, 1.02e8], "1e8 1.005e8 1.01e8 1.015e8 1.02e8"),
+        (False, [0, 2e-5], "0 5e-6 1e-5 1.5e-5 2e-5"),
+        (True, [0.01, 100], "0.01 0.1 1 10 100"),
+    ],
+)
 def test_ticks_are_round(logarithmic: bool, values: list[float], expected: str) -> None:
     assert labels(logarithmic, values) == expected.split()
 
@@ -38,8 +46,24 @@ def test_percentages_and_wide_ranges() -> None:
 
 
 @pytest.mark.parametrize("logarithmic", [False, True])
-@pytest.mark.parametrize("values", [[], [0], [3], [2.5, 2.5], [-1, -1], [1, 1 + 1e-15], [6.1, 6.2], [1e-290], [1e299], [1e-299, 1e299],
-                                    [NAN, INF], [-INF, 0, 2], [1e9, 1e9 + 1]])
+@pytest.mark.parametrize(
+    "values",
+    [
+        [],
+        [0],
+        [3],
+        [2.5, 2.5],
+        [-1, -1],
+        [1, 1 + 1e-15],
+        [6.1, 6.2],
+        [1e-290],
+        [1e299],
+        [1e-299, 1e299],
+        [NAN, INF],
+        [-INF, 0, 2],
+        [1e9, 1e9 + 1],
+    ],
+)
 def test_an_axis_has_two_ticks_whatever_it_shows(logarithmic: bool, values: list[float]) -> None:
     axis = Axis(logarithmic, values)
     assert 2 <= len(axis.ticks) <= 10

@@ -130,6 +130,6 @@ def main(arguments: Sequence[str]) -> int:
         signal.signal(number, lambda signal_number, frame: stop.append(signal_number))
     try:
         return _verify(words, stop)
-    except (OutputError, MissingModule) as fault:
+    except (OutputError, MissingModule, OSError) as fault:
         _complain(f"error: {fault}\n")
         return OTHER

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from ..diagnostics import Diagnostics
+from ..expressions import ExpressionFault, Formula, constant_value
 from ..fields import StateFiles, read_states
 from ..histories import HistoryFile
 from ..words import nearest_word
-from ..expressions import ExpressionFault, Formula, constant_value
 from .model import Case, Observation, Variables
 from .names import PARTICLE_VARIABLES, HistoryName, find_history_names
 from .particles import Selection, StateFault, StateTable, first_error, nearest_state
@@ -110,11 +110,12 @@ class Run:
 
     def garbage(self) -> str:
         """What is not finite in the sums over the whole model; blank: nothing."""
-        for name in self.history.names if self.history else ():
-            values = self.history.values(name) if self.history and name.startswith("/global/") else None
-            bad = np.argwhere(~np.isfinite(values.T)) if values is not None else ()
-            if len(bad) and self.history:
-                return f"{name[1:]} is not finite at t = {self.history.times[bad[0][1]]:.6g}"
+        file = self.history
+        for name in file.names if file else ():
+            values = file.values(name) if file and name.startswith("/global/") else None
+            bad = np.flatnonzero(~np.isfinite(values.ravel(order="F"))) if values is not None else np.empty(0)
+            if file and len(bad):
+                return f"{name[1:]} is not finite at t = {file.times[bad[0] % len(file.times)]:.6g}"
         return ""
 
 
@@ -301,7 +302,10 @@ def observe_run(case: Case, variables: Variables, folder: Path, every_state: boo
     run = Run(folder, variables)
     tasks = [_Task() for _ in case.observations]
     for task, o in zip(tasks, case.observations, strict=True):
+        used = set(run.used)
         task.take(_attempt(lambda o=o: KINDS[o.kind].function(o, run)))  # type: ignore[misc]
+        if task.looking is None:
+            run.used = used  # no state needs to hold what nobody looks at
     garbage = run.garbage()
     if every_state or any(task.looking for task in tasks):
         of_states = _look_through(tasks, run, every_state)

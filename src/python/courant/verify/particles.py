@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ..diagnostics import Diagnostics
-from ..fields import StateFiles, Wanted, read_particles
 from ..expressions import Formula
+from ..fields import StateFiles, Wanted, read_particles
 from .names import PARTICLE_VARIABLES
 
 # The arrays of a field file that scalars come from.

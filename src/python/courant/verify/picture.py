@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..expressions import ExpressionFault, Formula, constant_value
 from ..diagnostics import Diagnostics
+from ..expressions import ExpressionFault, Formula, constant_value
 from ..fields import read_states
+from ..optional import module
 from .model import Case, Picture, Variables
 from .names import PARTICLE_VARIABLES
 from .particles import Selection, StateFault, StateTable, nearest_state
@@ -59,8 +60,6 @@ class _Dots:
 
     def image(self, low: float, high: float) -> np.ndarray:
         """Each pixel has the colour of the nearest particle that reaches it, white where there is none."""
-        from scipy.spatial import cKDTree  # Debian: python3-scipy
-
         margin = float(np.max(self.radius))
         left, top = np.min(self.place[:, 0]) - margin, np.max(self.place[:, 1]) + margin
         across, upright = np.ptp(self.place, axis=0) + 2 * margin
@@ -70,7 +69,7 @@ class _Dots:
         radius = np.maximum(0.75, self.radius / pixel)
         asked = np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1).reshape(-1, 2)
         k = min(_NEIGHBOURS, len(centres))
-        distance, index = cKDTree(centres).query(asked, k=np.arange(1, k + 1), distance_upper_bound=float(np.max(radius)) * (1 + 1e-12))
+        distance, index = module("scipy.spatial").cKDTree(centres).query(asked, k=np.arange(1, k + 1), distance_upper_bound=float(np.max(radius)) * (1 + 1e-12))
         reaches = distance <= np.append(radius, -1.0)[index]  # the last stands for no particle
         found = np.where(reaches.any(axis=1), index[np.arange(len(index)), np.argmax(reaches, axis=1)], len(radius))
         share = (self.value - low) / (high - low) if high > low else np.full(len(self.value), 0.5)

@@ -46,7 +46,7 @@ def _start(job: ProcessJob) -> int:
     with open(job.folder / "errors.txt", "wb") as log:
         try:
             process = subprocess.Popen(job.words, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                       preexec_fn=die_with_the_parent,  # noqa: PLW1509  one thread, and nothing is locked
+                                       preexec_fn=die_with_the_parent,  # one thread, and nothing is locked
                                        process_group=0)  # an interrupt from the terminal is ours to hand on
         except OSError as fault:
             log.write(f"error: the program cannot be started: {fault.strerror}\n".encode())

@@ -3,9 +3,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
-from ..registry import Function, Registry
+from ..registry import Registry
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 take: Registry[Callable[..., float]] = Registry("take")
 """A number out of a curve: (series, at) -> number; raises `NoValue` where there is none. `at`: the moment of the observation, or None."""
@@ -34,11 +36,18 @@ KINDS: Registry[Kind] = Registry("kind of observation")
 CHARTS: Registry[Kind] = Registry("chart")
 
 
+def _adder(registry: Registry[Kind], name: str, of: str) -> Callable[[Function], Function]:
+    def add(function: Function) -> Function:
+        registry.add(name, Kind(of, function))
+        return function
+    return add
+
+
 def observation(name: str, of: str = "particles") -> Callable[[Function], Function]:
     """Adds a kind of observation; see `Kind`."""
-    return lambda function: KINDS.add(name, Kind(of, function)) and function
+    return _adder(KINDS, name, of)
 
 
 def chart(name: str, of: str = "observation") -> Callable[[Function], Function]:
     """Adds a figure of the reports; see `Kind`."""
-    return lambda function: CHARTS.add(name, Kind(of, function)) and function
+    return _adder(CHARTS, name, of)

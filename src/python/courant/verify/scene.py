@@ -9,8 +9,8 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from ..diagnostics import Diagnostics
-from ..yaml_map import Node, is_list, is_map, is_scalar, load_yaml, scalar_text
 from ..expressions import ExpressionFault, evaluate
+from ..yaml_map import Node, is_list, is_map, is_scalar, load_yaml, scalar_text
 from .model import Case, Parameters, Variables
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..diagnostics import Diagnostics, Location
-from ..yaml_map import YamlMap, is_map
 from ..expressions import Formula
+from ..yaml_map import YamlMap, is_map
 from .model import Case, Observation, Reference, Variables
 from .names import OUTCOMES, PARTICLE_VARIABLES, find_history_names
 from .plan import overrides_of

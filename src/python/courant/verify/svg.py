@@ -207,7 +207,8 @@ class _Drawing:
         out = marker(index, x, y, p.hover)
         if y_off:
             arrow = "m-3.5 3.5L0 0 3.5 3.5M0 0V6" if high else "m-3.5-3.5L0 0 3.5-3.5M0 0V-6"
-            out += element("path", css="arrow", transform=f"translate({x:.1f} {_TOP - 2 if high else self.bottom + 1:.1f})", d=f"M0 0{arrow}")
+            top = _TOP - 2 if high else self.bottom + 1
+            out += element("path", css="arrow", transform=f"translate({x:.1f} {top:.1f})", d=f"M0 0{arrow}")
         value = f"time {number(p.x, 2)}" if not y_off else "NaN" if math.isnan(p.y) else "inf" if math.isinf(p.y) else number(p.y, 2)
         at_right = x > self.right - 60
         return out + text_at(x - 8 if at_right else x + 8, y + 4.5, "end" if at_right else "start", value)

@@ -140,7 +140,8 @@ def _legend(map_: StabilityMap, full: float, y: float) -> tuple[str, float]:
         out += element("rect", css=f"cell cell-{sample.css}", x=x, y=y, width="22", height="20")
         if not sample.as_required:
             out += element("rect", css="fault", x=x + 1.5, y=y + 1.5, width="19", height="17")
-        out += text_at(x + 11, y + 15, "middle", letter, "symbol" + (" on-cell" if sample.verdict is not None else "") + f" on-{sample.css}")
+        paper = " on-cell" if sample.verdict is not None else ""
+        out += text_at(x + 11, y + 15, "middle", letter, f"symbol{paper} on-{sample.css}")
         out += text_at(x + 28, y + 15, "start", text)
         x += width
     return out, y + 28
