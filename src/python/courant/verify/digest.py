@@ -36,18 +36,10 @@ def _blocks(text: str) -> Iterator[tuple[str, list[str]]]:
         yield block[1].upper(), [line.rstrip("\r") for line in block[2].split("\n") if line and not line.startswith("$")]
 
 
-def _names(lines: list[str]) -> Iterator[str]:
+def _names(lines: list[str]) -> list[str]:
     """File names; ' +' at the end of a line continues one."""
-    name = ""
-    for line in lines:
-        text = line.strip()
-        more = text.endswith(" +")
-        name += text[:-2].rstrip() if more else text
-        if not more and name:
-            yield name
-            name = ""
-    if name:
-        yield name
+    joined = re.sub(r"[ \t]+\+[ \t]*\n[ \t]*", "", "\n".join(lines))
+    return [name for line in joined.split("\n") if (name := line.strip())]
 
 
 class _Files:

@@ -35,32 +35,25 @@ def over_of_formula(o: Observation) -> str:
 
 def check_observation(map_: YamlMap, o: Observation) -> None:
     """Whether the keys of an observation fit each other; faults are told at the map."""
-    def fault(key: str, message: str) -> None:
-        map_.error(map_.get(key) or map_.node, message)
-
-    if o.kind == "history" and map_.has("where"):
-        fault("where", "'where' belongs to particles and profiles")
-    if not o.is_profile and map_.has("along"):
-        fault("along", "'along' belongs to profiles")
-    if o.kind in ("history", "profile") and o.bins == 0 and map_.has("reduce"):
-        fault("reduce", "'reduce' belongs to kind: particles, and to profiles with bins")
-    if not o.is_profile and map_.has("bins"):
-        fault("bins", "'bins' belongs to profiles")
-    if o.is_profile and o.take != "curve" and not (o.bins > 0 and o.take in ("mean", "min", "max")):
-        fault("take", "a profile can only be taken as a curve, one with bins also as mean, min or max")
-    if o.align and not (o.reference.kind == "csv" and o.take == "curve"):
-        fault("align", "'align' belongs to curves against a csv")
-    if o.is_profile and (o.start or o.end):
-        fault("from", "a profile has no window; use 'where'")
-    if o.take == "at" and not o.at:
-        fault("take", "'take: at' needs the moment 'at'")
-    if o.at and o.take != "at" and not o.is_profile and o.kind in ("history", "particles"):
-        fault("at", "'at' belongs to 'take: at' and to profiles")
-    if o.take != "curve" and map_.has("norm"):
-        fault("norm", "'norm' belongs to curves and profiles")
-    for key in ("norm", "scale", "bound", "bound_settings", "least_order"):
-        if o.reference.kind == "none" and map_.has(key):
-            fault(key, f"'{key}' needs a 'reference'")
+    own, profile, taken, has = o.kind not in ("history", "particles", "profile"), o.is_profile, o.take, map_.has
+    rules = [
+        (o.kind == "history" and has("where"), "where", "'where' belongs to particles and profiles"),
+        (not profile and not own and has("along"), "along", "'along' belongs to profiles"),
+        (o.kind in ("history", "profile") and not o.bins and has("reduce"), "reduce",
+         "'reduce' belongs to kind: particles, and to profiles with bins"),
+        (not profile and not own and has("bins"), "bins", "'bins' belongs to profiles"),
+        (profile and taken != "curve" and not (o.bins and taken in ("mean", "min", "max")), "take",
+         "a profile can only be taken as a curve, one with bins also as mean, min or max"),
+        (o.align and not (o.reference.kind == "csv" and taken == "curve"), "align", "'align' belongs to curves against a csv"),
+        (profile and (o.start or o.end), "from", "a profile has no window; use 'where'"),
+        (taken == "at" and not o.at, "take", "'take: at' needs the moment 'at'"),
+        (o.at and taken != "at" and not profile and not own, "at", "'at' belongs to 'take: at' and to profiles"),
+        (taken != "curve" and has("norm"), "norm", "'norm' belongs to curves and profiles"),
+        *((o.reference.kind == "none" and has(key), key, f"'{key}' needs a 'reference'")
+          for key in ("norm", "scale", "bound", "bound_settings", "least_order"))]
+    for broken, key, message in rules:
+        if broken:
+            map_.error(map_.get(key) or map_.node, message)
 
 
 def check_table(map_: YamlMap, reference: Reference, diagnostics: Diagnostics) -> None:
