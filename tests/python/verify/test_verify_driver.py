@@ -92,6 +92,12 @@ def test_an_edited_scene_that_makes_the_same_decks_keeps_its_runs(call: Caller) 
     call()
     (call.folder / "scene.yaml").write_text("# the same\nparameters: {n: 10, how: 0, seconds: 0.5}\n")
     assert "6 of 6 runs are taken over" in call()
+    deck = call.folder / "suite_verify" / "runs" / "growth" / "plain-20" / "deck.k"
+    written = deck.read_text()
+    deck.write_text(written.replace("n=20", "n=2"))
+    call.runs()
+    assert "6 of 6 runs are taken over" in call()
+    assert (deck.read_text(), call.runs()) == (written, 0), "a deck that somebody has changed is written anew"
     call.environment["COURANT_SIMD"] = "other"
     call.runs()
     call()

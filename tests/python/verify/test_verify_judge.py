@@ -206,7 +206,7 @@ def test_faults_of_the_machine_say_nothing_of_the_deck(tmp_path: Path) -> None:
 
 def test_digests_of_decks_count_what_they_include(tmp_path: Path) -> None:
     deck = tmp_path / "deck.k"
-    deck.write_text("*KEYWORD\n*INCLUDE\n par +\nt.k \n*INCLUDE_TRANSFORM\nmoved.k\n1,2\n*END\n")
+    deck.write_text("*KEYWORD\n*INCLUDE\n par +\nt.k \n*INCLUDE_TRANSFORM\n'moved.k'\n1,2\n*END\n")
     for name in ("part.k", "moved.k"):
         (tmp_path / name).write_text("*NODE\n")
     before = digest_of_deck(deck)

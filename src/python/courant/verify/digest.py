@@ -37,9 +37,9 @@ def _blocks(text: str) -> Iterator[tuple[str, list[str]]]:
 
 
 def _names(lines: list[str]) -> list[str]:
-    """File names; ' +' at the end of a line continues one."""
+    """File names, perhaps in quotes; ' +' at the end of a line continues one."""
     joined = re.sub(r"[ \t]+\+[ \t]*\n[ \t]*", "", "\n".join(lines))
-    return [name for line in joined.split("\n") if (name := line.strip())]
+    return [re.sub(r"""^(["'])(.*)\1$""", r"\2", name).strip() for line in joined.split("\n") if (name := line.strip())]
 
 
 class _Files:
@@ -72,12 +72,12 @@ class _Files:
             if keyword.startswith("PARAMETER"):
                 self.take_parameters(lines)
             elif keyword.startswith("INCLUDE_PATH"):
-                for name in self.meanings(lines):
+                for name in self.meanings(_names(lines)):
                     for folder in (Path(name), self.deck.parent / name):
                         if folder not in self.folders:
                             self.folders.append(folder)
             else:
-                for name in self.meanings(lines[:1] if "TRANSFORM" in keyword else lines):
+                for name in self.meanings(_names(lines)[:1 if "TRANSFORM" in keyword else None]):
                     self.include(name, file)
 
     def take_parameters(self, lines: list[str]) -> None:
@@ -90,9 +90,9 @@ class _Files:
                     if declaration.strip()[:1] in ("C", "c") and name and name not in self.given:
                         self.texts.setdefault(name, set()).add(value.strip())
 
-    def meanings(self, lines: list[str]) -> Iterator[str]:
+    def meanings(self, names: list[str]) -> Iterator[str]:
         """The names with each value of the parameters in them."""
-        for name in _names(lines):
+        for name in names:
             waiting, done = [name], set[str]()
             while waiting and len(done) < _MOST_FILES:
                 one = waiting.pop()

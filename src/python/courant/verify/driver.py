@@ -132,8 +132,8 @@ class Verification:
         """Writes the deck of a run of a scene, unless an earlier call has made the same one; returns what is wrong."""
         folder = self.options.folder / run.folder
         before = None if self.options.fresh else read_record(folder)
-        same = before is not None and before.scene == self.scene_of(run) and (folder / "deck.k").is_file()
-        if same or self.options.stopped():
+        if self.options.stopped() or (before is not None and before.scene == self.scene_of(run)
+                                      and before.key == self.key_of(run, folder / "deck.k")):
             return []
         words = [str(self.options.executable), "generate", str(self.suite.cases[run.of_case].scene), "-o", str(deck)]
         for name, value in run.parameters.items():
@@ -148,6 +148,11 @@ class Verification:
             return []
         return _messages(done.stderr) or [f"error: `courant generate` ended with {done.returncode}: {done.stderr.strip()}"]
 
+    def key_of(self, run: PlannedRun, deck: Path) -> str:
+        """Digest of all that the results of a run follow from."""
+        parameters = run.parameters if self.suite.cases[run.of_case].deck else {}
+        return digest(self.build, "".join(f"{name}={value}\n" for name, value in parameters.items()), digest_of_deck(deck, parameters))
+
     def prepare(self, plans: list[PlannedRun]) -> None:
         """Puts the decks where they belong and finds what need not be run again."""
         for plan in plans:
@@ -155,8 +160,7 @@ class Verification:
             folder = self.options.folder / plan.folder
             make_folder(folder)
             deck = case.deck or folder / "deck.k"
-            parameters = [] if case.scene else [f"{name}={value}\n" for name, value in plan.parameters.items()]
-            key = digest(self.build, "".join(parameters), digest_of_deck(plan.deck or deck, {} if case.scene else plan.parameters))
+            key = self.key_of(plan, plan.deck or deck)
             if plan.deck:
                 _move(plan.deck, deck)
             bytes_ = deck.stat().st_size if deck.is_file() else 0
@@ -164,6 +168,9 @@ class Verification:
             cost = bytes_**1.5 / (plan.size**3 if case.deck and plan.size > 0 else 1)
             record = None if self.options.fresh else read_record(folder)
             fits = record is not None and record.key == key and not (record.timed_out and record.time_limit < case.time_limit)
+            if fits and record and record.scene != self.scene_of(plan):  # another scene that makes the same deck
+                record.scene = self.scene_of(plan)
+                write_record(folder, record)
             self.runs.append(_PreparedRun(plan, folder, deck, key, cost, record if fits else None))
 
     def execute(self) -> None:
