@@ -1,0 +1,12 @@
+"""Results of Courant's runs in Python, and the calls `courant post` and `courant verify`.
+
+`courant.open(DIR)` gives the results of a run (see courant.results); `python3 -m courant post RECIPE DIR` and
+`python3 -m courant verify SUITE` are the calls.
+"""
+
+from .diagnostics import CourantError
+from .results import Results, open
+from .tables import Table
+from .units import Units
+
+__all__ = ["CourantError", "Results", "Table", "Units", "open"]

@@ -1,0 +1,98 @@
+"""Messages about the user's input, as all parts of Courant print them: `FILE:LINE:COLUMN: error: MESSAGE`, then `  hint: ...`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from os import PathLike
+
+MAX_WARNINGS = 100  # more than these are counted, but not kept
+LONGEST_TEXT = 500  # of a message or a hint [bytes]
+
+
+@dataclass(frozen=True)
+class Location:
+    """A place in an input file; line and column count from 1, 0 means "not known"."""
+
+    file: str = ""
+    line: int = 0
+    column: int = 0
+
+    def __str__(self) -> str:
+        return self.file + "".join(f":{number}" for number in (self.line, self.column) if number > 0)
+
+
+@dataclass
+class Diagnostic:
+    """One message. `severity`: note, warning or error."""
+
+    severity: str
+    where: Location
+    message: str
+    hint: str = ""
+
+    def text(self) -> str:
+        place = f"{self.where}: " if self.where.file else ""
+        return f"{place}{self.severity}: {self.message}" + (f"\n  hint: {self.hint}" if self.hint else "")
+
+
+def presentable(text: str) -> str:
+    """The text without control characters, which could act on a terminal, and cut where it is too long to read.
+
+    Text of several lines (what another program said) keeps all of them.
+    """
+    if "\n" not in text and len(data := text.encode("utf-8", "replace")) > LONGEST_TEXT:
+        text = data[:LONGEST_TEXT].decode("utf-8", "ignore") + "..."
+    return "".join("?" if (c < " " and c != "\n") or c == "\x7f" or "\ud800" <= c <= "\udfff" else c for c in text)
+
+
+@dataclass
+class Diagnostics:
+    """Collects every message, so that all faults of a file are told at once."""
+
+    all: list[Diagnostic] = field(default_factory=list)
+    errors: int = 0
+    warnings: int = 0
+    _note_of_more: Diagnostic | None = None
+
+    def add(self, one: Diagnostic) -> None:
+        """Takes a message in; of warnings beyond MAX_WARNINGS only their number is kept."""
+        self.errors += one.severity == "error"
+        self.warnings += one.severity == "warning"
+        if one.severity == "warning" and self.warnings > MAX_WARNINGS:
+            if self._note_of_more is None:
+                self._note_of_more = Diagnostic("note", Location(one.where.file), "")
+                self.all.append(self._note_of_more)
+            more = self.warnings - MAX_WARNINGS
+            self._note_of_more.message = "1 more warning is not shown" if more == 1 else f"{more} more warnings are not shown"
+            return
+        where = Location(presentable(one.where.file), one.where.line, one.where.column)
+        self.all.append(Diagnostic(one.severity, where, presentable(one.message), presentable(one.hint)))
+
+    def error(self, where: Location | str | PathLike[str], message: str, hint: str = "") -> None:
+        self.add(Diagnostic("error", as_location(where), message, hint))
+
+    def warning(self, where: Location | str | PathLike[str], message: str, hint: str = "") -> None:
+        self.add(Diagnostic("warning", as_location(where), message, hint))
+
+    def note(self, where: Location | str | PathLike[str], message: str, hint: str = "") -> None:
+        self.add(Diagnostic("note", as_location(where), message, hint))
+
+    @property
+    def ok(self) -> bool:
+        return self.errors == 0
+
+    def text(self) -> str:
+        """All messages in the order they were found, each with its line end."""
+        return "".join(one.text() + "\n" for one in self.all)
+
+
+def as_location(where: Location | str | PathLike[str]) -> Location:
+    return where if isinstance(where, Location) else Location(str(where))
+
+
+class CourantError(Exception):
+    """What keeps a file from being read, with the diagnostics that tell why."""
+
+    def __init__(self, diagnostics: Diagnostics) -> None:
+        super().__init__(diagnostics.text().rstrip("\n"))
+        self.diagnostics = diagnostics

@@ -1,0 +1,364 @@
+"""Field files of a run: VTK's XML with raw appended data (.vtp, .vtu), as `courant run` writes it.
+
+Nothing in a file is trusted: sizes are held against the length of the file before memory is asked for, and each block of data
+against its own size. No vtk module is needed.
+"""
+
+from __future__ import annotations
+
+import lzma
+import os
+import re
+import struct
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NamedTuple
+from xml.etree import ElementTree
+
+import numpy as np
+
+from .diagnostics import Diagnostics
+
+_LONGEST_HEAD = _LARGEST_BLOCK = 1 << 20  # bytes
+_MOST_POINTS = 2**31 - 1
+_MOST_COMPONENTS = 64
+_DATA_MARK = b'<AppendedData encoding="raw">\n_'
+_LAST_LINE = b"</VTKFile>\n"  # a file that was cut off has none
+_TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "Int64": "<i8", "UInt8": "<u1", "Int8": "<i1"}
+_PACKINGS = {"": "none", "vtkZLibDataCompressor": "zlib", "vtkLZMADataCompressor": "xz"}
+_ATTRIBUTE = re.compile(r'\s([^\s="<>]+)="([^"]*)"')
+
+
+class FieldFault(Exception):
+    """A file that is no field file of Courant, or a damaged one."""
+
+
+class FieldArray(NamedTuple):
+    """Where an array lies in a file. `dimension`: of its values as the file names it, "L/T"; "?" where it does not."""
+
+    dtype: str
+    components: int
+    offset: int
+    dimension: str
+
+
+class FieldFile:
+    """A .vtp or .vtu file. Raises FieldFault where it cannot be read or is no field file of Courant.
+
+    `points`, `cells`: how many there are. `arrays`: FieldArray by (section, name), as ("PointData", "velocity").
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(path)
+        self.points = self.cells = 0
+        self.arrays: dict[tuple[str, str], FieldArray] = {}
+        self._packing = "none"
+        try:
+            with open(self.path, "rb") as stream:
+                self._size = os.fstat(stream.fileno()).st_size
+                head = stream.read(_LONGEST_HEAD)
+                stream.seek(max(0, self._size - len(_LAST_LINE)))
+                whole = stream.read(len(_LAST_LINE)) == _LAST_LINE
+        except OSError as fault:
+            raise FieldFault(f"cannot be read: {fault.strerror}") from fault
+        mark = head.find(_DATA_MARK)
+        if not whole or mark < 0:
+            raise FieldFault("it is cut off, or no field file")
+        self._data = mark + len(_DATA_MARK)
+        self._bytes = head if len(head) == self._size else None  # small ones are in memory now
+        self._read_head(head[:mark].decode("latin-1"))
+
+    def has(self, section: str, name: str) -> bool:
+        return (section, name) in self.arrays
+
+    def components(self, section: str, name: str) -> int:
+        """Components of an array, 0 where there is none."""
+        array = self.arrays.get((section, name))
+        return array.components if array else 0
+
+    def names(self, section: str = "PointData") -> list[str]:
+        return [name for where, name in self.arrays if where == section]
+
+    def values(self, section: str, name: str, tuples: int | None = None) -> np.ndarray:
+        """An array as it lies in the file; shape (tuples, components), or (tuples,) of one component.
+
+        `tuples`: points of the file if not given. Raises KeyError where there is none, FieldFault where its data are damaged.
+        """
+        array = self.arrays[section, name]
+        count = (self.points if tuples is None else tuples) * array.components
+        values = self._values(array, count)
+        if len(values) != count:
+            raise FieldFault(f"the data of '{name}' are damaged")
+        return values.reshape(-1, array.components) if array.components > 1 else values
+
+    def integers(self, section: str, name: str, most: int) -> np.ndarray:
+        """All values of an array of whole numbers that tells its own length, as "connectivity"; at most so many."""
+        array = self.arrays.get((section, name))
+        if array is None or array.components != 1 or array.dtype not in ("<i4", "<i8"):
+            raise FieldFault(f"'{name}' is no array of whole numbers")
+        return self._values(array, most).astype(np.int64)
+
+    def _read_head(self, head: str) -> None:
+        """Tags and their attributes one after the other; of what stands between them only the names of dimensions count."""
+        section, last, at = "", None, 0
+        while (start := head.find("<", at)) >= 0:
+            end = head.find(">", start)
+            if end < 0:
+                raise FieldFault("its head is damaged")
+            tag, at = head[start + 1 : end], end
+            name = re.split(r"[ /?]", tag[1:] if tag[:1] == "/" else tag, maxsplit=1)[0]
+            if tag[:1] == "/":
+                continue
+            attributes = dict(_ATTRIBUTE.findall(tag))
+            if name == "DataArray":
+                last = (section, attributes.get("Name", ""))
+                self.arrays[last] = self._array(attributes)
+            elif name == "InformationKey":
+                if last and attributes.get("name") == "UNITS_LABEL":
+                    self.arrays[last] = self.arrays[last]._replace(dimension=head[end + 1 : head.find("<", end)].strip() or "?")
+            elif name == "VTKFile":
+                self._take_file(attributes)
+            elif name == "Piece":
+                self.points = _whole(attributes.get("NumberOfPoints"), _MOST_POINTS)
+                self.cells = _whole(attributes.get("NumberOfCells", "0"), _MOST_POINTS)
+            else:
+                section = name
+        if self.points == 0 and not self.arrays:
+            raise FieldFault("it has neither points nor arrays")
+
+    def _take_file(self, attributes: dict[str, str]) -> None:
+        packing = _PACKINGS.get(attributes.get("compressor", ""))
+        if attributes.get("byte_order") != "LittleEndian" or attributes.get("header_type") != "UInt32" or packing is None:
+            raise FieldFault("it is packed in another way")
+        self._packing = packing
+
+    def _array(self, attributes: dict[str, str]) -> FieldArray:
+        components = _whole(attributes.get("NumberOfComponents"), _MOST_COMPONENTS)
+        offset = _whole(attributes.get("offset"), self._size - self._data)
+        dtype = _TYPES.get(attributes.get("type", ""))
+        if components < 1 or dtype is None or attributes.get("format") != "appended":
+            raise FieldFault("it has an array of another kind")
+        return FieldArray(dtype, components, offset, "?")
+
+    def _values(self, array: FieldArray, most: int) -> np.ndarray:
+        dtype = np.dtype(array.dtype)
+        data = self._unpacked(array.offset, most * dtype.itemsize)
+        if len(data) % dtype.itemsize:
+            raise FieldFault("its data are damaged")
+        return np.frombuffer(data, dtype)
+
+    def _take(self, at: int, length: int) -> bytes:
+        """Bytes of the file at an offset of the data, all of them."""
+        begin = self._data + at
+        if begin + length > self._size:
+            raise FieldFault("its data end too early")
+        if self._bytes is not None:
+            return self._bytes[begin : begin + length]
+        try:
+            with open(self.path, "rb") as stream:
+                stream.seek(begin)
+                data = stream.read(length)
+        except OSError as fault:
+            raise FieldFault(f"cannot be read: {fault.strerror}") from fault
+        if len(data) != length:
+            raise FieldFault("its data end too early")
+        return data
+
+    def _unpacked(self, at: int, most: int) -> bytes:
+        """The data of an array, at most so many bytes. Packed: number of blocks, bytes of a block, of the last one if it is
+        shorter, packed bytes of each; the blocks."""
+        if self._packing == "none":
+            (length,) = struct.unpack("<I", self._take(at, 4))
+            if length > most:
+                raise FieldFault("an array is too long")
+            return self._take(at + 4, length)
+        blocks, block, last = struct.unpack("<3I", self._take(at, 12))
+        if blocks > self._size // 4 or block > _LARGEST_BLOCK or last > block or blocks * block > most + block:
+            raise FieldFault("the blocks of an array are too large")
+        lengths = struct.unpack(f"<{blocks}I", self._take(at + 12, 4 * blocks))
+        at += 12 + 4 * blocks
+        out = []
+        for number, length in enumerate(lengths, 1):
+            out.append(self._block(self._take(at, length), last if number == blocks and last > 0 else block))
+            at += length
+        return out[0] if len(out) == 1 else b"".join(out)
+
+    def _block(self, packed: bytes, size: int) -> bytes:
+        try:
+            if self._packing == "zlib":
+                unpacker = zlib.decompressobj()
+                data, whole = unpacker.decompress(packed, size + 1), unpacker.eof
+            else:
+                of_xz = lzma.LZMADecompressor(lzma.FORMAT_XZ, memlimit=1 << 28)
+                data, whole = of_xz.decompress(packed, size + 1), of_xz.eof
+        except (zlib.error, lzma.LZMAError, EOFError) as fault:
+            raise FieldFault("a block of its data is damaged") from fault
+        if len(data) != size or not whole:
+            raise FieldFault("a block of its data is damaged")
+        return data
+
+
+def _whole(text: str | None, most: int) -> int:
+    """A number from 0 to `most`, nothing else."""
+    if text is None or not re.fullmatch(r"[0-9]{1,18}", text) or int(text) > most:
+        raise FieldFault("its head is damaged")
+    return int(text)
+
+
+@dataclass
+class StateFiles:
+    """One state of a run, as fields.pvd lists it. `t`: [T]; `shells` is None where there are none."""
+
+    t: float
+    particles: Path | None = None
+    shells: Path | None = None
+
+
+@dataclass
+class ParticleFrame:
+    """Particles of one state. `x`: (n, 3) [L]; `V`: m/rho (n,) [L3], in the plane per unit of depth [L2]; `h`: (n,) [L];
+    `dim`: 2 where all particles have the same z; `arrays`: further ones by name, (n,) or (n, components), as asked for."""
+
+    t: float
+    dim: int
+    x: np.ndarray
+    V: np.ndarray
+    h: np.ndarray
+    arrays: dict[str, np.ndarray] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.x)
+
+
+class Wanted(NamedTuple):
+    """An array of a field file by its name there. `optional`: no fault if the file lacks it."""
+
+    name: str
+    components: int = 1
+    optional: bool = False
+
+
+def read_states(folder: str | os.PathLike[str], diagnostics: Diagnostics, *, with_particles: bool = True) -> list[StateFiles]:
+    """The states in DIR/fields.pvd in order of time. Faults are told; then the list is empty."""
+    folder = Path(folder)
+    file = folder / "fields.pvd"
+    hint = "DIR must be the folder that `courant run -o DIR` wrote"
+    if not file.is_file():
+        diagnostics.error(file, "no results here: the file is missing", hint)
+        return []
+    states: dict[float, StateFiles] = {}
+    try:
+        root = ElementTree.parse(file).getroot()
+    except (ElementTree.ParseError, OSError, ValueError):  # ValueError: an encoding that nobody knows
+        root = ElementTree.Element("none")
+    for entry in root.iterfind("Collection/*"):
+        name, time = entry.get("file"), entry.get("timestep", "")
+        try:
+            t = float(time)
+        except ValueError:
+            continue
+        if name is None or not np.isfinite(t):
+            continue
+        state = states.setdefault(t, StateFiles(t))
+        if name.endswith(".vtp"):
+            state.particles = folder / name
+        else:
+            state.shells = folder / name
+    out = [states[t] for t in sorted(states) if states[t].particles is not None or not with_particles]
+    if not out:
+        diagnostics.error(file, "the file lists no state with particles" if with_particles else "the file lists no state", hint)
+    return out
+
+
+def open_field(path: Path, diagnostics: Diagnostics) -> FieldFile | None:
+    """A field file; faults are told, and give None."""
+    if not path.is_file():
+        diagnostics.error(path, "the file is missing", "fields.pvd names it; was the folder copied in full?")
+        return None
+    try:
+        return FieldFile(path)
+    except FieldFault:
+        diagnostics.error(path, "not a field file of `courant run`", "it may be truncated; run the deck again")
+        return None
+
+
+def read_array(file: FieldFile, section: str, name: str, components: int, diagnostics: Diagnostics) -> np.ndarray | None:
+    """An array of points as float64, shape (points,) or (points, components). Faults are told, and give None."""
+    if file.components(section, name) != components:
+        diagnostics.error(
+            file.path,
+            f"the array '{name}' is missing or has the wrong shape",
+            "the file must come from `courant run`, and FIELDS of *COURANT_OUTPUT, if the deck has it, must name the array",
+        )
+        return None
+    try:
+        return file.values(section, name).astype(np.float64)
+    except FieldFault:
+        diagnostics.error(file.path, f"not a field file of `courant run`: the data of '{name}' are damaged", "run the deck again")
+        return None
+
+
+def read_particles(state: StateFiles, arrays: Sequence[Wanted], diagnostics: Diagnostics) -> ParticleFrame | None:
+    """Particles of one state with further arrays. Faults are told; then there is None."""
+    file = open_field(Path(state.particles or ""), diagnostics)
+    if file is None:
+        return None
+    found: dict[str, np.ndarray] = {}
+    always = [("PointData", Wanted(name)) for name in ("mass", "density", "smoothing_length")] + [("Points", Wanted("Points", 3))]
+    for section, one in always + [("PointData", one) for one in arrays]:
+        if one.name in found or (one.optional and not file.has(section, one.name)):
+            continue
+        values = read_array(file, section, one.name, one.components, diagnostics)
+        if values is None:
+            return None
+        found[one.name] = values
+    x, h = found["Points"], found["smoothing_length"]
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        V = found["mass"] / found["density"]
+        good = np.isfinite(V) & (V > 0) & np.isfinite(x.sum(axis=1)) & (h > 0)
+    if not good.all():
+        diagnostics.error(
+            file.path,
+            "a particle has no finite position or no positive mass, density or smoothing length",
+            "the run was unstable there; look at an earlier time",
+        )
+        return None
+    dim = 2 if (x[:, 2] == x[:1, 2]).all() else 3
+    return ParticleFrame(state.t, dim, x, V, h, {one.name: found[one.name] for one in arrays if one.name in found})
+
+
+def read_walls(state: StateFiles, diagnostics: Diagnostics) -> np.ndarray:
+    """Traces of the shells of one state in the plane z = constant; shape (shells, 4): x0, y0, x1, y1 [L].
+
+    The longest side of each shell as seen along z. Faults are told; then there are none.
+    """
+    none = np.empty((0, 4))
+    file = open_field(state.shells, diagnostics) if state.shells else None
+    x = read_array(file, "Points", "Points", 3, diagnostics) if file else None
+    if file is None or x is None:
+        return none
+    try:
+        corners = file.integers("Cells", "connectivity", 32 * file.cells)
+        ends = file.integers("Cells", "offsets", file.cells)
+        begins = np.concatenate((np.zeros(1, np.int64), ends[:-1]))[: len(ends)]
+        damaged = len(ends) != file.cells or (ends < begins).any() or (len(ends) > 0 and ends[-1] > len(corners))
+        used = corners[: 0 if damaged or len(ends) == 0 else ends[-1]]
+        if damaged or (used < 0).any() or (used >= file.points).any():
+            raise FieldFault("its cells are damaged")
+    except FieldFault:
+        diagnostics.error(file.path, "not a field file of `courant run`: its cells are damaged", "run the deck again")
+        return none
+    if len(used) == 0:
+        return np.zeros((len(ends), 4))
+    rows = np.repeat(np.arange(len(ends)), ends - begins)
+    at = np.arange(len(rows))
+    behind = np.where(at + 1 < ends[rows], at + 1, begins[rows])
+    a, b = x[corners[at]], x[corners[behind]]
+    length = np.hypot(b[:, 0] - a[:, 0], b[:, 1] - a[:, 1])
+    order = np.lexsort((at, -length, rows))  # of sides of one length the first one counts
+    longest = order[np.concatenate(([True], rows[order][1:] != rows[order][:-1]))]
+    out = np.zeros((len(ends), 4))
+    out[rows[longest]] = np.column_stack((a[longest, :2], b[longest, :2]))
+    return out

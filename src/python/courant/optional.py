@@ -1,0 +1,31 @@
+"""Modules that are imported where they are used, with a message that names the package where one is missing."""
+
+from __future__ import annotations
+
+import importlib
+from types import ModuleType
+
+_PACKAGES = {
+    "scipy": "python3-scipy",
+    "matplotlib": "python3-matplotlib",
+    "jinja2": "python3-jinja2",
+    "pandas": "python3-pandas",
+    "xarray": "python3-xarray",
+    "pyvista": "pip install pyvista",
+    "vtkmodules": "python3-vtk9",
+}
+
+
+class MissingModule(ImportError):
+    """A module that is not there; the message tells what to install."""
+
+
+def module(name: str) -> ModuleType:
+    """Imports a module. Raises MissingModule."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as fault:
+        package = _PACKAGES.get(name.partition(".")[0], name)
+        how = package if package.startswith("pip") else f"apt-get install {package}"
+        within = "" if getattr(fault, "name", name) in (name, name.partition(".")[0]) else f" or lacks {fault.name}"
+        raise MissingModule(f"the Python module '{name}' is missing{within}: {how}") from fault

@@ -1,0 +1,58 @@
+"""The call `courant post RECIPE DIR`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+from ..diagnostics import Diagnostics
+from ..files import OutputError
+from ..optional import MissingModule
+from ..registry import LoadFault, load_file
+from ..terminal import clear_status_line, processors, say, status_line
+from .run import run_post
+
+EXIT_OK, EXIT_INPUT, EXIT_RUN, EXIT_OTHER = 0, 1, 2, 3
+
+
+class Parser(argparse.ArgumentParser):
+    """Ends with the code of faults of the input where a call is wrong."""
+
+    def error(self, message: str) -> NoReturn:
+        self.print_usage(sys.stderr)
+        self.exit(EXIT_INPUT, f"error: {message}\n")
+
+
+def _count(text: str) -> int:
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"{text} is less than 0")
+    return value
+
+
+def main(words: Sequence[str]) -> int:
+    """The exit code: 0, 1 where recipe or folder have faults, 2 where results could not be written."""
+    parser = Parser("courant post", description="tables, CSV and pictures from the results of a run")
+    parser.add_argument("recipe", metavar="RECIPE", help="recipe.yaml")
+    parser.add_argument("folder", metavar="DIR", help="folder of the run")
+    parser.add_argument("--threads", type=_count, default=0, metavar="N", help="processes at once; 0: all cores")
+    parser.add_argument("--load", action="append", default=[], metavar="FILE.py", help="analyses and charts of your own")
+    call = parser.parse_args(list(words))
+    diagnostics = Diagnostics()
+    try:
+        for file in call.load:
+            load_file(file)
+        done = run_post(call.recipe, call.folder, say, diagnostics, status_line(), processors(call.threads))
+        code, fault = EXIT_OK if done else EXIT_INPUT, ""
+    except LoadFault as error:
+        code, fault = EXIT_INPUT, f"error: --load: {error}\n"
+    except OutputError as error:
+        code, fault = EXIT_RUN, f"error: {error}\n"
+    except (MissingModule, MemoryError) as error:
+        code, fault = EXIT_OTHER, f"error: {error or 'no memory is left'}\n"
+    clear_status_line()
+    sys.stdout.flush()
+    sys.stderr.write(diagnostics.text() + fault)
+    return code

@@ -1,0 +1,237 @@
+"""Draws the figures of figures.json, and depth.png and velocity.png of plot.json.
+
+usage: python3 -m courant.post.draw FOLDER      (FOLDER has figures.json or plot.json, which have all numbers)
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import multiprocessing
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..optional import module
+from ..style import FIELD_COLOURS, LOOKS, MARKERS, SPEED_COLOURS, WALLS, pyplot
+from .figures import CHARTS, Figure
+from .tables import Table
+
+
+def plain(title: str) -> str:
+    """No formula in a deck's title."""
+    return title.replace("$", "\\$")
+
+
+def _numbers(values: Sequence[float | None]) -> np.ndarray:
+    return np.array([np.nan if value is None else value for value in values], dtype=float)
+
+
+def _segments(axes: Any, walls: Any) -> None:
+    """Traces of the shells: x0, y0, x1, y1 each."""
+    lines = module("matplotlib.collections").LineCollection(np.reshape(np.asarray(walls, dtype=float), (-1, 2, 2)), **WALLS)
+    axes.add_collection(lines)
+
+
+# ---- figures of a recipe
+
+
+def _draw_map(figure: Any, axes: Any, one: dict[str, Any]) -> None:
+    """Colours of a field, and its streamlines."""
+    nx, ny = one["nx"], one["ny"]
+    x, y = one["x0"] + one["dx"] * np.arange(nx), one["y0"] + one["dy"] * np.arange(ny)
+    field, *along = (np.ma.masked_invalid(_numbers(one[key]).reshape(ny, nx)) for key in ("field", "u", "v") if key in one)
+    low, high = one["range"] or (None, None)
+    colours = axes.pcolormesh(x, y, field, cmap=FIELD_COLOURS, vmin=low, vmax=high, shading="nearest", rasterized=True)
+    figure.colorbar(colours, ax=axes, label=one["label"], pad=0.01, aspect=20, shrink=0.8)
+    if along:
+        axes.streamplot(x, y, *along, density=(3.0, 1.2), color="white", linewidth=0.6, arrowsize=0.6)
+
+
+def _draw_curves(axes: Any, curves: Sequence[dict[str, Any]]) -> None:
+    families = sum("each" in curve for curve in curves)
+    shades = iter(module("matplotlib.pyplot").get_cmap("viridis")(np.linspace(0, 0.92, max(1, families))))
+    for curve in curves:
+        look = dict(LOOKS[curve["style"]])
+        if "each" in curve:
+            look.update(color=next(shades), linewidth=0.9)
+        named = curve["style"] == "named"
+        x, y = _numbers(curve["x"]), _numbers(curve["y"])
+        axes.plot(x, y, label=None if named else curve["label"] or None, **look)
+        if named:
+            axes.annotate(curve["label"], (x[0], y[0]), xytext=(4, 2), textcoords="offset points", fontsize=7)
+
+
+def _draw_references(axes: Any, references: Sequence[dict[str, Any]]) -> None:
+    for k, one in enumerate(references):
+        look = LOOKS[one["style"]] | {"color": ("black", "tab:red", "tab:green", "tab:purple")[k % 4]}
+        if "marker" in look:
+            look.update(marker=MARKERS[k % len(MARKERS)], markersize=6, markerfacecolor="none")
+        label = one["label"] or None
+        if one["across"] == "x":
+            axes.axvline(one["x"][0], label=label, **look)
+        elif one["across"] == "y":
+            axes.axhline(one["y"][0], label=label, **look)
+        else:
+            axes.plot(_numbers(one["x"]), _numbers(one["y"]), label=label, **look)
+
+
+def _finish_axes(axes: Any, one: dict[str, Any], title: str) -> None:
+    axes.set_xlabel(one["x_label"])
+    axes.set_ylabel(one["y_label"])
+    axes.set_title(one["title"] or plain(title))
+    for axis in "xy":
+        if one["scale"] in (f"log_{axis}", "log"):
+            axes.set(**{f"{axis}scale": "log"})
+        if one[f"{axis}_range"]:
+            axes.set(**{f"{axis}lim": one[f"{axis}_range"]})
+    if one["equal"]:
+        axes.set_aspect("equal")
+    if not one["map"]:
+        axes.grid(True)
+    if axes.get_legend_handles_labels()[1]:
+        axes.legend()
+
+
+def draw_figure(data: dict[str, Any], one: dict[str, Any], folder: Path, fill: Callable[[Any], None] | None = None) -> None:
+    """One figure of figures.json in all its formats. `fill`: draws what is not in the numbers."""
+    plt = pyplot()
+    figure, axes = plt.subplots(figsize=(10, 3.2) if one["equal"] else (7.2, 4.4), constrained_layout=True)
+    if one["map"]:
+        _draw_map(figure, axes, one["map"])
+    if one["walls"]:
+        _segments(axes, data["walls"])
+    _draw_curves(axes, one["curves"])
+    _draw_references(axes, one["references"])
+    if fill:
+        fill(axes)
+    _finish_axes(axes, one, data["title"])
+    for ending in data["formats"]:
+        figure.savefig(folder / f"{one['name']}.{ending}")
+    plt.close(figure)
+
+
+def draw_figures(folder: Path, threads: int = 1) -> None:
+    """All figures of FOLDER/figures.json, on several processes at once."""
+    data = json.loads((folder / "figures.json").read_text(encoding="utf-8"))
+    if threads <= 1 or len(data["figures"]) < 2:
+        for one in data["figures"]:
+            draw_figure(data, one, folder)
+        return
+    pyplot()  # imported once, for all
+    with multiprocessing.get_context("fork").Pool(min(threads, len(data["figures"]))) as pool:
+        pool.starmap(draw_figure, [(data | {"figures": []}, one, folder) for one in data["figures"]], chunksize=1)
+
+
+def draw_chart(figure: Figure, tables: dict[str, Table], formats: Sequence[str], title: str, folder: Path) -> None:
+    """A figure of a chart of one's own."""
+    one = vars(figure) | {"curves": [], "references": [], "map": None, "walls": False}
+    data = {"title": title, "formats": formats, "walls": []}
+    draw_figure(data, one, folder, lambda axes: CHARTS[figure.chart](axes, tables, **figure.keys))
+
+
+# ---- the depth behind a jump, and pictures of the speed
+
+
+def _read_columns(path: Path) -> dict[str, np.ndarray]:
+    """Columns of a CSV file with a head line, by name."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = csv.reader(file)
+        names = next(rows)
+        values = np.array([[float(cell) for cell in row] for row in rows]).reshape(-1, len(names))
+    return dict(zip(names, values.T, strict=True))
+
+
+def _draw_depth(folder: Path, settings: dict[str, Any]) -> None:
+    plt, jump, data = pyplot(), settings["jump"], _read_columns(folder / "depth.csv")
+    t, ratio = data["t"], data["depth_over_theory"]
+    figure, axes = plt.subplots(figsize=(8, 4.2), constrained_layout=True)
+    axes.axhline(1, color="0.3", linestyle="--", linewidth=1, label=f"Bélanger, $d_2$ = {1000 * jump['d2_theory']:.1f} mm")
+    axes.plot(t, ratio, linewidth=1.2, label="SPH " + jump["case"].replace("d1", "$d_1$") if jump["case"] else "SPH")
+    for k, part in enumerate(jump["intervals"]):
+        label = f"{part['from']:g}–{part['to']:g} s: $A$ = {part['A']:.3f}, $P$ = {part['P']:.3f}"
+        axes.axvspan(part["from"], part["to"], color=f"C{k + 1}", alpha=0.15, linewidth=0, label=label)
+    axes.set_xlabel("time $t$ [s]")
+    axes.set_ylabel("$d_{2,SPH}\\,/\\,d_{2,THEORY}$ [-]")
+    axes.set_title(f"Depth at x = {jump['x']:g} m. {plain(settings['title'])}")
+    axes.set_xlim(t.min(), max(t.max(), t.min() + 1e-9))
+    axes.set_ylim(0, max(1.3, 1.05 * ratio.max()))
+    axes.grid(True)
+    axes.legend(loc="lower right")
+    figure.savefig(folder / "depth.png")
+    plt.close(figure)
+
+
+def _window(limits: Sequence[float] | None, values: np.ndarray) -> tuple[float, float]:
+    if limits:
+        return limits[0], limits[1]
+    margin = 0.03 * float(np.ptp(values)) or 1.0
+    return float(values.min()) - margin, float(values.max()) + margin
+
+
+def _point_area(x: np.ndarray, y: np.ndarray, width_in_points: float, x_range: tuple[float, float]) -> float:
+    """Area of a marker [pt2] that just covers a particle's share of the plane."""
+    places = np.column_stack((x, y))
+    some = places[:: max(1, len(places) // 200)]
+    nearest = module("scipy.spatial").cKDTree(places).query(some, k=2)[0][:, 1] if len(places) > 1 else np.array([np.inf])
+    nearest = nearest[np.isfinite(nearest) & (nearest > 0)]
+    if len(nearest) == 0:
+        return 4.0
+    return max(0.3, (1.35 * float(np.median(nearest)) * width_in_points / (x_range[1] - x_range[0])) ** 2)
+
+
+def _draw_velocity(folder: Path, settings: dict[str, Any]) -> None:
+    data = _read_columns(folder / "snapshots.csv")
+    if len(data["t"]) == 0:
+        return
+    plt, view, wall = pyplot(), settings["snapshots"], _read_columns(folder / "walls.csv")
+    traces = np.column_stack([wall[key] for key in ("x0", "y0", "x1", "y1")])
+    x_range, y_range = _window(view["x"], data["x"]), _window(view["y"], data["y"])
+    low, high = view["speed"] or (0, data["speed"].max())
+    times, width = np.unique(data["t"]), 9.0
+    height = min(max(width * (y_range[1] - y_range[0]) / (x_range[1] - x_range[0]), 0.6), 8) + 0.12
+    size = (width + 1.2, len(times) * height + 1.0)
+    figure, panels = plt.subplots(len(times), 1, figsize=size, sharex=True, squeeze=False, constrained_layout=True)
+    last = data["t"] == times[-1]
+    area = _point_area(data["x"][last], data["y"][last], 72 * 0.9 * width, x_range)
+    for axes, t in zip(panels[:, 0], times, strict=True):
+        x, y, speed = (data[key][data["t"] == t] for key in ("x", "y", "speed"))
+        dots = axes.scatter(x, y, c=speed, s=area, cmap=SPEED_COLOURS, vmin=low, vmax=high, linewidths=0, rasterized=True)
+        _segments(axes, traces)
+        axes.set(xlim=x_range, ylim=y_range, ylabel="y [m]")
+        axes.set_aspect("equal")
+        axes.text(0.99, 0.9, f"t = {t:g} s", transform=axes.transAxes, ha="right", va="top", fontsize=10, fontweight="bold")
+    panels[-1, 0].set_xlabel("x [m]")
+    figure.suptitle(plain(settings["title"]), fontsize=10)
+    figure.colorbar(dots, ax=panels[:, 0].tolist(), label="velocity |v| [m/s]", shrink=0.6, aspect=30, pad=0.01)
+    figure.savefig(folder / "velocity.png")
+    plt.close(figure)
+
+
+def draw_measured(folder: Path) -> None:
+    """depth.png and velocity.png, as far as FOLDER/plot.json asks for them."""
+    settings = json.loads((folder / "plot.json").read_text(encoding="utf-8"))
+    if "jump" in settings:
+        _draw_depth(folder, settings)
+    if "snapshots" in settings:
+        _draw_velocity(folder, settings)
+
+
+def main(words: Sequence[str]) -> int:
+    """Exit code 0, or 1 where the call is wrong."""
+    folder = Path(words[0]) if len(words) == 1 else None
+    if folder is None or not ((folder / "figures.json").is_file() or (folder / "plot.json").is_file()):
+        print(__doc__, file=sys.stderr)
+        return 1
+    if (folder / "figures.json").is_file():
+        draw_figures(folder)
+    if (folder / "plot.json").is_file():
+        draw_measured(folder)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

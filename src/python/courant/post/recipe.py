@@ -1,0 +1,163 @@
+"""What `courant post` is asked to measure: the content of a recipe (YAML)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from os import PathLike
+from pathlib import PurePosixPath
+from typing import Any
+
+from ..diagnostics import Diagnostics, Location
+from ..units import Units
+from ..yaml_map import Node, YamlMap, is_map, load_yaml, scalar_text
+from .analysis import Analysis, Settings, read_analysis
+from .figures import Figure, read_figure
+from .jump import JumpRecipe, PublishedRow
+
+_KEYS = ("case", "probes", "jump", "snapshots", "units", "up", "folder", "analyses", "figures", "formats")
+_INTERVAL = "for example [2.5, 5.0]"
+
+
+@dataclass(frozen=True)
+class ProbeRecipe:
+    """Water depth over time on an upright line. `x`, `z`, `bed`: [L]."""
+
+    name: str
+    x: float
+    z: float
+    bed: float
+
+
+@dataclass(frozen=True)
+class SnapshotRecipe:
+    """Pictures of the velocity field. `times`: [T]; `speed`: range of the colours [L/T]; `x`, `y`: window [L]; None: from the data."""
+
+    times: list[float]
+    speed: tuple[float, float] | None
+    x: tuple[float, float] | None
+    y: tuple[float, float] | None
+
+
+@dataclass
+class Recipe:
+    """`case`: overrides what the title of the run tells; `analyses`: in the order of the recipe; `folder`: in the run's folder, for what
+    analyses write; `formats`: of the figures."""
+
+    file: str
+    case: str = ""
+    probes: list[ProbeRecipe] = field(default_factory=list)
+    jump: JumpRecipe | None = None
+    snapshots: SnapshotRecipe | None = None
+    settings: Settings = Settings()
+    analyses: list[Analysis] = field(default_factory=list)
+    figures: list[Figure] = field(default_factory=list)
+    formats: list[str] = field(default_factory=lambda: ["png"])
+    folder: str = "post"
+
+    @property
+    def needs_states(self) -> bool:
+        """False for one of histories alone, which also a folder without field states serves: LS-DYNA's, for example."""
+        alone = not (self.jump or self.probes or self.snapshots) and bool(self.analyses)
+        return not alone or any(one.needs_states for one in self.analyses)
+
+
+def read_recipe(file: str | PathLike[str], diagnostics: Diagnostics) -> Recipe | None:
+    """Every fault is told with its place; then there is None."""
+    out = Recipe(str(file))
+    root = load_yaml(out.file, "recipe", "a recipe is a YAML file such as keyword_decks/*/post.yaml", diagnostics)
+    if root is None:
+        return None
+    before = diagnostics.errors
+    keys = YamlMap(root, "recipe", out.file, diagnostics)
+    keys.allow(*_KEYS)
+    out.case = keys.text("case")
+    out.probes = [_read_probe(keys.element(node, "probes"), k) for k, node in enumerate(keys.list("probes"), 1)]
+    if jump := keys.map("jump"):
+        out.jump = _read_jump(jump)
+    if snapshots := keys.map("snapshots"):
+        out.snapshots = _read_snapshots(snapshots)
+    out.settings = _read_settings(keys)
+    for node in keys.list("analyses"):
+        _read_one(keys, node, out)
+    out.figures = [read_figure(keys, node) for node in keys.list("figures")]
+    _read_formats(keys, out)
+    _read_folder(keys, out)
+    if diagnostics.errors == before and not (out.probes or out.jump or out.snapshots or out.analyses):
+        diagnostics.error(Location(out.file, 1, 1), "the recipe asks for nothing", "add one of: probes, jump, snapshots, analyses")
+    return out if diagnostics.errors == before else None
+
+
+def _read_probe(keys: YamlMap, number: int) -> ProbeRecipe:
+    keys.allow("name", "x", "z", "bed")
+    return ProbeRecipe(keys.text("name", f"probe{number}"), keys.number("x", required=True), keys.number("z"), keys.number("bed"))
+
+
+def _read_row(keys: YamlMap) -> PublishedRow:
+    keys.allow("case", "interval", "A", "P")
+    case, interval = keys.text("case", required=True), keys.range("interval", required=True, example=_INTERVAL)
+    return PublishedRow(case, interval or (0.0, 0.0), keys.number("A", required=True), keys.number("P", required=True))
+
+
+def _read_jump(keys: YamlMap) -> JumpRecipe:
+    keys.allow("x", "z", "bed", "v1", "d1", "g", "intervals", "published", "toe", "front")
+    x, z, bed = keys.number("x", required=True), keys.number("z"), keys.number("bed")
+    v1, d1, g = keys.positive("v1", required=True), keys.positive("d1", required=True), keys.positive("g", 9.81)
+    intervals = [keys.range_of(node, "intervals", _INTERVAL) or (0.0, 0.0) for node in keys.list("intervals", required=True)]
+    published = [_read_row(keys.element(node, "published")) for node in keys.list("published")]
+    out: dict[str, Any] = {"x": x, "z": z, "bed": bed, "v1": v1, "d1": d1, "g": g, "intervals": intervals, "published": published}
+    if toe := keys.map("toe"):
+        toe.allow("x", "threshold")
+        out |= {"toe_range": toe.range("x", required=True, example=_INTERVAL), "toe_threshold": toe.positive("threshold", 1.5)}
+    if front := keys.map("front"):
+        front.allow("x", "threshold")
+        out |= {"front_x": front.number("x", required=True), "front_threshold": front.positive("threshold", 1.3)}
+    return JumpRecipe(**out)
+
+
+def _read_snapshots(keys: YamlMap) -> SnapshotRecipe:
+    keys.allow("times", "speed", "x", "y")
+    times = [keys.scalar(node, "times") or 0.0 for node in keys.list("times", required=True)]
+    return SnapshotRecipe(times, *(keys.range(key, example=_INTERVAL) for key in ("speed", "x", "y")))
+
+
+def _read_settings(keys: YamlMap) -> Settings:
+    units = Units()
+    if of := keys.map("units"):
+        of.allow("mass", "length", "time")
+        units = Units(of.text("mass", "kg"), of.text("length", "m"), of.text("time", "s"))
+    return Settings(units, "xyz".index(keys.choice("up", ("y", "z"))))
+
+
+def _read_one(keys: YamlMap, node: Node, recipe: Recipe) -> None:
+    name = next((scalar_text(value) for key, value in node.value if scalar_text(key) == "name"), "") if is_map(node) else ""
+    entry = keys.element(node, name or "analyses")
+    one = read_analysis(entry, recipe.settings) if is_map(node) else None  # else the reader has told
+    if one is None:
+        return
+    named = {other.name for other in recipe.analyses}
+    at = entry.get("name")
+    if at is not None and one.name in named:
+        entry.error(at, f"two analyses are named '{one.name}'")
+    for key, wanted in one.refers():
+        at = entry.get(key)
+        if at is not None and wanted not in named:
+            message = f"'{entry.name}.{key}': there is no analysis '{wanted}' above it"
+            entry.error(at, message, "analyses are worked through from top to bottom")
+    recipe.analyses.append(one)
+
+
+def _read_formats(keys: YamlMap, recipe: Recipe) -> None:
+    if not keys.has("formats"):
+        return
+    recipe.formats = []
+    for node in keys.list("formats"):
+        recipe.formats.append(scalar_text(node))
+        if recipe.formats[-1] not in ("png", "svg", "pdf"):
+            keys.error(node, f"'{keys.name}.formats' cannot be '{recipe.formats[-1]}'", "they are png, svg and pdf")
+
+
+def _read_folder(keys: YamlMap, recipe: Recipe) -> None:
+    recipe.folder = keys.text("folder", "post")
+    if PurePosixPath(recipe.folder).is_absolute() or ".." in recipe.folder or not recipe.folder:
+        message = "'recipe.folder' must be a folder within the run's"
+        keys.error(keys.get("folder") or keys.node, message, "for example post")

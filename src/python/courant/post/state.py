@@ -1,0 +1,179 @@
+"""One state as analyses see it: quantities of its particles by expressions, and selections that are made once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ..expressions import Formula
+from ..fields import ParticleFrame, Wanted
+from ..units import NO_DIMENSION, Dimension, Units
+from ..yaml_map import Node, YamlMap, is_map, is_scalar, scalar_text
+from .particles import ParticleSet, SprayRule, water_body
+
+
+class _Variable(NamedTuple):
+    array: str  # of the field file; "": read anyway
+    component: int  # -1: the length of the vector
+    dimension: Dimension
+
+
+_LENGTH, _VELOCITY, _PRESSURE = Dimension(L=1), Dimension(L=1, T=-1), Dimension(1, -1, -2)
+_VARIABLES = {
+    "x": _Variable("", 0, _LENGTH),
+    "y": _Variable("", 1, _LENGTH),
+    "z": _Variable("", 2, _LENGTH),
+    "vx": _Variable("velocity", 0, _VELOCITY),
+    "vy": _Variable("velocity", 1, _VELOCITY),
+    "vz": _Variable("velocity", 2, _VELOCITY),
+    "speed": _Variable("velocity", -1, _VELOCITY),
+    "p": _Variable("pressure", 0, _PRESSURE),
+    "rho": _Variable("density", 0, Dimension(1, -3, 0)),
+    "h": _Variable("", 0, _LENGTH),
+    "m": _Variable("mass", 0, Dimension(M=1)),
+    "V": _Variable("", 0, Dimension(L=3)),
+    "e": _Variable("internal_energy", 0, _PRESSURE),
+    "part": _Variable("part", 0, NO_DIMENSION),
+    "id": _Variable("id", 0, NO_DIMENSION),
+    "active": _Variable("active", 0, NO_DIMENSION),
+    "t": _Variable("", 0, Dimension(T=1)),
+}
+# the names that expressions over particles may use. V: m/rho; e: internal energy per reference volume
+VARIABLES = tuple(_VARIABLES)
+
+
+def wanted_array(name: str, optional: bool = False) -> Wanted:
+    """An array of a field file with the components that it has there."""
+    return Wanted(name, 3 if name == "velocity" else 1, optional)
+
+
+def wanted_arrays(*formulas: Formula) -> list[Wanted]:
+    """Arrays of a field file that expressions over particles need."""
+    names = {_VARIABLES[variable].array for formula in formulas for variable in formula.used}
+    return [wanted_array(name) for name in sorted(names - {""})]
+
+
+def variable_of(frame: ParticleFrame, name: str) -> np.ndarray | float:
+    """Values of one of VARIABLES for all particles, shape (n,), or one number for all."""
+    at = _VARIABLES[name]
+    if not at.array:
+        whole: dict[str, np.ndarray | float] = {"h": frame.h, "V": frame.V, "t": frame.t}
+        return whole[name] if name in whole else frame.x[:, at.component]
+    values = frame.arrays[at.array]
+    if at.component < 0:
+        return np.hypot(np.hypot(values[:, 0], values[:, 1]), values[:, 2])
+    return values if values.ndim == 1 else values[:, at.component]
+
+
+@dataclass(frozen=True)
+class Where:
+    """Which particles count: those for which `of` > 0. `text` tells selections apart."""
+
+    text: str
+    of: Formula
+
+
+@dataclass(frozen=True)
+class Quantity:
+    name: str
+    unit: str
+    of: Formula
+
+
+EVERYWHERE = Where("1", Formula("1", VARIABLES))
+
+
+def read_expression(keys: YamlMap, node: Node, key: str, names: tuple[str, ...] = VARIABLES) -> Formula:
+    """An expression over `names`; faults are told at the node."""
+    if not is_scalar(node):
+        keys.error(node, f"'{keys.name}.{key}' must be an expression")
+        return Formula("0", names)
+    out = Formula(scalar_text(node), names)
+    if not out.ok:
+        keys.error(node, f"'{keys.name}.{key}': {out.error}", out.hint or f"it may use {', '.join(names)}")
+    return out
+
+
+def read_where(keys: YamlMap) -> Where:
+    """`where: 2.5 - part`; all particles if it is not there."""
+    node = keys.get("where")
+    return EVERYWHERE if node is None else Where(scalar_text(node), read_expression(keys, node, "where"))
+
+
+def read_spray(keys: YamlMap) -> SprayRule:
+    """`link` and `share`."""
+    link, share = keys.positive("link", SprayRule().link), keys.number("share", SprayRule().share)
+    if link > 2:
+        hint = "particles further apart than 2 h do not know each other"
+        keys.error(keys.get("link") or keys.node, f"'{keys.name}.link' must be at most 2, got {link:g}", hint)
+    if not 0 <= share <= 1:
+        keys.error(keys.get("share") or keys.node, f"'{keys.name}.share' must be 0 to 1, got {share:g}", "0 lets every drop count")
+    return SprayRule(link, share)
+
+
+def read_quantities(keys: YamlMap, units: Units) -> list[Quantity]:
+    """`of: [vx, {name: q, of: 0.5 * rho * speed^2, unit: Pa}]`."""
+    out = [_read_quantity(keys, node, units) for node in keys.list("of", required=True)]
+    if not out and (node := keys.get("of")) is not None and not is_map(node) and not is_scalar(node):
+        keys.error(node, f"'{keys.name}.of' is empty", "for example [vx, vy, p]")
+    return out
+
+
+def _read_quantity(keys: YamlMap, node: Node, units: Units) -> Quantity:
+    """Single variables know their unit, other expressions have "?" unless the recipe tells."""
+
+    def unit_of(text: str) -> str:
+        return units.of(_VARIABLES[text].dimension) if text in _VARIABLES else "?"
+
+    if not is_map(node):
+        name, unit, of = scalar_text(node), unit_of(scalar_text(node)), read_expression(keys, node, "of")
+    else:
+        entry = keys.element(node, "of")
+        entry.allow("name", "of", "unit")
+        unit = entry.text("unit", unit_of(entry.text("of", required=True)))
+        name = entry.text("name", required=True)
+        inner = entry.get("of")
+        of = Formula("0", VARIABLES) if inner is None else read_expression(entry, inner, "of")
+    return Quantity("".join(name.split()).replace(",", ";"), unit, of)
+
+
+class State:
+    """One state, with what analyses have in common made once. `t`: [T]; `slack`: a quarter of the spacing of states [T]."""
+
+    def __init__(self, frame: ParticleFrame, slack: float) -> None:
+        self.frame, self.slack = frame, slack
+        self._selections: dict[str, ParticleSet] = {}
+        self._waters: dict[tuple[SprayRule, str], ParticleSet] = {}
+
+    @property
+    def t(self) -> float:
+        return self.frame.t
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """Values of a variable ("vx", "p", ...) for all particles of the file, shape (n,)."""
+        return np.broadcast_to(np.asarray(variable_of(self.frame, name), dtype=float), (len(self.frame),))
+
+    def evaluate(self, of: Formula) -> np.ndarray:
+        """Values of an expression for all particles of the file, shape (n,); NaN where it has none."""
+        return of.over({name: variable_of(self.frame, name) for name in of.used}, len(self.frame))
+
+    @property
+    def active(self) -> np.ndarray:
+        """Which particles are inside the box and not switched off, shape (n,) of bool."""
+        active = self.frame.arrays.get("active")
+        return np.ones(len(self.frame), dtype=bool) if active is None else active > 0
+
+    def selection(self, where: Where = EVERYWHERE) -> ParticleSet:
+        """The active particles that count."""
+        if where.text not in self._selections:
+            self._selections[where.text] = ParticleSet.of(self.frame, (self.evaluate(where.of) > 0) & self.active)
+        return self._selections[where.text]
+
+    def water(self, where: Where = EVERYWHERE, rule: SprayRule = SprayRule()) -> ParticleSet:  # noqa: B008  frozen
+        """Those of a selection that are no spray."""
+        key = (rule, where.text)
+        if key not in self._waters:
+            self._waters[key] = water_body(self.selection(where), rule)
+        return self._waters[key]

@@ -1,0 +1,382 @@
+"""The results of a run as numpy, pandas, xarray, VTK and PyVista know them.
+
+    import courant
+
+    run = courant.open("jump")
+    run.energies["kinetic"]                     # numpy, (rows,); run.energies.units["kinetic"]
+    run.contacts[1].to_pandas()
+    run.histories["parts/2/momentum"]           # numpy, (rows, 3)
+    run.ascii["glstat"].plot("kinetic_energy")
+    state = run.states[-1]
+    state["velocity"], state.points, state.shells["contact_force"]
+    state.pyvista().plot(scalars="pressure")
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import Any, overload
+
+import numpy as np
+import yaml
+
+from .ascii_histories import AsciiFile, AsciiKey
+from .diagnostics import CourantError, Diagnostics
+from .fields import FieldFault, FieldFile, StateFiles, read_states
+from .histories import HistoryFile
+from .optional import module
+from .tables import Table, table_of
+from .units import Dimension, Units
+
+ASCII_NAMES = ("glstat", "matsum", "rcforc", "sleout", "nodout", "rbdout", "bndout", "spcforc", "rwforc", "sphout")
+
+
+def open(folder: str | PathLike[str], units: Units = Units()) -> Results:  # noqa: A001, B008  as gzip.open; frozen
+    """The results that `courant run -o DIR` wrote, or a folder of LS-DYNA's ASCII histories.
+
+    Files are read when they are asked for. `units`: what the deck's units are called. Raises CourantError where the folder is missing.
+    """
+    return Results(folder, units)
+
+
+def column_name(key: AsciiKey) -> str:
+    """ "kinetic energy" of nothing -> kinetic_energy, "x" of 4 SURFA -> x_4_SURFA."""
+    words = f"{key.name} {'' if key.id is None else key.id} {key.side}"
+    return re.sub("[^A-Za-z0-9]+", "_", words).strip("_")
+
+
+def _raised(diagnostics: Diagnostics) -> None:
+    if not diagnostics.ok:
+        raise CourantError(diagnostics)
+
+
+class Mesh:
+    """Particles or shells of one state, from a .vtp or .vtu file. Raises CourantError where it is damaged."""
+
+    def __init__(self, path: Path, units: Units) -> None:
+        self.path, self._units = path, units
+        try:
+            self._file = FieldFile(path)
+        except FieldFault as fault:
+            raise self._error(str(fault)) from fault
+
+    def _error(self, why: str) -> CourantError:
+        diagnostics = Diagnostics()
+        diagnostics.error(self.path, f"not a field file of `courant run`: {why}", "it may be truncated; run the deck again")
+        return CourantError(diagnostics)
+
+    def _values(self, section: str, name: str) -> np.ndarray:
+        try:
+            return self._file.values(section, name, self._file.points if section in ("PointData", "Points") else self._file.cells)
+        except FieldFault as fault:
+            raise self._error(str(fault)) from fault
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the arrays, of points first, then of cells."""
+        return [*self._file.names("PointData"), *self._file.names("CellData")]
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """An array, (points or cells,) or (points or cells, components). Raises KeyError with the names that there are."""
+        for section in ("PointData", "CellData"):
+            if self._file.has(section, name):
+                return self._values(section, name)
+        raise KeyError(f"{self.path} has no array '{name}'; it has {', '.join(self.names)}")
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.names
+
+    def __len__(self) -> int:
+        """How many points there are."""
+        return self._file.points
+
+    def unit(self, name: str) -> str:
+        """ "m/s"; "?" where the file does not tell."""
+        array = self._file.arrays.get(("PointData", name)) or self._file.arrays.get(("CellData", name))
+        return "?" if array is None else self._units.of_text(array.dimension)
+
+    @property
+    def units(self) -> dict[str, str]:
+        return {name: self.unit(name) for name in self.names}
+
+    @cached_property
+    def points(self) -> np.ndarray:
+        """Positions, (points, 3) [L]."""
+        return self._values("Points", "Points").astype(float)
+
+    @cached_property
+    def cells(self) -> list[np.ndarray]:
+        """Indices of the points of each cell; none of particles."""
+        if self._file.cells == 0:
+            return []
+        try:
+            corners = self._file.integers("Cells", "connectivity", 32 * self._file.cells)
+            ends = self._file.integers("Cells", "offsets", self._file.cells)
+        except FieldFault as fault:
+            raise self._error(str(fault)) from fault
+        return np.split(corners, ends[:-1])
+
+    def vtk(self) -> Any:
+        """A vtkPolyData or vtkUnstructuredGrid, of whatever vtk module is there: Debian's python3-vtk9, ParaView's own, or PyPI's wheel.
+
+        Raises MissingModule, and CourantError where the file is damaged: VTK's own reader would crash.
+        """
+        for section, name in self._file.arrays:
+            if section in ("PointData", "Points", "CellData"):
+                self._values(section, name)
+        io = module("vtkmodules.vtkIOXML")
+        reader = io.vtkXMLPolyDataReader() if self.path.suffix == ".vtp" else io.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(self.path))
+        reader.Update()
+        return reader.GetOutput()
+
+    def pyvista(self) -> Any:
+        """A pyvista.PolyData or pyvista.UnstructuredGrid. Raises MissingModule and CourantError."""
+        return module("pyvista").wrap(self.vtk())
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame of the points: x, y, z and the arrays of points, "velocity.x" of vectors. Raises MissingModule."""
+        columns = {axis: self.points[:, a] for a, axis in enumerate("xyz")}
+        for name in self._file.names("PointData"):
+            values = self[name]
+            parts = {name: values} if values.ndim == 1 else {f"{name}.{'xyz'[a] if a < 3 else a}": part for a, part in enumerate(values.T)}
+            columns |= parts
+        return module("pandas").DataFrame(columns)
+
+
+class RunState:
+    """One state: particles, shells, or both. It speaks for its particles where it has some, else for its shells."""
+
+    def __init__(self, files: StateFiles, units: Units) -> None:
+        self.t = files.t
+        self._files, self._units = files, units
+
+    @cached_property
+    def particles(self) -> Mesh | None:
+        return Mesh(self._files.particles, self._units) if self._files.particles else None
+
+    @cached_property
+    def shells(self) -> Mesh | None:
+        """Shells, solids and other cells."""
+        return Mesh(self._files.shells, self._units) if self._files.shells else None
+
+    @property
+    def mesh(self) -> Mesh:
+        found = self.particles or self.shells
+        assert found is not None  # fields.pvd names one of them
+        return found
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """An array of the particles or else of the shells; "speed" is the length of "velocity"."""
+        if name == "speed" and name not in self.mesh:
+            return np.sqrt((self.mesh["velocity"].astype(float) ** 2).sum(axis=1))
+        return self.mesh[name]
+
+    def unit(self, name: str) -> str:
+        return self.mesh.unit("velocity" if name == "speed" else name)
+
+    @property
+    def names(self) -> list[str]:
+        return self.mesh.names
+
+    @property
+    def units(self) -> dict[str, str]:
+        return self.mesh.units
+
+    @property
+    def points(self) -> np.ndarray:
+        return self.mesh.points
+
+    def vtk(self) -> Any:
+        return self.mesh.vtk()
+
+    def pyvista(self) -> Any:
+        return self.mesh.pyvista()
+
+    def to_pandas(self) -> Any:
+        return self.mesh.to_pandas()
+
+    def plot(self, of: str = "speed", axes: str = "xy", file: str | Path | None = None) -> Any:
+        """Points in a plane, coloured by an array (of vectors: their length). Gives matplotlib's figure. Raises MissingModule."""
+        from .style import FIELD_COLOURS, figure
+
+        a, b = ("xyz".index(axis) for axis in axes)
+        values = self[of]
+        made, plot = figure(9, 3.6)
+        colour = values if values.ndim == 1 else np.sqrt((values.astype(float) ** 2).sum(axis=1))
+        dots = plot.scatter(self.points[:, a], self.points[:, b], c=colour, s=2, cmap=FIELD_COLOURS, linewidths=0)
+        length = self._units.of(Dimension(L=1))
+        plot.set(xlabel=f"{axes[0]} [{length}]", ylabel=f"{axes[1]} [{length}]", title=f"t = {self.t:g} {self._units.time}")
+        plot.set_aspect("equal")
+        made.colorbar(dots, ax=plot, label=f"{of} [{self.unit(of)}]", shrink=0.8)
+        if file is not None:
+            made.savefig(file)
+        return made
+
+
+class States(Sequence[RunState]):
+    """The states of a run in order of time; each is read when it is asked for."""
+
+    def __init__(self, files: list[StateFiles], units: Units) -> None:
+        self._files, self._units = files, units
+        self.times = np.array([one.t for one in files])
+
+    def __len__(self) -> int:
+        return len(self._files)
+
+    @overload
+    def __getitem__(self, index: int) -> RunState: ...
+    @overload
+    def __getitem__(self, index: slice) -> States: ...
+    def __getitem__(self, index: int | slice) -> RunState | States:
+        if isinstance(index, slice):
+            return States(self._files[index], self._units)
+        return RunState(self._files[index], self._units)
+
+    def at(self, t: float) -> RunState:
+        """The state nearest to a time [T]."""
+        return self[int(np.argmin(np.abs(self.times - t)))]
+
+
+class Histories(Mapping[str, np.ndarray]):
+    """The datasets of history.h5 by path, "contacts/1/force": (rows,) or (rows, 3)."""
+
+    def __init__(self, file: HistoryFile, units: Units) -> None:
+        self._file, self._units = file, units
+
+    @property
+    def t(self) -> np.ndarray:
+        """Times of the rows, (rows,) [T]."""
+        return self._file.times
+
+    def __getitem__(self, path: str) -> np.ndarray:
+        values = self._file.values("/" + path.lstrip("/"))
+        if values is None:
+            raise KeyError(f"history.h5 has no dataset '{path}'; it has {', '.join(self)}")
+        return values[:, 0] if values.shape[1] == 1 else values
+
+    def __iter__(self) -> Iterator[str]:
+        return (name[1:] for name in self._file.names)
+
+    def __len__(self) -> int:
+        return len(self._file.names)
+
+    def unit(self, path: str) -> str:
+        return self._units.of_text(self._file.dimension("/" + path.lstrip("/")))
+
+    @property
+    def groups(self) -> list[str]:
+        """ "global", "contacts/1", "parts/2", ..."""
+        return list(dict.fromkeys(path.rpartition("/")[0] for path in self))
+
+    def table(self, group: str) -> Table:
+        """The datasets of a group over time; vectors as "force.x", "force.y", "force.z". Raises KeyError with the groups there are."""
+        paths = [path for path in self if path.rpartition("/")[0] == group]
+        if not paths:
+            raise KeyError(f"history.h5 has no group '{group}'; it has {', '.join(self.groups)}")
+        columns = [("t", self._units.of(Dimension(T=1)), self.t)]
+        for path in paths:
+            name, values = path.rpartition("/")[2], self[path]
+            parts = [(name, values)] if values.ndim == 1 else [(f"{name}.{axis}", values[:, a]) for a, axis in enumerate("xyz")]
+            columns += [(part, self.unit(path), one) for part, one in parts if path != "global/time"]
+        return table_of(group, columns)
+
+    def to_pandas(self, group: str = "global") -> Any:
+        return self.table(group).to_pandas()
+
+    def to_xarray(self, group: str = "global") -> Any:
+        return self.table(group).to_xarray()
+
+
+class AsciiTables(Mapping[str, Table]):
+    """The ASCII histories of a folder by name, "glstat"; columns are called kinetic_energy, x_1_SURFB."""
+
+    def __init__(self, folder: Path, units: Units) -> None:
+        self._folder, self._units = folder, units
+
+    def __getitem__(self, name: str) -> Table:
+        if name not in list(self):
+            raise KeyError(f"{self._folder} has no history '{name}'; it has {', '.join(self)}")
+        diagnostics = Diagnostics()
+        file = AsciiFile.open(self._folder / name, diagnostics)
+        if file is None:
+            raise CourantError(diagnostics)
+        series = [(column_name(key), self._units.of_text(file.dimension(key)), values) for key, values in file.columns.items()]
+        return table_of(name, [("t", self._units.of(Dimension(T=1)), file.times), *series])
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for name in ASCII_NAMES if (self._folder / name).is_file())
+
+    def __len__(self) -> int:
+        return len(list(iter(self)))
+
+
+class Results:
+    """The results in a folder. What a run did not write raises CourantError when it is asked for."""
+
+    def __init__(self, folder: str | PathLike[str], units: Units = Units()) -> None:  # noqa: B008  frozen
+        self.folder, self.units = Path(folder), units
+        if not self.folder.is_dir():
+            diagnostics = Diagnostics()
+            diagnostics.error(self.folder, "no such folder", "DIR must be the folder that `courant run -o DIR` wrote")
+            raise CourantError(diagnostics)
+        self.ascii = AsciiTables(self.folder, units)
+
+    def __repr__(self) -> str:
+        return f"<courant.Results {self.folder}>"
+
+    @cached_property
+    def histories(self) -> Histories:
+        diagnostics = Diagnostics()
+        file = HistoryFile.open(self.folder / "history.h5", diagnostics)
+        if file is None:
+            raise CourantError(diagnostics)
+        return Histories(file, self.units)
+
+    @cached_property
+    def states(self) -> States:
+        diagnostics = Diagnostics()
+        files = read_states(self.folder, diagnostics, with_particles=False)
+        _raised(diagnostics)
+        return States(files, self.units)
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """summary.yaml: how the run ended, its steps, energies and warnings; empty while it goes on."""
+        file = self.folder / "summary.yaml"
+        if not file.is_file():
+            return {}
+        try:
+            found = yaml.safe_load(file.read_bytes())
+        except yaml.YAMLError as fault:
+            diagnostics = Diagnostics()
+            diagnostics.error(file, f"not valid YAML: {' '.join(str(fault).split())}")
+            raise CourantError(diagnostics) from fault
+        return found if isinstance(found, dict) else {}
+
+    @property
+    def energies(self) -> Table:
+        """The energy ledger over time: what has the unit of the total energy."""
+        table = self.histories.table("global")
+        unit = table.units.get("total", "?")
+        return Table("energies", [one for one in table.columns if one.name == "t" or one.unit == unit])
+
+    @cached_property
+    def contacts(self) -> dict[int, Table]:
+        """Force on the particles or nodes, and energies, of each contact over time, by its id."""
+        groups = [group for group in self.histories.groups if re.fullmatch(r"contacts/\d+", group)]
+        return {int(group.partition("/")[2]): self.histories.table(group) for group in sorted(groups, key=lambda g: int(g[9:]))}
+
+    def table(self, name: str) -> Table:
+        """ "energies", a group of history.h5 ("contacts/1") or an ASCII history ("glstat")."""
+        if name == "energies":
+            return self.energies
+        return self.ascii[name] if name in ASCII_NAMES else self.histories.table(name)
+
+    def plot(self, what: str = "energies", *names: str, file: str | Path | None = None) -> Any:
+        """A table, as `table` takes its name, over time. Gives matplotlib's figure, and writes it to `file`. Raises MissingModule."""
+        return self.table(what).plot(*names, file=file)

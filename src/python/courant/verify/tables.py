@@ -1,0 +1,122 @@
+"""The tables of the reports, free of any markup."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from .model import BoundCheck, CaseResult, RunResult, SuiteResult
+from .svg_map import verdict_counts
+from .text import integer, megabytes, number, percent, seconds
+
+
+@dataclass
+class Column:
+    head: str
+    numeric: bool = False
+
+
+@dataclass
+class Row:
+    cells: list[str]
+    bad: bool = False  # stands out
+
+
+@dataclass
+class Table:
+    columns: list[Column] = field(default_factory=list)
+    rows: list[Row] = field(default_factory=list)
+
+    def only_bad(self) -> Table:
+        return Table(self.columns, [row for row in self.rows if row.bad])
+
+
+def _amount(check: BoundCheck, value: float) -> str:
+    if check.what.startswith("error"):
+        return percent(value)
+    return number(value, 3) if "at most" in check.what or "at least" in check.what else ""
+
+
+def check_text(check: BoundCheck) -> str:
+    """ "cubic, wave speed: error at most 1 %, measured 3.2 %"."""
+    place = ", ".join(filter(None, (check.setting, check.observation)))
+    text = (f"{place}: " if place else "") + check.what
+    bound = _amount(check, check.bound)
+    return f"{text} {bound}, measured {_amount(check, check.measured)}" if bound else f"{text}: {'yes' if check.met else 'no'}"
+
+
+def checks_table(case: CaseResult) -> Table:
+    """What is bounded, what was measured, and whether that is within the bound."""
+    heads = [Column("setting"), Column("of"), Column("required"), Column("bound", True), Column("measured", True), Column("met")]
+    return Table(heads, [Row([c.setting or "all", c.observation, c.what, _amount(c, c.bound), _amount(c, c.measured),
+                              "yes" if c.met else "MISSED"], not c.met) for c in case.checks])
+
+
+def overview_table(result: SuiteResult) -> Table:
+    """One row for each case: title, runs, CPU time, bounds met of all. The first column is the title."""
+    table = Table([Column("case"), Column("verdict"), Column("bounds met", True), Column("runs", True), Column("CPU time", True)])
+    for case in result.cases:
+        bounds = f"{len(case.checks) - case.missed} of {len(case.checks)}" if case.checks else "none stated"
+        words = [("MISSED" if case.missed else "met") if case.checks else "", verdict_counts(case) if case.definition.stability else None]
+        word = "; ".join(w for w in words if w) if case.definition.stability else words[0] or ""
+        cpu = sum(run.cpu_seconds for run in case.runs)
+        table.rows.append(Row([case.title, word, bounds, str(len(case.runs)), seconds(cpu)], case.missed > 0))
+    return table
+
+
+def _end_of(run: RunResult) -> str:
+    if run.exit_code == 0:
+        return "as planned (earlier call)" if run.reused else "as planned"
+    return f"exit code {run.exit_code}" + (f", {run.termination}" if run.termination else "") + (f": {run.reason}" if run.reason else "")
+
+
+def runs_table(case: CaseResult) -> Table:
+    """All runs of a case: size, cost and what was observed in each. Columns that would be empty are left out."""
+    d = case.definition
+    table = Table(rows=[Row([], not run.as_required or (not d.stability and run.exit_code != 0)) for run in case.runs])
+
+    def column(head: str, cell: Callable[[RunResult], str], numeric: bool = True) -> None:
+        cells = [cell(run) for run in case.runs]
+        if any(cells):
+            table.columns.append(Column(head, numeric))
+            for row, text in zip(table.rows, cells, strict=True):
+                row.cells.append(text)
+
+    column("setting", lambda r: r.setting, False)
+    column(d.resolution or "resolution", lambda r: r.resolution)
+    if d.stability:
+        column("verdict", lambda r: r.verdict.name + ("" if r.as_required else ", not allowed here"), False)
+    column("particles", lambda r: integer(r.particles) if r.particles > 0 else "")
+    column("steps", lambda r: integer(r.steps) if r.steps > 0 else "")
+    column("CPU time [s]", lambda r: number(r.cpu_seconds, 3))
+    column("wall time [s]", lambda r: number(r.wall_seconds, 3))
+    column("CPU ns per particle-step", lambda r: number(1e9 * r.cpu_seconds / r.particle_steps, 3) if r.particle_steps > 0 else "")
+    column("memory [MB]", lambda r: megabytes(r.peak_memory_bytes) if r.peak_memory_bytes > 0 else "")
+    for k in range(len(d.observations)):
+        _add_observation(case, k, column)
+    column("limits exceeded", lambda r: "; ".join(r.exceeded), False)
+    if any(run.exit_code != 0 or run.reused for run in case.runs):
+        column("end", _end_of, False)
+    return table
+
+
+def _add_observation(case: CaseResult, k: int, column: Callable[..., None]) -> None:
+    o = case.definition.observations[k]
+    unit = f" [{o.unit}]" if o.unit else ""
+    last = {run.setting: id(run) for run in case.runs}  # beside it stands the order, which belongs to all of a setting
+
+    def part(run: RunResult, name: str) -> str:
+        value = getattr(run.observed[k], name) if k < len(run.observed) else None
+        return "" if value is None else number(value, 5)
+
+    def error(run: RunResult) -> str:
+        value = run.error_of(k)
+        return percent(value) if value is not None else "not found" if k < len(run.observed) and not run.observed[k].found else ""
+
+    def order(run: RunResult) -> str:
+        value = case.order_of(run.setting, o.name) if last[run.setting] == id(run) else None
+        return "" if value is None else f"{value:.2f}"
+
+    column(o.label + unit, lambda r: part(r, "value"))
+    column(f"{o.label}: reference{unit}", lambda r: part(r, "reference"))
+    column(f"{o.label}: error", error)
+    column(f"{o.label}: order", order)
