@@ -19,6 +19,7 @@
 #include "app/terminal.hpp"
 #include "app/verify.hpp"
 #include "generate/generate.hpp"
+#include "keyword/keyword_state.hpp"
 #include "keyword/registry.hpp"
 #include "output/file.hpp"
 #include "parallel/parallel.hpp"
@@ -40,7 +41,8 @@ struct Call {
   int threads = 0;
   Real until = 0;
   VerifyCall verify;
-  bool no_final_dump = false, quiet = false, markdown = false, strict = false, json = false;
+  bool no_final_dump = false, quiet = false, markdown = false, cannot_do = false, strict = false,
+       json = false;
 };
 
 void print_error(const std::string& text) {
@@ -168,6 +170,10 @@ int call_keywords(const Call& call) {
     fmt::print("{}", keyword_markdown());
     return exit_ok;
   }
+  if (call.cannot_do) {
+    fmt::print("{}", cannot_do_markdown());
+    return exit_ok;
+  }
   const KeywordAnswer answer = find_keywords(call.keyword);
   if (!answer.found) {
     print_error(fmt::format("error: {}\n{}", answer.text,
@@ -287,6 +293,7 @@ int command_line(int argc, char** argv) {
   keywords->add_option("NAME", call.keyword, "keyword, with or without '*'");
   add_load(keywords);
   keywords->add_flag("--markdown", call.markdown, "all cards as docs/keywords.md");
+  keywords->add_flag("--cannot-do", call.cannot_do, "all that is refused, as docs/cannot_do.md");
 
   auto* generate = app.add_subcommand("generate", "write a keyword deck from a YAML scene");
   generate->add_option("SCENE", call.scene, "scene.yaml")->required();
