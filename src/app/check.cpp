@@ -25,13 +25,13 @@ std::string verdict_of(const CheckResult& result, const Diagnostics& diagnostics
 }
 
 /// Empty where the deck cannot be run; `diagnostics` then tell why.
-std::string model_part(const std::string& path, Deck deck, const DeckFacts& facts, Diagnostics& diagnostics) {
+std::string model_part(const std::string& path, Deck deck, const DeckFacts& facts, ModelFacts& model,
+                       Diagnostics& diagnostics) {
   const auto simulation = Simulation::from_deck(path, std::move(deck), diagnostics);
   if (!simulation) return "";
   try {
-    std::vector<Real> sound_speeds;
-    const std::string text = model_text(*simulation, sound_speeds);
-    return units_text(facts, sound_speeds) + text;
+    const std::string text = model_text(*simulation, model);
+    return units_text(facts, model.sound_speeds()) + text;
   } catch (const RunError& fault) {  // a run would stop at its first step
     diagnostics.error({path, 0, 0}, fault.what());
     return "";
@@ -51,12 +51,16 @@ CheckResult check_deck(const std::string& path, const ReadOptions& options, bool
   if (!deck.title.empty()) result.deck = deck.title + "\n";
   result.deck +=
       files_text(deck) + parameters_text(deck) + keywords_text(deck) + mesh_text(facts) + unused_ids;
-  result.model = model_part(path, std::move(deck), facts, diagnostics);
+  const DeckHead head(deck);
+  ModelFacts model;
+  result.model = model_part(path, std::move(deck), facts, model, diagnostics);
   result.messages = diagnostics.text();
   if (result.model.empty()) result.deck += units_text(facts, {}) + needs;
   const std::size_t count = unused.named.size() + unused.nodes.size();
   result.sound = diagnostics.ok() && !(strict && (diagnostics.warnings() > 0 || count > 0));
   result.verdict = verdict_of(result, diagnostics, count, strict);
+  result.json =
+      check_json(head, facts, unused, result.model.empty() ? nullptr : &model, diagnostics, result.sound);
   return result;
 }
 

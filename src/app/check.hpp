@@ -1,5 +1,7 @@
 #pragma once
 // `courant check`: a deck is read and built, nothing is run, and the user sees what Courant makes of it.
+#include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,32 @@ struct CheckResult {
   std::string messages;  ///< of reader and model
   std::string model;     ///< what a run would compute; empty unless the deck can be run
   std::string verdict;   ///< last line
+  std::string json;      ///< all of it for programs, one JSON object
+};
+
+/// What a run of a sound deck would compute.
+struct ModelFacts {
+  struct Part {
+    static constexpr Real none = -1;  ///< a number that a part does not have
+    Id id = 0;
+    std::string title;
+    Index elements = 0;
+    const char* kind = "-";  ///< "sph", "shell", "solid", "rigid"; "-": no elements
+    Real mass = none, volume = none, rho = none, c = none;  ///< [M], [L3], [M/L3], [L/T]
+    Real spacing = none, h = none;                          ///< [L]
+    Real nearest = std::numeric_limits<Real>::infinity();   ///< least distance between two particles [L]
+    Real speed = 0;                                         ///< largest at the start [L/T]
+  };
+  std::vector<Part> parts;
+  int dim = 0;
+  Real spacing = 0;     ///< of the particles [L]
+  Real neighbours = 0;  ///< of a particle, on average
+  Index particles = 0, active = 0;
+  Real dt = 0, endtim = 0;                 ///< first step and end [T]
+  std::string set_by;                      ///< what sets the first step
+  double steps = 0;                        ///< to the end, all as long as the first
+  double seconds = 0;                      ///< that they would take on one thread
+  std::vector<Real> sound_speeds() const;  ///< of the parts that have one [L/T]
 };
 
 /// `strict`: warnings and ids that nothing refers to are errors.
@@ -32,7 +60,19 @@ std::string unused_text(const Deck& deck, const UnusedIds& unused);
 
 // check_model.cpp
 /// Evaluates the first step; the simulation must not be run afterwards.
-std::string model_text(Simulation& simulation, std::vector<Real>& sound_speeds);
+std::string model_text(Simulation& simulation, ModelFacts& facts);
+
+// check_json.cpp
+/// What stays of a deck when a simulation has been built from it.
+struct DeckHead {
+  explicit DeckHead(const Deck& deck);
+  std::string title;
+  std::vector<std::string> files;  ///< [0] is the deck itself
+  std::map<std::string, KeywordUse> keywords;
+};
+/// `model`: null where the deck cannot be run.
+std::string check_json(const DeckHead& deck, const DeckFacts& facts, const UnusedIds& unused,
+                       const ModelFacts* model, const Diagnostics& diagnostics, bool sound);
 
 // check_units.cpp
 /// Numbers of the deck in common systems of units, and which system they look like.

@@ -14,15 +14,8 @@ namespace courant {
 
 namespace {
 
-constexpr Real none = -1;  ///< a number that a part does not have
-
-struct PartRow {
-  Index count = 0;
-  const char* kind = "-";
-  Real mass = none, volume = none, rho = none, c = none, spacing = none, h = none;
-  Real nearest = std::numeric_limits<Real>::infinity();  ///< smallest distance between two particles
-  Real speed = 0;
-};
+using PartRow = ModelFacts::Part;
+constexpr Real none = PartRow::none;
 
 std::string cell(Real value) {
   return value == none ? fmt::format("{:>10}", "-") : fmt::format("{:10.4g}", value);
@@ -54,7 +47,7 @@ void add_particles(const Simulation& s, std::vector<PartRow>& rows) {
   const Particles& p = s.world().particles;
   for (Index i = 0; i < p.size(); ++i) {
     PartRow& row = rows[p.part[i]];
-    if (row.count++ == 0) row.kind = "sph", row.mass = row.volume = 0;
+    if (row.elements++ == 0) row.kind = "sph", row.mass = row.volume = 0;
     row.mass += p.m[i];
     row.volume += p.m[i] / p.rho[i];
     row.rho = std::max(row.rho, p.rho[i]), row.c = std::max(row.c, p.c[i]), row.h = std::max(row.h, p.h[i]);
@@ -77,14 +70,14 @@ void add_shells(const Simulation& s, std::vector<PartRow>& rows) {
     if (world.segments.volume[k] > 0) continue;  // the skin of solids
     const Index part = world.segments.part[k];
     PartRow& row = rows[part];
-    if (row.count++ == 0) row.kind = "shell", row.volume = 0;
+    if (row.elements++ == 0) row.kind = "shell", row.volume = 0;
     const Real a = area_of(world, k);
     area[part] += a;
     row.volume += a * world.segments.thickness[k];
   }
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (area[k] == 0) continue;
-    rows[k].spacing = std::sqrt(area[k] / rows[k].count);
+    rows[k].spacing = std::sqrt(area[k] / rows[k].elements);
     if (const auto m = rigid_material(s.deck(), s.model(), static_cast<Index>(k))) rows[k].rho = m->ro;
   }
   if (s.bodies())
@@ -98,7 +91,7 @@ void add_shells(const Simulation& s, std::vector<PartRow>& rows) {
     for (const RigidBody& b : s.bodies()->bodies()) {
       if (b.solids == 0) continue;
       PartRow& row = rows[static_cast<std::size_t>(b.part_index)];
-      row.count = b.solids, row.volume = b.volume, row.rho = b.m / b.volume;
+      row.elements = b.solids, row.volume = b.volume, row.rho = b.m / b.volume;
       row.spacing = std::cbrt(b.volume / b.solids);
     }
 }
@@ -122,14 +115,11 @@ void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
       add_speed(world, *group, row);
       continue;
     }
-    row = {.count = group->size(),
-           .kind = "solid",
-           .mass = 0,
-           .volume = 0,
-           .rho = law.ro,
-           .c = law.sound_speed()};
+    row = PartRow();
+    row.elements = group->size(), row.kind = "solid", row.mass = row.volume = 0;
+    row.rho = law.ro, row.c = law.sound_speed();
     for (Index e = 0; e < group->size(); ++e) row.mass += group->mass[e], row.volume += group->V0[e];
-    row.spacing = std::cbrt(row.volume / row.count);
+    row.spacing = std::cbrt(row.volume / row.elements);
     add_speed(world, *group, row);
   }
 }
@@ -148,8 +138,8 @@ std::string inertia_text(const Simulation& s, Id part) {
   return {};
 }
 
-std::string part_table(const Simulation& s, std::vector<Real>& sound_speeds) {
-  std::vector<PartRow> rows(s.model().parts.size());
+std::string part_table(const Simulation& s, std::vector<PartRow>& rows) {
+  rows.resize(s.model().parts.size());
   add_particles(s, rows);
   add_shells(s, rows);
   add_solids(s, rows);
@@ -158,11 +148,11 @@ std::string part_table(const Simulation& s, std::vector<Real>& sound_speeds) {
                   "title", "elements", "kind", "mass", "volume", "density", "sound", "spacing", "h");
   std::string remarks;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const PartRow& r = rows[k];
+    PartRow& r = rows[k];
     const ModelPart& part = s.model().parts[k];
-    text += fmt::format("{:>8} {:<15.15}{:>9} {:<5}{}{}{}{}{}{}\n", part.id, part.title, r.count, r.kind,
+    r.id = part.id, r.title = part.title;
+    text += fmt::format("{:>8} {:<15.15}{:>9} {:<5}{}{}{}{}{}{}\n", part.id, part.title, r.elements, r.kind,
                         cell(r.mass), cell(r.volume), cell(r.rho), cell(r.c), cell(r.spacing), cell(r.h));
-    if (r.c != none) sound_speeds.push_back(r.c);
     if (r.speed > 0)
       remarks += fmt::format("  part {}: initial speed up to {:.4g} [L/T]{}\n", part.id, r.speed,
                              r.c > 0 ? fmt::format(", {:.2g} of its sound speed", r.speed / r.c) : "");
@@ -170,7 +160,7 @@ std::string part_table(const Simulation& s, std::vector<Real>& sound_speeds) {
       remarks += fmt::format("  part {}: nearest neighbours are {:.4g} to {:.4g} [L] apart\n", part.id,
                              r.nearest, r.spacing);
     remarks += inertia_text(s, part.id);
-    if (r.count == 0) remarks += fmt::format("  part {}: no elements\n", part.id);
+    if (r.elements == 0) remarks += fmt::format("  part {}: no elements\n", part.id);
   }
   return text + remarks;
 }
@@ -198,9 +188,12 @@ double seconds_per_step(Simulation& s) {
   return motion_and_lists * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-std::string step_text(Simulation& s, const std::string& who, double seconds) {
+std::string step_text(Simulation& s, const std::string& who, ModelFacts& facts) {
+  const double seconds = seconds_per_step(s);
   const Real dt = s.clock().dt, endtim = s.model().endtim;
   const double steps = std::ceil(endtim / dt);
+  facts.dt = dt, facts.endtim = endtim, facts.set_by = who, facts.steps = steps;
+  facts.seconds = steps * seconds;
   std::string text = fmt::format("First step {:.5g} [T], set by {}\n", dt, who);
   for (TimeLimit* limit : s.world().passes.all<TimeLimit>()) {
     const TimeLimit::Limit one = limit->limit(s.world(), s.clock());
@@ -214,20 +207,30 @@ std::string step_text(Simulation& s, const std::string& who, double seconds) {
 
 }  // namespace
 
-std::string model_text(Simulation& s, std::vector<Real>& sound_speeds) {
+std::vector<Real> ModelFacts::sound_speeds() const {
+  std::vector<Real> out;
+  for (const Part& part : parts)
+    if (part.c != Part::none) out.push_back(part.c);
+  return out;
+}
+
+std::string model_text(Simulation& s, ModelFacts& facts) {
   std::string who;
   s.evaluate(who);
   const Particles& p = s.world().particles;
-  std::string text = part_table(s, sound_speeds);
-  if (p.size() > 0)
+  std::string text = part_table(s, facts.parts);
+  facts.dim = s.world().dim, facts.particles = p.size();
+  if (p.size() > 0) {
+    facts.spacing = s.sph().spacing, facts.active = p.active, facts.neighbours = mean_neighbours(s);
     text += fmt::format(
         "  {}D, spacing {:.6g} [L], {} particles of which {} are active now, {:.1f} neighbours each\n",
-        s.world().dim, s.sph().spacing, p.size(), p.active, mean_neighbours(s));
+        facts.dim, facts.spacing, facts.particles, facts.active, facts.neighbours);
+  }
   const auto& counters = s.world().counters;
   if (const auto found = counters.find("initial_penetrations"); found != counters.end())
     text += fmt::format("  initial penetrations: {}\n", found->second);
   const std::string passes = s.passes();
-  text += step_text(s, who, seconds_per_step(s));
+  text += step_text(s, who, facts);
   return text + passes;
 }
 

@@ -13,11 +13,13 @@
 
 #include "app/check.hpp"
 #include "app/load_extension.hpp"
+#include "app/manual.hpp"
 #include "app/restart.hpp"
 #include "app/simulation.hpp"
 #include "app/terminal.hpp"
 #include "app/verify.hpp"
 #include "generate/generate.hpp"
+#include "keyword/keyword_state.hpp"
 #include "keyword/registry.hpp"
 #include "output/file.hpp"
 #include "parallel/parallel.hpp"
@@ -39,7 +41,8 @@ struct Call {
   int threads = 0;
   Real until = 0;
   VerifyCall verify;
-  bool no_final_dump = false, quiet = false, markdown = false, strict = false;
+  bool no_final_dump = false, quiet = false, markdown = false, cannot_do = false, strict = false,
+       json = false;
 };
 
 void print_error(const std::string& text) {
@@ -111,10 +114,9 @@ int call_run(const Call& call) {
   options.params = call.params, options.stop = &stop_requested, options.dump_at_end = !call.no_final_dump;
   options.restart = restart ? &*restart : nullptr;
   if (!call.quiet) {
-    options.print = [](const std::string& line) {
-      if (line.find("write d3plot file") == std::string::npos) print_line(line);
-    };
+    options.print = print_line;
     options.progress = status_line();
+    if (!options.progress) options.progress = progress_lines();
     options.keyboard = keyboard_is_terminal();
   }
   try {
@@ -146,6 +148,10 @@ int call_check(const Call& call) {
   ReadOptions read;
   if (!parse_params(call.params, read.parameters)) return exit_input;
   const CheckResult result = check_deck(call.deck, read, call.strict);
+  if (call.json) {
+    print_text(result.json);
+    return result.sound ? exit_ok : exit_input;
+  }
   // on a terminal: what was read, what is wrong with it, what a run would compute, the sum
   fmt::print("{}", result.deck);
   std::fflush(stdout);
@@ -162,6 +168,10 @@ int call_check(const Call& call) {
 int call_keywords(const Call& call) {
   if (call.markdown) {
     fmt::print("{}", keyword_markdown());
+    return exit_ok;
+  }
+  if (call.cannot_do) {
+    fmt::print("{}", cannot_do_markdown());
     return exit_ok;
   }
   const KeywordAnswer answer = find_keywords(call.keyword);
@@ -183,6 +193,16 @@ int call_generate(const Call& call) {
   if (!written) return exit_input;
   fmt::print("wrote {}\n", call.output);
   return exit_ok;
+}
+
+int call_manual(const CLI::App& app, const std::string& folder) {
+  try {
+    write_manual(app, folder);
+    return exit_ok;
+  } catch (const OutputError& error) {
+    print_error(fmt::format("error: {}\n", error.what()));
+    return exit_input;
+  }
 }
 
 int call_post(const Call& call) {
@@ -240,6 +260,10 @@ int command_line(int argc, char** argv) {
   CLI::App app{"Courant: explicit multiphysics solver for LS-DYNA-style keyword decks", "courant"};
   app.set_version_flag("--version", std::string("courant ") + COURANT_VERSION);
   app.require_subcommand(1);
+  app.footer(
+      "\n`courant check DECK.k` tells what is made of a deck, `courant run DECK.k -o DIR` computes it,\n"
+      "`courant help run` has the options of a call. Exit codes: 0 done, 1 the input is wrong, 2 the run\n"
+      "ended in error or its results cannot be trusted, 3 anything else.");
   Call call;
 
   auto* run_ = app.add_subcommand("run", "run a deck (also: courant i=DECK ncpu=N)");
@@ -263,11 +287,13 @@ int command_line(int argc, char** argv) {
   check->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER")->allow_extra_args(false);
   add_load(check);
   check->add_flag("--strict", call.strict, "warnings, and ids that nothing refers to, are errors");
+  check->add_flag("--json", call.json, "the report and its messages for programs, on standard output");
 
   auto* keywords = app.add_subcommand("keywords", "list the supported keywords, or show the cards of one");
   keywords->add_option("NAME", call.keyword, "keyword, with or without '*'");
   add_load(keywords);
   keywords->add_flag("--markdown", call.markdown, "all cards as docs/keywords.md");
+  keywords->add_flag("--cannot-do", call.cannot_do, "all that is refused, as docs/cannot_do.md");
 
   auto* generate = app.add_subcommand("generate", "write a keyword deck from a YAML scene");
   generate->add_option("SCENE", call.scene, "scene.yaml")->required();
@@ -298,7 +324,14 @@ int command_line(int argc, char** argv) {
   std::string topic;
   help->add_option("CALL", topic, "run, check, keywords, generate, post or verify");
 
+  auto* manual = app.add_subcommand("manual", "write pages of the manual, and completion for bash");
+  manual->group("")->add_option("DIR", call.dir, "folder for them")->required();  // called by the build
+
   std::vector<std::string> words = translate_habits(argc, argv);
+  if (words.empty()) {
+    print_error(app.help());
+    return exit_input;
+  }
   std::vector<std::string> calls;
   for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; }))
     calls.push_back(one->get_name());
@@ -310,10 +343,15 @@ int command_line(int argc, char** argv) {
                                          : fmt::format("did you mean `courant {}`?", near)));
     return exit_input;
   }
-  std::reverse(words.begin(), words.end());
   try {
-    app.parse(words);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
+    const auto called = app.get_subcommands();
+    const std::string mistyped = unknown_options(called.empty() ? app : *called.front(), words);
+    if (error.get_exit_code() != 0 && !mistyped.empty()) {
+      print_error(mistyped);
+      return exit_input;
+    }
     return app.exit(error) == 0 ? exit_ok : exit_input;
   }
   for (const std::string& file : call.loads)
@@ -326,6 +364,7 @@ int command_line(int argc, char** argv) {
   if (*keywords) return call_keywords(call);
   if (*generate) return call_generate(call);
   if (*post) return call_post(call);
+  if (*manual) return call_manual(app, call.dir);
   if (*verify) {
     std::signal(SIGINT, request_stop);
     std::signal(SIGTERM, request_stop);

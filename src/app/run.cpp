@@ -91,7 +91,8 @@ class Run {
                              summary_.particles, s_.world().dim, summary_.elements, s_.world().nodes.size(),
                              s_.world().segments.size(), summary_.threads));
     for (const std::string& warning : options_.warnings) messag_.line(warning);
-    messag_.line(s_.passes());
+    messag_.keep(s_.passes());
+    if (options_.print) options_.print(s_.passes_in_short() + "; `messag` lists them");
     if (!copies_.refusal().empty()) messag_.line(copies_.refusal());
     messag_.line(" input of data is completed");
     messag_.line(fmt::format(" termination time                  = {:10.3E}", end_));
@@ -318,7 +319,7 @@ class Run {
         [this, state = fields_.take(world, clock.t, state_++)]() mutable { fields_.write(std::move(state)); },
         weight_of_state);
     last_field_time_ = clock.t;
-    messag_.status(clock.cycle, clock.t, clock.dt, "write d3plot file");
+    messag_.keep_status(clock.cycle, clock.t, clock.dt, fmt::format("write field state {}", state_ - 1));
   }
 
   void write_histories(bool always) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "app/build_nodes.hpp"
 #include "app/field_options.hpp"
@@ -421,6 +422,15 @@ std::string Simulation::passes() const {
   for (const PassNote& note : left_out_) text += fmt::format("  {:<28}{}\n", note.name, note.reason);
   for (const PassNote& note : outputs(false)) text += fmt::format("  {:<28}{}\n", note.name, note.reason);
   return text;
+}
+
+std::string Simulation::passes_in_short() const {
+  std::istringstream lines(stepper_->stages());
+  int active = 0;
+  for (std::string line; std::getline(lines, line);)  // a pass is four columns in, no "-- threads wait"
+    active += line.rfind("    ", 0) == 0 && line[4] != '-';
+  return fmt::format("{} passes make a step, {} outputs are asked for, {} of both are left out", active,
+                     outputs(true).size(), left_out_.size() + outputs(false).size());
 }
 
 }  // namespace courant

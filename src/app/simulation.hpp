@@ -77,7 +77,8 @@ class Simulation {
   /// that is loaded into a fresh simulation of the same deck, have the same bits from then on. Throws
   /// RestartError where the state is that of another deck.
   void keep(Archive& archive);
-  std::string passes() const;  ///< which passes and outputs are active, and why others are not
+  std::string passes() const;           ///< which passes and outputs are active, and why others are not
+  std::string passes_in_short() const;  ///< how many are active and left out, on one line
 
  private:
   Simulation() = default;
@@ -134,7 +135,7 @@ struct RunOptions {
   Real until = 0;                                    ///< > 0: end time instead of ENDTIM [T]
   std::vector<std::string> warnings;                 ///< of the deck, for summary.yaml
   std::vector<std::string> params;                   ///< NAME=VALUE, for the command that goes on
-  std::function<void(const std::string&)> print;     ///< every line of messag
+  std::function<void(const std::string&)> print;     ///< lines of messag
   std::function<void(const std::string&)> progress;  ///< one status line, about once a second
   const std::atomic<bool>* stop = nullptr;           ///< set by a signal: end cleanly after this step
   bool dump_at_end = true;                           ///< a restart file when the run has ended or is stopped

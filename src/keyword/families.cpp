@@ -267,12 +267,21 @@ constexpr std::size_t slip_of_the_pen = 2, shortest_for_two = 8;
 
 }  // namespace
 
+std::vector<std::string> output_requests() {
+  return {"DATABASE",     "CONTROL_OUTPUT", "CONTROL_PARALLEL",         "CONTROL_MPP", "CONTROL_UNITS",
+          "CONTROL_LSDA", "CONTROL_DEBUG",  "CONTROL_REQUIRE_REVISION", "LSO",         "ELEMENT_PLOTEL"};
+}
+
 bool is_output_request(const std::string& name) {
-  for (const char* prefix :
-       {"DATABASE", "CONTROL_OUTPUT", "CONTROL_PARALLEL", "CONTROL_MPP", "CONTROL_UNITS", "CONTROL_LSDA",
-        "CONTROL_DEBUG", "CONTROL_REQUIRE_REVISION", "LSO", "ELEMENT_PLOTEL"})
-    if (begins_with_words(name, prefix)) return true;
+  for (const std::string& words : output_requests())
+    if (begins_with_words(name, words)) return true;
   return false;
+}
+
+std::vector<std::pair<std::string, std::string>> refused_families() {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const Family& family : families) out.emplace_back(family.prefix, family.what);
+  return out;
 }
 
 std::string not_supported(const std::string& lacking) {

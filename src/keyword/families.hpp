@@ -1,12 +1,19 @@
 #pragma once
 // Keywords that Courant has no table for: what their names tell, so that a deck is refused with the reason.
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace courant {
 
 /// Requests that have no influence on the physics: read over with a warning instead of an error.
 bool is_output_request(const std::string& name);
+
+/// First words of those requests.
+std::vector<std::string> output_requests();
+/// First words of the keywords that are refused, and what is lacking: "airbags"; "this ..." where some with
+/// these words are supported.
+std::vector<std::pair<std::string, std::string>> refused_families();
 
 /// Why a keyword is refused.
 struct Refusal {

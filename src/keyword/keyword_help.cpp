@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "keyword/keyword_state.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
 
@@ -106,6 +107,13 @@ constexpr const char* markdown_introduction =
     "refused. *No effect*: read and left unused, because it cannot change results here. *Warning*: another "
     "value asks for "
     "output that Courant lacks; the run goes on without it.\n"
+    "- Behind a name stands its state, and below its heading in full. Honoured: all fields count. Partly: of "
+    "some "
+    "fields only the default, or some values, are taken, and a deck with others is refused. No effect: "
+    "output and "
+    "the like that changes no result. Refused: the cards are read and checked, and the deck is refused. All "
+    "that is "
+    "refused: [cannot_do.md](cannot_do.md).\n"
     "- A keyword that is not on this page is an error, except requests for output (`*DATABASE_...`, "
     "`*CONTROL_OUTPUT`, "
     "`*CONTROL_PARALLEL`, `*CONTROL_MPP_...`, `*CONTROL_UNITS`), which give a warning.\n";
@@ -125,8 +133,7 @@ std::string sentence(std::string text) {
   return text + ".";
 }
 
-std::string anchor(const KeywordSpec& spec) {
-  std::string out = spec.names[0];
+std::string anchor(std::string out) {
   std::transform(out.begin(), out.end(), out.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 'a' - 'A') : c; });
   return out;
@@ -189,6 +196,7 @@ std::string keyword_help(const std::string& name) {
   if (match.keyword < 0) return {};
   const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(match.keyword)];
   std::string out = fmt::format("*{}: {}\n", fmt::join(spec.names, ", *"), spec.purpose);
+  out += support_text(spec) + "\n";
   if (const std::string options = options_line(spec); !options.empty()) out += options + "\n";
   for (std::size_t c = 0; c < spec.cards.size(); ++c) {
     out += "\n" + card_line(spec.cards[c], c + 1) + "\n";
@@ -204,8 +212,9 @@ std::string keyword_help(const std::string& name) {
 std::string keyword_list() {
   std::string out;
   for (const KeywordSpec* spec : sorted_registry())
-    for (const std::string& name : spec->names) out += fmt::format("*{:<44} {}\n", name, spec->purpose);
-  return out;
+    for (const std::string& name : spec->names)
+      out += fmt::format("*{:<44} {:<10} {}\n", name, state_word(support_of(*spec).state), spec->purpose);
+  return out + "\n" + state_legend();
 }
 
 std::string keyword_markdown() {
@@ -217,14 +226,17 @@ std::string keyword_markdown() {
     out += word == group ? ", " : "\n- ";
     group = word;
     for (std::size_t n = 0; n < spec->names.size(); ++n)
-      out += fmt::format("{}[{}](#{})", n > 0 ? ", " : "", spec->names[n], anchor(*spec));
+      out += fmt::format("{}[{}](#{}) {}", n > 0 ? ", " : "", spec->names[n], anchor(spec->names[n]),
+                         state_word(support_of(*spec).state));
   }
   out += "\n";
   for (const KeywordSpec* spec : specs) {
-    out += fmt::format("\n<a id=\"{}\"></a>\n\n## *{}\n\n", anchor(*spec), spec->names[0]);
+    out += "\n";
+    for (const std::string& name : spec->names) out += fmt::format("<a id=\"{}\"></a>", anchor(name));
+    out += fmt::format("\n\n## *{}\n\n", spec->names[0]);
     if (spec->names.size() > 1)
       out += fmt::format("Also: `*{}`. ", fmt::join(spec->names.begin() + 1, spec->names.end(), "`, `*"));
-    out += escaped(sentence(spec->purpose)) + "\n";
+    out += escaped(sentence(spec->purpose)) + "\n\n" + escaped(sentence(support_text(*spec))) + "\n";
     if (const std::string options = options_line(*spec); !options.empty()) out += "\n" + options + "\n";
     for (std::size_t c = 0; c < spec->cards.size(); ++c) out += markdown_card(spec->cards[c], c + 1);
   }

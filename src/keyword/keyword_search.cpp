@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "keyword/families.hpp"
+#include "keyword/keyword_state.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
 
@@ -18,9 +19,7 @@ struct Found {
 std::string listed(const std::vector<Found>& found) {
   std::string out;
   for (const Found& f : found)
-    out += fmt::format(
-        "*{:<44} {}{}\n", f.name, f.spec->purpose,
-        f.spec->lacking.empty() ? "" : fmt::format(" (read; {})", not_supported(f.spec->lacking)));
+    out += fmt::format("*{:<44} {:<10} {}\n", f.name, state_word(support_of(*f.spec).state), f.spec->purpose);
   return out;
 }
 
@@ -55,9 +54,6 @@ KeywordAnswer find_keywords(const std::string& name) {
   const std::vector<Found> others = names_with(wanted, spec);
   if (spec) {
     std::string text = keyword_help(wanted);
-    if (!spec->lacking.empty())
-      text += fmt::format("\nIts cards are read and checked, and the deck is refused: {}.\n",
-                          not_supported(spec->lacking));
     if (!others.empty()) text += "\nOther keywords with this name in theirs:\n" + listed(others);
     return {true, text, ""};
   }

@@ -23,8 +23,16 @@ Messag::Messag(const std::filesystem::path& file, Echo echo, bool append)
     : file_(file, append), echo_(std::move(echo)) {}
 
 void Messag::line(std::string_view text) {
-  file_.write(std::string(text) + "\n");
+  keep(text);
   if (echo_) echo_(text);
+}
+
+void Messag::keep(std::string_view text) {
+  file_.write(std::string(text) + "\n");
+}
+
+void Messag::keep_status(std::int64_t cycle, Real t, Real dt, std::string_view what) {
+  keep(status_line(cycle, t, dt, what, date_and_time()));
 }
 
 void Messag::status(std::int64_t cycle, Real t, Real dt, std::string_view what) {

@@ -24,8 +24,12 @@ class Messag {
   explicit Messag(const std::filesystem::path& file, Echo echo = {}, bool append = false);
   /// Adds a line; `text` has no line end. Throws OutputError.
   void line(std::string_view text);
+  /// Adds a line that is not passed on: what few want to see while the run goes on. Throws OutputError.
+  void keep(std::string_view text);
   /// Adds a status line with the present date and time. Throws OutputError.
   void status(std::int64_t cycle, Real t, Real dt, std::string_view what);
+  /// The same, and it is not passed on. Throws OutputError.
+  void keep_status(std::int64_t cycle, Real t, Real dt, std::string_view what);
   /// Adds a line with the present date and time behind it. Throws OutputError.
   void banner(std::string_view text);
 

@@ -4,6 +4,7 @@
 usage: cli.py COURANT SOURCE_DIR WORK_DIR
 """
 import glob
+import json
 import os
 import re
 import resource
@@ -96,15 +97,19 @@ ends(1, "help", "nonsense")
 ends(1, "nonsense", err="'nonsense' is no call of courant\n  hint: the calls are run, check")
 ends(1, "chekc", "tiny.k", err="did you mean `courant check`")
 ends(1, "i=tiny.k", "ncpu=two", err="two")
-ends(1, err=".")
+ends(1, err=r"(?s)Usage: courant .*\n  run .*\n  check .*courant check DECK.k")
 ends(1, "run", err="DECK")
-ends(1, "run", "tiny.k", "--no-such-option", err="no-such-option")
+ends(1, "run", "tiny.k", "--no-such-option", err="`courant run` has no option '--no-such-option'\n  hint: its options are .*--until")
+for mistyped, meant in (("--ouput", "--output"), ("-output", "--output"), ("--thread=2", "--threads"), ("--unti", "--until")):
+    ends(1, "run", "tiny.k", mistyped, "x", err=f"has no option '{mistyped.split('=')[0]}'\n  hint: did you mean {meant}\\?")
+ends(1, "check", "--jsn", err="did you mean --json")
+ends(1, "--versoin", err="did you mean --version")
 ends(1, "run", "tiny.k", "--until", "soon", err="soon")
 ends(1, "run", "tiny.k", "--until", "-1", err="-1")
 for time_of_no_end in ("nan", "inf"):
     ends(1, "run", "tiny.k", "--until", time_of_no_end, err=time_of_no_end)
-ends(0, "keywords", out=r"\*MAT_NULL +fluid")
-ends(0, "keywords", "section_sph", out="CSLH")
+ends(0, "keywords", out=r"(?s)\*MAT_JOHNSON_COOK +refused .*\*MAT_NULL +partly +fluid.*\nhonoured: all")
+ends(0, "keywords", "section_sph", out=r"^\*SECTION_SPH.*\n(partly|honoured)(.*\n)*.*CSLH")
 ends(0, "keywords", "*MAT_RIGID_TITLE", out="CMO")
 ends(1, "keywords", "MAT_NUL", err="did you mean")
 ends(0, "keywords", "MAT", out=r"(?s)\*MAT_NULL.*\*MAT_RIGID")
@@ -113,8 +118,38 @@ ends(0, "keywords", "SET_NODE", out=r"(?s)SID .*Other keywords with this name in
 ends(1, "keywords", "AIRBAG_ALE", err="AIRBAG_ALE: airbags are not supported")
 ends(1, "keywords", "DATABASE_FSI", err="decks with it run, with a warning")
 
+# --- pages of the manual and completion tell of every call and option, and no others
+ends(0, "manual", "manual")
+calls = re.findall(r"^  (\w+) ", call()[2].split("Subcommands:")[1], re.M)
+check({"run", "check", "keywords", "generate", "post", "verify", "help"} <= set(calls), f"calls: {calls}")
+check(sorted(os.listdir("manual")) == sorted(["courant", "courant.1"] + [f"courant-{one}.1" for one in calls]), "a page for each call")
+
+
+def completed(*words):
+    """What bash offers for the last of the words."""
+    script = ('source manual/courant; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _courant; printf "%s\\n" "${COMPREPLY[@]}"')
+    done = subprocess.run(["bash", "-c", script, "bash", courant, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    check(done.stderr == "", f"completion is quiet: {done.stderr}")
+    return done.stdout.split()
+
+
+for one in calls:
+    page = open(f"manual/courant-{one}.1").read().replace("\\-", "-")
+    options = set(re.findall(r"(?<![\w-])(--[a-z][a-z-]*)", call("help", one)[1].split("Options:")[1]))
+    check(set(re.findall(r"^\.BI? \"?.*?(--[a-z-]+)", page, re.M)) == options and "--help" in options, f"manual/courant-{one}.1: {options}")
+    check(options <= set(completed(one, "-")), f"bash completes the options of {one}: {completed(one, '-')}")
+check(set(calls) <= set(completed("")) and completed("ver") == ["verify"], "bash completes calls")
+check(completed("keywords", "MAT_NU") == ["MAT_NULL"] and completed("keywords", "mat_nu") == ["MAT_NULL"], "bash completes names of keywords")
+ends(1, "manual", "/proc/x", err="cannot write '/proc/x'")
+
 # --- a run that ends well
-ends(0, "run", "tiny.k", "-o", "well", "--threads", "1", out="N o r m a l    t e r m i n a t i o n")
+stdout, _ = ends(0, "run", "tiny.k", "-o", "well", "--threads", "1", out="N o r m a l    t e r m i n a t i o n")
+said = open("well/messag").read()
+begin = stdout[:stdout.index("first step")]
+check(begin.count("\n") < 12 and re.search(r"^\d+ passes make a step, 4 outputs are asked for, \d+ of both are left out; `messag` lists them$", begin, re.M),
+      f"before the first step a run is short: {begin}")
+check("a step, by stages" in said and "not needed by this deck" in said and "a step, by stages" not in stdout, "passes stand in messag")
+check("d3plot file" not in said and len(re.findall(r"write field state \d", said)) == 7, "messag tells of field states, not of files that are not there")
 good = summary("well")
 check(good["termination"] == "normal" and abs(float(good["time"]) - 0.05) < 0.01, f"summary: {good['termination']} at {good['time']}")
 check(len(states("well")) == 14, "states of particles and walls at 0, 0.01, ... 0.05 and the end")
@@ -209,6 +244,23 @@ for part in (r"Files\n  tiny.k +\d+ lines", r"\*ELEMENT_SPH +1 +64  honoured", r
              r"\n +1 \S.* 64 sph ", r"First step \S+ \[T\], set by sph \d+ of part 1\n", r"steps to ENDTIM = 0.05 at this size; on one thread"):
     check(re.search(part, stdout), f"check says {part!r}")
 check(max(map(len, stdout.splitlines())) <= 100, "no line of the report is wider than 100 columns")
+# --- check --json: the same for programs
+found = json.loads(call("check", "tiny.k", "--json")[1])
+check(found["can_be_run"] is True and found["errors"] == 0 and found["messages"] == [] and found["files"] == ["tiny.k"], f"JSON of a sound deck: {found}")
+water = found["run"]["parts"][0]
+# 8 x 8 particles in 0.5 m x 0.5 m of water, 30 m/s
+check(water["kind"] == "sph" and water["elements"] == 64 and abs(water["mass"] - 250) < 1e-6 and water["sound_speed"] == 30
+      and abs(water["spacing"] - 0.0625) < 1e-9 and found["run"]["particles"] == 64 and found["run"]["end_time"] == 0.05, f"its numbers: {found['run']}")
+check(f"First step {found['run']['first_step']:.5g} [T], set by {found['run']['first_step_set_by']}\n" in stdout, "the first step is that of the text")
+code, text_of_json, said = call("check", "bad.k", "--json")
+found = json.loads(text_of_json)
+check(code == 1 and said == "" and found["can_be_run"] is False and "run" not in found and found["errors"] == 1, "JSON of a deck that is refused")
+check(found["messages"][0]["severity"] == "error" and found["messages"][0]["file"] == "bad.k" and found["messages"][0]["line"] > 0
+      and found["messages"][0]["hint"] == "did you mean *MAT_NULL?", f"its message: {found['messages']}")
+check([k["treatment"] for k in found["keywords"] if k["name"] == "MAT_NUL"] == ["refused"], "what becomes of keywords")
+code, text_of_json, _ = call("check", "missing.k", "--json")
+check(code == 1 and json.loads(text_of_json)["messages"][0]["file"] == "missing.k", "JSON of a deck that is not there")
+check(json.loads(call("check", strange, "--json")[1])["files"] == ["bad\ufffd.k"], "JSON is UTF-8 whatever the name of the deck")
 with open("refused.k", "w") as file:
     file.write(text.replace("*END", "*INCLUDE\nsolids.k\n*AIRBAG_ALE\n1\n*AIRBAG_ALE\n2\n*END"))
 with open("solids.k", "w") as file:
@@ -288,6 +340,12 @@ for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
     check(process.returncode == 0 and end["termination"] == "interrupted", f"{number.name} -> {process.returncode}, {end['termination']}")
     check(len(states(folder)) >= 8, "fields.pvd is readable")
     check("stopped by a signal" in open(folder + "/messag").read(), "messag says why the run stopped")
+with open("log", "w") as log:  # a file, where lines stay
+    process = subprocess.Popen([courant, "run", "tiny.k", "-o", "logged", "--threads", "1", "--until", "1000"], stdout=log)
+    shown = until(lambda: re.search(r"^t \d+\.\d+ of 1000 .* left$", open("log").read(), re.M), process, 30)
+    process.send_signal(signal.SIGINT)
+    process.wait(timeout=60)
+check(shown and "\r" not in open("log").read(), f"a run tells its progress in a file, too: {open('log').read()[-300:]}")
 process = subprocess.Popen([courant, "run", "tiny.k", "-o", "unread", "--threads", "1", "--until", "1000"],
                            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
 until(lambda: os.path.exists("unread/fields/particles_0003.vtp"), process)

@@ -1,4 +1,6 @@
 // Only what a scene needs: the whole list of passes, active and left out with the reason, scene by scene.
+#include <sstream>
+
 #include "small_scene.hpp"
 
 namespace courant {
@@ -107,6 +109,29 @@ void expect_change(const SmallScene& scene, const std::vector<std::string>& gone
     std::sort(lines->begin(), lines->end());
   EXPECT_EQ(got.active, expected.active);
   EXPECT_EQ(got.left_out, expected.left_out);
+}
+
+/// Beside the lists that others are counted from.
+TEST(Passes, AreCountedInShort) {
+  const SmallScene scene;
+  const auto s = build(scene);
+  ASSERT_TRUE(s);
+  const std::string text = s->passes(), short_text = s->passes_in_short();
+  // of each four blanks in front and the set it runs over behind
+  int passes = 0, outputs = 0, left_out = 0;
+  bool behind = false;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (behind) ++left_out;
+    behind = behind || line == "not needed by this deck:";
+    passes += line.rfind("    ", 0) == 0 && line.find(" particles", 30) != std::string::npos;
+    outputs += line.rfind("  output  ", 0) == 0;
+  }
+  EXPECT_GT(passes, 8);
+  EXPECT_EQ(short_text,
+            fmt::format("{} passes make a step, {} outputs are asked for, {} of both are left out", passes,
+                        outputs, left_out))
+      << text;
 }
 
 TEST(Passes, BareSceneInTheOrderOfAStep) {

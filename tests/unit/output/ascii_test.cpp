@@ -246,6 +246,12 @@ TEST(Messag, StatusLineAndEcho) {
   messag.line("hello");
   EXPECT_EQ(shown, "hello");
   EXPECT_EQ(test::read_text(dir / "messag"), "hello\n");
+  messag.keep("for later");
+  messag.keep_status(7, 0.5, 0.25, "write field state 0");
+  EXPECT_EQ(shown, "hello");
+  EXPECT_EQ(test::read_text(dir / "messag")
+                .rfind("hello\nfor later\n       7 t 5.0000E-01 dt 2.50E-01 write field", 0),
+            0u);
 }
 
 TEST(Summary, ComesBackAsYaml) {
