@@ -5,9 +5,11 @@ project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$project/build/release
 logs=$project/build/logs
 
-build_packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libvtk9-dev libyaml-cpp-dev libfmt-dev libcli11-dev libfftw3-dev zlib1g-dev liblzma-dev)
-picture_packages=(python3 python3-matplotlib python3-numpy)
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-vtk9 python3-h5py python3-yaml chromium valgrind)
+build_packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libyaml-cpp-dev libfmt-dev libcli11-dev zlib1g-dev liblzma-dev)
+picture_packages=(python3 python3-matplotlib python3-numpy python3-scipy python3-h5py python3-yaml)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-jinja2 python3-pandas python3-pytest chromium valgrind)
+# VTK checks the field files and is what courant::vtk is for. Its packages cannot stand beside the Python of ParaView, which has a VTK of its own.
+dpkg-query -W -f='${db:Status-Status}' python3-paraview 2>/dev/null | grep -qx installed || test_packages+=(libvtk9-dev python3-vtk9)
 
 say() { printf '%s\n' "$*"; }
 
@@ -57,7 +59,7 @@ install_packages() {  # package names
     version=$(. /etc/os-release && printf '%s' "${VERSION_ID:-}")
   fi
   if ! command -v dpkg-query >/dev/null; then
-    say "This is $system $version, not Debian 12: assuming that g++, CMake, Ninja, Eigen, HDF5, VTK 9, yaml-cpp, fmt, CLI11 and FFTW are there."
+    say "This is $system $version, not Debian 12: assuming that g++, CMake, Ninja, Eigen, HDF5, yaml-cpp, fmt and CLI11 are there."
     return
   fi
   mapfile -t missing < <(missing_packages "$@")

@@ -14,17 +14,16 @@
 #include "app/check.hpp"
 #include "app/load_extension.hpp"
 #include "app/manual.hpp"
+#include "app/python_program.hpp"
 #include "app/restart.hpp"
 #include "app/simulation.hpp"
 #include "app/terminal.hpp"
-#include "app/verify.hpp"
 #include "generate/generate.hpp"
 #include "keyword/keyword_state.hpp"
 #include "keyword/registry.hpp"
 #include "output/file.hpp"
 #include "parallel/parallel.hpp"
 #include "parallel/thread_limit.hpp"
-#include "post/post.hpp"
 
 namespace courant {
 
@@ -36,13 +35,20 @@ void request_stop(int) {
 }
 
 struct Call {
-  std::string deck, dir = ".", scene, output, recipe, keyword, restart;
+  std::string deck, dir = ".", scene, output, keyword, restart;
   std::vector<std::string> params, loads;
   int threads = 0;
   Real until = 0;
-  VerifyCall verify;
   bool no_final_dump = false, quiet = false, markdown = false, cannot_do = false, strict = false,
        json = false;
+};
+
+/// Words of calls that the Python package answers, which are looked at here alone for mistakes.
+struct PythonCall {
+  std::string input, dir, compare, page;
+  std::vector<std::string> only, loads;
+  int jobs = 0;
+  bool fresh = false;
 };
 
 void print_error(const std::string& text) {
@@ -205,29 +211,6 @@ int call_manual(const CLI::App& app, const std::string& folder) {
   }
 }
 
-int call_post(const Call& call) {
-  Diagnostics diagnostics;
-  if (const std::string why = why_not_threads(call.threads); !why.empty()) {
-    print_error(fmt::format("error: {}\n", why));
-    return exit_other;
-  }
-  set_threads(call.threads);
-  const auto say = [](std::string_view text) {
-    clear_status_line();
-    fmt::print("{}", text);
-  };
-  try {
-    const bool done = run_post(call.recipe, call.dir, say, diagnostics, status_line());
-    clear_status_line();
-    print_error(diagnostics.text());
-    return done ? exit_ok : exit_input;
-  } catch (const OutputError& error) {
-    clear_status_line();
-    print_error(diagnostics.text() + fmt::format("error: {}\n", error.what()));
-    return exit_run;
-  }
-}
-
 /// LS-DYNA users type `i=DECK ncpu=N r=FILE`: rewritten to our options before they are read.
 std::vector<std::string> translate_habits(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
@@ -301,24 +284,29 @@ int command_line(int argc, char** argv) {
   generate->add_option("--param", call.params, "NAME=VALUE: a parameter of the scene")
       ->allow_extra_args(false);
 
+  PythonCall python;  // what these two do, the package in src/python does
+  const auto add_python_load = [&](CLI::App* to) {
+    to->add_option("--load", python.loads, "FILE.py with analyses, observations, charts of your own")
+        ->allow_extra_args(false);
+  };
   auto* post = app.add_subcommand("post", "tables, CSV and pictures from the results of a run");
-  post->add_option("RECIPE", call.recipe, "recipe.yaml")->required();
-  post->add_option("DIR", call.dir, "folder of the run")->required();
-  post->add_option("--threads", call.threads, "threads; 0: all cores")->check(CLI::NonNegativeNumber);
+  post->add_option("RECIPE", python.input, "recipe.yaml")->required();
+  post->add_option("DIR", python.dir, "folder of the run")->required();
+  post->add_option("--threads", python.jobs, "processes; 0: all cores")->check(CLI::NonNegativeNumber);
+  add_python_load(post);
 
   auto* verify = app.add_subcommand("verify", "run a suite of cases: errors against run time, and stability");
-  verify->add_option("SUITE", call.verify.suite, "suite.yaml")->required();
-  verify->add_option("-o,--output", call.verify.dir,
-                     "folder for runs and results; SUITE_verify if not given");
-  verify->add_option("--jobs", call.verify.jobs, "runs at once; 0: one per core")
-      ->check(CLI::NonNegativeNumber);
-  verify->add_option("--only", call.verify.only, "CASE[,CASE...]: these cases alone")
+  verify->add_option("SUITE", python.input, "suite.yaml")->required();
+  verify->add_option("-o,--output", python.dir, "folder for runs and results; SUITE_verify if not given");
+  verify->add_option("--jobs", python.jobs, "runs at once; 0: one per core")->check(CLI::NonNegativeNumber);
+  verify->add_option("--only", python.only, "CASE[,CASE...]: these cases alone")
       ->delimiter(',')
       ->allow_extra_args(false);
-  verify->add_option("--compare", call.verify.compare, "results.csv of an earlier call: tell what got worse");
-  verify->add_option("--page", call.verify.page,
+  verify->add_option("--compare", python.compare, "results.csv of an earlier call: tell what got worse");
+  verify->add_option("--page", python.page,
                      "also write a Markdown page with its charts in a folder beside it");
-  verify->add_flag("--fresh", call.verify.fresh, "take over no runs of an earlier call");
+  verify->add_flag("--fresh", python.fresh, "take over no runs of an earlier call");
+  add_python_load(verify);
 
   auto* help = app.add_subcommand("help", "show help for a call");
   std::string topic;
@@ -363,13 +351,11 @@ int command_line(int argc, char** argv) {
   if (*check) return call_check(call);
   if (*keywords) return call_keywords(call);
   if (*generate) return call_generate(call);
-  if (*post) return call_post(call);
-  if (*manual) return call_manual(app, call.dir);
-  if (*verify) {
-    std::signal(SIGINT, request_stop);
-    std::signal(SIGTERM, request_stop);
-    return call_verify(call.verify, stop_requested);
+  if (*post || *verify) {
+    print_error(fmt::format("error: {}\n", become_python_program(words)));
+    return exit_other;
   }
+  if (*manual) return call_manual(app, call.dir);
   const auto found = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == topic; });
   fmt::print("{}", (found.empty() ? &app : found.front())->help());
   return topic.empty() || !found.empty() ? exit_ok : exit_input;

@@ -26,10 +26,8 @@ MAY_INCLUDE = {
     "contact": ["loads", "search", "state", "keyword", "model", "surfaces"],
     "output": ["state"],
     "time": ["state", "search", "output"],
-    "post": ["base", "output"],
     "generate": ["base"],
     "vtk": ["state", "output"],
-    "verify": ["post", "generate", "keyword"],
 }
 TOP = "app"  # may include everything; nothing includes it
 THREADS = re.compile(r"#\s*(pragma\s+omp\s+(?!simd|declare\s+simd)|include\s*<(omp\.h|thread|mutex|future|condition_variable)>)")

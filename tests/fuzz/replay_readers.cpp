@@ -1,6 +1,7 @@
-// Reads files of every kind that courant reads beside decks, as they are and with seeded changes.
+// Reads files of every kind that the C++ programs read beside decks, scenes and restart files, as they are
+// and with seeded changes.
 //   fuzz_readers [--seconds S] [--seed K] [--only NAME] [--limit S] [--sign] PROJECT RUN...
-// PROJECT lends scenes, suites, recipes and curves; each RUN is the folder of a run with results and restart
+// PROJECT lends scenes; each RUN is the folder of a run with results and restart
 // files. Each kind gets S seconds (2). Ends with 1 where reading throws what it does not announce, takes more
 // than --limit seconds (1) of processor time, or more than 1 GB beyond what it had; where it crashes, the
 // input remains in a folder that is told at the start.
@@ -25,13 +26,6 @@
 #include "generate/scene.hpp"
 #include "mutate.hpp"
 #include "output/restart_file.hpp"
-#include "post/ascii_history.hpp"
-#include "post/history_file.hpp"
-#include "post/recipe.hpp"
-#include "post/results.hpp"
-#include "verify/record.hpp"
-#include "verify/reference.hpp"
-#include "verify/suite.hpp"
 
 // What no input of this size may ask for at once; without a sanitizer nobody calls it.
 extern "C" const char* __asan_default_options();
@@ -118,32 +112,6 @@ void read_scene_and_deck(const fs::path& file) {
   diagnostics.text();
 }
 
-void read_history(const fs::path& file) {
-  Diagnostics diagnostics;
-  const auto history = HistoryFile::open(file, diagnostics);
-  if (!history) return;
-  for (const std::string& name : history->names()) {
-    history->dimension(name);
-    history->sampled(name);
-    for (int k = 0; k < history->components(name) && k < 8; ++k) history->column(name, k);
-  }
-}
-
-void read_fields(const fs::path& particles, const fs::path& shells) {
-  Diagnostics diagnostics;
-  const StateFiles state{0, particles, shells};
-  if (!particles.empty())
-    read_particles(state, true, {{"pressure", 1, true}, {"part", 1, true}}, diagnostics);
-  if (!shells.empty()) read_walls(state, diagnostics);
-}
-
-void read_curve(const fs::path& file) {
-  for (const char* column : {"1", "t", "x"}) {
-    Diagnostics diagnostics;
-    read_table(file, column, "2", diagnostics);
-  }
-}
-
 void read_restart(const fs::path& file) {
   try {
     read_restart_file(file);
@@ -164,50 +132,6 @@ std::vector<Kind> kinds_of(const fs::path& project, const std::vector<fs::path>&
   };
   yaml(kind("scene", "verification/scenes/changed.yaml", false, read_scene_and_deck),
        {"tests/verification/scenes", "tests/stability/scenes", "keyword_decks/still_water"});
-  yaml(kind("recipe", "changed.yaml", false,
-            [](const fs::path& file) {
-              Diagnostics diagnostics;
-              read_recipe(file, diagnostics);
-              diagnostics.text();
-            }),
-       {"keyword_decks/hydraulic_jump/post.yaml", "keyword_decks/hydraulic_jump/paper_figures.yaml",
-        "keyword_decks/hydraulic_jump/standing_figures.yaml", "tests/fuzz/seeds/readers/recipe.yaml"});
-  yaml(kind("suite", "verification/changed.yaml", false,
-            [](const fs::path& file) {
-              Diagnostics diagnostics;
-              read_suite(file, diagnostics);
-              diagnostics.text();
-            }),
-       {"tests/verification/suite.yaml", "tests/verification/skeleton.yaml", "tests/stability/suite.yaml"});
-  Kind& record =
-      kind("record", "record.yaml", false, [](const fs::path& file) { read_record(file.parent_path()); });
-  record.seeds = {
-      "key: 0123456789abcdef\nexit_code: 0\nsignal: 0\ntimed_out: false\ntime_limit: 1800\n"
-      "wall_seconds: 1.5\ncpu_seconds: 2.5\npeak_memory_bytes: 100000\n"};
-  Kind& curve = kind("curve", "curve.csv", false, read_curve);
-  add_seeds(curve, project / "tests/verification/data", ".csv");
-  curve.seeds.emplace_back("t,y\n0,1\n1,2\n2,3e-1\n");
-  Kind& ascii = kind("ascii", "ascii", false, [](const fs::path& file) {
-    Diagnostics diagnostics;
-    AsciiFile::open(file, diagnostics);
-    diagnostics.text();
-  });
-  for (const char* name :
-       {"glstat", "matsum", "rcforc", "sleout", "nodout", "rbdout", "bndout", "spcforc", "rwforc", "sphout"})
-    of_runs(ascii, name, "");
-  of_runs(kind("states", "fields.pvd", false,
-               [](const fs::path& file) {
-                 Diagnostics diagnostics;
-                 read_states(file.parent_path(), diagnostics);
-               }),
-          "fields.pvd", "");
-  of_runs(kind("particles", "changed.vtp", true, [](const fs::path& file) { read_fields(file, {}); }),
-          "fields", ".vtp");
-  of_runs(kind("shells", "changed.vtu", true, [](const fs::path& file) { read_fields({}, file); }), "fields",
-          ".vtu");
-  Kind& history = kind("history", "history.h5", true, read_history);
-  history.signed_by_crc = true;
-  of_runs(history, "history.h5", "");
   Kind& restart = kind("restart", "restart.h5", true, read_restart);
   restart.signed_by_crc = true;
   of_runs(restart, "restart", ".h5");
@@ -316,7 +240,7 @@ int main(int argc, char** argv) {
   fs::create_directories(work);
   std::printf("inputs in %s\n", work.c_str());
   std::fflush(stdout);
-  // scenes and suites name files beside them
+  // scenes name files beside them
   fs::copy(options.folders[0] / "tests/verification", work / "verification", fs::copy_options::recursive);
   fs::copy(options.folders[0] / "tests/stability/scenes", work / "verification/scenes",
            fs::copy_options::recursive | fs::copy_options::skip_existing);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <csignal>
 
+#include "output/history_checksum.hpp"
 #include "output_test.hpp"
-#include "post/history_file.hpp"
 
 namespace courant {
 namespace {
@@ -29,8 +29,10 @@ Sample sample_at(Real t) {
   return s;
 }
 
-bool post_history(const std::filesystem::path& name, Diagnostics& diagnostics) {
-  return HistoryFile::open(name, diagnostics).has_value();
+/// Whether all bytes are those that were written.
+bool is_whole(const std::filesystem::path& file) {
+  std::string content = test::read_text(file);
+  return take_history_checksum(content);
 }
 
 std::vector<double> read(hid_t file, const char* path, std::vector<hsize_t>* shape = nullptr) {
@@ -111,7 +113,7 @@ TEST(History, GrowsOverSeveralFlushesAndComesBack) {
 }
 
 // HDF5 crashes on some damaged files: none gets that far.
-TEST(History, DamagedFilesAreRefused) {
+TEST(History, DamagedFilesAreKnown) {
   ScratchFolder dir;
   const auto name = dir / "history.h5";
   {
@@ -123,10 +125,7 @@ TEST(History, DamagedFilesAreRefused) {
   const std::string whole = test::read_text(name);
   const auto opens = [&](const std::string& bytes) {
     write_file(name, bytes);
-    Diagnostics diagnostics;
-    const auto file = post_history(name, diagnostics);
-    EXPECT_EQ(file, diagnostics.ok());
-    return file;
+    return is_whole(name);
   };
   EXPECT_TRUE(opens(whole));
   for (std::size_t at = 0; at < whole.size(); at += 997) {
