@@ -14,7 +14,9 @@ import pytest
 import yaml
 from courant.diagnostics import Diagnostics
 from courant.post import run_post
+from courant.post.analysis import KINDS
 from courant.post.command import main
+from courant.post.figures import CHARTS
 from made_runs import frame, lattice, write_history, write_run
 from test_recipe import DECKS
 
@@ -156,7 +158,9 @@ def test_numbers_that_are_none(tmp_path):
     assert (tmp_path / "post/p.csv").read_text() == "t [s],vx [m/s]\n0,nan\n1,nan\n"
 
 
-def test_an_analysis_and_a_chart_of_ones_own(tmp_path):
+def test_an_analysis_and_a_chart_of_ones_own(tmp_path, monkeypatch):
+    for registry in (KINDS, CHARTS):
+        monkeypatch.setattr(registry, "functions", dict(registry.functions))  # other tests do not know it
     write_run(tmp_path, [channel(0.5, 0.1 * s) for s in range(3)])
     (tmp_path / "mine.py").write_text(
         "from courant.post import analysis, chart\n\n@analysis('fastest_of_tests')\ndef fastest(state, over: float = 0.0):\n"
