@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from courant.ascii_histories import AsciiFile, AsciiKey
-from courant.ascii_kinds import take_numbers
+from courant.ascii_kinds import Text
 from courant.diagnostics import Diagnostics
 
 HEAD = " a title\n                    ls-dyna smp d R16 R16.1_180 date 07/09/2025\n"
@@ -236,7 +236,7 @@ def test_random_damage_is_read_or_told(read):
 
 def test_numbers():
     def numbers(text):
-        return take_numbers(text, 0, 12)[0]
+        return Text(text).numbers(12)
 
     found = numbers(" 1 -2.5 +.5 1.e3 1D2 1.5d-2 -1.0-100+2.0+100 3.0E-101-4.0")
     assert found == [1, -2.5, 0.5, 1000, 100, 0.015, -1e-100, 2e100, 3e-101, -4]

@@ -126,9 +126,7 @@ class Pieces(NamedTuple):
     high: np.ndarray
 
 
-def lines_near(
-    particles: ParticleSet, places: np.ndarray, axis: int, flat: bool | None = None
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def lines_near(particles: ParticleSet, places: np.ndarray, axis: int, flat: bool | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Which particles reach lines along an axis: index of the line, of the particle, and how far it is aside [L].
 
     places: (lines, 3) points of the lines. Ordered by line. `flat`: distances in the plane x, y.
