@@ -8,6 +8,23 @@ import sys
 
 from .words import did_you_mean
 
+_SYSTEM_PYTHON = "/usr/bin/python3"  # the distribution's, where another one shadows it
+_NEEDED = ("numpy", "h5py", "yaml")
+
+
+def _with_modules() -> str:
+    """Goes on in the distribution's Python where this one lacks modules; gives what is missing where that cannot be."""
+    try:
+        for name in _NEEDED:
+            __import__(name)
+    except ImportError as fault:
+        home = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+        if os.path.exists(_SYSTEM_PYTHON) and os.path.realpath(sys.executable) != os.path.realpath(_SYSTEM_PYTHON):
+            paths = os.pathsep.join([home, *filter(None, [os.environ.get("PYTHONPATH")])])
+            os.execve(_SYSTEM_PYTHON, [_SYSTEM_PYTHON, "-m", "courant", *sys.argv[1:]], os.environ | {"PYTHONPATH": paths})
+        return f"error: the Python module '{fault.name}' is missing\n  hint: apt-get install python3-numpy python3-h5py python3-yaml\n"
+    return ""
+
 
 def main(words: list[str]) -> int:
     """The exit code of the call."""
@@ -15,14 +32,18 @@ def main(words: list[str]) -> int:
     if not words or words[0] in ("-h", "--help"):
         print("usage: courant post RECIPE DIR\n       courant verify SUITE\n\n`courant post --help` tells the options of a call.")
         return 0 if words else 1
+    if words[0] not in calls:
+        near = did_you_mean(words[0], calls).removeprefix("did you mean ").removesuffix("? ")
+        hint = f"did you mean `courant {near}`?" if near else "the calls are post and verify"
+        sys.stderr.write(f"error: '{words[0]}' is no call of this package\n  hint: {hint}\n")
+        return 1
+    if missing := _with_modules():
+        sys.stderr.write(missing)
+        return 3
     if words[0] == "post":
         from .post.command import main as call
-    elif words[0] == "verify":
-        from .verify.cli import main as call  # type: ignore[assignment]
     else:
-        hint = did_you_mean(words[0], calls).replace("did you mean ", "did you mean `courant ").replace("? ", "`?")
-        sys.stderr.write(f"error: '{words[0]}' is no call of this package\n  hint: {hint or 'the calls are post and verify'}\n")
-        return 1
+        from .verify.cli import main as call  # type: ignore[assignment]
     return call(words[1:])
 
 
@@ -32,8 +53,5 @@ if __name__ == "__main__":
         code = main(sys.argv[1:])
         sys.stdout.flush()
     except KeyboardInterrupt:
-        sys.exit(128 + signal.SIGINT)
-    except BrokenPipeError:  # nobody reads any more
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        code = 2
+        code = 128 + signal.SIGINT
     sys.exit(code)

@@ -8,7 +8,7 @@ the later states count.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from os import PathLike
 from pathlib import Path
 
@@ -166,25 +166,23 @@ def _kind_of(lines: list[str]) -> AsciiKind | None:
 
 def _read_states(lines: list[str], ends_whole: bool, kind: AsciiKind, states: AsciiStates, at: list[int]) -> None:
     """Raises AsciiFault. `at`: the line that is being read, for the message."""
-    reader = kind.make()
-    legend = False
-    last = len(lines) - 1
-    for k, line in enumerate(lines):
-        at[0] = k
-        if line.startswith("{BEGIN LEGEND}"):
-            legend = True
-        if not legend and (k < last or ends_whole):
-            reader.line(line, states)
-        if line.startswith("{END LEGEND}"):
-            legend = False
-    if not ends_whole:
-        raise AsciiFault("the file is cut off within this line")
-    reader.end()
+
+    def data() -> Iterator[str]:
+        legend = False
+        for k, line in enumerate(lines):
+            at[0] = k
+            legend = legend or line.startswith("{BEGIN LEGEND}")
+            if not ends_whole and k == len(lines) - 1:
+                raise AsciiFault("the file is cut off within this line")
+            if not legend:
+                yield line
+            legend = legend and not line.startswith("{END LEGEND}")
+
+    kind.read(data(), states)
     sizes = states.sizes
     if len(sizes) > 1 and sizes[-1] < sizes[-2]:
-        raise AsciiFault(
-            f"the file is cut off: its last state, at time {states.times[-1]:.6g}, has {sizes[-1]} numbers, the one before it {sizes[-2]}"
-        )
+        last = f"its last state, at time {states.times[-1]:.6g}, has {sizes[-1]} numbers, the one before it {sizes[-2]}"
+        raise AsciiFault(f"the file is cut off: {last}")
 
 
 def _fits(asked: AsciiKey, key: AsciiKey) -> bool:

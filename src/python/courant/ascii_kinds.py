@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 _NUMBER = re.compile(
@@ -78,119 +78,115 @@ class AsciiStates:
         return {key: values + [math.nan] * (n - len(values)) for key, values in self._columns.items()}
 
 
-class AsciiReader:
-    """Takes the lines of a file one by one."""
-
-    def line(self, text: str, states: AsciiStates) -> None:
-        """Lines that are no data are passed over. Raises AsciiFault."""
-        raise NotImplementedError
-
-    def end(self) -> None:
-        """After the last line. Raises AsciiFault where something was begun that has no end."""
+Lines = Iterator[str]
+Reader = Callable[[Lines, AsciiStates], None]
 
 
 class AsciiKind(NamedTuple):
-    """`told_by`: whether a file of this kind may have a line, and no other."""
+    """`told_by`: whether a file of this kind may have a line, and no other; `read`: takes all lines and passes over those that are no data.
+    Raises AsciiFault, also behind the last line where something was begun that has no end."""
 
     name: str
     told_by: Callable[[str], bool]
-    make: type[AsciiReader]
+    read: Reader
 
 
 ASCII_KINDS: dict[str, AsciiKind] = {}
 
 
-def ascii_kind(name: str, told_by: Callable[[str], bool]) -> Callable[[type[AsciiReader]], type[AsciiReader]]:
+def ascii_kind(name: str, told_by: Callable[[str], bool]) -> Callable[[Reader], Reader]:
     """Registers the reader of a kind of file."""
 
-    def register(reader: type[AsciiReader]) -> type[AsciiReader]:
+    def register(reader: Reader) -> Reader:
         ASCII_KINDS[name] = AsciiKind(name, told_by, reader)
         return reader
 
     return register
 
 
-def take_number(text: str, at: int, width: int) -> tuple[float, int] | None:
-    """A number behind blanks at a place, and where it ends; None where there is none.
+class Text:
+    """A line that is read from left to right."""
 
-    `width`: of the field, for stars: a run of them may be several fields.
-    """
-    found = _NUMBER.match(text, at)
-    if found is None:
-        return None
-    stars, word, mantissa, letter, sign = found.groups()
-    if mantissa:
-        exponent = letter or sign
-        return float(f"{mantissa}e{exponent}" if exponent else mantissa), found.end()
-    if word:
-        return float(word), found.end()
-    return math.nan, found.start(1) + (width if len(stars) % width == 0 else len(stars))
+    def __init__(self, text: str, at: int = 0) -> None:
+        self.text, self.at = text, at
 
+    def behind(self, word: str) -> Text:
+        """What stands behind a word. Raises AsciiFault where it is not there."""
+        at = self.text.find(word, self.at)
+        if at < 0:
+            raise AsciiFault(f"'{word}' is missing")
+        return Text(self.text, at + len(word))
 
-def take_numbers(text: str, at: int, width: int) -> tuple[list[float], int]:
-    """All numbers up to the first word that is none, and where that begins."""
-    out = []
-    while found := take_number(text, at, width):
-        out.append(found[0])
-        at = found[1]
-    return out, at
+    @property
+    def rest(self) -> str:
+        return self.text[self.at :].strip(" \t")
 
-
-def take_id(text: str, at: int) -> tuple[int, int] | None:
-    """A whole number behind blanks that ends with the text, a blank or a sign. Raises AsciiFault for stars."""
-    if _STARS.match(text, at):
-        raise AsciiFault("an id did not fit into its column: the file has stars in its place")
-    found = _ID.match(text, at)
-    if found is None or len(found[1]) > 18:
-        return None
-    return int(found[1]), found.end()
-
-
-def _behind(text: str, word: str) -> int:
-    at = text.find(word)
-    if at < 0:
-        raise AsciiFault(f"'{word}' is missing")
-    return at + len(word)
-
-
-def _number_behind(text: str, word: str, width: int, what: str) -> float:
-    found = take_number(text, _behind(text, word), width)
-    if found is None:
-        raise AsciiFault(f"no number for the {what}")
-    return found[0]
-
-
-def _time_behind(text: str, word: str, width: int) -> float:
-    """A time must be a number: states could not be told apart."""
-    t = _number_behind(text, word, width, "time")
-    if not math.isfinite(t):
-        raise AsciiFault("the time is no finite number")
-    return t
-
-
-def _id_behind(text: str, word: str) -> tuple[int, int]:
-    found = take_id(text, _behind(text, word))
-    if found is None:
-        raise AsciiFault(f"no id behind '{word.strip()}'")
-    return found
-
-
-def _put_pairs(text: str, id: int | None, side: str, states: AsciiStates) -> None:
-    """`name=number name=number ...` of one entity."""
-    at = 0
-    while (equal := text.find("=", at)) >= 0:
-        name = text[at:equal].strip(" \t")
-        found = take_number(text, equal + 1, 13)
+    def number(self, width: int) -> float | None:
+        """The number behind blanks, None where there is none. `width`: of the field, for stars: a run of them may be several fields."""
+        found = _NUMBER.match(self.text, self.at)
         if found is None:
-            raise AsciiFault(f"no number behind '{name}='")
-        value, at = found
+            return None
+        stars, word, mantissa, letter, sign = found.groups()
+        self.at = found.end()
+        if stars:
+            self.at = found.start(1) + (width if len(stars) % width == 0 else len(stars))
+            return math.nan
+        exponent = letter or sign
+        return float(word or (f"{mantissa}e{exponent}" if exponent else mantissa))
+
+    def numbers(self, width: int) -> list[float]:
+        """All numbers up to the first word that is none."""
+        out = []
+        while (value := self.number(width)) is not None:
+            out.append(value)
+        return out
+
+    def certain(self, width: int, fault: str) -> float:
+        """The number here. Raises AsciiFault with these words where there is none."""
+        value = self.number(width)
+        if value is None:
+            raise AsciiFault(fault)
+        return value
+
+    def time(self, width: int, fault: str = "no number for the time") -> float:
+        """A time must be a number: states could not be told apart."""
+        t = self.certain(width, fault)
+        if not math.isfinite(t):
+            raise AsciiFault("the time is no finite number")
+        return t
+
+    def id(self) -> int | None:
+        """A whole number behind blanks that ends with the text, a blank or a sign. Raises AsciiFault for stars."""
+        if _STARS.match(self.text, self.at):
+            raise AsciiFault("an id did not fit into its column: the file has stars in its place")
+        found = _ID.match(self.text, self.at)
+        if found is None or len(found[1]) > 18:
+            return None
+        self.at = found.end()
+        return int(found[1])
+
+    def id_behind(self, word: str) -> tuple[int, Text]:
+        """The id behind a word, and what follows."""
+        text = self.behind(word)
+        id = text.id()
+        if id is None:
+            raise AsciiFault(f"no id behind '{word.strip()}'")
+        return id, text
+
+
+def _put_pairs(text: Text, id: int | None, side: str, states: AsciiStates) -> None:
+    """`name=number name=number ...` of one entity."""
+    while "=" in text.rest:
+        name = text.text[text.at : text.text.index("=", text.at)].strip(" \t")
+        text = text.behind("=")
+        value = text.certain(13, f"no number behind '{name}='")
         if name != "setid":
             states.put(AsciiKey(name, id, side), value)
 
 
-def _put_row(text: str, at: int, names: tuple[str, ...], width: int, key: AsciiKey, states: AsciiStates) -> None:
+def _put_row(text: Text, names: Sequence[str], width: int, key: AsciiKey, states: AsciiStates) -> None:
     """Exactly named numbers of one row; more may follow."""
-    values, _ = take_numbers(text, at, width)
+    values = text.numbers(width)
     if len(values) < len(names):
         raise AsciiFault(f"the row has {len(values)} numbers where {len(names)} belong")
     for name, value in zip(names, values, strict=False):
@@ -198,297 +194,233 @@ def _put_row(text: str, at: int, names: tuple[str, ...], width: int, key: AsciiK
 
 
 @ascii_kind("glstat", lambda line: line.startswith(" dt of cycle"))
-class _Glstat(AsciiReader):
-    cycle = math.nan
-    awaits_time = True
-
-    def line(self, text: str, states: AsciiStates) -> None:
-        if text.startswith(" dt of cycle"):
-            if self.awaits_time and states.times:
+def _glstat(lines: Lines, states: AsciiStates) -> None:
+    cycle, timed, end = math.nan, False, 32  # a label is one blank, then filled with dots to 31 characters
+    for line in lines:
+        if line.startswith(" dt of cycle"):
+            if not timed and states.times:
                 raise AsciiFault("the state before has no time")
-            self.cycle = _number_behind(text, "dt of cycle", 8, "cycle")
-            self.awaits_time = True
-            return
-        end = 32  # one blank, a label filled with dots to 31 characters
-        if len(text) <= end or text[0] != " " or text[end - 1] != ".":
-            return
-        name = text[1:end].rstrip(". ")
-        found = take_number(text, end, 14)
-        if found is None:
-            raise AsciiFault(f"no number for '{name}'")
-        if name == "time":
-            if not math.isfinite(found[0]):
-                raise AsciiFault("the time is no finite number")
-            states.begin(found[0])
-            states.put(AsciiKey("cycle"), self.cycle)
-            self.awaits_time = False
-            return
-        if self.awaits_time:
-            raise AsciiFault(f"'{name}' stands before the time of its state")
-        wall = _id_behind(text[end:], "wall#")[0] if "wall#" in text[end:] else None
-        states.put(AsciiKey(name, wall), found[0])
-
-    def end(self) -> None:
-        if self.awaits_time:
-            raise AsciiFault("the file is cut off: its last state has no time")
+            cycle, timed = Text(line).behind("dt of cycle").certain(8, "no number for the cycle"), False
+        elif len(line) > end and line[0] == " " and line[end - 1] == ".":
+            name, text = line[1:end].rstrip(". "), Text(line, end)
+            if name == "time":
+                states.begin(text.time(14, "no number for 'time'"))
+                states.put(AsciiKey("cycle"), cycle)
+                timed = True
+                continue
+            value = text.certain(14, f"no number for '{name}'")
+            if not timed:
+                raise AsciiFault(f"'{name}' stands before the time of its state")
+            states.put(AsciiKey(name, text.id_behind("wall#")[0] if "wall#" in line else None), value)
+    if not timed:
+        raise AsciiFault("the file is cut off: its last state has no time")
 
 
 @ascii_kind("matsum", lambda line: line.startswith(" mat.#="))
-class _Matsum(AsciiReader):
+def _matsum(lines: Lines, states: AsciiStates) -> None:
     part: int | None = None
-
-    def line(self, text: str, states: AsciiStates) -> None:
-        if text.startswith(" time ="):
-            self.part = None
-            states.begin(_time_behind(text, "time =", 13))
-        elif text.startswith(" mat.#="):
-            self.part, at = _id_behind(text, "mat.#=")
-            _put_pairs(text[at:], self.part, "", states)
-        elif self.part is not None and "=" in text and " " not in text.split("=", 1)[0].strip(" \t"):
-            # notes on added mass have several words before their =
-            _put_pairs(text, self.part, "", states)
+    for line in lines:
+        if line.startswith(" time ="):
+            part = None
+            states.begin(Text(line).behind("time =").time(13))
+        elif line.startswith(" mat.#="):
+            part, text = Text(line).id_behind("mat.#=")
+            _put_pairs(text, part, "", states)
+        elif part is not None and "=" in line and " " not in line.split("=", 1)[0].strip(" \t"):
+            _put_pairs(Text(line), part, "", states)  # notes on added mass have several words before their =
 
 
 _SIDES = {"SURFA": "SURFA", "slave": "SURFA", "SURFB": "SURFB", "master": "SURFB"}
+_COMPONENT = re.compile(r"[^ +\-*0-9]*")
 
 
-def _is_force_on_side(line: str) -> bool:
-    row = line.strip(" \t")
-    return row.startswith(tuple(f"{side} " for side in _SIDES)) and " time" in row and " x " in row
-
-
-@ascii_kind("rcforc", _is_force_on_side)
-class _Rcforc(AsciiReader):
-    component = re.compile(r"[ \t]*([^ +\-*0-9]*)")
-
-    def line(self, text: str, states: AsciiStates) -> None:
-        row = text.strip(" \t")
-        word = row.split(" ", 1)[0]
-        side = _SIDES.get(word)
-        owner = take_id(row, len(word)) if side else None
-        if side is None or owner is None:  # a legend may have such a title
-            return
-        id, at = owner
-        row = row[at:]
-        if "time" not in row:
+@ascii_kind("rcforc", lambda line: line.strip(" \t").startswith(tuple(f"{side} " for side in _SIDES)) and " time" in line and " x " in line)
+def _rcforc(lines: Lines, states: AsciiStates) -> None:
+    for line in lines:
+        row = line.strip(" \t")
+        side, text = _SIDES.get(row.split(" ", 1)[0]), Text(row, len(row.split(" ", 1)[0]))
+        id = text.id() if side else None
+        if side is None or id is None:  # a legend may have such a title
+            continue
+        if "time" not in text.rest:
             raise AsciiFault("no time on this line")
-        t = _time_behind(row, "time", 12)
-        at = _behind(row, "time")
-        at = (take_number(row, at, 12) or (t, at))[1]
+        text = text.behind("time")
+        t = text.time(12)
         if not states.times or states.times[-1] != t or states.holds(AsciiKey("x", id, side)):
             states.begin(t)
         count = 0
-        while row[at:].strip(" \t"):
-            name = self.component.match(row, at)
-            assert name is not None  # it may be empty
-            found = take_number(row, name.end(), 12)
-            if found is None:
-                raise AsciiFault(f"no number behind '{name[1]}'")
-            states.put(AsciiKey(name[1], id, side), found[0])
-            at = found[1]
+        while rest := text.rest:
+            name = _COMPONENT.match(rest)[0]  # type: ignore[index]  # it may be empty
+            text = text.behind(name)
+            states.put(AsciiKey(name, id, side), text.certain(12, f"no number behind '{name}'"))
             count += 1
         if count < 3:
             raise AsciiFault("a force has three components")
 
 
 @ascii_kind("sleout", lambda line: "contact interface energy file" in line)
-class _Sleout(AsciiReader):
+def _sleout(lines: Lines, states: AsciiStates) -> None:
     rows = sums = False
-
-    def line(self, text: str, states: AsciiStates) -> None:
-        if "contact interface energy file" in text:
-            self.rows = self.sums = False
-            return states.begin(_time_behind(text, "time=", 14))
-        if not states.times:
-            return None
-        if "cycle=" in text:
-            self.rows = True
-            return states.put(AsciiKey("cycle"), _number_behind(text, "cycle=", 14, "cycle"))
-        if text.strip(" \t").startswith("summary"):
-            self.rows, self.sums = False, True
-        if self.sums and "=" in text:
-            name = text.split("=", 1)[0].strip(" \t").removeprefix("summary").strip(" \t")
+    for line in lines:
+        row = line.strip(" \t")
+        if "contact interface energy file" in line:
+            rows = sums = False
+            states.begin(Text(line).behind("time=").time(14))
+        elif not states.times:
+            continue
+        elif "cycle=" in line:
+            rows = True
+            states.put(AsciiKey("cycle"), Text(line).behind("cycle=").certain(14, "no number for the cycle"))
+        elif row.startswith("summary") or (sums and "=" in line):
+            rows, sums = False, True
+            name = line.split("=", 1)[0].strip(" \t").removeprefix("summary").strip(" \t")
             name = "friction energy" if name == "total friction" else name
-            return states.put(AsciiKey(name), _number_behind(text, "=", 14, name))
-        found = take_id(text, 0) if self.rows and text.strip(" \t") else None
-        if found is None:
-            return None
-        values, _ = take_numbers(text, found[1], 13)
-        if len(values) < 2:
-            raise AsciiFault("an interface needs the energies of two sides")
-        for name, value in zip(("surfa", "surfb"), values, strict=False):
-            states.put(AsciiKey(name, found[0]), value)
-        if len(values) > 2:
-            states.put(AsciiKey("frictional", found[0]), values[-1])
-        return None
+            if "=" in line:
+                states.put(AsciiKey(name), Text(line).behind("=").certain(14, f"no number for the {name}"))
+        elif rows and (id := (text := Text(row)).id()) is not None:
+            values = text.numbers(13)
+            if len(values) < 2:
+                raise AsciiFault("an interface needs the energies of two sides")
+            pairs = [("surfa", values[0]), ("surfb", values[1]), *([("frictional", values[-1])] if len(values) > 2 else [])]
+            for name, value in pairs:
+                states.put(AsciiKey(name, id), value)
 
 
 def _axes(*quantities: str) -> tuple[str, ...]:
     return tuple(f"{axis}-{quantity}" for quantity in quantities for axis in "xyz")
 
 
+_MOTION, _ROTATION = _axes("disp", "vel", "accl", "coor"), _axes("rot", "rot vel", "rot acc")
+
+
 @ascii_kind("nodout", lambda line: "n o d a l   p r i n t   o u t" in line)
-class _Nodout(AsciiReader):
-    motion, rotation = _axes("disp", "vel", "accl", "coor"), _axes("rot", "rot vel", "rot acc")
+def _nodout(lines: Lines, states: AsciiStates) -> None:
     table: tuple[str, ...] = ()
-    t = cycle = 0.0
-    awaits_table = False
-
-    def line(self, text: str, states: AsciiStates) -> None:
-        if "n o d a l   p r i n t" in text:
-            self.table = ()
-            self.t = _time_behind(text, "at time", 14)
-            self.cycle = _number_behind(text, "s t e p", 8, "cycle")
-            self.awaits_table = True
-        elif "nodal point" in text:
-            self.awaits_table = False
-            self.table = self.rotation if "x-rot" in text else self.motion
-            if self.table is self.rotation and states.times and states.times[-1] == self.t:
-                return
-            states.begin(self.t)
-            states.put(AsciiKey("cycle"), self.cycle)
-        elif self.table and text.strip(" \t"):
-            found = take_id(text, 0)
-            if found is None:
-                self.table = ()  # whatever follows is no table any more
+    t, cycle, awaits_table = 0.0, 0.0, False
+    for line in lines:
+        if "n o d a l   p r i n t" in line:
+            t = Text(line).behind("at time").time(14)
+            table, cycle, awaits_table = (), Text(line).behind("s t e p").certain(8, "no number for the cycle"), True
+        elif "nodal point" in line:
+            awaits_table, table = False, _ROTATION if "x-rot" in line else _MOTION
+            if table is _MOTION or not states.times or states.times[-1] != t:
+                states.begin(t)
+                states.put(AsciiKey("cycle"), cycle)
+        elif table and line.strip(" \t"):
+            text = Text(line)
+            id = text.id()
+            if id is None:
+                table = ()  # whatever follows is no table any more
             else:
-                _put_row(text, found[1], self.table, 12, AsciiKey("", found[0]), states)
+                _put_row(text, table, 12, AsciiKey("", id), states)
+    if awaits_table:
+        raise AsciiFault("the file is cut off: its last state has no table")
 
-    def end(self) -> None:
-        if self.awaits_table:
-            raise AsciiFault("the file is cut off: its last state has no table")
+
+_OF_BODIES = re.compile(r"[ \t]*(coordinates|displacements|velocities|accelerations):")
 
 
 @ascii_kind("rbdout", lambda line: "r i g i d   b o d y   m o t i o n" in line)
-class _Rbdout(AsciiReader):
+def _rbdout(lines: Lines, states: AsciiStates) -> None:
     body: int | None = None
     local = False
-    quantity = re.compile(r"[ \t]*(coordinates|displacements|velocities|accelerations):")
-
-    def line(self, text: str, states: AsciiStates) -> None:
-        if "r i g i d   b o d y   m o t i o n" in text:
-            self.body = None
-            states.begin(_time_behind(text, "time=", 15))
-            return states.put(AsciiKey("cycle"), _number_behind(text, "cycle=", 8, "cycle"))
-        if "rigid body" in text and ":" not in text:
-            self.body, self.local = _id_behind(text, "rigid body")[0], False
-            return None
-        if self.body is None:
-            return None
-        if "output in principal" in text:
-            self.local = True
-        if found := self.quantity.match(text):
-            name, axes = found[1], "abc" if self.local else "xyz"
-            names = tuple(axes)
-            if self.local or name != "coordinates":
-                names += tuple(f"{axis}-rot" for axis in axes)
-            key = AsciiKey(f"{'local ' if self.local else ''}{name} ", self.body)
-            return _put_row(text, found.end(), names, 12, key, states)
-        row = text.strip(" \t")
-        if row.startswith("row"):
-            k, at = _id_behind(row, "row")
-            _put_row(row, at, ("a", "b", "c"), 15, AsciiKey(f"row {k} ", self.body), states)
-        return None
+    for line in lines:
+        if "r i g i d   b o d y   m o t i o n" in line:
+            body = None
+            states.begin(Text(line).behind("time=").time(15))
+            states.put(AsciiKey("cycle"), Text(line).behind("cycle=").certain(8, "no number for the cycle"))
+        elif "rigid body" in line and ":" not in line:
+            body, local = Text(line).id_behind("rigid body")[0], False
+        elif body is None:
+            continue
+        elif found := _OF_BODIES.match(line):
+            axes = list("abc" if local else "xyz")
+            names = axes if found[1] == "coordinates" and not local else [*axes, *(f"{axis}-rot" for axis in axes)]
+            _put_row(Text(line, found.end()), names, 12, AsciiKey(f"{'local ' if local else ''}{found[1]} ", body), states)
+        elif line.strip(" \t").startswith("row"):
+            k, text = Text(line).id_behind("row")
+            _put_row(text, "abc", 15, AsciiKey(f"row {k} ", body), states)
+        local = local or "output in principal" in line
 
 
 @ascii_kind("bndout", lambda line: "n o d a l   f o r c e/e n e r g y" in line)
-class _Bndout(AsciiReader):
-    section = side = ""
-    id: int | None = None
-
-    def line(self, text: str, states: AsciiStates) -> None:
-        if "n o d a l   f o r c e/e n e r g y" in text:
-            self.section = "nodal"
-            return states.begin(_time_behind(text[max(text.rfind("t="), 0) :], "t=", 9))
-        row = text.strip(" \t")
-        if "=" not in row:
-            if "forces" in row:
-                self.section = row.split(" ", 1)[0]  # "velocity boundary ..."
-            return None
-        if not states.times:
-            return None
-        for word in ("nd#", "mat#"):
-            if row.startswith(word):
-                self.id, at = _id_behind(row, "#")
-                self.side = f"{self.section} {word}"
-                return _put_pairs(row[at:], self.id, self.side, states)
-        if row.startswith("xmoment"):
-            return _put_pairs(row, self.id, self.side, states)
-        if row.startswith("xtotal"):
-            return _put_pairs(row, None, self.section, states)
-        return None
+def _bndout(lines: Lines, states: AsciiStates) -> None:
+    section, side, id = "", "", None
+    for line in lines:
+        row = line.strip(" \t")
+        if "n o d a l   f o r c e/e n e r g y" in line:
+            section = "nodal"
+            states.begin(Text(line, max(line.rfind("t="), 0)).behind("t=").time(9))
+        elif "=" not in row:
+            section = row.split(" ", 1)[0] if "forces" in row else section  # "velocity boundary ..."
+        elif states.times and (word := row.split("#", 1)[0] + "#") in ("nd#", "mat#"):
+            id, text = Text(row).id_behind("#")
+            side = f"{section} {word}"
+            _put_pairs(text, id, side, states)
+        elif states.times and row.startswith("xmoment"):
+            _put_pairs(Text(row), id, side, states)
+        elif states.times and row.startswith("xtotal"):
+            _put_pairs(Text(row), None, section, states)
 
 
 @ascii_kind("spcforc", lambda line: "output at time =" in line)
-class _Spcforc(AsciiReader):
-    def line(self, text: str, states: AsciiStates) -> None:
-        if "output at time =" in text:
-            return states.begin(_time_behind(text, "output at time =", 14))
-        if not states.times:
-            return None
-        if "resultants" in text:
-            name = text.split("=", 1)[0].strip(" \t")
-            return _put_row(text, _behind(text, "="), ("x", "y", "z"), 14, AsciiKey(name + " "), states)
-        if "node=" not in text:
-            return None
-        side = f"setid {_id_behind(text, 'setid=')[0]}" if "setid=" in text else ""
-        key = AsciiKey("moments " if "moments" in text else "forces ", _id_behind(text, "node=")[0], side)
-        rest = text[_behind(text, "node=") :]
-        if "=" not in rest:
-            raise AsciiFault("no forces on this line")
-        return _put_row(rest, _behind(rest, "="), ("x", "y", "z"), 14, key, states)
+def _spcforc(lines: Lines, states: AsciiStates) -> None:
+    for line in lines:
+        if "output at time =" in line:
+            states.begin(Text(line).behind("output at time =").time(14))
+        elif states.times and "resultants" in line:
+            _put_row(Text(line).behind("="), "xyz", 14, AsciiKey(line.split("=", 1)[0].strip(" \t") + " "), states)
+        elif states.times and "node=" in line:
+            id, text = Text(line).id_behind("node=")
+            side = f"setid {Text(line).id_behind('setid=')[0]}" if "setid=" in line else ""
+            if "=" not in text.rest:
+                raise AsciiFault("no forces on this line")
+            _put_row(text.behind("="), "xyz", 14, AsciiKey("moments " if "moments" in line else "forces ", id, side), states)
 
 
 @ascii_kind("rwforc", lambda line: "wall#" in line and "normal-force" in line)
-class _Rwforc(AsciiReader):
-    rows, first, time = False, True, 0.0
-
-    def line(self, text: str, states: AsciiStates) -> None:
-        if "normal-force" in text:
-            self.rows = self.first = True
-            return
-        if not self.rows or not text.strip(" \t"):
-            return
-        found = take_number(text, 0, 12)
-        if found is None or not math.isfinite(found[0]):
-            raise AsciiFault("no time at the begin of a row")
-        wall = take_id(text, found[1])
-        if wall is None:
-            raise AsciiFault("no wall behind the time")
-        if self.first or found[0] != self.time:
-            states.begin(found[0])
-        self.first, self.time = False, found[0]
-        _put_row(text, wall[1], ("normal", "x", "y", "z"), 15, AsciiKey("", wall[0]), states)
+def _rwforc(lines: Lines, states: AsciiStates) -> None:
+    rows, time = False, math.nan
+    for line in lines:
+        if "normal-force" in line:
+            rows, time = True, math.nan  # a head begins a state
+        elif rows and line.strip(" \t"):
+            text = Text(line)
+            t, wall = text.number(12), text.id()
+            if t is None or not math.isfinite(t):
+                raise AsciiFault("no time at the begin of a row")
+            if wall is None:
+                raise AsciiFault("no wall behind the time")
+            if t != time:
+                states.begin(t)
+            time = t
+            _put_row(text, ("normal", "x", "y", "z"), 15, AsciiKey("", wall), states)
 
 
 @ascii_kind("sphout", lambda line: "S P H   o u t p u t" in line)
-class _Sphout(AsciiReader):
-    names: tuple[str, ...] = ()
-
-    def line(self, text: str, states: AsciiStates) -> None:
-        if "S P H   o u t p u t" in text:
-            self.names = ()
-            states.begin(_time_behind(text, "at time", 11))
-            if "step" in text:
-                states.put(AsciiKey("cycle"), _number_behind(text, "step", 10, "cycle"))
-            return
-        row = text.strip(" \t")
-        if row.startswith("particle"):
-            words = tuple(row.split())
-            if len(words) < 3 or words[1] != "mat":
+def _sphout(lines: Lines, states: AsciiStates) -> None:
+    names: list[str] = []
+    for line in lines:
+        row = line.strip(" \t")
+        text = Text(row)
+        if "S P H   o u t p u t" in line:
+            names = []
+            states.begin(text.behind("at time").time(11))
+            if "step" in row:
+                states.put(AsciiKey("cycle"), text.behind("step").certain(10, "no number for the cycle"))
+        elif row.startswith("particle"):
+            names = row.split()[2:]
+            if not names or row.split()[1] != "mat":
                 raise AsciiFault("a head of columns that is not known")
-            self.names = words[2:]
-            return
-        particle = take_id(row, 0) if self.names and row else None
-        if particle is None:
-            self.names = self.names if not row else ()
-            return
-        part = take_id(row, particle[1])
-        if part is None:
-            raise AsciiFault("no part behind the particle's id")
-        values, at = take_numbers(row, part[1], 12)
-        word = bool(row[at:].strip(" \t"))  # the state, "elastic"
-        if len(values) + word < len(self.names):
-            raise AsciiFault("the row has fewer columns than its head")
-        for name, value in zip(self.names, values, strict=False):
-            states.put(AsciiKey(name, particle[0]), value)
+        elif names and row:
+            id = text.id()
+            if id is None:
+                names = []
+                continue
+            if text.id() is None:
+                raise AsciiFault("no part behind the particle's id")
+            values = text.numbers(12)
+            if len(values) + bool(text.rest) < len(names):  # the last one may be a word, "elastic"
+                raise AsciiFault("the row has fewer columns than its head")
+            for name, value in zip(names, values, strict=False):
+                states.put(AsciiKey(name, id), value)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 import zlib
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -22,30 +22,30 @@ def is_whole(data: bytes) -> bool:
     HDF5's own library crashes on damaged files, so it is handed no others.
     """
     found = _LAST_LINE.search(data[-64:])
-    if found is None:
-        return False
-    length = len(data) - (found.end() - found.start())
-    return zlib.crc32(memoryview(data)[:length]) == int(found[1], 16)
-
-
-@dataclass
-class HistoryDataset:
-    """Values of a dataset as they lie in the file, (rows, components), and their dimension, "ML/T2"; "-" where there is none."""
-
-    values: np.ndarray
-    dimension: str
+    return found is not None and zlib.crc32(memoryview(data)[: len(data) - len(found[0])]) == int(found[1], 16)
 
 
 class HistoryFile:
-    """A history.h5 that was read whole. Row i of every dataset belongs to /global/time[i].
+    """A history.h5 in memory, whose datasets are unpacked when they are asked for. Row i of every dataset belongs to /global/time[i].
 
-    A quantity that was not there at a sample is NaN in all datasets of its group: `sampled` tells those apart from numbers
-    that went wrong.
+    A quantity that was not there at a sample is NaN in all datasets of its group: `sampled` tells those apart from numbers that went
+    wrong. `names`: paths of all datasets, "/contacts/1/force", sorted; `times`: (rows,) [T]. Raises ValueError where it is none.
     """
 
-    def __init__(self, datasets: dict[str, HistoryDataset]) -> None:
-        self.datasets = dict(sorted(datasets.items()))
-        self.times = datasets["/global/time"].values.ravel()
+    def __init__(self, data: bytes) -> None:
+        self._h5 = h5py.File(h5py.h5f.open_file_image(data))
+        found: list[str] = []
+
+        def note(name: bytes, info: Any) -> None:
+            if info.type == h5py.h5o.TYPE_DATASET:
+                found.append(f"/{name.decode()}")
+
+        h5py.h5o.visit(self._h5.id, note, info=True)  # without opening each
+        self.names = sorted(found)
+        self._known: dict[str, np.ndarray] = {}
+        if "/global/time" not in self.names:
+            raise ValueError("it has no times")
+        self.times = self._read("/global/time").ravel()
 
     @classmethod
     def open(cls, file: str | PathLike[str], diagnostics: Diagnostics) -> HistoryFile | None:
@@ -56,49 +56,37 @@ class HistoryFile:
             return None
         try:
             data = path.read_bytes()
-        except OSError:
-            data = b""
-        if not is_whole(data):
-            diagnostics.error(
-                path,
-                "not a history file of `courant run`, or a damaged one: its checksum is not that of its content",
-                "run the deck again",
-            )
-            return None
-        try:
-            with h5py.File(path, "r") as h5:
-                datasets = _load(h5)
-        except (OSError, RuntimeError, TypeError, ValueError, KeyError):
-            datasets = {}
-        if "/global/time" not in datasets:
-            diagnostics.error(path, "not a history file of `courant run`", "run the deck again")
-            return None
-        return cls(datasets)
+            if is_whole(data):
+                return cls(data)
+            why = ", or a damaged one: its checksum is not that of its content"
+        except (OSError, RuntimeError, TypeError, ValueError, KeyError):  # what h5py raises
+            why = ""
+        diagnostics.error(path, f"not a history file of `courant run`{why}", "run the deck again")
+        return None
 
-    @property
-    def names(self) -> list[str]:
-        """Paths of all datasets, "/contacts/1/force", sorted."""
-        return list(self.datasets)
+    def _read(self, path: str) -> np.ndarray:
+        """Values as they lie in the file, (rows, components)."""
+        if path not in self._known:
+            values = self._h5[path][()].astype(np.float64)
+            self._known[path] = values.reshape(len(values), -1)
+        return self._known[path]
 
     def components(self, path: str) -> int:
         """Components of a dataset, 1 or 3; 0 where there is none of that name."""
-        found = self.datasets.get(path)
-        return found.values.shape[1] if found else 0
+        return self._read(path).shape[1] if path in self.names else 0
 
     def dimension(self, path: str) -> str:
         """Dimension of a dataset in M, L, T as the file names it, "ML/T2"; "-" where there is none."""
-        found = self.datasets.get(path)
-        return found.dimension if found else "-"
+        text = self._h5[path].attrs.get("dimension", b"-") if path in self.names else b"-"
+        return text.decode("utf-8", "replace").rstrip("\0") if isinstance(text, bytes) else "-"
 
     def values(self, path: str) -> np.ndarray | None:
         """All components of a dataset, shape (rows, components); rows before it was there are NaN. None if there is none."""
-        found = self.datasets.get(path)
-        if found is None:
+        if path not in self.names:
             return None
-        out = np.full((len(self.times), found.values.shape[1]), np.nan)
-        rows = min(len(out), len(found.values))
-        out[:rows] = found.values[:rows]
-        return out
+        found = self._read(path)
+        rows = min(len(self.times), len(found))
+        return np.concatenate([found[:rows], np.full((len(self.times) - rows, found.shape[1]), np.nan)])
 
     def column(self, path: str, component: int = 0) -> np.ndarray | None:
         """One component of a dataset, shape (rows,). None if there is none."""
@@ -107,27 +95,6 @@ class HistoryFile:
 
     def sampled(self, path: str) -> np.ndarray:
         """Whether the group of a dataset was sampled, shape (rows,) of bool."""
-        out = np.zeros(len(self.times), dtype=bool)
         group = path[: path.rfind("/") + 1]
-        for name, dataset in self.datasets.items():
-            if name.startswith(group):
-                rows = min(len(out), len(dataset.values))
-                out[:rows] |= ~np.isnan(dataset.values[:rows]).all(axis=1)
-        return out
-
-
-def _load(h5: h5py.File) -> dict[str, HistoryDataset]:
-    out: dict[str, HistoryDataset] = {}
-
-    def visit(name: str, item: h5py.HLObject) -> None:
-        if not isinstance(item, h5py.Dataset):
-            return
-        if item.ndim not in (1, 2):
-            raise ValueError(f"{name} has {item.ndim} dimensions")
-        text = item.attrs.get("dimension", b"-")
-        dimension = text.decode("utf-8", "replace") if isinstance(text, bytes) else "-"
-        values = item[()].astype(np.float64)
-        out["/" + name] = HistoryDataset(values.reshape(len(values), -1), dimension.rstrip("\0"))
-
-    h5.visititems(visit)
-    return out
+        beside = [self.values(name) for name in self.names if name.startswith(group)]
+        return np.any([~np.isnan(one).all(axis=1) for one in beside if one is not None] or [np.zeros(len(self.times), bool)], axis=0)

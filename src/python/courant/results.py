@@ -1,15 +1,15 @@
 """The results of a run as numpy, pandas, xarray, VTK and PyVista know them.
 
-    import courant
+import courant
 
-    run = courant.open("jump")
-    run.energies["kinetic"]                     # numpy, (rows,); run.energies.units["kinetic"]
-    run.contacts[1].to_pandas()
-    run.histories["parts/2/momentum"]           # numpy, (rows, 3)
-    run.ascii["glstat"].plot("kinetic_energy")
-    state = run.states[-1]
-    state["velocity"], state.points, state.shells["contact_force"]
-    state.pyvista().plot(scalars="pressure")
+run = courant.open("jump")
+run.energies["kinetic"]                     # numpy, (rows,); run.energies.units["kinetic"]
+run.contacts[1].to_pandas()
+run.histories["parts/2/momentum"]           # numpy, (rows, 3)
+run.ascii["glstat"].plot("kinetic_energy")
+state = run.states[-1]
+state["velocity"], state.points, state.shells["contact_force"]
+state.pyvista().plot(scalars="pressure")
 """
 
 from __future__ import annotations

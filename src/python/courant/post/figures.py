@@ -198,8 +198,7 @@ class FiguresData:
 
     def of(self, figure: Figure) -> dict[str, Any]:
         references = [
-            {"label": one.label, "style": one.style, "across": one.across, "x": _numbers(one.x), "y": _numbers(one.y)}
-            for one in figure.references
+            {"label": one.label, "style": one.style, "across": one.across, "x": _numbers(one.x), "y": _numbers(one.y)} for one in figure.references
         ]
         curves = [data for curve in figure.curves for data in self._curves(curve)]
         out: dict[str, Any] = {key: getattr(figure, key) for key in ("name", "title", "x_label", "y_label", "scale")}

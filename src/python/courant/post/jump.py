@@ -172,9 +172,7 @@ def jump_text(recipe: JumpRecipe, result: JumpResult) -> str:
     )
     for one in result.intervals:
         name = f"{one.interval[0]:g} - {one.interval[1]:g}"
-        line = f"  {name:<18}{one.states:>7}" + (
-            f"{one.mean_depth:>12.4f}{one.A:>9.3f}{one.P:>9.3f}" if one.states else f"{'-':>12}{'-':>9}{'-':>9}"
-        )
+        line = f"  {name:<18}{one.states:>7}" + (f"{one.mean_depth:>12.4f}{one.A:>9.3f}{one.P:>9.3f}" if one.states else f"{'-':>12}{'-':>9}{'-':>9}")
         beside = [f"   {row.case:<24}{row.A:>9.3f}{row.P:>9.3f}" for row in one.published] or [""]
         out += "".join((line if k == 0 else " " * len(line)) + text + "\n" for k, text in enumerate(beside))
         if not one.complete:

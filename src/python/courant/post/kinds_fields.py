@@ -52,9 +52,7 @@ class ProbeAnalysis(Analysis):
         """Name, unit and x of each column: quantities of the first point, of the second, ..."""
         single = len(self.points.x) == 1
         return [
-            (one.name if single else f"{one.name}_{p + 1}", one.unit, float(x[0]))
-            for p, x in enumerate(self.points.x)
-            for one in self.sampler.of
+            (one.name if single else f"{one.name}_{p + 1}", one.unit, float(x[0])) for p, x in enumerate(self.points.x) for one in self.sampler.of
         ]
 
     def series(self) -> list[Series]:

@@ -134,8 +134,7 @@ def results_yaml(recipe: Recipe, title: str, measured: Measured, jump: JumpResul
     if jump is not None and recipe.jump is not None:
         out |= {"case": jump.case, "jump": _jump_node(recipe.jump, jump)}
     probes = [
-        {"name": probe.name, "x": digits(probe.x), "last_depth": digits(measured.depths[-1].probes[k])}
-        for k, probe in enumerate(recipe.probes)
+        {"name": probe.name, "x": digits(probe.x), "last_depth": digits(measured.depths[-1].probes[k])} for k, probe in enumerate(recipe.probes)
     ]
     if probes:
         out["probes"] = probes

@@ -84,9 +84,9 @@ class ParticleSet:
         return self.V * spline_norm(self.h, self.dim)
 
     @cached_property
-    def by_x(self) -> np.ndarray:
-        """Indices of the particles in the order of x, (n,)."""
-        return np.argsort(self.x[:, 0], kind="stable")
+    def by_axis(self) -> list[np.ndarray]:
+        """Indices of the particles in the order of x and of y, (n,) each."""
+        return [np.argsort(self.x[:, axis], kind="stable") for axis in (0, 1)]
 
     @cached_property
     def tree(self):  # a scipy.spatial.cKDTree, which is imported where it is needed
@@ -126,9 +126,7 @@ class Pieces(NamedTuple):
     high: np.ndarray
 
 
-def lines_near(
-    particles: ParticleSet, places: np.ndarray, axis: int, flat: bool | None = None
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def lines_near(particles: ParticleSet, places: np.ndarray, axis: int, flat: bool | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Which particles reach lines along an axis: index of the line, of the particle, and how far it is aside [L].
 
     places: (lines, 3) points of the lines. Ordered by line. `flat`: distances in the plane x, y.
@@ -136,10 +134,9 @@ def lines_near(
     flat = particles.dim == 2 and axis != 2 if flat is None else flat
     across = [a for a in ((0, 1) if flat else (0, 1, 2)) if a != axis]
     reach = 2 * particles.largest_h
-    order = particles.by_x
-    sorted_x = particles.x[order, 0]
-    begin = np.searchsorted(sorted_x, places[:, 0] - reach, "left")
-    end = np.searchsorted(sorted_x, places[:, 0] + reach, "right")
+    order, at = particles.by_axis[across[0]], places[:, across[0]]
+    in_order = particles.x[order, across[0]]
+    begin, end = np.searchsorted(in_order, at - reach, "left"), np.searchsorted(in_order, at + reach, "right")
     count = end - begin
     line = np.repeat(np.arange(len(places)), count)
     k = order[np.arange(len(line)) - np.repeat(np.cumsum(count) - count - begin, count)]

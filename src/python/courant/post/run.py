@@ -160,12 +160,7 @@ def _figures(recipe: Recipe, out: Path, title: str, walls: np.ndarray, threads: 
 
 
 def run_post(
-    recipe_file: str | PathLike[str],
-    folder: str | PathLike[str],
-    say: Say,
-    diagnostics: Diagnostics,
-    progress: Say | None = None,
-    threads: int = 1,
+    recipe_file: str | PathLike[str], folder: str | PathLike[str], say: Say, diagnostics: Diagnostics, progress: Say | None = None, threads: int = 1
 ) -> bool:
     """Measures what the recipe asks for, and returns whether all but the pictures worked.
 

@@ -4,158 +4,78 @@ from __future__ import annotations
 import hashlib
 import os
 import re
-import shlex
 import subprocess
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-_LONGEST_NAME = 1000  # characters, of a file: texts made of texts must not fill the memory
-_MOST_FILES = 10000
+_BLOCK = re.compile(r"^\*(INCLUDE|PARAMETER)\S*[^\n]*\n((?:(?!\*)[^\n]*(?:\n|$))*)", re.I | re.M)
 
 
 def digest(*parts: str | bytes) -> str:
     """16 hexadecimal digits that tell sequences of texts apart (BLAKE2)."""
-    sum_ = hashlib.blake2b(digest_size=8)
+    out = hashlib.blake2b(digest_size=8)
     for part in parts:
         data = part.encode() if isinstance(part, str) else part
-        sum_.update(f"{len(data)}:".encode())
-        sum_.update(data)
-    return sum_.hexdigest()
+        out.update(b"%d:" % len(data) + data)
+    return out.hexdigest()
 
 
-def _content(file: Path) -> bytes | None:
-    try:
-        return file.read_bytes()
-    except OSError:
-        return None
+def digest_of_files(files: Iterable[Path]) -> str:
+    """Of the content of files; one that cannot be read counts by its name."""
+    return digest(*(file.read_bytes() if file.is_file() else str(file) for file in files))
 
 
-def _blocks(text: str) -> Iterator[tuple[str, list[str]]]:
-    """Keyword in capital letters and its data lines, of those keywords that tell which files are read."""
-    for block in re.finditer(r"^\*((?:INCLUDE|PARAMETER)\S*)[^\n]*\n((?:(?!\*)[^\n]*(?:\n|$))*)", text, re.I | re.M):
-        yield block[1].upper(), [line.rstrip("\r") for line in block[2].split("\n") if line and not line.startswith("$")]
-
-
-def _names(lines: list[str]) -> list[str]:
-    """File names, perhaps in quotes; ' +' at the end of a line continues one."""
-    joined = re.sub(r"[ \t]+\+[ \t]*\n[ \t]*", "", "\n".join(lines))
-    return [re.sub(r"""^(["'])(.*)\1$""", r"\2", name).strip() for line in joined.split("\n") if (name := line.strip())]
-
-
-class _Files:
-    """Collects the files that a deck may read: rather one too many than one too few, as of parameters that have
-    several values in it, or of several folders that hold a file of the name."""
-
-    def __init__(self, deck: Path, parameters: Mapping[str, str]) -> None:
-        self.deck = deck
-        self.given = {name.upper(): text for name, text in parameters.items()}
-        self.texts: dict[str, set[str]] = {name: {text} for name, text in self.given.items()}
-        self.folders: list[Path] = [Path()]
-        self.found: dict[Path, bytes] = {}
-
-    def collect(self) -> None:
-        """Until nothing more is found: a parameter or a folder may be told in a file that is read later."""
-        before = (-1, -1, -1)
-        now = (0, 0, 0)
-        while now != before:
-            before = now
-            for file in [self.deck, *self.found]:
-                self.read(file)
-            now = (len(self.found), len(self.folders), sum(map(len, self.texts.values())))
-
-    def read(self, file: Path) -> None:
-        data = self.found.get(file) or _content(file)
-        if data is None:
-            return
-        self.found[file] = data
-        for keyword, lines in _blocks(data.decode("latin-1")):
-            if keyword.startswith("PARAMETER"):
-                self.take_parameters(lines)
-            elif keyword.startswith("INCLUDE_PATH"):
-                for name in self.meanings(_names(lines)):
-                    for folder in (Path(name), self.deck.parent / name):
-                        if folder not in self.folders:
-                            self.folders.append(folder)
-            else:
-                for name in self.meanings(_names(lines)[:1 if "TRANSFORM" in keyword else None]):
-                    self.include(name, file)
-
-    def take_parameters(self, lines: list[str]) -> None:
-        """Texts: `C name value`, in columns of ten or twenty, or between commas."""
-        for line in lines:
-            for cells in ([line.split(",")] if "," in line else
-                          [[line[k:k + n] for k in range(0, len(line), n)] for n in (10, 20)]):
-                for declaration, value in zip(cells[::2], cells[1::2], strict=False):
-                    name = declaration.strip()[1:].strip().upper()
-                    if declaration.strip()[:1] in ("C", "c") and name and name not in self.given:
-                        self.texts.setdefault(name, set()).add(value.strip())
-
-    def meanings(self, names: list[str]) -> Iterator[str]:
-        """The names with each value of the parameters in them."""
-        for name in names:
-            waiting, done = [name], set[str]()
-            while waiting and len(done) < _MOST_FILES:
-                one = waiting.pop()
-                if one in done or len(one) > _LONGEST_NAME:
-                    continue
-                done.add(one)
-                yield one
-                for word in re.finditer(r"&([A-Za-z0-9_]+)", one):
-                    for length in range(len(word[1]), 0, -1):  # the longest name that is one
-                        for text in sorted(self.texts.get(word[1][:length].upper(), ())):
-                            waiting.append(one[:word.start()] + text + one[word.start() + 1 + length:])
-
-    def include(self, name: str, by: Path) -> None:
-        for one in {name, name.replace("\\", "/")}:
-            for folder in (by.parent, *self.folders):
-                file = Path(os.path.normpath(folder / one))
-                if len(self.found) < _MOST_FILES and file not in self.found and file.is_file():
-                    self.read(file)
+def _read_blocks(text: str, given: Mapping[str, str], texts: dict[str, set[str]]) -> set[str]:
+    """Data lines of *INCLUDE and its kin: names of files and folders. Texts that *PARAMETER defines (C NAME TEXT, in columns of ten or
+    twenty, or between commas) go to `texts`."""
+    names: set[str] = set()
+    for keyword, block in _BLOCK.findall(text):
+        lines = [line.rstrip() for line in block.split("\n") if line.strip() and line[0] != "$"]
+        if keyword.upper() == "INCLUDE":  # ' +' at the end of a line continues a name; it may stand in quotes
+            names |= {line.strip().strip("\"'").strip() for line in re.sub(r" \+\s*\n\s*", "", "\n".join(lines)).split("\n")}
+            continue
+        for cells in (cells for line in lines for cells in (line.split(","), re.findall(".{1,10}", line), re.findall(".{1,20}", line))):
+            for declaration, value in zip(cells[::2], cells[1::2], strict=False):
+                name = declaration.strip()[1:].strip().upper()
+                if declaration.strip()[:1] in ("C", "c") and name and name not in given:
+                    texts.setdefault(name, set()).add(value.strip())
+    return names
 
 
 def digest_of_deck(deck: Path, parameters: Mapping[str, str] | None = None) -> str:
-    """Of a deck with the files that a run with these parameters would read; one that cannot be read counts by its name."""
-    data = _content(deck)
-    if data is None:
-        return digest(str(deck))
-    if b"*INCLUDE" not in data.upper():
-        return digest(data)
-    files = _Files(deck, parameters or {})
-    files.collect()
-    return digest(*(part for file in sorted(files.found) for part in (str(file), files.found[file])))
-
-
-def digest_of_files(files: list[Path]) -> str:
-    """Of the content of files; one that cannot be read counts as none."""
-    return digest(*(_content(file) or b"" for file in files))
-
-
-def _libraries(program: Path) -> list[Path]:
-    """Libraries of Courant that a program loads."""
-    environment = dict(os.environ, LD_TRACE_LOADED_OBJECTS="1")
-    try:
-        told = subprocess.run([program], env=environment, capture_output=True, text=True, timeout=60, check=False).stdout
-    except (OSError, subprocess.TimeoutExpired):
-        return []
-    return [Path(name) for name in re.findall(r"libcourant\S* => (/\S+)", told)]
+    """Of a deck with the files that a run with these parameters may read: rather one too many than one too few, as of parameters that have
+    several values in it, or of several folders that hold a file of the name."""
+    given = {name.upper(): text for name, text in (parameters or {}).items()}
+    texts = {name: {text} for name, text in given.items()}
+    names, found, waiting = set[str](), set[Path](), {deck}
+    while waiting and len(found) < 10000:
+        found |= waiting
+        for file in waiting:
+            data = file.read_bytes() if file.is_file() else b""
+            names |= _read_blocks(data.decode("latin-1"), given, texts) if re.search(rb"^\*INCLUDE", data, re.I | re.M) or file != deck else set()
+        for name, values in [*texts.items()] * 3:  # also those that are made of others
+            names |= {re.sub(f"&{name}", lambda _, text=text: text, one, flags=re.I) for one in names if "&" in one for text in values}
+        names |= {name.replace("\\", "/") for name in names}
+        folders = {Path(), *(file.parent for file in found), *(folder / name for folder in (Path(), deck.parent) for name in names)}
+        paths = {Path(os.path.normpath(folder / name)) for folder in folders if folder.is_dir() for name in names}
+        waiting = {path for path in paths if path.is_file()} - found
+    return digest_of_files(sorted(found))
 
 
 def digest_of_build(executable: Path) -> str:
-    """Of a program and the libraries of Courant that it loads; of a script, also of the programs that it names."""
+    """Of a program and the libraries of Courant that it loads; of a script, also of the programs that it names and the libraries beside them."""
     files, waiting = list[Path](), [executable]
     while waiting:
         file = waiting.pop()
-        data = _content(file)
-        if file in files or data is None:
+        if file in files or not file.is_file():
             continue
         files.append(file)
-        if data.startswith(b"#!") and len(data) < 1 << 20:
-            try:
-                words = shlex.split(data.decode("utf-8", "replace"), comments=True)
-            except ValueError:  # a quote without its end
-                words = data.decode("utf-8", "replace").split()
-            waiting += [Path(word) for word in words if word.startswith("/") and Path(word).is_file()]
-            waiting += sorted(library for word in list(waiting) for library in word.parent.glob("libcourant*.so*"))
-        elif data.startswith(b"\x7fELF") and ".so" not in file.name:
-            waiting += _libraries(file)
-    return digest(str(executable) if not files else digest_of_files(files), os.environ.get("COURANT_SIMD", ""))
+        data = file.read_bytes()
+        if data.startswith(b"#!"):
+            named = [Path(word) for word in re.findall(r"/[\w./+-]+", data.partition(b"\n")[2].decode("utf-8", "replace"))]
+            waiting += [path for path in named if path.is_file()]
+            waiting += sorted(library for path in named if path.is_dir() for library in path.glob("libcourant*.so*"))
+        elif data.startswith(b"\x7fELF") and ".so" not in file.name:  # the loader lists what it would load
+            told = subprocess.run([file], env=dict(os.environ, LD_TRACE_LOADED_OBJECTS="1"), capture_output=True, text=True, check=False).stdout
+            waiting += [Path(name) for name in re.findall(r"libcourant\S* => (/\S+)", told)]
+    return digest(digest_of_files(files or [executable]), os.environ.get("COURANT_SIMD", ""))

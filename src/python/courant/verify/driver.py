@@ -98,6 +98,7 @@ class _PreparedRun:
     key: str
     cost: float
     record: RunRecord | None
+    reused: bool
 
 
 class Verification:
@@ -153,8 +154,8 @@ class Verification:
         parameters = run.parameters if self.suite.cases[run.of_case].deck else {}
         return digest(self.build, "".join(f"{name}={value}\n" for name, value in parameters.items()), digest_of_deck(deck, parameters))
 
-    def prepare(self, plans: list[PlannedRun]) -> None:
-        """Puts the decks where they belong and finds what need not be run again."""
+    def prepare(self, plans: list[PlannedRun], diagnostics: Diagnostics) -> None:
+        """Puts the decks where they belong and finds what need not be run again. Raises Refused, OutputError."""
         for plan in plans:
             case = self.suite.cases[plan.of_case]
             folder = self.options.folder / plan.folder
@@ -167,18 +168,21 @@ class Verification:
             # the number of steps grows with the resolution, in 2D like the root of the number of particles
             cost = bytes_**1.5 / (plan.size**3 if case.deck and plan.size > 0 else 1)
             record = None if self.options.fresh else read_record(folder)
-            fits = record is not None and record.key == key and not (record.timed_out and record.time_limit < case.time_limit)
+            same = record is not None and record.key == key
+            if case.scene and plan.deck is None and not same:
+                diagnostics.error(folder, "another call has changed the folder meanwhile", "call again")
+                raise Refused
+            fits = same and record is not None and not (record.timed_out and record.time_limit < case.time_limit)
             if fits and record and record.scene != self.scene_of(plan):  # another scene that makes the same deck
                 record.scene = self.scene_of(plan)
                 write_record(folder, record)
-            self.runs.append(_PreparedRun(plan, folder, deck, key, cost, record if fits else None))
+            self.runs.append(_PreparedRun(plan, folder, deck, key, cost, record if fits else None, fits))
 
     def execute(self) -> None:
         """Raises Interrupted."""
         order = sorted((run for run in self.runs if run.record is None), key=lambda run: -run.cost)
         if len(order) < len(self.runs):
             self.options.print(f"{len(self.runs) - len(order)} of {len(self.runs)} runs are taken over from an earlier call")
-        self.reused = {id(run) for run in self.runs if run.record is not None}
         schedule = RunSchedule([(run.plan.of_case, run.cost) for run in order], self.jobs)
 
         def ended(job: int, record: RunRecord) -> None:
@@ -247,7 +251,7 @@ class Verification:
     def result_of_run(self, run: _PreparedRun) -> RunResult:
         out = result_of_run(run.folder, run.record or RunRecord())
         out.setting, out.resolution, out.parameters = run.plan.setting, run.plan.resolution, run.plan.parameters
-        out.size, out.reused = run.plan.size, id(run) in self.reused
+        out.size, out.reused = run.plan.size, run.reused
         return out
 
 
@@ -321,6 +325,6 @@ def verify_suite(suite: Suite, options: Options, diagnostics: Diagnostics) -> Su
             raise Refused
         make_folder(options.folder)
         with _locked(options.folder, diagnostics):
-            verification.prepare(plans)
+            verification.prepare(plans, diagnostics)
             verification.execute()
             return verification.result()

@@ -22,7 +22,7 @@ class _TableReader:
         self.file, self.diagnostics = file, diagnostics
         self.names: list[str] = []
         self.rows: dict[float, list[float]] = {}  # values of y by x
-        self.line = 0
+        self.line, self.before = 0, diagnostics.errors
 
     def read(self, column_x: str, column_y: str) -> Series:
         try:
@@ -50,7 +50,7 @@ class _TableReader:
                                        and values[0] != column_x and values[1] != column_y):
                     continue
             self.add_row(cells, wanted)
-        if len(self.rows) < 2 and self.diagnostics.ok:
+        if len(self.rows) < 2 and self.diagnostics.errors == self.before:
             self.diagnostics.error(self.file, "the table has fewer than two rows with both columns")
         x = sorted(self.rows)
         return Series(np.array(x), np.array([sum(self.rows[k]) / len(self.rows[k]) for k in x]))

@@ -11,8 +11,9 @@ from ..diagnostics import Diagnostics
 from ..words import did_you_mean
 from ..yaml_map import Node, YamlMap, as_flag, is_map, is_scalar, load_yaml, scalar_text
 from .model import Case, Limit, Observation, Parameters, Reference, Setting, Stability, Suite
+from .reference import read_table
 from .registry import KINDS, norm, reduction, take
-from .suite_check import CheckedExpression, check_case, check_observation, check_table, over_of_formula
+from .suite_check import CheckedExpression, check_case, check_observation
 
 _COLUMNS = ("csv_x", "csv_y", "scale_x", "scale_y", "offset_x", "offset_y")
 _MOST_BINS = 1e6
@@ -179,7 +180,8 @@ class _CaseReader:
     def reference(self, map_: YamlMap, node: Node, of: Observation) -> None:
         """`finest`, a formula, or a map."""
         out = of.reference = Reference()
-        over = over_of_formula(of)
+        # what the formula may name: particles for profiles, t for curves and for values at a moment
+        over = "nothing" if of.take not in ("curve", *(() if of.is_profile else ("final", "at"))) else "particles" if of.is_profile else "time"
         if is_scalar(node):
             out.kind = "finest" if scalar_text(node) == "finest" else "formula"
             if out.kind == "formula":
@@ -207,7 +209,11 @@ class _CaseReader:
         out.csv_x, out.csv_y = entry.text("csv_x", "1"), entry.text("csv_y", "2")
         out.scale_x, out.scale_y = (self.expression(entry, key, "nothing", "1") for key in ("scale_x", "scale_y"))
         out.offset_x, out.offset_y = (self.expression(entry, key, "nothing", "0") for key in ("offset_x", "offset_y"))
-        check_table(entry, out, self.diagnostics)
+        if out.csv and out.csv.is_file():
+            before = self.diagnostics.errors
+            read_table(out.csv, out.csv_x, out.csv_y, self.diagnostics)
+            if self.diagnostics.errors > before:
+                entry.error(node, "this reference uses a table that cannot be read, see above")
 
     def stability(self, map_: YamlMap, of: Case) -> Stability:
         out = Stability()

@@ -1,36 +1,26 @@
 """What can be found wrong with a suite before anything is run."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterator
+from typing import NamedTuple
 
 from ..diagnostics import Diagnostics, Location
 from ..expressions import Formula
 from ..yaml_map import YamlMap, is_map
-from .model import Case, Observation, Reference, Variables
+from .model import Case, Observation, Variables
 from .names import OUTCOMES, PARTICLE_VARIABLES, find_history_names
 from .plan import overrides_of
-from .reference import read_table
 from .scene import parameter_values
 
 
-@dataclass
-class CheckedExpression:
-    """An expression of a case, checked once the names of its parameters are known.
-
-    `over`: what it is evaluated over besides parameters: nothing, time, histories, particles or outcome.
-    """
+class CheckedExpression(NamedTuple):
+    """An expression of a case, checked once the names of its parameters are known. `over`: what it is evaluated over besides them."""
 
     where: Location
     name: str  # "observation.of"
     text: str
-    over: str
-
-
-def over_of_formula(o: Observation) -> str:
-    """What a reference formula may name: particles for profiles, t for curves and for values at a moment."""
-    if o.is_profile:
-        return "particles" if o.take == "curve" else "nothing"
-    return "time" if o.take in ("curve", "final", "at") else "nothing"
+    over: str  # nothing, time, histories, particles or outcome
 
 
 def check_observation(map_: YamlMap, o: Observation) -> None:
@@ -56,15 +46,41 @@ def check_observation(map_: YamlMap, o: Observation) -> None:
             map_.error(map_.get(key) or map_.node, message)
 
 
-def check_table(map_: YamlMap, reference: Reference, diagnostics: Diagnostics) -> None:
-    """Whether the table of a reference can be read."""
-    if reference.csv is None or not reference.csv.is_file():
-        return  # told already
-    faults = Diagnostics()
-    read_table(reference.csv, reference.csv_x, reference.csv_y, faults)
-    for fault in faults.all:
-        diagnostics.add(fault)
-        map_.error(map_.node, "this reference uses a table that cannot be read, see above")
+def _twice(what: str, names: list[str]) -> Iterator[tuple[str, str]]:
+    return ((f"two {what} are called '{name}'", "") for name, count in Counter(names).items() if count > 1)
+
+
+def _faults(case: Case) -> Iterator[tuple[str, str]]:
+    """What of a case does not fit together, and hints."""
+    settings = [setting.name for setting in case.settings]
+    yield from _twice("settings", settings)
+    yield from _twice("observations", [o.name for o in case.observations])
+    if not case.observations and not case.stability:
+        yield "the case observes nothing", "give 'observations' or 'stability'"
+    if case.stability and case.resolution:
+        yield "a stability case has no 'resolution'", "sweep the parameter"
+    for setting in case.settings:
+        if setting.resolutions and not case.resolution:
+            yield f"setting '{setting.name}' has resolutions, but the case does not name the parameter 'resolution'", ""
+        if case.resolution and not setting.resolutions and not case.resolutions:
+            yield f"setting '{setting.name}' has no resolutions", "give 'resolutions' to the case or the setting"
+    for o in case.observations:
+        for name in o.bound_settings:
+            if name not in settings:
+                yield (f"observation '{o.name}': bound_settings names '{name}', which is no setting", f"settings: {', '.join(sorted(settings))}")
+        if case.stability:
+            if o.bound is not None or o.least_order is not None:
+                yield f"observation '{o.name}': bounds of a stability case are its limits", f"write a limit with 'value: {o.name}'"
+            continue
+        finest, ordered = o.reference.kind == "finest", o.least_order is not None
+        for setting in case.settings:
+            runs = max(1, len(setting.resolutions or case.resolutions))
+            if finest and runs < 2:
+                yield f"observation '{o.name}' is compared with the finest run, but setting '{setting.name}' has one run", ""
+            if ordered and o.counts_for(setting.name) and runs < 2 + finest:
+                yield f"observation '{o.name}': an order needs {2 + finest} resolutions at least", ""
+        if ordered and not case.size:
+            yield f"observation '{o.name}': an order needs the 'size' of the case", "for example size: dx"
 
 
 def check_case(map_: YamlMap, case: Case, expressions: list[CheckedExpression], diagnostics: Diagnostics) -> None:
@@ -73,92 +89,32 @@ def check_case(map_: YamlMap, case: Case, expressions: list[CheckedExpression], 
         return
     if not case.resolution and case.resolutions:
         map_.error(map_.get("resolutions") or map_.node, "'resolutions' need the parameter that they are values of: 'resolution'")
-    if not case.observations and not case.stability:
-        map_.error(map_.node, "the case observes nothing", "give 'observations' or 'stability'")
     for key in ("picture_title", "picture_at", "picture_where"):
         if not case.picture_of and map_.has(key):
             map_.error(map_.get(key) or map_.node, f"'case.{key}' needs 'picture_of'")
-    _check_settings(map_, case, diagnostics)
-    if case.stability:
-        _check_stability(map_, case)
-    else:
-        _check_counts(map_, case)
+    for message, hint in _faults(case):
+        map_.error(map_.node, message, hint)
     if not diagnostics.ok:
         return  # without files and names, expressions would seem wrong
     # The names of parameters are the same in all runs of a scene, so those of the first run tell them.
     first = case.settings[0]
     overrides = overrides_of(case, first, (first.resolutions or case.resolutions or [""])[0])
-    if case.stability:
-        overrides.update({name: values[0] for name, values in case.stability.sweep})
+    overrides |= {name: values[0] for name, values in case.stability.sweep} if case.stability else {}
     parameters = parameter_values(case, overrides)
-    if parameters is not None:  # else the plan of the runs tells what is wrong
-        for expression in expressions:
-            _check_expression(expression, case, parameters, diagnostics)
+    for expression in expressions if parameters is not None else ():  # else the plan of the runs tells what is wrong
+        _check_expression(expression, case, parameters or {}, diagnostics)
 
 
 def _check_expression(e: CheckedExpression, case: Case, parameters: Variables, diagnostics: Diagnostics) -> None:
-    text, variables = e.text, list[str]()
-    if e.over == "time":
-        variables = ["t"]
-    elif e.over == "particles":
-        variables = PARTICLE_VARIABLES
-    elif e.over == "histories":
-        history = find_history_names(text)
-        text, variables = history.text, [*history.words, "t"]
-    elif e.over == "outcome":
-        variables = [*OUTCOMES, *(o.name for o in case.observations)]
-    formula = Formula(text, variables, parameters)
+    history = find_history_names(e.text) if e.over == "histories" else None
+    variables = {"time": ["t"], "particles": PARTICLE_VARIABLES, "outcome": [*OUTCOMES, *(o.name for o in case.observations)],
+                 "histories": [*history.words, "t"] if history else []}.get(e.over, [])
+    formula = Formula(history.text if history else e.text, variables, parameters)
     if formula.ok:
         return
     hint = formula.hint
-    if not hint and e.over == "histories" and "/" not in e.text:
+    if not hint and history and "/" not in e.text:
         hint = "histories are named like global/kinetic, parts/1/mass or contacts/1/force.y"
     if not hint and case.deck and formula.error.startswith("unknown name"):
         hint = "of a deck, those parameters are known to which the suite gives a number"
     diagnostics.error(e.where, f"'{e.name}': {formula.error}", hint)
-
-
-def _check_settings(map_: YamlMap, case: Case, diagnostics: Diagnostics) -> None:
-    settings: set[str] = set()
-    for setting in case.settings:
-        if setting.name in settings:
-            map_.error(map_.node, f"two settings are called '{setting.name}'")
-        settings.add(setting.name)
-        if setting.resolutions and not case.resolution:
-            map_.error(map_.node, f"setting '{setting.name}' has resolutions, but the case does not name the parameter 'resolution'")
-        if case.resolution and not setting.resolutions and not case.resolutions:
-            map_.error(map_.node, f"setting '{setting.name}' has no resolutions", "give 'resolutions' to the case or the setting")
-    observations: set[str] = set()
-    for o in case.observations:
-        if o.name in observations:
-            map_.error(map_.node, f"two observations are called '{o.name}'")
-        observations.add(o.name)
-        for name in o.bound_settings:
-            if name not in settings:
-                diagnostics.error(case.where, f"observation '{o.name}': bound_settings names '{name}', which is no setting",
-                                  f"settings: {', '.join(sorted(settings))}")
-
-
-def _check_counts(map_: YamlMap, case: Case) -> None:
-    """Whether there are runs enough for what is asked of them."""
-    for setting in case.settings:
-        runs = max(1, len(setting.resolutions or case.resolutions))
-        for o in case.observations:
-            finest = o.reference.kind == "finest"
-            if finest and runs < 2:
-                map_.error(map_.node, f"observation '{o.name}' is compared with the finest run, but setting '{setting.name}' has one run")
-            least = 3 if finest else 2
-            if o.least_order is not None and o.counts_for(setting.name) and runs < least:
-                map_.error(map_.node, f"observation '{o.name}': an order needs {least} resolutions at least")
-    for o in case.observations:
-        if o.least_order is not None and not case.size:
-            map_.error(map_.node, f"observation '{o.name}': an order needs the 'size' of the case", "for example size: dx")
-
-
-def _check_stability(map_: YamlMap, case: Case) -> None:
-    if case.resolution:
-        map_.error(map_.node, "a stability case has no 'resolution'", "sweep the parameter")
-    for o in case.observations:
-        if o.bound is not None or o.least_order is not None:
-            map_.error(map_.node, f"observation '{o.name}': bounds of a stability case are its limits",
-                       f"write a limit with 'value: {o.name}'")

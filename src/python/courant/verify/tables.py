@@ -56,8 +56,8 @@ def overview_table(result: SuiteResult) -> Table:
     table = Table([Column("case"), Column("verdict"), Column("bounds met", True), Column("runs", True), Column("CPU time", True)])
     for case in result.cases:
         bounds = f"{len(case.checks) - case.missed} of {len(case.checks)}" if case.checks else "none stated"
-        words = [("MISSED" if case.missed else "met") if case.checks else "", verdict_counts(case) if case.definition.stability else None]
-        word = "; ".join(w for w in words if w) if case.definition.stability else words[0] or ""
+        word = ("MISSED" if case.missed else "met") if case.checks else ""
+        word = "; ".join(filter(None, (word, verdict_counts(case) if case.definition.stability else "")))
         cpu = sum(run.cpu_seconds for run in case.runs)
         table.rows.append(Row([case.title, word, bounds, str(len(case.runs)), seconds(cpu)], case.missed > 0))
     return table
