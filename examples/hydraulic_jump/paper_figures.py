@@ -1,6 +1,7 @@
 """Figures of the page: those that `courant post` drew of a run, and those over several runs, drawn by the same script."""
 import json
 import math
+import os
 import shutil
 import subprocess
 import sys
@@ -13,7 +14,7 @@ ENDS = {"paper": "", "better": "_better", "paper_setting": "_c1484"}
 # of the paper's case [m, m/s]: its jet, conjugate depth by eq. 1, and the depth that critical flow over the weir allows (theory.md)
 D1, V1, BELANGER, WEIR_DEPTH = 0.02, 1.5, 0.0863, 0.0817
 PAPER_ROLLER = 0.2235 / D1  # section 3
-PROGRAM = "src/post/plot_figures.py"
+PACKAGE = "src/python"  # whose `courant.post.draw` draws
 # what `courant post` drew of a run alone; fields as pixels, which are smaller
 OF_A_RUN = [
     ("fig06_profiles.svg", "Mean velocity every 0.025 m (Figure 6)"),
@@ -164,7 +165,8 @@ def draw(figures, folder, project):
     """The figures as SVG in the folder; their names. Without matplotlib none."""
     (folder / "figures.json").write_text(json.dumps({"title": "", "formats": ["svg"], "walls": [], "figures": figures}))
     try:
-        done = subprocess.run([sys.executable, project / PROGRAM, folder], capture_output=True, text=True)
+        done = subprocess.run([sys.executable, "-m", "courant.post.draw", folder], capture_output=True, text=True,
+                              env=os.environ | {"PYTHONPATH": str(project / PACKAGE)})
         if done.returncode != 0:
             print("warning: figures over several runs were not drawn: " + done.stderr[-500:])
             return []

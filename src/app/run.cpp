@@ -160,8 +160,7 @@ class Run {
     field_schedule_.skip_to(s_.clock().t);
   }
 
-  /// Between two steps. The copy is made here, all else by the thread that writes, after what it has to write
-  /// before, so that the positions in other files are those of now.
+  /// Between two steps. Copies now; the thread that writes does the rest once other files are up to here.
   void write_restart(const std::string& name) {
     s_.timer().measure("restart files", [&] { submit_restart(name); });
     messag_.status(s_.clock().cycle, s_.clock().t, s_.clock().dt, fmt::format("write {} file", name));
