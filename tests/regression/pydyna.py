@@ -106,7 +106,7 @@ def filled(keyword):
 
 
 listing = subprocess.run([courant, "keywords"], stdout=subprocess.PIPE, text=True).stdout
-names = [line.split()[0] for line in listing.splitlines()]
+names = [line.split()[0] for line in listing.splitlines() if line.startswith("*")]
 tried = 0
 for name in names:
     if name not in TypeMapping or name in ODD or name in ("*KEYWORD", "*INCLUDE", "*COMMENT") or name.startswith(("*PARAMETER", "*INCLUDE")):
