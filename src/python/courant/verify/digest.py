@@ -54,7 +54,7 @@ def digest_of_deck(deck: Path, parameters: Mapping[str, str] | None = None) -> s
             data = file.read_bytes() if file.is_file() else b""
             names |= _read_blocks(data.decode("latin-1"), given, texts) if re.search(rb"^\*INCLUDE", data, re.I | re.M) or file != deck else set()
         for name, values in [*texts.items()] * 3:  # also those that are made of others
-            names |= {re.sub(f"&{name}", lambda _, text=text: text, one, flags=re.I) for one in names if "&" in one for text in values}
+            names |= {re.sub(f"&{name}", text.replace("\\", r"\\"), one, flags=re.I) for one in names if "&" in one for text in values}
         names |= {name.replace("\\", "/") for name in names}
         folders = {Path(), *(file.parent for file in found), *(folder / name for folder in (Path(), deck.parent) for name in names)}
         paths = {Path(os.path.normpath(folder / name)) for folder in folders if folder.is_dir() for name in names}
