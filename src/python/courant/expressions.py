@@ -1,8 +1,6 @@
-"""Arithmetic expressions of suites and scenes: `0.5 * rho0 * U^2`, over numbers or whole arrays.
-
-The grammar is that of scenes: + - * / ^ (or **), parentheses, functions, names (or &name). A value that is not
-finite is a fault: strict evaluation raises `ExpressionFault`, evaluation over arrays gives NaN in its place.
-"""
+"""Arithmetic expressions of suites and scenes: `0.5 * rho0 * U^2`, over numbers or whole arrays. The grammar is that of scenes: + - * / ^ (or **),
+parentheses, functions, names (or &name). A value that is not finite is a fault: strict evaluation raises `ExpressionFault`, evaluation over arrays
+gives NaN in its place."""
 from __future__ import annotations
 
 import math
@@ -67,16 +65,14 @@ FUNCTIONS: dict[str, tuple[int, int | None, Callable[..., Array]]] = {
     "abs": (1, 1, np.abs), "sign": (2, 2, lambda a, b: np.where(b < 0, -np.abs(a), np.abs(a))),
     "int": (1, 1, _whole(np.trunc)), "aint": (1, 1, np.trunc), "nint": (1, 1, _whole(_rounded)),
     "anint": (1, 1, _rounded), "float": (1, 1, _SAME), "ls_integer": (1, 1, _whole(np.trunc)),
-    "ls_real": (1, 1, _SAME), "floor": (1, 1, _whole(np.floor)), "ceil": (1, 1, _whole(np.ceil)),
-    "round": (1, 1, _whole(_rounded)),
-}
-_OPERATORS: dict[str, Callable[..., Array]] = {"+": np.add, "-": np.subtract, "*": np.multiply,
-                                               "/": np.divide, "^": _power}
+    "ls_real": (1, 1, _SAME), "floor": (1, 1, _whole(np.floor)), "ceil": (1, 1, _whole(np.ceil)), "round": (1, 1, _whole(_rounded))}
+_OPERATORS: dict[str, Callable[..., Array]] = {"+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "^": _power}
 
 
 def _fault_of(name: str, arguments: Sequence[Array]) -> str:
     """Why a single number is not finite."""
-    if (name == "/" and arguments[1] == 0) or (name == "mod" and _rounded(arguments[1]) == 0) or (name == "^" and arguments[0] == 0 and arguments[1] < 0):
+    a, b = arguments[0], arguments[-1]
+    if (name == "/" and b == 0) or (name == "mod" and _rounded(b) == 0) or (name == "^" and a == 0 and b < 0):
         return "division by zero"
     whole = name in ("int", "nint", "ls_integer", "floor", "ceil", "round", "mod")
     return "the result is too large for an integer" if whole else "the result is not a finite number"
@@ -226,8 +222,8 @@ class _Parser:
 
 
 class Formula:
-    """An expression over `variables` whose parameters have their values. A name that is used and is both a variable and a parameter is a fault, as is
-    anything else that cannot be evaluated: then `error` says why and `hint` what to do. `used`: the variables that it names."""
+    """An expression over `variables` whose parameters have their values. A name that is used and is both a variable and a parameter is a fault, as
+    is anything else that cannot be evaluated: then `error` says why and `hint` what to do. `used`: the variables that it names."""
 
     def __init__(self, text: str, variables: Sequence[str] = (), parameters: Mapping[str, float] | None = None) -> None:
         known = dict(sorted((parameters or {}).items()))

@@ -97,12 +97,9 @@ class _Comparer:
 
 
 def compare_with(result: SuiteResult, earlier: Path, diagnostics: Diagnostics) -> Comparison | None:
-    """Rows are the same where case, setting, resolution and observation are.
-
-    Told are errors that changed by more than 5 % and 1e-12, CPU time per particle-step that changed by more than 30 %
-    where both runs took 0.2 s or more, verdicts, checks, and rows that are new or gone. A file that cannot be read, or
-    is no results.csv, goes to `diagnostics`; then there is None.
-    """
+    """Rows are the same where case, setting, resolution and observation are. Told are errors that changed by more than 5 % and 1e-12, CPU time per
+    particle-step that changed by more than 30 % where both runs took 0.2 s or more, verdicts, checks, and rows that are new or gone. A file that
+    cannot be read, or is no results.csv, goes to `diagnostics`; then there is None."""
     try:
         before = _rows(earlier.read_text("utf-8", "replace"))
     except (OSError, csv.Error):

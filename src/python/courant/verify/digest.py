@@ -26,8 +26,8 @@ def digest_of_files(files: Iterable[Path]) -> str:
 
 
 def _read_blocks(text: str, given: Mapping[str, str], texts: dict[str, set[str]]) -> set[str]:
-    """Data lines of *INCLUDE and its kin: names of files and folders. Texts that *PARAMETER defines (C NAME TEXT, in columns of ten or
-    twenty, or between commas) go to `texts`."""
+    """Data lines of *INCLUDE and its kin: names of files and folders. Texts that *PARAMETER defines (C NAME TEXT, in columns of ten or twenty, or
+    between commas) go to `texts`."""
     names: set[str] = set()
     for keyword, block in _BLOCK.findall(text):
         lines = [line.rstrip() for line in block.split("\n") if line.strip() and line[0] != "$"]
@@ -43,8 +43,8 @@ def _read_blocks(text: str, given: Mapping[str, str], texts: dict[str, set[str]]
 
 
 def digest_of_deck(deck: Path, parameters: Mapping[str, str] | None = None) -> str:
-    """Of a deck with the files that a run with these parameters may read: rather one too many than one too few, as of parameters that have
-    several values in it, or of several folders that hold a file of the name."""
+    """Of a deck with the files that a run with these parameters may read: rather one too many than one too few, as of parameters that have several
+    values in it, or of several folders that hold a file of the name."""
     given = {name.upper(): text for name, text in (parameters or {}).items()}
     texts = {name: {text} for name, text in given.items()}
     names, found, waiting = set[str](), set[Path](), {deck}

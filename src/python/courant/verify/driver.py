@@ -140,8 +140,7 @@ class Verification:
         for name, value in run.parameters.items():
             words += ["--param", f"{name}={value}"]
         try:
-            done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False,
-                                  process_group=0)
+            done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False, process_group=0)
         except OSError as fault:
             return [f"error: the program '{self.options.executable}' cannot be started: {fault.strerror}"]
         run.deck = deck
@@ -298,18 +297,14 @@ def chosen_cases(suite: Suite, only: list[str], diagnostics: Diagnostics) -> Sui
     for name in only:
         if name not in names:
             near = nearest_word(name, names)
-            diagnostics.error(suite.file, f"the suite has no case '{name}'",
-                              f"did you mean {near}?" if near else f"its cases: {', '.join(names)}")
+            diagnostics.error(suite.file, f"the suite has no case '{name}'", f"did you mean {near}?" if near else f"its cases: {', '.join(names)}")
     return Suite(suite.file, suite.title, suite.about, [case for case in suite.cases if not only or case.name in only])
 
 
 def verify_suite(suite: Suite, options: Options, diagnostics: Diagnostics) -> SuiteResult:
-    """Generates the decks, runs them, observes and judges.
-
-    Runs that an earlier call has finished in this folder, of the same deck and build, are taken over. Raises Refused, with
-    messages in `diagnostics` and nothing run, if the suite is wrong or another call works in the folder; Interrupted;
-    OutputError.
-    """
+    """Generates the decks, runs them, observes and judges. Runs that an earlier call has finished in this folder, of the same deck and build, are
+    taken over. Raises Refused, with messages in `diagnostics` and nothing run, if the suite is wrong or another call works in the folder;
+    Interrupted; OutputError."""
     wanted = chosen_cases(suite, options.only, diagnostics)
     if not diagnostics.ok:
         raise Refused

@@ -24,7 +24,7 @@ class Setting:
 
 @dataclass
 class Reference:
-    """What a run is compared with: none, a formula, a csv, or the finest run. Columns of a csv, by name or number from 1, are scaled, then shifted."""
+    """What a run is compared with: none, a formula, a csv, or the finest run. Columns of a csv, by name or number, are scaled, then shifted."""
 
     kind: str = "none"
     formula: str = ""  # of t, or of particles; may use the scene's parameters

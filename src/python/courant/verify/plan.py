@@ -76,8 +76,7 @@ def _runs_of(number: int, case: Case, setting: Setting) -> Iterator[tuple[Planne
         return
     resolutions = setting.resolutions or case.resolutions or [""]
     for k, resolution in enumerate(resolutions):
-        run = PlannedRun(number, setting.name, resolution, overrides_of(case, setting, resolution),
-                         finest=k + 1 == len(resolutions))
+        run = PlannedRun(number, setting.name, resolution, overrides_of(case, setting, resolution), finest=k + 1 == len(resolutions))
         yield run, setting.name + (f"-{resolution}" if resolution else "")
 
 
@@ -132,5 +131,4 @@ def _take_values(run: PlannedRun, case: Case, diagnostics: Diagnostics) -> None:
     except ExpressionFault as fault:
         why = fault.message
     if not run.size > 0:
-        diagnostics.error(case.where, f"case {case.name}, {run.describe(case)}: 'size' must be > 0"
-                                      + (f": {why}" if why else f", got {run.size:g}"))
+        diagnostics.error(case.where, f"case {case.name}, {run.describe(case)}: 'size' must be > 0" + (f": {why}" if why else f", got {run.size:g}"))
