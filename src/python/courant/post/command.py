@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
+from concurrent.futures.process import BrokenProcessPool
 from typing import NoReturn
 
 from ..diagnostics import Diagnostics
@@ -50,8 +51,10 @@ def main(words: Sequence[str]) -> int:
         code, fault = EXIT_INPUT, f"error: --load: {error}\n"
     except OutputError as error:
         code, fault = EXIT_RUN, f"error: {error}\n"
-    except (MissingModule, MemoryError) as error:
-        code, fault = EXIT_OTHER, f"error: {error or 'no memory is left'}\n"
+    except MissingModule as error:
+        code, fault = EXIT_OTHER, f"error: {error}\n"
+    except (MemoryError, BrokenProcessPool):
+        code, fault = EXIT_OTHER, "error: no memory is left, or a process was ended from outside\n  hint: fewer --threads take less memory\n"
     clear_status_line()
     sys.stdout.flush()
     sys.stderr.write(diagnostics.text() + fault)

@@ -6,7 +6,6 @@ usage: python3 -m courant.post.draw FOLDER      (needs FOLDER/figures.json, whic
 from __future__ import annotations
 
 import json
-import multiprocessing
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -18,6 +17,7 @@ from ..optional import module
 from ..style import FIELD_COLOURS, LOOKS, MARKERS, SPEED_COLOURS, WALLS, pyplot
 from .figures import CHARTS, Figure
 from .jump import JumpRecipe, JumpResult
+from .parallel import in_order
 from .recipe import SnapshotRecipe
 from .tables import Table
 
@@ -118,13 +118,9 @@ def draw_figure(data: dict[str, Any], one: dict[str, Any], folder: Path, fill: C
 def draw_figures(folder: Path, threads: int = 1) -> None:
     """All figures of FOLDER/figures.json, on several processes at once."""
     data = json.loads((folder / "figures.json").read_text(encoding="utf-8"))
-    if threads <= 1 or len(data["figures"]) < 2:
-        for one in data["figures"]:
-            draw_figure(data, one, folder)
-        return
     pyplot()  # imported once, for all
-    with multiprocessing.get_context("fork").Pool(min(threads, len(data["figures"]))) as pool:
-        pool.starmap(draw_figure, [(data | {"figures": []}, one, folder) for one in data["figures"]], chunksize=1)
+    for _ in in_order(lambda one: draw_figure(data, one, folder), data["figures"], threads):
+        pass
 
 
 def draw_chart(figure: Figure, tables: dict[str, Table], formats: Sequence[str], title: str, folder: Path) -> None:
