@@ -26,7 +26,13 @@ from .observe import Measured, observe_run
 from .picture import draw_particles
 from .plan import PlannedRun, plan_runs
 from .processes import ProcessJob, run_processes
-from .record import RunRecord, read_record, result_of_run, says_something_of_the_deck, write_record
+from .record import (
+    RunRecord,
+    read_record,
+    result_of_run,
+    says_something_of_the_deck,
+    write_record,
+)
 from .scene import scene_files
 from .schedule import RunSchedule, duration_text
 
