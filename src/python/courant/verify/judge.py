@@ -6,15 +6,7 @@ import math
 import numpy as np
 
 from ..expressions import ExpressionFault, Formula, constant_value
-from .model import (
-    BoundCheck,
-    Case,
-    MeasuredOrder,
-    RunResult,
-    Stability,
-    Variables,
-    Verdict,
-)
+from .model import BoundCheck, Case, MeasuredOrder, RunResult, Stability, Variables, Verdict
 from .names import OUTCOMES
 from .series import slope_of
 

@@ -17,15 +17,7 @@ from .model import SuiteResult
 from .pareto import cheapest_within_bounds
 from .svg import WIDTH
 from .tables import check_text, checks_table, overview_table, runs_table
-from .text import (
-    escape_markdown,
-    escape_xml,
-    file_stem,
-    number,
-    paragraphs,
-    percent,
-    seconds,
-)
+from .text import escape_markdown, escape_xml, file_stem, number, paragraphs, percent, seconds
 
 _TEMPLATES = Path(__file__).with_name("templates")
 _MOST_OPEN_ROWS = 30  # of a table; a longer one is opened by the reader

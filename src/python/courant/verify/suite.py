@@ -10,16 +10,7 @@ from typing import Any
 from ..diagnostics import Diagnostics
 from ..words import did_you_mean
 from ..yaml_map import Node, YamlMap, as_flag, is_map, is_scalar, load_yaml, scalar_text
-from .model import (
-    Case,
-    Limit,
-    Observation,
-    Parameters,
-    Reference,
-    Setting,
-    Stability,
-    Suite,
-)
+from .model import Case, Limit, Observation, Parameters, Reference, Setting, Stability, Suite
 from .reference import read_table
 from .registry import KINDS, norm, reduction, take
 from .suite_check import CheckedExpression, check_case, check_observation
