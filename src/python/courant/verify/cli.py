@@ -57,7 +57,7 @@ def _executable(given: Path | None) -> Path:
     named = given or os.environ.get("COURANT_EXECUTABLE")
     if named:
         return Path(named).absolute()
-    beside = [folder / "bin" / "courant" for folder in Path(__file__).resolve().parents[1:5]]
+    beside = [folder / "bin" / "courant" for folder in Path(__file__).resolve().parents[1:7]]
     found = next((file for file in beside if os.access(file, os.X_OK) and file.is_file()), None) or shutil.which("courant")
     return Path(found) if found else Path("courant")
 
