@@ -315,13 +315,18 @@ def read_particles(state: StateFiles, arrays: Sequence[Wanted], diagnostics: Dia
     file = open_field(Path(state.particles or ""), diagnostics)
     if file is None:
         return None
-    errors = diagnostics.errors
-    found = {name: read_array(file, "PointData", name, 1, diagnostics) for name in ("mass", "density", "smoothing_length")}
-    for section, one in (("Points", Wanted("Points", 3)), *(("PointData", one) for one in arrays)):
-        if diagnostics.errors > errors:
-            return None
+    errors, found = diagnostics.errors, dict[str, np.ndarray]()
+
+    def read(section: str, one: Wanted) -> None:
         if one.name not in found and not (one.optional and not file.has(section, one.name)):
-            found[one.name] = read_array(file, section, one.name, one.components, diagnostics)
+            values = read_array(file, section, one.name, one.components, diagnostics)
+            found.update({} if values is None else {one.name: values})
+
+    for name in ("mass", "density", "smoothing_length"):
+        read("PointData", Wanted(name))
+    for section, one in (("Points", Wanted("Points", 3)), *(("PointData", one) for one in arrays)):
+        if diagnostics.errors == errors:
+            read(section, one)
     if diagnostics.errors > errors:
         return None
     x, h = found["Points"], found["smoothing_length"]

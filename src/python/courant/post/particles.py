@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -89,7 +89,7 @@ class ParticleSet:
         return [np.argsort(self.x[:, axis], kind="stable") for axis in (0, 1)]
 
     @cached_property
-    def tree(self):  # a scipy.spatial.cKDTree, which is imported where it is needed
+    def tree(self) -> Any:  # a scipy.spatial.cKDTree, which is imported where it is needed
         from scipy.spatial import cKDTree
 
         return cKDTree(self.x[:, : self.dim])
@@ -276,9 +276,9 @@ class Points:
 
     def __init__(self, x: np.ndarray) -> None:
         self.x = x
-        self._trees: dict[int, object] = {}
+        self._trees: dict[int, Any] = {}
 
-    def tree(self, dim: int):
+    def tree(self, dim: int) -> Any:
         from scipy.spatial import cKDTree
 
         if dim not in self._trees:
