@@ -35,7 +35,7 @@ def _count(text: str) -> int:
 
 def main(words: Sequence[str]) -> int:
     """The exit code: 0, 1 where recipe or folder have faults, 2 where results could not be written."""
-    parser = Parser("courant post", description="tables, CSV and pictures from the results of a run")
+    parser = Parser("courant post", allow_abbrev=False, description="tables, CSV and pictures from the results of a run")
     parser.add_argument("recipe", metavar="RECIPE", help="recipe.yaml")
     parser.add_argument("folder", metavar="DIR", help="folder of the run")
     parser.add_argument("--threads", type=_count, default=0, metavar="N", help="processes at once; 0: all cores")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import multiprocessing
 import signal
 from collections.abc import Callable, Iterator, Sequence
@@ -16,8 +17,11 @@ def _call(item: Any) -> Any:
     return _function(item)
 
 
-def _leave_stopping_to_the_first() -> None:
+def _follow_the_first() -> None:
+    """Ctrl-C is for the process that forked this one, and where that is gone this one ends, too."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    ends_with_parent = 1  # PR_SET_PDEATHSIG of Linux
+    ctypes.CDLL(None).prctl(ends_with_parent, signal.SIGKILL)
 
 
 def in_order(function: Callable[[Any], Any], items: Sequence[Any], processes: int, few: int = 1) -> Iterator[Any]:
@@ -31,7 +35,7 @@ def in_order(function: Callable[[Any], Any], items: Sequence[Any], processes: in
         return
     _function = function
     context = multiprocessing.get_context("fork")
-    pool = ProcessPoolExecutor(min(processes, len(items)), mp_context=context, initializer=_leave_stopping_to_the_first)
+    pool = ProcessPoolExecutor(min(processes, len(items)), mp_context=context, initializer=_follow_the_first)
     try:
         yield from pool.map(_call, items, chunksize=max(1, min(8, len(items) // (8 * processes))))
     finally:

@@ -16,16 +16,11 @@ _MOST_STEPS = 4_000_000  # of all lines that are looked at together
 _PAIRS_AT_ONCE = 512  # whose columns stay in the processor's cache
 
 
-def cubic_spline(r: np.ndarray, h: np.ndarray, dim: int) -> np.ndarray:
-    """Cubic spline kernel with support 2h, normalised to 1. r, h: distances and smoothing lengths [L] -> [1/L^dim].
+def spline_shape(q: np.ndarray) -> np.ndarray:
+    """The cubic spline kernel W(q = r/h) without its factor: 1 - 1.5 q^2 + 0.75 q^3 up to q = 1, (2 - q)^3 / 4 up to 2, 0 beyond.
 
     Source: Monaghan, Annu. Rev. Astron. Astrophys. 30 (1992), eq. 2.6 (there for all dimensions).
     """
-    return spline_norm(h, dim) * spline_shape(r / h)
-
-
-def spline_shape(q: np.ndarray) -> np.ndarray:
-    """The cubic spline without its factor: 1 - 1.5 q^2 + 0.75 q^3 up to q = 1, (2 - q)^3 / 4 up to 2, 0 beyond."""
     outer, inner = np.maximum(2 - q, 0), np.maximum(1 - q, 0)
     return 0.25 * outer * outer * outer - inner * inner * inner
 
