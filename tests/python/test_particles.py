@@ -8,13 +8,18 @@ from courant.post.particles import (
     ParticleSet,
     Points,
     SprayRule,
-    cubic_spline,
     first_surface,
     interpolate,
+    spline_norm,
+    spline_shape,
     water_body,
     water_on_lines,
 )
 from made_runs import DX, block, frame, lattice, scatter
+
+
+def cubic_spline(r, h, dim):
+    return spline_norm(h, dim) * spline_shape(r / h)
 
 
 def everything(state) -> ParticleSet:

@@ -211,6 +211,18 @@ class TestCall:
         assert end.value.code == 1
 
 
+def test_a_process_that_is_ended_from_outside(tmp_path, capsys, monkeypatch):
+    for registry in (KINDS, CHARTS):
+        monkeypatch.setattr(registry, "functions", dict(registry.functions))
+    write_run(tmp_path, [channel(0.5, 0.1 * s) for s in range(8)])
+    (tmp_path / "mine.py").write_text(
+        "import os, signal\nfrom courant.post import analysis\n\n@analysis('deadly')\ndef deadly(state):\n    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    (tmp_path / "r.yaml").write_text("analyses: [{kind: deadly, name: d}]\n")
+    assert main([str(tmp_path / "r.yaml"), str(tmp_path), "--load", str(tmp_path / "mine.py"), "--threads", "2"]) == 3
+    assert "a process was ended from outside" in capsys.readouterr().err
+
+
 def test_damaged_states(tmp_path):
     write_run(tmp_path, [channel(0.5, 0.1 * s) for s in range(8)])
     path = tmp_path / "fields/particles_0006.vtp"

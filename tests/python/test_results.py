@@ -43,7 +43,7 @@ def test_states(run):
     assert len(run.states) == 5 and run.states.times.tolist() == [0, 1, 2, 3, 4] and run.states.at(2.9).t == 3 and len(run.states[1:3]) == 2
     state = run.states[-1]
     assert state["velocity"][:, 0] == pytest.approx(4 + state.points[:, 0], rel=1e-6) and state["speed"].shape == (800,)
-    assert state.units["velocity"] == "m/s" and state.unit("pressure") == "Pa" and state.unit("part") == "?" and len(state.particles) == 800
+    assert state.units["velocity"] == "m/s" and state.unit("pressure") == "Pa" and state.unit("part") == "?" and len(state) == 800
     assert [one.tolist() for one in state.shells.cells] == [[0, 1, 2, 3], [1, 4, 5, 2]] and state.shells.points.shape == (6, 3)
     with pytest.raises(KeyError, match="has no array 'v'; it has velocity, "):
         state["v"]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from courant.diagnostics import Diagnostic, Diagnostics, Location
 from courant.units import Dimension, Units, parse_dimension
-from courant.words import json_quoted, nearest_word, short_number, shortest
+from courant.words import nearest_word, short_number, shortest
 from courant.yaml_map import YamlMap, load_yaml, parse_yaml
 
 
@@ -95,7 +95,6 @@ def test_words():
     assert nearest_word("q", ["x"]) == "" and nearest_word("vx", ["vy"]) == "vy"
     assert (shortest(2.0), shortest(0.1), shortest(1e20)) == ("2", "0.1", "1e+20")
     assert short_number(0.30000000000000004) == "0.3" and short_number(-1e-15) == "0"
-    assert json_quoted('a"\\\n') == '"a\\"\\\\ "'
 
 
 def test_units():

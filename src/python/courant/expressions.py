@@ -1,14 +1,12 @@
-"""Arithmetic expressions of suites and scenes: `0.5 * rho0 * U^2`, over numbers or whole arrays.
-
-The grammar is that of scenes: + - * / ^ (or **), parentheses, functions, names (or &name). A value that is not
-finite is a fault: strict evaluation raises `ExpressionFault`, evaluation over arrays gives NaN in its place.
-"""
+"""Arithmetic expressions of suites and scenes: `0.5 * rho0 * U^2`, over numbers or whole arrays. The grammar is that of scenes: + - * / ^ (or **),
+parentheses, functions, names (or &name). A value that is not finite is a fault: strict evaluation raises `ExpressionFault`, evaluation over arrays
+gives NaN in its place."""
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -50,20 +48,6 @@ def _remainder(a: Array, b: Array) -> Array:
     return np.fmod(_whole(_rounded)(a), _whole(_rounded)(b))
 
 
-def _smallest(*values: Array) -> Array:
-    out = values[0]
-    for value in values[1:]:
-        out = np.minimum(out, value)
-    return out
-
-
-def _greatest(*values: Array) -> Array:
-    out = values[0]
-    for value in values[1:]:
-        out = np.maximum(out, value)
-    return out
-
-
 def _power(a: Array, b: Array) -> Array:
     return np.square(a) if np.ndim(b) == 0 and b == 2 else np.power(a, b)  # rounded right, as that of C is
 
@@ -76,29 +60,22 @@ FUNCTIONS: dict[str, tuple[int, int | None, Callable[..., Array]]] = {
     "acos": (1, 1, np.arccos), "atan": (1, 1, np.arctan), "atan2": (2, 2, np.arctan2), "sinh": (1, 1, np.sinh),
     "cosh": (1, 1, np.cosh), "tanh": (1, 1, np.tanh), "asinh": (1, 1, np.arcsinh), "acosh": (1, 1, np.arccosh),
     "atanh": (1, 1, np.arctanh), "exp": (1, 1, np.exp), "log": (1, 1, np.log), "log10": (1, 1, np.log10),
-    "sqrt": (1, 1, np.sqrt), "min": (2, None, _smallest), "max": (2, None, _greatest), "mod": (2, 2, _remainder),
+    "sqrt": (1, 1, np.sqrt), "min": (2, None, lambda *values: reduce(np.minimum, values)),
+    "max": (2, None, lambda *values: reduce(np.maximum, values)), "mod": (2, 2, _remainder),
     "abs": (1, 1, np.abs), "sign": (2, 2, lambda a, b: np.where(b < 0, -np.abs(a), np.abs(a))),
     "int": (1, 1, _whole(np.trunc)), "aint": (1, 1, np.trunc), "nint": (1, 1, _whole(_rounded)),
     "anint": (1, 1, _rounded), "float": (1, 1, _SAME), "ls_integer": (1, 1, _whole(np.trunc)),
-    "ls_real": (1, 1, _SAME), "floor": (1, 1, _whole(np.floor)), "ceil": (1, 1, _whole(np.ceil)),
-    "round": (1, 1, _whole(_rounded)),
-}
-_OPERATORS: dict[str, Callable[..., Array]] = {"+": np.add, "-": np.subtract, "*": np.multiply,
-                                               "/": np.divide, "^": _power}
+    "ls_real": (1, 1, _SAME), "floor": (1, 1, _whole(np.floor)), "ceil": (1, 1, _whole(np.ceil)), "round": (1, 1, _whole(_rounded))}
+_OPERATORS: dict[str, Callable[..., Array]] = {"+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "^": _power}
 
 
-def _fault_of(name: str, arguments: Sequence[Array], value: Array) -> str:
+def _fault_of(name: str, arguments: Sequence[Array]) -> str:
     """Why a single number is not finite."""
-    if (name in ("/", "mod") and _rounded_if(name, arguments[1]) == 0) or (
-            name == "^" and arguments[0] == 0 and arguments[1] < 0):
+    a, b = arguments[0], arguments[-1]
+    if (name == "/" and b == 0) or (name == "mod" and _rounded(b) == 0) or (name == "^" and a == 0 and b < 0):
         return "division by zero"
-    if name in ("int", "nint", "ls_integer", "floor", "ceil", "round", "mod"):
-        return "the result is too large for an integer"
-    return "the result is not a finite number"
-
-
-def _rounded_if(name: str, value: Array) -> Array:
-    return _rounded(value) if name == "mod" else value
+    whole = name in ("int", "nint", "ls_integer", "floor", "ceil", "round", "mod")
+    return "the result is too large for an integer" if whole else "the result is not a finite number"
 
 
 def _operation(name: str, f: Callable[..., Array], operands: list[Node]) -> Node:
@@ -108,7 +85,7 @@ def _operation(name: str, f: Callable[..., Array], operands: list[Node]) -> Node
             out = f(*arguments)
         if strict:
             if not math.isfinite(out):
-                raise ExpressionFault(_fault_of(name, arguments, out))
+                raise ExpressionFault(_fault_of(name, arguments))
             return float(out)
         good = np.isfinite(out)
         if name == "^":  # NaN^0 and 1^NaN are 1 to C
@@ -244,50 +221,35 @@ class _Parser:
         return _constant(value)
 
 
-@dataclass
 class Formula:
-    """An expression over `variables` whose parameters have their values.
+    """An expression over `variables` whose parameters have their values. A name that is used and is both a variable and a parameter is a fault, as
+    is anything else that cannot be evaluated: then `error` says why and `hint` what to do. `used`: the variables that it names."""
 
-    A name that is used and is both a variable and a parameter is a fault, as is anything else that cannot be
-    evaluated: then `error` says why and `hint` what to do.
-    """
-
-    text: str
-    variables: Sequence[str] = ()
-    parameters: Mapping[str, float] = field(default_factory=dict)
-    error: str = field(default="", init=False)
-    hint: str = field(default="", init=False)
-
-    def __post_init__(self) -> None:
-        self.names = [*self.variables, *sorted(self.parameters)]
-        parser = _Parser(self.text, self.names, "name")
-        self._values = [float(self.parameters[name]) for name in sorted(self.parameters)]
-        self._node: Node = _constant(math.nan)
+    def __init__(self, text: str, variables: Sequence[str] = (), parameters: Mapping[str, float] | None = None) -> None:
+        known = dict(sorted((parameters or {}).items()))
+        parser = _Parser(text, [*variables, *known], "name")
+        self.variables, self._values = list(variables), [float(value) for value in known.values()]
+        self.error = self.hint = ""
+        self._node = _constant(math.nan)
         try:
             self._node = parser.run()
         except ExpressionFault as fault:
             self.error, self.hint = fault.message, fault.hint
-        self._used = {self.names[k] for k in parser.used if k < len(self.variables)}
-        for name in self.variables:
-            if not self.error and name in self._used and name in self.parameters:
-                self.error = f"'{name}' is both a parameter and a variable here"
-                self.hint = "give the parameter another name"
+        self.used = {self.variables[k] for k in parser.used if k < len(self.variables)}
+        twice = next((name for name in self.variables if name in self.used and name in known), None)
+        if twice and not self.error:
+            self.error, self.hint = f"'{twice}' is both a parameter and a variable here", "give the parameter another name"
 
     @property
     def ok(self) -> bool:
         return not self.error
 
     def uses(self, name: str) -> bool:
-        return name in self._used
-
-    @property
-    def used(self) -> set[str]:
-        """The variables that the expression names."""
-        return set(self._used)
+        return name in self.used
 
     def over(self, table: Mapping[str, Array], size: int) -> np.ndarray:
         """Values over a table of columns of shape (size,); NaN where there is none. Shape (size,)."""
-        values = [table[name] if name in self._used else 0.0 for name in self.variables]
+        values = [table[name] if name in self.used else 0.0 for name in self.variables]
         out = self._node([*values, *self._values], False)
         return np.array(np.broadcast_to(np.asarray(out, dtype=float), (size,)))
 
@@ -302,16 +264,14 @@ def _without_placeholders(text: str) -> str:
     for i, c in enumerate(text):
         if text.startswith("${", i):
             opened.append("$")
-            out[i:i + 2] = " ("
-        elif c == "(" and out[i] == "(":
+            out[i : i + 2] = " ("
+        elif c == "(":
             opened.append("(")
         elif c in ")}":
             fits = bool(opened) and (opened[-1] == "$") == (c == "}")
             if opened and opened[-1] == "$" and not fits:
                 raise ExpressionFault("'}' is missing")
-            if fits:
-                opened.pop()
-                out[i] = ")"
+            out[i] = ")" if fits and opened.pop() else c
     if "$" in opened:
         raise ExpressionFault("'}' is missing")
     return "".join(out)

@@ -28,7 +28,6 @@ _DATA_MARK = b'<AppendedData encoding="raw">\n_'
 _LAST_LINE = b"</VTKFile>\n"  # a file that was cut off has none
 _TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "Int64": "<i8", "UInt8": "<u1", "Int8": "<i1"}
 _PACKINGS = {"": "none", "vtkZLibDataCompressor": "zlib", "vtkLZMADataCompressor": "xz"}
-_ATTRIBUTE = re.compile(r'\s([^\s="<>]+)="([^"]*)"')
 
 
 class FieldFault(Exception):
@@ -109,9 +108,9 @@ class FieldFile:
                 raise FieldFault("its head is damaged")
             tag, at = head[start + 1 : end], end
             name = re.split(r"[ /?]", tag[1:] if tag[:1] == "/" else tag, maxsplit=1)[0]
+            attributes = _attributes(tag, len(name))
             if tag[:1] == "/":
                 continue
-            attributes = dict(_ATTRIBUTE.findall(tag))
             if name == "DataArray":
                 last = (section, attributes.get("Name", ""))
                 self.arrays[last] = self._array(attributes)
@@ -198,6 +197,17 @@ class FieldFile:
         if len(data) != size or not whole:
             raise FieldFault("a block of its data is damaged")
         return data
+
+
+def _attributes(tag: str, at: int) -> dict[str, str]:
+    """name="text" of a tag, from a place on."""
+    out: dict[str, str] = {}
+    while (equal := tag.find("=", at)) >= 0:
+        begin, at = tag.rfind(" ", 0, equal), tag.find('"', equal + 2)
+        if begin < 0 or at < 0 or tag[equal + 1] != '"':
+            raise FieldFault("its head is damaged")
+        out[tag[begin + 1 : equal]] = tag[equal + 2 : at]
+    return out
 
 
 def _whole(text: str | None, most: int) -> int:
@@ -305,15 +315,20 @@ def read_particles(state: StateFiles, arrays: Sequence[Wanted], diagnostics: Dia
     file = open_field(Path(state.particles or ""), diagnostics)
     if file is None:
         return None
-    found: dict[str, np.ndarray] = {}
-    always = [("PointData", Wanted(name)) for name in ("mass", "density", "smoothing_length")] + [("Points", Wanted("Points", 3))]
-    for section, one in always + [("PointData", one) for one in arrays]:
-        if one.name in found or (one.optional and not file.has(section, one.name)):
-            continue
-        values = read_array(file, section, one.name, one.components, diagnostics)
-        if values is None:
-            return None
-        found[one.name] = values
+    errors, found = diagnostics.errors, dict[str, np.ndarray]()
+
+    def read(section: str, one: Wanted) -> None:
+        if one.name not in found and not (one.optional and not file.has(section, one.name)):
+            values = read_array(file, section, one.name, one.components, diagnostics)
+            found.update({} if values is None else {one.name: values})
+
+    for name in ("mass", "density", "smoothing_length"):
+        read("PointData", Wanted(name))
+    for section, one in (("Points", Wanted("Points", 3)), *(("PointData", one) for one in arrays)):
+        if diagnostics.errors == errors:
+            read(section, one)
+    if diagnostics.errors > errors:
+        return None
     x, h = found["Points"], found["smoothing_length"]
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         V = found["mass"] / found["density"]

@@ -6,11 +6,9 @@ import os
 from pathlib import Path
 
 CANNOT_WRITE = "cannot write '"  # how messages about results that could not be written begin, also those of runs
-_ADVICE = {
-    (errno.ENOSPC, errno.EDQUOT): "free some space, or choose a folder on another disk with -o, and run again",
+_ADVICE = {(errno.ENOSPC, errno.EDQUOT): "free some space, or choose a folder on another disk with -o, and run again",
     (errno.EFBIG,): "raise the limit on file sizes (ulimit -f) and run again",
-    (errno.EACCES, errno.EROFS, errno.EPERM): "make the folder writable, or choose another with -o",
-}
+    (errno.EACCES, errno.EROFS, errno.EPERM): "make the folder writable, or choose another with -o"}
 
 
 class OutputError(Exception):

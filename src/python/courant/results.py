@@ -81,14 +81,14 @@ class Mesh:
         return [*self._file.names("PointData"), *self._file.names("CellData")]
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """An array, (points or cells,) or (points or cells, components). Raises KeyError with the names that there are."""
+        """An array, (points or cells,) or (points or cells, components); "speed" is the length of "velocity". Raises KeyError with the
+        names that there are."""
+        if name == "speed" and name not in self.names:
+            return np.sqrt((self["velocity"].astype(float) ** 2).sum(axis=1))
         for section in ("PointData", "CellData"):
             if self._file.has(section, name):
                 return self._values(section, name)
         raise KeyError(f"{self.path} has no array '{name}'; it has {', '.join(self.names)}")
-
-    def __contains__(self, name: object) -> bool:
-        return name in self.names
 
     def __len__(self) -> int:
         """How many points there are."""
@@ -96,6 +96,7 @@ class Mesh:
 
     def unit(self, name: str) -> str:
         """ "m/s"; "?" where the file does not tell."""
+        name = "velocity" if name == "speed" and name not in self.names else name
         array = self._file.arrays.get(("PointData", name)) or self._file.arrays.get(("CellData", name))
         return "?" if array is None else self._units.of_text(array.dimension)
 
@@ -148,57 +149,19 @@ class Mesh:
         return module("pandas").DataFrame(columns)
 
 
-class RunState:
-    """One state: particles, shells, or both. It speaks for its particles where it has some, else for its shells."""
+class RunState(Mesh):
+    """One state at a time t [T]: its particles or, where it has none, its shells, which are `shells` in any case."""
 
     def __init__(self, files: StateFiles, units: Units) -> None:
-        self.t = files.t
-        self._files, self._units = files, units
-
-    @cached_property
-    def particles(self) -> Mesh | None:
-        return Mesh(self._files.particles, self._units) if self._files.particles else None
+        path = files.particles or files.shells
+        assert path is not None  # fields.pvd names one of them
+        super().__init__(path, units)
+        self.t, self._shells = files.t, files.shells
 
     @cached_property
     def shells(self) -> Mesh | None:
         """Shells, solids and other cells."""
-        return Mesh(self._files.shells, self._units) if self._files.shells else None
-
-    @property
-    def mesh(self) -> Mesh:
-        found = self.particles or self.shells
-        assert found is not None  # fields.pvd names one of them
-        return found
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        """An array of the particles or else of the shells; "speed" is the length of "velocity"."""
-        if name == "speed" and name not in self.mesh:
-            return np.sqrt((self.mesh["velocity"].astype(float) ** 2).sum(axis=1))
-        return self.mesh[name]
-
-    def unit(self, name: str) -> str:
-        return self.mesh.unit("velocity" if name == "speed" else name)
-
-    @property
-    def names(self) -> list[str]:
-        return self.mesh.names
-
-    @property
-    def units(self) -> dict[str, str]:
-        return self.mesh.units
-
-    @property
-    def points(self) -> np.ndarray:
-        return self.mesh.points
-
-    def vtk(self) -> Any:
-        return self.mesh.vtk()
-
-    def pyvista(self) -> Any:
-        return self.mesh.pyvista()
-
-    def to_pandas(self) -> Any:
-        return self.mesh.to_pandas()
+        return Mesh(self._shells, self._units) if self._shells else None
 
     def plot(self, of: str = "speed", axes: str = "xy", file: str | Path | None = None) -> Any:
         """Points in a plane, coloured by an array (of vectors: their length). Gives matplotlib's figure. Raises MissingModule."""

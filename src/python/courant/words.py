@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterable
 
@@ -51,8 +50,3 @@ def shortest(value: float) -> str:
 def short_number(value: float) -> str:
     """Text of a number for names of columns: "0.025"."""
     return f"{0 if abs(value) < 1e-12 else value:.6g}"
-
-
-def json_quoted(text: str) -> str:
-    """A text as a JSON string; control characters as blanks."""
-    return json.dumps("".join(" " if c < " " else c for c in text), ensure_ascii=False)

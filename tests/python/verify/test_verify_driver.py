@@ -203,3 +203,14 @@ def test_functions_of_ones_own(call: Caller) -> None:
     assert "4 of 4 checks met" in call("--load", "mine.py")
     (call.folder / "bad.py").write_text("from courant.verify import take\ntake('final')(print)\n")
     assert "error: --load: 'bad.py': ValueError: there is a take 'final' already" in call("--load", "bad.py", code=1)
+
+
+def test_a_missing_module_is_told_before_anything_is_run(call: Caller) -> None:
+    (call.folder / "jinja2.py").write_text("raise ModuleNotFoundError('none', name='jinja2')\n")
+    call.environment["PYTHONPATH"] += f":{call.folder}"
+    words = call.words()
+    words[2] = f"import sys; sys.path.insert(0, {str(call.folder)!r}); " + words[2]
+    done = subprocess.run(words, cwd=call.folder, env=call.environment, capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 3
+    assert done.stderr == "error: the Python module 'jinja2' is missing: apt-get install python3-jinja2\n"
+    assert call.runs() == 0

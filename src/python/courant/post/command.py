@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
+from concurrent.futures.process import BrokenProcessPool
 from typing import NoReturn
 
 from ..diagnostics import Diagnostics
@@ -34,7 +35,7 @@ def _count(text: str) -> int:
 
 def main(words: Sequence[str]) -> int:
     """The exit code: 0, 1 where recipe or folder have faults, 2 where results could not be written."""
-    parser = Parser("courant post", description="tables, CSV and pictures from the results of a run")
+    parser = Parser("courant post", allow_abbrev=False, description="tables, CSV and pictures from the results of a run")
     parser.add_argument("recipe", metavar="RECIPE", help="recipe.yaml")
     parser.add_argument("folder", metavar="DIR", help="folder of the run")
     parser.add_argument("--threads", type=_count, default=0, metavar="N", help="processes at once; 0: all cores")
@@ -50,8 +51,10 @@ def main(words: Sequence[str]) -> int:
         code, fault = EXIT_INPUT, f"error: --load: {error}\n"
     except OutputError as error:
         code, fault = EXIT_RUN, f"error: {error}\n"
-    except (MissingModule, MemoryError) as error:
-        code, fault = EXIT_OTHER, f"error: {error or 'no memory is left'}\n"
+    except MissingModule as error:
+        code, fault = EXIT_OTHER, f"error: {error}\n"
+    except (MemoryError, BrokenProcessPool):
+        code, fault = EXIT_OTHER, "error: no memory is left, or a process was ended from outside\n  hint: fewer --threads take less memory\n"
     clear_status_line()
     sys.stdout.flush()
     sys.stderr.write(diagnostics.text() + fault)

@@ -1,13 +1,11 @@
-"""Draws the figures of figures.json, and depth.png and velocity.png of plot.json.
+"""Draws the figures of a recipe in a folder that `courant post` wrote, and the pictures of a jump.
 
-usage: python3 -m courant.post.draw FOLDER      (FOLDER has figures.json or plot.json, which have all numbers)
+usage: python3 -m courant.post.draw FOLDER      (needs FOLDER/figures.json, which has all numbers)
 """
 
 from __future__ import annotations
 
-import csv
 import json
-import multiprocessing
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -18,6 +16,9 @@ import numpy as np
 from ..optional import module
 from ..style import FIELD_COLOURS, LOOKS, MARKERS, SPEED_COLOURS, WALLS, pyplot
 from .figures import CHARTS, Figure
+from .jump import JumpRecipe, JumpResult
+from .parallel import in_order
+from .recipe import SnapshotRecipe
 from .tables import Table
 
 
@@ -117,13 +118,9 @@ def draw_figure(data: dict[str, Any], one: dict[str, Any], folder: Path, fill: C
 def draw_figures(folder: Path, threads: int = 1) -> None:
     """All figures of FOLDER/figures.json, on several processes at once."""
     data = json.loads((folder / "figures.json").read_text(encoding="utf-8"))
-    if threads <= 1 or len(data["figures"]) < 2:
-        for one in data["figures"]:
-            draw_figure(data, one, folder)
-        return
     pyplot()  # imported once, for all
-    with multiprocessing.get_context("fork").Pool(min(threads, len(data["figures"]))) as pool:
-        pool.starmap(draw_figure, [(data | {"figures": []}, one, folder) for one in data["figures"]], chunksize=1)
+    for _ in in_order(lambda one: draw_figure(data, one, folder), data["figures"], threads):
+        pass
 
 
 def draw_chart(figure: Figure, tables: dict[str, Table], formats: Sequence[str], title: str, folder: Path) -> None:
@@ -136,45 +133,30 @@ def draw_chart(figure: Figure, tables: dict[str, Table], formats: Sequence[str],
 # ---- the depth behind a jump, and pictures of the speed
 
 
-def _read_columns(path: Path) -> dict[str, np.ndarray]:
-    """Columns of a CSV file with a head line, by name."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = csv.reader(file)
-        names = next(rows)
-        values = np.array([[float(cell) for cell in row] for row in rows]).reshape(-1, len(names))
-    return dict(zip(names, values.T, strict=True))
-
-
-def _draw_depth(folder: Path, settings: dict[str, Any]) -> None:
-    plt, jump, data = pyplot(), settings["jump"], _read_columns(folder / "depth.csv")
-    t, ratio = data["t"], data["depth_over_theory"]
+def draw_depth(folder: Path, title: str, recipe: JumpRecipe, jump: JumpResult) -> None:
+    """depth.png: the depth behind a jump over time, and over which intervals it was compared."""
+    plt, t, ratio = pyplot(), jump.t, jump.depth / recipe.theory
     figure, axes = plt.subplots(figsize=(8, 4.2), constrained_layout=True)
-    axes.axhline(1, color="0.3", linestyle="--", linewidth=1, label=f"Bélanger, $d_2$ = {1000 * jump['d2_theory']:.1f} mm")
-    axes.plot(t, ratio, linewidth=1.2, label="SPH " + jump["case"].replace("d1", "$d_1$") if jump["case"] else "SPH")
-    for k, part in enumerate(jump["intervals"]):
-        label = f"{part['from']:g}–{part['to']:g} s: $A$ = {part['A']:.3f}, $P$ = {part['P']:.3f}"
-        axes.axvspan(part["from"], part["to"], color=f"C{k + 1}", alpha=0.15, linewidth=0, label=label)
-    axes.set_xlabel("time $t$ [s]")
-    axes.set_ylabel("$d_{2,SPH}\\,/\\,d_{2,THEORY}$ [-]")
-    axes.set_title(f"Depth at x = {jump['x']:g} m. {plain(settings['title'])}")
-    axes.set_xlim(t.min(), max(t.max(), t.min() + 1e-9))
-    axes.set_ylim(0, max(1.3, 1.05 * ratio.max()))
+    axes.axhline(1, color="0.3", linestyle="--", linewidth=1, label=f"Bélanger, $d_2$ = {1000 * recipe.theory:.1f} mm")
+    axes.plot(t, ratio, linewidth=1.2, label="SPH " + jump.case.replace("d1", "$d_1$") if jump.case else "SPH")
+    for k, part in enumerate(one for one in jump.intervals if one.states):
+        label = f"{part.interval[0]:g}–{part.interval[1]:g} s: $A$ = {part.A:.3f}, $P$ = {part.P:.3f}"
+        axes.axvspan(*part.interval, color=f"C{k + 1}", alpha=0.15, linewidth=0, label=label)
+    axes.set(xlabel="time $t$ [s]", ylabel="$d_{2,SPH}\\,/\\,d_{2,THEORY}$ [-]", title=f"Depth at x = {recipe.x:g} m. {plain(title)}")
+    axes.set(xlim=(t.min(), max(t.max(), t.min() + 1e-9)), ylim=(0, max(1.3, 1.05 * ratio.max())))
     axes.grid(True)
     axes.legend(loc="lower right")
     figure.savefig(folder / "depth.png")
     plt.close(figure)
 
 
-def _window(limits: Sequence[float] | None, values: np.ndarray) -> tuple[float, float]:
-    if limits:
-        return limits[0], limits[1]
+def _window(limits: tuple[float, float] | None, values: np.ndarray) -> tuple[float, float]:
     margin = 0.03 * float(np.ptp(values)) or 1.0
-    return float(values.min()) - margin, float(values.max()) + margin
+    return limits or (float(values.min()) - margin, float(values.max()) + margin)
 
 
-def _point_area(x: np.ndarray, y: np.ndarray, width_in_points: float, x_range: tuple[float, float]) -> float:
+def _point_area(places: np.ndarray, width_in_points: float, x_range: tuple[float, float]) -> float:
     """Area of a marker [pt2] that just covers a particle's share of the plane."""
-    places = np.column_stack((x, y))
     some = places[:: max(1, len(places) // 200)]
     nearest = module("scipy.spatial").cKDTree(places).query(some, k=2)[0][:, 1] if len(places) > 1 else np.array([np.inf])
     nearest = nearest[np.isfinite(nearest) & (nearest > 0)]
@@ -183,55 +165,33 @@ def _point_area(x: np.ndarray, y: np.ndarray, width_in_points: float, x_range: t
     return max(0.3, (1.35 * float(np.median(nearest)) * width_in_points / (x_range[1] - x_range[0])) ** 2)
 
 
-def _draw_velocity(folder: Path, settings: dict[str, Any]) -> None:
-    data = _read_columns(folder / "snapshots.csv")
-    if len(data["t"]) == 0:
+def draw_velocity(folder: Path, title: str, recipe: SnapshotRecipe, snapshots: dict[float, np.ndarray], walls: np.ndarray) -> None:
+    """velocity.png: particles by their speed, one panel for each time. snapshots: (particles, 3) each, x, y and speed."""
+    snapshots = {t: snapshots[t] for t in sorted(snapshots) if len(snapshots[t])}
+    if not snapshots:
         return
-    plt, view, wall = pyplot(), settings["snapshots"], _read_columns(folder / "walls.csv")
-    traces = np.column_stack([wall[key] for key in ("x0", "y0", "x1", "y1")])
-    x_range, y_range = _window(view["x"], data["x"]), _window(view["y"], data["y"])
-    low, high = view["speed"] or (0, data["speed"].max())
-    times, width = np.unique(data["t"]), 9.0
+    plt, everything, width = pyplot(), np.concatenate(list(snapshots.values())), 9.0
+    x_range, y_range = _window(recipe.x, everything[:, 0]), _window(recipe.y, everything[:, 1])
+    low, high = recipe.speed or (0, everything[:, 2].max())
     height = min(max(width * (y_range[1] - y_range[0]) / (x_range[1] - x_range[0]), 0.6), 8) + 0.12
-    size = (width + 1.2, len(times) * height + 1.0)
-    figure, panels = plt.subplots(len(times), 1, figsize=size, sharex=True, squeeze=False, constrained_layout=True)
-    last = data["t"] == times[-1]
-    area = _point_area(data["x"][last], data["y"][last], 72 * 0.9 * width, x_range)
-    for axes, t in zip(panels[:, 0], times, strict=True):
-        x, y, speed = (data[key][data["t"] == t] for key in ("x", "y", "speed"))
+    rows, size = len(snapshots), (width + 1.2, len(snapshots) * height + 1.0)
+    figure, panels = plt.subplots(rows, 1, figsize=size, sharex=True, squeeze=False, constrained_layout=True)
+    area = _point_area(list(snapshots.values())[-1][:, :2], 72 * 0.9 * width, x_range)
+    for axes, (t, particles) in zip(panels[:, 0], snapshots.items(), strict=True):
+        x, y, speed = particles.T
         dots = axes.scatter(x, y, c=speed, s=area, cmap=SPEED_COLOURS, vmin=low, vmax=high, linewidths=0, rasterized=True)
-        _segments(axes, traces)
+        _segments(axes, walls)
         axes.set(xlim=x_range, ylim=y_range, ylabel="y [m]")
         axes.set_aspect("equal")
         axes.text(0.99, 0.9, f"t = {t:g} s", transform=axes.transAxes, ha="right", va="top", fontsize=10, fontweight="bold")
     panels[-1, 0].set_xlabel("x [m]")
-    figure.suptitle(plain(settings["title"]), fontsize=10)
+    figure.suptitle(plain(title), fontsize=10)
     figure.colorbar(dots, ax=panels[:, 0].tolist(), label="velocity |v| [m/s]", shrink=0.6, aspect=30, pad=0.01)
     figure.savefig(folder / "velocity.png")
     plt.close(figure)
 
 
-def draw_measured(folder: Path) -> None:
-    """depth.png and velocity.png, as far as FOLDER/plot.json asks for them."""
-    settings = json.loads((folder / "plot.json").read_text(encoding="utf-8"))
-    if "jump" in settings:
-        _draw_depth(folder, settings)
-    if "snapshots" in settings:
-        _draw_velocity(folder, settings)
-
-
-def main(words: Sequence[str]) -> int:
-    """Exit code 0, or 1 where the call is wrong."""
-    folder = Path(words[0]) if len(words) == 1 else None
-    if folder is None or not ((folder / "figures.json").is_file() or (folder / "plot.json").is_file()):
-        print(__doc__, file=sys.stderr)
-        return 1
-    if (folder / "figures.json").is_file():
-        draw_figures(folder)
-    if (folder / "plot.json").is_file():
-        draw_measured(folder)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    if len(sys.argv) != 2 or not (Path(sys.argv[1]) / "figures.json").is_file():
+        sys.exit(__doc__)
+    draw_figures(Path(sys.argv[1]))

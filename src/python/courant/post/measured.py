@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -180,22 +179,6 @@ def depth_csv(recipe: Recipe, measured: Measured, jump: JumpResult | None) -> st
     return ",".join(["t", *names]) + "\n" + "".join([line % row for row in rows])
 
 
-def plot_json(recipe: Recipe, title: str, jump: JumpResult | None) -> str:
-    """Settings of the pictures of the jump and the snapshots."""
-    out: dict[str, Any] = {"title": title}
-    if jump is not None and recipe.jump is not None:
-        intervals = [
-            {"from": one.interval[0], "to": one.interval[1], "A": float(f"{one.A:.6g}"), "P": float(f"{one.P:.6g}")}
-            for one in jump.intervals
-            if one.states
-        ]
-        theory = float(f"{recipe.jump.theory:.9g}")
-        out["jump"] = {"x": recipe.jump.x, "d2_theory": theory, "case": jump.case, "intervals": intervals}
-    if recipe.snapshots:
-        out["snapshots"] = {key: getattr(recipe.snapshots, key) for key in ("speed", "x", "y")}
-    return json.dumps(out, ensure_ascii=False) + "\n"
-
-
 def _snapshots_csv(measured: Measured) -> str:
     lines = [f"{t:g},%.6g,%.6g,%.5g\n" % row for t, particles in measured.snapshots for row in map(tuple, particles.tolist())]
     return "t,x,y,speed\n" + "".join(lines)
@@ -220,11 +203,13 @@ def write_measured(
         write_file(folder / "snapshots.csv", _snapshots_csv(measured))
         write_file(folder / "walls.csv", _walls_csv(walls))
     if jump is not None or recipe.snapshots:
-        write_file(folder / "plot.json", plot_json(recipe, title, jump))
         try:
-            from .draw import draw_measured
+            from .draw import draw_depth, draw_velocity
 
-            draw_measured(folder)
+            if jump is not None and recipe.jump is not None:
+                draw_depth(folder, title, recipe.jump, jump)
+            if recipe.snapshots:
+                draw_velocity(folder, title, recipe.snapshots, dict(measured.snapshots), walls)
             said += f"Pictures: {folder}/*.png\n"
         except MissingModule as fault:
             no_pictures(fault, diagnostics)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,16 +16,11 @@ _MOST_STEPS = 4_000_000  # of all lines that are looked at together
 _PAIRS_AT_ONCE = 512  # whose columns stay in the processor's cache
 
 
-def cubic_spline(r: np.ndarray, h: np.ndarray, dim: int) -> np.ndarray:
-    """Cubic spline kernel with support 2h, normalised to 1. r, h: distances and smoothing lengths [L] -> [1/L^dim].
+def spline_shape(q: np.ndarray) -> np.ndarray:
+    """The cubic spline kernel W(q = r/h) without its factor: 1 - 1.5 q^2 + 0.75 q^3 up to q = 1, (2 - q)^3 / 4 up to 2, 0 beyond.
 
     Source: Monaghan, Annu. Rev. Astron. Astrophys. 30 (1992), eq. 2.6 (there for all dimensions).
     """
-    return spline_norm(h, dim) * spline_shape(r / h)
-
-
-def spline_shape(q: np.ndarray) -> np.ndarray:
-    """The cubic spline without its factor: 1 - 1.5 q^2 + 0.75 q^3 up to q = 1, (2 - q)^3 / 4 up to 2, 0 beyond."""
     outer, inner = np.maximum(2 - q, 0), np.maximum(1 - q, 0)
     return 0.25 * outer * outer * outer - inner * inner * inner
 
@@ -89,7 +84,7 @@ class ParticleSet:
         return [np.argsort(self.x[:, axis], kind="stable") for axis in (0, 1)]
 
     @cached_property
-    def tree(self):  # a scipy.spatial.cKDTree, which is imported where it is needed
+    def tree(self) -> Any:  # a scipy.spatial.cKDTree, which is imported where it is needed
         from scipy.spatial import cKDTree
 
         return cKDTree(self.x[:, : self.dim])
@@ -276,9 +271,9 @@ class Points:
 
     def __init__(self, x: np.ndarray) -> None:
         self.x = x
-        self._trees: dict[int, object] = {}
+        self._trees: dict[int, Any] = {}
 
-    def tree(self, dim: int):
+    def tree(self, dim: int) -> Any:
         from scipy.spatial import cKDTree
 
         if dim not in self._trees:

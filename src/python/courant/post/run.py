@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -20,6 +19,7 @@ from .analysis import Analysis, Run
 from .figures import figures_json
 from .jump import JumpResult, evaluate_jump, find_case, jump_text
 from .measured import Measured, measure_depths, no_pictures, results_yaml, snapshot_states, write_measured
+from .parallel import in_order
 from .recipe import Recipe, read_recipe
 from .state import State, wanted_array
 from .tables import write_tables_h5, write_vti
@@ -67,32 +67,12 @@ class _Job:
         return out
 
 
-_job: _Job | None = None  # of this process and of those that it forks
-
-
-def _do(s: int) -> Any:
-    assert _job is not None
-    return _job(s)
-
-
-def _results(job: _Job, wanted: list[int], threads: int) -> Iterator[Any]:
-    """What the job gives for each state, in their order, from several processes at once."""
-    global _job
-    _job = job
-    few = 4  # states that are not worth a second process
-    if threads <= 1 or len(wanted) <= few:
-        yield from map(_do, wanted)
-        return
-    if job.analyses:
-        from scipy import spatial  # noqa: F401  imported once, for all processes
-    with multiprocessing.get_context("fork").Pool(min(threads, len(wanted))) as pool:
-        yield from pool.imap(_do, wanted, chunksize=max(1, min(8, len(wanted) // (4 * threads))))
-
-
 def _stream(job: _Job, threads: int, progress: Say | None, diagnostics: Diagnostics) -> Measured | None:
     """Takes in what was measured, in the order of the states. None where a state cannot be read."""
     out, wanted = Measured(), [s for s in range(len(job.states)) if job.wants(s)]
-    for k, (s, (messages, t, depths, measured)) in enumerate(zip(wanted, _results(job, wanted, threads), strict=True), 1):
+    if job.analyses:
+        from scipy import spatial  # noqa: F401  imported once, for all processes
+    for k, (s, (messages, t, depths, measured)) in enumerate(zip(wanted, in_order(job, wanted, threads, few=4), strict=True), 1):
         for message in messages.all:
             diagnostics.add(message)
         if not messages.ok:

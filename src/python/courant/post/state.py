@@ -9,7 +9,7 @@ import numpy as np
 
 from ..expressions import Formula
 from ..fields import ParticleFrame, Wanted
-from ..units import NO_DIMENSION, Dimension, Units
+from ..units import Units
 from ..yaml_map import Node, YamlMap, is_map, is_scalar, scalar_text
 from .particles import ParticleSet, SprayRule, water_body
 
@@ -17,29 +17,14 @@ from .particles import ParticleSet, SprayRule, water_body
 class _Variable(NamedTuple):
     array: str  # of the field file; "": read anyway
     component: int  # -1: the length of the vector
-    dimension: Dimension
+    dimension: str
 
 
-_LENGTH, _VELOCITY, _PRESSURE = Dimension(L=1), Dimension(L=1, T=-1), Dimension(1, -1, -2)
-_VARIABLES = {
-    "x": _Variable("", 0, _LENGTH),
-    "y": _Variable("", 1, _LENGTH),
-    "z": _Variable("", 2, _LENGTH),
-    "vx": _Variable("velocity", 0, _VELOCITY),
-    "vy": _Variable("velocity", 1, _VELOCITY),
-    "vz": _Variable("velocity", 2, _VELOCITY),
-    "speed": _Variable("velocity", -1, _VELOCITY),
-    "p": _Variable("pressure", 0, _PRESSURE),
-    "rho": _Variable("density", 0, Dimension(1, -3, 0)),
-    "h": _Variable("", 0, _LENGTH),
-    "m": _Variable("mass", 0, Dimension(M=1)),
-    "V": _Variable("", 0, Dimension(L=3)),
-    "e": _Variable("internal_energy", 0, _PRESSURE),
-    "part": _Variable("part", 0, NO_DIMENSION),
-    "id": _Variable("id", 0, NO_DIMENSION),
-    "active": _Variable("active", 0, NO_DIMENSION),
-    "t": _Variable("", 0, Dimension(T=1)),
-}
+_VARIABLES = {axis: _Variable("", a, "L") for a, axis in enumerate("xyz")}
+_VARIABLES |= {name: _Variable("velocity", a, "L/T") for name, a in (("vx", 0), ("vy", 1), ("vz", 2), ("speed", -1))}
+_VARIABLES |= {"p": _Variable("pressure", 0, "M/LT2"), "rho": _Variable("density", 0, "M/L3"), "h": _Variable("", 0, "L")}
+_VARIABLES |= {"m": _Variable("mass", 0, "M"), "V": _Variable("", 0, "L3"), "e": _Variable("internal_energy", 0, "M/LT2")}
+_VARIABLES |= {name: _Variable(name, 0, "-") for name in ("part", "id", "active")} | {"t": _Variable("", 0, "T")}
 # the names that expressions over particles may use. V: m/rho; e: internal energy per reference volume
 VARIABLES = tuple(_VARIABLES)
 
@@ -125,7 +110,7 @@ def _read_quantity(keys: YamlMap, node: Node, units: Units) -> Quantity:
     """Single variables know their unit, other expressions have "?" unless the recipe tells."""
 
     def unit_of(text: str) -> str:
-        return units.of(_VARIABLES[text].dimension) if text in _VARIABLES else "?"
+        return units.of_text(_VARIABLES[text].dimension) if text in _VARIABLES else "?"
 
     if not is_map(node):
         name, unit, of = scalar_text(node), unit_of(scalar_text(node)), read_expression(keys, node, "of")

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import csv
 import io
+from collections import defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -15,7 +16,8 @@ _LEAST_CHANGE = 0.05  # of an error, relative
 _LEAST_COST = 0.3  # of CPU time per particle-step, relative
 _SHORTEST = 0.2  # CPU time of a run that says something of its cost [s]
 
-Row = dict[str, str]  # by the names of the head
+Row = defaultdict[str, str]  # by the names of the head
+csv.field_size_limit(1 << 30)  # a reason may be long
 
 
 @dataclass
@@ -34,7 +36,7 @@ class Comparison:
 
 def _rows(text: str) -> list[Row]:
     rows = list(csv.reader(io.StringIO(text)))
-    return [dict(zip(rows[0], row, strict=True)) for row in rows[1:] if len(row) == len(rows[0])] if rows else []
+    return [defaultdict(str, zip(rows[0], row, strict=True)) for row in rows[1:] if len(row) == len(rows[0])] if rows else []
 
 
 def _name(row: Row, with_observation: bool = True) -> str:
@@ -97,18 +99,15 @@ class _Comparer:
 
 
 def compare_with(result: SuiteResult, earlier: Path, diagnostics: Diagnostics) -> Comparison | None:
-    """Rows are the same where case, setting, resolution and observation are.
-
-    Told are errors that changed by more than 5 % and 1e-12, CPU time per particle-step that changed by more than 30 %
-    where both runs took 0.2 s or more, verdicts, checks, and rows that are new or gone. A file that cannot be read, or
-    is no results.csv, goes to `diagnostics`; then there is None.
-    """
+    """Rows are the same where case, setting, resolution and observation are. Told are errors that changed by more than 5 % and 1e-12, CPU time per
+    particle-step that changed by more than 30 % where both runs took 0.2 s or more, verdicts, checks, and rows that are new or gone. A file that
+    cannot be read, or is no results.csv, goes to `diagnostics`; then there is None."""
     try:
         before = _rows(earlier.read_text("utf-8", "replace"))
     except (OSError, csv.Error):
         before = []
     now = _rows(results_csv(result))
-    if not before or not (now or [before[0]])[0].keys() <= before[0].keys():
+    if not before or not {"as_required", "observation"} <= before[0].keys():
         diagnostics.error(earlier, "not a results.csv of an earlier `courant verify`, or an empty one")
         return None
     comparer = _Comparer(str(earlier))

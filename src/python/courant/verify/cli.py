@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..diagnostics import Diagnostics
 from ..files import OutputError
-from ..optional import MissingModule
+from ..optional import MissingModule, module
 from ..registry import LoadFault, load_file
 from ..terminal import clear_status_line, say, status_line
 from .changes import Comparison, compare_with
@@ -57,7 +57,7 @@ def _executable(given: Path | None) -> Path:
     named = given or os.environ.get("COURANT_EXECUTABLE")
     if named:
         return Path(named).absolute()
-    beside = [folder / "bin" / "courant" for folder in Path(__file__).resolve().parents[1:5]]
+    beside = [folder / "bin" / "courant" for folder in Path(__file__).resolve().parents[1:7]]
     found = next((file for file in beside if os.access(file, os.X_OK) and file.is_file()), None) or shutil.which("courant")
     return Path(found) if found else Path("courant")
 
@@ -105,6 +105,8 @@ def _verify(words: argparse.Namespace, stop: list[int]) -> int:
     try:
         if not diagnostics.ok:
             raise Refused
+        for name in ["jinja2"] + ["scipy"] * any(case.picture_of for case in suite.cases):
+            module(name)  # told before anything is run
         result = verify_suite(suite, options, diagnostics)
     except Refused:
         count = diagnostics.errors

@@ -26,8 +26,8 @@ def digest_of_files(files: Iterable[Path]) -> str:
 
 
 def _read_blocks(text: str, given: Mapping[str, str], texts: dict[str, set[str]]) -> set[str]:
-    """Data lines of *INCLUDE and its kin: names of files and folders. Texts that *PARAMETER defines (C NAME TEXT, in columns of ten or
-    twenty, or between commas) go to `texts`."""
+    """Data lines of *INCLUDE and its kin: names of files and folders. Texts that *PARAMETER defines (C NAME TEXT, in columns of ten or twenty, or
+    between commas) go to `texts`."""
     names: set[str] = set()
     for keyword, block in _BLOCK.findall(text):
         lines = [line.rstrip() for line in block.split("\n") if line.strip() and line[0] != "$"]
@@ -43,8 +43,8 @@ def _read_blocks(text: str, given: Mapping[str, str], texts: dict[str, set[str]]
 
 
 def digest_of_deck(deck: Path, parameters: Mapping[str, str] | None = None) -> str:
-    """Of a deck with the files that a run with these parameters may read: rather one too many than one too few, as of parameters that have
-    several values in it, or of several folders that hold a file of the name."""
+    """Of a deck with the files that a run with these parameters may read: rather one too many than one too few, as of parameters that have several
+    values in it, or of several folders that hold a file of the name."""
     given = {name.upper(): text for name, text in (parameters or {}).items()}
     texts = {name: {text} for name, text in given.items()}
     names, found, waiting = set[str](), set[Path](), {deck}
@@ -54,7 +54,7 @@ def digest_of_deck(deck: Path, parameters: Mapping[str, str] | None = None) -> s
             data = file.read_bytes() if file.is_file() else b""
             names |= _read_blocks(data.decode("latin-1"), given, texts) if re.search(rb"^\*INCLUDE", data, re.I | re.M) or file != deck else set()
         for name, values in [*texts.items()] * 3:  # also those that are made of others
-            names |= {re.sub(f"&{name}", lambda _, text=text: text, one, flags=re.I) for one in names if "&" in one for text in values}
+            names |= {re.sub(f"&{name}", text.replace("\\", r"\\"), one, flags=re.I) for one in names if "&" in one for text in values}
         names |= {name.replace("\\", "/") for name in names}
         folders = {Path(), *(file.parent for file in found), *(folder / name for folder in (Path(), deck.parent) for name in names)}
         paths = {Path(os.path.normpath(folder / name)) for folder in folders if folder.is_dir() for name in names}

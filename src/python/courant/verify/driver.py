@@ -90,17 +90,6 @@ def _messages(text: str) -> list[str]:
     return [part.rstrip("\n") for part in parts if re.match(r"[^\n]*\berror: ", part)]
 
 
-@dataclass
-class _PreparedRun:
-    plan: PlannedRun
-    folder: Path
-    deck: Path
-    key: str
-    cost: float
-    record: RunRecord | None
-    reused: bool
-
-
 class Verification:
     """One call, from the suite to its result."""
 
@@ -109,7 +98,7 @@ class Verification:
         self.jobs = processors(options.jobs)
         self.start = time.monotonic()
         self.build = digest_of_build(options.executable)
-        self.runs: list[_PreparedRun] = []
+        self.runs: list[PlannedRun] = []  # planned by verify_suite
         self.scenes: dict[Path, str] = {}  # digests
 
     def version(self) -> str:
@@ -140,11 +129,10 @@ class Verification:
         for name, value in run.parameters.items():
             words += ["--param", f"{name}={value}"]
         try:
-            done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False,
-                                  process_group=0)
+            done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False, process_group=0)
         except OSError as fault:
             return [f"error: the program '{self.options.executable}' cannot be started: {fault.strerror}"]
-        run.deck = deck
+        run.generated = deck
         if done.returncode == 0 and deck.is_file():
             return []
         return _messages(done.stderr) or [f"error: `courant generate` ended with {done.returncode}: {done.stderr.strip()}"]
@@ -154,36 +142,38 @@ class Verification:
         parameters = run.parameters if self.suite.cases[run.of_case].deck else {}
         return digest(self.build, "".join(f"{name}={value}\n" for name, value in parameters.items()), digest_of_deck(deck, parameters))
 
-    def prepare(self, plans: list[PlannedRun], diagnostics: Diagnostics) -> None:
+    def prepare(self, diagnostics: Diagnostics) -> None:
         """Puts the decks where they belong and finds what need not be run again. Raises Refused, OutputError."""
-        for plan in plans:
-            case = self.suite.cases[plan.of_case]
-            folder = self.options.folder / plan.folder
-            make_folder(folder)
-            deck = case.deck or folder / "deck.k"
-            key = self.key_of(plan, plan.deck or deck)
-            if plan.deck:
-                _move(plan.deck, deck)
-            bytes_ = deck.stat().st_size if deck.is_file() else 0
-            # the number of steps grows with the resolution, in 2D like the root of the number of particles
-            cost = bytes_**1.5 / (plan.size**3 if case.deck and plan.size > 0 else 1)
-            record = None if self.options.fresh else read_record(folder)
-            same = record is not None and record.key == key
-            if case.scene and plan.deck is None and not same:
-                diagnostics.error(folder, "another call has changed the folder meanwhile", "call again")
+        for run in self.runs:
+            case = self.suite.cases[run.of_case]
+            run.folder = self.options.folder / run.folder
+            make_folder(run.folder)
+            run.deck = case.deck or run.folder / "deck.k"
+            run.key = self.key_of(run, run.generated or run.deck)
+            record = None if self.options.fresh else read_record(run.folder)
+            if record is not None and record.key != run.key:
+                record = None
+            if case.scene and run.generated is None and record is None:
+                diagnostics.error(run.folder, "another call has changed the folder meanwhile", "call again")
                 raise Refused
-            fits = same and record is not None and not (record.timed_out and record.time_limit < case.time_limit)
-            if fits and record and record.scene != self.scene_of(plan):  # another scene that makes the same deck
-                record.scene = self.scene_of(plan)
-                write_record(folder, record)
-            self.runs.append(_PreparedRun(plan, folder, deck, key, cost, record if fits else None, fits))
+            if run.generated:
+                _move(run.generated, run.deck)
+            bytes_ = run.deck.stat().st_size if run.deck.is_file() else 0
+            # the number of steps grows with the resolution, in 2D like the root of the number of particles
+            run.cost = bytes_**1.5 / (run.size**3 if case.deck and run.size > 0 else 1)
+            if record is None or (record.timed_out and record.time_limit < case.time_limit):
+                continue
+            run.record, run.reused = record, True
+            if record.scene != self.scene_of(run):  # another scene that makes the same deck
+                record.scene = self.scene_of(run)
+                write_record(run.folder, record)
 
     def execute(self) -> None:
         """Raises Interrupted."""
         order = sorted((run for run in self.runs if run.record is None), key=lambda run: -run.cost)
         if len(order) < len(self.runs):
             self.options.print(f"{len(self.runs) - len(order)} of {len(self.runs)} runs are taken over from an earlier call")
-        schedule = RunSchedule([(run.plan.of_case, run.cost) for run in order], self.jobs)
+        schedule = RunSchedule([(run.of_case, run.cost) for run in order], self.jobs)
 
         def ended(job: int, record: RunRecord) -> None:
             schedule.ended(job, record.wall_seconds)
@@ -199,34 +189,34 @@ class Verification:
         if not run_processes(jobs, self.jobs, self.options.stopped, schedule.started, ended, waiting):
             raise Interrupted
 
-    def job_of(self, run: _PreparedRun) -> ProcessJob:
-        case = self.suite.cases[run.plan.of_case]
+    def job_of(self, run: PlannedRun) -> ProcessJob:
+        case = self.suite.cases[run.of_case]
         _clear(run)
         words = [str(self.options.executable), "run", str(run.deck), "-o", str(run.folder), "--threads", "1", "--no-final-dump", "--quiet"]
-        for name, value in run.plan.parameters.items() if case.deck else ():
+        for name, value in run.parameters.items() if case.deck else ():
             words += ["--param", f"{name}={value}"]
         return ProcessJob(words, run.folder, case.time_limit)
 
-    def ended(self, run: _PreparedRun, record: RunRecord, count: str) -> None:
-        record.key, record.scene = run.key, self.scene_of(run.plan)
+    def ended(self, run: PlannedRun, record: RunRecord, count: str) -> None:
+        record.key, record.scene = run.key, self.scene_of(run)
         result = result_of_run(run.folder, record)
         if says_something_of_the_deck(record, result):
             write_record(run.folder, record)
         run.record = record
-        case = self.suite.cases[run.plan.of_case]
+        case = self.suite.cases[run.of_case]
         verdict = "" if result.verdict == Verdict.stable else f", {result.verdict.name}: {result.reason}"
-        self.options.print(f"{count} {case.name}: {run.plan.describe(case)}: {result.wall_seconds:.1f} s, {result.steps} steps{verdict}")
+        self.options.print(f"{count} {case.name}: {run.describe(case)}: {result.wall_seconds:.1f} s, {result.steps} steps{verdict}")
 
     def result(self) -> SuiteResult:
         out = SuiteResult(self.suite, self.version(), machine(), time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), jobs=self.jobs)
         for number, case in enumerate(self.suite.cases):
             if self.options.progress:
                 self.options.progress(f"reading the results of {case.name}")
-            out.cases.append(self.result_of_case(case, [run for run in self.runs if run.plan.of_case == number]))
+            out.cases.append(self.result_of_case(case, [run for run in self.runs if run.of_case == number]))
         out.wall_seconds = time.monotonic() - self.start
         return out
 
-    def result_of_case(self, case: Case, runs: list[_PreparedRun]) -> CaseResult:
+    def result_of_case(self, case: Case, runs: list[PlannedRun]) -> CaseResult:
         out = CaseResult(case)
         measured = []
         for run in runs:
@@ -235,9 +225,9 @@ class Verification:
         for k, (run, result) in enumerate(zip(runs, out.runs, strict=True)):
             finest = _finest_of(runs, k)
             for o, m, best in zip(case.observations, measured[k], measured[finest], strict=True):
-                result.observed.append(compare_observation(o, m, run.plan.variables, None if finest == k else best))
+                result.observed.append(compare_observation(o, m, run.variables, None if finest == k else best))
             if case.stability:
-                out.checks.append(judge_stability(case.stability, run.plan.variables, result))
+                out.checks.append(judge_stability(case.stability, run.variables, result))
             else:
                 result.as_required = result.verdict == Verdict.stable
         out.orders = measured_orders(case, out.runs)
@@ -245,13 +235,13 @@ class Verification:
             out.checks = check_bounds(case, out.runs, out.orders)
         if case.picture_of and runs:
             shown = runs[_finest_of(runs, 0)]
-            out.picture = draw_particles(case, shown.plan.variables, shown.folder)
+            out.picture = draw_particles(case, shown.variables, shown.folder)
         return out
 
-    def result_of_run(self, run: _PreparedRun) -> RunResult:
+    def result_of_run(self, run: PlannedRun) -> RunResult:
         out = result_of_run(run.folder, run.record or RunRecord())
-        out.setting, out.resolution, out.parameters = run.plan.setting, run.plan.resolution, run.plan.parameters
-        out.size, out.reused = run.plan.size, run.reused
+        out.setting, out.resolution, out.parameters = run.setting, run.resolution, run.parameters
+        out.size, out.reused = run.size, run.reused
         return out
 
 
@@ -262,7 +252,7 @@ def _move(source: Path, target: Path) -> None:
         raise OutputError(target, fault) from fault
 
 
-def _clear(run: _PreparedRun) -> None:
+def _clear(run: PlannedRun) -> None:
     """Results of another deck or build must not pass for those of this one."""
     for path in sorted(run.folder.iterdir(), key=lambda path: path.name != "record.yaml"):
         if path == run.deck:
@@ -276,10 +266,10 @@ def _clear(run: _PreparedRun) -> None:
             raise OutputError(path, fault) from fault
 
 
-def _measure(case: Case, run: _PreparedRun, result: RunResult) -> list[Measured]:
+def _measure(case: Case, run: PlannedRun, result: RunResult) -> list[Measured]:
     """Observations of a run that came to its end; also finds garbage in its results."""
     if result.verdict <= Verdict.degraded:
-        out, garbage = observe_run(case, run.plan.variables, run.folder, case.stability is not None)
+        out, garbage = observe_run(case, run.variables, run.folder, case.stability is not None)
         if not garbage:
             return out
         result.verdict, result.reason = Verdict.broken, f"it ended normally, but {garbage}"
@@ -287,9 +277,9 @@ def _measure(case: Case, run: _PreparedRun, result: RunResult) -> list[Measured]
     return [Measured(why=why) for _ in case.observations]
 
 
-def _finest_of(runs: list[_PreparedRun], k: int) -> int:
+def _finest_of(runs: list[PlannedRun], k: int) -> int:
     """The last run of the same setting."""
-    return next((i for i in range(k, len(runs)) if runs[i].plan.finest), len(runs) - 1)
+    return next((i for i in range(k, len(runs)) if runs[i].finest), len(runs) - 1)
 
 
 def chosen_cases(suite: Suite, only: list[str], diagnostics: Diagnostics) -> Suite:
@@ -298,18 +288,14 @@ def chosen_cases(suite: Suite, only: list[str], diagnostics: Diagnostics) -> Sui
     for name in only:
         if name not in names:
             near = nearest_word(name, names)
-            diagnostics.error(suite.file, f"the suite has no case '{name}'",
-                              f"did you mean {near}?" if near else f"its cases: {', '.join(names)}")
+            diagnostics.error(suite.file, f"the suite has no case '{name}'", f"did you mean {near}?" if near else f"its cases: {', '.join(names)}")
     return Suite(suite.file, suite.title, suite.about, [case for case in suite.cases if not only or case.name in only])
 
 
 def verify_suite(suite: Suite, options: Options, diagnostics: Diagnostics) -> SuiteResult:
-    """Generates the decks, runs them, observes and judges.
-
-    Runs that an earlier call has finished in this folder, of the same deck and build, are taken over. Raises Refused, with
-    messages in `diagnostics` and nothing run, if the suite is wrong or another call works in the folder; Interrupted;
-    OutputError.
-    """
+    """Generates the decks, runs them, observes and judges. Runs that an earlier call has finished in this folder, of the same deck and build, are
+    taken over. Raises Refused, with messages in `diagnostics` and nothing run, if the suite is wrong or another call works in the folder;
+    Interrupted; OutputError."""
     wanted = chosen_cases(suite, options.only, diagnostics)
     if not diagnostics.ok:
         raise Refused
@@ -318,13 +304,13 @@ def verify_suite(suite: Suite, options: Options, diagnostics: Diagnostics) -> Su
         def generate(run: PlannedRun, number: int) -> list[str]:
             return verification.generate(run, Path(decks, f"{number}.k"))
 
-        plans = plan_runs(wanted, generate, verification.jobs, diagnostics)
+        verification.runs = plan_runs(wanted, generate, verification.jobs, diagnostics)
         if options.stopped():
             raise Interrupted
         if not diagnostics.ok:
             raise Refused
         make_folder(options.folder)
         with _locked(options.folder, diagnostics):
-            verification.prepare(plans, diagnostics)
+            verification.prepare(diagnostics)
             verification.execute()
             return verification.result()

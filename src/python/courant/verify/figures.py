@@ -136,8 +136,8 @@ def _drawn(case: CaseResult) -> Iterator[Figure]:
 
 
 def figures(case: CaseResult) -> list[Figure]:
-    """Per observation: error against CPU time, then the curves of the first setting against the reference; last the
-    stability map. Never an empty list for a case with runs."""
+    """Per observation: error against CPU time, then the curves of the first setting against the reference; last the stability map. Never an empty
+    list for a case with runs."""
     out = list(_drawn(case))
     if not out and case.runs:
         out.append(Figure("none", "Charts", notes=["Nothing is observed that could be drawn."]))

@@ -28,10 +28,8 @@ def measured_orders(case: Case, runs: list[RunResult]) -> list[MeasuredOrder]:
 
 
 def check_bounds(case: Case, runs: list[RunResult], orders: list[MeasuredOrder]) -> list[BoundCheck]:
-    """Bounds of an accuracy case: errors and orders, and that every run came to its end with a scale for its errors.
-
-    A bound without an error to compare is missed.
-    """
+    """Bounds of an accuracy case: errors and orders, and that every run came to its end with a scale for its errors. A bound without an error to
+    compare is missed."""
     out = []
     for run in runs:
         if run.verdict != Verdict.stable:
@@ -82,10 +80,7 @@ def _take_limits(stability: Stability, variables: Variables, run: RunResult) -> 
 
 
 def judge_stability(stability: Stability, variables: Variables, run: RunResult) -> BoundCheck:
-    """Completes the verdict of a run of a stability case by its limits, and says whether it is as required.
-
-    Returns the check of that.
-    """
+    """Completes the verdict of a run of a stability case by its limits, and says whether it is as required. Returns the check of that."""
     _take_limits(stability, variables, run)
     try:
         must_stop = constant_value(stability.must_stop, variables) > 0

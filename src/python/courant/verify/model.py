@@ -24,29 +24,28 @@ class Setting:
 
 @dataclass
 class Reference:
-    """What a run is compared with. `kind`: none, formula, csv or finest."""
+    """What a run is compared with: none, a formula, a csv, or the finest run. Columns of a csv, by name or number, are scaled, then shifted."""
 
     kind: str = "none"
     formula: str = ""  # of t, or of particles; may use the scene's parameters
     csv: Path | None = None
-    csv_x: str = "1"  # columns by name or number from 1
+    csv_x: str = "1"
     csv_y: str = "2"
-    scale_x: str = "1"  # factors on the columns, expressions of parameters
+    scale_x: str = "1"
     scale_y: str = "1"
-    offset_x: str = "0"  # added after scaling
+    offset_x: str = "0"
     offset_y: str = "0"
     source: str = ""  # where it comes from, for the report
 
     def text(self) -> str:
         """ "formula sqrt(2 g h) (Ritter 1892)", "none"."""
-        words = {"none": "none", "formula": f"formula {self.formula}", "finest": "the finest run",
-                 "csv": f"table {Path(self.csv or '').name}"}
-        return words[self.kind] + (f" ({self.source})" if self.source else "")
+        words = {"formula": f"formula {self.formula}", "finest": "the finest run", "csv": f"table {Path(self.csv or '').name}"}
+        return words.get(self.kind, "none") + (f" ({self.source})" if self.source else "")
 
 
 @dataclass
 class Observation:
-    """One number, or curve, that is observed in a run and compared."""
+    """One number, or curve, that is observed in a run and compared; the user guide explains the keys."""
 
     name: str = ""
     title: str = ""
@@ -55,10 +54,10 @@ class Observation:
     of: str = ""
     where: str = ""
     along: str = ""
-    bins: int = 0  # profile: > 0: `reduce` of the particles in each of so many equal parts of the range of `along`
+    bins: int = 0
     reduce: str = "mean"
     take: str = "curve"
-    start: str | None = None  # window or moment in t, expressions of parameters
+    start: str | None = None  # the keys `from` and `to`: window in t, expressions of parameters
     end: str | None = None
     at: str | None = None
     reference: Reference = field(default_factory=Reference)
@@ -93,20 +92,22 @@ class Limit:
 
 @dataclass
 class Stability:
-    """Verdicts instead of errors."""
+    """Verdicts instead of errors. Where the expressions are > 0, a run must be stable, or be refused or stop."""
 
     sweep: list[tuple[str, list[str]]] = field(default_factory=list)  # at most two: the map's columns and rows
     limits: list[Limit] = field(default_factory=list)
-    must_be_stable: str = "1"  # where it is > 0, the run must be stable
-    must_stop: str = "0"  # where it is > 0, the run must be refused or stop
+    must_be_stable: str = "1"
+    must_stop: str = "0"
 
 
 @dataclass
 class Case:
+    """Runs of a scene or a deck."""
+
     name: str = ""
     title: str = ""
     about: str = ""
-    scene: Path | None = None  # one of the two
+    scene: Path | None = None
     deck: Path | None = None
     parameters: Parameters = field(default_factory=dict)
     resolution: str = ""  # name of the swept parameter; blank: none
@@ -131,24 +132,19 @@ class Suite:
     cases: list[Case] = field(default_factory=list)
 
 
-class Verdict(IntEnum):
-    """How a run ended; broken: crash, hang or garbage. Later ones are worse."""
-
-    stable = 0
-    degraded = 1
-    stopped = 2
-    refused = 3
-    broken = 4
+# How a run ended; broken: crash, hang or garbage. Later ones are worse.
+Verdict = IntEnum("Verdict", ["stable", "degraded", "stopped", "refused", "broken"], start=0)
+_NONE = np.empty(0)
 
 
 @dataclass
 class Curve:
     """A curve as it was compared, thinned for the report. Shapes (n,) and (m,); no reference: m = 0."""
 
-    x: np.ndarray = field(default_factory=lambda: np.empty(0))
-    y: np.ndarray = field(default_factory=lambda: np.empty(0))
-    reference_x: np.ndarray = field(default_factory=lambda: np.empty(0))
-    reference_y: np.ndarray = field(default_factory=lambda: np.empty(0))
+    x: np.ndarray = field(default_factory=_NONE.copy)
+    y: np.ndarray = field(default_factory=_NONE.copy)
+    reference_x: np.ndarray = field(default_factory=_NONE.copy)
+    reference_y: np.ndarray = field(default_factory=_NONE.copy)
 
 
 @dataclass
@@ -177,7 +173,9 @@ class RunNumbers:
 
 @dataclass
 class RunResult:
-    setting: str = ""  # or the swept values of a stability case: "tssfac = 0.9"
+    """One run. `setting`: its name, or the swept values of a stability case, "tssfac = 0.9"."""
+
+    setting: str = ""
     resolution: str = ""
     parameters: Parameters = field(default_factory=dict)
     size: float = 0.0
@@ -201,9 +199,7 @@ class RunResult:
     @property
     def name(self) -> str:
         """ "cubic at resolution 40", or what of it is there."""
-        if not self.resolution:
-            return self.setting or "the run"
-        return f"{self.setting} at resolution {self.resolution}" if self.setting else f"resolution {self.resolution}"
+        return " at ".join(filter(None, (self.setting, self.resolution and f"resolution {self.resolution}"))) or "the run"
 
     def error_of(self, k: int) -> float | None:
         return self.observed[k].error if k < len(self.observed) else None
@@ -240,8 +236,10 @@ class Picture:
 
 @dataclass
 class CaseResult:
+    """Runs with the settings outermost, resolutions from coarse to fine, and what they come to."""
+
     definition: Case
-    runs: list[RunResult] = field(default_factory=list)  # settings outermost, resolutions from coarse to fine
+    runs: list[RunResult] = field(default_factory=list)
     checks: list[BoundCheck] = field(default_factory=list)
     orders: list[MeasuredOrder] = field(default_factory=list)
     picture: Picture | None = None
@@ -255,8 +253,7 @@ class CaseResult:
         return sum(not check.met for check in self.checks)
 
     def order_of(self, setting: str, observation: str) -> float | None:
-        found = [m.order for m in self.orders if (m.setting, m.observation) == (setting, observation)]
-        return found[0] if found else None
+        return next((m.order for m in self.orders if (m.setting, m.observation) == (setting, observation)), None)
 
     def ends_setting(self, k: int) -> bool:
         """Whether run k is the last of its setting."""

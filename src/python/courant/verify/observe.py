@@ -294,11 +294,8 @@ def _look_through(tasks: list[_Task], run: Run, every_state: bool) -> str:
 
 
 def observe_run(case: Case, variables: Variables, folder: Path, every_state: bool) -> tuple[list[Measured], str]:
-    """Observations of a case in history.h5 and the field states in `folder`, in their order; and what is not finite
-    in histories or field states, blank if nothing.
-
-    With `every_state`, each state is looked through for numbers that are not finite, else those that are observed.
-    """
+    """Observations of a case in history.h5 and the field states in `folder`, in their order; and what is not finite in histories or field states,
+    blank if nothing. With `every_state`, each state is looked through for numbers that are not finite, else those that are observed."""
     run = Run(folder, variables)
     tasks = [_Task() for _ in case.observations]
     for task, o in zip(tasks, case.observations, strict=True):

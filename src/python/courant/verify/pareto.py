@@ -20,10 +20,8 @@ class CostPoint:
 
 
 def pareto_front(points: list[CostPoint]) -> list[CostPoint]:
-    """The points that no other one beats: from the cheapest on, each with a smaller error than all cheaper ones.
-
-    Points whose cost or error is not finite or is negative take no part. Of equal points the first one stays.
-    """
+    """The points that no other one beats: from the cheapest on, each with a smaller error than all cheaper ones. Points whose cost or error is not
+    finite or is negative take no part. Of equal points the first one stays."""
     front: list[CostPoint] = []
     good = [p for p in points if all(math.isfinite(v) and v >= 0 for v in (p.cost, p.error))]
     for p in sorted(good, key=lambda p: (p.cost, p.error)):
@@ -42,8 +40,8 @@ def _round_level(error: float) -> float:
 
 
 def choices(front: list[CostPoint]) -> list[tuple[float, CostPoint]]:
-    """Round error levels and the cheapest run that reaches each, cheapest first; runs that reach no smaller level than a
-    cheaper one are left out. Level 0: no error at all."""
+    """Round error levels and the cheapest run that reaches each, cheapest first; runs that reach no smaller level than a cheaper one are left out.
+    Level 0: no error at all."""
     out: list[tuple[float, CostPoint]] = []
     for p in front:
         level = _round_level(p.error)
@@ -57,10 +55,8 @@ def _ended_well(run: RunResult) -> bool:
 
 
 def cost_points(case: CaseResult, k: int) -> list[CostPoint]:
-    """Runs that ended as they should and have an error of observation k, in the order of the runs.
-
-    Where the finest run is the reference, a run without any error is that run itself, and takes no part.
-    """
+    """Runs that ended as they should and have an error of observation k, in the order of the runs. Where the finest run is the reference, a run
+    without any error is that run itself, and takes no part."""
     observations = case.definition.observations
     by_finest = k < len(observations) and observations[k].reference.kind == "finest"
     found = ((i, run, run.error_of(k)) for i, run in enumerate(case.runs) if _ended_well(run))
@@ -76,11 +72,8 @@ def cheapest_within_bounds(case: CaseResult) -> RunResult | None:
 
 
 def recommendation(case: CaseResult, k: int) -> list[str]:
-    """The choices in words, for a list of the cheapest runs for an error of: "at most 1 %: cubic at resolution 40, 3.1 s
-    (error 0.8 %)." The time is CPU time.
-
-    At most six, spread along the front. The last one tells the smallest error if it misses the bound of the observation.
-    """
+    """The choices in words, for a list of the cheapest runs for an error of: "at most 1 %: cubic at resolution 40, 3.1 s (error 0.8 %)." The time
+    is CPU time. At most six, spread along the front. The last one tells the smallest error if it misses the bound of the observation."""
     every = choices(pareto_front(cost_points(case, k)))
     shown = min(len(every), _MOST_CHOICES)
     text = []

@@ -51,8 +51,7 @@ class StateTable:
 
     def values(self, formula: Formula, chosen: np.ndarray) -> np.ndarray:
         """Of a formula over PARTICLE_VARIABLES, for particles with these indices; shape of `chosen`."""
-        table: Mapping[str, np.ndarray | float] = {
-            name: self.t if name == "t" else self.columns[name][chosen] for name in formula.used}
+        table: Mapping[str, np.ndarray | float] = {name: self.t if name == "t" else self.columns[name][chosen] for name in formula.used}
         return formula.over(table, len(chosen))
 
 
@@ -73,8 +72,8 @@ class Selection:
 
 
 def nearest_state(states: Sequence[StateFiles], t: float) -> int | None:
-    """Index of the state whose time is nearest to t, None if one is missing there: |t_state - t| is at most half the
-    largest distance of two states."""
+    """Index of the state whose time is nearest to t, None if one is missing there: |t_state - t| is at most half the largest distance of two
+    states."""
     if not states:
         return None
     times = np.array([state.t for state in states])

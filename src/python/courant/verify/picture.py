@@ -69,7 +69,8 @@ class _Dots:
         radius = np.maximum(0.75, self.radius / pixel)
         asked = np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1).reshape(-1, 2)
         k = min(_NEIGHBOURS, len(centres))
-        distance, index = module("scipy.spatial").cKDTree(centres).query(asked, k=np.arange(1, k + 1), distance_upper_bound=float(np.max(radius)) * (1 + 1e-12))
+        tree, reach = module("scipy.spatial").cKDTree(centres), float(np.max(radius)) * (1 + 1e-12)
+        distance, index = tree.query(asked, k=np.arange(1, k + 1), distance_upper_bound=reach)
         reaches = distance <= np.append(radius, -1.0)[index]  # the last stands for no particle
         found = np.where(reaches.any(axis=1), index[np.arange(len(index)), np.argmax(reaches, axis=1)], len(radius))
         share = (self.value - low) / (high - low) if high > low else np.full(len(self.value), 0.5)
@@ -88,9 +89,8 @@ def _dots(state: StateTable, of: Formula, where: Selection) -> _Dots:
 
 
 def draw_particles(case: Case, variables: Variables, folder: Path) -> Picture | None:
-    """The particles of the state at `picture_at` (the last one if blank), in colours by `picture_of`, seen along -z (in 3D
-    along the direction in which they extend least). The scale goes from the 1st to the 99th percentile. None if the run
-    has no such state."""
+    """The particles of the state at `picture_at` (the last one if blank), in colours by `picture_of`, seen along -z (in 3D along the direction in
+    which they extend least). The scale goes from the 1st to the 99th percentile. None if the run has no such state."""
     states = read_states(folder, Diagnostics())
     of = Formula(case.picture_of, PARTICLE_VARIABLES, variables)
     where = Selection(case.picture_where, of, variables)

@@ -10,6 +10,7 @@ from pathlib import Path
 from ..diagnostics import Diagnostics
 from ..expressions import ExpressionFault, constant_value
 from .model import Case, Parameters, Setting, Suite, Variables
+from .record import RunRecord
 from .scene import parameter_values
 
 _LONGEST_NAME = 60  # characters, of a folder
@@ -25,14 +26,19 @@ class PlannedRun:
     folder: Path = Path()  # relative to the folder of results
     variables: Variables = field(default_factory=dict)  # values of all parameters that expressions may name
     size: float = 0.0  # of Case.size; 0: none
-    deck: Path | None = None  # generated from a scene
+    generated: Path | None = None  # the deck made from a scene, not yet in its place
+    deck: Path = Path()  # that is run
+    key: str = ""  # of all that the results follow from
+    cost: float = 0.0  # in proportion to the time that it is expected to take
+    record: RunRecord | None = None  # of how it ended
+    reused: bool = False  # in an earlier call
 
     def describe(self, case: Case) -> str:
         return f"{self.setting}, {case.resolution} = {self.resolution}" if self.resolution else self.setting
 
 
 Generate = Callable[[PlannedRun, int], list[str]]
-"""(run, its number) -> faults. Writes the deck of a run of a scene and notes where in `run.deck`."""
+"""(run, its number) -> faults. Writes the deck of a run of a scene and notes where in `run.generated`."""
 
 
 def overrides_of(case: Case, setting: Setting, resolution: str) -> Parameters:
@@ -76,8 +82,7 @@ def _runs_of(number: int, case: Case, setting: Setting) -> Iterator[tuple[Planne
         return
     resolutions = setting.resolutions or case.resolutions or [""]
     for k, resolution in enumerate(resolutions):
-        run = PlannedRun(number, setting.name, resolution, overrides_of(case, setting, resolution),
-                         finest=k + 1 == len(resolutions))
+        run = PlannedRun(number, setting.name, resolution, overrides_of(case, setting, resolution), finest=k + 1 == len(resolutions))
         yield run, setting.name + (f"-{resolution}" if resolution else "")
 
 
@@ -132,5 +137,4 @@ def _take_values(run: PlannedRun, case: Case, diagnostics: Diagnostics) -> None:
     except ExpressionFault as fault:
         why = fault.message
     if not run.size > 0:
-        diagnostics.error(case.where, f"case {case.name}, {run.describe(case)}: 'size' must be > 0"
-                                      + (f": {why}" if why else f", got {run.size:g}"))
+        diagnostics.error(case.where, f"case {case.name}, {run.describe(case)}: 'size' must be > 0" + (f": {why}" if why else f", got {run.size:g}"))

@@ -79,13 +79,11 @@ def _first_error_line(file: Path) -> str:
 
 
 def _take_summary(summary: dict[str, Any], out: RunResult) -> None:
-    for name in ("termination", "reason", "wall_seconds", "cpu_seconds", "particles", "steps", "particle_steps",
-                 "peak_memory_bytes"):
+    for name in ("termination", "reason", "wall_seconds", "cpu_seconds", "particles", "steps", "particle_steps", "peak_memory_bytes"):
         setattr(out, name, _value(summary, name, getattr(out, name)))
     energy = summary.get("energy")
     throughput, residual = _value(energy, "throughput", 0.0), abs(_value(energy, "residual", 0.0))
-    out.numbers = RunNumbers(
-        residual=residual / throughput if throughput > 0 else math.nan if residual > 0 else 0.0,
+    out.numbers = RunNumbers(residual=residual / throughput if throughput > 0 else math.nan if residual > 0 else 0.0,
         ratio=_value(energy, "ratio", math.nan), leaked=_value(summary, "leaked_particles", 0.0),
         penetration=_value(summary, "max_penetration", 0.0), steps=float(out.steps))
     if out.termination == "normal" and not math.isfinite(_value(energy, "total", math.nan)):
@@ -93,11 +91,8 @@ def _take_summary(summary: dict[str, Any], out: RunResult) -> None:
 
 
 def result_of_run(folder: Path, record: RunRecord) -> RunResult:
-    """A run's result from its record and the files it left, without observations.
-
-    Termination, reason, times, counts, what limits may name where it ended normally, and the verdict as far as it
-    follows from the way it ended (stable, degraded, stopped, refused or broken).
-    """
+    """A run's result from its record and the files it left, without observations. Termination, reason, times, counts, what limits may name where
+    it ended normally, and the verdict as far as it follows from the way it ended (stable, degraded, stopped, refused or broken)."""
     out = RunResult(folder=folder, exit_code=record.exit_code, wall_seconds=record.wall_seconds,
                     cpu_seconds=record.cpu_seconds, peak_memory_bytes=record.peak_memory_bytes)
     summary = _load(folder / "summary.yaml")
@@ -138,9 +133,8 @@ def _ending(record: RunRecord, out: RunResult, summary: dict[str, Any] | None, s
 
 
 def says_something_of_the_deck(record: RunRecord, result: RunResult) -> bool:
-    """Whether a run ended for reasons of its own, so that it would end so again: nobody interrupted or killed it, it
-    could be started, and there was room for what it wrote."""
+    """Whether a run ended for reasons of its own, so that it would end so again: nobody interrupted or killed it, it could be started, and there
+    was room for what it wrote."""
     if record.timed_out:
         return True
-    return (result.termination != "interrupted" and record.signal == 0 and record.exit_code <= 2
-            and CANNOT_WRITE not in result.reason)
+    return (result.termination != "interrupted" and record.signal == 0 and record.exit_code <= 2 and CANNOT_WRITE not in result.reason)

@@ -46,8 +46,7 @@ class _TableReader:
                 # a first row may be values beside a column of text: then the wanted ones are numbers, and not
                 # asked for by name
                 values = [cells[k] for k in wanted]
-                if self.names and not (all(_number(v) is not None for v in values)
-                                       and values[0] != column_x and values[1] != column_y):
+                if self.names and not (all(_number(v) is not None for v in values) and values[0] != column_x and values[1] != column_y):
                     continue
             self.add_row(cells, wanted)
         if len(self.rows) < 2 and self.diagnostics.errors == self.before:
@@ -89,11 +88,8 @@ class _TableReader:
 
 
 def read_table(file: Path, column_x: str, column_y: str, diagnostics: Diagnostics) -> Series:
-    """Two columns of a file, in order of x; each a name of the head or a number from 1.
-
-    Values are separated by commas (or by blanks, where the first line holds no comma). Lines that begin with # are
-    comments; the first other line may hold names. Rows where one of the two is blank are skipped, and rows with the
-    same x averaged. Faults (a column that is not there, no number, fewer than two rows) go to `diagnostics` with their
-    line.
-    """
+    """Two columns of a file, in order of x; each a name of the head or a number from 1. Values are separated by commas (or by blanks, where the
+    first line holds no comma). Lines that begin with # are comments; the first other line may hold names. Rows where one of the two is blank are
+    skipped, and rows with the same x averaged. Faults (a column that is not there, no number, fewer than two rows) go to `diagnostics` with their
+    line."""
     return _TableReader(file, diagnostics).read(column_x, column_y)

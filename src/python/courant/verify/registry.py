@@ -21,12 +21,9 @@ norm: Registry[Callable[..., float]] = Registry("norm")
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of observation, or of chart.
-
-    Observations: `of` is what their expressions are of, "histories" or "particles". function(observation, run) returns a `Measured`,
-    or is a generator that yields indices of field states, is sent their tables, and returns one. Charts: `of` is "observation", then
-    function(case, index) -> `Figure` or None, or "case", then function(case) -> figures.
-    """
+    """A kind of observation, or of chart. Observations: `of` is what their expressions are of, "histories" or "particles". function(observation,
+    run) returns a `Measured`, or is a generator that yields indices of field states, is sent their tables, and returns one. Charts: `of` is
+    "observation", then function(case, index) -> `Figure` or None, or "case", then function(case) -> figures."""
 
     of: str
     function: Callable[..., Any]

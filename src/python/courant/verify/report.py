@@ -78,10 +78,8 @@ def html(result: SuiteResult, changes: Comparison | None = None) -> str:
 
 
 def write_reports(result: SuiteResult, folder: Path, changes: Comparison | None = None) -> None:
-    """Writes folder/report.html: one file with its charts and pictures inside, which loads nothing else and needs no script.
-
-    `folder` is made if need be. Raises OutputError; an earlier report is then as it was.
-    """
+    """Writes folder/report.html: one file with its charts and pictures inside, which loads nothing else and needs no script. `folder` is made if
+    need be. Raises OutputError; an earlier report is then as it was."""
     make_folder(folder)
     write_file(folder / "report.html", html(result, changes))
 
@@ -111,11 +109,8 @@ def standalone_svg(svg: str) -> str:
 
 
 def write_page(result: SuiteResult, page: Path, picture_folder: Path) -> None:
-    """Writes the same as a Markdown page (GitHub's dialect) with its charts as SVG files and its pictures as PNG files in
-    `picture_folder`, named CASE-OBSERVATION-KIND, which the page refers to by relative paths.
-
-    The page is written last. Raises OutputError; the page is then as it was.
-    """
+    """Writes the same as a Markdown page (GitHub's dialect) with its charts as SVG files and its pictures as PNG files in `picture_folder`, named
+    CASE-OBSERVATION-KIND, which the page refers to by relative paths. The page is written last. Raises OutputError; the page is then as it was."""
     make_folder(page.absolute().parent)
     make_folder(picture_folder)
     text = _render("page.md.j2", escape_markdown, result, add=_Pictures(page, picture_folder).add, standalone=standalone_svg)

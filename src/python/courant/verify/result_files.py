@@ -16,10 +16,8 @@ HEAD = ("case,setting,resolution,size,observation,value,reference,error,check,ve
 
 
 def check_of_row(case: CaseResult, k: int, observation: str) -> str:
-    """Whether the checks that belong to run k and an observation are met: "met", "missed", or blank if there are none.
-
-    Checks of a setting belong to its last run.
-    """
+    """Whether the checks that belong to run k and an observation are met: "met", "missed", or blank if there are none. Checks of a setting belong
+    to its last run."""
     run = case.runs[k]
     if case.definition.stability:
         return "met" if run.as_required else "missed"
@@ -44,8 +42,7 @@ def _row(case: CaseResult, k: int, o: Observed) -> str:
     cells = [case.definition.name, run.setting, run.resolution, _in_full(run.size) if run.size > 0 else "", o.name,
              *map(_in_full, (o.value, o.reference, o.error)), check_of_row(case, k, o.name), run.verdict.name,
              "yes" if run.as_required else "no", f"{run.wall_seconds:.4f}", f"{run.cpu_seconds:.4f}", run.particles, run.steps,
-             run.particle_steps, run.peak_memory_bytes, run.exit_code, run.termination,
-             "; ".join(filter(None, [run.reason, *run.exceeded])), o.why]
+             run.particle_steps, run.peak_memory_bytes, run.exit_code, run.termination, "; ".join(filter(None, [run.reason, *run.exceeded])), o.why]
     return ",".join(_cell(str(cell)) for cell in cells)
 
 
@@ -68,20 +65,17 @@ def _map(**entries: Any) -> dict[str, Any]:
 
 
 def _run(run: RunResult) -> dict[str, Any]:
-    return _map(
-        setting=run.setting, resolution=run.resolution, parameters=run.parameters, size=run.size if run.size > 0 else None,
+    return _map(setting=run.setting, resolution=run.resolution, parameters=run.parameters, size=run.size if run.size > 0 else None,
         folder=str(run.folder), verdict=run.verdict.name, as_required=run.as_required, exceeded=run.exceeded,
         exit_code=run.exit_code, termination=run.termination, reason=run.reason, wall_seconds=run.wall_seconds,
         cpu_seconds=run.cpu_seconds, particles=run.particles, steps=run.steps, particle_steps=run.particle_steps,
         peak_memory_bytes=run.peak_memory_bytes, reused=run.reused,
-        observed=[_map(name=o.name, found=o.found, why=o.why or None, value=o.value, reference=o.reference, error=o.error)
-                  for o in run.observed])
+        observed=[_map(name=o.name, found=o.found, why=o.why or None, value=o.value, reference=o.reference, error=o.error) for o in run.observed])
 
 
 def _case(case: CaseResult) -> dict[str, Any]:
     d = case.definition
-    return _map(
-        name=d.name, title=d.title, about=d.about, scene=str(d.scene) if d.scene else None,
+    return _map(name=d.name, title=d.title, about=d.about, scene=str(d.scene) if d.scene else None,
         deck=None if d.scene else str(d.deck or ""), runs=[_run(run) for run in case.runs],
         orders=[_map(setting=m.setting, observation=m.observation, order=m.order) for m in case.orders],
         checks=[_map(setting=c.setting, observation=c.observation, what=c.what, bound=float(c.bound),
@@ -90,8 +84,7 @@ def _case(case: CaseResult) -> dict[str, Any]:
 
 def results_yaml(result: SuiteResult) -> str:
     """All of the result but curves and pictures."""
-    content = _map(
-        suite=str(result.suite.file), title=result.suite.title, about=result.suite.about, version=result.version,
+    content = _map(suite=str(result.suite.file), title=result.suite.title, about=result.suite.about, version=result.version,
         machine=result.machine, date=result.date, wall_seconds=result.wall_seconds, jobs=result.jobs, ok=result.ok,
         cases=[_case(case) for case in result.cases])
     return str(yaml.dump(content, Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=1 << 20))

@@ -1,5 +1,5 @@
-"""Values of the parameters of a scene, as `courant generate` would find them. Faults of a scene are told by `courant generate` itself: here a scene
-with a fault has no values."""
+"""Values of the parameters of a scene, as `courant generate` would find them. Faults of a scene are told by `courant generate` itself: here a
+scene with a fault has no values."""
 from __future__ import annotations
 
 import math
@@ -34,10 +34,8 @@ def scene_files(file: Path) -> list[Path]:
 
 
 def scene_values(file: Path, overrides: Mapping[str, str]) -> Variables | None:
-    """Values of all parameters and of pi; None if the scene has a fault that keeps them from being known.
-
-    Parameters of bases stand before the scene's own, but for those that need these; the scene's own stand above the bases' of the same name.
-    """
+    """Values of all parameters and of pi; None if the scene has a fault that keeps them from being known. Parameters of bases stand before the
+    scene's own, but for those that need these; the scene's own stand above the bases' of the same name."""
     values: Variables = {"pi": math.pi}
 
     def take(name: str, node: Node) -> None:

@@ -94,10 +94,8 @@ def at_moment(series: Series, at: float | None) -> float:
 
 
 def upward_crossings(x: np.ndarray, distance: np.ndarray, margin: float) -> list[float]:
-    """Where `distance`, shape (n,), rises through 0, each crossing from below -margin to above margin once.
-
-    Several crossings on the way (noise) count as one, in their middle.
-    """
+    """Where `distance`, shape (n,), rises through 0, each crossing from below -margin to above margin once. Several crossings on the way (noise)
+    count as one, in their middle."""
     out: list[float] = []
     on_the_way: list[float] = []  # crossings since it was below -margin
     below, before, x_before = False, 0.0, 0.0
@@ -127,12 +125,9 @@ def _trend(series: Series, period: float) -> np.ndarray:
 
 @take("period")
 def period_of(series: Series, at: float | None = None) -> float:
-    """Mean distance of the upward crossings of the trend [x].
-
-    The trend is a straight line, fitted together with a sine of the period found so far, so that a part of an
-    oscillation at the ends does not tilt it. A crossing counts where the series goes from a quarter of its standard
-    deviation below the trend to as much above it: noise about the trend does not. Needs two crossings.
-    """
+    """Mean distance of the upward crossings of the trend [x]. The trend is a straight line, fitted together with a sine of the period found so
+    far, so that a part of an oscillation at the ends does not tilt it. A crossing counts where the series goes from a quarter of its standard
+    deviation below the trend to as much above it: noise about the trend does not. Needs two crossings."""
     none = NoValue("a period needs two upward crossings of the mean")
     margin = 0.25 * float(np.std(series.y)) if len(series) >= FEWEST_OF_PERIOD else 0.0
     if not margin > 0:
@@ -165,10 +160,8 @@ def _top_of(x: np.ndarray, y: np.ndarray, i: int) -> tuple[float, float]:
 
 @take("decay")
 def decay_of(series: Series, at: float | None = None) -> float:
-    """Rate b of the exponential a exp(-b x) fitted by least squares to the logarithms of the peaks of |y| [1/x]; b < 0 is growth.
-
-    A peak counts where |y| falls by a quarter of it on both sides. Needs two peaks.
-    """
+    """Rate b of the exponential a exp(-b x) fitted by least squares to the logarithms of the peaks of |y| [1/x]; b < 0 is growth. A peak counts
+    where |y| falls by a quarter of it on both sides. Needs two peaks."""
     size = np.abs(series.y)
     places: list[float] = []
     logarithms: list[float] = []

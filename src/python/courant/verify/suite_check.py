@@ -26,8 +26,7 @@ class CheckedExpression(NamedTuple):
 def check_observation(map_: YamlMap, o: Observation) -> None:
     """Whether the keys of an observation fit each other; faults are told at the map."""
     own, profile, taken, has = o.kind not in ("history", "particles", "profile"), o.is_profile, o.take, map_.has
-    rules = [
-        (o.kind == "history" and has("where"), "where", "'where' belongs to particles and profiles"),
+    rules = [(o.kind == "history" and has("where"), "where", "'where' belongs to particles and profiles"),
         (not profile and not own and has("along"), "along", "'along' belongs to profiles"),
         (o.kind in ("history", "profile") and not o.bins and has("reduce"), "reduce",
          "'reduce' belongs to kind: particles, and to profiles with bins"),

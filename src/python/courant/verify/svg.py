@@ -1,5 +1,5 @@
-"""Line charts as SVG, without any script: they scale with the page, can be read without colours (each line has a marker of
-its own), fit light and dark pages, and tell their numbers when pointed at."""
+"""Line charts as SVG, without any script: they scale with the page, can be read without colours (each line has a marker of its own), fit light and
+dark pages, and tell their numbers when pointed at."""
 from __future__ import annotations
 
 import math
@@ -75,11 +75,9 @@ def drawing(width: float, height: float, label: str, body: str) -> str:
 
 
 class Axis:
-    """An axis that shows all values that can have a place on it, with at least two ticks.
-
-    Without any such value it goes from 1 to 10, or from 0 to 1. `percentages`: fractions are labelled as per cent, unless
-    their range is so wide that powers of ten are easier to read. `ticks`: values and labels.
-    """
+    """An axis that shows all values that can have a place on it, with at least two ticks. Without any such value it goes from 1 to 10, or from 0
+    to 1. `percentages`: fractions are labelled as per cent, unless their range is so wide that powers of ten are easier to read. `ticks`: values
+    and labels."""
 
     def __init__(self, logarithmic: bool, values: Iterable[float], percentages: bool = False) -> None:
         self.logarithmic = logarithmic
@@ -251,11 +249,8 @@ def _samples(chart: Chart) -> Iterable[tuple[str, str]]:
 
 
 def svg_chart(chart: Chart) -> str:
-    """The chart as one `svg` element.
-
-    Points without a place on the axes are not dropped: zero and negative values on a logarithmic axis stand at its beginning
-    with an arrow and their value, infinite ones and what is not a number at its end. Any text is allowed in names.
-    """
+    """The chart as one `svg` element. Points without a place on the axes are not dropped: zero and negative values on a logarithmic axis stand at
+    its beginning with an arrow and their value, infinite ones and what is not a number at its end. Any text is allowed in names."""
     d = _Drawing(chart)
     body = d.grid() + text_at(2, 16, "start", shorten(chart.y_label, 54))
     body += text_at(d.right, d.bottom + 38, "end", shorten(chart.x_label, 50)) + d.front() + d.levels()

@@ -148,8 +148,8 @@ def _legend(map_: StabilityMap, full: float, y: float) -> tuple[str, float]:
 
 
 def svg_map(map_: StabilityMap) -> str:
-    """Cells are as wide as their texts need: a map with more of them than fit into a chart's width is wider than that. One
-    parameter: rows of values below each other."""
+    """Cells are as wide as their texts need: a map with more of them than fit into a chart's width is wider than that. One parameter: rows of
+    values below each other."""
     left = 16 + DIGIT * _longest(map_.rows) if map_.rows else 8.0
     least = max(_LEAST_WIDTH, DIGIT * _longest([*map_.columns, *(cell.value for cell in map_.cells)]) + 8)
     count = max(len(map_.columns) if map_.rows else min(len(map_.columns), int((WIDTH - 16) / least)), 1)

@@ -1,4 +1,4 @@
-"""Kinds of analyses over histories: series of history.h5 and of ASCII files, and forces on walls and bodies among them."""
+"""Kinds of analyses over series: history and force of files, spectrum and toe of other analyses."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from ..histories import HistoryFile
 from ..results import column_name
 from ..words import nearest_word
 from ..yaml_map import Node, YamlMap, is_map, is_scalar, scalar_text
-from .analysis import Analysis, Moments, Run, Settings, TimeWindow, analysis
+from .analysis import Analysis, Moments, Run, Settings, TimeWindow, analysis, median
+from .spectrum import Spectrum, SpectrumSettings, at_equal_steps, welch
 from .tables import Series
 
 
@@ -195,3 +196,166 @@ class ForceAnalysis(_SeriesAnalysis):
                     self.sources.append(_Source(f"force_{axis}_{word}{id}", f"/{group}/{id}/force", component, factor))
         if not self.sources:
             keys.error(keys.node, f"'{keys.name}' names neither contacts nor bodies", "for example contacts: [1]")
+
+
+@analysis("spectrum")
+class SpectrumAnalysis(Analysis):
+    """Power spectra of the series of another analysis."""
+
+    needs_states = False
+    longest_gap = 10  # steps
+
+    def __init__(self, keys: YamlMap, settings: Settings) -> None:
+        super().__init__(keys, settings)
+        keys.allow("kind", "name", "of", "from", "to", "segment", "overlap", "window", "detrend", "band")
+        self.of, self.window = keys.text("of", required=True), TimeWindow.read(keys)
+        segment, overlap = keys.positive("segment"), keys.number("overlap", 0.5)
+        if not 0 <= overlap < 0.95:
+            keys.error(keys.get("overlap") or keys.node, f"'{keys.name}.overlap' must be 0 to 0.95, got {overlap:g}")
+        window, detrend = keys.choice("window", ("hann", "rectangle")), keys.choice("detrend", ("linear", "mean"))
+        self.how = SpectrumSettings(segment, overlap, window, detrend)
+        self.band = keys.range("band") or (0.0, math.inf)
+
+    def refers(self) -> list[tuple[str, str]]:
+        return [("of", self.of)]
+
+    def finish(self, run: Run) -> None:
+        source = self.above(run, self.of)
+        if source is None:
+            return None
+        series, times = source.series(), np.asarray(source.times)
+        if not series:
+            return self.fault(run, f"'{self.of}' has no series over time", "probe, surface, flux, history, force and toe have")
+        inside = np.flatnonzero(self.window.within(times))
+        if len(inside) == 0 or inside[-1] + 1 - inside[0] < 8:
+            return self.fault(run, "fewer than eight states are in its window in time")
+        part = slice(inside[0], inside[-1] + 1)
+        found = self._spectra(series, times[part], part, run)
+        if not found:
+            return self.fault(run, f"no series of '{self.of}' is without gaps")
+        alike = len({self._unit(one) for one, _ in found}) == 1
+        if not alike:
+            message = f"analysis '{self.name}': the series of '{self.of}' have different units: they have no mean"
+            run.diagnostics.warning(self.where, message)
+        return self._write(found, alike, len(series), times[part])
+
+    def _spectra(self, series: list[Series], t: np.ndarray, part: slice, run: Run) -> list[tuple[Series, Spectrum]]:
+        out, dt = [], (t[-1] - t[0]) / (len(t) - 1)
+        self.how = SpectrumSettings(self.how.segment or 0.25 * (t[-1] - t[0]), self.how.overlap, self.how.window, self.how.detrend)
+        for one in series:
+            values = at_equal_steps(t, one.values[part], self.longest_gap * dt)
+            if values is not None:
+                out.append((one, welch(values, dt, self.how)))
+                continue
+            message = f"the series {one.name} of '{self.of}' has a gap of more than {self.longest_gap:g} states and is left out"
+            run.diagnostics.warning(self.where, f"analysis '{self.name}': {message}")
+        return out
+
+    def _unit(self, one: Series) -> str:
+        return f"({one.unit})2 {self.units.time}"
+
+    def _write(self, found: list[tuple[Series, Spectrum]], alike: bool, all_series: int, t: np.ndarray) -> None:
+        """`alike`: the series have one unit."""
+        hertz, spectra = self.unit(T=-1), [spectrum for _, spectrum in found]
+        first, frequency = found[0][0], spectra[0].frequency
+        unit = self._unit(first) if alike else "?"
+        densities = np.array([one.density for one in spectra])
+        mean = Spectrum(frequency, densities.sum(axis=0) / len(spectra) if alike else np.full(len(frequency), np.nan))
+        table = self.add_table()
+        table.add("f", hertz, frequency)
+        table.add("mean", unit, mean.density)
+        for one, spectrum in found:
+            table.add(one.name, self._unit(one), spectrum.density)
+        peaks = [one.dominant(*self.band) for one in spectra]
+        variances = [one.variance(0, frequency[-1]) for one in spectra]
+        in_band = [one.variance(*self.band) / whole if whole > 0 else math.nan for one, whole in zip(spectra, variances, strict=True)]
+        table = self.add_table("peaks")
+        table.add("number", "-", np.arange(1, len(found) + 1))
+        table.add("x", self.unit(L=1), [one.x for one, _ in found])
+        table.add("f", hertz, peaks)
+        table.add("density", unit, [one.top(*self.band) for one in spectra])
+        table.add("deviation", first.unit if alike else "?", np.sqrt(variances))
+        table.add("share_in_band", "-", in_band)
+        dominant, df, segments = mean.dominant(*self.band), frequency[1], spectra[0].segments
+        for name, unit_of, value in (
+            ("resolution", hertz, df),
+            ("segments", "-", segments),
+            ("dominant_of_mean", hertz, dominant),
+            ("dominant_median", hertz, median(peaks)),
+        ):
+            self.add_scalar(name, unit_of, value)
+        window = "Hann" if self.how.window == "hann" else "rectangular"
+        self.say(
+            f"  {len(found)} of {all_series} series, t = {t[0]:.4g} to {t[-1]:.4g}, {segments} segments of {1 / df:.4g} {self.units.time}, "
+            f"{window} window, overlap {self.how.overlap:g}: resolution {df:.3g} {hertz}\n  dominant frequency: {dominant:.3g} {hertz} of the "
+            f"mean spectrum, {median(peaks):.3g} {hertz} in the median of the series\n"
+        )
+
+
+@analysis("toe")
+class ToeAnalysis(Analysis):
+    """Where the surface first rises over a threshold, over time."""
+
+    needs_states = False
+
+    def __init__(self, keys: YamlMap, settings: Settings) -> None:
+        super().__init__(keys, settings)
+        keys.allow("kind", "name", "of", "depth", "x", "from", "to")
+        self.of, self.depth = keys.text("of", required=True), keys.positive("depth", required=True)
+        self.range = keys.range("x") or (-math.inf, math.inf)
+        self.window = TimeWindow.read(keys)
+        self.toe = np.empty(0)
+
+    def refers(self) -> list[tuple[str, str]]:
+        return [("of", self.of)]
+
+    def series(self) -> list[Series]:
+        return [Series("toe", self.unit(L=1), math.nan, self.toe)]
+
+    def finish(self, run: Run) -> None:
+        source = self.above(run, self.of)
+        if source is None:
+            return None
+        if source.kind != "surface":
+            return self.fault(run, f"'{self.of}' is no surface but a {source.kind}")
+        self.times = np.array(source.times)
+        if not self.window.within(self.times).any():
+            return self.fault_no_state(run)
+        used = [one for one in source.series() if self.range[0] <= one.x <= self.range[1]]
+        self.toe = toe_of(np.array([one.x for one in used]), np.array([one.values for one in used]), self.depth, len(self.times))
+        return self._write()
+
+    def _write(self) -> None:
+        length, speed = self.unit(L=1), self.unit(L=1, T=-1)
+        table = self.add_table()
+        table.add("t", self.unit(T=1), self.times)
+        table.add("toe", length, self.toe)
+        used = self.window.within(self.times) & ~np.isnan(self.toe)
+        x, t = Moments.of(self.toe[used]), Moments.of(self.times[used])
+        product = ((self.toe[used] - x.mean) * (self.times[used] - t.mean)).sum()
+        slope = product / float(t.squares) if t.squares > 0 else math.nan
+        for name, unit, value in (("toe_mean", length, x.mean_or_nan()), ("toe_deviation", length, x.deviation()), ("toe_speed", speed, slope)):
+            self.add_scalar(name, unit, value)
+        self.say(
+            f"  toe (depth over {self.depth:g} {length}): mean x = {x.mean_or_nan():.4g} {length}, deviation {x.deviation():.3g}, "
+            f"drift {slope:.3g} {speed}\n"
+        )
+
+
+def toe_of(x: np.ndarray, depth: np.ndarray, threshold: float, states: int) -> np.ndarray:
+    """The first crossing of a threshold along x in each state, linear between the places; NaN: nowhere. Shape (states,) [L].
+
+    x: (places,), depth: (places, states) [L].
+    """
+    out = np.full(states, np.nan)
+    if len(x) == 0:
+        return out
+    over = depth > threshold
+    first, state = over.argmax(axis=0), np.arange(states)
+    met = over.any(axis=0)
+    out[met & (first == 0)] = x[0]
+    between = np.flatnonzero(met & (first > 0))
+    k = first[between]
+    a, b = depth[k - 1, state[between]], depth[k, state[between]]
+    out[between] = x[k - 1] + (threshold - a) / (b - a) * (x[k] - x[k - 1])
+    return out
