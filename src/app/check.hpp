@@ -40,6 +40,7 @@ struct ModelFacts {
   Index particles = 0, active = 0;
   Real dt = 0, endtim = 0;                 ///< first step and end [T]
   std::string set_by;                      ///< what sets the first step
+  std::vector<std::string> advice;         ///< choices that do not suit the scene, and what to type
   double steps = 0;                        ///< to the end, all as long as the first
   double seconds = 0;                      ///< that they would take on one thread
   std::vector<Real> sound_speeds() const;  ///< of the parts that have one [L/T]
@@ -61,6 +62,12 @@ std::string unused_text(const Deck& deck, const UnusedIds& unused);
 // check_model.cpp
 /// Evaluates the first step; the simulation must not be run afterwards.
 std::string model_text(Simulation& simulation, ModelFacts& facts);
+
+// check_advice.cpp
+/// Sound speed, spacing, smoothing length, tension and contact stiffness of liquids against the height and
+/// the speeds of the scene: what does not suit it. `facts` has the parts already.
+std::vector<std::string> choice_advice(const Simulation& simulation, const ModelFacts& facts);
+std::string advice_text(const std::vector<std::string>& advice);
 
 // check_json.cpp
 /// What stays of a deck when a simulation has been built from it.

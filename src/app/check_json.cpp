@@ -141,6 +141,9 @@ void add_model(const ModelFacts& model, JsonText& json) {
   json.number("end_time", model.endtim);
   json.number("steps", model.steps);
   json.number("seconds_on_one_thread", model.seconds);
+  json.open("advice", '[');
+  for (const std::string& one : model.advice) json.text(nullptr, one);
+  json.close();
   json.open("parts", '[');
   for (const Part& part : model.parts) {
     json.open(nullptr, '{');

@@ -231,7 +231,8 @@ std::string model_text(Simulation& s, ModelFacts& facts) {
     text += fmt::format("  initial penetrations: {}\n", found->second);
   const std::string passes = s.passes();
   text += step_text(s, who, facts);
-  return text + passes;
+  facts.advice = choice_advice(s, facts);
+  return text + advice_text(facts.advice) + passes;
 }
 
 }  // namespace courant

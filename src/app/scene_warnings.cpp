@@ -199,7 +199,21 @@ class SceneWarnings {
         fmt::format("particle {} has the mass {:.4g} [M], and its density times the spacing {:.4g} to the "
                     "power {} gives {:.4g}",
                     p_.id[first], p_.m[first], s_.sph().usual_spacing[part], s_.world().dim, mass),
-        "correct MASS of *ELEMENT_SPH (in 2D per unit of depth), or RO of the material");
+        masses_hint(ratio));
+  }
+
+  /// Factors of a thousand are those between units: RO = 1e-9 are tonnes in a cubic mm, of which a kg is not
+  /// one.
+  static std::string masses_hint(Real ratio) {
+    const Real thousands = std::log10(ratio) / 3;
+    constexpr Real near = 0.06;  // some 50 % of the mass
+    if (std::abs(thousands) > 0.5 && std::abs(thousands - std::round(thousands)) < near)
+      return fmt::format(
+          "a factor of 1e{:.0f} looks like another unit: with lengths in mm, RO of water is 1e-9 where "
+          "masses are in "
+          "tonnes, 1e-6 in kg, 1e-3 in g; type MASS / 1e{:.0f}, or RO x 1e{:.0f}",
+          3 * std::round(thousands), 3 * std::round(thousands), 3 * std::round(thousands));
+    return "correct MASS of *ELEMENT_SPH (in 2D per unit of depth), or RO of the material";
   }
 
   void plane() {

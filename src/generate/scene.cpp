@@ -12,7 +12,9 @@
 #include <set>
 #include <string_view>
 
+#include "generate/basin.hpp"
 #include "generate/expression.hpp"
+#include "generate/node_reader.hpp"
 
 namespace courant {
 namespace {
@@ -20,16 +22,10 @@ namespace {
 constexpr Real most_entities = 5e7;  // a typing error in a spacing should not fill the memory
 constexpr Real most_jitter = 0.5;    // from there on two particles may meet
 
-void report_yaml_fault(const std::string& path, const YAML::Exception& fault, Diagnostics& diagnostics) {
-  const bool somewhere = !fault.mark.is_null();
-  diagnostics.error({path, somewhere ? fault.mark.line + 1 : 0, somewhere ? fault.mark.column + 1 : 0},
-                    fmt::format("not valid YAML: {}", fault.msg));
-}
-
-class SceneReader {
+class SceneReader : private NodeReader {
  public:
   SceneReader(std::string path, const std::map<std::string, std::string>& overrides, Diagnostics& diagnostics)
-      : path_(std::move(path)), overrides_(overrides), diagnostics_(diagnostics) {}
+      : NodeReader(std::move(path), diagnostics), overrides_(overrides) {}
 
   Scene read() {
     Scene scene;
@@ -39,7 +35,9 @@ class SceneReader {
       diagnostics_.error({path_, 1, 1}, "a scene is a YAML map", "start with 'title: ...'");
       return scene;
     }
-    check_keys(root, "the scene", {"title", "base", "parameters", "parts", "keywords"});
+    check_keys(
+        root, "the scene",
+        {"title", "base", "parameters", "water", "box", "gravity", "end", "output", "parts", "keywords"});
     load_bases(root["base"]);
     scene.files = {path_};
     for (const Base& base : bases_) scene.files.push_back(base.path);
@@ -47,39 +45,14 @@ class SceneReader {
     scene.title = root["title"] ? text(root["title"]) : std::string("untitled scene");
     if (scene.title.size() > 80) error(root["title"], "title: a deck's title has at most 80 characters");
     scene.variables = variables_;
-    read_parts(root, scene);
+    read_basin(root, scene);
+    if (!root["water"] || root["parts"]) read_parts(root, scene);
     for_each_base([&](const YAML::Node& base) { read_keywords(base["keywords"], scene); });
     read_keywords(root["keywords"], scene);
     return scene;
   }
 
  private:
-  Location at(const YAML::Node& node, int extra_lines = 0) const {
-    const YAML::Mark mark = node.Mark();
-    if (mark.is_null()) return {path_, 0, 0};
-    return {path_, mark.line + 1 + extra_lines, extra_lines ? 0 : mark.column + 1};
-  }
-  void error(const YAML::Node& node, std::string message, std::string hint = {}) {
-    diagnostics_.error(at(node), std::move(message), std::move(hint));
-  }
-
-  // Unknown and repeated keys: both would otherwise be ignored in silence.
-  void check_keys(const YAML::Node& map, std::string_view what,
-                  std::initializer_list<std::string_view> known) {
-    std::set<std::string> seen;
-    for (const auto& entry : map) {
-      if (!entry.first.IsScalar()) {
-        error(entry.first, fmt::format("{}: a key must be a word", what));
-        continue;
-      }
-      const std::string& key = entry.first.Scalar();
-      if (std::find(known.begin(), known.end(), key) == known.end())
-        error(entry.first, fmt::format("{}: unknown key '{}'", what, key),
-              fmt::format("known keys: {}", fmt::join(known, ", ")));
-      if (!seen.insert(key).second) error(entry.first, fmt::format("{}: '{}' stands twice", what, key));
-    }
-  }
-
   /// What many scenes have in common: files with parameters and keywords.
   void load_bases(const YAML::Node& node) {
     if (!node) return;
@@ -175,81 +148,6 @@ class SceneReader {
     scene.parameters.emplace_back(name, variables_[name]);
   }
 
-  std::string text(const YAML::Node& node) {
-    if (!node.IsScalar()) {
-      error(node, "expected text");
-      return {};
-    }
-    const Substitution filled = substitute(node.Scalar(), variables_);
-    if (!filled.ok()) error(node, filled.error);
-    if (filled.text.find('\n') != std::string::npos) error(node, "expected one line of text");
-    return filled.text;
-  }
-
-  Real number(const YAML::Node& node, std::string_view what) {
-    if (!node.IsScalar()) {
-      error(node, fmt::format("{}: expected a number", what));
-      return 0;
-    }
-    const Evaluation value = evaluate(node.Scalar(), variables_);
-    if (!value.ok()) error(node, fmt::format("{}: {}, got '{}'", what, value.error, node.Scalar()));
-    return value.ok() ? value.value : 0;
-  }
-
-  Id id(const YAML::Node& map, const char* key, bool required) {
-    const YAML::Node node = map[key];
-    if (!node) {
-      if (required) error(map, fmt::format("'{}' is missing", key));
-      return 0;
-    }
-    const Real value = number(node, key);
-    if (value < 0 || value > static_cast<Real>(largest_i8) || value != std::floor(value) ||
-        (required && value == 0)) {
-      error(node, fmt::format("{}: expected a whole number from {} to 99999999, got {}", key,
-                              required ? 1 : 0, value));
-      return 0;
-    }
-    return static_cast<Id>(value);
-  }
-
-  // A point or vector; the number of its components goes to `dim`.
-  Vec vector(const YAML::Node& map, const char* key, int& dim) {
-    Vec value = Vec::Zero();
-    const YAML::Node node = map[key];
-    dim = 0;
-    if (!node) {
-      error(map, fmt::format("'{}' is missing", key));
-    } else if (!node.IsSequence() || node.size() < 2 || node.size() > 3) {
-      error(node, fmt::format("{}: expected [x, y] or [x, y, z]", key));
-    } else {
-      dim = static_cast<int>(node.size());
-      for (int k = 0; k < dim; ++k) value[k] = number(node[k], key);
-    }
-    return value;
-  }
-  Vec vector(const YAML::Node& map, const char* key) {
-    int dim = 0;
-    return vector(map, key, dim);
-  }
-
-  // x, y, z are the place; a parameter of that name would be hidden.
-  PlaceExpression of_place(const YAML::Node& node, std::string_view what) {
-    if (!node.IsScalar()) {
-      error(node, fmt::format("{}: expected an expression of x, y, z", what));
-      return {};
-    }
-    const auto named = named_places(node.Scalar());
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::string name(1, "xyz"[k]);
-      if (named[k] && variables_.count(name))
-        error(node,
-              fmt::format("{}: {} is the place of a particle here, and a parameter of the scene", what, name),
-              "give the parameter another name");
-    }
-    if (node.Scalar().empty()) error(node, fmt::format("{}: the expression is missing", what));
-    return {node.Scalar(), at(node)};
-  }
-
   void read_velocity(const YAML::Node& map, bool particles, ScenePart& part) {
     const YAML::Node node = map["velocity"];
     bool of_places = false;
@@ -270,17 +168,77 @@ class SceneReader {
     for (std::size_t k = 0; k < node.size(); ++k) part.velocity_of_place[k] = of_place(node[k], "velocity");
   }
 
-  Real length(const YAML::Node& map, const char* key) {
-    const YAML::Node node = map[key];
-    if (!node) {
-      error(map, fmt::format("'{}' is missing", key));
-      return 0;
+  /// Water in a box with all its cards, where the scene gives `water`.
+  void read_basin(const YAML::Node& root, Scene& scene) {
+    const YAML::Node water = root["water"];
+    if (!water) {
+      for (const char* key : {"box", "gravity", "end", "output"})
+        if (root[key]) error(root[key], fmt::format("'{}' goes with 'water', which the scene has not", key));
+      return;
     }
     const int before = diagnostics_.errors();
-    const Real value = number(node, key);
-    if (diagnostics_.errors() > before) return 0;
-    if (!(value > 0)) error(node, fmt::format("{}: expected a length > 0, got {}", key, value));
-    return value > 0 ? value : 0;
+    Basin basin = read_water(water);
+    if (root["gravity"]) basin.gravity = number(root["gravity"], "gravity");
+    if (basin.gravity < 0) error(root["gravity"], "gravity: expected its size, >= 0; it acts downwards");
+    basin.end = length(root, "end");
+    basin.output = root["output"] ? length(root, "output") : basin.end / 100;
+    if (root["box"]) read_box(root["box"], basin);
+    if (diagnostics_.errors() > before) return;
+    const std::string fault = basin.complete();
+    if (!fault.empty()) error(water, fault);
+    if (diagnostics_.errors() == before) add_basin(basin, scene);
+  }
+
+  Basin read_water(const YAML::Node& node) {
+    Basin basin;
+    if (!node.IsMap()) {
+      error(node, "water: expected a map", "water: {spacing: 0.01, blocks: [{low: [0, 0], high: [1, 1]}]}");
+      return basin;
+    }
+    check_keys(node, "water",
+               {"spacing", "blocks", "density", "sound_speed", "viscosity", "tension", "velocity"});
+    if (node["density"]) basin.density = length(node, "density");
+    if (node["sound_speed"]) basin.sound_speed = length(node, "sound_speed");
+    if (node["viscosity"]) basin.viscosity = number(node["viscosity"], "viscosity");
+    if (basin.viscosity < 0) error(node["viscosity"], "viscosity: expected a number >= 0");
+    if (node["tension"] && !YAML::convert<bool>::decode(node["tension"], basin.tension))
+      error(node["tension"], "tension: expected true or false");
+    basin.water.where = at(node);
+    if (node["velocity"]) read_velocity(node, true, basin.water);
+    basin.spacing = length(node, "spacing");
+    const YAML::Node blocks = node["blocks"];
+    if (!blocks || !blocks.IsSequence() || blocks.size() == 0) {
+      error(blocks ? blocks : node, "water: 'blocks' is a list of {low: [x, y], high: [x, y]}, in 3D with z");
+      return basin;
+    }
+    for (const auto& entry : blocks)
+      if (entry.IsMap())
+        basin.water.lattices.push_back(read_lattice(entry, basin.spacing));
+      else
+        error(entry, "expected a map");
+    basin.dim = dim_;
+    return basin;
+  }
+
+  void read_box(const YAML::Node& node, Basin& basin) {
+    if (!node.IsMap())
+      return error(node, "box: expected a map", "box: {low: [0, 0], high: [2, 1], open: [top]}");
+    check_keys(node, "box", {"low", "high", "open"});
+    basin.has_box = true;
+    int low = 0, high = 0;
+    basin.low = vector(node, "low", low), basin.high = vector(node, "high", high);
+    if (low != basin.dim || high != basin.dim)
+      error(node, fmt::format("box: the water has {} dimensions, and so must low and high", basin.dim));
+    const YAML::Node open = node["open"];
+    if (open && !open.IsSequence()) error(open, "open: expected a list of sides", "open: [top]");
+    for (const auto& side : open) {
+      const std::string name = text(side);
+      const std::vector<std::string> known = basin.sides();
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        error(side, fmt::format("open: '{}' is no side of the box", name),
+              fmt::format("its sides: {}", fmt::join(known, ", ")));
+      basin.open.insert(name);
+    }
   }
 
   void read_parts(const YAML::Node& root, Scene& scene) {
@@ -290,6 +248,7 @@ class SceneReader {
       return;
     }
     std::set<Id> ids;
+    for (const ScenePart& part : scene.parts) ids.insert(part.id);  // of the water and its box
     for (const auto& entry : node) {
       if (!entry.IsMap()) {
         error(entry, "a part is a map", "- id: 1");
@@ -343,14 +302,18 @@ class SceneReader {
     return part;
   }
 
-  SceneLattice read_lattice(const YAML::Node& node) {
-    check_keys(node, "a lattice", {"low", "high", "spacing", "where", "jitter"});
+  /// `spacing`: of blocks, which have none of their own.
+  SceneLattice read_lattice(const YAML::Node& node, Real spacing = 0) {
+    if (spacing > 0)
+      check_keys(node, "a block", {"low", "high", "where", "jitter"});
+    else
+      check_keys(node, "a lattice", {"low", "high", "spacing", "where", "jitter"});
     SceneLattice lattice;
     const int before = diagnostics_.errors();
     int dim_high = 0;
     lattice.low = vector(node, "low", lattice.dim);
     const Vec high = vector(node, "high", dim_high);
-    lattice.spacing = length(node, "spacing");
+    lattice.spacing = spacing > 0 ? spacing : length(node, "spacing");
     if (node["where"]) lattice.where = of_place(node["where"], "where");
     if (node["jitter"]) lattice.jitter = number(node["jitter"], "jitter");
     if (!(lattice.jitter >= 0 && lattice.jitter < most_jitter))
@@ -448,13 +411,10 @@ class SceneReader {
     std::string path;
     YAML::Node node;
   };
-  std::string path_;
   std::vector<Base> bases_;
   int dim_ = 0;        // of all lattices
   Real entities_ = 0;  // so far
   const std::map<std::string, std::string>& overrides_;
-  Diagnostics& diagnostics_;
-  Variables variables_{{"pi", pi}};
 };
 
 }  // namespace

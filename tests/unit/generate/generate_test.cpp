@@ -258,6 +258,64 @@ Id particles(const std::string& scene, const std::map<std::string, std::string>&
   return n;
 }
 
+/// Whether the deck has a line with these fields of ten columns.
+bool has_fields(const std::string& deck, std::initializer_list<const char*> fields) {
+  std::string line = "\n";
+  for (const char* field : fields) line += std::string(10 - std::string(field).size(), ' ') + field;
+  return deck.find(line) != std::string::npos;
+}
+
+TEST_F(Generate, WaterInABoxNeedsNoCards) {
+  const std::string text = deck(
+      "title: box\nwater: {spacing: 0.1, density: 900, blocks: [{low: [0, 0], high: [0.4, 0.2]}]}\n"
+      "box: {low: [0, 0], high: [1, 0.5], open: [top, right]}\ngravity: 10\nend: 3\n");
+  ASSERT_TRUE(ok_) << messages_;
+  EXPECT_NE(text.find("1 water: 8 particles"), std::string::npos) << text;
+  // floor of 1 and wall of 0.5 in shells of half a spacing
+  EXPECT_NE(text.find("11 walls: 30 shells"), std::string::npos) << text;
+  // 20 sqrt(2 * 10 * 0.2) = 40
+  EXPECT_TRUE(has_fields(text, {"1", "0", "1440000"})) << text;
+  EXPECT_NE(text.find("*LOAD_BODY_Y"), std::string::npos);
+}
+
+TEST_F(Generate, WaterOfThreeDimensionsFallsAlongZ) {
+  const std::string text = deck(
+      "title: box\nwater: {spacing: 0.1, blocks: [{low: [0, 0, 0], high: [0.2, 0.2, 0.2]}], velocity: [3, 0, "
+      "4]}\n"
+      "box: {low: [0, 0, 0], high: [0.4, 0.4, 0.4]}\ngravity: 0\nend: 3\n");
+  ASSERT_TRUE(ok_) << messages_;
+  EXPECT_NE(text.find("11 walls: 24 shells"), std::string::npos) << text;
+  EXPECT_TRUE(has_fields(text, {"1", "0", "1.0e7"}) || has_fields(text, {"1", "0", "1e7"}) ||
+              has_fields(text, {"1", "0", "10000000"}))
+      << text;  // 1000 (20 * 5)^2
+  EXPECT_EQ(text.find("*LOAD_BODY"), std::string::npos);
+  const std::string falls =
+      deck("title: drop\nwater: {spacing: 0.1, blocks: [{low: [0, 0, 0], high: [0.2, 0.2, 0.2]}]}\nend: 3\n");
+  EXPECT_NE(falls.find("*LOAD_BODY_Z"), std::string::npos);
+  EXPECT_EQ(falls.find("*CONTACT"), std::string::npos);
+}
+
+TEST_F(Generate, FaultsOfWaterAreTold) {
+  const std::string water = "water: {spacing: 0.1, blocks: [{low: [0, 0], high: [0.4, 0.2]}]}\n";
+  refused("title: x\nend: 1\nparts: []\n",
+          "scene.yaml:2:6: error: 'end' goes with 'water', which the scene has not");
+  refused(water, "'end' is missing");
+  refused(water + "end: 1\nbox: {low: [0, 0], high: [0.3, 1]}\n",
+          "a block reaches from 0 to 0.4 along x, beyond the box from 0 to 0.3");
+  refused(water + "end: 1\nbox: {low: [0, 0], high: [0.4, 0]}\n", "the box has no extent along y");
+  refused(water + "end: 1\nbox: {low: [0, 0, 0], high: [1, 1, 1]}\n",
+          "the water has 2 dimensions, and so must low and high");
+  refused(water + "end: 1\nbox: {low: [0, 0], high: [1, 1], open: [front]}\n",
+          "'front' is no side of the box\n  hint: its sides: left, right, bottom, top");
+  refused(water + "end: 1\ngravity: 0\n", "'sound_speed' is missing");
+  refused("water: {spacing: 0.1}\nend: 1\n", "water: 'blocks' is a list of");
+  refused("water: {spacing: 0.1, block: []}\nend: 1\n", "unknown key 'block'");
+  refused(water +
+              "end: 1\nparts:\n  - id: 1\n    section: 1\n    material: 1\n"
+              "    lattices: [{low: [0, 0], high: [1, 1], spacing: 1}]\n",
+          "part 1 is there already");
+}
+
 TEST(CommittedScenes, HaveTheParticlesTheirGeometryGives) {
   const std::string jump = "hydraulic_jump/scene.yaml";
   EXPECT_EQ(particles(jump, {{"resolution", "4"}, {"endtim", "30"}}), 36880);

@@ -1,0 +1,166 @@
+// `courant check`: choices of an SPH deck against the height and the speeds of its scene, and what to type.
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "app/check.hpp"
+#include "contact/cards.hpp"
+
+namespace courant {
+
+namespace {
+
+/// What the flow of a scene is measured by.
+struct FlowScale {
+  Real g = 0;       ///< size of the acceleration by body loads [L/T2]
+  Real height = 0;  ///< of the particles over the lowest of particles and walls, against it [L]
+  Real start = 0;   ///< largest speed at the start [L/T]
+  Real speed = 0;   ///< that a fall over the height adds to [L/T]
+};
+
+FlowScale flow_scale(const Simulation& s) {
+  FlowScale f;
+  const Particles& p = s.world().particles;
+  const BodyAcceleration::At loads = acceleration_of_particles(s.model()).at(0);
+  Vec a = Vec::Zero();
+  for (Index i = 0; i < p.size(); ++i) {
+    const Vec one = loads(p.x.vec(i), p.part[i]);
+    if (one.norm() > a.norm()) a = one;
+    f.start = std::max(f.start, p.v.vec(i).norm());
+  }
+  f.g = a.norm();
+  if (f.g > 0 && p.size() > 0) {
+    const Vec up = -a / f.g;
+    Real low = up.dot(p.x.vec(0)), high = low;
+    for (Index i = 0; i < p.size(); ++i) {
+      const Real z = up.dot(p.x.vec(i));
+      low = std::min(low, z), high = std::max(high, z);
+    }
+    const Segments& walls = s.world().segments;
+    for (Index k = 0; k < walls.size(); ++k)
+      for (const Index n : walls.nodes(k)) low = std::min(low, up.dot(s.world().nodes.x.vec(n)));
+    f.height = high - low;
+  }
+  f.speed = std::sqrt(2 * f.g * f.height + f.start * f.start);
+  return f;
+}
+
+class ChoiceAdvice {
+ public:
+  ChoiceAdvice(const Simulation& s, const ModelFacts& facts) : s_(s), facts_(facts), flow_(flow_scale(s)) {}
+
+  std::vector<std::string> all() {
+    if (!s_.has_particles()) return {};
+    for (std::size_t k = 0; k < s_.materials().size(); ++k) {
+      const PartMaterial& m = s_.materials()[k];
+      if (!m.found || m.strength || !m.holds_cold() || !(facts_.parts[k].h > 0)) continue;
+      sound_speed(k);
+      resolution(k);
+      smoothing_length(k);
+      tension(k);
+      slowest_ = std::min(slowest_, m.c0());
+    }
+    if (std::isfinite(slowest_) && flow_.speed > 0) contacts();
+    return std::move(out_);
+  }
+
+ private:
+  template <class... Values>
+  void add(fmt::format_string<Values...> text, Values&&... values) {
+    out_.push_back(fmt::format(text, std::forward<Values>(values)...));
+  }
+
+  void sound_speed(std::size_t k) {
+    constexpr Real usual = 10, least = 5, most = 50;
+    const PartMaterial& m = s_.materials()[k];
+    const Real ratio = m.c0() / flow_.speed;
+    if (!(flow_.speed > 0) || (ratio >= least && ratio <= most)) return;
+    const Real modulus = m.ro * usual * usual * flow_.speed * flow_.speed;
+    const char* why = ratio < least ? "the liquid is squeezed by more than some per cent"
+                                    : "steps are short for sound that the flow does not feel";
+    add("part {}: its sound speed {:.4g} is {:.3g} times the speed of {:.4g} that the scene gives, {} is "
+        "usual: {}; "
+        "type C1 = {:.4g} of *EOS_LINEAR_POLYNOMIAL (K0 = that / GAMMA of *EOS_MURNAGHAN)",
+        id(k), m.c0(), ratio, flow_.speed, usual, why, modulus);
+  }
+
+  void resolution(std::size_t k) {
+    constexpr Real least = 10, usual = 20;
+    const Real spacings = flow_.height / facts_.parts[k].spacing;
+    if (!(flow_.height > 0) || spacings > least - 0.01) return;  // but for rounding
+    add("part {}: {:.3g} spacings of {:.4g} over the height of {:.4g} are few; type particles {:.3g} apart",
+        id(k), spacings, facts_.parts[k].spacing, flow_.height, flow_.height / usual);
+  }
+
+  void smoothing_length(std::size_t k) {
+    constexpr Real least = 2.2, most = 3, usual = 2.4;  // of the spacing
+    const Real support = kernel_support(s_.sph().kernel), dx = facts_.parts[k].spacing;
+    const Real reach = support * facts_.parts[k].h / dx;
+    if (!(dx > 0) || (reach >= least && reach <= most)) return;
+    add("part {}: particles reach {:.3g} spacings, {} is usual: {}; type CSLH = {:.3g} (and SPHINI 0) in "
+        "*SECTION_SPH",
+        id(k), reach, usual, reach < least ? "sums have too few neighbours" : "details are smoothed away",
+        usual / support);
+  }
+
+  void tension(std::size_t k) {
+    if (s_.materials()[k].pc != 0 || !(flow_.g > 0)) return;
+    add("part {}: with PC = 0 the liquid takes no tension, comes apart where a flow stretches it, and its "
+        "density "
+        "falls; type PC = -1.0E20 in *MAT_NULL",
+        id(k));
+  }
+
+  void contacts() {
+    const auto* control = s_.deck().last<ControlContact>();
+    const Real slsfac = control && control->slsfac > 0 ? control->slsfac : 0.1;
+    constexpr Real least = 0.5, most = 10;  // of the stiffness of the liquid
+    for (const ContactCard& card : s_.deck().all<ContactCard>()) {
+      const Real ratio = slsfac * card.sfsa;
+      if (!kind_of(card).nodes || (ratio >= least && ratio <= most) || !(ratio > 0)) continue;
+      if (ratio < least)
+        add("{} {}: SLSFAC x SFSA = {:.3g} makes particles that much softer against walls than the liquid "
+            "is: one that "
+            "hits at {:.4g} goes {:.2g} of a spacing deep; type SFSA = {:.3g}",
+            s_.deck().keyword(card), card.cid, ratio, flow_.speed,
+            flow_.speed / (slowest_ * std::sqrt(ratio)), 1 / slsfac);
+      else
+        add("{} {}: SLSFAC x SFSA = {:.3g} makes particles bounce off walls, with steps of their own; type "
+            "SFSA = "
+            "{:.3g}",
+            s_.deck().keyword(card), card.cid, ratio, 1 / slsfac);
+    }
+  }
+
+  Id id(std::size_t k) const { return s_.model().parts[k].id; }
+
+  const Simulation& s_;
+  const ModelFacts& facts_;
+  FlowScale flow_;
+  Real slowest_ = std::numeric_limits<Real>::infinity();  ///< sound speed of the liquids
+  std::vector<std::string> out_;
+};
+
+}  // namespace
+
+std::vector<std::string> choice_advice(const Simulation& simulation, const ModelFacts& facts) {
+  return ChoiceAdvice(simulation, facts).all();
+}
+
+std::string advice_text(const std::vector<std::string>& advice) {
+  constexpr std::size_t width = 100;
+  std::string out = advice.empty() ? "" : "Choices to look at\n";
+  for (const std::string& one : advice) {
+    std::string line = " ";
+    for (std::size_t begin = 0; begin < one.size();) {
+      const std::size_t end = std::min(one.find(' ', begin), one.size());
+      if (line.size() + 1 + end - begin > width) out += line + "\n", line = "   ";
+      line += " " + one.substr(begin, end - begin);
+      begin = end + 1;
+    }
+    out += line + "\n";
+  }
+  return out;
+}
+
+}  // namespace courant
