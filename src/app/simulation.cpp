@@ -17,6 +17,8 @@
 #include "model/build_model.hpp"
 #include "model/transforms/included_entries.hpp"
 #include "parallel/parallel.hpp"
+#include "rigid/build_joints.hpp"
+#include "rigid/joint_stiffness.hpp"
 #include "rigid/time_limit.hpp"
 #include "shell/shell.hpp"
 #include "sph/boundaries/level_outlet.hpp"
@@ -144,7 +146,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
     report_what_needs_particles(diagnostics);
   add_prescribed_motions(diagnostics);
   if (!add_rigid_walls(deck_, model_, world_, diagnostics))
-    left_out_.push_back({"rigid walls", "no *RIGIDWALL_PLANAR"});
+    left_out_.push_back({"rigid walls", "no *RIGIDWALL"});
   else if (sph_.xsph > 0 || sph_.shift.strength > 0)
     diagnostics.warning({deck_.files[0].name},
                         "rigid walls stop the velocity of particles, not what shifting or averaged "
@@ -195,6 +197,10 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
   if (bodies_move && world_.groups.empty() && world_.particles.size() == 0)
     world_.passes.add(make_body_time_limit(bodies_, model_.endtim));
   add_contacts_of_nodes(diagnostics);
+  if (!add_joint_stiffness(deck_, model_, bodies_, world_, diagnostics))
+    left_out_.push_back({"joint stiffness", "no *CONSTRAINED_JOINT_STIFFNESS"});
+  if (!add_joints(deck_, bodies_, world_, diagnostics))
+    left_out_.push_back({"joints", "no *CONSTRAINED_JOINT"});
   if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
   const bool turn = has_rotations(world_.nodes);
   if (turn) world_.passes.add(make_clear_forces(rotations_of(world_.nodes)));

@@ -43,7 +43,9 @@ const char* id_word(IdSpace space) {
                                           "definition",
                                           "contact",
                                           "boundary condition",
-                                          "rigid wall"};
+                                          "rigid wall",
+                                          "joint",
+                                          "joint stiffness"};
   static_assert(sizeof words / sizeof *words == static_cast<std::size_t>(IdSpace::count));
   return words[static_cast<std::size_t>(space)];
 }
@@ -86,6 +88,8 @@ Id IdOffsets::of(IdSpace space) const {
     case IdSpace::hourglass:
     case IdSpace::contact:
     case IdSpace::boundary:
+    case IdSpace::joint:
+    case IdSpace::joint_stiffness:
       return other;
   }
   return 0;

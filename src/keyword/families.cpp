@@ -58,7 +58,7 @@ constexpr Family families[] = {
     {"CONSTRAINED_EXTRA_NODES", "extra nodes of rigid bodies"},
     {"CONSTRAINED_GENERALIZED_WELD", "welds"},
     {"CONSTRAINED_INTERPOLATION", "interpolation constraints"},
-    {"CONSTRAINED_JOINT", "joints"},
+    {"CONSTRAINED_JOINT", "this kind of joint"},
     {"CONSTRAINED_LAGRANGE_IN_SOLID", "couplings to ALE meshes"},
     {"CONSTRAINED_LINEAR", "linear constraints"},
     {"CONSTRAINED_NODAL_RIGIDBODY", "nodal rigid bodies"},

@@ -37,6 +37,8 @@ enum class IdSpace : std::uint8_t {
   contact,
   boundary,  ///< prescribed motions, single-point constraints
   rigid_wall,
+  joint,
+  joint_stiffness,
   count
 };
 

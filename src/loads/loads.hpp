@@ -81,10 +81,10 @@ std::vector<Damping> damping_of(const Deck& deck, const Model& model, const Worl
 /// f -= c m v, with the v of the middle of the kick. nullptr where there is none.
 std::shared_ptr<Constraint> make_damping(std::vector<Damping> damping, Points points, World& world);
 
-/// *RIGIDWALL_PLANAR: adds a pass for each wall, which holds particles and nodes of deformable elements;
-/// false if there is none. Behind add_prescribed_points. Refuses by name: sets and boxes that are not there,
-/// nodes of rigid bodies that NSID names, normals and edges without a direction or, in 2D, out of the plane,
-/// other kinds of friction.
+/// *RIGIDWALL_PLANAR and _GEOMETRIC: adds a pass for each wall, which holds particles and nodes of deformable
+/// elements; false if there is none. Behind add_prescribed_points. Refuses by name: sets, boxes and curves
+/// that are not there, nodes of rigid bodies that NSID names, normals, edges and motions without a direction
+/// or, in 2D, out of the plane, other kinds of friction, displacements that jump or do not begin with 0.
 bool add_rigid_walls(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics);
 
 }  // namespace courant

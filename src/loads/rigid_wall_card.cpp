@@ -1,5 +1,6 @@
 #include "loads/rigid_wall_card.hpp"
 
+#include <initializer_list>
 #include <vector>
 
 #include "keyword/common_rules.hpp"
@@ -11,21 +12,29 @@ namespace courant {
 namespace {
 
 /// With every choice of options in LS-DYNA's order: bit k of the index of a name tells of option k.
-std::vector<std::string> wall_names() {
-  std::vector<std::string> names{"RIGIDWALL_PLANAR"};
-  for (const char* option : {"_FINITE", "_MOVING", "_FORCES", "_DISPLAY"})
+std::vector<std::string> with_options(std::vector<std::string> names,
+                                      std::initializer_list<const char*> options) {
+  for (const char* option : options)
     for (std::size_t k = 0, n = names.size(); k < n; ++k) names.push_back(names[k] + option);
   return names;
 }
+std::vector<std::string> planar_names() {
+  return with_options({"RIGIDWALL_PLANAR"}, {"_FINITE", "_MOVING", "_FORCES", "_DISPLAY"});
+}
+/// Bits 0 and 1 of the index tell the shape, in the order of RigidWallGeometric::Shape.
+std::vector<std::string> geometric_names() {
+  const std::string all = "RIGIDWALL_GEOMETRIC";
+  return with_options({all + "_FLAT", all + "_PRISM", all + "_CYLINDER", all + "_SPHERE"},
+                      {"_MOTION", "_DISPLAY"});
+}
 
 /// Its lengths are no places, and edge m follows from the others by the right hand.
-std::string keep_lengths(const RigidWallPlanar& wall, const Affine& motion) {
+std::string keep_lengths(bool has_lengths, const Affine& motion) {
   constexpr Real round_off = 1e-9;
   const Matrix A = motion.linear();
   const bool turns = (A.transpose() * A - Matrix::Identity()).norm() < round_off && A.determinant() > 0;
-  if (turns || !(wall.finite() || wall.offset > 0)) return {};
-  return "its lengths LENL, LENM and OFFSET would change in a transformation that stretches or mirrors the "
-         "file";
+  if (turns || !has_lengths) return {};
+  return "its lengths would change in a transformation that stretches or mirrors the file";
 }
 
 using W = RigidWallPlanar;
@@ -34,7 +43,7 @@ constexpr FieldRules idle_id_of(IdSpace space) {
   return {.honour = Honour::ignored, .refers = space};
 }
 const RegisterKeyword<W> rigid_wall_planar{
-    {.names = wall_names(),
+    {.names = planar_names(),
      .purpose =
          "plane that particles and nodes of deformable elements do not pass; nodes of rigid bodies and "
          "those of prescribed motions do",
@@ -90,7 +99,66 @@ const RegisterKeyword<W> rigid_wall_planar{
                       {"PR", &W::pr, "-", "its Poisson ratio", no_effect}},
            .optional = true,
            .when = [](const W& w) { return w.display(); }}},
-     .move = [](W& wall, const Affine& motion) { return keep_lengths(wall, motion); }}};
+     .move = [](W& wall, const Affine& motion) {
+       return keep_lengths(wall.finite() || wall.offset > 0, motion);
+     }}};
+
+using G = RigidWallGeometric;
+const RegisterKeyword<G> rigid_wall_geometric{
+    {.names = geometric_names(),
+     .purpose = "plate, prism, cylinder or sphere that particles and nodes of deformable elements do not "
+                "enter; nodes of rigid bodies and those of prescribed motions do",
+     .id_space = IdSpace::rigid_wall,
+     .id_option = true,
+     .title = &G::title,
+     .id = &G::id,
+     .cards =
+         {{.fields = {{"NSID", &G::nsid, "-", "nodes that it holds, 0 all",
+                       rules::optional_id_of(IdSpace::node_set)},
+                      {"NSIDEX", &G::nsidex, "-", "nodes left out", rules::optional_id_of(IdSpace::node_set)},
+                      {"BOXID", &G::boxid, "-", "only those in this box at the start",
+                       rules::optional_id_of(IdSpace::box)},
+                      {"BIRTH", &G::birth, "T", "when it starts to hold"},
+                      {"DEATH", &G::death, "T", "when it ends", rules::or_blank(1e20)}}},
+          {.fields = {{"XT", &G::xt, "L",
+                       "tail: corner of plate and prism, end of the cylinder's axis, centre of the sphere, x",
+                       rules::point},
+                      {"YT", &G::yt, "L", "tail, y"},
+                      {"ZT", &G::zt, "L", "tail, z"},
+                      {"XH", &G::xh, "L", "head of the normal, or of the cylinder's axis, x", rules::point},
+                      {"YH", &G::yh, "L", "head, y"},
+                      {"ZH", &G::zh, "L", "head, z"},
+                      {"FRIC", &G::fric, "-", "0 slides, to 1 Coulomb, 1 does not slide", not_negative}}},
+          {.fields = {{"XHEV", &G::xhev, "L", "head of the edge l, which starts at the tail, x",
+                       rules::point},
+                      {"YHEV", &G::yhev, "L", "head of the edge l, y"},
+                      {"ZHEV", &G::zhev, "L", "head of the edge l, z"},
+                      {"LENL", &G::lenl, "L", "length of edge l, 0 infinite", not_negative},
+                      {"LENM", &G::lenm, "L", "length of edge m = normal x l, 0 infinite", not_negative},
+                      {"LENP", &G::lenp, "L", "prism: length against the normal, 0 infinite", not_negative}},
+           .when = [](const G& g) { return g.has_edge(); }},
+          {.fields = {{"RADCYL", &G::radcyl, "L", "radius of the cylinder", rules::required_positive},
+                      {"LENCYL", &G::lencyl, "L", "its length from the tail on, 0 infinite both ways",
+                       not_negative},
+                      {"NSEGS", &G::nsegs, "-", "sections for which forces are written", unsupported}},
+           .when = [](const G& g) { return g.shape() == G::Shape::cylinder; }},
+          {.fields = {{"RADSPH", &G::radsph, "L", "radius of the sphere", rules::required_positive}},
+           .when = [](const G& g) { return g.shape() == G::Shape::sphere; }},
+          {.fields = {{"LCID", &G::lcid, "-", "its motion over time", rules::required_id_of(IdSpace::curve)},
+                      {"OPT", &G::opt, "-", "0: of velocities, 1: of displacements", {.allowed = {0, 1}}},
+                      {"VX", &G::vx, "-", "direction of the motion, x", rules::direction},
+                      {"VY", &G::vy, "-", "direction of the motion, y"},
+                      {"VZ", &G::vz, "-", "direction of the motion, z"}},
+           .when = [](const G& g) { return g.moves(); }},
+          {.fields = {{"PID", &G::pid, "-", "part of the display", idle_id_of(IdSpace::part)},
+                      {"RO", &G::ro, "M/L3", "its density", no_effect},
+                      {"E", &G::E, "M/LT2", "its modulus", no_effect},
+                      {"PR", &G::pr, "-", "its Poisson ratio", no_effect}},
+           .optional = true,
+           .when = [](const G& g) { return g.display(); }}},
+     .move = [](G& g, const Affine& motion) {
+       return keep_lengths(g.lenl > 0 || g.lenm > 0 || g.lenp > 0 || g.radcyl > 0 || g.radsph > 0, motion);
+     }}};
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "model/mesh/part_inertia.hpp"
 #include "model/transforms/transformation.hpp"
 #include "rigid/body_cards.hpp"
+#include "rigid/deformable_to_rigid.hpp"
 #include "rigid/inertia.hpp"
 #include "rigid/mat_rigid.hpp"
 #include "rigid/rigid.hpp"
@@ -22,6 +23,12 @@ const MatRigid* find(const Deck& deck, Id mid) {
   for (const MatRigid& m : deck.all<MatRigid>())
     if (m.mid == mid) return &m;
   return nullptr;
+}
+
+/// Of a rigid part.
+std::optional<MatRigid> material_of(const Deck& deck, const Model& model, Index part) {
+  if (const MatRigid* m = find(deck, model.parts[static_cast<std::size_t>(part)].mid)) return *m;
+  return switched_material(deck, model, part);
 }
 
 void read_constraints(const Deck& deck, const MatRigid& m, RigidBody& body, Diagnostics& diagnostics) {
@@ -149,7 +156,7 @@ class Builder {
     b.part_index = part;
     b.c2 = m.ro > 0 ? m.E / m.ro : 0;
     Diagnostics told_before;
-    read_constraints(deck_, m, b, checked_.insert(&m).second ? diagnostics_ : told_before);
+    read_constraints(deck_, m, b, checked_.insert(m.mid).second ? diagnostics_ : told_before);
     std::set<Index> nodes;
     for (const ModelShell& shell : model_.shells)
       if (shell.part == part)
@@ -291,10 +298,13 @@ class Builder {
   }
 
   void refuse_spc(Index part, const ModelNode& node) {
-    if (!(node.fixed[0] || node.fixed[1] || node.fixed[2]) || !refused_.insert(part).second) return;
+    const auto turns = model_.held_rotations.find(static_cast<Index>(&node - model_.nodes.data()));
+    const auto any = [](const std::array<bool, 3>& axes) { return axes[0] || axes[1] || axes[2]; };
+    const bool turning = turns != model_.held_rotations.end() && any(turns->second);
+    if (!(any(node.fixed) || turning) || !refused_.insert(part).second) return;
     diagnostics_.error(model_.parts[part].where,
-                       fmt::format("*BOUNDARY_SPC or TC on node {} of rigid part {} is not supported",
-                                   node.id, model_.parts[part].id),
+                       fmt::format("*BOUNDARY_SPC or {} on node {} of rigid part {} is not supported",
+                                   any(node.fixed) ? "TC" : "RC", node.id, model_.parts[part].id),
                        "hold the body with CMO = 1, CON1 and CON2 of its *MAT_RIGID");
   }
 
@@ -363,14 +373,14 @@ class Builder {
   std::map<Id, Index> world_node_;
   std::vector<Index> owner_;
   std::set<Index> refused_;
-  std::set<const MatRigid*> checked_;  // one material may serve several parts
+  std::set<Id> checked_;  // one material may serve several parts
   std::vector<RigidBody> bodies_;
 };
 
 }  // namespace
 
 std::optional<RigidMaterial> rigid_material(const Deck& deck, const Model& model, Index part) {
-  const MatRigid* m = find(deck, model.parts[part].mid);
+  const auto m = material_of(deck, model, part);
   if (!m) return std::nullopt;
   return RigidMaterial{m->ro, m->E, m->pr};
 }
@@ -378,6 +388,7 @@ std::optional<RigidMaterial> rigid_material(const Deck& deck, const Model& model
 std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& model, World& world,
                                                 Diagnostics& diagnostics) {
   Builder builder(deck, model, world, diagnostics);
+  check_switched_parts(deck, model, diagnostics);
   for (const PartInertiaCard& card : deck.all<PartInertiaCard>())
     if (!find(deck, card.mid))
       deck.error(diagnostics, card, "MID",
@@ -385,8 +396,8 @@ std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& m
                  "give it one, or use *PART");
   for (Index part = 0; part < Index(model.parts.size()); ++part) {
     const ModelPart& p = model.parts[part];
-    const MatRigid* m = p.has_sph ? nullptr : find(deck, p.mid);
-    if (m) builder.add(part, *m);
+    if (p.has_sph) continue;
+    if (const auto m = material_of(deck, model, part)) builder.add(part, *m);
   }
   return builder.finish();
 }

@@ -78,7 +78,11 @@ class Follower {
 }  // namespace
 
 HalfStep next_half_step(const RigidBody& b, const Clock& clock) {
-  HalfStep next{b.v + b.force / b.m * clock.dt_mean(), b.L + b.moment * clock.dt_mean()};
+  return next_half_step(b, b.force, b.moment, clock);
+}
+
+HalfStep next_half_step(const RigidBody& b, const Vec& force, const Vec& moment, const Clock& clock) {
+  HalfStep next{b.v + force / b.m * clock.dt_mean(), b.L + moment * clock.dt_mean()};
   for (const PrescribedMotion& motion : b.motions) {
     if (!motion.drives(clock.t, clock.dt)) continue;
     if (motion.turns) {

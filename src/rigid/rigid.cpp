@@ -21,6 +21,24 @@ Eigen::Quaterniond turned(const Vec& angle, const Eigen::Quaterniond& q) {
   return (Eigen::Quaterniond(Eigen::AngleAxisd(a, angle / a)) * q).normalized();
 }
 
+/// Body loads are linear in the place: a(x) = a(centre) + A (x - centre). The columns of A. [1/T2]
+Matrix gradient_of(const BodyAcceleration::At& now, const RigidBody& b) {
+  const Real size = std::sqrt(b.J0.trace() / b.m);
+  Matrix A;
+  for (int k = 0; k < 3; ++k)
+    A.col(k) = (now(b.x + size * Vec::Unit(k), b.part_index) - now(b.x - size * Vec::Unit(k), b.part_index)) /
+               (2 * size);
+  return A;
+}
+
+/// Integral of r x A r dm over a body: its mass need not be where its nodes are.
+Vec moment_of(const BodyAcceleration::At& now, const RigidBody& b) {
+  const Matrix A = gradient_of(now, b), S = b.second_moments();
+  Vec sum = Vec::Zero();
+  for (int k = 0; k < 3; ++k) sum += Vec(S.col(k)).cross(Vec(A.col(k)));
+  return sum;
+}
+
 /// Calls `work(body, piece)` for nodes [piece.begin, piece.end) of bodies, on all threads.
 template <class Work>
 void for_each_piece(std::vector<RigidBody>& bodies, std::vector<RigidBodies::Piece>& pieces,
@@ -47,6 +65,11 @@ std::array<Vec, 2> RigidBody::load_at(Real t) const {
   return out;
 }
 
+Matrix RigidBody::second_moments() const {
+  const Matrix R = q.toRotationMatrix(), J = R * J0 * R.transpose();
+  return 0.5 * J.trace() * Matrix::Identity() - J;
+}
+
 // With some rotations held only the rows of L = J omega along the free axes count; the others hold the
 // reaction.
 Vec RigidBody::omega_of(const Eigen::Quaterniond& orientation) const {
@@ -64,6 +87,23 @@ Vec RigidBody::turning_by(const Vec& angular_momentum, const Eigen::Quaterniond&
     rhs[k] = 0;
   }
   return J.inverse() * rhs;
+}
+
+// omega of the half step belongs to the orientation in the middle of the step, which depends on omega.
+Vec turning_over(const RigidBody& b, const Vec& L, Real dt) {
+  Vec omega = b.turning_by(L, b.q);
+  for (int it = 0; it < 20; ++it) {
+    const Vec next = b.turning_by(L, turned(0.5 * dt * omega, b.q));
+    const bool done = (next - omega).norm() <= 1e-15 * next.norm();
+    omega = next;
+    if (done) break;
+  }
+  return omega;
+}
+
+BodyPose pose_after(const RigidBody& b, const HalfStep& next, Real dt) {
+  if (b.fixed()) return {b.x, b.q};
+  return {b.x + next.v * dt, turned(dt * turning_over(b, next.L, dt), b.q)};
 }
 
 bool RigidBodies::any_moves() const {
@@ -88,9 +128,7 @@ void RigidBodies::apply(World& world, const Clock& clock) {
     piece.force.setZero(), piece.moment.setZero();
     for (Index k = piece.begin; k < piece.end; ++k) {
       const Index n = b.nodes[k];
-      Vec f = world.nodes.f.vec(n);
-      if (!loads_.uniform())
-        f += world.nodes.m[n] * (now(world.nodes.x.vec(n), b.part_index) - now.everywhere());
+      const Vec f = world.nodes.f.vec(n);
       piece.force += f;
       piece.moment += (world.nodes.x.vec(n) - b.x).cross(f);
       if (moment) piece.moment += moment->vec(n);
@@ -99,8 +137,9 @@ void RigidBodies::apply(World& world, const Clock& clock) {
   for (RigidBody& b : bodies_) {
     if (b.fixed()) continue;
     const auto [force, moment] = b.load_at(clock.t);
-    b.force = b.m * now.everywhere() + force;
+    b.force = b.m * now(b.x, b.part_index) + force;
     b.moment = moment;
+    if (!loads_.uniform()) b.moment += moment_of(now, b);
   }
   for (const Piece& piece : pieces_) {
     bodies_[piece.body].force += piece.force;
@@ -119,15 +158,7 @@ void RigidBodies::kick(World&, const Clock& clock) {
     const HalfStep next = next_half_step(b, clock);
     b.v = next.v;
     b.L = next.L;
-    // omega of the half step belongs to the orientation in the middle of the step, which depends on omega.
-    Vec omega = b.omega_of(b.q);
-    for (int it = 0; it < 20; ++it) {
-      const Vec next = b.omega_of(turned(0.5 * clock.dt * omega, b.q));
-      const bool done = (next - omega).norm() <= 1e-15 * next.norm();
-      omega = next;
-      if (done) break;
-    }
-    b.omega = omega;
+    b.omega = turning_over(b, next.L, clock.dt);
   }
 }
 
@@ -160,7 +191,6 @@ class BodyForces : public Constraint {
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.in_finish().reads(world.nodes.f).reads(world.nodes.x);
-    if (!bodies_->loads_are_uniform()) a.reads(world.nodes.m);
     if (const auto* moment = shared_fields::moment.find(world.nodes.fields)) a.reads(*moment);
   }
   void block(World&, const Clock&, Index, Index) override {}
@@ -231,14 +261,31 @@ WallBodies RigidBodies::wall_bodies(const World& world) {
     return next.v - b.v + b.turning_by(next.L - b.L, b.q).cross(q - b.x);
   };
   out.push = [this](Index body, const Vec& q, const Vec& force) {
-    RigidBody& b = bodies_[static_cast<std::size_t>(body)];
-    const Vec moment = (q - b.x).cross(force);
-    for (int k = 0; k < 3; ++k) {
-      if (!b.held[k]) b.force[k] += force[k];
-      if (!b.no_turn[k]) b.moment[k] += moment[k];
-    }
+    push(static_cast<std::size_t>(body), force, (q - bodies_[static_cast<std::size_t>(body)].x).cross(force));
   };
   return out;
+}
+
+void RigidBodies::push(std::size_t body, const Vec& force, const Vec& moment) {
+  RigidBody& b = bodies_[body];
+  for (int k = 0; k < 3; ++k) {
+    if (!b.held[k]) b.force[k] += force[k];
+    if (!b.no_turn[k]) b.moment[k] += moment[k];
+  }
+}
+
+void RigidBodies::strike_at_start(std::size_t body, const Vec& impulse, const Vec& turn, World& world) {
+  RigidBody& b = bodies_[body];
+  for (int k = 0; k < 3; ++k) {
+    if (!b.held[k]) b.v[k] += impulse[k] / b.m;
+    if (!b.no_turn[k]) b.L[k] += turn[k];
+  }
+  b.omega = b.omega_of(b.q);
+  Field<Real>* turning = shared_fields::angular_velocity.find(world.nodes.fields);
+  for (std::size_t k = 0; k < b.nodes.size(); ++k) {
+    world.nodes.v.set(b.nodes[k], b.v + b.omega.cross(b.X[k]));
+    if (turning) turning->set(b.nodes[k], b.omega);
+  }
 }
 
 Real RigidBodies::rest_energy() const {
@@ -249,22 +296,19 @@ Real RigidBodies::rest_energy() const {
 }
 
 // Of each axis along which the body can move, and of what is not the same everywhere.
-std::array<Real, 4> RigidBodies::potential(const RigidBody& b, const World& world,
-                                           const BodyAcceleration::At& now) const {
+std::array<Real, 4> RigidBodies::potential(const RigidBody& b, const BodyAcceleration::At& now) const {
   std::array<Real, 4> sums{};
   if (b.fixed()) return sums;
   const Vec& g = now.everywhere();
   for (int k = 0; k < 3; ++k)
     if (!b.held[k]) sums[static_cast<std::size_t>(k)] = -b.m * g[k] * b.x[k];
   if (loads_.uniform()) return sums;
-  for (const Index n : b.nodes) {
-    const Vec x = world.nodes.x.vec(n);
-    sums[3] += world.nodes.m[n] * (now.potential(x, b.part_index) + g.dot(x));
-  }
+  const Matrix A = gradient_of(now, b);
+  sums[3] = b.m * (now.potential(b.x, b.part_index) + g.dot(b.x)) - 0.5 * (A * b.second_moments()).trace();
   return sums;
 }
 
-void RigidBodies::record(World& world, const Clock& clock, EnergyLedger& ledger) {
+void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
   for (RigidBody& b : bodies_) {
     const Real work = b.motions.empty() ? 0 : work_of_drives(b, clock);
     b.drive_work += work;
@@ -284,13 +328,13 @@ void RigidBodies::record(World& world, const Clock& clock, EnergyLedger& ledger)
   const BodyAcceleration::At change = loads_.change(clock.t, clock.t + clock.dt);
   if (change.zero()) return;
   for (const RigidBody& b : bodies_)
-    for (const Real work : potential(b, world, change)) {
+    for (const Real work : potential(b, change)) {
       ledger.external_work += work;
       ledger.throughput += std::abs(work);
     }
 }
 
-void RigidBodies::sample(const World& world, const Clock& clock, EnergyLedger& ledger) const {
+void RigidBodies::sample(const World&, const Clock& clock, EnergyLedger& ledger) const {
   ledger.kinetic += kinetic_energy();
   for (const RigidBody& b : bodies_)
     if (!b.fixed())
@@ -299,7 +343,7 @@ void RigidBodies::sample(const World& world, const Clock& clock, EnergyLedger& l
   if (loads_.none()) return;
   const BodyAcceleration::At now = loads_.at(clock.t);
   for (const RigidBody& b : bodies_)
-    for (const Real energy : potential(b, world, now)) ledger.potential += energy;
+    for (const Real energy : potential(b, now)) ledger.potential += energy;
 }
 
 std::vector<RigidBodyReport> RigidBodies::reports() const {

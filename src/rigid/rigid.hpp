@@ -57,6 +57,8 @@ struct RigidBody {
   /// Sum of the forces and of the moments of `loads` at a time, as far as the body can follow.
   std::array<Vec, 2> load_at(Real t) const;
   Real kinetic_energy() const { return 0.5 * (m * v.squaredNorm() + omega.dot(L)); }
+  /// Integral of r r^T dm over the body, r from the centre, as it is turned now. [ML2]
+  Matrix second_moments() const;
   /// Angular velocity that belongs to L in orientation q, with rotations held about some axes.
   Vec omega_of(const Eigen::Quaterniond& orientation) const;
   /// The same of any angular momentum. [1/T]
@@ -69,6 +71,17 @@ struct HalfStep {
 };
 /// From the forces on a body, and from its prescribed motions where there are any.
 HalfStep next_half_step(const RigidBody& body, const Clock& clock);
+/// From other forces than those that the body has now. [ML/T2], [ML2/T2]
+HalfStep next_half_step(const RigidBody& body, const Vec& force, const Vec& moment, const Clock& clock);
+/// How a body turns over a step that starts in its orientation q with the angular momentum L: omega of the
+/// middle of the step. [1/T]
+Vec turning_over(const RigidBody& body, const Vec& L, Real dt);
+/// Place and orientation a step later.
+struct BodyPose {
+  Vec x = Vec::Zero();
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+};
+BodyPose pose_after(const RigidBody& body, const HalfStep& next, Real dt);
 /// Work of the drives of a body over the coming step [ML2/T2].
 Real work_of_drives(const RigidBody& body, const Clock& clock);
 /// Force and moment of the drives at t^n.
@@ -83,9 +96,6 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   explicit RigidBodies(std::vector<RigidBody> bodies);
 
   void set_loads(BodyAcceleration loads) { loads_ = std::move(loads); }
-
-  /// Forces depend on where nodes are and on their masses.
-  bool loads_are_uniform() const { return loads_.uniform(); }
 
   std::string name() const override { return "rigid bodies"; }
   /// Sums the forces on the bodies' nodes: each piece alone, then the pieces in order, so that any number of
@@ -105,6 +115,11 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
               Diagnostics& diagnostics);
   /// For contact with their faces. Refers to this object.
   WallBodies wall_bodies(const World& world);
+  /// Adds to what moves a body in the coming step, after forces were summed; what holds the body takes its
+  /// part. [ML/T2], [ML2/T2]
+  void push(std::size_t body, const Vec& force, const Vec& moment);
+  /// Changes the velocity of the centre and the angular momentum before the first step. [ML/T], [ML2/T]
+  void strike_at_start(std::size_t body, const Vec& impulse, const Vec& turn, World& world);
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   /// Force and moment are those on the free body; zero for bodies that are fixed.
@@ -123,8 +138,7 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   };
 
  private:
-  std::array<Real, 4> potential(const RigidBody& body, const World& world,
-                                const BodyAcceleration::At& now) const;
+  std::array<Real, 4> potential(const RigidBody& body, const BodyAcceleration::At& now) const;
   std::vector<RigidBody> bodies_;
   std::vector<Piece> pieces_;
   BodyAcceleration loads_;

@@ -77,6 +77,17 @@ struct RigidWallReporter {
   virtual RigidWallForce report_wall() const = 0;
 };
 
+/// What a joint does to its second body at t^n, at its place there, in global axes.
+struct JointForce {
+  Id id = 0;
+  std::string title;
+  Vec force = Vec::Zero(), moment = Vec::Zero();  ///< [ML/T2], [ML2/T2]
+};
+struct JointReporter {
+  virtual ~JointReporter() = default;
+  virtual void report_joints(std::vector<JointForce>& out) const = 0;
+};
+
 /// How a rigid body moves at t^n; velocities are those of the last half step.
 struct RigidBodyMotion {
   Id part = 0;

@@ -169,6 +169,55 @@ TEST(NodeContact, StressGoesOnFromBlockToBlock) {
   }
 }
 
+// Nine nodes are behind the upper face of the larger block when the contact is born, and keep their depth
+// without force: the summary counts them.
+TEST(NodeContact, TellsOfWhatIsBehindFacesAtItsBirth) {
+  SolidDeck deck;
+  deck.block(Vec(1, 1, 0.5), 2, 2, 2, 1);
+  deck.block(Vec(0.4, 0.4, 0.4), 2, 2, 2, 2, [](const Vec& x) { return Vec(x + Vec(0.3, 0.3, 0.49)); });
+  deck.cards = elastic_part(1, 1000, 1e7, 0) + elastic_part(2, 1000, 1e7, 0) +
+               "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n         2         1         3         3\n"
+               "                                                                 0.002\n       1.0\n";
+  auto s = simulation_of(deck.text(1));
+  EXPECT_EQ(s->world().counters.at("penetrations_at_birth"), 0);
+  while (s->clock().t < 0.001) s->step(write_nothing);
+  EXPECT_EQ(s->world().counters.at("penetrations_at_birth"), 0);
+  while (s->clock().t < 0.01) s->step(write_nothing);
+  EXPECT_EQ(s->world().counters.at("penetrations_at_birth"), 9);
+  EXPECT_EQ(interface_of(*s).on_surfa, Vec::Zero());
+}
+
+// A column of three: a transducer tells what all contacts do to its parts, and what is inside of it cancels.
+TEST(NodeContact, TransducersTellTheForceOnTheirParts) {
+  constexpr Real L = 0.1, E = 1e7, rho = 1000, g = 200;
+  SolidDeck deck;
+  for (int k = 0; k < 3; ++k)
+    deck.block(Vec(L, L, L), 2, 2, 2, k + 1, [=](const Vec& x) { return Vec(x + Vec(0, 0, k * L)); });
+  for (int k = 1; k <= 3; ++k) deck.cards += elastic_part(k, rho, E, 0);
+  deck.node_set(1, [](const Vec& x) { return x[2] < 1e-9; });
+  deck.cards += "*BOUNDARY_SPC_SET\n         1         0         1         1         1\n" + weight(g) +
+                "*DAMPING_GLOBAL\n         0     600.0\n" + contact("AUTOMATIC_SURFACE_TO_SURFACE") +
+                "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n         2         3         3         3\n\n\n"
+                "*SET_PART_LIST\n         7\n         2         3\n"
+                "*CONTACT_FORCE_TRANSDUCER_PENALTY_ID\n        11middle\n         2         0         3\n\n\n"
+                "*CONTACT_FORCE_TRANSDUCER_PENALTY\n         3         0         3\n"
+                "*CONTACT_FORCE_TRANSDUCER_PENALTY\n         7         0         2\n"
+                "*CONTACT_FORCE_TRANSDUCER_PENALTY\n         1         0         3\n";
+  auto s = simulation_of(deck.text(1));
+  while (s->clock().t < 0.15) s->step(write_nothing);
+  const auto all = s->world().passes.all<InterfaceReporter>();
+  ASSERT_EQ(all.size(), 6u);
+  const Real one = rho * g * L * L * L;
+  const std::array<Real, 4> expected{one, one, 2 * one, -2 * one};
+  const std::array<Id, 4> ids{11, 3, 4, 5};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const InterfaceForce told = all[2 + k]->report();
+    EXPECT_EQ(told.id, ids[k]);
+    EXPECT_NEAR((told.on_surfa - Vec(0, 0, expected[k])).norm(), 0, 2e-3 * one) << k;
+  }
+  EXPECT_EQ(all[2]->report().title, "middle");
+}
+
 // a = g (sin alpha - mu cos alpha) above the angle of friction; below it the block creeps only as far as the
 // springs of friction give way, mu N / (k of all nodes).
 // Small solids on large ones, pressed in by a good part of their own size, cross the edges of the large ones.

@@ -119,3 +119,58 @@ TEST(RigidBodyCards, ExtraNodesGoWithTheirBody) {
   EXPECT_NEAR((L - L0).norm(), 0, 2e-3 * L0.norm());  // places and velocities are half a step apart
   EXPECT_NEAR((nodes.x.vec(nodes.size() - 1) - b.x - b.q * arm).norm(), 0, 1e-12);
 }
+
+namespace {
+
+const char* const given =
+    "*PART_INERTIA\nbrick\n         1         1         1\n       0.1       0.2       0.3       7.0\n"
+    "       2.0       0.1       0.2       3.0       0.3       4.0\n\n";
+
+}  // namespace
+
+// Weight acts on the given mass, not on that of the elements, of which the part has 48.
+TEST(RigidBodyCards, WeightOfAPartActsOnTheGivenMass) {
+  const auto s = brick(given, "*LOAD_GRAVITY_PART\n         1         3         1       2.0\n");
+  const RigidBody& b = s->bodies()->bodies().front();
+  test::start_ledger(*s);
+  while (s->clock().t < 0.5) s->step(do_nothing);
+  EXPECT_NEAR(b.force[2], -14, 1e-12);
+  EXPECT_NEAR(b.moment.norm(), 0, 1e-12);
+  sample_energy(s->world(), s->clock());
+  EXPECT_LT(std::abs(s->world().energy.unexplained()), 1e-9 * s->world().energy.kinetic);
+}
+
+// In a frame that turns with w: force m w^2 r of the centre, moment -w x J w.
+TEST(RigidBodyCards, ATurningFrameActsOnTheGivenInertia) {
+  const auto s = brick(given, "*LOAD_BODY_RX\n         1       3.0\n");
+  const RigidBody& b = s->bodies()->bodies().front();
+  test::start_ledger(*s);
+  const Vec w(3, 0, 0);
+  EXPECT_NEAR((b.force - 7 * 9 * Vec(0, 0.2, 0.3)).norm(), 0, 1e-12);
+  EXPECT_NEAR((b.moment + w.cross(Vec(b.J0 * w))).norm(), 0, 1e-11);
+  while (s->clock().t < 0.5) s->step(do_nothing);
+  sample_energy(s->world(), s->clock());
+  EXPECT_LT(std::abs(s->world().energy.unexplained()), 1e-4 * s->world().energy.kinetic);
+}
+
+// A part of an elastic material that is switched moves as a rigid body of that mass and inertia.
+TEST(RigidBodyCards, ADeformablePartMayBeRigidFromTheStart) {
+  SolidDeck deck;
+  deck.block(Vec(0.2, 0.4, 0.6), 2, 2, 2, 1);
+  deck.cards =
+      plain +
+      "*SECTION_SOLID\n         1         1\n*MAT_ELASTIC\n         1    1000.0     1.0E9       0.3\n"
+      "*DEFORMABLE_TO_RIGID\n         1         0PART\n"
+      "*INITIAL_VELOCITY_RIGID_BODY\n         1       1.0       2.0       3.0       0.5       0.0       "
+      "0.0\n";
+  const auto s = simulation_of(deck.text(1));
+  ASSERT_NE(s, nullptr);
+  EXPECT_TRUE(s->world().groups.empty()) << "no element deforms";
+  const RigidBody& b = s->bodies()->bodies().front();
+  EXPECT_NEAR(b.m, 48, 1e-12);
+  EXPECT_NEAR(b.J0(0, 0), 4 * (0.16 + 0.36), 1e-12);
+  EXPECT_NEAR(b.c2, 1e6, 1e-6);
+  while (s->clock().t < 0.5) s->step(do_nothing);
+  EXPECT_NEAR((b.x - Vec(0.1, 0.2, 0.3) - s->clock().t * Vec(1, 2, 3)).norm(), 0, 1e-12);
+  EXPECT_NEAR(b.omega[0], 0.5, 1e-12);
+}

@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "contact/nodes/transducer.hpp"
+
 namespace courant {
 
 namespace {
@@ -56,8 +58,11 @@ class NodeContactBuilder {
     auto contact =
         std::make_shared<NodeContact>(law_of(c, number), std::move(sides), options_.bodies, number, world_);
     report_penetrations(c, contact->penetrations(world_));
+    if (c.bt > 0) world_.counters["penetrations_at_birth"] += 0;
     add_node_contact(world_, contact);
+    contacts_.push_back(contact);
   }
+  const std::vector<std::shared_ptr<const NodeContact>>& contacts() const { return contacts_; }
 
  private:
   void check(const ContactCard& c, const std::vector<Index>& nodes_a) {
@@ -254,6 +259,7 @@ class NodeContactBuilder {
   FaceFinder finder_;
   ControlContact control_;
   ShellThickness thickness_;
+  std::vector<std::shared_ptr<const NodeContact>> contacts_;
 };
 
 }  // namespace
@@ -263,6 +269,7 @@ void add_node_contacts(const Deck& deck, const Model& model, const NodeContactOp
   NodeContactBuilder builder(deck, model, options, world, diagnostics);
   int number = 0;
   for (const ContactCard& c : deck.all<ContactCard>()) builder.add(c, ++number);
+  add_force_transducers(deck, model, options, builder.contacts(), world, diagnostics);
 }
 
 }  // namespace courant

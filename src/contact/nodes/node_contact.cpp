@@ -201,6 +201,14 @@ void NodeContact::finish(World& world, const Clock&) {
     Real& most = world.maxima["max_penetration"];
     most = std::max(most, deepest);
   }
+  // who is born later than the run tells here what of the start is told while the run is built
+  if (!asleep_ && fresh_ && law_.birth > 0)
+    for (Index i = 0; i < set_->size(); ++i) {
+      bool behind = false;
+      for (int k = 0; k < most_touches; ++k)
+        behind = behind || (load(i, k).face >= 0 && load(i, k).slack > 0);
+      world.counters["penetrations_at_birth"] += behind;
+    }
   if (!asleep_) fresh_ = false;
   gather(world);
 }

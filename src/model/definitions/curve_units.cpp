@@ -32,6 +32,13 @@ constexpr CurveDimensions known[] = {
     {"BOUNDARY_PRESCRIBED_MOTION_NODE", "LCID", "T", "L/T"},
     {"BOUNDARY_PRESCRIBED_MOTION_SET", "LCID", "T", "L/T"},
     {"BOUNDARY_PRESCRIBED_MOTION_RIGID", "LCID", "T", "L/T"},
+    {"RIGIDWALL_GEOMETRIC_FLAT", "LCID", "T", "L/T"},  // OPT 0
+    {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED", "LCIDPH", "-", "ML2/T2"},
+    {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED", "LCIDT", "-", "ML2/T2"},
+    {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED", "LCIDPS", "-", "ML2/T2"},
+    {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED", "DLCIDPH", "1/T", "ML2/T2"},
+    {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED", "DLCIDT", "1/T", "ML2/T2"},
+    {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED", "DLCIDPS", "1/T", "ML2/T2"},
 };
 
 /// Values by VAD and by what DOF drives: a translation, a rotation.
@@ -43,6 +50,7 @@ const char* of_entry_itself(const KeywordSpec& spec, const Entry& entry) {
   constexpr Real first_rotation = 5;
   if (spec.names[0].rfind("LOAD_NODE", 0) == 0 || spec.names[0] == "LOAD_RIGID_BODY")
     return spec.number_of(entry, 0, dof_field) >= first_rotation ? "ML2/T2" : nullptr;
+  if (spec.names[0] == "RIGIDWALL_GEOMETRIC_FLAT") return spec.number_of(entry, 5, 1) == 1 ? "L" : nullptr;
   if (spec.names[0].rfind("BOUNDARY_PRESCRIBED_MOTION", 0) != 0) return nullptr;
   const Real dof = spec.number_of(entry, 0, dof_field), vad = spec.number_of(entry, 0, vad_field);
   if (!(vad >= 0 && vad <= 2)) return nullptr;  // refused later

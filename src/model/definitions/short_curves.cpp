@@ -25,7 +25,8 @@ Real number_named(const KeywordSpec& spec, const Entry& entry, std::string_view 
 bool is_load_or_motion(const KeywordSpec& spec, std::string_view field) {
   if (!spec.lacking.empty() || !curve_dimensions(spec.names[0], field)) return false;
   const std::string& name = spec.names[0];
-  return name.starts_with("LOAD_") || name.starts_with("DAMPING_") || name.starts_with("BOUNDARY_");
+  return name.starts_with("LOAD_") || name.starts_with("DAMPING_") || name.starts_with("BOUNDARY_") ||
+         name.starts_with("RIGIDWALL_");
 }
 
 }  // namespace

@@ -1,0 +1,125 @@
+// *CONTACT_FORCE_TRANSDUCER_PENALTY: tells the force of all contacts on a surface.
+#include "contact/nodes/transducer.hpp"
+
+#include <fmt/format.h>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+
+namespace courant {
+
+namespace {
+
+/// What it names is found as for contacts.
+struct TransducerCard : ContactCard {};
+using T = TransducerCard;
+
+IdSpace space_of_surface(int type) {
+  constexpr IdSpace spaces[] = {IdSpace::segment_set, IdSpace::shell_set, IdSpace::part_set, IdSpace::part};
+  return type >= 0 && type <= 3 ? spaces[type] : IdSpace::none;
+}
+
+constexpr FieldRules time_span{.standard = 1e20, .honour = Honour::output_only};
+const RegisterKeyword<T> transducer_keyword{
+    {.names = {"CONTACT_FORCE_TRANSDUCER_PENALTY"},
+     .purpose = "force of all contacts of elements on SURFA, in rcforc; it pushes nothing itself",
+     .id_space = IdSpace::contact,
+     .id_option = true,
+     .mpp_option = true,
+     .title = &T::title,
+     .id = &T::cid,
+     .many = false,
+     .cards = {{.fields = {{"SURFA",
+                            &T::surfa,
+                            "-",
+                            "what SURFATYP tells",
+                            {},
+                            [](const T& card) { return space_of_surface(card.surfatyp); }},
+                           {"SURFB", &T::surfb, "-", "forces between SURFA and SURFB alone", unsupported,
+                            [](const T& card) { return space_of_surface(card.surfbtyp); }},
+                           {"SURFATYP",
+                            &T::surfatyp,
+                            "-",
+                            "0 segment set, 1 shell set, 2 part set, 3 part, 5 all, 6 all but a part set",
+                            {.allowed = {0, 1, 2, 3, 5, 6}}},
+                           {"SURFBTYP", &T::surfbtyp, "-", "kind of SURFB", no_effect},
+                           {"SABOXID", &T::saboxid, "-", "box that restricts SURFA at the start",
+                            rules::optional_id_of(IdSpace::box)},
+                           {"SBBOXID",
+                            &T::sbboxid,
+                            "-",
+                            "box of SURFB",
+                            {.honour = Honour::ignored, .refers = IdSpace::box}},
+                           {"SAPR", &T::sapr, "-", "SURFA in interface files", no_effect},
+                           {"SBPR", &T::sbpr, "-", "SURFB in interface files", no_effect}}},
+               {.fields = {{"FS", &T::fs, "-", "friction: none of its own", no_effect},
+                           {"FD", &T::fd, "-", "friction", no_effect},
+                           {"DC", &T::dc, "T/L", "friction", no_effect},
+                           {"VC", &T::vc, "M/LT2", "friction", no_effect},
+                           {"VDC", &T::vdc, "-", "damping", no_effect},
+                           {"PENCHK", &T::penchk, "-", "release of nodes", no_effect},
+                           {"BT", &T::bt, "T", "birth time: it tells all the time", no_output},
+                           {"DT", &T::dt, "T", "death time: it tells all the time", time_span}},
+                .optional = true},
+               {.fields = {{"SFSA", &T::sfsa, "-", "stiffness", no_effect},
+                           {"SFSB", &T::sfsb, "-", "stiffness", no_effect},
+                           {"SAST", &T::sast, "L", "thickness", no_effect},
+                           {"SBST", &T::sbst, "L", "thickness", no_effect},
+                           {"SFSAT", &T::sfsat, "-", "thickness", no_effect},
+                           {"SFSBT", &T::sfsbt, "-", "thickness", no_effect},
+                           {"FSF", &T::fsf, "-", "friction", no_effect},
+                           {"VSF", &T::vsf, "-", "friction", no_effect}},
+                .optional = true}}}};
+
+/// Sums what contacts do to nodes. What touches inside of the surface cancels.
+class ForceTransducer : public Pass, public InterfaceReporter {
+ public:
+  ForceTransducer(Id id, std::string title, std::vector<Index> nodes,
+                  std::vector<std::shared_ptr<const NodeContact>> contacts)
+      : id_(id), title_(std::move(title)), nodes_(std::move(nodes)), contacts_(std::move(contacts)) {}
+  std::string name() const override { return fmt::format("force transducer {}", id_); }
+  InterfaceForce report() const override {
+    InterfaceForce out{.id = id_, .title = title_};
+    for (const auto& contact : contacts_)
+      for (const Index n : nodes_) contact->add_force_on(n, out.on_surfa);
+    return out;
+  }
+
+ private:
+  Id id_;
+  std::string title_;
+  std::vector<Index> nodes_;
+  std::vector<std::shared_ptr<const NodeContact>> contacts_;
+};
+
+}  // namespace
+
+void add_force_transducers(const Deck& deck, const Model& model, const NodeContactOptions& options,
+                           const std::vector<std::shared_ptr<const NodeContact>>& contacts, World& world,
+                           Diagnostics& diagnostics) {
+  FaceFinder finder(deck, model, options.bulk_modulus, world, diagnostics);
+  const auto& others = deck.all<ContactCard>();
+  std::set<Id> taken;
+  for (std::size_t k = 0; k < others.size(); ++k)
+    taken.insert(others[k].cid > 0 ? others[k].cid : static_cast<Id>(k + 1));
+  for (const T& card : deck.all<T>()) taken.insert(card.cid);
+  for (const T& card : deck.all<T>()) {
+    const int errors = diagnostics.errors();
+    const std::vector<Index> nodes = finder.nodes(card, ContactSide::a, finder.faces(card, ContactSide::a));
+    if (diagnostics.errors() > errors) continue;
+    if (!options.with_particles.empty())
+      deck.error(diagnostics, card, "SURFA", "the forces of particles are not told by transducers",
+                 "leave it out, or the contacts of particles: their own forces are in rcforc");
+    if (nodes.empty() || contacts.empty())
+      deck.warning(diagnostics, card, "SURFA",
+                   contacts.empty() ? "there is no contact of elements whose force it could tell"
+                                    : "it has no nodes of elements",
+                   "leave it out");
+    Id id = card.cid;
+    for (Id next = 1; id == 0; ++next)
+      if (taken.insert(next).second) id = next;
+    world.passes.add(std::make_shared<ForceTransducer>(id, card.title, nodes, contacts));
+  }
+}
+
+}  // namespace courant

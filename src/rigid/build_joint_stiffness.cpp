@@ -1,0 +1,158 @@
+// *CONSTRAINED_JOINT_STIFFNESS_GENERALIZED.
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "rigid/joint_stiffness_pass.hpp"
+
+namespace courant {
+
+namespace {
+
+struct JointStiffnessCard : Entry {
+  std::string title;
+  Id jsid = 0, pida = 0, pidb = 0, cida = 0, cidb = 0, jid = 0, lcidph = 0, lcidt = 0, lcidps = 0,
+     dlcidph = 0, dlcidt = 0, dlcidps = 0;
+  Real esph = 0, fmph = 0, est = 0, fmt = 0, esps = 0, fmps = 0, nsaph = 0, psaph = 0, nsat = 0, psat = 0,
+       nsaps = 0, psaps = 0;
+};
+using S = JointStiffnessCard;
+constexpr FieldRules curve_or_none = rules::optional_id_of(IdSpace::curve);
+constexpr FieldRules stiff{.check = Check::not_negative};
+constexpr FieldRules below{.check = Check::not_positive}, above{.check = Check::not_negative};
+
+const RegisterKeyword<S> joint_stiffness_keyword{
+    {.names = {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED"},
+     .purpose = "moments that resist the turning of two rigid bodies: about x of the first by PHI, about the "
+                "turned y by THETA, about z of the second by PSI",
+     .id_space = IdSpace::joint_stiffness,
+     .title_option = true,
+     .title = &S::title,
+     .cards = {
+         {.fields = {{"JSID", &S::jsid, "-", "id of the stiffness", rules::required_id},
+                     {"PIDA", &S::pida, "-", "first rigid part", rules::required_id_of(IdSpace::part)},
+                     {"PIDB", &S::pidb, "-", "second rigid part", rules::required_id_of(IdSpace::part)},
+                     {"CIDA", &S::cida, "-", "system that turns with the first part, 0 the global axes",
+                      rules::optional_id_of(IdSpace::coordinate_system)},
+                     {"CIDB", &S::cidb, "-", "system that turns with the second part, 0 as CIDA",
+                      rules::optional_id_of(IdSpace::coordinate_system)},
+                     {"JID",
+                      &S::jid,
+                      "-",
+                      "joint beside it",
+                      {.honour = Honour::ignored, .refers = IdSpace::joint}}}},
+         {.fields = {{"LCIDPH", &S::lcidph, "-", "moment over PHI, in radians, 0 none", curve_or_none},
+                     {"LCIDT", &S::lcidt, "-", "moment over THETA, 0 none", curve_or_none},
+                     {"LCIDPS", &S::lcidps, "-", "moment over PSI, 0 none", curve_or_none},
+                     {"DLCIDPH", &S::dlcidph, "-", "moment over the rate of PHI, 0 none", curve_or_none},
+                     {"DLCIDT", &S::dlcidt, "-", "moment over the rate of THETA, 0 none", curve_or_none},
+                     {"DLCIDPS", &S::dlcidps, "-", "moment over the rate of PSI, 0 none", curve_or_none}}},
+         {.fields = {{"ESPH", &S::esph, "ML2/T2", "stiffness of friction and stops of PHI, a radian", stiff},
+                     {"FMPH", &S::fmph, "ML2/T2", "largest moment of friction of PHI, 0 none", stiff},
+                     {"EST", &S::est, "ML2/T2", "stiffness of friction and stops of THETA", stiff},
+                     {"FMT", &S::fmt, "ML2/T2", "largest moment of friction of THETA, 0 none", stiff},
+                     {"ESPS", &S::esps, "ML2/T2", "stiffness of friction and stops of PSI", stiff},
+                     {"FMPS", &S::fmps, "ML2/T2", "largest moment of friction of PSI, 0 none", stiff}}},
+         {.fields = {{"NSAPH", &S::nsaph, "-", "stop of PHI below 0, degrees, 0 none", below},
+                     {"PSAPH", &S::psaph, "-", "stop of PHI above 0, degrees, 0 none", above},
+                     {"NSAT", &S::nsat, "-", "stop of THETA below 0, degrees, 0 none", below},
+                     {"PSAT", &S::psat, "-", "stop of THETA above 0, degrees, 0 none", above},
+                     {"NSAPS", &S::nsaps, "-", "stop of PSI below 0, degrees, 0 none", below},
+                     {"PSAPS", &S::psaps, "-", "stop of PSI above 0, degrees, 0 none", above}}}}}};
+
+class StiffnessReader {
+ public:
+  StiffnessReader(const Deck& deck, const Model& model, const std::vector<RigidBody>& bodies,
+                  Diagnostics& diagnostics)
+      : deck_(deck), model_(model), bodies_(bodies), diagnostics_(diagnostics) {}
+
+  std::optional<JointStiffness> read(const S& card) {
+    const auto a = body(card, "PIDA", card.pida), b = body(card, "PIDB", card.pidb);
+    const auto axes_a = axes(card, "CIDA", card.cida);
+    const auto axes_b = card.cidb == 0 ? axes_a : axes(card, "CIDB", card.cidb);
+    if (!a || !b || !axes_a || !axes_b) return std::nullopt;
+    if (*a == *b)
+      return error(card, "PIDB", fmt::format("the same part {} twice", card.pida),
+                   "name the other body of the joint");
+    JointStiffness out{.id = card.jsid, .a = *a, .b = *b, .axes_a = *axes_a, .axes_b = *axes_b};
+    const bool good = resistance(card, {"LCIDPH", "DLCIDPH", "ESPH"}, card.lcidph, card.dlcidph, card.esph,
+                                 card.fmph, card.nsaph, card.psaph, out.about[0]) &&
+                      resistance(card, {"LCIDT", "DLCIDT", "EST"}, card.lcidt, card.dlcidt, card.est,
+                                 card.fmt, card.nsat, card.psat, out.about[1]) &&
+                      resistance(card, {"LCIDPS", "DLCIDPS", "ESPS"}, card.lcidps, card.dlcidps, card.esps,
+                                 card.fmps, card.nsaps, card.psaps, out.about[2]);
+    if (!good) return std::nullopt;
+    const JointAngles start = angles_of(out, bodies_[out.a].q, bodies_[out.b].q);
+    for (std::size_t k = 0; k < 3; ++k) out.about[k].angle = start.angle[k];
+    return out;
+  }
+
+ private:
+  std::nullopt_t error(const S& card, const char* field, std::string message, std::string hint) {
+    deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
+    return std::nullopt;
+  }
+  std::optional<std::size_t> body(const S& card, const char* field, Id part) {
+    for (std::size_t k = 0; k < bodies_.size(); ++k)
+      if (bodies_[k].part == part) return k;
+    return error(card, field, fmt::format("part {} is no rigid body", part),
+                 "its material must be a *MAT_RIGID");
+  }
+  std::optional<Matrix> axes(const S& card, const char* field, Id id) {
+    if (id == 0) return Matrix::Identity();
+    const auto system = model_.coordinate_systems.find(id);
+    if (system == model_.coordinate_systems.end())
+      return error(card, field, fmt::format("coordinate system {} does not exist", id),
+                   "define it with *DEFINE_COORDINATE_SYSTEM");
+    return system->second.axes;
+  }
+  bool curve(const S& card, const char* field, Id id, Curve& out) {
+    if (id == 0) return true;
+    const auto found = model_.curves.find(id);
+    if (found == model_.curves.end()) {
+      error(card, field, fmt::format("curve {} does not exist", id), "define it with *DEFINE_CURVE");
+      return false;
+    }
+    out = found->second;
+    return true;
+  }
+  bool resistance(const S& card, const std::array<const char*, 3>& fields, Id lcid, Id dlcid, Real es,
+                  Real fm, Real low, Real high, AngleResistance& out) {
+    if (!curve(card, fields[0], lcid, out.stiffness) || !curve(card, fields[1], dlcid, out.damping))
+      return false;
+    out.low = low * pi / 180, out.high = high * pi / 180;
+    const bool stops = low < 0 || high > 0;
+    if ((fm > 0 || stops) && !(es > 0)) {
+      error(card, fields[2], "friction and stops need a stiffness", "give it a value above 0");
+      return false;
+    }
+    out.friction = fm;
+    out.elastic = fm > 0 || stops ? es : 0;
+    return true;
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  const std::vector<RigidBody>& bodies_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+bool add_joint_stiffness(const Deck& deck, const Model& model, std::shared_ptr<RigidBodies> bodies,
+                         World& world, Diagnostics& diagnostics) {
+  const auto& cards = deck.all<JointStiffnessCard>();
+  if (cards.empty()) return false;
+  const std::vector<RigidBody> none;
+  StiffnessReader reader(deck, model, bodies ? bodies->bodies() : none, diagnostics);
+  std::vector<JointStiffness> all;
+  for (const JointStiffnessCard& card : cards)
+    if (const auto one = reader.read(card)) all.push_back(*one);
+  if (all.size() == cards.size())
+    world.passes.add(std::make_shared<JointStiffnesses>(std::move(all), bodies));
+  return true;
+}
+
+}  // namespace courant

@@ -1,0 +1,53 @@
+// Cards of joints between rigid bodies.
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "model/transforms/transformation.hpp"
+#include "rigid/joint_cards.hpp"
+
+namespace courant {
+
+namespace {
+
+using J = JointCard;
+constexpr FieldRules joint_node = rules::optional_id_of(IdSpace::node);
+constexpr FieldRules exact{.standard = 1, .honour = Honour::ignored};
+
+/// A helix that is mirrored turns the other way.
+std::string mirror_screw(J& joint, const Affine& motion) {
+  if (motion.linear().determinant() < 0) joint.parm = -joint.parm;
+  return {};
+}
+
+const RegisterKeyword<J> joint_keyword{
+    {.names = {"CONSTRAINED_JOINT_SPHERICAL", "CONSTRAINED_JOINT_REVOLUTE", "CONSTRAINED_JOINT_CYLINDRICAL",
+               "CONSTRAINED_JOINT_PLANAR", "CONSTRAINED_JOINT_UNIVERSAL", "CONSTRAINED_JOINT_TRANSLATIONAL",
+               "CONSTRAINED_JOINT_LOCKING", "CONSTRAINED_JOINT_SCREW"},
+     .purpose = "joint between two rigid bodies, of which odd nodes belong to one, even nodes to the other",
+     .id_space = IdSpace::joint,
+     .id_option = true,
+     .title = &J::title,
+     .id = &J::id,
+     .cards =
+         {{.fields = {{"N1", &J::n1, "-", "node of the first body, where the joint is",
+                       rules::required_id_of(IdSpace::node)},
+                      {"N2", &J::n2, "-", "node of the second body, at the same place",
+                       rules::required_id_of(IdSpace::node)},
+                      {"N3", &J::n3, "-", "node of the first body: N1 to N3 is the axis", joint_node},
+                      {"N4", &J::n4, "-",
+                       "node of the second body at the place of N3; universal: N2 to N4 is the other axis",
+                       joint_node},
+                      {"N5", &J::n5, "-", "node of the first body beside the axis", joint_node},
+                      {"N6", &J::n6, "-", "node of the second body at the place of N5", joint_node},
+                      {"RPS", &J::rps, "-", "relative stiffness: joints hold exactly here", exact},
+                      {"DAMP", &J::damp, "-", "scale of damping: joints hold exactly here", exact}}},
+          {.fields =
+               {{"PARM", &J::parm, "L", "advance along the axis for a turn by one radian"},
+                {"LCID", &J::lcid, "-", "curve of a motor", {.honour = Honour::no, .refers = IdSpace::curve}},
+                {"TYPE", &J::type, "-", "kind of a motor", unsupported},
+                {"R1", &J::r1, "L", "radius of gears", unsupported}},
+           .when = [](const J& j) { return j.kind() == JointKind::screw; }}},
+     .move = mirror_screw}};
+
+}  // namespace
+
+}  // namespace courant

@@ -1,0 +1,94 @@
+// *DEFORMABLE_TO_RIGID: parts that are rigid from the start, whatever their material.
+#include "rigid/deformable_to_rigid.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+
+namespace courant {
+
+namespace {
+
+struct DeformableToRigid : Entry {
+  Id pid = 0, lrb = 0;
+  std::string ptype;
+};
+using Switch = DeformableToRigid;
+const RegisterKeyword<Switch> deformable_to_rigid{
+    {.names = {"DEFORMABLE_TO_RIGID"},
+     .purpose = "part that is rigid from the start, with RO, E and PR of its material; the mass is where its "
+                "elements are",
+     .cards = {{.fields = {{"PID", &Switch::pid, "-", "part", rules::required_id_of(IdSpace::part)},
+                           {"LRB",
+                            &Switch::lrb,
+                            "-",
+                            "rigid part with which it is one body",
+                            {.honour = Honour::no, .refers = IdSpace::part}},
+                           {"PTYPE", &Switch::ptype, "-", "PART or blank", {}}}}}}};
+
+const Switch* switch_of(const Deck& deck, Id pid) {
+  for (const Switch& one : deck.all<Switch>())
+    if (one.pid == pid) return &one;
+  return nullptr;
+}
+
+/// RO, E and PR of a material by the names of the fields of its card.
+std::optional<MatRigid> constants_of(const Deck& deck, Id mid) {
+  const auto& registry = keyword_registry();
+  std::optional<MatRigid> out;
+  for (std::size_t k = 0; k < registry.size() && !out; ++k) {
+    const KeywordSpec& spec = *registry[k];
+    if (spec.id_space != IdSpace::material) continue;
+    spec.for_each(deck, static_cast<std::int32_t>(k), [&](const Entry& entry) {
+      if (spec.id_of(entry) != mid) return;
+      Real ro = 0, E = 0, pr = -1;
+      for (std::size_t c = 0; c < spec.cards.size(); ++c)
+        for (std::size_t f = 0; f < spec.cards[c].fields.size(); ++f) {
+          const std::string_view name = spec.cards[c].fields[f].name;
+          Real* const to = name == "RO" ? &ro : name == "E" ? &E : name == "PR" ? &pr : nullptr;
+          if (to) *to = spec.number_of(entry, c, f);
+        }
+      if (!(ro > 0 && E > 0 && pr >= 0)) return;
+      MatRigid& m = out.emplace();
+      static_cast<Entry&>(m) = entry;
+      m.mid = mid, m.ro = ro, m.E = E, m.pr = pr;
+    });
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<MatRigid> switched_material(const Deck& deck, const Model& model, Index part) {
+  const ModelPart& p = model.parts[static_cast<std::size_t>(part)];
+  if (p.has_sph || !switch_of(deck, p.id)) return std::nullopt;
+  return constants_of(deck, p.mid);
+}
+
+void check_switched_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  for (const Switch& card : deck.all<Switch>()) {
+    const auto error = [&](const char* field, std::string message, const char* hint) {
+      deck.error(diagnostics, card, field, std::move(message), hint);
+    };
+    if (!card.ptype.empty() && card.ptype != "PART")
+      error("PTYPE", fmt::format("'{}' is not supported", card.ptype), "name each part: PART");
+    const auto found = model.part_of_id.find(card.pid);
+    if (found == model.part_of_id.end()) {
+      error("PID", fmt::format("part {} does not exist", card.pid), "define it with *PART");
+      continue;
+    }
+    const ModelPart& part = model.parts[static_cast<std::size_t>(found->second)];
+    if (part.has_sph)
+      error("PID", fmt::format("part {} has particles, which are no rigid body", card.pid),
+            "name a part of elements");
+    else if (!part.rigid)
+      error("PID",
+            fmt::format("material {} of part {} has no RO, E and PR for a rigid body", part.mid, card.pid),
+            "use an elastic or plastic material, or *MAT_RIGID");
+  }
+}
+
+}  // namespace courant

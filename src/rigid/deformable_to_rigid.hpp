@@ -1,0 +1,18 @@
+#pragma once
+#include <optional>
+
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+#include "rigid/mat_rigid.hpp"
+
+namespace courant {
+
+/// What *DEFORMABLE_TO_RIGID makes of the material of a part (index into Model::parts): density, modulus and
+/// Poisson ratio of a *MAT_RIGID that nothing holds. Nothing where the part is not named, or its material has
+/// none of these.
+std::optional<MatRigid> switched_material(const Deck& deck, const Model& model, Index part);
+
+/// Refuses by name: parts that are not there or made of particles, materials without modulus.
+void check_switched_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics);
+
+}  // namespace courant
