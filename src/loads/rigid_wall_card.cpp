@@ -140,7 +140,7 @@ const RegisterKeyword<G> rigid_wall_geometric{
           {.fields = {{"RADCYL", &G::radcyl, "L", "radius of the cylinder", rules::required_positive},
                       {"LENCYL", &G::lencyl, "L", "its length from the tail on, 0 infinite both ways",
                        not_negative},
-                      {"NSEGS", &G::nsegs, "-", "sections for which forces are written", unsupported}},
+                      {"NSEGS", &G::nsegs, "-", "sections for which forces are written: none", not_negative}},
            .when = [](const G& g) { return g.shape() == G::Shape::cylinder; }},
           {.fields = {{"VL", &G::vl, "L", "where a section begins", no_effect},
                       {"HEIGHT", &G::height, "L", "its height", no_effect}},
