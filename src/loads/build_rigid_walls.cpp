@@ -134,6 +134,9 @@ class RigidWallReader {
       if (shape.kind == Kind::prism) shape.length[2] = card.lenp;
       if (shape.kind == Kind::cylinder) shape.radius = card.radcyl, shape.length[2] = card.lencyl;
     }
+    if (card.nsegs > 0)
+      return error(card, "NSEGS", "forces on sections of the cylinder are not supported",
+                   "leave the field and the card behind this one out");
     constexpr Real round_off = 1e-12;
     const bool along_z = shape.kind == Kind::cylinder && shape.length[2] == 0 &&
                          std::hypot(shape.n()[0], shape.n()[1]) < round_off;

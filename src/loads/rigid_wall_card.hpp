@@ -38,7 +38,7 @@ struct RigidWallGeometric : RigidWallCard {
   bool has_edge() const { return shape() == Shape::flat || shape() == Shape::prism; }
   Id lcid = 0;
   int nsegs = 0, opt = 0;
-  Real lenp = 0, radcyl = 0, lencyl = 0, radsph = 0, vx = 0, vy = 0, vz = 0;
+  Real lenp = 0, radcyl = 0, lencyl = 0, radsph = 0, vl = 0, height = 0, vx = 0, vy = 0, vz = 0;
 };
 
 }  // namespace courant

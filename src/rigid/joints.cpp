@@ -116,27 +116,33 @@ std::vector<BodyPose> Joints::poses_after(const std::vector<JointRow>& rows, con
   return out;
 }
 
-// Of equations that follow from others the matrix is singular: a little more on the diagonal lets them share.
+// Of equations that follow from others, and of those about what is held, the matrix is singular, or nearly so
+// where the digits of a deck leave axes a little askew, which would lock a mechanism: a little more on the
+// diagonal, of what free bodies would give, lets such equations share the force and be met as far as they
+// can.
 void Joints::factorise(const std::vector<JointRow>& rows, const Clock* clock) {
   std::vector<Inverse> inverse(bodies_->bodies().size());
   for (std::size_t k = 0; k < inverse.size(); ++k) {
     const RigidBody& b = bodies_->bodies()[k];
     if (b.fixed() || !joined_[k]) continue;
-    inverse[k] = {free_part(b, false, clock) / b.m, inverse_inertia(b, clock)};
+    const Real mean = b.J0.trace() / 3;  // a body of rods may have none about an axis
+    inverse[k] = {free_part(b, false, clock) / b.m, inverse_inertia(b, clock), 1 / b.m,
+                  mean > 0 ? 1 / mean : 0};
   }
+  Eigen::VectorXd free = Eigen::VectorXd::Zero(first_row_.back());
   for (Eigen::Index k = 0; k < matrix_.nonZeros(); ++k) matrix_.valuePtr()[k] = 0;
   for (const Meeting& m : meetings_) {
     const JointRow &i = rows[static_cast<std::size_t>(m.row)], &j = rows[static_cast<std::size_t>(m.column)];
     const Inverse& of = inverse[m.body];
-    matrix_.coeffRef(m.row, m.column) +=
-        (m.row_of_b ? i.v_b : i.v_a).dot(of.mass * (m.column_of_b ? j.v_b : j.v_a)) +
-        (m.row_of_b ? i.w_b : i.w_a).dot(of.inertia * (m.column_of_b ? j.w_b : j.w_a));
+    const Vec &vi = m.row_of_b ? i.v_b : i.v_a, &wi = m.row_of_b ? i.w_b : i.w_a;
+    matrix_.coeffRef(m.row, m.column) += vi.dot(of.mass * (m.column_of_b ? j.v_b : j.v_a)) +
+                                         wi.dot(of.inertia * (m.column_of_b ? j.w_b : j.w_a));
+    if (m.row == m.column)
+      free[m.row] += of.free_mass * vi.squaredNorm() + of.free_inertia * wi.squaredNorm();
   }
-  constexpr Real more = 1e-9;
-  for (Index k = 0; k < first_row_.back(); ++k) {
-    double& own = matrix_.coeffRef(k, k);
-    own = own > 0 ? own * (1 + more) : 1;  // 0: nothing moves there
-  }
+  constexpr Real more = 1e-6;
+  for (Index k = 0; k < first_row_.back(); ++k)
+    matrix_.coeffRef(k, k) += free[k] > 0 ? more * free[k] : 1;  // 0: nothing moves there
   solver_.factorize(matrix_);
 }
 
@@ -181,23 +187,34 @@ std::array<Real, 2> Joints::make_start_consistent(World& world) {
   return {before, bodies_->kinetic_energy()};
 }
 
-void Joints::strike(World&, const Clock& clock) {
+// Of places, in the summary: a closed loop whose axes are a little askew cannot be met by rigid bodies.
+void Joints::tell_gap(const std::vector<JointRow>& rows, World& world) const {
+  Real& most = world.maxima["joint_gap"];
+  for (const JointRow& row : rows)
+    if (!row.v_a.isZero(0)) most = std::max(most, std::abs(row.c));
+}
+
+void Joints::strike(World& world, const Clock& clock) {
   const std::vector<JointRow> rows = rows_at(poses_now());
   factorise(rows, &clock);
   Eigen::VectorXd force = Eigen::VectorXd::Zero(first_row_.back()), wrong(first_row_.back());
-  constexpr int most_rounds = 60;
-  constexpr Real stalled = 0.5, good_enough = 1e4;
+  constexpr int most_rounds = 60, patience = 3;
+  constexpr Real stalled = 0.5, good_enough = 1e9;  // a share of 1e-4
   Real last = 0;
   std::size_t joint = 0;
-  for (int round = 0;; ++round) {
+  for (int round = 0, idle = 0;; ++round) {
     const std::vector<JointRow> after = rows_at(poses_after(rows, force, clock));
     const Real share = worst(after, joint);
-    if (share <= 1 || (round > 0 && share > stalled * last && share < good_enough)) break;
+    if (share <= 1) break;
+    idle += round > 0 && share > stalled * last;
+    if (share < good_enough && (idle == patience || round == most_rounds)) {
+      tell_gap(after, world);
+      break;
+    }
     if (round == most_rounds || !std::isfinite(share))
       throw RunError(fmt::format(
           "t = {:g}: {} joint {} between parts {} and {} cannot be held: what drives or holds its bodies, "
-          "other "
-          "joints or a step of {:.3g} that is too long for their motion do not let it",
+          "other joints or a step of {:.3g} that is too long for their motion do not let it",
           clock.t, joint_name(joints_[joint].kind), joints_[joint].id,
           bodies_->bodies()[joints_[joint].a].part, bodies_->bodies()[joints_[joint].b].part, clock.dt));
     last = share;

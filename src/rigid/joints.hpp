@@ -46,6 +46,7 @@ class Joints : public Impact, public Restartable, public JointReporter {
   /// What an impulse and a turn change: inverse mass and inertia along what is free.
   struct Inverse {
     Matrix mass = Matrix::Zero(), inertia = Matrix::Zero();
+    Real free_mass = 0, free_inertia = 0;  ///< of the body if nothing held or drove it, about a mean axis
   };
 
   void find_meetings();
@@ -59,6 +60,7 @@ class Joints : public Impact, public Restartable, public JointReporter {
   void factorise(const std::vector<JointRow>& rows, const Clock* clock);
   /// The largest share of what round-off may leave; more than 1: not met.
   Real worst(const std::vector<JointRow>& rows, std::size_t& joint) const;
+  void tell_gap(const std::vector<JointRow>& rows, World& world) const;
   void remember(const std::vector<JointRow>& rows, const Eigen::VectorXd& force);
 
   std::vector<Joint> joints_;

@@ -136,6 +136,54 @@ TEST(Joints, SliderCrankFollowsTheClosedForm) {
   EXPECT_NEAR(furthest, l - r, 1e-3) << "it went through the dead centre";
 }
 
+// Axes a little askew, as the digits of a deck leave them, would lock a four-bar linkage of rigid bodies: it
+// swings all the same, and the summary tells how far its joints open.
+TEST(Joints, ALinkageWithAxesALittleAskewSwings) {
+  const Real slight = 1e-6, g = 9.81;
+  JointDeck deck;
+  const int ground = deck.ground();
+  const Matrix J = diagonal(0.01, 0.01, 0.01);
+  const auto hinge = [&](int a, int b, const Vec& x, Real sign) {
+    deck.joint("REVOLUTE", a, b, {x, x + Vec(sign * slight, 1, 2 * sign * slight)});
+  };
+  const int left = deck.body({.x = {0, 0, -0.5}, .J = J}), right = deck.body({.x = {1, 0, -0.5}, .J = J}),
+            bar = deck.body({.x = {0.5, 0, -1}, .J = J, .v = {1, 0, 0}});
+  hinge(ground, left, {0, 0, 0}, 1), hinge(ground, right, {1, 0, 0}, -1);
+  hinge(left, bar, {0, 0, -1}, 1), hinge(right, bar, {1, 0, -1}, 1);
+  deck.gravity(g);
+  auto s = simulation_of(deck.text(4));
+  const RigidBody& b = s->bodies()->bodies()[3];
+  // a parallelogram: the bar swings without turning, half of the work of the two arms' weight at half its
+  // height
+  const Real energy = kinetic(*s), inertia = 1 + 2 * (0.25 + 0.01);
+  EXPECT_NEAR(0.5 * inertia * b.v[0] * b.v[0], energy, 1e-9 * energy);
+  const Real highest = energy / (2 * g);
+  Real top = -2;
+  while (s->clock().t < 4) {
+    s->step(do_nothing);
+    top = std::max(top, b.x[2]);
+  }
+  EXPECT_NEAR(top, -1 + highest, 1e-3 * highest);
+  EXPECT_LT(largest_gap(*s), 10 * slight);
+  EXPECT_GT(s->world().maxima["joint_gap"], 0);
+}
+
+// The same of what CON2 holds: the axis is not quite the one about which the body may turn.
+TEST(Joints, AHingeALittleAskewToWhatIsHeldSwings) {
+  JointDeck deck;
+  const int ground = deck.ground();
+  const int body = deck.body({.x = {1, 0, 0}, .J = diagonal(0.1, 0.1, 0.1), .con2 = 6});
+  deck.joint("REVOLUTE", ground, body, {Vec(0, 0, 0), Vec(1e-6, 1, 1e-6)});
+  deck.gravity(9.81);
+  auto s = simulation_of(deck.text(2));
+  Real lowest = 0;
+  while (s->clock().t < 2) {
+    s->step(do_nothing);
+    lowest = std::min(lowest, s->bodies()->bodies().back().x[2]);
+  }
+  EXPECT_NEAR(lowest, -1, 1e-4);
+}
+
 // 50 rods, from straight and horizontal.
 TEST(Joints, ChainOfFiftyLinksKeepsItsEnergy) {
   JointDeck deck;

@@ -50,7 +50,9 @@ const char* of_entry_itself(const KeywordSpec& spec, const Entry& entry) {
   constexpr Real first_rotation = 5;
   if (spec.names[0].rfind("LOAD_NODE", 0) == 0 || spec.names[0] == "LOAD_RIGID_BODY")
     return spec.number_of(entry, 0, dof_field) >= first_rotation ? "ML2/T2" : nullptr;
-  if (spec.names[0] == "RIGIDWALL_GEOMETRIC_FLAT") return spec.number_of(entry, 5, 1) == 1 ? "L" : nullptr;
+  constexpr std::size_t motion_card = 6, opt_field = 1;
+  if (spec.names[0] == "RIGIDWALL_GEOMETRIC_FLAT")
+    return spec.number_of(entry, motion_card, opt_field) == 1 ? "L" : nullptr;
   if (spec.names[0].rfind("BOUNDARY_PRESCRIBED_MOTION", 0) != 0) return nullptr;
   const Real dof = spec.number_of(entry, 0, dof_field), vad = spec.number_of(entry, 0, vad_field);
   if (!(vad >= 0 && vad <= 2)) return nullptr;  // refused later
