@@ -165,7 +165,7 @@ class Clock:
         summary = run.summary()
         if summary.get("termination") != "normal" or summary.get("threads") != self.threads or not run.work:
             return
-        self.rates[run.kind].append(summary["ns_per_particle_step"])
+        self.rates[run.kind].append(summary["elapsed_ns_per_particle_step"])
         self.ratios.append(summary["particle_steps"] / run.work)
 
     def seconds(self, run):
@@ -246,7 +246,7 @@ def execute(run, program, threads, queue, clock):
         reason = summary.get("reason") or (run.folder / "messages.txt").read_text()[-2000:].strip()
         raise Failure(f"the run ended with exit code {child.returncode}: {reason}")
     clock.learn(run)
-    say(f"  {run.name}: done in {duration(summary['wall_seconds'])}, {summary['ns_per_particle_step']:.0f} ns per particle and step")
+    say(f"  {run.name}: done in {duration(summary['wall_seconds'])}, {summary['elapsed_ns_per_particle_step']:.0f} ns per particle and step")
 
 
 # ---- the whole

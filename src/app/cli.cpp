@@ -119,6 +119,7 @@ int call_run(const Call& call) {
   options.dir = call.dir, options.until = call.until, options.warnings = warnings,
   options.params = call.params, options.stop = &stop_requested, options.dump_at_end = !call.no_final_dump;
   options.restart = restart ? &*restart : nullptr;
+  options.choose_threads = call.threads == 0;
   if (!call.quiet) {
     options.print = print_line;
     options.progress = status_line();
@@ -252,7 +253,8 @@ int command_line(int argc, char** argv) {
   auto* run_ = app.add_subcommand("run", "run a deck (also: courant i=DECK ncpu=N)");
   run_->add_option("DECK", call.deck, "keyword deck")->required();
   run_->add_option("-o,--output", call.dir, "folder for the results; made if missing");
-  run_->add_option("--threads", call.threads, "threads; 0: all cores")->check(CLI::NonNegativeNumber);
+  run_->add_option("--threads", call.threads, "threads; 0: as many as are quickest")
+      ->check(CLI::NonNegativeNumber);
   run_->add_option("--until", call.until, "end time instead of ENDTIM")->check(CLI::PositiveNumber);
   run_->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER")->allow_extra_args(false);
   const auto add_load = [&](CLI::App* to) {

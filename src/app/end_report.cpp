@@ -6,6 +6,7 @@
 
 #include "app/range_warnings.hpp"
 #include "app/verdict.hpp"
+#include "time/guard.hpp"
 
 namespace courant {
 
@@ -68,6 +69,13 @@ std::string duration(double seconds) {
   return fmt::format("{:.0f} h {:02.0f} min", std::floor(seconds / 3600), std::fmod(seconds / 60, 60));
 }
 
+std::string state_in_words(const World& world) {
+  const auto leaked = world.counters.find("leaked_particles");
+  return fmt::format("{} active  energy ratio {:.4f}  leaked {}", world.particles.active,
+                     1 + energy_ratio_change(world.energy) / 100,
+                     leaked == world.counters.end() ? 0 : leaked->second);
+}
+
 std::vector<std::string> end_warnings(const Summary& s) {
   std::vector<std::string> out;
   for (const Finding& finding : findings(s))
@@ -81,9 +89,9 @@ std::vector<std::string> end_report(const Summary& s) {
   add_timing(s, out);
   out.push_back(fmt::format(" Problem time       = {:12.5E}", s.time));
   out.push_back(fmt::format(" Problem cycle      = {}", s.steps));
-  out.push_back(
-      fmt::format(" Total CPU time     = {:.1f} s, elapsed {:.1f} s, {:.0f} ns per particle and step",
-                  s.cpu_seconds, s.wall_seconds, s.ns_per_particle_step()));
+  out.push_back(fmt::format(
+      " Total CPU time     = {:.1f} s, {:.0f} ns per particle and step; elapsed {:.1f} s, {:.0f} ns",
+      s.cpu_seconds, s.ns_per_particle_step(), s.wall_seconds, s.elapsed_ns_per_particle_step()));
   out.push_back(output_line(s));
   out.push_back(fmt::format(" leaked particles {}, largest penetration {:.4g} [L], {}", s.leaked_particles,
                             s.max_penetration, energy_line(s.energy)));

@@ -13,6 +13,9 @@ std::vector<std::string> end_report(const Summary& summary);
 /// each, with advice.
 std::vector<std::string> end_warnings(const Summary& summary);
 
+/// Active particles, energy ratio as the guard saw it last, and leaks of a run under way.
+std::string state_in_words(const World& world);
+
 /// "51 s", "3 min 07 s", "2 h 05 min"
 std::string duration(double seconds);
 

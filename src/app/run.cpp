@@ -1,4 +1,3 @@
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -22,17 +21,12 @@
 #include "output/restart_file.hpp"
 #include "parallel/job_queue.hpp"
 #include "parallel/parallel.hpp"
+#include "parallel/thread_choice.hpp"
 #include "time/guard.hpp"
 
 namespace courant {
 
 namespace {
-
-using Clock_ = std::chrono::steady_clock;
-
-double seconds_since(Clock_::time_point start) {
-  return std::chrono::duration<double>(Clock_::now() - start).count();
-}
 
 /// The restart file that a stop in error leaves.
 constexpr const char* before_error = "before_error.h5";
@@ -59,7 +53,10 @@ class Run {
         restart_schedule_(simulation.deck()),
         switches_(options.dir, options.keyboard),
         copies_(simulation.world(), options.dump_at_end, simulation.clock().cycle),
+        choice_(threads(), s_.world().particles.size() + s_.world().elements(),
+                options.choose_threads ? running_elsewhere() : 0),
         facts_(std::move(facts)) {
+    if (options.choose_threads) set_threads(choice_.threads());
     summary_.title = s_.model().title, summary_.deck = deck_path, summary_.threads = threads();
     summary_.particles = s_.world().particles.size(), summary_.elements = s_.world().elements();
     summary_.warnings = options.warnings, summary_.limits = verdict_limits(s_.deck());
@@ -87,9 +84,9 @@ class Run {
   void print_start() {
     messag_.line(fmt::format("Courant {}", COURANT_VERSION));
     messag_.line(fmt::format("deck {}: {}", summary_.deck, summary_.title));
-    messag_.line(fmt::format("{} particles in {}D, {} solids, {} nodes, {} segments, {} threads",
+    messag_.line(fmt::format("{} particles in {}D, {} solids, {} nodes, {} segments, {} thread{}",
                              summary_.particles, s_.world().dim, summary_.elements, s_.world().nodes.size(),
-                             s_.world().segments.size(), summary_.threads));
+                             s_.world().segments.size(), threads(), threads() == 1 ? "" : "s"));
     for (const std::string& warning : options_.warnings) messag_.line(warning);
     messag_.keep(s_.passes());
     if (options_.print) options_.print(s_.passes_in_short() + "; `messag` lists them");
@@ -287,6 +284,7 @@ class Run {
       if (copies_.is_due(s_.clock())) copy_state();
       if (const auto order = switches_.take(); order && !obey(*order)) return;
       if (s_.clock().cycle % 64 == 0) show_progress();
+      if (options_.choose_threads) choose_threads();
     }
     summary_.reason = "termination time reached";
   }
@@ -301,7 +299,8 @@ class Run {
     if (histories_.is_due(clock.t, clock.dt)) write_histories(false);
     if (clock.cycle % 5000 == 0 && clock.cycle > 0) {
       messag_.status(clock.cycle, clock.t, clock.dt, "flush i/o buffers");
-      messag_.line(fmt::format("          step set by {}  {}  {} left", who, state_in_words(), time_left()));
+      messag_.line(
+          fmt::format("          step set by {}  {}  {} left", who, state_in_words(s_.world()), time_left()));
     }
   }
 
@@ -373,7 +372,8 @@ class Run {
       if (failed_state_) attempt([&] { fields_.write_failed(s_.world(), s_.clock().t); });
     });
     Summary& y = summary_;
-    y.wall_seconds = wall_seconds(), y.cpu_seconds = cpu_before_ + cpu_seconds() - cpu_start_;
+    y.threads = threads(), y.wall_seconds = wall_seconds(),
+    y.cpu_seconds = cpu_before_ + cpu_seconds() - cpu_start_;
     y.writer_cpu_seconds = writer_before_ + writer_.cpu_seconds();
     y.restart_file = newest_restart_;
     y.read_seconds = read_before_ + s_.read_seconds();
@@ -402,7 +402,7 @@ class Run {
       summary_.reason += "; to go on: " + restart_call(newest_restart_);
   }
 
-  double wall_seconds() const { return wall_before_ + seconds_since(start_); }
+  double wall_seconds() const { return wall_before_ + PassTimer::now() - start_; }
 
   /// One of the last files; where it fails, the others are still written.
   template <class Write>
@@ -426,30 +426,28 @@ class Run {
     messag_.banner(ok ? " N o r m a l    t e r m i n a t i o n" : " E r r o r    t e r m i n a t i o n");
   }
 
+  void choose_threads() {
+    const std::string line = choice_.step(PassTimer::now() - start_, cpu_seconds());
+    set_threads(choice_.threads());
+    if (!line.empty()) messag_.line(line);
+  }
+
   void show_progress() {
     if (!estimated_) {
       estimated_ = true;
       messag_.line(fmt::format(" estimated clock time to complete    = {:10.0f} sec", seconds_left()));
     }
-    if (!options_.progress || seconds_since(shown_) < 0.5) return;
-    shown_ = Clock_::now();
+    if (!options_.progress || PassTimer::now() - shown_ < 0.5) return;
+    shown_ = PassTimer::now();
     const double done = std::min(1.0, s_.clock().t / end_);
     options_.progress(fmt::format("t {:.4f} of {:g}  {:5.1f} %  dt {:.2e} ({})  {}  {} left", s_.clock().t,
-                                  end_, 100 * done, s_.clock().dt_old, who_, state_in_words(), time_left()));
+                                  end_, 100 * done, s_.clock().dt_old, who_, state_in_words(s_.world()),
+                                  time_left()));
   }
 
   std::string time_left() const { return s_.clock().t > first_time_ ? duration(seconds_left()) : "?"; }
   double seconds_left() const {
-    return seconds_since(start_) * std::max(0.0, end_ - s_.clock().t) / (s_.clock().t - first_time_);
-  }
-
-  /// Energy as the guard saw it last.
-  std::string state_in_words() const {
-    const Counters& counters = s_.world().counters;
-    const auto leaked = counters.find("leaked_particles");
-    return fmt::format("{} active  energy ratio {:.4f}  leaked {}", s_.world().particles.active,
-                       1 + energy_ratio_change(s_.world().energy) / 100,
-                       leaked == counters.end() ? 0 : leaked->second);
+    return (PassTimer::now() - start_) * std::max(0.0, end_ - s_.clock().t) / (s_.clock().t - first_time_);
   }
 
   Simulation& s_;
@@ -466,6 +464,7 @@ class Run {
   SenseSwitches switches_;
   StateCopies copies_;
   Summary summary_;
+  ThreadChoice choice_;
   std::string who_, failure_;
   StopFacts facts_;
   bool failed_state_ = false, plot_wanted_ = false, estimated_ = false;
@@ -477,7 +476,7 @@ class Run {
   Real last_field_time_ = -1;
   int state_ = 0;
   double cpu_start_ = cpu_seconds();
-  Clock_::time_point start_ = Clock_::now(), shown_ = start_;
+  double start_ = PassTimer::now(), shown_ = start_;
 
   /// At most two field states are held in memory, or the samples that fit beside them.
   static constexpr int weight_of_state = 16;

@@ -139,6 +139,7 @@ struct RunOptions {
   std::function<void(const std::string&)> progress;  ///< one status line, about once a second
   const std::atomic<bool>* stop = nullptr;           ///< set by a signal: end cleanly after this step
   bool dump_at_end = true;                           ///< a restart file when the run has ended or is stopped
+  bool choose_threads = false;                       ///< as many as are quickest, else those that are set
   bool keyboard = false;                             ///< sense switches may be typed
   Restart* restart = nullptr;                        ///< what the run goes on from; emptied on the way
 };

@@ -95,14 +95,26 @@ void emit_output(YAML::Emitter& out, const Summary::Output& o) {
   out << YAML::EndMap;
 }
 
+double ns_of(double seconds, std::int64_t steps) {
+  return steps > 0 ? 1e9 * seconds / static_cast<double>(steps) : 0;
+}
+
 }  // namespace
 
 double Summary::ns_per_particle_step() const {
-  return particle_steps > 0 ? 1e9 * wall_seconds / static_cast<double>(particle_steps) : 0;
+  return ns_of(cpu_seconds, particle_steps);
+}
+
+double Summary::elapsed_ns_per_particle_step() const {
+  return ns_of(wall_seconds, particle_steps);
 }
 
 double Summary::ns_per_element_step() const {
-  return element_steps > 0 ? 1e9 * wall_seconds / static_cast<double>(element_steps) : 0;
+  return ns_of(cpu_seconds, element_steps);
+}
+
+double Summary::elapsed_ns_per_element_step() const {
+  return ns_of(wall_seconds, element_steps);
 }
 
 Real Summary::energy_ratio() const {
@@ -138,9 +150,11 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
   entry("active_particles", s.active_particles);
   entry("particle_steps", s.particle_steps);
   entry("ns_per_particle_step", s.ns_per_particle_step());
+  entry("elapsed_ns_per_particle_step", s.elapsed_ns_per_particle_step());
   entry("elements", s.elements);
   entry("element_steps", s.element_steps);
   entry("ns_per_element_step", s.ns_per_element_step());
+  entry("elapsed_ns_per_element_step", s.elapsed_ns_per_element_step());
   entry("peak_memory_bytes", s.peak_memory_bytes);
   entry("dt_min", s.dt_min);
   entry("dt_max", s.dt_max);

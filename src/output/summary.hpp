@@ -43,9 +43,9 @@ struct Summary {
   std::vector<std::string> restart_notes;
   std::string restart_file;  ///< the latest whole one that was written; empty: none
   double wall_seconds = 0, cpu_seconds = 0;
-  double read_seconds = 0;        ///< wall time for deck and set-up, before the run
-  double writer_cpu_seconds = 0;  ///< part of cpu_seconds: writing results, beside the computation
-  int threads = 0;
+  double read_seconds = 0;            ///< wall time for deck and set-up, before the run
+  double writer_cpu_seconds = 0;      ///< part of cpu_seconds: writing results, beside the computation
+  int threads = 0;                    ///< at the end
   std::int64_t particles = 0;         ///< in the model
   std::int64_t active_particles = 0;  ///< at the end
   std::int64_t particle_steps = 0;    ///< sum over steps of active particles
@@ -69,8 +69,11 @@ struct Summary {
   };
   Output output;
 
-  double ns_per_particle_step() const;  ///< wall time; 0 if no step was taken
-  double ns_per_element_step() const;   ///< the same
+  /// CPU time, and time elapsed, which others that use the machine make longer; 0 if no step was taken.
+  double ns_per_particle_step() const;
+  double elapsed_ns_per_particle_step() const;
+  double ns_per_element_step() const;
+  double elapsed_ns_per_element_step() const;
   /// Total over initial energy plus external work; where that is next to nothing (a fall from the height that
   /// potential energy counts from), 1 plus the error of the balance.
   Real energy_ratio() const;

@@ -157,6 +157,7 @@ check(not glob.glob("well/**/*.tmp", recursive=True), "no temporary file is left
 stdout, _ = ends(0, "run", "tiny.k", "-o", "quiet", "--quiet", "--until", "0.02")
 check(stdout == "", "--quiet prints nothing")
 check(abs(float(summary("quiet")["time"]) - 0.02) < 0.01, "--until ends the run")
+check(summary("quiet")["threads"] == "1", "a small scene takes one thread by itself")
 os.makedirs("habit")
 ends(0, "i=../tiny.k", "ncpu=2", "memory=20m", cwd="habit")
 check(summary("habit")["threads"] == "2" and os.path.exists("habit/glstat"), "i=DECK ncpu=2 runs here on two threads")

@@ -101,7 +101,7 @@ def differences(a, b, texts=("glstat", "matsum", "rcforc", "sphout")):
 
 
 def summary_differences(a, b):
-    left_out = {"wall_seconds", "cpu_seconds", "writer_cpu_seconds", "ns_per_particle_step", "peak_memory_bytes", "passes", "restarts",
-                "restart_notes", "restart_file", "threads", "deck", "output", "read_seconds"}
+    left_out = {"wall_seconds", "cpu_seconds", "writer_cpu_seconds", "ns_per_particle_step", "elapsed_ns_per_particle_step", "peak_memory_bytes", "passes",
+                "restarts", "restart_notes", "restart_file", "threads", "deck", "output", "read_seconds"}
     one, other = (yaml.safe_load(open(f"{folder}/summary.yaml")) for folder in (a, b))
     return [f"summary: {key}" for key in sorted(set(one) | set(other)) if key not in left_out and one.get(key) != other.get(key)]

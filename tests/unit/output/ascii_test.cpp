@@ -259,7 +259,7 @@ TEST(Summary, ComesBackAsYaml) {
   Summary s;
   s.title = "jump: d1/4";
   s.termination = "normal";
-  s.wall_seconds = 2;
+  s.wall_seconds = 2, s.cpu_seconds = 3;
   s.writer_cpu_seconds = 0.25;
   s.particle_steps = 1000000;
   s.energy = made_sample().energy;
@@ -270,7 +270,8 @@ TEST(Summary, ComesBackAsYaml) {
   const YAML::Node y = YAML::LoadFile((dir / "summary.yaml").string());
   EXPECT_EQ(y["title"].as<std::string>(), "jump: d1/4");
   EXPECT_EQ(y["writer_cpu_seconds"].as<double>(), 0.25);
-  EXPECT_EQ(y["ns_per_particle_step"].as<double>(), 2000);
+  EXPECT_EQ(y["ns_per_particle_step"].as<double>(), 3000);
+  EXPECT_EQ(y["elapsed_ns_per_particle_step"].as<double>(), 2000);
   EXPECT_EQ(y["energy"]["ratio"].as<double>(), 1);
   EXPECT_EQ(y["energy"]["residual"].as<double>(), 0);
   EXPECT_EQ(y["counters"]["density clamped"].as<int>(), 0);
