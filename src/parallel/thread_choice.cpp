@@ -77,9 +77,10 @@ std::string ThreadChoice::step(double now, double cpu) {
   const double seconds = now - last_;
   last_ = now;
   if (++steps_ <= settling) {
-    if (steps_ == 1 && trying_) trial_start_ = now;
+    if (steps_ == 1 && trying_) trial_start_ = now - seconds;
     cpu_start_ = cpu;
-    return {};
+    const bool ends = trying_ && now - trial_start_ > hopeless * best_mean_ * (settling + measured);
+    return ends ? end_trial(hopeless * best_mean_) : std::string();
   }
   sum_ += seconds;
   const int count = steps_ - settling;
@@ -90,7 +91,8 @@ std::string ThreadChoice::step(double now, double cpu) {
   if (count < measured) return {};
   const double mean = sum_ / measured;
   const bool is_disturbed = best_mean_ > 0 && mean > disturbed * best_mean_;
-  if (next_trial_ < 0) next_trial_ = cpu - cpu_start_ < used * best_ * sum_ ? now : now + first_pause * sum_;
+  if (next_trial_ < 0)
+    next_trial_ = best_ > 1 && cpu - cpu_start_ < used * best_ * sum_ ? now : now + first_pause * sum_;
   best_mean_ = mean;
   steps_ = settling, sum_ = 0, cpu_start_ = cpu;
   if (now < next_trial_ && !is_disturbed) return {};
