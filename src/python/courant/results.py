@@ -377,6 +377,17 @@ class Results:
             return self.energies
         return self.ascii[name] if name in ASCII_NAMES else self.histories.table(name)
 
-    def plot(self, what: str = "energies", *names: str, file: str | Path | None = None) -> Any:
-        """A table, as `table` takes its name, over time. Gives matplotlib's figure, and writes it to `file`. Raises MissingModule."""
-        return self.table(what).plot(*names, file=file)
+    def plot(self, what: str = "energies", *names: str, field: str | None = None, t: float | None = None, file: str | Path | None = None, **keys: Any) -> Any:
+        """A table, as `table` takes its name, over time; or with `field` or `t` a picture of the state nearest to t, of the last one if not given.
+
+        `field`: of particles, nodes or elements: "speed", "stress.mises". `keys`: others of a view (docs/post.md), as range=(0, 2), up="z",
+        azimuth=60. Gives matplotlib's figure, and writes it to `file`. Raises MissingModule, KeyError with the names there are.
+        """
+        if field is None and t is None and not keys:
+            return self.table(what).plot(*names, file=file)
+        from .post.views import View, draw_view
+
+        made = draw_view(self, View("plot", field or "", times=None if t is None else [t], **keys))
+        if file is not None:
+            made.savefig(file)
+        return made

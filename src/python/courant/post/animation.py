@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -41,10 +42,10 @@ def animate(run: Any, view: View, path: Path) -> Path:
     for t in times:
         # all looked-at states give the window, so that it stands still; the one of this frame is drawn
         figure = draw_view(run, replace(view, columns=1), [scene_of(run.states.at(float(t)), view)], limits, ends)
-        figure.set_dpi(_DPI)
-        figure.canvas.draw()
-        frames.append(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy())
+        frame = io.BytesIO()
+        figure.savefig(frame, format="png", dpi=_DPI)
         pyplot().close(figure)
+        frames.append(module("matplotlib.pyplot").imread(io.BytesIO(frame.getvalue()))[..., :3])
     _write(writer, frames, path)
     return path
 

@@ -130,6 +130,6 @@ def draw_plane(axes: Any, scene: Scene, view: View, window: tuple[float, ...], l
     if view.walls != "none":
         traces, path = wall_traces(scene).reshape(-1, 2), module("matplotlib.path").Path
         stroke = path(traces, np.tile([path.MOVETO, path.LINETO], len(traces) // 2))  # one stroke: its pieces do not darken each other
-        axes.add_patch(module("matplotlib.patches").PathPatch(stroke, **_WALL))
+        axes.add_patch(module("matplotlib.patches").PathPatch(stroke, snap=False, **_WALL))
     _draw_marks(axes, scene, view, window, length)
     axes.set(xlim=window[:2], ylim=window[2:])

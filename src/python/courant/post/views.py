@@ -180,4 +180,4 @@ def draw_views(run: Any, views: list[tuple[View, Location]], out: Path, diagnost
     return made
 
 
-__all__ = ["draw_view", "draw_views", "read_view", "read_views", "save_view"]
+__all__ = ["View", "draw_view", "draw_views", "read_view", "read_views", "save_view"]
