@@ -246,7 +246,7 @@ class TestPictures:
         axes = made.axes[0]
         assert axes.get_title(loc="right") == "t = 0 s" and made.axes[-1].get_ylabel() == "speed [m/s]"
         texts = [one.get_text() for one in axes.texts]
-        assert {"x", "y", "z"} <= set(texts) and texts[-1] == "0.5 m"
+        assert {"x", "y", "z"} <= set(texts) and texts[-1] == "0.2 m"
         assert len(axes.collections) == 2 and axes.collections[0].get_segments()
 
     def test_times_labels_and_marks(self, pool, tmp_path):

@@ -10,7 +10,7 @@ from ..optional import module
 from .particles import ParticleSet, SprayRule, spline_norm, spline_shape, water_body, water_on_lines
 from .view_scene import Scene, View
 
-_WALL = {"edgecolor": "black", "linewidth": 1.6, "capstyle": "projecting", "fill": False}
+_WALL = {"edgecolor": "black", "linewidth": 1.6, "capstyle": "butt", "fill": False}
 _PIXELS_PER_H, _MOST_PIXELS = 8, 4000
 _BOX = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.8}
 
@@ -114,7 +114,7 @@ def _draw_marks(axes: Any, scene: Scene, view: View, window: tuple[float, ...], 
             if np.isfinite(here):
                 depth = f"{here - view.bed:.3g} {length}"
                 axes.plot([gauge], [here], marker="v", markersize=5, color="#d55e00", linestyle="none", label="gauge" if k == 0 else None)
-                axes.annotate(depth, (gauge, here), xytext=(5, 5), textcoords="offset points", fontsize=7, color="0.15", bbox=_BOX, zorder=5)
+                axes.annotate(depth, (gauge, here), xytext=(-4, 5), textcoords="offset points", ha="right", fontsize=7, color="0.15", bbox=_BOX, zorder=5)
     if view.theory is not None:
         low, high = view.theory_range or window[:2]
         x = np.linspace(low, high, 200)
@@ -130,6 +130,6 @@ def draw_plane(axes: Any, scene: Scene, view: View, window: tuple[float, ...], l
     if view.walls != "none":
         traces, path = wall_traces(scene).reshape(-1, 2), module("matplotlib.path").Path
         stroke = path(traces, np.tile([path.MOVETO, path.LINETO], len(traces) // 2))  # one stroke: its pieces do not darken each other
-        axes.add_patch(module("matplotlib.patches").PathPatch(stroke, snap=False, **_WALL))
+        axes.add_patch(module("matplotlib.patches").PathPatch(stroke, snap=True, **_WALL))
     _draw_marks(axes, scene, view, window, length)
     axes.set(xlim=window[:2], ylim=window[2:])
