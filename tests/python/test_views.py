@@ -12,9 +12,9 @@ from courant.diagnostics import Diagnostics
 from courant.fields import StateFiles
 from courant.post import read_recipe
 from courant.post.camera import AXES, Camera, axis_of, up_of, up_of_gravity
-from courant.post.view_fields import Faces, UnknownField, faces_of, field_names, field_of, mirrored, mises, outlines
+from courant.post.view_fields import Faces, UnknownField, faces_of, field_names, field_of, joined_faces, mirrored, mises, outlines
 from courant.results import RunState
-from made_runs import DX, block, frame, lattice, write_fields, write_history, write_run
+from made_runs import DX, block, frame, lattice, write_fields, write_history, write_run, write_shells
 
 pytest.importorskip("matplotlib")
 from courant.post.raster import Raster  # noqa: E402
@@ -137,8 +137,22 @@ class TestFaces:
         flat.x[4:, 2] = 1  # a fold of 45 degrees is seen
         assert (2, 3) in set(map(tuple, outlines(flat).tolist()))
 
+    def test_solids_and_shells_of_one_state(self, cubes):
+        """Two files: the field of the solids gets colours, the shells are walls."""
+        folder = cubes.folder
+        entry = '<DataSet timestep="0.0" part="1" name="shells" file="fields/s.vtu"/>'
+        file = folder / "fields.pvd"
+        file.write_text(file.read_text().replace("</Collection>", f"{entry}</Collection>"))
+        write_shells(folder / "fields/s.vtu", np.array([[0.0, 0, 0], [5, 0, 0], [5, 5, 0], [0, 5, 0]]), [[0, 1, 2, 3]])
+        state = courant.open(folder).states[0]
+        assert [one.path.name for one in state.elements] == ["s.vtu", "solids.vtu"]
+        scene = scene_of(state, View("v", "stress.xx"))
+        assert len(scene.faces) == 10 and len(scene.walls) == 1 and sorted(set(scene.colours.ravel())) == [0, 3]
+        both = joined_faces([faces_of(mesh) for mesh in state.elements])
+        assert len(both) == 11 and both.x[both.corners].max() == 5
+
     def test_mirror(self, cubes):
-        both, _ = mirrored(faces_of(cubes.states[0].shells), None, 0)
+        both = mirrored(faces_of(cubes.states[0].shells), 0)
         assert len(both) == 20 and both.x[:, 0].min() == -2
         middle = both.x[both.corners].mean(axis=1)[10:]
         assert (((middle - [-1, 0.5, 0.5]) * both.normals()[10:]).sum(axis=1) > 0).all()  # still outward
@@ -162,7 +176,8 @@ class TestRaster:
         raster.faces(x - [0, 0, 1], np.array([[0, 1, 2, 3]]), np.array([[1.0, 0, 0]]), normal, lines=False)
         row = raster.colour[25, 6:44, 0]
         assert (np.diff(row) > 0).all() and np.ptp(raster.colour[25, 25]) < 1e-6  # grey, not red, darker on the left
-        assert (raster.colour[25, 1] == 1).all() and raster.seen(np.array([[0.5, 0.5, -0.5], [0.5, 0.5, 0.1], [0.02, 0.5, -9]]), 0.01).tolist() == [False, True, True]
+        places = np.array([[0.5, 0.5, -0.5], [0.5, 0.5, 0.1], [0.02, 0.5, -9]])
+        assert (raster.colour[25, 1] == 1).all() and raster.seen(places, 0.01).tolist() == [False, True, True]
 
     def test_a_veil_counts_once_and_only_in_front(self):
         raster = Raster(0, 1, 20, 20, 20)
@@ -263,6 +278,10 @@ class TestPictures:
         assert (tmp_path / "p.png").stat().st_size > 3000
         with pytest.raises(KeyError, match="did you mean pressure"):
             pool.plot(field="presure")
+        with pytest.raises(ValueError, match="'up' cannot be 'w'; it is one of x, y"):
+            pool.plot(field="pressure", up="w")
+        with pytest.raises(KeyError, match="nothing is within the window"):
+            pool.plot(field="pressure", window=((7, 8), None, None))
 
     def test_gif(self, pool, tmp_path):
         from PIL import Image

@@ -164,6 +164,17 @@ class RunState:
         """Shells, solids and other cells."""
         return Mesh(self._files.shells, self._units) if self._files.shells else None
 
+    @cached_property
+    def solids(self) -> Mesh | None:
+        """Solids, which are `shells`, too, where a run has no shells."""
+        return Mesh(self._files.solids, self._units) if self._files.solids else None
+
+    @property
+    def elements(self) -> list[Mesh]:
+        """Shells and solids, each file once."""
+        found = {mesh.path: mesh for mesh in (self.shells, self.solids) if mesh is not None}
+        return list(found.values())
+
     @property
     def mesh(self) -> Mesh:
         found = self.particles or self.shells

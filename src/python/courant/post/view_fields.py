@@ -134,6 +134,17 @@ def faces_of(mesh: Any) -> Faces:
     return out
 
 
+def joined_faces(some: list[Faces]) -> Faces | None:
+    """Faces of several files as one; None of none."""
+    some = [one for one in some if len(one)]
+    if len(some) < 2:
+        return some[0] if some else None
+    points = np.cumsum([0, *(len(one.x) for one in some[:-1])])
+    corners = np.concatenate([one.corners + begin for one, begin in zip(some, points, strict=True)])
+    rest = (np.concatenate([getattr(one, key) for one in some]) for key in ("cell", "part", "solid"))
+    return Faces(np.concatenate([one.x for one in some]), corners, *rest)
+
+
 def outlines(faces: Faces, sharp: float = 30.0) -> np.ndarray:
     """Edges of an outline, (edges, 2) indices of points: those of one face alone, or between faces more than `sharp` degrees apart."""
     if len(faces) == 0:
@@ -154,13 +165,11 @@ def outlines(faces: Faces, sharp: float = 30.0) -> np.ndarray:
     return edges[shown]
 
 
-def mirrored(faces: Faces, values: np.ndarray | None, axis: int) -> tuple[Faces, np.ndarray | None]:
-    """Faces and their mirror image in the plane where the coordinate is 0; values of nodes go with the points, (points,)."""
-    n = len(faces.x)
-    x = faces.x * np.where(np.arange(3) == axis, -1, 1)
-    turned = faces.corners[:, [1, 0, 3, 2]] + n
+def mirrored(faces: Faces, axis: int) -> Faces:
+    """Faces and their mirror image in the plane where the coordinate is 0."""
     triangle = faces.corners[:, 2] == faces.corners[:, 3]
-    turned[triangle] = faces.corners[triangle][:, [1, 0, 2, 2]] + n
+    turned = faces.corners[:, [1, 0, 3, 2]]
+    turned[triangle] = faces.corners[triangle][:, [1, 0, 2, 2]]
     both = [np.concatenate((one, one)) for one in (faces.cell, faces.part, faces.solid)]
-    out = Faces(np.concatenate((faces.x, x)), np.concatenate((faces.corners, turned)), *both)
-    return out, None if values is None else np.concatenate((values, values))
+    x = faces.x * np.where(np.arange(3) == axis, -1, 1)
+    return Faces(np.concatenate((faces.x, x)), np.concatenate((faces.corners, turned + len(faces.x))), *both)

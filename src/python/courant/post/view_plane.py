@@ -114,7 +114,8 @@ def _draw_marks(axes: Any, scene: Scene, view: View, window: tuple[float, ...], 
             if np.isfinite(here):
                 depth = f"{here - view.bed:.3g} {length}"
                 axes.plot([gauge], [here], marker="v", markersize=5, color="#d55e00", linestyle="none", label="gauge" if k == 0 else None)
-                axes.annotate(depth, (gauge, here), xytext=(-4, 5), textcoords="offset points", ha="right", fontsize=7, color="0.15", bbox=_BOX, zorder=5)
+                beside = {"xytext": (-4, 5), "textcoords": "offset points", "ha": "right"}
+                axes.annotate(depth, (gauge, here), fontsize=7, color="0.15", bbox=_BOX, zorder=5, **beside)
     if view.theory is not None:
         low, high = view.theory_range or window[:2]
         x = np.linspace(low, high, 200)
@@ -124,9 +125,8 @@ def _draw_marks(axes: Any, scene: Scene, view: View, window: tuple[float, ...], 
 def draw_plane(axes: Any, scene: Scene, view: View, window: tuple[float, ...], limits: tuple[float, float], width: int, length: str) -> None:
     """One state in a pair of axes with equal scales."""
     field = fill(scene, window, width)
-    axes.imshow(
-        np.ma.masked_invalid(field), origin="lower", extent=window, cmap=view.colours, vmin=limits[0], vmax=limits[1], interpolation="nearest", aspect="equal"
-    )
+    look = {"cmap": view.colours, "vmin": limits[0], "vmax": limits[1], "interpolation": "nearest", "aspect": "equal"}
+    axes.imshow(np.ma.masked_invalid(field), origin="lower", extent=window, **look)
     if view.walls != "none":
         traces, path = wall_traces(scene).reshape(-1, 2), module("matplotlib.path").Path
         stroke = path(traces, np.tile([path.MOVETO, path.LINETO], len(traces) // 2))  # one stroke: its pieces do not darken each other

@@ -10,7 +10,8 @@ import numpy as np
 
 from ..diagnostics import CourantError
 from ..optional import module
-from .view_fields import Faces, FieldValues, UnknownField, faces_of, field_names, field_of, mirrored
+from .camera import AXES
+from .view_fields import Faces, FieldValues, UnknownField, faces_of, field_names, field_of, joined_faces, mirrored
 
 
 @dataclass(frozen=True)
@@ -46,6 +47,15 @@ class View:
     animate: str = ""
     rate: float = 12.0
 
+    def __post_init__(self) -> None:
+        """Raises ValueError where a word is none of those that there are; recipes have told before."""
+        words = {"of": ("", "particles", "elements"), "walls": ("transparent", "outlined", "none"), "up": ("", *AXES)}
+        for key, known in words.items():
+            if getattr(self, key) not in known:
+                raise ValueError(f"'{key}' cannot be '{getattr(self, key)}'; it is one of {', '.join(filter(None, known))}")
+        if set(self.mirror) - set("xyz"):
+            raise ValueError(f"'mirror' cannot be '{self.mirror}'; it is of x, y and z, as 'xz'")
+
 
 @dataclass
 class Scene:
@@ -66,9 +76,7 @@ class Scene:
     @property
     def shown(self) -> np.ndarray:
         """All values that get colours, (m,)."""
-        parts = [one.ravel() for one in (self.values, self.colours) if one is not None]
-        out = np.concatenate(parts) if parts else np.empty(0)
-        return out[np.isfinite(out)]
+        return np.concatenate([one.ravel() for one in (self.values, self.colours) if one is not None])
 
     def corners(self) -> np.ndarray:
         """All points that must be in the picture, (n, 3) [L]."""
@@ -76,22 +84,25 @@ class Scene:
         return np.concatenate([self.x, *used])
 
 
-def _chosen(state: Any, view: View) -> FieldValues:
-    """The field, of the particles where they have it, else of nodes or elements. Raises UnknownField."""
-    meshes = {"particles": state.particles, "elements": state.shells}
-    if view.of and meshes[view.of] is None:
-        raise UnknownField(f"the state at t = {state.t:g} has no {view.of}")
-    found = [mesh for key, mesh in meshes.items() if mesh is not None and view.of in ("", key)]
-    if not view.field:
-        names = field_names(found[0])
-        return field_of(found[0], "speed" if found[0] is state.particles else "plastic_strain" if "plastic_strain" in names else "speed")
-    for mesh in found:
-        if view.field in field_names(mesh):
-            return field_of(mesh, view.field)
+def _chosen(state: Any, view: View) -> list[tuple[Any, FieldValues]]:
+    """The meshes that get colours, and their values: the particles where they have the field, else all shells and solids that do.
+
+    Raises UnknownField.
+    """
+    particles, elements = [state.particles] if state.particles is not None else [], list(state.elements)
+    kinds = [kind for word, kind in (("particles", particles), ("elements", elements)) if view.of in ("", word) and kind]
+    if not kinds:
+        raise UnknownField(f"the state at t = {state.t:g} has no {view.of or 'particles or elements'}")
+    name = view.field
+    if not name:
+        name = "plastic_strain" if kinds[0] is elements and any("plastic_strain" in field_names(mesh) for mesh in elements) else "speed"
+    for kind in kinds:
+        if found := [(mesh, field_of(mesh, name)) for mesh in kind if name in field_names(mesh)]:
+            return found
     faults = []
-    for mesh in found:
+    for mesh in [mesh for kind in kinds for mesh in kind]:
         try:
-            field_of(mesh, view.field)
+            field_of(mesh, name)
         except UnknownField as fault:
             faults.append(str(fault))
     raise UnknownField("; ".join(faults))
@@ -116,41 +127,57 @@ def _face_values(found: FieldValues, faces: Faces) -> np.ndarray:
     return found.values[faces.corners] if found.at == "nodes" else np.repeat(found.values[faces.cell][:, None], 4, axis=1)
 
 
+def _particles(mesh: Any, view: View, values: np.ndarray, flat: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """x, V, h and values of the active particles, in space of those within the window: in the plane their neighbours count, too."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        V = mesh["mass"].astype(float) / mesh["density"]
+    on = (flat | _within(mesh.points, view.window)) & np.isfinite(V) & (V > 0) & np.isfinite(mesh.points).all(axis=1) & np.isfinite(values)
+    if "active" in mesh:
+        on &= mesh["active"] > 0
+    return mesh.points[on], V[on], mesh["smoothing_length"].astype(float)[on], values[on] * view.factor
+
+
+def _elements(state: Any, view: View, chosen: dict[Any, FieldValues], flat: bool) -> tuple[Faces | None, np.ndarray | None, Faces | None]:
+    """Faces that get colours, values at their corners, and other faces: walls. Faces without a finite value are walls, too."""
+    shown: list[Faces] = []
+    values: list[np.ndarray] = []
+    others: list[Faces] = []
+    for mesh in state.elements:
+        every = faces_of(mesh)
+        if not flat:
+            every = every.part_of(_within(every.x[every.corners].mean(axis=1), view.window))
+        if mesh.path not in chosen:
+            others.append(every)
+            continue
+        at = _face_values(chosen[mesh.path], every)
+        known = np.isfinite(at).all(axis=1)
+        shown.append(every.part_of(known))
+        values.append(at[known] * view.factor)
+        others.append(every.part_of(~known))
+    faces = joined_faces(shown)
+    return faces, None if faces is None else np.concatenate(values), joined_faces(others)
+
+
 def scene_of(state: Any, view: View) -> Scene:
-    """What the view shows of one state. Raises UnknownField, CourantError."""
+    """What the view shows of one state; particles are left out where elements get the colours. Raises UnknownField, CourantError."""
     found = _chosen(state, view)
-    label = f"{spoken(found.name)} [{view.unit or found.unit}]"
+    label = f"{spoken(found[0][1].name)} [{view.unit or found[0][1].unit}]"
+    mesh, of_particles = state.particles, found[0][1].at == "particles"
+    flat = of_particles and len(mesh) > 0 and bool((mesh.points[:, 2] == mesh.points[0, 2]).all())
     x, V, h, values = np.empty((0, 3)), np.empty(0), np.empty(0), None
-    faces = walls = colours = None
-    mesh = state.particles
-    flat = mesh is not None and len(mesh) > 0 and bool((mesh.points[:, 2] == mesh.points[0, 2]).all())
-    if mesh is not None:
-        on = np.ones(len(mesh), dtype=bool) if "active" not in mesh else mesh["active"] > 0
-        on &= _within(mesh.points, view.window)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            V_all = mesh["mass"].astype(float) / mesh["density"]
-        on &= np.isfinite(V_all) & (V_all > 0) & np.isfinite(mesh.points).all(axis=1)
-        x, V, h = mesh.points[on], V_all[on], mesh["smoothing_length"].astype(float)[on]
-        values = found.values[on] * view.factor if found.at == "particles" else None
-    if state.shells is not None:
-        every = faces_of(state.shells)
-        middle = every.x[every.corners].mean(axis=1)
-        every = every.part_of(_within(middle, view.window)) if not flat else every
-        if found.at == "particles":
-            walls = every
-        else:
-            known = np.isfinite(_face_values(found, every)).all(axis=1)
-            faces, walls = every.part_of(known), every.part_of(~known)
-            colours = _face_values(found, faces) * view.factor
+    if of_particles:
+        x, V, h, values = _particles(mesh, view, found[0][1].values, flat)
+    faces, colours, walls = _elements(state, view, {} if of_particles else {one.path: field for one, field in found}, flat)
+    if not _within(x, view.window).any() and faces is None:
+        raise UnknownField(f"nothing is within the window at t = {state.t:g}")
     for axis in view.mirror:
         a = "xyz".index(axis)
-        if faces is not None:
-            faces, _ = mirrored(faces, None, a)
-            colours = np.concatenate((colours, colours)) if colours is not None else None
-        x = np.concatenate((x, x * np.where(np.arange(3) == a, -1, 1)))
-        V, h = np.concatenate((V, V)), np.concatenate((h, h))
-        values = None if values is None else np.concatenate((values, values))
-    return Scene(state.t, flat, x, V, h, values, faces, colours, walls if walls is not None and len(walls) else None, label)
+        if faces is not None and colours is not None:
+            faces, colours = mirrored(faces, a), np.concatenate((colours, colours))
+        if values is not None:
+            x, values = np.concatenate((x, x * np.where(np.arange(3) == a, -1, 1))), np.concatenate((values, values))
+            V, h = np.concatenate((V, V)), np.concatenate((h, h))
+    return Scene(state.t, flat, x, V, h, values, faces, colours, walls, label)
 
 
 def scenes_of(run: Any, view: View, times: list[float] | None = None) -> list[Scene]:

@@ -13,7 +13,8 @@ from .view_fields import Faces, outlines
 from .view_scene import Scene, View, colours_of
 
 _FINER = 2  # pixels that are averaged along each side
-_GREY, _BODY = np.array([0.62, 0.66, 0.70]), np.array([0.75, 0.76, 0.78])
+_ARROW = {"arrowstyle": "-|>", "color": "0.2", "linewidth": 1, "mutation_scale": 7, "shrinkA": 0, "shrinkB": 0}
+_GREY = np.array([0.62, 0.66, 0.70])  # of the veil that walls are
 
 
 class Picture(NamedTuple):
@@ -90,11 +91,10 @@ def render(scene: Scene, view: View, camera: Camera, frame: tuple[float, ...], l
         front = ~faces.solid | (normals[:, 2] > 0)  # the backs of solids are behind their fronts
         colour = colours_of(scene.colours[front], low, high, view.colours)
         raster.faces(camera.project(faces.x), faces.corners[front], colour, normals[front], view.lines)
-    if len(scene.x):
+    if scene.values is not None and len(scene.x):
         size = np.sqrt(scene.V) if scene.flat else np.cbrt(scene.V)
-        values = scene.values
-        colour = np.broadcast_to(_BODY, (len(scene.x), 3)) if values is None else colours_of(values, low, high, view.colours)
-        raster.spheres(camera.project(scene.x), 0.56 * size, colour)  # a little more than touching, so that no gaps show
+        radius = 0.56 * size  # a little more than touching, so that no gaps show
+        raster.spheres(camera.project(scene.x), radius, colours_of(scene.values, low, high, view.colours))
         thick = 2.5 * float(np.median(size))
     raster.shadows(thick)
     _veils(raster, scene, view, camera)
@@ -116,7 +116,7 @@ def draw_axes(axes: Any, camera: Camera, frame: tuple[float, ...], unit: str) ->
         way = camera.project(np.eye(3)[k][None])[0, :2] * size
         if np.hypot(*way) < 0.3 * size:  # it points at the eye, or away
             continue
-        axes.annotate("", at + way, at, arrowprops={"arrowstyle": "-|>", "color": "0.2", "linewidth": 1, "mutation_scale": 7, "shrinkA": 0, "shrinkB": 0})
+        axes.annotate("", at + way, at, arrowprops=_ARROW)
         label = at + way * (1 + 0.4 * size / np.hypot(*way))
         axes.text(*label, name, fontsize=8, color="0.2", ha="center", va="center")
     length = nice_length(0.25 * (right - left))

@@ -22,10 +22,10 @@ from .view_space import camera_of, draw_axes, draw_panel, frame_of, render
 
 COLOURS = ("viridis", "cividis", "magma", "plasma", "coolwarm", "Greys")
 _KEYS = (
-    "name", "field", "of", "times", "range", "colours", "up", "camera", "x", "y", "z", "walls", "title", "unit", "factor", "mirror", "columns", "lines",
-    "depth", "bed", "gauges", "theory", "animate", "rate",
+    "name", "field", "of", "times", "range", "colours", "up", "camera", "x", "y", "z", "walls", "title", "unit", "factor", "mirror",
+    "columns", "lines", "depth", "bed", "gauges", "theory", "animate", "rate",
 )  # fmt: skip
-_PIXELS, _DPI = 1000, 120  # of one panel, and of the file
+_DPI = 120
 
 
 def read_view(keys: YamlMap) -> View:
@@ -113,7 +113,8 @@ def draw_view(
     rows, columns = _spread(len(scenes), view, wide)
     panel = 9.0 / columns if wide >= 1 else min(9.0 / columns, 4.5 * wide)
     height = min(panel / wide, 8.0)
-    figure, grid = plt.subplots(rows, columns, figsize=(panel * columns + 1.3, (height + 0.25) * rows + 0.7), squeeze=False, sharex=flat, sharey=flat, constrained_layout=True)
+    size = (panel * columns + 1.3, (height + 0.25) * rows + 0.7)
+    figure, grid = plt.subplots(rows, columns, figsize=size, squeeze=False, sharex=flat, sharey=flat, constrained_layout=True)
     panels = list(grid.ravel())
     width = max(200, round(panel * _DPI))
     for axes, scene in zip(panels, scenes, strict=False):
