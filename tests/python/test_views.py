@@ -273,6 +273,15 @@ class TestPictures:
         save_view(made, tmp_path / "a.png")
         assert (tmp_path / "a.png").stat().st_size > 5000
 
+    def test_a_plane_flow_by_a_camera_or_with_another_axis_up(self, pool):
+        upside_down = draw_view(pool, View("v", up="-y")).axes[0]
+        assert not upside_down.axison and {"x", "y"} <= {one.get_text() for one in upside_down.texts}
+        assert not draw_view(pool, View("v", azimuth=30)).axes[0].axison and draw_view(pool, View("v")).axes[0].axison
+        with pytest.raises(UnknownField, match="lies in x and y: up cannot be z"):
+            draw_view(pool, View("v", up="z"))
+        with pytest.raises(UnknownField, match="need a plane flow whose y is up"):
+            draw_view(pool, View("v", up="-y", depth=True))
+
     def test_plot_of_results(self, pool, tmp_path):
         pool.plot(field="pressure", t=0.5, file=tmp_path / "p.png", range=(0, 1))
         assert (tmp_path / "p.png").stat().st_size > 3000

@@ -388,7 +388,9 @@ class Results:
             return self.energies
         return self.ascii[name] if name in ASCII_NAMES else self.histories.table(name)
 
-    def plot(self, what: str = "energies", *names: str, field: str | None = None, t: float | None = None, file: str | Path | None = None, **keys: Any) -> Any:
+    def plot(
+        self, what: str = "energies", *names: str, field: str | None = None, t: float | None = None, file: str | Path | None = None, **keys: Any
+    ) -> Any:
         """A table, as `table` takes its name, over time; or with `field` or `t` a picture of the state nearest to t, of the last one if not given.
 
         `field`: of particles, nodes or elements: "speed", "stress.mises". `keys`: others of a view (docs/post.md), as range=(0, 2), up="z",

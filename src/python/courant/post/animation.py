@@ -11,6 +11,7 @@ import numpy as np
 
 from ..optional import MissingModule, module
 from ..style import pyplot
+from .camera import up_of
 from .view_scene import View, colour_range, scene_of
 
 _DPI = 80
@@ -33,6 +34,7 @@ def animate(run: Any, view: View, path: Path) -> Path:
     from .views import draw_view
 
     writer = _writer(path.suffix[1:], view.rate)
+    view = replace(view, columns=1, up=view.up or up_of(run, scene_of(run.states[-1], view).flat))
     times = run.states.times
     if view.times and len(view.times) > 1:
         times = times[(times >= min(view.times) - 1e-9) & (times <= max(view.times) + 1e-9)]
@@ -41,7 +43,7 @@ def animate(run: Any, view: View, path: Path) -> Path:
     frames = []
     for t in times:
         # all looked-at states give the window, so that it stands still; the one of this frame is drawn
-        figure = draw_view(run, replace(view, columns=1), [scene_of(run.states.at(float(t)), view)], limits, ends)
+        figure = draw_view(run, view, [scene_of(run.states.at(float(t)), view)], limits, ends)
         frame = io.BytesIO()
         figure.savefig(frame, format="png", dpi=_DPI)
         pyplot().close(figure)

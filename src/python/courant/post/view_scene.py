@@ -18,7 +18,7 @@ from .view_fields import Faces, FieldValues, UnknownField, faces_of, field_names
 class View:
     """A picture that is asked for. `field`: "" for speed or else plastic_strain; `of`: "", particles or elements; `times`: [T], None for the
     last state; `range`: of the colours, in the unit shown; `window`: limits of x, y, z [L], None for all; `up`: "" for that of gravity;
-    `azimuth`: None for one that suits; `theory`: an expression of x with `theory_range` and `theory_label`; `unit`, `factor`: shown are
+    `azimuth`, `elevation`: None for those that suit; `theory`: an expression of x with `theory_range` and `theory_label`; `unit`, `factor`: shown are
     values times the factor; `mirror`: axes, as "xz"; `animate`: "", gif or mp4 of all states from `times[0]` to `times[-1]`."""
 
     name: str
@@ -29,7 +29,7 @@ class View:
     colours: str = "viridis"
     up: str = ""
     azimuth: float | None = None
-    elevation: float = 20.0
+    elevation: float | None = None
     window: tuple[tuple[float, float] | None, ...] = (None, None, None)
     walls: str = "transparent"
     title: str = ""

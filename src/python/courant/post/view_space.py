@@ -26,10 +26,12 @@ class Picture(NamedTuple):
 
 def camera_of(run: Any, view: View, scenes: list[Scene]) -> Camera:
     """The camera of a view: what the view does not tell, gravity and the shape of the scene do."""
-    up = view.up or up_of(run, scenes[0].flat)
+    flat = scenes[0].flat
+    up = view.up or up_of(run, flat)
     corners = np.concatenate([one.corners() for one in scenes])
-    azimuth = standing_azimuth(np.ptp(corners, axis=0), up) if view.azimuth is None else view.azimuth
-    return Camera.looking(up, azimuth, view.elevation)
+    azimuth = 0.0 if flat else standing_azimuth(np.ptp(corners, axis=0), up)
+    elevation = 0.0 if flat else 20.0
+    return Camera.looking(up, azimuth if view.azimuth is None else view.azimuth, elevation if view.elevation is None else view.elevation)
 
 
 def frame_of(camera: Camera, scenes: list[Scene]) -> tuple[float, float, float, float]:

@@ -14,7 +14,7 @@ from ..optional import module
 from ..style import pyplot
 from ..units import Dimension
 from ..yaml_map import YamlMap, is_list
-from .camera import AXES
+from .camera import AXES, up_of
 from .state import read_expression
 from .view_plane import draw_plane, plane_window
 from .view_scene import Scene, UnknownField, View, colour_range, scenes_of
@@ -96,6 +96,17 @@ def _spread(count: int, view: View, wide: float) -> tuple[int, int]:
     return math.ceil(count / columns), columns
 
 
+def _in_plane(run: Any, view: View, scene: Scene) -> bool:
+    """Whether the picture is a filled plane: of a plane flow whose y is up, unless there is a camera. Raises UnknownField."""
+    up = (view.up or up_of(run, True)) if scene.flat else ""
+    if up in ("z", "-z") and view.azimuth is None and view.elevation is None:
+        raise UnknownField(f"a plane flow lies in x and y: up cannot be {up}")
+    plane = up == "y" and view.azimuth is None and view.elevation is None
+    if not plane and (view.depth or view.gauges or view.theory is not None):
+        raise UnknownField("depth, gauges and theory need a plane flow whose y is up, and no camera")
+    return plane
+
+
 def draw_view(
     run: Any, view: View, scenes: list[Scene] | None = None, limits: tuple[float, float, str] | None = None, others: list[Scene] | None = None
 ) -> Any:
@@ -106,7 +117,7 @@ def draw_view(
     plt = pyplot()
     scenes = scenes_of(run, view) if scenes is None else scenes
     low, high, beyond = limits or colour_range(scenes, view)
-    flat, length = scenes[0].flat and scenes[0].values is not None, run.units.of(Dimension(L=1))
+    flat, length = _in_plane(run, view, scenes[0]), run.units.of(Dimension(L=1))
     camera = None if flat else camera_of(run, view, scenes + (others or []))
     frame = plane_window(scenes + (others or []), view) if camera is None else frame_of(camera, scenes + (others or []))
     wide = (frame[1] - frame[0]) / (frame[3] - frame[2])
