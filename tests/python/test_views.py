@@ -192,7 +192,7 @@ class TestPlane:
     def test_no_gaps_inside_and_nothing_outside(self, pool):
         view = View("v", window=((-0.1, 0.6), (-0.05, 0.2), None))
         scene = scene_of(pool.states[0], view)
-        field = fill(scene, (-0.1, 0.6, -0.05, 0.2), 700)
+        field = fill(scene.x, scene.V, scene.h, scene.values, (-0.1, 0.6, -0.05, 0.2), 700)
         ny, nx = field.shape
         x, y = -0.1 + 0.7 * (np.arange(nx) + 0.5) / nx, -0.05 + 0.25 * (np.arange(ny) + 0.5) / ny
         away_x, away_y = np.abs(x - 0.25)[None], np.abs(y - 0.05)[:, None]
@@ -206,13 +206,16 @@ class TestPlane:
     def test_cracks_are_filled_and_cavities_are_not(self, tmp_path, gap, filled):
         upper = lattice(x1=0.2, y1=0.05) + [0, 0.05 + gap * DX, 0]
         write_run(tmp_path, [frame(lattice(x1=0.2, y1=0.05), upper)])
-        field = fill(scene_of(courant.open(tmp_path).states[0], View("v")), (0, 0.2, 0, 0.12), 400)
+        scene = scene_of(courant.open(tmp_path).states[0], View("v"))
+        field = fill(scene.x, scene.V, scene.h, scene.values, (0, 0.2, 0, 0.12), 400)
         row = field[int((0.05 + 0.5 * gap * DX) / 0.12 * field.shape[0])]
         assert np.isfinite(row[len(row) // 4 : -len(row) // 4]).all() == filled
 
     def test_a_drop_alone_is_seen(self, tmp_path):
         write_run(tmp_path, [frame(lattice(x1=0.1, y1=0.02), np.array([[0.05, 0.08, 0]]))])
-        field = fill(scene_of(courant.open(tmp_path).states[0], View("v")), (0, 0.1, 0, 0.1), 400)
+        scene = scene_of(courant.open(tmp_path).states[0], View("v"))
+        field = fill(scene.x, scene.V, scene.h, scene.values, (0, 0.1, 0, 0.1), 400)
+        assert np.isnan(fill(scene.x + 9, scene.V, scene.h, scene.values, (0, 0.1, 0, 0.1), 40)).all()
         n = field.shape[0]
         assert np.isfinite(field[int(0.8 * n), n // 2]) and np.isnan(field[int(0.9 * n), n // 2])
 

@@ -19,6 +19,7 @@ from ..optional import module
 from ..style import FIELD_COLOURS, LOOKS, MARKERS, SPEED_COLOURS, WALLS, pyplot
 from .figures import CHARTS, Figure
 from .tables import Table
+from .view_plane import fill
 
 
 def plain(title: str) -> str:
@@ -172,17 +173,6 @@ def _window(limits: Sequence[float] | None, values: np.ndarray) -> tuple[float, 
     return float(values.min()) - margin, float(values.max()) + margin
 
 
-def _point_area(x: np.ndarray, y: np.ndarray, width_in_points: float, x_range: tuple[float, float]) -> float:
-    """Area of a marker [pt2] that just covers a particle's share of the plane."""
-    places = np.column_stack((x, y))
-    some = places[:: max(1, len(places) // 200)]
-    nearest = module("scipy.spatial").cKDTree(places).query(some, k=2)[0][:, 1] if len(places) > 1 else np.array([np.inf])
-    nearest = nearest[np.isfinite(nearest) & (nearest > 0)]
-    if len(nearest) == 0:
-        return 4.0
-    return max(0.3, (1.35 * float(np.median(nearest)) * width_in_points / (x_range[1] - x_range[0])) ** 2)
-
-
 def _draw_velocity(folder: Path, settings: dict[str, Any]) -> None:
     data = _read_columns(folder / "snapshots.csv")
     if len(data["t"]) == 0:
@@ -195,11 +185,11 @@ def _draw_velocity(folder: Path, settings: dict[str, Any]) -> None:
     height = min(max(width * (y_range[1] - y_range[0]) / (x_range[1] - x_range[0]), 0.6), 8) + 0.12
     size = (width + 1.2, len(times) * height + 1.0)
     figure, panels = plt.subplots(len(times), 1, figsize=size, sharex=True, squeeze=False, constrained_layout=True)
-    last = data["t"] == times[-1]
-    area = _point_area(data["x"][last], data["y"][last], 72 * 0.9 * width, x_range)
     for axes, t in zip(panels[:, 0], times, strict=True):
-        x, y, speed = (data[key][data["t"] == t] for key in ("x", "y", "speed"))
-        dots = axes.scatter(x, y, c=speed, s=area, cmap=SPEED_COLOURS, vmin=low, vmax=high, linewidths=0, rasterized=True)
+        x, y, speed, area, h = (data[key][data["t"] == t] for key in ("x", "y", "speed", "area", "h"))
+        field = fill(np.column_stack((x, y)), area, h, speed, (*x_range, *y_range), round(160 * width))
+        look = {"cmap": SPEED_COLOURS, "vmin": low, "vmax": high, "interpolation": "nearest"}
+        dots = axes.imshow(np.ma.masked_invalid(field), origin="lower", extent=(*x_range, *y_range), **look)
         _segments(axes, traces)
         axes.set(xlim=x_range, ylim=y_range, ylabel="y [m]")
         axes.set_aspect("equal")

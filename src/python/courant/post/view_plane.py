@@ -26,25 +26,26 @@ def plane_window(scenes: list[Scene], view: View) -> tuple[float, float, float, 
     return out[0], out[1], out[2], out[3]
 
 
-def fill(scene: Scene, window: tuple[float, ...], width: int) -> np.ndarray:
+def fill(x: np.ndarray, V: np.ndarray, h: np.ndarray, values: np.ndarray, window: tuple[float, ...], width: int) -> np.ndarray:
     """Values on pixels, row 0 at the bottom, NaN outside the water; (height, width). `width`: at least so many pixels.
+
+    x: (n, 2) or more columns [L]; V: (n,) m/rho, an area [L2]; h: (n,) [L]; window: left, right, bottom, top [L].
 
     There is water where the colour C = sum V W is at least 1/2, as the surface is found, in discs of the area m/rho of drops, and in gaps thinner
     than h; there values are Shepard's sum V W f / sum V W.
     """
     left, right, bottom, top = window
-    if len(scene.h):
-        width = max(width, min(_MOST_PIXELS, round(_PIXELS_PER_H * (right - left) / float(np.median(scene.h)))))  # to see gaps as they are
+    if len(h):
+        width = max(width, min(_MOST_PIXELS, round(_PIXELS_PER_H * (right - left) / float(np.median(h)))))  # to see gaps as they are
     dx = (right - left) / width
     height = max(1, round((top - bottom) / dx))
-    if scene.values is None or len(scene.x) == 0:
-        return np.full((height, width), np.nan)
-    pad = int(np.ceil(2 * scene.h.max() / dx)) + 1  # kernels reach over the edges of the picture
+    pad = int(np.ceil(2 * h.max(initial=0.0) / dx)) + 1  # kernels reach over the edges of the picture
     wide, high = width + 2 * pad, height + 2 * pad
-    column = np.floor((scene.x[:, 0] - left) / dx).astype(int) + pad
-    row = np.floor((scene.x[:, 1] - bottom) / dx).astype(int) + pad
+    column, row = np.floor((x[:, 0] - left) / dx).astype(int) + pad, np.floor((x[:, 1] - bottom) / dx).astype(int) + pad
     inside = (column >= 0) & (column < wide) & (row >= 0) & (row < high)
-    (x, y), V, h, values = scene.x[inside, :2].T, scene.V[inside], scene.h[inside], scene.values[inside]
+    if not inside.any():
+        return np.full((height, width), np.nan)
+    (x, y), V, h, values = x[inside, :2].T, V[inside], h[inside], values[inside]
     column, row, factor = column[inside], row[inside], V * spline_norm(h, 2)
     C, f, near = np.zeros(wide * high), np.zeros(wide * high), np.full(wide * high, False)
     own: list[tuple[np.ndarray, np.ndarray]] = []  # pixels in a particle's own disc, and its number
@@ -124,7 +125,8 @@ def _draw_marks(axes: Any, scene: Scene, view: View, window: tuple[float, ...], 
 
 def draw_plane(axes: Any, scene: Scene, view: View, window: tuple[float, ...], limits: tuple[float, float], width: int, length: str) -> None:
     """One state in a pair of axes with equal scales."""
-    field = fill(scene, window, width)
+    values = np.empty(0) if scene.values is None else scene.values
+    field = fill(scene.x, scene.V, scene.h, values, window, width)
     look = {"cmap": view.colours, "vmin": limits[0], "vmax": limits[1], "interpolation": "nearest", "aspect": "equal"}
     axes.imshow(np.ma.masked_invalid(field), origin="lower", extent=window, **look)
     if view.walls != "none":
