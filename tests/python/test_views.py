@@ -179,6 +179,16 @@ class TestRaster:
         places = np.array([[0.5, 0.5, -0.5], [0.5, 0.5, 0.1], [0.02, 0.5, -9]])
         assert (raster.colour[25, 1] == 1).all() and raster.seen(places, 0.01).tolist() == [False, True, True]
 
+    def test_what_lies_behind_an_edge_is_darker(self):
+        raster = Raster(0, 1, 40, 40, 40)
+        x = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
+        raster.faces(x, np.array([[0, 1, 2, 3]]), np.full((1, 3), 0.8), np.array([[0, 0, 1.0]]), lines=False)
+        raster.spheres(np.array([[0.5, 0.5, 1.0]]), np.array([0.2]), np.full((1, 3), 0.8))
+        before = raster.colour.copy()
+        raster.shadows(0.1)
+        assert raster.colour[20, 29, 0] < 0.9 * before[20, 29, 0]  # beside the sphere, on the face
+        assert raster.colour[3, 3, 0] == before[3, 3, 0] and raster.colour[20, 20, 0] == before[20, 20, 0]
+
     def test_a_veil_counts_once_and_only_in_front(self):
         raster = Raster(0, 1, 20, 20, 20)
         x = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
@@ -186,6 +196,10 @@ class TestRaster:
         assert raster.colour == pytest.approx(0.75)
         raster.veil(x - [0, 0, 5], np.array([[0, 1, 2, 3]]), np.zeros(3), 0.2)
         assert raster.colour == pytest.approx(0.6)  # a veil hides nothing
+        raster.spheres(np.array([[0.5, 0.5, -1.0]]), np.array([0.2]), np.ones((1, 3)))
+        before = raster.colour[10, 10].copy()
+        raster.veil(x - [0, 0, 5], np.array([[0, 1, 2, 3]]), np.zeros(3), 0.5)
+        assert (raster.colour[10, 10] == before).all() and raster.colour[1, 1] == pytest.approx(0.3)  # not over what stands before it
 
 
 class TestPlane:
@@ -256,6 +270,17 @@ class TestPictures:
         picture = render(scene_of(cubes.states[0], view), view, Camera.looking("z", 0, 0), (-0.5, 2.5, -0.5, 1.5), 0, 0.5, 300).image
         high, low = picture[100, 100], picture[100, 200]  # x = 0.5 and x = 1.5
         assert high[0] > 0.7 and high[2] < 0.3 and low[0] < 0.35 and low[1] < 0.1 and (picture[10, 10] == 1).all()
+
+    def test_fronts_of_solids_are_seen_not_their_backs(self, cubes):
+        view = View("v", "velocity.y", lines=False)  # the velocity is the place: 0 in front, 1 at the back
+        picture = render(scene_of(cubes.states[0], view), view, Camera.looking("z", 0, 0), (-0.5, 2.5, -0.5, 1.5), 0, 1, 300).image
+        assert picture[100, 100] == pytest.approx(colours_of(np.array([0.0]), 0, 1, "viridis")[0], abs=0.1)
+        picture = render(scene_of(cubes.states[0], view), view, Camera.looking("z", 180, 0), (-2.5, 0.5, -0.5, 1.5), 0, 1, 300).image
+        assert picture[100, 200, 1] > 0.65 > 0.35 > picture[100, 200, 2]  # yellow
+
+    def test_the_colour_bar_tells_of_values_beyond(self, pool):
+        bar = draw_view(pool, View("v", range=(0.1, 0.6))).axes[-1]._colorbar
+        assert (bar.extend, bar.vmin, bar.vmax) == ("min", 0.1, 0.6)
 
     def test_water_in_space_with_walls(self, tmp_path):
         write_run(tmp_path, [frame(block(6, 5, 4), dim=3)], shells=True)
