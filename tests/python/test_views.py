@@ -158,6 +158,14 @@ class TestFaces:
         assert (((middle - [-1, 0.5, 0.5]) * both.normals()[10:]).sum(axis=1) > 0).all()  # still outward
 
 
+    @pytest.mark.parametrize(
+        "name, sign", [("velocity.x", -1), ("velocity.y", 1), ("stress.xy", -1), ("stress.yz", 1), ("stress.xx", 1), ("stress.mises", 1)]
+    )
+    def test_components_in_a_mirror(self, cubes, name, sign):
+        colours = scene_of(cubes.states[0], View("v", name, mirror="x")).colours
+        assert len(colours) == 20 and (colours[10:] == sign * colours[:10]).all()
+
+
 class TestRaster:
     def test_the_nearer_sphere_is_seen_where_it_belongs(self):
         raster = Raster(0, 1, 100, 100, 100)

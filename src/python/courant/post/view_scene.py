@@ -158,6 +158,12 @@ def _elements(state: Any, view: View, chosen: dict[Any, FieldValues], flat: bool
     return faces, None if faces is None else np.concatenate(values), joined_faces(others)
 
 
+def _mirror_sign(name: str, axis: str) -> int:
+    """-1 for components that change their sign in a mirror across an axis: "velocity.x" and "stress.xy" across x."""
+    part = name.partition(".")[2]
+    return -1 if set(part) <= set("xyz") and part.count(axis) % 2 else 1
+
+
 def scene_of(state: Any, view: View) -> Scene:
     """What the view shows of one state; particles are left out where elements get the colours. Raises UnknownField, CourantError."""
     found = _chosen(state, view)
@@ -171,11 +177,11 @@ def scene_of(state: Any, view: View) -> Scene:
     if not _within(x, view.window).any() and faces is None:
         raise UnknownField(f"nothing is within the window at t = {state.t:g}")
     for axis in view.mirror:
-        a = "xyz".index(axis)
+        a, sign = "xyz".index(axis), _mirror_sign(found[0][1].name, axis)
         if faces is not None and colours is not None:
-            faces, colours = mirrored(faces, a), np.concatenate((colours, colours))
+            faces, colours = mirrored(faces, a), np.concatenate((colours, sign * colours))
         if values is not None:
-            x, values = np.concatenate((x, x * np.where(np.arange(3) == a, -1, 1))), np.concatenate((values, values))
+            x, values = np.concatenate((x, x * np.where(np.arange(3) == a, -1, 1))), np.concatenate((values, sign * values))
             V, h = np.concatenate((V, V)), np.concatenate((h, h))
     return Scene(state.t, flat, x, V, h, values, faces, colours, walls, label)
 
