@@ -389,6 +389,17 @@ class TestRecipe:
         assert "view 'late': no state near t = 9: the results go from 0 to 1" in text
         assert (pool.folder / "post/good.png").is_file() and not (pool.folder / "post/bad.png").exists()
 
+    def test_a_view_without_a_recipe(self, cubes, tmp_path, capsys):
+        from courant.post.command import main
+
+        assert main(["--view", "stress.mises", str(cubes.folder)]) == 0
+        assert (cubes.folder / "post/stress_mises.png").stat().st_size > 3000 and "stress_mises.png" in capsys.readouterr().out
+        assert main(["--view", "stress.mised", str(cubes.folder)]) == 1 and "did you mean stress.mises?" in capsys.readouterr().err
+        assert main(["--view", "speed", str(tmp_path / "none")]) == 1 and "no such folder" in capsys.readouterr().err
+        with pytest.raises(SystemExit):
+            main([str(cubes.folder)])
+        assert "a RECIPE or --view FIELD is needed" in capsys.readouterr().err
+
     def test_views_of_a_run_without_particles(self, cubes, tmp_path):
         from courant.post import run_post
 
