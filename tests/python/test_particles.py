@@ -56,6 +56,15 @@ class TestFirstSurface:
         assert self.depth(calm, sheet) == pytest.approx(self.depth(calm), abs=1e-12)
         assert self.depth(calm, np.array([[0.05, 9.5 * DX, 0]])) < 9 * DX
 
+    @pytest.mark.parametrize("gap, depth", [(1.0, 13), (1.1, 13.1), (1.4, 4), (2.0, 4)])  # spacings; h is 1.2
+    def test_a_gap_thinner_than_h_is_no_surface(self, gap, depth):
+        over = lattice(x1=0.1, y0=0.0, y1=8 * DX) + [0, (4 + gap) * DX, 0]
+        assert self.depth(lattice(x1=0.1, y1=4 * DX), over) == pytest.approx(depth * DX, abs=0.1 * DX)
+
+    def test_gaps_count_one_by_one(self):
+        rows = [lattice(x1=0.1, y1=2 * DX) + [0, at * DX, 0] for at in (0, 3, 6, 9.5)]  # gaps of 1, 1 and 1.5 spacings
+        assert self.depth(*rows) == pytest.approx(8 * DX, abs=0.1 * DX)
+
     def test_dry_bed(self):
         assert self.depth(lattice(x1=0.1, y1=8 * DX), x=0.5) == 0
         assert self.depth(lattice(x1=0.1, y0=4 * DX, y1=12 * DX)) == 0
@@ -106,6 +115,14 @@ class TestWaterOnLines:
         pieces, _ = water_on_lines(water, line(0.4, 0.2, 3), 1)
         assert pieces.line.tolist() == [0, 1, 1]
         assert pieces.high == pytest.approx([0.03, 0.03, 0.09], abs=0.1 * DX) and pieces.low[2] == pytest.approx(0.06, abs=0.1 * DX)
+
+    def test_pieces_with_thin_gaps_are_joined_line_by_line(self):
+        from courant.post.particles import Pieces, joined
+
+        pieces = Pieces(np.array([0, 0, 0, 2, 2]), np.array([0.0, 1.5, 4.0, 0.2, 3.0]), np.array([1.0, 3.0, 5.0, 2.0, 4.0]))
+        one = joined(pieces, 1.0)  # a gap of just 1 is a cavity
+        assert one.line.tolist() == [0, 0, 2, 2] and one.low.tolist() == [0, 4, 0.2, 3] and one.high.tolist() == [3, 5, 2, 4]
+        assert [len(part) for part in joined(Pieces(*(part[:0] for part in pieces)), 1.0)] == [0, 0, 0]
 
     def test_filled_is_the_volume_of_the_particles(self):
         state = frame(lattice(x1=0.5, y1=0.05))

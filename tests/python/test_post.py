@@ -74,7 +74,7 @@ def test_a_probe_and_pictures_alone(tmp_path):
     post(tmp_path, "snapshots: {times: [0]}\n")
     lines = (tmp_path / "snapshots.csv").read_text().splitlines()
     assert len(lines) == 1 + 100 * 4 + 120 * 16  # the channel has 100 columns of 4 and 120 of 16 particles
-    assert lines[1] == "0,0.0025,0.0025,1.5"
+    assert lines[1] == "0,0.0025,0.0025,1.5,2.5e-05,0.006"  # x, y, speed, area, h
 
 
 TABLES = """analyses:

@@ -97,7 +97,7 @@ def test_faults_of_analyses_with_their_places(tmp_path, entry, expected):
             "R:1:9: error: 'recipe.folder' must be a folder within the run's\n  hint: for example post\n",
         ),
         ("jump: [1, 2\n", "error: not valid YAML: "),
-        ("case: d1/4\n", "R:1:1: error: the recipe asks for nothing\n  hint: add one of: probes, jump, snapshots, analyses\n"),
+        ("case: d1/4\n", "R:1:1: error: the recipe asks for nothing\n  hint: add one of: probes, jump, snapshots, analyses, views\n"),
         ("", "'recipe' must be a map of keys and values"),
         ("analyses: [{kind: toe, name: a, of: a, depth: 1}, {kind: force, name: a, bodies: [1]}]", "two analyses are named 'a'"),
         ("figures: [{name: f}]\nformats: [gif]\nanalyses: [{kind: force, name: a, bodies: [1]}]", "the figure 'f' shows nothing\n  hint: add curves"),

@@ -219,11 +219,12 @@ def _whole(text: str | None, most: int) -> int:
 
 @dataclass
 class StateFiles:
-    """One state of a run, as fields.pvd lists it. `t`: [T]; `shells` is None where there are none."""
+    """One state of a run, as fields.pvd lists it. `t`: [T]; `shells` is None where there are none, the solids where they are alone."""
 
     t: float
     particles: Path | None = None
     shells: Path | None = None
+    solids: Path | None = None
 
 
 @dataclass
@@ -274,8 +275,12 @@ def read_states(folder: str | os.PathLike[str], diagnostics: Diagnostics, *, wit
         state = states.setdefault(t, StateFiles(t))
         if name.endswith(".vtp"):
             state.particles = folder / name
+        elif entry.get("name") == "solids":
+            state.solids = folder / name
         else:
             state.shells = folder / name
+    for state in states.values():
+        state.shells = state.shells or state.solids
     out = [states[t] for t in sorted(states) if states[t].particles is not None or not with_particles]
     if not out:
         diagnostics.error(file, "the file lists no state with particles" if with_particles else "the file lists no state", hint)

@@ -80,6 +80,9 @@ class Mesh:
         """Names of the arrays, of points first, then of cells."""
         return [*self._file.names("PointData"), *self._file.names("CellData")]
 
+    def __contains__(self, name: object) -> bool:
+        return name in self.names
+
     def __getitem__(self, name: str) -> np.ndarray:
         """An array, (points or cells,) or (points or cells, components); "speed" is the length of "velocity". Raises KeyError with the
         names that there are."""
@@ -156,12 +159,28 @@ class RunState(Mesh):
         path = files.particles or files.shells
         assert path is not None  # fields.pvd names one of them
         super().__init__(path, units)
-        self.t, self._shells = files.t, files.shells
+        self.t, self._files = files.t, files
 
     @cached_property
     def shells(self) -> Mesh | None:
         """Shells, solids and other cells."""
-        return Mesh(self._shells, self._units) if self._shells else None
+        return Mesh(self._files.shells, self._units) if self._files.shells else None
+
+    @cached_property
+    def solids(self) -> Mesh | None:
+        """Solids, which are `shells`, too, where a run has no shells."""
+        return Mesh(self._files.solids, self._units) if self._files.solids else None
+
+    @property
+    def particles(self) -> Mesh | None:
+        """The state itself, where it has particles."""
+        return self if self._files.particles else None
+
+    @property
+    def elements(self) -> list[Mesh]:
+        """Shells and solids, each file once."""
+        found = {mesh.path: mesh for mesh in (self.shells, self.solids) if mesh is not None}
+        return list(found.values())
 
     def plot(self, of: str = "speed", axes: str = "xy", file: str | Path | None = None) -> Any:
         """Points in a plane, coloured by an array (of vectors: their length). Gives matplotlib's figure. Raises MissingModule."""
@@ -340,6 +359,19 @@ class Results:
             return self.energies
         return self.ascii[name] if name in ASCII_NAMES else self.histories.table(name)
 
-    def plot(self, what: str = "energies", *names: str, file: str | Path | None = None) -> Any:
-        """A table, as `table` takes its name, over time. Gives matplotlib's figure, and writes it to `file`. Raises MissingModule."""
-        return self.table(what).plot(*names, file=file)
+    def plot(
+        self, what: str = "energies", *names: str, field: str | None = None, t: float | None = None, file: str | Path | None = None, **keys: Any
+    ) -> Any:
+        """A table, as `table` takes its name, over time; or with `field` or `t` a picture of the state nearest to t, of the last one if not given.
+
+        `field`: of particles, nodes or elements: "speed", "stress.mises". `keys`: others of a view (docs/post.md), as range=(0, 2), up="z",
+        azimuth=60. Gives matplotlib's figure, and writes it to `file`. Raises MissingModule, KeyError with the names there are.
+        """
+        if field is None and t is None and not keys:
+            return self.table(what).plot(*names, file=file)
+        from .post.views import View, draw_view
+
+        made = draw_view(self, View("plot", field or "", times=None if t is None else [t], **keys))
+        if file is not None:
+            made.savefig(file)
+        return made

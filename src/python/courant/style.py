@@ -18,7 +18,7 @@ LOOKS: dict[str, dict[str, Any]] = {
     "line+points": {"linestyle": "-", "linewidth": 1.1, "marker": "o", "markersize": 3.5},
 }
 LOOKS["named"] = LOOKS["points"]  # the name stands beside the point
-FIELD_COLOURS, SPEED_COLOURS = "turbo", "jet"
+FIELD_COLOURS = SPEED_COLOURS = "viridis"  # even in brightness, and for people who do not see all colours
 WALLS = {"colors": "black", "linewidths": 1.6, "capstyle": "projecting"}
 
 

@@ -6,10 +6,11 @@ import argparse
 import sys
 from collections.abc import Sequence
 from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
 from typing import NoReturn
 
-from ..diagnostics import Diagnostics
-from ..files import OutputError
+from ..diagnostics import CourantError, Diagnostics, Location
+from ..files import OutputError, make_folder
 from ..optional import MissingModule
 from ..registry import LoadFault, load_file
 from ..terminal import clear_status_line, processors, say, status_line
@@ -33,24 +34,43 @@ def _count(text: str) -> int:
     return value
 
 
+def view_of(field: str, folder: Path, diagnostics: Diagnostics) -> bool:
+    """FIELD.png of the last state, in the folder `post` of the run. Raises CourantError, MissingModule, OutputError."""
+    from ..results import Results
+    from .views import View, draw_views
+
+    run, out = Results(folder), folder / "post"
+    make_folder(out)
+    made = draw_views(run, [(View(field.replace(".", "_"), field), Location())], out, diagnostics)
+    say("".join(f"view: {path}\n" for path in made))
+    return diagnostics.ok
+
+
 def main(words: Sequence[str]) -> int:
     """The exit code: 0, 1 where recipe or folder have faults, 2 where results could not be written."""
     parser = Parser("courant post", allow_abbrev=False, description="tables, CSV and pictures from the results of a run")
-    parser.add_argument("recipe", metavar="RECIPE", help="recipe.yaml")
+    parser.add_argument("recipe", metavar="RECIPE", nargs="?", help="recipe.yaml")
     parser.add_argument("folder", metavar="DIR", help="folder of the run")
+    parser.add_argument("--view", metavar="FIELD", help="a picture of the last state by a field, with or without a recipe")
     parser.add_argument("--threads", type=_count, default=0, metavar="N", help="processes at once; 0: all cores")
     parser.add_argument("--load", action="append", default=[], metavar="FILE.py", help="analyses and charts of your own")
     call = parser.parse_args(list(words))
+    if not call.recipe and not call.view:
+        parser.error("a RECIPE or --view FIELD is needed")
     diagnostics = Diagnostics()
     try:
         for file in call.load:
             load_file(file)
-        done = run_post(call.recipe, call.folder, say, diagnostics, status_line(), processors(call.threads))
+        done = not call.recipe or run_post(call.recipe, call.folder, say, diagnostics, status_line(), processors(call.threads))
+        if call.view:
+            done = view_of(call.view, Path(call.folder), diagnostics) and done
         code, fault = EXIT_OK if done else EXIT_INPUT, ""
     except LoadFault as error:
         code, fault = EXIT_INPUT, f"error: --load: {error}\n"
     except OutputError as error:
         code, fault = EXIT_RUN, f"error: {error}\n"
+    except CourantError as error:
+        code, fault = EXIT_INPUT, f"{error}\n"
     except MissingModule as error:
         code, fault = EXIT_OTHER, f"error: {error}\n"
     except (MemoryError, BrokenProcessPool):

@@ -20,6 +20,7 @@ from .jump import JumpRecipe, JumpResult
 from .parallel import in_order
 from .recipe import SnapshotRecipe
 from .tables import Table
+from .view_plane import fill
 
 
 def plain(title: str) -> str:
@@ -155,18 +156,8 @@ def _window(limits: tuple[float, float] | None, values: np.ndarray) -> tuple[flo
     return limits or (float(values.min()) - margin, float(values.max()) + margin)
 
 
-def _point_area(places: np.ndarray, width_in_points: float, x_range: tuple[float, float]) -> float:
-    """Area of a marker [pt2] that just covers a particle's share of the plane."""
-    some = places[:: max(1, len(places) // 200)]
-    nearest = module("scipy.spatial").cKDTree(places).query(some, k=2)[0][:, 1] if len(places) > 1 else np.array([np.inf])
-    nearest = nearest[np.isfinite(nearest) & (nearest > 0)]
-    if len(nearest) == 0:
-        return 4.0
-    return max(0.3, (1.35 * float(np.median(nearest)) * width_in_points / (x_range[1] - x_range[0])) ** 2)
-
-
 def draw_velocity(folder: Path, title: str, recipe: SnapshotRecipe, snapshots: dict[float, np.ndarray], walls: np.ndarray) -> None:
-    """velocity.png: particles by their speed, one panel for each time. snapshots: (particles, 3) each, x, y and speed."""
+    """velocity.png: filled by the speed, one panel for each time. snapshots: (particles, 5) each, x, y, speed, area and h."""
     snapshots = {t: snapshots[t] for t in sorted(snapshots) if len(snapshots[t])}
     if not snapshots:
         return
@@ -176,10 +167,11 @@ def draw_velocity(folder: Path, title: str, recipe: SnapshotRecipe, snapshots: d
     height = min(max(width * (y_range[1] - y_range[0]) / (x_range[1] - x_range[0]), 0.6), 8) + 0.12
     rows, size = len(snapshots), (width + 1.2, len(snapshots) * height + 1.0)
     figure, panels = plt.subplots(rows, 1, figsize=size, sharex=True, squeeze=False, constrained_layout=True)
-    area = _point_area(list(snapshots.values())[-1][:, :2], 72 * 0.9 * width, x_range)
     for axes, (t, particles) in zip(panels[:, 0], snapshots.items(), strict=True):
-        x, y, speed = particles.T
-        dots = axes.scatter(x, y, c=speed, s=area, cmap=SPEED_COLOURS, vmin=low, vmax=high, linewidths=0, rasterized=True)
+        x, y, speed, area, h = particles.T
+        field = fill(np.column_stack((x, y)), area, h, speed, (*x_range, *y_range), round(160 * width))
+        look = {"cmap": SPEED_COLOURS, "vmin": low, "vmax": high, "interpolation": "nearest"}
+        dots = axes.imshow(np.ma.masked_invalid(field), origin="lower", extent=(*x_range, *y_range), **look)
         _segments(axes, walls)
         axes.set(xlim=x_range, ylim=y_range, ylabel="y [m]")
         axes.set_aspect("equal")

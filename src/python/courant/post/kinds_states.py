@@ -12,7 +12,7 @@ from ..units import Units
 from ..words import short_number
 from ..yaml_map import Node, YamlMap, is_list, is_map
 from .analysis import Analysis, Moments, Run, Settings, TimeWindow, analysis
-from .particles import Points, interpolate, spline_norm, spline_shape, water_on_lines
+from .particles import Pieces, Points, interpolate, joined, spline_norm, spline_shape, water_on_lines
 from .state import State, read_expression, read_quantities, read_spray, read_where, wanted_array, wanted_arrays
 from .tables import Column, Image, Series, write_vti
 
@@ -103,10 +103,14 @@ class SurfaceAnalysis(Analysis):
     def measure(self, state: State) -> tuple[np.ndarray, np.ndarray, Any]:
         water = state.water(self.which, self.spray)
         pieces, filled = water_on_lines(water, self.places, self.settings.up)
-        return self._depth(pieces, 2 * water.largest_h), filled, pieces if self.layers else None
+        return self._depth(pieces, water.largest_h), filled, pieces if self.layers else None
 
-    def _depth(self, pieces: Any, reach: float) -> np.ndarray:
-        """The top of the highest piece of water over the bed, or of the lowest one that touches the bed; 0 if there is none."""
+    def _depth(self, pieces: Pieces, h: float) -> np.ndarray:
+        """The top of the highest piece of water over the bed, or of the lowest one that touches the bed; 0 if there is none.
+
+        Gaps thinner than h are within a piece, and water whose underside is within 2h of the bed touches it.
+        """
+        pieces = joined(pieces, h)
         depth = np.zeros(len(self.x))
         wet = pieces.high > self.bed[pieces.line]
         line, low, high = pieces.line[wet], pieces.low[wet], pieces.high[wet]
@@ -114,7 +118,7 @@ class SurfaceAnalysis(Analysis):
             depth[line] = high - self.bed[line]  # of a line's pieces the last one is the highest
             return depth
         line, at = np.unique(line, return_index=True)
-        touches = low[at] <= self.bed[line] + reach
+        touches = low[at] <= self.bed[line] + 2 * h
         depth[line] = np.where(touches, high[at] - self.bed[line], 0)
         return depth
 

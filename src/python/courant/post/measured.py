@@ -20,7 +20,7 @@ from .recipe import Recipe
 
 
 class Depths(NamedTuple):
-    """What the jump and the probes need of one state; NaN where it is not asked for. `snapshot`: (particles, 3): x, y, speed."""
+    """What the jump and the probes need of one state; NaN where it is not asked for. `snapshot`: (particles, 5): x, y, speed, area, h."""
 
     jump: float
     toe: float
@@ -56,7 +56,8 @@ def measure_depths(frame: ParticleFrame, recipe: Recipe, with_speed: bool) -> De
     if with_speed and recipe.snapshots:
         v = frame.arrays["velocity"]
         inside = _within(frame.x[:, 0], recipe.snapshots.x) & _within(frame.x[:, 1], recipe.snapshots.y)
-        snapshot = np.column_stack([frame.x[:, :2], np.sqrt((v**2).sum(axis=1))])[inside]
+        area = frame.V if frame.dim == 2 else frame.V ** (2 / 3)
+        snapshot = np.column_stack([frame.x[:, :2], np.sqrt((v**2).sum(axis=1)), area, frame.h])[inside]
     if jump is None:
         return Depths(math.nan, math.nan, math.nan, probes, snapshot)
     return Depths(float(depths[-2]), _toe(everything, jump), float(depths[-1]), probes, snapshot)
@@ -180,8 +181,8 @@ def depth_csv(recipe: Recipe, measured: Measured, jump: JumpResult | None) -> st
 
 
 def _snapshots_csv(measured: Measured) -> str:
-    lines = [f"{t:g},%.6g,%.6g,%.5g\n" % row for t, particles in measured.snapshots for row in map(tuple, particles.tolist())]
-    return "t,x,y,speed\n" + "".join(lines)
+    lines = [f"{t:g},%.6g,%.6g,%.5g,%.5g,%.5g\n" % row for t, particles in measured.snapshots for row in map(tuple, particles.tolist())]
+    return "t,x,y,speed,area,h\n" + "".join(lines)
 
 
 def _walls_csv(walls: np.ndarray) -> str:

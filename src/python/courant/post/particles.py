@@ -208,21 +208,37 @@ def water_on_lines(water: ParticleSet, places: np.ndarray, axis: int) -> tuple[P
         return Pieces(lines, low, high), np.concatenate([one for _, one in halves])
     C = colour_columns(water, line, k, aside, height - start[line], (len(places), steps), dy)
     filled = dy * C.sum(axis=1)
+    found = _wet_pieces(C, start, dy)
+    thick = found.high - found.low >= 0.5 * h
+    return Pieces(*(one[thick] for one in found)), filled
+
+
+def _wet_pieces(C: np.ndarray, start: np.ndarray, dy: float) -> Pieces:
+    """Where the colour is at least 1/2, linear between steps. C: (lines, steps), under 1/2 at both ends; start: (lines,) height of step 0 [L]."""
     wet = C >= 0.5
     where, before = np.nonzero(wet[:, 1:] != wet[:, :-1])  # by turns into the water and out of it
     a, b = C[where, before], C[where, before + 1]
     crossing = start[where] + (before + (0.5 - a) / (b - a)) * dy
-    line, low, high = where[::2], crossing[::2], crossing[1::2]
-    thick = high - low >= 0.5 * h
-    return Pieces(line[thick], low[thick], high[thick]), filled
+    return Pieces(where[::2], crossing[::2], crossing[1::2])
+
+
+def joined(pieces: Pieces, gap: float) -> Pieces:
+    """Pieces with gaps thinner than `gap` [L] between them as one: a crack between two rows of particles is no cavity."""
+    line, low, high = pieces
+    begins = np.ones(len(line), dtype=bool)
+    begins[1:] = (line[1:] != line[:-1]) | (low[1:] - high[:-1] >= gap)
+    first = np.flatnonzero(begins)
+    last = np.append(first[1:], len(line))[: len(first)] - 1
+    return Pieces(line[first], low[first], high[last])
 
 
 def first_surface(particles: ParticleSet, places: np.ndarray, bed: float, over: float = 0.0) -> np.ndarray:
     """Depth of the water over the bed on upright lines (y is up), 0 where it is dry; shape (lines,) [L].
 
-    The surface is where C first falls below 1/2 above the bed: spray above a gap does not count. Nor does water whose underside is
-    more than 2h above the bed: the bed is dry there. Resolution h/16, linear in between. places: (lines, 3) [L]. `over`: lines whose
-    depth cannot be more may be given 0.
+    The surface is where C falls below 1/2 above the bed and stays there for h or more: spray and water above such a cavity do not
+    count, a thinner gap between two rows of particles is no surface. Nor does water count whose underside is more than 2h above the
+    bed: the bed is dry there. Resolution h/16, linear in between. places: (lines, 3) [L]. `over`: lines whose depth cannot be more
+    may be given 0.
     """
     depth, h = np.zeros(len(places)), particles.largest_h
     line, k, aside = lines_near(particles, places, 1, flat=particles.dim == 2)
@@ -236,14 +252,12 @@ def first_surface(particles: ParticleSet, places: np.ndarray, bed: float, over: 
     dy = h / _STEPS_PER_H
     above = particles.x[k, 1] - bed
     steps = math.ceil((max(0.0, above.max()) + 2 * h) / dy) + 34
-    wet = colour_columns(particles, line, k, aside, above, (len(places), steps), dy)
-    inside = wet >= 0.5
-    bottom = inside.argmax(axis=1)  # into the water, at most 2h above the bed
-    touches = inside.any(axis=1) & (bottom <= 2 * _STEPS_PER_H)
-    top = (~inside & (np.arange(steps) > bottom[:, None])).argmax(axis=1)  # the last steps are dry, above all particles
-    rows = np.flatnonzero(touches)
-    a, b = wet[rows, top[rows] - 1], wet[rows, top[rows]]
-    depth[rows] = (top[rows] - 1 + (a - 0.5) / (a - b)) * dy
+    C = np.zeros((len(places), steps + 1))  # step 0 is dry: under the bed there is no water
+    C[:, 1:] = colour_columns(particles, line, k, aside, above, (len(places), steps), dy)
+    water = joined(_wet_pieces(C, np.full(len(places), -dy), dy), h)
+    rows, lowest = np.unique(water.line, return_index=True)
+    touches = water.low[lowest] <= 2 * h
+    depth[rows[touches]] = water.high[lowest[touches]]
     return depth
 
 

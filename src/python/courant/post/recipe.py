@@ -13,8 +13,10 @@ from ..yaml_map import Node, YamlMap, is_map, load_yaml, scalar_text
 from .analysis import Analysis, Settings, read_analysis
 from .figures import Figure, read_figure
 from .jump import JumpRecipe, PublishedRow
+from .view_scene import View
+from .views import read_views
 
-_KEYS = ("case", "probes", "jump", "snapshots", "units", "up", "folder", "analyses", "figures", "formats")
+_KEYS = ("case", "probes", "jump", "snapshots", "units", "up", "folder", "analyses", "figures", "formats", "views")
 _INTERVAL = "for example [2.5, 5.0]"
 
 
@@ -53,12 +55,12 @@ class Recipe:
     figures: list[Figure] = field(default_factory=list)
     formats: list[str] = field(default_factory=lambda: ["png"])
     folder: str = "post"
+    views: list[tuple[View, Location]] = field(default_factory=list)
 
     @property
     def needs_states(self) -> bool:
-        """False for one of histories alone, which also a folder without field states serves: LS-DYNA's, for example."""
-        alone = not (self.jump or self.probes or self.snapshots) and bool(self.analyses)
-        return not alone or any(one.needs_states for one in self.analyses)
+        """False for one of histories alone, which also a folder without field states serves, LS-DYNA's for example; views read their own."""
+        return bool(self.jump or self.probes or self.snapshots) or any(one.needs_states for one in self.analyses)
 
 
 def read_recipe(file: str | PathLike[str], diagnostics: Diagnostics) -> Recipe | None:
@@ -80,10 +82,11 @@ def read_recipe(file: str | PathLike[str], diagnostics: Diagnostics) -> Recipe |
     for node in keys.list("analyses"):
         _read_one(keys, node, out)
     out.figures = [read_figure(keys, node) for node in keys.list("figures")]
+    out.views = read_views(keys, keys.text("up"))
     _read_formats(keys, out)
     _read_folder(keys, out)
-    if diagnostics.errors == before and not (out.probes or out.jump or out.snapshots or out.analyses):
-        diagnostics.error(Location(out.file, 1, 1), "the recipe asks for nothing", "add one of: probes, jump, snapshots, analyses")
+    if diagnostics.errors == before and not (out.probes or out.jump or out.snapshots or out.analyses or out.views):
+        diagnostics.error(Location(out.file, 1, 1), "the recipe asks for nothing", "add one of: probes, jump, snapshots, analyses, views")
     return out if diagnostics.errors == before else None
 
 

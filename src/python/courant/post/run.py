@@ -139,6 +139,20 @@ def _figures(recipe: Recipe, out: Path, title: str, walls: np.ndarray, threads: 
     return f"{len(recipe.figures)} figures: {out}\n"
 
 
+def _views(recipe: Recipe, folder: Path, out: Path, diagnostics: Diagnostics) -> str:
+    """Draws the views; gives what is to be said of them. Raises OutputError."""
+    from ..results import Results
+    from .views import draw_views
+
+    make_folder(out)
+    try:
+        made = draw_views(Results(folder, recipe.settings.units), recipe.views, out, diagnostics)
+    except MissingModule as fault:
+        no_pictures(fault, diagnostics)
+        return ""
+    return "".join(f"view: {path}\n" for path in made)
+
+
 def run_post(
     recipe_file: str | PathLike[str], folder: str | PathLike[str], say: Say, diagnostics: Diagnostics, progress: Say | None = None, threads: int = 1
 ) -> bool:
@@ -155,7 +169,7 @@ def run_post(
         return False
     folder = Path(folder)
     without_states = not recipe.needs_states and not (folder / "fields.pvd").exists()
-    states = [] if without_states else read_states(folder, diagnostics)
+    states = [] if without_states else read_states(folder, diagnostics, with_particles=recipe.needs_states)
     if not states and not without_states:
         return False
     out = folder / recipe.folder
@@ -178,5 +192,7 @@ def run_post(
     said = write_measured(recipe, folder, measured, jump, title, walls, diagnostics)
     if recipe.figures:
         said += _figures(recipe, out, title, walls, threads, diagnostics)
+    if recipe.views:
+        said += _views(recipe, folder, out, diagnostics)
     say(said)
     return diagnostics.ok
