@@ -292,8 +292,14 @@ int command_line(int argc, char** argv) {
         ->allow_extra_args(false);
   };
   auto* post = app.add_subcommand("post", "tables, CSV and pictures from the results of a run");
-  post->add_option("RECIPE", python.input, "recipe.yaml")->required();
-  post->add_option("DIR", python.dir, "folder of the run")->required();
+  std::vector<std::string> places;
+  post->add_option("RECIPE", places,
+                   "recipe.yaml, and the folder of the run; with --view the folder alone will do")
+      ->type_name("DIR")
+      ->expected(1, 2)
+      ->required();
+  post->add_option("--view", python.page,
+                   "FIELD: a picture of the last state by it, with or without a recipe");
   post->add_option("--threads", python.jobs, "processes; 0: all cores")->check(CLI::NonNegativeNumber);
   add_python_load(post);
 

@@ -64,17 +64,16 @@ std::string converted_title(const Conversion& conversion, const std::string& tit
   return conversion.suffix.empty() ? out : out + "." + conversion.suffix;
 }
 
-void move_fields(Entry& entry, const CardSpec& card, const Affine& motion) {
-  for (std::size_t f = 0; f + 2 < card.fields.size(); ++f) {
-    const Spatial spatial = card.fields[f].rules.spatial;
-    if (spatial == Spatial::none) continue;
-    const auto component = [&](std::size_t k) -> Real& {
-      return value_at<Real>(entry, card.fields[f + k].offset);
-    };
-    const Vec old(component(0), component(1), component(2));
-    const Vec now = spatial == Spatial::point ? Vec(motion * old) : Vec(motion.linear() * old);
-    for (std::size_t k = 0; k < 3; ++k) component(k) = now[static_cast<Eigen::Index>(k)];
-  }
+/// A place or direction that begins with this field.
+void move_field(Entry& entry, const CardSpec& card, std::size_t f, const Affine& motion) {
+  const Spatial spatial = card.fields[f].rules.spatial;
+  if (spatial == Spatial::none || f + 2 >= card.fields.size()) return;
+  const auto component = [&](std::size_t k) -> Real& {
+    return value_at<Real>(entry, card.fields[f + k].offset);
+  };
+  const Vec old(component(0), component(1), component(2));
+  const Vec now = spatial == Spatial::point ? Vec(motion * old) : Vec(motion.linear() * old);
+  for (std::size_t k = 0; k < 3; ++k) component(k) = now[static_cast<Eigen::Index>(k)];
 }
 
 }  // namespace
@@ -130,10 +129,27 @@ std::string KeywordSpec::text_of(const Entry& entry, std::size_t card, std::size
   return {};
 }
 
+void KeywordSpec::for_each_member(
+    const Entry& entry, const std::function<void(std::size_t card, std::size_t field)>& visit) const {
+  std::vector<std::size_t> seen;
+  for (const bool there : {true, false})
+    for (std::size_t c = 0; c < cards.size(); ++c) {
+      if (shares_members_ ? has_card(entry, c) != there : !there) continue;
+      for (std::size_t f = 0; f < cards[c].fields.size(); ++f) {
+        const FieldSpec& field = cards[c].fields[f];
+        if (shares_members_ && field.type != FieldType::skip) {
+          if (std::find(seen.begin(), seen.end(), field.offset) != seen.end()) continue;
+          seen.push_back(field.offset);
+        }
+        visit(c, f);
+      }
+    }
+}
+
 std::string KeywordSpec::convert(Entry& entry, const Conversion& conversion) const {
-  for (std::size_t c = 0; c < cards.size(); ++c)
-    for (std::size_t f = 0; f < cards[c].fields.size(); ++f)
-      convert_field(entry, cards[c].fields[f], space_of(entry, c, f), conversion);
+  for_each_member(entry, [&](std::size_t c, std::size_t f) {
+    convert_field(entry, cards[c].fields[f], space_of(entry, c, f), conversion);
+  });
   if (id) value_at<Id>(entry, *id) = conversion.offsets.shifted(id_space, value_at<Id>(entry, *id));
   if (title) {
     std::string& text = value_at<std::string>(entry, *title);
@@ -149,7 +165,7 @@ void KeywordSpec::move(Deck& deck, std::int32_t keyword,
     const Affine* motion = motion_of(entry);
     if (!motion) return;
     if (!local || value_at<Id>(entry, *local) == 0)
-      for (const CardSpec& card : cards) move_fields(entry, card, *motion);
+      for_each_member(entry, [&](std::size_t c, std::size_t f) { move_field(entry, cards[c], f, *motion); });
     const std::string reason = move_rest(entry, *motion);
     if (!reason.empty()) refuse(entry, reason);
   });
@@ -162,6 +178,9 @@ void KeywordSpec::add_card(CardSpec card, Entry& standard) {
     column += field.rules.width;
     vectors += field.is_vector();
     if (!field.is_vector()) set_number(standard, field, field.rules.standard);
+    for (const CardSpec& before : cards)
+      for (const FieldSpec& other : before.fields)
+        shares_members_ = shares_members_ || (other.type != FieldType::skip && other.offset == field.offset);
   }
   // two vectors side by side are columns of a table (abscissa, ordinate); a single one is a list
   card.is_table = vectors > 1;

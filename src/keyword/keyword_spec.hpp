@@ -101,6 +101,11 @@ class KeywordSpec {
 
   IdSpace space_of(const Entry& entry, std::size_t card, std::size_t field) const;
   bool is_own_id(std::size_t card, std::size_t field) const;
+  /// Card and field of each member, once: where it stands in several cards, of which a set has one, the one
+  /// that is there.
+  void for_each_member(const Entry& entry,
+                       const std::function<void(std::size_t card, std::size_t field)>& visit) const;
+  bool shares_members_ = false;  ///< some member stands in several cards
 };
 
 /// Builds the entries of one keyword, one after the other, and stores them in a deck.

@@ -1,4 +1,6 @@
 // Cards of joints between rigid bodies.
+#include <cmath>
+
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/transforms/transformation.hpp"
@@ -12,9 +14,14 @@ using J = JointCard;
 constexpr FieldRules joint_node = rules::optional_id_of(IdSpace::node);
 constexpr FieldRules exact{.standard = 1, .honour = Honour::ignored};
 
-/// A helix that is mirrored turns the other way.
-std::string mirror_screw(J& joint, const Affine& motion) {
-  if (motion.linear().determinant() < 0) joint.parm = -joint.parm;
+/// A helix that is mirrored turns the other way; its pitch is a length.
+std::string move_screw(J& joint, const Affine& motion) {
+  constexpr Real round_off = 1e-9;
+  const Matrix A = motion.linear(), stretch = A.transpose() * A;
+  const Real scale = std::cbrt(A.determinant());
+  if (joint.parm != 0 && (stretch - scale * scale * Matrix::Identity()).norm() > round_off * scale * scale)
+    return "the pitch of a screw has no direction in a transformation that stretches the file unevenly";
+  joint.parm *= scale;
   return {};
 }
 
@@ -46,7 +53,7 @@ const RegisterKeyword<J> joint_keyword{
                 {"TYPE", &J::type, "-", "kind of a motor", unsupported},
                 {"R1", &J::r1, "L", "radius of gears", unsupported}},
            .when = [](const J& j) { return j.kind() == JointKind::screw; }}},
-     .move = mirror_screw}};
+     .move = move_screw}};
 
 }  // namespace
 

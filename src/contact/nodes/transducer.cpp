@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 
@@ -92,6 +95,17 @@ class ForceTransducer : public Pass, public InterfaceReporter {
   std::vector<std::shared_ptr<const NodeContact>> contacts_;
 };
 
+/// How many of the nodes belong to faces of other parts, too.
+std::ptrdiff_t shared_nodes(const World& world, const std::vector<Index>& nodes,
+                            const std::vector<Index>& faces) {
+  std::set<Index> parts, of_others;
+  for (const Index s : faces) parts.insert(world.segments.part[s]);
+  for (Index s = 0; s < world.segments.size(); ++s)
+    if (!parts.contains(world.segments.part[s]))
+      for (const Index n : world.segments.nodes(s)) of_others.insert(n);
+  return std::count_if(nodes.begin(), nodes.end(), [&](Index n) { return of_others.contains(n); });
+}
+
 }  // namespace
 
 void add_force_transducers(const Deck& deck, const Model& model, const NodeContactOptions& options,
@@ -105,8 +119,17 @@ void add_force_transducers(const Deck& deck, const Model& model, const NodeConta
   for (const T& card : deck.all<T>()) taken.insert(card.cid);
   for (const T& card : deck.all<T>()) {
     const int errors = diagnostics.errors();
-    const std::vector<Index> nodes = finder.nodes(card, ContactSide::a, finder.faces(card, ContactSide::a));
+    const std::vector<Index> faces = finder.faces(card, ContactSide::a);
+    const std::vector<Index> nodes = finder.nodes(card, ContactSide::a, faces);
     if (diagnostics.errors() > errors) continue;
+    if (const auto shared = shared_nodes(world, nodes, faces); shared > 0)
+      deck.warning(
+          diagnostics, card, "SURFA",
+          fmt::format(
+              "{} of its {} nodes also belong to other parts: all of the force on them is told, also what "
+              "faces of those parts get, so that transducers side by side tell more than the contact has",
+              shared, nodes.size()),
+          "name the parts that hang together as one SURFA");
     if (!options.with_particles.empty())
       deck.error(diagnostics, card, "SURFA", "the forces of particles are not told by transducers",
                  "leave it out, or the contacts of particles: their own forces are in rcforc");

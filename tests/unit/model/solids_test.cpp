@@ -51,6 +51,25 @@ TEST(Solids, InAMirrorStayTheRightWayOut) {
   EXPECT_EQ(model.nodes[model.solids[0].node[0]].x, Vec(3, 0, 4));
 }
 
+// N1 to N8 stand in the table of the one-line and of the two-line form: an offset counts once.
+TEST(Solids, OfAnIncludeGetTheOffsetsOnce) {
+  const std::string one_line = cube, nodes = "21,22,23,24,25,26,27,28";
+  const auto at = one_line.find("," + nodes);
+  ASSERT_NE(at, std::string::npos);
+  std::string two_lines = one_line;
+  two_lines.replace(at, 1, "\n");
+  for (const std::string& included : {one_line, two_lines}) {
+    Diagnostics diagnostics;
+    const std::string main = std::string(small_mesh) + "*INCLUDE_TRANSFORM\ncube.k\n100,1000\n\n\n\n*END\n";
+    DecksInMemory decks{{{"main.k", main}, {"cube.k", included + "*END\n"}}};
+    Deck deck = read_deck("main.k", decks.options(), diagnostics);
+    const Model model = build_model(deck, diagnostics);
+    EXPECT_EQ(diagnostics.text(), "") << included;
+    ASSERT_EQ(model.solids.size(), 1u);
+    for (std::size_t k = 0; k < 8; ++k) EXPECT_EQ(model.nodes[model.solids[0].node[k]].id, Id(121 + k));
+  }
+}
+
 TEST(Solids, ControlWithoutAnyIsANote) {
   EXPECT_EQ(small_model("*CONTROL_SOLID\n1,1\n").messages,
             "deck.k:34:1: note: *CONTROL_SOLID: the deck has no solids: no effect\n");
