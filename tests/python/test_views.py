@@ -381,12 +381,13 @@ class TestRecipe:
     def test_a_field_that_is_not_there_is_told_at_the_view(self, pool, tmp_path):
         from courant.post import run_post
 
-        (tmp_path / "R").write_text("views:\n- {name: good}\n- {name: bad, field: temperature}\n- {name: late, times: [9]}\n")
+        (tmp_path / "R").write_text("views:\n- {name: good}\n- {name: bad, field: temperature}\n- {name: late, times: [9]}\n- {name: half, times: [0, 9]}\n")
         diagnostics = Diagnostics()
         assert not run_post(tmp_path / "R", pool.folder, lambda _: None, diagnostics)
         text = diagnostics.text()
         assert "R:3:3: error: view 'bad': " in text and "no field 'temperature'; it has speed" in text
-        assert "view 'late': no state near t = 9: the results go from 0 to 1" in text
+        assert "R:4:3: warning: view 'late': no state near t = 9: the results go from 0 to 1" in text
+        assert (pool.folder / "post/half.png").is_file() and not (pool.folder / "post/late.png").exists()
         assert (pool.folder / "post/good.png").is_file() and not (pool.folder / "post/bad.png").exists()
 
     def test_a_view_without_a_recipe(self, cubes, tmp_path, capsys):

@@ -168,6 +168,17 @@ def save_view(figure: Any, path: Path) -> None:
     module("matplotlib.pyplot").close(figure)
 
 
+def _of_times_that_are_there(view: View, where: Location, states: np.ndarray, diagnostics: Diagnostics) -> View:
+    """Without the times that no state is near to, which are told: a run that goes on has none yet."""
+    if view.times is None:
+        return view
+    spacing = (states[-1] - states[0]) / max(1, len(states) - 1)
+    late = [t for t in view.times if np.abs(states - t).min() > spacing + 1e-12]
+    for t in late:
+        diagnostics.warning(where, f"view '{view.name}': no state near t = {t:g}: the results go from {states[0]:g} to {states[-1]:g}")
+    return replace(view, times=[t for t in view.times if t not in late])
+
+
 def draw_views(run: Any, views: list[tuple[View, Location]], out: Path, diagnostics: Diagnostics) -> list[Path]:
     """NAME.png of each view, and NAME.gif or NAME.mp4 where it is asked for. Faults of fields and files are told; raises MissingModule."""
     from .animation import animate
@@ -175,11 +186,9 @@ def draw_views(run: Any, views: list[tuple[View, Location]], out: Path, diagnost
     made: list[Path] = []
     for view, where in views:
         try:
-            times = run.states.times
-            for t in view.times or []:
-                spacing = (times[-1] - times[0]) / max(1, len(times) - 1)
-                if np.abs(times - t).min() > spacing + 1e-12:
-                    raise UnknownField(f"no state near t = {t:g}: the results go from {times[0]:g} to {times[-1]:g}")
+            view = _of_times_that_are_there(view, where, run.states.times, diagnostics)
+            if view.times == []:
+                continue
             save_view(draw_view(run, view), out / f"{view.name}.png")
             made.append(out / f"{view.name}.png")
             if view.animate:
