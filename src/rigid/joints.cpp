@@ -123,19 +123,19 @@ std::vector<Real> Joints::changes_of(const std::vector<BodyPose>& poses, const s
 // where the digits of a deck leave axes a little askew by d, which would lock a mechanism: their pivots are
 // d^2 of what free bodies would give. Those of a chain that pulls a heavy body are the ratio of the masses.
 void Joints::factorise(const std::vector<JointRow>& rows, const Clock* clock) {
-  std::vector<Inverse> inverse(bodies_->bodies().size());
-  for (std::size_t k = 0; k < inverse.size(); ++k) {
+  inverse_.assign(bodies_->bodies().size(), {});
+  for (std::size_t k = 0; k < inverse_.size(); ++k) {
     const RigidBody& b = bodies_->bodies()[k];
     if (b.fixed() || !joined_[k]) continue;
     const Real mean = b.J0.trace() / 3;  // a body of rods may have none about an axis
-    inverse[k] = {free_part(b, false, clock) / b.m, inverse_inertia(b, clock), 1 / b.m,
-                  mean > 0 ? 1 / mean : 0};
+    inverse_[k] = {free_part(b, false, clock) / b.m, inverse_inertia(b, clock), 1 / b.m,
+                   mean > 0 ? 1 / mean : 0};
   }
   free_ = Eigen::VectorXd::Zero(first_row_.back());
   matrix_.clear();
   for (const Meeting& m : meetings_) {
     const JointRow &i = rows[static_cast<std::size_t>(m.row)], &j = rows[static_cast<std::size_t>(m.column)];
-    const Inverse& of = inverse[m.body];
+    const Inverse& of = inverse_[m.body];
     const Vec &vi = m.row_of_b ? i.v_b : i.v_a, &wi = m.row_of_b ? i.w_b : i.w_a;
     matrix_.add(m.row, m.column,
                 vi.dot(of.mass * (m.column_of_b ? j.v_b : j.v_a)) +
@@ -199,8 +199,8 @@ Eigen::VectorXd Joints::find_force(const std::vector<BodyPose>& poses, const std
     const Eigen::VectorXd more = matrix_.solve(wrong) / (clock.dt * clock.dt_mean());
     const Real size = more.cwiseProduct(weight).cwiseAbs().maxCoeff();
     if (!std::isfinite(size)) break;
-    const bool met =
-        round > 0 && share <= 1 && size <= enough * force.cwiseProduct(weight).cwiseAbs().maxCoeff();
+    const Real all = (sum_ + force).cwiseProduct(weight).cwiseAbs().maxCoeff();
+    const bool met = round > 0 && share <= 1 && size <= enough * all;
     force -= more;  // even the last one: what is left of each step adds up
     if (met) break;
     idle += round > 0 && size > stalled * last;
@@ -254,17 +254,56 @@ std::array<Real, 2> Joints::make_start_consistent(World& world) {
   return {before, bodies_->kinetic_energy()};
 }
 
-void Joints::strike(World& world, const Clock& clock) {
-  const std::vector<BodyPose> poses = poses_now();
-  const std::vector<JointRow> rows = rows_at(poses);
-  factorise(rows, &clock);
-  find_rooms(rows);
-  const Eigen::VectorXd force = find_force(poses, rows, clock);
-  look_at_gaps(rows, changes_of(poses, rows, force, clock), world, clock);
-  const auto on = on_bodies(rows, force);
+void Joints::begin(const Clock& clock) {
+  if (begun_at_ == clock.t) return;
+  begun_at_ = clock.t;
+  poses_ = poses_now();
+  rows_ = rows_at(poses_);
+  factorise(rows_, &clock);
+  find_rooms(rows_);
+  sum_ = Eigen::VectorXd::Zero(first_row_.back());
+  push(find_force(poses_, rows_, clock));
+}
+
+void Joints::push(const Eigen::VectorXd& force) {
+  const auto on = on_bodies(rows_, force);
   for (std::size_t k = 0; k < on.size(); ++k)
-    if (joined_[k] && !bodies_->bodies()[k].fixed()) bodies_->push(k, on[k][0], on[k][1]);
-  remember(rows, force);
+    if (tied(k)) bodies_->push(k, on[k][0], on[k][1]);
+  sum_ += force;
+}
+
+Eigen::VectorXd Joints::answer_to(std::size_t body, const Vec& force, const Vec& moment) const {
+  const Vec v = inverse_[body].mass * force, omega = inverse_[body].inertia * moment;
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(first_row_.back());
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (Index k = first_row_[j]; k < first_row_[j + 1]; ++k) {
+      const JointRow& row = rows_[static_cast<std::size_t>(k)];
+      if (joints_[j].a == body) rate[k] += row.v_a.dot(v) + row.w_a.dot(omega);
+      if (joints_[j].b == body) rate[k] += row.v_b.dot(v) + row.w_b.dot(omega);
+    }
+  return -matrix_.solve(rate);
+}
+
+Real Joints::give(std::size_t body, const Vec& q, const Vec& n) const {
+  const Vec arm = (q - bodies_->bodies()[body].x).cross(n);
+  const auto [force, moment] = on_bodies(rows_, answer_to(body, n, arm))[body];
+  // what joints hold gives nothing, but for round-off
+  return std::max(n.dot(inverse_[body].mass * (n + force)) + arm.dot(inverse_[body].inertia * (arm + moment)),
+                  Real(0));
+}
+
+void Joints::answer(std::size_t body, const Vec& force, const Vec& moment) {
+  push(answer_to(body, force, moment));
+}
+
+// Where bodies were struck since begin(): what answers, which are linear, left.
+void Joints::strike(World& world, const Clock& clock) {
+  const bool begun = begun_at_ == clock.t;
+  begin(clock);
+  if (begun) push(find_force(poses_, rows_, clock));
+  look_at_gaps(rows_, changes_of(poses_, rows_, Eigen::VectorXd::Zero(first_row_.back()), clock), world,
+               clock);
+  remember(rows_, sum_);
 }
 
 // The multipliers as a force on B where the joint is in it, and a moment.

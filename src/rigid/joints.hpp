@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "rigid/joint_matrix.hpp"
@@ -14,12 +15,17 @@ namespace courant {
 /// positions (Ryckaert, Ciccotti and Berendsen 1977), so that places do not drift apart and no stiffness
 /// but that of what hangs in a joint limits the step. Where joints say the same twice, as in closed loops,
 /// some equations are left out, and their forces are 0.
-class Joints : public Impact, public TimeLimit, public Restartable, public JointReporter {
+class Joints : public BodyTies, public Impact, public TimeLimit, public Restartable, public JointReporter {
  public:
   /// Refers to `bodies`.
   Joints(std::vector<Joint> joints, std::shared_ptr<RigidBodies> bodies);
   std::string name() const override { return "joints"; }
   const std::vector<Joint>& all() const { return joints_; }
+
+  bool tied(std::size_t body) const override { return joined_[body] && !bodies_->bodies()[body].fixed(); }
+  void begin(const Clock& clock) override;
+  Real give(std::size_t body, const Vec& q, const Vec& n) const override;
+  void answer(std::size_t body, const Vec& force, const Vec& moment) override;
 
   /// Takes from the velocities at the start what the joints do not allow, as a plastic impact does; returns
   /// the kinetic energy before and after it. [ML2/T2]
@@ -73,6 +79,10 @@ class Joints : public Impact, public TimeLimit, public Restartable, public Joint
   /// Throws where joints are too far open after the step.
   void look_at_gaps(const std::vector<JointRow>& rows, const std::vector<Real>& changes, World& world,
                     const Clock& clock) const;
+  /// Adds forces along the rows to the bodies and to those of the step.
+  void push(const Eigen::VectorXd& force);
+  /// Forces along the rows that answer a force and a moment on a body.
+  Eigen::VectorXd answer_to(std::size_t body, const Vec& force, const Vec& moment) const;
   void remember(const std::vector<JointRow>& rows, const Eigen::VectorXd& force);
 
   std::vector<Joint> joints_;
@@ -81,6 +91,11 @@ class Joints : public Impact, public TimeLimit, public Restartable, public Joint
   std::vector<Index> first_row_;  ///< of each joint, and the end
   std::vector<Meeting> meetings_;
   JointMatrix matrix_;
+  std::vector<Inverse> inverse_;  ///< of each body
+  std::vector<BodyPose> poses_;   ///< of this step, and what follows from them
+  std::vector<JointRow> rows_;
+  Eigen::VectorXd sum_;              ///< forces along the rows in this step so far
+  std::optional<Real> begun_at_;     ///< the time of this step [T]
   Eigen::VectorXd free_;             ///< of each row: what it would give if nothing held or drove its bodies
   std::vector<Real> room_;           ///< of each row: what round-off may leave
   std::vector<Real> too_far_;        ///< of each row: a gap that is no joint any more
