@@ -52,6 +52,18 @@ void add_held(const Summary& s, std::vector<Finding>& out) {
                    100 * share)});
 }
 
+/// Joints that were drawn apart, of the size of the smaller body: beyond 1e-4 the run stops.
+void add_joint_gap(const Summary& s, std::vector<Finding>& out) {
+  constexpr Real doubtful = 1e-5;
+  const auto share = s.maxima.find("joint_gap_share");
+  if (share == s.maxima.end() || !(share->second > doubtful)) return;
+  out.push_back(
+      {false, fmt::format("a joint of rigid bodies opened by {:.2g} of the size of its smaller body: "
+                          "what drives or holds its bodies, or axes that are askew in a closed loop, "
+                          "do not let it hold",
+                          share->second)});
+}
+
 /// Hourglass energy below this share of all that the scene is about does no harm.
 constexpr Real least_hourglass = 1e-3;
 
@@ -136,6 +148,7 @@ std::vector<Finding> findings(const Summary& s) {
   add_leaks(s, out);
   add_leaked_nodes(s, out);
   add_held(s, out);
+  add_joint_gap(s, out);
   add_energy(s, out);
   add_hourglass(s, out);
   add_clamps(s, out);

@@ -192,6 +192,7 @@ bool add_joints(const Deck& deck, std::shared_ptr<RigidBodies> bodies, World& wo
                     "[ML2/T2] is lost, as in a plastic impact",
                     before - after, before),
         "give the bodies velocities with which the nodes of joints move together");
+  bodies->tie(pass.get());
   world.passes.add(pass);
   return true;
 }

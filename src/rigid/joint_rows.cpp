@@ -78,14 +78,17 @@ const char* joint_name(JointKind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-void add_rows(const Joint& joint, const BodyPose& a, const BodyPose& b, std::vector<JointRow>& rows) {
-  const PlacedJoint now(joint, a, b);
+namespace {
+
+/// Calls `rows` for each equation of a joint, in their order.
+template <class Rows>
+void each_row(JointKind kind, const Rows& rows) {
   const auto together = [&] {
-    for (int k = 0; k < 3; ++k) rows.push_back(now.apart_globally(Vec::Unit(k)));
+    for (int k = 0; k < 3; ++k) rows.apart_globally(k);
   };
-  const auto on_axis = [&] { rows.push_back(now.apart(0)), rows.push_back(now.apart(1)); };
-  const auto parallel = [&] { rows.push_back(now.cosine(0, 2)), rows.push_back(now.cosine(1, 2)); };
-  switch (joint.kind) {
+  const auto on_axis = [&] { rows.apart(0), rows.apart(1); };
+  const auto parallel = [&] { rows.cosine(0, 2), rows.cosine(1, 2); };
+  switch (kind) {
     case JointKind::spherical:
       return together();
     case JointKind::revolute:
@@ -93,22 +96,90 @@ void add_rows(const Joint& joint, const BodyPose& a, const BodyPose& b, std::vec
     case JointKind::cylindrical:
       return on_axis(), parallel();
     case JointKind::planar:
-      return rows.push_back(now.apart(2)), parallel();
+      return rows.apart(2), parallel();
     case JointKind::universal:
-      return together(), rows.push_back(now.cosine(2, 2));
+      return together(), rows.cosine(2, 2);
     case JointKind::translational:
-      return on_axis(), parallel(), rows.push_back(now.cosine(0, 1));
+      return on_axis(), parallel(), rows.cosine(0, 1);
     case JointKind::locking:
-      return together(), parallel(), rows.push_back(now.cosine(0, 1));
-    case JointKind::screw: {
-      on_axis(), parallel();
-      JointRow row = now.apart(2);
-      const Vec e = now.axes_a.col(2);
-      row.c -= joint.advance * turn_of(joint, a, b, joint.turned);
-      row.w_a += joint.advance * e, row.w_b -= joint.advance * e;
-      return rows.push_back(row);
+      return together(), parallel(), rows.cosine(0, 1);
+    case JointKind::screw:
+      return on_axis(), parallel(), rows.advance();
+  }
+}
+
+/// The equations where the bodies are.
+struct Rows {
+  const Joint& joint;
+  const BodyPose &a, &b;
+  const PlacedJoint& now;
+  std::vector<JointRow>& out;
+
+  void apart_globally(int k) const { out.push_back(now.apart_globally(Vec::Unit(k))); }
+  void apart(int k) const { out.push_back(now.apart(k)); }
+  void cosine(int of_a, int of_b) const { out.push_back(now.cosine(of_a, of_b)); }
+  void advance() const {
+    JointRow row = now.apart(2);
+    const Vec e = now.axes_a.col(2);
+    row.c -= joint.advance * turn_of(joint, a, b, joint.turned);
+    row.w_a += joint.advance * e, row.w_b -= joint.advance * e;
+    out.push_back(row);
+  }
+};
+
+/// By how much a turn changes a vector.
+Vec turning(const Vec& angle, const Vec& r) {
+  const Real half = 0.5 * angle.norm();
+  if (half == 0) return Vec::Zero();
+  const Real sine = std::sin(half) / half;
+  const Vec first = angle.cross(r);
+  return sine * std::cos(half) * first + 0.5 * sine * sine * angle.cross(first);
+}
+
+/// How the equations change over a step, from products of what changes: no difference of large numbers.
+struct Changes {
+  const Joint& joint;
+  const PlacedJoint& now;
+  std::vector<Real>& out;
+  Vec d = Vec::Zero();  ///< changes of PlacedJoint's
+  Matrix axes_a = Matrix::Zero(), axes_b = Matrix::Zero();
+
+  Changes(const Joint& of, const PlacedJoint& placed, const BodyStep& a, const BodyStep& b,
+          std::vector<Real>& to)
+      : joint(of), now(placed), out(to) {
+    d = (b.way - a.way) + (turning(b.angle, now.arm_b) - turning(a.angle, now.arm_a));
+    for (int k = 0; k < 3; ++k) {
+      axes_a.col(k) = turning(a.angle, now.axes_a.col(k));
+      axes_b.col(k) = turning(b.angle, now.axes_b.col(k));
     }
   }
+  void apart_globally(int k) const { out.push_back(d[k]); }
+  Real along(int k) const { return axes_a.col(k).dot(now.d) + (now.axes_a.col(k) + axes_a.col(k)).dot(d); }
+  void apart(int k) const { out.push_back(along(k)); }
+  Real of_cosine(int of_a, int of_b) const {
+    return axes_a.col(of_a).dot(now.axes_b.col(of_b)) +
+           (now.axes_a.col(of_a) + axes_a.col(of_a)).dot(axes_b.col(of_b));
+  }
+  void cosine(int of_a, int of_b) const { out.push_back(of_cosine(of_a, of_b)); }
+  void advance() const {
+    const Real c = now.axes_a.col(0).dot(now.axes_b.col(0)), s = now.axes_a.col(1).dot(now.axes_b.col(0));
+    const Real dc = of_cosine(0, 0), ds = of_cosine(1, 0);
+    const Real turn = std::atan2(ds * c - dc * s, c * (c + dc) + s * (s + ds));
+    out.push_back(along(2) - joint.advance * turn);
+  }
+};
+
+}  // namespace
+
+void add_rows(const Joint& joint, const BodyPose& a, const BodyPose& b, std::vector<JointRow>& rows) {
+  const PlacedJoint now(joint, a, b);
+  each_row(joint.kind, Rows{joint, a, b, now, rows});
+}
+
+void add_changes(const Joint& joint, const BodyPose& a, const BodyPose& b, const BodyStep& step_a,
+                 const BodyStep& step_b, std::vector<Real>& changes) {
+  const PlacedJoint now(joint, a, b);
+  each_row(joint.kind, Changes(joint, now, step_a, step_b, changes));
 }
 
 Real turn_of(const Joint& joint, const BodyPose& a, const BodyPose& b, Real near) {

@@ -43,6 +43,16 @@ struct JointRow {
 /// Adds the rows of a joint where its bodies are at `a` and `b`.
 void add_rows(const Joint& joint, const BodyPose& a, const BodyPose& b, std::vector<JointRow>& rows);
 
+/// How a body moves over a step.
+struct BodyStep {
+  Vec way = Vec::Zero();    ///< of its centre [L]
+  Vec angle = Vec::Zero();  ///< about this axis, by its length [-]
+};
+/// Adds by how much c of each row changes over a step from `a` and `b`: to round-off of the changes, which
+/// may be far less than that of c.
+void add_changes(const Joint& joint, const BodyPose& a, const BodyPose& b, const BodyStep& step_a,
+                 const BodyStep& step_b, std::vector<Real>& changes);
+
 /// Angle by which B has turned about the joint's axis, as seen from A, next to `near`. [-]
 Real turn_of(const Joint& joint, const BodyPose& a, const BodyPose& b, Real near);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/run_error.hpp"
 
@@ -30,6 +31,7 @@ Matrix inverse_inertia(const RigidBody& b, const Clock* clock) {
 }
 
 constexpr Real round_off = 1e-13;  // of lengths and angles that a joint may leave
+constexpr Real too_far = 1e-4;     // of its own size by which a joint may open
 
 }  // namespace
 
@@ -56,20 +58,17 @@ void Joints::find_meetings() {
       of_body[joints_[j].a].push_back({row, false});
       of_body[joints_[j].b].push_back({row, true});
     }
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Index row = 0; row < first_row_.back(); ++row) entries.emplace_back(row, row, 1.0);
+  std::vector<std::array<Index, 2>> entries;
   for (std::size_t body = 0; body < of_body.size(); ++body) {
     if (bodies_->bodies()[body].fixed()) continue;
     for (const Side& one : of_body[body])
       for (const Side& other : of_body[body]) {
         if (other.row > one.row) continue;  // the lower half is enough
         meetings_.push_back({one.row, other.row, body, one.of_b, other.of_b});
-        entries.emplace_back(one.row, other.row, 1.0);
+        entries.push_back({one.row, other.row});
       }
   }
-  matrix_.resize(first_row_.back(), first_row_.back());
-  matrix_.setFromTriplets(entries.begin(), entries.end());
-  solver_.analyzePattern(matrix_);
+  matrix_.arrange(first_row_.back(), entries);
 }
 
 std::vector<BodyPose> Joints::poses_now() const {
@@ -97,13 +96,12 @@ std::vector<std::array<Vec, 2>> Joints::on_bodies(const std::vector<JointRow>& r
   return out;
 }
 
-std::vector<BodyPose> Joints::poses_after(const std::vector<JointRow>& rows, const Eigen::VectorXd& force,
-                                          const Clock& clock) const {
+std::vector<Real> Joints::changes_of(const std::vector<BodyPose>& poses, const std::vector<JointRow>& rows,
+                                     const Eigen::VectorXd& force, const Clock& clock) const {
   const auto more = on_bodies(rows, force);
-  std::vector<BodyPose> out;
+  std::vector<BodyStep> steps(more.size());
   for (std::size_t k = 0; k < more.size(); ++k) {
     const RigidBody& b = bodies_->bodies()[k];
-    out.push_back({b.x, b.q});
     if (b.fixed() || !joined_[k]) continue;
     Vec force_on = b.force, moment_on = b.moment;
     for (int axis = 0; axis < 3; ++axis) {
@@ -111,65 +109,134 @@ std::vector<BodyPose> Joints::poses_after(const std::vector<JointRow>& rows, con
       if (!b.held[i]) force_on[axis] += more[k][0][axis];
       if (!b.no_turn[i]) moment_on[axis] += more[k][1][axis];
     }
-    out.back() = pose_after(b, next_half_step(b, force_on, moment_on, clock), clock.dt);
+    const HalfStep next = next_half_step(b, force_on, moment_on, clock);
+    steps[k] = {next.v * clock.dt, turning_over(b, next.L, clock.dt) * clock.dt};
   }
+  std::vector<Real> out;
+  out.reserve(rows.size());
+  for (const Joint& joint : joints_)
+    add_changes(joint, poses[joint.a], poses[joint.b], steps[joint.a], steps[joint.b], out);
   return out;
 }
 
 // Of equations that follow from others, and of those about what is held, the matrix is singular, or nearly so
-// where the digits of a deck leave axes a little askew, which would lock a mechanism: a little more on the
-// diagonal, of what free bodies would give, lets such equations share the force and be met as far as they
-// can.
+// where the digits of a deck leave axes a little askew by d, which would lock a mechanism: their pivots are
+// d^2 of what free bodies would give. Those of a chain that pulls a heavy body are the ratio of the masses.
 void Joints::factorise(const std::vector<JointRow>& rows, const Clock* clock) {
-  std::vector<Inverse> inverse(bodies_->bodies().size());
-  for (std::size_t k = 0; k < inverse.size(); ++k) {
+  inverse_.assign(bodies_->bodies().size(), {});
+  for (std::size_t k = 0; k < inverse_.size(); ++k) {
     const RigidBody& b = bodies_->bodies()[k];
     if (b.fixed() || !joined_[k]) continue;
     const Real mean = b.J0.trace() / 3;  // a body of rods may have none about an axis
-    inverse[k] = {free_part(b, false, clock) / b.m, inverse_inertia(b, clock), 1 / b.m,
-                  mean > 0 ? 1 / mean : 0};
+    inverse_[k] = {free_part(b, false, clock) / b.m, inverse_inertia(b, clock), 1 / b.m,
+                   mean > 0 ? 1 / mean : 0};
   }
-  Eigen::VectorXd free = Eigen::VectorXd::Zero(first_row_.back());
-  for (Eigen::Index k = 0; k < matrix_.nonZeros(); ++k) matrix_.valuePtr()[k] = 0;
+  free_ = Eigen::VectorXd::Zero(first_row_.back());
+  matrix_.clear();
   for (const Meeting& m : meetings_) {
     const JointRow &i = rows[static_cast<std::size_t>(m.row)], &j = rows[static_cast<std::size_t>(m.column)];
-    const Inverse& of = inverse[m.body];
+    const Inverse& of = inverse_[m.body];
     const Vec &vi = m.row_of_b ? i.v_b : i.v_a, &wi = m.row_of_b ? i.w_b : i.w_a;
-    matrix_.coeffRef(m.row, m.column) += vi.dot(of.mass * (m.column_of_b ? j.v_b : j.v_a)) +
-                                         wi.dot(of.inertia * (m.column_of_b ? j.w_b : j.w_a));
+    matrix_.add(m.row, m.column,
+                vi.dot(of.mass * (m.column_of_b ? j.v_b : j.v_a)) +
+                    wi.dot(of.inertia * (m.column_of_b ? j.w_b : j.w_a)));
     if (m.row == m.column)
-      free[m.row] += of.free_mass * vi.squaredNorm() + of.free_inertia * wi.squaredNorm();
+      free_[m.row] += of.free_mass * vi.squaredNorm() + of.free_inertia * wi.squaredNorm();
   }
-  constexpr Real more = 1e-6;
-  for (Index k = 0; k < first_row_.back(); ++k)
-    matrix_.coeffRef(k, k) += free[k] > 0 ? more * free[k] : 1;  // 0: nothing moves there
-  solver_.factorize(matrix_);
+  constexpr Real least = 1e-9;
+  matrix_.factorise(free_, least);
 }
 
-Real Joints::worst(const std::vector<JointRow>& rows, std::size_t& joint) const {
-  Real out = 0;
+std::array<Real, 2> Joints::sizes(const Joint& joint) const {
+  Real coordinates = joint.at_a.norm() + joint.at_b.norm(), own = 0;
+  for (const bool second : {false, true}) {
+    const RigidBody& b = bodies_->bodies()[second ? joint.b : joint.a];
+    const Real reach = std::sqrt(b.J0.trace() / b.m);
+    coordinates += b.x.norm() + reach;
+    const Real size = reach + (second ? joint.at_b : joint.at_a).norm();
+    if (!b.fixed() && (own == 0 || size < own)) own = size;
+  }
+  return {coordinates, own};
+}
+
+void Joints::find_rooms(const std::vector<JointRow>& rows) {
+  room_.clear(), too_far_.clear();
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const Joint& one = joints_[j];
-    Real size = one.at_a.norm() + one.at_b.norm();
-    for (const std::size_t body : {one.a, one.b}) {
-      const RigidBody& b = bodies_->bodies()[body];
-      size += b.x.norm() + std::sqrt(b.J0.trace() / b.m);
-    }
+    const auto [coordinates, own] = sizes(joints_[j]);
     for (Index k = first_row_[j]; k < first_row_[j + 1]; ++k) {
-      const JointRow& row = rows[static_cast<std::size_t>(k)];
-      const bool length = !row.v_a.isZero(0);
-      const Real share = std::abs(row.c) / (round_off * (length ? size : 1));
-      if (share > out || std::isnan(share)) out = share, joint = j;
+      const bool length = !rows[static_cast<std::size_t>(k)].v_a.isZero(0);
+      room_.push_back(round_off * (length ? coordinates : 1));
+      too_far_.push_back(std::max(too_far * (length ? own : 1), 10 * room_.back()));
     }
   }
+}
+
+Eigen::VectorXd Joints::wanted(const std::vector<JointRow>& rows) const {
+  constexpr Real slowly = 1e-4, soon = 0.05;  // of a gap, in a step
+  Eigen::VectorXd out(first_row_.back());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Real inside = std::clamp(rows[k].c, -room_[k], room_[k]);
+    out[static_cast<Index>(k)] = -(slowly * inside + soon * (rows[k].c - inside));
+  }
   return out;
+}
+
+Eigen::VectorXd Joints::find_force(const std::vector<BodyPose>& poses, const std::vector<JointRow>& rows,
+                                   const Clock& clock) const {
+  const Eigen::VectorXd target = wanted(rows), weight = free_.cwiseSqrt();
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(first_row_.back()), wrong(first_row_.back());
+  constexpr int most_rounds = 60, patience = 6;
+  constexpr Real stalled = 0.5, enough = 1e-9;  // of the force
+  Real last = 0;
+  for (int round = 0, idle = 0; round < most_rounds && idle < patience; ++round) {
+    const std::vector<Real> changes = changes_of(poses, rows, force, clock);
+    Real share = 0;  // of what round-off may leave
+    for (Index k = 0; k < first_row_.back(); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      wrong[k] = changes[i] - target[k];
+      if (!matrix_.left_out(k)) share = std::max(share, std::abs(wrong[k]) / room_[i]);
+    }
+    const Eigen::VectorXd more = matrix_.solve(wrong) / (clock.dt * clock.dt_mean());
+    const Real size = more.cwiseProduct(weight).cwiseAbs().maxCoeff();
+    if (!std::isfinite(size)) break;
+    const Real all = (sum_ + force).cwiseProduct(weight).cwiseAbs().maxCoeff();
+    const bool met = round > 0 && share <= 1 && size <= enough * all;
+    force -= more;  // even the last one: what is left of each step adds up
+    if (met) break;
+    idle += round > 0 && size > stalled * last;
+    last = size;
+  }
+  return force;
+}
+
+void Joints::look_at_gaps(const std::vector<JointRow>& rows, const std::vector<Real>& changes, World& world,
+                          const Clock& clock) const {
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (Index k = first_row_[j]; k < first_row_[j + 1]; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const Real gap = std::abs(rows[i].c + changes[i]);
+      const RigidBody &a = bodies_->bodies()[joints_[j].a], &b = bodies_->bodies()[joints_[j].b];
+      if (a.fixed() && b.fixed()) continue;
+      if (!(gap <= too_far_[i]))
+        throw RunError(fmt::format(
+            "t = {:g}: {} joint {} between parts {} and {} cannot be held: what drives or holds its bodies, "
+            "other joints or a step of {:.3g} that is too long for their motion do not let it",
+            clock.t, joint_name(joints_[j].kind), joints_[j].id, a.part, b.part, clock.dt));
+      if (gap <= room_[i]) continue;
+      const auto note = [&](const char* name, Real value) {
+        Real& most = world.maxima[name];
+        most = std::max(most, value);
+      };
+      if (!rows[i].v_a.isZero(0)) note("joint_gap", gap);
+      note("joint_gap_share", too_far * gap / too_far_[i]);
+    }
 }
 
 std::array<Real, 2> Joints::make_start_consistent(World& world) {
   const Real before = bodies_->kinetic_energy();
   const std::vector<JointRow> rows = rows_at(poses_now());
   factorise(rows, nullptr);
-  constexpr int rounds = 4;  // the later ones for what the little more on the diagonal left
+  constexpr int rounds = 2;  // the later one for round-off
   for (int round = 0; round < rounds; ++round) {
     Eigen::VectorXd rate(first_row_.back());
     for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -179,7 +246,7 @@ std::array<Real, 2> Joints::make_start_consistent(World& world) {
         rate[k] = row.v_b.dot(b.v) + row.w_b.dot(b.omega) + row.v_a.dot(a.v) + row.w_a.dot(a.omega);
       }
     }
-    const auto impulse = on_bodies(rows, -solver_.solve(rate));
+    const auto impulse = on_bodies(rows, -matrix_.solve(rate));
     for (std::size_t k = 0; k < impulse.size(); ++k)
       if (joined_[k] && !bodies_->bodies()[k].fixed())
         bodies_->strike_at_start(k, impulse[k][0], impulse[k][1], world);
@@ -187,44 +254,56 @@ std::array<Real, 2> Joints::make_start_consistent(World& world) {
   return {before, bodies_->kinetic_energy()};
 }
 
-// Of places, in the summary: a closed loop whose axes are a little askew cannot be met by rigid bodies.
-void Joints::tell_gap(const std::vector<JointRow>& rows, World& world) const {
-  Real& most = world.maxima["joint_gap"];
-  for (const JointRow& row : rows)
-    if (!row.v_a.isZero(0)) most = std::max(most, std::abs(row.c));
+void Joints::begin(const Clock& clock) {
+  if (begun_at_ == clock.t) return;
+  begun_at_ = clock.t;
+  poses_ = poses_now();
+  rows_ = rows_at(poses_);
+  factorise(rows_, &clock);
+  find_rooms(rows_);
+  sum_ = Eigen::VectorXd::Zero(first_row_.back());
+  push(find_force(poses_, rows_, clock));
 }
 
-void Joints::strike(World& world, const Clock& clock) {
-  const std::vector<JointRow> rows = rows_at(poses_now());
-  factorise(rows, &clock);
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(first_row_.back()), wrong(first_row_.back());
-  constexpr int most_rounds = 60, patience = 3;
-  constexpr Real stalled = 0.5, good_enough = 1e9;  // a share of 1e-4
-  Real last = 0;
-  std::size_t joint = 0;
-  for (int round = 0, idle = 0;; ++round) {
-    const std::vector<JointRow> after = rows_at(poses_after(rows, force, clock));
-    const Real share = worst(after, joint);
-    if (share <= 1) break;
-    idle += round > 0 && share > stalled * last;
-    if (share < good_enough && (idle == patience || round == most_rounds)) {
-      tell_gap(after, world);
-      break;
-    }
-    if (round == most_rounds || !std::isfinite(share))
-      throw RunError(fmt::format(
-          "t = {:g}: {} joint {} between parts {} and {} cannot be held: what drives or holds its bodies, "
-          "other joints or a step of {:.3g} that is too long for their motion do not let it",
-          clock.t, joint_name(joints_[joint].kind), joints_[joint].id,
-          bodies_->bodies()[joints_[joint].a].part, bodies_->bodies()[joints_[joint].b].part, clock.dt));
-    last = share;
-    for (Index k = 0; k < first_row_.back(); ++k) wrong[k] = after[static_cast<std::size_t>(k)].c;
-    force -= solver_.solve(wrong) / (clock.dt * clock.dt_mean());
-  }
-  const auto on = on_bodies(rows, force);
+void Joints::push(const Eigen::VectorXd& force) {
+  const auto on = on_bodies(rows_, force);
   for (std::size_t k = 0; k < on.size(); ++k)
-    if (joined_[k] && !bodies_->bodies()[k].fixed()) bodies_->push(k, on[k][0], on[k][1]);
-  remember(rows, force);
+    if (tied(k)) bodies_->push(k, on[k][0], on[k][1]);
+  sum_ += force;
+}
+
+Eigen::VectorXd Joints::answer_to(std::size_t body, const Vec& force, const Vec& moment) const {
+  const Vec v = inverse_[body].mass * force, omega = inverse_[body].inertia * moment;
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(first_row_.back());
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (Index k = first_row_[j]; k < first_row_[j + 1]; ++k) {
+      const JointRow& row = rows_[static_cast<std::size_t>(k)];
+      if (joints_[j].a == body) rate[k] += row.v_a.dot(v) + row.w_a.dot(omega);
+      if (joints_[j].b == body) rate[k] += row.v_b.dot(v) + row.w_b.dot(omega);
+    }
+  return -matrix_.solve(rate);
+}
+
+Real Joints::give(std::size_t body, const Vec& q, const Vec& n) const {
+  const Vec arm = (q - bodies_->bodies()[body].x).cross(n);
+  const auto [force, moment] = on_bodies(rows_, answer_to(body, n, arm))[body];
+  // what joints hold gives nothing, but for round-off
+  return std::max(n.dot(inverse_[body].mass * (n + force)) + arm.dot(inverse_[body].inertia * (arm + moment)),
+                  Real(0));
+}
+
+void Joints::answer(std::size_t body, const Vec& force, const Vec& moment) {
+  push(answer_to(body, force, moment));
+}
+
+// Where bodies were struck since begin(): what answers, which are linear, left.
+void Joints::strike(World& world, const Clock& clock) {
+  const bool begun = begun_at_ == clock.t;
+  begin(clock);
+  if (begun) push(find_force(poses_, rows_, clock));
+  look_at_gaps(rows_, changes_of(poses_, rows_, Eigen::VectorXd::Zero(first_row_.back()), clock), world,
+               clock);
+  remember(rows_, sum_);
 }
 
 // The multipliers as a force on B where the joint is in it, and a moment.
@@ -241,6 +320,28 @@ void Joints::remember(const std::vector<JointRow>& rows, const Eigen::VectorXd& 
     moment_[j] -= (b.q * joint.at_b).cross(force_[j]);
     joint.turned = turn_of(joint, after[joint.a], after[joint.b], joint.turned);
   }
+}
+
+// A body at whose arm r a joint pulls by F turns back as if by a spring F r about axes across r.
+TimeLimit::Limit Joints::limit(const World&, const Clock&) {
+  std::vector<Real> rate2(bodies_->bodies().size(), 0);
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (const bool second : {false, true}) {
+      const std::size_t body = second ? joints_[j].b : joints_[j].a;
+      const RigidBody& b = bodies_->bodies()[body];
+      const Vec arm = b.q * (second ? joints_[j].at_b : joints_[j].at_a);
+      const Real pull = force_[j].norm() * arm.norm();
+      if (b.fixed() || !(pull > 0)) continue;
+      Real give = 0;
+      const Matrix across = Matrix::Identity() - arm * arm.transpose() / arm.squaredNorm();
+      for (int k = 0; k < 3; ++k) give += across.col(k).dot(b.turning_by(Vec(across.col(k)), b.q));
+      rate2[body] += pull * give;
+    }
+  Limit out{std::numeric_limits<Real>::infinity(), ""};
+  for (std::size_t k = 0; k < rate2.size(); ++k)
+    if (const Real dt = 1 / std::sqrt(rate2[k]); dt < out.dt)
+      out = {dt, fmt::format("joints of rigid body {}", bodies_->bodies()[k].part)};
+  return out;
 }
 
 void Joints::report_joints(std::vector<JointForce>& out) const {

@@ -241,6 +241,8 @@ WallBodies RigidBodies::wall_bodies(const World& world) {
     for (const Index n : bodies_[k].nodes) out.of_node[static_cast<std::size_t>(n)] = static_cast<Index>(k);
   out.give = [this](Index body, const Vec& q, const Vec& n) {
     const RigidBody& b = bodies_[static_cast<std::size_t>(body)];
+    if (ties_ && ties_->tied(static_cast<std::size_t>(body)))
+      return ties_->give(static_cast<std::size_t>(body), q, n);
     Vec free = n, arm = (q - b.x).cross(n);
     for (int k = 0; k < 3; ++k) {
       if (b.held[k]) free[k] = 0;
@@ -257,11 +259,15 @@ WallBodies RigidBodies::wall_bodies(const World& world) {
   out.change = [this](Index body, const Vec& q, const Clock& clock) -> Vec {
     const RigidBody& b = bodies_[static_cast<std::size_t>(body)];
     if (b.fixed()) return Vec::Zero();
+    if (ties_ && ties_->tied(static_cast<std::size_t>(body))) ties_->begin(clock);
     const HalfStep next = next_half_step(b, clock);
     return next.v - b.v + b.turning_by(next.L - b.L, b.q).cross(q - b.x);
   };
   out.push = [this](Index body, const Vec& q, const Vec& force) {
-    push(static_cast<std::size_t>(body), force, (q - bodies_[static_cast<std::size_t>(body)].x).cross(force));
+    const auto k = static_cast<std::size_t>(body);
+    const Vec moment = (q - bodies_[k].x).cross(force);
+    push(k, force, moment);
+    if (ties_ && ties_->tied(k)) ties_->answer(k, force, moment);
   };
   return out;
 }

@@ -87,6 +87,19 @@ Real work_of_drives(const RigidBody& body, const Clock& clock);
 /// Force and moment of the drives at t^n.
 BoundaryForce force_of_drives(const RigidBody& body, const Clock& clock);
 
+/// Joints, as what strikes a body sees them: what they pass on to other bodies at once.
+class BodyTies {
+ public:
+  virtual ~BodyTies() = default;
+  virtual bool tied(std::size_t body) const = 0;
+  /// Once in a step, before anything strikes: adds to the bodies what joints do in it without that.
+  virtual void begin(const Clock& clock) = 0;
+  /// By how much the velocity of place q of a body changes along n for an impulse along n there. [1/M]
+  virtual Real give(std::size_t body, const Vec& q, const Vec& n) const = 0;
+  /// Adds what joints do in answer to a force on a body, which it has got already. [ML/T2], [ML2/T2]
+  virtual void answer(std::size_t body, const Vec& force, const Vec& moment) = 0;
+};
+
 /// All rigid bodies of a deck. Each is moved by the sums of its nodes' forces: m a = F, dL/dt = M, L = J
 /// omega, which is J omega' = M - omega x J omega. Orientation by quaternion with the implicit midpoint rule,
 /// which keeps |L| exactly; nodes follow exactly. Bodies that are held in all directions are left out of
@@ -118,6 +131,8 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   /// Adds to what moves a body in the coming step, after forces were summed; what holds the body takes its
   /// part. [ML/T2], [ML2/T2]
   void push(std::size_t body, const Vec& force, const Vec& moment);
+  /// Lets contact see joints between bodies. Refers to `ties`.
+  void tie(BodyTies* ties) { ties_ = ties; }
   /// Changes the velocity of the centre and the angular momentum before the first step. [ML/T], [ML2/T]
   void strike_at_start(std::size_t body, const Vec& impulse, const Vec& turn, World& world);
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
@@ -142,6 +157,7 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   std::vector<RigidBody> bodies_;
   std::vector<Piece> pieces_;
   BodyAcceleration loads_;
+  BodyTies* ties_ = nullptr;
 };
 
 /// Puts the bodies into the lists of `world`: their forces among the constraints, their motion and energy.

@@ -98,6 +98,15 @@ TEST(Verdict, SoAreNodesThatWentThroughAFace) {
   EXPECT_EQ(verdict(s), "broken");
 }
 
+TEST(Verdict, AJointThatOpensIsDoubtful) {
+  Summary s = with_error(0);
+  s.maxima["joint_gap_share"] = 0.9e-5;
+  EXPECT_EQ(verdict(s), "sound");
+  s.maxima["joint_gap_share"] = 1.1e-5;
+  EXPECT_EQ(verdict(s), "doubtful");
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("a joint of rigid bodies opened by 1.1e-05 of")));
+}
+
 TEST(Verdict, HourglassEnergyAboveATenthOfTheInternalIsDoubtful) {
   Summary s = with_error(0);
   s.energy = {.kinetic = 0.5, .internal = 0.4, .hourglass = 0.039, .initial = 0.939, .peak = 1};

@@ -1,0 +1,113 @@
+// Joints where steps are short, masses far apart, places far away, and where they cannot hold.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/run_error.hpp"
+#include "joint_decks.hpp"
+
+using namespace courant;
+using test::do_nothing;
+using test::height_energy;
+using test::JointDeck;
+using test::joints_of;
+using test::kinetic;
+using test::largest_gap;
+using test::simulation_of;
+
+// A body hangs in a hinge, another one is released from level: m g, and m g (1 - m d^2/(J + m d^2)).
+TEST(JointLimits, ForcesAreRightHoweverShortTheStepIs) {
+  const Real m = 2, d = 0.5, J = 0.2, g = 9.81;
+  for (const Real end : {1e-2, 1e-4, 1e-5})
+    for (const Real far : {0.0, 5.0}) {
+      JointDeck deck;
+      const Vec place(far, 0, 0), axis(0, 1, 0);
+      const int ground = deck.body({.x = place, .con1 = 7, .con2 = 7});
+      const int hangs = deck.body({.x = place - d * Vec::UnitZ(), .m = m, .J = J * Matrix::Identity()});
+      const int level = deck.body({.x = place + d * Vec::UnitX(), .m = m, .J = J * Matrix::Identity()});
+      deck.joint("REVOLUTE", ground, hangs, {place, place + axis});
+      deck.joint("REVOLUTE", ground, level, {place, place + axis});
+      deck.gravity(g);
+      const Real dt = 1e-3 * end;  // what bodies alone take
+      auto s = simulation_of(deck.text(end));
+      const Real expected[] = {m * g, m * g * (1 - m * d * d / (J + m * d * d))};
+      for (int k = 0; k < 300; ++k) {
+        s->step(do_nothing);
+        ASSERT_NEAR(s->clock().dt_old, dt, 1e-6 * dt);
+        std::vector<JointForce> forces;
+        joints_of(*s).report_joints(forces);
+        for (std::size_t j = 0; j < 2; ++j)
+          ASSERT_NEAR(forces[j].force[2], expected[j], 1e-3 * expected[j]) << dt << " " << far << " " << k;
+      }
+      EXPECT_LT(largest_gap(*s), 1e-12);
+    }
+}
+
+// Five rods of 1 kg carry a million times their mass, released from level.
+TEST(JointLimits, LightLinksCarryAHeavyBob) {
+  const Real l = 0.2, m = 1, heavy = 1e6, g = 9.81;
+  JointDeck deck;
+  int last = deck.ground();
+  const int links = 5;
+  const auto hinge = [&](int a, int b, Real x) {
+    deck.joint("REVOLUTE", a, b, {Vec(x, 0, 0), Vec(x, 1, 0)});
+  };
+  for (int k = 0; k < links; ++k) {
+    const Real J = m * l * l / 12;
+    const int link = deck.body({.x = {(k + 0.5) * l, 0, 0}, .m = m, .J = Vec(0.3 * J, J, J).asDiagonal()});
+    hinge(last, link, k * l), last = link;
+  }
+  const Real end = links * l;
+  const int bob = deck.body({.x = {end + 0.1, 0, 0}, .m = heavy, .J = 0.01 * heavy * Matrix::Identity()});
+  hinge(last, bob, end);
+  deck.gravity(g);
+  auto s = simulation_of(deck.text(0.5));
+  const RigidBody& b = s->bodies()->bodies().back();
+  Real before = kinetic(*s), worst = 0;
+  while (s->clock().t < 0.5) {
+    const Real height = height_energy(*s, g);
+    s->step(do_nothing);
+    if (before > 0) worst = std::max(worst, std::abs(0.5 * (before + kinetic(*s)) + height));
+    before = kinetic(*s);
+    ASSERT_LT(largest_gap(*s), 1e-10) << s->clock().t;
+  }
+  EXPECT_LT(worst, 1e-3 * heavy * g * end);
+  EXPECT_LT(b.x[2], -0.9) << "it fell";
+}
+
+// A door whose hinges are askew by what the digits of a deck leave goes on turning.
+TEST(JointLimits, TwoHingesALittleAskewDoNotBrakeADoor) {
+  for (const Real slight : {1e-7, 1e-6}) {
+    JointDeck deck;
+    const int ground = deck.ground();
+    const int door = deck.body(
+        {.x = {0.4, 0, 1}, .m = 20, .J = Vec(7, 8, 1.2).asDiagonal(), .v = {0, 0.4, 0}, .omega = {0, 0, 1}});
+    deck.joint("REVOLUTE", ground, door, {Vec(0, 0, 0.2), Vec(0, 0, 0.3)});
+    deck.joint("REVOLUTE", ground, door, {Vec(0, slight, 1.8), Vec(0, slight, 1.9)});
+    deck.gravity(9.81);
+    auto s = simulation_of(deck.text(6));
+    while (s->clock().t < 6) s->step(do_nothing);
+    EXPECT_NEAR(s->bodies()->bodies().back().omega[2], 1, 1e-4) << slight;
+    EXPECT_LT(largest_gap(*s), 3 * slight);
+  }
+}
+
+// Two bodies are driven apart: their joint gives way where it is open by no more than its own size allows,
+// wherever the scene stands.
+TEST(JointLimits, WhatDrivesAJointApartStopsTheRun) {
+  for (const Real far : {0.0, 100.0, 10000.0}) {
+    JointDeck deck;
+    const Matrix J = 0.02 * Matrix::Identity();
+    const int a = deck.body({.x = {far, 0, 0}, .m = 2, .J = J});
+    const int b = deck.body({.x = {far + 0.2, 0, 0}, .m = 2, .J = J});
+    deck.joint("SPHERICAL", a, b, {Vec(far + 0.1, 0, 0)});
+    deck.more = fmt::format(
+        "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n{},1,0,7\n{},1,0,8\n*DEFINE_CURVE\n7\n0.,0.\n9.,0.\n"
+        "*DEFINE_CURVE\n8\n0.,0.\n9.,.09\n",
+        a, b);
+    auto s = simulation_of(deck.text(1));
+    EXPECT_THROW(while (s->clock().t < 1) s->step(do_nothing), RunError) << far;
+    EXPECT_LT(s->bodies()->bodies()[1].x[0] - far - 0.2, 1e-4) << far;
+    EXPECT_GT(s->world().maxima["joint_gap_share"], 1e-5) << "the verdict tells of it before";
+  }
+}
