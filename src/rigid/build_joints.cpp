@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -26,6 +28,16 @@ class JointReader {
 
   bool read(const JointCard& card, Joint& joint) {
     joint.id = card.id, joint.title = card.title, joint.kind = card.kind(), joint.advance = card.parm;
+    for (const auto& [field, value] : {std::pair("RPS", card.rps), std::pair("DAMP", card.damp)})
+      if (value != 1 && value != 0)
+        deck_.warning(diagnostics_, card, field,
+                      fmt::format("{:g} has no effect: joints hold exactly, without a penalty", value),
+                      "leave it out");
+    if (joint.kind == JointKind::screw && card.parm == 0) {
+      deck_.error(diagnostics_, card, "PARM", "a screw without advance does not tie turning to moving",
+                  "give how far it moves for a turn by one radian, or take *CONSTRAINED_JOINT_REVOLUTE");
+      return false;
+    }
     const std::size_t nodes = 2 * pairs_of(joint.kind);
     for (std::size_t k = 0; k < nodes; ++k)
       if (!read_node(card, k)) return false;
@@ -80,12 +92,25 @@ class JointReader {
     return true;
   }
 
+  /// Of the smaller body that can move, with its arm: how far away the other one stands does not count. [L]
+  Real own_size(const Joint& joint) const {
+    Real own = 0;
+    bool moves = false;
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      const RigidBody& b = bodies_[k == 0 ? joint.a : joint.b];
+      const Real size = (place_[k] - b.x).norm() + std::sqrt(b.J0.trace() / b.m);
+      if (own == 0 || (moves ? !b.fixed() && size < own : !b.fixed())) own = size;
+      moves = moves || !b.fixed();
+    }
+    return own;
+  }
+
   /// Nodes of a pair are at one place but for the rounding of the deck: the middle counts for both.
   bool meet(const JointCard& card, std::size_t pair, Real size, Vec& middle) {
-    constexpr Real rounding = 1e-4;
+    constexpr Real rounding = 1e-4, digits = 1e-6;  // of the joint, of coordinates
     const Vec &a = place_[2 * pair], &b = place_[2 * pair + 1];
     middle = 0.5 * (a + b);
-    if ((a - b).norm() <= rounding * size) return true;
+    if ((a - b).norm() <= std::max(rounding * size, digits * middle.norm())) return true;
     return error(card, 2 * pair + 1,
                  fmt::format("nodes {} and {} are {:.4g} apart", card.nodes()[2 * pair],
                              card.nodes()[2 * pair + 1], (a - b).norm()),
@@ -94,7 +119,7 @@ class JointReader {
 
   bool read_places(const JointCard& card, Joint& joint) {
     const RigidBody &a = bodies_[joint.a], &b = bodies_[joint.b];
-    Real size = (place_[0] - a.x).norm() + (place_[1] - b.x).norm();
+    Real size = own_size(joint);
     for (std::size_t k = 2; k < 2 * pairs_of(joint.kind); ++k)
       size = std::max(size, (place_[k] - place_[k % 2]).norm());
     Vec at, on_axis = Vec::Zero(), beside = Vec::Zero();
@@ -183,11 +208,11 @@ bool add_joints(const Deck& deck, std::shared_ptr<RigidBodies> bodies, World& wo
   }
   if (!good || !diagnostics.ok()) return true;
   const auto pass = std::make_shared<Joints>(std::move(joints), bodies);
-  const auto [before, after] = pass->make_start_consistent(world);
+  const auto [before, after, worst] = pass->make_start_consistent(world);
   constexpr Real rounding = 1e-6;
-  if (before - after > rounding * before)
+  if (std::abs(before - after) > rounding * std::max(before, after))
     deck.warning(
-        diagnostics, cards.front(), "",
+        diagnostics, cards[worst], "",
         fmt::format("velocities at the start do not fit the joints: {:.4g} of {:.4g} of kinetic energy "
                     "[ML2/T2] is lost, as in a plastic impact",
                     before - after, before),

@@ -232,11 +232,32 @@ void Joints::look_at_gaps(const std::vector<JointRow>& rows, const std::vector<R
     }
 }
 
-std::array<Real, 2> Joints::make_start_consistent(World& world) {
-  const Real before = bodies_->kinetic_energy();
+void Joints::start_drives(const Clock& clock, World& world) {
+  for (std::size_t k = 0; k < joined_.size(); ++k) {
+    const RigidBody& b = bodies_->bodies()[k];
+    if (!tied(k)) continue;
+    for (const PrescribedMotion& motion : b.motions) {
+      if (!motion.drives(clock.t, clock.dt)) continue;
+      const Vec& d = motion.direction;  // a body turns about an axis that is driven alone
+      const Real now = (motion.turns ? b.omega : b.v).dot(d);
+      const Vec change = (motion.velocity(clock.t, clock.dt, 0, now) - now) * d;
+      if (motion.turns)
+        bodies_->strike_at_start(k, Vec::Zero(), b.J0 * change, world);
+      else
+        bodies_->strike_at_start(k, b.m * change, Vec::Zero(), world);
+    }
+  }
+}
+
+Joints::Start Joints::make_start_consistent(World& world) {
+  Clock clock;
+  clock.dt = 1e-9;  // for velocities of curves where they begin
+  start_drives(clock, world);
+  Start out{bodies_->kinetic_energy(), 0, 0};
   const std::vector<JointRow> rows = rows_at(poses_now());
-  factorise(rows, nullptr);
+  factorise(rows, &clock);
   constexpr int rounds = 2;  // the later one for round-off
+  Real worst = 0;
   for (int round = 0; round < rounds; ++round) {
     Eigen::VectorXd rate(first_row_.back());
     for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -244,14 +265,22 @@ std::array<Real, 2> Joints::make_start_consistent(World& world) {
       for (Index k = first_row_[j]; k < first_row_[j + 1]; ++k) {
         const JointRow& row = rows[static_cast<std::size_t>(k)];
         rate[k] = row.v_b.dot(b.v) + row.w_b.dot(b.omega) + row.v_a.dot(a.v) + row.w_a.dot(a.omega);
+        const Real energy = free_[k] > 0 ? rate[k] * rate[k] / free_[k] : 0;
+        if (round == 0 && energy > worst) worst = energy, out.worst = j;
       }
     }
     const auto impulse = on_bodies(rows, -matrix_.solve(rate));
     for (std::size_t k = 0; k < impulse.size(); ++k)
-      if (joined_[k] && !bodies_->bodies()[k].fixed())
-        bodies_->strike_at_start(k, impulse[k][0], impulse[k][1], world);
+      if (tied(k)) {
+        const Inverse& free = inverse_[k];  // what is driven is not struck
+        const RigidBody& b = bodies_->bodies()[k];
+        const Matrix R = b.q.toRotationMatrix();
+        bodies_->strike_at_start(k, b.m * (free.mass * impulse[k][0]),
+                                 R * b.J0 * R.transpose() * (free.inertia * impulse[k][1]), world);
+      }
   }
-  return {before, bodies_->kinetic_energy()};
+  out.after = bodies_->kinetic_energy();
+  return out;
 }
 
 void Joints::begin(const Clock& clock) {

@@ -27,9 +27,13 @@ class Joints : public BodyTies, public Impact, public TimeLimit, public Restarta
   Real give(std::size_t body, const Vec& q, const Vec& n) const override;
   void answer(std::size_t body, const Vec& force, const Vec& moment) override;
 
-  /// Takes from the velocities at the start what the joints do not allow, as a plastic impact does; returns
-  /// the kinetic energy before and after it. [ML2/T2]
-  std::array<Real, 2> make_start_consistent(World& world);
+  struct Start {
+    Real before = 0, after = 0;  ///< kinetic energy [ML2/T2]
+    std::size_t worst = 0;       ///< the joint that velocities fitted least
+  };
+  /// Takes from the velocities at the start what the joints do not allow, as a plastic impact does, once
+  /// bodies that are driven have the velocities of their drives, which they keep.
+  Start make_start_consistent(World& world);
   /// Throws RunError where the equations cannot be met.
   void strike(World& world, const Clock& clock) override;
   /// Half of what is stable: joints that pull at their arms by the forces of the step before let a body swing
@@ -57,6 +61,7 @@ class Joints : public BodyTies, public Impact, public TimeLimit, public Restarta
   };
 
   void find_meetings();
+  void start_drives(const Clock& clock, World& world);
   std::vector<JointRow> rows_at(const std::vector<BodyPose>& poses) const;
   std::vector<BodyPose> poses_now() const;
   /// By how much each equation changes over the coming step under these forces.

@@ -111,3 +111,24 @@ TEST(JointLimits, WhatDrivesAJointApartStopsTheRun) {
     EXPECT_GT(s->world().maxima["joint_gap_share"], 1e-5) << "the verdict tells of it before";
   }
 }
+
+// A body that is driven at 10 from the start is locked to one that moves with 10: nothing is lost. One at
+// rest is taken along.
+TEST(JointLimits, WhatIsDrivenKeepsItsVelocityAtTheStart) {
+  for (const Real second : {10.0, 0.0}) {
+    JointDeck deck;
+    const Matrix J = 0.02 * Matrix::Identity();
+    const int a = deck.body({.m = 2, .J = J}),
+              b = deck.body({.x = {0.2, 0, 0}, .m = 2, .J = J, .v = {second, 0, 0}});
+    deck.joint("LOCKING", a, b, {Vec(0.1, 0, 0), Vec(0.3, 0, 0), Vec(0.1, 0.1, 0)});
+    deck.more =
+        fmt::format("*BOUNDARY_PRESCRIBED_MOTION_RIGID\n{},1,0,7\n*DEFINE_CURVE\n7\n0.,10.\n9.,10.\n", a);
+    auto s = simulation_of(deck.text(0.1));
+    for (const RigidBody& body : s->bodies()->bodies()) EXPECT_NEAR(body.v.x(), 10, 1e-9) << second;
+    s->step(do_nothing);
+    std::vector<JointForce> forces;
+    joints_of(*s).report_joints(forces);
+    EXPECT_NEAR(forces[0].force.norm(), 0, 1e-3) << second;
+    EXPECT_LT(largest_gap(*s), 1e-12);
+  }
+}
