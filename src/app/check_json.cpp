@@ -113,18 +113,14 @@ void add_mesh(const DeckFacts& facts, JsonText& json) {
 
 void add_unused(const UnusedIds& unused, JsonText& json) {
   json.open("unused_ids", '[');
-  for (const UnusedId& one : unused.named) {
+  const auto add = [&](IdSpace space, Id id) {
     json.open(nullptr, '{');
-    json.text("kind", id_word(one.space));
-    json.whole("id", one.id);
+    json.text("kind", id_word(space));
+    json.whole("id", id);
     json.close();
-  }
-  for (const Id node : unused.nodes) {
-    json.open(nullptr, '{');
-    json.text("kind", "node");
-    json.whole("id", node);
-    json.close();
-  }
+  };
+  for (const UnusedId& one : unused.named) add(one.space, one.id);
+  for (const Id node : unused.nodes) add(IdSpace::node, node);
   json.close();
 }
 

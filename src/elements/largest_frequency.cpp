@@ -88,4 +88,19 @@ Real largest_frequency(const std::vector<Real>& m, const std::vector<std::array<
   return estimate;
 }
 
+Real below_frequency(Real asked, Real step, Real omega) {
+  constexpr Real below = 0.97;  // the estimate of omega comes from below
+  if (!(omega > 0 && step > 0)) return asked;
+  const Real critical = 2 / (omega * step);
+  return std::min({asked, asked * critical, below * critical});
+}
+
+std::vector<std::array<bool, 3>> held_at_start(const Model& model, const std::vector<Index>& node_of,
+                                               const Nodes& nodes) {
+  std::vector<std::array<bool, 3>> held(static_cast<std::size_t>(nodes.size()), {false, false, false});
+  for (std::size_t k = 0; k < node_of.size(); ++k)
+    if (node_of[k] >= 0) held[static_cast<std::size_t>(node_of[k])] = model.nodes[k].fixed;
+  return held;
+}
+
 }  // namespace courant

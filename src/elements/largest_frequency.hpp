@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "model/model.hpp"
 #include "state/entities.hpp"
 
 namespace courant {
@@ -29,5 +30,14 @@ struct GroupNodes {
 /// [L]; axes of `held` nodes stay where they are. [1/T]
 Real largest_frequency(const std::vector<Real>& m, const std::vector<std::array<bool, 3>>& held, Real size,
                        const std::function<void(const NodalVector& u, NodalVector& Ku)>& stiffness);
+
+/// The share of the elements' own step `step` [T] that is taken: `asked`, and below 2/omega where `omega`
+/// [1/T], as largest_frequency gives it, and the step are above 0.
+Real below_frequency(Real asked, Real step, Real omega);
+
+/// Axes along which the deck holds nodes of the world. `node_of`: the node of the world of each node of the
+/// model.
+std::vector<std::array<bool, 3>> held_at_start(const Model& model, const std::vector<Index>& node_of,
+                                               const Nodes& nodes);
 
 }  // namespace courant

@@ -187,7 +187,6 @@ class ShellForces : public Material,
   /// A free patch of few elements is stable only below what a mesh of many is: as for solids, the step keeps
   /// below 2 over the largest frequency of the group, whose rotations stand behind the places of its nodes.
   void limit_to_frequency(const std::vector<std::array<bool, 3>>& held, World& world) {
-    constexpr Real below = 0.97;  // the estimate comes from below
     constexpr Real small = 1e-7;  // strains, within which all is linear
     const Index n = group_.size();
     const Real least_area = -maximum(n, [&](Index e) { return -group_.V0[e] / thickness_[e]; });
@@ -220,9 +219,8 @@ class ShellForces : public Material,
     Real step = std::numeric_limits<Real>::infinity();
     for (const ShellLoops::Found& f : found) step = std::min(step, f.step);
     reset();
-    if (!(omega > 0 && step > 0)) return;
-    const Real critical = 2 / (omega * step), asked = tssfac_;  // of the elements' step
-    tssfac_ = std::min({asked, asked * critical, below * critical});
+    const Real asked = tssfac_;
+    tssfac_ = below_frequency(asked, step, omega);
     by_mesh_ = tssfac_ < asked;
   }
 
@@ -312,9 +310,7 @@ class ShellForces : public Material,
 void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
                       const std::vector<Index>& node_of, World& world) {
   const bool shown = model.output.d3plot.asked() || model.output.d3plot_count > 0;
-  std::vector<std::array<bool, 3>> held(static_cast<std::size_t>(world.nodes.size()), {false, false, false});
-  for (std::size_t k = 0; k < node_of.size(); ++k)
-    if (node_of[k] >= 0) held[static_cast<std::size_t>(node_of[k])] = model.nodes[k].fixed;
+  const std::vector<std::array<bool, 3>> held = held_at_start(model, node_of, world.nodes);
   for (const auto& group : world.groups) {
     if (!group->segment) continue;
     const auto part = static_cast<std::size_t>(group->part);

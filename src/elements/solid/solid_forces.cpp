@@ -143,7 +143,6 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
   /// A free block of few elements is stable only below what a mesh of many is: the step keeps below 2 over
   /// the largest frequency of the group, by the share of the elements' own step that this is at the start.
   void limit_to_frequency(const std::vector<std::array<bool, 3>>& held, const World& world) {
-    constexpr Real below = 0.97;  // the estimate comes from below
     const Index n = group_.size();
     const Real smallest = -maximum(n, [&](Index e) { return -V0_[e]; });
     if (!(smallest > 0)) return;
@@ -166,9 +165,8 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     Real step = std::numeric_limits<Real>::infinity();
     for (const HexahedronLoops::Found& f : found) step = std::min(step, f.step);
     reset();
-    if (!(omega > 0 && step > 0)) return;
-    const Real critical = 2 / (omega * step), asked = tssfac_;  // of the elements' step
-    tssfac_ = std::min({asked, asked * critical, below * critical});
+    const Real asked = tssfac_;
+    tssfac_ = below_frequency(asked, step, omega);
     by_mesh_ = tssfac_ < asked;
   }
 
@@ -241,9 +239,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
 
 void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts,
                       const std::vector<Index>& node_of, World& world) {
-  std::vector<std::array<bool, 3>> held(static_cast<std::size_t>(world.nodes.size()), {false, false, false});
-  for (std::size_t k = 0; k < node_of.size(); ++k)
-    if (node_of[k] >= 0) held[static_cast<std::size_t>(node_of[k])] = model.nodes[k].fixed;
+  const std::vector<std::array<bool, 3>> held = held_at_start(model, node_of, world.nodes);
   for (const auto& group : world.groups) {
     const auto part = static_cast<std::size_t>(group->part);
     if (group->segment) continue;  // shells
