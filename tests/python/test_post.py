@@ -14,7 +14,7 @@ import pytest
 import yaml
 from courant.diagnostics import Diagnostics
 from courant.post import run_post
-from courant.post.analysis import KINDS
+from courant.post.analyses import KINDS
 from courant.post.command import main
 from courant.post.figures import CHARTS
 from made_runs import frame, lattice, write_history, write_run

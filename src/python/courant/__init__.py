@@ -6,7 +6,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from .optional import lazily
 
 if TYPE_CHECKING:
     from .diagnostics import CourantError
@@ -15,13 +17,5 @@ if TYPE_CHECKING:
     from .units import Units
 
 __all__ = ["CourantError", "Results", "Table", "Units", "open"]
-_HOME = {"CourantError": "diagnostics", "Results": "results", "open": "results", "Table": "tables", "Units": "units"}
-
-
-def __getattr__(name: str) -> Any:
-    """Imports what is asked for, so that the calls start before numpy is there, and can tell where it is missing."""
-    if name not in _HOME:
-        raise AttributeError(f"module 'courant' has no attribute '{name}'")
-    from importlib import import_module
-
-    return getattr(import_module(f".{_HOME[name]}", __name__), name)
+# so that the calls start before numpy is there, and can tell where it is missing
+__getattr__ = lazily(__name__, {".diagnostics": ["CourantError"], ".results": ["Results", "open"], ".tables": ["Table"], ".units": ["Units"]})

@@ -32,6 +32,12 @@ class AsciiKey(NamedTuple):
     side: str = ""
 
 
+def column_name(key: AsciiKey) -> str:
+    """ "kinetic energy" of nothing -> kinetic_energy, "x" of 4 SURFA -> x_4_SURFA."""
+    words = f"{key.name} {'' if key.id is None else key.id} {key.side}"
+    return re.sub("[^A-Za-z0-9]+", "_", words).strip("_")
+
+
 class AsciiStates:
     """The states of a file as they are read. `sizes`: numbers that each state holds; `dropped`: states that later ones replaced."""
 

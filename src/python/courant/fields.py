@@ -6,16 +6,13 @@ against its own size. No vtk module is needed.
 
 from __future__ import annotations
 
-import lzma
 import os
 import re
 import struct
-import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
-from xml.etree import ElementTree
 
 import numpy as np
 
@@ -185,6 +182,9 @@ class FieldFile:
         return out[0] if len(out) == 1 else b"".join(out)
 
     def _block(self, packed: bytes, size: int) -> bytes:
+        import lzma
+        import zlib
+
         try:
             if self._packing == "zlib":
                 unpacker = zlib.decompressobj()
@@ -253,6 +253,8 @@ class Wanted(NamedTuple):
 
 def read_states(folder: str | os.PathLike[str], diagnostics: Diagnostics, *, with_particles: bool = True) -> list[StateFiles]:
     """The states in DIR/fields.pvd in order of time. Faults are told; then the list is empty."""
+    from xml.etree import ElementTree
+
     folder = Path(folder)
     file = folder / "fields.pvd"
     hint = "DIR must be the folder that `courant run -o DIR` wrote"

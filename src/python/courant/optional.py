@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import importlib
+from collections.abc import Callable, Iterable, Mapping
 from types import ModuleType
+from typing import Any
 
 _PACKAGES = {
     "scipy": "python3-scipy",
@@ -29,3 +31,15 @@ def module(name: str) -> ModuleType:
         how = package if package.startswith("pip") else f"apt-get install {package}"
         within = "" if getattr(fault, "name", name) in (name, name.partition(".")[0]) else f" or lacks {fault.name}"
         raise MissingModule(f"the Python module '{name}' is missing{within}: {how}") from fault
+
+
+def lazily(package: str, homes: Mapping[str, Iterable[str]]) -> Callable[[str], Any]:
+    """A package's __getattr__ that imports names from their modules when they are asked for. `homes`: names by relative module."""
+    home = {name: module for module, names in homes.items() for name in names}
+
+    def get(name: str) -> Any:
+        if name not in home:
+            raise AttributeError(f"module '{package}' has no attribute '{name}'")
+        return getattr(importlib.import_module(home[name], package), name)
+
+    return get

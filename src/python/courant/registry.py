@@ -1,9 +1,10 @@
 """Functions by name, added with a decorator: analyses, observations, charts; `--load my.py` adds more."""
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Generic, TypeVar
 
@@ -11,7 +12,8 @@ Function = TypeVar("Function")
 
 
 class Registry(Generic[Function]):
-    """Functions by name, in the order in which they were added. A name that stands twice is refused.
+    """Functions by name, in the order in which they were added. A name that stands twice is refused. `homes`: modules that add names of their
+    own, by name; they are imported when one of their names is asked for.
 
         take = Registry("take")
 
@@ -19,12 +21,12 @@ class Registry(Generic[Function]):
         def spread(series, at): ...
     """
 
-    def __init__(self, what: str) -> None:
-        self.what = what
+    def __init__(self, what: str, homes: Mapping[str, str] | None = None) -> None:
+        self.what, self._homes = what, dict(homes or {})
         self.functions: dict[str, Function] = {}
 
     def add(self, name: str, function: Function) -> Function:
-        if name in self.functions:
+        if name in self.functions or self._homes.get(name, __name__) not in sys.modules:
             raise ValueError(f"there is a {self.what} '{name}' already")
         self.functions[name] = function
         return function
@@ -33,13 +35,15 @@ class Registry(Generic[Function]):
         return lambda function: self.add(name, function)
 
     def __getitem__(self, name: str) -> Function:
+        if name not in self.functions and name in self._homes:
+            importlib.import_module(self._homes[name])
         return self.functions[name]
 
     def __contains__(self, name: str) -> bool:
-        return name in self.functions
+        return name in self._homes or name in self.functions
 
     def names(self) -> list[str]:
-        return list(self.functions)
+        return list(dict.fromkeys([*self._homes, *self.functions]))
 
 
 class LoadFault(Exception):

@@ -24,7 +24,8 @@ from typing import Any, overload
 import numpy as np
 import yaml
 
-from .ascii_histories import AsciiFile, AsciiKey
+from .ascii_histories import AsciiFile
+from .ascii_kinds import column_name
 from .diagnostics import CourantError, Diagnostics
 from .fields import FieldFault, FieldFile, StateFiles, read_states
 from .histories import HistoryFile
@@ -41,12 +42,6 @@ def open(folder: str | PathLike[str], units: Units = Units()) -> Results:  # noq
     Files are read when they are asked for. `units`: what the deck's units are called. Raises CourantError where the folder is missing.
     """
     return Results(folder, units)
-
-
-def column_name(key: AsciiKey) -> str:
-    """ "kinetic energy" of nothing -> kinetic_energy, "x" of 4 SURFA -> x_4_SURFA."""
-    words = f"{key.name} {'' if key.id is None else key.id} {key.side}"
-    return re.sub("[^A-Za-z0-9]+", "_", words).strip("_")
 
 
 def _raised(diagnostics: Diagnostics) -> None:

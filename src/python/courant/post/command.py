@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
-from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import NoReturn
 
@@ -14,6 +13,7 @@ from ..files import OutputError, make_folder
 from ..optional import MissingModule
 from ..registry import LoadFault, load_file
 from ..terminal import clear_status_line, processors, say, status_line
+from .parallel import ProcessLost
 from .run import run_post
 
 EXIT_OK, EXIT_INPUT, EXIT_RUN, EXIT_OTHER = 0, 1, 2, 3
@@ -73,7 +73,7 @@ def main(words: Sequence[str]) -> int:
         code, fault = EXIT_INPUT, f"{error}\n"
     except MissingModule as error:
         code, fault = EXIT_OTHER, f"error: {error}\n"
-    except (MemoryError, BrokenProcessPool):
+    except (MemoryError, ProcessLost):
         code, fault = EXIT_OTHER, "error: no memory is left, or a process was ended from outside\n  hint: fewer --threads take less memory\n"
     clear_status_line()
     sys.stdout.flush()

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from ..yaml_map import YamlMap, as_number
-from .analysis import Analysis, Moments, Run, Settings, analysis, median
+from .analyses import Analysis, Moments, Run, Settings, analysis, median
 from .jump import froude, largest_deviation_over_d1, roller_length_over_d1, surface_strouhal, velocity_decay
 
 

@@ -8,12 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ..ascii_histories import AsciiFile, AsciiKey
+from ..ascii_kinds import AsciiKey, column_name
 from ..histories import HistoryFile
-from ..results import column_name
 from ..words import nearest_word
 from ..yaml_map import Node, YamlMap, is_map, is_scalar, scalar_text
-from .analysis import Analysis, Moments, Run, Settings, TimeWindow, analysis, median
+from .analyses import Analysis, Moments, Run, Settings, TimeWindow, analysis, median
 from .spectrum import Spectrum, SpectrumSettings, at_equal_steps, welch
 from .tables import Series
 
@@ -166,6 +165,8 @@ class HistoryAnalysis(_SeriesAnalysis):
         return self._take_ascii((Path(self.where.file).parent if "/" in self.file else run.folder) / self.file, run)
 
     def _take_ascii(self, path: Path, run: Run) -> None:
+        from ..ascii_histories import AsciiFile
+
         file = AsciiFile.open(path, run.diagnostics)
         if file is None or not self.begin_table(file.times, run):
             return

@@ -11,7 +11,7 @@ from ..files import make_folder, write_file
 from ..units import Units
 from ..words import short_number
 from ..yaml_map import Node, YamlMap, is_list, is_map
-from .analysis import Analysis, Moments, Run, Settings, TimeWindow, analysis
+from .analyses import Analysis, Moments, Run, Settings, TimeWindow, analysis
 from .particles import Pieces, Points, interpolate, joined, spline_norm, spline_shape, water_on_lines
 from .state import State, read_expression, read_quantities, read_spray, read_where, wanted_array, wanted_arrays
 from .tables import Column, Image, Series, write_vti

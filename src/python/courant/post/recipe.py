@@ -5,16 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import PurePosixPath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..diagnostics import Diagnostics, Location
 from ..units import Units
 from ..yaml_map import Node, YamlMap, is_map, load_yaml, scalar_text
-from .analysis import Analysis, Settings, read_analysis
+from .analyses import Analysis, Settings, read_analysis
 from .figures import Figure, read_figure
 from .jump import JumpRecipe, PublishedRow
-from .view_scene import View
-from .views import read_views
+
+if TYPE_CHECKING:
+    from .view_scene import View
 
 _KEYS = ("case", "probes", "jump", "snapshots", "units", "up", "folder", "analyses", "figures", "formats", "views")
 _INTERVAL = "for example [2.5, 5.0]"
@@ -82,7 +83,10 @@ def read_recipe(file: str | PathLike[str], diagnostics: Diagnostics) -> Recipe |
     for node in keys.list("analyses"):
         _read_one(keys, node, out)
     out.figures = [read_figure(keys, node) for node in keys.list("figures")]
-    out.views = read_views(keys, keys.text("up"))
+    if keys.has("views"):
+        from .views import read_views
+
+        out.views = read_views(keys, keys.text("up"))
     _read_formats(keys, out)
     _read_folder(keys, out)
     if diagnostics.errors == before and not (out.probes or out.jump or out.snapshots or out.analyses or out.views):

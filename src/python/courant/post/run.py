@@ -15,7 +15,7 @@ from ..fields import ParticleFrame, StateFiles, Wanted, read_particles, read_sta
 from ..files import make_folder, write_file
 from ..optional import MissingModule
 from ..yaml_map import YamlMap, is_map, parse_yaml
-from .analysis import Analysis, Run
+from .analyses import Analysis, Run
 from .figures import figures_json
 from .jump import JumpResult, evaluate_jump, find_case, jump_text
 from .measured import Measured, measure_depths, no_pictures, results_yaml, snapshot_states, write_measured

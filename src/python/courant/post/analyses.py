@@ -223,7 +223,11 @@ class Analysis:
 
 
 Factory = Callable[[YamlMap, Settings], Analysis]
-KINDS: Registry[Factory] = Registry("kind of analysis")
+_OF_MODULES = {"kinds_states": "probe surface grid profile flux", "kinds_series": "spectrum history force toe", "kinds_roller": "roller"}
+_ORDER = "probe surface grid profile spectrum flux history force toe roller".split()  # as messages name them
+KINDS: Registry[Factory] = Registry(
+    "kind of analysis", {kind: f"{__package__}.{home}" for kind in _ORDER for home, kinds in _OF_MODULES.items() if kind in kinds.split()}
+)
 
 
 def analysis(kind: str, needs: Sequence[str] | None = None) -> Callable[[Any], Any]:
