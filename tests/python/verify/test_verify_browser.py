@@ -33,7 +33,7 @@ addEventListener('load', () => {
   let letters = 1e9;
   for (const chart of charts) {
     const box = chart.getBoundingClientRect(), texts = [...chart.querySelectorAll('text')];
-    letters = Math.min(letters, 13.5 * box.width / chart.viewBox.baseVal.width);
+    for (const t of texts) letters = Math.min(letters, parseFloat(view.getComputedStyle(t).fontSize) * box.width / chart.viewBox.baseVal.width);
     const boxes = texts.map(t => t.getBoundingClientRect());
     boxes.forEach((b, i) => {
       const name = chart.getAttribute('aria-label') + ': ' + texts[i].textContent;

@@ -105,7 +105,7 @@ def _verify(words: argparse.Namespace, stop: list[int]) -> int:
     try:
         if not diagnostics.ok:
             raise Refused
-        for name in ["jinja2"] + ["scipy"] * any(case.picture_of for case in suite.cases):
+        for name in ["jinja2", "matplotlib"] + ["scipy"] * any(case.picture_of for case in suite.cases):
             module(name)  # told before anything is run
         result = verify_suite(suite, options, diagnostics)
     except Refused:

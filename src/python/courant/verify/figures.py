@@ -7,11 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .charts import Chart, Line, Point, stability_map, svg_chart, svg_map, verdict_counts
 from .model import CaseResult, Curve, Observation, RunResult
 from .pareto import cost_points, pareto_front, recommendation
 from .registry import CHARTS, chart
-from .svg import Chart, Line, Point, svg_chart
-from .svg_map import stability_map, svg_map, verdict_counts
 from .text import integer, number, percent, seconds
 
 _MOST_SINGLE_POINTS = 40  # of a reference that is drawn as points

@@ -8,14 +8,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from .. import style
 from ..files import make_folder, write_file
 from ..optional import module
 from .changes import Comparison
+from .charts import DARK, width_of
 from .figures import figures
 from .model import SuiteResult
 from .pareto import cheapest_within_bounds
-from .svg import WIDTH
 from .tables import check_text, checks_table, overview_table, runs_table
 from .text import escape_markdown, escape_xml, file_stem, number, paragraphs, percent, seconds
 
@@ -32,15 +31,6 @@ def verdict(result: SuiteResult) -> str:
     if bad > 0:
         return f"{bad} of {every} bounds {'is' if bad == 1 else 'are'} missed."
     return "The one bound is met." if every == 1 else f"All {every} bounds are met."
-
-
-def chart_css() -> str:
-    """Style sheet of the charts' classes, for the page they stand in."""
-    def lines(palette: tuple[str, ...]) -> str:
-        return "".join(f".chart .s{i}{{color:{colour}}}" for i, colour in enumerate(palette))
-
-    sheet = (_TEMPLATES / "chart.css").read_text("utf-8")
-    return sheet.replace("/*lines*/", lines(style.PALETTE)).replace("/*lines, dark*/", lines(style.PALETTE_DARK)).strip()
 
 
 def _render(template: str, escape: Callable[[str], str], result: SuiteResult, **values: Any) -> str:
@@ -62,17 +52,14 @@ class _Markup(str):
 
 def _in_scroller(svg: str) -> str:
     """A map that is wider than charts keeps its letters readable: it scrolls in its box."""
-    found = re.search(r' width="(\d+)"', svg)
-    width = int(found[1]) if found else WIDTH
-    if width <= WIDTH:
-        return _Markup(svg)
-    return _Markup(f'<div class="scroll" tabindex="0"><div class="wide" style="width:{width * 9 // 10}px">{svg}</div></div>')
+    wide = width_of(svg)
+    return _Markup(svg if wide <= 1.15 else f'<div class="scroll" tabindex="0"><div class="wide" style="width:{400 * wide:.0f}px">{svg}</div></div>')
 
 
 def html(result: SuiteResult, changes: Comparison | None = None) -> str:
     """The text of report.html: plain elements, one style sheet, no script."""
     ids = [f"case-{i}-{file_stem(case.definition.name)}" for i, case in enumerate(result.cases, 1)]
-    sheet = (_TEMPLATES / "page.css").read_text("utf-8") + chart_css()
+    sheet = (_TEMPLATES / "page.css").read_text("utf-8") + DARK
     return _render("report.html.j2", escape_xml, result, ids=ids, changes=changes or Comparison(), css=_Markup(sheet),
                    drawing=_in_scroller, base64=lambda data: _Markup(base64.b64encode(data).decode()))
 
@@ -105,7 +92,7 @@ class _Pictures:
 def standalone_svg(svg: str) -> str:
     """A file of its own: the `svg` element with the style sheet inside."""
     head, rest = svg.split(">", 1)  # text in attributes is escaped: the first one ends the tag
-    return f"{head}><style>\n{chart_css()}</style>{rest}\n"
+    return f"{head}><style>\n{DARK}</style>{rest}\n"
 
 
 def write_page(result: SuiteResult, page: Path, picture_folder: Path) -> None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from .charts import verdict_counts
 from .model import BoundCheck, CaseResult, RunResult, SuiteResult
-from .svg_map import verdict_counts
 from .text import integer, megabytes, number, percent, seconds
 
 
