@@ -10,7 +10,11 @@ import argparse
 import os
 import sys
 
-from paraview import servermanager
+try:
+    from paraview import servermanager
+except ImportError:
+    sys.exit("ParaView's Python is missing: apt-get install python3-paraview (in place of python3-vtk9, which cannot stand beside it), then "
+             "pvbatch paraview_jump.py ...")
 from paraview.simple import (_DisableFirstRenderCameraReset, AnnotateTimeFilter, ColorBy, CreateRenderView, GetAnimationScene, GetColorTransferFunction,
                              GetScalarBar, PVDReader, ExtractBlock, Render, SaveAnimation, SaveScreenshot, Show, UpdatePipeline)
 

@@ -118,7 +118,10 @@ def test_plots(run, tmp_path):
     run.plot(file=tmp_path / "a.png")
     run.plot("contacts/12", "force.x", file=tmp_path / "b.png")
     run.ascii["glstat"].plot("kinetic_energy", file=tmp_path / "c.png")
-    run.states[0].plot("velocity", file=tmp_path / "d.png")
+    picture = run.states[0].plot("pressure", file=tmp_path / "d.png", range=(0, 1))
+    assert picture.axes[0].images and picture.axes[0].get_title(loc="right").startswith("t = 0")
+    with pytest.raises(KeyError, match="did you mean pressure"):
+        run.states[0].plot("presure")
     assert all((tmp_path / f"{name}.png").stat().st_size > 5000 for name in "abcd")
     with pytest.raises(KeyError, match="no column 'q'"):
         run.plot("energies", "q")

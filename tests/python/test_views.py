@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import shutil
+import subprocess
 from pathlib import Path
 
 import courant
 import numpy as np
 import pytest
-from courant.diagnostics import Diagnostics
+from courant.diagnostics import Diagnostics, Location
 from courant.fields import StateFiles
 from courant.post import read_recipe
 from courant.post.camera import AXES, Camera, axis_of, up_of, up_of_gravity
@@ -60,6 +62,17 @@ def pool(tmp_path):
 
 
 class TestCamera:
+    def test_perspective(self):
+        camera = Camera.looking("z", 0, 0).before(np.array([[-1.0, -1, -1], [1, 1, 1]]))  # the eye at y = -D
+        D = camera.distance
+        assert D == pytest.approx(2.2 * np.sqrt(12))
+        near, middle, far = camera.project(np.array([[0.5, -1, 0.5], [0.5, 0, 0.5], [0.5, 1, 0.5]]))
+        assert middle == pytest.approx([0.5, 0.5, 0]) and near[:2] == pytest.approx(0.5 * D / (D - 1)) and far[:2] == pytest.approx(0.5 * D / (D + 1))
+        line = np.array([[0.2, -1.0, 0.3]]) + np.linspace(0, 1, 5)[:, None] * np.array([[0.7, 2.0, -0.9]])
+        assert np.linalg.matrix_rank(np.diff(camera.project(line), axis=0), tol=1e-12) == 1, "straight lines stay straight, also in depth"
+        side = np.array([[1.0, -0.01, 0]])  # a face that a parallel camera sees, but not one that stands left of it
+        assert Camera.looking("z", 0, 0).sees(side, np.array([[0.9, 0, 0]])) == [True] and camera.sees(side, np.array([[0.9, 0, 0]])) == [False]
+
     @pytest.mark.parametrize("up", AXES)
     def test_up_is_upright_and_the_axes_are_right_handed(self, up):
         for azimuth, elevation in ((0, 0), (30, 20), (200, -40)):
@@ -118,7 +131,7 @@ class TestFields:
         shells = scene_of(pool.states[0], View("v", "speed", of="particles"))
         assert shells.walls is not None and len(shells.walls) == 2 and shells.label == "speed [m/s]"
         with pytest.raises(UnknownField, match="no elements"):
-            scene_of(RunState(StateFiles(0.0, pool.folder / "fields/particles_0000.vtp"), pool.units), View("v", of="elements"))
+            scene_of(RunState(StateFiles(0.0, pool.folder / "fields/particles_0000.vtp"), pool), View("v", of="elements"))
 
 
 class TestFaces:
@@ -337,10 +350,17 @@ class TestPictures:
 
     def test_mp4_without_ffmpeg(self, pool, tmp_path, monkeypatch):
         monkeypatch.setattr("matplotlib.animation.FFMpegWriter.isAvailable", classmethod(lambda _: False))
-        from courant.optional import MissingModule
+        diagnostics = Diagnostics()
+        made = draw_views(pool, [(View("m", animate="mp4"), Location("r.yaml", 2, 3)), (View("n"), Location())], tmp_path, diagnostics)
+        assert [one.name for one in made] == ["m.png", "n.png"], "other views are drawn"
+        told = "r.yaml:2:3: warning: view 'm': there is no MP4, which needs the program 'ffmpeg'\n  hint: apt-get install ffmpeg\n"
+        assert diagnostics.ok and diagnostics.text() == told
 
-        with pytest.raises(MissingModule, match="needs the program 'ffmpeg'"):
-            draw_views(pool, [(View("m", animate="mp4"), "")], tmp_path, Diagnostics())
+    @pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="ffmpeg is not here (Debian: apt-get install ffmpeg)")
+    def test_mp4(self, pool, tmp_path):
+        made = draw_views(pool, [(View("m", animate="mp4", rate=2), Location())], tmp_path, Diagnostics())
+        words = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=codec_name,nb_read_frames,r_frame_rate", "-of", "csv=p=0", made[1]]
+        assert subprocess.run(words, capture_output=True, text=True, check=True).stdout.strip().split(",") == ["h264", "2/1", "3"]
 
 
 class TestRecipe:

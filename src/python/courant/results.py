@@ -150,11 +150,11 @@ class Mesh:
 class RunState(Mesh):
     """One state at a time t [T]: its particles or, where it has none, its shells, which are `shells` in any case."""
 
-    def __init__(self, files: StateFiles, units: Units) -> None:
+    def __init__(self, files: StateFiles, run: Results) -> None:
         path = files.particles or files.shells
         assert path is not None  # fields.pvd names one of them
-        super().__init__(path, units)
-        self.t, self._files = files.t, files
+        super().__init__(path, run.units)
+        self.t, self._files, self._run = files.t, files, run
 
     @cached_property
     def shells(self) -> Mesh | None:
@@ -177,29 +177,17 @@ class RunState(Mesh):
         found = {mesh.path: mesh for mesh in (self.shells, self.solids) if mesh is not None}
         return list(found.values())
 
-    def plot(self, of: str = "speed", axes: str = "xy", file: str | Path | None = None) -> Any:
-        """Points in a plane, coloured by an array (of vectors: their length). Gives matplotlib's figure. Raises MissingModule."""
-        from .style import FIELD_COLOURS, figure
-
-        a, b = ("xyz".index(axis) for axis in axes)
-        values = self[of]
-        made, plot = figure(9, 3.6)
-        colour = values if values.ndim == 1 else np.sqrt((values.astype(float) ** 2).sum(axis=1))
-        dots = plot.scatter(self.points[:, a], self.points[:, b], c=colour, s=2, cmap=FIELD_COLOURS, linewidths=0)
-        length = self._units.of(Dimension(L=1))
-        plot.set(xlabel=f"{axes[0]} [{length}]", ylabel=f"{axes[1]} [{length}]", title=f"t = {self.t:g} {self._units.time}")
-        plot.set_aspect("equal")
-        made.colorbar(dots, ax=plot, label=f"{of} [{self.unit(of)}]", shrink=0.8)
-        if file is not None:
-            made.savefig(file)
-        return made
+    def plot(self, field: str = "", file: str | Path | None = None, **keys: Any) -> Any:
+        """A picture of the state by a field: plane flows filled, scenes in space rendered. `keys`: as of Results.plot. Gives matplotlib's figure, and
+        writes it to `file`. Raises MissingModule, KeyError with the names there are."""
+        return self._run.plot(field=field, t=self.t, file=file, **keys)
 
 
 class States(Sequence[RunState]):
     """The states of a run in order of time; each is read when it is asked for."""
 
-    def __init__(self, files: list[StateFiles], units: Units) -> None:
-        self._files, self._units = files, units
+    def __init__(self, files: list[StateFiles], run: Results) -> None:
+        self._files, self._run = files, run
         self.times = np.array([one.t for one in files])
 
     def __len__(self) -> int:
@@ -211,8 +199,8 @@ class States(Sequence[RunState]):
     def __getitem__(self, index: slice) -> States: ...
     def __getitem__(self, index: int | slice) -> RunState | States:
         if isinstance(index, slice):
-            return States(self._files[index], self._units)
-        return RunState(self._files[index], self._units)
+            return States(self._files[index], self._run)
+        return RunState(self._files[index], self._run)
 
     def at(self, t: float) -> RunState:
         """The state nearest to a time [T]."""
@@ -319,7 +307,7 @@ class Results:
         diagnostics = Diagnostics()
         files = read_states(self.folder, diagnostics, with_particles=False)
         _raised(diagnostics)
-        return States(files, self.units)
+        return States(files, self)
 
     @cached_property
     def summary(self) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..optional import MissingModule, module
+from ..optional import module
 from ..style import pyplot
 from .camera import up_of
 from .view_scene import View, colour_range, scene_of
@@ -17,19 +17,23 @@ from .view_scene import View, colour_range, scene_of
 _DPI = 80
 
 
+class MissingProgram(Exception):
+    """A program that is not there; the message tells what to install."""
+
+
 def _writer(kind: str, rate: float) -> Any:
     animation = module("matplotlib.animation")
     if kind == "gif":
         return animation.PillowWriter(fps=rate)
     if not animation.FFMpegWriter.isAvailable():
-        raise MissingModule("an MP4 needs the program 'ffmpeg', which is missing: apt-get install ffmpeg")
+        raise MissingProgram("there is no MP4, which needs the program 'ffmpeg': apt-get install ffmpeg")
     return animation.FFMpegWriter(fps=rate)
 
 
 def animate(run: Any, view: View, path: Path) -> Path:
     """Writes all states between the view's first and last time, of all states if it has none, with one range of colours.
 
-    Frames have the look of the picture. Raises UnknownField, CourantError, MissingModule (also without ffmpeg, for MP4).
+    Frames have the look of the picture. Raises UnknownField, CourantError, MissingModule, MissingProgram.
     """
     from .views import draw_view
 

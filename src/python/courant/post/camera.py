@@ -1,14 +1,16 @@
-"""The axis against gravity, and parallel projection: where a point of the scene lies in a picture."""
+"""The axis against gravity, and parallel and perspective projection: where a point of the scene lies in a picture."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import dataclasses
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ..diagnostics import CourantError
 
+PROJECTIONS = ("parallel", "perspective")
 AXES = ("x", "y", "z", "-x", "-y", "-z")
 _STATES = 6  # that are looked at for gravity
 
@@ -61,11 +63,14 @@ def up_of(run: Any, flat: bool) -> str:
 
 @dataclass(frozen=True)
 class Camera:
-    """Parallel projection. `right`, `up`, `toward`: unit vectors of the picture's axes and of the way to the eye, (3,)."""
+    """`right`, `up`, `toward`: unit vectors of the picture's axes and of the way to the eye, (3,). Parallel projection, or, with a `distance` of the
+    eye from `centre`, (3,), perspective: lengths are true in the plane through it [L]."""
 
     right: np.ndarray
     up: np.ndarray
     toward: np.ndarray
+    centre: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(3))
+    distance: float = np.inf
 
     @classmethod
     def looking(cls, up: str, azimuth: float, elevation: float) -> Camera:
@@ -80,9 +85,29 @@ class Camera:
         toward = np.cos(e) * side + np.sin(e) * above
         return cls(across, np.cross(toward, across), toward)
 
+    def before(self, corners: np.ndarray) -> Camera:
+        """The same in perspective, the eye so far from points, (n, 3) [L], that all are well before it."""
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        return replace(self, centre=0.5 * (low + high), distance=2.2 * float(np.sqrt(((high - low) ** 2).sum())) or 1.0)
+
+    def turned(self, ways: np.ndarray) -> np.ndarray:
+        """Components of vectors to the right, upward and toward the eye; (n, 3)."""
+        return ways @ np.column_stack((self.right, self.up, self.toward))
+
+    def enlarged(self, x: np.ndarray) -> np.ndarray:
+        """How much larger than in the plane through the centre things at points look; (n, 3) [L] -> (n,)."""
+        if np.isinf(self.distance):
+            return np.ones(len(x))
+        return self.distance / np.maximum(self.distance - (x - self.centre) @ self.toward, 1e-3 * self.distance)
+
     def project(self, x: np.ndarray) -> np.ndarray:
-        """(n, 3) [L] -> (n, 3): to the right, upward, toward the eye [L]."""
-        return x @ np.column_stack((self.right, self.up, self.toward))
+        """(n, 3) [L] -> (n, 3): to the right, upward, toward the eye [L]; planes stay planes, so that depths may be interpolated in the picture."""
+        return self.turned(x - self.centre) * self.enlarged(x)[:, None]
+
+    def sees(self, normals: np.ndarray, x: np.ndarray) -> np.ndarray:
+        """Whether faces with outward normals at points turn toward the eye; (n, 3) each -> (n,) of bool."""
+        way = self.toward if np.isinf(self.distance) else self.centre + self.distance * self.toward - x
+        return (normals * way).sum(axis=1) > 0
 
 
 def standing_azimuth(extent: np.ndarray, up: str) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..diagnostics import CourantError
 from ..optional import module
-from .camera import AXES
+from .camera import AXES, PROJECTIONS
 from .view_fields import Faces, FieldValues, UnknownField, faces_of, field_names, field_of, joined_faces, mirrored
 
 
@@ -18,7 +18,7 @@ from .view_fields import Faces, FieldValues, UnknownField, faces_of, field_names
 class View:
     """A picture that is asked for. `field`: "" for speed or else plastic_strain; `of`: "", particles or elements; `times`: [T], None for the
     last state; `range`: of the colours, in the unit shown; `window`: limits of x, y, z [L], None for all; `up`: "" for that of gravity;
-    `azimuth`, `elevation`: None for those that suit; `theory`: an expression of x with `theory_range` and `theory_label`; `unit`, `factor`: shown are
+    `azimuth`, `elevation`: None for those that suit; `projection`: in space, parallel or perspective; `theory`: an expression of x with `theory_range` and `theory_label`; `unit`, `factor`: shown are
     values times the factor; `mirror`: axes, as "xz"; `animate`: "", gif or mp4 of all states from `times[0]` to `times[-1]`."""
 
     name: str
@@ -30,6 +30,7 @@ class View:
     up: str = ""
     azimuth: float | None = None
     elevation: float | None = None
+    projection: str = "parallel"
     window: tuple[tuple[float, float] | None, ...] = (None, None, None)
     walls: str = "transparent"
     title: str = ""
@@ -49,7 +50,7 @@ class View:
 
     def __post_init__(self) -> None:
         """Raises ValueError where a word is none of those that there are; recipes have told before."""
-        words = {"of": ("", "particles", "elements"), "walls": ("transparent", "outlined", "none"), "up": ("", *AXES)}
+        words = {"of": ("", "particles", "elements"), "walls": ("transparent", "outlined", "none"), "up": ("", *AXES), "projection": PROJECTIONS}
         for key, known in words.items():
             if getattr(self, key) not in known:
                 raise ValueError(f"'{key}' cannot be '{getattr(self, key)}'; it is one of {', '.join(filter(None, known))}")

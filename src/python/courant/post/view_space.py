@@ -31,7 +31,8 @@ def camera_of(run: Any, view: View, scenes: list[Scene]) -> Camera:
     corners = np.concatenate([one.corners() for one in scenes])
     azimuth = 0.0 if flat else standing_azimuth(np.ptp(corners, axis=0), up)
     elevation = 0.0 if flat else 20.0
-    return Camera.looking(up, azimuth if view.azimuth is None else view.azimuth, elevation if view.elevation is None else view.elevation)
+    camera = Camera.looking(up, azimuth if view.azimuth is None else view.azimuth, elevation if view.elevation is None else view.elevation)
+    return camera.before(corners) if view.projection == "perspective" else camera
 
 
 def frame_of(camera: Camera, scenes: list[Scene]) -> tuple[float, float, float, float]:
@@ -89,14 +90,14 @@ def render(scene: Scene, view: View, camera: Camera, frame: tuple[float, ...], l
     thick = 0.01 * (right - left)
     if scene.faces is not None and scene.colours is not None:
         faces = scene.faces
-        normals = camera.project(faces.normals())
-        front = ~faces.solid | (normals[:, 2] > 0)  # the backs of solids are behind their fronts
+        normals = camera.turned(faces.normals())
+        front = ~faces.solid | camera.sees(faces.normals(), faces.x[faces.corners].mean(axis=1))  # the backs of solids are behind their fronts
         colour = colours_of(scene.colours[front], low, high, view.colours)
         raster.faces(camera.project(faces.x), faces.corners[front], colour, normals[front], view.lines)
     if scene.values is not None and len(scene.x):
         size = np.sqrt(scene.V) if scene.flat else np.cbrt(scene.V)
         radius = 0.56 * size  # a little more than touching, so that no gaps show
-        raster.spheres(camera.project(scene.x), radius, colours_of(scene.values, low, high, view.colours))
+        raster.spheres(camera.project(scene.x), radius * camera.enlarged(scene.x), colours_of(scene.values, low, high, view.colours))
         thick = 2.5 * float(np.median(size))
     raster.shadows(thick)
     _veils(raster, scene, view, camera)
@@ -110,17 +111,19 @@ def nice_length(most: float) -> float:
 
 
 def draw_axes(axes: Any, camera: Camera, frame: tuple[float, ...], unit: str) -> None:
-    """The three axes as arrows in the lower left corner, and a scale: parallel projection keeps lengths across the line of sight."""
+    """The three axes as arrows in the lower left corner, and in parallel projection, which keeps lengths across the line of sight, a scale."""
     left, right, bottom, top = frame
     size = 0.045 * max(right - left, top - bottom)
     at = np.array([left + 1.6 * size, bottom + 1.1 * size])
     for k, name in enumerate("xyz"):
-        way = camera.project(np.eye(3)[k][None])[0, :2] * size
+        way = camera.turned(np.eye(3)[k][None])[0, :2] * size
         if np.hypot(*way) < 0.3 * size:  # it points at the eye, or away
             continue
         axes.annotate("", at + way, at, arrowprops=_ARROW)
         label = at + way * (1 + 0.4 * size / np.hypot(*way))
         axes.text(*label, name, fontsize=8, color="0.2", ha="center", va="center")
+    if camera.distance < np.inf:
+        return
     length = nice_length(0.25 * (right - left))
     begin, y = right - 0.03 * (right - left) - length, bottom + 0.3 * size
     axes.plot([begin, begin + length], [y, y], color="0.2", linewidth=2, solid_capstyle="butt")

@@ -14,7 +14,7 @@ from ..optional import module
 from ..style import pyplot
 from ..units import Dimension
 from ..yaml_map import YamlMap, is_list
-from .camera import AXES, up_of
+from .camera import AXES, PROJECTIONS, up_of
 from .state import read_expression
 from .view_plane import draw_plane, plane_window
 from .view_scene import Scene, UnknownField, View, colour_range, scenes_of
@@ -22,8 +22,8 @@ from .view_space import camera_of, draw_axes, draw_panel, frame_of, render
 
 COLOURS = ("viridis", "cividis", "magma", "plasma", "coolwarm", "Greys")
 _KEYS = (
-    "name", "field", "of", "times", "range", "colours", "up", "camera", "x", "y", "z", "walls", "title", "unit", "factor", "mirror",
-    "columns", "lines", "depth", "bed", "gauges", "theory", "animate", "rate",
+    "name", "field", "of", "times", "range", "colours", "up", "camera", "projection", "x", "y", "z", "walls", "title", "unit", "factor",
+    "mirror", "columns", "lines", "depth", "bed", "gauges", "theory", "animate", "rate",
 )  # fmt: skip
 _DPI = 120
 
@@ -41,6 +41,7 @@ def read_view(keys: YamlMap) -> View:
     out |= {"of": keys.choice("of", ("", "particles", "elements")), "colours": keys.choice("colours", COLOURS)}
     out |= {"walls": keys.choice("walls", ("transparent", "outlined", "none")), "animate": keys.choice("animate", ("", "gif", "mp4"))}
     out |= {"range": keys.range("range"), "window": tuple(keys.range(axis) for axis in "xyz"), "up": keys.choice("up", ("", *AXES))}
+    out["projection"] = keys.choice("projection", PROJECTIONS)
     out |= {"unit": keys.text("unit"), "factor": keys.number("factor", 1.0), "lines": keys.flag("lines", True), "depth": keys.flag("depth")}
     out |= {"columns": int(keys.number("columns")), "rate": keys.positive("rate", 12.0), "gauges": keys.places("gauges")}
     if out["factor"] != 1 and not out["unit"]:
@@ -104,6 +105,8 @@ def _in_plane(run: Any, view: View, scene: Scene) -> bool:
     plane = up == "y" and view.azimuth is None and view.elevation is None
     if not plane and (view.depth or view.gauges or view.theory is not None):
         raise UnknownField("depth, gauges and theory need a plane flow whose y is up, and no camera")
+    if plane and view.projection == "perspective":
+        raise UnknownField("perspective needs a scene in space, or a camera")
     return plane
 
 
@@ -181,7 +184,7 @@ def _of_times_that_are_there(view: View, where: Location, states: np.ndarray, di
 
 def draw_views(run: Any, views: list[tuple[View, Location]], out: Path, diagnostics: Diagnostics) -> list[Path]:
     """NAME.png of each view, and NAME.gif or NAME.mp4 where it is asked for. Faults of fields and files are told; raises MissingModule."""
-    from .animation import animate
+    from .animation import MissingProgram, animate
 
     made: list[Path] = []
     for view, where in views:
@@ -193,6 +196,9 @@ def draw_views(run: Any, views: list[tuple[View, Location]], out: Path, diagnost
             made.append(out / f"{view.name}.png")
             if view.animate:
                 made.append(animate(run, view, out / f"{view.name}.{view.animate}"))
+        except MissingProgram as fault:
+            what, _, how = str(fault).partition(": ")
+            diagnostics.warning(where, f"view '{view.name}': {what}", how)
         except UnknownField as fault:
             diagnostics.error(where, f"view '{view.name}': {fault}")
         except CourantError as fault:
