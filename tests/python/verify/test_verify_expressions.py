@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from courant.expressions import ExpressionFault, Formula, constant_value, evaluate
-from courant.verify.names import PARTICLE_VARIABLES, find_history_names
+from courant.variables import VARIABLES
+from courant.verify.names import find_history_names
 
 
 @pytest.mark.parametrize(
@@ -89,10 +90,10 @@ def test_over_arrays_what_has_no_value_is_nan() -> None:
 
 
 def test_names_that_mean_two_things() -> None:
-    formula = Formula("h * 2", PARTICLE_VARIABLES, {"h": 1})
+    formula = Formula("h * 2", VARIABLES, {"h": 1})
     assert formula.error == "'h' is both a parameter and a variable here"
-    assert Formula("p * 2", PARTICLE_VARIABLES, {"h": 1}).ok
-    assert Formula("p * 2", PARTICLE_VARIABLES).used == {"p"}
+    assert Formula("p * 2", VARIABLES, {"h": 1}).ok
+    assert Formula("p * 2", VARIABLES).used == {"p"}
 
 
 def test_names_of_datasets() -> None:

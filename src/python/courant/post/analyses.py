@@ -29,9 +29,10 @@ from ..diagnostics import Diagnostics, Location
 from ..fields import Wanted
 from ..registry import Registry
 from ..units import Dimension, Units
+from ..variables import wanted_array
 from ..words import did_you_mean
 from ..yaml_map import YamlMap, as_number, is_list, is_scalar, scalar_text
-from .state import State, wanted_array
+from .state import State
 from .tables import Result, Scalar, Series, Table
 
 _FILE_NAME = re.compile(r"[A-Za-z0-9_-]+")

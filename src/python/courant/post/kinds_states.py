@@ -9,11 +9,12 @@ import numpy as np
 from ..fields import Wanted
 from ..files import make_folder, write_file
 from ..units import Units
+from ..variables import wanted_array, wanted_arrays
 from ..words import short_number
 from ..yaml_map import Node, YamlMap, is_list, is_map
 from .analyses import Analysis, Moments, Run, Settings, TimeWindow, analysis
 from .particles import Pieces, Points, interpolate, joined, spline_norm, spline_shape, water_on_lines
-from .state import State, read_expression, read_quantities, read_spray, read_where, wanted_array, wanted_arrays
+from .state import State, read_expression, read_quantities, read_spray, read_where
 from .tables import Column, Image, Series, write_vti
 
 

@@ -330,35 +330,11 @@ def interpolate(water: ParticleSet, points: Points, linear: bool, wet: float) ->
 def _linear_base(point: np.ndarray, weight: np.ndarray, base: list[np.ndarray], count: int) -> tuple[np.ndarray, np.ndarray]:
     """Coefficients a, (points, n), for which V W (a . p), p = (1, (x_j - x)/h, ...), sums linear fields exactly; and whether the
     moments allow it, (points,) of bool."""
-    n, least_rcond = len(base), 1e-4  # particles in a line, or on one side only of a thin sheet
-    M = np.empty((n, n, count))
-    for i in range(n):
-        weighted = weight * base[i]
-        for j in range(i, n):
-            M[i, j] = M[j, i] = np.bincount(point, weighted * base[j], count)
+    most = 1e4  # of the condition: particles in a line, or on one side only of a thin sheet
+    M = np.empty((count, len(base), len(base)))
+    for i, weighted in enumerate(weight * of for of in base):
+        for j in range(i, len(base)):
+            M[:, i, j] = M[:, j, i] = np.bincount(point, weighted * base[j], count)
     with np.errstate(all="ignore"):
-        inverse = _inverse(M)
-        norms = np.abs(M).sum(axis=0).max(axis=0) * np.abs(inverse).sum(axis=0).max(axis=0)
-    return inverse[0].T.copy(), norms < 1 / least_rcond  # false for NaN, too
-
-
-def _inverse(M: np.ndarray) -> np.ndarray:
-    """Inverses of symmetric matrices by their cofactors, without a look at whether they are regular; shape (n, n, count)."""
-    n = len(M)
-    out = np.empty_like(M)
-    for i in range(n):
-        for j in range(i, n):
-            rows, columns = [a for a in range(n) if a != i], [a for a in range(n) if a != j]
-            out[i, j] = out[j, i] = (-1) ** (i + j) * _determinant(M[np.ix_(rows, columns)])
-    return out / (M[0] * out[0]).sum(axis=0)
-
-
-def _determinant(M: np.ndarray) -> np.ndarray:
-    """Of matrices, (n, n, count) -> (count,)."""
-    n = len(M)
-    if n == 1:
-        return M[0, 0]
-    if n == 2:
-        return M[0, 0] * M[1, 1] - M[0, 1] * M[1, 0]
-    rest = [[a for a in range(n) if a != j] for j in range(n)]
-    return sum((-1) ** j * M[0, j] * _determinant(M[1:, rest[j]]) for j in range(n))
+        possible = np.linalg.cond(M, 1) < most  # false for NaN, too
+    return np.linalg.inv(np.where(possible[:, None, None], M, np.eye(len(base))))[:, 0], possible

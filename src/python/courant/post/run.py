@@ -14,6 +14,7 @@ from ..diagnostics import Diagnostics
 from ..fields import ParticleFrame, StateFiles, Wanted, read_particles, read_states, read_walls
 from ..files import make_folder, write_file
 from ..optional import MissingModule
+from ..variables import wanted_array
 from ..yaml_map import YamlMap, is_map, parse_yaml
 from .analyses import Analysis, Run
 from .figures import figures_json
@@ -21,7 +22,7 @@ from .jump import JumpResult, evaluate_jump, find_case, jump_text
 from .measured import Measured, measure_depths, no_pictures, results_yaml, snapshot_states, write_measured
 from .parallel import in_order
 from .recipe import Recipe, read_recipe
-from .state import State, wanted_array
+from .state import State
 from .tables import write_tables_h5, write_vti
 
 Say = Callable[[str], None]

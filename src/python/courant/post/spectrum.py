@@ -96,7 +96,4 @@ def at_equal_steps(t: np.ndarray, values: np.ndarray, longest_gap: float) -> np.
     if max(times[0] - t[0], t[-1] - times[-1], np.diff(times).max()) > longest_gap:
         return None
     at = t[0] + np.arange(len(t)) * ((t[-1] - t[0]) / (len(t) - 1))
-    k = np.clip(np.searchsorted(times, at, "left"), 1, len(times) - 1)
-    a, b, known = times[k - 1], times[k], values[there]
-    share = np.where(b > a, np.clip((at - a) / np.where(b > a, b - a, 1), 0, 1), 1)
-    return (1 - share) * known[k - 1] + share * known[k]
+    return np.interp(at, times, values[there])

@@ -3,53 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from ..expressions import Formula
-from ..fields import ParticleFrame, Wanted
+from ..fields import ParticleFrame
 from ..units import Units
+from ..variables import VARIABLES, dimension_of, variable_of
 from ..yaml_map import Node, YamlMap, is_map, is_scalar, scalar_text
 from .particles import ParticleSet, SprayRule, water_body
-
-
-class _Variable(NamedTuple):
-    array: str  # of the field file; "": read anyway
-    component: int  # -1: the length of the vector
-    dimension: str
-
-
-_VARIABLES = {axis: _Variable("", a, "L") for a, axis in enumerate("xyz")}
-_VARIABLES |= {name: _Variable("velocity", a, "L/T") for name, a in (("vx", 0), ("vy", 1), ("vz", 2), ("speed", -1))}
-_VARIABLES |= {"p": _Variable("pressure", 0, "M/LT2"), "rho": _Variable("density", 0, "M/L3"), "h": _Variable("", 0, "L")}
-_VARIABLES |= {"m": _Variable("mass", 0, "M"), "V": _Variable("", 0, "L3"), "e": _Variable("internal_energy", 0, "M/LT2")}
-_VARIABLES |= {name: _Variable(name, 0, "-") for name in ("part", "id", "active")} | {"t": _Variable("", 0, "T")}
-# the names that expressions over particles may use. V: m/rho; e: internal energy per reference volume
-VARIABLES = tuple(_VARIABLES)
-
-
-def wanted_array(name: str, optional: bool = False) -> Wanted:
-    """An array of a field file with the components that it has there."""
-    return Wanted(name, 3 if name == "velocity" else 1, optional)
-
-
-def wanted_arrays(*formulas: Formula) -> list[Wanted]:
-    """Arrays of a field file that expressions over particles need."""
-    names = {_VARIABLES[variable].array for formula in formulas for variable in formula.used}
-    return [wanted_array(name) for name in sorted(names - {""})]
-
-
-def variable_of(frame: ParticleFrame, name: str) -> np.ndarray | float:
-    """Values of one of VARIABLES for all particles, shape (n,), or one number for all."""
-    at = _VARIABLES[name]
-    if not at.array:
-        whole: dict[str, np.ndarray | float] = {"h": frame.h, "V": frame.V, "t": frame.t}
-        return whole[name] if name in whole else frame.x[:, at.component]
-    values = frame.arrays[at.array]
-    if at.component < 0:
-        return np.hypot(np.hypot(values[:, 0], values[:, 1]), values[:, 2])
-    return values if values.ndim == 1 else values[:, at.component]
 
 
 @dataclass(frozen=True)
@@ -110,7 +72,7 @@ def _read_quantity(keys: YamlMap, node: Node, units: Units) -> Quantity:
     """Single variables know their unit, other expressions have "?" unless the recipe tells."""
 
     def unit_of(text: str) -> str:
-        return units.of_text(_VARIABLES[text].dimension) if text in _VARIABLES else "?"
+        return units.of_text(dimension_of(text) or "?")
 
     if not is_map(node):
         name, unit, of = scalar_text(node), unit_of(scalar_text(node)), read_expression(keys, node, "of")
@@ -137,7 +99,9 @@ class State:
         return self.frame.t
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """Values of a variable ("vx", "p", ...) for all particles of the file, shape (n,)."""
+        """Values of a variable ("vx", "p", ...) for all particles of the file, shape (n,). Raises KeyError where it was not asked for."""
+        if variable_of(self.frame, name) is None:
+            raise KeyError(name)
         return np.broadcast_to(np.asarray(variable_of(self.frame, name), dtype=float), (len(self.frame),))
 
     def evaluate(self, of: Formula) -> np.ndarray:

@@ -4,10 +4,6 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
-# Of a particle: position, velocity, its magnitude, pressure, density, smoothing length, mass, V = m/rho, internal
-# energy per reference volume, deck number of the part, id, 1 where active, and the time of the state.
-PARTICLE_VARIABLES = ["x", "y", "z", "vx", "vy", "vz", "speed", "p", "rho", "h", "m", "V", "e", "part", "id", "active", "t"]
-
 # What limits of stability cases may name besides observations.
 OUTCOMES = ["residual", "ratio", "leaked", "penetration", "steps"]
 

@@ -13,9 +13,10 @@ from ..diagnostics import Diagnostics
 from ..expressions import ExpressionFault, Formula, constant_value
 from ..fields import StateFiles, read_states
 from ..histories import HistoryFile
+from ..variables import VARIABLES
 from ..words import nearest_word
 from .model import Case, Observation, Variables
-from .names import PARTICLE_VARIABLES, HistoryName, find_history_names
+from .names import HistoryName, find_history_names
 from .particles import Selection, StateFault, StateTable, first_error, nearest_state
 from .registry import KINDS, observation, reduction
 from .series import NoValue, Series, take_number
@@ -100,7 +101,7 @@ class Run:
 
     def formula(self, text: str) -> Formula:
         """An expression over particles. Raises NotFound."""
-        return self.noted(Formula(text, PARTICLE_VARIABLES, self.variables))
+        return self.noted(Formula(text, VARIABLES, self.variables))
 
     def noted(self, formula: Formula) -> Formula:
         if not formula.ok:

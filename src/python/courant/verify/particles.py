@@ -7,13 +7,8 @@ import numpy as np
 
 from ..diagnostics import Diagnostics
 from ..expressions import Formula
-from ..fields import StateFiles, Wanted, read_particles
-from .names import PARTICLE_VARIABLES
-
-# The arrays of a field file that scalars come from.
-_SOURCES = {"p": "pressure", "rho": "density", "m": "mass", "e": "internal_energy", "part": "part", "id": "id", "active": "active"}
-_VELOCITY = ("vx", "vy", "vz", "speed")
-
+from ..fields import StateFiles, read_particles
+from ..variables import VARIABLES, arrays_of, variable_of
 
 class StateFault(Exception):
     """A state that cannot be read, or holds numbers that are not finite."""
@@ -25,41 +20,34 @@ def first_error(diagnostics: Diagnostics) -> str:
 
 
 class StateTable:
-    """The columns of PARTICLE_VARIABLES for all particles of a state, each of shape (size,)."""
+    """VARIABLES of all particles of a state, each of shape (size,)."""
 
     def __init__(self, state: StateFiles, used: set[str], everything: bool = False) -> None:
         """Reads the variables in `used`, with `everything` what else the file has. Raises StateFault."""
-        used = used | {"active"}
-        wanted = [Wanted(array, 1, name not in used) for name, array in _SOURCES.items() if everything or name in used]
-        if everything or used.intersection(_VELOCITY):
-            wanted.append(Wanted("velocity", 3, not used.intersection(_VELOCITY)))
-        faults = Diagnostics()
+        wanted, faults = arrays_of(used | {"active"}), Diagnostics()
+        named = {one.name for one in wanted}
+        wanted += [one for one in arrays_of(VARIABLES, optional=True) if everything and one.name not in named]
         frame = read_particles(state, wanted, faults)
         if frame is None:
             raise StateFault(first_error(faults))
-        self.t, self.size = frame.t, len(frame)
+        self.frame, self.t, self.size = frame, frame.t, len(frame)
         self.volume, self.length = frame.V, frame.h
-        self.columns: dict[str, np.ndarray] = dict(zip("xyz", frame.x.T, strict=True))
-        self.columns |= {"h": frame.h, "V": frame.V}
-        self.columns |= {name: frame.arrays[array] for name, array in _SOURCES.items() if array in frame.arrays}
-        if "velocity" in frame.arrays:
-            v = frame.arrays["velocity"]
-            self.columns |= {**dict(zip(_VELOCITY, v.T, strict=False)), "speed": np.sqrt(np.sum(v * v, axis=1))}
-        for name in PARTICLE_VARIABLES:
-            if name in self.columns and not np.all(np.isfinite(self.columns[name])):
+        found = {name: variable_of(frame, name) for name in VARIABLES}
+        self.columns = {name: np.broadcast_to(values, (self.size,)) for name, values in found.items() if values is not None}
+        for name, values in self.columns.items():
+            if not np.all(np.isfinite(values)):
                 raise StateFault(f"{state.particles}: {name} of a particle is not finite at t = {self.t:.6g}")
 
     def values(self, formula: Formula, chosen: np.ndarray) -> np.ndarray:
-        """Of a formula over PARTICLE_VARIABLES, for particles with these indices; shape of `chosen`."""
-        table: Mapping[str, np.ndarray | float] = {name: self.t if name == "t" else self.columns[name][chosen] for name in formula.used}
-        return formula.over(table, len(chosen))
+        """Of a formula over VARIABLES, for particles with these indices; shape of `chosen`."""
+        return formula.over({name: self.columns[name][chosen] for name in formula.used}, len(chosen))
 
 
 class Selection:
     """Which particles count: those that are active, unless `where` or `of` asks for `active` itself, and for which `where` > 0."""
 
     def __init__(self, where: str, of: Formula, parameters: Mapping[str, float]) -> None:
-        self.formula = Formula(where or "1", PARTICLE_VARIABLES, parameters)
+        self.formula = Formula(where or "1", VARIABLES, parameters)
         self._inactive = self.formula.uses("active") or of.uses("active")
         self._everything = not where
 

@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 from ..diagnostics import Diagnostics, Location
 from ..expressions import Formula
+from ..variables import VARIABLES
 from ..yaml_map import YamlMap, is_map
 from .model import Case, Observation, Variables
-from .names import OUTCOMES, PARTICLE_VARIABLES, find_history_names
+from .names import OUTCOMES, find_history_names
 from .plan import overrides_of
 from .scene import parameter_values
 
@@ -106,7 +107,7 @@ def check_case(map_: YamlMap, case: Case, expressions: list[CheckedExpression], 
 
 def _check_expression(e: CheckedExpression, case: Case, parameters: Variables, diagnostics: Diagnostics) -> None:
     history = find_history_names(e.text) if e.over == "histories" else None
-    variables = {"time": ["t"], "particles": PARTICLE_VARIABLES, "outcome": [*OUTCOMES, *(o.name for o in case.observations)],
+    variables = {"time": ["t"], "particles": VARIABLES, "outcome": [*OUTCOMES, *(o.name for o in case.observations)],
                  "histories": [*history.words, "t"] if history else []}.get(e.over, [])
     formula = Formula(history.text if history else e.text, variables, parameters)
     if formula.ok:
