@@ -7,9 +7,8 @@ from typing import Any
 
 from .optional import module
 
-# Okabe and Ito's colours, which people who do not see all of them tell apart, darker and lighter for the two grounds
+# Okabe and Ito's colours, which people who do not see all of them tell apart
 PALETTE = ("#0072b2", "#d55e00", "#008060", "#b0518a", "#b87a00", "#3a9bdc", "#666666")
-PALETTE_DARK = ("#58b4ec", "#ff9550", "#2fc79b", "#e49ac8", "#f0b93a", "#9cd2f7", "#b5b5b5")
 MARKERS = "s^Dv*P"
 LOOKS: dict[str, dict[str, Any]] = {
     "line": {"linestyle": "-", "linewidth": 1.3},

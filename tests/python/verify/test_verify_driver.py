@@ -108,7 +108,7 @@ def test_missed_bounds_and_earlier_results(call: Caller) -> None:
     call()
     (call.folder / "suite_verify" / "results.csv").rename(call.folder / "old.csv")
     call.write(SUITE.replace("bound: 0.001", "bound: 1.0e-5"))
-    assert "MISSED  growth: plain, final: error at most 1.0e-05: 0.0625 %" in call(code=2)
+    assert "MISSED  growth: plain, final: error at most 0.001 %, measured 0.063 %" in call(code=2)
     assert "WORSE  growth: plain, 40, final: check missed, was met" in call("--compare", "old.csv", code=2)
     assert "nothing has changed" in call("--compare", "suite_verify/results.csv"), "what was missed before does not fail a comparison"
     assert "none.csv: error: cannot read the earlier results" in call("--compare", "none.csv", code=1)

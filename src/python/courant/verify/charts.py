@@ -24,6 +24,7 @@ _FRONT, _BOUND = "#d9b300", "#b00020"
 # letter of a verdict, so that the map can be read without colours, and its colour; None: there is no run
 _VERDICTS = {Verdict.stable: ("S", "#a6d4f0"), Verdict.degraded: ("D", "#f5e07a"), Verdict.stopped: ("X", "#eb9a5c"),
              Verdict.refused: ("R", "#c9c9c9"), Verdict.broken: ("!", "#222222"), None: ("–", "#f4f4f4")}
+LETTERS = {verdict: letter for verdict, (letter, _) in _VERDICTS.items()}
 DARK = "@media screen and (prefers-color-scheme:dark){svg.chart{filter:invert(.91) hue-rotate(180deg)}}"
 
 

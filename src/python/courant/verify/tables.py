@@ -1,7 +1,7 @@
 """The tables of the reports, free of any markup."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from .charts import verdict_counts
@@ -26,6 +26,14 @@ class Table:
     columns: list[Column] = field(default_factory=list)
     rows: list[Row] = field(default_factory=list)
 
+    @classmethod
+    def of(cls, words: Sequence[str], numbers: Sequence[str] = (), last: Sequence[str] = ()) -> Table:
+        """Heads of columns of words, then of numbers, then of words again."""
+        return cls([Column(head, numeric) for heads, numeric in ((words, False), (numbers, True), (last, False)) for head in heads])
+
+    def add(self, *cells: str, bad: bool = False) -> None:
+        self.rows.append(Row(list(cells), bad))
+
     def only_bad(self) -> Table:
         return Table(self.columns, [row for row in self.rows if row.bad])
 
@@ -46,20 +54,22 @@ def check_text(check: BoundCheck) -> str:
 
 def checks_table(case: CaseResult) -> Table:
     """What is bounded, what was measured, and whether that is within the bound."""
-    heads = [Column("setting"), Column("of"), Column("required"), Column("bound", True), Column("measured", True), Column("met")]
-    return Table(heads, [Row([c.setting or "all", c.observation, c.what, _amount(c, c.bound), _amount(c, c.measured),
-                              "yes" if c.met else "MISSED"], not c.met) for c in case.checks])
+    table = Table.of(("setting", "of", "required"), ("bound", "measured"), ("met",))
+    for c in case.checks:
+        amounts = _amount(c, c.bound), _amount(c, c.measured)
+        table.add(c.setting or "all", c.observation, c.what, *amounts, "yes" if c.met else "MISSED", bad=not c.met)
+    return table
 
 
 def overview_table(result: SuiteResult) -> Table:
     """One row for each case: title, runs, CPU time, bounds met of all. The first column is the title."""
-    table = Table([Column("case"), Column("verdict"), Column("bounds met", True), Column("runs", True), Column("CPU time", True)])
+    table = Table.of(("case", "verdict"), ("bounds met", "runs", "CPU time"))
     for case in result.cases:
         bounds = f"{len(case.checks) - case.missed} of {len(case.checks)}" if case.checks else "none stated"
         word = ("MISSED" if case.missed else "met") if case.checks else ""
         word = "; ".join(filter(None, (word, verdict_counts(case) if case.definition.stability else "")))
         cpu = sum(run.cpu_seconds for run in case.runs)
-        table.rows.append(Row([case.title, word, bounds, str(len(case.runs)), seconds(cpu)], case.missed > 0))
+        table.add(case.title, word, bounds, str(len(case.runs)), seconds(cpu), bad=case.missed > 0)
     return table
 
 
@@ -69,8 +79,8 @@ def _end_of(run: RunResult) -> str:
     return f"exit code {run.exit_code}" + (f", {run.termination}" if run.termination else "") + (f": {run.reason}" if run.reason else "")
 
 
-def runs_table(case: CaseResult) -> Table:
-    """All runs of a case: size, cost and what was observed in each. Columns that would be empty are left out."""
+def runs_table(case: CaseResult, brief: bool = False) -> Table:
+    """All runs of a case: size, cost and what was observed in each. Columns that would be empty are left out. `brief`: for a terminal."""
     d = case.definition
     table = Table(rows=[Row([], not run.as_required or (not d.stability and run.exit_code != 0)) for run in case.runs])
 
@@ -88,18 +98,21 @@ def runs_table(case: CaseResult) -> Table:
     column("particles", lambda r: integer(r.particles) if r.particles > 0 else "")
     column("steps", lambda r: integer(r.steps) if r.steps > 0 else "")
     column("CPU time [s]", lambda r: number(r.cpu_seconds, 3))
-    column("wall time [s]", lambda r: number(r.wall_seconds, 3))
-    column("CPU ns per particle-step", lambda r: number(1e9 * r.cpu_seconds / r.particle_steps, 3) if r.particle_steps > 0 else "")
+    if not brief:
+        column("wall time [s]", lambda r: number(r.wall_seconds, 3))
+        column("CPU ns per particle-step", lambda r: number(1e9 * r.cpu_seconds / r.particle_steps, 3) if r.particle_steps > 0 else "")
     column("memory [MB]", lambda r: megabytes(r.peak_memory_bytes) if r.peak_memory_bytes > 0 else "")
     for k in range(len(d.observations)):
-        _add_observation(case, k, column)
+        _add_observation(case, k, column, brief)
+    if brief:
+        return table
     column("limits exceeded", lambda r: "; ".join(r.exceeded), False)
     if any(run.exit_code != 0 or run.reused for run in case.runs):
         column("end", _end_of, False)
     return table
 
 
-def _add_observation(case: CaseResult, k: int, column: Callable[..., None]) -> None:
+def _add_observation(case: CaseResult, k: int, column: Callable[..., None], brief: bool) -> None:
     o = case.definition.observations[k]
     unit = f" [{o.unit}]" if o.unit else ""
     last = {run.setting: id(run) for run in case.runs}  # beside it stands the order, which belongs to all of a setting
@@ -116,7 +129,9 @@ def _add_observation(case: CaseResult, k: int, column: Callable[..., None]) -> N
         value = case.order_of(run.setting, o.name) if last[run.setting] == id(run) else None
         return "" if value is None else f"{value:.2f}"
 
-    column(o.label + unit, lambda r: part(r, "value"))
-    column(f"{o.label}: reference{unit}", lambda r: part(r, "reference"))
-    column(f"{o.label}: error", error)
-    column(f"{o.label}: order", order)
+    label = o.name if brief else o.label
+    column(label + unit, lambda r: part(r, "value"))
+    if not brief:
+        column(f"{label}: reference{unit}", lambda r: part(r, "reference"))
+    column(f"{label}: error", error)
+    column(f"{label}: order", order)
