@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import MISSING, field, fields
 from pathlib import Path
-from typing import List  # list is a method here
+from typing import Any, List, TypeVar  # list is a method here
 
 import yaml
 
@@ -92,6 +93,20 @@ def parse_yaml(data: bytes | str, file: str, diagnostics: Diagnostics) -> Node |
     return node if node is not None else yaml.ScalarNode("tag:yaml.org,2002:null", "")
 
 
+Made = TypeVar("Made")
+
+
+def key(how: str, default: Any = MISSING, **options: Any) -> Any:
+    """A field of a dataclass that YamlMap.read reads by its own name: `how` is the method, "text" or "positive", `options` are its arguments. `default`:
+    of the dataclass, and where the file has none."""
+    return field(default=default, metadata={"how": how, "options": options}) if default is not MISSING else field(metadata={"how": how, "options": options})
+
+
+def keys_of(made: type) -> List[str]:
+    """The keys of a map that is read as a dataclass."""
+    return [one.name for one in fields(made) if "how" in one.metadata]  # type: ignore[arg-type]
+
+
 class YamlMap:
     """One map of a file. A fault of the map as a whole is told when it is made.
 
@@ -117,6 +132,19 @@ class YamlMap:
             seen.add(text)
             if text not in keys:
                 self.error(key, f"'{self.name}' does not know the key '{text}'", f"{did_you_mean(text, keys)}known keys: {', '.join(keys)}")
+
+    def read(self, made: type[Made], *others: str, **known: Any) -> Made:
+        """A dataclass whose fields are keys; `known`: its other fields; `others`: keys that the map may have, too."""
+        self.allow(*keys_of(made), *others)
+        values = {}
+        for one in fields(made):  # type: ignore[arg-type]
+            if "how" in one.metadata and one.name not in known:
+                how, options = one.metadata["how"], one.metadata["options"]
+                if one.default is not MISSING and how in ("number", "positive", "text", "flag"):
+                    options = options | {"default": one.default}
+                value = getattr(self, how)(one.name, **options)
+                values[one.name] = one.default if value is None and one.default is not MISSING else value
+        return made(**values, **known)
 
     def get(self, key: str, required: bool = False) -> Node | None:
         """The value of a key, None if it is missing or null."""
@@ -188,6 +216,14 @@ class YamlMap:
             return [*node.value]
         self.error(node, f"'{self.name}.{key}' must be a list", "write [a, b, ...]")
         return []
+
+    def numbers(self, key: str, required: bool = False) -> List[float]:
+        """The numbers of a list."""
+        return [self.scalar(node, key) or 0.0 for node in self.list(key, required)]
+
+    def texts(self, key: str) -> List[str]:
+        """The words of a list."""
+        return [scalar_text(node) for node in self.list(key)]
 
     def range(self, key: str, required: bool = False, example: str = "for example [0, 1.1]") -> tuple[float, float] | None:
         """`key: [a, b]` with a < b."""

@@ -25,13 +25,13 @@ from ..diagnostics import Diagnostics, Location
 from ..expressions import Formula
 from ..registry import Registry
 from ..words import did_you_mean
-from ..yaml_map import Node, YamlMap, as_number, is_list, is_map, scalar_text
+from ..yaml_map import Node, YamlMap, as_number, is_list, is_map, key, keys_of, scalar_text
 from .state import read_expression
 from .tables import Image, Table
 
 STYLES = ("line", "dashed", "points", "line+points")
 SCALES = ("linear", "log_x", "log_y", "log")
-_KEYS = ("name", "title", "x_label", "y_label", "x_range", "y_range", "scale", "curves", "references", "map", "walls", "equal")
+_PARTS = ("curves", "references", "map")
 CHARTS: Registry[Callable[..., None]] = Registry("chart")
 chart = CHARTS  # the decorator: functions (axes, tables by name, **keys of the figure)
 
@@ -40,13 +40,13 @@ chart = CHARTS  # the decorator: functions (axes, tables by name, **keys of the 
 class Curve:
     """A curve from a table: x and y are expressions over its columns; `each`: a column, one curve for each of its values."""
 
-    table: str
-    x: str
-    y: str
-    each: str
-    label: str
-    style: str
-    where: Location
+    table: str = key("text", required=True)
+    x: str = key("text", required=True)
+    y: str = key("text", required=True)
+    each: str = key("text")
+    label: str = key("text")
+    style: str = key("choice", words=STYLES)
+    where: Location = Location()
 
 
 @dataclass
@@ -64,30 +64,30 @@ class Reference:
 class Map:
     """A field of an image as colours, with streamlines: two fields, or none."""
 
-    image: str
-    field: str
-    label: str
-    streamlines: list[str]
-    range: tuple[float, float] | None
-    where: Location
+    image: str = key("text", required=True)
+    field: str = key("text", required=True)
+    label: str = key("text")
+    streamlines: list[str] = key("texts")
+    range: tuple[float, float] | None = key("range")
+    where: Location = Location()
 
 
 @dataclass
 class Figure:
     """`walls`: traces of the shells; `equal`: the same scale on both axes; `chart`: one of CHARTS, with its `keys`."""
 
-    name: str
-    title: str
-    x_label: str
-    y_label: str
-    x_range: tuple[float, float] | None
-    y_range: tuple[float, float] | None
-    scale: str
-    curves: list[Curve]
-    references: list[Reference]
-    map: Map | None
-    walls: bool
-    equal: bool
+    name: str = key("text", required=True)
+    title: str = key("text")
+    x_label: str = key("text")
+    y_label: str = key("text")
+    x_range: tuple[float, float] | None = key("range")
+    y_range: tuple[float, float] | None = key("range")
+    scale: str = key("choice", words=SCALES)
+    curves: list[Curve] = field(default_factory=list)
+    references: list[Reference] = field(default_factory=list)
+    map: Map | None = None
+    walls: bool = key("flag", False)
+    equal: bool = key("flag", False)
     chart: str = ""
     keys: dict[str, Any] = field(default_factory=dict)
 
@@ -99,25 +99,18 @@ def read_figure(parent: YamlMap, node: Node) -> Figure:
     if own and own not in CHARTS:
         hint = f"{did_you_mean(own, CHARTS.names())}charts: {', '.join(CHARTS.names())}"
         keys.error(keys.get("chart") or node, f"there is no chart '{own}'", hint)
-    if not own:
-        keys.allow(*_KEYS)
     field_map = keys.map("map")
-    out = Figure(
-        name=keys.text("name", required=True),
-        title=keys.text("title"),
-        x_label=keys.text("x_label"),
-        y_label=keys.text("y_label"),
-        x_range=keys.range("x_range"),
-        y_range=keys.range("y_range"),
-        scale=keys.choice("scale", SCALES),
+    out = keys.read(
+        Figure,
+        *_PARTS,
+        *(text for text, _, _ in keys.entries() if own),  # a chart of one's own has its own keys
         curves=[_read_curve(keys.element(one, "curves")) for one in keys.list("curves")],
         references=[_read_reference(keys.element(one, "references")) for one in keys.list("references")],
         map=_read_map(field_map) if field_map else None,
-        walls=keys.flag("walls"),
-        equal=keys.flag("equal"),
         chart=own,
-        keys={text: plain_value(value) for text, _, value in keys.entries() if own and text not in (*_KEYS, "chart")},
     )
+    told = (*keys_of(Figure), *_PARTS, "chart")
+    out.keys = {text: plain_value(value) for text, _, value in keys.entries() if own and text not in told}
     if is_map(node) and not (out.curves or out.map or own):
         keys.error(node, f"the figure '{out.name}' shows nothing", "add curves or a map")
     return out
@@ -134,9 +127,7 @@ def plain_value(node: Node) -> Any:
 
 
 def _read_curve(keys: YamlMap) -> Curve:
-    keys.allow("table", "x", "y", "each", "label", "style")
-    table, x, y = (keys.text(key, required=True) for key in ("table", "x", "y"))
-    return Curve(table, x, y, keys.text("each"), keys.text("label"), keys.choice("style", STYLES), keys.where())
+    return keys.read(Curve, where=keys.where())
 
 
 def _read_reference(keys: YamlMap) -> Reference:
@@ -168,13 +159,11 @@ def _read_reference(keys: YamlMap) -> Reference:
 
 
 def _read_map(keys: YamlMap) -> Map:
-    keys.allow("image", "field", "label", "streamlines", "range")
-    image, of, label = keys.text("image", required=True), keys.text("field", required=True), keys.text("label")
-    bounds, streamlines = keys.range("range"), [scalar_text(node) for node in keys.list("streamlines")]
-    if streamlines and len(streamlines) != 2:
+    out = keys.read(Map, where=keys.where())
+    if out.streamlines and len(out.streamlines) != 2:
         node = keys.get("streamlines") or keys.node
         keys.error(node, f"'{keys.name}.streamlines' must be two fields", "for example [vx_mean, vy_mean]")
-    return Map(image, of, label, streamlines, bounds, keys.where())
+    return out
 
 
 def _numbers(values: Sequence[float] | np.ndarray) -> list[float | None]:

@@ -11,6 +11,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..yaml_map import key
+
+INTERVAL = "for example [2.5, 5.0]"
+
 
 def froude(v1: float, d1: float, g: float) -> float:
     """v1 / sqrt(g d1)."""
@@ -56,10 +60,10 @@ def agreement_P(depth: np.ndarray, theory: float) -> float:
 class PublishedRow:
     """A row of published values to print beside ours. `case`: "d1/4", compared with the recipe's case or the title of the run."""
 
-    case: str
-    interval: tuple[float, float]
-    A: float
-    P: float
+    case: str = key("text", required=True)
+    interval: tuple[float, float] = key("range", (0.0, 0.0), required=True, example=INTERVAL)
+    A: float = key("number", 0.0, required=True)
+    P: float = key("number", 0.0, required=True)
 
 
 @dataclass(frozen=True)
@@ -70,14 +74,14 @@ class JumpRecipe:
     between which the toe is looked for [L]; `toe_threshold`, `front_threshold`: depths in d1; `front_x`: where the wave is timed [L].
     """
 
-    x: float
-    z: float
-    bed: float
-    v1: float
-    d1: float
-    g: float
-    intervals: list[tuple[float, float]]
-    published: list[PublishedRow]
+    x: float = key("number", 0.0, required=True)
+    z: float = key("number", 0.0)
+    bed: float = key("number", 0.0)
+    v1: float = key("positive", 0.0, required=True)
+    d1: float = key("positive", 0.0, required=True)
+    g: float = key("positive", 9.81)
+    intervals: list[tuple[float, float]] = field(default_factory=list)
+    published: list[PublishedRow] = field(default_factory=list)
     toe_range: tuple[float, float] | None = None
     toe_threshold: float = 1.5
     front_x: float | None = None

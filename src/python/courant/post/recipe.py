@@ -2,43 +2,42 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
 
 from ..diagnostics import Diagnostics, Location
 from ..units import Units
-from ..yaml_map import Node, YamlMap, is_map, load_yaml, scalar_text
+from ..yaml_map import Node, YamlMap, is_map, key, load_yaml, scalar_text
 from .analyses import Analysis, Settings, read_analysis
 from .figures import Figure, read_figure
-from .jump import JumpRecipe, PublishedRow
+from .jump import INTERVAL, JumpRecipe, PublishedRow
 
 if TYPE_CHECKING:
     from .view_scene import View
 
 _KEYS = ("case", "probes", "jump", "snapshots", "units", "up", "folder", "analyses", "figures", "formats", "views")
-_INTERVAL = "for example [2.5, 5.0]"
 
 
 @dataclass(frozen=True)
 class ProbeRecipe:
     """Water depth over time on an upright line. `x`, `z`, `bed`: [L]."""
 
-    name: str
-    x: float
-    z: float
-    bed: float
+    name: str = key("text", default="")
+    x: float = key("number", 0.0, required=True)
+    z: float = key("number", 0.0)
+    bed: float = key("number", 0.0)
 
 
 @dataclass(frozen=True)
 class SnapshotRecipe:
     """Pictures of the velocity field. `times`: [T]; `speed`: range of the colours [L/T]; `x`, `y`: window [L]; None: from the data."""
 
-    times: list[float]
-    speed: tuple[float, float] | None
-    x: tuple[float, float] | None
-    y: tuple[float, float] | None
+    times: list[float] = key("numbers", required=True)
+    speed: tuple[float, float] | None = key("range", example=INTERVAL)
+    x: tuple[float, float] | None = key("range", example=INTERVAL)
+    y: tuple[float, float] | None = key("range", example=INTERVAL)
 
 
 @dataclass
@@ -74,11 +73,12 @@ def read_recipe(file: str | PathLike[str], diagnostics: Diagnostics) -> Recipe |
     keys = YamlMap(root, "recipe", out.file, diagnostics)
     keys.allow(*_KEYS)
     out.case = keys.text("case")
-    out.probes = [_read_probe(keys.element(node, "probes"), k) for k, node in enumerate(keys.list("probes"), 1)]
+    out.probes = [keys.element(node, "probes").read(ProbeRecipe) for node in keys.list("probes")]
+    out.probes = [one if one.name else replace(one, name=f"probe{k}") for k, one in enumerate(out.probes, 1)]
     if jump := keys.map("jump"):
         out.jump = _read_jump(jump)
     if snapshots := keys.map("snapshots"):
-        out.snapshots = _read_snapshots(snapshots)
+        out.snapshots = snapshots.read(SnapshotRecipe)
     out.settings = _read_settings(keys)
     for node in keys.list("analyses"):
         _read_one(keys, node, out)
@@ -94,37 +94,16 @@ def read_recipe(file: str | PathLike[str], diagnostics: Diagnostics) -> Recipe |
     return out if diagnostics.errors == before else None
 
 
-def _read_probe(keys: YamlMap, number: int) -> ProbeRecipe:
-    keys.allow("name", "x", "z", "bed")
-    return ProbeRecipe(keys.text("name", f"probe{number}"), keys.number("x", required=True), keys.number("z"), keys.number("bed"))
-
-
-def _read_row(keys: YamlMap) -> PublishedRow:
-    keys.allow("case", "interval", "A", "P")
-    case, interval = keys.text("case", required=True), keys.range("interval", required=True, example=_INTERVAL)
-    return PublishedRow(case, interval or (0.0, 0.0), keys.number("A", required=True), keys.number("P", required=True))
-
-
 def _read_jump(keys: YamlMap) -> JumpRecipe:
-    keys.allow("x", "z", "bed", "v1", "d1", "g", "intervals", "published", "toe", "front")
-    x, z, bed = keys.number("x", required=True), keys.number("z"), keys.number("bed")
-    v1, d1, g = keys.positive("v1", required=True), keys.positive("d1", required=True), keys.positive("g", 9.81)
-    intervals = [keys.range_of(node, "intervals", _INTERVAL) or (0.0, 0.0) for node in keys.list("intervals", required=True)]
-    published = [_read_row(keys.element(node, "published")) for node in keys.list("published")]
-    out: dict[str, Any] = {"x": x, "z": z, "bed": bed, "v1": v1, "d1": d1, "g": g, "intervals": intervals, "published": published}
+    known: dict[str, Any] = {"intervals": [keys.range_of(node, "intervals", INTERVAL) or (0.0, 0.0) for node in keys.list("intervals", required=True)]}
+    known["published"] = [keys.element(node, "published").read(PublishedRow) for node in keys.list("published")]
     if toe := keys.map("toe"):
         toe.allow("x", "threshold")
-        out |= {"toe_range": toe.range("x", required=True, example=_INTERVAL), "toe_threshold": toe.positive("threshold", 1.5)}
+        known |= {"toe_range": toe.range("x", required=True, example=INTERVAL), "toe_threshold": toe.positive("threshold", 1.5)}
     if front := keys.map("front"):
         front.allow("x", "threshold")
-        out |= {"front_x": front.number("x", required=True), "front_threshold": front.positive("threshold", 1.3)}
-    return JumpRecipe(**out)
-
-
-def _read_snapshots(keys: YamlMap) -> SnapshotRecipe:
-    keys.allow("times", "speed", "x", "y")
-    times = [keys.scalar(node, "times") or 0.0 for node in keys.list("times", required=True)]
-    return SnapshotRecipe(times, *(keys.range(key, example=_INTERVAL) for key in ("speed", "x", "y")))
+        known |= {"front_x": front.number("x", required=True), "front_threshold": front.positive("threshold", 1.3)}
+    return keys.read(JumpRecipe, "intervals", "published", "toe", "front", **known)
 
 
 def _read_settings(keys: YamlMap) -> Settings:
@@ -136,7 +115,7 @@ def _read_settings(keys: YamlMap) -> Settings:
 
 
 def _read_one(keys: YamlMap, node: Node, recipe: Recipe) -> None:
-    name = next((scalar_text(value) for key, value in node.value if scalar_text(key) == "name"), "") if is_map(node) else ""
+    name = next((scalar_text(value) for word, value in node.value if scalar_text(word) == "name"), "") if is_map(node) else ""
     entry = keys.element(node, name or "analyses")
     one = read_analysis(entry, recipe.settings) if is_map(node) else None  # else the reader has told
     if one is None:
@@ -145,10 +124,10 @@ def _read_one(keys: YamlMap, node: Node, recipe: Recipe) -> None:
     at = entry.get("name")
     if at is not None and one.name in named:
         entry.error(at, f"two analyses are named '{one.name}'")
-    for key, wanted in one.refers():
-        at = entry.get(key)
+    for word, wanted in one.refers():
+        at = entry.get(word)
         if at is not None and wanted not in named:
-            message = f"'{entry.name}.{key}': there is no analysis '{wanted}' above it"
+            message = f"'{entry.name}.{word}': there is no analysis '{wanted}' above it"
             entry.error(at, message, "analyses are worked through from top to bottom")
     recipe.analyses.append(one)
 

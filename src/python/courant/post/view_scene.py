@@ -10,8 +10,13 @@ import numpy as np
 
 from ..diagnostics import CourantError
 from ..optional import module
+from ..yaml_map import key
 from .camera import AXES, PROJECTIONS
 from .view_fields import Faces, FieldValues, UnknownField, faces_of, field_names, field_of, joined_faces, mirrored
+
+
+COLOURS = ("viridis", "cividis", "magma", "plasma", "coolwarm", "Greys")
+OF, WALLS = ("", "particles", "elements"), ("transparent", "outlined", "none")
 
 
 @dataclass(frozen=True)
@@ -21,36 +26,36 @@ class View:
     `azimuth`, `elevation`: None for those that suit; `projection`: in space, parallel or perspective; `theory`: an expression of x with `theory_range` and `theory_label`; `unit`, `factor`: shown are
     values times the factor; `mirror`: axes, as "xz"; `animate`: "", gif or mp4 of all states from `times[0]` to `times[-1]`."""
 
-    name: str
-    field: str = ""
-    of: str = ""
+    name: str = key("text", required=True)
+    field: str = key("text", "")
+    of: str = key("choice", "", words=OF)
     times: list[float] | None = None
-    range: tuple[float, float] | None = None
-    colours: str = "viridis"
-    up: str = ""
+    range: tuple[float, float] | None = key("range", None)
+    colours: str = key("choice", COLOURS[0], words=COLOURS)
+    up: str = key("choice", "", words=("", *AXES))
     azimuth: float | None = None
     elevation: float | None = None
-    projection: str = "parallel"
+    projection: str = key("choice", PROJECTIONS[0], words=PROJECTIONS)
     window: tuple[tuple[float, float] | None, ...] = (None, None, None)
-    walls: str = "transparent"
-    title: str = ""
-    unit: str = ""
-    factor: float = 1.0
+    walls: str = key("choice", WALLS[0], words=WALLS)
+    title: str = key("text", "")
+    unit: str = key("text", "")
+    factor: float = key("number", 1.0)
     mirror: str = ""
     columns: int = 0
-    lines: bool = True
-    depth: bool = False
-    bed: float = 0.0
+    lines: bool = key("flag", True)
+    depth: bool = key("flag", False)
+    bed: float = key("number", 0.0)
     gauges: list[float] = dataclasses.field(default_factory=list)
     theory: Any = None
     theory_range: tuple[float, float] | None = None
     theory_label: str = "theory"
-    animate: str = ""
-    rate: float = 12.0
+    animate: str = key("choice", "", words=("", "gif", "mp4"))
+    rate: float = key("positive", 12.0)
 
     def __post_init__(self) -> None:
         """Raises ValueError where a word is none of those that there are; recipes have told before."""
-        words = {"of": ("", "particles", "elements"), "walls": ("transparent", "outlined", "none"), "up": ("", *AXES), "projection": PROJECTIONS}
+        words = {"of": OF, "walls": WALLS, "up": ("", *AXES), "projection": PROJECTIONS}
         for key, known in words.items():
             if getattr(self, key) not in known:
                 raise ValueError(f"'{key}' cannot be '{getattr(self, key)}'; it is one of {', '.join(filter(None, known))}")

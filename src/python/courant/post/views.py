@@ -14,39 +14,27 @@ from ..optional import module
 from ..style import pyplot
 from ..units import Dimension
 from ..yaml_map import YamlMap, is_list
-from .camera import AXES, PROJECTIONS, up_of
+from .camera import up_of
 from .state import read_expression
 from .view_plane import draw_plane, plane_window
 from .view_scene import Scene, UnknownField, View, colour_range, scenes_of
 from .view_space import camera_of, draw_axes, draw_panel, frame_of, render
 
-COLOURS = ("viridis", "cividis", "magma", "plasma", "coolwarm", "Greys")
-_KEYS = (
-    "name", "field", "of", "times", "range", "colours", "up", "camera", "projection", "x", "y", "z", "walls", "title", "unit", "factor",
-    "mirror", "columns", "lines", "depth", "bed", "gauges", "theory", "animate", "rate",
-)  # fmt: skip
+_PARTS = ("times", "camera", "x", "y", "z", "mirror", "columns", "gauges", "theory")  # keys that are more than one field, or none as it is
 _DPI = 120
 
 
 def read_view(keys: YamlMap) -> View:
     """One entry of `views`. Faults are told at their place."""
-    keys.allow(*_KEYS)
-    name = keys.text("name", required=True)
+    name, factor = keys.text("name"), keys.number("factor", 1.0)
     if not all(c.isalnum() or c in "-_" for c in name):
         keys.error(keys.get("name") or keys.node, f"'{keys.name}.name': '{name}' is no name of a file", "letters, digits, - and _")
-    out: dict[str, Any] = {"name": name, "field": keys.text("field"), "title": keys.text("title"), "bed": keys.number("bed")}
-    out["times"] = [keys.scalar(node, "times") or 0.0 for node in keys.list("times")] if keys.has("times") else None
+    out: dict[str, Any] = {"times": keys.numbers("times") if keys.has("times") else None, "columns": int(keys.number("columns"))}
     if out["times"] == []:
         keys.error(keys.get("times") or keys.node, f"'{keys.name}.times' is empty", "leave it out for the last state")
-    out |= {"of": keys.choice("of", ("", "particles", "elements")), "colours": keys.choice("colours", COLOURS)}
-    out |= {"walls": keys.choice("walls", ("transparent", "outlined", "none")), "animate": keys.choice("animate", ("", "gif", "mp4"))}
-    out |= {"range": keys.range("range"), "window": tuple(keys.range(axis) for axis in "xyz"), "up": keys.choice("up", ("", *AXES))}
-    out["projection"] = keys.choice("projection", PROJECTIONS)
-    out |= {"unit": keys.text("unit"), "factor": keys.number("factor", 1.0), "lines": keys.flag("lines", True), "depth": keys.flag("depth")}
-    out |= {"columns": int(keys.number("columns")), "rate": keys.positive("rate", 12.0), "gauges": keys.places("gauges")}
-    if out["factor"] != 1 and not out["unit"]:
+    out |= {"window": tuple(keys.range(axis) for axis in "xyz"), "gauges": keys.places("gauges"), "mirror": _read_mirror(keys)}
+    if factor != 1 and not keys.has("unit"):
         keys.error(keys.get("factor") or keys.node, f"'{keys.name}.factor' needs the unit that comes of it", "for example {unit: MPa, factor: 1e-6}")
-    out["mirror"] = _read_mirror(keys)
     if camera := keys.map("camera"):
         camera.allow("azimuth", "elevation")
         out |= {"azimuth": camera.number("azimuth") if camera.has("azimuth") else None, "elevation": camera.number("elevation", 20.0)}
@@ -57,7 +45,7 @@ def read_view(keys: YamlMap) -> View:
         node = theory.get("of", required=True)
         out |= {"theory": None if node is None else read_expression(theory, node, "of", ("x",)), "theory_range": theory.range("x")}
         out["theory_label"] = theory.text("label", "theory")
-    return View(**out)
+    return keys.read(View, *_PARTS, factor=factor, **out)
 
 
 def _read_mirror(keys: YamlMap) -> str:
