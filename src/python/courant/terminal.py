@@ -2,9 +2,29 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 from collections.abc import Callable
+from typing import NoReturn
+
+EXIT_OK, EXIT_INPUT, EXIT_MISSED, EXIT_OTHER = 0, 1, 2, 3  # 2: results that could not be written, or bounds that are missed
+
+
+class Parser(argparse.ArgumentParser):
+    """Ends with the code of faults of the input where a call is wrong."""
+
+    def error(self, message: str) -> NoReturn:
+        self.print_usage(sys.stderr)
+        self.exit(EXIT_INPUT, f"error: {message}\n")
+
+
+def count(text: str) -> int:
+    """A number from 0 on, of an option."""
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"{text} is less than 0")
+    return value
 
 
 def clear_status_line() -> None:

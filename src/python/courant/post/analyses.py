@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 
 from ..diagnostics import Diagnostics, Location
-from ..fields import Wanted
+from ..fields import Wanted, slack_of
 from ..registry import Registry
 from ..units import Dimension, Units
 from ..variables import wanted_array
@@ -69,11 +69,6 @@ class TimeWindow:
     def within(self, times: np.ndarray) -> np.ndarray:
         """Which times it holds, with the slack of these times; shape (n,) of bool."""
         return self.holds(times, slack_of(times))
-
-
-def slack_of(times: Sequence[float] | np.ndarray) -> float:
-    """A quarter of the mean distance of states. `times`: increasing [T]."""
-    return 0.25 * (times[-1] - times[0]) / (len(times) - 1) if len(times) > 1 else 0.0
 
 
 class Moments:

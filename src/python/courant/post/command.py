@@ -2,37 +2,17 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NoReturn
 
 from ..diagnostics import CourantError, Diagnostics, Location
 from ..files import OutputError, make_folder
 from ..optional import MissingModule
 from ..registry import LoadFault, load_file
-from ..terminal import clear_status_line, processors, say, status_line
+from ..terminal import EXIT_INPUT, EXIT_MISSED, EXIT_OK, EXIT_OTHER, Parser, clear_status_line, count, processors, say, status_line
 from .parallel import ProcessLost
 from .run import run_post
-
-EXIT_OK, EXIT_INPUT, EXIT_RUN, EXIT_OTHER = 0, 1, 2, 3
-
-
-class Parser(argparse.ArgumentParser):
-    """Ends with the code of faults of the input where a call is wrong."""
-
-    def error(self, message: str) -> NoReturn:
-        self.print_usage(sys.stderr)
-        self.exit(EXIT_INPUT, f"error: {message}\n")
-
-
-def _count(text: str) -> int:
-    value = int(text)
-    if value < 0:
-        raise argparse.ArgumentTypeError(f"{text} is less than 0")
-    return value
-
 
 def view_of(field: str, folder: Path, diagnostics: Diagnostics) -> bool:
     """FIELD.png of the last state, in the folder `post` of the run. Raises CourantError, MissingModule, OutputError."""
@@ -52,7 +32,7 @@ def main(words: Sequence[str]) -> int:
     parser.add_argument("recipe", metavar="RECIPE", nargs="?", help="recipe.yaml")
     parser.add_argument("folder", metavar="DIR", help="folder of the run")
     parser.add_argument("--view", metavar="FIELD", help="a picture of the last state by a field, with or without a recipe")
-    parser.add_argument("--threads", type=_count, default=0, metavar="N", help="processes at once; 0: all cores")
+    parser.add_argument("--threads", type=count, default=0, metavar="N", help="processes at once; 0: all cores")
     parser.add_argument("--load", action="append", default=[], metavar="FILE.py", help="analyses and charts of your own")
     call = parser.parse_args(list(words))
     if not call.recipe and not call.view:
@@ -68,7 +48,7 @@ def main(words: Sequence[str]) -> int:
     except LoadFault as error:
         code, fault = EXIT_INPUT, f"error: --load: {error}\n"
     except OutputError as error:
-        code, fault = EXIT_RUN, f"error: {error}\n"
+        code, fault = EXIT_MISSED, f"error: {error}\n"
     except CourantError as error:
         code, fault = EXIT_INPUT, f"{error}\n"
     except MissingModule as error:

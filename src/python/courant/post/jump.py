@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..fields import slack_of
 from ..yaml_map import key
 
 INTERVAL = "for example [2.5, 5.0]"
@@ -147,7 +148,7 @@ def evaluate_jump(recipe: JumpRecipe, case: str, series: JumpResult) -> JumpResu
     """
     t = series.t
     series.case = case
-    slack = 0.25 * (t[-1] - t[0]) / (len(t) - 1) if len(t) > 1 else 0.0
+    slack = slack_of(t)
     for start, end in recipe.intervals:
         depth = series.depth[(t >= start - slack) & (t <= end + slack)]
         complete = len(t) > 0 and t[-1] >= end - 6 * slack and t[0] <= start + 6 * slack

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..diagnostics import Diagnostics
-from ..fields import ParticleFrame, StateFiles, Wanted, read_particles, read_states, read_walls
+from ..fields import ParticleFrame, StateFiles, Wanted, read_particles, read_states, read_walls, slack_of
 from ..files import make_folder, write_file
 from ..optional import MissingModule
 from ..variables import wanted_array
@@ -34,8 +34,7 @@ class _Job:
     def __init__(self, recipe: Recipe, states: list[StateFiles], pictures: dict[int, list[float]]) -> None:
         self.recipe, self.states, self.pictures = recipe, states, pictures
         self.depths = bool(recipe.jump or recipe.probes)
-        t = [state.t for state in states]
-        self.slack = 0.25 * (t[-1] - t[0]) / (len(t) - 1) if len(t) > 1 else 0.0
+        self.slack = slack_of([state.t for state in states])
         self.analyses = [one for one in recipe.analyses if one.needs_states]
         arrays = [wanted_array("active"), *(array for one in self.analyses for array in one.needs())] if self.analyses else []
         self.arrays = list(dict.fromkeys(sorted(arrays, key=lambda one: one.optional)))  # asked for by anybody: not optional
@@ -169,7 +168,8 @@ def run_post(
     if recipe is None:
         return False
     folder = Path(folder)
-    without_states = not recipe.needs_states and not (folder / "fields.pvd").exists()
+    # figures show walls; histories alone need no states
+    without_states = not recipe.needs_states and not (recipe.figures and (folder / "fields.pvd").exists())
     states = [] if without_states else read_states(folder, diagnostics, with_particles=recipe.needs_states)
     if not states and not without_states:
         return False

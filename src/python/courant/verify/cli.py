@@ -13,7 +13,7 @@ from ..diagnostics import Diagnostics
 from ..files import OutputError
 from ..optional import MissingModule, module
 from ..registry import LoadFault, load_file
-from ..terminal import clear_status_line, say, status_line
+from ..terminal import EXIT_INPUT, EXIT_MISSED, EXIT_OK, EXIT_OTHER, Parser, clear_status_line, count, say, status_line
 from .changes import Comparison, compare_with
 from .driver import Interrupted, Options, Refused, verify_suite
 from .model import SuiteResult
@@ -22,27 +22,11 @@ from .result_files import write_result_files
 from .suite import read_suite
 from .terminal import case_table, checks_text
 
-OK, INPUT, MISSED, OTHER = 0, 1, 2, 3  # exit codes
-
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> None:  # type: ignore[override]
-        self.print_usage(sys.stderr)
-        self.exit(INPUT, f"{self.prog}: error: {message}\n")
-
-
-def _count(text: str) -> int:
-    value = int(text)
-    if value < 0:
-        raise ValueError
-    return value
-
-
 def _parser() -> argparse.ArgumentParser:
-    parser = _Parser("courant verify", description="run a suite of cases: errors against run time, and stability", allow_abbrev=False)
+    parser = Parser("courant verify", description="run a suite of cases: errors against run time, and stability", allow_abbrev=False)
     parser.add_argument("suite", metavar="SUITE", type=Path, help="suite.yaml")
     parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder for runs and results; SUITE_verify if not given")
-    parser.add_argument("--jobs", metavar="N", type=_count, default=0, help="runs at once; 0: one per core")
+    parser.add_argument("--jobs", metavar="N", type=count, default=0, help="runs at once; 0: one per core")
     parser.add_argument("--only", metavar="CASE[,CASE...]", action="append", default=[], help="these cases alone")
     parser.add_argument("--compare", metavar="OLD.csv", type=Path, help="results.csv of an earlier call: tell what got worse")
     parser.add_argument("--page", metavar="FILE.md", type=Path, help="also write a Markdown page with its charts in a folder beside it")
@@ -82,7 +66,7 @@ def _show_and_write(words: argparse.Namespace, result: SuiteResult, folder: Path
     write_result_files(result, folder)
     if words.compare and changes is None:
         _complain(diagnostics.text())
-        return INPUT
+        return EXIT_INPUT
     if changes is not None:
         say(_changes_text(changes))
         missed = changes.regressed
@@ -90,7 +74,7 @@ def _show_and_write(words: argparse.Namespace, result: SuiteResult, folder: Path
     if words.page:
         write_page(result, words.page, words.page.with_suffix(""))
     say(f"results are in {folder}: report.html, results.csv, results.yaml\n")
-    return MISSED if missed else OK
+    return EXIT_MISSED if missed else EXIT_OK
 
 
 def _verify(words: argparse.Namespace, stop: list[int]) -> int:
@@ -111,10 +95,10 @@ def _verify(words: argparse.Namespace, stop: list[int]) -> int:
     except Refused:
         count = diagnostics.errors
         _complain(f"{diagnostics.text()}{count} error{'' if count == 1 else 's'}; nothing was run\n")
-        return INPUT
+        return EXIT_INPUT
     except Interrupted:
         _complain("\ninterrupted; the runs that ended are kept: call again to go on\n")
-        return MISSED
+        return EXIT_MISSED
     return _show_and_write(words, result, folder)
 
 
@@ -127,11 +111,11 @@ def main(arguments: Sequence[str]) -> int:
             load_file(file)
     except LoadFault as fault:
         _complain(f"error: --load: {fault}\n")
-        return INPUT
+        return EXIT_INPUT
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda signal_number, frame: stop.append(signal_number))
     try:
         return _verify(words, stop)
     except (OutputError, MissingModule, OSError) as fault:
         _complain(f"error: {fault}\n")
-        return OTHER
+        return EXIT_OTHER

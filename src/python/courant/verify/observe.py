@@ -11,7 +11,7 @@ import numpy as np
 
 from ..diagnostics import Diagnostics
 from ..expressions import ExpressionFault, Formula, constant_value
-from ..fields import StateFiles, read_states
+from ..fields import StateFiles, read_states, slack_of
 from ..histories import HistoryFile
 from ..variables import VARIABLES
 from ..words import nearest_word
@@ -68,7 +68,7 @@ class Window:
 
     def widened(self, times: np.ndarray) -> tuple[float, float]:
         """With a slack of a quarter of the mean distance of samples, because a sample is written up to one step early."""
-        slack = 0.25 * (times[-1] - times[0]) / (len(times) - 1) if len(times) > 1 else 0.0
+        slack = slack_of(times)
         return self.start - slack, self.end + slack
 
 

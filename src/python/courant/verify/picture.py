@@ -18,7 +18,7 @@ from .particles import Selection, StateFault, StateTable, nearest_state
 from .series import percentile
 
 _WIDEST, _HIGHEST = 640, 480  # pixels
-_SHARE_OF_H = 0.75  # of a dot's radius: just closes the gaps of a square lattice with h = dx
+_SHARE = 0.72  # of the spacing of particles, a ball's radius: just closes the gaps of a square lattice
 
 
 def _axes(x: np.ndarray) -> tuple[int, int]:
@@ -68,5 +68,5 @@ def draw_particles(case: Case, variables: Variables, folder: Path) -> Picture | 
     x = state.frame.x[chosen]
     right, upright = _axes(x)
     title = f"{case.picture_title or case.picture_of}, t = {state.t:.4g}, {len(value)} particles"
-    png = _png(x[:, [right, upright, 3 - right - upright]], _SHARE_OF_H * state.length[chosen], value, low, high)
+    png = _png(x[:, [right, upright, 3 - right - upright]], _SHARE * state.volume[chosen] ** (1 / state.frame.dim), value, low, high)
     return Picture(png, title, f"{low:.3g}", f"{high:.3g}")
