@@ -61,6 +61,9 @@ def main():
     view.ViewTime = time
 
     particles = part_of(reader, "particles", time)
+    if not particles or particles.GetDataInformation().GetNumberOfPoints() == 0:
+        sys.exit(f"ParaView read no particles at t = {time:g}; what it says above tells why. That of Debian 12 (5.11.0) reads no raw data beside libexpat1 "
+                 "2.5.0-1+deb12u2 and later: take a newer one from paraview.org")
     water = Show(particles, view)
     water.Representation = "Points"
     water.PointSize = 4

@@ -142,3 +142,13 @@ def test_no_file_and_no_right(tmp_path):
     assert "no.vtp: error: the file is missing" in diagnostics.text()
     with pytest.raises(FieldFault):
         FieldFile(tmp_path)
+
+
+def test_an_encoding_in_a_document_type(tmp_path):
+    """As ParaView 5.11 needs it beside an expat that holds back what it parses."""
+    path = tmp_path / "p.vtp"
+    write_particles(path, frame(lattice()))
+    before = FieldFile(path).values("PointData", "mass")
+    whole = path.read_bytes().replace(b'<AppendedData encoding="raw">', b"<AppendedData>")
+    path.write_bytes(whole.replace(b"\n", b'\n<!DOCTYPE VTKFile [<!ATTLIST AppendedData encoding CDATA "raw">]>\n', 1))
+    assert np.array_equal(FieldFile(path).values("PointData", "mass"), before) and len(before) > 10

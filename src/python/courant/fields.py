@@ -21,7 +21,7 @@ from .diagnostics import Diagnostics
 _LONGEST_HEAD = _LARGEST_BLOCK = 1 << 20  # bytes
 _MOST_POINTS = 2**31 - 1
 _MOST_COMPONENTS = 64
-_DATA_MARK = b'<AppendedData encoding="raw">\n_'
+_DATA_MARK = re.compile(rb'<AppendedData(?: encoding="raw")?>\n_')  # the encoding may stand in a document type
 _LAST_LINE = b"</VTKFile>\n"  # a file that was cut off has none
 _TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "Int64": "<i8", "UInt8": "<u1", "Int8": "<i1"}
 _PACKINGS = {"": "none", "vtkZLibDataCompressor": "zlib", "vtkLZMADataCompressor": "xz"}
@@ -59,12 +59,12 @@ class FieldFile:
                 whole = stream.read(len(_LAST_LINE)) == _LAST_LINE
         except OSError as fault:
             raise FieldFault(f"cannot be read: {fault.strerror}") from fault
-        mark = head.find(_DATA_MARK)
-        if not whole or mark < 0:
+        mark = _DATA_MARK.search(head)
+        if not whole or mark is None:
             raise FieldFault("it is cut off, or no field file")
-        self._data = mark + len(_DATA_MARK)
+        self._data = mark.end()
         self._bytes = head if len(head) == self._size else None  # small ones are in memory now
-        self._read_head(head[:mark].decode("latin-1"))
+        self._read_head(head[: mark.start()].decode("latin-1"))
 
     def has(self, section: str, name: str) -> bool:
         return (section, name) in self.arrays

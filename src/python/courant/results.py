@@ -59,9 +59,9 @@ class Mesh:
         except FieldFault as fault:
             raise self._error(str(fault)) from fault
 
-    def _error(self, why: str) -> CourantError:
+    def _error(self, why: str, what: str = "not a field file of `courant run`: ", hint: str = "it may be truncated; run the deck again") -> CourantError:
         diagnostics = Diagnostics()
-        diagnostics.error(self.path, f"not a field file of `courant run`: {why}", "it may be truncated; run the deck again")
+        diagnostics.error(self.path, what + why, hint)
         return CourantError(diagnostics)
 
     def _values(self, section: str, name: str) -> np.ndarray:
@@ -122,7 +122,7 @@ class Mesh:
     def vtk(self) -> Any:
         """A vtkPolyData or vtkUnstructuredGrid, of whatever vtk module is there: Debian's python3-vtk9, ParaView's own, or PyPI's wheel.
 
-        Raises MissingModule, and CourantError where the file is damaged: VTK's own reader would crash.
+        Raises MissingModule, and CourantError where the file is damaged, as VTK's own reader would crash, or where that reader gives nothing.
         """
         for section, name in self._file.arrays:
             if section in ("PointData", "Points", "CellData"):
@@ -131,6 +131,9 @@ class Mesh:
         reader = io.vtkXMLPolyDataReader() if self.path.suffix == ".vtp" else io.vtkXMLUnstructuredGridReader()
         reader.SetFileName(str(self.path))
         reader.Update()
+        if reader.GetOutput().GetNumberOfPoints() != self._file.points:
+            hint = "that of Debian 12's ParaView reads no raw data beside libexpat1 2.5.0-1+deb12u2 and later; python3-vtk9 does"
+            raise self._error("this VTK does not read it", "", hint)
         return reader.GetOutput()
 
     def pyvista(self) -> Any:

@@ -33,6 +33,11 @@ class Series(NamedTuple):
     values: np.ndarray
 
 
+# In place of encoding="raw" at AppendedData: so short a tag is read by ParaView 5.11 with Debian 12's expat, too, which holds back what it parses
+# (CVE-2023-52425, since 2.5.0-1+deb12u2) and lets that VTK run into the data.
+_ENCODING = '<!DOCTYPE VTKFile [<!ATTLIST AppendedData encoding CDATA "raw">]>'
+
+
 @dataclass
 class Image:
     """Fields on points of a regular grid; x runs fastest. `n`: points along each axis; NaN in a field: no water there."""
@@ -87,10 +92,10 @@ def write_vti(file: str | PathLike[str], image: Image) -> None:
     with np.errstate(over="ignore"):
         fields = "".join(array(one.name, "Float32", one.values.astype("<f4")) for one in image.fields)
     head = (
-        '<?xml version="1.0"?>\n<VTKFile type="ImageData" version="0.1" byte_order="LittleEndian" header_type="UInt32" '
+        f'<?xml version="1.0"?>\n{_ENCODING}\n<VTKFile type="ImageData" version="0.1" byte_order="LittleEndian" header_type="UInt32" '
         f'compressor="vtkZLibDataCompressor">\n<ImageData WholeExtent="{extent}" Origin="{_numbers(image.origin)}" '
         f'Spacing="{_numbers(image.spacing)}">\n<FieldData>\n{time}</FieldData>\n<Piece Extent="{extent}">\n<PointData>\n{fields}'
-        '</PointData>\n<CellData>\n</CellData>\n</Piece>\n</ImageData>\n<AppendedData encoding="raw">\n_'
+        '</PointData>\n<CellData>\n</CellData>\n</Piece>\n</ImageData>\n<AppendedData>\n_'
     )
     write_file(Path(file), b"".join([head.encode(), *blocks, b"\n</AppendedData>\n</VTKFile>\n"]))
 
