@@ -107,6 +107,12 @@ void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
   for (const auto& group : world.groups) {
     if (group->part == no_part) continue;
     PartRow& row = rows[group->part];
+    if (!s.law_of_elements(group->part)) {
+      row = PartRow();
+      row.elements = group->size(), row.kind = "spring", row.mass = 0;
+      add_speed(world, *group, row);
+      continue;
+    }
     const StrengthLaw& law = *s.law_of_elements(group->part);
     if (group->segment) {  // counted with the faces
       row.rho = law.ro, row.c = law.sound_speed();

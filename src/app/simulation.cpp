@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "app/build_nodes.hpp"
@@ -12,6 +13,7 @@
 #include "app/skin.hpp"
 #include "contact/nodes/build.hpp"
 #include "elements/nodal_assembly.hpp"
+#include "elements/nodal_rotations.hpp"
 #include "extension/additions.hpp"
 #include "loads/loads.hpp"
 #include "model/build_model.hpp"
@@ -81,7 +83,8 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
   const bool shells_deform = std::any_of(s->shells_.begin(), s->shells_.end(),
                                          [](const ShellPart& part) { return part.law != nullptr; });
   if (s->model_.sph.empty() && s->model_.solids.empty() && !shells_deform && !bodies_move &&
-      added_nodes(s->deck_, s->model_).empty() && model_is_whole)
+      added_nodes(s->deck_, s->model_).empty() && discrete_nodes(s->deck_, s->model_).empty() &&
+      model_is_whole)
     diagnostics.error(
         {deck_path, 0, 0},
         "the deck has no *ELEMENT_SPH, no elements that deform and no rigid body that can move: there "
@@ -119,6 +122,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   sph_ = build_particles(deck_, model_, sph_material, world_,
                          diagnostics);  // sets world_.dim, which rigid bodies ask for
   std::vector<Index> more = added_nodes(deck_, model_);
+  for (const Index n : discrete_nodes(deck_, model_)) more.push_back(n);
   Diagnostics told_with_bodies;
   for (const auto& [part, nodes] : extra_nodes(deck_, model_, told_with_bodies))
     for (const ExtraNode& extra : nodes) more.push_back(extra.node);
@@ -130,6 +134,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     build_shells(model_, shells_, node_of, world_, diagnostics);
     add_solid_passes(model_, solids_, node_of, world_);
     add_shell_passes(model_, shells_, node_of, world_);
+    springs_ = build_discrete(deck_, model_, node_of, world_, diagnostics);
   }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
   start_rotations(model_, node_of, world_);
@@ -194,26 +199,63 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
     world_.passes.add(pressure);
   else
     left_out_.push_back({"pressure on segments", "no *LOAD_SEGMENT"});
-  if (bodies_move && world_.groups.empty() && world_.particles.size() == 0)
-    world_.passes.add(make_body_time_limit(bodies_, model_.endtim));
+  if (bodies_move && moves_all_by_bodies()) world_.passes.add(make_body_time_limit(bodies_, model_.endtim));
   add_contacts_of_nodes(diagnostics);
   if (!add_joint_stiffness(deck_, model_, bodies_, world_, diagnostics))
     left_out_.push_back({"joint stiffness", "no *CONSTRAINED_JOINT_STIFFNESS"});
   if (!add_joints(deck_, bodies_, world_, diagnostics))
     left_out_.push_back({"joints", "no *CONSTRAINED_JOINT"});
   if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
+  add_springs(diagnostics);
   const bool turn = has_rotations(world_.nodes);
   if (turn) world_.passes.add(make_clear_forces(rotations_of(world_.nodes)));
-  for (Index n = 0; n < world_.nodes.size(); ++n)
-    if (!world_.nodes.follow[n] && !(world_.nodes.m[n] > 0))
-      return diagnostics.error(
-          {deck_.files[0].name},
-          fmt::format("node {} moves by its forces and has no mass", world_.nodes.id[n]));
+  hold_massless_nodes(diagnostics);
+  if (!diagnostics.ok()) return;
   world_.passes.add(make_nodal_assembly(world_));
   add_loads(points_of(world_.nodes), BodyAcceleration(model_.body_loads));
   world_.passes.add(make_point_motion(points_of(world_.nodes)));
   world_.passes.add(make_kinetic_energy(points_of(world_.nodes)));
   if (turn) add_rotations();
+}
+
+/// Whether nothing but bodies, springs and lumped masses moves.
+bool Simulation::moves_all_by_bodies() const {
+  return world_.particles.size() == 0 &&
+         std::all_of(world_.groups.begin(), world_.groups.end(), [](const auto& group) {
+           return sum(group->size(), [&](Index e) { return group->mass[e]; }) == 0 || group->corners() == 1;
+         });
+}
+
+void Simulation::add_springs(Diagnostics& diagnostics) {
+  const bool alone = moves_all_by_bodies();
+  if (springs_.empty() && !alone) return left_out_.push_back({"springs", "no *ELEMENT_DISCRETE"});
+  SpringBodies bodies;
+  if (bodies_) {
+    bodies.walls = bodies_->wall_bodies(world_);
+    bodies.turn = [this](Index body, const Vec& axis) {
+      const RigidBody& b = bodies_->bodies()[static_cast<std::size_t>(body)];
+      return axis.dot(b.turning_by(axis, b.q));
+    };
+  }
+  const Real longest = alone ? model_.endtim / 1000 : std::numeric_limits<Real>::infinity();
+  add_discrete_passes(deck_, std::move(springs_), std::move(bodies), model_.tssfac, longest, world_,
+                      diagnostics);
+}
+
+/// What springs end at may lack a mass where it cannot follow a force: it gets one that does nothing.
+void Simulation::hold_massless_nodes(Diagnostics& diagnostics) {
+  for (Index n = 0; n < world_.nodes.size(); ++n)
+    if (!world_.nodes.follow[n] && !(world_.nodes.m[n] > 0)) {
+      const auto node = std::find_if(model_.nodes.begin(), model_.nodes.end(),
+                                     [&](const ModelNode& m) { return m.id == world_.nodes.id[n]; });
+      if (node != model_.nodes.end() && node->fixed == std::array{true, true, true}) {
+        world_.nodes.m[n] = mass_of_held;
+        continue;
+      }
+      return diagnostics.error({deck_.files[0].name},
+                               fmt::format("node {} moves by its forces and has no mass", world_.nodes.id[n]),
+                               "give it one by elements or *ELEMENT_MASS, or hold all of its translations");
+    }
 }
 
 // Rotations of nodes of shells obey the same equation as places.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "elements/discrete/discrete.hpp"
 #include "elements/shell/shells.hpp"
 #include "elements/solid/solids.hpp"
 #include "keyword/deck.hpp"
@@ -94,6 +95,9 @@ class Simulation {
   void add_contacts_of_nodes(Diagnostics& diagnostics);
   Real bulk_modulus(Index part) const;
   void add_rotations();
+  void add_springs(Diagnostics& diagnostics);
+  bool moves_all_by_bodies() const;
+  void hold_massless_nodes(Diagnostics& diagnostics);
   void add_loads(const Points& points, const BodyAcceleration& acceleration);
   void add_ghosts(Real h, Diagnostics& diagnostics);
   void add_prescribed_motions(Diagnostics& diagnostics);
@@ -115,6 +119,7 @@ class Simulation {
   std::vector<Damping> damping_;
   std::vector<SolidPart> solids_;           ///< by part of the model
   std::vector<ShellPart> shells_;           ///< the same, of shells that deform
+  std::vector<SpringPart> springs_;         ///< until their passes are added
   std::shared_ptr<Neighbours> neighbours_;  ///< null: no particles
   std::shared_ptr<Relocation> mirrors_;     ///< null: none
   std::vector<std::shared_ptr<Contact>> contacts_;
