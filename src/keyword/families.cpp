@@ -194,7 +194,6 @@ constexpr Family families[] = {
     {"RIGIDWALL", "rigid walls"},
     {"RVE", "representative volumes"},
     {"SECTION", "this kind of section"},
-    {"SECTION_BEAM", "beam elements"},
     {"SECTION_IGA", "isogeometric elements"},
     {"SECTION_SEATBELT", "seat belts"},
     {"SECTION_SOLID", "solid elements"},
