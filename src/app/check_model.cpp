@@ -102,11 +102,23 @@ void add_speed(const World& world, const ElementGroup& group, PartRow& row) {
       row.speed = std::max(row.speed, world.nodes.v.vec(group.node.data(c)[e]).norm());
 }
 
+Real shortest_of(const World& world, const ElementGroup& lines) {
+  return -maximum(lines.size(), [&](Index e) {
+    return -(world.nodes.x.vec(lines.node.data(1)[e]) - world.nodes.x.vec(lines.node.data(0)[e])).norm();
+  });
+}
+
 void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
   const World& world = s.world();
   for (const auto& group : world.groups) {
     if (group->part == no_part) continue;
     PartRow& row = rows[group->part];
+    if (!s.law_of_elements(group->part)) {
+      row = PartRow();
+      row.elements = group->size(), row.kind = "spring", row.mass = 0;
+      add_speed(world, *group, row);
+      continue;
+    }
     const StrengthLaw& law = *s.law_of_elements(group->part);
     if (group->segment) {  // counted with the faces
       row.rho = law.ro, row.c = law.sound_speed();
@@ -116,10 +128,12 @@ void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
       continue;
     }
     row = PartRow();
-    row.elements = group->size(), row.kind = "solid", row.mass = row.volume = 0;
+    const bool beams = group->corners() == 2;
+    row.elements = group->size(), row.kind = beams ? "beam" : "solid", row.mass = row.volume = 0;
     row.rho = law.ro, row.c = law.sound_speed();
     for (Index e = 0; e < group->size(); ++e) row.mass += group->mass[e], row.volume += group->V0[e];
     row.spacing = std::cbrt(row.volume / row.elements);
+    if (beams) row.spacing = shortest_of(world, *group);
     add_speed(world, *group, row);
   }
 }

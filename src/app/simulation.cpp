@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "app/build_nodes.hpp"
 #include "app/field_options.hpp"
 #include "app/scene_warnings.hpp"
 #include "app/skin.hpp"
-#include "contact/nodes/build.hpp"
 #include "elements/nodal_assembly.hpp"
+#include "elements/nodal_rotations.hpp"
 #include "extension/additions.hpp"
 #include "loads/loads.hpp"
 #include "model/build_model.hpp"
@@ -80,13 +81,14 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
   const bool bodies_move = s->bodies_ && s->bodies_->any_moves();
   const bool shells_deform = std::any_of(s->shells_.begin(), s->shells_.end(),
                                          [](const ShellPart& part) { return part.law != nullptr; });
-  if (s->model_.sph.empty() && s->model_.solids.empty() && !shells_deform && !bodies_move &&
-      added_nodes(s->deck_, s->model_).empty() && model_is_whole)
+  if (s->model_.sph.empty() && s->model_.solids.empty() && s->model_.beams.empty() && !shells_deform &&
+      !bodies_move && added_nodes(s->deck_, s->model_).empty() &&
+      discrete_nodes(s->deck_, s->model_).empty() && model_is_whole)
     diagnostics.error(
         {deck_path, 0, 0},
         "the deck has no *ELEMENT_SPH, no elements that deform and no rigid body that can move: there "
         "is nothing to compute",
-        "give it particles, solids, shells, or a rigid body that is not held in all directions");
+        "give it particles, solids, shells, beams, or a rigid body that is not held in all directions");
   if (model_is_whole) s->add_passes(diagnostics);
   if (!diagnostics.ok()) return nullptr;
   warn_of_scene(*s, diagnostics);
@@ -108,6 +110,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   }
   materials_ = find_materials(deck_, model_, diagnostics);
   shells_ = find_shell_parts(deck_, model_, diagnostics);
+  beams_ = find_beam_parts(deck_, model_, diagnostics);
   const auto shell_material = [&](Index part) -> std::optional<ShellMaterial> {
     if (const auto m = rigid_material(deck_, model_, part)) return ShellMaterial{m->ro, m->E, m->pr};
     const std::shared_ptr<StrengthLaw>& law = shells_[part].law;
@@ -119,6 +122,8 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   sph_ = build_particles(deck_, model_, sph_material, world_,
                          diagnostics);  // sets world_.dim, which rigid bodies ask for
   std::vector<Index> more = added_nodes(deck_, model_);
+  for (const auto& nodes : {beam_nodes(model_), discrete_nodes(deck_, model_)})
+    more.insert(more.end(), nodes.begin(), nodes.end());
   Diagnostics told_with_bodies;
   for (const auto& [part, nodes] : extra_nodes(deck_, model_, told_with_bodies))
     for (const ExtraNode& extra : nodes) more.push_back(extra.node);
@@ -130,6 +135,9 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     build_shells(model_, shells_, node_of, world_, diagnostics);
     add_solid_passes(model_, solids_, node_of, world_);
     add_shell_passes(model_, shells_, node_of, world_);
+    build_beams(model_, beams_, node_of, world_, diagnostics);
+    add_beam_passes(model_, beams_, world_);
+    springs_ = build_discrete(deck_, model_, node_of, world_, diagnostics);
   }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
   start_rotations(model_, node_of, world_);
@@ -180,42 +188,6 @@ void Simulation::report_what_needs_particles(Diagnostics& diagnostics) {
                   "chooses arrays of particles, of which the deck has none");
 }
 
-// Nodes of elements move by their forces; those of rigid bodies with these.
-void Simulation::add_node_passes(Diagnostics& diagnostics) {
-  add_bodies();
-  for (const Addition& addition : additions()) addition.build(deck_, model_, world_, diagnostics);
-  const bool bodies_move = bodies_ && bodies_->any_moves();
-  if (bodies_move || !world_.groups.empty())
-    world_.passes.add(make_clear_forces(points_of(world_.nodes)));
-  else
-    left_out_.push_back({"forces on nodes", "no node moves"});
-  if (const auto pressure = make_segment_pressure(
-          deck_, model_, bodies_ ? bodies_->wall_bodies(world_) : WallBodies{}, world_, diagnostics))
-    world_.passes.add(pressure);
-  else
-    left_out_.push_back({"pressure on segments", "no *LOAD_SEGMENT"});
-  if (bodies_move && world_.groups.empty() && world_.particles.size() == 0)
-    world_.passes.add(make_body_time_limit(bodies_, model_.endtim));
-  add_contacts_of_nodes(diagnostics);
-  if (!add_joint_stiffness(deck_, model_, bodies_, world_, diagnostics))
-    left_out_.push_back({"joint stiffness", "no *CONSTRAINED_JOINT_STIFFNESS"});
-  if (!add_joints(deck_, bodies_, world_, diagnostics))
-    left_out_.push_back({"joints", "no *CONSTRAINED_JOINT"});
-  if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
-  const bool turn = has_rotations(world_.nodes);
-  if (turn) world_.passes.add(make_clear_forces(rotations_of(world_.nodes)));
-  for (Index n = 0; n < world_.nodes.size(); ++n)
-    if (!world_.nodes.follow[n] && !(world_.nodes.m[n] > 0))
-      return diagnostics.error(
-          {deck_.files[0].name},
-          fmt::format("node {} moves by its forces and has no mass", world_.nodes.id[n]));
-  world_.passes.add(make_nodal_assembly(world_));
-  add_loads(points_of(world_.nodes), BodyAcceleration(model_.body_loads));
-  world_.passes.add(make_point_motion(points_of(world_.nodes)));
-  world_.passes.add(make_kinetic_energy(points_of(world_.nodes)));
-  if (turn) add_rotations();
-}
-
 // Rotations of nodes of shells obey the same equation as places.
 void Simulation::add_rotations() {
   const Points rotations = rotations_of(world_.nodes);
@@ -226,15 +198,6 @@ void Simulation::add_rotations() {
     if (pass) world_.passes.add(pass);
   world_.passes.add(make_point_motion(rotations));
   world_.passes.add(make_kinetic_energy(rotations));
-}
-
-void Simulation::add_contacts_of_nodes(Diagnostics& diagnostics) {
-  NodeContactOptions options;
-  options.bulk_modulus = [this](Index part) { return bulk_modulus(part); };
-  if (bodies_) options.bodies = bodies_->wall_bodies(world_);
-  options.tssfac = model_.tssfac;
-  for (const auto& contact : contacts_) options.with_particles.insert(contact->report().id);
-  add_node_contacts(deck_, model_, options, world_, diagnostics);
 }
 
 // For contact; solids without a law have been reported.

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "elements/beam/beams.hpp"
+#include "elements/discrete/discrete.hpp"
 #include "elements/shell/shells.hpp"
 #include "elements/solid/solids.hpp"
 #include "keyword/deck.hpp"
@@ -59,10 +61,11 @@ class Simulation {
   bool has_particles() const { return neighbours_ != nullptr; }
   const Neighbours& neighbours() const { return *neighbours_; }  ///< where there are particles
   const std::vector<PartMaterial>& materials() const { return materials_; }
-  /// Of solids and of shells that deform, by index into the model's parts; null where a part has neither.
+  /// Of solids, of shells that deform and of beams, by index into the model's parts; null where a part has
+  /// neither.
   const std::shared_ptr<StrengthLaw>& law_of_elements(Index part) const {
     const auto k = static_cast<std::size_t>(part);
-    return solids_[k].law ? solids_[k].law : shells_[k].law;
+    return solids_[k].law ? solids_[k].law : shells_[k].law ? shells_[k].law : beams_[k].law;
   }
   const std::vector<std::shared_ptr<Contact>>& contacts() const { return contacts_; }
   const RigidBodies* bodies() const { return bodies_.get(); }
@@ -94,6 +97,9 @@ class Simulation {
   void add_contacts_of_nodes(Diagnostics& diagnostics);
   Real bulk_modulus(Index part) const;
   void add_rotations();
+  void add_springs(Diagnostics& diagnostics);
+  bool moves_all_by_bodies() const;
+  void hold_massless_nodes(Diagnostics& diagnostics);
   void add_loads(const Points& points, const BodyAcceleration& acceleration);
   void add_ghosts(Real h, Diagnostics& diagnostics);
   void add_prescribed_motions(Diagnostics& diagnostics);
@@ -115,6 +121,8 @@ class Simulation {
   std::vector<Damping> damping_;
   std::vector<SolidPart> solids_;           ///< by part of the model
   std::vector<ShellPart> shells_;           ///< the same, of shells that deform
+  std::vector<BeamPart> beams_;             ///< the same
+  std::vector<SpringPart> springs_;         ///< until their passes are added
   std::shared_ptr<Neighbours> neighbours_;  ///< null: no particles
   std::shared_ptr<Relocation> mirrors_;     ///< null: none
   std::vector<std::shared_ptr<Contact>> contacts_;

@@ -125,7 +125,8 @@ class NodalAssembly : public Force {
 
 std::shared_ptr<Force> make_nodal_assembly(World& world) {
   std::vector<NodalAssembly::Source> from;
-  for (const auto& group : world.groups) from.push_back({group.get(), &group->corner_force});
+  for (const auto& group : world.groups)
+    if (group->corners() > 1) from.push_back({group.get(), &group->corner_force});  // not of lumped masses
   return std::make_shared<NodalAssembly>(world, "assembly of nodal forces", world.nodes.f, std::move(from));
 }
 

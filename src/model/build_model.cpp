@@ -27,6 +27,7 @@ Model ModelBuilder::build() {
   build_particles();
   build_shells();
   build_solids();
+  build_beams();
   check_shared_nodes();
   build_curves();
   build_tables();
@@ -35,6 +36,7 @@ Model ModelBuilder::build() {
   build_sets();
   move_nodes();
   check_solids();
+  check_beams();
   build_coordinate_systems();  // of nodes: where these have gone
   build_vectors();
   build_control();

@@ -43,6 +43,7 @@ void Model::release_mesh() {
   std::vector<ModelNode>().swap(nodes);  // clear() would keep the memory
   std::vector<ModelSph>().swap(sph);
   std::vector<ModelSolid>().swap(solids);
+  std::vector<ModelBeam>().swap(beams);
   std::vector<ModelSegment>().swap(segments);
   shell_thickness.clear();
   held_rotations.clear();

@@ -28,7 +28,7 @@ struct ModelPart {
   Id secid = 0, mid = 0, eosid = 0, hgid = 0;
   Location where;  ///< of the PART card, for messages
   Entry card;      ///< the PART card, for messages about one of its fields
-  bool has_sph = false, has_shell = false, has_solid = false;
+  bool has_sph = false, has_shell = false, has_solid = false, has_beam = false;
   bool rigid = false;           ///< its material is a *MAT_RIGID
   bool velocity_given = false;  ///< INITIAL_VELOCITY_GENERATION names this part
 };
@@ -59,6 +59,16 @@ struct ModelSolid {
   std::array<Index, 8> corners() const;
   /// Different nodes among these: 8 of a hexahedron, 6 of a pentahedron, 5 of a pyramid, 4 of a tetrahedron.
   int different_corners() const;
+};
+
+struct ModelBeam {
+  Id id = 0;
+  Index part = 0;
+  std::array<Index, 2> node{};
+  Index third = -1;                ///< N3, -1: none
+  Vec direction = Vec::Zero();     ///< of _ORIENTATION, 0: none
+  std::array<Real, 5> measures{};  ///< of _THICKNESS; 0: of the section
+  Entry card;                      ///< the ELEMENT_BEAM card, for messages
 };
 
 /// A face told by its corners; triangle: node[3] == node[2], line in 2D: node[3] == node[2] == node[1]. Its
@@ -180,8 +190,9 @@ struct Model {
   std::vector<ModelSph> sph;
   std::vector<ModelShell> shells;
   std::vector<ModelSolid> solids;
+  std::vector<ModelBeam> beams;
   std::unordered_map<Index, std::array<Real, 4>> shell_thickness;  ///< of shells with one of their own [L]
-  /// Of nodes, where the deck has shells: rotations that BOUNDARY_SPC or RC hold, initial angular velocity.
+  /// Of nodes, where some turn: rotations that BOUNDARY_SPC or RC hold, initial angular velocity.
   std::unordered_map<Index, std::array<bool, 3>> held_rotations;
   std::unordered_map<Index, Vec> angular_velocity;  ///< [1/T]
   std::vector<ModelSegment> segments;               ///< those of all segment sets
@@ -208,6 +219,8 @@ struct Model {
   bool dt_max_given = false;
   Curve dt_max;  ///< LCTM: largest step over time
 
+  /// Whether nodes may turn: shells and beams have moments.
+  bool turns() const { return !shells.empty() || !beams.empty(); }
   /// Gives back nodes, particles, solids and the sets of nodes and elements, once the world is built from
   /// them.
   void release_mesh();

@@ -45,6 +45,9 @@ class ModelBuilder {
   void build_output_curve(const Entry& card, std::string_view field, Id id, int ioopt, OutputTimes& out);
   std::vector<Index> listed_nodes(const Entry& card, const std::vector<Id>& ids, bool sets,
                                   std::unordered_set<Id>& sets_seen);
+  // build_beams.cpp
+  void build_beams();
+  void check_beams();
   // build_field_output.cpp
   void build_field_output();
   void build_left_out_parts(const Entry& card, Id psetid);

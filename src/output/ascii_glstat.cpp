@@ -45,7 +45,7 @@ std::string glstat_text(const Sample& s, Real first_potential) {
     out.insert(out.size() - 1, fmt::sprintf(" wall#%6d", wall.id));
   }
   if (s.rigid_walls.empty()) out += line("stonewall energy", 0);
-  out += line("rigid body stopper energy", 0) + line("spring and damper energy", 0);
+  out += line("rigid body stopper energy", 0) + line("spring and damper energy", e.discrete);
   out += line("system damping energy", 0) + line("sliding interface energy", e.contact + contact_dissipated);
   out += line("external work", external_work);
   out += line("eroded kinetic energy", 0) + line("eroded internal energy", 0) +

@@ -3,8 +3,9 @@
 namespace courant {
 
 VtkCell vtk_cell(const ElementGroup& group, Index e) {
-  constexpr std::uint8_t line = 3, triangle = 5, quadrilateral = 9, tetrahedron = 10, hexahedron = 12,
-                         wedge = 13, pyramid = 14;
+  constexpr std::uint8_t vertex = 1, line = 3, triangle = 5, quadrilateral = 9, tetrahedron = 10,
+                         hexahedron = 12, wedge = 13, pyramid = 14;
+  if (group.corners() == 1) return {vertex, {0}};
   if (group.corners() == 3) return {triangle, {0, 1, 2}};
   if (group.corners() == 4 && group.segment) return {quadrilateral, {0, 1, 2, 3}};
   if (group.corners() == 2) return {line, {0, 1}};

@@ -8,8 +8,8 @@
 namespace courant {
 
 struct VtkCell {
-  std::uint8_t type;  ///< VTK's number: 3 line, 5 triangle, 9 quadrilateral, 10 tetrahedron, 12 hexahedron,
-                      ///< 13 wedge, 14 pyramid
+  std::uint8_t type;  ///< VTK's number: 1 vertex, 3 line, 5 triangle, 9 quadrilateral, 10 tetrahedron, 12
+                      ///< hexahedron, 13 wedge, 14 pyramid
   std::vector<int> corners;  ///< of the element, in VTK's order
 };
 

@@ -313,10 +313,10 @@ class Builder {
     std::set<Index> shared;
     Real mass = 0;
     for (const auto& group : world_.groups)
-      for (int c = 0; c < group->corners(); ++c)
+      for (int c = 0; c < group->corners() && group->corners() > 1; ++c)  // lumped masses are no elements
         for (Index e = 0; e < group->size(); ++e) {
           const Index n = group->node.data(c)[e];
-          if (!mine.contains(n)) continue;
+          if (!mine.contains(n) || group->mass[e] == 0) continue;
           shared.insert(n);
           mass += group->mass[e] * group->share(e, c);
         }

@@ -17,6 +17,7 @@ namespace courant {
 struct EnergyLedger {
   Real kinetic = 0;         ///< of particles and bodies, with half-step velocities as LS-DYNA does
   Real internal = 0;        ///< of active particles: volume work (and heat where the EOS uses it)
+  Real discrete = 0;        ///< share of springs and dampers in `internal`
   Real potential = 0;       ///< - sum m g.x of active particles and bodies
   Real contact = 0;         ///< stored in penalty springs
   Real hourglass = 0;       ///< taken by hourglass control of elements

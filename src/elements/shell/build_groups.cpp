@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "elements/nodal_rotations.hpp"
 #include "elements/shell/shells.hpp"
 #include "state/shared_fields.hpp"
 
@@ -49,17 +50,6 @@ void warn_of_warp(const Model& model, const std::vector<ShellPart>& parts, const
               model.parts[k].id, parts[k].warp_warning, worst[k].count, worst[k].id, worst[k].angle),
           "use a finer mesh, or triangles");
 }
-
-struct RotationFields {
-  Field<Real>&angle, &speed, &moment, &inertia;
-  Field<Index>& none;
-  explicit RotationFields(FieldSet& nodes)
-      : angle(shared_fields::rotation.add(nodes)),
-        speed(shared_fields::angular_velocity.add(nodes)),
-        moment(shared_fields::moment.add(nodes)),
-        inertia(shared_fields::rotary_inertia.add(nodes)),
-        none(shared_fields::no_rotation.add(nodes)) {}
-};
 
 /// The length by which ISDO gives the step, see shell_loops.cpp. [L]
 Real longest_step_length(const std::array<Vec, 4>& x, Real area, int corners, int rule) {
@@ -108,7 +98,7 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
     return diagnostics.error(model.parts[static_cast<std::size_t>(any - parts.begin())].where,
                              "shells that deform are not supported in 2D scenes (IDIM 2)",
                              "make the scene three-dimensional, or the shells rigid");
-  RotationFields rotations(world.nodes.fields);
+  NodalRotations rotations(world.nodes.fields);
   for (std::size_t k = 0; k < parts.size(); ++k)
     for (const bool triangles : {false, true}) {
       const std::vector<Index>& which = of_part[k][triangles];
@@ -144,17 +134,6 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
       }
     }
   warn_of_warp(model, parts, world, diagnostics);
-}
-
-void start_rotations(const Model& model, const std::vector<Index>& node_of, World& world) {
-  Field<Real>* inertia = shared_fields::rotary_inertia.find(world.nodes.fields);
-  if (!inertia) return;
-  const RotationFields rotations(world.nodes.fields);
-  for (Index n = 0; n < world.nodes.size(); ++n)
-    rotations.none[n] = world.nodes.follow[n] != 0 || !((*inertia)[n] > 0);
-  for (const auto& [node, omega] : model.angular_velocity)
-    if (const Index n = node_of[static_cast<std::size_t>(node)]; n >= 0 && rotations.none[n] == 0)
-      rotations.speed.set(n, omega);
 }
 
 }  // namespace courant

@@ -41,9 +41,6 @@ std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Di
 void build_shells(const Model& model, const std::vector<ShellPart>& parts, const std::vector<Index>& node_of,
                   World& world, Diagnostics& diagnostics);
 
-/// Once rigid bodies have their nodes: which of the nodes turn freely, and their initial angular velocities.
-void start_rotations(const Model& model, const std::vector<Index>& node_of, World& world);
-
 /// Rotary inertia that an element has for each of its corners; `build_shells` fills it. [ML2]
 Field<Real>& corner_inertia_of(const ElementGroup& group);
 

@@ -131,7 +131,7 @@ void ModelBuilder::build_constraints() {
     const std::array<bool, 3> none{}, turns = {card.dofrx == 1, card.dofry == 1, card.dofrz == 1};
     const int before = errors_;
     Held out{held_directions(card, {card.dofx == 1, card.dofy == 1, card.dofz == 1}, "translations"), none};
-    if (!model_.shells.empty() && turns != none && errors_ == before)
+    if (model_.turns() && turns != none && errors_ == before)
       out.turns = held_directions(card, turns, "rotations");
     return out;
   };
@@ -148,7 +148,7 @@ void ModelBuilder::build_constraints() {
     if (!members) continue;
     for (const Index n : *members) hold(n, held);
   }
-  if (model_.shells.empty()) return;
+  if (!model_.turns()) return;
   for (const NodeCard& card : deck_.all<NodeCard>())  // the first of each id is the node
     if (const Index n = card.rc == 0 ? -1 : node_of_id_.find(card.nid); n >= 0)
       hold_rotations(n, axes_of_code(card.rc));
@@ -234,7 +234,7 @@ void ModelBuilder::set_velocity(const InitialVelocityGenerationCard& card) {
   for (const Index n : nodes_of(card)) {
     ModelNode& target = model_.nodes[static_cast<std::size_t>(n)];
     target.v = v + omega.cross(target.x - centre);
-    if (card.omega != 0 && !model_.shells.empty()) model_.angular_velocity[n] = omega;
+    if (card.omega != 0 && model_.turns()) model_.angular_velocity[n] = omega;
   }
 }
 
@@ -272,6 +272,8 @@ std::vector<Index> ModelBuilder::nodes_of_parts(const std::vector<Index>& parts)
     if (wanted(solid.part))
       std::copy_if(solid.node.begin(), solid.node.end(), std::back_inserter(nodes),
                    [](Index n) { return n >= 0; });
+  for (const ModelBeam& beam : model_.beams)
+    if (wanted(beam.part)) nodes.insert(nodes.end(), beam.node.begin(), beam.node.end());
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

@@ -133,7 +133,7 @@ class Reader {
   }
 
   bool supported(const MotionCard& card, bool of_body) {
-    const int most = of_body || !model_.shells.empty() ? first_rotation + 2 : along_vector;
+    const int most = of_body || model_.turns() ? first_rotation + 2 : along_vector;
     const bool direction = card.dof >= 1 && card.dof <= most, kind = card.vad >= 0 && card.vad <= 2;
     if (!direction)
       deck_.error(diagnostics_, card, "DOF", fmt::format("'{}' is not supported", card.dof),

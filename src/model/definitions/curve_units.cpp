@@ -28,6 +28,9 @@ constexpr CurveDimensions known[] = {
     {"DATABASE_GLSTAT", "LCUR", "T", "T"},
     {"MAT_PIECEWISE_LINEAR_PLASTICITY", "LCSS", "-", "M/LT2"},
     {"MAT_PIECEWISE_LINEAR_PLASTICITY", "LCSR", "1/T", "-"},
+    {"MAT_SPRING_NONLINEAR_ELASTIC", "LCD", "L", "ML/T2"},  // torsional ones are refused beside unit factors
+    {"MAT_SPRING_NONLINEAR_ELASTIC", "LCR", "L/T", "-"},
+    {"MAT_DAMPER_NONLINEAR_VISCOUS", "LCDR", "L/T", "ML/T2"},
     // VAD 0; of the others `of_entry_itself` tells, and of moments
     {"BOUNDARY_PRESCRIBED_MOTION_NODE", "LCID", "T", "L/T"},
     {"BOUNDARY_PRESCRIBED_MOTION_SET", "LCID", "T", "L/T"},

@@ -40,7 +40,7 @@ TEST(Families, NameWhatIsLacking) {
 }
 
 TEST(Families, LongestPrefixCounts) {
-  EXPECT_EQ(lacking("ELEMENT_DISCRETE"), "springs and dampers");
+  EXPECT_EQ(lacking("ELEMENT_DISCRETE_LCO"), "springs and dampers with offsets by curves");
   EXPECT_EQ(lacking("ELEMENT_DISCRETE_SPHERE_VOLUME"), "discrete element spheres");
   EXPECT_EQ(lacking("ELEMENT_TSHELL"), "thick shell elements");
 }

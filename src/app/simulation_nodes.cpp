@@ -1,0 +1,107 @@
+// Passes over nodes: bodies, elements, springs, contact.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "app/simulation.hpp"
+#include "contact/cards.hpp"
+#include "contact/nodes/build.hpp"
+#include "elements/nodal_assembly.hpp"
+#include "extension/additions.hpp"
+#include "rigid/build_joints.hpp"
+#include "rigid/joint_stiffness.hpp"
+#include "rigid/time_limit.hpp"
+#include "time/point_motion.hpp"
+
+namespace courant {
+
+// Nodes of elements move by their forces; those of rigid bodies with these.
+void Simulation::add_node_passes(Diagnostics& diagnostics) {
+  add_bodies();
+  for (const Addition& addition : additions()) addition.build(deck_, model_, world_, diagnostics);
+  const bool bodies_move = bodies_ && bodies_->any_moves();
+  if (bodies_move || !world_.groups.empty())
+    world_.passes.add(make_clear_forces(points_of(world_.nodes)));
+  else
+    left_out_.push_back({"forces on nodes", "no node moves"});
+  if (const auto pressure = make_segment_pressure(
+          deck_, model_, bodies_ ? bodies_->wall_bodies(world_) : WallBodies{}, world_, diagnostics))
+    world_.passes.add(pressure);
+  else
+    left_out_.push_back({"pressure on segments", "no *LOAD_SEGMENT"});
+  if (bodies_move && moves_all_by_bodies()) world_.passes.add(make_body_time_limit(bodies_, model_.endtim));
+  add_contacts_of_nodes(diagnostics);
+  if (!add_joint_stiffness(deck_, model_, bodies_, world_, diagnostics))
+    left_out_.push_back({"joint stiffness", "no *CONSTRAINED_JOINT_STIFFNESS"});
+  if (!add_joints(deck_, bodies_, world_, diagnostics))
+    left_out_.push_back({"joints", "no *CONSTRAINED_JOINT"});
+  if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
+  add_springs(diagnostics);
+  const bool turn = has_rotations(world_.nodes);
+  if (turn) world_.passes.add(make_clear_forces(rotations_of(world_.nodes)));
+  hold_massless_nodes(diagnostics);
+  if (!diagnostics.ok()) return;
+  world_.passes.add(make_nodal_assembly(world_));
+  add_loads(points_of(world_.nodes), BodyAcceleration(model_.body_loads));
+  world_.passes.add(make_point_motion(points_of(world_.nodes)));
+  world_.passes.add(make_kinetic_energy(points_of(world_.nodes)));
+  if (turn) add_rotations();
+}
+
+/// Whether nothing but bodies, springs and lumped masses moves.
+bool Simulation::moves_all_by_bodies() const {
+  return world_.particles.size() == 0 &&
+         std::all_of(world_.groups.begin(), world_.groups.end(), [](const auto& group) {
+           return sum(group->size(), [&](Index e) { return group->mass[e]; }) == 0 || group->corners() == 1;
+         });
+}
+
+void Simulation::add_springs(Diagnostics& diagnostics) {
+  const bool alone = moves_all_by_bodies();
+  if (springs_.empty() && !alone) return left_out_.push_back({"springs", "no *ELEMENT_DISCRETE"});
+  SpringBodies bodies;
+  if (bodies_) {
+    bodies.walls = bodies_->wall_bodies(world_);
+    bodies.turn = [this](Index body, const Vec& axis) {
+      const RigidBody& b = bodies_->bodies()[static_cast<std::size_t>(body)];
+      return axis.dot(b.turning_by(axis, b.q));
+    };
+  }
+  const Real longest = alone ? model_.endtim / 1000 : std::numeric_limits<Real>::infinity();
+  add_discrete_passes(deck_, std::move(springs_), std::move(bodies), model_.tssfac, longest, world_,
+                      diagnostics);
+}
+
+/// What springs end at may lack a mass where it cannot follow a force: it gets one that does nothing.
+void Simulation::hold_massless_nodes(Diagnostics& diagnostics) {
+  for (Index n = 0; n < world_.nodes.size(); ++n)
+    if (!world_.nodes.follow[n] && !(world_.nodes.m[n] > 0)) {
+      const auto node = std::find_if(model_.nodes.begin(), model_.nodes.end(),
+                                     [&](const ModelNode& m) { return m.id == world_.nodes.id[n]; });
+      if (node != model_.nodes.end() && node->fixed == std::array{true, true, true}) {
+        world_.nodes.m[n] = mass_of_held;
+        continue;
+      }
+      return diagnostics.error({deck_.files[0].name},
+                               fmt::format("node {} moves by its forces and has no mass", world_.nodes.id[n]),
+                               "give it one by elements or *ELEMENT_MASS, or hold all of its translations");
+    }
+}
+
+void Simulation::add_contacts_of_nodes(Diagnostics& diagnostics) {
+  if (!model_.beams.empty() && !deck_.all<ContactCard>().empty())
+    diagnostics.warning(
+        deck_.where(deck_.all<ContactCard>().front()),
+        fmt::format("{}: beams take no part in contact, only the shells and solids beside them",
+                    deck_.keyword(deck_.all<ContactCard>().front())),
+        "give what must touch faces");
+  NodeContactOptions options;
+  options.bulk_modulus = [this](Index part) { return bulk_modulus(part); };
+  if (bodies_) options.bodies = bodies_->wall_bodies(world_);
+  options.tssfac = model_.tssfac;
+  for (const auto& contact : contacts_) options.with_particles.insert(contact->report().id);
+  add_node_contacts(deck_, model_, options, world_, diagnostics);
+}
+
+}  // namespace courant

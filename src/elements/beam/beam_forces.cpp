@@ -1,0 +1,350 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "elements/beam/beams.hpp"
+#include "laws/strength/beam_stress.hpp"
+#include "state/reports.hpp"
+#include "state/shared_fields.hpp"
+
+namespace courant {
+
+namespace {
+
+using Quaternion = Eigen::Quaterniond;
+
+/// By which a beam deforms, and what answers: elongation and pull, twist and torsion, rotations of end 1 and
+/// 2 about s, about t, against the line between the ends, and the moments that hold them.
+enum Part6 { elongation, twist, turn1_s, turn2_s, turn1_t, turn2_t, count6 };
+using Six = std::array<Real, count6>;
+
+Quaternion turned_by(const Vec& angle, const Quaternion& q) {
+  const Real a = angle.norm();
+  if (a == 0) return q;
+  return (Quaternion(Eigen::AngleAxisd(a, angle / a)) * q).normalized();
+}
+
+/// Axis times angle, up to pi, of q.
+Vec rotation_vector(Quaternion q) {
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  const Real n = q.vec().norm();
+  return n > 0 ? Vec(2 * std::atan2(n, q.w()) / n * q.vec()) : Vec(2 * q.vec());
+}
+
+/// Where a beam lies: r from end to end, s halfway between those of the ends.
+struct BeamFrame {
+  Real length;
+  Matrix axes;
+};
+BeamFrame frame_of(const Vec& between, const Matrix& end1, const Matrix& end2) {
+  BeamFrame out{between.norm(), Matrix::Identity()};
+  const Vec r = between / out.length;
+  Vec s = end1.col(1) + end2.col(1);
+  s = (s - s.dot(r) * r).normalized();
+  out.axes.col(0) = r, out.axes.col(1) = s, out.axes.col(2) = r.cross(s);
+  return out;
+}
+
+/// Beams of a part: they turn with their ends and nodes as far as these are rigid, and what is left deforms
+/// them. Theory: docs/theory.md.
+class BeamForces : public Material,
+                   public TimeLimit,
+                   public EnergyTerm,
+                   public PartReporter,
+                   public FieldFiller {
+ public:
+  BeamForces(BeamPart part, Id part_id, Real tssfac, bool shown, World& world)
+      : part_(std::move(part)),
+        group_(*part_.group),
+        part_id_(part_id),
+        tssfac_(tssfac),
+        turns_(part_.kind != BeamKind::truss),
+        w_(turns_ ? shared_fields::angular_velocity.find(world.nodes.fields) : nullptr),
+        inertia_(turns_ ? shared_fields::rotary_inertia.find(world.nodes.fields) : nullptr),
+        start_(add("start_length", "L", 1)),
+        deformation_(add("deformation", "-", count6)),
+        answer_(add("end_forces", "-", count6)),
+        ends_(add("end_orientations", "-", 8)),
+        stress_(add("point_stress", "M/LT2", std::max<int>(1, 3 * static_cast<int>(part_.points.size())))),
+        energy_(group_.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
+        steps_(static_cast<std::size_t>(group_.size())) {
+    for (std::size_t p = 0; p < part_.points.size(); ++p)
+      for (const HistoryVariable& h : part_.law->history())
+        history_.push_back(&group_.fields.add<Real>({.name = fmt::format("{}_of_point_{}", h.name, p + 1),
+                                                     .dimension = h.dimension,
+                                                     .components = h.components}));
+    numbers_ = part_.law->history().size();
+    const Real K = part_.law->bulk_modulus();
+    G_ = part_.law->shear_modulus(), E_ = 9 * K * G_ / (3 * K + G_);
+    for (Index e = 0; e < group_.size(); ++e) {
+      start_[e] = between_ends(world, e).norm();
+      for (int c = 0; c < 2; ++c) put_end(e, c, Quaternion(part_.axes[at(e)]));
+    }
+    if (shown) add_shown_fields();
+  }
+  std::string name() const override { return group_.fields.name(); }
+  const FieldSet& over(const World&) const override { return group_.fields; }
+  void declare(const World& world, Accesses& a) const override {
+    a.reads(world.nodes.x, Reach::others).reads(group_.node).reads(group_.mass).reads(start_);
+    if (turns_) a.reads(*w_, Reach::others).updates(ends_).writes(*group_.corner_moment);
+    a.updates(deformation_).updates(answer_).updates(energy_).writes(group_.corner_force);
+    if (!part_.points.empty()) a.updates(stress_);
+    for (const Field<Real>* h : history_) a.updates(*h);
+  }
+
+  void block(World& world, const Clock& clock, Index begin, Index end) override {
+    Change change;
+    for (Index e = begin; e < end; ++e) move(world, clock, e, e - begin, change);
+    if (part_.kind == BeamKind::resultant)
+      for (Index e = begin; e < end; ++e) change.after[e - begin] = resultants(e, change.now[e - begin]);
+    else
+      integrate(clock, begin, end, change);
+    for (Index e = begin; e < end; ++e) finish_one(e, e - begin, change);
+  }
+
+  Limit limit(const World&, const Clock&) override {
+    std::size_t least = 0;
+    for (std::size_t e = 0; e < steps_.size(); ++e)
+      if (!std::isnan(steps_[least]) && !(steps_[e] >= steps_[least])) least = e;
+    return {tssfac_ * steps_[least],
+            fmt::format("beam {} of part {}", group_.id[static_cast<Index>(least)], part_id_)};
+  }
+  void record(World&, const Clock&, EnergyLedger&) override {}
+  void sample(const World&, const Clock&, EnergyLedger& ledger) const override { ledger.internal += total(); }
+  void report_part(const World& world, std::vector<PartSums>& parts) const override {
+    PartSums& out = parts[static_cast<std::size_t>(group_.part)];
+    out.internal += total();
+    for (Index e = 0; e < group_.size(); ++e) {
+      const Real share = group_.mass[e] / 2;
+      out.mass += group_.mass[e];
+      for (int c = 0; c < 2; ++c) {
+        const Index n = group_.node.data(c)[e];
+        const Vec v = world.nodes.v.vec(n);
+        out.momentum += share * v;
+        out.kinetic += 0.5 * share * v.squaredNorm();
+        if (turns_ && world.nodes.m[n] > 0)  // the rotations of a node, by shares of its mass
+          out.kinetic += 0.5 * share / world.nodes.m[n] * (*inertia_)[n] * w_->vec(n).squaredNorm();
+      }
+    }
+  }
+
+  /// Pull, and moments of the section about r, s and t at both ends: tension, and on the side of +s or -t
+  /// pressure, are positive.
+  void fill_fields(World&) override {
+    if (!shown_pull_) return;
+    for (Index e = 0; e < group_.size(); ++e) {
+      const auto g = [&](Part6 k) { return answer_.data(k)[e]; };
+      (*shown_pull_)[e] = g(elongation);
+      if (turns_) {
+        shown_moment_[0]->set(e, Vec(g(twist), -g(turn1_s), -g(turn1_t)));
+        shown_moment_[1]->set(e, Vec(g(twist), g(turn2_s), g(turn2_t)));
+      }
+      for (const auto& [to, first] : shown_history_) {
+        Real most = history_[first]->data()[e];
+        for (std::size_t k = first; k < history_.size(); k += numbers_)
+          most = std::max(most, history_[k]->data()[e]);
+        (*to)[e] = most;
+      }
+    }
+  }
+
+ private:
+  /// Of the beams of a block.
+  struct Change {
+    std::array<Six, block_size> now{}, after{};
+    std::array<BeamFrame, block_size> frame{};
+  };
+  static std::size_t at(Index e) { return static_cast<std::size_t>(e); }
+  Field<Real>& add(const char* field, const char* dimension, int components) {
+    return group_.fields.add<Real>({.name = field, .dimension = dimension, .components = components});
+  }
+  Real total() const {
+    return sum(group_.size(), [&](Index e) { return energy_[e]; });
+  }
+  Vec between_ends(const World& world, Index e) const {
+    return world.nodes.x.vec(group_.node.data(1)[e]) - world.nodes.x.vec(group_.node.data(0)[e]);
+  }
+  Quaternion end_of(Index e, int c) const {
+    const auto q = [&](int k) { return ends_.data(4 * c + k)[e]; };
+    return Quaternion(q(0), q(1), q(2), q(3));
+  }
+  void put_end(Index e, int c, const Quaternion& q) {
+    const Real values[] = {q.w(), q.x(), q.y(), q.z()};
+    for (int k = 0; k < 4; ++k) ends_.data(4 * c + k)[e] = values[k];
+  }
+
+  void move(const World& world, const Clock& clock, Index e, Index i, Change& change) {
+    Six& now = change.now[at(i)];
+    BeamFrame& frame = change.frame[at(i)];
+    const Vec between = between_ends(world, e);
+    now = {};
+    if (!turns_) {
+      frame.length = between.norm();
+      frame.axes.col(0) = between / frame.length;
+    } else {
+      std::array<Quaternion, 2> q;
+      for (int c = 0; c < 2; ++c) {
+        q[at(c)] = turned_by(clock.dt_old * w_->vec(group_.node.data(c)[e]), end_of(e, c));
+        put_end(e, c, q[at(c)]);
+      }
+      frame = frame_of(between, q[0].toRotationMatrix(), q[1].toRotationMatrix());
+      const Quaternion back = Quaternion(frame.axes).conjugate();
+      const Vec turn1 = rotation_vector(back * q[0]), turn2 = rotation_vector(back * q[1]);
+      now[twist] = turn2[0] - turn1[0];
+      now[turn1_s] = turn1[1], now[turn2_s] = turn2[1], now[turn1_t] = turn1[2], now[turn2_t] = turn2[2];
+    }
+    now[elongation] = frame.length - start_[e];
+  }
+
+  /// Of the beam of Euler and Bernoulli, or with a shear area Timoshenko.
+  Six resultants(Index e, const Six& d) const {
+    const BeamMeasures& m = part_.measures[at(e)];
+    const Real L = start_[e];
+    const auto bend = [&](Real I, Real mine, Real other) {
+      const Real phi = m.shear_area > 0 ? 12 * E_ * I / (G_ * m.shear_area * L * L) : 0;
+      return E_ * I / (L * (1 + phi)) * ((4 + phi) * mine + (2 - phi) * other);
+    };
+    Six g{};
+    g[elongation] = E_ * m.A / L * d[elongation], g[twist] = G_ * m.J / L * d[twist];
+    g[turn1_s] = bend(m.Iss, d[turn1_s], d[turn2_s]), g[turn2_s] = bend(m.Iss, d[turn2_s], d[turn1_s]);
+    g[turn1_t] = bend(m.Itt, d[turn1_t], d[turn2_t]), g[turn2_t] = bend(m.Itt, d[turn2_t], d[turn1_t]);
+    return g;
+  }
+
+  /// Stress at the points of the section in the middle of the beam, and its resultants.
+  void integrate(const Clock& clock, Index begin, Index end, Change& change) {
+    const Index n = end - begin;
+    std::array<std::array<Real, block_size>, 3> rate{}, unused{};
+    std::array<Real, block_size> sound{};
+    std::array<Six, block_size> middle{};  // pull, torsion, moments about s and t, shear along s and t
+    PointBlock points;
+    points.count = n, points.dt = clock.dt_old, points.sound_speed = sound.data();
+    points.rate = {rate[0].data(), nullptr, nullptr, rate[1].data(), nullptr, rate[2].data()};
+    const Real per_time = clock.dt_old > 0 ? 1 / clock.dt_old : 0;
+    std::vector<Real*> numbers;
+    for (std::size_t p = 0; p < part_.points.size(); ++p) {
+      const SectionPoint& point = part_.points[p];
+      for (Index i = 0; i < n; ++i) {
+        const BeamMeasures& m = part_.measures[at(begin + i)];
+        const Six d = change_of(begin + i, change.now[at(i)]);
+        const Real L = change.frame[at(i)].length - 0.5 * d[elongation], s = point.s * m.half_s,
+                   t = point.t * m.half_t;
+        rate[0][at(i)] =
+            per_time / L * (d[elongation] - s * (d[turn2_t] - d[turn1_t]) + t * (d[turn2_s] - d[turn1_s]));
+        rate[1][at(i)] = 0.5 * per_time * (-0.5 * (d[turn1_t] + d[turn2_t]) - t * d[twist] / L);
+        rate[2][at(i)] = 0.5 * per_time * (0.5 * (d[turn1_s] + d[turn2_s]) + s * d[twist] / L);
+      }
+      const auto mine = [&](int k) { return stress_.data(3 * static_cast<int>(p) + k) + begin; };
+      points.stress = {mine(0), unused[0].data(), unused[1].data(), mine(1), unused[2].data(), mine(2)};
+      numbers.clear();
+      for (std::size_t k = p * numbers_; k < (p + 1) * numbers_; ++k)
+        for (int c = 0; c < history_[k]->info().components; ++c)
+          numbers.push_back(history_[k]->data(c) + begin);
+      points.history = numbers;
+      update_in_beam(*part_.law, points);
+      for (Index i = 0; i < n; ++i) {
+        const BeamMeasures& m = part_.measures[at(begin + i)];
+        const Real A = point.share * m.A, s = point.s * m.half_s, t = point.t * m.half_t;
+        const Real xx = mine(0)[i], xs = mine(1)[i], xt = mine(2)[i];
+        Six& sum = middle[at(i)];
+        sum[0] += A * xx, sum[1] += A * (s * xt - t * xs);
+        sum[2] += A * t * xx, sum[3] -= A * s * xx, sum[4] += A * xs, sum[5] += A * xt;
+      }
+    }
+    for (Index i = 0; i < n; ++i) {
+      const BeamMeasures& m = part_.measures[at(begin + i)];
+      const Six& sum = middle[at(i)];
+      const Real half = turns_ ? 0.5 * change.frame[at(i)].length * m.shear_area / m.A : 0;
+      change.after[at(i)] = {sum[0],
+                             sum[1],
+                             -sum[2] + half * sum[5],
+                             sum[2] + half * sum[5],
+                             -sum[3] - half * sum[4],
+                             sum[3] - half * sum[4]};
+    }
+  }
+  Six change_of(Index e, const Six& now) const {
+    Six out;
+    for (int k = 0; k < count6; ++k) out[at(k)] = now[at(k)] - deformation_.data(k)[e];
+    return out;
+  }
+
+  /// Energy, forces and moments on the ends, and the step.
+  void finish_one(Index e, Index i, const Change& change) {
+    const Six &now = change.now[at(i)], &g = change.after[at(i)];
+    const BeamFrame& frame = change.frame[at(i)];
+    Real work = 0;
+    for (int k = 0; k < count6; ++k) {
+      work += 0.5 * (answer_.data(k)[e] + g[at(k)]) * (now[at(k)] - deformation_.data(k)[e]);
+      answer_.data(k)[e] = g[at(k)], deformation_.data(k)[e] = now[at(k)];
+    }
+    energy_[e] += work;
+    const Vec r = frame.axes.col(0);
+    Vec on1 = g[elongation] * r;
+    if (turns_) {
+      const Vec s = frame.axes.col(1), t = frame.axes.col(2);
+      on1 += ((g[turn1_s] + g[turn2_s]) * t - (g[turn1_t] + g[turn2_t]) * s) / frame.length;
+      const Vec turn1 = g[twist] * r - g[turn1_s] * s - g[turn1_t] * t,
+                turn2 = -g[twist] * r - g[turn2_s] * s - g[turn2_t] * t;
+      for (int k = 0; k < 3; ++k)
+        group_.corner_moment->data(k)[e] = turn1[k], group_.corner_moment->data(3 + k)[e] = turn2[k];
+    }
+    for (int k = 0; k < 3; ++k)
+      group_.corner_force.data(k)[e] = on1[k], group_.corner_force.data(3 + k)[e] = -on1[k];
+    const BeamMeasures& m = part_.measures[at(e)];
+    const Real inertia = turns_ ? end_inertia(part_.kind, *part_.law, m, group_.mass[e], start_[e]) : 0;
+    steps_[at(e)] = 2 / std::sqrt(largest_square(part_.kind, *part_.law, m, group_.mass[e], inertia,
+                                                 frame.length, g[elongation]));
+  }
+
+  void add_shown_fields() {
+    const auto show = [&](const char* field, const char* dimension, int components) {
+      return &group_.fields.add<Real>({.name = field,
+                                       .dimension = dimension,
+                                       .components = components,
+                                       .output = true,
+                                       .restart = false});
+    };
+    shown_pull_ = show("axial_force", "ML/T2", 1);
+    if (turns_) shown_moment_ = {show("moment_at_end_1", "ML2/T2", 3), show("moment_at_end_2", "ML2/T2", 3)};
+    const std::vector<HistoryVariable> kinds = part_.law->history();
+    for (std::size_t k = 0; k < kinds.size() && !part_.points.empty(); ++k)
+      if (kinds[k].components == 1)
+        shown_history_.emplace_back(show(kinds[k].name.c_str(), kinds[k].dimension.c_str(), 1), k);
+  }
+
+  BeamPart part_;
+  ElementGroup& group_;
+  Id part_id_;
+  Real tssfac_, E_ = 0, G_ = 0;
+  bool turns_;
+  const Field<Real>*w_, *inertia_;  ///< of nodes
+  Field<Real>& start_;              ///< length without stress
+  Field<Real>&deformation_, &answer_;
+  Field<Real>& ends_;    ///< axes of the ends: quaternions w x y z, of end 1 and 2
+  Field<Real>& stress_;  ///< of each point xx, xs, xt
+  Field<Real>& energy_;
+  std::vector<Field<Real>*> history_;  ///< of the first point, of the second, ...
+  std::size_t numbers_ = 0;            ///< of them, a point
+  std::vector<Real> steps_;
+  Field<Real>* shown_pull_ = nullptr;
+  std::array<Field<Real>*, 2> shown_moment_{};
+  std::vector<std::pair<Field<Real>*, std::size_t>> shown_history_;
+};
+
+}  // namespace
+
+void add_beam_passes(const Model& model, const std::vector<BeamPart>& parts, World& world) {
+  const bool shown = model.output.d3plot.asked() || model.output.d3plot_count > 0;
+  for (const BeamPart& part : parts)
+    if (part.group)
+      world.passes.add(std::make_shared<BeamForces>(part, model.parts[static_cast<std::size_t>(part.part)].id,
+                                                    model.tssfac, shown, world));
+}
+
+}  // namespace courant

@@ -1,0 +1,215 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "elements/beam/beams.hpp"
+#include "elements/beam/section_beam.hpp"
+
+namespace courant {
+
+namespace {
+
+constexpr const char* by_point[] = {"MAT_ELASTIC", "MAT_PLASTIC_KINEMATIC",
+                                    "MAT_PIECEWISE_LINEAR_PLASTICITY"};
+
+/// Points of Gauss (1 to 4), or with `lobatto` three of Lobatto, on [-1, 1], and weights with the sum 1.
+std::vector<std::array<Real, 2>> points_on_line(int count, bool lobatto) {
+  if (lobatto) return {{-1, 1.0 / 6}, {0, 2.0 / 3}, {1, 1.0 / 6}};
+  if (count == 1) return {{0, 1}};
+  if (count == 2) return {{-std::sqrt(1.0 / 3), 0.5}, {std::sqrt(1.0 / 3), 0.5}};
+  if (count == 3) return {{-std::sqrt(0.6), 5.0 / 18}, {0, 4.0 / 9}, {std::sqrt(0.6), 5.0 / 18}};
+  const Real root = 2.0 / 7 * std::sqrt(1.2), a = std::sqrt(3.0 / 7 - root), b = std::sqrt(3.0 / 7 + root),
+             wa = (18 + std::sqrt(30.0)) / 72, wb = (18 - std::sqrt(30.0)) / 72;
+  return {{-b, wb}, {-a, wa}, {a, wa}, {b, wb}};
+}
+
+/// Of QR 1 to 5. Of tubes: on the circle that has their second moments.
+std::vector<SectionPoint> section_points(int rule, bool tube) {
+  std::vector<SectionPoint> out;
+  if (tube && rule > 1) {
+    const int count = rule == 2 ? 4 : rule == 5 ? 16 : 8;
+    for (int k = 0; k < count; ++k) {
+      const Real angle = 2 * pi * (k + 0.5) / count;
+      out.push_back({std::cos(angle), std::sin(angle), Real(1) / count});
+    }
+    return out;
+  }
+  const auto line = points_on_line(rule == 5 ? 4 : std::min(rule, 3), rule == 4);
+  for (const auto& [s, ws] : line)
+    for (const auto& [t, wt] : line) out.push_back({s, t, ws * wt});
+  return out;
+}
+
+class BeamReader {
+ public:
+  BeamReader(const Deck& deck, const Model& model, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), diagnostics_(diagnostics) {
+    for (const SectionBeam& s : deck.all<SectionBeam>()) sections_.emplace(s.secid, &s);
+    const int errors = diagnostics.errors();
+    const bool checked = std::any_of(model.parts.begin(), model.parts.end(), [](const ModelPart& p) {
+      return !p.rigid && (p.has_solid || p.has_shell);  // with them
+    });
+    for (const StrengthEntry& kind : strength_registry()) {
+      if (!checked) kind.check(deck, model, diagnostics);
+      if (diagnostics.errors() > errors) continue;  // a law is made from valid cards
+      for (const auto& [id, law] : kind.all(deck, model)) laws_[id] = {law, kind.keyword};
+    }
+    whole_ = diagnostics.errors() == errors;
+  }
+
+  bool read(std::size_t index, BeamPart& out) {
+    const ModelPart& part = model_.parts[index];
+    if (part.rigid)
+      return error(part.card, "MID",
+                   fmt::format("rigid beams, as those of part {}, are not supported", part.id),
+                   "rigid bodies are made of shells or solids");
+    const auto section = sections_.find(part.secid);
+    if (section == sections_.end())
+      return error(part.card, "SECID",
+                   fmt::format("the beams of part {} need a *SECTION_BEAM with id {}; {}", part.id,
+                               part.secid, deck_.found_instead(IdSpace::section, part.secid)),
+                   "");
+    const SectionBeam& s = *section->second;
+    if (!check_section(s) || !whole_) return false;
+    out.kind = s.used() == 1 ? BeamKind::integrated : s.used() == 2 ? BeamKind::resultant : BeamKind::truss;
+    out.part = static_cast<Index>(index), out.nsm = s.nsm;
+    const auto law = laws_.find(part.mid);
+    if (law == laws_.end())
+      return error(part.card, "MID",
+                   fmt::format("the beams of part {} need a material with strength and id {}; {}", part.id,
+                               part.mid, deck_.found_instead(IdSpace::material, part.mid)),
+                   "beams take *MAT_ELASTIC, *MAT_PLASTIC_KINEMATIC, *MAT_PIECEWISE_LINEAR_PLASTICITY");
+    const std::string& name = law->second.second;
+    const bool elastic = name == by_point[0];
+    if (!elastic && (out.kind == BeamKind::resultant ||
+                     std::find(std::begin(by_point), std::end(by_point), name) == std::end(by_point)))
+      return error(part.card, "MID",
+                   fmt::format("*{} is not supported in the beams of part {}", name, part.id),
+                   out.kind == BeamKind::resultant
+                       ? "ELFORM 2 takes *MAT_ELASTIC; ELFORM 1 has plastic materials, too"
+                       : "use *MAT_ELASTIC, *MAT_PLASTIC_KINEMATIC or *MAT_PIECEWISE_LINEAR_PLASTICITY");
+    out.law = law->second.first;
+    if (out.kind == BeamKind::integrated) out.points = section_points(static_cast<int>(s.rule), s.tube());
+    if (out.kind == BeamKind::truss) out.points = {SectionPoint()};
+    for (const ModelBeam& beam : model_.beams)
+      if (beam.part == out.part) add(beam, s, out);
+    return true;
+  }
+
+ private:
+  bool error(const Entry& card, const char* field, std::string message, std::string hint) {
+    deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
+    return false;
+  }
+
+  bool check_section(const SectionBeam& s) {
+    if (!checked_.insert(&s).second) return refused_.count(&s) == 0;
+    bool good = true;
+    const auto refuse = [&](const char* field, std::string message, const char* hint) {
+      good = error(s, field, std::move(message), hint);
+      refused_.insert(&s);
+    };
+    if (s.used() == 0)
+      refuse("ELFORM", fmt::format("'{}' is not supported", s.elform),
+             "supported: 1 (Hughes-Liu), 2 (Belytschko-Schwer), 3 (truss); 4 and 5 become 1, 13 becomes 2");
+    else if (s.elform > 3)
+      deck_.warning(diagnostics_, s, "ELFORM",
+                    fmt::format("{} is not there: {} is used in its place", s.elform, s.used()),
+                    "the same formulation by its own number says the same without this warning");
+    if (s.used() == 1 && !(s.rule >= 1 && s.rule <= 5 && s.rule == std::floor(s.rule)))
+      refuse("QR/IRID", fmt::format("'{:g}' is not supported", s.rule),
+             "1 to 5: one point, 2 x 2, 3 x 3 of Gauss, 3 x 3 of Lobatto, 4 x 4 of Gauss");
+    if (s.used() == 1 && s.cst != 0 && s.cst != 1)
+      refuse("CST", fmt::format("'{:g}' is not supported", s.cst), "0 for a rectangle, 1 for a tube");
+    return good;
+  }
+
+  /// The measures of one beam; of end 1 and 2 the mean.
+  std::optional<BeamMeasures> measures_of(const ModelBeam& beam, const SectionBeam& s, BeamKind kind) {
+    const auto own = [&](std::size_t k, Real of_section) {
+      return beam.measures[k] > 0 ? beam.measures[k] : of_section;
+    };
+    BeamMeasures m;
+    if (kind == BeamKind::truss) {
+      m.A = own(0, s.a);
+    } else if (kind == BeamKind::resultant) {
+      m.A = own(0, s.a), m.Iss = own(1, s.iss), m.Itt = own(2, s.itt), m.J = own(3, s.j);
+      m.shear_area = own(4, s.sa);
+      if (m.Itt == 0) m.Itt = m.Iss;
+      if (m.J == 0) m.J = m.Iss + m.Itt;
+    } else {
+      const Real ts1 = own(0, s.ts1), ts2 = own(1, s.ts2), tt1 = own(2, s.tt1), tt2 = own(3, s.tt2);
+      const Real ts = 0.5 * (ts1 + (ts2 > 0 ? ts2 : ts1)), tt = 0.5 * (tt1 + (tt2 > 0 ? tt2 : tt1));
+      if (s.tube()) {
+        m.A = pi / 4 * (ts * ts - tt * tt);
+        m.half_s = m.half_t = std::sqrt((ts * ts + tt * tt) / 8);
+        m.Iss = m.Itt = m.A * m.half_s * m.half_s / 2;
+      } else {
+        m.A = ts * tt, m.half_s = ts / 2, m.half_t = tt / 2;
+        m.Iss = m.A * tt * tt / 12, m.Itt = m.A * ts * ts / 12;
+      }
+      m.J = m.Iss + m.Itt, m.shear_area = s.shrf * m.A;
+    }
+    const bool good = m.A > 0 && (kind == BeamKind::truss || (m.Iss > 0 && m.Itt > 0));
+    if (good) return m;
+    error(s,
+          kind == BeamKind::integrated ? "TS1"
+          : m.A > 0                    ? "ISS"
+                                       : "A",
+          fmt::format("beam {} has no area, or no second moment of it", beam.id),
+          "measures stand in the second line of *SECTION_BEAM, or in *ELEMENT_BEAM_THICKNESS");
+    return std::nullopt;
+  }
+
+  void add(const ModelBeam& beam, const SectionBeam& s, BeamPart& out) {
+    const auto m = measures_of(beam, s, out.kind);
+    if (!m) return;
+    const auto x = [&](Index n) { return model_.nodes[static_cast<std::size_t>(n)].x; };
+    const Vec r = (x(beam.node[1]) - x(beam.node[0])).normalized();
+    Vec s_axis = beam.direction.norm() > 0 ? beam.direction
+                 : beam.third >= 0         ? Vec(x(beam.third) - x(beam.node[0]))
+                                           : Vec(Vec::Zero());
+    const Real asked = s_axis.norm();
+    s_axis -= s_axis.dot(r) * r;
+    constexpr Real sliver = 1e-6, same = 1e-9;
+    if (!(s_axis.norm() > sliver * asked)) {
+      if (out.kind != BeamKind::truss && std::abs(m->Iss - m->Itt) > same * m->Iss) {
+        error(beam.card, "N3", fmt::format("beam {} has no direction of its axis s", beam.id),
+              "give it a third node off the line from N1 to N2, or a direction by _ORIENTATION");
+        return;
+      }
+      int least = 0;  // any direction will do
+      r.cwiseAbs().minCoeff(&least);
+      s_axis = Vec::Unit(least) - r[least] * r;
+    }
+    Matrix axes;
+    axes.col(0) = r, axes.col(1) = s_axis.normalized(), axes.col(2) = r.cross(Vec(axes.col(1)));
+    out.beams.push_back(&beam), out.measures.push_back(*m), out.axes.push_back(axes);
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  Diagnostics& diagnostics_;
+  bool whole_ = true;  ///< the cards of materials
+  std::map<Id, const SectionBeam*> sections_;
+  std::map<Id, std::pair<std::shared_ptr<StrengthLaw>, std::string>> laws_;
+  std::set<const SectionBeam*> checked_, refused_;
+};
+
+}  // namespace
+
+std::vector<BeamPart> find_beam_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  std::vector<BeamPart> out(model.parts.size());
+  if (model.beams.empty()) return out;
+  BeamReader reader(deck, model, diagnostics);
+  for (std::size_t k = 0; k < model.parts.size(); ++k)
+    if (model.parts[k].has_beam && !reader.read(k, out[k])) out[k] = {};
+  return out;
+}
+
+}  // namespace courant

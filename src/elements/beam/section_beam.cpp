@@ -1,0 +1,59 @@
+#include "elements/beam/section_beam.hpp"
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+
+namespace courant {
+
+namespace {
+
+using S = SectionBeam;
+constexpr FieldRules measure{.check = Check::not_negative};
+
+const RegisterKeyword<S> section_beam{
+    {.names = {"SECTION_BEAM"},
+     .purpose = "cross-sections and formulations of beams",
+     .id_space = IdSpace::section,
+     .title_option = true,
+     .title = &S::title,
+     .cards = {
+         {.fields = {{"SECID", &S::secid, "-", "id that *PART refers to", rules::required_id},
+                     {"ELFORM",
+                      &S::elform,
+                      "-",
+                      "1 Hughes-Liu with points in the section, 2 Belytschko-Schwer, 3 truss",
+                      {.standard = 1}},
+                     {"SHRF",
+                      &S::shrf,
+                      "-",
+                      "factor of transverse shear of 1",
+                      {.standard = 1, .check = Check::positive}},
+                     {"QR/IRID", &S::rule, "-", "points in the section: 1, 2, 3, 4, 5", {.standard = 2}},
+                     {"CST", &S::cst, "-", "0 rectangle, 1 tube"},
+                     {"SCOOR", &S::scoor, "-", "triad of discrete beams", no_effect},
+                     {"NSM", &S::nsm, "M/L", "mass per length besides the material's", measure},
+                     {"NAUPD", &S::naupd, "-", "neutral axis of damaged beams", no_effect}}},
+         {.fields = {{"TS1", &S::ts1, "L", "width in s at end 1; of a tube its outer diameter", measure},
+                     {"TS2", &S::ts2, "L", "the same at end 2, 0: as at end 1", measure},
+                     {"TT1", &S::tt1, "L", "width in t at end 1; of a tube its inner diameter", measure},
+                     {"TT2", &S::tt2, "L", "the same at end 2, 0: as at end 1", measure},
+                     {"NSLOC", &S::nsloc, "-", "nodes off the middle in s", unsupported},
+                     {"NTLOC", &S::ntloc, "-", "nodes off the middle in t", unsupported}},
+          .when = [](const S& s) { return s.used() == 1; }},
+         {.fields = {{"A", &S::a, "L2", "area", measure},
+                     {"ISS", &S::iss, "L4", "second moment of area about s", measure},
+                     {"ITT", &S::itt, "L4", "about t, 0: ISS", measure},
+                     {"J", &S::j, "L4", "of torsion, 0: ISS + ITT", measure},
+                     {"SA", &S::sa, "L2", "area of shear, 0: no shear strain", measure},
+                     {"IST", &S::ist, "L4", "product moment", unsupported}},
+          .when = [](const S& s) { return s.used() == 2; }},
+         {.fields = {{"A", &S::a, "L2", "area", measure},
+                     {"RAMPT", &S::rampt, "T", "ramp of a stress at the start", no_effect},
+                     {"STRESS", &S::stress, "M/LT2", "stress at the start", unsupported}},
+          .when = [](const S& s) { return s.used() == 3; }},
+         {.fields = {{"", {}, "-", "measures of other formulations, which are refused"}},
+          .when = [](const S& s) { return s.used() == 0; }}}}};
+
+}  // namespace
+
+}  // namespace courant
