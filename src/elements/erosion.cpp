@@ -95,6 +95,13 @@ void Erosion::declare(const World&, Accesses& a) const {
   if (impulse_) a.updates(*impulse_);
 }
 
+void Erosion::declare_booking(Accesses& a) const {
+  a.reads(eroded_, Reach::others).reads(group_.id, Reach::others).reads(group_.mass, Reach::others);
+  a.reads(*energies_.internal, Reach::others).reads(*energies_.bulk_viscosity, Reach::others);
+  a.reads(*energies_.hourglass, Reach::others);
+  if (group_.segment) a.reads(*group_.segment, Reach::others);
+}
+
 void Erosion::begin_block(Index begin, Index count) {
   why_[static_cast<std::size_t>(begin / block_size)].clear();
   for (Index e = begin; e < begin + count; ++e) {

@@ -81,6 +81,7 @@ class Erosion {
   void judge(Index begin, Index count, Real share, Real* step_limit, Real* wave_time, Real* volume);
 
   // for who deletes:
+  void declare_booking(Accesses& a) const;
   void set_least_step(Real step) { least_step_ = step; }  ///< DTMIN times the first [T]
   struct Failed {
     Index element;

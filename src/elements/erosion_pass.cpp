@@ -63,8 +63,10 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
   const FieldSet& over(const World& world) const override { return world.segments.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.in_finish().updates(eroded_);
-    for (const auto& group : groups_)
-      a.reads(*shared_fields::eroded.find(group->group().fields), Reach::others);
+    for (const auto& group : groups_) group->declare_booking(a);
+    const Segments& g = world.segments;
+    for (const auto* corner : {&g.node0, &g.node1, &g.node2, &g.node3}) a.reads(*corner, Reach::others);
+    a.reads(g.volume, Reach::others).reads(g.id, Reach::others);
     a.reads(world.segments.part, Reach::others);
   }
   void block(World&, const Clock&, Index, Index) override {}
@@ -108,6 +110,7 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
 
   /// Of elements alone: what they allow at the start.
   void find_first_step(const World& world, const Clock& clock) {
+    const ReadsForMessage unchecked;  // limits tell whose they are
     Real least = std::numeric_limits<Real>::infinity();
     for (auto* elements : world.passes.all<PartReporter>())
       if (auto* limit = dynamic_cast<TimeLimit*>(elements))

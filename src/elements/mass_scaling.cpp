@@ -97,8 +97,9 @@ void ScaledMass::declare(const World& world, Accesses& a) const {
   if (rules_.once) return;
   const Nodes& n = world.nodes;
   a.in_finish().updates(added_).updates(group_.mass).updates(of_nodes_).updates(n.m);
-  a.reads(n.v, Reach::others).reads(n.follow, Reach::others);
+  a.reads(n.v, Reach::others).reads(n.follow, Reach::others).reads(group_.node, Reach::others);
   if (!corner_inertia_) return;
+  a.reads(*corner_inertia_, Reach::others);
   a.updates(*shared_fields::rotary_inertia.find(n.fields));
   a.reads(*shared_fields::angular_velocity.find(n.fields), Reach::others);
   a.reads(*shared_fields::no_rotation.find(n.fields), Reach::others);
