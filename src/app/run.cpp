@@ -291,6 +291,7 @@ class Run {
 
   void at_time_level(World& world, const Clock& clock, const std::string& who) {
     who_ = who;
+    tell_failures(world, clock, messag_);
     if (clock.cycle == first_cycle_) print_first_step(clock);
     summary_.dt_min = std::min(summary_.dt_min, clock.dt);
     summary_.dt_max = std::max(summary_.dt_max, clock.dt);

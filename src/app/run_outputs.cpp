@@ -1,5 +1,7 @@
 #include "app/run_outputs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "extension/additions.hpp"
@@ -50,6 +52,19 @@ HistoryRequests history_requests(const Simulation& s) {
 OutputSchedule field_schedule(const Simulation& s, Real end) {
   const OutputRequests& wanted = s.model().output;
   return wanted.d3plot_count > 0 ? OutputSchedule(end / wanted.d3plot_count) : schedule(wanted.d3plot);
+}
+
+void tell_failures(const World& world, const Clock& clock, Messag& messag) {
+  constexpr std::int64_t most_shown = 20;
+  for (const auto* reporter : world.passes.all<const FailureReporter>())
+    for (const ElementFailure& one : reporter->failures()) {
+      const std::string text = fmt::format(" {} element {:8} of part {} failed at time {:.4E}: {}",
+                                           one.shell ? "shell" : "solid", one.id, one.part, clock.t, one.why);
+      if (world.counters.at("deleted_elements") <= most_shown)
+        messag.line(text);
+      else
+        messag.keep(text);
+    }
 }
 
 }  // namespace courant

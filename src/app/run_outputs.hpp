@@ -2,6 +2,7 @@
 // Which outputs a deck asks of a run, and when.
 #include "app/simulation.hpp"
 #include "output/ascii.hpp"
+#include "output/messag.hpp"
 #include "output/output_schedule.hpp"
 
 namespace courant {
@@ -9,5 +10,7 @@ namespace courant {
 HistoryRequests history_requests(const Simulation& simulation);
 /// When field states are due in a run to `end` [T].
 OutputSchedule field_schedule(const Simulation& simulation, Real end);
+/// Each element that fails at t^n, in messag; the first of them are passed on.
+void tell_failures(const World& world, const Clock& clock, Messag& messag);
 
 }  // namespace courant

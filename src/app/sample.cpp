@@ -87,6 +87,8 @@ void sample_elements(const World& world, Sample& s) {
     PartSample& part = s.parts[k];
     part.mass += sums[k].mass, part.momentum += sums[k].momentum;
     part.internal += sums[k].internal, part.kinetic += sums[k].kinetic, part.hourglass += sums[k].hourglass;
+    part.added_mass += sums[k].added_mass;
+    part.eroded_internal += sums[k].eroded_internal, part.eroded_hourglass += sums[k].eroded_hourglass;
   }
 }
 

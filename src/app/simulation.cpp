@@ -11,6 +11,9 @@
 #include "app/field_options.hpp"
 #include "app/scene_warnings.hpp"
 #include "app/skin.hpp"
+#include "contact/cards.hpp"
+#include "contact/nodes/build.hpp"
+#include "elements/erosion.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "elements/nodal_rotations.hpp"
 #include "extension/additions.hpp"
@@ -24,6 +27,7 @@
 #include "shell/shell.hpp"
 #include "sph/boundaries/level_outlet.hpp"
 #include "sph/materials/initial_stress.hpp"
+#include "surfaces/skin.hpp"
 #include "time/point_motion.hpp"
 
 namespace courant {
@@ -133,15 +137,33 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   if (diagnostics.ok()) {
     build_solids(model_, solids_, node_of, world_);
     build_shells(model_, shells_, node_of, world_, diagnostics);
-    add_solid_passes(model_, solids_, node_of, world_);
-    add_shell_passes(model_, shells_, node_of, world_);
+    std::vector<std::shared_ptr<StrengthLaw>> laws;
+    for (std::size_t k = 0; k < model_.parts.size(); ++k)
+      laws.push_back(law_of_elements(static_cast<Index>(k)));
+    ElementOptions options{mass_scaling_of(deck_), failure_rules(deck_, model_, laws, diagnostics)};
+    add_solid_passes(model_, solids_, node_of, options, world_);
+    add_shell_passes(model_, shells_, node_of, options, world_);
     build_beams(model_, beams_, node_of, world_, diagnostics);
     add_beam_passes(model_, beams_, world_);
     springs_ = build_discrete(deck_, model_, node_of, world_, diagnostics);
+    report_mass_scaling(deck_, model_, world_, diagnostics);
+    add_inner_faces(options.eroding);
+    add_erosion(model_, std::move(options.eroding), world_);
   }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
   start_rotations(model_, node_of, world_);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
+}
+
+// Of solids that may fail, where a contact is to go on with what deletion lays bare.
+void Simulation::add_inner_faces(const std::vector<std::shared_ptr<Erosion>>& eroding) {
+  const std::vector<ContactCard> contacts(deck_.all<ContactCard>());
+  if (std::none_of(contacts.begin(), contacts.end(),
+                   [](const ContactCard& c) { return kind_of(c).eroding && c.erosop == 1; }))
+    return;
+  for (const auto& group : eroding)
+    if (!group->group().segment)
+      add_skin(world_, {group->group().part, bulk_modulus(group->group().part), true});
 }
 
 void Simulation::add_passes(Diagnostics& diagnostics) {

@@ -8,6 +8,7 @@
 #include "contact/contact.hpp"
 #include "contact/nodes/build.hpp"
 #include "model/mesh/named_parts.hpp"
+#include "state/shared_fields.hpp"
 #include "surfaces/skin.hpp"
 
 namespace courant {
@@ -52,6 +53,22 @@ class Builder {
     refuse("PENMAX", c.penmax, c.penmax > 0, "leave the field blank or 0");
     refuse("SLDTHK", c.sldthk, c.sldthk > 0, "give SBST, twice the distance at which particles touch");
     refuse("SLDSTF", c.sldstf, c.sldstf > 0, "scale the stiffness with SFSB");
+  }
+
+  /// Elements that may be deleted are no walls for particles.
+  void refuse_eroding(const ContactCard& c, const std::vector<Index>& segments) {
+    std::set<Index> eroding;
+    for (const auto& group : world_.groups)
+      if (shared_fields::eroded.find(group->fields)) eroding.insert(group->part);
+    for (const Index s : segments) {
+      if (!eroding.contains(world_.segments.part[s])) continue;
+      return deck_.error(
+          diagnostics_, c, "SURFB",
+          fmt::format("the elements of part {} may fail, and particles have no contact with such",
+                      model_.parts[static_cast<std::size_t>(world_.segments.part[s])].id),
+          "leave out what lets them fail: FS or FAIL of the material, *MAT_ADD_EROSION, ERODE of "
+          "*CONTROL_TIMESTEP");
+    }
   }
 
   /// Segments of SURFB
@@ -183,6 +200,7 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
       continue;
     builder.refuse_for_particles(c);
     const std::vector<Index> segments = builder.segments(c);
+    builder.refuse_eroding(c, segments);
     if (diagnostics.errors() > errors || segments.empty()) continue;
     auto contact =
         std::make_shared<Contact>(law_of(deck, c, number), options, number, segments, tracked, world);

@@ -24,6 +24,7 @@ struct ContactCard : Entry {
   Real fricsf = 1;
   int pstiff = 0, ignroff = 0, binr = 0, ssftyp = 0, swtpr = 0;
   Real fstol = 2, tetfac = 0, shloff = 0;
+  int erode_isym = 0, erosop = 0, iadj = 0;  ///< of eroding contacts
 };
 
 /// What the name of a *CONTACT says.
@@ -33,6 +34,7 @@ struct ContactKind {
   bool two_way = false;   ///< nodes of SURFB on faces of SURFA, too
   bool nodes = false;     ///< SURFA gives nodes, which may be particles
   bool edges = false;     ///< edges on edges, too
+  bool eroding = false;   ///< faces that deletion of solids lays bare, too
 };
 ContactKind kind_of(const ContactCard& card);
 

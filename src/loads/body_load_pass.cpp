@@ -2,6 +2,7 @@
 #include "loads/loads.hpp"
 #include "parallel/parallel.hpp"
 #include "state/restartable.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -13,7 +14,10 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
  public:
   BodyLoadPass(BodyAcceleration acceleration, Points points, World& world,
                std::shared_ptr<Neighbours> neighbours)
-      : acceleration_(std::move(acceleration)), points_(points), neighbours_(std::move(neighbours)) {
+      : acceleration_(std::move(acceleration)),
+        points_(points),
+        neighbours_(std::move(neighbours)),
+        added_(shared_fields::added_mass.find(points.fields())) {
     // heights count from the lowest point against gravity
     const Vec g = acceleration_.at(0).everywhere();
     bool any = false;
@@ -32,6 +36,7 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
   void declare(const World&, Accesses& a) const override {
     a.reads(*points_.m).updates(*points_.f);
     if (points_.follow) a.reads(*points_.follow);
+    if (added_) a.reads(*added_);
     if (acceleration_.uniform()) return;
     a.reads(*points_.x);
     if (points_.part) a.reads(*points_.part);
@@ -41,7 +46,7 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
   void block(World&, const Clock&, Index begin, Index end) override {
     if (acceleration_.uniform()) return add_uniform(now_.everywhere(), begin, end);
     for (Index i = begin; i < end; ++i)
-      if (acts_on(i)) points_.f->add(i, (*points_.m)[i] * now_(points_.x->vec(i), part_of(i)));
+      if (acts_on(i)) points_.f->add(i, weighs(i) * now_(points_.x->vec(i), part_of(i)));
   }
 
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
@@ -76,6 +81,8 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
 
  private:
   bool acts_on(Index i) const { return !points_.follow || !(*points_.follow)[i]; }
+  /// Mass that mass scaling added has no weight. [M]
+  Real weighs(Index i) const { return added_ ? (*points_.m)[i] - (*added_)[i] : (*points_.m)[i]; }
   Index part_of(Index i) const { return points_.part ? (*points_.part)[i] : -1; }
 
   void add_uniform(const Vec& g, Index begin, Index end) {
@@ -83,7 +90,10 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
       if (g[k] == 0) continue;
       Real* f = points_.f->data(k);
       const Real *m = points_.m->data(), gk = g[k];
-      if (points_.follow) {
+      if (added_) {
+        for (Index i = begin; i < end; ++i)
+          if (acts_on(i)) f[i] += weighs(i) * gk;
+      } else if (points_.follow) {
         const Index* follow = points_.follow->data();
         for (Index i = begin; i < end; ++i) f[i] += follow[i] ? 0 : m[i] * gk;
       } else {
@@ -100,7 +110,7 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
   }
 
   Real potential_of(const BodyAcceleration::At& now, Index i) const {
-    return acts_on(i) ? (*points_.m)[i] * now.rise(origin_, points_.x->vec(i) - origin_, part_of(i)) : 0;
+    return acts_on(i) ? weighs(i) * now.rise(origin_, points_.x->vec(i) - origin_, part_of(i)) : 0;
   }
   Real potential(const World& world, const BodyAcceleration::At& now) const {
     return sum(loaded_points(points_, world), [&](Index i) { return potential_of(now, i); });
@@ -110,6 +120,7 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
   BodyAcceleration::At now_;
   Points points_;
   std::shared_ptr<Neighbours> neighbours_;
+  const Field<Real>* added_;  ///< null: no mass scaling
   bool particles_ = false;
   Vec origin_ = Vec::Zero();
   bool first_ = true;

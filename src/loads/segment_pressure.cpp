@@ -13,6 +13,7 @@
 #include "model/transforms/transformation.hpp"
 #include "parallel/counting_sort.hpp"
 #include "parallel/parallel.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -242,6 +243,11 @@ std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& mode
   for (const LoadSegment& card : segments) reader.add(card);
   for (const LoadSegmentSet& card : sets) reader.add(card);
   if (reader.faces.empty()) return nullptr;
+  if (shared_fields::eroded.find(world.segments.fields))
+    diagnostics.warning(
+        deck.where(segments.empty() ? static_cast<const Entry&>(sets.front()) : segments.front()),
+        "elements may fail: the pressure goes on to push the nodes of faces that are deleted",
+        "end it by its curve");
   return std::make_shared<SegmentPressure>(std::move(reader.loads), std::move(reader.faces), bodies, world);
 }
 

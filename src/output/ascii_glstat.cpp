@@ -30,7 +30,13 @@ std::string glstat_text(const Sample& s, Real first_potential) {
   for (const InterfaceForce& i : s.interfaces) contact_dissipated += i.energy_damping + i.energy_friction;
   Real at_walls = 0;
   for (const RigidWallForce& wall : s.rigid_walls) at_walls += wall.dissipated;
-  const Real internal = e.internal + e.bulk_viscosity + e.dissipated - contact_dissipated - at_walls;
+  Real mass = 0, added_mass = 0, eroded_internal = 0, eroded_hourglass = 0;
+  for (const PartSample& part : s.parts) {
+    mass += part.mass, added_mass += part.added_mass;
+    eroded_internal += part.eroded_internal, eroded_hourglass += part.eroded_hourglass;
+  }
+  const Real eroded = eroded_internal + eroded_hourglass;
+  const Real internal = e.internal + e.bulk_viscosity + e.dissipated - contact_dissipated - at_walls - eroded;
   const Real external_work = e.external_work + first_potential - e.potential;
   const Real total = e.total() - e.potential;
   const Real expected = e.initial - first_potential + external_work;
@@ -48,13 +54,16 @@ std::string glstat_text(const Sample& s, Real first_potential) {
   out += line("rigid body stopper energy", 0) + line("spring and damper energy", e.discrete);
   out += line("system damping energy", 0) + line("sliding interface energy", e.contact + contact_dissipated);
   out += line("external work", external_work);
-  out += line("eroded kinetic energy", 0) + line("eroded internal energy", 0) +
-         line("eroded hourglass energy", 0);
+  out += line("eroded kinetic energy", 0) + line("eroded internal energy", eroded_internal) +
+         line("eroded hourglass energy", eroded_hourglass);
   out += line("total energy", total);
   out += line("total energy / initial energy", expected != 0 ? total / expected : 1);
-  out += line("energy ratio w/o eroded energy", expected != 0 ? total / expected : 1);
+  out += line("energy ratio w/o eroded energy", expected != 0 ? (total - eroded) / expected : 1);
   out += line("global x velocity", s.velocity.x()) + line("global y velocity", s.velocity.y());
   out += line("global z velocity", s.velocity.z());
+  if (added_mass != 0)
+    out +=
+        line("added mass", added_mass) + line("percentage increase", 100 * added_mass / (mass - added_mass));
   out += fmt::sprintf(" %s%14d\n", "time per zone cycle.(nanosec)..",
                       static_cast<long long>(s.ns_per_zone_cycle + 0.5));
   return out;

@@ -13,11 +13,13 @@ namespace courant {
 struct PartSample {
   Id id = 0;
   std::string title;
-  Real mass = 0;                     ///< of active particles, or of the body [M]
-  Real internal = 0, kinetic = 0;    ///< [ML2/T2]
-  Real hourglass = 0;                ///< [ML2/T2]
-  Vec momentum = Vec::Zero();        ///< [ML/T]
-  Vec rigid_velocity = Vec::Zero();  ///< of the centre of mass [L/T]
+  Real mass = 0;                                   ///< of active particles, or of the body [M]
+  Real internal = 0, kinetic = 0;                  ///< [ML2/T2]
+  Real hourglass = 0;                              ///< [ML2/T2]
+  Real added_mass = 0;                             ///< by mass scaling, part of `mass` [M]
+  Real eroded_internal = 0, eroded_hourglass = 0;  ///< of deleted elements [ML2/T2]
+  Vec momentum = Vec::Zero();                      ///< [ML/T]
+  Vec rigid_velocity = Vec::Zero();                ///< of the centre of mass [L/T]
 };
 
 struct ParticleSample {

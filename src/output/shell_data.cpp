@@ -7,6 +7,7 @@
 
 #include "output/field_data.hpp"
 #include "output/vtk_arrays.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 namespace {
@@ -90,7 +91,9 @@ VtkArray node_places(const World& world, const std::vector<Index>& nodes, const 
 VtkDataSet shell_data(const World& world, const FieldWriterOptions& options) {
   const std::vector<Index> nodes = all_of(world.nodes.size());
   std::vector<Index> segments = all_of(world.segments.size());
+  const Field<Index>* eroded = shared_fields::eroded.find(world.segments.fields);
   std::erase_if(segments, [&](Index s) {
+    if (eroded && (*eroded)[s] != 0) return true;
     return std::binary_search(options.left_out.begin(), options.left_out.end(), world.segments.part[s]);
   });
   std::vector<VtkArray> of_nodes, of_segments;

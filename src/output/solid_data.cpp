@@ -8,6 +8,7 @@
 #include "output/field_data.hpp"
 #include "output/vtk_arrays.hpp"
 #include "output/vtk_cell.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 namespace {
@@ -38,11 +39,19 @@ std::vector<Index> nodes_used(const World& world, const Groups& groups, std::vec
   return out;
 }
 
+/// Elements that are not deleted.
+std::vector<Index> elements_shown(const ElementGroup& group) {
+  std::vector<Index> out = all_of(group.size());
+  if (const Field<Index>* eroded = shared_fields::eroded.find(group.fields))
+    std::erase_if(out, [&](Index e) { return (*eroded)[e] != 0; });
+  return out;
+}
+
 VtkSection cells(const Groups& groups, const std::vector<Index>& place) {
   std::vector<Index> corners, ends;
   std::vector<std::uint8_t> types;
   for (const ElementGroup* group : groups)
-    for (Index e = 0; e < group->size(); ++e) {
+    for (const Index e : elements_shown(*group)) {
       const VtkCell cell = vtk_cell(*group, e);
       for (const int c : cell.corners)
         corners.push_back(place[static_cast<std::size_t>(group->node.data(c)[e])]);
@@ -73,9 +82,10 @@ std::vector<VtkArray> cell_data(const Groups& groups, const FieldWriterOptions& 
       const std::size_t width = all.bytes.size();
       all.bytes.clear();
       for (const ElementGroup* group : groups) {
-        const std::size_t end = all.bytes.size() + width * static_cast<std::size_t>(group->size());
+        const std::vector<Index> shown = elements_shown(*group);
+        const std::size_t end = all.bytes.size() + width * shown.size();
         if (const FieldBase* mine = group->fields.find(field->info().name)) {
-          const VtkArray one = copy_of(*mine, all_of(group->size()), options.float64, 0);
+          const VtkArray one = copy_of(*mine, shown, options.float64, 0);
           if (same_kind(one, all)) all.bytes.insert(all.bytes.end(), one.bytes.begin(), one.bytes.end());
         }
         all.bytes.resize(end);
@@ -96,7 +106,7 @@ VtkDataSet solid_data(const World& world, const FieldWriterOptions& options) {
     if (field->info().output) of_nodes.push_back(copy_of(*field, nodes, options.float64, 0));
   std::vector<Id> part;
   for (const ElementGroup* group : groups)
-    part.insert(part.end(), static_cast<std::size_t>(group->size()),
+    part.insert(part.end(), elements_shown(*group).size(),
                 group->part < 0 ? 0 : options.part_ids.at(static_cast<std::size_t>(group->part)));
   of_elements.push_back(
       make_array<Id, 1>("part", "", part.size(), [&](std::size_t i, Id* to) { *to = part[i]; }));

@@ -157,19 +157,20 @@ class Builder {
     b.c2 = m.ro > 0 ? m.E / m.ro : 0;
     Diagnostics told_before;
     read_constraints(deck_, m, b, checked_.insert(m.mid).second ? diagnostics_ : told_before);
+    constrained_.clear();
     std::set<Index> nodes;
     for (const ModelShell& shell : model_.shells)
       if (shell.part == part)
         for (const Index n : shell.node) {
           nodes.insert(world_node_.at(model_.nodes[n].id));
-          if (!b.fixed()) refuse_spc(part, model_.nodes[n]);
+          note_spc(model_.nodes[n]);
         }
-    std::vector<SkinCell> cells = cells_of(part, nodes, b.fixed());
+    std::vector<SkinCell> cells = cells_of(part, nodes);
     add_solid_masses(m, part, cells);
     b.solids = static_cast<Index>(cells.size());
     for (const SkinCell& cell : cells) b.volume += cell.volume;
     const std::set<Index> of_elements = nodes;
-    add_extra_nodes(part, b, nodes);
+    add_extra_nodes(part, nodes);
     b.nodes.assign(nodes.begin(), nodes.end());
     const auto given = given_.find(b.part);
     if (!b.fixed() && given == given_.end()) warn_of_shared_nodes(part, of_elements);
@@ -188,6 +189,7 @@ class Builder {
     for (const Index n : b.nodes) b.X.push_back(world_.nodes.x.vec(n) - b.x);
     for (const BodyForceLoad& load : loads_)
       if (load.part == part) b.loads.push_back(load);
+    hold_by_nodes(part, b);
     if (world_.dim == 2) in_plane(part, b);
     if (!can_turn(b))
       diagnostics_.error(
@@ -212,13 +214,13 @@ class Builder {
   }
 
  private:
-  void add_extra_nodes(Index part, const RigidBody& b, std::set<Index>& nodes) {
+  void add_extra_nodes(Index part, std::set<Index>& nodes) {
     const auto extra = extra_.find(part);
     if (extra == extra_.end()) return;
     for (const ExtraNode& e : extra->second) {
       const ModelNode& node = model_.nodes[static_cast<std::size_t>(e.node)];
       nodes.insert(world_node_.at(node.id));
-      if (!b.fixed()) refuse_spc(part, node);
+      note_spc(node);
     }
   }
 
@@ -267,7 +269,7 @@ class Builder {
   }
 
   /// The solids of a part; adds their nodes to those of its body.
-  std::vector<SkinCell> cells_of(Index part, std::set<Index>& nodes, bool fixed) {
+  std::vector<SkinCell> cells_of(Index part, std::set<Index>& nodes) {
     std::vector<SkinCell> cells;
     for (const ModelSolid& solid : model_.solids) {
       if (solid.part != part) continue;
@@ -276,7 +278,7 @@ class Builder {
       for (std::size_t c = 0; c < corner.size(); ++c) {
         const ModelNode& node = model_.nodes[static_cast<std::size_t>(corner[c])];
         nodes.insert(cell.node[c] = world_node_.at(node.id));
-        if (!fixed) refuse_spc(part, node);
+        note_spc(node);
       }
     }
     return cells;
@@ -297,15 +299,73 @@ class Builder {
     add_skin(world_, {part, m.E / (3 * (1 - 2 * m.pr))}, cells);
   }
 
-  void refuse_spc(Index part, const ModelNode& node) {
+  std::array<bool, 3> held_rotations(const ModelNode& node) const {
     const auto turns = model_.held_rotations.find(static_cast<Index>(&node - model_.nodes.data()));
-    const auto any = [](const std::array<bool, 3>& axes) { return axes[0] || axes[1] || axes[2]; };
-    const bool turning = turns != model_.held_rotations.end() && any(turns->second);
-    if (!(any(node.fixed) || turning) || !refused_.insert(part).second) return;
-    diagnostics_.error(model_.parts[part].where,
-                       fmt::format("*BOUNDARY_SPC or {} on node {} of rigid part {} is not supported",
-                                   any(node.fixed) ? "TC" : "RC", node.id, model_.parts[part].id),
-                       "hold the body with CMO = 1, CON1 and CON2 of its *MAT_RIGID");
+    return turns == model_.held_rotations.end() ? std::array<bool, 3>{} : turns->second;
+  }
+  void note_spc(const ModelNode& node) {
+    const std::array<bool, 3> turns = held_rotations(node);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (node.fixed[k] || turns[k]) return constrained_.push_back(&node);
+  }
+
+  /// SPC, TC and RC of nodes hold the body where that is the same as holding motions of its centre and turns
+  /// about it along global axes: where of the motions that they forbid, as many are such ones as there are.
+  void hold_by_nodes(Index part, RigidBody& b) {
+    constexpr Real small = 1e-6;
+    if (b.fixed() || constrained_.empty()) return;
+    using Motion = Eigen::Matrix<Real, 6, 1>;
+    std::vector<Motion> forbidden;  // orthonormal
+    const auto rest_of = [&](Motion motion) {
+      for (const Motion& one : forbidden) motion -= one.dot(motion) * one;
+      return motion;
+    };
+    const auto forbid = [&](const Motion& motion) {
+      const Motion rest = rest_of(motion.normalized());
+      if (rest.norm() > small) forbidden.push_back(rest.normalized());
+    };
+    for (int k = 0; k < 3; ++k) {  // what the material holds
+      if (b.held[static_cast<std::size_t>(k)]) forbid(Motion::Unit(k));
+      if (b.no_turn[static_cast<std::size_t>(k)]) forbid(Motion::Unit(3 + k));
+    }
+    Real size = 0;
+    for (const Index n : b.nodes) size = std::max(size, (world_.nodes.x.vec(n) - b.x).norm());
+    for (const ModelNode* node : constrained_) {
+      const std::array<bool, 3> turns = held_rotations(*node);
+      for (int k = 0; k < 3; ++k) {
+        Motion motion = Motion::Zero();
+        motion.head<3>() = Vec::Unit(k), motion.tail<3>() = ((node->x - b.x) / size).cross(Vec::Unit(k));
+        if (node->fixed[static_cast<std::size_t>(k)]) forbid(motion);
+        if (turns[static_cast<std::size_t>(k)]) forbid(Motion::Unit(3 + k));
+      }
+    }
+    std::array<bool, 6> held{};
+    std::size_t count = 0;
+    for (int k = 0; k < 6; ++k)
+      count += held[static_cast<std::size_t>(k)] = rest_of(Motion::Unit(k)).norm() < small;
+    tell_spc(part, count == forbidden.size() ? held : std::array<bool, 6>{});
+    if (count != forbidden.size()) return;
+    for (std::size_t k = 0; k < 3; ++k)
+      b.held[k] = b.held[k] || held[k], b.no_turn[k] = b.no_turn[k] || held[3 + k];
+  }
+
+  /// `held`: none where the body cannot be held so.
+  void tell_spc(Index part, const std::array<bool, 6>& held) {
+    const ModelNode& node = *constrained_.front();
+    const bool moves = node.fixed[0] || node.fixed[1] || node.fixed[2];
+    const auto text = fmt::format("*BOUNDARY_SPC or {} on node {} of rigid part {}", moves ? "TC" : "RC",
+                                  node.id, model_.parts[part].id);
+    constexpr const char* instead = "hold the body with CMO = 1, CON1 and CON2 of its *MAT_RIGID";
+    std::string axes;
+    constexpr const char* names[] = {"x", "y", "z", "turns about x", "turns about y", "turns about z"};
+    for (std::size_t k = 0; k < held.size(); ++k)
+      if (held[k]) axes += (axes.empty() ? "" : ", ") + std::string(names[k]);
+    if (axes.empty())
+      return diagnostics_.error(model_.parts[part].where, text + " is not supported", instead);
+    diagnostics_.warning(
+        model_.parts[part].where,
+        fmt::format("{}: {} such nodes hold the whole body: {}", text, constrained_.size(), axes),
+        std::string(instead) + ", which says the same without this warning");
   }
 
   // As LS-DYNA does: what solids have given these nodes counts.
@@ -372,8 +432,8 @@ class Builder {
   std::map<Id, const PartInertiaCard*> given_;
   std::map<Id, Index> world_node_;
   std::vector<Index> owner_;
-  std::set<Index> refused_;
-  std::set<Id> checked_;  // one material may serve several parts
+  std::vector<const ModelNode*> constrained_;  // of the body at hand, by SPC, TC or RC
+  std::set<Id> checked_;                       // one material may serve several parts
   std::vector<RigidBody> bodies_;
 };
 

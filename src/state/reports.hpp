@@ -32,12 +32,28 @@ struct PartSums {
   Real mass = 0;                                  ///< [M]
   Real internal = 0, kinetic = 0, hourglass = 0;  ///< [ML2/T2]
   Vec momentum = Vec::Zero();                     ///< [ML/T]
+  Real added_mass = 0;                            ///< by mass scaling, part of `mass` [M]
+  /// Of elements that were deleted, as they had it then; not in the sums above. [ML2/T2]
+  Real eroded_internal = 0, eroded_hourglass = 0;
 };
 /// A pass over elements of parts.
 struct PartReporter {
   virtual ~PartReporter() = default;
   /// Adds to the sums; one for each part of the model.
   virtual void report_part(const World& world, std::vector<PartSums>& parts) const = 0;
+};
+
+/// An element that is deleted.
+struct ElementFailure {
+  Id id = 0, part = 0;
+  bool shell = false;
+  std::string why;  ///< "plastic strain 0.21"
+};
+/// A pass that deletes elements.
+struct FailureReporter {
+  virtual ~FailureReporter() = default;
+  /// Those that failed at t^n, in the order of groups and elements.
+  virtual const std::vector<ElementFailure>& failures() const = 0;
 };
 
 /// A pass that pushes particles off walls besides contact.

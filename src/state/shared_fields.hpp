@@ -47,6 +47,12 @@ inline const SharedField<Real> angular_velocity{
 inline const SharedField<Real> moment{
     {.name = "moment", .dimension = "ML2/T2", .components = 3, .restart = false}};
 inline const SharedField<Real> rotary_inertia{{.name = "rotary_inertia", .dimension = "ML2"}};
+/// Nodes: the share of their mass that mass scaling added [M].
+inline const SharedField<Real> added_mass{{.name = "added_mass", .dimension = "M", .output = true}};
+/// Elements and faces: 0 there, else one of the values below. Only where elements may fail.
+inline const SharedField<Index> eroded{{.name = "eroded", .dimension = "-"}};
+inline constexpr Index deleted = 1;
+inline constexpr Index hidden = 2;  ///< an inner face of solids, which deletion may lay bare
 /// Nodes: 1 where moments do not turn it: a rigid body does, or it belongs to no shell that deforms.
 inline const SharedField<Index> no_rotation{{.name = "no_rotation", .dimension = "-"}};
 /// As held_axes and prescribed_motion, of rotations.

@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "state/shared_fields.hpp"
+
 namespace courant {
 
 namespace {
@@ -44,7 +46,7 @@ std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness,
   std::vector<std::pair<const SkinCell*, Face>> outer;
   for (const SkinCell& cell : cells)
     for (const auto& corners : faces)
-      if (nodes_of_face(cell, corners, face) && count[sorted_corners(face)] == 1)
+      if (nodes_of_face(cell, corners, face) && (stiffness.inner || count[sorted_corners(face)] == 1))
         outer.emplace_back(&cell, face);
   Segments& s = world.segments;
   std::vector<Index> out;
@@ -57,6 +59,8 @@ std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness,
     s.volume[at] = cell->volume;
     s.part[at] = stiffness.part;
     s.id[at] = cell->id;
+    if (stiffness.inner && count[sorted_corners(face)] > 1)
+      (*shared_fields::eroded.find(s.fields))[at] = shared_fields::hidden;
     out.push_back(at++);
   }
   return out;

@@ -11,6 +11,7 @@ namespace courant {
 struct SkinStiffness {
   Index part = 0;         ///< index into the model's parts
   Real bulk_modulus = 0;  ///< of their material [M/LT2]
+  bool inner = false;     ///< faces between elements, too, of each of the two, marked as hidden
 };
 
 /// A hexahedron, or what becomes of it where nodes stand several times.
@@ -25,7 +26,8 @@ struct SkinCell {
 std::array<Index, 4> sorted_corners(std::array<Index, 4> corner);
 
 /// Adds the faces of cells that no other of them has to world.segments, with normals that point outwards, in
-/// the order of cells and faces. Returns these segments.
+/// the order of cells and faces. Returns these segments. With `inner` the world needs shared_fields::eroded
+/// of segments.
 std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness, const std::vector<SkinCell>& cells);
 
 /// The same for the elements of a part in the world's groups. A part whose skin is there already gets no

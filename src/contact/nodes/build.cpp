@@ -35,6 +35,7 @@ class NodeContactBuilder {
   void add(const ContactCard& c, int number) {
     const int errors = diagnostics_.errors();
     const ContactKind kind = kind_of(c);
+    finder_.with_inner(kind.eroding && c.erosop == 1);
     const std::vector<Index> faces_a = finder_.faces(c, ContactSide::a);
     const std::vector<Index> faces_b = kind.single ? faces_a : finder_.faces(c, ContactSide::b);
     const std::vector<Index> nodes_a = finder_.nodes(c, ContactSide::a, faces_a);
@@ -182,7 +183,7 @@ class NodeContactBuilder {
       node.first = static_cast<Index>(sides.own.size());
       for (const Index s : faces_of[static_cast<std::size_t>(n)]) {
         OwnFace own;
-        own.node = g.nodes(s), own.two_sided = !(g.volume[s] > 0);
+        own.node = g.nodes(s), own.segment = s, own.two_sided = !(g.volume[s] > 0);
         const Real area = area_of({world_.nodes.x.vec(own.node[0]), world_.nodes.x.vec(own.node[1]),
                                    world_.nodes.x.vec(own.node[2]), world_.nodes.x.vec(own.node[3])});
         const int corners = own.node[2] == own.node[3] ? 3 : 4;
@@ -231,6 +232,7 @@ class NodeContactBuilder {
     law.birth = c.bt, law.death = c.dt;
     law.soft = c.soft, law.sofscl = c.sofscl, law.dtstif = c.dtstif;
     law.tssfac = options_.tssfac;
+    law.enmass = control_.enmass;
     return law;
   }
 

@@ -28,6 +28,8 @@ class FaceFinder {
         bulk_modulus_(std::move(bulk_modulus)),
         world_(world),
         diagnostics_(diagnostics) {}
+  /// From here on faces between solids count, too, that deletion may lay bare; or not.
+  void with_inner(bool inner) { inner_ = inner; }
   /// Indices into world.segments, ascending; none of a node set.
   std::vector<Index> faces(const ContactCard& card, ContactSide side);
   /// Indices into world.nodes, ascending: corners of the faces, or of a node set those that elements have.
@@ -38,6 +40,7 @@ class FaceFinder {
  private:
   using Key = std::array<Index, 4>;
   std::vector<Index> of_parts(const std::vector<char>& chosen);
+  bool is_hidden(Index segment) const;
   std::vector<Index> of_parts(const ContactCard& card, const char* field, const std::vector<char>& chosen);
   std::vector<Index> of_segment_set(const ContactCard& card, const char* field, Id id);
   std::vector<Index> of_shell_set(const ContactCard& card, const char* field, Id id);
@@ -50,6 +53,7 @@ class FaceFinder {
   std::function<Real(Index)> bulk_modulus_;
   World& world_;
   Diagnostics& diagnostics_;
+  bool inner_ = false;
   std::map<Id, Index> node_of_id_;
   std::map<Key, Index> face_of_corners_;
 };

@@ -4,6 +4,7 @@
 
 #include "contact/nodes/build.hpp"
 #include "model/mesh/named_parts.hpp"
+#include "state/shared_fields.hpp"
 #include "surfaces/skin.hpp"
 
 namespace courant {
@@ -38,7 +39,7 @@ const std::map<FaceFinder::Key, Index>& FaceFinder::face_of_corners() {
   if (!face_of_corners_.empty()) return face_of_corners_;
   of_parts(std::vector<char>(model_.parts.size(), 1));
   for (Index s = 0; s < world_.segments.size(); ++s) {
-    face_of_corners_.emplace(sorted_corners(world_.segments.nodes(s)), s);
+    if (!is_hidden(s)) face_of_corners_.emplace(sorted_corners(world_.segments.nodes(s)), s);
   }
   return face_of_corners_;
 }
@@ -50,8 +51,13 @@ std::vector<Index> FaceFinder::of_parts(const std::vector<char>& chosen) {
     if (chosen[k] && model_.parts[k].has_solid)
       add_skin(world_, {static_cast<Index>(k), bulk_modulus_(static_cast<Index>(k))});
   for (Index s = 0; s < g.size(); ++s)
-    if (chosen[static_cast<std::size_t>(g.part[s])]) out.push_back(s);
+    if (chosen[static_cast<std::size_t>(g.part[s])] && (inner_ || !is_hidden(s))) out.push_back(s);
   return out;
+}
+
+bool FaceFinder::is_hidden(Index s) const {
+  const Field<Index>* eroded = shared_fields::eroded.find(world_.segments.fields);
+  return eroded && (*eroded)[s] == shared_fields::hidden;
 }
 
 std::vector<Index> FaceFinder::of_parts(const ContactCard& card, const char* field,

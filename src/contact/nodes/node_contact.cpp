@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "parallel/parallel.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 
@@ -32,7 +33,8 @@ NodeContact::NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodi
       nodes_(std::move(sides.nodes)),
       own_(std::move(sides.own)),
       faces_(std::move(sides.faces)),
-      set_(&world.add_set(fmt::format("contact {} nodes", number))) {
+      set_(&world.add_set(fmt::format("contact {} nodes", number))),
+      eroded_(shared_fields::eroded.find(world.segments.fields)) {
   in_touch_ = &slot_field<Index>(*set_, "in_touch", "-", most_touches);
   leaked_ = &slot_field<Index>(*set_, "leaked", "-", 1);
   side_ = &slot_field<Real>(*set_, "side", "-", most_touches);
@@ -89,6 +91,7 @@ void NodeContact::declare(const World& world, Accesses& a) const {
   a.updates(*in_touch_).updates(*side_).updates(*k_).updates(*slack_).updates(*area_).updates(*friction_);
   a.in_start().reads(n.x, Reach::others).reads(n.v, Reach::others).updates(*in_touch_);
   a.reads(n.held, Reach::others);
+  if (eroded_) a.reads(*eroded_, Reach::others).in_block().reads(*eroded_, Reach::others);
   a.in_finish().updates(*leaked_).writes(touches_resource_).updates(world.segments.contact_force);
   a.reads(n.m, Reach::others).reads(n.held, Reach::others);
 }
@@ -115,20 +118,40 @@ void NodeContact::follow(World& world, const Clock& clock) {
         return Most{std::max(a.moved2, b.moved2), std::max(a.v2, b.v2)};
       });
   reach_ = std::max(least_reach * size_, 2.2 * std::sqrt(most.v2) * clock.dt_old);
-  if (listed_once_ && reach_ + 2.01 * std::sqrt(most.moved2) <= listed_reach_) return;
+  const auto deleted = world.counters.find("deleted_elements");
+  const std::int64_t count = deleted == world.counters.end() ? 0 : deleted->second;
+  if (count == eroded_count_ && listed_once_ && reach_ + 2.01 * std::sqrt(most.moved2) <= listed_reach_)
+    return;
+  eroded_count_ = count;
   listed_reach_ = reach_ + std::max(list_margin * size_, reach_ - least_reach * size_);
   list(world);
 }
 
 bool NodeContact::may_touch(const World& world, const ContactNode& n, const ContactFace& f) const {
-  if (!(f.passes & (1U << n.pass)) || f.has(n.node)) return false;
+  if (!(f.passes & (1U << n.pass)) || f.has(n.node) || !is_there(f)) return false;
   const auto all = [&](const auto& holds) { return std::all_of(f.node.begin(), f.node.end(), holds); };
   if (world.nodes.held[n.node] && all([&](Index c) { return world.nodes.held[c] != 0; })) return false;
   const Index body = bodies_.body(n.node);
   return body < 0 || !all([&](Index c) { return bodies_.body(c) == body; });
 }
 
+// Who has faces of its own but none that is there is inside of a body, or has lost all of its elements.
+bool NodeContact::has_faces(const ContactNode& n) const {
+  if (!eroded_ || n.first == n.last) return true;
+  bool all_deleted = true, of_solid = false;
+  for (Index o = n.first; o < n.last; ++o) {
+    const OwnFace& own = own_[static_cast<std::size_t>(o)];
+    const Index state = (*eroded_)[own.segment];
+    if (state == 0) return true;
+    all_deleted = all_deleted && state == shared_fields::deleted;
+    of_solid = of_solid || !own.two_sided;
+  }
+  return all_deleted && (law_.enmass == 2 || (law_.enmass == 1 && of_solid));
+}
+
 void NodeContact::list(World& world) {
+  may_touch_.resize(nodes_.size());
+  for_each(set_->size(), [&](Index i) { may_touch_[static_cast<std::size_t>(i)] = has_faces(node(i)); });
   const Nodes& nodes = world.nodes;
   search_.build(faces_, nodes.x, r_most_ + listed_reach_, least_reach * size_);
   for_each(static_cast<Index>(involved_.size()), [&](Index k) {
@@ -150,6 +173,7 @@ void NodeContact::list_block(const World& world, Index begin, Index end) {
   b.first.clear(), b.candidate.clear();
   for (Index i = begin; i < end; ++i) {
     b.first.push_back(static_cast<Index>(b.candidate.size()));
+    if (!may_touch_[static_cast<std::size_t>(i)]) continue;
     search_.near(world.nodes.x.vec(node(i).node), [&](Index f) {
       if (may_touch(world, node(i), face(f))) b.candidate.push_back(f);
     });
@@ -178,6 +202,7 @@ void NodeContact::start(World& world, const Clock& clock) {
 void NodeContact::block(World& world, const Clock& clock, Index begin, Index end) {
   Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];
   b.touches.clear(), b.leaked.clear();
+  b.let_go = 0;
   if (asleep_) return;
   for (Index i = begin; i < end; ++i) touch(world, clock, b, i);
 }
@@ -187,6 +212,7 @@ void NodeContact::finish(World& world, const Clock&) {
   Real deepest = 0;
   for (const Block& b : blocks_) {
     touches_.insert(touches_.end(), b.touches.begin(), b.touches.end());
+    let_go_ += b.let_go;
     for (const Index i : b.leaked) {
       if ((*leaked_)[i]) continue;
       (*leaked_)[i] = 1;

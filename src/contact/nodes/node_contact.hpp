@@ -27,6 +27,7 @@ struct NodeContactLaw {
   int soft = 0, penopt = 1;
   Real sofscl = 0.1, dtstif = 0;  ///< SOFT 1: scale [-] and step if given [T]
   Real tssfac = 0.9;              ///< what elements leave of their own step
+  int enmass = 0;                 ///< whose nodes go on to touch once their elements are deleted
 };
 
 /// A node that touches faces.
@@ -40,6 +41,7 @@ struct ContactNode {
 /// A face that a tracked node belongs to: its stiffness and area are shared by its corners.
 struct OwnFace {
   std::array<Index, 4> node{};
+  Index segment = 0;  ///< index into World::segments
   bool two_sided = false;
   Real k = 0, area = 0;  ///< share of the node [M/T2], [L2]
 };
@@ -140,6 +142,7 @@ class NodeContact : public Force,
     std::vector<Index> leaked;  ///< tracked nodes
     std::vector<Seen> seen;     ///< scratch
     Real damping_work = 0, friction_work = 0;
+    Real let_go = 0;  ///< energy of touches with faces that are deleted [ML2/T2]
   };
   struct Stiffest {   ///< by what is in touch with it
     Real omega2 = 0;  ///< bound of the largest frequency, squared [1/T2]
@@ -165,6 +168,9 @@ class NodeContact : public Force,
                bool inside) const;
   void find_touches(const World& world, const Clock& clock, const Block& b, Index i, Slots& slots) const;
   bool arrives(const World& world, const Clock& clock, Index i, const Seen& seen, Slot& slot) const;
+  bool is_there(const ContactFace& f) const { return !eroded_ || (*eroded_)[f.segment] == 0; }
+  bool has_faces(const ContactNode& n) const;
+  void let_go(const World& world, Block& b, Index i, const Vec& x, Slots& slots) const;
   bool take(const World& world, Index i, const Slot& slot, Slots& slots) const;
   bool is_taken(const Slots& slots, Index face) const;
   bool goes_on(const Slots& slots, const Seen& seen) const;
@@ -216,6 +222,9 @@ class NodeContact : public Force,
   Stiffest stiffest_;
   Resource touches_resource_{"touches of nodes"};
   Real damping_work_ = 0, friction_work_ = 0;
+  const Field<Index>* eroded_;     ///< of segments; null: nothing fails
+  std::vector<char> may_touch_;    ///< by tracked node: some face of its own is there
+  std::int64_t eroded_count_ = 0;  ///< deleted elements when lists were made
   Real let_go_ = 0;  ///< energy of touches that ended with the contact's life, not yet in the ledger [ML2/T2]
 };
 

@@ -73,6 +73,7 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   Slots slots;
   if (any)
     for (int k = 0; k < most_touches; ++k) slots[static_cast<std::size_t>(k)] = load(i, k);
+  if (eroded_) let_go(world, b, i, x, slots);
   for (Slot& slot : slots)
     if (slot.face >= 0 && !hold(world, b, i, x, slots, slot)) slot = Slot();
   find_touches(world, clock, b, i, slots);
@@ -81,6 +82,18 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   for (int k = 0; k < most_touches; ++k) {
     const Slot& slot = slots[static_cast<std::size_t>(k)];
     if (any || slot.face >= 0) store(i, k, slot);
+  }
+}
+
+// Of what is deleted: its springs lose what they hold.
+void NodeContact::let_go(const World& world, Block& b, Index i, const Vec& x, Slots& slots) const {
+  for (Slot& slot : slots) {
+    if (slot.face < 0 || (is_there(face(slot.face)) && may_touch_[static_cast<std::size_t>(i)])) continue;
+    const ContactFace& f = face(slot.face);
+    const Projection at = project(corners_of(f, world.nodes.x), f.corners, x);
+    const Real depth = f.r + node(i).r - slot.side * at.n.dot(x - at.q) - slot.slack;
+    if (depth > 0 && depth < f.depth + f.r + node(i).r) b.let_go += 0.5 * slot.k * depth * depth;
+    slot = Slot();
   }
 }
 

@@ -24,8 +24,8 @@ class ShellForces : public Material,
                     public PartReporter,
                     public FieldFiller {
  public:
-  ShellForces(const ShellPart& part, const ElementGroup& group, Id part_id, Real tssfac, bool shown,
-              const std::vector<std::array<bool, 3>>& held, World& world)
+  ShellForces(const ShellPart& part, const ElementGroup& group, Id part_id, Real tssfac,
+              ElementOptions& options, bool shown, const std::vector<std::array<bool, 3>>& held, World& world)
       : group_(group),
         law_(part.law),
         part_id_(part_id),
@@ -58,7 +58,10 @@ class ShellForces : public Material,
     if (shown) add_shown_fields();
     for (Index e = 0; e < group_.size(); ++e) thickness_[e] = world.segments.thickness[(*group_.segment)[e]];
     start(world, {});
+    if (options.scaling.step > 0) scale_masses(options.scaling, world);
     limit_to_frequency(held, world);
+    if (const FailureRules& rules = options.failure[static_cast<std::size_t>(group.part)]; rules.any())
+      options.eroding.push_back(erosion_ = make_erosion(rules, world));
   }
   std::string name() const override { return group_.fields.name(); }
   const FieldSet& over(const World&) const override { return group_.fields; }
@@ -69,6 +72,8 @@ class ShellForces : public Material,
     a.writes(group_.corner_force).writes(*group_.corner_moment);
     if (hourglass_force_) a.updates(*hourglass_force_);
     for (const Field<Real>* h : history_) a.updates(*h);
+    if (erosion_) erosion_->declare(world, a);
+    if (scaled_) scaled_->declare(world, a);
   }
 
   void start(World& world, const Clock&) override {
@@ -91,12 +96,22 @@ class ShellForces : public Material,
     found_.resize(static_cast<std::size_t>(block_count(group_.size())));
   }
   void block(World&, const Clock& clock, Index begin, Index end) override {
-    found_[static_cast<std::size_t>(begin / block_size)] = advance(mesh_, control_, clock.dt_old, begin, end);
+    ShellScratch scratch;
+    ShellLoops::Found& found = found_[static_cast<std::size_t>(begin / block_size)];
+    const Index count = end - begin;
+    if (erosion_) erosion_->begin_block(begin, count);
+    found = advance(mesh_, control_, clock.dt_old, begin, end, scratch, erosion_ ? &clock : nullptr);
+    if (erosion_) erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, nullptr);
+    const bool lighter = scaled_ && scaled_->look(begin, count, scratch.wave_time, scratch.step_limit);
+    if (!lighter && !(erosion_ && erosion_->any_dead(begin))) return;
+    const Index shortest = least_of(scratch.step_limit, count);
+    found = {scratch.step_limit[shortest], begin + shortest};
   }
-  void finish(World&, const Clock& clock) override {
+  void finish(World& world, const Clock& clock) override {
+    if (scaled_) scaled_->grow(world);
     if (!control_.thins) return;
     for (Index e = 0; e < group_.size(); ++e)
-      if (!(state_.thickness[e] > 0)) stop_for_thickness(e, clock);
+      if (!(state_.thickness[e] > 0) && !(erosion_ && erosion_->dead(e))) stop_for_thickness(e, clock);
   }
 
   Limit limit(const World&, const Clock&) override {
@@ -117,9 +132,14 @@ class ShellForces : public Material,
     PartSums& out = parts[static_cast<std::size_t>(group_.part)];
     out.internal += total(internal_) + total(bulk_viscosity_);
     out.hourglass += total(hourglass_);
+    if (erosion_) {
+      out.eroded_internal += total_of_dead(internal_) + total_of_dead(bulk_viscosity_);
+      out.eroded_hourglass += total_of_dead(hourglass_);
+    }
     for (Index e = 0; e < group_.size(); ++e) {
       const Real share = group_.mass[e] / group_.corners();
       out.mass += group_.mass[e];
+      if (scaled_) out.added_mass += scaled_->added(e);
       for (int c = 0; c < group_.corners(); ++c) {
         const Index n = group_.node.data(c)[e];
         const Vec v = world.nodes.v.vec(n);
@@ -158,10 +178,10 @@ class ShellForces : public Material,
   static constexpr std::size_t most_history = 16;
 
   ShellLoops::Found advance(const ShellMesh& mesh, const ShellControl& control, Real dt, Index begin,
-                            Index end) const {
-    ShellScratch scratch;
+                            Index end, ShellScratch& scratch, const Clock* failing = nullptr) const {
     const ShellLoops::Block block{begin, end - begin, dt};
     loops_.strain(block, control, mesh, scratch);
+    if (failing && erosion_->any_dead(begin)) still_dead(begin, block.count, scratch);
     Real rate_zz[block_size], sound_speed[block_size];
     std::fill(scratch.thickening, scratch.thickening + block.count, 0);
     const std::size_t numbers = history_data_.size() / static_cast<std::size_t>(state_.points);
@@ -179,9 +199,54 @@ class ShellForces : public Material,
         history[k] = history_data_[static_cast<std::size_t>(p) * numbers + k] + begin;
       points.history = std::span<Real* const>(history.data(), numbers);
       law_->update_in_plane_stress(points, rate_zz);
+      if (failing) look_at_point(p, begin, *failing, points, rate_zz);
       for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
     }
     return loops_.forces(block, control, state_, scratch);
+  }
+
+  std::shared_ptr<Erosion> make_erosion(const FailureRules& rules, World& world) {
+    auto out = std::make_shared<Erosion>(rules, group_, state_.points,
+                                         Erosion::Energies{&internal_, &bulk_viscosity_, &hourglass_}, world);
+    out->vanishes(stress_);
+    for (Field<Real>* h : history_)
+      if (h->info().components == 6) out->vanishes(*h);
+    plastic_ = plastic_strain_of(*law_);
+    return out;
+  }
+
+  void look_at_point(int p, Index begin, const Clock& clock, const PointBlock& points,
+                     const Real* rate_zz) const {
+    FailingPoints failing{.point = p, .begin = begin, .count = points.count, .t = clock.t, .dt = points.dt};
+    failing.rate = points.rate, failing.rate[2] = rate_zz;
+    failing.stress = points.stress;
+    if (plastic_ >= 0) failing.plastic = points.history[static_cast<std::size_t>(plastic_)];
+    erosion_->look(failing);
+  }
+
+  /// Dead elements of a block are taken as a square that does not move, and stay without stress.
+  void still_dead(Index begin, Index count, ShellScratch& s) const {
+    for (Index i = 0; i < count; ++i) {
+      if (!erosion_->dead(begin + i)) continue;
+      for (std::size_t k = 0; k < 9; ++k) s.place[k][i] = k == 0 || k == 4 ? 1 : 0;
+      for (std::size_t k = 0; k < 3; ++k) s.membrane[k][i] = s.curvature[k][i] = 0;
+      for (auto& shear : s.shear) shear[i] = 0;
+      for (auto& rate : s.hourglass_rate) rate[i] = 0;
+      s.middle_area[i] = 1;
+    }
+  }
+
+  void scale_masses(const MassScaling& scaling, World& world) {
+    std::vector<Real> wave_time(static_cast<std::size_t>(group_.size()));
+    for (Index begin = 0; begin < group_.size(); begin += block_size) {
+      ShellScratch scratch;
+      const Index end = std::min<Index>(begin + block_size, group_.size());
+      advance(mesh_, control_, 0, begin, end, scratch);
+      std::copy(scratch.wave_time, scratch.wave_time + (end - begin), wave_time.begin() + begin);
+    }
+    reset();
+    scaled_ = std::make_unique<ScaledMass>(scaling, group_, &corner_inertia_, world);
+    scaled_->start(wave_time, world);
   }
 
   /// A free patch of few elements is stable only below what a mesh of many is: as for solids, the step keeps
@@ -198,7 +263,8 @@ class ShellForces : public Material,
     mass.resize(2 * nodes, 0), all_held.resize(2 * nodes, {false, false, false});
     for (const std::vector<Index>& corner : own.corner)
       for (std::size_t e = 0; e < corner.size(); ++e)
-        mass[nodes + static_cast<std::size_t>(corner[e])] += corner_inertia_[static_cast<Index>(e)];
+        mass[nodes + static_cast<std::size_t>(corner[e])] +=
+            corner_inertia_[static_cast<Index>(e)] * (scaled_ ? scaled_->ratio(static_cast<Index>(e)) : 1);
     ShellMesh mesh = mesh_;
     for (std::size_t k = 0; k < 3; ++k) mesh.x[k] = own.x[k].data();
     for (std::size_t c = 0; c < own.corner.size(); ++c) mesh.corner[c] = own.corner[c].data();
@@ -206,16 +272,19 @@ class ShellForces : public Material,
     elastic.Q1 = elastic.Q2 = 0, elastic.thins = false;
     if (!control_.stiffness) elastic.QM = elastic.QB = elastic.QW = 0;
     std::vector<ShellLoops::Found> found(found_.size());
-    const Real omega = largest_frequency(
-        mass, all_held, small * std::sqrt(least_area), [&](const NodalVector& u, NodalVector& Ku) {
-          for (std::size_t k = 0; k < 3; ++k) mesh.v[k] = u[k].data(), mesh.w[k] = u[k].data() + nodes;
-          reset();
-          for_each_block(n, [&](Index begin, Index end) {
-            found[static_cast<std::size_t>(begin / block_size)] = advance(mesh, elastic, 1, begin, end);
-          });
-          own.assemble(group_.corner_force, -1, Ku);
-          own.assemble(*group_.corner_moment, -1, Ku, nodes);
-        });
+    const Real omega = largest_frequency(mass, all_held, small * std::sqrt(least_area),
+                                         [&](const NodalVector& u, NodalVector& Ku) {
+                                           for (std::size_t k = 0; k < 3; ++k)
+                                             mesh.v[k] = u[k].data(), mesh.w[k] = u[k].data() + nodes;
+                                           reset();
+                                           for_each_block(n, [&](Index begin, Index end) {
+                                             ShellScratch scratch;
+                                             found[static_cast<std::size_t>(begin / block_size)] =
+                                                 advance(mesh, elastic, 1, begin, end, scratch);
+                                           });
+                                           own.assemble(group_.corner_force, -1, Ku);
+                                           own.assemble(*group_.corner_moment, -1, Ku, nodes);
+                                         });
     Real step = std::numeric_limits<Real>::infinity();
     for (const ShellLoops::Found& f : found) step = std::min(step, f.step);
     reset();
@@ -268,7 +337,10 @@ class ShellForces : public Material,
     return out;
   }
   Real total(const Field<Real>& field) const {
-    return sum(group_.size(), [&](Index e) { return field[e]; });
+    return sum(group_.size(), [&](Index e) { return erosion_ && erosion_->dead(e) ? 0 : field[e]; });
+  }
+  Real total_of_dead(const Field<Real>& field) const {
+    return sum(group_.size(), [&](Index e) { return erosion_->dead(e) ? field[e] : 0; });
   }
   [[noreturn]] void stop_for_thickness(Index e, const Clock& clock) const {
     const ReadsForMessage unchecked;
@@ -303,12 +375,15 @@ class ShellForces : public Material,
   ShellState state_{};
   std::vector<Real*> history_data_;
   std::vector<ShellLoops::Found> found_;  ///< in each block
+  std::unique_ptr<ScaledMass> scaled_;    ///< null: no mass scaling
+  std::shared_ptr<Erosion> erosion_;      ///< null: nothing fails
+  int plastic_ = -1;                      ///< of the law's numbers the plastic strain
 };
 
 }  // namespace
 
 void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
-                      const std::vector<Index>& node_of, World& world) {
+                      const std::vector<Index>& node_of, ElementOptions& options, World& world) {
   const bool shown = model.output.d3plot.asked() || model.output.d3plot_count > 0;
   const std::vector<std::array<bool, 3>> held = held_at_start(model, node_of, world.nodes);
   for (const auto& group : world.groups) {
@@ -318,7 +393,7 @@ void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
     for (const HistoryVariable& h : parts[part].law->history()) numbers += h.components;
     if (numbers > 16) throw std::logic_error("a law with more than 16 history numbers");
     world.passes.add(std::make_shared<ShellForces>(parts[part], *group, model.parts[part].id, model.tssfac,
-                                                   shown, held, world));
+                                                   options, shown, held, world));
   }
 }
 

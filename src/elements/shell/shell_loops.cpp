@@ -323,6 +323,7 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Shel
   const Native q = rho * l * closing * speed;
   const Native damping = closing > 0.0 ? l / length.l * speed : all(0);
   store(s.step_limit + k, length.l / (damping + root(damping * damping + length.c2)));
+  store(s.wave_time + k, length.l / c);
   add_to(state.bulk_viscosity_energy + first, dt * load(s.middle_area + k) * t * q * closing, n);
 
   const Native Nxx = R[0] - q * t, Nyy = R[1] - q * t;

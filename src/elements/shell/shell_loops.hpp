@@ -57,6 +57,7 @@ struct ShellScratch {
   alignas(64) Real rate[6][block_size];  ///< of a point, `at_point` writes it; zz is left alone [1/T]
   Real thickening[block_size];           ///< in: mean of D zz over the points [1/T]
   Real step_limit[block_size];           ///< out: stable step [T]
+  Real wave_time[block_size];            ///< out: the same without viscosity [T]
 };
 
 struct ShellLoops {

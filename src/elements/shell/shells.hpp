@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "elements/erosion.hpp"
 #include "elements/shell/shell_loops.hpp"
 #include "laws/strength/strength.hpp"
 #include "model/model.hpp"
@@ -47,6 +48,6 @@ Field<Real>& corner_inertia_of(const ElementGroup& group);
 /// Adds the forces of shells to the passes of `world`. Computes the largest frequency of each group, which
 /// bounds the step.
 void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
-                      const std::vector<Index>& node_of, World& world);
+                      const std::vector<Index>& node_of, ElementOptions& options, World& world);
 
 }  // namespace courant

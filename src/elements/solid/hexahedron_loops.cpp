@@ -227,6 +227,7 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Hexa
   // it is flatter than a cube
   const Native Q = closing > 0.0 ? l / length * (control.Q2 * c + control.Q1 * l * closing) : all(0);
   store(scratch.step_limit + k, length / (Q + root(Q * Q + c * c)));
+  store(scratch.wave_time + k, length / c);
   add(state.bulk_viscosity_energy + first, dt * load(scratch.middle_volume + k) * q * closing, n);
 
   Native s[6], w[7], modes[7], f[8], power = all(0);

@@ -20,7 +20,7 @@ struct HexahedronMesh {
 
 /// Arrays over the elements of a group. The loops touch the entries of their block alone.
 struct HexahedronState {
-  static constexpr int most_tensors = 2;
+  static constexpr int most_tensors = 3;
   Real* stress[6];  ///< Cauchy, xx yy zz xy yz zx; the deviator where there is a pressure [M/LT2]
   int tensors = 0;  ///< how many tensors of the law are turned with the stress
   Real* tensor[most_tensors][6];
@@ -52,6 +52,7 @@ struct HexahedronScratch {
   Real work[block_size];                 ///< of stress over the step, once `work` was called [ML2/T2]
   Real sound_speed[block_size];          ///< the law writes it before `forces` [L/T]
   Real step_limit[block_size];           ///< out: stable step [T]
+  Real wave_time[block_size];            ///< out: the same without viscosity [T]
   Real relative_volume[block_size];      ///< out: V/V0 [-]
 };
 

@@ -20,7 +20,7 @@ namespace {
 class SolidForces : public Material, public TimeLimit, public EnergyTerm, public PartReporter {
  public:
   SolidForces(const SolidPart& part, const ElementGroup& group, Id part_id, Real tssfac,
-              const std::vector<std::array<bool, 3>>& held, World& world)
+              ElementOptions& options, const std::vector<std::array<bool, 3>>& held, World& world)
       : group_(group),
         law_(part.law),
         part_id_(part_id),
@@ -45,8 +45,15 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     if (control_.stiff())
       hourglass_force_ =
           &group.fields.add<Real>({.name = "hourglass_force", .dimension = "ML/T2", .components = 12});
-    start_state(world);
+    const std::vector<Real> wave_time = start_state(world);
+    if (options.scaling.step > 0) {
+      scaled_ = std::make_unique<ScaledMass>(options.scaling, group_, nullptr, world);
+      scaled_->start(wave_time, world);
+      for (Index e = 0; e < group_.size(); ++e) take_density(e);
+    }
     limit_to_frequency(held, world);
+    if (const FailureRules& rules = options.failure[static_cast<std::size_t>(group.part)]; rules.any())
+      options.eroding.push_back(erosion_ = make_erosion(rules, world));
   }
   std::string name() const override { return group_.fields.name(); }
   const FieldSet& over(const World&) const override { return group_.fields; }
@@ -56,6 +63,10 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     a.updates(bulk_viscosity_).writes(group_.corner_force);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (hourglass_force_) a.updates(*hourglass_force_);
+    if (erosion_) erosion_->declare(world, a);
+    if (!scaled_) return;
+    scaled_->declare(world, a);
+    a.in_finish().updates(rho0_);
   }
 
   void start(World& world, const Clock&) override {
@@ -77,14 +88,32 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
       for (int k = 0; k < 6; ++k) state_.tensor[state_.tensors][k] = h->data(k);
       ++state_.tensors;
     }
+    if (Field<Real>* strain = erosion_ ? erosion_->strain() : nullptr) {
+      for (int k = 0; k < 6; ++k) state_.tensor[state_.tensors][k] = strain->data(k);
+      ++state_.tensors;
+    }
     found_.resize(static_cast<std::size_t>(block_count(group_.size())));
   }
   void block(World&, const Clock& clock, Index begin, Index end) override {
-    found_[static_cast<std::size_t>(begin / block_size)] = advance(mesh_, control_, clock.dt_old, begin, end);
+    HexahedronScratch scratch;
+    HexahedronLoops::Found& found = found_[static_cast<std::size_t>(begin / block_size)];
+    const Index count = end - begin;
+    if (erosion_) erosion_->begin_block(begin, count);
+    found = advance(mesh_, control_, clock.dt_old, begin, end, scratch, erosion_ ? &clock : nullptr);
+    if (erosion_)
+      erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, scratch.relative_volume);
+    const bool lighter = scaled_ && scaled_->look(begin, count, scratch.wave_time, scratch.step_limit);
+    if (!lighter && !(erosion_ && erosion_->any_dead(begin))) return;
+    const Index shortest = least_of(scratch.step_limit, count),
+                smallest = least_of(scratch.relative_volume, count);
+    found = {scratch.step_limit[shortest], begin + shortest, scratch.relative_volume[smallest],
+             begin + smallest};
   }
-  void finish(World&, const Clock& clock) override {
+  void finish(World& world, const Clock& clock) override {
     for (const HexahedronLoops::Found& found : found_)
       if (!(found.least_volume > 0)) stop_for_volume(found, clock);
+    if (!scaled_) return;
+    for (const Index e : scaled_->grow(world)) take_density(e);
   }
 
   Limit limit(const World&, const Clock&) override {
@@ -105,8 +134,13 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     PartSums& out = parts[static_cast<std::size_t>(group_.part)];
     out.internal += total(internal_) + total(bulk_viscosity_);
     out.hourglass += total(hourglass_);
+    if (erosion_) {
+      out.eroded_internal += total_of_dead(internal_) + total_of_dead(bulk_viscosity_);
+      out.eroded_hourglass += total_of_dead(hourglass_);
+    }
     for (Index e = 0; e < group_.size(); ++e) {
       out.mass += group_.mass[e];
+      if (scaled_) out.added_mass += scaled_->added(e);
       for (int c = 0; c < group_.corners(); ++c) {
         const Real share = group_.mass[e] * group_.share(e, c);
         const Vec v = world.nodes.v.vec(group_.node.data(c)[e]);
@@ -121,10 +155,11 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
   static constexpr Real small_strain = 1e-7;  ///< within which all is linear
 
   HexahedronLoops::Found advance(const HexahedronMesh& mesh, const HexahedronControl& control, Real dt,
-                                 Index begin, Index end) const {
-    HexahedronScratch scratch;
+                                 Index begin, Index end, HexahedronScratch& scratch,
+                                 const Clock* failing = nullptr) const {
     const HexahedronLoops::Block block{begin, end - begin, dt};
     loops_.strain(block, mesh, state_, scratch);
+    if (failing && erosion_->any_dead(begin)) still_dead(begin, block.count, scratch);
     std::array<Real*, most_history> history{};
     PointBlock points;
     points.count = end - begin;
@@ -136,6 +171,17 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     for (std::size_t k = 0; k < history_data_.size(); ++k) history[k] = history_data_[k] + begin;
     points.history = std::span<Real* const>(history.data(), history_data_.size());
     law_->update(points);
+    if (failing)
+      erosion_->look({.begin = begin,
+                      .count = block.count,
+                      .t = failing->t,
+                      .dt = dt,
+                      .rate = points.rate,
+                      .stress = points.stress,
+                      .plastic = plastic_ < 0 ? nullptr : history[static_cast<std::size_t>(plastic_)]});
+    if (scaled_)  // waves of a body that is as stiff and denser
+      for (Index i = 0; i < points.count; ++i)
+        scratch.sound_speed[i] *= std::sqrt(law_->ro / rho0_[begin + i]);
     loops_.work(block, state_, scratch);
     return loops_.forces(block, control, state_, scratch);
   }
@@ -153,21 +199,46 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     const HexahedronControl elastic{
         .hourglass = control_.hourglass, .QM = control_.stiff() ? control_.QM : 0, .Q1 = 0, .Q2 = 0};
     std::vector<HexahedronLoops::Found> found(found_.size());
-    const Real omega = largest_frequency(
-        own.m, own.held, small_strain * std::cbrt(smallest), [&](const NodalVector& u, NodalVector& Ku) {
-          for (std::size_t k = 0; k < 3; ++k) mesh.v[k] = u[k].data();
-          reset();
-          for_each_block(n, [&](Index begin, Index end) {
-            found[static_cast<std::size_t>(begin / block_size)] = advance(mesh, elastic, 1, begin, end);
-          });
-          own.assemble(group_.corner_force, -1, Ku);
-        });
+    const Real omega = largest_frequency(own.m, own.held, small_strain * std::cbrt(smallest),
+                                         [&](const NodalVector& u, NodalVector& Ku) {
+                                           for (std::size_t k = 0; k < 3; ++k) mesh.v[k] = u[k].data();
+                                           reset();
+                                           for_each_block(n, [&](Index begin, Index end) {
+                                             HexahedronScratch scratch;
+                                             found[static_cast<std::size_t>(begin / block_size)] =
+                                                 advance(mesh, elastic, 1, begin, end, scratch);
+                                           });
+                                           own.assemble(group_.corner_force, -1, Ku);
+                                         });
     Real step = std::numeric_limits<Real>::infinity();
     for (const HexahedronLoops::Found& f : found) step = std::min(step, f.step);
     reset();
     const Real asked = tssfac_;
     tssfac_ = below_frequency(asked, step, omega);
     by_mesh_ = tssfac_ < asked;
+  }
+
+  std::shared_ptr<Erosion> make_erosion(const FailureRules& rules, World& world) {
+    auto out = std::make_shared<Erosion>(rules, group_, 1,
+                                         Erosion::Energies{&internal_, &bulk_viscosity_, &hourglass_}, world);
+    out->vanishes(stress_);
+    for (Field<Real>* h : history_)
+      if (h->info().components == 6) out->vanishes(*h);
+    plastic_ = plastic_strain_of(*law_);
+    return out;
+  }
+
+  /// Dead elements of a block are taken as a cube that does not move, and stay without stress.
+  void still_dead(Index begin, Index count, HexahedronScratch& scratch) const {
+    for (Index i = 0; i < count; ++i) {
+      if (!erosion_->dead(begin + i)) continue;
+      erosion_->clear(begin + i);
+      for (auto& rate : scratch.rate) rate[i] = 0;
+      for (auto& speed : scratch.speed) speed[i] = 0;
+      for (auto& turn : scratch.half_turn) turn[i] = 0;
+      for (std::size_t k = 0; k < 21; ++k) scratch.place[k][i] = k == 0 || k == 4 || k == 8 ? 1 : 0;
+      scratch.compression[i] = scratch.work[i] = 0, scratch.middle_volume[i] = 1;
+    }
   }
 
   /// To the state of the start: without stress, history, energies and forces.
@@ -178,14 +249,19 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     group_.corner_force.fill(0);
   }
 
-  /// Reference volumes and densities; the mass of an element goes to its nodes in equal shares.
-  void start_state(World& world) {
+  /// The density that inertia belongs to.
+  void take_density(Index e) { rho0_[e] = law_->ro * scaled_->ratio(e); }
+
+  /// Reference volumes and densities; the mass of an element goes to its nodes in equal shares. Returns the
+  /// step of each element. [T]
+  std::vector<Real> start_state(World& world) {
     int numbers = 0, tensors = 0;
     for (const HistoryVariable& h : law_->history()) numbers += h.components, tensors += h.is_tensor();
     if (numbers > static_cast<int>(most_history) || tensors > HexahedronState::most_tensors)
       throw std::logic_error("a law with more than 16 history numbers, or more than 2 tensors");
     // volumes by the loops themselves: what they give for V0 = 1
     const Index n = group_.size();
+    std::vector<Real> wave_time(static_cast<std::size_t>(n));
     for (Index e = 0; e < n; ++e) V0_[e] = 1, rho0_[e] = law_->ro;
     start(world, {});
     for (Index begin = 0; begin < n; begin += block_size) {
@@ -197,15 +273,20 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
       for (Index k = 0; k < block.count; ++k) {
         const Index e = begin + k;
         V0_[e] = scratch.relative_volume[k];
+        wave_time[static_cast<std::size_t>(e)] = scratch.wave_time[k];
         group_.mass[e] = law_->ro * V0_[e];
         for (int c = 0; c < group_.corners(); ++c)
           world.nodes.m[group_.node.data(c)[e]] += group_.mass[e] * group_.share(e, c);
       }
     }
     reset();
+    return wave_time;
   }
   Real total(const Field<Real>& field) const {
-    return sum(group_.size(), [&](Index e) { return field[e]; });
+    return sum(group_.size(), [&](Index e) { return erosion_ && erosion_->dead(e) ? 0 : field[e]; });
+  }
+  Real total_of_dead(const Field<Real>& field) const {
+    return sum(group_.size(), [&](Index e) { return erosion_->dead(e) ? field[e] : 0; });
   }
   [[noreturn]] void stop_for_volume(const HexahedronLoops::Found& found, const Clock& clock) const {
     const ReadsForMessage unchecked;
@@ -233,18 +314,21 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
   HexahedronState state_{};
   std::vector<Real*> history_data_;
   std::vector<HexahedronLoops::Found> found_;  ///< in each block
+  std::unique_ptr<ScaledMass> scaled_;         ///< null: no mass scaling
+  std::shared_ptr<Erosion> erosion_;           ///< null: nothing fails
+  int plastic_ = -1;                           ///< of the law's numbers the plastic strain
 };
 
 }  // namespace
 
 void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts,
-                      const std::vector<Index>& node_of, World& world) {
+                      const std::vector<Index>& node_of, ElementOptions& options, World& world) {
   const std::vector<std::array<bool, 3>> held = held_at_start(model, node_of, world.nodes);
   for (const auto& group : world.groups) {
     const auto part = static_cast<std::size_t>(group->part);
     if (group->segment) continue;  // shells
-    world.passes.add(
-        std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac, held, world));
+    world.passes.add(std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac,
+                                                   options, held, world));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "elements/erosion.hpp"
 #include "elements/solid/hexahedron_loops.hpp"
 #include "elements/solid/hourglass.hpp"
 #include "laws/strength/strength.hpp"
@@ -28,6 +29,6 @@ void build_solids(const Model& model, const std::vector<SolidPart>& parts, const
 
 /// Adds the forces of solids to the passes of `world`. `node_of` as above.
 void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts,
-                      const std::vector<Index>& node_of, World& world);
+                      const std::vector<Index>& node_of, ElementOptions& options, World& world);
 
 }  // namespace courant

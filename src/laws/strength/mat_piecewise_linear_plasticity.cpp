@@ -77,6 +77,8 @@ class PiecewiseLinearPlasticity : public StrengthLaw {
   Real bulk_modulus() const override { return lambda_ + 2 * shear_ / 3; }
   Real shear_modulus() const override { return shear_; }
   std::vector<HistoryVariable> history() const override { return {{"plastic_strain", "-"}}; }
+  Real failure_strain() const override { return fails_at; }
+  Real fails_at = std::numeric_limits<Real>::infinity();  ///< plastic strain [-]
 
   void update(const PointBlock& block) const override {
     PlasticTrial trial;
@@ -153,7 +155,9 @@ struct MatPiecewiseLinearPlasticity : Entry {
     }
     if (yield.curves.size() > 1 || c > 0 || lcsr != 0)
       yield.rate = vp == 1 ? Rate::of_plastic_strain : vp == -1 ? Rate::of_deviator : Rate::of_strain;
-    return std::make_shared<PiecewiseLinearPlasticity>(ro, E, pr, std::move(yield));
+    auto law = std::make_shared<PiecewiseLinearPlasticity>(ro, E, pr, std::move(yield));
+    if (fail > 0 && fail < never_fails) law->fails_at = fail;
+    return law;
   }
 
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
@@ -208,9 +212,8 @@ void M::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) co
     if (!holds)
       deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
   };
-  constexpr Real never = 1e20;
   expect(pr < 0.5, "PR", "a number < 0.5", pr, "a material that keeps its volume has no finite bulk modulus");
-  expect(fail == 0 || fail >= never, "FAIL", "0 (none)", fail, "deletion of elements is not supported");
+  expect(fail >= 0, "FAIL", "a number >= 0", fail, "failure by a subroutine of one's own is not supported");
   if (const Hardening points = table(); lcss == 0 && !points.strain.empty()) {
     check_points(deck, *this, points, E / (2 * (1 + pr)), diagnostics);
   } else if (lcss == 0) {
@@ -308,7 +311,7 @@ const RegisterStrength<M> mat_piecewise_linear_plasticity{
                       "slope of stress over strain beyond it, below E",
                       {.check = Check::not_negative}},
                      {"FAIL", &M::fail, "-",
-                      "effective plastic strain at which elements are deleted; 0: none"},
+                      "effective plastic strain at which points of elements fail, 0: never"},
                      {"TDEL", &M::tdel, "T", "step at which elements are deleted", unsupported}}},
          {.fields = {{"C", &M::c, "1/T", "of Cowper and Symonds, 0: none", {.check = Check::not_negative}},
                      {"P", &M::p, "-", "of Cowper and Symonds", {.check = Check::not_negative}},

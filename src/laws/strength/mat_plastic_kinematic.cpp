@@ -16,8 +16,9 @@ struct PlasticKinematicData {
   Real lambda = 0, G = 0;             ///< Lame's constants [M/LT2]
   Real yield = 0;                     ///< at the start [M/LT2]
   Real isotropic = 0, kinematic = 0;  ///< shares of the plastic modulus Ep: BETA Ep, (1 - BETA) Ep [M/LT2]
-  Real C = 0, P = 0;                  ///< of Cowper and Symonds [1/T], [-]; C = 0: no influence of the rate
-  bool of_plastic_rate = false;       ///< VP 1: the rate is that of plastic strain, else that of all strain
+  Real fails_at = std::numeric_limits<Real>::infinity();  ///< plastic strain
+  Real C = 0, P = 0;             ///< of Cowper and Symonds [1/T], [-]; C = 0: no influence of the rate
+  bool of_plastic_rate = false;  ///< VP 1: the rate is that of plastic strain, else that of all strain
 };
 
 /// J2 plasticity with linear isotropic and kinematic hardening: s_tr = s + 2 G dev(D) dt is returned along
@@ -28,6 +29,7 @@ class PlasticKinematic : public StrengthLaw {
   PlasticKinematic(Real density, const PlasticKinematicData& data) : a_(data) { ro = density; }
   Real bulk_modulus() const override { return a_.lambda + 2 * a_.G / 3; }
   Real shear_modulus() const override { return a_.G; }
+  Real failure_strain() const override { return a_.fails_at; }
   std::vector<HistoryVariable> history() const override {
     std::vector<HistoryVariable> out{{"plastic_strain", "-"}};
     if (a_.kinematic > 0) out.push_back({"back_stress", "M/LT2", 6});
@@ -176,6 +178,7 @@ struct MatPlasticKinematic : Entry {
     PlasticKinematicData data{.lambda = E * pr / ((1 + pr) * (1 - 2 * pr)), .G = E / (2 * (1 + pr))};
     data.yield = sigy, data.isotropic = beta * Ep, data.kinematic = (1 - beta) * Ep;
     data.C = src, data.P = srp, data.of_plastic_rate = vp == 1;
+    if (fs > 0 && fs < never_fails) data.fails_at = fs;
     return std::make_shared<PlasticKinematic>(ro, data);
   }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
@@ -283,8 +286,11 @@ const RegisterStrength<MatPlasticKinematic> mat_plastic_kinematic{
                       "-",
                       "P of Cowper and Symonds",
                       {.check = Check::not_negative}},
-                     {"FS", &MatPlasticKinematic::fs, "-",
-                      "effective plastic strain at which elements are deleted", unsupported},
+                     {"FS",
+                      &MatPlasticKinematic::fs,
+                      "-",
+                      "effective plastic strain at which points of elements fail, 0: never",
+                      {.check = Check::not_negative}},
                      {"VP",
                       &MatPlasticKinematic::vp,
                       "-",

@@ -24,6 +24,9 @@ struct HistoryVariable {
   bool is_tensor() const { return components == 6; }
 };
 
+/// Failure strains from here on say that nothing fails.
+inline constexpr Real never_fails = 1e10;
+
 /// A law read from the deck, or made for a test. It holds no state: that is in the block.
 class StrengthLaw {
  public:
@@ -39,6 +42,8 @@ class StrengthLaw {
   virtual bool deviator_only() const { return false; }
   virtual Real bulk_modulus() const = 0;   ///< at rest; 0 with `deviator_only` [M/LT2]
   virtual Real shear_modulus() const = 0;  ///< at rest [M/LT2]
+  /// Plastic strain (its history `plastic_strain`) at which a point fails; infinity: it never does. [-]
+  virtual Real failure_strain() const { return std::numeric_limits<Real>::infinity(); }
   /// Pressure of the equation of state is cut off below this. [M/LT2]
   virtual Real pressure_cutoff() const { return -std::numeric_limits<Real>::infinity(); }
   /// Of compression waves at rest: sqrt((K + 4G/3)/RO). [L/T]

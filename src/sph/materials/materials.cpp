@@ -142,6 +142,13 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
       m.ro = fluid->second->ro, m.pc = fluid->second->pc, m.mu = fluid->second->mu;
     } else {
       m.strength = strength->second;
+      if (std::isfinite(m.strength->failure_strain()))
+        deck.error(
+            diagnostics, part.card, "MID",
+            fmt::format("the material of part {} fails at a plastic strain of {:g}, and particles cannot "
+                        "fail",
+                        part.id, m.strength->failure_strain()),
+            "leave FS or FAIL of the material blank");
       m.ro = m.strength->ro, m.pc = m.strength->pressure_cutoff();
     }
     if (alone) continue;

@@ -423,7 +423,7 @@ TEST(MatPlasticKinematic, ChecksItsCards) {
   };
   EXPECT_EQ(faults_of("1,7.8,200.0,0.3,0.4\n"), "");
   EXPECT_EQ(faults_of("1,7.8,200.0,0.3,0.4,1.0,0.5\n40.0,5.0,0.0,1\n"), "");
-  EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4\n0.0,0.0,0.5\n").find("FS"), std::string::npos);
+  EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4\n0.0,0.0,-0.5\n").find("FS"), std::string::npos);
   EXPECT_NE(faults_of("1,7.8,200.0,0.3\n").find("SIGY"), std::string::npos);
   EXPECT_NE(faults_of("1,7.8,200.0,0.5,0.4\n").find("expected a number < 0.5, got '0.5'"), std::string::npos);
   EXPECT_NE(faults_of("1,7.8,200.0,0.3,0.4,200.0\n").find("ETAN"), std::string::npos);
@@ -498,7 +498,7 @@ TEST(MatPiecewiseLinearPlasticity, ChecksItsCards) {
   complains("1,1.0,1.0,0.3\n", "SIGY");
   complains("1,1.0,1.0,0.5,0.1\n", "PR");
   complains("1,1.0,1.0,0.3,0.1,1.0\n", "ETAN");
-  complains("1,1.0,1.0,0.3,0.1,,0.2\n", "FAIL");
+  complains("1,1.0,1.0,0.3,0.1,,-0.2\n", "FAIL");
   complains("1,1.0,1.0,0.3,0.1,,,0.2\n", "TDEL");
   complains("1,1.0,1.0,0.3,0.1\n1.0\n", "(P,");
   complains("1,1.0,1.0,0.3,0.1\n,1.0\n", "(C,");

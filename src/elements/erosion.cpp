@@ -1,0 +1,252 @@
+#include "elements/erosion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/eigenvalues.hpp"
+#include "state/shared_fields.hpp"
+
+namespace courant {
+
+namespace {
+
+constexpr Real infinite = FailureRules::never;
+
+Matrix tensor_at(const std::array<Real*, 6>& s, Index i) {
+  Matrix out;
+  out << s[0][i], s[3][i], s[5][i], s[3][i], s[1][i], s[4][i], s[5][i], s[4][i], s[2][i];
+  return out;
+}
+
+Real largest_eigenvalue(const Matrix& M) {
+  return -least_eigenvalue(Matrix(-M));
+}
+
+/// sqrt(factor dev:dev)
+Real effective(const Matrix& M, Real factor) {
+  const Matrix dev = M - M.trace() / 3 * Matrix::Identity();
+  return std::sqrt(factor * dev.squaredNorm());
+}
+
+/// Which criteria hold, in words.
+class Held {
+ public:
+  void above(Real value, Real limit, const char* what) {
+    if (limit < infinite && value >= limit) tell(value, what);
+  }
+  void below(Real value, Real limit, const char* what) {
+    if (limit > -infinite && value <= limit) tell(value, what);
+  }
+  int count = 0;
+  std::string text;
+
+ private:
+  void tell(Real value, const char* what) {
+    text += fmt::format("{}{} {:.4g}", count++ == 0 ? "" : ", ", what, value);
+  }
+};
+
+}  // namespace
+
+bool FailureRules::measures_strain() const {
+  return most_strain < never || least_strain > -never || shear_strain < never || effective_strain < never ||
+         expansion < never || contraction > -never;
+}
+
+bool FailureRules::of_points() const {
+  return law_strain < never || measures_strain() || most_pressure < never || least_pressure > -never ||
+         principal_stress < never || mises < never || plastic_strain < never || impulse < never ||
+         time < never;
+}
+
+int plastic_strain_of(const StrengthLaw& law) {
+  int at = 0;
+  for (const HistoryVariable& h : law.history()) {
+    if (h.name == "plastic_strain") return at;
+    at += h.components;
+  }
+  return -1;
+}
+
+Erosion::Erosion(const FailureRules& rules, const ElementGroup& group, int points, Energies energies,
+                 World& world)
+    : rules_(rules),
+      group_(group),
+      points_(points),
+      energies_(energies),
+      eroded_(shared_fields::eroded.add(group.fields)),
+      failed_(group.fields.add<Index>({.name = "failed_points", .dimension = "-", .components = points})) {
+  if (rules.measures_strain())
+    strain_ = &group.fields.add<Real>({.name = "strain", .dimension = "-", .components = 6 * points});
+  if (rules.impulse < infinite)
+    impulse_ = &group.fields.add<Real>({.name = "impulse", .dimension = "M2/L2T3", .components = points});
+  if (strain_) vanishes(*strain_);
+  shared_fields::eroded.add(world.segments.fields);
+  const auto blocks = static_cast<std::size_t>(block_count(group.size()));
+  dead_.assign(blocks, 0), newly_.resize(blocks), why_.resize(blocks);
+  kept_.resize(static_cast<std::size_t>(group.size()));
+}
+
+void Erosion::declare(const World&, Accesses& a) const {
+  a.updates(eroded_).updates(failed_);
+  if (strain_) a.updates(*strain_);
+  if (impulse_) a.updates(*impulse_);
+}
+
+void Erosion::declare_booking(Accesses& a) const {
+  a.reads(eroded_, Reach::others).reads(group_.id, Reach::others).reads(group_.mass, Reach::others);
+  a.reads(*energies_.internal, Reach::others).reads(*energies_.bulk_viscosity, Reach::others);
+  a.reads(*energies_.hourglass, Reach::others);
+  if (group_.segment) a.reads(*group_.segment, Reach::others);
+}
+
+void Erosion::begin_block(Index begin, Index count) {
+  why_[static_cast<std::size_t>(begin / block_size)].clear();
+  for (Index e = begin; e < begin + count; ++e) {
+    kept_[static_cast<std::size_t>(e)] = {(*energies_.internal)[e], (*energies_.bulk_viscosity)[e],
+                                          (*energies_.hourglass)[e]};
+    if (dead(e)) clear(e);
+  }
+}
+
+void Erosion::clear(Index e) const {
+  for (Field<Real>* field : vanishing_)
+    for (int k = 0; k < field->info().components; ++k) field->data(k)[e] = 0;
+}
+
+std::string Erosion::failure_of(const FailingPoints& p, Index i) const {
+  Held held;
+  const Matrix s = tensor_at(p.stress, i);
+  const Real pressure = -s.trace() / 3;
+  held.above(pressure, rules_.most_pressure, "pressure");
+  held.below(pressure, rules_.least_pressure, "pressure");
+  if (rules_.principal_stress < infinite)
+    held.above(largest_eigenvalue(s), rules_.principal_stress, "principal stress");
+  if (rules_.mises < infinite) held.above(effective(s, 1.5), rules_.mises, "effective stress");
+  if (p.plastic) held.above(p.plastic[i], rules_.plastic_strain, "plastic strain");
+  if (strain_) {
+    std::array<Real*, 6> at{};
+    for (int k = 0; k < 6; ++k) at[static_cast<std::size_t>(k)] = strain_->data(6 * p.point + k) + p.begin;
+    const Matrix strain = tensor_at(at, i);
+    const Real most = largest_eigenvalue(strain), least = least_eigenvalue(strain);
+    held.above(most, rules_.most_strain, "principal strain");
+    held.below(least, rules_.least_strain, "principal strain");
+    held.above(0.5 * (most - least), rules_.shear_strain, "shear strain");
+    held.above(effective(strain, 2.0 / 3), rules_.effective_strain, "effective strain");
+    held.above(strain.trace(), rules_.expansion, "volume strain");
+    held.below(strain.trace(), rules_.contraction, "volume strain");
+  }
+  if (impulse_) held.above(impulse_->data(p.point)[p.begin + i], rules_.impulse, "impulse");
+  held.above(p.t, rules_.time, "time");
+  return held.count >= rules_.conditions ? held.text : std::string();
+}
+
+void Erosion::look(const FailingPoints& p) {
+  Index* failed = failed_.data(p.point) + p.begin;
+  if (strain_)
+    for (int k = 0; k < 6; ++k) {
+      Real* strain = strain_->data(6 * p.point + k) + p.begin;
+      const Real* rate = p.rate[static_cast<std::size_t>(k)];
+      for (Index i = 0; i < p.count; ++i) strain[i] += dead(p.begin + i) ? 0 : rate[i] * p.dt;
+    }
+  if (impulse_)
+    for (Index i = 0; i < p.count; ++i) {
+      const Real over = std::max(largest_eigenvalue(tensor_at(p.stress, i)) - rules_.threshold, Real(0));
+      impulse_->data(p.point)[p.begin + i] += over * over * p.dt;
+    }
+  FailureRules of_card = rules_;
+  of_card.law_strain = infinite;
+  const bool has_card = of_card.of_points();
+  for (Index i = 0; i < p.count; ++i) {
+    if (dead(p.begin + i)) continue;
+    if (p.plastic && p.plastic[i] >= rules_.law_strain) failed[i] |= by_law;
+    if (has_card && !(failed[i] & by_card)) {
+      std::string why = failure_of(p, i);
+      if (!why.empty()) {
+        failed[i] |= by_card;
+        why_[static_cast<std::size_t>(p.begin / block_size)].push_back({p.begin + i, std::move(why)});
+      }
+    }
+    if (failed[i] == 0) continue;
+    for (Real* stress : p.stress) stress[i] = 0;
+  }
+}
+
+Index Erosion::points_needed() const {
+  if (rules_.points > 0) return std::min<Index>(rules_.points, points_);
+  return std::max<Index>(1, static_cast<Index>(std::ceil(-0.01 * rules_.points * points_ - 1e-9)));
+}
+
+void Erosion::strike(Index begin, Index e, std::string why) {
+  eroded_[e] = 1;
+  ++dead_[static_cast<std::size_t>(begin / block_size)];
+  newly_[static_cast<std::size_t>(begin / block_size)].push_back({e, std::move(why)});
+  clear(e);
+}
+
+void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real* wave_time, Real* volume) {
+  const auto block = static_cast<std::size_t>(begin / block_size);
+  for (Index i = 0; i < count; ++i) {
+    const Index e = begin + i;
+    if (dead(e)) continue;
+    Index of_law = 0, of_card = 0;
+    for (int p = 0; p < points_; ++p)
+      of_law += (failed_.data(p)[e] & by_law) != 0, of_card += (failed_.data(p)[e] & by_card) != 0;
+    const bool inside_out = rules_.small_step && volume && !(volume[i] > 0);
+    if (of_card >= points_needed()) {
+      const auto why = std::find_if(why_[block].begin(), why_[block].end(),
+                                    [&](const Failed& one) { return one.element == e; });
+      strike(begin, e, why == why_[block].end() ? "failed points" : why->why);
+    } else if (of_law == points_) {
+      strike(begin, e, fmt::format("plastic strain {:.4g}", rules_.law_strain));
+    } else if (inside_out) {
+      strike(begin, e, "it turned inside out");
+    } else if (rules_.small_step && share * step_limit[i] < least_step_) {
+      strike(begin, e, fmt::format("step {:.4g}", share * step_limit[i]));
+    }
+    const auto& kept = kept_[static_cast<std::size_t>(e)];
+    if (dead(e) && (inside_out || !std::isfinite(energy_of(e))))
+      (*energies_.internal)[e] = kept[0], (*energies_.bulk_viscosity)[e] = kept[1],
+      (*energies_.hourglass)[e] = kept[2];
+  }
+  if (dead_[block] == 0) return;
+  for (Index i = 0; i < count; ++i) {
+    const Index e = begin + i;
+    if (!dead(e)) continue;
+    step_limit[i] = wave_time[i] = infinite;
+    if (volume) volume[i] = 1;
+    clear(e);
+    for (int k = 0; k < 3 * group_.corners(); ++k) {
+      group_.corner_force.data(k)[e] = 0;
+      if (group_.corner_moment) group_.corner_moment->data(k)[e] = 0;
+    }
+  }
+}
+
+std::vector<Erosion::Failed> Erosion::take_failed() {
+  std::vector<Failed> out;
+  for (std::vector<Failed>& newly : newly_) {
+    out.insert(out.end(), newly.begin(), newly.end());
+    newly.clear();
+  }
+  return out;
+}
+
+Real Erosion::energy_of(Index e) const {
+  return (*energies_.internal)[e] + (*energies_.bulk_viscosity)[e] + (*energies_.hourglass)[e];
+}
+
+bool Erosion::all_dead() const {
+  Index count = 0;
+  for (const Index dead : dead_) count += dead;
+  return count == group_.size();
+}
+
+void Erosion::loaded() {
+  for (std::size_t b = 0; b < dead_.size(); ++b) dead_[b] = 0;
+  for (Index e = 0; e < group_.size(); ++e) dead_[static_cast<std::size_t>(e / block_size)] += dead(e);
+}
+
+}  // namespace courant

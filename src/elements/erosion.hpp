@@ -1,0 +1,130 @@
+#pragma once
+// Elements that fail are deleted: their stress and forces are gone, their mass stays with the nodes.
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "elements/mass_scaling.hpp"
+#include "keyword/deck.hpp"
+#include "laws/strength/strength.hpp"
+#include "model/model.hpp"
+#include "state/reports.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+/// When points of the elements of a part fail, and how many of them take the element away. Infinity: a
+/// criterion is not asked for. Signs: stress and strain > 0 in tension, pressure > 0 in compression.
+struct FailureRules {
+  static constexpr Real never = std::numeric_limits<Real>::infinity();
+  /// Of the law (FS, FAIL): a point has no stress from there on, an element goes when all points have failed.
+  Real law_strain = never;
+  // *MAT_ADD_EROSION
+  Real most_pressure = never, least_pressure = -never, principal_stress = never, mises = never;  ///< [M/LT2]
+  Real most_strain = never, least_strain = -never;  ///< principal, of the logarithmic strain [-]
+  Real shear_strain = never, effective_strain = never, plastic_strain = never;
+  Real expansion = never, contraction = -never;  ///< logarithm of the volume ratio
+  Real threshold = 0, impulse = never;           ///< integral of (s1 - threshold)^2 dt [M/LT2], [M2/L2T3]
+  Real time = never;                             ///< [T]
+  int conditions = 1;                            ///< NCS: how many of them must hold at once
+  int points = 1;                                ///< NUMFIP; < 0: per cent of all
+  bool small_step = false;  ///< ERODE: elements that would bring the step below DTMIN times the first
+  bool measures_strain() const;
+  bool of_points() const;  ///< any but `small_step`
+  bool any() const { return small_step || of_points(); }
+};
+
+/// By part of the model; `laws`: null where a part has no elements that deform. Cards for parts of particles
+/// are errors, those without effect warnings.
+std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
+                                        const std::vector<std::shared_ptr<StrengthLaw>>& laws,
+                                        Diagnostics& diagnostics);
+
+/// The points of a block at the end of a step; all arrays start with the first element of the block.
+struct FailingPoints {
+  int point = 0;                      ///< through the thickness
+  Index begin = 0, count = 0;         ///< elements of the group
+  Real t = 0, dt = 0;                 ///< [T]
+  std::array<const Real*, 6> rate{};  ///< D: xx yy zz xy yz zx [1/T]
+  std::array<Real*, 6> stress{};      ///< [M/LT2]
+  const Real* plastic = nullptr;      ///< effective plastic strain; null: the law has none [-]
+};
+
+/// The elements of a group that may fail. Deleted ones keep their energies, which count as dissipated.
+class Erosion {
+ public:
+  struct Energies {
+    Field<Real>*internal, *bulk_viscosity, *hourglass;
+  };
+  /// Adds fields to `group` and to world.segments.
+  Erosion(const FailureRules& rules, const ElementGroup& group, int points, Energies energies, World& world);
+  /// Fields that are 0 in dead elements: stress, tensors of the law.
+  void vanishes(Field<Real>& field) { vanishing_.push_back(&field); }
+  void declare(const World& world, Accesses& a) const;
+  const FailureRules& rules() const { return rules_; }
+  const ElementGroup& group() const { return group_; }
+  /// Logarithmic strain of a solid, to be turned with the stress; null: nobody asks for it.
+  Field<Real>* strain() { return strain_; }
+  bool dead(Index e) const { return eroded_[e] != 0; }
+  bool any_dead(Index begin) const { return dead_[static_cast<std::size_t>(begin / block_size)] > 0; }
+
+  /// Before the loops work on a block: energies are kept, dead elements have no stress.
+  void begin_block(Index begin, Index count);
+  /// No stress, no strain.
+  void clear(Index e) const;
+  /// Behind the law: strains advance, points fail and lose their stress.
+  void look(const FailingPoints& points);
+  /// Behind the forces. `share`: of the step that is taken [-]; `volume`: relative ones, null: shells. Marks
+  /// who fails now, and takes the forces of all that are dead and the limits they have on the step.
+  void judge(Index begin, Index count, Real share, Real* step_limit, Real* wave_time, Real* volume);
+
+  // for who deletes:
+  void declare_booking(Accesses& a) const;
+  void set_least_step(Real step) { least_step_ = step; }  ///< DTMIN times the first [T]
+  struct Failed {
+    Index element;
+    std::string why;
+  };
+  /// Those that failed in this step, in order; empties the list.
+  std::vector<Failed> take_failed();
+  Real energy_of(Index e) const;  ///< [ML2/T2]
+  bool all_dead() const;
+  void loaded();
+
+ private:
+  static constexpr Index by_law = 1, by_card = 2;
+  std::string failure_of(const FailingPoints& points, Index i) const;
+  Index points_needed() const;
+  void strike(Index begin, Index e, std::string why);
+
+  FailureRules rules_;
+  const ElementGroup& group_;
+  int points_;
+  Energies energies_;
+  Field<Index>& eroded_;
+  Field<Index>& failed_;  ///< by point: by_law, by_card
+  Field<Real>*strain_ = nullptr, *impulse_ = nullptr;
+  std::vector<Field<Real>*> vanishing_;
+  Real least_step_ = 0;
+  std::vector<Index> dead_;                 ///< by block
+  std::vector<std::vector<Failed>> newly_;  ///< by block
+  std::vector<std::vector<Failed>> why_;    ///< what points failed by in this step, by block
+  std::vector<std::array<Real, 3>> kept_;   ///< energies before the step, by element
+};
+
+/// What elements of all kinds are asked for besides.
+struct ElementOptions {
+  MassScaling scaling;
+  std::vector<FailureRules> failure;                ///< by part of the model
+  std::vector<std::shared_ptr<Erosion>> eroding{};  ///< out: of groups that may fail
+};
+
+/// Index of the history variable `plastic_strain` among the numbers of a law; -1: it has none.
+int plastic_strain_of(const StrengthLaw& law);
+
+/// Adds the pass that books deleted elements: energies, faces, what the messages tell.
+void add_erosion(const Model& model, std::vector<std::shared_ptr<Erosion>> groups, World& world);
+
+}  // namespace courant

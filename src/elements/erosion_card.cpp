@@ -1,0 +1,158 @@
+// *MAT_ADD_EROSION, and what else lets elements fail.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "elements/erosion.hpp"
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "model/cards.hpp"
+
+namespace courant {
+
+namespace {
+
+struct MatAddErosion : Entry {
+  std::string title;
+  Id mid = 0;
+  Real excl = 0, mxpres = 0, mneps = 0, effeps = 0, voleps = 0, numfip = 1, ncs = 1;
+  Real mnpres = 0, sigp1 = 0, sigvm = 0, mxeps = 0, epssh = 0, sigth = 0, impulse = 0, failtm = 0;
+  int idam = 0;
+  Id lcregd = 0, lcfld = 0, lceps12 = 0, lceps13 = 0, lcepsmx = 0;
+  Real epsthin = 0, engcrt = 0, radcrt = 0, dteflt = 0, volfrac = 0, mxtmp = 0, dtmin = 0;
+  int nsff = 10;
+  /// A value that asks for its criterion.
+  bool asks(Real value) const { return value != 0 && value != excl; }
+};
+
+using A = MatAddErosion;
+constexpr FieldRules curve_of_other{.honour = Honour::no, .refers = IdSpace::curve};
+const RegisterKeyword<A> mat_add_erosion{
+    {.names = {"MAT_ADD_EROSION"},
+     .purpose = "criteria by which elements of a material fail and are deleted",
+     .title_option = true,
+     .title = &A::title,
+     .many = false,
+     .cards = {{.fields = {{"MID", &A::mid, "-", "material", rules::required_id_of(IdSpace::material)},
+                           {"EXCL", &A::excl, "-", "a value that switches a criterion off, as 0 does"},
+                           {"MXPRES", &A::mxpres, "M/LT2", "largest pressure"},
+                           {"MNEPS", &A::mneps, "-", "least principal strain"},
+                           {"EFFEPS", &A::effeps, "-", "largest effective strain, < 0: of plastic strain"},
+                           {"VOLEPS", &A::voleps, "-", "volume strain: largest where > 0, least where < 0"},
+                           {"NUMFIP",
+                            &A::numfip,
+                            "-",
+                            "points that must fail; < 0: per cent of those of a shell",
+                            {.standard = 1, .zero_is_standard = true}},
+                           {"NCS",
+                            &A::ncs,
+                            "-",
+                            "criteria that must hold at once",
+                            {.standard = 1, .zero_is_standard = true, .check = Check::positive}}}},
+               {.fields = {{"MNPRES", &A::mnpres, "M/LT2", "least pressure (tension < 0)"},
+                           {"SIGP1", &A::sigp1, "M/LT2", "largest principal stress"},
+                           {"SIGVM", &A::sigvm, "M/LT2", "largest effective stress"},
+                           {"MXEPS", &A::mxeps, "-", "largest principal strain"},
+                           {"EPSSH", &A::epssh, "-", "largest shear strain, of the tensor"},
+                           {"SIGTH", &A::sigth, "M/LT2", "threshold of the impulse criterion"},
+                           {"IMPULSE", &A::impulse, "M2/L2T3",
+                            "largest integral of (principal stress - SIGTH)^2 dt"},
+                           {"FAILTM", &A::failtm, "T", "time of failure"}}},
+               {.fields = {{"IDAM", &A::idam, "-", "damage model", unsupported},
+                           {},
+                           {},
+                           {},
+                           {},
+                           {},
+                           {},
+                           {"LCREGD", &A::lcregd, "-", "curve of the element size", curve_of_other}},
+                .optional = true},
+               {.fields = {{"LCFLD", &A::lcfld, "-", "forming limit diagram", curve_of_other},
+                           {"NSFF", &A::nsff, "-", "steps between looks, of LCFLD", no_effect_but(10)},
+                           {"EPSTHIN", &A::epsthin, "-", "thinning of shells", unsupported},
+                           {"ENGCRT", &A::engcrt, "ML2/T2", "energy of nonlocal failure", unsupported},
+                           {"RADCRT", &A::radcrt, "L", "radius of nonlocal failure", no_effect},
+                           {"LCEPS12", &A::lceps12, "-", "curve of in-plane strains", curve_of_other},
+                           {"LCEPS13", &A::lceps13, "-", "curve of strains", curve_of_other},
+                           {"LCEPSMX", &A::lcepsmx, "-", "curve of strains", curve_of_other}},
+                .optional = true},
+               {.fields = {{"DTEFLT", &A::dteflt, "T", "time of averages", no_effect},
+                           {"VOLFRAC", &A::volfrac, "-",
+                            "share of failed volume, of elements with many points", no_effect},
+                           {"MXTMP", &A::mxtmp, "-", "largest temperature", unsupported},
+                           {"DTMIN", &A::dtmin, "T", "least step", unsupported}},
+                .optional = true}}}};
+
+/// The criteria of a card.
+void take_card(const A& c, FailureRules& out) {
+  const auto take = [&](Real value, Real& to) {
+    if (c.asks(value)) to = value;
+  };
+  take(c.mxpres, out.most_pressure), take(c.mnpres, out.least_pressure);
+  take(c.sigp1, out.principal_stress), take(c.sigvm, out.mises);
+  take(c.mxeps, out.most_strain), take(c.mneps, out.least_strain), take(c.epssh, out.shear_strain);
+  if (c.asks(c.effeps)) (c.effeps > 0 ? out.effective_strain : out.plastic_strain) = std::abs(c.effeps);
+  if (c.asks(c.voleps)) (c.voleps > 0 ? out.expansion : out.contraction) = c.voleps;
+  if (c.asks(c.impulse)) out.impulse = c.impulse, out.threshold = c.asks(c.sigth) ? c.sigth : 0;
+  take(c.failtm, out.time);
+  out.conditions = static_cast<int>(c.ncs), out.points = static_cast<int>(c.numfip);
+}
+
+void check_card(const Deck& deck, const A& c, Diagnostics& diagnostics) {
+  const auto refuse = [&](const char* field, Real value, bool wrong, const char* why, const char* hint) {
+    if (wrong) deck.error(diagnostics, c, field, fmt::format("'{:g}' {}", value, why), hint);
+  };
+  constexpr const char* of_rate = "asks for a curve over the rate of strain, which is not supported";
+  refuse("SIGVM", c.sigvm, c.sigvm < 0 && c.asks(c.sigvm), of_rate, "give the value itself, > 0");
+  refuse("MXEPS", c.mxeps, c.mxeps < 0 && c.asks(c.mxeps), of_rate, "give the value itself, > 0");
+  refuse("NUMFIP", c.numfip, c.numfip < -100, "is not supported", "-100 to -1 are per cent of the points");
+  for (const auto& [field, value] : {std::pair{"NUMFIP", c.numfip}, std::pair{"NCS", c.ncs}})
+    refuse(field, value, value != std::floor(value), "is no whole number", "");
+  refuse("IMPULSE", c.impulse, c.impulse < 0 && c.asks(c.impulse), "is below 0", "");
+}
+
+/// Parts of the card's material, and whether it does anything there.
+void check_parts(const Deck& deck, const Model& model, const A& c, Diagnostics& diagnostics) {
+  bool used = false;
+  for (const ModelPart& part : model.parts) {
+    if (part.mid != c.mid) continue;
+    if (part.has_sph)
+      deck.error(diagnostics, c, "MID",
+                 fmt::format("particles cannot fail: part {} has some of this material", part.id),
+                 "give them a material of their own");
+    used = used || part.has_sph || (!part.rigid && (part.has_solid || part.has_shell));
+  }
+  if (!used)
+    deck.warning(diagnostics, c, "MID",
+                 fmt::format("has no effect: no elements that deform are of material {}", c.mid),
+                 "leave it out");
+}
+
+}  // namespace
+
+std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
+                                        const std::vector<std::shared_ptr<StrengthLaw>>& laws,
+                                        Diagnostics& diagnostics) {
+  std::map<Id, const A*> cards;
+  for (const A& card : deck.all<A>()) {
+    check_card(deck, card, diagnostics);
+    check_parts(deck, model, card, diagnostics);
+    if (!cards.emplace(card.mid, &card).second)
+      deck.error(diagnostics, card, "MID", fmt::format("there is another card for material {}", card.mid),
+                 "give all criteria on one card");
+  }
+  std::vector<FailureRules> out(model.parts.size());
+  const auto* step = deck.last<ControlTimestepCard>();
+  const int erode = step ? step->erode : 0;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (!laws[k]) continue;
+    out[k].law_strain = laws[k]->failure_strain();
+    if (const auto card = cards.find(model.parts[k].mid); card != cards.end())
+      take_card(*card->second, out[k]);
+    out[k].small_step = model.parts[k].has_solid ? erode % 10 != 0 : erode / 10 % 10 != 0 && model.dtmin > 0;
+  }
+  return out;
+}
+
+}  // namespace courant

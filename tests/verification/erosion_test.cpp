@@ -1,0 +1,291 @@
+// Elements that fail: when, what becomes of their energy, and what contact makes of it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "same_bits.hpp"
+#include "shell_decks.hpp"
+#include "solid_decks.hpp"
+#include "state/reports.hpp"
+#include "state/shared_fields.hpp"
+
+using namespace courant;
+using test::do_nothing;
+using test::ShellDeck;
+using test::simulation_of;
+using test::SolidDeck;
+using test::start_ledger;
+
+namespace {
+
+std::int64_t elements_deleted(const Simulation& s) {
+  const auto count = s.world().counters.find("deleted_elements");
+  return count == s.world().counters.end() ? -1 : count->second;
+}
+
+Real share_out_of_balance(Simulation& s) {
+  sample_energy(s.world(), s.clock());
+  const EnergyLedger& e = s.world().energy;
+  return std::abs(e.unexplained()) / (std::abs(e.initial) + std::abs(e.external_work));
+}
+
+/// Planes through the origin hold a body, its end at x = 1 moves with `speed`.
+template <class Deck>
+void pull_end(Deck& deck, Real speed) {
+  for (const int axis : {0, 1, 2}) {
+    deck.node_set(axis + 1, [&](const Vec& x) { return x[axis] < 1e-9; });
+    deck.cards += fmt::format("*BOUNDARY_SPC_SET\n{:10}         0{:10}{:10}{:10}\n", axis + 1, int(axis == 0),
+                              int(axis == 1), int(axis == 2));
+  }
+  deck.node_set(4, [](const Vec& x) { return x[0] > 1 - 1e-9; });
+  deck.cards += fmt::format(
+      "*BOUNDARY_PRESCRIBED_MOTION_SET\n         4         1         0         1\n*DEFINE_CURVE\n         1\n"
+      "                   0{0:20.10g}\n                 1E9{0:20.10g}\n",
+      speed);
+}
+
+/// A cube of one element.
+SolidDeck one_cube(const std::string& material, Real speed) {
+  SolidDeck deck;
+  deck.block(Vec(1, 1, 1), 1, 1, 1, 1);
+  deck.cards =
+      "*CONTROL_TIMESTEP\n       0.0       0.5\n*PART\ncube\n         1         1         1\n"
+      "*SECTION_SOLID\n         1         1\n*CONTROL_BULK_VISCOSITY\n    1.0E-9    1.0E-9\n" +
+      material;
+  pull_end(deck, speed);
+  return deck;
+}
+
+/// Steps until an element is gone; the time.
+Real time_of_failure(Simulation& s) {
+  start_ledger(s);
+  while (elements_deleted(s) < 1 && s.clock().t < 400) s.step(do_nothing);
+  return s.clock().t - s.clock().dt_old;  // when forces were computed last
+}
+
+const std::string soft_material = "*MAT_ELASTIC\n         1       1.0       1.0       0.0\n";
+
+/// Block of two layers of nine elements, whose upper nodes are torn off; a small block comes later.
+SolidDeck torn_block(int erosop, const char* kind = "ERODING_SURFACE_TO_SURFACE") {
+  SolidDeck deck;
+  deck.block(Vec(3, 3, 2), 3, 3, 2, 1);
+  const std::size_t first =
+      deck.block(Vec(0.5, 0.5, 0.5), 1, 1, 1, 2, [](const Vec& x) { return Vec(x + Vec(1.25, 1.25, 3.0)); });
+  deck.cards = "*CONTROL_TIMESTEP\n       0.0       0.5\n" + soft_material +
+               "*MAT_ELASTIC\n         2       1.0       1.0       0.0\n"
+               "*MAT_ADD_EROSION\n         1\n       0.0       0.0       0.0       0.5\n"
+               "*PART\nblock\n         1         1         1\n*PART\nsmall\n         2         1         2\n"
+               "*SECTION_SOLID\n         1         1\n*CONTACT_";
+  deck.cards += kind + std::string("\n         1         2         3         3\n       0.0\n       1.0\n");
+  if (std::string(kind).starts_with("ERODING"))
+    deck.cards += fmt::format("         0{:10}         1\n", erosop);
+  deck.node_set(1, [](const Vec& x) { return x[2] < 1e-9; });
+  deck.cards +=
+      "*BOUNDARY_SPC_SET\n         1         0         1         1         1\n*INITIAL_VELOCITY_NODE\n";
+  for (std::size_t n = 0; n < deck.nodes.size(); ++n) {
+    const Real v = n + 1 >= first ? -0.05 : deck.nodes[n][2] > 1.5 ? 1.0 : 0.0;
+    if (v != 0) deck.cards += fmt::format("{:10}       0.0       0.0{:10.3e}\n", n + 1, v);
+  }
+  return deck;
+}
+
+}  // namespace
+
+// E = 1 without Poisson's ratio, stretched by ln(1 + v t): stress and strain are that number. Effective
+// strain 2/3 of it, pressure -1/3, shear strain half.
+TEST(Erosion, EachCriterionFailsWhereTheStretchReachesIt) {
+  struct Case {
+    const char *first, *second;  // cards from EXCL on, and the second card
+    Real speed, strain;
+  };
+  const Case cases[] = {
+      {"", "       0.0      0.05", 0.001, 0.05},                                          // SIGP1
+      {"", "       0.0       0.0      0.04", 0.001, 0.04},                                // SIGVM
+      {"", "       0.0       0.0       0.0      0.06", 0.001, 0.06},                      // MXEPS
+      {"       0.0       0.0       0.0      0.04", "       0.0", 0.001, 0.06},            // EFFEPS
+      {"", "     -0.02", 0.001, 0.06},                                                    // MNPRES
+      {"       0.0       0.0       0.0       0.0      0.05", "       0.0", 0.001, 0.05},  // VOLEPS
+      {"", "       0.0       0.0       0.0       0.0      0.03", 0.001, 0.06},            // EPSSH
+      {"       0.0       0.0       0.0       0.0       0.0       1.0       2.0",
+       "       0.0      0.03       0.0      0.06", 0.001, 0.06},                          // NCS 2
+      {"    -999.0    -999.0    -999.0", "    -999.0      0.05    -999.0", 0.001, 0.05},  // EXCL
+      {"       0.0      0.02", "       0.0", -0.001, -0.06},                              // MXPRES
+      {"       0.0       0.0     -0.05", "       0.0", -0.001, -0.05},                    // MNEPS
+      {"       0.0       0.0       0.0       0.0     -0.04", "       0.0", -0.001, -0.04},
+  };
+  for (const Case& c : cases) {
+    const std::string card = fmt::format("*MAT_ADD_EROSION\n         1{}\n{}\n", c.first, c.second);
+    auto s = simulation_of(one_cube(soft_material + card, c.speed).text(1e9));
+    const Real t = time_of_failure(*s), step = std::abs(c.speed) * 0.5;
+    EXPECT_EQ(elements_deleted(*s), 1) << card;
+    EXPECT_NEAR(std::log(1 + c.speed * t), c.strain, 1.5 * step) << card;
+    // the work of the pull, L ln L - L + 1, is no longer stored
+    const Real L = 1 + c.speed * t, work = L * std::log(L) - L + 1;
+    EXPECT_LT(share_out_of_balance(*s), 0.02) << card;
+    EXPECT_NEAR(s->world().energy.dissipated / work, 1, 0.03) << card;
+    EXPECT_EQ(s->world().energy.internal, 0);
+    for (int k = 0; k < 20; ++k) s->step(do_nothing);
+    EXPECT_EQ(elements_deleted(*s), 1);
+    EXPECT_LT(share_out_of_balance(*s), 0.02) << card;
+    EXPECT_EQ(s->world().nodes.f.vec(0).norm(), 0);
+    PartSums none;
+    std::vector<PartSums> sums(1, none);
+    for (const auto* part : s->world().passes.all<const PartReporter>()) part->report_part(s->world(), sums);
+    EXPECT_NEAR(sums[0].eroded_internal, s->world().energy.dissipated, 1e-12);
+    EXPECT_NEAR(sums[0].mass, 1, 1e-12);
+  }
+}
+
+TEST(Erosion, TimeAndImpulse) {
+  auto timed = simulation_of(
+      one_cube(
+          soft_material +
+              "*MAT_ADD_EROSION\n         1\n       0.0       0.0       0.0       0.0       0.0       0.0  "
+              "     0.0      33.3\n",
+          0.001)
+          .text(1e9));
+  EXPECT_NEAR(time_of_failure(*timed), 33.3 + 0.25, 0.26);
+  // the integral of (s - 0.02)^2 dt reaches 1E-3
+  auto struck = simulation_of(
+      one_cube(
+          soft_material +
+              "*MAT_ADD_EROSION\n         1\n       0.0       0.0       0.0       0.0       0.0      0.02  "
+              "  1.0E-3\n",
+          0.001)
+          .text(1e9));
+  Real sum = 0, t = 0;
+  for (const Real dt = 1e-3; sum < 1e-3; t += dt)
+    sum += dt * std::pow(std::max(std::log(1 + 0.001 * t) - 0.02, 0.0), 2);
+  EXPECT_NEAR(time_of_failure(*struck), t, 1);
+}
+
+// Plastic strain FS at the stretch ln(1 + v t) = FS + (SIGY + Ep FS)/E, for solids and shells.
+TEST(Erosion, FailureStrainOfPlasticMaterials) {
+  const std::string kinematic =
+      "*MAT_PLASTIC_KINEMATIC\n         1       1.0     100.0       0.3       1.0       5.0       1.0\n"
+      "       0.0       0.0      0.10\n";
+  const std::string piecewise =
+      "*MAT_PIECEWISE_LINEAR_PLASTICITY\n         1       1.0     100.0       0.3       1.0       5.0      "
+      "0.10\n";
+  const Real Ep = 500.0 / 95, v = 0.002, strain = 0.1 + (1 + 0.1 * Ep) / 100;
+  for (const std::string& material : {kinematic, piecewise}) {
+    auto s = simulation_of(one_cube(material, v).text(1e9));
+    EXPECT_NEAR(std::log(1 + v * time_of_failure(*s)), strain, 0.01 * strain) << material;
+    EXPECT_LT(share_out_of_balance(*s), 0.02);
+    ShellDeck deck;
+    deck.plate(1, 1, 1, 1, 1);
+    deck.part(1, 0.1, material, 3);
+    deck.cards += "*CONTROL_TIMESTEP\n       0.0       0.5\n";
+    pull_end(deck, v);
+    auto shell = simulation_of(deck.text(1e9));
+    EXPECT_NEAR(std::log(1 + v * time_of_failure(*shell)), strain, 0.01 * strain) << material;
+    EXPECT_LT(share_out_of_balance(*shell), 0.02);
+  }
+}
+
+// The step of a cube that is squashed falls with its height: at DTMIN of the first it is deleted.
+TEST(Erosion, ErodeDeletesElementsOfSmallStep) {
+  SolidDeck deck = one_cube(soft_material, -0.001);
+  const std::string before = "       0.0       0.5\n";
+  deck.cards.replace(deck.cards.find(before), before.size(),
+                     "       0.0       0.5         0       0.0       0.0         0         1\n");
+  std::string text = deck.text(1e9);
+  const std::string end = "*CONTROL_TERMINATION\n     1e+09\n";
+  ASSERT_NE(text.find(end), std::string::npos);
+  text.replace(text.find(end), end.size(), "*CONTROL_TERMINATION\n     1e+09         0       0.8\n");
+  auto s = simulation_of(text);
+  // h sqrt(rho/E), rho = 1/h: sqrt(h) = 0.8
+  EXPECT_NEAR(1 - 0.001 * time_of_failure(*s), 0.64, 0.005);
+  EXPECT_EQ(elements_deleted(*s), 1);
+}
+
+// A plate that fails before a block comes lets it pass; one that fails under it lets it go with what it has.
+TEST(Erosion, ContactIsOverWithTheShellsThatAreDeleted) {
+  for (const Real failtm : {0.0, 5.0, 14.0}) {
+    SolidDeck deck;
+    deck.block(Vec(0.5, 0.5, 0.5), 1, 1, 1, 1, [](const Vec& x) { return Vec(x + Vec(1.25, 1.25, 0.6)); });
+    std::string shells = "*ELEMENT_SHELL\n";
+    const std::size_t first = deck.nodes.size() + 1;
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 4; ++i) deck.nodes.emplace_back(i, j, 0);
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) {
+        const std::size_t n = first + static_cast<std::size_t>(i + 4 * j);
+        shells += fmt::format("{:8}{:8}{:8}{:8}{:8}{:8}\n", 100 + 3 * j + i, 2, n, n + 1, n + 5, n + 4);
+      }
+    deck.particles = shells;
+    deck.cards =
+        "*CONTROL_TIMESTEP\n       0.0       0.5\n" + soft_material +
+        "*MAT_ELASTIC\n         2       1.0       1.0       0.0\n*PART\nblock\n         1         1         "
+        "1\n*PART\nplate\n         2         2         2\n*SECTION_SOLID\n         1         1\n"
+        "*SECTION_SHELL\n         2         2     0.833         2\n       0.2\n"
+        "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n         1         2         3         3\n       0.0\n"
+        "       1.0\n";
+    deck.cards += fmt::format(
+        "*MAT_ADD_EROSION\n         2\n       0.0       0.0       0.0       0.0       0.0       0.0       "
+        "0.0{:10.1f}\n",
+        failtm);
+    deck.node_set(
+        1, [](const Vec& x) { return x[2] < 1e-9 && std::abs(x[0] - 1.5) + std::abs(x[1] - 1.5) > 1.2; });
+    deck.cards +=
+        "*BOUNDARY_SPC_SET\n         1         0         1         1         1         1         1         "
+        "1\n"
+        "*INITIAL_VELOCITY_NODE\n";
+    for (std::size_t n = 1; n < first; ++n)
+      deck.cards += fmt::format("{:10}       0.0       0.0     -0.05\n", n);
+    auto s = simulation_of(deck.text(1e9));
+    start_ledger(*s);
+    const auto speed = [&] {
+      Real sum = 0;
+      for (Index n = 0; n < s->world().nodes.size(); ++n)
+        if (s->world().nodes.id[n] < static_cast<Id>(first)) sum += s->world().nodes.v.data(2)[n] / 8;
+      return sum;
+    };
+    while (s->clock().t < 13.5) s->step(do_nothing);
+    const Real before = share_out_of_balance(*s);
+    while (s->clock().t < 14.5) s->step(do_nothing);
+    const Real then = speed();
+    while (s->clock().t < 80) s->step(do_nothing);
+    EXPECT_LT(share_out_of_balance(*s), std::max(before + 0.01, 0.02)) << failtm << " " << before;
+    if (failtm == 0)
+      EXPECT_GT(speed(), 0.01);
+    else
+      EXPECT_NEAR(speed(), failtm == 5 ? -0.05 : then, 1e-9) << failtm;
+    if (failtm == 14) EXPECT_GT(then, -0.049);  // it had touched
+  }
+}
+
+// Deletion of the upper layer lays the lower one bare, where a contact is asked to go on with it.
+TEST(Erosion, FacesThatDeletionLaysBareAreTouched) {
+  for (const auto& [erosop, kind, bounces] : {std::tuple(1, "ERODING_SURFACE_TO_SURFACE", true),
+                                              {0, "ERODING_SURFACE_TO_SURFACE", false},
+                                              {1, "ERODING_NODES_TO_SURFACE", false},
+                                              {0, "AUTOMATIC_SURFACE_TO_SURFACE", false}}) {
+    auto s = simulation_of(torn_block(erosop, kind).text(1e9));
+    start_ledger(*s);
+    while (s->clock().t < 10) s->step(do_nothing);
+    EXPECT_EQ(elements_deleted(*s), 9);
+    while (s->clock().t < 80) s->step(do_nothing);
+    EXPECT_EQ(elements_deleted(*s), 9);
+    EXPECT_LT(share_out_of_balance(*s), 0.02);
+    const Real v = s->world().nodes.v.data(2)[s->world().nodes.size() - 1];
+    if (bounces)
+      EXPECT_GT(v, 0);
+    else
+      EXPECT_LT(v, -0.03) << kind;
+  }
+}
+
+TEST(Erosion, SameBitsOnAnyNumberOfThreadsAndAfterARestart) {
+  test::expect_same_bits(torn_block(1).text(1e9), 200, 40);
+  ShellDeck deck;
+  deck.plate(1, 0.8, 12, 9, 1);
+  deck.part(1, 0.01,
+            "*MAT_PLASTIC_KINEMATIC\n         1    7850.0   2.1E+11       0.3     2.0E8     1.0E9       0.3\n"
+            "       0.0       0.0     0.001\n",
+            3);
+  deck.hold(1, "xyzXYZ", [](const Vec& x) { return x[0] < 1e-9; });
+  deck.velocity([](const Vec& x) { return Vec(60 * x[0] * x[1], -3, 90 * x[0] * x[0]); });
+  deck.cards += "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n\n\n\n";
+  test::expect_same_bits(deck.text(1), 100, 50);
+}
