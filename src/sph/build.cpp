@@ -423,8 +423,9 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   const auto volumes = make_pair_volumes(world);
   const PairPasses pairs = make_pair_passes(s, world, neighbours, volumes);
   for (const auto& pass : pairs.rates) world.passes.add(pass);
+  std::shared_ptr<Force> wall_images;
   if (!s.walls.segments.empty())
-    add_wall_support(s, world, *neighbours);
+    wall_images = add_wall_support(s, world, neighbours, volumes);
   else
     left_out.push_back({"wall support", "no *COURANT_WALL_SUPPORT"});
   if (s.renormalised)
@@ -478,6 +479,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   else
     left_out.push_back({"strength", "all SPH materials are fluids"});
   for (const auto& pass : pairs.forces) world.passes.add(pass);
+  if (wall_images) world.passes.add(wall_images);
   if (s.maxv != 0)
     world.passes.add(make_speed_limit(s, neighbours));
   else

@@ -50,6 +50,7 @@ struct CourantWallSupport : Entry {
   Id surfb = 0;
   int surfbtyp = 3;
   Real cf = 0;
+  int method = 0;
 };
 
 /// *COURANT_DENSITY_REINITIALISATION, ours.

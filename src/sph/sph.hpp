@@ -69,6 +69,7 @@ struct SupportedWalls {
   std::vector<Index> segments;
   std::vector<Real> cf;            ///< by segment; < 0 where it does not support [-]
   std::vector<GhostPlane> planes;  ///< behind which their images support, too
+  bool images = false;             ///< METHOD 1: as mirrors of the particles
 };
 
 /// *COURANT_EDDY_VISCOSITY.
@@ -180,8 +181,10 @@ void add_volume_control(const SphSettings&, World&, std::shared_ptr<Neighbours>,
 /// Reads *COURANT_WALL_SUPPORT into the settings. Call when segments and bodies are built.
 void read_supported_walls(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
                           Diagnostics& diagnostics);
-/// Adds the passes of supporting walls; belongs right behind the pair rates.
-void add_wall_support(const SphSettings&, World&, Neighbours&);
+/// Adds the passes of supporting walls; belongs right behind the pair rates. What comes back belongs behind
+/// the pair forces; null: nothing.
+std::shared_ptr<Force> add_wall_support(const SphSettings&, World&, std::shared_ptr<Neighbours>,
+                                        std::shared_ptr<PairVolumes>);
 /// "parts 1 and 2 differ in MID or EOSID"; empty where SPH parts do not.
 std::string parts_of_several_materials(const Model&);
 ReinitialisationRules read_density_reinitialisation(const Deck&, const Model&, Diagnostics&);

@@ -7,6 +7,7 @@
 #include "keyword/registry.hpp"
 #include "model/mesh/named_parts.hpp"
 #include "parallel/parallel.hpp"
+#include "sph/boundaries/wall_images.hpp"
 #include "sph/boundaries/wall_support.hpp"
 #include "sph/cards.hpp"
 #include "sph/core/fields.hpp"
@@ -36,7 +37,14 @@ const RegisterKeyword<CourantWallSupport> wall_support_keyword{
                             &CourantWallSupport::cf,
                             "-",
                             "skin friction: shear stress over rho v^2/2; 0: the wall is smooth",
-                            {.check = Check::not_negative}}}}}}};
+                            {.check = Check::not_negative}},
+                           {"METHOD",
+                            &CourantWallSupport::method,
+                            "-",
+                            "0: the kernel goes on behind the wall with the particle's own pressure; 1: the "
+                            "wall is a mirror of the water as far as it goes, turns corners and parts water "
+                            "on both sides; held walls, one h, plain FORM",
+                            {.allowed = {0, 1}}}}}}}};
 
 constexpr Real points_per_h = 4;  ///< the kernel's integral over a plane is then right to 1e-5 from 0.3 h on
 constexpr Real most_points_per_h = 16;  ///< of the largest h, where h differs
@@ -60,6 +68,8 @@ WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& n
     for (const Index n : world.segments.nodes(segment))
       if (!world.nodes.held[n]) moves_[static_cast<std::size_t>(segment)] = 1;
   any_moves_ = std::count(moves_.begin(), moves_.end(), 1) > 0;
+  if (s.walls.images) past_edges_ = WallPaths::usual_width * s.spacing;
+  if (s.walls.images) image_force_ = &sph_fields::wall_force(world.particles);
   if (any_moves_) velocity_ = &sph_fields::wall_velocity(world.particles);
   if (s.renormalised) {
     moment_ = &sph_fields::wall_moment(world.particles);
@@ -72,7 +82,7 @@ WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& n
 
 void WallSupport::rebuild(const World& world) {
   const Real spacing = std::max(least_h_ / points_per_h, most_h_ / most_points_per_h);
-  const Real reach = table_.support() * most_h_ + neighbours_.largest_skin();
+  const Real reach = table_.support() * most_h_ + neighbours_.largest_skin() + past_edges_;
   std::optional<Lookouts> from;  // a surface of every step is that of what water can see
   if (any_moves_ && world.particles.active > 0) from.emplace(world.particles, reach, walls_.planes);
   surface_.emplace(world, walls_.segments, spacing, reach, walls_.planes, from ? &*from : nullptr);
@@ -116,7 +126,7 @@ void WallSupport::block(World& world, const Clock& clock, Index begin, Index end
     const Sums sums = view_[i] >= 0 ? sums_over_plane(view_[i], p.h[i], x, v, half_step)
                                     : sums_over_points(p.h[i], x, v, half_step);
     set(i, sums);
-    p.drhodt[i] += 2 * p.rho[i] * sums.squeeze;
+    if (!image_force_) p.drhodt[i] += 2 * p.rho[i] * sums.squeeze;
   }
 }
 
@@ -135,7 +145,13 @@ Vec WallSupport::corrected_slope(Index i) const {
 }
 
 Vec WallSupport::force_on(const Particles& p, Index i) const {
-  return friction_on(p, i, p.v.vec(i)) - (2 * p.m[i] / p.rho[i] * pressure_[i]) * corrected_slope(i);
+  return image_force_ ? Vec(own_force_on(p, i) + image_force_->vec(i)) : own_force_on(p, i);
+}
+
+Vec WallSupport::own_force_on(const Particles& p, Index i) const {
+  const Vec friction = friction_on(p, i, p.v.vec(i));
+  if (image_force_) return friction;
+  return friction - (2 * p.m[i] / p.rho[i] * pressure_[i]) * corrected_slope(i);
 }
 
 void WallSupport::declare_force(const World& world, Accesses& a) const {
@@ -336,7 +352,7 @@ class WallSupportForce : public Force {
     reactions.clear();
     for (Index i = begin; i < end; ++i) {
       if (!support_->is_near(i)) continue;
-      p.f.add(i, support_->force_on(p, i));
+      p.f.add(i, support_->own_force_on(p, i));
       if (support_->any_moves()) support_->add_reactions(p, i, reactions);
     }
   }
@@ -371,6 +387,25 @@ void check_thickness(const CourantWallSupport& c, Real thickness, const Deck& de
         "let the shells be one spacing of the particles thick");
 }
 
+/// What METHOD 1 cannot do.
+void check_images(const CourantWallSupport& c, const Deck& deck, const World& world, const SphSettings& s,
+                  Diagnostics& diagnostics) {
+  const auto refuse = [&](bool is, const char* what, const char* hint) {
+    if (is) deck.error(diagnostics, c, "METHOD", fmt::format("METHOD 1 is not supported {}", what), hint);
+  };
+  refuse(s.renormalised, "where FORM of *CONTROL_SPH renormalises", "use METHOD 0, or FORM 0");
+  refuse(!s.uniform_h, "where smoothing lengths differ",
+         "use METHOD 0, or one CSLH and spacing, HMIN = HMAX = 1");
+  refuse(s.geometry_eps > 0, "with *COURANT_PAIR_GEOMETRY", "use METHOD 0, or leave the other card out");
+  for (Index segment = 0; segment < world.segments.size(); ++segment) {
+    if (s.walls.cf[segment] < 0) continue;
+    bool moves = false;
+    for (const Index n : world.segments.nodes(segment)) moves |= !world.nodes.held[n];
+    refuse(moves, "on walls that move", "use METHOD 0, or hold the body: CON1 and CON2 of *MAT_RIGID");
+    if (moves) return;
+  }
+}
+
 /// Whether a corner of a shell moves by its forces.
 bool deforms(const World& world, Index segment) {
   for (const Index n : world.segments.nodes(segment))
@@ -384,6 +419,7 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
                           Diagnostics& diagnostics) {
   SupportedWalls& walls = settings.walls;
   walls.cf.assign(world.segments.size(), -1);
+  const CourantWallSupport* first = nullptr;
   for (const auto& c : deck.all<CourantWallSupport>()) {
     const std::vector<char> chosen =
         shell_parts_named(deck, model, c, "SURFB", c.surfb, c.surfbtyp, diagnostics);
@@ -407,15 +443,26 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
       walls.segments.push_back(s);
       walls.cf[s] = c.cf;
     }
+    if (first && first->method != c.method)
+      deck.error(diagnostics, c, "METHOD", "another *COURANT_WALL_SUPPORT has another METHOD",
+                 "give all of them the same METHOD");
+    first = &c;
+    walls.images = c.method == 1;
+    if (walls.images) check_images(c, deck, world, settings, diagnostics);
     if (thickness > 0) check_thickness(c, thickness, deck, world, diagnostics);
   }
 }
 
-void add_wall_support(const SphSettings& s, World& world, Neighbours& neighbours) {
-  neighbours.need_whole_lists();
-  const auto support = world.passes.add(std::make_shared<WallSupport>(s, world, neighbours));
+std::shared_ptr<Force> add_wall_support(const SphSettings& s, World& world,
+                                        std::shared_ptr<Neighbours> neighbours,
+                                        std::shared_ptr<PairVolumes> volumes) {
+  neighbours->need_whole_lists();
+  const auto support = world.passes.add(std::make_shared<WallSupport>(s, world, *neighbours));
   if (support->any_moves()) add_clear_face_forces(world);
   world.passes.add(std::make_shared<WallSupportForce>(support));
+  if (!s.walls.images) return nullptr;
+  return make_wall_image_forces(world.passes.add(
+      std::make_shared<WallImages>(s, world, std::move(neighbours), std::move(volumes), support)));
 }
 
 }  // namespace courant

@@ -41,8 +41,11 @@ class WallSupport : public Rate,
 
   /// Force of the walls on a particle, pressure and friction.
   Vec force_on(const Particles& p, Index i) const;
+  /// What `WallSupportForce` adds of it: all but that of images, which is there already.
+  Vec own_force_on(const Particles& p, Index i) const;
   void declare_force(const World& world, Accesses& a) const;
   bool is_near(Index i) const { return view_[i] != nothing; }
+  const WallSurface& surface() const { return *surface_; }
   bool any_moves() const { return any_moves_; }
 
   /// What a particle does to a segment that moves.
@@ -89,11 +92,13 @@ class WallSupport : public Rate,
 
   int dim_;
   bool evolving_h_, any_moves_ = false;
+  Real past_edges_ = 0;  ///< so much farther METHOD 1 looks [L]
   WallTables table_;
   Field<Real>&slope_, &fill_;
   Field<Real>& pressure_;  ///< with that of bulk viscosity, as pair forces take it
   Field<Real>& rubbing_;
   Field<Real>* velocity_ = nullptr;                                         ///< where walls move
+  Field<Real>* image_force_ = nullptr;                                      ///< METHOD 1
   Field<Real>*moment_ = nullptr, *gradient_ = nullptr, *excess_ = nullptr;  ///< where forms are renormalised
   const Neighbours& neighbours_;
   SupportedWalls walls_;

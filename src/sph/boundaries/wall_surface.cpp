@@ -327,6 +327,17 @@ WallSurface::View WallSurface::view_from(const Vec& x) const {
   return view;
 }
 
+std::vector<Index> WallSurface::faces_around(const Vec& x) const {
+  const Vec from = in_plane(x);
+  std::array<Index, 27> cells;
+  const int n = cells_around(from, cells);
+  return faces_near(from, cells, n);
+}
+
+bool WallSurface::is_at_face(Index f, const Vec& q) const {
+  return is_at(faces_[f].side, q);
+}
+
 std::vector<Index> WallSurface::faces_near(const Vec& x, const std::array<Index, 27>& cells, int n) const {
   std::vector<Index> found;
   for (int k = 0; k < n; ++k)

@@ -65,6 +65,28 @@ class WallSurface {
     return height(face, x) < 0 ? faces_[face].n : Vec(-faces_[face].n);
   }
 
+  /// Two bits for each of these planes: 0 in front of it, 1 behind, 2 behind the other one of a period.
+  using Side = std::uint64_t;
+  struct Face {
+    std::array<Vec, 4> x, inward;            ///< corners; of the edge from each to the next, into the face
+    std::array<Vec, 4> v;                    ///< of the segment's nodes
+    std::array<Real, 4> along{};             ///< in 2D: 1 for nodes at the line's end, 0 at its begin
+    Matrix from_image = Matrix::Identity();  ///< turns directions at an image back
+    Vec n = Vec::Zero();
+    Real offset = 0;
+    int corners = 4;
+    Index plane = 0, segment = 0;
+    Side side = 0;  ///< where it counts
+    Face() { x.fill(Vec::Zero()), inward.fill(Vec::Zero()), v.fill(Vec::Zero()); }
+  };
+  const Face& face(Index f) const { return faces_[f]; }
+  /// Faces that have points within the reach of x, ascending.
+  std::vector<Index> faces_around(const Vec& x) const;
+  /// Whether q, in the plane of a face, is where that face or its image counts.
+  bool is_at_face(Index f, const Vec& q) const;
+  Real reach() const { return reach_; }
+  Vec in_plane(const Vec& x) const { return dim_ == 2 ? Vec(x[0], x[1], 0) : x; }
+
   /// Calls f(point, away) for each point nearer than the reach that can be seen from x past other faces;
   /// `away` is the piece's area with its normal away from x.
   template <class F>
@@ -93,21 +115,6 @@ class WallSurface {
   }
 
  private:
-  /// Two bits for each of these planes: 0 in front of it, 1 behind, 2 behind the other one of a period.
-  using Side = std::uint64_t;
-  struct Face {
-    std::array<Vec, 4> x, inward;
-    std::array<Vec, 4> v;                    ///< of the segment's nodes
-    std::array<Real, 4> along{};             ///< in 2D: 1 for nodes at the line's end, 0 at its begin
-    Matrix from_image = Matrix::Identity();  ///< turns directions at an image back
-    Vec n = Vec::Zero();
-    Real offset = 0;
-    int corners = 4;
-    Index plane = 0, segment = 0;
-    Side side = 0;  ///< where it counts
-    Face() { x.fill(Vec::Zero()), inward.fill(Vec::Zero()), v.fill(Vec::Zero()); }
-  };
-
   /// What is alike to 1e-6 of the reach has one key.
   using Key = std::array<std::int64_t, 6>;
   Key key(const Vec& a, const Vec& b) const;
@@ -122,7 +129,6 @@ class WallSurface {
   void add_images(int plane);
   bool is_at(Side side, const Vec& x) const;
   void sort_into_cells();
-  Vec in_plane(const Vec& x) const { return dim_ == 2 ? Vec(x[0], x[1], 0) : x; }
   bool near(const WallPoint& point, const Vec& x) const {
     return (point.x - x).squaredNorm() < reach_ * reach_;
   }

@@ -10,7 +10,8 @@ namespace courant {
 /// What a kernel of h = 1 gives at distance R, in tables.
 class WallTables {
  public:
-  WallTables(KernelChoice kernel, int dim) : kernel_(n + 1), tail_(n + 1), plane_(n + 1), behind_(n + 1) {
+  WallTables(KernelChoice kernel, int dim)
+      : kernel_(n + 1), slope_(n + 1), tail_(n + 1), plane_(n + 1), behind_(n + 1) {
     with_kernel(kernel, [&](auto k) {
       using Kernel = decltype(k);
       const auto theta = [&](Real R) { return Kernel::C(dim) * Kernel::shape(R); };
@@ -18,6 +19,7 @@ class WallTables {
       const Real step = support_ / n;
       for (int i = n; i >= 0; --i) {
         kernel_[i] = theta(i * step);
+        slope_[i] = Kernel::C(dim) * Kernel::slope(i * step);
         if (i == n) continue;
         const Real s = (i + 0.5) * step;
         tail_[i] = tail_[i + 1] + theta(s) * (dim == 3 ? s * s : s) * step;
@@ -32,6 +34,7 @@ class WallTables {
   }
   Real support() const { return support_; }
   Real kernel(Real R) const { return at(kernel_, R); }
+  Real slope(Real R) const { return at(slope_, R); }  ///< dW/dR
   /// int_R W s^(dim-1) ds
   Real tail(Real R) const { return at(tail_, R); }
   /// int W dS over a plane (2D: line) at distance R
@@ -48,7 +51,7 @@ class WallTables {
     return table[i] + (place - i) * (table[i + 1] - table[i]);
   }
   Real support_ = 2;
-  std::vector<Real> kernel_, tail_, plane_, behind_;
+  std::vector<Real> kernel_, slope_, tail_, plane_, behind_;
 };
 
 }  // namespace courant

@@ -147,6 +147,10 @@ inline Field<Real>& wall_moment(Particles& p) {
 inline Field<Real>& wall_gradient(Particles& p) {
   return p.fields.add<Real>({.name = "wall_gradient", .dimension = "1/T", .components = 6, .restart = false});
 }
+/// Force of images in walls
+inline Field<Real>& wall_force(Particles& p) {
+  return p.fields.add<Real>({.name = "wall_force", .dimension = "ML/T2", .components = 3, .restart = false});
+}
 /// Mean velocity of the walls in sight, each by its friction
 inline Field<Real>& wall_velocity(Particles& p) {
   return p.fields.add<Real>({.name = "wall_velocity", .dimension = "L/T", .components = 3, .restart = false});

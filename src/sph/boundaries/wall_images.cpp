@@ -1,0 +1,127 @@
+// METHOD 1 of *COURANT_WALL_SUPPORT: walls as mirrors of the water beside them.
+#include <cmath>
+
+#include "search/neighbours.hpp"
+#include "sph/boundaries/wall_images.hpp"
+#include "sph/core/fields.hpp"
+
+namespace courant {
+
+WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+                       std::shared_ptr<PairVolumes> volumes, std::shared_ptr<WallSupport> support)
+    : dim_(s.dim),
+      delta_(s.density_diffusion),
+      width_(WallPaths::usual_width * s.spacing),
+      loads_(s.loads),
+      table_(s.kernel, s.dim),
+      neighbours_(std::move(neighbours)),
+      volumes_(std::move(volumes)),
+      support_(std::move(support)),
+      pressure_(std::holds_alternative<BulkViscosity>(s.viscosity)
+                    ? sph_fields::pressure_plus_q(world.particles)
+                    : world.particles.p),
+      force_(sph_fields::wall_force(world.particles)),
+      diffusion_(s.density_diffusion > 0 ? &sph_fields::density_diffusion(world.particles) : nullptr) {}
+
+Real WallImages::slope(Real h, const Vec& d) const {
+  const Real r = std::max(d.norm(), 1e-9 * h);
+  return table_.slope(r / h) / (r * h * (dim_ == 2 ? power<2>(h) : power<3>(h)));
+}
+
+void WallImages::refreshed(World& world, const Clock&, std::span<const Index>) {
+  look(world);
+}
+
+void WallImages::look(World& world) {
+  const Particles& p = world.particles;
+  paths_from_.emplace(support_->surface(), dim_, width_);
+  sheets_.assign(p.active, {});
+  for_each(p.active, [&](Index i) {
+    if (support_->is_near(i)) sheets_[i] = paths_from_->seen_from(p.x.vec(i));
+  });
+  for_each(p.active, [&](Index i) { force_.set(i, Vec::Zero()); });
+}
+
+void WallImages::declare(const World& world, Accesses& a) const {
+  const Particles& p = world.particles;
+  a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.h);
+  a.reads(volumes_->before(), Reach::others).reads_before(p.rho).updates(p.drhodt);
+}
+
+void WallImages::start(World& world, const Clock& clock) {
+  half_step_ = 0.5 * clock.dt_old;
+  paths_.resize(static_cast<std::size_t>(block_count(world.particles.active)));
+}
+
+void WallImages::block(World& world, const Clock&, Index begin, Index end) {
+  Particles& p = world.particles;
+  auto& paths = paths_[static_cast<std::size_t>(begin / block_size)];
+  paths.clear();
+  for (Index i = begin; i < end; ++i) {
+    if (sheets_[i].empty()) continue;
+    const Vec x = p.x.vec(i);
+    const Real reach = table_.support() * p.h[i];
+    for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
+      paths_from_->add(sheets_[i], i, x, j, p.x.vec(j), reach, paths);
+  }
+  const Real* V = volumes_->current();
+  for (const WallPath& path : paths) {
+    const Vec u = p.v.vec(path.i) - path.turn * p.v.vec(path.j), d = path.d - half_step_ * u;
+    p.drhodt[path.i] += p.rho[path.i] * path.weight * V[path.j] * slope(p.h[path.i], d) * u.dot(d);
+  }
+}
+
+void WallImages::declare_forces(const World& world, Accesses& a) const {
+  const Particles& p = world.particles;
+  a.reads(p.x, Reach::others).reads(pressure_, Reach::others).reads(volumes_->now(), Reach::others);
+  a.reads(p.h).reads(p.rho).reads(p.c).reads(p.part).updates(p.f).updates(force_);
+  if (diffusion_) a.updates(*diffusion_);
+}
+
+void WallImages::start_forces(const Clock& clock) {
+  now_ = loads_.at(clock.t);
+}
+
+void WallImages::forces(World& world, Index begin, Index end) {
+  Particles& p = world.particles;
+  const Real* V = volumes_->current();
+  for (Index i = begin; i < end; ++i)
+    if (!sheets_[i].empty()) force_.set(i, Vec::Zero());
+  for (const WallPath& path : paths_[static_cast<std::size_t>(begin / block_size)]) {
+    const Index i = path.i, j = path.j;
+    const Real share = path.weight * V[j] * slope(p.h[i], path.d);
+    const Vec force = -V[i] * share * (pressure_[i] + pressure_[j]) * path.d;
+    p.f.add(i, force);
+    if (path.weight > 0) force_.add(i, force);
+    if (!diffusion_) continue;
+    // pressure goes on behind the wall as it stands at rest
+    const auto rise = [&](const Vec& from, const Vec& step) { return now_.rise(from, step, p.part[i]); };
+    const Real image_pressure = pressure_[j] - p.rho[i] * rise(p.x.vec(j), path.shift);
+    (*diffusion_)[i] -= 2 * delta_ * p.h[i] / p.c[i] * share *
+                        (image_pressure - pressure_[i] + p.rho[i] * rise(p.x.vec(i), -path.d));
+  }
+}
+
+namespace {
+
+class WallImageForces : public Force {
+ public:
+  explicit WallImageForces(std::shared_ptr<WallImages> images) : images_(std::move(images)) {}
+  std::string name() const override { return "wall images (forces)"; }
+  void declare(const World& world, Accesses& a) const override { images_->declare_forces(world, a); }
+  void start(World&, const Clock& clock) override { images_->start_forces(clock); }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    images_->forces(world, begin, end);
+  }
+
+ private:
+  std::shared_ptr<WallImages> images_;
+};
+
+}  // namespace
+
+std::shared_ptr<Force> make_wall_image_forces(std::shared_ptr<WallImages> images) {
+  return std::make_shared<WallImageForces>(std::move(images));
+}
+
+}  // namespace courant

@@ -1,0 +1,60 @@
+#pragma once
+// What walls of shells do as mirrors of the water beside them.
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "sph/boundaries/wall_paths.hpp"
+#include "sph/boundaries/wall_support.hpp"
+#include "sph/core/pair_volumes.hpp"
+
+namespace courant {
+
+/// Sums over the images of particles in the walls (`WallPaths`), and what walls hide taken off plain sums;
+/// j stands for an image, w for the share of its way:
+///   d rho_i/dt += rho_i sum w V_j (v_i - v_j) . grad W_ij,
+///   f_i -= V_i sum w V_j (p_i + p_j) grad W_ij,
+/// the second what belongs to the first, so that energy is kept; and since the way back is the same, forces
+/// along a plane wall cancel between particles. The diffusion of density sees images, too, with the pressure
+/// that stands behind the wall at rest; viscosity does not.
+class WallImages : public Rate, public Refresh, public Restartable {
+ public:
+  WallImages(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
+             std::shared_ptr<PairVolumes> volumes, std::shared_ptr<WallSupport> support);
+  std::string name() const override { return "wall images (rates)"; }
+  void declare(const World& world, Accesses& a) const override;
+  void start(World& world, const Clock& clock) override;
+  void block(World& world, const Clock&, Index begin, Index end) override;
+  void refreshed(World& world, const Clock&, std::span<const Index>) override;
+  void keep(Archive&) override {}
+  void relist(World& world) override { look(world); }
+
+  void declare_forces(const World& world, Accesses& a) const;
+  void start_forces(const Clock& clock);
+  void forces(World& world, Index begin, Index end);
+
+ private:
+  void look(World& world);
+  /// (dW/dr)/r [1/L^(dim+2)]
+  Real slope(Real h, const Vec& d) const;
+
+  int dim_;
+  Real delta_, width_, half_step_ = 0;
+  BodyAcceleration loads_;
+  BodyAcceleration::At now_;
+  WallTables table_;
+  std::shared_ptr<Neighbours> neighbours_;
+  std::shared_ptr<PairVolumes> volumes_;
+  std::shared_ptr<WallSupport> support_;
+  Field<Real>&pressure_, &force_;
+  Field<Real>* diffusion_;
+  std::optional<WallPaths> paths_from_;
+  std::vector<WallPaths::Sheets> sheets_;     ///< of active particles, since the last refresh
+  std::vector<std::vector<WallPath>> paths_;  ///< of each block in this step, by particles
+};
+
+/// What images do to forces; belongs behind the pair forces.
+std::shared_ptr<Force> make_wall_image_forces(std::shared_ptr<WallImages> images);
+
+}  // namespace courant

@@ -1,0 +1,160 @@
+// METHOD 1 of *COURANT_WALL_SUPPORT: what particles see beside walls, against what a whole kernel holds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sph/boundaries/wall_paths.hpp"
+#include "sph/core/kernel.hpp"
+
+namespace courant::wall_paths_test {
+namespace {
+
+constexpr Real h = 0.12, dx = 0.1, fine = 0.003;
+
+/// Walls of one shell each along lines in the plane, one wide.
+void add_plates(World& world, const std::vector<std::array<Vec, 4>>& plates, int dim) {
+  world.dim = dim;
+  world.nodes.fields.resize(4 * static_cast<Index>(plates.size()));
+  world.segments.fields.resize(static_cast<Index>(plates.size()));
+  for (Index s = 0; s < static_cast<Index>(plates.size()); ++s) {
+    for (Index e = 0; e < 4; ++e) world.nodes.x.set(4 * s + e, plates[s][e]);
+    world.segments.node0[s] = 4 * s, world.segments.node1[s] = 4 * s + 1;
+    world.segments.node2[s] = 4 * s + 2, world.segments.node3[s] = 4 * s + 3;
+  }
+}
+std::array<Vec, 4> line(const Vec& a, const Vec& b) {
+  const Vec z(0, 0, 0.5);
+  return {Vec(a - z), Vec(b - z), Vec(b + z), Vec(a + z)};
+}
+Vec at_angle(Real degrees, Real r) {
+  return r * Vec(std::cos(degrees * pi / 180), std::sin(degrees * pi / 180), 0);
+}
+
+struct Sums {
+  Real fill = 0;            ///< int W dV, 1 where nothing is missing
+  Vec slope = Vec::Zero();  ///< int grad W dV, 0 there
+  Real stretch = 0;         ///< of a velocity that walls do not hinder: its divergence
+  int paths = 0;
+};
+
+/// What x sees of a liquid all over the places that `wet` tells, in small pieces.
+template <class Wet>
+Sums look(const World& world, const Vec& x, int dim, Real piece, const Wet& wet) {
+  std::vector<Index> all(static_cast<std::size_t>(world.segments.size()));
+  for (Index s = 0; s < world.segments.size(); ++s) all[s] = s;
+  const WallSurface surface(world, all, h / 4, 2.1 * h + dx);
+  const WallPaths paths(surface, dim, 0.8 * dx);
+  const auto sheets = paths.seen_from(x);
+  Sums sums;
+  const int n = static_cast<int>(2 * h / piece) + 1, deep = dim == 3 ? n : 0;
+  const Real volume = dim == 3 ? piece * piece * piece : piece * piece;
+  const auto add = [&](const Vec& d, Real weight) {
+    const Real R = d.norm() / h;
+    if (R >= 2) return;
+    const Real scale = dim == 3 ? h * h * h : h * h;
+    sums.fill += weight * volume * CubicSpline::C(dim) * CubicSpline::shape(R) / scale;
+    sums.slope += weight * volume * CubicSpline::C(dim) * CubicSpline::slope(R) / (scale * h * R * h) * d;
+  };
+  std::vector<WallPath> found;
+  for (int i = -n; i <= n; ++i)
+    for (int j = -n; j <= n; ++j)
+      for (int k = -deep; k <= deep; ++k) {
+        const Vec y = x + piece * Vec(i + 0.37, j + 0.41, dim == 3 ? k + 0.43 : 0);
+        if (!wet(y)) continue;
+        add(x - y, 1);
+        found.clear();
+        paths.add(sheets, 0, x, 1, y, 2 * h, found);
+        for (const WallPath& path : found) add(path.d, path.weight);
+        sums.paths += static_cast<int>(found.size());
+      }
+  return sums;
+}
+
+TEST(WallPaths, FillTheKernelInCornersOfAnyAngle) {
+  for (const Real angle : {45.0, 60.0, 75.0, 90.0, 110.0, 120.0, 150.0}) {
+    World world;
+    add_plates(world, {line(Vec::Zero(), at_angle(0, 1)), line(Vec::Zero(), at_angle(angle, 1))}, 2);
+    const auto wet = [&](const Vec& y) {
+      const Real a = std::atan2(y[1], y[0]) * 180 / pi;
+      return a > 0 && a < angle;
+    };
+    for (const Real turn : {0.2, 0.5, 0.7})
+      for (const Real r : {0.06, 0.12, 0.2}) {
+        const Sums s = look(world, at_angle(turn * angle, r), 2, fine, wet);
+        EXPECT_NEAR(s.fill, 1, 0.025) << angle << " " << turn << " " << r;
+        EXPECT_LT(s.slope.norm() * h, 0.04) << angle << " " << turn << " " << r;
+        EXPECT_GT(s.paths, 100);
+      }
+  }
+}
+
+TEST(WallPaths, FillTheKernelOverAStepAndBesideTheEndOfAPlate) {
+  // the solid is x < 0, y < 0
+  World step;
+  add_plates(step, {line(Vec(-1, 0, 0), Vec::Zero()), line(Vec::Zero(), Vec(0, -1, 0))}, 2);
+  const auto over_step = [](const Vec& y) { return y[0] > 0 || y[1] > 0; };
+  World plate;
+  add_plates(plate, {line(Vec(-1, 0, 0), Vec::Zero())}, 2);
+  const auto everywhere = [](const Vec&) { return true; };
+  for (const Vec& x : {Vec(-0.05, 0.05, 0), Vec(-0.15, 0.05, 0), Vec(0.05, 0.05, 0), Vec(0.05, -0.05, 0),
+                       Vec(0.02, 0.11, 0)}) {
+    EXPECT_NEAR(look(step, x, 2, fine, over_step).fill, 1, 0.02) << x.transpose();
+    EXPECT_NEAR(look(plate, x, 2, fine, everywhere).fill, 1, 0.02) << x.transpose();
+  }
+}
+
+TEST(WallPaths, FillTheKernelInACornerOfThreeWalls) {
+  const Real L = 1;
+  const std::array<Vec, 4> floor{Vec(0, 0, 0), Vec(L, 0, 0), Vec(L, L, 0), Vec(0, L, 0)},
+      left{Vec(0, 0, 0), Vec(0, L, 0), Vec(0, L, L), Vec(0, 0, L)},
+      front{Vec(0, 0, 0), Vec(L, 0, 0), Vec(L, 0, L), Vec(0, 0, L)};
+  World world;
+  add_plates(world, {floor, left, front}, 3);
+  const auto wet = [](const Vec& y) { return y.minCoeff() > 0; };
+  for (const Vec& x : {Vec(0.05, 0.05, 0.05), Vec(0.05, 0.15, 0.07), Vec(0.4, 0.05, 0.05)}) {
+    const Sums s = look(world, x, 3, 0.006, wet);
+    EXPECT_NEAR(s.fill, 1, 0.04) << x.transpose();
+    EXPECT_LT(s.slope.norm() * h, 0.06) << x.transpose();
+  }
+}
+
+TEST(WallPaths, HideWhatIsBehindAPlate) {
+  World world;
+  add_plates(world, {line(Vec(-1, 0, 0), Vec(1, 0, 0))}, 2);
+  const Vec x(0.01, 0.05, 0);
+  const Sums s = look(world, x, 2, fine, [](const Vec&) { return true; });
+  EXPECT_NEAR(s.fill, 1, 0.025);
+  EXPECT_LT(s.slope.norm() * h, 0.02);
+  // water on the far side alone is out of sight
+  EXPECT_NEAR(look(world, x, 2, fine, [](const Vec& y) { return y[1] < 0; }).fill, 0, 1e-12);
+}
+
+TEST(WallPaths, AreTheSameBothWays) {
+  World world;
+  add_plates(world,
+             {line(Vec(-1, 0, 0), Vec::Zero()), line(Vec::Zero(), at_angle(-70, 1)),
+              line(at_angle(-70, 1), at_angle(-70, 1) + Vec(1, 0, 0))},
+             2);
+  const WallSurface surface(world, {0, 1, 2}, h / 4, 2.1 * h + dx);
+  const WallPaths paths(surface, 2, 0.8 * dx);
+  int ways = 0;
+  for (int k = 0; k < 700; ++k) {
+    const Vec x(0.2 * std::sin(1.3 * k) + 0.1, 0.2 * std::cos(2.1 * k), 0);
+    const Vec y = x + Vec(0.15 * std::sin(5.7 * k), 0.15 * std::cos(3.3 * k), 0);
+    std::vector<WallPath> there, back;
+    paths.add(paths.seen_from(x), 0, x, 1, y, 2 * h, there);
+    paths.add(paths.seen_from(y), 1, y, 0, x, 2 * h, back);
+    ASSERT_EQ(there.size(), back.size()) << k << ": " << x.transpose() << " to " << y.transpose();
+    const auto power = [](const std::vector<WallPath>& all) {
+      Real sum = 0;
+      for (const WallPath& p : all) sum += p.weight * p.d.squaredNorm();
+      return sum;
+    };
+    EXPECT_NEAR(power(there), power(back), 1e-7 * h * h) << k;
+    ways += static_cast<int>(there.size());
+  }
+  EXPECT_GT(ways, 200);
+}
+
+}  // namespace
+}  // namespace courant::wall_paths_test

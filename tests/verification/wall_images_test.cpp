@@ -1,0 +1,81 @@
+// METHOD 1 of *COURANT_WALL_SUPPORT: water at rest on both sides of a thin wall, in a basin with corners.
+// Reference: p = rho0 g (surface - y) on each side, and no motion.
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "same_bits.hpp"
+#include "scenes.hpp"
+
+using namespace courant;
+
+namespace wall_images_test {
+namespace {
+
+constexpr Real depth = 0.16, g = 9.81, rho0 = 1000;
+
+std::string baffle(const std::map<std::string, std::string>& parameters) {
+  const std::string deck = ::testing::TempDir() + "baffle.k";
+  Diagnostics diagnostics;
+  EXPECT_TRUE(generate_deck(std::string(SOURCE_DIR) + "/tests/verification/scenes/baffle.yaml", deck,
+                            parameters, diagnostics))
+      << diagnostics.text();
+  return deck;
+}
+
+struct Rest {
+  Real pressure_error = 0;  ///< largest, of rho0 g depth
+  Real speed = 0;           ///< largest [m/s]
+};
+Rest at_rest(const std::string& deck, Real until) {
+  const auto nothing = [](World&, const Clock&, const std::string&) {};
+  Diagnostics diagnostics;
+  auto s = Simulation::build(deck, {}, diagnostics);
+  EXPECT_TRUE(s != nullptr) << diagnostics.text();
+  std::string who;
+  s->evaluate(who);
+  sample_energy(s->world(), s->clock());
+  s->world().energy.initial = s->world().energy.total();
+  const Particles& p = s->world().particles;
+  std::map<Id, Real> mean;  // of each particle; they are sorted anew now and then
+  Rest rest;
+  int samples = 0;
+  while (s->clock().t < until) {
+    s->step(nothing);
+    for (Index i = 0; i < p.size(); ++i) rest.speed = std::max(rest.speed, p.v.vec(i).norm());
+    if (s->clock().t < 0.5 * until) continue;
+    ++samples;
+    for (Index i = 0; i < p.size(); ++i) {
+      const Real wide = 0.6 * depth, level = p.x.vec(i)[0] < wide ? depth : 0.5 * depth;
+      mean[p.id[i]] += p.p[i] - rho0 * g * (level - p.x.vec(i)[1]);
+    }
+  }
+  for (const auto& [id, sum] : mean)
+    rest.pressure_error = std::max(rest.pressure_error, std::abs(sum) / samples / (rho0 * g * depth));
+  return rest;
+}
+
+}  // namespace
+
+TEST(WallImages, HoldTwoLevelsBesideAThinWall) {
+  const Rest mirrors = at_rest(baffle({}), 1), plain = at_rest(baffle({{"method", "0"}}), 1);
+  std::printf("pressure within %.2f %% of rho0 g depth, fastest %.5f m/s (METHOD 0: %.1f %%, %.4f m/s)\n",
+              100 * mirrors.pressure_error, mirrors.speed, 100 * plain.pressure_error, plain.speed);
+  EXPECT_LT(mirrors.pressure_error, 0.02);
+  EXPECT_LT(mirrors.speed, 0.005);
+  EXPECT_GT(plain.pressure_error, 0.05);  // who is told apart by this test
+  // coarser and finer, at the same depth
+  for (const char* n : {"10", "30"}) {
+    const Rest other = at_rest(baffle({{"n", n}, {"c0", "20"}}), 0.5);
+    EXPECT_LT(other.pressure_error, 0.6 / std::stod(n)) << n;
+    EXPECT_LT(other.speed, 0.01) << n;
+  }
+}
+
+TEST(WallImages, GiveTheSameBitsOnAnyThreadsAndAfterARestart) {
+  std::ifstream file(baffle({{"n", "16"}}));
+  std::stringstream text;
+  text << file.rdbuf();
+  test::expect_same_bits(text.str(), 60, 25);
+}
+}  // namespace wall_images_test
