@@ -132,8 +132,11 @@ void VtkEncoder::add_array(const char* section, VtkArray array, const char* attr
 VtkEncoder::File VtkEncoder::encode(VtkDataSet data) {
   constexpr bool little = std::endian::native == std::endian::little;
   data_.clear();
+  // The encoding stands in a document type, not at AppendedData: only so short a tag is read by ParaView 5.11
+  // with an expat that holds back what it parses (CVE-2023-52425; Debian 12 since 2.5.0-1+deb12u2).
   header_ = fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"{}\" version=\"0.1\" byte_order=\"{}\" "
+      "<?xml version=\"1.0\"?>\n<!DOCTYPE VTKFile [<!ATTLIST AppendedData encoding CDATA "
+      "\"raw\">]>\n<VTKFile type=\"{}\" version=\"0.1\" byte_order=\"{}\" "
       "header_type=\"UInt32\"{}>\n<{}>\n<FieldData>\n",
       data.type, little ? "LittleEndian" : "BigEndian", attribute_of(compression_.method), data.type);
   VtkArray time{"TimeValue", "Float64", 1, "", std::string(sizeof data.t, '\0')};
@@ -145,7 +148,7 @@ VtkEncoder::File VtkEncoder::encode(VtkDataSet data) {
     for (VtkArray& array : section.arrays) add_array(section.name, std::move(array), "");
     header_ += fmt::format("</{}>\n", section.name);
   }
-  header_ += fmt::format("</Piece>\n</{}>\n<AppendedData encoding=\"raw\">\n_", data.type);
+  header_ += fmt::format("</Piece>\n</{}>\n<AppendedData>\n_", data.type);
   data_ += "\n</AppendedData>\n</VTKFile>\n";
   return {header_, data_};
 }
