@@ -4,6 +4,7 @@
 usage: embed.py BUILD_FOLDER SOURCE_DIR WORK_DIR
 """
 import os
+import shutil
 import subprocess
 import sys
 
@@ -26,6 +27,7 @@ share = os.path.join(prefix, "share")
 pages = set(os.listdir(os.path.join(share, "man", "man1")))
 assert {"courant.1", "courant-run.1", "courant-check.1"} <= pages, f"pages of the manual are installed: {pages}"
 assert os.path.exists(os.path.join(share, "bash-completion", "completions", "courant")), "completion for bash is installed"
+shutil.rmtree(example, ignore_errors=True)  # what another generator left there would stop this one
 call("cmake", "-G", "Ninja", "-S", os.path.join(source, "examples", "embed"), "-B", example, f"-DCMAKE_PREFIX_PATH={prefix}")
 call("cmake", "--build", example)
 text = call(os.path.join(example, "parts_of_deck"), os.path.join(source, "keyword_decks", "hydraulic_jump", "d4_5s.k"))

@@ -20,31 +20,32 @@ namespace {
 const RegisterKeyword<CourantWallSupport> wall_support_keyword{
     {.names = {"COURANT_WALL_SUPPORT"},
      .purpose = "completes the sums of particles beside shells, still or moving; skin friction of the shells",
-     .cards = {{.fields = {{"SURFB",
-                            &CourantWallSupport::surfb,
-                            "-",
-                            "the shells: a part or a set of parts",
-                            {.required = true, .check = Check::positive},
-                            [](const CourantWallSupport& c) {
-                              return c.surfbtyp == 2 ? IdSpace::part_set : IdSpace::part;
-                            }},
-                           {"SURFBTYP",
-                            &CourantWallSupport::surfbtyp,
-                            "-",
-                            "2 part set, 3 part",
-                            {.standard = 3, .allowed = {2, 3}}},
-                           {"CF",
-                            &CourantWallSupport::cf,
-                            "-",
-                            "skin friction: shear stress over rho v^2/2; 0: the wall is smooth",
-                            {.check = Check::not_negative}},
-                           {"METHOD",
-                            &CourantWallSupport::method,
-                            "-",
-                            "0: the kernel goes on behind the wall with the particle's own pressure; 1: the "
-                            "wall is a mirror of the water as far as it goes, turns corners and parts water "
-                            "on both sides; held walls, one h, plain FORM",
-                            {.allowed = {0, 1}}}}}}}};
+     .cards = {
+         {.fields = {
+              {"SURFB",
+               &CourantWallSupport::surfb,
+               "-",
+               "the shells: a part or a set of parts",
+               {.required = true, .check = Check::positive},
+               [](const CourantWallSupport& c) {
+                 return c.surfbtyp == 2 ? IdSpace::part_set : IdSpace::part;
+               }},
+              {"SURFBTYP",
+               &CourantWallSupport::surfbtyp,
+               "-",
+               "2 part set, 3 part",
+               {.standard = 3, .allowed = {2, 3}}},
+              {"CF",
+               &CourantWallSupport::cf,
+               "-",
+               "skin friction: shear stress over rho v^2/2; 0: the wall is smooth",
+               {.check = Check::not_negative}},
+              {"METHOD",
+               &CourantWallSupport::method,
+               "-",
+               "0: the kernel goes on with the particle's own pressure; 1: walls are mirrors (held, one h, "
+               "plain FORM)",
+               {.allowed = {0, 1}}}}}}}};
 
 constexpr Real points_per_h = 4;  ///< the kernel's integral over a plane is then right to 1e-5 from 0.3 h on
 constexpr Real most_points_per_h = 16;  ///< of the largest h, where h differs
