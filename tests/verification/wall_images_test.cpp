@@ -14,6 +14,7 @@ namespace {
 
 constexpr Real depth = 0.16, g = 9.81, rho0 = 1000;
 
+/// `n`: rows of the higher level.
 std::string baffle(const std::map<std::string, std::string>& parameters) {
   const std::string deck = ::testing::TempDir() + "baffle.k";
   Diagnostics diagnostics;
@@ -27,7 +28,8 @@ struct Rest {
   Real pressure_error = 0;  ///< largest, of rho0 g depth
   Real speed = 0;           ///< largest [m/s]
 };
-Rest at_rest(const std::string& deck, Real until) {
+/// In the second half of the time until `until`.
+Rest at_rest(const std::string& deck, int n, Real until) {
   const auto nothing = [](World&, const Clock&, const std::string&) {};
   Diagnostics diagnostics;
   auto s = Simulation::build(deck, {}, diagnostics);
@@ -42,11 +44,11 @@ Rest at_rest(const std::string& deck, Real until) {
   int samples = 0;
   while (s->clock().t < until) {
     s->step(nothing);
-    for (Index i = 0; i < p.size(); ++i) rest.speed = std::max(rest.speed, p.v.vec(i).norm());
     if (s->clock().t < 0.5 * until) continue;
+    for (Index i = 0; i < p.size(); ++i) rest.speed = std::max(rest.speed, p.v.vec(i).norm());
     ++samples;
     for (Index i = 0; i < p.size(); ++i) {
-      const Real wide = 0.6 * depth, level = p.x.vec(i)[0] < wide ? depth : 0.5 * depth;
+      const Real wide = 12 * depth / n, level = p.x.vec(i)[0] < wide ? depth : 0.5 * depth;
       mean[p.id[i]] += p.p[i] - rho0 * g * (level - p.x.vec(i)[1]);
     }
   }
@@ -58,18 +60,16 @@ Rest at_rest(const std::string& deck, Real until) {
 }  // namespace
 
 TEST(WallImages, HoldTwoLevelsBesideAThinWall) {
-  const Rest mirrors = at_rest(baffle({}), 1), plain = at_rest(baffle({{"method", "0"}}), 1);
+  const Rest mirrors = at_rest(baffle({}), 20, 1), plain = at_rest(baffle({{"method", "0"}}), 20, 1);
   std::printf("pressure within %.2f %% of rho0 g depth, fastest %.5f m/s (METHOD 0: %.1f %%, %.4f m/s)\n",
               100 * mirrors.pressure_error, mirrors.speed, 100 * plain.pressure_error, plain.speed);
   EXPECT_LT(mirrors.pressure_error, 0.02);
   EXPECT_LT(mirrors.speed, 0.005);
   EXPECT_GT(plain.pressure_error, 0.05);  // who is told apart by this test
-  // coarser and finer, at the same depth
-  for (const char* n : {"10", "30"}) {
-    const Rest other = at_rest(baffle({{"n", n}, {"c0", "20"}}), 0.5);
-    EXPECT_LT(other.pressure_error, 0.6 / std::stod(n)) << n;
-    EXPECT_LT(other.speed, 0.01) << n;
-  }
+  // coarser: the error is that of about half a row
+  const Rest coarse = at_rest(baffle({{"n", "10"}}), 10, 1);
+  EXPECT_LT(coarse.pressure_error, 0.06);
+  EXPECT_LT(coarse.speed, 0.005);
 }
 
 TEST(WallImages, GiveTheSameBitsOnAnyThreadsAndAfterARestart) {

@@ -9,8 +9,10 @@ namespace courant {
 
 namespace {
 
-constexpr Real touching = 1e-6;  ///< of the reach: what is nearer is joined
-constexpr Real bent = 0.87;      ///< cosine of the turn up to which one face goes on in the next
+constexpr Real touching = 1e-3;   ///< of the reach: what is nearer is joined, as decks round places
+constexpr Real overlap = 1e-4;    ///< of the reach: so far faces go on past their edges
+constexpr Real level = 1 - 1e-6;  ///< cosine of the angle between normals of faces in one plane
+constexpr Real bent = 0.87;       ///< cosine of the turn up to which one face goes on in the next
 
 /// How far a way in direction `way` (a unit vector, or 0) through q passes by an edge; `most` where q is
 /// farther from it.
@@ -25,7 +27,7 @@ Real distance_to_edge(const Vec& q, const Vec& way, const Vec& a, const Vec& b, 
 /// No way goes exactly through an edge, or between particles and faces that stand on one lattice, when all
 /// particles are looked at a little aside of their places, which does not matter otherwise. [L]
 Vec aside(Real reach, int dim) {
-  return 1e-7 * reach * Vec(0.6180, 0.4142, dim == 2 ? 0 : 0.2679);
+  return 1e-5 * reach * Vec(0.6180, 0.4142, dim == 2 ? 0 : 0.2679);
 }
 
 }  // namespace
@@ -69,6 +71,14 @@ WallPaths::Sides WallPaths::open_sides(Index face, int edge) const {
   return open;
 }
 
+/// Whether a face lies in the plane of a sheet, but for how decks round places.
+bool WallPaths::goes_on_in(const Sheet& sheet, Index face) const {
+  const auto& f = surface_.face(face);
+  if (std::abs(f.n.dot(sheet.n)) < level) return false;
+  return std::all_of(f.x.begin(), f.x.begin() + f.corners,
+                     [&](const Vec& x) { return std::abs(sheet.height(x)) < touching * surface_.reach(); });
+}
+
 WallPaths::Sheets WallPaths::seen_from(const Vec& x) const {
   Sheets out;
   const WallSurface::View view = surface_.view_from(x);
@@ -87,8 +97,7 @@ WallPaths::Sheets WallPaths::seen_from(const Vec& x) const {
     return out;
   }
   for (const Index f : around) {
-    const Index plane = surface_.face(f).plane;
-    auto known = std::find_if(out.begin(), out.end(), [&](const Sheet& s) { return s.plane == plane; });
+    auto known = std::find_if(out.begin(), out.end(), [&](const Sheet& s) { return goes_on_in(s, f); });
     if (known == out.end()) known = out.insert(out.end(), sheet_of(f));
     known->faces.push_back(f);
   }
@@ -107,7 +116,7 @@ Real WallPaths::cover(const Sheet& sheet, const Vec& q, const Vec& way, Sides si
     if (!surface_.is_at_face(face, q)) continue;
     bool in = true;
     for (int e = 0; e < f.corners; ++e) {
-      in &= f.inward[e].dot(q - f.x[e]) > -1e-9 * surface_.reach();
+      in &= f.inward[e].dot(q - f.x[e]) > -overlap * surface_.reach();
       if (open_[face][e] & sides)
         to_edge = std::min(to_edge, distance_to_edge(q, way, f.x[e], f.x[(e + 1) % f.corners], width_));
     }

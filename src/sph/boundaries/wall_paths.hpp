@@ -54,6 +54,7 @@ class WallPaths {
  private:
   /// Sides of a face: 1 where its normal points, 2 behind.
   using Sides = std::uint8_t;
+  bool goes_on_in(const Sheet& sheet, Index face) const;
   Sides open_sides(Index face, int edge) const;
   Real cover(const Sheet& sheet, const Vec& q, const Vec& way, Sides sides) const;
   bool is_clear(const Sheets& sheets, const Vec& a, const Vec& b, Index but_plane, Index and_plane) const;
