@@ -59,16 +59,6 @@ struct BeamDeck {
   }
 };
 
-Real beam_energy_error(Simulation& s) {
-  Real out = 0;
-  s.step([&](World& world, const Clock& clock, const std::string&) {
-    sample_energy(world, clock);
-    const EnergyLedger& e = world.energy;
-    out = std::abs(e.unexplained()) / (std::abs(e.initial) + std::abs(e.external_work));
-  });
-  return out;
-}
-
 /// From the times at which a component of a node's place passes that at the start.
 Real beam_frequency(Simulation& s, const Field<Real>& field, int component, Index node, int crossings) {
   const Real zero = field.data(component)[node];
@@ -113,7 +103,7 @@ TEST(Beams, FrequencyOfACantilever) {
         const Real f = beam_frequency(*s, s->world().nodes.x, axis, n, 5);
         note(fmt::format("n{}_elform{}", n, section == square_1 ? 1 : 2), f / 8.355166);
         EXPECT_NEAR(f / 8.355166, 1, n == 5 ? 0.03 : 0.01) << n << " " << axis << section;
-        EXPECT_LT(beam_energy_error(*s), 0.015);
+        EXPECT_LT(test::energy_error_of_a_step(*s), 0.015);
       }
 }
 
@@ -154,7 +144,7 @@ TEST(Beams, WavesAlongBarsAndTwist) {
     const Real f = beam_frequency(*s, s->world().nodes.x, 0, n, 9) / (c / 4);
     note(truss[9] == '3' ? "along_truss" : "along_beam", f);
     EXPECT_NEAR(f, 1, 2e-3) << truss;
-    EXPECT_LT(beam_energy_error(*s), 0.01);
+    EXPECT_LT(test::energy_error_of_a_step(*s), 0.01);
   }
   for (const std::string& section :
        {std::string("         1       1.0         2         1\n      0.02      0.02      0.01      0.01\n"),
@@ -241,7 +231,7 @@ TEST(Beams, FreeSpinStaysRigid) {
     // stretched by its own pull, rho omega^2 L^2/(12 E) of its length
     EXPECT_NEAR((nodes.x.vec(4) - nodes.x.vec(0)).norm(), 1, 1e-4);
     EXPECT_NEAR((nodes.x.vec(2) - 0.5 * (nodes.x.vec(0) + nodes.x.vec(4))).norm(), 0, 1e-3);
-    EXPECT_LT(beam_energy_error(*s), 0.01);
+    EXPECT_LT(test::energy_error_of_a_step(*s), 0.01);
     EXPECT_LT(s->world().energy.internal, 1e-3 * s->world().energy.initial);
   }
 }
@@ -319,7 +309,7 @@ TEST(Beams, RandomFramesAreStable) {
     auto s = simulation_of(deck.text(1e6));
     start_ledger(*s);
     for (int k = 0; k < 3000; ++k) s->step(test::do_nothing);
-    EXPECT_LT(beam_energy_error(*s), 0.1) << frame;
+    EXPECT_LT(test::energy_error_of_a_step(*s), 0.1) << frame;
   }
 }
 

@@ -23,12 +23,6 @@ std::int64_t elements_deleted(const Simulation& s) {
   return count == s.world().counters.end() ? -1 : count->second;
 }
 
-Real share_out_of_balance(Simulation& s) {
-  sample_energy(s.world(), s.clock());
-  const EnergyLedger& e = s.world().energy;
-  return std::abs(e.unexplained()) / (std::abs(e.initial) + std::abs(e.external_work));
-}
-
 /// Planes through the origin hold a body, its end at x = 1 moves with `speed`.
 template <class Deck>
 void pull_end(Deck& deck, Real speed) {
@@ -121,12 +115,12 @@ TEST(Erosion, EachCriterionFailsWhereTheStretchReachesIt) {
     EXPECT_NEAR(std::log(1 + c.speed * t), c.strain, 1.5 * step) << card;
     // the work of the pull, L ln L - L + 1, is no longer stored
     const Real L = 1 + c.speed * t, work = L * std::log(L) - L + 1;
-    EXPECT_LT(share_out_of_balance(*s), 0.02) << card;
+    EXPECT_LT(test::energy_error(*s), 0.02) << card;
     EXPECT_NEAR(s->world().energy.dissipated / work, 1, 0.03) << card;
     EXPECT_EQ(s->world().energy.internal, 0);
     for (int k = 0; k < 20; ++k) s->step(do_nothing);
     EXPECT_EQ(elements_deleted(*s), 1);
-    EXPECT_LT(share_out_of_balance(*s), 0.02) << card;
+    EXPECT_LT(test::energy_error(*s), 0.02) << card;
     EXPECT_EQ(s->world().nodes.f.vec(0).norm(), 0);
     PartSums none;
     std::vector<PartSums> sums(1, none);
@@ -171,7 +165,7 @@ TEST(Erosion, FailureStrainOfPlasticMaterials) {
   for (const std::string& material : {kinematic, piecewise}) {
     auto s = simulation_of(one_cube(material, v).text(1e9));
     EXPECT_NEAR(std::log(1 + v * time_of_failure(*s)), strain, 0.01 * strain) << material;
-    EXPECT_LT(share_out_of_balance(*s), 0.02);
+    EXPECT_LT(test::energy_error(*s), 0.02);
     ShellDeck deck;
     deck.plate(1, 1, 1, 1, 1);
     deck.part(1, 0.1, material, 3);
@@ -179,7 +173,7 @@ TEST(Erosion, FailureStrainOfPlasticMaterials) {
     pull_end(deck, v);
     auto shell = simulation_of(deck.text(1e9));
     EXPECT_NEAR(std::log(1 + v * time_of_failure(*shell)), strain, 0.01 * strain) << material;
-    EXPECT_LT(share_out_of_balance(*shell), 0.02);
+    EXPECT_LT(test::energy_error(*shell), 0.02);
   }
 }
 
@@ -242,11 +236,11 @@ TEST(Erosion, ContactIsOverWithTheShellsThatAreDeleted) {
       return sum;
     };
     while (s->clock().t < 13.5) s->step(do_nothing);
-    const Real before = share_out_of_balance(*s);
+    const Real before = test::energy_error(*s);
     while (s->clock().t < 14.5) s->step(do_nothing);
     const Real then = speed();
     while (s->clock().t < 80) s->step(do_nothing);
-    EXPECT_LT(share_out_of_balance(*s), std::max(before + 0.01, 0.02)) << failtm << " " << before;
+    EXPECT_LT(test::energy_error(*s), std::max(before + 0.01, 0.02)) << failtm << " " << before;
     if (failtm == 0)
       EXPECT_GT(speed(), 0.01);
     else
@@ -267,7 +261,7 @@ TEST(Erosion, FacesThatDeletionLaysBareAreTouched) {
     EXPECT_EQ(elements_deleted(*s), 9);
     while (s->clock().t < 80) s->step(do_nothing);
     EXPECT_EQ(elements_deleted(*s), 9);
-    EXPECT_LT(share_out_of_balance(*s), 0.02);
+    EXPECT_LT(test::energy_error(*s), 0.02);
     const Real v = s->world().nodes.v.data(2)[s->world().nodes.size() - 1];
     if (bounces)
       EXPECT_GT(v, 0);

@@ -27,12 +27,6 @@ const std::string steel = "*MAT_ELASTIC\n         1    7850.0   2.1E+11       0.
 /// Stiffness hourglass control with 0.05, as *HOURGLASS 1.
 const std::string soft_hourglass = "*HOURGLASS\n         1         4      0.05\n";
 
-Real energy_error(Simulation& s) {
-  sample_energy(s.world(), s.clock());
-  const EnergyLedger& e = s.world().energy;
-  return std::abs(e.unexplained()) / (std::abs(e.initial) + std::abs(e.external_work));
-}
-
 /// Frequency from the times at which a node crosses z = 0: each half a period after the one before.
 Real frequency(Simulation& s, Index node, int crossings) {
   std::vector<Real> at;
@@ -72,7 +66,7 @@ TEST(Shells, FrequenciesOfASquarePlate) {
     auto s = simulation_of(square_plate(20, clamped).text(1));
     start_ledger(*s);
     EXPECT_NEAR(frequency(*s, middle_of(20), 7) / expected, 1, 0.01) << clamped;
-    EXPECT_LT(energy_error(*s), 0.03) << clamped;
+    EXPECT_LT(test::energy_error(*s), 0.03) << clamped;
     EXPECT_LT(s->world().energy.hourglass, 0.01 * s->world().energy.initial);
   }
 }
@@ -81,7 +75,7 @@ TEST(Shells, FrequencyOfASquarePlateOfTriangles) {
   auto s = simulation_of(square_plate(20, false, true).text(1));
   start_ledger(*s);
   EXPECT_NEAR(frequency(*s, middle_of(20), 7) / 49.1715, 1, 0.01);
-  EXPECT_LT(energy_error(*s), 0.03);
+  EXPECT_LT(test::energy_error(*s), 0.03);
 }
 
 // A clamped plate of right triangles, thrown across and along itself. With steps
@@ -95,7 +89,7 @@ TEST(Shells, AMeshOfRightTrianglesIsStable) {
   auto s = simulation_of(deck.text(1));
   start_ledger(*s);
   for (int k = 0; k < 2000; ++k) s->step(watch_nothing);
-  EXPECT_LT(energy_error(*s), 0.1);
+  EXPECT_LT(test::energy_error(*s), 0.1);
 }
 
 // Patches that nothing holds: warped at random and in the plane, thick and thin, up to nearly incompressible.
@@ -159,7 +153,7 @@ TEST(Shells, TheLedgerOfAPlateClosesWithTheStep) {
     error[fine] = 0;
     while (s->clock().t < 0.01) {
       s->step(watch_nothing);
-      if (s->clock().cycle % 8 == 0) error[fine] = std::max(error[fine], energy_error(*s));
+      if (s->clock().cycle % 8 == 0) error[fine] = std::max(error[fine], test::energy_error(*s));
     }
   }
   EXPECT_LT(error[0], 0.025);
@@ -200,7 +194,7 @@ std::pair<Real, Real> impulsive_strip(int n, int points) {
     const Real z = -s->world().nodes.x.data(2)[0];
     if (z > peak) peak = z, when = s->clock().t;
   }
-  EXPECT_LT(energy_error(*s), 0.02);
+  EXPECT_LT(test::energy_error(*s), 0.02);
   return {peak, when};
 }
 
@@ -216,7 +210,7 @@ TEST(Shells, FrequencyOfACantilever) {
   auto s = simulation_of(deck.text(10));
   start_ledger(*s);
   EXPECT_NEAR(frequency(*s, 20, 4) / 8.35517, 1, 0.01);
-  EXPECT_LT(energy_error(*s), 0.03);
+  EXPECT_LT(test::energy_error(*s), 0.03);
 }
 
 // By a moment M at its end a beam bends to a circle: w = M L^2/(2 E I), turned by M L/(E I); with nu = 0
@@ -337,7 +331,7 @@ TEST(Shells, ParticlesPushAPlateAndMomentumStays) {
   // they have parted, and the plate moves on
   EXPECT_LT(along(nodes.size(), nodes.m, nodes.v, 2), -5);
   EXPECT_GT(s->world().energy.internal, 0);
-  EXPECT_LT(energy_error(*s), 0.02);
+  EXPECT_LT(test::energy_error(*s), 0.02);
 }
 
 // A plate on a rigid frame that turns: nodes of both go with the body, and the plate's moments act on it.
@@ -378,7 +372,7 @@ TEST(Shells, NodesOfRigidBodiesTurnWithThem) {
   const Real start = momentum();
   while (s->clock().t < 0.01) s->step(watch_nothing);
   EXPECT_NEAR(momentum() / start, 1, 2e-3);
-  EXPECT_LT(energy_error(*s), 0.02);
+  EXPECT_LT(test::energy_error(*s), 0.02);
   const Vec omega = s->bodies()->bodies()[0].omega;
   const Field<Real>& w = *shared_fields::angular_velocity.find(nodes.fields);
   EXPECT_NEAR(omega[1], 20, 2);

@@ -80,4 +80,20 @@ inline void start_ledger(Simulation& s) {
   s.world().energy.initial = s.world().energy.total();
 }
 
+/// What the ledger cannot explain, of the energy of the start and that from outside.
+inline Real energy_error(World& world, const Clock& clock) {
+  sample_energy(world, clock);
+  const EnergyLedger& e = world.energy;
+  return std::abs(e.unexplained()) / (std::abs(e.initial) + std::abs(e.external_work));
+}
+inline Real energy_error(Simulation& s) {
+  return energy_error(s.world(), s.clock());
+}
+/// Takes one more step: terms belong together at t^n alone.
+inline Real energy_error_of_a_step(Simulation& s) {
+  Real out = 0;
+  s.step([&](World& world, const Clock& clock, const std::string&) { out = energy_error(world, clock); });
+  return out;
+}
+
 }  // namespace courant::test

@@ -47,16 +47,6 @@ struct SpringDeck {
 Real x_of(const Simulation& s, Index n) {
   return s.world().nodes.x.data(0)[n];
 }
-/// Takes one more step: terms belong together at t^n alone.
-Real spring_energy_error(Simulation& s) {
-  Real out = 0;
-  s.step([&](World& world, const Clock& clock, const std::string&) {
-    sample_energy(world, clock);
-    const EnergyLedger& e = world.energy;
-    out = std::abs(e.unexplained()) / (std::abs(e.initial) + std::abs(e.external_work));
-  });
-  return out;
-}
 std::vector<SpringForce> springs_of(Simulation& s) {
   std::vector<SpringForce> out;
   for (const auto* pass : s.world().passes.all<const SpringReporter>()) pass->report_springs(out);
@@ -97,7 +87,7 @@ TEST(Springs, FrequenciesOfOneAndOfTwoMasses) {
     const auto at = crossings(*s, 4, [&] { return x_of(*s, 1) - x_of(*s, 0) - 1; });
     const Real omega = std::sqrt(400 * (1 + (held ? 0 : 0.5)));
     EXPECT_NEAR(frequency(at) / (omega / (2 * pi)), 1, 5e-4) << held;
-    EXPECT_LT(spring_energy_error(*s), 2.6e-3);  // (omega dt)^2/4, which the leapfrog does not lose
+    EXPECT_LT(test::energy_error_of_a_step(*s), 2.6e-3);  // (omega dt)^2/4, which the leapfrog does not lose
     if (!held) EXPECT_NEAR(2 * x_of(*s, 0) + x_of(*s, 1), 1, 1e-12);  // the centre of mass
   }
 }
@@ -122,7 +112,7 @@ TEST(Springs, DampedDecay) {
     if (s->clock().t > 4 * period) fifth = std::max(fifth, u);
   }
   EXPECT_NEAR(std::log(first / fifth) / (4 * 2 * pi * z / std::sqrt(1 - z * z)), 1, 5e-3);
-  EXPECT_LT(spring_energy_error(*s), 1e-6);
+  EXPECT_LT(test::energy_error_of_a_step(*s), 1e-6);
 }
 
 // Bodies of inertia J, held but for turning about z: omega = sqrt(k (1/J1 + 1/J2)).
@@ -140,7 +130,7 @@ TEST(Springs, TorsionBetweenRigidBodies) {
   const auto twist = [&] { return springs_of(*s).at(0).stretch; };
   const auto at = crossings(*s, 4, twist);
   EXPECT_NEAR(frequency(at) / (std::sqrt(300 * 0.75) / (2 * pi)), 1, 5e-4);
-  EXPECT_LT(spring_energy_error(*s), 1e-4);
+  EXPECT_LT(test::energy_error_of_a_step(*s), 1e-4);
   EXPECT_TRUE(springs_of(*s).at(0).turns);
 }
 
@@ -174,7 +164,7 @@ TEST(Springs, PitchOfABody) {
     worst = std::max(worst, std::abs(s->bodies()->bodies()[0].x[2] - expected(s->clock().t)));
   }
   EXPECT_LT(worst, 0.01 * 0.01 / low);
-  EXPECT_LT(spring_energy_error(*s), 1e-3);
+  EXPECT_LT(test::energy_error_of_a_step(*s), 1e-3);
 }
 
 // Pulled by 0.3 and back by 0.45 with K = 100, KT = 20, FY = 10 (H = 25): by hand
@@ -199,7 +189,7 @@ TEST(Springs, ElastoplasticPath) {
   }
   EXPECT_NEAR(at_1, 14, 0.06);  // of the last step before 1
   EXPECT_NEAR(at_2, -17.4, 0.05);
-  EXPECT_LT(spring_energy_error(*s), 0.01);
+  EXPECT_LT(test::energy_error_of_a_step(*s), 0.01);
 }
 
 // f = 100 u below 0.1 and 1000 (u - 0.09) above: v0 = 2 takes it to where the work is m v0^2/2 = 2:
@@ -221,7 +211,7 @@ TEST(Springs, CurvesGoOnBeyondTheirEnds) {
   }
   const Real beyond = (-10 + std::sqrt(100 + 4 * 500 * 1.5)) / 1000;
   EXPECT_NEAR(most, 0.1 + beyond, 2e-4);
-  EXPECT_LT(spring_energy_error(*s), 1e-3);
+  EXPECT_LT(test::energy_error_of_a_step(*s), 1e-3);
 }
 
 // m v' = -c v|v| by points on the parabola: v = v0/(1 + c v0 t/m).
@@ -238,7 +228,7 @@ TEST(Springs, NonlinearDamper) {
   while (s->clock().t < 0.99) s->step(test::do_nothing);
   const Real v = s->world().nodes.v.data(0)[1];
   EXPECT_NEAR(v * (1 + 3 * 3 * (s->clock().t - 0.5 * s->clock().dt_old)) / 3, 1, 0.01);
-  EXPECT_LT(spring_energy_error(*s), 1e-3);
+  EXPECT_LT(test::energy_error_of_a_step(*s), 1e-3);
 }
 
 // KD and V0, S and OFFSET, and a spring to the ground along a vector: f = S K (x + OFFSET)(1 + KD |v|/V0).
@@ -277,7 +267,7 @@ TEST(Springs, RandomNetsAreStable) {
     auto s = simulation_of(deck.text(1e6));
     start_ledger(*s);
     for (int k = 0; k < 2000; ++k) s->step(test::do_nothing);
-    EXPECT_LT(spring_energy_error(*s), 0.02) << net;
+    EXPECT_LT(test::energy_error_of_a_step(*s), 0.02) << net;
   }
 }
 
@@ -297,7 +287,7 @@ TEST(Springs, OnShellsAreStable) {
     auto s = simulation_of(deck.text(1));
     start_ledger(*s);
     for (int k = 0; k < 4000; ++k) s->step(test::do_nothing);
-    EXPECT_LT(spring_energy_error(*s), 0.05);
+    EXPECT_LT(test::energy_error_of_a_step(*s), 0.05);
   }
 }
 

@@ -11,7 +11,6 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
                        std::shared_ptr<PairVolumes> volumes, std::shared_ptr<WallSupport> support)
     : dim_(s.dim),
       delta_(s.density_diffusion),
-      width_(WallPaths::usual_width * s.spacing),
       loads_(s.loads),
       table_(s.kernel, s.dim),
       neighbours_(std::move(neighbours)),
@@ -21,7 +20,8 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
                     ? sph_fields::pressure_plus_q(world.particles)
                     : world.particles.p),
       force_(sph_fields::wall_force(world.particles)),
-      diffusion_(s.density_diffusion > 0 ? &sph_fields::density_diffusion(world.particles) : nullptr) {}
+      diffusion_(s.density_diffusion > 0 ? &sph_fields::density_diffusion(world.particles) : nullptr),
+      paths_from_(support_->surface(), s.dim, WallPaths::usual_width * s.spacing) {}
 
 Real WallImages::slope(Real h, const Vec& d) const {
   const Real r = std::max(d.norm(), 1e-9 * h);
@@ -34,12 +34,11 @@ void WallImages::refreshed(World& world, const Clock&, std::span<const Index>) {
 
 void WallImages::look(World& world) {
   const Particles& p = world.particles;
-  paths_from_.emplace(support_->surface(), dim_, width_);
   sheets_.assign(p.active, {});
   for_each(p.active, [&](Index i) {
-    if (support_->is_near(i)) sheets_[i] = paths_from_->seen_from(p.x.vec(i));
+    if (support_->is_near(i)) sheets_[i] = paths_from_.seen_from(p.x.vec(i));
+    force_.set(i, Vec::Zero());
   });
-  for_each(p.active, [&](Index i) { force_.set(i, Vec::Zero()); });
 }
 
 void WallImages::declare(const World& world, Accesses& a) const {
@@ -62,7 +61,7 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
     const Vec x = p.x.vec(i);
     const Real reach = table_.support() * p.h[i];
     for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
-      paths_from_->add(sheets_[i], i, x, j, p.x.vec(j), reach, paths);
+      paths_from_.add(sheets_[i], i, x, j, p.x.vec(j), reach, paths);
   }
   const Real* V = volumes_->current();
   for (const WallPath& path : paths) {

@@ -1,7 +1,6 @@
 #pragma once
 // What walls of shells do as mirrors of the water beside them.
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -40,7 +39,7 @@ class WallImages : public Rate, public Refresh, public Restartable {
   Real slope(Real h, const Vec& d) const;
 
   int dim_;
-  Real delta_, width_, half_step_ = 0;
+  Real delta_, half_step_ = 0;
   BodyAcceleration loads_;
   BodyAcceleration::At now_;
   WallTables table_;
@@ -49,7 +48,7 @@ class WallImages : public Rate, public Refresh, public Restartable {
   std::shared_ptr<WallSupport> support_;
   Field<Real>&pressure_, &force_;
   Field<Real>* diffusion_;
-  std::optional<WallPaths> paths_from_;
+  WallPaths paths_from_;                      ///< walls are held: edges are judged once
   std::vector<WallPaths::Sheets> sheets_;     ///< of active particles, since the last refresh
   std::vector<std::vector<WallPath>> paths_;  ///< of each block in this step, by particles
 };

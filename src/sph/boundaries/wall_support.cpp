@@ -47,6 +47,11 @@ const RegisterKeyword<CourantWallSupport> wall_support_keyword{
                "plain FORM)",
                {.allowed = {0, 1}}}}}}}};
 
+bool segment_moves(const World& world, Index segment) {
+  const auto nodes = world.segments.nodes(segment);
+  return std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return !world.nodes.held[n]; });
+}
+
 constexpr Real points_per_h = 4;  ///< the kernel's integral over a plane is then right to 1e-5 from 0.3 h on
 constexpr Real most_points_per_h = 16;  ///< of the largest h, where h differs
 
@@ -66,11 +71,13 @@ WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& n
       walls_(s.walls) {
   moves_.assign(static_cast<std::size_t>(world.segments.size()), 0);
   for (const Index segment : walls_.segments)
-    for (const Index n : world.segments.nodes(segment))
-      if (!world.nodes.held[n]) moves_[static_cast<std::size_t>(segment)] = 1;
+    moves_[static_cast<std::size_t>(segment)] = segment_moves(world, segment);
   any_moves_ = std::count(moves_.begin(), moves_.end(), 1) > 0;
-  if (s.walls.images) past_edges_ = WallPaths::usual_width * s.spacing;
-  if (s.walls.images) image_force_ = &sph_fields::wall_force(world.particles);
+  if (s.walls.images) {
+    past_edges_ = WallPaths::usual_width * s.spacing;
+    image_force_ = &sph_fields::wall_force(world.particles);
+    integrates_ = s.volume_tau > 0;
+  }
   if (any_moves_) velocity_ = &sph_fields::wall_velocity(world.particles);
   if (s.renormalised) {
     moment_ = &sph_fields::wall_moment(world.particles);
@@ -121,7 +128,7 @@ void WallSupport::block(World& world, const Clock& clock, Index begin, Index end
   Particles& p = world.particles;
   for (Index i = begin; i < end; ++i) {
     if (any_moves_ && (view_[i] = look(p, i)) == nothing) set(i, {});
-    if (view_[i] == nothing) continue;
+    if (view_[i] == nothing || !(integrates_ || rubs_)) continue;
     const Vec x = p.x.vec(i), v = p.v.vec(i);
     const Real half_step = 0.5 * clock.dt_old;
     const Sums sums = view_[i] >= 0 ? sums_over_plane(view_[i], p.h[i], x, v, half_step)
@@ -398,13 +405,9 @@ void check_images(const CourantWallSupport& c, const Deck& deck, const World& wo
   refuse(!s.uniform_h, "where smoothing lengths differ",
          "use METHOD 0, or one CSLH and spacing, HMIN = HMAX = 1");
   refuse(s.geometry_eps > 0, "with *COURANT_PAIR_GEOMETRY", "use METHOD 0, or leave the other card out");
-  for (Index segment = 0; segment < world.segments.size(); ++segment) {
-    if (s.walls.cf[segment] < 0) continue;
-    bool moves = false;
-    for (const Index n : world.segments.nodes(segment)) moves |= !world.nodes.held[n];
-    refuse(moves, "on walls that move", "use METHOD 0, or hold the body: CON1 and CON2 of *MAT_RIGID");
-    if (moves) return;
-  }
+  const auto moves = [&](Index segment) { return segment_moves(world, segment); };
+  refuse(std::any_of(s.walls.segments.begin(), s.walls.segments.end(), moves), "on walls that move",
+         "use METHOD 0, or hold the body: CON1 and CON2 of *MAT_RIGID");
 }
 
 /// Whether a corner of a shell moves by its forces.

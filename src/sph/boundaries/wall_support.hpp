@@ -92,7 +92,8 @@ class WallSupport : public Rate,
 
   int dim_;
   bool evolving_h_, any_moves_ = false;
-  Real past_edges_ = 0;  ///< so much farther METHOD 1 looks [L]
+  Real past_edges_ = 0;     ///< so much farther METHOD 1 looks [L]
+  bool integrates_ = true;  ///< somebody besides friction asks for the integrals over walls
   WallTables table_;
   Field<Real>&slope_, &fill_;
   Field<Real>& pressure_;  ///< with that of bulk viscosity, as pair forces take it

@@ -1,0 +1,40 @@
+#pragma once
+// The card of an ASCII history that one file adds: how often.
+#include <string>
+#include <utility>
+
+#include "keyword/registry.hpp"
+
+namespace courant {
+
+/// Derive one type for each keyword, which the deck then asks for.
+struct HistoryInterval : Entry {
+  Real dt = 0;
+  int binary = 0, ioopt = 1;
+  Id lcur = 0;
+};
+
+template <class Card>
+KeywordOf<Card> history_interval(std::string name, std::string purpose) {
+  return {.names = {std::move(name)},
+          .purpose = std::move(purpose),
+          .once = true,
+          .many = false,
+          .cards = {{.fields = {{"DT", &Card::dt, "T", "interval, 0 none", {.check = Check::not_negative}},
+                                {"BINARY", &Card::binary, "-", "text is written", no_effect},
+                                {"LCUR",
+                                 &Card::lcur,
+                                 "-",
+                                 "curve of intervals",
+                                 {.honour = Honour::output_only, .refers = IdSpace::curve}},
+                                {"IOOPT", &Card::ioopt, "-", "how LCUR counts", no_effect_but(1)}}}}};
+}
+
+/// Interval that a deck asks for by its card; 0: not asked for [T]
+template <class Card>
+Real interval_in(const Deck& deck) {
+  const auto* card = deck.last<Card>();
+  return card ? card->dt : 0;
+}
+
+}  // namespace courant
