@@ -1,4 +1,4 @@
-// METHOD 1 of *COURANT_WALL_SUPPORT: water at rest on both sides of a thin wall, in a basin with corners.
+// METHOD 1 of *COURANT_WALL_SUPPORT: water at rest in basins, on both sides of a thin wall and over a block.
 // Reference: p = rho0 g (surface - y) on each side, and no motion.
 #include <cmath>
 #include <fstream>
@@ -15,21 +15,32 @@ namespace {
 constexpr Real depth = 0.16, g = 9.81, rho0 = 1000;
 
 /// `n`: rows of the higher level.
-std::string baffle(const std::map<std::string, std::string>& parameters) {
-  const std::string deck = ::testing::TempDir() + "baffle.k";
+std::string scene(const std::string& name, const std::map<std::string, std::string>& parameters) {
+  const std::string deck = ::testing::TempDir() + name + ".k";
   Diagnostics diagnostics;
-  EXPECT_TRUE(generate_deck(std::string(SOURCE_DIR) + "/tests/verification/scenes/baffle.yaml", deck,
+  EXPECT_TRUE(generate_deck(std::string(SOURCE_DIR) + "/tests/verification/scenes/" + name + ".yaml", deck,
                             parameters, diagnostics))
       << diagnostics.text();
   return deck;
+}
+std::string baffle(const std::map<std::string, std::string>& parameters) {
+  return scene("baffle", parameters);
+}
+/// How deep water is at x beside the baffle, and everywhere over the block.
+Real beside_baffle(Real x, int n) {
+  return x < 12 * depth / n ? depth : 0.5 * depth;
+}
+Real over_block(Real, int) {
+  return depth;
 }
 
 struct Rest {
   Real pressure_error = 0;  ///< largest, of rho0 g depth
   Real speed = 0;           ///< largest [m/s]
+  Real gained = 0;          ///< energy from nowhere, of what water at rest holds [-]
 };
 /// In the second half of the time until `until`.
-Rest at_rest(const std::string& deck, int n, Real until) {
+Rest at_rest(const std::string& deck, int n, Real until, Real (*depth_at)(Real, int) = beside_baffle) {
   const auto nothing = [](World&, const Clock&, const std::string&) {};
   Diagnostics diagnostics;
   auto s = Simulation::build(deck, {}, diagnostics);
@@ -48,12 +59,15 @@ Rest at_rest(const std::string& deck, int n, Real until) {
     for (Index i = 0; i < p.size(); ++i) rest.speed = std::max(rest.speed, p.v.vec(i).norm());
     ++samples;
     for (Index i = 0; i < p.size(); ++i) {
-      const Real wide = 12 * depth / n, level = p.x.vec(i)[0] < wide ? depth : 0.5 * depth;
-      mean[p.id[i]] += p.p[i] - rho0 * g * (level - p.x.vec(i)[1]);
+      const Vec x = p.x.vec(i);
+      mean[p.id[i]] += p.p[i] - rho0 * g * (depth_at(x[0], n) - x[1]);
     }
   }
   for (const auto& [id, sum] : mean)
     rest.pressure_error = std::max(rest.pressure_error, std::abs(sum) / samples / (rho0 * g * depth));
+  sample_energy(s->world(), s->clock());
+  const EnergyLedger& e = s->world().energy;
+  rest.gained = e.residual() / std::abs(e.initial);
   return rest;
 }
 
@@ -72,10 +86,29 @@ TEST(WallImages, HoldTwoLevelsBesideAThinWall) {
   EXPECT_LT(coarse.speed, 0.005);
 }
 
+// Convex corners, where the mirrors of top and sides end, and the corners at its feet.
+TEST(WallImages, HoldWaterOverABlock) {
+  for (const int n : {10, 20}) {
+    const std::string rows = std::to_string(n);
+    const std::map<std::string, std::string> size{{"n", rows}, {"high", "0.4 * depth"}};
+    const Rest mirrors = at_rest(scene("block", size), n, 10.0 / n, over_block);
+    std::printf(
+        "%d rows: pressure within %.2f %% of rho0 g depth, fastest %.5f m/s, energy from nowhere %.1e\n", n,
+        100 * mirrors.pressure_error, mirrors.speed, mirrors.gained);
+    EXPECT_LT(mirrors.pressure_error, 0.4 / n);
+    EXPECT_LT(mirrors.speed, 0.02);
+    EXPECT_LT(std::abs(mirrors.gained), 2e-6);
+  }
+}
+
 TEST(WallImages, GiveTheSameBitsOnAnyThreadsAndAfterARestart) {
   std::ifstream file(baffle({{"n", "16"}}));
   std::stringstream text;
   text << file.rdbuf();
   test::expect_same_bits(text.str(), 60, 25);
+  std::ifstream edges(scene("block", {{"n", "10"}}));
+  std::stringstream with_edges;
+  with_edges << edges.rdbuf();
+  test::expect_same_bits(with_edges.str(), 60, 25);
 }
 }  // namespace wall_images_test

@@ -28,6 +28,10 @@ Real WallImages::slope(Real h, const Vec& d) const {
   return table_.slope(r / h) / (r * h * (dim_ == 2 ? power<2>(h) : power<3>(h)));
 }
 
+Real WallImages::kernel(Real h, const Vec& d) const {
+  return table_.kernel(d.norm() / h) / (dim_ == 2 ? power<2>(h) : power<3>(h));
+}
+
 void WallImages::refreshed(World& world, const Clock&, std::span<const Index>) {
   look(world);
 }
@@ -53,21 +57,42 @@ void WallImages::start(World& world, const Clock& clock) {
 }
 
 void WallImages::block(World& world, const Clock&, Index begin, Index end) {
-  Particles& p = world.particles;
   auto& paths = paths_[static_cast<std::size_t>(begin / block_size)];
   paths.clear();
   for (Index i = begin; i < end; ++i) {
     if (sheets_[i].empty()) continue;
-    const Vec x = p.x.vec(i);
-    const Real reach = table_.support() * p.h[i];
-    for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
-      paths_from_.add(sheets_[i], i, x, j, p.x.vec(j), reach, paths);
+    for (const Index j : neighbours_->of_group(i / Neighbours::lanes)) add_ways(world.particles, i, j, paths);
   }
-  const Real* V = volumes_->current();
-  for (const WallPath& path : paths) {
-    const Vec u = p.v.vec(path.i) - path.turn * p.v.vec(path.j), d = path.d - half_step_ * u;
-    p.drhodt[path.i] += p.rho[path.i] * path.weight * V[path.j] * slope(p.h[path.i], d) * u.dot(d);
+}
+
+/// Ways are looked for in the middle of the step, where its rates belong, and taken along to its end, where
+/// forces act; those on their way over an edge are looked at there again.
+void WallImages::add_ways(Particles& p, Index i, Index j, std::vector<WallPath>& paths) const {
+  const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
+  const Real reach = table_.support() * p.h[i];
+  const std::size_t first = paths.size();
+  paths_from_.add(sheets_[i], i, in_the_middle(i), j, in_the_middle(j), reach, paths);
+  bool at_edge = false;
+  for (std::size_t k = first; k < paths.size(); ++k) {
+    add_rate(p, paths[k]);
+    at_edge |= std::abs(paths[k].weight) < 1;
+    paths[k].d += half_step_ * speed(p, paths[k]);
   }
+  if (!at_edge) return;
+  paths.resize(first);
+  paths_from_.add(sheets_[i], i, p.x.vec(i), j, p.x.vec(j), reach, paths);
+}
+
+/// Of particle i over the image of j. [L/T]
+Vec WallImages::speed(const Particles& p, const WallPath& path) const {
+  return p.v.vec(path.i) - path.turn * p.v.vec(path.j);
+}
+
+void WallImages::add_rate(Particles& p, const WallPath& path) const {
+  const Real h = p.h[path.i];
+  p.drhodt[path.i] += p.rho[path.i] * volumes_->current()[path.j] *
+                      (path.weight * slope(h, path.d) * speed(p, path).dot(path.d) +
+                       kernel(h, path.d) * (path.by_i.dot(p.v.vec(path.i)) + path.by_j.dot(p.v.vec(path.j))));
 }
 
 void WallImages::declare_forces(const World& world, Accesses& a) const {
@@ -89,7 +114,8 @@ void WallImages::forces(World& world, Index begin, Index end) {
   for (const WallPath& path : paths_[static_cast<std::size_t>(begin / block_size)]) {
     const Index i = path.i, j = path.j;
     const Real share = path.weight * V[j] * slope(p.h[i], path.d);
-    const Vec force = -V[i] * share * (pressure_[i] + pressure_[j]) * path.d;
+    const Vec force =
+        -V[i] * (pressure_[i] + pressure_[j]) * (share * path.d + V[j] * kernel(p.h[i], path.d) * path.by_i);
     p.f.add(i, force);
     if (path.weight > 0) force_.add(i, force);
     if (!diffusion_) continue;

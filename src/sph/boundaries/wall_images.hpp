@@ -17,6 +17,10 @@ namespace courant {
 /// the second what belongs to the first, so that energy is kept; and since the way back is the same, forces
 /// along a plane wall cancel between particles. The diffusion of density sees images, too, with the pressure
 /// that stands behind the wall at rest; viscosity does not.
+///
+/// Where a wall ends, w changes with the places of i and j, and belongs to both sums:
+///   d rho_i/dt += rho_i sum V_j W_ij dw/dt,   f_i -= V_i sum V_j (p_i + p_j) W_ij dw/dx_i,
+/// so that density depends on where particles are, not on how they came there, and forces keep their energy.
 class WallImages : public Rate, public Refresh, public Restartable {
  public:
   WallImages(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
@@ -35,8 +39,13 @@ class WallImages : public Rate, public Refresh, public Restartable {
 
  private:
   void look(World& world);
+  void add_ways(Particles& p, Index i, Index j, std::vector<WallPath>& paths) const;
   /// (dW/dr)/r [1/L^(dim+2)]
   Real slope(Real h, const Vec& d) const;
+  /// W [1/L^dim]
+  Real kernel(Real h, const Vec& d) const;
+  Vec speed(const Particles& p, const WallPath& path) const;
+  void add_rate(Particles& p, const WallPath& path) const;
 
   int dim_;
   Real delta_, half_step_ = 0;

@@ -14,40 +14,48 @@ constexpr Real overlap = 1e-4;    ///< of the reach: so far faces go on past the
 constexpr Real level = 1 - 1e-6;  ///< cosine of the angle between normals of faces in one plane
 constexpr Real bent = 0.87;       ///< cosine of the turn up to which one face goes on in the next
 
-/// How far a way in direction `way` (a unit vector, or 0) through q passes by an edge; `most` where q is
-/// farther from it.
-Real distance_to_edge(const Vec& q, const Vec& way, const Vec& a, const Vec& b, Real most) {
-  const Vec along = b - a;
-  const Real t =
-      std::clamp((q - a).dot(along) / std::max(along.squaredNorm(), Real(1e-300)), Real(0), Real(1));
-  const Vec to_edge = a + t * along - q;
-  return to_edge.norm() > most ? most : (to_edge - to_edge.dot(way) * way).norm();
+/// The places where two pieces of lines come nearest, and how far on the first one that is, from 0 to 1.
+struct Nearest {
+  Vec here, there;
+  Real part = 0;
+  Real distance() const { return (here - there).norm(); }
+};
+Nearest nearest(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
+  const Vec u = b - a, v = d - c, w = a - c;
+  const Real uu = u.squaredNorm(), uv = u.dot(v), vv = std::max(v.squaredNorm(), Real(1e-300)), uw = u.dot(w),
+             vw = v.dot(w), det = uu * vv - uv * uv;
+  Real s = det > 1e-12 * uu * vv ? std::clamp((uv * vw - vv * uw) / det, Real(0), Real(1)) : Real(0);
+  const Real t = std::clamp((uv * s + vw) / vv, Real(0), Real(1));
+  if (uu > 0) s = std::clamp((uv * t - uw) / uu, Real(0), Real(1));
+  return {a + s * u, c + t * v, s};
 }
 
 /// No way goes exactly through an edge, or between particles and faces that stand on one lattice, when all
-/// particles are looked at a little aside of their places, which does not matter otherwise. [L]
-Vec aside(Real reach, int dim) {
-  return 1e-5 * reach * Vec(0.6180, 0.4142, dim == 2 ? 0 : 0.2679);
+/// particles are looked at a little aside of their places, which does not matter otherwise; at the other end
+/// of its way, a particle that sees itself elsewhere again: in a corner that way always goes through the
+/// edge. [L]
+Vec aside(Real reach, int dim, bool again = false) {
+  return 1e-5 * reach *
+         (again ? Vec(-0.2, 0.5303, dim == 2 ? 0 : 0.7071) : Vec(0.6180, 0.4142, dim == 2 ? 0 : 0.2679));
 }
 
 }  // namespace
 
 WallPaths::WallPaths(const WallSurface& surface, int dim, Real width)
-    : surface_(surface), dim_(dim), width_(width), open_(static_cast<std::size_t>(surface.faces())) {
+    : surface_(surface), dim_(dim), width_(width), edges_(static_cast<std::size_t>(surface.faces())) {
   for_each(surface.faces(), [&](Index f) {
     for (int e = 0; e < surface_.face(f).corners; ++e)
       // in 2D, edges 0 and 2 are far to the sides of the plane of flow
-      open_[f][e] = dim_ == 2 && e % 2 == 0 ? Sides(0) : open_sides(f, e);
+      if (dim_ == 3 || e % 2 == 1) edges_[f][e] = edge_of(f, e);
   });
 }
 
-/// Where other faces go on from the middle of an edge decides: in the plane or slightly bent, it is no edge;
-/// on one side, it ends no mirror there; behind, it does.
-WallPaths::Sides WallPaths::open_sides(Index face, int edge) const {
+/// Other faces that go on from the middle of an edge decide: in the plane or slightly bent, it is no edge.
+WallPaths::Edge WallPaths::edge_of(Index face, int edge) const {
   const auto& f = surface_.face(face);
   const Real near = touching * surface_.reach();
   const Vec a = f.x[edge], b = f.x[(edge + 1) % f.corners], m = 0.5 * (a + b), outward = -f.inward[edge];
-  Sides open = 3;
+  Edge out{true, {}};
   for (const Index other : surface_.faces_around(m)) {
     const auto& g = surface_.face(other);
     if (other == face || std::abs(g.n.dot(m) - g.offset) > near) continue;
@@ -63,12 +71,19 @@ WallPaths::Sides WallPaths::open_sides(Index face, int edge) const {
       bool goes_on = true;
       for (int e = 0; e < g.corners; ++e) goes_on &= g.inward[e].dot(p - g.x[e]) > -near;
       if (!goes_on) continue;
-      if (t.dot(outward) > bent) return 0;
-      if (f.n.dot(t) > touching) open &= ~Sides(1);
-      if (f.n.dot(t) < -touching) open &= ~Sides(2);
+      if (t.dot(outward) > bent) return {};
+      if (std::abs(f.n.dot(t)) > touching) out.corners.push_back({g.n, -g.n.dot(outward), f.n.dot(t)});
     }
   }
-  return open;
+  return out;
+}
+
+bool WallPaths::is_free(Index face, int edge, const Vec& p) const {
+  const auto& f = surface_.face(face);
+  const Vec d = p - f.x[edge];
+  const auto& corners = edges_[face][edge].corners;
+  return std::none_of(corners.begin(), corners.end(),
+                      [&](const Corner& c) { return f.n.dot(d) * c.there > 0 && c.n.dot(d) * c.here > 0; });
 }
 
 /// Whether a face lies in the plane of a sheet, but for how decks round places.
@@ -85,12 +100,14 @@ WallPaths::Sheets WallPaths::seen_from(const Vec& x) const {
   if (view.nothing) return out;
   const auto sheet_of = [&](Index face) {
     const auto& f = surface_.face(face);
-    return Sheet{f.n, f.offset, f.plane, false, {}};
+    return Sheet{f.n, f.offset, f.plane, false, {}, {}};
   };
   const std::vector<Index> around = surface_.faces_around(x);
   // exactly, or a pair of particles would not look alike from both
-  const bool edges =
-      std::any_of(around.begin(), around.end(), [&](Index f) { return open_[f] != std::array<Sides, 4>{}; });
+  const auto ends = [&](Index f) {
+    return std::any_of(edges_[f].begin(), edges_[f].end(), [](const Edge& e) { return e.ends; });
+  };
+  const bool edges = std::any_of(around.begin(), around.end(), ends);
   if (view.flat >= 0 && !edges) {
     out.push_back(sheet_of(view.flat));
     out.back().endless = true;
@@ -100,102 +117,176 @@ WallPaths::Sheets WallPaths::seen_from(const Vec& x) const {
     auto known = std::find_if(out.begin(), out.end(), [&](const Sheet& s) { return goes_on_in(s, f); });
     if (known == out.end()) known = out.insert(out.end(), sheet_of(f));
     known->faces.push_back(f);
+    for (int e = 0; e < 4; ++e)
+      if (edges_[f][e].ends) known->edges.push_back({f, e});
   }
   return out;
 }
 
-/// How much of a way in direction `way` through q the sheet takes: at an edge that is free on one of `sides`
-/// it goes over from all to nothing within the width, as the way passes before the edge or behind it. So the
-/// faces on both sides of a corner, and the way past it, share all ways alike.
-Real WallPaths::cover(const Sheet& sheet, const Vec& q, const Vec& way, Sides sides) const {
-  if (sheet.endless) return 1;
-  bool inside = false;
-  Real to_edge = 0.5 * width_;
-  for (const Index face : sheet.faces) {
-    const auto& f = surface_.face(face);
-    if (!surface_.is_at_face(face, q)) continue;
-    bool in = true;
-    for (int e = 0; e < f.corners; ++e) {
-      in &= f.inward[e].dot(q - f.x[e]) > -overlap * surface_.reach();
-      if (open_[face][e] & sides)
-        to_edge = std::min(to_edge, distance_to_edge(q, way, f.x[e], f.x[(e + 1) % f.corners], width_));
-    }
-    inside |= in;
-  }
-  return 0.5 + (inside ? to_edge : -to_edge) / width_;
+bool WallPaths::is_inside(const Sheet& sheet, const Vec& q) const {
+  return sheet.endless || std::any_of(sheet.faces.begin(), sheet.faces.end(), [&](Index face) {
+           const auto& f = surface_.face(face);
+           bool in = surface_.is_at_face(face, q);
+           for (int e = 0; e < f.corners; ++e)
+             in &= f.inward[e].dot(q - f.x[e]) > -overlap * surface_.reach();
+           return in;
+         });
 }
 
-bool WallPaths::is_clear(const Sheets& sheets, const Vec& a, const Vec& b, Index but_plane,
-                         Index and_plane) const {
-  for (const Sheet& s : sheets) {
-    if (s.plane == but_plane || s.plane == and_plane || s.endless) continue;
-    const Real from = s.height(a), to = s.height(b);
-    if (from * to < 0 && cover(s, a + (b - a) * (from / (from - to)), Vec::Zero(), 0) > 0.5) return false;
+/// Whether both ends of an edge lie in the plane of a sheet.
+bool WallPaths::lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const {
+  const Real most = touching * surface_.reach();
+  return sheet && std::abs(sheet->height(c)) < most && std::abs(sheet->height(d)) < most;
+}
+
+/// Whether sheets meet in a convex corner: no way goes from one to the other.
+bool WallPaths::turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const {
+  return std::any_of(sheet.edges.begin(), sheet.edges.end(), [&](const auto& edge) {
+    const auto& [face, e] = edge;
+    const auto& f = surface_.face(face);
+    return lies_in(f.x[e], f.x[(e + 1) % f.corners], &other) && is_free(face, e, x) && is_free(face, e, y);
+  });
+}
+
+/// How much of a way from `a` to `b`, which began at `start`, the sheet takes: where it passes an edge that
+/// nothing else closes for particles at x and y, it goes over from all to nothing within the width, as the
+/// way passes before the edge or behind it. So the faces on both sides of a corner, and the way past it,
+/// share all ways alike.
+WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& b, const Vec& start,
+                                   const Vec& x, const Vec& y, const Sheet* but, const Sheet* and_but) const {
+  const Real from = sheet.height(a), to = sheet.height(b);
+  Meeting out;
+  out.crosses = from * to < 0;
+  // edges lie in the plane, and are not nearer than it is
+  if (!out.crosses &&
+      (sheet.edges.empty() || std::min(std::abs(sheet.height(start)), std::abs(to)) > 0.5 * width_))
+    return {};
+  if (out.crosses) {
+    out.at = a + (b - a) * (from / (from - to));
+    out.inside = is_inside(sheet, out.at);
   }
-  return true;
+  Real near = 0.5 * width_;
+  for (const auto& [face, e] : sheet.edges) {
+    const auto& f = surface_.face(face);
+    const Vec &c = f.x[e], &d = f.x[(e + 1) % f.corners];
+    const bool passed = lies_in(c, d, but) || lies_in(c, d, and_but);
+    const Nearest to_edge = nearest(start, b, c, d);
+    const Real r = to_edge.distance();
+    if (!passed && (r >= near || !is_free(face, e, x) || !is_free(face, e, y))) continue;
+    // what joins faces does not count where they end
+    if (out.inside && nearest(out.at, out.at, c, d).distance() < 2 * overlap * surface_.reach())
+      out.inside = f.inward[e].dot(out.at - c) > 1e-8 * surface_.reach();
+    if (passed) continue;  // the way ends on the other side of that edge
+    near = r;
+    if (!out.crosses) out.at = to_edge.there;
+    const Vec away = (to_edge.here - to_edge.there) / std::max(r, Real(1e-300));
+    out.by_start = (1 - to_edge.part) * away, out.by_end = to_edge.part * away;
+  }
+  const Real side = out.inside ? 1 : -1, t = 0.5 + side * near / width_;
+  out.share = t * t * (3 - 2 * t);
+  out.by_start *= 6 * t * (1 - t) * side / width_, out.by_end *= 6 * t * (1 - t) * side / width_;
+  return out;
+}
+
+/// What hides most of a way from `a` to `b`.
+WallPaths::Meeting WallPaths::hidden(const Sheets& sheets, const Vec& a, const Vec& b, const Vec& x,
+                                     const Vec& y, const Sheet* but, const Sheet* and_but) const {
+  Meeting most;
+  for (const Sheet& s : sheets) {
+    if (&s == but || &s == and_but) continue;
+    const Meeting m = meet(s, a, b, a, x, y, but, and_but);
+    if (m.share > most.share) most = m;
+  }
+  return most;
 }
 
 void WallPaths::add(const Sheets& sheets, Index i, const Vec& at_i, Index j, const Vec& at_j, Real reach,
                     std::vector<WallPath>& to) const {
   const Vec x = surface_.in_plane(at_i) + aside(surface_.reach(), dim_),
-            y = surface_.in_plane(at_j) + aside(surface_.reach(), dim_);
+            y = surface_.in_plane(at_j) + aside(surface_.reach(), dim_, i == j);
   if ((y - x).squaredNorm() >= reach * reach) return;  // images are farther
   if (i != j) add_straight(sheets, i, x, j, y, to);
-  std::vector<const Sheet*> by;
+  Real from_x = reach, from_y = reach;
+  for (const Sheet& s : sheets) {
+    from_x = std::min(from_x, std::abs(s.height(x)));
+    from_y = std::min(from_y, std::abs(s.height(y)));
+  }
+  if (from_x + from_y > reach + width_) return;
+  Sequence by;
   add_thrown_back(sheets, by, i, x, j, y, reach, to);
 }
 
 void WallPaths::add_straight(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y,
                              std::vector<WallPath>& to) const {
-  Real hidden = 0;
-  for (const Sheet& s : sheets) {
-    const Real from = s.height(x), behind = s.height(y);
-    if (from * behind < 0)
-      hidden = std::max(hidden, cover(s, x + (y - x) * (from / (from - behind)), (y - x).normalized(), 3));
-  }
-  if (hidden > 0) to.push_back({.i = i, .j = j, .weight = -hidden, .d = x - y});
+  const Meeting m = hidden(sheets, x, y, x, y);
+  if (!(m.share > 0)) return;
+  WallPath path{.i = i, .j = j, .weight = -m.share, .d = x - y};
+  path.by_i = -m.by_start, path.by_j = -m.by_end;
+  to.push_back(path);
 }
 
 /// Ways by the walls `by` and then one more, or several: as many as there are directions, or two more in the
 /// plane, where corners may be sharp.
-void WallPaths::add_thrown_back(const Sheets& sheets, std::vector<const Sheet*>& by, Index i, const Vec& x,
-                                Index j, const Vec& y, Real reach, std::vector<WallPath>& to) const {
+void WallPaths::add_thrown_back(const Sheets& sheets, Sequence& by, Index i, const Vec& x, Index j,
+                                const Vec& y, Real reach, std::vector<WallPath>& to) const {
   const std::size_t most = dim_ == 2 ? 4 : 3;
   for (const Sheet& s : sheets) {
-    if (!by.empty() && by.back() == &s) continue;
+    if (by.empty() ? std::abs(s.height(x)) > reach : by.back() == &s) continue;
     by.push_back(&s);
     Vec image = y;
     for (auto sheet = by.rbegin(); sheet != by.rend(); ++sheet) image = (*sheet)->image(image);
     if ((image - x).squaredNorm() < reach * reach) {
-      if (const Real share = share_of_way(sheets, by, x, y, image); share > 0) {
-        WallPath path{.i = i, .j = j, .weight = share, .d = x - image, .shift = image - y};
-        for (const Sheet* sheet : by)
-          path.turn = path.turn * (Matrix::Identity() - 2 * sheet->n * sheet->n.transpose());
-        to.push_back(path);
-      }
+      WallPath path{.i = i, .j = j, .d = x - image, .shift = image - y};
+      for (const Sheet* sheet : by) path.turn = path.turn * sheet->turn();
+      follow(sheets, by, x, y, image, path);
+      if (i == j) path.by_i = path.by_j = 0.5 * (path.by_i + path.by_j);  // but for rounding they are
+      if (path.weight > 0) to.push_back(path);
     }
-    if (by.size() < most && sheets.size() > 1 && std::abs(s.height(x)) < reach)
-      add_thrown_back(sheets, by, i, x, j, y, reach, to);
+    if (by.size() < most && sheets.size() > 1) add_thrown_back(sheets, by, i, x, j, y, reach, to);
     by.pop_back();
   }
 }
 
-/// Follows the way from x towards the image of y behind the walls `by`, each of which turns it back.
-Real WallPaths::share_of_way(const Sheets& sheets, const std::vector<const Sheet*>& by, const Vec& x,
-                             const Vec& y, Vec target) const {
-  Vec at = x;
+/// Follows the way from x towards the image of y behind the walls `by`, each of which turns it back, and
+/// gives the path its share and the slopes of that: a product of what walls take and of what none of the
+/// others hides.
+void WallPaths::follow(const Sheets& sheets, const Sequence& by, const Vec& x, const Vec& y, Vec target,
+                       WallPath& path) const {
+  Vec start = x, at = x;
+  // what these change by when x and y do
+  Matrix start_by_x = Matrix::Identity(), target_by_y = path.turn, at_by_x = start_by_x,
+         at_by_y = Matrix::Zero();
   Real share = 1;
-  Index last = -1;
+  Vec by_x = Vec::Zero(), by_y = Vec::Zero();
+  const auto times = [&](Real factor, const Vec& slope_x, const Vec& slope_y) {
+    by_x = factor * by_x + share * slope_x, by_y = factor * by_y + share * slope_y;
+    share *= factor;
+    return share > 0;
+  };
+  const Sheet* last = nullptr;
   for (const Sheet* s : by) {
-    const Real from = s->height(at), behind = s->height(target);
-    if (!(from * behind < 0)) return 0;
-    const Vec q = at + (target - at) * (from / (from - behind));
-    share *= cover(*s, q, (target - at).normalized(), from > 0 ? 1 : 2);
-    if (!(share > 0) || !is_clear(sheets, at, q, last, s->plane)) return 0;
-    target = s->image(target);
-    at = q, last = s->plane;
+    const Meeting m = meet(*s, at, target, start, x, y);
+    if (by.size() > 1 && (!m.crosses || (last && turn_away(*s, *last, x, y)))) return;
+    if (!times(m.share, start_by_x.transpose() * m.by_start, target_by_y.transpose() * m.by_end)) return;
+    Matrix m_by_x = Matrix::Zero(), m_by_y = Matrix::Zero();
+    if (m.crosses) {
+      const Vec along = target - start;
+      const Matrix in_wall = Matrix::Identity() - along * s->n.transpose() / s->n.dot(along);
+      const Real part = s->height(start) / (s->height(start) - s->height(target));
+      m_by_x = (1 - part) * in_wall * start_by_x, m_by_y = part * in_wall * target_by_y;
+    }
+    const Meeting h = hidden(sheets, at, m.at, x, y, last, s);
+    if (!times(1 - h.share, -(at_by_x.transpose() * h.by_start + m_by_x.transpose() * h.by_end),
+               -(at_by_y.transpose() * h.by_start + m_by_y.transpose() * h.by_end)))
+      return;
+    start = s->image(start), target = s->image(target);
+    start_by_x = s->turn() * start_by_x, target_by_y = s->turn() * target_by_y;
+    at = m.at, at_by_x = m_by_x, at_by_y = m_by_y, last = s;
   }
-  return is_clear(sheets, at, y, last, -1) ? share : 0;
+  const Meeting h = hidden(sheets, at, y, x, y, last);
+  if (!times(1 - h.share, -at_by_x.transpose() * h.by_start, -at_by_y.transpose() * h.by_start - h.by_end))
+    return;
+  path.weight = share, path.by_i = by_x, path.by_j = by_y;
 }
 
 }  // namespace courant

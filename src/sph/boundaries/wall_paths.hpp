@@ -12,9 +12,10 @@ struct WallPath {
   Index i = 0, j = 0;
   /// Share of the way that walls throw back; of a straight way, less than 0: what they hide of it. [-]
   Real weight = 0;
-  Vec d = Vec::Zero();               ///< x_i less the place of the image of j [L]
-  Vec shift = Vec::Zero();           ///< from j to its image [L]
-  Matrix turn = Matrix::Identity();  ///< of directions at j, as they are at the image
+  Vec d = Vec::Zero();                         ///< x_i less the place of the image of j [L]
+  Vec shift = Vec::Zero();                     ///< from j to its image [L]
+  Matrix turn = Matrix::Identity();            ///< of directions at j, as they are at the image
+  Vec by_i = Vec::Zero(), by_j = Vec::Zero();  ///< how the share goes over with the places of i and j [1/L]
 };
 
 /// Walls act as mirrors do, each piece as far as it goes: i meets the image of j in a wall where the straight
@@ -23,8 +24,9 @@ struct WallPath {
 /// Particles that a wall stands between do not meet. So whatever direction i looks in, it sees water just as
 /// far as its kernel reaches, at any number of walls, at their ends and on both sides of them.
 ///
-/// Where a wall ends free, seen from the side that i stands on, it goes over from mirror to nothing within
-/// one width of its edge, half of it in front: else particles would come and go at once.
+/// Where a wall ends, and where the next one turns away from the water, a way that passes the edge goes over
+/// from thrown back (or hidden) to nothing within one width, half of it on each side, smoothly: else
+/// particles would come and go at once. What the wall no longer throws back is what it no longer hides.
 class WallPaths {
  public:
   /// A flat piece of wall as somebody sees it; `endless`: nothing else, and none of its edges.
@@ -34,12 +36,14 @@ class WallPaths {
     Index plane = 0;
     bool endless = false;
     std::vector<Index> faces;
+    std::vector<std::pair<Index, int>> edges;  ///< of these faces, where nothing goes on in the plane
     Real height(const Vec& x) const { return n.dot(x) - offset; }
     Vec image(const Vec& x) const { return x - 2 * height(x) * n; }
+    Matrix turn() const { return Matrix::Identity() - 2 * n * n.transpose(); }
   };
   using Sheets = std::vector<Sheet>;
   /// Over which a free edge goes over to nothing, of the spacing of particles; by trial at steps and blocks.
-  static constexpr Real usual_width = 0.8;
+  static constexpr Real usual_width = 1.2;
 
   /// `width`: about one spacing of the particles; the surface must reach that much farther than the kernel
   /// [L]
@@ -52,23 +56,45 @@ class WallPaths {
            std::vector<WallPath>& to) const;
 
  private:
-  /// Sides of a face: 1 where its normal points, 2 behind.
-  using Sides = std::uint8_t;
+  /// Where another face begins at an edge: the edge is none to who stands between both.
+  struct Corner {
+    Vec n = Vec::Zero();  ///< of the other face
+    Real here = 0;        ///< side of the other face on which this one lies
+    Real there = 0;       ///< side of this face on which the other one lies
+  };
+  struct Edge {
+    bool ends = false;  ///< no face goes on from here in the plane
+    std::vector<Corner> corners;
+  };
+  /// Where on a sheet a way meets it.
+  struct Meeting {
+    bool crosses = false, inside = false;
+    Vec at = Vec::Zero();
+    Real share = 0;
+    Vec by_start = Vec::Zero(), by_end = Vec::Zero();  ///< slopes of the share [1/L]
+  };
+  using Sequence = std::vector<const Sheet*>;
   bool goes_on_in(const Sheet& sheet, Index face) const;
-  Sides open_sides(Index face, int edge) const;
-  Real cover(const Sheet& sheet, const Vec& q, const Vec& way, Sides sides) const;
-  bool is_clear(const Sheets& sheets, const Vec& a, const Vec& b, Index but_plane, Index and_plane) const;
+  Edge edge_of(Index face, int edge) const;
+  bool is_free(Index face, int edge, const Vec& p) const;
+  bool is_inside(const Sheet& sheet, const Vec& q) const;
+  bool lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const;
+  bool turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const;
+  Meeting meet(const Sheet& sheet, const Vec& a, const Vec& b, const Vec& start, const Vec& x, const Vec& y,
+               const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
+  Meeting hidden(const Sheets& sheets, const Vec& a, const Vec& b, const Vec& x, const Vec& y,
+                 const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
+  void follow(const Sheets& sheets, const Sequence& by, const Vec& x, const Vec& y, Vec target,
+              WallPath& path) const;
   void add_straight(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y,
                     std::vector<WallPath>& to) const;
-  void add_thrown_back(const Sheets& sheets, std::vector<const Sheet*>& by, Index i, const Vec& x, Index j,
-                       const Vec& y, Real reach, std::vector<WallPath>& to) const;
-  Real share_of_way(const Sheets& sheets, const std::vector<const Sheet*>& by, const Vec& x, const Vec& y,
-                    Vec target) const;
+  void add_thrown_back(const Sheets& sheets, Sequence& by, Index i, const Vec& x, Index j, const Vec& y,
+                       Real reach, std::vector<WallPath>& to) const;
 
   const WallSurface& surface_;
   int dim_;
   Real width_;
-  std::vector<std::array<Sides, 4>> open_;  ///< of each face: on which sides each edge is free
+  std::vector<std::array<Edge, 4>> edges_;  ///< of each face
 };
 
 }  // namespace courant

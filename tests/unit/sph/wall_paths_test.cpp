@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <string>
 
 #include "sph/boundaries/wall_paths.hpp"
 #include "sph/core/kernel.hpp"
@@ -43,7 +45,7 @@ Sums look(const World& world, const Vec& x, int dim, Real piece, const Wet& wet)
   std::vector<Index> all(static_cast<std::size_t>(world.segments.size()));
   for (Index s = 0; s < world.segments.size(); ++s) all[s] = s;
   const WallSurface surface(world, all, h / 4, 2.1 * h + dx);
-  const WallPaths paths(surface, dim, 0.8 * dx);
+  const WallPaths paths(surface, dim, WallPaths::usual_width * dx);
   const auto sheets = paths.seen_from(x);
   Sums sums;
   const int n = static_cast<int>(2 * h / piece) + 1, deep = dim == 3 ? n : 0;
@@ -136,7 +138,7 @@ TEST(WallPaths, AreTheSameBothWays) {
               line(at_angle(-70, 1), at_angle(-70, 1) + Vec(1, 0, 0))},
              2);
   const WallSurface surface(world, {0, 1, 2}, h / 4, 2.1 * h + dx);
-  const WallPaths paths(surface, 2, 0.8 * dx);
+  const WallPaths paths(surface, 2, WallPaths::usual_width * dx);
   int ways = 0;
   for (int k = 0; k < 700; ++k) {
     const Vec x(0.2 * std::sin(1.3 * k) + 0.1, 0.2 * std::cos(2.1 * k), 0);
@@ -151,9 +153,114 @@ TEST(WallPaths, AreTheSameBothWays) {
       return sum;
     };
     EXPECT_NEAR(power(there), power(back), 1e-5 * h * h) << k;
+    Vec slope = Vec::Zero(), other = Vec::Zero();
+    for (const WallPath& p : there) slope += p.by_i + 2 * p.by_j;
+    for (const WallPath& p : back) other += p.by_j + 2 * p.by_i;
+    EXPECT_LT((slope - other).norm() * dx, 1e-6) << k;
     ways += static_cast<int>(there.size());
   }
   EXPECT_GT(ways, 200);
+}
+
+/// Lines of wall, and whether a place is in the water.
+struct Place {
+  std::string name;
+  std::vector<std::pair<Vec, Vec>> lines;
+  std::function<bool(const Vec&)> wet;
+  /// And so far from walls as particles stand.
+  bool holds(const Vec& y) const {
+    return wet(y) && std::all_of(lines.begin(), lines.end(), [&](const auto& l) {
+             const Vec along = l.second - l.first;
+             const Real t = std::clamp((y - l.first).dot(along) / along.squaredNorm(), Real(0), Real(1));
+             return (y - l.first - t * along).norm() > 0.5 * dx;
+           });
+  }
+};
+std::vector<Place> places() {
+  const Vec o = Vec::Zero(), left(-1, 0, 0), right(1, 0, 0), up(0, 1, 0), down(0, -1, 0), low(0, -0.15, 0);
+  return {
+      {"step", {{left, o}, {o, down}}, [](const Vec& y) { return y[0] > 0 || y[1] > 0; }},
+      {"end of a plate", {{down, o}}, [](const Vec&) { return true; }},
+      {"foot of a plate", {{left, right}, {o, up}}, [](const Vec& y) { return y[1] > 0; }},
+      {"low step",
+       {{left, o}, {o, low}, {low, right + low}},
+       [](const Vec& y) { return y[1] > (y[0] > 0 ? -0.15 : 0); }},
+      {"wedge",
+       {{o, at_angle(60, 1)}, {o, at_angle(120, 1)}},
+       [](const Vec& y) { return y[1] > std::abs(y[0]) * std::tan(pi / 3); }},
+  };
+}
+
+/// Sum of shares times the kernel, and how it changes with the places of both ends.
+struct Seen {
+  Real sum = 0;
+  Vec by_x = Vec::Zero(), by_y = Vec::Zero();
+};
+Seen see(const WallPaths& paths, const Vec& x, const Vec& y) {
+  std::vector<WallPath> found{{.i = 0, .j = 1, .weight = 1, .d = x - y}};
+  paths.add(paths.seen_from(x), 0, x, 1, y, 2 * h, found);
+  Seen out;
+  for (const WallPath& p : found) {
+    const Real R = p.d.norm() / h;
+    if (R >= 2) continue;
+    const Real W = CubicSpline::shape(R);
+    const Vec slope = CubicSpline::slope(R) / (h * R * h) * p.d;
+    out.sum += p.weight * W;
+    out.by_x += p.weight * slope + W * p.by_i;
+    out.by_y += -p.weight * (p.turn.transpose() * slope) + W * p.by_j;
+  }
+  return out;
+}
+
+// Density then depends on places alone, not on the way there: what a pair gains on any way is the difference
+// of what it has at its ends.
+TEST(WallPaths, GiveAndTakeShareWithoutJumps) {
+  for (const Place& place : places()) {
+    std::vector<Index> all;
+    std::vector<std::array<Vec, 4>> plates;
+    for (const auto& [a, b] : place.lines) {
+      all.push_back(static_cast<Index>(plates.size()));
+      plates.push_back(line(a, b));
+    }
+    World world;
+    add_plates(world, plates, 2);
+    const WallSurface surface(world, all, h / 4, 2.1 * h + dx);
+    const WallPaths paths(surface, 2, WallPaths::usual_width * dx);
+    int tried = 0, changed = 0;
+    for (int k = 0; k < 40000; ++k) {
+      const Vec x(0.25 * std::sin(1.3 * k), 0.25 * std::cos(2.1 * k + 1), 0),
+          y(0.25 * std::sin(5.7 * k + 2), 0.25 * std::cos(3.3 * k), 0);
+      const Vec dx_ = 0.004 * dx * Vec(std::sin(0.7 * k), std::cos(0.7 * k), 0),
+                dy = 0.004 * dx * Vec(std::sin(1.9 * k), std::cos(1.9 * k), 0);
+      if (!place.holds(x) || !place.holds(y) || !place.holds(x + dx_) || !place.holds(y + dy)) continue;
+      if ((x - y).norm() > 1.9 * h) continue;
+      ++tried;
+      const Seen from = see(paths, x, y), to = see(paths, x + dx_, y + dy);
+      const Real gain = 0.5 * (from.by_x + to.by_x).dot(dx_) + 0.5 * (from.by_y + to.by_y).dot(dy);
+      EXPECT_NEAR(to.sum - from.sum, gain, 4e-4)
+          << place.name << ": " << x.transpose() << " and " << y.transpose();
+      changed += std::abs(gain) > 1e-3;
+    }
+    EXPECT_GT(tried, 100) << place.name;
+    EXPECT_GT(changed, 50) << place.name;
+  }
+}
+
+// In a corner the way to oneself and back goes through the edge, for some walls always.
+TEST(WallPaths, ShowAParticleToItselfInCorners) {
+  for (const auto& [angle, images] : {std::pair{90, 3}, std::pair{60, 5}, std::pair{45, 7}}) {
+    World world;
+    add_plates(world, {line(Vec::Zero(), at_angle(0, 1)), line(Vec::Zero(), at_angle(angle, 1))}, 2);
+    const WallSurface surface(world, {0, 1}, h / 4, 2.1 * h + dx);
+    const WallPaths paths(surface, 2, WallPaths::usual_width * dx);
+    for (const Real turn : {0.3, 0.5, 0.61}) {
+      const Vec x = at_angle(turn * angle, 0.9 * h);
+      std::vector<WallPath> found;
+      paths.add(paths.seen_from(x), 0, x, 0, x, 2 * h, found);
+      EXPECT_EQ(found.size(), images) << angle << " " << turn;
+      for (const WallPath& p : found) EXPECT_EQ(p.weight, 1) << angle << " " << turn;
+    }
+  }
 }
 
 }  // namespace
