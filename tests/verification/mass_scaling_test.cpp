@@ -157,6 +157,26 @@ TEST(MassScaling, ElementsThatAreSquashedGetMassWhileTheRunGoesOn) {
   }
 }
 
+// A fifth of the height in a step: mass follows at once, so that the step stays what is asked for.
+TEST(MassScaling, GrowsByTheSquareInEachStep) {
+  SolidDeck deck;
+  deck.block(Vec(1, 1, 1), 1, 1, 1, 1);
+  deck.cards = scaled_to(-1.0) +
+               "*PART\nblock\n1,1,1\n*SECTION_SOLID\n1,1\n*MAT_ELASTIC\n1,1.0,1.0,0.0\n*CONTROL_BULK_"
+               "VISCOSITY\n1.0E-9,1.0E-9\n"
+               "*BOUNDARY_PRESCRIBED_MOTION_SET\n1,3,0,1\n2,3,0,2\n*DEFINE_CURVE\n1\n0.0,0.0\n1.0E9,0.0\n"
+               "*DEFINE_CURVE\n2\n0.0,-0.2\n1.0E9,-0.2\n";
+  deck.node_set(1, [](const Vec& x) { return x[2] < 1e-9; });
+  deck.node_set(2, [](const Vec& x) { return x[2] > 1 - 1e-9; });
+  auto s = simulation_of(deck.text(1e9));
+  start_ledger(*s);
+  while (s->clock().t < 2) s->step(do_nothing);
+  const Real height = 1 - 0.2 * (s->clock().t - s->clock().dt_old);
+  EXPECT_LT(height, 0.75);
+  EXPECT_NEAR(mass_of_nodes(s->world()) * height, 1, 0.01);
+  EXPECT_NEAR(s->clock().dt_old, 0.8, 0.01);
+}
+
 // A block that is pressed to the height h needs 1/h of its mass: at 1/0.8 ENDMAS 25 ends the run; one that
 // has 1.5625 of it at the start is pressed to 0.78125 at twice that of the material.
 TEST(MassScaling, EndmasEndsTheRunInTheStepThatPassesIt) {
