@@ -12,6 +12,8 @@ std::vector<Index> build_nodes(const Model& model, const std::vector<Index>& mor
     for (const Index n : shell.node) use(n, shell.part);
   for (const ModelSolid& solid : model.solids)
     for (const Index n : solid.node) use(n, solid.part);
+  for (const ModelBeam& beam : model.beams)
+    for (const Index n : beam.node) use(n, beam.part);
   std::vector<char> particle(more.empty() ? 0 : model.nodes.size(), 0);
   if (!more.empty())
     for (const ModelSph& s : model.sph) particle[s.node] = 1;

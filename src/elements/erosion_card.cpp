@@ -24,6 +24,14 @@ struct MatAddErosion : Entry {
   int nsff = 10;
   /// A value that asks for its criterion.
   bool asks(Real value) const { return value != 0 && value != excl; }
+  /// Of the criteria.
+  int count() const {
+    int out = 0;
+    for (const Real value :
+         {mxpres, mneps, effeps, voleps, mnpres, sigp1, sigvm, mxeps, epssh, impulse, failtm})
+      out += asks(value);
+    return out;
+  }
 };
 
 using A = MatAddErosion;
@@ -58,7 +66,7 @@ const RegisterKeyword<A> mat_add_erosion{
                            {"SIGTH", &A::sigth, "M/LT2", "threshold of the impulse criterion"},
                            {"IMPULSE", &A::impulse, "M2/L2T3",
                             "largest integral of (principal stress - SIGTH)^2 dt"},
-                           {"FAILTM", &A::failtm, "T", "time of failure"}}},
+                           {"FAILTM", &A::failtm, "T", "time of failure, < 0: the same"}}},
                {.fields = {{"IDAM", &A::idam, "-", "damage model", unsupported},
                            {},
                            {},
@@ -95,7 +103,7 @@ void take_card(const A& c, FailureRules& out) {
   if (c.asks(c.effeps)) (c.effeps > 0 ? out.effective_strain : out.plastic_strain) = std::abs(c.effeps);
   if (c.asks(c.voleps)) (c.voleps > 0 ? out.expansion : out.contraction) = c.voleps;
   if (c.asks(c.impulse)) out.impulse = c.impulse, out.threshold = c.asks(c.sigth) ? c.sigth : 0;
-  take(c.failtm, out.time);
+  if (c.asks(c.failtm)) out.time = std::abs(c.failtm);  // < 0: not during dynamic relaxation
   out.conditions = static_cast<int>(c.ncs), out.points = static_cast<int>(c.numfip);
 }
 
@@ -110,6 +118,22 @@ void check_card(const Deck& deck, const A& c, Diagnostics& diagnostics) {
   for (const auto& [field, value] : {std::pair{"NUMFIP", c.numfip}, std::pair{"NCS", c.ncs}})
     refuse(field, value, value != std::floor(value), "is no whole number", "");
   refuse("IMPULSE", c.impulse, c.impulse < 0 && c.asks(c.impulse), "is below 0", "");
+  constexpr const char* at_rest = "holds without any load: all elements would fail at once";
+  const auto expect = [&](const char* field, Real value, int sign) {
+    if (c.asks(value))
+      refuse(field, value, sign * value<0, at_rest, sign> 0 ? "give a value > 0" : "give a value < 0");
+  };
+  expect("MXPRES", c.mxpres, 1), expect("MNEPS", c.mneps, -1), expect("MNPRES", c.mnpres, -1);
+  expect("SIGP1", c.sigp1, 1), expect("EPSSH", c.epssh, 1);
+  if (c.asks(c.sigth) && !c.asks(c.impulse))
+    deck.warning(diagnostics, c, "SIGTH", "has no effect without IMPULSE", "give IMPULSE, or leave it blank");
+  const int count = c.count();
+  if (count == 0)
+    deck.warning(diagnostics, c, "MID", "the card asks for no criterion: nothing fails by it",
+                 "leave it out");
+  else
+    refuse("NCS", c.ncs, c.ncs > count,
+           fmt::format("can never hold at once: the card asks for {}", count).c_str(), "");
 }
 
 /// Parts of the card's material, and whether it does anything there.
@@ -121,7 +145,11 @@ void check_parts(const Deck& deck, const Model& model, const A& c, Diagnostics& 
       deck.error(diagnostics, c, "MID",
                  fmt::format("particles cannot fail: part {} has some of this material", part.id),
                  "give them a material of their own");
-    used = used || part.has_sph || (!part.rigid && (part.has_solid || part.has_shell));
+    if (part.has_beam)
+      deck.error(diagnostics, c, "MID",
+                 fmt::format("beams cannot fail: part {} has some of this material", part.id),
+                 "give them a material of their own");
+    used = used || part.has_sph || part.has_beam || (!part.rigid && (part.has_solid || part.has_shell));
   }
   if (!used)
     deck.warning(diagnostics, c, "MID",
@@ -148,8 +176,14 @@ std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (!laws[k]) continue;
     out[k].law_strain = laws[k]->failure_strain();
-    if (const auto card = cards.find(model.parts[k].mid); card != cards.end())
+    if (const auto card = cards.find(model.parts[k].mid); card != cards.end()) {
       take_card(*card->second, out[k]);
+      if (out[k].plastic_strain < FailureRules::never && plastic_strain_of(*laws[k]) < 0)
+        deck.error(diagnostics, *card->second, "EFFEPS",
+                   fmt::format("the material of part {} has no plastic strain, which '{:g}' asks for",
+                               model.parts[k].id, card->second->effeps),
+                   "a value > 0 is one of the effective strain");
+    }
     out[k].small_step = model.parts[k].has_solid ? erode % 10 != 0 : erode / 10 % 10 != 0 && model.dtmin > 0;
   }
   return out;

@@ -79,10 +79,12 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
   /// Where no element is left the step stays.
   Limit limit(const World& world, const Clock& clock) override {
     constexpr Real none = std::numeric_limits<Real>::infinity();
-    Index dead = 0;
+    Index dead = 0, all = 0;
     for (const auto& group : groups_)
       if (group->all_dead()) dead += group->group().size();
-    return {dead == world.elements() ? clock.dt_old : none, "the last element, which is deleted"};
+    for (const auto& group : world.groups)
+      if (group->corners() > 1) all += group->size();  // lumped masses have no step
+    return {dead == all ? clock.dt_old : none, "the last element, which is deleted"};
   }
   const std::vector<ElementFailure>& failures() const override { return failures_; }
 

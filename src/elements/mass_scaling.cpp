@@ -13,6 +13,7 @@ namespace courant {
 
 namespace {
 
+constexpr const char* name_in_summary = "added_mass";
 const FieldInfo of_elements{.name = "added_mass", .dimension = "M", .output = true};
 
 Field<Real>* added_mass_of(const FieldSet& set) {
@@ -45,34 +46,38 @@ PartMass mass_of(const World& world, Index part) {
 /// Ends the run at ENDMAS.
 class AddedMassLimit : public EnergyTerm {
  public:
-  explicit AddedMassLimit(Real endmas) : endmas_(endmas) {}
+  AddedMassLimit(Real endmas, const World& world) : endmas_(endmas) {
+    const PartMass all = mass_of(world, -1);
+    of_material_ = all.all - all.added;
+  }
   std::string name() const override { return "added mass"; }
   void record(World& world, const Clock& clock, EnergyLedger&) override {
-    if (clock.cycle % often != 0) return;
-    const PartMass all = mass_of(world, -1);
-    if (all.percent() > endmas_)
+    const Real percent = 100 * world.maxima[name_in_summary] / of_material_;
+    if (percent > endmas_)
       throw RunError(fmt::format("mass scaling has added {:.4g} % of the mass of elements, more than ENDMAS "
                                  "= {:.4g} %, by time {:.6g}, cycle {}",
-                                 all.percent(), endmas_, clock.t, clock.cycle),
+                                 percent, endmas_, clock.t, clock.cycle),
                      StopCause::step_size);
   }
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
  private:
-  static constexpr std::int64_t often = 64;
-  Real endmas_;  ///< percent
+  Real endmas_;           ///< percent
+  Real of_material_ = 0;  ///< [M]
 };
 
-void warn_of_rest(const Deck& deck, const ControlTimestepCard& card, const World& world,
+void warn_of_rest(const Deck& deck, const ControlTimestepCard& card, const Model& model, const World& world,
                   Diagnostics& diagnostics) {
   const bool scaled = std::any_of(world.groups.begin(), world.groups.end(),
                                   [](const auto& g) { return added_mass_of(g->fields) != nullptr; });
   if (!scaled)
     deck.warning(diagnostics, card, "DT2MS",
                  "has no effect: the deck has no solids and no shells that deform", "leave it blank");
-  else if (world.particles.size() > 0)
-    deck.warning(diagnostics, card, "DT2MS",
-                 "adds mass to solids and shells alone: particles keep the step that they need", "");
+  for (const auto& [there, what] : {std::pair(scaled && world.particles.size() > 0, "particles keep"),
+                                    std::pair(scaled && !model.beams.empty(), "beams keep")})
+    if (there)
+      deck.warning(diagnostics, card, "DT2MS",
+                   fmt::format("adds mass to solids and shells alone: {} the step that they need", what), "");
 }
 
 }  // namespace
@@ -158,7 +163,7 @@ void ScaledMass::add(Index e, Real mass, bool started, World& world) {
     if ((*none)[n] == 0) work += 0.5 * more * w->vec(n).squaredNorm();
   }
   group_.mass[e] += mass, added_[e] += mass;
-  world.maxima["added_mass"] += mass;
+  world.maxima[name_in_summary] += mass;
   if (!started) return;
   world.energy.external_work += work, world.energy.throughput += std::abs(work);
 }
@@ -167,7 +172,7 @@ void report_mass_scaling(const Deck& deck, const Model& model, World& world, Dia
   constexpr Real much = 5;  // per cent
   const auto* card = deck.last<ControlTimestepCard>();
   if (!card || card->dt2ms == 0) return;
-  warn_of_rest(deck, *card, world, diagnostics);
+  warn_of_rest(deck, *card, model, world, diagnostics);
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const PartMass m = mass_of(world, static_cast<Index>(k));
     if (m.scaled == 0) continue;
@@ -182,7 +187,7 @@ void report_mass_scaling(const Deck& deck, const Model& model, World& world, Dia
       diagnostics.note(deck.where(*card), std::move(text));
   }
   const auto* end = deck.last<ControlTerminationCard>();
-  if (end && end->endmas > 0) world.passes.add(std::make_shared<AddedMassLimit>(end->endmas));
+  if (end && end->endmas > 0) world.passes.add(std::make_shared<AddedMassLimit>(end->endmas, world));
 }
 
 }  // namespace courant

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/run_error.hpp"
+#include "beam_decks.hpp"
 #include "same_bits.hpp"
 #include "shell_decks.hpp"
 #include "solid_decks.hpp"
@@ -14,50 +16,11 @@
 #include "state/shared_fields.hpp"
 
 using namespace courant;
+using namespace courant::test::beams;
 using test::simulation_of;
 using test::start_ledger;
 
 namespace {
-
-const std::string steel_of_beams = "*MAT_ELASTIC\n         1    7850.0   2.1E+11       0.3\n";
-/// 10 mm x 10 mm: A = 1e-4, I = 8.3333e-10; ELFORM 1 and 2.
-const std::string square_1 =
-    "         1       1.0         2         0\n      0.01      0.01      0.01      0.01\n";
-const std::string square_2 = "         2\n    1.0E-48.3333E-108.3333E-10 1.6667E-9\n";
-
-struct BeamDeck {
-  std::string nodes, elements, cards;
-  int node = 0, element = 0;
-
-  int at(const Vec& x, const char* codes = "") {
-    nodes += fmt::format("{},{:.16g},{:.16g},{:.16g}{}\n", ++node, x[0], x[1], x[2], codes);
-    return node;
-  }
-  void beam(int part, int a, int b, int third = 0) {
-    elements += fmt::format("{:8}{:8}{:8}{:8}{:8}\n", ++element, part, a, b, third);
-  }
-  /// `section`: ELFORM and what follows.
-  void part(int id, const std::string& section, const std::string& material) {
-    cards +=
-        fmt::format("*PART\nbeams\n{0:10}{0:10}         1\n*SECTION_BEAM\n{0:10}", id) + section + material;
-  }
-  /// n beams of part 1 on [0, L] of the x axis; the nodes are 1 ... n + 1.
-  void line(int n, Real L, const std::function<const char*(int)>& codes) {
-    for (int k = 0; k <= n; ++k) at({L * k / n, 0, 0}, codes(k));
-    const int third = at({0, 1, 0}, ",7,7");
-    for (int k = 0; k < n; ++k) beam(1, k + 1, k + 2, third);
-  }
-  void velocity(const std::function<Vec(int)>& of_node) {
-    cards += "*INITIAL_VELOCITY_NODE\n";
-    for (int n = 1; n <= node; ++n)
-      if (const Vec v = of_node(n); v.norm() > 0)
-        cards += fmt::format("{},{:.12g},{:.12g},{:.12g}\n", n, v[0], v[1], v[2]);
-  }
-  std::string text(Real endtim) const {
-    return fmt::format("*KEYWORD\n*CONTROL_TERMINATION\n{:.16g}\n", endtim) + cards + "*NODE\n" + nodes +
-           "*ELEMENT_BEAM\n" + elements + "*END\n";
-  }
-};
 
 /// From the times at which a component of a node's place passes that at the start.
 Real beam_frequency(Simulation& s, const Field<Real>& field, int component, Index node, int crossings) {
@@ -236,6 +199,40 @@ TEST(Beams, FreeSpinStaysRigid) {
   }
 }
 
+// One beam, whose end turns at 1 rad/s: torsion is G J theta/L, bending 4 E I theta/L (at one point along the
+// beam E I/L, and G A L/4 of shear), up to where the two ends' axes no longer tell which way: there the run
+// stops.
+TEST(Beams, TurnsOfMoreThanTheyCanTellStopTheRun) {
+  for (const std::string& section : {square_1, square_2})
+    for (const int dof : {5, 7}) {
+      BeamDeck deck;
+      deck.part(1, section, "*MAT_ELASTIC\n         1    7850.0   2.6E+06       0.3\n");
+      const int a = deck.at({0, 0, 0}, ",7,7"), b = deck.at({1, 0, 0}, dof == 5 ? ",7,5" : ",7,4"),
+                third = deck.at({0, 1, 0}, ",7,7");
+      deck.beam(1, a, b, third);
+      deck.cards += fmt::format(
+          "*CONTROL_TIMESTEP\n0.0,0.01\n*DEFINE_CURVE\n5\n0.0,1.0\n9.0,1.0\n"
+          "*BOUNDARY_PRESCRIBED_MOTION_NODE\n2,{},0,5\n",
+          dof);
+      auto s = simulation_of(deck.text(9));
+      const auto moment = [&] { return s->world().groups[0]->corner_moment->data(dof == 5 ? 0 : 2)[0]; };
+      while (s->clock().t < 1.4) s->step(test::do_nothing);
+      const Real angle = s->clock().t - s->clock().dt_old;
+      const Real EI = 2.6e6 * 8.3333e-10, GJ = 1e6 * 1.6667e-9, GA = 1e6 * 1e-4;
+      const Real stiffness = dof == 5 ? GJ : section == square_2 ? -2 * EI : EI - GA / 4;
+      EXPECT_NEAR(moment() / (stiffness * angle), 1, 0.002) << dof << section;
+      Real last = 0;
+      EXPECT_THROW(
+          while (s->clock().t < 8) {
+            s->step(test::do_nothing);
+            last = s->clock().t;
+          },
+          RunError)
+          << dof << section;
+      EXPECT_NEAR(last, dof == 5 ? 3 : 1.5, 0.01) << dof << section;
+    }
+}
+
 // By hand: sigma = SIGY + ETAN (ln(1 + u/L) - SIGY/E), of the true stress on the area that the card gives.
 TEST(Beams, PlasticTruss) {
   for (const char* section :
@@ -259,22 +256,25 @@ TEST(Beams, PlasticTruss) {
   }
 }
 
-// Two layers of points at +-h/(2 sqrt(3)) carry sigma_y A h/(2 sqrt(3)) at most.
+// Layers of points carry sigma_y A h/2 times the sum of their weights and places, by hand: of Gauss 2, 3, 4
+// and of Lobatto 3.
 TEST(Beams, PlasticBending) {
-  BeamDeck deck;
-  deck.part(
-      1, square_1,
-      "*MAT_PLASTIC_KINEMATIC\n         1    7850.0   2.0E+11       0.3   2.0E+08       0.0       1.0\n");
-  const int a = deck.at({0, 0, 0}, ",7,7"), b = deck.at({0.1, 0, 0}, ",3,4"), third = deck.at({0, 1, 0});
-  deck.beam(1, a, b, third);
-  deck.cards +=
-      "*DEFINE_CURVE\n         5\n0.0,0.0\n0.1,0.1\n1.0,0.1\n*BOUNDARY_PRESCRIBED_MOTION_NODE\n         2    "
-      "     7         2         5\n";
-  auto s = simulation_of(deck.text(0.12));
-  while (s->clock().t < 0.1) s->step(test::do_nothing);
-  const ElementGroup& group = *s->world().groups[0];
-  EXPECT_NEAR(std::abs(group.corner_moment->data(5)[0]) / (2e8 * 1e-4 * 0.01 / (2 * std::sqrt(3.0))), 1,
-              0.02);
+  for (const auto& [rule, share] : {std::pair(2, 0.57735), {3, 0.43033}, {5, 0.52127}, {4, 1.0 / 3}}) {
+    BeamDeck deck;
+    deck.part(
+        1,
+        fmt::format("         1       1.0{:10}         0\n      0.01      0.01      0.01      0.01\n", rule),
+        "*MAT_PLASTIC_KINEMATIC\n         1    7850.0   2.0E+11       0.3   2.0E+08       0.0       1.0\n");
+    const int a = deck.at({0, 0, 0}, ",7,7"), b = deck.at({0.1, 0, 0}, ",3,4"), third = deck.at({0, 1, 0});
+    deck.beam(1, a, b, third);
+    deck.cards +=
+        "*DAMPING_GLOBAL\n0,2000.0\n*DEFINE_CURVE\n5\n0.0,0.0\n0.1,0.1\n1.0,0.1\n*BOUNDARY_PRESCRIBED_MOTION_"
+        "NODE\n2,7,2,5\n";
+    auto s = simulation_of(deck.text(0.12));
+    while (s->clock().t < 0.1) s->step(test::do_nothing);
+    const ElementGroup& group = *s->world().groups[0];
+    EXPECT_NEAR(std::abs(group.corner_moment->data(5)[0]) / (2e8 * 1e-4 * 0.005 * share), 1, 0.02) << rule;
+  }
 }
 
 // Frames of short, long, thick and thin beams with all formulations, thrown at random, are stable at 0.9.

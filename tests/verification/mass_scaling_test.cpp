@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/run_error.hpp"
 #include "same_bits.hpp"
 #include "shell_decks.hpp"
 #include "solid_decks.hpp"
@@ -154,6 +155,80 @@ TEST(MassScaling, ElementsThatAreSquashedGetMassWhileTheRunGoesOn) {
     EXPECT_NEAR(s->world().energy.kinetic, 0.5 * mass_of_nodes(s->world()), 0.01);
     for (Index n = 0; n < s->world().nodes.size(); ++n) EXPECT_NEAR(s->world().nodes.v.data(0)[n], 1, 1e-6);
   }
+}
+
+// A fifth of the height in a step: mass follows at once, so that the step stays what is asked for.
+TEST(MassScaling, GrowsByTheSquareInEachStep) {
+  SolidDeck deck;
+  deck.block(Vec(1, 1, 1), 1, 1, 1, 1);
+  deck.cards = scaled_to(-1.0) +
+               "*PART\nblock\n1,1,1\n*SECTION_SOLID\n1,1\n*MAT_ELASTIC\n1,1.0,1.0,0.0\n*CONTROL_BULK_"
+               "VISCOSITY\n1.0E-9,1.0E-9\n"
+               "*BOUNDARY_PRESCRIBED_MOTION_SET\n1,3,0,1\n2,3,0,2\n*DEFINE_CURVE\n1\n0.0,0.0\n1.0E9,0.0\n"
+               "*DEFINE_CURVE\n2\n0.0,-0.2\n1.0E9,-0.2\n";
+  deck.node_set(1, [](const Vec& x) { return x[2] < 1e-9; });
+  deck.node_set(2, [](const Vec& x) { return x[2] > 1 - 1e-9; });
+  auto s = simulation_of(deck.text(1e9));
+  start_ledger(*s);
+  while (s->clock().t < 2) s->step(do_nothing);
+  const Real height = 1 - 0.2 * (s->clock().t - s->clock().dt_old);
+  EXPECT_LT(height, 0.75);
+  EXPECT_NEAR(mass_of_nodes(s->world()) * height, 1, 0.01);
+  EXPECT_NEAR(s->clock().dt_old, 0.8, 0.01);
+}
+
+// A block that is pressed to the height h needs 1/h of its mass: at 1/0.8 ENDMAS 25 ends the run; one that
+// has 1.5625 of it at the start is pressed to 0.78125 at twice that of the material.
+TEST(MassScaling, EndmasEndsTheRunInTheStepThatPassesIt) {
+  for (const auto& [dt2ms, endmas, height] : {std::tuple(-1.0, 25.0, 0.8), {-1.25, 100.0, 0.78125}}) {
+    SolidDeck deck;
+    deck.block(Vec(1, 1, 1), 1, 1, 1, 1);
+    deck.cards = scaled_to(dt2ms) +
+                 "*PART\nblock\n1,1,1\n*SECTION_SOLID\n1,1\n*MAT_ELASTIC\n1,1.0,1.0,0.0\n*CONTROL_BULK_"
+                 "VISCOSITY\n1.0E-9,1.0E-9\n"
+                 "*BOUNDARY_PRESCRIBED_MOTION_SET\n1,3,0,1\n2,3,0,2\n*DEFINE_CURVE\n1\n0.0,0.0\n1.0E9,0.0\n"
+                 "*DEFINE_CURVE\n2\n0.0,-0.01\n1.0E9,-0.01\n";
+    deck.node_set(1, [](const Vec& x) { return x[2] < 1e-9; });
+    deck.node_set(2, [](const Vec& x) { return x[2] > 1 - 1e-9; });
+    std::string text = deck.text(1e9);
+    const std::string end = "*CONTROL_TERMINATION\n     1e+09\n";
+    ASSERT_NE(text.find(end), std::string::npos);
+    text.replace(text.find(end), end.size(), fmt::format("*CONTROL_TERMINATION\n1e9,0,0.0,0.0,{}\n", endmas));
+    auto s = simulation_of(text);
+    start_ledger(*s);
+    Real last = 0;
+    EXPECT_THROW(
+        while (s->clock().t < 60) {
+          s->step(do_nothing);
+          last = s->clock().t;
+        },
+        RunError);
+    EXPECT_NEAR(1 - 0.01 * last, height, 0.02) << endmas;
+  }
+}
+
+// A block that is glued to a rigid one is pressed: its own nodes get mass, those of the body none.
+TEST(MassScaling, NodesOfBodiesGetNone) {
+  SolidDeck deck;
+  deck.block(Vec(1, 1, 2), 1, 1, 2, 1);
+  deck.elements.replace(8, 8, "       2");  // the lower one
+  deck.cards = scaled_to(-1.0) +
+               "*PART\nblock\n1,1,1\n*PART\nrigid\n2,1,2\n*SECTION_SOLID\n1,1\n*MAT_ELASTIC\n1,1.0,1.0,0.0\n"
+               "*MAT_RIGID\n2,1.0,1.0,0.0\n1.0,7,7\n*BOUNDARY_PRESCRIBED_MOTION_SET\n2,3,0,2\n"
+               "*DEFINE_CURVE\n2\n0.0,-0.01\n1.0E9,-0.01\n";
+  deck.node_set(2, [](const Vec& x) { return x[2] > 2 - 1e-9; });
+  auto s = simulation_of(deck.text(1e9));
+  start_ledger(*s);
+  const Nodes& nodes = s->world().nodes;
+  std::vector<Real> before;
+  for (Index n = 0; n < nodes.size(); ++n) before.push_back(nodes.m[n]);
+  while (s->clock().t < 40) s->step(do_nothing);
+  for (Index n = 0; n < nodes.size(); ++n)
+    if (nodes.follow[n])
+      EXPECT_EQ(nodes.m[n], before[static_cast<std::size_t>(n)]) << n;
+    else
+      EXPECT_NEAR(nodes.m[n] / before[static_cast<std::size_t>(n)], 1 / 0.6, 0.05) << n;
+  EXPECT_LT(test::energy_error(*s), 0.02);
 }
 
 TEST(MassScaling, SameBitsOnAnyNumberOfThreadsAndAfterARestart) {

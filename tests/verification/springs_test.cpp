@@ -247,6 +247,104 @@ TEST(Springs, FieldsOfTheCards) {
   EXPECT_NEAR((spring.force - spring.resultant * Vec(0, 0.6, 0.8)).norm(), 0, 1e-9);
 }
 
+// OFFSET 0.3 with K = 100, KT = 20, FY = 10 leaves 10 + 0.2 * 20 = 14, after the work of 0.5 + 0.2 * 12
+// = 2.9; of an elastic spring 30 and 4.5. That is energy of the start, what swings afterwards comes from it.
+TEST(Springs, OffsetHasItsForceAndEnergyFromTheStart) {
+  for (const auto& [material, force, energy, left] :
+       {std::tuple("*MAT_SPRING_ELASTOPLASTIC\n         1     100.0      20.0      10.0\n", 14.0, 2.9, 1.92),
+        {"*MAT_SPRING_ELASTIC\n         1     100.0\n", 30.0, 4.5, 0.0},
+        {"*MAT_SPRING_NONLINEAR_ELASTIC\n         1         5\n*DEFINE_CURVE\n         "
+         "5\n-1.0,-100.0\n0.0,0.0\n"
+         "0.1,10.0\n1.1,30.0\n",
+         14.0, 2.9, 0.0}}) {
+    SpringDeck deck;
+    deck.cards = small_steps;
+    deck.part(1, material);
+    deck.mass({0, 0, 0}, 0, "7"), deck.mass({1, 0, 0}, 1);
+    deck.between(1, 1, 2, 0, 0, 0.3);
+    auto s = simulation_of(deck.text(10));
+    start_ledger(*s);
+    EXPECT_NEAR(s->world().energy.internal, energy, 1e-4) << material;
+    s->step(test::do_nothing);
+    EXPECT_NEAR(springs_of(*s).at(0).resultant, force, 1e-9) << material;
+    Real least = energy;
+    while (s->clock().t < 1) {
+      s->step(test::do_nothing);
+      sample_energy(s->world(), s->clock());
+      least = std::min(least, s->world().energy.internal);
+    }
+    // where the force is 0, 14^2/200 less of the plastic one
+    EXPECT_NEAR(least, left, 0.02) << material;
+    EXPECT_LT(test::energy_error_of_a_step(*s), 0.01) << material;
+  }
+}
+
+// Drawn out at 2: f(u) of the first curve times g(2) = 3 of the second.
+TEST(Springs, CurveOfTheRate) {
+  SpringDeck deck;
+  deck.cards = small_steps;
+  deck.part(
+      1,
+      "*MAT_SPRING_NONLINEAR_ELASTIC\n         1         5         6\n*DEFINE_CURVE\n5\n-1.0,-50.0\n0.0,0.0\n"
+      "1.0,50.0\n*DEFINE_CURVE\n6\n0.0,1.0\n1.0,1.0\n3.0,5.0\n*DEFINE_CURVE\n7\n0.0,2.0\n9.0,2.0\n"
+      "*BOUNDARY_PRESCRIBED_MOTION_NODE\n2,1,0,7\n");
+  deck.mass({0, 0, 0}, 0, "7"), deck.mass({1, 0, 0}, 1);
+  deck.between(1, 1, 2);
+  auto s = simulation_of(deck.text(1));
+  while (s->clock().t < 0.2) s->step(test::do_nothing);
+  const SpringForce spring = springs_of(*s).at(0);
+  EXPECT_NEAR(spring.stretch, 0.4, 0.03);
+  EXPECT_NEAR(spring.resultant, 50 * spring.stretch * 3, 1e-9);
+}
+
+// A mass that circles at the end of a spring: m v^2/r = K (r - 1) at r = 1.1.
+TEST(Springs, CircularOrbit) {
+  SpringDeck deck;
+  deck.cards = small_steps;
+  deck.part(1, "*MAT_SPRING_ELASTIC\n         1     100.0\n");
+  deck.mass({0, 0, 0}, 0, "7"), deck.mass({1.1, 0, 0}, 1, "0", {0, std::sqrt(11.0), 0});
+  deck.between(1, 1, 2, 0, 0, 0.1);
+  auto s = simulation_of(deck.text(10));
+  start_ledger(*s);
+  Real far = 0, near = 9;
+  while (s->clock().t < 2 * 2 * pi * 1.1 / std::sqrt(11.0)) {
+    s->step(test::do_nothing);
+    const Real r = s->world().nodes.x.vec(1).norm();
+    far = std::max(far, r), near = std::min(near, r);
+  }
+  EXPECT_NEAR(far, 1.1, 0.004);
+  EXPECT_NEAR(near, 1.1, 0.004);
+  EXPECT_NEAR(s->world().nodes.x.data(0)[1], 1.1, 0.01);  // after two turns
+}
+
+// A mass between two springs that pull with 100, whatever their length: across, it is held by 2 F/L.
+TEST(Springs, PullHoldsAcross) {
+  SpringDeck deck;
+  deck.cards = "*CONTROL_TIMESTEP\n       0.0       0.9\n";
+  deck.part(1,
+            "*MAT_SPRING_NONLINEAR_ELASTIC\n         1         5\n*DEFINE_CURVE\n5\n-1.0,99.999\n0.0,100.0\n"
+            "1.0,100.001\n");
+  deck.mass({0, 0, 0}, 0, "7"), deck.mass({1, 0, 0}, 1, "0", {0, 1e-4, 0}), deck.mass({2, 0, 0}, 0, "7");
+  deck.between(1, 1, 2), deck.between(1, 2, 3);
+  auto s = simulation_of(deck.text(1e4));
+  while (s->clock().t < 40) s->step(test::do_nothing);
+  EXPECT_LT(std::abs(s->world().nodes.x.data(1)[1]), 1e-4);
+}
+
+// PF 1 keeps a spring out of deforc; each node of a set gets the whole mass.
+TEST(Springs, OutputAndMassesOfSets) {
+  SpringDeck deck;
+  deck.part(1, "*MAT_SPRING_ELASTIC\n         1     100.0\n");
+  for (int k = 0; k < 4; ++k) deck.mass({1.0 * k, 0, 0}, 0);
+  deck.cards += "*SET_NODE_LIST\n8\n1,2,3,4\n*ELEMENT_MASS_NODE_SET\n1,8,2.5\n";
+  deck.springs = "1,1,1,2,0,1.0,1\n2,1,2,3,0,1.0,0\n3,1,3,4\n";
+  auto s = simulation_of(deck.text(1));
+  for (Index k = 0; k < 4; ++k) EXPECT_NEAR(s->world().nodes.m[k], 2.5, 1e-12);
+  s->step(test::do_nothing);
+  ASSERT_EQ(springs_of(*s).size(), 2u);
+  EXPECT_EQ(springs_of(*s)[0].id, 2);
+}
+
 // Chains, nets and stars of springs and dampers of all stiffnesses are stable at TSSFAC 0.9.
 TEST(Springs, RandomNetsAreStable) {
   std::mt19937 random(7);

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/run_error.hpp"
 #include "elements/beam/beams.hpp"
 #include "laws/strength/beam_stress.hpp"
 #include "state/reports.hpp"
@@ -72,7 +73,8 @@ class BeamForces : public Material,
         ends_(add("end_orientations", "-", 8)),
         stress_(add("point_stress", "M/LT2", std::max<int>(1, 3 * static_cast<int>(part_.points.size())))),
         energy_(group_.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
-        steps_(static_cast<std::size_t>(group_.size())) {
+        steps_(static_cast<std::size_t>(group_.size())),
+        folded_(static_cast<std::size_t>(group_.size()), 0) {
     for (std::size_t p = 0; p < part_.points.size(); ++p)
       for (const HistoryVariable& h : part_.law->history())
         history_.push_back(&group_.fields.add<Real>({.name = fmt::format("{}_of_point_{}", h.name, p + 1),
@@ -97,6 +99,17 @@ class BeamForces : public Material,
     for (const Field<Real>* h : history_) a.updates(*h);
   }
 
+  void finish(World&, const Clock& clock) override {
+    const auto folded = std::find(folded_.begin(), folded_.end(), 1);
+    if (folded == folded_.end()) return;
+    const ReadsForMessage unchecked;
+    throw RunError(
+        fmt::format("beam {} of part {} is bent or twisted too far: an end has turned by more than {:g} rad "
+                    "against the middle of the beam at time {:.6g}, cycle {}",
+                    group_.id[static_cast<Index>(folded - folded_.begin())], part_id_, most_turn, clock.t,
+                    clock.cycle),
+        StopCause::element);
+  }
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     Change change;
     for (Index e = begin; e < end; ++e) move(world, clock, e, e - begin, change);
@@ -154,6 +167,7 @@ class BeamForces : public Material,
   }
 
  private:
+  static constexpr Real most_turn = 1.5;  ///< of an end against r, s, t; at half of pi twist has two answers
   /// Of the beams of a block.
   struct Change {
     std::array<Six, block_size> now{}, after{};
@@ -196,6 +210,9 @@ class BeamForces : public Material,
       const Quaternion back = Quaternion(frame.axes).conjugate();
       const Vec turn1 = rotation_vector(back * q[0]), turn2 = rotation_vector(back * q[1]);
       now[twist] = turn2[0] - turn1[0];
+      // s is the mean of both ends': beyond half a turn of twist it would point the other way
+      folded_[at(e)] = turn1.norm() > most_turn || turn2.norm() > most_turn ||
+                       std::abs(now[twist] - deformation_.data(twist)[e]) > pi;
       now[turn1_s] = turn1[1], now[turn2_s] = turn2[1], now[turn1_t] = turn1[2], now[turn2_t] = turn2[2];
     }
     now[elongation] = frame.length - start_[e];
@@ -299,7 +316,7 @@ class BeamForces : public Material,
     const BeamMeasures& m = part_.measures[at(e)];
     const Real inertia = turns_ ? end_inertia(part_.kind, *part_.law, m, group_.mass[e], start_[e]) : 0;
     steps_[at(e)] = 2 / std::sqrt(largest_square(part_.kind, *part_.law, m, group_.mass[e], inertia,
-                                                 frame.length, g[elongation]));
+                                                 start_[e], frame.length, g[elongation]));
   }
 
   void add_shown_fields() {
@@ -332,6 +349,7 @@ class BeamForces : public Material,
   std::vector<Field<Real>*> history_;  ///< of the first point, of the second, ...
   std::size_t numbers_ = 0;            ///< of them, a point
   std::vector<Real> steps_;
+  std::vector<char> folded_;  ///< ends turned so far that nothing tells which way
   Field<Real>* shown_pull_ = nullptr;
   std::array<Field<Real>*, 2> shown_moment_{};
   std::vector<std::pair<Field<Real>*, std::size_t>> shown_history_;

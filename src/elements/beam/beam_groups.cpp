@@ -29,18 +29,20 @@ std::vector<Index> beam_nodes(const Model& model) {
 // With half the mass m/2 and the inertia J at each end, of a beam alone: (theta the rotation of both ends
 // against the line between them) bending has 2 EI/(L J) where ends turn against each other and k (1/J + 8/(m
 // L^2)) where they turn alike, k = 6 EI/(L (1 + phi)), or with one point along the beam k = SA G L/2. Waves
-// along it have 4 E A/(L m).
+// along it have 4 E A/(L m). The stiffness of resultants is that of the length without stress, however long
+// the beam is.
 Real largest_square(BeamKind kind, const StrengthLaw& law, const BeamMeasures& m, Real mass, Real inertia,
-                    Real length, Real pull) {
+                    Real start, Real length, Real pull) {
   const auto [E, G] = moduli_of(law);
+  const Real resists = kind == BeamKind::resultant ? start : length;
   const Real across = 4 * std::max(pull, Real(0)) / (length * mass);
-  const Real along = 4 * E * m.A / (length * mass);
+  const Real along = 4 * E * m.A / (resists * mass);
   if (kind == BeamKind::truss) return along + across;
   const Real I = std::max(m.Iss, m.Itt);
-  const Real twist = 2 * G * m.J / (length * inertia), apart = 2 * E * I / (length * inertia);
-  const Real phi = m.shear_area > 0 ? 12 * E * I / (G * m.shear_area * length * length) : 0;
+  const Real twist = 2 * G * m.J / (resists * inertia), apart = 2 * E * I / (resists * inertia);
+  const Real phi = m.shear_area > 0 ? 12 * E * I / (G * m.shear_area * resists * resists) : 0;
   const Real k =
-      kind == BeamKind::integrated ? 0.5 * m.shear_area * G * length : 6 * E * I / (length * (1 + phi));
+      kind == BeamKind::integrated ? 0.5 * m.shear_area * G * length : 6 * E * I / (resists * (1 + phi));
   const Real alike = k * (1 / inertia + 8 / (mass * length * length)) + across;
   return std::max({along + across, twist, apart, alike});
 }

@@ -94,6 +94,13 @@ class BeamReader {
                        ? "ELFORM 2 takes *MAT_ELASTIC; ELFORM 1 has plastic materials, too"
                        : "use *MAT_ELASTIC, *MAT_PLASTIC_KINEMATIC or *MAT_PIECEWISE_LINEAR_PLASTICITY");
     out.law = law->second.first;
+    if (std::isfinite(out.law->failure_strain()))
+      return error(
+          part.card, "MID",
+          fmt::format("beams cannot fail: *{} {} of part {} lets elements fail at the plastic strain "
+                      "{:g}",
+                      name, part.mid, part.id, out.law->failure_strain()),
+          "give the beams a material of their own, without it");
     if (out.kind == BeamKind::integrated) out.points = section_points(static_cast<int>(s.rule), s.tube());
     if (out.kind == BeamKind::truss) out.points = {SectionPoint()};
     for (const ModelBeam& beam : model_.beams)
@@ -155,6 +162,16 @@ class BeamReader {
       }
       m.J = m.Iss + m.Itt, m.shear_area = s.shrf * m.A;
     }
+    if (kind == BeamKind::truss && beam.measures[2] != 0)
+      error(beam.card, "PARM3", "a stress at the start of trusses is not supported",
+            "leave the field blank or 0");
+    const auto idle = [&](const char* field, Real value) {
+      if (value != 0)
+        deck_.warning(diagnostics_, beam.card, field,
+                      fmt::format("'{:g}' has no effect with ELFORM {}", value, s.used()), "leave it blank");
+    };
+    if (kind == BeamKind::truss) idle("PARM2", beam.measures[1]), idle("PARM4", beam.measures[3]);
+    if (kind != BeamKind::resultant) idle("PARM5", beam.measures[4]);
     const bool good = m.A > 0 && (kind == BeamKind::truss || (m.Iss > 0 && m.Itt > 0));
     if (good) return m;
     error(s,

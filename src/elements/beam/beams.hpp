@@ -56,8 +56,9 @@ void add_beam_passes(const Model& model, const std::vector<BeamPart>& parts, Wor
 
 /// Inertia that a beam gives each of its ends, so that its step is that of waves along it. [ML2]
 Real end_inertia(BeamKind kind, const StrengthLaw& law, const BeamMeasures& m, Real mass, Real length);
-/// Square of the largest frequency of a beam alone, with that inertia and half its mass at each end. [1/T2]
+/// Square of the largest frequency of a beam alone, with that inertia and half its mass at each end, `start`
+/// long without stress and `length` now. [1/T2]
 Real largest_square(BeamKind kind, const StrengthLaw& law, const BeamMeasures& m, Real mass, Real inertia,
-                    Real length, Real pull);
+                    Real start, Real length, Real pull);
 
 }  // namespace courant

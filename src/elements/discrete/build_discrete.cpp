@@ -193,6 +193,10 @@ class DiscreteReader {
     part.scale.push_back(card.s), part.along.push_back(along), part.shown.push_back(card.pf == 0);
     part.grounded.push_back(grounded), part.ground.push_back(Vec::Zero());
     if (n1 < 0 || n2 < 0) return;
+    if (!grounded && n1 == n2)
+      return error(card, "N2",
+                   fmt::format("discrete element {} begins and ends at node {}", card.eid, card.n1),
+                   "give it two nodes, or leave N2 blank for a spring to the ground");
     const Vec x1 = model_.nodes[static_cast<std::size_t>(n1)].x,
               x2 = model_.nodes[static_cast<std::size_t>(n2)].x;
     if (card.vid == 0 && !((x2 - x1).norm() > 0)) {

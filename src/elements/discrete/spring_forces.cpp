@@ -33,6 +33,7 @@ class SpringForces : public Material, public EnergyTerm, public PartReporter, pu
       const Vec d = between_ends(world, e), along = part_.along[at(e)];
       start_[e] = part_.turns ? 0 : (is_free(e) ? d.norm() : d.dot(along)) - stretch_[e];
       direction_.set(e, is_free(e) ? Vec(d.normalized()) : along);
+      if (stretch_[e] != 0) load(e);
     }
   }
   const SpringPart& part() const { return part_; }
@@ -104,6 +105,18 @@ class SpringForces : public Material, public EnergyTerm, public PartReporter, pu
   Vec difference(const Field<Real>& of_nodes, Index e) const {
     const Vec first = of_nodes.vec(group_.node.data(0)[e]);
     return part_.grounded[at(e)] ? Vec(-first) : Vec(of_nodes.vec(group_.node.data(1)[e]) - first);
+  }
+  /// Slowly from rest to OFFSET, so that laws with a memory have it, and the energy is there that it took.
+  void load(Index e) {
+    constexpr int parts = 1000;  // curves may have corners
+    SpringMotion motion;
+    motion.change = stretch_[e] / parts;
+    for (int k = 1; k <= parts; ++k) {
+      motion.stretch = stretch_[e] * k / parts;
+      const Real force = scaled(motion, e).force;
+      energy_[e] += 0.5 * (force_[e] + force) * motion.change;
+      force_[e] = force;
+    }
   }
   SpringAnswer scaled(const SpringMotion& motion, Index e) {
     Real state[SpringLaw::numbers];

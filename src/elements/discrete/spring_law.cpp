@@ -176,18 +176,19 @@ KeywordOf<Card> keyword(const char* name, const char* number, const char* purpos
 using rules::required_id;
 using rules::required_id_of;
 constexpr FieldRules at_least_0{.check = Check::not_negative};
+constexpr FieldRules given{.required = true, .check = Check::not_negative};
 constexpr FieldRules above_0{.required = true, .check = Check::positive};
 
 using S1 = MatSpringElastic;
 const RegisterKeyword<S1> s01{
     keyword<S1>("MAT_SPRING_ELASTIC", "MAT_S01", "spring: force K times stretch",
                 {{"MID", &S1::mid, "-", "id that *PART refers to", required_id},
-                 {"K", &S1::k, "M/T2", "stiffness; of torsional springs moment per radian", at_least_0}})};
+                 {"K", &S1::k, "M/T2", "stiffness; of torsional springs moment per radian", given}})};
 using S2 = MatDamperViscous;
-const RegisterKeyword<S2> s02{keyword<S2>(
-    "MAT_DAMPER_VISCOUS", "MAT_S02", "damper: force DC times the rate of the stretch",
-    {{"MID", &S2::mid, "-", "id that *PART refers to", required_id},
-     {"DC", &S2::dc, "M/T", "damping; of torsional ones moment per radian and time", at_least_0}})};
+const RegisterKeyword<S2> s02{
+    keyword<S2>("MAT_DAMPER_VISCOUS", "MAT_S02", "damper: force DC times the rate of the stretch",
+                {{"MID", &S2::mid, "-", "id that *PART refers to", required_id},
+                 {"DC", &S2::dc, "M/T", "damping; of torsional ones moment per radian and time", given}})};
 using S3 = MatSpringElastoplastic;
 const RegisterKeyword<S3> s03{keyword<S3>("MAT_SPRING_ELASTOPLASTIC", "MAT_S03",
                                           "spring that yields, with isotropic hardening",

@@ -17,7 +17,7 @@ constexpr FieldRules beam_id{.required = true, .check = Check::positive, .width 
 constexpr FieldRules end_node{
     .required = true, .check = Check::positive, .width = 8, .refers = IdSpace::node};
 constexpr FieldRules release_of_end{.honour = Honour::no, .width = 8};
-constexpr FieldRules measure_of_beam{.width = 16};
+constexpr FieldRules measure_of_beam{.check = Check::not_negative, .width = 16};
 
 /// Lengths, areas or moments of area, as the section has it.
 std::string convert_measures(Beam& card, const Conversion& conversion) {

@@ -187,6 +187,8 @@ SetResolver::Found SetResolver::of_parts(SetKind kind, const SetCard& card, cons
   out.insert(out.end(), of_solids.begin(), of_solids.end());
   for (const ModelSph& sph : model_.sph)
     if (is_wanted(sph.part)) out.push_back(sph.node);
+  for (const ModelBeam& beam : model_.beams)
+    if (is_wanted(beam.part)) out.insert(out.end(), beam.node.begin(), beam.node.end());
   return out;
 }
 

@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Do the tests notice broken beams, springs, mass scaling and deletion? Puts every change of structures.yaml behind a switch into the tree
+that BUILD belongs to, builds its tests once, and runs those that a change names with the change switched on. Then the tree is as before.
+
+usage: structures.py BUILD [--only TEXT] [--jobs J]
+
+BUILD is the build folder of a tree that nobody works in (`git worktree add ../mutants`), configured with COURANT_TESTS. Exits with 1 if
+a test fails without a change, or a change without a `reason` is not noticed.
+"""
+import argparse
+import collections
+import concurrent.futures
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+import yaml
+
+HERE = pathlib.Path(__file__).resolve().parent
+LONGEST = 600  # seconds
+
+
+def declared():
+    return yaml.safe_load((HERE / "structures.yaml").read_text())
+
+
+def misfit(change, root):
+    """Empty where what a change replaces stands exactly once in its file."""
+    count = (root / change["file"]).read_text().count(change["find"])
+    return "" if count == 1 else f"'{change['find']}' stands {count} times in {change['file']}, not once"
+
+
+def switched(change, number):
+    """`instead` takes the place of an expression, `replace` of any text; {on} in it is true where the change is on."""
+    on = f"courant_mutants::on({number})"
+    return f"({on} ? ({change['instead']}) : ({change['find']}))" if "instead" in change else change["replace"].replace("{on}", on)
+
+
+def run(program, tests, number=None):
+    environment = {**os.environ, "GTEST_FAIL_FAST": "1", "OMP_NUM_THREADS": "2", "GTEST_FILTER": tests}
+    if number is not None:
+        environment["COURANT_MUTANT"] = str(number)
+    try:
+        done = subprocess.run([program], env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
+                              timeout=LONGEST, check=False)
+    except subprocess.TimeoutExpired:
+        return "no end"
+    failed = re.findall(r"^\[  FAILED  \] (\S+?),? .*\(\d+ ms\)$", done.stdout, re.M)
+    return "" if done.returncode == 0 else failed[0] if failed else f"ended with {done.returncode}"
+
+
+def noticed(build, change, number=None):
+    """By which test, "" if by none."""
+    for program in ("verification_tests", "unit_tests"):
+        tests = ":".join(t for t in change["tests"] if t.startswith("Decks/") == (program == "unit_tests"))
+        if tests and (who := run(build / "tests" / program, tests, number)):
+            return who
+    return ""
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--only", default="", help="changes whose name or file contains this")
+    parser.add_argument("--jobs", type=int, default=2)
+    arguments = parser.parse_args()
+    build = arguments.build.resolve()
+    cache = (build / "CMakeCache.txt").read_text()
+    root = pathlib.Path(re.search(r"^CMAKE_HOME_DIRECTORY:INTERNAL=(.*)$", cache, re.M)[1])
+    changes = [c for c in declared() if arguments.only in c["name"] or arguments.only in c["file"]]
+    if faults := [f"{c['name']}: {fault}" for c in changes if (fault := misfit(c, root))]:
+        sys.exit("\n".join(faults))
+    before = {name: (root / name).read_text() for name in {c["file"] for c in changes}}
+    targets = ["ninja", "-C", build, f"-j{arguments.jobs}", "-k0", "verification_tests", "unit_tests"]
+    try:
+        for name, text in before.items():
+            for number, change in enumerate(changes):
+                if change["file"] == name:
+                    text = text.replace(change["find"], switched(change, number))
+            (root / name).write_text(f'#include "{HERE}/mutants.hpp"\n{text}')
+        made = subprocess.run(targets, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        if made.returncode != 0:
+            sys.exit("\n".join(line for line in made.stdout.splitlines() if "error" in line) or made.stdout)
+        of_tests = collections.defaultdict(list)
+        for change in changes:
+            of_tests[tuple(change["tests"])].append(change)
+        for tests, same in of_tests.items():
+            if who := noticed(build, same[0]):
+                sys.exit(f"{who} fails without a change")
+        unnoticed = 0
+        with concurrent.futures.ThreadPoolExecutor(max(1, arguments.jobs // 2)) as pool:
+            for change, who in zip(changes, pool.map(lambda pair: noticed(build, pair[1], pair[0]), enumerate(changes))):
+                reason = change.get("reason", "")
+                unnoticed += not who and not reason
+                print(f"{change['name']}: {who or 'NOT NOTICED' + (': ' + reason if reason else '')}", flush=True)
+        print(f"{len(changes) - unnoticed} of {len(changes)} are noticed, or need not be")
+        return 1 if unnoticed else 0
+    finally:
+        for name, text in before.items():
+            (root / name).write_text(text)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
