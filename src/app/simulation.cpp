@@ -23,6 +23,7 @@
 #include "parallel/parallel.hpp"
 #include "rigid/build_joints.hpp"
 #include "rigid/joint_stiffness.hpp"
+#include "rigid/nodal_bodies.hpp"
 #include "rigid/time_limit.hpp"
 #include "shell/shell.hpp"
 #include "sph/boundaries/level_outlet.hpp"
@@ -131,6 +132,10 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   Diagnostics told_with_bodies;
   for (const auto& [part, nodes] : extra_nodes(deck_, model_, told_with_bodies))
     for (const ExtraNode& extra : nodes) more.push_back(extra.node);
+  for (const NodalBody& body : nodal_bodies(deck_, model_, told_with_bodies)) {
+    more.insert(more.end(), body.nodes.begin(), body.nodes.end());
+    if (body.output_node >= 0) more.push_back(body.output_node);
+  }
   const std::vector<Index> node_of = build_nodes(model_, more, world_);
   build_segments(deck_, model_, shell_material, node_of, world_, diagnostics);
   solids_ = find_solid_parts(deck_, model_, diagnostics);
