@@ -13,6 +13,7 @@
 #include "app/skin.hpp"
 #include "contact/cards.hpp"
 #include "contact/nodes/build.hpp"
+#include "contact/tied/build.hpp"
 #include "elements/erosion.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "elements/nodal_rotations.hpp"
@@ -157,7 +158,18 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
   start_rotations(model_, node_of, world_);
+  if (diagnostics.ok()) add_tied_contacts(diagnostics);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
+}
+
+void Simulation::add_tied_contacts(Diagnostics& diagnostics) {
+  TiedOptions options;
+  options.bulk_modulus = [this](Index part) { return bulk_modulus(part); };
+  if (bodies_) options.bodies = bodies_->wall_bodies(world_);
+  options.tssfac = model_.tssfac;
+  const MassScaling scaling = mass_scaling_of(deck_);
+  options.mass_grows = scaling.step > 0 && !scaling.once;
+  courant::add_tied_contacts(deck_, model_, options, world_, diagnostics);
 }
 
 // Of solids that may fail, where a contact is to go on with what deletion lays bare.

@@ -22,6 +22,44 @@ constexpr ContactKind kinds[] = {{.nodes = true},
                                  {.nodes = true, .eroding = true},
                                  {.single = true, .eroding = true},
                                  {.two_way = true, .eroding = true}};
+constexpr ContactKind tiebreak_kinds[] = {
+    {.two_way = true, .tiebreak = Tiebreak::by_option},
+    {.tiebreak = Tiebreak::by_option},
+    {.automatic = false, .nodes = true, .tiebreak = Tiebreak::force},
+    {.automatic = false, .two_way = true, .tiebreak = Tiebreak::stress}};
+Tiebreak tiebreak_of(const C& card) {
+  return tiebreak_kinds[card.name].tiebreak;
+}
+
+/// Card 4 of those that hold until they break.
+std::vector<CardOf<C>> tiebreak_cards() {
+  constexpr FieldRules strength{.required = true, .check = Check::positive};
+  return {
+      {.fields = {{"OPTION",
+                   &C::option,
+                   "-",
+                   "2: nodes that touch at the start, until the stress is reached",
+                   {.standard = 1}},
+                  {"NFLS", &C::nfls, "M/LT2", "normal stress that breaks it", strength},
+                  {"SFLS", &C::sfls, "M/LT2", "shear stress that breaks it", strength},
+                  {"PARAM", &C::param, "-", "of other options", {.honour = no}},
+                  {"ERATEN", &C::eraten, "M/T2", "of other options", {.honour = no}},
+                  {"ERATES", &C::erates, "M/T2", "of other options", {.honour = no}},
+                  {"CT2CN", &C::ct2cn, "-", "of other options", {.honour = no}},
+                  {"CN", &C::cn, "M/L2T2", "of other options", {.honour = no}}},
+       .when = [](const C& card) { return tiebreak_of(card) == Tiebreak::by_option; }},
+      {.fields =
+           {{"NFLF", &C::nfls, "ML/T2", "normal force on a node that breaks it", strength},
+            {"SFLF", &C::sfls, "ML/T2", "shear force on a node that breaks it", strength},
+            {"NEN", &C::nen, "-", "exponent of the normal force", {.standard = 2, .check = Check::positive}},
+            {"MES", &C::mes, "-", "exponent of the shear force", {.standard = 2, .check = Check::positive}}},
+       .when = [](const C& card) { return tiebreak_of(card) == Tiebreak::force; }},
+      {.fields = {{"NFLS", &C::nfls, "M/LT2", "normal stress that breaks it", strength},
+                  {"SFLS", &C::sfls, "M/LT2", "shear stress that breaks it", strength},
+                  {"TBLCID", &C::tblcid, "-", "curve of stress over opening", {.honour = no}},
+                  {"THKOFF", &C::thkoff, "-", "thickness of shells", {.honour = no}}},
+       .when = [](const C& card) { return tiebreak_of(card) == Tiebreak::stress; }}};
+}
 
 KeywordOf<C> contact_keyword() {
   KeywordOf<C> out{
@@ -58,6 +96,26 @@ KeywordOf<C> contact_keyword() {
   return out;
 }
 const RegisterKeyword<C> contact{contact_keyword()};
+
+const char* const first_tiebreak = "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_TIEBREAK";
+KeywordOf<C> tiebreak_keyword() {
+  KeywordOf<C> out{
+      .names = {first_tiebreak, "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE_TIEBREAK",
+                "CONTACT_TIEBREAK_NODES_TO_SURFACE", "CONTACT_TIEBREAK_SURFACE_TO_SURFACE"},
+      .purpose =
+          "contact of nodes of elements with faces that holds what touches at the start until it breaks",
+      .id_space = IdSpace::contact,
+      .id_option = true,
+      .mpp_option = true,
+      .title = &C::title,
+      .id = &C::cid,
+      .many = false};
+  out.cards = contact_first_cards<C>();
+  for (CardOf<C>& card : tiebreak_cards()) out.cards.push_back(std::move(card));
+  for (CardOf<C>& card : contact_optional_cards<C>()) out.cards.push_back(std::move(card));
+  return out;
+}
+const RegisterKeyword<C> tiebreak_contact{tiebreak_keyword()};
 
 using K = ControlContact;
 
@@ -177,8 +235,12 @@ const RegisterKeyword<LiteralPenalty> literal_penalty{
 
 }  // namespace
 
+// Two keywords have cards of this type, each with kinds of its own.
 ContactKind kind_of(const ContactCard& card) {
-  return kinds[card.name];
+  const bool ties =
+      card.keyword >= 0 &&
+      keyword_registry()[static_cast<std::size_t>(card.keyword)]->names.front() == first_tiebreak;
+  return ties ? tiebreak_kinds[card.name] : kinds[card.name];
 }
 
 }  // namespace courant
