@@ -213,7 +213,7 @@ TiedStart start_constraint(const TiedConstraint& tied, World& world) {
   StartField moving{nodes.v, nodes.m, {}};
   std::vector<std::size_t> that_turn;
   for (std::size_t t = 0; t < tied.ties.size(); ++t) {
-    nodes.follow[tied.ties[t].node] = 1;
+    nodes.follow[tied.ties[t].node] = 2;  // not 1: no rigid body moves it
     moving.ties.push_back(t);
     if (turning && tied.turns[t]) (*turning.none)[tied.ties[t].node] = 1, that_turn.push_back(t);
   }

@@ -49,7 +49,8 @@ std::vector<Tie> find_ties(const std::vector<TieNode>& nodes, const std::vector<
   for (const TieFace& f : faces) {
     corners.insert(f.node.begin(), f.node.end());
     tolerance.push_back(tolerance_of(f, given, x));
-    reach = std::max({reach, tolerance.back(), given > 0 ? 0 : 0.6 * (thickest + 2 * f.r)});
+    reach = std::max({reach, tolerance.back(), given > 0 ? 0 : 0.6 * (thickest + 2 * f.r),
+                      2 * edge_margin * longest_diagonal(corners_of(f, x), f.corners)});
   }
   FaceSearch search;
   search.build(faces, x, reach, reach);
