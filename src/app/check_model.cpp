@@ -82,13 +82,16 @@ void add_shells(const Simulation& s, std::vector<PartRow>& rows) {
   }
   if (s.bodies())
     for (const RigidBodyReport& body : s.bodies()->reports()) {
-      PartRow& row = rows[s.model().part_of_id.at(body.part)];
+      const auto at = s.model().part_of_id.find(body.part);
+      if (at == s.model().part_of_id.end()) continue;  // of nodes
+      PartRow& row = rows[at->second];
       row.kind = "rigid";
       row.mass = body.mass;
       row.speed = body.v.norm();
     }
   if (s.bodies())
     for (const RigidBody& b : s.bodies()->bodies()) {
+      for (const Index part : b.parts) rows[static_cast<std::size_t>(part)].kind = "rigid";
       if (b.solids == 0) continue;
       PartRow& row = rows[static_cast<std::size_t>(b.part_index)];
       row.elements = b.solids, row.volume = b.volume, row.rho = b.m / b.volume;
@@ -142,6 +145,9 @@ void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
 std::string inertia_text(const Simulation& s, Id part) {
   if (!s.bodies()) return {};
   for (const RigidBody& b : s.bodies()->bodies()) {
+    const Id lead = b.part;
+    if (lead != part && b.has_part(s.model().part_of_id.at(part)))
+      return fmt::format("  part {}: merged into part {}, whose row has the mass of both\n", part, lead);
     if (b.part != part || (b.no_turn[0] && b.no_turn[1] && b.no_turn[2])) continue;
     const Vec own = b.J0.diagonal(), lumped = b.J_lumped.diagonal();
     return fmt::format(

@@ -107,7 +107,9 @@ void sample_parts(const World& world, const Model& model, Sample& s) {
   }
   sample_elements(world, s);
   for (const RigidBodyReport& body : s.bodies) {
-    PartSample& part = s.parts[model.part_of_id.at(body.part)];
+    const auto at = model.part_of_id.find(body.part);
+    if (at == model.part_of_id.end()) continue;  // of nodes, whose mass counts with their elements
+    PartSample& part = s.parts[at->second];
     part.mass = body.mass;
     part.momentum = body.mass * body.v;
     part.kinetic = body.kinetic_energy;

@@ -13,6 +13,7 @@
 #include "app/skin.hpp"
 #include "contact/cards.hpp"
 #include "contact/nodes/build.hpp"
+#include "contact/tied/build.hpp"
 #include "elements/erosion.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "elements/nodal_rotations.hpp"
@@ -23,6 +24,7 @@
 #include "parallel/parallel.hpp"
 #include "rigid/build_joints.hpp"
 #include "rigid/joint_stiffness.hpp"
+#include "rigid/nodal_bodies.hpp"
 #include "rigid/time_limit.hpp"
 #include "shell/shell.hpp"
 #include "sph/boundaries/level_outlet.hpp"
@@ -131,6 +133,10 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   Diagnostics told_with_bodies;
   for (const auto& [part, nodes] : extra_nodes(deck_, model_, told_with_bodies))
     for (const ExtraNode& extra : nodes) more.push_back(extra.node);
+  for (const NodalBody& body : nodal_bodies(deck_, model_, told_with_bodies)) {
+    more.insert(more.end(), body.nodes.begin(), body.nodes.end());
+    if (body.output_node >= 0) more.push_back(body.output_node);
+  }
   const std::vector<Index> node_of = build_nodes(model_, more, world_);
   build_segments(deck_, model_, shell_material, node_of, world_, diagnostics);
   solids_ = find_solid_parts(deck_, model_, diagnostics);
@@ -152,7 +158,18 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
   start_rotations(model_, node_of, world_);
+  if (diagnostics.ok()) add_tied_contacts(diagnostics);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
+}
+
+void Simulation::add_tied_contacts(Diagnostics& diagnostics) {
+  TiedOptions options;
+  options.bulk_modulus = [this](Index part) { return bulk_modulus(part); };
+  if (bodies_) options.bodies = bodies_->wall_bodies(world_);
+  options.tssfac = model_.tssfac;
+  const MassScaling scaling = mass_scaling_of(deck_);
+  options.mass_grows = scaling.step > 0 && !scaling.once;
+  courant::add_tied_contacts(deck_, model_, options, world_, diagnostics);
 }
 
 // Of solids that may fail, where a contact is to go on with what deletion lays bare.

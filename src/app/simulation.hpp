@@ -86,6 +86,7 @@ class Simulation {
  private:
   Simulation() = default;
   void build_parts(Diagnostics& diagnostics);
+  void add_tied_contacts(Diagnostics& diagnostics);
   void add_inner_faces(const std::vector<std::shared_ptr<Erosion>>& eroding);
   void release_tables();
   void note_read_seconds(double reading, double building);

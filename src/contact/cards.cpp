@@ -1,5 +1,6 @@
 #include "contact/cards.hpp"
 
+#include "contact/contact_table.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
@@ -7,13 +8,6 @@ namespace {
 
 using C = ContactCard;
 constexpr Honour no = Honour::no, ignored = Honour::ignored, output_only = Honour::output_only;
-
-/// What SURFA and SURFB number, by the type beside them.
-IdSpace space_of_type(int type) {
-  constexpr IdSpace spaces[] = {IdSpace::segment_set, IdSpace::shell_set, IdSpace::part_set, IdSpace::part,
-                                IdSpace::node_set,    IdSpace::none,      IdSpace::part_set};
-  return type >= 0 && type <= 6 ? spaces[type] : IdSpace::none;
-}
 
 /// In the order of the names.
 constexpr ContactKind kinds[] = {{.nodes = true},
@@ -28,235 +22,100 @@ constexpr ContactKind kinds[] = {{.nodes = true},
                                  {.nodes = true, .eroding = true},
                                  {.single = true, .eroding = true},
                                  {.two_way = true, .eroding = true}};
+constexpr ContactKind tiebreak_kinds[] = {
+    {.two_way = true, .tiebreak = Tiebreak::by_option},
+    {.tiebreak = Tiebreak::by_option},
+    {.automatic = false, .nodes = true, .tiebreak = Tiebreak::force},
+    {.automatic = false, .two_way = true, .tiebreak = Tiebreak::stress}};
+Tiebreak tiebreak_of(const C& card) {
+  return tiebreak_kinds[card.name].tiebreak;
+}
 
-const RegisterKeyword<C> contact{
-    {.names = {"CONTACT_AUTOMATIC_NODES_TO_SURFACE", "CONTACT_AUTOMATIC_SINGLE_SURFACE",
-               "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE", "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE",
-               "CONTACT_AUTOMATIC_GENERAL", "CONTACT_NODES_TO_SURFACE", "CONTACT_SINGLE_SURFACE",
-               "CONTACT_SURFACE_TO_SURFACE", "CONTACT_ONE_WAY_SURFACE_TO_SURFACE",
-               "CONTACT_ERODING_NODES_TO_SURFACE", "CONTACT_ERODING_SINGLE_SURFACE",
-               "CONTACT_ERODING_SURFACE_TO_SURFACE"},
-     .purpose = "penalty contact of nodes of elements, or particles (SURFA of _NODES_TO_SURFACE), with faces",
-     .id_space = IdSpace::contact,
-     .id_option = true,
-     .mpp_option = true,
-     .title = &C::title,
-     .id = &C::cid,
-     .many = false,
-     .cards =
-         {{.fields =
-               {{"SURFA",
-                 &C::surfa,
-                 "-",
-                 "first side: what SURFATYP tells; 0: all",
-                 {},
-                 [](const C& card) { return space_of_type(card.surfatyp); }},
-                {"SURFB",
-                 &C::surfb,
-                 "-",
-                 "second side: what SURFBTYP tells; of single surfaces none",
-                 {},
-                 [](const C& card) { return space_of_type(card.surfbtyp); }},
-                {"SURFATYP",
-                 &C::surfatyp,
-                 "-",
-                 "0 segment set, 1 shell set, 2 part set, 3 part, 4 node set, 5 all, 6 all but a part set",
-                 {.allowed = {0, 1, 2, 3, 4, 5, 6}}},
-                {"SURFBTYP",
-                 &C::surfbtyp,
-                 "-",
-                 "0 segment set, 1 shell set, 2 part set, 3 part, 5 all, 6 all but a part set",
-                 {.allowed = {0, 1, 2, 3, 5, 6}}},
-                {"SABOXID",
-                 &C::saboxid,
-                 "-",
-                 "box that restricts SURFA at the start",
-                 {.refers = IdSpace::box}},
-                {"SBBOXID",
-                 &C::sbboxid,
-                 "-",
-                 "box that restricts SURFB at the start",
-                 {.refers = IdSpace::box}},
-                {"SAPR", &C::sapr, "-", "SURFA in interface files", {.honour = ignored}},
-                {"SBPR", &C::sbpr, "-", "SURFB in interface files", {.honour = ignored}}}},
-          {.fields = {{"FS", &C::fs, "-", "static friction", {.check = Check::not_negative}},
-                      {"FD", &C::fd, "-", "dynamic friction", {.check = Check::not_negative}},
-                      {"DC",
-                       &C::dc,
-                       "T/L",
-                       "decay: mu = FD + (FS - FD) exp(-DC v)",
-                       {.check = Check::not_negative}},
-                      {"VC",
-                       &C::vc,
-                       "M/LT2",
-                       "largest friction stress, 0: no limit",
-                       {.check = Check::not_negative}},
-                      {"VDC",
-                       &C::vdc,
-                       "-",
-                       "normal damping in percent of critical",
-                       {.check = Check::not_negative}},
-                      {"PENCHK", &C::penchk, "-", "release of deeply penetrated nodes", {.honour = no}},
-                      {"BT", &C::bt, "T", "birth time", {.check = Check::not_negative}},
-                      {"DT", &C::dt, "T", "death time", {.standard = 1e20, .check = Check::positive}}}},
-          {.fields =
-               {{"SFSA",
-                 &C::sfsa,
-                 "-",
-                 "scale of SURFA stiffness",
-                 {.standard = 1, .check = Check::positive}},
-                {"SFSB",
-                 &C::sfsb,
-                 "-",
-                 "scale of SURFB stiffness",
-                 {.standard = 1, .check = Check::positive}},
-                {"SAST",
-                 &C::sast,
-                 "L",
-                 "contact thickness of shells or particles of SURFA; 0: of the section, or none (or ITHK)",
-                 {.check = Check::not_negative}},
-                {"SBST",
-                 &C::sbst,
-                 "L",
-                 "contact thickness of shells of SURFB, 0: that of the section",
-                 {.check = Check::not_negative}},
-                {"SFSAT",
-                 &C::sfsat,
-                 "-",
-                 "scale of thickness in SURFA",
-                 {.standard = 1, .check = Check::positive}},
-                {"SFSBT",
-                 &C::sfsbt,
-                 "-",
-                 "scale of thickness in SURFB",
-                 {.standard = 1, .check = Check::positive}},
-                {"FSF", &C::fsf, "-", "scale of friction", {.standard = 1, .check = Check::not_negative}},
-                {"VSF", &C::vsf, "-", "scale of VC", {.standard = 1, .check = Check::not_negative}}}},
-          {.fields =
-               {{"ISYM",
-                 &C::erode_isym,
-                 "-",
-                 "faces on symmetry planes, of eroding contacts",
-                 {.honour = no}},
-                {"EROSOP",
-                 &C::erosop,
-                 "-",
-                 "of eroding contacts: 1 faces that deletion of solids lays bare, 0 those of the start alone",
-                 {.allowed = {0, 1}}},
-                {"IADJ",
-                 &C::iadj,
-                 "-",
-                 "of eroding contacts: faces between parts count in both cases",
-                 {.allowed = {0, 1}}}},
-           .when = [](const C& card) { return kinds[card.name].eroding; }},
-          {.fields =
-               {{"SOFT",
-                 &C::soft,
-                 "-",
-                 "0 penalty, 1 soft constraint, 2 by segments: as 1",
-                 {.allowed = {0, 1, 2}}},
-                {"SOFSCL",
-                 &C::sofscl,
-                 "-",
-                 "scale of the SOFT 1 stiffness 0.5 m/dt^2",
-                 {.standard = 0.1, .check = Check::positive}},
-                {"LCIDAB", &C::lcidab, "-", "airbag thickness curve", {.honour = no}},
-                {"MAXPAR",
-                 &C::maxpar,
-                 "-",
-                 "segment extension in the search; corners have none to close here",
-                 {.standard = 1.025, .honour = ignored}},
-                {"SBOPT", &C::sbopt, "-", "option of SOFT 2", {.standard = 2, .honour = ignored}},
-                {"DEPTH",
-                 &C::depth,
-                 "-",
-                 "search depth; all near segments are searched",
-                 {.standard = 2, .honour = ignored}},
-                {"BSORT",
-                 &C::bsort,
-                 "-",
-                 "cycles between sorts; lists follow the particles instead",
-                 {.honour = ignored}},
-                {"FRCFRQ", &C::frcfrq, "-", "cycles between force updates", {.standard = 1, .allowed = {1}}}},
-           .optional = true},
-          {.fields =
-               {{"PENMAX",
-                 &C::penmax,
-                 "-",
-                 "depth at which a node is given up, of the thickness; 0: 1",
-                 {.check = Check::not_negative}},
-                {"THKOPT",
-                 &C::thkopt,
-                 "-",
-                 "thickness in contacts that are not automatic: 0 as *CONTROL_CONTACT, 1 by SHLTHK, 2 none",
-                 {.allowed = {0, 1, 2}}},
-                {"SHLTHK",
-                 &C::shlthk,
-                 "-",
-                 "with THKOPT 1: 0 none, 1 of all but rigid shells, 2 of all",
-                 {.allowed = {0, 1, 2}}},
-                {"SNLOG", &C::snlog, "-", "1 skips shooting-node logic; there is none", {.honour = ignored}},
-                {"ISYM", &C::isym, "-", "faces on symmetry planes", {.honour = no}},
-                {"I2D3D", &C::i2d3d, "-", "search order of shells and solids", {.honour = ignored}},
-                {"SLDTHK", &C::sldthk, "L", "contact thickness of solids", {.check = Check::not_negative}},
-                {"SLDSTF",
-                 &C::sldstf,
-                 "M/LT2",
-                 "instead of the bulk modulus of solids",
-                 {.check = Check::not_negative}}},
-           .optional = true},
-          {.fields =
-               {{"IGAP", &C::igap, "-", "implicit gap treatment", {.standard = 1, .honour = ignored}},
-                {"IGNORE",
-                 &C::ignore,
-                 "-",
-                 "initial penetrations: reported for all values; nodes of elements keep theirs without force",
-                 {.allowed = {0, 1, 2}}},
-                {"DPRFAC", &C::dprfac, "-", "depth reduction of SOFT 2", {.honour = ignored}},
-                {"DTSTIF",
-                 &C::dtstif,
-                 "T",
-                 "step in the SOFT 1 stiffness, 0: the largest so far",
-                 {.check = Check::not_negative}},
-                {"EDGEK", &C::edgek, "-", "edge contact of SOFT 2", {.honour = ignored}},
-                {"", std::monostate{}, "-", "unused", {}},
-                {"FLANGL", &C::flangl, "-", "feature angle of smooth contact", {.honour = no}},
-                {"CID_RCF", &C::cid_rcf, "-", "system of the reported forces", {.honour = output_only}}},
-           .optional = true},
-          {.fields = {{"Q2TRI", &C::q2tri, "-", "splits quads for SOFT 2", {.honour = ignored}},
-                      {"DTPCHK", &C::dtpchk, "T", "interval of penetration reports", {.honour = output_only}},
-                      {"SFNBR", &C::sfnbr, "-", "scale of neighbour segments", {.honour = no}},
-                      {"FNLSCL", &C::fnlscl, "-", "nonlinear force scale", {.honour = no}},
-                      {"DNLSCL", &C::dnlscl, "L", "distance of the nonlinear force", {.honour = no}},
-                      {"TCSO", &C::tcso, "-", "thickness from contact segments only", {.honour = ignored}},
-                      {"TIEDID", &C::tiedid, "-", "update of tied contact", {.honour = ignored}},
-                      {"SHLEDG", &C::shledg, "-", "shell edges: 0 round, 1 square", {.honour = no}}},
-           .optional = true},
-          {.fields = {{"SHAREC", &C::sharec, "-", "segments sharing constraints", {.honour = ignored}},
-                      {"CPARM8", &C::cparm8, "-", "beam handling", {.honour = ignored}},
-                      {"IPBACK", &C::ipback, "-", "backup of tied contact", {.honour = ignored}},
-                      {"SRNDE", &C::srnde, "-", "rounded edges; they always are", {.honour = ignored}},
-                      {"FRICSF",
-                       &C::fricsf,
-                       "-",
-                       "friction stiffness of SOFT 2",
-                       {.standard = 1, .honour = ignored}},
-                      {"ICOR", &C::icor, "-", "VDC as coefficient of restitution", {.honour = no}},
-                      {"FTORQ", &C::ftorq, "-", "torsion of beams", {.honour = ignored}},
-                      {"REGION", &C::region, "-", "region that limits the contact", {.honour = no}}},
-           .optional = true},
-          {.fields = {{"PSTIFF", &C::pstiff, "-", "stiffness of SOFT 2", {.honour = ignored}},
-                      {"IGNROFF", &C::ignroff, "-", "no thickness of rigid shells", {.honour = no}},
-                      {"", std::monostate{}, "-", "unused", {}},
-                      {"FSTOL", &C::fstol, "-", "of smooth contacts", {.standard = 2, .honour = ignored}},
-                      {"2DBINR", &C::binr, "-", "of plane contacts", {.honour = ignored}},
-                      {"SSFTYP", &C::ssftyp, "-", "which SSF of *PART_CONTACT counts", {.honour = ignored}},
-                      {"SWTPR", &C::swtpr, "-", "shells of varying thickness", {.honour = no}},
-                      {"TETFAC", &C::tetfac, "-", "stiffness of tetrahedra in SOFT 2", {.honour = ignored}}},
-           .optional = true},
-          {.fields = {{"", std::monostate{}, "-", "unused", {}},
-                      {"SHLOFF", &C::shloff, "-", "offset of shells", {.honour = no}}},
-           .optional = true}}}};
+/// Card 4 of those that hold until they break.
+std::vector<CardOf<C>> tiebreak_cards() {
+  constexpr FieldRules strength{.required = true, .check = Check::positive};
+  return {
+      {.fields = {{"OPTION",
+                   &C::option,
+                   "-",
+                   "2: nodes that touch at the start, until the stress is reached",
+                   {.standard = 1}},
+                  {"NFLS", &C::nfls, "M/LT2", "normal stress that breaks it", strength},
+                  {"SFLS", &C::sfls, "M/LT2", "shear stress that breaks it", strength},
+                  {"PARAM", &C::param, "-", "of other options", {.honour = no}},
+                  {"ERATEN", &C::eraten, "M/T2", "of other options", {.honour = no}},
+                  {"ERATES", &C::erates, "M/T2", "of other options", {.honour = no}},
+                  {"CT2CN", &C::ct2cn, "-", "of other options", {.honour = no}},
+                  {"CN", &C::cn, "M/L2T2", "of other options", {.honour = no}}},
+       .when = [](const C& card) { return tiebreak_of(card) == Tiebreak::by_option; }},
+      {.fields =
+           {{"NFLF", &C::nfls, "ML/T2", "normal force on a node that breaks it", strength},
+            {"SFLF", &C::sfls, "ML/T2", "shear force on a node that breaks it", strength},
+            {"NEN", &C::nen, "-", "exponent of the normal force", {.standard = 2, .check = Check::positive}},
+            {"MES", &C::mes, "-", "exponent of the shear force", {.standard = 2, .check = Check::positive}}},
+       .when = [](const C& card) { return tiebreak_of(card) == Tiebreak::force; }},
+      {.fields = {{"NFLS", &C::nfls, "M/LT2", "normal stress that breaks it", strength},
+                  {"SFLS", &C::sfls, "M/LT2", "shear stress that breaks it", strength},
+                  {"TBLCID", &C::tblcid, "-", "curve of stress over opening", {.honour = no}},
+                  {"THKOFF", &C::thkoff, "-", "thickness of shells", {.honour = no}}},
+       .when = [](const C& card) { return tiebreak_of(card) == Tiebreak::stress; }}};
+}
+
+KeywordOf<C> contact_keyword() {
+  KeywordOf<C> out{
+      .names = {"CONTACT_AUTOMATIC_NODES_TO_SURFACE", "CONTACT_AUTOMATIC_SINGLE_SURFACE",
+                "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE", "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE",
+                "CONTACT_AUTOMATIC_GENERAL", "CONTACT_NODES_TO_SURFACE", "CONTACT_SINGLE_SURFACE",
+                "CONTACT_SURFACE_TO_SURFACE", "CONTACT_ONE_WAY_SURFACE_TO_SURFACE",
+                "CONTACT_ERODING_NODES_TO_SURFACE", "CONTACT_ERODING_SINGLE_SURFACE",
+                "CONTACT_ERODING_SURFACE_TO_SURFACE"},
+      .purpose =
+          "penalty contact of nodes of elements, or particles (SURFA of _NODES_TO_SURFACE), with faces",
+      .id_space = IdSpace::contact,
+      .id_option = true,
+      .mpp_option = true,
+      .title = &C::title,
+      .id = &C::cid,
+      .many = false};
+  out.cards = contact_first_cards<C>();
+  out.cards.push_back(
+      {.fields =
+           {{"ISYM", &C::erode_isym, "-", "faces on symmetry planes, of eroding contacts", {.honour = no}},
+            {"EROSOP",
+             &C::erosop,
+             "-",
+             "of eroding contacts: 1 faces that deletion of solids lays bare, 0 those of the start alone",
+             {.allowed = {0, 1}}},
+            {"IADJ",
+             &C::iadj,
+             "-",
+             "of eroding contacts: faces between parts count in both cases",
+             {.allowed = {0, 1}}}},
+       .when = [](const C& card) { return kinds[card.name].eroding; }});
+  for (CardOf<C>& card : contact_optional_cards<C>()) out.cards.push_back(std::move(card));
+  return out;
+}
+const RegisterKeyword<C> contact{contact_keyword()};
+
+const char* const first_tiebreak = "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_TIEBREAK";
+KeywordOf<C> tiebreak_keyword() {
+  KeywordOf<C> out{
+      .names = {first_tiebreak, "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE_TIEBREAK",
+                "CONTACT_TIEBREAK_NODES_TO_SURFACE", "CONTACT_TIEBREAK_SURFACE_TO_SURFACE"},
+      .purpose =
+          "contact of nodes of elements with faces that holds what touches at the start until it breaks",
+      .id_space = IdSpace::contact,
+      .id_option = true,
+      .mpp_option = true,
+      .title = &C::title,
+      .id = &C::cid,
+      .many = false};
+  out.cards = contact_first_cards<C>();
+  for (CardOf<C>& card : tiebreak_cards()) out.cards.push_back(std::move(card));
+  for (CardOf<C>& card : contact_optional_cards<C>()) out.cards.push_back(std::move(card));
+  return out;
+}
+const RegisterKeyword<C> tiebreak_contact{tiebreak_keyword()};
 
 using K = ControlContact;
 
@@ -376,8 +235,12 @@ const RegisterKeyword<LiteralPenalty> literal_penalty{
 
 }  // namespace
 
+// Two keywords have cards of this type, each with kinds of its own.
 ContactKind kind_of(const ContactCard& card) {
-  return kinds[card.name];
+  const bool ties =
+      card.keyword >= 0 &&
+      keyword_registry()[static_cast<std::size_t>(card.keyword)]->names.front() == first_tiebreak;
+  return ties ? tiebreak_kinds[card.name] : kinds[card.name];
 }
 
 }  // namespace courant

@@ -25,6 +25,16 @@ struct ContactCard : Entry {
   int pstiff = 0, ignroff = 0, binr = 0, ssftyp = 0, swtpr = 0;
   Real fstol = 2, tetfac = 0, shloff = 0;
   int erode_isym = 0, erosop = 0, iadj = 0;  ///< of eroding contacts
+  int option = 0, tblcid = 0, thkoff = 0;    ///< of contacts that hold until they break
+  Real nfls = 0, sfls = 0, param = 0, eraten = 0, erates = 0, ct2cn = 0, cn = 0, nen = 2, mes = 2;
+};
+
+/// Nodes that are held at faces until a stress, or a force, breaks that.
+enum class Tiebreak {
+  none,
+  by_option,  ///< stress; OPTION tells how
+  stress,
+  force,
 };
 
 /// What the name of a *CONTACT says.
@@ -35,6 +45,7 @@ struct ContactKind {
   bool nodes = false;     ///< SURFA gives nodes, which may be particles
   bool edges = false;     ///< edges on edges, too
   bool eroding = false;   ///< faces that deletion of solids lays bare, too
+  Tiebreak tiebreak = Tiebreak::none;
 };
 ContactKind kind_of(const ContactCard& card);
 

@@ -51,9 +51,9 @@ class RigidWallReader {
 
  private:
   struct Count {
-    Index held = 0, behind = 0, driven = 0, rigid = 0;
+    Index held = 0, behind = 0, driven = 0, rigid = 0, tied = 0;
     Real deepest = 0;
-    Id driven_id = 0, rigid_id = 0;
+    Id driven_id = 0, rigid_id = 0, tied_id = 0;
   };
 
   RigidWallSetup start(const RigidWallCard& card) {
@@ -217,7 +217,11 @@ class RigidWallReader {
       if (state[i] == 0) continue;
       if (!particles && world_.nodes.follow[i]) {
         state[i] = 0;
-        if (!world_.nodes.held[i] && count.rigid++ == 0) count.rigid_id = world_.nodes.id[i];
+        if (world_.nodes.follow[i] == 2) {  // a face moves it
+          if (count.tied++ == 0) count.tied_id = world_.nodes.id[i];
+        } else if (!world_.nodes.held[i] && count.rigid++ == 0) {
+          count.rigid_id = world_.nodes.id[i];
+        }
       } else if (driven && (*driven)[i] != 0) {
         if (count.driven++ == 0) count.driven_id = (*points.id)[i];
       } else {
@@ -240,6 +244,13 @@ class RigidWallReader {
                                 "through it, as node {}",
                                 count.rigid, count.rigid_id),
                     "leave them out by NSIDEX");
+    if (count.tied > 0)
+      deck_.warning(
+          diagnostics_, card, "NSID",
+          fmt::format("the wall does not hold {} nodes that are tied to faces, as {}: they go where the "
+                      "faces go",
+                      count.tied, count.tied_id),
+          "leave them out by NSIDEX, or tie them by a contact with _OFFSET");
     if (count.driven > 0)
       deck_.warning(diagnostics_, card, "NSID",
                     fmt::format("the wall does not hold {} points whose motion is prescribed, as {}",

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -96,9 +97,11 @@ class DampingReader {
       : deck_(deck), model_(model), diagnostics_(diagnostics) {
     for (Index i = 0; i < world.nodes.size(); ++i) {
       const Index part = world.nodes.part[i];  // extra nodes of a body are those of deformable parts
-      if (world.nodes.follow[i] && !world.nodes.held[i] && part >= 0 &&
-          model.parts[static_cast<std::size_t>(part)].rigid)
+      if (world.nodes.follow[i] != 1 || world.nodes.held[i] || part < 0) continue;
+      if (model.parts[static_cast<std::size_t>(part)].rigid)
         rigid_parts_.insert(part);
+      else
+        ++joined_[part];
     }
   }
 
@@ -108,7 +111,7 @@ class DampingReader {
     if (d.scale.isZero(0) && d.turn_scale.isZero(0)) d.scale = d.turn_scale = Vec::Ones();
     if (card.lcid != 0) d.sf = 1;
     if (!read_curve(card, d)) return;
-    if (!rigid_parts_.empty())
+    if (!rigid_parts_.empty() || !joined_.empty())
       return error(card, "", "damping of rigid bodies is not supported, and there is one that can move",
                    "name the other parts by *DAMPING_PART_MASS");
     damping_.push_back(std::move(d));
@@ -137,6 +140,11 @@ class DampingReader {
                      "name particles and deformable parts only");
       if (!seen_.insert(p).second)
         return error(card, "PID", fmt::format("part {} is damped twice", part.id), "name each part once");
+      if (const auto joined = joined_.find(p); joined != joined_.end())
+        deck_.warning(diagnostics_, card, "PID",
+                      fmt::format("{} nodes of part {} go with rigid bodies and are not damped",
+                                  joined->second, part.id),
+                      "none is needed where the others bring all to rest");
     }
     if (!d.parts.empty()) damping_.push_back(std::move(d));
   }
@@ -170,7 +178,8 @@ class DampingReader {
   const Deck& deck_;
   const Model& model_;
   Diagnostics& diagnostics_;
-  std::set<Index> rigid_parts_;  ///< with nodes of bodies that can move
+  std::set<Index> rigid_parts_;    ///< with nodes of bodies that can move
+  std::map<Index, Index> joined_;  // nodes of deformable parts that rigid bodies move
   std::set<Index> seen_;
   std::vector<Damping> damping_;
 };

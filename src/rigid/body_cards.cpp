@@ -112,6 +112,16 @@ class BodyCardReader {
                    "its material must be a *MAT_RIGID");
     return part->second;
   }
+  /// The same of a part that gives its body its name: what is said of the whole body.
+  std::optional<Index> whole_body(const Entry& card, Id pid, const BodyMerges& merges) {
+    const auto part = body(card, pid);
+    if (!part || !merges.merged(*part)) return part;
+    const Id lead = model_.parts[static_cast<std::size_t>(merges.lead(*part))].id;
+    return error(
+        card, "PID",
+        fmt::format("part {} is merged into part {}, {}", pid, lead, deck_.place(merges.of(*part).card)),
+        fmt::format("name part {}: this is about the whole body and its centre", lead));
+  }
   /// Axes of a system that stands still; 0: global.
   std::optional<Matrix> axes(const Entry& card, const char* field, Id id) {
     if (id == 0) return Matrix::Identity();
@@ -178,11 +188,12 @@ std::map<Index, std::vector<ExtraNode>> extra_nodes(const Deck& deck, const Mode
   return out;
 }
 
-std::map<Index, BodyStart> body_starts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+std::map<Index, BodyStart> body_starts(const Deck& deck, const Model& model, const BodyMerges& merges,
+                                       Diagnostics& diagnostics) {
   std::map<Index, BodyStart> out;
   BodyCardReader reader(deck, model, diagnostics);
   for (const InitialVelocityRigidBody& card : deck.all<InitialVelocityRigidBody>()) {
-    const auto body = reader.body(card, card.pid);
+    const auto body = reader.whole_body(card, card.pid, merges);
     const auto axes = reader.axes(card, "ICID", card.icid);
     if (body && out.contains(*body)) {
       reader.error(card, "PID", fmt::format("part {} has an initial velocity already", card.pid),
@@ -195,11 +206,12 @@ std::map<Index, BodyStart> body_starts(const Deck& deck, const Model& model, Dia
   return out;
 }
 
-std::vector<BodyForceLoad> body_force_loads(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+std::vector<BodyForceLoad> body_force_loads(const Deck& deck, const Model& model, const BodyMerges& merges,
+                                            Diagnostics& diagnostics) {
   std::vector<BodyForceLoad> out;
   BodyCardReader reader(deck, model, diagnostics);
   for (const LoadRigidBody& card : deck.all<LoadRigidBody>()) {
-    const auto body = reader.body(card, card.pid);
+    const auto body = reader.whole_body(card, card.pid, merges);
     const auto axes = reader.axes(card, "CID", card.cid);
     if (!body || !axes) continue;
     const bool turns = card.dof >= 5 && card.dof <= 7;

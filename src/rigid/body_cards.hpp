@@ -5,6 +5,7 @@
 
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
+#include "rigid/merge.hpp"
 
 namespace courant {
 
@@ -23,8 +24,10 @@ std::map<Index, std::vector<ExtraNode>> extra_nodes(const Deck& deck, const Mode
 struct BodyStart {
   Vec v = Vec::Zero(), omega = Vec::Zero();  ///< of the centre [L/T], [1/T]
 };
-/// By part (index into Model::parts), the last card of each.
-std::map<Index, BodyStart> body_starts(const Deck& deck, const Model& model, Diagnostics& diagnostics);
+/// By part (index into Model::parts), the last card of each. Refuses by name: parts that are not rigid, or
+/// merged into others.
+std::map<Index, BodyStart> body_starts(const Deck& deck, const Model& model, const BodyMerges& merges,
+                                       Diagnostics& diagnostics);
 
 /// One *LOAD_RIGID_BODY: a force at the centre or a moment.
 struct BodyForceLoad {
@@ -34,7 +37,9 @@ struct BodyForceLoad {
   Curve curve{};                ///< of time
   Real sf = 1;                  ///< SF curve(t) [ML/T2], [ML2/T2]
 };
-/// Refuses by name: followers, curves of displacement, systems that move, parts that are not rigid.
-std::vector<BodyForceLoad> body_force_loads(const Deck& deck, const Model& model, Diagnostics& diagnostics);
+/// Refuses by name: followers, curves of displacement, systems that move, parts that are not rigid, or merged
+/// into others.
+std::vector<BodyForceLoad> body_force_loads(const Deck& deck, const Model& model, const BodyMerges& merges,
+                                            Diagnostics& diagnostics);
 
 }  // namespace courant

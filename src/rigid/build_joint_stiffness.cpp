@@ -92,7 +92,9 @@ class StiffnessReader {
     const auto axes_b = card.cidb == 0 ? axes_a : axes(card, "CIDB", card.cidb);
     if (!a || !b || !axes_a || !axes_b) return std::nullopt;
     if (*a == *b)
-      return error(card, "PIDB", fmt::format("the same part {} twice", card.pida),
+      return error(card, "PIDB",
+                   card.pida == card.pidb ? fmt::format("the same part {} twice", card.pida)
+                                          : fmt::format("parts {} and {} are one body", card.pida, card.pidb),
                    "name the other body of the joint");
     JointStiffness out{.id = card.jsid, .a = *a, .b = *b, .axes_a = *axes_a, .axes_b = *axes_b};
     const bool good = resistance(card, {"LCIDPH", "DLCIDPH", "ESPH"}, card.lcidph, card.dlcidph, card.esph,
@@ -113,8 +115,9 @@ class StiffnessReader {
     return std::nullopt;
   }
   std::optional<std::size_t> body(const S& card, const char* field, Id part) {
-    for (std::size_t k = 0; k < bodies_.size(); ++k)
-      if (bodies_[k].part == part) return k;
+    const auto index = model_.part_of_id.find(part);
+    for (std::size_t k = 0; k < bodies_.size() && index != model_.part_of_id.end(); ++k)
+      if (bodies_[k].has_part(index->second)) return k;
     return error(card, field, fmt::format("part {} is no rigid body", part),
                  "its material must be a *MAT_RIGID");
   }

@@ -22,11 +22,8 @@ const RegisterKeyword<Switch> deformable_to_rigid{
      .purpose = "part that is rigid from the start, with RO, E and PR of its material; the mass is where its "
                 "elements are",
      .cards = {{.fields = {{"PID", &Switch::pid, "-", "part", rules::required_id_of(IdSpace::part)},
-                           {"LRB",
-                            &Switch::lrb,
-                            "-",
-                            "rigid part with which it is one body",
-                            {.honour = Honour::no, .refers = IdSpace::part}},
+                           {"LRB", &Switch::lrb, "-", "rigid part with which it is one body, 0 none",
+                            rules::optional_id_of(IdSpace::part)},
                            {"PTYPE", &Switch::ptype, "-", "PART or blank", {}}}}}}};
 
 const Switch* switch_of(const Deck& deck, Id pid) {
@@ -66,6 +63,13 @@ std::optional<MatRigid> switched_material(const Deck& deck, const Model& model, 
   const ModelPart& p = model.parts[static_cast<std::size_t>(part)];
   if (p.has_sph || !switch_of(deck, p.id)) return std::nullopt;
   return constants_of(deck, p.mid);
+}
+
+std::vector<SwitchedLead> switched_leads(const Deck& deck) {
+  std::vector<SwitchedLead> out;
+  for (const Switch& card : deck.all<Switch>())
+    if (card.lrb != 0) out.push_back({card.lrb, card.pid, card});
+  return out;
 }
 
 void check_switched_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
@@ -11,6 +12,13 @@ namespace courant {
 /// Poisson ratio of a *MAT_RIGID that nothing holds. Nothing where the part is not named, or its material has
 /// none of these.
 std::optional<MatRigid> switched_material(const Deck& deck, const Model& model, Index part);
+
+/// LRB: the rigid part with which a switched one is one body.
+struct SwitchedLead {
+  Id lead = 0, part = 0;
+  Entry card{};
+};
+std::vector<SwitchedLead> switched_leads(const Deck& deck);
 
 /// Refuses by name: parts that are not there or made of particles, materials without modulus.
 void check_switched_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics);

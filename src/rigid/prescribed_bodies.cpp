@@ -33,7 +33,12 @@ class Follower {
   void add(const PrescribedMotion& motion, std::vector<RigidBody>& bodies) {
     const ModelPart& part = model_.parts[static_cast<std::size_t>(motion.part)];
     for (RigidBody& body : bodies)
-      if (body.part == part.id) return add(motion, body);
+      if (body.part == part.id)
+        return add(motion, body);
+      else if (body.has_part(motion.part))
+        return error(
+            motion, "PID", fmt::format("part {} is merged into part {}", part.id, body.part),
+            fmt::format("name part {}: the motion is that of the whole body and its centre", body.part));
     error(motion, "PID", fmt::format("part {} is no rigid body", part.id),
           "it needs shells and a *MAT_RIGID; drive particles by _NODE or _SET");
   }

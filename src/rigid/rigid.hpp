@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -34,6 +35,7 @@ std::optional<RigidMaterial> rigid_material(const Deck& deck, const Model& model
 struct RigidBody {
   Id part = 0;
   Index part_index = -1;                  ///< in Model::parts
+  std::vector<Index> parts;               ///< that one first, and those merged into it
   std::vector<Index> nodes;               ///< indices into World::nodes
   std::vector<Vec> X;                     ///< their places about the centre at t = 0 [L]
   std::array<bool, 3> held{}, no_turn{};  ///< global axes without translation, rotation
@@ -54,6 +56,7 @@ struct RigidBody {
   Real drive_work = 0;                            ///< by `motions` so far [ML2/T2]
 
   bool fixed() const;  ///< nothing can move
+  bool has_part(Index part) const { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
   /// Sum of the forces and of the moments of `loads` at a time, as far as the body can follow.
   std::array<Vec, 2> load_at(Real t) const;
   Real kinetic_energy() const { return 0.5 * (m * v.squaredNorm() + omega.dot(L)); }
@@ -163,10 +166,11 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
 /// Puts the bodies into the lists of `world`: their forces among the constraints, their motion and energy.
 void add_body_passes(World& world, std::shared_ptr<RigidBodies> bodies);
 
-/// One body per shell part of *MAT_RIGID, with mass, centre and inertia from the nodal masses that
-/// build_segments gave (call that first). Sets Nodes::held and Nodes::follow. nullptr if there is none.
-/// Refuses by name: local and point constraints, SPC on nodes of rigid bodies, nodes shared by two bodies of
-/// which one can move, inertia that does not allow a free rotation.
+/// One body per part of *MAT_RIGID, or per parts that *CONSTRAINED_RIGID_BODIES merges, with mass, centre and
+/// inertia from the nodal masses that build_segments gave (call that first). Sets Nodes::held and
+/// Nodes::follow. nullptr if there is none. Refuses by name: local and point constraints, SPC on nodes of
+/// rigid bodies, nodes shared by two bodies of which one can move, inertia that does not allow a free
+/// rotation.
 std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& model, World& world,
                                                 Diagnostics& diagnostics);
 

@@ -128,7 +128,7 @@ class NodeContactBuilder {
     const Segments& g = world_.segments;
     const auto a = g.nodes(s);
     if (g.volume[s] > 0) return 0.5 * c.sldthk;
-    const bool rigid = world_.nodes.follow[a[0]] != 0;
+    const bool rigid = model_.parts[static_cast<std::size_t>(g.part[s])].rigid;
     if (!(rigid ? thickness_.of_rigid : thickness_.of_others)) return 0;
     const Real given = side == 0 ? c.sast : c.sbst, scale = side == 0 ? c.sfsat : c.sfsbt;
     Real t = given > 0 ? given : g.thickness[s] * scale;

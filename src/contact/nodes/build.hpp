@@ -30,8 +30,12 @@ class FaceFinder {
         diagnostics_(diagnostics) {}
   /// From here on faces between solids count, too, that deletion may lay bare; or not.
   void with_inner(bool inner) { inner_ = inner; }
-  /// Indices into world.segments, ascending; none of a node set.
-  std::vector<Index> faces(const ContactCard& card, ContactSide side);
+  /// Indices into world.segments, ascending; none of a node set. `blank_is_all`: a side of no id is
+  /// everything.
+  std::vector<Index> faces(const ContactCard& card, ContactSide side, bool blank_is_all);
+  std::vector<Index> faces(const ContactCard& card, ContactSide side) {
+    return faces(card, side, kind_of(card).single);
+  }
   /// Indices into world.nodes, ascending: corners of the faces, or of a node set those that elements have.
   std::vector<Index> nodes(const ContactCard& card, ContactSide side, const std::vector<Index>& faces);
   /// All faces of the elements that nodes belong to.

@@ -141,9 +141,9 @@ std::vector<Index> FaceFinder::of_shell_set(const ContactCard& card, const char*
   return out;
 }
 
-std::vector<Index> FaceFinder::faces(const ContactCard& card, ContactSide side) {
+std::vector<Index> FaceFinder::faces(const ContactCard& card, ContactSide side, bool blank_is_all) {
   const SideFields f = fields_of(card, side);
-  const bool everything = f.type == all || (f.id == 0 && kind_of(card).single);
+  const bool everything = f.type == all || (f.id == 0 && blank_is_all);
   std::vector<Index> out;
   if (f.type == node_set) return out;
   if (f.id == 0 && !everything) {

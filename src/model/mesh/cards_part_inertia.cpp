@@ -9,20 +9,6 @@ namespace {
 
 using Inertia = PartInertiaCard;
 
-/// The tensor turns with the file, unless it stands in axes of its own, which turn.
-std::string turn_inertia(Inertia& card, const Affine& motion) {
-  const bool mirrored = motion.linear().determinant() < 0;
-  if (mirrored) card.vrx = -card.vrx, card.vry = -card.vry, card.vrz = -card.vrz;
-  if (card.ircs != 0) {  // the third of the local axes is the other way round
-    if (mirrored) card.ixz = -card.ixz, card.iyz = -card.iyz;
-    return {};
-  }
-  const Matrix turned = motion.linear() * card.inertia() * motion.linear().transpose();
-  card.ixx = turned(0, 0), card.iyy = turned(1, 1), card.izz = turned(2, 2);
-  card.ixy = turned(0, 1), card.ixz = turned(0, 2), card.iyz = turned(1, 2);
-  return {};
-}
-
 const RegisterKeyword<Inertia> part_inertia{
     {.names = {"PART_INERTIA"},
      .purpose = "rigid parts whose mass, centre, inertia and initial velocity are given",
@@ -66,8 +52,22 @@ const RegisterKeyword<Inertia> part_inertia{
                            {"CID", &Inertia::cid, "-", "system whose axes they are, instead",
                             rules::optional_id_of(IdSpace::coordinate_system)}},
                 .when = [](const Inertia& card) { return card.ircs == 1; }}},
-     .move = turn_inertia}};
+     .move = [](Inertia& card, const Affine& motion) { return turn_inertia(card, motion); }}};
 
 }  // namespace
+
+/// The tensor turns with the file, unless it stands in axes of its own, which turn.
+std::string turn_inertia(PartInertiaCard& card, const Affine& motion) {
+  const bool mirrored = motion.linear().determinant() < 0;
+  if (mirrored) card.vrx = -card.vrx, card.vry = -card.vry, card.vrz = -card.vrz;
+  if (card.ircs != 0) {  // the third of the local axes is the other way round
+    if (mirrored) card.ixz = -card.ixz, card.iyz = -card.iyz;
+    return {};
+  }
+  const Matrix turned = motion.linear() * card.inertia() * motion.linear().transpose();
+  card.ixx = turned(0, 0), card.iyy = turned(1, 1), card.izz = turned(2, 2);
+  card.ixy = turned(0, 1), card.ixz = turned(0, 2), card.iyz = turned(1, 2);
+  return {};
+}
 
 }  // namespace courant

@@ -18,4 +18,7 @@ struct PartInertiaCard : PartCard {
   }
 };
 
+/// The tensor and the rates turn with a file that is moved; no reason why they could not.
+std::string turn_inertia(PartInertiaCard& card, const Affine& motion);
+
 }  // namespace courant

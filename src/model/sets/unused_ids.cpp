@@ -133,13 +133,14 @@ class UseFinder {
   void visit(const KeywordSpec& spec, std::int32_t keyword) {
     const auto named = [&](const char* option) { return spec.names[0].find(option) != std::string::npos; };
     const bool generates = named("_GENERATE"), by_words = named("_GENERAL") || named("_ADVANCED");
-    std::vector<std::vector<Id>> columns;  // of a set that is generated
+    const bool acts = spec.names[0].rfind("CONSTRAINED_", 0) == 0;  // by itself, though numbered as a part
+    std::vector<std::vector<Id>> columns;                           // of a set that is generated
     std::size_t column = 0;
     IdSpace column_space = IdSpace::none;
     const Entry* entry = nullptr;
     const std::function<void(const IdUse&)> see = [&](const IdUse& use) {
       if (use.defines) {
-        if (wants_use(use.space) && in_use_[static_cast<std::size_t>(use.space)] && use.id > 0)
+        if (!acts && wants_use(use.space) && in_use_[static_cast<std::size_t>(use.space)] && use.id > 0)
           defined_.push_back({use.space, use.id, *entry});
       } else if (generates && use.card > 0) {
         if (columns.empty() || use.field != column) columns.emplace_back();

@@ -1,0 +1,346 @@
+#include "contact/tied/build.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "contact/nodes/build.hpp"
+#include "contact/tied/constraint.hpp"
+#include "contact/tied/springs.hpp"
+#include "contact/tied/tied_card.hpp"
+#include "state/shared_fields.hpp"
+
+namespace courant {
+
+namespace {
+
+class TiedBuilder {
+ public:
+  TiedBuilder(const Deck& deck, const Model& model, const TiedOptions& options, World& world,
+              Diagnostics& diagnostics)
+      : deck_(deck),
+        model_(model),
+        options_(options),
+        world_(world),
+        diagnostics_(diagnostics),
+        finder_(deck, model, options.bulk_modulus, world, diagnostics) {
+    if (const ControlContact* control = deck.last<ControlContact>()) slsfac_ = control->slsfac;
+    for (const ModelNode& node : model.nodes) node_of_id_[node.id] = &node;
+    Id number = 0;
+    for (const ContactCard& c : deck.all<ContactCard>()) ++number, taken_.insert(c.cid > 0 ? c.cid : number);
+    for (const TiedCard& c : deck.all<TiedCard>()) ++number, taken_.insert(c.cid > 0 ? c.cid : number);
+  }
+
+  void add(const TiedCard& c, Id number) {
+    std::vector<Tie> ties;
+    if (!find(c, ties)) return;
+    const TiedKind kind = kind_of(c);
+    if (kind.form == TieForm::exact) {
+      if (!may_be_exact(c, ties)) return;
+      drop_held(c, ties);
+    }
+    if (ties.empty()) return;
+    world_.counters["tied_nodes"] += static_cast<std::int64_t>(ties.size());
+    const Id id = c.cid > 0 ? c.cid : number;
+    if (kind.form == TieForm::exact) return add_exact(c, id, kind.turns, ties);
+    for (Tie& tie : ties) tie.k *= slsfac_;
+    add_springs({.id = id, .title = c.title, .strength = {}, .tssfac = options_.tssfac}, std::move(ties),
+                world_);
+  }
+
+  /// Contacts that hold until they break; what they do then is another pass.
+  void add_tiebreak(const ContactCard& c, Id number) {
+    const Tiebreak kind = kind_of(c).tiebreak;
+    if (kind == Tiebreak::by_option && c.option != 2)
+      return error(c, "OPTION", fmt::format("{} is not supported", c.option),
+                   "2 holds nodes that touch at the start until the stress is reached");
+    if (world_.particles.size() > 0 && kind_of(c).nodes)
+      return error(c, "SURFA", "particles cannot be held at faces", "use the contact without _TIEBREAK");
+    std::vector<Tie> ties;
+    if (!find(c, ties) || ties.empty()) return;
+    for (Tie& tie : ties) tie.k *= slsfac_;
+    world_.counters["tied_nodes"] += static_cast<std::int64_t>(ties.size());
+    Id id = number;  // contact itself has its own
+    while (taken_.contains(id)) ++id;
+    taken_.insert(id);
+    add_springs(
+        {.id = id,
+         .title = (c.title.empty() ? fmt::format("contact {}", c.cid > 0 ? c.cid : number) : c.title) +
+                  " until it breaks",
+         .strength = {c.nfls, c.sfls, c.nen, c.mes, kind != Tiebreak::force},
+         .tssfac = options_.tssfac},
+        std::move(ties), world_);
+  }
+
+  /// Those that tie exactly, all at once.
+  void finish() {
+    if (!first_card_) return;
+    const TiedStart start = start_constraint(*exact_, world_);
+    constexpr Real rounding = 1e-6;
+    if (start.before - start.after > rounding * start.before)
+      diagnostics_.warning(
+          deck_.where(*first_card_),
+          fmt::format(
+              "{}: velocities at the start do not fit: {:.4g} of {:.4g} of kinetic energy [ML2/T2] of the "
+              "nodes and their faces is lost, as in a plastic impact",
+              deck_.keyword(*first_card_), start.before - start.after, start.before),
+          "give what is tied the same velocities");
+    add_constraint(exact_, world_);
+  }
+
+ private:
+  void error(const ContactCard& c, const char* field, std::string message, std::string hint) {
+    if (field[0] != 0) return deck_.error(diagnostics_, c, field, std::move(message), std::move(hint));
+    diagnostics_.error(deck_.where(c), deck_.keyword(c) + ": " + message, std::move(hint));  // of the whole
+  }
+
+  /// Which nodes are next to which faces, with what is to be told of that.
+  bool find(const ContactCard& c, std::vector<Tie>& ties) {
+    const int errors = diagnostics_.errors();
+    if (world_.dim == 2) {
+      error(c, "", "tied contact needs a scene of three dimensions", "leave it out");
+      return false;
+    }
+    const std::vector<Index> faces_a = finder_.faces(c, ContactSide::a, false);
+    const std::vector<Index> faces_b = finder_.faces(c, ContactSide::b, false);
+    const std::vector<Index> nodes_a = finder_.nodes(c, ContactSide::a, faces_a);
+    if (diagnostics_.errors() > errors) return false;
+    ties = find_ties(nodes_of(c, nodes_a, c.surfatyp == 4 ? finder_.faces_around(nodes_a) : faces_a),
+                     faces_of(c, faces_b), tolerance_of(c), world_.nodes.x);
+    warn_of_free(c, nodes_a, faces_b, ties);
+    warn_of_coarse(c, ties);
+    return true;
+  }
+  static Real tolerance_of(const ContactCard& c) {
+    return c.sast < 0 || c.sbst < 0 ? 0.6 * (std::abs(c.sast) + std::abs(c.sbst)) : 0;
+  }
+  Real thickness(Index s, Real given, Real scale) const {
+    const Segments& g = world_.segments;
+    if (g.volume[s] > 0) return 0;
+    return given > 0 ? given : g.thickness[s] * scale;
+  }
+  /// Per area: K A/V of a solid, K/(longest diagonal) of a shell. [M/L2T2]
+  Real stiffness(Index s, Real area) const {
+    const Segments& g = world_.segments;
+    if (g.volume[s] > 0) return g.K[s] * area / g.volume[s];
+    const auto a = g.nodes(s);
+    return g.K[s] / longest_diagonal(corners_at(s), a[2] == a[3] ? 3 : 4);
+  }
+  FaceCorners corners_at(Index s) const {
+    const auto a = world_.segments.nodes(s);
+    const Field<Real>& x = world_.nodes.x;
+    return {x.vec(a[0]), x.vec(a[1]), x.vec(a[2]), x.vec(a[3])};
+  }
+
+  std::vector<TieFace> faces_of(const ContactCard& c, const std::vector<Index>& segments) const {
+    std::vector<TieFace> out;
+    for (const Index s : segments) {
+      TieFace& f = out.emplace_back();
+      f.node = world_.segments.nodes(s), f.segment = s;
+      f.corners = f.node[2] == f.node[3] ? 3 : 4;
+      f.area = area_of(corners_at(s));
+      f.r = 0.5 * thickness(s, c.sbst, c.sfsbt);
+      f.k = c.sfsb * stiffness(s, f.area);
+    }
+    return out;
+  }
+  /// `around`: faces that the nodes may belong to.
+  std::vector<TieNode> nodes_of(const ContactCard& c, const std::vector<Index>& nodes,
+                                const std::vector<Index>& around) const {
+    std::vector<TieNode> of_world(static_cast<std::size_t>(world_.nodes.size())), out;
+    for (const Index s : around) {
+      const auto a = world_.segments.nodes(s);
+      const FaceCorners x = corners_at(s);
+      const Real area = area_of(x);
+      const int corners = a[2] == a[3] ? 3 : 4;
+      const Vec normal = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]);
+      for (std::size_t e = 0; e < static_cast<std::size_t>(corners); ++e) {
+        TieNode& n = of_world[static_cast<std::size_t>(a[e])];
+        n.own.push_back({normal, corners, c.sfsa * stiffness(s, area)});
+        n.thickness = std::max(n.thickness, thickness(s, c.sast, c.sfsat));
+      }
+    }
+    for (const Index n : nodes) {
+      out.push_back(of_world[static_cast<std::size_t>(n)]);
+      out.back().node = n;
+    }
+    return out;
+  }
+
+  /// Refuses what cannot be tied exactly.
+  bool may_be_exact(const ContactCard& c, const std::vector<Tie>& ties) {
+    const char* const springs = "use the contact with _OFFSET, whose springs may hold any nodes and faces";
+    std::set<Index> eroding;
+    for (const auto& group : world_.groups)
+      if (shared_fields::eroded.find(group->fields)) eroding.insert(group->part);
+    const int errors = diagnostics_.errors();
+    if (options_.mass_grows)
+      error(c, "", "nodes that are tied exactly get no mass from mass scaling (DT2MS) once the run goes on",
+            "give MS1ST 1, or use the contact with _OFFSET");
+    for (const Tie& tie : ties) {
+      const Id id = world_.nodes.id[tie.node];
+      const auto part = world_.segments.part[tie.segment];
+      if (options_.bodies.body(tie.node) >= 0)
+        error(c, "SURFA", fmt::format("node {} belongs to a rigid body, which cannot be tied exactly", id),
+              springs);
+      else if (std::any_of(tie.at.node.begin(), tie.at.node.end(),
+                           [&](Index n) { return options_.bodies.body(n) >= 0; }))
+        error(
+            c, "SURFB",
+            fmt::format(
+                "the face next to node {} belongs to a rigid body, to which nothing can be tied exactly", id),
+            springs);
+      else if (eroding.contains(part))
+        error(c, "SURFB",
+              fmt::format("the elements of part {} may fail, and nothing can be tied exactly to such",
+                          model_.parts[static_cast<std::size_t>(part)].id),
+              springs);
+      else if (tied_.contains(tie.node))
+        error(c, "SURFA", fmt::format("node {} is tied by an earlier contact already", id),
+              "let one contact tie it");
+      else if (corners_.contains(tie.node))
+        error(c, "SURFA", fmt::format("node {} is a corner of a face to which others are tied", id),
+              "exchange SURFA and SURFB of one of the contacts, or use it with _OFFSET");
+      else if (const auto n = std::find_if(tie.at.node.begin(), tie.at.node.end(),
+                                           [&](Index corner) { return tied_.contains(corner); });
+               n != tie.at.node.end())
+        error(c, "SURFB",
+              fmt::format("node {}, a corner of the face next to node {}, is tied by an earlier contact",
+                          world_.nodes.id[*n], id),
+              "exchange SURFA and SURFB of one of the contacts, or use it with _OFFSET");
+      if (diagnostics_.errors() > errors) return false;  // one of many alike
+    }
+    return true;
+  }
+
+  /// Nodes that SPC hold go with a face only if that is held alike.
+  void drop_held(const ContactCard& c, std::vector<Tie>& ties) {
+    std::size_t count = 0;
+    Id first = 0;
+    std::erase_if(ties, [&](const Tie& tie) {
+      constexpr Real none = 1e-9;
+      const ModelNode& node = *node_of_id_.at(world_.nodes.id[tie.node]);
+      for (std::size_t e = 0; e < static_cast<std::size_t>(tie.at.corners); ++e) {
+        const ModelNode& corner = *node_of_id_.at(world_.nodes.id[tie.at.node[e]]);
+        for (std::size_t k = 0; k < 3; ++k)
+          if (node.fixed[k] && !corner.fixed[k] && (std::abs(tie.at.N[e]) > none || tie.at.gap != 0)) {
+            if (count++ == 0) first = node.id;
+            return true;
+          }
+      }
+      return false;
+    });
+    if (count > 0)
+      deck_.warning(
+          diagnostics_, c, "SURFA",
+          fmt::format("{} nodes, the first is {}, are held by *BOUNDARY_SPC or TC, and their faces are "
+                      "not: they are not tied",
+                      count, first),
+          "hold the corners of the faces, too, or free the nodes");
+  }
+
+  void warn_of_free(const ContactCard& c, const std::vector<Index>& nodes, const std::vector<Index>& faces,
+                    const std::vector<Tie>& ties) {
+    std::set<Index> there;
+    for (const Tie& tie : ties) there.insert(tie.node);
+    for (const Index s : faces)  // who is a corner is joined already
+      for (const Index n : world_.segments.nodes(s)) there.insert(n);
+    std::size_t count = 0;
+    Id first = 0;
+    for (const Index n : nodes)
+      if (!there.contains(n) && count++ == 0) first = world_.nodes.id[n];
+    if (count == 0 && !nodes.empty()) return;
+    deck_.warning(
+        diagnostics_, c, "SURFA",
+        nodes.empty() ? std::string("it has no nodes of elements, so nothing is tied")
+                      : fmt::format("{} of {} nodes, the first is {}, are not tied: they are not over "
+                                    "a face, or too far from it",
+                                    count, nodes.size(), first),
+        "leave them out, or give the largest distance by negative SAST and SBST: 0.6 (|SAST| + |SBST|)");
+  }
+
+  // Corners between nodes that are further apart than faces are wide would hang free.
+  void warn_of_coarse(const ContactCard& c, const std::vector<Tie>& ties) {
+    Real of_nodes = 0, of_faces = 0;
+    for (const Tie& tie : ties) of_nodes += tie.cell, of_faces += area_of(corners_at(tie.segment));
+    constexpr Real coarser = 1.5;
+    if (of_nodes > coarser * of_faces)
+      deck_.warning(
+          diagnostics_, c, "SURFA",
+          fmt::format(
+              "its faces are {:.2g} times as large as those next to them: nodes of SURFB in between are "
+              "not held, and the joint is too soft",
+              of_nodes / of_faces),
+          "exchange SURFA and SURFB: the finer mesh should be SURFA");
+  }
+
+  void add_exact(const ContactCard& c, Id id, bool turns, const std::vector<Tie>& ties) {
+    for (const Tie& tie : ties) {
+      tied_.insert(tie.node);
+      corners_.insert(tie.at.node.begin(), tie.at.node.end());
+    }
+    const std::size_t first = exact_->ties.size();
+    exact_->ties.insert(exact_->ties.end(), ties.begin(), ties.end());
+    exact_->turns.resize(exact_->ties.size(), 0);
+    exact_->contacts.push_back({id, c.title, first, exact_->ties.size()});
+    if (turns) take_turns(c, first);
+    if (!first_card_) first_card_ = &c;
+  }
+
+  /// Rotations go with faces whose corners have some.
+  void take_turns(const ContactCard& c, std::size_t first) {
+    const Field<Index>* none = shared_fields::no_rotation.find(world_.nodes.fields);
+    std::size_t hinges = 0;
+    for (std::size_t t = first; none && t < exact_->ties.size(); ++t) {
+      const Tie& tie = exact_->ties[t];
+      if ((*none)[tie.node] != 0) continue;
+      const bool turns =
+          std::all_of(tie.at.node.begin(), tie.at.node.end(), [&](Index n) { return (*none)[n] == 0; });
+      exact_->turns[t] = turns, hinges += !turns;
+    }
+    if (hinges > 0)
+      deck_.warning(
+          diagnostics_, c, "SURFB",
+          fmt::format("rotations of {} of the tied nodes stay free, as at a hinge: the faces next to "
+                      "them belong to elements without rotations",
+                      hinges),
+          "tie more than one row of nodes to solids, or a shell that lies on them");
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  const TiedOptions& options_;
+  World& world_;
+  Diagnostics& diagnostics_;
+  FaceFinder finder_;
+  Real slsfac_ = 0.1;
+  std::map<Id, const ModelNode*> node_of_id_;
+  std::set<Id> taken_;  // ids of contacts
+  std::shared_ptr<TiedConstraint> exact_ = std::make_shared<TiedConstraint>();
+  const ContactCard* first_card_ = nullptr;  // of an exact contact
+  std::set<Index> tied_, corners_;           // of all exact contacts so far
+};
+
+}  // namespace
+
+void add_tied_contacts(const Deck& deck, const Model& model, const TiedOptions& options, World& world,
+                       Diagnostics& diagnostics) {
+  const auto& cards = deck.all<TiedCard>();
+  const auto& others = deck.all<ContactCard>();
+  const bool any = std::any_of(others.begin(), others.end(),
+                               [](const ContactCard& c) { return kind_of(c).tiebreak != Tiebreak::none; });
+  if (cards.empty() && !any) return;
+  TiedBuilder builder(deck, model, options, world, diagnostics);
+  Id number = 0;
+  for (const ContactCard& c : others) {
+    ++number;
+    if (kind_of(c).tiebreak != Tiebreak::none) builder.add_tiebreak(c, number);
+  }
+  for (const TiedCard& c : cards) builder.add(c, ++number);
+  if (diagnostics.ok()) builder.finish();
+}
+
+}  // namespace courant

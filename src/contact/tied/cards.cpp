@@ -1,0 +1,68 @@
+// Cards of tied contacts.
+#include <string_view>
+
+#include "contact/contact_table.hpp"
+#include "contact/tied/tied_card.hpp"
+
+namespace courant {
+
+namespace {
+
+using TC = TiedCard;
+
+/// In the order of the names.
+constexpr TiedKind tied_kinds[] = {
+    {}, {.form = TieForm::spring}, {}, {}, {.form = TieForm::spring}, {}, {.turns = true}, {.turns = true}};
+
+/// The rules of a field that means something else here than in contacts that open.
+void change(KeywordOf<TC>& keyword, std::string_view name, const char* meaning, const FieldRules& rules) {
+  for (CardOf<TC>& card : keyword.cards)
+    for (FieldOf<TC>& field : card.fields)
+      if (field.name == name) {
+        if (meaning) field.meaning = meaning;
+        field.rules = rules;
+      }
+}
+
+KeywordOf<TC> tied_keyword() {
+  KeywordOf<TC> out{
+      .names = {"CONTACT_TIED_NODES_TO_SURFACE", "CONTACT_TIED_NODES_TO_SURFACE_OFFSET",
+                "CONTACT_TIED_NODES_TO_SURFACE_CONSTRAINED_OFFSET", "CONTACT_TIED_SURFACE_TO_SURFACE",
+                "CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET",
+                "CONTACT_TIED_SURFACE_TO_SURFACE_CONSTRAINED_OFFSET", "CONTACT_TIED_SHELL_EDGE_TO_SURFACE",
+                "CONTACT_TIED_SHELL_EDGE_TO_SURFACE_CONSTRAINED_OFFSET"},
+      .purpose =
+          "nodes of elements that go with the faces next to which they are at the start: "
+          "exactly, or with _OFFSET held by springs; of shell edges rotations, too",
+      .id_space = IdSpace::contact,
+      .id_option = true,
+      .mpp_option = true,
+      .title = &TC::title,
+      .id = &TC::cid,
+      .many = false};
+  out.cards = contact_first_cards<TC>();
+  for (CardOf<TC>& card : contact_optional_cards<TC>()) out.cards.push_back(std::move(card));
+  for (const char* name : {"FS", "FD", "DC", "VC", "VDC"})
+    change(out, name, "of contacts that are not tied", no_effect);
+  for (const char* name : {"FSF", "VSF"}) change(out, name, nullptr, no_effect_but(1));
+  change(out, "PENCHK", nullptr, no_effect);
+  change(out, "BT", nullptr, unsupported);
+  change(out, "DT", nullptr, {.standard = 1e20, .honour = Honour::no});
+  change(out, "SAST", "thickness of shells of SURFA, 0: of the section; < 0, or SBST < 0: largest distance",
+         {});
+  change(out, "SBST", "thickness of shells of SURFB, 0: of the section; < 0: -SBST is the largest distance",
+         {});
+  for (const char* name : {"SOFT", "PENMAX", "THKOPT", "SHLTHK", "DTSTIF", "IGNORE", "FLANGL", "SHLEDG"})
+    change(out, name, "of contacts that are not tied", no_effect);
+  change(out, "SOFSCL", "of contacts that are not tied", no_effect_but(0.1));
+  return out;
+}
+const RegisterKeyword<TC> tied_contact{tied_keyword()};
+
+}  // namespace
+
+TiedKind kind_of(const TiedCard& card) {
+  return tied_kinds[card.name];
+}
+
+}  // namespace courant

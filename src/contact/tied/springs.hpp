@@ -1,0 +1,34 @@
+#pragma once
+// Nodes that springs hold at the places of faces to which they are tied.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/tied/ties.hpp"
+#include "state/reports.hpp"
+#include "state/restartable.hpp"
+#include "state/world.hpp"
+
+namespace courant {
+
+/// When a spring breaks: (max(f_n, 0)/normal)^n + (|f_t|/shear)^m >= 1, of forces, or of forces over the area
+/// of the node; never where `normal` is 0. [ML/T2], or [M/LT2]
+struct TieStrength {
+  Real normal = 0, shear = 0;
+  Real n = 2, m = 2;  ///< [-]
+  bool stress = true;
+  bool breaks() const { return normal > 0; }
+};
+
+struct TiedSpringsLaw {
+  Id id = 0;
+  std::string title;
+  TieStrength strength{};
+  Real tssfac = 0.9;  ///< what elements leave of their own step
+};
+
+/// Adds springs of stiffness Tie::k between nodes and their places on faces. A spring ends with its face,
+/// too; what it stores then is dissipated.
+void add_springs(TiedSpringsLaw law, std::vector<Tie> ties, World& world);
+
+}  // namespace courant

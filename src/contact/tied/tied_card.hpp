@@ -1,0 +1,21 @@
+#pragma once
+#include "contact/cards.hpp"
+
+namespace courant {
+
+/// How a tied contact holds its nodes.
+enum class TieForm {
+  exact,   ///< nodes go with faces, their masses and forces to the corners
+  spring,  ///< penalty springs (_OFFSET)
+};
+
+/// *CONTACT_TIED_...; field names and units as in the keywords' table.
+struct TiedCard : ContactCard {};
+
+struct TiedKind {
+  TieForm form = TieForm::exact;
+  bool turns = false;  ///< shell edges: rotations go with the face, too
+};
+TiedKind kind_of(const TiedCard& card);
+
+}  // namespace courant

@@ -1,0 +1,294 @@
+// Cards of rigid bodies of nodes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "model/transforms/transformation.hpp"
+#include "rigid/nodal_bodies.hpp"
+
+namespace courant {
+
+namespace {
+
+struct NodalBodyCard : PartInertiaCard {
+  Id out_cid = 0, nsid = 0, pnode = 0;
+  int iprt = 0, drflag = 0, rrflag = 0;
+  Real cmo = 0, con1 = 0, con2 = 0;
+};
+using NB = NodalBodyCard;
+
+/// In the order of the names.
+struct NodalBodyOptions {
+  bool spc = false, inertia = false;
+};
+constexpr NodalBodyOptions nodal_options[] = {
+    {}, {.spc = true}, {.inertia = true}, {.spc = true, .inertia = true}, {.spc = true, .inertia = true}};
+bool has_spc(const NB& card) {
+  return nodal_options[card.name].spc;
+}
+bool has_inertia(const NB& card) {
+  return nodal_options[card.name].inertia;
+}
+
+std::string move_nodal_body(NB& card, const Affine& motion) {
+  if (card.cmo == 1)
+    for (Real* code : {&card.con1, &card.con2}) {
+      if (!(*code > 0 && *code < 7 && *code == std::floor(*code))) continue;
+      auto held = axes_of_code(static_cast<int>(*code));
+      std::string reason = move_held_axes(held, motion);
+      if (!reason.empty()) return reason;
+      *code = code_of_axes(held);
+    }
+  return has_inertia(card) ? turn_inertia(card, motion) : std::string();
+}
+
+CardOf<NB> first_card() {
+  return {.fields = {{"PID", &NB::pid, "-", "id of the body, among the parts", rules::required_id},
+                     {"CID",
+                      &NB::out_cid,
+                      "-",
+                      "system of the output",
+                      {.honour = Honour::output_only, .refers = IdSpace::coordinate_system}},
+                     {"NSID", &NB::nsid, "-", "node set, 0: that with the id of the body",
+                      rules::optional_id_of(IdSpace::node_set)},
+                     {"PNODE", &NB::pnode, "-", "node at the centre of mass, which goes with the body",
+                      rules::id_of(IdSpace::node)},
+                     {"IPRT", &NB::iprt, "-", "print flag", no_effect},
+                     {"DRFLAG", &NB::drflag, "-", "released translations", unsupported},
+                     {"RRFLAG", &NB::rrflag, "-", "released rotations", unsupported}}};
+}
+CardOf<NB> spc_card() {
+  return {
+      .fields = {{"CMO", &NB::cmo, "-", "0 free, 1 constrained along the global axes", {}},
+                 {"CON1", &NB::con1, "-", "held translations: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 all", {}},
+                 {"CON2", &NB::con2, "-", "held rotations: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 all", {}}},
+      .when = has_spc};
+}
+std::vector<CardOf<NB>> inertia_cards() {
+  return {{.fields = {{"XC", &NB::xc, "L", "centre of mass, without NODEID", rules::point},
+                      {"YC", &NB::yc, "L", "centre of mass"},
+                      {"ZC", &NB::zc, "L", "centre of mass"},
+                      {"TM", &NB::tm, "M", "mass", rules::required_positive},
+                      {"IRCS",
+                       &NB::ircs,
+                       "-",
+                       "axes of the inertia: 0 global, 1 those of the last card",
+                       {.allowed = {0, 1}}},
+                      {"NODEID", &NB::nodeid, "-", "node at the centre of mass",
+                       rules::optional_id_of(IdSpace::node)}},
+           .when = has_inertia},
+          {.fields = {{"IXX", &NB::ixx, "ML2", "of the tensor about the centre", rules::required_positive},
+                      {"IXY", &NB::ixy, "ML2", "of the tensor about the centre"},
+                      {"IXZ", &NB::ixz, "ML2", "of the tensor about the centre"},
+                      {"IYY", &NB::iyy, "ML2", "of the tensor about the centre", rules::required_positive},
+                      {"IYZ", &NB::iyz, "ML2", "of the tensor about the centre"},
+                      {"IZZ", &NB::izz, "ML2", "of the tensor about the centre", rules::required_positive}},
+           .when = has_inertia},
+          {.fields = {{"VTX", &NB::vtx, "L/T", "initial velocity of the centre", rules::direction},
+                      {"VTY", &NB::vty, "L/T", "initial velocity of the centre"},
+                      {"VTZ", &NB::vtz, "L/T", "initial velocity of the centre"},
+                      {"VRX", &NB::vrx, "1/T", "initial angular velocity, global axes", rules::direction},
+                      {"VRY", &NB::vry, "1/T", "initial angular velocity"},
+                      {"VRZ", &NB::vrz, "1/T", "initial angular velocity"}},
+           .when = has_inertia},
+          {.fields = {{"XL", &NB::xl, "-", "vector along the local x axis", rules::direction},
+                      {"YL", &NB::yl, "-", "vector along the local x axis"},
+                      {"ZL", &NB::zl, "-", "vector along the local x axis"},
+                      {"XLIP", &NB::xlip, "-", "vector in the local xy plane", rules::direction},
+                      {"YLIP", &NB::ylip, "-", "vector in the local xy plane"},
+                      {"ZLIP", &NB::zlip, "-", "vector in the local xy plane"},
+                      {"CID2", &NB::cid, "-", "system whose axes they are, instead",
+                       rules::optional_id_of(IdSpace::coordinate_system)}},
+           .when = [](const NB& card) { return has_inertia(card) && card.ircs == 1; }}};
+}
+
+KeywordOf<NB> nodal_body_keyword() {
+  KeywordOf<NB> out{
+      .names = {"CONSTRAINED_NODAL_RIGID_BODY", "CONSTRAINED_NODAL_RIGID_BODY_SPC",
+                "CONSTRAINED_NODAL_RIGID_BODY_INERTIA", "CONSTRAINED_NODAL_RIGID_BODY_SPC_INERTIA",
+                "CONSTRAINED_NODAL_RIGID_BODY_INERTIA_SPC"},
+      .purpose = "nodes of elements that move as one rigid body; its mass is theirs, or with _INERTIA given",
+      .id_space = IdSpace::part,
+      .title_option = true,
+      .title = &NB::title,
+      .cards = {first_card(), spc_card()},
+      .move = move_nodal_body};
+  for (CardOf<NB>& card : inertia_cards()) out.cards.push_back(std::move(card));
+  return out;
+}
+const RegisterKeyword<NB> nodal_body{nodal_body_keyword()};
+
+struct SpotweldCard : Entry {
+  std::string title;
+  Id wid = 0, n1 = 0, n2 = 0;
+  Real sn = 0, ss = 0, n = 0, m = 0, tf = 1e20, ep = 1e20;
+};
+using SW = SpotweldCard;
+constexpr FieldRules never_fails{.standard = 1e20, .honour = Honour::no};
+const RegisterKeyword<SW> spotweld_keyword{
+    {.names = {"CONSTRAINED_SPOTWELD"},
+     .purpose = "two nodes that move as one rigid body, without failure",
+     .id_option = true,
+     .title = &SW::title,
+     .id = &SW::wid,
+     .cards = {{.fields = {{"N1", &SW::n1, "-", "node", rules::required_id_of(IdSpace::node)},
+                           {"N2", &SW::n2, "-", "node", rules::required_id_of(IdSpace::node)},
+                           {"SN", &SW::sn, "ML/T2", "normal force at failure, 0 none", unsupported},
+                           {"SS", &SW::ss, "ML/T2", "shear force at failure, 0 none", unsupported},
+                           {"N", &SW::n, "-", "exponent of the normal force", no_effect},
+                           {"M", &SW::m, "-", "exponent of the shear force", no_effect},
+                           {"TF", &SW::tf, "T", "time of failure", never_fails},
+                           {"EP", &SW::ep, "-", "plastic strain at failure", never_fails}}}}}};
+
+struct WeldSpotCard : Entry {
+  std::string title;
+  Id wid = 0, nsid = 0, cid = 0;
+  int filter = 0, npr = 0, nprt = 0;
+  Real window = 0, tfail = 1e20, epsf = 0, sn = 0, ss = 0, n = 0, m = 0;
+};
+using WS = WeldSpotCard;
+const RegisterKeyword<WS> weld_spot_keyword{
+    {.names = {"CONSTRAINED_GENERALIZED_WELD_SPOT"},
+     .purpose = "nodes of a set that move as one rigid body, without failure",
+     .id_option = true,
+     .title = &WS::title,
+     .id = &WS::wid,
+     .cards = {{.fields = {{"NSID", &WS::nsid, "-", "node set", rules::required_id_of(IdSpace::node_set)},
+                           {"CID",
+                            &WS::cid,
+                            "-",
+                            "system of the output",
+                            {.honour = Honour::output_only, .refers = IdSpace::coordinate_system}},
+                           {"FILTER", &WS::filter, "-", "filter of the failure force", no_effect},
+                           {"WINDOW", &WS::window, "T", "window of that filter", no_effect},
+                           {"NPR", &WS::npr, "-", "nodes without failure in output", no_effect},
+                           {"NPRT", &WS::nprt, "-", "print option", no_effect}}},
+               {.fields = {{"TFAIL", &WS::tfail, "T", "time of failure, 0 never", never_fails},
+                           {"EPSF", &WS::epsf, "-", "plastic strain at failure, 0 none", unsupported},
+                           {"SN", &WS::sn, "ML/T2", "normal force at failure, 0 none", unsupported},
+                           {"SS", &WS::ss, "ML/T2", "shear force at failure, 0 none", unsupported},
+                           {"N", &WS::n, "-", "exponent of the normal force", no_effect},
+                           {"M", &WS::m, "-", "exponent of the shear force", no_effect}}}}}};
+
+class NodalBodyReader {
+ public:
+  NodalBodyReader(const Deck& deck, const Model& model, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), diagnostics_(diagnostics) {
+    for (std::size_t n = 0; n < model.nodes.size(); ++n)
+      node_of_id_[model.nodes[n].id] = static_cast<Index>(n);
+    for (const ModelSph& s : model.sph) particles_.insert(s.node);
+    for (const ModelPart& part : model.parts) next_id_ = std::max(next_id_, part.id + 1);
+    for (const NB& card : deck.all<NB>()) next_id_ = std::max(next_id_, card.pid + 1);
+  }
+
+  void add(const NB& card) {
+    NodalBody b{.id = card.pid, .name = fmt::format("nodal rigid body {}", card.pid), .card = card};
+    if (!add_set(card, card.nsid == 0 ? "PID" : "NSID", card.nsid == 0 ? card.pid : card.nsid, b)) return;
+    if (card.pnode != 0) {
+      const auto node = node_of_id_.find(std::abs(card.pnode));
+      if (node == node_of_id_.end() || particles_.contains(node->second))
+        return error(card, "PNODE", fmt::format("node {} does not exist", std::abs(card.pnode)),
+                     "define it with *NODE");
+      b.output_node = node->second;
+    }
+    if (!read_constraints(card, b)) return;
+    if (has_inertia(card)) b.given = card;
+    bodies_.push_back(std::move(b));
+  }
+  void add(const SW& card) {
+    NodalBody b{
+        .id = next_id_++, .name = fmt::format("spotweld of nodes {} and {}", card.n1, card.n2), .card = card};
+    for (const auto& [field, id] : {std::pair("N1", card.n1), std::pair("N2", card.n2)}) {
+      const auto node = node_of_id_.find(id);
+      if (node == node_of_id_.end())
+        return error(card, field, fmt::format("node {} does not exist", id), "define it with *NODE");
+      if (!add_node(card, field, node->second, b)) return;
+    }
+    finish(std::move(b), card, "N2");
+  }
+  void add(const WS& card) {
+    NodalBody b{.id = next_id_++, .name = fmt::format("weld of node set {}", card.nsid), .card = card};
+    if (add_set(card, "NSID", card.nsid, b)) bodies_.push_back(std::move(b));
+  }
+  std::vector<NodalBody> bodies() { return std::move(bodies_); }
+
+ private:
+  void error(const Entry& card, const char* field, std::string message, std::string hint) {
+    deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
+  }
+  void finish(NodalBody b, const Entry& card, const char* field) {
+    std::sort(b.nodes.begin(), b.nodes.end());
+    if (b.nodes.front() == b.nodes.back())
+      return error(card, field, "the same node twice", "a weld is between two nodes");
+    bodies_.push_back(std::move(b));
+  }
+  bool add_node(const Entry& card, const char* field, Index node, NodalBody& b) {
+    const Id id = model_.nodes[static_cast<std::size_t>(node)].id;
+    if (particles_.contains(node)) {
+      error(card, field, fmt::format("node {} is a particle", id), "name nodes of elements");
+      return false;
+    }
+    b.nodes.push_back(node);
+    return true;
+  }
+  bool add_set(const Entry& card, const char* field, Id id, NodalBody& b) {
+    const auto set = model_.node_sets.find(id);
+    if (set == model_.node_sets.end() || set->second.empty()) {
+      error(card, field,
+            fmt::format("node set {} {}", id, set == model_.node_sets.end() ? "does not exist" : "is empty"),
+            "define it with *SET_NODE");
+      return false;
+    }
+    for (const Index n : set->second)
+      if (!add_node(card, field, n, b)) return false;
+    std::sort(b.nodes.begin(), b.nodes.end());
+    b.nodes.erase(std::unique(b.nodes.begin(), b.nodes.end()), b.nodes.end());
+    return true;
+  }
+  bool read_constraints(const NB& card, NodalBody& b) {
+    if (!has_spc(card) || card.cmo == 0) return true;
+    if (card.cmo != 1) {
+      error(card, "CMO", fmt::format("'{:g}' (a constraint along local axes) is not supported", card.cmo),
+            "use CMO = 1 with CON1 and CON2 along the global axes");
+      return false;
+    }
+    for (const auto& [field, value, axes] :
+         {std::tuple("CON1", card.con1, &b.held), std::tuple("CON2", card.con2, &b.no_turn)}) {
+      if (!(value >= 0 && value <= 7 && value == std::floor(value))) {
+        error(card, field, fmt::format("expected a code 0 to 7, got '{:g}'", value), "7 holds all axes");
+        return false;
+      }
+      *axes = axes_of_code(static_cast<int>(value));
+    }
+    return true;
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  Diagnostics& diagnostics_;
+  std::map<Id, Index> node_of_id_;
+  std::set<Index> particles_;
+  Id next_id_ = 1;
+  std::vector<NodalBody> bodies_;
+};
+
+}  // namespace
+
+std::vector<NodalBody> nodal_bodies(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  const auto& cards = deck.all<NB>();
+  const auto& spots = deck.all<SW>();
+  const auto& sets = deck.all<WS>();
+  if (cards.empty() && spots.empty() && sets.empty()) return {};
+  NodalBodyReader reader(deck, model, diagnostics);
+  for (const NB& card : cards) reader.add(card);
+  for (const SW& card : spots) reader.add(card);
+  for (const WS& card : sets) reader.add(card);
+  return reader.bodies();
+}
+
+}  // namespace courant

@@ -1,0 +1,109 @@
+#include "rigid/merge.hpp"
+
+#include <fmt/format.h>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "rigid/deformable_to_rigid.hpp"
+
+namespace courant {
+
+namespace {
+
+struct RigidBodiesCard : Entry {
+  Id pidl = 0, pidc = 0;
+  int iflag = 0;
+};
+using M = RigidBodiesCard;
+const RegisterKeyword<M> rigid_bodies_keyword{
+    {.names = {"CONSTRAINED_RIGID_BODIES"},
+     .purpose = "rigid parts that move as one body, which has the name, the constraints and the loads of its "
+                "lead part",
+     .cards = {
+         {.fields = {
+              {"PIDL", &M::pidl, "-", "lead part (old PIDM)", rules::required_id_of(IdSpace::part)},
+              {"PIDC", &M::pidc, "-", "part merged into it (old PIDS)", rules::required_id_of(IdSpace::part)},
+              {"IFLAG",
+               &M::iflag,
+               "-",
+               "where *PART_INERTIA gives the lead's mass: 1 that of PIDC is added, 0 it is in it",
+               {.allowed = {0, 1}}}}}}}};
+
+class MergeReader {
+ public:
+  MergeReader(const Deck& deck, const Model& model, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), diagnostics_(diagnostics) {}
+
+  void add(const Entry& card, const char* lead_field, Id lead_id, const char* field, Id id, bool counts) {
+    const Index lead = rigid_part(card, lead_field, lead_id), part = rigid_part(card, field, id);
+    if (lead < 0 || part < 0) return;
+    if (lead == part)
+      return error(card, field, fmt::format("part {} cannot be merged into itself", id), "name another part");
+    if (const auto before = merges_.find(part); before != merges_.end())
+      return error(card, field,
+                   fmt::format("part {} is merged into part {} already, {}", id, id_of(before->second.lead),
+                               deck_.place(before->second.card)),
+                   "merge a part once; leads may be merged themselves");
+    for (Index k = lead; merges_.contains(k); k = merges_.at(k).lead)
+      if (merges_.at(k).lead == part)
+        return error(
+            card, lead_field,
+            fmt::format("part {} is merged into part {}, so the merges would form a ring", lead_id, id),
+            "one part of the body must be merged into no other");
+    merges_[part] = {lead, counts, card};
+  }
+  BodyMerges finish() { return BodyMerges(std::move(merges_)); }
+
+ private:
+  void error(const Entry& card, const char* field, std::string message, std::string hint) {
+    deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
+  }
+  Id id_of(Index part) const { return model_.parts[static_cast<std::size_t>(part)].id; }
+  /// Index of a rigid part; -1 where it is none.
+  Index rigid_part(const Entry& card, const char* field, Id id) {
+    const auto part = model_.part_of_id.find(id);
+    if (part == model_.part_of_id.end())
+      error(card, field, fmt::format("part {} does not exist", id), "define it with *PART");
+    else if (!model_.parts[static_cast<std::size_t>(part->second)].rigid)
+      error(card, field, fmt::format("part {} is no rigid body", id), "its material must be a *MAT_RIGID");
+    else
+      return part->second;
+    return -1;
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  Diagnostics& diagnostics_;
+  std::map<Index, Merge> merges_;
+};
+
+}  // namespace
+
+Index BodyMerges::lead(Index part) const {
+  while (merged(part)) part = of(part).lead;
+  return part;
+}
+
+std::vector<Index> BodyMerges::group(Index first) const {
+  std::vector<Index> out{first};
+  for (const auto& [part, merge] : merges_)
+    if (lead(part) == first) out.push_back(part);
+  return out;
+}
+
+bool BodyMerges::counts(Index part, const std::set<Index>& given) const {
+  for (; merged(part); part = of(part).lead)
+    if (given.contains(of(part).lead) && !of(part).counts) return false;
+  return true;
+}
+
+BodyMerges body_merges(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  MergeReader reader(deck, model, diagnostics);
+  for (const RigidBodiesCard& card : deck.all<RigidBodiesCard>())
+    reader.add(card, "PIDL", card.pidl, "PIDC", card.pidc, card.iflag == 1);
+  for (const SwitchedLead& one : switched_leads(deck))
+    reader.add(one.card, "LRB", one.lead, "PID", one.part, true);
+  return reader.finish();
+}
+
+}  // namespace courant

@@ -1,0 +1,378 @@
+// Tied contact against theory: constant stress, bars and strips of two meshes, kept momenta and energy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "rigid/rigid.hpp"
+#include "same_bits.hpp"
+#include "shell_decks.hpp"
+#include "solid_decks.hpp"
+
+using namespace courant;
+using test::do_nothing;
+using test::ShellDeck;
+using test::simulation_of;
+using test::SolidDeck;
+
+namespace {
+
+constexpr Real bar_E = 1e9, bar_rho = 1000;
+
+/// Parts 1 and 2 of one elastic material.
+std::string two_parts(Real nu) {
+  return fmt::format(
+      "*SECTION_SOLID\n         1         1\n*PART\none\n         1         1         1\n*PART\ntwo\n        "
+      " 2  "
+      "       1         1\n*MAT_ELASTIC\n         1{:10.4g}{:10.4g}{:10.4g}\n*CONTROL_HOURGLASS\n         4  "
+      "   "
+      " 0.05\n",
+      bar_rho, bar_E, nu);
+}
+/// Nodes of part 2 on faces of part 1.
+std::string tie(const std::string& option, const std::string& third_card = "\n") {
+  return "*CONTACT_TIED_" + option + "_ID\n         7glue\n         2         1         3         3\n\n" +
+         third_card;
+}
+std::string velocities(const std::vector<Vec>& nodes, const std::function<Vec(const Vec&)>& velocity) {
+  std::string out = "*INITIAL_VELOCITY_NODE\n";
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const Vec v = velocity(nodes[n]);
+    out += fmt::format("{},{:.16g},{:.16g},{:.16g}\n", n + 1, v[0], v[1], v[2]);
+  }
+  return out;
+}
+
+/// A bar of 2 x 1 x 1 along x, its halves of n cells a unit and m cells a unit.
+SolidDeck bar(int n, int m, Real nu, Real gap = 0) {
+  SolidDeck deck;
+  deck.block(Vec(1, 1, 1), n, n, n, 1);
+  deck.block(Vec(1, 1, 1), m, m, m, 2, [&](const Vec& x) { return Vec(x + Vec(1 + gap, 0, 0)); });
+  deck.cards = two_parts(nu);
+  return deck;
+}
+
+/// Of all that moves: momentum, and angular momentum about the origin, of the half step.
+std::pair<Vec, Vec> tied_momenta(const Simulation& s) {
+  const Nodes& nodes = s.world().nodes;
+  Vec p = Vec::Zero(), L = Vec::Zero();
+  for (Index n = 0; n < nodes.size(); ++n)
+    if (!nodes.follow[n])
+      p += nodes.m[n] * nodes.v.vec(n), L += nodes.m[n] * nodes.x.vec(n).cross(nodes.v.vec(n));
+  if (s.bodies())
+    for (const RigidBody& b : s.bodies()->bodies()) p += b.m * b.v, L += b.L + b.m * b.x.cross(b.v);
+  return {p, L};
+}
+
+/// Largest force on a node that should have none, over the force of the stress on an element's face; strained
+/// uniformly along x.
+Real force_of_constant_stress(int n, int m, const std::string& contact) {
+  const Real nu = 0.3, rate = 1e-3;
+  SolidDeck deck = bar(n, m, nu);
+  deck.cards += contact;
+  deck.cards += velocities(
+      deck.nodes, [&](const Vec& x) { return Vec(rate * x[0], -nu * rate * x[1], -nu * rate * x[2]); });
+  auto s = simulation_of(deck.text(1));
+  s->step(do_nothing);
+  Real most = 0, stress = 0;
+  s->step([&](World& world, const Clock& clock, const std::string&) {
+    stress = bar_E * rate * clock.t;
+    for (Index k = 0; k < world.nodes.size(); ++k) {
+      const Real x = world.nodes.x.data(0)[k];
+      if (x < 1e-3 || x > 1.999 || world.nodes.follow[k]) continue;
+      most = std::max(most, world.nodes.f.vec(k).norm());
+    }
+  });
+  return most / (stress / (n * n));
+}
+
+/// From the times at which a coordinate passes where it was at the start, until some of them are known; the
+/// first is half a period behind the start. 0: too few.
+Real frequency_of(Simulation& s, const Field<Real>& x, int axis, Index node, Real longest,
+                  std::size_t count) {
+  const Real start = x.data(axis)[node];
+  std::vector<Real> at{0};
+  Real before = 0;
+  while (s.clock().t < longest && at.size() <= count) {
+    const Real t = s.clock().t;
+    s.step(do_nothing);
+    const Real now = x.data(axis)[node] - start;
+    if (before * now < 0) at.push_back(t + before / (before - now) * (s.clock().t - t));
+    before = now;
+  }
+  return at.size() <= count ? 0 : 0.5 * static_cast<Real>(count) / at.back();
+}
+
+/// Frequency of a free bar of length 2 whose halves start with cos(z x) and -cos(z (2 - x)), over c/4, that
+/// of z = pi/2, its first axial mode.
+Real axial_frequency(int n, int m, const std::string& contact, Real z = std::acos(0.0)) {
+  SolidDeck deck = bar(n, m, 0);
+  deck.cards += contact;
+  deck.cards += velocities(deck.nodes, [&](const Vec& x) {
+    const bool first = &x - deck.nodes.data() < (n + 1) * (n + 1) * (n + 1);
+    return Vec(first ? std::cos(z * x[0]) : -std::cos(z * (2 - x[0])), 0, 0);
+  });
+  auto s = simulation_of(deck.text(10));
+  const Real period = 4 / std::sqrt(bar_E / bar_rho);
+  return period * frequency_of(*s, s->world().nodes.x, 0, 0, 10 * period, 4);
+}
+
+/// First frequency of a cantilever of two strips of shells, n cells along half of it, over that of Euler's
+/// beam.
+Real strip_frequency(int n, const std::string& contact) {
+  ShellDeck deck;
+  deck.plate(0.5, 0.1, n, 2, 1);
+  deck.plate(0.5, 0.1, n + 1, 3, 2, [](const Vec& x) { return Vec(x + Vec(0.5, 0, 0)); });
+  deck.part(1, 0.01, "*MAT_ELASTIC\n         1    7850.0   2.1E+11       0.0\n");
+  deck.part(2, 0.01, "*MAT_ELASTIC\n         2    7850.0   2.1E+11       0.0\n");
+  deck.hold(1, "xyzXYZ", [](const Vec& x) { return x[0] < 1e-9; });
+  deck.cards += contact;
+  deck.velocity([](const Vec& x) {
+    const Real s = 1.8751 * x[0], ratio = 0.7341;
+    return Vec(0, 0, 0.01 * (std::cosh(s) - std::cos(s) - ratio * (std::sinh(s) - std::sin(s))));
+  });
+  auto s = simulation_of(deck.text(1));
+  const Real euler = 8.3546;  // 1.8751^2/(2 pi) sqrt(E I/(rho A)), L = 1
+  const Index tip = s->world().nodes.size() - 1;
+  return frequency_of(*s, s->world().nodes.x, 2, tip, 1.2 / euler, 2) / euler;
+}
+
+}  // namespace
+
+// Trapezoids integrate what is linear in each cell of the finer mesh: faces whose corners are nodes of it
+// carry a constant stress without a force. Else they cannot, as of all nodes on faces: forces of some 10 %
+// remain.
+TEST(TiedContact, CarriesConstantStress) {
+  EXPECT_LT(force_of_constant_stress(2, 4, tie("SURFACE_TO_SURFACE")), 1e-6);
+  EXPECT_LT(force_of_constant_stress(3, 3, tie("NODES_TO_SURFACE")), 1e-6);
+  EXPECT_LT(force_of_constant_stress(1, 5, tie("SURFACE_TO_SURFACE_CONSTRAINED_OFFSET")), 1e-6);
+  const Real other = force_of_constant_stress(2, 3, tie("SURFACE_TO_SURFACE"));
+  EXPECT_GT(other, 1e-3);
+  EXPECT_LT(other, 0.25);
+}
+
+// c/(2 L); the stress is largest at the interface. Errors fall as the square of the cells where the finer
+// mesh has the nodes of the other one, else a little slower.
+TEST(TiedContact, ABarOfTwoMeshesHasTheFrequencyOfOne) {
+  const auto errors = [&](const char* name, const std::function<int(int)>& finer) {
+    std::vector<Real> out;
+    for (const int n : {2, 4, 8}) {
+      const Real f = axial_frequency(n, finer(n), tie("SURFACE_TO_SURFACE"));
+      RecordProperty(fmt::format("{}_n{}", name, n), fmt::format("{:.6f}", f));
+      out.push_back(std::abs(f - 1));
+    }
+    return out;
+  };
+  const std::vector<Real> twice = errors("twice", [](int n) { return 2 * n; });
+  EXPECT_LT(twice[0], 0.026);  // (pi/2 h)^2/24 of a mesh of cells h
+  EXPECT_LT(twice[2], 0.0017);
+  EXPECT_GT(std::log2(twice[0] / twice[2]) / 2, 1.9);
+  const std::vector<Real> half_more = errors("half_more", [](int n) { return n + n / 2; });
+  EXPECT_LT(half_more[0], 0.035);
+  EXPECT_LT(half_more[2], 0.003);
+  EXPECT_GT(std::log2(half_more[0] / half_more[2]) / 2, 1.6);
+}
+
+// Rotations go over the edge where they are tied, else there is a hinge.
+TEST(TiedContact, AStripOfTwoMeshesBendsAsOne) {
+  for (const int n : {4, 10}) {
+    const Real f = strip_frequency(n, tie("SHELL_EDGE_TO_SURFACE"));
+    RecordProperty(fmt::format("strip_n{}", n), fmt::format("{:.6f}", f));
+    EXPECT_NEAR(f, 1, n == 4 ? 0.02 : 0.005) << n;
+  }
+  EXPECT_LT(strip_frequency(4, tie("NODES_TO_SURFACE")), 0.5);
+}
+
+// With a gap, and turning by more than a right angle: nothing is strained, and all momenta are kept.
+TEST(TiedContact, AGapGoesAlongWithoutForce) {
+  SolidDeck deck = bar(2, 3, 0.3, 0.03);
+  deck.cards += tie("SURFACE_TO_SURFACE_CONSTRAINED_OFFSET");
+  const Vec omega(0, 3, 20);
+  deck.cards += velocities(deck.nodes, [&](const Vec& x) { return Vec(omega.cross(x)); });
+  auto s = simulation_of(deck.text(10));
+  const auto [p, L] = tied_momenta(*s);
+  const Nodes& nodes = s->world().nodes;
+  const Real apart = (nodes.x.vec(13) - nodes.x.vec(nodes.size() - 30)).norm();
+  while (s->clock().t < 0.1) s->step(do_nothing);
+  const auto [p_now, L_now] = tied_momenta(*s);
+  EXPECT_NEAR((p_now - p).norm(), 0, 1e-10 * p.norm());
+  EXPECT_NEAR((L_now - L).norm(), 0, 2e-3 * L.norm());
+  EXPECT_NEAR((nodes.x.vec(13) - nodes.x.vec(nodes.size() - 30)).norm(), apart, 0.01 * apart);
+  sample_energy(s->world(), s->clock());
+  EXPECT_LT(s->world().energy.internal, 0.01 * s->world().energy.kinetic);
+}
+
+// Blocks that are struck at one corner: momentum to round-off, energy to 0.1 %.
+TEST(TiedContact, KeepsMomentaAndEnergy) {
+  for (const char* option :
+       {"SURFACE_TO_SURFACE", "SURFACE_TO_SURFACE_CONSTRAINED_OFFSET", "SURFACE_TO_SURFACE_OFFSET"}) {
+    SolidDeck deck = bar(2, 3, 0.3, 0.02);
+    deck.cards += tie(option) + "*CONTROL_TIMESTEP\n       0.0       0.1\n";
+    deck.cards += velocities(deck.nodes, [&](const Vec& x) {
+      const Real a = std::exp(-3 * (x - Vec(2, 1, 1)).squaredNorm());
+      return Vec(-20 * a, 10 * a, 30 * a);
+    });
+    auto s = simulation_of(deck.text(10));
+    test::start_ledger(*s);
+    s->step(do_nothing);
+    const auto [p, L] = tied_momenta(*s);
+    Real worst = 0, deformed = 0;
+    while (s->clock().t < 0.02) {
+      s->step(do_nothing);
+      sample_energy(s->world(), s->clock());
+      deformed = std::max(deformed, s->world().energy.internal / s->world().energy.kinetic);
+      const auto [p_now, L_now] = tied_momenta(*s);
+      EXPECT_NEAR((p_now - p).norm(), 0, 1e-10 * p.norm()) << option;
+      worst = std::max(worst, (L_now - L).norm() / L.norm());
+    }
+    EXPECT_LT(worst, 2e-3) << option;
+    EXPECT_GT(deformed, 0.1) << option;
+    EXPECT_LT(test::energy_error_of_a_step(*s), 1e-3) << option;
+  }
+}
+
+// Springs of 0.1 SFSA K/h per area, K = E/3 and h of the cells, between halves of the bar that start as in
+// their own mode: z tan z = 2 k L/E for half the length.
+TEST(TiedContact, SpringsMakeABarALittleSofter) {
+  const Real h = 0.125, k = 0.1 * 10 * (bar_E / 3) / h;
+  Real z = 1;
+  for (int it = 0; it < 1000; ++it) z += 0.1 * (std::atan(2 * k / (bar_E * z)) - z);
+  const Real exact = z / std::acos(0.0);
+  const Real f = axial_frequency(8, 8, tie("SURFACE_TO_SURFACE_OFFSET", "      10.0      10.0\n"), z);
+  RecordProperty("frequency", fmt::format("{:.6f} of {:.6f}", f, exact));
+  EXPECT_NEAR(f, exact, 0.005 * exact);
+  EXPECT_LT(exact, 0.95);
+}
+
+// A rigid plate hangs on a soft block by springs; the faces are the plate's, or the block's.
+TEST(TiedContact, SpringsHoldRigidBodies) {
+  for (const char* sides : {"         2         1", "         1         2"}) {
+    SolidDeck deck;
+    deck.block(Vec(1, 1, 1), 2, 2, 2, 1);
+    deck.block(Vec(1, 1, 0.5), 3, 3, 1, 2, [](const Vec& x) { return Vec(x + Vec(0, 0, 1)); });
+    deck.cards =
+        "*SECTION_SOLID\n         1         1\n*PART\nsoft\n         1         1         1\n*MAT_ELASTIC\n   "
+        "     "
+        " 1    1000.0     1.0E7       0.3\n*PART\nstiff\n         2         1         2\n*MAT_RIGID\n        "
+        " 2   "
+        " 2000.0     1.0E9       0.3\n*CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET\n" +
+        std::string(sides) + "         3         3\n\n\n*CONTROL_TIMESTEP\n       0.0       0.1\n";
+    deck.cards +=
+        velocities(deck.nodes, [](const Vec& x) { return x[2] < 0.999 ? Vec(0, 0, -2) : Vec(0.5, 0, 0); });
+    auto s = simulation_of(deck.text(10));
+    test::start_ledger(*s);
+    s->step(do_nothing);
+    const auto [p, L] = tied_momenta(*s);
+    Real stretched = 0;
+    while (s->clock().t < 0.1) {
+      s->step(do_nothing);
+      stretched = std::max(stretched, s->world().nodes.x.data(2)[44] - 1);
+    }
+    const auto [p_now, L_now] = tied_momenta(*s);
+    EXPECT_NEAR((p_now - p).norm(), 0, 1e-10 * p.norm());
+    EXPECT_LT((L_now - L).norm(), 5e-3 * L.norm());
+    EXPECT_LT(test::energy_error_of_a_step(*s), 2e-3);
+    const RigidBody& b = s->bodies()->bodies().front();
+    const Nodes& nodes = s->world().nodes;  // they are still together
+    EXPECT_LT((nodes.x.vec(18) - nodes.x.vec(27)).norm(), 0.1);
+    EXPECT_GT(b.v.norm(), 0.1);
+  }
+}
+
+TEST(TiedContact, HasTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
+  for (const char* option : {"SURFACE_TO_SURFACE", "SURFACE_TO_SURFACE_OFFSET"}) {
+    SolidDeck deck = bar(5, 7, 0.3, 0.01);
+    deck.cards += tie(option);
+    deck.cards += velocities(
+        deck.nodes, [](const Vec& x) { return Vec(std::sin(3 * x[1]), x[0] * x[2], std::cos(x[0])); });
+    test::expect_same_bits(deck.text(1), 40, 17);
+  }
+}
+
+namespace {
+
+/// A cube on another one, held below and drawn at the top along an axis, until all ties are broken; the
+/// largest stress (of the ties' force over the interface) so far, and that of the end.
+struct Torn {
+  Real most = 0, after = 0, energy_error = 0;
+  std::int64_t broken = 0;
+  Real contact = 0;
+};
+std::string torn_deck(const std::string& contact, int axis, Real speed) {
+  SolidDeck deck;
+  deck.block(Vec(1, 1, 1), 2, 2, 2, 1);
+  deck.block(Vec(1, 1, 1), 4, 4, 4, 2, [](const Vec& x) { return Vec(x + Vec(0, 0, 1)); });
+  deck.cards = two_parts(0) + contact + "*CONTROL_TIMESTEP\n       0.0       0.2\n";
+  deck.node_set(1, [](const Vec& x) { return x[2] < 1e-9; });
+  deck.node_set(2, [](const Vec& x) { return x[2] > 2 - 1e-9; });
+  deck.cards += "*BOUNDARY_SPC_SET\n         1         0         1         1         1\n";
+  deck.cards += fmt::format("*BOUNDARY_PRESCRIBED_MOTION_SET\n         2{:10}         0         1{:10.3e}\n",
+                            axis, speed);
+  deck.cards += fmt::format("*BOUNDARY_SPC_SET\n         2         0{:10}{:10}{:10}\n", axis == 1 ? 0 : 1,
+                            axis == 2 ? 0 : 1, axis == 3 ? 0 : 1);
+  deck.cards += "*DEFINE_CURVE\n         1\n0.0,0.0\n0.02,1.0\n10.0,1.0\n";
+  return deck.text(10);
+}
+Torn tear(const std::string& contact, int axis, Real speed) {
+  auto s = simulation_of(torn_deck(contact, axis, speed));
+  test::start_ledger(*s);
+  Torn out;
+  const auto pull = [&] {
+    Real force = 0;
+    for (const auto* reporter : s->world().passes.all<InterfaceReporter>())
+      force = std::max(force, reporter->report().on_surfa.norm());
+    return force;
+  };
+  while (s->clock().t < 0.15) {
+    s->step(do_nothing);
+    out.most = std::max(out.most, pull());
+  }
+  out.after = pull(), out.broken = s->world().counters["broken_ties"];
+  out.energy_error = test::energy_error_of_a_step(*s);
+  return out;
+}
+std::string tiebreak(const std::string& name, const std::string& card) {
+  return "*CONTACT_" + name +
+         "_ID\n         7glue\n         2         1         3         3\n\n      10.0      10.0\n" + card;
+}
+
+}  // namespace
+
+// E v t/L grows to the strength, apart from waves of rho c v: 1e9 / 2 * 2.5e-4 * 0.1 = 12500; in shear with
+// E/2.
+TEST(TiebreakContact, BreaksAtTheGivenStress) {
+  const std::string by_option =
+      tiebreak("AUTOMATIC_SURFACE_TO_SURFACE_TIEBREAK", "         2   10000.0    4000.0\n");
+  const Torn pulled = tear(by_option, 3, 4e-4);
+  EXPECT_NEAR(pulled.most, 1e4, 300);
+  RecordProperty("stress", fmt::format("{:.1f}", pulled.most));
+  EXPECT_EQ(pulled.broken, 25);
+  EXPECT_LT(pulled.after, 1);
+  EXPECT_LT(pulled.energy_error, 4e-3);  // it falls with the step: what is torn swings freely
+  const Torn pushed = tear(by_option, 3, -4e-4);
+  EXPECT_EQ(pushed.broken, 0);
+  const Torn strong = tear(tiebreak("TIEBREAK_SURFACE_TO_SURFACE", "   20000.0   10000.0\n"), 3, 4e-4);
+  EXPECT_EQ(strong.broken, 0);
+  EXPECT_GT(strong.after, 1.2e4);
+}
+
+// Inner nodes have 1/16 of the interface and break first, at 16 times their force in all; those of the
+// corners, with a quarter of that, may hold.
+TEST(TiebreakContact, BreaksAtTheGivenForce) {
+  const Torn torn =
+      tear(tiebreak("TIEBREAK_NODES_TO_SURFACE", "     625.0     625.0       2.0       2.0\n"), 3, 4e-4);
+  EXPECT_GE(torn.broken, 9);
+  EXPECT_NEAR(torn.most, 1e4, 400);
+  EXPECT_LE(torn.after, 4 * 625);
+}
+
+// In shear; ties are broken before the restart.
+TEST(TiebreakContact, HasTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
+  const std::string deck = torn_deck(
+      tiebreak("AUTOMATIC_SURFACE_TO_SURFACE_TIEBREAK", "         2   10000.0     100.0\n"), 1, 1.0);
+  auto s = simulation_of(deck);
+  int steps = 0;
+  while (s->world().counters["broken_ties"] == 0 && steps < 200) s->step(do_nothing), ++steps;
+  ASSERT_LT(steps, 200);
+  test::expect_same_bits(deck, steps + 20, steps);
+}
