@@ -150,6 +150,29 @@ if pvbatch:
         check(found is not None and int(found.group(1)) == len(states(name, "particles")) and int(found.group(2)) >= len(first["x"]),
               f"ParaView opens {name}: {found and found.group(0)}")
     check("WARN" not in done.stdout and "ERR" not in done.stdout, f"without a warning: {done.stdout[-500:]}")
+
+    def draws(environment):
+        """What the script for ParaView says without a screen, and how many pixels of its picture are in colour left of the colour bar."""
+        if os.path.exists("plain.png"):
+            os.remove("plain.png")
+        environment = environment | {name: value for name, value in os.environ.items() if name != "DISPLAY"}
+        drawing = [pvbatch, os.path.join(source, "examples", "results", "paraview_jump.py"), "plain", "plain.png", "--colour", "pressure"]
+        said = subprocess.run(drawing, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300, env=environment)
+        if not os.path.exists("plain.png"):
+            return said, 0
+        reader = vtk.vtkPNGReader()
+        reader.SetFileName("plain.png")
+        reader.Update()
+        pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(int)
+        return said, int((numpy.ptp(pixels, axis=1) > 40).reshape(500, 1600)[:, :1000].sum())
+
+    virtual = shutil.which("xvfb-run") and shutil.which("xauth")
+    for environment in () if without_python else ({"UNDER_XVFB": "1"}, {}):  # as if the virtual screen did not answer; as it is here
+        done, coloured = draws(environment)
+        drawn = done.returncode == 0 and 9 * 64 <= coloured <= 25 * 64  # 64 points of 4 x 4 pixels, a row more or less
+        in_words = done.returncode == 1 and "apt-get install xvfb xauth" in done.stdout
+        check(drawn if virtual and not environment else drawn or in_words,
+              f"no screen: ParaView draws ({coloured} pixels in colour) or says what it needs: {done.stdout[-300:]}")
 else:
     print("pvbatch is not here: ParaView is not asked")
 
