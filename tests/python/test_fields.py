@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from courant.diagnostics import Diagnostics
+from courant.diagnostics import CourantError, Diagnostics
 from courant.fields import FieldFault, FieldFile, StateFiles, Wanted, read_particles, read_states, read_walls
+from courant.results import Mesh
+from courant.units import Units
 from made_runs import frame, lattice, write_particles, write_run, write_shells
 
 
@@ -56,6 +58,8 @@ def test_cells_of_points_that_are_not_there(tmp_path, corners):
     diagnostics = Diagnostics()
     assert len(read_walls(StateFiles(0, None, tmp_path / "s.vtu"), diagnostics)) == 0
     assert "its cells are damaged" in diagnostics.text()
+    with pytest.raises(CourantError, match="its cells are damaged"):
+        Mesh(tmp_path / "s.vtu", Units()).cells  # noqa: B018
 
 
 def test_particles_of_an_unstable_run(tmp_path):
