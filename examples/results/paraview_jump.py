@@ -4,7 +4,8 @@
     pvbatch paraview_jump.py RESULTS [PICTURE.png] [--colour velocity|pressure|density] [--time T] [--movie FOLDER]
 
 Without a screen the script starts itself again on a virtual one, if xvfb-run is there (Debian: xvfb, xauth). In ParaView's
-window: Tools > Python Shell > Run Script, after setting RESULTS in the environment. Works with ParaView 5.11 (Debian 12).
+window: Tools > Python Shell > Run Script, after setting RESULTS in the environment (not `paraview --script`, which runs it
+before there is a window to draw in: an empty picture). Works with ParaView 5.11 (Debian 12).
 """
 import argparse
 import ctypes
