@@ -3,11 +3,15 @@
 
     pvbatch paraview_jump.py RESULTS [PICTURE.png] [--colour velocity|pressure|density] [--time T] [--movie FOLDER]
 
-Without a screen: pvbatch draws off screen by itself, or `xvfb-run -a pvbatch ...`. In ParaView's window: Tools > Python
-Shell > Run Script, after setting RESULTS in the environment. Works with ParaView 5.11 (Debian 12).
+Without a screen the script starts itself again on a virtual one, if xvfb-run is there (Debian: xvfb, xauth). In ParaView's
+window: Tools > Python Shell > Run Script, after setting RESULTS in the environment (not `paraview --script`, which runs it
+before there is a window to draw in: an empty picture). Works with ParaView 5.11 (Debian 12).
 """
 import argparse
+import ctypes
 import os
+import shutil
+import subprocess
 import sys
 
 try:
@@ -17,6 +21,8 @@ except ImportError:
              "pvbatch paraview_jump.py ...")
 from paraview.simple import (_DisableFirstRenderCameraReset, AnnotateTimeFilter, ColorBy, CreateRenderView, GetAnimationScene, GetColorTransferFunction,
                              GetScalarBar, PVDReader, ExtractBlock, Render, SaveAnimation, SaveScreenshot, Show, UpdatePipeline)
+
+from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
 UNITS = {"velocity": "m/s", "pressure": "Pa", "density": "kg/m3"}  # of the jump's deck
 
@@ -33,6 +39,26 @@ def arguments():
     return parser.parse_args()
 
 
+def find_screen():
+    """Ends the script in words, or starts it again on a virtual screen, where this ParaView can draw on an X server only, and none answers: it would abort.
+
+    Debian's is of this kind (--force-offscreen-rendering only hides its window); others bring EGL or OSMesa. The connection is left open: Xvfb without
+    -noreset starts anew when its last client leaves, and turns away ParaView, which looks at what the server can and then comes a second time.
+    """
+    if vtkRenderWindow().GetClassName() != "vtkXOpenGLRenderWindow":
+        return
+    x11 = ctypes.CDLL("libX11.so.6")
+    x11.XOpenDisplay.restype = ctypes.c_void_p
+    if x11.XOpenDisplay(None):
+        return
+    if "UNDER_XVFB" in os.environ or not (shutil.which("xvfb-run") and shutil.which("xauth")):
+        display = os.environ.get("DISPLAY")
+        sys.exit(f"There is no screen to draw on ({f'DISPLAY {display} does not answer' if display else 'DISPLAY is not set'}), which this ParaView needs. Log in "
+                 "with one (ssh -X), or install a virtual one, which this script then starts by itself: apt-get install xvfb xauth")
+    again = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset", os.readlink("/proc/self/exe"), *sys.argv]
+    sys.exit(subprocess.run(again, env=os.environ | {"UNDER_XVFB": "1"}).returncode)
+
+
 def part_of(reader, name, time):
     """The particles or the shells: fields.pvd names its parts. Without shells the particles are all there is."""
     if not servermanager.Fetch(reader).IsA("vtkMultiBlockDataSet"):
@@ -44,6 +70,7 @@ def part_of(reader, name, time):
 
 def main():
     wanted = arguments()
+    find_screen()
     reader = PVDReader(FileName=os.path.join(wanted.results, "fields.pvd"))
     reader.UpdatePipelineInformation()
     times = list(reader.TimestepValues)

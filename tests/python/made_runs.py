@@ -79,8 +79,9 @@ def write_fields(path: Path, sections: Sequence[tuple[str, dict[str, np.ndarray]
     count = f'NumberOfVerts="{points}" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="0"' if cells == 0 else f'NumberOfCells="{cells}"'
     compressor = {"none": "", "zlib": ' compressor="vtkZLibDataCompressor"', "xz": ' compressor="vtkLZMADataCompressor"'}[packing]
     head = (
-        f'<?xml version="1.0"?>\n<VTKFile type="{kind}" version="0.1" byte_order="LittleEndian" header_type="UInt32"{compressor}>\n<{kind}>\n'
-        f'<Piece NumberOfPoints="{points}" {count}>\n{body}</Piece>\n</{kind}>\n<AppendedData encoding="raw">\n_'
+        '<?xml version="1.0"?>\n<!DOCTYPE VTKFile [<!ATTLIST AppendedData encoding CDATA "raw">]>\n'
+        f'<VTKFile type="{kind}" version="0.1" byte_order="LittleEndian" header_type="UInt32"{compressor}>\n<{kind}>\n'
+        f'<Piece NumberOfPoints="{points}" {count}>\n{body}</Piece>\n</{kind}>\n<AppendedData>\n_'
     )
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(head.encode() + data + b"\n</AppendedData>\n</VTKFile>\n")

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from courant.diagnostics import Diagnostics
+from courant.diagnostics import CourantError, Diagnostics
 from courant.fields import FieldFault, FieldFile, StateFiles, Wanted, read_particles, read_states, read_walls
+from courant.results import Mesh
+from courant.units import Units
 from made_runs import frame, lattice, write_particles, write_run, write_shells
 
 
@@ -56,6 +58,8 @@ def test_cells_of_points_that_are_not_there(tmp_path, corners):
     diagnostics = Diagnostics()
     assert len(read_walls(StateFiles(0, None, tmp_path / "s.vtu"), diagnostics)) == 0
     assert "its cells are damaged" in diagnostics.text()
+    with pytest.raises(CourantError, match="its cells are damaged"):
+        Mesh(tmp_path / "s.vtu", Units()).cells  # noqa: B018
 
 
 def test_particles_of_an_unstable_run(tmp_path):
@@ -85,7 +89,7 @@ def test_damage_of_each_kind_is_told(tmp_path):
     path = tmp_path / "p.vtp"
     write_particles(path, frame(lattice()))
     whole = path.read_bytes()
-    offset, data = b'Name="mass" NumberOfComponents="1" format="appended" offset="', b'<AppendedData encoding="raw">\n_'
+    offset, data = b'Name="mass" NumberOfComponents="1" format="appended" offset="', b"<AppendedData>\n_"
     mass = int(whole[whole.index(offset) + len(offset) :].split(b'"')[0])
     huge, nought = b"\xff\xff\xff\x7f", bytes(4)
     damaged = {
@@ -144,11 +148,11 @@ def test_no_file_and_no_right(tmp_path):
         FieldFile(tmp_path)
 
 
-def test_an_encoding_in_a_document_type(tmp_path):
-    """As ParaView 5.11 needs it beside an expat that holds back what it parses."""
+def test_an_encoding_beside_the_data(tmp_path):
+    """As earlier versions of Courant wrote it."""
     path = tmp_path / "p.vtp"
     write_particles(path, frame(lattice()))
     before = FieldFile(path).values("PointData", "mass")
-    whole = path.read_bytes().replace(b'<AppendedData encoding="raw">', b"<AppendedData>")
-    path.write_bytes(whole.replace(b"\n", b'\n<!DOCTYPE VTKFile [<!ATTLIST AppendedData encoding CDATA "raw">]>\n', 1))
+    first, _, *rest = path.read_bytes().replace(b"<AppendedData>", b'<AppendedData encoding="raw">').split(b"\n")
+    path.write_bytes(b"\n".join([first, *rest]))
     assert np.array_equal(FieldFile(path).values("PointData", "mass"), before) and len(before) > 10

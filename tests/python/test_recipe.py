@@ -70,7 +70,7 @@ KINDS = "probe, surface, grid, profile, spectrum, flux, history, force, toe, rol
         ),
         (
             "kind: profile, name: p, of: [p], x: 1, y: 1, interpolation: msl",
-            "R:2:66: error: 'p.interpolation' cannot be 'msl'\n  hint: it is one of shepard, mls\n",
+            "R:2:66: error: 'p.interpolation' cannot be 'msl'\n  hint: did you mean mls? it is one of shepard, mls\n",
         ),
         (
             "kind: surface, name: a, x: 1, link: 3",

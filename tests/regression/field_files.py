@@ -12,6 +12,7 @@ import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
+import zlib
 
 from checks import check, enter_empty_folder, failures
 
@@ -135,10 +136,16 @@ check(re.search(r"^ N o r m a l    t e r m i n a t i o n +\d\d/\d\d/\d\d \d\d:\d
 
 pvbatch = shutil.which("pvbatch")
 if pvbatch:
-    script = "\n".join(["from paraview.simple import PVDReader", "from paraview import servermanager", "for name in ('plain', 'small', 'xz', 'stored'):",
+    script = "\n".join(["import zlib", "from paraview.simple import PVDReader", "from paraview import servermanager",
+                        "from vtkmodules.util.numpy_support import vtk_to_numpy", "def leaves(d):",
+                        "    return [d] if d.IsA('vtkDataSet') else [one for k in range(d.GetNumberOfBlocks()) for one in leaves(d.GetBlock(k))]",
+                        "for name in ('plain', 'small', 'xz', 'stored'):",
                         "    r = PVDReader(FileName=name + '/fields.pvd')", "    r.UpdatePipelineInformation()",
                         "    t = list(r.TimestepValues)", "    r.UpdatePipeline(t[-1])", "    data = servermanager.Fetch(r)",
-                        "    n = r.GetDataInformation().GetNumberOfPoints()", "    print('read', name, len(t), n, data.GetNumberOfBlocks())"])
+                        "    n = r.GetDataInformation().GetNumberOfPoints()",
+                        "    water = next(d for d in leaves(data) if d.GetPointData().HasArray('pressure'))",
+                        "    arrays = [water.GetPoints().GetData(), water.GetPointData().GetArray('pressure')]",
+                        "    print('read', name, len(t), n, data.GetNumberOfBlocks(), *(zlib.crc32(vtk_to_numpy(a).tobytes()) for a in arrays))"])
     with open("look.py", "w") as file:
         file.write(script)
     done = subprocess.run([pvbatch, "look.py"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300)
@@ -146,10 +153,35 @@ if pvbatch:
     if without_python:
         print("ParaView is here without its Python: it is not asked")
     for name in () if without_python else ("plain", "small", "xz", "stored"):
-        found = re.search(rf"read {name} (\d+) (\d+) 2", done.stdout)
-        check(found is not None and int(found.group(1)) == len(states(name, "particles")) and int(found.group(2)) >= len(first["x"]),
-              f"ParaView opens {name}: {found and found.group(0)}")
+        found = re.search(rf"read {name} (\d+) (\d+) 2 (\d+) (\d+)", done.stdout)
+        last = read(os.path.join(name, states(name, "particles")[-1][1]))
+        same = [zlib.crc32(last[array].tobytes()) for array in ("x", "pressure")]
+        check(found is not None and int(found.group(1)) == len(states(name, "particles")) and int(found.group(2)) >= len(first["x"]) and
+              [int(found.group(3)), int(found.group(4))] == same, f"ParaView opens {name}, with VTK's places and pressures: {found and found.group(0)}")
     check("WARN" not in done.stdout and "ERR" not in done.stdout, f"without a warning: {done.stdout[-500:]}")
+
+    def draws(environment):
+        """What the script for ParaView says without a screen, and how many pixels of its picture are in colour left of the colour bar."""
+        if os.path.exists("plain.png"):
+            os.remove("plain.png")
+        environment = environment | {name: value for name, value in os.environ.items() if name != "DISPLAY"}
+        drawing = [pvbatch, os.path.join(source, "examples", "results", "paraview_jump.py"), "plain", "plain.png", "--colour", "pressure"]
+        said = subprocess.run(drawing, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300, env=environment)
+        if not os.path.exists("plain.png"):
+            return said, 0
+        reader = vtk.vtkPNGReader()
+        reader.SetFileName("plain.png")
+        reader.Update()
+        pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(int)
+        return said, int((numpy.ptp(pixels, axis=1) > 40).reshape(500, 1600)[:, :1000].sum())
+
+    virtual = shutil.which("xvfb-run") and shutil.which("xauth")
+    for environment in () if without_python else ({"UNDER_XVFB": "1"}, {}):  # as if the virtual screen did not answer; as it is here
+        done, coloured = draws(environment)
+        drawn = done.returncode == 0 and 9 * 64 <= coloured <= 25 * 64  # 64 points of 4 x 4 pixels, a row more or less
+        in_words = done.returncode == 1 and "apt-get install xvfb xauth" in done.stdout
+        check(drawn if virtual and not environment else drawn or in_words,
+              f"no screen: ParaView draws ({coloured} pixels in colour) or says what it needs: {done.stdout[-300:]}")
 else:
     print("pvbatch is not here: ParaView is not asked")
 

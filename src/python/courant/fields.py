@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -64,7 +65,7 @@ class FieldFile:
             raise FieldFault("it is cut off, or no field file")
         self._data = mark.end()
         self._bytes = head if len(head) == self._size else None  # small ones are in memory now
-        self._read_head(head[: mark.start()].decode("latin-1"))
+        self._read_head(head[: mark.start()])
 
     def has(self, section: str, name: str) -> bool:
         return (section, name) in self.arrays
@@ -96,31 +97,31 @@ class FieldFile:
             raise FieldFault(f"'{name}' is no array of whole numbers")
         return self._values(array, most).astype(np.int64)
 
-    def _read_head(self, head: str) -> None:
-        """Tags and their attributes one after the other; of what stands between them only the names of dimensions count."""
-        section, last, at = "", None, 0
-        while (start := head.find("<", at)) >= 0:
-            end = head.find(">", start)
-            if end < 0:
-                raise FieldFault("its head is damaged")
-            tag, at = head[start + 1 : end], end
-            name = re.split(r"[ /?]", tag[1:] if tag[:1] == "/" else tag, maxsplit=1)[0]
-            attributes = _attributes(tag, len(name))
-            if tag[:1] == "/":
-                continue
-            if name == "DataArray":
-                last = (section, attributes.get("Name", ""))
-                self.arrays[last] = self._array(attributes)
-            elif name == "InformationKey":
-                if last and attributes.get("name") == "UNITS_LABEL":
-                    self.arrays[last] = self.arrays[last]._replace(dimension=head[end + 1 : head.find("<", end)].strip() or "?")
-            elif name == "VTKFile":
-                self._take_file(attributes)
-            elif name == "Piece":
-                self.points = _whole(attributes.get("NumberOfPoints"), _MOST_POINTS)
-                self.cells = _whole(attributes.get("NumberOfCells", "0"), _MOST_POINTS)
-            else:
-                section = name
+    def corners(self) -> tuple[np.ndarray, np.ndarray]:
+        """Of all cells: indices of their points one after the other, and where those of each cell end, (cells,)."""
+        corners = self.integers("Cells", "connectivity", 32 * self.cells)
+        ends = self.integers("Cells", "offsets", self.cells)
+        if len(ends) != self.cells or (np.diff(ends, prepend=0) < 0).any() or (self.cells and ends[-1] > len(corners)):
+            raise FieldFault("its cells are damaged")
+        corners = corners[: ends[-1] if self.cells else 0]
+        if (corners < 0).any() or (corners >= self.points).any():
+            raise FieldFault("its cells are damaged")
+        return corners, ends
+
+    def _read_head(self, head: bytes) -> None:
+        """All before the data is XML once the file's tag is closed."""
+        try:
+            root = ElementTree.fromstring(head + b"</VTKFile>")
+        except (ElementTree.ParseError, ValueError) as fault:  # ValueError: an encoding that nobody knows
+            raise FieldFault("its head is damaged") from fault
+        self._take_file(root.attrib)
+        for section in root.iter():
+            if section.tag == "Piece":
+                self.points = _whole(section.get("NumberOfPoints"), _MOST_POINTS)
+                self.cells = _whole(section.get("NumberOfCells", "0"), _MOST_POINTS)
+            for entry in section.iterfind("DataArray"):
+                dimension = entry.findtext("InformationKey[@name='UNITS_LABEL']", "").strip()
+                self.arrays[section.tag, entry.get("Name", "")] = self._array(entry.attrib, dimension or "?")
         if self.points == 0 and not self.arrays:
             raise FieldFault("it has neither points nor arrays")
 
@@ -130,13 +131,13 @@ class FieldFile:
             raise FieldFault("it is packed in another way")
         self._packing = packing
 
-    def _array(self, attributes: dict[str, str]) -> FieldArray:
+    def _array(self, attributes: dict[str, str], dimension: str) -> FieldArray:
         components = _whole(attributes.get("NumberOfComponents"), _MOST_COMPONENTS)
         offset = _whole(attributes.get("offset"), self._size - self._data)
         dtype = _TYPES.get(attributes.get("type", ""))
         if components < 1 or dtype is None or attributes.get("format") != "appended":
             raise FieldFault("it has an array of another kind")
-        return FieldArray(dtype, components, offset, "?")
+        return FieldArray(dtype, components, offset, dimension)
 
     def _values(self, array: FieldArray, most: int) -> np.ndarray:
         dtype = np.dtype(array.dtype)
@@ -199,17 +200,6 @@ class FieldFile:
         return data
 
 
-def _attributes(tag: str, at: int) -> dict[str, str]:
-    """name="text" of a tag, from a place on."""
-    out: dict[str, str] = {}
-    while (equal := tag.find("=", at)) >= 0:
-        begin, at = tag.rfind(" ", 0, equal), tag.find('"', equal + 2)
-        if begin < 0 or at < 0 or tag[equal + 1] != '"':
-            raise FieldFault("its head is damaged")
-        out[tag[begin + 1 : equal]] = tag[equal + 2 : at]
-    return out
-
-
 def _whole(text: str | None, most: int) -> int:
     """A number from 0 to `most`, nothing else."""
     if text is None or not re.fullmatch(r"[0-9]{1,18}", text) or int(text) > most:
@@ -258,8 +248,6 @@ def slack_of(times: Sequence[float] | np.ndarray) -> float:
 
 def read_states(folder: str | os.PathLike[str], diagnostics: Diagnostics, *, with_particles: bool = True) -> list[StateFiles]:
     """The states in DIR/fields.pvd in order of time. Faults are told; then the list is empty."""
-    from xml.etree import ElementTree
-
     folder = Path(folder)
     file = folder / "fields.pvd"
     hint = "DIR must be the folder that `courant run -o DIR` wrote"
@@ -367,18 +355,13 @@ def read_walls(state: StateFiles, diagnostics: Diagnostics) -> np.ndarray:
     if file is None or x is None:
         return none
     try:
-        corners = file.integers("Cells", "connectivity", 32 * file.cells)
-        ends = file.integers("Cells", "offsets", file.cells)
-        begins = np.concatenate((np.zeros(1, np.int64), ends[:-1]))[: len(ends)]
-        damaged = len(ends) != file.cells or (ends < begins).any() or (len(ends) > 0 and ends[-1] > len(corners))
-        used = corners[: 0 if damaged or len(ends) == 0 else ends[-1]]
-        if damaged or (used < 0).any() or (used >= file.points).any():
-            raise FieldFault("its cells are damaged")
+        corners, ends = file.corners()
     except FieldFault:
         diagnostics.error(file.path, "not a field file of `courant run`: its cells are damaged", "run the deck again")
         return none
-    if len(used) == 0:
+    if len(corners) == 0:
         return np.zeros((len(ends), 4))
+    begins = np.append(0, ends[:-1])
     rows = np.repeat(np.arange(len(ends)), ends - begins)
     at = np.arange(len(rows))
     behind = np.where(at + 1 < ends[rows], at + 1, begins[rows])

@@ -113,8 +113,7 @@ class Mesh:
         if self._file.cells == 0:
             return []
         try:
-            corners = self._file.integers("Cells", "connectivity", 32 * self._file.cells)
-            ends = self._file.integers("Cells", "offsets", self._file.cells)
+            corners, ends = self._file.corners()
         except FieldFault as fault:
             raise self._error(str(fault)) from fault
         return np.split(corners, ends[:-1])

@@ -199,13 +199,14 @@ class YamlMap:
             self.error(node, f"'{self.name}.{key}' {message}")
         return default if value is None else value
 
-    def choice(self, key: str, words: Sequence[str]) -> str:
-        """One of several words; the first one if the key is not there."""
-        word = self.text(key, words[0])
+    def choice(self, key: str, words: Sequence[str], default: str = "") -> str:
+        """One of several words; `default`, or the first one, if the key is not there."""
+        otherwise = default or words[0]
+        word = self.text(key, otherwise)
         if word in words:
             return word
-        self.error(self.get(key) or self.node, f"'{self.name}.{key}' cannot be '{word}'", f"it is one of {', '.join(words)}")
-        return words[0]
+        self.error(self.get(key) or self.node, f"'{self.name}.{key}' cannot be '{word}'", f"{did_you_mean(word, words)}it is one of {', '.join(words)}")
+        return otherwise
 
     def list(self, key: str, required: bool = False) -> List[Node]:
         """The elements of a list, none if it is not there."""

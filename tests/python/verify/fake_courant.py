@@ -23,12 +23,13 @@ if words[0] == "generate":
     out.write_text("".join(f"{name}={value}\n" for name, value in given.items()))
     sys.exit()
 
+with open(os.environ["COUNT"], "a") as count:  # before what takes long on a busy machine: some calls end it soon
+    count.write(f"{out.name}\n")
+
 import numpy as np  # noqa: E402
 from made_results import write_history  # noqa: E402
 
 deck = dict(line.split("=", 1) for line in Path(words[1]).read_text().splitlines() if "=" in line) | given
-with open(os.environ["COUNT"], "a") as count:
-    count.write(f"{out.name}\n")
 how = deck.get("how", "well")
 if how == "refused":
     sys.exit("deck.k:1:1: error: no such keyword")

@@ -134,7 +134,7 @@ def test_how_runs_end(call: Caller, how: str, said: str) -> None:
         call.runs()
         call(code=2)
         assert call.runs() == 0, "it would be ended again"
-        call.write(DECK.replace("LIMIT", "0.6"), how)
+        call.write(DECK.replace("LIMIT", "3"), how)
         call(code=2)
         assert call.runs() == 1, "with more time it may come to its end"
 

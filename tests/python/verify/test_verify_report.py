@@ -20,7 +20,7 @@ from courant.verify.tables import runs_table
 
 
 def test_escaped_texts() -> None:
-    assert text.escape_xml("<a href=\"x\" o='y'> & ü\n") == "&lt;a href=&quot;x&quot; o=&#39;y&#39;&gt; &amp; ü\n"
+    assert text.escape_xml("<a href=\"x\" o='y'> & ü\n") == "&lt;a href=&quot;x&quot; o=&#x27;y&#x27;&gt; &amp; ü\n"
     assert text.escape_xml("a\x01z\udcff|\uffff") == "a?z?|?", "a control character, half a character, none of XML"
     assert text.escape_markdown("a|b *c* _d_ `e` <f>\n[g] #1 $x$") == "a\\|b \\*c\\* \\_d\\_ \\`e\\` &lt;f&gt; \\[g\\] \\#1 \\$x\\$"
     assert text.escape_markdown("- no list - here") == "\\- no list - here"

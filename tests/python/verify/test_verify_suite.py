@@ -107,7 +107,7 @@ cases:
         ("cases: []\n", "suite.yaml:1:1: error: the suite has no cases\n"),
         (
             OBSERVING + "{name: a, of: global/kinetic, take: finl}\n",
-            "suite.yaml:5:45: error: 'observation.take' cannot be 'finl'\n  hint: did you mean final? it may be curve, final, mean, min, max, at, "
+            "suite.yaml:5:45: error: 'observation.take' cannot be 'finl'\n  hint: did you mean final? it is one of curve, final, mean, min, max, at, "
             "period, decay, slope, growth\n",
         ),
         (

@@ -192,6 +192,14 @@ class Analysis:
     def add_scalar(self, name: str, unit: str, value: float) -> None:
         self.result.scalars.append(Scalar(name, unit, float(value)))
 
+    def add_moments(self, inside: np.ndarray) -> list[tuple[Series, Moments]]:
+        """Mean and deviation of each series over the times for which `inside` holds, as single numbers."""
+        found = [(one, Moments.of(one.values[inside])) for one in self.series()]
+        for one, moments in found:
+            self.add_scalar(f"{one.name}_mean", one.unit, moments.mean_or_nan())
+            self.add_scalar(f"{one.name}_deviation", one.unit, moments.deviation())
+        return found
+
     def say(self, text: str) -> None:
         self.result.text += text
 
@@ -297,9 +305,6 @@ class FunctionAnalysis(Analysis):
         if not inside.any():
             return self.fault_no_state(run)
         self.table_over_time()
-        for one in self.series():
-            moments = Moments.of(one.values[inside])
-            self.add_scalar(f"{one.name}_mean", one.unit, moments.mean_or_nan())
-            self.add_scalar(f"{one.name}_deviation", one.unit, moments.deviation())
+        for one, moments in self.add_moments(inside):
             self.say(f"  {one.name}: mean {moments.mean_or_nan():.5g} {one.unit}, deviation {moments.deviation():.3g}\n")
         return None

@@ -13,7 +13,7 @@ from ..variables import wanted_array, wanted_arrays
 from ..words import short_number
 from ..yaml_map import Node, YamlMap, is_list, is_map
 from .analyses import Analysis, Moments, Run, Settings, TimeWindow, analysis
-from .particles import Pieces, Points, interpolate, joined, spline_norm, spline_shape, water_on_lines
+from .particles import Pieces, Points, interpolate, joined, pairs_near, spline_norm, spline_shape, water_on_lines
 from .state import State, read_expression, read_quantities, read_spray, read_where
 from .tables import Column, Image, Series, write_vti
 
@@ -66,10 +66,7 @@ class ProbeAnalysis(Analysis):
             return self.fault_no_state(run)
         self.table_over_time()
         self.say(f"  {len(self.points.x)} points, {len(self.times)} states; means over {inside.sum()} states\n")
-        for one in self.series():
-            moments = Moments.of(one.values[inside])
-            self.add_scalar(f"{one.name}_mean", one.unit, moments.mean_or_nan())
-            self.add_scalar(f"{one.name}_deviation", one.unit, moments.deviation())
+        self.add_moments(inside)
         if self.fallbacks:
             self.add_scalar("mls_fallbacks", "-", self.fallbacks)
         return None
@@ -333,23 +330,16 @@ class FluxAnalysis(Analysis):
         for axis, low, high in self.extent:
             inside &= (some.x[:, axis] >= low) & (some.x[:, axis] <= high)
         some = some.part(inside)
-        plane, k = self._near(some.x[:, self.normal], 2 * some.largest_h)
+        x = some.x[:, self.normal]
+        plane, k = pairs_near(x, np.argsort(x, kind="stable"), self.at, 2 * some.largest_h)
         u, p, m = (arrays[name][some.row] for name in ("velocity", "pressure", "mass"))
-        apart = np.abs(some.x[k, self.normal] - self.at[plane])
+        apart = np.abs(x[k] - self.at[plane])
         weight = spline_norm(some.h[k], 1) * spline_shape(apart / some.h[k])
         flow, through = m * u[:, self.normal], some.V * u[:, self.normal]
         energy = 0.5 * flow * (u**2).sum(axis=1), flow * self.g * (some.x[:, self.settings.up] - self.level)
         carried = np.column_stack([flow, through, flow[:, None] * u, some.V * p, *energy, through * p])
         out = [np.bincount(plane, weight * carried[k, c], len(self.at)) for c in range(len(_FLUXES))]
         return state.frame.dim, np.column_stack(out)
-
-    def _near(self, x: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
-        """Pairs of planes and particles closer than `reach`: index of the plane, of the particle."""
-        order = np.argsort(x, kind="stable")
-        begin, end = (np.searchsorted(x[order], self.at + side, "left") for side in (-reach, reach))
-        count = end - begin
-        plane = np.repeat(np.arange(len(self.at)), count)
-        return plane, order[np.arange(len(plane)) - np.repeat(np.cumsum(count) - count - begin, count)]
 
     def take(self, t: float, slack: float, measured: tuple[int, np.ndarray]) -> None:
         self.dim, sums = measured

@@ -121,6 +121,14 @@ class Pieces(NamedTuple):
     high: np.ndarray
 
 
+def pairs_near(x: np.ndarray, order: np.ndarray, at: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of places and coordinates at most `reach` apart: index into `at`, rising, and into x. `order`: of x, from low to high."""
+    begin, end = np.searchsorted(x[order], at - reach, "left"), np.searchsorted(x[order], at + reach, "right")
+    count = end - begin
+    place = np.repeat(np.arange(len(at)), count)
+    return place, order[np.arange(len(place)) - np.repeat(np.cumsum(count) - count - begin, count)]
+
+
 def lines_near(particles: ParticleSet, places: np.ndarray, axis: int, flat: bool | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Which particles reach lines along an axis: index of the line, of the particle, and how far it is aside [L].
 
@@ -128,13 +136,7 @@ def lines_near(particles: ParticleSet, places: np.ndarray, axis: int, flat: bool
     """
     flat = particles.dim == 2 and axis != 2 if flat is None else flat
     across = [a for a in ((0, 1) if flat else (0, 1, 2)) if a != axis]
-    reach = 2 * particles.largest_h
-    order, at = particles.by_axis[across[0]], places[:, across[0]]
-    in_order = particles.x[order, across[0]]
-    begin, end = np.searchsorted(in_order, at - reach, "left"), np.searchsorted(in_order, at + reach, "right")
-    count = end - begin
-    line = np.repeat(np.arange(len(places)), count)
-    k = order[np.arange(len(line)) - np.repeat(np.cumsum(count) - count - begin, count)]
+    line, k = pairs_near(particles.x[:, across[0]], particles.by_axis[across[0]], places[:, across[0]], 2 * particles.largest_h)
     aside = np.abs(particles.x[k, across[0]] - places[line, across[0]])
     for a in across[1:]:
         aside = np.hypot(aside, particles.x[k, a] - places[line, a])

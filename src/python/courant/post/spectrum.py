@@ -72,16 +72,13 @@ def welch(values: np.ndarray, dt: float, settings: SpectrumSettings) -> Spectrum
     values: (n,), dt apart; n must be at least 4. Segments longer than the series are shortened to it. Source: Welch, IEEE Trans.
     Audio Electroacoust. 15 (1967).
     """
+    from scipy import signal
+
     n = min(max(_rounded(settings.segment / dt), 4), len(values))
     step = max(1, _rounded((1 - settings.overlap) * n))
-    window = 0.5 - 0.5 * np.cos(2 * math.pi * np.arange(n) / n) if settings.window == "hann" else np.ones(n)
-    pieces = np.lib.stride_tricks.sliding_window_view(values, n)[::step]
-    along = np.arange(n) - 0.5 * (n - 1)
-    slope = pieces @ along / (along @ along) if settings.detrend == "linear" else np.zeros(len(pieces))
-    flat = pieces - pieces.mean(axis=1, keepdims=True) - slope[:, None] * along
-    density = (np.abs(np.fft.rfft(flat * window)) ** 2).sum(axis=0) * dt / ((window**2).sum() * len(pieces))
-    density[1 : (n + 1) // 2] *= 2  # all others than 0 and the highest one of an even n stand for -f, too
-    return Spectrum(np.arange(n // 2 + 1) / (n * dt), density, len(pieces))
+    window, detrend = ("hann" if settings.window == "hann" else "boxcar"), ("linear" if settings.detrend == "linear" else "constant")
+    frequency, density = signal.welch(values, 1 / dt, window, nperseg=n, noverlap=n - step, detrend=detrend)
+    return Spectrum(frequency, density, (len(values) - n) // step + 1)
 
 
 def at_equal_steps(t: np.ndarray, values: np.ndarray, longest_gap: float) -> np.ndarray | None:

@@ -1,7 +1,10 @@
 """What a suite came to, as files for programs."""
 from __future__ import annotations
 
+import csv
+import io
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -27,32 +30,28 @@ def check_of_row(case: CaseResult, k: int, observation: str) -> str:
     return "" if not met else "met" if all(met) else "missed"
 
 
-def _cell(text: str) -> str:
-    if not any(c in text for c in ',"\n\r'):
-        return text
-    return '"' + text.replace('"', '""').replace("\n", " ").replace("\r", " ") + '"'
-
-
 def _in_full(value: float | None) -> str:
     return "" if value is None else f"{value:.10g}"
 
 
-def _row(case: CaseResult, k: int, o: Observed) -> str:
+def _row(case: CaseResult, k: int, o: Observed) -> list[str]:
     run = case.runs[k]
     cells = [case.definition.name, run.setting, run.resolution, _in_full(run.size) if run.size > 0 else "", o.name,
              *map(_in_full, (o.value, o.reference, o.error)), check_of_row(case, k, o.name), run.verdict.name,
              "yes" if run.as_required else "no", f"{run.wall_seconds:.4f}", f"{run.cpu_seconds:.4f}", run.particles, run.steps,
              run.particle_steps, run.peak_memory_bytes, run.exit_code, run.termination, "; ".join(filter(None, [run.reason, *run.exceeded])), o.why]
-    return ",".join(_cell(str(cell)) for cell in cells)
+    return [re.sub("[\n\r]", " ", str(cell)) for cell in cells]
 
 
 def results_csv(result: SuiteResult) -> str:
     """One row per run and observation, and one for a run without observations."""
-    rows = [HEAD]
+    out = io.StringIO()
+    rows = csv.writer(out, lineterminator="\n")
+    rows.writerow(HEAD.split(","))
     for case in result.cases:
         for k, run in enumerate(case.runs):
-            rows += [_row(case, k, o) for o in run.observed or [Observed()]]
-    return "\n".join(rows) + "\n"
+            rows.writerows(_row(case, k, o) for o in run.observed or [Observed()])
+    return out.getvalue()
 
 
 def _number(value: float) -> float:

@@ -46,14 +46,7 @@ class Series:
             return np.full(np.shape(x), np.nan)
         slack = 1e-6 * (self.x[-1] - self.x[0])
         outside = (x < self.x[0] - slack) | (x > self.x[-1] + slack)
-        above = np.searchsorted(self.x, x, side="left")
-        i = np.clip(above, 1, max(len(self) - 1, 1))
-        with np.errstate(all="ignore"):
-            step = self.x[np.minimum(i, len(self) - 1)] - self.x[i - 1]
-            share = (x - self.x[i - 1]) / np.where(step == 0, 1, step)
-            inner = self.y[i - 1] + share * (self.y[np.minimum(i, len(self) - 1)] - self.y[i - 1])
-        out = np.where(above == 0, self.y[0], np.where(above >= len(self), self.y[-1], inner))
-        return np.where(outside, np.nan, out)
+        return np.where(outside, np.nan, np.interp(x, self.x, self.y))
 
     def value_at(self, x: float) -> float | None:
         """y at x, None outside the range."""

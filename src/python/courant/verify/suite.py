@@ -3,12 +3,10 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from ..diagnostics import Diagnostics
-from ..words import did_you_mean
 from ..yaml_map import Node, YamlMap, as_flag, is_map, is_scalar, load_yaml, scalar_text
 from .model import Case, Limit, Observation, Parameters, Reference, Setting, Stability, Suite
 from .reference import read_table
@@ -53,13 +51,6 @@ def _texts(map_: YamlMap, key: str) -> list[str]:
 def _at(map_: YamlMap, key: str) -> Node:
     """Where a fault of a key is told."""
     return map_.get(key) or map_.node
-
-
-def _choice(map_: YamlMap, key: str, default: str, allowed: Sequence[str]) -> str:
-    value = map_.text(key, default)
-    if value not in allowed:
-        map_.error(_at(map_, key), f"'{map_.name}.{key}' cannot be '{value}'", f"{did_you_mean(value, allowed)}it may be {', '.join(allowed)}")
-    return value
 
 
 def _whole(map_: YamlMap, key: str) -> int:
@@ -141,16 +132,16 @@ class _CaseReader:
         map_.allow(*_OF_OBSERVATION)
         out = Observation(_word(map_, "[A-Za-z_][A-Za-z0-9_]*", "letters, digits and _"), unit=map_.text("unit"))
         out.title = map_.text("title") or out.name
-        out.kind = _choice(map_, "kind", out.kind, KINDS.names())
+        out.kind = map_.choice("kind", KINDS.names(), out.kind)
         found = self.expressions(map_, KINDS[out.kind].of if out.kind in KINDS else "particles", "of", required=True)
         found |= self.expressions(map_, "particles", "where") | self.expressions(map_, "particles", "along", required=out.is_profile)
         moments = self.expressions(map_, "nothing", "from", "to", "at", "scale")
         out.start, out.end, out.at = (moments.pop(key) or None for key in ("from", "to", "at"))
         for key, text in (found | moments).items():
             setattr(out, key, text)
-        out.reduce = _choice(map_, "reduce", out.reduce, reduction.names())
-        out.take = _choice(map_, "take", out.take, ["curve", *take.names()])
-        out.norm = _choice(map_, "norm", out.norm, norm.names())
+        out.reduce = map_.choice("reduce", reduction.names(), out.reduce)
+        out.take = map_.choice("take", ["curve", *take.names()], out.take)
+        out.norm = map_.choice("norm", norm.names(), out.norm)
         out.bins, out.align = _whole(map_, "bins"), _whole(map_, "align")
         reference = map_.get("reference")
         if reference is not None:

@@ -1,6 +1,7 @@
 """How tables and reports write numbers and words."""
 from __future__ import annotations
 
+import html
 import math
 import re
 
@@ -91,14 +92,12 @@ def plain(text: str) -> str:
 
 def escape_xml(text: str) -> str:
     """Text that may stand between the tags and in the attributes of HTML and SVG."""
-    for raw, safe in (("&", "&amp;"), ("<", "&lt;"), (">", "&gt;"), ('"', "&quot;"), ("'", "&#39;")):
-        text = text.replace(raw, safe)
-    return plain(text)
+    return html.escape(plain(text))
 
 
 def escape_markdown(text: str) -> str:
     """Text without meaning to Markdown (GitHub's dialect), on one line, also within tables."""
     text = re.sub(r"[\n\t\r]", " ", plain(text))
     text = re.sub(r"[\\`*_{}\[\]|#~$]", r"\\\g<0>", text)
-    text = text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    text = html.escape(text, quote=False)
     return "\\" + text if text[:1] in ("-", "+") else text

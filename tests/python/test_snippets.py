@@ -1,0 +1,79 @@
+"""What the pages show of Python runs as it is printed, on a run of the solver."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import courant
+import numpy as np
+import pytest
+from courant.optional import MissingModule
+
+PROJECT = Path(__file__).resolve().parents[2]
+SHOWN = {"docs/post.md": 2}  # pages with Python, and how many pieces of it this file runs
+
+
+def pieces(page: str) -> list[str]:
+    return re.findall(r"^```python\n(.*?)^```", (PROJECT / page).read_text(), re.M | re.S)
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
+    """A folder with a run in `jump`, the name that the page has, with the first 0.02 s of a hydraulic jump."""
+    if "COURANT_EXECUTABLE" not in os.environ:
+        pytest.skip("COURANT_EXECUTABLE names no program")
+    folder = tmp_path_factory.mktemp("runs")
+    deck = PROJECT / "keyword_decks/hydraulic_jump/d4_5s.k"
+    subprocess.run([os.environ["COURANT_EXECUTABLE"], "run", deck, "-o", folder / "jump", "--until", "0.02", "--threads", "1", "--quiet"], check=True)
+    return folder
+
+
+def test_every_page_with_python_is_run():
+    pages = [PROJECT / "README.md", *(PROJECT / "docs").glob("*.md"), *(PROJECT / "keyword_decks").glob("*/README.md")]
+    found = {str(page.relative_to(PROJECT)): len(pieces(page)) for page in pages}
+    assert {page: count for page, count in found.items() if count} == SHOWN
+
+
+def test_results(runs, monkeypatch):
+    monkeypatch.chdir(runs)
+    names = {}
+    for line in pieces("docs/post.md")[1].splitlines():
+        try:
+            exec(line, names)  # noqa: S102
+        except MissingModule:
+            assert ".vtk()" in line or ".plot(" in line  # not of the packages that the page calls needed
+    state = names["state"]
+    assert state.t == pytest.approx(0.02, rel=0.02) and len(state) > 500 and names["run"].contacts[1]["force.y"][-1] != 0
+    assert all(Path(f"{name}.png").stat().st_size > 5000 for name in ("force", "pressure"))
+
+
+def test_units(runs, monkeypatch):
+    monkeypatch.chdir(runs)
+    (call,) = re.findall(r'`(courant\.open\("jump", .*?\))` tells', (PROJECT / "docs/post.md").read_text())
+    assert eval(call).energies.units["kinetic"] == "t mm2/s2"  # noqa: S307
+
+
+def test_a_file_of_ones_own(runs):
+    """The analysis and the chart, with the recipes that stand in their comments."""
+    own = pieces("docs/post.md")[0]
+    analysis, figure = re.findall(r"# (\{.*\})$", own, re.M)
+    (runs / "my.py").write_text(own)
+    (runs / "own.yaml").write_text(f"analyses:\n  - {analysis.replace('from: 2', 'from: 0')}\nfigures:\n  - {figure}\n")
+    post = [sys.executable, "-B", "-m", "courant", "post", "--load", "my.py", "own.yaml", "jump"]
+    done = subprocess.run(post, cwd=runs, env=os.environ | {"PYTHONPATH": str(PROJECT / "src/python")}, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    table = np.genfromtxt(runs / "jump/post/f.csv", delimiter=",", names=True, deletechars="")
+    speeds = [np.max(state["speed"][state["active"] > 0]) for state in courant.open(runs / "jump").states]
+    assert table["speed_[m/s]"] == pytest.approx(speeds, rel=1e-5)
+    assert (runs / "jump/post/h.png").stat().st_size > 5000
+
+
+def test_the_call_of_the_first_page(runs):
+    (call,) = re.findall(r"^/usr/bin/python3 (-c '.*')$", (PROJECT / "README.md").read_text(), re.M)
+    call = call.replace("results/hydraulic_jump", str(runs / "jump"))
+    done = subprocess.run(f"{sys.executable} -B {call}", shell=True, env=os.environ | {"PYTHONPATH": str(PROJECT / "src/python")}, capture_output=True, text=True)
+    assert re.fullmatch(r"\d+\.\d+ kg m2/s2 \(\d+, 3\)\n", done.stdout), done.stdout + done.stderr
