@@ -27,7 +27,7 @@ struct NodalBodyOptions {
   bool spc = false, inertia = false;
 };
 constexpr NodalBodyOptions nodal_options[] = {
-    {}, {.spc = true}, {.inertia = true}, {.spc = true, .inertia = true}, {.spc = true, .inertia = true}};
+    {}, {.spc = true}, {.inertia = true}, {.spc = true, .inertia = true}, {.spc = true, .inertia = true}, {}};
 bool has_spc(const NB& card) {
   return nodal_options[card.name].spc;
 }
@@ -111,7 +111,7 @@ KeywordOf<NB> nodal_body_keyword() {
   KeywordOf<NB> out{
       .names = {"CONSTRAINED_NODAL_RIGID_BODY", "CONSTRAINED_NODAL_RIGID_BODY_SPC",
                 "CONSTRAINED_NODAL_RIGID_BODY_INERTIA", "CONSTRAINED_NODAL_RIGID_BODY_SPC_INERTIA",
-                "CONSTRAINED_NODAL_RIGID_BODY_INERTIA_SPC"},
+                "CONSTRAINED_NODAL_RIGID_BODY_INERTIA_SPC", "CONSTRAINED_NODAL_RIGIDBODY"},
       .purpose = "nodes of elements that move as one rigid body; its mass is theirs, or with _INERTIA given",
       .id_space = IdSpace::part,
       .title_option = true,

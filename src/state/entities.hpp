@@ -66,7 +66,7 @@ struct Nodes {
   Field<Index>& held =
       fields.add<Index>({.name = "held", .dimension = "-"});  ///< 1: its body cannot move at all
   Field<Index>& follow =
-      fields.add<Index>({.name = "follow", .dimension = "-"});  ///< 1: a rigid body moves it
+      fields.add<Index>({.name = "follow", .dimension = "-"});  ///< 1: a rigid body moves it, 2: a face
   Field<Index>& part =
       fields.add<Index>({.name = "part", .dimension = "-"});  ///< of one of its elements, by index
   Index size() const { return fields.size(); }

@@ -88,6 +88,7 @@ WRONG_LAYOUT = re.compile(r"is missing|one line too many|values behind|is not re
 # What PyDyna writes otherwise than the manual has it, and not by the values of the fields.
 ODD = {"*DEFINE_SPH_ACTIVE_REGION": "cards of all shapes at once", "*DEFINE_SPH_DE_COUPLING": "an _ID line without _ID",
        "*DEFINE_ADAPTIVE_SOLID_TO_SPH": "an _ID line without _ID",
+       "*CONSTRAINED_GENERALIZED_WELD_SPOT": "an _ID line without _ID",
        "*ELEMENT_SHELL_THICKNESS_OFFSET": "thicknesses of mid-side nodes that are not there",
        "*ELEMENT_SHELL_BETA_OFFSET": "thicknesses of mid-side nodes that are not there",
        "*RIGIDWALL_GEOMETRIC_CYLINDER_MOTION": "a card of sections that are not there",
