@@ -55,7 +55,7 @@ WallPaths::Edge WallPaths::edge_of(Index face, int edge) const {
   const auto& f = surface_.face(face);
   const Real near = touching * surface_.reach();
   const Vec a = f.x[edge], b = f.x[(edge + 1) % f.corners], m = 0.5 * (a + b), outward = -f.inward[edge];
-  Edge out{true, {}};
+  Edge out{true, {}, m, 0.5 * (b - a).norm()};
   for (const Index other : surface_.faces_around(m)) {
     const auto& g = surface_.face(other);
     if (other == face || std::abs(g.n.dot(m) - g.offset) > near) continue;
@@ -166,7 +166,11 @@ WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& 
     out.inside = is_inside(sheet, out.at);
   }
   Real near = 0.5 * width_;
+  const Vec middle = 0.5 * (start + b);
+  const Real around = 0.5 * (b - start).norm() + near;
   for (const auto& [face, e] : sheet.edges) {
+    const Edge& edge = edges_[face][e];
+    if ((edge.middle - middle).squaredNorm() > power<2>(around + edge.half)) continue;
     const auto& f = surface_.face(face);
     const Vec &c = f.x[e], &d = f.x[(e + 1) % f.corners];
     const bool passed = lies_in(c, d, but) || lies_in(c, d, and_but);
@@ -213,7 +217,7 @@ void WallPaths::add(const Sheets& sheets, Index i, const Vec& at_i, Index j, con
   }
   if (from_x + from_y > reach + width_) return;
   Sequence by;
-  add_thrown_back(sheets, by, i, x, j, y, reach, to);
+  add_thrown_back(sheets, by, x, i, x, j, y, reach, to);
 }
 
 void WallPaths::add_straight(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y,
@@ -225,24 +229,25 @@ void WallPaths::add_straight(const Sheets& sheets, Index i, const Vec& x, Index 
   to.push_back(path);
 }
 
-/// Ways by the walls `by` and then one more, or several: as many as there are directions, or two more in the
-/// plane, where corners may be sharp.
-void WallPaths::add_thrown_back(const Sheets& sheets, Sequence& by, Index i, const Vec& x, Index j,
-                                const Vec& y, Real reach, std::vector<WallPath>& to) const {
+/// Ways by the walls `by`, behind all of which x is seen at `x_there`, and then one more, or several: as many
+/// as there are directions, or two more in the plane, where corners may be sharp.
+void WallPaths::add_thrown_back(const Sheets& sheets, Sequence& by, const Vec& x_there, Index i, const Vec& x,
+                                Index j, const Vec& y, Real reach, std::vector<WallPath>& to) const {
   const std::size_t most = dim_ == 2 ? 4 : 3;
   for (const Sheet& s : sheets) {
     if (by.empty() ? std::abs(s.height(x)) > reach : by.back() == &s) continue;
     by.push_back(&s);
-    Vec image = y;
-    for (auto sheet = by.rbegin(); sheet != by.rend(); ++sheet) image = (*sheet)->image(image);
-    if ((image - x).squaredNorm() < reach * reach) {
+    const Vec there = s.image(x_there);
+    if ((there - y).squaredNorm() < reach * reach) {
+      Vec image = y;
+      for (auto sheet = by.rbegin(); sheet != by.rend(); ++sheet) image = (*sheet)->image(image);
       WallPath path{.i = i, .j = j, .d = x - image, .shift = image - y};
       for (const Sheet* sheet : by) path.turn = path.turn * sheet->turn();
       follow(sheets, by, x, y, image, path);
       if (i == j) path.by_i = path.by_j = 0.5 * (path.by_i + path.by_j);  // but for rounding they are
       if (path.weight > 0) to.push_back(path);
     }
-    if (by.size() < most && sheets.size() > 1) add_thrown_back(sheets, by, i, x, j, y, reach, to);
+    if (by.size() < most && sheets.size() > 1) add_thrown_back(sheets, by, there, i, x, j, y, reach, to);
     by.pop_back();
   }
 }

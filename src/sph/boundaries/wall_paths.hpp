@@ -65,6 +65,8 @@ class WallPaths {
   struct Edge {
     bool ends = false;  ///< no face goes on from here in the plane
     std::vector<Corner> corners;
+    Vec middle = Vec::Zero();
+    Real half = 0;  ///< of its length [L]
   };
   /// Where on a sheet a way meets it.
   struct Meeting {
@@ -88,8 +90,8 @@ class WallPaths {
               WallPath& path) const;
   void add_straight(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y,
                     std::vector<WallPath>& to) const;
-  void add_thrown_back(const Sheets& sheets, Sequence& by, Index i, const Vec& x, Index j, const Vec& y,
-                       Real reach, std::vector<WallPath>& to) const;
+  void add_thrown_back(const Sheets& sheets, Sequence& by, const Vec& x_there, Index i, const Vec& x, Index j,
+                       const Vec& y, Real reach, std::vector<WallPath>& to) const;
 
   const WallSurface& surface_;
   int dim_;
