@@ -62,22 +62,13 @@ std::vector<CardOf<C>> tiebreak_cards() {
 }
 
 KeywordOf<C> contact_keyword() {
-  KeywordOf<C> out{
-      .names = {"CONTACT_AUTOMATIC_NODES_TO_SURFACE", "CONTACT_AUTOMATIC_SINGLE_SURFACE",
-                "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE", "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE",
-                "CONTACT_AUTOMATIC_GENERAL", "CONTACT_NODES_TO_SURFACE", "CONTACT_SINGLE_SURFACE",
-                "CONTACT_SURFACE_TO_SURFACE", "CONTACT_ONE_WAY_SURFACE_TO_SURFACE",
-                "CONTACT_ERODING_NODES_TO_SURFACE", "CONTACT_ERODING_SINGLE_SURFACE",
-                "CONTACT_ERODING_SURFACE_TO_SURFACE"},
-      .purpose =
-          "penalty contact of nodes of elements, or particles (SURFA of _NODES_TO_SURFACE), with faces",
-      .id_space = IdSpace::contact,
-      .id_option = true,
-      .mpp_option = true,
-      .title = &C::title,
-      .id = &C::cid,
-      .many = false};
-  out.cards = contact_first_cards<C>();
+  KeywordOf<C> out = contact_of_sides<C>(
+      {"CONTACT_AUTOMATIC_NODES_TO_SURFACE", "CONTACT_AUTOMATIC_SINGLE_SURFACE",
+       "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE", "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE",
+       "CONTACT_AUTOMATIC_GENERAL", "CONTACT_NODES_TO_SURFACE", "CONTACT_SINGLE_SURFACE",
+       "CONTACT_SURFACE_TO_SURFACE", "CONTACT_ONE_WAY_SURFACE_TO_SURFACE", "CONTACT_ERODING_NODES_TO_SURFACE",
+       "CONTACT_ERODING_SINGLE_SURFACE", "CONTACT_ERODING_SURFACE_TO_SURFACE"},
+      "penalty contact of nodes of elements, or particles (SURFA of _NODES_TO_SURFACE), with faces");
   out.cards.push_back(
       {.fields =
            {{"ISYM", &C::erode_isym, "-", "faces on symmetry planes, of eroding contacts", {.honour = no}},
@@ -99,18 +90,10 @@ const RegisterKeyword<C> contact{contact_keyword()};
 
 const char* const first_tiebreak = "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_TIEBREAK";
 KeywordOf<C> tiebreak_keyword() {
-  KeywordOf<C> out{
-      .names = {first_tiebreak, "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE_TIEBREAK",
-                "CONTACT_TIEBREAK_NODES_TO_SURFACE", "CONTACT_TIEBREAK_SURFACE_TO_SURFACE"},
-      .purpose =
-          "contact of nodes of elements with faces that holds what touches at the start until it breaks",
-      .id_space = IdSpace::contact,
-      .id_option = true,
-      .mpp_option = true,
-      .title = &C::title,
-      .id = &C::cid,
-      .many = false};
-  out.cards = contact_first_cards<C>();
+  KeywordOf<C> out = contact_of_sides<C>(
+      {first_tiebreak, "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE_TIEBREAK",
+       "CONTACT_TIEBREAK_NODES_TO_SURFACE", "CONTACT_TIEBREAK_SURFACE_TO_SURFACE"},
+      "contact of nodes of elements with faces that holds what touches at the start until it breaks");
   for (CardOf<C>& card : tiebreak_cards()) out.cards.push_back(std::move(card));
   for (CardOf<C>& card : contact_optional_cards<C>()) out.cards.push_back(std::move(card));
   return out;

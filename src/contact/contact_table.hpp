@@ -1,5 +1,7 @@
 #pragma once
 // Cards that all *CONTACT of two sides share.
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "contact/cards.hpp"
@@ -79,6 +81,20 @@ std::vector<CardOf<T>> contact_first_cards() {
             {.standard = 1, .check = Check::positive}},
            {"FSF", &T::fsf, "-", "scale of friction", {.standard = 1, .check = Check::not_negative}},
            {"VSF", &T::vsf, "-", "scale of VC", {.standard = 1, .check = Check::not_negative}}}}};
+}
+
+/// What all keywords of contacts of two sides have alike, and their first cards.
+template <class T>
+KeywordOf<T> contact_of_sides(std::vector<std::string> names, std::string purpose) {
+  return {.names = std::move(names),
+          .purpose = std::move(purpose),
+          .id_space = IdSpace::contact,
+          .id_option = true,
+          .mpp_option = true,
+          .title = &T::title,
+          .id = &T::cid,
+          .many = false,
+          .cards = contact_first_cards<T>()};
 }
 
 /// Cards A to G, which may be missing.

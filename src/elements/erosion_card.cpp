@@ -120,8 +120,8 @@ void check_card(const Deck& deck, const A& c, Diagnostics& diagnostics) {
   refuse("IMPULSE", c.impulse, c.impulse < 0 && c.asks(c.impulse), "is below 0", "");
   constexpr const char* at_rest = "holds without any load: all elements would fail at once";
   const auto expect = [&](const char* field, Real value, int sign) {
-    if (c.asks(value))
-      refuse(field, value, sign * value<0, at_rest, sign> 0 ? "give a value > 0" : "give a value < 0");
+    const bool wrong = c.asks(value) && sign * value < 0;
+    refuse(field, value, wrong, at_rest, sign == 1 ? "give a value > 0" : "give a value < 0");
   };
   expect("MXPRES", c.mxpres, 1), expect("MNEPS", c.mneps, -1), expect("MNPRES", c.mnpres, -1);
   expect("SIGP1", c.sigp1, 1), expect("EPSSH", c.epssh, 1);

@@ -6,8 +6,7 @@
 #include <map>
 #include <set>
 
-#include "keyword/common_rules.hpp"
-#include "keyword/registry.hpp"
+#include "model/mesh/inertia_table.hpp"
 #include "model/transforms/transformation.hpp"
 #include "rigid/nodal_bodies.hpp"
 
@@ -69,44 +68,6 @@ CardOf<NB> spc_card() {
                  {"CON2", &NB::con2, "-", "held rotations: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 all", {}}},
       .when = has_spc};
 }
-std::vector<CardOf<NB>> inertia_cards() {
-  return {{.fields = {{"XC", &NB::xc, "L", "centre of mass, without NODEID", rules::point},
-                      {"YC", &NB::yc, "L", "centre of mass"},
-                      {"ZC", &NB::zc, "L", "centre of mass"},
-                      {"TM", &NB::tm, "M", "mass", rules::required_positive},
-                      {"IRCS",
-                       &NB::ircs,
-                       "-",
-                       "axes of the inertia: 0 global, 1 those of the last card",
-                       {.allowed = {0, 1}}},
-                      {"NODEID", &NB::nodeid, "-", "node at the centre of mass",
-                       rules::optional_id_of(IdSpace::node)}},
-           .when = has_inertia},
-          {.fields = {{"IXX", &NB::ixx, "ML2", "of the tensor about the centre", rules::required_positive},
-                      {"IXY", &NB::ixy, "ML2", "of the tensor about the centre"},
-                      {"IXZ", &NB::ixz, "ML2", "of the tensor about the centre"},
-                      {"IYY", &NB::iyy, "ML2", "of the tensor about the centre", rules::required_positive},
-                      {"IYZ", &NB::iyz, "ML2", "of the tensor about the centre"},
-                      {"IZZ", &NB::izz, "ML2", "of the tensor about the centre", rules::required_positive}},
-           .when = has_inertia},
-          {.fields = {{"VTX", &NB::vtx, "L/T", "initial velocity of the centre", rules::direction},
-                      {"VTY", &NB::vty, "L/T", "initial velocity of the centre"},
-                      {"VTZ", &NB::vtz, "L/T", "initial velocity of the centre"},
-                      {"VRX", &NB::vrx, "1/T", "initial angular velocity, global axes", rules::direction},
-                      {"VRY", &NB::vry, "1/T", "initial angular velocity"},
-                      {"VRZ", &NB::vrz, "1/T", "initial angular velocity"}},
-           .when = has_inertia},
-          {.fields = {{"XL", &NB::xl, "-", "vector along the local x axis", rules::direction},
-                      {"YL", &NB::yl, "-", "vector along the local x axis"},
-                      {"ZL", &NB::zl, "-", "vector along the local x axis"},
-                      {"XLIP", &NB::xlip, "-", "vector in the local xy plane", rules::direction},
-                      {"YLIP", &NB::ylip, "-", "vector in the local xy plane"},
-                      {"ZLIP", &NB::zlip, "-", "vector in the local xy plane"},
-                      {"CID2", &NB::cid, "-", "system whose axes they are, instead",
-                       rules::optional_id_of(IdSpace::coordinate_system)}},
-           .when = [](const NB& card) { return has_inertia(card) && card.ircs == 1; }}};
-}
-
 KeywordOf<NB> nodal_body_keyword() {
   KeywordOf<NB> out{
       .names = {"CONSTRAINED_NODAL_RIGID_BODY", "CONSTRAINED_NODAL_RIGID_BODY_SPC",
@@ -118,7 +79,11 @@ KeywordOf<NB> nodal_body_keyword() {
       .title = &NB::title,
       .cards = {first_card(), spc_card()},
       .move = move_nodal_body};
-  for (CardOf<NB>& card : inertia_cards()) out.cards.push_back(std::move(card));
+  for (CardOf<NB>& card : inertia_cards<NB>("CID2")) {
+    card.when = has_inertia;
+    out.cards.push_back(std::move(card));
+  }
+  out.cards.back().when = [](const NB& card) { return has_inertia(card) && card.ircs == 1; };
   return out;
 }
 const RegisterKeyword<NB> nodal_body{nodal_body_keyword()};

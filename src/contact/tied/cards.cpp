@@ -25,22 +25,13 @@ void change(KeywordOf<TC>& keyword, std::string_view name, const char* meaning, 
 }
 
 KeywordOf<TC> tied_keyword() {
-  KeywordOf<TC> out{
-      .names = {"CONTACT_TIED_NODES_TO_SURFACE", "CONTACT_TIED_NODES_TO_SURFACE_OFFSET",
-                "CONTACT_TIED_NODES_TO_SURFACE_CONSTRAINED_OFFSET", "CONTACT_TIED_SURFACE_TO_SURFACE",
-                "CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET",
-                "CONTACT_TIED_SURFACE_TO_SURFACE_CONSTRAINED_OFFSET", "CONTACT_TIED_SHELL_EDGE_TO_SURFACE",
-                "CONTACT_TIED_SHELL_EDGE_TO_SURFACE_CONSTRAINED_OFFSET"},
-      .purpose =
-          "nodes of elements that go with the faces next to which they are at the start: "
-          "exactly, or with _OFFSET held by springs; of shell edges rotations, too",
-      .id_space = IdSpace::contact,
-      .id_option = true,
-      .mpp_option = true,
-      .title = &TC::title,
-      .id = &TC::cid,
-      .many = false};
-  out.cards = contact_first_cards<TC>();
+  KeywordOf<TC> out = contact_of_sides<TC>(
+      {"CONTACT_TIED_NODES_TO_SURFACE", "CONTACT_TIED_NODES_TO_SURFACE_OFFSET",
+       "CONTACT_TIED_NODES_TO_SURFACE_CONSTRAINED_OFFSET", "CONTACT_TIED_SURFACE_TO_SURFACE",
+       "CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET", "CONTACT_TIED_SURFACE_TO_SURFACE_CONSTRAINED_OFFSET",
+       "CONTACT_TIED_SHELL_EDGE_TO_SURFACE", "CONTACT_TIED_SHELL_EDGE_TO_SURFACE_CONSTRAINED_OFFSET"},
+      "nodes of elements that go with the faces next to which they are at the start: "
+      "exactly, or with _OFFSET held by springs; of shell edges rotations, too");
   for (CardOf<TC>& card : contact_optional_cards<TC>()) out.cards.push_back(std::move(card));
   for (const char* name : {"FS", "FD", "DC", "VC", "VDC"})
     change(out, name, "of contacts that are not tied", no_effect);

@@ -1,7 +1,6 @@
 // *PART_INERTIA: a rigid part whose mass and inertia are given.
-#include "keyword/registry.hpp"
+#include "model/mesh/inertia_table.hpp"
 #include "model/mesh/part_card.hpp"
-#include "model/mesh/part_inertia.hpp"
 
 namespace courant {
 
@@ -9,50 +8,20 @@ namespace {
 
 using Inertia = PartInertiaCard;
 
-const RegisterKeyword<Inertia> part_inertia{
-    {.names = {"PART_INERTIA"},
-     .purpose = "rigid parts whose mass, centre, inertia and initial velocity are given",
-     .id_space = IdSpace::part,
-     .heading = true,
-     .title = &Inertia::title,
-     .cards = {part_card<Inertia>(),
-               {.fields = {{"XC", &Inertia::xc, "L", "centre of mass, without NODEID", rules::point},
-                           {"YC", &Inertia::yc, "L", "centre of mass"},
-                           {"ZC", &Inertia::zc, "L", "centre of mass"},
-                           {"TM", &Inertia::tm, "M", "mass", rules::required_positive},
-                           {"IRCS",
-                            &Inertia::ircs,
-                            "-",
-                            "axes of the inertia: 0 global, 1 those of the last card",
-                            {.allowed = {0, 1}}},
-                           {"NODEID", &Inertia::nodeid, "-", "node at the centre of mass",
-                            rules::optional_id_of(IdSpace::node)}}},
-               {.fields = {{"IXX", &Inertia::ixx, "ML2", "of the tensor about the centre",
-                            rules::required_positive},
-                           {"IXY", &Inertia::ixy, "ML2", "of the tensor about the centre"},
-                           {"IXZ", &Inertia::ixz, "ML2", "of the tensor about the centre"},
-                           {"IYY", &Inertia::iyy, "ML2", "of the tensor about the centre",
-                            rules::required_positive},
-                           {"IYZ", &Inertia::iyz, "ML2", "of the tensor about the centre"},
-                           {"IZZ", &Inertia::izz, "ML2", "of the tensor about the centre",
-                            rules::required_positive}}},
-               {.fields = {{"VTX", &Inertia::vtx, "L/T", "initial velocity of the centre", rules::direction},
-                           {"VTY", &Inertia::vty, "L/T", "initial velocity of the centre"},
-                           {"VTZ", &Inertia::vtz, "L/T", "initial velocity of the centre"},
-                           {"VRX", &Inertia::vrx, "1/T", "initial angular velocity, global axes",
-                            rules::direction},
-                           {"VRY", &Inertia::vry, "1/T", "initial angular velocity"},
-                           {"VRZ", &Inertia::vrz, "1/T", "initial angular velocity"}}},
-               {.fields = {{"XL", &Inertia::xl, "-", "vector along the local x axis", rules::direction},
-                           {"YL", &Inertia::yl, "-", "vector along the local x axis"},
-                           {"ZL", &Inertia::zl, "-", "vector along the local x axis"},
-                           {"XLIP", &Inertia::xlip, "-", "vector in the local xy plane", rules::direction},
-                           {"YLIP", &Inertia::ylip, "-", "vector in the local xy plane"},
-                           {"ZLIP", &Inertia::zlip, "-", "vector in the local xy plane"},
-                           {"CID", &Inertia::cid, "-", "system whose axes they are, instead",
-                            rules::optional_id_of(IdSpace::coordinate_system)}},
-                .when = [](const Inertia& card) { return card.ircs == 1; }}},
-     .move = [](Inertia& card, const Affine& motion) { return turn_inertia(card, motion); }}};
+KeywordOf<Inertia> part_inertia_keyword() {
+  KeywordOf<Inertia> out{
+      .names = {"PART_INERTIA"},
+      .purpose = "rigid parts whose mass, centre, inertia and initial velocity are given",
+      .id_space = IdSpace::part,
+      .heading = true,
+      .title = &Inertia::title,
+      .cards = {part_card<Inertia>()},
+      .move = [](Inertia& card, const Affine& motion) { return turn_inertia(card, motion); }};
+  for (CardOf<Inertia>& card : inertia_cards<Inertia>("CID")) out.cards.push_back(std::move(card));
+  out.cards.back().when = [](const Inertia& card) { return card.ircs == 1; };
+  return out;
+}
+const RegisterKeyword<Inertia> part_inertia{part_inertia_keyword()};
 
 }  // namespace
 

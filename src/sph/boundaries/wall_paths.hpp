@@ -1,6 +1,6 @@
 #pragma once
 // The ways on which particles see each other beside walls: straight, hidden, or thrown back.
-#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "sph/boundaries/wall_surface.hpp"
