@@ -119,11 +119,11 @@ void WallImages::forces(World& world, Index begin, Index end) {
     p.f.add(i, force);
     if (path.weight > 0) force_.add(i, force);
     if (!diffusion_) continue;
-    // pressure goes on behind the wall as it stands at rest
-    const auto rise = [&](const Vec& from, const Vec& step) { return now_.rise(from, step, p.part[i]); };
-    const Real image_pressure = pressure_[j] - p.rho[i] * rise(p.x.vec(j), path.shift);
-    (*diffusion_)[i] -= 2 * delta_ * p.h[i] / p.c[i] * share *
-                        (image_pressure - pressure_[i] + p.rho[i] * rise(p.x.vec(i), -path.d));
+    // behind the wall pressure goes on as at rest, so what it differs by is the same as without the wall
+    const Vec x = p.x.vec(i);
+    const Real rise = now_.rise(x, p.x.vec(j) - x, p.part[i]);
+    (*diffusion_)[i] -=
+        2 * delta_ * p.h[i] / p.c[i] * share * (pressure_[j] - pressure_[i] + p.rho[i] * rise);
   }
 }
 

@@ -241,7 +241,7 @@ void WallPaths::add_thrown_back(const Sheets& sheets, Sequence& by, const Vec& x
     if ((there - y).squaredNorm() < reach * reach) {
       Vec image = y;
       for (auto sheet = by.rbegin(); sheet != by.rend(); ++sheet) image = (*sheet)->image(image);
-      WallPath path{.i = i, .j = j, .d = x - image, .shift = image - y};
+      WallPath path{.i = i, .j = j, .d = x - image};
       for (const Sheet* sheet : by) path.turn = path.turn * sheet->turn();
       follow(sheets, by, x, y, image, path);
       if (i == j) path.by_i = path.by_j = 0.5 * (path.by_i + path.by_j);  // but for rounding they are

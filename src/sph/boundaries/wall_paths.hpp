@@ -13,7 +13,6 @@ struct WallPath {
   /// Share of the way that walls throw back; of a straight way, less than 0: what they hide of it. [-]
   Real weight = 0;
   Vec d = Vec::Zero();                         ///< x_i less the place of the image of j [L]
-  Vec shift = Vec::Zero();                     ///< from j to its image [L]
   Matrix turn = Matrix::Identity();            ///< of directions at j, as they are at the image
   Vec by_i = Vec::Zero(), by_j = Vec::Zero();  ///< how the share goes over with the places of i and j [1/L]
 };
