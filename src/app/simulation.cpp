@@ -160,6 +160,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   start_rotations(model_, node_of, world_);
   if (diagnostics.ok()) add_tied_contacts(diagnostics);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
+  read_turbulence(deck_, model_, world_, sph_, diagnostics);
 }
 
 void Simulation::add_tied_contacts(Diagnostics& diagnostics) {

@@ -39,6 +39,7 @@ class Builder {
     settings_.q.resize(model_.parts.size());
     settings_.spacing_of_part.resize(model_.parts.size());
     settings_.usual_spacing.resize(model_.parts.size());
+    settings_.ro.assign(model_.parts.size(), 0);
     smoothing_.resize(model_.parts.size());
     read_sections();
     settings_.kernel = read_kernel(deck_, model_, diagnostics_);
@@ -242,6 +243,7 @@ class Builder {
       if (model_.parts[k].has_sph) {
         materials[k] = material_(static_cast<Index>(k));
         mu[k] = materials[k].mu;
+        settings_.ro[k] = materials[k].ro;
         any_mu |= mu[k] > 0;
         if (materials[k].strength) {
           settings_.strength.resize(model_.parts.size());
@@ -470,9 +472,13 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
     world.passes.add(make_eddy_viscosity(s, world));
   else
     left_out.push_back({"eddy viscosity", "no *COURANT_EDDY_VISCOSITY"});
-  if (!s.mu.empty())
-    world.passes.add(make_viscous_stress(s, world));
+  if (s.turbulence.on())
+    add_turbulence(s, world, neighbours, volumes);
   else
+    left_out.push_back({"turbulence", "no *COURANT_TURBULENCE"});
+  if (s.has_viscous_stress())
+    world.passes.add(make_viscous_stress(s, world));
+  else if (!s.turbulence.on())  // whose viscosity acts between pairs
     left_out.push_back({"viscous stress", "MU is 0 in all SPH materials"});
   if (!s.strength.empty())
     add_strength(s, world, neighbours, volumes);

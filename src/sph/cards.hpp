@@ -50,7 +50,8 @@ struct CourantWallSupport : Entry {
   Id surfb = 0;
   int surfbtyp = 3;
   Real cf = 0;
-  int method = 0;
+  int method = 0, law = 0;
+  Real ks = 0;
 };
 
 /// *COURANT_DENSITY_REINITIALISATION, ours.

@@ -10,7 +10,9 @@
 #include "loads/body_acceleration.hpp"
 #include "model/model.hpp"
 #include "search/neighbours.hpp"
+#include "sph/boundaries/wall_law.hpp"
 #include "sph/core/kernel_choice.hpp"
+#include "sph/turbulence/turbulence.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -67,9 +69,9 @@ struct ShiftRules {
 /// Shells that support particles, and their skin friction; none where `segments` is empty.
 struct SupportedWalls {
   std::vector<Index> segments;
-  std::vector<Real> cf;            ///< by segment; < 0 where it does not support [-]
-  std::vector<GhostPlane> planes;  ///< behind which their images support, too
-  bool images = false;             ///< METHOD 1: as mirrors of the particles
+  std::vector<WallFriction> friction;  ///< by segment
+  std::vector<GhostPlane> planes;      ///< behind which their images support, too
+  bool images = false;                 ///< METHOD 1: as mirrors of the particles
 };
 
 /// *COURANT_EDDY_VISCOSITY.
@@ -99,7 +101,9 @@ struct SphSettings {
   ArtificialViscosity viscosity = MonaghanViscosity{};
   std::vector<PartViscosity> q;        ///< per part
   std::vector<Real> mu;                ///< per part, dynamic viscosity; empty if no part has any
+  std::vector<Real> ro;                ///< per part, RO of the material [M/L3]
   MixingLength mixing_length;          ///< where there is one, mu is not empty
+  TurbulenceRules turbulence;          ///< *COURANT_TURBULENCE; where there is one, mu is not empty
   std::vector<char> heat_in_internal;  ///< per part; empty if in none
   /// Per part, null where it has none; empty if no part has any.
   std::vector<std::shared_ptr<const StrengthLaw>> strength;
@@ -123,6 +127,10 @@ struct SphSettings {
   std::vector<Real> spacing_of_part;   ///< the same of each part [L]
   std::vector<Real> usual_spacing;     ///< median of these distances in each part, 0: none [L]
 
+  /// An eddy viscosity adds to MU.
+  bool has_eddies() const { return mixing_length.most > 0 || turbulence.on(); }
+  /// Viscosity acts by a stress of each particle; with a turbulence model it acts between pairs.
+  bool has_viscous_stress() const { return !mu.empty() && !turbulence.on(); }
   /// Something besides the motion of particles changes the density.
   bool has_density_sources() const {
     return density_diffusion > 0 || volume_tau > 0 || reinitialisation.every > 0;
@@ -205,6 +213,10 @@ std::shared_ptr<Material> make_bulk_viscosity(const SphSettings&, World&);
 void read_eddy_viscosity(const Deck&, const Model&, const Particles&, SphSettings&, Diagnostics&);
 /// Before the viscous stress, which takes it.
 std::shared_ptr<Material> make_eddy_viscosity(const SphSettings&, World&);
+/// *COURANT_TURBULENCE; when segments and supported walls are known.
+void read_turbulence(const Deck&, const Model&, const World&, SphSettings&, Diagnostics&);
+/// Adds the sums over neighbours to the rates, and the model to the laws.
+void add_turbulence(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);
 std::shared_ptr<Material> make_viscous_stress(const SphSettings&, World&);
 std::shared_ptr<Preparation> make_smoothing_length(const SphSettings&, World&);
 /// Eq. 18; the first of the world's time limits.

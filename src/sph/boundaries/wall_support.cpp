@@ -1,56 +1,18 @@
-// *COURANT_WALL_SUPPORT: what walls of shells add to sums that they cut off, and their skin friction.
+// What walls of shells add to sums that they cut off, and their skin friction.
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "keyword/registry.hpp"
-#include "model/mesh/named_parts.hpp"
 #include "parallel/parallel.hpp"
 #include "sph/boundaries/wall_images.hpp"
 #include "sph/boundaries/wall_support.hpp"
-#include "sph/cards.hpp"
 #include "sph/core/fields.hpp"
 #include "surfaces/face_forces.hpp"
 
 namespace courant {
 
 namespace {
-
-const RegisterKeyword<CourantWallSupport> wall_support_keyword{
-    {.names = {"COURANT_WALL_SUPPORT"},
-     .purpose = "completes the sums of particles beside shells, still or moving; skin friction of the shells",
-     .cards = {
-         {.fields = {
-              {"SURFB",
-               &CourantWallSupport::surfb,
-               "-",
-               "the shells: a part or a set of parts",
-               {.required = true, .check = Check::positive},
-               [](const CourantWallSupport& c) {
-                 return c.surfbtyp == 2 ? IdSpace::part_set : IdSpace::part;
-               }},
-              {"SURFBTYP",
-               &CourantWallSupport::surfbtyp,
-               "-",
-               "2 part set, 3 part",
-               {.standard = 3, .allowed = {2, 3}}},
-              {"CF",
-               &CourantWallSupport::cf,
-               "-",
-               "skin friction: shear stress over rho v^2/2; 0: the wall is smooth",
-               {.check = Check::not_negative}},
-              {"METHOD",
-               &CourantWallSupport::method,
-               "-",
-               "0: the kernel goes on with the particle's own pressure; 1: walls are mirrors (held, one h, "
-               "plain FORM)",
-               {.allowed = {0, 1}}}}}}}};
-
-bool segment_moves(const World& world, Index segment) {
-  const auto nodes = world.segments.nodes(segment);
-  return std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return !world.nodes.held[n]; });
-}
 
 constexpr Real points_per_h = 4;  ///< the kernel's integral over a plane is then right to 1e-5 from 0.3 h on
 constexpr Real most_points_per_h = 16;  ///< of the largest h, where h differs
@@ -68,7 +30,8 @@ WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& n
                     : world.particles.p),
       rubbing_(sph_fields::wall_rubbing(world.particles)),
       neighbours_(neighbours),
-      walls_(s.walls) {
+      walls_(s.walls),
+      mu_(s.mu) {
   moves_.assign(static_cast<std::size_t>(world.segments.size()), 0);
   for (const Index segment : walls_.segments)
     moves_[static_cast<std::size_t>(segment)] = segment_moves(world, segment);
@@ -94,11 +57,10 @@ void WallSupport::rebuild(const World& world) {
   std::optional<Lookouts> from;  // a surface of every step is that of what water can see
   if (any_moves_ && world.particles.active > 0) from.emplace(world.particles, reach, walls_.planes);
   surface_.emplace(world, walls_.segments, spacing, reach, walls_.planes, from ? &*from : nullptr);
-  cf_.clear();
   for (Index f = 0; f < surface_->faces(); ++f) {
-    cf_.push_back(walls_.cf[surface_->segment_of(f)]);
-    one_cf_ &= cf_.back() == cf_.front();
-    rubs_ |= cf_.back() > 0;
+    const WallFriction &law = friction_of(f), &first = friction_of(0);
+    one_law_ &= law.cf == first.cf && law.log_law == first.log_law && law.ks == first.ks;
+    rubs_ |= law.rubs();
   }
 }
 
@@ -111,6 +73,7 @@ void WallSupport::measure_h(const World& world) {
 void WallSupport::declare(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
   a.reads(p.x).reads(p.v).reads(p.h).reads_before(p.rho).updates(p.drhodt);
+  if (!mu_.empty()) a.reads(p.part);
   a.updates(slope_).updates(fill_).updates(rubbing_);
   if (moment_) a.updates(*moment_).updates(*gradient_);
   if (!any_moves_) return;
@@ -129,10 +92,9 @@ void WallSupport::block(World& world, const Clock& clock, Index begin, Index end
   for (Index i = begin; i < end; ++i) {
     if (any_moves_ && (view_[i] = look(p, i)) == nothing) set(i, {});
     if (view_[i] == nothing || !(integrates_ || rubs_)) continue;
-    const Vec x = p.x.vec(i), v = p.v.vec(i);
     const Real half_step = 0.5 * clock.dt_old;
-    const Sums sums = view_[i] >= 0 ? sums_over_plane(view_[i], p.h[i], x, v, half_step)
-                                    : sums_over_points(p.h[i], x, v, half_step);
+    const Sums sums =
+        view_[i] >= 0 ? sums_over_plane(p, i, view_[i], half_step) : sums_over_points(p, i, half_step);
     set(i, sums);
     if (!image_force_) p.drhodt[i] += 2 * p.rho[i] * sums.squeeze;
   }
@@ -186,7 +148,8 @@ void WallSupport::add_reactions(const Particles& p, Index i, std::vector<Reactio
     if (!moves_[static_cast<std::size_t>(segment)]) return;
     const Real W = kernel(p.h[i], q.x - p.x.vec(i));
     Vec force = twice_pV * W * (B * away);
-    if (rubbing_[i] > 0) force -= cf_[q.face] * away.norm() * W / rubbing_[i] * friction;
+    if (rubbing_[i] > 0)
+      force -= friction_coefficient(p, i, q.face, q.v) * away.norm() * W / rubbing_[i] * friction;
     force = surface_->from_image(q.face, force);
     auto known = std::find_if(to.begin() + static_cast<std::ptrdiff_t>(first), to.end(),
                               [segment](const Reaction& r) { return r.segment == segment; });
@@ -214,7 +177,7 @@ void WallSupport::refreshed(World& world, const Clock&, std::span<const Index>) 
 Index WallSupport::look(const Particles& p, Index i) const {
   const WallSurface::View view = surface_->view_from(p.x.vec(i));
   if (view.nothing || is_spray(p, i)) return nothing;
-  return one_cf_ && !any_moves_ && view.flat >= 0 ? view.flat : pieces;
+  return one_law_ && !any_moves_ && view.flat >= 0 ? view.flat : pieces;
 }
 
 void WallSupport::keep(Archive& archive) {
@@ -295,7 +258,18 @@ Vec WallSupport::friction_on(const Particles& p, Index i, const Vec& v) const {
   return -(p.m[i] * rubbing_[i] * along.norm()) * along;
 }
 
-WallSupport::Sums WallSupport::sums_over_points(Real h, const Vec& x, const Vec& v, Real half_step) const {
+Real WallSupport::friction_coefficient(const Particles& p, Index i, Index face, const Vec& wall) const {
+  const WallFriction& law = friction_of(face);
+  if (!law.log_law) return law.cf;
+  const Vec n = surface_->away(face, p.x.vec(i)), u = p.v.vec(i) - wall, along = u - u.dot(n) * n;
+  const Real speed = along.norm(), nu = mu_.empty() ? 0 : mu_[p.part[i]] / p.rho[i];
+  const Real u_star = friction_velocity(speed, surface_->distance(face, p.x.vec(i)), nu, law.ks);
+  return speed > 0 ? 2 * power<2>(u_star / speed) : 0;
+}
+
+WallSupport::Sums WallSupport::sums_over_points(const Particles& p, Index i, Real half_step) const {
+  const Real h = p.h[i];
+  const Vec x = p.x.vec(i), v = p.v.vec(i);
   Sums s;
   surface_->for_each_seen(x, [&](const WallPoint& q, const Vec& away) {
     const Vec d = q.x - x, u = v - q.v;
@@ -303,7 +277,7 @@ WallSupport::Sums WallSupport::sums_over_points(Real h, const Vec& x, const Vec&
     s.slope += away * W;
     s.squeeze += u.dot(away) * before;
     s.fill += behind;
-    const Real rubbing = cf_[q.face] * away.norm() * W;
+    const Real rubbing = rubs_ ? friction_coefficient(p, i, q.face, q.v) * away.norm() * W : 0;
     s.rubbing += rubbing;
     if (velocity_) s.wall_velocity += rubbing * q.v;
     if (!moment_) return;
@@ -315,15 +289,17 @@ WallSupport::Sums WallSupport::sums_over_points(Real h, const Vec& x, const Vec&
   return s;
 }
 
-WallSupport::Sums WallSupport::sums_over_plane(Index face, Real h, const Vec& x, const Vec& v,
+WallSupport::Sums WallSupport::sums_over_plane(const Particles& p, Index i, Index face,
                                                Real half_step) const {
+  const Real h = p.h[i];
+  const Vec x = p.x.vec(i), v = p.v.vec(i);
   const Vec away = surface_->away(face, x);
   const Real d = surface_->distance(face, x), W = table_.plane(d / h) / h;
   const Real before = table_.plane(surface_->distance(face, x - half_step * v) / h) / h;
   Sums s{.slope = W * away,
          .squeeze = before * v.dot(away),
          .fill = table_.behind(d / h),
-         .rubbing = cf_[face] * W};
+         .rubbing = rubs_ ? friction_coefficient(p, i, face, Vec::Zero()) * W : 0};
   if (!moment_) return s;
   s.moment = d * W * away * away.transpose() + s.fill * Matrix::Identity();
   s.gradient = before * (v * away.transpose() + away * v.transpose());
@@ -380,82 +356,7 @@ class WallSupportForce : public Force {
   std::vector<std::vector<WallSupport::Reaction>> reactions_;  ///< of each block
 };
 
-/// Warns where contact, which acts at half the thickness, does not hold particles half a spacing from the
-/// wall.
-void check_thickness(const CourantWallSupport& c, Real thickness, const Deck& deck, const World& world,
-                     Diagnostics& diagnostics) {
-  const Particles& p = world.particles;
-  const Real dx = p.size() > 0 ? std::pow(p.m[0] / p.rho[0], 1.0 / world.dim) : 0;
-  if (std::abs(thickness / dx - 1) > 0.1)
-    diagnostics.warning(
-        deck.where(c),
-        fmt::format("*COURANT_WALL_SUPPORT: contact holds particles {:g} off the middle of the "
-                    "shells, where the sums are complete for {:g}, half a spacing",
-                    0.5 * thickness, 0.5 * dx),
-        "let the shells be one spacing of the particles thick");
-}
-
-/// What METHOD 1 cannot do.
-void check_images(const CourantWallSupport& c, const Deck& deck, const World& world, const SphSettings& s,
-                  Diagnostics& diagnostics) {
-  const auto refuse = [&](bool is, const char* what, const char* hint) {
-    if (is) deck.error(diagnostics, c, "METHOD", fmt::format("METHOD 1 is not supported {}", what), hint);
-  };
-  refuse(s.renormalised, "where FORM of *CONTROL_SPH renormalises", "use METHOD 0, or FORM 0");
-  refuse(!s.uniform_h, "where smoothing lengths differ",
-         "use METHOD 0, or one CSLH and spacing, HMIN = HMAX = 1");
-  refuse(s.geometry_eps > 0, "with *COURANT_PAIR_GEOMETRY", "use METHOD 0, or leave the other card out");
-  const auto moves = [&](Index segment) { return segment_moves(world, segment); };
-  refuse(std::any_of(s.walls.segments.begin(), s.walls.segments.end(), moves), "on walls that move",
-         "use METHOD 0, or hold the body: CON1 and CON2 of *MAT_RIGID");
-}
-
-/// Whether a corner of a shell moves by its forces.
-bool deforms(const World& world, Index segment) {
-  for (const Index n : world.segments.nodes(segment))
-    if (world.nodes.follow[n] == 0) return true;
-  return false;
-}
-
 }  // namespace
-
-void read_supported_walls(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
-                          Diagnostics& diagnostics) {
-  SupportedWalls& walls = settings.walls;
-  walls.cf.assign(world.segments.size(), -1);
-  const CourantWallSupport* first = nullptr;
-  for (const auto& c : deck.all<CourantWallSupport>()) {
-    const std::vector<char> chosen =
-        shell_parts_named(deck, model, c, "SURFB", c.surfb, c.surfbtyp, diagnostics);
-    Real thickness = 0;
-    for (Index s = 0; s < world.segments.size(); ++s) {
-      if (!chosen[world.segments.part[s]]) continue;
-      if (deforms(world, s)) {
-        deck.error(diagnostics, c, "SURFB",
-                   fmt::format("the shells of part {} deform, which is not supported here",
-                               model.parts[world.segments.part[s]].id),
-                   "name rigid parts; contact alone holds particles off shells that deform");
-        return;
-      }
-      thickness = world.segments.thickness[s];
-      if (walls.cf[s] >= 0) {
-        deck.error(diagnostics, c, "SURFB",
-                   fmt::format("part {} is named twice", model.parts[world.segments.part[s]].id),
-                   "name each part by one card");
-        return;
-      }
-      walls.segments.push_back(s);
-      walls.cf[s] = c.cf;
-    }
-    if (first && first->method != c.method)
-      deck.error(diagnostics, c, "METHOD", "another *COURANT_WALL_SUPPORT has another METHOD",
-                 "give all of them the same METHOD");
-    first = &c;
-    walls.images = c.method == 1;
-    if (walls.images) check_images(c, deck, world, settings, diagnostics);
-    if (thickness > 0) check_thickness(c, thickness, deck, world, diagnostics);
-  }
-}
 
 std::shared_ptr<Force> add_wall_support(const SphSettings& s, World& world,
                                         std::shared_ptr<Neighbours> neighbours,

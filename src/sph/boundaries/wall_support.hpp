@@ -20,7 +20,8 @@ namespace courant {
 /// The second is what belongs to the first, so that energy is kept. Where gradients are renormalised, walls
 /// complete the moment matrix by int (x' - x_i) (x) n W dS + 1 int W dV behind the wall, and its inverse B
 /// stands before b and n as before other gradients. Friction: tau = CF rho |v - w|^2/2 along the wall, given
-/// to the particles that see it, whose kernels make up half of 1 there.
+/// to the particles that see it, whose kernels make up half of 1 there. With LAW 1, tau = rho u*^2 by the
+/// distance and velocity of each of them (wall_law.hpp).
 ///
 /// Walls that move get what particles lose, piece by piece, on the nodes of the segment as it interpolates.
 ///
@@ -85,8 +86,11 @@ class WallSupport : public Rate,
   /// A velocity of particle i less that of the walls that rub it.
   Vec over_wall(Index i, const Vec& v) const;
   Vec friction_on(const Particles& p, Index i, const Vec& v) const;
-  Sums sums_over_points(Real h, const Vec& x, const Vec& v, Real half_step) const;
-  Sums sums_over_plane(Index face, Real h, const Vec& x, const Vec& v, Real half_step) const;
+  const WallFriction& friction_of(Index face) const { return walls_.friction[surface_->segment_of(face)]; }
+  /// Shear stress of a face over rho u^2/2 for a particle there; `wall`: the velocity of the face [L/T]
+  Real friction_coefficient(const Particles& p, Index i, Index face, const Vec& wall) const;
+  Sums sums_over_points(const Particles& p, Index i, Real half_step) const;
+  Sums sums_over_plane(const Particles& p, Index i, Index face, Real half_step) const;
   Real kernel(Real h, const Vec& d) const;
   Real volume_behind(Real h, const Vec& d, const Vec& away) const;
 
@@ -106,12 +110,12 @@ class WallSupport : public Rate,
   std::vector<char> moves_;        ///< by segment
   Real least_h_ = 0, most_h_ = 0;  ///< when neighbours were searched last [L]
   std::optional<WallSurface> surface_;
-  std::vector<Real> cf_;  ///< of each face
+  std::vector<Real> mu_;  ///< per part, 0: none [M/LT]
   /// Of active particles, until the next refresh, or where walls move the next step: `nothing`, `pieces` or a
   /// face of the one plane they see.
   std::vector<Index> view_;
   static constexpr Index nothing = -2, pieces = -1;
-  bool one_cf_ = true;        ///< of all walls
+  bool one_law_ = true;       ///< of friction for all walls
   bool rubs_ = false;         ///< any wall
   std::vector<Index> shown_;  ///< segments that have forces of this step
 };

@@ -15,6 +15,11 @@ constexpr Real small = 1e-9;  ///< of the reach: lengths below are zero
 
 }  // namespace
 
+bool segment_moves(const World& world, Index segment) {
+  const auto nodes = world.segments.nodes(segment);
+  return std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return !world.nodes.held[n]; });
+}
+
 Lookouts::Lookouts(const Particles& p, Real reach, const std::vector<GhostPlane>& planes)
     : reach_(1.1 * reach) {  // particles may stand a little behind a mirror
   for (const GhostPlane& plane : planes) {
@@ -73,7 +78,7 @@ bool Lookouts::any_in(const Vec& low, const Vec& high) const {
 
 WallSurface::WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
                          std::vector<GhostPlane> planes, const Lookouts* from)
-    : dim_(world.dim), reach_(reach), mirrors_and_periods_(std::move(planes)) {
+    : dim_(world.dim), reach_(reach), spacing_(spacing), mirrors_and_periods_(std::move(planes)) {
   std::vector<char> seen(segments.size(), 1);
   if (from)
     for_each(static_cast<Index>(segments.size()), [&](Index k) {
@@ -332,6 +337,27 @@ std::vector<Index> WallSurface::faces_around(const Vec& x) const {
   std::array<Index, 27> cells;
   const int n = cells_around(from, cells);
   return faces_near(from, cells, n);
+}
+
+std::vector<Index> WallSurface::faces_next_to(const Vec& x) const {
+  const Vec from = in_plane(x);
+  std::array<Index, 27> cells;
+  const int n = cells_around(from, cells);
+  // no point of a piece is farther from its middle than half of its diagonal
+  const auto half = [&](const WallPoint& point) {
+    return dim_ == 2 ? 0.5 * point.area.norm() : std::sqrt(Real(0.5)) * spacing_;
+  };
+  Real least = reach_;
+  for (int k = 0; k < n; ++k)
+    for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q)
+      least = std::min(least, (points_[q].x - from).norm());
+  std::vector<Index> found;
+  for (int k = 0; k < n; ++k)
+    for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q)
+      if ((points_[q].x - from).norm() - half(points_[q]) <= least) found.push_back(points_[q].face);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 bool WallSurface::is_at_face(Index f, const Vec& q) const {

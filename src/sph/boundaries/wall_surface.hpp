@@ -20,6 +20,9 @@ struct WallPoint {
   std::array<Real, 4> weight{};  ///< of the nodes of its segment, as they interpolate [-]
 };
 
+/// Whether any of its nodes can.
+bool segment_moves(const World& world, Index segment);
+
 /// Where somebody may look from: cells about `reach` wide, and which of them particles stand in.
 class Lookouts {
  public:
@@ -82,6 +85,8 @@ class WallSurface {
   const Face& face(Index f) const { return faces_[f]; }
   /// Faces that have points within the reach of x, ascending.
   std::vector<Index> faces_around(const Vec& x) const;
+  /// Faces among which is the one next to x, where any is within the reach; ascending.
+  std::vector<Index> faces_next_to(const Vec& x) const;
   /// Whether q, in the plane of a face, is where that face or its image counts.
   bool is_at_face(Index f, const Vec& q) const;
   Real reach() const { return reach_; }
@@ -138,6 +143,7 @@ class WallSurface {
 
   int dim_;
   Real reach_;
+  Real spacing_;  ///< pieces are no longer
   std::vector<GhostPlane> mirrors_and_periods_;
   std::vector<Face> faces_;
   std::set<Key> lines_;

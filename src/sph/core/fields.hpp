@@ -42,7 +42,21 @@ inline Field<Real>& viscous_speed(Particles& p) {
 }
 /// MU and eddy viscosity, of the last materials
 inline Field<Real>& viscosity(Particles& p) {
-  return p.fields.add<Real>({.name = "viscosity", .dimension = "M/LT"});
+  return p.fields.add<Real>({.name = "viscosity", .dimension = "M/LT", .exchange = true});
+}
+/// nu_t of a turbulence model
+inline Field<Real>& eddy_viscosity(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "eddy_viscosity", .dimension = "L2/T", .output = true, .exchange = true});
+}
+/// k and epsilon of k-epsilon models
+inline Field<Real>& turbulent_energy(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "turbulent_energy", .dimension = "L2/T2", .output = true, .exchange = true});
+}
+inline Field<Real>& turbulent_dissipation(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "turbulent_dissipation", .dimension = "L2/T3", .output = true, .exchange = true});
 }
 /// p + q of the bulk viscosity
 inline Field<Real>& pressure_plus_q(Particles& p) {

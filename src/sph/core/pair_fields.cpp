@@ -18,7 +18,7 @@ RateFields::RateFields(const SphSettings& s, Particles& p)
     viscous_speed_ = &sph_fields::viscous_speed(p);
     q2_ = monaghan->q2;
   }
-  if (!s.mu.empty() || !s.strength.empty()) strain_ = &sph_fields::strain_rate(p);
+  if (s.has_viscous_stress() || !s.strength.empty()) strain_ = &sph_fields::strain_rate(p);
 }
 
 PairArrays RateFields::arrays(Particles& p, const PairVolumes& volumes) const {
@@ -51,7 +51,7 @@ void RateFields::declare_reduction(const Particles& p, Accesses& a) const {
 ForceFields::ForceFields(const SphSettings& s, Particles& p)
     : kernel_(&any_kernel(s.kernel)), delta_(s.density_diffusion) {
   if (std::holds_alternative<BulkViscosity>(s.viscosity)) total_pressure_ = &sph_fields::pressure_plus_q(p);
-  if (!s.mu.empty() || !s.strength.empty()) tau_ = &sph_fields::stress(p);
+  if (s.has_viscous_stress() || !s.strength.empty()) tau_ = &sph_fields::stress(p);
   if (s.density_diffusion > 0) {
     diffusion_ = &sph_fields::density_diffusion(p);
     potential_ = &sph_fields::potential(p);

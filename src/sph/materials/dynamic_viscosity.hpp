@@ -11,7 +11,7 @@ namespace courant {
 class DynamicViscosity {
  public:
   DynamicViscosity(const SphSettings& s, World& world)
-      : mu_(s.mu), both_(s.mixing_length.most > 0 ? &sph_fields::viscosity(world.particles) : nullptr) {}
+      : mu_(s.mu), both_(s.has_eddies() ? &sph_fields::viscosity(world.particles) : nullptr) {}
   bool none() const { return mu_.empty(); }
   void declare(const Particles& p, Accesses& a) const {
     if (none()) return;

@@ -222,7 +222,7 @@ class StrengthStress : public Material {
 class StrengthDeviator : public Material {
  public:
   StrengthDeviator(const SphSettings& s, World& world)
-      : adds_(!s.mu.empty()),
+      : adds_(s.has_viscous_stress()),
         kept_(sph_fields::law_stress(world.particles)),
         stress_(sph_fields::stress(world.particles)) {}
   std::string name() const override { return "strength (deviator)"; }

@@ -62,6 +62,7 @@ const Lists bare{
      "smoothing length HMIN = HMAX = 1: h is constant",
      "bulk viscosity IAVIS 0: Monaghan viscosity between pairs",
      "eddy viscosity no *COURANT_EDDY_VISCOSITY",
+     "turbulence no *COURANT_TURBULENCE",
      "viscous stress MU is 0 in all SPH materials",
      "strength all SPH materials are fluids",
      "speed limit MAXV none given",
@@ -202,6 +203,12 @@ TEST(Passes, EddyViscosity) {
   SmallScene scene;
   scene.extra = "*COURANT_EDDY_VISCOSITY\n0.1\n";
   expect_change(scene, {"eddy viscosity", "viscous stress"}, {"laws eddy viscosity", "laws viscous stress"});
+}
+
+TEST(Passes, Turbulence) {
+  SmallScene scene;
+  scene.extra = "*COURANT_TURBULENCE\n2\n";
+  expect_change(scene, {"turbulence", "viscous stress"}, {"rates turbulence (sums)", "laws turbulence"});
 }
 
 TEST(Passes, BulkViscosity) {

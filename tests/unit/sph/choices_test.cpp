@@ -51,6 +51,8 @@ const std::vector<Choice>& choices() {
       {"Riemann flux", "viscosity", [](Scene& s) { s.extra += "*COURANT_RIEMANN\n3.\n"; }},
       {"MU", "mu", [](Scene& s) { s.mu = true; }},
       {"eddy viscosity", "eddy", [](Scene& s) { s.extra += "*COURANT_EDDY_VISCOSITY\n0.1,0.09\n"; }},
+      {"k-epsilon", "eddy", [](Scene& s) { s.extra += "*COURANT_TURBULENCE\n2\n,,,,0.01,0.1\n"; }},
+      {"Smagorinsky", "eddy", [](Scene& s) { s.extra += "*COURANT_TURBULENCE\n3\n"; }},
       {"density diffusion", "density diffusion",
        [](Scene& s) { s.extra += "*COURANT_DENSITY_DIFFUSION\n0.05\n"; }},
       {"volume control", "volume control", [](Scene& s) { s.extra += "*COURANT_VOLUME_CONTROL\n0.05\n"; }},
