@@ -133,7 +133,7 @@ void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
     row = PartRow();
     const bool beams = group->corners() == 2;
     row.elements = group->size(), row.kind = beams ? "beam" : "solid", row.mass = row.volume = 0;
-    row.rho = law.ro, row.c = law.sound_speed();
+    row.rho = law.ro, row.c = s.sound_speed_of_elements(group->part);
     for (Index e = 0; e < group->size(); ++e) row.mass += group->mass[e], row.volume += group->V0[e];
     row.spacing = std::cbrt(row.volume / row.elements);
     if (beams) row.spacing = shortest_of(world, *group);

@@ -242,6 +242,8 @@ void Simulation::add_rotations() {
 
 // For contact; solids without a law have been reported.
 Real Simulation::bulk_modulus(Index part) const {
+  if (const SolidPart& solids = solids_[static_cast<std::size_t>(part)]; solids.law)
+    return solids.bulk_modulus();
   const auto& own = law_of_elements(part);
   const auto& law = own ? own : materials_[part].strength;
   if (law) return law->bulk_modulus();
@@ -328,10 +330,7 @@ Real Simulation::rest_energy() const {
     return p.state[i] == particle_waiting ? Real(0) : p.m[i] * std::pow(materials_[p.part[i]].c0(), 2);
   });
   for (const auto& group : world_.groups) {
-    const auto part = static_cast<std::size_t>(group->part);
-    const Real c = part < solids_.size() && law_of_elements(group->part)
-                       ? law_of_elements(group->part)->sound_speed()
-                       : 0;
+    const Real c = sound_speed_of_elements(group->part);
     e += c * c * sum(group->size(), [&](Index k) { return group->mass[k]; });
   }
   return bodies_ ? e + bodies_->rest_energy() : e;

@@ -67,6 +67,13 @@ class Simulation {
     const auto k = static_cast<std::size_t>(part);
     return solids_[k].law ? solids_[k].law : shells_[k].law ? shells_[k].law : beams_[k].law;
   }
+  /// Of compression waves in elements at the start; 0: such a part has no law.
+  /// [L/T]
+  Real sound_speed_of_elements(Index part) const {
+    const auto k = static_cast<std::size_t>(part);
+    if (k >= solids_.size() || !law_of_elements(part)) return 0;
+    return solids_[k].law ? solids_[k].sound_speed() : law_of_elements(part)->sound_speed();
+  }
   const std::vector<std::shared_ptr<Contact>>& contacts() const { return contacts_; }
   const RigidBodies* bodies() const { return bodies_.get(); }
   const Injections& injections() const { return injections_; }

@@ -56,15 +56,15 @@ bool FailureRules::measures_strain() const {
 }
 
 bool FailureRules::of_points() const {
-  return law_strain < never || measures_strain() || most_pressure < never || least_pressure > -never ||
+  return law_limit < never || measures_strain() || most_pressure < never || least_pressure > -never ||
          principal_stress < never || mises < never || plastic_strain < never || impulse < never ||
          time < never;
 }
 
-int plastic_strain_of(const StrengthLaw& law) {
+int history_at(const StrengthLaw& law, const std::string& variable) {
   int at = 0;
   for (const HistoryVariable& h : law.history()) {
-    if (h.name == "plastic_strain") return at;
+    if (h.name == variable) return at;
     at += h.components;
   }
   return -1;
@@ -157,11 +157,11 @@ void Erosion::look(const FailingPoints& p) {
       impulse_->data(p.point)[p.begin + i] += over * over * p.dt;
     }
   FailureRules of_card = rules_;
-  of_card.law_strain = infinite;
+  of_card.law_limit = infinite;
   const bool has_card = of_card.of_points();
   for (Index i = 0; i < p.count; ++i) {
     if (dead(p.begin + i)) continue;
-    if (p.plastic && p.plastic[i] >= rules_.law_strain) failed[i] |= by_law;
+    if (p.by_law && p.by_law[i] >= rules_.law_limit) failed[i] |= by_law;
     if (has_card && !(failed[i] & by_card)) {
       std::string why = failure_of(p, i);
       if (!why.empty()) {
@@ -200,7 +200,11 @@ void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real
                                     [&](const Failed& one) { return one.element == e; });
       strike(begin, e, why == why_[block].end() ? "failed points" : why->why);
     } else if (of_law == points_) {
-      strike(begin, e, fmt::format("plastic strain {:.4g}", rules_.law_strain));
+      std::string variable = rules_.law_variable;
+      std::replace(variable.begin(), variable.end(), '_', ' ');
+      strike(begin, e, fmt::format("{} {:.4g}", variable, rules_.law_limit));
+    } else if (volume && (volume[i] > rules_.most_volume || volume[i] < rules_.least_volume) && !inside_out) {
+      strike(begin, e, fmt::format("volume {:.4g} of the reference", volume[i]));
     } else if (inside_out) {
       strike(begin, e, "it turned inside out");
     } else if (rules_.small_step && share * step_limit[i] < least_step_) {

@@ -19,8 +19,12 @@ namespace courant {
 /// criterion is not asked for. Signs: stress and strain > 0 in tension, pressure > 0 in compression.
 struct FailureRules {
   static constexpr Real never = std::numeric_limits<Real>::infinity();
-  /// Of the law (FS, FAIL): a point has no stress from there on, an element goes when all points have failed.
-  Real law_strain = never;
+  /// Of the law (FS, FAIL, damage): a point has no stress from there on, an
+  /// element goes when all points have failed. What it is the limit of: the
+  /// law's history variable.
+  Real law_limit = never;
+  std::string law_variable = "plastic_strain";
+  Real least_volume = 0, most_volume = never;  ///< V/V0 (CEROD, TEROD)
   // *MAT_ADD_EROSION
   Real most_pressure = never, least_pressure = -never, principal_stress = never, mises = never;  ///< [M/LT2]
   Real most_strain = never, least_strain = -never;  ///< principal, of the logarithmic strain [-]
@@ -32,8 +36,9 @@ struct FailureRules {
   int points = 1;                                ///< NUMFIP; < 0: per cent of all
   bool small_step = false;  ///< ERODE: elements that would bring the step below DTMIN times the first
   bool measures_strain() const;
-  bool of_points() const;  ///< any but `small_step`
-  bool any() const { return small_step || of_points(); }
+  bool of_points() const;  ///< any but `small_step` and volume
+  bool of_volume() const { return least_volume > 0 || most_volume < never; }
+  bool any() const { return small_step || of_volume() || of_points(); }
 };
 
 /// By part of the model; `laws`: null where a part has no elements that deform. Cards for parts of particles
@@ -50,6 +55,8 @@ struct FailingPoints {
   std::array<const Real*, 6> rate{};  ///< D: xx yy zz xy yz zx [1/T]
   std::array<Real*, 6> stress{};      ///< [M/LT2]
   const Real* plastic = nullptr;      ///< effective plastic strain; null: the law has none [-]
+  const Real* by_law = nullptr;       ///< what FailureRules::law_limit is the limit
+                                      ///< of; null: of nothing [-]
 };
 
 /// The elements of a group that may fail. Deleted ones keep their energies, which count as dissipated.
@@ -121,8 +128,11 @@ struct ElementOptions {
   std::vector<std::shared_ptr<Erosion>> eroding{};  ///< out: of groups that may fail
 };
 
-/// Index of the history variable `plastic_strain` among the numbers of a law; -1: it has none.
-int plastic_strain_of(const StrengthLaw& law);
+/// Index of a history variable among the numbers of a law; -1: it has none.
+int history_at(const StrengthLaw& law, const std::string& variable);
+inline int plastic_strain_of(const StrengthLaw& law) {
+  return history_at(law, "plastic_strain");
+}
 
 /// Adds the pass that books deleted elements: energies, faces, what the messages tell.
 void add_erosion(const Model& model, std::vector<std::shared_ptr<Erosion>> groups, World& world);

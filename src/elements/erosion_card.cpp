@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "elements/erosion.hpp"
 #include "keyword/common_rules.hpp"
@@ -175,7 +176,8 @@ std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
   const int erode = step ? step->erode : 0;
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (!laws[k]) continue;
-    out[k].law_strain = laws[k]->failure_strain();
+    out[k].law_limit = laws[k]->failure_limit(), out[k].law_variable = laws[k]->failure_variable();
+    std::tie(out[k].least_volume, out[k].most_volume) = laws[k]->volume_range();
     if (const auto card = cards.find(model.parts[k].mid); card != cards.end()) {
       take_card(*card->second, out[k]);
       if (out[k].plastic_strain < FailureRules::never && plastic_strain_of(*laws[k]) < 0)

@@ -20,6 +20,9 @@ struct PointBlock {
   const Real* compression = nullptr;  ///< mu = rho/rho0 - 1 at the end of the step; null: taken as 0 [-]
   const Real* pressure = nullptr;     ///< of the equation of state, where there is one [M/LT2]
   const Real* energy = nullptr;       ///< internal energy per reference volume [M/LT2]
+  /// Out, of a law that gives the deviator only, where somebody cuts the pressure off: below what. It holds
+  /// StrengthLaw::pressure_cutoff() before. [M/LT2]
+  Real* least_pressure = nullptr;
   /// Out. Of a law that gives the deviator only: its share sqrt(4G/(3 rho)), to which the square of the
   /// equation of state's is to be added. [L/T]
   Real* sound_speed = nullptr;

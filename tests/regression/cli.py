@@ -108,7 +108,7 @@ ends(1, "run", "tiny.k", "--until", "soon", err="soon")
 ends(1, "run", "tiny.k", "--until", "-1", err="-1")
 for time_of_no_end in ("nan", "inf"):
     ends(1, "run", "tiny.k", "--until", time_of_no_end, err=time_of_no_end)
-ends(0, "keywords", out=r"(?s)\*MAT_JOHNSON_COOK +refused .*\*MAT_NULL +partly +fluid.*\nhonoured: all")
+ends(0, "keywords", out=r"(?s)\*MAT_ALE_VISCOUS +refused .*\*MAT_NULL +honoured +fluid.*\nhonoured: all")
 ends(0, "keywords", "section_sph", out=r"^\*SECTION_SPH.*\n(partly|honoured)(.*\n)*.*CSLH")
 ends(0, "keywords", "*MAT_RIGID_TITLE", out="CMO")
 ends(1, "keywords", "MAT_NUL", err="did you mean")

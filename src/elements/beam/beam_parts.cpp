@@ -94,12 +94,12 @@ class BeamReader {
                        ? "ELFORM 2 takes *MAT_ELASTIC; ELFORM 1 has plastic materials, too"
                        : "use *MAT_ELASTIC, *MAT_PLASTIC_KINEMATIC or *MAT_PIECEWISE_LINEAR_PLASTICITY");
     out.law = law->second.first;
-    if (std::isfinite(out.law->failure_strain()))
+    if (std::isfinite(out.law->failure_limit()))
       return error(
           part.card, "MID",
           fmt::format("beams cannot fail: *{} {} of part {} lets elements fail at the plastic strain "
                       "{:g}",
-                      name, part.mid, part.id, out.law->failure_strain()),
+                      name, part.mid, part.id, out.law->failure_limit()),
           "give the beams a material of their own, without it");
     if (out.kind == BeamKind::integrated) out.points = section_points(static_cast<int>(s.rule), s.tube());
     if (out.kind == BeamKind::truss) out.points = {SectionPoint()};

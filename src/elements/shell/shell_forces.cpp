@@ -211,7 +211,7 @@ class ShellForces : public Material,
     out->vanishes(stress_);
     for (Field<Real>* h : history_)
       if (h->info().components == 6) out->vanishes(*h);
-    plastic_ = plastic_strain_of(*law_);
+    plastic_ = plastic_strain_of(*law_), fails_ = history_at(*law_, law_->failure_variable());
     return out;
   }
 
@@ -221,6 +221,7 @@ class ShellForces : public Material,
     failing.rate = points.rate, failing.rate[2] = rate_zz;
     failing.stress = points.stress;
     if (plastic_ >= 0) failing.plastic = points.history[static_cast<std::size_t>(plastic_)];
+    if (fails_ >= 0) failing.by_law = points.history[static_cast<std::size_t>(fails_)];
     erosion_->look(failing);
   }
 
@@ -377,7 +378,7 @@ class ShellForces : public Material,
   std::vector<ShellLoops::Found> found_;  ///< in each block
   std::unique_ptr<ScaledMass> scaled_;    ///< null: no mass scaling
   std::shared_ptr<Erosion> erosion_;      ///< null: nothing fails
-  int plastic_ = -1;                      ///< of the law's numbers the plastic strain
+  int plastic_ = -1, fails_ = -1;         ///< of the law's numbers the plastic strain, and what it fails by
 };
 
 }  // namespace

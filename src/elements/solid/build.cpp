@@ -4,8 +4,68 @@
 
 #include "elements/solid/section_solid.hpp"
 #include "elements/solid/solids.hpp"
+#include "laws/eos/find_eos.hpp"
+#include "laws/fluid/mat_null.hpp"
 
 namespace courant {
+
+namespace {
+
+/// Laws of the materials that solids may have, by id.
+class SolidLaws {
+ public:
+  SolidLaws(const Deck& deck, const Model& model) : eos_(deck) {
+    for (const StrengthEntry& kind : strength_registry()) {
+      known_ += "*" + kind.keyword + ", ";
+      for (const auto& [id, law] : kind.all(deck, model)) laws_.emplace(id, law);
+    }
+    for (const MatNull& fluid : deck.all<MatNull>()) laws_.emplace(fluid.mid, fluid.law());
+  }
+
+  void take(const Deck& deck, const ModelPart& part, SolidPart& out, Diagnostics& diagnostics) {
+    const auto law = laws_.find(part.mid);
+    if (law == laws_.end()) {
+      deck.error(diagnostics, part.card, "MID",
+                 fmt::format("the solids of part {} need a *MAT_NULL or a material with strength, id {}; {}",
+                             part.id, part.mid, deck.found_instead(IdSpace::material, part.mid)),
+                 "add one of " + known_ + "*MAT_NULL, or a *MAT_RIGID, and give its id here");
+      return;
+    }
+    if (law->second->deviator_only()) {
+      const auto eos = eos_.find(deck, part, law->second->ro, "solids", diagnostics);
+      if (!eos) return;
+      out.pressure = std::make_shared<SolidPressure>(eos, law->second);
+      if (out.full)
+        deck.error(
+            diagnostics, part.card, "SECID",
+            fmt::format("solids with eight points, as those of part {}, cannot have an equation of state",
+                        part.id),
+            "give them ELFORM 1");
+      if (law->second->shear_modulus() == 0 && out.viscosity.ihq >= 4)
+        deck.warning(diagnostics, part.card, "HGID",
+                     fmt::format("the solids of part {} are a fluid, and IHQ "
+                                 "{} is a stiffness: elements that flow "
+                                 "store energy in it",
+                                 part.id, out.viscosity.ihq),
+                     "IHQ 1 to 3 are viscous");
+    } else if (part.eosid != 0) {
+      deck.warning(diagnostics, part.card, "EOSID",
+                   fmt::format("has no effect: the material of part {} has a "
+                               "pressure of its own",
+                               part.id),
+                   "leave the field blank, or use a material that gives the "
+                   "deviator only");
+    }
+    out.law = law->second;
+  }
+
+ private:
+  PartEos eos_;
+  std::map<Id, std::shared_ptr<StrengthLaw>> laws_;
+  std::string known_;
+};
+
+}  // namespace
 
 std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   std::vector<SolidPart> out(model.parts.size());
@@ -14,38 +74,15 @@ std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Di
   if (!any) return out;
   check_solid_sections(deck, model, diagnostics);
   const std::vector<SolidViscosity> viscosity = read_solid_viscosity(deck, model, diagnostics);
-  std::map<Id, std::shared_ptr<StrengthLaw>> laws;
-  std::string known;
   const int errors = diagnostics.errors();
-  for (const StrengthEntry& kind : strength_registry()) {
-    kind.check(deck, model, diagnostics);
-    if (!kind.deviator_only) known += (known.empty() ? "*" : ", *") + kind.keyword;
-  }
-  if (diagnostics.errors() == errors)  // a law is made from valid cards
-    for (const StrengthEntry& kind : strength_registry())
-      for (const auto& [id, law] : kind.all(deck, model)) laws.emplace(id, law);
-  else
-    return out;
+  for (const StrengthEntry& kind : strength_registry()) kind.check(deck, model, diagnostics);
+  if (diagnostics.errors() > errors) return out;  // a law is made from valid cards
+  SolidLaws laws(deck, model);
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const ModelPart& part = model.parts[k];
     if (!part.has_solid || part.rigid) continue;
-    out[k].viscosity = viscosity[k];
-    const auto law = laws.find(part.mid);
-    const std::string instead = deck.found_instead(IdSpace::material, part.mid);
-    if (law == laws.end()) {
-      deck.error(diagnostics, part.card, "MID",
-                 fmt::format("the solids of part {} need a material with strength and id {}; {}", part.id,
-                             part.mid, instead),
-                 "add one of " + known + ", or a *MAT_RIGID, and give its id here");
-    } else if (law->second->deviator_only()) {
-      deck.error(diagnostics, part.card, "MID",
-                 fmt::format("the material of part {} takes its pressure from an equation of state, which is "
-                             "not supported for solids",
-                             part.id),
-                 "use one of " + known);
-    } else {
-      out[k].law = law->second;
-    }
+    out[k].viscosity = viscosity[k], out[k].full = fully_integrated(deck, part);
+    laws.take(deck, part, out[k], diagnostics);
   }
   return out;
 }

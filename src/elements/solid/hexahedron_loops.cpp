@@ -3,113 +3,18 @@
 // repeats that one and is not stored.
 #include "elements/solid/hexahedron_loops.hpp"
 
-#include "elements/native_math.hpp"
+#include "elements/solid/hexahedron_modes.hpp"
 #include "laws/objective.hpp"
 
 namespace courant::COURANT_SIMD {
 
 namespace {
 
-COURANT_INLINE Triple triple(const Real (*rows)[block_size], Index k) {
-  return {load(rows[0] + k), load(rows[1] + k), load(rows[2] + k)};
-}
-
-/// x^(-1/3) for normal x > 0, to the last few bits: a guess from the exponent within a tenth, then three
-/// steps of third order.
-COURANT_INLINE Native inverse_cube_root(Native x) {
-  using Bits = unsigned long long __attribute__((vector_size(COURANT_SIMD_BYTES)));
-  constexpr unsigned long long large = 0x4330000000000000;  // of 2^52, whose last bits count ones
-  const Native high = Native((Bits(x) >> 32) | large) - 0x1p52;
-  Native y = Native(Bits((1429986000.0 - high * (1.0 / 3)) + 0x1p52) << 32);
-  for (int k = 0; k < 3; ++k) {
-    const Native e = 1.0 - x * y * y * y;
-    y += y * e * (1.0 / 3 + e * (2.0 / 9));
-  }
-  return y;
-}
-
-/// Modes 1 to 7 of eight numbers, one for each corner: xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta.
-COURANT_INLINE void modes_of(const Native p[8], Native out[7]) {
-  const Native s01 = p[1] + p[0], d01 = p[1] - p[0], s32 = p[2] + p[3], d32 = p[2] - p[3];
-  const Native s45 = p[5] + p[4], d45 = p[5] - p[4], s76 = p[6] + p[7], d76 = p[6] - p[7];
-  const Native ss0 = s32 + s01, sd0 = s32 - s01, ds0 = d32 + d01, dd0 = d32 - d01;
-  const Native ss1 = s76 + s45, sd1 = s76 - s45, ds1 = d76 + d45, dd1 = d76 - d45;
-  out[0] = ds1 + ds0, out[1] = sd1 + sd0, out[2] = ss1 - ss0;
-  out[3] = sd1 - sd0, out[4] = ds1 - ds0, out[5] = dd1 + dd0, out[6] = dd1 - dd0;
-}
-
-/// The numbers at the corners that have these modes, and no mode 0.
-COURANT_INLINE void corners_of(const Native m[7], Native out[8]) {
-  const Native d0 = m[5] - m[6], d1 = m[5] + m[6], c0 = m[0] - m[4], c1 = m[0] + m[4];
-  const Native b0 = m[1] - m[3], b1 = m[1] + m[3];
-  const Native low0 = -m[2] - b0, low1 = m[2] - b1, high0 = b0 - m[2], high1 = b1 + m[2];
-  out[0] = low0 - (c0 - d0), out[1] = low0 + (c0 - d0);
-  out[3] = high0 - (c0 + d0), out[2] = high0 + (c0 + d0);
-  out[4] = low1 - (c1 - d1), out[5] = low1 + (c1 - d1);
-  out[7] = high1 - (c1 + d1), out[6] = high1 + (c1 + d1);
-}
-
-/// 64 dV/da_k of modes 1 to 6, and 64 V.
-struct Geometry {
-  Triple g[6];
-  Native V64;
-};
-COURANT_INLINE Geometry geometry(const Triple a[7]) {
-  constexpr Real third = 1.0 / 3;
-  Geometry out;
-  out.g[0] = cross(a[1], a[2]) + third * cross(a[5], a[4]);
-  out.g[1] = cross(a[2], a[0]) + third * cross(a[3], a[5]);
-  out.g[2] = cross(a[0], a[1]) + third * cross(a[4], a[3]);
-  out.g[3] = third * (cross(a[2], a[4]) + cross(a[5], a[1]));
-  out.g[4] = third * (cross(a[3], a[2]) + cross(a[0], a[5]));
-  out.g[5] = third * (cross(a[1], a[3]) + cross(a[4], a[0]));
-  out.V64 = dot(a[0], out.g[0]) + dot(a[3], out.g[3]);
-  return out;
-}
-COURANT_INLINE Native volume64(const Triple a[7]) {
-  return dot(a[0], cross(a[1], a[2])) +
-         (1.0 / 3) * (dot(a[0], cross(a[5], a[4])) + dot(a[3], cross(a[2], a[4]) + cross(a[5], a[1])));
-}
-
-/// Squares of the vectors of two opposite faces, (b +- f) x (c +- e)/16, times 256: the larger one.
-COURANT_INLINE Native larger_face2(const Triple& b, const Triple& f, const Triple& c, const Triple& e) {
-  const Triple even = cross(b, c) + cross(f, e), odd = cross(b, e) + cross(f, c);
-  const Native twice = 2.0 * dot(even, odd);
-  return dot(even, even) + dot(odd, odd) + native_max(twice, -twice);
-}
-COURANT_INLINE Native largest_face(const Triple a[7]) {
-  return 0.0625 * root(native_max(larger_face2(a[1], a[5], a[2], a[4]),
-                                  native_max(larger_face2(a[2], a[3], a[0], a[5]),
-                                             larger_face2(a[0], a[4], a[1], a[3]))));
-}
-
 /// 64 V times the gradient of one component of v, given by its modes. Those above 6 have no part in it.
 COURANT_INLINE Triple gradient64(const Native w[7], const Triple g[6]) {
   Triple out{w[0] * g[0].x, w[0] * g[0].y, w[0] * g[0].z};
   for (int k = 1; k < 6; ++k) out = {out.x + w[k] * g[k].x, out.y + w[k] * g[k].y, out.z + w[k] * g[k].z};
   return out;
-}
-
-/// Modes of places and velocities, kept for the forces, too.
-COURANT_INLINE void gather_modes(const HexahedronMesh& mesh, Index first, Index n, Index k,
-                                 HexahedronScratch& scratch, Native x[3][7], Native v[3][7]) {
-  Native px[3][8], pv[3][8];
-  Index last[8][native_lanes];
-  const Index* nodes[8];
-  for (int c = 0; c < 8; ++c) {
-    nodes[c] = mesh.corner[c] + first;
-    if (n >= native_lanes) continue;
-    for (Index l = 0; l < native_lanes; ++l) last[c][l] = nodes[c][l < n ? l : n - 1];
-    nodes[c] = last[c];
-  }
-  for (int c = 0; c < 8; ++c)  // not by component: each index is read once
-    for (int d = 0; d < 3; ++d)
-      px[d][c] = gather(mesh.x[d], nodes[c]), pv[d][c] = gather(mesh.v[d], nodes[c]);
-  for (int d = 0; d < 3; ++d) {
-    modes_of(px[d], x[d]), modes_of(pv[d], v[d]);
-    for (int m = 0; m < 7; ++m)
-      store(scratch.place[3 * m + d] + k, x[d][m]), store(scratch.speed[3 * m + d] + k, v[d][m]);
-  }
 }
 
 COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const HexahedronMesh& mesh,
@@ -185,10 +90,6 @@ COURANT_INLINE Native force_modes(const Triple a[7], const Native w[7], const Ge
   return power;
 }
 
-COURANT_INLINE void add(Real* p, Native a, Index n) {
-  store(p, load(p, n) + a, n);
-}
-
 /// k = QM rho c^2 b:b/(8 V), with which the modes are QM times as stiff as the stiffest uniform strain, b_I =
 /// dV/dx_I. [M/T2]
 COURANT_INLINE Native hourglass_stiffness(Native modulus, const Geometry& q, Native inverse_V64) {
@@ -207,33 +108,28 @@ COURANT_INLINE void turned_hourglass_forces(Index first, Index n, Index k, const
   }
 }
 
+COURANT_INLINE void viscosity_of(Index first, Index n, Index k, Real dt, const HexahedronControl& control,
+                                 const HexahedronState& state, HexahedronScratch& scratch) {
+  const Native denser = 1.0 + load(scratch.compression + k), V = load(state.V0 + first, n) / denser;
+  const Native r = inverse_cube_root(V), l = V * r * r, trace = trace_of(scratch, k);
+  const Native q = bulk_viscosity(load(state.rho0 + first, n) * denser, l, load(scratch.sound_speed + k),
+                                  native_max(-trace, all(0)), control);
+  const Native both = q + load(state.viscous_pressure + first, n);
+  store(scratch.work + k, load(scratch.work + k) - 0.5 * dt * load(scratch.middle_volume + k) * trace * both);
+  store(state.viscous_pressure + first, q, n);
+}
+
 COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const HexahedronControl& control,
                               const HexahedronState& state, HexahedronScratch& scratch) {
   Triple a[7];
   for (int m = 0; m < 7; ++m) a[m] = triple(scratch.place + 3 * m, k);
-  const Native area = largest_face(a);
   const Geometry now = geometry(a);
-  const Native V = 0.015625 * now.V64, inverse_V64 = 1.0 / now.V64;
-  const Native V0 = load(state.V0 + first, n), rho = 64.0 * load(state.rho0 + first, n) * V0 * inverse_V64;
-  store(scratch.relative_volume + k, V / V0);
-
-  // bulk viscosity q = rho l (Q1 l e^2 - Q2 c e) in compression, e = tr D < 0
-  const Native c = load(scratch.sound_speed + k, n), r = inverse_cube_root(V), l = V * r * r;
-  const Native trace = load(scratch.rate[0] + k) + load(scratch.rate[1] + k) + load(scratch.rate[2] + k);
-  const Native closing = native_max(-trace, all(0));
-  const Native q = rho * l * closing * (control.Q1 * l * closing + control.Q2 * c);
-  const Native length = V / area;
-  // damping ratio Q/c of a wave through the thickness of the element, of which q makes more than usual where
-  // it is flatter than a cube
-  const Native Q = closing > 0.0 ? l / length * (control.Q2 * c + control.Q1 * l * closing) : all(0);
-  store(scratch.step_limit + k, length / (Q + root(Q * Q + c * c)));
-  store(scratch.wave_time + k, length / c);
-  add(state.bulk_viscosity_energy + first, dt * load(scratch.middle_volume + k) * q * closing, n);
+  const Compressed of = compressed(first, n, k, dt, control, state, a, now.V64, scratch);
+  const Native inverse_V64 = of.inverse_V64, rho = of.rho, c = of.c, l = of.l, q = of.q;
 
   Native s[6], w[7], modes[7], f[8], power = all(0);
   for (int j = 0; j < 6; ++j) s[j] = load(state.stress[j] + first, n);
-  const Native p = state.pressure ? q + load(state.pressure + first, n) : q;
-  const Triple T[3] = {{s[0] - p, s[3], s[5]}, {s[3], s[1] - p, s[4]}, {s[5], s[4], s[2] - p}};
+  const Triple T[3] = {{s[0] - q, s[3], s[5]}, {s[3], s[1] - q, s[4]}, {s[5], s[4], s[2] - q}};
   Native kept[3][4];
   if (control.stiff()) turned_hourglass_forces(first, n, k, state, scratch, kept);
   Hourglass hourglass{control.stiff() ? dt * hourglass_stiffness(control.QM * rho * c * c, now, inverse_V64)
@@ -261,6 +157,15 @@ void strain(const HexahedronLoops::Block& block, const HexahedronMesh& mesh, con
     strain_of(block.begin + whole, block.count - whole, whole, block.dt, mesh, state, scratch);
 }
 
+void viscosity(const HexahedronLoops::Block& block, const HexahedronControl& control,
+               const HexahedronState& state, HexahedronScratch& scratch) {
+  const Index whole = block.count - block.count % native_lanes;
+  for (Index k = 0; k < whole; k += native_lanes)
+    viscosity_of(block.begin + k, native_lanes, k, block.dt, control, state, scratch);
+  if (whole < block.count)
+    viscosity_of(block.begin + whole, block.count - whole, whole, block.dt, control, state, scratch);
+}
+
 void work(const HexahedronLoops::Block& block, const HexahedronState& state, HexahedronScratch& scratch) {
   const Real *dxx = scratch.rate[0], *dyy = scratch.rate[1], *dzz = scratch.rate[2], *dxy = scratch.rate[3],
              *dyz = scratch.rate[4], *dzx = scratch.rate[5], *volume = scratch.middle_volume;
@@ -274,14 +179,6 @@ void work(const HexahedronLoops::Block& block, const HexahedronState& state, Hex
     total[i] += half * volume[i] *
                 (xx[i] * dxx[i] + yy[i] * dyy[i] + zz[i] * dzz[i] +
                  2 * (xy[i] * dxy[i] + yz[i] * dyz[i] + zx[i] * dzx[i]));
-}
-
-/// Which is the least; the first that is not a number, where there is one.
-Index least(const Real* values, Index count) {
-  Index at = 0;
-  for (Index i = 1; i < count; ++i)
-    if (!(values[i] >= values[at]) && values[at] == values[at]) at = i;
-  return at;
 }
 
 HexahedronLoops::Found forces(const HexahedronLoops::Block& block, const HexahedronControl& control,
@@ -300,7 +197,7 @@ HexahedronLoops::Found forces(const HexahedronLoops::Block& block, const Hexahed
 }  // namespace
 
 HexahedronLoops hexahedron_loops() {
-  return {&strain, &work, &forces};
+  return {&strain, &viscosity, &work, &forces};
 }
 
 }  // namespace courant::COURANT_SIMD

@@ -21,10 +21,12 @@ struct HexahedronMesh {
 /// Arrays over the elements of a group. The loops touch the entries of their block alone.
 struct HexahedronState {
   static constexpr int most_tensors = 3;
-  Real* stress[6];  ///< Cauchy, xx yy zz xy yz zx; the deviator where there is a pressure [M/LT2]
+  Real* stress[6];  ///< Cauchy, xx yy zz xy yz zx [M/LT2]
   int tensors = 0;  ///< how many tensors of the law are turned with the stress
   Real* tensor[most_tensors][6];
-  const Real* pressure;   ///< of the part's equation of state; null where it has none [M/LT2]
+  /// q of bulk viscosity, which `viscosity` works out; null: `forces` does, and
+  /// counts its work [M/LT2]
+  Real* viscous_pressure = nullptr;
   const Real *V0, *rho0;  ///< reference volume and density [L3], [M/L3]
   Real* internal_energy;  ///< the work of stress is added; null: not asked for [ML2/T2]
   Real *hourglass_energy, *bulk_viscosity_energy;  ///< what they took is added [ML2/T2]
@@ -39,6 +41,7 @@ struct HexahedronControl {
   int hourglass = 2;
   bool stiff() const { return hourglass >= 4; }
   Real QM = 0.1, Q1 = 1.5, Q2 = 0.06;
+  Real MU = 0;  ///< dynamic viscosity of a fluid, which the stable step heeds [M/LT]
 };
 
 /// What a thread keeps of the block it works on, from one loop to the next.
@@ -66,8 +69,13 @@ struct HexahedronLoops {
   /// geometry in the middle of the step.
   void (*strain)(const Block& block, const HexahedronMesh& mesh, const HexahedronState& state,
                  HexahedronScratch& scratch);
-  /// Behind the law: completes the work of stress, (old turned + new stress)/2 : D V dt of the middle.
-  /// Without pressure: that of the equation of state is worked out with the energy.
+  /// Bulk viscosity of an equation of state, with the sound speed in `scratch`:
+  /// q at the end of the step in the place of that at its start, and -(old +
+  /// new) tr(D) V dt/2 of the middle added to the work of stress.
+  void (*viscosity)(const Block& block, const HexahedronControl& control, const HexahedronState& state,
+                    HexahedronScratch& scratch);
+  /// Behind the law: completes the work of stress, (old turned + new stress)/2
+  /// : D V dt of the middle.
   void (*work)(const Block& block, const HexahedronState& state, HexahedronScratch& scratch);
   /// Corner forces with the geometry at the end of the step, energies, stable step.
   struct Found {

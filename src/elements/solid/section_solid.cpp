@@ -19,8 +19,9 @@ using S = SectionSolid;
 
 const RegisterKeyword<S> section_solid{
     {.names = {"SECTION_SOLID"},
-     .purpose =
-         "formulation of solid elements: one point (ELFORM 1; 10 for tetrahedra, 15 and 115 for pentahedra)",
+     .purpose = "formulation of solid elements: one point (ELFORM 1; 10 for tetrahedra, 15 and 115 for "
+                "pentahedra), or eight "
+                "and a constant pressure (2)",
      .id_space = IdSpace::section,
      .title_option = true,
      .title = &S::title,
@@ -37,14 +38,19 @@ const RegisterKeyword<S> section_solid{
                 .repeat = true,
                 .when = [](const S& s) { return s.elform >= 101 && s.elform <= 105; }}}}};
 
-/// Formulations with one point, by the number of different nodes of their elements; 0: any. `points`: what
-/// LS-DYNA has, where it is another number.
+/// Formulations by the number of different nodes of their elements; 0: any. `points`: what LS-DYNA has, of
+/// which those of pentahedra are too many here.
 struct Formulation {
   int elform, nodes, points;
   const char* shape;
 };
-constexpr Formulation formulations[] = {
-    {1, 0, 1, ""}, {10, 4, 1, "tetrahedra"}, {15, 6, 2, "pentahedra"}, {115, 6, 1, "pentahedra"}};
+constexpr Formulation formulations[] = {{1, 0, 1, ""},
+                                        {2, 0, 8, ""},
+                                        {-1, 0, 8, ""},
+                                        {-2, 0, 8, ""},
+                                        {10, 4, 1, "tetrahedra"},
+                                        {15, 6, 2, "pentahedra"},
+                                        {115, 6, 1, "pentahedra"}};
 
 const Formulation* formulation_of(const S& s) {
   const auto* found = std::find_if(std::begin(formulations), std::end(formulations),
@@ -61,7 +67,14 @@ void check_shapes(const Deck& deck, const Model& model, Index part, const S& s, 
                         fmt::format("{} is a formulation of {}, and solid {} of part {} is none", s.elform,
                                     found->shape, solid.id, model.parts[static_cast<std::size_t>(part)].id),
                         "1 takes all shapes");
-  if (found->points > 1)
+  if (found->elform < 0)
+    deck.warning(
+        diagnostics, s, "ELFORM",
+        fmt::format("{} is not there: the solids of part {} are those of ELFORM 2, without the strains that "
+                    "make flat elements bend softer",
+                    found->elform, model.parts[static_cast<std::size_t>(part)].id),
+        "2 says the same without this warning; keep elements of bending parts near cubes");
+  if (found->nodes == 6 && found->points > 1)
     deck.warning(diagnostics, s, "ELFORM",
                  fmt::format("{} of part {} have one point here, not {}", found->shape,
                              model.parts[static_cast<std::size_t>(part)].id, found->points));
@@ -69,9 +82,10 @@ void check_shapes(const Deck& deck, const Model& model, Index part, const S& s, 
 
 void check_fields(const Deck& deck, const S& s, Diagnostics& diagnostics) {
   if (!formulation_of(s))
-    deck.error(diagnostics, s, "ELFORM", fmt::format("'{}' is not supported", s.elform),
-               "supported values: 0, 1 (one point and hourglass control by *HOURGLASS), 10 (tetrahedra), 15 "
-               "and 115 (pentahedra)");
+    deck.error(
+        diagnostics, s, "ELFORM", fmt::format("'{}' is not supported", s.elform),
+        "supported values: 0, 1 (one point and hourglass control by *HOURGLASS), 2 (eight points; -1 and -2 "
+        "become it), 10 (tetrahedra), 15 and 115 (pentahedra)");
   const auto refuse = [&](const char* field, Real value, const char* what) {
     if (value != 0)
       deck.error(diagnostics, s, field, fmt::format("{} are not supported, got '{:g}'", what, value),
@@ -83,6 +97,12 @@ void check_fields(const Deck& deck, const S& s, Diagnostics& diagnostics) {
 }
 
 }  // namespace
+
+bool fully_integrated(const Deck& deck, const ModelPart& part) {
+  for (const S& s : deck.all<S>())
+    if (s.secid == part.secid) return s.elform == 2 || s.elform == -1 || s.elform == -2;
+  return false;
+}
 
 void check_solid_sections(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   std::map<Id, const S*> sections;

@@ -16,8 +16,11 @@ struct SectionSolid : Entry {
   Real cohoff = 0, gaskett = 0;
 };
 
-/// Checks that each part with solids has a section with the one-point hexahedron. Sections that no such part
-/// names may be of any kind.
+/// Whether a part of solids has eight points in each (ELFORM 2), else one.
+bool fully_integrated(const Deck& deck, const ModelPart& part);
+
+/// Checks that each part with solids has a section with a formulation that is there. Sections that no such
+/// part names may be of any kind.
 void check_solid_sections(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 }  // namespace courant

@@ -7,6 +7,7 @@
 
 #include "base/run_error.hpp"
 #include "elements/largest_frequency.hpp"
+#include "elements/solid/full_points.hpp"
 #include "elements/solid/solids.hpp"
 #include "state/reports.hpp"
 
@@ -14,19 +15,27 @@ namespace courant {
 
 namespace {
 
-/// One-point hexahedra of a part: strain rates of the last motion, the law, hourglass control, bulk
-/// viscosity, and the forces on the corners, which a pass over the nodes gathers. Formulae:
-/// hexahedron_loops.hpp.
-class SolidForces : public Material, public TimeLimit, public EnergyTerm, public PartReporter {
+/// Hexahedra of a part: strain rates of the last motion, the law, hourglass control, bulk viscosity, and the
+/// forces on the corners, which a pass over the nodes gathers. Formulae: hexahedron_loops.hpp,
+/// full_hexahedron_loops.hpp.
+class SolidForces : public Material,
+                    public TimeLimit,
+                    public EnergyTerm,
+                    public PartReporter,
+                    public FieldFiller {
  public:
   SolidForces(const SolidPart& part, const ElementGroup& group, Id part_id, Real tssfac,
               ElementOptions& options, const std::vector<std::array<bool, 3>>& held, World& world)
       : group_(group),
+        material_(part),
         law_(part.law),
         part_id_(part_id),
         tssfac_(tssfac),
-        stress_(group.fields.add<Real>(
-            {.name = "stress", .dimension = "M/LT2", .components = 6, .output = true})),
+        stress_(group.fields.add<Real>({.name = "stress",
+                                        .dimension = "M/LT2",
+                                        .components = 6,
+                                        .output = true,
+                                        .restart = !part.full})),
         V0_(group.V0),
         rho0_(group.fields.add<Real>({.name = "reference_density", .dimension = "M/L3"})),
         internal_(group.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
@@ -36,13 +45,20 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     control_ = {.hourglass = part.viscosity.ihq,
                 .QM = part.viscosity.qm,
                 .Q1 = part.viscosity.q1,
-                .Q2 = part.viscosity.q2};
+                .Q2 = part.viscosity.q2,
+                .MU = law_->viscosity()};
+    if (part.pressure)
+      viscous_ = &group.fields.add<Real>({.name = "bulk_viscosity_pressure", .dimension = "M/LT2"});
     for (const HistoryVariable& h : law_->history())
-      history_.push_back(&group.fields.add<Real>(
-          {.name = h.name, .dimension = h.dimension, .components = h.components, .output = true}));
+      history_.push_back(&group.fields.add<Real>({.name = h.name,
+                                                  .dimension = h.dimension,
+                                                  .components = h.components,
+                                                  .output = true,
+                                                  .restart = !part.full}));
+    if (part.full) full_ = std::make_unique<FullPoints>(group, *law_);
     // the plain modes of corners that coincide resist even a rigid rotation
     if (control_.hourglass == 1 && group.repeats_nodes) control_.hourglass = 2;
-    if (control_.stiff())
+    if (control_.stiff() && !full_)
       hourglass_force_ =
           &group.fields.add<Real>({.name = "hourglass_force", .dimension = "ML/T2", .components = 12});
     const std::vector<Real> wave_time = start_state(world);
@@ -52,6 +68,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
       for (Index e = 0; e < group_.size(); ++e) take_density(e);
     }
     limit_to_frequency(held, world);
+    if (part.pressure) start_pressure();
     if (const FailureRules& rules = options.failure[static_cast<std::size_t>(group.part)]; rules.any())
       options.eroding.push_back(erosion_ = make_erosion(rules, world));
   }
@@ -63,6 +80,8 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     a.updates(bulk_viscosity_).writes(group_.corner_force);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (hourglass_force_) a.updates(*hourglass_force_);
+    if (viscous_) a.updates(*viscous_);
+    if (full_) full_->declare(a);
     if (erosion_) erosion_->declare(world, a);
     if (!scaled_) return;
     scaled_->declare(world, a);
@@ -73,7 +92,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     for (int k = 0; k < 3; ++k) mesh_.x[k] = world.nodes.x.data(k), mesh_.v[k] = world.nodes.v.data(k);
     for (int c = 0; c < group_.corners(); ++c) mesh_.corner[c] = group_.node.data(c);
     for (int k = 0; k < 6; ++k) state_.stress[k] = stress_.data(k);
-    state_.pressure = nullptr;
+    state_.viscous_pressure = viscous_ ? viscous_->data() : nullptr;
     state_.V0 = V0_.data(), state_.rho0 = rho0_.data();
     state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
     state_.bulk_viscosity_energy = bulk_viscosity_.data();
@@ -93,13 +112,15 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
       ++state_.tensors;
     }
     found_.resize(static_cast<std::size_t>(block_count(group_.size())));
+    of_pressure_.assign(found_.size(), {});
   }
   void block(World&, const Clock& clock, Index begin, Index end) override {
-    HexahedronScratch scratch;
+    FullHexahedronScratch scratch;
     HexahedronLoops::Found& found = found_[static_cast<std::size_t>(begin / block_size)];
     const Index count = end - begin;
     if (erosion_) erosion_->begin_block(begin, count);
-    found = advance(mesh_, control_, clock.dt_old, begin, end, scratch, erosion_ ? &clock : nullptr);
+    found = advance({mesh_, control_, state_, *law_, material_.pressure.get()}, clock.dt_old, begin, end,
+                    scratch, erosion_ ? &clock : nullptr);
     if (erosion_)
       erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, scratch.relative_volume);
     const bool lighter = scaled_ && scaled_->look(begin, count, scratch.wave_time, scratch.step_limit);
@@ -110,8 +131,14 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
              begin + smallest};
   }
   void finish(World& world, const Clock& clock) override {
+    std::int64_t without_speed = 0;
     for (const HexahedronLoops::Found& found : found_)
       if (!(found.least_volume > 0)) stop_for_volume(found, clock);
+    for (const SolidPressure::Found& found : of_pressure_) {
+      without_speed += found.without_speed;
+      if (found.beyond >= 0) stop_for_compression(found.beyond, clock);
+    }
+    if (without_speed > 0) world.counters["sound_speed_clamped"] += without_speed;
     if (!scaled_) return;
     for (const Index e : scaled_->grow(world)) take_density(e);
   }
@@ -124,6 +151,9 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
                                                by_mesh_ ? " (frequency of its mesh)" : "")};
   }
 
+  void fill_fields(World&) override {
+    if (full_) full_->average(stress_, history_);
+  }
   void record(World&, const Clock&, EnergyLedger&) override {}
   void sample(const World&, const Clock&, EnergyLedger& ledger) const override {
     ledger.internal += total(internal_);
@@ -154,36 +184,85 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
   static constexpr std::size_t most_history = 16;
   static constexpr Real small_strain = 1e-7;  ///< within which all is linear
 
-  HexahedronLoops::Found advance(const HexahedronMesh& mesh, const HexahedronControl& control, Real dt,
-                                 Index begin, Index end, HexahedronScratch& scratch,
-                                 const Clock* failing = nullptr) const {
+  /// What a block of elements moves by, and answers with.
+  struct Answer {
+    const HexahedronMesh& mesh;
+    const HexahedronControl& control;
+    const HexahedronState& state;
+    const StrengthLaw& law;
+    const SolidPressure* pressure;
+  };
+
+  HexahedronLoops::Found advance(const Answer& of, Real dt, Index begin, Index end,
+                                 FullHexahedronScratch& scratch, const Clock* failing = nullptr) {
     const HexahedronLoops::Block block{begin, end - begin, dt};
-    loops_.strain(block, mesh, state_, scratch);
+    if (full_) return advance_points(of, block, scratch, failing);
+    loops_.strain(block, of.mesh, of.state, scratch);
     if (failing && erosion_->any_dead(begin)) still_dead(begin, block.count, scratch);
     std::array<Real*, most_history> history{};
     PointBlock points;
     points.count = end - begin;
     points.dt = dt;
     for (std::size_t k = 0; k < 6; ++k)
-      points.rate[k] = scratch.rate[k], points.stress[k] = state_.stress[k] + begin;
+      points.rate[k] = scratch.rate[k], points.stress[k] = of.state.stress[k] + begin;
     points.compression = scratch.compression;
     points.sound_speed = scratch.sound_speed;
     for (std::size_t k = 0; k < history_data_.size(); ++k) history[k] = history_data_[k] + begin;
     points.history = std::span<Real* const>(history.data(), history_data_.size());
-    law_->update(points);
-    if (failing)
-      erosion_->look({.begin = begin,
-                      .count = block.count,
-                      .t = failing->t,
-                      .dt = dt,
-                      .rate = points.rate,
-                      .stress = points.stress,
-                      .plastic = plastic_ < 0 ? nullptr : history[static_cast<std::size_t>(plastic_)]});
+    if (of.pressure)
+      of_pressure_[static_cast<std::size_t>(begin / block_size)] =
+          update_with_pressure(of, block, scratch, points);
+    else
+      of.law.update(points);
+    answered(points, begin, 0, failing);
+    loops_.work(block, of.state, scratch);
+    return loops_.forces(block, of.control, of.state, scratch);
+  }
+
+  /// The same with eight points.
+  HexahedronLoops::Found advance_points(const Answer& of, const HexahedronLoops::Block& block,
+                                        FullHexahedronScratch& scratch, const Clock* failing) {
+    return full_->advance(
+        {of.mesh, of.control, of.state, of.law}, block, scratch,
+        {[&] {
+           if (failing && erosion_->any_dead(block.begin)) still_dead(block.begin, block.count, scratch);
+         },
+         [&](int point, const PointBlock& points) { answered(points, block.begin, point, failing); }});
+  }
+
+  /// Behind the law at a point.
+  void answered(const PointBlock& points, Index begin, int point, const Clock* failing) const {
+    if (failing) look_for_failure(points, begin, point, *failing);
     if (scaled_)  // waves of a body that is as stiff and denser
       for (Index i = 0; i < points.count; ++i)
-        scratch.sound_speed[i] *= std::sqrt(law_->ro / rho0_[begin + i]);
-    loops_.work(block, state_, scratch);
-    return loops_.forces(block, control, state_, scratch);
+        points.sound_speed[i] *= std::sqrt(law_->ro / rho0_[begin + i]);
+  }
+
+  /// The law gives the deviator, an equation of state the rest.
+  SolidPressure::Found update_with_pressure(const Answer& of, const HexahedronLoops::Block& block,
+                                            HexahedronScratch& scratch, PointBlock& points) const {
+    SolidPressure::Scratch own;
+    of.pressure->split(block, of.state, internal_.data(), scratch, own);
+    loops_.viscosity(block, of.control, of.state, scratch);
+    of.pressure->predict(block, of.state, scratch, own);
+    points.pressure = own.pressure, points.energy = own.energy, points.least_pressure = own.least_pressure;
+    of.law.update(points);
+    return of.pressure->complete(block, of.state, scratch, own);
+  }
+
+  void look_for_failure(const PointBlock& points, Index begin, int point, const Clock& clock) const {
+    const auto number = [&](int at) {
+      return at < 0 ? nullptr : points.history[static_cast<std::size_t>(at)];
+    };
+    erosion_->look({.point = point,
+                    .begin = begin,
+                    .count = points.count,
+                    .t = clock.t,
+                    .dt = points.dt,
+                    .rate = points.rate,
+                    .stress = points.stress,
+                    .plastic = number(plastic_),
+                    .by_law = number(fails_)});
   }
 
   /// A free block of few elements is stable only below what a mesh of many is: the step keeps below 2 over
@@ -199,17 +278,22 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
     const HexahedronControl elastic{
         .hourglass = control_.hourglass, .QM = control_.stiff() ? control_.QM : 0, .Q1 = 0, .Q2 = 0};
     std::vector<HexahedronLoops::Found> found(found_.size());
-    const Real omega = largest_frequency(own.m, own.held, small_strain * std::cbrt(smallest),
-                                         [&](const NodalVector& u, NodalVector& Ku) {
-                                           for (std::size_t k = 0; k < 3; ++k) mesh.v[k] = u[k].data();
-                                           reset();
-                                           for_each_block(n, [&](Index begin, Index end) {
-                                             HexahedronScratch scratch;
-                                             found[static_cast<std::size_t>(begin / block_size)] =
-                                                 advance(mesh, elastic, 1, begin, end, scratch);
-                                           });
-                                           own.assemble(group_.corner_force, -1, Ku);
-                                         });
+    // an equation of state answers a change of volume, which nothing moves for here
+    const std::shared_ptr<StrengthLaw> linear =
+        material_.pressure ? linear_response(*material_.pressure, *law_) : law_;
+    HexahedronState state = state_;
+    state.viscous_pressure = nullptr;
+    const Real omega = largest_frequency(
+        own.m, own.held, small_strain * std::cbrt(smallest), [&](const NodalVector& u, NodalVector& Ku) {
+          for (std::size_t k = 0; k < 3; ++k) mesh.v[k] = u[k].data();
+          reset();
+          for_each_block(n, [&](Index begin, Index end) {
+            FullHexahedronScratch scratch;
+            found[static_cast<std::size_t>(begin / block_size)] =
+                advance({mesh, elastic, state, *linear, nullptr}, 1, begin, end, scratch);
+          });
+          own.assemble(group_.corner_force, -1, Ku);
+        });
     Real step = std::numeric_limits<Real>::infinity();
     for (const HexahedronLoops::Found& f : found) step = std::min(step, f.step);
     reset();
@@ -219,12 +303,15 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
   }
 
   std::shared_ptr<Erosion> make_erosion(const FailureRules& rules, World& world) {
-    auto out = std::make_shared<Erosion>(rules, group_, 1,
+    auto out = std::make_shared<Erosion>(rules, group_, full_ ? FullHexahedronLoops::points : 1,
                                          Erosion::Energies{&internal_, &bulk_viscosity_, &hourglass_}, world);
     out->vanishes(stress_);
     for (Field<Real>* h : history_)
       if (h->info().components == 6) out->vanishes(*h);
-    plastic_ = plastic_strain_of(*law_);
+    if (full_)
+      for (Field<Real>* field : full_->of_deleted()) out->vanishes(*field);
+    if (full_ && out->strain()) full_->turn_too(*out->strain());
+    plastic_ = plastic_strain_of(*law_), fails_ = history_at(*law_, law_->failure_variable());
     return out;
   }
 
@@ -245,8 +332,19 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
   void reset() {
     for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) field->fill(0);
     for (Field<Real>* h : history_) h->fill(0);
+    if (full_) full_->reset();
     if (hourglass_force_) hourglass_force_->fill(0);
+    if (viscous_) viscous_->fill(0);
     group_.corner_force.fill(0);
+  }
+
+  /// Pressure and energy of the equation of state at the start.
+  void start_pressure() {
+    const Real p = material_.pressure->initial_pressure(), E0 = material_.pressure->eos().E0;
+    for (Index e = 0; e < group_.size(); ++e) {
+      for (int k = 0; k < 3; ++k) stress_.data(k)[e] = -p;
+      internal_[e] = E0 * V0_[e];
+    }
   }
 
   /// The density that inertia belongs to.
@@ -268,11 +366,11 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
       HexahedronScratch scratch;
       const HexahedronLoops::Block block{begin, std::min<Index>(block_size, n - begin), 0};
       loops_.strain(block, mesh_, state_, scratch);
-      std::fill(scratch.sound_speed, scratch.sound_speed + block.count, law_->sound_speed());
+      std::fill(scratch.sound_speed, scratch.sound_speed + block.count, material_.sound_speed());
       loops_.forces(block, control_, state_, scratch);
       for (Index k = 0; k < block.count; ++k) {
         const Index e = begin + k;
-        V0_[e] = scratch.relative_volume[k];
+        V0_[e] = scratch.relative_volume[k] / material_.relative_volume();
         wave_time[static_cast<std::size_t>(e)] = scratch.wave_time[k];
         group_.mass[e] = law_->ro * V0_[e];
         for (int c = 0; c < group_.corners(); ++c)
@@ -288,6 +386,14 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
   Real total_of_dead(const Field<Real>& field) const {
     return sum(group_.size(), [&](Index e) { return erosion_->dead(e) ? field[e] : 0; });
   }
+  [[noreturn]] void stop_for_compression(Index e, const Clock& clock) const {
+    throw RunError(
+        fmt::format(
+            "solid {} of part {} is compressed beyond the end of its equation of state, {:.4g} times its "
+            "reference density, where the pressure becomes infinite, at time {:.6g}, cycle {}",
+            group_.id[e], part_id_, 1 + material_.pressure->eos().mu_limit(), clock.t, clock.cycle),
+        StopCause::density);
+  }
   [[noreturn]] void stop_for_volume(const HexahedronLoops::Found& found, const Clock& clock) const {
     const ReadsForMessage unchecked;
     throw RunError(
@@ -301,6 +407,7 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
   }
 
   const ElementGroup& group_;
+  SolidPart material_;
   std::shared_ptr<StrengthLaw> law_;
   Id part_id_;
   Real tssfac_;           ///< TSSFAC, or less where the mesh asks for it
@@ -309,14 +416,18 @@ class SolidForces : public Material, public TimeLimit, public EnergyTerm, public
   HexahedronControl control_;
   Field<Real>&stress_, &V0_, &rho0_, &internal_, &hourglass_, &bulk_viscosity_;
   Field<Real>* hourglass_force_ = nullptr;  ///< of a stiffness
+  Field<Real>* viscous_ = nullptr;          ///< q of bulk viscosity; null: no equation of state
   std::vector<Field<Real>*> history_;
   HexahedronMesh mesh_{};
   HexahedronState state_{};
   std::vector<Real*> history_data_;
   std::vector<HexahedronLoops::Found> found_;  ///< in each block
-  std::unique_ptr<ScaledMass> scaled_;         ///< null: no mass scaling
-  std::shared_ptr<Erosion> erosion_;           ///< null: nothing fails
-  int plastic_ = -1;                           ///< of the law's numbers the plastic strain
+  std::vector<SolidPressure::Found> of_pressure_;
+  std::unique_ptr<FullPoints> full_;    ///< null: elements have one point
+  std::unique_ptr<ScaledMass> scaled_;  ///< null: no mass scaling
+  std::shared_ptr<Erosion> erosion_;    ///< null: nothing fails
+  /// Of the law's numbers the plastic strain, and what it fails by.
+  int plastic_ = -1, fails_ = -1;
 };
 
 }  // namespace

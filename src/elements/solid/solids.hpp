@@ -6,6 +6,7 @@
 #include "elements/erosion.hpp"
 #include "elements/solid/hexahedron_loops.hpp"
 #include "elements/solid/hourglass.hpp"
+#include "elements/solid/solid_pressure.hpp"
 #include "laws/strength/strength.hpp"
 #include "model/model.hpp"
 #include "state/world.hpp"
@@ -15,7 +16,16 @@ namespace courant {
 /// What solids of a part are made of.
 struct SolidPart {
   std::shared_ptr<StrengthLaw> law;  ///< null: the part has no solids
+  std::shared_ptr<SolidPressure>
+      pressure;       ///< of an equation of state; null: the law gives all of the stress
+  bool full = false;  ///< eight points (ELFORM 2), else one
   SolidViscosity viscosity;
+  /// [M/LT2]
+  Real bulk_modulus() const { return pressure ? pressure->bulk_modulus() : law->bulk_modulus(); }
+  /// Of compression waves at the start. [L/T]
+  Real sound_speed() const { return pressure ? pressure->initial_sound_speed() : law->sound_speed(); }
+  /// V/V0 at the start. [-]
+  Real relative_volume() const { return pressure ? pressure->eos().V0 : 1; }
 };
 
 /// The law and viscosity of each part with solids. Missing or unsuitable materials, and sections of other

@@ -4,25 +4,38 @@
 
 #include "keyword/common_rules.hpp"
 #include "laws/strength/hardening.hpp"
+#include "laws/strength/spall.hpp"
 #include "laws/strength/strength.hpp"
 
 namespace courant {
 
 namespace {
 
-/// J2 plasticity with isotropic hardening beside an equation of state: s_tr = s + 2 G dev(D) dt is returned
-/// along itself to q = sqrt(3/2 s:s) = yield stress at e + de with q_tr - q = 3 G de.
+/// J2 plasticity with isotropic hardening beside an equation of state: s_tr = s
+/// + 2 G dev(D) dt is returned along itself to q = sqrt(3/2 s:s) = yield stress
+/// at e + de with q_tr - q = 3 G de. Pressure may raise the yield stress by (A1
+/// + A2 p) max(p, 0).
 class ElasticPlasticHydro : public StrengthLaw {
  public:
-  ElasticPlasticHydro(Real density, Real G, Real cutoff, Hardening hardening)
-      : shear_(G), cutoff_(cutoff), hardening_(std::move(hardening)) {
+  struct Data {
+    Real G, a1 = 0, a2 = 0;  ///< [M/LT2], [-], [LT2/M]
+    Real fails_at = std::numeric_limits<Real>::infinity();
+    Spall spall{};
+  };
+  ElasticPlasticHydro(Real density, const Data& data, Hardening hardening)
+      : a_(data), shear_(data.G), hardening_(std::move(hardening)) {
     ro = density;
   }
   bool deviator_only() const override { return true; }
-  std::vector<HistoryVariable> history() const override { return {{"plastic_strain", "-"}}; }
+  std::vector<HistoryVariable> history() const override {
+    std::vector<HistoryVariable> out{{"plastic_strain", "-"}};
+    if (a_.spall.keeps()) out.push_back({"spalled", "-"});
+    return out;
+  }
   Real bulk_modulus() const override { return 0; }
   Real shear_modulus() const override { return shear_; }
-  Real pressure_cutoff() const override { return cutoff_; }
+  Real pressure_cutoff() const override { return a_.spall.cutoff(); }
+  Real failure_limit() const override { return a_.fails_at; }
 
   void update(const PointBlock& block) const override {
     const Real twice = 2 * shear_ * block.dt, c0 = sound_speed();
@@ -33,6 +46,7 @@ class ElasticPlasticHydro : public StrengthLaw {
       const Real mu = block.compression ? block.compression[i] : 0;
       block.sound_speed[i] = c0 / std::sqrt(1 + mu);
     }
+    if (a_.spall.keeps()) a_.spall.look(block, block.history[1]);
   }
 
  private:
@@ -42,14 +56,17 @@ class ElasticPlasticHydro : public StrengthLaw {
                     s[4][i] * s[4][i] + s[5][i] * s[5][i];
     const Real q = std::sqrt(3 * j2);
     Real& plastic = block.history[0][i];
-    if (!(q > std::max(hardening_.at(plastic), Real(0)))) return;
+    const Real p = block.pressure ? std::max(block.pressure[i], Real(0)) : 0,
+               raised = (a_.a1 + a_.a2 * p) * p;
+    if (!(q > std::max(hardening_.at(plastic) + raised, Real(0)))) return;
     // softening ends at no strength at all, not beyond
-    const Real de = std::min(hardening_.increment(q, 3 * shear_, plastic), q / (3 * shear_));
+    const Real de = std::min(hardening_.increment(q - raised, 3 * shear_, plastic), q / (3 * shear_));
     for (int k = 0; k < 6; ++k) s[k][i] *= 1 - 3 * shear_ * de / q;
     plastic += de;
   }
 
-  Real shear_, cutoff_;
+  Data a_;
+  Real shear_;
   Hardening hardening_;
 };
 
@@ -57,7 +74,7 @@ struct MatElasticPlasticHydro : Entry {
   static constexpr bool deviator_only = true;
   std::string title;
   Id mid = 0;
-  Real ro = 0, G = 0, sigy = 0, eh = 0, pc = 0, fs = 0, charl = 0;
+  Real ro = 0, G = 0, sigy = 0, eh = 0, pc = 0, fs = 0, charl = 0, a1 = 0, a2 = 0, spall = 1;
   Real eps1 = 0, eps2 = 0, eps3 = 0, eps4 = 0, eps5 = 0, eps6 = 0, eps7 = 0, eps8 = 0, eps9 = 0, eps10 = 0,
        eps11 = 0, eps12 = 0, eps13 = 0, eps14 = 0, eps15 = 0, eps16 = 0;
   Real es1 = 0, es2 = 0, es3 = 0, es4 = 0, es5 = 0, es6 = 0, es7 = 0, es8 = 0, es9 = 0, es10 = 0, es11 = 0,
@@ -74,10 +91,15 @@ struct MatElasticPlasticHydro : Entry {
   std::shared_ptr<StrengthLaw> law() const {
     Hardening hardening = table();
     if (hardening.strain.empty()) hardening = {{0, 1}, {sigy, sigy + eh}};
-    const Real cutoff = pc < 0 ? pc : -std::numeric_limits<Real>::infinity();
-    return std::make_shared<ElasticPlasticHydro>(ro, G, cutoff, std::move(hardening));
+    ElasticPlasticHydro::Data data{.G = G, .a1 = a1, .a2 = a2};
+    data.spall = {static_cast<int>(spall), Spall::limit_of(pc)};
+    if (fs > 0 && fs < never_fails) data.fails_at = fs;
+    return std::make_shared<ElasticPlasticHydro>(ro, data, std::move(hardening));
   }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
+    if (spall != 1 && spall != 2 && spall != 3)
+      deck.error(diagnostics, *this, "SPALL", fmt::format("expected 1, 2 or 3, got '{:g}'", spall),
+                 "1 limits the pressure, 2 and 3 spall");
     const Hardening points = table();
     if (!points.strain.empty()) return check_points(deck, *this, points, G, diagnostics);
     if (!(sigy > 0))
@@ -120,8 +142,10 @@ const RegisterStrength<MatElasticPlasticHydro> mat_elastic_plastic_hydro{
       {8.0 / 3, -4.0 / 3, -4.0 / 3, 0, 0, 0},
       {0},
       {2.0 / 3}}},
-    {.names = {"MAT_ELASTIC_PLASTIC_HYDRO", "MAT_010"},
-     .purpose = "elasticity and plasticity beside an equation of state",
+    {.names = {"MAT_ELASTIC_PLASTIC_HYDRO", "MAT_010", "MAT_ELASTIC_PLASTIC_HYDRO_SPALL", "MAT_010_SPALL"},
+     .purpose = "elasticity and plasticity beside an equation of state; "
+                "_SPALL: with spall and a yield stress that "
+                "pressure raises",
      .id_space = IdSpace::material,
      .title_option = true,
      .title = &MatElasticPlasticHydro::title,
@@ -148,10 +172,23 @@ const RegisterStrength<MatElasticPlasticHydro> mat_elastic_plastic_hydro{
                       "M/LT2",
                       "tensile pressure cut-off; 0: none",
                       {.check = Check::not_positive}},
-                     {"FS", &MatElasticPlasticHydro::fs, "-", "effective plastic strain at failure",
-                      unsupported},
+                     {"FS",
+                      &MatElasticPlasticHydro::fs,
+                      "-",
+                      "effective plastic strain at which elements fail; 0: never",
+                      {.check = Check::not_negative}},
                      {"CHARL", &MatElasticPlasticHydro::charl, "L",
                       "thickness at failure, of a rezoned plane mesh", unsupported}}},
+         {.fields = {{"A1", &MatElasticPlasticHydro::a1, "-", "yield stress rises by (A1 + A2 p) p, p > 0"},
+                     {"A2", &MatElasticPlasticHydro::a2, "LT2/M", "the same"},
+                     {"SPALL",
+                      &MatElasticPlasticHydro::spall,
+                      "-",
+                      "1 pressure >= PC; a point spalls, 2: where a principal "
+                      "stress is above -PC, 3: where the "
+                      "pressure is below PC",
+                      {.standard = 1}}},
+          .when = [](const MatElasticPlasticHydro& m) { return m.name >= 2; }},
          {.fields = {EPS(1), EPS(2), EPS(3), EPS(4), EPS(5), EPS(6), EPS(7), EPS(8)}, .optional = true},
          {.fields = {EPS(9), EPS(10), EPS(11), EPS(12), EPS(13), EPS(14), EPS(15), EPS(16)},
           .optional = true},

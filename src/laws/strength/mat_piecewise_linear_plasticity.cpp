@@ -77,7 +77,7 @@ class PiecewiseLinearPlasticity : public StrengthLaw {
   Real bulk_modulus() const override { return lambda_ + 2 * shear_ / 3; }
   Real shear_modulus() const override { return shear_; }
   std::vector<HistoryVariable> history() const override { return {{"plastic_strain", "-"}}; }
-  Real failure_strain() const override { return fails_at; }
+  Real failure_limit() const override { return fails_at; }
   Real fails_at = std::numeric_limits<Real>::infinity();  ///< plastic strain [-]
 
   void update(const PointBlock& block) const override {

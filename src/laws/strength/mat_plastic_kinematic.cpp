@@ -29,7 +29,7 @@ class PlasticKinematic : public StrengthLaw {
   PlasticKinematic(Real density, const PlasticKinematicData& data) : a_(data) { ro = density; }
   Real bulk_modulus() const override { return a_.lambda + 2 * a_.G / 3; }
   Real shear_modulus() const override { return a_.G; }
-  Real failure_strain() const override { return a_.fails_at; }
+  Real failure_limit() const override { return a_.fails_at; }
   std::vector<HistoryVariable> history() const override {
     std::vector<HistoryVariable> out{{"plastic_strain", "-"}};
     if (a_.kinematic > 0) out.push_back({"back_stress", "M/LT2", 6});

@@ -42,10 +42,16 @@ class StrengthLaw {
   virtual bool deviator_only() const { return false; }
   virtual Real bulk_modulus() const = 0;   ///< at rest; 0 with `deviator_only` [M/LT2]
   virtual Real shear_modulus() const = 0;  ///< at rest [M/LT2]
-  /// Plastic strain (its history `plastic_strain`) at which a point fails; infinity: it never does. [-]
-  virtual Real failure_strain() const { return std::numeric_limits<Real>::infinity(); }
+  /// Value of its history `failure_variable` from which on a point has failed;
+  /// infinity: it never does. [-]
+  virtual Real failure_limit() const { return std::numeric_limits<Real>::infinity(); }
+  virtual std::string failure_variable() const { return "plastic_strain"; }
+  /// V/V0 below and above which an element fails. [-]
+  virtual std::pair<Real, Real> volume_range() const { return {0, std::numeric_limits<Real>::infinity()}; }
   /// Pressure of the equation of state is cut off below this. [M/LT2]
   virtual Real pressure_cutoff() const { return -std::numeric_limits<Real>::infinity(); }
+  /// Of a fluid, for the stable step. [M/LT]
+  virtual Real viscosity() const { return 0; }
   /// Of compression waves at rest: sqrt((K + 4G/3)/RO). [L/T]
   Real sound_speed() const;
   Real ro = 0;  ///< reference density [M/L3]

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "laws/eos/find_eos.hpp"
 #include "laws/fluid/mat_null.hpp"
 #include "sph/core/fields.hpp"
 #include "sph/materials/equation_of_state.hpp"
@@ -13,30 +14,6 @@
 namespace courant {
 
 namespace {
-
-using LawOfId = std::map<Id, std::shared_ptr<EosLaw>>;
-/// Parts with the same law and the same reference density share one pass.
-using LawOfDensity = std::map<std::pair<Id, Real>, std::shared_ptr<EosLaw>>;
-
-LawOfId all_laws(const Deck& deck) {
-  LawOfId laws;
-  for (const EosEntry& kind : eos_registry())
-    for (const auto& [id, law] : kind.all(deck)) laws.emplace(id, law);
-  return laws;
-}
-
-std::shared_ptr<EosLaw> law_at_density(LawOfDensity& known, Id id, const std::shared_ptr<EosLaw>& law,
-                                       Real rho0) {
-  auto& found = known[{id, rho0}];
-  if (!found) found = law->at_density(rho0);
-  return found ? found : found = law;
-}
-
-std::string known_laws() {
-  std::string names;
-  for (const EosEntry& kind : eos_registry()) names += (names.empty() ? "*" : ", *") + kind.keyword;
-  return names;
-}
 
 /// Materials that SPH parts may have, by their ids.
 struct Known {
@@ -62,25 +39,21 @@ void check_cards(const Deck& deck, const Model& model, const Known& known, Diagn
     for (const StrengthEntry& kind : strength_registry()) kind.check(deck, model, diagnostics);
 }
 
-/// The equation of state must give the part a density and a sound speed at the start.
-void check_start(const Deck& deck, const ModelPart& part, const PartMaterial& m, Diagnostics& diagnostics) {
-  const EosLaw& eos = *m.eos;
-  const Real mu = 1 / eos.V0 - 1, c2 = eos.sound_speed2(m.ro, mu, eos.E0);
-  if (!(mu < eos.mu_limit()))
-    deck.error(
-        diagnostics, part.card, "EOSID",
-        fmt::format("part {} starts beyond the end of equation of state {}: rho/RO = {:g}, the law ends "
-                    "at {:g}",
-                    part.id, part.eosid, 1 + mu, 1 + eos.mu_limit()),
-        "correct V0 of the equation of state");
-  else if (!(c2 > 0))
-    deck.error(
-        diagnostics, part.card, "EOSID",
-        fmt::format("equation of state {} gives part {} no sound speed: c^2 = {:.4g} [L2/T2] at the start",
-                    part.eosid, part.id, c2),
-        eos.name() == "jwl" ? "products of a detonation begin with the energy E0 of *EOS_JWL, and A > 0"
-                            : "give it a bulk modulus > 0: C1 = RO c0^2 of *EOS_LINEAR_POLYNOMIAL, K0 and "
-                              "GAMMA of *EOS_MURNAGHAN");
+/// Particles stay.
+void refuse_erosion(const Deck& deck, const ModelPart& part, const MatNull& m, Diagnostics& diagnostics) {
+  for (const auto& [field, value] : {std::pair{"TEROD", m.terod}, std::pair{"CEROD", m.cerod}})
+    if (value != 0)
+      deck.error(diagnostics, m, field,
+                 fmt::format("'{:g}' asks for deletion, and the particles of "
+                             "part {} cannot fail",
+                             value, part.id),
+                 "leave the field blank");
+}
+
+/// The name of a history variable in a text.
+std::string spelled(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 }  // namespace
@@ -106,8 +79,7 @@ SphMaterial PartMaterial::for_particles() const {
 std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   const Known known(deck, model);
   check_cards(deck, model, known, diagnostics);
-  const LawOfId laws = all_laws(deck);
-  LawOfDensity laws_of_density;
+  PartEos laws(deck);
   std::vector<PartMaterial> out(model.parts.size());
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const ModelPart& part = model.parts[k];
@@ -116,7 +88,6 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
     const auto strength = known.strengths.find(part.mid);
     const bool missing = fluid == known.fluids.end() && strength == known.strengths.end();
     const bool alone = strength != known.strengths.end() && !strength->second->deviator_only();
-    const auto law = laws.find(part.eosid);
     if (missing)
       deck.error(
           diagnostics, part.card, "MID",
@@ -127,33 +98,28 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
       deck.error(diagnostics, part.card, "EOSID",
                  fmt::format("expected 0, got '{}': the material of part {} has a pressure of its own",
                              part.eosid, part.id),
-                 "leave the field blank, or use a material that gives the deviator only");
-    else if (!alone && law == laws.end())
-      deck.error(diagnostics, part.card, "EOSID",
-                 part.eosid == 0
-                     ? fmt::format("the particles of part {} need an equation of state, got none", part.id)
-                     : fmt::format("there is no equation of state with id {} for the particles of part {}",
-                                   part.eosid, part.id),
-                 "add one of " + known_laws() + " and give its id here");
-    if (missing || alone == (part.eosid != 0) || (!alone && law == laws.end())) continue;
+                 "leave the field blank, or use a material that gives the "
+                 "deviator only");
+    const bool known_eos = alone || laws.exists(deck, part, "particles", diagnostics);
+    if (missing || !known_eos || (alone && part.eosid != 0)) continue;
     PartMaterial& m = out[k];
     m.found = true;
     if (fluid != known.fluids.end()) {
       m.ro = fluid->second->ro, m.pc = fluid->second->pc, m.mu = fluid->second->mu;
+      refuse_erosion(deck, part, *fluid->second, diagnostics);
     } else {
       m.strength = strength->second;
-      if (std::isfinite(m.strength->failure_strain()))
-        deck.error(
-            diagnostics, part.card, "MID",
-            fmt::format("the material of part {} fails at a plastic strain of {:g}, and particles cannot "
-                        "fail",
-                        part.id, m.strength->failure_strain()),
-            "leave FS or FAIL of the material blank");
+      if (std::isfinite(m.strength->failure_limit()))
+        deck.error(diagnostics, part.card, "MID",
+                   fmt::format("the material of part {} fails at a {} of {:g}, "
+                               "and particles cannot fail",
+                               part.id, spelled(m.strength->failure_variable()), m.strength->failure_limit()),
+                   "leave FS or FAIL of the material blank, or set EROD of "
+                   "*MAT_JOHNSON_COOK");
       m.ro = m.strength->ro, m.pc = m.strength->pressure_cutoff();
     }
     if (alone) continue;
-    m.eos = law_at_density(laws_of_density, part.eosid, law->second, m.ro);
-    check_start(deck, part, m, diagnostics);
+    m.eos = laws.find(deck, part, m.ro, "particles", diagnostics);
   }
   return out;
 }

@@ -53,7 +53,7 @@ class Spin : public Rate {
 struct Points64 {
   std::array<std::array<Real, block_size>, 6> rate;
   std::array<std::array<Real, block_size>, 3> spin;
-  std::array<Real, block_size> mu, c, dv, work;
+  std::array<Real, block_size> mu, c, dv, work, least_pressure;
 };
 
 /// s:D of the deviator of a stress; both xx yy zz xy yz zx
@@ -120,7 +120,10 @@ class StrengthStress : public Material {
     block.count = end - begin, block.dt = dt;
     for (int k = 0; k < 6; ++k) block.rate[k] = at.rate[k].data(), block.stress[k] = kept_.data(k) + begin;
     block.compression = at.mu.data(), block.energy = p.E.data() + begin, block.sound_speed = at.c.data();
-    if (law.deviator_only()) block.pressure = p.p.data() + begin;
+    if (law.deviator_only()) {
+      block.pressure = p.p.data() + begin, block.least_pressure = at.least_pressure.data();
+      at.least_pressure.fill(law.pressure_cutoff());
+    }
     std::array<Real*, most_history> history{};
     const auto& fields = history_[p.part[begin]];
     const Real* const spin[3] = {at.spin[0].data(), at.spin[1].data(), at.spin[2].data()};
@@ -186,11 +189,16 @@ class StrengthStress : public Material {
     for (int c = 0; c < 3; ++c) at.spin[c][k] = w[c];
   }
 
+  /// The law's share of the sound speed, and tension that it no longer allows,
+  /// with the work that it did.
   static void add_to_equation_of_state(Particles& p, Index begin, const Points64& at,
                                        const PointBlock& block) {
     for (Index k = 0; k < block.count; ++k) {
-      Real& c = p.c[begin + k];
+      Real &c = p.c[begin + k], &pressure = p.p[begin + k];
       c = std::sqrt(c * c + at.c[k] * at.c[k]);
+      const Real lacks = at.least_pressure[k] - pressure;
+      if (!(lacks > 0)) continue;
+      pressure = at.least_pressure[k], p.E[begin + k] -= 0.5 * at.dv[k] * lacks;
     }
   }
   static void take_pressure(Particles& p, Index begin, const Points64& at, const PointBlock& block) {

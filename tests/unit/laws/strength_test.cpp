@@ -284,7 +284,7 @@ TEST(MatElasticPlasticHydro, ChecksItsCards) {
   };
   EXPECT_EQ(faults_of("1,1.0,1.0,0.1\n"), "");
   EXPECT_NE(faults_of("1,1.0,1.0\n").find("SIGY"), std::string::npos);
-  EXPECT_NE(faults_of("1,1.0,1.0,0.1,,,0.5\n").find("FS"), std::string::npos);
+  EXPECT_NE(faults_of("1,1.0,1.0,0.1,,,-0.5\n").find("FS"), std::string::npos);
   EXPECT_NE(faults_of("1,1.0,1.0,0.1,,,,0.5\n").find("CHARL"), std::string::npos);
   EXPECT_NE(faults_of("1,1.0,1.0\n0.0,0.2,0.1\n\n1.0,2.0,3.0\n").find("EPS3"), std::string::npos);
   EXPECT_NE(faults_of("1,1.0,1.0\n0.1,0.2\n\n1.0,2.0\n").find("EPS1"), std::string::npos);

@@ -1,0 +1,82 @@
+#include "elements/solid/full_points.hpp"
+
+#include <array>
+#include <span>
+
+namespace courant {
+
+FullPoints::FullPoints(const ElementGroup& group, const StrengthLaw& law)
+    : group_(group),
+      stress_(group.fields.add<Real>(
+          {.name = "stress_of_points", .dimension = "M/LT2", .components = 6 * points})) {
+  for (const HistoryVariable& h : law.history()) {
+    history_.push_back(&group.fields.add<Real>(
+        {.name = h.name + "_of_points", .dimension = h.dimension, .components = points * h.components}));
+    if (h.is_tensor()) tensors_.push_back(history_.back());
+  }
+}
+
+void FullPoints::declare(Accesses& a) const {
+  a.updates(stress_);
+  for (const Field<Real>* h : history_) a.updates(*h);
+}
+
+HexahedronLoops::Found FullPoints::advance(const Answer& of, const HexahedronLoops::Block& block,
+                                           FullHexahedronScratch& scratch, const Between& between) const {
+  loops_.gather(block, of.mesh, of.state, scratch);
+  between.gathered();
+  loops_.begin(block, scratch);
+  HexahedronState state = of.state;
+  state.tensors = static_cast<int>(tensors_.size());
+  std::array<Real*, 16> history{};
+  for (int p = 0; p < points; ++p) {
+    PointBlock at;
+    at.count = block.count, at.dt = block.dt;
+    for (int k = 0; k < 6; ++k) {
+      const auto c = static_cast<std::size_t>(k);
+      state.stress[k] = stress_.data(6 * p + k);
+      at.rate[c] = scratch.rate[k], at.stress[c] = state.stress[k] + block.begin;
+      for (std::size_t t = 0; t < tensors_.size(); ++t) state.tensor[t][k] = tensors_[t]->data(6 * p + k);
+    }
+    std::size_t numbers = 0;
+    for (Field<Real>* h : history_) {
+      const int n = h->info().components / points;
+      for (int k = 0; k < n; ++k) history[numbers++] = h->data(n * p + k) + block.begin;
+    }
+    at.history = {history.data(), numbers};
+    at.compression = scratch.compression, at.sound_speed = scratch.sound_speed;
+    loops_.strain(block, p, state, scratch);
+    of.law.update(at);
+    between.answered(p, at);
+    loops_.add(block, p, state, scratch);
+  }
+  return loops_.forces(block, of.control, of.state, scratch);
+}
+
+void FullPoints::reset() {
+  stress_.fill(0);
+  for (Field<Real>* h : history_) h->fill(0);
+}
+
+void FullPoints::average(Field<Real>& stress, const std::vector<Field<Real>*>& history) const {
+  const auto mean = [&](const Field<Real>& from, Field<Real>& to) {
+    const int n = to.info().components;
+    for (int k = 0; k < n; ++k)
+      for (Index e = 0; e < group_.size(); ++e) {
+        Real sum = 0;
+        for (int p = 0; p < points; ++p) sum += from.data(n * p + k)[e];
+        to.data(k)[e] = sum / points;
+      }
+  };
+  mean(stress_, stress);
+  for (std::size_t h = 0; h < history_.size(); ++h) mean(*history_[h], *history[h]);
+}
+
+std::vector<Field<Real>*> FullPoints::of_deleted() const {
+  std::vector<Field<Real>*> out{&stress_};
+  for (Field<Real>* h : history_)
+    if (h->info().components == 6 * points) out.push_back(h);
+  return out;
+}
+
+}  // namespace courant

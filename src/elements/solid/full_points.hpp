@@ -1,0 +1,50 @@
+#pragma once
+// Stress and history at the eight points of fully integrated solids (ELFORM 2) of a part.
+#include <functional>
+#include <vector>
+
+#include "elements/solid/full_hexahedron_loops.hpp"
+#include "laws/strength/strength.hpp"
+#include "state/entities.hpp"
+
+namespace courant {
+
+class FullPoints {
+ public:
+  /// What a block of elements moves by, and answers with. Stress and tensors of `state` are not looked at.
+  struct Answer {
+    const HexahedronMesh& mesh;
+    const HexahedronControl& control;
+    const HexahedronState& state;
+    const StrengthLaw& law;
+  };
+  /// What happens behind the gathering of the corners, and behind the law at each point.
+  struct Between {
+    std::function<void()> gathered;
+    std::function<void(int point, const PointBlock& points)> answered;
+  };
+
+  /// Adds fields to the group.
+  FullPoints(const ElementGroup& group, const StrengthLaw& law);
+  /// A tensor of six numbers for each point, which is turned with the stress.
+  void turn_too(Field<Real>& tensor) { tensors_.push_back(&tensor); }
+  void declare(Accesses& a) const;
+  HexahedronLoops::Found advance(const Answer& of, const HexahedronLoops::Block& block,
+                                 FullHexahedronScratch& scratch, const Between& between) const;
+  /// No stress, no history.
+  void reset();
+  /// Means over the points. `history`: a field for each number of the law, as the law has them.
+  void average(Field<Real>& stress, const std::vector<Field<Real>*>& history) const;
+  /// Those that are 0 in deleted elements.
+  std::vector<Field<Real>*> of_deleted() const;
+
+ private:
+  static constexpr int points = FullHexahedronLoops::points;
+  const ElementGroup& group_;
+  FullHexahedronLoops loops_ = full_hexahedron_loops();
+  Field<Real>& stress_;                ///< component 6 p + k of point p
+  std::vector<Field<Real>*> history_;  ///< of each number of the law, component n p + k
+  std::vector<Field<Real>*> tensors_;  ///< those among them, and others
+};
+
+}  // namespace courant

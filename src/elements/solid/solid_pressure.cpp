@@ -1,0 +1,109 @@
+#include "elements/solid/solid_pressure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace courant {
+
+namespace {
+
+/// Hooke's law in all but the sound speed, which is that of the reference density.
+class Linear : public StrengthLaw {
+ public:
+  Linear(Real density, Real K, Real G) : K_(K), G_(G) { ro = density; }
+  Real bulk_modulus() const override { return K_; }
+  Real shear_modulus() const override { return G_; }
+  void update(const PointBlock& block) const override {
+    for (Index i = 0; i < block.count; ++i) {
+      const Real trace = block.rate[0][i] + block.rate[1][i] + block.rate[2][i];
+      for (std::size_t k = 0; k < 6; ++k)
+        block.stress[k][i] +=
+            block.dt * (2 * G_ * block.rate[k][i] + (k < 3 ? (K_ - 2 * G_ / 3) * trace : 0));
+    }
+    keep_stiffness(block, sound_speed());
+  }
+
+ private:
+  Real K_, G_;
+};
+
+}  // namespace
+
+Real SolidPressure::initial_pressure() const {
+  return std::max(eos_->pressure(1 / eos_->V0 - 1, eos_->E0), law_->pressure_cutoff());
+}
+
+Real SolidPressure::bulk_modulus() const {
+  const Real mu = 1 / eos_->V0 - 1;
+  return law_->ro * (1 + mu) * eos_->sound_speed2(law_->ro, mu, eos_->E0);
+}
+
+Real SolidPressure::initial_sound_speed() const {
+  return std::sqrt((bulk_modulus() + 4 * law_->shear_modulus() / 3) * eos_->V0 / law_->ro);
+}
+
+void SolidPressure::split(const HexahedronLoops::Block& block, const HexahedronState& state,
+                          const Real* energy, HexahedronScratch& scratch, Scratch& own) const {
+  const Real* mu = scratch.compression;
+  eos_->evaluate({block.count, mu, own.A, own.dA, own.B, own.dB});
+  const Real shear = 4 * law_->shear_modulus() / 3;
+  Real *xx = state.stress[0] + block.begin, *yy = state.stress[1] + block.begin,
+       *zz = state.stress[2] + block.begin;
+  const Real *V0 = state.V0 + block.begin, *rho0 = state.rho0 + block.begin;
+#pragma omp simd
+  for (Index i = 0; i < block.count; ++i) {
+    const Real p = -(xx[i] + yy[i] + zz[i]) / 3;
+    xx[i] += p, yy[i] += p, zz[i] += p;
+    const Real E = energy[block.begin + i] / V0[i], v = 1 / (1 + mu[i]);
+    const Real slope = own.dA[i] + own.dB[i] * E + own.B[i] * (own.A[i] + own.B[i] * E) * v * v;
+    own.energy[i] = E;
+    own.dv[i] = block.dt * scratch.middle_volume[i] *
+                (scratch.rate[0][i] + scratch.rate[1][i] + scratch.rate[2][i]) / V0[i];
+    // of the density that inertia belongs to, which mass scaling makes another than that of the law
+    scratch.sound_speed[i] = std::sqrt((std::max(slope, Real(0)) + shear * v) / rho0[i]);
+  }
+  std::fill_n(own.least_pressure, block.count, law_->pressure_cutoff());
+}
+
+void SolidPressure::predict(const HexahedronLoops::Block& block, const HexahedronState& state,
+                            const HexahedronScratch& scratch, Scratch& own) const {
+  const Real* V0 = state.V0 + block.begin;
+  const Real cutoff = law_->pressure_cutoff();
+#pragma omp simd
+  for (Index i = 0; i < block.count; ++i) {
+    own.energy[i] += scratch.work[i] / V0[i];
+    own.pressure[i] =
+        std::max((own.A[i] + own.B[i] * own.energy[i]) / (1 + 0.5 * own.B[i] * own.dv[i]), cutoff);
+  }
+}
+
+SolidPressure::Found SolidPressure::complete(const HexahedronLoops::Block& block,
+                                             const HexahedronState& state, HexahedronScratch& scratch,
+                                             Scratch& own) const {
+  Real* const* stress = state.stress;
+  const Real *V0 = state.V0 + block.begin, *mu = scratch.compression;
+  const Real ro = law_->ro, limit = eos_->mu_limit();
+  Found found;
+  for (Index i = 0; i < block.count; ++i) {
+    const Index e = block.begin + i;
+    Real power = 0;
+    for (int k = 0; k < 6; ++k) power += (k < 3 ? 1 : 2) * stress[k][e] * scratch.rate[k][i];
+    Real E = own.energy[i] + 0.5 * block.dt * scratch.middle_volume[i] * power / V0[i];
+    const Real p =
+        std::max((own.A[i] + own.B[i] * E) / (1 + 0.5 * own.B[i] * own.dv[i]), own.least_pressure[i]);
+    E -= 0.5 * own.dv[i] * p;
+    for (int k = 0; k < 3; ++k) stress[k][e] -= p;
+    const Real v = 1 / (1 + mu[i]);
+    const Real c2 = (own.dA[i] + own.dB[i] * E + own.B[i] * p * v * v) / ro, share = scratch.sound_speed[i];
+    scratch.sound_speed[i] = std::sqrt(std::max(c2, Real(0)) + share * share);
+    found.without_speed += c2 < 0;
+    if (!(mu[i] < limit) && found.beyond < 0) found.beyond = e;
+  }
+  return found;
+}
+
+std::shared_ptr<StrengthLaw> linear_response(const SolidPressure& pressure, const StrengthLaw& law) {
+  return std::make_shared<Linear>(law.ro, pressure.bulk_modulus(), law.shear_modulus());
+}
+
+}  // namespace courant

@@ -1,0 +1,63 @@
+#pragma once
+// Pressure of solids from an equation of state. Between the loops over hexahedra: the law of strength gets
+// the deviator, and the pressure comes with the energy that all stresses and the bulk viscosity have added.
+#include <memory>
+
+#include "elements/solid/hexahedron_loops.hpp"
+#include "laws/eos/eos.hpp"
+#include "laws/strength/strength.hpp"
+#include "state/entities.hpp"
+
+namespace courant {
+
+/// With E the internal energy per reference volume (all of it: work of p, q and the deviator), v = V/V0, dv =
+/// V_m tr(D) dt/V0 and p = A(mu) + B(mu) E:
+///   E* = E - (p_old + q_old + q) dv/2 + (s_old + s):D V_m dt/(2 V0),
+///   p = (A + B E*)/(1 + B dv/2) or the cut-off, E_new = E* - p dv/2.
+/// q comes before p, with the sound speed of the old energy at the new volume.
+class SolidPressure {
+ public:
+  /// Of a block, between the calls.
+  struct Scratch {
+    alignas(64) Real A[block_size], dA[block_size], B[block_size], dB[block_size];
+    Real energy[block_size];          ///< per reference volume: E, then E* but for the work of s [M/LT2]
+    Real dv[block_size];              ///< [-]
+    Real pressure[block_size];        ///< with that energy [M/LT2]
+    Real least_pressure[block_size];  ///< the cut-off [M/LT2]
+  };
+  /// How a block turned out.
+  struct Found {
+    Index beyond = -1;        ///< an element of the group at which the law has ended; -1: none
+    Index without_speed = 0;  ///< elements with c^2 < 0, whose share of the sound speed was taken as 0
+  };
+
+  SolidPressure(std::shared_ptr<const EosLaw> eos, std::shared_ptr<const StrengthLaw> law)
+      : eos_(std::move(eos)), law_(std::move(law)) {}
+
+  const EosLaw& eos() const { return *eos_; }
+  /// At the start. [M/LT2], [L/T]
+  Real initial_pressure() const;
+  Real initial_sound_speed() const;
+  /// rho c^2 of compression alone, at the start. [M/LT2]
+  Real bulk_modulus() const;
+
+  /// Behind `strain`, before the law: leaves the deviator in the stress, energy and pressure in `own`, and
+  /// the sound speed that q is to be made of in `scratch`. `energy`: internal, of the elements. [ML2/T2]
+  void split(const HexahedronLoops::Block& block, const HexahedronState& state, const Real* energy,
+             HexahedronScratch& scratch, Scratch& own) const;
+  /// Behind q, before the law.
+  void predict(const HexahedronLoops::Block& block, const HexahedronState& state,
+               const HexahedronScratch& scratch, Scratch& own) const;
+  /// Behind the law: pressure back into the stress, and the sound speed, which the law left its share in.
+  Found complete(const HexahedronLoops::Block& block, const HexahedronState& state,
+                 HexahedronScratch& scratch, Scratch& own) const;
+
+ private:
+  std::shared_ptr<const EosLaw> eos_;
+  std::shared_ptr<const StrengthLaw> law_;
+};
+
+/// Of small strains from the state at the start: a law that stands in for `pressure` and its deviator.
+std::shared_ptr<StrengthLaw> linear_response(const SolidPressure& pressure, const StrengthLaw& law);
+
+}  // namespace courant

@@ -1,0 +1,41 @@
+#pragma once
+// Flow stress and failure of Johnson and Cook (1983, 1985), for cards with an equation of state and without.
+#include <array>
+#include <limits>
+
+#include "laws/strength/spall.hpp"
+#include "laws/strength/strength.hpp"
+
+namespace courant {
+
+/// sigma_y = min(min(A + B e^n, most) R, saturates) (1 - T*^M), T* = min((T - TR)/(TM - TR), 1), with R of
+/// the rate of strain. Plastic work alone heats, all of it.
+struct JohnsonCookData {
+  enum class Rate {
+    log_linear,      ///< R = 1 + C ln x, x = max(rate/EPSO, 1): Johnson & Cook 1983
+    log_quadratic,   ///< R = 1 + C ln x + C2 (ln x)^2: Huh & Kang 2002
+    power,           ///< R = x^C: Allen, Rule & Jones 1997
+    cowper_symonds,  ///< R = 1 + (rate/C)^(1/P)
+  };
+  static constexpr Real never = std::numeric_limits<Real>::infinity();
+  Real G = 0, K = 0;  ///< [M/LT2]; K = 0: the law gives the deviator only
+  Real A = 0, B = 0, n = 0, C = 0;
+  Real M = 0, melting = 0;     ///< exponent; TM - TR
+  Real heat = 0;               ///< rise of temperature per plastic work, 1/(RO CP); 0: temperature stays
+  Real rate0 = 1, second = 0;  ///< EPSO [1/T]; C2 or P
+  Rate rate = Rate::log_linear;
+  bool of_plastic_rate = false;  ///< VP 1: the rate is that of plastic strain, else that of all strain
+  Real most = never, saturates = never;  ///< SIGMAX, SIGSAT [M/LT2]
+  /// D1 to D5: strain at fracture (D1 + D2 exp(D3 sigma_m/sigma_eq)) (1 + D4 ln x) (1 + D5 T*), at least
+  /// EFMIN.
+  std::array<Real, 5> d{};
+  Real least_fracture = 1e-6;
+  bool keeps_elements = false;  ///< EROD: damaged points have no deviator, but are not deleted
+  Real fails_at = never;        ///< PSFAIL [-]
+  Spall spall{};
+  bool damages() const { return d != std::array<Real, 5>{}; }
+};
+
+std::shared_ptr<StrengthLaw> make_johnson_cook(Real density, const JohnsonCookData& data);
+
+}  // namespace courant
