@@ -18,6 +18,7 @@
 #include "elements/nodal_assembly.hpp"
 #include "elements/nodal_rotations.hpp"
 #include "extension/additions.hpp"
+#include "loads/idle_parts.hpp"
 #include "loads/loads.hpp"
 #include "model/build_model.hpp"
 #include "model/transforms/included_entries.hpp"
@@ -152,11 +153,12 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     build_beams(model_, beams_, node_of, world_, diagnostics);
     add_beam_passes(model_, beams_, world_);
     springs_ = build_discrete(deck_, model_, node_of, world_, diagnostics);
-    report_mass_scaling(deck_, model_, world_, diagnostics);
     add_inner_faces(options.eroding);
     add_erosion(model_, std::move(options.eroding), world_);
   }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
+  if (bodies_) take_back_added_mass(bodies_->unweighed_nodes(), world_);
+  if (diagnostics.ok()) report_mass_scaling(deck_, model_, world_, diagnostics);
   start_rotations(model_, node_of, world_);
   if (diagnostics.ok()) add_tied_contacts(diagnostics);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
@@ -186,6 +188,7 @@ void Simulation::add_inner_faces(const std::vector<std::shared_ptr<Erosion>>& er
 void Simulation::add_passes(Diagnostics& diagnostics) {
   nodal_loads_ = nodal_loads(deck_, model_, world_, diagnostics);
   damping_ = damping_of(deck_, model_, world_, diagnostics);
+  check_gravity_of_parts(deck_, model_, world_, diagnostics);
   const bool particles = world_.particles.size() > 0;
   if (particles)
     add_neighbours(diagnostics);

@@ -110,6 +110,12 @@ bool RigidBodies::any_moves() const {
   return std::any_of(bodies_.begin(), bodies_.end(), [](const RigidBody& b) { return !b.fixed(); });
 }
 
+std::vector<Index> RigidBodies::unweighed_nodes() const {
+  std::vector<Index> out;
+  for (const RigidBody& b : bodies_) out.insert(out.end(), b.unweighed.begin(), b.unweighed.end());
+  return out;
+}
+
 RigidBodies::RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodies)) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     RigidBody& body = bodies_[k];

@@ -73,7 +73,9 @@ class ShellForces : public Material,
     if (hourglass_force_) a.updates(*hourglass_force_);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (erosion_) erosion_->declare(world, a);
-    if (scaled_) scaled_->declare(world, a);
+    if (!scaled_) return;
+    a.reads(scaled_->inertial());
+    scaled_->declare(world, a);
   }
 
   void start(World& world, const Clock&) override {
@@ -83,7 +85,7 @@ class ShellForces : public Material,
     for (int k = 0; k < 6 * state_.points; ++k) state_.stress[k] = stress_.data(k);
     for (int k = 0; k < 8; ++k) state_.resultant[k] = resultants_.data(k);
     for (int k = 0; k < 5; ++k) state_.hourglass[k] = hourglass_force_ ? hourglass_force_->data(k) : nullptr;
-    state_.thickness = thickness_.data(), state_.mass = group_.mass.data();
+    state_.thickness = thickness_.data(), state_.mass = (scaled_ ? scaled_->inertial() : group_.mass).data();
     state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
     state_.bulk_viscosity_energy = bulk_viscosity_.data();
     for (int k = 0; k < 3 * group_.corners(); ++k) {
@@ -137,10 +139,10 @@ class ShellForces : public Material,
       out.eroded_hourglass += total_of_dead(hourglass_);
     }
     for (Index e = 0; e < group_.size(); ++e) {
-      const Real share = group_.mass[e] / group_.corners();
       out.mass += group_.mass[e];
       if (scaled_) out.added_mass += scaled_->added(e);
       for (int c = 0; c < group_.corners(); ++c) {
+        const Real share = scaled_ ? scaled_->of_corner(e, c) : group_.mass[e] / group_.corners();
         const Index n = group_.node.data(c)[e];
         const Vec v = world.nodes.v.vec(n);
         out.momentum += share * v;
@@ -247,6 +249,7 @@ class ShellForces : public Material,
     reset();
     scaled_ = std::make_unique<ScaledMass>(scaling, group_, &corner_inertia_, world);
     scaled_->start(wave_time, world);
+    state_.mass = scaled_->inertial().data();
   }
 
   /// A free patch of few elements is stable only below what a mesh of many is: as for solids, the step keeps
