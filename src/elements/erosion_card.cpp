@@ -175,7 +175,7 @@ std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
   const int erode = step ? step->erode : 0;
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (!laws[k]) continue;
-    out[k].law_strain = laws[k]->failure_strain();
+    out[k].law_strain = laws[k]->failure_strain(), out[k].law_time = laws[k]->failure_time();
     if (const auto card = cards.find(model.parts[k].mid); card != cards.end()) {
       take_card(*card->second, out[k]);
       if (out[k].plastic_strain < FailureRules::never && plastic_strain_of(*laws[k]) < 0)
@@ -184,6 +184,7 @@ std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
                                model.parts[k].id, card->second->effeps),
                    "a value > 0 is one of the effective strain");
     }
+    if (model.parts[k].has_beam) continue;
     out[k].small_step = model.parts[k].has_solid ? erode % 10 != 0 : erode / 10 % 10 != 0 && model.dtmin > 0;
   }
   return out;

@@ -141,6 +141,9 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   void strike_at_start(std::size_t body, const Vec& impulse, const Vec& turn, World& world);
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
   const std::vector<RigidBody>& bodies() const { return bodies_; }
+  /// Before the first step: a node of a body has got heavier, and the body with it; false where its inertia
+  /// is given. [M], [ML2]
+  bool add_mass_at(Index node, Real mass, Real inertia, World& world);
   std::vector<Index> unweighed_nodes() const;  ///< of all bodies, indices into World::nodes
   /// Force and moment are those on the free body; zero for bodies that are fixed.
   std::vector<RigidBodyReport> reports() const;

@@ -44,6 +44,8 @@ class StrengthLaw {
   virtual Real shear_modulus() const = 0;  ///< at rest [M/LT2]
   /// Plastic strain (its history `plastic_strain`) at which a point fails; infinity: it never does. [-]
   virtual Real failure_strain() const { return std::numeric_limits<Real>::infinity(); }
+  /// When all points fail; infinity: never by that. [T]
+  virtual Real failure_time() const { return std::numeric_limits<Real>::infinity(); }
   /// Pressure of the equation of state is cut off below this. [M/LT2]
   virtual Real pressure_cutoff() const { return -std::numeric_limits<Real>::infinity(); }
   /// Of compression waves at rest: sqrt((K + 4G/3)/RO). [L/T]
