@@ -81,6 +81,10 @@ std::string advice_for_flow(const StopFacts& f) {
 }  // namespace
 
 std::string advice(const StopFacts& f) {
+  if (f.cause == StopCause::added_mass)
+    return "elements that are pressed or distorted ask for shorter and shorter steps: lower |DT2MS| of "
+           "*CONTROL_TIMESTEP, let elements that collapse be deleted (ERODE, *MAT_ADD_EROSION), or raise "
+           "ENDMAS of *CONTROL_TERMINATION if that much mass does not matter";
   std::string text = advice_for_start(f);
   if (text.empty()) text = advice_for_flow(f);
   if (text.empty())

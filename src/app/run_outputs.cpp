@@ -58,8 +58,8 @@ void tell_failures(const World& world, const Clock& clock, Messag& messag) {
   constexpr std::int64_t most_shown = 20;
   for (const auto* reporter : world.passes.all<const FailureReporter>())
     for (const ElementFailure& one : reporter->failures()) {
-      const std::string text = fmt::format(" {} element {:8} of part {} failed at time {:.4E}: {}",
-                                           one.shell ? "shell" : "solid", one.id, one.part, clock.t, one.why);
+      const std::string text = fmt::format(" {} element {:8} of part {} failed at time {:.4E}: {}", one.kind,
+                                           one.id, one.part, clock.t, one.why);
       if (world.counters.at("deleted_elements") <= most_shown)
         messag.line(text);
       else

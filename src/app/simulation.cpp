@@ -18,6 +18,7 @@
 #include "elements/nodal_assembly.hpp"
 #include "elements/nodal_rotations.hpp"
 #include "extension/additions.hpp"
+#include "loads/idle_parts.hpp"
 #include "loads/loads.hpp"
 #include "model/build_model.hpp"
 #include "model/transforms/included_entries.hpp"
@@ -150,13 +151,17 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     add_solid_passes(model_, solids_, node_of, options, world_);
     add_shell_passes(model_, shells_, node_of, options, world_);
     build_beams(model_, beams_, node_of, world_, diagnostics);
-    add_beam_passes(model_, beams_, world_);
+    add_beam_passes(model_, beams_, options, world_);
     springs_ = build_discrete(deck_, model_, node_of, world_, diagnostics);
-    report_mass_scaling(deck_, model_, world_, diagnostics);
     add_inner_faces(options.eroding);
     add_erosion(model_, std::move(options.eroding), world_);
   }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
+  if (bodies_) take_back_added_mass(bodies_->unweighed_nodes(), world_);
+  if (diagnostics.ok()) {
+    report_mass_scaling(deck_, model_, world_, diagnostics);
+    report_weld_scaling(model_, beams_, world_, diagnostics);
+  }
   start_rotations(model_, node_of, world_);
   if (diagnostics.ok()) add_tied_contacts(diagnostics);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
@@ -166,7 +171,12 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
 void Simulation::add_tied_contacts(Diagnostics& diagnostics) {
   TiedOptions options;
   options.bulk_modulus = [this](Index part) { return bulk_modulus(part); };
-  if (bodies_) options.bodies = bodies_->wall_bodies(world_);
+  if (bodies_) {
+    options.bodies = bodies_->wall_bodies(world_);
+    options.give_body = [this](Index node, Real mass, Real inertia) {
+      return bodies_->add_mass_at(node, mass, inertia, world_);
+    };
+  }
   options.tssfac = model_.tssfac;
   const MassScaling scaling = mass_scaling_of(deck_);
   options.mass_grows = scaling.step > 0 && !scaling.once;
@@ -180,13 +190,14 @@ void Simulation::add_inner_faces(const std::vector<std::shared_ptr<Erosion>>& er
                    [](const ContactCard& c) { return kind_of(c).eroding && c.erosop == 1; }))
     return;
   for (const auto& group : eroding)
-    if (!group->group().segment)
+    if (!group->group().segment && group->group().corners() > 2)
       add_skin(world_, {group->group().part, bulk_modulus(group->group().part), true});
 }
 
 void Simulation::add_passes(Diagnostics& diagnostics) {
   nodal_loads_ = nodal_loads(deck_, model_, world_, diagnostics);
   damping_ = damping_of(deck_, model_, world_, diagnostics);
+  check_gravity_of_parts(deck_, model_, world_, diagnostics);
   const bool particles = world_.particles.size() > 0;
   if (particles)
     add_neighbours(diagnostics);

@@ -12,6 +12,7 @@ enum class StopCause {
   leap,        ///< a particle moved too far in one step
   element,     ///< an element without volume
   step_size,   ///< below DTMIN, or nothing limits it
+  added_mass,  ///< of mass scaling, beyond ENDMAS
   energy,      ///< more than came in, or beyond ENDENG
 };
 

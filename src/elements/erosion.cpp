@@ -56,9 +56,9 @@ bool FailureRules::measures_strain() const {
 }
 
 bool FailureRules::of_points() const {
-  return law_limit < never || measures_strain() || most_pressure < never || least_pressure > -never ||
-         principal_stress < never || mises < never || plastic_strain < never || impulse < never ||
-         time < never;
+  return law_limit < never || law_time < never || measures_strain() || most_pressure < never ||
+         least_pressure > -never || principal_stress < never || mises < never || plastic_strain < never ||
+         impulse < never || time < never;
 }
 
 int history_at(const StrengthLaw& law, const std::string& variable) {
@@ -97,16 +97,17 @@ void Erosion::declare(const World&, Accesses& a) const {
 
 void Erosion::declare_booking(Accesses& a) const {
   a.reads(eroded_, Reach::others).reads(group_.id, Reach::others).reads(group_.mass, Reach::others);
-  a.reads(*energies_.internal, Reach::others).reads(*energies_.bulk_viscosity, Reach::others);
-  a.reads(*energies_.hourglass, Reach::others);
+  for (const Field<Real>* energy : {energies_.internal, energies_.bulk_viscosity, energies_.hourglass})
+    if (energy) a.reads(*energy, Reach::others);
   if (group_.segment) a.reads(*group_.segment, Reach::others);
 }
 
 void Erosion::begin_block(Index begin, Index count) {
   why_[static_cast<std::size_t>(begin / block_size)].clear();
   for (Index e = begin; e < begin + count; ++e) {
-    kept_[static_cast<std::size_t>(e)] = {(*energies_.internal)[e], (*energies_.bulk_viscosity)[e],
-                                          (*energies_.hourglass)[e]};
+    const auto of = [&](const Field<Real>* energy) { return energy ? (*energy)[e] : 0; };
+    kept_[static_cast<std::size_t>(e)] = {of(energies_.internal), of(energies_.bulk_viscosity),
+                                          of(energies_.hourglass)};
     if (dead(e)) clear(e);
   }
 }
@@ -157,11 +158,11 @@ void Erosion::look(const FailingPoints& p) {
       impulse_->data(p.point)[p.begin + i] += over * over * p.dt;
     }
   FailureRules of_card = rules_;
-  of_card.law_limit = infinite;
+  of_card.law_limit = of_card.law_time = infinite;
   const bool has_card = of_card.of_points();
   for (Index i = 0; i < p.count; ++i) {
     if (dead(p.begin + i)) continue;
-    if (p.by_law && p.by_law[i] >= rules_.law_limit) failed[i] |= by_law;
+    if ((p.by_law && p.by_law[i] >= rules_.law_limit) || p.t >= rules_.law_time) failed[i] |= by_law;
     if (has_card && !(failed[i] & by_card)) {
       std::string why = failure_of(p, i);
       if (!why.empty()) {
@@ -172,6 +173,15 @@ void Erosion::look(const FailingPoints& p) {
     if (failed[i] == 0) continue;
     for (Real* stress : p.stress) stress[i] = 0;
   }
+}
+
+std::string Erosion::why_by_law() const {
+  std::string variable = rules_.law_variable, out;
+  std::replace(variable.begin(), variable.end(), '_', ' ');
+  if (rules_.law_limit < infinite) out = fmt::format("{} {:.4g}", variable, rules_.law_limit);
+  if (rules_.law_time < infinite)
+    out += fmt::format("{}time {:.4g}", out.empty() ? "" : " or ", rules_.law_time);
+  return out;
 }
 
 Index Erosion::points_needed() const {
@@ -200,9 +210,7 @@ void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real
                                     [&](const Failed& one) { return one.element == e; });
       strike(begin, e, why == why_[block].end() ? "failed points" : why->why);
     } else if (of_law == points_) {
-      std::string variable = rules_.law_variable;
-      std::replace(variable.begin(), variable.end(), '_', ' ');
-      strike(begin, e, fmt::format("{} {:.4g}", variable, rules_.law_limit));
+      strike(begin, e, why_by_law());
     } else if (volume && (volume[i] > rules_.most_volume || volume[i] < rules_.least_volume) && !inside_out) {
       strike(begin, e, fmt::format("volume {:.4g} of the reference", volume[i]));
     } else if (inside_out) {
@@ -211,9 +219,7 @@ void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real
       strike(begin, e, fmt::format("step {:.4g}", share * step_limit[i]));
     }
     const auto& kept = kept_[static_cast<std::size_t>(e)];
-    if (dead(e) && (inside_out || !std::isfinite(energy_of(e))))
-      (*energies_.internal)[e] = kept[0], (*energies_.bulk_viscosity)[e] = kept[1],
-      (*energies_.hourglass)[e] = kept[2];
+    if (dead(e) && (inside_out || !std::isfinite(energy_of(e)))) put_back(e, kept);
   }
   if (dead_[block] == 0) return;
   for (Index i = 0; i < count; ++i) {
@@ -238,8 +244,17 @@ std::vector<Erosion::Failed> Erosion::take_failed() {
   return out;
 }
 
+void Erosion::put_back(Index e, const std::array<Real, 3>& kept) const {
+  Field<Real>* const fields[] = {energies_.internal, energies_.bulk_viscosity, energies_.hourglass};
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    if (fields[k]) (*fields[k])[e] = kept[k];
+}
+
 Real Erosion::energy_of(Index e) const {
-  return (*energies_.internal)[e] + (*energies_.bulk_viscosity)[e] + (*energies_.hourglass)[e];
+  Real sum = 0;
+  for (const Field<Real>* energy : {energies_.internal, energies_.bulk_viscosity, energies_.hourglass})
+    if (energy) sum += (*energy)[e];
+  return sum;
 }
 
 bool Erosion::all_dead() const {

@@ -19,11 +19,11 @@ namespace courant {
 /// criterion is not asked for. Signs: stress and strain > 0 in tension, pressure > 0 in compression.
 struct FailureRules {
   static constexpr Real never = std::numeric_limits<Real>::infinity();
-  /// Of the law (FS, FAIL, damage): a point has no stress from there on, an
-  /// element goes when all points have failed. What it is the limit of: the
-  /// law's history variable.
+  /// Of the law (FS, FAIL, damage): a point has no stress from there on, an element goes when all points have
+  /// failed. What it is the limit of: the law's history variable.
   Real law_limit = never;
   std::string law_variable = "plastic_strain";
+  Real law_time = never;                       ///< all points fail then [T]
   Real least_volume = 0, most_volume = never;  ///< V/V0 (CEROD, TEROD)
   // *MAT_ADD_EROSION
   Real most_pressure = never, least_pressure = -never, principal_stress = never, mises = never;  ///< [M/LT2]
@@ -59,11 +59,12 @@ struct FailingPoints {
                                       ///< of; null: of nothing [-]
 };
 
-/// The elements of a group that may fail. Deleted ones keep their energies, which count as dissipated.
+/// The elements of a group that may fail: solids, shells, beams. Deleted ones keep their energies, which
+/// count as dissipated.
 class Erosion {
  public:
   struct Energies {
-    Field<Real>*internal, *bulk_viscosity, *hourglass;
+    Field<Real>*internal, *bulk_viscosity, *hourglass;  ///< the last two null: there are none
   };
   /// Adds fields to `group` and to world.segments.
   Erosion(const FailureRules& rules, const ElementGroup& group, int points, Energies energies, World& world);
@@ -83,6 +84,8 @@ class Erosion {
   void clear(Index e) const;
   /// Behind the law: strains advance, points fail and lose their stress.
   void look(const FailingPoints& points);
+  /// Takes an element away for another reason; before `judge`.
+  void fail(Index begin, Index e, std::string why) { strike(begin, e, std::move(why)); }
   /// Behind the forces. `share`: of the step that is taken [-]; `volume`: relative ones, null: shells. Marks
   /// who fails now, and takes the forces of all that are dead and the limits they have on the step.
   void judge(Index begin, Index count, Real share, Real* step_limit, Real* wave_time, Real* volume);
@@ -103,6 +106,8 @@ class Erosion {
  private:
   static constexpr Index by_law = 1, by_card = 2;
   std::string failure_of(const FailingPoints& points, Index i) const;
+  std::string why_by_law() const;
+  void put_back(Index e, const std::array<Real, 3>& kept) const;
   Index points_needed() const;
   void strike(Index begin, Index e, std::string why);
 

@@ -177,6 +177,7 @@ std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (!laws[k]) continue;
     out[k].law_limit = laws[k]->failure_limit(), out[k].law_variable = laws[k]->failure_variable();
+    out[k].law_time = laws[k]->failure_time();
     std::tie(out[k].least_volume, out[k].most_volume) = laws[k]->volume_range();
     if (const auto card = cards.find(model.parts[k].mid); card != cards.end()) {
       take_card(*card->second, out[k]);
@@ -186,6 +187,7 @@ std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
                                model.parts[k].id, card->second->effeps),
                    "a value > 0 is one of the effective strain");
     }
+    if (model.parts[k].has_beam) continue;
     out[k].small_step = model.parts[k].has_solid ? erode % 10 != 0 : erode / 10 % 10 != 0 && model.dtmin > 0;
   }
   return out;

@@ -97,17 +97,18 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
   void book(const Erosion& erosion, Erosion::Failed& failed, World& world) {
     const ElementGroup& group = erosion.group();
     const Id id = group.id[failed.element];
-    const bool shell = group.segment != nullptr;
+    const bool shell = group.segment != nullptr, beam = group.corners() == 2;
+    const std::string kind = beam ? "beam" : shell ? "shell" : "solid";
     world.energy.dissipated += erosion.energy_of(failed.element);
-    ++world.counters[shell ? "deleted_shells" : "deleted_solids"];
+    ++world.counters["deleted_" + kind + "s"];
     ++world.counters["deleted_elements"];
     world.maxima["mass_of_deleted_elements"] += group.mass[failed.element];
     if (shell)
       eroded_[(*group.segment)[failed.element]] = deleted;
-    else
+    else if (!beam)
       faces_.erode(world.segments, eroded_, id, group.part);
     failures_.push_back(
-        {id, world.part_ids[static_cast<std::size_t>(group.part)], shell, std::move(failed.why)});
+        {id, world.part_ids[static_cast<std::size_t>(group.part)], kind, std::move(failed.why)});
   }
 
   /// Of elements alone: what they allow at the start.

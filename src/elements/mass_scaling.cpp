@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/run_error.hpp"
 #include "model/cards.hpp"
+#include "parallel/parallel.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
@@ -15,6 +17,7 @@ namespace {
 
 constexpr const char* name_in_summary = "added_mass";
 const FieldInfo of_elements{.name = "added_mass", .dimension = "M", .output = true};
+constexpr const char* name_of_corners = "added_mass_of_corners";
 
 Field<Real>* added_mass_of(const FieldSet& set) {
   return dynamic_cast<Field<Real>*>(set.find(of_elements.name));
@@ -57,7 +60,7 @@ class AddedMassLimit : public EnergyTerm {
       throw RunError(fmt::format("mass scaling has added {:.4g} % of the mass of elements, more than ENDMAS "
                                  "= {:.4g} %, by time {:.6g}, cycle {}",
                                  percent, endmas_, clock.t, clock.cycle),
-                     StopCause::step_size);
+                     StopCause::added_mass);
   }
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
@@ -68,8 +71,9 @@ class AddedMassLimit : public EnergyTerm {
 
 void warn_of_rest(const Deck& deck, const ControlTimestepCard& card, const Model& model, const World& world,
                   Diagnostics& diagnostics) {
-  const bool scaled = std::any_of(world.groups.begin(), world.groups.end(),
-                                  [](const auto& g) { return added_mass_of(g->fields) != nullptr; });
+  const bool scaled = std::any_of(world.groups.begin(), world.groups.end(), [](const auto& g) {
+    return g->corners() > 2 && added_mass_of(g->fields) != nullptr;
+  });
   if (!scaled)
     deck.warning(diagnostics, card, "DT2MS",
                  "has no effect: the deck has no solids and no shells that deform", "leave it blank");
@@ -94,14 +98,19 @@ ScaledMass::ScaledMass(const MassScaling& rules, const ElementGroup& group, cons
       group_(group),
       corner_inertia_(corner_inertia),
       added_(group.fields.add<Real>(of_elements)),
+      of_corners_(
+          group.fields.add<Real>({.name = name_of_corners, .dimension = "M", .components = group.corners()})),
+      inertial_(group.fields.add<Real>({.name = "inertial_mass", .dimension = "M"})),
       of_nodes_(shared_fields::added_mass.add(world.nodes.fields)) {
   lacks_.resize(static_cast<std::size_t>(block_count(group.size())));
+  for (Index e = 0; e < group.size(); ++e) inertial_[e] = group.mass[e];
 }
 
 void ScaledMass::declare(const World& world, Accesses& a) const {
   if (rules_.once) return;
   const Nodes& n = world.nodes;
-  a.in_finish().updates(added_).updates(group_.mass).updates(of_nodes_).updates(n.m);
+  a.in_finish().updates(added_).updates(of_corners_).updates(inertial_).updates(group_.mass);
+  a.updates(of_nodes_).updates(n.m);
   a.reads(n.v, Reach::others).reads(n.follow, Reach::others).reads(group_.node, Reach::others);
   if (!corner_inertia_) return;
   a.reads(*corner_inertia_, Reach::others);
@@ -114,7 +123,7 @@ void ScaledMass::start(const std::vector<Real>& wave_time, World& world) {
   for (Index e = 0; e < group_.size(); ++e) {
     const Real lack = rules_.step / wave_time[static_cast<std::size_t>(e)];
     if (!(lack > 1) && !(rules_.of_all && lack > 0)) continue;
-    add(e, (lack * lack - 1) * group_.mass[e], false, world);
+    add(e, (lack * lack - 1) * inertial_[e], false, world);
   }
 }
 
@@ -136,7 +145,7 @@ const std::vector<Index>& ScaledMass::grow(World& world) {
   grown_.clear();
   for (std::vector<Lack>& lacks : lacks_) {
     for (const Lack& lack : lacks) {
-      add(lack.element, (lack.growth - 1) * group_.mass[lack.element], true, world);
+      add(lack.element, (lack.growth - 1) * inertial_[lack.element], true, world);
       grown_.push_back(lack.element);
     }
     lacks.clear();
@@ -146,26 +155,53 @@ const std::vector<Index>& ScaledMass::grow(World& world) {
 
 void ScaledMass::add(Index e, Real mass, bool started, World& world) {
   Nodes& nodes = world.nodes;
-  const Real of_material = group_.mass[e] - added_[e];
+  const Real own = of_material(e);
   Field<Real>* inertia = shared_fields::rotary_inertia.find(nodes.fields);
   const Field<Real>* w = shared_fields::angular_velocity.find(nodes.fields);
   const Field<Index>* none = shared_fields::no_rotation.find(nodes.fields);
-  Real work = 0;
+  Real work = 0, given = 0;
   for (int c = 0; c < group_.corners(); ++c) {
     const Index n = group_.node.data(c)[e];
     if (started && nodes.follow[n]) continue;
     const Real share = mass * group_.share(e, c);
-    nodes.m[n] += share, of_nodes_[n] += share;
+    nodes.m[n] += share, of_nodes_[n] += share, of_corners_.data(c)[e] += share, given += share;
     work += 0.5 * share * nodes.v.vec(n).squaredNorm();
     if (!corner_inertia_) continue;
-    const Real more = (*corner_inertia_)[e] * (mass / of_material);
+    const Real more = (*corner_inertia_)[e] * (mass / own);
     (*inertia)[n] += more;
     if ((*none)[n] == 0) work += 0.5 * more * w->vec(n).squaredNorm();
   }
-  group_.mass[e] += mass, added_[e] += mass;
-  world.maxima[name_in_summary] += mass;
+  inertial_[e] += mass;
+  group_.mass[e] += given, added_[e] += given;
+  world.maxima[name_in_summary] += given;
   if (!started) return;
   world.energy.external_work += work, world.energy.throughput += std::abs(work);
+}
+
+void take_back_added_mass(const std::vector<Index>& nodes, World& world) {
+  Field<Real>* of_nodes = shared_fields::added_mass.find(world.nodes.fields);
+  if (!of_nodes || nodes.empty()) return;
+  std::vector<char> without(static_cast<std::size_t>(world.nodes.size()), 0);
+  for (const Index n : nodes) without[static_cast<std::size_t>(n)] = 1;
+  for (const auto& group : world.groups) {
+    Field<Real>* added = added_mass_of(group->fields);
+    if (!added) continue;
+    auto& of_corners = dynamic_cast<Field<Real>&>(*group->fields.find(name_of_corners));
+    for (int c = 0; c < group->corners(); ++c)
+      for (Index e = 0; e < group->size(); ++e) {
+        const Index n = group->node.data(c)[e];
+        if (!without[static_cast<std::size_t>(n)]) continue;
+        const Real share = std::exchange(of_corners.data(c)[e], 0);
+        world.nodes.m[n] -= share, (*of_nodes)[n] -= share;
+        group->mass[e] -= share, (*added)[e] -= share;
+        world.maxima[name_in_summary] -= share;
+      }
+  }
+}
+
+Real added_mass(const ElementGroup& group) {
+  const Field<Real>* added = added_mass_of(group.fields);
+  return added ? sum(group.size(), [&](Index e) { return (*added)[e]; }) : 0;
 }
 
 void report_mass_scaling(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics) {
@@ -175,7 +211,7 @@ void report_mass_scaling(const Deck& deck, const Model& model, World& world, Dia
   warn_of_rest(deck, *card, model, world, diagnostics);
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const PartMass m = mass_of(world, static_cast<Index>(k));
-    if (m.scaled == 0) continue;
+    if (m.scaled == 0 || model.parts[k].has_beam) continue;
     std::string text = fmt::format(
         "mass scaling to the step {:g}: part {} has {:.4g} [M] more in {} of {} elements, {:.3g} % of its "
         "mass",

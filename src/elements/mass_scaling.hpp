@@ -18,11 +18,12 @@ MassScaling mass_scaling_of(const Deck& deck);
 
 /// The masses of a group of elements, which grow with the square of what their step lacks: inertia, and the
 /// viscosities that are measured by it, are those of a denser material, stress is not. Nodes of rigid bodies
-/// get none once the run goes on.
+/// get none once the run goes on; what no node gets counts as mass of no element, although the element is as
+/// dense as if they had it.
 class ScaledMass {
  public:
-  /// Adds the fields `added_mass` of elements and nodes. `corner_inertia`: rotary inertia of shells for each
-  /// corner, of which the nodes get more in the same ratio; null: solids. [ML2]
+  /// Adds the fields `added_mass` of elements and nodes, and `inertial_mass`. `corner_inertia`: rotary
+  /// inertia of shells for each corner, of which the nodes get more in the same ratio; null: solids. [ML2]
   ScaledMass(const MassScaling& rules, const ElementGroup& group, const Field<Real>* corner_inertia,
              World& world);
   /// Brings elements to the step that is asked for; `wave_time`: the step that each has so far, without
@@ -35,9 +36,15 @@ class ScaledMass {
   /// On one thread, after all blocks: gives them the mass, and returns them. What comes with the velocity of
   /// a node counts as work from outside.
   const std::vector<Index>& grow(World& world);
-  /// Mass over that of the material. [-]
-  Real ratio(Index e) const { return group_.mass[e] / (group_.mass[e] - added_[e]); }
-  Real added(Index e) const { return added_[e]; }  ///< [M]
+  /// Density over that of the material. [-]
+  Real ratio(Index e) const { return inertial_[e] / of_material(e); }
+  Real added(Index e) const { return added_[e]; }  ///< to nodes [M]
+  /// What corner c has of the mass of an element. [M]
+  Real of_corner(Index e, int c) const {
+    return of_material(e) * group_.share(e, c) + of_corners_.data(c)[e];
+  }
+  /// Of elements that were as dense all through, which is more than their nodes got. [M]
+  const Field<Real>& inertial() const { return inertial_; }
 
  private:
   struct Lack {
@@ -45,11 +52,14 @@ class ScaledMass {
     Real growth;  ///< new mass over old
   };
   void add(Index e, Real mass, bool started, World& world);
+  Real of_material(Index e) const { return group_.mass[e] - added_[e]; }
 
   MassScaling rules_;
   const ElementGroup& group_;
   const Field<Real>* corner_inertia_;
-  Field<Real>&added_, &of_nodes_;
+  Field<Real>&added_, &of_corners_;  ///< to nodes, of each corner
+  Field<Real>& inertial_;
+  Field<Real>& of_nodes_;
   std::vector<std::vector<Lack>> lacks_;  ///< by block
   std::vector<Index> grown_;
 };
@@ -61,6 +71,13 @@ inline Index least_of(const Real* values, Index count) {
     if (!(values[i] >= values[at]) && values[at] == values[at]) at = i;
   return at;
 }
+
+/// Takes back what was added to nodes that give their mass to nothing, as those of rigid bodies with an
+/// inertia of their own. Call before the run starts. `nodes`: indices into World::nodes.
+void take_back_added_mass(const std::vector<Index>& nodes, World& world);
+
+/// What was added to the elements of a group. [M]
+Real added_mass(const ElementGroup& group);
 
 /// Tells for each part what was added at the start, as warnings where it is more than a few per cent, and
 /// where nothing can be scaled. Adds a pass that ends the run at ENDMAS of *CONTROL_TERMINATION.

@@ -9,6 +9,7 @@
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "loads/idle_parts.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
 #include "model/transforms/transformation.hpp"
@@ -94,7 +95,7 @@ const RegisterKeyword<DP> damping_part_mass_keyword{
 class DampingReader {
  public:
   DampingReader(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), diagnostics_(diagnostics) {
+      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
     for (Index i = 0; i < world.nodes.size(); ++i) {
       const Index part = world.nodes.part[i];  // extra nodes of a body are those of deformable parts
       if (world.nodes.follow[i] != 1 || world.nodes.held[i] || part < 0) continue;
@@ -133,6 +134,7 @@ class DampingReader {
       d.parts = {part->second};
     }
     std::sort(d.parts.begin(), d.parts.end());
+    warn_of_idle_parts(deck_, card, "PID", d.parts, model_, world_, diagnostics_);
     for (const Index p : d.parts) {
       const ModelPart& part = model_.parts[static_cast<std::size_t>(p)];
       if (rigid_parts_.count(p) > 0)
@@ -177,6 +179,7 @@ class DampingReader {
 
   const Deck& deck_;
   const Model& model_;
+  const World& world_;
   Diagnostics& diagnostics_;
   std::set<Index> rigid_parts_;    ///< with nodes of bodies that can move
   std::map<Index, Index> joined_;  // nodes of deformable parts that rigid bodies move

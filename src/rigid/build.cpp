@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -216,6 +217,8 @@ class Builder {
     }
     std::size_t sum = 0;
     for (const Member* member : spread) sum += member->nodes.size();
+    std::copy_if(b.nodes.begin(), b.nodes.end(), std::back_inserter(b.unweighed),
+                 [&](Index n) { return of_given.contains(n) || !nodes.contains(n); });
     if (sum == nodes.size() && of_given.empty()) {  // no part shares nodes with another one
       for (const Member* member : spread)
         any = add_spread({member}, {member->nodes.begin(), member->nodes.end()}, any, b);

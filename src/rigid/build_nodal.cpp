@@ -105,6 +105,7 @@ bool build_nodal_body(const NodalBody& nodal, const Deck& deck, const Model& mod
   if (at_nodes.m > 0) b.J_lumped = at_nodes.inertia();
   if (nodal.given) {
     if (!take_given_inertia(deck, model, *nodal.given, b, diagnostics)) return false;
+    b.unweighed = b.nodes;
   } else {
     take_mass(b, at_nodes);
     add_rotary(model, nodal, world_node, world, b);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "parallel/parallel.hpp"
+#include "rigid/body_mass.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
@@ -108,6 +109,30 @@ BodyPose pose_after(const RigidBody& b, const HalfStep& next, Real dt) {
 
 bool RigidBodies::any_moves() const {
   return std::any_of(bodies_.begin(), bodies_.end(), [](const RigidBody& b) { return !b.fixed(); });
+}
+
+std::vector<Index> RigidBodies::unweighed_nodes() const {
+  std::vector<Index> out;
+  for (const RigidBody& b : bodies_) out.insert(out.end(), b.unweighed.begin(), b.unweighed.end());
+  return out;
+}
+
+bool RigidBodies::add_mass_at(Index node, Real mass, Real inertia, World& world) {
+  for (RigidBody& b : bodies_) {
+    const auto among = [&](const std::vector<Index>& nodes) {
+      return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+    };
+    if (!among(b.nodes) || b.fixed() || !(mass > 0)) continue;
+    if (among(b.unweighed)) return false;
+    RigidBody more;
+    more.m = mass, more.x = world.nodes.x.vec(node), more.v = b.v + b.omega.cross(more.x - b.x);
+    more.J0 = inertia * Matrix::Identity(), more.L = more.J0 * b.omega;
+    join_mass(b, more);
+    for (std::size_t k = 0; k < b.nodes.size(); ++k) b.X[k] = world.nodes.x.vec(b.nodes[k]) - b.x;
+    b.x0 = b.x;
+    start_velocities(b, world);
+  }
+  return true;
 }
 
 RigidBodies::RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodies)) {

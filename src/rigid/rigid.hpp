@@ -37,6 +37,7 @@ struct RigidBody {
   Index part_index = -1;                  ///< in Model::parts
   std::vector<Index> parts;               ///< that one first, and those merged into it
   std::vector<Index> nodes;               ///< indices into World::nodes
+  std::vector<Index> unweighed{};         ///< of them, whose mass is no part of m: that is given by a card
   std::vector<Vec> X;                     ///< their places about the centre at t = 0 [L]
   std::array<bool, 3> held{}, no_turn{};  ///< global axes without translation, rotation
   Index solids = 0;                       ///< how many of them it is made of
@@ -140,6 +141,10 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   void strike_at_start(std::size_t body, const Vec& impulse, const Vec& turn, World& world);
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
   const std::vector<RigidBody>& bodies() const { return bodies_; }
+  /// Before the first step: a node of a body has got heavier, and the body with it; false where its inertia
+  /// is given. [M], [ML2]
+  bool add_mass_at(Index node, Real mass, Real inertia, World& world);
+  std::vector<Index> unweighed_nodes() const;  ///< of all bodies, indices into World::nodes
   /// Force and moment are those on the free body; zero for bodies that are fixed.
   std::vector<RigidBodyReport> reports() const;
   /// Accelerations are those of the coming kick: for this the forces at t^n and dt must be known.

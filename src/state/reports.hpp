@@ -46,8 +46,8 @@ struct PartReporter {
 /// An element that is deleted.
 struct ElementFailure {
   Id id = 0, part = 0;
-  bool shell = false;
-  std::string why;  ///< "plastic strain 0.21"
+  std::string kind;  ///< "solid", "shell", "beam"
+  std::string why;   ///< "plastic strain 0.21"
 };
 /// A pass that deletes elements.
 struct FailureReporter {

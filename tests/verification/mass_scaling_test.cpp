@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "base/run_error.hpp"
+#include "rigid/rigid.hpp"
 #include "same_bits.hpp"
 #include "shell_decks.hpp"
 #include "solid_decks.hpp"
+#include "state/reports.hpp"
 #include "state/shared_fields.hpp"
 
 using namespace courant;
@@ -222,13 +224,70 @@ TEST(MassScaling, NodesOfBodiesGetNone) {
   const Nodes& nodes = s->world().nodes;
   std::vector<Real> before;
   for (Index n = 0; n < nodes.size(); ++n) before.push_back(nodes.m[n]);
+  const Real first = mass_of_nodes(s->world());
   while (s->clock().t < 40) s->step(do_nothing);
+  // what is told is what nodes got, 4 of the 8 corners
+  const Real got = mass_of_nodes(s->world()) - first;
+  EXPECT_NEAR(got, 0.5 * (1 / 0.6 - 1), 0.05);
+  EXPECT_NEAR(s->world().maxima["added_mass"], got, 1e-12);
+  std::vector<PartSums> parts(2);
+  for (auto* pass : s->world().passes.all<PartReporter>()) pass->report_part(s->world(), parts);
+  EXPECT_NEAR(parts[0].added_mass, got, 1e-12);
+  EXPECT_NEAR(parts[0].mass, 1 + got, 1e-12);
+  // of that, the upper corners carry all: 0.01 is their speed
+  EXPECT_NEAR(parts[0].momentum[2], -0.01 * (0.5 + got), 1e-12);
   for (Index n = 0; n < nodes.size(); ++n)
     if (nodes.follow[n])
       EXPECT_EQ(nodes.m[n], before[static_cast<std::size_t>(n)]) << n;
     else
       EXPECT_NEAR(nodes.m[n] / before[static_cast<std::size_t>(n)], 1 / 0.6, 0.05) << n;
   EXPECT_LT(test::energy_error(*s), 0.02);
+}
+
+// The rigid half weighs what its card says, whatever elements give to the nodes they share with it. Before
+// anything moves the deformable half gives mass to the other nodes alone; the element between nodes of the
+// body gets none.
+TEST(MassScaling, BodiesOfAGivenMassTakeNone) {
+  for (const bool shells : {false, true}) {
+    SolidDeck solids;
+    ShellDeck flat;
+    if (shells)
+      flat.plate(1, 1, 2, 1, 1);
+    else
+      solids.block(Vec(1, 1, 2), 1, 1, 2, 1);
+    // step of solids 1, of shells 0.5
+    std::string cards = scaled_to(shells ? -1.0 : -2.0) +
+                        "*PART\nsoft\n1,1,1\n*MAT_ELASTIC\n1,1.0,1.0,0.0\n*PART_INERTIA\nrigid\n2,2,2\n"
+                        "0.5,0.5,0.5,7.0\n2.0,0.0,0.0,3.0,0.0,4.0\n\n*MAT_RIGID\n2,1.0,1.0,0.0\n\n\n";
+    std::string text;
+    if (shells) {
+      flat.cards += cards +
+                    "*SECTION_SHELL\n1,2,1.0,2\n0.1,0.1,0.1,0.1\n*SECTION_SHELL\n2,2,1.0,2\n0.1,0.1,"
+                    "0.1,0.1\n";
+      text = flat.text(1e9);
+      const std::size_t second = text.find("       2       1", text.find("*ELEMENT_SHELL"));
+      ASSERT_NE(second, std::string::npos);
+      text.replace(second, 16, "       2       2");
+    } else {
+      solids.elements.replace(8, 8, "       2");
+      solids.cards = cards + "*SECTION_SOLID\n1,1\n*SECTION_SOLID\n2,1\n";
+      text = solids.text(1e9);
+    }
+    auto s = simulation_of(text);
+    ASSERT_NE(s, nullptr);
+    EXPECT_EQ(s->bodies()->bodies().front().m, 7);
+    const Nodes& nodes = s->world().nodes;
+    const Real own = shells ? 0.5 * 0.1 : 1;  // four times that
+    Real got = 0;
+    for (Index n = 0; n < nodes.size(); ++n)
+      if (!nodes.follow[n]) got += nodes.m[n];
+    EXPECT_NEAR(got, 0.5 * 4 * own, 1e-6);
+    EXPECT_NEAR(s->world().maxima["added_mass"], 0.5 * 3 * own, 1e-6);
+    EXPECT_NEAR(s->clock().dt_old, 0, 0);
+    start_ledger(*s);
+    s->step(do_nothing);
+    EXPECT_NEAR(s->clock().dt_old, 0.8 * (shells ? 1 : 2), 1e-6);  // the step is that of all its mass
+  }
 }
 
 TEST(MassScaling, SameBitsOnAnyNumberOfThreadsAndAfterARestart) {

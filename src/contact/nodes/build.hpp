@@ -38,6 +38,8 @@ class FaceFinder {
   }
   /// Indices into world.nodes, ascending: corners of the faces, or of a node set those that elements have.
   std::vector<Index> nodes(const ContactCard& card, ContactSide side, const std::vector<Index>& faces);
+  /// The same of a side that names parts: nodes of all elements that these have, of beams, too.
+  std::vector<Index> nodes_of_elements(const ContactCard& card, ContactSide side);
   /// All faces of the elements that nodes belong to.
   std::vector<Index> faces_around(const std::vector<Index>& nodes);
 
@@ -49,6 +51,7 @@ class FaceFinder {
   std::vector<Index> of_segment_set(const ContactCard& card, const char* field, Id id);
   std::vector<Index> of_shell_set(const ContactCard& card, const char* field, Id id);
   std::vector<char> parts_of(const ContactCard& card, const char* field, Id id, int type);
+  void keep_in_box(Id box, std::vector<Index>& nodes) const;
   const std::map<Id, Index>& node_of_id();
   const std::map<Key, Index>& face_of_corners();
 

@@ -187,11 +187,30 @@ std::vector<Index> FaceFinder::nodes(const ContactCard& card, ContactSide side,
     deck_.error(diagnostics_, card, f.field, fmt::format("node set {} does not exist", f.id),
                 "define it with *SET_NODE_LIST");
   }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  if (const auto box = model_.boxes.find(f.box); f.box != 0 && box != model_.boxes.end())
-    std::erase_if(out, [&](Index n) { return !box->second.contains(world_.nodes.x.vec(n)); });
+  keep_in_box(f.box, out);
   return out;
+}
+
+std::vector<Index> FaceFinder::nodes_of_elements(const ContactCard& card, ContactSide side) {
+  const SideFields f = fields_of(card, side);
+  std::vector<Index> out;
+  for (const Index k : parts_named(deck_, model_, card, f.field, f.id, f.type, diagnostics_))
+    for (const auto& group : world_.groups)
+      for (int c = 0; group->part == k && c < group->corners(); ++c)
+        out.insert(out.end(), group->node.data(c), group->node.data(c) + group->size());
+  if (f.box != 0 && !model_.boxes.contains(f.box))
+    deck_.error(diagnostics_, card, f.box_field, fmt::format("box {} does not exist", f.box),
+                "define it with *DEFINE_BOX");
+  keep_in_box(f.box, out);
+  return out;
+}
+
+/// Sorted, each once.
+void FaceFinder::keep_in_box(Id id, std::vector<Index>& nodes) const {
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  if (const auto box = model_.boxes.find(id); id != 0 && box != model_.boxes.end())
+    std::erase_if(nodes, [&](Index n) { return !box->second.contains(world_.nodes.x.vec(n)); });
 }
 
 std::vector<Index> FaceFinder::faces_around(const std::vector<Index>& nodes) {

@@ -36,8 +36,9 @@ class TiedBuilder {
 
   void add(const TiedCard& c, Id number) {
     std::vector<Tie> ties;
-    if (!find(c, ties)) return;
     const TiedKind kind = kind_of(c);
+    if (!find(c, ties, kind.welds && (c.surfatyp == 2 || c.surfatyp == 3))) return;
+    if (kind.welds) drop_of_bodies(c, ties);
     if (kind.form == TieForm::exact) {
       if (!may_be_exact(c, ties)) return;
       drop_held(c, ties);
@@ -78,7 +79,9 @@ class TiedBuilder {
   /// Those that tie exactly, all at once.
   void finish() {
     if (!first_card_) return;
+    const std::vector<Given> before = of_bodies();
     const TiedStart start = start_constraint(*exact_, world_);
+    give_bodies(before);
     constexpr Real rounding = 1e-6;
     if (start.before - start.after > rounding * start.before)
       diagnostics_.warning(
@@ -92,23 +95,59 @@ class TiedBuilder {
   }
 
  private:
+  /// What a corner has that a rigid body moves.
+  struct Given {
+    Index node;
+    Real mass, inertia;
+  };
+  Real inertia_of(Index node) const {
+    const Field<Real>* inertia = shared_fields::rotary_inertia.find(world_.nodes.fields);
+    return inertia ? (*inertia)[node] : 0;
+  }
+  std::vector<Given> of_bodies() const {
+    std::vector<Given> out;
+    for (const Index n : corners_)
+      if (options_.give_body && options_.bodies.body(n) >= 0)
+        out.push_back({n, world_.nodes.m[n], inertia_of(n)});
+    return out;
+  }
+
+  void give_bodies(const std::vector<Given>& before) {
+    Real lost = 0;
+    for (const Given& one : before) {
+      const Real more = world_.nodes.m[one.node] - one.mass;
+      if (!options_.give_body(one.node, more, inertia_of(one.node) - one.inertia)) lost += more;
+    }
+    if (lost > 0)
+      diagnostics_.warning(
+          deck_.where(*first_card_),
+          fmt::format("{}: {:.4g} [M] of nodes that are tied to rigid bodies count for nothing: the mass of "
+                      "these is given",
+                      deck_.keyword(*first_card_), lost),
+          "add it to what the cards of the bodies give");
+  }
+
   void error(const ContactCard& c, const char* field, std::string message, std::string hint) {
     if (field[0] != 0) return deck_.error(diagnostics_, c, field, std::move(message), std::move(hint));
     diagnostics_.error(deck_.where(c), deck_.keyword(c) + ": " + message, std::move(hint));  // of the whole
   }
 
   /// Which nodes are next to which faces, with what is to be told of that.
-  bool find(const ContactCard& c, std::vector<Tie>& ties) {
+  /// `of_elements`: SURFA names parts, whose elements need no faces.
+  bool find(const ContactCard& c, std::vector<Tie>& ties, bool of_elements = false) {
     const int errors = diagnostics_.errors();
     if (world_.dim == 2) {
       error(c, "", "tied contact needs a scene of three dimensions", "leave it out");
       return false;
     }
-    const std::vector<Index> faces_a = finder_.faces(c, ContactSide::a, false);
+    const std::vector<Index> faces_a =
+        of_elements ? std::vector<Index>{} : finder_.faces(c, ContactSide::a, false);
     const std::vector<Index> faces_b = finder_.faces(c, ContactSide::b, false);
-    const std::vector<Index> nodes_a = finder_.nodes(c, ContactSide::a, faces_a);
+    const std::vector<Index> nodes_a = of_elements ? finder_.nodes_of_elements(c, ContactSide::a)
+                                                   : finder_.nodes(c, ContactSide::a, faces_a);
     if (diagnostics_.errors() > errors) return false;
-    ties = find_ties(nodes_of(c, nodes_a, c.surfatyp == 4 ? finder_.faces_around(nodes_a) : faces_a),
+    const bool of_nodes = of_elements || c.surfatyp == 4;
+    ties = find_ties(nodes_of(c, nodes_a, of_nodes ? finder_.faces_around(nodes_a) : faces_a),
                      faces_of(c, faces_b), tolerance_of(c), world_.nodes.x);
     warn_of_free(c, nodes_a, faces_b, ties);
     warn_of_coarse(c, ties);
@@ -177,7 +216,7 @@ class TiedBuilder {
     for (const auto& group : world_.groups)
       if (shared_fields::eroded.find(group->fields)) eroding.insert(group->part);
     const int errors = diagnostics_.errors();
-    if (options_.mass_grows)
+    if (options_.mass_grows && !of_beams(ties))
       error(c, "", "nodes that are tied exactly get no mass from mass scaling (DT2MS) once the run goes on",
             "give MS1ST 1, or use the contact with _OFFSET");
     for (const Tie& tie : ties) {
@@ -186,13 +225,6 @@ class TiedBuilder {
       if (options_.bodies.body(tie.node) >= 0)
         error(c, "SURFA", fmt::format("node {} belongs to a rigid body, which cannot be tied exactly", id),
               springs);
-      else if (std::any_of(tie.at.node.begin(), tie.at.node.end(),
-                           [&](Index n) { return options_.bodies.body(n) >= 0; }))
-        error(
-            c, "SURFB",
-            fmt::format(
-                "the face next to node {} belongs to a rigid body, to which nothing can be tied exactly", id),
-            springs);
       else if (eroding.contains(part))
         error(c, "SURFB",
               fmt::format("the elements of part {} may fail, and nothing can be tied exactly to such",
@@ -214,6 +246,29 @@ class TiedBuilder {
       if (diagnostics_.errors() > errors) return false;  // one of many alike
     }
     return true;
+  }
+
+  /// Ends of welds that belong to rigid bodies go with these.
+  void drop_of_bodies(const ContactCard& c, std::vector<Tie>& ties) {
+    const auto of_body = [&](const Tie& tie) { return options_.bodies.body(tie.node) >= 0; };
+    const auto first = std::find_if(ties.begin(), ties.end(), of_body);
+    if (first == ties.end()) return;
+    const Id id = world_.nodes.id[first->node];
+    const std::size_t count = std::erase_if(ties, of_body);
+    deck_.warning(
+        diagnostics_, c, "SURFA",
+        fmt::format("{} nodes, the first is {}, belong to rigid bodies, with which they go: they are "
+                    "not tied",
+                    count, id),
+        "leave them out");
+  }
+
+  /// Whether no solid and no shell, which mass scaling may make heavier, has one of the nodes.
+  bool of_beams(const std::vector<Tie>& ties) const {
+    return std::all_of(ties.begin(), ties.end(), [&](const Tie& tie) {
+      const Index part = world_.nodes.part[tie.node];
+      return part >= 0 && model_.parts[static_cast<std::size_t>(part)].has_beam;
+    });
   }
 
   /// Nodes that SPC hold go with a face only if that is held alike.
@@ -297,8 +352,9 @@ class TiedBuilder {
     for (std::size_t t = first; none && t < exact_->ties.size(); ++t) {
       const Tie& tie = exact_->ties[t];
       if ((*none)[tie.node] != 0) continue;
-      const bool turns =
-          std::all_of(tie.at.node.begin(), tie.at.node.end(), [&](Index n) { return (*none)[n] == 0; });
+      const bool turns = std::all_of(tie.at.node.begin(), tie.at.node.end(), [&](Index n) {
+        return (*none)[n] == 0 || world_.nodes.follow[n] == 1;  // bodies turn their nodes
+      });
       exact_->turns[t] = turns, hinges += !turns;
     }
     if (hinges > 0)

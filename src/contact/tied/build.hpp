@@ -14,14 +14,17 @@ struct TiedOptions {
   std::function<Real(Index part)> bulk_modulus = [](Index) { return Real(0); };
   WallBodies bodies{};  ///< whose nodes and faces may be tied
   Real tssfac = 0.9;
+  /// Tells a rigid body what one of its nodes got from nodes that are tied to a face there; false where its
+  /// mass is given. [M], [ML2]
+  std::function<bool(Index node, Real mass, Real inertia)> give_body{};
   bool mass_grows = false;  ///< mass scaling may add some in the run
 };
 
 /// All *CONTACT_TIED of the deck, and what holds those with TIEBREAK in their names until it breaks, added to
 /// the passes of `world`. Elements and bodies must be there, and rotations started; nodes that are tied
 /// exactly follow from then on, and the corners of their faces have their masses. Refuses by name: plane
-/// scenes, rigid bodies, elements that may fail, masses that grow in the run, and chains of ties where nodes
-/// are tied exactly. Warns of nodes that find no face.
+/// scenes, nodes of rigid bodies, elements that may fail, masses that grow in the run, and chains of ties
+/// where nodes are tied exactly. Warns of nodes that find no face.
 void add_tied_contacts(const Deck& deck, const Model& model, const TiedOptions& options, World& world,
                        Diagnostics& diagnostics);
 

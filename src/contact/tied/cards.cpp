@@ -11,8 +11,15 @@ namespace {
 using TC = TiedCard;
 
 /// In the order of the names.
-constexpr TiedKind tied_kinds[] = {
-    {}, {.form = TieForm::spring}, {}, {}, {.form = TieForm::spring}, {}, {.turns = true}, {.turns = true}};
+constexpr TiedKind tied_kinds[] = {{},
+                                   {.form = TieForm::spring},
+                                   {},
+                                   {},
+                                   {.form = TieForm::spring},
+                                   {},
+                                   {.turns = true},
+                                   {.turns = true},
+                                   {.turns = true, .welds = true}};
 
 /// The rules of a field that means something else here than in contacts that open.
 void change(KeywordOf<TC>& keyword, std::string_view name, const char* meaning, const FieldRules& rules) {
@@ -29,9 +36,10 @@ KeywordOf<TC> tied_keyword() {
       {"CONTACT_TIED_NODES_TO_SURFACE", "CONTACT_TIED_NODES_TO_SURFACE_OFFSET",
        "CONTACT_TIED_NODES_TO_SURFACE_CONSTRAINED_OFFSET", "CONTACT_TIED_SURFACE_TO_SURFACE",
        "CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET", "CONTACT_TIED_SURFACE_TO_SURFACE_CONSTRAINED_OFFSET",
-       "CONTACT_TIED_SHELL_EDGE_TO_SURFACE", "CONTACT_TIED_SHELL_EDGE_TO_SURFACE_CONSTRAINED_OFFSET"},
+       "CONTACT_TIED_SHELL_EDGE_TO_SURFACE", "CONTACT_TIED_SHELL_EDGE_TO_SURFACE_CONSTRAINED_OFFSET",
+       "CONTACT_SPOTWELD"},
       "nodes of elements that go with the faces next to which they are at the start: "
-      "exactly, or with _OFFSET held by springs; of shell edges rotations, too");
+      "exactly, or with _OFFSET held by springs; of shell edges and welds rotations, too");
   for (CardOf<TC>& card : contact_optional_cards<TC>()) out.cards.push_back(std::move(card));
   for (const char* name : {"FS", "FD", "DC", "VC", "VDC"})
     change(out, name, "of contacts that are not tied", no_effect);

@@ -95,7 +95,9 @@ class TiedReport : public Pass, public InterfaceReporter {
       const Tie& tie = tied_->ties[t];
       Vec a = Vec::Zero();
       for (std::size_t e = 0; e < static_cast<std::size_t>(tie.at.corners); ++e)
-        a += tie.at.N[e] / nodes_.m[tie.at.node[e]] * nodes_.f.vec(tie.at.node[e]);
+        if (const Index n = tie.at.node[e];
+            nodes_.follow[n] == 0)  // of bodies it is not known yet, and left out
+          a += tie.at.N[e] / nodes_.m[n] * nodes_.f.vec(n);
       out.on_surfa += nodes_.m[tie.node] * a - nodes_.f.vec(tie.node);
     }
     return out;

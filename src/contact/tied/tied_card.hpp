@@ -14,7 +14,8 @@ struct TiedCard : ContactCard {};
 
 struct TiedKind {
   TieForm form = TieForm::exact;
-  bool turns = false;  ///< shell edges: rotations go with the face, too
+  bool turns = false;  ///< shell edges, welds: rotations go with the face, too
+  bool welds = false;  ///< SURFA are nodes of elements of any kind, as of beams
 };
 TiedKind kind_of(const TiedCard& card);
 

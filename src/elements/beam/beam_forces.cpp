@@ -9,6 +9,7 @@
 
 #include "base/run_error.hpp"
 #include "elements/beam/beams.hpp"
+#include "elements/mass_scaling.hpp"
 #include "laws/strength/beam_stress.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
@@ -57,9 +58,10 @@ class BeamForces : public Material,
                    public TimeLimit,
                    public EnergyTerm,
                    public PartReporter,
+                   public WeldReporter,
                    public FieldFiller {
  public:
-  BeamForces(BeamPart part, Id part_id, Real tssfac, bool shown, World& world)
+  BeamForces(BeamPart part, Id part_id, Real tssfac, bool shown, ElementOptions& options, World& world)
       : part_(std::move(part)),
         group_(*part_.group),
         part_id_(part_id),
@@ -74,6 +76,7 @@ class BeamForces : public Material,
         stress_(add("point_stress", "M/LT2", std::max<int>(1, 3 * static_cast<int>(part_.points.size())))),
         energy_(group_.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
         steps_(static_cast<std::size_t>(group_.size())),
+        why_(part_.weld ? static_cast<std::size_t>(group_.size()) : 0),
         folded_(static_cast<std::size_t>(group_.size()), 0) {
     for (std::size_t p = 0; p < part_.points.size(); ++p)
       for (const HistoryVariable& h : part_.law->history())
@@ -88,6 +91,10 @@ class BeamForces : public Material,
       for (int c = 0; c < 2; ++c) put_end(e, c, Quaternion(part_.axes[at(e)]));
     }
     if (shown) add_shown_fields();
+    if (part_.weld) sections_.emplace(*part_.weld, group_);
+    if (part_.weld && part_.weld->dt > 0) scale_masses(world);
+    const FailureRules& rules = options.failure[at(group_.part)];
+    if (rules.any() || (part_.weld && part_.weld->fails())) make_erosion(rules, options, world);
   }
   std::string name() const override { return group_.fields.name(); }
   const FieldSet& over(const World&) const override { return group_.fields; }
@@ -97,6 +104,9 @@ class BeamForces : public Material,
     a.updates(deformation_).updates(answer_).updates(energy_).writes(group_.corner_force);
     if (!part_.points.empty()) a.updates(stress_);
     for (const Field<Real>* h : history_) a.updates(*h);
+    if (sections_) sections_->declare(a);
+    if (scaled_) a.reads(scaled_->inertial());
+    if (erosion_) erosion_->declare(world, a);
   }
 
   void finish(World&, const Clock& clock) override {
@@ -112,12 +122,14 @@ class BeamForces : public Material,
   }
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     Change change;
+    if (erosion_) erosion_->begin_block(begin, end - begin);
     for (Index e = begin; e < end; ++e) move(world, clock, e, e - begin, change);
     if (part_.kind == BeamKind::resultant)
       for (Index e = begin; e < end; ++e) change.after[e - begin] = resultants(e, change.now[e - begin]);
     else
       integrate(clock, begin, end, change);
     for (Index e = begin; e < end; ++e) finish_one(e, e - begin, change);
+    if (erosion_) judge(clock, begin, end);
   }
 
   Limit limit(const World&, const Clock&) override {
@@ -133,9 +145,11 @@ class BeamForces : public Material,
     PartSums& out = parts[static_cast<std::size_t>(group_.part)];
     out.internal += total();
     for (Index e = 0; e < group_.size(); ++e) {
-      const Real share = group_.mass[e] / 2;
       out.mass += group_.mass[e];
+      if (scaled_) out.added_mass += scaled_->added(e);
+      if (dead(e)) out.eroded_internal += energy_[e];
       for (int c = 0; c < 2; ++c) {
+        const Real share = scaled_ ? scaled_->of_corner(e, c) : group_.mass[e] / 2;
         const Index n = group_.node.data(c)[e];
         const Vec v = world.nodes.v.vec(n);
         out.momentum += share * v;
@@ -143,6 +157,19 @@ class BeamForces : public Material,
         if (turns_ && world.nodes.m[n] > 0)  // the rotations of a node, by shares of its mass
           out.kinetic += 0.5 * share / world.nodes.m[n] * (*inertia_)[n] * w_->vec(n).squaredNorm();
       }
+    }
+  }
+
+  void report_welds(const World& world, std::vector<WeldForce>& out) const override {
+    for (Index e = 0; sections_ && e < group_.size(); ++e) {
+      const SectionForces f = sections_->forces(e);
+      out.push_back({.id = group_.id[e],
+                     .axial = f[0],
+                     .shear = std::hypot(f[4], f[5]),
+                     .moment = std::hypot(f[2], f[3]),
+                     .torsion = f[1],
+                     .length = between_ends(world, e).norm(),
+                     .failure_time = sections_->failure_time(e)});
     }
   }
 
@@ -178,7 +205,52 @@ class BeamForces : public Material,
     return group_.fields.add<Real>({.name = field, .dimension = dimension, .components = components});
   }
   Real total() const {
-    return sum(group_.size(), [&](Index e) { return energy_[e]; });
+    return sum(group_.size(), [&](Index e) { return dead(e) ? 0 : energy_[e]; });
+  }
+  bool dead(Index e) const { return erosion_ && erosion_->dead(e); }
+  /// That inertia and the step belong to. [M]
+  Real inertial_mass(Index e) const { return scaled_ ? scaled_->inertial()[e] : group_.mass[e]; }
+  Real step_of(Index e, Real length, Real pull) const {
+    const BeamMeasures& m = part_.measures[at(e)];
+    const Real mass = inertial_mass(e);
+    const Real inertia = turns_ ? end_inertia(part_.kind, *part_.law, m, mass, start_[e]) : 0;
+    return 2 / std::sqrt(largest_square(part_.kind, *part_.law, m, mass, inertia, start_[e], length, pull));
+  }
+
+  /// DT of welds: at the start, inertia in the same ratio.
+  void scale_masses(World& world) {
+    Field<Real>& inertia = add("corner_inertia", "ML2", 1);
+    std::vector<Real> step;
+    for (Index e = 0; e < group_.size(); ++e) {
+      inertia[e] = end_inertia(part_.kind, *part_.law, part_.measures[at(e)], group_.mass[e], start_[e]);
+      step.push_back(step_of(e, start_[e], 0));
+    }
+    scaled_ = std::make_unique<ScaledMass>(MassScaling{.step = part_.weld->dt, .once = true}, group_,
+                                           &inertia, world);
+    scaled_->start(step, world);
+  }
+
+  void make_erosion(const FailureRules& rules, ElementOptions& options, World& world) {
+    erosion_ =
+        std::make_shared<Erosion>(rules, group_, std::max<int>(1, static_cast<int>(part_.points.size())),
+                                  Erosion::Energies{&energy_, nullptr, nullptr}, world);
+    erosion_->vanishes(stress_), erosion_->vanishes(answer_);
+    if (sections_) erosion_->vanishes(sections_->field());
+    for (Field<Real>* h : history_)
+      if (h->info().components == 6) erosion_->vanishes(*h);
+    plastic_ = plastic_strain_of(*part_.law), fails_ = history_at(*part_.law, part_.law->failure_variable());
+    options.eroding.push_back(erosion_);
+  }
+
+  void judge(const Clock& clock, Index begin, Index end) {
+    std::array<Real, block_size> unused{};
+    std::array<bool, block_size> before{};
+    for (Index e = begin; e < end; ++e) before[at(e - begin)] = dead(e);
+    for (Index e = begin; e < end; ++e)
+      if (sections_ && !dead(e) && !why_[at(e)].empty()) erosion_->fail(begin, e, why_[at(e)]);
+    erosion_->judge(begin, end - begin, tssfac_, steps_.data() + begin, unused.data(), nullptr);
+    for (Index e = begin; sections_ && e < end; ++e)
+      if (dead(e) && !before[at(e - begin)]) sections_->failed(e, clock.t);
   }
   Vec between_ends(const World& world, Index e) const {
     return world.nodes.x.vec(group_.node.data(1)[e]) - world.nodes.x.vec(group_.node.data(0)[e]);
@@ -197,6 +269,11 @@ class BeamForces : public Material,
     BeamFrame& frame = change.frame[at(i)];
     const Vec between = between_ends(world, e);
     now = {};
+    if (dead(e)) {  // taken as it is at rest
+      for (int k = 0; k < count6; ++k) now[at(k)] = deformation_.data(k)[e];
+      frame = {start_[e], Matrix::Identity()};
+      return;
+    }
     if (!turns_) {
       frame.length = between.norm();
       frame.axes.col(0) = between / frame.length;
@@ -264,6 +341,16 @@ class BeamForces : public Material,
           numbers.push_back(history_[k]->data(c) + begin);
       points.history = numbers;
       update_in_beam(*part_.law, points);
+      if (erosion_)
+        erosion_->look({.point = static_cast<int>(p),
+                        .begin = begin,
+                        .count = n,
+                        .t = clock.t,
+                        .dt = clock.dt_old,
+                        .rate = points.rate,
+                        .stress = points.stress,
+                        .plastic = plastic_ < 0 ? nullptr : numbers[at(plastic_)],
+                        .by_law = fails_ < 0 ? nullptr : numbers[at(fails_)]});
       for (Index i = 0; i < n; ++i) {
         const BeamMeasures& m = part_.measures[at(begin + i)];
         const Real A = point.share * m.A, s = point.s * m.half_s, t = point.t * m.half_t;
@@ -276,6 +363,7 @@ class BeamForces : public Material,
     for (Index i = 0; i < n; ++i) {
       const BeamMeasures& m = part_.measures[at(begin + i)];
       const Six& sum = middle[at(i)];
+      if (sections_ && !dead(begin + i)) why_[at(begin + i)] = sections_->look(begin + i, sum, clock.t);
       const Real half = turns_ ? 0.5 * change.frame[at(i)].length * m.shear_area / m.A : 0;
       change.after[at(i)] = {sum[0],
                              sum[1],
@@ -293,6 +381,7 @@ class BeamForces : public Material,
 
   /// Energy, forces and moments on the ends, and the step.
   void finish_one(Index e, Index i, const Change& change) {
+    if (dead(e)) return;  // who judges takes its forces
     const Six &now = change.now[at(i)], &g = change.after[at(i)];
     const BeamFrame& frame = change.frame[at(i)];
     Real work = 0;
@@ -313,10 +402,7 @@ class BeamForces : public Material,
     }
     for (int k = 0; k < 3; ++k)
       group_.corner_force.data(k)[e] = on1[k], group_.corner_force.data(3 + k)[e] = -on1[k];
-    const BeamMeasures& m = part_.measures[at(e)];
-    const Real inertia = turns_ ? end_inertia(part_.kind, *part_.law, m, group_.mass[e], start_[e]) : 0;
-    steps_[at(e)] = 2 / std::sqrt(largest_square(part_.kind, *part_.law, m, group_.mass[e], inertia,
-                                                 start_[e], frame.length, g[elongation]));
+    steps_[at(e)] = step_of(e, frame.length, g[elongation]);
   }
 
   void add_shown_fields() {
@@ -349,7 +435,12 @@ class BeamForces : public Material,
   std::vector<Field<Real>*> history_;  ///< of the first point, of the second, ...
   std::size_t numbers_ = 0;            ///< of them, a point
   std::vector<Real> steps_;
-  std::vector<char> folded_;  ///< ends turned so far that nothing tells which way
+  std::optional<WeldSections> sections_;  ///< of welds
+  std::unique_ptr<ScaledMass> scaled_;    ///< null: none
+  std::shared_ptr<Erosion> erosion_;      ///< null: nothing fails
+  int plastic_ = -1, fails_ = -1;         ///< of a point's numbers the plastic strain, and what it fails by
+  std::vector<std::string> why_;          ///< welds fail in this step
+  std::vector<char> folded_;              ///< ends turned so far that nothing tells which way
   Field<Real>* shown_pull_ = nullptr;
   std::array<Field<Real>*, 2> shown_moment_{};
   std::vector<std::pair<Field<Real>*, std::size_t>> shown_history_;
@@ -357,12 +448,13 @@ class BeamForces : public Material,
 
 }  // namespace
 
-void add_beam_passes(const Model& model, const std::vector<BeamPart>& parts, World& world) {
+void add_beam_passes(const Model& model, const std::vector<BeamPart>& parts, ElementOptions& options,
+                     World& world) {
   const bool shown = model.output.d3plot.asked() || model.output.d3plot_count > 0;
   for (const BeamPart& part : parts)
     if (part.group)
       world.passes.add(std::make_shared<BeamForces>(part, model.parts[static_cast<std::size_t>(part.part)].id,
-                                                    model.tssfac, shown, world));
+                                                    model.tssfac, shown, options, world));
 }
 
 }  // namespace courant

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elements/beam/beams.hpp"
+#include "elements/mass_scaling.hpp"
 #include "elements/nodal_rotations.hpp"
 
 namespace courant {
@@ -101,6 +102,28 @@ void build_beams(const Model& model, std::vector<BeamPart>& parts, const std::ve
         if (turns) NodalRotations(world.nodes.fields).inertia[n] += inertia;
       }
     }
+  }
+}
+
+void report_weld_scaling(const Model& model, const std::vector<BeamPart>& parts, const World& world,
+                         Diagnostics& diagnostics) {
+  constexpr Real much = 5;  // per cent of all mass of elements
+  Real all = 0;
+  for (const auto& group : world.groups)
+    for (Index e = 0; e < group->size(); ++e) all += group->mass[e];
+  for (const BeamPart& part : parts) {
+    if (!part.group || !part.weld || !(part.weld->dt > 0)) continue;
+    const Real added = added_mass(*part.group);
+    if (!(added > 0)) continue;
+    const ModelPart& of_model = model.parts[static_cast<std::size_t>(part.part)];
+    std::string text = fmt::format(
+        "mass scaling to DT = {:g} of *MAT_SPOTWELD: the welds of part {} have {:.4g} [M] more, {:.3g} % of "
+        "the mass of all elements",
+        part.weld->dt, of_model.id, added, 100 * added / (all - added));
+    if (added > much / 100 * (all - added))
+      diagnostics.warning(of_model.where, std::move(text), "a smaller DT adds less");
+    else
+      diagnostics.note(of_model.where, std::move(text));
   }
 }
 

@@ -14,6 +14,7 @@ namespace courant {
 
 namespace {
 
+constexpr const char* weld_material = "MAT_SPOTWELD";
 constexpr const char* by_point[] = {"MAT_ELASTIC", "MAT_PLASTIC_KINEMATIC",
                                     "MAT_PIECEWISE_LINEAR_PLASTICITY"};
 
@@ -83,24 +84,29 @@ class BeamReader {
       return error(part.card, "MID",
                    fmt::format("the beams of part {} need a material with strength and id {}; {}", part.id,
                                part.mid, deck_.found_instead(IdSpace::material, part.mid)),
-                   "beams take *MAT_ELASTIC, *MAT_PLASTIC_KINEMATIC, *MAT_PIECEWISE_LINEAR_PLASTICITY");
+                   s.weld()
+                       ? "ELFORM 9 takes *MAT_SPOTWELD"
+                       : "beams take *MAT_ELASTIC, *MAT_PLASTIC_KINEMATIC, *MAT_PIECEWISE_LINEAR_PLASTICITY");
     const std::string& name = law->second.second;
     const bool elastic = name == by_point[0];
-    if (!elastic && (out.kind == BeamKind::resultant ||
-                     std::find(std::begin(by_point), std::end(by_point), name) == std::end(by_point)))
+    if (s.weld() || name == weld_material) {
+      if (!s.weld() || name != weld_material)
+        return error(part.card, "MID",
+                     fmt::format("*{} is not supported in the beams of part {}", name, part.id),
+                     s.weld() ? "ELFORM 9 takes *MAT_SPOTWELD" : "*MAT_SPOTWELD goes with ELFORM 9");
+    } else if (!elastic && (out.kind == BeamKind::resultant ||
+                            std::find(std::begin(by_point), std::end(by_point), name) == std::end(by_point)))
       return error(part.card, "MID",
                    fmt::format("*{} is not supported in the beams of part {}", name, part.id),
                    out.kind == BeamKind::resultant
                        ? "ELFORM 2 takes *MAT_ELASTIC; ELFORM 1 has plastic materials, too"
                        : "use *MAT_ELASTIC, *MAT_PLASTIC_KINEMATIC or *MAT_PIECEWISE_LINEAR_PLASTICITY");
     out.law = law->second.first;
-    if (std::isfinite(out.law->failure_limit()))
-      return error(
-          part.card, "MID",
-          fmt::format("beams cannot fail: *{} {} of part {} lets elements fail at the plastic strain "
-                      "{:g}",
-                      name, part.mid, part.id, out.law->failure_limit()),
-          "give the beams a material of their own, without it");
+    if (s.weld()) {
+      const auto& cards = deck_.all<MatSpotweld>();
+      out.weld = weld_strength(*std::find_if(cards.begin(), cards.end(),
+                                             [&](const MatSpotweld& card) { return card.mid == part.mid; }));
+    }
     if (out.kind == BeamKind::integrated) out.points = section_points(static_cast<int>(s.rule), s.tube());
     if (out.kind == BeamKind::truss) out.points = {SectionPoint()};
     for (const ModelBeam& beam : model_.beams)
@@ -123,8 +129,9 @@ class BeamReader {
     };
     if (s.used() == 0)
       refuse("ELFORM", fmt::format("'{}' is not supported", s.elform),
-             "supported: 1 (Hughes-Liu), 2 (Belytschko-Schwer), 3 (truss); 4 and 5 become 1, 13 becomes 2");
-    else if (s.elform > 3)
+             "supported: 1 (Hughes-Liu), 2 (Belytschko-Schwer), 3 (truss), 9 (weld); 4 and 5 become 1, 13 "
+             "becomes 2");
+    else if (s.elform > 3 && !s.weld())
       deck_.warning(diagnostics_, s, "ELFORM",
                     fmt::format("{} is not there: {} is used in its place", s.elform, s.used()),
                     "the same formulation by its own number says the same without this warning");

@@ -2,8 +2,11 @@
 // Beams and trusses in the world: a group for each part, and the pass over it.
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "elements/beam/weld.hpp"
+#include "elements/erosion.hpp"
 #include "laws/strength/strength.hpp"
 #include "model/model.hpp"
 #include "state/world.hpp"
@@ -11,7 +14,7 @@
 namespace courant {
 
 enum class BeamKind {
-  integrated,  ///< Hughes and Liu: stress at points of the section (ELFORM 1)
+  integrated,  ///< Hughes and Liu: stress at points of the section (ELFORM 1, 9)
   resultant,   ///< Belytschko and Schwer: linear in elongation, twist and rotations of the ends (2)
   truss,       ///< axial stress alone (3)
 };
@@ -37,8 +40,9 @@ struct BeamPart {
   std::vector<SectionPoint> points{};
   std::vector<const ModelBeam*> beams{};
   std::vector<BeamMeasures> measures{};
-  std::vector<Matrix> axes{};  ///< r, s, t at the start, as columns
-  Real nsm = 0;                ///< mass per length besides that of the law [M/L]
+  std::vector<Matrix> axes{};          ///< r, s, t at the start, as columns
+  Real nsm = 0;                        ///< mass per length besides that of the law [M/L]
+  std::optional<WeldStrength> weld{};  ///< of ELFORM 9
   ElementGroup* group = nullptr;
 };
 
@@ -51,8 +55,12 @@ std::vector<Index> beam_nodes(const Model& model);
 /// each node of the model. 2D is an error.
 void build_beams(const Model& model, std::vector<BeamPart>& parts, const std::vector<Index>& node_of,
                  World& world, Diagnostics& diagnostics);
-/// Adds the forces of beams to the passes of `world`.
-void add_beam_passes(const Model& model, const std::vector<BeamPart>& parts, World& world);
+/// Adds the forces of beams to the passes of `world`, and mass to welds that DT asks for.
+void add_beam_passes(const Model& model, const std::vector<BeamPart>& parts, ElementOptions& options,
+                     World& world);
+/// Tells what DT of *MAT_SPOTWELD has added.
+void report_weld_scaling(const Model& model, const std::vector<BeamPart>& parts, const World& world,
+                         Diagnostics& diagnostics);
 
 /// Inertia that a beam gives each of its ends, so that its step is that of waves along it. [ML2]
 Real end_inertia(BeamKind kind, const StrengthLaw& law, const BeamMeasures& m, Real mass, Real length);

@@ -21,7 +21,7 @@ const RegisterKeyword<S> section_beam{
                      {"ELFORM",
                       &S::elform,
                       "-",
-                      "1 Hughes-Liu with points in the section, 2 Belytschko-Schwer, 3 truss",
+                      "1 Hughes-Liu with points in the section, 2 Belytschko-Schwer, 3 truss, 9 weld",
                       {.standard = 1}},
                      {"SHRF",
                       &S::shrf,
@@ -39,7 +39,7 @@ const RegisterKeyword<S> section_beam{
                      {"TT2", &S::tt2, "L", "the same at end 2, 0: as at end 1", measure},
                      {"NSLOC", &S::nsloc, "-", "nodes off the middle in s", unsupported},
                      {"NTLOC", &S::ntloc, "-", "nodes off the middle in t", unsupported}},
-          .when = [](const S& s) { return s.used() == 1; }},
+          .when = [](const S& s) { return s.used() == 1 && !s.weld(); }},
          {.fields = {{"A", &S::a, "L2", "area", measure},
                      {"ISS", &S::iss, "L4", "second moment of area about s", measure},
                      {"ITT", &S::itt, "L4", "about t, 0: ISS", measure},
@@ -52,7 +52,15 @@ const RegisterKeyword<S> section_beam{
                      {"STRESS", &S::stress, "M/LT2", "stress at the start", unsupported}},
           .when = [](const S& s) { return s.used() == 3; }},
          {.fields = {{"", {}, "-", "measures of other formulations, which are refused"}},
-          .when = [](const S& s) { return s.used() == 0; }}}}};
+          .when = [](const S& s) { return s.used() == 0; }},
+         {.fields = {{"TS1", &S::ts1, "L", "outer diameter at end 1", measure},
+                     {"TS2", &S::ts2, "L", "the same at end 2, 0: as at end 1", measure},
+                     {"TT1", &S::tt1, "L", "inner diameter at end 1, 0: a full circle", measure},
+                     {"TT2", &S::tt2, "L", "the same at end 2, 0: as at end 1", measure},
+                     {"PRINT", &S::print, "-", "1: not in swforc", {.honour = Honour::output_only}},
+                     {},
+                     {"ITOFF", &S::itoff, "-", "1: no torsional stiffness", unsupported}},
+          .when = [](const S& s) { return s.weld(); }}}}};
 
 }  // namespace
 

@@ -16,7 +16,7 @@ namespace courant {
 
 namespace {
 
-constexpr int belytschko_tsay = 2, flat_triangle = 4;
+constexpr int belytschko_tsay = 2, flat_triangle = 4, fully_integrated = 16;
 
 /// Formulations that differ from Belytschko and Tsay's in details, and that it stands for with a warning.
 const std::map<int, const char*> similar = {{1, "Hughes-Liu"},
@@ -46,7 +46,7 @@ class ShellReader {
     const bool lobatto = control_ && control_->intgrd == 1 && count > 2;
     if (count >= 1 && count <= ShellState::most_points)
       (lobatto ? lobatto_points : gauss_points)(count, out.zeta, out.share);
-    out.marea = s.marea;
+    out.marea = s.marea, out.full = s.elform == fully_integrated;
     out.rotary_scale = control_ ? control_->rotascl : 1;
     out.warp_warning = control_ ? control_->wrpang : out.warp_warning;
     const ElasticConstants of_law = elastic_constants(*out.law);
@@ -56,7 +56,7 @@ class ShellReader {
     c.thins = control_ && control_->istupd == 1;
     if (const auto* accuracy = deck_.last<ControlAccuracy>()) c.invariant_axes = accuracy->invariant_shells();
     if (const auto* step = deck_.last<ControlTimestepCard>()) c.length_rule = step->isdo;
-    hourglass_.read(part, c, diagnostics_);
+    hourglass_.read(part, out.full, c, diagnostics_);
   }
 
  private:
@@ -72,11 +72,13 @@ class ShellReader {
                                 "in its place",
                                 s.elform, like->second, part.id),
                     "2 (Belytschko-Tsay) says the same without this warning");
-    else if (s.elform != belytschko_tsay && s.elform != flat_triangle)
+    else if (s.elform != belytschko_tsay && s.elform != flat_triangle && s.elform != fully_integrated)
       error(
           s, "ELFORM",
           fmt::format("'{}' is not supported for shells that deform, as those of part {}", s.elform, part.id),
-          "supported values: 2 (Belytschko-Tsay), 4 for triangles; 1, 6, 7, 10 and 11 become 2");
+          "supported values: 2 (Belytschko-Tsay), 16 (2 x 2 points), 4 for triangles; 1, 6, 7, 10 and 11 "
+          "become "
+          "2");
     const bool has_quads =
         std::any_of(model_.shells.begin(), model_.shells.end(), [&](const ModelShell& shell) {
           return model_.parts[static_cast<std::size_t>(shell.part)].id == part.id &&

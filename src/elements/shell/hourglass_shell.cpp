@@ -7,6 +7,8 @@ namespace courant {
 namespace {
 
 constexpr int last_viscous_kind = 3, last_stiffness_kind = 5;
+constexpr int with_warping = 8;
+constexpr Real usual_drilling = 0.01;  ///< of G t (A + t^2)/4: much more stiffens coarse meshes
 constexpr Real usual_coefficient = 0.1;
 constexpr Real largest_advised = 0.15;  ///< LS-DYNA's advice: above it hourglass forces may be unstable
 
@@ -17,7 +19,9 @@ ShellHourglassReader::ShellHourglassReader(const Deck& deck)
   for (const Hourglass& card : deck.all<Hourglass>()) cards_.emplace(card.hgid, &card);
 }
 
-void ShellHourglassReader::read(const ModelPart& part, ShellControl& out, Diagnostics& diagnostics) {
+void ShellHourglassReader::read(const ModelPart& part, bool full, ShellControl& out,
+                                Diagnostics& diagnostics) {
+  if (full) out.drilling = usual_drilling;
   const Hourglass* card = nullptr;
   if (part.hgid != 0) {
     const auto found = cards_.find(part.hgid);
@@ -31,9 +35,9 @@ void ShellHourglassReader::read(const ModelPart& part, ShellControl& out, Diagno
   const bool own_kind = card && card->ihq != 0;
   Real QM = usual_coefficient;
   if (own_kind) {
-    take_kind(*card, card->ihq, part, out, diagnostics);
+    take_kind(*card, card->ihq, part, full, out, diagnostics);
   } else if (control_) {
-    if (control_->ihq != 0) take_kind(*control_, control_->ihq, part, out, diagnostics);
+    if (control_->ihq != 0) take_kind(*control_, control_->ihq, part, full, out, diagnostics);
     QM = control_->qh;
     check(*control_, "QH", QM, diagnostics);
   }
@@ -45,14 +49,16 @@ void ShellHourglassReader::read(const ModelPart& part, ShellControl& out, Diagno
   out.Q1 = card ? card->q1 : bulk_->q1, out.Q2 = card ? card->q2 : bulk_->q2;
 }
 
-void ShellHourglassReader::take_kind(const Entry& card, int ihq, const ModelPart& part, ShellControl& out,
-                                     Diagnostics& diagnostics) {
+void ShellHourglassReader::take_kind(const Entry& card, int ihq, const ModelPart& part, bool full,
+                                     ShellControl& out, Diagnostics& diagnostics) {
+  if (full && ihq == with_warping) return;
+  if (full) out.drilling = 0;
   if (ihq > 0 && ihq <= last_stiffness_kind) {
     out.stiffness = ihq > last_viscous_kind;
   } else if (told_.insert({&card, "IHQ"}).second) {
     deck_.error(diagnostics, card, "IHQ",
                 fmt::format("'{}' is not supported for shells, as those of part {}", ihq, part.id),
-                "supported values: 0, 1 to 3 (viscous), 4 and 5 (stiffness)");
+                "supported values: 0, 1 to 3 (viscous), 4 and 5 (stiffness), 8 with ELFORM 16");
   }
 }
 

@@ -12,16 +12,18 @@
 namespace courant {
 
 /// Hourglass control and bulk viscosity of the shells of a part: *HOURGLASS where it names one, else
-/// *CONTROL_HOURGLASS; IHQ 1 to 3 are viscous, 4 and 5 a stiffness, without either viscous with 0.1. Bulk
-/// viscosity acts on shells only where TYPE of *CONTROL_BULK_VISCOSITY asks for it.
+/// *CONTROL_HOURGLASS. With one point in the plane IHQ 1 to 3 are viscous, 4 and 5 a stiffness, without
+/// either viscous with 0.1; with 2 x 2 points 8, or none of these keywords, gives warped ones a stiffness
+/// against drilling, other IHQ none. Bulk viscosity acts on shells only where TYPE of *CONTROL_BULK_VISCOSITY
+/// asks for it.
 class ShellHourglassReader {
  public:
   explicit ShellHourglassReader(const Deck& deck);
   /// Other kinds, and coefficients below 0, are errors.
-  void read(const ModelPart& part, ShellControl& out, Diagnostics& diagnostics);
+  void read(const ModelPart& part, bool full, ShellControl& out, Diagnostics& diagnostics);
 
  private:
-  void take_kind(const Entry& card, int ihq, const ModelPart& part, ShellControl& out,
+  void take_kind(const Entry& card, int ihq, const ModelPart& part, bool full, ShellControl& out,
                  Diagnostics& diagnostics);
   void check(const Entry& card, const char* field, Real value, Diagnostics& diagnostics);
 

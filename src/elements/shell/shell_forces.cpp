@@ -33,21 +33,27 @@ class ShellForces : public Material,
         w_(*shared_fields::angular_velocity.find(world.nodes.fields)),
         inertia_(*shared_fields::rotary_inertia.find(world.nodes.fields)),
         control_(part.control),
-        loops_(group.corners() == 3 ? triangle_loops() : quadrilateral_loops()),
+        places_(part.full && group.corners() == 4 ? 4 : 1),
+        loops_(group.corners() == 3 ? triangle_loops()
+               : places_ == 4       ? full_quadrilateral_loops()
+                                    : quadrilateral_loops()),
         stress_(group.fields.add<Real>({.name = "layer_stress",
                                         .dimension = "M/LT2",
-                                        .components = 6 * static_cast<int>(part.zeta.size())})),
-        resultants_(group.fields.add<Real>({.name = "resultants", .dimension = "-", .components = 8})),
+                                        .components = 6 * places_ * static_cast<int>(part.zeta.size())})),
+        resultants_(
+            group.fields.add<Real>({.name = "resultants", .dimension = "-", .components = 8 * places_})),
         thickness_(group.fields.add<Real>({.name = "shell_thickness", .dimension = "L", .output = true})),
         internal_(group.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
         hourglass_(
             group.fields.add<Real>({.name = "hourglass_energy", .dimension = "ML2/T2", .output = true})),
         bulk_viscosity_(group.fields.add<Real>({.name = "bulk_viscosity_energy", .dimension = "ML2/T2"})),
         corner_inertia_(corner_inertia_of(group)) {
-    state_.points = static_cast<int>(part.zeta.size());
-    std::copy(part.zeta.begin(), part.zeta.end(), state_.zeta);
-    std::copy(part.share.begin(), part.share.end(), state_.share);
-    if (control_.stiffness && group.corners() == 4)
+    state_.points = places_ * static_cast<int>(part.zeta.size());
+    for (int p = 0; p < state_.points; ++p) {
+      const std::size_t layer = static_cast<std::size_t>(p) % part.zeta.size();
+      state_.zeta[p] = part.zeta[layer], state_.share[p] = part.share[layer] / places_;
+    }
+    if (places_ == 1 ? control_.stiffness && group.corners() == 4 : control_.drilling > 0)
       hourglass_force_ =
           &group.fields.add<Real>({.name = "hourglass_force", .dimension = "-", .components = 5});
     for (int p = 0; p < state_.points; ++p)
@@ -73,7 +79,9 @@ class ShellForces : public Material,
     if (hourglass_force_) a.updates(*hourglass_force_);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (erosion_) erosion_->declare(world, a);
-    if (scaled_) scaled_->declare(world, a);
+    if (!scaled_) return;
+    a.reads(scaled_->inertial());
+    scaled_->declare(world, a);
   }
 
   void start(World& world, const Clock&) override {
@@ -81,9 +89,9 @@ class ShellForces : public Material,
       mesh_.x[k] = world.nodes.x.data(k), mesh_.v[k] = world.nodes.v.data(k), mesh_.w[k] = w_.data(k);
     for (int c = 0; c < group_.corners(); ++c) mesh_.corner[c] = group_.node.data(c);
     for (int k = 0; k < 6 * state_.points; ++k) state_.stress[k] = stress_.data(k);
-    for (int k = 0; k < 8; ++k) state_.resultant[k] = resultants_.data(k);
+    for (int k = 0; k < 8 * places_; ++k) state_.resultant[k] = resultants_.data(k);
     for (int k = 0; k < 5; ++k) state_.hourglass[k] = hourglass_force_ ? hourglass_force_->data(k) : nullptr;
-    state_.thickness = thickness_.data(), state_.mass = group_.mass.data();
+    state_.thickness = thickness_.data(), state_.mass = (scaled_ ? scaled_->inertial() : group_.mass).data();
     state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
     state_.bulk_viscosity_energy = bulk_viscosity_.data();
     for (int k = 0; k < 3 * group_.corners(); ++k) {
@@ -137,10 +145,10 @@ class ShellForces : public Material,
       out.eroded_hourglass += total_of_dead(hourglass_);
     }
     for (Index e = 0; e < group_.size(); ++e) {
-      const Real share = group_.mass[e] / group_.corners();
       out.mass += group_.mass[e];
       if (scaled_) out.added_mass += scaled_->added(e);
       for (int c = 0; c < group_.corners(); ++c) {
+        const Real share = scaled_ ? scaled_->of_corner(e, c) : group_.mass[e] / group_.corners();
         const Index n = group_.node.data(c)[e];
         const Vec v = world.nodes.v.vec(n);
         out.momentum += share * v;
@@ -157,15 +165,13 @@ class ShellForces : public Material,
     for (Index e = 0; e < group_.size(); ++e) {
       const Matrix axes = axes_of(world, e);
       for (std::size_t side = 0; side < 2; ++side) {
-        const int at = 6 * (side == 0 ? 0 : state_.points - 1);
-        const auto s = [&](int k) { return stress_.data(at + k)[e]; };
+        const auto s = [&](int k) { return mean_of_layer(side == 0 ? 0 : layers() - 1, k, e); };
         Matrix local;
         local << s(0), s(3), s(5), s(3), s(1), s(4), s(5), s(4), s(2);
         shown_stress_[side]->set_tensor(e, axes * local * axes.transpose());
       }
       for (int k = 0; k < 3; ++k)
-        shown_force_->data(k)[e] = resultants_.data(k)[e],
-        shown_moment_->data(k)[e] = resultants_.data(3 + k)[e];
+        shown_force_->data(k)[e] = mean_resultant(k, e), shown_moment_->data(k)[e] = mean_resultant(3 + k, e);
       for (const auto& [to, first, layers] : shown_history_) {
         Real most = first->data()[e];
         for (const Field<Real>* layer : layers) most = std::max(most, layer->data()[e]);
@@ -176,6 +182,19 @@ class ShellForces : public Material,
 
  private:
   static constexpr std::size_t most_history = 16;
+
+  int layers() const { return state_.points / places_; }
+  /// Over the places in the plane.
+  Real mean_of_layer(int layer, int component, Index e) const {
+    Real sum = 0;
+    for (int q = 0; q < places_; ++q) sum += stress_.data(6 * (q * layers() + layer) + component)[e];
+    return sum / places_;
+  }
+  Real mean_resultant(int component, Index e) const {
+    Real sum = 0;
+    for (int q = 0; q < places_; ++q) sum += resultants_.data(8 * q + component)[e];
+    return sum / places_;
+  }
 
   ShellLoops::Found advance(const ShellMesh& mesh, const ShellControl& control, Real dt, Index begin,
                             Index end, ShellScratch& scratch, const Clock* failing = nullptr) const {
@@ -233,6 +252,9 @@ class ShellForces : public Material,
       for (std::size_t k = 0; k < 3; ++k) s.membrane[k][i] = s.curvature[k][i] = 0;
       for (auto& shear : s.shear) shear[i] = 0;
       for (auto& rate : s.hourglass_rate) rate[i] = 0;
+      for (auto& quarter : s.quarter)
+        for (auto& rate : quarter) rate[i] = 0;
+      for (auto& area : s.quarter_area) area[i] = 0.25;
       s.middle_area[i] = 1;
     }
   }
@@ -248,6 +270,7 @@ class ShellForces : public Material,
     reset();
     scaled_ = std::make_unique<ScaledMass>(scaling, group_, &corner_inertia_, world);
     scaled_->start(wave_time, world);
+    state_.mass = scaled_->inertial().data();
   }
 
   /// A free patch of few elements is stable only below what a mesh of many is: as for solids, the step keeps
@@ -364,6 +387,7 @@ class ShellForces : public Material,
   bool by_mesh_ = false;            ///< the frequency of the mesh lowers the step
   const Field<Real>&w_, &inertia_;  ///< of nodes
   ShellControl control_;
+  int places_;  ///< of points in the plane
   ShellLoops loops_;
   Field<Real>&stress_, &resultants_, &thickness_, &internal_, &hourglass_, &bulk_viscosity_;
   const Field<Real>& corner_inertia_;  ///< rotary inertia for each corner [ML2]

@@ -3,65 +3,11 @@
 // repeats that one and is not stored.
 #include "elements/shell/shell_loops.hpp"
 
-#include "elements/native_math.hpp"
+#include "elements/shell/shell_geometry.hpp"
 
 namespace courant::COURANT_SIMD {
 
 namespace {
-
-constexpr int quad = 4;
-
-COURANT_INLINE void add_to(Real* p, Native a, Index n) {
-  store(p, load(p, n) + a, n);
-}
-COURANT_INLINE Triple unit(const Triple& a) {
-  return (1.0 / root(dot(a, a))) * a;
-}
-
-/// The axes of an element, and its differences in them.
-struct Flat {
-  Triple e1, e2, e3;
-  Native x0, y0, x1, y1, hx, hy;
-  Native A, inverse_A;
-};
-template <int corners>
-COURANT_INLINE Flat flat_of(const Triple d[3], bool invariant) {
-  Flat out;
-  const Triple n = cross(d[0], d[1]);
-  const Native twice = root(dot(n, n));
-  out.e3 = (1.0 / twice) * n;
-  if (corners != quad) {
-    out.e1 = unit(d[0]);
-  } else if (invariant) {  // 45 degrees before the bisector of the lines through the middles of the sides
-    constexpr Real half_root = 0.70710678118654752;
-    const Triple a = unit(unit(d[1] - d[0]) - unit(d[0] + d[1]));
-    out.e1 = half_root * (a - cross(out.e3, a));
-  } else {  // along side 1-2
-    const Triple side = d[1] - d[0] - d[2];
-    out.e1 = unit(side - dot(side, out.e3) * out.e3);
-  }
-  out.e2 = cross(out.e3, out.e1);
-  out.x0 = dot(d[0], out.e1), out.y0 = dot(d[0], out.e2);
-  out.x1 = dot(d[1], out.e1), out.y1 = dot(d[1], out.e2);
-  if (corners == quad) out.hx = dot(d[2], out.e1), out.hy = dot(d[2], out.e2);
-  out.A = 0.5 * twice, out.inverse_A = 2.0 / twice;
-  return out;
-}
-
-/// A times the slopes of a nodal value with these differences.
-struct Slopes {
-  Native x, y;
-};
-COURANT_INLINE Slopes slopes(const Flat& f, Native v0, Native v1) {
-  return {0.5 * (f.y1 * v0 - f.y0 * v1), 0.5 * (f.x0 * v1 - f.x1 * v0)};
-}
-/// The transpose: what a force P per slope x and R per slope y is along the differences.
-struct Along {
-  Native d0, d1;
-};
-COURANT_INLINE Along along(const Flat& f, Native P, Native R) {
-  return {0.5 * (f.y1 * P - f.x1 * R), 0.5 * (f.x0 * R - f.y0 * P)};
-}
 
 /// Of a triangle: 2 D xz has wy_I xy[I] - wx_I xx[I] besides the slope of vz, 2 D yz the same with y: the
 /// mean over the three corners of discrete shear gaps (Bletzinger, Bischoff & Ramm 2000).
@@ -82,31 +28,6 @@ COURANT_INLINE ShearGaps shear_gaps(const Flat& f) {
   const Native scale = (1.0 / 6) * f.inverse_A;
   for (int i = 0; i < 3; ++i) out.xy[i] *= scale, out.xx[i] *= scale, out.yy[i] *= scale, out.yx[i] *= scale;
   return out;
-}
-
-template <int corners>
-COURANT_INLINE void gather_corners(const ShellMesh& mesh, Index first, Index n, Triple x[corners],
-                                   Triple v[corners], Triple w[corners]) {
-  Index last[corners][native_lanes];
-  for (int c = 0; c < corners; ++c) {
-    const Index* nodes = mesh.corner[c] + first;
-    if (n < native_lanes) {
-      for (Index l = 0; l < native_lanes; ++l) last[c][l] = nodes[l < n ? l : n - 1];
-      nodes = last[c];
-    }
-    x[c] = {gather(mesh.x[0], nodes), gather(mesh.x[1], nodes), gather(mesh.x[2], nodes)};
-    v[c] = {gather(mesh.v[0], nodes), gather(mesh.v[1], nodes), gather(mesh.v[2], nodes)};
-    w[c] = {gather(mesh.w[0], nodes), gather(mesh.w[1], nodes), gather(mesh.w[2], nodes)};
-  }
-}
-template <int corners>
-COURANT_INLINE void differences(const Triple p[corners], Triple d[3]) {
-  if (corners == quad) {
-    const Triple a = p[0] + p[2], b = p[1] + p[corners - 1];
-    d[0] = p[0] - p[2], d[1] = p[1] - p[corners - 1], d[2] = a - b;
-  } else {
-    d[0] = p[1] - p[0], d[1] = p[2] - p[0];
-  }
 }
 
 template <int corners>
@@ -193,34 +114,6 @@ COURANT_INLINE void integrate(Index first, Index n, Index k, Real dt, Real facto
   add_to(state.internal_energy + first, 0.5 * dt * load(s.middle_area + k) * power, n);
 }
 
-/// The length of ISDO over the speed that belongs to it, without viscosity: squares of both.
-struct Length {
-  Native l, c2;
-};
-template <int corners>
-COURANT_INLINE Length length_of(const Triple d[3], const Flat& f, const ShellControl& control, Native rho) {
-  Native longest, shortest;
-  if (corners == quad) {
-    const Triple a = d[0] + d[1], b = d[1] - d[0];
-    const Triple side[4] = {b - d[2], d[2] - a, b + d[2], d[2] + a};  // twice the sides
-    longest = shortest = 0.25 * dot(side[0], side[0]);
-    for (int m = 1; m < 4; ++m) {
-      const Native l2 = 0.25 * dot(side[m], side[m]);
-      longest = native_max(longest, l2), shortest = native_min(shortest, l2);
-    }
-    if (control.length_rule == 1) longest = native_max(dot(d[0], d[0]), dot(d[1], d[1]));
-  } else {
-    const Triple side = d[1] - d[0];
-    const Native a = dot(d[0], d[0]), b = dot(d[1], d[1]), c = dot(side, side);
-    longest = native_max(a, native_max(b, c)), shortest = native_min(a, native_min(b, c));
-  }
-  // a mesh of right triangles is unstable at 0.9 of 2 A over the longest side, and stable at 0.8
-  constexpr Real of_triangles = 2 * 0.85;
-  const Native wide = (corners == quad ? 1.0 : of_triangles) * f.A / root(longest);
-  if (control.length_rule != 2) return {wide, control.plate_modulus / rho};
-  return {native_max(root(shortest), wide), control.E / rho};
-}
-
 /// Generalised forces of hourglass control; what they take is counted.
 COURANT_INLINE void hourglass_forces(Index first, Index n, Index k, Real dt, Native t, const Flat& f,
                                      Native rho, const ShellControl& control, const ShellState& state,
@@ -252,10 +145,6 @@ COURANT_INLINE void hourglass_forces(Index first, Index n, Index k, Real dt, Nat
     }
   }
   add_to(state.hourglass_energy + first, dt * taken, n);
-}
-
-COURANT_INLINE void store_vector(Real* const* p, Index first, const Triple& a, Index n) {
-  store(p[0] + first, a.x, n), store(p[1] + first, a.y, n), store(p[2] + first, a.z, n);
 }
 
 /// Forces along the differences and the hourglass mode, turned to the global axes, become those on corners.
@@ -315,16 +204,7 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Shel
   Native R[8], Q[5];
   integrate(first, n, k, dt, control.shear_factor, t, state, s, R);
   const Native rho = load(state.mass + first, n) * f.inverse_A / t;
-  const Length length = length_of<corners>(d, f, control, rho);
-  // bulk viscosity q = rho l (Q1 l e^2 - Q2 c e) in compression, e = D xx + D yy < 0
-  const Native c = root(length.c2), l = root(f.A);
-  const Native closing = native_max(-load(s.membrane[0] + k) - load(s.membrane[1] + k), all(0));
-  const Native speed = control.Q1 * l * closing + control.Q2 * c;
-  const Native q = rho * l * closing * speed;
-  const Native damping = closing > 0.0 ? l / length.l * speed : all(0);
-  store(s.step_limit + k, length.l / (damping + root(damping * damping + length.c2)));
-  store(s.wave_time + k, length.l / c);
-  add_to(state.bulk_viscosity_energy + first, dt * load(s.middle_area + k) * t * q * closing, n);
+  const Native q = bulk_viscosity<corners>(first, n, k, dt, t, rho, d, f, control, state, s);
 
   const Native Nxx = R[0] - q * t, Nyy = R[1] - q * t;
   Along x, y, z;
@@ -357,11 +237,7 @@ ShellLoops::Found forces(const ShellLoops::Block& block, const ShellControl& con
   for (Index k = 0; k < block.count; k += native_lanes)
     forces_of<corners>(block.begin + k, block.count - k < native_lanes ? block.count - k : native_lanes, k,
                        block.dt, control, state, scratch);
-  const Real* limit = scratch.step_limit;
-  Index at = 0;
-  for (Index i = 1; i < block.count; ++i)
-    if (!(limit[i] >= limit[at]) && limit[at] == limit[at]) at = i;
-  return {limit[at], block.begin + at};
+  return shortest_of(block, scratch);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 // The shell of Belytschko, Lin & Tsay (1984) with one point in its plane (ELFORM 2), and the flat triangle
-// (ELFORM 4), on a block of elements, compiled once for each instruction set.
+// (ELFORM 4), and the quadrilateral of 2 x 2 points in its plane (16, full_shell_loops.cpp), on a block of
+// elements, compiled once for each instruction set.
 //
 // Quadrilateral: d0 = x1 - x3, d1 = x2 - x4 and h = x1 - x2 + x3 - x4 tell all that does not depend on where
 // it is; triangle: d0 = x2 - x1, d1 = x3 - x1. The normal e3 is along d0 x d1, A = |d0 x d1|/2, and of any
@@ -22,14 +23,20 @@ struct ShellMesh {
 /// Arrays over the elements of a group, in the axes of each element, which turn with it. The loops touch the
 /// entries of their block alone.
 struct ShellState {
-  static constexpr int most_points = 10;
-  int points = 2;                              ///< through the thickness
-  Real zeta[most_points], share[most_points];  ///< of each: height over half the thickness, weight (sum 1)
-  Real* stress[6 * most_points];               ///< of point p: xx yy zz xy yz zx at 6 p, zz is 0 [M/LT2]
-  Real* resultant[8];                          ///< N xx yy xy [M/T2], M xx yy xy [ML/T2], Q xz yz [M/T2]
-  Real* hourglass[5];  ///< of stiffness: generalised forces on vx vy vz wx wy; null with viscous control
-  Real* thickness;     ///< [L]
-  const Real* mass;    ///< [M]
+  static constexpr int most_points = 10, most_in_plane = 4;
+  /// Through the thickness; with 2 x 2 points in the plane those of the first, of the second, ... place
+  /// there.
+  int points = 2;
+  /// Of each: height over half the thickness, weight (sum 1).
+  Real zeta[most_in_plane * most_points], share[most_in_plane * most_points];
+  Real* stress[6 * most_in_plane * most_points];  ///< of point p: xx yy zz xy yz zx at 6 p, zz is 0 [M/LT2]
+  /// N xx yy xy [M/T2], M xx yy xy [ML/T2], Q xz yz [M/T2]; of place q in the plane at 8 q.
+  Real* resultant[8 * most_in_plane];
+  /// Of stiffness: generalised forces on vx vy vz wx wy, null with viscous control; with 2 x 2 points moments
+  /// against drilling, of each corner.
+  Real* hourglass[5];
+  Real* thickness;                                                   ///< [L]
+  const Real* mass;                                                  ///< [M]
   Real *internal_energy, *hourglass_energy, *bulk_viscosity_energy;  ///< what they took is added [ML2/T2]
   Real *corner_force[12], *corner_moment[12];  ///< out: of corner c in direction k at [3 c + k], on the node
 };
@@ -39,6 +46,7 @@ struct ShellControl {
   bool stiffness = false;                ///< hourglass control by stiffness, else viscous
   Real QM = 0.1, QB = 0.1, QW = 0.1;     ///< of membrane, bending, warping
   Real Q1 = 0, Q2 = 0;                   ///< bulk viscosity
+  Real drilling = 0;                     ///< 2 x 2 points: stiffness against drilling over G t A/4
   Real E = 0, G = 0, plate_modulus = 0;  ///< E/(1 - nu^2) [M/LT2]
   Real shear_factor = 1;                 ///< SHRF
   int length_rule = 0;                   ///< ISDO
@@ -48,11 +56,13 @@ struct ShellControl {
 
 /// What a thread keeps of the block it works on, from one loop to the next.
 struct ShellScratch {
-  Real place[9][block_size];      ///< d0, d1, h of the end of the step [L]
-  Real membrane[3][block_size];   ///< D xx yy xy of the middle surface, of the middle of the step [1/T]
-  Real curvature[3][block_size];  ///< the same per height [1/LT]
-  Real shear[2][block_size];      ///< D zx yz, of the tensor [1/T]
-  Real hourglass_rate[5][block_size];
+  Real place[9][block_size];           ///< d0, d1, h of the end of the step [L]
+  Real membrane[3][block_size];        ///< D xx yy xy of the middle surface, of the middle of the step [1/T]
+  Real curvature[3][block_size];       ///< the same per height [1/LT]
+  Real shear[2][block_size];           ///< D zx yz, of the tensor [1/T]
+  Real hourglass_rate[5][block_size];  ///< 2 x 2 points: of drilling, of each corner [1/T]
+  /// 2 x 2 points: D xx yy, curvature xx yy xy, D zx yz at each place, and the area there at mid-step.
+  Real quarter[4][7][block_size], quarter_area[4][block_size];
   Real middle_area[block_size];          ///< at mid-step [L2]
   alignas(64) Real rate[6][block_size];  ///< of a point, `at_point` writes it; zz is left alone [1/T]
   Real thickening[block_size];           ///< in: mean of D zz over the points [1/T]
@@ -82,5 +92,6 @@ struct ShellLoops {
 /// For the machine the program runs on.
 ShellLoops quadrilateral_loops();
 ShellLoops triangle_loops();
+ShellLoops full_quadrilateral_loops();
 
 }  // namespace courant

@@ -16,6 +16,7 @@ namespace courant {
 struct ShellPart {
   std::shared_ptr<StrengthLaw> law;  ///< null: the part has no shells that deform
   ShellControl control;
+  bool full = false;              ///< ELFORM 16: 2 x 2 points in the plane of quadrilaterals
   std::vector<Real> zeta, share;  ///< points through the thickness: height over half of it, weight (sum 1)
   Real marea = 0;                 ///< mass per area besides that of the law [M/L2]
   Real rotary_scale = 1;          ///< ROTASCL

@@ -172,7 +172,7 @@ class SolidForces : public Material,
       out.mass += group_.mass[e];
       if (scaled_) out.added_mass += scaled_->added(e);
       for (int c = 0; c < group_.corners(); ++c) {
-        const Real share = group_.mass[e] * group_.share(e, c);
+        const Real share = scaled_ ? scaled_->of_corner(e, c) : group_.mass[e] * group_.share(e, c);
         const Vec v = world.nodes.v.vec(group_.node.data(c)[e]);
         out.momentum += share * v;
         out.kinetic += 0.5 * share * v.squaredNorm();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "keyword/common_rules.hpp"
+#include "laws/strength/linear_hardening.hpp"
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/strength.hpp"
 
@@ -11,25 +12,16 @@ namespace courant {
 
 namespace {
 
-/// What a material of *MAT_PLASTIC_KINEMATIC is made of.
-struct PlasticKinematicData {
-  Real lambda = 0, G = 0;             ///< Lame's constants [M/LT2]
-  Real yield = 0;                     ///< at the start [M/LT2]
-  Real isotropic = 0, kinematic = 0;  ///< shares of the plastic modulus Ep: BETA Ep, (1 - BETA) Ep [M/LT2]
-  Real fails_at = std::numeric_limits<Real>::infinity();  ///< plastic strain
-  Real C = 0, P = 0;             ///< of Cowper and Symonds [1/T], [-]; C = 0: no influence of the rate
-  bool of_plastic_rate = false;  ///< VP 1: the rate is that of plastic strain, else that of all strain
-};
-
 /// J2 plasticity with linear isotropic and kinematic hardening: s_tr = s + 2 G dev(D) dt is returned along
 /// xi_tr = s_tr - alpha, with de = (q_tr - sigma_y)/(3 G + Ep) where the rate has no influence. Trial and
 /// return have no branches, so that they go through registers of several points.
 class PlasticKinematic : public StrengthLaw {
  public:
-  PlasticKinematic(Real density, const PlasticKinematicData& data) : a_(data) { ro = density; }
+  PlasticKinematic(Real density, const LinearHardening& data) : a_(data) { ro = density; }
   Real bulk_modulus() const override { return a_.lambda + 2 * a_.G / 3; }
   Real shear_modulus() const override { return a_.G; }
   Real failure_limit() const override { return a_.fails_at; }
+  Real failure_time() const override { return a_.fails_at_time; }
   std::vector<HistoryVariable> history() const override {
     std::vector<HistoryVariable> out{{"plastic_strain", "-"}};
     if (a_.kinematic > 0) out.push_back({"back_stress", "M/LT2", 6});
@@ -165,7 +157,7 @@ class PlasticKinematic : public StrengthLaw {
     return scale * std::pow(u, a_.P);
   }
 
-  PlasticKinematicData a_;
+  LinearHardening a_;
 };
 
 struct MatPlasticKinematic : Entry {
@@ -175,11 +167,11 @@ struct MatPlasticKinematic : Entry {
   int vp = 0;
   std::shared_ptr<StrengthLaw> law() const {
     const Real Ep = E * etan / (E - etan);
-    PlasticKinematicData data{.lambda = E * pr / ((1 + pr) * (1 - 2 * pr)), .G = E / (2 * (1 + pr))};
+    LinearHardening data{.lambda = E * pr / ((1 + pr) * (1 - 2 * pr)), .G = E / (2 * (1 + pr))};
     data.yield = sigy, data.isotropic = beta * Ep, data.kinematic = (1 - beta) * Ep;
     data.C = src, data.P = srp, data.of_plastic_rate = vp == 1;
     if (fs > 0 && fs < never_fails) data.fails_at = fs;
-    return std::make_shared<PlasticKinematic>(ro, data);
+    return linear_hardening_law(ro, data);
   }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
     const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
@@ -299,5 +291,9 @@ const RegisterStrength<MatPlasticKinematic> mat_plastic_kinematic{
           .optional = true}}}};
 
 }  // namespace
+
+std::shared_ptr<StrengthLaw> linear_hardening_law(Real density, const LinearHardening& data) {
+  return std::make_shared<PlasticKinematic>(density, data);
+}
 
 }  // namespace courant

@@ -42,10 +42,11 @@ class StrengthLaw {
   virtual bool deviator_only() const { return false; }
   virtual Real bulk_modulus() const = 0;   ///< at rest; 0 with `deviator_only` [M/LT2]
   virtual Real shear_modulus() const = 0;  ///< at rest [M/LT2]
-  /// Value of its history `failure_variable` from which on a point has failed;
-  /// infinity: it never does. [-]
+  /// Value of its history `failure_variable` from which on a point has failed; infinity: it never does. [-]
   virtual Real failure_limit() const { return std::numeric_limits<Real>::infinity(); }
   virtual std::string failure_variable() const { return "plastic_strain"; }
+  /// When all points fail; infinity: never by that. [T]
+  virtual Real failure_time() const { return std::numeric_limits<Real>::infinity(); }
   /// V/V0 below and above which an element fails. [-]
   virtual std::pair<Real, Real> volume_range() const { return {0, std::numeric_limits<Real>::infinity()}; }
   /// Pressure of the equation of state is cut off below this. [M/LT2]

@@ -31,6 +31,13 @@ TEST(Advice, WithoutACauseTheStepSize) {
   expect_hint(sound(), "lower TSSFAC of *CONTROL_TIMESTEP (now 0.9)");
 }
 
+TEST(Advice, TooMuchAddedMassIsNoMatterOfSpeeds) {
+  StopFacts f = sound();
+  f.cause = StopCause::added_mass, f.dt_set_by = "solid 3 of part 2";
+  expect_hint(f, "lower |DT2MS| of *CONTROL_TIMESTEP");
+  EXPECT_EQ(advice(f).find("MAXV"), std::string::npos);
+}
+
 TEST(Advice, StepsLongerThanStable) {
   StopFacts f = sound();
   f.tssfac = 1.3;

@@ -20,8 +20,8 @@ struct ShellPatch {
   std::vector<char> inside;  ///< nodes that are not on the rim
   std::array<std::vector<Index>, 4> corner;
   std::array<Numbers, 12> force, moment;
-  std::array<Numbers, 60> stress;
-  std::array<Numbers, 8> resultant;
+  std::array<Numbers, 240> stress;
+  std::array<Numbers, 32> resultant;
   std::array<Numbers, 5> hourglass;
   Numbers thickness, mass, internal, hourglass_energy, bulk;
   Real E = 2, nu = 0.25, rho = 1;
@@ -75,6 +75,15 @@ struct ShellPatch {
     g.control.plate_modulus = g.E / (1 - g.nu * g.nu);
     return g;
   }
+  /// 2 x 2 points in the plane instead of one.
+  void make_full(Real drilling = 0) {
+    const int layers = state.points;
+    loops = full_quadrilateral_loops(), control.drilling = drilling;
+    state.points = 4 * layers;
+    for (int p = state.points - 1; p >= 0; --p)
+      state.zeta[p] = state.zeta[p % layers], state.share[p] = state.share[p % layers];
+    for (int p = 0; p < state.points; ++p) state.share[p] /= 4;
+  }
   Vec at(std::size_t e, int c) const { return x[corner[c][e]]; }
   Vec normal(std::size_t e) const {
     const int last = corners - 1;
@@ -110,8 +119,8 @@ struct ShellPatch {
       mesh.x[k] = px[k].data(), mesh.v[k] = pv[k].data(), mesh.w[k] = pw[k].data();
     }
     for (int c = 0; c < corners; ++c) mesh.corner[c] = corner[c].data();
-    for (int k = 0; k < 60; ++k) state.stress[k] = stress[k].data();
-    for (int k = 0; k < 8; ++k) state.resultant[k] = resultant[k].data();
+    for (int k = 0; k < 240; ++k) state.stress[k] = stress[k].data();
+    for (int k = 0; k < 32; ++k) state.resultant[k] = resultant[k].data();
     for (int k = 0; k < 5; ++k) state.hourglass[k] = hourglass[k].data();
     state.thickness = thickness.data(), state.mass = mass.data();
     state.internal_energy = internal.data(), state.hourglass_energy = hourglass_energy.data();

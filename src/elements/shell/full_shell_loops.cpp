@@ -1,0 +1,314 @@
+// Compiled once for each instruction set; see docs/architecture.md. Nothing here may be shared with other
+// files.
+//
+// The shell of 2 x 2 points in its plane (ELFORM 16) on a block of elements. Of any nodal value
+// v = b0 + b1 xi + b2 eta + b3 xi eta; forces come out along these, g0 to g3, and from there on the corners.
+// Membrane and curvature are those of the bilinear map; in-plane shear is that of the middle, transverse
+// shear is interpolated between the middles of the sides (Dvorkin & Bathe 1984). Theory: docs/theory.md.
+#include "elements/shell/shell_geometry.hpp"
+#include "elements/shell/shell_loops.hpp"
+
+namespace courant::COURANT_SIMD {
+
+namespace {
+
+constexpr Real gauss = 0.57735026918962576;
+constexpr Real xi_of[4] = {-gauss, gauss, gauss, -gauss}, eta_of[4] = {-gauss, -gauss, gauss, gauss};
+
+/// Along xi, eta and xi eta, of vectors in the axes of the element.
+struct Modes {
+  Triple m[3];
+};
+COURANT_INLINE Triple in_axes(const Flat& f, const Triple& a) {
+  return {dot(a, f.e1), dot(a, f.e2), dot(a, f.e3)};
+}
+COURANT_INLINE Modes modes_of(const Flat& f, const Triple d[3]) {
+  return {{0.25 * in_axes(f, d[1] - d[0]), -0.25 * in_axes(f, d[0] + d[1]), 0.25 * in_axes(f, d[2])}};
+}
+
+/// Solves (sum |a|^2 1 - a a^T) w = L over the modes a of the places: how a quadrilateral turns, over a
+/// fourth of its second moments.
+COURANT_INLINE Triple turn_of(const Modes& a, const Triple& L) {
+  Native xx = all(0), yy = all(0), zz = all(0), xy = all(0), yz = all(0), zx = all(0);
+  for (const Triple& m : a.m) {
+    xx += m.y * m.y + m.z * m.z, yy += m.x * m.x + m.z * m.z, zz += m.x * m.x + m.y * m.y;
+    xy -= m.x * m.y, yz -= m.y * m.z, zx -= m.z * m.x;
+  }
+  const Native cxx = yy * zz - yz * yz, cyy = xx * zz - zx * zx, czz = xx * yy - xy * xy,
+               cxy = zx * yz - xy * zz, cyz = xy * zx - yz * xx, czx = xy * yz - zx * yy;
+  const Native inverse = 1.0 / (xx * cxx + xy * cxy + zx * czx);
+  return inverse * Triple{cxx * L.x + cxy * L.y + czx * L.z, cxy * L.x + cyy * L.y + cyz * L.z,
+                          czx * L.x + cyz * L.y + czz * L.z};
+}
+
+/// Slopes of the map at a place of the plane.
+struct Map {
+  Native xs, xt, ys, yt, J;  ///< of x and y along xi and eta
+  COURANT_INLINE Map(const Modes& a, Real s, Real t) {
+    xs = a.m[0].x + t * a.m[2].x, ys = a.m[0].y + t * a.m[2].y;
+    xt = a.m[1].x + s * a.m[2].x, yt = a.m[1].y + s * a.m[2].y;
+    J = xs * yt - xt * ys;
+  }
+};
+
+/// Covariant rates of transverse shear at the middles of sides 1-2, 4-3, 1-4 and 2-3, and their mates.
+struct SideShear {
+  Native a, c, b, d;
+};
+/// What a rotation does there: slopes of the map along the sides, by which its values count.
+struct Sides {
+  Native xa, ya, xc, yc, xb, yb, xd, yd;
+  COURANT_INLINE explicit Sides(const Modes& m) {
+    xa = m.m[0].x - m.m[2].x, ya = m.m[0].y - m.m[2].y, xc = m.m[0].x + m.m[2].x, yc = m.m[0].y + m.m[2].y;
+    xb = m.m[1].x - m.m[2].x, yb = m.m[1].y - m.m[2].y, xd = m.m[1].x + m.m[2].x, yd = m.m[1].y + m.m[2].y;
+  }
+};
+COURANT_INLINE SideShear side_shear(const Sides& s, const Modes& v, const Triple& t0, const Modes& t) {
+  const Native x = t0.x, y = t0.y, xs = t.m[0].x, ys = t.m[0].y, xt = t.m[1].x, yt = t.m[1].y;
+  return {v.m[0].z - v.m[2].z + s.xa * (y - yt) - s.ya * (x - xt),
+          v.m[0].z + v.m[2].z + s.xc * (y + yt) - s.yc * (x + xt),
+          v.m[1].z - v.m[2].z + s.xb * (y - ys) - s.yb * (x - xs),
+          v.m[1].z + v.m[2].z + s.xd * (y + ys) - s.yd * (x + xs)};
+}
+/// Twice D xz and D yz at a place.
+struct Shear {
+  Native xz, yz;
+};
+COURANT_INLINE Shear shear_at(const SideShear& g, const Map& map, Real s, Real t) {
+  const Native along = 0.5 * (1 - t) * g.a + 0.5 * (1 + t) * g.c,
+               across = 0.5 * (1 - s) * g.b + 0.5 * (1 + s) * g.d;
+  const Native inverse = 1.0 / map.J;
+  return {inverse * (along * map.yt - across * map.ys), inverse * (across * map.xs - along * map.xt)};
+}
+
+/// Slopes there of a value with the modes b.
+COURANT_INLINE Native slope_x(const Map& m, const Native b[3], Real s, Real t) {
+  return ((b[0] + t * b[2]) * m.yt - (b[1] + s * b[2]) * m.ys) / m.J;
+}
+COURANT_INLINE Native slope_y(const Map& m, const Native b[3], Real s, Real t) {
+  return ((b[1] + s * b[2]) * m.xs - (b[0] + t * b[2]) * m.xt) / m.J;
+}
+
+/// Rates of a quadrilateral without its rigid motion: exact for warped ones, too.
+struct Rates {
+  Modes v, t;
+  Triple t0;
+};
+COURANT_INLINE Rates rates_of(const Flat& f, const Modes& a, const Triple dv[3], const Triple dw[3],
+                              const Triple w[quad]) {
+  Rates out{modes_of(f, dv), modes_of(f, dw), {}};
+  const Triple turn =
+      turn_of(a, cross(a.m[0], out.v.m[0]) + cross(a.m[1], out.v.m[1]) + cross(a.m[2], out.v.m[2]));
+  for (int k = 0; k < 3; ++k) out.v.m[k] = out.v.m[k] - cross(turn, a.m[k]);
+  out.t0 = 0.25 * in_axes(f, w[0] + w[1] + w[2] + w[3]) - turn;
+  return out;
+}
+
+COURANT_INLINE Native at_corner(const Native b[3], Native b0, int c) {
+  constexpr Real xi[4] = {-1, 1, 1, -1}, eta[4] = {-1, -1, 1, 1};
+  return b0 + xi[c] * b[0] + eta[c] * b[1] + (xi[c] * eta[c]) * b[2];
+}
+
+COURANT_INLINE void full_strain_of(Index first, Index n, Index k, Real dt, const ShellControl& control,
+                                   const ShellMesh& mesh, ShellScratch& s) {
+  Triple x[quad], v[quad], w[quad], d[3], dv[3], dw[3];
+  gather_corners<quad>(mesh, first, n, x, v, w);
+  differences<quad>(x, d), differences<quad>(v, dv), differences<quad>(w, dw);
+  for (int m = 0; m < 3; ++m) {
+    store(s.place[3 * m] + k, d[m].x), store(s.place[3 * m + 1] + k, d[m].y);
+    store(s.place[3 * m + 2] + k, d[m].z);
+    d[m] = d[m] - (0.5 * dt) * dv[m];
+  }
+  const Flat f = flat_of<quad>(d, control.invariant_axes);
+  store(s.middle_area + k, f.A);
+  const Modes a = modes_of(f, d);
+  const Rates r = rates_of(f, a, dv, dw, w);
+  const Map middle(a, 0, 0);
+  const Native vx[3] = {r.v.m[0].x, r.v.m[1].x, r.v.m[2].x}, vy[3] = {r.v.m[0].y, r.v.m[1].y, r.v.m[2].y},
+               tx[3] = {r.t.m[0].x, r.t.m[1].x, r.t.m[2].x}, ty[3] = {r.t.m[0].y, r.t.m[1].y, r.t.m[2].y},
+               tz[3] = {r.t.m[0].z, r.t.m[1].z, r.t.m[2].z};
+  const Native shear_x = slope_y(middle, vx, 0, 0), shear_y = slope_x(middle, vy, 0, 0);
+  store(s.membrane[0] + k, slope_x(middle, vx, 0, 0)), store(s.membrane[1] + k, slope_y(middle, vy, 0, 0));
+  store(s.membrane[2] + k, 0.5 * (shear_x + shear_y));
+  const Native turn = 0.5 * (shear_y - shear_x);
+  for (int c = 0; c < quad; ++c) store(s.hourglass_rate[c] + k, at_corner(tz, r.t0.z, c) - turn);
+  const SideShear sides = side_shear(Sides(a), r.v, r.t0, r.t);
+  for (int q = 0; q < 4; ++q) {
+    const Real p = xi_of[q], t = eta_of[q];
+    const Map map(a, p, t);
+    const Shear shear = shear_at(sides, map, p, t);
+    Real(*const out)[block_size] = s.quarter[q];
+    store(out[0] + k, slope_x(map, vx, p, t)), store(out[1] + k, slope_y(map, vy, p, t));
+    store(out[2] + k, slope_x(map, ty, p, t)), store(out[3] + k, -slope_y(map, tx, p, t));
+    store(out[4] + k, 0.5 * (slope_y(map, ty, p, t) - slope_x(map, tx, p, t)));
+    store(out[5] + k, 0.5 * shear.xz), store(out[6] + k, 0.5 * shear.yz);
+    store(s.quarter_area[q] + k, map.J);
+  }
+}
+
+void full_at_point(const ShellLoops::Block& block, int point, const ShellState& state, ShellScratch& s) {
+  const Real half = 0.5 * state.zeta[point];
+  const Real* t = state.thickness + block.begin;
+  const Real(*const of)[block_size] = s.quarter[point / (state.points / 4)];
+#pragma omp simd
+  for (Index i = 0; i < block.count; ++i) {
+    const Real z = half * t[i];
+    s.rate[0][i] = of[0][i] + z * of[2][i];
+    s.rate[1][i] = of[1][i] + z * of[3][i];
+    s.rate[3][i] = s.membrane[2][i] + z * of[4][i];
+    s.rate[4][i] = of[6][i];
+    s.rate[5][i] = of[5][i];
+  }
+}
+
+/// N, M and Q of one of the points in the plane; their work joins the internal energy.
+COURANT_INLINE void integrate_quarter(Index first, Index n, Index k, Real dt, Real factor, Native t, int q,
+                                      const ShellState& state, const ShellScratch& s, Native R[8]) {
+  for (int m = 0; m < 8; ++m) R[m] = all(0);
+  const Native half = 0.5 * t;
+  const int layers = state.points / 4;
+  for (int p = q * layers; p < (q + 1) * layers; ++p) {
+    const Real* const* stress = state.stress + 6 * p;
+    const Native w = (4 * state.share[p]) * t, arm = state.zeta[p] * half;
+    const Native xx = w * load(stress[0] + first, n), yy = w * load(stress[1] + first, n),
+                 xy = w * load(stress[3] + first, n);
+    R[0] += xx, R[1] += yy, R[2] += xy;
+    R[3] += arm * xx, R[4] += arm * yy, R[5] += arm * xy;
+    R[6] += w * load(stress[5] + first, n), R[7] += w * load(stress[4] + first, n);
+  }
+  R[6] *= factor, R[7] *= factor;
+  Native old[8];
+  for (int m = 0; m < 8; ++m) {
+    old[m] = R[m] + load(state.resultant[8 * q + m] + first, n);
+    store(state.resultant[8 * q + m] + first, R[m], n);
+  }
+  const Real(*const of)[block_size] = s.quarter[q];
+  const Native power = old[0] * load(of[0] + k) + old[1] * load(of[1] + k) + old[3] * load(of[2] + k) +
+                       old[4] * load(of[3] + k) +
+                       2.0 * (old[2] * load(s.membrane[2] + k) + old[5] * load(of[4] + k) +
+                              old[6] * load(of[5] + k) + old[7] * load(of[6] + k));
+  add_to(state.internal_energy + first, 0.5 * dt * load(s.quarter_area[q] + k) * power, n);
+}
+
+/// P per slope x and R per slope y of a value, at a place.
+COURANT_INLINE void add_slopes(const Map& m, Native P, Native R, Real s, Real t, Native g[3]) {
+  const Native along = P * m.yt - R * m.xt, across = R * m.xs - P * m.ys;
+  g[0] += along, g[1] += across, g[2] += t * along + s * across;
+}
+
+/// Transverse shear: mates of the rates on the sides, then of the modes.
+COURANT_INLINE void add_shear(const Sides& s, const SideShear& g, Native vz[3], Native tx[3], Native ty[3],
+                              Triple& t0) {
+  vz[0] += g.a + g.c, vz[1] += g.b + g.d, vz[2] += g.c - g.a + g.d - g.b;
+  t0.y += g.a * s.xa + g.c * s.xc + g.b * s.xb + g.d * s.xd;
+  t0.x -= g.a * s.ya + g.c * s.yc + g.b * s.yb + g.d * s.yd;
+  ty[1] += g.c * s.xc - g.a * s.xa, tx[1] -= g.c * s.yc - g.a * s.ya;
+  ty[0] += g.d * s.xd - g.b * s.xb, tx[0] -= g.d * s.yd - g.b * s.yb;
+}
+
+/// Moments against what nodes turn beyond the middle of the plane; what they store is counted as hourglass
+/// energy. Returns their sum; `mz`: along the modes.
+COURANT_INLINE Native drilling(Index first, Index n, Index k, Real dt, Native t, Native A,
+                               const ShellControl& control, const ShellState& state, const ShellScratch& s,
+                               Native mz[4]) {
+  constexpr Real xi[4] = {-1, 1, 1, -1}, eta[4] = {-1, -1, 1, 1};
+  for (int m = 0; m < 4; ++m) mz[m] = all(0);
+  if (!(control.drilling > 0)) return mz[0];
+  constexpr Real thickest = 4;
+  const Native stiffness = (0.25 * control.drilling * control.G) * t * (A + native_min(t * t, thickest * A));
+  Native taken = all(0);
+  for (int c = 0; c < quad; ++c) {
+    const Native rate = load(s.hourglass_rate[c] + k), old = load(state.hourglass[c] + first, n);
+    const Native moment = old + dt * stiffness * rate;
+    store(state.hourglass[c] + first, moment, n);
+    taken += 0.5 * (old + moment) * rate;
+    mz[0] += moment, mz[1] += xi[c] * moment, mz[2] += eta[c] * moment, mz[3] += (xi[c] * eta[c]) * moment;
+  }
+  add_to(state.hourglass_energy + first, dt * taken, n);
+  return mz[0];
+}
+
+/// From forces along modes to what acts on the corners, in global axes.
+COURANT_INLINE void on_corners_of(Real* const* out, Index first, Index n, const Flat& f, const Triple& g0,
+                                  const Triple g[3]) {
+  constexpr Real xi[4] = {-1, 1, 1, -1}, eta[4] = {-1, -1, 1, 1};
+  for (int c = 0; c < quad; ++c) {
+    const Triple a = -0.25 * (g0 + xi[c] * g[0] + eta[c] * g[1] + (xi[c] * eta[c]) * g[2]);
+    store_vector(out + 3 * c, first, a.x * f.e1 + a.y * f.e2 + a.z * f.e3, n);
+  }
+}
+
+COURANT_INLINE void full_forces_of(Index first, Index n, Index k, Real dt, const ShellControl& control,
+                                   const ShellState& state, ShellScratch& s) {
+  Triple d[3];
+  for (int m = 0; m < 3; ++m)
+    d[m] = {load(s.place[3 * m] + k), load(s.place[3 * m + 1] + k), load(s.place[3 * m + 2] + k)};
+  const Flat f = flat_of<quad>(d, control.invariant_axes);
+  Native t = load(state.thickness + first, n);
+  if (control.thins) {
+    const Native half = (0.5 * dt) * load(s.thickening + k);
+    t *= (1.0 + half) / (1.0 - half);  // of second order
+    store(state.thickness + first, t, n);
+  }
+  const Native rho = load(state.mass + first, n) * f.inverse_A / t;
+  const Native press = t * bulk_viscosity<quad>(first, n, k, dt, t, rho, d, f, control, state, s);
+  const Modes a = modes_of(f, d);
+  const Sides sides(a);
+  Native vx[3], vy[3], vz[3], tx[3], ty[3];
+  for (int m = 0; m < 3; ++m) vx[m] = vy[m] = vz[m] = tx[m] = ty[m] = all(0);
+  Triple t0{all(0), all(0), all(0)};
+  SideShear mates{all(0), all(0), all(0), all(0)};
+  Native shear = all(0);
+  for (int q = 0; q < 4; ++q) {
+    const Real p = xi_of[q], e = eta_of[q];
+    const Map map(a, p, e);
+    Native R[8];
+    integrate_quarter(first, n, k, dt, control.shear_factor, t, q, state, s, R);
+    add_slopes(map, R[0] - press, all(0), p, e, vx), add_slopes(map, all(0), R[1] - press, p, e, vy);
+    shear += map.J * R[2];
+    add_slopes(map, R[3], R[5], p, e, ty), add_slopes(map, -R[5], -R[4], p, e, tx);
+    const Native along = R[6] * map.yt - R[7] * map.xt, across = R[7] * map.xs - R[6] * map.ys;
+    mates.a += 0.5 * (1 - e) * along, mates.c += 0.5 * (1 + e) * along;
+    mates.b += 0.5 * (1 - p) * across, mates.d += 0.5 * (1 + p) * across;
+  }
+  Native mz[4];
+  const Native drill = 0.5 * drilling(first, n, k, dt, t, f.A, control, state, s, mz);
+  const Map middle(a, 0, 0);
+  const Native inverse = 1.0 / middle.J;
+  add_slopes(middle, all(0), (shear + drill) * inverse, 0, 0, vx);
+  add_slopes(middle, (shear - drill) * inverse, all(0), 0, 0, vy);
+  add_shear(sides, mates, vz, tx, ty, t0);
+  t0.z = mz[0];
+  Triple g[3];
+  for (int m = 0; m < 3; ++m) g[m] = {vx[m], vy[m], vz[m]};
+  // nothing resists a rigid rotation: the transpose of rates_of
+  const Triple turn = turn_of(a, cross(a.m[0], g[0]) + cross(a.m[1], g[1]) + cross(a.m[2], g[2]) + t0);
+  for (int m = 0; m < 3; ++m) g[m] = g[m] - cross(turn, a.m[m]);
+  const Triple none{all(0), all(0), all(0)},
+      turns[3] = {{tx[0], ty[0], mz[1]}, {tx[1], ty[1], mz[2]}, {tx[2], ty[2], mz[3]}};
+  on_corners_of(state.corner_force, first, n, f, none, g);
+  on_corners_of(state.corner_moment, first, n, f, t0, turns);
+}
+
+void full_strain(const ShellLoops::Block& block, const ShellControl& control, const ShellMesh& mesh,
+                 ShellScratch& scratch) {
+  for (Index k = 0; k < block.count; k += native_lanes)
+    full_strain_of(block.begin + k, block.count - k < native_lanes ? block.count - k : native_lanes, k,
+                   block.dt, control, mesh, scratch);
+}
+
+ShellLoops::Found full_forces(const ShellLoops::Block& block, const ShellControl& control,
+                              const ShellState& state, ShellScratch& scratch) {
+  for (Index k = 0; k < block.count; k += native_lanes)
+    full_forces_of(block.begin + k, block.count - k < native_lanes ? block.count - k : native_lanes, k,
+                   block.dt, control, state, scratch);
+  return shortest_of(block, scratch);
+}
+
+}  // namespace
+
+ShellLoops full_quadrilateral_loops() {
+  return {&full_strain, &full_at_point, &full_forces};
+}
+
+}  // namespace courant::COURANT_SIMD
