@@ -157,6 +157,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     add_erosion(model_, std::move(options.eroding), world_);
   }
   bodies_ = build_rigid_bodies(deck_, model_, world_, diagnostics);
+  if (bodies_) rules_.share = bodies_->step_share();
   start_rotations(model_, node_of, world_);
   if (diagnostics.ok()) add_tied_contacts(diagnostics);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
@@ -169,7 +170,7 @@ void Simulation::add_tied_contacts(Diagnostics& diagnostics) {
   options.tssfac = model_.tssfac;
   const MassScaling scaling = mass_scaling_of(deck_);
   options.mass_grows = scaling.step > 0 && !scaling.once;
-  courant::add_tied_contacts(deck_, model_, options, world_, diagnostics);
+  rules_.share *= courant::add_tied_contacts(deck_, model_, options, world_, diagnostics);
 }
 
 // Of solids that may fail, where a contact is to go on with what deletion lays bare.

@@ -15,6 +15,7 @@ struct TiedCard : ContactCard {};
 struct TiedKind {
   TieForm form = TieForm::exact;
   bool turns = false;  ///< shell edges: rotations go with the face, too
+  bool fails = false;  ///< at the stresses FS and FD
 };
 TiedKind kind_of(const TiedCard& card);
 
