@@ -162,6 +162,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     report_mass_scaling(deck_, model_, world_, diagnostics);
     report_weld_scaling(model_, beams_, world_, diagnostics);
   }
+  if (bodies_) rules_.share = bodies_->step_share();
   start_rotations(model_, node_of, world_);
   if (diagnostics.ok()) add_tied_contacts(diagnostics);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
@@ -180,7 +181,7 @@ void Simulation::add_tied_contacts(Diagnostics& diagnostics) {
   options.tssfac = model_.tssfac;
   const MassScaling scaling = mass_scaling_of(deck_);
   options.mass_grows = scaling.step > 0 && !scaling.once;
-  courant::add_tied_contacts(deck_, model_, options, world_, diagnostics);
+  rules_.share *= courant::add_tied_contacts(deck_, model_, options, world_, diagnostics);
 }
 
 // Of solids that may fail, where a contact is to go on with what deletion lays bare.

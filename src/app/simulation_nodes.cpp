@@ -9,6 +9,7 @@
 #include "contact/nodes/build.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "extension/additions.hpp"
+#include "loads/node_sets.hpp"
 #include "rigid/build_joints.hpp"
 #include "rigid/joint_stiffness.hpp"
 #include "rigid/time_limit.hpp"
@@ -36,6 +37,10 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
     left_out_.push_back({"joint stiffness", "no *CONSTRAINED_JOINT_STIFFNESS"});
   if (!add_joints(deck_, bodies_, world_, diagnostics))
     left_out_.push_back({"joints", "no *CONSTRAINED_JOINT"});
+  if (const auto sets = make_node_sets(deck_, model_, world_, diagnostics))
+    world_.passes.add(sets);
+  else
+    left_out_.push_back({"node sets that move alike", "no *CONSTRAINED_NODE_SET"});
   if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
   add_springs(diagnostics);
   const bool turn = has_rotations(world_.nodes);

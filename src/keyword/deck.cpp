@@ -23,6 +23,7 @@ const KeywordSpec* spec_of(const Entry& entry) {
 }
 
 FieldPlace find_field(const KeywordSpec& spec, std::string_view name) {
+  if (name.empty()) return {};  // of the whole card; unused fields have no name, too
   for (std::size_t c = 0; c < spec.cards.size(); ++c)
     for (std::size_t f = 0; f < spec.cards[c].fields.size(); ++f)
       if (spec.cards[c].fields[f].name == name) return {c, f, true};

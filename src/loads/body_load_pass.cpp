@@ -3,6 +3,7 @@
 #include "parallel/parallel.hpp"
 #include "state/restartable.hpp"
 #include "state/shared_fields.hpp"
+#include "state/tied_mass.hpp"
 
 namespace courant {
 
@@ -17,7 +18,8 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
       : acceleration_(std::move(acceleration)),
         points_(points),
         neighbours_(std::move(neighbours)),
-        added_(shared_fields::added_mass.find(points.fields())) {
+        added_(shared_fields::added_mass.find(points.fields())),
+        tied_(shared_fields::tied_mass.find(points.fields())) {
     // heights count from the lowest point against gravity
     const Vec g = acceleration_.at(0).everywhere();
     bool any = false;
@@ -37,6 +39,7 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
     a.reads(*points_.m).updates(*points_.f);
     if (points_.follow) a.reads(*points_.follow);
     if (added_) a.reads(*added_);
+    if (tied_) a.reads(*tied_);
     if (acceleration_.uniform()) return;
     a.reads(*points_.x);
     if (points_.part) a.reads(*points_.part);
@@ -80,9 +83,12 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
   }
 
  private:
-  bool acts_on(Index i) const { return !points_.follow || !(*points_.follow)[i]; }
-  /// Mass that mass scaling added has no weight. [M]
-  Real weighs(Index i) const { return added_ ? (*points_.m)[i] - (*added_)[i] : (*points_.m)[i]; }
+  /// Nodes that faces carry weigh where they are; bodies have weights of their own.
+  bool acts_on(Index i) const { return !points_.follow || (*points_.follow)[i] != 1; }
+  /// Mass that mass scaling added has no weight, nor what a node has of those that its faces carry. [M]
+  Real weighs(Index i) const {
+    return (*points_.m)[i] - (added_ ? (*added_)[i] : 0) - (tied_ ? (*tied_)[i] : 0);
+  }
   Index part_of(Index i) const { return points_.part ? (*points_.part)[i] : -1; }
 
   void add_uniform(const Vec& g, Index begin, Index end) {
@@ -90,7 +96,7 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
       if (g[k] == 0) continue;
       Real* f = points_.f->data(k);
       const Real *m = points_.m->data(), gk = g[k];
-      if (added_) {
+      if (added_ || tied_) {
         for (Index i = begin; i < end; ++i)
           if (acts_on(i)) f[i] += weighs(i) * gk;
       } else if (points_.follow) {
@@ -121,6 +127,7 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
   Points points_;
   std::shared_ptr<Neighbours> neighbours_;
   const Field<Real>* added_;  ///< null: no mass scaling
+  const Field<Real>* tied_;   ///< null: no node is tied exactly
   bool particles_ = false;
   Vec origin_ = Vec::Zero();
   bool first_ = true;

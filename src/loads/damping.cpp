@@ -98,6 +98,8 @@ class DampingReader {
       : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
     for (Index i = 0; i < world.nodes.size(); ++i) {
       const Index part = world.nodes.part[i];  // extra nodes of a body are those of deformable parts
+      if (part >= 0) parts_.insert(part);
+      if (world.nodes.follow[i] == 2 && part >= 0) tied_parts_.insert(part);
       if (world.nodes.follow[i] != 1 || world.nodes.held[i] || part < 0) continue;
       if (model.parts[static_cast<std::size_t>(part)].rigid)
         rigid_parts_.insert(part);
@@ -148,6 +150,13 @@ class DampingReader {
                                   joined->second, part.id),
                       "none is needed where the others bring all to rest");
     }
+    const bool of_all = std::includes(d.parts.begin(), d.parts.end(), parts_.begin(), parts_.end());
+    if (!of_all && !tied_parts_.empty())
+      deck_.warning(
+          diagnostics_, card, "PID",
+          fmt::format("nodes of part {} that are tied to faces are damped as the corners of these are",
+                      model_.parts[static_cast<std::size_t>(*tied_parts_.begin())].id),
+          "damp all parts alike, or tie by a contact with _OFFSET");
     if (!d.parts.empty()) damping_.push_back(std::move(d));
   }
   std::vector<Damping> finish() { return std::move(damping_); }
@@ -181,8 +190,9 @@ class DampingReader {
   const Model& model_;
   const World& world_;
   Diagnostics& diagnostics_;
-  std::set<Index> rigid_parts_;    ///< with nodes of bodies that can move
-  std::map<Index, Index> joined_;  // nodes of deformable parts that rigid bodies move
+  std::set<Index> rigid_parts_;         ///< with nodes of bodies that can move
+  std::set<Index> parts_, tied_parts_;  ///< with nodes, with such that faces carry
+  std::map<Index, Index> joined_;       // nodes of deformable parts that rigid bodies move
   std::set<Index> seen_;
   std::vector<Damping> damping_;
 };

@@ -204,7 +204,9 @@ class PrescribedBuilder {
             fmt::format("node {} is neither a particle nor a node of deformable elements, which alone can be "
                         "driven beside rigid bodies",
                         node.id),
-            "drive rigid bodies by *BOUNDARY_PRESCRIBED_MOTION_RIGID");
+            "drive the rigid body that it belongs to by *BOUNDARY_PRESCRIBED_MOTION_RIGID, or the corners of "
+            "the "
+            "face to which it is tied");
       return false;
     }
     const bool particle = set == sets_.begin();
@@ -266,7 +268,7 @@ class PrescribedBuilder {
 
 bool add_prescribed_points(const std::vector<PrescribedMotion>& motions, const Deck& deck, const Model& model,
                            const MotionLimits& limits, World& world, Diagnostics& diagnostics) {
-  const auto drives_nodes = [](const PrescribedMotion& motion) { return motion.part < 0; };
+  const auto drives_nodes = [](const PrescribedMotion& motion) { return motion.body == 0; };
   if (std::none_of(motions.begin(), motions.end(), drives_nodes)) return false;
   PrescribedBuilder builder(deck, model, limits, world, diagnostics);
   for (const PrescribedMotion& motion : motions)

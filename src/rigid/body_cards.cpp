@@ -8,6 +8,7 @@
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "rigid/nodal_bodies.hpp"
 
 namespace courant {
 
@@ -100,22 +101,27 @@ const RegisterKeyword<Load> load_rigid_body_keyword{
 class BodyCardReader {
  public:
   BodyCardReader(const Deck& deck, const Model& model, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), diagnostics_(diagnostics) {}
+      : deck_(deck), model_(model), diagnostics_(diagnostics), of_nodes_(nodal_body_ids(deck)) {}
 
   /// Index of a rigid part.
-  std::optional<Index> body(const Entry& card, Id pid) {
+  std::optional<Index> rigid_part(const Entry& card, Id pid) {
     const auto part = model_.part_of_id.find(pid);
     if (part == model_.part_of_id.end())
-      return error(card, "PID", fmt::format("part {} does not exist", pid), "");
+      return error(card, "PID", fmt::format("part {} does not exist", pid),
+                   of_nodes_.contains(pid) ? "it is a body of nodes: add nodes to its set"
+                                           : "define it with *PART, or with *CONSTRAINED_NODAL_RIGID_BODY");
     if (!model_.parts[static_cast<std::size_t>(part->second)].rigid)
       return error(card, "PID", fmt::format("part {} is no rigid body", pid),
                    "its material must be a *MAT_RIGID");
     return part->second;
   }
-  /// The same of a part that gives its body its name: what is said of the whole body.
-  std::optional<Index> whole_body(const Entry& card, Id pid, const BodyMerges& merges) {
-    const auto part = body(card, pid);
-    if (!part || !merges.merged(*part)) return part;
+  /// `pid`, where it is a body of nodes or a part that gives its body its name: what is said of the whole
+  /// body.
+  std::optional<Id> whole_body(const Entry& card, Id pid, const BodyMerges& merges) {
+    if (of_nodes_.contains(pid)) return pid;
+    const auto part = rigid_part(card, pid);
+    if (!part) return std::nullopt;
+    if (!merges.merged(*part)) return pid;
     const Id lead = model_.parts[static_cast<std::size_t>(merges.lead(*part))].id;
     return error(
         card, "PID",
@@ -142,6 +148,7 @@ class BodyCardReader {
   const Deck& deck_;
   const Model& model_;
   Diagnostics& diagnostics_;
+  std::set<Id> of_nodes_;
 };
 
 }  // namespace
@@ -158,7 +165,7 @@ std::map<Index, std::vector<ExtraNode>> extra_nodes(const Deck& deck, const Mode
   for (std::size_t n = 0; n < model.nodes.size(); ++n) node_of_id[model.nodes[n].id] = static_cast<Index>(n);
   for (const ModelSph& s : model.sph) particles.insert(s.node);
   const auto add = [&](const ExtraNodesCard& card, const char* field, const std::vector<Index>& nodes) {
-    const auto body = reader.body(card, card.pid);
+    const auto body = reader.rigid_part(card, card.pid);
     if (!body) return;
     for (const Index n : nodes) {
       if (particles.contains(n)) {
@@ -188,9 +195,9 @@ std::map<Index, std::vector<ExtraNode>> extra_nodes(const Deck& deck, const Mode
   return out;
 }
 
-std::map<Index, BodyStart> body_starts(const Deck& deck, const Model& model, const BodyMerges& merges,
-                                       Diagnostics& diagnostics) {
-  std::map<Index, BodyStart> out;
+std::map<Id, BodyStart> body_starts(const Deck& deck, const Model& model, const BodyMerges& merges,
+                                    Diagnostics& diagnostics) {
+  std::map<Id, BodyStart> out;
   BodyCardReader reader(deck, model, diagnostics);
   for (const InitialVelocityRigidBody& card : deck.all<InitialVelocityRigidBody>()) {
     const auto body = reader.whole_body(card, card.pid, merges);

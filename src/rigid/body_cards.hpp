@@ -24,14 +24,13 @@ std::map<Index, std::vector<ExtraNode>> extra_nodes(const Deck& deck, const Mode
 struct BodyStart {
   Vec v = Vec::Zero(), omega = Vec::Zero();  ///< of the centre [L/T], [1/T]
 };
-/// By part (index into Model::parts), the last card of each. Refuses by name: parts that are not rigid, or
-/// merged into others.
-std::map<Index, BodyStart> body_starts(const Deck& deck, const Model& model, const BodyMerges& merges,
-                                       Diagnostics& diagnostics);
+/// By number of the part or body of nodes. Refuses by name: parts that are not rigid, or merged into others.
+std::map<Id, BodyStart> body_starts(const Deck& deck, const Model& model, const BodyMerges& merges,
+                                    Diagnostics& diagnostics);
 
 /// One *LOAD_RIGID_BODY: a force at the centre or a moment.
 struct BodyForceLoad {
-  Index part = 0;               ///< index into Model::parts
+  Id body = 0;                  ///< number of the part or body of nodes
   Vec direction = Vec::Zero();  ///< unit
   bool turns = false;           ///< a moment
   Curve curve{};                ///< of time

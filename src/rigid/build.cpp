@@ -20,6 +20,7 @@
 #include "rigid/merge.hpp"
 #include "rigid/nodal_bodies.hpp"
 #include "rigid/rigid.hpp"
+#include "state/step_share.hpp"
 #include "surfaces/skin.hpp"
 
 namespace courant {
@@ -97,7 +98,7 @@ class Builder {
     Member& member = members_[part];
     member.part = part, member.ro = m.ro;
     RigidBody& b = bodies_of_parts_[part];
-    b.part = model_.parts[part].id;
+    b.part = model_.parts[part].id, b.name = fmt::format("rigid part {}", b.part);
     b.part_index = part, b.parts = merges_.group(part);
     b.c2 = m.ro > 0 ? m.E / m.ro : 0;
     Diagnostics told_before;
@@ -131,6 +132,13 @@ class Builder {
     for (const NodalBody& nodal : nodal_bodies(deck_, model_, diagnostics_)) {
       RigidBody b;
       if (!build_nodal_body(nodal, deck_, model_, world_node_, world_, b, diagnostics_)) continue;
+      if (const auto start = starts_.find(b.part); start != starts_.end()) {
+        b.v = start->second.v, b.L = b.J0 * start->second.omega;
+        start_velocities(b, world_);
+      }
+      for (const BodyForceLoad& load : loads_)
+        if (load.body == b.part) b.loads.push_back(load);
+      look_at_given(deck_.where(nodal.card), b, nodal.given.has_value());
       claim(deck_.where(nodal.card), b);
       bodies_.push_back(std::move(b));
     }
@@ -142,7 +150,7 @@ class Builder {
         world_.nodes.follow[n] = 1;
         if (b.fixed()) world_.nodes.held[n] = 1;
       }
-    return bodies_.empty() ? nullptr : std::make_shared<RigidBodies>(std::move(bodies_));
+    return bodies_.empty() ? nullptr : std::make_shared<RigidBodies>(std::move(bodies_), step_share_);
   }
 
  private:
@@ -161,11 +169,11 @@ class Builder {
     const MassIntegrals at_nodes = lumped(b.nodes, world_);
     if (at_nodes.m > 0) b.J_lumped = at_nodes.inertia();
     if (!take_masses(b)) return;  // the elements' own errors tell why
-    if (const auto start = starts_.find(part); start != starts_.end())
+    if (const auto start = starts_.find(b.part); start != starts_.end())
       b.v = start->second.v, b.L = b.J0 * start->second.omega;
     for (const Index n : b.nodes) b.X.push_back(world_.nodes.x.vec(n) - b.x);
     for (const BodyForceLoad& load : loads_)
-      if (load.part == part) b.loads.push_back(load);
+      if (load.body == b.part) b.loads.push_back(load);
     hold_by_nodes(model_, constrained, world_,
                   {model_.parts[part].where, fmt::format("rigid part {}", b.part),
                    "hold the body with CMO = 1, CON1 and CON2 of its *MAT_RIGID"},
@@ -181,6 +189,9 @@ class Builder {
           "hold rotations with CMO = 1, CON2 of *MAT_RIGID");
     else
       start_velocities(b, world_);
+    look_at_given(model_.parts[part].where, b, std::any_of(b.parts.begin(), b.parts.end(), [&](Index k) {
+                    return given_parts_.contains(k);
+                  }));
     claim(model_.parts[part].where, b);
     bodies_.push_back(std::move(b));
   }
@@ -336,6 +347,30 @@ class Builder {
           "extrude it by 1 in z");
   }
 
+  /// Elements at the nodes of a body swing faster where its given mass is below theirs.
+  void look_at_given(const Location& where, const RigidBody& b, bool given) {
+    if (!given || b.fixed() || !diagnostics_.ok()) return;
+    if (of_elements_.empty()) {
+      of_elements_.assign(static_cast<std::size_t>(world_.nodes.size()), 0);
+      for (const auto& group : world_.groups)
+        for (int c = 0; c < group->corners() && group->corners() > 1; ++c)  // lumped masses are no elements
+          for (Index e = 0; e < group->size(); ++e)
+            of_elements_[static_cast<std::size_t>(group->node.data(c)[e])] +=
+                group->mass[e] * group->share(e, c);
+    }
+    const Real times =
+        lightness(b, world_.nodes, [&](Index n) { return of_elements_[static_cast<std::size_t>(n)]; });
+    const Real share = courant::step_share(model_.tssfac, std::sqrt(std::max(Real(1), times)));
+    if (share == 1) return;
+    step_share_ = std::min(step_share_, share);
+    diagnostics_.warning(
+        where,
+        fmt::format("{} has a given mass or inertia that is {:.3g} of what deformable elements "
+                    "have at its nodes: the step is {:.3g} of that of the elements",
+                    b.name, 1 / times, share),
+        "give it their mass besides its own: TM, IXX to IZZ");
+  }
+
   void claim(const Location& where, const RigidBody& b) {
     for (const Index n : b.nodes) {
       const Index other = owner_[n];
@@ -344,8 +379,8 @@ class Builder {
       const bool of_parts = !b.parts.empty() && !bodies_[other].parts.empty();
       diagnostics_.error(
           where,
-          fmt::format("node {} belongs to the rigid {} {} and {}, of which one can move", world_.nodes.id[n],
-                      of_parts ? "parts" : "bodies", bodies_[other].part, b.part),
+          fmt::format("node {} belongs to {} and to {}, of which one can move", world_.nodes.id[n],
+                      bodies_[other].name, b.name),
           of_parts ? "give each part its own nodes, or merge them by *CONSTRAINED_RIGID_BODIES"
                    : "let each node belong to one body: one *CONSTRAINED_NODAL_RIGID_BODY for all, or "
                      "*CONSTRAINED_EXTRA_NODES");
@@ -359,11 +394,13 @@ class Builder {
   Diagnostics& diagnostics_;
   BodyMerges merges_;
   std::map<Index, std::vector<ExtraNode>> extra_;
-  std::map<Index, BodyStart> starts_;
+  std::map<Id, BodyStart> starts_;
   std::vector<BodyForceLoad> loads_;
   std::map<Id, const PartInertiaCard*> given_;
   std::map<Id, Index> world_node_;
   std::vector<Index> owner_;
+  std::vector<Real> of_elements_;  ///< mass of deformable elements at each node; empty: nobody asked
+  Real step_share_ = 1;
   std::set<Index> given_parts_;
   std::set<Id> checked_;  // one material may serve several parts
   std::map<Index, Member> members_;

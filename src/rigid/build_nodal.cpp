@@ -90,7 +90,7 @@ bool build_nodal_body(const NodalBody& nodal, const Deck& deck, const Model& mod
   };
   if (world.dim == 2)
     return error("rigid bodies of nodes are not supported in plane scenes", "make them a part of *MAT_RIGID");
-  b.part = nodal.id, b.held = nodal.held, b.no_turn = nodal.no_turn;
+  b.part = nodal.id, b.name = nodal.name, b.held = nodal.held, b.no_turn = nodal.no_turn;
   std::set<Index> parts;
   std::vector<const ModelNode*> constrained;
   for (const Index n : nodal.nodes) {

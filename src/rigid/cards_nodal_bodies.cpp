@@ -244,6 +244,12 @@ class NodalBodyReader {
 
 }  // namespace
 
+std::set<Id> nodal_body_ids(const Deck& deck) {
+  std::set<Id> out;
+  for (const NB& card : deck.all<NB>()) out.insert(card.pid);
+  return out;
+}
+
 std::vector<NodalBody> nodal_bodies(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   const auto& cards = deck.all<NB>();
   const auto& spots = deck.all<SW>();

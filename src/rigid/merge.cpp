@@ -5,6 +5,7 @@
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "rigid/deformable_to_rigid.hpp"
+#include "rigid/nodal_bodies.hpp"
 
 namespace courant {
 
@@ -62,7 +63,10 @@ class MergeReader {
   /// Index of a rigid part; -1 where it is none.
   Index rigid_part(const Entry& card, const char* field, Id id) {
     const auto part = model_.part_of_id.find(id);
-    if (part == model_.part_of_id.end())
+    if (nodal_body_ids(deck_).contains(id))
+      error(card, field, fmt::format("{} is a rigid body of nodes, which cannot be merged with parts", id),
+            "let its nodes go with the part by *CONSTRAINED_EXTRA_NODES_SET instead");
+    else if (part == model_.part_of_id.end())
       error(card, field, fmt::format("part {} does not exist", id), "define it with *PART");
     else if (!model_.parts[static_cast<std::size_t>(part->second)].rigid)
       error(card, field, fmt::format("part {} is no rigid body", id), "its material must be a *MAT_RIGID");

@@ -2,6 +2,7 @@
 // Rigid bodies of nodes: *CONSTRAINED_NODAL_RIGID_BODY, and welds without failure.
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct NodalBody {
   std::array<bool, 3> held{}, no_turn{};  ///< global axes without translation, rotation
   std::optional<PartInertiaCard> given{};
 };
+
+/// Numbers of those of *CONSTRAINED_NODAL_RIGID_BODY.
+std::set<Id> nodal_body_ids(const Deck& deck);
 
 /// In the order of the deck: first those of *CONSTRAINED_NODAL_RIGID_BODY. Refuses by name: sets and nodes
 /// that are not there, particles, constraints along local axes.

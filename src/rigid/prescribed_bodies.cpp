@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "rigid/nodal_bodies.hpp"
 #include "rigid/rigid.hpp"
 
 namespace courant {
@@ -28,22 +29,27 @@ Real prescribed(const PrescribedMotion& motion, const Clock& clock, Real before)
 class Follower {
  public:
   Follower(const Deck& deck, const Model& model, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), diagnostics_(diagnostics) {}
+      : deck_(deck), model_(model), diagnostics_(diagnostics), of_nodes_(nodal_body_ids(deck)) {}
 
   void add(const PrescribedMotion& motion, std::vector<RigidBody>& bodies) {
-    const ModelPart& part = model_.parts[static_cast<std::size_t>(motion.part)];
+    if (motion.part < 0 && !of_nodes_.contains(motion.body))
+      return error(motion, "PID", fmt::format("part {} does not exist", motion.body),
+                   "define it with *PART, or with *CONSTRAINED_NODAL_RIGID_BODY");
     for (RigidBody& body : bodies)
-      if (body.part == part.id)
+      if (body.part == motion.body)
         return add(motion, body);
-      else if (body.has_part(motion.part))
+      else if (motion.part >= 0 && body.has_part(motion.part))
         return error(
-            motion, "PID", fmt::format("part {} is merged into part {}", part.id, body.part),
+            motion, "PID", fmt::format("part {} is merged into part {}", motion.body, body.part),
             fmt::format("name part {}: the motion is that of the whole body and its centre", body.part));
-    error(motion, "PID", fmt::format("part {} is no rigid body", part.id),
-          "it needs shells and a *MAT_RIGID; drive particles by _NODE or _SET");
+    error(motion, "PID", fmt::format("part {} is no rigid body", motion.body),
+          "it needs elements and a *MAT_RIGID; drive particles and nodes by _NODE or _SET");
   }
 
  private:
+  static const char* holder(const RigidBody& body) {
+    return body.parts.empty() ? "*CONSTRAINED_NODAL_RIGID_BODY_SPC" : "*MAT_RIGID";
+  }
   void error(const PrescribedMotion& motion, const char* field, std::string message, std::string hint) {
     deck_.error(diagnostics_, motion.card, field, std::move(message), std::move(hint));
   }
@@ -52,25 +58,23 @@ class Follower {
     const auto& held = motion.turns ? body.no_turn : body.held;
     for (std::size_t k = 0; k < 3; ++k)
       if (held[k] && motion.direction[static_cast<Eigen::Index>(k)] != 0)
-        return error(
-            motion, "DOF",
-            fmt::format("part {} cannot {} {}, because {} of its *MAT_RIGID, or the plane of a 2D scene, "
-                        "holds it",
-                        body.part, motion.turns ? "turn about" : "move along", "xyz"[k],
-                        motion.turns ? "CON2" : "CON1"),
-            "free the direction that is to be driven");
+        return error(motion, "DOF",
+                     fmt::format("{} cannot {} {}, because {} of its {}, or the plane of a 2D scene, "
+                                 "holds it",
+                                 body.name, motion.turns ? "turn about" : "move along", "xyz"[k],
+                                 motion.turns ? "CON2" : "CON1", holder(body)),
+                     "free the direction that is to be driven");
     if (motion.turns)
       for (std::size_t k = 0; k < 3; ++k)
         if (static_cast<int>(k) != axis_of(motion) && !body.no_turn[k])
-          return error(
-              motion, "DOF",
-              fmt::format("part {} may turn about {}, too: a prescribed rotation is supported where the "
-                          "other two are held",
-                          body.part, "xyz"[k]),
-              "hold the other rotations by CON2 of *MAT_RIGID");
+          return error(motion, "DOF",
+                       fmt::format("{} may turn about {}, too: a prescribed rotation is supported where the "
+                                   "other two are held",
+                                   body.name, "xyz"[k]),
+                       fmt::format("hold the other rotations by CON2 of {}", holder(body)));
     for (const PrescribedMotion& other : body.motions)
       if (const std::string why = clash(other, motion); !why.empty())
-        return error(motion, "DOF", fmt::format("of part {}, {} {}", body.part, deck_.place(other.card), why),
+        return error(motion, "DOF", fmt::format("of {}, {} {}", body.name, deck_.place(other.card), why),
                      "let one end (DEATH) before the other starts (BIRTH), or leave it out");
     body.motions.push_back(motion);
   }
@@ -78,6 +82,7 @@ class Follower {
   const Deck& deck_;
   const Model& model_;
   Diagnostics& diagnostics_;
+  std::set<Id> of_nodes_;
 };
 
 }  // namespace
@@ -138,7 +143,7 @@ void RigidBodies::follow(const std::vector<PrescribedMotion>& motions, const Dec
                          Diagnostics& diagnostics) {
   Follower follower(deck, model, diagnostics);
   for (const PrescribedMotion& motion : motions)
-    if (motion.part >= 0) follower.add(motion, bodies_);
+    if (motion.body != 0) follower.add(motion, bodies_);
 }
 
 }  // namespace courant

@@ -135,7 +135,8 @@ bool RigidBodies::add_mass_at(Index node, Real mass, Real inertia, World& world)
   return true;
 }
 
-RigidBodies::RigidBodies(std::vector<RigidBody> bodies) : bodies_(std::move(bodies)) {
+RigidBodies::RigidBodies(std::vector<RigidBody> bodies, Real step_share)
+    : bodies_(std::move(bodies)), step_share_(step_share) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     RigidBody& body = bodies_[k];
     body.x0 = body.x;
@@ -259,6 +260,32 @@ Real RigidBodies::kinetic_energy() const {
   return e;
 }
 
+// The largest eigenvalue of (mass of the body)^-1 (mass of its nodes), both of v and omega, by power
+// iteration.
+Real lightness(const RigidBody& b, const Nodes& nodes, const std::function<Real(Index node)>& mass) {
+  if (b.fixed()) return 1;
+  Vec v(0.31, 0.47, 0.83), omega = Vec(0.59, 0.67, 0.43) / std::sqrt(b.J0.trace() / b.m);
+  Real out = 0;
+  for (int it = 0; it < 60; ++it) {
+    Vec p = Vec::Zero(), L = Vec::Zero();
+    for (const Index n : b.nodes) {
+      const Vec r = nodes.x.vec(n) - b.x, of_node = mass(n) * (v + omega.cross(r));
+      p += of_node, L += r.cross(of_node);
+    }
+    Vec next = p / b.m;
+    for (int k = 0; k < 3; ++k)
+      if (b.held[static_cast<std::size_t>(k)]) next[k] = 0;
+    const Vec turn = b.turning_by(L, b.q);
+    const Real before = b.m * v.squaredNorm() + omega.dot(b.J0 * omega),
+               after = b.m * next.squaredNorm() + turn.dot(b.J0 * turn);
+    if (!(after > 0)) return 1;
+    out = std::sqrt(after / before);
+    const Real unit = std::sqrt(b.m / after);
+    v = unit * next, omega = unit * turn;
+  }
+  return out;
+}
+
 WallBodies RigidBodies::wall_bodies(const World& world) {
   WallBodies out;
   out.of_node.assign(static_cast<std::size_t>(world.nodes.size()), -1);
@@ -293,6 +320,10 @@ WallBodies RigidBodies::wall_bodies(const World& world) {
     const Vec moment = (q - bodies_[k].x).cross(force);
     push(k, force, moment);
     if (ties_ && ties_->tied(k)) ties_->answer(k, force, moment);
+  };
+  out.lighter = [this, &world](Index body) {
+    return lightness(bodies_[static_cast<std::size_t>(body)], world.nodes,
+                     [&](Index n) { return world.nodes.m[n]; });
   };
   return out;
 }

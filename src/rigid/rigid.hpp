@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -34,6 +35,7 @@ std::optional<RigidMaterial> rigid_material(const Deck& deck, const Model& model
 /// One rigid part.
 struct RigidBody {
   Id part = 0;
+  std::string name;                       ///< for messages: "rigid part 3"
   Index part_index = -1;                  ///< in Model::parts
   std::vector<Index> parts;               ///< that one first, and those merged into it
   std::vector<Index> nodes;               ///< indices into World::nodes
@@ -110,7 +112,9 @@ class BodyTies {
 /// every loop.
 class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Restartable {
  public:
-  explicit RigidBodies(std::vector<RigidBody> bodies);
+  /// `step_share`: what is left of the step of elements at their nodes. [-]
+  explicit RigidBodies(std::vector<RigidBody> bodies, Real step_share = 1);
+  Real step_share() const { return step_share_; }
 
   void set_loads(BodyAcceleration loads) { loads_ = std::move(loads); }
 
@@ -164,9 +168,14 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   std::array<Real, 4> potential(const RigidBody& body, const BodyAcceleration::At& now) const;
   std::vector<RigidBody> bodies_;
   std::vector<Piece> pieces_;
+  Real step_share_;
   BodyAcceleration loads_;
   BodyTies* ties_ = nullptr;
 };
+
+/// The largest that the kinetic energy of masses at the nodes of a body can be over its own, however it
+/// moves: above 1 where mass or inertia of the body are given, and smaller. `mass`: of a node. [-]
+Real lightness(const RigidBody& body, const Nodes& nodes, const std::function<Real(Index node)>& mass);
 
 /// Puts the bodies into the lists of `world`: their forces among the constraints, their motion and energy.
 void add_body_passes(World& world, std::shared_ptr<RigidBodies> bodies);

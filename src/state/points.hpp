@@ -40,15 +40,14 @@ inline bool has_rotations(const Nodes& n) {
 /// They obey the same equation: moments are their forces, rotary inertia their mass. Only where a scene has
 /// them.
 inline Points rotations_of(Nodes& n) {
-  using namespace shared_fields;
   return {&n.fields,
-          rotation.find(n.fields),
-          angular_velocity.find(n.fields),
-          moment.find(n.fields),
-          rotary_inertia.find(n.fields),
+          shared_fields::rotation.find(n.fields),
+          shared_fields::angular_velocity.find(n.fields),
+          shared_fields::moment.find(n.fields),
+          shared_fields::rotary_inertia.find(n.fields),
           &n.id,
           &n.part,
-          no_rotation.find(n.fields),
+          shared_fields::no_rotation.find(n.fields),
           true};
 }
 

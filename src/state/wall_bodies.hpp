@@ -18,6 +18,10 @@ struct WallBodies {
   /// Adds a force at q to what moves the body in the coming step, after forces were summed. [ML/T2]
   std::function<void(Index body, const Vec& q, const Vec& force)> push;
 
+  /// How much larger the kinetic energy of a body can be by the masses of its nodes than it is: above 1 where
+  /// its mass or inertia is given, and small. [-]
+  std::function<Real(Index body)> lighter;
+
   Index body(Index node) const { return of_node.empty() ? -1 : of_node[static_cast<std::size_t>(node)]; }
 };
 

@@ -23,6 +23,7 @@ TimeLimit::Limit choose_dt(World& world, const std::vector<TimeLimit*>& limits, 
     // NaN is the smallest of all: the run must stop there
     if (!std::isnan(smallest.dt) && !(one.dt >= smallest.dt)) smallest = std::move(one);
   }
+  smallest.dt *= rules.share;
   TimeLimit::Limit computed = smallest;
   if (clock.cycle == 0 && rules.dtinit > 0 && rules.dtinit < smallest.dt) smallest = {rules.dtinit, "DTINIT"};
   if (rules.dt_max) {

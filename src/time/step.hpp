@@ -21,6 +21,7 @@ struct StepRules {
   std::function<Real(Real t)> dt_max = nullptr;  ///< LCTM curve
   Real dtmin = 0;                                ///< stop below this times the first computed step
   Real tssfac = 1;                               ///< of most limits; a restart may change it
+  Real share = 1;                                ///< of what passes allow: the rest is left to constraints
   std::shared_ptr<Guard> guard = nullptr;        ///< looks at the state now and then
 };
 

@@ -298,3 +298,79 @@ TEST(NodalBodies, OfShellsHaveTheirRotaryInertia) {
   const Matrix J = Matrix(Vec(100 * 0.25, 0, 100 * 0.25).asDiagonal()) + own * Matrix::Identity();
   EXPECT_NEAR((b.J0 - J).norm(), 0, 1e-11);
 }
+
+namespace {
+
+/// Of all nodes of a slab, body 9; its mass is 8 times 1/8 of each of 8 cells: 48, and centre in the middle.
+SolidDeck slab_as_body(const std::string& cards) {
+  SolidDeck deck;
+  deck.block(slab, 2, 2, 2, 1);
+  deck.cards =
+      section_1 + soft_part(1) + "*CONSTRAINED_NODAL_RIGID_BODY\n         9         0         1\n" + cards;
+  deck.node_set(1, [](const Vec&) { return true; });
+  return deck;
+}
+const std::string slab_ramp = "*DEFINE_CURVE\n         3\n0.0,0.0\n10.0,10.0\n";
+
+}  // namespace
+
+// x = F t^3/(6 m) under a force F t, and an angle of M t^3/(6 J).
+TEST(NodalBodies, FollowForcesAndMoments) {
+  SolidDeck deck = slab_as_body(
+      "*LOAD_RIGID_BODY\n         9         2         3      12.0\n"
+      "         9         5         3       0.5\n" +
+      slab_ramp);
+  auto s = simulation_of(deck.text(1));
+  while (s->clock().t < 1 - 1e-12) s->step(do_nothing);
+  const RigidBody& b = s->bodies()->bodies().front();
+  const Real t = s->clock().t;
+  EXPECT_NEAR(b.x[1] - 0.2, 12 * std::pow(t, 3) / (6 * m_slab), 1e-3 * 12 / (6 * m_slab));
+  const Real J = b.J0(0, 0), angle = Eigen::AngleAxisd(b.q).angle();
+  EXPECT_NEAR(angle, 0.5 * std::pow(t, 3) / (6 * J), 1e-3 * 0.5 / (6 * J));
+  EXPECT_LT(test::energy_error_of_a_step(*s), 1e-3);
+}
+
+// Along y as the curve tells, exactly; free along z, where it keeps what it starts with.
+TEST(NodalBodies, FollowPrescribedMotionsAndStarts) {
+  SolidDeck deck = slab_as_body(
+      "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n         9         2         0         3       2.0\n"
+      "*INITIAL_VELOCITY_RIGID_BODY\n         9       0.0       0.0       3.0       0.0       0.0       "
+      "1.5\n" +
+      slab_ramp);
+  auto s = simulation_of(deck.text(1));
+  const RigidBody& b = s->bodies()->bodies().front();
+  EXPECT_NEAR((b.omega - Vec(0, 0, 1.5)).norm(), 0, 1e-14);
+  EXPECT_NEAR(s->world().nodes.v.vec(0)[0], 1.5 * 0.2, 1e-14);  // omega x r
+  test::start_ledger(*s);
+  while (s->clock().t < 1 - 1e-12) s->step(do_nothing);
+  const Real t = s->clock().t;
+  EXPECT_NEAR(b.x[1] - 0.2, t * t, 1e-12);
+  EXPECT_NEAR(b.x[2] - 0.3, 3 * t, 1e-12);
+  EXPECT_NEAR(b.omega[2], 1.5, 1e-9);
+  EXPECT_NEAR(b.drive_work, 0.5 * m_slab * 4, 0.02 * m_slab * 2);
+  EXPECT_LT(test::energy_error_of_a_step(*s), 1e-3);
+}
+
+// A face that is made a hundredth as heavy lets the elements swing faster.
+TEST(NodalBodies, ThatAreLighterThanTheirElementsShortenTheStep) {
+  for (const Real of_elements : {1.0, 0.1, 0.01}) {
+    SolidDeck deck;
+    deck.block(cube, 2, 2, 2, 1);
+    deck.block(cube, 2, 2, 2, 1, [](const Vec& x) { return Vec(x + Vec(0.3, 0, 0)); });
+    const Real m = 4 * of_elements, J = 0.1 * of_elements;
+    deck.cards = section_1 + soft_part(1) +
+                 fmt::format(
+                     "*CONSTRAINED_NODAL_RIGID_BODY_INERTIA\n         9         0         1\n"
+                     "      0.25       0.1       0.1{0:10.3g}\n"
+                     "{1:10.3g}       0.0       0.0{1:10.3g}       0.0{1:10.3g}\n\n",
+                     m, J);
+    deck.node_set(1, [](const Vec& x) { return x[0] > 0.199 && x[0] < 0.301; });
+    deck.cards += start_of(deck, [](const Vec& x) { return Vec(0.1 * x[1], 0, 0.2 * std::sin(8 * x[0])); });
+    auto s = simulation_of(deck.text(10));
+    test::start_ledger(*s);
+    const Real before = s->world().energy.kinetic;
+    for (int k = 0; k < 1000; ++k) s->step(do_nothing);
+    sample_energy(s->world(), s->clock());
+    EXPECT_LT(s->world().energy.kinetic + s->world().energy.internal, 1.02 * before) << of_elements;
+  }
+}

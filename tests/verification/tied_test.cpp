@@ -279,6 +279,147 @@ TEST(TiedContact, SpringsHoldRigidBodies) {
   }
 }
 
+namespace {
+
+/// Ties the nodes at x = 1 + gap of a bar (set 1) to part 1, however large the gap.
+std::string tie_over_gap(SolidDeck& deck, Real gap) {
+  deck.node_set(1, [&](const Vec& x) { return std::abs(x[0] - 1 - gap) < 1e-9; });
+  return fmt::format(
+      "*CONTACT_TIED_NODES_TO_SURFACE_CONSTRAINED_OFFSET\n         1         1         4         3\n\n"
+      "                    {:10.3g}\n",
+      -2 * gap);
+}
+
+/// All but viscosity, which takes, of the scene after many steps, over that of the start.
+Real energy_left(Simulation& s, int steps) {
+  test::start_ledger(s);
+  const Real before = s.world().energy.kinetic;
+  for (int k = 0; k < steps; ++k) s.step(do_nothing);
+  sample_energy(s.world(), s.clock());
+  const EnergyLedger& e = s.world().energy;
+  return (e.kinetic + e.internal + e.contact) / before;
+}
+
+Vec wave(const Vec& x) {
+  return {0.3 * std::sin(5 * x[1] + x[2]), 0.1 * x[0] * x[2], 0.2 * std::cos(3 * x[1] + 7 * x[0])};
+}
+
+}  // namespace
+
+// As far off as faces are wide, nodes have an inertia about the face that masses of its corners do not have.
+TEST(TiedContact, HoldsNodesFarBesideTheirFaces) {
+  for (const Real gap : {0.25, 0.5, 1.0}) {
+    SolidDeck deck = bar(4, 5, 0.3, gap);
+    deck.cards += velocities(deck.nodes, wave);
+    const auto free = simulation_of(deck.text(10));
+    deck.cards += tie_over_gap(deck, gap);
+    auto s = simulation_of(deck.text(10));
+    const auto momentum = [&](const World& world) {
+      Vec p = Vec::Zero();
+      for (Index n = 0; n < world.nodes.size(); ++n) p += free->world().nodes.m[n] * world.nodes.v.vec(n);
+      return p;
+    };
+    const Vec p = momentum(free->world());
+    EXPECT_NEAR((momentum(s->world()) - p).norm(), 0, 1e-10 * p.norm()) << gap;
+    EXPECT_LT(energy_left(*s, 600), 1.02) << gap;
+  }
+}
+
+// Nodes go with the face from the start, and what the face's support takes is told as lost.
+TEST(TiedContact, StartsAtRestOnAHeldFace) {
+  SolidDeck deck = bar(2, 3, 0.3);
+  deck.cards += tie("SURFACE_TO_SURFACE");
+  deck.node_set(1, [&](const Vec& x) { return &x - deck.nodes.data() < 27; });
+  deck.cards += "*BOUNDARY_SPC_SET\n         1         0         1         1         1\n";
+  deck.cards += velocities(deck.nodes, [](const Vec&) { return Vec(1, 2, 3); });
+  auto s = simulation_of(deck.text(1));
+  const Nodes& nodes = s->world().nodes;
+  for (Index n = 0; n < nodes.size(); ++n)
+    if (n < 27 || nodes.follow[n]) EXPECT_EQ(nodes.v.vec(n), Vec(0, 0, 0)) << n;
+}
+
+// Of the parts that are named, whatever nodes of theirs are tied; with the moment about the face where there
+// is a gap, and nothing for mass that scaling adds.
+TEST(TiedContact, CarriesTheWeightOfPartsWhereTheyAre) {
+  for (const int part : {1, 2})
+    for (const bool scaled : {false, true}) {
+      SolidDeck deck = bar(2, 3, 0.3, 0.02);
+      deck.cards += tie("SURFACE_TO_SURFACE") +
+                    fmt::format("*LOAD_GRAVITY_PART\n{:10}         2         1      10.0\n", part) +
+                    "*DEFINE_CURVE\n         1\n0.0,1.0\n10.0,1.0\n";
+      if (scaled)
+        deck.cards +=
+            "*CONTROL_TIMESTEP\n       0.0       0.9         0       0.0  -8.0e-04         0         0       "
+            "  1\n";
+      auto s = simulation_of(deck.text(10));
+      while (s->clock().t < 0.05) s->step(do_nothing);
+      const auto [p, L] = tied_momenta(*s);
+      const Real t = s->clock().t - 0.5 * s->clock().dt_old;
+      EXPECT_NEAR((p - Vec(0, -10 * 1000 * t, 0)).norm(), 0, 1e-9 * p.norm()) << part << scaled;
+      EXPECT_NEAR(L[2], -10 * 1000 * t * (part == 1 ? 0.5 : 1.52), 2e-3 * L.norm()) << part << scaled;
+      if (scaled) EXPECT_GT(s->world().maxima["added_mass"], 100);
+      sample_energy(s->world(), s->clock());
+    }
+}
+
+// Rotations that a support holds stay held where those of the face are free.
+TEST(TiedContact, LeavesHeldRotationsHeld) {
+  ShellDeck deck;
+  deck.plate(1, 1, 4, 4, 1);
+  deck.plate(1, 1, 5, 5, 2, [](const Vec& x) { return Vec(x + Vec(1, 0, 0)); });
+  for (const int part : {1, 2})
+    deck.part(part, 0.05, fmt::format("*MAT_ELASTIC\n{:10}    1000.0   1.0E+07       0.3\n", part));
+  deck.hold(1, "XYZ", [&](const Vec& x) { return &x - deck.nodes.data() >= 25 && x[0] < 1 + 1e-9; });
+  deck.cards += tie("SHELL_EDGE_TO_SURFACE");
+  deck.velocity([](const Vec& x) { return Vec(0, 0, 0.3 * std::sin(3 * x[0])); });
+  auto s = simulation_of(deck.text(1));
+  while (s->clock().t < 0.1) s->step(do_nothing);
+  const World& world = s->world();
+  const auto& angle = *shared_fields::rotation.find(world.nodes.fields);
+  int tied = 0;
+  for (Index n = 25; n < world.nodes.size(); ++n) {
+    if (!world.nodes.follow[n]) continue;
+    ++tied;
+    EXPECT_EQ(angle.vec(n).norm(), 0) << n;
+  }
+  EXPECT_EQ(tied, 6);
+  EXPECT_GT(angle.vec(24).norm(), 1e-3);  // the faces turn
+}
+
+// Four contacts that hold the same nodes act at once.
+TEST(TiedContact, SpringsOfSeveralContactsShareOneStep) {
+  for (const int scale : {3, 30}) {
+    SolidDeck deck = bar(4, 4, 0.3);
+    for (int k = 0; k < 4; ++k)
+      deck.cards += fmt::format(
+          "*CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET\n         2         1         3         3\n\n"
+          "{0:10}{0:10}\n",
+          scale);
+    deck.cards += velocities(deck.nodes, wave);
+    EXPECT_LT(energy_left(*simulation_of(deck.text(10)), 400), 1.02) << scale;
+  }
+}
+
+// The springs' step is that of the body, not of the masses that its elements would have.
+TEST(TiedContact, SpringsHoldBodiesThatAreLighterThanTheirElements) {
+  for (const Real of_elements : {0.1, 1e-3}) {
+    SolidDeck deck;
+    deck.block(Vec(1, 1, 1), 4, 4, 4, 1);
+    deck.block(Vec(1, 1, 0.5), 4, 4, 1, 2, [](const Vec& x) { return Vec(x + Vec(0, 0, 1)); });
+    deck.cards =
+        "*SECTION_SOLID\n         1         1\n*PART\nsoft\n         1         1         1\n*MAT_ELASTIC\n"
+        "         1    1000.0     1.0E7       0.3\n*MAT_RIGID\n         2    1000.0     1.0E9       0.3\n" +
+        fmt::format(
+            "*PART_INERTIA\nlight\n         2         1         2\n       0.5       0.5      1.25{0:10.3g}\n"
+            "{1:10.3g}       0.0       0.0{1:10.3g}       0.0{1:10.3g}\n\n",
+            500 * of_elements, 50 * of_elements) +
+        tie("SURFACE_TO_SURFACE_OFFSET");
+    deck.cards +=
+        velocities(deck.nodes, [](const Vec& x) { return Vec(0, 0.2 * x[0], x[2] < 1 - 1e-9 ? -1 : 0); });
+    EXPECT_LT(energy_left(*simulation_of(deck.text(10)), 2000), 1.02) << of_elements;
+  }
+}
+
 TEST(TiedContact, HasTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
   for (const char* option : {"SURFACE_TO_SURFACE", "SURFACE_TO_SURFACE_OFFSET"}) {
     SolidDeck deck = bar(5, 7, 0.3, 0.01);
@@ -294,7 +435,7 @@ namespace {
 /// A cube on another one, held below and drawn at the top along an axis, until all ties are broken; the
 /// largest stress (of the ties' force over the interface) so far, and that of the end.
 struct Torn {
-  Real most = 0, after = 0, energy_error = 0;
+  Real most = 0, after = 0, energy_error = 0, lost = 0;
   std::int64_t broken = 0;
   Real contact = 0;
 };
@@ -327,6 +468,8 @@ Torn tear(const std::string& contact, int axis, Real speed) {
     s->step(do_nothing);
     out.most = std::max(out.most, pull());
   }
+  for (const auto* reporter : s->world().passes.all<InterfaceReporter>())
+    out.lost = std::max(out.lost, reporter->report().energy_damping);
   out.after = pull(), out.broken = s->world().counters["broken_ties"];
   out.energy_error = test::energy_error_of_a_step(*s);
   return out;
@@ -364,6 +507,47 @@ TEST(TiebreakContact, BreaksAtTheGivenForce) {
   EXPECT_GE(torn.broken, 9);
   EXPECT_NEAR(torn.most, 1e4, 400);
   EXPECT_LE(torn.after, 4 * 625);
+}
+
+// Behind the strength the stress falls to nothing at the opening PARAM: sigma PARAM/2 per area are lost.
+TEST(TiebreakContact, SoftensUpToTheGivenOpening) {
+  for (const int option : {6, 8}) {
+    const Torn torn = tear(tiebreak("AUTOMATIC_SURFACE_TO_SURFACE_TIEBREAK",
+                                    fmt::format("{:10}   10000.0    4000.0    0.0010\n", option)),
+                           3, 0.02);
+    EXPECT_NEAR(torn.most, 1e4, 300);
+    EXPECT_EQ(torn.broken, 25);
+    EXPECT_NEAR(torn.lost, 0.5 * 1e4 * 1e-3, 0.02 * 5);
+    EXPECT_LT(torn.energy_error, 4e-3);
+    RecordProperty("lost", fmt::format("{:.4f}", torn.lost));
+  }
+  const Torn half =
+      tear(tiebreak("AUTOMATIC_SURFACE_TO_SURFACE_TIEBREAK", "         6   10000.0    4000.0    0.0100\n"), 3,
+           0.02);
+  EXPECT_EQ(half.broken, 0);
+  EXPECT_GT(half.after, 1e3);
+}
+
+// FS and FD are stresses there, and nothing is left between the sides.
+TEST(TiebreakContact, TiedSurfacesFailAtTheirStresses) {
+  const std::string name =
+      "*CONTACT_TIED_SURFACE_TO_SURFACE_FAILURE_ID\n         7glue\n         2         1         3         "
+      "3\n";
+  const std::string scales = "      10.0      10.0\n";
+  const Torn pulled = tear(name + "   10000.0    4000.0\n" + scales, 3, 4e-4);
+  EXPECT_NEAR(pulled.most, 1e4, 300);
+  EXPECT_EQ(pulled.broken, 25);
+  EXPECT_EQ(pulled.after, 0);
+  const Torn sheared = tear(name + "   10000.0    4000.0\n" + scales, 1, 4e-4);
+  EXPECT_EQ(sheared.broken, 25);
+  EXPECT_EQ(tear(name + "   20000.0   20000.0\n" + scales, 3, 4e-4).broken, 0);
+}
+
+TEST(TiebreakContact, SofteningHasTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
+  const std::string deck = torn_deck(
+      tiebreak("AUTOMATIC_SURFACE_TO_SURFACE_TIEBREAK", "         6   10000.0     100.0    0.0010\n"), 1,
+      1.0);
+  test::expect_same_bits(deck, 120, 80);
 }
 
 // In shear; ties are broken before the restart.

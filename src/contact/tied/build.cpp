@@ -9,9 +9,11 @@
 
 #include "contact/nodes/build.hpp"
 #include "contact/tied/constraint.hpp"
+#include "contact/tied/sides.hpp"
 #include "contact/tied/springs.hpp"
 #include "contact/tied/tied_card.hpp"
 #include "state/shared_fields.hpp"
+#include "state/step_share.hpp"
 
 namespace courant {
 
@@ -26,9 +28,11 @@ class TiedBuilder {
         options_(options),
         world_(world),
         diagnostics_(diagnostics),
-        finder_(deck, model, options.bulk_modulus, world, diagnostics) {
+        finder_(deck, model, options.bulk_modulus, world, diagnostics),
+        sides_(world) {
     if (const ControlContact* control = deck.last<ControlContact>()) slsfac_ = control->slsfac;
     for (const ModelNode& node : model.nodes) node_of_id_[node.id] = &node;
+    for (Index n = 0; n < world.nodes.size(); ++n) of_world_.insert(world.nodes.id[n]);
     Id number = 0;
     for (const ContactCard& c : deck.all<ContactCard>()) ++number, taken_.insert(c.cid > 0 ? c.cid : number);
     for (const TiedCard& c : deck.all<TiedCard>()) ++number, taken_.insert(c.cid > 0 ? c.cid : number);
@@ -40,6 +44,7 @@ class TiedBuilder {
     if (!find(c, ties, kind.welds && (c.surfatyp == 2 || c.surfatyp == 3))) return;
     if (kind.welds) drop_of_bodies(c, ties);
     if (kind.form == TieForm::exact) {
+      drop_tied(c, ties);
       if (!may_be_exact(c, ties)) return;
       drop_held(c, ties);
     }
@@ -47,40 +52,48 @@ class TiedBuilder {
     world_.counters["tied_nodes"] += static_cast<std::int64_t>(ties.size());
     const Id id = c.cid > 0 ? c.cid : number;
     if (kind.form == TieForm::exact) return add_exact(c, id, kind.turns, ties);
-    for (Tie& tie : ties) tie.k *= slsfac_;
-    add_springs({.id = id, .title = c.title, .strength = {}, .tssfac = options_.tssfac}, std::move(ties),
-                world_);
+    TieStrength strength;
+    if (kind.fails) strength.normal = c.fs, strength.shear = c.fd;
+    hold_by_springs({.id = id, .title = c.title, .strength = strength}, std::move(ties));
   }
 
   /// Contacts that hold until they break; what they do then is another pass.
   void add_tiebreak(const ContactCard& c, Id number) {
     const Tiebreak kind = kind_of(c).tiebreak;
-    if (kind == Tiebreak::by_option && c.option != 2)
+    const bool softens = kind == Tiebreak::by_option && (c.option == 6 || c.option == 8);
+    if (kind == Tiebreak::by_option && c.option != 2 && !softens)
       return error(c, "OPTION", fmt::format("{} is not supported", c.option),
-                   "2 holds nodes that touch at the start until the stress is reached");
+                   "2 holds nodes that touch at the start until the stress is reached, 6 and 8 until the "
+                   "opening PARAM behind that");
+    if (softens ? !(c.param > 0) : c.param != 0)
+      return error(c, "PARAM",
+                   fmt::format("expected {}, got '{:g}'", softens ? "an opening > 0" : "0", c.param),
+                   "with OPTION 6 and 8 the opening at which nothing holds any more, else none");
     if (world_.particles.size() > 0 && kind_of(c).nodes)
       return error(c, "SURFA", "particles cannot be held at faces", "use the contact without _TIEBREAK");
     std::vector<Tie> ties;
     if (!find(c, ties) || ties.empty()) return;
-    for (Tie& tie : ties) tie.k *= slsfac_;
+    if (softens) warn_of_soft(c, ties);
     world_.counters["tied_nodes"] += static_cast<std::int64_t>(ties.size());
     Id id = number;  // contact itself has its own
     while (taken_.contains(id)) ++id;
     taken_.insert(id);
-    add_springs(
+    hold_by_springs(
         {.id = id,
          .title = (c.title.empty() ? fmt::format("contact {}", c.cid > 0 ? c.cid : number) : c.title) +
                   " until it breaks",
-         .strength = {c.nfls, c.sfls, c.nen, c.mes, kind != Tiebreak::force},
-         .tssfac = options_.tssfac},
-        std::move(ties), world_);
+         .strength = {c.nfls, c.sfls, c.nen, c.mes, kind != Tiebreak::force, softens ? c.param : 0}},
+        std::move(ties));
   }
 
-  /// Those that tie exactly, all at once.
-  void finish() {
-    if (!first_card_) return;
+  /// Those that tie exactly, all at once. What they leave of the step of elements. [-]
+  Real finish() {
+    add_spring_limit(springs_, options_.tssfac, options_.bodies, world_);
+    if (!first_card_) return 1;
+    const HeldAxes held = [this](Index n, bool turns) { return held_axes(n, turns); };
+    const Real share = share_of_step(growth_of_frequencies(*exact_, held, world_));
     const std::vector<Given> before = of_bodies();
-    const TiedStart start = start_constraint(*exact_, world_);
+    const TiedStart start = start_constraint(*exact_, held, world_);
     give_bodies(before);
     constexpr Real rounding = 1e-6;
     if (start.before - start.after > rounding * start.before)
@@ -92,6 +105,7 @@ class TiedBuilder {
               deck_.keyword(*first_card_), start.before - start.after, start.before),
           "give what is tied the same velocities");
     add_constraint(exact_, world_);
+    return share;
   }
 
  private:
@@ -127,6 +141,33 @@ class TiedBuilder {
           "add it to what the cards of the bodies give");
   }
 
+  void hold_by_springs(TiedSpringsLaw law, std::vector<Tie> ties) {
+    for (Tie& tie : ties) tie.k *= slsfac_;
+    springs_.insert(springs_.end(), ties.begin(), ties.end());
+    add_springs(std::move(law), std::move(ties), world_);
+  }
+
+  std::array<bool, 3> held_axes(Index n, bool turns) const {
+    const ModelNode& node = *node_of_id_.at(world_.nodes.id[n]);
+    if (!turns) return node.fixed;
+    const auto held = model_.held_rotations.find(static_cast<Index>(&node - model_.nodes.data()));
+    return held == model_.held_rotations.end() ? std::array<bool, 3>{} : held->second;
+  }
+
+  /// `growth`: of the largest frequency.
+  Real share_of_step(Real growth) {
+    const Real share = step_share(options_.tssfac, growth);
+    if (share == 1) return 1;
+    diagnostics_.warning(
+        deck_.where(*first_card_),
+        fmt::format(
+            "{}: nodes stand so far beside small or light faces, which turn them about, that the step "
+            "is {:.3g} of that of the elements",
+            deck_.keyword(*first_card_), share),
+        "leave out nodes that are far from their faces, or make these larger or thicker");
+    return share;
+  }
+
   void error(const ContactCard& c, const char* field, std::string message, std::string hint) {
     if (field[0] != 0) return deck_.error(diagnostics_, c, field, std::move(message), std::move(hint));
     diagnostics_.error(deck_.where(c), deck_.keyword(c) + ": " + message, std::move(hint));  // of the whole
@@ -145,68 +186,37 @@ class TiedBuilder {
     const std::vector<Index> faces_b = finder_.faces(c, ContactSide::b, false);
     const std::vector<Index> nodes_a = of_elements ? finder_.nodes_of_elements(c, ContactSide::a)
                                                    : finder_.nodes(c, ContactSide::a, faces_a);
+    check_set(c);
     if (diagnostics_.errors() > errors) return false;
     const bool of_nodes = of_elements || c.surfatyp == 4;
-    ties = find_ties(nodes_of(c, nodes_a, of_nodes ? finder_.faces_around(nodes_a) : faces_a),
-                     faces_of(c, faces_b), tolerance_of(c), world_.nodes.x);
+    std::vector<Index> of_both;
+    ties = find_ties(sides_.nodes(c, nodes_a, of_nodes ? finder_.faces_around(nodes_a) : faces_a),
+                     sides_.faces(c, faces_b), TieSides::tolerance(c), world_.nodes.x, &of_both);
     warn_of_free(c, nodes_a, faces_b, ties);
+    warn_of_both(c, of_both);
     warn_of_coarse(c, ties);
     return true;
   }
-  static Real tolerance_of(const ContactCard& c) {
-    return c.sast < 0 || c.sbst < 0 ? 0.6 * (std::abs(c.sast) + std::abs(c.sbst)) : 0;
-  }
-  Real thickness(Index s, Real given, Real scale) const {
-    const Segments& g = world_.segments;
-    if (g.volume[s] > 0) return 0;
-    return given > 0 ? given : g.thickness[s] * scale;
-  }
-  /// Per area: K A/V of a solid, K/(longest diagonal) of a shell. [M/L2T2]
-  Real stiffness(Index s, Real area) const {
-    const Segments& g = world_.segments;
-    if (g.volume[s] > 0) return g.K[s] * area / g.volume[s];
-    const auto a = g.nodes(s);
-    return g.K[s] / longest_diagonal(corners_at(s), a[2] == a[3] ? 3 : 4);
-  }
-  FaceCorners corners_at(Index s) const {
-    const auto a = world_.segments.nodes(s);
-    const Field<Real>& x = world_.nodes.x;
-    return {x.vec(a[0]), x.vec(a[1]), x.vec(a[2]), x.vec(a[3])};
-  }
-
-  std::vector<TieFace> faces_of(const ContactCard& c, const std::vector<Index>& segments) const {
-    std::vector<TieFace> out;
-    for (const Index s : segments) {
-      TieFace& f = out.emplace_back();
-      f.node = world_.segments.nodes(s), f.segment = s;
-      f.corners = f.node[2] == f.node[3] ? 3 : 4;
-      f.area = area_of(corners_at(s));
-      f.r = 0.5 * thickness(s, c.sbst, c.sfsbt);
-      f.k = c.sfsb * stiffness(s, f.area);
+  /// What a node set names that is no node of elements.
+  void check_set(const ContactCard& c) {
+    const auto set = model_.node_sets.find(c.surfa);
+    if (c.surfatyp != 4 || set == model_.node_sets.end()) return;
+    if (particles_.empty())
+      for (const ModelSph& s : model_.sph) particles_.insert(s.node);
+    std::size_t count = 0;
+    Id first = 0;
+    for (const Index n : set->second) {
+      const Id id = model_.nodes[static_cast<std::size_t>(n)].id;
+      if (particles_.contains(n))
+        return error(c, "SURFA", fmt::format("node {} is a particle, which cannot be tied", id),
+                     "name nodes of elements alone");
+      if (!of_world_.contains(id) && count++ == 0) first = id;
     }
-    return out;
-  }
-  /// `around`: faces that the nodes may belong to.
-  std::vector<TieNode> nodes_of(const ContactCard& c, const std::vector<Index>& nodes,
-                                const std::vector<Index>& around) const {
-    std::vector<TieNode> of_world(static_cast<std::size_t>(world_.nodes.size())), out;
-    for (const Index s : around) {
-      const auto a = world_.segments.nodes(s);
-      const FaceCorners x = corners_at(s);
-      const Real area = area_of(x);
-      const int corners = a[2] == a[3] ? 3 : 4;
-      const Vec normal = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]);
-      for (std::size_t e = 0; e < static_cast<std::size_t>(corners); ++e) {
-        TieNode& n = of_world[static_cast<std::size_t>(a[e])];
-        n.own.push_back({normal, corners, c.sfsa * stiffness(s, area)});
-        n.thickness = std::max(n.thickness, thickness(s, c.sast, c.sfsat));
-      }
-    }
-    for (const Index n : nodes) {
-      out.push_back(of_world[static_cast<std::size_t>(n)]);
-      out.back().node = n;
-    }
-    return out;
+    if (count > 0)
+      deck_.warning(diagnostics_, c, "SURFA",
+                    fmt::format("{} nodes, the first is {}, belong to no element: they stay where they are",
+                                count, first),
+                    "leave them out");
   }
 
   /// Refuses what cannot be tied exactly.
@@ -230,9 +240,6 @@ class TiedBuilder {
               fmt::format("the elements of part {} may fail, and nothing can be tied exactly to such",
                           model_.parts[static_cast<std::size_t>(part)].id),
               springs);
-      else if (tied_.contains(tie.node))
-        error(c, "SURFA", fmt::format("node {} is tied by an earlier contact already", id),
-              "let one contact tie it");
       else if (corners_.contains(tie.node))
         error(c, "SURFA", fmt::format("node {} is a corner of a face to which others are tied", id),
               "exchange SURFA and SURFB of one of the contacts, or use it with _OFFSET");
@@ -269,6 +276,24 @@ class TiedBuilder {
       const Index part = world_.nodes.part[tie.node];
       return part >= 0 && model_.parts[static_cast<std::size_t>(part)].has_beam;
     });
+  }
+
+  /// A node goes with one face.
+  void drop_tied(const ContactCard& c, std::vector<Tie>& ties) {
+    std::size_t count = 0;
+    Id first = 0;
+    std::erase_if(ties, [&](const Tie& tie) {
+      if (!tied_.contains(tie.node)) return false;
+      if (count++ == 0) first = world_.nodes.id[tie.node];
+      return true;
+    });
+    if (count > 0)
+      deck_.warning(
+          diagnostics_, c, "SURFA",
+          fmt::format("{} nodes, the first is {}, are tied by an earlier contact already: they stay with "
+                      "its faces",
+                      count, first),
+          "leave them out of one of the two, or use it with _OFFSET");
   }
 
   /// Nodes that SPC hold go with a face only if that is held alike.
@@ -317,10 +342,33 @@ class TiedBuilder {
         "leave them out, or give the largest distance by negative SAST and SBST: 0.6 (|SAST| + |SBST|)");
   }
 
+  /// Springs that open further than PARAM before the stress is there have nothing to soften.
+  void warn_of_soft(const ContactCard& c, const std::vector<Tie>& ties) {
+    Real widest = 0;
+    for (const Tie& tie : ties)
+      widest = std::max(widest, std::min(c.nfls, c.sfls) * tie.area / (slsfac_ * tie.k));
+    if (widest < c.param) return;
+    deck_.warning(
+        diagnostics_, c, "PARAM",
+        fmt::format("the springs are {:.3g} long where the stress is reached, so that they break at once",
+                    widest),
+        "raise SFSA and SFSB, or PARAM");
+  }
+
+  void warn_of_both(const ContactCard& c, const std::vector<Index>& nodes) {
+    if (nodes.empty()) return;
+    deck_.warning(
+        diagnostics_, c, "SURFA",
+        fmt::format("{} nodes, the first is {}, are next to faces of SURFB and are corners of others of "
+                    "its faces: they are not tied",
+                    nodes.size(), world_.nodes.id[nodes.front()]),
+        "let SURFB be one side of the joint alone, and SURFA the other");
+  }
+
   // Corners between nodes that are further apart than faces are wide would hang free.
   void warn_of_coarse(const ContactCard& c, const std::vector<Tie>& ties) {
     Real of_nodes = 0, of_faces = 0;
-    for (const Tie& tie : ties) of_nodes += tie.cell, of_faces += area_of(corners_at(tie.segment));
+    for (const Tie& tie : ties) of_nodes += tie.cell, of_faces += sides_.area(tie.segment);
     constexpr Real coarser = 1.5;
     if (of_nodes > coarser * of_faces)
       deck_.warning(
@@ -345,18 +393,40 @@ class TiedBuilder {
     if (!first_card_) first_card_ = &c;
   }
 
+  bool turns_less_than_face(const Tie& tie) const {
+    const std::array<bool, 3> held = held_axes(tie.node, true);
+    for (std::size_t e = 0; e < static_cast<std::size_t>(tie.at.corners); ++e) {
+      const std::array<bool, 3> corner = held_axes(tie.at.node[e], true);
+      for (std::size_t k = 0; k < 3; ++k)
+        if (held[k] && !corner[k]) return true;
+    }
+    return false;
+  }
+
   /// Rotations go with faces whose corners have some.
   void take_turns(const ContactCard& c, std::size_t first) {
     const Field<Index>* none = shared_fields::no_rotation.find(world_.nodes.fields);
-    std::size_t hinges = 0;
+    std::size_t hinges = 0, count = 0;
+    Id first_held = 0;
     for (std::size_t t = first; none && t < exact_->ties.size(); ++t) {
       const Tie& tie = exact_->ties[t];
       if ((*none)[tie.node] != 0) continue;
+      if (turns_less_than_face(tie)) {
+        if (count++ == 0) first_held = world_.nodes.id[tie.node];
+        continue;
+      }
       const bool turns = std::all_of(tie.at.node.begin(), tie.at.node.end(), [&](Index n) {
         return (*none)[n] == 0 || world_.nodes.follow[n] == 1;  // bodies turn their nodes
       });
       exact_->turns[t] = turns, hinges += !turns;
     }
+    if (count > 0)
+      deck_.warning(
+          diagnostics_, c, "SURFA",
+          fmt::format("rotations of {} nodes, the first is {}, are held by *BOUNDARY_SPC or RC, and those of "
+                      "their faces are not: they stay held, and no moment goes to the faces",
+                      count, first_held),
+          "hold the corners of the faces, too, or free the nodes");
     if (hinges > 0)
       deck_.warning(
           diagnostics_, c, "SURFB",
@@ -372,23 +442,27 @@ class TiedBuilder {
   World& world_;
   Diagnostics& diagnostics_;
   FaceFinder finder_;
+  TieSides sides_;
   Real slsfac_ = 0.1;
   std::map<Id, const ModelNode*> node_of_id_;
-  std::set<Id> taken_;  // ids of contacts
+  std::set<Id> taken_;         // ids of contacts
+  std::set<Id> of_world_;      // nodes that are there
+  std::set<Index> particles_;  // indices into Model::nodes
   std::shared_ptr<TiedConstraint> exact_ = std::make_shared<TiedConstraint>();
   const ContactCard* first_card_ = nullptr;  // of an exact contact
   std::set<Index> tied_, corners_;           // of all exact contacts so far
+  std::vector<Tie> springs_;                 // of all others
 };
 
 }  // namespace
 
-void add_tied_contacts(const Deck& deck, const Model& model, const TiedOptions& options, World& world,
+Real add_tied_contacts(const Deck& deck, const Model& model, const TiedOptions& options, World& world,
                        Diagnostics& diagnostics) {
   const auto& cards = deck.all<TiedCard>();
   const auto& others = deck.all<ContactCard>();
   const bool any = std::any_of(others.begin(), others.end(),
                                [](const ContactCard& c) { return kind_of(c).tiebreak != Tiebreak::none; });
-  if (cards.empty() && !any) return;
+  if (cards.empty() && !any) return 1;
   TiedBuilder builder(deck, model, options, world, diagnostics);
   Id number = 0;
   for (const ContactCard& c : others) {
@@ -396,7 +470,7 @@ void add_tied_contacts(const Deck& deck, const Model& model, const TiedOptions& 
     if (kind_of(c).tiebreak != Tiebreak::none) builder.add_tiebreak(c, number);
   }
   for (const TiedCard& c : cards) builder.add(c, ++number);
-  if (diagnostics.ok()) builder.finish();
+  return diagnostics.ok() ? builder.finish() : 1;
 }
 
 }  // namespace courant

@@ -58,9 +58,31 @@ KeywordOf<TC> tied_keyword() {
 }
 const RegisterKeyword<TC> tied_contact{tied_keyword()};
 
+const char* const failing_name = "CONTACT_TIED_SURFACE_TO_SURFACE_FAILURE";
+/// The same card with other meanings of FS and FD.
+KeywordOf<TC> failing_keyword() {
+  KeywordOf<TC> out = tied_keyword();
+  out.names = {failing_name};
+  out.purpose =
+      "nodes of elements that springs hold at the faces next to which they are at the start, until "
+      "(max(sigma_n, 0)/FS)^2 + (tau/FD)^2 >= 1; then nothing is between them";
+  const FieldRules strength{.required = true, .check = Check::positive};
+  for (const auto& [name, meaning] :
+       {std::pair("FS", "normal stress that breaks it"), std::pair("FD", "shear stress that breaks it")})
+    for (CardOf<TC>& card : out.cards)
+      for (FieldOf<TC>& field : card.fields)
+        if (field.name == name) field.dimension = "M/LT2", field.meaning = meaning, field.rules = strength;
+  return out;
+}
+const RegisterKeyword<TC> tied_failing{failing_keyword()};
+
 }  // namespace
 
 TiedKind kind_of(const TiedCard& card) {
+  const bool fails =
+      card.keyword >= 0 &&
+      keyword_registry()[static_cast<std::size_t>(card.keyword)]->names.front() == failing_name;
+  if (fails) return {.form = TieForm::spring, .fails = true};
   return tied_kinds[card.name];
 }
 

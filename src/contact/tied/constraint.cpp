@@ -2,36 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
+#include "contact/tied/turning.hpp"
 #include "parallel/parallel.hpp"
-#include "state/shared_fields.hpp"
 
 namespace courant {
 
 namespace {
-
-/// Rotations of nodes, where the scene has them and ties ask for them.
-struct TurningFields {
-  Field<Real>*angle = nullptr, *speed = nullptr, *moment = nullptr, *inertia = nullptr;
-  Field<Index>* none = nullptr;
-  TurningFields(const TiedConstraint& tied, const World& world) {
-    if (std::find(tied.turns.begin(), tied.turns.end(), 1) == tied.turns.end()) return;
-    const FieldSet& nodes = world.nodes.fields;
-    angle = shared_fields::rotation.find(nodes), speed = shared_fields::angular_velocity.find(nodes);
-    moment = shared_fields::moment.find(nodes), inertia = shared_fields::rotary_inertia.find(nodes);
-    none = shared_fields::no_rotation.find(nodes);
-  }
-  explicit operator bool() const { return angle != nullptr; }
-};
-
-Vec mean_of(const FacePoint& at, const Field<Real>& value) {
-  Vec out = Vec::Zero();
-  for (std::size_t e = 0; e < static_cast<std::size_t>(at.corners); ++e)
-    out += at.N[e] * value.vec(at.node[e]);
-  return out;
-}
 
 /// Hands the forces of tied nodes to the corners of their faces.
 class TiedForces : public Constraint {
@@ -140,90 +116,7 @@ class TiedMotion : public Motion {
   TurningFields turning_;
 };
 
-/// Velocities, or angular velocities, with which ties of some weight start.
-struct StartField {
-  Field<Real>& v;
-  Field<Real>& weight;  ///< mass, or rotary inertia
-  std::vector<std::size_t> ties;
-};
-
-Vec velocity_at(const StartField& start, const Tie& tie, const World& world) {
-  return &start.v == &world.nodes.v ? velocity_of(tie.at, world.nodes.x, start.v) : mean_of(tie.at, start.v);
-}
-std::array<Vec, 4> given_to(const StartField& start, const Tie& tie, const World& world, const Vec& value) {
-  if (&start.v == &world.nodes.v) return on_corners(tie.at, world.nodes.x, value);
-  std::array<Vec, 4> out{};
-  for (std::size_t e = 0; e < 4; ++e) out[e] = tie.at.N[e] * value;
-  return out;
-}
-
-/// The velocities of corners that are nearest to those that all have: sum m |change|^2 is least, as in a
-/// plastic impact, and momenta are kept. Then the corners get the weight of the nodes.
-TiedStart join_start(const TiedConstraint& tied, const StartField& start, World& world) {
-  std::map<Index, Vec> before;  // of corners
-  std::map<Index, Real> added;
-  TiedStart out;
-  const auto energy = [&](Real m, const Vec& v) { return 0.5 * m * v.squaredNorm(); };
-  for (const std::size_t t : start.ties) {
-    const Tie& tie = tied.ties[t];
-    const std::array<Real, 4> share = mass_shares(tie.at);
-    for (std::size_t e = 0; e < static_cast<std::size_t>(tie.at.corners); ++e) {
-      before[tie.at.node[e]] = start.v.vec(tie.at.node[e]);
-      added[tie.at.node[e]] += share[e] * start.weight[tie.node];
-    }
-    out.before += energy(start.weight[tie.node], start.v.vec(tie.node));
-  }
-  for (const auto& [n, v] : before) out.before += energy(start.weight[n], v);
-  constexpr int most = 200;
-  constexpr Real enough = 1e-15;
-  for (int it = 0; it < most; ++it) {
-    std::map<Index, Vec> impulse;
-    for (const auto& [n, v] : before) impulse[n] = start.weight[n] * (v - start.v.vec(n));
-    for (const std::size_t t : start.ties) {
-      const Tie& tie = tied.ties[t];
-      const Vec lacks = start.v.vec(tie.node) - velocity_at(start, tie, world);
-      const std::array<Vec, 4> on = given_to(start, tie, world, start.weight[tie.node] * lacks);
-      for (std::size_t e = 0; e < static_cast<std::size_t>(tie.at.corners); ++e)
-        impulse[tie.at.node[e]] += on[e];
-    }
-    Real change = 0, size = 0;
-    for (const auto& [n, p] : impulse) {
-      const Real m = start.weight[n] + added[n];
-      if (!(m > 0)) continue;
-      start.v.add(n, p / m);
-      change = std::max(change, (p / m).squaredNorm()), size = std::max(size, start.v.vec(n).squaredNorm());
-    }
-    if (change <= enough * enough * size) break;
-  }
-  for (const std::size_t t : start.ties) {
-    const Tie& tie = tied.ties[t];
-    start.v.set(tie.node, velocity_at(start, tie, world));
-    out.after += energy(start.weight[tie.node], start.v.vec(tie.node));
-  }
-  for (const auto& [n, more] : added) {
-    out.after += energy(start.weight[n], start.v.vec(n));
-    start.weight[n] += more;
-  }
-  return out;
-}
-
 }  // namespace
-
-TiedStart start_constraint(const TiedConstraint& tied, World& world) {
-  Nodes& nodes = world.nodes;
-  const TurningFields turning(tied, world);
-  StartField moving{nodes.v, nodes.m, {}};
-  std::vector<std::size_t> that_turn;
-  for (std::size_t t = 0; t < tied.ties.size(); ++t) {
-    nodes.follow[tied.ties[t].node] = 2;  // not 1: no rigid body moves it
-    moving.ties.push_back(t);
-    if (turning && tied.turns[t]) (*turning.none)[tied.ties[t].node] = 1, that_turn.push_back(t);
-  }
-  TiedStart out = join_start(tied, moving, world);
-  if (that_turn.empty()) return out;
-  const TiedStart of_turns = join_start(tied, {*turning.speed, *turning.inertia, that_turn}, world);
-  return {out.before + of_turns.before, out.after + of_turns.after};
-}
 
 void add_constraint(std::shared_ptr<const TiedConstraint> tied, World& world) {
   world.passes.add(std::make_shared<TiedForces>(tied, world));

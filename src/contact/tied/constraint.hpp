@@ -1,5 +1,7 @@
 #pragma once
 // Nodes that go with faces exactly.
+#include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,9 +31,18 @@ struct TiedStart {
   Real before = 0, after = 0;  ///< kinetic energy of the nodes and corners that can move [ML2/T2]
 };
 
+/// Axes along which, or about which where it turns, a support holds a node (index into World::nodes).
+using HeldAxes = std::function<std::array<bool, 3>(Index node, bool turns)>;
+
+/// By how much at most a frequency of elements is larger once nodes are tied: a node beside a face moves more
+/// than its corners do where they turn it. Such a node has an inertia that masses of corners do not have; no
+/// more than that follows from sum_s m_s |B_s v|^2 <= (g^2 - 1) sum_i m_i v_i^2 + g^2 sum_is N_si m_s v_i^2.
+/// 1 without gaps. Call it before start_constraint. [-]
+Real growth_of_frequencies(const TiedConstraint& tied, const HeldAxes& held, const World& world);
+
 /// Gives masses to corners, lets tied nodes follow, and makes their velocities those of the faces, with the
-/// momentum of all kept.
-TiedStart start_constraint(const TiedConstraint& tied, World& world);
+/// momentum of all that no support takes kept.
+TiedStart start_constraint(const TiedConstraint& tied, const HeldAxes& held, World& world);
 /// Adds the passes. Call start_constraint first.
 void add_constraint(std::shared_ptr<const TiedConstraint> tied, World& world);
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "parallel/parallel.hpp"
 #include "state/shared_fields.hpp"
@@ -12,11 +13,7 @@ namespace courant {
 
 namespace {
 
-class TiedSprings : public Force,
-                    public TimeLimit,
-                    public EnergyTerm,
-                    public InterfaceReporter,
-                    public Restartable {
+class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, public Restartable {
  public:
   TiedSprings(TiedSpringsLaw law, std::vector<Tie> ties, World& world)
       : law_(std::move(law)),
@@ -25,8 +22,8 @@ class TiedSprings : public Force,
         now_(ties_.size()),
         shares_(ties_, true, world.nodes.size()),
         eroded_(shared_fields::eroded.find(world.segments.fields)) {
-    find_limit(world);
     if (law_.strength.breaks()) world.counters.try_emplace("broken_ties", 0);
+    if (law_.strength.opening > 0) onset_.assign(ties_.size(), 0), widest_ = onset_;
   }
   std::string name() const override { return fmt::format("tied contact {}", law_.id); }
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
@@ -39,6 +36,7 @@ class TiedSprings : public Force,
   void start(World& world, const Clock&) override {
     for_each(static_cast<Index>(ties_.size()), [&](Index t) { look(world, static_cast<std::size_t>(t)); });
     for (std::size_t t = 0; t < ties_.size(); ++t) {
+      lost_ += now_[t].lost, now_[t].lost = 0;
       if (!now_[t].breaks) continue;
       broken_[t] = 1, now_[t].breaks = false;
       lost_ += now_[t].stored;
@@ -58,7 +56,6 @@ class TiedSprings : public Force,
       if (any) world.nodes.f.add(n, force);
     }
   }
-  Limit limit(const World&, const Clock&) override { return {limit_, who_}; }
   void record(World&, const Clock&, EnergyLedger& ledger) override {
     ledger.dissipated += lost_, ledger.throughput += lost_;
     lost_so_far_ += lost_, lost_ = 0;
@@ -74,6 +71,7 @@ class TiedSprings : public Force,
   }
   void keep(Archive& archive) override {
     archive("broken", broken_);
+    if (law_.strength.opening > 0) archive("onset", onset_), archive("widest", widest_);
     archive("lost", lost_);
     archive("lost_so_far", lost_so_far_);
   }
@@ -83,6 +81,7 @@ class TiedSprings : public Force,
     Vec force = Vec::Zero();  ///< on the node [ML/T2]
     std::array<Vec, 4> on{Vec::Zero(), Vec::Zero(), Vec::Zero(), Vec::Zero()};
     Real stored = 0;  ///< [ML2/T2]
+    Real lost = 0;    ///< in this step, to damage [ML2/T2]
     bool breaks = false;
   };
 
@@ -92,10 +91,37 @@ class TiedSprings : public Force,
     if (broken_[t]) return;
     const Field<Real>& x = world.nodes.x;
     const Vec away = x.vec(tie.node) - place_of(tie.at, x);
+    const bool face_is_gone = eroded_ && (*eroded_)[tie.segment] != 0;
+    if (!onset_.empty() && onset_[t] > 0 && !face_is_gone) return soften(t, away, x);
     now.force = -tie.k * away;
     now.stored = 0.5 * tie.k * away.squaredNorm();
     now.on = on_corners(tie.at, x, -now.force);
-    now.breaks = (eroded_ && (*eroded_)[tie.segment] != 0) || is_beyond(tie, x, now.force);
+    now.breaks = face_is_gone;
+    if (face_is_gone || !is_beyond(tie, x, now.force)) return;
+    now.breaks = !(law_.strength.opening > away.norm());
+    if (!now.breaks) onset_[t] = widest_[t] = away.norm();
+  }
+  /// A spring whose strength was reached. To widen it from c1 to c2, where it holds with f1 and f2, takes
+  /// (f1 + f2)(c2 - c1)/2, of which f2 c2/2 - f1 c1/2 can be had back.
+  void soften(std::size_t t, const Vec& away, const Field<Real>& x) {
+    const Real none = law_.strength.opening, c = away.norm(), before = widest_[t];
+    const auto held_at = [&](Real wide) {
+      return ties_[t].k * onset_[t] * (none - wide) / (none - onset_[t]);
+    };
+    Now& now = now_[t];
+    if (c >= none) {
+      now.stored = 0.5 * held_at(before) * none;
+      now.breaks = true;
+      return;
+    }
+    if (c > before) {
+      widest_[t] = c;
+      now.lost = 0.5 * (held_at(before) * c - held_at(c) * before);
+    }
+    const Real k = held_at(widest_[t]) / widest_[t];
+    now.force = -k * away;
+    now.stored = 0.5 * k * c * c;
+    now.on = on_corners(ties_[t].at, x, -now.force);
   }
   /// Whether the stress breaks the spring. The normal of the face points at the side of the node where there
   /// is a gap, else out of solids, and away from the other side of shells.
@@ -111,48 +137,68 @@ class TiedSprings : public Force,
            1;
   }
 
-  // Springs k_t that act on nodes with shares b_tn: no frequency is above max_n (sum_t k_t b_tn sum_j b_tj) /
-  // m_n (Gershgorin). Elements leave 1 - TSSFAC^2 of the square of a stable step to others.
-  void find_limit(const World& world) {
+  TiedSpringsLaw law_;
+  std::vector<Tie> ties_;
+  std::vector<Index> broken_;
+  std::vector<Real> onset_, widest_;  ///< distances where damage began and has come to, 0: not yet [L]
+  std::vector<Now> now_;
+  TieShares shares_;
+  const Field<Index>* eroded_;       ///< of segments; null: nothing fails
+  Real lost_ = 0, lost_so_far_ = 0;  ///< stored in springs that broke [ML2/T2]
+};
+
+/// Springs k_t that act on nodes with shares b_tn: no frequency is above max_n (sum_t k_t b_tn sum_j b_tj) /
+/// m_n (Gershgorin). Elements leave 1 - TSSFAC^2 of the square of a stable step to others. Nodes of a rigid
+/// body that is lighter than they are count as if they were as light.
+class SpringLimit : public TimeLimit {
+ public:
+  SpringLimit(const std::vector<Tie>& ties, Real tssfac, const WallBodies& bodies, const World& world) {
     const Nodes& nodes = world.nodes;
-    std::vector<std::array<Real, 4>> share(ties_.size());
-    std::vector<Real> spread(ties_.size(), 1);
-    for (std::size_t t = 0; t < ties_.size(); ++t) {
-      share[t] = largest_shares(ties_[t].at, nodes.x);
+    const TieShares shares(ties, true, nodes.size());
+    std::vector<std::array<Real, 4>> share(ties.size());
+    std::vector<Real> spread(ties.size(), 1);
+    for (std::size_t t = 0; t < ties.size(); ++t) {
+      share[t] = largest_shares(ties[t].at, nodes.x);
       for (const Real one : share[t]) spread[t] += one;
     }
+    std::map<Index, Real> lighter;
     Real most = 0;
     Index stiffest = -1;
     for (Index n = 0; n < nodes.size(); ++n) {
       Real sum = 0;
-      shares_.for_each(n, [&](const TieShares::Share& one) {
+      shares.for_each(n, [&](const TieShares::Share& one) {
         const auto t = static_cast<std::size_t>(one.tie);
-        sum += ties_[t].k * spread[t] * (one.corner < 0 ? 1 : share[t][static_cast<std::size_t>(one.corner)]);
+        sum += ties[t].k * spread[t] * (one.corner < 0 ? 1 : share[t][static_cast<std::size_t>(one.corner)]);
       });
-      if (sum > 0 && !nodes.held[n] && sum > most * nodes.m[n]) most = sum / nodes.m[n], stiffest = n;
+      if (!(sum > 0) || nodes.held[n]) continue;
+      if (const Index body = bodies.body(n); body >= 0 && bodies.lighter) {
+        const auto [known, is_new] = lighter.try_emplace(body, 1);
+        if (is_new) known->second = std::max(Real(1), bodies.lighter(body));
+        sum *= known->second;
+      }
+      if (sum > most * nodes.m[n]) most = sum / nodes.m[n], stiffest = n;
     }
     if (stiffest < 0) return;
     constexpr Real most_of_elements = 0.95;  // else nothing would be left
-    const Real s = std::min(law_.tssfac, most_of_elements);
-    limit_ = 2 / std::sqrt(most) * std::sqrt(1 - s * s);
-    who_ = fmt::format("{} (node {})", name(), nodes.id[stiffest]);
+    const Real s = std::min(tssfac, most_of_elements);
+    limit_ = {2 / std::sqrt(most) * std::sqrt(1 - s * s),
+              fmt::format("tied contact (node {})", nodes.id[stiffest])};
   }
+  std::string name() const override { return "tied contact (step)"; }
+  Limit limit(const World&, const Clock&) override { return limit_; }
 
-  TiedSpringsLaw law_;
-  std::vector<Tie> ties_;
-  std::vector<Index> broken_;
-  std::vector<Now> now_;
-  TieShares shares_;
-  const Field<Index>* eroded_;  ///< of segments; null: nothing fails
-  Real limit_ = std::numeric_limits<Real>::infinity();
-  std::string who_ = "tied contact";
-  Real lost_ = 0, lost_so_far_ = 0;  ///< stored in springs that broke [ML2/T2]
+ private:
+  Limit limit_{std::numeric_limits<Real>::infinity(), "tied contact"};
 };
 
 }  // namespace
 
 void add_springs(TiedSpringsLaw law, std::vector<Tie> ties, World& world) {
   world.passes.add(std::make_shared<TiedSprings>(std::move(law), std::move(ties), world));
+}
+
+void add_spring_limit(const std::vector<Tie>& ties, Real tssfac, const WallBodies& bodies, World& world) {
+  if (!ties.empty()) world.passes.add(std::make_shared<SpringLimit>(ties, tssfac, bodies, world));
 }
 
 }  // namespace courant

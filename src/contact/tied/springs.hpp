@@ -7,6 +7,7 @@
 #include "contact/tied/ties.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
+#include "state/wall_bodies.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -17,6 +18,9 @@ struct TieStrength {
   Real normal = 0, shear = 0;
   Real n = 2, m = 2;  ///< [-]
   bool stress = true;
+  /// Where > 0, the force falls straight from there to nothing at this distance, and on a straight line to
+  /// zero where the distance falls again. [L]
+  Real opening = 0;
   bool breaks() const { return normal > 0; }
 };
 
@@ -24,11 +28,13 @@ struct TiedSpringsLaw {
   Id id = 0;
   std::string title;
   TieStrength strength{};
-  Real tssfac = 0.9;  ///< what elements leave of their own step
 };
 
 /// Adds springs of stiffness Tie::k between nodes and their places on faces. A spring ends with its face,
 /// too; what it stores then is dissipated.
 void add_springs(TiedSpringsLaw law, std::vector<Tie> ties, World& world);
+/// Keeps the step below what all springs of the scene together ask for. `tssfac`: what elements take of their
+/// own step. [-]
+void add_spring_limit(const std::vector<Tie>& ties, Real tssfac, const WallBodies& bodies, World& world);
 
 }  // namespace courant

@@ -16,6 +16,7 @@ struct TiedKind {
   TieForm form = TieForm::exact;
   bool turns = false;  ///< shell edges, welds: rotations go with the face, too
   bool welds = false;  ///< SURFA are nodes of elements of any kind, as of beams
+  bool fails = false;  ///< at the stresses FS and FD
 };
 TiedKind kind_of(const TiedCard& card);
 

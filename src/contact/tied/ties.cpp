@@ -41,7 +41,7 @@ void take_area(const TieNode& node, const TieFace& f, const Vec& n, Tie& tie) {
 }  // namespace
 
 std::vector<Tie> find_ties(const std::vector<TieNode>& nodes, const std::vector<TieFace>& faces, Real given,
-                           const Field<Real>& x) {
+                           const Field<Real>& x, std::vector<Index>* corners_near) {
   std::set<Index> corners;
   std::vector<Real> tolerance;
   Real thickest = 0, reach = 0;
@@ -56,12 +56,12 @@ std::vector<Tie> find_ties(const std::vector<TieNode>& nodes, const std::vector<
   search.build(faces, x, reach, reach);
   std::vector<Tie> out;
   for (const TieNode& n : nodes) {
-    if (corners.contains(n.node)) continue;
     const Vec y = x.vec(n.node);
     Real nearest = std::numeric_limits<Real>::infinity();
     Tie best{.node = n.node};
     search.near(y, [&](Index k) {
       const TieFace& f = faces[static_cast<std::size_t>(k)];
+      if (f.has(n.node)) return;
       const Projection p = project(corners_of(f, x), f.corners, y);
       const Real gap = p.n.dot(y - p.q);
       Real most = tolerance[static_cast<std::size_t>(k)];
@@ -71,7 +71,11 @@ std::vector<Tie> find_ties(const std::vector<TieNode>& nodes, const std::vector<
       best.segment = f.segment, best.at = face_point(f, p, gap);
       take_area(n, f, p.n, best);
     });
-    if (std::isfinite(nearest)) out.push_back(best);
+    if (!std::isfinite(nearest)) continue;
+    if (!corners.contains(n.node))
+      out.push_back(best);
+    else if (corners_near)
+      corners_near->push_back(n.node);
   }
   return out;
 }

@@ -33,9 +33,10 @@ struct Tie {
 
 /// Each node with the nearest face that it is over and no further from than the tolerance: `given` if > 0,
 /// else the larger of 0.6 times the thicknesses of both and 0.05 times the shortest diagonal of the face
-/// (of a triangle: side). In the order of nodes. Corners of faces are not tied.
+/// (of a triangle: side). In the order of nodes. Corners of faces are not tied; those next to faces that are
+/// not their own go to `corners_near`.
 std::vector<Tie> find_ties(const std::vector<TieNode>& nodes, const std::vector<TieFace>& faces, Real given,
-                           const Field<Real>& x);
+                           const Field<Real>& x, std::vector<Index>* corners_near = nullptr);
 
 /// The parts of ties in each node of the world, so that forces are gathered in a fixed order.
 class TieShares {

@@ -107,11 +107,8 @@ class Reader {
         add(card, found->second, -1);
     }
     for (const auto& card : deck_.all<MotionOfRigid>()) {
-      const auto found = model_.part_of_id.find(card.id);
-      if (found == model_.part_of_id.end())
-        missing(card, MotionOfRigid::field, "part", card.id, "*PART");
-      else
-        add(card, {}, found->second);
+      const auto found = model_.part_of_id.find(card.id);  // else a body of nodes, or who moves bodies tells
+      add(card, {}, found == model_.part_of_id.end() ? -1 : found->second, card.id);
     }
     return std::move(motions_);
   }
@@ -144,8 +141,9 @@ class Reader {
     return direction && kind;
   }
 
-  void add(const MotionCard& card, std::vector<Index> nodes, Index part) {
-    if (!supported(card, part >= 0)) return;
+  /// `body`: 0 of nodes.
+  void add(const MotionCard& card, std::vector<Index> nodes, Index part, Id body = 0) {
+    if (!supported(card, body != 0)) return;
     const auto curve = model_.curves.find(card.lcid);
     if (curve == model_.curves.end()) return missing(card, "LCID", "curve", card.lcid, "*DEFINE_CURVE");
     PrescribedMotion motion;
@@ -156,7 +154,7 @@ class Reader {
     motion.birth = card.birth;
     motion.death = card.death;
     motion.nodes = std::move(nodes);
-    motion.part = part;
+    motion.part = part, motion.body = body;
     motion.card = card;
     if (card.dof == along_vector) {
       if (!set_vector(card, motion)) return;

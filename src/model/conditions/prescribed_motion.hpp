@@ -18,7 +18,8 @@ struct PrescribedMotion {
   Real sf = 1;                   ///< factor of the values
   Real birth = 0, death = 1e28;  ///< [T]
   std::vector<Index> nodes;      ///< _NODE and _SET: indices into Model::nodes
-  Index part = -1;               ///< _RIGID: index into Model::parts
+  Id body = 0;                   ///< _RIGID: a part or a body of nodes; 0: none
+  Index part = -1;               ///< index of that part into Model::parts; -1: a body of nodes, or not there
   Entry card;                    ///< for messages
 
   /// Whether the step from t to t + dt follows it: its middle is not before BIRTH and before DEATH.
@@ -35,7 +36,7 @@ Real integral(const Curve& curve, Real a, Real b);
 /// Integral of the curve's slope from a to b; what it jumps does not count.
 Real rise(const Curve& curve, Real a, Real b);
 
-/// All prescribed motions of a deck. Refuses by name: missing curves, vectors, nodes and parts, vectors that
+/// All prescribed motions of a deck. Refuses by name: missing curves, vectors and nodes, vectors that
 /// turn with nodes, coordinate systems, displacements that jump.
 std::vector<PrescribedMotion> prescribed_motions(const Deck& deck, const Model& model,
                                                  Diagnostics& diagnostics);

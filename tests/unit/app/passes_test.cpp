@@ -78,6 +78,7 @@ const Lists bare{
      "pressure on segments no *LOAD_SEGMENT",
      "joint stiffness no *CONSTRAINED_JOINT_STIFFNESS",
      "joints no *CONSTRAINED_JOINT",
+     "node sets that move alike no *CONSTRAINED_NODE_SET",
      "solids no *ELEMENT_SOLID",
      "field states no *DATABASE_BINARY_D3PLOT",
      "glstat no *DATABASE_GLSTAT",

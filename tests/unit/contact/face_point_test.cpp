@@ -104,6 +104,12 @@ TEST(Ties, TakeTheNearestFaceWithinTheTolerance) {
   EXPECT_NEAR(ties[0].at.gap, -0.02, 1e-15);
   EXPECT_NEAR(ties[0].at.N[3], 0.75 * 0.75, 1e-12);
   EXPECT_EQ(ties[0].k, 5.0 / 4);  // a quarter of the face
+  // corners of a face are tied to no other one, and are told
+  TieFace other;
+  other.node = {5, 6, 7, 8}, other.corners = 4, other.area = 1;
+  std::vector<Index> near;
+  EXPECT_TRUE(find_ties({{.node = 8, .thickness = 0, .own = {}}}, {low, other}, 0, nodes.x, &near).empty());
+  EXPECT_EQ(near, (std::vector<Index>{8}));
 }
 
 }  // namespace courant
