@@ -1,5 +1,6 @@
 #include "laws/strength/strength.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace courant {
@@ -7,6 +8,13 @@ namespace courant {
 std::vector<StrengthEntry>& strength_registry() {
   static std::vector<StrengthEntry> registry;
   return registry;
+}
+
+void add_to_strength_registry(StrengthEntry entry) {
+  std::vector<StrengthEntry>& all = strength_registry();
+  const auto place = std::find_if(all.begin(), all.end(),
+                                  [&](const StrengthEntry& other) { return other.keyword > entry.keyword; });
+  all.insert(place, std::move(entry));
 }
 
 Real StrengthLaw::sound_speed() const {

@@ -78,7 +78,9 @@ struct StrengthEntry {
   std::function<void(const Deck&, const Model&, Diagnostics&)> check;
 };
 
+/// In the order of keywords, whatever files are linked first.
 std::vector<StrengthEntry>& strength_registry();
+void add_to_strength_registry(StrengthEntry entry);
 
 /// Card must have a member mid and a function law(), a std::shared_ptr<StrengthLaw> made from valid cards,
 /// and may have check(deck, diagnostics), both with the model as last but one or only argument where they
@@ -110,7 +112,7 @@ struct RegisterStrength {
         else if constexpr (requires { card.check(deck, diagnostics); })
           card.check(deck, diagnostics);
     };
-    strength_registry().push_back(std::move(entry));
+    add_to_strength_registry(std::move(entry));
     register_keyword(make_keyword_spec<Card>(std::move(keyword)));
   }
 };

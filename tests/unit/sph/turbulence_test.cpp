@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "../../verification/same_bits.hpp"
 #include "../app/small_scene.hpp"
 #include "shear_layer.hpp"
 #include "sph/boundaries/wall_law.hpp"
@@ -265,6 +266,14 @@ TEST(Turbulence, LengthsEndAtTheNearestWallAndAtTheSurface) {
     if (y > 0.2 && y < 0.8) EXPECT_NEAR(nu, 0.09 * l * l * shear, 0.04 * nu) << y;
     if (y > 0.96) EXPECT_LT(nu, 0.02 * 0.09 * 0.04 * shear) << y;
   }
+}
+
+TEST(Turbulence, HasTheSameBitsOnAnyThreadsAndAfterARestart) {
+  const auto u = [](Real y) { return std::tanh(y) + 0.01 * std::sin(9 * y); };
+  for (const char* model : {"1,0.09,0.41,0.4,0.15", "3"})
+    test::expect_same_bits(layer(u, turbulence(model)), 60, 25);
+  test::expect_same_bits(layer(u, turbulence("2", ",,,,0.1,0.02")), 60, 25);
+  test::expect_same_bits(open_channel(20, 0.01, turbulence("2", ",,,,3.,5.")), 60, 25);
 }
 }  // namespace
 }  // namespace courant
