@@ -13,6 +13,7 @@
 #include "../../verification/same_bits.hpp"
 #include "../app/small_scene.hpp"
 #include "shear_layer.hpp"
+#include "sph/boundaries/wall_distance.hpp"
 #include "sph/boundaries/wall_law.hpp"
 #include "sph/core/fields.hpp"
 
@@ -21,6 +22,30 @@ namespace {
 
 using namespace test::shear_layer;
 using test::run;
+
+TEST(WallDistance, IsThatOfTheNearestPointAlsoBesideEdgesAndCorners) {
+  for (const int dim : {2, 3}) {
+    test::SmallScene scene;
+    scene.dim = dim, scene.n = 3;
+    scene.extra = test::floor_cards(0, 1, dim == 3 ? "0" : "1,7,7");  // from -2 to 3 along x and z
+    const auto s = test::build(scene);
+    World& world = s->world();
+    for (Index n = 0; n < world.nodes.size(); ++n)  // turns about z
+      world.nodes.v.set(n, Vec(-world.nodes.x.vec(n)[1], world.nodes.x.vec(n)[0], 0));
+    WallDistance walls({0}, 10, {}, world);
+    EXPECT_EQ(walls.any_moves(), dim == 3);
+    const NearestWall above = walls.nearest(Vec(1, 0.4, 0)), beside = walls.nearest(Vec(4, 1, 0));
+    EXPECT_NEAR(above.distance, 0.4, 1e-12);
+    EXPECT_NEAR((above.normal - Vec::UnitY()).norm(), 0, 1e-12);
+    EXPECT_NEAR((above.velocity - Vec(0, dim == 3 ? 1 : 0, 0)).norm(), 0, 1e-12);
+    EXPECT_NEAR(beside.distance, std::sqrt(2), 1e-12);
+    EXPECT_NEAR((beside.normal - Vec(1, 1, 0) / std::sqrt(2)).norm(), 0, 1e-12);
+    EXPECT_NEAR((beside.velocity - Vec(0, dim == 3 ? 3 : 0, 0)).norm(), 0, 1e-12);
+    EXPECT_NEAR(walls.nearest(Vec(1, -0.4, 0)).normal[1], -1, 1e-12);
+    EXPECT_EQ(walls.nearest(Vec(1, 10.5, 0)).segment, -1);
+    if (dim == 3) EXPECT_NEAR(walls.nearest(Vec(4, 1, 4)).distance, std::sqrt(3), 1e-12);
+  }
+}
 
 std::string turbulence(const std::string& card1, const std::string& card2 = "") {
   return "*COURANT_TURBULENCE\n" + card1 + "\n" + (card2.empty() ? "" : card2 + "\n");
