@@ -83,9 +83,9 @@ std::vector<CardOf<T>> contact_first_cards() {
            {"VSF", &T::vsf, "-", "scale of VC", {.standard = 1, .check = Check::not_negative}}}}};
 }
 
-/// What all keywords of contacts of two sides have alike, and their first cards.
+/// What all keywords of contacts have alike.
 template <class T>
-KeywordOf<T> contact_of_sides(std::vector<std::string> names, std::string purpose) {
+KeywordOf<T> contact_head(std::vector<std::string> names, std::string purpose, std::vector<CardOf<T>> cards) {
   return {.names = std::move(names),
           .purpose = std::move(purpose),
           .id_space = IdSpace::contact,
@@ -94,7 +94,12 @@ KeywordOf<T> contact_of_sides(std::vector<std::string> names, std::string purpos
           .title = &T::title,
           .id = &T::cid,
           .many = false,
-          .cards = contact_first_cards<T>()};
+          .cards = std::move(cards)};
+}
+/// Those of two sides, with their first cards.
+template <class T>
+KeywordOf<T> contact_of_sides(std::vector<std::string> names, std::string purpose) {
+  return contact_head<T>(std::move(names), std::move(purpose), contact_first_cards<T>());
 }
 
 /// Cards A to G, which may be missing.

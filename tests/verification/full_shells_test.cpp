@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "free_patches.hpp"
 #include "same_bits.hpp"
 #include "shell_decks.hpp"
 #include "solid_decks.hpp"
@@ -90,25 +91,9 @@ TEST(FullShells, SmallFreePatchesAreStableAtTssfac09) {
           make_full(deck);
           deck.cards += "*CONTROL_TIMESTEP\n       0.0       0.9\n";
           auto s = simulation_of(deck.text(1e9));
-          World& world = s->world();
-          Field<Real>& turning = *shared_fields::angular_velocity.find(world.nodes.fields);
-          for (Index i = 0; i < world.nodes.size(); ++i) {
-            world.nodes.v.set(i, 1e-9 * Vec(number(random), number(random), number(random)));
-            turning.set(i, 1e-9 * Vec(number(random), number(random), number(random)));
-          }
-          const auto fastest = [&] {
-            Real most = 0;
-            for (Index i = 0; i < world.nodes.size(); ++i)
-              most = std::max({most, world.nodes.v.vec(i).norm(), turning.vec(i).norm()});
-            return most;
-          };
-          Real early = 0, late = 0;
-          for (int k = 0; k < 3000; ++k) {
-            s->step(do_nothing);
-            if (k < 1000) early = std::max(early, fastest());
-            if (k >= 2000) late = std::max(late, fastest());
-          }
-          EXPECT_LT(late, 2 * early) << " nu " << nu << " " << nx << ny << " t " << t << " " << uneven;
+          const test::Growth noise = test::growth_of_noise(*s, random, number);
+          EXPECT_LT(noise.late, 2 * noise.early)
+              << " nu " << nu << " " << nx << ny << " t " << t << " " << uneven;
         }
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <string_view>
 
 #include "contact/nodes/build.hpp"
 #include "contact/tied/constraint.hpp"
@@ -255,19 +256,27 @@ class TiedBuilder {
     return true;
   }
 
+  /// Takes ties away for which `is` holds, and tells why.
+  template <class F>
+  void drop(const ContactCard& c, std::vector<Tie>& ties, const F& is, std::string_view why,
+            const char* hint) {
+    std::size_t count = 0;
+    Id first = 0;
+    std::erase_if(ties, [&](const Tie& tie) {
+      if (!is(tie)) return false;
+      if (count++ == 0) first = world_.nodes.id[tie.node];
+      return true;
+    });
+    if (count > 0)
+      deck_.warning(diagnostics_, c, "SURFA", fmt::format("{} nodes, the first is {}, {}", count, first, why),
+                    hint);
+  }
+
   /// Ends of welds that belong to rigid bodies go with these.
   void drop_of_bodies(const ContactCard& c, std::vector<Tie>& ties) {
-    const auto of_body = [&](const Tie& tie) { return options_.bodies.body(tie.node) >= 0; };
-    const auto first = std::find_if(ties.begin(), ties.end(), of_body);
-    if (first == ties.end()) return;
-    const Id id = world_.nodes.id[first->node];
-    const std::size_t count = std::erase_if(ties, of_body);
-    deck_.warning(
-        diagnostics_, c, "SURFA",
-        fmt::format("{} nodes, the first is {}, belong to rigid bodies, with which they go: they are "
-                    "not tied",
-                    count, id),
-        "leave them out");
+    drop(
+        c, ties, [&](const Tie& tie) { return options_.bodies.body(tie.node) >= 0; },
+        "belong to rigid bodies, with which they go: they are not tied", "leave them out");
   }
 
   /// Whether no solid and no shell, which mass scaling may make heavier, has one of the nodes.
@@ -280,46 +289,27 @@ class TiedBuilder {
 
   /// A node goes with one face.
   void drop_tied(const ContactCard& c, std::vector<Tie>& ties) {
-    std::size_t count = 0;
-    Id first = 0;
-    std::erase_if(ties, [&](const Tie& tie) {
-      if (!tied_.contains(tie.node)) return false;
-      if (count++ == 0) first = world_.nodes.id[tie.node];
-      return true;
-    });
-    if (count > 0)
-      deck_.warning(
-          diagnostics_, c, "SURFA",
-          fmt::format("{} nodes, the first is {}, are tied by an earlier contact already: they stay with "
-                      "its faces",
-                      count, first),
-          "leave them out of one of the two, or use it with _OFFSET");
+    drop(
+        c, ties, [&](const Tie& tie) { return tied_.contains(tie.node); },
+        "are tied by an earlier contact already: they stay with its faces",
+        "leave them out of one of the two, or use it with _OFFSET");
   }
 
   /// Nodes that SPC hold go with a face only if that is held alike.
   void drop_held(const ContactCard& c, std::vector<Tie>& ties) {
-    std::size_t count = 0;
-    Id first = 0;
-    std::erase_if(ties, [&](const Tie& tie) {
+    const auto held_more = [&](const Tie& tie) {
       constexpr Real none = 1e-9;
       const ModelNode& node = *node_of_id_.at(world_.nodes.id[tie.node]);
       for (std::size_t e = 0; e < static_cast<std::size_t>(tie.at.corners); ++e) {
         const ModelNode& corner = *node_of_id_.at(world_.nodes.id[tie.at.node[e]]);
         for (std::size_t k = 0; k < 3; ++k)
-          if (node.fixed[k] && !corner.fixed[k] && (std::abs(tie.at.N[e]) > none || tie.at.gap != 0)) {
-            if (count++ == 0) first = node.id;
+          if (node.fixed[k] && !corner.fixed[k] && (std::abs(tie.at.N[e]) > none || tie.at.gap != 0))
             return true;
-          }
       }
       return false;
-    });
-    if (count > 0)
-      deck_.warning(
-          diagnostics_, c, "SURFA",
-          fmt::format("{} nodes, the first is {}, are held by *BOUNDARY_SPC or TC, and their faces are "
-                      "not: they are not tied",
-                      count, first),
-          "hold the corners of the faces, too, or free the nodes");
+    };
+    drop(c, ties, held_more, "are held by *BOUNDARY_SPC or TC, and their faces are not: they are not tied",
+         "hold the corners of the faces, too, or free the nodes");
   }
 
   void warn_of_free(const ContactCard& c, const std::vector<Index>& nodes, const std::vector<Index>& faces,

@@ -164,24 +164,10 @@ void full_at_point(const ShellLoops::Block& block, int point, const ShellState& 
 /// N, M and Q of one of the points in the plane; their work joins the internal energy.
 COURANT_INLINE void integrate_quarter(Index first, Index n, Index k, Real dt, Real factor, Native t, int q,
                                       const ShellState& state, const ShellScratch& s, Native R[8]) {
-  for (int m = 0; m < 8; ++m) R[m] = all(0);
-  const Native half = 0.5 * t;
-  const int layers = state.points / 4;
-  for (int p = q * layers; p < (q + 1) * layers; ++p) {
-    const Real* const* stress = state.stress + 6 * p;
-    const Native w = (4 * state.share[p]) * t, arm = state.zeta[p] * half;
-    const Native xx = w * load(stress[0] + first, n), yy = w * load(stress[1] + first, n),
-                 xy = w * load(stress[3] + first, n);
-    R[0] += xx, R[1] += yy, R[2] += xy;
-    R[3] += arm * xx, R[4] += arm * yy, R[5] += arm * xy;
-    R[6] += w * load(stress[5] + first, n), R[7] += w * load(stress[4] + first, n);
-  }
-  R[6] *= factor, R[7] *= factor;
   Native old[8];
-  for (int m = 0; m < 8; ++m) {
-    old[m] = R[m] + load(state.resultant[8 * q + m] + first, n);
-    store(state.resultant[8 * q + m] + first, R[m], n);
-  }
+  const int layers = state.points / 4;
+  integrate_layers(first, n, q * layers, (q + 1) * layers, 4, factor, t, state, state.resultant + 8 * q, R,
+                   old);
   const Real(*const of)[block_size] = s.quarter[q];
   const Native power = old[0] * load(of[0] + k) + old[1] * load(of[1] + k) + old[3] * load(of[2] + k) +
                        old[4] * load(of[3] + k) +

@@ -118,6 +118,29 @@ COURANT_INLINE void store_vector(Real* const* p, Index first, const Triple& a, I
   store(p[0] + first, a.x, n), store(p[1] + first, a.y, n), store(p[2] + first, a.z, n);
 }
 
+/// N, M and Q of the points [begin, end) of a place in the plane, `share` times their weights, and what they
+/// add to those of the step before.
+COURANT_INLINE void integrate_layers(Index first, Index n, int begin, int end, Real share, Real factor,
+                                     Native t, const ShellState& state, Real* const* resultant, Native R[8],
+                                     Native old[8]) {
+  for (int m = 0; m < 8; ++m) R[m] = all(0);
+  const Native half = 0.5 * t;
+  for (int p = begin; p < end; ++p) {
+    const Real* const* stress = state.stress + 6 * p;
+    const Native w = (share * state.share[p]) * t, arm = state.zeta[p] * half;
+    const Native xx = w * load(stress[0] + first, n), yy = w * load(stress[1] + first, n),
+                 xy = w * load(stress[3] + first, n);
+    R[0] += xx, R[1] += yy, R[2] += xy;
+    R[3] += arm * xx, R[4] += arm * yy, R[5] += arm * xy;
+    R[6] += w * load(stress[5] + first, n), R[7] += w * load(stress[4] + first, n);
+  }
+  R[6] *= factor, R[7] *= factor;
+  for (int m = 0; m < 8; ++m) {
+    old[m] = R[m] + load(resultant[m] + first, n);
+    store(resultant[m] + first, R[m], n);
+  }
+}
+
 /// Bulk viscosity q = rho l (Q1 l e^2 - Q2 c e) in compression, e = D xx + D yy < 0, its energy, and the
 /// stable step with and without it.
 template <int corners>

@@ -90,23 +90,8 @@ void at_point(const ShellLoops::Block& block, int point, const ShellState& state
 /// N, M and Q from the stress of the points; their work over the step joins the internal energy.
 COURANT_INLINE void integrate(Index first, Index n, Index k, Real dt, Real factor, Native t,
                               const ShellState& state, const ShellScratch& s, Native R[8]) {
-  for (int m = 0; m < 8; ++m) R[m] = all(0);
-  const Native half = 0.5 * t;
-  for (int p = 0; p < state.points; ++p) {
-    const Real* const* stress = state.stress + 6 * p;
-    const Native w = state.share[p] * t, arm = state.zeta[p] * half;
-    const Native xx = w * load(stress[0] + first, n), yy = w * load(stress[1] + first, n),
-                 xy = w * load(stress[3] + first, n);
-    R[0] += xx, R[1] += yy, R[2] += xy;
-    R[3] += arm * xx, R[4] += arm * yy, R[5] += arm * xy;
-    R[6] += w * load(stress[5] + first, n), R[7] += w * load(stress[4] + first, n);
-  }
-  R[6] *= factor, R[7] *= factor;
   Native old[8];
-  for (int m = 0; m < 8; ++m) {
-    old[m] = R[m] + load(state.resultant[m] + first, n);
-    store(state.resultant[m] + first, R[m], n);
-  }
+  integrate_layers(first, n, 0, state.points, 1, factor, t, state, state.resultant, R, old);
   const Native power = old[0] * load(s.membrane[0] + k) + old[1] * load(s.membrane[1] + k) +
                        old[3] * load(s.curvature[0] + k) + old[4] * load(s.curvature[1] + k) +
                        2.0 * (old[2] * load(s.membrane[2] + k) + old[5] * load(s.curvature[2] + k) +

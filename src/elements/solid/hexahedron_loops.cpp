@@ -188,10 +188,7 @@ HexahedronLoops::Found forces(const HexahedronLoops::Block& block, const Hexahed
     forces_of(block.begin + k, native_lanes, k, block.dt, control, state, scratch);
   if (whole < block.count)
     forces_of(block.begin + whole, block.count - whole, whole, block.dt, control, state, scratch);
-  const Index shortest = least(scratch.step_limit, block.count);
-  const Index smallest = least(scratch.relative_volume, block.count);
-  return {scratch.step_limit[shortest], block.begin + shortest, scratch.relative_volume[smallest],
-          block.begin + smallest};
+  return found_in(block, scratch);
 }
 
 }  // namespace

@@ -27,13 +27,6 @@ struct Shapes {
   }
 };
 
-template <int Dim>
-COURANT_INLINE void store(const Sum<Dim>& sum, Real* const to[3], Index i, Index count, const Pack& factor) {
-  (factor * sum.x).store(to[0] + i, count);
-  (factor * sum.y).store(to[1] + i, count);
-  if constexpr (Dim == 3) (factor * sum.z).store(to[2] + i, count);
-}
-
 /// v . (grad grad W) . u, but for the kernel's constant.
 template <int Dim>
 COURANT_INLINE Pack turn(const Shapes& at, const Difference<Dim>& d, const Difference<Dim>& v,
@@ -56,22 +49,6 @@ struct DriftRates {
     const Pack factor = norm * Pack::load(a.rho + i, count), half = a.half_step * factor;
     (Pack::load(a.drhodt + i, count) - half * middle).store(a.drhodt + i, count);
     (factor * own - half * (middle + bend)).store(a.drift_rate + i, count);
-  }
-};
-
-/// How the velocity changes over a way; v_i - v_j is added.
-template <int Dim>
-struct VelocityGradient {
-  Sum<Dim> vx, vy, vz;
-  COURANT_INLINE void add(const Pack& w, const Difference<Dim>& v, const Difference<Dim>& d) {
-    vx.add(w * v.x, d);
-    vy.add(w * v.y, d);
-    if constexpr (Dim == 3) vz.add(w * v.z, d);
-  }
-  COURANT_INLINE void store_all(const DriftArrays& a, Index i, Index count, const Pack& factor) const {
-    store(vx, a.velocity_gradient[0], i, count, factor);
-    store(vy, a.velocity_gradient[1], i, count, factor);
-    if constexpr (Dim == 3) store(vz, a.velocity_gradient[2], i, count, factor);
   }
 };
 
@@ -114,7 +91,7 @@ void shifting(const DriftArrays& a, const NeighbourLists& lists) {
     (norm * filling).store(a.filling + i, count);
     edge.store(a.edge + i, count);
     rates.store_all(a, i, count, slope_norm);
-    if constexpr (Correct) turning.store_all(a, i, count, 0 - slope_norm);
+    if constexpr (Correct) turning.store(a.velocity_gradient, i, count, 0 - slope_norm);
   }
 }
 

@@ -38,8 +38,10 @@ struct TurbulenceFields {
     epsilon_flow = &own(p, "turbulent_dissipation_flow", "L2/T4", 1);
   }
   static Field<Real>& own(Particles& p, const std::string& name, const char* dimension, int components) {
-    return p.fields.add<Real>(
+    Field<Real>& field = p.fields.add<Real>(
         {.name = name, .dimension = dimension, .components = components, .restart = false});
+    field.fill(0);  // loops in the plane leave z alone
+    return field;
   }
 };
 

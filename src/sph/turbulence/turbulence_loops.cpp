@@ -7,14 +7,6 @@ namespace courant::COURANT_SIMD {
 
 namespace {
 
-template <int Dim>
-COURANT_INLINE void store_vector(const Sum<Dim>& sum, Real* const to[3], Index i, Index count,
-                                 const Pack& factor) {
-  (factor * sum.x).store(to[0] + i, count);
-  (factor * sum.y).store(to[1] + i, count);
-  (factor * sum.z).store(to[2] + i, count);
-}
-
 /// How k and epsilon spread; see `turbulence_loop`.
 struct Spreading {
   Pack k, epsilon, eddy;
@@ -39,7 +31,8 @@ void turbulence(const TurbulenceArrays& a, const NeighbourLists& lists) {
     const Pack tiny = tiny_distance2 * hi * hi;
     const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
     const Pack mu = Pack::load(a.mu + i, count);
-    Sum<Dim> vx, vy, vz, slope, force;
+    VelocityGradient<Dim> gradient;
+    Sum<Dim> slope, force;
     Pack power = Pack::zero();
     Dyads<Dim> moment;
     const auto begin = [&] {
@@ -57,9 +50,7 @@ void turbulence(const TurbulenceArrays& a, const NeighbourLists& lists) {
       const Difference<Dim> wd = times(w, d);
       moment.add(wd, d);
       slope.add(wd);
-      vx.add(u.x, wd);
-      vy.add(u.y, wd);
-      if constexpr (Dim == 3) vz.add(u.z, wd);
+      gradient.add(w, u, d);
       const Pack drag = w * (mu + a.mu[j]);
       force.add(drag, u);
       power += drag * dot(u, u);
@@ -69,10 +60,8 @@ void turbulence(const TurbulenceArrays& a, const NeighbourLists& lists) {
     force.add_to(a.f, i, count, factor);
     (0 - 0.5 * factor * power).store(a.heat + i, count);
     moment.store(a.moment, i, count, 0 - norm);
-    store_vector(slope, a.slope, i, count, norm);
-    store_vector(vx, a.gradient[0], i, count, 0 - norm);
-    store_vector(vy, a.gradient[1], i, count, 0 - norm);
-    store_vector(vz, a.gradient[2], i, count, 0 - norm);
+    store(slope, a.slope, i, count, norm);
+    gradient.store(a.gradient, i, count, 0 - norm);
     if constexpr (KEpsilon) {
       (norm * spreading.k_sum).store(a.k_flow + i, count);
       (norm * spreading.epsilon_sum).store(a.epsilon_flow + i, count);
