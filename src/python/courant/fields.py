@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import re
 import struct
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -300,7 +300,8 @@ def read_array(file: FieldFile, section: str, name: str, components: int, diagno
         diagnostics.error(
             file.path,
             f"the array '{name}' is missing or has the wrong shape",
-            "the file must come from `courant run`, and FIELDS of *COURANT_OUTPUT, if the deck has it, must name the array",
+            "the file must come from `courant run`, and FIELDS of *COURANT_OUTPUT, if the deck has it, must name the array; a recipe may give density and "
+            "smoothing_length as `missing: {density: 1000}`",
         )
         return None
     try:
@@ -310,14 +311,18 @@ def read_array(file: FieldFile, section: str, name: str, components: int, diagno
         return None
 
 
-def read_particles(state: StateFiles, arrays: Sequence[Wanted], diagnostics: Diagnostics) -> ParticleFrame | None:
-    """Particles of one state with further arrays. Faults are told; then there is None."""
+def read_particles(
+    state: StateFiles, arrays: Sequence[Wanted], diagnostics: Diagnostics, missing: Mapping[str, float] | None = None
+) -> ParticleFrame | None:
+    """Particles of one state with further arrays. Faults are told; then there is None. `missing`: numbers for arrays that the file may lack."""
     file = open_field(Path(state.particles or ""), diagnostics)
     if file is None:
         return None
     errors, found = diagnostics.errors, dict[str, np.ndarray]()
 
     def read(section: str, one: Wanted) -> None:
+        if one.name in (missing or {}) and not file.has(section, one.name):
+            found[one.name] = np.full(file.points, missing[one.name])
         if one.name not in found and not (one.optional and not file.has(section, one.name)):
             values = read_array(file, section, one.name, one.components, diagnostics)
             found.update({} if values is None else {one.name: values})

@@ -52,8 +52,8 @@ def _raised(diagnostics: Diagnostics) -> None:
 class Mesh:
     """Particles or shells of one state, from a .vtp or .vtu file. Raises CourantError where it is damaged."""
 
-    def __init__(self, path: Path, units: Units) -> None:
-        self.path, self._units = path, units
+    def __init__(self, path: Path, units: Units, missing: Mapping[str, float] | None = None) -> None:
+        self.path, self._units, self._missing = path, units, missing or {}
         try:
             self._file = FieldFile(path)
         except FieldFault as fault:
@@ -76,7 +76,7 @@ class Mesh:
         return [*self._file.names("PointData"), *self._file.names("CellData")]
 
     def __contains__(self, name: object) -> bool:
-        return name in self.names
+        return name in self.names or name in self._missing
 
     def __getitem__(self, name: str) -> np.ndarray:
         """An array, (points or cells,) or (points or cells, components); "speed" is the length of "velocity". Raises KeyError with the
@@ -86,6 +86,8 @@ class Mesh:
         for section in ("PointData", "CellData"):
             if self._file.has(section, name):
                 return self._values(section, name)
+        if name in self._missing:
+            return np.full(len(self), self._missing[name])
         raise KeyError(f"{self.path} has no array '{name}'; it has {', '.join(self.names)}")
 
     def __len__(self) -> int:
@@ -155,7 +157,7 @@ class RunState(Mesh):
     def __init__(self, files: StateFiles, run: Results) -> None:
         path = files.particles or files.shells
         assert path is not None  # fields.pvd names one of them
-        super().__init__(path, run.units)
+        super().__init__(path, run.units, run.missing if files.particles else None)
         self.t, self._files, self._run = files.t, files, run
 
     @cached_property
@@ -285,8 +287,9 @@ class AsciiTables(Mapping[str, Table]):
 class Results:
     """The results in a folder. What a run did not write raises CourantError when it is asked for."""
 
-    def __init__(self, folder: str | PathLike[str], units: Units = Units()) -> None:  # noqa: B008  frozen
-        self.folder, self.units = Path(folder), units
+    def __init__(self, folder: str | PathLike[str], units: Units = Units(), missing: Mapping[str, float] | None = None) -> None:  # noqa: B008  frozen
+        """`missing`: numbers for arrays of particles that the field files may lack, {"density": 1000}."""
+        self.folder, self.units, self.missing = Path(folder), units, missing or {}
         if not self.folder.is_dir():
             diagnostics = Diagnostics()
             diagnostics.error(self.folder, "no such folder", "DIR must be the folder that `courant run -o DIR` wrote")

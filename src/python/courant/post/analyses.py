@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 
 from ..diagnostics import Diagnostics, Location
-from ..fields import Wanted, slack_of
+from ..fields import StateFiles, Wanted, slack_of
 from ..registry import Registry
 from ..units import Dimension, Units
 from ..variables import wanted_array
@@ -164,6 +164,9 @@ class Analysis:
         """Analyses that must stand above it: the key of the recipe and the name there."""
         return []
 
+    def begin(self, states: list[StateFiles], diagnostics: Diagnostics) -> None:
+        """Takes what it needs of the scene as a whole, before states are measured."""
+
     def looks_at(self, t: float, slack: float) -> bool:
         return True
 
@@ -228,7 +231,8 @@ class Analysis:
 
 Factory = Callable[[YamlMap, Settings], Analysis]
 _OF_MODULES = {"kinds_states": "probe surface grid profile flux", "kinds_series": "spectrum history force toe", "kinds_roller": "roller"}
-_ORDER = "probe surface grid profile spectrum flux history force toe roller".split()  # as messages name them
+_OF_MODULES |= {"kinds_drop": "jump_type drop_regime", "kinds_gauges": "gauges correlation", "kinds_balance": "mass_balance soundness"}
+_ORDER = "probe surface grid profile spectrum flux history force toe roller jump_type drop_regime gauges correlation mass_balance soundness".split()  # as messages name them
 KINDS: Registry[Factory] = Registry(
     "kind of analysis", {kind: f"{__package__}.{home}" for kind in _ORDER for home, kinds in _OF_MODULES.items() if kind in kinds.split()}
 )

@@ -6,15 +6,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..fields import Wanted
+from ..diagnostics import Diagnostics
+from ..fields import StateFiles, Wanted
 from ..files import make_folder, write_file
 from ..units import Units
-from ..variables import wanted_array, wanted_arrays
+from ..variables import wanted_array
 from ..words import short_number
 from ..yaml_map import Node, YamlMap, is_list, is_map
 from .analyses import Analysis, Moments, Run, Settings, TimeWindow, analysis
+from .bed import Bed
 from .particles import Pieces, Points, interpolate, joined, pairs_near, spline_norm, spline_shape, water_on_lines
-from .state import State, read_expression, read_quantities, read_spray, read_where
+from .state import State, read_quantities, read_spray, read_where, wanted_of
 from .tables import Column, Image, Series, write_vti
 
 
@@ -72,6 +74,24 @@ class ProbeAnalysis(Analysis):
         return None
 
 
+def depth_over(pieces: Pieces, bed: np.ndarray, h: float, first: bool = False) -> np.ndarray:
+    """The top of the highest piece of water over the bed, or (`first`) of the lowest one that touches the bed; 0 if there is none. [L]
+
+    Gaps thinner than h are within a piece, and water whose underside is within 2h of the bed touches it. bed: (lines,) [L].
+    """
+    pieces = joined(pieces, h)
+    depth = np.zeros(len(bed))
+    wet = pieces.high > bed[pieces.line]
+    line, low, high = pieces.line[wet], pieces.low[wet], pieces.high[wet]
+    if not first:
+        depth[line] = high - bed[line]  # of a line's pieces the last one is the highest
+        return depth
+    line, at = np.unique(line, return_index=True)
+    touches = low[at] <= bed[line] + 2 * h
+    depth[line] = np.where(touches, high[at] - bed[line], 0)
+    return depth
+
+
 @analysis("surface")
 class SurfaceAnalysis(Analysis):
     """Depth of the water over time on lines against gravity."""
@@ -85,9 +105,8 @@ class SurfaceAnalysis(Analysis):
         across = keys.number("across")
         self.first = keys.choice("surface", ("top", "first")) == "first"
         self.layers = keys.flag("layers")
-        node = keys.get("bed")
-        bed = read_expression(keys, node, "bed", ("x",)) if node is not None else None
-        self.bed = bed.over({"x": self.x}, len(self.x)) if bed and bed.ok else np.zeros(len(self.x))
+        self.ground = Bed.read(keys)
+        self.bed = self.ground.at(self.x)
         up = settings.up
         self.places = np.column_stack([self.x, np.full_like(self.x, 0 if up == 1 else across), np.full_like(self.x, across if up == 1 else 0)])
         self.depths: list[np.ndarray] = []  # shape of each: (places,)
@@ -96,7 +115,11 @@ class SurfaceAnalysis(Analysis):
         self.window_states = 0
 
     def needs(self) -> list[Wanted]:
-        return wanted_arrays(self.which.of)
+        return wanted_of(self.which.of)
+
+    def begin(self, states: list[StateFiles], diagnostics: Diagnostics) -> None:
+        self.ground.find(states, diagnostics)
+        self.bed = self.ground.at(self.x)
 
     def measure(self, state: State) -> tuple[np.ndarray, np.ndarray, Any]:
         water = state.water(self.which, self.spray)
@@ -104,21 +127,7 @@ class SurfaceAnalysis(Analysis):
         return self._depth(pieces, water.largest_h), filled, pieces if self.layers else None
 
     def _depth(self, pieces: Pieces, h: float) -> np.ndarray:
-        """The top of the highest piece of water over the bed, or of the lowest one that touches the bed; 0 if there is none.
-
-        Gaps thinner than h are within a piece, and water whose underside is within 2h of the bed touches it.
-        """
-        pieces = joined(pieces, h)
-        depth = np.zeros(len(self.x))
-        wet = pieces.high > self.bed[pieces.line]
-        line, low, high = pieces.line[wet], pieces.low[wet], pieces.high[wet]
-        if not self.first:
-            depth[line] = high - self.bed[line]  # of a line's pieces the last one is the highest
-            return depth
-        line, at = np.unique(line, return_index=True)
-        touches = low[at] <= self.bed[line] + 2 * h
-        depth[line] = np.where(touches, high[at] - self.bed[line], 0)
-        return depth
+        return depth_over(pieces, self.bed, h, self.first)
 
     def take(self, t: float, slack: float, measured: tuple[np.ndarray, np.ndarray, Any]) -> None:
         depth, filled, pieces = measured
@@ -181,7 +190,7 @@ class Sampler:
         self.wet = keys.positive("wet", 0.5)
 
     def needs(self) -> list[Wanted]:
-        return wanted_arrays(self.where.of, *(one.of for one in self.of))
+        return wanted_of(self.where.of, *(one.of for one in self.of))
 
     def at(self, state: State, points: Points) -> Sample:
         water = state.water(self.where, self.spray)
@@ -322,7 +331,7 @@ class FluxAnalysis(Analysis):
         self.moments = Moments((len(self.at), len(_FLUXES)))
 
     def needs(self) -> list[Wanted]:
-        return [*wanted_arrays(self.which.of), wanted_array("velocity"), wanted_array("pressure"), wanted_array("mass")]
+        return [*wanted_of(self.which.of), wanted_array("velocity"), wanted_array("pressure"), wanted_array("mass")]
 
     def measure(self, state: State) -> tuple[int, np.ndarray]:
         some, arrays = state.selection(self.which), state.frame.arrays

@@ -139,7 +139,7 @@ def results_yaml(recipe: Recipe, title: str, measured: Measured, jump: JumpResul
     if probes:
         out["probes"] = probes
     analyses = {
-        one.name: {scalar.name: {"value": digits(scalar.value), "unit": scalar.unit} for scalar in one.result.scalars}
+        one.name: one.result.words | {scalar.name: {"value": digits(scalar.value), "unit": scalar.unit} for scalar in one.result.scalars}
         for one in recipe.analyses
         if one.result.scalars
     }

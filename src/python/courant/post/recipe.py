@@ -17,7 +17,7 @@ from .jump import INTERVAL, JumpRecipe, PublishedRow
 if TYPE_CHECKING:
     from .view_scene import View
 
-_KEYS = ("case", "probes", "jump", "snapshots", "units", "up", "folder", "analyses", "figures", "formats", "views")
+_KEYS = ("case", "probes", "jump", "snapshots", "units", "up", "folder", "analyses", "figures", "formats", "views", "missing")
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,7 @@ class Recipe:
     formats: list[str] = field(default_factory=lambda: ["png"])
     folder: str = "post"
     views: list[tuple[View, Location]] = field(default_factory=list)
+    missing: dict[str, float] = field(default_factory=dict)  # of arrays that the field files may lack
 
     @property
     def needs_states(self) -> bool:
@@ -80,6 +81,9 @@ def read_recipe(file: str | PathLike[str], diagnostics: Diagnostics) -> Recipe |
     if snapshots := keys.map("snapshots"):
         out.snapshots = snapshots.read(SnapshotRecipe)
     out.settings = _read_settings(keys)
+    if missing := keys.map("missing"):
+        missing.allow("density", "smoothing_length")
+        out.missing = {name: missing.positive(name, 1) for name in ("density", "smoothing_length") if missing.has(name)}
     for node in keys.list("analyses"):
         _read_one(keys, node, out)
     out.figures = [read_figure(keys, node) for node in keys.list("figures")]

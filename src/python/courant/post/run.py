@@ -46,7 +46,7 @@ class _Job:
         """Messages, time, depths and what each analysis measured; the time is NaN where the state cannot be read."""
         diagnostics = Diagnostics()
         with_speed = s in self.pictures
-        frame = read_particles(self.states[s], [*self.arrays, *([Wanted("velocity", 3)] if with_speed else [])], diagnostics)
+        frame = read_particles(self.states[s], [*self.arrays, *([Wanted("velocity", 3)] if with_speed else [])], diagnostics, self.recipe.missing)
         if frame is None:
             return diagnostics, float("nan"), None, []
         depths = measure_depths(frame, self.recipe, with_speed) if self.depths or with_speed else None
@@ -146,7 +146,7 @@ def _views(recipe: Recipe, folder: Path, out: Path, diagnostics: Diagnostics) ->
 
     make_folder(out)
     try:
-        made = draw_views(Results(folder, recipe.settings.units), recipe.views, out, diagnostics)
+        made = draw_views(Results(folder, recipe.settings.units, recipe.missing), recipe.views, out, diagnostics)
     except MissingModule as fault:
         no_pictures(fault, diagnostics)
         return ""
@@ -176,6 +176,10 @@ def run_post(
     out = folder / recipe.folder
     for one in recipe.analyses:
         one.out = out
+        if states:
+            one.begin(states, diagnostics)
+    if not diagnostics.ok:
+        return False
     job = _Job(recipe, states, snapshot_states(recipe, states, diagnostics))
     measured = _stream(job, threads, progress, diagnostics)
     if measured is None:

@@ -7,11 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..expressions import Formula
-from ..fields import ParticleFrame
+from ..fields import ParticleFrame, Wanted
+from ..gradients import vorticity_of_active
 from ..units import Units
-from ..variables import VARIABLES, dimension_of, variable_of
+from ..variables import VARIABLES, arrays_of, dimension_of, variable_of
 from ..yaml_map import Node, YamlMap, is_map, is_scalar, scalar_text
 from .particles import ParticleSet, SprayRule, water_body
+
+
+NAMES = (*VARIABLES, "vorticity")  # of expressions; vorticity: dvy/dx - dvx/dy, of the active particles
 
 
 @dataclass(frozen=True)
@@ -29,10 +33,16 @@ class Quantity:
     of: Formula
 
 
-EVERYWHERE = Where("1", Formula("1", VARIABLES))
+def wanted_of(*formulas: Formula) -> list[Wanted]:
+    """Arrays of a field file that expressions over NAMES need."""
+    used = {name for formula in formulas for name in formula.used}
+    return arrays_of({"vx" if name == "vorticity" else name for name in used})
 
 
-def read_expression(keys: YamlMap, node: Node, key: str, names: tuple[str, ...] = VARIABLES) -> Formula:
+EVERYWHERE = Where("1", Formula("1", NAMES))
+
+
+def read_expression(keys: YamlMap, node: Node, key: str, names: tuple[str, ...] = NAMES) -> Formula:
     """An expression over `names`; faults are told at the node."""
     if not is_scalar(node):
         keys.error(node, f"'{keys.name}.{key}' must be an expression")
@@ -72,7 +82,7 @@ def _read_quantity(keys: YamlMap, node: Node, units: Units) -> Quantity:
     """Single variables know their unit, other expressions have "?" unless the recipe tells."""
 
     def unit_of(text: str) -> str:
-        return units.of_text(dimension_of(text) or "?")
+        return f"1/{units.time}" if text == "vorticity" else units.of_text(dimension_of(text) or "?")
 
     if not is_map(node):
         name, unit, of = scalar_text(node), unit_of(scalar_text(node)), read_expression(keys, node, "of")
@@ -82,7 +92,7 @@ def _read_quantity(keys: YamlMap, node: Node, units: Units) -> Quantity:
         unit = entry.text("unit", unit_of(entry.text("of", required=True)))
         name = entry.text("name", required=True)
         inner = entry.get("of")
-        of = Formula("0", VARIABLES) if inner is None else read_expression(entry, inner, "of")
+        of = Formula("0", NAMES) if inner is None else read_expression(entry, inner, "of")
     return Quantity("".join(name.split()).replace(",", ";"), unit, of)
 
 
@@ -93,6 +103,7 @@ class State:
         self.frame, self.slack = frame, slack
         self._selections: dict[str, ParticleSet] = {}
         self._waters: dict[tuple[SprayRule, str], ParticleSet] = {}
+        self._vorticity: np.ndarray | None = None
 
     @property
     def t(self) -> float:
@@ -100,13 +111,22 @@ class State:
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Values of a variable ("vx", "p", ...) for all particles of the file, shape (n,). Raises KeyError where it was not asked for."""
-        if variable_of(self.frame, name) is None:
+        if self._variable(name) is None:
             raise KeyError(name)
-        return np.broadcast_to(np.asarray(variable_of(self.frame, name), dtype=float), (len(self.frame),))
+        return np.broadcast_to(np.asarray(self._variable(name), dtype=float), (len(self.frame),))
 
     def evaluate(self, of: Formula) -> np.ndarray:
         """Values of an expression for all particles of the file, shape (n,); NaN where it has none."""
-        return of.over({name: variable_of(self.frame, name) for name in of.used}, len(self.frame))
+        return of.over({name: self._variable(name) for name in of.used}, len(self.frame))
+
+    def _variable(self, name: str) -> np.ndarray | float | None:
+        if name != "vorticity":
+            return variable_of(self.frame, name)
+        if self._vorticity is None and "velocity" in self.frame.arrays:
+            frame = self.frame
+            found = vorticity_of_active(frame.x, frame.V, frame.h, frame.arrays["velocity"].astype(float), self.active)
+            self._vorticity = found if found.ndim == 1 else found[:, 2]
+        return self._vorticity
 
     @property
     def active(self) -> np.ndarray:

@@ -52,11 +52,12 @@ class Image:
 
 @dataclass
 class Result:
-    """What an analysis gives. `tables`: the first is the main one; `text`: lines for the user."""
+    """What an analysis gives. `tables`: the first is the main one; `words`: results that are no numbers, by name; `text`: lines for the user."""
 
     tables: list[Table] = field(default_factory=list)
     scalars: list[Scalar] = field(default_factory=list)
     images: list[Image] = field(default_factory=list)
+    words: dict[str, str] = field(default_factory=dict)
     text: str = ""
 
 

@@ -7,12 +7,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..gradients import vorticity_of_active
 from ..words import did_you_mean
 
 _VECTOR, _TENSOR = ("x", "y", "z"), ("xx", "yy", "zz", "xy", "yz", "zx")
 _RESULTANT = ("xx", "yy", "xy")  # of shells, per length of their edge
 _RESULTANTS = ("membrane_force", "bending_moment")
 _NO_FIELDS = ("id", "part")
+_OF_VORTICITY = ("velocity", "mass", "density", "smoothing_length")  # arrays of particles that it is made of
 # corners of the faces of VTK's cells, seen from outside against the clock, by the number of corners of a solid
 _SOLID_FACES: dict[int, tuple[tuple[int, ...], ...]] = {
     4: ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)),
@@ -62,7 +64,26 @@ def field_names(mesh: Any) -> list[str]:
         parts = [f"{name}.{part}" for part in _parts(name, array.components)]
         whole = array.components == 1 or (array.components == 3 and name not in _RESULTANTS)
         out += ["speed"] * (name == "velocity") + [name] * whole + parts
+    if _has_vorticity(mesh):
+        out += ["vorticity"] + [f"vorticity.{axis}" for axis in _VECTOR if not _is_flat(mesh)]
     return list(dict.fromkeys(out))
+
+
+def _has_vorticity(mesh: Any) -> bool:
+    """Whether the vorticity can be made of what the file has, and is not in it."""
+    return mesh.path.suffix == ".vtp" and "vorticity" not in mesh.names and all(name in mesh for name in _OF_VORTICITY)
+
+
+def _is_flat(mesh: Any) -> bool:
+    return len(mesh) > 0 and bool((mesh.points[:, 2] == mesh.points[0, 2]).all())
+
+
+def _vorticity(mesh: Any) -> np.ndarray:
+    """Of the active particles, else NaN: (n,) about z in the plane, (n, 3) in space."""
+    v, m, rho, h = (mesh[name].astype(float) for name in _OF_VORTICITY)
+    active = mesh["active"] > 0 if "active" in mesh else np.ones(len(mesh), dtype=bool)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return vorticity_of_active(mesh.points, m / rho, h, v, active)
 
 
 def field_of(mesh: Any, name: str) -> FieldValues:
@@ -73,14 +94,15 @@ def field_of(mesh: Any, name: str) -> FieldValues:
         hint = f"choose a component: {', '.join(whole)}" if whole else f"{did_you_mean(name, names)}it has {', '.join(names)}"
         raise UnknownField(f"{mesh.path} has no field '{name}'; {hint}")
     array, _, part = ("velocity" if name == "speed" else name).partition(".")
-    values = mesh[array].astype(float)
+    made = array == "vorticity" and _has_vorticity(mesh)
+    values = _vorticity(mesh) if made else mesh[array].astype(float)
     if part:
         parts = _parts(array, values.shape[1])
         values = mises(values) if part == "mises" else values[:, :3].mean(axis=1) if part == "mean" else values[:, parts.index(part)]
     elif values.ndim > 1:
         values = np.sqrt((values**2).sum(axis=1))
     section = "particles" if mesh.path.suffix == ".vtp" else "nodes" if ("PointData", array) in mesh._file.arrays else "elements"
-    return FieldValues(name, values, mesh.unit(array), section)
+    return FieldValues(name, values, f"1/{mesh._units.time}" if made else mesh.unit(array), section)
 
 
 @dataclass

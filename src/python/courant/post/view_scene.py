@@ -164,9 +164,12 @@ def _elements(state: Any, view: View, chosen: dict[Any, FieldValues], flat: bool
     return faces, None if faces is None else np.concatenate(values), joined_faces(others)
 
 
-def _mirror_sign(name: str, axis: str) -> int:
-    """-1 for components that change their sign in a mirror across an axis: "velocity.x" and "stress.xy" across x."""
-    part = name.partition(".")[2]
+def _mirror_sign(name: str, axis: str, flat: bool) -> int:
+    """-1 for components that change their sign in a mirror across an axis: "velocity.x" and "stress.xy" across x, "vorticity.z" across x and y."""
+    array, _, part = name.partition(".")
+    if array == "vorticity":
+        part = part or ("z" if flat else "")
+        return -1 if part and part != axis else 1
     return -1 if set(part) <= set("xyz") and part.count(axis) % 2 else 1
 
 
@@ -183,7 +186,7 @@ def scene_of(state: Any, view: View) -> Scene:
     if not _within(x, view.window).any() and faces is None:
         raise UnknownField(f"nothing is within the window at t = {state.t:g}")
     for axis in view.mirror:
-        a, sign = "xyz".index(axis), _mirror_sign(found[0][1].name, axis)
+        a, sign = "xyz".index(axis), _mirror_sign(found[0][1].name, axis, flat)
         if faces is not None and colours is not None:
             faces, colours = mirrored(faces, a), np.concatenate((colours, sign * colours))
         if values is not None:
