@@ -314,7 +314,8 @@ def read_array(file: FieldFile, section: str, name: str, components: int, diagno
 def read_particles(
     state: StateFiles, arrays: Sequence[Wanted], diagnostics: Diagnostics, missing: Mapping[str, float] | None = None
 ) -> ParticleFrame | None:
-    """Particles of one state with further arrays. Faults are told; then there is None. `missing`: numbers for arrays that the file may lack."""
+    """Particles of one state with further arrays. Faults are told; then there is None. `missing`: numbers for arrays that the file may lack, which
+    do not come where they are optional."""
     file = open_field(Path(state.particles or ""), diagnostics)
     if file is None:
         return None
@@ -346,7 +347,8 @@ def read_particles(
         )
         return None
     dim = 2 if (x[:, 2] == x[:1, 2]).all() else 3
-    return ParticleFrame(state.t, dim, x, V, h, {one.name: found[one.name] for one in arrays if one.name in found})
+    kept = [one.name for one in arrays if one.name in found and not (one.optional and not file.has("PointData", one.name))]
+    return ParticleFrame(state.t, dim, x, V, h, {name: found[name] for name in kept})
 
 
 def read_walls(state: StateFiles, diagnostics: Diagnostics) -> np.ndarray:

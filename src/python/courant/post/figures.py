@@ -32,7 +32,7 @@ from .tables import Image, Table
 STYLES = ("line", "dashed", "points", "line+points")
 SCALES = ("linear", "log_x", "log_y", "log")
 _PARTS = ("curves", "references", "map")
-CHARTS: Registry[Callable[..., None]] = Registry("chart")
+CHARTS: Registry[Callable[..., None]] = Registry("chart", {name: f"{__package__}.charts" for name in ("drop_regimes", "jump_types")})
 chart = CHARTS  # the decorator: functions (axes, tables by name, **keys of the figure)
 
 

@@ -13,7 +13,7 @@ from ..histories import HistoryFile
 from ..words import nearest_word
 from ..yaml_map import Node, YamlMap, is_map, is_scalar, scalar_text
 from .analyses import Analysis, Moments, Run, Settings, TimeWindow, analysis, median
-from .spectrum import Spectrum, SpectrumSettings, at_equal_steps, welch
+from .spectrum import Spectrum, SpectrumSettings, at_equal_steps, main_peak, welch
 from .tables import Series
 
 
@@ -208,8 +208,9 @@ class SpectrumAnalysis(Analysis):
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "of", "from", "to", "segment", "overlap", "window", "detrend", "band")
+        keys.allow("kind", "name", "of", "only", "from", "to", "segment", "overlap", "window", "detrend", "band")
         self.of, self.window = keys.text("of", required=True), TimeWindow.read(keys)
+        self.only = keys.texts("only")  # of the series, or of what stands before their @
         segment, overlap = keys.positive("segment"), keys.number("overlap", 0.5)
         if not 0 <= overlap < 0.95:
             keys.error(keys.get("overlap") or keys.node, f"'{keys.name}.overlap' must be 0 to 0.95, got {overlap:g}")
@@ -226,7 +227,13 @@ class SpectrumAnalysis(Analysis):
             return None
         series, times = source.series(), np.asarray(source.times)
         if not series:
-            return self.fault(run, f"'{self.of}' has no series over time", "probe, surface, flux, history, force and toe have")
+            return self.fault(run, f"'{self.of}' has no series over time", "probe, surface, flux, history, force, toe and gauges have")
+        unknown = [word for word in self.only if not any(word in (one.name, one.name.partition("@")[0]) for one in series)]
+        if unknown:
+            names = ", ".join(dict.fromkeys(one.name.partition("@")[0] for one in series))
+            return self.fault(run, f"'{self.of}' has no series '{unknown[0]}'", f"it has {names}")
+        if self.only:
+            series = [one for one in series if one.name in self.only or one.name.partition("@")[0] in self.only]
         inside = np.flatnonzero(self.window.within(times))
         if len(inside) == 0 or inside[-1] + 1 - inside[0] < 8:
             return self.fault(run, "fewer than eight states are in its window in time")
@@ -235,7 +242,7 @@ class SpectrumAnalysis(Analysis):
         if not found:
             return self.fault(run, f"no series of '{self.of}' is without gaps")
         alike = len({self._unit(one) for one, _ in found}) == 1
-        if not alike:
+        if not alike and not self.only:  # who names the series knows
             message = f"analysis '{self.name}': the series of '{self.of}' have different units: they have no mean"
             run.diagnostics.warning(self.where, message)
         return self._write(found, alike, len(series), times[part])
@@ -277,19 +284,26 @@ class SpectrumAnalysis(Analysis):
         table.add("density", unit, [one.top(*self.band) for one in spectra])
         table.add("deviation", first.unit if alike else "?", np.sqrt(variances))
         table.add("share_in_band", "-", in_band)
+        main = main_peak(spectra, *self.band)
+        bins = np.abs(np.array(peaks) - main) / frequency[1]
+        table.add("bins_off", "-", bins)
         dominant, df, segments = mean.dominant(*self.band), frequency[1], spectra[0].segments
         for name, unit_of, value in (
             ("resolution", hertz, df),
             ("segments", "-", segments),
             ("dominant_of_mean", hertz, dominant),
             ("dominant_median", hertz, median(peaks)),
+            ("main_peak", hertz, main),
+            ("same_peak_share", "-", float((bins <= 1 + 1e-9).mean())),
         ):
             self.add_scalar(name, unit_of, value)
+        of_mean = f"{dominant:.3g} {hertz} of the mean spectrum, " if alike else ""
         window = "Hann" if self.how.window == "hann" else "rectangular"
         self.say(
             f"  {len(found)} of {all_series} series, t = {t[0]:.4g} to {t[-1]:.4g}, {segments} segments of {1 / df:.4g} {self.units.time}, "
-            f"{window} window, overlap {self.how.overlap:g}: resolution {df:.3g} {hertz}\n  dominant frequency: {dominant:.3g} {hertz} of the "
-            f"mean spectrum, {median(peaks):.3g} {hertz} in the median of the series\n"
+            f"{window} window, overlap {self.how.overlap:g}: resolution {df:.3g} {hertz}\n  dominant frequency: {of_mean}"
+            f"{median(peaks):.3g} {hertz} in the median of the series\n"
+            f"  main peak of all of one weight: {main:.3g} {hertz}; {(bins <= 1 + 1e-9).sum()} of {len(found)} series have theirs within one bin of it\n"
         )
 
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..diagnostics import Diagnostics
-from ..fields import ParticleFrame, StateFiles, Wanted, read_particles, read_states, read_walls, slack_of
+from ..fields import ParticleFrame, StateFiles, Wanted, open_field, read_particles, read_states, read_walls, slack_of
 from ..files import make_folder, write_file
 from ..optional import MissingModule
 from ..variables import wanted_array
@@ -153,6 +153,15 @@ def _views(recipe: Recipe, folder: Path, out: Path, diagnostics: Diagnostics) ->
     return "".join(f"view: {path}\n" for path in made)
 
 
+def _tell_missing(recipe: Recipe, states: list[StateFiles], say: Say) -> None:
+    """Which numbers of the recipe stand in for arrays that the files lack."""
+    file = open_field(states[0].particles, Diagnostics()) if states and states[0].particles and recipe.missing else None
+    if file is not None:
+        for name, value in recipe.missing.items():
+            if not file.has("PointData", name):
+                say(f"the field files have no {name}: {value:g} of the recipe stands in for it\n")
+
+
 def run_post(
     recipe_file: str | PathLike[str], folder: str | PathLike[str], say: Say, diagnostics: Diagnostics, progress: Say | None = None, threads: int = 1
 ) -> bool:
@@ -180,6 +189,7 @@ def run_post(
             one.begin(states, diagnostics)
     if not diagnostics.ok:
         return False
+    _tell_missing(recipe, states, say)
     job = _Job(recipe, states, snapshot_states(recipe, states, diagnostics))
     measured = _stream(job, threads, progress, diagnostics)
     if measured is None:

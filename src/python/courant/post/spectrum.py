@@ -61,6 +61,14 @@ class Spectrum:
         return max(0.0, float(self.density[self.in_band(low, high)].max(initial=0.0)))
 
 
+def main_peak(spectra: list[Spectrum], low: float, high: float) -> float:
+    """Dominant frequency in a band of the mean of spectra, each over its own variance in the band: series of any units, and those that swing
+    little, count as much as others. NaN where none has a variance. [1/T]"""
+    whole = np.array([one.variance(low, high) for one in spectra])
+    some = [one.density / variance for one, variance in zip(spectra, whole, strict=True) if variance > 0]
+    return Spectrum(spectra[0].frequency, np.mean(some, axis=0)).dominant(low, high) if some else math.nan
+
+
 def _rounded(x: float) -> int:
     """The nearest whole number, halves away from 0."""
     return math.floor(x + 0.5)
