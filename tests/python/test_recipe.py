@@ -47,7 +47,7 @@ def test_all_faults_at_once_with_their_places(tmp_path):
         assert expected in text, expected
 
 
-KINDS = "probe, surface, grid, profile, spectrum, flux, history, force, toe, roller"
+KINDS = "probe, surface, grid, profile, spectrum, flux, history, force, toe, roller, jump_type, drop_regime, gauges, correlation, mass_balance, soundness"
 
 
 @pytest.mark.parametrize(
@@ -66,7 +66,7 @@ KINDS = "probe, surface, grid, profile, spectrum, flux, history, force, toe, rol
         ),
         (
             "kind: profile, name: p, of: [u], x: 1, y: 1",
-            "R:2:35: error: 'p.of': unknown name 'u'\n  hint: it may use x, y, z, vx, vy, vz, speed, p, rho, h, m, V, e, part, id, active, t\n",
+            "R:2:35: error: 'p.of': unknown name 'u'\n  hint: it may use x, y, z, vx, vy, vz, speed, p, rho, h, m, V, e, part, id, active, t, vorticity\n",
         ),
         (
             "kind: profile, name: p, of: [p], x: 1, y: 1, interpolation: msl",

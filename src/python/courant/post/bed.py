@@ -55,11 +55,12 @@ class Bed:
         if not self.parts or not states:
             return
         first, last = (_traces(one, self.parts, diagnostics) for one in (states[0], states[-1]))
-        if len(first) == 0 and diagnostics.ok:
-            words = ", ".join(map(str, self.parts))
-            diagnostics.error(self.where, f"the results have no shells of the parts {words} to be a bed", _HINT)
-        reach = float(np.ptp(first, axis=0).max(initial=0.0))
-        if first.shape != last.shape or np.abs(first - last).max(initial=0.0) > 1e-5 * reach:
+        if len(first) == 0:
+            if diagnostics.ok:
+                words = ", ".join(map(str, self.parts))
+                diagnostics.error(self.where, f"the results have no shells of the parts {words} to be a bed", _HINT)
+            return
+        if first.shape != last.shape or np.abs(first - last).max() > 1e-5 * np.ptp(first, axis=0).max():
             diagnostics.error(self.where, "the shells that are to be the bed move", "give the bed as a polyline or an expression of x")
         self.pieces = first
 

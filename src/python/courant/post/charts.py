@@ -12,6 +12,9 @@ from .drop import TYPES
 from .kinds_drop import REGIMES
 
 
+_SPOKEN = {"undecided": "", "A": "A-jump", "B": "B-jump", "A-wave": "wave, toe upstream (A-wave)", "B-wave": "wave, toe behind (B-wave)"}
+
+
 @chart("drop_regimes")
 def drop_regimes(axes: Any, tables: dict[str, Any], table: str, labels: list[str] | None = None, here: str = "this run") -> None:
     """Froude number against tailwater depth: the momentum bounds of B-jump and A-jump, tests by type, and the run. `labels`: of the tests."""
@@ -27,7 +30,7 @@ def drop_regimes(axes: Any, tables: dict[str, Any], table: str, labels: list[str
     for name, x, y in zip(labels or [], tests["F1"], tests["Y"], strict=False):
         axes.annotate(str(name), (x, y), xytext=(5, 3), textcoords="offset points", fontsize=8)
     regime = REGIMES[int(run["type"][0])]
-    axes.plot(run["F1"], run["Y"], linestyle="none", marker="*", markersize=13, color="black", zorder=5, label=f"{here}: {regime}")
+    axes.plot(run["F1"], run["Y"], linestyle="none", marker="*", markersize=17, markerfacecolor="none", markeredgewidth=1.4, color="black", zorder=5, label=f"{here}: {regime}")
 
 
 @chart("jump_types")
@@ -40,7 +43,7 @@ def jump_types(axes: Any, tables: dict[str, Any], table: str, y1: float | None =
     shown: set[int] = set()
     for begin, end in zip(begins, [*begins[1:], len(t)], strict=True):
         number = int(types[begin])
-        label = None if number in shown or number == 0 else TYPES[number]
+        label = None if number in shown else _SPOKEN[TYPES[number]]
         shown.add(number)
         if number:
             axes.axvspan(ends[begin], ends[end], color=PALETTE[(number + 1) % len(PALETTE)], alpha=0.22, linewidth=0, label=label)

@@ -47,7 +47,7 @@ def _draw_map(figure: Any, axes: Any, one: dict[str, Any]) -> None:
     x, y = one["x0"] + one["dx"] * np.arange(nx), one["y0"] + one["dy"] * np.arange(ny)
     field, *along = (np.ma.masked_invalid(_numbers(one[key]).reshape(ny, nx)) for key in ("field", "u", "v") if key in one)
     low, high = one["range"] or (None, None)
-    colours = axes.pcolormesh(x, y, field, cmap=FIELD_COLOURS, vmin=low, vmax=high, shading="nearest", rasterized=True)
+    colours = axes.pcolormesh(x, y, field, cmap=one.get("colours") or FIELD_COLOURS, vmin=low, vmax=high, shading="nearest", rasterized=True)
     figure.colorbar(colours, ax=axes, label=one["label"], pad=0.01, aspect=20, shrink=0.8)
     if along:
         axes.streamplot(x, y, *along, density=(3.0, 1.2), color="white", linewidth=0.6, arrowsize=0.6)

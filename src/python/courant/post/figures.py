@@ -31,6 +31,7 @@ from .tables import Image, Table
 
 STYLES = ("line", "dashed", "points", "line+points")
 SCALES = ("linear", "log_x", "log_y", "log")
+COLOURS = ("viridis", "cividis", "magma", "plasma", "coolwarm", "Greys")
 _PARTS = ("curves", "references", "map")
 CHARTS: Registry[Callable[..., None]] = Registry("chart", {name: f"{__package__}.charts" for name in ("drop_regimes", "jump_types")})
 chart = CHARTS  # the decorator: functions (axes, tables by name, **keys of the figure)
@@ -69,6 +70,7 @@ class Map:
     label: str = key("text")
     streamlines: list[str] = key("texts")
     range: tuple[float, float] | None = key("range")
+    colours: str = key("choice", words=COLOURS)
     where: Location = Location()
 
 
@@ -244,7 +246,7 @@ class FiguresData:
         nx, ny, _ = image.n
         places = zip(("x0", "y0", "dx", "dy"), (*image.origin[:2], *image.spacing[:2]), strict=True)
         out: dict[str, Any] = {"nx": nx, "ny": ny, **{key: float(f"{value:.9g}") for key, value in places}}
-        out |= {"label": one.label, "range": _range(one.range)}
+        out |= {"label": one.label, "range": _range(one.range), "colours": one.colours}
         wanted = [("field", one.field), *zip("uv", one.streamlines, strict=False)]
         for key, name in wanted:
             column = self._named(image.fields, name, "field", one.where)

@@ -35,16 +35,18 @@ class GaugesAnalysis(Analysis):
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow(*"kind name of toe distances x height bed surface wet where link share from to".split())
+        keys.allow(*"kind name of toe distances x height bed surface interpolation wet where link share from to".split())
         self.of = read_quantities(keys, self.units) if keys.has("of") else []
         self.which, self.spray, self.window = read_where(keys), read_spray(keys), TimeWindow.read(keys)
         self.toe, self.distances = keys.text("toe", required=True), np.array(keys.places("distances", required=True))
         self.x = np.array(keys.places("x", required=True))
         if len(self.x) < 2 or (np.diff(self.x) <= 0).any():
-            keys.error(keys.get("x") or keys.node, f"'{keys.name}.x' must be two places or more that go upwards", "for example {from: -0.3, to: 1.2, step: 0.01}")
+            hint = "for example {from: -0.3, to: 1.2, step: 0.01}"
+            keys.error(keys.get("x") or keys.node, f"'{keys.name}.x' must be two places or more that go upwards", hint)
             self.x = np.array([0.0, 1.0])
         self.height, self.ground = keys.number("height"), Bed.read(keys)
         self.first, self.wet = keys.choice("surface", ("top", "first")) == "first", keys.positive("wet", 0.25)
+        self.linear = keys.choice("interpolation", ("mls", "shepard")) == "mls"
         self.bed = np.zeros(len(self.x))
         self.taken: list[np.ndarray] = []
         self.found: list[Series] = []
@@ -78,7 +80,7 @@ class GaugesAnalysis(Analysis):
         values[0] = np.where(depth > 0, self.bed + depth, np.nan)
         if not self.of:
             return _Seen(values, 0)
-        weights = interpolate(water, self.points, True, self.wet)
+        weights = interpolate(water, self.points, self.linear, self.wet)
         wet = weights.colour >= self.wet
         for q, quantity in enumerate(self.of, 1):
             values[q, wet] = weights.of(state.evaluate(quantity.of)[water.row])[wet]

@@ -8,10 +8,10 @@ import numpy as np
 
 from ..expressions import Formula
 from ..fields import ParticleFrame, Wanted
-from ..gradients import vorticity_of_active
 from ..units import Units
 from ..variables import VARIABLES, arrays_of, dimension_of, variable_of
 from ..yaml_map import Node, YamlMap, is_map, is_scalar, scalar_text
+from .gradients import vorticity_of_active
 from .particles import ParticleSet, SprayRule, water_body
 
 

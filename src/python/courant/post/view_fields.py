@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..gradients import vorticity_of_active
 from ..words import did_you_mean
+from .gradients import vorticity_of_active
 
 _VECTOR, _TENSOR = ("x", "y", "z"), ("xx", "yy", "zz", "xy", "yz", "zx")
 _RESULTANT = ("xx", "yy", "xy")  # of shells, per length of their edge
@@ -92,6 +92,9 @@ def field_of(mesh: Any, name: str) -> FieldValues:
     if name not in names:
         whole = [other for other in names if other.startswith(f"{name}.")]
         hint = f"choose a component: {', '.join(whole)}" if whole else f"{did_you_mean(name, names)}it has {', '.join(names)}"
+        lacking = [one for one in _OF_VORTICITY if one not in mesh] if name.partition(".")[0] == "vorticity" and mesh.path.suffix == ".vtp" else []
+        if lacking:
+            hint = f"it is made of {', '.join(_OF_VORTICITY)}, and the file lacks {', '.join(lacking)}: `missing` of a recipe may give density and smoothing_length"
         raise UnknownField(f"{mesh.path} has no field '{name}'; {hint}")
     array, _, part = ("velocity" if name == "speed" else name).partition(".")
     made = array == "vorticity" and _has_vorticity(mesh)

@@ -12,10 +12,10 @@ from ..diagnostics import CourantError
 from ..optional import module
 from ..yaml_map import key
 from .camera import AXES, PROJECTIONS
+from .figures import COLOURS
 from .view_fields import Faces, FieldValues, UnknownField, faces_of, field_names, field_of, joined_faces, mirrored
 
 
-COLOURS = ("viridis", "cividis", "magma", "plasma", "coolwarm", "Greys")
 OF, WALLS = ("", "particles", "elements"), ("transparent", "outlined", "none")
 
 
@@ -135,6 +135,9 @@ def _face_values(found: FieldValues, faces: Faces) -> np.ndarray:
 
 def _particles(mesh: Any, view: View, values: np.ndarray, flat: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """x, V, h and values of the active particles, in space of those within the window: in the plane their neighbours count, too."""
+    if lacking := [name for name in ("mass", "density", "smoothing_length") if name not in mesh]:
+        hint = "FIELDS of *COURANT_OUTPUT left them out; `missing` of a recipe may give density and smoothing_length"
+        raise UnknownField(f"{mesh.path} lacks {', '.join(lacking)}, without which particles have no size: {hint}")
     with np.errstate(divide="ignore", invalid="ignore"):
         V = mesh["mass"].astype(float) / mesh["density"]
     on = (flat | _within(mesh.points, view.window)) & np.isfinite(V) & (V > 0) & np.isfinite(mesh.points).all(axis=1) & np.isfinite(values)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from .particles import spline_shape
+
 _LEAST = 1e-2  # of the moments' eigenvalues over the largest one: with less, neighbours lie in a line or a sheet
 
 
@@ -18,7 +20,6 @@ def gradients(x: np.ndarray, V: np.ndarray, h: np.ndarray, values: np.ndarray) -
     """
     from scipy.spatial import cKDTree
 
-    from .post.particles import spline_shape
 
     n, dim = x.shape
     if n < 2:
