@@ -22,234 +22,35 @@ Exit code: 0 all is done, 1 a run or its evaluation failed, 2 the call was wrong
 
 """
 import argparse
-import concurrent.futures
 import os
 import pathlib
-import re
-import signal
-import statistics
-import subprocess
 import sys
-import threading
-import time
 
 import yaml
 
-import paper_evaluate
-import paper_page
-import paper_study
-from paper_evaluate import Failure, age
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "lib"))
+import paper_evaluate  # noqa: E402
+import paper_page  # noqa: E402
+import paper_study  # noqa: E402
+from case_runs import Case, Failure, Program, interruptible, make_deck, say, work_through  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 SCENES = PROJECT / "keyword_decks" / "hydraulic_jump"
 FIRST_GUESS = {"windows": 50, "eddy viscosity": 300, "others": 140}  # ns per particle and step on one thread, until a run has told
-RESTART_WORK = 1.0e9     # particle-steps between restart files: a minute or two
 QUICK = {"endtim": 0.2, "settled": [0.05, 0.2], "segment": 0.15}
 
 
-class Run:
-    """One line of paper_runs.yaml, or a run of a line of study_runs.yaml, with its files and what is known of its size."""
+class Run(Case):
+    """One line of paper_runs.yaml, or a run of a line of study_runs.yaml."""
 
     def __init__(self, entry, results, quick):
-        self.__dict__.update(segment=1, figures=False, toe=0, cards="", replace=[])
-        self.__dict__.update({"variant": entry["name"]} | entry)
-        self.parameters = dict(entry["parameters"])
+        super().__init__({"segment": 1, "figures": False, "toe": 0, "variant": entry["name"]} | entry, results, SCENES)
         if quick:
             self.parameters["endtim"] = QUICK["endtim"]
             self.settled, self.segment = QUICK["settled"], QUICK["segment"]
-        self.folder = results / self.name
-        self.deck = results / f"{self.name}.k"
-        self.summary_file, self.index = self.folder / "summary.yaml", self.folder / "fields.pvd"
-        self.work = self.steps = self.particles = 0  # particle-steps, steps, particles
         self.kind = "windows" if "*COURANT_PAIR_GEOMETRY" in self.cards else "eddy viscosity" if self.parameters.get("mixing", 0) > 0 else "others"
 
-    def summary(self):
-        try:
-            return yaml.safe_load(self.summary_file.read_text()) or {}
-        except (OSError, yaml.YAMLError):
-            return {}
-
-
-def say(text=""):
-    print(text, flush=True)
-
-
-def duration(seconds):
-    if seconds < 90:
-        return f"{seconds:.0f} s"
-    if seconds < 5400:
-        return f"{seconds / 60:.0f} min"
-    return f"{seconds / 3600:.1f} h"
-
-
-class Program:
-    """The courant that runs, with all its files."""
-
-    def __init__(self, courant):
-        self.courant = pathlib.Path(courant).resolve()
-        self.age = max([age(self.courant)] + [age(lib) for lib in self.courant.parent.glob("libcourant.so*")])
-
-    def call(self, *words):
-        """Runs to the end; output as text. An interrupt ends it."""
-        with subprocess.Popen([self.courant, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                              start_new_session=True) as child:
-            try:
-                out = child.communicate()[0]
-            except BaseException:
-                child.kill()
-                raise
-        if child.returncode != 0:
-            raise Failure(f"courant {words[0]} ended with exit code {child.returncode}:\n{out[-2000:]}")
-        return out
-
-
-# ---- decks
-
-def make_deck(run, program):
-    """Generates the deck, with the run's own cards and one for restart files; one that is as before keeps its age."""
-    run.deck.parent.mkdir(parents=True, exist_ok=True)
-    fresh = run.deck.with_suffix(".new")
-    words = [f"--param={name}={value}" for name, value in run.parameters.items()]
-    program.call("generate", SCENES / run.scene, "-o", fresh, *words)
-    measure(run, program.call("check", fresh))
-    cycles = max(1000, round(RESTART_WORK / (run.work / run.steps), -3))
-    text = fresh.read_text()
-    for old, new in run.replace:
-        if text.count(old) != 1:
-            raise Failure(f"{run.name}: the deck has these cards {text.count(old)} times, expected once:\n{old}")
-        text = text.replace(old, new)
-    head, end, tail = text.rpartition("*END")
-    if not end:
-        raise Failure(f"{fresh} has no *END")
-    text = head + run.cards + f"*DATABASE_BINARY_RUNRSF\n$#    cycl        nr\n{cycles:10.0f}         1\n" + end + tail
-    fresh.unlink()
-    if not run.deck.exists() or run.deck.read_text() != text:
-        run.deck.write_text(text)
-
-
-def measure(run, report):
-    """What `courant check` says of the size of a run."""
-    size = re.search(r"spacing ([\d.e+-]+) \[L\], (\d+) particles", report)
-    steps = re.search(r"(\d+) steps to ENDTIM", report)
-    if not size or not steps:
-        raise Failure("courant check does not tell spacing, particles and steps:\n" + report[-2000:])
-    run.particles, run.steps = int(size[2]), int(steps[1])
-    run.work = run.steps * min(run.particles, run.water / float(size[1]) ** 2)
-
-
-# ---- what is there already
-
-def is_complete(run, program):
-    return run.summary().get("termination") == "normal" and age(run.summary_file) > max(age(run.deck), program.age)
-
-
-def can_go_on(run, program):
-    """A run of this deck by this program was stopped or killed and left a restart file."""
-    files = list((run.folder / "restart").glob("*.h5"))
-    newest = max(map(age, files), default=0)
-    return newest > max(age(run.deck), program.age) and run.summary().get("termination") in (None, "interrupted")
-
-
-# ---- running
-
-class Clock:
-    """Estimates: particles x steps x ns per particle and step, the last one from runs of the kind that are done."""
-
-    def __init__(self, runs, threads):
-        self.threads, self.rates, self.ratios = threads, {kind: [] for kind in FIRST_GUESS}, []
-        for run in runs:
-            self.learn(run)
-
-    def learn(self, run):
-        summary = run.summary()
-        if summary.get("termination") != "normal" or summary.get("threads") != self.threads or not run.work:
-            return
-        self.rates[run.kind].append(summary["elapsed_ns_per_particle_step"])
-        self.ratios.append(summary["particle_steps"] / run.work)
-
-    def seconds(self, run):
-        rates = self.rates[run.kind]
-        ns = statistics.median(rates) if rates else FIRST_GUESS[run.kind] / self.threads**0.8
-        work = statistics.median(self.ratios) if self.ratios else 1
-        return run.work * work * ns * 1e-9
-
-
-def reached(run):
-    """The time of the last field state."""
-    times = re.findall(r'timestep="([^"]*)"', run.index.read_text()) if run.index.is_file() else []
-    return float(times[-1]) if times else 0.0
-
-
-class Queue:
-    """The runs that are still to do, which jobs take one after the other; `stop`: an interrupt has come."""
-
-    def __init__(self, runs, clock, jobs):
-        self.left, self.clock, self.jobs, self.stop = list(runs), clock, jobs, threading.Event()
-
-    def seconds(self):
-        """What those that nobody has taken yet will need."""
-        return sum(map(self.clock.seconds, self.left)) / self.jobs
-
-
-def watch(child, run, queue, clock):
-    """Tells now and then how far a run is, until it ends."""
-    end, begin, start = run.parameters["endtim"], reached(run), time.time()
-    terminal, told = sys.stdout.isatty() and queue.jobs == 1, start
-    while True:
-        if queue.stop.is_set():
-            raise KeyboardInterrupt
-        try:
-            child.wait(0.1)  # an interrupt must not wait for long, either
-            break
-        except subprocess.TimeoutExpired:
-            pass
-        if time.time() - told < (5 if terminal else 120):
-            continue
-        told, t = time.time(), reached(run)
-        if t <= begin + 0.02 * end:
-            left = clock.seconds(run) * (1 - begin / end) - (told - start)
-        else:
-            left = (told - start) * (end - t) / (t - begin)
-        text = f"  {run.name}: t = {t:.2f} of {end:g} s, {duration(max(0, left))} left; all runs {duration(max(0, left) + queue.seconds())}"
-        print(f"\r{text:<78}" if terminal else text, end="" if terminal else "\n", flush=True)
-    if terminal and told != start:
-        print("\r" + " " * 78 + "\r", end="")
-
-
-def execute(run, program, threads, queue, clock):
-    if queue.stop.is_set():
-        raise KeyboardInterrupt
-    queue.left.remove(run)
-    words = [program.courant, "run", run.deck, "-o", run.folder, "--threads", threads, "--quiet"]
-    if can_go_on(run, program):
-        words += ["--restart", run.folder]
-        say(f"{run.name}: goes on from its restart file at t = {reached(run):.2f} s")
-    else:
-        for stale in (run.summary_file, run.folder / paper_evaluate.EVALUATED, run.index):
-            stale.unlink(missing_ok=True)
-        say(f"{run.name}: runs, {run.particles} particles, {run.steps} steps, about {duration(clock.seconds(run))}")
-    run.folder.mkdir(parents=True, exist_ok=True)
-    # a session of its own: Ctrl-C reaches it once, through us
-    log = open(run.folder / "messages.txt", "w")
-    child = subprocess.Popen(list(map(str, words)), stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
-    try:
-        watch(child, run, queue, clock)
-    except KeyboardInterrupt:
-        child.send_signal(signal.SIGINT)
-        child.wait()
-        raise
-    finally:
-        log.close()
-    summary = run.summary()
-    if child.returncode != 0 or summary.get("termination") != "normal":
-        reason = summary.get("reason") or (run.folder / "messages.txt").read_text()[-2000:].strip()
-        raise Failure(f"the run ended with exit code {child.returncode}: {reason}")
-    clock.learn(run)
-    say(f"  {run.name}: done in {duration(summary['wall_seconds'])}, {summary['elapsed_ns_per_particle_step']:.0f} ns per particle and step")
-
-
-# ---- the whole
 
 def read_options():
     parser = argparse.ArgumentParser(usage=__doc__, add_help=False)
@@ -285,44 +86,9 @@ def choose(runs, options):
     return [run for run in runs if run.group in groups]
 
 
-def work_through(chosen, program, options):
-    """Runs and evaluates; names of what failed."""
-    failed = []
-    clock = Clock(chosen, options.threads)
-    waiting = [run for run in chosen if not is_complete(run, program)]
-    for run in chosen:
-        say(f"  {run.name:<10} " + ("is complete" if run not in waiting else f"about {duration(clock.seconds(run))} on {options.threads} thread(s)"))
-    if waiting:
-        say(f"  all together about {duration(sum(map(clock.seconds, waiting)) / options.jobs)}; Ctrl-C stops, the same command goes on")
-    queue = Queue(waiting, clock, options.jobs)
-    order = list(chosen)
-    if options.jobs > 1:  # the longest first, so that none is alone at the end
-        order.sort(key=lambda run: clock.seconds(run) if run in waiting else 0, reverse=True)
-
-    def work(run):
-        if run in waiting:
-            execute(run, program, options.threads, queue, clock)
-        paper_evaluate.evaluate(run, program, SCENES, options.threads, say)
-
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        try:
-            jobs = {pool.submit(work, run): run for run in order}
-            for job in concurrent.futures.as_completed(jobs):
-                try:
-                    job.result()
-                except (Failure, OSError) as error:
-                    failed.append(jobs[job].name)
-                    say(f"FAILED {jobs[job].name}: {error}")
-        except BaseException:
-            queue.stop.set()
-            raise
-    return failed
-
-
 def main():
     options = read_options()
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # SIGINT, too: it is ignored where a shell started us behind itself
-        signal.signal(number, signal.default_int_handler)
+    interruptible()
     table = yaml.safe_load((HERE / "paper_runs.yaml").read_text())
     options.results.mkdir(parents=True, exist_ok=True)
     entries = table["runs"] + paper_study.entries(yaml.safe_load((HERE / "study_runs.yaml").read_text()))
@@ -332,7 +98,7 @@ def main():
     try:
         for run in chosen:
             make_deck(run, program)
-        failed = work_through(chosen, program, options)
+        failed = work_through(chosen, program, options, FIRST_GUESS, lambda run: paper_evaluate.evaluate(run, program, SCENES, options.threads, say))
         pages = paper_page.write(options, runs, chosen, table["paper"], program, PROJECT)
     except Failure as error:
         say(f"Stopped: {error}")

@@ -7,20 +7,7 @@ import shutil
 
 import yaml
 
-EVALUATED = "evaluated.yaml"
-
-
-class Failure(Exception):
-    """A run or its evaluation did not end well; the text says why."""
-
-
-def age(path):
-    """When a file was written; 0 if it is not there."""
-    try:
-        return path.stat().st_mtime
-    except OSError:
-        return 0
-
+from case_runs import EVALUATED, Failure, age
 
 def with_numbers(text, numbers):
     """A recipe with other numbers behind its anchors (&from) or keys (segment:)."""
@@ -181,7 +168,7 @@ def evaluate_standing(run, program, scenes, threads):
 
 def asked(run):
     """What paper_runs.yaml asks of the evaluation: with other wishes it is made anew."""
-    return {"settled": list(run.settled), "segment": run.segment, "toe": run.toe, "figures": run.figures, "scene": run.scene, "case": run.case}
+    return {"settled": list(run.settled), "segment": run.segment, "toe": run.toe, "figures": run.figures, "scene": run.scene.name, "case": run.case}
 
 
 def is_fresh(run, program, scenes):

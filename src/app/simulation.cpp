@@ -28,6 +28,7 @@
 #include "rigid/nodal_bodies.hpp"
 #include "rigid/time_limit.hpp"
 #include "shell/shell.hpp"
+#include "sph/boundaries/frozen_outlet.hpp"
 #include "sph/boundaries/level_outlet.hpp"
 #include "sph/materials/initial_stress.hpp"
 #include "surfaces/skin.hpp"
@@ -295,6 +296,7 @@ void Simulation::add_neighbours(Diagnostics& diagnostics) {
 
 void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
+  if (diagnostics.ok()) set_inlet_pressures(injections_, deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) add_equations_of_state(world_, model_, materials_, !sph_.mu.empty());
   contacts_ = build_contacts(deck_, model_,
                              {.skip_inactive = sph_.skip_inactive_contact,
@@ -315,6 +317,8 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   add_loads(points_of(world_.particles), acceleration_of_particles(model_));
   if (!add_level_outlets(deck_, model_, sph_, planes_, world_, diagnostics))
     left_out_.push_back({"level outlet", "no *COURANT_LEVEL_OUTLET"});
+  if (!add_frozen_outlets(deck_, model_, sph_, materials_, neighbours_, world_, diagnostics))
+    left_out_.push_back({"frozen outlets", "no *COURANT_FROZEN_OUTLET"});
   for (auto& contact : contacts_) add_contact(world_, contact);
   if (contacts_.empty()) left_out_.push_back({"contact", "no *CONTACT"});
   check_field_names(deck_, model_.output.fields, world_, diagnostics);

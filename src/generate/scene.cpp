@@ -46,14 +46,17 @@ class SceneReader : private NodeReader {
     if (scene.title.size() > 80) error(root["title"], "title: a deck's title has at most 80 characters");
     scene.variables = variables_;
     read_basin(root, scene);
-    if (!root["water"] || root["parts"]) read_parts(root, scene);
+    for_each_base([&](const YAML::Node& base) {
+      if (base["parts"]) read_parts(base, scene);
+    });
+    if (root["parts"] || scene.parts.empty()) read_parts(root, scene);
     for_each_base([&](const YAML::Node& base) { read_keywords(base["keywords"], scene); });
     read_keywords(root["keywords"], scene);
     return scene;
   }
 
  private:
-  /// What many scenes have in common: files with parameters and keywords.
+  /// What many scenes have in common: files with parameters, parts and keywords.
   void load_bases(const YAML::Node& node) {
     if (!node) return;
     if (!node.IsSequence()) return load_base(node);
@@ -70,7 +73,7 @@ class SceneReader : private NodeReader {
       return report_yaml_fault(path, fault, diagnostics_);
     }
     std::swap(path_, bases_.back().path);
-    check_keys(bases_.back().node, "a base", {"parameters", "keywords"});
+    check_keys(bases_.back().node, "a base", {"parameters", "parts", "keywords"});
     std::swap(path_, bases_.back().path);
   }
   /// Messages name the base's file meanwhile.
@@ -248,7 +251,7 @@ class SceneReader : private NodeReader {
       return;
     }
     std::set<Id> ids;
-    for (const ScenePart& part : scene.parts) ids.insert(part.id);  // of the water and its box
+    for (const ScenePart& part : scene.parts) ids.insert(part.id);  // of the water and its box, and of bases
     for (const auto& entry : node) {
       if (!entry.IsMap()) {
         error(entry, "a part is a map", "- id: 1");

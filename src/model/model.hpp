@@ -38,6 +38,8 @@ struct ModelSph {
   Index part = 0;  ///< index into parts
   Real mass = 0;   ///< > 0 mass [M]; < 0: -volume [L3], times the material's RO (2D: per unit depth)
   Entry card;      ///< the ELEMENT_SPH card, for messages
+  Real spacing =
+      0;  ///< of the inlet that made it, where its place at the start does not tell; 0: it does [L]
 };
 
 struct ModelShell {

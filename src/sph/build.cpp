@@ -309,7 +309,9 @@ class Builder {
   /// rounding of coordinates in decks get the h of the first: pair loops are quicker where all have one.
   void set_smoothing_lengths() {
     Particles& p = world_.particles;
-    const std::vector<Real> nearest = nearest_distance(p.x.data(0), p.x.data(1), p.x.data(2), p.size());
+    std::vector<Real> nearest = nearest_distance(p.x.data(0), p.x.data(1), p.x.data(2), p.size());
+    for (Index i = 0; i < p.size(); ++i)
+      if (model_.sph[i].spacing > 0) nearest[i] = model_.sph[i].spacing;
     report_coincident_particles(nearest);
     std::vector<Real> used;
     for (std::size_t k = 0; k < model_.parts.size(); ++k) {

@@ -14,7 +14,7 @@ import time
 import yaml
 
 from checks import check, enter_empty_folder, failures
-sys.path.insert(0, str(pathlib.Path(sys.argv[2]) / "examples" / "hydraulic_jump"))
+sys.path[:0] = [str(pathlib.Path(sys.argv[2]) / "examples" / folder) for folder in ("lib", "hydraulic_jump")]
 import paper_evaluate  # noqa: E402
 
 courant, source = (pathlib.Path(word).resolve() for word in sys.argv[1:3])

@@ -28,6 +28,7 @@ class Reader {
     for (const auto& card : deck_.all<DefineSphInjection>()) add(card);
     for (const auto& card : deck_.all<DefineSphInjectionSimplified>()) add(card, "VEL");
     for (const auto& card : deck_.all<DefineSphInjectionFlowrate>()) add(card, "FLWRT");
+    read_inflows(deck_, model_, out_, diagnostics_);
     return std::move(out_);
   }
 
@@ -35,9 +36,7 @@ class Reader {
   void add(const DefineSphInjection& c) {
     const int errors = diagnostics_.errors();
     Injection inlet{.card = c};
-    if (c.vmag < 0)
-      error(c, "VMAG", "a curve of the speed over time is not supported",
-            "give one speed by VX, VY and VZ; TBEG and TEND may turn the inlet on and off");
+    if (c.vmag < 0) inlet.rate = rate_of(c, "VMAG", -c.vmag);
     inlet.v = Vec(c.vx, c.vy, c.vz) * (c.vmag > 0 ? static_cast<Real>(c.vmag) : 1);
     if (!(inlet.v.norm() > 0)) error(c, "VX", "the particles have no velocity", "give VX, VY or VZ");
     const CoordinateSystem* system = c.cid == 0 ? nullptr : find_system(c, c.cid);
@@ -57,9 +56,8 @@ class Reader {
 
   void add(const DefineSphInjectionSimplified& c, const char* flow) {
     const int errors = diagnostics_.errors();
-    if (c.vel < 0)
-      error(c, flow, "a curve over time is not supported",
-            "give one number; TBEG and TEND may turn the inlet on and off");
+    Injection inlet{.card = c};
+    if (c.vel < 0) inlet.rate = rate_of(c, flow, static_cast<Id>(-c.vel));
     Vec centre(c.xc, c.yc, c.zc), normal(c.dnx, c.dny, c.dnz);
     if (c.cid != 0)
       if (const CoordinateSystem* system = find_system(c, c.cid))
@@ -74,10 +72,25 @@ class Reader {
     const InletShape shape = circle(centre, e1, e2, c.radius, c.psize, dim_);
     const bool by_volume = flow == std::string_view("FLWRT");
     if (by_volume && dim_ == 2 && !has_own_units(c, flow)) return;
-    Injection inlet{.card = c};
     inlet.plane.normal = normal;
-    inlet.v = normal * (by_volume ? c.vel / (shape.area * static_cast<Real>(shape.places.size())) : c.vel);
+    const Real flows = c.vel < 0 ? 1 : c.vel;  // times the rate
+    inlet.v = normal * (by_volume ? flows / (shape.area * static_cast<Real>(shape.places.size())) : flows);
     finish(c, std::move(inlet), shape, c.pid, c.tbeg, c.tend);
+  }
+
+  /// Of a curve over time.
+  template <class Card>
+  InletRate rate_of(const Card& c, const char* field, Id id) {
+    const auto found = model_.curves.find(id);
+    if (found == model_.curves.end()) {
+      error(c, field, fmt::format("curve {} does not exist", id), "define it with *DEFINE_CURVE");
+      return {};
+    }
+    InletRate rate(found->second);
+    if (rate.least() < 0)
+      error(c, field, fmt::format("curve {} falls below 0: water would flow out", id),
+            "an inlet lets water in; let the curve end at 0, and the outflow be an outlet of its own");
+    return rate;
   }
 
   InletShape drawn_shape(const DefineSphInjection& c, const CoordinateSystem* system, const Vec& normal) {
@@ -187,10 +200,9 @@ class Reader {
     inlet.area = shape.area * static_cast<Real>(shape.places.size());
     inlet.spacing = dim_ == 2 ? shape.area : std::sqrt(shape.area);
     inlet.begin = tbeg, inlet.end = tend;
-    inlet.lead = support_and_skin *
-                 largest_h(model_.parts[static_cast<std::size_t>(part->second)],
-                           std::max(inlet.spacing, shape.spacing)) /
-                 inlet.speed();
+    inlet.cell = shape.spacing > 0 ? shape.spacing : inlet.spacing;
+    inlet.reach = support_and_skin * largest_h(model_.parts[static_cast<std::size_t>(part->second)],
+                                               std::max(inlet.spacing, shape.spacing));
     if (!reaches_the_box(c, inlet)) return;
     const Real ratio = shape.spacing > 0 ? inlet.spacing / shape.spacing : 1;
     if (std::max(ratio, 1 / ratio) > most_stretch)

@@ -7,6 +7,8 @@
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
 #include "search/neighbours.hpp"
+#include "sph/boundaries/inlet_flow.hpp"
+#include "sph/materials/materials.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -16,16 +18,22 @@ struct Injection {
   Entry card;
   Index part = 0;  ///< index into the model's parts
   InletPlane plane{};
-  Vec v = Vec::Zero();        ///< [L/T]
-  std::vector<Vec> places{};  ///< of a layer, in the plane [L]
-  Real area = 0;              ///< of all of them [L2], in 2D per unit of depth [L]
-  Real spacing = 0;           ///< of the layers, along the normal [L]
-  Real begin = 0, end = 0;    ///< TBEG and TEND [T]
-  Real lead = 0;              ///< how long before it is needed a layer must be there: it fills the kernel [T]
-  Index layers = 0;
+  Vec v = Vec::Zero();         ///< [L/T], times `rate` and `factor`
+  InletRate rate{};            ///< over time
+  std::vector<Vec> places{};   ///< of a layer, in the plane [L]
+  std::vector<Real> factor{};  ///< on v at each place; empty: 1 everywhere
+  FreeSurface surface{};
+  Real area = 0;            ///< of all places [L2], in 2D per unit of depth [L]
+  Real spacing = 0;         ///< of the layers, along the normal [L]
+  Real cell = 0;            ///< distance of places in the plane [L]
+  Real begin = 0, end = 0;  ///< TBEG and TEND [T]
+  Real reach = 0;           ///< how far upstream layers must stand to fill the kernel [L]
+  Index particles = 0;      ///< that were made
 
-  Real speed() const { return v.dot(plane.normal); }        ///< through the plane [L/T]
-  Real time_of_layer() const { return spacing / speed(); }  ///< between two layers [T]
+  /// Through the plane, before `rate` and `factor` [L/T]
+  Real speed() const { return v.dot(plane.normal); }
+  /// Whether its particles stand on a lattice already where they wait, as all move alike.
+  bool is_lattice() const { return rate.steady() && factor.empty() && !surface.on; }
 };
 
 /// All inlets of a deck.
@@ -33,6 +41,7 @@ struct Injections {
   std::vector<Injection> inlets;
   Index first = 0;              ///< particle of the model that was made; all behind it were, too
   std::vector<Index> inlet_of;  ///< particle first + k
+  std::vector<Real> head;       ///< pressure with which it comes in, over RO [L2/T2]; empty: 0
 };
 
 /// The first card of an inlet; null where there is none.
@@ -50,6 +59,12 @@ Injections add_injected_particles(const Deck& deck, Model& model, Diagnostics& d
 /// Marks the particles that were made as waiting, and has `neighbours` let them in. Call while particles
 /// stand in the order of the model.
 void make_injected_wait(const Injections& injections, World& world, Neighbours& neighbours);
+
+/// Gives particles that come in under pressure the density at which they have it, and the mass of their share
+/// of the inlet at that density. Refuses pressures that the equation of state does not reach. Call as
+/// make_injected_wait.
+void set_inlet_pressures(const Injections& injections, const Deck& deck, const Model& model,
+                         const std::vector<PartMaterial>& materials, World& world, Diagnostics& diagnostics);
 
 /// A line about each, for `courant check` and `messag`.
 std::string injections_text(const Injections& injections, const Model& model);

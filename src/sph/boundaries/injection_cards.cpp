@@ -39,7 +39,7 @@ KeywordOf<DefineSphInjection> define_sph_injection() {
                       {"VMAG",
                        &T::vmag,
                        "-",
-                       "factor on the velocity, 0: 1; < 0: a curve, not supported",
+                       "factor on the velocity, 0: 1; < 0: curve |VMAG| of it over time",
                        {},
                        [](const T& e) { return e.vmag > 0 ? IdSpace::none : IdSpace::curve; }}}},
           {.fields = {{"TBEG", &T::tbeg, "T", "start time", not_negative},
@@ -54,6 +54,13 @@ KeywordOf<DefineSphInjection> define_sph_injection() {
 }
 const RegisterKeyword<DefineSphInjection> define_sph_injection_keyword{define_sph_injection()};
 
+/// VEL or FLWRT < 0 is an id in a field of a number, which neither offsets of ids nor units know.
+template <class T>
+std::string keep_curve(T& card, const Conversion& conversion) {
+  if (!(card.vel < 0 && (conversion.offsets.any() || conversion.units.any()))) return {};
+  return "the curve that its second field names would need the file's offsets of ids and unit factors";
+}
+
 template <class T>
 KeywordOf<T> simplified(std::string name, std::string purpose, FieldOf<T> flow) {
   return {
@@ -61,25 +68,26 @@ KeywordOf<T> simplified(std::string name, std::string purpose, FieldOf<T> flow) 
       .purpose = std::move(purpose),
       .title_option = true,
       .title = &T::title,
-      .cards = {
-          {.fields =
-               {{"PID", &T::pid, "-", "part of the new particles", required_id_of(IdSpace::part)},
-                std::move(flow),
-                {"RADIUS", &T::radius, "L", "inlet radius", {.required = true, .check = Check::positive}},
-                {"PSIZE", &T::psize, "L", "particle spacing", {.required = true, .check = Check::positive}},
-                {"OFFST", &T::offst, "L", "offset of the inlet along its normal"},
-                {"CID", &T::cid, "-", "inlet system (origin, z normal); 0: the second card tells",
-                 id_of(IdSpace::coordinate_system)},
-                {"NID", &T::nid, "-", "node that the inlet follows", unsupported_id_of(IdSpace::node)}}},
-          {.fields = {{"XC", &T::xc, "L", "x of the centre of the inlet", point},
-                      {"YC", &T::yc, "L", "y of the centre"},
-                      {"ZC", &T::zc, "L", "z of the centre"},
-                      {"DNX", &T::dnx, "-", "normal of the inlet, downstream, x", direction},
-                      {"DNY", &T::dny, "-", "normal of the inlet, y"},
-                      {"DNZ", &T::dnz, "-", "normal of the inlet, z"},
-                      {"TBEG", &T::tbeg, "T", "start time", not_negative},
-                      {"TEND", &T::tend, "T", "end time", {.standard = 1e20, .check = Check::positive}}},
-           .optional = true}}};
+      .cards =
+          {{.fields =
+                {{"PID", &T::pid, "-", "part of the new particles", required_id_of(IdSpace::part)},
+                 std::move(flow),
+                 {"RADIUS", &T::radius, "L", "inlet radius", {.required = true, .check = Check::positive}},
+                 {"PSIZE", &T::psize, "L", "particle spacing", {.required = true, .check = Check::positive}},
+                 {"OFFST", &T::offst, "L", "offset of the inlet along its normal"},
+                 {"CID", &T::cid, "-", "inlet system (origin, z normal); 0: the second card tells",
+                  id_of(IdSpace::coordinate_system)},
+                 {"NID", &T::nid, "-", "node that the inlet follows", unsupported_id_of(IdSpace::node)}}},
+           {.fields = {{"XC", &T::xc, "L", "x of the centre of the inlet", point},
+                       {"YC", &T::yc, "L", "y of the centre"},
+                       {"ZC", &T::zc, "L", "z of the centre"},
+                       {"DNX", &T::dnx, "-", "normal of the inlet, downstream, x", direction},
+                       {"DNY", &T::dny, "-", "normal of the inlet, y"},
+                       {"DNZ", &T::dnz, "-", "normal of the inlet, z"},
+                       {"TBEG", &T::tbeg, "T", "start time", not_negative},
+                       {"TEND", &T::tend, "T", "end time", {.standard = 1e20, .check = Check::positive}}},
+            .optional = true}},
+      .convert = keep_curve<T>};
 }
 
 using Simplified = DefineSphInjectionSimplified;
@@ -88,7 +96,7 @@ const RegisterKeyword<Simplified> simplified_keyword{simplified<Simplified>(
     {"VEL",
      &Simplified::vel,
      "L/T",
-     "speed along the normal; < 0: a curve, not supported",
+     "speed along the normal; < 0: curve |VEL| of it over time",
      {.required = true}})};
 
 using Flowrate = DefineSphInjectionFlowrate;
@@ -97,7 +105,7 @@ const RegisterKeyword<Flowrate> flowrate_keyword{simplified<Flowrate>(
     {"FLWRT",
      &Flowrate::vel,
      "L3/T",
-     "volume per time, 2D: per unit of depth; < 0: a curve, not supported",
+     "volume per time, 2D: per unit of depth; < 0: curve |FLWRT| of it over time",
      {.required = true}})};
 
 }  // namespace

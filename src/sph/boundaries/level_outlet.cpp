@@ -1,6 +1,7 @@
 // *COURANT_LEVEL_OUTLET: draws water out of the end of a channel so that it keeps a level.
 #include "sph/boundaries/level_outlet.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ struct CourantLevelOutlet : Entry {
   Real level = 0, tau = 0;
   int dir = 0;
   Real gain = 0, tint = 0;
+  Id lclev = 0;
 };
 using C = CourantLevelOutlet;
 
@@ -57,7 +59,9 @@ const RegisterKeyword<C> level_outlet_keyword{
                             &C::tint,
                             "T",
                             "time of the integral of the level; 0: 20 sqrt(LEVEL/g)",
-                            {.check = Check::not_negative}}}}},
+                            {.check = Check::not_negative}},
+                           {"LCLEV", &C::lclev, "-", "curve of a factor on LEVEL over time; 0: 1",
+                            rules::id_of(IdSpace::curve)}}}},
      .move = keep_direction}};
 
 /// What a card means.
@@ -68,9 +72,11 @@ struct Outlet {
   Real sign = 1;                              ///< -1: the flow is against the axis
   Real width = 1;                             ///< of the channel [L], 1 in 2D
   Real level = 0, tau = 0, gain = 1, tint = 0;
+  Curve factor{};  ///< on the level over time; empty: 1
   std::function<Real(Real t)> gravity;  ///< along `up` [L/T2]
 
   Real length() const { return high[axis] - low[axis]; }
+  Real level_at(Real t) const { return factor.abscissa.empty() ? level : factor(t) * level; }
   /// How far `x` is from the upstream end, of the length of the band.
   Real along(Real x) const { return (sign > 0 ? x - low[axis] : high[axis] - x) / length(); }
 };
@@ -121,7 +127,8 @@ class LevelOutlet : public Force, public TimeLimit, public EnergyTerm, public Re
     for (const Gauge& g : gauge_) all.volume += g.volume, all.flow += g.flow;
     if (!next_works_ && !(all.volume > 0)) return;  // no water has come yet
     const Real depth = all.volume / (0.5 * o_.length() * o_.width);
-    const Real excess = o_.gain * std::sqrt(o_.gravity(clock.t) / o_.level) * (depth - o_.level);
+    const Real level = o_.level_at(clock.t);
+    const Real excess = o_.gain * std::sqrt(o_.gravity(clock.t) / level) * (depth - level);
     const Real mean = next_works_ ? mean_ + excess * clock.dt_old / o_.tint : all.flow / all.volume;
     mean_ = std::max(Real(0), mean);
     next_U_ = std::max(Real(0), mean_ + excess);
@@ -194,7 +201,8 @@ class Builder {
     std::vector<Outlet> outlets;
     for (const C& card : deck_.all<C>()) {
       Outlet o;
-      if (!read_box(card, o) || !read_axes(card, o) || !check_place(card, o)) continue;
+      if (!read_box(card, o) || !read_axes(card, o) || !read_curve(card, o) || !check_place(card, o))
+        continue;
       for (const Outlet& other : outlets)
         if (overlap(o, other))
           refuse(card, "BOXID", fmt::format("its band overlaps that of the outlet with box {}", other.id),
@@ -256,17 +264,31 @@ class Builder {
     return true;
   }
 
+  bool read_curve(const C& card, Outlet& o) {
+    if (card.lclev == 0) return true;
+    const auto found = model_.curves.find(card.lclev);
+    if (found == model_.curves.end())
+      return refuse(card, "LCLEV", fmt::format("curve {} does not exist", card.lclev),
+                    "define it with *DEFINE_CURVE");
+    o.factor = found->second;
+    if (*std::min_element(o.factor.ordinate.begin(), o.factor.ordinate.end()) > 0) return true;
+    return refuse(card, "LCLEV", fmt::format("curve {} falls to 0 or below: no water would be left", card.lclev),
+                  "let it stay above 0");
+  }
+
   bool check_place(const C& card, const Outlet& o) {
     const Real slack = 1e-6 * o.length();  // ends that decks write with few digits
+    Real highest = o.level;
+    for (const Real f : o.factor.ordinate) highest = std::max(highest, f * o.level);
     if (!(o.length() > 0 && o.width > 0))
       return refuse(card, "BOXID", fmt::format("box {} has no length along the flow, or no width", o.id),
                     "correct the *DEFINE_BOX");
-    if (o.level >= o.high[o.up] - o.low[o.up])
+    if (highest >= o.high[o.up] - o.low[o.up])
       return refuse(
           card, "LEVEL",
           fmt::format(
               "expected less than the height {:g} of box {}, in which the water is measured, got '{:g}'",
-              o.high[o.up] - o.low[o.up], o.id, o.level),
+              o.high[o.up] - o.low[o.up], o.id, highest),
           "let the box reach well above the water");
     if (settings_.region && (o.low[o.axis] < settings_.region->low[o.axis] - slack ||
                              o.high[o.axis] > settings_.region->high[o.axis] + slack))

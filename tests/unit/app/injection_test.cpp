@@ -368,5 +368,147 @@ TEST(Injection, WaitingParticlesMayStandInWalls) {
   EXPECT_EQ(s->world().counters["leaked_particles"], 0);
 }
 
+// --- flows over time, surfaces, profiles
+
+TEST(InletRate, TellsWhenACurveHasLetSoMuchIn) {
+  const InletRate none;
+  EXPECT_EQ(none.time_of(3, 0.5), 3.5);
+  // up from 1 to 3, a jump to 2, nothing from 3 to 4, then 5
+  const InletRate rate(Curve{1, {0, 2, 2, 3, 3, 4, 4, 6}, {1, 3, 2, 2, 0, 0, 5, 5}});
+  const auto sum = [&](Real from, Real to) {  // by small steps
+    constexpr int n = 200000;
+    Real s = 0;
+    for (int k = 0; k < n; ++k) s += rate(from + (k + 0.5) * (to - from) / n) * (to - from) / n;
+    return s;
+  };
+  for (const Real begin : {0.0, 0.7, 2.0, 2.5, 3.2, 5.0, 7.0})
+    for (const Real t : {0.9, 1.999, 2.2, 2.999, 4.1, 5.9, 8.0})
+      if (t > begin && sum(begin, t) > 0) EXPECT_NEAR(rate.time_of(sum(begin, t), begin), t, 2e-4);
+  const InletRate ends(Curve{1, {0, 1, 2}, {2, 2, 0}});
+  EXPECT_NEAR(ends.time_of(3 - 1e-12, 0), 2, 2e-6);
+  EXPECT_TRUE(std::isinf(ends.time_of(3 + 1e-9, 0)));
+  EXPECT_EQ(ends.least(), 0);
+  EXPECT_EQ(ends.most(), 2);
+}
+
+const char* const ramp = "*DEFINE_CURVE\n3\n0.,1.\n1.,1.\n1.5,2.\n9.,2.\n";
+
+TEST(Injection, FollowsACurveOfTheSpeed) {
+  for (const std::string& inlet :
+       {std::string("*DEFINE_SPH_INJECTION\n2,7,0,2.,0.,0.,0.,-3\n"),
+        std::string("*DEFINE_SPH_INJECTION_SIMPLIFIED\n2,-3,0.25,0.125\n0.,0.25,0.,2.,0.,0.\n"),
+        std::string("*DEFINE_SPH_INJECTION_SIMPLIFIED_FLOWRATE\n2,-3,0.25,0.125\n0.,0.25,0.,1.,0.,0.\n")}) {
+    const Real base = inlet.find("_SIMPLIFIED") == std::string::npos ? 2
+                      : inlet.find("FLOW") == std::string::npos      ? 1
+                                                                     : 2;
+    const Inflow scene{.inlet = ramp + inlet, .endtim = "3.", .water = false};
+    const auto s = test::build_deck(scene.text());
+    ASSERT_TRUE(s);
+    const Particles& p = s->world().particles;
+    for (Index i = 0; i < p.size(); ++i) {  // each has the velocity of the moment at which it comes in
+      const Real enters = -p.x.vec(i)[0] / p.v.vec(i)[0];
+      const Real rate = enters < 1 ? 1 : std::min(Real(2), 1 + 2 * (enters - 1));
+      EXPECT_NEAR(p.v.vec(i)[0], base * rate, 1e-12) << enters;
+    }
+    const Real area = 4 * dx, layer = 1000 * area * dx;
+    for (const auto& [t, times] : {std::pair{0.75, 0.75}, {1.25, 1.3125}, {2.5, 3.75}}) {
+      run(*s, t);
+      const Real more = (s->clock().t - t) * (t > 1.5 ? 2 : 1.5);
+      EXPECT_NEAR(s->sample("").mass, 1000 * area * base * (times + more), 0.6 * layer) << inlet << t;
+    }
+  }
+}
+
+TEST(Injection, StopsWhereItsCurveEnds) {
+  const Inflow scene{
+      .inlet = "*DEFINE_CURVE\n3\n0.,1.\n0.5,1.\n1.,0.\n9.,0.\n*DEFINE_SPH_INJECTION\n2,7,0,2.,0.,0.,0.,-3\n",
+      .endtim = "3.",
+      .water = false};
+  const auto s = test::build_deck(scene.text());
+  ASSERT_TRUE(s);
+  EXPECT_EQ(s->world().particles.size(), 4 * 12) << "0.75 s of 2 m/s are 12 layers";
+  for (const auto& [id, state] : states(*s)) EXPECT_GT(state.v[0], 0);
+}
+
+Inflow under_surface(const std::string& inflow, const std::string& more = "") {
+  return {.endtim = "1.",
+          .extra = test::gravity_cards + std::string("*COURANT_INFLOW\n") + inflow + more,
+          .water = false};
+}
+
+TEST(Injection, HasThePressureOfItsDepth) {
+  // 900 kPa of modulus: 1 m of water is 1 % of it
+  for (const auto& [card, surface] : {std::pair{"2,1\n", 0.5}, {"2,2,9.,0.75,9.\n", 0.75}}) {
+    const auto s = test::build_deck(under_surface(card).text());
+    ASSERT_TRUE(s);
+    const Particles& p = s->world().particles;
+    for (Index i = 0; i < p.size(); ++i) {
+      const Real expected = 1000 * 9.81 * (surface - p.x.vec(i)[1]);
+      EXPECT_NEAR(p.p[i], expected, 1e-6 * expected);
+      EXPECT_NEAR(p.m[i], p.rho[i] * dx * dx, 1e-9 * p.m[i]) << "volumes fill the inlet";
+    }
+    EXPECT_GT(p.size(), 0);
+  }
+}
+
+TEST(Injection, ASurfaceThatRisesLetsMoreRowsIn) {
+  // 2.25 rows until 0.5 s, then 4
+  const auto s = test::build_deck(
+      under_surface("2,2,0.,0.,0.,4\n", "*DEFINE_CURVE\n4\n0.,0.28125\n0.5,0.28125\n0.5,0.5\n9.,0.5\n")
+          .text());
+  ASSERT_TRUE(s);
+  const Particles& p = s->world().particles;
+  std::map<long, int> first, second;  // by row
+  for (Index i = 0; i < p.size(); ++i) {
+    const Real enters = -p.x.vec(i)[0] / v;
+    const long row = std::lround(p.x.vec(i)[1] / dx - 0.5);
+    if (enters < 0.5)
+      ++first[row];
+    else if (enters < 1)
+      ++second[row];
+  }
+  EXPECT_EQ(first, (std::map<long, int>{{0, 8}, {1, 8}, {2, 2}})) << "a quarter of the third row";
+  EXPECT_EQ(second, (std::map<long, int>{{0, 8}, {1, 8}, {2, 8}, {3, 8}}));
+}
+
+TEST(Injection, ProfilesKeepTheDischarge) {
+  const auto speeds = [](const std::string& card, const std::string& more = "") {
+    const auto s = test::build_deck(under_surface(card, more).text());
+    EXPECT_TRUE(s);
+    std::map<long, Real> out;
+    const Particles& p = s->world().particles;
+    for (Index i = 0; i < p.size(); ++i) out[std::lround(p.x.vec(i)[1] / dx - 0.5)] = p.v.vec(i)[0];
+    return out;
+  };
+  auto power = speeds("2,1\n1,7.\n"), log = speeds("2,1\n2,0.,0.01\n"),
+       table = speeds("2,1\n3,0.,0.,5\n", "*DEFINE_CURVE\n5\n0.,0.\n0.5,1.\n");
+  Real mean_power = 0, mean_log = 0;
+  for (long row = 0; row < 4; ++row) {
+    const Real z = (row + 0.5) * dx;
+    mean_power += power[row] / 4, mean_log += log[row] / 4;
+    EXPECT_NEAR(power[row] / power[0], std::pow(2 * row + 1, 1.0 / 7), 1e-12);
+    EXPECT_NEAR(log[row] / log[0], std::log(30 * z / 0.01) / std::log(30 * 0.5 * dx / 0.01), 1e-12);
+    EXPECT_NEAR(table[row], v * z / 0.5, 1e-12) << "as it is given";
+  }
+  EXPECT_NEAR(mean_power, v, 1e-12);
+  EXPECT_NEAR(mean_log, v, 1e-12);
+}
+
+TEST(Injection, RowsOfAProfileComeInEachByItsSpeed) {
+  const auto s = test::build_deck(under_surface("2,1\n1,2.\n").text());
+  ASSERT_TRUE(s);
+  const Particles& p = s->world().particles;
+  std::map<long, std::vector<Real>> times;
+  for (Index i = 0; i < p.size(); ++i)
+    times[std::lround(p.x.vec(i)[1] / dx - 0.5)].push_back(-p.x.vec(i)[0] / p.v.vec(i)[0]);
+  ASSERT_EQ(times.size(), 4u);
+  for (auto& [row, t] : times) {
+    std::sort(t.begin(), t.end());
+    const Real speed = v * std::sqrt(2 * row + 1) * 4 / (1 + std::sqrt(3) + std::sqrt(5) + std::sqrt(7));
+    for (std::size_t k = 0; k < t.size(); ++k) EXPECT_NEAR(t[k], (k + 0.5) * dx / speed, 1e-9);
+    EXPECT_GE(t.back(), 1 - dx / speed) << "up to the end";
+  }
+}
+
 }  // namespace
 }  // namespace courant

@@ -72,6 +72,7 @@ const Lists bare{
      "SPC on particles no *BOUNDARY_SPC",
      "damping on particles no *DAMPING",
      "level outlet no *COURANT_LEVEL_OUTLET",
+     "frozen outlets no *COURANT_FROZEN_OUTLET",
      "contact no *CONTACT",
      "rigid bodies no *MAT_RIGID",
      "forces on nodes no node moves",
@@ -173,6 +174,17 @@ TEST(Passes, LevelOutlet) {
   expect_change(scene, {"body loads", "level outlet"},
                 {"forces body loads", "energy body loads", "forces level outlet 7",
                  "time limit level outlet 7", "energy level outlet 7"});
+}
+
+TEST(Passes, FrozenOutlet) {
+  SmallScene scene;
+  scene.box = "7";
+  scene.extra = std::string(test::gravity_cards) + "*DEFINE_BOX\n7,-9.,9.,-9.,9.,-9.,9.\n";
+  const Lists without = lists_of(scene);
+  scene.extra += "*COURANT_FROZEN_OUTLET\n1,0.4\n";
+  const Lists with = lists_of(scene);
+  EXPECT_EQ(with.left_out.size() + 1, without.left_out.size());
+  EXPECT_EQ(with.active, without.active) << "it only looks at what leaves";
 }
 
 TEST(Passes, ContactWithAFloorThatIsHeld) {

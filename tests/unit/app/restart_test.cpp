@@ -156,6 +156,43 @@ TEST(Restart, MiddleOfAnInjection) {
   expect_same(scene, {0, 3, 60}, 200);
 }
 
+TEST(Restart, MiddleOfAFrozenOutlet) {
+  const SmallScene scene{
+      .start = "0.8,0.,0.",
+      .box = "1",
+      .extra = std::string("*DEFINE_BOX\n1,-9.,0.7,-9.,9.,-9.,9.\n") + test::gravity_cards +
+               "*COURANT_FROZEN_OUTLET\n1,0.5,5,0.,0.4,0.\n*DEFINE_CURVE\n5\n0.,1.\n1.,11.\n"};
+  expect_same(scene, {0, 3, 60}, 200);
+}
+
+/// The same under a surface that sinks, with a profile, ever slower.
+SmallScene with_changing_inlet(const std::string& endtim) {
+  SmallScene s = with_inlet(endtim);
+  s.extra.pop_back();  // of the line of the inlet
+  s.extra += ",0.,0.,0.,-8\n*DEFINE_CURVE\n8\n0.,1.\n4.,0.2\n*DEFINE_CURVE\n9\n0.,0.3\n1.,0.1\n";
+  s.extra += std::string("*COURANT_INFLOW\n1,2,0.,0.,0.,9\n1,4.\n") + test::gravity_cards;
+  return s;
+}
+
+TEST(Restart, InjectionThatChanges) {
+  const SmallScene scene = with_changing_inlet("4.");
+  expect_same(scene, {0, 3, 60}, 200);
+}
+
+TEST(Restart, InjectionThatChangesWithAnotherEndTime) {
+  const auto shorter = test::build(with_changing_inlet("0.4")),
+             longer = test::build(with_changing_inlet("1.2"));
+  ASSERT_TRUE(shorter && longer);
+  EXPECT_LT(shorter->world().particles.size(), longer->world().particles.size());
+  std::map<Id, std::pair<Vec, Vec>> there;
+  const Particles &a = shorter->world().particles, &b = longer->world().particles;
+  for (Index i = 0; i < b.size(); ++i) there[b.id[i]] = {b.x.vec(i), b.v.vec(i)};
+  for (Index i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(there.at(a.id[i]).first, a.x.vec(i)) << a.id[i];
+    EXPECT_EQ(there.at(a.id[i]).second, a.v.vec(i)) << a.id[i];
+  }
+}
+
 TEST(Restart, InjectionWithAnotherEndTime) {
   const auto shorter = test::build(with_inlet("0.4")), longer = test::build(with_inlet("1.2"));
   ASSERT_TRUE(shorter && longer);

@@ -199,9 +199,9 @@ TEST(SceneBase, GivesParametersAndKeywordsBelowTheScenesOwn) {
   ASSERT_EQ(w.scene.keywords.size(), 2u);
   EXPECT_EQ(w.scene.keywords[0], "*COMMENT\n2 20\n");
   EXPECT_EQ(w.scene.keywords[1], "*END_OF_OWN\n");
-  write(base, "parameters:\n  c0: 10 * V\nparts: 1\n");
+  write(base, "parameters:\n  c0: 10 * V\nbox: 1\n");
   const std::string messages = written("base: courant_scene_base.yaml\n" + with("")).messages;
-  EXPECT_NE(messages.find("courant_scene_base.yaml:3:1: error: a base: unknown key 'parts'"),
+  EXPECT_NE(messages.find("courant_scene_base.yaml:3:1: error: a base: unknown key 'box'"),
             std::string::npos);
   EXPECT_NE(messages.find("courant_scene_base.yaml:2:7: error: parameter c0: unknown parameter 'V'"),
             std::string::npos)
@@ -213,6 +213,31 @@ TEST(SceneBase, GivesParametersAndKeywordsBelowTheScenesOwn) {
   fs::remove(base);
   EXPECT_NE(written("base: courant_scene_base.yaml\n" + with("")).messages.find("cannot be read"),
             std::string::npos);
+}
+
+TEST(SceneBase, GivesPartsAboveTheScenesOwn) {
+  const fs::path base = fs::temp_directory_path() / "courant_scene_base.yaml";
+  const auto plates = [](int id, const char* edge) {
+    return fmt::format(
+        "  - id: {}\n    section: 1\n    material: 1\n    plates:\n"
+        "      - {{origin: [0, 0, 0], edge1: [{}, 0, 0], edge2: [0, 1, 0], mesh: 1}}\n",
+        id, edge);
+  };
+  const std::string own = "base: courant_scene_base.yaml\nparameters:\n  length: 3\n";
+  write(base, "parts:\n" + plates(8, "length"));
+  const Written alone = written(own);
+  EXPECT_EQ(alone.messages, "");
+  ASSERT_EQ(alone.scene.parts.size(), 1u);
+  const Written both = written(own + "parts:\n" + plates(9, "1"));
+  EXPECT_EQ(both.messages, "");
+  ASSERT_EQ(both.scene.parts.size(), 2u);
+  EXPECT_EQ(both.scene.parts[0].id, 8);
+  EXPECT_EQ(both.scene.parts[1].id, 9);
+  EXPECT_NE(written(own + "parts:\n" + plates(8, "1")).messages.find("part 8 is there already"),
+            std::string::npos);
+  write(base, "parts:\n" + plates(8, "width"));
+  EXPECT_NE(written(own).messages.find("courant_scene_base.yaml:6:"), std::string::npos);
+  fs::remove(base);
 }
 
 TEST(Scene, KnowsPi) {
