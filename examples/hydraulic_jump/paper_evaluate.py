@@ -1,57 +1,9 @@
 """Evaluates a run with the recipes of keyword_decks/hydraulic_jump: `courant post` measures, here its numbers are gathered in evaluated.yaml."""
-import csv
 import math
 import pathlib
 import re
-import shutil
 
-import yaml
-
-from case_runs import EVALUATED, Failure, age
-
-def with_numbers(text, numbers):
-    """A recipe with other numbers behind its anchors (&from) or keys (segment:)."""
-    for key, value in numbers.items():
-        text, count = re.subn(re.escape(key) + r'\s+("[^"]*"|[^\s,}\]]+)', f"{key} {value}", text)
-        if count != 1:
-            raise Failure(f"the recipe has '{key}' {count} times, expected once")
-    return text
-
-
-def read_table(path):
-    """Columns of a CSV file by name; heads such as `vx_mean [m/s]` lose their unit."""
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    return {name.split(" [")[0]: [float(row[k]) for row in rows[1:]] for k, name in enumerate(rows[0])}
-
-
-def mean(values):
-    values = [v for v in values if not math.isnan(v)]
-    return sum(values) / len(values) if values else math.nan
-
-
-def at(xs, ys, x):
-    """Linear between the points of a table."""
-    for a, b, ya, yb in zip(xs, xs[1:], ys, ys[1:]):
-        if a <= x <= b:
-            return ya + (yb - ya) * (x - a) / (b - a)
-    return math.nan
-
-
-def post(run, program, recipe, numbers, threads):
-    """Measures by a recipe with these numbers; its results.yaml."""
-    copy = run.folder / f"recipe_{recipe.name}"
-    copy.write_text(with_numbers(recipe.read_text(), numbers))
-    program.call("post", copy, run.folder, "--threads", threads)
-    kept = run.folder / f"results_{recipe.name}"
-    shutil.copy(run.folder / "results.yaml", kept)
-    return yaml.safe_load(kept.read_text())
-
-
-def scalars(results):
-    """Single numbers of all analyses: {analysis: {name: value}}."""
-    return {name: {key: float(one["value"]) for key, one in numbers.items()} for name, numbers in results["analyses"].items()}
-
+from case_post import at, evaluate_once, mean, post, read_table, scalars
 
 def window(run):
     return {"&from": run.settled[0], "&to": run.settled[1]}
@@ -171,36 +123,7 @@ def asked(run):
     return {"settled": list(run.settled), "segment": run.segment, "toe": run.toe, "figures": run.figures, "scene": run.scene.name, "case": run.case}
 
 
-def is_fresh(run, program, scenes):
-    made_from = [run.summary_file, pathlib.Path(__file__), *scenes.glob("*.yaml")]
-    if age(run.folder / EVALUATED) <= max(program.age, *map(age, made_from)):
-        return False
-    before = evaluated(run)
-    return before is not None and before.get("asked") == asked(run)
-
-
 def evaluate(run, program, scenes, threads, say):
-    if is_fresh(run, program, scenes):
-        return
-    say(f"{run.name}: is evaluated")
     work = {"standing": evaluate_standing, "study": evaluate_study}.get(run.group, evaluate_paper)
-    out = work(run, program, scenes, threads)
-    summary = run.summary()
-    energy = summary["energy"]
-    out["run"] = {key: summary[key] for key in ("version", "threads", "particles", "steps", "particle_steps", "wall_seconds", "cpu_seconds",
-                                                "ns_per_particle_step", "leaked_particles", "max_penetration")}
-    out["run"]["residual"] = abs(energy["residual"]) / energy["throughput"]
-    out["run"]["settled"] = list(run.settled)
-    out["asked"] = asked(run)
-    half = run.folder / (EVALUATED + ".tmp")  # a full disk or a kill leaves no half of the file under its name
-    half.write_text(yaml.safe_dump(out, sort_keys=False))
-    half.replace(run.folder / EVALUATED)
-
-
-def evaluated(run):
-    """What `evaluate` found, or None."""
-    try:
-        found = yaml.safe_load((run.folder / EVALUATED).read_text())
-    except (OSError, yaml.YAMLError):
-        return None
-    return found if isinstance(found, dict) else None
+    made_from = [pathlib.Path(__file__), *scenes.glob("*.yaml")]
+    evaluate_once(run, program, asked(run), made_from, lambda: work(run, program, scenes, threads), say)

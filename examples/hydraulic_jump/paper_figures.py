@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import sys
 
-from paper_evaluate import read_table
+from case_post import read_table
 
 FOLDER = "figures/hydraulic_jump"
 # Of file names, by group. *Supported*, between *plates* and *better*, has no pictures of its own: its curves are in those over settings.

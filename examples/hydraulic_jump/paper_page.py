@@ -1,46 +1,17 @@
 """Writes the pages, one of the paper's cases and one of jumps that stand still: tables from what `paper_evaluate` gathered, figures from what `courant post` drew."""
-import math
-import os
-import pathlib
-import platform
 import subprocess
 import time
 
 import paper_figures
 import paper_study
-from paper_evaluate import EVALUATED, age, asked, evaluated
-from paper_text import hours, number, percent, table
+from case_post import evaluated
+from case_runs import EVALUATED, age
+from page_text import hours, machine, number, percent, revision, table
+from paper_evaluate import asked
 
 SETTINGS = ("*plates*: `scene.yaml` as the paper has it, with c0 = 30 m/s; *supported*: `supported_bed.yaml`, bed and weir complete the sums of the particles beside "
             "them, all else as before; *better*: the same, an eddy viscosity of v1 d1/10 at all spacings (q1 = 0.13 to 0.33), density diffusion 0.1, volume control with TAU = 0.1 s; *c0 = 1484 m/s*: `scene.yaml` "
             "with the paper's speed of sound.\n")
-
-
-def machine():
-    """Processor, cores, memory and system of this computer, as far as it tells."""
-    processor, memory, system = platform.machine(), "", platform.system()
-    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines() if pathlib.Path("/proc/cpuinfo").exists() else []:
-        if line.startswith("model name"):
-            processor = line.split(":", 1)[1].strip()
-            break
-    try:
-        for line in pathlib.Path("/proc/meminfo").read_text().splitlines():
-            if line.startswith("MemTotal"):
-                memory = f", {float(line.split()[1]) / 2**20:.0f} GiB"
-        system = platform.freedesktop_os_release()["PRETTY_NAME"]
-    except (OSError, AttributeError, KeyError):
-        pass
-    return f"{processor}, {os.cpu_count()} cores{memory}, {system}"
-
-
-def revision(project):
-    """The commit of the source, with a + where files differ from it; nothing outside a repository."""
-    def git(*words):
-        return subprocess.run(["git", "-C", project, *words], capture_output=True, text=True, check=True).stdout.strip()
-    try:
-        return ", commit " + git("rev-parse", "--short=10", "HEAD") + ("+" if git("status", "--porcelain", "--untracked-files=no", "src") else "")
-    except (OSError, subprocess.CalledProcessError):
-        return ""
 
 
 def command(options):

@@ -5,8 +5,8 @@ import statistics
 
 import paper_figures
 from paper_figures import BELANGER, V1, WEIR_DEPTH
-from paper_evaluate import read_table
-from paper_text import number, table
+from case_post import read_table
+from page_text import number, table
 
 NUDGE = 1e-6        # of v1 from one run of a variant to the next: nothing to the flow, all to a breaking wave
 TITLES = {"options": "Options of the deck", "numbers": "Numbers of the paper's setting"}

@@ -78,12 +78,13 @@ struct CourantShifting : Entry {
 
 /// *COURANT_RENORMALISATION, ours.
 struct CourantRenormalisation : Entry {
-  int reverse = 0;
+  int reverse = 0, pressure = 0;
 };
 
 /// *COURANT_XSPH, ours.
 struct CourantXsph : Entry {
   Real eps = 0;
+  int norm = 0;
 };
 
 }  // namespace courant

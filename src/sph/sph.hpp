@@ -95,6 +95,7 @@ struct SphSettings {
   KernelChoice kernel = KernelChoice::cubic_spline;
   bool renormalised = false;        ///< FORM: gradients corrected by the inverse moment matrix
   bool reverse_correction = false;  ///< *COURANT_RENORMALISATION: each pressure with the partner's matrix
+  bool plain_pressure = false;      ///< *COURANT_RENORMALISATION: pressure forces are not corrected
   bool uniform_h = true;
   bool evolving_h = false;
   std::vector<Real> h_min_factor, h_max_factor;  ///< per part, of h/h0
@@ -118,6 +119,7 @@ struct SphSettings {
   ShiftRules shift;
   std::vector<GhostPlane> mirrors;  ///< symmetry planes, along which alone particles near them drift
   Real xsph = 0;                    ///< *COURANT_XSPH: EPS; 0: none
+  bool xsph_normed = false;         ///< over the sum of the kernel (Shepard)
   Real maxv = 0;                    ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
   std::optional<Neighbours::Region> region;
   bool hide_inactive = false;          ///< ISHOW

@@ -2,6 +2,7 @@
 // The nearest wall of shells or faces, of any shape, still or moving.
 #include <memory>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "sph/boundaries/wall_surface.hpp"
@@ -20,16 +21,27 @@ struct NearestWall {
 class WallDistance {
  public:
   /// `reach`: walls farther off do not count [L]; `planes`: of ghosts.
-  WallDistance(std::vector<Index> segments, Real reach, std::vector<GhostPlane> planes, const World& world);
-  /// Where walls are now, once a step; `p`: from where anybody looks. Nothing where none moves.
-  void follow(const World& world);
+  /// `cell`: of the order of the spacing of particles [L].
+  WallDistance(std::vector<Index> segments, Real reach, Real cell, std::vector<GhostPlane> planes,
+               const World& world);
+  /// Once a step: where walls are now, or where none moves, which faces are next to the places of particles.
+  /// `rebuilds`: of the lists of neighbours; between two of them particles stay near where they were.
+  void follow(const World& world, std::int64_t rebuilds);
   bool any_moves() const { return any_moves_; }
   NearestWall nearest(const Vec& x) const;
 
  private:
+  /// Of the cell in which x stands. Walls that are held are looked at from few cells, each time anew.
+  std::uint64_t cell_of(const Vec& x) const;
+  std::vector<Index> next_to_cell(const Vec& middle) const;
+  template <class Faces>
+  NearestWall nearest_of(const Faces& faces, const Vec& x) const;
+
   std::vector<Index> segments_;
-  Real reach_;
+  Real reach_, cell_;
   std::vector<GhostPlane> planes_;
+  std::unordered_map<std::uint64_t, std::vector<Index>> next_to_;  ///< faces that may be next, by cell
+  std::int64_t rebuilds_ = -1;
   bool any_moves_ = false;
   std::optional<WallSurface> surface_;
 };

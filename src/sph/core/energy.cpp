@@ -27,7 +27,7 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Re
     Particles& p = world.particles;
     riemann_ = std::get_if<RiemannFlux>(&settings_.viscosity);
     if (std::holds_alternative<BulkViscosity>(s.viscosity)) total_pressure_ = &sph_fields::pressure_plus_q(p);
-    if (s.renormalised) excess_ = &sph_fields::renormalisation(p);
+    if (s.renormalised && !s.plain_pressure) excess_ = &sph_fields::renormalisation(p);
     if (!s.mu.empty()) viscous_ = &sph_fields::viscous_dissipation(p);
     if (s.turbulence.on()) eddies_ = &sph_fields::viscosity(p);
     if (s.has_viscous_stress() || !s.strength.empty()) tau_ = &sph_fields::stress(p);

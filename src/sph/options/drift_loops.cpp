@@ -95,7 +95,7 @@ void shifting(const DriftArrays& a, const NeighbourLists& lists) {
   }
 }
 
-template <class Kernel, int Dim, bool UniformH>
+template <class Kernel, int Dim, bool UniformH, bool Normed>
 void xsph(const DriftArrays& a, const NeighbourLists& lists) {
   const Kernel kernel = kernel_of<Kernel>(a.kernel);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
@@ -105,6 +105,7 @@ void xsph(const DriftArrays& a, const NeighbourLists& lists) {
     const Pack mi = Pack::load(a.m + i, count), Vi = Pack::load(a.V + i, count);
     const Pack norm = shape_norm<Dim>(kernel, hinv);
     Sum<Dim> sum;
+    Pack filling = Pack::zero();
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
       const Difference<Dim> d(xi, a.x, j), u(vi, a.v, j);
@@ -115,9 +116,11 @@ void xsph(const DriftArrays& a, const NeighbourLists& lists) {
         w = 0.5 * (w + kernel.shape(r * hj) * (kernel.C(Dim) * power<Dim>(hj)) / norm);
       }
       // m_j / mean of m_i/V_i and m_j/V_j
-      sum.add(w * (2 * a.m[j] * a.V[j]) * Vi / (mi * a.V[j] + Vi * a.m[j]), u);
+      w = w * (2 * a.m[j] * a.V[j]) * Vi / (mi * a.V[j] + Vi * a.m[j]);
+      sum.add(w, u);
+      if constexpr (Normed) filling += w;
     }
-    store(sum, a.drift, i, count, 0 - norm);
+    store(sum, a.drift, i, count, Normed ? 0 - 1 / filling : 0 - norm);
   }
 }
 
@@ -154,10 +157,13 @@ DriftLoop drift_rate_loop(KernelChoice choice, int dim) {
     return dim == 2 ? &drift_rate<Kernel, 2> : &drift_rate<Kernel, 3>;
   });
 }
-DriftLoop xsph_loop(KernelChoice choice, int dim, bool uniform_h) {
+DriftLoop xsph_loop(KernelChoice choice, int dim, bool uniform_h, bool normed) {
+  const auto of = [&]<class Kernel, bool Normed>() -> DriftLoop {
+    if (dim == 2) return uniform_h ? &xsph<Kernel, 2, true, Normed> : &xsph<Kernel, 2, false, Normed>;
+    return uniform_h ? &xsph<Kernel, 3, true, Normed> : &xsph<Kernel, 3, false, Normed>;
+  };
   return with_loop_kernel(choice, [&]<class Kernel>(std::type_identity<Kernel>) -> DriftLoop {
-    if (dim == 2) return uniform_h ? &xsph<Kernel, 2, true> : &xsph<Kernel, 2, false>;
-    return uniform_h ? &xsph<Kernel, 3, true> : &xsph<Kernel, 3, false>;
+    return normed ? of.template operator()<Kernel, true>() : of.template operator()<Kernel, false>();
   });
 }
 

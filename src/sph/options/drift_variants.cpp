@@ -13,8 +13,8 @@ DriftLoop shifting_loop(KernelChoice kernel, int dim, bool correct) {
 DriftLoop drift_rate_loop(KernelChoice kernel, int dim) {
   return COURANT_VARIANT(drift_rate_loop)(kernel, dim);
 }
-DriftLoop xsph_loop(KernelChoice kernel, int dim, bool uniform_h) {
-  return COURANT_VARIANT(xsph_loop)(kernel, dim, uniform_h);
+DriftLoop xsph_loop(KernelChoice kernel, int dim, bool uniform_h, bool normed) {
+  return COURANT_VARIANT(xsph_loop)(kernel, dim, uniform_h, normed);
 }
 
 }  // namespace courant

@@ -24,11 +24,18 @@ const RegisterKeyword<CourantRenormalisation> renormalisation_keyword{
      .once = true,
      .many = false,
      .cards = {
-         {.fields = {{"REVERSE",
-                      &CourantRenormalisation::reverse,
-                      "-",
-                      "pressure forces: 0 p_i B_i + p_j B_j; 1 p_i B_j + p_j B_i, which do not keep energy",
-                      {.allowed = {0, 1}}}}}}}};
+         {.fields = {
+              {"REVERSE",
+               &CourantRenormalisation::reverse,
+               "-",
+               "pressure forces: 0 p_i B_i + p_j B_j; 1 p_i B_j + p_j B_i, which do not keep energy",
+               {.allowed = {0, 1}}},
+              {"PRESSURE",
+               &CourantRenormalisation::pressure,
+               "-",
+               "1: pressure forces are plain sums, and only the rates are corrected, which does not keep "
+               "energy; 0: both are corrected",
+               {.allowed = {0, 1}}}}}}}};
 
 /// Least eigenvalue of the moment matrix up to which gradients are not corrected, and from which on they are
 /// to the full; 1 inside, 1/2 at a plane surface. Where water breaks up, full corrections are unstable.
@@ -233,14 +240,22 @@ void warn_of_smoothing(const Deck& deck, const ControlSph& c, Diagnostics& diagn
 
 void read_correction(const Deck& deck, const ControlSph* c, SphSettings& s, Diagnostics& diagnostics) {
   const auto* r = deck.last<CourantRenormalisation>();
-  if (r == nullptr || r->reverse == 0) return;
-  s.reverse_correction = true;
+  if (r == nullptr || (r->reverse == 0 && r->pressure == 0)) return;
+  s.reverse_correction = r->reverse == 1;
+  s.plain_pressure = r->pressure == 1;
+  const char* field = s.plain_pressure ? "PRESSURE" : "REVERSE";
   if (c == nullptr || !is_renormalised(c->form))
-    deck.error(diagnostics, *r, "REVERSE", "nothing is corrected: FORM of *CONTROL_SPH is not 1, 3, 6 or 16",
+    deck.error(diagnostics, *r, field, "nothing is corrected: FORM of *CONTROL_SPH is not 1, 3, 6 or 16",
                "ask for a renormalised FORM, or leave the card out");
+  else if (s.reverse_correction && s.plain_pressure)
+    deck.error(diagnostics, *r, "PRESSURE",
+               "REVERSE corrects the pressure forces that PRESSURE 1 leaves plain", "give one of the two");
+  else if (s.plain_pressure && !s.strength.empty())
+    deck.error(diagnostics, *r, "PRESSURE",
+               "stresses of a material with strength would no longer be the transpose of rates of strain",
+               "leave it blank: it is for fluids");
   else if (s.density_diffusion == 0)
-    deck.warning(diagnostics, *r, "REVERSE",
-                 "without density diffusion these forces lose or gain much energy",
+    deck.warning(diagnostics, *r, field, "without density diffusion these forces lose or gain much energy",
                  "use *COURANT_DENSITY_DIFFUSION, and look at the residual of the energy balance");
 }
 
@@ -264,7 +279,8 @@ void add_renormalisation(const SphSettings& s, World& world, std::shared_ptr<Nei
                          std::shared_ptr<PairVolumes> volumes) {
   world.passes.add(std::make_shared<RenormalRates>(s, world, neighbours, volumes));
   if (!s.strength.empty()) world.passes.add(std::make_shared<RenormalStrain>(world));
-  world.passes.add(std::make_shared<RenormalForces>(s, world, std::move(neighbours), std::move(volumes)));
+  if (!s.plain_pressure)
+    world.passes.add(std::make_shared<RenormalForces>(s, world, std::move(neighbours), std::move(volumes)));
 }
 
 }  // namespace courant

@@ -16,20 +16,26 @@ const RegisterKeyword<CourantXsph> xsph_keyword{
      .purpose = "particles move with a velocity smoothed over their neighbours (XSPH)",
      .once = true,
      .many = false,
-     .cards = {{.fields = {{"EPS",
-                            &CourantXsph::eps,
-                            "-",
-                            "share of the mean velocity of neighbours, usually 0.5, at most 1; 0: none",
-                            {.check = Check::not_negative}}}}}}};
+     .cards = {{.fields = {
+                    {"EPS",
+                     &CourantXsph::eps,
+                     "-",
+                     "share of the mean velocity of neighbours, usually 0.5, at most 1; 0: none",
+                     {.check = Check::not_negative}},
+                    {"NORM",
+                     &CourantXsph::norm,
+                     "-",
+                     "1: the mean is over the sum of the kernel (Shepard), right at surfaces, too; 0: over 1",
+                     {.allowed = {0, 1}}}}}}}};
 
-/// u_i = EPS sum_j m_j/rho_ij (v_j - v_i) W_ij, of the velocities and places after the last motion; the next
-/// motion takes it.
+/// u_i = EPS sum_j m_j/rho_ij (v_j - v_i) W_ij (NORM 1: over sum_j m_j/rho_ij W_ij), of the velocities and
+/// places after the last motion; the next motion takes it.
 class Xsph : public Rate {
  public:
   Xsph(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
        std::shared_ptr<PairVolumes> volumes)
       : eps_(s.xsph),
-        loop_(xsph_loop(s.kernel, s.dim, s.uniform_h)),
+        loop_(xsph_loop(s.kernel, s.dim, s.uniform_h, s.xsph_normed)),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)),
         drift_(drift_velocity(world.particles, xsph_statistics)) {

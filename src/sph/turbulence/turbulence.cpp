@@ -120,8 +120,9 @@ class TurbulenceSums : public Rate {
 /// no sum can: P = u*^3/(kappa y), epsilon = c_mu^(3/4) k^(3/2)/(kappa y).
 class Turbulence : public Material {
  public:
-  Turbulence(const SphSettings& s, World& world)
+  Turbulence(const SphSettings& s, World& world, std::shared_ptr<const Neighbours> neighbours)
       : dim_(s.dim),
+        neighbours_(std::move(neighbours)),
         rules_(s.turbulence),
         spacing_(s.spacing),
         mu_(s.mu),
@@ -135,7 +136,10 @@ class Turbulence : public Material {
                        : rules_.model == TurbulenceModel::smagorinsky
                            ? std::max(rules_.cs / rules_.kappa, last_row) * s.spacing
                            : last_row * s.spacing;
-    if (!rules_.walls.empty()) walls_.emplace(rules_.walls, reach, s.walls.planes, world);
+    if (!rules_.walls.empty()) {
+      const Real cell = s.dim == 2 ? 0.5 * spacing_ : spacing_;
+      walls_.emplace(rules_.walls, reach, cell, s.walls.planes, world);
+    }
     if (!s.walls.segments.empty()) wall_slope_ = &sph_fields::wall_slope(p);
     const Real c0 = maximum(p.size(), [&](Index i) { return p.c[i]; });
     least_k_ = 1e-10 * c0 * c0;
@@ -159,7 +163,7 @@ class Turbulence : public Material {
     a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
   }
   void start(World& world, const Clock&) override {
-    if (walls_) walls_->follow(world);
+    if (walls_) walls_->follow(world, neighbours_->rebuilds());
     at_floor_.assign(static_cast<std::size_t>(block_count(world.particles.active)), 0);
   }
   void block(World& world, const Clock& clock, Index begin, Index end) override {
@@ -283,6 +287,7 @@ class Turbulence : public Material {
   static constexpr Real least_moment = 0.15;              ///< 1/2 at a plane surface, 1/4 in a corner
   static constexpr Real whole_row = 0.9, last_row = 1.1;  ///< of the first row, in spacings from the wall
   int dim_;
+  std::shared_ptr<const Neighbours> neighbours_;
   TurbulenceRules rules_;
   Real spacing_;
   std::vector<Real> mu_;                                      ///< per part
@@ -300,8 +305,8 @@ class Turbulence : public Material {
 
 void add_turbulence(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                     std::shared_ptr<PairVolumes> volumes) {
-  world.passes.add(std::make_shared<TurbulenceSums>(s, world, std::move(neighbours), std::move(volumes)));
-  world.passes.add(std::make_shared<Turbulence>(s, world));
+  world.passes.add(std::make_shared<TurbulenceSums>(s, world, neighbours, std::move(volumes)));
+  world.passes.add(std::make_shared<Turbulence>(s, world, std::move(neighbours)));
 }
 
 }  // namespace courant

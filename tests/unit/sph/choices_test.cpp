@@ -61,7 +61,10 @@ const std::vector<Choice>& choices() {
       {"FORM 1", "form", [](Scene& s) { s.form = "1"; }},
       {"FORM 1, reverse", "form", [](Scene& s) { s.form = "1", s.extra += "*COURANT_RENORMALISATION\n1\n"; },
        true, 0.05},  // its forces are no transpose of its continuity, and keep no energy
+      {"FORM 1, plain pressure", "form",
+       [](Scene& s) { s.form = "1", s.extra += "*COURANT_RENORMALISATION\n0,1\n"; }, true, 0.05},  // neither
       {"XSPH", "xsph", [](Scene& s) { s.extra += "*COURANT_XSPH\n0.5\n"; }},
+      {"XSPH, normed", "xsph", [](Scene& s) { s.extra += "*COURANT_XSPH\n0.5,1\n"; }},
       {"shifting", "shifting", [](Scene& s) { s.ishift = "1"; }},
       {"shifting, velocity corrected", "shifting",
        [](Scene& s) { s.ishift = "1", s.extra += "*COURANT_SHIFTING\n2.,0.2,0.,1\n"; }, false},

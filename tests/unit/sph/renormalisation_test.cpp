@@ -273,6 +273,37 @@ TEST(Renormalisation, ReversedIsExactForLinearPressures) {
   EXPECT_GT(error_of_linear_pressure(false), 1e-2);
 }
 
+/// Rates of a corrected form, forces of a plain one: so momentum and angular momentum are kept.
+TEST(Renormalisation, LeavesPressureForcesPlainWhereAskedTo) {
+  const auto first_step = [](const std::string& control, const std::string& cards) {
+    test::SmallScene scene;
+    scene.n = 10, scene.control_sph = control;
+    scene.extra = "*COURANT_DENSITY_DIFFUSION\n0.1\n" + cards + "*INITIAL_VELOCITY_NODE\n";
+    for (int node = 1; node <= 100; ++node)
+      scene.extra +=
+          fmt::format("{},{},{},0.\n", node, -0.02 * (node / 10) * (node % 10), 0.03 * (node % 10));
+    auto s = test::build(scene);
+    Particles& p = s->world().particles;
+    for (Index i = 0; i < p.size(); ++i) p.rho[i] *= 1 + 1e-3 * std::sin(double(p.id[i]));
+    std::string who;
+    s->evaluate(who);
+    return s;
+  };
+  const auto only_rates = first_step(",0,1", "*COURANT_RENORMALISATION\n0,1\n"), plain = first_step("", ""),
+             both = first_step(",0,1", "");
+  const Particles &a = only_rates->world().particles, &b = plain->world().particles,
+                  &c = both->world().particles;
+  Real forces = 0, rates = 0;
+  for (Index i = 0; i < a.active; ++i) {
+    EXPECT_EQ(a.f.vec(i), b.f.vec(i)) << a.id[i];
+    EXPECT_EQ(a.drhodt[i], c.drhodt[i]) << a.id[i];
+    forces = std::max(forces, (a.f.vec(i) - c.f.vec(i)).norm()),
+    rates = std::max(rates, std::abs(a.drhodt[i] - b.drhodt[i]));
+  }
+  EXPECT_GT(forces, 1);
+  EXPECT_GT(rates, 1);
+}
+
 // Water is drawn through a box; particles beside it keep their state and are not corrected, and what they do
 // to those inside is work from outside.
 TEST(Renormalisation, GoesThroughABoxAndCountsTheWork) {
@@ -336,6 +367,10 @@ TEST(Form, PlainOnesAndCorrectedOnesAreTheSameAmongThemselves) {
   EXPECT_GT(most, 1e-3);
   EXPECT_LT(most, 0.05);
   EXPECT_EQ(places(1, "*COURANT_RENORMALISATION\n0\n"), corrected);
+  const std::string diffusion = "*COURANT_DENSITY_DIFFUSION\n0.1\n";
+  const auto only_rates = places(1, "*COURANT_RENORMALISATION\n0,1\n" + diffusion);
+  EXPECT_NE(only_rates, places(1, diffusion));
+  EXPECT_NE(only_rates, places(0, diffusion));
   EXPECT_NE(places(1, "*COURANT_RENORMALISATION\n1\n*COURANT_DENSITY_DIFFUSION\n0.1\n"),
             places(1, "*COURANT_DENSITY_DIFFUSION\n0.1\n"));
 }

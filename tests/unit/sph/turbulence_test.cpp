@@ -32,7 +32,7 @@ TEST(WallDistance, IsThatOfTheNearestPointAlsoBesideEdgesAndCorners) {
     World& world = s->world();
     for (Index n = 0; n < world.nodes.size(); ++n)  // turns about z
       world.nodes.v.set(n, Vec(-world.nodes.x.vec(n)[1], world.nodes.x.vec(n)[0], 0));
-    WallDistance walls({0}, 10, {}, world);
+    WallDistance walls({0}, 10, 0.1, {}, world);
     EXPECT_EQ(walls.any_moves(), dim == 3);
     const NearestWall above = walls.nearest(Vec(1, 0.4, 0)), beside = walls.nearest(Vec(4, 1, 0));
     EXPECT_NEAR(above.distance, 0.4, 1e-12);
@@ -45,6 +45,37 @@ TEST(WallDistance, IsThatOfTheNearestPointAlsoBesideEdgesAndCorners) {
     EXPECT_EQ(walls.nearest(Vec(1, 10.5, 0)).segment, -1);
     if (dim == 3) EXPECT_NEAR(walls.nearest(Vec(4, 1, 4)).distance, std::sqrt(3), 1e-12);
   }
+}
+
+/// Cells in which particles stand know the faces next to them: the answer is that of a search anew, bit by
+/// bit.
+TEST(WallDistance, OfHeldWallsIsTheSameFromCellsThatAreKnown) {
+  for (const int dim : {2, 3})
+    for (const Real cell : {0.03, 0.4}) {
+      test::SmallScene scene;
+      scene.dim = dim, scene.n = 4;
+      scene.extra = test::floor_cards(-0.07, 1) +
+                    "*NODE\n9011,0.13,-2.,-2.\n9012,0.31,3.,-2.\n9013,0.31,3.,3.\n9014,0.13,-2.,3.\n"
+                    "*ELEMENT_SHELL\n9002,2,9011,9012,9013,9014\n";
+      const auto s = test::build(scene);
+      World& world = s->world();
+      for (const Real reach : {0.1, 1.0}) {
+        WallDistance known({0, 1}, reach, cell, {}, world), anew({0, 1}, reach, cell, {}, world);
+        known.follow(world, 1);
+        const Particles& p = world.particles;
+        int near = 0;
+        for (Index i = 0; i < p.size(); ++i)
+          for (int k = 0; k < 20; ++k) {  // in and beside its cell
+            const Vec x = p.x.vec(i) + 0.013 * Vec(k % 5 - 2, k / 5 - 1.5, dim == 3 ? k % 3 - 1 : 0);
+            const NearestWall a = known.nearest(x), b = anew.nearest(x);
+            EXPECT_EQ(a.segment, b.segment) << x.transpose();
+            EXPECT_EQ(a.distance, b.distance) << x.transpose();
+            EXPECT_EQ(a.normal, b.normal);
+            near += a.segment >= 0;
+          }
+        EXPECT_GT(near, 50);
+      }
+    }
 }
 
 std::string turbulence(const std::string& card1, const std::string& card2 = "") {

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+"""
+Runs and evaluates the seven tests of De Padova, Mossa and Sibilla (2017) and writes docs/abrupt_drop_paper.md.
+
+usage: bash examples/abrupt_drop/paper.sh [options]
+
+  --jobs N          runs at a time (1): two runs on a thread each take less time than one after the other on two
+  --threads N       threads of each run (all cores, shared among the jobs)
+  --only NAME,...   these runs of paper_runs.yaml (T1, T4, T1_mixing, ...) alone
+  --study           also test T1 at more spacings, and the level at the end swept up and down: hours
+  --results FOLDER  where runs go (results/abrupt_drop_paper)
+  --page FILE       the page (docs/abrupt_drop_paper.md); beside it go figures/abrupt_drop
+  --quick           0.5 s in place of each run, to try the script: results/abrupt_drop_quick, and the page in there
+
+A complete run that is younger than its deck and the program is taken over. One that was stopped (Ctrl-C) or killed goes on from its
+restart file. A run that fails is reported, the others go on. The page shows all runs that are complete in the folder.
+Exit code: 0 all is done, 1 a run or its evaluation failed, 2 the call was wrong, 130 interrupted.
+
+"""
+import argparse
+import os
+import pathlib
+import sys
+
+import yaml
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "lib"))
+import paper_page  # noqa: E402
+from case_post import evaluate_once, post, read_table, scalars  # noqa: E402
+from case_runs import Case, Failure, Program, interruptible, make_deck, say, work_through  # noqa: E402
+
+HERE = pathlib.Path(__file__).resolve().parent
+PROJECT = HERE.parents[1]
+SCENES = PROJECT / "keyword_decks" / "abrupt_drop"
+RECIPE = SCENES / "post.yaml"
+FIRST_GUESS = {"mixing length": 2500, "others": 1000}  # ns per particle and step on one thread, until a run has told
+QUICK = {"endtim": 0.5, "settled": [0.1, 0.5], "times": [0.1, 0.2, 0.3, 0.5]}
+
+
+class Run(Case):
+    """A line of paper_runs.yaml."""
+
+    def __init__(self, entry, tests, results, quick):
+        test = tests[entry["test"]]
+        parameters = {key: test[key] for key in ("y1", "yt", "v1")} | entry.get("parameters", {})
+        super().__init__({"group": "tests", "water": 0.3, "notes": "", "level": None} | entry | {"parameters": parameters}, results, SCENES)
+        self.experiment = test["type"]
+        if quick:
+            self.parameters["endtim"] = QUICK["endtim"]
+            self.settled, self.times = QUICK["settled"], QUICK["times"]
+        self.kind = "mixing length" if "mixing" in str(entry["scene"]) else "others"
+
+    def spacing(self):
+        return self.parameters["y1"] / self.parameters["n"]
+
+
+def numbers(run):
+    """What the recipe has for T1, for this run."""
+    p, (begin, end) = run.parameters, run.settled
+    q = 1000 * p["v1"] * p["y1"]
+    return {"&h": round(1.2 * run.spacing(), 6), "&y1": p["y1"], "&v1": p["v1"], "&yt": p["yt"], "&q": round(q, 3), "inflow /": round(q, 3), "outflow /": round(q, 3),
+            "&half": p["y1"] / 2, "&c0": p.get("c0", 30), "&from": begin, "&to": end, "&segment": round(min(25, (end - begin) / 2), 3), "&times": run.times}
+
+
+def evaluate(run, program, threads):
+    asked = {"settled": list(run.settled), "times": list(run.times), "test": run.test}
+
+    def work():
+        results = post(run, program, RECIPE, {key: value for key, value in numbers(run).items() if key != "&times"} | {"&times": str(run.times).replace(" ", "")}, threads)
+        out = scalars(results)
+        out["regime_word"] = results["analyses"]["types"].get("regime", "")
+        switches = run.folder / "abrupt_drop" / "types_switches.csv"
+        out["switches"] = read_table(switches) if switches.is_file() else {}
+        return out
+
+    evaluate_once(run, program, asked, [pathlib.Path(__file__), *SCENES.glob("*.yaml")], work, say)
+
+
+def read_options():
+    parser = argparse.ArgumentParser(usage=__doc__, add_help=False)
+    parser.add_argument("--courant", required=True)
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--threads", type=int)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--study", action="store_true")
+    parser.add_argument("--results", type=pathlib.Path)
+    parser.add_argument("--page", type=pathlib.Path)
+    parser.add_argument("--quick", action="store_true")
+    options = parser.parse_args()
+    if options.threads is None:
+        options.threads = max(1, os.cpu_count() // max(1, options.jobs))
+    if options.threads < 1 or options.jobs < 1:
+        parser.error("--threads and --jobs need a number from 1 on")
+    options.results = (options.results or PROJECT / "results" / ("abrupt_drop_quick" if options.quick else "abrupt_drop_paper")).resolve()
+    options.page = (options.page or (options.results / "page.md" if options.quick else PROJECT / "docs" / "abrupt_drop_paper.md")).resolve()
+    return options
+
+
+def choose(runs, options):
+    if not options.only:
+        return [run for run in runs if run.group != "study" or options.study]
+    names = set(options.only.split(","))
+    unknown = names - {run.name for run in runs}
+    if unknown:
+        say(f"--only: there is no run {', '.join(sorted(unknown))}; there are {', '.join(run.name for run in runs)}")
+        sys.exit(2)
+    return [run for run in runs if run.name in names]
+
+
+def main():
+    options = read_options()
+    interruptible()
+    table = yaml.safe_load((HERE / "paper_runs.yaml").read_text())
+    options.results.mkdir(parents=True, exist_ok=True)
+    runs = [Run(entry, table["tests"], options.results, options.quick) for entry in table["runs"]]
+    chosen = choose(runs, options)
+    program = Program(options.courant)
+    try:
+        for run in chosen:
+            make_deck(run, program)
+        failed = work_through(chosen, program, options, FIRST_GUESS, lambda run: evaluate(run, program, options.threads))
+        page = paper_page.write(options, runs, program, PROJECT)
+    except Failure as error:
+        say(f"Stopped: {error}")
+        return 1
+    except KeyboardInterrupt:
+        say("\nInterrupted; the same command goes on from here.")
+        return 130
+    say(f"Page: {page}")
+    if failed:
+        say(f"{len(failed)} of {len(chosen)} runs failed: {', '.join(failed)}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
