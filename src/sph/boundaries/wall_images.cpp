@@ -1,5 +1,7 @@
 // METHOD 1 of *COURANT_WALL_SUPPORT: walls as mirrors of the water beside them.
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "search/neighbours.hpp"
 #include "sph/boundaries/wall_images.hpp"
@@ -21,7 +23,20 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
                     : world.particles.p),
       force_(sph_fields::wall_force(world.particles)),
       diffusion_(s.density_diffusion > 0 ? &sph_fields::density_diffusion(world.particles) : nullptr),
-      paths_from_(support_->surface(), s.dim, WallPaths::usual_width * s.spacing) {}
+      walls_(s.walls),
+      width_(WallPaths::usual_width * s.spacing),
+      any_moves_(support_->any_moves()) {
+  spacing_ = support_->surface().spacing(), reach_ = support_->surface().reach();
+  if (!any_moves_) {
+    paths_from_.emplace(support_->surface(), dim_, width_);
+    return;
+  }
+  std::vector<char> known(static_cast<std::size_t>(world.nodes.size()), 0);
+  for (const Index segment : walls_.segments)
+    if (segment_moves(world, segment))
+      for (const Index n : world.segments.nodes(segment))
+        if (!std::exchange(known[static_cast<std::size_t>(n)], 1)) nodes_.push_back(n);
+}
 
 Real WallImages::slope(Real h, const Vec& d) const {
   const Real r = std::max(d.norm(), 1e-9 * h);
@@ -33,14 +48,40 @@ Real WallImages::kernel(Real h, const Vec& d) const {
 }
 
 void WallImages::refreshed(World& world, const Clock&, std::span<const Index>) {
+  searched_at_.clear();
+  for (const Index n : nodes_) searched_at_.push_back(world.nodes.x.vec(n));
   look(world);
 }
 
+void WallImages::keep(Archive& archive) {
+  if (any_moves_) archive("searched_at", searched_at_);
+}
+
+/// Walls are searched where they were.
+void WallImages::relist(World& world) {
+  std::vector<Vec> now;
+  const bool known = searched_at_.size() == nodes_.size();
+  for (const Index n : nodes_) now.push_back(world.nodes.x.vec(n));
+  for (std::size_t k = 0; known && k < nodes_.size(); ++k) world.nodes.x.set(nodes_[k], searched_at_[k]);
+  look(world);
+  for (std::size_t k = 0; k < nodes_.size(); ++k) world.nodes.x.set(nodes_[k], now[k]);
+}
+
+void WallImages::search(const World& world) {
+  if (!any_moves_) return;
+  std::optional<Lookouts> from;
+  if (world.particles.active > 0) from.emplace(world.particles, reach_, walls_.planes);
+  surface_.emplace(world, walls_.segments, spacing_, reach_, walls_.planes, from ? &*from : nullptr);
+  paths_from_.emplace(*surface_, dim_, width_);
+  in_middle_.emplace(*paths_from_);
+}
+
 void WallImages::look(World& world) {
+  search(world);
   const Particles& p = world.particles;
   sheets_.assign(p.active, {});
   for_each(p.active, [&](Index i) {
-    if (support_->is_near(i)) sheets_[i] = paths_from_.seen_from(p.x.vec(i));
+    if (support_->is_near(i)) sheets_[i] = at_end().seen_from(p.x.vec(i));
     force_.set(i, Vec::Zero());
   });
 }
@@ -49,50 +90,96 @@ void WallImages::declare(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
   a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.h);
   a.reads(volumes_->before(), Reach::others).reads_before(p.rho).updates(p.drhodt);
+  if (!any_moves_) return;
+  const Segments& s = world.segments;
+  a.in_start().reads(world.nodes.x).reads(world.nodes.v);
+  a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
 }
 
 void WallImages::start(World& world, const Clock& clock) {
   half_step_ = 0.5 * clock.dt_old;
-  paths_.resize(static_cast<std::size_t>(block_count(world.particles.active)));
+  blocks_.resize(static_cast<std::size_t>(block_count(world.particles.active)));
+  if (!any_moves_) return;
+  paths_from_->take_along(world, 0);
+  in_middle_->take_along(world, half_step_);
 }
 
 void WallImages::block(World& world, const Clock&, Index begin, Index end) {
-  auto& paths = paths_[static_cast<std::size_t>(begin / block_size)];
-  paths.clear();
+  Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
+  block.paths.clear(), block.pulls.clear();
   for (Index i = begin; i < end; ++i) {
     if (sheets_[i].empty()) continue;
-    for (const Index j : neighbours_->of_group(i / Neighbours::lanes)) add_ways(world.particles, i, j, paths);
+    const bool moves =
+        std::any_of(sheets_[i].begin(), sheets_[i].end(), [](const auto& s) { return s.body >= 0; });
+    for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
+      moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, block);
   }
 }
 
 /// Ways are looked for in the middle of the step, where its rates belong, and taken along to its end, where
 /// forces act; those on their way over an edge are looked at there again.
-void WallImages::add_ways(Particles& p, Index i, Index j, std::vector<WallPath>& paths) const {
+void WallImages::add_ways(Particles& p, Index i, Index j, Block& block) {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
   const Real reach = table_.support() * p.h[i];
+  std::vector<WallPath>& paths = block.paths;
   const std::size_t first = paths.size();
-  paths_from_.add(sheets_[i], i, in_the_middle(i), j, in_the_middle(j), reach, paths);
+  at_end().add(sheets_[i], i, in_the_middle(i), j, in_the_middle(j), reach, paths);
   bool at_edge = false;
   for (std::size_t k = first; k < paths.size(); ++k) {
-    add_rate(p, paths[k]);
+    add_rate(p, paths[k], block.pulls);
     at_edge |= std::abs(paths[k].weight) < 1;
     paths[k].d += half_step_ * speed(p, paths[k]);
   }
   if (!at_edge) return;
   paths.resize(first);
-  paths_from_.add(sheets_[i], i, p.x.vec(i), j, p.x.vec(j), reach, paths);
+  at_end().add(sheets_[i], i, p.x.vec(i), j, p.x.vec(j), reach, paths);
+}
+
+/// The same where walls move.
+void WallImages::add_ways_of_moving(Particles& p, Index i, Index j, Block& block) {
+  const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
+  const Real reach = table_.support() * p.h[i];
+  std::vector<WallPath>& paths = block.paths;
+  const std::size_t first = paths.size(), first_pull = block.pulls.size();
+  in_middle_->place(sheets_[i]);
+  in_middle_->add(sheets_[i], i, in_the_middle(i), j, in_the_middle(j), reach, paths, &block.pulls);
+  bool at_edge = false;
+  for (std::size_t k = first; k < paths.size(); ++k) {
+    add_rate(p, paths[k], block.pulls);
+    at_edge |= std::abs(paths[k].weight) < 1;
+  }
+  at_end().place(sheets_[i]);
+  if (at_edge) {
+    paths.resize(first), block.pulls.resize(first_pull);
+    at_end().add(sheets_[i], i, p.x.vec(i), j, p.x.vec(j), reach, paths, &block.pulls);
+  }
+  for (std::size_t k = first; k < paths.size(); ++k)
+    if (paths[k].moves)
+      at_end().bring(sheets_[i], p.x.vec(i), p.x.vec(j), paths[k]);
+    else if (!at_edge)
+      paths[k].d += half_step_ * speed(p, paths[k]);
 }
 
 /// Of particle i over the image of j. [L/T]
 Vec WallImages::speed(const Particles& p, const WallPath& path) const {
-  return p.v.vec(path.i) - path.turn * p.v.vec(path.j);
+  const Vec over = p.v.vec(path.i) - path.turn * p.v.vec(path.j);
+  return path.moves ? Vec(over - path.drift) : over;
 }
 
-void WallImages::add_rate(Particles& p, const WallPath& path) const {
+void WallImages::add_rate(Particles& p, const WallPath& path, const std::vector<WallPull>& pulls) const {
   const Real h = p.h[path.i];
-  p.drhodt[path.i] += p.rho[path.i] * volumes_->current()[path.j] *
-                      (path.weight * slope(h, path.d) * speed(p, path).dot(path.d) +
-                       kernel(h, path.d) * (path.by_i.dot(p.v.vec(path.i)) + path.by_j.dot(p.v.vec(path.j))));
+  Real share_rate = path.by_i.dot(p.v.vec(path.i)) + path.by_j.dot(p.v.vec(path.j));
+  for (Index k = path.pulls; k < path.pulls_end; ++k) {
+    const WallPull& pull = pulls[static_cast<std::size_t>(k)];
+    const Vec v = in_middle_->velocity(pull.face, pull.at);
+    share_rate += pull.force.dot(v);
+    if (!pull.lever.isZero())
+      share_rate +=
+          in_middle_->face(pull.face).n.dot(in_middle_->velocity(pull.face, pull.at + pull.lever) - v);
+  }
+  p.drhodt[path.i] +=
+      p.rho[path.i] * volumes_->current()[path.j] *
+      (path.weight * slope(h, path.d) * speed(p, path).dot(path.d) + kernel(h, path.d) * share_rate);
 }
 
 void WallImages::declare_forces(const World& world, Accesses& a) const {
@@ -100,6 +187,10 @@ void WallImages::declare_forces(const World& world, Accesses& a) const {
   a.reads(p.x, Reach::others).reads(pressure_, Reach::others).reads(volumes_->now(), Reach::others);
   a.reads(p.h).reads(p.rho).reads(p.c).reads(p.part).updates(p.f).updates(force_);
   if (diffusion_) a.updates(*diffusion_);
+  if (!any_moves_) return;
+  const Segments& s = world.segments;
+  a.in_finish().updates(s.contact_force).updates(world.nodes.f);
+  a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
 }
 
 void WallImages::start_forces(const Clock& clock) {
@@ -111,13 +202,19 @@ void WallImages::forces(World& world, Index begin, Index end) {
   const Real* V = volumes_->current();
   for (Index i = begin; i < end; ++i)
     if (!sheets_[i].empty()) force_.set(i, Vec::Zero());
-  for (const WallPath& path : paths_[static_cast<std::size_t>(begin / block_size)]) {
+  Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
+  block.reactions.clear();
+  for (const WallPath& path : block.paths) {
     const Index i = path.i, j = path.j;
-    const Real share = path.weight * V[j] * slope(p.h[i], path.d);
-    const Vec force =
-        -V[i] * (pressure_[i] + pressure_[j]) * (share * path.d + V[j] * kernel(p.h[i], path.d) * path.by_i);
+    const Real share = path.weight * V[j] * slope(p.h[i], path.d), pressure = pressure_[i] + pressure_[j],
+               W = V[j] * kernel(p.h[i], path.d);
+    // the way to oneself stands for the way back, too, which in a corner is another
+    const Vec d = path.moves && i == j ? Vec(0.5 * (path.d - path.turn.transpose() * path.d)) : path.d;
+    const Vec force = -V[i] * pressure * (share * d + W * path.by_i);
     p.f.add(i, force);
-    if (path.weight > 0) force_.add(i, force);
+    force_.add(i, path.weight > 0 ? force : Vec(-V[i] * pressure * W * path.by_i));
+    if (path.moves || path.pulls < path.pulls_end)
+      react(p, path, -V[i] * pressure * share * path.d, -V[i] * pressure * W, block);
     if (!diffusion_) continue;
     // behind the wall pressure goes on as at rest, so what it differs by is the same as without the wall
     const Vec x = p.x.vec(i);
@@ -125,6 +222,45 @@ void WallImages::forces(World& world, Index begin, Index end) {
     (*diffusion_)[i] -=
         2 * delta_ * p.h[i] / p.c[i] * share * (pressure_[j] - pressure_[i] + p.rho[i] * rise);
   }
+}
+
+/// What walls that move get of a way, half of it here and half by the way back: by the force on particle i
+/// along it, and by how its share goes over, to which the force on particle i is `per_share`.
+void WallImages::react(const Particles& p, const WallPath& path, const Vec& force, Real per_share,
+                       Block& block) const {
+  for (Index k = path.pulls; k < path.pulls_end; ++k)
+    give(block.pulls[static_cast<std::size_t>(k)], 0.5 * per_share, block);
+  if (!path.moves) return;
+  block.now.clear();
+  at_end().pull_images(sheets_[path.i], path, p.x.vec(path.j), -force, block.now);
+  for (const WallPull& pull : block.now) give(pull, -0.5, block);
+}
+
+void WallImages::give(const WallPull& pull, Real times, Block& block) const {
+  const WallSurface::Face& face = at_end().face(pull.face);
+  const Vec at = pull.at - at_end().shift(), force = face.from_image * (times * pull.force),
+            normal = face.from_image * (times * face.n);
+  auto& all = block.reactions;
+  auto known =
+      std::find_if(all.rbegin(), all.rend(), [&](const Reaction& r) { return r.segment == face.segment; });
+  Reaction& to = known != all.rend() ? *known : all.emplace_back(Reaction{.segment = face.segment});
+  const auto weight = surface_->weights_of_nodes(face, at);
+  for (std::size_t e = 0; e < 4; ++e) to.on_node[e] += weight[e] * force;
+  if (pull.lever.isZero()) return;
+  const auto there = surface_->weights_of_nodes(face, at + pull.lever);
+  for (std::size_t e = 0; e < 4; ++e) to.on_node[e] += (there[e] - weight[e]) * normal;
+}
+
+void WallImages::give_reactions(World& world) const {
+  if (!any_moves_) return;
+  for (const Block& block : blocks_)
+    for (const Reaction& r : block.reactions) {
+      const auto nodes = world.segments.nodes(r.segment);
+      for (std::size_t e = 0; e < 4; ++e) {
+        world.segments.contact_force.add(r.segment, r.on_node[e]);
+        world.nodes.f.add(nodes[e], r.on_node[e]);
+      }
+    }
 }
 
 namespace {
@@ -138,6 +274,7 @@ class WallImageForces : public Force {
   void block(World& world, const Clock&, Index begin, Index end) override {
     images_->forces(world, begin, end);
   }
+  void finish(World& world, const Clock&) override { images_->give_reactions(world); }
 
  private:
   std::shared_ptr<WallImages> images_;

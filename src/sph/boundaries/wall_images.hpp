@@ -1,6 +1,7 @@
 #pragma once
 // What walls of shells do as mirrors of the water beside them.
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,10 @@ namespace courant {
 /// along a plane wall cancel between particles. The diffusion of density sees images, too, with the pressure
 /// that stands behind the wall at rest; viscosity does not.
 ///
+/// Where walls move as rigid bodies, v_j is that of the image, which goes along with the wall, and walls get
+/// what particles lose by what each way changes with them (`WallPull`), on the nodes of the face that it goes
+/// through: forces keep momentum and its moment, and what walls do to the water they lose.
+///
 /// Where a wall ends, w changes with the places of i and j, and belongs to both sums:
 ///   d rho_i/dt += rho_i sum V_j W_ij dw/dt,   f_i -= V_i sum V_j (p_i + p_j) W_ij dw/dx_i,
 /// so that density depends on where particles are, not on how they came there, and forces keep their energy.
@@ -30,22 +35,41 @@ class WallImages : public Rate, public Refresh, public Restartable {
   void start(World& world, const Clock& clock) override;
   void block(World& world, const Clock&, Index begin, Index end) override;
   void refreshed(World& world, const Clock&, std::span<const Index>) override;
-  void keep(Archive&) override {}
-  void relist(World& world) override { look(world); }
+  void keep(Archive& archive) override;
+  void relist(World& world) override;
 
   void declare_forces(const World& world, Accesses& a) const;
   void start_forces(const Clock& clock);
   void forces(World& world, Index begin, Index end);
+  /// Gives walls that move what blocks have for them.
+  void give_reactions(World& world) const;
 
  private:
   void look(World& world);
-  void add_ways(Particles& p, Index i, Index j, std::vector<WallPath>& paths) const;
+  void search(const World& world);
+  /// What a segment that moves gets, on its nodes [ML/T2].
+  struct Reaction {
+    Index segment;
+    std::array<Vec, 4> on_node{Vec::Zero(), Vec::Zero(), Vec::Zero(), Vec::Zero()};
+  };
+  /// Of a block of particles.
+  struct Block {
+    std::vector<WallPath> paths;  ///< in this step, by particles
+    std::vector<WallPull> pulls;  ///< of paths
+    std::vector<WallPull> now;    ///< of the path at hand
+    std::vector<Reaction> reactions;
+  };
+  void add_ways(Particles& p, Index i, Index j, Block& block);
+  void add_ways_of_moving(Particles& p, Index i, Index j, Block& block);
+  void react(const Particles& p, const WallPath& path, const Vec& force, Real per_share, Block& block) const;
+  void give(const WallPull& pull, Real times, Block& block) const;
+  const WallPaths& at_end() const { return *paths_from_; }
   /// (dW/dr)/r [1/L^(dim+2)]
   Real slope(Real h, const Vec& d) const;
   /// W [1/L^dim]
   Real kernel(Real h, const Vec& d) const;
   Vec speed(const Particles& p, const WallPath& path) const;
-  void add_rate(Particles& p, const WallPath& path) const;
+  void add_rate(Particles& p, const WallPath& path, const std::vector<WallPull>& pulls) const;
 
   int dim_;
   Real delta_, half_step_ = 0;
@@ -57,9 +81,16 @@ class WallImages : public Rate, public Refresh, public Restartable {
   std::shared_ptr<WallSupport> support_;
   Field<Real>&pressure_, &force_;
   Field<Real>* diffusion_;
-  WallPaths paths_from_;                      ///< walls are held: edges are judged once
-  std::vector<WallPaths::Sheets> sheets_;     ///< of active particles, since the last refresh
-  std::vector<std::vector<WallPath>> paths_;  ///< of each block in this step, by particles
+  SupportedWalls walls_;
+  Real width_, spacing_, reach_;  ///< of edges; of pieces of wall that are searched; of anybody's look [L]
+  bool any_moves_;
+  std::optional<WallSurface> surface_;     ///< where walls move: at the last refresh
+  std::vector<Index> nodes_;               ///< of walls that move
+  std::vector<Vec> searched_at_;           ///< where these were then
+  std::optional<WallPaths> paths_from_;    ///< now; of walls that are held edges are judged once
+  std::optional<WallPaths> in_middle_;     ///< where walls move: in the middle of the step
+  std::vector<WallPaths::Sheets> sheets_;  ///< of active particles, since the last refresh
+  std::vector<Block> blocks_;
 };
 
 /// What images do to forces; belongs behind the pair forces.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "parallel/parallel.hpp"
+#include "sph/core/kernel.hpp"
 
 namespace courant {
 
@@ -41,13 +43,34 @@ Vec aside(Real reach, int dim, bool again = false) {
 
 }  // namespace
 
+Vec WallPaths::put_aside(const Vec& x, bool again) const {
+  return surface_.in_plane(x) + aside(surface_.reach(), dim_, again);
+}
+
 WallPaths::WallPaths(const WallSurface& surface, int dim, Real width)
-    : surface_(surface), dim_(dim), width_(width), edges_(static_cast<std::size_t>(surface.faces())) {
+    : surface_(surface),
+      dim_(dim),
+      width_(width),
+      edges_(static_cast<std::size_t>(surface.faces())),
+      faces_(surface.faces() > 0 ? &surface.face(0) : nullptr) {
   for_each(surface.faces(), [&](Index f) {
     for (int e = 0; e < surface_.face(f).corners; ++e)
       // in 2D, edges 0 and 2 are far to the sides of the plane of flow
       if (dim_ == 3 || e % 2 == 1) edges_[f][e] = edge_of(f, e);
   });
+  for (Index f = 0; f < surface.faces(); ++f) any_moves_ |= surface.face(f).body >= 0;
+}
+
+WallPaths::WallPaths(const WallPaths& other)
+    : surface_(other.surface_),
+      dim_(other.dim_),
+      width_(other.width_),
+      edges_(other.edges_),
+      any_moves_(other.any_moves_),
+      faces_(other.faces_),
+      moved_(other.moved_),
+      motions_(other.motions_) {
+  if (!moved_.empty()) faces_ = moved_.data();
 }
 
 /// Other faces that go on from the middle of an edge decide: in the plane or slightly bent, it is no edge.
@@ -72,14 +95,15 @@ WallPaths::Edge WallPaths::edge_of(Index face, int edge) const {
       for (int e = 0; e < g.corners; ++e) goes_on &= g.inward[e].dot(p - g.x[e]) > -near;
       if (!goes_on) continue;
       if (t.dot(outward) > bent) return {};
-      if (std::abs(f.n.dot(t)) > touching) out.corners.push_back({g.n, -g.n.dot(outward), f.n.dot(t)});
+      if (std::abs(f.n.dot(t)) > touching)
+        out.corners.push_back({g.n, -g.n.dot(outward), f.n.dot(t), other, way});
     }
   }
   return out;
 }
 
 bool WallPaths::is_free(Index face, int edge, const Vec& p) const {
-  const auto& f = surface_.face(face);
+  const auto& f = this->face(face);
   const Vec d = p - f.x[edge];
   const auto& corners = edges_[face][edge].corners;
   return std::none_of(corners.begin(), corners.end(),
@@ -88,8 +112,8 @@ bool WallPaths::is_free(Index face, int edge, const Vec& p) const {
 
 /// Whether a face lies in the plane of a sheet, but for how decks round places.
 bool WallPaths::goes_on_in(const Sheet& sheet, Index face) const {
-  const auto& f = surface_.face(face);
-  if (std::abs(f.n.dot(sheet.n)) < level) return false;
+  const auto& f = this->face(face);
+  if (f.body != sheet.body || std::abs(f.n.dot(sheet.n)) < level) return false;
   return std::all_of(f.x.begin(), f.x.begin() + f.corners,
                      [&](const Vec& x) { return std::abs(sheet.height(x)) < touching * surface_.reach(); });
 }
@@ -99,13 +123,14 @@ WallPaths::Sheets WallPaths::seen_from(const Vec& x) const {
   const WallSurface::View view = surface_.view_from(x);
   if (view.nothing) return out;
   const auto sheet_of = [&](Index face) {
-    const auto& f = surface_.face(face);
-    return Sheet{f.n, f.offset, f.plane, false, {}, {}};
+    const auto& f = this->face(face);
+    return Sheet{f.n, f.offset, f.plane, false, face, f.body, {}, {}};
   };
   const std::vector<Index> around = surface_.faces_around(x);
   // exactly, or a pair of particles would not look alike from both
   const auto ends = [&](Index f) {
-    return std::any_of(edges_[f].begin(), edges_[f].end(), [](const Edge& e) { return e.ends; });
+    return face(f).body >= 0 ||
+           std::any_of(edges_[f].begin(), edges_[f].end(), [](const Edge& e) { return e.ends; });
   };
   const bool edges = std::any_of(around.begin(), around.end(), ends);
   if (view.flat >= 0 && !edges) {
@@ -125,7 +150,7 @@ WallPaths::Sheets WallPaths::seen_from(const Vec& x) const {
 
 bool WallPaths::is_inside(const Sheet& sheet, const Vec& q) const {
   return sheet.endless || std::any_of(sheet.faces.begin(), sheet.faces.end(), [&](Index face) {
-           const auto& f = surface_.face(face);
+           const auto& f = this->face(face);
            bool in = surface_.is_at_face(face, q);
            for (int e = 0; e < f.corners; ++e)
              in &= f.inward[e].dot(q - f.x[e]) > -overlap * surface_.reach();
@@ -143,7 +168,7 @@ bool WallPaths::lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const {
 bool WallPaths::turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const {
   return std::any_of(sheet.edges.begin(), sheet.edges.end(), [&](const auto& edge) {
     const auto& [face, e] = edge;
-    const auto& f = surface_.face(face);
+    const auto& f = this->face(face);
     return lies_in(f.x[e], f.x[(e + 1) % f.corners], &other) && is_free(face, e, x) && is_free(face, e, y);
   });
 }
@@ -171,7 +196,7 @@ WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& 
   for (const auto& [face, e] : sheet.edges) {
     const Edge& edge = edges_[face][e];
     if ((edge.middle - middle).squaredNorm() > power<2>(around + edge.half)) continue;
-    const auto& f = surface_.face(face);
+    const auto& f = this->face(face);
     const Vec &c = f.x[e], &d = f.x[(e + 1) % f.corners];
     const bool passed = lies_in(c, d, but) || lies_in(c, d, and_but);
     const Nearest to_edge = nearest(start, b, c, d);
@@ -183,6 +208,7 @@ WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& 
     if (passed) continue;  // the way ends on the other side of that edge
     near = r;
     if (!out.crosses) out.at = to_edge.there;
+    out.edge_of = face, out.on_edge = to_edge.there;
     const Vec away = (to_edge.here - to_edge.there) / std::max(r, Real(1e-300));
     out.by_start = (1 - to_edge.part) * away, out.by_end = to_edge.part * away;
   }
@@ -205,11 +231,10 @@ WallPaths::Meeting WallPaths::hidden(const Sheets& sheets, const Vec& a, const V
 }
 
 void WallPaths::add(const Sheets& sheets, Index i, const Vec& at_i, Index j, const Vec& at_j, Real reach,
-                    std::vector<WallPath>& to) const {
-  const Vec x = surface_.in_plane(at_i) + aside(surface_.reach(), dim_),
-            y = surface_.in_plane(at_j) + aside(surface_.reach(), dim_, i == j);
+                    std::vector<WallPath>& to, std::vector<WallPull>* pulls) const {
+  const Vec x = put_aside(at_i), y = put_aside(at_j, i == j);
   if ((y - x).squaredNorm() >= reach * reach) return;  // images are farther
-  if (i != j) add_straight(sheets, i, x, j, y, to);
+  if (i != j) add_straight(sheets, i, x, j, y, to, pulls);
   Real from_x = reach, from_y = reach;
   for (const Sheet& s : sheets) {
     from_x = std::min(from_x, std::abs(s.height(x)));
@@ -217,46 +242,70 @@ void WallPaths::add(const Sheets& sheets, Index i, const Vec& at_i, Index j, con
   }
   if (from_x + from_y > reach + width_) return;
   Sequence by;
-  add_thrown_back(sheets, by, x, i, x, j, y, reach, to);
+  add_thrown_back(sheets, by, x, i, x, j, y, reach, to, pulls);
 }
 
 void WallPaths::add_straight(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y,
-                             std::vector<WallPath>& to) const {
+                             std::vector<WallPath>& to, std::vector<WallPull>* pulls) const {
   const Meeting m = hidden(sheets, x, y, x, y);
   if (!(m.share > 0)) return;
   WallPath path{.i = i, .j = j, .weight = -m.share, .d = x - y};
   path.by_i = -m.by_start, path.by_j = -m.by_end;
+  if (pulls) {
+    path.pulls = static_cast<Index>(pulls->size());
+    pull_edge(m, 1, *pulls);
+    path.pulls_end = static_cast<Index>(pulls->size());
+  }
   to.push_back(path);
 }
 
 /// Ways by the walls `by`, behind all of which x is seen at `x_there`, and then one more, or several: as many
 /// as there are directions, or two more in the plane, where corners may be sharp.
 void WallPaths::add_thrown_back(const Sheets& sheets, Sequence& by, const Vec& x_there, Index i, const Vec& x,
-                                Index j, const Vec& y, Real reach, std::vector<WallPath>& to) const {
+                                Index j, const Vec& y, Real reach, std::vector<WallPath>& to,
+                                std::vector<WallPull>* pulls) const {
   const std::size_t most = dim_ == 2 ? 4 : 3;
   for (const Sheet& s : sheets) {
     if (by.empty() ? std::abs(s.height(x)) > reach : by.back() == &s) continue;
     by.push_back(&s);
     const Vec there = s.image(x_there);
     if ((there - y).squaredNorm() < reach * reach) {
+      WallPath path{.i = i, .j = j};
       Vec image = y;
       for (auto sheet = by.rbegin(); sheet != by.rend(); ++sheet) image = (*sheet)->image(image);
-      WallPath path{.i = i, .j = j, .d = x - image};
+      path.d = x - image;
       for (const Sheet* sheet : by) path.turn = path.turn * sheet->turn();
-      follow(sheets, by, x, y, image, path);
+      pulls ? follow<true>(sheets, by, x, y, image, path, pulls)
+            : follow<false>(sheets, by, x, y, image, path, pulls);
       if (i == j) path.by_i = path.by_j = 0.5 * (path.by_i + path.by_j);  // but for rounding they are
-      if (path.weight > 0) to.push_back(path);
+      if (path.weight > 0) {
+        note_walls(sheets, by, y, path);
+        to.push_back(path);
+      }
     }
-    if (by.size() < most && sheets.size() > 1) add_thrown_back(sheets, by, there, i, x, j, y, reach, to);
+    if (by.size() < most && sheets.size() > 1)
+      add_thrown_back(sheets, by, there, i, x, j, y, reach, to, pulls);
     by.pop_back();
   }
+}
+
+/// Which walls throw a way back, and how they take the image of y along.
+void WallPaths::note_walls(const Sheets& sheets, const Sequence& by, Vec y, WallPath& path) const {
+  for (std::size_t k = 0; k < by.size(); ++k) {
+    path.by[k] = static_cast<signed char>(by[k] - sheets.data());
+    path.moves |= by[k]->body >= 0;
+  }
+  if (!path.moves) return;
+  for (auto sheet = by.rbegin(); sheet != by.rend(); ++sheet) y = image(**sheet, y, path.drift);
 }
 
 /// Follows the way from x towards the image of y behind the walls `by`, each of which turns it back, and
 /// gives the path its share and the slopes of that: a product of what walls take and of what none of the
 /// others hides.
+template <bool recorded>
 void WallPaths::follow(const Sheets& sheets, const Sequence& by, const Vec& x, const Vec& y, Vec target,
-                       WallPath& path) const {
+                       WallPath& path, [[maybe_unused]] std::vector<WallPull>* pulls) const {
+  [[maybe_unused]] std::conditional_t<recorded, Way, char> way;
   Vec start = x, at = x;
   // what these change by when x and y do
   Matrix start_by_x = Matrix::Identity(), target_by_y = path.turn, at_by_x = start_by_x,
@@ -271,7 +320,10 @@ void WallPaths::follow(const Sheets& sheets, const Sequence& by, const Vec& x, c
   const Sheet* last = nullptr;
   for (const Sheet* s : by) {
     const Meeting m = meet(*s, at, target, start, x, y);
-    if (by.size() > 1 && (!m.crosses || (last && turn_away(*s, *last, x, y)))) return;
+    if constexpr (recorded) way.step(*s, start, target, m);
+    if (by.size() > 1 &&
+        (!m.crosses || (last && (turn_away(*s, *last, x, y) || (any_moves_ && turn_away(*last, *s, x, y))))))
+      return;
     if (!times(m.share, start_by_x.transpose() * m.by_start, target_by_y.transpose() * m.by_end)) return;
     Matrix m_by_x = Matrix::Zero(), m_by_y = Matrix::Zero();
     if (m.crosses) {
@@ -281,6 +333,7 @@ void WallPaths::follow(const Sheets& sheets, const Sequence& by, const Vec& x, c
       m_by_x = (1 - part) * in_wall * start_by_x, m_by_y = part * in_wall * target_by_y;
     }
     const Meeting h = hidden(sheets, at, m.at, x, y, last, s);
+    if constexpr (recorded) way.hidden[way.steps - 1] = h;
     if (!times(1 - h.share, -(at_by_x.transpose() * h.by_start + m_by_x.transpose() * h.by_end),
                -(at_by_y.transpose() * h.by_start + m_by_y.transpose() * h.by_end)))
       return;
@@ -292,6 +345,12 @@ void WallPaths::follow(const Sheets& sheets, const Sequence& by, const Vec& x, c
   if (!times(1 - h.share, -at_by_x.transpose() * h.by_start, -at_by_y.transpose() * h.by_start - h.by_end))
     return;
   path.weight = share, path.by_i = by_x, path.by_j = by_y;
+  if constexpr (recorded) {
+    way.hidden[way.steps] = h, way.end = y;
+    path.pulls = static_cast<Index>(pulls->size());
+    pull_all(way, share, *pulls);
+    path.pulls_end = static_cast<Index>(pulls->size());
+  }
 }
 
 }  // namespace courant

@@ -15,6 +15,18 @@ struct WallPath {
   Vec d = Vec::Zero();                         ///< x_i less the place of the image of j [L]
   Matrix turn = Matrix::Identity();            ///< of directions at j, as they are at the image
   Vec by_i = Vec::Zero(), by_j = Vec::Zero();  ///< how the share goes over with the places of i and j [1/L]
+  Vec drift = Vec::Zero();                     ///< velocity of the image where j rests [L/T]
+  std::array<signed char, 4> by{-1, -1, -1, -1};  ///< the sheets that throw it back, in turn
+  bool moves = false;                             ///< any of them does
+  Index pulls = 0, pulls_end = 0;                 ///< how the share goes over with the places of walls
+};
+
+/// How something changes with the place of a rigid piece of wall: by `force` times the way of what moves with
+/// it at `at`, and along the normal of the face by the difference of the ways at `at + lever` and `at`. With
+/// the sign turned, the force on it that belongs to an energy. [X/L], `lever` times that
+struct WallPull {
+  Index face = 0;
+  Vec at = Vec::Zero(), force = Vec::Zero(), lever = Vec::Zero();
 };
 
 /// Walls act as mirrors do, each piece as far as it goes: i meets the image of j in a wall where the straight
@@ -26,6 +38,10 @@ struct WallPath {
 /// Where a wall ends, and where the next one turns away from the water, a way that passes the edge goes over
 /// from thrown back (or hidden) to nothing within one width, half of it on each side, smoothly: else
 /// particles would come and go at once. What the wall no longer throws back is what it no longer hides.
+///
+/// Walls may move as rigid bodies: `take_along` tells where they are, and `place` brings sheets there. How a
+/// way changes with places then holds for those of walls, too (`WallPull`), such that nothing changes where
+/// all goes along alike: forces by it keep momentum and its moment.
 class WallPaths {
  public:
   /// A flat piece of wall as somebody sees it; `endless`: nothing else, and none of its edges.
@@ -34,6 +50,8 @@ class WallPaths {
     Real offset = 0;
     Index plane = 0;
     bool endless = false;
+    Index face = 0;   ///< one of them
+    Index body = -1;  ///< which they all follow; -1: they are held
     std::vector<Index> faces;
     std::vector<std::pair<Index, int>> edges;  ///< of these faces, where nothing goes on in the plane
     Real height(const Vec& x) const { return n.dot(x) - offset; }
@@ -47,12 +65,34 @@ class WallPaths {
   /// `width`: about one spacing of the particles; the surface must reach that much farther than the kernel
   /// [L]
   WallPaths(const WallSurface& surface, int dim, Real width);
+  WallPaths(const WallPaths& other);
+  WallPaths& operator=(const WallPaths&) = delete;
+  ~WallPaths() = default;
 
   /// What may throw back ways from about x.
   Sheets seen_from(const Vec& x) const;
   /// Appends the ways from i to j that walls change; `reach`: how far the kernel does [L].
   void add(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y, Real reach,
-           std::vector<WallPath>& to) const;
+           std::vector<WallPath>& to, std::vector<WallPull>* pulls = nullptr) const;
+
+  /// Where walls that move were `back` ago, by their velocity over the last step. [T]
+  void take_along(const World& world, Real back);
+  void place(Sheets& sheets) const;
+  bool any_moves() const { return any_moves_; }
+  /// Velocity of what moves with a face at x [L/T].
+  Vec velocity(Index face, const Vec& x) const {
+    return motions_.empty() ? Vec(Vec::Zero()) : motions_[face].at(x);
+  }
+  const WallSurface::Face& face(Index f) const { return faces_[f]; }
+  /// So far aside places are looked at (`WallPull::at` with them). [L]
+  Vec shift() const { return put_aside(Vec::Zero()); }
+  /// Takes a way that a wall throws back to where its walls are placed now, but for its share. To oneself,
+  /// too, it comes from both ends alike, so that no force is left along the wall.
+  void bring(const Sheets& sheets, const Vec& x, const Vec& y, WallPath& path) const;
+  /// Appends what a function of d alone, with the slope `by_d`, changes by with the walls that throw the way
+  /// back from y.
+  void pull_images(const Sheets& sheets, const WallPath& path, const Vec& y, const Vec& by_d,
+                   std::vector<WallPull>& to) const;
 
  private:
   /// Where another face begins at an edge: the edge is none to who stands between both.
@@ -60,6 +100,8 @@ class WallPaths {
     Vec n = Vec::Zero();  ///< of the other face
     Real here = 0;        ///< side of the other face on which this one lies
     Real there = 0;       ///< side of this face on which the other one lies
+    Index other = 0;      ///< that face
+    Real way = 1;         ///< to that side across the edge
   };
   struct Edge {
     bool ends = false;  ///< no face goes on from here in the plane
@@ -73,6 +115,20 @@ class WallPaths {
     Vec at = Vec::Zero();
     Real share = 0;
     Vec by_start = Vec::Zero(), by_end = Vec::Zero();  ///< slopes of the share [1/L]
+    Index edge_of = -1;                                ///< the face whose edge makes it go over
+    Vec on_edge;                                       ///< where there is one
+  };
+  /// How a way went, for whom its share depends on.
+  struct Way {
+    std::array<const Sheet*, 4> by{};
+    std::array<Vec, 4> start, target;  ///< before each wall turns the way back
+    std::array<Meeting, 4> met;        ///< with that wall
+    std::array<Meeting, 5> hidden;     ///< before each wall, and at the end
+    Vec end = Vec::Zero();
+    int steps = 0;
+    void step(const Sheet& sheet, const Vec& from, const Vec& to, const Meeting& m) {
+      by[steps] = &sheet, start[steps] = from, target[steps] = to, met[steps++] = m;
+    }
   };
   using Sequence = std::vector<const Sheet*>;
   bool goes_on_in(const Sheet& sheet, Index face) const;
@@ -85,17 +141,38 @@ class WallPaths {
                const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
   Meeting hidden(const Sheets& sheets, const Vec& a, const Vec& b, const Vec& x, const Vec& y,
                  const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
+  template <bool recorded>
   void follow(const Sheets& sheets, const Sequence& by, const Vec& x, const Vec& y, Vec target,
-              WallPath& path) const;
+              WallPath& path, std::vector<WallPull>* pulls) const;
   void add_straight(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y,
-                    std::vector<WallPath>& to) const;
+                    std::vector<WallPath>& to, std::vector<WallPull>* pulls) const;
   void add_thrown_back(const Sheets& sheets, Sequence& by, const Vec& x_there, Index i, const Vec& x, Index j,
-                       const Vec& y, Real reach, std::vector<WallPath>& to) const;
+                       const Vec& y, Real reach, std::vector<WallPath>& to,
+                       std::vector<WallPull>* pulls) const;
+
+  void find_corner(Index face, int edge, Corner& corner) const;
+  void note_walls(const Sheets& sheets, const Sequence& by, Vec y, WallPath& path) const;
+  Vec image(const Sheet& sheet, const Vec& x, Vec& velocity) const;
+  Vec velocity_of(const Sheet& sheet, const Vec& x) const {
+    return sheet.body < 0 ? Vec(Vec::Zero()) : velocity(sheet.face, x);
+  }
+  Index face_at(const Sheet& sheet, const Vec& q) const;
+  void pull(const Sheet& sheet, const Vec& at, const Vec& by_image, std::vector<WallPull>& to) const;
+  void pull_edge(const Meeting& m, Real times, std::vector<WallPull>& to) const;
+  void pull_start(const Way& way, int k, Vec by, std::vector<WallPull>& to) const;
+  void pull_target(const Way& way, int k, Vec by, std::vector<WallPull>& to) const;
+  void pull_hit(const Way& way, int k, const Vec& by, std::vector<WallPull>& to) const;
+  void pull_all(const Way& way, Real share, std::vector<WallPull>& to) const;
+  Vec put_aside(const Vec& x, bool again = false) const;
 
   const WallSurface& surface_;
   int dim_;
   Real width_;
   std::vector<std::array<Edge, 4>> edges_;  ///< of each face
+  bool any_moves_ = false;
+  const WallSurface::Face* faces_;        ///< as in the surface, or `moved_`
+  std::vector<WallSurface::Face> moved_;  ///< where they are now; empty: as in the surface
+  std::vector<WallMotion> motions_;
 };
 
 }  // namespace courant

@@ -84,13 +84,13 @@ void WallSupport::declare(const World& world, Accesses& a) const {
 }
 
 void WallSupport::start(World& world, const Clock&) {
-  if (any_moves_) rebuild(world);
+  if (follows()) rebuild(world);
 }
 
 void WallSupport::block(World& world, const Clock& clock, Index begin, Index end) {
   Particles& p = world.particles;
   for (Index i = begin; i < end; ++i) {
-    if (any_moves_ && (view_[i] = look(p, i)) == nothing) set(i, {});
+    if (any_moves_ && !image_force_ && (view_[i] = look(p, i)) == nothing) set(i, {});
     if (view_[i] == nothing || !(integrates_ || rubs_)) continue;
     const Real half_step = 0.5 * clock.dt_old;
     const Sums sums =
@@ -140,7 +140,8 @@ void WallSupport::declare_force(const World& world, Accesses& a) const {
 
 void WallSupport::add_reactions(const Particles& p, Index i, std::vector<Reaction>& to) const {
   const Vec friction = friction_on(p, i, p.v.vec(i));
-  const Real twice_pV = 2 * p.m[i] / p.rho[i] * pressure_[i];
+  if (image_force_ && !(rubbing_[i] > 0)) return;
+  const Real twice_pV = image_force_ ? 0 : 2 * p.m[i] / p.rho[i] * pressure_[i];
   const Matrix B = excess_ ? Matrix(Matrix::Identity() + excess_->tensor(i)) : Matrix(Matrix::Identity());
   const std::size_t first = to.size();
   surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
@@ -163,10 +164,8 @@ void WallSupport::add_reactions(const Particles& p, Index i, std::vector<Reactio
 
 void WallSupport::refreshed(World& world, const Clock&, std::span<const Index>) {
   Particles& p = world.particles;
-  if (evolving_h_) {
-    measure_h(world);
-    rebuild(world);
-  }
+  if (evolving_h_) measure_h(world);
+  if (evolving_h_ || (any_moves_ && image_force_)) rebuild(world);
   view_.assign(p.active, nothing);
   for_each(p.active, [&](Index i) {
     view_[i] = look(p, i);
@@ -208,6 +207,7 @@ InterfaceForce WallSupport::report(const World& world) const {
 
 void WallSupport::show_forces(World& world) {
   if (!shown_.empty()) return;
+  if (any_moves_ && !follows()) rebuild(world);
   const Particles& p = world.particles;
   const auto give = [&](Index segment, const Vec& force) {
     if (moves_[static_cast<std::size_t>(segment)]) return;  // it has its force already

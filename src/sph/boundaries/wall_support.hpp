@@ -78,6 +78,8 @@ class WallSupport : public Rate,
     Matrix moment = Matrix::Zero(), gradient = Matrix::Zero();
   };
   void rebuild(const World& world);
+  /// Whether walls are looked at in every step: they move, and something is summed over their pieces.
+  bool follows() const { return any_moves_ && (!image_force_ || integrates_ || rubs_); }
   void measure_h(const World& world);
   Index look(const Particles& p, Index i) const;
   bool is_spray(const Particles& p, Index i) const;

@@ -40,8 +40,8 @@ const RegisterKeyword<CourantWallSupport> wall_support_keyword{
               {"METHOD",
                &CourantWallSupport::method,
                "-",
-               "0: the kernel goes on with the particle's own pressure; 1: walls are mirrors (held, one h, "
-               "plain FORM)",
+               "0: the kernel goes on with the particle's own pressure; 1: walls are mirrors (one h, plain "
+               "FORM)",
                {.allowed = {0, 1}}},
               {"LAW",
                &CourantWallSupport::law,
@@ -55,11 +55,21 @@ const RegisterKeyword<CourantWallSupport> wall_support_keyword{
                {.check = Check::not_negative}}}}}}};
 
 /// Warns where contact, which acts at half the thickness, does not hold particles half a spacing from the
-/// wall.
+/// wall, or where mirrors do, holds them before that.
 void check_thickness(const CourantWallSupport& c, Real thickness, const Deck& deck, const World& world,
                      Diagnostics& diagnostics) {
   const Particles& p = world.particles;
   const Real dx = p.size() > 0 ? std::pow(p.m[0] / p.rho[0], 1.0 / world.dim) : 0;
+  if (c.method == 1) {
+    if (thickness > 0.5 * dx)
+      diagnostics.warning(
+          deck.where(c),
+          fmt::format("*COURANT_WALL_SUPPORT: contact holds particles {:g} off the middle of the shells and "
+                      "carries part of what METHOD 1 should, which holds them half a spacing off, {:g}",
+                      0.5 * thickness, 0.5 * dx),
+          "let the shells be 0.4 spacings of the particles thick");
+    return;
+  }
   if (std::abs(thickness / dx - 1) > 0.1)
     diagnostics.warning(
         deck.where(c),
@@ -70,8 +80,8 @@ void check_thickness(const CourantWallSupport& c, Real thickness, const Deck& de
 }
 
 /// What METHOD 1 cannot do.
-void check_images(const CourantWallSupport& c, const Deck& deck, const World& world, const SphSettings& s,
-                  Diagnostics& diagnostics) {
+void check_images(const CourantWallSupport& c, const Deck& deck, const Model& model, const World& world,
+                  const SphSettings& s, Diagnostics& diagnostics) {
   const auto refuse = [&](bool is, const char* what, const char* hint) {
     if (is) deck.error(diagnostics, c, "METHOD", fmt::format("METHOD 1 is not supported {}", what), hint);
   };
@@ -79,9 +89,12 @@ void check_images(const CourantWallSupport& c, const Deck& deck, const World& wo
   refuse(!s.uniform_h, "where smoothing lengths differ",
          "use METHOD 0, or one CSLH and spacing, HMIN = HMAX = 1");
   refuse(s.geometry_eps > 0, "with *COURANT_PAIR_GEOMETRY", "use METHOD 0, or leave the other card out");
-  const auto moves = [&](Index segment) { return segment_moves(world, segment); };
-  refuse(std::any_of(s.walls.segments.begin(), s.walls.segments.end(), moves), "on walls that move",
-         "use METHOD 0, or hold the body: CON1 and CON2 of *MAT_RIGID");
+  const auto bends = [&](Index segment) {
+    return segment_moves(world, segment) &&
+           !model.parts[static_cast<std::size_t>(world.segments.part[segment])].rigid;
+  };
+  refuse(std::any_of(s.walls.segments.begin(), s.walls.segments.end(), bends),
+         "on walls that move and are no rigid bodies", "use METHOD 0, or make them of *MAT_RIGID");
 }
 
 /// Fields of friction that do not go together.
@@ -145,7 +158,7 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
                  "give all of them the same METHOD");
     first = &c;
     walls.images = c.method == 1;
-    if (walls.images) check_images(c, deck, world, settings, diagnostics);
+    if (walls.images) check_images(c, deck, model, world, settings, diagnostics);
     check_friction(c, deck, model, settings, diagnostics);
     if (thickness > 0) check_thickness(c, thickness, deck, world, diagnostics);
   }

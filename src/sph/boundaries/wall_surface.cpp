@@ -95,6 +95,7 @@ WallSurface::WallSurface(const World& world, const std::vector<Index>& segments,
     const std::array<Index, 4> node = world.segments.nodes(s);
     Face face;
     face.segment = s;
+    if (segment_moves(world, s)) face.body = world.segments.part[s];
     for (int e = 0; e < 4; ++e) face.v[e] = world.nodes.v.vec(node[e]);
     if (dim_ == 2) {
       add_line(world.nodes, node, face);
@@ -138,15 +139,18 @@ void WallSurface::add_line(const Nodes& nodes, const std::array<Index, 4>& node,
   add_face(face);
 }
 
+void WallSurface::Face::find_plane() {
+  n = (x[2] - x[0]).cross(x[3] - x[1]).normalized();
+  Vec middle = Vec::Zero();
+  for (int e = 0; e < corners; ++e) middle += x[e] / corners;
+  offset = n.dot(middle);
+  for (int e = 0; e < corners; ++e) inward[e] = n.cross(x[(e + 1) % corners] - x[e]).normalized();
+}
+
 void WallSurface::add_face(Face face) {
   const Vec across = (face.x[2] - face.x[0]).cross(face.x[3] - face.x[1]);
   if (!(across.norm() > small * reach_ * reach_)) return;
-  face.n = across.normalized();
-  Vec middle = Vec::Zero();
-  for (int e = 0; e < face.corners; ++e) middle += face.x[e] / face.corners;
-  face.offset = face.n.dot(middle);
-  for (int e = 0; e < face.corners; ++e)
-    face.inward[e] = face.n.cross(face.x[(e + 1) % face.corners] - face.x[e]).normalized();
+  face.find_plane();
   const Key plane = key(face.n * reach_, face.n * face.offset);
   const Key turned = key(-face.n * reach_, face.n * face.offset);
   face.plane = planes_.emplace(std::min(plane, turned), faces()).first->second;
@@ -211,11 +215,25 @@ Real WallSurface::share_in_front(const Vec& x, const Vec& along, const Vec& acro
   return share;
 }
 
+Vec WallSurface::place_behind(int k, Side way, const Vec& x) const {
+  const GhostPlane& plane = mirrors_and_periods_[k];
+  if (plane.kind == GhostPlane::Kind::mirror) return x - 2 * depth(plane, x) * plane.normal;
+  const Vec shift = plane.period * plane.normal;
+  return way == 2 ? Vec(x + shift) : Vec(x - shift);
+}
+
+Vec WallSurface::direction_behind(int k, const Vec& v) const {
+  const GhostPlane& plane = mirrors_and_periods_[k];
+  if (plane.kind == GhostPlane::Kind::periodic) return v;
+  return v - 2 * v.dot(plane.normal) * plane.normal;
+}
+
 /// Images of what is there so far, those of earlier planes among it, as far as anything can see them.
 void WallSurface::add_images(int k) {
   const GhostPlane plane = mirrors_and_periods_[k];
   const Index known_points = points(), known_faces = faces();
-  const auto add = [&](Side side, const auto& is_near, const auto& place, const auto& direction) {
+  const auto direction = [&](const Vec& v) { return direction_behind(k, v); };
+  const auto add = [&](Side side, const auto& is_near) {
     std::vector<Index> image(known_faces, -1);
     for (Index q = 0; q < known_points; ++q) {
       const WallPoint point = points_[q];
@@ -226,31 +244,25 @@ void WallSurface::add_images(int k) {
       if (!is_near(d) || in_mirror) continue;
       if (image[point.face] < 0) {
         Face face = faces_[point.face];
-        for (Vec& x : face.x) x = place(x);
+        for (Vec& x : face.x) x = place_behind(k, side, x);
         for (int c = 0; c < 3; ++c)
           face.from_image.col(c) = faces_[point.face].from_image * direction(Vec::Unit(c));
         face.side |= side << 2 * k;
+        face.image_of = point.face, face.behind = k, face.way = side;
         image[point.face] = faces();
         add_face(face);
       }
       WallPoint at_image = point;
-      at_image.x = place(point.x), at_image.area = direction(point.area), at_image.v = direction(point.v);
-      at_image.face = image[point.face];
+      at_image.x = place_behind(k, side, point.x), at_image.area = direction(point.area);
+      at_image.v = direction(point.v), at_image.face = image[point.face];
       points_.push_back(at_image);
     }
   };
-  const Vec n = plane.normal, shift = plane.period * n;
-  const auto same = [](const Vec& v) { return v; };
   if (plane.kind == GhostPlane::Kind::mirror) {
-    add(
-        1, [&](Real d) { return d < reach_; }, [&](const Vec& x) { return Vec(x - 2 * depth(plane, x) * n); },
-        [&](const Vec& v) { return Vec(v - 2 * v.dot(n) * n); });
+    add(1, [&](Real d) { return d < reach_; });
   } else {
-    add(
-        2, [&](Real d) { return d < reach_; }, [&](const Vec& x) { return Vec(x + shift); }, same);
-    add(
-        1, [&](Real d) { return plane.period - d < reach_; }, [&](const Vec& x) { return Vec(x - shift); },
-        same);
+    add(2, [&](Real d) { return d < reach_; });
+    add(1, [&](Real d) { return plane.period - d < reach_; });
   }
 }
 

@@ -20,6 +20,13 @@ struct WallPoint {
   std::array<Real, 4> weight{};  ///< of the nodes of its segment, as they interpolate [-]
 };
 
+/// How a rigid piece of wall moves.
+struct WallMotion {
+  Vec x0 = Vec::Zero(), v = Vec::Zero(), omega = Vec::Zero();  ///< at x0 [L/T]; [1/T]
+  /// Velocity of what moves with it at x [L/T].
+  Vec at(const Vec& x) const { return v + omega.cross(x - x0); }
+};
+
 /// Whether any of its nodes can.
 bool segment_moves(const World& world, Index segment);
 
@@ -79,10 +86,23 @@ class WallSurface {
     Real offset = 0;
     int corners = 4;
     Index plane = 0, segment = 0;
-    Side side = 0;  ///< where it counts
+    Side side = 0;        ///< where it counts
+    Index body = -1;      ///< the part whose motion it follows; -1: it is held
+    Index image_of = -1;  ///< the face whose image it is behind plane `behind`, on the side `way`
+    int behind = 0;
+    Side way = 0;
+    void find_plane();  ///< n, offset and inward from the corners
     Face() { x.fill(Vec::Zero()), inward.fill(Vec::Zero()), v.fill(Vec::Zero()); }
   };
   const Face& face(Index f) const { return faces_[f]; }
+  /// Where the faces, which look as those of `faces`, and their motions are: those that move, where the nodes
+  /// were `back` ago by their velocity over the last step. Who looks for faces finds them where they were
+  /// when the surface was made. [T]
+  void take_along(std::vector<Face>& faces, std::vector<WallMotion>& motions, const World& world,
+                  Real back) const;
+  /// By which forces at x, in the plane of a face, stand on the nodes of its segment: their sum and their
+  /// moment are those at x, also past the edges.
+  std::array<Real, 4> weights_of_nodes(const Face& face, const Vec& x) const;
   /// Faces that have points within the reach of x, ascending.
   std::vector<Index> faces_around(const Vec& x) const;
   /// Faces among which is the one next to x, where any is within the reach; ascending.
@@ -90,6 +110,7 @@ class WallSurface {
   /// Whether q, in the plane of a face, is where that face or its image counts.
   bool is_at_face(Index f, const Vec& q) const;
   Real reach() const { return reach_; }
+  Real spacing() const { return spacing_; }
   Vec in_plane(const Vec& x) const { return dim_ == 2 ? Vec(x[0], x[1], 0) : x; }
 
   /// Calls f(point, away) for each point nearer than the reach that can be seen from x past other faces;
@@ -132,6 +153,8 @@ class WallSurface {
   void cut(Index face, Real spacing);
   Real share_in_front(const Vec& x, const Vec& along, const Vec& across) const;
   void add_images(int plane);
+  Vec place_behind(int plane, Side way, const Vec& x) const;
+  Vec direction_behind(int plane, const Vec& v) const;
   bool is_at(Side side, const Vec& x) const;
   void sort_into_cells();
   bool near(const WallPoint& point, const Vec& x) const {

@@ -19,7 +19,7 @@ void add_plates(World& world, const std::vector<std::array<Vec, 4>>& plates, int
   world.nodes.fields.resize(4 * static_cast<Index>(plates.size()));
   world.segments.fields.resize(static_cast<Index>(plates.size()));
   for (Index s = 0; s < static_cast<Index>(plates.size()); ++s) {
-    for (Index e = 0; e < 4; ++e) world.nodes.x.set(4 * s + e, plates[s][e]);
+    for (Index e = 0; e < 4; ++e) world.nodes.x.set(4 * s + e, plates[s][e]), world.nodes.held[4 * s + e] = 1;
     world.segments.node0[s] = 4 * s, world.segments.node1[s] = 4 * s + 1;
     world.segments.node2[s] = 4 * s + 2, world.segments.node3[s] = 4 * s + 3;
   }
@@ -182,6 +182,7 @@ std::vector<Place> places() {
       {"step", {{left, o}, {o, down}}, [](const Vec& y) { return y[0] > 0 || y[1] > 0; }},
       {"end of a plate", {{down, o}}, [](const Vec&) { return true; }},
       {"foot of a plate", {{left, right}, {o, up}}, [](const Vec& y) { return y[1] > 0; }},
+      {"gate", {{left, right}, {Vec(0, 0.13, 0), up}}, [](const Vec& y) { return y[1] > 0; }},
       {"low step",
        {{left, o}, {o, low}, {low, right + low}},
        [](const Vec& y) { return y[1] > (y[0] > 0 ? -0.15 : 0); }},
@@ -244,6 +245,95 @@ TEST(WallPaths, GiveAndTakeShareWithoutJumps) {
     EXPECT_GT(tried, 100) << place.name;
     EXPECT_GT(changed, 50) << place.name;
   }
+}
+
+/// What `see` sees, as the walls that move make it, and what it changes by with those of each body.
+struct SeenByWalls {
+  Seen seen;
+  Real by_walls = 0;                              ///< times their velocities
+  Vec force = Vec::Zero(), moment = Vec::Zero();  ///< on all ends of what it depends on
+};
+SeenByWalls see_moving(const WallPaths& paths, WallPaths::Sheets sheets, const Vec& x, const Vec& y) {
+  paths.place(sheets);
+  std::vector<WallPath> found{{.i = 0, .j = 1, .weight = 1, .d = x - y}};
+  std::vector<WallPull> at_edges;
+  paths.add(sheets, 0, x, 1, y, 2 * h, found, &at_edges);
+  SeenByWalls out;
+  const auto count = [&](const WallPull& pull, Real times) {
+    const Vec n = paths.face(pull.face).n, v = paths.velocity(pull.face, pull.at);
+    out.by_walls += times * (pull.force.dot(v) + n.dot(paths.velocity(pull.face, pull.at + pull.lever) - v));
+    out.force += times * pull.force;
+    out.moment += times * ((pull.at - paths.shift()).cross(pull.force) + pull.lever.cross(n));
+  };
+  for (const WallPath& p : found) {
+    const Real R = p.d.norm() / h;
+    if (R >= 2) continue;
+    const Real W = CubicSpline::shape(R);
+    const Vec slope = CubicSpline::slope(R) / (h * R * h) * p.d, by_x = p.weight * slope + W * p.by_i,
+              by_y = -p.weight * (p.turn.transpose() * slope) + W * p.by_j;
+    out.seen.sum += p.weight * W, out.seen.by_x += by_x, out.seen.by_y += by_y;
+    out.force += by_x + by_y, out.moment += x.cross(by_x) + y.cross(by_y);
+    for (Index k = p.pulls; k < p.pulls_end; ++k) count(at_edges[k], W);
+    std::vector<WallPull> pulls;
+    if (p.moves) paths.pull_images(sheets, p, y, p.weight * slope, pulls);
+    for (const WallPull& pull : pulls) count(pull, 1);
+  }
+  return out;
+}
+
+// As a wall moves and turns, what a pair gains is the difference again; forces by it add up to nothing with
+// those on the pair where all walls in reach are of bodies that move, and so do their moments.
+TEST(WallPaths, GoAlongWithWallsThatMoveAndPullThem) {
+  for (const Place& place : places())
+    for (std::size_t moves = 0; moves < 4; ++moves) {
+      // walls that turn away from each other at an edge must stay together
+      if (moves != 2 && (place.name == "step" || place.name == "low step")) continue;
+      std::vector<Index> all;
+      std::vector<std::array<Vec, 4>> plates;
+      for (const auto& [a, b] : place.lines) {
+        all.push_back(static_cast<Index>(plates.size()));
+        plates.push_back(line(a, b));
+      }
+      World world;
+      add_plates(world, plates, 2);
+      // the first, the last, all as one body, or each as its own; each has a motion of its own
+      for (Index s = 0; s < world.segments.size(); ++s) {
+        const bool goes = moves >= 2 || s == (moves == 0 ? 0 : world.segments.size() - 1);
+        const Index body = moves == 2 ? 0 : s;
+        world.segments.part[s] = body;
+        if (!goes) continue;
+        const Vec about(0.3 * body, -0.2, 0), v(0.4 - 0.9 * body, 0.7 * body - 0.3, 0);
+        for (const Index n : world.segments.nodes(s)) {
+          const Vec r = world.nodes.x.vec(n) - about;
+          world.nodes.held[n] = 0;
+          world.nodes.v.set(n, v + (1.3 - 2.1 * body) * Vec(-r[1], r[0], 0));
+        }
+      }
+      const WallSurface surface(world, all, h / 4, 2.1 * h + dx);
+      const WallPaths searched(surface, 2, WallPaths::usual_width * dx);
+      WallPaths before = searched, after = searched, now = searched;
+      constexpr Real step = 2e-5;
+      before.take_along(world, step), after.take_along(world, -step), now.take_along(world, 0);
+      int tried = 0, changed = 0;
+      for (int k = 0; k < 40000; ++k) {
+        const Vec x(0.25 * std::sin(1.3 * k), 0.25 * std::cos(2.1 * k + 1), 0),
+            y(0.25 * std::sin(5.7 * k + 2), 0.25 * std::cos(3.3 * k), 0);
+        if (!place.holds(x) || !place.holds(y) || (x - y).norm() > 1.9 * h) continue;
+        ++tried;
+        const WallPaths::Sheets sheets = searched.seen_from(x);
+        const Real gain =
+            see_moving(after, sheets, x, y).seen.sum - see_moving(before, sheets, x, y).seen.sum;
+        const SeenByWalls at = see_moving(now, sheets, x, y);
+        EXPECT_NEAR(gain / (2 * step), at.by_walls, 0.02 + 0.01 * std::abs(at.by_walls))
+            << place.name << " " << moves << ": " << x.transpose() << " and " << y.transpose();
+        changed += std::abs(at.by_walls) > 0.1;
+        if (moves < 2) continue;
+        EXPECT_LT(at.force.norm(), 1e-10) << place.name << " " << moves;
+        EXPECT_LT(at.moment.norm(), 1e-5) << place.name << " " << moves;
+      }
+      EXPECT_GT(tried, 100) << place.name;
+      EXPECT_GT(changed, 5) << place.name << " " << moves;
+    }
 }
 
 // In a corner the way to oneself and back goes through the edge, for some walls always.
