@@ -370,7 +370,17 @@ std::array<Real, 4> RigidBodies::potential(const RigidBody& b, const BodyAcceler
   return sums;
 }
 
+namespace {
+
+Real below_of(const RigidBody& b, Real dt) {
+  return b.fixed() ? 0 : 0.125 * dt * dt / b.m * b.force.squaredNorm();
+}
+
+}  // namespace
+
 void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
+  for (const RigidBody& b : bodies_)
+    if (clock.cycle == 0) ledger.below_at_start += below_of(b, clock.dt);
   for (RigidBody& b : bodies_) {
     const Real work = b.motions.empty() ? 0 : work_of_drives(b, clock);
     b.drive_work += work;
@@ -398,10 +408,12 @@ void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
 
 void RigidBodies::sample(const World&, const Clock& clock, EnergyLedger& ledger) const {
   ledger.kinetic += kinetic_energy();
-  for (const RigidBody& b : bodies_)
+  for (const RigidBody& b : bodies_) {
+    ledger.below += below_of(b, clock.dt_old);
     if (!b.fixed())
       ledger.half_step += 0.5 * clock.dt_old *
                           (b.force.dot(b.v + 0.25 * clock.dt_old / b.m * b.force) + b.moment.dot(b.omega));
+  }
   if (loads_.none()) return;
   const BodyAcceleration::At now = loads_.at(clock.t);
   for (const RigidBody& b : bodies_)

@@ -81,6 +81,8 @@ void keep_ledger(EnergyLedger& e, Archive& archive) {
   archive("throughput", e.throughput);
   archive("initial", e.initial);
   archive("half_step", e.half_step);
+  archive("below", e.below);
+  archive("below_at_start", e.below_at_start);
   archive("peak", e.peak);
 }
 

@@ -1,14 +1,16 @@
 #include "state/world.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 namespace courant {
 
 Real EnergyLedger::unexplained() const {
-  const Real here = residual(), there = residual() + half_step;
-  if (here * there <= 0) return 0;
-  return std::abs(here) < std::abs(there) ? here : there;
+  const Real here = residual(), there = here + half_step, kept = there - (below - below_at_start);
+  const auto [least, most] = std::minmax({here, there, kept});
+  if (least <= 0 && most >= 0) return 0;
+  return least > 0 ? least : most;
 }
 
 Real EnergyLedger::error() const {

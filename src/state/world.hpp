@@ -31,12 +31,16 @@ struct EnergyLedger {
   /// Net work that the forces at t^n did since the half step that `kinetic` is of: how far apart the times
   /// of the terms are.
   Real half_step = 0;
+  /// What leapfrog keeps of linear motion, exactly at every stable step, is less than the energy at t^n by
+  /// sum f^2 dt^2/(8 m): of the step that led here, and of the first one, which the ledger starts from.
+  Real below = 0, below_at_start = 0;
   Real peak = 0;  ///< largest `present` that the guard saw, and at least round-off of the rest energy m c^2
   Real total() const {
     return kinetic + internal + potential + contact + hourglass + bulk_viscosity + dissipated;
   }
   Real residual() const { return total() - initial - external_work; }
-  /// What of the residual is no matter of half a step: 0 where `half_step` explains it.
+  /// What of the residual is no matter of how half steps are counted: 0 where `half_step` explains it, or
+  /// that with `below`.
   Real unexplained() const;
   /// Energy that this scene is about, wherever heights count from: the largest that it held, and what passed
   /// through. The measure of a residual. Not 0 once the guard has looked.

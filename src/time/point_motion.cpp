@@ -58,23 +58,32 @@ class KineticEnergy : public EnergyTerm {
  public:
   explicit KineticEnergy(Points points) : points_(points) {}
   std::string name() const override { return "kinetic energy of " + points_.name(); }
-  void record(World&, const Clock&, EnergyLedger&) override {}
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
+    if (clock.cycle == 0) ledger.below_at_start += below(world, clock.dt);
+  }
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override {
     const Real half = 0.5 * clock.dt_old;
-    const Index count =
-        points_.set == &world.particles.fields ? world.particles.active : points_.fields().size();
-    const auto over_own = [&](const auto& value) {
-      return sum(count, [&](Index i) { return points_.follow && (*points_.follow)[i] ? Real(0) : value(i); });
-    };
     ledger.kinetic +=
-        over_own([&](Index i) { return 0.5 * (*points_.m)[i] * points_.v->vec(i).squaredNorm(); });
-    ledger.half_step += over_own([&](Index i) {
+        over_own(world, [&](Index i) { return 0.5 * (*points_.m)[i] * points_.v->vec(i).squaredNorm(); });
+    ledger.half_step += over_own(world, [&](Index i) {
       const Vec f = points_.f->vec(i);
       return half * f.dot(points_.v->vec(i) + 0.5 * half / (*points_.m)[i] * f);
     });
+    ledger.below += below(world, clock.dt_old);
   }
 
  private:
+  template <class F>
+  Real over_own(const World& world, const F& value) const {
+    const Index count =
+        points_.set == &world.particles.fields ? world.particles.active : points_.fields().size();
+    return sum(count, [&](Index i) { return points_.follow && (*points_.follow)[i] ? Real(0) : value(i); });
+  }
+  Real below(const World& world, Real dt) const {
+    return 0.125 * dt * dt *
+           over_own(world, [&](Index i) { return points_.f->vec(i).squaredNorm() / (*points_.m)[i]; });
+  }
+
   Points points_;
 };
 

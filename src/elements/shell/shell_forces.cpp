@@ -53,9 +53,11 @@ class ShellForces : public Material,
       const std::size_t layer = static_cast<std::size_t>(p) % part.zeta.size();
       state_.zeta[p] = part.zeta[layer], state_.share[p] = part.share[layer] / places_;
     }
-    if (places_ == 1 ? control_.stiffness && group.corners() == 4 : control_.drilling > 0)
+    if (places_ == 1 ? group.corners() == 4 : control_.drilling > 0)
       hourglass_force_ =
           &group.fields.add<Real>({.name = "hourglass_force", .dimension = "-", .components = 5});
+    if (control_.Q1 != 0 || control_.Q2 != 0)
+      viscous_ = &group.fields.add<Real>({.name = "bulk_viscosity_force", .dimension = "M/T2"});
     for (int p = 0; p < state_.points; ++p)
       for (const HistoryVariable& h : law_->history())
         history_.push_back(&group.fields.add<Real>({.name = fmt::format("{}_of_layer_{}", h.name, p + 1),
@@ -77,6 +79,7 @@ class ShellForces : public Material,
     a.updates(hourglass_).updates(bulk_viscosity_).updates(thickness_);
     a.writes(group_.corner_force).writes(*group_.corner_moment);
     if (hourglass_force_) a.updates(*hourglass_force_);
+    if (viscous_) a.updates(*viscous_);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (erosion_) erosion_->declare(world, a);
     if (!scaled_) return;
@@ -94,6 +97,7 @@ class ShellForces : public Material,
     state_.thickness = thickness_.data(), state_.mass = (scaled_ ? scaled_->inertial() : group_.mass).data();
     state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
     state_.bulk_viscosity_energy = bulk_viscosity_.data();
+    state_.viscous_force = viscous_ ? viscous_->data() : nullptr;
     for (int k = 0; k < 3 * group_.corners(); ++k) {
       state_.corner_force[k] = group_.corner_force.data(k);
       state_.corner_moment[k] = group_.corner_moment->data(k);
@@ -323,6 +327,7 @@ class ShellForces : public Material,
       field->fill(0);
     for (Field<Real>* h : history_) h->fill(0);
     if (hourglass_force_) hourglass_force_->fill(0);
+    if (viscous_) viscous_->fill(0);
     group_.corner_force.fill(0), group_.corner_moment->fill(0);
   }
 
@@ -392,6 +397,7 @@ class ShellForces : public Material,
   Field<Real>&stress_, &resultants_, &thickness_, &internal_, &hourglass_, &bulk_viscosity_;
   const Field<Real>& corner_inertia_;  ///< rotary inertia for each corner [ML2]
   Field<Real>* hourglass_force_ = nullptr;
+  Field<Real>* viscous_ = nullptr;     ///< q times the thickness
   std::vector<Field<Real>*> history_;  ///< of the first layer, of the second, ...
   std::array<Field<Real>*, 2> shown_stress_{};
   Field<Real>*shown_force_ = nullptr, *shown_moment_ = nullptr;

@@ -149,13 +149,19 @@ COURANT_INLINE Native bulk_viscosity(Index first, Index n, Index k, Real dt, Nat
                                      const ShellState& state, ShellScratch& s) {
   const Length length = length_of<corners>(d, f, control, rho);
   const Native c = root(length.c2), l = root(f.A);
-  const Native closing = native_max(-load(s.membrane[0] + k) - load(s.membrane[1] + k), all(0));
+  const Native trace = load(s.membrane[0] + k) + load(s.membrane[1] + k),
+               closing = native_max(-trace, all(0));
   const Native speed = control.Q1 * l * closing + control.Q2 * c;
   const Native q = rho * l * closing * speed;
   const Native damping = closing > 0.0 ? l / length.l * speed : all(0);
   store(s.step_limit + k, length.l / (damping + root(damping * damping + length.c2)));
   store(s.wave_time + k, length.l / c);
-  add_to(state.bulk_viscosity_energy + first, dt * load(s.middle_area + k) * t * q * closing, n);
+  if (state.viscous_force) {
+    // that of each end of the step pushes through half of it, also where the shell opens by now
+    const Native now = t * q, both = now + load(state.viscous_force + first, n);
+    add_to(state.bulk_viscosity_energy + first, -0.5 * dt * load(s.middle_area + k) * trace * both, n);
+    store(state.viscous_force + first, now, n);
+  }
   return q;
 }
 /// The least stable step of a block.

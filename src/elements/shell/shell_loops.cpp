@@ -118,16 +118,10 @@ COURANT_INLINE void hourglass_forces(Index first, Index n, Index k, Real dt, Nat
   const Native a[5] = {membrane, membrane, warping, bending, bending};
   Native taken = all(0);
   for (int m = 0; m < 5; ++m) {
-    const Native rate = load(s.hourglass_rate[m] + k);
-    if (control.stiffness) {
-      const Native old = load(state.hourglass[m] + first, n);
-      Q[m] = old + dt * a[m] * rate;
-      store(state.hourglass[m] + first, Q[m], n);
-      taken += 0.5 * (old + Q[m]) * rate;
-    } else {
-      Q[m] = a[m] * rate;
-      taken += Q[m] * rate;
-    }
+    const Native rate = load(s.hourglass_rate[m] + k), old = load(state.hourglass[m] + first, n);
+    Q[m] = control.stiffness ? old + dt * a[m] * rate : a[m] * rate;
+    store(state.hourglass[m] + first, Q[m], n);
+    taken += 0.5 * (old + Q[m]) * rate;  // each pushes through half a step
   }
   add_to(state.hourglass_energy + first, dt * taken, n);
 }

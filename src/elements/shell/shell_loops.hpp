@@ -32,11 +32,12 @@ struct ShellState {
   Real* stress[6 * most_in_plane * most_points];  ///< of point p: xx yy zz xy yz zx at 6 p, zz is 0 [M/LT2]
   /// N xx yy xy [M/T2], M xx yy xy [ML/T2], Q xz yz [M/T2]; of place q in the plane at 8 q.
   Real* resultant[8 * most_in_plane];
-  /// Of stiffness: generalised forces on vx vy vz wx wy, null with viscous control; with 2 x 2 points moments
-  /// against drilling, of each corner.
+  /// Generalised forces on vx vy vz wx wy, null for triangles; with 2 x 2 points moments against drilling, of
+  /// each corner.
   Real* hourglass[5];
-  Real* thickness;                                                   ///< [L]
-  const Real* mass;                                                  ///< [M]
+  Real* viscous_force = nullptr;  ///< q times the thickness; null: no bulk viscosity [M/T2]
+  Real* thickness;                ///< [L]
+  const Real* mass;               ///< [M]
   Real *internal_energy, *hourglass_energy, *bulk_viscosity_energy;  ///< what they took is added [ML2/T2]
   Real *corner_force[12], *corner_moment[12];  ///< out: of corner c in direction k at [3 c + k], on the node
 };

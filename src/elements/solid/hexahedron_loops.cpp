@@ -10,11 +10,25 @@ namespace courant::COURANT_SIMD {
 
 namespace {
 
+/// 64 dV/dt where the modes of places have these derivatives.
+COURANT_INLINE Native opening64(const Native v[3][7], const Geometry& at) {
+  Native out = v[0][0] * at.g[0].x + v[1][0] * at.g[0].y + v[2][0] * at.g[0].z;
+  for (int m = 1; m < 6; ++m) out += v[0][m] * at.g[m].x + v[1][m] * at.g[m].y + v[2][m] * at.g[m].z;
+  return out;
+}
+
 /// 64 V times the gradient of one component of v, given by its modes. Those above 6 have no part in it.
 COURANT_INLINE Triple gradient64(const Native w[7], const Triple g[6]) {
   Triple out{w[0] * g[0].x, w[0] * g[0].y, w[0] * g[0].z};
   for (int k = 1; k < 6; ++k) out = {out.x + w[k] * g[k].x, out.y + w[k] * g[k].y, out.z + w[k] * g[k].z};
   return out;
+}
+
+/// What the work of the mean stress is more through `opened` than through tr(D) V dt/2 of the middle.
+COURANT_INLINE Native mean_stress_otherwise(int end, Index k, Real dt, const Native s[3],
+                                            const HexahedronScratch& scratch) {
+  const Native middle = 0.5 * dt * load(scratch.middle_volume + k) * trace_of(scratch, k);
+  return (1.0 / 3) * (s[0] + s[1] + s[2]) * (load(scratch.opened[end] + k) - middle);
 }
 
 COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const HexahedronMesh& mesh,
@@ -24,6 +38,12 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Hexa
   Triple a[7], L[3];
   for (int m = 0; m < 7; ++m) a[m] = {x[0][m], x[1][m], x[2][m]};
   store(scratch.compression + k, 64.0 * load(state.V0 + first, n) / volume64(a) - 1.0);
+  if (state.heats) {
+    store(scratch.opened[1] + k, (0.0078125 * dt) * opening64(v, geometry(a)));
+    for (int m = 0; m < 7; ++m)
+      a[m] = {x[0][m] - dt * v[0][m], x[1][m] - dt * v[1][m], x[2][m] - dt * v[2][m]};
+    store(scratch.opened[0] + k, (0.0078125 * dt) * opening64(v, geometry(a)));
+  }
   const Real back = -0.5 * dt;
   for (int m = 0; m < 6; ++m)
     a[m] = {x[0][m] + back * v[0][m], x[1][m] + back * v[1][m], x[2][m] + back * v[2][m]};
@@ -50,18 +70,20 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Hexa
   }
   const Native power =
       s[0] * D[0] + s[1] * D[1] + s[2] * D[2] + 2.0 * (s[3] * D[3] + s[4] * D[4] + s[5] * D[5]);
-  store(scratch.work + k, 0.5 * dt * V * power);
+  Native work = 0.5 * dt * V * power;
+  if (state.heats) work += mean_stress_otherwise(0, k, dt, s, scratch);
+  store(scratch.work + k, work);
 }
 
 /// One component of the corner forces, by its modes: -T b and those of hourglass control, -a Gamma (rate), or
-/// -Gamma (what a stiffness has made of all rates). Returns the sum of squares of the rates, or the power.
-/// With the modes gamma that linear fields leave alone, gamma = Gamma - b.(sum x Gamma)/V, the second term of
-/// the forces has the form of a stress.
+/// -Gamma (what a stiffness has made of all rates). Returns the power of the mean of the forces before and
+/// now: each pushes through half a step. With the modes gamma that linear fields leave alone, gamma = Gamma -
+/// b.(sum x Gamma)/V, the second term of the forces has the form of a stress.
 struct Hourglass {
   Native a;  ///< force over rate of a mode [M/T]; with a stiffness its growth in the step
-  bool plain;
+  bool plain, stiff;
   Native inverse_V64;
-  Native* kept = nullptr;  ///< with a stiffness: forces of the four modes, turned; out: now [ML/T2]
+  Native* kept = nullptr;  ///< forces of the four modes, with a stiffness turned; out: now [ML/T2]
 };
 COURANT_INLINE Native force_modes(const Triple a[7], const Native w[7], const Geometry& q, Triple T,
                                   const Hourglass& h, Native out[7]) {
@@ -71,14 +93,11 @@ COURANT_INLINE Native force_modes(const Triple a[7], const Native w[7], const Ge
     for (int m = 0; m < 4; ++m) rate[m] -= h.inverse_V64 * dot(L, a[3 + m]);
   }
   Native power = all(0);
-  if (h.kept)
-    for (int m = 0; m < 4; ++m) {
-      const Native now = h.kept[m] + h.a * rate[m];
-      power += 0.5 * (h.kept[m] + now) * rate[m];
-      rate[m] = h.kept[m] = now;
-    }
-  else
-    for (int m = 0; m < 4; ++m) power += rate[m] * rate[m], rate[m] *= h.a;
+  for (int m = 0; m < 4; ++m) {
+    const Native now = h.stiff ? h.kept[m] + h.a * rate[m] : h.a * rate[m];
+    power += 0.5 * (h.kept[m] + now) * rate[m];
+    rate[m] = h.kept[m] = now;
+  }
   if (!h.plain)
     for (int m = 0; m < 4; ++m) {
       const Native share = 64.0 * h.inverse_V64 * rate[m];
@@ -98,24 +117,26 @@ COURANT_INLINE Native hourglass_stiffness(Native modulus, const Geometry& q, Nat
   return 0.015625 * modulus * squares * inverse_V64;
 }
 
-/// Of each direction and mode those of the step before, turned with the element.
-COURANT_INLINE void turned_hourglass_forces(Index first, Index n, Index k, const HexahedronState& state,
-                                            const HexahedronScratch& scratch, Native kept[3][4]) {
-  const Triple h = triple(scratch.half_turn, k);
-  for (int m = 0; m < 4; ++m) {
+/// Of each direction and mode those of the step before; a stiffness turns with the element.
+COURANT_INLINE void old_hourglass_forces(Index first, Index n, Index k, bool stiff,
+                                         const HexahedronState& state, const HexahedronScratch& scratch,
+                                         Native kept[3][4]) {
+  for (int m = 0; m < 4; ++m)
     for (int i = 0; i < 3; ++i) kept[i][m] = load(state.hourglass_force[3 * m + i] + first, n);
-    turn_vector(h.x, h.y, h.z, kept[0][m], kept[1][m], kept[2][m]);
-  }
+  if (!stiff) return;
+  const Triple h = triple(scratch.half_turn, k);
+  for (int m = 0; m < 4; ++m) turn_vector(h.x, h.y, h.z, kept[0][m], kept[1][m], kept[2][m]);
 }
 
-COURANT_INLINE void viscosity_of(Index first, Index n, Index k, Real dt, const HexahedronControl& control,
+COURANT_INLINE void viscosity_of(Index first, Index n, Index k, const HexahedronControl& control,
                                  const HexahedronState& state, HexahedronScratch& scratch) {
   const Native denser = 1.0 + load(scratch.compression + k), V = load(state.V0 + first, n) / denser;
-  const Native r = inverse_cube_root(V), l = V * r * r, trace = trace_of(scratch, k);
+  const Native r = inverse_cube_root(V), l = V * r * r;
   const Native q = bulk_viscosity(load(state.rho0 + first, n) * denser, l, load(scratch.sound_speed + k),
-                                  native_max(-trace, all(0)), control);
-  const Native both = q + load(state.viscous_pressure + first, n);
-  store(scratch.work + k, load(scratch.work + k) - 0.5 * dt * load(scratch.middle_volume + k) * trace * both);
+                                  native_max(-trace_of(scratch, k), all(0)), control);
+  const Native taken =
+      load(state.viscous_pressure + first, n) * load(scratch.opened[0] + k) + q * load(scratch.opened[1] + k);
+  store(scratch.work + k, load(scratch.work + k) - taken);
   store(state.viscous_pressure + first, q, n);
 }
 
@@ -130,21 +151,22 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Hexa
   Native s[6], w[7], modes[7], f[8], power = all(0);
   for (int j = 0; j < 6; ++j) s[j] = load(state.stress[j] + first, n);
   const Triple T[3] = {{s[0] - q, s[3], s[5]}, {s[3], s[1] - q, s[4]}, {s[5], s[4], s[2] - q}};
-  Native kept[3][4];
-  if (control.stiff()) turned_hourglass_forces(first, n, k, state, scratch, kept);
+  Native kept[3][4]{};
+  const bool keeps = state.hourglass_force[0] != nullptr;
+  if (keeps) old_hourglass_forces(first, n, k, control.stiff(), state, scratch, kept);
   Hourglass hourglass{control.stiff() ? dt * hourglass_stiffness(control.QM * rho * c * c, now, inverse_V64)
                                       : 0.25 * control.QM * rho * c * l * l,
-                      control.hourglass == 1, inverse_V64};
+                      control.hourglass == 1, control.stiff(), inverse_V64};
   for (int i = 0; i < 3; ++i) {
     for (int m = 0; m < 7; ++m) w[m] = load(scratch.speed[3 * m + i] + k);
-    if (control.stiff()) hourglass.kept = kept[i];
+    hourglass.kept = kept[i];
     power += force_modes(a, w, now, T[i], hourglass, modes);
     corners_of(modes, f);
     for (int j = 0; j < 8; ++j) store(state.corner_force[3 * j + i] + first, f[j], n);
-    if (control.stiff())
+    if (keeps)
       for (int m = 0; m < 4; ++m) store(state.hourglass_force[3 * m + i] + first, kept[i][m], n);
   }
-  add(state.hourglass_energy + first, (control.stiff() ? all(dt) : dt * hourglass.a) * power, n);
+  add(state.hourglass_energy + first, dt * power, n);
   if (state.internal_energy) add(state.internal_energy + first, load(scratch.work + k), n);
 }
 
@@ -161,9 +183,9 @@ void viscosity(const HexahedronLoops::Block& block, const HexahedronControl& con
                const HexahedronState& state, HexahedronScratch& scratch) {
   const Index whole = block.count - block.count % native_lanes;
   for (Index k = 0; k < whole; k += native_lanes)
-    viscosity_of(block.begin + k, native_lanes, k, block.dt, control, state, scratch);
+    viscosity_of(block.begin + k, native_lanes, k, control, state, scratch);
   if (whole < block.count)
-    viscosity_of(block.begin + whole, block.count - whole, whole, block.dt, control, state, scratch);
+    viscosity_of(block.begin + whole, block.count - whole, whole, control, state, scratch);
 }
 
 void work(const HexahedronLoops::Block& block, const HexahedronState& state, HexahedronScratch& scratch) {
@@ -179,6 +201,12 @@ void work(const HexahedronLoops::Block& block, const HexahedronState& state, Hex
     total[i] += half * volume[i] *
                 (xx[i] * dxx[i] + yy[i] * dyy[i] + zz[i] * dzz[i] +
                  2 * (xy[i] * dxy[i] + yz[i] * dyz[i] + zx[i] * dzx[i]));
+  if (!state.heats) return;
+  const Real* opened = scratch.opened[1];
+#pragma omp simd
+  for (Index i = 0; i < block.count; ++i)
+    total[i] +=
+        (1.0 / 3) * (xx[i] + yy[i] + zz[i]) * (opened[i] - half * volume[i] * (dxx[i] + dyy[i] + dzz[i]));
 }
 
 HexahedronLoops::Found forces(const HexahedronLoops::Block& block, const HexahedronControl& control,

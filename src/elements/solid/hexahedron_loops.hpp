@@ -24,14 +24,17 @@ struct HexahedronState {
   Real* stress[6];  ///< Cauchy, xx yy zz xy yz zx [M/LT2]
   int tensors = 0;  ///< how many tensors of the law are turned with the stress
   Real* tensor[most_tensors][6];
-  /// q of bulk viscosity, which `viscosity` works out; null: `forces` does, and
-  /// counts its work [M/LT2]
+  /// q of bulk viscosity; null: not asked for, nor what it takes [M/LT2]
   Real* viscous_pressure = nullptr;
+  /// An equation of state takes the work: `viscosity` has worked q out, and what it does is in that of
+  /// stress. Else `forces` does, and counts it apart.
+  bool heats = false;
   const Real *V0, *rho0;  ///< reference volume and density [L3], [M/L3]
   Real* internal_energy;  ///< the work of stress is added; null: not asked for [ML2/T2]
   Real *hourglass_energy, *bulk_viscosity_energy;  ///< what they took is added [ML2/T2]
-  Real* hourglass_force[12]{};  ///< of mode m in direction k at [3 m + k]; used with a stiffness [ML/T2]
-  Real* corner_force[24];       ///< out: of corner c in direction k at [3 c + k], on the node [ML/T2]
+  /// Of mode m in direction k at [3 m + k]; null: QM is 0, or elements have eight points. [ML/T2]
+  Real* hourglass_force[12]{};
+  Real* corner_force[24];  ///< out: of corner c in direction k at [3 c + k], on the node [ML/T2]
 };
 
 /// *CONTROL_HOURGLASS or *HOURGLASS, and *CONTROL_BULK_VISCOSITY.
@@ -52,11 +55,14 @@ struct HexahedronScratch {
   Real half_turn[3][block_size];         ///< of the step, as in objective.hpp [-]
   Real compression[block_size];          ///< rho/rho0 - 1 at the end of the step [-]
   Real middle_volume[block_size];        ///< at mid-step [L3]
-  Real work[block_size];                 ///< of stress over the step, once `work` was called [ML2/T2]
-  Real sound_speed[block_size];          ///< the law writes it before `forces` [L/T]
-  Real step_limit[block_size];           ///< out: stable step [T]
-  Real wave_time[block_size];            ///< out: the same without viscosity [T]
-  Real relative_volume[block_size];      ///< out: V/V0 [-]
+  /// With `heats`: sum b_I.v_I dt/2 with the b_I = dV/dx_I of the start and of the end of the step,
+  /// through which the pressures there push corners: the gas gives to the last bit what the nodes get. [L3]
+  Real opened[2][block_size];
+  Real work[block_size];             ///< of stress over the step, once `work` was called [ML2/T2]
+  Real sound_speed[block_size];      ///< the law writes it before `forces` [L/T]
+  Real step_limit[block_size];       ///< out: stable step [T]
+  Real wave_time[block_size];        ///< out: the same without viscosity [T]
+  Real relative_volume[block_size];  ///< out: V/V0 [-]
 };
 
 struct HexahedronLoops {
@@ -70,12 +76,12 @@ struct HexahedronLoops {
   void (*strain)(const Block& block, const HexahedronMesh& mesh, const HexahedronState& state,
                  HexahedronScratch& scratch);
   /// Bulk viscosity of an equation of state, with the sound speed in `scratch`:
-  /// q at the end of the step in the place of that at its start, and -(old +
-  /// new) tr(D) V dt/2 of the middle added to the work of stress.
+  /// q at the end of the step in the place of that at its start, and the work of both through `opened` added
+  /// to that of stress.
   void (*viscosity)(const Block& block, const HexahedronControl& control, const HexahedronState& state,
                     HexahedronScratch& scratch);
   /// Behind the law: completes the work of stress, (old turned + new stress)/2
-  /// : D V dt of the middle.
+  /// : D V dt of the middle; with `heats` the mean stress through `opened`.
   void (*work)(const Block& block, const HexahedronState& state, HexahedronScratch& scratch);
   /// Corner forces with the geometry at the end of the step, energies, stable step.
   struct Found {

@@ -131,8 +131,8 @@ COURANT_INLINE Compressed compressed(Index first, Index n, Index k, Real dt, con
 
   const Native c = load(scratch.sound_speed + k, n), r = inverse_cube_root(V), l = V * r * r;
   const Native closing = native_max(-trace_of(scratch, k), all(0));
-  const Native q = state.viscous_pressure ? load(state.viscous_pressure + first, n)
-                                          : bulk_viscosity(rho, l, c, closing, control);
+  const Native q =
+      state.heats ? load(state.viscous_pressure + first, n) : bulk_viscosity(rho, l, c, closing, control);
   const Native length = V / area;
   // damping ratio Q/c of a wave through the thickness of the element, of which q makes more than usual where
   // it is flatter than a cube
@@ -140,8 +140,13 @@ COURANT_INLINE Compressed compressed(Index first, Index n, Index k, Real dt, con
   const Native Q = of_q + 4.0 / 3 * control.MU / (rho * length);
   store(scratch.step_limit + k, length / (Q + root(Q * Q + c * c)));
   store(scratch.wave_time + k, length / c);
-  if (!state.viscous_pressure)
-    add(state.bulk_viscosity_energy + first, dt * load(scratch.middle_volume + k) * q * closing, n);
+  if (!state.heats && state.viscous_pressure) {
+    // the q of each end of the step pushes through half of it, also where the element opens by now
+    const Native both = q + load(state.viscous_pressure + first, n);
+    add(state.bulk_viscosity_energy + first,
+        -0.5 * dt * load(scratch.middle_volume + k) * trace_of(scratch, k) * both, n);
+    store(state.viscous_pressure + first, q, n);
+  }
   return {inverse_V64, rho, c, l, q};
 }
 

@@ -41,14 +41,13 @@ class SolidForces : public Material,
         internal_(group.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
         hourglass_(
             group.fields.add<Real>({.name = "hourglass_energy", .dimension = "ML2/T2", .output = true})),
-        bulk_viscosity_(group.fields.add<Real>({.name = "bulk_viscosity_energy", .dimension = "ML2/T2"})) {
+        bulk_viscosity_(group.fields.add<Real>({.name = "bulk_viscosity_energy", .dimension = "ML2/T2"})),
+        viscous_(group.fields.add<Real>({.name = "bulk_viscosity_pressure", .dimension = "M/LT2"})) {
     control_ = {.hourglass = part.viscosity.ihq,
                 .QM = part.viscosity.qm,
                 .Q1 = part.viscosity.q1,
                 .Q2 = part.viscosity.q2,
                 .MU = law_->viscosity()};
-    if (part.pressure)
-      viscous_ = &group.fields.add<Real>({.name = "bulk_viscosity_pressure", .dimension = "M/LT2"});
     for (const HistoryVariable& h : law_->history())
       history_.push_back(&group.fields.add<Real>({.name = h.name,
                                                   .dimension = h.dimension,
@@ -58,7 +57,7 @@ class SolidForces : public Material,
     if (part.full) full_ = std::make_unique<FullPoints>(group, *law_);
     // the plain modes of corners that coincide resist even a rigid rotation
     if (control_.hourglass == 1 && group.repeats_nodes) control_.hourglass = 2;
-    if (control_.stiff() && !full_)
+    if (control_.QM > 0 && !full_)
       hourglass_force_ =
           &group.fields.add<Real>({.name = "hourglass_force", .dimension = "ML/T2", .components = 12});
     const std::vector<Real> wave_time = start_state(world);
@@ -77,10 +76,9 @@ class SolidForces : public Material,
   void declare(const World& world, Accesses& a) const override {
     a.reads(world.nodes.x, Reach::others).reads(world.nodes.v, Reach::others).reads(group_.node);
     a.reads(V0_).reads(rho0_).updates(stress_).updates(internal_).updates(hourglass_);
-    a.updates(bulk_viscosity_).writes(group_.corner_force);
+    a.updates(bulk_viscosity_).updates(viscous_).writes(group_.corner_force);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (hourglass_force_) a.updates(*hourglass_force_);
-    if (viscous_) a.updates(*viscous_);
     if (full_) full_->declare(a);
     if (erosion_) erosion_->declare(world, a);
     if (!scaled_) return;
@@ -92,7 +90,7 @@ class SolidForces : public Material,
     for (int k = 0; k < 3; ++k) mesh_.x[k] = world.nodes.x.data(k), mesh_.v[k] = world.nodes.v.data(k);
     for (int c = 0; c < group_.corners(); ++c) mesh_.corner[c] = group_.node.data(c);
     for (int k = 0; k < 6; ++k) state_.stress[k] = stress_.data(k);
-    state_.viscous_pressure = viscous_ ? viscous_->data() : nullptr;
+    state_.viscous_pressure = viscous_.data(), state_.heats = material_.pressure != nullptr;
     state_.V0 = V0_.data(), state_.rho0 = rho0_.data();
     state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
     state_.bulk_viscosity_energy = bulk_viscosity_.data();
@@ -282,7 +280,7 @@ class SolidForces : public Material,
     const std::shared_ptr<StrengthLaw> linear =
         material_.pressure ? linear_response(*material_.pressure, *law_) : law_;
     HexahedronState state = state_;
-    state.viscous_pressure = nullptr;
+    state.heats = false;
     const Real omega = largest_frequency(
         own.m, own.held, small_strain * std::cbrt(smallest), [&](const NodalVector& u, NodalVector& Ku) {
           for (std::size_t k = 0; k < 3; ++k) mesh.v[k] = u[k].data();
@@ -324,17 +322,18 @@ class SolidForces : public Material,
       for (auto& speed : scratch.speed) speed[i] = 0;
       for (auto& turn : scratch.half_turn) turn[i] = 0;
       for (std::size_t k = 0; k < 21; ++k) scratch.place[k][i] = k == 0 || k == 4 || k == 8 ? 1 : 0;
+      for (auto& opened : scratch.opened) opened[i] = 0;
       scratch.compression[i] = scratch.work[i] = 0, scratch.middle_volume[i] = 1;
     }
   }
 
   /// To the state of the start: without stress, history, energies and forces.
   void reset() {
-    for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) field->fill(0);
+    for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_, &viscous_})
+      field->fill(0);
     for (Field<Real>* h : history_) h->fill(0);
     if (full_) full_->reset();
     if (hourglass_force_) hourglass_force_->fill(0);
-    if (viscous_) viscous_->fill(0);
     group_.corner_force.fill(0);
   }
 
@@ -415,8 +414,8 @@ class SolidForces : public Material,
   HexahedronLoops loops_ = hexahedron_loops();
   HexahedronControl control_;
   Field<Real>&stress_, &V0_, &rho0_, &internal_, &hourglass_, &bulk_viscosity_;
-  Field<Real>* hourglass_force_ = nullptr;  ///< of a stiffness
-  Field<Real>* viscous_ = nullptr;          ///< q of bulk viscosity; null: no equation of state
+  Field<Real>& viscous_;                    ///< q of bulk viscosity
+  Field<Real>* hourglass_force_ = nullptr;  ///< null: eight points, or QM 0
   std::vector<Field<Real>*> history_;
   HexahedronMesh mesh_{};
   HexahedronState state_{};

@@ -57,8 +57,7 @@ void SolidPressure::split(const HexahedronLoops::Block& block, const HexahedronS
     const Real E = energy[block.begin + i] / V0[i], v = 1 / (1 + mu[i]);
     const Real slope = own.dA[i] + own.dB[i] * E + own.B[i] * (own.A[i] + own.B[i] * E) * v * v;
     own.energy[i] = E;
-    own.dv[i] = block.dt * scratch.middle_volume[i] *
-                (scratch.rate[0][i] + scratch.rate[1][i] + scratch.rate[2][i]) / V0[i];
+    own.half_dv[i] = scratch.opened[1][i] / V0[i];
     // of the density that inertia belongs to, which mass scaling makes another than that of the law
     scratch.sound_speed[i] = std::sqrt((std::max(slope, Real(0)) + shear * v) / rho0[i]);
   }
@@ -73,7 +72,7 @@ void SolidPressure::predict(const HexahedronLoops::Block& block, const Hexahedro
   for (Index i = 0; i < block.count; ++i) {
     own.energy[i] += scratch.work[i] / V0[i];
     own.pressure[i] =
-        std::max((own.A[i] + own.B[i] * own.energy[i]) / (1 + 0.5 * own.B[i] * own.dv[i]), cutoff);
+        std::max((own.A[i] + own.B[i] * own.energy[i]) / (1 + own.B[i] * own.half_dv[i]), cutoff);
   }
 }
 
@@ -90,8 +89,8 @@ SolidPressure::Found SolidPressure::complete(const HexahedronLoops::Block& block
     for (int k = 0; k < 6; ++k) power += (k < 3 ? 1 : 2) * stress[k][e] * scratch.rate[k][i];
     Real E = own.energy[i] + 0.5 * block.dt * scratch.middle_volume[i] * power / V0[i];
     const Real p =
-        std::max((own.A[i] + own.B[i] * E) / (1 + 0.5 * own.B[i] * own.dv[i]), own.least_pressure[i]);
-    E -= 0.5 * own.dv[i] * p;
+        std::max((own.A[i] + own.B[i] * E) / (1 + own.B[i] * own.half_dv[i]), own.least_pressure[i]);
+    E -= own.half_dv[i] * p;
     for (int k = 0; k < 3; ++k) stress[k][e] -= p;
     const Real v = 1 / (1 + mu[i]);
     const Real c2 = (own.dA[i] + own.dB[i] * E + own.B[i] * p * v * v) / ro, share = scratch.sound_speed[i];

@@ -10,10 +10,13 @@
 
 namespace courant {
 
-/// With E the internal energy per reference volume (all of it: work of p, q and the deviator), v = V/V0, dv =
-/// V_m tr(D) dt/V0 and p = A(mu) + B(mu) E:
-///   E* = E - (p_old + q_old + q) dv/2 + (s_old + s):D V_m dt/(2 V0),
-///   p = (A + B E*)/(1 + B dv/2) or the cut-off, E_new = E* - p dv/2.
+/// With E the internal energy per reference volume (all of it: work of p, q and the deviator), p = A(mu) +
+/// B(mu) E, and dv_old and dv the changes of V/V0 over half a step at the rates sum b_I.v_I with the b_I =
+/// dV/dx_I of its start and of its end, through which the forces there move the corners:
+///   E* = E - (p_old + q_old) dv_old - q dv + (s_old + s):D V_m dt/(2 V0),
+///   p = (A + B E*)/(1 + B dv) or the cut-off, E_new = E* - p dv.
+/// So the gas gives what the nodes get, however much it expands in a step (Caramana et al. 1998 call this
+/// compatible).
 /// q comes before p, with the sound speed of the old energy at the new volume.
 class SolidPressure {
  public:
@@ -21,7 +24,7 @@ class SolidPressure {
   struct Scratch {
     alignas(64) Real A[block_size], dA[block_size], B[block_size], dB[block_size];
     Real energy[block_size];          ///< per reference volume: E, then E* but for the work of s [M/LT2]
-    Real dv[block_size];              ///< [-]
+    Real half_dv[block_size];         ///< dv [-]
     Real pressure[block_size];        ///< with that energy [M/LT2]
     Real least_pressure[block_size];  ///< the cut-off [M/LT2]
   };

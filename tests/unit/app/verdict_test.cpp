@@ -67,6 +67,21 @@ TEST(Verdict, HalfAStepIsNoError) {
   EXPECT_NEAR(s.energy.error(), -0.2, 1e-12);
 }
 
+// Leapfrog keeps less than the energy at a time, by what the forces of a step and of the first one tell.
+TEST(Verdict, WhatLeapfrogKeepsIsNoError) {
+  Summary s = with_error(0.2);
+  s.energy.half_step = 0.1;
+  s.energy.below = 0.3;
+  EXPECT_NEAR(s.energy.error(), 0, 1e-12);
+  s.energy.below = 0.25;
+  EXPECT_NEAR(s.energy.error(), 0.05, 1e-12);
+  s.energy.below_at_start = 0.2;  // the ledger starts as far below
+  EXPECT_NEAR(s.energy.error(), 0.2, 1e-12);
+  s = with_error(-0.2);
+  s.energy.below_at_start = 0.15;
+  EXPECT_NEAR(s.energy.error(), -0.05, 1e-12);
+}
+
 // Differences of large numbers, wherever heights count from.
 TEST(Verdict, RoundOffIsNoError) {
   Summary s;

@@ -239,7 +239,7 @@ TEST(FullShell, ForcesArePowersSlopesAndBalance) {
                2 * (R(2) * g.scratch.membrane[2][i] + R(5) * of[4][i] + R(6) * of[5][i] + R(7) * of[6][i]));
         }
         for (std::size_t c = 0; c < 4; ++c) power += g.hourglass[c][e] * g.scratch.hourglass_rate[c][i];
-        expected[e] = -power - g.bulk[e] / dt;
+        expected[e] = -power - 2 * g.bulk[e] / dt;  // of the mean of no force and the one now
       }
     });
     for (std::size_t e = 0; e < g.size(); ++e) {

@@ -21,7 +21,7 @@ struct Hexahedra {
   std::array<Numbers, 6> stress;
   std::array<Numbers, 24> corner_force;
   std::array<Numbers, 12> hourglass_force;
-  Numbers V0, rho0, internal_energy, hourglass_energy, bulk_viscosity_energy, limit;
+  Numbers V0, rho0, internal_energy, hourglass_energy, bulk_viscosity_energy, viscous_pressure, limit;
   Real lambda = 1, shear = 1;
   HexahedronControl control;
   HexahedronScratch scratch;
@@ -62,7 +62,8 @@ struct Hexahedra {
     v.assign(x.size(), Vec::Zero());
     const std::size_t n = corner[0].size();
     for (auto* a : {&V0, &rho0}) a->assign(n, 1);
-    for (auto* a : {&internal_energy, &hourglass_energy, &bulk_viscosity_energy, &limit}) a->assign(n, 0);
+    for (auto* a : {&internal_energy, &hourglass_energy, &bulk_viscosity_energy, &viscous_pressure, &limit})
+      a->assign(n, 0);
     for (auto& a : stress) a.assign(n, 0);
     for (auto& a : corner_force) a.assign(n, 0);
     for (auto& a : hourglass_force) a.assign(n, 0);
@@ -109,6 +110,7 @@ struct Hexahedra {
     state.V0 = V0.data(), state.rho0 = rho0.data(), state.internal_energy = internal_energy.data();
     state.hourglass_energy = hourglass_energy.data();
     state.bulk_viscosity_energy = bulk_viscosity_energy.data();
+    state.viscous_pressure = viscous_pressure.data();
     HexahedronLoops::Found all{};
     const Index n = static_cast<Index>(size());
     for (Index begin = 0; begin < n; begin += block_size) {

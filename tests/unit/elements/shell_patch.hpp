@@ -23,7 +23,7 @@ struct ShellPatch {
   std::array<Numbers, 240> stress;
   std::array<Numbers, 32> resultant;
   std::array<Numbers, 5> hourglass;
-  Numbers thickness, mass, internal, hourglass_energy, bulk;
+  Numbers thickness, mass, internal, hourglass_energy, bulk, viscous_force;
   Real E = 2, nu = 0.25, rho = 1;
   ShellControl control;
   ShellState state;
@@ -59,7 +59,7 @@ struct ShellPatch {
     const std::size_t n = g.corner[0].size();
     g.v.assign(g.x.size(), Vec::Zero()), g.w = g.v;
     g.thickness.assign(n, t);
-    for (auto* a : {&g.internal, &g.hourglass_energy, &g.bulk}) a->assign(n, 0);
+    for (auto* a : {&g.internal, &g.hourglass_energy, &g.bulk, &g.viscous_force}) a->assign(n, 0);
     for (auto& a : g.force) a.assign(n, 0);
     for (auto& a : g.moment) a.assign(n, 0);
     for (auto& a : g.stress) a.assign(n, 0);
@@ -124,7 +124,7 @@ struct ShellPatch {
     for (int k = 0; k < 5; ++k) state.hourglass[k] = hourglass[k].data();
     state.thickness = thickness.data(), state.mass = mass.data();
     state.internal_energy = internal.data(), state.hourglass_energy = hourglass_energy.data();
-    state.bulk_viscosity_energy = bulk.data();
+    state.bulk_viscosity_energy = bulk.data(), state.viscous_force = viscous_force.data();
     for (int k = 0; k < 12; ++k)
       state.corner_force[k] = force[k].data(), state.corner_moment[k] = moment[k].data();
     ShellLoops::Found least{1e300, 0};
