@@ -181,8 +181,7 @@ class Builder {
   void read_xsph() {
     const auto* c = deck_.last<CourantXsph>();
     if (c == nullptr) return;
-    settings_.xsph = c->eps;
-    settings_.xsph_normed = c->norm == 1;
+    settings_.xsph = c->eps, settings_.xsph_normed = c->norm == 1;
     if (c->eps > 1)
       deck_.error(diagnostics_, *c, "EPS", fmt::format("expected at most 1, got '{:g}'", c->eps),
                   "0.5 is usual; with 1 particles move with the mean velocity of their neighbours");

@@ -72,7 +72,7 @@ struct Outlet {
   Real sign = 1;                              ///< -1: the flow is against the axis
   Real width = 1;                             ///< of the channel [L], 1 in 2D
   Real level = 0, tau = 0, gain = 1, tint = 0;
-  Curve factor{};  ///< on the level over time; empty: 1
+  Curve factor{};                       ///< on the level over time; empty: 1
   std::function<Real(Real t)> gravity;  ///< along `up` [L/T2]
 
   Real length() const { return high[axis] - low[axis]; }
@@ -272,7 +272,8 @@ class Builder {
                     "define it with *DEFINE_CURVE");
     o.factor = found->second;
     if (*std::min_element(o.factor.ordinate.begin(), o.factor.ordinate.end()) > 0) return true;
-    return refuse(card, "LCLEV", fmt::format("curve {} falls to 0 or below: no water would be left", card.lclev),
+    return refuse(card, "LCLEV",
+                  fmt::format("curve {} falls to 0 or below: no water would be left", card.lclev),
                   "let it stay above 0");
   }
 

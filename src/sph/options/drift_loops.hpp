@@ -38,8 +38,8 @@ using DriftLoop = void (*)(const DriftArrays&, const NeighbourLists&);
 /// surfaces; the gradient of the velocity where `correct`;
 /// and what `drift_rate_loop` does.
 DriftLoop shifting_loop(KernelChoice kernel, int dim, bool correct);
-/// Monaghan 1989: rho_ij the mean of both densities, W_ij that of the kernels with h_i and with h_j. `normed`:
-/// over sum_j m_j/rho_ij W_ij.
+/// Monaghan 1989: rho_ij the mean of both densities, W_ij that of the kernels with h_i and with h_j.
+/// `normed`: over sum_j m_j/rho_ij W_ij.
 DriftLoop xsph_loop(KernelChoice kernel, int dim, bool uniform_h, bool normed);
 /// Density after a drift u beside the velocity v, both in the middle of the step as in `rates_loop`:
 /// drhodt_i -= rho_i half_step sum_j V_j v_ij . (grad grad W) . u_ij brings eq. 6 there;
