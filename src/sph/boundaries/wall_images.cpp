@@ -57,8 +57,9 @@ void WallImages::keep(Archive& archive) {
   if (any_moves_) archive("searched_at", searched_at_);
 }
 
-/// Walls are searched where they were.
+/// Walls are searched where they were; those that are held have a new surface after loading.
 void WallImages::relist(World& world) {
+  if (!any_moves_) paths_from_.emplace(support_->surface(), dim_, width_);
   std::vector<Vec> now;
   const bool known = searched_at_.size() == nodes_.size();
   for (const Index n : nodes_) now.push_back(world.nodes.x.vec(n));
