@@ -10,9 +10,9 @@ from case_runs import EVALUATED, Failure, age
 
 
 def with_numbers(text, numbers):
-    """A recipe with other numbers behind its anchors (&from) or keys (segment:)."""
+    """A recipe with other numbers, texts or lists behind its anchors (&from) or keys (segment:)."""
     for key, value in numbers.items():
-        text, count = re.subn(re.escape(key) + r'\s+("[^"]*"|[^\s,}\]]+)', f"{key} {value}", text)
+        text, count = re.subn(re.escape(key) + r'\s+("[^"]*"|\[[^\]]*\]|[^\s,}\]]+)', f"{key} {value}", text)
         if count != 1:
             raise Failure(f"the recipe has '{key}' {count} times, expected once")
     return text

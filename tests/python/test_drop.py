@@ -49,6 +49,11 @@ class TestRule:
         found = [TYPES[types_over_time(J[k : k + 1], ahead[k : k + 1], TypeRule())[0]] for k in range(5)]
         assert found == ["A", "B", "A-wave", "B-wave", "A"]  # a roller over the step is an A-jump wherever its jet goes
 
+    def test_a_jump_that_has_run_up_its_bed_is_no_wave(self):
+        J = np.array([-0.4, -0.2, -0.1, -0.06, -0.04, -0.1, -0.2])
+        assert types_over_time(J, np.full(7, 9.0), TypeRule()).tolist() == [3, 3, 3, 3, 1, 1, 3]
+        assert types_over_time(J, np.full(7, -1.0), TypeRule()).tolist() == [4] * 7  # at the step it stays what it was
+
     def test_hysteresis(self):
         J = np.array([0.0, 0.2, 0.1, -0.1, -0.14, -0.2, -0.1, 0.14, 0.16, 0.0])
         assert types_over_time(J, np.zeros(10), TypeRule()).tolist() == [0, 2, 2, 2, 2, 4, 4, 4, 2, 2]

@@ -34,7 +34,8 @@ def momentum_bounds(F1: float, step: float) -> tuple[float, float]:
 @dataclass(frozen=True)
 class TypeRule:
     """Thresholds. `jet`: of J, to either side; `upstream`, `band`: the toe is upstream of the step where it is more than upstream + band [y1]
-    ahead of it, behind where it is less than upstream - band; in between both stay what they were."""
+    ahead of it, behind where it is less than upstream - band; in between both stay what they were. Where the toe is upstream a jet at the surface is
+    none any longer once J > -jet/3: behind an A-jump that has run up its bed the flow is even, and J stays about 0."""
 
     jet: float = 0.15
     upstream: float = 1.0
@@ -57,6 +58,8 @@ def types_over_time(J: np.ndarray, ahead: np.ndarray, rule: TypeRule) -> np.ndar
             upstream = True
         elif a < rule.upstream - rule.band or upstream is None:
             upstream = False
+        if upstream and jet < 0 and j > -rule.jet / 3:
+            jet = 0
         if jet < 0:
             out[k] = 3 if upstream else 4
         elif upstream:
