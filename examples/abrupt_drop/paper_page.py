@@ -7,7 +7,7 @@ from case_post import evaluated
 from case_runs import EVALUATED, age
 from page_text import hours, machine, number, percent, revision, table
 
-FIGURES = (("types", "J and the toe over time, before the colours of the types"), ("vorticity", "Vorticity [1/s], the paper's Figures 7 to 12"),
+FIGURES = (("types", "J and the toe over time, before the colours of the types"), ("vorticity", "Vorticity in 1/s, the paper's Figures 7 to 12"),
            ("level", "Surface at distances from the mean toe"), ("spectra_level", "Spectrum of the surface, the paper's Figures 13 and 14"),
            ("spectra_pressure", "Spectrum of the pressure at the bed, the paper's Figures 16 to 19"), ("correlations", "Correlations, the paper's Figures 24 and 25"))
 SETTING = """The one setting of the tests, fixed before they ran: `keyword_decks/abrupt_drop/abrupt_drop.yaml`, standard k-epsilon with the constants of books, smooth beds that rub by the logarithmic law, nothing fitted; y1, v1

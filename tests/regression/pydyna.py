@@ -89,6 +89,7 @@ WRONG_LAYOUT = re.compile(r"is missing|one line too many|values behind|is not re
 ODD = {"*DEFINE_SPH_ACTIVE_REGION": "cards of all shapes at once", "*DEFINE_SPH_DE_COUPLING": "an _ID line without _ID",
        "*DEFINE_ADAPTIVE_SOLID_TO_SPH": "an _ID line without _ID",
        "*CONSTRAINED_GENERALIZED_WELD_SPOT": "an _ID line without _ID",
+       "*MAT_SPOTWELD_DAMAGE-FAILURE": "the second card of each OPT, one after the other",
        "*ELEMENT_SHELL_THICKNESS_OFFSET": "thicknesses of mid-side nodes that are not there",
        "*ELEMENT_SHELL_BETA_OFFSET": "thicknesses of mid-side nodes that are not there",
        "*RIGIDWALL_GEOMETRIC_CYLINDER_MOTION": "a card of sections that are not there",
