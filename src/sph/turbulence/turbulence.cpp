@@ -157,9 +157,11 @@ class Turbulence : public Material {
     if (fields_.k)
       a.updates(*fields_.k).updates(*fields_.epsilon).reads(*fields_.k_flow).reads(*fields_.epsilon_flow);
     a.writes(fields_.eddy);
-    if (!walls_ || !walls_->any_moves()) return;
+    if (!walls_) return;
+    a.in_start().reads(p.x, Reach::others);
+    if (!walls_->any_moves()) return;
     const Segments& s = world.segments;
-    a.in_start().reads(world.nodes.x).reads(world.nodes.v).reads(p.x, Reach::others);
+    a.reads(world.nodes.x).reads(world.nodes.v);
     a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
   }
   void start(World& world, const Clock&) override {
