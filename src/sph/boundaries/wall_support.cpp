@@ -79,8 +79,8 @@ void WallSupport::declare(const World& world, Accesses& a) const {
   if (!any_moves_) return;
   a.updates(*velocity_).reads(p.x, Reach::others);
   const Segments& s = world.segments;
-  a.in_start().reads(world.nodes.x).reads(world.nodes.v).reads(p.x, Reach::others);
-  a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
+  a.in_start().reads(world.nodes.x).reads(world.nodes.v).reads(world.nodes.held).reads(p.x, Reach::others);
+  a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3).reads(s.part);
 }
 
 void WallSupport::start(World& world, const Clock&) {

@@ -161,8 +161,8 @@ class Turbulence : public Material {
     a.in_start().reads(p.x, Reach::others);
     if (!walls_->any_moves()) return;
     const Segments& s = world.segments;
-    a.reads(world.nodes.x).reads(world.nodes.v);
-    a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
+    a.reads(world.nodes.x).reads(world.nodes.v).reads(world.nodes.held);
+    a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3).reads(s.part);
   }
   void start(World& world, const Clock&) override {
     if (walls_) walls_->follow(world, neighbours_->rebuilds());
