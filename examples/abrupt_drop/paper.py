@@ -17,8 +17,6 @@ restart file. A run that fails is reported, the others go on. The page shows all
 Exit code: 0 all is done, 1 a run or its evaluation failed, 2 the call was wrong, 130 interrupted.
 
 """
-import argparse
-import os
 import pathlib
 import sys
 
@@ -27,7 +25,7 @@ import yaml
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "lib"))
 import paper_page  # noqa: E402
 from case_post import evaluate_once, post, read_table, scalars  # noqa: E402
-from case_runs import Case, Failure, Program, interruptible, make_deck, say, work_through  # noqa: E402
+from case_runs import Case, Failure, Program, carry_out, interruptible, named, read_options, say  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
@@ -89,60 +87,21 @@ def evaluate(run, program, threads):
     evaluate_once(run, program, asked, [pathlib.Path(__file__), *SCENES.glob("*.yaml")], work, say)
 
 
-def read_options():
-    parser = argparse.ArgumentParser(usage=__doc__, add_help=False)
-    parser.add_argument("--courant", required=True)
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--threads", type=int)
-    parser.add_argument("--only", default="")
-    parser.add_argument("--study", action="store_true")
-    parser.add_argument("--results", type=pathlib.Path)
-    parser.add_argument("--page", type=pathlib.Path)
-    parser.add_argument("--quick", action="store_true")
-    options = parser.parse_args()
-    if options.threads is None:
-        options.threads = max(1, os.cpu_count() // max(1, options.jobs))
-    if options.threads < 1 or options.jobs < 1:
-        parser.error("--threads and --jobs need a number from 1 on")
-    options.results = (options.results or PROJECT / "results" / ("abrupt_drop_quick" if options.quick else "abrupt_drop_paper")).resolve()
-    options.page = (options.page or (options.results / "page.md" if options.quick else PROJECT / "docs" / "abrupt_drop_paper.md")).resolve()
-    return options
-
-
 def choose(runs, options):
-    if not options.only:
-        return [run for run in runs if run.group != "study" or options.study]
-    names = set(options.only.split(","))
-    unknown = names - {run.name for run in runs}
-    if unknown:
-        say(f"--only: there is no run {', '.join(sorted(unknown))}; there are {', '.join(run.name for run in runs)}")
-        sys.exit(2)
-    return [run for run in runs if run.name in names]
+    if options.only:
+        return named(runs, options.only, lambda run: (run.name,), lambda run: run.name)
+    return [run for run in runs if run.group != "study" or options.study]
 
 
 def main():
-    options = read_options()
+    options = read_options(__doc__, PROJECT, "abrupt_drop", ("study",))
     interruptible()
     table = yaml.safe_load((HERE / "paper_runs.yaml").read_text())
     options.results.mkdir(parents=True, exist_ok=True)
     runs = [Run(entry, table["tests"], options.results, options.quick) for entry in table["runs"]]
-    chosen = choose(runs, options)
     program = Program(options.courant)
-    try:
-        for run in chosen:
-            make_deck(run, program)
-        failed = work_through(chosen, program, options, FIRST_GUESS, lambda run: evaluate(run, program, options.threads))
-        page = paper_page.write(options, runs, program, PROJECT)
-    except Failure as error:
-        say(f"Stopped: {error}")
-        return 1
-    except KeyboardInterrupt:
-        say("\nInterrupted; the same command goes on from here.")
-        return 130
-    say(f"Page: {page}")
-    if failed:
-        say(f"{len(failed)} of {len(chosen)} runs failed: {', '.join(failed)}")
-    return 1 if failed else 0
+    return carry_out(choose(runs, options), program, options, FIRST_GUESS, lambda run: evaluate(run, program, options.threads),
+                     lambda: [paper_page.write(options, runs, program, PROJECT)])
 
 
 if __name__ == "__main__":

@@ -5,20 +5,4 @@
 #   bash examples/abrupt_drop/paper.sh --help
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../lib/setup.sh"
-script=$project/examples/abrupt_drop/paper.py
-python=/usr/bin/python3  # Debian's, which has yaml; another one in PATH may not
-[ -x "$python" ] || python=python3
-for word in "$@"; do
-  case $word in
-    -h | --help) sed -n '3,/^"""$/p' "$script" | sed '$d'; exit 0 ;;
-  esac
-done
-
-install_packages "${build_packages[@]}" "${picture_packages[@]}" python3-yaml
-(cd "$project" || exit 1
-  options=()
-  [ -f "$build/CMakeCache.txt" ] || options=(-DCOURANT_TESTS=OFF)
-  configure "${options[@]}"
-  build_targets courant) || exit 1
-need_space "$project" 4000 "the results of all runs"
-exec "$python" "$script" --courant "$build/courant" "$@"
+run_paper "$project/examples/abrupt_drop/paper.py" 4000 "$@"

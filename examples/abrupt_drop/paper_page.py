@@ -1,11 +1,9 @@
 """Writes the page of the tests at an abrupt drop: tables from what was evaluated, figures from what `courant post` drew."""
 import shutil
-import subprocess
-import time
 
 from case_post import evaluated
 from case_runs import EVALUATED, age
-from page_text import hours, machine, number, percent, revision, table
+from page_text import heading, hours, number, percent, table
 
 FIGURES = (("types", "J and the toe over time, before the colours of the types"), ("vorticity", "Vorticity in 1/s, the paper's Figures 7 to 12"),
            ("level", "Surface at distances from the mean toe"), ("spectra_level", "Spectrum of the surface, the paper's Figures 13 and 14"),
@@ -47,15 +45,10 @@ def figures(run, page):
 
 def write(options, runs, program, project):
     shown = [(run, found) for run in runs if (found := evaluated(run))]
-    version = subprocess.run([program.courant, "--version"], capture_output=True, text=True).stdout.strip() or "courant"
     words = " ".join(["bash examples/abrupt_drop/paper.sh"] + ["--study"] * options.study + ["--quick"] * options.quick + ([f"--only {options.only}"] if options.only else []))
-    text = [f"# Jumps at an abrupt drop: the tests of De Padova et al. (2017)\n\nWritten by `{words}` on {time.strftime('%Y-%m-%d')}; do not edit, run it again. {version}{revision(project)}, on {machine()}. "
-            "What it means is discussed in [abrupt_drop.md](abrupt_drop.md).\n"]
-    if options.quick:
-        text.append("**A quick trial: every run was cut to 0.5 s. These numbers mean nothing.**\n")
     old = [run.name for run, _ in shown if age(run.folder / EVALUATED) < program.age]
-    if old:
-        text.append(f"Run or evaluated by an earlier build: {', '.join(old)}.\n")
+    text = [heading("Jumps at an abrupt drop: the tests of De Padova et al. (2017)", words, "What it means is discussed in [abrupt_drop.md](abrupt_drop.md).",
+                    0.5 if options.quick else None, program, project, old)]
     tests = [(run, found) for run, found in shown if run.group == "tests"]
     if tests:
         right = [run.name for run, found in tests if found["regime_word"] == run.experiment]

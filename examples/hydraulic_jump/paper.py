@@ -21,8 +21,6 @@ none of a page leaves it alone.
 Exit code: 0 all is done, 1 a run or its evaluation failed, 2 the call was wrong, 130 interrupted.
 
 """
-import argparse
-import os
 import pathlib
 import sys
 
@@ -32,7 +30,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "lib"))
 import paper_evaluate  # noqa: E402
 import paper_page  # noqa: E402
 import paper_study  # noqa: E402
-from case_runs import Case, Failure, Program, interruptible, make_deck, say, work_through  # noqa: E402
+from case_runs import Case, Program, carry_out, interruptible, named, read_options, say  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
@@ -52,42 +50,15 @@ class Run(Case):
         self.kind = "windows" if "*COURANT_PAIR_GEOMETRY" in self.cards else "eddy viscosity" if self.parameters.get("mixing", 0) > 0 else "others"
 
 
-def read_options():
-    parser = argparse.ArgumentParser(usage=__doc__, add_help=False)
-    parser.add_argument("--courant", required=True)
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--threads", type=int)
-    parser.add_argument("--only", default="")
-    parser.add_argument("--paper-setting", action="store_true")
-    parser.add_argument("--standing", action="store_true")
-    parser.add_argument("--study", action="store_true")
-    parser.add_argument("--results", type=pathlib.Path)
-    parser.add_argument("--page", type=pathlib.Path)
-    parser.add_argument("--quick", action="store_true")
-    options = parser.parse_args()
-    if options.threads is None:
-        options.threads = max(1, os.cpu_count() // max(1, options.jobs))
-    if options.threads < 1 or options.jobs < 1:
-        parser.error("--threads and --jobs need a number from 1 on")
-    options.results = (options.results or PROJECT / "results" / ("hydraulic_jump_quick" if options.quick else "hydraulic_jump_paper")).resolve()
-    options.page = (options.page or (options.results / "page.md" if options.quick else PROJECT / "docs" / "hydraulic_jump_paper.md")).resolve()
-    return options
-
-
 def choose(runs, options):
-    if options.only:
-        names = options.only.split(",")  # of a run, or of all runs of a variant
-        unknown = set(names) - {name for run in runs for name in (run.name, run.variant)}
-        if unknown:
-            say(f"--only: there is no run {', '.join(sorted(unknown))}; there are {', '.join(dict.fromkeys(run.variant for run in runs))}")
-            sys.exit(2)
-        return [run for run in runs if {run.name, run.variant} & set(names)]
+    if options.only:  # of a run, or of all runs of a variant
+        return named(runs, options.only, lambda run: (run.name, run.variant), lambda run: run.variant)
     groups = {"paper", "supported", "better"} | {group for group in ("paper_setting", "standing", "study") if getattr(options, group)}
     return [run for run in runs if run.group in groups]
 
 
 def main():
-    options = read_options()
+    options = read_options(__doc__, PROJECT, "hydraulic_jump", ("paper-setting", "standing", "study"))
     interruptible()
     table = yaml.safe_load((HERE / "paper_runs.yaml").read_text())
     options.results.mkdir(parents=True, exist_ok=True)
@@ -95,22 +66,8 @@ def main():
     runs = [Run(entry, options.results, options.quick) for entry in entries]
     chosen = choose(runs, options)
     program = Program(options.courant)
-    try:
-        for run in chosen:
-            make_deck(run, program)
-        failed = work_through(chosen, program, options, FIRST_GUESS, lambda run: paper_evaluate.evaluate(run, program, SCENES, options.threads, say))
-        pages = paper_page.write(options, runs, chosen, table["paper"], program, PROJECT)
-    except Failure as error:
-        say(f"Stopped: {error}")
-        return 1
-    except KeyboardInterrupt:
-        say("\nInterrupted; the same command goes on from here.")
-        return 130
-    for page in pages:
-        say(f"Page: {page}")
-    if failed:
-        say(f"{len(failed)} of {len(chosen)} runs failed: {', '.join(failed)}")
-    return 1 if failed else 0
+    return carry_out(chosen, program, options, FIRST_GUESS, lambda run: paper_evaluate.evaluate(run, program, SCENES, options.threads, say),
+                     lambda: paper_page.write(options, runs, chosen, table["paper"], program, PROJECT))
 
 
 if __name__ == "__main__":

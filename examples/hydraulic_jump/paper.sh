@@ -6,20 +6,4 @@
 #   bash examples/hydraulic_jump/paper.sh --help
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../lib/setup.sh"
-script=$project/examples/hydraulic_jump/paper.py
-python=/usr/bin/python3  # Debian's, which has yaml; another one in PATH may not
-[ -x "$python" ] || python=python3
-for word in "$@"; do
-  case $word in
-    -h | --help) sed -n '3,/^"""$/p' "$script" | sed '$d'; exit 0 ;;
-  esac
-done
-
-install_packages "${build_packages[@]}" "${picture_packages[@]}" python3-yaml
-(cd "$project" || exit 1
-  options=()
-  [ -f "$build/CMakeCache.txt" ] || options=(-DCOURANT_TESTS=OFF)
-  configure "${options[@]}"
-  build_targets courant) || exit 1
-need_space "$project" 8000 "the results of all runs"
-exec "$python" "$script" --courant "$build/courant" "$@"
+run_paper "$project/examples/hydraulic_jump/paper.py" 8000 "$@"

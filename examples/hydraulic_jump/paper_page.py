@@ -1,12 +1,9 @@
 """Writes the pages, one of the paper's cases and one of jumps that stand still: tables from what `paper_evaluate` gathered, figures from what `courant post` drew."""
-import subprocess
-import time
-
 import paper_figures
 import paper_study
 from case_post import evaluated
 from case_runs import EVALUATED, age
-from page_text import hours, machine, number, percent, revision, table
+from page_text import heading, hours, number, percent, table
 from paper_evaluate import asked
 
 SETTINGS = ("*plates*: `scene.yaml` as the paper has it, with c0 = 30 m/s; *supported*: `supported_bed.yaml`, bed and weir complete the sums of the particles beside "
@@ -22,16 +19,10 @@ def command(options):
 
 
 def top(title, options, program, project, shown):
-    version = subprocess.run([program.courant, "--version"], capture_output=True, text=True).stdout.strip() or "courant"
     old = list(dict.fromkeys(run.variant for run, _ in shown if age(run.folder / EVALUATED) < program.age))
-    text = (f"# {title}\n\nWritten by `{command(options)}` on {time.strftime('%Y-%m-%d')}; do not edit, run it again. "
-            f"{version}{revision(project)}, on {machine()}. What the runs are and how they compare is discussed in [hydraulic_jump.md](hydraulic_jump.md); how each "
-            "number is measured stands in [post.md](post.md) and in the recipes of `keyword_decks/hydraulic_jump`. The paper's numbers carry their place in it.\n")
-    if options.quick:
-        text += "\n**A quick trial: every run was cut to 0.2 s. These numbers mean nothing.**\n"
-    if old:
-        text += f"\nRun or evaluated by an earlier build: {', '.join(old)}.\n"
-    return text
+    about = ("What the runs are and how they compare is discussed in [hydraulic_jump.md](hydraulic_jump.md); how each number is measured stands in [post.md](post.md) and in the recipes of "
+             "`keyword_decks/hydraulic_jump`. The paper's numbers carry their place in it.")
+    return heading(title, command(options), about, 0.2 if options.quick else None, program, project, old)
 
 
 def label(run):

@@ -8,7 +8,9 @@ A case is an object with
   water                       [m2] in the box, mean over the run: for the estimate of the time alone
   kind                        cases of one kind take one time per particle and step
 """
+import argparse
 import concurrent.futures
+import os
 import pathlib
 import re
 import signal
@@ -276,3 +278,55 @@ def interruptible():
     """Signals to end become KeyboardInterrupt; SIGINT, too: it is ignored where a shell started us behind itself."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.default_int_handler)
+
+
+def read_options(usage, project, name, groups=()):
+    """Options that all scripts have, and a flag for each of `groups`; results and page are called by `name` unless they are told."""
+    parser = argparse.ArgumentParser(usage=usage, add_help=False)
+    parser.add_argument("--courant", required=True)
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--threads", type=int)
+    parser.add_argument("--only", default="")
+    for group in groups:
+        parser.add_argument(f"--{group}", action="store_true")
+    parser.add_argument("--results", type=pathlib.Path)
+    parser.add_argument("--page", type=pathlib.Path)
+    parser.add_argument("--quick", action="store_true")
+    options = parser.parse_args()
+    if options.threads is None:
+        options.threads = max(1, os.cpu_count() // max(1, options.jobs))
+    if options.threads < 1 or options.jobs < 1:
+        parser.error("--threads and --jobs need a number from 1 on")
+    options.results = (options.results or project / "results" / (f"{name}_quick" if options.quick else f"{name}_paper")).resolve()
+    options.page = (options.page or (options.results / "page.md" if options.quick else project / "docs" / f"{name}_paper.md")).resolve()
+    return options
+
+
+def named(runs, only, names_of, shown):
+    """Runs of which one of names_of(run) is among `only`, separated by commas; ends the script where a name is unknown. shown(run): the name to tell then."""
+    names = set(only.split(","))
+    unknown = names - {name for run in runs for name in names_of(run)}
+    if unknown:
+        say(f"--only: there is no run {', '.join(sorted(unknown))}; there are {', '.join(dict.fromkeys(map(shown, runs)))}")
+        sys.exit(2)
+    return [run for run in runs if set(names_of(run)) & names]
+
+
+def carry_out(chosen, program, options, first_guess, evaluate, write):
+    """Makes decks, runs and evaluates; write(): the pages. The exit code."""
+    try:
+        for run in chosen:
+            make_deck(run, program)
+        failed = work_through(chosen, program, options, first_guess, evaluate)
+        pages = write()
+    except Failure as error:
+        say(f"Stopped: {error}")
+        return 1
+    except KeyboardInterrupt:
+        say("\nInterrupted; the same command goes on from here.")
+        return 130
+    for page in pages:
+        say(f"Page: {page}")
+    if failed:
+        say(f"{len(failed)} of {len(chosen)} runs failed: {', '.join(failed)}")
+    return 1 if failed else 0

@@ -4,6 +4,7 @@ import os
 import pathlib
 import platform
 import subprocess
+import time
 
 
 def number(value, form="{:.3g}"):
@@ -54,3 +55,14 @@ def revision(project):
         return ", commit " + git("rev-parse", "--short=10", "HEAD") + ("+" if git("status", "--porcelain", "--untracked-files=no", "src") else "")
     except (OSError, subprocess.CalledProcessError):
         return ""
+
+
+def heading(title, command, about, cut, program, project, old):
+    """Top of a page: how it was made, and what it is about; a trial is told where `cut` [s] is not None, as are runs of an earlier build."""
+    version = subprocess.run([program.courant, "--version"], capture_output=True, text=True).stdout.strip() or "courant"
+    text = f"# {title}\n\nWritten by `{command}` on {time.strftime('%Y-%m-%d')}; do not edit, run it again. {version}{revision(project)}, on {machine()}. {about}\n"
+    if cut is not None:
+        text += f"\n**A quick trial: every run was cut to {cut:g} s. These numbers mean nothing.**\n"
+    if old:
+        text += f"\nRun or evaluated by an earlier build: {', '.join(old)}.\n"
+    return text

@@ -134,3 +134,22 @@ build_targets() {  # ninja targets
     stop "the build failed; the compiler's messages are above." "They are also in $logs/build.log"
   fi
 }
+
+run_paper() {  # Python script, megabytes of its results, its arguments: builds what it needs and becomes it
+  local script=$1 space=$2 python=/usr/bin/python3 word  # Debian's, which has yaml; another one in PATH may not
+  shift 2
+  [ -x "$python" ] || python=python3
+  for word in "$@"; do
+    case $word in
+      -h | --help) sed -n '3,/^"""$/p' "$script" | sed '$d'; exit 0 ;;
+    esac
+  done
+  install_packages "${build_packages[@]}" "${picture_packages[@]}" python3-yaml
+  (cd "$project" || exit 1
+    options=()
+    [ -f "$build/CMakeCache.txt" ] || options=(-DCOURANT_TESTS=OFF)
+    configure "${options[@]}"
+    build_targets courant) || exit 1
+  need_space "$project" "$space" "the results of all runs"
+  exec "$python" "$script" --courant "$build/courant" "$@"
+}

@@ -13,6 +13,7 @@
 #include "loads/loads.hpp"
 #include "loads/rigid_wall.hpp"
 #include "loads/rigid_wall_card.hpp"
+#include "model/definitions/named_curve.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
@@ -147,25 +148,23 @@ class RigidWallReader {
   }
 
   bool read_motion(const RigidWallGeometric& card, RigidWallSetup& wall) {
-    const auto curve = model_.curves.find(card.lcid);
-    if (curve == model_.curves.end())
-      return error(card, "LCID", fmt::format("curve {} does not exist", card.lcid),
-                   "define it with *DEFINE_CURVE");
+    const Curve* curve = curve_named(deck_, model_, card, "LCID", card.lcid, diagnostics_);
+    if (!curve) return false;
     const Vec direction(card.vx, card.vy, card.vz);
     if (!(direction.norm() > 0))
       return error(card, "VX", "the motion has no direction", "give VX, VY, VZ a length above 0");
     if (world_.dim == 2 && direction[2] != 0)
       return error(card, "VZ", "in 2D nothing moves along z", "leave VZ 0");
-    if (card.opt == 1 && curve->second(0) != 0)
-      return error(card, "LCID", fmt::format("the displacement is {:g} at t = 0", curve->second(0)),
+    if (card.opt == 1 && (*curve)(0) != 0)
+      return error(card, "LCID", fmt::format("the displacement is {:g} at t = 0", (*curve)(0)),
                    "begin with 0, and give the wall its first place on card 2");
-    const auto& x = curve->second.abscissa;
+    const auto& x = curve->abscissa;
     if (card.opt == 1 && std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end())
       return error(card, "LCID", "the displacement jumps", "give the points of the curve increasing times");
     using Motion = PrescribedMotion;
     Motion& motion = wall.motion.emplace();
     motion.kind = card.opt == 1 ? Motion::Kind::displacement : Motion::Kind::velocity;
-    motion.direction = direction.normalized(), motion.curve = curve->second, motion.card = card;
+    motion.direction = direction.normalized(), motion.curve = *curve, motion.card = card;
     return true;
   }
 

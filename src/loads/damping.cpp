@@ -12,6 +12,7 @@
 #include "loads/idle_parts.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
+#include "model/definitions/named_curve.hpp"
 #include "model/transforms/transformation.hpp"
 #include "parallel/parallel.hpp"
 #include "state/shared_fields.hpp"
@@ -167,13 +168,9 @@ class DampingReader {
   }
   bool read_curve(const DampingCard& card, Damping& d) {
     if (card.lcid != 0) {
-      const auto curve = model_.curves.find(card.lcid);
-      if (curve == model_.curves.end()) {
-        error(card, "LCID", fmt::format("curve {} does not exist", card.lcid),
-              "define it with *DEFINE_CURVE");
-        return false;
-      }
-      d.curve = curve->second;
+      const Curve* curve = curve_named(deck_, model_, card, "LCID", card.lcid, diagnostics_);
+      if (!curve) return false;
+      d.curve = *curve;
     }
     const auto& values = d.curve.ordinate;
     const Real least = values.empty() ? 1 : *std::min_element(values.begin(), values.end());

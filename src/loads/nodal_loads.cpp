@@ -9,6 +9,7 @@
 #include "keyword/registry.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
+#include "model/definitions/named_curve.hpp"
 #include "model/transforms/transformation.hpp"
 #include "parallel/parallel.hpp"
 #include "state/shared_fields.hpp"
@@ -91,11 +92,9 @@ class NodalLoadReader {
 
   void add(const LoadNodeCard& card, const char* field, std::vector<Index> nodes) {
     NodalLoad load{.direction = {}, .curve = {}, .sf = card.sf, .nodes = std::move(nodes), .card = card};
-    const auto curve = model_.curves.find(card.lcid);
-    if (curve == model_.curves.end())
-      return error(card, "LCID", fmt::format("curve {} does not exist", card.lcid),
-                   "define it with *DEFINE_CURVE");
-    load.curve = curve->second;
+    const Curve* curve = curve_named(deck_, model_, card, "LCID", card.lcid, diagnostics_);
+    if (!curve) return;
+    load.curve = *curve;
     if (!read_direction(card, load.direction)) return;
     load.turns = card.dof > 3;
     for (const Index n : load.nodes)

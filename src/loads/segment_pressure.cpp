@@ -10,6 +10,7 @@
 #include "keyword/registry.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
+#include "model/definitions/named_curve.hpp"
 #include "model/transforms/transformation.hpp"
 #include "parallel/counting_sort.hpp"
 #include "parallel/parallel.hpp"
@@ -194,13 +195,9 @@ class PressureReader {
  private:
   template <class Card>
   bool add_load(const Card& card, Id lcid, Real sf, Real at) {
-    const auto curve = model_.curves.find(lcid);
-    if (curve == model_.curves.end()) {
-      deck_.error(diagnostics_, card, "LCID", fmt::format("curve {} does not exist", lcid),
-                  "define it with *DEFINE_CURVE");
-      return false;
-    }
-    loads.push_back({curve->second, sf, at});
+    const Curve* curve = curve_named(deck_, model_, card, "LCID", lcid, diagnostics_);
+    if (!curve) return false;
+    loads.push_back({*curve, sf, at});
     return true;
   }
   template <class Card>

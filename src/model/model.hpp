@@ -34,12 +34,11 @@ struct ModelPart {
 };
 
 struct ModelSph {
-  Index node = 0;  ///< index into nodes; the particle's id is the node's
-  Index part = 0;  ///< index into parts
-  Real mass = 0;   ///< > 0 mass [M]; < 0: -volume [L3], times the material's RO (2D: per unit depth)
-  Entry card;      ///< the ELEMENT_SPH card, for messages
-  Real spacing =
-      0;  ///< of the inlet that made it, where its place at the start does not tell; 0: it does [L]
+  Index node = 0;    ///< index into nodes; the particle's id is the node's
+  Index part = 0;    ///< index into parts
+  Real mass = 0;     ///< > 0 mass [M]; < 0: -volume [L3], times the material's RO (2D: per unit depth)
+  Entry card;        ///< the ELEMENT_SPH card, for messages
+  Real spacing = 0;  ///< of an inlet where particles do not wait on a lattice; else 0: places tell [L]
 };
 
 struct ModelShell {

@@ -7,6 +7,7 @@
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "model/definitions/named_curve.hpp"
 #include "rigid/joint_stiffness_pass.hpp"
 
 namespace courant {
@@ -131,13 +132,9 @@ class StiffnessReader {
   }
   bool curve(const S& card, const char* field, Id id, Curve& out) {
     if (id == 0) return true;
-    const auto found = model_.curves.find(id);
-    if (found == model_.curves.end()) {
-      error(card, field, fmt::format("curve {} does not exist", id), "define it with *DEFINE_CURVE");
-      return false;
-    }
-    out = found->second;
-    return true;
+    const Curve* found = curve_named(deck_, model_, card, field, id, diagnostics_);
+    if (found) out = *found;
+    return found != nullptr;
   }
   bool resistance(const S& card, const std::array<const char*, 3>& fields, Id lcid, Id dlcid, Real es,
                   Real fm, Real low, Real high, AngleResistance& out) {

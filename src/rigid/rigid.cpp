@@ -379,8 +379,8 @@ Real below_of(const RigidBody& b, Real dt) {
 }  // namespace
 
 void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
-  for (const RigidBody& b : bodies_)
-    if (clock.cycle == 0) ledger.below_at_start += below_of(b, clock.dt);
+  if (clock.cycle == 0)
+    for (const RigidBody& b : bodies_) ledger.below_at_start += below_of(b, clock.dt);
   for (RigidBody& b : bodies_) {
     const Real work = b.motions.empty() ? 0 : work_of_drives(b, clock);
     b.drive_work += work;

@@ -10,8 +10,8 @@
 #include "base/run_error.hpp"
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "model/definitions/named_curve.hpp"
 #include "sph/boundaries/free_surface.hpp"
-#include "sph/cards.hpp"
 #include "sph/materials/initial_stress.hpp"
 
 namespace courant {
@@ -75,6 +75,7 @@ class FrozenOutlets : public Refresh {
                 std::shared_ptr<const Neighbours> neighbours)
       : outlets_(std::move(outlets)), materials_(materials), neighbours_(std::move(neighbours)) {}
   std::string name() const override { return "frozen outlets"; }
+
   void refreshed(World& world, const Clock& clock, std::span<const Index>) override {
     Particles& p = world.particles;
     for (const Index i : neighbours_->left())
@@ -162,7 +163,7 @@ class FrozenOutletReader {
     if (!up)
       return refuse(card, "DIR", "without gravity there is no pressure below a level",
                     "give gravity by *LOAD_BODY, or leave the outlet out: the box freezes what leaves it");
-    o.surface.on = true, o.surface.up = *up, o.surface.point = Vec(card.xs, card.ys, card.zs);
+    o.surface.up = *up, o.surface.point = Vec(card.xs, card.ys, card.zs);
     for (std::size_t k = 0; k < model_.parts.size(); ++k)
       if (model_.parts[k].has_sph && !settings_.strength.empty() && settings_.strength[k])
         return refuse(card, "DIR", fmt::format("part {} has strength", model_.parts[k].id),
@@ -174,10 +175,7 @@ class FrozenOutletReader {
   }
 
   const Curve* curve_of(const CourantFrozenOutlet& card, const char* field, Id id) {
-    const auto found = model_.curves.find(id);
-    if (found != model_.curves.end()) return &found->second;
-    refuse(card, field, fmt::format("curve {} does not exist", id), "define it with *DEFINE_CURVE");
-    return nullptr;
+    return curve_named(deck_, model_, card, field, id, diagnostics_);
   }
 
   const Deck& deck_;

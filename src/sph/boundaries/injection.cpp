@@ -1,5 +1,6 @@
 // What the cards of inlets mean, and what is refused of them.
 #include "sph/boundaries/injection.hpp"
+#include "model/definitions/named_curve.hpp"
 
 #include <fmt/format.h>
 
@@ -81,12 +82,9 @@ class Reader {
   /// Of a curve over time.
   template <class Card>
   InletRate rate_of(const Card& c, const char* field, Id id) {
-    const auto found = model_.curves.find(id);
-    if (found == model_.curves.end()) {
-      error(c, field, fmt::format("curve {} does not exist", id), "define it with *DEFINE_CURVE");
-      return {};
-    }
-    InletRate rate(found->second);
+    const Curve* curve = curve_named(deck_, model_, c, field, id, diagnostics_);
+    if (!curve) return {};
+    InletRate rate(*curve);
     if (rate.least() < 0)
       error(c, field, fmt::format("curve {} falls below 0: water would flow out", id),
             "an inlet lets water in; let the curve end at 0, and the outflow be an outlet of its own");

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "model/definitions/named_curve.hpp"
 #include "sph/boundaries/injection.hpp"
 
 namespace courant {
@@ -25,6 +25,7 @@ struct CourantInflow : Entry {
   int surf = 0, prof = 0;
   Real xs = 0, ys = 0, zs = 0, expo = 0, ks = 0;
 };
+
 KeywordOf<CourantInflow> courant_inflow() {
   using T = CourantInflow;
   const FieldRules not_negative{.check = Check::not_negative};
@@ -124,10 +125,7 @@ class InflowReader {
   }
 
   const Curve* curve_of(const CourantInflow& card, const char* field, Id id) {
-    const auto found = model_.curves.find(id);
-    if (found != model_.curves.end()) return &found->second;
-    refuse(card, field, fmt::format("curve {} does not exist", id), "define it with *DEFINE_CURVE");
-    return nullptr;
+    return curve_named(deck_, model_, card, field, id, diagnostics_);
   }
 
   void complete(const CourantInflow& card, Injection& inlet) {

@@ -8,6 +8,7 @@
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "model/definitions/named_curve.hpp"
 #include "parallel/parallel.hpp"
 #include "state/restartable.hpp"
 
@@ -266,11 +267,9 @@ class Builder {
 
   bool read_curve(const C& card, Outlet& o) {
     if (card.lclev == 0) return true;
-    const auto found = model_.curves.find(card.lclev);
-    if (found == model_.curves.end())
-      return refuse(card, "LCLEV", fmt::format("curve {} does not exist", card.lclev),
-                    "define it with *DEFINE_CURVE");
-    o.factor = found->second;
+    const Curve* curve = curve_named(deck_, model_, card, "LCLEV", card.lclev, diagnostics_);
+    if (!curve) return false;
+    o.factor = *curve;
     if (*std::min_element(o.factor.ordinate.begin(), o.factor.ordinate.end()) > 0) return true;
     return refuse(card, "LCLEV",
                   fmt::format("curve {} falls to 0 or below: no water would be left", card.lclev),

@@ -110,8 +110,8 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   block.paths.clear(), block.pulls.clear();
   for (Index i = begin; i < end; ++i) {
     if (sheets_[i].empty()) continue;
-    const bool moves =
-        std::any_of(sheets_[i].begin(), sheets_[i].end(), [](const auto& s) { return s.body >= 0; });
+    const bool moves = any_moves_ && std::any_of(sheets_[i].begin(), sheets_[i].end(),
+                                                 [](const auto& s) { return s.body >= 0; });
     for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
       moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, block);
   }

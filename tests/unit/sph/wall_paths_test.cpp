@@ -213,18 +213,24 @@ Seen see(const WallPaths& paths, const Vec& x, const Vec& y) {
   return out;
 }
 
+/// The walls of a place, held; their segments.
+std::vector<Index> add_lines(World& world, const Place& place) {
+  std::vector<Index> all;
+  std::vector<std::array<Vec, 4>> plates;
+  for (const auto& [a, b] : place.lines) {
+    all.push_back(static_cast<Index>(plates.size()));
+    plates.push_back(line(a, b));
+  }
+  add_plates(world, plates, 2);
+  return all;
+}
+
 // Density then depends on places alone, not on the way there: what a pair gains on any way is the difference
 // of what it has at its ends.
 TEST(WallPaths, GiveAndTakeShareWithoutJumps) {
   for (const Place& place : places()) {
-    std::vector<Index> all;
-    std::vector<std::array<Vec, 4>> plates;
-    for (const auto& [a, b] : place.lines) {
-      all.push_back(static_cast<Index>(plates.size()));
-      plates.push_back(line(a, b));
-    }
     World world;
-    add_plates(world, plates, 2);
+    const std::vector<Index> all = add_lines(world, place);
     const WallSurface surface(world, all, h / 4, 2.1 * h + dx);
     const WallPaths paths(surface, 2, WallPaths::usual_width * dx);
     int tried = 0, changed = 0;
@@ -288,14 +294,8 @@ TEST(WallPaths, GoAlongWithWallsThatMoveAndPullThem) {
     for (std::size_t moves = 0; moves < 4; ++moves) {
       // walls that turn away from each other at an edge must stay together
       if (moves != 2 && (place.name == "step" || place.name == "low step")) continue;
-      std::vector<Index> all;
-      std::vector<std::array<Vec, 4>> plates;
-      for (const auto& [a, b] : place.lines) {
-        all.push_back(static_cast<Index>(plates.size()));
-        plates.push_back(line(a, b));
-      }
       World world;
-      add_plates(world, plates, 2);
+      const std::vector<Index> all = add_lines(world, place);
       // the first, the last, all as one body, or each as its own; each has a motion of its own
       for (Index s = 0; s < world.segments.size(); ++s) {
         const bool goes = moves >= 2 || s == (moves == 0 ? 0 : world.segments.size() - 1);

@@ -64,6 +64,13 @@ class Bed:
             diagnostics.error(self.where, "the shells that are to be the bed move", "give the bed as a polyline or an expression of x")
         self.pieces = first
 
+    def under(self, x: np.ndarray, name: str, where: Location, diagnostics: Diagnostics) -> np.ndarray:
+        """Height over x for an analysis that needs it everywhere: a gap is a fault."""
+        bed = self.at(x)
+        if np.isnan(bed).any():
+            diagnostics.error(where, f"analysis '{name}': there is no bed at x = {x[np.isnan(bed)][0]:g}", "the bed must reach as far as 'x'")
+        return bed
+
     def at(self, x: np.ndarray) -> np.ndarray:
         """Height over x, (n,) [L]; NaN where there is no bed. At an upright face the height is that of its top."""
         if self.of is not None:

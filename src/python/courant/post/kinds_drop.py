@@ -59,11 +59,8 @@ class JumpTypeAnalysis(Analysis):
             self._lay_bed(keys.diagnostics)
 
     def _lay_bed(self, diagnostics: Diagnostics) -> None:
-        self.bed = self.ground.at(self.x)
+        self.bed = self.ground.under(self.x, self.name, self.where, diagnostics)
         self.upper = float(self.ground.at(np.array([self.step - 0.01 * self.y1]))[0])
-        if np.isnan(self.bed).any():
-            gap = self.x[np.isnan(self.bed)][0]
-            diagnostics.error(self.where, f"analysis '{self.name}': there is no bed at x = {gap:g}", "the bed must reach as far as 'x'")
 
     def needs(self) -> list[Wanted]:
         return [*wanted_of(self.which.of), wanted_array("velocity")]

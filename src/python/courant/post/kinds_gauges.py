@@ -55,10 +55,7 @@ class GaugesAnalysis(Analysis):
             self._lay_bed(keys.diagnostics)
 
     def _lay_bed(self, diagnostics: Diagnostics) -> None:
-        self.bed = self.ground.at(self.x)
-        if np.isnan(self.bed).any():
-            gap = self.x[np.isnan(self.bed)][0]
-            diagnostics.error(self.where, f"analysis '{self.name}': there is no bed at x = {gap:g}", "the bed must reach as far as 'x'")
+        self.bed = self.ground.under(self.x, self.name, self.where, diagnostics)
         self.points = Points(np.column_stack([self.x, self.bed + self.height, np.zeros_like(self.x)]))
 
     def needs(self) -> list[Wanted]:
