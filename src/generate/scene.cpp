@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "generate/basin.hpp"
 #include "generate/expression.hpp"
@@ -38,7 +39,8 @@ class SceneReader : private NodeReader {
     check_keys(
         root, "the scene",
         {"title", "base", "parameters", "water", "box", "gravity", "end", "output", "parts", "keywords"});
-    load_bases(root["base"]);
+    loading_.push_back(std::filesystem::path(path_).lexically_normal().string());
+    load_bases(root["base"], with_names(root["parameters"], {}));
     scene.files = {path_};
     for (const Base& base : bases_) scene.files.push_back(base.path);
     read_parameters(root["parameters"], scene);
@@ -56,25 +58,42 @@ class SceneReader : private NodeReader {
   }
 
  private:
-  /// What many scenes have in common: files with parameters, parts and keywords.
-  void load_bases(const YAML::Node& node) {
+  /// What many scenes have in common: files with parameters, parts and keywords, and bases of their own,
+  /// which come before them, each once. `above`: names of parameters of the files that this one is a base of.
+  void load_bases(const YAML::Node& node, const std::set<std::string>& above) {
     if (!node) return;
-    if (!node.IsSequence()) return load_base(node);
-    for (const auto& one : node) load_base(one);
+    if (!node.IsSequence()) return load_base(node, above);
+    for (const auto& one : node) load_base(one, above);
   }
-  void load_base(const YAML::Node& node) {
-    const std::string path = (std::filesystem::path(path_).parent_path() / text(node)).string();
+  void load_base(const YAML::Node& node, const std::set<std::string>& above) {
+    std::string path = (std::filesystem::path(path_).parent_path() / text(node)).lexically_normal().string();
+    if (std::find(loading_.begin(), loading_.end(), path) != loading_.end())
+      return error(node, fmt::format("base: '{}' is a base of itself", path));
+    const auto known =
+        std::find_if(bases_.begin(), bases_.end(), [&](const Base& b) { return b.path == path; });
+    if (known != bases_.end()) return known->above.insert(above.begin(), above.end());
+    Base base{path, {}, above};
     try {
       if (std::filesystem::is_directory(path)) throw YAML::BadFile(path);
-      bases_.push_back({path, YAML::LoadFile(path)});
+      base.node = YAML::LoadFile(path);
     } catch (const YAML::BadFile&) {
       return error(node, fmt::format("base: the file '{}' cannot be read", path));
     } catch (const YAML::Exception& fault) {
       return report_yaml_fault(path, fault, diagnostics_);
     }
-    std::swap(path_, bases_.back().path);
-    check_keys(bases_.back().node, "a base", {"parameters", "parts", "keywords"});
-    std::swap(path_, bases_.back().path);
+    loading_.push_back(path);
+    std::swap(path_, path);
+    check_keys(base.node, "a base", {"base", "parameters", "parts", "keywords"});
+    if (base.node.IsMap()) load_bases(base.node["base"], with_names(base.node["parameters"], above));
+    std::swap(path_, path);
+    loading_.pop_back();
+    bases_.push_back(std::move(base));
+  }
+  static std::set<std::string> with_names(const YAML::Node& parameters, std::set<std::string> names) {
+    if (parameters && parameters.IsMap())
+      for (const auto& entry : parameters)
+        if (entry.first.IsScalar()) names.insert(entry.first.Scalar());
+    return names;
   }
   /// Messages name the base's file meanwhile.
   template <class Visit>
@@ -89,26 +108,34 @@ class SceneReader : private NodeReader {
   void read_parameters(const YAML::Node& node, Scene& scene) {
     std::set<std::string> unused;
     for (const auto& [name, value] : overrides_) unused.insert(name);
-    // The base's first, but for those that need the scene's own; these stand above the base's of the same
-    // name.
-    std::set<std::string> own;
+    // Those of bases as soon as all that they need is there, the scene's own one after the other; of several
+    // of the same name that of the file which has the others as bases.
     std::set<std::pair<std::string, int>> done;  // entries of bases: file and place in it
-    if (node && node.IsMap())
-      for (const auto& entry : node)
-        if (entry.first.IsScalar()) own.insert(entry.first.Scalar());
-    bool all = false;
-    const auto read_base = [&](const YAML::Node& name, const YAML::Node& value) {
-      const std::string key = name.IsScalar() ? name.Scalar() : "";
-      const bool ready = all || (value.IsScalar() && evaluate(value.Scalar(), variables_).ok());
-      if (!ready || own.contains(key) || !done.emplace(path_, name.Mark().pos).second) return;
-      read_parameter(name, value, unused, scene);
+    const auto read_bases = [&](bool all) {
+      bool more = false;
+      for (const Base& base : bases_) {
+        const std::string in_scene = std::exchange(path_, base.path);
+        for_each_entry(base.node["parameters"], [&](const YAML::Node& name, const YAML::Node& value) {
+          const bool ready = all || (value.IsScalar() && evaluate(value.Scalar(), variables_).ok());
+          if (!ready || (name.IsScalar() && base.above.contains(name.Scalar()))) return;
+          if (!done.emplace(path_, name.Mark().pos).second) return;
+          read_parameter(name, value, unused, scene);
+          more = true;
+        });
+        path_ = in_scene;
+      }
+      return more;
     };
-    for_each_base([&](const YAML::Node& base) { for_each_entry(base["parameters"], read_base); });
+    const auto read_ready = [&] {
+      while (read_bases(false)) {
+      }
+    };
+    read_ready();
     for_each_entry(node, [&](const YAML::Node& name, const YAML::Node& value) {
       read_parameter(name, value, unused, scene);
+      read_ready();
     });
-    all = true;
-    for_each_base([&](const YAML::Node& base) { for_each_entry(base["parameters"], read_base); });
+    read_bases(true);
     std::vector<std::string> names;
     for (const auto& p : scene.parameters) names.push_back(p.first);
     for (const std::string& name : unused)
@@ -413,10 +440,12 @@ class SceneReader : private NodeReader {
   struct Base {
     std::string path;
     YAML::Node node;
+    std::set<std::string> above;  ///< parameters that other files give in its place
   };
-  std::vector<Base> bases_;
-  int dim_ = 0;        // of all lattices
-  Real entities_ = 0;  // so far
+  std::vector<Base> bases_;           ///< each after its own
+  std::vector<std::string> loading_;  ///< the scene and the bases on the way to the file that is read
+  int dim_ = 0;                       // of all lattices
+  Real entities_ = 0;                 // so far
   const std::map<std::string, std::string>& overrides_;
 };
 

@@ -231,24 +231,24 @@ void CardReader::read_card(const DataLines& data, std::size_t card, EntrySink& s
     read_field(card, std::min(i, fields - 1), slices_[i], sink);
   if (spec_->cards[card].fields.back().rules.pairs && slices_.size() % 2 != 0)
     sink.set_integer(card, fields - 1, 0);
-  warn_of_cut_number(data.line(), spec_->cards[card], card);
-  if (too_many > 0)
+  if (!warn_of_cut_number(data.line(), spec_->cards[card], card) && too_many > 0)
     diagnostics_->warning(
         here(1),
         fmt::format("*{}: card {} has {} fields; values behind them ({}) are not read",
                     spec_->names[static_cast<std::size_t>(block_.match.name)], card + 1, fields, too_many));
 }
 
-void CardReader::warn_of_cut_number(std::string_view line, const CardSpec& spec, std::size_t card) {
+bool CardReader::warn_of_cut_number(std::string_view line, const CardSpec& spec, std::size_t card) {
   const std::size_t last = last_column(spec, block_.format);
   const FieldType type = spec.fields.back().type;
   if (type == FieldType::text || type == FieldType::texts || type == FieldType::skip ||
       !runs_across(line, last) || line.substr(0, last).find(',') != std::string_view::npos)
-    return;
+    return false;
   diagnostics_->warning(
       here(static_cast<int>(last)),
       fmt::format("*{}: a number runs across column {}, the last of card {}; what stands behind is not read",
                   spec_->names[static_cast<std::size_t>(block_.match.name)], last, card + 1));
+  return true;
 }
 
 /// Of a list of ids, whether a blank field or 0 has a place in it.

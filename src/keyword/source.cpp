@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "keyword/number.hpp"
+
 namespace courant {
 
 namespace {
@@ -15,6 +17,18 @@ Slice slice_of(std::string_view line, std::size_t begin, std::size_t end) {
   if (first == end) return {{}, static_cast<int>(begin) + 1};
   while (end > first && (line[end - 1] == ' ' || line[end - 1] == '\r')) --end;
   return {line.substr(first, end - first), static_cast<int>(first) + 1};
+}
+
+/// Numbers other than 0 that stand by themselves in the columns from `first` up to `end`: values of fields
+/// that the card has not, where comments behind the last column are words.
+int values_behind(std::string_view line, std::size_t first, std::size_t end, std::size_t width) {
+  int count = 0;
+  for (std::size_t column = first; column < std::min(line.size(), end); column += width) {
+    Real value = 0;
+    const Slice slice = slice_of(line, column, std::min(column + width, end));
+    if (!slice.text.empty() && parse_real(slice.text, value) && value != 0) ++count;
+  }
+  return count;
 }
 
 void split_commas(std::string_view line, std::vector<Slice>& slices) {
@@ -162,10 +176,16 @@ void split_card(std::string_view line, const CardSpec& card, CardFormat format, 
     if (slices.back().text.empty()) slices.back().column = static_cast<int>(column) + 1;
     column += width;
   }
+  const std::size_t cell = format == CardFormat::long_fields ? 20 : 10;
+  if (too_many && line.size() > total && !(list && card.fields.back().type == FieldType::texts))
+    *too_many = values_behind(line, total, list ? line.size() : 8 * cell, cell);
   if (!list) return;
   const auto width = static_cast<std::size_t>(field_width(card.fields.back(), format));
   for (; column < std::min(line.size(), total); column += width)
     slices.push_back(slice_of(line, column, column + width));
+  if (too_many && card.fields.back().type == FieldType::texts)
+    for (; column < line.size(); column += width)
+      *too_many += slice_of(line, column, column + width).text.empty() ? 0 : 1;
 }
 
 std::vector<Slice> split_equal(std::string_view line, int width, int limit) {

@@ -104,7 +104,7 @@ bool is_comma_line(std::string_view line, std::size_t columns);
 int field_width(const FieldSpec& field, CardFormat format);
 
 /// Cuts a data line into the card's fields; a list takes all further columns. `too_many`: fields of a comma
-/// line beyond the card's last.
+/// line beyond the card's last, or values in the columns behind it.
 void split_card(std::string_view line, const CardSpec& card, CardFormat format, std::vector<Slice>& slices,
                 int* too_many = nullptr);
 

@@ -17,6 +17,13 @@ struct WallFriction {
 
 inline constexpr Real von_karman = 0.41;
 
+/// Distance [L] at which a particle has its velocity, at least: a fifth of h, less than half of where a row
+/// stands at rest. What a particle's velocity is a mean over reaches farther from the wall than that, and a
+/// particle that passes an edge crosses the plane of a wall at no distance at all.
+inline Real distance_of_velocity(Real distance, Real h) {
+  return std::max(distance, Real(0.2) * h);
+}
+
 /// Friction velocity u* [L/T] of a wall along which the mean velocity at distance y is u >= 0: from
 ///   u/u* = ln(y/y0)/0.41,   y0 = 0.114 nu/u* + ks/32.6
 /// (Nikuradse's limits: 5.3 + ln(y u*/nu)/0.41 where the wall is smooth, 8.5 + ln(y/ks)/0.41 where it is

@@ -263,7 +263,8 @@ Real WallSupport::friction_coefficient(const Particles& p, Index i, Index face, 
   if (!law.log_law) return law.cf;
   const Vec n = surface_->away(face, p.x.vec(i)), u = p.v.vec(i) - wall, along = u - u.dot(n) * n;
   const Real speed = along.norm(), nu = mu_.empty() ? 0 : mu_[p.part[i]] / p.rho[i];
-  const Real u_star = friction_velocity(speed, surface_->distance(face, p.x.vec(i)), nu, law.ks);
+  const Real y = distance_of_velocity(surface_->distance(face, p.x.vec(i)), p.h[i]);
+  const Real u_star = friction_velocity(speed, y, nu, law.ks);
   return speed > 0 ? 2 * power<2>(u_star / speed) : 0;
 }
 

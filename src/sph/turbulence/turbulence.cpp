@@ -198,6 +198,7 @@ class Turbulence : public Material {
     Real y = std::numeric_limits<Real>::infinity();  ///< distance from the nearest wall [L]
     Real row = 0;     ///< 1 in the first row beside a wall that rubs, else 0 [-]
     Real u_star = 0;  ///< [L/T]
+    Real open = 0;    ///< 1 at a free surface, else 0 [-]; where LSURF asks for it
   };
 
   bool is_liquid(const Particles& p, Index i) const { return strength_.empty() || !strength_[p.part[i]]; }
@@ -229,10 +230,12 @@ class Turbulence : public Material {
     Flow flow;
     const Matrix L = corrected_gradient(i);
     flow.S = std::sqrt(0.5) * (L + L.transpose()).norm();
+    if (rules_.surface_length > 0)
+      flow.open = std::clamp((openness(p, i) - inside) / (at_surface - inside), Real(0), Real(1));
     if (!walls_) return flow;
     const NearestWall wall = walls_->nearest(p.x.vec(i));
     if (wall.segment < 0) return flow;
-    flow.y = wall.distance;
+    flow.y = distance_of_velocity(wall.distance, p.h[i]);
     const WallFriction& friction = friction_[static_cast<std::size_t>(wall.segment)];
     if (!friction.rubs() || flow.y > last_row * spacing_) return flow;
     const Vec u = p.v.vec(i) - wall.velocity, along = u - u.dot(wall.normal) * wall.normal;
@@ -242,6 +245,13 @@ class Turbulence : public Material {
     return flow;
   }
 
+  /// h |sum V grad W|: 0 within water and beside supporting walls, 0.7 in the row at a plane surface.
+  Real openness(const Particles& p, Index i) const {
+    Vec slope = fields_.slope.vec(i);
+    if (wall_slope_) slope += wall_slope_->vec(i);
+    return p.h[i] * slope.norm();
+  }
+
   Real algebraic(const Particles& p, Index i, const Flow& flow) const {
     if (rules_.model == TurbulenceModel::smagorinsky) {
       const Real width = std::pow(p.m[i] / p.rho[i], Real(1) / dim_);
@@ -249,12 +259,7 @@ class Turbulence : public Material {
       return l * l * flow.S;
     }
     Real l = std::min(rules_.kappa * flow.y, rules_.lmax);
-    if (rules_.surface > 0) {
-      Vec slope = fields_.slope.vec(i);
-      if (wall_slope_) slope += wall_slope_->vec(i);
-      const Real open = p.h[i] * slope.norm();
-      if (open > rules_.surface) l *= power<3>(rules_.surface / open);
-    }
+    if (rules_.surface > 0) l *= power<3>(std::min(Real(1), rules_.surface / openness(p, i)));
     return rules_.cmu * l * l * flow.S;
   }
 
@@ -263,6 +268,11 @@ class Turbulence : public Material {
     const Real past = 1 + (rules_.c2 - 1) * epsilon / k * time;
     const Real left = std::pow(past, -1 / (rules_.c2 - 1));
     k *= left, epsilon *= left / past;
+  }
+
+  Real nu_t_of(Real k, Real epsilon, Real S) const {
+    const Real nu_t = rules_.cmu * k * k / epsilon;
+    return rules_.limits_stress && S > 0 ? std::min(nu_t, std::sqrt(rules_.cmu) * k / S) : nu_t;
   }
 
   /// k and epsilon over the step that led here. Returns nu_t.
@@ -281,12 +291,16 @@ class Turbulence : public Material {
     if (flow.row > 0)
       new_epsilon += flow.row * (std::pow(rules_.cmu, 0.75) * std::pow(new_k, 1.5) / (rules_.kappa * flow.y) -
                                  new_epsilon);
+    if (flow.open > 0)
+      new_epsilon = std::max(
+          new_epsilon, flow.open * std::pow(rules_.cmu, 0.75) * std::pow(new_k, 1.5) / rules_.surface_length);
     k = new_k, epsilon = std::max(new_epsilon, least_epsilon_);
-    return rules_.cmu * k * k / epsilon;
+    return nu_t_of(k, epsilon, flow.S);
   }
 
   static constexpr const char* counter = "turbulent_energy_at_its_least";
   static constexpr Real least_moment = 0.15;              ///< 1/2 at a plane surface, 1/4 in a corner
+  static constexpr Real inside = 0.1, at_surface = 0.3;   ///< of h |sum V grad W|
   static constexpr Real whole_row = 0.9, last_row = 1.1;  ///< of the first row, in spacings from the wall
   int dim_;
   std::shared_ptr<const Neighbours> neighbours_;

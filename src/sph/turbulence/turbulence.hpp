@@ -13,6 +13,8 @@ struct CourantTurbulence : Entry {
   Id wallb = 0;
   int wallbtyp = 0;
   Real c1 = 0, c2 = 0, sigma_k = 0, sigma_e = 0, k = 0, epsilon = 0;
+  int limit = 0;
+  Real lsurf = 0;
 };
 
 /// *COURANT_TURBULENCE_INITIAL, ours: of the particles of a part, those of its inlets among them.
@@ -30,6 +32,8 @@ struct TurbulenceRules {
   Real surface = 0;  ///< SURF: a of the factor at surfaces; 0: none
   Real cs = 0.17;    ///< Smagorinsky's constant
   Real c1 = 1.44, c2 = 1.92, sigma_k = 1, sigma_e = 1.3;
+  bool limits_stress = false;    ///< LIMIT 1: nu_t |S| is at most sqrt(c_mu) k
+  Real surface_length = 0;       ///< LSURF: of eddies at free surfaces [L]; 0: free
   std::vector<Real> k, epsilon;  ///< per part, at the start; 0: the least there is [L2/T2], [L2/T3]
   std::vector<Index> walls;      ///< segments whose distance counts
   bool on() const { return model != TurbulenceModel::none; }

@@ -48,16 +48,28 @@ KeywordOf<T> courant_turbulence() {
                  {.check = Check::not_negative},
                  [](const T& c) { return c.wallbtyp == 2 ? IdSpace::part_set : IdSpace::part; }},
                 {"WALLBTYP", &T::wallbtyp, "-", "2 part set, 3 part", {.standard = 3, .allowed = {2, 3}}}}},
-          {.fields = {{"C1", &T::c1, "-", "of the production of epsilon", of(1.44)},
-                      {"C2", &T::c2, "-", "of its decay", of(1.92)},
-                      {"SIGK", &T::sigma_k, "-", "nu_t over the diffusivity of k", of(1)},
-                      {"SIGE", &T::sigma_e, "-", "nu_t over the diffusivity of epsilon", of(1.3)},
-                      {"K",
-                       &T::k,
-                       "L2/T2",
-                       "k at the start, of parts without a card of their own",
-                       {.check = Check::not_negative}},
-                      {"EPS", &T::epsilon, "L2/T3", "epsilon at the start", {.check = Check::not_negative}}},
+          {.fields =
+               {{"C1", &T::c1, "-", "of the production of epsilon", of(1.44)},
+                {"C2", &T::c2, "-", "of its decay", of(1.92)},
+                {"SIGK", &T::sigma_k, "-", "nu_t over the diffusivity of k", of(1)},
+                {"SIGE", &T::sigma_e, "-", "nu_t over the diffusivity of epsilon", of(1.3)},
+                {"K",
+                 &T::k,
+                 "L2/T2",
+                 "k at the start, of parts without a card of their own",
+                 {.check = Check::not_negative}},
+                {"EPS", &T::epsilon, "L2/T3", "epsilon at the start", {.check = Check::not_negative}},
+                {"LIMIT",
+                 &T::limit,
+                 "-",
+                 "of the shear stress, sqrt(c_mu) k: 0 in the production of k alone; 1 in nu_t, too",
+                 {.allowed = {0, 1}}},
+                {"LSURF",
+                 &T::lsurf,
+                 "L",
+                 "length of the largest eddies at free surfaces, about 0.07 of the depth: epsilon is at "
+                 "least c_mu^0.75 k^1.5/LSURF there; 0: free",
+                 {.check = Check::not_negative}}},
            .optional = true}}};
 }
 const RegisterKeyword<T> turbulence_keyword{courant_turbulence()};
@@ -106,6 +118,8 @@ void check_numbers(const Deck& deck, const T& c, const SphSettings& s, Diagnosti
   belongs_to(TurbulenceModel::mixing_length, "SURF", c.surface);
   belongs_to(TurbulenceModel::k_epsilon, "K", c.k);
   belongs_to(TurbulenceModel::k_epsilon, "EPS", c.epsilon);
+  belongs_to(TurbulenceModel::k_epsilon, "LIMIT", c.limit);
+  belongs_to(TurbulenceModel::k_epsilon, "LSURF", c.lsurf);
   if ((c.k > 0) != (c.epsilon > 0))
     deck.error(diagnostics, c, c.k > 0 ? "EPS" : "K", "K and EPS belong together",
                "give both, or none: epsilon = CMU^0.75 k^1.5/l with the length l of the largest eddies");
@@ -132,6 +146,8 @@ void read_turbulence(const Deck& deck, const Model& model, const World& world, S
        .c2 = c->c2,
        .sigma_k = c->sigma_k,
        .sigma_e = c->sigma_e,
+       .limits_stress = c->limit == 1,
+       .surface_length = c->lsurf,
        .k = std::vector<Real>(model.parts.size(), c->k),
        .epsilon = std::vector<Real>(model.parts.size(), c->epsilon),
        .walls = {}};

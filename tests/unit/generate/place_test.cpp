@@ -215,6 +215,30 @@ TEST(SceneBase, GivesParametersAndKeywordsBelowTheScenesOwn) {
             std::string::npos);
 }
 
+TEST(SceneBase, MayHaveBasesOfItsOwn) {
+  const fs::path folder = fs::temp_directory_path();
+  const fs::path base = folder / "courant_scene_base.yaml", deep = folder / "courant_scene_deep.yaml";
+  write(deep,
+        "parameters:\n  U: 7\n  c0: 10 * U\n  last: 2 * width\nkeywords: |\n  *COMMENT\n  deep ${c0} "
+        "${last}\n");
+  write(base,
+        "base: courant_scene_deep.yaml\nparameters:\n  U: 3 * speed\n  width: U + own\n"
+        "keywords: |\n  *COMMENT\n  base\n");
+  std::string text = "base: courant_scene_base.yaml\n" + with("keywords: |\n  *COMMENT\n  own ${seen}\n");
+  text.replace(text.find("U: 2"), 4, "speed: 2\n  own: 1\n  seen: last");
+  const Written w = written(text);
+  EXPECT_EQ(w.messages, "");
+  EXPECT_EQ(w.scene.keywords,
+            (std::vector<std::string>{"*COMMENT\ndeep 60 14\n", "*COMMENT\nbase\n", "*COMMENT\nown 14\n"}));
+  text.replace(text.find("courant_scene_base.yaml"), 23,
+               "[courant_scene_base.yaml, courant_scene_deep.yaml]");
+  EXPECT_EQ(written(text).scene.keywords, w.scene.keywords);  // each once
+  write(deep, "base: courant_scene_base.yaml\n");
+  EXPECT_NE(written("base: courant_scene_base.yaml\n" + with("")).messages.find("is a base of itself"),
+            std::string::npos);
+  fs::remove(base), fs::remove(deep);
+}
+
 TEST(SceneBase, GivesPartsAboveTheScenesOwn) {
   const fs::path base = fs::temp_directory_path() / "courant_scene_base.yaml";
   const auto plates = [](int id, const char* edge) {

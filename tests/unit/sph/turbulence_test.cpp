@@ -122,9 +122,11 @@ TEST(Turbulence, KAndEpsilonDecayAsTheClosedFormSays) {
 }
 
 /// Of a line of cells between y = -6 and 6: u, k, epsilon by finite volumes, explicit in small steps.
+/// `limited`: LIMIT 1.
 class Line {
  public:
-  Line(int n, const std::function<Real(Real)>& u, KEpsilon start) : n_(n), dy_(12. / n) {
+  Line(int n, const std::function<Real(Real)>& u, KEpsilon start, bool limited = false)
+      : n_(n), limited_(limited), dy_(12. / n) {
     for (int i = 0; i < n; ++i) u_.push_back(u(y(i)));
     k_.assign(u_.size(), start.k), e_.assign(u_.size(), start.epsilon);
   }
@@ -139,7 +141,13 @@ class Line {
   Real width() const { return place(std::sqrt(0.9)) - place(std::sqrt(0.1)); }
 
  private:
-  Real eddy(int i) const { return 0.09 * k_[i] * k_[i] / e_[i]; }
+  Real shear(int i) const {
+    return std::abs(u_[std::min(i + 1, n_ - 1)] - u_[std::max(i - 1, 0)]) / (2 * dy_);
+  }
+  Real eddy(int i) const {
+    const Real nu = 0.09 * k_[i] * k_[i] / e_[i], S = limited_ ? shear(i) : 0;
+    return S > 0 ? std::min(nu, 0.3 * k_[i] / S) : nu;
+  }
   Real most_eddy() const {
     Real most = 1e-6;
     for (int i = 0; i < n_; ++i) most = std::max(most, eddy(i));
@@ -167,7 +175,7 @@ class Line {
       flow(du, u_, 1), flow(dk, k_, 1), flow(de, e_, 1.3);
     }
     for (int i = 0; i < n_; ++i) {
-      const Real S = std::abs(u_[std::min(i + 1, n_ - 1)] - u_[std::max(i - 1, 0)]) / (2 * dy_);
+      const Real S = shear(i);
       const Real P = std::min(eddy(i) * S * S, 0.3 * k_[i] * S), per_k = e_[i] / k_[i];
       dk[i] += dt * (P - e_[i]), de[i] += dt * per_k * (1.44 * P - 1.92 * e_[i]);
     }
@@ -176,6 +184,7 @@ class Line {
     t_ += dt;
   }
   int n_;
+  bool limited_;
   Real dy_, t_ = 0;
   std::vector<Real> u_, k_, e_;
 };
@@ -204,12 +213,15 @@ TEST(Turbulence, AUniformShearFeedsKAsTheEquationsSay) {
   EXPECT_GT(seen, 200);
 }
 
-TEST(Turbulence, AMixingLayerGrowsAsOnALine) {
+class MixingLayer : public testing::TestWithParam<bool> {};
+
+TEST_P(MixingLayer, GrowsAsOnALine) {
+  const bool limited = GetParam();  // LIMIT 1; |S| k/epsilon begins at 5, the limit is from 10/3 on
   const auto u = [](Real y) { return std::tanh(y); };
   const KEpsilon start{0.1, 0.02};
-  const auto s =
-      test::build_deck(layer(u, turbulence("2", fmt::format(",,,,{},{}", start.k, start.epsilon))), false);
-  Line line(240, u, start);
+  const auto s = test::build_deck(
+      layer(u, turbulence("2", fmt::format(",,,,{},{},{}", start.k, start.epsilon, limited ? 1 : 0))), false);
+  Line line(240, u, start, limited);
   run_whole(*s, 6), line.advance(s->clock().t);
   const Particles& p = s->world().particles;
   std::array<Real, 24> error{}, change{}, count{};  // by height, since particles get out of their rows
@@ -225,13 +237,30 @@ TEST(Turbulence, AMixingLayerGrowsAsOnALine) {
   }
   // Rows that slide along each other in order keep a ripple of 1 % and less.
   EXPECT_LT(largest_error, 0.02);
-  EXPECT_GT(largest_change, 0.15);
+  EXPECT_GT(largest_change, limited ? 0.12 : 0.15);
   for (Index i = 0; i < p.active; ++i) {
     const Real k = line.k_at(p.x.vec(i)[1]);
     EXPECT_NEAR(sph_fields::turbulent_energy(s->world().particles)[i], k, 0.02 * k);
   }
   const EnergyLedger e = s->sample("").energy;
   EXPECT_NEAR(e.residual(), 0, 0.01 * e.dissipated);
+}
+INSTANTIATE_TEST_SUITE_P(ProductionAndStress, MixingLayer, testing::Values(false, true));
+
+TEST(Turbulence, LimitedStressIsAShareOfK) {
+  const Real shear = 0.5;
+  const auto s =
+      test::build_deck(layer([&](Real y) { return shear * y; }, turbulence("2", ",,,,0.01,0.001,1")), false);
+  run_whole(*s, 0.05);
+  Particles& p = s->world().particles;
+  int seen = 0;
+  for (Index i = 0; i < p.active; ++i) {
+    if (std::abs(p.x.vec(i)[1]) > 3) continue;
+    const Real k = sph_fields::turbulent_energy(p)[i];
+    ASSERT_NEAR(sph_fields::eddy_viscosity(p)[i], 0.3 * k / shear, 0.01 * k / shear);  // not 0.09 k^2/epsilon
+    ++seen;
+  }
+  EXPECT_GT(seen, 200);
 }
 
 TEST(Turbulence, OfKEpsilonHasTheGrowthOfAMixingLayerInBooks) {
@@ -324,12 +353,29 @@ TEST(Turbulence, LengthsEndAtTheNearestWallAndAtTheSurface) {
   }
 }
 
+TEST(Turbulence, EddiesAtTheSurfaceAreNoLongerThanTold) {
+  const Real ls = 0.07, ks = 0.01;
+  const auto s = test::build_deck(open_channel(20, ks, turbulence("2", ",,,,3.,5.,0,0.07")), false);
+  const auto free = test::build_deck(open_channel(20, ks, turbulence("2", ",,,,3.,5.")), false);
+  run_whole(*s, 0.02), run_whole(*free, 0.02);
+  Particles &p = s->world().particles, &q = free->world().particles;
+  for (Index i = 0; i < p.active; ++i) {
+    const Real y = p.x.vec(i)[1], k = sph_fields::turbulent_energy(p)[i];
+    const Real length = std::pow(0.09, 0.75) * std::pow(k, 1.5) / sph_fields::turbulent_dissipation(p)[i];
+    if (y > 0.96) EXPECT_NEAR(length, ls, 1e-6) << y;
+    if (y < 0.5)
+      EXPECT_NEAR(sph_fields::turbulent_dissipation(p)[i], sph_fields::turbulent_dissipation(q)[i],
+                  1e-3 * sph_fields::turbulent_dissipation(q)[i])
+          << y;
+  }
+}
+
 TEST(Turbulence, HasTheSameBitsOnAnyThreadsAndAfterARestart) {
   const auto u = [](Real y) { return std::tanh(y) + 0.01 * std::sin(9 * y); };
   for (const char* model : {"1,0.09,0.41,0.4,0.15", "3"})
     test::expect_same_bits(layer(u, turbulence(model)), 60, 25);
   test::expect_same_bits(layer(u, turbulence("2", ",,,,0.1,0.02")), 60, 25);
-  test::expect_same_bits(open_channel(20, 0.01, turbulence("2", ",,,,3.,5.")), 60, 25);
+  test::expect_same_bits(open_channel(20, 0.01, turbulence("2", ",,,,3.,5.,1,0.07")), 60, 25);
 }
 }  // namespace
 }  // namespace courant

@@ -381,6 +381,31 @@ TEST(WallSupport, FrictionIsHalfRhoVSquaredTimesCf) {
   EXPECT_NEAR(drag / (-0.5 * 1000 * 4 * 0.004 * 1.2), 1, 0.02);
 }
 
+/// The force along an upright wall whose upper edge is under the lowest row, on the column that rises `past`
+/// beside its plane.
+Real rubbed_by_a_wall_below(Real past) {
+  test::SmallScene scene;
+  scene.material = "1,1000.,-1.E20,1.E-3";
+  scene.start = "0.,2.,0.";
+  scene.extra = fmt::format(
+      "*NODE\n9001,{0},0.,-2.\n9002,{0},0.,3.\n9003,{0},-2.,3.\n9004,{0},-2.,-2.\n"
+      "*ELEMENT_SHELL\n1,2,9001,9002,9003,9004\n*PART\nstep\n2,2,2\n*SECTION_SHELL\n2,2\n0.05\n"
+      "*MAT_RIGID\n2,7850.,2.1E11,0.3\n1,7,7\n*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n1,2,3,3\n0.\n1\n"
+      "*COURANT_WALL_SUPPORT\n2,3,0,0,1\n",
+      0.05 - past);
+  const auto s = test::build_deck(scene.text(), false);
+  std::string who;
+  s->evaluate(who);
+  const Particles& p = s->world().particles;
+  return p.f.vec(at(p, Vec(0.05, 0.05, 0)))[1] - p.f.vec(at(p, Vec(0.55, 0.05, 0)))[1];
+}
+
+TEST(WallSupport, AParticleInThePlaneOfAWallIsNotAtTheWall) {
+  const Real beside = rubbed_by_a_wall_below(0.01), in_plane = rubbed_by_a_wall_below(1e-10);
+  EXPECT_LT(beside, -0.1);
+  EXPECT_NEAR(in_plane / beside, 1, 0.05);
+}
+
 TEST(WallSupport, ADropOfOneOrTwoParticlesIsNotHeldByItsMirrorImage) {
   for (const std::string second : {"", "*NODE\n2,0.15,0.05,0.\n*ELEMENT_SPH\n2,1,10.\n"}) {
     test::SmallScene scene;
