@@ -35,7 +35,7 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
   add_contacts_of_nodes(diagnostics);
   if (!add_joint_stiffness(deck_, model_, bodies_, world_, diagnostics))
     left_out_.push_back({"joint stiffness", "no *CONSTRAINED_JOINT_STIFFNESS"});
-  if (!add_joints(deck_, bodies_, world_, diagnostics))
+  if (!add_joints(deck_, model_, bodies_, world_, diagnostics))
     left_out_.push_back({"joints", "no *CONSTRAINED_JOINT"});
   if (const auto sets = make_node_sets(deck_, model_, world_, diagnostics))
     world_.passes.add(sets);
