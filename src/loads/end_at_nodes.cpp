@@ -85,15 +85,17 @@ const RegisterAddition end_at_node{
     }};
 
 struct TerminationDeleted : Entry {
-  Id pid = 0, nds = 0;
+  Id pid = 0;
+  int nds = 0;
 };
 
 const RegisterKeyword<TerminationDeleted> termination_deleted{
     {.names = {"TERMINATION_DELETED_SHELLS", "TERMINATION_DELETED_SOLIDS"},
      .purpose = "the run ends when so many elements of a part are deleted",
      .cards = {
-         {.fields = {{"PID", &TerminationDeleted::pid, "-", "part", rules::required_id_of(IdSpace::part)},
-                     {"NDS", &TerminationDeleted::nds, "-", "number of elements", rules::required_id}}}}}};
+         {.fields = {
+              {"PID", &TerminationDeleted::pid, "-", "part", rules::required_id_of(IdSpace::part)},
+              {"NDS", &TerminationDeleted::nds, "-", "number of elements", rules::required_positive}}}}}};
 
 class EndAtDeletions : public Ending {
  public:

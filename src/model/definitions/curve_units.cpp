@@ -21,6 +21,7 @@ constexpr CurveDimensions known[] = {
     {"LOAD_RIGID_BODY", "LCID", "T", "ML/T2"},
     {"LOAD_SEGMENT", "LCID", "T", "M/LT2"},
     {"LOAD_SEGMENT_SET", "LCID", "T", "M/LT2"},
+    {"LOAD_SHELL_ELEMENT", "LCID", "T", "M/LT2"},
     {"DAMPING_GLOBAL", "LCID", "T", "1/T"},
     {"DAMPING_PART_MASS", "LCID", "T", "1/T"},
     {"CONTROL_TIMESTEP", "LCTM", "T", "T"},
