@@ -7,6 +7,7 @@
 #include "app/field_options.hpp"
 #include "app/resources.hpp"
 #include "app/restart.hpp"
+#include "app/run_ends.hpp"
 #include "app/run_outputs.hpp"
 #include "app/run_summary.hpp"
 #include "app/sense_switches.hpp"
@@ -265,17 +266,9 @@ class Run {
   }
 
   void loop() {
-    const Id endcyc = s_.model().endcyc;
+    const RunEnds ends(s_, options_.stop);
     while (s_.clock().t < end_) {
-      if (options_.stop && options_.stop->load()) {
-        summary_.termination = "interrupted";
-        summary_.reason = fmt::format("stopped by a signal at time {:.6g}", s_.clock().t);
-        return;
-      }
-      if (endcyc > 0 && s_.clock().cycle >= endcyc) {
-        summary_.reason = "termination cycle reached";
-        return;
-      }
+      if (const auto end = ends.reached(cpu_seconds() - cpu_start_)) return stop_at(*end);
       s_.step([this](World& world, const Clock& clock, const std::string& who) {
         at_time_level(world, clock, who);
       });
@@ -287,6 +280,12 @@ class Run {
       if (options_.choose_threads) choose_threads();
     }
     summary_.reason = "termination time reached";
+  }
+
+  void stop_at(const RunEnd& end) {
+    summary_.reason = end.reason;
+    if (end.interrupted) summary_.termination = "interrupted";
+    if (end.wants_restart) write_restart(restart_schedule_.next_dump());
   }
 
   void at_time_level(World& world, const Clock& clock, const std::string& who) {

@@ -30,12 +30,12 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
           deck_, model_, bodies_ ? bodies_->wall_bodies(world_) : WallBodies{}, world_, diagnostics))
     world_.passes.add(pressure);
   else
-    left_out_.push_back({"pressure on segments", "no *LOAD_SEGMENT"});
+    left_out_.push_back({"pressure on segments", "no *LOAD_SEGMENT, no *LOAD_SHELL"});
   if (bodies_move && moves_all_by_bodies()) world_.passes.add(make_body_time_limit(bodies_, model_.endtim));
   add_contacts_of_nodes(diagnostics);
   if (!add_joint_stiffness(deck_, model_, bodies_, world_, diagnostics))
     left_out_.push_back({"joint stiffness", "no *CONSTRAINED_JOINT_STIFFNESS"});
-  if (!add_joints(deck_, bodies_, world_, diagnostics))
+  if (!add_joints(deck_, model_, bodies_, world_, diagnostics))
     left_out_.push_back({"joints", "no *CONSTRAINED_JOINT"});
   if (const auto sets = make_node_sets(deck_, model_, world_, diagnostics))
     world_.passes.add(sets);

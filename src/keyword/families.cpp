@@ -75,7 +75,6 @@ constexpr Family families[] = {
     {"CONTROL_COARSEN", "adaptive meshes"},
     {"CONTROL_COUPLING", "couplings to other programs"},
     {"CONTROL_CPM", "corpuscular gas particles"},
-    {"CONTROL_CPU", "limits of CPU time"},
     {"CONTROL_DISCRETE_ELEMENT", "discrete element spheres"},
     {"CONTROL_DYNAMIC_RELAXATION", "dynamic relaxations"},
     {"CONTROL_EFG", "element-free Galerkin methods"},
@@ -206,7 +205,7 @@ constexpr Family families[] = {
     {"SET_SOLID", "sets of solid elements"},
     {"SPH", "this SPH keyword"},
     {"STOCHASTIC", "stochastic particles"},
-    {"TERMINATION", "criteria of termination"},
+    {"TERMINATION", "this criterion of termination"},
     {"TRANSLATE", "translations of other formats"},
     {"USER", "user subroutines"},
 };
@@ -222,8 +221,8 @@ bool begins_with_words(const std::string& text, const std::string& words) {
 bool is_known(const std::string& name) {
   for (const char* known :
        {"DATABASE_RWFORC", "DATABASE_PBSTAT", "DATABASE_ACEOUT", "BOUNDARY_SPC_SYMMETRY_PLANE", "CONTROL_CPM",
-        "CONTROL_CPU", "ELEMENT_TSHELL", "LOAD_BODY_RX", "LOAD_BODY_RY", "LOAD_BODY_RZ", "SECTION_FPD",
-        "SECTION_TSHELL", "SET_MODE", "SET_NODE_GENERAL"})
+        "ELEMENT_TSHELL", "LOAD_BODY_RX", "LOAD_BODY_RY", "LOAD_BODY_RZ", "SECTION_FPD", "SECTION_TSHELL",
+        "SET_MODE", "SET_NODE_GENERAL"})
     if (begins_with_words(name, known)) return true;
   return find_law(name) || has_law_number(name);
 }

@@ -1,4 +1,4 @@
-// *LOAD_SEGMENT and _SET: pressure on faces between nodes.
+// *LOAD_SEGMENT and _SET, *LOAD_SHELL_ELEMENT and _SET: pressure on faces between nodes.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -80,6 +80,38 @@ const RegisterKeyword<SegmentSet> load_segment_set_keyword{
                            {"SF", &SegmentSet::sf, "-", "scale of the curve", rules::or_blank(1)},
                            {"AT", &SegmentSet::at, "T", "time at which the curve begins, no pressure before",
                             arrival}}}}}};
+
+struct LoadShell : Entry {
+  std::string title;
+  Id id = 0, eid = 0, lcid = 0;
+  Real sf = 1, at = 0;
+  bool is_set() const { return name == 1; }  ///< names stand in this order
+};
+
+IdSpace shells_of(const LoadShell& card) {
+  return card.is_set() ? IdSpace::shell_set : IdSpace::shell;
+}
+
+/// The normal of a shell that is mirrored with its file is on the other side.
+std::string keep_shell_side(LoadShell& card, const Affine& motion) {
+  if (motion.linear().determinant() < 0) card.sf = -card.sf;
+  return {};
+}
+
+const RegisterKeyword<LoadShell> load_shell_keyword{
+    {.names = {"LOAD_SHELL_ELEMENT", "LOAD_SHELL_SET"},
+     .purpose = "pressure on shells; where positive against their normal, as by *LOAD_SEGMENT",
+     .id_option = true,
+     .title = &LoadShell::title,
+     .id = &LoadShell::id,
+     .cards = {{.fields = {{"EID", &LoadShell::eid, "-", "shell, or set of shells", rules::required_id,
+                            shells_of},
+                           {"LCID", &LoadShell::lcid, "-", "curve of the pressure over time",
+                            rules::required_id_of(IdSpace::curve)},
+                           {"SF", &LoadShell::sf, "-", "scale of the curve", rules::or_blank(1)},
+                           {"AT", &LoadShell::at, "T", "time at which the curve begins, no pressure before",
+                            arrival}}}},
+     .move = keep_shell_side}};
 
 /// A pressure and where it acts: corners as nodes of the world, of a triangle the third again.
 struct PressureFace {
@@ -189,10 +221,41 @@ class PressureReader {
       if (!add_face(card, "SSID", id)) return;
     }
   }
+  void add(const LoadShell& card) {
+    std::vector<Index> shells;
+    if (card.is_set()) {
+      const auto set = model_.shell_sets.find(card.eid);
+      if (set == model_.shell_sets.end())
+        return deck_.error(diagnostics_, card, "EID", fmt::format("shell set {} does not exist", card.eid),
+                           "define it with *SET_SHELL_LIST");
+      shells = set->second;
+    } else {
+      const auto found = shell_of(card.eid);
+      if (found < 0)
+        return deck_.error(diagnostics_, card, "EID", fmt::format("shell {} does not exist", card.eid),
+                           "define it with *ELEMENT_SHELL");
+      shells.push_back(found);
+    }
+    if (!add_load(card, card.lcid, card.sf, card.at)) return;
+    for (const Index s : shells) {
+      const auto& node = model_.shells[static_cast<std::size_t>(s)].node;
+      std::array<Id, 4> id{};
+      for (std::size_t c = 0; c < 4; ++c) id[c] = model_.nodes[static_cast<std::size_t>(node[c])].id;
+      if (!add_face(card, "EID", id)) return;
+    }
+  }
   std::vector<PressureLoad> loads;
   std::vector<PressureFace> faces;
 
  private:
+  /// Index into Model::shells; -1: there is none.
+  Index shell_of(Id id) {
+    if (shell_of_id_.empty())
+      for (std::size_t s = 0; s < model_.shells.size(); ++s)
+        shell_of_id_.emplace(model_.shells[s].id, static_cast<Index>(s));
+    const auto found = shell_of_id_.find(id);
+    return found == shell_of_id_.end() ? -1 : found->second;
+  }
   template <class Card>
   bool add_load(const Card& card, Id lcid, Real sf, Real at) {
     const Curve* curve = curve_named(deck_, model_, card, "LCID", lcid, diagnostics_);
@@ -226,7 +289,7 @@ class PressureReader {
   const Deck& deck_;
   const Model& model_;
   Diagnostics& diagnostics_;
-  std::map<Id, Index> world_node_;
+  std::map<Id, Index> world_node_, shell_of_id_;
 };
 
 }  // namespace
@@ -235,16 +298,19 @@ std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& mode
                                              World& world, Diagnostics& diagnostics) {
   const auto& segments = deck.all<LoadSegment>();
   const auto& sets = deck.all<LoadSegmentSet>();
-  if (segments.empty() && sets.empty()) return nullptr;
+  const auto& shells = deck.all<LoadShell>();
+  if (segments.empty() && sets.empty() && shells.empty()) return nullptr;
   PressureReader reader(deck, model, world, diagnostics);
   for (const LoadSegment& card : segments) reader.add(card);
   for (const LoadSegmentSet& card : sets) reader.add(card);
+  for (const LoadShell& card : shells) reader.add(card);
   if (reader.faces.empty()) return nullptr;
   if (shared_fields::eroded.find(world.segments.fields))
-    diagnostics.warning(
-        deck.where(segments.empty() ? static_cast<const Entry&>(sets.front()) : segments.front()),
-        "elements may fail: the pressure goes on to push the nodes of faces that are deleted",
-        "end it by its curve");
+    diagnostics.warning(deck.where(!segments.empty() ? static_cast<const Entry&>(segments.front())
+                                   : !sets.empty()   ? static_cast<const Entry&>(sets.front())
+                                                     : shells.front()),
+                        "elements may fail: the pressure goes on to push the nodes of faces that are deleted",
+                        "end it by its curve");
   return std::make_shared<SegmentPressure>(std::move(reader.loads), std::move(reader.faces), bodies, world);
 }
 

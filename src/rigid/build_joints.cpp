@@ -8,7 +8,9 @@
 #include <map>
 #include <set>
 
+#include "model/definitions/named_curve.hpp"
 #include "rigid/joint_cards.hpp"
+#include "rigid/place_gears.hpp"
 
 namespace courant {
 
@@ -18,9 +20,9 @@ constexpr std::array joint_fields{"N1", "N2", "N3", "N4", "N5", "N6"};
 
 class JointReader {
  public:
-  JointReader(const Deck& deck, const std::vector<RigidBody>& bodies, const World& world,
+  JointReader(const Deck& deck, const Model& model, const std::vector<RigidBody>& bodies, const World& world,
               Diagnostics& diagnostics)
-      : deck_(deck), bodies_(bodies), world_(world), diagnostics_(diagnostics) {
+      : deck_(deck), model_(model), bodies_(bodies), world_(world), diagnostics_(diagnostics) {
     for (Index n = 0; n < world.nodes.size(); ++n) node_[world.nodes.id[n]] = n;
     for (std::size_t b = 0; b < bodies.size(); ++b)
       for (const Index n : bodies[b].nodes) body_[n] = b;
@@ -33,6 +35,14 @@ class JointReader {
         deck_.warning(diagnostics_, card, field,
                       fmt::format("{:g} has no effect: joints hold exactly, without a penalty", value),
                       "leave it out");
+    if (is_gear(joint.kind) && card.parm == 0) {
+      const bool rack = joint.kind == JointKind::rack_and_pinion;
+      deck_.error(diagnostics_, card, "PARM",
+                  rack ? "a pinion without a radius does not move its rack" : "wheels without a ratio",
+                  rack ? "give how far the rack moves for a turn of the pinion by one radian"
+                       : "give R2/R1: how many times as fast the first body turns");
+      return false;
+    }
     if (joint.kind == JointKind::screw && card.parm == 0) {
       deck_.error(diagnostics_, card, "PARM", "a screw without advance does not tie turning to moving",
                   "give how far it moves for a turn by one radian, or take *CONSTRAINED_JOINT_REVOLUTE");
@@ -41,12 +51,15 @@ class JointReader {
     const std::size_t nodes = 2 * pairs_of(joint.kind);
     for (std::size_t k = 0; k < nodes; ++k)
       if (!read_node(card, k)) return false;
-    for (std::size_t k = nodes; k < joint_fields.size(); ++k)
+    const bool others = is_motor(joint.kind) || is_gear(joint.kind);  // may be given, tell what is known
+    for (std::size_t k = nodes; k < joint_fields.size() && !others; ++k)
       if (card.nodes()[k] != 0)
         deck_.warning(diagnostics_, card, joint_fields[k],
                       fmt::format("a {} joint has {} nodes: it does nothing", joint_name(joint.kind), nodes),
                       "leave it out");
-    return read_bodies(card, joint, nodes) && read_places(card, joint);
+    if (!read_bodies(card, joint, nodes)) return false;
+    if (is_motor(joint.kind) && !read_drive(card, joint)) return false;
+    return others ? read_apart(card, joint) : read_places(card, joint);
   }
 
  private:
@@ -117,6 +130,36 @@ class JointReader {
                  "the nodes of a pair must be at the same place at the start");
   }
 
+  bool read_drive(const JointCard& card, Joint& joint) {
+    const Curve* curve = curve_named(deck_, model_, card, "LCID", card.lcid, diagnostics_);
+    if (!curve) return false;
+    joint.drive.kind = static_cast<PrescribedMotion::Kind>(card.type);
+    joint.drive.curve = *curve;
+    joint.drive.sense = joint.kind == JointKind::rotational_motor ? card.sense : 1;
+    const auto& x = curve->abscissa;
+    bool jump = false;
+    for (std::size_t k = 1; k < x.size(); ++k)
+      jump = jump || (x[k] == x[k - 1] && curve->ordinate[k] != curve->ordinate[k - 1]);
+    if (!jump || joint.drive.kind != PrescribedMotion::Kind::displacement) return true;
+    deck_.error(
+        diagnostics_, card, "LCID",
+        fmt::format("curve {} jumps, so that displacements would need an infinite velocity", card.lcid),
+        "give the jump some time");
+    return false;
+  }
+
+  /// Gears and motors, whose nodes are at places of their own.
+  bool read_apart(const JointCard& card, Joint& joint) {
+    JointPlaces places;
+    places.sixth = joint.kind == JointKind::rack_and_pinion && card.n6 != 0;
+    if (places.sixth && !read_node(card, 5)) return false;
+    places.x = place_, places.size = own_size(joint);
+    joint.at_a = place_[0] - bodies_[joint.a].x, joint.at_b = place_[1] - bodies_[joint.b].x;
+    const auto fault =
+        is_motor(joint.kind) ? place_motor(card, places, joint) : place_gears(card, places, joint);
+    return fault ? error(card, fault->node, fault->message, fault->hint) : true;
+  }
+
   bool read_places(const JointCard& card, Joint& joint) {
     const RigidBody &a = bodies_[joint.a], &b = bodies_[joint.b];
     Real size = own_size(joint);
@@ -172,6 +215,7 @@ class JointReader {
   }
 
   const Deck& deck_;
+  const Model& model_;
   const std::vector<RigidBody>& bodies_;
   const World& world_;
   Diagnostics& diagnostics_;
@@ -183,12 +227,12 @@ class JointReader {
 
 }  // namespace
 
-bool add_joints(const Deck& deck, std::shared_ptr<RigidBodies> bodies, World& world,
+bool add_joints(const Deck& deck, const Model& model, std::shared_ptr<RigidBodies> bodies, World& world,
                 Diagnostics& diagnostics) {
   const auto& cards = deck.all<JointCard>();
   if (cards.empty()) return false;
   const std::vector<RigidBody> none;
-  JointReader reader(deck, bodies ? bodies->bodies() : none, world, diagnostics);
+  JointReader reader(deck, model, bodies ? bodies->bodies() : none, world, diagnostics);
   std::vector<Joint> joints;
   std::set<Id> taken;
   for (const JointCard& card : cards) taken.insert(card.id);
@@ -210,13 +254,21 @@ bool add_joints(const Deck& deck, std::shared_ptr<RigidBodies> bodies, World& wo
   const auto pass = std::make_shared<Joints>(std::move(joints), bodies);
   const auto [before, after, worst] = pass->make_start_consistent(world);
   constexpr Real rounding = 1e-6;
-  if (std::abs(before - after) > rounding * std::max(before, after))
+  const bool motors = std::any_of(pass->all().begin(), pass->all().end(),
+                                  [](const Joint& joint) { return is_motor(joint.kind); });
+  if (motors && std::abs(before - after) > rounding * std::max(before, after))
     deck.warning(
         diagnostics, cards[worst], "",
-        fmt::format("velocities at the start do not fit the joints: {:.4g} of {:.4g} of kinetic energy "
-                    "[ML2/T2] is lost, as in a plastic impact",
-                    before - after, before),
-        "give the bodies velocities with which the nodes of joints move together");
+        fmt::format("velocities at the start do not fit the joints and motors: kinetic energy [ML2/T2] "
+                    "changes from {:.4g} to {:.4g} at once",
+                    before, after),
+        "give the bodies velocities that fit, or let the curve of the motor begin with what they have");
+  else if (std::abs(before - after) > rounding * std::max(before, after))
+    deck.warning(diagnostics, cards[worst], "",
+                 fmt::format("velocities at the start do not fit the joints: {:.4g} of {:.4g} of kinetic "
+                             "energy [ML2/T2] is lost, as in a plastic impact",
+                             before - after, before),
+                 "give the bodies velocities with which the nodes of joints move together");
   bodies->tie(pass.get());
   world.passes.add(pass);
   return true;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "rigid/joint_gears.hpp"
+
 namespace courant {
 
 namespace {
@@ -45,10 +47,15 @@ std::size_t pairs_of(JointKind kind) {
     case JointKind::cylindrical:
     case JointKind::planar:
     case JointKind::universal:
+    case JointKind::rotational_motor:
+    case JointKind::translational_motor:
+    case JointKind::rack_and_pinion:
+    case JointKind::pulley:
       return 2;
     case JointKind::translational:
     case JointKind::locking:
     case JointKind::screw:
+    case JointKind::gears:
       return 3;
   }
   return 0;
@@ -68,13 +75,21 @@ std::size_t rows_of(JointKind kind) {
       return 5;
     case JointKind::locking:
       return 6;
+    case JointKind::rotational_motor:
+    case JointKind::translational_motor:
+    case JointKind::gears:
+    case JointKind::rack_and_pinion:
+    case JointKind::pulley:
+      return 1;
   }
   return 0;
 }
 
 const char* joint_name(JointKind kind) {
-  constexpr std::array names{"spherical", "revolute",      "cylindrical", "planar",
-                             "universal", "translational", "locking",     "screw"};
+  constexpr std::array names{
+      "spherical",     "revolute",        "cylindrical", "planar",           "universal",
+      "translational", "locking",         "screw",       "rotational motor", "translational motor",
+      "gear",          "rack and pinion", "pulley"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -105,6 +120,15 @@ void each_row(JointKind kind, const Rows& rows) {
       return together(), parallel(), rows.cosine(0, 1);
     case JointKind::screw:
       return on_axis(), parallel(), rows.advance();
+    case JointKind::rotational_motor:
+      return rows.driven_turn();
+    case JointKind::translational_motor:
+      return rows.driven_way();
+    case JointKind::gears:
+    case JointKind::pulley:
+      return rows.gears();
+    case JointKind::rack_and_pinion:
+      return rows.rack();
   }
 }
 
@@ -125,32 +149,40 @@ struct Rows {
     row.w_a += joint.advance * e, row.w_b -= joint.advance * e;
     out.push_back(row);
   }
+  /// The gradient of the angle holds for axes that are not parallel, too.
+  void driven_turn() const {
+    const JointRow cosine = now.cosine(0, 0), sine = now.cosine(1, 0);
+    const Real size2 = cosine.c * cosine.c + sine.c * sine.c;
+    out.push_back({.c = turn_of(joint, a, b, joint.turned) - joint.driven,
+                   .w_a = (cosine.c * sine.w_a - sine.c * cosine.w_a) / size2,
+                   .w_b = (cosine.c * sine.w_b - sine.c * cosine.w_b) / size2,
+                   .angle = true});
+  }
+  void driven_way() const {
+    JointRow row = now.apart(2);
+    row.c -= joint.start + joint.driven;
+    out.push_back(row);
+  }
+  void gears() const { out.push_back(PlacedGears(joint, a, b).row(joint)); }
+  void rack() const { out.push_back(PlacedRack(joint, a, b).row(joint)); }
 };
-
-/// By how much a turn changes a vector.
-Vec turning(const Vec& angle, const Vec& r) {
-  const Real half = 0.5 * angle.norm();
-  if (half == 0) return Vec::Zero();
-  const Real sine = std::sin(half) / half;
-  const Vec first = angle.cross(r);
-  return sine * std::cos(half) * first + 0.5 * sine * sine * angle.cross(first);
-}
 
 /// How the equations change over a step, from products of what changes: no difference of large numbers.
 struct Changes {
   const Joint& joint;
+  const BodyPose &a, &b;
+  const BodyStep &step_a, &step_b;
   const PlacedJoint& now;
   std::vector<Real>& out;
   Vec d = Vec::Zero();  ///< changes of PlacedJoint's
   Matrix axes_a = Matrix::Zero(), axes_b = Matrix::Zero();
 
-  Changes(const Joint& of, const PlacedJoint& placed, const BodyStep& a, const BodyStep& b,
-          std::vector<Real>& to)
-      : joint(of), now(placed), out(to) {
-    d = (b.way - a.way) + (turning(b.angle, now.arm_b) - turning(a.angle, now.arm_a));
+  /// Once the others are set.
+  void find() {
+    d = (step_b.way - step_a.way) + (turning(step_b.angle, now.arm_b) - turning(step_a.angle, now.arm_a));
     for (int k = 0; k < 3; ++k) {
-      axes_a.col(k) = turning(a.angle, now.axes_a.col(k));
-      axes_b.col(k) = turning(b.angle, now.axes_b.col(k));
+      axes_a.col(k) = turning(step_a.angle, now.axes_a.col(k));
+      axes_b.col(k) = turning(step_b.angle, now.axes_b.col(k));
     }
   }
   void apart_globally(int k) const { out.push_back(d[k]); }
@@ -161,12 +193,16 @@ struct Changes {
            (now.axes_a.col(of_a) + axes_a.col(of_a)).dot(axes_b.col(of_b));
   }
   void cosine(int of_a, int of_b) const { out.push_back(of_cosine(of_a, of_b)); }
-  void advance() const {
+  Real turn() const {
     const Real c = now.axes_a.col(0).dot(now.axes_b.col(0)), s = now.axes_a.col(1).dot(now.axes_b.col(0));
     const Real dc = of_cosine(0, 0), ds = of_cosine(1, 0);
-    const Real turn = std::atan2(ds * c - dc * s, c * (c + dc) + s * (s + ds));
-    out.push_back(along(2) - joint.advance * turn);
+    return std::atan2(ds * c - dc * s, c * (c + dc) + s * (s + ds));
   }
+  void advance() const { out.push_back(along(2) - joint.advance * turn()); }
+  void driven_turn() const { out.push_back(turn() - joint.coming); }
+  void driven_way() const { out.push_back(along(2) - joint.coming); }
+  void gears() const { out.push_back(PlacedGears(joint, a, b).change(joint, step_a, step_b)); }
+  void rack() const { out.push_back(PlacedRack(joint, a, b).change(joint, step_a, step_b)); }
 };
 
 }  // namespace
@@ -179,7 +215,9 @@ void add_rows(const Joint& joint, const BodyPose& a, const BodyPose& b, std::vec
 void add_changes(const Joint& joint, const BodyPose& a, const BodyPose& b, const BodyStep& step_a,
                  const BodyStep& step_b, std::vector<Real>& changes) {
   const PlacedJoint now(joint, a, b);
-  each_row(joint.kind, Changes(joint, now, step_a, step_b, changes));
+  Changes rows{joint, a, b, step_a, step_b, now, changes};
+  rows.find();
+  each_row(joint.kind, rows);
 }
 
 Real turn_of(const Joint& joint, const BodyPose& a, const BodyPose& b, Real near) {

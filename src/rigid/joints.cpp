@@ -164,8 +164,10 @@ void Joints::find_rooms(const std::vector<JointRow>& rows) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const auto [coordinates, own] = sizes(joints_[j]);
     for (Index k = first_row_[j]; k < first_row_[j + 1]; ++k) {
-      const bool length = !rows[static_cast<std::size_t>(k)].v_a.isZero(0);
-      room_.push_back(round_off * (length ? coordinates : 1));
+      const bool length = rows[static_cast<std::size_t>(k)].is_length();
+      const Joint& joint = joints_[j];
+      const Real turned = is_motor(joint.kind) ? std::abs(joint.driven) : 0;  // its digits, too
+      room_.push_back(round_off * ((length ? coordinates : 1) + turned));
       too_far_.push_back(std::max(too_far * (length ? own : 1), 10 * room_.back()));
     }
   }
@@ -227,7 +229,7 @@ void Joints::look_at_gaps(const std::vector<JointRow>& rows, const std::vector<R
         Real& most = world.maxima[name];
         most = std::max(most, value);
       };
-      if (!rows[i].v_a.isZero(0)) note("joint_gap", gap);
+      if (rows[i].is_length()) note("joint_gap", gap);
       note("joint_gap_share", too_far * gap / too_far_[i]);
     }
 }
@@ -258,13 +260,16 @@ Joints::Start Joints::make_start_consistent(World& world) {
   factorise(rows, &clock);
   constexpr int rounds = 2;  // the later one for round-off
   Real worst = 0;
+  std::vector<Real> wanted(static_cast<std::size_t>(first_row_.back()), 0);
   for (int round = 0; round < rounds; ++round) {
     Eigen::VectorXd rate(first_row_.back());
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const RigidBody &a = bodies_->bodies()[joints_[j].a], &b = bodies_->bodies()[joints_[j].b];
       for (Index k = first_row_[j]; k < first_row_[j + 1]; ++k) {
-        const JointRow& row = rows[static_cast<std::size_t>(k)];
-        rate[k] = row.v_b.dot(b.v) + row.w_b.dot(b.omega) + row.v_a.dot(a.v) + row.w_a.dot(a.omega);
+        const auto i = static_cast<std::size_t>(k);
+        rate[k] = rate_of(rows[i], a, b);
+        if (round == 0 && is_motor(joints_[j].kind)) wanted[i] = start_rate_of(joints_[j], rate[k], clock);
+        rate[k] -= wanted[i];
         const Real energy = free_[k] > 0 ? rate[k] * rate[k] / free_[k] : 0;
         if (round == 0 && energy > worst) worst = energy, out.worst = j;
       }
@@ -283,9 +288,29 @@ Joints::Start Joints::make_start_consistent(World& world) {
   return out;
 }
 
+Real Joints::rate_of(const JointRow& row, const RigidBody& a, const RigidBody& b) {
+  return row.v_b.dot(b.v) + row.w_b.dot(b.omega) + row.v_a.dot(a.v) + row.w_a.dot(a.omega);
+}
+
+Real Joints::start_rate_of(Joint& joint, Real now, const Clock& clock) const {
+  JointDrive& drive = joint.drive;
+  switch (drive.kind) {
+    case PrescribedMotion::Kind::velocity:
+      return drive.sense * drive.curve(0);
+    case PrescribedMotion::Kind::displacement:
+      return drive.over(0, clock.dt) / clock.dt;
+    case PrescribedMotion::Kind::acceleration:
+      return drive.start_rate = now;
+  }
+  return now;
+}
+
 void Joints::begin(const Clock& clock) {
   if (begun_at_ == clock.t) return;
   begun_at_ = clock.t;
+  for (Joint& joint : joints_)
+    if (is_motor(joint.kind))
+      joint.driven = joint.drive.until(clock.t), joint.coming = joint.drive.over(clock.t, clock.dt);
   poses_ = poses_now();
   rows_ = rows_at(poses_);
   factorise(rows_, &clock);
@@ -330,13 +355,32 @@ void Joints::strike(World& world, const Clock& clock) {
   const bool begun = begun_at_ == clock.t;
   begin(clock);
   if (begun) push(find_force(poses_, rows_, clock));
-  look_at_gaps(rows_, changes_of(poses_, rows_, Eigen::VectorXd::Zero(first_row_.back()), clock), world,
-               clock);
-  remember(rows_, sum_);
+  const std::vector<Real> changes =
+      changes_of(poses_, rows_, Eigen::VectorXd::Zero(first_row_.back()), clock);
+  look_at_gaps(rows_, changes, world, clock);
+  remember(rows_, sum_, changes);
+}
+
+// The work of a force along a row, by what its bodies do over both half steps that it pushes.
+void Joints::record(World&, const Clock& clock, EnergyLedger& ledger) {
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    if (!is_motor(joints_[j].kind)) continue;
+    const auto middle = [&](RigidBody b) {
+      if (b.fixed()) return b;
+      const HalfStep next = next_half_step(b, clock);
+      b.v = 0.5 * (b.v + next.v), b.omega = 0.5 * (b.omega + turning_over(b, next.L, clock.dt));
+      return b;
+    };
+    const RigidBody a = middle(bodies_->bodies()[joints_[j].a]), b = middle(bodies_->bodies()[joints_[j].b]);
+    const Index k = first_row_[j];
+    const Real work = clock.dt_mean() * sum_[k] * rate_of(rows_[static_cast<std::size_t>(k)], a, b);
+    ledger.external_work += work, ledger.throughput += std::abs(work);
+  }
 }
 
 // The multipliers as a force on B where the joint is in it, and a moment.
-void Joints::remember(const std::vector<JointRow>& rows, const Eigen::VectorXd& force) {
+void Joints::remember(const std::vector<JointRow>& rows, const Eigen::VectorXd& force,
+                      const std::vector<Real>& changes) {
   const std::vector<BodyPose> after = poses_now();
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     Joint& joint = joints_[j];
@@ -347,7 +391,10 @@ void Joints::remember(const std::vector<JointRow>& rows, const Eigen::VectorXd& 
     }
     const RigidBody& b = bodies_->bodies()[joint.b];
     moment_[j] -= (b.q * joint.at_b).cross(force_[j]);
-    joint.turned = turn_of(joint, after[joint.a], after[joint.b], joint.turned);
+    if (is_gear(joint.kind))
+      joint.turned += changes[static_cast<std::size_t>(first_row_[j])];
+    else
+      joint.turned = turn_of(joint, after[joint.a], after[joint.b], joint.turned);
   }
 }
 
@@ -381,9 +428,10 @@ void Joints::report_joints(std::vector<JointForce>& out) const {
 void Joints::keep(Archive& archive) {
   archive("force", force_), archive("moment", moment_);
   std::vector<Real> turned;
-  for (const Joint& joint : joints_) turned.push_back(joint.turned);
+  for (const Joint& joint : joints_) turned.insert(turned.end(), {joint.turned, joint.drive.start_rate});
   archive("turned", turned);
-  for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].turned = turned[j];
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    joints_[j].turned = turned[2 * j], joints_[j].drive.start_rate = turned[2 * j + 1];
 }
 
 }  // namespace courant

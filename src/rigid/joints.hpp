@@ -12,10 +12,15 @@ namespace courant {
 
 /// Joints between rigid bodies. Once dt is chosen and all other forces are known, forces along the gradients
 /// of their equations at t^n are found with which the equations hold at t^(n+1): Lagrange multipliers on
-/// positions (Ryckaert, Ciccotti and Berendsen 1977), so that places do not drift apart and no stiffness
-/// but that of what hangs in a joint limits the step. Where joints say the same twice, as in closed loops,
-/// some equations are left out, and their forces are 0.
-class Joints : public BodyTies, public Impact, public TimeLimit, public Restartable, public JointReporter {
+/// positions (Ryckaert, Ciccotti and Berendsen 1977), so that places do not drift apart and no stiffness but
+/// that of what hangs in a joint limits the step. Where joints say the same twice, as in closed loops, some
+/// equations are left out, and their forces are 0.
+class Joints : public BodyTies,
+               public Impact,
+               public TimeLimit,
+               public Restartable,
+               public JointReporter,
+               public EnergyTerm {
  public:
   /// Refers to `bodies`.
   Joints(std::vector<Joint> joints, std::shared_ptr<RigidBodies> bodies);
@@ -40,6 +45,9 @@ class Joints : public BodyTies, public Impact, public TimeLimit, public Restarta
   /// with the frequency of a string.
   Limit limit(const World& world, const Clock& clock) override;
   void report_joints(std::vector<JointForce>& out) const override;
+  /// What motors do comes from outside; other joints do no work.
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
+  void sample(const World&, const Clock&, EnergyLedger&) const override {}
   void keep(Archive& archive) override;
 
  private:
@@ -62,6 +70,10 @@ class Joints : public BodyTies, public Impact, public TimeLimit, public Restarta
 
   void find_meetings();
   void start_drives(const Clock& clock, World& world);
+  /// The rate at which a motor shall run at the start, which for accelerations is what it has. [1/T], [L/T]
+  Real start_rate_of(Joint& joint, Real now, const Clock& clock) const;
+  /// How fast c changes by the motion of its bodies.
+  static Real rate_of(const JointRow& row, const RigidBody& a, const RigidBody& b);
   std::vector<JointRow> rows_at(const std::vector<BodyPose>& poses) const;
   std::vector<BodyPose> poses_now() const;
   /// By how much each equation changes over the coming step under these forces.
@@ -88,7 +100,9 @@ class Joints : public BodyTies, public Impact, public TimeLimit, public Restarta
   void push(const Eigen::VectorXd& force);
   /// Forces along the rows that answer a force and a moment on a body.
   Eigen::VectorXd answer_to(std::size_t body, const Vec& force, const Vec& moment) const;
-  void remember(const std::vector<JointRow>& rows, const Eigen::VectorXd& force);
+  /// `changes`: of the rows over the step, as it is now.
+  void remember(const std::vector<JointRow>& rows, const Eigen::VectorXd& force,
+                const std::vector<Real>& changes);
 
   std::vector<Joint> joints_;
   std::shared_ptr<RigidBodies> bodies_;

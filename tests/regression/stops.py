@@ -96,6 +96,14 @@ text = open("leaks/summary.yaml").read()
 check(done.returncode == 0 and "\nverdict: doubtful\n" in text and "  leaks_broken: 0.1\n" in text, f"with limits of its own -> {done.returncode}, doubtful")
 check(" verdict: doubtful by *COURANT_VERDICT (energy 0.01 and 0.1, leaks 0.05 and 0.1, " in done.stdout, "which are told")
 
+# --- CPU time that is spent: the run has not come to its end, and can go on
+deck("spent", more="*CONTROL_CPU\n0.001\n")
+done = subprocess.run([courant, "run", "spent.k", "-o", "spent", "--threads", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                      text=True, timeout=120)
+text = open("spent/summary.yaml").read()
+check("\ntermination: interrupted\n" in text and "CPUTIM = 0.001 s of *CONTROL_CPU are spent" in text, "CPUTIM ends a run")
+check(os.path.exists("spent/restart/d3dump01.h5") and "--restart spent/restart/d3dump01.h5" in text, "with a restart file")
+
 # --- a liquid that is compressed far: it ends, with warnings that are counted
 deck("compressed", start=-20.0, termination="0.1")
 done = subprocess.run([courant, "run", "compressed.k", "-o", "compressed", "--threads", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,

@@ -58,6 +58,25 @@ struct JointDeck {
     joints += fmt::format("*CONSTRAINED_JOINT_{}_ID\n{:10}joint\n{}\n", kind, ++joint_, ids);
     if (kind == "SCREW") joints += fmt::format("{:.16g}\n", parm);
   }
+  /// Motors and gears: places of N1 to N4, or N6, on A and B in turn, and the second card.
+  void joint_at(const std::string& kind, int a, int b, const std::vector<Vec>& places,
+                const std::string& card) {
+    std::string ids;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      add_node(places[k]);
+      extra += fmt::format("{:10}{:10}\n", k % 2 == 0 ? a : b, node);
+      ids += fmt::format("{:10}", node);
+    }
+    joints += fmt::format("*CONSTRAINED_JOINT_{}_ID\n{:10}joint\n{}\n{}\n", kind, ++joint_, ids, card);
+  }
+  /// A motor about, or along, an axis through a place; `type`: 0 velocities, 1 accelerations, 2
+  /// displacements.
+  void motor(const std::string& kind, int a, int b, const Vec& x, const Vec& axis, int curve, int type) {
+    joint_at(kind + "_MOTOR", a, b, {x, x, x + axis, x + axis}, fmt::format(",{},{}", curve, type));
+  }
+  void curve(int id, const std::string& points) {
+    more += fmt::format("*DEFINE_CURVE\n{:10}\n{}", id, points);
+  }
   /// g along -z.
   void gravity(Real g) {
     more +=

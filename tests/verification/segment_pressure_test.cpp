@@ -97,3 +97,29 @@ TEST(SegmentPressure, SqueezesAnElasticBlock) {
     EXPECT_NEAR(-K * std::log(edges.prod()) / 2e4, 1, 1e-4) << int(shape);
   }
 }
+
+// A square of 1 and a triangle of 1/2 beside it, in the plane z = 0: the pressure acts against their normals.
+TEST(SegmentPressure, OnShellsIsThatOnTheirFaces) {
+  const std::string plate =
+      "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*PART\nplate\n1,1,1\n*SECTION_SHELL\n1,2\n0.1,0.1,0.1,0.1\n"
+      "*MAT_ELASTIC\n1,1000.0,1.0E7,0.3\n*DEFINE_CURVE\n1\n0.0,1.0\n9.0,1.0\n*SET_SHELL_LIST\n4\n2\n"
+      "*NODE\n1,0.0,0.0,0.0\n2,1.0,0.0,0.0\n3,1.0,1.0,0.0\n4,0.0,1.0,0.0\n5,2.0,0.0,0.0\n"
+      "*ELEMENT_SHELL\n1,1,1,2,3,4\n2,1,2,5,3,3\n";
+  const auto after = [&](const std::string& load) {
+    auto s = simulation_of(plate + load + "*END\n");
+    for (int k = 0; k < 20; ++k) s->step(do_nothing);
+    const Nodes& nodes = s->world().nodes;
+    std::vector<Real> out{s->clock().t - 0.5 * s->clock().dt_old, 0};  // of the last kick
+    for (Index n = 0; n < nodes.size(); ++n) {
+      out[1] += nodes.m[n] * nodes.v.vec(n)[2];
+      for (int k = 0; k < 3; ++k) out.push_back(nodes.v.vec(n)[k]);
+    }
+    return out;
+  };
+  const auto faces = after("*LOAD_SEGMENT\n1,500.0,0.0,1,2,3,4\n1,-200.0,0.0,2,5,3,3\n");
+  const auto shells =
+      after("*LOAD_SHELL_ELEMENT_ID\n         7push\n1,1,500.0\n*LOAD_SHELL_SET\n4,1,-200.0\n");
+  EXPECT_EQ(faces, shells);
+  EXPECT_NEAR(shells[1], -(500 * 1 - 200 * 0.5) * shells[0], 1e-4 * 400 * shells[0]);  // the plate bends
+  EXPECT_EQ(after("*LOAD_SHELL_ELEMENT\n1,1,500.0,5.0\n")[1], 0) << "before AT";
+}

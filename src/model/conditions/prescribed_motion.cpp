@@ -29,7 +29,8 @@ void for_pieces(const Curve& curve, Real a, Real b, const F& of) {
   }
 }
 
-/// Mean over [a, b] of the integral of the curve from 0 on; what is before 0 counts as 0.
+}  // namespace
+
 Real mean_of_integral(const Curve& curve, Real a, Real b) {
   if (b <= 0) return 0;
   const Real from = std::max(a, Real(0));
@@ -39,8 +40,6 @@ Real mean_of_integral(const Curve& curve, Real a, Real b) {
   });
   return (integral(curve, 0, from) * (b - from) + twice) / (b - a);
 }
-
-}  // namespace
 
 Real integral(const Curve& curve, Real a, Real b) {
   Real sum = 0;

@@ -35,6 +35,8 @@ struct PrescribedMotion {
 Real integral(const Curve& curve, Real a, Real b);
 /// Integral of the curve's slope from a to b; what it jumps does not count.
 Real rise(const Curve& curve, Real a, Real b);
+/// Mean over [a, b] of the integral of the curve from 0 on; what is before 0 counts as 0.
+Real mean_of_integral(const Curve& curve, Real a, Real b);
 
 /// All prescribed motions of a deck. Refuses by name: missing curves, vectors and nodes, vectors that
 /// turn with nodes, coordinate systems, displacements that jump.

@@ -21,6 +21,7 @@ constexpr CurveDimensions known[] = {
     {"LOAD_RIGID_BODY", "LCID", "T", "ML/T2"},
     {"LOAD_SEGMENT", "LCID", "T", "M/LT2"},
     {"LOAD_SEGMENT_SET", "LCID", "T", "M/LT2"},
+    {"LOAD_SHELL_ELEMENT", "LCID", "T", "M/LT2"},
     {"DAMPING_GLOBAL", "LCID", "T", "1/T"},
     {"DAMPING_PART_MASS", "LCID", "T", "1/T"},
     {"CONTROL_TIMESTEP", "LCTM", "T", "T"},
@@ -42,6 +43,7 @@ constexpr CurveDimensions known[] = {
     {"COURANT_LEVEL_OUTLET", "LCLEV", "T", "-"},
     {"COURANT_FROZEN_OUTLET", "LCVEL", "T", "-"},
     {"COURANT_FROZEN_OUTLET", "LCLEV", "T", "L"},
+    {"CONSTRAINED_JOINT_SPHERICAL", "LCID", "T", "1/T"},  // of motors, TYPE 0
     {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED", "LCIDPH", "-", "ML2/T2"},
     {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED", "LCIDT", "-", "ML2/T2"},
     {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED", "LCIDPS", "-", "ML2/T2"},
@@ -62,6 +64,13 @@ const char* of_entry_itself(const KeywordSpec& spec, const Entry& entry) {
   constexpr std::size_t motion_card = 6, opt_field = 1;
   if (spec.names[0] == "RIGIDWALL_GEOMETRIC_FLAT")
     return spec.number_of(entry, motion_card, opt_field) == 1 ? "L" : nullptr;
+  if (spec.names[0] == "CONSTRAINED_JOINT_SPHERICAL") {
+    constexpr std::size_t motor_card = 2, type_field = 2;
+    const Real type = spec.number_of(entry, motor_card, type_field);
+    const std::string& name = spec.names[static_cast<std::size_t>(entry.name)];
+    const bool turns = name == "CONSTRAINED_JOINT_ROTATIONAL_MOTOR";
+    return type >= 0 && type <= 2 ? motion_values[static_cast<int>(type)][turns] : nullptr;
+  }
   if (spec.names[0].rfind("BOUNDARY_PRESCRIBED_MOTION", 0) != 0) return nullptr;
   const Real dof = spec.number_of(entry, 0, dof_field), vad = spec.number_of(entry, 0, vad_field);
   if (!(vad >= 0 && vad <= 2)) return nullptr;  // refused later

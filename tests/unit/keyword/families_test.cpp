@@ -31,7 +31,7 @@ std::string hint(const std::string& name) {
 TEST(Families, NameWhatIsLacking) {
   EXPECT_EQ(lacking("AIRBAG_SIMPLE_PRESSURE_VOLUME_ID"), "airbags");
   EXPECT_EQ(lacking("ICFD_PART"), "incompressible flows (ICFD)");
-  EXPECT_EQ(lacking("CONSTRAINED_JOINT_GEARS"), "this kind of joint");
+  EXPECT_EQ(lacking("CONSTRAINED_JOINT_CONSTANT_VELOCITY"), "this kind of joint");
   EXPECT_EQ(lacking("CONSTRAINED_SOMETHING_NEW"), "this constraint");
   EXPECT_EQ(lacking("CONTROL_IMPLICIT_GENERAL"), "implicit analyses");
   EXPECT_EQ(lacking("RIGIDWALL_PLANAR"), "rigid walls");

@@ -10,10 +10,10 @@
 namespace courant {
 namespace {
 
-/// What is said, and the pitch of the screw of a file that is moved.
+/// What is said, and the pitch of the screw, or the sense of the motor, of a file that is moved.
 struct Moved {
   std::string messages;
-  Real pitch = 0;
+  Real pitch = 0, sense = 1;
 };
 Moved moved(const std::string& transformation, const std::string& cards) {
   DecksInMemory decks{{{"main.k", "*KEYWORD\n*DEFINE_TRANSFORMATION\n1\n" + transformation +
@@ -23,7 +23,7 @@ Moved moved(const std::string& transformation, const std::string& cards) {
   Deck deck = read_deck("main.k", decks.options(), diagnostics);
   move_included_entries(deck, diagnostics);
   Moved out{.messages = diagnostics.text()};
-  for (const JointCard& joint : deck.all<JointCard>()) out.pitch = joint.parm;
+  for (const JointCard& joint : deck.all<JointCard>()) out.pitch = joint.parm, out.sense = joint.sense;
   return out;
 }
 
@@ -37,6 +37,17 @@ TEST(MovedJoints, APitchIsALengthWithASign) {
   EXPECT_NEAR(moved("ROTATE,0.,0.,1.,0.,0.,0.,90.", screw).pitch, 0.05, 1e-15);
   EXPECT_NEAR(moved("MIRROR,1.5,0.,0.,4.,0.,0.", screw).pitch, -0.05, 1e-15);
   EXPECT_NE(moved("SCALE,2.,1.,1.", screw).messages.find("the pitch of a screw"), std::string::npos);
+}
+
+TEST(MovedJoints, AMotorTurnsTheOtherWayInAMirror) {
+  const std::string motor = "*CONSTRAINED_JOINT_ROTATIONAL_MOTOR\n1,2,3,4\n,7\n",
+                    piston = "*CONSTRAINED_JOINT_TRANSLATIONAL_MOTOR\n1,2,3,4\n,7\n",
+                    rack = "*CONSTRAINED_JOINT_RACK_AND_PINION\n1,2,3,4\n0.05\n";
+  EXPECT_EQ(moved("MIRROR,1.5,0.,0.,4.,0.,0.", motor).sense, -1);
+  EXPECT_EQ(moved("ROTATE,0.,0.,1.,0.,0.,0.,90.", motor).sense, 1);
+  EXPECT_EQ(moved("SCALE,2.,2.,2.", motor).messages.find("motor"), std::string::npos);
+  EXPECT_NE(moved("SCALE,2.,2.,2.", piston).messages.find("whether motors are, too"), std::string::npos);
+  EXPECT_NEAR(moved("MIRROR,1.5,0.,0.,4.,0.,0.", rack).pitch, -0.05, 1e-15);
 }
 
 TEST(MovedJoints, StiffnessKnowsWhatItCannotFollow) {

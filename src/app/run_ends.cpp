@@ -1,0 +1,51 @@
+#include "app/run_ends.hpp"
+
+#include <fmt/format.h>
+
+#include "keyword/registry.hpp"
+
+namespace courant {
+
+namespace {
+
+struct ControlCpu : Entry {
+  Real cputim = 0;
+  int iglst = 0;
+};
+
+const RegisterKeyword<ControlCpu> control_cpu{
+    {.names = {"CONTROL_CPU"},
+     .purpose = "limit of CPU time, after which a run writes a restart file and ends",
+     .once = true,
+     .many = false,
+     .cards = {{.fields = {{"CPUTIM",
+                            &ControlCpu::cputim,
+                            "-",
+                            "CPU time of all threads in seconds, of each call; 0 no limit",
+                            {.check = Check::not_negative}},
+                           {"IGLST", &ControlCpu::iglst, "-", "CPU times in glstat", no_output}}}}}};
+
+}  // namespace
+
+RunEnds::RunEnds(Simulation& simulation, const std::atomic<bool>* stop)
+    : s_(simulation), stop_(stop), endings_(simulation.world().passes.all<const Ending>()) {
+  for (const ControlCpu& card : simulation.deck().all<ControlCpu>()) most_cpu_ = card.cputim;
+}
+
+std::optional<RunEnd> RunEnds::reached(double cpu) const {
+  const Clock& clock = s_.clock();
+  const Id endcyc = s_.model().endcyc;
+  if (stop_ && stop_->load())
+    return RunEnd{.reason = fmt::format("stopped by a signal at time {:.6g}", clock.t), .interrupted = true};
+  if (endcyc > 0 && clock.cycle >= endcyc) return RunEnd{.reason = "termination cycle reached"};
+  for (const Ending* ending : endings_)
+    if (auto why = ending->ended(s_.world(), clock)) return RunEnd{.reason = *std::move(why)};
+  if (most_cpu_ > 0 && cpu >= most_cpu_)
+    return RunEnd{
+        .reason = fmt::format("CPUTIM = {:g} s of *CONTROL_CPU are spent at time {:.6g}", most_cpu_, clock.t),
+        .interrupted = true,
+        .wants_restart = true};
+  return std::nullopt;
+}
+
+}  // namespace courant

@@ -1,0 +1,33 @@
+#pragma once
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/simulation.hpp"
+#include "state/ending.hpp"
+
+namespace courant {
+
+/// What ends a run before its end time.
+struct RunEnd {
+  std::string reason;
+  bool interrupted = false, wants_restart = false;  ///< the run is not complete
+};
+
+/// A signal, ENDCYC, CPUTIM of *CONTROL_CPU, *TERMINATION_...
+class RunEnds {
+ public:
+  /// `stop`: set by a signal; may be null.
+  RunEnds(Simulation& simulation, const std::atomic<bool>* stop);
+  /// Between two steps. `cpu`: time of all threads since this call of the program began [s]
+  std::optional<RunEnd> reached(double cpu) const;
+
+ private:
+  Simulation& s_;
+  const std::atomic<bool>* stop_;
+  double most_cpu_ = 0;  ///< 0: no limit [s]
+  std::vector<const Ending*> endings_;
+};
+
+}  // namespace courant
