@@ -40,6 +40,7 @@ constexpr CurveDimensions known[] = {
     {"COURANT_INFLOW", "LCLEV", "T", "L"},
     {"COURANT_INFLOW", "LCPROF", "L", "-"},
     {"COURANT_LEVEL_OUTLET", "LCLEV", "T", "-"},
+    {"COURANT_WALL_BELT", "LCID", "T", "-"},
     {"COURANT_FROZEN_OUTLET", "LCVEL", "T", "-"},
     {"COURANT_FROZEN_OUTLET", "LCLEV", "T", "L"},
     {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED", "LCIDPH", "-", "ML2/T2"},
