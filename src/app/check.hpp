@@ -57,6 +57,8 @@ std::string mesh_text(const DeckFacts& facts);
 /// What a run would need besides what the deck holds: refused keywords by what they lack, and what is missing
 /// in a deck for any run. Empty if nothing.
 std::string needs_text(const Deck& deck, const DeckFacts& facts);
+/// What walls that support particles do to them; empty where there are none.
+std::string walls_text(const Simulation& simulation);
 std::string unused_text(const Deck& deck, const UnusedIds& unused);
 
 // check_model.cpp

@@ -28,6 +28,13 @@ FlowScale flow_scale(const Simulation& s) {
     if (one.norm() > a.norm()) a = one;
     f.start = std::max(f.start, p.v.vec(i).norm());
   }
+  const SupportedWalls& beside = s.sph().walls;
+  for (const Index segment : beside.segments)
+    if (const int belt = beside.belts.of(segment); belt >= 0) {
+      const WallBelts::Belt& b = beside.belts.belts[static_cast<std::size_t>(belt)];
+      const Vec x = s.world().nodes.x.vec(s.world().segments.node0[segment]);
+      f.start = std::max(f.start, std::abs(b.factor(0)) * b.motion.at(x).norm());
+    }
   f.g = a.norm();
   if (f.g > 0 && p.size() > 0) {
     const Vec up = -a / f.g;
@@ -58,6 +65,7 @@ class ChoiceAdvice {
       resolution(k);
       smoothing_length(k);
       tension(k);
+      viscous_layer(k);
       slowest_ = std::min(slowest_, m.c0());
     }
     if (std::isfinite(slowest_) && flow_.speed > 0) contacts();
@@ -109,6 +117,22 @@ class ChoiceAdvice {
         "density "
         "falls; type PC = -1.0E20 in *MAT_NULL",
         id(k));
+  }
+
+  /// No slip needs rows within the viscous layer of a wall, some 5 nu/u* thick, u* about a twentieth of the
+  /// speed.
+  void viscous_layer(std::size_t k) {
+    constexpr Real most = 5, share = 0.05;
+    const auto& mu = s_.sph().mu;
+    if (!s_.sph().walls.hold || mu.empty() || !(mu[k] > 0) || s_.sph().turbulence.on()) return;
+    const Real nu = mu[k] / s_.materials()[k].ro, dx = facts_.parts[k].spacing;
+    const Real rows = share * flow_.speed * dx / nu;
+    if (!(dx > 0) || !(rows > most)) return;
+    add("part {}: at {:.3g} the viscous layer of a wall is about {:.2g} thick and the spacing {:.3g}: no "
+        "slip "
+        "(LAW 2 of *COURANT_WALL_SUPPORT) rubs too little where water is turbulent; type LAW = 1 and the "
+        "roughness KS",
+        id(k), flow_.speed, most * nu / (share * flow_.speed), dx);
   }
 
   void contacts() {

@@ -252,7 +252,7 @@ std::string model_text(Simulation& s, ModelFacts& facts) {
   const std::string passes = s.passes();
   text += step_text(s, who, facts);
   facts.advice = choice_advice(s, facts);
-  return text + advice_text(facts.advice) + passes;
+  return text + walls_text(s) + advice_text(facts.advice) + passes;
 }
 
 }  // namespace courant

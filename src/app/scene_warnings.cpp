@@ -88,6 +88,7 @@ class SceneWarnings {
     for (const ContactCard& card : cards) {
       sides.push_back(sides_of(card));
       if (kind_of(card).nodes) met_.insert(sides.back().walls.begin(), sides.back().walls.end());
+      if (kind_of(card).nodes && (card.fs > 0 || card.fd > 0)) contact_on_belts(card, sides.back().walls);
       for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
         const bool apart = cards[k].dt <= card.bt || card.dt <= cards[k].bt;
         if (apart || !(sides[k] == sides.back())) continue;
@@ -99,6 +100,19 @@ class SceneWarnings {
         break;
       }
     }
+  }
+
+  void contact_on_belts(const ContactCard& card, const std::set<Index>& walls) {
+    const SupportedWalls& w = s_.sph().walls;
+    for (const Index segment : w.segments)
+      if (const Index part = s_.world().segments.part[segment]; w.belts.of(segment) >= 0 && walls.count(part))
+        return diagnostics_.warning(
+            s_.deck().where(card),
+            fmt::format(
+                "{}: friction FS, FD of the contact takes the shells of part {} as they stand, and not "
+                "the surface of *COURANT_WALL_BELT",
+                s_.deck().keyword(card), s_.model().parts[static_cast<std::size_t>(part)].id),
+            "leave FS and FD 0, and let *COURANT_WALL_SUPPORT rub");
   }
 
   void walls() {

@@ -12,7 +12,6 @@
 #include "state/shared_fields.hpp"
 
 namespace courant {
-
 namespace {
 
 template <class T>
@@ -481,7 +480,8 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   if (s.has_viscous_stress())
     world.passes.add(make_viscous_stress(s, world));
   else if (!s.turbulence.on())  // whose viscosity acts between pairs
-    left_out.push_back({"viscous stress", "MU is 0 in all SPH materials"});
+    s.has_viscous_pairs() ? add_pair_viscosity(s, world, neighbours, volumes)
+                          : left_out.push_back({"viscous stress", "MU is 0 in all SPH materials"});
   if (!s.strength.empty())
     add_strength(s, world, neighbours, volumes);
   else

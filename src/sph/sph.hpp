@@ -10,6 +10,7 @@
 #include "loads/body_acceleration.hpp"
 #include "model/model.hpp"
 #include "search/neighbours.hpp"
+#include "sph/boundaries/wall_belts.hpp"
 #include "sph/boundaries/wall_law.hpp"
 #include "sph/core/kernel_choice.hpp"
 #include "sph/turbulence/turbulence.hpp"
@@ -72,6 +73,8 @@ struct SupportedWalls {
   std::vector<WallFriction> friction;  ///< by segment
   std::vector<GhostPlane> planes;      ///< behind which their images support, too
   bool images = false;                 ///< METHOD 1: as mirrors of the particles
+  bool hold = false;                   ///< any by LAW 2: no slip
+  WallBelts belts;                     ///< *COURANT_WALL_BELT
 };
 
 /// *COURANT_EDDY_VISCOSITY.
@@ -131,8 +134,10 @@ struct SphSettings {
 
   /// An eddy viscosity adds to MU.
   bool has_eddies() const { return mixing_length.most > 0 || turbulence.on(); }
-  /// Viscosity acts by a stress of each particle; with a turbulence model it acts between pairs.
-  bool has_viscous_stress() const { return !mu.empty() && !turbulence.on(); }
+  /// Viscosity acts by a stress of each particle, but between pairs with a turbulence model and where walls
+  /// hold water fast.
+  bool has_viscous_pairs() const { return !mu.empty() && (turbulence.on() || walls.hold); }
+  bool has_viscous_stress() const { return !mu.empty() && !has_viscous_pairs(); }
   /// Something besides the motion of particles changes the density.
   bool has_density_sources() const {
     return density_diffusion > 0 || volume_tau > 0 || reinitialisation.every > 0;
@@ -191,6 +196,9 @@ void add_volume_control(const SphSettings&, World&, std::shared_ptr<Neighbours>,
 /// Reads *COURANT_WALL_SUPPORT into the settings. Call when segments and bodies are built.
 void read_supported_walls(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
                           Diagnostics& diagnostics);
+/// *COURANT_WALL_BELT, for walls that are read.
+void read_wall_belts(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
+                     Diagnostics& diagnostics);
 /// Adds the passes of supporting walls; belongs right behind the pair rates. What comes back belongs behind
 /// the pair forces; null: nothing.
 std::shared_ptr<Force> add_wall_support(const SphSettings&, World&, std::shared_ptr<Neighbours>,
@@ -220,6 +228,9 @@ void read_turbulence(const Deck&, const Model&, const World&, SphSettings&, Diag
 /// Adds the sums over neighbours to the rates, and the model to the laws.
 void add_turbulence(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);
 std::shared_ptr<Material> make_viscous_stress(const SphSettings&, World&);
+/// MU between pairs instead, without a turbulence model.
+void add_pair_viscosity(const SphSettings&, World&, std::shared_ptr<Neighbours>,
+                        std::shared_ptr<PairVolumes>);
 std::shared_ptr<Preparation> make_smoothing_length(const SphSettings&, World&);
 /// Eq. 18; the first of the world's time limits.
 void add_sph_time_limit(const SphSettings&, const Model&, World&);

@@ -41,6 +41,7 @@ constexpr CurveDimensions known[] = {
     {"COURANT_INFLOW", "LCLEV", "T", "L"},
     {"COURANT_INFLOW", "LCPROF", "L", "-"},
     {"COURANT_LEVEL_OUTLET", "LCLEV", "T", "-"},
+    {"COURANT_WALL_BELT", "LCID", "T", "-"},
     {"COURANT_FROZEN_OUTLET", "LCVEL", "T", "-"},
     {"COURANT_FROZEN_OUTLET", "LCLEV", "T", "L"},
     {"CONSTRAINED_JOINT_SPHERICAL", "LCID", "T", "1/T"},  // of motors, TYPE 0

@@ -27,6 +27,14 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
       width_(WallPaths::usual_width * s.spacing),
       any_moves_(support_->any_moves()) {
   spacing_ = support_->surface().spacing(), reach_ = support_->surface().reach();
+  if (walls_.hold) {
+    viscosity_ = &sph_fields::viscosity(world.particles);
+    heat_ = &sph_fields::viscous_dissipation(world.particles);
+    drag_ = &sph_fields::wall_drag(world.particles);
+    if (!s.turbulence.on()) viscous_ = &sph_fields::viscous_force(world.particles);
+    for (const Index segment : walls_.segments)
+      mixed_ |= !walls_.friction[static_cast<std::size_t>(segment)].no_slip || walls_.belts.any();
+  }
   if (!any_moves_) {
     paths_from_.emplace(support_->surface(), dim_, width_);
     return;
@@ -72,7 +80,8 @@ void WallImages::search(const World& world) {
   if (!any_moves_) return;
   std::optional<Lookouts> from;
   if (world.particles.active > 0) from.emplace(world.particles, reach_, walls_.planes);
-  surface_.emplace(world, walls_.segments, spacing_, reach_, walls_.planes, from ? &*from : nullptr);
+  surface_.emplace(world, walls_.segments, spacing_, reach_, walls_.planes, from ? &*from : nullptr,
+                   &walls_.belts);
   paths_from_.emplace(*surface_, dim_, width_);
   in_middle_.emplace(*paths_from_);
 }
@@ -83,6 +92,8 @@ void WallImages::look(World& world) {
   sheets_.assign(p.active, {});
   for_each(p.active, [&](Index i) {
     if (support_->is_near(i)) sheets_[i] = at_end().seen_from(p.x.vec(i));
+    if (mixed_ && sheets_[i].size() == 1 && sheets_[i][0].endless)  // whose faces may not be alike
+      sheets_[i][0].faces = surface().faces_around(p.x.vec(i));
     force_.set(i, Vec::Zero());
   });
 }
@@ -91,6 +102,8 @@ void WallImages::declare(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
   a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.h);
   a.reads(volumes_->before(), Reach::others).reads_before(p.rho).updates(p.drhodt);
+  if (viscosity_) a.reads(*viscosity_, Reach::others).updates(p.f).updates(*heat_).writes(*drag_);
+  if (viscous_) a.updates(*viscous_);
   if (!any_moves_) return;
   const Segments& s = world.segments;
   a.in_start().reads(world.nodes.x).reads(world.nodes.v);
@@ -99,6 +112,8 @@ void WallImages::declare(const World& world, Accesses& a) const {
 
 void WallImages::start(World& world, const Clock& clock) {
   half_step_ = 0.5 * clock.dt_old;
+  belt_factors_.clear();
+  for (const WallBelts::Belt& belt : walls_.belts.belts) belt_factors_.push_back(belt.factor(clock.t));
   blocks_.resize(static_cast<std::size_t>(block_count(world.particles.active)));
   if (!any_moves_) return;
   paths_from_->take_along(world, 0);
@@ -107,7 +122,8 @@ void WallImages::start(World& world, const Clock& clock) {
 
 void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
-  block.paths.clear(), block.pulls.clear();
+  block.paths.clear(), block.pulls.clear(), block.reactions.clear();
+  block.belt_power = 0;
   for (Index i = begin; i < end; ++i) {
     if (sheets_[i].empty()) continue;
     const bool moves = any_moves_ && std::any_of(sheets_[i].begin(), sheets_[i].end(),
@@ -115,6 +131,9 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
     for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
       moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, block);
   }
+  if (!viscosity_) return;
+  for (Index i = begin; i < end; ++i) drag_->set(i, Vec::Zero());
+  for (const WallPath& path : block.paths) drag(world.particles, path, block);
 }
 
 /// Ways are looked for in the middle of the step, where its rates belong, and taken along to its end, where
@@ -188,6 +207,7 @@ void WallImages::declare_forces(const World& world, Accesses& a) const {
   a.reads(p.x, Reach::others).reads(pressure_, Reach::others).reads(volumes_->now(), Reach::others);
   a.reads(p.h).reads(p.rho).reads(p.c).reads(p.part).updates(p.f).updates(force_);
   if (diffusion_) a.updates(*diffusion_);
+  if (drag_) a.reads(*drag_);
   if (!any_moves_) return;
   const Segments& s = world.segments;
   a.in_finish().updates(s.contact_force).updates(world.nodes.f);
@@ -202,9 +222,8 @@ void WallImages::forces(World& world, Index begin, Index end) {
   Particles& p = world.particles;
   const Real* V = volumes_->current();
   for (Index i = begin; i < end; ++i)
-    if (!sheets_[i].empty()) force_.set(i, Vec::Zero());
+    if (!sheets_[i].empty()) force_.set(i, drag_ ? drag_->vec(i) : Vec(Vec::Zero()));
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
-  block.reactions.clear();
   for (const WallPath& path : block.paths) {
     const Index i = path.i, j = path.j;
     const Real share = path.weight * V[j] * slope(p.h[i], path.d), pressure = pressure_[i] + pressure_[j],

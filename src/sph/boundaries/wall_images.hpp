@@ -17,7 +17,11 @@ namespace courant {
 ///   f_i -= V_i sum w V_j (p_i + p_j) grad W_ij,
 /// the second what belongs to the first, so that energy is kept; and since the way back is the same, forces
 /// along a plane wall cancel between particles. The diffusion of density sees images, too, with the pressure
-/// that stands behind the wall at rest; viscosity does not.
+/// that stands behind the wall at rest. Viscosity does where all walls of a way hold water fast (LAW 2), each
+/// of which turns velocities round about its own, v_j -> 2 w - v_j:
+///   f_i += V_i sum w V_j (mu_i + mu_j)(v_i - v_j) (dW/dr)/r,
+/// and what walls hide of it is taken off. A wall gets, of a way and of the way back half, 2 f_i, with the
+/// sign turned at each further wall: all that particles lose, and what it does to them is its work.
 ///
 /// Where walls move as rigid bodies, v_j is that of the image, which goes along with the wall, and walls get
 /// what particles lose by what each way changes with them (`WallPull`), on the nodes of the face that it goes
@@ -26,7 +30,7 @@ namespace courant {
 /// Where a wall ends, w changes with the places of i and j, and belongs to both sums:
 ///   d rho_i/dt += rho_i sum V_j W_ij dw/dt,   f_i -= V_i sum V_j (p_i + p_j) W_ij dw/dx_i,
 /// so that density depends on where particles are, not on how they came there, and forces keep their energy.
-class WallImages : public Rate, public Refresh, public Restartable {
+class WallImages : public Rate, public Refresh, public EnergyTerm, public Restartable {
  public:
   WallImages(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
              std::shared_ptr<PairVolumes> volumes, std::shared_ptr<WallSupport> support);
@@ -37,6 +41,9 @@ class WallImages : public Rate, public Refresh, public Restartable {
   void refreshed(World& world, const Clock&, std::span<const Index>) override;
   void keep(Archive& archive) override;
   void relist(World& world) override;
+  /// Work of belts.
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
+  void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
   void declare_forces(const World& world, Accesses& a) const;
   void start_forces(const Clock& clock);
@@ -58,17 +65,21 @@ class WallImages : public Rate, public Refresh, public Restartable {
     std::vector<WallPull> pulls;  ///< of paths
     std::vector<WallPull> now;    ///< of the path at hand
     std::vector<Reaction> reactions;
+    Real belt_power = 0;  ///< of belts on water [ML2/T3]
   };
   void add_ways(Particles& p, Index i, Index j, Block& block);
   void add_ways_of_moving(Particles& p, Index i, Index j, Block& block);
   void react(const Particles& p, const WallPath& path, const Vec& force, Real per_share, Block& block) const;
   void give(const WallPull& pull, Real times, Block& block) const;
   const WallPaths& at_end() const { return *paths_from_; }
+  const WallSurface& surface() const { return surface_ ? *surface_ : support_->surface(); }
   /// (dW/dr)/r [1/L^(dim+2)]
   Real slope(Real h, const Vec& d) const;
   /// W [1/L^dim]
   Real kernel(Real h, const Vec& d) const;
   Vec speed(const Particles& p, const WallPath& path) const;
+  void drag(Particles& p, const WallPath& path, Block& block) const;
+  Vec belt_velocity(const WallSurface::Face& face, const Vec& at) const;
   void add_rate(Particles& p, const WallPath& path, const std::vector<WallPull>& pulls) const;
 
   int dim_;
@@ -81,8 +92,12 @@ class WallImages : public Rate, public Refresh, public Restartable {
   std::shared_ptr<WallSupport> support_;
   Field<Real>&pressure_, &force_;
   Field<Real>* diffusion_;
+  /// Where walls hold water fast; `viscous_` where there is no turbulence.
+  Field<Real>*viscosity_ = nullptr, *heat_ = nullptr, *drag_ = nullptr, *viscous_ = nullptr;
   SupportedWalls walls_;
-  Real width_, spacing_, reach_;  ///< of edges; of pieces of wall that are searched; of anybody's look [L]
+  bool mixed_ = false;              ///< walls that hold, rub or slide differently
+  std::vector<Real> belt_factors_;  ///< in this step
+  Real width_, spacing_, reach_;    ///< of edges; of pieces of wall that are searched; of anybody's look [L]
   bool any_moves_;
   std::optional<WallSurface> surface_;     ///< where walls move: at the last refresh
   std::vector<Index> nodes_;               ///< of walls that move

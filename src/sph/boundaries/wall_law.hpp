@@ -7,11 +7,12 @@
 
 namespace courant {
 
-/// How a wall rubs: by a constant coefficient, or by the logarithmic law.
+/// How a wall rubs: by a constant coefficient, by the logarithmic law, or by holding water fast.
 struct WallFriction {
   Real cf = -1;          ///< shear stress over rho v^2/2 [-]; < 0: the wall does not support
   bool log_law = false;  ///< LAW 1: by distance and velocity
   Real ks = 0;           ///< equivalent roughness of sand [L]
+  bool no_slip = false;  ///< LAW 2: water at the wall has its velocity, and viscosity acts
   bool rubs() const { return cf > 0 || log_law; }
 };
 

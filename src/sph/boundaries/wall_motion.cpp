@@ -59,10 +59,7 @@ void WallSurface::take_along(std::vector<Face>& faces, std::vector<WallMotion>& 
     const WallMotion& of = motions[face.image_of];
     for (std::size_t e = 0; e < 4; ++e) face.x[e] = place_behind(face.behind, face.way, seen.x[e]);
     face.find_plane();
-    const bool turned = mirrors_and_periods_[face.behind].kind == GhostPlane::Kind::mirror;
-    const Vec omega = direction_behind(face.behind, of.omega);
-    motions[f] = {place_behind(face.behind, face.way, of.x0), direction_behind(face.behind, of.v),
-                  turned ? Vec(-omega) : omega};
+    motions[f] = motion_behind(face.behind, face.way, of);
   }
 }
 

@@ -89,6 +89,13 @@ class WallPaths {
   /// Takes a way that a wall throws back to where its walls are placed now, but for its share. To oneself,
   /// too, it comes from both ends alike, so that no force is left along the wall.
   void bring(const Sheets& sheets, const Vec& x, const Vec& y, WallPath& path) const;
+  /// Where a way that walls throw back meets them, in turn, and on which face; returns how many these are.
+  struct Crossing {
+    Index face = 0;
+    Vec at = Vec::Zero();  ///< put aside, as `WallPull::at`
+  };
+  int crossings(const Sheets& sheets, const WallPath& path, const Vec& x, const Vec& y,
+                std::array<Crossing, 4>& to) const;
   /// Appends what a function of d alone, with the slope `by_d`, changes by with the walls that throw the way
   /// back from y.
   void pull_images(const Sheets& sheets, const WallPath& path, const Vec& y, const Vec& by_d,

@@ -16,6 +16,7 @@ namespace {
 
 constexpr Real points_per_h = 4;  ///< the kernel's integral over a plane is then right to 1e-5 from 0.3 h on
 constexpr Real most_points_per_h = 16;  ///< of the largest h, where h differs
+constexpr Real least_distance = 0.25;   ///< of no slip, of a spacing: half of where the lowest row stands
 
 }  // namespace
 
@@ -31,6 +32,7 @@ WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& n
       rubbing_(sph_fields::wall_rubbing(world.particles)),
       neighbours_(neighbours),
       walls_(s.walls),
+      least_y_(least_distance * s.spacing),
       mu_(s.mu) {
   moves_.assign(static_cast<std::size_t>(world.segments.size()), 0);
   for (const Index segment : walls_.segments)
@@ -41,7 +43,10 @@ WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& n
     image_force_ = &sph_fields::wall_force(world.particles);
     integrates_ = s.volume_tau > 0;
   }
-  if (any_moves_) velocity_ = &sph_fields::wall_velocity(world.particles);
+  if (any_moves_ || walls_.belts.any()) velocity_ = &sph_fields::wall_velocity(world.particles);
+  if (walls_.belts.any()) slide_ = &sph_fields::wall_slide(world.particles);
+  if (walls_.hold && !s.walls.images) viscosity_ = &sph_fields::viscosity(world.particles);
+  if (viscosity_ && !s.turbulence.on()) viscous_ = &sph_fields::viscous_force(world.particles);
   if (s.renormalised) {
     moment_ = &sph_fields::wall_moment(world.particles);
     gradient_ = &sph_fields::wall_gradient(world.particles);
@@ -56,10 +61,12 @@ void WallSupport::rebuild(const World& world) {
   const Real reach = table_.support() * most_h_ + neighbours_.largest_skin() + past_edges_;
   std::optional<Lookouts> from;  // a surface of every step is that of what water can see
   if (any_moves_ && world.particles.active > 0) from.emplace(world.particles, reach, walls_.planes);
-  surface_.emplace(world, walls_.segments, spacing, reach, walls_.planes, from ? &*from : nullptr);
+  surface_.emplace(world, walls_.segments, spacing, reach, walls_.planes, from ? &*from : nullptr,
+                   &walls_.belts);
   for (Index f = 0; f < surface_->faces(); ++f) {
     const WallFriction &law = friction_of(f), &first = friction_of(0);
-    one_law_ &= law.cf == first.cf && law.log_law == first.log_law && law.ks == first.ks;
+    one_law_ &= law.cf == first.cf && law.log_law == first.log_law && law.ks == first.ks &&
+                surface_->face(f).belt < 0;
     rubs_ |= law.rubs();
   }
 }
@@ -75,15 +82,19 @@ void WallSupport::declare(const World& world, Accesses& a) const {
   a.reads(p.x).reads(p.v).reads(p.h).reads_before(p.rho).updates(p.drhodt);
   if (!mu_.empty()) a.reads(p.part);
   a.updates(slope_).updates(fill_).updates(rubbing_);
+  if (velocity_) a.updates(*velocity_);
+  if (slide_) a.updates(*slide_);
   if (moment_) a.updates(*moment_).updates(*gradient_);
   if (!any_moves_) return;
-  a.updates(*velocity_).reads(p.x, Reach::others);
+  a.reads(p.x, Reach::others);
   const Segments& s = world.segments;
   a.in_start().reads(world.nodes.x).reads(world.nodes.v).reads(world.nodes.held).reads(p.x, Reach::others);
   a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3).reads(s.part);
 }
 
-void WallSupport::start(World& world, const Clock&) {
+void WallSupport::start(World& world, const Clock& clock) {
+  belt_factors_.clear();
+  for (const WallBelts::Belt& belt : walls_.belts.belts) belt_factors_.push_back(belt.factor(clock.t));
   if (follows()) rebuild(world);
 }
 
@@ -104,6 +115,7 @@ void WallSupport::set(Index i, const Sums& sums) {
   slope_.set(i, sums.slope);
   fill_[i] = sums.fill, rubbing_[i] = sums.rubbing;
   if (velocity_) velocity_->set(i, sums.wall_velocity);
+  if (slide_) slide_->set(i, sums.wall_slide);
   if (!moment_) return;
   moment_->set_tensor(i, sums.moment);
   gradient_->set_tensor(i, sums.gradient);
@@ -115,7 +127,27 @@ Vec WallSupport::corrected_slope(Index i) const {
 }
 
 Vec WallSupport::force_on(const Particles& p, Index i) const {
-  return image_force_ ? Vec(own_force_on(p, i) + image_force_->vec(i)) : own_force_on(p, i);
+  const Vec own = own_force_on(p, i) + hold_on(p, i).force;
+  return image_force_ ? Vec(own + image_force_->vec(i)) : own;
+}
+
+/// How fast a wall without slip holds a particle: stress over viscosity and velocity, shared by pieces.
+Real WallSupport::held_by(const Particles& p, Index i, const WallPoint& q, const Vec& away) const {
+  if (!friction_of(q.face).no_slip) return 0;
+  const Real y = std::max(surface_->distance(q.face, p.x.vec(i)), least_y_);
+  return 2 * away.norm() * kernel(p.h[i], q.x - p.x.vec(i)) / y;
+}
+
+WallSupport::Hold WallSupport::hold_on(const Particles& p, Index i) const {
+  Hold hold;
+  if (!viscosity_) return hold;
+  const Real muV = p.m[i] / p.rho[i] * (*viscosity_)[i];
+  surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
+    const Vec slide = belt_velocity(q), u = p.v.vec(i) - q.v - slide,
+              force = -muV * held_by(p, i, q, away) * u;
+    hold.force += force, hold.heat -= force.dot(u), hold.belt_power += force.dot(slide);
+  });
+  return hold;
 }
 
 Vec WallSupport::own_force_on(const Particles& p, Index i) const {
@@ -124,13 +156,29 @@ Vec WallSupport::own_force_on(const Particles& p, Index i) const {
   return friction - (2 * p.m[i] / p.rho[i] * pressure_[i]) * corrected_slope(i);
 }
 
+void WallSupport::start_forces(const World& world) {
+  if (viscosity_) holds_.assign(static_cast<std::size_t>(block_count(world.particles.active)), {});
+}
+
+void WallSupport::hold(Particles& p, Index i) {
+  if (!viscosity_) return;
+  const Hold one = hold_on(p, i);
+  p.f.add(i, one.force);
+  if (viscous_) viscous_->add(i, one.force);
+  Hold& block = holds_[static_cast<std::size_t>(i / block_size)];
+  block.heat += one.heat, block.belt_power += one.belt_power;
+}
+
 void WallSupport::declare_force(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
   a.reads(p.v).reads(p.m).reads(p.rho).reads(pressure_).reads(slope_).reads(rubbing_).updates(p.f);
   if (excess_) a.reads(*excess_);
+  if (velocity_) a.reads(*velocity_);
+  if (viscosity_) a.reads(*viscosity_).reads(p.x).reads(p.h);
+  if (viscous_) a.updates(*viscous_);
   const Segments& s = world.segments;
   if (any_moves_) {
-    a.reads(*velocity_).reads(p.x).reads(p.h);
+    a.reads(p.x).reads(p.h).reads(p.part);
     a.in_finish().updates(s.contact_force).updates(world.nodes.f);
     a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
   }
@@ -141,16 +189,25 @@ void WallSupport::declare_force(const World& world, Accesses& a) const {
 void WallSupport::add_reactions(const Particles& p, Index i, std::vector<Reaction>& to) const {
   const Vec friction = friction_on(p, i, p.v.vec(i));
   if (image_force_ && !(rubbing_[i] > 0)) return;
+  const Real muV = viscosity_ ? p.m[i] / p.rho[i] * (*viscosity_)[i] : 0;
   const Real twice_pV = image_force_ ? 0 : 2 * p.m[i] / p.rho[i] * pressure_[i];
   const Matrix B = excess_ ? Matrix(Matrix::Identity() + excess_->tensor(i)) : Matrix(Matrix::Identity());
   const std::size_t first = to.size();
+  const auto rubbed_by = [&](const WallPoint& q, const Vec& away, Real W) {
+    return friction_coefficient(p, i, q.face, q.v + belt_velocity(q)) * away.norm() * W;
+  };
+  Real rubbing = 0;  // now that densities have changed
+  if (rubbing_[i] > 0)
+    surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
+      rubbing += rubbed_by(q, away, kernel(p.h[i], q.x - p.x.vec(i)));
+    });
   surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
     const Index segment = surface_->segment_of(q.face);
     if (!moves_[static_cast<std::size_t>(segment)]) return;
     const Real W = kernel(p.h[i], q.x - p.x.vec(i));
     Vec force = twice_pV * W * (B * away);
-    if (rubbing_[i] > 0)
-      force -= friction_coefficient(p, i, q.face, q.v) * away.norm() * W / rubbing_[i] * friction;
+    if (rubbing > 0) force -= rubbed_by(q, away, W) / rubbing * friction;
+    if (muV > 0) force += muV * held_by(p, i, q, away) * (p.v.vec(i) - q.v - belt_velocity(q));
     force = surface_->from_image(q.face, force);
     auto known = std::find_if(to.begin() + static_cast<std::ptrdiff_t>(first), to.end(),
                               [segment](const Reaction& r) { return r.segment == segment; });
@@ -187,6 +244,11 @@ void WallSupport::keep(Archive& archive) {
 }
 
 void WallSupport::record(World& world, const Clock& clock, EnergyLedger& ledger) {
+  for (const Hold& block : holds_) {
+    ledger.dissipated += block.heat * clock.dt_mean();
+    ledger.external_work += block.belt_power * clock.dt_mean();
+    ledger.throughput += (block.heat + std::abs(block.belt_power)) * clock.dt_mean();
+  }
   if (!rubs_) return;
   const Particles& p = world.particles;
   const Real power = sum(p.active, [&](Index i) {
@@ -195,6 +257,12 @@ void WallSupport::record(World& world, const Clock& clock, EnergyLedger& ledger)
   });
   ledger.dissipated += power * clock.dt_mean();
   ledger.throughput += std::abs(power) * clock.dt_mean();
+  if (!slide_) return;
+  const Real of_belts = sum(p.active, [&](Index i) {
+    return is_near(i) ? friction_on(p, i, p.v.vec(i)).dot(slide_->vec(i)) : Real(0);
+  });
+  ledger.external_work += of_belts * clock.dt_mean();
+  ledger.throughput += std::abs(of_belts) * clock.dt_mean();
 }
 
 InterfaceForce WallSupport::report(const World& world) const {
@@ -258,6 +326,12 @@ Vec WallSupport::friction_on(const Particles& p, Index i, const Vec& v) const {
   return -(p.m[i] * rubbing_[i] * along.norm()) * along;
 }
 
+Vec WallSupport::belt_velocity(const WallPoint& q) const {
+  const WallSurface::Face& face = surface_->face(q.face);
+  if (face.belt < 0) return Vec::Zero();
+  return belt_factors_[static_cast<std::size_t>(face.belt)] * face.slide_at(q.x);
+}
+
 Real WallSupport::friction_coefficient(const Particles& p, Index i, Index face, const Vec& wall) const {
   const WallFriction& law = friction_of(face);
   if (!law.log_law) return law.cf;
@@ -278,14 +352,16 @@ WallSupport::Sums WallSupport::sums_over_points(const Particles& p, Index i, Rea
     s.slope += away * W;
     s.squeeze += u.dot(away) * before;
     s.fill += behind;
-    const Real rubbing = rubs_ ? friction_coefficient(p, i, q.face, q.v) * away.norm() * W : 0;
+    const Vec slide = slide_ ? belt_velocity(q) : Vec(Vec::Zero()), wall = q.v + slide;
+    const Real rubbing = rubs_ ? friction_coefficient(p, i, q.face, wall) * away.norm() * W : 0;
     s.rubbing += rubbing;
-    if (velocity_) s.wall_velocity += rubbing * q.v;
+    if (velocity_) s.wall_velocity += rubbing * wall;
+    if (slide_) s.wall_slide += rubbing * slide;
     if (!moment_) return;
     s.moment += W * d * away.transpose();
     s.gradient += before * (u * away.transpose() + away * u.transpose());
   });
-  if (s.rubbing > 0) s.wall_velocity /= s.rubbing;
+  if (s.rubbing > 0) s.wall_velocity /= s.rubbing, s.wall_slide /= s.rubbing;
   if (moment_) s.moment = 0.5 * (s.moment + s.moment.transpose().eval()) + s.fill * Matrix::Identity();
   return s;
 }
@@ -330,6 +406,7 @@ class WallSupportForce : public Force {
   void start(World& world, const Clock&) override {
     support_->take_back_forces(world);
     reactions_.resize(static_cast<std::size_t>(block_count(world.particles.active)));
+    support_->start_forces(world);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
     Particles& p = world.particles;
@@ -338,6 +415,7 @@ class WallSupportForce : public Force {
     for (Index i = begin; i < end; ++i) {
       if (!support_->is_near(i)) continue;
       p.f.add(i, support_->own_force_on(p, i));
+      support_->hold(p, i);
       if (support_->any_moves()) support_->add_reactions(p, i, reactions);
     }
   }

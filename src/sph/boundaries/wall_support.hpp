@@ -21,7 +21,8 @@ namespace courant {
 /// complete the moment matrix by int (x' - x_i) (x) n W dS + 1 int W dV behind the wall, and its inverse B
 /// stands before b and n as before other gradients. Friction: tau = CF rho |v - w|^2/2 along the wall, given
 /// to the particles that see it, whose kernels make up half of 1 there. With LAW 1, tau = rho u*^2 by the
-/// distance and velocity of each of them (wall_law.hpp).
+/// distance and velocity of each of them (wall_law.hpp). With LAW 2, no slip, tau = mu |v - w|/y: what
+/// viscosity between pairs lacks if behind the wall v goes on linearly; with METHOD 1 images do that.
 ///
 /// Walls that move get what particles lose, piece by piece, on the nodes of the segment as it interpolates.
 ///
@@ -45,6 +46,9 @@ class WallSupport : public Rate,
   /// What `WallSupportForce` adds of it: all but that of images, which is there already.
   Vec own_force_on(const Particles& p, Index i) const;
   void declare_force(const World& world, Accesses& a) const;
+  void start_forces(const World& world);
+  /// Adds the force of walls without slip; METHOD 1 has images for that.
+  void hold(Particles& p, Index i);
   bool is_near(Index i) const { return view_[i] != nothing; }
   const WallSurface& surface() const { return *surface_; }
   bool any_moves() const { return any_moves_; }
@@ -72,7 +76,7 @@ class WallSupport : public Rate,
 
  private:
   struct Sums {
-    Vec slope = Vec::Zero(), wall_velocity = Vec::Zero();
+    Vec slope = Vec::Zero(), wall_velocity = Vec::Zero(), wall_slide = Vec::Zero();
     Real squeeze = 0;  ///< int (v - w).n W dS in the middle of the step [1/T]
     Real fill = 0, rubbing = 0;
     Matrix moment = Matrix::Zero(), gradient = Matrix::Zero();
@@ -89,6 +93,14 @@ class WallSupport : public Rate,
   Vec over_wall(Index i, const Vec& v) const;
   Vec friction_on(const Particles& p, Index i, const Vec& v) const;
   const WallFriction& friction_of(Index face) const { return walls_.friction[surface_->segment_of(face)]; }
+  Vec belt_velocity(const WallPoint& q) const;
+  /// What walls without slip do, and what they turn into heat and get by belts.
+  struct Hold {
+    Vec force = Vec::Zero();
+    Real heat = 0, belt_power = 0;  ///< [ML2/T3]
+  };
+  Hold hold_on(const Particles& p, Index i) const;
+  Real held_by(const Particles& p, Index i, const WallPoint& q, const Vec& away) const;
   /// Shear stress of a face over rho u^2/2 for a particle there; `wall`: the velocity of the face [L/T]
   Real friction_coefficient(const Particles& p, Index i, Index face, const Vec& wall) const;
   Sums sums_over_points(const Particles& p, Index i, Real half_step) const;
@@ -104,12 +116,16 @@ class WallSupport : public Rate,
   Field<Real>&slope_, &fill_;
   Field<Real>& pressure_;  ///< with that of bulk viscosity, as pair forces take it
   Field<Real>& rubbing_;
-  Field<Real>* velocity_ = nullptr;                                         ///< where walls move
-  Field<Real>* image_force_ = nullptr;                                      ///< METHOD 1
+  Field<Real>*velocity_ = nullptr, *slide_ = nullptr;     ///< where walls move or belts; where belts do
+  Field<Real>*viscosity_ = nullptr, *viscous_ = nullptr;  ///< where walls hold water fast, METHOD 0
+  Field<Real>* image_force_ = nullptr;                    ///< METHOD 1
   Field<Real>*moment_ = nullptr, *gradient_ = nullptr, *excess_ = nullptr;  ///< where forms are renormalised
   const Neighbours& neighbours_;
   SupportedWalls walls_;
-  std::vector<char> moves_;        ///< by segment
+  std::vector<char> moves_;  ///< by segment
+  Real least_y_ = 0;         ///< no slip takes nearer particles as if they were there [L]
+  std::vector<Real> belt_factors_;
+  std::vector<Hold> holds_;        ///< sums of each block in this step
   Real least_h_ = 0, most_h_ = 0;  ///< when neighbours were searched last [L]
   std::optional<WallSurface> surface_;
   std::vector<Real> mu_;  ///< per part, 0: none [M/LT]

@@ -16,7 +16,7 @@ namespace {
 
 const RegisterKeyword<CourantWallSupport> wall_support_keyword{
     {.names = {"COURANT_WALL_SUPPORT"},
-     .purpose = "completes the sums of particles beside shells, still or moving; skin friction of the shells",
+     .purpose = "completes the sums of particles beside shells, still or moving; skin friction, or no slip",
      .cards = {
          {.fields = {
               {"SURFB",
@@ -46,8 +46,9 @@ const RegisterKeyword<CourantWallSupport> wall_support_keyword{
               {"LAW",
                &CourantWallSupport::law,
                "-",
-               "friction: 0 by CF; 1 by the logarithmic law, from distance and velocity",
-               {.allowed = {0, 1}}},
+               "friction: 0 by CF; 1 by the logarithmic law, from distance and velocity; 2 no slip: water at "
+               "the wall has its velocity, and MU acts",
+               {.allowed = {0, 1, 2}}},
               {"KS",
                &CourantWallSupport::ks,
                "L",
@@ -97,9 +98,32 @@ void check_images(const CourantWallSupport& c, const Deck& deck, const Model& mo
          "on walls that move and are no rigid bodies", "use METHOD 0, or make them of *MAT_RIGID");
 }
 
+/// What walls without slip ask for.
+void check_no_slip(const CourantWallSupport& c, const Deck& deck, const Model& model, const SphSettings& s,
+                   Diagnostics& diagnostics) {
+  const auto refuse = [&](bool is, const char* field, const std::string& what, const char* hint) {
+    if (is) deck.error(diagnostics, c, field, what, hint);
+  };
+  refuse(c.cf > 0, "CF", "LAW 2 finds the shear stress itself", "leave CF 0, or give LAW 0");
+  refuse(c.ks > 0, "KS", "LAW 2 has no roughness", "leave KS 0, or give LAW 1");
+  refuse(!s.strength.empty(), "LAW", "no slip is not supported beside particles with strength",
+         "give LAW 0, or let solids be elements or rigid bodies");
+  refuse(s.mixing_length.most > 0, "LAW",
+         "no slip takes viscosity between pairs, and *COURANT_EDDY_VISCOSITY acts by a stress",
+         "use MODEL 1 of *COURANT_TURBULENCE, which is that mixing length between pairs");
+  const auto* turbulence = deck.last<CourantTurbulence>();
+  refuse(turbulence && static_cast<TurbulenceModel>(turbulence->model) == TurbulenceModel::k_epsilon, "LAW",
+         "k-epsilon does not hold down to a wall without slip", "give LAW 1, the law of the wall");
+  for (const ModelPart& part : model.parts)
+    if (part.has_sph && (s.mu.empty() || !(s.mu[static_cast<std::size_t>(&part - model.parts.data())] > 0)))
+      return refuse(true, "LAW", fmt::format("no slip needs a viscosity, and part {} has none", part.id),
+                    "give MU in *MAT_NULL, 1e-3 Pa s for water, or LAW 0");
+}
+
 /// Fields of friction that do not go together.
 void check_friction(const CourantWallSupport& c, const Deck& deck, const Model& model, const SphSettings& s,
                     Diagnostics& diagnostics) {
+  if (c.law == 2) return check_no_slip(c, deck, model, s, diagnostics);
   if (c.law == 0 && c.ks > 0)
     deck.error(diagnostics, c, "KS", "a roughness belongs to the logarithmic law",
                "give LAW 1, or leave KS 0");
@@ -151,8 +175,9 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
         return;
       }
       walls.segments.push_back(s);
-      walls.friction[s] = {.cf = c.cf, .log_law = c.law == 1, .ks = c.ks};
+      walls.friction[s] = {.cf = c.cf, .log_law = c.law == 1, .ks = c.ks, .no_slip = c.law == 2};
     }
+    walls.hold |= c.law == 2;
     if (first && first->method != c.method)
       deck.error(diagnostics, c, "METHOD", "another *COURANT_WALL_SUPPORT has another METHOD",
                  "give all of them the same METHOD");
@@ -162,6 +187,7 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
     check_friction(c, deck, model, settings, diagnostics);
     if (thickness > 0) check_thickness(c, thickness, deck, world, diagnostics);
   }
+  read_wall_belts(deck, model, world, settings, diagnostics);
 }
 
 }  // namespace courant

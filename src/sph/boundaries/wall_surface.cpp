@@ -77,7 +77,7 @@ bool Lookouts::any_in(const Vec& low, const Vec& high) const {
 }
 
 WallSurface::WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
-                         std::vector<GhostPlane> planes, const Lookouts* from)
+                         std::vector<GhostPlane> planes, const Lookouts* from, const WallBelts* belts)
     : dim_(world.dim), reach_(reach), spacing_(spacing), mirrors_and_periods_(std::move(planes)) {
   std::vector<char> seen(segments.size(), 1);
   if (from)
@@ -96,6 +96,8 @@ WallSurface::WallSurface(const World& world, const std::vector<Index>& segments,
     Face face;
     face.segment = s;
     if (segment_moves(world, s)) face.body = world.segments.part[s];
+    if (belts && (face.belt = belts->of(s)) >= 0)
+      face.slide = belts->belts[static_cast<std::size_t>(face.belt)].motion;
     for (int e = 0; e < 4; ++e) face.v[e] = world.nodes.v.vec(node[e]);
     if (dim_ == 2) {
       add_line(world.nodes, node, face);
@@ -228,6 +230,12 @@ Vec WallSurface::direction_behind(int k, const Vec& v) const {
   return v - 2 * v.dot(plane.normal) * plane.normal;
 }
 
+WallMotion WallSurface::motion_behind(int k, Side way, const WallMotion& m) const {
+  const bool turned = mirrors_and_periods_[k].kind == GhostPlane::Kind::mirror;
+  const Vec omega = direction_behind(k, m.omega);
+  return {place_behind(k, way, m.x0), direction_behind(k, m.v), turned ? Vec(-omega) : omega};
+}
+
 /// Images of what is there so far, those of earlier planes among it, as far as anything can see them.
 void WallSurface::add_images(int k) {
   const GhostPlane plane = mirrors_and_periods_[k];
@@ -249,6 +257,7 @@ void WallSurface::add_images(int k) {
           face.from_image.col(c) = faces_[point.face].from_image * direction(Vec::Unit(c));
         face.side |= side << 2 * k;
         face.image_of = point.face, face.behind = k, face.way = side;
+        face.slide = motion_behind(k, side, face.slide);
         image[point.face] = faces();
         add_face(face);
       }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "search/ghosts.hpp"
+#include "sph/boundaries/wall_belts.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -18,13 +19,6 @@ struct WallPoint {
   Index face = 0;
   Vec v = Vec::Zero();           ///< [L/T]
   std::array<Real, 4> weight{};  ///< of the nodes of its segment, as they interpolate [-]
-};
-
-/// How a rigid piece of wall moves.
-struct WallMotion {
-  Vec x0 = Vec::Zero(), v = Vec::Zero(), omega = Vec::Zero();  ///< at x0 [L/T]; [1/T]
-  /// Velocity of what moves with it at x [L/T].
-  Vec at(const Vec& x) const { return v + omega.cross(x - x0); }
 };
 
 /// Whether any of its nodes can.
@@ -53,9 +47,10 @@ class Lookouts {
 class WallSurface {
  public:
   /// `spacing`: of points [L]; `reach`: farthest that anything looks [L]. `from`: what nothing there can see
-  /// is left out.
+  /// is left out. `belts`: what moves along itself.
   WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
-              std::vector<GhostPlane> planes = {}, const Lookouts* from = nullptr);
+              std::vector<GhostPlane> planes = {}, const Lookouts* from = nullptr,
+              const WallBelts* belts = nullptr);
 
   Index faces() const { return static_cast<Index>(faces_.size()); }
   Index points() const { return static_cast<Index>(points_.size()); }
@@ -91,6 +86,13 @@ class WallSurface {
     Index image_of = -1;  ///< the face whose image it is behind plane `behind`, on the side `way`
     int behind = 0;
     Side way = 0;
+    int belt = -1;     ///< which it belongs to; -1: none
+    WallMotion slide;  ///< of the belt, at factor 1
+    /// Velocity of the belt along the face at x, at factor 1 [L/T].
+    Vec slide_at(const Vec& x) const {
+      const Vec u = slide.at(x);
+      return u - u.dot(n) * n;
+    }
     void find_plane();  ///< n, offset and inward from the corners
     Face() { x.fill(Vec::Zero()), inward.fill(Vec::Zero()), v.fill(Vec::Zero()); }
   };
@@ -155,6 +157,7 @@ class WallSurface {
   void add_images(int plane);
   Vec place_behind(int plane, Side way, const Vec& x) const;
   Vec direction_behind(int plane, const Vec& v) const;
+  WallMotion motion_behind(int plane, Side way, const WallMotion& motion) const;
   bool is_at(Side side, const Vec& x) const;
   void sort_into_cells();
   bool near(const WallPoint& point, const Vec& x) const {

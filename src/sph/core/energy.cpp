@@ -29,7 +29,7 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Re
     if (std::holds_alternative<BulkViscosity>(s.viscosity)) total_pressure_ = &sph_fields::pressure_plus_q(p);
     if (s.renormalised && !s.plain_pressure) excess_ = &sph_fields::renormalisation(p);
     if (!s.mu.empty()) viscous_ = &sph_fields::viscous_dissipation(p);
-    if (s.turbulence.on()) eddies_ = &sph_fields::viscosity(p);
+    if (s.has_viscous_pairs()) pair_viscosity_ = &sph_fields::viscosity(p);
     if (s.has_viscous_stress() || !s.strength.empty()) tau_ = &sph_fields::stress(p);
   }
   std::string name() const override { return "sph energy"; }
@@ -152,9 +152,9 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Re
                                    -(vi - vj).dot(d) / std::sqrt(r2));
       // the work on i, less what i stores or burns of it by p_i v_ij.d, tau_i:D and its half of Pi
       Real power = -(s.pressure_i * vj + s.pressure_j * vi + 0.5 * s.viscous * (vi + vj)).dot(d);
-      if (eddies_)
-        power += pair.inverse_rho * slope_over_r<Kernel, Dim>(r2, h) * ((*eddies_)[i] + (*eddies_)[j]) *
-                 (vi - vj).dot(0.5 * (vi + vj));
+      if (pair_viscosity_)
+        power += pair.inverse_rho * slope_over_r<Kernel, Dim>(r2, h) *
+                 ((*pair_viscosity_)[i] + (*pair_viscosity_)[j]) * (vi - vj).dot(0.5 * (vi + vj));
       if (tau_) {
         const Real gi = slope_over_r<Kernel, Dim>(r2, h),
                    gj = slope_over_r<Kernel, Dim>(r2, UniformH ? h : p.h[of]);
@@ -183,7 +183,7 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Re
   Field<Real>& reference_volume_;
   const RiemannFlux* riemann_ = nullptr;
   Field<Real>* viscous_ = nullptr;
-  Field<Real>* eddies_ = nullptr;  ///< viscosity between pairs
+  Field<Real>* pair_viscosity_ = nullptr;
   Field<Real>* total_pressure_ = nullptr;
   Field<Real>* tau_ = nullptr;
   Field<Real>* excess_ = nullptr;  ///< of renormalised forms

@@ -165,6 +165,19 @@ inline Field<Real>& wall_gradient(Particles& p) {
 inline Field<Real>& wall_force(Particles& p) {
   return p.fields.add<Real>({.name = "wall_force", .dimension = "ML/T2", .components = 3, .restart = false});
 }
+/// Force of MU between pairs and with walls that hold water fast
+inline Field<Real>& viscous_force(Particles& p) {
+  return p.fields.add<Real>(
+      {.name = "viscous_force", .dimension = "ML/T2", .components = 3, .restart = false});
+}
+/// That of walls by viscosity, where they hold water fast
+inline Field<Real>& wall_drag(Particles& p) {
+  return p.fields.add<Real>({.name = "wall_drag", .dimension = "ML/T2", .components = 3, .restart = false});
+}
+/// Of `wall_velocity`, what belts have beyond their shells
+inline Field<Real>& wall_slide(Particles& p) {
+  return p.fields.add<Real>({.name = "wall_slide", .dimension = "L/T", .components = 3, .restart = false});
+}
 /// Mean velocity of the walls in sight, each by its friction
 inline Field<Real>& wall_velocity(Particles& p) {
   return p.fields.add<Real>({.name = "wall_velocity", .dimension = "L/T", .components = 3, .restart = false});

@@ -1,0 +1,44 @@
+#pragma once
+// Surfaces of walls that move along themselves while their shells stand: belts, lids, rims of drums.
+#include <vector>
+
+#include "keyword/card.hpp"
+#include "model/model.hpp"
+
+namespace courant {
+
+/// How a rigid piece of wall moves.
+struct WallMotion {
+  Vec x0 = Vec::Zero(), v = Vec::Zero(), omega = Vec::Zero();  ///< at x0 [L/T]; [1/T]
+  /// Velocity of what moves with it at x [L/T].
+  Vec at(const Vec& x) const { return v + omega.cross(x - x0); }
+};
+
+/// *COURANT_WALL_BELT, ours.
+struct CourantWallBelt : Entry {
+  Id surfb = 0;
+  int surfbtyp = 3;
+  Id lcid = 0;
+  Real sf = 1;
+  Real vx = 0, vy = 0, vz = 0;
+  Real xc = 0, yc = 0, zc = 0, wx = 0, wy = 0, wz = 0;
+};
+
+/// Of each segment the belt that it belongs to; where there is none, `of_segment` is empty.
+struct WallBelts {
+  struct Belt {
+    WallMotion motion;  ///< at factor 1
+    Real sf = 1;
+    Curve curve{};  ///< of the factor over time; without points: 1
+    /// By which `motion` is multiplied at time t. [-]
+    Real factor(Real t) const { return curve.abscissa.empty() ? sf : sf * curve(t); }
+  };
+  std::vector<Belt> belts{};
+  std::vector<int> of_segment{};  ///< -1: none
+  bool any() const { return !belts.empty(); }
+  int of(Index segment) const {
+    return of_segment.empty() ? -1 : of_segment[static_cast<std::size_t>(segment)];
+  }
+};
+
+}  // namespace courant
