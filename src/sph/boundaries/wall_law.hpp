@@ -18,12 +18,10 @@ struct WallFriction {
 
 inline constexpr Real von_karman = 0.41;
 
-/// Distance [L] at which a particle has its velocity, at least: a fifth of h, less than half of where a row
-/// stands at rest. What a particle's velocity is a mean over reaches farther from the wall than that, and a
-/// particle that passes an edge crosses the plane of a wall at no distance at all.
-inline Real distance_of_velocity(Real distance, Real h) {
-  return std::max(distance, Real(0.2) * h);
-}
+/// A particle has its velocity no nearer to a wall than this share of the spacing, half of where the lowest
+/// row stands at rest: what the velocity is a mean over reaches farther, and a particle that passes an edge
+/// crosses the plane of a wall at no distance at all.
+inline constexpr Real least_distance = 0.25;
 
 /// Friction velocity u* [L/T] of a wall along which the mean velocity at distance y is u >= 0: from
 ///   u/u* = ln(y/y0)/0.41,   y0 = 0.114 nu/u* + ks/32.6

@@ -16,7 +16,6 @@ namespace {
 
 constexpr Real points_per_h = 4;  ///< the kernel's integral over a plane is then right to 1e-5 from 0.3 h on
 constexpr Real most_points_per_h = 16;  ///< of the largest h, where h differs
-constexpr Real least_distance = 0.25;   ///< of no slip, of a spacing: half of where the lowest row stands
 
 }  // namespace
 
@@ -337,7 +336,7 @@ Real WallSupport::friction_coefficient(const Particles& p, Index i, Index face, 
   if (!law.log_law) return law.cf;
   const Vec n = surface_->away(face, p.x.vec(i)), u = p.v.vec(i) - wall, along = u - u.dot(n) * n;
   const Real speed = along.norm(), nu = mu_.empty() ? 0 : mu_[p.part[i]] / p.rho[i];
-  const Real y = distance_of_velocity(surface_->distance(face, p.x.vec(i)), p.h[i]);
+  const Real y = std::max(surface_->distance(face, p.x.vec(i)), least_y_);
   const Real u_star = friction_velocity(speed, y, nu, law.ks);
   return speed > 0 ? 2 * power<2>(u_star / speed) : 0;
 }

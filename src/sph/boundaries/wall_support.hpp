@@ -123,7 +123,7 @@ class WallSupport : public Rate,
   const Neighbours& neighbours_;
   SupportedWalls walls_;
   std::vector<char> moves_;  ///< by segment
-  Real least_y_ = 0;         ///< no slip takes nearer particles as if they were there [L]
+  Real least_y_ = 0;         ///< nearer particles rub as if they were there [L]
   std::vector<Real> belt_factors_;
   std::vector<Hold> holds_;        ///< sums of each block in this step
   Real least_h_ = 0, most_h_ = 0;  ///< when neighbours were searched last [L]

@@ -235,7 +235,7 @@ class Turbulence : public Material {
     if (!walls_) return flow;
     const NearestWall wall = walls_->nearest(p.x.vec(i));
     if (wall.segment < 0) return flow;
-    flow.y = distance_of_velocity(wall.distance, p.h[i]);
+    flow.y = std::max(wall.distance, least_distance * spacing_);
     const WallFriction& friction = friction_[static_cast<std::size_t>(wall.segment)];
     if (!friction.rubs() || flow.y > last_row * spacing_) return flow;
     const Vec u = p.v.vec(i) - wall.velocity, along = u - u.dot(wall.normal) * wall.normal;
