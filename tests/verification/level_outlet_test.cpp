@@ -2,9 +2,9 @@
 // that nothing can have come back yet.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <vector>
 
+#include "same_bits.hpp"
 #include "scenes.hpp"
 
 using namespace courant;
@@ -16,18 +16,9 @@ constexpr Real d = 0.1, a = 0.02, gauge = 2, half = 0.05, past = 1.8, end = 3.4;
 
 /// Depth that the water's volume fills about the gauge, every 0.02 s from when the wave has passed.
 std::vector<Real> depths(const std::map<std::string, std::string>& parameters) {
-  const auto deck = std::filesystem::path(::testing::TempDir()) / "solitary_wave_out.k";
-  Diagnostics diagnostics;
-  EXPECT_TRUE(generate_deck(std::string(SOURCE_DIR) + "/tests/verification/scenes/solitary_wave_out.yaml",
-                            deck.string(), parameters, diagnostics))
-      << diagnostics.text();
-  const auto s = Simulation::build(deck.string(), {}, diagnostics);
-  std::filesystem::remove(deck);
+  const auto s = test::simulation_of(test::deck_of_scene("solitary_wave_out", parameters));
   std::vector<Real> out;
-  if (!s) {
-    ADD_FAILURE() << diagnostics.text();
-    return out;
-  }
+  if (!s) return out;
   Real highest = 0;
   for (int k = 0; s->clock().t < end;) {
     s->step([](World&, const Clock&, const std::string&) {});

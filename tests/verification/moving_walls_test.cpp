@@ -2,8 +2,6 @@
 // nothing but what carries it; a box floats as deep as Archimedes has it; nothing is lost between water and
 // walls.
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "rigid/rigid.hpp"
 #include "same_bits.hpp"
@@ -17,17 +15,6 @@ namespace {
 constexpr Real rho0 = 1000, g = 9.81;
 using Parameters = std::map<std::string, std::string>;
 
-std::string scene(const std::string& name, const Parameters& parameters) {
-  const std::string deck = ::testing::TempDir() + name + ".k";
-  Diagnostics diagnostics;
-  EXPECT_TRUE(generate_deck(std::string(SOURCE_DIR) + "/tests/verification/scenes/" + name + ".yaml", deck,
-                            parameters, diagnostics))
-      << diagnostics.text();
-  std::ifstream file(deck);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 /// Without what drives its walls.
 std::string freed(std::string text) {
   const auto from = text.find("*INITIAL_VELOCITY_RIGID"), to = text.find("*SECTION_SHELL");
@@ -43,7 +30,7 @@ std::unique_ptr<Simulation> started(const std::string& text) {
   return s;
 }
 std::unique_ptr<Simulation> box(const Parameters& parameters) {
-  return started(scene("carried_box", parameters));
+  return started(test::deck_of_scene("carried_box", parameters));
 }
 void run(Simulation& s, Real until) {
   while (s.clock().t < until) s.step(test::do_nothing);
@@ -186,14 +173,14 @@ void expect_nothing_lost(const std::string& text, const Vec& start, Real until, 
 }
 
 TEST(MovingWalls, LoseNothingBetweenWaterAndThem) {
-  expect_nothing_lost(freed(scene("carried_box", {{"lid", "0"}, {"n", "8"}, {"ro", "2000"}})),
+  expect_nothing_lost(freed(test::deck_of_scene("carried_box", {{"lid", "0"}, {"n", "8"}, {"ro", "2000"}})),
                       Vec(0.5, -0.3, 0), 0.2, 0.2, 1e-12);
   // corners of two bodies, which move against each other
-  expect_nothing_lost(scene("piston_box", {}), Vec(0.2, 0.1, 0), 0.05, 0.3, 1e-6);
+  expect_nothing_lost(test::deck_of_scene("piston_box", {}), Vec(0.2, 0.1, 0), 0.05, 0.3, 1e-6);
 }
 
 TEST(MovingWalls, FloatAsDeepAsArchimedesSays) {
-  const auto s = started(scene("floating_box", {}));
+  const auto s = started(test::deck_of_scene("floating_box", {}));
   const auto& b = s->bodies()->bodies().back();
   const Real start = b.x[1];
   Real sum = 0, turned = 0;
@@ -213,7 +200,7 @@ TEST(MovingWalls, FloatAsDeepAsArchimedesSays) {
 /// Impulse of the water on half a wedge from a quarter of its way on, over that by F' rho V^3 t, and the rms
 /// of the force about that. Reference: similarity solution of Zhao and Faltinsen (1993).
 std::array<Real, 2> wedge(const Parameters& parameters, Real slope, Real way) {
-  const auto s = started(scene("wedge_entry", parameters));
+  const auto s = started(test::deck_of_scene("wedge_entry", parameters));
   const Real half = 0.5 * slope * rho0;
   Real impulse = 0, exact = 0, noise = 0, before = 0, offset = 0.3 * way / std::stod(parameters.at("n"));
   while (s->clock().t < way) {
@@ -231,7 +218,7 @@ std::array<Real, 2> wedge(const Parameters& parameters, Real slope, Real way) {
 // most): after a push the box turns back at 0.293, 0.684 and 1.078 s, by 50 N 13.1, 12.8 and 12.9 mm off.
 // Vortices at its edges, which that has not, take a fifth of the first way here, with 8 rows and with 12.
 TEST(MovingWalls, HeaveAsLinearTheorySays) {
-  const auto s = started(scene("floating_box", {{"push", "-50"}}));
+  const auto s = started(test::deck_of_scene("floating_box", {{"push", "-50"}}));
   const auto& b = s->bodies()->bodies().back();
   const Real start = b.x[1];
   const std::array<Real, 4> from{0, 0.5, 0.9, 1.25}, side{-1, 1, -1};
@@ -266,10 +253,11 @@ TEST(MovingWalls, DriveAWedgeIntoWaterAgainstTheForceOfTheSimilaritySolution) {
 }
 
 TEST(MovingWalls, GiveTheSameBitsOnAnyThreadsAndAfterARestart) {
-  test::expect_same_bits(scene("floating_box", {{"n", "6"}, {"lift", "0.02"}}), 60, 25);
-  test::expect_same_bits(scene("carried_box", {{"n", "8"}, {"omega", "3"}}), 60, 25);
+  test::expect_same_bits(test::deck_of_scene("floating_box", {{"n", "6"}, {"lift", "0.02"}}), 60, 25);
+  test::expect_same_bits(test::deck_of_scene("carried_box", {{"n", "8"}, {"omega", "3"}}), 60, 25);
   // what is summed over pieces of walls, too
-  std::string rubs = freed(scene("carried_box", {{"n", "8"}, {"lid", "0"}, {"v", "0.5"}, {"ro", "2000"}}));
+  std::string rubs =
+      freed(test::deck_of_scene("carried_box", {{"n", "8"}, {"lid", "0"}, {"v", "0.5"}, {"ro", "2000"}}));
   const std::string smooth = "         2         3       0.0         1",
                     card = "*COURANT_VOLUME_CONTROL\n0.05\n";
   const auto at = rubs.find(smooth);

@@ -1,8 +1,6 @@
 // Walls without slip and belts (LAW 2 of *COURANT_WALL_SUPPORT, *COURANT_WALL_BELT): what water and walls
 // give each other, energy, bits.
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "rigid/rigid.hpp"
 #include "same_bits.hpp"
@@ -15,17 +13,6 @@ namespace {
 
 using Parameters = std::map<std::string, std::string>;
 
-std::string deck_of(const std::string& name, const Parameters& parameters) {
-  const std::string deck = ::testing::TempDir() + "drag_" + name + ".k";
-  Diagnostics diagnostics;
-  EXPECT_TRUE(generate_deck(std::string(SOURCE_DIR) + "/tests/verification/scenes/" + name + ".yaml", deck,
-                            parameters, diagnostics))
-      << diagnostics.text();
-  std::ifstream file(deck);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 /// Without what drives its walls.
 std::string let_go(std::string text) {
   const auto from = text.find("*INITIAL_VELOCITY_RIGID"), to = text.find("*SECTION_SHELL");
@@ -75,15 +62,16 @@ TEST(WallDrag, LosesNothingBetweenWaterAndBodies) {
   const Parameters free_box{{"lid", "0"}, {"n", "8"}, {"ro", "2000"}, {"law", "2"}, {"mu", "5"}, {"q1", "0"}};
   Parameters integrals = free_box;
   integrals["method"] = "0", integrals["thick"] = "0.9999";
-  expect_kept(let_go(deck_of("carried_box", free_box)), 0.05);
-  expect_kept(let_go(deck_of("carried_box", integrals)), 0.05);
+  expect_kept(let_go(test::deck_of_scene("carried_box", free_box)), 0.05);
+  expect_kept(let_go(test::deck_of_scene("carried_box", integrals)), 0.05);
   // corners of two bodies, which move against each other
-  expect_kept(deck_of("piston_box", {{"law", "2"}, {"mu", "5"}, {"q1", "0"}}), 0.02);
+  expect_kept(test::deck_of_scene("piston_box", {{"law", "2"}, {"mu", "5"}, {"q1", "0"}}), 0.02);
 }
 
 // Water that turns with its box goes on so.
 TEST(WallDrag, LeavesWaterThatTurnsWithItsBoxAlone) {
-  const auto s = begun(deck_of("carried_box", {{"n", "8"}, {"omega", "6"}, {"law", "2"}, {"mu", "20"}}));
+  const auto s =
+      begun(test::deck_of_scene("carried_box", {{"n", "8"}, {"omega", "6"}, {"law", "2"}, {"mu", "20"}}));
   ASSERT_TRUE(s);
   while (s->clock().t < 0.05) s->step(test::do_nothing);
   const Particles& p = s->world().particles;
@@ -99,7 +87,7 @@ TEST(WallDrag, LeavesWaterThatTurnsWithItsBoxAlone) {
 /// Stress of a belt on water at rest below it, over mu v/sqrt(pi nu t) of Stokes' first problem, and the
 /// residual of the energy over the belt's work.
 std::array<Real, 2> stokes(int method, int n) {
-  const auto s = begun(deck_of(
+  const auto s = begun(test::deck_of_scene(
       "wall_channel",
       {{"force", "0"}, {"belt", "1.0e-5"}, {"method", std::to_string(method)}, {"n", std::to_string(n)}}));
   if (!s) return {};
@@ -126,15 +114,15 @@ TEST(WallDrag, DragsWaterAlongAsStokesFirstProblemSays) {
 TEST(WallDrag, GivesTheSameBitsOnAnyThreadsAndAfterARestart) {
   for (const char* method : {"0", "1"}) {
     const std::string thick = *method == '0' ? "0.9999" : "0.4";
-    test::expect_same_bits(deck_of("wall_channel", {{"belt", "1.0e-5"}, {"method", method}, {"n", "16"}}), 60,
-                           25);
-    test::expect_same_bits(let_go(deck_of("carried_box", {{"lid", "0"},
-                                                          {"n", "8"},
-                                                          {"law", "2"},
-                                                          {"mu", "5"},
-                                                          {"v", "0.5"},
-                                                          {"thick", thick},
-                                                          {"method", method}})),
+    test::expect_same_bits(
+        test::deck_of_scene("wall_channel", {{"belt", "1.0e-5"}, {"method", method}, {"n", "16"}}), 60, 25);
+    test::expect_same_bits(let_go(test::deck_of_scene("carried_box", {{"lid", "0"},
+                                                                      {"n", "8"},
+                                                                      {"law", "2"},
+                                                                      {"mu", "5"},
+                                                                      {"v", "0.5"},
+                                                                      {"thick", thick},
+                                                                      {"method", method}})),
                            30, 12);
   }
 }

@@ -15,16 +15,8 @@ namespace {
 constexpr Real depth = 0.16, g = 9.81, rho0 = 1000;
 
 /// `n`: rows of the higher level.
-std::string scene(const std::string& name, const std::map<std::string, std::string>& parameters) {
-  const std::string deck = ::testing::TempDir() + name + ".k";
-  Diagnostics diagnostics;
-  EXPECT_TRUE(generate_deck(std::string(SOURCE_DIR) + "/tests/verification/scenes/" + name + ".yaml", deck,
-                            parameters, diagnostics))
-      << diagnostics.text();
-  return deck;
-}
 std::string baffle(const std::map<std::string, std::string>& parameters) {
-  return scene("baffle", parameters);
+  return test::generated_from("tests/verification/scenes/baffle.yaml", parameters);
 }
 /// How deep water is at x beside the baffle, and everywhere over the block.
 Real beside_baffle(Real x, int n) {
@@ -91,7 +83,8 @@ TEST(WallImages, HoldWaterOverABlock) {
   for (const int n : {10, 20}) {
     const std::string rows = std::to_string(n);
     const std::map<std::string, std::string> size{{"n", rows}, {"high", "0.4 * depth"}};
-    const Rest mirrors = at_rest(scene("block", size), n, 10.0 / n, over_block);
+    const Rest mirrors =
+        at_rest(test::generated_from("tests/verification/scenes/block.yaml", size), n, 10.0 / n, over_block);
     std::printf(
         "%d rows: pressure within %.2f %% of rho0 g depth, fastest %.5f m/s, energy from nowhere %.1e\n", n,
         100 * mirrors.pressure_error, mirrors.speed, mirrors.gained);
@@ -106,7 +99,7 @@ TEST(WallImages, GiveTheSameBitsOnAnyThreadsAndAfterARestart) {
   std::stringstream text;
   text << file.rdbuf();
   test::expect_same_bits(text.str(), 60, 25);
-  std::ifstream edges(scene("block", {{"n", "10"}}));
+  std::ifstream edges(test::generated_from("tests/verification/scenes/block.yaml", {{"n", "10"}}));
   std::stringstream with_edges;
   with_edges << edges.rdbuf();
   test::expect_same_bits(with_edges.str(), 60, 25);
