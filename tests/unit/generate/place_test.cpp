@@ -217,37 +217,37 @@ TEST(SceneBase, GivesParametersAndKeywordsBelowTheScenesOwn) {
 
 TEST(SceneBase, MayHaveBasesOfItsOwn) {
   const fs::path folder = fs::temp_directory_path();
-  const fs::path base = folder / "courant_scene_base.yaml", deep = folder / "courant_scene_deep.yaml";
+  const fs::path base = folder / "courant_nested_base.yaml", deep = folder / "courant_nested_deep.yaml";
   write(deep,
         "parameters:\n  U: 7\n  c0: 10 * U\n  last: 2 * width\nkeywords: |\n  *COMMENT\n  deep ${c0} "
         "${last}\n");
   write(base,
-        "base: courant_scene_deep.yaml\nparameters:\n  U: 3 * speed\n  width: U + own\n"
+        "base: courant_nested_deep.yaml\nparameters:\n  U: 3 * speed\n  width: U + own\n"
         "keywords: |\n  *COMMENT\n  base\n");
-  std::string text = "base: courant_scene_base.yaml\n" + with("keywords: |\n  *COMMENT\n  own ${seen}\n");
+  std::string text = "base: courant_nested_base.yaml\n" + with("keywords: |\n  *COMMENT\n  own ${seen}\n");
   text.replace(text.find("U: 2"), 4, "speed: 2\n  own: 1\n  seen: last");
   const Written w = written(text);
   EXPECT_EQ(w.messages, "");
   EXPECT_EQ(w.scene.keywords,
             (std::vector<std::string>{"*COMMENT\ndeep 60 14\n", "*COMMENT\nbase\n", "*COMMENT\nown 14\n"}));
-  text.replace(text.find("courant_scene_base.yaml"), 23,
-               "[courant_scene_base.yaml, courant_scene_deep.yaml]");
+  text.replace(text.find("courant_nested_base.yaml"), 24,
+               "[courant_nested_base.yaml, courant_nested_deep.yaml]");
   EXPECT_EQ(written(text).scene.keywords, w.scene.keywords);  // each once
-  write(deep, "base: courant_scene_base.yaml\n");
-  EXPECT_NE(written("base: courant_scene_base.yaml\n" + with("")).messages.find("is a base of itself"),
+  write(deep, "base: courant_nested_base.yaml\n");
+  EXPECT_NE(written("base: courant_nested_base.yaml\n" + with("")).messages.find("is a base of itself"),
             std::string::npos);
   fs::remove(base), fs::remove(deep);
 }
 
 TEST(SceneBase, GivesPartsAboveTheScenesOwn) {
-  const fs::path base = fs::temp_directory_path() / "courant_scene_base.yaml";
+  const fs::path base = fs::temp_directory_path() / "courant_parts_base.yaml";
   const auto plates = [](int id, const char* edge) {
     return fmt::format(
         "  - id: {}\n    section: 1\n    material: 1\n    plates:\n"
         "      - {{origin: [0, 0, 0], edge1: [{}, 0, 0], edge2: [0, 1, 0], mesh: 1}}\n",
         id, edge);
   };
-  const std::string own = "base: courant_scene_base.yaml\nparameters:\n  length: 3\n";
+  const std::string own = "base: courant_parts_base.yaml\nparameters:\n  length: 3\n";
   write(base, "parts:\n" + plates(8, "length"));
   const Written alone = written(own);
   EXPECT_EQ(alone.messages, "");
@@ -260,7 +260,7 @@ TEST(SceneBase, GivesPartsAboveTheScenesOwn) {
   EXPECT_NE(written(own + "parts:\n" + plates(8, "1")).messages.find("part 8 is there already"),
             std::string::npos);
   write(base, "parts:\n" + plates(8, "width"));
-  EXPECT_NE(written(own).messages.find("courant_scene_base.yaml:6:"), std::string::npos);
+  EXPECT_NE(written(own).messages.find("courant_parts_base.yaml:6:"), std::string::npos);
   fs::remove(base);
 }
 
