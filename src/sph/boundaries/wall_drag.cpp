@@ -25,11 +25,6 @@ int WallPaths::crossings(const Sheets& sheets, const WallPath& path, const Vec& 
   return n;
 }
 
-Vec WallImages::belt_velocity(const WallSurface::Face& face, const Vec& at) const {
-  return face.belt < 0 ? Vec(Vec::Zero())
-                       : Vec(belt_factors_[static_cast<std::size_t>(face.belt)] * face.slide_at(at));
-}
-
 /// Of one way: u is the velocity of particle i over that of the image, the force on i is `hold` u.
 void WallImages::drag(Particles& p, const WallPath& path, Block& block) const {
   const Index i = path.i, j = path.j;
@@ -42,7 +37,7 @@ void WallImages::drag(Particles& p, const WallPath& path, Block& block) const {
   for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
     const WallSurface::Face& face = at_end().face(met[k].face);
     if (!walls_.friction[static_cast<std::size_t>(face.segment)].no_slip) return;
-    slide[k] = belt_velocity(face, met[k].at - at_end().shift());
+    slide[k] = face.slide_at(belt_factors_, met[k].at - at_end().shift());
     Vec w = slide[k];
     if (face.body >= 0) w += at_end().velocity(met[k].face, met[k].at);
     u -= (k % 2 == 0 ? 2 : -2) * w;

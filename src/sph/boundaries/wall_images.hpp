@@ -79,7 +79,6 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   Real kernel(Real h, const Vec& d) const;
   Vec speed(const Particles& p, const WallPath& path) const;
   void drag(Particles& p, const WallPath& path, Block& block) const;
-  Vec belt_velocity(const WallSurface::Face& face, const Vec& at) const;
   void add_rate(Particles& p, const WallPath& path, const std::vector<WallPull>& pulls) const;
 
   int dim_;

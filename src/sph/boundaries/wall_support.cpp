@@ -326,9 +326,7 @@ Vec WallSupport::friction_on(const Particles& p, Index i, const Vec& v) const {
 }
 
 Vec WallSupport::belt_velocity(const WallPoint& q) const {
-  const WallSurface::Face& face = surface_->face(q.face);
-  if (face.belt < 0) return Vec::Zero();
-  return belt_factors_[static_cast<std::size_t>(face.belt)] * face.slide_at(q.x);
+  return surface_->face(q.face).slide_at(belt_factors_, q.x);
 }
 
 Real WallSupport::friction_coefficient(const Particles& p, Index i, Index face, const Vec& wall) const {

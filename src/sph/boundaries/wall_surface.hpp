@@ -88,10 +88,11 @@ class WallSurface {
     Side way = 0;
     int belt = -1;     ///< which it belongs to; -1: none
     WallMotion slide;  ///< of the belt, at factor 1
-    /// Velocity of the belt along the face at x, at factor 1 [L/T].
-    Vec slide_at(const Vec& x) const {
+    /// Velocity of the belt along the face at x [L/T]; 0 without one. `factors`: by which belts go now.
+    Vec slide_at(const std::vector<Real>& factors, const Vec& x) const {
+      if (belt < 0) return Vec::Zero();
       const Vec u = slide.at(x);
-      return u - u.dot(n) * n;
+      return factors[static_cast<std::size_t>(belt)] * (u - u.dot(n) * n);
     }
     void find_plane();  ///< n, offset and inward from the corners
     Face() { x.fill(Vec::Zero()), inward.fill(Vec::Zero()), v.fill(Vec::Zero()); }

@@ -143,7 +143,7 @@ class Turbulence : public Material {
     if (!s.walls.segments.empty()) wall_slope_ = &sph_fields::wall_slope(p);
     const Real c0 = maximum(p.size(), [&](Index i) { return p.c[i]; });
     least_k_ = 1e-10 * c0 * c0;
-    least_epsilon_ = std::pow(rules_.cmu, 0.75) * std::pow(least_k_, 1.5) / (10 * s.spacing);
+    least_epsilon_ = epsilon_of(least_k_, 10 * s.spacing);
     for (Index i = 0; i < p.size(); ++i) start_particle(p, i);
     if (fields_.k) world.counters.try_emplace(counter, 0);
   }
@@ -270,6 +270,11 @@ class Turbulence : public Material {
     k *= left, epsilon *= left / past;
   }
 
+  /// Where the largest eddies have this length.
+  Real epsilon_of(Real k, Real length) const {
+    return std::pow(rules_.cmu, 0.75) * std::pow(k, 1.5) / length;
+  }
+
   Real nu_t_of(Real k, Real epsilon, Real S) const {
     const Real nu_t = rules_.cmu * k * k / epsilon;
     return rules_.limits_stress && S > 0 ? std::min(nu_t, std::sqrt(rules_.cmu) * k / S) : nu_t;
@@ -288,12 +293,9 @@ class Turbulence : public Material {
     new_epsilon = std::max(new_epsilon, least_epsilon_);
     if (new_k > least_k_) decay(new_k, new_epsilon, 0.5 * dt);
     if (!(new_k > least_k_)) new_k = least_k_, ++at_floor_[static_cast<std::size_t>(i / block_size)];
-    if (flow.row > 0)
-      new_epsilon += flow.row * (std::pow(rules_.cmu, 0.75) * std::pow(new_k, 1.5) / (rules_.kappa * flow.y) -
-                                 new_epsilon);
+    if (flow.row > 0) new_epsilon += flow.row * (epsilon_of(new_k, rules_.kappa * flow.y) - new_epsilon);
     if (flow.open > 0)
-      new_epsilon = std::max(
-          new_epsilon, flow.open * std::pow(rules_.cmu, 0.75) * std::pow(new_k, 1.5) / rules_.surface_length);
+      new_epsilon = std::max(new_epsilon, flow.open * epsilon_of(new_k, rules_.surface_length));
     k = new_k, epsilon = std::max(new_epsilon, least_epsilon_);
     return nu_t_of(k, epsilon, flow.S);
   }
