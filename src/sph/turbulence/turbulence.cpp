@@ -294,6 +294,7 @@ class Turbulence : public Material {
     if (new_k > least_k_) decay(new_k, new_epsilon, 0.5 * dt);
     if (!(new_k > least_k_)) new_k = least_k_, ++at_floor_[static_cast<std::size_t>(i / block_size)];
     if (flow.row > 0) new_epsilon += flow.row * (epsilon_of(new_k, rules_.kappa * flow.y) - new_epsilon);
+    if (rules_.lmax > 0) new_epsilon = std::max(new_epsilon, epsilon_of(new_k, rules_.lmax));
     if (flow.open > 0)
       new_epsilon = std::max(new_epsilon, flow.open * epsilon_of(new_k, rules_.surface_length));
     k = new_k, epsilon = std::max(new_epsilon, least_epsilon_);

@@ -33,7 +33,12 @@ KeywordOf<T> courant_turbulence() {
                  {.required = true, .allowed = {1, 2, 3}}},
                 {"CMU", &T::cmu, "-", "c_mu: of l^2 |S|, or of k^2/epsilon", of(0.09)},
                 {"KAPPA", &T::kappa, "-", "length over the distance from the nearest wall", of(0.41)},
-                {"LMAX", &T::lmax, "L", "longest mixing length (MODEL 1)", {.check = Check::not_negative}},
+                {"LMAX",
+                 &T::lmax,
+                 "L",
+                 "longest mixing length (MODEL 1); length of the largest eddies, about 0.1 of the depth: "
+                 "epsilon is at least c_mu^0.75 k^1.5/LMAX (MODEL 2; 0: free)",
+                 {.check = Check::not_negative}},
                 {"SURF",
                  &T::surface,
                  "-",
@@ -114,7 +119,8 @@ void check_numbers(const Deck& deck, const T& c, const SphSettings& s, Diagnosti
       deck.error(diagnostics, c, field, fmt::format("MODEL {} does not use it", c.model),
                  fmt::format("leave it blank, or give MODEL {}", static_cast<int>(owner)));
   };
-  belongs_to(TurbulenceModel::mixing_length, "LMAX", c.lmax);
+  if (model == TurbulenceModel::smagorinsky && c.lmax > 0)
+    deck.error(diagnostics, c, "LMAX", "MODEL 3 does not use it", "leave it blank, or give MODEL 1 or 2");
   belongs_to(TurbulenceModel::mixing_length, "SURF", c.surface);
   belongs_to(TurbulenceModel::k_epsilon, "K", c.k);
   belongs_to(TurbulenceModel::k_epsilon, "EPS", c.epsilon);

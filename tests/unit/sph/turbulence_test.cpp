@@ -121,6 +121,22 @@ TEST(Turbulence, KAndEpsilonDecayAsTheClosedFormSays) {
   EXPECT_LT(k, 0.2 * k0);
 }
 
+/// With epsilon held by a length, k is that of one equation: dk/dt = -c_mu^(3/4) k^(3/2)/LMAX.
+TEST(Turbulence, EddiesNoLongerThanToldDecayAsThoseOfOneEquation) {
+  const Real k0 = 0.02, length = 0.05;
+  const auto s =
+      test::build_deck(layer([](Real) { return 0; }, turbulence("2,,,0.05", ",,,,0.02,1e-4")), false);
+  run_whole(*s, 2);
+  Particles& p = s->world().particles;
+  const Real c = std::pow(0.09, 0.75) / length;
+  const Real k = std::pow(1 / std::sqrt(k0) + 0.5 * c * s->clock().t, -2), epsilon = c * std::pow(k, 1.5);
+  for (Index i = 0; i < p.active; ++i) {
+    ASSERT_NEAR(sph_fields::turbulent_energy(p)[i], k, 0.01 * k);
+    ASSERT_NEAR(sph_fields::turbulent_dissipation(p)[i], epsilon, 0.02 * epsilon);
+  }
+  EXPECT_LT(k, 0.5 * k0);
+}
+
 /// Of a line of cells between y = -6 and 6: u, k, epsilon by finite volumes, explicit in small steps.
 /// `limited`: LIMIT 1.
 class Line {
