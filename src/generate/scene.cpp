@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -379,6 +380,21 @@ class SceneReader : private NodeReader {
     return lattice;
   }
 
+  /// Along edge1 and edge2: two numbers, or one for both. [L]
+  std::array<Real, 2> mesh_of(const YAML::Node& plate) {
+    if (const YAML::Node mesh = plate["mesh"]; mesh && mesh.IsSequence() && mesh.size() == 2) {
+      std::array<Real, 2> out{};
+      for (std::size_t k = 0; k < 2; ++k) {
+        YAML::Node each;
+        each["mesh"] = mesh[k];
+        out[k] = length(each, "mesh");
+      }
+      return out;
+    }
+    const Real both = length(plate, "mesh");
+    return {both, both};
+  }
+
   ScenePlate read_plate(const YAML::Node& node) {
     check_keys(node, "a plate", {"origin", "edge1", "edge2", "mesh"});
     ScenePlate plate;
@@ -386,7 +402,7 @@ class SceneReader : private NodeReader {
     plate.origin = vector(node, "origin");
     plate.edge1 = vector(node, "edge1");
     plate.edge2 = vector(node, "edge2");
-    const Real mesh = length(node, "mesh");
+    const auto [mesh1, mesh2] = mesh_of(node);
     if (diagnostics_.errors() > before) return plate;
     const Real l1 = plate.edge1.norm(), l2 = plate.edge2.norm();
     if (!(plate.edge1.cross(plate.edge2).norm() > 1e-9 * l1 * l2)) {
@@ -394,8 +410,8 @@ class SceneReader : private NodeReader {
       return plate;
     }
     // `mesh` is the largest side of a shell; 1e-6 forgives round-off.
-    const Real n1 = std::max(1.0, std::ceil(l1 / mesh - 1e-6)),
-               n2 = std::max(1.0, std::ceil(l2 / mesh - 1e-6));
+    const Real n1 = std::max(1.0, std::ceil(l1 / mesh1 - 1e-6)),
+               n2 = std::max(1.0, std::ceil(l2 / mesh2 - 1e-6));
     if (n1 * n2 > most_entities) {
       error(node,
             fmt::format("the plate would have {:.3g} shells; {:.0e} are the limit", n1 * n2, most_entities));
