@@ -21,6 +21,7 @@
 #include "loads/idle_parts.hpp"
 #include "loads/loads.hpp"
 #include "model/build_model.hpp"
+#include "model/mesh/plane_strain.hpp"
 #include "model/transforms/included_entries.hpp"
 #include "parallel/parallel.hpp"
 #include "rigid/build_joints.hpp"
@@ -129,6 +130,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   const auto sph_material = [&](Index part) { return materials_[part].for_particles(); };
   sph_ = build_particles(deck_, model_, sph_material, world_,
                          diagnostics);  // sets world_.dim, which rigid bodies ask for
+  if (world_.dim == 2) hold_in_plane(model_, diagnostics);
   std::vector<Index> more = added_nodes(deck_, model_);
   for (const auto& nodes : {beam_nodes(model_), discrete_nodes(deck_, model_)})
     more.insert(more.end(), nodes.begin(), nodes.end());
@@ -303,7 +305,8 @@ void Simulation::add_particle_passes(Diagnostics& diagnostics) {
                               .thickness_from_volume = sph_.thickness_from_volume,
                               .bulk_modulus = [this](Index part) { return bulk_modulus(part); },
                               .bodies = bodies_ ? bodies_->wall_bodies(world_) : WallBodies{},
-                              .reach_margin = neighbours_->largest_skin()},
+                              .reach_margin = neighbours_->largest_skin(),
+                              .tssfac = model_.tssfac},
                              world_, diagnostics);
   if (!diagnostics.ok()) return;
   world_.passes.add(make_clear_forces(points_of(world_.particles)));

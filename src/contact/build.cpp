@@ -55,26 +55,9 @@ class Builder {
     refuse("SLDSTF", c.sldstf, c.sldstf > 0, "scale the stiffness with SFSB");
   }
 
-  /// Elements that may be deleted are no walls for particles.
-  void refuse_eroding(const ContactCard& c, const std::vector<Index>& segments) {
-    std::set<Index> eroding;
-    for (const auto& group : world_.groups)
-      if (shared_fields::eroded.find(group->fields)) eroding.insert(group->part);
-    for (const Index s : segments) {
-      if (!eroding.contains(world_.segments.part[s])) continue;
-      return deck_.error(
-          diagnostics_, c, "SURFB",
-          fmt::format("the elements of part {} may fail, and particles have no contact with such",
-                      model_.parts[static_cast<std::size_t>(world_.segments.part[s])].id),
-          "leave out what lets them fail: FS or FAIL of the material, *MAT_ADD_EROSION, ERODE of "
-          "*CONTROL_TIMESTEP");
-    }
-  }
-
   /// Segments of SURFB
   std::vector<Index> segments(const ContactCard& c) {
-    if ((c.surfbtyp != 2 && c.surfbtyp != 3) || c.surfb == 0)
-      return FaceFinder(deck_, model_, options_.bulk_modulus, world_, diagnostics_).faces(c, ContactSide::b);
+    if ((c.surfbtyp != 2 && c.surfbtyp != 3) || c.surfb == 0) return named_faces(c);
     std::vector<char> chosen(model_.parts.size(), 0);
     std::vector<Index> out, skin;
     for (const Index part : parts_named(deck_, model_, c, "SURFB", c.surfb, c.surfbtyp, diagnostics_)) {
@@ -91,12 +74,25 @@ class Builder {
                   "neither particles nor the faces of solids have a thickness, so they would never touch",
                   "give SAST, or SBST, twice the distance at which they touch; or ITHK 1 of *CONTROL_SPH");
     for (Index s = 0; s < world_.segments.size(); ++s)
-      if (chosen[world_.segments.part[s]]) out.push_back(s);
-    out.insert(out.end(), skin.begin(), skin.end());
+      if (chosen[world_.segments.part[s]] && !(world_.segments.volume[s] > 0)) out.push_back(s);
+    for (const Index s : skin)
+      if (goes_inside(c) || !is_hidden(s)) out.push_back(s);
     return out;
   }
 
  private:
+  /// Whether faces that deletion lays bare count.
+  static bool goes_inside(const ContactCard& c) { return kind_of(c).eroding && c.erosop == 1; }
+  bool is_hidden(Index segment) const {
+    const Field<Index>* eroded = shared_fields::eroded.find(world_.segments.fields);
+    return eroded && (*eroded)[segment] == shared_fields::hidden;
+  }
+  std::vector<Index> named_faces(const ContactCard& c) {
+    FaceFinder finder(deck_, model_, options_.bulk_modulus, world_, diagnostics_);
+    finder.with_inner(goes_inside(c));
+    return finder.faces(c, ContactSide::b);
+  }
+
   std::vector<bool> nodes_of_set(const ContactCard& c, std::vector<bool> out) {
     const auto set = model_.node_sets.find(c.surfa);
     if (set == model_.node_sets.end()) {
@@ -200,7 +196,6 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
       continue;
     builder.refuse_for_particles(c);
     const std::vector<Index> segments = builder.segments(c);
-    builder.refuse_eroding(c, segments);
     if (diagnostics.errors() > errors || segments.empty()) continue;
     auto contact =
         std::make_shared<Contact>(law_of(deck, c, number), options, number, segments, tracked, world);

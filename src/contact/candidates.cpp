@@ -68,7 +68,8 @@ bool Contact::leapt_over_wall(const Vec& from, const Vec& to) const {
   for (Real k = 0; k < looks; ++k)
     for (const Index s : grid_.near(from + path * ((k + 0.5) / looks))) {
       const Real before = plane_distance(walls_[s], from), after = plane_distance(walls_[s], to);
-      if ((before < 0) != (after < 0) && is_over(facets_[s], from + path * (before / (before - after))))
+      if (is_there(s) && (before < 0) != (after < 0) &&
+          is_over(facets_[s], from + path * (before / (before - after))))
         return true;
     }
   return false;
@@ -80,6 +81,7 @@ bool Contact::list_candidates(Block& b, const Vec& x, Index& nearest) const {
   for (const Index s : grid_.near(x)) {
     const Wall& w = walls_[s];
     const Real far = reach_ + w.radius;
+    if (!is_there(s)) continue;
     const Real d2 = (x - w.centre).squaredNorm();
     if (d2 > far * far || std::abs(plane_distance(w, x)) > reach_) continue;
     if (w.radius > reach_ && least_distance2(w, x) > reach_ * reach_) continue;

@@ -7,6 +7,7 @@
 
 #include "contact/near.hpp"
 #include "parallel/parallel.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 namespace {
@@ -54,7 +55,8 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
       dim_(world.dim),
       friction_on_(law_.fs > 0 || law_.fd > 0),
       drag_on_(friction_on_ || law_.vdc > 0),
-      hold_(!law_.literal) {
+      hold_(!law_.literal),
+      eroded_(shared_fields::eroded.find(world.segments.fields)) {
   const std::string prefix = fmt::format("contact_{}_", number_);
   Particles& p = world.particles;
   k_particle_ = particle_field(world, prefix + "stiffness", "M/T2", 1);
@@ -77,6 +79,7 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
   for (Facet& f : facets_) {
     give_stiffness(f, law_, options_.bodies, world);
     if (f.moves) moving_.push_back(Index(&f - facets_.data()));
+    deforms_ = deforms_ || (f.moves && f.body < 0);
     walls_.push_back(make_wall(f));
     r = std::max(r, f.r);
     k_facet = std::max(k_facet, f.k);
@@ -160,8 +163,17 @@ void Contact::declare(const World& world, Accesses& a) const {
   if (sleeps) a.reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*admissible_);
   if (moves) a.reads(n.x, Reach::others).reads(n.v, Reach::others);
   if (held) a.updates(n.f).updates(world.segments.contact_force);
+  if (eroded_) {
+    a.reads(*eroded_, Reach::others).reads(p.x, Reach::others).reads(p.v, Reach::others);
+    a.reads(*k_particle_, Reach::others).updates(*admissible_).updates(*leaked_);
+    if (law_.soft == 1) a.reads(p.m, Reach::others);
+    if (radius_) a.reads(*radius_, Reach::others);
+    for (std::size_t j = 0; friction_on_ && j < 3; ++j) a.updates(*friction_force_[j]);
+    if (auto* near = shared_fields::near_wall.find(p.fields)) a.updates(*near);
+  }
   a.in_finish().updates(*leaked_);
   if (moves) a.writes(reactions_resource_);
+  if (deforms_) a.reads(n.m, Reach::others);
 }
 
 void Contact::update_facets(const World& world, const Clock& clock) {
@@ -191,6 +203,7 @@ void Contact::update_facets(const World& world, const Clock& clock) {
 void Contact::fall_asleep(World& world) {
   if (asleep_) return;
   for (Block& b : blocks_) {
+    for (const Touch& a : b.touches) let_go_ += 0.5 * a.k * a.share * a.depth;
     b.clear_touches();
     for (Slot& slot : b.slots) slot.behind = false, slot.room = 0;
   }
@@ -213,6 +226,7 @@ void Contact::start(World& world, const Clock& clock) {
     return;
   }
   update_facets(world, clock);
+  leave_deleted(world, clock);
   if (asleep_)
     for (Block& b : blocks_)
       for (const Slot& slot : b.slots) learn_sides(world, clock, b, slot);
@@ -229,11 +243,15 @@ void Contact::count_leaks(World& world, const std::vector<Index>& particles) {
 
 void Contact::finish(World& world, const Clock&) {
   Real deepest = 0;
-  for (const Block& b : blocks_) {
+  for (Block& b : blocks_) {
     deepest = std::max(deepest, b.deepest);
     count_leaks(world, b.crossed);
+    if (!b.freed.empty()) let_go_ += let_go(b);
   }
   if (!moving_.empty()) gather_reactions();
+  if (deforms_)
+    stiffest_ =
+        std::max(Real(0), maximum(world.nodes.size(), [&](Index n) { return stiffness_of_node(world, n); }));
   if (deepest > 0) {
     Real& most = world.maxima["max_penetration"];
     most = std::max(most, deepest);
@@ -269,12 +287,20 @@ TimeLimit::Limit Contact::limit(const World& world, const Clock&) {
     if (b.approaching >= 0 && b.approach_dt < dt)
       dt = b.approach_dt,
       who = fmt::format("{} (approach of particle {})", name(), world.particles.id[b.approaching]);
+  if (stiffest_ > 0) {
+    const Real xi = 0.01 * law_.vdc, taken = std::min(options_.tssfac, Real(0.95));
+    const Real longest =
+        2 / std::sqrt(stiffest_) * std::sqrt(1 - taken * taken) * (std::sqrt(1 + xi * xi) - xi);
+    if (longest < dt) dt = longest, who = name() + " (particles on a node)";
+  }
   return {dt, who};
 }
 
 // Work of the step from the force at t^n and the mean of the velocities before and after the kick.
 void Contact::record(World& world, const Clock& clock, EnergyLedger& ledger) {
   record_held(world, clock, ledger);
+  ledger.dissipated += let_go_, ledger.throughput += std::abs(let_go_);
+  damping_work_ += let_go_, let_go_ = 0;
   if (!drag_on_) return;
   const Particles& p = world.particles;
   const Real before = damping_work_ + friction_work_;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact/facet.hpp"
@@ -31,6 +32,7 @@ struct ContactOptions {
   std::function<Real(Index part)> bulk_modulus = [](Index) { return Real(0); };
   WallBodies bodies{};    ///< whose faces it touches
   Real reach_margin = 0;  ///< particles and nodes move at most half of this between two refreshes [L]
+  Real tssfac = 0.9;      ///< what elements leave of their own step
   bool shortcuts = true;  ///< off: every candidate is looked at in every step, with the same result
 };
 
@@ -136,6 +138,7 @@ class Contact : public Force,
     Index facet = 0;
     Vec force = Vec::Zero();      ///< on it [ML/T2]
     std::array<Real, 4> share{};  ///< of its corners [-]
+    Real k = 0;                   ///< [M/T2]
   };
   /// Those of all blocks, from which faces and nodes gather: facet moving_[k] has
   /// all[order[first[k]]], ..., all[order[first[k + 1] - 1]], in the order of particles.
@@ -163,9 +166,10 @@ class Contact : public Force,
     std::vector<Index> leapt;       ///< those whose last step did, too far for the wall to hold them
     Real deepest = 0;               ///< touch [L]
     std::vector<Reaction> reactions;
-    Real damping_work = 0, friction_work = 0;  ///< dissipated in this step [ML2/T2]
-    Real approach_dt = 0;                      ///< longest step before a particle is seen again [T]
-    Index approaching = -1;                    ///< that particle
+    Real damping_work = 0, friction_work = 0;   ///< dissipated in this step [ML2/T2]
+    Real approach_dt = 0;                       ///< longest step before a particle is seen again [T]
+    Index approaching = -1;                     ///< that particle
+    std::vector<std::pair<Index, Real>> freed;  ///< particles at deleted walls, and what their springs held
     void clear_touches() {
       touches.clear(), drags.clear(), crossed.clear(), reactions.clear();
       deepest = 0, approaching = -1, approach_dt = std::numeric_limits<Real>::infinity();
@@ -186,6 +190,11 @@ class Contact : public Force,
   void note_planes(const Block& b, Slot& slot) const;
   void learn_sides(const World& world, const Clock& clock, Block& b, const Slot& slot) const;
   void fall_asleep(World& world);
+  bool is_there(Index facet) const { return !eroded_ || (*eroded_)[facets_[facet].segment] == 0; }
+  void leave_deleted(World& world, const Clock& clock);
+  void note_freed(World& world, const Clock& clock, Block& b);
+  Real let_go(Block& b) const;
+  Real stored_in(const World& world, const Slot& slot, const Pushes& pushes) const;
   void touch(World& world, const Clock& clock, Block& b, Slot& slot, Pushes& pushes);
   bool touch_one_wall(const World& world, Block& b, Slot& slot, const Vec& x, Real* const f[]) const;
   bool quick_touch(const Block& b, Slot& slot, const Vec& x, Pushes& pushes) const;
@@ -211,6 +220,7 @@ class Contact : public Force,
   Real correct(World& world, const Clock& clock, Touch& touch) const;
   bool join_struck(const World& world, const Clock& clock, Block& b) const;
   Real gap_at_end(const World& world, const Clock& clock, Index particle, const Facet& f, Real side) const;
+  Vec wall_kick(const World& world, const Facet& f, const Vec& q, Real time) const;
   void record_held(World& world, const Clock& clock, EnergyLedger& ledger);
   Vec friction_force(const World& world, const Clock& clock, Index i, Real fn, const Vec& v, const Vec& n,
                      Real k) const;
@@ -219,6 +229,7 @@ class Contact : public Force,
   void give_to_wall(World& world, const Block& b, std::size_t touch, const std::array<Real, 4>& share);
   void find_incidence(const World& world);
   void gather_reactions();
+  Real stiffness_of_node(const World& world, Index node) const;
   template <class Add>
   void for_each_reaction(const Incidence& of, Index at, const Add& add) const;
   Vec wall_velocity(const World& world, const Facet& f, const Vec& q) const;
@@ -269,6 +280,11 @@ class Contact : public Force,
   std::vector<Index> written_;  ///< held facets whose nodes and segments have forces of this interface
   bool shown_ = false;
   Real damping_work_ = 0, friction_work_ = 0;
+  bool deforms_ = false;           ///< some wall does
+  Real stiffest_ = 0;              ///< bound of the largest frequency of a node that deforms, squared [1/T2]
+  const Field<Index>* eroded_;     ///< of segments; null: nothing fails
+  std::int64_t eroded_count_ = 0;  ///< deleted elements when walls were listed
+  Real let_go_ = 0;                ///< what springs held that ended with their wall, not yet in the ledger
 };
 
 /// Adds an interface to the passes of `world`, with those that gather its reactions where walls move.

@@ -11,6 +11,7 @@ void Contact::keep(Archive& archive) {
   archive("friction_work", friction_work_);
   archive("soft_dt", soft_dt_);
   archive("asleep", asleep_);
+  if (eroded_) archive("eroded_count", eroded_count_);
   archive("reach", reach_);
   if (archive.loading()) grid_.build(facets_, reach_);
   archive("travel", travel_);

@@ -15,6 +15,32 @@ namespace {
 /// No particle comes nearer to a mid-surface, of the contact distance.
 constexpr Real closest = 0.1;
 
+/// What is left of a force on a node that is known after its supports: none along what they hold, none at all
+/// where a curve drives it.
+class FreeNodes {
+ public:
+  explicit FreeNodes(const Nodes& nodes)
+      : held_(shared_fields::held_axes.find(nodes.fields)),
+        driven_(shared_fields::prescribed_motion.find(nodes.fields)) {}
+  Vec part_of(Vec force, Index node) const {
+    if (driven_ && (*driven_)[node]) return Vec::Zero();
+    for (int k = 0; held_ && k < 3; ++k)
+      if ((*held_)[node] & (1 << k)) force[k] = 0;
+    return force;
+  }
+
+ private:
+  const Field<Index>*held_, *driven_;
+};
+
+/// The largest part of n^2 along which a corner of a facet can give way. [-]
+Real free_share(const Nodes& nodes, const Facet& f, const Vec& n) {
+  const FreeNodes free(nodes);
+  Real out = 0;
+  for (int e = 0; e < f.corners; ++e) out = std::max(out, free.part_of(n, f.node[e]).squaredNorm());
+  return out;
+}
+
 }  // namespace
 
 // Nobody may come from out of reach to a wall within one step: particles make no step longer than h, walls as
@@ -65,6 +91,7 @@ void Contact::strike(World& world, const Clock& clock) {
     more = false;
     for (Block& b : blocks_) more = join_struck(world, clock, b) || more;
   }
+  const FreeNodes free(world.nodes);
   for (const Block& b : blocks_)
     for (const Touch& a : b.touches) {
       if (!(a.held > 0)) continue;
@@ -72,7 +99,8 @@ void Contact::strike(World& world, const Clock& clock) {
       const Facet& f = facets_[a.facet];
       if (!f.moves) continue;
       const auto share = shape_functions(f, a.q);
-      for (int e = 0; e < f.corners; ++e) world.nodes.f.add(f.node[e], -share[e] * a.held * in_plane(a.n));
+      for (int e = 0; e < f.corners; ++e)
+        world.nodes.f.add(f.node[e], free.part_of(-share[e] * a.held * in_plane(a.n), f.node[e]));
     }
   if (held_now_ > 0) world.counters["contact_held"] += held_now_;
 }
@@ -174,7 +202,9 @@ Real Contact::correct(World& world, const Clock& clock, Touch& a) const {
   if (const auto* axes = shared_fields::held_axes.find(p.fields))
     for (int k = 0; k < 3; ++k)
       if ((*axes)[i] & (1 << k)) along[k] = 0;
-  const Real give = !f.moves ? 0 : f.body >= 0 ? options_.bodies.give(f.body, a.q, a.n) : 1 / f.m;
+  const Real give = !f.moves      ? 0
+                    : f.body >= 0 ? options_.bodies.give(f.body, a.q, a.n)
+                                  : free_share(world.nodes, f, a.n) / f.m;
   const Real mobility = along.squaredNorm() / m + give;
   if (!(mobility > 1e-6 / m)) return 0;
   const Real change = std::max(too_fast / kick / mobility, -a.held);
@@ -182,6 +212,15 @@ Real Contact::correct(World& world, const Clock& clock, Touch& a) const {
   p.f.add(i, change * along);
   if (f.body >= 0) options_.bodies.push(f.body, a.q, -change * in_plane(a.n));
   return change;
+}
+
+/// By how much the forces on its corners change the velocity of a facet at q within a time.
+Vec Contact::wall_kick(const World& world, const Facet& f, const Vec& q, Real time) const {
+  const auto N = shape_functions(f, q);
+  Vec out = Vec::Zero();
+  for (int e = 0; e < f.corners; ++e)
+    out += N[e] * time / world.nodes.m[f.node[e]] * world.nodes.f.vec(f.node[e]);
+  return out;
 }
 
 // Work on the mean velocities of particle and wall over the step, as in Contact::record.
@@ -197,7 +236,7 @@ void Contact::record_held(World& world, const Clock& clock, EnergyLedger& ledger
       Vec v = p.v.vec(a.particle) + 0.5 * dt / p.m[a.particle] * p.f.vec(a.particle) -
               wall_velocity(world, f, a.q);
       if (f.body >= 0) v -= 0.5 * options_.bodies.change(f.body, a.q, clock);
-      if (f.moves && f.body < 0) v += 0.5 * dt * a.held / f.m * a.n;
+      if (f.moves && f.body < 0) v -= wall_kick(world, f, a.q, 0.5 * dt);
       work -= a.held * a.n.dot(v) * dt;
     }
   world.maxima["contact_held_energy"] += work;

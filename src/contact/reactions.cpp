@@ -69,6 +69,17 @@ void Contact::add_reaction_on_node(Index node, Vec& force) const {
                     [&](const Reaction& r, int corner) { force += r.share[corner] * r.force; });
 }
 
+// By Gershgorin's theorem no frequency of springs k_t that act on node i with shares N_ti, and 1 on their
+// particles, is above that with w^2 = sum of k_t N_ti (1 + sum_j N_tj) / m_i. Rigid bodies have limits of
+// their own. [1/T2]
+Real Contact::stiffness_of_node(const World& world, Index node) const {
+  Real sum = 0;
+  for_each_reaction(of_node_, node, [&](const Reaction& r, int corner) {
+    if (facets_[r.facet].body < 0) sum += 2 * r.k * std::abs(r.share[corner]);
+  });
+  return sum > 0 ? sum / world.nodes.m[node] : 0;
+}
+
 void Contact::add_reaction_on_segment(Index segment, Vec& force) const {
   for_each_reaction(of_segment_, segment, [&](const Reaction& r, int) { force += r.force; });
 }

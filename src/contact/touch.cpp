@@ -235,7 +235,7 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
     }
     const Vec force = force_of(b, b.touches.size() - 1);
     total += force;
-    if (f.moves) b.reactions.push_back({p.facet, -force, shape_functions(f, p.q)});
+    if (f.moves) b.reactions.push_back({p.facet, -force, shape_functions(f, p.q), k});
   }
   world.particles.f.add(i, total);
 }

@@ -92,13 +92,7 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
     const auto part = static_cast<std::size_t>(shell.part);
     if (parts[part].law) of_part[part][shell.node[2] == shell.node[3]].push_back(static_cast<Index>(s));
   }
-  const auto any =
-      std::find_if(parts.begin(), parts.end(), [](const ShellPart& p) { return p.law != nullptr; });
-  if (any == parts.end()) return;
-  if (world.dim == 2)
-    return diagnostics.error(model.parts[static_cast<std::size_t>(any - parts.begin())].where,
-                             "shells that deform are not supported in 2D scenes (IDIM 2)",
-                             "make the scene three-dimensional, or the shells rigid");
+  if (std::none_of(parts.begin(), parts.end(), [](const ShellPart& p) { return p.law != nullptr; })) return;
   NodalRotations rotations(world.nodes.fields);
   for (std::size_t k = 0; k < parts.size(); ++k)
     for (const bool triangles : {false, true}) {

@@ -39,7 +39,7 @@ std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Di
 
 /// Adds groups of elements, and the rotations of their nodes (state/shared_fields.hpp) with their inertia.
 /// The masses of the nodes are build_segments' business. `node_of`: the node of the world of each node of the
-/// model; world.segments must stand in the order of Model::shells. Warns of warped shells; 2D is an error.
+/// model; world.segments must stand in the order of Model::shells. Warns of warped shells.
 void build_shells(const Model& model, const std::vector<ShellPart>& parts, const std::vector<Index>& node_of,
                   World& world, Diagnostics& diagnostics);
 
