@@ -141,6 +141,26 @@ TEST(FluidStructure, WaterBendsAGateAsOthersFind) {
   EXPECT_EQ(w.counters.at("leaked_particles"), 0);
 }
 
+// Published computations have the end 45 to 50 mm off, near 0.25 s.
+TEST(FluidStructure, ACollapsingColumnBendsAPlate) {
+  const auto s = test::simulation_of(test::deck_of_scene("elastic_baffle", {}));
+  test::start_ledger(*s);
+  const World& w = s->world();
+  const Index tip = node_of_id(w, 1000001 + 2 * 16);
+  const Real start = w.nodes.x.data(0)[tip];
+  Real most = 0, when = 0;
+  while (s->clock().t < 0.35) {
+    s->step(test::do_nothing);
+    if (const Real by = w.nodes.x.data(0)[tip] - start; by > most) most = by, when = s->clock().t;
+  }
+  const Real residual = test::energy_error_of_a_step(*s);
+  std::printf("%.1f mm at %.3f s, energy %.1e\n", 1e3 * most, when, residual);
+  EXPECT_NEAR(most, 0.0475, 0.1 * 0.0475);
+  EXPECT_NEAR(when, 0.25, 0.02);
+  EXPECT_LT(residual, 0.01);
+  EXPECT_EQ(w.counters.at("leaked_particles"), 0);
+}
+
 TEST(FluidStructure, GiveTheSameBitsOnAnyThreadsAndAfterARestart) {
   test::expect_same_bits(gate({{"resolution", "28"}, {"shells", "16"}, {"tssfac", "0.8"}}), 120, 50);
 }
