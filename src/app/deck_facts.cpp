@@ -5,6 +5,7 @@
 
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
+#include "model/mesh/part_composite.hpp"
 #include "model/mesh/part_inertia.hpp"
 
 namespace courant {
@@ -106,6 +107,10 @@ class FactGatherer {
     for (const PartCard& card : deck_.all<PartCard>()) facts_.parts[card.pid].title = card.title;
     for (const PartContactCard& card : deck_.all<PartContactCard>())
       facts_.parts[card.pid].title = card.title;
+    for (const PartCompositeCard& card : deck_.all<PartCompositeCard>()) {
+      facts_.parts[card.pid].defined = true, facts_.parts[card.pid].title = card.title;
+      if (!card.mid1.empty()) facts_.parts[card.pid].mid = card.mid1.front();
+    }
     for (const PartInertiaCard& card : deck_.all<PartInertiaCard>())
       facts_.parts[card.pid].title = card.title;
   }

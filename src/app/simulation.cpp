@@ -122,10 +122,9 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   beams_ = find_beam_parts(deck_, model_, diagnostics);
   const auto shell_material = [&](Index part) -> std::optional<ShellMaterial> {
     if (const auto m = rigid_material(deck_, model_, part)) return ShellMaterial{m->ro, m->E, m->pr};
-    const std::shared_ptr<StrengthLaw>& law = shells_[part].law;
-    if (!law) return std::nullopt;
-    const ElasticConstants of_law = elastic_constants(*law);
-    return ShellMaterial{law->ro, of_law.E, of_law.nu};
+    if (!shells_[part].law) return std::nullopt;
+    const ElasticConstants of_laws = elastic_constants(shells_[part]);
+    return ShellMaterial{shells_[part].density(), of_laws.E, of_laws.nu};
   };
   const auto sph_material = [&](Index part) { return materials_[part].for_particles(); };
   sph_ = build_particles(deck_, model_, sph_material, world_,

@@ -160,9 +160,10 @@ void Erosion::look(const FailingPoints& p) {
   FailureRules of_card = rules_;
   of_card.law_limit = of_card.law_time = infinite;
   const bool has_card = of_card.of_points();
+  const Real law_limit = p.law_limit < infinite ? p.law_limit : rules_.law_limit;
   for (Index i = 0; i < p.count; ++i) {
     if (dead(p.begin + i)) continue;
-    if ((p.by_law && p.by_law[i] >= rules_.law_limit) || p.t >= rules_.law_time) failed[i] |= by_law;
+    if ((p.by_law && p.by_law[i] >= law_limit) || p.t >= rules_.law_time) failed[i] |= by_law;
     if (has_card && !(failed[i] & by_card)) {
       std::string why = failure_of(p, i);
       if (!why.empty()) {
@@ -209,7 +210,7 @@ void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real
       const auto why = std::find_if(why_[block].begin(), why_[block].end(),
                                     [&](const Failed& one) { return one.element == e; });
       strike(begin, e, why == why_[block].end() ? "failed points" : why->why);
-    } else if (of_law == points_) {
+    } else if (of_law >= (rules_.law_points > 0 ? rules_.law_points : points_)) {
       strike(begin, e, why_by_law());
     } else if (volume && (volume[i] > rules_.most_volume || volume[i] < rules_.least_volume) && !inside_out) {
       strike(begin, e, fmt::format("volume {:.4g} of the reference", volume[i]));

@@ -34,6 +34,7 @@ struct FailureRules {
   Real time = never;                             ///< [T]
   int conditions = 1;                            ///< NCS: how many of them must hold at once
   int points = 1;                                ///< NUMFIP; < 0: per cent of all
+  int law_points = 0;       ///< how many points the law must take away, of layers that differ; 0: all
   bool small_step = false;  ///< ERODE: elements that would bring the step below DTMIN times the first
   bool measures_strain() const;
   bool of_points() const;  ///< any but `small_step` and volume
@@ -47,16 +48,20 @@ std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
                                         const std::vector<std::shared_ptr<StrengthLaw>>& laws,
                                         Diagnostics& diagnostics);
 
+/// Whether a *MAT_ADD_EROSION is for this material.
+bool has_erosion_card(const Deck& deck, Id mid);
+
 /// The points of a block at the end of a step; all arrays start with the first element of the block.
 struct FailingPoints {
-  int point = 0;                      ///< through the thickness
-  Index begin = 0, count = 0;         ///< elements of the group
-  Real t = 0, dt = 0;                 ///< [T]
-  std::array<const Real*, 6> rate{};  ///< D: xx yy zz xy yz zx [1/T]
-  std::array<Real*, 6> stress{};      ///< [M/LT2]
-  const Real* plastic = nullptr;      ///< effective plastic strain; null: the law has none [-]
-  const Real* by_law = nullptr;       ///< what FailureRules::law_limit is the limit
-                                      ///< of; null: of nothing [-]
+  int point = 0;                         ///< through the thickness
+  Index begin = 0, count = 0;            ///< elements of the group
+  Real t = 0, dt = 0;                    ///< [T]
+  std::array<const Real*, 6> rate{};     ///< D: xx yy zz xy yz zx [1/T]
+  std::array<Real*, 6> stress{};         ///< [M/LT2]
+  const Real* plastic = nullptr;         ///< effective plastic strain; null: the law has none [-]
+  const Real* by_law = nullptr;          ///< what FailureRules::law_limit is the limit
+                                         ///< of; null: of nothing [-]
+  Real law_limit = FailureRules::never;  ///< of this point, where layers differ; never: of the rules
 };
 
 /// The elements of a group that may fail: solids, shells, beams. Deleted ones keep their energies, which

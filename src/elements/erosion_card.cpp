@@ -160,6 +160,11 @@ void check_parts(const Deck& deck, const Model& model, const A& c, Diagnostics& 
 
 }  // namespace
 
+bool has_erosion_card(const Deck& deck, Id mid) {
+  const std::vector<A>& cards = deck.all<A>();
+  return std::any_of(cards.begin(), cards.end(), [&](const A& card) { return card.mid == mid; });
+}
+
 std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
                                         const std::vector<std::shared_ptr<StrengthLaw>>& laws,
                                         Diagnostics& diagnostics) {

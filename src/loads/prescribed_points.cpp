@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "loads/loads.hpp"
+#include "loads/sensors.hpp"
+#include "model/conditions/motion_ids.hpp"
 
 #include "parallel/parallel.hpp"
 #include "state/reports.hpp"
@@ -20,14 +22,24 @@ namespace {
 /// Motions of which a point follows all at once.
 using Group = std::vector<std::size_t>;
 
+/// Of each motion whether sensors let it act.
+struct SensorGates {
+  const SensorBoard* board = nullptr;  ///< null: the deck has none
+  std::vector<int> control{};          ///< of the board; -1: none
+  bool open(std::size_t motion) const {
+    return !board || control[motion] < 0 || board->control_is_on(control[motion]);
+  }
+};
+
 /// Gives driven points the velocity of the coming half step before they are kicked and moved, and takes
 /// the force along it away. What the drive does of work is external.
 class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceReporter {
  public:
-  PrescribedPoints(std::vector<PrescribedMotion> motions, std::vector<Group> groups, Points points,
-                   Field<Index>& group, Field<Real>* work)
+  PrescribedPoints(std::vector<PrescribedMotion> motions, SensorGates gates, std::vector<Group> groups,
+                   Points points, Field<Index>& group, Field<Real>* work)
       : points_(points),
         motions_(std::move(motions)),
+        gates_(std::move(gates)),
         groups_(std::move(groups)),
         group_(group),
         work_(work) {}
@@ -80,7 +92,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
                           (*work_)[i]};
       for (const std::size_t k : groups_[static_cast<std::size_t>(group_[i])]) {
         const PrescribedMotion& m = motions_[k];
-        if (!m.drives(clock.t, clock.dt)) continue;
+        if (!drives(k, clock)) continue;
         const Vec& d = m.direction;
         const Real before = points_.v->vec(i).dot(d);
         const Real after = m.velocity(clock.t, clock.dt, clock.dt_old, before);
@@ -99,22 +111,27 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
     Real velocity(const Vec& v) const { return at_zero + keep * v.dot(direction); }
   };
 
+  bool drives(std::size_t k, const Clock& clock) const {
+    return motions_[k].drives(clock.t, clock.dt) && gates_.open(k);
+  }
+
   void choose(const Clock& clock) {
     all_.assign(motions_.size(), {});
     for (std::size_t k = 0; k < motions_.size(); ++k) {
       const PrescribedMotion& m = motions_[k];
-      if (m.drives(clock.t, clock.dt))
+      if (drives(k, clock))
         all_[k] = {m.direction, m.velocity(clock.t, clock.dt, clock.dt_old, 0),
                    m.kind == PrescribedMotion::Kind::acceleration ? 1.0 : 0.0};
     }
     drives_.assign(groups_.size(), {});
     for (std::size_t g = 0; g < groups_.size(); ++g)
       for (const std::size_t k : groups_[g])
-        if (motions_[k].drives(clock.t, clock.dt)) drives_[g].push_back(&all_[k]);
+        if (drives(k, clock)) drives_[g].push_back(&all_[k]);
   }
 
   Points points_;
   std::vector<PrescribedMotion> motions_;
+  SensorGates gates_;
   std::vector<Group> groups_;                      ///< the first one is empty
   Field<Index>& group_;                            ///< of each point
   Field<Real>* work_;                              ///< on each point so far; null: nobody asks
@@ -135,6 +152,7 @@ class PrescribedBuilder {
   PrescribedBuilder(const Deck& deck, const Model& model, const MotionLimits& limits, World& world,
                     Diagnostics& diagnostics)
       : deck_(deck), model_(model), limits_(limits), diagnostics_(diagnostics) {
+    gates_.board = sensors_of(deck, model, world, diagnostics);
     std::vector<Points> all{points_of(world.particles), points_of(world.nodes)};
     if (has_rotations(world.nodes)) all.push_back(rotations_of(world.nodes));
     for (const Points& points : all) {
@@ -154,6 +172,8 @@ class PrescribedBuilder {
     if (limits_.dim == 2 && !motion.turns && motion.direction[2] != 0)
       return error(motion, "in 2D particles stay in their plane, so nothing moves along z", "use DOF 1 or 2");
     motions_.push_back(motion);
+    if (gates_.board)
+      gates_.control.push_back(gates_.board->control_of_motion(motion_id(deck_, motion.card)));
     for (const Index n : motion.nodes)
       if (!add(motion, n)) return;  // one message for each card
   }
@@ -186,7 +206,7 @@ class PrescribedBuilder {
     Field<Real>* work = nullptr;
     if (model_.output.bndout.asked() && !set.points.turns)
       work = &set.points.set->add<Real>({.name = "drive_work", .dimension = "ML2/T2"});
-    return std::make_shared<PrescribedPoints>(motions_, std::move(groups), set.points, group, work);
+    return std::make_shared<PrescribedPoints>(motions_, gates_, std::move(groups), set.points, group, work);
   }
 
   bool add(const PrescribedMotion& motion, Index n) {
@@ -261,6 +281,7 @@ class PrescribedBuilder {
   const MotionLimits& limits_;
   Diagnostics& diagnostics_;
   std::vector<Driven> sets_;
+  SensorGates gates_;
   std::vector<PrescribedMotion> motions_;
 };
 

@@ -23,8 +23,9 @@ struct ElementSphCard : Entry {
 struct ElementShellCard : Entry {
   Id eid, pid, n1, n2, n3, n4;
   Id n5, n6, n7, n8;
-  Real thic1, thic2, thic3, thic4, beta;  ///< of _THICKNESS
-  bool has_thickness() const { return name == 1; }
+  Real thic1, thic2, thic3, thic4, beta;  ///< of _THICKNESS and _BETA
+  bool has_thickness() const { return name >= 1; }
+  bool has_beta() const { return name == 2 || beta != 0; }
 };
 
 struct PartCard : Entry {

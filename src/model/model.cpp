@@ -46,6 +46,7 @@ void Model::release_mesh() {
   std::vector<ModelBeam>().swap(beams);
   std::vector<ModelSegment>().swap(segments);
   shell_thickness.clear();
+  shell_beta.clear();
   held_rotations.clear();
   angular_velocity.clear();
   node_sets.clear();

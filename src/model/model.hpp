@@ -22,6 +22,13 @@ struct ModelNode {
   std::array<bool, 3> fixed = {false, false, false};  ///< translations held by BOUNDARY_SPC or TC
 };
 
+/// A layer of a composite.
+struct ModelPly {
+  Id mid = 0;
+  Real thickness = 0;  ///< [L]
+  Real angle = 0;      ///< of the material about the normal [degrees]
+};
+
 struct ModelPart {
   Id id = 0;
   std::string title;
@@ -29,8 +36,9 @@ struct ModelPart {
   Location where;  ///< of the PART card, for messages
   Entry card;      ///< the PART card, for messages about one of its fields
   bool has_sph = false, has_shell = false, has_solid = false, has_beam = false;
-  bool rigid = false;           ///< its material is a *MAT_RIGID
-  bool velocity_given = false;  ///< INITIAL_VELOCITY_GENERATION names this part
+  bool rigid = false;             ///< its material is a *MAT_RIGID
+  bool velocity_given = false;    ///< INITIAL_VELOCITY_GENERATION names this part
+  std::vector<ModelPly> plies{};  ///< of *PART_COMPOSITE, from the lower face to the upper; else none
 };
 
 struct ModelSph {
@@ -193,6 +201,7 @@ struct Model {
   std::vector<ModelSolid> solids;
   std::vector<ModelBeam> beams;
   std::unordered_map<Index, std::array<Real, 4>> shell_thickness;  ///< of shells with one of their own [L]
+  std::unordered_map<Index, Real> shell_beta;  ///< angle of the material, of shells with one [degrees]
   /// Of nodes, where some turn: rotations that BOUNDARY_SPC or RC hold, initial angular velocity.
   std::unordered_map<Index, std::array<bool, 3>> held_rotations;
   std::unordered_map<Index, Vec> angular_velocity;  ///< [1/T]

@@ -26,6 +26,7 @@ class ModelBuilder {
   // build_mesh.cpp
   void build_nodes();
   void build_parts();
+  void check_plies(const Entry& card, const ModelPart& part);
   void build_particles();
   void build_shells();
   void add_particle(const ElementSphCard& card, Id nid, Index part);

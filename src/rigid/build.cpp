@@ -371,19 +371,28 @@ class Builder {
         "give it their mass besides its own: TM, IXX to IZZ");
   }
 
+  bool is_switched(const RigidBody& b) const {
+    return std::any_of(b.parts.begin(), b.parts.end(),
+                       [&](const auto part) { return switched_material(deck_, model_, part).has_value(); });
+  }
+
   void claim(const Location& where, const RigidBody& b) {
     for (const Index n : b.nodes) {
       const Index other = owner_[n];
       owner_[n] = Index(bodies_.size());
       if (other < 0 || (b.fixed() && bodies_[other].fixed())) continue;
       const bool of_parts = !b.parts.empty() && !bodies_[other].parts.empty();
+      const bool switched = of_parts && (is_switched(b) || is_switched(bodies_[other]));
       diagnostics_.error(
           where,
           fmt::format("node {} belongs to {} and to {}, of which one can move", world_.nodes.id[n],
                       bodies_[other].name, b.name),
-          of_parts ? "give each part its own nodes, or merge them by *CONSTRAINED_RIGID_BODIES"
-                   : "let each node belong to one body: one *CONSTRAINED_NODAL_RIGID_BODY for all, or "
-                     "*CONSTRAINED_EXTRA_NODES");
+          switched
+              ? "make them one body: name one as the lead (LRB) of the other in *DEFORMABLE_TO_RIGID, or "
+                "merge them by *CONSTRAINED_RIGID_BODIES"
+          : of_parts ? "give each part its own nodes, or merge them by *CONSTRAINED_RIGID_BODIES"
+                     : "let each node belong to one body: one *CONSTRAINED_NODAL_RIGID_BODY for all, or "
+                       "*CONSTRAINED_EXTRA_NODES");
       return;
     }
   }

@@ -61,7 +61,7 @@ std::optional<MatRigid> constants_of(const Deck& deck, Id mid) {
 
 std::optional<MatRigid> switched_material(const Deck& deck, const Model& model, Index part) {
   const ModelPart& p = model.parts[static_cast<std::size_t>(part)];
-  if (p.has_sph || !switch_of(deck, p.id)) return std::nullopt;
+  if (p.has_sph || !p.plies.empty() || !switch_of(deck, p.id)) return std::nullopt;
   return constants_of(deck, p.mid);
 }
 
@@ -88,6 +88,9 @@ void check_switched_parts(const Deck& deck, const Model& model, Diagnostics& dia
     if (part.has_sph)
       error("PID", fmt::format("part {} has particles, which are no rigid body", card.pid),
             "name a part of elements");
+    else if (!part.plies.empty())
+      error("PID", fmt::format("part {} is a layered composite, which cannot become rigid", card.pid),
+            "leave the switch out");
     else if (!part.rigid)
       error("PID",
             fmt::format("material {} of part {} has no RO, E and PR for a rigid body", part.mid, card.pid),

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
 #include <set>
 #include <vector>
 
@@ -20,16 +20,12 @@ struct WallPart {
 std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
                                  const std::function<std::optional<ShellMaterial>(Index)>& material,
                                  Diagnostics& diagnostics) {
-  std::map<Id, const SectionShell*> sections;
+  const ShellSections sections(deck, model);
   for (const SectionShell& s : deck.all<SectionShell>()) {
-    sections[s.secid] = &s;
     if (s.user_defined())
       deck.error(diagnostics, s, "ELFORM",
                  fmt::format("user-defined shells ({}) are not supported", s.elform),
                  "use 2 (Belytschko-Tsay)");
-    if (s.icomp != 0)
-      deck.error(diagnostics, s, "ICOMP", fmt::format("layered composites ({}) are not supported", s.icomp),
-                 "leave the field blank or 0");
     if (s.elform >= 13 && s.elform <= 15)
       deck.error(diagnostics, s, "ELFORM", fmt::format("{} is a 2D solid, not a shell", s.elform),
                  "use 2 (Belytschko-Tsay)");
@@ -39,12 +35,17 @@ std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
   for (Index k = 0; k < Index(model.parts.size()); ++k) {
     const ModelPart& part = model.parts[k];
     if (!part.has_shell || part.has_sph) continue;  // a part of both kinds was refused by the model
-    const auto section = sections.find(part.secid);
-    if (section == sections.end())
+    const SectionShell* const section = sections.of(part);
+    if (!section)
       deck.error(diagnostics, part.card, "SECID",
                  fmt::format("the shells of part {} need a *SECTION_SHELL with id {}; {}", part.id,
                              part.secid, deck.found_instead(IdSpace::section, part.secid)),
                  "add the section, or correct the id here");
+    if (part.rigid && std::any_of(part.plies.begin(), part.plies.end(),
+                                  [&](const ModelPly& ply) { return ply.mid != part.mid; }))
+      deck.error(diagnostics, part.card, "MID1",
+                 fmt::format("the first layer of part {} is rigid, and others are not", part.id),
+                 "give all layers the *MAT_RIGID, or none");
     const auto m = material(k);
     if (!m)
       deck.error(
@@ -52,9 +53,9 @@ std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
           fmt::format("the shells of part {} need a *MAT_RIGID, or a material with strength, with id {}; {}",
                       part.id, part.mid, deck.found_instead(IdSpace::material, part.mid)),
           "*MAT_RIGID makes them rigid walls; with a material as *MAT_ELASTIC they deform");
-    if (!m || section == sections.end()) continue;
-    const SectionShell& s = *section->second;
-    if (!(s.t1 > 0) && told.insert(&s).second)
+    if (!m || !section) continue;
+    const SectionShell& s = *section;
+    if (!(s.t1 > 0) && part.plies.empty() && told.insert(&s).second)
       deck.error(diagnostics, s, "T1", fmt::format("the shells of part {} have no thickness", part.id),
                  "give a thickness > 0");
     const auto corner = [&](Real t) { return t > 0 ? t : s.t1; };

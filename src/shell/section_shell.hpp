@@ -2,7 +2,11 @@
 #include <string>
 #include <vector>
 
+#include <map>
+
 #include "keyword/card.hpp"
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
 
 namespace courant {
 
@@ -15,6 +19,22 @@ struct SectionShell : Entry {
   std::vector<std::string> user{};  ///< cards of what is not supported
   bool user_defined() const { return elform >= 101 && elform <= 105; }
   Real t1 = 0, t2 = 0, t3 = 0, t4 = 0, nloc = 0, marea = 0, idof = 0;
+  static constexpr int angles_on_card = 8, most_angle_cards = 5;
+  std::vector<Real> b1{}, b2{}, b3{}, b4{}, b5{}, b6{}, b7{}, b8{};  ///< ICOMP 1: of each card [degrees]
+  int layers() const { return nip == 0 ? 2 : nip; }
+  Real angle(int layer) const;  ///< ICOMP 1 [degrees]
+};
+
+/// The sections of shells, and what *PART_COMPOSITE says in the place of one.
+class ShellSections {
+ public:
+  ShellSections(const Deck& deck, const Model& model);
+  /// Null: the part names none that is there.
+  const SectionShell* of(const ModelPart& part) const;
+
+ private:
+  std::map<Id, const SectionShell*> sections_;
+  std::map<Id, SectionShell> of_composite_;  ///< by part
 };
 
 }  // namespace courant

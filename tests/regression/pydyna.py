@@ -91,6 +91,7 @@ ODD = {"*DEFINE_SPH_ACTIVE_REGION": "cards of all shapes at once", "*DEFINE_SPH_
        "*CONSTRAINED_GENERALIZED_WELD_SPOT": "an _ID line without _ID",
        "*MAT_SPOTWELD_DAMAGE-FAILURE": "the second card of each OPT, one after the other",
        "*ELEMENT_SHELL_THICKNESS_OFFSET": "thicknesses of mid-side nodes that are not there",
+       "*INTEGRATION_SHELL": "points beside ESOP 1, which places them itself",
        "*ELEMENT_SHELL_BETA_OFFSET": "thicknesses of mid-side nodes that are not there",
        "*RIGIDWALL_GEOMETRIC_CYLINDER_MOTION": "a card of sections that are not there",
        "*RIGIDWALL_GEOMETRIC_CYLINDER_DISPLAY": "a card of sections that are not there",

@@ -250,6 +250,7 @@ std::vector<Index> discrete_nodes(const Deck& deck, const Model& model) {
 std::vector<SpringPart> build_discrete(const Deck& deck, const Model& model,
                                        const std::vector<Index>& node_of, World& world,
                                        Diagnostics& diagnostics) {
+  add_part_masses(deck, model, world, diagnostics);
   if (!has_any(deck)) return {};
   DiscreteReader reader(deck, model, node_of, world, diagnostics);
   reader.add_masses();

@@ -35,6 +35,10 @@ std::vector<SpringPart> build_discrete(const Deck& deck, const Model& model,
                                        const std::vector<Index>& node_of, World& world,
                                        Diagnostics& diagnostics);
 
+/// *ELEMENT_MASS_PART and _SET: adds a group of masses, and these to world.nodes, once elements that deform
+/// are there. Refuses by name: particles, beams, rigid parts, masses that would fall.
+void add_part_masses(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics);
+
 /// Mass of a node that has none and is held, so that forces over it are numbers. [M]
 inline constexpr Real mass_of_held = 1e-200;
 

@@ -7,6 +7,7 @@
 
 #include "elements/shell/cards_shell.hpp"
 #include "elements/shell/hourglass_shell.hpp"
+#include "elements/shell/layers.hpp"
 #include "elements/shell/shells.hpp"
 #include "model/cards.hpp"
 #include "model/conditions/viscosity_cards.hpp"
@@ -32,34 +33,48 @@ class ShellReader {
         model_(model),
         diagnostics_(diagnostics),
         control_(deck.last<ControlShell>()),
-        hourglass_(deck) {
-    for (const SectionShell& s : deck.all<SectionShell>()) sections_.emplace(s.secid, &s);
+        hourglass_(deck),
+        sections_(deck, model),
+        layers_(deck, model, diagnostics) {
     if (control_) check_control(*control_);
   }
 
-  void read(const ModelPart& part, ShellPart& out) {
-    const auto section = sections_.find(part.secid);
-    if (section == sections_.end()) return;  // which the segments report
-    const SectionShell& s = *section->second;
+  /// False: what the part is made of is not there, or not right.
+  bool read(const ModelPart& part, ShellPart& out) {
+    const SectionShell* const section = sections_.of(part);
+    if (!section) return false;  // which the segments report
+    const SectionShell& s = *section;
     if (checked_.insert(&s).second) check_section(s, part);
-    const int count = s.nip == 0 ? 2 : s.nip;
-    const bool lobatto = control_ && control_->intgrd == 1 && count > 2;
-    if (count >= 1 && count <= ShellState::most_points)
-      (lobatto ? lobatto_points : gauss_points)(count, out.zeta, out.share);
+    const bool whole = layers_.read(part, s, control_ && control_->intgrd == 1, out);
     out.marea = s.marea, out.full = s.elform == fully_integrated;
     out.rotary_scale = control_ ? control_->rotascl : 1;
     out.warp_warning = control_ ? control_->wrpang : out.warp_warning;
-    const ElasticConstants of_law = elastic_constants(*out.law);
     ShellControl& c = out.control;
-    c.E = of_law.E, c.G = out.law->shear_modulus(), c.plate_modulus = c.E / (1 - of_law.nu * of_law.nu);
+    if (whole) set_moduli(out, c);
     c.shear_factor = s.shrf;
     c.thins = control_ && control_->istupd == 1;
     if (const auto* accuracy = deck_.last<ControlAccuracy>()) c.invariant_axes = accuracy->invariant_shells();
     if (const auto* step = deck_.last<ControlTimestepCard>()) c.length_rule = step->isdo;
     hourglass_.read(part, out.full, c, diagnostics_);
+    return whole;
   }
+  /// That of the part, so that nobody misses it besides; null: shells cannot have it.
+  std::shared_ptr<StrengthLaw> law_of(const ModelPart& part) const { return layers_.law_of(part.mid); }
 
  private:
+  /// Of layers the stiffest: by it the step is bounded.
+  static void set_moduli(const ShellPart& part, ShellControl& c) {
+    const ElasticConstants of_law = elastic_constants(*part.law);
+    c.E = of_law.E, c.G = part.law->shear_modulus(), c.plate_modulus = c.E / (1 - of_law.nu * of_law.nu);
+    if (part.laws.empty() && !part.has_axes()) return;
+    c.plate_modulus = c.G = 0;
+    for (std::size_t k = 0; k < part.zeta.size(); ++k) {
+      c.plate_modulus = std::max(c.plate_modulus, part.law_of(k).plane_modulus());
+      c.G = std::max(c.G, part.law_of(k).shear_modulus());
+    }
+    c.E = c.plate_modulus;
+  }
+
   void error(const Entry& card, const char* field, std::string message, std::string hint) {
     deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
   }
@@ -87,12 +102,6 @@ class ShellReader {
     if (s.elform == flat_triangle && has_quads)
       deck_.warning(diagnostics_, s, "ELFORM",
                     fmt::format("4 is for triangles: 2 is used for the quadrilaterals of part {}", part.id));
-    if (s.nip < 0 || s.nip > ShellState::most_points)
-      error(s, "NIP", fmt::format("'{}' is not supported", s.nip),
-            "1 to 10 points; 2 are exact for elastic shells, plastic ones need 3 to 5");
-    if (s.irid != 0)
-      error(s, "QR/IRID", fmt::format("a rule of integration of its own ('{}') is not supported", s.irid),
-            "leave the field blank: points of Gauss, or of Lobatto by INTGRD of *CONTROL_SHELL");
     if (s.idof == 3)
       error(s, "IDOF", "'3' is not supported: contact does not squeeze shells", "leave it blank");
     if (!(s.shrf > 0))
@@ -112,7 +121,7 @@ class ShellReader {
     refuse("MITER", c.miter != 1 && c.miter != 2, c.miter, "plane stress is iterated to convergence (1, 2)");
     refuse("ROTASCL", !(c.rotascl > 0), c.rotascl, "rotary inertia must be above 0");
     refuse("INTGRD", c.intgrd != 0 && c.intgrd != 1, c.intgrd, "points are of Gauss (0) or Lobatto (1)");
-    refuse("LAMSHT", c.lamsht != 0, c.lamsht, "shells are of one material");
+    refuse("LAMSHT", c.lamsht != 0, c.lamsht, "transverse shear is the same in all layers");
     refuse("PSSTUPD", c.psstupd != 0, static_cast<Real>(c.psstupd), "ISTUPD holds for all parts");
     refuse("SIDT4TU", c.sidt4tu != 0, c.sidt4tu, "ISTUPD holds for all parts");
     refuse("W-MODE", c.wmode != 0, c.wmode, "no shell is deleted");
@@ -127,7 +136,8 @@ class ShellReader {
   Diagnostics& diagnostics_;
   const ControlShell* control_;
   ShellHourglassReader hourglass_;
-  std::map<Id, const SectionShell*> sections_;
+  ShellSections sections_;
+  LayerReader layers_;
   std::set<const SectionShell*> checked_;  ///< several parts may name one
 };
 
@@ -135,6 +145,14 @@ class ShellReader {
 
 ElasticConstants elastic_constants(const StrengthLaw& law) {
   const Real K = law.bulk_modulus(), G = law.shear_modulus();
+  return {9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)};
+}
+
+ElasticConstants elastic_constants(const ShellPart& part) {
+  if (part.laws.empty()) return elastic_constants(*part.law);
+  Real K = 0, G = 0;
+  for (std::size_t k = 0; k < part.laws.size(); ++k)
+    K += part.share[k] * part.laws[k]->bulk_modulus(), G += part.share[k] * part.laws[k]->shear_modulus();
   return {9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)};
 }
 
@@ -152,26 +170,12 @@ std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Di
   if (!solids)  // which check them, too
     for (const StrengthEntry& kind : strength_registry()) kind.check(deck, model, diagnostics);
   if (diagnostics.errors() > errors) return out;  // a law is made from valid cards
-  std::map<Id, std::shared_ptr<StrengthLaw>> laws;
-  for (const StrengthEntry& kind : strength_registry())
-    for (const auto& [id, law] : kind.all(deck, model)) laws.emplace(id, law);
   ShellReader reader(deck, model, diagnostics);
-  for (const std::size_t k : deforming) {
-    const ModelPart& part = model.parts[k];
-    const auto law = laws.find(part.mid);
-    if (law == laws.end()) continue;  // reported with the segments
-    if (law->second->deviator_only()) {
-      deck.error(
-          diagnostics, part.card, "MID",
-          fmt::format("the material of part {} takes its pressure from an equation of state, which shells "
-                      "cannot have: their stress is plane",
-                      part.id),
-          "use a material that gives all of the stress");
-      continue;
-    }
-    out[k].law = law->second;
-    reader.read(part, out[k]);
-  }
+  for (const std::size_t k : deforming)
+    if (ShellPart found; reader.read(model.parts[k], found))
+      out[k] = std::move(found);
+    else
+      out[k].law = reader.law_of(model.parts[k]);
   return out;
 }
 

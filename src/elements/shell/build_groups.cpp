@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "elements/nodal_rotations.hpp"
 #include "elements/shell/shells.hpp"
+#include "laws/strength/material_axes.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
@@ -64,6 +66,56 @@ Real longest_step_length(const std::array<Vec, 4>& x, Real area, int corners, in
   return rule == 2 ? std::max(shortest, wide) : wide;
 }
 
+/// Where the directions of the layers of a part lie in its shells at the start.
+class LayerDirections {
+ public:
+  LayerDirections(const Model& model, const ShellPart& part, const ModelPart& named, ElementGroup& group,
+                  Diagnostics& diagnostics)
+      : model_(model),
+        part_(part),
+        named_(named),
+        group_(group),
+        field_(layer_directions_of(group, part.zeta.size())),
+        diagnostics_(diagnostics) {}
+
+  /// `s`: the shell among those of the model, with corners `x`.
+  void fill(Index e, Index s, const std::array<Vec, 4>& x) {
+    const Matrix axes = shell_axes(x, group_.corners(), part_.control.invariant_axes);
+    for (std::size_t k = 0; k < part_.zeta.size(); ++k) {
+      Vec a = axes.col(0);
+      if (const MaterialAxes* of_law = part_.law_of(k).axes()) {
+        MaterialAxes turned = *of_law;
+        if (const auto own = model_.shell_beta.find(s); own != model_.shell_beta.end())
+          turned.beta = own->second;
+        if (!part_.angle.empty()) turned.beta += part_.angle[k];
+        if (!direction_in_shell(turned, axes.col(2), x[1] - x[0], a)) refuse(e);
+      }
+      const int at = 2 * static_cast<int>(k);
+      field_.data(at)[e] = a.dot(axes.col(0)), field_.data(at + 1)[e] = a.dot(axes.col(1));
+    }
+  }
+
+ private:
+  void refuse(Index e) {
+    if (told_) return;
+    told_ = true;
+    diagnostics_.error(
+        named_.where,
+        fmt::format("shell {} of part {} stands across the direction that AOPT of its material "
+                    "gives, so that none follows for it",
+                    group_.id[e], named_.id),
+        "choose another AOPT, A or V");
+  }
+
+  const Model& model_;
+  const ShellPart& part_;
+  const ModelPart& named_;
+  ElementGroup& group_;
+  Field<Real>& field_;
+  Diagnostics& diagnostics_;
+  bool told_ = false;
+};
+
 ElementGroup& add_group(World& world, const std::string& name, std::size_t part, int corners, Index size) {
   FieldSet& set = world.add_set(name);
   set.resize(size);
@@ -79,6 +131,27 @@ ElementGroup& add_group(World& world, const std::string& name, std::size_t part,
 
 Field<Real>& corner_inertia_of(const ElementGroup& group) {
   return group.fields.add<Real>({.name = "corner_inertia", .dimension = "ML2", .restart = false});
+}
+
+Field<Real>& layer_directions_of(const ElementGroup& group, std::size_t layers) {
+  return group.fields.add<Real>({.name = "layer_directions",
+                                 .dimension = "-",
+                                 .components = 2 * static_cast<int>(layers),
+                                 .restart = false});
+}
+
+Matrix shell_axes(const std::array<Vec, 4>& x, int corners, bool invariant) {
+  const Vec e3 = (x[2] - x[0]).cross(x[3] - x[1]).normalized();
+  Vec e1 = x[1] - x[0];
+  if (invariant && corners == 4) {
+    const Vec xi = (x[1] + x[2] - x[0] - x[3]).normalized(), eta = (x[2] + x[3] - x[0] - x[1]).normalized();
+    e1 = (xi + eta).normalized();
+    e1 = Vec(e1 - e3.cross(e1));
+  }
+  e1 = Vec(e1 - e1.dot(e3) * e3).normalized();
+  Matrix out;
+  out.col(0) = e1, out.col(1) = e3.cross(e1), out.col(2) = e3;
+  return out;
 }
 
 // A rotation of all corners alike meets the shear stiffness K G t A alone, K the shear factor: with rotary
@@ -103,6 +176,9 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
           world, fmt::format("{} of part {}", triangles ? "triangles" : "shells", model.parts[k].id), k,
           corners, static_cast<Index>(which.size()));
       Field<Real>& corner_inertia = corner_inertia_of(group);
+      std::optional<LayerDirections> directions;
+      if (parts[k].has_axes()) directions.emplace(model, parts[k], model.parts[k], group, diagnostics);
+      const Real density = parts[k].density();
       for (Index e = 0; e < group.size(); ++e) {
         const Index s = which[static_cast<std::size_t>(e)];
         const ModelShell& shell = model.shells[static_cast<std::size_t>(s)];
@@ -110,10 +186,11 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
         std::array<Vec, 4> x;
         for (std::size_t c = 0; c < 4; ++c)
           x[c] = world.nodes.x.vec(node_of[static_cast<std::size_t>(shell.node[c])]);
+        if (directions) directions->fill(e, s, x);
         const Real area = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]).norm();
         const Real t = world.segments.thickness[s];
         group.V0[e] = area * t;
-        group.mass[e] = (parts[k].law->ro * t + parts[k].marea) * area;
+        group.mass[e] = (density * t + parts[k].marea) * area;
         const ShellControl& c = parts[k].control;
         const Real length = longest_step_length(x, area, corners, c.length_rule);
         const Real modulus = c.length_rule == 2 ? c.E : c.plate_modulus;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "base/run_error.hpp"
 #include "elements/largest_frequency.hpp"
@@ -27,7 +29,7 @@ class ShellForces : public Material,
   ShellForces(const ShellPart& part, const ElementGroup& group, Id part_id, Real tssfac,
               ElementOptions& options, bool shown, const std::vector<std::array<bool, 3>>& held, World& world)
       : group_(group),
-        law_(part.law),
+        layers_(layers_of(part)),
         part_id_(part_id),
         tssfac_(tssfac),
         w_(*shared_fields::angular_velocity.find(world.nodes.fields)),
@@ -58,8 +60,10 @@ class ShellForces : public Material,
           &group.fields.add<Real>({.name = "hourglass_force", .dimension = "-", .components = 5});
     if (control_.Q1 != 0 || control_.Q2 != 0)
       viscous_ = &group.fields.add<Real>({.name = "bulk_viscosity_force", .dimension = "M/T2"});
+    if (part.has_axes()) directions_ = &layer_directions_of(group, layers_.size());
+    fails_with_all_ = part.fails_with_all;
     for (int p = 0; p < state_.points; ++p)
-      for (const HistoryVariable& h : law_->history())
+      for (const HistoryVariable& h : layer_of(p).law->history())
         history_.push_back(&group.fields.add<Real>({.name = fmt::format("{}_of_layer_{}", h.name, p + 1),
                                                     .dimension = h.dimension,
                                                     .components = h.components}));
@@ -80,6 +84,7 @@ class ShellForces : public Material,
     a.writes(group_.corner_force).writes(*group_.corner_moment);
     if (hourglass_force_) a.updates(*hourglass_force_);
     if (viscous_) a.updates(*viscous_);
+    if (directions_) a.reads(*directions_);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (erosion_) erosion_->declare(world, a);
     if (!scaled_) return;
@@ -207,8 +212,8 @@ class ShellForces : public Material,
     if (failing && erosion_->any_dead(begin)) still_dead(begin, block.count, scratch);
     Real rate_zz[block_size], sound_speed[block_size];
     std::fill(scratch.thickening, scratch.thickening + block.count, 0);
-    const std::size_t numbers = history_data_.size() / static_cast<std::size_t>(state_.points);
     std::array<Real*, most_history> history{};
+    std::size_t numbers = 0, first = 0;
     PointBlock points;
     points.count = block.count;
     points.dt = dt;
@@ -218,23 +223,53 @@ class ShellForces : public Material,
       loops_.at_point(block, p, state_, scratch);
       for (std::size_t k = 0; k < 6; ++k)
         points.stress[k] = state_.stress[6 * static_cast<std::size_t>(p) + k] + begin;
-      for (std::size_t k = 0; k < numbers; ++k)
-        history[k] = history_data_[static_cast<std::size_t>(p) * numbers + k] + begin;
+      const Layer& layer = layer_of(p);
+      first += numbers, numbers = layer.numbers;
+      for (std::size_t k = 0; k < numbers; ++k) history[k] = history_data_[first + k] + begin;
       points.history = std::span<Real* const>(history.data(), numbers);
-      law_->update_in_plane_stress(points, rate_zz);
+      if (layer.law->axes())
+        update_along_axes(p, begin, points, rate_zz);
+      else
+        layer.law->update_in_plane_stress(points, rate_zz);
       if (failing) look_at_point(p, begin, *failing, points, rate_zz);
       for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
     }
     return loops_.forces(block, control, state_, scratch);
   }
 
-  std::shared_ptr<Erosion> make_erosion(const FailureRules& rules, World& world) {
+  /// The law at a point in the directions a, b of its layer.
+  void update_along_axes(int p, Index begin, const PointBlock& points, Real* rate_zz) const {
+    const int at = 2 * (p % layers());
+    const Real *c = directions_->data(at) + begin, *s = directions_->data(at + 1) + begin;
+    alignas(64) Real rate[6][block_size], stress[6][block_size];
+    const auto turn = [&](const auto& from, auto& to, Real sign) {
+      for (Index i = 0; i < points.count; ++i) {
+        const Real C = c[i], S = sign * s[i];
+        const Real xx = from[0][i], yy = from[1][i], xy = from[3][i], yz = from[4][i], zx = from[5][i];
+        to[0][i] = C * C * xx + S * S * yy + 2 * C * S * xy;
+        to[1][i] = S * S * xx + C * C * yy - 2 * C * S * xy;
+        to[3][i] = C * S * (yy - xx) + (C * C - S * S) * xy;
+        to[4][i] = C * yz - S * zx, to[5][i] = C * zx + S * yz;
+      }
+    };
+    turn(points.rate, rate, 1), turn(points.stress, stress, 1);
+    std::fill(stress[2], stress[2] + points.count, 0);
+    PointBlock turned = points;
+    for (std::size_t k = 0; k < 6; ++k) turned.rate[k] = rate[k], turned.stress[k] = stress[k];
+    turned.rate[2] = points.rate[2];
+    layer_of(p).law->update_in_plane_stress(turned, rate_zz);
+    turn(stress, points.stress, -1);
+  }
+
+  std::shared_ptr<Erosion> make_erosion(FailureRules rules, World& world) {
+    int can_fail = 0;
+    for (int p = 0; p < state_.points; ++p) can_fail += layer_of(p).fails >= 0;
+    if (!fails_with_all_ && can_fail > 0) rules.law_points = can_fail;
     auto out = std::make_shared<Erosion>(rules, group_, state_.points,
                                          Erosion::Energies{&internal_, &bulk_viscosity_, &hourglass_}, world);
     out->vanishes(stress_);
     for (Field<Real>* h : history_)
       if (h->info().components == 6) out->vanishes(*h);
-    plastic_ = plastic_strain_of(*law_), fails_ = history_at(*law_, law_->failure_variable());
     return out;
   }
 
@@ -243,8 +278,12 @@ class ShellForces : public Material,
     FailingPoints failing{.point = p, .begin = begin, .count = points.count, .t = clock.t, .dt = points.dt};
     failing.rate = points.rate, failing.rate[2] = rate_zz;
     failing.stress = points.stress;
-    if (plastic_ >= 0) failing.plastic = points.history[static_cast<std::size_t>(plastic_)];
-    if (fails_ >= 0) failing.by_law = points.history[static_cast<std::size_t>(fails_)];
+    const Layer& layer = layer_of(p);
+    if (layer.plastic >= 0) failing.plastic = points.history[static_cast<std::size_t>(layer.plastic)];
+    if (layer.fails >= 0) {
+      failing.by_law = points.history[static_cast<std::size_t>(layer.fails)];
+      failing.law_limit = layer.law->failure_limit();
+    }
     erosion_->look(failing);
   }
 
@@ -338,14 +377,17 @@ class ShellForces : public Material,
     };
     shown_stress_ = {add("stress_lower", "M/LT2", 6), add("stress_upper", "M/LT2", 6)};
     shown_force_ = add("membrane_force", "M/T2", 3), shown_moment_ = add("bending_moment", "ML/T2", 3);
-    const std::vector<HistoryVariable> kinds = law_->history();
-    for (std::size_t k = 0; k < kinds.size(); ++k) {
-      if (kinds[k].components != 1) continue;
-      Largest largest{add(kinds[k].name.c_str(), kinds[k].dimension.c_str(), 1), history_[k], {}};
-      for (std::size_t at = k; at < history_.size(); at += kinds.size())
-        largest.layers.push_back(history_[at]);
-      shown_history_.push_back(std::move(largest));
-    }
+    std::map<std::string, std::size_t> shown;  // by name, where it stands
+    std::size_t at = 0;
+    for (int p = 0; p < state_.points; ++p)
+      for (const HistoryVariable& kind : layer_of(p).law->history()) {
+        const Field<Real>* of_layer = history_[at++];
+        if (kind.components != 1) continue;
+        const auto [place, is_new] = shown.emplace(kind.name, shown_history_.size());
+        if (is_new)
+          shown_history_.push_back({add(kind.name.c_str(), kind.dimension.c_str(), 1), of_layer, {}});
+        shown_history_[place->second].layers.push_back(of_layer);
+      }
   }
 
   /// The axes of an element as columns.
@@ -353,17 +395,7 @@ class ShellForces : public Material,
     std::array<Vec, 4> x;
     for (std::size_t c = 0; c < x.size(); ++c)
       x[c] = world.nodes.x.vec(group_.node.data(std::min(static_cast<int>(c), group_.corners() - 1))[e]);
-    const Vec e3 = (x[2] - x[0]).cross(x[3] - x[1]).normalized();
-    Vec e1 = x[1] - x[0];
-    if (control_.invariant_axes && group_.corners() == 4) {
-      const Vec xi = (x[1] + x[2] - x[0] - x[3]).normalized(), eta = (x[2] + x[3] - x[0] - x[1]).normalized();
-      e1 = (xi + eta).normalized();
-      e1 = Vec(e1 - e3.cross(e1));
-    }
-    e1 = Vec(e1 - e1.dot(e3) * e3).normalized();
-    Matrix out;
-    out.col(0) = e1, out.col(1) = e3.cross(e1), out.col(2) = e3;
-    return out;
+    return shell_axes(x, group_.corners(), control_.invariant_axes);
   }
   Real total(const Field<Real>& field) const {
     return sum(group_.size(), [&](Index e) { return erosion_ && erosion_->dead(e) ? 0 : field[e]; });
@@ -378,6 +410,27 @@ class ShellForces : public Material,
                    std::isnan(state_.thickness[e]) ? StopCause::not_finite : StopCause::element);
   }
 
+  /// What is at a point through the thickness.
+  struct Layer {
+    std::shared_ptr<StrengthLaw> law;
+    std::size_t numbers = 0;       ///< that the law keeps
+    int plastic = -1, fails = -1;  ///< of them the plastic strain, and what it fails by
+  };
+  static std::vector<Layer> layers_of(const ShellPart& part) {
+    std::vector<Layer> out;
+    for (std::size_t k = 0; k < part.zeta.size(); ++k) {
+      Layer layer{part.laws.empty() ? part.law : part.laws[k]};
+      const StrengthLaw& law = *layer.law;
+      for (const HistoryVariable& h : law.history()) layer.numbers += static_cast<std::size_t>(h.components);
+      layer.plastic = plastic_strain_of(law);
+      const bool can_fail = std::isfinite(law.failure_limit()) || part.laws.empty();
+      if (can_fail) layer.fails = history_at(law, law.failure_variable());
+      out.push_back(std::move(layer));
+    }
+    return out;
+  }
+  const Layer& layer_of(int point) const { return layers_[static_cast<std::size_t>(point % layers())]; }
+
   /// The largest value over the layers, for the field files.
   struct Largest {
     Field<Real>* to;
@@ -386,7 +439,7 @@ class ShellForces : public Material,
   };
 
   const ElementGroup& group_;
-  std::shared_ptr<StrengthLaw> law_;
+  std::vector<Layer> layers_;
   Id part_id_;
   Real tssfac_;
   bool by_mesh_ = false;            ///< the frequency of the mesh lowers the step
@@ -405,10 +458,11 @@ class ShellForces : public Material,
   ShellMesh mesh_{};
   ShellState state_{};
   std::vector<Real*> history_data_;
-  std::vector<ShellLoops::Found> found_;  ///< in each block
-  std::unique_ptr<ScaledMass> scaled_;    ///< null: no mass scaling
-  std::shared_ptr<Erosion> erosion_;      ///< null: nothing fails
-  int plastic_ = -1, fails_ = -1;         ///< of the law's numbers the plastic strain, and what it fails by
+  std::vector<ShellLoops::Found> found_;     ///< in each block
+  std::unique_ptr<ScaledMass> scaled_;       ///< null: no mass scaling
+  std::shared_ptr<Erosion> erosion_;         ///< null: nothing fails
+  const Field<Real>* directions_ = nullptr;  ///< null: no law knows any
+  bool fails_with_all_ = false;
 };
 
 }  // namespace
@@ -420,9 +474,11 @@ void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
   for (const auto& group : world.groups) {
     if (!group->segment) continue;
     const auto part = static_cast<std::size_t>(group->part);
-    int numbers = 0;
-    for (const HistoryVariable& h : parts[part].law->history()) numbers += h.components;
-    if (numbers > 16) throw std::logic_error("a law with more than 16 history numbers");
+    for (std::size_t k = 0; k < parts[part].zeta.size(); ++k) {
+      int numbers = 0;
+      for (const HistoryVariable& h : parts[part].law_of(k).history()) numbers += h.components;
+      if (numbers > 16) throw std::logic_error("a law with more than 16 history numbers");
+    }
     world.passes.add(std::make_shared<ShellForces>(parts[part], *group, model.parts[part].id, model.tssfac,
                                                    options, shown, held, world));
   }

@@ -23,7 +23,7 @@ struct ShellMesh {
 /// Arrays over the elements of a group, in the axes of each element, which turn with it. The loops touch the
 /// entries of their block alone.
 struct ShellState {
-  static constexpr int most_points = 10, most_in_plane = 4;
+  static constexpr int most_points = 40, most_in_plane = 4;
   /// Through the thickness; with 2 x 2 points in the plane those of the first, of the second, ... place
   /// there.
   int points = 2;

@@ -1,6 +1,7 @@
 #pragma once
 // Shells that deform, in the world: groups of quadrilaterals and of triangles for each part, and the passes
 // over them. Rigid shells are walls only: src/shell.
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -14,13 +15,23 @@ namespace courant {
 
 /// What shells of a part are made of.
 struct ShellPart {
-  std::shared_ptr<StrengthLaw> law;  ///< null: the part has no shells that deform
+  /// Null: the part has no shells that deform. Of layers with several the first that can fail, else the
+  /// first.
+  std::shared_ptr<StrengthLaw> law;
+  /// Of each point through the thickness its own, and the angle of its directions about the normal [degrees];
+  /// empty: `law` in all, without an angle.
+  std::vector<std::shared_ptr<StrengthLaw>> laws{};
+  std::vector<Real> angle{};
+  bool fails_with_all = false;  ///< FAILOPT 1: not by the points that can fail alone
   ShellControl control;
   bool full = false;              ///< ELFORM 16: 2 x 2 points in the plane of quadrilaterals
   std::vector<Real> zeta, share;  ///< points through the thickness: height over half of it, weight (sum 1)
   Real marea = 0;                 ///< mass per area besides that of the law [M/L2]
   Real rotary_scale = 1;          ///< ROTASCL
   Real warp_warning = 20;         ///< WRPANG [degrees]
+  const StrengthLaw& law_of(std::size_t layer) const { return laws.empty() ? *law : *laws[layer]; }
+  bool has_axes() const;  ///< some law knows directions
+  Real density() const;   ///< mean over the thickness [M/L3]
 };
 
 /// Young's modulus and Poisson's ratio of a law at rest. [M/LT2], [-]
@@ -28,6 +39,16 @@ struct ElasticConstants {
   Real E = 0, nu = 0;
 };
 ElasticConstants elastic_constants(const StrengthLaw& law);
+/// With the means of bulk and shear modulus over the thickness.
+ElasticConstants elastic_constants(const ShellPart& part);
+
+/// The axes of a shell as columns: e1 along side 1-2, or by INN 2 (`invariant`) between its middles; e3
+/// normal.
+Matrix shell_axes(const std::array<Vec, 4>& x, int corners, bool invariant);
+
+/// Cosine and sine of the angle between e1 and the direction a of each layer: of layer k at 2 k and 2 k + 1.
+/// Only of parts with directions; `build_shells` fills it. [-]
+Field<Real>& layer_directions_of(const ElementGroup& group, std::size_t layers);
 
 /// Points of Gauss (1 to 10), or of Lobatto (3 to 10), on [-1, 1], ascending; the weights sum up to 1.
 void gauss_points(int count, std::vector<Real>& zeta, std::vector<Real>& weight);

@@ -6,6 +6,7 @@
 #include "elements/solid/solids.hpp"
 #include "laws/eos/find_eos.hpp"
 #include "laws/fluid/mat_null.hpp"
+#include "laws/strength/material_axes.hpp"
 
 namespace courant {
 
@@ -16,7 +17,7 @@ class SolidLaws {
  public:
   SolidLaws(const Deck& deck, const Model& model) : eos_(deck) {
     for (const StrengthEntry& kind : strength_registry()) {
-      known_ += "*" + kind.keyword + ", ";
+      if (!tells_directions(kind.keyword)) known_ += "*" + kind.keyword + ", ";
       for (const auto& [id, law] : kind.all(deck, model)) laws_.emplace(id, law);
     }
     for (const MatNull& fluid : deck.all<MatNull>()) laws_.emplace(fluid.mid, fluid.law());
@@ -31,6 +32,11 @@ class SolidLaws {
                  "add one of " + known_ + "*MAT_NULL, or a *MAT_RIGID, and give its id here");
       return;
     }
+    if (law->second->axes())
+      deck.error(
+          diagnostics, part.card, "MID",
+          fmt::format("directions of a material in solids, as those of part {}, are not supported", part.id),
+          "shells have them; solids take isotropic materials");
     if (law->second->deviator_only()) {
       const auto eos = eos_.find(deck, part, law->second->ro, "solids", diagnostics);
       if (!eos) return;

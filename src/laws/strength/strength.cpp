@@ -17,6 +17,11 @@ void add_to_strength_registry(StrengthEntry entry) {
   all.insert(place, std::move(entry));
 }
 
+Real StrengthLaw::plane_modulus() const {
+  const Real K = bulk_modulus(), G = shear_modulus();
+  return 4 * G * (3 * K + G) / (3 * K + 4 * G);
+}
+
 Real StrengthLaw::sound_speed() const {
   return std::sqrt((bulk_modulus() + 4 * shear_modulus() / 3) / ro);
 }

@@ -16,6 +16,8 @@
 
 namespace courant {
 
+struct MaterialAxes;
+
 /// What a law keeps for each point from step to step, 0 at the start: a number, or with six components a
 /// symmetric tensor xx yy zz xy yz zx, which comes to the law turned with the body as the stress does.
 struct HistoryVariable {
@@ -42,6 +44,11 @@ class StrengthLaw {
   virtual bool deviator_only() const { return false; }
   virtual Real bulk_modulus() const = 0;   ///< at rest; 0 with `deviator_only` [M/LT2]
   virtual Real shear_modulus() const = 0;  ///< at rest [M/LT2]
+  /// How the directions a, b lie by which the law tells its rates and stresses (material_axes.hpp); null: it
+  /// has none. Only shells can turn to them.
+  virtual const MaterialAxes* axes() const { return nullptr; }
+  /// Largest stiffness of a sheet in plane stress whose one side is held: E/(1 - nu^2), at rest. [M/LT2]
+  virtual Real plane_modulus() const;
   /// Value of its history `failure_variable` from which on a point has failed; infinity: it never does. [-]
   virtual Real failure_limit() const { return std::numeric_limits<Real>::infinity(); }
   virtual std::string failure_variable() const { return "plastic_strain"; }

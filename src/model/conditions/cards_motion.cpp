@@ -1,11 +1,13 @@
 // *BOUNDARY_PRESCRIBED_MOTION_NODE, _SET and _RIGID: their table, and what they mean.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <unordered_map>
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "model/conditions/motion_ids.hpp"
 #include "model/conditions/prescribed_motion.hpp"
 #include "model/transforms/transformation.hpp"
 
@@ -208,6 +210,23 @@ class Reader {
 };
 
 }  // namespace
+
+Id motion_id(const Deck& deck, const Entry& card) {
+  Id found = 0;
+  const auto look = [&](const auto& cards) {
+    for (const auto& one : cards)
+      if (one.keyword == card.keyword && one.file == card.file && one.line == card.line) found = one.entry_id;
+  };
+  look(deck.all<MotionOfNode>()), look(deck.all<MotionOfSet>());
+  return found;
+}
+
+bool has_motion_of_nodes(const Deck& deck, Id id) {
+  const auto among = [&](const auto& cards) {
+    return std::any_of(cards.begin(), cards.end(), [&](const MotionCard& one) { return one.entry_id == id; });
+  };
+  return among(deck.all<MotionOfNode>()) || among(deck.all<MotionOfSet>());
+}
 
 std::vector<PrescribedMotion> prescribed_motions(const Deck& deck, const Model& model,
                                                  Diagnostics& diagnostics) {

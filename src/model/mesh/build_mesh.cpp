@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/build_model.hpp"
+#include "model/mesh/part_composite.hpp"
 #include "model/mesh/part_inertia.hpp"
 #include "model/model_builder.hpp"
 #include "model/transforms/transformation.hpp"
@@ -80,6 +81,25 @@ void ModelBuilder::build_parts() {
   for (const PartCard& card : deck_.all<PartCard>()) add(card);
   for (const PartContactCard& card : deck_.all<PartContactCard>()) add(card);
   for (const PartInertiaCard& card : deck_.all<PartInertiaCard>()) add(card);
+  for (const PartCompositeCard& card : deck_.all<PartCompositeCard>()) {
+    const std::size_t before = model_.parts.size();
+    add(card);
+    if (model_.parts.size() == before) continue;
+    ModelPart& part = model_.parts.back();
+    part.plies = card.plies();
+    if (!part.plies.empty()) part.mid = part.plies.front().mid;  // of a rigid part that of all
+    check_plies(card, part);
+  }
+}
+
+void ModelBuilder::check_plies(const Entry& card, const ModelPart& part) {
+  if (part.plies.empty()) error(card, "MID1", fmt::format("part {} has no layers", part.id));
+  for (std::size_t k = 0; k < part.plies.size(); ++k) {
+    if (part.plies[k].mid == 0)
+      error(card, "MID1", fmt::format("layer {} of part {} has no material", k + 1, part.id));
+    if (!(part.plies[k].thickness > 0))
+      error(card, "THICK1", fmt::format("layer {} of part {} has no thickness", k + 1, part.id));
+  }
 }
 
 void ModelBuilder::build_particles() {
@@ -137,6 +157,7 @@ void ModelBuilder::build_shells() {
     if (card.has_thickness())
       model_.shell_thickness[static_cast<Index>(model_.shells.size())] = {card.thic1, card.thic2, card.thic3,
                                                                           card.thic4};
+    if (card.has_beta()) model_.shell_beta[static_cast<Index>(model_.shells.size())] = card.beta;
     model_.shells.push_back(shell);
   }
 }

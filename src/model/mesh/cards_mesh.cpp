@@ -85,8 +85,8 @@ const FieldRules last_corner{.check = Check::not_negative, .width = 8, .refers =
 const FieldRules mid_side{.honour = Honour::no, .width = 8, .refers = IdSpace::node};
 const FieldRules thickness{.check = Check::not_negative, .width = 16};
 const RegisterKeyword<S> element_shell{
-    {.names = {"ELEMENT_SHELL", "ELEMENT_SHELL_THICKNESS"},
-     .purpose = "shells of 3 (N4 = N3 or 0) or 4 nodes; _THICKNESS adds a card",
+    {.names = {"ELEMENT_SHELL", "ELEMENT_SHELL_THICKNESS", "ELEMENT_SHELL_BETA"},
+     .purpose = "shells of 3 (N4 = N3 or 0) or 4 nodes; _THICKNESS and _BETA add a card",
      .id_space = IdSpace::shell,
      .cards = {{.fields = {{"EID", &S::eid, "-", "element id", element},
                            {"PID", &S::pid, "-", "part id", of_part},
@@ -105,8 +105,8 @@ const RegisterKeyword<S> element_shell{
                            {"BETA",
                             &S::beta,
                             "-",
-                            "angle of the material, which no law here has",
-                            {.honour = Honour::ignored, .width = 16}}},
+                            "angle of the material in place of its own, degrees; 0 with _THICKNESS: its own",
+                            {.width = 16}}},
                 .when = [](const S& e) { return e.has_thickness(); }}}}};
 
 using P = PartCard;

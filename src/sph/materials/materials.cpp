@@ -109,6 +109,12 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
       refuse_erosion(deck, part, *fluid->second, diagnostics);
     } else {
       m.strength = strength->second;
+      if (m.strength->axes())
+        deck.error(
+            diagnostics, part.card, "MID",
+            fmt::format("directions of a material in particles, as those of part {}, are not supported",
+                        part.id),
+            "particles take isotropic materials");
       if (std::isfinite(m.strength->failure_limit()))
         deck.error(diagnostics, part.card, "MID",
                    fmt::format("the material of part {} fails at a {} of {:g}, "

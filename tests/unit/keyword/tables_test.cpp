@@ -23,6 +23,23 @@ const std::map<std::string, const char*> plain_numbers = {
     {"INCLUDE_TRANSFORM IDROFF", "an offset"},
     {"COURANT_LITERAL_PENALTY CID", "an id, or a number among contacts without"},
     {"CONTROL_TERMINATION ENDCYC", "a number of steps, which may be large"},
+    {"INTEGRATION_SHELL IRID", "a number among rules"},
+    {"PART_COMPOSITE PLYID", "a name"},
+    {"SENSOR_DEFINE_FORCE TYPEID", "of what exerts it"},
+    {"SENSOR_SWITCH FILTRID", "of a filter, which there is none of"},
+    {"SENSOR_CONTROL CNTLID", "a number among sensors"},
+    {"SENSOR_CONTROL SWIT1", "a number among sensors"},
+    {"SENSOR_CONTROL SWIT2", "a number among sensors"},
+    {"SENSOR_CONTROL SWIT3", "a number among sensors"},
+    {"SENSOR_CONTROL SWIT4", "a number among sensors"},
+    {"SENSOR_CONTROL SWIT5", "a number among sensors"},
+    {"SENSOR_CONTROL SWIT6", "a number among sensors"},
+    {"SENSOR_CONTROL SWIT7", "a number among sensors"},
+    {"SENSOR_DEFINE_FORCE SENSID", "a number among sensors"},
+    {"SENSOR_DEFINE_NODE SENSID", "a number among sensors"},
+    {"SENSOR_SWITCH SENSID", "a number among sensors"},
+    {"SENSOR_SWITCH SWITID", "a number among sensors"},
+    {"TERMINATION_SENSOR SWID", "a number among sensors"},
 };
 
 /// Columns whose ids depend on the word or the number beside them in the row: KeywordOf::convert shifts them.

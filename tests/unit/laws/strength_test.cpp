@@ -158,6 +158,7 @@ TEST(StrengthRegistry, EveryLawGivesItsReferenceValues) {
 
 TEST(StrengthRegistry, SoundSpeedIsTheSlopeOfStressInUniaxialStrain) {
   for_each_law([](const StrengthEntry& kind, const StrengthReference&, const StrengthLaw& law) {
+    if (law.axes()) return;
     const Real e = 1e-7;
     Point point(law);
     point.strain({e, 0, 0, 0, 0, 0});
@@ -195,6 +196,7 @@ TEST(StrengthRegistry, AnswersDoNotDependOnTheAxes) {
   // a path seen from turned axes gives the turned stress, and a body that turns on its path, too
   const Vec axis(0.4, -0.7, 0.3), step(0.05, 0.02, -0.04);
   for_each_law([&](const StrengthEntry& kind, const StrengthReference& r, const StrengthLaw& law) {
+    if (law.axes()) return;
     Point still(law), turned(law), turning(law);
     const Matrix R = rotation(axis), dR = rotation(step);
     Matrix now = Matrix::Identity();
@@ -242,6 +244,8 @@ TEST(StrengthRegistry, AClosedCycleOfStrainGivesNoWork) {
       }
       if (size < 1 || point.history.empty())
         EXPECT_NEAR(work, 0, 1e-10 * most) << kind.keyword;
+      else if (law.axes())
+        EXPECT_GE(work, 0) << kind.keyword;  // all of a ply may be gone in the first step
       else
         EXPECT_GT(work, 0) << kind.keyword;
     }

@@ -1,0 +1,178 @@
+#include "elements/shell/layers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace courant {
+
+bool ShellPart::has_axes() const {
+  for (std::size_t k = 0; k < zeta.size(); ++k)
+    if (law_of(k).axes()) return true;
+  return false;
+}
+
+Real ShellPart::density() const {
+  if (laws.empty()) return law->ro;
+  Real sum = 0;
+  for (std::size_t k = 0; k < laws.size(); ++k) sum += share[k] * laws[k]->ro;
+  return sum;
+}
+
+LayerReader::LayerReader(const Deck& deck, const Model& model, Diagnostics& diagnostics)
+    : deck_(deck), model_(model), diagnostics_(diagnostics) {
+  for (const StrengthEntry& kind : strength_registry())
+    for (const auto& [id, law] : kind.all(deck, model)) laws_.emplace(id, law);
+  for (const IntegrationShell& rule : deck.all<IntegrationShell>()) {
+    const auto [first, is_new] = rules_.emplace(rule.irid, &rule);
+    if (!is_new)
+      error(rule, "IRID",
+            fmt::format("rule {} is defined twice, first at {}", rule.irid, deck.place(*first->second)),
+            "give it another number");
+  }
+}
+
+bool LayerReader::read(const ModelPart& part, const SectionShell& section, bool lobatto, ShellPart& out) {
+  std::vector<Id> mids;
+  return find_points(part, section, lobatto, out, mids) && find_laws(part, mids, out);
+}
+
+std::shared_ptr<StrengthLaw> LayerReader::law_of(Id mid) const {
+  const auto found = laws_.find(mid);
+  return found == laws_.end() || found->second->deviator_only() ? nullptr : found->second;
+}
+
+bool LayerReader::find_points(const ModelPart& part, const SectionShell& s, bool lobatto, ShellPart& out,
+                              std::vector<Id>& mids) {
+  if (!part.plies.empty()) {
+    if (s.nip > ShellState::most_points)
+      return error(part.card, "MID1", fmt::format("{} layers are not supported", s.nip),
+                   fmt::format("up to {}", ShellState::most_points));
+    Real below = 0;
+    for (const ModelPly& ply : part.plies) {
+      out.zeta.push_back(2 * (below + 0.5 * ply.thickness) / s.t1 - 1),
+          out.share.push_back(ply.thickness / s.t1);
+      out.angle.push_back(ply.angle), mids.push_back(ply.mid);
+      below += ply.thickness;
+    }
+    return true;
+  }
+  if (s.irid != 0) {
+    if (!follow_rule(part, s, out, mids)) return false;
+  } else {
+    constexpr int most_gauss = 10;
+    const int count = s.layers();
+    if (s.nip < 0 || count > most_gauss)
+      return error(s, "NIP", fmt::format("'{}' is not supported", s.nip),
+                   "1 to 10 points; 2 are exact for elastic shells, plastic ones need 3 to 5; more by "
+                   "*INTEGRATION_SHELL");
+    (lobatto && count > 2 ? lobatto_points : gauss_points)(count, out.zeta, out.share);
+  }
+  mids.resize(out.zeta.size(), part.mid);
+  if (s.icomp == 1)
+    for (std::size_t k = 0; k < out.zeta.size(); ++k) out.angle.push_back(s.angle(static_cast<int>(k)));
+  return true;
+}
+
+bool LayerReader::follow_rule(const ModelPart& part, const SectionShell& s, ShellPart& out,
+                              std::vector<Id>& mids) {
+  const auto found = rules_.find(-s.irid);
+  if (found == rules_.end())
+    return error(s, "QR/IRID",
+                 s.irid > 0 ? fmt::format("'{}' is not supported", s.irid)
+                            : fmt::format("rule {} does not exist", -s.irid),
+                 "0: points of Gauss, or of Lobatto by INTGRD of *CONTROL_SHELL; minus the IRID of an "
+                 "*INTEGRATION_SHELL");
+  const IntegrationShell& rule = *found->second;
+  out.fails_with_all = rule.failopt == 1;
+  if (rule.nip > ShellState::most_points)
+    return error(rule, "NIP", fmt::format("'{}' is not supported", rule.nip),
+                 fmt::format("up to {} points", ShellState::most_points));
+  if (s.icomp == 1 && s.layers() != rule.nip)
+    return error(s, "NIP",
+                 fmt::format("rule {} has {} points, and NIP = {} tells how many angles stand here",
+                             rule.irid, rule.nip, s.layers()),
+                 "give both the same number");
+  if (rule.esop == 0) return take_points(rule, part, out, mids);
+  for (int k = 0; k < rule.nip; ++k)
+    out.zeta.push_back((2 * k + 1 - rule.nip) / static_cast<Real>(rule.nip)),
+        out.share.push_back(1.0 / rule.nip);
+  return true;
+}
+
+bool LayerReader::take_points(const IntegrationShell& rule, const ModelPart& part, ShellPart& out,
+                              std::vector<Id>& mids) {
+  if (static_cast<int>(rule.s.size()) != rule.nip)
+    return error(rule, "NIP", fmt::format("{} points stand here, not {}", rule.s.size(), rule.nip),
+                 "give each point a card");
+  const Real sum = std::accumulate(rule.wf.begin(), rule.wf.end(), Real(0));
+  constexpr Real close = 1e-3;  // weights are written with few digits
+  if (!(std::abs(sum - 1) < close))
+    return error(rule, "WF", fmt::format("the weights sum up to {:g}, not 1", sum),
+                 "each is the share of the thickness");
+  for (std::size_t k = 0; k < rule.s.size(); ++k) {
+    if (!(std::abs(rule.s[k]) <= 1))
+      return error(rule, "S", fmt::format("point {} lies outside the shell: {:g}", k + 1, rule.s[k]),
+                   "-1 is the lower face, 1 the upper");
+    out.zeta.push_back(rule.s[k]), out.share.push_back(rule.wf[k] / sum);
+    const auto other = model_.part_of_id.find(rule.pid[k]);
+    if (rule.pid[k] != 0 && other == model_.part_of_id.end())
+      return error(rule, "PID", fmt::format("part {} does not exist", rule.pid[k]), "define it with *PART");
+    mids.push_back(rule.pid[k] == 0 ? part.mid : model_.parts[static_cast<std::size_t>(other->second)].mid);
+  }
+  return true;
+}
+
+bool LayerReader::find_laws(const ModelPart& part, const std::vector<Id>& mids, ShellPart& out) {
+  const bool layered = std::any_of(mids.begin(), mids.end(), [&](Id mid) { return mid != mids.front(); });
+  std::vector<std::shared_ptr<StrengthLaw>> laws;
+  const char* const field = part.plies.empty() ? "MID" : "MID1";
+  for (const Id mid : mids) {
+    const auto law = laws_.find(mid);
+    if (law == laws_.end()) {
+      if (mid == part.mid || mid == 0) return false;  // reported with the segments, or the layers
+      return error(part.card, field,
+                   fmt::format("a layer of part {} needs a material with strength, with id {}; {}", part.id,
+                               mid, deck_.found_instead(IdSpace::material, mid)),
+                   "layers are elastic, plastic or plies");
+    }
+    if (law->second->deviator_only())
+      return error(
+          part.card, field,
+          fmt::format("the material of part {} takes its pressure from an equation of state, which shells "
+                      "cannot have: their stress is plane",
+                      part.id),
+          "use a material that gives all of the stress");
+    laws.push_back(law->second);
+  }
+  const auto fails = std::find_if(laws.begin(), laws.end(), [](const std::shared_ptr<StrengthLaw>& law) {
+    return std::isfinite(law->failure_limit());
+  });
+  out.law = fails == laws.end() ? laws.front() : *fails;
+  if (!layered) return true;
+  check_erosion(part, mids);
+  out.laws = std::move(laws);
+  return true;
+}
+
+void LayerReader::check_erosion(const ModelPart& part, const std::vector<Id>& mids) {
+  for (const Id mid : mids)
+    if (has_erosion_card(deck_, mid)) {
+      error(part.card, part.plies.empty() ? "SECID" : "MID1",
+            fmt::format(
+                "*MAT_ADD_EROSION of material {} is not supported in part {}, whose layers are of several "
+                "materials",
+                mid, part.id),
+            "layers fail by what their own materials say");
+      return;
+    }
+}
+
+bool LayerReader::error(const Entry& card, const char* field, std::string message, std::string hint) {
+  deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
+  return false;
+}
+
+}  // namespace courant

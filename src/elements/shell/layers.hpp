@@ -1,0 +1,44 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "elements/shell/integration_shell.hpp"
+#include "elements/shell/shells.hpp"
+#include "keyword/deck.hpp"
+#include "shell/section_shell.hpp"
+
+namespace courant {
+
+/// What stands at the points through the thickness of a part: points of Gauss or Lobatto of one material,
+/// with angles of their own by ICOMP 1; those of an *INTEGRATION_SHELL; the middles of the layers of a
+/// *PART_COMPOSITE.
+class LayerReader {
+ public:
+  LayerReader(const Deck& deck, const Model& model, Diagnostics& diagnostics);
+  /// Fills points, laws and angles. False, perhaps without a message where others give it: a material is not
+  /// there, or shells cannot have it.
+  bool read(const ModelPart& part, const SectionShell& section, bool lobatto, ShellPart& out);
+  /// Null: shells cannot have it.
+  std::shared_ptr<StrengthLaw> law_of(Id mid) const;
+
+ private:
+  bool find_points(const ModelPart& part, const SectionShell& s, bool lobatto, ShellPart& out,
+                   std::vector<Id>& mids);
+  bool follow_rule(const ModelPart& part, const SectionShell& s, ShellPart& out, std::vector<Id>& mids);
+  bool take_points(const IntegrationShell& rule, const ModelPart& part, ShellPart& out,
+                   std::vector<Id>& mids);
+  bool find_laws(const ModelPart& part, const std::vector<Id>& mids, ShellPart& out);
+  void check_erosion(const ModelPart& part, const std::vector<Id>& mids);
+  bool error(const Entry& card, const char* field, std::string message, std::string hint);
+
+  const Deck& deck_;
+  const Model& model_;
+  Diagnostics& diagnostics_;
+  std::map<Id, std::shared_ptr<StrengthLaw>> laws_;
+  std::map<Id, const IntegrationShell*> rules_;
+};
+
+}  // namespace courant

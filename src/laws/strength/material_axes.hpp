@@ -1,0 +1,77 @@
+#pragma once
+// Laws that know directions: how a deck says where they lie, and the fields of the cards that say so.
+#include <string>
+#include <vector>
+
+#include "base/real.hpp"
+#include "keyword/card.hpp"
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+
+namespace courant {
+
+/// Where a lies in a shell before it is turned about the normal n by BETA.
+struct MaterialAxes {
+  enum class Rule {
+    side,    ///< AOPT 0: along side 1-2
+    vector,  ///< AOPT 2, and < 0: along `along`, projected on the shell
+    across,  ///< AOPT 3: along `along` x n
+  } rule = Rule::side;
+  Vec along = Vec::Zero();  ///< [-]
+  Real beta = 0;            ///< [degrees]
+};
+
+/// Whether cards of a keyword tell directions: shells alone can have such a material.
+bool tells_directions(const std::string& keyword);
+
+/// In the plane of a shell. Nothing where the rule names no direction there.
+/// `n`: its unit normal; `side`: from node 1 to 2.
+bool direction_in_shell(const MaterialAxes& axes, const Vec& n, const Vec& side, Vec& a);
+
+/// Stiffnesses of a sheet in plane stress by its own directions. [M/LT2]
+struct SheetStiffness {
+  Real aa = 0, bb = 0, ab = 0;
+  /// EA, EB, and Poisson's ratio of a stress along b for the strain along a.
+  SheetStiffness(Real EA, Real EB, Real PRBA);
+  /// Largest stiffness under one strain, in whatever direction: the bound of the step. `G`: in the plane.
+  Real largest(Real G) const;
+};
+
+/// What cards of such laws have alike. Directions d (AOPT 2) and points P serve solids only.
+struct DirectionsCard : Entry {
+  Real aopt = 0, xp = 0, yp = 0, zp = 0, a1 = 0, a2 = 0, a3 = 0;
+  Real v1 = 0, v2 = 0, v3 = 0, d1 = 0, d2 = 0, d3 = 0;
+  /// From valid cards. `angle`: their BETA [degrees].
+  MaterialAxes axes(const Model& model, Real angle) const;
+  /// Reports rules that shells do not have, and directions that are missing.
+  void check_axes(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
+};
+
+/// XP YP ZP A1 A2 A3, and V1 V2 V3 D1 D2 D3; a card adds its own last fields.
+template <class C>
+std::vector<FieldOf<C>> fields_of_a() {
+  return {{"XP", &C::xp, "L", "point of AOPT 1 and 4, which shells do not have", no_effect},
+          {"YP", &C::yp, "L", "its y", no_effect},
+          {"ZP", &C::zp, "L", "its z", no_effect},
+          {"A1", &C::a1, "-", "direction a of AOPT 2, x", {.spatial = Spatial::direction}},
+          {"A2", &C::a2, "-", "direction a, y"},
+          {"A3", &C::a3, "-", "direction a, z"}};
+}
+template <class C>
+std::vector<FieldOf<C>> fields_of_v() {
+  return {{"V1", &C::v1, "-", "direction v of AOPT 3, x", {.spatial = Spatial::direction}},
+          {"V2", &C::v2, "-", "direction v, y"},
+          {"V3", &C::v3, "-", "direction v, z"},
+          {"D1", &C::d1, "-", "direction d of AOPT 2, of solids", no_effect},
+          {"D2", &C::d2, "-", "direction d, y", no_effect},
+          {"D3", &C::d3, "-", "direction d, z", no_effect}};
+}
+template <class C>
+std::vector<FieldOf<C>> with_fields(std::vector<FieldOf<C>> first, std::vector<FieldOf<C>> more) {
+  for (FieldOf<C>& field : more) first.push_back(std::move(field));
+  return first;
+}
+inline constexpr const char* aopt_meaning =
+    "direction a of shells: 0 along side 1-2, 2 along A, 3 along V x normal, < 0: x axis of system -AOPT";
+
+}  // namespace courant

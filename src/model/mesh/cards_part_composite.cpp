@@ -1,0 +1,71 @@
+// *PART_COMPOSITE: a part of shells with its layers.
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "model/mesh/part_composite.hpp"
+
+namespace courant {
+
+std::vector<ModelPly> PartCompositeCard::plies() const {
+  std::vector<ModelPly> out;
+  for (std::size_t row = 0; row < mid1.size(); ++row) {
+    out.push_back({mid1[row], thick1[row], b1[row]});
+    const bool second = !is_long() && (mid2[row] != 0 || thick2[row] != 0);
+    if (second) out.push_back({mid2[row], thick2[row], b2[row]});
+  }
+  return out;
+}
+
+namespace {
+
+using namespace rules;
+using Layered = PartCompositeCard;
+
+const FieldRules ply_material{.check = Check::not_negative, .refers = IdSpace::material};
+const FieldRules thermal_material{
+    .check = Check::not_negative, .honour = Honour::ignored, .refers = IdSpace::material};
+const FieldRules at_least_0{.check = Check::not_negative};
+
+const RegisterKeyword<Layered> part_composite{
+    {.names = {"PART_COMPOSITE", "PART_COMPOSITE_LONG"},
+     .purpose = "parts of layered shells: one point in the middle of each layer, from the lower face up; two "
+                "layers on a card, with _LONG one",
+     .id_space = IdSpace::part,
+     .heading = true,
+     .title = &Layered::title,
+     .many = false,
+     .cards = {
+         {.fields = {{"PID", &Layered::pid, "-", "part id", required_id},
+                     {"ELFORM",
+                      &Layered::elform,
+                      "-",
+                      "formulation: 2 Belytschko-Tsay, 4 flat triangle, 16 2 x 2 points",
+                      {.standard = 2}},
+                     {"SHRF", &Layered::shrf, "-", "factor of transverse shear", {.standard = 1}},
+                     {"NLOC", &Layered::nloc, "-", "reference surface off the middle", unsupported},
+                     {"MAREA", &Layered::marea, "M/L2", "mass per area besides that of the layers",
+                      at_least_0},
+                     {"HGID", &Layered::hgid, "-", "hourglass id", optional_id_of(IdSpace::hourglass)},
+                     {"ADPOPT", &Layered::adpopt, "-", "adaptivity", unsupported},
+                     {"THSHEL", &Layered::thshel, "-", "thermal shells", no_effect}}},
+         {.fields = {{"MID1", &Layered::mid1, "-", "material of a layer", ply_material},
+                     {"THICK1", &Layered::thick1, "L", "its thickness", at_least_0},
+                     {"B1", &Layered::b1, "-", "angle of its material, degrees"},
+                     {"TMID1", &Layered::tmid1, "-", "thermal material", thermal_material},
+                     {"MID2", &Layered::mid2, "-", "material of the layer above", ply_material},
+                     {"THICK2", &Layered::thick2, "L", "its thickness", at_least_0},
+                     {"B2", &Layered::b2, "-", "angle of its material, degrees"},
+                     {"TMID2", &Layered::tmid2, "-", "thermal material", thermal_material}},
+          .repeat = true,
+          .when = [](const Layered& c) { return !c.is_long(); }},
+         {.fields = {{"MID1", &Layered::mid1, "-", "material of a layer", ply_material},
+                     {"THICK1", &Layered::thick1, "L", "its thickness", at_least_0},
+                     {"B1", &Layered::b1, "-", "angle of its material, degrees"},
+                     {"TMID1", &Layered::tmid1, "-", "thermal material", thermal_material},
+                     {"PLYID", &Layered::plyid, "-", "name of the layer", {.honour = Honour::ignored}},
+                     {"SHRFAC", &Layered::shrfac, "-", "factor of its shear stress", {.honour = Honour::no}}},
+          .repeat = true,
+          .when = [](const Layered& c) { return c.is_long(); }}}}};
+
+}  // namespace
+
+}  // namespace courant
