@@ -197,6 +197,16 @@ TEST_F(Generate, RefusesBadPartsAndPlates) {
   refused("", "a scene is a YAML map");
 }
 
+TEST_F(Generate, PlatesMayHaveALengthForEachEdge) {
+  const std::string plate = "edge1: [1, 0, 0], edge2: [0, 0, dx], mesh: dx}",
+                    unlike = "edge1: [1, 0, 0], edge2: [0, 0, dx], mesh: [dx / 4, dx]}";
+  const std::string text = deck(with(small, plate, unlike));
+  ASSERT_TRUE(ok_) << messages_;
+  EXPECT_NE(text.find("$   7 part 7: 10 shells\n"), std::string::npos) << text;
+  refused(with(small, plate, "edge1: [1, 0, 0], edge2: [0, 0, dx], mesh: [dx, 0]}"), "mesh: ");
+  refused(with(small, plate, "edge1: [1, 0, 0], edge2: [0, 0, dx], mesh: [dx]}"), "mesh: ");
+}
+
 TEST_F(Generate, RefusesHugeLattices) {
   refused(with(small, "spacing: dx", "spacing: 1 / 2^20"), "the lattice would have");
   const std::string lattice = "      - {low: [-1, 0], high: [0, dx], spacing: dx}\n",
