@@ -40,7 +40,7 @@ void hold_in_plane(Model& model, Diagnostics& diagnostics) {
       std::array<bool, 3>& turns = model.held_rotations[n];
       turns[0] = turns[1] = true;
     }
-    if (!nodes[part].empty() && std::abs(high - low - 1) > 1e-6)
+    if (!nodes[part].empty() && !model.parts[part].has_sph && std::abs(high - low - 1) > 1e-6)
       diagnostics.error(model.parts[part].where,
                         fmt::format("*PART {}: in a 2D scene particles have mass per unit depth, but these "
                                     "elements, which deform, are {:.4g} deep in z",
