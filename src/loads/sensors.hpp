@@ -1,6 +1,5 @@
 #pragma once
 // *SENSOR_DEFINE_NODE, _SWITCH and _CONTROL: what nodes do switches motions on and off, or ends the run.
-#include <map>
 #include <string>
 #include <vector>
 

@@ -141,11 +141,14 @@ class ShellReader {
   std::set<const SectionShell*> checked_;  ///< several parts may name one
 };
 
+ElasticConstants constants_of(Real K, Real G) {
+  return {9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)};
+}
+
 }  // namespace
 
 ElasticConstants elastic_constants(const StrengthLaw& law) {
-  const Real K = law.bulk_modulus(), G = law.shear_modulus();
-  return {9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)};
+  return constants_of(law.bulk_modulus(), law.shear_modulus());
 }
 
 ElasticConstants elastic_constants(const ShellPart& part) {
@@ -153,7 +156,7 @@ ElasticConstants elastic_constants(const ShellPart& part) {
   Real K = 0, G = 0;
   for (std::size_t k = 0; k < part.laws.size(); ++k)
     K += part.share[k] * part.laws[k]->bulk_modulus(), G += part.share[k] * part.laws[k]->shear_modulus();
-  return {9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)};
+  return constants_of(K, G);
 }
 
 std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
