@@ -7,6 +7,7 @@
 #include "laws/strength/mat_spotweld.hpp"
 #include "state/access.hpp"
 #include "state/entities.hpp"
+#include "state/world.hpp"
 
 namespace courant {
 
