@@ -4,32 +4,14 @@
 #include <fmt/format.h>
 
 #include "keyword/common_rules.hpp"
+#include "laws/strength/left_cauchy_green.hpp"
 #include "laws/strength/strength.hpp"
 
 namespace courant {
 
 namespace {
 
-/// Symmetric tensors xx yy zz xy yz zx of one point.
-struct Symmetric {
-  Real xx, yy, zz, xy, yz, zx;
-  Real trace() const { return xx + yy + zz; }
-  Real determinant() const {
-    return xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx);
-  }
-  Symmetric squared() const {
-    return {xx * xx + xy * xy + zx * zx, xy * xy + yy * yy + yz * yz, zx * zx + yz * yz + zz * zz,
-            xx * xy + xy * yy + zx * yz, xy * zx + yy * yz + yz * zz, zx * xx + yz * xy + zz * zx};
-  }
-  Matrix matrix() const {
-    Matrix m;
-    m << xx, xy, zx, xy, yy, yz, zx, yz, zz;
-    return m;
-  }
-};
-
-/// b, the left Cauchy-Green tensor F F^T, kept as b - 1, goes with the body and grows by A b A^T in a step, A
-/// = (1 - D dt/2)^-1 (1 + D dt/2). With its invariants I1, I2 and I3 = J^2
+/// With the invariants I1, I2 and I3 = J^2 of b
 ///   sigma = 2/J ((A + B I1) b - B b^2 + I3 (2 D (I3 - 1) - 2 C I3^-3) 1).
 class MooneyRivlin : public StrengthLaw {
  public:
@@ -40,7 +22,7 @@ class MooneyRivlin : public StrengthLaw {
   // the modulus of uniaxial strain at rest is 2 A + 4 B + 20 C + 8 D
   Real bulk_modulus() const override { return 2 * A_ + 4 * B_ + 20 * C_ + 8 * D_ - 4 * shear_modulus() / 3; }
   Real shear_modulus() const override { return 2 * (A_ + B_); }
-  std::vector<HistoryVariable> history() const override { return {{"left_cauchy_green_less_1", "-", 6}}; }
+  std::vector<HistoryVariable> history() const override { return {left_cauchy_green}; }
 
   void update(const PointBlock& block) const override {
     for (Index i = 0; i < block.count; ++i) {
@@ -58,20 +40,6 @@ class MooneyRivlin : public StrengthLaw {
   }
 
  private:
-  static Symmetric strained(const PointBlock& block, Index i) {
-    const auto& D = block.rate;
-    const auto& kept = block.history;
-    const Symmetric b{1 + kept[0][i], 1 + kept[1][i], 1 + kept[2][i], kept[3][i], kept[4][i], kept[5][i]};
-    const Symmetric half{0.5 * block.dt * D[0][i], 0.5 * block.dt * D[1][i], 0.5 * block.dt * D[2][i],
-                         0.5 * block.dt * D[3][i], 0.5 * block.dt * D[4][i], 0.5 * block.dt * D[5][i]};
-    const Matrix H = half.matrix();
-    const Matrix A = (Matrix::Identity() - H).inverse() * (Matrix::Identity() + H);
-    const Matrix now = A * b.matrix() * A.transpose();
-    const Symmetric out{now(0, 0), now(1, 1), now(2, 2), now(0, 1), now(1, 2), now(2, 0)};
-    kept[0][i] = out.xx - 1, kept[1][i] = out.yy - 1, kept[2][i] = out.zz - 1;
-    kept[3][i] = out.xy, kept[4][i] = out.yz, kept[5][i] = out.zx;
-    return out;
-  }
   /// rho0 c^2 of a wave along a principal axis with stretch l: l^2 d2W/dl2 = 2 A l^2 + 2 B l^2 (I1 - l^2) +
   /// 20 C/I3^2 + D (12 I3^2 - 4 I3), with a bound of the largest l^2.
   Real stiffest(const Symmetric& b, const Symmetric& b2, Real I3) const {

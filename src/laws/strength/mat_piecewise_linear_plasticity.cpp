@@ -6,7 +6,9 @@
 #include "keyword/common_rules.hpp"
 #include "laws/strength/hardening.hpp"
 #include "laws/strength/radial_return.hpp"
+#include "laws/strength/root_below.hpp"
 #include "laws/strength/strength.hpp"
+#include "laws/strength/thinning_failure.hpp"
 
 namespace courant {
 
@@ -45,26 +47,6 @@ struct YieldStress {
     return (1 - share) * curves[k - 1].at(e) + share * curves[k].at(e);
   }
 };
-
-/// Where `excess`, > 0 at 0 and <= 0 at `high`, is 0: regula falsi with the weights of the Illinois method,
-/// and every third try a bisection.
-template <class Excess>
-Real root_below(Real high, const Excess& excess) {
-  constexpr int rounds = 200;
-  constexpr Real close = 1e-15;
-  Real low = 0, at_low = excess(low), at_high = excess(high), most = high;
-  for (int k = 0; k < rounds && high - low > close * most; ++k) {
-    Real x = k % 3 == 2 ? 0.5 * (low + high) : low + (high - low) * at_low / (at_low - at_high);
-    if (!(x > low && x < high)) x = 0.5 * (low + high);
-    const Real value = excess(x);
-    if (value == 0) return x;
-    if (value > 0)
-      low = x, at_low = value, at_high *= 0.5;
-    else
-      high = x, at_high = value, at_low *= 0.5;
-  }
-  return 0.5 * (low + high);
-}
 
 /// J2 plasticity with isotropic hardening: s_tr = s + 2 G dev(D) dt is returned along itself to
 /// q = q_tr - 3 G de = yield stress at e + de.
@@ -239,13 +221,57 @@ void M::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) co
 }
 
 #define EPS(k)                                                             \
-  FieldOf<M> {                                                             \
+  FieldOf<Card> {                                                          \
     "EPS" #k, &M::eps##k, "-", "effective plastic strain of point " #k, {} \
   }
 #define ES(k)                                                 \
-  FieldOf<M> {                                                \
+  FieldOf<Card> {                                             \
     "ES" #k, &M::es##k, "M/LT2", "yield stress at EPS" #k, {} \
   }
+/// `more`: what follows VP on the second card.
+template <class Card>
+std::vector<CardOf<Card>> cards_of(const std::vector<FieldOf<Card>>& more) {
+  std::vector<CardOf<Card>> out = {
+      {.fields = {{"MID", &M::mid, "-", "id that *PART refers to", rules::required_id},
+                  {"RO", &M::ro, "M/L3", "density", rules::required_positive},
+                  {"E", &M::E, "M/LT2", "Young's modulus", rules::required_positive},
+                  {"PR", &M::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
+                  {"SIGY",
+                   &M::sigy,
+                   "M/LT2",
+                   "yield stress at the start, without LCSS and EPS",
+                   {.check = Check::not_negative}},
+                  {"ETAN",
+                   &M::etan,
+                   "M/LT2",
+                   "slope of stress over strain beyond it, below E",
+                   {.check = Check::not_negative}},
+                  {"FAIL", &M::fail, "-",
+                   "effective plastic strain at which points of elements fail, 0: never"},
+                  {"TDEL", &M::tdel, "T", "step at which elements are deleted", unsupported}}},
+      {.fields = {{"C", &M::c, "1/T", "of Cowper and Symonds, 0: none", {.check = Check::not_negative}},
+                  {"P", &M::p, "-", "of Cowper and Symonds", {.check = Check::not_negative}},
+                  {"LCSS", &M::lcss, "-",
+                   "curve of yield stress over plastic strain, or table of such curves over the rate (its "
+                   "logarithm where the first value is negative)",
+                   rules::optional_id_of(IdSpace::curve)},
+                  {"LCSR", &M::lcsr, "-", "curve of a factor of the yield stress over the rate",
+                   rules::id_of(IdSpace::curve)},
+                  {"VP",
+                   &M::vp,
+                   "-",
+                   "rate of all strain (0), of its deviator (-1), of plastic strain (1)",
+                   {.allowed = {-1, 0, 1}}}},
+       .optional = true},
+      {.fields = {EPS(1), EPS(2), EPS(3), EPS(4), EPS(5), EPS(6), EPS(7), EPS(8)}, .optional = true},
+      {.fields = {ES(1), ES(2), ES(3), ES(4), ES(5), ES(6), ES(7), ES(8)}, .optional = true}};
+  auto& second = out[1].fields;
+  second.insert(second.end(), more.begin(), more.end());
+  return out;
+}
+
+#undef EPS
+#undef ES
 
 // By hand. E = 2.5, PR = 1/4: lambda = G = 1, K = 5/3, 3 G = 3; dt = 1/2. dev e = (2, -1, -1): s_tr = (4, -2,
 // -2), q = 6, at a rate 4. SIGY 3, ETAN 1/2: Ep = 5/8, de = 3/(3 + 5/8) = 24/29, s = 17/29 (4, -2, -2).
@@ -295,44 +321,48 @@ const RegisterStrength<M> mat_piecewise_linear_plasticity{
      .id_space = IdSpace::material,
      .title_option = true,
      .title = &M::title,
-     .cards = {
-         {.fields = {{"MID", &M::mid, "-", "id that *PART refers to", rules::required_id},
-                     {"RO", &M::ro, "M/L3", "density", rules::required_positive},
-                     {"E", &M::E, "M/LT2", "Young's modulus", rules::required_positive},
-                     {"PR", &M::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
-                     {"SIGY",
-                      &M::sigy,
-                      "M/LT2",
-                      "yield stress at the start, without LCSS and EPS",
-                      {.check = Check::not_negative}},
-                     {"ETAN",
-                      &M::etan,
-                      "M/LT2",
-                      "slope of stress over strain beyond it, below E",
-                      {.check = Check::not_negative}},
-                     {"FAIL", &M::fail, "-",
-                      "effective plastic strain at which points of elements fail, 0: never"},
-                     {"TDEL", &M::tdel, "T", "step at which elements are deleted", unsupported}}},
-         {.fields = {{"C", &M::c, "1/T", "of Cowper and Symonds, 0: none", {.check = Check::not_negative}},
-                     {"P", &M::p, "-", "of Cowper and Symonds", {.check = Check::not_negative}},
-                     {"LCSS", &M::lcss, "-",
-                      "curve of yield stress over plastic strain, or table of such curves over the rate (its "
-                      "logarithm where the first value is negative)",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCSR", &M::lcsr, "-", "curve of a factor of the yield stress over the rate",
-                      rules::id_of(IdSpace::curve)},
-                     {"VP",
-                      &M::vp,
-                      "-",
-                      "rate of all strain (0), of its deviator (-1), of plastic strain (1)",
-                      {.allowed = {-1, 0, 1}}},
-                     {},
-                     {"RFILTF", &M::rfiltf, "-", "filter of rates, with VP 4", no_effect}},
-          .optional = true},
-         {.fields = {EPS(1), EPS(2), EPS(3), EPS(4), EPS(5), EPS(6), EPS(7), EPS(8)}, .optional = true},
-         {.fields = {ES(1), ES(2), ES(3), ES(4), ES(5), ES(6), ES(7), ES(8)}, .optional = true}}}};
-#undef EPS
-#undef ES
+     .cards = cards_of<M>({{}, {"RFILTF", &M::rfiltf, "-", "filter of rates, with VP 4", no_effect}})}};
+
+/// The same with failure of sheets by thinning, and a number of points that takes the element away.
+using Thinning = struct MatModifiedPiecewiseLinearPlasticity;
+struct MatModifiedPiecewiseLinearPlasticity : M {
+  Real epsthin = 0, epsmaj = 0, numint = 0;
+  std::shared_ptr<StrengthLaw> law(const Model& model) const {
+    ThinningLimits limits;
+    if (epsthin > 0) limits.thinning = epsthin;
+    if (epsmaj > 0) limits.major = epsmaj;
+    const auto plain = M::law(model);
+    return limits.any() ? fail_by_thinning(plain, limits) : plain;
+  }
+  void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
+    M::check(deck, model, diagnostics);
+    for (const auto& [field, value] : {std::pair{"EPSTHIN", epsthin}, std::pair{"EPSMAJ", epsmaj}})
+      if (value < 0)
+        deck.error(diagnostics, *this, field, fmt::format("'{:g}' is not supported", value),
+                   "values > 0 are limits of each point; means over the thickness (< 0) are not there");
+  }
+};
+
+// Stress as above; nothing is as thin or as long as to fail.
+const RegisterStrength<Thinning> mat_modified_piecewise_linear_plasticity{
+    "as MAT_PIECEWISE_LINEAR_PLASTICITY; points of shells fail at -e_zz = EPSTHIN and at the larger "
+    "principal strain in the "
+    "plane EPSMAJ, logarithmic",
+    "J2 plasticity with radial return: Krieg & Key 1976; rates: Cowper & Symonds 1957",
+    {flows("1,2.0,2.5,0.25,3.0,0.5\n\n\n\n", with_q(102.0 / 29), 24.0 / 29),
+     flows("1,2.0,2.5,0.25,3.0,0.5\n0.0,0.0,0,0,0,0.5,2.0,0\n\n\n", with_q(102.0 / 29), 24.0 / 29)},
+    {.names = {"MAT_MODIFIED_PIECEWISE_LINEAR_PLASTICITY", "MAT_123"},
+     .purpose =
+         "as MAT_PIECEWISE_LINEAR_PLASTICITY, with failure of shells by thinning and by strain in the plane",
+     .id_space = IdSpace::material,
+     .title_option = true,
+     .title = &Thinning::title,
+     .cards = cards_of<Thinning>(
+         {{"EPSTHIN", &Thinning::epsthin, "-",
+           "thinning of shells at which a point fails, logarithmic; 0: never"},
+          {"EPSMAJ", &Thinning::epsmaj, "-", "larger strain in the plane at which a point fails; 0: never"},
+          {"NUMINT", &Thinning::numint, "-", "points that must fail, other than all of them (0)",
+           unsupported}})}};
 
 }  // namespace
 

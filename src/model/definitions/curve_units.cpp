@@ -29,6 +29,10 @@ constexpr CurveDimensions known[] = {
     {"DATABASE_GLSTAT", "LCUR", "T", "T"},
     {"MAT_PIECEWISE_LINEAR_PLASTICITY", "LCSS", "-", "M/LT2"},
     {"MAT_PIECEWISE_LINEAR_PLASTICITY", "LCSR", "1/T", "-"},
+    {"MAT_MODIFIED_PIECEWISE_LINEAR_PLASTICITY", "LCSS", "-", "M/LT2"},
+    {"MAT_MODIFIED_PIECEWISE_LINEAR_PLASTICITY", "LCSR", "1/T", "-"},
+    {"MAT_CRUSHABLE_FOAM", "LCID", "-", "M/LT2"},
+    {"MAT_LOW_DENSITY_FOAM", "LCID", "-", "M/LT2"},
     {"MAT_SPRING_NONLINEAR_ELASTIC", "LCD", "L", "ML/T2"},  // torsional ones are refused beside unit factors
     {"MAT_SPRING_NONLINEAR_ELASTIC", "LCR", "L/T", "-"},
     {"MAT_DAMPER_NONLINEAR_VISCOUS", "LCDR", "L/T", "ML/T2"},

@@ -53,8 +53,8 @@ TEST(KeywordState, IsWhatTheReaderDoes) {
   };
   EXPECT_EQ(state_of("CONTROL_OUTPUT").state, KeywordState::no_effect);
   EXPECT_EQ(told_of("*CONTROL_OUTPUT\n1,1\n").all().size(), 0u);
-  EXPECT_EQ(state_of("MAT_VISCOELASTIC").state, KeywordState::refused);
-  EXPECT_EQ(told_of("*MAT_VISCOELASTIC\n1,1.,1.,1.,1.,1.\n").errors(), 1);
+  EXPECT_EQ(state_of("MAT_SPH_VISCOUS").state, KeywordState::refused);
+  EXPECT_EQ(told_of("*MAT_SPH_VISCOUS\n1,1.,0.,1.\n").errors(), 1);
   const KeywordSupport history = state_of("DATABASE_SLEOUT");
   EXPECT_EQ(history.state, KeywordState::partly);
   EXPECT_EQ(history.warned, std::vector<std::string>{"OPTION1"});
@@ -73,7 +73,7 @@ TEST(KeywordState, FamiliesOfWhichSomeAreSupportedAreToldApart) {
   EXPECT_LT(place("| airbags | `*AIRBAG`"), some);
   EXPECT_LT(some, place("| this material | `*MAT` |"));
   EXPECT_LT(place("| this material | `*MAT` |"), read);
-  EXPECT_LT(read, place("`*MAT_VISCOELASTIC`"));
+  EXPECT_LT(read, place("`*MAT_SPH_VISCOUS`"));
   EXPECT_LT(some, place("`*BOUNDARY_SPH_SYMMETRY_PLANE`"));  // there, but for its options
 }
 

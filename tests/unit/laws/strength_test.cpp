@@ -161,6 +161,7 @@ TEST(StrengthRegistry, SoundSpeedIsTheSlopeOfStressInUniaxialStrain) {
     if (law.axes()) return;
     const Real e = 1e-7;
     Point point(law);
+    point.dt = 1e-9;  // before anything relaxes
     point.strain({e, 0, 0, 0, 0, 0});
     const Real nonlinear = is_hyperelastic(law) ? 1e-6 : 0;  // the strain itself makes it stiffer
     EXPECT_NEAR(point.c, law.sound_speed(), (1e-12 + nonlinear) * point.c) << kind.keyword;

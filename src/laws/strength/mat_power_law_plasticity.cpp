@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "keyword/common_rules.hpp"
+#include "laws/strength/radial_return.hpp"
+#include "laws/strength/root_below.hpp"
+#include "laws/strength/strength.hpp"
+
+namespace courant {
+
+namespace {
+
+/// sigma_y = K (e0 + e)^N, with the influence of the rate by Cowper and Symonds.
+struct PowerLaw {
+  Real K = 0, N = 0;     ///< [M/LT2], [-]
+  Real e0 = 0;           ///< strain at which yielding begins [-]
+  Real C = 0, P = 0;     ///< [1/T], [-]; C = 0: none
+  bool viscous = false;  ///< VP: the rate is that of plastic strain
+  Real at(Real e, Real rate) const {
+    return K * std::pow(e0 + e, N) * (C > 0 ? 1 + std::pow(rate / C, 1 / P) : 1);
+  }
+};
+
+class PowerLawPlasticity : public StrengthLaw {
+ public:
+  PowerLawPlasticity(Real density, Real E, Real nu, const PowerLaw& yield)
+      : lambda_(E * nu / ((1 + nu) * (1 - 2 * nu))), shear_(E / (2 * (1 + nu))), yield_(yield) {
+    ro = density;
+  }
+  Real bulk_modulus() const override { return lambda_ + 2 * shear_ / 3; }
+  Real shear_modulus() const override { return shear_; }
+  std::vector<HistoryVariable> history() const override { return {{"plastic_strain", "-"}}; }
+  Real failure_limit() const override { return fails_at; }
+  Real fails_at = std::numeric_limits<Real>::infinity();  ///< plastic strain [-]
+
+  void update(const PointBlock& block) const override {
+    PlasticTrial trial;
+    go_elastically(lambda_, shear_, block, FixedCentre{}, trial);
+    Real* plastic = block.history[0];
+    for (Index i = 0; i < block.count; ++i) {
+      trial.plastic[i] = increment(block, i, trial.q[i], plastic[i]);
+      plastic[i] += trial.plastic[i];
+    }
+    constexpr Real none = 1e-300;  // there is no increment where q is 0
+    return_radially(shear_, 0, none, block, FixedCentre{}, trial);
+    keep_stiffness(block, sound_speed());
+  }
+
+ private:
+  Real increment(const PointBlock& block, Index i, Real q, Real e) const {
+    const bool viscous = yield_.viscous && yield_.C > 0 && block.dt > 0;
+    const Real rate = yield_.C > 0 && !viscous ? effective_rate(block, i, true) : 0, three_g = 3 * shear_;
+    if (!(q > yield_.at(e, rate))) return 0;
+    return root_below(q / three_g, [&](Real de) {
+      return q - three_g * de - yield_.at(e + de, viscous ? de / block.dt : rate);
+    });
+  }
+
+  Real lambda_, shear_;
+  PowerLaw yield_;
+};
+
+using Power = struct MatPowerLawPlasticity;
+struct MatPowerLawPlasticity : Entry {
+  std::string title;
+  Id mid = 0;
+  Real ro = 0, E = 0, pr = 0, k = 0, n = 0, src = 0, srp = 0, sigy = 0, vp = 0, epsf = 0;
+
+  static constexpr Real largest_strain = 0.02;
+  /// SIGY is a stress, or up to 0.02 the strain e0 itself; 0: where the power law meets E e.
+  Real first_strain() const {
+    if (sigy > largest_strain) return std::pow(sigy / k, 1 / n);
+    return sigy > 0 ? sigy : std::pow(E / k, 1 / (n - 1));
+  }
+  std::shared_ptr<StrengthLaw> law() const {
+    auto law = std::make_shared<PowerLawPlasticity>(
+        ro, E, pr, PowerLaw{.K = k, .N = n, .e0 = first_strain(), .C = src, .P = srp, .viscous = vp == 1});
+    if (epsf > 0 && epsf < never_fails) law->fails_at = epsf;
+    return law;
+  }
+  void check(const Deck& deck, Diagnostics& diagnostics) const {
+    const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
+      if (!holds)
+        deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
+    };
+    expect(pr < 0.5, "PR", "a number < 0.5", pr,
+           "a material that keeps its volume has no finite bulk modulus");
+    expect(n > 0 && n < 1, "N", "a number between 0 and 1", n, "the exponent of hardening");
+    expect(vp == 0 || vp == 1, "VP", "0 or 1", vp, "1: the rate is that of plastic strain");
+    expect((src > 0) == (srp > 0), src > 0 ? "SRP" : "SRC", "a number > 0", 0,
+           "the rate of strain counts by SRC and SRP together; leave both blank where it does not");
+  }
+};
+
+/// Where SIGY is a strain it has no unit.
+std::string keep_first_strain(Power& card, const Conversion& conversion) {
+  const Real factor = conversion.units.of("M/LT2");
+  if (card.sigy <= Power::largest_strain * factor) card.sigy /= factor;
+  return "";
+}
+
+// By hand. E = 2.5, PR = 1/4: G = 1, 3 G = 3, dt = 1/2. Pulled by (2, -1, -1): s = (4, -2, -2), q = 6. K = 3,
+// N = 1/2: with a = e0 + e before, 2 - de = sqrt(a + de), de = (5 - sqrt(9 + 4 a))/2. SIGY = 3/2: e0 = 1/4;
+// SIGY = 0: e0 = (2.5/3)^-2 = 1.44; SIGY = 0.01: that. The rate of the deviator is 4; SRC 4, SRP 2 double the
+// yield stress: SIGY = 3/4, a = 1/16: 6 - 3 de = 6 sqrt(a + de), de = 1/2. Rate of plastic strain 2 de, SRC =
+// SRP = 1: the same.
+StrengthReference flows_by(const std::string& cards, Real before, Real de) {
+  const Real q = 6 - 3 * de;
+  return {cards, {2, -1, -1}, {}, {2 * q / 3, -q / 3, -q / 3}, {before}, {before + de}};
+}
+const RegisterStrength<Power> mat_power_law_plasticity{
+    "q = sqrt(3/2 s:s) <= K (e0 + e)^N (1 + (rate/SRC)^(1/SRP)), e0 by SIGY or E e0 = K e0^N; return along "
+    "s; "
+    "pressure by Hooke's law",
+    "J2 plasticity with radial return: Krieg & Key 1976; rates: Cowper & Symonds 1957",
+    {flows_by("1,2.0,2.5,0.25,3.0,0.5\n1.5\n", 0.140625, 0.875),
+     flows_by("1,2.0,2.5,0.25,3.0,0.5\n", 0, 0.5 * (5 - std::sqrt(14.76))),
+     flows_by("1,2.0,2.5,0.25,3.0,0.5\n0.01\n", 0, 0.5 * (5 - std::sqrt(9.04))),
+     flows_by("1,2.0,2.5,0.25,3.0,0.5,4.0,2.0\n0.75\n", 0, 0.5),
+     flows_by("1,2.0,2.5,0.25,3.0,0.5,1.0,1.0\n0.75,1.0\n", 0, 0.5)},
+    {.names = {"MAT_POWER_LAW_PLASTICITY", "MAT_018"},
+     .purpose =
+         "elasticity and plasticity with hardening by a power of the strain, and influence of the rate",
+     .id_space = IdSpace::material,
+     .title_option = true,
+     .title = &Power::title,
+     .cards =
+         {{.fields =
+               {{"MID", &Power::mid, "-", "id that *PART refers to", rules::required_id},
+                {"RO", &Power::ro, "M/L3", "density", rules::required_positive},
+                {"E", &Power::E, "M/LT2", "Young's modulus", rules::required_positive},
+                {"PR", &Power::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
+                {"K", &Power::k, "M/LT2", "strength coefficient", rules::required_positive},
+                {"N", &Power::n, "-", "exponent of hardening", rules::required_positive},
+                {"SRC", &Power::src, "1/T", "of Cowper and Symonds, 0: none", {.check = Check::not_negative}},
+                {"SRP", &Power::srp, "-", "of Cowper and Symonds", {.check = Check::not_negative}}}},
+          {.fields = {{"SIGY",
+                       &Power::sigy,
+                       "M/LT2",
+                       "yield stress; up to 0.02 the strain at which yielding begins; 0: where E e = K e^N",
+                       {.check = Check::not_negative}},
+                      {"VP", &Power::vp, "-", "rate of all strain (0), of plastic strain (1)"},
+                      {"EPSF",
+                       &Power::epsf,
+                       "-",
+                       "effective plastic strain at which points of elements fail, 0: never",
+                       {.check = Check::not_negative}}},
+           .optional = true}},
+     .convert = keep_first_strain}};
+
+}  // namespace
+
+}  // namespace courant
