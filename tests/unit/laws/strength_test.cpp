@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -148,7 +149,8 @@ TEST(StrengthRegistry, EveryLawGivesItsReferenceValues) {
     Point point(law);
     point.dt = 0.5;
     point.stress = r.before;
-    if (!r.history.empty()) point.history = r.history;
+    ASSERT_LE(r.history.size(), point.history.size()) << kind.keyword;
+    std::copy(r.history.begin(), r.history.end(), point.history.begin());
     point.strain(r.strain);
     expect_near(point.stress, r.after, 1e-12, kind.keyword);
     for (std::size_t k = 0; k < r.new_history.size(); ++k)
@@ -166,8 +168,10 @@ TEST(StrengthRegistry, SoundSpeedIsTheSlopeOfStressInUniaxialStrain) {
     const Real nonlinear = is_hyperelastic(law) ? 1e-6 : 0;  // the strain itself makes it stiffer
     EXPECT_NEAR(point.c, law.sound_speed(), (1e-12 + nonlinear) * point.c) << kind.keyword;
     EXPECT_NEAR(point.stress[0] / e / law.ro, point.c * point.c, 1e-6 * point.c * point.c) << kind.keyword;
-    EXPECT_NEAR(law.bulk_modulus() + 4 * law.shear_modulus() / 3, law.ro * point.c * point.c,
-                1e-9 + 10 * nonlinear);
+    const Real stiffness = law.ro * point.c * point.c;
+    EXPECT_NEAR(law.bulk_modulus() + 4 * law.shear_modulus() / 3, stiffness,
+                (1e-9 + 2 * nonlinear) * stiffness)
+        << kind.keyword;
     if (is_hyperelastic(law)) return;
     // denser, the same stiffness: c^2 rho = constant
     Point dense(law);
@@ -228,6 +232,7 @@ TEST(StrengthRegistry, AClosedCycleOfStrainGivesNoWork) {
     if (is_hyperelastic(law)) return;  // a cycle of rates is no closed one of large strains
     for (const Real size : {1e-3, 10.0}) {
       Point point(law);
+      if (size < 1) point.dt = 1e-15;  // nothing relaxes
       Real work = 0, most = 0;
       const int n = 200;
       const auto at = [&](int k) -> Tensor {
