@@ -10,6 +10,7 @@
 #include "elements/nodal_assembly.hpp"
 #include "extension/additions.hpp"
 #include "loads/node_sets.hpp"
+#include "loads/sensors.hpp"
 #include "rigid/build_joints.hpp"
 #include "rigid/joint_stiffness.hpp"
 #include "rigid/time_limit.hpp"
@@ -37,6 +38,7 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
     left_out_.push_back({"joint stiffness", "no *CONSTRAINED_JOINT_STIFFNESS"});
   if (!add_joints(deck_, model_, bodies_, world_, diagnostics))
     left_out_.push_back({"joints", "no *CONSTRAINED_JOINT"});
+  check_sensors(deck_, world_, diagnostics);
   if (const auto sets = make_node_sets(deck_, model_, world_, diagnostics))
     world_.passes.add(sets);
   else

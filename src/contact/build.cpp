@@ -197,8 +197,10 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
     builder.refuse_for_particles(c);
     const std::vector<Index> segments = builder.segments(c);
     if (diagnostics.errors() > errors || segments.empty()) continue;
-    auto contact =
-        std::make_shared<Contact>(law_of(deck, c, number), options, number, segments, tracked, world);
+    ContactLaw law = law_of(deck, c, number);
+    if (SensorBoard* const board = sensors_of(deck, model, world, diagnostics))
+      law.gate = board->gate_of_contact(law.id);
+    auto contact = std::make_shared<Contact>(std::move(law), options, number, segments, tracked, world);
     for (const AskedInterfaceLaw& one : laws)
       if (one.contact == contact->report().id) contact->add_law(one.law);
     const Contact::Penetrations p = contact->penetrations(world);

@@ -157,7 +157,7 @@ void Contact::declare(const World& world, Accesses& a) const {
     for (std::size_t j = 0; j < 3; ++j) a.updates(*friction_normal_[j]).updates(*friction_force_[j]);
   }
   const bool moves = !moving_.empty(), held = moving_.size() != facets_.size();
-  const bool sleeps = law_.birth > 0 || law_.death < ContactLaw().death;
+  const bool sleeps = law_.birth > 0 || law_.death < ContactLaw().death || law_.gate.there();
   if (moves) a.reads(n.v, Reach::others);
   a.in_start();
   if (sleeps) a.reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*admissible_);
@@ -221,7 +221,7 @@ void Contact::start(World& world, const Clock& clock) {
   written_.clear();
   shown_ = false;
   soft_dt_ = std::max(soft_dt_, clock.dt_old);
-  if (clock.t < law_.birth || clock.t > law_.death) {
+  if (clock.t < law_.birth || clock.t > law_.death || !law_.gate.open()) {
     fall_asleep(world);
     return;
   }

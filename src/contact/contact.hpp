@@ -16,6 +16,7 @@
 #include "contact/push_out.hpp"
 #include "contact/wall.hpp"
 #include "keyword/deck.hpp"
+#include "loads/sensors.hpp"
 #include "model/model.hpp"
 #include "state/restartable.hpp"
 #include "state/wall_bodies.hpp"
@@ -45,7 +46,8 @@ struct ContactLaw {
   Real fs = 0, fd = 0, dc = 0, vc = 0;            ///< friction [-, -, T/L, M/LT2]
   Real vdc = 0;                                   ///< damping, percent of critical
   Real birth = 0, death = 1e20;                   ///< [T]
-  Real sofscl = 0.1, dtstif = 0;                  ///< SOFT 1: scale [-] and step if given [T]
+  SensorGate gate{};
+  Real sofscl = 0.1, dtstif = 0;  ///< SOFT 1: scale [-] and step if given [T]
   int soft = 0, penopt = 1;
   bool literal = false;  ///< the penalty alone acts, whoever goes through
 };

@@ -173,7 +173,8 @@ class PrescribedBuilder {
       return error(motion, "in 2D particles stay in their plane, so nothing moves along z", "use DOF 1 or 2");
     motions_.push_back(motion);
     if (gates_.board)
-      gates_.control.push_back(gates_.board->control_of_motion(motion_id(deck_, motion.card)));
+      gates_.control.push_back(
+          gates_.board->control_of(SensorControl::Of::motion, motion_id(deck_, motion.card)));
     for (const Index n : motion.nodes)
       if (!add(motion, n)) return;  // one message for each card
   }

@@ -3,15 +3,19 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 
 #include "extension/additions.hpp"
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "loads/sensor_math.hpp"
 #include "loads/sensors.hpp"
 #include "model/conditions/motion_ids.hpp"
 #include "state/ending.hpp"
+#include "state/reports.hpp"
 
 namespace courant {
 
@@ -27,6 +31,14 @@ struct SensorDefineForce : Entry {
   Id sensid = 0, typeid_ = 0;
   std::string ftype, vid;
   int crd = 0;
+};
+struct SensorDefineMisc : Entry {
+  Id sensid = 0;
+  std::string mtype, i0, i1, i2, i3, i4, i5;
+};
+struct SensorCalcMath : Entry {
+  Id sensid = 0, sens1 = 0, sens2 = 0, sens3 = 0, sens4 = 0, sens5 = 0, sens6 = 0;
+  std::string calc;
 };
 struct SensorSwitchCard : Entry {
   Id switid = 0, sensid = 0, filtrid = 0;
@@ -59,14 +71,59 @@ const RegisterKeyword<Node> sensor_define_node{
               {"SETOPT", &Node::setopt, "-", "of sets of nodes", unsupported}}}}}};
 
 using Force = SensorDefineForce;
+IdSpace exerting_space(const Force& f) {
+  return f.ftype == "CONTACT" ? IdSpace::contact : f.ftype == "JOINT" ? IdSpace::joint : IdSpace::none;
+}
 const RegisterKeyword<Force> sensor_define_force{
     {.names = {"SENSOR_DEFINE_FORCE"},
-     .purpose = "forces, which are read; switches that ask for one are refused",
-     .cards = {{.fields = {{"SENSID", &Force::sensid, "-", "id that switches refer to", required_id},
-                           {"FTYPE", &Force::ftype, "-", "what exerts it"},
-                           {"TYPEID", &Force::typeid_, "-", "number of that"},
-                           {"VID", &Force::vid, "-", "direction"},
-                           {"CRD", &Force::crd, "-", "coordinate system", no_effect}}}}}};
+     .purpose =
+         "force of a contact between elements, of a force transducer or of a joint, for switches; other "
+         "forces are read, and switches that ask for one are refused",
+     .cards = {
+         {.fields = {{"SENSID", &Force::sensid, "-", "id that switches refer to", required_id},
+                     {"FTYPE", &Force::ftype, "-", "CONTACT: on SURFA, or JOINT: on its second body"},
+                     {"TYPEID",
+                      &Force::typeid_,
+                      "-",
+                      "number of that",
+                      {.check = Check::not_negative},
+                      exerting_space},
+                     {"VID", &Force::vid, "-",
+                      "X, Y, Z, or a vector; blank or 0: the magnitude. Of joints also XMOMENT, YMOMENT, "
+                      "ZMOMENT"},
+                     {"CRD", &Force::crd, "-", "system that turns with a node", unsupported}}}}}};
+
+using Misc = SensorDefineMisc;
+const RegisterKeyword<Misc> sensor_define_misc{
+    {.names = {"SENSOR_DEFINE_MISC"},
+     .purpose = "the time, or a curve over it, for switches and CALC-MATH",
+     .cards = {{.fields = {{"SENSID", &Misc::sensid, "-", "id that switches refer to", required_id},
+                           {"MTYPE", &Misc::mtype, "-",
+                            "TIME or CURVE; ANGLE, which a blank field means, and "
+                            "others are refused"},
+                           {"I0", &Misc::i0, "-", "of CURVE: the curve"},
+                           {"I1", &Misc::i1, "-", "of other types", unsupported},
+                           {"I2", &Misc::i2, "-", "of other types", unsupported},
+                           {"I3", &Misc::i3, "-", "of other types", unsupported},
+                           {"I4", &Misc::i4, "-", "of other types", unsupported},
+                           {"I5", &Misc::i5, "-", "of other types", unsupported}}}}}};
+
+using Math = SensorCalcMath;
+const FieldRules sensor_id{.check = Check::not_negative};
+const RegisterKeyword<Math> sensor_calc_math{
+    {.names = {"SENSOR_DEFINE_CALC-MATH"},
+     .purpose = "a number from those of up to six other sensors",
+     .cards = {
+         {.fields = {{"SENSID", &Math::sensid, "-", "id that switches refer to", required_id},
+                     {"CALC", &Math::calc, "-",
+                      "SUM, ABSSUM (of the sum), SUMABS (of each), MAX, MIN, MAXMAG, MINMAG, MULTIPLY, SQRE "
+                      "(sum of squares), SQRTSQRE (its root), SQRT (sum of roots)"},
+                     {"SENS1", &Math::sens1, "-", "sensor", required_id},
+                     {"SENS2", &Math::sens2, "-", "sensor", sensor_id},
+                     {"SENS3", &Math::sens3, "-", "sensor", sensor_id},
+                     {"SENS4", &Math::sens4, "-", "sensor", sensor_id},
+                     {"SENS5", &Math::sens5, "-", "sensor", sensor_id},
+                     {"SENS6", &Math::sens6, "-", "sensor", sensor_id}}}}}};
 
 using Switch = SensorSwitchCard;
 const RegisterKeyword<Switch> sensor_switch{
@@ -87,19 +144,23 @@ const RegisterKeyword<Switch> sensor_switch{
                      {.check = Check::not_negative}}}}}}};
 
 using Control = SensorControlCard;
+IdSpace controlled_space(const Control& c) {
+  return c.type == "CONTACT" ? IdSpace::contact : IdSpace::boundary;
+}
 const FieldRules switch_id{.check = Check::not_negative};
 const RegisterKeyword<Control> sensor_control{
     {.names = {"SENSOR_CONTROL"},
-     .purpose = "prescribed motions of nodes that switches turn on and off",
+     .purpose = "prescribed motions of nodes, and contacts of elements, that switches turn on and off",
      .cards = {
-         {.fields =
-              {{"CNTLID", &Control::cntlid, "-", "id", required_id},
-               {"TYPE", &Control::type, "-", "PRESC-MOT: a *BOUNDARY_PRESCRIBED_MOTION_NODE or _SET"},
-               {"TYPEID", &Control::typid, "-", "its number, by _ID", required_id_of(IdSpace::boundary)},
-               {"TIMEOFF", &Control::timeoff, "-", "1 shifts its curve to the time of the switch",
-                unsupported},
-               {"NREP", &Control::nrep, "-", "how often the switches are gone through again; -1: for ever"},
-               {"ESTYP", &Control::estyp, "-", "of sets of elements"}}},
+         {.fields = {{"CNTLID", &Control::cntlid, "-", "id", required_id},
+                     {"TYPE", &Control::type, "-",
+                      "PRESC-MOT: a *BOUNDARY_PRESCRIBED_MOTION_NODE or _SET; CONTACT: one of elements"},
+                     {"TYPEID", &Control::typid, "-", "its number, by _ID", required_id, controlled_space},
+                     {"TIMEOFF", &Control::timeoff, "-", "1 shifts its curve to the time of the switch",
+                      unsupported},
+                     {"NREP", &Control::nrep, "-",
+                      "how often the switches are gone through again; -1: for ever"},
+                     {"ESTYP", &Control::estyp, "-", "of sets of elements"}}},
          {.fields = {{"INITSTT", &Control::initstt, "-", "at the start: ON (also blank) or OFF"},
                      {"SWIT1", &Control::swit1, "-", "switch that changes it first", required_id},
                      {"SWIT2", &Control::swit2, "-", "that changes it next", switch_id},
@@ -123,6 +184,9 @@ class SensorReader {
 
   std::shared_ptr<SensorBoard> read() {
     for (const Node& card : deck_.all<Node>()) add(card);
+    for (const Force& card : deck_.all<Force>()) add(card);
+    for (const Misc& card : deck_.all<Misc>()) add(card);
+    for (const Math& card : deck_.all<Math>()) add(card);
     for (const Switch& card : deck_.all<Switch>()) add(card);
     for (const Control& card : deck_.all<Control>()) add(card);
     return std::make_shared<SensorBoard>(std::move(sensors_), std::move(switches_), std::move(controls_));
@@ -146,12 +210,16 @@ class SensorReader {
     return -1;
   }
 
+  template <class Card>
+  bool is_new(const Card& card) {
+    if (find(sensors_, card.sensid) < 0) return true;
+    error(card, "SENSID", fmt::format("sensor {} is defined twice", card.sensid), "give it another number");
+    return false;
+  }
+
   void add(const Node& card) {
-    if (find(sensors_, card.sensid) >= 0)
-      return error(card, "SENSID", fmt::format("sensor {} is defined twice", card.sensid),
-                   "give it another number");
+    if (!is_new(card)) return;
     NodeSensor out;
-    out.id = card.sensid;
     out.node = node(card, "NODE1", card.node1);
     if (card.node2 != 0) out.base = node(card, "NODE2", card.node2);
     out.velocity = card.ctype == "VEL";
@@ -159,31 +227,120 @@ class SensorReader {
       error(card, "CTYPE",
             fmt::format("'{}' is not supported", card.ctype.empty() ? "ACC (blank)" : card.ctype),
             "COORD or VEL: accelerations are of single steps");
-    set_direction(card, out);
-    sensors_.push_back(out);
+    out.direction = direction_of(card, card.vid);
+    sensors_.push_back({card.sensid, [out](const World& world, const Clock&) { return out.value(world); }});
   }
 
-  void set_direction(const Node& card, NodeSensor& out) {
-    if (card.vid.empty() || card.vid == "0") return;
+  /// Zero: the magnitude.
+  Vec direction_of(const Entry& card, const std::string& vid) {
+    if (vid.empty() || vid == "0") return Vec::Zero();
     constexpr std::string_view axes = "XYZ";
-    const auto axis = card.vid.size() == 1 ? axes.find(card.vid[0]) : std::string_view::npos;
-    if (axis != std::string_view::npos) {
-      out.direction[static_cast<Eigen::Index>(axis)] = 1;
-      return;
-    }
+    const auto axis = vid.size() == 1 ? axes.find(vid[0]) : std::string_view::npos;
+    if (axis != std::string_view::npos) return Vec::Unit(static_cast<Eigen::Index>(axis));
     Id id = 0;
-    const auto [end, fault] = std::from_chars(card.vid.data(), card.vid.data() + card.vid.size(), id);
-    const auto vector = model_.vectors.find(id);
-    if (fault != std::errc() || end != card.vid.data() + card.vid.size() || vector == model_.vectors.end())
-      return error(card, "VID", fmt::format("vector {} does not exist", card.vid),
-                   "X, Y, Z, or a *DEFINE_VECTOR");
+    const auto vector = whole_number(vid, id) ? model_.vectors.find(id) : model_.vectors.end();
+    if (vector == model_.vectors.end()) {
+      error(card, "VID", fmt::format("vector {} does not exist", vid), "X, Y, Z, or a *DEFINE_VECTOR");
+      return Vec::Zero();
+    }
     const Vec along = vector->second.head - vector->second.tail;
     if (vector->second.moves || !(along.norm() > 0))
-      return error(card, "VID", fmt::format("vector {} turns with nodes, or has no direction", card.vid),
-                   "give it by two places that differ");
-    out.direction = along.normalized();
+      error(card, "VID", fmt::format("vector {} turns with nodes, or has no direction", vid),
+            "give it by two places that differ");
+    return along.norm() > 0 ? Vec(along.normalized()) : Vec(Vec::Zero());
+  }
+  static bool whole_number(const std::string& text, Id& value) {
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return fault == std::errc() && end == text.data() + text.size();
   }
 
+  /// Of other kinds of forces there is no sensor; who asks for one is told.
+  void add(const Force& card) {
+    const bool joint = card.ftype == "JOINT";
+    if ((!joint && card.ftype != "CONTACT") || !is_new(card)) return;
+    std::string vid = card.vid;
+    const bool moment = joint && vid.size() == 7 && vid.substr(1) == "MOMENT";
+    if (moment) vid.resize(1);
+    const Vec along = direction_of(card, vid);
+    const Id id = card.typeid_;
+    const auto measured = [along](const Vec& f) { return along.squaredNorm() > 0 ? f.dot(along) : f.norm(); };
+    Sensor out{.id = card.sensid, .value = nullptr, .card = card};
+    if (joint) {
+      out.there = [id](const World& world) { return !forces_of_joint(world, id).empty(); };
+      out.value = [id, moment, measured](const World& world, const Clock&) {
+        Vec sum = Vec::Zero();
+        for (const JointForce& one : forces_of_joint(world, id)) sum += moment ? one.moment : one.force;
+        return measured(sum);
+      };
+    } else {
+      out.there = [id](const World& world) { return force_of_contact(world, id).has_value(); };
+      out.value = [id, measured](const World& world, const Clock&) {
+        return measured(force_of_contact(world, id).value_or(Vec::Zero()));
+      };
+    }
+    sensors_.push_back(std::move(out));
+  }
+  static std::vector<JointForce> forces_of_joint(const World& world, Id id) {
+    std::vector<JointForce> all, out;
+    for (const auto* pass : world.passes.all<const JointReporter>()) pass->report_joints(all);
+    std::copy_if(all.begin(), all.end(), std::back_inserter(out),
+                 [&](const JointForce& one) { return one.id == id; });
+    return out;
+  }
+  /// Nothing: there is no such contact.
+  static std::optional<Vec> force_of_contact(const World& world, Id id) {
+    std::optional<Vec> sum;
+    for (const auto* pass : world.passes.all<const InterfaceReporter>())
+      if (const InterfaceForce one = pass->report(); one.id == id)
+        sum = sum.value_or(Vec::Zero()) + one.on_surfa;
+    return sum;
+  }
+
+  void add(const Misc& card) {
+    if (!is_new(card)) return;
+    Sensor out{.id = card.sensid, .value = nullptr, .card = card};
+    if (card.mtype == "TIME") {
+      out.value = [](const World&, const Clock& clock) { return clock.t; };
+    } else if (card.mtype == "CURVE") {
+      Id id = 0;
+      const auto curve = whole_number(card.i0, id) ? model_.curves.find(id) : model_.curves.end();
+      if (curve == model_.curves.end())
+        return error(card, "I0", fmt::format("curve {} does not exist", card.i0),
+                     "define it with *DEFINE_CURVE");
+      out.value = [of_time = curve->second](const World&, const Clock& clock) { return of_time(clock.t); };
+    } else {
+      return error(card, "MTYPE",
+                   fmt::format("'{}' is not supported", card.mtype.empty() ? "ANGLE (blank)" : card.mtype),
+                   "TIME or CURVE");
+    }
+    sensors_.push_back(std::move(out));
+  }
+
+  void add(const Math& card) {
+    if (!is_new(card)) return;
+    const SensorMath calculate = sensor_math(card.calc);
+    if (!calculate)
+      return error(card, "CALC", fmt::format("'{}' is not supported", card.calc),
+                   "SUM, ABSSUM, SUMABS, MAX, MIN, MAXMAG, MINMAG, MULTIPLY, SQRE, SQRTSQRE, SQRT");
+    std::vector<Sensor> of;
+    const std::pair<const char*, Id> fields[] = {{"SENS1", card.sens1}, {"SENS2", card.sens2},
+                                                 {"SENS3", card.sens3}, {"SENS4", card.sens4},
+                                                 {"SENS5", card.sens5}, {"SENS6", card.sens6}};
+    for (const auto& [field, id] : fields) {
+      if (id == 0) break;
+      const int k = find_sensor(card, field, id);
+      if (k < 0) return;
+      of.push_back(sensors_[static_cast<std::size_t>(k)]);
+    }
+    sensors_.push_back({.id = card.sensid,
+                        .value =
+                            [of, calculate](const World& world, const Clock& clock) {
+                              std::vector<Real> values;
+                              for (const Sensor& one : of) values.push_back(one.value(world, clock));
+                              return calculate(values);
+                            },
+                        .card = card});
+  }
   void add(const Switch& card) {
     if (find(switches_, card.switid) >= 0)
       return error(card, "SWITID", fmt::format("switch {} is defined twice", card.switid),
@@ -195,36 +352,37 @@ class SensorReader {
       error(card, "TYPE", fmt::format("'{}' is not supported", card.type), "SENSOR or TIME");
     if (!card.logic.empty() && card.logic != "GT" && card.logic != "LT")
       error(card, "LOGIC", fmt::format("'{}' is not supported", card.logic), "GT or LT");
-    if (!of_time) out.sensor = find_sensor(card);
+    if (!of_time) out.sensor = find_sensor(card, "SENSID", card.sensid);
     switches_.push_back(out);
   }
 
-  int find_sensor(const Switch& card) {
-    const int found = find(sensors_, card.sensid);
+  int find_sensor(const Entry& card, const char* field, Id id) {
+    const int found = find(sensors_, id);
     if (found >= 0) return found;
     const auto& forces = deck_.all<Force>();
     const auto force =
-        std::find_if(forces.begin(), forces.end(), [&](const Force& f) { return f.sensid == card.sensid; });
+        std::find_if(forces.begin(), forces.end(), [&](const Force& f) { return f.sensid == id; });
     if (force != forces.end())
-      error(card, "SENSID",
-            fmt::format("sensor {} is a force ({}), by which nothing can be switched", card.sensid,
-                        force->ftype),
-            "use a *SENSOR_DEFINE_NODE");
+      error(card, field,
+            fmt::format("sensor {} is a force ({}), by which nothing can be switched", id, force->ftype),
+            "forces of CONTACT and JOINT can");
     else
-      error(card, "SENSID", fmt::format("sensor {} does not exist", card.sensid),
-            "define it with *SENSOR_DEFINE_NODE");
+      error(card, field, fmt::format("sensor {} does not exist", id),
+            "define it with *SENSOR_DEFINE_NODE or its like; those of CALC-MATH above it");
     return -1;
   }
 
   void add(const Control& card) {
-    SensorControl out{.id = card.cntlid, .motion = card.typid, .on_first = card.initstt != "OFF"};
+    const bool contact = card.type == "CONTACT";
+    SensorControl out{.id = card.cntlid, .controlled = card.typid, .on_first = card.initstt != "OFF"};
+    if (contact) out.kind = SensorControl::Of::contact, out.card = card;
     out.repeats = card.nrep;
-    if (card.type != "PRESC-MOT")
-      return error(card, "TYPE", fmt::format("'{}' is not supported", card.type), "PRESC-MOT");
+    if (!contact && card.type != "PRESC-MOT")
+      return error(card, "TYPE", fmt::format("'{}' is not supported", card.type), "PRESC-MOT or CONTACT");
     if (!card.initstt.empty() && card.initstt != "ON" && card.initstt != "OFF")
       error(card, "INITSTT", fmt::format("'{}' is not supported", card.initstt), "ON or OFF");
     if (card.nrep < -1) error(card, "NREP", fmt::format("'{}' is not supported", card.nrep), "-1 or more");
-    if (!has_motion_of_nodes(deck_, card.typid))
+    if (!contact && !has_motion_of_nodes(deck_, card.typid))
       error(card, "TYPEID", fmt::format("no prescribed motion of nodes has the number {}", card.typid),
             "give it one by *BOUNDARY_PRESCRIBED_MOTION_SET_ID");
     const std::pair<const char*, Id> fields[] = {
@@ -239,9 +397,11 @@ class SensorReader {
       out.switches.push_back(k);
     }
     for (const SensorControl& other : controls_)
-      if (other.motion == out.motion)
-        return error(card, "TYPEID", fmt::format("control {} switches this motion already", other.id),
-                     "give it all of its switches");
+      if (other.kind == out.kind && other.controlled == out.controlled)
+        return error(
+            card, "TYPEID",
+            fmt::format("control {} switches this {} already", other.id, contact ? "contact" : "motion"),
+            "give it all of its switches");
     controls_.push_back(std::move(out));
   }
 
@@ -249,7 +409,7 @@ class SensorReader {
   const Model& model_;
   Diagnostics& diagnostics_;
   std::unordered_map<Id, Index> node_of_id_;
-  std::vector<NodeSensor> sensors_;
+  std::vector<Sensor> sensors_;
   std::vector<SensorSwitch> switches_;
   std::vector<SensorControl> controls_;
 };
@@ -282,6 +442,21 @@ const RegisterAddition end_at_sensor{
     }};
 
 }  // namespace
+
+void check_sensors(const Deck& deck, const World& world, Diagnostics& diagnostics) {
+  for (const auto* board : world.passes.all<const SensorBoard>()) {
+    for (const SensorControl& control : board->controls())
+      if (control.kind == SensorControl::Of::contact && !control.claimed)
+        deck.error(diagnostics, control.card, "TYPEID",
+                   fmt::format("no contact that sensors can switch has the number {}", control.controlled),
+                   "give it one by _ID; tied contacts stay tied");
+    for (const Sensor& sensor : board->sensors())
+      if (sensor.there && !sensor.there(world))
+        deck.error(diagnostics, sensor.card, "TYPEID",
+                   "no contact between elements, or joint, has this number",
+                   "give it one by _ID; forces on particles are not measured");
+  }
+}
 
 SensorBoard* sensors_of(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics) {
   const std::vector<SensorBoard*> known = world.passes.all<SensorBoard>();

@@ -13,7 +13,7 @@ Real NodeSensor::value(const World& world) const {
   return direction.squaredNorm() > 0 ? a.dot(direction) : a.norm();
 }
 
-SensorBoard::SensorBoard(std::vector<NodeSensor> sensors, std::vector<SensorSwitch> switches,
+SensorBoard::SensorBoard(std::vector<Sensor> sensors, std::vector<SensorSwitch> switches,
                          std::vector<SensorControl> controls)
     : sensors_(std::move(sensors)),
       switches_(std::move(switches)),
@@ -36,7 +36,7 @@ void SensorBoard::strike(World& world, const Clock& clock) {
 
 void SensorBoard::look(const World& world, const Clock& clock, std::size_t k) {
   const SensorSwitch& s = switches_[k];
-  const Real now = s.sensor < 0 ? clock.t : sensors_[static_cast<std::size_t>(s.sensor)].value(world);
+  const Real now = s.sensor < 0 ? clock.t : sensors_[static_cast<std::size_t>(s.sensor)].value(world, clock);
   const bool holds = s.sensor < 0 ? now >= s.value : s.greater ? now > s.value : now < s.value;
   if (!holds)
     holds_since_[k] = -1;
@@ -51,10 +51,22 @@ void SensorBoard::keep(Archive& archive) {
   archive("changes", changes_);
 }
 
-int SensorBoard::control_of_motion(Id motion) const {
+int SensorBoard::control_of(SensorControl::Of kind, Id controlled) const {
   for (std::size_t c = 0; c < controls_.size(); ++c)
-    if (motion != 0 && controls_[c].motion == motion) return static_cast<int>(c);
+    if (controlled != 0 && controls_[c].kind == kind && controls_[c].controlled == controlled)
+      return static_cast<int>(c);
   return -1;
+}
+
+SensorGate SensorBoard::gate_of_contact(Id contact) {
+  const int control = control_of(SensorControl::Of::contact, contact);
+  if (control < 0) return {};
+  controls_[static_cast<std::size_t>(control)].claimed = true;
+  return {this, control};
+}
+
+bool SensorGate::open() const {
+  return !board_ || board_->control_is_on(control_);
 }
 
 bool SensorBoard::control_is_on(int control) const {
@@ -72,9 +84,9 @@ std::string SensorBoard::text_of_switch(int k, const World& world, const Clock& 
   const SensorSwitch& s = switches_[static_cast<std::size_t>(k)];
   if (s.sensor < 0)
     return fmt::format("switch {}: the time {:.6g} has come to {:.6g}", s.id, clock.t, s.value);
-  const NodeSensor& sensor = sensors_[static_cast<std::size_t>(s.sensor)];
-  return fmt::format("switch {}: sensor {} measures {:.6g}, {} {:.6g}", s.id, sensor.id, sensor.value(world),
-                     s.greater ? "above" : "below", s.value);
+  const Sensor& sensor = sensors_[static_cast<std::size_t>(s.sensor)];
+  return fmt::format("switch {}: sensor {} measures {:.6g}, {} {:.6g}", s.id, sensor.id,
+                     sensor.value(world, clock), s.greater ? "above" : "below", s.value);
 }
 
 }  // namespace courant

@@ -1,5 +1,7 @@
 #pragma once
-// *SENSOR_DEFINE_NODE, _SWITCH and _CONTROL: what nodes do switches motions on and off, or ends the run.
+// *SENSOR_DEFINE_, _SWITCH and _CONTROL: what nodes do and bear switches motions and contacts on and off, or
+// ends the run.
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,9 +12,17 @@
 
 namespace courant {
 
+/// What a switch looks at.
+struct Sensor {
+  Id id = 0;
+  std::function<Real(const World&, const Clock&)> value;
+  /// Whether who exerts the force is in the world; null: nobody is needed.
+  std::function<bool(const World&)> there = nullptr;
+  Entry card{};  ///< for messages
+};
+
 /// What a node does along a direction, seen from another one.
 struct NodeSensor {
-  Id id = 0;
   Index node = 0, base = -1;             ///< of the world; base -1: none
   Vec direction = Vec::Zero();           ///< 0: the magnitude
   bool velocity = false;                 ///< else the coordinate
@@ -28,34 +38,58 @@ struct SensorSwitch {
 
 /// ON and OFF in turn: each switch that is on makes the next change.
 struct SensorControl {
-  Id id = 0, motion = 0;
+  enum class Of { motion, contact };
+  Id id = 0;
+  Of kind = Of::motion;
+  Id controlled = 0;     ///< number of the motion or contact
+  Entry card{};          ///< for messages
+  bool claimed = false;  ///< by a contact: there is one
   bool on_first = true;
   std::vector<int> switches{};
   int repeats = 0;  ///< < 0: for ever
+};
+
+class SensorBoard;
+
+/// Whether sensors let a contact act; without any they do.
+class SensorGate {
+ public:
+  SensorGate() = default;
+  SensorGate(const SensorBoard* board, int control) : board_(board), control_(control) {}
+  bool there() const { return board_ != nullptr; }
+  bool open() const;
+
+ private:
+  const SensorBoard* board_ = nullptr;
+  int control_ = -1;
 };
 
 /// All sensors of a deck. It looks once in each step, when forces and dt are known, so that what it switches
 /// holds from this step on.
 class SensorBoard : public Impact, public Restartable {
  public:
-  SensorBoard(std::vector<NodeSensor> sensors, std::vector<SensorSwitch> switches,
+  SensorBoard(std::vector<Sensor> sensors, std::vector<SensorSwitch> switches,
               std::vector<SensorControl> controls);
   std::string name() const override { return "sensors"; }
   void strike(World& world, const Clock& clock) override;
   void keep(Archive& archive) override;
-  /// Index of the control of a motion; -1: none.
-  int control_of_motion(Id motion) const;
+  /// Index of the control of a motion or contact; -1: none.
+  int control_of(SensorControl::Of kind, Id controlled) const;
   bool control_is_on(int control) const;
+  /// That of a contact which is built.
+  SensorGate gate_of_contact(Id contact);
+  const std::vector<SensorControl>& controls() const { return controls_; }
   /// -1: there is none.
   int find_switch(Id id) const;
   bool switch_is_on(int k) const { return on_[static_cast<std::size_t>(k)] != 0; }
   /// What it measures now, in words.
   std::string text_of_switch(int k, const World& world, const Clock& clock) const;
+  const std::vector<Sensor>& sensors() const { return sensors_; }
 
  private:
   void look(const World& world, const Clock& clock, std::size_t k);
 
-  std::vector<NodeSensor> sensors_;
+  std::vector<Sensor> sensors_;
   std::vector<SensorSwitch> switches_;
   std::vector<SensorControl> controls_;
   std::vector<Real> holds_since_;  ///< of each switch; < 0: its condition does not hold [T]
@@ -63,6 +97,9 @@ class SensorBoard : public Impact, public Restartable {
   std::vector<Index> changes_;     ///< of each control, so far
   std::int64_t looked_at_ = -1;    ///< cycle
 };
+
+/// Once all is built: forces that nobody exerts are errors.
+void check_sensors(const Deck& deck, const World& world, Diagnostics& diagnostics);
 
 /// That of the world, which the first call makes and adds to its passes; null where the deck has no sensors.
 /// Refuses by name what is not there: other kinds of sensors and controls, filters, curves that are shifted.

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "joint_decks.hpp"
 #include "loads/sensors.hpp"
 #include "same_bits.hpp"
 #include "shell_decks.hpp"
@@ -142,4 +143,110 @@ TEST(Sensors, SameBitsOnThreadsAndAfterARestart) {
   for (; s->clock().t < 0.015; ++steps) s->step(do_nothing);
   for (const Real part : {0.45, 0.6, 0.9})
     test::expect_same_bits(deck, steps, static_cast<int>(part * steps));
+}
+
+namespace {
+
+constexpr Real ramp = 40;  // of a weight that grows with time [m/s3]
+const std::string growing_weight =
+    fmt::format("*LOAD_BODY_Z\n9,1.0\n*DEFINE_CURVE\n9\n0.0,0.0\n10.0,{}\n", 10 * ramp);
+
+}  // namespace
+
+// A body of 3 kg hangs from a spherical joint: the force on it is m ramp t.
+TEST(Sensors, EndARunByTheForceOfAJoint) {
+  const Real m = 3, force = 12;
+  for (const std::string direction : {"Z", "0"}) {
+    test::JointDeck deck;
+    const int ground = deck.ground();
+    const int body = deck.body({.x = Vec(0, 0, -1), .m = m});
+    deck.joint("SPHERICAL", ground, body, {Vec(0, 0, 0)});
+    deck.more = growing_weight + "*SENSOR_DEFINE_FORCE\n1,JOINT,1," + direction +
+                fmt::format("\n*SENSOR_SWITCH\n8,SENSOR,1,GT,{}\n*TERMINATION_SENSOR\n8\n", force);
+    auto s = simulation_of(deck.text(1));
+    const Ending* end = s->world().passes.all<const Ending>().front();
+    while (s->clock().t < 1 && !end->ended(s->world(), s->clock())) s->step(do_nothing);
+    EXPECT_NEAR(s->clock().t, force / (m * ramp), 3 * s->clock().dt) << direction;
+  }
+}
+
+namespace {
+
+/// A plate of 10 kg lies on one that is held; what sensors say follows.
+std::string lying_plate(const std::string& cards) {
+  ShellDeck deck;
+  deck.plate(2, 2, 2, 2, 1, [](const Vec& x) { return Vec(x - Vec(0.5, 0.5, 0)); });
+  deck.plate(1, 1, 2, 2, 2, [](const Vec& x) { return Vec(x + Vec(0, 0, 0.01)); });
+  deck.part(1, 0.01, "*MAT_ELASTIC\n1,1000.0,1.0E9,0.3\n");
+  deck.part(2, 0.01, "*MAT_ELASTIC\n2,1000.0,1.0E9,0.3\n");
+  deck.hold(1, "xyzXYZ", [](const Vec& x) { return x[2] < 0.005; });
+  deck.cards +=
+      "*CONTACT_AUTOMATIC_NODES_TO_SURFACE_ID\n         4lies\n2,1,3,3\n\n\n" + growing_weight + cards;
+  return deck.text(1);
+}
+
+}  // namespace
+
+// The contact bears m ramp t, and is switched off where that is 100 N: from then on the plate falls,
+// z = -ramp ((t^3 - T^3)/6 - T^2 (t - T)/2).
+TEST(Sensors, ForceOfAContactSwitchesItOff) {
+  const Real m = 10, force = 100, T = force / (m * ramp);
+  const std::string cards = fmt::format(
+      "*SENSOR_DEFINE_FORCE\n1,CONTACT,4,Z\n*SENSOR_SWITCH\n8,SENSOR,1,GT,{}\n"
+      "*SENSOR_CONTROL\n1,CONTACT,4\nON,8\n",
+      force);
+  auto s = simulation_of(lying_plate(cards));
+  Real off = 0;
+  const auto z = [&] {
+    Real sum = 0;
+    for (Index n = 9; n < 18; ++n) sum += s->world().nodes.x.data(2)[n] / 9;
+    return sum;
+  };
+  while (s->clock().t < 2 * T) {
+    s->step(do_nothing);
+    if (off == 0 && on(*s, 8)) off = s->clock().t;
+  }
+  EXPECT_NEAR(off, T, 0.01 * T);
+  const Real t = s->clock().t;
+  EXPECT_NEAR(z() - 0.01, -ramp * ((t * t * t - T * T * T) / 6 - T * T * (t - T) / 2),
+              0.02 * ramp * T * T * T);
+  EXPECT_LT(z(), -0.1);  // through what it lay on
+}
+
+TEST(Sensors, ContactsThatAreOffComeOn) {
+  auto s = simulation_of(lying_plate("*SENSOR_SWITCH\n8,TIME,,,0.3\n*SENSOR_CONTROL\n1,CONTACT,4\nOFF,8\n"));
+  while (s->clock().t < 0.1) s->step(do_nothing);
+  EXPECT_LT(s->world().nodes.v.data(2)[9], -0.9 * ramp * 0.005);  // nothing bears it
+}
+
+// 3 and the time: what CALC-MATH makes of both.
+TEST(Sensors, CalculateWithSensors) {
+  for (const char* calc : {"SUM", "MAXMAG", "MULTIPLY", "SQRE", "MIN", "ABSSUM", "SUMABS"}) {
+    const Real t = 0.05, both[] = {-3, t};
+    const Real value = std::string(calc) == "SUM"        ? both[0] + t
+                       : std::string(calc) == "MAXMAG"   ? 3
+                       : std::string(calc) == "MULTIPLY" ? -3 * t
+                       : std::string(calc) == "SQRE"     ? 9 + t * t
+                       : std::string(calc) == "MIN"      ? -3
+                       : std::string(calc) == "ABSSUM"   ? 3 - t
+                                                         : 3 + t;
+    auto s = simulation_of(moved_plate(fmt::format(
+        "*DEFINE_CURVE\n77\n0.0,-3.0\n1.0,-3.0\n*SENSOR_DEFINE_MISC\n1,CURVE,77\n2,TIME\n"
+        "*SENSOR_DEFINE_CALC-MATH\n3,{},1,2\n*SENSOR_SWITCH\n5,SENSOR,3,GT,{:.9g}\n6,SENSOR,3,LT,{:.9g}\n",
+        calc, value - 0.01, value + 0.01)));
+    run_to(*s, t);
+    EXPECT_TRUE(on(*s, 5)) << calc;
+    EXPECT_TRUE(on(*s, 6)) << calc;
+  }
+}
+
+TEST(Sensors, OfForcesHaveTheSameBitsOnThreadsAndAfterARestart) {
+  const std::string deck = lying_plate(
+      "*SENSOR_DEFINE_FORCE\n1,CONTACT,4,Z\n*SENSOR_SWITCH\n8,SENSOR,1,GT,3.0\n*SENSOR_SWITCH\n9,TIME,,,0."
+      "009\n"
+      "*SENSOR_CONTROL\n1,CONTACT,4,0,-1\nON,8,9\n");
+  auto s = simulation_of(deck);
+  int steps = 0;
+  for (; s->clock().t < 0.012; ++steps) s->step(do_nothing);
+  for (const Real part : {0.5, 0.7, 0.9}) test::expect_same_bits(deck, steps, static_cast<int>(part * steps));
 }

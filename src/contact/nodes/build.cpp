@@ -56,10 +56,11 @@ class NodeContactBuilder {
                                 "leave it out, or make the scene one of three dimensions");
     if (!shells_have_thickness(c, kind, sides)) return;
     warn_of_kind(c, kind);
+    NodeContactLaw law = law_of(c, number);
+    if (c.bt > 0 || law.gate.there()) world_.counters["penetrations_at_birth"] += 0;
     auto contact =
-        std::make_shared<NodeContact>(law_of(c, number), std::move(sides), options_.bodies, number, world_);
+        std::make_shared<NodeContact>(std::move(law), std::move(sides), options_.bodies, number, world_);
     report_penetrations(c, contact->penetrations(world_));
-    if (c.bt > 0) world_.counters["penetrations_at_birth"] += 0;
     add_node_contact(world_, contact);
     contacts_.push_back(contact);
   }
@@ -230,6 +231,8 @@ class NodeContactBuilder {
     law.fs = c.fs * c.fsf, law.fd = c.fd * c.fsf, law.dc = c.dc, law.vc = c.vc * c.vsf;
     law.vdc = c.vdc;
     law.birth = c.bt, law.death = c.dt;
+    if (SensorBoard* const board = sensors_of(deck_, model_, world_, diagnostics_))
+      law.gate = board->gate_of_contact(law.id);
     law.soft = c.soft, law.sofscl = c.sofscl, law.dtstif = c.dtstif;
     law.tssfac = options_.tssfac;
     law.enmass = control_.enmass;

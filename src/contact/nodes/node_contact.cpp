@@ -183,7 +183,7 @@ void NodeContact::list_block(const World& world, Index begin, Index end) {
 
 void NodeContact::start(World& world, const Clock& clock) {
   soft_dt_ = std::max(soft_dt_, clock.dt_old);
-  if (clock.t < law_.birth || clock.t > law_.death) {
+  if (law_.sleeps(clock.t)) {
     if (!asleep_)  // at its death what it stores is lost
       for (const Touch& touch : touches_) let_go_ += touch.stored;
     if (!asleep_)
@@ -228,7 +228,7 @@ void NodeContact::finish(World& world, const Clock&) {
     most = std::max(most, deepest);
   }
   // who is born later than the run tells here what of the start is told while the run is built
-  if (!asleep_ && fresh_ && law_.birth > 0)
+  if (!asleep_ && fresh_ && (law_.birth > 0 || law_.gate.there()))
     for (Index i = 0; i < set_->size(); ++i) {
       bool behind = false;
       for (int k = 0; k < most_touches; ++k)
@@ -266,7 +266,7 @@ void NodeContact::keep(Archive& archive) {
 
 NodeContact::Penetrations NodeContact::penetrations(World& world) {
   Penetrations out;
-  if (law_.birth > 0) return out;
+  if (law_.birth > 0 || !law_.gate.open()) return out;
   follow(world, {});
   for (const Index f : listed_)
     shapes_[static_cast<std::size_t>(f)] = shape_of(corners_of(face(f), world.nodes.x), face(f).corners);

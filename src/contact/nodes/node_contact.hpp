@@ -8,6 +8,7 @@
 
 #include "contact/nodes/face.hpp"
 #include "contact/nodes/face_search.hpp"
+#include "loads/sensors.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
 #include "state/wall_bodies.hpp"
@@ -24,6 +25,8 @@ struct NodeContactLaw {
   Real fs = 0, fd = 0, dc = 0, vc = 0;  ///< friction [-, -, T/L, M/LT2]
   Real vdc = 0;                         ///< damping, percent of critical
   Real birth = 0, death = 1e20;         ///< [T]
+  SensorGate gate{};
+  bool sleeps(Real t) const { return t < birth || t > death || !gate.open(); }
   int soft = 0, penopt = 1;
   Real sofscl = 0.1, dtstif = 0;  ///< SOFT 1: scale [-] and step if given [T]
   Real tssfac = 0.9;              ///< what elements leave of their own step
