@@ -120,11 +120,12 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   materials_ = find_materials(deck_, model_, diagnostics);
   shells_ = find_shell_parts(deck_, model_, diagnostics);
   beams_ = find_beam_parts(deck_, model_, diagnostics);
-  const auto shell_material = [&](Index part) -> std::optional<ShellMaterial> {
+  const auto shell_material = [&](Index part, Index layup) -> std::optional<ShellMaterial> {
     if (const auto m = rigid_material(deck_, model_, part)) return ShellMaterial{m->ro, m->E, m->pr};
     if (!shells_[part].law) return std::nullopt;
-    const ElasticConstants of_laws = elastic_constants(shells_[part]);
-    return ShellMaterial{shells_[part].density(), of_laws.E, of_laws.nu};
+    const ShellPart& shells = shells_[part].of(layup);
+    const ElasticConstants of_laws = elastic_constants(shells);
+    return ShellMaterial{shells.density(), of_laws.E, of_laws.nu};
   };
   const auto sph_material = [&](Index part) { return materials_[part].for_particles(); };
   sph_ = build_particles(deck_, model_, sph_material, world_,

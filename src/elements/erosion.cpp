@@ -82,6 +82,8 @@ Erosion::Erosion(const FailureRules& rules, const ElementGroup& group, int point
     strain_ = &group.fields.add<Real>({.name = "strain", .dimension = "-", .components = 6 * points});
   if (rules.impulse < infinite)
     impulse_ = &group.fields.add<Real>({.name = "impulse", .dimension = "M2/L2T3", .components = points});
+  if (rules.least_step.ratio > 0)
+    first_step_ = &group.fields.add<Real>({.name = "first_step", .dimension = "T"});
   if (strain_) vanishes(*strain_);
   shared_fields::eroded.add(world.segments.fields);
   const auto blocks = static_cast<std::size_t>(block_count(group.size()));
@@ -93,6 +95,7 @@ void Erosion::declare(const World&, Accesses& a) const {
   a.updates(eroded_).updates(failed_);
   if (strain_) a.updates(*strain_);
   if (impulse_) a.updates(*impulse_);
+  if (first_step_) a.updates(*first_step_);
 }
 
 void Erosion::declare_booking(Accesses& a) const {
@@ -100,6 +103,8 @@ void Erosion::declare_booking(Accesses& a) const {
   for (const Field<Real>* energy : {energies_.internal, energies_.bulk_viscosity, energies_.hourglass})
     if (energy) a.reads(*energy, Reach::others);
   if (group_.segment) a.reads(*group_.segment, Reach::others);
+  for (Field<Real>* field : weakening_) a.updates(*field);
+  a.reads(group_.node, Reach::others);
 }
 
 void Erosion::begin_block(Index begin, Index count) {
@@ -115,6 +120,11 @@ void Erosion::begin_block(Index begin, Index count) {
 void Erosion::clear(Index e) const {
   for (Field<Real>* field : vanishing_)
     for (int k = 0; k < field->info().components; ++k) field->data(k)[e] = 0;
+}
+
+void Erosion::weaken(Index e) const {
+  if (dead(e)) return;
+  for (Field<Real>* field : weakening_) (*field)[e] = 1;
 }
 
 std::string Erosion::failure_of(const FailingPoints& p, Index i) const {
@@ -185,6 +195,15 @@ std::string Erosion::why_by_law() const {
   return out;
 }
 
+/// Empty: the step of the element is large enough.
+std::string Erosion::why_by_step(Index e, Real step) const {
+  if (!rules_.of_step()) return {};
+  if (first_step_ && (*first_step_)[e] == 0) (*first_step_)[e] = step;
+  const bool short_one =
+      step < rules_.least_step.step || (first_step_ && step < rules_.least_step.ratio * (*first_step_)[e]);
+  return short_one ? fmt::format("step {:.4g}", step) : std::string();
+}
+
 Index Erosion::points_needed() const {
   if (rules_.points > 0) return std::min<Index>(rules_.points, points_);
   return std::max<Index>(1, static_cast<Index>(std::ceil(-0.01 * rules_.points * points_ - 1e-9)));
@@ -218,6 +237,8 @@ void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real
       strike(begin, e, "it turned inside out");
     } else if (rules_.small_step && share * step_limit[i] < least_step_) {
       strike(begin, e, fmt::format("step {:.4g}", share * step_limit[i]));
+    } else if (std::string why = why_by_step(e, share * step_limit[i]); !why.empty()) {
+      strike(begin, e, std::move(why));
     }
     const auto& kept = kept_[static_cast<std::size_t>(e)];
     if (dead(e) && (inside_out || !std::isfinite(energy_of(e)))) put_back(e, kept);

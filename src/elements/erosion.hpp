@@ -34,12 +34,14 @@ struct FailureRules {
   Real time = never;                             ///< [T]
   int conditions = 1;                            ///< NCS: how many of them must hold at once
   int points = 1;                                ///< NUMFIP; < 0: per cent of all
-  int law_points = 0;       ///< how many points the law must take away, of layers that differ; 0: all
+  int law_points = 0;  ///< how many points the law must take away, of layers that differ; 0: all
+  StrengthLaw::LeastStep least_step;  ///< of the law: an element with a smaller one goes
   bool small_step = false;  ///< ERODE: elements that would bring the step below DTMIN times the first
   bool measures_strain() const;
   bool of_points() const;  ///< any but `small_step` and volume
   bool of_volume() const { return least_volume > 0 || most_volume < never; }
-  bool any() const { return small_step || of_volume() || of_points(); }
+  bool of_step() const { return least_step.step > 0 || least_step.ratio > 0; }
+  bool any() const { return small_step || of_step() || of_volume() || of_points(); }
 };
 
 /// By part of the model; `laws`: null where a part has no elements that deform. Cards for parts of particles
@@ -75,6 +77,10 @@ class Erosion {
   Erosion(const FailureRules& rules, const ElementGroup& group, int points, Energies energies, World& world);
   /// Fields that are 0 in dead elements: stress, tensors of the law.
   void vanishes(Field<Real>& field) { vanishing_.push_back(&field); }
+  /// Of points whose law weakens beside deleted elements: 1 from then on. [-]
+  void weakens(Field<Real>& field) { weakening_.push_back(&field); }
+  bool weakens() const { return !weakening_.empty(); }
+  void weaken(Index e) const;
   void declare(const World& world, Accesses& a) const;
   const FailureRules& rules() const { return rules_; }
   const ElementGroup& group() const { return group_; }
@@ -112,6 +118,7 @@ class Erosion {
   static constexpr Index by_law = 1, by_card = 2;
   std::string failure_of(const FailingPoints& points, Index i) const;
   std::string why_by_law() const;
+  std::string why_by_step(Index e, Real step) const;
   void put_back(Index e, const std::array<Real, 3>& kept) const;
   Index points_needed() const;
   void strike(Index begin, Index e, std::string why);
@@ -123,7 +130,8 @@ class Erosion {
   Field<Index>& eroded_;
   Field<Index>& failed_;  ///< by point: by_law, by_card
   Field<Real>*strain_ = nullptr, *impulse_ = nullptr;
-  std::vector<Field<Real>*> vanishing_;
+  Field<Real>* first_step_ = nullptr;  ///< of each element; null: nobody asks for it [T]
+  std::vector<Field<Real>*> vanishing_, weakening_;
   Real least_step_ = 0;
   std::vector<Index> dead_;                 ///< by block
   std::vector<std::vector<Failed>> newly_;  ///< by block

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <unordered_set>
 #include <utility>
 
 #include "elements/erosion.hpp"
@@ -72,8 +73,14 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
   void block(World&, const Clock&, Index, Index) override {}
   void finish(World& world, const Clock& clock) override {
     failures_.clear();
+    std::unordered_set<Index> torn;  // nodes of what goes now
     for (const auto& group : groups_)
-      for (Erosion::Failed& failed : group->take_failed()) book(*group, failed, world);
+      for (Erosion::Failed& failed : group->take_failed()) {
+        for (int c = 0; c < group->group().corners(); ++c)
+          torn.insert(group->group().node.data(c)[failed.element]);
+        book(*group, failed, world);
+      }
+    if (!torn.empty()) weaken_beside(torn);
     if (first_step_ == 0 && dtmin_ > 0) find_first_step(world, clock);
   }
   /// Where no element is left the step stays.
@@ -94,6 +101,19 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
   }
 
  private:
+  void weaken_beside(const std::unordered_set<Index>& torn) const {
+    for (const auto& eroding : groups_) {
+      if (!eroding->weakens()) continue;
+      const ElementGroup& group = eroding->group();
+      for (Index e = 0; e < group.size(); ++e)
+        for (int c = 0; c < group.corners(); ++c)
+          if (torn.contains(group.node.data(c)[e])) {
+            eroding->weaken(e);
+            break;
+          }
+    }
+  }
+
   void book(const Erosion& erosion, Erosion::Failed& failed, World& world) {
     const ElementGroup& group = erosion.group();
     const Id id = group.id[failed.element];

@@ -114,8 +114,11 @@ struct FieldOf {
 template <class T>
 struct CardOf {
   std::vector<FieldOf<T>> fields{};
-  bool optional = false;             ///< may be missing at the end of the keyword
-  bool repeat = false;               ///< repeats up to the next keyword, filling the vector members
+  bool optional = false;  ///< may be missing at the end of the keyword
+  bool repeat = false;    ///< repeats up to the next keyword, filling the vector members
+  /// Of a repeated one: it ends, too, where all required fields of card 1 stand on the line as integers > 0,
+  /// with which the next entry begins.
+  bool until_entry = false;
   bool (*when)(const T&) = nullptr;  ///< the card is there only if this holds for the cards read so far
 };
 

@@ -202,7 +202,10 @@ void CardReader::read_cards(DataLines& data, EntrySink& sink) {
     const CardSpec& card = spec_->cards[c];
     if (card.conditional && !spec_->has_card(sink.entry(), c)) continue;
     if (card.repeat) {
-      for (; !data.done() && !full() && !only_blanks_left(data); data.step()) read_card(data, c, sink);
+      for (; !data.done() && !full() && !only_blanks_left(data); data.step()) {
+        if (card.until_entry && begins_entry(data.line())) return;
+        read_card(data, c, sink);
+      }
       while (!data.done()) data.step();
       return;
     }
@@ -220,6 +223,24 @@ void CardReader::read_cards(DataLines& data, EntrySink& sink) {
     read_card(data, c, sink);
     data.step();
   }
+}
+
+/// Whether a line has all that card 1 requires, as integers > 0.
+bool CardReader::begins_entry(std::string_view line) {
+  const CardSpec& first = spec_->cards.front();
+  split_card(line, first, block_.format, slices_);
+  for (std::size_t k = 0; k < first.fields.size(); ++k) {
+    if (!first.fields[k].rules.required) continue;
+    Id value = 0;
+    const std::string_view text = slices_[k].text;
+    const Parameters::Resolved named =
+        Parameters::is_reference(text) ? parameters_.resolve(text) : Parameters::Resolved{};
+    if (Parameters::is_reference(text) ? named.failed || !parse_integer(named.text, value)
+                                       : !parse_integer(text, value))
+      return false;
+    if (value <= 0) return false;
+  }
+  return true;
 }
 
 void CardReader::read_card(const DataLines& data, std::size_t card, EntrySink& sink) {

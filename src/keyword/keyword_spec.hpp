@@ -37,6 +37,7 @@ struct CardSpec {
   std::vector<FieldSpec> fields;
   bool optional = false;
   bool repeat = false;
+  bool until_entry = false;  ///< repeats up to the next entry, see CardOf
   bool conditional = false;  ///< there only under a condition, see KeywordSpec::has_card
   bool is_table = false;     ///< several vectors: each card adds one to each of them
 };
@@ -201,6 +202,7 @@ class TableSpec : public KeywordSpec {
       CardSpec spec{.fields = std::vector<FieldSpec>(card.fields.size()),
                     .optional = card.optional,
                     .repeat = card.repeat,
+                    .until_entry = card.until_entry,
                     .conditional = card.when != nullptr};
       for (std::size_t f = 0; f < card.fields.size(); ++f) {
         const FieldOf<Table>& field = card.fields[f];

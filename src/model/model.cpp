@@ -39,6 +39,12 @@ int ModelSolid::different_corners() const {
   return different_nodes(*this, different);
 }
 
+Real ModelLayup::thickness() const {
+  Real sum = 0;
+  for (const ModelPly& ply : plies) sum += ply.thickness;
+  return sum;
+}
+
 void Model::release_mesh() {
   std::vector<ModelNode>().swap(nodes);  // clear() would keep the memory
   std::vector<ModelSph>().swap(sph);
@@ -47,6 +53,7 @@ void Model::release_mesh() {
   std::vector<ModelSegment>().swap(segments);
   shell_thickness.clear();
   shell_beta.clear();
+  shell_layup.clear();
   held_rotations.clear();
   angular_velocity.clear();
   node_sets.clear();

@@ -27,6 +27,7 @@ struct ModelPly {
   Id mid = 0;
   Real thickness = 0;  ///< [L]
   Real angle = 0;      ///< of the material about the normal [degrees]
+  bool operator==(const ModelPly&) const = default;
 };
 
 struct ModelPart {
@@ -39,6 +40,14 @@ struct ModelPart {
   bool rigid = false;             ///< its material is a *MAT_RIGID
   bool velocity_given = false;    ///< INITIAL_VELOCITY_GENERATION names this part
   std::vector<ModelPly> plies{};  ///< of *PART_COMPOSITE, from the lower face to the upper; else none
+};
+
+/// Layers that shells of a part have as their own, whatever stands with the part.
+struct ModelLayup {
+  Index part = 0;                 ///< index into parts
+  std::vector<ModelPly> plies{};  ///< from the lower face to the upper
+  Entry card;                     ///< of the first such element, for messages
+  Real thickness() const;         ///< of all layers [L]
 };
 
 struct ModelSph {
@@ -201,7 +210,9 @@ struct Model {
   std::vector<ModelSolid> solids;
   std::vector<ModelBeam> beams;
   std::unordered_map<Index, std::array<Real, 4>> shell_thickness;  ///< of shells with one of their own [L]
-  std::unordered_map<Index, Real> shell_beta;  ///< angle of the material, of shells with one [degrees]
+  std::unordered_map<Index, Real> shell_beta;    ///< angle of the material, of shells with one [degrees]
+  std::vector<ModelLayup> layups;                ///< different ones
+  std::unordered_map<Index, Index> shell_layup;  ///< index into layups, of shells with layers of their own
   /// Of nodes, where some turn: rotations that BOUNDARY_SPC or RC hold, initial angular velocity.
   std::unordered_map<Index, std::array<bool, 3>> held_rotations;
   std::unordered_map<Index, Vec> angular_velocity;  ///< [1/T]

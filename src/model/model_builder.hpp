@@ -12,6 +12,7 @@
 #include "model/cards.hpp"
 #include "model/definitions/define_cards.hpp"
 #include "model/mesh/cards_elements.hpp"
+#include "model/mesh/shell_composite.hpp"
 #include "model/model.hpp"
 #include "model/sets/id_index.hpp"
 
@@ -26,9 +27,11 @@ class ModelBuilder {
   // build_mesh.cpp
   void build_nodes();
   void build_parts();
-  void check_plies(const Entry& card, const ModelPart& part);
+  void check_plies(const Entry& card, const std::vector<ModelPly>& plies, const std::string& whose);
   void build_particles();
   void build_shells();
+  Index add_shell(const ElementShellCard& card);
+  void build_layered_shells(const std::vector<ElementShellCompositeCard>& cards);
   void add_particle(const ElementSphCard& card, Id nid, Index part);
   void check_shared_nodes();
   // build_solids.cpp
@@ -108,6 +111,7 @@ class ModelBuilder {
   Model model_;
   IdIndex node_of_id_;
   std::vector<const ElementSolidCard*> solid_cards_;  ///< of model_.solids
+  std::unordered_map<Id, const ElementShellCard*> shell_cards_;
   int errors_ = 0;
 };
 

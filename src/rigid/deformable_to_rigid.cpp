@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "keyword/common_rules.hpp"
@@ -57,11 +58,18 @@ std::optional<MatRigid> constants_of(const Deck& deck, Id mid) {
   return out;
 }
 
+bool is_layered(const Model& model, const ModelPart& part) {
+  return !part.plies.empty() ||
+         std::any_of(model.layups.begin(), model.layups.end(), [&](const ModelLayup& layup) {
+           return model.parts[static_cast<std::size_t>(layup.part)].id == part.id;
+         });
+}
+
 }  // namespace
 
 std::optional<MatRigid> switched_material(const Deck& deck, const Model& model, Index part) {
   const ModelPart& p = model.parts[static_cast<std::size_t>(part)];
-  if (p.has_sph || !p.plies.empty() || !switch_of(deck, p.id)) return std::nullopt;
+  if (p.has_sph || is_layered(model, p) || !switch_of(deck, p.id)) return std::nullopt;
   return constants_of(deck, p.mid);
 }
 
@@ -88,7 +96,7 @@ void check_switched_parts(const Deck& deck, const Model& model, Diagnostics& dia
     if (part.has_sph)
       error("PID", fmt::format("part {} has particles, which are no rigid body", card.pid),
             "name a part of elements");
-    else if (!part.plies.empty())
+    else if (is_layered(model, part))
       error("PID", fmt::format("part {} is a layered composite, which cannot become rigid", card.pid),
             "leave the switch out");
     else if (!part.rigid)

@@ -17,8 +17,19 @@ struct WallPart {
   Real marea = 0;      ///< [M/L2]
 };
 
+void check_rigid_layups(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  for (const ModelLayup& layup : model.layups) {
+    const ModelPart& part = model.parts[layup.part];
+    if (part.rigid && std::any_of(layup.plies.begin(), layup.plies.end(),
+                                  [&](const ModelPly& ply) { return ply.mid != part.mid; }))
+      deck.error(diagnostics, layup.card, "MID1",
+                 fmt::format("part {} is rigid, and a layer of this shell is not of its material", part.id),
+                 "give all layers the *MAT_RIGID of the part, or the part another material");
+  }
+}
+
 std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
-                                 const std::function<std::optional<ShellMaterial>(Index)>& material,
+                                 const std::function<std::optional<ShellMaterial>(Index, Index)>& material,
                                  Diagnostics& diagnostics) {
   const ShellSections sections(deck, model);
   for (const SectionShell& s : deck.all<SectionShell>()) {
@@ -30,6 +41,8 @@ std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
       deck.error(diagnostics, s, "ELFORM", fmt::format("{} is a 2D solid, not a shell", s.elform),
                  "use 2 (Belytschko-Tsay)");
   }
+  check_rigid_layups(deck, model, diagnostics);
+  const std::vector<bool> by_part = parts_with_own_layers(model);
   std::vector<WallPart> out(model.parts.size());
   std::set<const SectionShell*> told;  // several parts may name one
   for (Index k = 0; k < Index(model.parts.size()); ++k) {
@@ -46,7 +59,7 @@ std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
       deck.error(diagnostics, part.card, "MID1",
                  fmt::format("the first layer of part {} is rigid, and others are not", part.id),
                  "give all layers the *MAT_RIGID, or none");
-    const auto m = material(k);
+    const auto m = material(k, -1);
     if (!m)
       deck.error(
           diagnostics, part.card, "MID",
@@ -55,7 +68,7 @@ std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
           "*MAT_RIGID makes them rigid walls; with a material as *MAT_ELASTIC they deform");
     if (!m || !section) continue;
     const SectionShell& s = *section;
-    if (!(s.t1 > 0) && part.plies.empty() && told.insert(&s).second)
+    if (!(s.t1 > 0) && part.plies.empty() && by_part[k] && told.insert(&s).second)
       deck.error(diagnostics, s, "T1", fmt::format("the shells of part {} have no thickness", part.id),
                  "give a thickness > 0");
     const auto corner = [&](Real t) { return t > 0 ? t : s.t1; };
@@ -64,8 +77,10 @@ std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
   return out;
 }
 
-/// Mean of the corners' own thicknesses where a shell has some, else that of the section.
+/// That of its own layers, or the mean of its corners' own thicknesses; else that of the section.
 Real thickness_of(const Model& model, Index shell, Real of_section) {
+  if (const auto layup = model.shell_layup.find(shell); layup != model.shell_layup.end())
+    return model.layups[layup->second].thickness();
   const auto own = model.shell_thickness.find(shell);
   if (own == model.shell_thickness.end()) return of_section;
   const auto& node = model.shells[shell].node;
@@ -75,12 +90,22 @@ Real thickness_of(const Model& model, Index shell, Real of_section) {
   return sum / corners;
 }
 
+std::vector<std::optional<ShellMaterial>> materials_of_layups(
+    const Model& model, const std::function<std::optional<ShellMaterial>(Index, Index)>& material) {
+  const std::vector<Index> group_of = layups_of_groups(model);
+  std::vector<std::optional<ShellMaterial>> out;
+  for (Index k = 0; k < Index(group_of.size()); ++k)
+    out.push_back(group_of[k] == k ? material(model.layups[k].part, k) : out[group_of[k]]);
+  return out;
+}
+
 }  // namespace
 
 void build_segments(const Deck& deck, const Model& model,
-                    const std::function<std::optional<ShellMaterial>(Index part)>& material,
+                    const std::function<std::optional<ShellMaterial>(Index part, Index layup)>& material,
                     const std::vector<Index>& node_of, World& world, Diagnostics& diagnostics) {
   const std::vector<WallPart> parts = read_parts(deck, model, material, diagnostics);
+  const std::vector<std::optional<ShellMaterial>> of_layup = materials_of_layups(model, material);
   Nodes& nodes = world.nodes;
   Segments& g = world.segments;
   g.fields.resize(Index(model.shells.size()));
@@ -101,9 +126,12 @@ void build_segments(const Deck& deck, const Model& model,
           "its nodes coincide or lie on a line");
     if (!part.usable) continue;
     g.thickness[s] = thickness_of(model, s, part.thickness);
-    g.K[s] = part.material.E / (3 * (1 - 2 * part.material.pr));
+    const auto layup = model.shell_layup.find(s);
+    const ShellMaterial own =
+        layup == model.shell_layup.end() ? part.material : of_layup[layup->second].value_or(part.material);
+    g.K[s] = own.E / (3 * (1 - 2 * own.pr));
     const int corners = a[2] == a[3] ? 3 : 4;
-    const Real m = (part.material.ro * g.thickness[s] + part.marea) * area / corners;
+    const Real m = (own.ro * g.thickness[s] + part.marea) * area / corners;
     for (int e = 0; e < corners; ++e) nodes.m[a[e]] += m;
   }
 }

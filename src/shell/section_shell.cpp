@@ -1,5 +1,8 @@
 #include "shell/section_shell.hpp"
 
+#include <map>
+#include <utility>
+
 #include "keyword/registry.hpp"
 #include "model/mesh/part_composite.hpp"
 
@@ -34,6 +37,26 @@ const SectionShell* ShellSections::of(const ModelPart& part) const {
   }
   const auto found = sections_.find(part.secid);
   return found == sections_.end() ? nullptr : found->second;
+}
+
+std::vector<bool> parts_with_own_layers(const Model& model) {
+  std::vector<bool> out(model.parts.size(), model.layups.empty());
+  if (model.layups.empty()) return out;
+  for (Index s = 0; s < Index(model.shells.size()); ++s)
+    if (!model.shell_layup.contains(s)) out[model.shells[s].part] = true;
+  return out;
+}
+
+std::vector<Index> layups_of_groups(const Model& model) {
+  using Kind = std::pair<Index, std::vector<std::pair<Id, Real>>>;
+  std::map<Kind, Index> first;
+  std::vector<Index> out;
+  for (const ModelLayup& layup : model.layups) {
+    Kind kind{layup.part, {}};
+    for (const ModelPly& ply : layup.plies) kind.second.emplace_back(ply.mid, ply.thickness);
+    out.push_back(first.try_emplace(std::move(kind), Index(out.size())).first->second);
+  }
+  return out;
 }
 
 namespace {

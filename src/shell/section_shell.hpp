@@ -37,4 +37,11 @@ class ShellSections {
   std::map<Id, SectionShell> of_composite_;  ///< by part
 };
 
+/// Of each part, whether some of its shells have no layers of their own.
+std::vector<bool> parts_with_own_layers(const Model& model);
+
+/// Of each of the model's layups the first of that part with the same materials and thicknesses: they differ
+/// in angles alone, and their shells are computed together.
+std::vector<Index> layups_of_groups(const Model& model);
+
 }  // namespace courant

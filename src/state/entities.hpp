@@ -111,6 +111,7 @@ struct ElementGroup {
   Field<Real>& mass;          ///< for the corners by `share` [M]
   Field<Id>& id;
   Index part;                            ///< index into the model's parts
+  Index layup = -1;                      ///< shells with layers of their own: index into the model's layups
   Field<Real>* corner_moment = nullptr;  ///< on rotations of the corners, as corner_force; null: solids
   bool repeats_nodes = false;            ///< some element has a node at several corners
   Field<Index>* segment = nullptr;       ///< shells: index into World::segments of each; null: solids

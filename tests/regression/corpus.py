@@ -56,6 +56,12 @@ def lines_per_element(name, line):
     return 1
 
 
+def names_corners(line):
+    """Whether element, part and three nodes stand on a line: those of layers have a blank fourth field."""
+    fields = line.split(",") if "," in line else [line[i:i + 8] for i in range(0, 40, 8)]
+    return len(fields) >= 5 and all(re.fullmatch(r" *0*[1-9][0-9]* *", f) for f in fields[:5])
+
+
 def number(text):
     """A number as Fortran reads it, or None."""
     text = re.sub(r"(?<=[0-9.])([+-])", r"e\1", text.strip().lower().replace("d", "e")).replace("ee", "e")
@@ -91,7 +97,7 @@ def count_file(path, count, open_files):
                 count_file(other, count, open_files + [os.path.realpath(other)])
         if waiting > 0:  # a further line of the same element
             waiting -= 1
-        elif not line.strip():
+        elif not line.strip() or ("COMPOSITE" in name and name.startswith("ELEMENT_SHELL") and not names_corners(line)):
             continue
         elif name == "NODE":
             count.nodes += 1

@@ -46,6 +46,24 @@ class ShellReader {
     const SectionShell& s = *section;
     if (checked_.insert(&s).second) check_section(s, part);
     const bool whole = layers_.read(part, s, control_ && control_->intgrd == 1, out);
+    set_options(part, s, whole, out);
+    return whole;
+  }
+  /// The same of shells with layers of their own.
+  bool read(const ModelPart& part, Index layup, ShellPart& out) {
+    const SectionShell* const section = sections_.of(part);
+    if (!section) return false;
+    if (checked_.insert(section).second) check_section(*section, part);
+    const bool whole = layers_.read(part, model_.layups[static_cast<std::size_t>(layup)], out);
+    set_options(part, *section, whole, out);
+    out.layup = layup;
+    return whole;
+  }
+  /// That of the part, so that nobody misses it besides; null: shells cannot have it.
+  std::shared_ptr<StrengthLaw> law_of(const ModelPart& part) const { return layers_.law_of(part.mid); }
+
+ private:
+  void set_options(const ModelPart& part, const SectionShell& s, bool whole, ShellPart& out) {
     out.marea = s.marea, out.full = s.elform == fully_integrated;
     out.rotary_scale = control_ ? control_->rotascl : 1;
     out.warp_warning = control_ ? control_->wrpang : out.warp_warning;
@@ -56,12 +74,7 @@ class ShellReader {
     if (const auto* accuracy = deck_.last<ControlAccuracy>()) c.invariant_axes = accuracy->invariant_shells();
     if (const auto* step = deck_.last<ControlTimestepCard>()) c.length_rule = step->isdo;
     hourglass_.read(part, out.full, c, diagnostics_);
-    return whole;
   }
-  /// That of the part, so that nobody misses it besides; null: shells cannot have it.
-  std::shared_ptr<StrengthLaw> law_of(const ModelPart& part) const { return layers_.law_of(part.mid); }
-
- private:
   /// Of layers the stiffest: by it the step is bounded.
   static void set_moduli(const ShellPart& part, ShellControl& c) {
     const ElasticConstants of_law = elastic_constants(*part.law);
@@ -159,6 +172,34 @@ ElasticConstants elastic_constants(const ShellPart& part) {
   return constants_of(K, G);
 }
 
+namespace {
+
+/// `by_part`: some shells have the layers that stand with the part; else the first of the others stand for
+/// it, too.
+ShellPart read_part(ShellReader& reader, const Model& model, std::size_t k, bool by_part) {
+  const ModelPart& part = model.parts[k];
+  std::vector<ShellPart> layups;
+  bool whole = true;
+  const std::vector<Index> group_of = layups_of_groups(model);
+  for (std::size_t own = 0; own < group_of.size(); ++own)
+    if (model.layups[own].part == static_cast<Index>(k) && group_of[own] == static_cast<Index>(own))
+      whole = reader.read(part, static_cast<Index>(own), layups.emplace_back()) && whole;
+  ShellPart out;
+  if (whole && by_part)
+    whole = reader.read(part, out);
+  else if (whole)
+    out = layups.front();
+  if (!whole) {
+    out = {};
+    out.law = reader.law_of(part);
+    return out;
+  }
+  out.layups = std::move(layups), out.layup = -1;
+  return out;
+}
+
+}  // namespace
+
 std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   std::vector<ShellPart> out(model.parts.size());
   std::vector<std::size_t> deforming;
@@ -174,11 +215,8 @@ std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Di
     for (const StrengthEntry& kind : strength_registry()) kind.check(deck, model, diagnostics);
   if (diagnostics.errors() > errors) return out;  // a law is made from valid cards
   ShellReader reader(deck, model, diagnostics);
-  for (const std::size_t k : deforming)
-    if (ShellPart found; reader.read(model.parts[k], found))
-      out[k] = std::move(found);
-    else
-      out[k].law = reader.law_of(model.parts[k]);
+  const std::vector<bool> by_part = parts_with_own_layers(model);
+  for (const std::size_t k : deforming) out[k] = read_part(reader, model, k, by_part[k]);
   return out;
 }
 

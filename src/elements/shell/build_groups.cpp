@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
+#include <tuple>
 
 #include "elements/nodal_rotations.hpp"
 #include "elements/shell/shells.hpp"
@@ -80,6 +82,11 @@ class LayerDirections {
 
   /// `s`: the shell among those of the model, with corners `x`.
   void fill(Index e, Index s, const std::array<Vec, 4>& x) {
+    const auto own_layers = model_.shell_layup.find(s);
+    const std::vector<ModelPly>* const plies =
+        own_layers == model_.shell_layup.end()
+            ? nullptr
+            : &model_.layups[static_cast<std::size_t>(own_layers->second)].plies;
     const Matrix axes = shell_axes(x, group_.corners(), part_.control.invariant_axes);
     for (std::size_t k = 0; k < part_.zeta.size(); ++k) {
       Vec a = axes.col(0);
@@ -87,7 +94,10 @@ class LayerDirections {
         MaterialAxes turned = *of_law;
         if (const auto own = model_.shell_beta.find(s); own != model_.shell_beta.end())
           turned.beta = own->second;
-        if (!part_.angle.empty()) turned.beta += part_.angle[k];
+        if (plies)
+          turned.beta += (*plies)[k].angle;
+        else if (!part_.angle.empty())
+          turned.beta += part_.angle[k];
         if (!direction_in_shell(turned, axes.col(2), x[1] - x[0], a)) refuse(e);
       }
       const int at = 2 * static_cast<int>(k);
@@ -127,6 +137,71 @@ ElementGroup& add_group(World& world, const std::string& name, std::size_t part,
   return group;
 }
 
+/// Shells of one group: of one shape, part and kind of layers.
+struct Alike {
+  Index part = 0, layup = -1;
+  bool triangles = false;
+  std::vector<Index> shells{};  ///< of the model
+};
+
+std::vector<Alike> alike_shells(const Model& model, const std::vector<ShellPart>& parts) {
+  const std::vector<Index> group_of = layups_of_groups(model);
+  std::map<std::tuple<Index, Index, bool>, std::vector<Index>> sorted;
+  auto last = sorted.end();
+  for (std::size_t s = 0; s < model.shells.size(); ++s) {
+    const ModelShell& shell = model.shells[s];
+    if (!parts[static_cast<std::size_t>(shell.part)].law) continue;
+    const auto own = model.shell_layup.find(static_cast<Index>(s));
+    const Index layup = own == model.shell_layup.end() ? -1 : group_of[static_cast<std::size_t>(own->second)];
+    const std::tuple key(shell.part, layup, shell.node[2] == shell.node[3]);
+    if (last == sorted.end() || last->first != key) last = sorted.try_emplace(key).first;
+    last->second.push_back(static_cast<Index>(s));
+  }
+  std::vector<Alike> out;
+  for (auto& [key, shells] : sorted)
+    out.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), std::move(shells)});
+  return out;
+}
+
+/// Mass of an element, and the rotary inertia of each corner.
+void weigh(const ShellPart& part, const std::array<Vec, 4>& x, Real t, int corners, Index e,
+           ElementGroup& group, Field<Real>& corner_inertia) {
+  const Real area = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]).norm();
+  group.V0[e] = area * t;
+  group.mass[e] = (part.density() * t + part.marea) * area;
+  const ShellControl& c = part.control;
+  const Real length = longest_step_length(x, area, corners, c.length_rule);
+  const Real modulus = c.length_rule == 2 ? c.E : c.plate_modulus;
+  const Real f = std::max(Real(1), 3 * c.shear_factor * c.G / modulus);
+  const Real l2 = std::max(area, length * length);
+  corner_inertia[e] = part.rotary_scale * group.mass[e] / corners * (t * t + f * l2) / 12;
+}
+
+/// Elements of `group`, which are these shells of the model.
+void fill_group(const Model& model, const ShellPart& part, const std::vector<Index>& shells,
+                const std::vector<Index>& node_of, World& world, ElementGroup& group,
+                NodalRotations& rotations, Diagnostics& diagnostics) {
+  Field<Real>& corner_inertia = corner_inertia_of(group);
+  std::optional<LayerDirections> directions;
+  if (part.has_axes())
+    directions.emplace(model, part, model.parts[static_cast<std::size_t>(group.part)], group, diagnostics);
+  for (Index e = 0; e < group.size(); ++e) {
+    const Index s = shells[static_cast<std::size_t>(e)];
+    const ModelShell& shell = model.shells[static_cast<std::size_t>(s)];
+    group.id[e] = shell.id, (*group.segment)[e] = s;
+    std::array<Vec, 4> x;
+    for (std::size_t c = 0; c < 4; ++c)
+      x[c] = world.nodes.x.vec(node_of[static_cast<std::size_t>(shell.node[c])]);
+    if (directions) directions->fill(e, s, x);
+    weigh(part, x, world.segments.thickness[s], group.corners(), e, group, corner_inertia);
+    for (int corner = 0; corner < group.corners(); ++corner) {
+      const Index n = node_of[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(corner)])];
+      group.node.data(corner)[e] = n;
+      rotations.inertia[n] += corner_inertia[e];
+    }
+  }
+}
+
 }  // namespace
 
 Field<Real>& corner_inertia_of(const ElementGroup& group) {
@@ -159,52 +234,18 @@ Matrix shell_axes(const std::array<Vec, 4>& x, int corners, bool invariant) {
 // dt = l sqrt(rho/M), and f = 3 K G/M or more that is 2/dt at most: neither shear nor bending sets the step.
 void build_shells(const Model& model, const std::vector<ShellPart>& parts, const std::vector<Index>& node_of,
                   World& world, Diagnostics& diagnostics) {
-  std::vector<std::array<std::vector<Index>, 2>> of_part(model.parts.size());  // quadrilaterals, triangles
-  for (std::size_t s = 0; s < model.shells.size(); ++s) {
-    const ModelShell& shell = model.shells[s];
-    const auto part = static_cast<std::size_t>(shell.part);
-    if (parts[part].law) of_part[part][shell.node[2] == shell.node[3]].push_back(static_cast<Index>(s));
-  }
   if (std::none_of(parts.begin(), parts.end(), [](const ShellPart& p) { return p.law != nullptr; })) return;
   NodalRotations rotations(world.nodes.fields);
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    for (const bool triangles : {false, true}) {
-      const std::vector<Index>& which = of_part[k][triangles];
-      if (which.empty()) continue;
-      const int corners = triangles ? 3 : 4;
-      ElementGroup& group = add_group(
-          world, fmt::format("{} of part {}", triangles ? "triangles" : "shells", model.parts[k].id), k,
-          corners, static_cast<Index>(which.size()));
-      Field<Real>& corner_inertia = corner_inertia_of(group);
-      std::optional<LayerDirections> directions;
-      if (parts[k].has_axes()) directions.emplace(model, parts[k], model.parts[k], group, diagnostics);
-      const Real density = parts[k].density();
-      for (Index e = 0; e < group.size(); ++e) {
-        const Index s = which[static_cast<std::size_t>(e)];
-        const ModelShell& shell = model.shells[static_cast<std::size_t>(s)];
-        group.id[e] = shell.id, (*group.segment)[e] = s;
-        std::array<Vec, 4> x;
-        for (std::size_t c = 0; c < 4; ++c)
-          x[c] = world.nodes.x.vec(node_of[static_cast<std::size_t>(shell.node[c])]);
-        if (directions) directions->fill(e, s, x);
-        const Real area = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]).norm();
-        const Real t = world.segments.thickness[s];
-        group.V0[e] = area * t;
-        group.mass[e] = (density * t + parts[k].marea) * area;
-        const ShellControl& c = parts[k].control;
-        const Real length = longest_step_length(x, area, corners, c.length_rule);
-        const Real modulus = c.length_rule == 2 ? c.E : c.plate_modulus;
-        const Real f = std::max(Real(1), 3 * c.shear_factor * c.G / modulus);
-        const Real l2 = std::max(area, length * length);
-        const Real inertia = parts[k].rotary_scale * group.mass[e] / corners * (t * t + f * l2) / 12;
-        for (int corner = 0; corner < corners; ++corner) {
-          const Index n = node_of[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(corner)])];
-          group.node.data(corner)[e] = n;
-          rotations.inertia[n] += inertia;
-        }
-        corner_inertia[e] = inertia;
-      }
-    }
+  for (const Alike& alike : alike_shells(model, parts)) {
+    const auto part = static_cast<std::size_t>(alike.part);
+    const std::string kind = alike.triangles ? "triangles" : "shells";
+    const std::string own = alike.layup < 0 ? "" : fmt::format(" with layers {}", alike.layup + 1);
+    ElementGroup& group = add_group(world, fmt::format("{} of part {}{}", kind, model.parts[part].id, own),
+                                    part, alike.triangles ? 3 : 4, static_cast<Index>(alike.shells.size()));
+    group.layup = alike.layup;
+    fill_group(model, parts[part].of(alike.layup), alike.shells, node_of, world, group, rotations,
+               diagnostics);
+  }
   warn_of_warp(model, parts, world, diagnostics);
 }
 

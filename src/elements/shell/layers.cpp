@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
+#include <tuple>
 
 namespace courant {
 
@@ -34,9 +36,28 @@ LayerReader::LayerReader(const Deck& deck, const Model& model, Diagnostics& diag
   }
 }
 
+const ShellPart& ShellPart::of(Index group_layup) const {
+  for (const ShellPart& own : layups)
+    if (own.layup == group_layup) return own;
+  return *this;
+}
+
 bool LayerReader::read(const ModelPart& part, const SectionShell& section, bool lobatto, ShellPart& out) {
   std::vector<Id> mids;
-  return find_points(part, section, lobatto, out, mids) && find_laws(part, mids, out);
+  if (part.plies.empty())
+    return find_points(part, section, lobatto, out, mids) && find_laws(part, {part.card, "MID"}, mids, out);
+  const Owner owner{part.card, "MID1"};
+  return take_plies(part.plies, owner, out, mids) && find_laws(part, owner, mids, out);
+}
+
+bool LayerReader::read(const ModelPart& part, const ModelLayup& layup, ShellPart& out) {
+  std::vector<Id> mids;
+  const Owner owner{layup.card, "MID1"};
+  if (!take_plies(layup.plies, owner, out, mids) || !find_laws(part, owner, mids, out)) return false;
+  // criteria of the part's material are not those of other layers
+  if (out.laws.empty() && mids.front() != part.mid) refuse_erosion(part, owner, mids.front());
+  if (std::find(mids.begin(), mids.end(), part.mid) == mids.end()) refuse_erosion(part, owner, part.mid);
+  return true;
 }
 
 std::shared_ptr<StrengthLaw> LayerReader::law_of(Id mid) const {
@@ -44,21 +65,24 @@ std::shared_ptr<StrengthLaw> LayerReader::law_of(Id mid) const {
   return found == laws_.end() || found->second->deviator_only() ? nullptr : found->second;
 }
 
+bool LayerReader::take_plies(const std::vector<ModelPly>& plies, const Owner& owner, ShellPart& out,
+                             std::vector<Id>& mids) {
+  if (plies.empty()) return false;  // the model has said so
+  if (plies.size() > static_cast<std::size_t>(ShellState::most_points))
+    return error(owner.card, owner.field, fmt::format("{} layers are not supported", plies.size()),
+                 fmt::format("up to {}", ShellState::most_points));
+  Real all = 0, below = 0;
+  for (const ModelPly& ply : plies) all += ply.thickness;
+  for (const ModelPly& ply : plies) {
+    out.zeta.push_back(2 * (below + 0.5 * ply.thickness) / all - 1), out.share.push_back(ply.thickness / all);
+    out.angle.push_back(ply.angle), mids.push_back(ply.mid);
+    below += ply.thickness;
+  }
+  return true;
+}
+
 bool LayerReader::find_points(const ModelPart& part, const SectionShell& s, bool lobatto, ShellPart& out,
                               std::vector<Id>& mids) {
-  if (!part.plies.empty()) {
-    if (s.nip > ShellState::most_points)
-      return error(part.card, "MID1", fmt::format("{} layers are not supported", s.nip),
-                   fmt::format("up to {}", ShellState::most_points));
-    Real below = 0;
-    for (const ModelPly& ply : part.plies) {
-      out.zeta.push_back(2 * (below + 0.5 * ply.thickness) / s.t1 - 1),
-          out.share.push_back(ply.thickness / s.t1);
-      out.angle.push_back(ply.angle), mids.push_back(ply.mid);
-      below += ply.thickness;
-    }
-    return true;
-  }
   if (s.irid != 0) {
     if (!follow_rule(part, s, out, mids)) return false;
   } else {
@@ -125,22 +149,22 @@ bool LayerReader::take_points(const IntegrationShell& rule, const ModelPart& par
   return true;
 }
 
-bool LayerReader::find_laws(const ModelPart& part, const std::vector<Id>& mids, ShellPart& out) {
+bool LayerReader::find_laws(const ModelPart& part, const Owner& owner, const std::vector<Id>& mids,
+                            ShellPart& out) {
   const bool layered = std::any_of(mids.begin(), mids.end(), [&](Id mid) { return mid != mids.front(); });
   std::vector<std::shared_ptr<StrengthLaw>> laws;
-  const char* const field = part.plies.empty() ? "MID" : "MID1";
   for (const Id mid : mids) {
     const auto law = laws_.find(mid);
     if (law == laws_.end()) {
       if (mid == part.mid || mid == 0) return false;  // reported with the segments, or the layers
-      return error(part.card, field,
+      return error(owner.card, owner.field,
                    fmt::format("a layer of part {} needs a material with strength, with id {}; {}", part.id,
                                mid, deck_.found_instead(IdSpace::material, mid)),
                    "layers are elastic, plastic or plies");
     }
     if (law->second->deviator_only())
       return error(
-          part.card, field,
+          owner.card, owner.field,
           fmt::format("the material of part {} takes its pressure from an equation of state, which shells "
                       "cannot have: their stress is plane",
                       part.id),
@@ -152,27 +176,40 @@ bool LayerReader::find_laws(const ModelPart& part, const std::vector<Id>& mids, 
   });
   out.law = fails == laws.end() ? laws.front() : *fails;
   if (!layered) return true;
-  check_erosion(part, mids);
+  for (const Id mid : mids)
+    if (refuse_erosion(part, owner, mid)) break;
   out.laws = std::move(laws);
   return true;
 }
 
-void LayerReader::check_erosion(const ModelPart& part, const std::vector<Id>& mids) {
-  for (const Id mid : mids)
-    if (has_erosion_card(deck_, mid)) {
-      error(part.card, part.plies.empty() ? "SECID" : "MID1",
-            fmt::format(
-                "*MAT_ADD_EROSION of material {} is not supported in part {}, whose layers are of several "
-                "materials",
-                mid, part.id),
-            "layers fail by what their own materials say");
-      return;
-    }
+bool LayerReader::refuse_erosion(const ModelPart& part, const Owner& owner, Id mid) {
+  if (!has_erosion_card(deck_, mid)) return false;
+  error(
+      owner.card, owner.field == std::string_view("MID") ? "SECID" : owner.field,
+      fmt::format("*MAT_ADD_EROSION of material {} is not supported in part {}, whose layers are of several "
+                  "materials",
+                  mid, part.id),
+      "layers fail by what their own materials say");
+  return true;
 }
 
 bool LayerReader::error(const Entry& card, const char* field, std::string message, std::string hint) {
   deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
   return false;
+}
+
+FailureRules rules_of_layers(const ShellPart& part, FailureRules rules) {
+  for (std::size_t k = 0; k < part.zeta.size(); ++k) {
+    const StrengthLaw::LeastStep least = part.law_of(k).least_step();
+    rules.least_step.step = std::max(rules.least_step.step, least.step);
+    rules.least_step.ratio = std::max(rules.least_step.ratio, least.ratio);
+  }
+  if (part.layup < 0) return rules;
+  // the rules of the part know another law
+  rules.law_limit = part.law->failure_limit(), rules.law_variable = part.law->failure_variable();
+  rules.law_time = part.law->failure_time();
+  std::tie(rules.least_volume, rules.most_volume) = part.law->volume_range();
+  return rules;
 }
 
 }  // namespace courant

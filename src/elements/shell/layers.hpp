@@ -13,24 +13,33 @@ namespace courant {
 
 /// What stands at the points through the thickness of a part: points of Gauss or Lobatto of one material,
 /// with angles of their own by ICOMP 1; those of an *INTEGRATION_SHELL; the middles of the layers of a
-/// *PART_COMPOSITE.
+/// *PART_COMPOSITE or of an *ELEMENT_SHELL_COMPOSITE.
 class LayerReader {
  public:
   LayerReader(const Deck& deck, const Model& model, Diagnostics& diagnostics);
   /// Fills points, laws and angles. False, perhaps without a message where others give it: a material is not
   /// there, or shells cannot have it.
   bool read(const ModelPart& part, const SectionShell& section, bool lobatto, ShellPart& out);
+  /// The same of shells with layers of their own, which stand in the place of those of their part.
+  bool read(const ModelPart& part, const ModelLayup& layup, ShellPart& out);
   /// Null: shells cannot have it.
   std::shared_ptr<StrengthLaw> law_of(Id mid) const;
 
  private:
+  /// Where the materials of layers stand.
+  struct Owner {
+    const Entry& card;
+    const char* field;
+  };
   bool find_points(const ModelPart& part, const SectionShell& s, bool lobatto, ShellPart& out,
                    std::vector<Id>& mids);
   bool follow_rule(const ModelPart& part, const SectionShell& s, ShellPart& out, std::vector<Id>& mids);
   bool take_points(const IntegrationShell& rule, const ModelPart& part, ShellPart& out,
                    std::vector<Id>& mids);
-  bool find_laws(const ModelPart& part, const std::vector<Id>& mids, ShellPart& out);
-  void check_erosion(const ModelPart& part, const std::vector<Id>& mids);
+  bool take_plies(const std::vector<ModelPly>& plies, const Owner& owner, ShellPart& out,
+                  std::vector<Id>& mids);
+  bool find_laws(const ModelPart& part, const Owner& owner, const std::vector<Id>& mids, ShellPart& out);
+  bool refuse_erosion(const ModelPart& part, const Owner& owner, Id mid);
   bool error(const Entry& card, const char* field, std::string message, std::string hint);
 
   const Deck& deck_;
@@ -39,5 +48,8 @@ class LayerReader {
   std::map<Id, std::shared_ptr<StrengthLaw>> laws_;
   std::map<Id, const IntegrationShell*> rules_;
 };
+
+/// Rules of a part, with what its layers say.
+FailureRules rules_of_layers(const ShellPart& part, FailureRules rules);
 
 }  // namespace courant

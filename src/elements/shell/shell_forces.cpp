@@ -9,6 +9,7 @@
 
 #include "base/run_error.hpp"
 #include "elements/largest_frequency.hpp"
+#include "elements/shell/layers.hpp"
 #include "elements/shell/shells.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
@@ -72,8 +73,8 @@ class ShellForces : public Material,
     start(world, {});
     if (options.scaling.step > 0) scale_masses(options.scaling, world);
     limit_to_frequency(held, world);
-    if (const FailureRules& rules = options.failure[static_cast<std::size_t>(group.part)]; rules.any())
-      options.eroding.push_back(erosion_ = make_erosion(rules, world));
+    const FailureRules rules = rules_of_layers(part, options.failure[static_cast<std::size_t>(group.part)]);
+    if (rules.any()) options.eroding.push_back(erosion_ = make_erosion(rules, world));
   }
   std::string name() const override { return group_.fields.name(); }
   const FieldSet& over(const World&) const override { return group_.fields; }
@@ -269,7 +270,10 @@ class ShellForces : public Material,
                                          Erosion::Energies{&internal_, &bulk_viscosity_, &hourglass_}, world);
     out->vanishes(stress_);
     for (Field<Real>* h : history_)
-      if (h->info().components == 6) out->vanishes(*h);
+      if (h->info().components == 6)
+        out->vanishes(*h);
+      else if (h->info().name.rfind(beside_deleted, 0) == 0)
+        out->weakens(*h);
     return out;
   }
 
@@ -473,14 +477,15 @@ void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
   const std::vector<std::array<bool, 3>> held = held_at_start(model, node_of, world.nodes);
   for (const auto& group : world.groups) {
     if (!group->segment) continue;
-    const auto part = static_cast<std::size_t>(group->part);
-    for (std::size_t k = 0; k < parts[part].zeta.size(); ++k) {
+    const auto named = static_cast<std::size_t>(group->part);
+    const ShellPart& part = parts[named].of(group->layup);
+    for (std::size_t k = 0; k < part.zeta.size(); ++k) {
       int numbers = 0;
-      for (const HistoryVariable& h : parts[part].law_of(k).history()) numbers += h.components;
+      for (const HistoryVariable& h : part.law_of(k).history()) numbers += h.components;
       if (numbers > 16) throw std::logic_error("a law with more than 16 history numbers");
     }
-    world.passes.add(std::make_shared<ShellForces>(parts[part], *group, model.parts[part].id, model.tssfac,
-                                                   options, shown, held, world));
+    world.passes.add(std::make_shared<ShellForces>(part, *group, model.parts[named].id, model.tssfac, options,
+                                                   shown, held, world));
   }
 }
 

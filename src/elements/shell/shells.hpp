@@ -29,6 +29,11 @@ struct ShellPart {
   Real marea = 0;                 ///< mass per area besides that of the law [M/L2]
   Real rotary_scale = 1;          ///< ROTASCL
   Real warp_warning = 20;         ///< WRPANG [degrees]
+  /// Of shells with layers of their own what those are made of; each with its index into Model::layups.
+  std::vector<ShellPart> layups{};
+  Index layup = -1;
+  /// What a group of shells is made of: this for -1, else one of `layups`.
+  const ShellPart& of(Index layup) const;
   const StrengthLaw& law_of(std::size_t layer) const { return laws.empty() ? *law : *laws[layer]; }
   bool has_axes() const;  ///< some law knows directions
   Real density() const;   ///< mean over the thickness [M/L3]

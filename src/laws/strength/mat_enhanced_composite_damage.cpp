@@ -26,19 +26,30 @@ struct MatEnhancedCompositeDamage : DirectionsCard {
   Id lcxc = 0, lcxt = 0, lcyc = 0, lcyt = 0, lcsc = 0;
   Real dt = 0;
 
+  bool has_rates() const { return (lcxc | lcxt | lcyc | lcyt | lcsc) != 0; }
+  /// SOFT and SOFTG act where TFAIL deletes elements.
+  bool softens() const { return tfail > 0 && (soft != 1 || softg != 1); }
   std::shared_ptr<StrengthLaw> law(const Model& model) const;
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
+
+ private:
+  void check_rates(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
 };
 
 using ED = MatEnhancedCompositeDamage;
 
 enum FailureMode { fibre_tension = 1, fibre_compression = 2, matrix_tension = 4, matrix_compression = 8 };
 
+/// In the order of the card's curves. [M/LT2]
+struct Strengths {
+  Real xc, xt, yc, yt, sc;
+};
+
 /// What a point keeps, in the order of history().
 struct PlyState {
   Real &ea, &eb, &eab;                                               ///< strain [-]
   Real &a_tension, &a_compression, &b_tension, &b_compression, &ab;  ///< of failed modes: what is borne
-  Real &modes, &failed;
+  Real &modes, &failed, &beside;
   explicit PlyState(const PointBlock& block, Index i)
       : ea(block.history[0][i]),
         eb(block.history[1][i]),
@@ -49,7 +60,8 @@ struct PlyState {
         b_compression(block.history[6][i]),
         ab(block.history[7][i]),
         modes(block.history[8][i]),
-        failed(block.history[9][i]) {}
+        failed(block.history[9][i]),
+        beside(block.history[10][i]) {}
   bool has(int mode) const { return (static_cast<int>(modes) & mode) != 0; }
   void add(int mode) { modes += has(mode) ? 0 : mode; }
 };
@@ -62,21 +74,24 @@ Real reach_of_ray(Real A, Real B) {
 
 class ChangChang : public StrengthLaw {
  public:
-  ChangChang(const ED& card, const MaterialAxes& axes)
-      : card_(card), axes_(axes), sheet_(card.ea, card.eb, card.prba) {
+  ChangChang(const ED& card, const MaterialAxes& axes, std::array<Curve, 5> over_rate)
+      : card_(card), axes_(axes), sheet_(card.ea, card.eb, card.prba), over_rate_(std::move(over_rate)) {
     ro = card.ro;
   }
   std::vector<HistoryVariable> history() const override {
-    return {{"ply_strain_a", "-"},
-            {"ply_strain_b", "-"},
-            {"ply_strain_ab", "-"},
-            {"borne_a_tension", "M/LT2"},
-            {"borne_a_compression", "M/LT2"},
-            {"borne_b_tension", "M/LT2"},
-            {"borne_b_compression", "M/LT2"},
-            {"borne_ab", "M/LT2"},
-            {"failed_modes", "-"},
-            {"failed_ply", "-"}};
+    std::vector<HistoryVariable> out = {{"ply_strain_a", "-"},
+                                        {"ply_strain_b", "-"},
+                                        {"ply_strain_ab", "-"},
+                                        {"borne_a_tension", "M/LT2"},
+                                        {"borne_a_compression", "M/LT2"},
+                                        {"borne_b_tension", "M/LT2"},
+                                        {"borne_b_compression", "M/LT2"},
+                                        {"borne_ab", "M/LT2"},
+                                        {"failed_modes", "-"},
+                                        {"failed_ply", "-"},
+                                        {beside_deleted, "-"}};
+    if (card_.has_rates()) out.push_back({"ply_rate", "1/T"});
+    return out;
   }
   /// As if it were isotropic with Young's modulus EB across the fibres: what contact asks for.
   Real bulk_modulus() const override { return card_.eb / (3 * (1 - 2 * 0.3)); }
@@ -85,6 +100,11 @@ class ChangChang : public StrengthLaw {
   Real plane_modulus() const override { return sheet_.largest(card_.gab); }
   Real failure_limit() const override { return 1; }
   std::string failure_variable() const override { return "failed_ply"; }
+  LeastStep least_step() const override {
+    constexpr Real largest_step = 0.1;  // above, TFAIL is a ratio
+    return card_.tfail > largest_step ? LeastStep{0, card_.tfail}
+                                      : LeastStep{std::max(card_.tfail, Real(0)), 0};
+  }
 
   /// Only sheets have it: the stress stays plane.
   void update(const PointBlock& block) const override {
@@ -97,12 +117,15 @@ class ChangChang : public StrengthLaw {
       const Real da = block.dt * block.rate[0][i], db = block.dt * block.rate[1][i],
                  dab = block.dt * block.rate[3][i];
       ply.ea += da, ply.eb += db, ply.eab += dab;
+      const bool soft = ply.beside > 0 && card_.softens();
+      const Strengths at = strengths(block, i, soft, da, db, dab);
+      const Real across = soft ? card_.softg : 1;
       Sheet s{block.stress[0][i], block.stress[1][i], block.stress[3][i]};
       const Sheet before = s;
       advance(da, db, dab, ply, s);
-      if (block.dt > 0) fail(ply, s);
-      Real yz = block.stress[4][i] + 2 * card_.gbc * block.dt * block.rate[4][i],
-           zx = block.stress[5][i] + 2 * card_.gca * block.dt * block.rate[5][i];
+      if (block.dt > 0) fail(ply, at, s);
+      Real yz = block.stress[4][i] + 2 * across * card_.gbc * block.dt * block.rate[4][i],
+           zx = block.stress[5][i] + 2 * across * card_.gca * block.dt * block.rate[5][i];
       if (ply.failed > 0) s = {0, 0, 0}, yz = zx = 0;
       block.stress[0][i] = s.a, block.stress[1][i] = s.b, block.stress[2][i] = 0;
       block.stress[3][i] = s.ab, block.stress[4][i] = yz, block.stress[5][i] = zx;
@@ -115,6 +138,26 @@ class ChangChang : public StrengthLaw {
   struct Sheet {
     Real a, b, ab;
   };
+
+  /// Those of the card, or over the mean rate; a share of them beside deleted elements.
+  Strengths strengths(const PointBlock& block, Index i, bool soft, Real da, Real db, Real dab) const {
+    Strengths out{card_.xc, card_.xt, card_.yc, card_.yt, card_.sc};
+    if (card_.has_rates() && block.dt > 0) {
+      Real& mean = block.history[11][i];
+      const Real now = std::sqrt(4.0 / 3 * (da * da + db * db + da * db + dab * dab)) / block.dt;
+      constexpr Real steps = 11;  // of the mean where DT does not tell its time
+      const Real weight = card_.dt > 0 ? 1 - std::exp(-block.dt / card_.dt) : 2 / (steps + 1);
+      mean += weight * (now - mean);
+    }
+    if (card_.has_rates()) {
+      Real* const to[] = {&out.xc, &out.xt, &out.yc, &out.yt, &out.sc};
+      for (std::size_t k = 0; k < over_rate_.size(); ++k)
+        if (!over_rate_[k].abscissa.empty()) *to[k] = over_rate_[k](block.history[11][i]);
+    }
+    if (soft)
+      for (Real* strength : {&out.xc, &out.xt, &out.yc, &out.yt, &out.sc}) *strength *= card_.soft;
+    return out;
+  }
 
   Real thinning(const Sheet& s, const Sheet& before) const {
     return card_.ec > 0 ? -(card_.prca * (s.a - before.a) + card_.prcb * (s.b - before.b)) / card_.ec : 0;
@@ -154,11 +197,11 @@ class ChangChang : public StrengthLaw {
       s.ab = std::clamp(s.ab, -ply.ab, ply.ab);
   }
 
-  void fail(PlyState& ply, Sheet& s) const {
-    const Real of_shear = s.ab * s.ab / (card_.sc * card_.sc);
+  void fail(PlyState& ply, const Strengths& at, Sheet& s) const {
+    const Real of_shear = s.ab * s.ab / (at.sc * at.sc);
     const bool crushed = ply.has(matrix_compression);
-    const Real XT = crushed && card_.fbrt > 0 ? card_.fbrt * card_.xt : card_.xt,
-               XC = crushed ? std::min(card_.xc, card_.ycfac * card_.yc) : card_.xc;
+    const Real XT = crushed && card_.fbrt > 0 ? card_.fbrt * at.xt : at.xt,
+               XC = crushed ? std::min(at.xc, card_.ycfac * at.yc) : at.xc;
     if (s.a > 0 && !ply.has(fibre_tension)) {
       const Real f = reach_of_ray(s.a * s.a / (XT * XT) + card_.beta * of_shear, 0);
       if (f < 1) fail_fibre_tension(f, ply, s);
@@ -168,7 +211,7 @@ class ChangChang : public StrengthLaw {
     }
     const int mode = s.b >= 0 ? matrix_tension : matrix_compression;
     if (!ply.has(mode | fibre_tension)) {
-      const Real f = matrix_reach(s);
+      const Real f = matrix_reach(at, s);
       if (f < 1) fail_matrix(mode, f, ply, s);
     }
     limit(ply, s);
@@ -205,12 +248,12 @@ class ChangChang : public StrengthLaw {
   }
 
   /// Where on the ray to this stress the matrix fails, at most 1.
-  Real matrix_reach(const Sheet& s) const {
-    const Real shear = s.ab / card_.sc, yc = card_.yc, yt = card_.yt;
+  Real matrix_reach(const Strengths& at, const Sheet& s) const {
+    const Real shear = s.ab / at.sc, yc = at.yc, yt = at.yt;
     if (card_.crit == 55)
       return reach_of_ray(s.b * s.b / (yc * yt) + shear * shear, (yc - yt) * s.b / (yc * yt));
     if (s.b >= 0) return reach_of_ray(s.b * s.b / (yt * yt) + shear * shear, 0);
-    const Real twice = 2 * card_.sc;
+    const Real twice = 2 * at.sc;
     return reach_of_ray(s.b * s.b / (twice * twice) + shear * shear,
                         (yc * yc / (twice * twice) - 1) * s.b / yc);
   }
@@ -218,10 +261,37 @@ class ChangChang : public StrengthLaw {
   ED card_;
   MaterialAxes axes_;
   SheetStiffness sheet_;
+  std::array<Curve, 5> over_rate_;  ///< without points: there is none
 };
 
 std::shared_ptr<StrengthLaw> ED::law(const Model& model) const {
-  return std::make_shared<ChangChang>(*this, axes(model, mangle));
+  std::array<Curve, 5> over_rate;
+  const Id ids[] = {lcxc, lcxt, lcyc, lcyt, lcsc};
+  for (std::size_t k = 0; k < over_rate.size(); ++k)
+    if (const auto found = model.curves.find(ids[k]); found != model.curves.end())
+      over_rate[k] = found->second;
+  return std::make_shared<ChangChang>(*this, axes(model, mangle), std::move(over_rate));
+}
+
+/// Curves over the rate, which have a strength above 0 everywhere.
+void ED::check_rates(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
+  for (const auto& [field, id] : {std::pair{"LCXC", lcxc}, std::pair{"LCXT", lcxt}, std::pair{"LCYC", lcyc},
+                                  std::pair{"LCYT", lcyt}, std::pair{"LCSC", lcsc}}) {
+    if (id == 0) continue;
+    const auto found = model.curves.find(id);
+    if (found == model.curves.end()) {
+      deck.error(diagnostics, *this, field, fmt::format("curve {} does not exist", id),
+                 "define it with *DEFINE_CURVE");
+      continue;
+    }
+    const std::vector<Real>& values = found->second.ordinate;
+    if (std::any_of(values.begin(), values.end(), [](Real value) { return !(value > 0); }))
+      deck.error(diagnostics, *this, field, fmt::format("curve {} has strengths that are not above 0", id),
+                 "give the strength over the rate of effective strain");
+  }
+  if (dt != 0 && !has_rates())
+    deck.warning(diagnostics, *this, "DT", "has no effect: no strength depends on the rate",
+                 "give LCXC and its like, or leave it blank");
 }
 
 void ED::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
@@ -236,12 +306,18 @@ void ED::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) c
                "PRBA^2 < EB/EA");
   refuse("CRIT", crit != 54 && crit != 55, crit, "the matrix fails by Chang and Chang or by Tsai and Wu",
          "54 or 55");
-  refuse("SOFT", soft != 1, soft, "strength does not fall beside deleted elements", "leave the field blank");
+  for (const auto& [field, value] : {std::pair{"SOFT", soft}, std::pair{"SOFTG", softg}}) {
+    refuse(field, !(value > 0 && value <= 1), value, "it is a share of what stands on the card",
+           "above 0, and 1 at most");
+    if (value != 1 && !(tfail > 0))
+      deck.warning(
+          diagnostics, *this, field,
+          fmt::format("'{:g}' has no effect: it acts beside deleted elements where TFAIL > 0", value),
+          "give TFAIL");
+  }
+  check_rates(deck, model, diagnostics);
   refuse("SOFT2", soft2 != 1, soft2, "stiffness does not fall beside deleted elements",
          "leave the field blank");
-  refuse("SOFTG", softg != 1, softg, "stiffness does not fall beside deleted elements",
-         "leave the field blank");
-  refuse("TFAIL", tfail > 0, tfail, "plies do not fail by the step", "leave the field blank");
   for (const auto& [field, value] :
        {std::pair{"SLIMT1", slimt1}, std::pair{"SLIMC1", slimc1}, std::pair{"SLIMT2", slimt2},
         std::pair{"SLIMC2", slimc2}, std::pair{"SLIMS", slims}})
@@ -262,7 +338,7 @@ void ED::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) c
 // 0.4. XT = 0.8: the fibre fails, and without DFAILT the ply. Strain 0.3 along b: a 0.4, b 0.4; YT = 0.2: b
 // stays 0.2.
 constexpr const char* stiff_ply = "1,2.0,4.0,1.0,,0.25\n1.0,2.0,3.0\n\n\n";
-constexpr FieldRules curve_over_rate{.honour = Honour::no, .refers = IdSpace::curve};
+constexpr FieldRules curve_over_rate{.check = Check::not_negative, .refers = IdSpace::curve};
 const RegisterStrength<ED> mat_enhanced_composite_damage{
     "elastic by the directions of a sheet, 2 D ab = d(tau/GAB + ALPH tau^3)/dt, until fibres fail, "
     "(s_a/XT)^2 + "
@@ -314,13 +390,14 @@ const RegisterStrength<ED> mat_enhanced_composite_damage{
                                                    "-",
                                                    "the same of shear (of the tensor)",
                                                    {.check = Check::not_negative}}})},
-         {.fields = {{"TFAIL", &ED::tfail, "-", "step at which elements fail"},
+         {.fields = {{"TFAIL", &ED::tfail, "-",
+                      "elements go whose step is below it, above 0.1 its share of the first one; 0: none"},
                      {"ALPH",
                       &ED::alph,
                       "L3T6/M3",
                       "of the cube of the shear stress",
                       {.check = Check::not_negative}},
-                     {"SOFT", &ED::soft, "-", "strength beside deleted elements", {.standard = 1}},
+                     {"SOFT", &ED::soft, "-", "share of strengths beside deleted elements", {.standard = 1}},
                      {"FBRT",
                       &ED::fbrt,
                       "-",
@@ -363,36 +440,37 @@ const RegisterStrength<ED> mat_enhanced_composite_damage{
                      {"TSMD", &ED::tsmd, "-", "its largest", no_effect_but(0.9)},
                      {"SOFT2", &ED::soft2, "-", "stiffness beside deleted elements", {.standard = 1}}},
           .optional = true},
-         {.fields = {{"SLIMT1",
-                      &ED::slimt1,
-                      "-",
-                      "left of the strength of fibres in tension",
-                      {.standard = 1, .check = Check::not_negative}},
-                     {"SLIMC1",
-                      &ED::slimc1,
-                      "-",
-                      "of fibres in compression",
-                      {.standard = 1, .check = Check::not_negative}},
-                     {"SLIMT2",
-                      &ED::slimt2,
-                      "-",
-                      "of the matrix in tension",
-                      {.standard = 1, .check = Check::not_negative}},
-                     {"SLIMC2",
-                      &ED::slimc2,
-                      "-",
-                      "of the matrix in compression",
-                      {.standard = 1, .check = Check::not_negative}},
-                     {"SLIMS", &ED::slims, "-", "of shear", {.standard = 1, .check = Check::not_negative}},
-                     {"NCYRED", &ED::ncyred, "-", "steps in which stress falls to it", no_effect},
-                     {"SOFTG", &ED::softg, "-", "shear modulus beside deleted elements", {.standard = 1}}},
+         {.fields =
+              {{"SLIMT1",
+                &ED::slimt1,
+                "-",
+                "left of the strength of fibres in tension",
+                {.standard = 1, .check = Check::not_negative}},
+               {"SLIMC1",
+                &ED::slimc1,
+                "-",
+                "of fibres in compression",
+                {.standard = 1, .check = Check::not_negative}},
+               {"SLIMT2",
+                &ED::slimt2,
+                "-",
+                "of the matrix in tension",
+                {.standard = 1, .check = Check::not_negative}},
+               {"SLIMC2",
+                &ED::slimc2,
+                "-",
+                "of the matrix in compression",
+                {.standard = 1, .check = Check::not_negative}},
+               {"SLIMS", &ED::slims, "-", "of shear", {.standard = 1, .check = Check::not_negative}},
+               {"NCYRED", &ED::ncyred, "-", "steps in which stress falls to it", no_effect},
+               {"SOFTG", &ED::softg, "-", "share of GBC and GCA beside deleted elements", {.standard = 1}}},
           .optional = true},
-         {.fields = {{"LCXC", &ED::lcxc, "-", "XC over the rate", curve_over_rate},
-                     {"LCXT", &ED::lcxt, "-", "XT over the rate", curve_over_rate},
-                     {"LCYC", &ED::lcyc, "-", "YC over the rate", curve_over_rate},
-                     {"LCYT", &ED::lcyt, "-", "YT over the rate", curve_over_rate},
-                     {"LCSC", &ED::lcsc, "-", "SC over the rate", curve_over_rate},
-                     {"DT", &ED::dt, "T", "over which the rate is averaged", no_effect}},
+         {.fields = {{"LCXC", &ED::lcxc, "-", "XC over the rate of effective strain", curve_over_rate},
+                     {"LCXT", &ED::lcxt, "-", "XT over the rate of effective strain", curve_over_rate},
+                     {"LCYC", &ED::lcyc, "-", "YC over the rate of effective strain", curve_over_rate},
+                     {"LCYT", &ED::lcyt, "-", "YT over the rate of effective strain", curve_over_rate},
+                     {"LCSC", &ED::lcsc, "-", "SC over the rate of effective strain", curve_over_rate},
+                     {"DT", &ED::dt, "T", "over which the rate is averaged; 0 and less: over 11 steps"}},
           .optional = true}}}};
 
 }  // namespace

@@ -26,6 +26,9 @@ struct HistoryVariable {
   bool is_tensor() const { return components == 6; }
 };
 
+/// Name of a history number that becomes 1 beside elements that are deleted.
+inline constexpr const char* beside_deleted = "beside_deleted_elements";
+
 /// Failure strains from here on say that nothing fails.
 inline constexpr Real never_fails = 1e10;
 
@@ -54,6 +57,11 @@ class StrengthLaw {
   virtual std::string failure_variable() const { return "plastic_strain"; }
   /// When all points fail; infinity: never by that. [T]
   virtual Real failure_time() const { return std::numeric_limits<Real>::infinity(); }
+  /// Steps of an element below which it fails: the step itself [T], and its ratio to the first one. [-]
+  struct LeastStep {
+    Real step = 0, ratio = 0;
+  };
+  virtual LeastStep least_step() const { return {}; }
   /// V/V0 below and above which an element fails. [-]
   virtual std::pair<Real, Real> volume_range() const { return {0, std::numeric_limits<Real>::infinity()}; }
   /// Pressure of the equation of state is cut off below this. [M/LT2]

@@ -33,6 +33,11 @@ constexpr CurveDimensions known[] = {
     {"MAT_MODIFIED_PIECEWISE_LINEAR_PLASTICITY", "LCSR", "1/T", "-"},
     {"MAT_CRUSHABLE_FOAM", "LCID", "-", "M/LT2"},
     {"MAT_LOW_DENSITY_FOAM", "LCID", "-", "M/LT2"},
+    {"MAT_ENHANCED_COMPOSITE_DAMAGE", "LCXC", "1/T", "M/LT2"},
+    {"MAT_ENHANCED_COMPOSITE_DAMAGE", "LCXT", "1/T", "M/LT2"},
+    {"MAT_ENHANCED_COMPOSITE_DAMAGE", "LCYC", "1/T", "M/LT2"},
+    {"MAT_ENHANCED_COMPOSITE_DAMAGE", "LCYT", "1/T", "M/LT2"},
+    {"MAT_ENHANCED_COMPOSITE_DAMAGE", "LCSC", "1/T", "M/LT2"},
     {"MAT_SPRING_NONLINEAR_ELASTIC", "LCD", "L", "ML/T2"},  // torsional ones are refused beside unit factors
     {"MAT_SPRING_NONLINEAR_ELASTIC", "LCR", "L/T", "-"},
     {"MAT_DAMPER_NONLINEAR_VISCOUS", "LCDR", "L/T", "ML/T2"},

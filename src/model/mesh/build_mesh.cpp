@@ -1,6 +1,7 @@
 // Nodes, parts and elements.
 #include <fmt/format.h>
 #include <algorithm>
+#include <map>
 
 #include "model/build_model.hpp"
 #include "model/mesh/part_composite.hpp"
@@ -88,17 +89,17 @@ void ModelBuilder::build_parts() {
     ModelPart& part = model_.parts.back();
     part.plies = card.plies();
     if (!part.plies.empty()) part.mid = part.plies.front().mid;  // of a rigid part that of all
-    check_plies(card, part);
+    check_plies(card, part.plies, fmt::format("part {}", part.id));
   }
 }
 
-void ModelBuilder::check_plies(const Entry& card, const ModelPart& part) {
-  if (part.plies.empty()) error(card, "MID1", fmt::format("part {} has no layers", part.id));
-  for (std::size_t k = 0; k < part.plies.size(); ++k) {
-    if (part.plies[k].mid == 0)
-      error(card, "MID1", fmt::format("layer {} of part {} has no material", k + 1, part.id));
-    if (!(part.plies[k].thickness > 0))
-      error(card, "THICK1", fmt::format("layer {} of part {} has no thickness", k + 1, part.id));
+void ModelBuilder::check_plies(const Entry& card, const std::vector<ModelPly>& plies,
+                               const std::string& whose) {
+  if (plies.empty()) error(card, "MID1", fmt::format("{} has no layers", whose));
+  for (std::size_t k = 0; k < plies.size(); ++k) {
+    if (plies[k].mid == 0) error(card, "MID1", fmt::format("layer {} of {} has no material", k + 1, whose));
+    if (!(plies[k].thickness > 0))
+      error(card, "THICK1", fmt::format("layer {} of {} has no thickness", k + 1, whose));
   }
 }
 
@@ -131,34 +132,58 @@ void ModelBuilder::add_particle(const ElementSphCard& card, Id nid, Index p) {
 
 void ModelBuilder::build_shells() {
   const auto& cards = deck_.all<ElementShellCard>();
-  std::unordered_map<Id, const ElementShellCard*> first;
-  first.reserve(cards.size());
-  model_.shells.reserve(cards.size());
+  const auto& composites = deck_.all<ElementShellCompositeCard>();
+  shell_cards_.reserve(cards.size() + composites.size());
+  model_.shells.reserve(cards.size() + composites.size());
   for (const ElementShellCard& card : cards) {
-    const auto [it, is_new] = first.try_emplace(card.eid, &card);
-    if (!is_new) duplicate(card, "EID", "shell", card.eid, deck_.where(*it->second));
-    ModelShell shell;
-    shell.id = card.eid;
-    shell.part = part(card, "PID", card.pid);
-    shell.node = {node(card, "N1", card.n1), node(card, "N2", card.n2), node(card, "N3", card.n3),
-                  card.n4 == 0 ? 0 : node(card, "N4", card.n4)};
-    if (card.n4 == 0) shell.node[3] = shell.node[2];
-    if (shell.part < 0 || *std::min_element(shell.node.begin(), shell.node.end()) < 0) continue;
-    if (!normalise_corners(shell.node) || !has_area(model_.nodes, shell.node)) {
-      error(card, "EID", fmt::format("shell {} has no area", card.eid),
-            "its corners must be three or four points that are not on one line");
-      continue;
-    }
-    ModelPart& p = model_.parts[static_cast<std::size_t>(shell.part)];
-    if (p.has_sph && !p.has_shell)
-      error(card, "PID", fmt::format("part {} has particles already", p.id),
-            "give the shells a part of their own");
-    p.has_shell = true;
-    if (card.has_thickness())
-      model_.shell_thickness[static_cast<Index>(model_.shells.size())] = {card.thic1, card.thic2, card.thic3,
-                                                                          card.thic4};
-    if (card.has_beta()) model_.shell_beta[static_cast<Index>(model_.shells.size())] = card.beta;
-    model_.shells.push_back(shell);
+    const Index s = add_shell(card);
+    if (s < 0) continue;
+    if (card.has_thickness()) model_.shell_thickness[s] = {card.thic1, card.thic2, card.thic3, card.thic4};
+    if (card.has_beta()) model_.shell_beta[s] = card.beta;
+  }
+  build_layered_shells(composites);
+  shell_cards_ = {};
+}
+
+/// Its index; -1: it has a fault.
+Index ModelBuilder::add_shell(const ElementShellCard& card) {
+  const auto [it, is_new] = shell_cards_.try_emplace(card.eid, &card);
+  if (!is_new) duplicate(card, "EID", "shell", card.eid, deck_.where(*it->second));
+  ModelShell shell;
+  shell.id = card.eid;
+  shell.part = part(card, "PID", card.pid);
+  shell.node = {node(card, "N1", card.n1), node(card, "N2", card.n2), node(card, "N3", card.n3),
+                card.n4 == 0 ? 0 : node(card, "N4", card.n4)};
+  if (card.n4 == 0) shell.node[3] = shell.node[2];
+  if (shell.part < 0 || *std::min_element(shell.node.begin(), shell.node.end()) < 0) return -1;
+  if (!normalise_corners(shell.node) || !has_area(model_.nodes, shell.node)) {
+    error(card, "EID", fmt::format("shell {} has no area", card.eid),
+          "its corners must be three or four points that are not on one line");
+    return -1;
+  }
+  ModelPart& p = model_.parts[static_cast<std::size_t>(shell.part)];
+  if (p.has_sph && !p.has_shell)
+    error(card, "PID", fmt::format("part {} has particles already", p.id),
+          "give the shells a part of their own");
+  p.has_shell = true;
+  model_.shells.push_back(shell);
+  return static_cast<Index>(model_.shells.size()) - 1;
+}
+
+void ModelBuilder::build_layered_shells(const std::vector<ElementShellCompositeCard>& cards) {
+  std::map<std::pair<Index, std::vector<Real>>, Index> known;  // by part and what its layers are
+  for (const ElementShellCompositeCard& card : cards) {
+    const Index s = add_shell(card);
+    if (s < 0) continue;
+    std::vector<ModelPly> plies = card.plies();
+    std::pair<Index, std::vector<Real>> key{model_.shells[static_cast<std::size_t>(s)].part, {}};
+    for (const ModelPly& ply : plies)
+      key.second.insert(key.second.end(), {static_cast<Real>(ply.mid), ply.thickness, ply.angle});
+    const auto [found, is_new] = known.try_emplace(std::move(key), static_cast<Index>(model_.layups.size()));
+    model_.shell_layup[s] = found->second;
+    if (!is_new) continue;
+    check_plies(card, plies, fmt::format("shell {}", card.eid));
+    model_.layups.push_back({found->first.first, std::move(plies), card});
   }
 }
 

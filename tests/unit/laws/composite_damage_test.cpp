@@ -11,6 +11,7 @@
 
 #include "law_from_cards.hpp"
 #include "laws/strength/material_axes.hpp"
+#include "ply_point.hpp"
 
 using namespace courant;
 
@@ -26,29 +27,7 @@ std::shared_ptr<StrengthLaw> ply(const std::string& fifth = "", const std::strin
                   EB, prba, GAB, dfail, fifth, XC, XT, YC, YT, SC, more));
 }
 
-struct OnePoint {
-  explicit OnePoint(std::shared_ptr<StrengthLaw> of) : law(std::move(of)) {
-    for (const HistoryVariable& h : law->history()) names.push_back(h.name);
-    history.assign(names.size(), 0);
-  }
-  /// Strains a, b, ab of the tensor more, in `steps`.
-  void strain(Real a, Real b, Real ab, int steps = 1) {
-    Real rate[6] = {a / steps, b / steps, 0, ab / steps, 0, 0}, c = 0, zz = 0;
-    std::vector<Real*> kept;
-    for (Real& h : history) kept.push_back(&h);
-    PointBlock block;
-    block.count = 1, block.dt = 1, block.sound_speed = &c, block.history = kept;
-    for (std::size_t k = 0; k < 6; ++k) block.rate[k] = &rate[k], block.stress[k] = &stress[k];
-    for (int n = 0; n < steps; ++n) law->update_in_plane_stress(block, &zz);
-  }
-  Real of(const std::string& name) const {
-    return history[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
-  }
-  std::shared_ptr<StrengthLaw> law;
-  std::vector<std::string> names;
-  std::vector<Real> history;
-  Real stress[6] = {};
-};
+using test::OnePoint;
 
 }  // namespace
 
@@ -232,4 +211,53 @@ TEST(MaterialAxes, DirectionsInAShell) {
   EXPECT_LT((a - Vec(1, 0, 0)).norm(), 1e-12);
   axes = {MaterialAxes::Rule::vector, Vec(0, 0, 5), 0};
   EXPECT_FALSE(direction_in_shell(axes, n, side, a));
+}
+
+namespace {
+
+/// With SOFT, TFAIL and curves over the rate on the last cards.
+OnePoint ply_with(Real tfail, Real soft, Real softg, const std::string& curves, const std::string& more) {
+  return OnePoint(
+      test::law_from_cards("MAT_ENHANCED_COMPOSITE_DAMAGE",
+                           fmt::format("1,1.0,{},{},0.0,0.0\n{},2.0,3.0\n\n\n{},0.0,{}\n{},{},{},{},{}\n\n1."
+                                       "0,1.0,1.0,1.0,1.0,0.0,{}\n{}\n",
+                                       EA, EB, GAB, tfail, soft, XC, XT, YC, YT, SC, softg, curves) +
+                               more));
+}
+
+}  // namespace
+
+TEST(CompositeDamage, IsWeakerBesideDeletedElementsWhereTheyGoByTheirStep) {
+  for (const bool acts : {true, false}) {
+    OnePoint p = ply_with(acts ? 1e-6 : 0, 0.6, 0.5, "", "");
+    p.strain(0, 0.5 * YT / EB, 0);
+    p.at(beside_deleted) = 1;
+    p.strain(0, 0.5 * YT / EB, 0, 1, 0.001, 0.002);
+    EXPECT_NEAR(p.stress[1], (acts ? 0.6 : 1) * YT, 1e-12) << acts;
+    EXPECT_NEAR(p.stress[4], (acts ? 0.5 : 1) * 2 * 2 * 0.001, 1e-15) << acts;
+    EXPECT_NEAR(p.stress[5], (acts ? 0.5 : 1) * 2 * 3 * 0.002, 1e-15) << acts;
+  }
+}
+
+TEST(CompositeDamage, StepsBelowTfailTakeElementsAway) {
+  EXPECT_EQ(ply_with(1e-6, 1, 1, "", "").law->least_step().step, 1e-6);
+  EXPECT_EQ(ply_with(1e-6, 1, 1, "", "").law->least_step().ratio, 0);
+  EXPECT_EQ(ply_with(0.4, 1, 1, "", "").law->least_step().step, 0);
+  EXPECT_EQ(ply_with(0.4, 1, 1, "", "").law->least_step().ratio, 0.4);
+  EXPECT_EQ(ply_with(-1, 1, 1, "", "").law->least_step().step, 0);
+}
+
+// Strength YT 0.1 at rest and 0.3 at a rate of 0.001: at a rate r kept long enough 0.1 + 200 r. The rate is
+// that of the effective strain, sqrt(4/3) times the one along b.
+TEST(CompositeDamage, StrengthsFollowTheRate) {
+  const std::string curve = "*DEFINE_CURVE\n5\n0.0,0.1\n0.001,0.3\n";
+  for (const Real rate : {0.00002, 0.00005}) {  // along b, by a step of 1
+    OnePoint p = ply_with(0, 1, 1, "0,0,0,5", curve);
+    p.strain(0, 1000 * rate, 0, 1000);
+    EXPECT_NEAR(p.stress[1], 0.1 + 200 * std::sqrt(4.0 / 3) * rate, 1e-9) << rate;
+  }
+  // DT: the mean grows as 1 - exp(-t/DT)
+  OnePoint p = ply_with(0, 1, 1, "0,0,0,5,0,50.0", curve);
+  p.strain(0, 0.05, 0, 50);
+  EXPECT_NEAR(p.of("ply_rate"), std::sqrt(4.0 / 3) * 0.001 * (1 - std::exp(-1.0)), 1e-12);
 }

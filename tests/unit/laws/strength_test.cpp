@@ -226,6 +226,17 @@ TEST(StrengthRegistry, AnswersDoNotDependOnTheAxes) {
   });
 }
 
+namespace {
+
+/// No strain of it is elastic.
+bool damages_from_the_start(const StrengthLaw& law) {
+  const std::vector<HistoryVariable> kept = law.history();
+  return std::any_of(kept.begin(), kept.end(),
+                     [](const HistoryVariable& h) { return h.name == "largest_shear"; });
+}
+
+}  // namespace
+
 TEST(StrengthRegistry, AClosedCycleOfStrainGivesNoWork) {
   // 0 for elastic strains, at least 0 beyond
   for_each_law([](const StrengthEntry& kind, const StrengthReference&, const StrengthLaw& law) {
@@ -248,7 +259,9 @@ TEST(StrengthRegistry, AClosedCycleOfStrainGivesNoWork) {
         work += contract(mean, e);
         most = std::max(most, std::abs(work));
       }
-      if (size < 1 || point.history.empty())
+      if (damages_from_the_start(law))
+        EXPECT_GE(work, 0) << kind.keyword;
+      else if (size < 1 || point.history.empty())
         EXPECT_NEAR(work, 0, 1e-10 * most) << kind.keyword;
       else if (law.axes())
         EXPECT_GE(work, 0) << kind.keyword;  // all of a ply may be gone in the first step
