@@ -218,8 +218,9 @@ class Contact : public Force,
   void look_further(const World& world);
   void note_approach(const World& world, Block& b, const Slot& slot, Real dt) const;
   Vec in_plane(Vec v) const;
-  bool balance(World& world, const Clock& clock);
-  Real correct(World& world, const Clock& clock, Touch& touch) const;
+  struct Supports;  ///< what supports and curves leave free, of particles and nodes
+  bool balance(World& world, const Clock& clock, const Supports& supports);
+  Real correct(World& world, const Clock& clock, const Supports& supports, Touch& touch) const;
   bool join_struck(const World& world, const Clock& clock, Block& b) const;
   Real gap_at_end(const World& world, const Clock& clock, Index particle, const Facet& f, Real side) const;
   Vec wall_kick(const World& world, const Facet& f, const Vec& q, Real time) const;

@@ -15,33 +15,37 @@ namespace {
 /// No particle comes nearer to a mid-surface, of the contact distance.
 constexpr Real closest = 0.1;
 
-/// What is left of a force on a node that is known after its supports: none along what they hold, none at all
-/// where a curve drives it.
-class FreeNodes {
- public:
-  explicit FreeNodes(const Nodes& nodes)
-      : held_(shared_fields::held_axes.find(nodes.fields)),
-        driven_(shared_fields::prescribed_motion.find(nodes.fields)) {}
-  Vec part_of(Vec force, Index node) const {
-    if (driven_ && (*driven_)[node]) return Vec::Zero();
-    for (int k = 0; held_ && k < 3; ++k)
-      if ((*held_)[node] & (1 << k)) force[k] = 0;
-    return force;
-  }
-
- private:
-  const Field<Index>*held_, *driven_;
-};
-
-/// The largest part of n^2 along which a corner of a facet can give way. [-]
-Real free_share(const Nodes& nodes, const Facet& f, const Vec& n) {
-  const FreeNodes free(nodes);
-  Real out = 0;
-  for (int e = 0; e < f.corners; ++e) out = std::max(out, free.part_of(n, f.node[e]).squaredNorm());
-  return out;
-}
-
 }  // namespace
+
+struct Contact::Supports {
+  /// What is left of a force on nodes or particles that is known after their supports: none along what they
+  /// hold, none at all where a curve drives it.
+  class FreeAxes {
+   public:
+    explicit FreeAxes(const FieldSet& fields)
+        : held_(shared_fields::held_axes.find(fields)),
+          driven_(shared_fields::prescribed_motion.find(fields)) {}
+    bool is_driven(Index i) const { return driven_ && (*driven_)[i]; }
+    Vec part_of(Vec force, Index i) const {
+      if (is_driven(i)) return Vec::Zero();
+      for (int k = 0; held_ && k < 3; ++k)
+        if ((*held_)[i] & (1 << k)) force[k] = 0;
+      return force;
+    }
+
+   private:
+    const Field<Index>*held_, *driven_;
+  };
+  FreeAxes particles, nodes;
+
+  explicit Supports(const World& world) : particles(world.particles.fields), nodes(world.nodes.fields) {}
+  /// The largest part of n^2 along which a corner of a facet can give way. [-]
+  Real free_share(const Facet& f, const Vec& n) const {
+    Real out = 0;
+    for (int e = 0; e < f.corners; ++e) out = std::max(out, nodes.part_of(n, f.node[e]).squaredNorm());
+    return out;
+  }
+};
 
 // Nobody may come from out of reach to a wall within one step: particles make no step longer than h, walls as
 // they please.
@@ -81,17 +85,17 @@ void Contact::strike(World& world, const Clock& clock) {
   if (!hold_ || asleep_) return;
   const bool bodies =
       std::any_of(moving_.begin(), moving_.end(), [&](Index s) { return facets_[s].body >= 0; });
+  const Supports supports(world);
   for_each_block(listed_, [&](Index begin, Index) {
     Block& b = blocks_[begin / block_size];
     for (Touch& a : b.touches) a.held = 0;
     if (bodies) return;
-    for (Touch& a : b.touches) correct(world, clock, a);
+    for (Touch& a : b.touches) correct(world, clock, supports, a);
   });
-  for (bool more = bodies; more && balance(world, clock);) {
+  for (bool more = bodies; more && balance(world, clock, supports);) {
     more = false;
     for (Block& b : blocks_) more = join_struck(world, clock, b) || more;
   }
-  const FreeNodes free(world.nodes);
   for (const Block& b : blocks_)
     for (const Touch& a : b.touches) {
       if (!(a.held > 0)) continue;
@@ -100,13 +104,13 @@ void Contact::strike(World& world, const Clock& clock) {
       if (!f.moves) continue;
       const auto share = shape_functions(f, a.q);
       for (int e = 0; e < f.corners; ++e)
-        world.nodes.f.add(f.node[e], free.part_of(-share[e] * a.held * in_plane(a.n), f.node[e]));
+        world.nodes.f.add(f.node[e], supports.nodes.part_of(-share[e] * a.held * in_plane(a.n), f.node[e]));
     }
   if (held_now_ > 0) world.counters["contact_held"] += held_now_;
 }
 
 // Whether any touch is held.
-bool Contact::balance(World& world, const Clock& clock) {
+bool Contact::balance(World& world, const Clock& clock, const Supports& supports) {
   constexpr int most_sweeps = 200;
   constexpr Real enough = 1e-4;  // of the largest force
   Real largest = 0;
@@ -115,7 +119,7 @@ bool Contact::balance(World& world, const Clock& clock) {
     largest = 0;
     for (Block& b : blocks_)
       for (Touch& a : b.touches) {
-        changed = std::max(changed, std::abs(correct(world, clock, a)));
+        changed = std::max(changed, std::abs(correct(world, clock, supports, a)));
         largest = std::max(largest, a.held);
       }
     if (changed <= enough * largest) break;
@@ -180,7 +184,7 @@ Real Contact::gap_at_end(const World& world, const Clock& clock, Index i, const 
 
 // Makes the held force what the coming step needs of it, given all others; returns by how much it changed.
 // What is driven, or held along an axis, is not moved there. [ML/T2]
-Real Contact::correct(World& world, const Clock& clock, Touch& a) const {
+Real Contact::correct(World& world, const Clock& clock, const Supports& supports, Touch& a) const {
   Particles& p = world.particles;
   const Index i = a.particle;
   const Facet& f = facets_[a.facet];
@@ -197,14 +201,11 @@ Real Contact::correct(World& world, const Clock& clock, Touch& a) const {
     too_fast = std::max(too_fast, (least - gap_at_end(world, clock, i, f, side)) / dt);
   }
   if (!(too_fast > 0) && a.held == 0) return 0;
-  Vec along = in_plane(a.n);
-  if (const auto* driven = shared_fields::prescribed_motion.find(p.fields); driven && (*driven)[i]) return 0;
-  if (const auto* axes = shared_fields::held_axes.find(p.fields))
-    for (int k = 0; k < 3; ++k)
-      if ((*axes)[i] & (1 << k)) along[k] = 0;
+  if (supports.particles.is_driven(i)) return 0;
+  const Vec along = supports.particles.part_of(in_plane(a.n), i);
   const Real give = !f.moves      ? 0
                     : f.body >= 0 ? options_.bodies.give(f.body, a.q, a.n)
-                                  : free_share(world.nodes, f, a.n) / f.m;
+                                  : supports.free_share(f, a.n) / f.m;
   const Real mobility = along.squaredNorm() / m + give;
   if (!(mobility > 1e-6 / m)) return 0;
   const Real change = std::max(too_fast / kick / mobility, -a.held);

@@ -37,7 +37,7 @@ void WallImages::drag(Particles& p, const WallPath& path, Block& block) const {
   for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
     const WallSurface::Face& face = at_end().face(met[k].face);
     if (!walls_.friction[static_cast<std::size_t>(face.segment)].no_slip) return;
-    slide[k] = face.slide_at(belt_factors_, met[k].at - at_end().shift());
+    slide[k] = face.slide_at(support_->belt_factors(), met[k].at - at_end().shift());
     Vec w = slide[k];
     if (face.body >= 0) w += at_end().velocity(met[k].face, met[k].at);
     u -= (k % 2 == 0 ? 2 : -2) * w;
@@ -59,7 +59,7 @@ void WallImages::drag(Particles& p, const WallPath& path, Block& block) const {
 }
 
 void WallImages::record(World&, const Clock& clock, EnergyLedger& ledger) {
-  if (belt_factors_.empty()) return;
+  if (!walls_.belts.any()) return;
   Real power = 0;
   for (const Block& block : blocks_) power += block.belt_power;
   ledger.external_work += power * clock.dt_mean();

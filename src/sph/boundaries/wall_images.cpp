@@ -112,8 +112,6 @@ void WallImages::declare(const World& world, Accesses& a) const {
 
 void WallImages::start(World& world, const Clock& clock) {
   half_step_ = 0.5 * clock.dt_old;
-  belt_factors_.clear();
-  for (const WallBelts::Belt& belt : walls_.belts.belts) belt_factors_.push_back(belt.factor(clock.t));
   blocks_.resize(static_cast<std::size_t>(block_count(world.particles.active)));
   if (!any_moves_) return;
   paths_from_->take_along(world, 0);

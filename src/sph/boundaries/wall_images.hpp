@@ -94,9 +94,8 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   /// Where walls hold water fast; `viscous_` where there is no turbulence.
   Field<Real>*viscosity_ = nullptr, *heat_ = nullptr, *drag_ = nullptr, *viscous_ = nullptr;
   SupportedWalls walls_;
-  bool mixed_ = false;              ///< walls that hold, rub or slide differently
-  std::vector<Real> belt_factors_;  ///< in this step
-  Real width_, spacing_, reach_;    ///< of edges; of pieces of wall that are searched; of anybody's look [L]
+  bool mixed_ = false;            ///< walls that hold, rub or slide differently
+  Real width_, spacing_, reach_;  ///< of edges; of pieces of wall that are searched; of anybody's look [L]
   bool any_moves_;
   std::optional<WallSurface> surface_;     ///< where walls move: at the last refresh
   std::vector<Index> nodes_;               ///< of walls that move

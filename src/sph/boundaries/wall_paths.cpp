@@ -36,21 +36,19 @@ Nearest nearest(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
 /// particles are looked at a little aside of their places, which does not matter otherwise; at the other end
 /// of its way, a particle that sees itself elsewhere again: in a corner that way always goes through the
 /// edge. [L]
-Vec aside(Real reach, int dim, bool again = false) {
+Vec aside(Real reach, int dim, bool again) {
   return 1e-5 * reach *
          (again ? Vec(-0.2, 0.5303, dim == 2 ? 0 : 0.7071) : Vec(0.6180, 0.4142, dim == 2 ? 0 : 0.2679));
 }
 
 }  // namespace
 
-Vec WallPaths::put_aside(const Vec& x, bool again) const {
-  return surface_.in_plane(x) + aside(surface_.reach(), dim_, again);
-}
-
 WallPaths::WallPaths(const WallSurface& surface, int dim, Real width)
     : surface_(surface),
       dim_(dim),
       width_(width),
+      aside_(aside(surface.reach(), dim, false)),
+      aside_again_(aside(surface.reach(), dim, true)),
       edges_(static_cast<std::size_t>(surface.faces())),
       faces_(surface.faces() > 0 ? &surface.face(0) : nullptr) {
   for_each(surface.faces(), [&](Index f) {
@@ -65,6 +63,8 @@ WallPaths::WallPaths(const WallPaths& other)
     : surface_(other.surface_),
       dim_(other.dim_),
       width_(other.width_),
+      aside_(other.aside_),
+      aside_again_(other.aside_again_),
       edges_(other.edges_),
       any_moves_(other.any_moves_),
       faces_(other.faces_),
@@ -124,7 +124,9 @@ WallPaths::Sheets WallPaths::seen_from(const Vec& x) const {
   if (view.nothing) return out;
   const auto sheet_of = [&](Index face) {
     const auto& f = this->face(face);
-    return Sheet{f.n, f.offset, f.plane, false, face, f.body, {}, {}};
+    Sheet sheet;
+    sheet.n = f.n, sheet.offset = f.offset, sheet.plane = f.plane, sheet.face = face, sheet.body = f.body;
+    return sheet;
   };
   const std::vector<Index> around = surface_.faces_around(x);
   // exactly, or a pair of particles would not look alike from both
@@ -145,7 +147,32 @@ WallPaths::Sheets WallPaths::seen_from(const Vec& x) const {
     for (int e = 0; e < 4; ++e)
       if (edges_[f][e].ends) known->edges.push_back({f, e});
   }
+  if (out.size() > 1) compare(out);
   return out;
+}
+
+/// What no way by several of the sheets can do, however they move as one.
+void WallPaths::compare(Sheets& sheets) const {
+  const auto for_each_corner = [&](const Sheet& s, const auto& f) {
+    for (const Index face : s.faces)
+      for (int e = 0; e < this->face(face).corners; ++e) f(surface_.in_plane(this->face(face).x[e]));
+  };
+  for (Sheet& s : sheets) {
+    Index n = 0;
+    for_each_corner(s, [&](const Vec& x) { s.middle += x, ++n; });
+    s.middle /= n, s.half = 0;
+    for_each_corner(s, [&](const Vec& x) { s.half = std::max(s.half, (x - s.middle).norm()); });
+    for (std::size_t k = 0; k < std::min<std::size_t>(sheets.size(), 64); ++k) {
+      const Sheet& other = sheets[k];
+      if (&other == &s || other.body != s.body) continue;
+      Real low = std::numeric_limits<Real>::infinity(), high = -low;
+      for_each_corner(
+          other, [&](const Vec& x) { low = std::min(low, s.height(x)), high = std::max(high, s.height(x)); });
+      const Real nothing = 1e-6 * surface_.reach();
+      if (high < nothing) s.under |= std::uint64_t(1) << k;
+      if (low > -nothing) s.over |= std::uint64_t(1) << k;
+    }
+  }
 }
 
 bool WallPaths::is_inside(const Sheet& sheet, const Vec& q) const {
@@ -224,6 +251,9 @@ WallPaths::Meeting WallPaths::hidden(const Sheets& sheets, const Vec& a, const V
   Meeting most;
   for (const Sheet& s : sheets) {
     if (&s == but || &s == and_but) continue;
+    const Real from = s.height(a), to = s.height(b);
+    if (!(from * to < 0) && (s.edges.empty() || std::min(std::abs(from), std::abs(to)) > 0.5 * width_))
+      continue;  // as `meet` would find
     const Meeting m = meet(s, a, b, a, x, y, but, and_but);
     if (m.share > most.share) most = m;
   }
@@ -242,7 +272,7 @@ void WallPaths::add(const Sheets& sheets, Index i, const Vec& at_i, Index j, con
   }
   if (from_x + from_y > reach + width_) return;
   Sequence by;
-  add_thrown_back(sheets, by, x, i, x, j, y, reach, to, pulls);
+  add_thrown_back({sheets, i, j, x, y, reach, from_y, to, pulls}, by, x, 0);
 }
 
 void WallPaths::add_straight(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y,
@@ -260,33 +290,56 @@ void WallPaths::add_straight(const Sheets& sheets, Index i, const Vec& x, Index 
 }
 
 /// Ways by the walls `by`, behind all of which x is seen at `x_there`, and then one more, or several: as many
-/// as there are directions, or two more in the plane, where corners may be sharp.
-void WallPaths::add_thrown_back(const Sheets& sheets, Sequence& by, const Vec& x_there, Index i, const Vec& x,
-                                Index j, const Vec& y, Real reach, std::vector<WallPath>& to,
-                                std::vector<WallPull>* pulls) const {
+/// as there are directions, or two more in the plane, where corners may be sharp. `way`: they are no shorter
+/// up to the last of these walls, but for a width for each of them: ways may pass edges by half of that.
+void WallPaths::add_thrown_back(const Search& search, Sequence& by, const Vec& x_there, Real way) const {
   const std::size_t most = dim_ == 2 ? 4 : 3;
-  for (const Sheet& s : sheets) {
-    if (by.empty() ? std::abs(s.height(x)) > reach : by.back() == &s) continue;
-    by.push_back(&s);
+  const Sheets& sheets = search.sheets;
+  for (std::size_t k = 0; k < sheets.size(); ++k) {
+    const Sheet& s = sheets[k];
+    if (by.empty() ? std::abs(s.height(search.x)) > search.reach : by.back() == &s) continue;
+    if (by.size() == 1 && by.front()->turns_away(k, search.x)) continue;
+    const Real until = by.empty() ? s.off(search.x) : way + by.back()->off(s);
+    if (until + search.least_y > search.reach + Real(by.size() + 1) * width_) continue;
+    const bool ends = by.empty() || may_end(search, by, s, x_there, until);
     const Vec there = s.image(x_there);
-    if ((there - y).squaredNorm() < reach * reach) {
-      WallPath path{.i = i, .j = j};
-      Vec image = y;
-      for (auto sheet = by.rbegin(); sheet != by.rend(); ++sheet) image = (*sheet)->image(image);
-      path.d = x - image;
-      for (const Sheet* sheet : by) path.turn = path.turn * sheet->turn();
-      pulls ? follow<true>(sheets, by, x, y, image, path, pulls)
-            : follow<false>(sheets, by, x, y, image, path, pulls);
-      if (i == j) path.by_i = path.by_j = 0.5 * (path.by_i + path.by_j);  // but for rounding they are
-      if (path.weight > 0) {
-        note_walls(sheets, by, y, path);
-        to.push_back(path);
-      }
-    }
-    if (by.size() < most && sheets.size() > 1)
-      add_thrown_back(sheets, by, there, i, x, j, y, reach, to, pulls);
+    by.push_back(&s);
+    if (ends && (there - search.y).squaredNorm() < search.reach * search.reach) add_path(search, by);
+    if (by.size() < most && sheets.size() > 1) add_thrown_back(search, by, there, until);
     by.pop_back();
   }
+}
+
+/// Whether a way by the walls `by` may end with one more. It would meet them all, so that it comes from where
+/// y is to the last one, and is no shorter than what x is off the first and y off the last.
+bool WallPaths::may_end(const Search& search, const Sequence& by, const Sheet& last, const Vec& x_there,
+                        Real way) const {
+  constexpr Real rounded = 1 + 1e-9;
+  const Real from_y = last.height(search.y);
+  if (!(from_y * last.height(x_there) > 0)) return false;
+  if (std::abs(by.front()->height(search.x)) + std::abs(from_y) > search.reach * rounded) return false;
+  if (last.turns_away(static_cast<std::size_t>(by.back() - search.sheets.data()), search.y)) return false;
+  return way + last.off(search.y) <= search.reach + Real(by.size() + 1) * width_;
+}
+
+void WallPaths::add_path(const Search& search, const Sequence& by) const {
+  WallPath path{.i = search.i, .j = search.j};
+  Vec image = search.y;
+  for (std::size_t k = by.size(); k-- > 0;) image = by[k]->image(image);
+  path.d = search.x - image;
+  for (const Sheet* sheet : by) path.turn = path.turn * sheet->turn();
+  const Sheet& s = *by.back();
+  if (s.endless && !search.pulls)
+    path.weight = s.height(search.x) * s.height(image) < 0;  // nothing else is there
+  else if (search.pulls)
+    follow<true>(search.sheets, by, search.x, search.y, image, path, search.pulls);
+  else
+    follow<false>(search.sheets, by, search.x, search.y, image, path, search.pulls);
+  if (search.i == search.j)
+    path.by_i = path.by_j = 0.5 * (path.by_i + path.by_j);  // but for rounding they are
+  if (!(path.weight > 0)) return;
+  note_walls(search.sheets, by, search.y, path);
+  search.to.push_back(path);
 }
 
 /// Which walls throw a way back, and how they take the image of y along.
@@ -296,7 +349,7 @@ void WallPaths::note_walls(const Sheets& sheets, const Sequence& by, Vec y, Wall
     path.moves |= by[k]->body >= 0;
   }
   if (!path.moves) return;
-  for (auto sheet = by.rbegin(); sheet != by.rend(); ++sheet) y = image(**sheet, y, path.drift);
+  for (std::size_t k = by.size(); k-- > 0;) y = image(*by[k], y, path.drift);
 }
 
 /// Follows the way from x towards the image of y behind the walls `by`, each of which turns it back, and

@@ -1,5 +1,8 @@
 #pragma once
 // The ways on which particles see each other beside walls: straight, hidden, or thrown back.
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -54,9 +57,24 @@ class WallPaths {
     Index body = -1;  ///< which they all follow; -1: they are held
     std::vector<Index> faces;
     std::vector<std::pair<Index, int>> edges;  ///< of these faces, where nothing goes on in the plane
+    /// Of the sheets of the same body those, by number, all of whose faces lie on its negative, or positive,
+    /// side: no way that comes from the other one goes there next.
+    std::uint64_t under = 0, over = 0;
+    Vec middle = Vec::Zero();  ///< of its faces when they were looked for, of which none is farther than
+    Real half = std::numeric_limits<Real>::infinity();  ///< this [L]
     Real height(const Vec& x) const { return n.dot(x) - offset; }
     Vec image(const Vec& x) const { return x - 2 * height(x) * n; }
     Matrix turn() const { return Matrix::Identity() - 2 * n * n.transpose(); }
+    bool turns_away(std::size_t other, const Vec& from) const {
+      return other < 64 && (((height(from) > 0 ? under : over) >> other) & 1) != 0;
+    }
+    /// What a way from x to it is no shorter than; from it to another one. [L]
+    Real off(const Vec& x) const {
+      return body < 0 ? std::max((x - middle).norm() - half, Real(0)) : std::abs(height(x));
+    }
+    Real off(const Sheet& other) const {
+      return body == other.body ? std::max((middle - other.middle).norm() - half - other.half, Real(0)) : 0;
+    }
   };
   using Sheets = std::vector<Sheet>;
   /// Over which a free edge goes over to nothing, of the spacing of particles; by trial at steps and blocks.
@@ -137,7 +155,23 @@ class WallPaths {
       by[steps] = &sheet, start[steps] = from, target[steps] = to, met[steps++] = m;
     }
   };
-  using Sequence = std::vector<const Sheet*>;
+  /// Sheets that throw a way back, in turn.
+  class Sequence {
+   public:
+    bool empty() const { return size_ == 0; }
+    std::size_t size() const { return size_; }
+    const Sheet* operator[](std::size_t k) const { return sheets_[k]; }
+    const Sheet* front() const { return sheets_[0]; }
+    const Sheet* back() const { return sheets_[size_ - 1]; }
+    const Sheet* const* begin() const { return sheets_.data(); }
+    const Sheet* const* end() const { return sheets_.data() + size_; }
+    void push_back(const Sheet* s) { sheets_[size_++] = s; }
+    void pop_back() { --size_; }
+
+   private:
+    std::array<const Sheet*, 4> sheets_{};
+    std::size_t size_ = 0;
+  };
   bool goes_on_in(const Sheet& sheet, Index face) const;
   Edge edge_of(Index face, int edge) const;
   bool is_free(Index face, int edge, const Vec& p) const;
@@ -153,9 +187,20 @@ class WallPaths {
               WallPath& path, std::vector<WallPull>* pulls) const;
   void add_straight(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y,
                     std::vector<WallPath>& to, std::vector<WallPull>* pulls) const;
-  void add_thrown_back(const Sheets& sheets, Sequence& by, const Vec& x_there, Index i, const Vec& x, Index j,
-                       const Vec& y, Real reach, std::vector<WallPath>& to,
-                       std::vector<WallPull>* pulls) const;
+  /// Which ways from i to j are looked for; `least_y`: what y is off any sheet.
+  struct Search {
+    const Sheets& sheets;
+    Index i, j;
+    Vec x, y;
+    Real reach, least_y;
+    std::vector<WallPath>& to;
+    std::vector<WallPull>* pulls;
+  };
+  void add_thrown_back(const Search& search, Sequence& by, const Vec& x_there, Real way) const;
+  void add_path(const Search& search, const Sequence& by) const;
+  bool may_end(const Search& search, const Sequence& by, const Sheet& last, const Vec& x_there,
+               Real way) const;
+  void compare(Sheets& sheets) const;
 
   void find_corner(Index face, int edge, Corner& corner) const;
   void note_walls(const Sheets& sheets, const Sequence& by, Vec y, WallPath& path) const;
@@ -170,11 +215,14 @@ class WallPaths {
   void pull_target(const Way& way, int k, Vec by, std::vector<WallPull>& to) const;
   void pull_hit(const Way& way, int k, const Vec& by, std::vector<WallPull>& to) const;
   void pull_all(const Way& way, Real share, std::vector<WallPull>& to) const;
-  Vec put_aside(const Vec& x, bool again = false) const;
+  Vec put_aside(const Vec& x, bool again = false) const {
+    return surface_.in_plane(x) + (again ? aside_again_ : aside_);
+  }
 
   const WallSurface& surface_;
   int dim_;
   Real width_;
+  Vec aside_, aside_again_;                 ///< so far places are put aside [L]
   std::vector<std::array<Edge, 4>> edges_;  ///< of each face
   bool any_moves_ = false;
   const WallSurface::Face* faces_;        ///< as in the surface, or `moved_`

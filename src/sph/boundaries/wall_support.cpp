@@ -1,6 +1,7 @@
 // What walls of shells add to sums that they cut off, and their skin friction.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -141,7 +142,7 @@ WallSupport::Hold WallSupport::hold_on(const Particles& p, Index i) const {
   Hold hold;
   if (!viscosity_) return hold;
   const Real muV = p.m[i] / p.rho[i] * (*viscosity_)[i];
-  surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
+  surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
     const Vec slide = belt_velocity(q), u = p.v.vec(i) - q.v - slide,
               force = -muV * held_by(p, i, q, away) * u;
     hold.force += force, hold.heat -= force.dot(u), hold.belt_power += force.dot(slide);
@@ -197,10 +198,10 @@ void WallSupport::add_reactions(const Particles& p, Index i, std::vector<Reactio
   };
   Real rubbing = 0;  // now that densities have changed
   if (rubbing_[i] > 0)
-    surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
+    surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
       rubbing += rubbed_by(q, away, kernel(p.h[i], q.x - p.x.vec(i)));
     });
-  surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
+  surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
     const Index segment = surface_->segment_of(q.face);
     if (!moves_[static_cast<std::size_t>(segment)]) return;
     const Real W = kernel(p.h[i], q.x - p.x.vec(i));
@@ -282,18 +283,21 @@ void WallSupport::show_forces(World& world) {
     for (const Index n : world.segments.nodes(segment)) world.nodes.f.add(n, 0.25 * force);
     if (shown_.empty() || shown_.back() != segment) shown_.push_back(segment);
   };
+  std::vector<std::pair<Index, Real>> shares;
   for (Index i = 0; i < p.active; ++i) {
     if (!is_near(i)) continue;
     const Vec force = force_on(p, i);
     Real weight = 0;
-    surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
-      weight += away.norm() * kernel(p.h[i], q.x - p.x.vec(i));
+    shares.clear();
+    surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
+      const Real one = away.norm() * kernel(p.h[i], q.x - p.x.vec(i));
+      const Index segment = surface_->segment_of(q.face);
+      weight += one;
+      if (shares.empty() || shares.back().first != segment) shares.push_back({segment, 0});
+      shares.back().second += one;
     });
     if (!(weight > 0)) continue;
-    surface_->for_each_seen(p.x.vec(i), [&](const WallPoint& q, const Vec& away) {
-      const Real share = away.norm() * kernel(p.h[i], q.x - p.x.vec(i)) / weight;
-      give(surface_->segment_of(q.face), -share * force);
-    });
+    for (const auto& [segment, share] : shares) give(segment, -share / weight * force);
   }
 }
 
@@ -343,7 +347,9 @@ WallSupport::Sums WallSupport::sums_over_points(const Particles& p, Index i, Rea
   const Real h = p.h[i];
   const Vec x = p.x.vec(i), v = p.v.vec(i);
   Sums s;
-  surface_->for_each_seen(x, [&](const WallPoint& q, const Vec& away) {
+  // what was in sight half a step ago, too
+  const Real within = any_moves_ ? surface_->reach() : sight(p, i) + std::abs(half_step) * v.norm();
+  surface_->for_each_seen(x, within, [&](const WallPoint& q, const Vec& away) {
     const Vec d = q.x - x, u = v - q.v;
     const Real W = kernel(h, d), before = kernel(h, d + half_step * u), behind = volume_behind(h, d, away);
     s.slope += away * W;
@@ -378,10 +384,6 @@ WallSupport::Sums WallSupport::sums_over_plane(const Particles& p, Index i, Inde
   s.moment = d * W * away * away.transpose() + s.fill * Matrix::Identity();
   s.gradient = before * (v * away.transpose() + away * v.transpose());
   return s;
-}
-
-Real WallSupport::kernel(Real h, const Vec& d) const {
-  return table_.kernel(d.norm() / h) / (dim_ == 2 ? power<2>(h) : power<3>(h));
 }
 
 /// Of the kernel's integral, what lies in the shadow of a piece of wall. Nearer than the pieces are large,

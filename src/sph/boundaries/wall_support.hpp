@@ -52,6 +52,8 @@ class WallSupport : public Rate,
   bool is_near(Index i) const { return view_[i] != nothing; }
   const WallSurface& surface() const { return *surface_; }
   bool any_moves() const { return any_moves_; }
+  /// By which belts go in this step. [-]
+  const std::vector<Real>& belt_factors() const { return belt_factors_; }
 
   /// What a particle does to a segment that moves.
   struct Reaction {
@@ -105,8 +107,12 @@ class WallSupport : public Rate,
   Real friction_coefficient(const Particles& p, Index i, Index face, const Vec& wall) const;
   Sums sums_over_points(const Particles& p, Index i, Real half_step) const;
   Sums sums_over_plane(const Particles& p, Index i, Index face, Real half_step) const;
-  Real kernel(Real h, const Vec& d) const;
+  Real kernel(Real h, const Vec& d) const {
+    return table_.kernel(d.norm() / h) / (dim_ == 2 ? power<2>(h) : power<3>(h));
+  }
   Real volume_behind(Real h, const Vec& d, const Vec& away) const;
+  /// From how near pieces of wall have to do with particle i. [L]
+  Real sight(const Particles& p, Index i) const { return table_.support() * p.h[i]; }
 
   int dim_;
   bool evolving_h_, any_moves_ = false;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "parallel/parallel.hpp"
+#include "sph/core/kernel.hpp"
 
 namespace courant {
 
@@ -315,6 +316,8 @@ void WallSurface::sort_into_cells() {
   std::vector<WallPoint> sorted(points_.size());
   for_each(points(), [&](Index q) { sorted[cell[q]] = points_[q]; });
   points_ = std::move(sorted);
+  at_.resize(points_.size());
+  for_each(points(), [&](Index q) { at_[q] = points_[q].x; });
 }
 
 int WallSurface::cells_around(const Vec& x, std::array<Index, 27>& cells) const {
@@ -341,7 +344,7 @@ WallSurface::View WallSurface::view_from(const Vec& x) const {
   bool one_plane = true;
   for (int k = 0; k < n; ++k)
     for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q) {
-      if (!near(points_[q], from)) continue;
+      if (!near(q, from)) continue;
       if (view.nothing) view = {false, points_[q].face};
       one_plane &= faces_[points_[q].face].plane == faces_[view.flat].plane;
       seen += points_[q].area.norm();
@@ -371,11 +374,11 @@ std::vector<Index> WallSurface::faces_next_to(const Vec& x) const {
   Real least = reach_;
   for (int k = 0; k < n; ++k)
     for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q)
-      least = std::min(least, (points_[q].x - from).norm());
+      least = std::min(least, (at_[q] - from).norm());
   std::vector<Index> found;
   for (int k = 0; k < n; ++k)
     for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q)
-      if ((points_[q].x - from).norm() - half(points_[q]) <= least) found.push_back(points_[q].face);
+      if ((at_[q] - from).norm() - half(points_[q]) <= least) found.push_back(points_[q].face);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
@@ -389,23 +392,65 @@ std::vector<Index> WallSurface::faces_near(const Vec& x, const std::array<Index,
   std::vector<Index> found;
   for (int k = 0; k < n; ++k)
     for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q)
-      if (near(points_[q], x)) found.push_back(points_[q].face);
+      if (near(q, x) && (found.empty() || found.back() != points_[q].face)) found.push_back(points_[q].face);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
-bool WallSurface::hidden(const WallPoint& point, const Vec& from, const std::vector<Index>& hiding) const {
-  const Real tolerance = small * reach_;
-  for (const Index face : hiding) {
+/// What stands between is nearer, and some point of it not much farther than the piece it is on is large.
+WallSurface::Sight WallSurface::sight_from(const Vec& from, Real within) const {
+  Sight out;
+  std::array<Index, 27> cells;
+  const int n = cells_around(from, cells);
+  const Real most = std::min(within, reach_), most2 = most * most,
+             around2 = power<2>(std::min(within + spacing_, reach_));
+  std::vector<Index> faces;
+  Index plane = -1;
+  bool corner = false;
+  for (int k = 0; k < n; ++k)
+    for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q) {
+      const Real r2 = (at_[q] - from).squaredNorm();
+      if (!(r2 < around2)) continue;
+      if (r2 < most2) out.points.push_back(q);
+      const Index face = points_[q].face;
+      if (!faces.empty() && faces.back() == face) continue;
+      corner |= plane >= 0 && faces_[face].plane != plane;
+      plane = faces_[face].plane;
+      faces.push_back(face);
+    }
+  if (!corner || out.points.empty()) return out;
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  for (const Index face : faces) {
     const Face& f = faces_[face];
-    if (f.plane == faces_[point.face].plane) continue;
-    const Real a = f.n.dot(from) - f.offset, b = f.n.dot(point.x) - f.offset;
-    if (!(a * b < 0) || std::abs(b) < tolerance) continue;
-    const Vec q = from + (point.x - from) * (a / (a - b));
-    bool inside = is_at(f.side, q);
-    for (int e = 0; e < f.corners; ++e) inside &= f.inward[e].dot(q - f.x[e]) > -tolerance;
-    if (inside) return true;
+    auto known = std::find_if(out.screens.begin(), out.screens.end(),
+                              [&](const Screen& s) { return s.plane == f.plane; });
+    if (known == out.screens.end())
+      known = out.screens.insert(known, {f.plane, f.n, f.offset, height(face, from), {}});
+    known->faces.push_back(face);
+  }
+  out.doubt = 1e-4 * reach_ + 1e-5 * from.norm();  // faces have one plane by a key that rounds
+  return out;
+}
+
+bool WallSurface::hidden(const WallPoint& point, const Vec& from, const Sight& sight) const {
+  const Real tolerance = small * reach_;
+  const Index plane = sight.screens.empty() ? -1 : faces_[point.face].plane;
+  for (const Screen& screen : sight.screens) {
+    if (screen.plane == plane) continue;
+    const Real there = screen.n.dot(point.x) - screen.offset;
+    if (screen.height * there > 0 && std::min(std::abs(screen.height), std::abs(there)) > sight.doubt)
+      continue;
+    for (const Index face : screen.faces) {
+      const Face& f = faces_[face];
+      const Real a = f.n.dot(from) - f.offset, b = f.n.dot(point.x) - f.offset;
+      if (!(a * b < 0) || std::abs(b) < tolerance) continue;
+      const Vec q = from + (point.x - from) * (a / (a - b));
+      bool inside = is_at(f.side, q);
+      for (int e = 0; e < f.corners; ++e) inside &= f.inward[e].dot(q - f.x[e]) > -tolerance;
+      if (inside) return true;
+    }
   }
   return false;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "search/ghosts.hpp"
@@ -116,31 +117,21 @@ class WallSurface {
   Real spacing() const { return spacing_; }
   Vec in_plane(const Vec& x) const { return dim_ == 2 ? Vec(x[0], x[1], 0) : x; }
 
-  /// Calls f(point, away) for each point nearer than the reach that can be seen from x past other faces;
-  /// `away` is the piece's area with its normal away from x.
+  /// Calls f(point, away) for each point nearer than the reach, and than `within`, that can be seen from x
+  /// past other faces; `away` is the piece's area with its normal away from x.
   template <class F>
   void for_each_seen(const Vec& x, F&& f) const {
+    for_each_seen(x, reach_, std::forward<F>(f));
+  }
+  template <class F>
+  void for_each_seen(const Vec& x, Real within, F&& f) const {
     const Vec from = in_plane(x);
-    std::array<Index, 27> cells;
-    const int n = cells_around(from, cells);
-    bool anything = false, corner = false;
-    Index plane = -1;
-    for (int k = 0; k < n; ++k)
-      for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q) {
-        if (!near(points_[q], from)) continue;
-        const Index other = faces_[points_[q].face].plane;
-        corner |= anything && other != plane;
-        anything = true, plane = other;
-      }
-    if (!anything) return;
-    std::vector<Index> hiding;
-    if (corner) hiding = faces_near(from, cells, n);
-    for (int k = 0; k < n; ++k)
-      for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q) {
-        const WallPoint& point = points_[q];
-        if (!near(point, from) || (corner && hidden(point, from, hiding))) continue;
-        f(point, point.area.dot(point.x - from) < 0 ? Vec(-point.area) : point.area);
-      }
+    const Sight sight = sight_from(from, within);
+    for (const Index q : sight.points) {
+      const WallPoint& point = points_[q];
+      if (hidden(point, from, sight)) continue;
+      f(point, point.area.dot(point.x - from) < 0 ? Vec(-point.area) : point.area);
+    }
   }
 
  private:
@@ -161,12 +152,24 @@ class WallSurface {
   WallMotion motion_behind(int plane, Side way, const WallMotion& motion) const;
   bool is_at(Side side, const Vec& x) const;
   void sort_into_cells();
-  bool near(const WallPoint& point, const Vec& x) const {
-    return (point.x - x).squaredNorm() < reach_ * reach_;
-  }
+  bool near(Index point, const Vec& x) const { return (at_[point] - x).squaredNorm() < reach_ * reach_; }
   int cells_around(const Vec& x, std::array<Index, 27>& cells) const;
   std::vector<Index> faces_near(const Vec& x, const std::array<Index, 27>& cells, int n) const;
-  bool hidden(const WallPoint& point, const Vec& from, const std::vector<Index>& hiding) const;
+  /// Faces of one plane that may stand between somebody and what is on its other side.
+  struct Screen {
+    Index plane = 0;
+    Vec n = Vec::Zero();
+    Real offset = 0, height = 0;  ///< of who looks over it [L]
+    std::vector<Index> faces;
+  };
+  /// What may be seen from a place.
+  struct Sight {
+    std::vector<Index> points;
+    std::vector<Screen> screens;  ///< none where all is in one plane
+    Real doubt = 0;               ///< places so near to a plane may be on either side of one of its faces [L]
+  };
+  Sight sight_from(const Vec& from, Real within) const;
+  bool hidden(const WallPoint& point, const Vec& from, const Sight& sight) const;
 
   int dim_;
   Real reach_;
@@ -176,6 +179,7 @@ class WallSurface {
   std::set<Key> lines_;
   std::map<Key, Index> planes_;
   std::vector<WallPoint> points_;
+  std::vector<Vec> at_;  ///< where they are, once more, close together
   Vec low_ = Vec::Zero();
   Real cell_ = 1;
   std::array<Index, 3> cells_{1, 1, 1};

@@ -99,6 +99,9 @@ def test_particles(folder: Path) -> None:
     assert number(folder, "particles", "p", "final", reduce="max", where="y - 0.3") == pytest.approx(1 + 10 * (1 - 0.35))
     assert number(folder, "particles", "p", "final", reduce="count", where="y - 0.3") == 6
     assert number(folder, "particles", "p", "final", reduce="count", where="1 - active") == 1, "who asks for inactive ones gets them"
+    assert not measured(folder, "particles", "p", "final", where="y - 5").found
+    assert number(folder, "particles", "p", "final", where="y - 5", empty=2.5) == 2.5, "where nothing is"
+    assert number(folder, "particles", "p", "final", reduce="max", where="y - 0.3", empty=2.5) == pytest.approx(1 + 10 * (1 - 0.35)), "something is"
     assert number(folder, "particles", "id", "final", reduce="median") == 5
     assert number(folder, "particles", "part * m * speed * (V - 0.01 + 1)", "final", reduce="sum") == pytest.approx(9 * 3 * 10 * 5)
     assert number(folder, "particles", "p", "slope") == pytest.approx(1, abs=1e-5)

@@ -145,6 +145,7 @@ FAULTS = [
     (OBSERVING + "{name: a, of: t, where: x}\n", "'where' belongs to particles"),
     (OBSERVING + "{name: a, of: t, along: x}\n", "'along' belongs to profiles"),
     (OBSERVING + "{name: a, of: t, reduce: sum}\n", "'reduce' belongs to kind: particles"),
+    (OBSERVING + "{name: a, of: t, empty: 0}\n", "'empty' belongs to kind: particles"),
     (OBSERVING + "{name: a, of: t, bins: 4}\n", "'bins' belongs to profiles"),
     (OBSERVING + "{name: a, kind: profile, of: p, along: x, bins: 2.5}\n", "must be a whole number"),
     (OBSERVING + "{name: a, kind: profile, of: p, along: x, bins: 4, take: max, reference: y}\n", "unknown name 'y'"),

@@ -105,6 +105,32 @@ TEST(WallPaths, FillTheKernelOverAStepAndBesideTheEndOfAPlate) {
   }
 }
 
+// Many short walls, each of which sees several others: what the ways by two of them and more leave open is
+// little.
+TEST(WallPaths, FillTheKernelInAndAroundRoundWalls) {
+  constexpr int sides = 24;
+  constexpr Real R = 0.5;
+  World world;
+  std::vector<std::array<Vec, 4>> plates;
+  for (int k = 0; k < sides; ++k)
+    plates.push_back(line(at_angle(360.0 * k / sides, R), at_angle(360.0 * (k + 1) / sides, R)));
+  add_plates(world, plates, 2);
+  const auto is_in = [&](const Vec& y) {
+    for (int k = 0; k < sides; ++k)
+      if (y.dot(at_angle(360.0 * (k + 0.5) / sides, 1)) > R * std::cos(pi / sides)) return false;
+    return true;
+  };
+  for (const Real off : {0.05, 0.1, 0.15})
+    for (const Real angle : {1.0, 7.5, 12.0, 14.9}) {
+      const Sums in = look(world, at_angle(angle, R - off), 2, fine, is_in),
+                 out = look(world, at_angle(angle, R + off), 2, fine, [&](const Vec&y) { return !is_in(y); });
+      std::printf("%.2f %.1f: %.4f %.4f, %.4f %.4f\n", off, angle, in.fill, out.fill, in.slope.norm() * h,
+                  out.slope.norm() * h);
+      EXPECT_NEAR(in.fill, 1, 0.01) << off << " " << angle;
+      EXPECT_NEAR(out.fill, 1, 0.01) << off << " " << angle;
+    }
+}
+
 TEST(WallPaths, FillTheKernelInACornerOfThreeWalls) {
   const Real L = 1;
   const std::array<Vec, 4> floor{Vec(0, 0, 0), Vec(L, 0, 0), Vec(L, L, 0), Vec(0, L, 0)},

@@ -56,6 +56,7 @@ class Observation:
     along: str = ""
     bins: int = 0
     reduce: str = "mean"
+    empty: float | None = None  # what stands where no particle counts; none: an error
     take: str = "curve"
     start: str | None = None  # the keys `from` and `to`: window in t, expressions of parameters
     end: str | None = None

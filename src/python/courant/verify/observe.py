@@ -185,7 +185,7 @@ def particles(o: Observation, run: Run) -> Looking:
     for i in np.flatnonzero((times >= start) & (times <= end)).tolist():
         state = yield i
         chosen, values = _values_of(state, of, where)
-        value = reduction[o.reduce](values, state.volume[chosen])
+        value = o.empty if o.empty is not None and len(chosen) == 0 else reduction[o.reduce](values, state.volume[chosen])
         if not math.isfinite(value):
             raise NotFound(f"no particle counts at t = {state.t:.6g}")
         points.append((state.t, value))

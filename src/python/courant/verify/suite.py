@@ -16,7 +16,7 @@ from .suite_check import CheckedExpression, check_case, check_observation
 _COLUMNS = ("csv_x", "csv_y", "scale_x", "scale_y", "offset_x", "offset_y")
 _OF_CASE = ("name", "title", "about", "scene", "deck", "parameters", "resolution", "resolutions", "size", "settings", "observations", "stability",
             "time_limit", "picture_of", "picture_title", "picture_at", "picture_where")
-_OF_OBSERVATION = ("name", "title", "unit", "kind", "of", "where", "along", "bins", "reduce", "take", "align", "from", "to", "at", "reference",
+_OF_OBSERVATION = ("name", "title", "unit", "kind", "of", "where", "along", "bins", "reduce", "empty", "take", "align", "from", "to", "at", "reference",
                    "norm", "scale", "bound", "bound_settings", "least_order")
 
 
@@ -140,6 +140,7 @@ class _CaseReader:
         for key, text in (found | moments).items():
             setattr(out, key, text)
         out.reduce = map_.choice("reduce", reduction.names(), out.reduce)
+        out.empty = map_.number("empty") if map_.has("empty") else None
         out.take = map_.choice("take", ["curve", *take.names()], out.take)
         out.norm = map_.choice("norm", norm.names(), out.norm)
         out.bins, out.align = _whole(map_, "bins"), _whole(map_, "align")

@@ -31,6 +31,7 @@ def check_observation(map_: YamlMap, o: Observation) -> None:
         (not profile and not own and has("along"), "along", "'along' belongs to profiles"),
         (o.kind in ("history", "profile") and not o.bins and has("reduce"), "reduce",
          "'reduce' belongs to kind: particles, and to profiles with bins"),
+        (o.kind in ("history", "profile") and has("empty"), "empty", "'empty' belongs to kind: particles"),
         (not profile and not own and has("bins"), "bins", "'bins' belongs to profiles"),
         (profile and taken != "curve" and not (o.bins and taken in ("mean", "min", "max")), "take",
          "a profile can only be taken as a curve, one with bins also as mean, min or max"),
