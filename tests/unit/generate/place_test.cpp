@@ -7,6 +7,8 @@
 #include <set>
 #include <sstream>
 
+#include <fmt/format.h>
+
 #include "generate/deck_writer.hpp"
 #include "generate/lattice.hpp"
 
