@@ -28,10 +28,15 @@ struct ContactFace {
 
 /// Where a face is now, roughly: what tells that a node is far from it.
 struct FaceShape {
-  Vec centre = Vec::Zero(), n = Vec::Zero();  ///< mean of the corners; unit normal [L], [-]
-  Real radius = 0;                            ///< of a sphere around the corners [L]
-  Real warp = 0;                              ///< of the corners from the mean plane [L]
+  Vec centre = Vec::Zero(), n = Vec::Zero();      ///< mean of the corners; unit normal [L], [-]
+  Real radius = 0;                                ///< of a sphere around the corners [L]
+  Real warp = 0;                                  ///< of the corners from the mean plane [L]
+  Vec along = Vec::Zero(), across = Vec::Zero();  ///< unit vectors of the mean plane [-]
+  std::array<Real, 4> extent{};  ///< least and greatest of the corners along both, from the centre [L]
 };
+
+/// Distance of a place, given from the centre, from a box around the corners: at most that from the face. [L]
+Real distance_from_box(const FaceShape& shape, const Vec& w);
 
 /// Faces reach this much over their edges, of their width, so that rounding leaves no gap between neighbours.
 inline constexpr Real edge_margin = 0.0125;

@@ -22,6 +22,8 @@ constexpr Real rounding = 1e-9;
 constexpr Real rise = 0.25;
 /// Along faces that meet at less than this angle (cosine) a node goes on with the nearest.
 constexpr Real bent = 0.5;
+/// What a face reaches beyond its corners (edge_margin), and rounding, of its radius.
+constexpr Real edge_slack = 0.05;
 /// Neighbours whose normals differ by less go on in one another (cosine).
 constexpr Real smooth = 0.866;
 
@@ -54,7 +56,8 @@ void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, bool
     const Vec w = x - shape.centre;
     const Real reach = f.r + node(i).r + (deep ? std::max(reach_, f.depth) : reach_),
                around = 1.05 * shape.radius + reach;
-    if (w.squaredNorm() > around * around || std::abs(w.dot(shape.n)) > reach + 1.1 * shape.warp) continue;
+    if (w.squaredNorm() > around * around || distance_from_box(shape, w) > reach + edge_slack * shape.radius)
+      continue;
     Seen& seen = b.seen.emplace_back();
     seen.face = s;
     seen.at = project(corners_of(f, world.nodes.x), f.corners, x);
