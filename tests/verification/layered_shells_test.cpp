@@ -142,7 +142,7 @@ ShellDeck pulled_shell(const std::string& cards) {
   return deck;
 }
 
-Real deleted(const Simulation& s) {
+Real layers_deleted(const Simulation& s) {
   const auto found = s.world().counters.find("deleted_elements");
   return found == s.world().counters.end() ? 0 : found->second;
 }
@@ -155,11 +155,11 @@ TEST(LayeredShells, FabricIsPulledAlongItsCurve) {
       pulled_shell("*PART\nlayer\n1,1,7\n*SECTION_SHELL\n1,2,1.0,2\n1.0\n" + fabric(7, "0.0,0.05")).text(1));
   const auto* resultants = dynamic_cast<const Field<Real>*>(s->world().groups[0]->fields.find("resultants"));
   Real largest = 0;
-  while (deleted(*s) == 0) {
+  while (layers_deleted(*s) == 0) {
     const Real e = std::log(s->world().nodes.x.data(0)[1]), r = e * EA / XT;
     s->step(do_nothing);
     const Real found = resultants->data(0)[0];
-    if (deleted(*s) > 0) break;
+    if (layers_deleted(*s) > 0) break;
     const Real smooth = EA * e * std::exp(-std::pow(r, m) / (m * std::exp(1.0)));
     const Real expected = e > at_strength ? std::max(smooth, 0.3 * XT) : smooth;
     EXPECT_NEAR(found / XT, expected / XT, 2e-5) << e;
@@ -187,8 +187,8 @@ TEST(LayeredShells, GoWhereTheirStepIsTooSmall) {
     const std::size_t at = deck.cards.find("0.0,20.0\n1.0,20.0");
     deck.cards.replace(at, 17, "0.0,-20.\n1.0,-20.");
     auto s = simulation_of(deck.text(1));
-    while (deleted(*s) == 0 && s->world().nodes.x.data(0)[1] > 0.3) s->step(do_nothing);
-    EXPECT_EQ(deleted(*s), 1) << law;
+    while (layers_deleted(*s) == 0 && s->world().nodes.x.data(0)[1] > 0.3) s->step(do_nothing);
+    EXPECT_EQ(layers_deleted(*s), 1) << law;
     EXPECT_NEAR(s->world().nodes.x.data(0)[1], 0.64, 0.002) << law;
   }
 }
@@ -209,7 +209,7 @@ TEST(LayeredShells, StrengthFallsBesideDeletedElements) {
       "*BOUNDARY_PRESCRIBED_MOTION_SET\n3,1,0,9\n*BOUNDARY_PRESCRIBED_MOTION_SET\n4,1,0,9,-1.0\n"
       "*DEFINE_CURVE\n9\n0.0,20.0\n1.0,20.0\n";
   auto s = simulation_of(deck.text(1));
-  while (deleted(*s) == 0) s->step(do_nothing);
+  while (layers_deleted(*s) == 0) s->step(do_nothing);
   const ElementGroup& group = *s->world().groups[0];
   const auto beside = [&](Index e) {
     const std::string name = std::string(beside_deleted) + "_of_layer_1";
@@ -228,7 +228,7 @@ TEST(LayeredShells, FabricsThatTearHaveTheSameBits) {
   deck.velocity([](const Vec& x) { return Vec(0, 0, 150 * std::sin(pi * x[0] / 0.1) * (1 + 5 * x[1])); });
   auto s = simulation_of(deck.text(1));
   int steps = 0;
-  while (deleted(*s) < 3 && steps < 2000) s->step(do_nothing), ++steps;
-  ASSERT_GE(deleted(*s), 3);
+  while (layers_deleted(*s) < 3 && steps < 2000) s->step(do_nothing), ++steps;
+  ASSERT_GE(layers_deleted(*s), 3);
   test::expect_same_bits(deck.text(1), steps + 40, steps + 1);
 }

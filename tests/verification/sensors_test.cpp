@@ -147,13 +147,13 @@ TEST(Sensors, SameBitsOnThreadsAndAfterARestart) {
 
 namespace {
 
-constexpr Real ramp = 40;  // of a weight that grows with time [m/s3]
+constexpr Real force_per_time = 40;  // of a weight that grows with time [m/s3]
 const std::string growing_weight =
-    fmt::format("*LOAD_BODY_Z\n9,1.0\n*DEFINE_CURVE\n9\n0.0,0.0\n10.0,{}\n", 10 * ramp);
+    fmt::format("*LOAD_BODY_Z\n9,1.0\n*DEFINE_CURVE\n9\n0.0,0.0\n10.0,{}\n", 10 * force_per_time);
 
 }  // namespace
 
-// A body of 3 kg hangs from a spherical joint: the force on it is m ramp t.
+// A body of 3 kg hangs from a spherical joint: the force on it is m force_per_time t.
 TEST(Sensors, EndARunByTheForceOfAJoint) {
   const Real m = 3, force = 12;
   for (const std::string direction : {"Z", "0"}) {
@@ -166,7 +166,7 @@ TEST(Sensors, EndARunByTheForceOfAJoint) {
     auto s = simulation_of(deck.text(1));
     const Ending* end = s->world().passes.all<const Ending>().front();
     while (s->clock().t < 1 && !end->ended(s->world(), s->clock())) s->step(do_nothing);
-    EXPECT_NEAR(s->clock().t, force / (m * ramp), 3 * s->clock().dt) << direction;
+    EXPECT_NEAR(s->clock().t, force / (m * force_per_time), 3 * s->clock().dt) << direction;
   }
 }
 
@@ -187,10 +187,10 @@ std::string lying_plate(const std::string& cards) {
 
 }  // namespace
 
-// The contact bears m ramp t, and is switched off where that is 100 N: from then on the plate falls,
-// z = -ramp ((t^3 - T^3)/6 - T^2 (t - T)/2).
+// The contact bears m force_per_time t, and is switched off where that is 100 N: from then on the plate falls,
+// z = -force_per_time ((t^3 - T^3)/6 - T^2 (t - T)/2).
 TEST(Sensors, ForceOfAContactSwitchesItOff) {
-  const Real m = 10, force = 100, T = force / (m * ramp);
+  const Real m = 10, force = 100, T = force / (m * force_per_time);
   const std::string cards = fmt::format(
       "*SENSOR_DEFINE_FORCE\n1,CONTACT,4,Z\n*SENSOR_SWITCH\n8,SENSOR,1,GT,{}\n"
       "*SENSOR_CONTROL\n1,CONTACT,4\nON,8\n",
@@ -208,15 +208,15 @@ TEST(Sensors, ForceOfAContactSwitchesItOff) {
   }
   EXPECT_NEAR(off, T, 0.01 * T);
   const Real t = s->clock().t;
-  EXPECT_NEAR(z() - 0.01, -ramp * ((t * t * t - T * T * T) / 6 - T * T * (t - T) / 2),
-              0.02 * ramp * T * T * T);
+  EXPECT_NEAR(z() - 0.01, -force_per_time * ((t * t * t - T * T * T) / 6 - T * T * (t - T) / 2),
+              0.02 * force_per_time * T * T * T);
   EXPECT_LT(z(), -0.1);  // through what it lay on
 }
 
 TEST(Sensors, ContactsThatAreOffComeOn) {
   auto s = simulation_of(lying_plate("*SENSOR_SWITCH\n8,TIME,,,0.3\n*SENSOR_CONTROL\n1,CONTACT,4\nOFF,8\n"));
   while (s->clock().t < 0.1) s->step(do_nothing);
-  EXPECT_LT(s->world().nodes.v.data(2)[9], -0.9 * ramp * 0.005);  // nothing bears it
+  EXPECT_LT(s->world().nodes.v.data(2)[9], -0.9 * force_per_time * 0.005);  // nothing bears it
 }
 
 // 3 and the time: what CALC-MATH makes of both.

@@ -39,7 +39,7 @@ struct Plate {
                                 .node = {3 * i + j, 3 * (i + 1) + j, 3 * (i + 1) + j + 1, 3 * i + j + 1}});
   }
   void build() {
-    const auto material = [&](Index part) -> std::optional<ShellMaterial> {
+    const auto material = [&](Index part, Index) -> std::optional<ShellMaterial> {
       const auto m = rigid_material(deck, model, part);
       if (!m) return std::nullopt;
       return ShellMaterial{m->ro, m->E, m->pr};
