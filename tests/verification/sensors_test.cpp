@@ -187,8 +187,8 @@ std::string lying_plate(const std::string& cards) {
 
 }  // namespace
 
-// The contact bears m force_per_time t, and is switched off where that is 100 N: from then on the plate falls,
-// z = -force_per_time ((t^3 - T^3)/6 - T^2 (t - T)/2).
+// The contact bears m force_per_time t, and is switched off where that is 100 N: from then on the plate
+// falls, z = -force_per_time ((t^3 - T^3)/6 - T^2 (t - T)/2).
 TEST(Sensors, ForceOfAContactSwitchesItOff) {
   const Real m = 10, force = 100, T = force / (m * force_per_time);
   const std::string cards = fmt::format(
