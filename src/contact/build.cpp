@@ -199,7 +199,7 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
     if (diagnostics.errors() > errors || segments.empty()) continue;
     ContactLaw law = law_of(deck, c, number);
     if (SensorBoard* const board = sensors_of(deck, model, world, diagnostics))
-      law.gate = board->gate_of_contact(law.id);
+      law.gate = board->gate_of_contact(c.cid);
     auto contact = std::make_shared<Contact>(std::move(law), options, number, segments, tracked, world);
     for (const AskedInterfaceLaw& one : laws)
       if (one.contact == contact->report().id) contact->add_law(one.law);

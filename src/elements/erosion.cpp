@@ -124,7 +124,8 @@ void Erosion::clear(Index e) const {
 
 void Erosion::weaken(Index e) const {
   if (dead(e)) return;
-  for (Field<Real>* field : weakening_) (*field)[e] = 1;
+  for (Field<Real>* field : weakening_)
+    if ((*field)[e] == 0) (*field)[e] = 1;  // laws may count on from there
 }
 
 std::string Erosion::failure_of(const FailingPoints& p, Index i) const {

@@ -94,6 +94,10 @@ const RegisterKeyword<Force> sensor_define_force{
                      {"CRD", &Force::crd, "-", "system that turns with a node", unsupported}}}}}};
 
 using Misc = SensorDefineMisc;
+std::string keep_curve_of_sensor(Misc& card, const Conversion& conversion) {
+  if (card.mtype != "CURVE" || !(conversion.offsets.any() || conversion.units.any())) return "";
+  return "curves of sensors are not shifted or converted: put the card into a file without";
+}
 const RegisterKeyword<Misc> sensor_define_misc{
     {.names = {"SENSOR_DEFINE_MISC"},
      .purpose = "the time, or a curve over it, for switches and CALC-MATH",
@@ -106,7 +110,8 @@ const RegisterKeyword<Misc> sensor_define_misc{
                            {"I2", &Misc::i2, "-", "of other types", unsupported},
                            {"I3", &Misc::i3, "-", "of other types", unsupported},
                            {"I4", &Misc::i4, "-", "of other types", unsupported},
-                           {"I5", &Misc::i5, "-", "of other types", unsupported}}}}}};
+                           {"I5", &Misc::i5, "-", "of other types", unsupported}}}},
+     .convert = keep_curve_of_sensor}};
 
 using Math = SensorCalcMath;
 const FieldRules sensor_id{.check = Check::not_negative};
@@ -126,22 +131,30 @@ const RegisterKeyword<Math> sensor_calc_math{
                      {"SENS6", &Math::sens6, "-", "sensor", sensor_id}}}}}};
 
 using Switch = SensorSwitchCard;
+std::string convert_switch(Switch& card, const Conversion& conversion) {
+  if (card.type == "TIME") card.value *= conversion.units.of("T");
+  if (card.type == "TIME" || card.value == 0 || !conversion.units.any()) return "";
+  return "VALUE has the unit of its sensor, which is not converted: put the card into a file without unit "
+         "factors";
+}
 const RegisterKeyword<Switch> sensor_switch{
     {.names = {"SENSOR_SWITCH"},
      .purpose = "on while a sensor is above or below a value, or from a time on",
-     .cards = {{.fields = {
-                    {"SWITID", &Switch::switid, "-", "id that controls refer to", required_id},
-                    {"TYPE", &Switch::type, "-", "SENSOR (also blank) or TIME"},
-                    {"SENSID", &Switch::sensid, "-", "sensor", {.check = Check::not_negative}},
-                    {"LOGIC", &Switch::logic, "-", "GT, or LT (also blank)"},
-                    {"VALUE", &Switch::value, "-", "value, or time"},
-                    {"FILTRID", &Switch::filtrid, "-", "filter", unsupported},
-                    {"TIMWIN", &Switch::timwin, "T", "how long it must hold", {.check = Check::not_negative}},
-                    {"TDELAY",
-                     &Switch::tdelay,
-                     "T",
-                     "how much later it is on",
-                     {.check = Check::not_negative}}}}}}};
+     .cards =
+         {{.fields =
+               {{"SWITID", &Switch::switid, "-", "id that controls refer to", required_id},
+                {"TYPE", &Switch::type, "-", "SENSOR (also blank) or TIME"},
+                {"SENSID", &Switch::sensid, "-", "sensor", {.check = Check::not_negative}},
+                {"LOGIC", &Switch::logic, "-", "GT, or LT (also blank)"},
+                {"VALUE", &Switch::value, "-", "value, or time"},
+                {"FILTRID", &Switch::filtrid, "-", "filter", unsupported},
+                {"TIMWIN", &Switch::timwin, "T", "how long it must hold", {.check = Check::not_negative}},
+                {"TDELAY",
+                 &Switch::tdelay,
+                 "T",
+                 "how much later it is on",
+                 {.check = Check::not_negative}}}}},
+     .convert = convert_switch}};
 
 using Control = SensorControlCard;
 IdSpace controlled_space(const Control& c) {
@@ -327,7 +340,7 @@ class SensorReader {
                                                  {"SENS3", card.sens3}, {"SENS4", card.sens4},
                                                  {"SENS5", card.sens5}, {"SENS6", card.sens6}};
     for (const auto& [field, id] : fields) {
-      if (id == 0) break;
+      if (id == 0) continue;
       const int k = find_sensor(card, field, id);
       if (k < 0) return;
       of.push_back(sensors_[static_cast<std::size_t>(k)]);
@@ -389,7 +402,7 @@ class SensorReader {
         {"SWIT1", card.swit1}, {"SWIT2", card.swit2}, {"SWIT3", card.swit3}, {"SWIT4", card.swit4},
         {"SWIT5", card.swit5}, {"SWIT6", card.swit6}, {"SWIT7", card.swit7}};
     for (const auto& [field, id] : fields) {
-      if (id == 0) break;
+      if (id == 0) continue;
       const int k = find(switches_, id);
       if (k < 0)
         return error(card, field, fmt::format("switch {} does not exist", id),

@@ -232,7 +232,7 @@ class NodeContactBuilder {
     law.vdc = c.vdc;
     law.birth = c.bt, law.death = c.dt;
     if (SensorBoard* const board = sensors_of(deck_, model_, world_, diagnostics_))
-      law.gate = board->gate_of_contact(law.id);
+      law.gate = board->gate_of_contact(c.cid);
     law.soft = c.soft, law.sofscl = c.sofscl, law.dtstif = c.dtstif;
     law.tssfac = options_.tssfac;
     law.enmass = control_.enmass;

@@ -169,6 +169,10 @@ bool LayerReader::find_laws(const ModelPart& part, const Owner& owner, const std
                       "cannot have: their stress is plane",
                       part.id),
           "use a material that gives all of the stress");
+    if (!law->second->in_sheets())
+      return error(owner.card, owner.field,
+                   fmt::format("the material of part {} is a foam, which shells cannot have", part.id),
+                   "make the part of solids");
     laws.push_back(law->second);
   }
   const auto fails = std::find_if(laws.begin(), laws.end(), [](const std::shared_ptr<StrengthLaw>& law) {

@@ -63,6 +63,7 @@ class ShellForces : public Material,
       viscous_ = &group.fields.add<Real>({.name = "bulk_viscosity_force", .dimension = "M/T2"});
     if (part.has_axes()) directions_ = &layer_directions_of(group, layers_.size());
     fails_with_all_ = part.fails_with_all;
+    stiffens_ = std::any_of(layers_.begin(), layers_.end(), [](const Layer& l) { return l.law->stiffens(); });
     for (int p = 0; p < state_.points; ++p)
       for (const HistoryVariable& h : layer_of(p).law->history())
         history_.push_back(&group.fields.add<Real>({.name = fmt::format("{}_of_layer_{}", h.name, p + 1),
@@ -213,6 +214,8 @@ class ShellForces : public Material,
     if (failing && erosion_->any_dead(begin)) still_dead(begin, block.count, scratch);
     Real rate_zz[block_size], sound_speed[block_size];
     std::fill(scratch.thickening, scratch.thickening + block.count, 0);
+    Real faster[block_size];
+    std::fill(faster, faster + block.count, 1);
     std::array<Real*, most_history> history{};
     std::size_t numbers = 0, first = 0;
     PointBlock points;
@@ -232,10 +235,18 @@ class ShellForces : public Material,
         update_along_axes(p, begin, points, rate_zz);
       else
         layer.law->update_in_plane_stress(points, rate_zz);
+      if (layer.law->stiffens())
+        for (Index i = 0; i < block.count; ++i)
+          faster[i] = std::max(faster[i], sound_speed[i] / layer.law->sound_speed());
       if (failing) look_at_point(p, begin, *failing, points, rate_zz);
       for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
     }
-    return loops_.forces(block, control, state_, scratch);
+    const ShellLoops::Found found = loops_.forces(block, control, state_, scratch);
+    if (!stiffens_) return found;
+    for (Index i = 0; i < block.count; ++i)
+      scratch.step_limit[i] /= faster[i], scratch.wave_time[i] /= faster[i];
+    const Index shortest = least_of(scratch.step_limit, block.count);
+    return {scratch.step_limit[shortest], begin + shortest};
   }
 
   /// The law at a point in the directions a, b of its layer.
@@ -467,6 +478,7 @@ class ShellForces : public Material,
   std::shared_ptr<Erosion> erosion_;         ///< null: nothing fails
   const Field<Real>* directions_ = nullptr;  ///< null: no law knows any
   bool fails_with_all_ = false;
+  bool stiffens_ = false;  ///< the law of some layer does
 };
 
 }  // namespace

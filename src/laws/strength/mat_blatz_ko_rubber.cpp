@@ -16,6 +16,7 @@ class BlatzKo : public StrengthLaw {
   Real bulk_modulus() const override { return 2 * G_ * (1 + nu) / (3 * (1 - 2 * nu)); }
   Real shear_modulus() const override { return G_; }
   std::vector<HistoryVariable> history() const override { return {left_cauchy_green}; }
+  bool stiffens() const override { return true; }
 
   void update(const PointBlock& block) const override {
     for (Index i = 0; i < block.count; ++i) {

@@ -22,6 +22,7 @@ class CrushableFoam : public StrengthLaw {
   // as of Hooke's law without lateral contraction
   Real bulk_modulus() const override { return E_ / 3; }
   Real shear_modulus() const override { return E_ / 2; }
+  bool in_sheets() const override { return false; }
   std::vector<HistoryVariable> history() const override { return {{"logarithmic_volume", "-"}}; }
 
   void update(const PointBlock& block) const override {

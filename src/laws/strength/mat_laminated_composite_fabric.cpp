@@ -236,6 +236,9 @@ void LF::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) c
   refuse("EPSR", epsf > 0 && !(epsr > epsf), epsr, "damage across ends before it begins", "EPSR > EPSF");
   refuse("SOFT", !(soft > 0 && soft <= 1), soft, "strength beside deleted elements is a share of it",
          "above 0, and 1 at most");
+  if (soft < 1 && !(tsize > 0) && erods == 0)
+    deck.warning(diagnostics, *this, "SOFT", "counts only in parts whose own elements can be deleted",
+                 "by TSIZE, ERODS, *MAT_ADD_EROSION or ERODE of *CONTROL_TIMESTEP");
   const bool first = two_branches();
   if (fs == -1 && (tau1 > 0) != (gamma1 > 0))
     deck.error(diagnostics, *this, tau1 > 0 ? "GAMMA1" : "TAU1",

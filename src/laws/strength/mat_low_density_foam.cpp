@@ -53,6 +53,7 @@ class LowDensityFoam : public StrengthLaw {
   // as of Hooke's law without lateral contraction
   Real bulk_modulus() const override { return curve_.E / 3; }
   Real shear_modulus() const override { return curve_.E / 2; }
+  bool in_sheets() const override { return false; }
   std::vector<HistoryVariable> history() const override {
     std::vector<HistoryVariable> out{left_cauchy_green};
     if (unloading_ < 1) out.push_back({"most_energy", "M/LT2"});
@@ -63,13 +64,15 @@ class LowDensityFoam : public StrengthLaw {
     for (Index i = 0; i < block.count; ++i) {
       const Eigen::SelfAdjointEigenSolver<Matrix> stretched(strained(block, i).matrix());
       const Vec l = stretched.eigenvalues().cwiseSqrt();
-      const Real J = l.prod(), keeps = unloading_ < 1 ? share(l, block.history[6][i]) : 1;
+      const Real J = l.prod();
+      const Unloading back = unloading_ < 1 ? unload(l, block.history[6][i]) : Unloading();
       Vec principal;
       Real stiffest = 0;
       for (int k = 0; k < 3; ++k) {
         const Real nominal = curve_.at(l[k] - 1);
-        principal[k] = (nominal < 0 ? keeps * nominal : nominal) * l[k] / J;
-        stiffest = std::max(stiffest, l[k] * l[k] * curve_.stiffness(l[k] - 1));
+        principal[k] = (nominal < 0 ? back.keeps * nominal : nominal) * l[k] / J;
+        const Real steeper = nominal < 0 ? back.steeper * nominal * nominal : 0;
+        stiffest = std::max(stiffest, l[k] * l[k] * (curve_.stiffness(l[k] - 1) + steeper));
       }
       const Matrix& axes = stretched.eigenvectors();
       const Matrix now = axes * principal.asDiagonal() * axes.transpose();
@@ -80,10 +83,16 @@ class LowDensityFoam : public StrengthLaw {
   }
 
  private:
-  Real share(const Vec& l, Real& most) const {
+  /// d tau/de is keeps f' + steeper f^2, also where unloading is about to begin.
+  struct Unloading {
+    Real keeps = 1, steeper = 0;  ///< [-], [LT2/M]
+  };
+  Unloading unload(const Vec& l, Real& most) const {
     const Real W = curve_.energy(l[0] - 1) + curve_.energy(l[1] - 1) + curve_.energy(l[2] - 1);
     most = std::max(most, W);
-    return W < most ? 1 - (1 - unloading_) * (1 - std::pow(W / most, shape_)) : 1;
+    if (!(W > 0)) return {unloading_, 0};
+    const Real left = std::pow(W / most, shape_);
+    return {1 - (1 - unloading_) * (1 - left), (1 - unloading_) * shape_ * left / W};
   }
   FoamCurve curve_;
   Real unloading_, shape_;

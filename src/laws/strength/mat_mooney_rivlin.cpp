@@ -23,6 +23,7 @@ class MooneyRivlin : public StrengthLaw {
   Real bulk_modulus() const override { return 2 * A_ + 4 * B_ + 20 * C_ + 8 * D_ - 4 * shear_modulus() / 3; }
   Real shear_modulus() const override { return 2 * (A_ + B_); }
   std::vector<HistoryVariable> history() const override { return {left_cauchy_green}; }
+  bool stiffens() const override { return true; }
 
   void update(const PointBlock& block) const override {
     for (Index i = 0; i < block.count; ++i) {

@@ -339,7 +339,7 @@ struct MatModifiedPiecewiseLinearPlasticity : M {
     for (const auto& [field, value] : {std::pair{"EPSTHIN", epsthin}, std::pair{"EPSMAJ", epsmaj}})
       if (value < 0)
         deck.error(diagnostics, *this, field, fmt::format("'{:g}' is not supported", value),
-                   "values > 0 are limits of each point; means over the thickness (< 0) are not there");
+                   "values > 0 are limits of each point; means and filtered strains (< 0) are not there");
   }
 };
 

@@ -69,9 +69,10 @@ struct MatPowerLawPlasticity : Entry {
   Real ro = 0, E = 0, pr = 0, k = 0, n = 0, src = 0, srp = 0, sigy = 0, vp = 0, epsf = 0;
 
   static constexpr Real largest_strain = 0.02;
+  bool sigy_is_stress = false;  ///< told before it was converted
   /// SIGY is a stress, or up to 0.02 the strain e0 itself; 0: where the power law meets E e.
   Real first_strain() const {
-    if (sigy > largest_strain) return std::pow(sigy / k, 1 / n);
+    if (sigy > largest_strain || sigy_is_stress) return std::pow(sigy / k, 1 / n);
     return sigy > 0 ? sigy : std::pow(E / k, 1 / (n - 1));
   }
   std::shared_ptr<StrengthLaw> law() const {
@@ -97,7 +98,8 @@ struct MatPowerLawPlasticity : Entry {
 /// Where SIGY is a strain it has no unit.
 std::string keep_first_strain(Power& card, const Conversion& conversion) {
   const Real factor = conversion.units.of("M/LT2");
-  if (card.sigy <= Power::largest_strain * factor) card.sigy /= factor;
+  card.sigy_is_stress = card.sigy > Power::largest_strain * factor;
+  if (!card.sigy_is_stress) card.sigy /= factor;
   return "";
 }
 
@@ -141,7 +143,7 @@ const RegisterStrength<Power> mat_power_law_plasticity{
                        "M/LT2",
                        "yield stress; up to 0.02 the strain at which yielding begins; 0: where E e = K e^N",
                        {.check = Check::not_negative}},
-                      {"VP", &Power::vp, "-", "rate of all strain (0), of plastic strain (1)"},
+                      {"VP", &Power::vp, "-", "rate of the deviator of strain (0), of plastic strain (1)"},
                       {"EPSF",
                        &Power::epsf,
                        "-",

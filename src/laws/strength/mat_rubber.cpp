@@ -27,6 +27,7 @@ class StretchRubber : public StrengthLaw {
   Real bulk_modulus() const override { return K_; }
   Real shear_modulus() const override { return G_; }
   std::vector<HistoryVariable> history() const override { return {left_cauchy_green}; }
+  bool stiffens() const override { return true; }
 
   void update(const PointBlock& block) const override {
     for (Index i = 0; i < block.count; ++i) {

@@ -50,6 +50,10 @@ class StrengthLaw {
   /// How the directions a, b lie by which the law tells its rates and stresses (material_axes.hpp); null: it
   /// has none. Only shells can turn to them.
   virtual const MaterialAxes* axes() const { return nullptr; }
+  /// Waves can be faster than at rest, as `sound_speed` of a block tells: shells heed it.
+  virtual bool stiffens() const { return false; }
+  /// Whether shells and beams can have it.
+  virtual bool in_sheets() const { return true; }
   /// Largest stiffness of a sheet in plane stress whose one side is held: E/(1 - nu^2), at rest. [M/LT2]
   virtual Real plane_modulus() const;
   /// Value of its history `failure_variable` from which on a point has failed; infinity: it never does. [-]
