@@ -122,7 +122,7 @@ class ShellForces : public Material,
     found = advance(mesh_, control_, clock.dt_old, begin, end, scratch, erosion_ ? &clock : nullptr);
     if (erosion_) erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, nullptr);
     const bool lighter = scaled_ && scaled_->look(begin, count, scratch.wave_time, scratch.step_limit);
-    if (!lighter && !(erosion_ && erosion_->any_dead(begin))) return;
+    if (!lighter && !stiffens_ && !(erosion_ && erosion_->any_dead(begin))) return;
     const Index shortest = least_of(scratch.step_limit, count);
     found = {scratch.step_limit[shortest], begin + shortest};
   }
@@ -212,16 +212,13 @@ class ShellForces : public Material,
     const ShellLoops::Block block{begin, end - begin, dt};
     loops_.strain(block, control, mesh, scratch);
     if (failing && erosion_->any_dead(begin)) still_dead(begin, block.count, scratch);
-    Real rate_zz[block_size], sound_speed[block_size];
+    Real rate_zz[block_size], sound_speed[block_size], faster[block_size];
     std::fill(scratch.thickening, scratch.thickening + block.count, 0);
-    Real faster[block_size];
     std::fill(faster, faster + block.count, 1);
     std::array<Real*, most_history> history{};
     std::size_t numbers = 0, first = 0;
     PointBlock points;
-    points.count = block.count;
-    points.dt = dt;
-    points.sound_speed = sound_speed;
+    points.count = block.count, points.dt = dt, points.sound_speed = sound_speed;
     for (std::size_t k = 0; k < 6; ++k) points.rate[k] = scratch.rate[k];
     for (int p = 0; p < state_.points; ++p) {
       loops_.at_point(block, p, state_, scratch);
@@ -242,11 +239,9 @@ class ShellForces : public Material,
       for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
     }
     const ShellLoops::Found found = loops_.forces(block, control, state_, scratch);
-    if (!stiffens_) return found;
-    for (Index i = 0; i < block.count; ++i)
+    for (Index i = 0; stiffens_ && i < block.count; ++i)
       scratch.step_limit[i] /= faster[i], scratch.wave_time[i] /= faster[i];
-    const Index shortest = least_of(scratch.step_limit, block.count);
-    return {scratch.step_limit[shortest], begin + shortest};
+    return found;
   }
 
   /// The law at a point in the directions a, b of its layer.
