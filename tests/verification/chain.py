@@ -7,7 +7,6 @@ Needs numpy; prints the table of docs/verification_structures.md.
 import math
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
@@ -17,29 +16,15 @@ except ImportError:
     print("skipped: this Python has no numpy")
     sys.exit(77)
 
+from checks import bound, failures, run_deck
+
 courant, source = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 sys.path.insert(0, os.path.join(source, "keyword_decks", "chain"))
 import deck as chain  # noqa: E402
 
-failures = []
-
-
-def bound(what, value, low, high):
-    text = f"{what}: {value:.3e}, from {low:g} to {high:g}"
-    print(("ok      " if low <= value <= high else "FAILED  ") + text)
-    if not low <= value <= high:
-        failures.append(text)
-
 
 def run(text, folder, threads=1):
-    os.makedirs(folder)
-    path, out = os.path.join(folder, "deck.k"), os.path.join(folder, "out")
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-    done = subprocess.run([courant, "run", path, "-o", out, "--threads", str(threads), "--quiet"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=folder, text=True)
-    if done.returncode != 0:
-        raise SystemExit(f"{path}: exit code {done.returncode}: {done.stdout[-1000:]}")
-    return out
+    return run_deck(courant, text, folder, threads)
 
 
 def places_of(out):

@@ -13,18 +13,11 @@ import sys
 import tempfile
 import time
 
+from checks import bound, failures
+
 courant, source = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 sys.path.insert(0, os.path.join(source, "keyword_decks", "taylor_bar"))
 import deck as bar  # noqa: E402
-
-failures = []
-
-
-def bound(what, value, low, high):
-    text = f"{what}: {value:.6g}, from {low:g} to {high:g}"
-    print(("ok      " if low <= value <= high else "FAILED  ") + text)
-    if not low <= value <= high:
-        failures.append(text)
 
 
 def run(text, folder, threads=1):

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "keyword/common_rules.hpp"
 #include "laws/strength/linear_hardening.hpp"
 

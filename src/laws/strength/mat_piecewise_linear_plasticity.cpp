@@ -5,6 +5,7 @@
 
 #include "keyword/common_rules.hpp"
 #include "laws/strength/hardening.hpp"
+#include "laws/strength/isotropic_plasticity.hpp"
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/root_below.hpp"
 #include "laws/strength/strength.hpp"
@@ -35,8 +36,22 @@ struct YieldStress {
     const Real y = curves.front().at(e);
     return added > 0 && C > 0 ? y + added * std::pow(r / C, 1 / P) : scale(r) * y;
   }
+  Real increment(const PointBlock& block, Index i, Real q, Real e, Real three_g) const {
+    const Real most = q / three_g;  // where softening leaves no strength, not beyond
+    if (rate == Rate::of_plastic_strain && block.dt > 0) {
+      if (!(q > std::max(at(e, 0), Real(0)))) return 0;
+      return root_below(most, [&](Real de) { return q - three_g * de - strength(e + de, de / block.dt); });
+    }
+    const Real at_rate = rate == Rate::none || rate == Rate::of_plastic_strain
+                             ? 0
+                             : effective_rate(block, i, rate == Rate::of_deviator);
+    if (!(q > std::max(at(e, at_rate), Real(0)))) return 0;
+    if (is_scaled()) return std::min(curves.front().increment(q, three_g, e, scale(at_rate)), most);
+    return root_below(most, [&](Real de) { return q - three_g * de - strength(e + de, at_rate); });
+  }
 
  private:
+  Real strength(Real e, Real r) const { return std::max(at(e, r), Real(0)); }
   /// Of a table: straight between curves, constant beyond the first and the last.
   Real between(Real e, Real r) const {
     const auto above = std::upper_bound(rates.begin(), rates.end(), r);
@@ -46,55 +61,6 @@ struct YieldStress {
     const Real share = (r - rates[k - 1]) / (rates[k] - rates[k - 1]);
     return (1 - share) * curves[k - 1].at(e) + share * curves[k].at(e);
   }
-};
-
-/// J2 plasticity with isotropic hardening: s_tr = s + 2 G dev(D) dt is returned along itself to
-/// q = q_tr - 3 G de = yield stress at e + de.
-class PiecewiseLinearPlasticity : public StrengthLaw {
- public:
-  PiecewiseLinearPlasticity(Real density, Real E, Real nu, YieldStress yield)
-      : lambda_(E * nu / ((1 + nu) * (1 - 2 * nu))), shear_(E / (2 * (1 + nu))), yield_(std::move(yield)) {
-    ro = density;
-  }
-  Real bulk_modulus() const override { return lambda_ + 2 * shear_ / 3; }
-  Real shear_modulus() const override { return shear_; }
-  std::vector<HistoryVariable> history() const override { return {{"plastic_strain", "-"}}; }
-  Real failure_limit() const override { return fails_at; }
-  Real fails_at = std::numeric_limits<Real>::infinity();  ///< plastic strain [-]
-
-  void update(const PointBlock& block) const override {
-    PlasticTrial trial;
-    go_elastically(lambda_, shear_, block, FixedCentre{}, trial);
-    Real* plastic = block.history[0];
-    for (Index i = 0; i < block.count; ++i) {
-      trial.plastic[i] = increment(block, i, trial.q[i], plastic[i]);
-      plastic[i] += trial.plastic[i];
-    }
-    constexpr Real none = 1e-300;  // there is no increment where q is 0
-    return_radially(shear_, 0, none, block, FixedCentre{}, trial);
-    keep_stiffness(block, sound_speed());
-  }
-
- private:
-  Real increment(const PointBlock& block, Index i, Real q, Real e) const {
-    using Rate = YieldStress::Rate;
-    const Real three_g = 3 * shear_, most = q / three_g;  // where softening leaves no strength, not beyond
-    if (yield_.rate == Rate::of_plastic_strain && block.dt > 0) {
-      if (!(q > std::max(yield_.at(e, 0), Real(0)))) return 0;
-      return root_below(most, [&](Real de) { return q - three_g * de - strength(e + de, de / block.dt); });
-    }
-    const Real rate = yield_.rate == Rate::none || yield_.rate == Rate::of_plastic_strain
-                          ? 0
-                          : effective_rate(block, i, yield_.rate == Rate::of_deviator);
-    if (!(q > std::max(yield_.at(e, rate), Real(0)))) return 0;
-    if (yield_.is_scaled())
-      return std::min(yield_.curves.front().increment(q, three_g, e, yield_.scale(rate)), most);
-    return root_below(most, [&](Real de) { return q - three_g * de - strength(e + de, rate); });
-  }
-  Real strength(Real e, Real rate) const { return std::max(yield_.at(e, rate), Real(0)); }
-
-  Real lambda_, shear_;
-  YieldStress yield_;
 };
 
 using M = struct MatPiecewiseLinearPlasticity;
@@ -137,7 +103,7 @@ struct MatPiecewiseLinearPlasticity : Entry {
     }
     if (yield.curves.size() > 1 || c > 0 || lcsr != 0)
       yield.rate = vp == 1 ? Rate::of_plastic_strain : vp == -1 ? Rate::of_deviator : Rate::of_strain;
-    auto law = std::make_shared<PiecewiseLinearPlasticity>(ro, E, pr, std::move(yield));
+    auto law = std::make_shared<IsotropicPlasticity<YieldStress>>(ro, E, pr, std::move(yield));
     if (fail > 0 && fail < never_fails) law->fails_at = fail;
     return law;
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "keyword/common_rules.hpp"
+#include "laws/strength/isotropic_plasticity.hpp"
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/root_below.hpp"
 #include "laws/strength/strength.hpp"
@@ -21,45 +22,14 @@ struct PowerLaw {
   Real at(Real e, Real rate) const {
     return K * std::pow(e0 + e, N) * (C > 0 ? 1 + std::pow(rate / C, 1 / P) : 1);
   }
-};
-
-class PowerLawPlasticity : public StrengthLaw {
- public:
-  PowerLawPlasticity(Real density, Real E, Real nu, const PowerLaw& yield)
-      : lambda_(E * nu / ((1 + nu) * (1 - 2 * nu))), shear_(E / (2 * (1 + nu))), yield_(yield) {
-    ro = density;
-  }
-  Real bulk_modulus() const override { return lambda_ + 2 * shear_ / 3; }
-  Real shear_modulus() const override { return shear_; }
-  std::vector<HistoryVariable> history() const override { return {{"plastic_strain", "-"}}; }
-  Real failure_limit() const override { return fails_at; }
-  Real fails_at = std::numeric_limits<Real>::infinity();  ///< plastic strain [-]
-
-  void update(const PointBlock& block) const override {
-    PlasticTrial trial;
-    go_elastically(lambda_, shear_, block, FixedCentre{}, trial);
-    Real* plastic = block.history[0];
-    for (Index i = 0; i < block.count; ++i) {
-      trial.plastic[i] = increment(block, i, trial.q[i], plastic[i]);
-      plastic[i] += trial.plastic[i];
-    }
-    constexpr Real none = 1e-300;  // there is no increment where q is 0
-    return_radially(shear_, 0, none, block, FixedCentre{}, trial);
-    keep_stiffness(block, sound_speed());
-  }
-
- private:
-  Real increment(const PointBlock& block, Index i, Real q, Real e) const {
-    const bool viscous = yield_.viscous && yield_.C > 0 && block.dt > 0;
-    const Real rate = yield_.C > 0 && !viscous ? effective_rate(block, i, true) : 0, three_g = 3 * shear_;
-    if (!(q > yield_.at(e, rate))) return 0;
+  Real increment(const PointBlock& block, Index i, Real q, Real e, Real three_g) const {
+    const bool by_plastic_rate = viscous && C > 0 && block.dt > 0;
+    const Real rate = C > 0 && !by_plastic_rate ? effective_rate(block, i, true) : 0;
+    if (!(q > at(e, rate))) return 0;
     return root_below(q / three_g, [&](Real de) {
-      return q - three_g * de - yield_.at(e + de, viscous ? de / block.dt : rate);
+      return q - three_g * de - at(e + de, by_plastic_rate ? de / block.dt : rate);
     });
   }
-
-  Real lambda_, shear_;
-  PowerLaw yield_;
 };
 
 using Power = struct MatPowerLawPlasticity;
@@ -76,7 +46,7 @@ struct MatPowerLawPlasticity : Entry {
     return sigy > 0 ? sigy : std::pow(E / k, 1 / (n - 1));
   }
   std::shared_ptr<StrengthLaw> law() const {
-    auto law = std::make_shared<PowerLawPlasticity>(
+    auto law = std::make_shared<IsotropicPlasticity<PowerLaw>>(
         ro, E, pr, PowerLaw{.K = k, .N = n, .e0 = first_strain(), .C = src, .P = srp, .viscous = vp == 1});
     if (epsf > 0 && epsf < never_fails) law->fails_at = epsf;
     return law;

@@ -5,16 +5,6 @@
 
 namespace courant {
 
-std::vector<ModelPly> ElementShellCompositeCard::plies() const {
-  std::vector<ModelPly> out;
-  for (std::size_t row = 0; row < mid1.size(); ++row) {
-    out.push_back({mid1[row], thick1[row], b1[row]});
-    const bool second = !is_long() && (mid2[row] != 0 || thick2[row] != 0);
-    if (second) out.push_back({mid2[row], thick2[row], b2[row]});
-  }
-  return out;
-}
-
 namespace {
 
 using namespace rules;
