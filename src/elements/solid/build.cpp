@@ -41,12 +41,11 @@ class SolidLaws {
       const auto eos = eos_.find(deck, part, law->second->ro, "solids", diagnostics);
       if (!eos) return;
       out.pressure = std::make_shared<SolidPressure>(eos, law->second);
-      if (out.full)
-        deck.error(
-            diagnostics, part.card, "SECID",
-            fmt::format("solids with eight points, as those of part {}, cannot have an equation of state",
-                        part.id),
-            "give them ELFORM 1");
+      if (out.full || out.nodal)
+        deck.error(diagnostics, part.card, "SECID",
+                   fmt::format("solids with {}, as those of part {}, cannot have an equation of state",
+                               out.full ? "eight points" : "pressures averaged over nodes", part.id),
+                   out.full ? "give them ELFORM 1" : "give them ELFORM 10");
       if (law->second->shear_modulus() == 0 && out.viscosity.ihq >= 4)
         deck.warning(diagnostics, part.card, "HGID",
                      fmt::format("the solids of part {} are a fluid, and IHQ "
@@ -87,7 +86,8 @@ std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Di
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const ModelPart& part = model.parts[k];
     if (!part.has_solid || part.rigid) continue;
-    out[k].viscosity = viscosity[k], out[k].full = fully_integrated(deck, part);
+    out[k].viscosity = viscosity[k], out[k].full = solid_formulation(deck, part) == 2;
+    out[k].nodal = solid_formulation(deck, part) == 13;
     laws.take(deck, part, out[k], diagnostics);
   }
   return out;

@@ -20,8 +20,8 @@ using S = SectionSolid;
 const RegisterKeyword<S> section_solid{
     {.names = {"SECTION_SOLID"},
      .purpose = "formulation of solid elements: one point (ELFORM 1; 10 for tetrahedra, 15 and 115 for "
-                "pentahedra), or eight "
-                "and a constant pressure (2)",
+                "pentahedra), eight and a constant pressure (2), or tetrahedra whose pressure is averaged "
+                "over nodes (13)",
      .id_space = IdSpace::section,
      .title_option = true,
      .title = &S::title,
@@ -49,6 +49,7 @@ constexpr Formulation formulations[] = {{1, 0, 1, ""},
                                         {-1, 0, 8, ""},
                                         {-2, 0, 8, ""},
                                         {10, 4, 1, "tetrahedra"},
+                                        {13, 4, 1, "tetrahedra"},
                                         {15, 6, 2, "pentahedra"},
                                         {115, 6, 1, "pentahedra"}};
 
@@ -85,7 +86,8 @@ void check_fields(const Deck& deck, const S& s, Diagnostics& diagnostics) {
     deck.error(
         diagnostics, s, "ELFORM", fmt::format("'{}' is not supported", s.elform),
         "supported values: 0, 1 (one point and hourglass control by *HOURGLASS), 2 (eight points; -1 and -2 "
-        "become it), 10 (tetrahedra), 15 and 115 (pentahedra)");
+        "become it), 10 (tetrahedra), 13 (tetrahedra with pressures averaged over nodes), 15 and 115 "
+        "(pentahedra)");
   const auto refuse = [&](const char* field, Real value, const char* what) {
     if (value != 0)
       deck.error(diagnostics, s, field, fmt::format("{} are not supported, got '{:g}'", what, value),
@@ -98,10 +100,10 @@ void check_fields(const Deck& deck, const S& s, Diagnostics& diagnostics) {
 
 }  // namespace
 
-bool fully_integrated(const Deck& deck, const ModelPart& part) {
+int solid_formulation(const Deck& deck, const ModelPart& part) {
   for (const S& s : deck.all<S>())
-    if (s.secid == part.secid) return s.elform == 2 || s.elform == -1 || s.elform == -2;
-  return false;
+    if (s.secid == part.secid) return s.elform < 0 ? 2 : s.elform;
+  return 1;
 }
 
 void check_solid_sections(const Deck& deck, const Model& model, Diagnostics& diagnostics) {

@@ -16,8 +16,8 @@ struct SectionSolid : Entry {
   Real cohoff = 0, gaskett = 0;
 };
 
-/// Whether a part of solids has eight points in each (ELFORM 2), else one.
-bool fully_integrated(const Deck& deck, const ModelPart& part);
+/// ELFORM of a part of solids; 2 where it becomes that, 1 where there is no section.
+int solid_formulation(const Deck& deck, const ModelPart& part);
 
 /// Checks that each part with solids has a section with a formulation that is there. Sections that no such
 /// part names may be of any kind.

@@ -8,6 +8,7 @@
 #include "base/run_error.hpp"
 #include "elements/largest_frequency.hpp"
 #include "elements/solid/full_points.hpp"
+#include "elements/solid/nodal_pressure.hpp"
 #include "elements/solid/solids.hpp"
 #include "state/reports.hpp"
 
@@ -68,6 +69,7 @@ class SolidForces : public Material,
     }
     limit_to_frequency(held, world);
     if (part.pressure) start_pressure();
+    if (part.nodal) nodal_ = std::make_shared<NodalPressure>(group, world);
     if (const FailureRules& rules = options.failure[static_cast<std::size_t>(group.part)]; rules.any())
       options.eroding.push_back(erosion_ = make_erosion(rules, world));
   }
@@ -80,6 +82,7 @@ class SolidForces : public Material,
     for (const Field<Real>* h : history_) a.updates(*h);
     if (hourglass_force_) a.updates(*hourglass_force_);
     if (full_) full_->declare(a);
+    if (nodal_) nodal_->declare(a);
     if (erosion_) erosion_->declare(world, a);
     if (!scaled_) return;
     scaled_->declare(world, a);
@@ -117,10 +120,11 @@ class SolidForces : public Material,
     HexahedronLoops::Found& found = found_[static_cast<std::size_t>(begin / block_size)];
     const Index count = end - begin;
     if (erosion_) erosion_->begin_block(begin, count);
-    found = advance({mesh_, control_, state_, *law_, material_.pressure.get()}, clock.dt_old, begin, end,
-                    scratch, erosion_ ? &clock : nullptr);
+    found = advance({mesh_, control_, state_, *law_, material_.pressure.get(), nodal_.get()}, clock.dt_old,
+                    begin, end, scratch, erosion_ ? &clock : nullptr);
     if (erosion_)
       erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, scratch.relative_volume);
+    if (nodal_) nodal_->keep({begin, count, clock.dt_old}, state_, erosion_.get());
     const bool lighter = scaled_ && scaled_->look(begin, count, scratch.wave_time, scratch.step_limit);
     if (!lighter && !(erosion_ && erosion_->any_dead(begin))) return;
     const Index shortest = least_of(scratch.step_limit, count),
@@ -178,6 +182,8 @@ class SolidForces : public Material,
     }
   }
 
+  const std::shared_ptr<NodalPressure>& nodal() const { return nodal_; }
+
  private:
   static constexpr std::size_t most_history = 16;
   static constexpr Real small_strain = 1e-7;  ///< within which all is linear
@@ -189,6 +195,7 @@ class SolidForces : public Material,
     const HexahedronState& state;
     const StrengthLaw& law;
     const SolidPressure* pressure;
+    const NodalPressure* nodal;
   };
 
   HexahedronLoops::Found advance(const Answer& of, Real dt, Index begin, Index end,
@@ -197,6 +204,8 @@ class SolidForces : public Material,
     if (full_) return advance_points(of, block, scratch, failing);
     loops_.strain(block, of.mesh, of.state, scratch);
     if (failing && erosion_->any_dead(begin)) still_dead(begin, block.count, scratch);
+    NodalPressure::Scratch by_nodes;
+    if (of.nodal) of.nodal->strain(block, of.state, scratch, by_nodes);
     std::array<Real*, most_history> history{};
     PointBlock points;
     points.count = end - begin;
@@ -214,6 +223,7 @@ class SolidForces : public Material,
       of.law.update(points);
     answered(points, begin, 0, failing);
     loops_.work(block, of.state, scratch);
+    if (of.nodal) of.nodal->work(block, of.state, scratch, by_nodes);
     return loops_.forces(block, of.control, of.state, scratch);
   }
 
@@ -265,6 +275,7 @@ class SolidForces : public Material,
 
   /// A free block of few elements is stable only below what a mesh of many is: the step keeps below 2 over
   /// the largest frequency of the group, by the share of the elements' own step that this is at the start.
+  /// Means of pressures over nodes only make a mesh softer: it is that of the elements without.
   void limit_to_frequency(const std::vector<std::array<bool, 3>>& held, const World& world) {
     const Index n = group_.size();
     const Real smallest = -maximum(n, [&](Index e) { return -V0_[e]; });
@@ -288,7 +299,7 @@ class SolidForces : public Material,
           for_each_block(n, [&](Index begin, Index end) {
             FullHexahedronScratch scratch;
             found[static_cast<std::size_t>(begin / block_size)] =
-                advance({mesh, elastic, state, *linear, nullptr}, 1, begin, end, scratch);
+                advance({mesh, elastic, state, *linear, nullptr, nullptr}, 1, begin, end, scratch);
           });
           own.assemble(group_.corner_force, -1, Ku);
         });
@@ -422,9 +433,10 @@ class SolidForces : public Material,
   std::vector<Real*> history_data_;
   std::vector<HexahedronLoops::Found> found_;  ///< in each block
   std::vector<SolidPressure::Found> of_pressure_;
-  std::unique_ptr<FullPoints> full_;    ///< null: elements have one point
-  std::unique_ptr<ScaledMass> scaled_;  ///< null: no mass scaling
-  std::shared_ptr<Erosion> erosion_;    ///< null: nothing fails
+  std::unique_ptr<FullPoints> full_;      ///< null: elements have one point
+  std::shared_ptr<NodalPressure> nodal_;  ///< null: pressures are those of elements
+  std::unique_ptr<ScaledMass> scaled_;    ///< null: no mass scaling
+  std::shared_ptr<Erosion> erosion_;      ///< null: nothing fails
   /// Of the law's numbers the plastic strain, and what it fails by.
   int plastic_ = -1, fails_ = -1;
 };
@@ -437,8 +449,9 @@ void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts,
   for (const auto& group : world.groups) {
     const auto part = static_cast<std::size_t>(group->part);
     if (group->segment) continue;  // shells
-    world.passes.add(std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac,
-                                                   options, held, world));
+    const auto forces = world.passes.add(std::make_shared<SolidForces>(
+        parts[part], *group, model.parts[part].id, model.tssfac, options, held, world));
+    if (forces->nodal()) NodalPressure::add_passes(forces->nodal(), world);
   }
 }
 

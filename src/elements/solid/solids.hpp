@@ -17,8 +17,9 @@ namespace courant {
 struct SolidPart {
   std::shared_ptr<StrengthLaw> law;  ///< null: the part has no solids
   std::shared_ptr<SolidPressure>
-      pressure;       ///< of an equation of state; null: the law gives all of the stress
-  bool full = false;  ///< eight points (ELFORM 2), else one
+      pressure;        ///< of an equation of state; null: the law gives all of the stress
+  bool full = false;   ///< eight points (ELFORM 2), else one
+  bool nodal = false;  ///< pressures by nodes (ELFORM 13)
   SolidViscosity viscosity;
   /// [M/LT2]
   Real bulk_modulus() const { return pressure ? pressure->bulk_modulus() : law->bulk_modulus(); }
