@@ -80,6 +80,11 @@ std::vector<SwitchedLead> switched_leads(const Deck& deck) {
   return out;
 }
 
+const Entry* switched_alone(const Deck& deck, Id part) {
+  const Switch* const card = switch_of(deck, part);
+  return card && card->lrb == 0 ? card : nullptr;
+}
+
 void check_switched_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   for (const Switch& card : deck.all<Switch>()) {
     const auto error = [&](const char* field, std::string message, const char* hint) {

@@ -20,6 +20,9 @@ struct SwitchedLead {
 };
 std::vector<SwitchedLead> switched_leads(const Deck& deck);
 
+/// The *DEFORMABLE_TO_RIGID without LRB of a part; null where there is none.
+const Entry* switched_alone(const Deck& deck, Id part);
+
 /// Refuses by name: parts that are not there or made of particles, materials without modulus.
 void check_switched_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "rigid/deformable_to_rigid.hpp"
@@ -53,6 +55,17 @@ class MergeReader {
             "one part of the body must be merged into no other");
     merges_[part] = {lead, counts, card};
   }
+  /// Parts that *DEFORMABLE_TO_RIGID alone makes rigid move with the rigid parts that they share nodes with.
+  void join_switched() {
+    std::map<Index, Index> first_part;  // of each node of rigid parts
+    const auto join = [&](Index part, const auto& corners) {
+      if (!model_.parts[static_cast<std::size_t>(part)].rigid) return;
+      for (const Index n : corners)
+        if (const auto [at, is_new] = first_part.try_emplace(n, part); !is_new) meet(at->second, part, n);
+    };
+    for (const ModelShell& shell : model_.shells) join(shell.part, shell.node);
+    for (const ModelSolid& solid : model_.solids) join(solid.part, solid.corners());
+  }
   BodyMerges finish() { return BodyMerges(std::move(merges_)); }
 
  private:
@@ -73,6 +86,34 @@ class MergeReader {
     else
       return part->second;
     return -1;
+  }
+
+  Index last_lead(Index part) const {
+    while (merges_.contains(part)) part = merges_.at(part).lead;
+    return part;
+  }
+  /// Two rigid parts share a node. Of a switched one and another, the other leads; of two, the first.
+  void meet(Index a, Index b, Index node) {
+    a = last_lead(a), b = last_lead(b);
+    if (a == b) return;
+    const Entry *of_a = switched_alone(deck_, id_of(a)), *of_b = switched_alone(deck_, id_of(b));
+    const bool a_is_made = of_a && !is_rigid_material(a), b_is_made = of_b && !is_rigid_material(b);
+    if (!a_is_made && !b_is_made) return;  // who builds bodies refuses that
+    const bool b_leads = a_is_made && (!b_is_made || b < a);
+    const Index lead = b_leads ? b : a, part = b_leads ? a : b;
+    const Entry& card = b_leads ? *of_a : *of_b;
+    deck_.warning(
+        diagnostics_, card, "LRB",
+        fmt::format("part {} shares node {} with rigid part {}: the two move as one body, with the "
+                    "name and the constraints of part {}",
+                    id_of(part), model_.nodes[static_cast<std::size_t>(node)].id, id_of(lead), id_of(lead)),
+        fmt::format("LRB {} says the same without this warning", id_of(lead)));
+    merges_[part] = {lead, true, card};
+  }
+  bool is_rigid_material(Index part) const {
+    const Id mid = model_.parts[static_cast<std::size_t>(part)].mid;
+    const auto& all = deck_.all<MatRigid>();
+    return std::any_of(all.begin(), all.end(), [&](const MatRigid& m) { return m.mid == mid; });
   }
 
   const Deck& deck_;
@@ -107,6 +148,7 @@ BodyMerges body_merges(const Deck& deck, const Model& model, Diagnostics& diagno
     reader.add(card, "PIDL", card.pidl, "PIDC", card.pidc, card.iflag == 1);
   for (const SwitchedLead& one : switched_leads(deck))
     reader.add(one.card, "LRB", one.lead, "PID", one.part, true);
+  reader.join_switched();
   return reader.finish();
 }
 

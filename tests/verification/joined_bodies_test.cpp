@@ -163,6 +163,30 @@ TEST(MergedBodies, SwitchedPartsJoinTheirLead) {
   EXPECT_NEAR(s->bodies()->bodies().front().m, 56, 1e-11);
 }
 
+// Without LRB a switched part goes with the rigid part that it shares nodes with; of two switched ones the
+// first leads.
+TEST(MergedBodies, SwitchedPartsJoinWhoSharesTheirNodes) {
+  for (const bool both : {false, true})
+    for (const int lead : {1, 2}) {
+      SolidDeck deck;
+      const int made = 3 - lead;
+      deck.block(Vec(1, 1, 1), 1, 1, 1, lead);
+      deck.nodes.insert(deck.nodes.end(), {Vec(2, 0, 0), Vec(2, 1, 0), Vec(2, 0, 1), Vec(2, 1, 1)});
+      deck.elements +=
+          fmt::format("{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}\n", 2, made, 2, 9, 10, 4, 6, 11, 12, 8);
+      deck.cards = section_1 + (both ? soft_part(lead) : rigid_part(lead, 1000)) + soft_part(made) +
+                   fmt::format("*DEFORMABLE_TO_RIGID\n{:10}\n*DEFORMABLE_TO_RIGID\n{:10}\n", made, lead);
+      const auto s = simulation_of(deck.text(1));
+      ASSERT_NE(s, nullptr);
+      ASSERT_EQ(s->bodies()->bodies().size(), 1u);
+      const RigidBody& b = s->bodies()->bodies().front();
+      EXPECT_EQ(b.part, lead);  // its *PART comes first
+      EXPECT_NEAR(b.m, 2000, 1e-9);
+      EXPECT_NEAR((b.x - Vec(1, 0.5, 0.5)).norm(), 0, 1e-12);
+      EXPECT_NEAR((b.J0 - inertia_of_brick(2000, Vec(2, 1, 1), Vec::Zero())).norm(), 0, 1e-9);
+    }
+}
+
 // All nodes of a soft block: its lumped masses 1/4, 1/2, 1/4 along each axis give <x^2> = a^2/8.
 TEST(NodalBodies, SpinFreelyWithTheInertiaOfTheirNodes) {
   SolidDeck deck;
