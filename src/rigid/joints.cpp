@@ -12,21 +12,22 @@ namespace courant {
 
 namespace {
 
-/// The part of the identity along which a body is free, in turns or in translations.
-Matrix free_part(const RigidBody& b, bool turns, const Clock* clock) {
+/// The part of the identity along which a body is free to move.
+Matrix free_part(const RigidBody& b, const Clock* clock) {
   Matrix free = Matrix::Identity();
   for (int k = 0; k < 3; ++k)
-    if (turns ? b.no_turn[static_cast<std::size_t>(k)] : b.held[static_cast<std::size_t>(k)]) free(k, k) = 0;
+    if (b.held[static_cast<std::size_t>(k)]) free(k, k) = 0;
   for (const PrescribedMotion& motion : b.motions)
-    if (motion.turns == turns && clock && motion.drives(clock->t, clock->dt))
-      free -= motion.direction * motion.direction.transpose();
+    if (const Vec d = b.direction_of(motion, b.q);
+        !motion.turns && clock && motion.drives(clock->t, clock->dt))
+      free -= d * d.transpose();
   return free;
 }
 
 Matrix inverse_inertia(const RigidBody& b, const Clock* clock) {
-  const Matrix free = free_part(b, true, clock);
   Matrix out;
-  for (int k = 0; k < 3; ++k) out.col(k) = free * b.turning_by(Vec(free.col(k)), b.q);
+  for (int k = 0; k < 3; ++k)
+    out.col(k) = clock ? b.turning_beside_drives(Vec::Unit(k), clock) : b.turning_by(Vec::Unit(k), b.q);
   return out;
 }
 
@@ -128,8 +129,7 @@ void Joints::factorise(const std::vector<JointRow>& rows, const Clock* clock) {
     const RigidBody& b = bodies_->bodies()[k];
     if (b.fixed() || !joined_[k]) continue;
     const Real mean = b.J0.trace() / 3;  // a body of rods may have none about an axis
-    inverse_[k] = {free_part(b, false, clock) / b.m, inverse_inertia(b, clock), 1 / b.m,
-                   mean > 0 ? 1 / mean : 0};
+    inverse_[k] = {free_part(b, clock) / b.m, inverse_inertia(b, clock), 1 / b.m, mean > 0 ? 1 / mean : 0};
   }
   free_ = Eigen::VectorXd::Zero(first_row_.back());
   matrix_.clear();
@@ -240,7 +240,7 @@ void Joints::start_drives(const Clock& clock, World& world) {
     if (!tied(k)) continue;
     for (const PrescribedMotion& motion : b.motions) {
       if (!motion.drives(clock.t, clock.dt)) continue;
-      const Vec& d = motion.direction;  // a body turns about an axis that is driven alone
+      const Vec d = b.direction_of(motion, b.q);
       const Real now = (motion.turns ? b.omega : b.v).dot(d);
       const Vec change = (motion.velocity(clock.t, clock.dt, 0, now) - now) * d;
       if (motion.turns)

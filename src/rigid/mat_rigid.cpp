@@ -13,6 +13,11 @@ constexpr Honour no = Honour::no, output_only = Honour::output_only;
 
 /// CON1 and CON2 name global axes. Anything else in them is refused later, as it stands.
 std::string move_constraints(M& m, const Affine& motion) {
+  if (Vec V(m.v1, m.v2, m.v3); V != Vec::Zero()) {
+    const Vec A = motion.linear() * Vec(m.lco, m.a2, m.a3);
+    V = motion.linear() * V;
+    m.lco = A[0], m.a2 = A[1], m.a3 = A[2], m.v1 = V[0], m.v2 = V[1], m.v3 = V[2];
+  }
   if (m.cmo != 1) return {};
   for (Real* code : {&m.con1, &m.con2}) {
     if (!(*code > 0 && *code < 7 && *code == std::floor(*code))) continue;
@@ -60,12 +65,16 @@ const RegisterKeyword<M> mat_rigid{
                 {"YSPC", &M::yspc, "L", "point of a point constraint", {.honour = no}},
                 {"ZSPC", &M::zspc, "L", "point of a point constraint", {.honour = no}}},
            .optional = true},
-          {.fields = {{"LCO", &M::lco, "-", "local system of the output", {.honour = output_only}},
-                      {"A2", &M::a2, "-", "local system of the output", {.honour = output_only}},
-                      {"A3", &M::a3, "-", "local system of the output", {.honour = output_only}},
-                      {"V1", &M::v1, "-", "local system of the output", {.honour = output_only}},
-                      {"V2", &M::v2, "-", "local system of the output", {.honour = output_only}},
-                      {"V3", &M::v3, "-", "local system of the output", {.honour = output_only}},
+          {.fields = {{"LCO",
+                       &M::lco,
+                       "-",
+                       "system, or x of A, of the axes of motions _LOCAL; not of the output",
+                       {}},
+                      {"A2", &M::a2, "-", "these axes: x along A, y by V", {}},
+                      {"A3", &M::a3, "-", "these axes: x along A, y by V", {}},
+                      {"V1", &M::v1, "-", "these axes: x along A, y by V", {}},
+                      {"V2", &M::v2, "-", "these axes: x along A, y by V", {}},
+                      {"V3", &M::v3, "-", "these axes: x along A, y by V", {}},
                       {"BNDLCO", &M::bndlco, "-", "local axes in bndout", {.honour = output_only}}},
            .optional = true}},
      .move = move_constraints}};

@@ -16,12 +16,6 @@ bool all(const std::array<bool, 3>& a) {
   return a[0] && a[1] && a[2];
 }
 
-Eigen::Quaterniond turned(const Vec& angle, const Eigen::Quaterniond& q) {
-  const Real a = angle.norm();
-  if (a == 0) return q;
-  return (Eigen::Quaterniond(Eigen::AngleAxisd(a, angle / a)) * q).normalized();
-}
-
 /// Body loads are linear in the place: a(x) = a(centre) + A (x - centre). The columns of A. [1/T2]
 Matrix gradient_of(const BodyAcceleration::At& now, const RigidBody& b) {
   const Real size = std::sqrt(b.J0.trace() / b.m);
@@ -51,6 +45,12 @@ void for_each_piece(std::vector<RigidBody>& bodies, std::vector<RigidBodies::Pie
 }
 
 }  // namespace
+
+Eigen::Quaterniond turned_by(const Vec& angle, const Eigen::Quaterniond& q) {
+  const Real a = angle.norm();
+  if (a == 0) return q;
+  return (Eigen::Quaterniond(Eigen::AngleAxisd(a, angle / a)) * q).normalized();
+}
 
 bool RigidBody::fixed() const {
   return all(held) && all(no_turn);
@@ -94,7 +94,7 @@ Vec RigidBody::turning_by(const Vec& angular_momentum, const Eigen::Quaterniond&
 Vec turning_over(const RigidBody& b, const Vec& L, Real dt) {
   Vec omega = b.turning_by(L, b.q);
   for (int it = 0; it < 20; ++it) {
-    const Vec next = b.turning_by(L, turned(0.5 * dt * omega, b.q));
+    const Vec next = b.turning_by(L, turned_by(0.5 * dt * omega, b.q));
     const bool done = (next - omega).norm() <= 1e-15 * next.norm();
     omega = next;
     if (done) break;
@@ -104,7 +104,7 @@ Vec turning_over(const RigidBody& b, const Vec& L, Real dt) {
 
 BodyPose pose_after(const RigidBody& b, const HalfStep& next, Real dt) {
   if (b.fixed()) return {b.x, b.q};
-  return {b.x + next.v * dt, turned(dt * turning_over(b, next.L, dt), b.q)};
+  return {b.x + next.v * dt, turned_by(dt * turning_over(b, next.L, dt), b.q)};
 }
 
 bool RigidBodies::any_moves() const {
@@ -192,7 +192,7 @@ void RigidBodies::drift(World& world, const Clock& clock) {
   for (RigidBody& b : bodies_) {
     if (b.fixed()) continue;
     b.x += b.v * clock.dt;
-    b.q = turned(clock.dt * b.omega, b.q);
+    b.q = turned_by(clock.dt * b.omega, b.q);
   }
   Field<Real>* turning = shared_fields::angular_velocity.find(world.nodes.fields);
   for_each_piece(bodies_, pieces_, [&](const RigidBody& b, const Piece& piece) {
@@ -301,12 +301,11 @@ WallBodies RigidBodies::wall_bodies(const World& world) {
       if (b.no_turn[k]) arm[k] = 0;
     }
     for (const PrescribedMotion& motion : b.motions) {
-      if (motion.turns)
-        arm -= arm.dot(motion.direction) * motion.direction;
-      else
-        free -= free.dot(motion.direction) * motion.direction;
+      if (motion.turns) continue;
+      const Vec d = b.direction_of(motion, b.q);
+      free -= free.dot(d) * d;
     }
-    return free.squaredNorm() / b.m + arm.dot(b.turning_by(arm, b.q));
+    return free.squaredNorm() / b.m + arm.dot(b.turning_beside_drives(arm, nullptr));
   };
   out.change = [this](Index body, const Vec& q, const Clock& clock) -> Vec {
     const RigidBody& b = bodies_[static_cast<std::size_t>(body)];

@@ -55,8 +55,8 @@ struct RigidBody {
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
   Vec force = Vec::Zero(), moment = Vec::Zero();  ///< at the last force evaluation [ML/T2], [ML2/T2]
   std::vector<BodyForceLoad> loads;               ///< *LOAD_RIGID_BODY
-  std::vector<PrescribedMotion> motions;          ///< whose directions are global axes where they turn
-  Real drive_work = 0;                            ///< by `motions` so far [ML2/T2]
+  std::vector<PrescribedMotion> motions;
+  Real drive_work = 0;  ///< by `motions` so far [ML2/T2]
 
   bool fixed() const;  ///< nothing can move
   bool has_part(Index part) const { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
@@ -69,6 +69,13 @@ struct RigidBody {
   Vec omega_of(const Eigen::Quaterniond& orientation) const;
   /// The same of any angular momentum. [1/T]
   Vec turning_by(const Vec& angular_momentum, const Eigen::Quaterniond& orientation) const;
+  /// Direction of one of `motions` in an orientation.
+  Vec direction_of(const PrescribedMotion& motion, const Eigen::Quaterniond& orientation) const {
+    return motion.local ? Vec(orientation * motion.direction) : motion.direction;
+  }
+  /// Change of the angular velocity by that of the angular momentum, where rotations that are driven do not
+  /// change. `clock`: of those that drive in its step; null: all. [1/T]
+  Vec turning_beside_drives(const Vec& change, const Clock* clock) const;
 };
 
 /// Velocity and angular momentum of the half step to come.
@@ -77,11 +84,14 @@ struct HalfStep {
 };
 /// From the forces on a body, and from its prescribed motions where there are any.
 HalfStep next_half_step(const RigidBody& body, const Clock& clock);
-/// From other forces than those that the body has now. [ML/T2], [ML2/T2]
+/// From other forces than those that the body has now. Throws RunError where a body turns too far in a step
+/// to follow its drives. [ML/T2], [ML2/T2]
 HalfStep next_half_step(const RigidBody& body, const Vec& force, const Vec& moment, const Clock& clock);
 /// How a body turns over a step that starts in its orientation q with the angular momentum L: omega of the
 /// middle of the step. [1/T]
 Vec turning_over(const RigidBody& body, const Vec& L, Real dt);
+/// An orientation turned by a rotation vector, global axes. [-]
+Eigen::Quaterniond turned_by(const Vec& angle, const Eigen::Quaterniond& q);
 /// Place and orientation a step later.
 struct BodyPose {
   Vec x = Vec::Zero();
@@ -130,8 +140,9 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   /// Adds kinetic and potential energy of the bodies that can move.
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
 
-  /// Lets bodies follow *BOUNDARY_PRESCRIBED_MOTION_RIGID. Refuses by name: parts that are no rigid bodies,
-  /// directions that are held or driven twice, rotations of bodies that may turn about another axis, too.
+  /// Lets bodies follow *BOUNDARY_PRESCRIBED_MOTION_RIGID and _LOCAL. Refuses by name: parts that are no
+  /// rigid bodies, directions that are held or driven twice, local ones of bodies that are held or have no
+  /// axes.
   void follow(const std::vector<PrescribedMotion>& motions, const Deck& deck, const Model& model,
               Diagnostics& diagnostics);
   /// For contact with their faces. Refers to this object.

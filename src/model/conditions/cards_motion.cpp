@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <type_traits>
 #include <unordered_map>
 
 #include "keyword/common_rules.hpp"
@@ -33,7 +34,9 @@ struct MotionOfSet : MotionCard {
 struct MotionOfRigid : MotionCard {
   static constexpr const char* field = "PID";
 };
-struct MotionOfRigidLocal : MotionCard {};
+struct MotionOfRigidLocal : MotionCard {
+  static constexpr const char* field = "PID";
+};
 
 constexpr int along_vector = 4, first_rotation = 5;
 
@@ -45,13 +48,11 @@ std::string keep_axes(MotionCard& card, const Affine& motion) {
 }
 
 template <class T>
-KeywordOf<T> motion_keyword(std::string name, std::string purpose, const char* field, IdSpace refers,
-                            std::string lacking = {}) {
-  const bool honoured = lacking.empty();
-  const FieldRules id = required_id_of(refers);
-  const FieldRules curve = honoured ? required_id_of(IdSpace::curve) : id_of(IdSpace::curve);
-  const FieldRules dof{.required = honoured};
-  const FieldRules time{.check = honoured ? Check::not_negative : Check::any};
+KeywordOf<T> motion_keyword(std::string name, std::string purpose, IdSpace refers) {
+  const char* const field = T::field;
+  const FieldRules id = required_id_of(refers), curve = required_id_of(IdSpace::curve);
+  const FieldRules dof{.required = true};
+  const FieldRules time{.check = Check::not_negative};
   return {
       .names = {std::move(name)},
       .purpose = std::move(purpose),
@@ -59,7 +60,6 @@ KeywordOf<T> motion_keyword(std::string name, std::string purpose, const char* f
       .id_option = true,
       .title = &T::title,
       .id = &T::entry_id,
-      .lacking = std::move(lacking),
       .cards =
           {{.fields =
                 {{field, &T::id, "-", "what moves", id},
@@ -78,20 +78,23 @@ KeywordOf<T> motion_keyword(std::string name, std::string purpose, const char* f
                        {"NODE1", &T::node1, "-", "node of the orientation", id_of(IdSpace::node)},
                        {"NODE2", &T::node2, "-", "node of the orientation", id_of(IdSpace::node)}},
             .when = [](const T& e) { return std::abs(e.dof) >= 9 || e.vad == 4; }}},
-      .move = [](T& card, const Affine& motion) { return keep_axes(card, motion); }};
+      .move = [](T& card, const Affine& motion) {
+        return std::is_same_v<T, MotionOfRigidLocal> ? std::string()
+                                                     : keep_axes(card, motion);  // its axes move
+      }};
 }
 
 const RegisterKeyword<MotionOfNode> of_node{motion_keyword<MotionOfNode>(
-    "BOUNDARY_PRESCRIBED_MOTION_NODE", "prescribed motion of particles", MotionOfNode::field, IdSpace::node)};
-const RegisterKeyword<MotionOfSet> of_set{
-    motion_keyword<MotionOfSet>("BOUNDARY_PRESCRIBED_MOTION_SET", "prescribed motion of sets of particles",
-                                MotionOfSet::field, IdSpace::node_set)};
-const RegisterKeyword<MotionOfRigid> of_rigid{
-    motion_keyword<MotionOfRigid>("BOUNDARY_PRESCRIBED_MOTION_RIGID", "prescribed motion of rigid bodies",
-                                  MotionOfRigid::field, IdSpace::part)};
-const RegisterKeyword<MotionOfRigidLocal> of_rigid_local{motion_keyword<MotionOfRigidLocal>(
-    "BOUNDARY_PRESCRIBED_MOTION_RIGID_LOCAL", "prescribed motion of rigid bodies along axes of their own",
-    "PID", IdSpace::part, "motions along the axes of a body")};
+    "BOUNDARY_PRESCRIBED_MOTION_NODE", "prescribed motion of particles", IdSpace::node)};
+const RegisterKeyword<MotionOfSet> of_set{motion_keyword<MotionOfSet>(
+    "BOUNDARY_PRESCRIBED_MOTION_SET", "prescribed motion of sets of particles", IdSpace::node_set)};
+const RegisterKeyword<MotionOfRigid> of_rigid{motion_keyword<MotionOfRigid>(
+    "BOUNDARY_PRESCRIBED_MOTION_RIGID", "prescribed motion of rigid bodies", IdSpace::part)};
+const RegisterKeyword<MotionOfRigidLocal> of_rigid_local{
+    motion_keyword<MotionOfRigidLocal>("BOUNDARY_PRESCRIBED_MOTION_RIGID_LOCAL",
+                                       "prescribed motion of rigid bodies along axes that turn with them: "
+                                       "those of LCO or A1 to V3 of *MAT_RIGID",
+                                       IdSpace::part)};
 
 class Reader {
  public:
@@ -108,10 +111,8 @@ class Reader {
       else
         add(card, found->second, -1);
     }
-    for (const auto& card : deck_.all<MotionOfRigid>()) {
-      const auto found = model_.part_of_id.find(card.id);  // else a body of nodes, or who moves bodies tells
-      add(card, {}, found == model_.part_of_id.end() ? -1 : found->second, card.id);
-    }
+    for (const auto& card : deck_.all<MotionOfRigid>()) add_of_body(card, false);
+    for (const auto& card : deck_.all<MotionOfRigidLocal>()) add_of_body(card, true);
     return std::move(motions_);
   }
 
@@ -143,6 +144,16 @@ class Reader {
     return direction && kind;
   }
 
+  void add_of_body(const MotionCard& card, bool local) {
+    if (local && card.dof == along_vector)
+      return deck_.error(diagnostics_, card, "DOF", fmt::format("'{}' is not supported", card.dof),
+                         "supported: 1 to 3 and 5 to 7, along and about the axes of the body");
+    const auto found = model_.part_of_id.find(card.id);  // else a body of nodes, or who moves bodies tells
+    const std::size_t before = motions_.size();
+    add(card, {}, found == model_.part_of_id.end() ? -1 : found->second, card.id);
+    if (motions_.size() > before) motions_.back().local = local;
+  }
+
   /// `body`: 0 of nodes.
   void add(const MotionCard& card, std::vector<Index> nodes, Index part, Id body = 0) {
     if (!supported(card, body != 0)) return;
@@ -163,10 +174,10 @@ class Reader {
     } else {
       motion.direction[motion.turns ? card.dof - first_rotation : card.dof - 1] = 1;
       if (card.vid != 0)
-        return deck_.error(diagnostics_, card, "VID",
-                           fmt::format("'{}' is not supported with DOF {}: the direction is a global axis",
-                                       card.vid, card.dof),
-                           "leave VID blank, or use DOF 4");
+        return deck_.error(
+            diagnostics_, card, "VID",
+            fmt::format("'{}' is not supported with DOF {}: the direction is an axis", card.vid, card.dof),
+            "leave VID blank, or use DOF 4");
     }
     if (motion.kind == PrescribedMotion::Kind::displacement && jumps(motion.curve))
       return deck_.error(

@@ -71,6 +71,8 @@ Real PrescribedMotion::velocity(Real t, Real dt, Real dt_old, Real before) const
 std::string clash(const PrescribedMotion& a, const PrescribedMotion& b) {
   constexpr Real right_angle = 1e-9;  // cosine
   if (a.turns != b.turns || a.death <= b.birth || b.death <= a.birth) return {};
+  if (a.local != b.local)
+    return "is along axes that turn with the body, or this one is: both at the same time";
   const Real cosine = std::abs(a.direction.dot(b.direction));
   if (cosine <= right_angle) return {};
   return cosine >= 1 - right_angle

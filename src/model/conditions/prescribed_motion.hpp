@@ -13,7 +13,9 @@ struct PrescribedMotion {
   enum class Kind { velocity, acceleration, displacement };
   Kind kind = Kind::velocity;
   bool turns = false;            ///< about `direction`, with angles for displacements [-]
-  Vec direction = Vec::Zero();   ///< unit
+  Vec direction = Vec::Zero();   ///< unit; of `local` motions in the axes of the body, or, once it follows
+                                 ///< them, as it was at the start
+  bool local = false;            ///< the direction turns with the body
   Curve curve;                   ///< of time; values [L/T], [L/T2] or [L], of rotations [1/T], [1/T2] or [-]
   Real sf = 1;                   ///< factor of the values
   Real birth = 0, death = 1e28;  ///< [T]

@@ -45,6 +45,7 @@ constexpr CurveDimensions known[] = {
     {"BOUNDARY_PRESCRIBED_MOTION_NODE", "LCID", "T", "L/T"},
     {"BOUNDARY_PRESCRIBED_MOTION_SET", "LCID", "T", "L/T"},
     {"BOUNDARY_PRESCRIBED_MOTION_RIGID", "LCID", "T", "L/T"},
+    {"BOUNDARY_PRESCRIBED_MOTION_RIGID_LOCAL", "LCID", "T", "L/T"},
     {"RIGIDWALL_GEOMETRIC_FLAT", "LCID", "T", "L/T"},  // OPT 0
     {"DEFINE_SPH_INJECTION", "VMAG", "T", "-"},
     {"COURANT_INFLOW", "LCLEV", "T", "L"},

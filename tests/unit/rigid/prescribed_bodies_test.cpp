@@ -24,7 +24,7 @@ RigidBody body() {
   b.J0.diagonal() = Vec(1, 2, 4);
   b.no_turn = {true, true, false};
   b.v = Vec(1, 0, 0);
-  b.L = Vec(0, 0, 12);
+  b.L = Vec(0, 0, 12), b.omega = Vec(0, 0, 3);
   b.force = Vec(10, 20, 0);
   b.moment = Vec(0, 0, 50);
   return b;
