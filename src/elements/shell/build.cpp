@@ -71,6 +71,7 @@ class ShellReader {
     if (whole) set_moduli(out, c);
     c.shear_factor = s.shrf;
     c.thins = control_ && control_->istupd == 1;
+    c.warps = control_ && control_->bwc == 1 && !out.full;
     if (const auto* accuracy = deck_.last<ControlAccuracy>()) c.invariant_axes = accuracy->invariant_shells();
     if (const auto* step = deck_.last<ControlTimestepCard>()) c.length_rule = step->isdo;
     hourglass_.read(part, out.full, c, diagnostics_);
@@ -130,7 +131,7 @@ class ShellReader {
     refuse("ISTUPD", c.istupd != 0 && c.istupd != 1, c.istupd,
            "the thickness stays (0) or follows all of the strain (1)");
     refuse("THEORY", c.theory != belytschko_tsay, c.theory, "the default formulation is 2");
-    refuse("BWC", c.bwc != 2, c.bwc, "warped shells have no stiffness of their own (2)");
+    refuse("BWC", c.bwc != 1 && c.bwc != 2, c.bwc, "shells of ELFORM 2 heed their warp (1) or do not (2)");
     refuse("MITER", c.miter != 1 && c.miter != 2, c.miter, "plane stress is iterated to convergence (1, 2)");
     refuse("ROTASCL", !(c.rotascl > 0), c.rotascl, "rotary inertia must be above 0");
     refuse("INTGRD", c.intgrd != 0 && c.intgrd != 1, c.intgrd, "points are of Gauss (0) or Lobatto (1)");

@@ -37,7 +37,7 @@ void warn_of_warp(const Model& model, const std::vector<ShellPart>& parts, const
   for (std::size_t s = 0; s < model.shells.size(); ++s) {
     const auto part = static_cast<std::size_t>(model.shells[s].part);
     const auto node = world.segments.nodes(static_cast<Index>(s));
-    if (!parts[part].law || node[2] == node[3] || (parts[part].full && parts[part].control.drilling > 0))
+    if (!parts[part].law || node[2] == node[3] || parts[part].control.drilling > 0)
       continue;  // that has a stiffness of warping
     const Real angle = warp_angle(world, node);
     if (!(angle > parts[part].warp_warning)) continue;

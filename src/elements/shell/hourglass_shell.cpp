@@ -21,7 +21,7 @@ ShellHourglassReader::ShellHourglassReader(const Deck& deck)
 
 void ShellHourglassReader::read(const ModelPart& part, bool full, ShellControl& out,
                                 Diagnostics& diagnostics) {
-  if (full) out.drilling = usual_drilling;
+  if (full || out.warps) out.drilling = usual_drilling;
   const Hourglass* card = nullptr;
   if (part.hgid != 0) {
     const auto found = cards_.find(part.hgid);

@@ -37,9 +37,7 @@ class ShellForces : public Material,
         inertia_(*shared_fields::rotary_inertia.find(world.nodes.fields)),
         control_(part.control),
         places_(part.full && group.corners() == 4 ? 4 : 1),
-        loops_(group.corners() == 3 ? triangle_loops()
-               : places_ == 4       ? full_quadrilateral_loops()
-                                    : quadrilateral_loops()),
+        loops_(shell_loops(group.corners(), places_, part.control)),
         stress_(group.fields.add<Real>({.name = "layer_stress",
                                         .dimension = "M/LT2",
                                         .components = 6 * places_ * static_cast<int>(part.zeta.size())})),
@@ -58,7 +56,9 @@ class ShellForces : public Material,
     }
     if (places_ == 1 ? group.corners() == 4 : control_.drilling > 0)
       hourglass_force_ =
-          &group.fields.add<Real>({.name = "hourglass_force", .dimension = "-", .components = 5});
+          &group.fields.add<Real>({.name = "hourglass_force",
+                                   .dimension = "-",
+                                   .components = ShellState::generalised(places_, control_.warps)});
     if (control_.Q1 != 0 || control_.Q2 != 0)
       viscous_ = &group.fields.add<Real>({.name = "bulk_viscosity_force", .dimension = "M/T2"});
     if (part.has_axes()) directions_ = &layer_directions_of(group, layers_.size());
@@ -100,7 +100,8 @@ class ShellForces : public Material,
     for (int c = 0; c < group_.corners(); ++c) mesh_.corner[c] = group_.node.data(c);
     for (int k = 0; k < 6 * state_.points; ++k) state_.stress[k] = stress_.data(k);
     for (int k = 0; k < 8 * places_; ++k) state_.resultant[k] = resultants_.data(k);
-    for (int k = 0; k < 5; ++k) state_.hourglass[k] = hourglass_force_ ? hourglass_force_->data(k) : nullptr;
+    for (int k = 0; hourglass_force_ && k < hourglass_force_->info().components; ++k)
+      state_.hourglass[k] = hourglass_force_->data(k);
     state_.thickness = thickness_.data(), state_.mass = (scaled_ ? scaled_->inertial() : group_.mass).data();
     state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
     state_.bulk_viscosity_energy = bulk_viscosity_.data();

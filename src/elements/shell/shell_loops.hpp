@@ -1,7 +1,8 @@
 #pragma once
 // The shell of Belytschko, Lin & Tsay (1984) with one point in its plane (ELFORM 2), and the flat triangle
-// (ELFORM 4), and the quadrilateral of 2 x 2 points in its plane (16, full_shell_loops.cpp), on a block of
-// elements, compiled once for each instruction set.
+// (ELFORM 4), the quadrilateral of 2 x 2 points in its plane (16, full_shell_loops.cpp), and that of one
+// point which heeds its warp (BWC 1, warped_shell_loops.cpp), on a block of elements, compiled once for each
+// instruction set.
 //
 // Quadrilateral: d0 = x1 - x3, d1 = x2 - x4 and h = x1 - x2 + x3 - x4 tell all that does not depend on where
 // it is; triangle: d0 = x2 - x1, d1 = x3 - x1. The normal e3 is along d0 x d1, A = |d0 x d1|/2, and of any
@@ -32,9 +33,13 @@ struct ShellState {
   Real* stress[6 * most_in_plane * most_points];  ///< of point p: xx yy zz xy yz zx at 6 p, zz is 0 [M/LT2]
   /// N xx yy xy [M/T2], M xx yy xy [ML/T2], Q xz yz [M/T2]; of place q in the plane at 8 q.
   Real* resultant[8 * most_in_plane];
-  /// Generalised forces on vx vy vz wx wy, null for triangles; with 2 x 2 points moments against drilling, of
-  /// each corner.
-  Real* hourglass[5];
+  /// Generalised forces on vx vy vz wx wy, null for triangles, behind them, of shells that heed their warp,
+  /// moments against drilling, of each corner; with 2 x 2 points these alone.
+  static constexpr int hourglass_modes = 5, most_generalised = 9;
+  Real* hourglass[most_generalised];
+  static int generalised(int places, bool warps) {
+    return places == 1 && warps ? most_generalised : hourglass_modes;
+  }
   Real* viscous_force = nullptr;  ///< q times the thickness; null: no bulk viscosity [M/T2]
   Real* thickness;                ///< [L]
   const Real* mass;               ///< [M]
@@ -44,10 +49,12 @@ struct ShellState {
 
 /// What holds for all elements of a group.
 struct ShellControl {
-  bool stiffness = false;                ///< hourglass control by stiffness, else viscous
-  Real QM = 0.1, QB = 0.1, QW = 0.1;     ///< of membrane, bending, warping
-  Real Q1 = 0, Q2 = 0;                   ///< bulk viscosity
-  Real drilling = 0;                     ///< 2 x 2 points: stiffness against drilling over G t A/4
+  bool stiffness = false;             ///< hourglass control by stiffness, else viscous
+  Real QM = 0.1, QB = 0.1, QW = 0.1;  ///< of membrane, bending, warping
+  Real Q1 = 0, Q2 = 0;                ///< bulk viscosity
+  Real drilling =
+      0;  ///< 2 x 2 points, and those that heed their warp: stiffness against drilling over G t A/4
+  bool warps = false;                    ///< BWC 1: one point in the plane heeds the warp of the element
   Real E = 0, G = 0, plate_modulus = 0;  ///< E/(1 - nu^2) [M/LT2]
   Real shear_factor = 1;                 ///< SHRF
   int length_rule = 0;                   ///< ISDO
@@ -57,11 +64,11 @@ struct ShellControl {
 
 /// What a thread keeps of the block it works on, from one loop to the next.
 struct ShellScratch {
-  Real place[9][block_size];           ///< d0, d1, h of the end of the step [L]
-  Real membrane[3][block_size];        ///< D xx yy xy of the middle surface, of the middle of the step [1/T]
-  Real curvature[3][block_size];       ///< the same per height [1/LT]
-  Real shear[2][block_size];           ///< D zx yz, of the tensor [1/T]
-  Real hourglass_rate[5][block_size];  ///< 2 x 2 points: of drilling, of each corner [1/T]
+  Real place[9][block_size];      ///< d0, d1, h of the end of the step [L]
+  Real membrane[3][block_size];   ///< D xx yy xy of the middle surface, of the middle of the step [1/T]
+  Real curvature[3][block_size];  ///< the same per height [1/LT]
+  Real shear[2][block_size];      ///< D zx yz, of the tensor [1/T]
+  Real hourglass_rate[ShellState::most_generalised][block_size];  ///< of what `hourglass` are the forces
   /// 2 x 2 points: D xx yy, curvature xx yy xy, D zx yz at each place, and the area there at mid-step.
   Real quarter[4][7][block_size], quarter_area[4][block_size];
   Real middle_area[block_size];          ///< at mid-step [L2]
@@ -94,5 +101,9 @@ struct ShellLoops {
 ShellLoops quadrilateral_loops();
 ShellLoops triangle_loops();
 ShellLoops full_quadrilateral_loops();
+/// One point in the plane, for those that heed their warp (BWC 1).
+ShellLoops warped_quadrilateral_loops();
+/// `places`: points in the plane, 1 or 4.
+ShellLoops shell_loops(int corners, int places, const ShellControl& control);
 
 }  // namespace courant

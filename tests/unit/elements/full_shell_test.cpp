@@ -5,17 +5,14 @@
 #include <random>
 #include <tuple>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "shell_patch.hpp"
+#include "shell_statics.hpp"
 
 namespace courant::test::full_shell {
 
 namespace {
-
-using Dense = Eigen::MatrixXd;
-using Column = Eigen::VectorXd;
 
 const Matrix tilt = Eigen::AngleAxisd(0.7, Vec(1, 2, -1).normalized()).toRotationMatrix();
 
@@ -30,82 +27,16 @@ std::array<Real, 3> in_axes(const ShellPatch& g, std::size_t e, const Matrix& R,
   return {t(0, 0), t(1, 1), t(0, 1)};
 }
 
-/// Forces on nodes for unit motions: six numbers a node. Linear about the places of `g`.
-Dense stiffness(ShellPatch g) {
-  const auto n = static_cast<Eigen::Index>(6 * g.x.size());
-  constexpr Real small = 1e-7;
-  Dense K(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    for (auto* a : {&g.v, &g.w})
-      for (Vec& y : *a) y.setZero();
-    const auto node = static_cast<std::size_t>(j / 6);
-    (j % 6 < 3 ? g.v : g.w)[node][j % 3] = small;
-    for (auto& s : g.stress) std::fill(s.begin(), s.end(), 0);
-    for (auto& s : g.hourglass) std::fill(s.begin(), s.end(), 0);
-    g.advance(1);
-    const auto loads = g.on_nodes();
-    for (std::size_t k = 0; k < g.x.size(); ++k)
-      for (int c = 0; c < 3; ++c) {
-        K(static_cast<Eigen::Index>(6 * k) + c, j) = -loads.force[k][c] / small;
-        K(static_cast<Eigen::Index>(6 * k) + 3 + c, j) = -loads.moment[k][c] / small;
-      }
-  }
-  return 0.5 * (K + K.transpose());
-}
-/// Motions under loads, where `held` are.
-Column solve(const Dense& K, const std::vector<char>& held, const Column& load) {
-  std::vector<Eigen::Index> free;
-  for (std::size_t k = 0; k < held.size(); ++k)
-    if (!held[k]) free.push_back(static_cast<Eigen::Index>(k));
-  const Column u = Eigen::LDLT<Dense>(K(free, free)).solve(load(free));
-  Column out = Column::Zero(K.rows());
-  out(free) = u;
-  return out;
-}
-
-/// A mesh of (n + 1) x (m + 1) nodes at `place` of [0, 1] x [0, 1].
-ShellPatch mesh(int n, int m, Real t, Real E, Real nu, Real drilling,
-                const std::function<Vec(Real, Real)>& place) {
-  ShellPatch g = full_plate(n, m, 0, t, 0, drilling);
-  for (int j = 0; j <= m; ++j)
-    for (int i = 0; i <= n; ++i)
-      g.x[static_cast<std::size_t>(j * (n + 1) + i)] = place(Real(i) / n, Real(j) / m);
-  g.E = E, g.nu = nu;
-  g.control.E = E, g.control.G = E / (2 * (1 + nu)), g.control.plate_modulus = E / (1 - nu * nu);
-  g.control.shear_factor = 5.0 / 6;
-  for (std::size_t e = 0; e < g.size(); ++e) g.mass[e] = g.rho * t * g.area(e);
-  return g;
-}
-
-/// The twisted beam of MacNeal and Harder: how far its end moves along a force there. In its plane: across
-/// the width at the end, else across the thickness.
-Real twisted_beam(int n, int m, Real t, Real P, bool in_plane, Real drilling) {
-  const Real L = 12, width = 1.1;
-  ShellPatch g = mesh(n, m, t, 29e6, 0.22, drilling, [&](Real a, Real b) {
-    const Real turn = 0.5 * pi * a, y = width * (b - 0.5);
-    return Vec(L * a, y * std::cos(turn), y * std::sin(turn));
-  });
-  std::vector<char> held(6 * g.x.size(), 0);
-  Column load = Column::Zero(static_cast<Eigen::Index>(held.size()));
-  const int axis = in_plane ? 2 : 1;  // the end has turned by 90 degrees
-  for (int j = 0; j <= m; ++j) {
-    const auto first = static_cast<std::size_t>(6 * j * (n + 1));
-    std::fill(held.begin() + static_cast<std::ptrdiff_t>(first),
-              held.begin() + static_cast<std::ptrdiff_t>(first) + 6, 1);
-    load[static_cast<Eigen::Index>(first) + 6 * n + axis] = P / m * (j == 0 || j == m ? 0.5 : 1);
-  }
-  const Column u = solve(stiffness(g), held, load);
-  return u[6 * ((m / 2) * (n + 1) + n) + axis];
-}
-
 /// The hemisphere with a hole of 18 degrees, pinched by forces of 2 at its equator: a quarter of it. How far
 /// the point of a force moves.
 Real pinched_hemisphere(int n, Real drilling) {
   const Real R = 10;
-  ShellPatch g = mesh(n, n, 0.04, 6.825e7, 0.3, drilling, [&](Real a, Real b) {
-    const Real along = 0.5 * pi * a, up = 0.4 * pi * b;
-    return Vec(R * std::cos(up) * std::cos(along), R * std::cos(up) * std::sin(along), R * std::sin(up));
-  });
+  ShellPatch g = mesh(
+      n, n, 0.04, 6.825e7, 0.3, [&](ShellPatch& patch) { patch.make_full(drilling); },
+      [&](Real a, Real b) {
+        const Real along = 0.5 * pi * a, up = 0.4 * pi * b;
+        return Vec(R * std::cos(up) * std::cos(along), R * std::cos(up) * std::sin(along), R * std::sin(up));
+      });
   std::vector<char> held(6 * g.x.size(), 0);
   for (int j = 0; j <= n; ++j) {
     const auto at_x = static_cast<std::size_t>(6 * j * (n + 1)),
@@ -308,7 +239,8 @@ TEST(FullShell, TwistedBeam) {
     for (const bool thin : {false, true})
       for (const bool in_plane : {false, true}) {
         const Real reference = thin ? (in_plane ? 5.256e-3 : 1.294e-3) : (in_plane ? 5.424e-3 : 1.754e-3);
-        const Real w = twisted_beam(n, m, thin ? 0.0032 : 0.32, thin ? 1e-6 : 1, in_plane, 0.01);
+        const Real w = twisted_beam(n, m, thin ? 0.0032 : 0.32, thin ? 1e-6 : 1, in_plane,
+                                    [](ShellPatch& g) { g.make_full(0.01); });
         EXPECT_NEAR(w / reference, 1, bound) << n << " " << thin << in_plane;
       }
 }

@@ -22,7 +22,7 @@ struct ShellPatch {
   std::array<Numbers, 12> force, moment;
   std::array<Numbers, 240> stress;
   std::array<Numbers, 32> resultant;
-  std::array<Numbers, 5> hourglass;
+  std::array<Numbers, ShellState::most_generalised> hourglass;
   Numbers thickness, mass, internal, hourglass_energy, bulk, viscous_force;
   Real E = 2, nu = 0.25, rho = 1;
   ShellControl control;
@@ -84,6 +84,10 @@ struct ShellPatch {
       state.zeta[p] = state.zeta[p % layers], state.share[p] = state.share[p % layers];
     for (int p = 0; p < state.points; ++p) state.share[p] /= 4;
   }
+  /// One point that heeds the warp of the element.
+  void make_warped(Real drilling = 0) {
+    loops = warped_quadrilateral_loops(), control.drilling = drilling, control.warps = true;
+  }
   Vec at(std::size_t e, int c) const { return x[corner[c][e]]; }
   Vec normal(std::size_t e) const {
     const int last = corners - 1;
@@ -121,7 +125,7 @@ struct ShellPatch {
     for (int c = 0; c < corners; ++c) mesh.corner[c] = corner[c].data();
     for (int k = 0; k < 240; ++k) state.stress[k] = stress[k].data();
     for (int k = 0; k < 32; ++k) state.resultant[k] = resultant[k].data();
-    for (int k = 0; k < 5; ++k) state.hourglass[k] = hourglass[k].data();
+    for (std::size_t k = 0; k < hourglass.size(); ++k) state.hourglass[k] = hourglass[k].data();
     state.thickness = thickness.data(), state.mass = mass.data();
     state.internal_energy = internal.data(), state.hourglass_energy = hourglass_energy.data();
     state.bulk_viscosity_energy = bulk.data(), state.viscous_force = viscous_force.data();
