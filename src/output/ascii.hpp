@@ -62,8 +62,14 @@ struct HistoryRequests {
   /// history.h5; where it is not wanted: with the file of the shortest interval, and with those that a curve
   /// times; none if there is no other.
   OutputSchedule h5{};
-  /// Histories that files add: name and schedule, in the order of their registry.
-  std::vector<std::pair<std::string, OutputSchedule>> added{};
+  /// Histories that files add, in the order of their registry.
+  struct Added {
+    std::string name;
+    OutputSchedule schedule{};
+    std::vector<Legend> legend{};
+    std::string columns{};  ///< behind it
+  };
+  std::vector<Added> added{};
   std::string title{};
   std::vector<Legend> parts{}, contacts{}, nodes{}, rigid_walls{};
 };
