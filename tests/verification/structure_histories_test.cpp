@@ -223,11 +223,15 @@ namespace {
 
 /// Three strips along x, 1 long, of solids, shells and beams, held at x = 0 and pulled at x = 1. Sets 11 to
 /// 13 are what lies between x = 0.4 and 0.5, 21 to 23 what lies between 0.5 and 0.6, and 5 the nodes between.
-std::string three_strips(const std::string& more, Real damping = 16000) {
-  std::string out =
-      "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n" + ramp + elastic(1, 0) +
-      "*PART\nsolids\n1,1,1\n*PART\nshells\n2,2,1\n*PART\nbeams\n3,3,1\n*SECTION_SOLID\n1,1\n"
-      "*SECTION_SHELL\n2,2,1.0,2\n0.02\n*SECTION_BEAM\n3,2\n4.0e-4,1.3e-8,1.3e-8,2.6e-8\n*NODE\n";
+struct Strips {
+  std::string material = elastic(1, 0), beams = "2\n4.0e-4,1.3e-8,1.3e-8,2.6e-8";
+  Real to_solids = 40, to_shells = 10, to_beams = 20, damping = 16000;
+};
+std::string three_strips(const std::string& more, const Strips& strips = {}) {
+  std::string out = "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n" + ramp + strips.material +
+                    "*PART\nsolids\n1,1,1\n*PART\nshells\n2,2,1\n*PART\nbeams\n3,3,1\n*SECTION_SOLID\n1,1\n"
+                    "*SECTION_SHELL\n2,2,1.0,2\n0.02\n*SECTION_BEAM\n3," +
+                    strips.beams + "\n*NODE\n";
   for (int i = 0; i <= 10; ++i) {
     const char* codes = i == 0 ? "7,7" : "0,0";
     for (int k = 0; k < 4; ++k)
@@ -254,11 +258,10 @@ std::string three_strips(const std::string& more, Real damping = 16000) {
     for (const auto& [k, keyword] : {std::pair(1, "SOLID"), std::pair(2, "SHELL_LIST"), std::pair(3, "BEAM")})
       out += fmt::format("*SET_{}\n{}\n{}\n", keyword, 10 * side + k, 4 + side);
   out += "*SET_NODE_LIST\n5\n501,502,503,504,511,512,521\n*LOAD_NODE_POINT\n";
-  for (const auto& [node, pull] :
-       {std::pair(1001, 10), std::pair(1002, 10), std::pair(1003, 10), std::pair(1004, 10),
-        std::pair(1011, 5), std::pair(1012, 5), std::pair(1021, 20)})
-    out += fmt::format("{},1,1,{}\n", node, pull);
-  return out + fmt::format("*DAMPING_GLOBAL\n0,{}\n", damping) + more + "*END\n";
+  for (int k = 1; k <= 4; ++k) out += fmt::format("{},1,1,{}\n", 1000 + k, strips.to_solids / 4);
+  for (int k = 11; k <= 12; ++k) out += fmt::format("{},1,1,{}\n", 1000 + k, strips.to_shells / 2);
+  out += fmt::format("1021,1,1,{}\n", strips.to_beams);
+  return out + fmt::format("*DAMPING_GLOBAL\n0,{}\n", strips.damping) + more + "*END\n";
 }
 
 }  // namespace
@@ -303,13 +306,43 @@ TEST(CrossSections, CutWhatTheyAreToldTo) {
   EXPECT_NEAR((f[5].moment + f[6].moment).norm(), 0, 1e-6 * 70);
 }
 
+// While all yields, plastic strain is that of the law: (effective stress - SIGY)/(plastic modulus).
+TEST(CrossSections, AndElementsTellPlasticStrain) {
+  constexpr Real yield = 250e6, tangent = 2.1e9, hardening = modulus * tangent / (modulus - tangent),
+                 pull = 260e6;
+  const Strips strips{.material = fmt::format("*MAT_PLASTIC_KINEMATIC\n1,{},{:e},0.0,{:e},{:e},1.0\n",
+                                              density, modulus, yield, tangent),
+                      .beams = "1,1.0,2\n0.02,0.02,0.02,0.02",
+                      .to_solids = 0.01 * pull,
+                      .to_shells = 0.002 * pull,
+                      .to_beams = 4e-4 * pull};
+  auto s =
+      simulation_of(three_strips(plane_at(0.45) + "*DATABASE_HISTORY_SOLID\n5\n*DATABASE_HISTORY_SHELL\n5\n"
+                                                  "*DATABASE_HISTORY_BEAM\n5\n*DATABASE_ELOUT\n1.0\n",
+                                 strips));
+  forces_at(*s, 0.015);
+  for (const ElementKind kind : {ElementKind::solid, ElementKind::shell, ElementKind::beam}) {
+    const auto reports = reports_of(*s, kind);
+    for (const PointReport& point : reports[4].points) {
+      const auto& c = point.stress;
+      const Real effective =
+          std::sqrt(0.5 * (std::pow(c[0] - c[1], 2) + std::pow(c[1] - c[2], 2) + std::pow(c[2] - c[0], 2)) +
+                    3 * (c[3] * c[3] + c[4] * c[4] + c[5] * c[5]));
+      EXPECT_GT(point.plastic, 1e-3) << element_word(kind);
+      EXPECT_NEAR(point.plastic, (effective - yield) / hardening, 1e-4 * point.plastic) << element_word(kind);
+    }
+  }
+  EXPECT_NE(text_of(*s, "elout").find("1 plastic "), std::string::npos);
+  EXPECT_EQ(text_of(*s, "elout").find("1 elastic "), std::string::npos);
+}
+
 // The texts are the same on any number of threads and after a restart.
 TEST(CrossSections, AndElementsHaveTheSameBits) {
   const std::string deck =
       three_strips(plane_at(0.45) +
                        "*DATABASE_HISTORY_SOLID\n5\n*DATABASE_HISTORY_SHELL\n5\n*DATABASE_HISTORY_BEAM\n5\n"
                        "*DATABASE_ELOUT\n1.0e-4\n*DATABASE_SECFORC\n1.0e-4\n",
-                   100);
+                   {.damping = 100});
   expect_same_bits(deck, 60, 31);
   std::string first;
   for (const int threads : {1, 2}) {

@@ -10,12 +10,15 @@ namespace {
 
 template <class T>
 FieldOf<T> system_of_section(const char* name) {
-  return {name,
-          &T::system,
-          "-",
-          "whose axes tell force and moment, 0 global",
-          FieldRules{.check = Check::not_negative},
-          [](const T& card) { return card.itype == 2 ? IdSpace::coordinate_system : IdSpace::none; }};
+  return {
+      name,
+      &T::system,
+      "-",
+      "whose axes tell force and moment, 0 global",
+      FieldRules{.check = Check::not_negative},
+      [](const T& card) {
+        return card.itype == 2 ? IdSpace::coordinate_system : card.itype == 0 ? IdSpace::part : IdSpace::none;
+      }};
 }
 template <class T>
 FieldOf<T> kind_of_system() {

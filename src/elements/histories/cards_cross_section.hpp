@@ -21,7 +21,8 @@ struct CrossSectionPlaneCard : CrossSectionCard {
 };
 
 struct CrossSectionSetCard : CrossSectionCard {
-  Id nsid = 0, hsid = 0, bsid = 0, ssid = 0, tsid = 0, dsid = 0;
+  Id nsid = 0, hsid = 0, bsid = 0, ssid = 0;
+  int tsid = 0, dsid = 0;  ///< sets that are not there
 };
 
 struct DatabaseSecforc : HistoryInterval {};

@@ -43,7 +43,7 @@ class ShellForces : public Material,
         stress_(layer_stress_of(group, places_ * static_cast<int>(part.zeta.size()))),
         resultants_(
             group.fields.add<Real>({.name = "resultants", .dimension = "-", .components = 8 * places_})),
-        thickness_(shell_thickness_of(group)),
+        thickness_(thickness_of_shells(group)),
         internal_(group.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
         hourglass_(
             group.fields.add<Real>({.name = "hourglass_energy", .dimension = "ML2/T2", .output = true})),
@@ -473,6 +473,10 @@ class ShellForces : public Material,
 };
 
 }  // namespace
+
+Field<Real>& thickness_of_shells(const ElementGroup& group) {
+  return group.fields.add<Real>({.name = "shell_thickness", .dimension = "L", .output = true});
+}
 
 void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
                       const std::vector<Index>& node_of, ElementOptions& options, World& world) {

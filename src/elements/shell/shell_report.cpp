@@ -20,7 +20,7 @@ class ShellReport : public Pass, public ElementReporter {
         places_(part.full && group.corners() == 4 ? 4 : 1),
         invariant_axes_(part.control.invariant_axes),
         stress_(layer_stress_of(group, static_cast<int>(layers_ * places_))),
-        thickness_(shell_thickness_of(group)),
+        thickness_(thickness_of_shells(group)),
         history_(layers_ * places_),
         plastic_(layers_) {
     for (std::size_t p = 0; p < history_.size(); ++p)
@@ -103,10 +103,6 @@ Field<Real>& layer_history_of(const ElementGroup& group, const HistoryVariable& 
   return group.fields.add<Real>({.name = fmt::format("{}_of_layer_{}", kind.name, point + 1),
                                  .dimension = kind.dimension,
                                  .components = kind.components});
-}
-
-Field<Real>& shell_thickness_of(const ElementGroup& group) {
-  return group.fields.add<Real>({.name = "shell_thickness", .dimension = "L", .output = true});
 }
 
 std::shared_ptr<Pass> make_shell_report(const ShellPart& part, const ElementGroup& group) {

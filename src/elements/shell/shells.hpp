@@ -77,7 +77,7 @@ Field<Real>& corner_inertia_of(const ElementGroup& group);
 Field<Real>& layer_stress_of(const ElementGroup& group, int points);
 /// A number or tensor that the law of point p keeps.
 Field<Real>& layer_history_of(const ElementGroup& group, const HistoryVariable& kind, int point);
-Field<Real>& shell_thickness_of(const ElementGroup& group);  ///< [L]
+Field<Real>& thickness_of_shells(const ElementGroup& group);  ///< [L]
 /// Tells histories of the shells of a group, which `part` are made of.
 std::shared_ptr<Pass> make_shell_report(const ShellPart& part, const ElementGroup& group);
 

@@ -76,8 +76,7 @@ std::vector<PointReport> FullPoints::report(Index e, bool all_points) const {
   std::vector<PointReport> out(points);
   for (std::size_t p = 0; p < out.size(); ++p) {
     const int at = static_cast<int>(p);
-    for (int k = 0; k < 6; ++k)
-      out[p].stress[static_cast<std::size_t>(k)] = stress_.data(6 * at + k)[e];
+    for (int k = 0; k < 6; ++k) out[p].stress[static_cast<std::size_t>(k)] = stress_.data(6 * at + k)[e];
     for (const Field<Real>* h : history_) {
       const int n = h->info().components / points;
       for (int k = 0; k < n; ++k) out[p].history.push_back(h->data(n * at + k)[e]);
