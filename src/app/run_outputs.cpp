@@ -17,6 +17,18 @@ OutputSchedule schedule(const OutputTimes& times) {
 
 }  // namespace
 
+namespace {
+
+HistoryRequests::Added added_history(const AsciiHistory& added, const Simulation& s) {
+  HistoryRequests::Added out{added.name, OutputSchedule(added.interval(s.deck()))};
+  out.columns = added.columns;
+  if (added.legend)
+    for (const auto& [id, title] : added.legend(s.world())) out.legend.push_back({id, title});
+  return out;
+}
+
+}  // namespace
+
 HistoryRequests history_requests(const Simulation& s) {
   const OutputRequests& wanted = s.model().output;
   HistoryRequests h;
@@ -44,8 +56,7 @@ HistoryRequests history_requests(const Simulation& s) {
     const RigidWallForce one = wall->report_wall();
     h.rigid_walls.push_back({one.id, one.title});
   }
-  for (const AsciiHistory& added : ascii_histories())
-    h.added.emplace_back(added.name, OutputSchedule(added.interval(s.deck())));
+  for (const AsciiHistory& added : ascii_histories()) h.added.push_back(added_history(added, s));
   return h;
 }
 

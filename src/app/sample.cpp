@@ -41,6 +41,20 @@ ParticleSample particle_sample(const World& world, const Neighbours& neighbours,
   return out;
 }
 
+/// A node of shells and beams turns by its moments.
+void turn(const World& world, Index n, const std::vector<BoundaryForce>& forces, NodeSample& node) {
+  const Field<Index>* none = shared_fields::no_rotation.find(world.nodes.fields);
+  if (!none || (*none)[n] != 0) return;
+  const auto& set = world.nodes.fields;
+  node.turns = true;
+  node.rotation = shared_fields::rotation.find(set)->vec(n);
+  node.omega = shared_fields::angular_velocity.find(set)->vec(n);
+  Vec moment = shared_fields::moment.find(set)->vec(n);
+  for (const BoundaryForce& force : forces)
+    if (force.kind == BoundaryForce::Kind::driven_rotation && force.id == node.id) moment += force.moment;
+  node.angular_a = moment / (*shared_fields::rotary_inertia.find(set))[n];
+}
+
 /// The nodes of a rigid body move with it: v + omega x r, a + alpha x r + omega x (omega x r).
 void follow(const RigidBodyMotion& body, NodeSample& node) {
   const Vec r = node.x - body.x;
@@ -72,7 +86,9 @@ void sample_nodes(const std::vector<HistoryNode>& wanted, const World& world, co
       node.v = world.nodes.v.vec(n);
       if (const auto body = body_of.find(n); body != body_of.end())
         follow(*body->second, node);
-      else if (!world.nodes.follow[n] && world.nodes.m[n] > 0)
+      else
+        turn(world, n, s.boundary_forces, node);
+      if (!body_of.contains(n) && !world.nodes.follow[n] && world.nodes.m[n] > 0)
         node.a = (world.nodes.f.vec(n) + force_on(s.boundary_forces, one.id)) / world.nodes.m[n];
     }
     node.displacement = node.x - one.X;

@@ -4,6 +4,7 @@
 // nothing else is edited.
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "keyword/deck.hpp"
@@ -45,6 +46,10 @@ struct AsciiHistory {
   std::function<Real(const Deck&)> interval;
   /// One state, taken at t^n with x, p and f known.
   std::function<std::string(const World&, const Clock&)> text;
+  /// Ids and titles of its legend, taken once; empty: the file has no legend.
+  std::function<std::vector<std::pair<Id, std::string>>(const World&)> legend{};
+  /// Lines behind the legend, once.
+  std::string columns{};
 };
 
 std::vector<AsciiHistory>& ascii_histories();

@@ -28,9 +28,11 @@ class FixedPoints : public Constraint, public BoundaryForceReporter {
       for (int k = 0; k < 3; ++k)  // outside the box, too, where the pass below does not come
         if (fixed_[i] & (1 << k)) points.v->data(k)[i] = 0;
     }
-    if (model.output.spcforc.asked() && !points.turns)
-      support_ = &points.set->add<Real>(
-          {.name = "support_force", .dimension = "ML/T2", .components = 3, .restart = false});
+    if (model.output.spcforc.asked())
+      support_ = &points.set->add<Real>({.name = points.turns ? "support_moment" : "support_force",
+                                         .dimension = points.turns ? "ML2/T2" : "ML/T2",
+                                         .components = 3,
+                                         .restart = false});
   }
   std::string name() const override { return "fixed " + points_.name() + " (SPC)"; }
   const FieldSet& over(const World&) const override { return points_.fields(); }
@@ -50,11 +52,16 @@ class FixedPoints : public Constraint, public BoundaryForceReporter {
   void report_forces(const World& world, const Clock&, std::vector<BoundaryForce>& out) const override {
     if (!support_) return;
     for (Index i = 0; i < loaded_points(points_, world); ++i)
-      if (fixed_[i] != 0)
-        out.push_back({BoundaryForce::Kind::held_point, (*points_.id)[i], support_->vec(i), Vec::Zero(), 0});
+      if (fixed_[i] != 0) out.push_back(reaction(i));
   }
 
  private:
+  BoundaryForce reaction(Index i) const {
+    const Id id = (*points_.id)[i];
+    if (points_.turns) return {BoundaryForce::Kind::held_rotation, id, Vec::Zero(), support_->vec(i), 0};
+    return {BoundaryForce::Kind::held_point, id, support_->vec(i), Vec::Zero(), 0};
+  }
+
   Points points_;
   Field<Index>& fixed_;
   Field<Real>* support_ = nullptr;  ///< null: nobody asks

@@ -88,8 +88,11 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
     if (!work_) return;
     for (Index i = 0; i < loaded_points(points_, world); ++i) {
       if (group_[i] == 0) continue;
-      BoundaryForce force{BoundaryForce::Kind::driven_point, (*points_.id)[i], Vec::Zero(), Vec::Zero(),
-                          (*work_)[i]};
+      BoundaryForce force{
+          .kind = points_.turns ? BoundaryForce::Kind::driven_rotation : BoundaryForce::Kind::driven_point,
+          .id = (*points_.id)[i],
+          .work = (*work_)[i]};
+      Vec& sum = points_.turns ? force.moment : force.force;
       for (const std::size_t k : groups_[static_cast<std::size_t>(group_[i])]) {
         const PrescribedMotion& m = motions_[k];
         if (!drives(k, clock)) continue;
@@ -97,7 +100,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
         const Real before = points_.v->vec(i).dot(d);
         const Real after = m.velocity(clock.t, clock.dt, clock.dt_old, before);
         const Real acceleration = (after - before) / clock.dt_mean();
-        force.force += ((*points_.m)[i] * acceleration - points_.f->vec(i).dot(d)) * d;
+        sum += ((*points_.m)[i] * acceleration - points_.f->vec(i).dot(d)) * d;
       }
       out.push_back(force);
     }
@@ -205,8 +208,9 @@ class PrescribedBuilder {
       group[static_cast<Index>(i)] = it->second;
     }
     Field<Real>* work = nullptr;
-    if (model_.output.bndout.asked() && !set.points.turns)
-      work = &set.points.set->add<Real>({.name = "drive_work", .dimension = "ML2/T2"});
+    if (model_.output.bndout.asked() || model_.output.nodout.asked())
+      work = &set.points.set->add<Real>(
+          {.name = set.points.turns ? "drive_work_of_rotations" : "drive_work", .dimension = "ML2/T2"});
     return std::make_shared<PrescribedPoints>(motions_, gates_, std::move(groups), set.points, group, work);
   }
 

@@ -68,7 +68,9 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
   open("spcforc", requests.spcforc, "", spcforc_text);
   open("rwforc", requests.rwforc, ascii_legend(requests.rigid_walls), rwforc_text);
   for (std::size_t k = 0; k < requests.added.size(); ++k)
-    open(requests.added[k].first.c_str(), requests.added[k].second, "",
+    open(requests.added[k].name.c_str(), requests.added[k].schedule,
+         (requests.added[k].legend.empty() ? "" : ascii_legend(requests.added[k].legend)) +
+             requests.added[k].columns,
          [k](const Sample& s) { return k < s.added.size() ? s.added[k] : std::string(); });
   choose_h5_times(requests.h5);
   if (!h5_schedules_.empty()) h5_.emplace(dir / "history.h5");

@@ -44,13 +44,14 @@ std::string sleout_text(const Sample& sample);
 /// smoothing length, neighbours, active; yield stress (0) and effective stress.
 std::string sphout_text(const Sample& sample);
 /// One state of nodout: displacement, velocity, acceleration and place of nodes, in global axes; then, where
-/// a node belongs to a rigid body, its rotation. Velocities are those of the last half step.
+/// a node belongs to a rigid body or turns with shells and beams, its rotation. Velocities are those of the
+/// last half step.
 std::string nodout_text(const Sample& sample);
 /// One state of rbdout: motion of the centre of each rigid body, in global and in principal axes.
 std::string rbdout_text(const Sample& sample);
 /// One state of bndout: the forces that drive particles and bodies, and their work so far.
 std::string bndout_text(const Sample& sample);
-/// One state of spcforc: the forces that hold particles.
+/// One state of spcforc: the forces and moments that hold particles and nodes.
 std::string spcforc_text(const Sample& sample);
 
 /// One state of rwforc: the force on each rigid wall.
@@ -62,8 +63,14 @@ struct HistoryRequests {
   /// history.h5; where it is not wanted: with the file of the shortest interval, and with those that a curve
   /// times; none if there is no other.
   OutputSchedule h5{};
-  /// Histories that files add: name and schedule, in the order of their registry.
-  std::vector<std::pair<std::string, OutputSchedule>> added{};
+  /// Histories that files add, in the order of their registry.
+  struct Added {
+    std::string name;
+    OutputSchedule schedule{};
+    std::vector<Legend> legend{};
+    std::string columns{};  ///< behind it
+  };
+  std::vector<Added> added{};
   std::string title{};
   std::vector<Legend> parts{}, contacts{}, nodes{}, rigid_walls{};
 };

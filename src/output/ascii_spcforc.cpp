@@ -1,17 +1,26 @@
 #include <fmt/printf.h>
 
+#include <algorithm>
+
 #include "output/ascii.hpp"
 
 namespace courant {
 
+// By node, its force before its moment.
 std::string spcforc_text(const Sample& s) {
+  using Kind = BoundaryForce::Kind;
+  std::vector<const BoundaryForce*> reactions;
+  for (const BoundaryForce& b : s.boundary_forces)
+    if (b.kind == Kind::held_point || b.kind == Kind::held_rotation) reactions.push_back(&b);
+  std::stable_sort(reactions.begin(), reactions.end(),
+                   [](const BoundaryForce* a, const BoundaryForce* b) { return a->id < b->id; });
   std::string out = fmt::sprintf(" output at time =%14.5E\n", s.t);
   Vec total = Vec::Zero();
-  for (const BoundaryForce& b : s.boundary_forces) {
-    if (b.kind != BoundaryForce::Kind::held_point) continue;
-    out += fmt::sprintf(" node=%8d local x,y,z forces =%14.4E%14.4E%14.4E\n", b.id, b.force.x(), b.force.y(),
-                        b.force.z());
-    total += b.force;
+  for (const BoundaryForce* b : reactions) {
+    const Vec& what = b->kind == Kind::held_rotation ? b->moment : b->force;
+    out += fmt::sprintf(" node=%8d local x,y,z %s=%14.4E%14.4E%14.4E\n", b->id,
+                        b->kind == Kind::held_rotation ? "moments" : "forces ", what.x(), what.y(), what.z());
+    total += b->force;
   }
   return out + fmt::sprintf("             force resultants   =%14.4E%14.4E%14.4E\n", total.x(), total.y(),
                             total.z());

@@ -21,9 +21,9 @@ namespace courant {
 ///   /contacts/<id>/{force energy_stored energy_damping energy_friction}   force: on the particles
 ///   /rigid_bodies/<part id>/{x v omega force moment kinetic displacement rotation a angular_a}
 ///   /particles/<id>/{x v p rho E h tau neighbours active}
-///   /nodes/<id>/{displacement x v a}, of rigid bodies also {rotation omega angular_a}
+///   /nodes/<id>/{displacement x v a}, of those that turn also {rotation omega angular_a}
 ///   /driven_particles/<id>/{force work}, /driven_bodies/<part id>/{force moment work},
-///   /held_particles/<id>/force
+///   /held_particles/<id>/force, /driven_rotations/<id>/{moment work}, /held_rotations/<id>/moment
 /// A flush replaces the file by a longer one, so that a killed run leaves it readable and others may read it
 /// at any time.
 class History {

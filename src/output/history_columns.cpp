@@ -69,12 +69,15 @@ void History::put_bodies(const Sample& s) {
     put(group + "/a", "L/T2", body.a);
     put(group + "/angular_a", "1/T2", body.angular_a);
   }
-  constexpr const char* groups[] = {"/driven_particles/{}", "/driven_bodies/{}", "/held_particles/{}"};
+  constexpr const char* groups[] = {"/driven_particles/{}", "/driven_bodies/{}", "/held_particles/{}",
+                                    "/driven_rotations/{}", "/held_rotations/{}"};
   for (const BoundaryForce& b : s.boundary_forces) {
     const std::string group = fmt::format(fmt::runtime(groups[static_cast<int>(b.kind)]), b.id);
-    put(group + "/force", "ML/T2", b.force);
-    if (b.kind == BoundaryForce::Kind::driven_body) put(group + "/moment", "ML2/T2", b.moment);
-    if (b.kind != BoundaryForce::Kind::held_point) put(group + "/work", energy, b.work);
+    using Kind = BoundaryForce::Kind;
+    const bool turns = b.kind == Kind::driven_rotation || b.kind == Kind::held_rotation;
+    if (!turns) put(group + "/force", "ML/T2", b.force);
+    if (turns || b.kind == Kind::driven_body) put(group + "/moment", "ML2/T2", b.moment);
+    if (b.kind != Kind::held_point && b.kind != Kind::held_rotation) put(group + "/work", energy, b.work);
   }
 }
 

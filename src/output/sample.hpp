@@ -39,8 +39,8 @@ struct NodeSample {
   Id id = 0;
   Vec displacement = Vec::Zero(), x = Vec::Zero();   ///< [L]
   Vec v = Vec::Zero(), a = Vec::Zero();              ///< [L/T], [L/T2]
-  bool turns = false;                                ///< belongs to a rigid body
-  Vec rotation = Vec::Zero();                        ///< of that body [-]
+  bool turns = false;                                ///< belongs to a rigid body, or to shells or beams
+  Vec rotation = Vec::Zero();                        ///< of that body, or angles about the axes so far [-]
   Vec omega = Vec::Zero(), angular_a = Vec::Zero();  ///< [1/T], [1/T2]
 };
 

@@ -9,9 +9,11 @@ namespace courant {
 /// Force by which a boundary condition acts on what it drives or holds, at t^n.
 struct BoundaryForce {
   enum class Kind {
-    driven_point,  ///< *BOUNDARY_PRESCRIBED_MOTION_NODE, _SET
-    driven_body,   ///< *BOUNDARY_PRESCRIBED_MOTION_RIGID
-    held_point,    ///< *BOUNDARY_SPC
+    driven_point,     ///< *BOUNDARY_PRESCRIBED_MOTION_NODE, _SET
+    driven_body,      ///< *BOUNDARY_PRESCRIBED_MOTION_RIGID
+    held_point,       ///< *BOUNDARY_SPC
+    driven_rotation,  ///< as driven_point, of rotations: a moment
+    held_rotation,    ///< as held_point, of rotations: a moment
   };
   Kind kind = Kind::driven_point;
   Id id = 0;                                      ///< of the particle or node, or the body's part

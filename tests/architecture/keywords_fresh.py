@@ -36,7 +36,7 @@ for section in written["keywords.md"].split('\n<a id="')[1:]:
     for name in names:
         assert listed[name.upper()] == state, f"{name}: {listed[name.upper()]} in the list, {state} in the page"
         assert f"(#{name})" in written["keywords.md"], f"nothing leads to #{name}"
-for name in ("MAT_NULL", "MAT_JOHNSON_COOK", "CONTROL_OUTPUT", "SECTION_SPH"):
+for name in ("MAT_NULL", "MAT_JOHNSON_COOK", "CONTROL_ENERGY", "SECTION_SPH"):
     card_page = call(name).splitlines()[1]
     assert card_page.startswith(listed[name]), f"{name}: {card_page}"
 refused = {name for name, state in listed.items() if state == "refused"}

@@ -9,6 +9,7 @@
 
 #include "base/run_error.hpp"
 #include "elements/beam/beams.hpp"
+#include "elements/element_report.hpp"
 #include "elements/mass_scaling.hpp"
 #include "laws/strength/beam_stress.hpp"
 #include "state/reports.hpp"
@@ -59,6 +60,7 @@ class BeamForces : public Material,
                    public EnergyTerm,
                    public PartReporter,
                    public WeldReporter,
+                   public ElementReporter,
                    public FieldFiller {
  public:
   BeamForces(BeamPart part, Id part_id, Real tssfac, bool shown, ElementOptions& options, World& world)
@@ -171,6 +173,32 @@ class BeamForces : public Material,
                      .length = between_ends(world, e).norm(),
                      .failure_time = sections_->failure_time(e)});
     }
+  }
+
+  ElementKind kind() const override { return ElementKind::beam; }
+  const ElementGroup& reported() const override { return group_; }
+  Real cut_measure(Index e) const override { return part_.measures[at(e)].A; }
+  ElementReport report_element(const World& world, Index e, const ElementReportOptions&) const override {
+    ElementReport out{.deleted = dead(e)};
+    const auto g = [&](Part6 k) { return answer_.data(k)[e]; };
+    const Real L = between_ends(world, e).norm();
+    out.resultants = {g(elongation),
+                      -(g(turn1_t) + g(turn2_t)) / L,
+                      (g(turn1_s) + g(turn2_s)) / L,
+                      (g(turn2_s) - g(turn1_s)) / 2,
+                      (g(turn2_t) - g(turn1_t)) / 2,
+                      g(twist)};
+    const int plastic = plastic_strain_of(*part_.law);
+    for (std::size_t p = 0; p < part_.points.size(); ++p) {
+      PointReport& point = out.points.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k)
+        point.stress[std::array<std::size_t, 3>{0, 3, 5}[k]] = stress_.data(static_cast<int>(3 * p + k))[e];
+      for (std::size_t k = p * numbers_; k < (p + 1) * numbers_; ++k)
+        for (int c = 0; c < history_[k]->info().components; ++c)
+          point.history.push_back(history_[k]->data(c)[e]);
+      if (plastic >= 0) point.plastic = point.history[at(plastic)];
+    }
+    return out;
   }
 
   /// Pull, and moments of the section about r, s and t at both ends: tension, and on the side of +s or -t

@@ -38,12 +38,10 @@ class ShellForces : public Material,
         control_(part.control),
         places_(part.full && group.corners() == 4 ? 4 : 1),
         loops_(shell_loops(group.corners(), places_, part.control)),
-        stress_(group.fields.add<Real>({.name = "layer_stress",
-                                        .dimension = "M/LT2",
-                                        .components = 6 * places_ * static_cast<int>(part.zeta.size())})),
+        stress_(layer_stress_of(group, places_ * static_cast<int>(part.zeta.size()))),
         resultants_(
             group.fields.add<Real>({.name = "resultants", .dimension = "-", .components = 8 * places_})),
-        thickness_(group.fields.add<Real>({.name = "shell_thickness", .dimension = "L", .output = true})),
+        thickness_(thickness_of_shells(group)),
         internal_(group.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
         hourglass_(
             group.fields.add<Real>({.name = "hourglass_energy", .dimension = "ML2/T2", .output = true})),
@@ -66,9 +64,7 @@ class ShellForces : public Material,
     stiffens_ = std::any_of(layers_.begin(), layers_.end(), [](const Layer& l) { return l.law->stiffens(); });
     for (int p = 0; p < state_.points; ++p)
       for (const HistoryVariable& h : layer_of(p).law->history())
-        history_.push_back(&group.fields.add<Real>({.name = fmt::format("{}_of_layer_{}", h.name, p + 1),
-                                                    .dimension = h.dimension,
-                                                    .components = h.components}));
+        history_.push_back(&layer_history_of(group, h, p));
     if (shown) add_shown_fields();
     for (Index e = 0; e < group_.size(); ++e) thickness_[e] = world.segments.thickness[(*group_.segment)[e]];
     start(world, {});
@@ -479,6 +475,10 @@ class ShellForces : public Material,
 
 }  // namespace
 
+Field<Real>& thickness_of_shells(const ElementGroup& group) {
+  return group.fields.add<Real>({.name = "shell_thickness", .dimension = "L", .output = true});
+}
+
 void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
                       const std::vector<Index>& node_of, ElementOptions& options, World& world) {
   const bool shown = model.output.d3plot.asked() || model.output.d3plot_count > 0;
@@ -494,6 +494,7 @@ void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
     }
     world.passes.add(std::make_shared<ShellForces>(part, *group, model.parts[named].id, model.tssfac, options,
                                                    shown, held, world));
+    world.passes.add(make_shell_report(part, *group));
   }
 }
 

@@ -72,6 +72,15 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
 /// Rotary inertia that an element has for each of its corners; `build_shells` fills it. [ML2]
 Field<Real>& corner_inertia_of(const ElementGroup& group);
 
+/// Stress at the points of shells, component 6 p + k of point p: layer p % layers at place p / layers in the
+/// plane, in the axes of the element. [M/LT2]
+Field<Real>& layer_stress_of(const ElementGroup& group, int points);
+/// A number or tensor that the law of point p keeps.
+Field<Real>& layer_history_of(const ElementGroup& group, const HistoryVariable& kind, int point);
+Field<Real>& thickness_of_shells(const ElementGroup& group);  ///< [L]
+/// Tells histories of the shells of a group, which `part` are made of.
+std::shared_ptr<Pass> make_shell_report(const ShellPart& part, const ElementGroup& group);
+
 /// Adds the forces of shells to the passes of `world`. Computes the largest frequency of each group, which
 /// bounds the step.
 void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,

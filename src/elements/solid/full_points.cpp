@@ -72,6 +72,20 @@ void FullPoints::average(Field<Real>& stress, const std::vector<Field<Real>*>& h
   for (std::size_t h = 0; h < history_.size(); ++h) mean(*history_[h], *history[h]);
 }
 
+std::vector<PointReport> FullPoints::report(Index e, bool all_points) const {
+  std::vector<PointReport> out(points);
+  for (std::size_t p = 0; p < out.size(); ++p) {
+    const int at = static_cast<int>(p);
+    for (int k = 0; k < 6; ++k) out[p].stress[static_cast<std::size_t>(k)] = stress_.data(6 * at + k)[e];
+    for (const Field<Real>* h : history_) {
+      const int n = h->info().components / points;
+      for (int k = 0; k < n; ++k) out[p].history.push_back(h->data(n * at + k)[e]);
+    }
+  }
+  if (!all_points) out = {mean_of(out)};
+  return out;
+}
+
 std::vector<Field<Real>*> FullPoints::of_deleted() const {
   std::vector<Field<Real>*> out{&stress_};
   for (Field<Real>* h : history_)

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "elements/element_report.hpp"
 #include "elements/solid/full_hexahedron_loops.hpp"
 #include "laws/strength/strength.hpp"
 #include "state/entities.hpp"
@@ -35,6 +36,8 @@ class FullPoints {
   void reset();
   /// Means over the points. `history`: a field for each number of the law, as the law has them.
   void average(Field<Real>& stress, const std::vector<Field<Real>*>& history) const;
+  /// The points of an element, or their mean, without plastic strains.
+  std::vector<PointReport> report(Index e, bool all_points) const;
   /// Those that are 0 in deleted elements.
   std::vector<Field<Real>*> of_deleted() const;
 

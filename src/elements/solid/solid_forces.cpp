@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/run_error.hpp"
+#include "elements/element_report.hpp"
 #include "elements/largest_frequency.hpp"
 #include "elements/solid/full_points.hpp"
 #include "elements/solid/nodal_pressure.hpp"
@@ -23,6 +24,7 @@ class SolidForces : public Material,
                     public TimeLimit,
                     public EnergyTerm,
                     public PartReporter,
+                    public ElementReporter,
                     public FieldFiller {
  public:
   SolidForces(const SolidPart& part, const ElementGroup& group, Id part_id, Real tssfac,
@@ -151,6 +153,24 @@ class SolidForces : public Material,
       if (!std::isnan(least->step) && !(found.step >= least->step)) least = &found;
     return {tssfac_ * least->step, fmt::format("solid {} of part {}{}", group_.id[least->shortest], part_id_,
                                                by_mesh_ ? " (frequency of its mesh)" : "")};
+  }
+
+  ElementKind kind() const override { return ElementKind::solid; }
+  const ElementGroup& reported() const override { return group_; }
+  Real cut_measure(Index) const override { return 1; }
+  ElementReport report_element(const World&, Index e, const ElementReportOptions& options) const override {
+    ElementReport out{.deleted = erosion_ && erosion_->dead(e)};
+    if (full_) {
+      out.points = full_->report(e, options.all_points);
+    } else {
+      PointReport& point = out.points.emplace_back();
+      for (int k = 0; k < 6; ++k) point.stress[static_cast<std::size_t>(k)] = stress_.data(k)[e];
+      for (const Field<Real>* h : history_)
+        for (int k = 0; k < h->info().components; ++k) point.history.push_back(h->data(k)[e]);
+    }
+    if (const int plastic = plastic_strain_of(*law_); plastic >= 0)
+      for (PointReport& point : out.points) point.plastic = point.history[static_cast<std::size_t>(plastic)];
+    return out;
   }
 
   void fill_fields(World&) override {

@@ -51,8 +51,8 @@ TEST(KeywordState, IsWhatTheReaderDoes) {
     const KeywordMatch match = KeywordIndex().match(name);
     return support_of(*keyword_registry().at(static_cast<std::size_t>(match.keyword)));
   };
-  EXPECT_EQ(state_of("CONTROL_OUTPUT").state, KeywordState::no_effect);
-  EXPECT_EQ(told_of("*CONTROL_OUTPUT\n1,1\n").all().size(), 0u);
+  EXPECT_EQ(state_of("CONTROL_ENERGY").state, KeywordState::no_effect);
+  EXPECT_EQ(told_of("*CONTROL_ENERGY\n1,1\n").all().size(), 0u);
   EXPECT_EQ(state_of("MAT_SPH_VISCOUS").state, KeywordState::refused);
   EXPECT_EQ(told_of("*MAT_SPH_VISCOUS\n1,1.,0.,1.\n").errors(), 1);
   const KeywordSupport history = state_of("DATABASE_SLEOUT");

@@ -1,6 +1,5 @@
-// *SET_BEAM: read, so that decks with it run; what could use it is refused or warned of.
-#include <string>
-#include <vector>
+// *SET_BEAM. Histories and cross sections refer to it.
+#include "model/sets/set_beam.hpp"
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
@@ -9,15 +8,9 @@ namespace courant {
 
 namespace {
 
-struct SetBeam : Entry {
-  std::string title;
-  Id sid = 0;
-  std::vector<Id> eids;
-};
-
 const RegisterKeyword<SetBeam> set_beam{
     {.names = {"SET_BEAM"},
-     .purpose = "set of beams, which nothing that is supported refers to",
+     .purpose = "set of beams, for histories and cross sections",
      .id_space = IdSpace::beam_set,
      .title_option = true,
      .title = &SetBeam::title,
@@ -26,7 +19,7 @@ const RegisterKeyword<SetBeam> set_beam{
                             &SetBeam::eids,
                             "-",
                             "beams, any number of cards",
-                            {.honour = Honour::ignored, .refers = IdSpace::beam}}},
+                            {.check = Check::not_negative, .refers = IdSpace::beam}}},
                 .repeat = true}}}};
 
 }  // namespace
