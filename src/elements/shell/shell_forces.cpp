@@ -444,7 +444,6 @@ class ShellForces : public Material,
     const Field<Real>* first;
     std::vector<const Field<Real>*> layers;
   };
-
   const ElementGroup& group_;
   std::vector<Layer> layers_;
   Id part_id_;
