@@ -349,6 +349,20 @@ void RigidBodies::strike_at_start(std::size_t body, const Vec& impulse, const Ve
   }
 }
 
+void RigidBodies::slow_down(Real factor) {
+  for (RigidBody& b : bodies_) b.v *= factor, b.L *= factor, b.omega *= factor;
+}
+
+void RigidBodies::start_moving(const std::vector<std::array<Vec, 2>>& motion, World& world) {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    RigidBody& b = bodies_[k];
+    if (b.fixed()) continue;
+    const Matrix R = b.q.toRotationMatrix();
+    b.v = b.L = Vec::Zero();
+    strike_at_start(k, b.m * motion[k][0], R * b.J0 * R.transpose() * motion[k][1], world);
+  }
+}
+
 Real RigidBodies::rest_energy() const {
   Real e = 0;
   for (const RigidBody& b : bodies_)

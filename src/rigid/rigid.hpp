@@ -154,6 +154,11 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   void tie(BodyTies* ties) { ties_ = ties; }
   /// Changes the velocity of the centre and the angular momentum before the first step. [ML/T], [ML2/T]
   void strike_at_start(std::size_t body, const Vec& impulse, const Vec& turn, World& world);
+  /// Velocities and angular momenta times a factor, of bodies alone: their nodes get theirs with the next
+  /// step.
+  void slow_down(Real factor);
+  /// Velocity and angular velocity of each body, and of its nodes, whatever they were.
+  void start_moving(const std::vector<std::array<Vec, 2>>& motion, World& world);
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   /// Before the first step: a node of a body has got heavier, and the body with it; false where its inertia
