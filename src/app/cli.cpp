@@ -19,6 +19,7 @@
 #include "app/simulation.hpp"
 #include "app/terminal.hpp"
 #include "generate/generate.hpp"
+#include "keyword/cases.hpp"
 #include "keyword/keyword_state.hpp"
 #include "keyword/registry.hpp"
 #include "output/file.hpp"
@@ -35,6 +36,8 @@ void request_stop(int) {
 }
 
 struct Call {
+  std::vector<Id> only_cases;
+  std::optional<LoadCase> one_case;  ///< of the deck, that this call is for
   std::string deck, dir = ".", scene, output, keyword, restart;
   std::vector<std::string> params, loads;
   int threads = 0;
@@ -68,10 +71,31 @@ bool parse_params(const std::vector<std::string>& words, std::map<std::string, s
   return true;
 }
 
+/// How the deck of a call is read; false where its words are wrong.
+bool read_options(const Call& call, ReadOptions& out) {
+  if (!parse_params(call.params, out.parameters)) return false;
+  if (call.one_case)
+    out.open = [subcases = call.one_case->subcases](const std::string& path) -> std::optional<std::string> {
+      const auto text = text_of_file(path);
+      return text ? std::optional(text_of_case(*text, subcases)) : std::nullopt;
+    };
+  return true;
+}
+
+/// The same deck in the phase of its relaxation, whose messages are those of the run.
+std::unique_ptr<Simulation> build_relaxing(const Call& call) {
+  ReadOptions read;
+  Diagnostics diagnostics;
+  if (!read_options(call, read)) return nullptr;
+  auto relaxing = Simulation::build(call.deck, read, diagnostics, nullptr, RunPhase::relaxation);
+  if (!relaxing) print_error(diagnostics.text());
+  return relaxing;
+}
+
 std::unique_ptr<Simulation> build(const Call& call, const DeckRecord* before,
                                   std::vector<std::string>& warnings) {
   ReadOptions read;
-  if (!parse_params(call.params, read.parameters)) return nullptr;
+  if (!read_options(call, read)) return nullptr;
   Diagnostics diagnostics;
   auto simulation = Simulation::build(call.deck, read, diagnostics, before);
   print_error(diagnostics.text());
@@ -105,10 +129,12 @@ int call_run(const Call& call) {
   std::vector<std::string> warnings;
   auto simulation = build(call, restart ? &restart->deck : nullptr, warnings);
   if (!simulation) return exit_input;
-  if (const std::string why = simulation->lacks_particles(call.until); !why.empty()) {
+  if (const std::string why = simulation->why_not_until(call.until); !why.empty()) {
     print_error(fmt::format("error: --until {:g}: {}\n", call.until, why));
     return exit_input;
   }
+  std::unique_ptr<Simulation> relaxing;
+  if (simulation->relaxation().asked && !restart && !(relaxing = build_relaxing(call))) return exit_input;
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as nohup wants it
@@ -118,7 +144,8 @@ int call_run(const Call& call) {
   RunOptions options;
   options.dir = call.dir, options.until = call.until, options.warnings = warnings,
   options.params = call.params, options.stop = &stop_requested, options.dump_at_end = !call.no_final_dump;
-  options.restart = restart ? &*restart : nullptr;
+  options.restart = restart ? &*restart : nullptr, options.relaxing = relaxing.get();
+  if (call.one_case) options.load_case = call.one_case->id;
   options.choose_threads = call.threads == 0;
   if (!call.quiet) {
     options.print = print_line;
@@ -153,7 +180,7 @@ int call_run(const Call& call) {
 int call_check(const Call& call) {
   set_threads(1);
   ReadOptions read;
-  if (!parse_params(call.params, read.parameters)) return exit_input;
+  if (!read_options(call, read)) return exit_input;
   const CheckResult result = check_deck(call.deck, read, call.strict);
   if (call.json) {
     print_text(result.json);
@@ -170,6 +197,45 @@ int call_check(const Call& call) {
   else
     print_error(result.verdict);
   return result.sound ? exit_ok : exit_input;
+}
+
+/// Calls of(call) for each case that a deck has and the call asks for, or once for a deck without cases.
+/// Returns the largest exit code; ends behind a case that was stopped.
+int for_cases(Call call, bool alone, const std::function<int(const Call&)>& of) {
+  auto text = text_of_file(call.deck);
+  if (!text || !has_cases(*text)) {
+    text.reset();  // may be large, and the call is long
+    if (call.only_cases.empty()) return of(call);
+    print_error("error: --case: the deck has no *CASE\n");
+    return exit_input;
+  }
+  Diagnostics diagnostics;
+  std::vector<LoadCase> cases = cases_in(call.deck, *text, diagnostics);
+  print_error(diagnostics.text());
+  if (!diagnostics.ok()) return exit_input;
+  for (const Id wanted : call.only_cases)
+    if (std::none_of(cases.begin(), cases.end(), [&](const LoadCase& c) { return c.id == wanted; })) {
+      print_error(fmt::format("error: --case {}: the deck has no such case\n", wanted));
+      return exit_input;
+    }
+  if (!call.only_cases.empty())
+    std::erase_if(cases, [&](const LoadCase& c) {
+      return std::find(call.only_cases.begin(), call.only_cases.end(), c.id) == call.only_cases.end();
+    });
+  if (alone && cases.size() > 1) {
+    print_error("error: the deck has several cases\n  hint: choose one with --case ID\n");
+    return exit_input;
+  }
+  int worst = exit_ok;
+  for (const LoadCase& one : cases) {
+    Call own = call;
+    own.one_case = one;
+    if (call.restart.empty()) own.dir = (std::filesystem::path(call.dir) / one.job).string();
+    if (!call.quiet && !call.json) print_text(fmt::format("case {}: {}\n", one.id, one.job));
+    worst = std::max(worst, of(own));
+    if (stop_requested) break;
+  }
+  return worst;
 }
 
 int call_keywords(const Call& call) {
@@ -261,6 +327,12 @@ int command_line(int argc, char** argv) {
     to->add_option("--load", call.loads, "FILE.so with laws, loads, elements of your own")
         ->allow_extra_args(false);
   };
+  const auto add_case = [&](CLI::App* to) {
+    to->add_option("--case", call.only_cases, "ID[,ID...]: these cases of a deck with *CASE alone")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+  };
+  add_case(run_);
   add_load(run_);
   run_->add_option("--restart", call.restart,
                    "go on from this restart file, or from the latest in this folder of results");
@@ -270,6 +342,7 @@ int command_line(int argc, char** argv) {
   auto* check = app.add_subcommand("check", "read, validate and build a deck; run nothing");
   check->add_option("DECK", call.deck, "keyword deck")->required();
   check->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER")->allow_extra_args(false);
+  add_case(check);
   add_load(check);
   check->add_flag("--strict", call.strict, "warnings, and ids that nothing refers to, are errors");
   check->add_flag("--json", call.json, "the report and its messages for programs, on standard output");
@@ -355,8 +428,8 @@ int command_line(int argc, char** argv) {
       print_error(fmt::format("error: --load: {}\n", why));
       return exit_input;
     }
-  if (*run_) return call_run(call);
-  if (*check) return call_check(call);
+  if (*run_) return for_cases(call, !call.restart.empty(), call_run);
+  if (*check) return for_cases(call, call.json, call_check);
   if (*keywords) return call_keywords(call);
   if (*generate) return call_generate(call);
   if (*post || *verify) {

@@ -5,6 +5,7 @@
 #include "app/advice.hpp"
 #include "app/end_report.hpp"
 #include "app/field_options.hpp"
+#include "app/relaxation.hpp"
 #include "app/resources.hpp"
 #include "app/restart.hpp"
 #include "app/run_ends.hpp"
@@ -67,8 +68,11 @@ class Run {
   Summary execute() {
     print_start();
     try {
-      if (const std::string why = s_.lacks_particles(end_); !why.empty()) throw RunError(why);
-      if (options_.restart) go_on();
+      if (const std::string why = s_.why_not_until(end_); !why.empty()) throw RunError(why);
+      if (options_.restart)
+        go_on();
+      else if (relax_before(s_, options_, [this](const std::string& line) { messag_.line(line); }).stopped)
+        return stop_at({.reason = "stopped in its relaxation", .interrupted = true}), close(), summary_;
       loop();
       finish_normally();
     } catch (const RunError& error) {
@@ -246,7 +250,7 @@ class Run {
         writer_.submit([this] { histories_.finish(), fields_.finish(); });
         break;
       case Kind::end_time:
-        if (const std::string why = s_.lacks_particles(order.end_time); !why.empty())
+        if (const std::string why = s_.why_not_until(order.end_time); !why.empty())
           messag_.line(" *** Warning: the end stays: " + why);
         else
           end_ = order.end_time;
@@ -255,11 +259,7 @@ class Run {
       case Kind::tell:
         break;
       case Kind::unknown:
-        messag_.line(
-            fmt::format(" *** Warning: sense switch '{}' is not known; known are sw1. (restart file, "
-                        "stop), sw2. (time), sw3. (restart file), sw4. (field state), swa. (flush), "
-                        "stop, endtime=T",
-                        order.text));
+        messag_.line(unknown_switch(order));
         break;
     }
     return true;

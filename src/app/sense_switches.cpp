@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "app/sense_switches.hpp"
 
 #include <poll.h>
@@ -75,6 +77,13 @@ std::optional<SenseSwitch> SenseSwitches::take_line() {
     return std::nullopt;
   }
   return sense_switch_of(std::string(letters, static_cast<std::size_t>(n)));
+}
+
+std::string unknown_switch(const SenseSwitch& order) {
+  return fmt::format(
+      " *** Warning: sense switch '{}' is not known; known are sw1. (restart file, stop), sw2. "
+      "(time), sw3. (restart file), sw4. (field state), swa. (flush), stop, endtime=T",
+      order.text);
 }
 
 }  // namespace courant

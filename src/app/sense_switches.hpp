@@ -19,6 +19,9 @@ struct SenseSwitch {
 /// The order that a text gives; nothing for an empty one. The period may be missing.
 std::optional<SenseSwitch> sense_switch_of(const std::string& text);
 
+/// What to say of an order that is none.
+std::string unknown_switch(const SenseSwitch& order);
+
 class SenseSwitches {
  public:
   /// keyboard: lines typed at the terminal are orders, too.

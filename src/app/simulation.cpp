@@ -17,6 +17,7 @@
 #include "elements/erosion.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "elements/nodal_rotations.hpp"
+#include "elements/stiffness_damping.hpp"
 #include "extension/additions.hpp"
 #include "loads/idle_parts.hpp"
 #include "loads/loads.hpp"
@@ -56,12 +57,13 @@ bool holds_places(const std::string& deck_path, const Model& model, Diagnostics&
 }  // namespace
 
 std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, const ReadOptions& options,
-                                              Diagnostics& diagnostics, const DeckRecord* before) {
+                                              Diagnostics& diagnostics, const DeckRecord* before,
+                                              RunPhase phase) {
   const double start = PassTimer::now();
   Deck deck = read_deck(deck_path, options, diagnostics);
   if (diagnostics.ok()) move_included_entries(deck, diagnostics);
   const double read = PassTimer::now();
-  auto s = from_deck(deck_path, std::move(deck), diagnostics, before);
+  auto s = from_deck(deck_path, std::move(deck), diagnostics, before, phase);
   if (!s) return s;
   s->note_read_seconds(read - start, PassTimer::now() - read);
   return s;
@@ -74,14 +76,16 @@ void Simulation::note_read_seconds(double reading, double building) {
 }
 
 std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, Deck deck,
-                                                  Diagnostics& diagnostics, const DeckRecord* before) {
+                                                  Diagnostics& diagnostics, const DeckRecord* before,
+                                                  RunPhase phase) {
   std::unique_ptr<Simulation> s(new Simulation);
   for (const char* row : {"keyword reader", "set-up"}) s->timer_.row(row);  // stand first
   s->deck_ = std::move(deck);
   if (!diagnostics.ok()) return nullptr;  // what could not be read or moved would only cause more messages
   s->record_ = record_deck(s->deck_);
   if (before) s->changes_ = compare_decks(*before, s->deck_, s->record_, diagnostics);
-  s->model_ = build_model(s->deck_, diagnostics);
+  s->model_ = build_model(s->deck_, diagnostics, phase);
+  s->relaxation_ = relaxation_of(s->deck_, s->model_, !s->model_.sph.empty(), diagnostics);
   if (!holds_places(deck_path, s->model_, diagnostics)) return nullptr;
   release_mesh_cards(s->deck_);
   s->injections_ = add_injected_particles(s->deck_, s->model_, diagnostics);
@@ -150,7 +154,10 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     std::vector<std::shared_ptr<StrengthLaw>> laws;
     for (std::size_t k = 0; k < model_.parts.size(); ++k)
       laws.push_back(law_of_elements(static_cast<Index>(k)));
-    ElementOptions options{mass_scaling_of(deck_), failure_rules(deck_, model_, laws, diagnostics)};
+    std::vector<bool> by_pressure;
+    for (const SolidPart& part : solids_) by_pressure.push_back(part.pressure != nullptr || part.nodal);
+    ElementOptions options{mass_scaling_of(deck_), failure_rules(deck_, model_, laws, diagnostics),
+                           stiffness_damping(deck_, model_, laws, by_pressure, diagnostics)};
     add_solid_passes(model_, solids_, node_of, options, world_);
     add_shell_passes(model_, shells_, node_of, options, world_);
     build_beams(model_, beams_, node_of, world_, diagnostics);
@@ -251,6 +258,8 @@ void Simulation::add_rotations() {
   for (const auto& pass :
        {make_fixed_points(model_, rotations, world_), make_damping(damping_, rotations, world_)})
     if (pass) world_.passes.add(pass);
+  if (model_.phase == RunPhase::relaxation)
+    world_.passes.add(make_slow_points(rotations, relaxation_.factor));
   world_.passes.add(make_point_motion(rotations));
   world_.passes.add(make_kinetic_energy(rotations));
 }
@@ -283,6 +292,7 @@ void Simulation::add_loads(const Points& points, const BodyAcceleration& acceler
   add(make_nodal_loads(nodal_loads_, model_, points, world_), "nodal forces", "*LOAD_NODE");
   add(make_fixed_points(model_, points, world_), "SPC", "*BOUNDARY_SPC");
   add(make_damping(damping_, points, world_), "damping", "*DAMPING");
+  if (model_.phase == RunPhase::relaxation) world_.passes.add(make_slow_points(points, relaxation_.factor));
 }
 
 void Simulation::add_neighbours(Diagnostics& diagnostics) {
@@ -355,7 +365,13 @@ Real Simulation::rest_energy() const {
   return bodies_ ? e + bodies_->rest_energy() : e;
 }
 
-std::string Simulation::lacks_particles(Real end) const {
+std::string Simulation::why_not_until(Real end) const {
+  for (const auto& [id, curve] : model_.curves)
+    if (end > model_.endtim && curve.by_formula)
+      return fmt::format(
+          "curve {} is a formula that was taken until ENDTIM = {:g} only: give the later end as "
+          "ENDTIM",
+          id, model_.endtim);
   for (const Injection& inlet : injections_.inlets)
     if (end > model_.endtim && inlet.end > model_.endtim)
       return fmt::format(

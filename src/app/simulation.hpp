@@ -15,6 +15,7 @@
 #include "keyword/deck.hpp"
 #include "keyword/deck_record.hpp"
 #include "loads/loads.hpp"
+#include "model/conditions/relaxation.hpp"
 #include "model/model.hpp"
 #include "output/sample.hpp"
 #include "output/summary.hpp"
@@ -31,11 +32,13 @@ class Simulation {
   /// Reads, checks and builds. Returns nullptr when `diagnostics` has errors. `before`: the deck of the run
   /// that is to go on; only what may change between the parts of a run may differ from it.
   static std::unique_ptr<Simulation> build(const std::string& deck_path, const ReadOptions& options,
-                                           Diagnostics& diagnostics, const DeckRecord* before = nullptr);
+                                           Diagnostics& diagnostics, const DeckRecord* before = nullptr,
+                                           RunPhase phase = RunPhase::transient);
   /// The same for a deck that was read from `deck_path`. Nothing is built where `diagnostics` has errors
   /// already.
   static std::unique_ptr<Simulation> from_deck(const std::string& deck_path, Deck deck,
-                                               Diagnostics& diagnostics, const DeckRecord* before = nullptr);
+                                               Diagnostics& diagnostics, const DeckRecord* before = nullptr,
+                                               RunPhase phase = RunPhase::transient);
 
   /// One step; `at_time_level` sees x, p and f of the same time before the kick.
   void step(const AtTimeLevel& at_time_level);
@@ -77,10 +80,18 @@ class Simulation {
   const std::vector<std::shared_ptr<Contact>>& contacts() const { return contacts_; }
   const RigidBodies* bodies() const { return bodies_.get(); }
   const Injections& injections() const { return injections_; }
-  /// Why a run cannot go on until `end`: particles of inlets were made up to ENDTIM. Empty where it can. [T]
-  std::string lacks_particles(Real end) const;
+  /// Why a run cannot go on until `end`: particles of inlets were made, and formulas of curves taken, up to
+  /// ENDTIM. Empty where it can. [T]
+  std::string why_not_until(Real end) const;
   PassTimer& timer() { return timer_; }
   double read_seconds() const { return read_seconds_; }  ///< for deck and set-up: the first rows of timer()
+  /// What the deck asks for in front of the run: another simulation of it, of RunPhase::relaxation, from
+  /// which this one starts. app/relaxation.hpp.
+  const Relaxation& relaxation() const { return relaxation_; }
+  void slow_down(Real factor);    ///< all velocities times a factor
+  void slow_bodies(Real factor);  ///< those of rigid bodies, without their nodes
+  /// Takes the state of a relaxation: time begins with 0, velocities are those of the deck's start.
+  void start_from(Simulation& relaxed);
   Guard& guard() { return *guard_; }  ///< looks every Guard::interval steps, and when told to
   const Guard& guard() const { return *guard_; }
   /// Saves or loads all that later steps depend on; between steps only. A run that goes on after it, and one
@@ -138,6 +149,7 @@ class Simulation {
   std::shared_ptr<RigidBodies> bodies_;
   std::vector<GhostPlane> planes_;
   std::vector<PassNote> left_out_;
+  Relaxation relaxation_;
   StepRules rules_;
   std::shared_ptr<Guard> guard_;
   PassTimer timer_;
@@ -152,12 +164,14 @@ struct RunOptions {
   Real until = 0;                                    ///< > 0: end time instead of ENDTIM [T]
   std::vector<std::string> warnings;                 ///< of the deck, for summary.yaml
   std::vector<std::string> params;                   ///< NAME=VALUE, for the command that goes on
+  Id load_case = 0;                                  ///< of a deck with several, for the same; 0: none
   std::function<void(const std::string&)> print;     ///< lines of messag
   std::function<void(const std::string&)> progress;  ///< one status line, about once a second
   const std::atomic<bool>* stop = nullptr;           ///< set by a signal: end cleanly after this step
   bool dump_at_end = true;                           ///< a restart file when the run has ended or is stopped
   bool choose_threads = false;                       ///< as many as are quickest, else those that are set
   bool keyboard = false;                             ///< sense switches may be typed
+  Simulation* relaxing = nullptr;                    ///< in front of the run, where the deck asks for that
   Restart* restart = nullptr;                        ///< what the run goes on from; emptied on the way
 };
 

@@ -52,6 +52,18 @@ void add_held(const Summary& s, std::vector<Finding>& out) {
                    100 * share)});
 }
 
+/// The run began with what was not at rest.
+void add_relaxation(const Summary& s, std::vector<Finding>& out) {
+  const auto ratio = s.maxima.find("relaxation_ratio");
+  if (ratio == s.maxima.end()) return;
+  out.push_back(
+      {false, fmt::format("the dynamic relaxation before the run ended with {:.2g} of its largest "
+                          "kinetic energy, which is not within DRTOL: what follows swings about "
+                          "the preloaded state; give it a later DRTERM, or a DRFCTR of 1 - 2 w dt, w "
+                          "the lowest frequency",
+                          ratio->second)});
+}
+
 /// Joints that were drawn apart, of the size of the smaller body: beyond 1e-4 the run stops.
 void add_joint_gap(const Summary& s, std::vector<Finding>& out) {
   constexpr Real doubtful = 1e-5;
@@ -149,6 +161,7 @@ std::vector<Finding> findings(const Summary& s) {
   add_leaked_nodes(s, out);
   add_held(s, out);
   add_joint_gap(s, out);
+  add_relaxation(s, out);
   add_energy(s, out);
   add_hourglass(s, out);
   add_clamps(s, out);

@@ -27,9 +27,12 @@ class CompiledExpression::Recorder {
  public:
   struct Value {};  // where it is, the order of the steps tells
   using Kind = Step::Kind;
-  Recorder(CompiledExpression& to, const std::vector<std::string>& names) : to_(to), names_(names) {}
+  Recorder(CompiledExpression& to, const std::vector<std::string>& names,
+           std::span<const ExpressionFunction> functions)
+      : to_(to), names_(names), functions_(functions) {}
 
   Arithmetic arithmetic() const { return Arithmetic::real; }
+  std::span<const ExpressionFunction> functions() const { return functions_; }
   Outcome<Value> constant(const Number& number) { return push({Kind::constant, number.value()}); }
   Outcome<Value> named(std::string_view name) {
     const auto at = std::find(names_.begin(), names_.end(), name);
@@ -71,15 +74,18 @@ class CompiledExpression::Recorder {
   }
   CompiledExpression& to_;
   const std::vector<std::string>& names_;
+  std::span<const ExpressionFunction> functions_;
   std::size_t waiting_ = 0;
 };
 
-CompiledExpression::CompiledExpression(std::string_view text, const std::vector<std::string>& names)
+CompiledExpression::CompiledExpression(std::string_view text, const std::vector<std::string>& names,
+                                       std::span<const ExpressionFunction> functions)
     : used_(names.size(), false) {
-  Recorder recorder(*this, names);
+  Recorder recorder(*this, names, functions);
   auto result = ExpressionParser<Recorder>(text, recorder).run();
   error_ = std::move(result.error);
   hint_ = std::move(result.hint);
+  at_ = result.at;
 }
 
 Real CompiledExpression::combined(Step::Kind kind, Real a, Real b) {
@@ -100,7 +106,7 @@ Real CompiledExpression::combined(Step::Kind kind, Real a, Real b) {
 Real CompiledExpression::call(const Step& step, const Real* arguments) {
   const ExpressionFunction& f = *step.function;
   for (std::size_t k = 0; k < step.index; ++k)
-    if (std::isnan(arguments[k])) return none;  // a comparison would lose it
+    if (std::isnan(arguments[k]) && !f.chooses) return none;  // a comparison would lose it
   if (step.index == 1 && f.of_real) return f.of_real(arguments[0]);
   if (step.index == 2 && f.of_reals) return f.of_reals(arguments[0], arguments[1]);
   std::vector<Number> numbers;

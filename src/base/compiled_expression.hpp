@@ -1,6 +1,7 @@
 #pragma once
 // Expressions that are read once and evaluated often, as over all particles of a state.
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,11 +20,14 @@ class CompiledExpression {
   CompiledExpression() = default;
   /// `names`: the variables, in the order in which values are handed over. Faults, as evaluate_expression
   /// reports them, are in error().
-  CompiledExpression(std::string_view text, const std::vector<std::string>& names);
+  /// `functions`: besides those of all expressions; they must outlive this.
+  CompiledExpression(std::string_view text, const std::vector<std::string>& names,
+                     std::span<const ExpressionFunction> functions = {});
 
   bool ok() const { return error_.empty(); }
   const std::string& error() const { return error_; }  ///< "nothing to evaluate" if there was no text
   const std::string& hint() const { return hint_; }
+  std::size_t at() const { return at_; }  ///< place of the fault in the text, from 0
   bool uses(std::size_t name) const { return name < used_.size() && used_[name]; }
 
   /// values: (names). Needs ok().
@@ -45,6 +49,7 @@ class CompiledExpression {
   std::vector<bool> used_;
   std::size_t depth_ = 0;  // values that wait at most
   std::string error_ = "nothing to evaluate", hint_;
+  std::size_t at_ = 0;
 };
 
 }  // namespace courant

@@ -29,6 +29,7 @@ struct ExpressionFunction {
   // the same on reals alone, for speed; what is not finite is a fault
   Real (*of_real)(Real) = nullptr;         ///< of functions of one argument; may be missing
   Real (*of_reals)(Real, Real) = nullptr;  ///< with two arguments; may be missing
+  bool chooses = false;                    ///< an argument that it leaves out may have no value
 };
 
 const ExpressionFunction* find_function(std::string_view name);  ///< nullptr if there is none

@@ -32,6 +32,7 @@ struct Outcome {
 ///   Outcome<Value> negated(const Value&);
 ///   Outcome<Value> combined(char operation, const Value&, const Value&);     + - * / ^
 ///   Outcome<Value> called(const ExpressionFunction&, const std::vector<Value>&);
+///   std::span<const ExpressionFunction> functions() const;                   may be missing
 template <class Actions>
 class ExpressionParser {
  public:
@@ -179,15 +180,29 @@ class ExpressionParser {
       expect_end_of_parenthesis();
     }
     if (!result_.ok()) return {};
-    const ExpressionFunction* function = find_function(name);
+    const ExpressionFunction* function = find(name);
     if (!function) {
-      const std::string near = nearest_word(lower_case(name), function_names());
+      const std::string near = nearest_word(lower_case(name), names_of_functions());
       return fail(at, fmt::format("unknown function '{}'", name),
                   near.empty() ? "" : fmt::format("did you mean {}?", near));
     }
     if (const std::string fault = wrong_count(*function, arguments.size()); !fault.empty())
       return fail(at, fault);
     return checked(at, actions_.called(*function, arguments));
+  }
+
+  /// Actions may have functions of their own, which come first.
+  const ExpressionFunction* find(std::string_view name) {
+    if constexpr (requires { actions_.functions(); })
+      for (const ExpressionFunction& own : actions_.functions())
+        if (own.name == lower_case(name)) return &own;
+    return find_function(name);
+  }
+  std::vector<std::string> names_of_functions() {
+    std::vector<std::string> out = function_names();
+    if constexpr (requires { actions_.functions(); })
+      for (const ExpressionFunction& own : actions_.functions()) out.push_back(own.name);
+    return out;
   }
 
   Value number() {

@@ -143,6 +143,7 @@ class Erosion {
 struct ElementOptions {
   MassScaling scaling;
   std::vector<FailureRules> failure;                ///< by part of the model
+  std::vector<Real> stiffness_damping;              ///< COEF by part of the model, 0: none
   std::vector<std::shared_ptr<Erosion>> eroding{};  ///< out: of groups that may fail
 };
 

@@ -119,6 +119,9 @@ struct CardOf {
   /// Of a repeated one: it ends, too, where all required fields of card 1 stand on the line as integers > 0,
   /// with which the next entry begins.
   bool until_entry = false;
+  /// Of a repeated one with one list of texts: lines are taken whole, with their blanks and commas, and with
+  /// values in the place of &names.
+  bool whole_lines = false;
   bool (*when)(const T&) = nullptr;  ///< the card is there only if this holds for the cards read so far
 };
 

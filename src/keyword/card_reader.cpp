@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cctype>
 #include <limits>
 
 #include "keyword/number.hpp"
@@ -204,7 +205,10 @@ void CardReader::read_cards(DataLines& data, EntrySink& sink) {
     if (card.repeat) {
       for (; !data.done() && !full() && !only_blanks_left(data); data.step()) {
         if (card.until_entry && begins_entry(data.line())) return;
-        read_card(data, c, sink);
+        if (card.whole_lines)
+          read_whole_line(data, c, sink);
+        else
+          read_card(data, c, sink);
       }
       while (!data.done()) data.step();
       return;
@@ -241,6 +245,31 @@ bool CardReader::begins_entry(std::string_view line) {
     if (value <= 0) return false;
   }
   return true;
+}
+
+/// Numbers of parameters stand in parentheses, so that signs keep their operand.
+void CardReader::read_whole_line(const DataLines& data, std::size_t card, EntrySink& sink) {
+  line_ = static_cast<int>(data.index()) + 1;
+  const std::string_view line = data.line();
+  std::string out;
+  for (std::size_t at = 0; at < line.size();) {
+    if (line[at] != '&') {
+      out += line[at++];
+      continue;
+    }
+    std::size_t end = at + 1;
+    while (end < line.size() && (std::isalnum(static_cast<unsigned char>(line[end])) || line[end] == '_'))
+      ++end;
+    const Parameters::Resolved value = parameters_.resolve(line.substr(at, end - at));
+    if (value.failed)
+      diagnostics_->error(
+          here(static_cast<int>(at) + 1),
+          fmt::format("*{}: {}", spec_->names[static_cast<std::size_t>(block_.match.name)], value.error),
+          value.hint);
+    out += value.type == 'C' ? value.text : "(" + value.text + ")";
+    at = end;
+  }
+  sink.set_text(card, 0, out);
 }
 
 void CardReader::read_card(const DataLines& data, std::size_t card, EntrySink& sink) {

@@ -44,6 +44,7 @@ class CardReader {
   void read_cards(DataLines& data, EntrySink& sink);
   void refuse_second_definition(const Entry& entry);
   void read_card(const DataLines& data, std::size_t card, EntrySink& sink);
+  void read_whole_line(const DataLines& data, std::size_t card, EntrySink& sink);
   bool begins_entry(std::string_view line);
   bool warn_of_cut_number(std::string_view line, const CardSpec& spec, std::size_t card);
   bool keeps_zeros(std::size_t card, const FieldSpec& spec) const;

@@ -27,6 +27,17 @@ const RegisterKeyword<DeckLevel> end_keyword{
 const RegisterKeyword<DeckLevel> comment_keyword{
     {.names = {"COMMENT"}, .purpose = "lines of text up to the next keyword, without effect"}};
 
+const RegisterKeyword<DeckLevel> case_keyword{
+    {.names = {"CASE", "CASE_BEGIN", "CASE_END"},
+     .purpose = "several runs of one deck, one after the other, each in a folder of its own in that of the "
+                "results, named JOBID or CASE and the id. What stands between *CASE_BEGIN_n and *CASE_END_n "
+                "counts in the cases that name n as SCID; within blocks of several n, in those that name one "
+                "of them. Without *CASE each n is a case. `courant run --case ID` computes that one alone",
+     .cards = {{.fields = {{"CASEID", &DeckLevel::text, "-", "id"},
+                           {"JOBID", &DeckLevel::text, "-", "name, without blanks", {.width = 70}}}},
+               {.fields = {{"COMMANDS", &DeckLevel::text, "-", "blank", {.width = 80}}}},
+               {.fields = {{"SCID1", &DeckLevel::text, "-", "n of its blocks, up to the next keyword"}}}}}};
+
 const RegisterKeyword<DeckLevel> parameter_keyword{
     {.names = {"PARAMETER", "PARAMETER_LOCAL", "PARAMETER_GLOBAL", "PARAMETER_MUTABLE", "PARAMETER_NOECHO"},
      .purpose = "names for values, used as &name or -&name in any field; up to four pairs per line. Names do "

@@ -47,7 +47,6 @@ constexpr Family families[] = {
     {"BOUNDARY_SPH_SYMMETRY_PLANE", "SPH symmetry planes"},
     {"BOUNDARY_TEMPERATURE", "thermal boundary conditions"},
     {"BOUNDARY_THERMAL", "thermal boundary conditions"},
-    {"CASE", "several load cases in one deck"},
     {"CESE", "compressible flows (CESE)"},
     {"CHANGE", "changes at a restart"},
     {"CHEMISTRY", "chemical reactions"},

@@ -38,6 +38,7 @@ struct CardSpec {
   bool optional = false;
   bool repeat = false;
   bool until_entry = false;  ///< repeats up to the next entry, see CardOf
+  bool whole_lines = false;  ///< see CardOf
   bool conditional = false;  ///< there only under a condition, see KeywordSpec::has_card
   bool is_table = false;     ///< several vectors: each card adds one to each of them
 };
@@ -203,6 +204,7 @@ class TableSpec : public KeywordSpec {
                     .optional = card.optional,
                     .repeat = card.repeat,
                     .until_entry = card.until_entry,
+                    .whole_lines = card.whole_lines,
                     .conditional = card.when != nullptr};
       for (std::size_t f = 0; f < card.fields.size(); ++f) {
         const FieldOf<Table>& field = card.fields[f];

@@ -159,6 +159,13 @@ const Families& DeckReader::families() {
 bool DeckReader::read_deck_keyword(const File& file, std::size_t line, const KeywordLine& keyword) {
   const std::string& name = keyword.name;
   if (name == "END" || name == "COMMENT") return true;
+  if (name.rfind("CASE", 0) == 0) {  // who runs cases reads the deck without these (cases.hpp)
+    if (refusals_.is_first(name, diagnostics_))
+      diagnostics_.error(place(file, line),
+                         fmt::format("*{}: cases count where the deck itself has some", name),
+                         "put a *CASE_BEGIN_n and its *CASE_END_n into the deck, around *INCLUDE or not");
+    return true;
+  }
   if (read_keyword_keyword(file, line, keyword)) return true;
   if (name == "TITLE") {
     read_title(file, line);

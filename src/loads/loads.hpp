@@ -81,6 +81,9 @@ std::vector<Damping> damping_of(const Deck& deck, const Model& model, const Worl
 /// f -= c m v, with the v of the middle of the kick. nullptr where there is none.
 std::shared_ptr<Constraint> make_damping(std::vector<Damping> damping, Points points, World& world);
 
+/// Of a relaxation: velocities times a factor in each step.
+std::shared_ptr<Drive> make_slow_points(Points points, Real factor);
+
 /// *RIGIDWALL_PLANAR and _GEOMETRIC: adds a pass for each wall, which holds particles and nodes of deformable
 /// elements; false if there is none. Behind add_prescribed_points. Refuses by name: sets, boxes and curves
 /// that are not there, nodes of rigid bodies that NSID names, normals, edges and motions without a direction

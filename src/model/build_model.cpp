@@ -8,8 +8,8 @@
 
 namespace courant {
 
-Model build_model(const Deck& deck, Diagnostics& diagnostics) {
-  return ModelBuilder(deck, diagnostics).build();
+Model build_model(const Deck& deck, Diagnostics& diagnostics, RunPhase phase) {
+  return ModelBuilder(deck, diagnostics, phase).build();
 }
 
 void release_mesh_cards(Deck& deck) {
@@ -30,6 +30,8 @@ Model ModelBuilder::build() {
   build_beams();
   check_shared_nodes();
   build_curves();
+  build_function_curves();
+  silence_curves();
   build_tables();
   build_boxes();
   build_local_boxes();
@@ -40,6 +42,7 @@ Model ModelBuilder::build() {
   build_coordinate_systems();  // of nodes: where these have gone
   build_vectors();
   build_control();
+  build_relaxation();
   build_output();
   build_body_loads();
   build_constraints();

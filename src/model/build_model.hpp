@@ -11,7 +11,7 @@ inline constexpr Real largest_coordinate = 1e30;
 
 /// All faults go to `diagnostics` (at most 100 of them); the model is of use only if there is none.
 /// Initial velocities: INITIAL_VELOCITY in deck order, then _GENERATION in deck order, then _NODE.
-Model build_model(const Deck& deck, Diagnostics& diagnostics);
+Model build_model(const Deck& deck, Diagnostics& diagnostics, RunPhase phase = RunPhase::transient);
 
 /// Gives back the cards of nodes and elements, which the model has taken over.
 void release_mesh_cards(Deck& deck);

@@ -5,7 +5,7 @@
 namespace courant {
 
 Real Curve::operator()(Real a) const {
-  if (abscissa.empty()) return 0;
+  if (abscissa.empty() || silent) return 0;
   const auto above = std::upper_bound(abscissa.begin(), abscissa.end(), a);
   if (above == abscissa.begin()) return ordinate.front();
   if (above == abscissa.end()) return ordinate.back();

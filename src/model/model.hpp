@@ -100,6 +100,9 @@ struct ModelSegment {
 struct Curve {
   Id id = 0;
   std::vector<Real> abscissa, ordinate;
+  bool by_formula = false;  ///< points of an expression of the time, up to ENDTIM
+  int sidr = 0;             ///< phase of loads: 0 transient, 1 relaxation, 2 both
+  bool silent = false;      ///< a load that does not act in this phase: 0
   Real operator()(Real a) const;
 };
 
@@ -201,8 +204,13 @@ struct OutputRequests {
   FieldRequests fields;
 };
 
+/// What is computed: before the transient a relaxation to rest, with loads of its own, where the deck asks
+/// for one.
+enum class RunPhase { transient, relaxation };
+
 struct Model {
   std::string title;
+  RunPhase phase = RunPhase::transient;
   std::vector<ModelNode> nodes;
   std::vector<ModelPart> parts;
   std::vector<ModelSph> sph;

@@ -20,7 +20,10 @@ namespace courant {
 
 class ModelBuilder {
  public:
-  ModelBuilder(const Deck& deck, Diagnostics& diagnostics) : deck_(deck), diagnostics_(diagnostics) {}
+  ModelBuilder(const Deck& deck, Diagnostics& diagnostics, RunPhase phase)
+      : deck_(deck), diagnostics_(diagnostics) {
+    model_.phase = phase;
+  }
   Model build();
 
  private:
@@ -60,6 +63,13 @@ class ModelBuilder {
   void build_sets();
   void build_curves();
   void build_boxes();
+  // function_curves.cpp
+  void build_function_curves();
+  template <class Card, class Sample>
+  void add_smooth_curve(const Card& card, const Sample& sample);
+  void check_function_curves();
+  // relaxation.cpp
+  void silence_curves();
   // short_curves.cpp
   void warn_of_short_curves();
   // move_nodes.cpp
@@ -75,8 +85,10 @@ class ModelBuilder {
   void check_tables();
   // build_conditions.cpp
   void build_control();
+  void build_relaxation();
   void build_output();
   void build_body_loads();
+  bool take_relaxing(const Entry& card, const char* field, Id id, Curve& out);
   void build_gravity_of_parts();
   std::vector<Index> loaded_parts();
   void build_constraints();

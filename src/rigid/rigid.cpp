@@ -46,12 +46,6 @@ void for_each_piece(std::vector<RigidBody>& bodies, std::vector<RigidBodies::Pie
 
 }  // namespace
 
-Eigen::Quaterniond turned_by(const Vec& angle, const Eigen::Quaterniond& q) {
-  const Real a = angle.norm();
-  if (a == 0) return q;
-  return (Eigen::Quaterniond(Eigen::AngleAxisd(a, angle / a)) * q).normalized();
-}
-
 bool RigidBody::fixed() const {
   return all(held) && all(no_turn);
 }
@@ -346,6 +340,20 @@ void RigidBodies::strike_at_start(std::size_t body, const Vec& impulse, const Ve
   for (std::size_t k = 0; k < b.nodes.size(); ++k) {
     world.nodes.v.set(b.nodes[k], b.v + b.omega.cross(b.X[k]));
     if (turning) turning->set(b.nodes[k], b.omega);
+  }
+}
+
+void RigidBodies::slow_down(Real factor) {
+  for (RigidBody& b : bodies_) b.v *= factor, b.L *= factor, b.omega *= factor;
+}
+
+void RigidBodies::start_moving(const std::vector<std::array<Vec, 2>>& motion, World& world) {
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    RigidBody& b = bodies_[k];
+    if (b.fixed()) continue;
+    const Matrix R = b.q.toRotationMatrix();
+    b.v = b.L = Vec::Zero();
+    strike_at_start(k, b.m * motion[k][0], R * b.J0 * R.transpose() * motion[k][1], world);
   }
 }
 

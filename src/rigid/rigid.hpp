@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/rotation.hpp"
 #include "keyword/deck.hpp"
 #include "loads/body_acceleration.hpp"
 #include "model/conditions/prescribed_motion.hpp"
@@ -90,8 +91,6 @@ HalfStep next_half_step(const RigidBody& body, const Vec& force, const Vec& mome
 /// How a body turns over a step that starts in its orientation q with the angular momentum L: omega of the
 /// middle of the step. [1/T]
 Vec turning_over(const RigidBody& body, const Vec& L, Real dt);
-/// An orientation turned by a rotation vector, global axes. [-]
-Eigen::Quaterniond turned_by(const Vec& angle, const Eigen::Quaterniond& q);
 /// Place and orientation a step later.
 struct BodyPose {
   Vec x = Vec::Zero();
@@ -154,6 +153,11 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   void tie(BodyTies* ties) { ties_ = ties; }
   /// Changes the velocity of the centre and the angular momentum before the first step. [ML/T], [ML2/T]
   void strike_at_start(std::size_t body, const Vec& impulse, const Vec& turn, World& world);
+  /// Velocities and angular momenta times a factor, of bodies alone: their nodes get theirs with the next
+  /// step.
+  void slow_down(Real factor);
+  /// Velocity and angular velocity of each body, and of its nodes, whatever they were.
+  void start_moving(const std::vector<std::array<Vec, 2>>& motion, World& world);
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
   const std::vector<RigidBody>& bodies() const { return bodies_; }
   /// Before the first step: a node of a body has got heavier, and the body with it; false where its inertia

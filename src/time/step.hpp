@@ -39,6 +39,7 @@ class Stepper : public Restartable {
   /// check`.
   void evaluate(Clock& clock, std::string& controlled_by);
   const std::string& stages() const { return stages_; }  ///< as text
+  void forget_first_step() { first_dt_ = 0; }            ///< for DTMIN: the next one is the first
   void keep(Archive& archive) override {
     archive("first_dt", first_dt_);
     archive("first_tssfac", first_tssfac_);

@@ -7,10 +7,13 @@
 
 #include <Eigen/Geometry>
 
+#include "base/rotation.hpp"
 #include "base/run_error.hpp"
 #include "elements/beam/beams.hpp"
+#include "elements/beam/elastic_beam.hpp"
 #include "elements/element_report.hpp"
 #include "elements/mass_scaling.hpp"
+#include "elements/stiffness_damping.hpp"
 #include "laws/strength/beam_stress.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
@@ -20,17 +23,6 @@ namespace courant {
 namespace {
 
 using Quaternion = Eigen::Quaterniond;
-
-/// By which a beam deforms, and what answers: elongation and pull, twist and torsion, rotations of end 1 and
-/// 2 about s, about t, against the line between the ends, and the moments that hold them.
-enum Part6 { elongation, twist, turn1_s, turn2_s, turn1_t, turn2_t, count6 };
-using Six = std::array<Real, count6>;
-
-Quaternion turned_by(const Vec& angle, const Quaternion& q) {
-  const Real a = angle.norm();
-  if (a == 0) return q;
-  return (Quaternion(Eigen::AngleAxisd(a, angle / a)) * q).normalized();
-}
 
 /// Axis times angle, up to pi, of q.
 Vec rotation_vector(Quaternion q) {
@@ -95,6 +87,11 @@ class BeamForces : public Material,
     if (shown) add_shown_fields();
     if (part_.weld) sections_.emplace(*part_.weld, group_);
     if (part_.weld && part_.weld->dt > 0) scale_masses(world);
+    coef_ = options.stiffness_damping[at(group_.part)];
+    if (coef_ != 0) {
+      damping_ = &add("damping_forces", "-", count6), beta_ = &add("stiffness_damping_time", "T", 1);
+      beta_->fill(coef_ < 0 ? -coef_ : 0);
+    }
     const FailureRules& rules = options.failure[at(group_.part)];
     if (rules.any() || (part_.weld && part_.weld->fails())) make_erosion(rules, options, world);
   }
@@ -109,6 +106,7 @@ class BeamForces : public Material,
     if (sections_) sections_->declare(a);
     if (scaled_) a.reads(scaled_->inertial());
     if (erosion_) erosion_->declare(world, a);
+    if (damping_) a.updates(*damping_).updates(*beta_);
   }
 
   void finish(World&, const Clock& clock) override {
@@ -130,7 +128,7 @@ class BeamForces : public Material,
       for (Index e = begin; e < end; ++e) change.after[e - begin] = resultants(e, change.now[e - begin]);
     else
       integrate(clock, begin, end, change);
-    for (Index e = begin; e < end; ++e) finish_one(e, e - begin, change);
+    for (Index e = begin; e < end; ++e) finish_one(clock, e, e - begin, change);
     if (erosion_) judge(clock, begin, end);
   }
 
@@ -323,19 +321,8 @@ class BeamForces : public Material,
     now[elongation] = frame.length - start_[e];
   }
 
-  /// Of the beam of Euler and Bernoulli, or with a shear area Timoshenko.
   Six resultants(Index e, const Six& d) const {
-    const BeamMeasures& m = part_.measures[at(e)];
-    const Real L = start_[e];
-    const auto bend = [&](Real I, Real mine, Real other) {
-      const Real phi = m.shear_area > 0 ? 12 * E_ * I / (G_ * m.shear_area * L * L) : 0;
-      return E_ * I / (L * (1 + phi)) * ((4 + phi) * mine + (2 - phi) * other);
-    };
-    Six g{};
-    g[elongation] = E_ * m.A / L * d[elongation], g[twist] = G_ * m.J / L * d[twist];
-    g[turn1_s] = bend(m.Iss, d[turn1_s], d[turn2_s]), g[turn2_s] = bend(m.Iss, d[turn2_s], d[turn1_s]);
-    g[turn1_t] = bend(m.Itt, d[turn1_t], d[turn2_t]), g[turn2_t] = bend(m.Itt, d[turn2_t], d[turn1_t]);
-    return g;
+    return resultant_end_forces({E_, G_, start_[e]}, part_.measures[at(e)], d);
   }
 
   /// Stress at the points of the section in the middle of the beam, and its resultants.
@@ -408,16 +395,20 @@ class BeamForces : public Material,
   }
 
   /// Energy, forces and moments on the ends, and the step.
-  void finish_one(Index e, Index i, const Change& change) {
+  void finish_one(const Clock& clock, Index e, Index i, const Change& change) {
     if (dead(e)) return;  // who judges takes its forces
-    const Six &now = change.now[at(i)], &g = change.after[at(i)];
+    const Six& now = change.now[at(i)];
+    Six g = change.after[at(i)];
+    const Real pull = g[elongation];
     const BeamFrame& frame = change.frame[at(i)];
-    Real work = 0;
+    const Six damping = damping_ ? damped(clock, e, change_of(e, now)) : Six{};
+    Real work = damping_ ? work_of_damping(e, change_of(e, now), damping) : 0;
     for (int k = 0; k < count6; ++k) {
       work += 0.5 * (answer_.data(k)[e] + g[at(k)]) * (now[at(k)] - deformation_.data(k)[e]);
       answer_.data(k)[e] = g[at(k)], deformation_.data(k)[e] = now[at(k)];
     }
     energy_[e] += work;
+    for (int k = 0; damping_ && k < count6; ++k) g[at(k)] += damping[at(k)];
     const Vec r = frame.axes.col(0);
     Vec on1 = g[elongation] * r;
     if (turns_) {
@@ -430,7 +421,27 @@ class BeamForces : public Material,
     }
     for (int k = 0; k < 3; ++k)
       group_.corner_force.data(k)[e] = on1[k], group_.corner_force.data(3 + k)[e] = -on1[k];
-    steps_[at(e)] = step_of(e, frame.length, g[elongation]);
+    steps_[at(e)] = step_of(e, frame.length, pull);
+    if (!damping_) return;
+    (*beta_)[e] = coef_ > 0 ? coef_ * steps_[at(e)] : -coef_;
+    steps_[at(e)] *= damped_share((*beta_)[e], steps_[at(e)]);
+  }
+
+  /// beta times the rates of the end forces of an elastic beam.
+  Six damped(const Clock& clock, Index e, const Six& d) const {
+    Six out = part_.kind == BeamKind::resultant
+                  ? resultants(e, d)
+                  : integrated_end_forces({E_, G_, start_[e]}, part_, part_.measures[at(e)], d);
+    for (Real& f : out) f *= clock.dt_old > 0 ? (*beta_)[e] / clock.dt_old : 0;
+    return out;
+  }
+  Real work_of_damping(Index e, const Six& d, const Six& now) {
+    Real work = 0;
+    for (int k = 0; k < count6; ++k) {
+      work += 0.5 * (damping_->data(k)[e] + now[at(k)]) * d[at(k)];
+      damping_->data(k)[e] = now[at(k)];
+    }
+    return work;
   }
 
   void add_shown_fields() {
@@ -448,7 +459,6 @@ class BeamForces : public Material,
       if (kinds[k].components == 1)
         shown_history_.emplace_back(show(kinds[k].name.c_str(), kinds[k].dimension.c_str(), 1), k);
   }
-
   BeamPart part_;
   ElementGroup& group_;
   Id part_id_;
@@ -463,12 +473,14 @@ class BeamForces : public Material,
   std::vector<Field<Real>*> history_;  ///< of the first point, of the second, ...
   std::size_t numbers_ = 0;            ///< of them, a point
   std::vector<Real> steps_;
-  std::optional<WeldSections> sections_;  ///< of welds
-  std::unique_ptr<ScaledMass> scaled_;    ///< null: none
-  std::shared_ptr<Erosion> erosion_;      ///< null: nothing fails
-  int plastic_ = -1, fails_ = -1;         ///< of a point's numbers the plastic strain, and what it fails by
-  std::vector<std::string> why_;          ///< welds fail in this step
-  std::vector<char> folded_;              ///< ends turned so far that nothing tells which way
+  std::optional<WeldSections> sections_;             ///< of welds
+  std::unique_ptr<ScaledMass> scaled_;               ///< null: none
+  Real coef_ = 0;                                    ///< of damping in proportion to stiffness
+  Field<Real>*damping_ = nullptr, *beta_ = nullptr;  ///< null: none; its end forces, and its time [T]
+  std::shared_ptr<Erosion> erosion_;                 ///< null: nothing fails
+  int plastic_ = -1, fails_ = -1;  ///< of a point's numbers the plastic strain, and what it fails by
+  std::vector<std::string> why_;   ///< welds fail in this step
+  std::vector<char> folded_;       ///< ends turned so far that nothing tells which way
   Field<Real>* shown_pull_ = nullptr;
   std::array<Field<Real>*, 2> shown_moment_{};
   std::vector<std::pair<Field<Real>*, std::size_t>> shown_history_;

@@ -9,8 +9,10 @@
 
 #include "base/run_error.hpp"
 #include "elements/largest_frequency.hpp"
+#include "elements/shell/layer_axes.hpp"
 #include "elements/shell/layers.hpp"
 #include "elements/shell/shells.hpp"
+#include "elements/stiffness_damping.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
 
@@ -70,6 +72,8 @@ class ShellForces : public Material,
     start(world, {});
     if (options.scaling.step > 0) scale_masses(options.scaling, world);
     limit_to_frequency(held, world);
+    if (const Real coef = options.stiffness_damping[static_cast<std::size_t>(group.part)]; coef != 0)
+      damping_ = std::make_unique<StiffnessDamping>(coef, group_, state_.points, 0);
     const FailureRules rules = rules_of_layers(part, options.failure[static_cast<std::size_t>(group.part)]);
     if (rules.any()) options.eroding.push_back(erosion_ = make_erosion(rules, world));
   }
@@ -85,6 +89,7 @@ class ShellForces : public Material,
     if (directions_) a.reads(*directions_);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (erosion_) erosion_->declare(world, a);
+    if (damping_) damping_->declare(a);
     if (!scaled_) return;
     a.reads(scaled_->inertial());
     scaled_->declare(world, a);
@@ -117,9 +122,10 @@ class ShellForces : public Material,
     const Index count = end - begin;
     if (erosion_) erosion_->begin_block(begin, count);
     found = advance(mesh_, control_, clock.dt_old, begin, end, scratch, erosion_ ? &clock : nullptr);
+    if (damping_) damping_->shorten(begin, count, scratch.wave_time, scratch.step_limit);
     if (erosion_) erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, nullptr);
     const bool lighter = scaled_ && scaled_->look(begin, count, scratch.wave_time, scratch.step_limit);
-    if (!lighter && !stiffens_ && !(erosion_ && erosion_->any_dead(begin))) return;
+    if (!lighter && !stiffens_ && !damping_ && !(erosion_ && erosion_->any_dead(begin))) return;
     const Index shortest = least_of(scratch.step_limit, count);
     found = {scratch.step_limit[shortest], begin + shortest};
   }
@@ -226,43 +232,29 @@ class ShellForces : public Material,
       for (std::size_t k = 0; k < numbers; ++k) history[k] = history_data_[first + k] + begin;
       points.history = std::span<Real* const>(history.data(), numbers);
       if (layer.law->axes())
-        update_along_axes(p, begin, points, rate_zz);
+        update_along_axes(*layer.law, directions_->data(2 * (p % layers())) + begin,
+                          directions_->data(2 * (p % layers()) + 1) + begin, points, rate_zz);
       else
         layer.law->update_in_plane_stress(points, rate_zz);
       if (layer.law->stiffens())
         for (Index i = 0; i < block.count; ++i)
           faster[i] = std::max(faster[i], sound_speed[i] / layer.law->sound_speed());
       if (failing) look_at_point(p, begin, *failing, points, rate_zz);
+      if (damping_) damping_->add_in_plane(*layer.law, p, points, begin);
       for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
     }
-    const ShellLoops::Found found = loops_.forces(block, control, state_, scratch);
+    const ShellLoops::Found found = push(block, control, scratch);
     for (Index i = 0; stiffens_ && i < block.count; ++i)
       scratch.step_limit[i] /= faster[i], scratch.wave_time[i] /= faster[i];
     return found;
   }
 
-  /// The law at a point in the directions a, b of its layer.
-  void update_along_axes(int p, Index begin, const PointBlock& points, Real* rate_zz) const {
-    const int at = 2 * (p % layers());
-    const Real *c = directions_->data(at) + begin, *s = directions_->data(at + 1) + begin;
-    alignas(64) Real rate[6][block_size], stress[6][block_size];
-    const auto turn = [&](const auto& from, auto& to, Real sign) {
-      for (Index i = 0; i < points.count; ++i) {
-        const Real C = c[i], S = sign * s[i];
-        const Real xx = from[0][i], yy = from[1][i], xy = from[3][i], yz = from[4][i], zx = from[5][i];
-        to[0][i] = C * C * xx + S * S * yy + 2 * C * S * xy;
-        to[1][i] = S * S * xx + C * C * yy - 2 * C * S * xy;
-        to[3][i] = C * S * (yy - xx) + (C * C - S * S) * xy;
-        to[4][i] = C * yz - S * zx, to[5][i] = C * zx + S * yz;
-      }
-    };
-    turn(points.rate, rate, 1), turn(points.stress, stress, 1);
-    std::fill(stress[2], stress[2] + points.count, 0);
-    PointBlock turned = points;
-    for (std::size_t k = 0; k < 6; ++k) turned.rate[k] = rate[k], turned.stress[k] = stress[k];
-    turned.rate[2] = points.rate[2];
-    layer_of(p).law->update_in_plane_stress(turned, rate_zz);
-    turn(stress, points.stress, -1);
+  ShellLoops::Found push(const ShellLoops::Block& block, const ShellControl& control,
+                         ShellScratch& scratch) const {
+    if (!damping_) return loops_.forces(block, control, state_, scratch);
+    ShellState damped = state_;
+    for (int k = 0; k < 6 * state_.points; ++k) damped.stress[k] = damping_->damped(k / 6, k % 6);
+    return loops_.forces(block, control, damped, scratch);
   }
 
   std::shared_ptr<Erosion> make_erosion(FailureRules rules, World& world) {
@@ -464,10 +456,11 @@ class ShellForces : public Material,
   ShellMesh mesh_{};
   ShellState state_{};
   std::vector<Real*> history_data_;
-  std::vector<ShellLoops::Found> found_;     ///< in each block
-  std::unique_ptr<ScaledMass> scaled_;       ///< null: no mass scaling
-  std::shared_ptr<Erosion> erosion_;         ///< null: nothing fails
-  const Field<Real>* directions_ = nullptr;  ///< null: no law knows any
+  std::vector<ShellLoops::Found> found_;       ///< in each block
+  std::unique_ptr<ScaledMass> scaled_;         ///< null: no mass scaling
+  std::unique_ptr<StiffnessDamping> damping_;  ///< null: none
+  std::shared_ptr<Erosion> erosion_;           ///< null: nothing fails
+  const Field<Real>* directions_ = nullptr;    ///< null: no law knows any
   bool fails_with_all_ = false;
   bool stiffens_ = false;  ///< the law of some layer does
 };

@@ -3,6 +3,8 @@
 #include <array>
 #include <span>
 
+#include "elements/stiffness_damping.hpp"
+
 namespace courant {
 
 FullPoints::FullPoints(const ElementGroup& group, const StrengthLaw& law)
@@ -48,6 +50,14 @@ HexahedronLoops::Found FullPoints::advance(const Answer& of, const HexahedronLoo
     loops_.strain(block, p, state, scratch);
     of.law.update(at);
     between.answered(p, at);
+    if (damping_) {
+      damping_->add(of.law, p, at,
+                    {block.begin,
+                     {scratch.half_turn[0], scratch.half_turn[1], scratch.half_turn[2]},
+                     scratch.weight,
+                     scratch.work});
+      for (int k = 0; k < 6; ++k) state.stress[k] = damping_->damped(0, k);
+    }
     loops_.add(block, p, state, scratch);
   }
   return loops_.forces(block, of.control, of.state, scratch);

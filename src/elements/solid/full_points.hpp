@@ -10,6 +10,8 @@
 
 namespace courant {
 
+class StiffnessDamping;
+
 class FullPoints {
  public:
   /// What a block of elements moves by, and answers with. Stress and tensors of `state` are not looked at.
@@ -29,6 +31,8 @@ class FullPoints {
   FullPoints(const ElementGroup& group, const StrengthLaw& law);
   /// A tensor of six numbers for each point, which is turned with the stress.
   void turn_too(Field<Real>& tensor) { tensors_.push_back(&tensor); }
+  /// Null: by none.
+  void damp_by(const StiffnessDamping* damping) { damping_ = damping; }
   void declare(Accesses& a) const;
   HexahedronLoops::Found advance(const Answer& of, const HexahedronLoops::Block& block,
                                  FullHexahedronScratch& scratch, const Between& between) const;
@@ -48,6 +52,7 @@ class FullPoints {
   Field<Real>& stress_;                ///< component 6 p + k of point p
   std::vector<Field<Real>*> history_;  ///< of each number of the law, component n p + k
   std::vector<Field<Real>*> tensors_;  ///< those among them, and others
+  const StiffnessDamping* damping_ = nullptr;
 };
 
 }  // namespace courant

@@ -200,11 +200,13 @@ struct NodalPressure::Push : Pass {
   }
 };
 
-void NodalPressure::add_passes(const std::shared_ptr<NodalPressure>& of, World& world) {
+std::shared_ptr<NodalPressure> NodalPressure::add(const ElementGroup& group, World& world) {
+  const auto of = std::make_shared<NodalPressure>(group, world);
   world.passes.add(std::make_shared<Volumes>(of));
   world.passes.add(std::make_shared<NodalVolumes>(of));
   world.passes.add(std::make_shared<NodalPressures>(of));
   world.passes.add(std::make_shared<Push>(of));
+  return of;
 }
 
 }  // namespace courant

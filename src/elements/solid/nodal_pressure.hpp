@@ -39,8 +39,8 @@ class NodalPressure {
   /// Behind the forces, once it is known who has failed. `erosion`: null where nothing can.
   void keep(const HexahedronLoops::Block& block, const HexahedronState& state, const Erosion* erosion) const;
 
-  /// The passes before and behind that one.
-  static void add_passes(const std::shared_ptr<NodalPressure>& of, World& world);
+  /// Makes it, with the passes before and behind that one.
+  static std::shared_ptr<NodalPressure> add(const ElementGroup& group, World& world);
 
  private:
   struct Pass;

@@ -11,6 +11,7 @@
 #include "elements/solid/full_points.hpp"
 #include "elements/solid/nodal_pressure.hpp"
 #include "elements/solid/solids.hpp"
+#include "elements/stiffness_damping.hpp"
 #include "state/reports.hpp"
 
 namespace courant {
@@ -70,8 +71,13 @@ class SolidForces : public Material,
       for (Index e = 0; e < group_.size(); ++e) take_density(e);
     }
     limit_to_frequency(held, world);
+    if (const Real coef = options.stiffness_damping[static_cast<std::size_t>(group.part)]; coef != 0) {
+      const int points = full_ ? FullHexahedronLoops::points : 1;
+      damping_ = std::make_unique<StiffnessDamping>(coef, group_, 1, points);
+      if (full_) full_->damp_by(damping_.get());
+    }
     if (part.pressure) start_pressure();
-    if (part.nodal) nodal_ = std::make_shared<NodalPressure>(group, world);
+    if (part.nodal) nodal_ = NodalPressure::add(group, world);
     if (const FailureRules& rules = options.failure[static_cast<std::size_t>(group.part)]; rules.any())
       options.eroding.push_back(erosion_ = make_erosion(rules, world));
   }
@@ -85,6 +91,7 @@ class SolidForces : public Material,
     if (hourglass_force_) a.updates(*hourglass_force_);
     if (full_) full_->declare(a);
     if (nodal_) nodal_->declare(a);
+    if (damping_) damping_->declare(a);
     if (erosion_) erosion_->declare(world, a);
     if (!scaled_) return;
     scaled_->declare(world, a);
@@ -124,11 +131,12 @@ class SolidForces : public Material,
     if (erosion_) erosion_->begin_block(begin, count);
     found = advance({mesh_, control_, state_, *law_, material_.pressure.get(), nodal_.get()}, clock.dt_old,
                     begin, end, scratch, erosion_ ? &clock : nullptr);
+    if (damping_) damping_->shorten(begin, count, scratch.wave_time, scratch.step_limit);
     if (erosion_)
       erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, scratch.relative_volume);
     if (nodal_) nodal_->keep({begin, count, clock.dt_old}, state_, erosion_.get());
     const bool lighter = scaled_ && scaled_->look(begin, count, scratch.wave_time, scratch.step_limit);
-    if (!lighter && !(erosion_ && erosion_->any_dead(begin))) return;
+    if (!lighter && !damping_ && !(erosion_ && erosion_->any_dead(begin))) return;
     const Index shortest = least_of(scratch.step_limit, count),
                 smallest = least_of(scratch.relative_volume, count);
     found = {scratch.step_limit[shortest], begin + shortest, scratch.relative_volume[smallest],
@@ -202,8 +210,6 @@ class SolidForces : public Material,
     }
   }
 
-  const std::shared_ptr<NodalPressure>& nodal() const { return nodal_; }
-
  private:
   static constexpr std::size_t most_history = 16;
   static constexpr Real small_strain = 1e-7;  ///< within which all is linear
@@ -242,9 +248,25 @@ class SolidForces : public Material,
     else
       of.law.update(points);
     answered(points, begin, 0, failing);
-    loops_.work(block, of.state, scratch);
-    if (of.nodal) of.nodal->work(block, of.state, scratch, by_nodes);
-    return loops_.forces(block, of.control, of.state, scratch);
+    if (of.nodal) {
+      loops_.work(block, of.state, scratch);
+      of.nodal->work(block, of.state, scratch, by_nodes);
+      return loops_.forces(block, of.control, of.state, scratch);
+    }
+    if (!damping_) return push(of, block, of.state, scratch);
+    damping_->add(of.law, 0, points,
+                  {begin,
+                   {scratch.half_turn[0], scratch.half_turn[1], scratch.half_turn[2]},
+                   scratch.middle_volume,
+                   scratch.work});
+    HexahedronState damped = of.state;
+    for (int k = 0; k < 6; ++k) damped.stress[k] = damping_->damped(0, k);
+    return push(of, block, damped, scratch);
+  }
+  HexahedronLoops::Found push(const Answer& of, const HexahedronLoops::Block& block,
+                              const HexahedronState& state, HexahedronScratch& scratch) const {
+    loops_.work(block, state, scratch);
+    return loops_.forces(block, of.control, state, scratch);
   }
 
   /// The same with eight points.
@@ -453,10 +475,11 @@ class SolidForces : public Material,
   std::vector<Real*> history_data_;
   std::vector<HexahedronLoops::Found> found_;  ///< in each block
   std::vector<SolidPressure::Found> of_pressure_;
-  std::unique_ptr<FullPoints> full_;      ///< null: elements have one point
-  std::shared_ptr<NodalPressure> nodal_;  ///< null: pressures are those of elements
-  std::unique_ptr<ScaledMass> scaled_;    ///< null: no mass scaling
-  std::shared_ptr<Erosion> erosion_;      ///< null: nothing fails
+  std::unique_ptr<FullPoints> full_;           ///< null: elements have one point
+  std::shared_ptr<NodalPressure> nodal_;       ///< null: pressures are those of elements
+  std::unique_ptr<StiffnessDamping> damping_;  ///< null: none
+  std::unique_ptr<ScaledMass> scaled_;         ///< null: no mass scaling
+  std::shared_ptr<Erosion> erosion_;           ///< null: nothing fails
   /// Of the law's numbers the plastic strain, and what it fails by.
   int plastic_ = -1, fails_ = -1;
 };
@@ -469,9 +492,8 @@ void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts,
   for (const auto& group : world.groups) {
     const auto part = static_cast<std::size_t>(group->part);
     if (group->segment) continue;  // shells
-    const auto forces = world.passes.add(std::make_shared<SolidForces>(
-        parts[part], *group, model.parts[part].id, model.tssfac, options, held, world));
-    if (forces->nodal()) NodalPressure::add_passes(forces->nodal(), world);
+    world.passes.add(std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac,
+                                                   options, held, world));
   }
 }
 

@@ -132,7 +132,7 @@ void LowDensity::check(const Deck& deck, const Model& model, Diagnostics& diagno
                  "bulk viscosity (*CONTROL_BULK_VISCOSITY) and hourglass control act as on all solids");
   const auto found = model.curves.find(lcid);
   if (found == model.curves.end()) return;
-  const auto& [id, strain, stress] = found->second;
+  const std::vector<Real>&strain = found->second.abscissa, &stress = found->second.ordinate;
   expect(strain.size() > 1 && strain.front() == 0 && stress.front() == 0, "LCID",
          fmt::format("curve {} does not start at (0, 0)", lcid),
          "nominal stress over nominal strain of compression, both positive");

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "model/conditions/relaxation.hpp"
 #include "model/model_builder.hpp"
 #include "model/transforms/transformation.hpp"
 
@@ -51,6 +52,13 @@ void ModelBuilder::build_control() {
   }
 }
 
+// Steps of a relaxation, and no limit by energies, which damping takes.
+void ModelBuilder::build_relaxation() {
+  if (model_.phase != RunPhase::relaxation) return;
+  model_.tssfac = relaxation_tssfac(deck_, model_.tssfac);
+  model_.endeng = 0;
+}
+
 void ModelBuilder::build_output() {
   OutputRequests& out = model_.output;
   if (const auto* card = deck_.last<DatabaseD3plotCard>()) {
@@ -66,15 +74,16 @@ void ModelBuilder::build_output() {
 
 void ModelBuilder::build_body_loads() {
   const std::vector<Index> parts = loaded_parts();
-  const auto add = [&](const Entry& card, Id lcid, BodyLoad load) {
+  const auto add = [&](const Entry& card, Id lcid, Id lciddr, BodyLoad load) {
     const Curve* found = curve(card, "LCID", lcid);
     if (!found) return;
     load.curve = *found;
+    if (!take_relaxing(card, "LCIDDR", lciddr, load.curve)) return;
     load.parts = parts;
     model_.body_loads.push_back(std::move(load));
   };
   for (const LoadBodyCard& card : deck_.all<LoadBodyCard>())
-    add(card, card.lcid, {.direction = Vec::Unit(card.name), .sf = card.sf});
+    add(card, card.lcid, card.lciddr, {.direction = Vec::Unit(card.name), .sf = card.sf});
   for (const LoadBodyVectorCard& card : deck_.all<LoadBodyVectorCard>()) {
     const Vec v(card.v1, card.v2, card.v3);
     constexpr Real rounded = 0.01;
@@ -87,10 +96,10 @@ void ModelBuilder::build_body_loads() {
           diagnostics_, card, "V1",
           fmt::format("the vector tells the direction only, its length of {:g} has no effect", v.norm()),
           "SF and the curve tell how large the acceleration is; give a vector of length 1");
-    add(card, card.lcid, {.direction = v.normalized(), .sf = card.sf});
+    add(card, card.lcid, card.lciddr, {.direction = v.normalized(), .sf = card.sf});
   }
   for (const LoadBodyRotationCard& card : deck_.all<LoadBodyRotationCard>())
-    add(card, card.lcid,
+    add(card, card.lcid, card.lciddr,
         {.kind = BodyLoad::Kind::rotation,
          .direction = Vec::Unit(card.name),
          .centre = Vec(card.xc, card.yc, card.zc),
@@ -120,7 +129,16 @@ void ModelBuilder::build_gravity_of_parts() {
     if (!found || parts.empty() || card.dof < 1 || card.dof > 3) continue;
     model_.body_loads.push_back(
         {.direction = Vec::Unit(card.dof - 1), .curve = *found, .sf = card.accel, .parts = parts});
+    take_relaxing(card, "LCDR", card.lcdr, model_.body_loads.back().curve);
   }
+}
+
+/// In the phase of relaxation the curve that is for it; false where there is none of that number.
+bool ModelBuilder::take_relaxing(const Entry& card, const char* field, Id id, Curve& out) {
+  if (id == 0) return true;
+  const Curve* own = curve(card, field, id);
+  if (own && model_.phase == RunPhase::relaxation) out = *own, out.silent = false;
+  return own != nullptr;
 }
 
 void ModelBuilder::build_constraints() {

@@ -108,7 +108,11 @@ const RegisterKeyword<VG> initial_velocity_generation{
                            {"NX", &VG::nx, "-", "x of the axis direction"},
                            {"NY", &VG::ny, "-", "y of the axis direction"},
                            {"NZ", &VG::nz, "-", "z of the axis direction"},
-                           {"PHASE", &VG::phase, "-", "1 after dynamic relaxation", unsupported},
+                           {"PHASE",
+                            &VG::phase,
+                            "-",
+                            "1 (and 0): behind a dynamic relaxation, where there is one",
+                            {.allowed = {0, 1}}},
                            {"IRIGID", &VG::irigid, "-", "overwrites PART_INERTIA velocities", unsupported}}}},
      .move = move_generation}};
 
@@ -155,11 +159,8 @@ template <class T>
 CardOf<T> load_body_card(const char* curve, Honour centre) {
   return {.fields = {{"LCID", &T::lcid, "-", curve, required_id_of(IdSpace::curve)},
                      {"SF", &T::sf, "-", "scale of the curve", {.standard = 1}},
-                     {"LCIDDR",
-                      &T::lciddr,
-                      "-",
-                      "curve for dynamic relaxation",
-                      {.honour = Honour::ignored, .refers = IdSpace::curve}},
+                     {"LCIDDR", &T::lciddr, "-", "curve for the dynamic relaxation, 0: LCID",
+                      optional_id_of(IdSpace::curve)},
                      {"XC",
                       &T::xc,
                       "L",
@@ -234,11 +235,8 @@ const RegisterKeyword<LG> load_gravity_part{
                       {.required = true, .check = Check::positive, .allowed = {1, 2, 3}}},
                      {"LC", &LG::lc, "-", "curve of a factor over time", required_id_of(IdSpace::curve)},
                      {"ACCEL", &LG::accel, "L/T2", "acceleration, times that factor"},
-                     {"LCDR",
-                      &LG::lcdr,
-                      "-",
-                      "curve for dynamic relaxation",
-                      {.honour = Honour::no, .refers = IdSpace::curve}},
+                     {"LCDR", &LG::lcdr, "-", "curve for the dynamic relaxation, 0: LC",
+                      optional_id_of(IdSpace::curve)},
                      {"STGA", &LG::stga, "-", "stage at which the part is added", unsupported},
                      {"STGR", &LG::stgr, "-", "stage at which it is removed", unsupported}}}}}};
 

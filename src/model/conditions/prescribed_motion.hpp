@@ -25,7 +25,9 @@ struct PrescribedMotion {
   Entry card;                    ///< for messages
 
   /// Whether the step from t to t + dt follows it: its middle is not before BIRTH and before DEATH.
-  bool drives(Real t, Real dt) const { return t + 0.5 * dt >= birth && t + 0.5 * dt < death; }
+  bool drives(Real t, Real dt) const {
+    return !curve.silent && t + 0.5 * dt >= birth && t + 0.5 * dt < death;
+  }
   /// Velocity over the step from t to t + dt, whose length gives the place at t + dt exactly: the mean of the
   /// curve over the step, or the rise of displacements over dt. Of accelerations: `before`, the velocity over
   /// the step before, plus the change of the mean velocity from one step (of length dt_old, 0: there is none)

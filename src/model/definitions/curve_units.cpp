@@ -13,9 +13,13 @@ namespace {
 
 constexpr CurveDimensions known[] = {
     {"LOAD_BODY_X", "LCID", "T", "L/T2"},
+    {"LOAD_BODY_X", "LCIDDR", "T", "L/T2"},
     {"LOAD_BODY_VECTOR", "LCID", "T", "L/T2"},
+    {"LOAD_BODY_VECTOR", "LCIDDR", "T", "L/T2"},
     {"LOAD_BODY_RX", "LCID", "T", "1/T"},
+    {"LOAD_BODY_RX", "LCIDDR", "T", "1/T"},
     {"LOAD_GRAVITY_PART", "LC", "T", "-"},
+    {"LOAD_GRAVITY_PART", "LCDR", "T", "-"},
     {"LOAD_NODE_POINT", "LCID", "T", "ML/T2"},
     {"LOAD_NODE_SET", "LCID", "T", "ML/T2"},
     {"LOAD_RIGID_BODY", "LCID", "T", "ML/T2"},

@@ -126,23 +126,25 @@ const RegisterKeyword<C> define_curve{
      .id_space = IdSpace::curve,
      .title_option = true,
      .title = &C::title,
-     .cards = {
-         {.fields =
-              {{"LCID", &C::lcid, "-", "curve id", required_id},
-               {"SIDR", &C::sidr, "-", "phase: 0 transient, 2 transient and relaxation", {.allowed = {0, 2}}},
-               {"SFA", &C::sfa, "-", "scale of the abscissa", {.standard = 1}},
-               {"SFO", &C::sfo, "-", "scale of the ordinate", {.standard = 1}},
-               {"OFFA", &C::offa, "-", "offset of the abscissa"},
-               {"OFFO", &C::offo, "-", "offset of the ordinate"},
-               {"DATTYP",
-                &C::dattyp,
-                "-",
-                "kind of data: 0 over time, 1 pairs (x, y); the same here, as x may not decrease",
-                {.allowed = {0, 1}}},
-               {"LCINT", &C::lcint, "-", "number of points for resampling", no_effect}}},
-         {.fields = {{"A1", &C::a, "-", "abscissa", {.width = 20}},
-                     {"O1", &C::o, "-", "ordinate", {.width = 20}}},
-          .repeat = true}}}};
+     .cards = {{.fields = {{"LCID", &C::lcid, "-", "curve id", required_id},
+                           {"SIDR",
+                            &C::sidr,
+                            "-",
+                            "phase of a load: 0 transient, 1 relaxation, 2 both",
+                            {.allowed = {0, 1, 2}}},
+                           {"SFA", &C::sfa, "-", "scale of the abscissa", {.standard = 1}},
+                           {"SFO", &C::sfo, "-", "scale of the ordinate", {.standard = 1}},
+                           {"OFFA", &C::offa, "-", "offset of the abscissa"},
+                           {"OFFO", &C::offo, "-", "offset of the ordinate"},
+                           {"DATTYP",
+                            &C::dattyp,
+                            "-",
+                            "kind of data: 0 over time, 1 pairs (x, y); the same here, as x may not decrease",
+                            {.allowed = {0, 1}}},
+                           {"LCINT", &C::lcint, "-", "number of points for resampling", no_effect}}},
+               {.fields = {{"A1", &C::a, "-", "abscissa", {.width = 20}},
+                           {"O1", &C::o, "-", "ordinate", {.width = 20}}},
+                .repeat = true}}}};
 
 using B = DefineBoxCard;
 /// The box around the moved corners; it is the moved box itself where axes become axes.

@@ -321,7 +321,7 @@ TEST(Injection, EndsAtItsEndTimeAndGoesOnBeyondThatOfTheRun) {
   scene.inlet = "*DEFINE_SPH_INJECTION\n2,7,0,2.\n0.,0.25\n";
   const auto ends = test::build_deck(scene.text());
   EXPECT_EQ(ends->world().particles.size(), 16);
-  EXPECT_EQ(ends->lacks_particles(9), "");
+  EXPECT_EQ(ends->why_not_until(9), "");
   scene.inlet = Inflow{}.inlet;
   const auto goes_on = test::build_deck(scene.text());
   // at the end the kernel of the last one inside is still full
@@ -330,8 +330,8 @@ TEST(Injection, EndsAtItsEndTimeAndGoesOnBeyondThatOfTheRun) {
   Real furthest = 0;
   for (Index i = 0; i < p.size(); ++i) furthest = std::min(furthest, p.place(i, goes_on->clock().t)[0]);
   EXPECT_LT(furthest, -2 * 1.2 * dx);
-  EXPECT_EQ(goes_on->lacks_particles(0.5), "");
-  EXPECT_NE(goes_on->lacks_particles(0.6).find("*DEFINE_SPH_INJECTION"), std::string::npos);
+  EXPECT_EQ(goes_on->why_not_until(0.5), "");
+  EXPECT_NE(goes_on->why_not_until(0.6).find("*DEFINE_SPH_INJECTION"), std::string::npos);
 }
 
 TEST(Injection, IdsGoOnFromTheHighest) {

@@ -1,0 +1,27 @@
+#pragma once
+// The relaxation in front of a run: another simulation of the deck, whose state the run begins with.
+#include <functional>
+#include <string>
+
+#include "app/simulation.hpp"
+
+namespace courant {
+
+struct RelaxationEnd {
+  bool converged = false, stopped = false;
+  Real ratio = 0;  ///< largest kinetic energy since the look before, over the largest of all [-]
+  Real time = 0;   ///< [T]
+  std::int64_t steps = 0;
+};
+
+/// Runs a simulation of RunPhase::relaxation until it is at rest, DRTERM, or `stop` says so. `line` gets a
+/// line for each look: time, kinetic energy, ratio. Throws RunError.
+RelaxationEnd relax(Simulation& relaxing, const std::function<bool()>& stop,
+                    const std::function<void(const std::string&)>& line);
+
+/// The same in front of a run whose deck asks for it: writes the file `relax`, hands the state to `run`, and
+/// tells of it by `tell`. Throws RunError where `options` lack the other simulation.
+RelaxationEnd relax_before(Simulation& run, const RunOptions& options,
+                           const std::function<void(const std::string&)>& tell);
+
+}  // namespace courant

@@ -1,0 +1,26 @@
+#pragma once
+// End forces of elastic beams.
+#include <array>
+
+#include "elements/beam/beams.hpp"
+
+namespace courant {
+
+/// By which a beam deforms, and what answers: elongation and pull, twist and torsion, rotations of end 1 and
+/// 2 about s, about t, against the line between the ends, and the moments that hold them.
+enum Part6 { elongation, twist, turn1_s, turn2_s, turn1_t, turn2_t, count6 };
+using Six = std::array<Real, count6>;
+
+/// What a beam is that answers elastically.
+struct ElasticBeam {
+  Real E, G;  ///< [M/LT2]
+  Real L;     ///< at the start [L]
+};
+
+/// Linear in elongation, twist and rotations of the ends, of the beam of Euler and Bernoulli, or with a shear
+/// area of Timoshenko. docs/theory.md
+Six resultant_end_forces(const ElasticBeam& beam, const BeamMeasures& m, const Six& d);
+/// The same of a beam with points in the section of its middle, or a truss.
+Six integrated_end_forces(const ElasticBeam& beam, const BeamPart& part, const BeamMeasures& m, const Six& d);
+
+}  // namespace courant

@@ -1,0 +1,158 @@
+#include "model/conditions/relaxation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "model/cards.hpp"
+#include "model/model_builder.hpp"
+#include "model/transforms/included_entries.hpp"
+
+namespace courant {
+
+namespace {
+
+struct RelaxationCard : Entry {
+  int nrcyck = 250, irelal = 0, idrflg = 0;
+  Real drtol = 1e-3, drfctr = 0.995, drterm = 0, tssfdr = 0, edttl = 0.04;
+};
+
+using R = RelaxationCard;
+const RegisterKeyword<R> control_dynamic_relaxation{
+    {.names = {"CONTROL_DYNAMIC_RELAXATION"},
+     .purpose = "brings what loads hold to rest before the run, by damping",
+     .once = true,
+     .many = false,
+     .cards = {
+         {.fields = {
+              {"NRCYCK",
+               &R::nrcyck,
+               "-",
+               "steps from one look at convergence to the next",
+               {.standard = 250, .check = Check::positive}},
+              {"DRTOL",
+               &R::drtol,
+               "-",
+               "at rest below this share of the largest kinetic energy so far",
+               {.standard = 1e-3, .check = Check::positive}},
+              {"DRFCTR",
+               &R::drfctr,
+               "-",
+               "factor of velocities in each step",
+               {.standard = 0.995, .check = Check::positive}},
+              {"DRTERM",
+               &R::drterm,
+               "T",
+               "time at which it ends at the latest; 0: none",
+               {.check = Check::not_negative}},
+              {"TSSFDR",
+               &R::tssfdr,
+               "-",
+               "TSSFAC of this phase; 0: that of *CONTROL_TIMESTEP",
+               {.check = Check::not_negative}},
+              {"IRELAL", &R::irelal, "-", "1 damping by the algorithm of Papadrakakis", {.allowed = {0}}},
+              {"EDTTL", &R::edttl, "-", "tolerance of IRELAL 1", no_effect_but(0.04)},
+              {"IDRFLG",
+               &R::idrflg,
+               "-",
+               "1 done, -1 done with its histories, 0 only where a curve of a load has SIDR 1 or 2",
+               {.allowed = {-1, 0, 1}}}}}}}};
+
+bool is_load_or_motion(const KeywordSpec& spec, std::string_view field) {
+  if (!spec.lacking.empty() || !curve_dimensions(spec.names[0], field)) return false;
+  const std::string& name = spec.names[0];
+  return name.starts_with("LOAD_") || name.starts_with("DAMPING_") || name.starts_with("BOUNDARY_") ||
+         name.starts_with("RIGIDWALL_");
+}
+
+/// Where a curve gets the value that it keeps. [T]
+Real last_change(const Curve& curve) {
+  for (std::size_t k = curve.ordinate.size(); k-- > 1;)
+    if (curve.ordinate[k - 1] != curve.ordinate[k]) return curve.abscissa[k];
+  return 0;
+}
+
+/// Curves that act in that phase whatever their SIDR.
+bool is_of_relaxation(std::string_view field) {
+  return field == "LCIDDR" || field == "LCDR";
+}
+
+}  // namespace
+
+void for_load_curves(const Deck& deck, const std::function<void(const Entry&, const char*, Id)>& of) {
+  const auto& registry = keyword_registry();
+  for (std::size_t k = 0; k < registry.size(); ++k) {
+    const KeywordSpec& spec = *registry[k];
+    const bool asked = std::any_of(spec.cards.begin(), spec.cards.end(), [&](const CardSpec& card) {
+      return std::any_of(card.fields.begin(), card.fields.end(),
+                         [&](const FieldSpec& field) { return is_load_or_motion(spec, field.name); });
+    });
+    if (!asked) continue;
+    spec.for_each(deck, static_cast<std::int32_t>(k), [&](const Entry& entry) {
+      spec.for_each_id(entry, [&](const IdUse& id) {
+        const FieldSpec& field = spec.cards[id.card].fields[id.field];
+        if (id.space == IdSpace::curve && id.id > 0 && is_load_or_motion(spec, field.name))
+          of(entry, field.name.data(), id.id);
+      });
+    });
+  }
+}
+
+Relaxation relaxation_of(const Deck& deck, const Model& model, bool has_particles, Diagnostics& diagnostics) {
+  Relaxation out;
+  const auto* card = deck.last<R>();
+  int most = 0;
+  Entry of_load;
+  for_load_curves(deck, [&](const Entry& entry, const char* field, Id id) {
+    const bool of_relaxation = is_of_relaxation(field);
+    const auto curve = model.curves.find(id);
+    if (curve == model.curves.end()) return;
+    if (curve->second.sidr == 1 || of_relaxation) out.ramp = std::max(out.ramp, last_change(curve->second));
+    if (!of_relaxation && curve->second.sidr != 0 && (most == 0 || curve->second.sidr == 1))
+      most = curve->second.sidr, of_load = entry;
+  });
+  if (card) out.check_every = card->nrcyck, out.tolerance = card->drtol, out.factor = card->drfctr;
+  if (card && card->drterm > 0) out.end = card->drterm;
+  out.ramp = std::min(out.ramp, out.end);
+  out.asked = most != 0 || (card && card->idrflg != 0);
+  if (!out.asked) return out;
+  if (card && !(card->drfctr < 1))
+    deck.error(diagnostics, *card, "DRFCTR", "expected a number below 1, which takes velocity away");
+  if (card && card->idrflg == -1)
+    deck.warning(diagnostics, *card, "IDRFLG",
+                 "histories of the relaxation are not written, only its convergence, in the file relax");
+  if (!has_particles) return out;
+  out.asked = false;
+  const Entry& asks = card && card->idrflg != 0 ? static_cast<const Entry&>(*card) : of_load;
+  if (most == 2 && !(card && card->idrflg != 0))
+    deck.warning(diagnostics, asks, "",
+                 "its curve has SIDR 2, which asks for a relaxation; there are particles, and the run begins "
+                 "without one",
+                 "with SIDR 0 this is what was asked for");
+  else
+    deck.error(diagnostics, asks, "", "a relaxation of particles is not supported",
+               "bring them to rest within the run, by *DAMPING_GLOBAL");
+  return out;
+}
+
+Real relaxation_tssfac(const Deck& deck, Real tssfac) {
+  const auto* card = deck.last<R>();
+  return card && card->tssfdr > 0 ? card->tssfdr : tssfac;
+}
+
+// SIDR tells in which phase a load acts; of curves that are no loads it tells nothing.
+void ModelBuilder::silence_curves() {
+  const auto note = [&](const auto& cards) {
+    for (const auto& card : cards) model_.curves[card.lcid].sidr = card.sidr;
+  };
+  note(deck_.all<DefineCurveCard>());
+  for_load_curves(deck_, [&](const Entry&, const char* field, Id id) {
+    const auto found = model_.curves.find(id);
+    if (found == model_.curves.end() || is_of_relaxation(field)) return;
+    found->second.silent = found->second.sidr == (model_.phase == RunPhase::relaxation ? 0 : 1);
+  });
+}
+
+}  // namespace courant
