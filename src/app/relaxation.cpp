@@ -113,6 +113,8 @@ void Simulation::start_from(Simulation& relaxed) {
   for (std::size_t i = 0; i < v.size(); ++i) nodes.v.set(static_cast<Index>(i), v[i]);
   for (std::size_t i = 0; i < w.size(); ++i) turning->set(static_cast<Index>(i), w[i]);
   if (bodies_) bodies_->start_moving(of_bodies, world_);
+  for (const char* work : {"drive_work", "drive_work_of_rotations"})
+    if (auto* field = dynamic_cast<Field<Real>*>(nodes.fields.find(work))) field->fill(0);
   stepper_->forget_first_step();
 }
 

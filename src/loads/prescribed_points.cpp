@@ -207,10 +207,9 @@ class PrescribedBuilder {
       if (is_new) groups.push_back(set.groups_of[i]);
       group[static_cast<Index>(i)] = it->second;
     }
-    Field<Real>* work = nullptr;
-    if (model_.output.bndout.asked() || model_.output.nodout.asked())
-      work = &set.points.set->add<Real>(
-          {.name = set.points.turns ? "drive_work_of_rotations" : "drive_work", .dimension = "ML2/T2"});
+    // always, so that a restart may ask for other histories
+    Field<Real>* work = &set.points.set->add<Real>(
+        {.name = set.points.turns ? "drive_work_of_rotations" : "drive_work", .dimension = "ML2/T2"});
     return std::make_shared<PrescribedPoints>(motions_, gates_, std::move(groups), set.points, group, work);
   }
 

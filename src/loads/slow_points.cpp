@@ -6,22 +6,20 @@ namespace courant {
 
 namespace {
 
-/// v of the step before is multiplied before the kick, as LS-DYNA does. What prescribed motions drive keeps
-/// its own.
+/// v of the step before is multiplied before the kick, as LS-DYNA does, and before prescribed motions, which
+/// give what they drive its own. (Accelerations that are prescribed in a relaxation are refused.)
 class SlowPoints : public Drive {
  public:
-  SlowPoints(Points points, Real factor)
-      : points_(points), factor_(factor), driven_(points.driven().find(*points.set)) {}
+  SlowPoints(Points points, Real factor) : points_(points), factor_(factor) {}
   std::string name() const override { return "relaxation of " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override {
     a.updates(*points_.v);
     if (points_.follow) a.reads(*points_.follow);
-    if (driven_) a.reads(*driven_);
   }
   void block(World&, const Clock&, Index begin, Index end) override {
     for (Index i = begin; i < end; ++i) {
-      if ((points_.follow && (*points_.follow)[i]) || (driven_ && (*driven_)[i] != 0)) continue;
+      if (points_.follow && (*points_.follow)[i]) continue;
       for (int k = 0; k < 3; ++k) points_.v->data(k)[i] *= factor_;
     }
   }
@@ -29,7 +27,6 @@ class SlowPoints : public Drive {
  private:
   Points points_;
   Real factor_;
-  const Field<Index>* driven_;  ///< null: there are none
 };
 
 }  // namespace

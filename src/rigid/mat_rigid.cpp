@@ -29,6 +29,13 @@ std::string move_constraints(M& m, const Affine& motion) {
   return {};
 }
 
+/// LCO is the id of a coordinate system where V is 0, else a number of A.
+std::string convert_system(M& m, const Conversion& conversion) {
+  if (Vec(m.v1, m.v2, m.v3) == Vec::Zero() && m.lco == std::floor(m.lco) && std::abs(m.lco) < 1e15)
+    m.lco = static_cast<Real>(conversion.offsets.shifted(IdSpace::coordinate_system, static_cast<Id>(m.lco)));
+  return {};
+}
+
 const RegisterKeyword<M> mat_rigid{
     {.names = {"MAT_RIGID", "MAT_020"},
      .purpose = "rigid body: density, constraints; E and PR give the contact stiffness only",
@@ -77,6 +84,7 @@ const RegisterKeyword<M> mat_rigid{
                       {"V3", &M::v3, "-", "these axes: x along A, y by V", {}},
                       {"BNDLCO", &M::bndlco, "-", "local axes in bndout", {.honour = output_only}}},
            .optional = true}},
+     .convert = convert_system,
      .move = move_constraints}};
 
 }  // namespace

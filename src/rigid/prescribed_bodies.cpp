@@ -62,7 +62,8 @@ Vec driven_momentum(const RigidBody& b, Vec L, const Clock& clock) {
   if (turns.count == 0) return L;
   constexpr int most = 100;
   const Matrix pushed = axes_of(turns, b, b.q);
-  const Real fastest = std::max(turns.wanted.norm(), b.omega.norm());
+  // speeds are right to what the free body would do, too
+  const Real fastest = std::max({turns.wanted.norm(), b.omega.norm(), turning_over(b, L, clock.dt).norm()});
   for (int it = 0; it < most; ++it) {
     const Vec omega = turning_over(b, L, clock.dt);
     const Eigen::Quaterniond middle = turned_by(0.5 * clock.dt * omega, b.q);

@@ -352,7 +352,7 @@ void RigidBodies::start_moving(const std::vector<std::array<Vec, 2>>& motion, Wo
     RigidBody& b = bodies_[k];
     if (b.fixed()) continue;
     const Matrix R = b.q.toRotationMatrix();
-    b.v = b.L = Vec::Zero();
+    b.v = b.L = Vec::Zero(), b.drive_work = 0;
     strike_at_start(k, b.m * motion[k][0], R * b.J0 * R.transpose() * motion[k][1], world);
   }
 }
@@ -398,8 +398,12 @@ void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
     if (b.fixed() || b.loads.empty()) continue;
     const Real half = 0.5 * clock.dt_mean();
     const auto [force, moment] = b.load_at(clock.t);
-    const Real work = clock.dt_mean() * (force.dot(b.v + half / b.m * b.force) +
-                                         moment.dot(b.omega + b.turning_by(half * b.moment, b.q)));
+    Vec v = b.v + half / b.m * b.force, omega = b.omega + b.turning_by(half * b.moment, b.q);
+    if (!b.motions.empty()) {
+      const HalfStep next = next_half_step(b, clock);
+      v = 0.5 * (b.v + next.v), omega = b.turning_by(0.5 * (b.L + next.L), b.q);
+    }
+    const Real work = clock.dt_mean() * (force.dot(v) + moment.dot(omega));
     ledger.external_work += work;
     ledger.throughput += std::abs(work);
   }

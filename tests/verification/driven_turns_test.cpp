@@ -124,6 +124,23 @@ TEST(DrivenTurns, AheadAndRoundIsACircle) {
   EXPECT_LT(test::energy_error(*s), 1e-4);
 }
 
+// A rotation that is driven to stay 0 does, whatever moments act; the others answer them.
+TEST(DrivenTurns, OneMayBeHeld) {
+  SolidDeck deck = driven_brick(false, Vec::Zero(), 1e-3,
+                                driven_by("", 7, 0) +
+                                    "*DEFINE_CURVE\n30\n0.0,1.0\n100.0,1.0\n"
+                                    "*LOAD_RIGID_BODY\n1,5,30,0.7\n1,6,30,-0.4\n1,7,30,0.9\n");
+  for (Vec& x : deck.nodes) x = Vec(x[0] + 0.3 * x[1], x[1] - 0.2 * x[2], x[2] + 0.1 * x[0]);
+  auto s = simulation_of(deck.text(10));
+  start_ledger(*s);
+  while (s->clock().t < 1) {
+    s->step(do_nothing);
+    ASSERT_NEAR(brick_of(*s).omega[2], 0, 1e-12);
+  }
+  EXPECT_GT(brick_of(*s).omega.norm(), 0.1);
+  EXPECT_LT(test::energy_error(*s), 1e-3);
+}
+
 // An arm that only a joint holds, driven about the joint's axis, goes as one whose other rotations are held.
 TEST(DrivenTurns, AJointMayHoldTheOthers) {
   std::array<std::vector<Vec>, 2> path;

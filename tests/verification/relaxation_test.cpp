@@ -189,6 +189,23 @@ TEST(Relaxation, TwistedBeam) {
     }
 }
 
+// Motions that are silent, or along another axis, leave a node free to come to rest.
+TEST(Relaxation, SlowsNodesThatMotionsDoNotDriveNow) {
+  using namespace test::beams;
+  const Real plain =
+      relaxed(cantilever(square_2, 10, relaxation(500, 1e-6, 0.998))).run->world().nodes.x.data(2)[10];
+  for (const int sidr : {0, 2}) {
+    const std::string motion = fmt::format(
+        "*BOUNDARY_PRESCRIBED_MOTION_NODE\n        11         2         0        77       "
+        "1.0\n*DEFINE_CURVE\n"
+        "        77{:10}\n0.0,0.0\n1.0,0.0\n",
+        sidr);
+    const Relaxed r = relaxed(cantilever(square_2, 10, relaxation(500, 1e-6, 0.998, 5) + motion));
+    EXPECT_TRUE(r.end.converged) << sidr;
+    EXPECT_NEAR(r.run->world().nodes.x.data(2)[10] / plain, 1, 1e-3) << sidr;
+  }
+}
+
 TEST(Relaxation, LeavesInitialVelocitiesToTheRun) {
   using namespace test::beams;
   const std::string text =

@@ -100,6 +100,33 @@ void for_load_curves(const Deck& deck, const std::function<void(const Entry&, co
   }
 }
 
+namespace {
+
+/// What goes by the time of the run and would go on in a relaxation, by keyword and its words; "" where
+/// nothing of it is in the deck. The card that has it.
+std::string what_cannot_rest(const Deck& deck, const Entry*& card) {
+  const auto& registry = keyword_registry();
+  std::string out;
+  for (std::size_t k = 0; k < registry.size() && out.empty(); ++k) {
+    const KeywordSpec& spec = *registry[k];
+    spec.for_each(deck, static_cast<std::int32_t>(k), [&](const Entry& entry) {
+      const std::string& name = spec.names[static_cast<std::size_t>(entry.name)];
+      const bool wall = name.starts_with("RIGIDWALL") &&
+                        (name.find("_MOVING") != name.npos || name.find("_MOTION") != name.npos);
+      const char* what = name.starts_with("SENSOR_CONTROL") ? "controls by sensors"
+                         : name.find("_MOTOR") != name.npos ? "motors of joints"
+                         : wall                             ? "rigid walls that move"
+                                                            : nullptr;
+      if (what && out.empty()) out = what, card = &entry;
+    });
+  }
+  return out;
+}
+
+constexpr std::size_t vad_field = 2;  // of *BOUNDARY_PRESCRIBED_MOTION
+
+}  // namespace
+
 Relaxation relaxation_of(const Deck& deck, const Model& model, bool has_particles, Diagnostics& diagnostics) {
   Relaxation out;
   const auto* card = deck.last<R>();
@@ -123,10 +150,47 @@ Relaxation relaxation_of(const Deck& deck, const Model& model, bool has_particle
   if (card && card->idrflg == -1)
     deck.warning(diagnostics, *card, "IDRFLG",
                  "histories of the relaxation are not written, only its convergence, in the file relax");
+  const bool by_card = card && card->idrflg != 0;
+  const Entry* resting = nullptr;
+  if (const std::string what = what_cannot_rest(deck, resting); !what.empty()) {
+    out.asked = false;
+    if (most == 2 && !by_card)
+      deck.warning(diagnostics, of_load, "",
+                   fmt::format("its curve has SIDR 2, which asks for a relaxation; there are {}, and the run "
+                               "begins without one",
+                               what),
+                   "with SIDR 0 this is what was asked for");
+    else
+      deck.error(diagnostics, *resting, "", fmt::format("{} in a relaxation are not supported", what),
+                 "leave them out, or bring the model to rest within the run, by *DAMPING_GLOBAL");
+    return out;
+  }
+  for_load_curves(deck, [&](const Entry& entry, const char* field, Id id) {
+    const auto curve = model.curves.find(id);
+    if (curve == model.curves.end() || (curve->second.sidr == 0 && !is_of_relaxation(field))) return;
+    if (curve->second.by_formula)
+      deck.error(diagnostics, entry, field,
+                 fmt::format(
+                     "curve {} is a formula, which is known up to ENDTIM only, and acts in a relaxation", id),
+                 "give it by points, with *DEFINE_CURVE");
+    const auto& registry = keyword_registry();
+    const bool accelerates = std::any_of(registry.begin(), registry.end(), [&](const auto& spec) {
+      bool found = false;
+      if (!spec->names[0].starts_with("BOUNDARY_PRESCRIBED_MOTION")) return false;
+      spec->for_each(deck, static_cast<std::int32_t>(&spec - registry.data()), [&](const Entry& one) {
+        found = found || (&one == &entry && spec->number_of(one, 0, vad_field) == 1);
+      });
+      return found;
+    });
+    if (accelerates)
+      deck.error(diagnostics, entry, "VAD",
+                 "accelerations that are prescribed in a relaxation are not supported",
+                 "prescribe velocities or displacements, or give the curve SIDR 0");
+  });
   if (!has_particles) return out;
   out.asked = false;
-  const Entry& asks = card && card->idrflg != 0 ? static_cast<const Entry&>(*card) : of_load;
-  if (most == 2 && !(card && card->idrflg != 0))
+  const Entry& asks = by_card ? static_cast<const Entry&>(*card) : of_load;
+  if (most == 2 && !by_card)
     deck.warning(diagnostics, asks, "",
                  "its curve has SIDR 2, which asks for a relaxation; there are particles, and the run begins "
                  "without one",

@@ -296,7 +296,7 @@ class Sampler {
       : f_(f), from_(from), to_(to), curve_(curve) {}
 
   std::string run() {
-    constexpr int pieces = 4096;
+    constexpr int pieces = 65536;
     std::vector<Real> x(pieces + 1), y(pieces + 1);
     Real least = 0, most = 0;
     for (std::size_t k = 0; k < x.size(); ++k) {
