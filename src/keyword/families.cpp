@@ -340,7 +340,9 @@ Refusal Families::refusal(const std::string& name) const {
   const LawName* law = find_law(name, &law_length);
   const std::string base = base_of(name, supported_);
   const Family* family = family_of(name);
-  if (std::string hint = slip(name, name.size() < shortest_for_two ? 1 : slip_of_the_pen); !hint.empty())
+  const bool is_family = family && name == family->prefix;  // however near another name is
+  if (std::string hint = slip(name, name.size() < shortest_for_two ? 1 : slip_of_the_pen);
+      !hint.empty() && !is_family)
     return {"", std::move(hint)};
   const bool longer_family = family && std::string(family->prefix).size() > base.size();
   if (!base.empty() && base.size() >= law_length && !longer_family) return option(name, base);

@@ -116,7 +116,7 @@ const RegisterKeyword<Misc> sensor_define_misc{
 using Math = SensorCalcMath;
 const FieldRules sensor_id{.check = Check::not_negative};
 const RegisterKeyword<Math> sensor_calc_math{
-    {.names = {"SENSOR_DEFINE_CALC-MATH"},
+    {.names = {"SENSOR_DEFINE_CALC-MATH", "SENSOR_DEFINE_CALC_MATH"},
      .purpose = "a number from those of up to six other sensors",
      .cards = {
          {.fields = {{"SENSID", &Math::sensid, "-", "id that switches refer to", required_id},

@@ -91,6 +91,8 @@ ODD = {"*DEFINE_SPH_ACTIVE_REGION": "cards of all shapes at once", "*DEFINE_SPH_
        "*CONSTRAINED_GENERALIZED_WELD_SPOT": "an _ID line without _ID",
        "*MAT_SPOTWELD_DAMAGE-FAILURE": "the second card of each OPT, one after the other",
        "*ELEMENT_SHELL_THICKNESS_OFFSET": "thicknesses of mid-side nodes that are not there",
+       "*CONTROL_DYNAMIC_RELAXATION": "cards of all IDRFLG at once",
+       "*DEFINE_FUNCTION": "a text that is no function",
        "*INTEGRATION_SHELL": "points beside ESOP 1, which places them itself",
        "*ELEMENT_SHELL_BETA_OFFSET": "thicknesses of mid-side nodes that are not there",
        "*RIGIDWALL_GEOMETRIC_CYLINDER_MOTION": "a card of sections that are not there",

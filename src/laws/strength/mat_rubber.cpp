@@ -69,6 +69,9 @@ struct RubberCard : Entry {
     if (!(pr < 0.5))
       deck.error(diagnostics, *this, "PR", fmt::format("expected a number < 0.5, got '{:g}'", pr),
                  "0.49 to 0.4995 is rubber that hardly changes its volume");
+    if (n > 0)
+      deck.error(diagnostics, *this, "N", fmt::format("'{}' is not supported: no constants are fitted", n),
+                 "give constants, with N = 0");
     if (n == 0 && !(G > 0))
       deck.error(diagnostics, *this, field, fmt::format("the shear modulus would be {:g}", G), of);
   }
@@ -79,7 +82,11 @@ std::vector<FieldOf<C>> first_rubber_fields() {
   return {{"MID", &C::mid, "-", "id that *PART refers to", rules::required_id},
           {"RO", &C::ro, "M/L3", "density", rules::required_positive},
           {"PR", &C::pr, "-", "Poisson ratio at rest, below 0.5", rules::required_positive},
-          {"N", &C::n, "-", "0: constants stand below; fits to curves are refused", {.allowed = {0}}},
+          {"N",
+           &C::n,
+           "-",
+           "0: constants stand below; above 0, fits to curves, which are refused",
+           {.check = Check::not_negative}},
           {"NV", &C::nv, "-", "terms of a fit of relaxation", no_effect_but(6)},
           {"G", &C::g, "M/LT2", "damping that does not depend on the frequency", unsupported},
           {"SIGF", &C::sigf, "M/LT2", "limit of that damping", no_effect},
