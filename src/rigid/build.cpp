@@ -26,15 +26,9 @@
 namespace courant {
 namespace {
 
-const MatRigid* find(const Deck& deck, Id mid) {
-  for (const MatRigid& m : deck.all<MatRigid>())
-    if (m.mid == mid) return &m;
-  return nullptr;
-}
-
 /// Of a rigid part.
 std::optional<MatRigid> material_of(const Deck& deck, const Model& model, Index part) {
-  if (const MatRigid* m = find(deck, model.parts[static_cast<std::size_t>(part)].mid)) return *m;
+  if (const MatRigid* m = mat_rigid_of(deck, model.parts[static_cast<std::size_t>(part)].mid)) return *m;
   return switched_material(deck, model, part);
 }
 
@@ -430,7 +424,7 @@ std::shared_ptr<RigidBodies> build_rigid_bodies(const Deck& deck, const Model& m
   Builder builder(deck, model, world, diagnostics);
   check_switched_parts(deck, model, diagnostics);
   for (const PartInertiaCard& card : deck.all<PartInertiaCard>())
-    if (!find(deck, card.mid))
+    if (!mat_rigid_of(deck, card.mid))
       deck.error(diagnostics, card, "MID",
                  fmt::format("*PART_INERTIA is for rigid parts, and material {} is no *MAT_RIGID", card.mid),
                  "give it one, or use *PART");

@@ -88,4 +88,11 @@ const RegisterKeyword<M> mat_rigid{
      .move = move_constraints}};
 
 }  // namespace
+
+const MatRigid* mat_rigid_of(const Deck& deck, Id mid) {
+  for (const MatRigid& m : deck.all<MatRigid>())
+    if (m.mid == mid) return &m;
+  return nullptr;
+}
+
 }  // namespace courant

@@ -1,5 +1,5 @@
 #pragma once
-#include "keyword/card.hpp"
+#include "keyword/deck.hpp"
 
 namespace courant {
 
@@ -14,5 +14,8 @@ struct MatRigid : Entry {
   Real lco = 0, a2 = 0, a3 = 0, v1 = 0, v2 = 0, v3 = 0;
   int bndlco = 0;
 };
+
+/// The one of this id; null where there is none.
+const MatRigid* mat_rigid_of(const Deck& deck, Id mid);
 
 }  // namespace courant

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "rigid/deformable_to_rigid.hpp"
@@ -111,9 +109,7 @@ class MergeReader {
     merges_[part] = {lead, true, card};
   }
   bool is_rigid_material(Index part) const {
-    const Id mid = model_.parts[static_cast<std::size_t>(part)].mid;
-    const auto& all = deck_.all<MatRigid>();
-    return std::any_of(all.begin(), all.end(), [&](const MatRigid& m) { return m.mid == mid; });
+    return mat_rigid_of(deck_, model_.parts[static_cast<std::size_t>(part)].mid) != nullptr;
   }
 
   const Deck& deck_;

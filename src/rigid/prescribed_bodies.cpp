@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/rotation.hpp"
 #include "base/run_error.hpp"
 #include "rigid/mat_rigid.hpp"
 #include "rigid/nodal_bodies.hpp"
@@ -83,13 +84,7 @@ Vec driven_momentum(const RigidBody& b, Vec L, const Clock& clock) {
 /// The axes of LCO or A1 to V3 of the *MAT_RIGID of a body; nothing where it gives none.
 std::optional<Matrix> axes_of_material(const MatRigid& m, const Model& model) {
   const Vec A(m.lco, m.a2, m.a3), V(m.v1, m.v2, m.v3);
-  if (V != Vec::Zero()) {
-    const Vec z = A.cross(V);
-    if (!(z.norm() > 0)) return std::nullopt;
-    Matrix out;
-    out.col(0) = A.normalized(), out.col(2) = z.normalized(), out.col(1) = out.col(2).cross(out.col(0));
-    return out;
-  }
+  if (V != Vec::Zero()) return axes_from(A, V);
   const auto system = model.coordinate_systems.find(static_cast<Id>(m.lco));
   if (m.lco == 0 || system == model.coordinate_systems.end()) return std::nullopt;
   return system->second.axes;
@@ -143,10 +138,10 @@ class Follower {
 
   /// Gives a local motion its direction at the start.
   bool to_body(PrescribedMotion& motion, const RigidBody& body) {
-    const MatRigid* material = nullptr;
-    if (body.part_index >= 0)
-      for (const MatRigid& m : deck_.all<MatRigid>())
-        if (m.mid == model_.parts[static_cast<std::size_t>(body.part_index)].mid) material = &m;
+    const MatRigid* const material =
+        body.part_index < 0
+            ? nullptr
+            : mat_rigid_of(deck_, model_.parts[static_cast<std::size_t>(body.part_index)].mid);
     const std::optional<Matrix> axes = material ? axes_of_material(*material, model_) : std::nullopt;
     if (!axes) {
       error(motion, "PID", fmt::format("{} has no axes of its own", body.name),

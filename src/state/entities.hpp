@@ -117,16 +117,19 @@ struct ElementGroup {
   Field<Index>* segment = nullptr;       ///< shells: index into World::segments of each; null: solids
   int corners() const { return node.info().components; }
   Index size() const { return fields.size(); }
+  /// Whether the node of a corner stands at no corner before it.
+  bool is_first(Index e, int corner) const {
+    for (int b = 0; b < corner; ++b)
+      if (node.data(b)[e] == node.data(corner)[e]) return false;
+    return true;
+  }
   /// Of the mass of an element, what a corner gets: the same for all nodes, however many corners they are.
   /// [-]
   Real share(Index e, int corner) const {
     if (!repeats_nodes) return Real(1) / corners();
     int different = 0, same = 0;
-    for (int c = 0; c < corners(); ++c) {
-      bool first = true;
-      for (int b = 0; b < c; ++b) first = first && node.data(b)[e] != node.data(c)[e];
-      different += first, same += node.data(c)[e] == node.data(corner)[e];
-    }
+    for (int c = 0; c < corners(); ++c)
+      different += is_first(e, c), same += node.data(c)[e] == node.data(corner)[e];
     return Real(1) / (different * same);
   }
 };

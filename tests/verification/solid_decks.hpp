@@ -1,5 +1,7 @@
 #pragma once
 // Decks of blocks of hexahedra, with particles or without, written by tests.
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
 #include <string>
@@ -59,6 +61,19 @@ struct SolidDeck {
  private:
   int element_ = 0;
 };
+
+/// What the elements leave for the nodes inside a block of 3 x 3 x 3 cells adds up to nothing.
+inline void expect_no_force_inside(const ElementGroup& group, Index nodes, Real tolerance) {
+  std::vector<Vec> force(static_cast<std::size_t>(nodes), Vec::Zero());
+  for (Index e = 0; e < group.size(); ++e)
+    for (int c = 0; c < 8; ++c)
+      for (int k = 0; k < 3; ++k)
+        force[static_cast<std::size_t>(group.node.data(c)[e])][k] += group.corner_force.data(3 * c + k)[e];
+  for (int k = 1; k < 3; ++k)
+    for (int j = 1; j < 3; ++j)
+      for (int i = 1; i < 3; ++i)
+        EXPECT_LT(force[static_cast<std::size_t>((k * 4 + j) * 4 + i)].norm(), tolerance);
+}
 
 inline constexpr auto do_nothing = [](World&, const Clock&, const std::string&) {};
 

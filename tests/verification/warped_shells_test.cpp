@@ -28,44 +28,12 @@ ShellDeck bowl(int n, const std::string& control) {
 }  // namespace
 
 TEST(WarpedShells, SmallFreePatchesAreStableAtTssfac09) {
-  std::mt19937 random(11);
-  std::uniform_real_distribution<Real> number(-1, 1);
-  for (const char* nu : {"0.0", "0.3", "0.49"})
-    for (const auto& [nx, ny] : {std::array{1, 1}, {1, 4}, {3, 3}})
-      for (const Real t : {0.01, 0.1, 0.7})
-        for (const Real uneven : {0.0, 0.1, 0.2}) {
-          ShellDeck deck;
-          deck.plate(nx, ny, nx, ny, 1, [&](const Vec& x) {
-            const Vec by = uneven * Vec(number(random), number(random), number(random));
-            return Vec(x + by + Vec(uneven * x[1], 0, 0));
-          });
-          deck.part(1, t, fmt::format("*MAT_ELASTIC\n         1       1.0       1.0{:>10}\n", nu));
-          deck.cards += heed_warp + "*CONTROL_TIMESTEP\n       0.0       0.9\n";
-          auto s = simulation_of(deck.text(1e9));
-          const Growth noise = growth_of_noise(*s, random, number);
-          EXPECT_LT(noise.late, 2 * noise.early)
-              << " nu " << nu << " " << nx << ny << " t " << t << " " << uneven;
-        }
+  expect_stable_patches([](ShellDeck& deck) { deck.cards += heed_warp; });
 }
 
 // A warped free shell spins: it keeps its energy, and what turns rigidly is not strained.
 TEST(WarpedShells, AWarpedShellSpinsWithoutStrain) {
-  ShellDeck deck;
-  deck.plate(1, 1, 2, 2, 1, [](const Vec& x) { return Vec(x[0] - 0.5, x[1] - 0.5, 0.3 * x[0] * x[1]); });
-  deck.part(1, 0.02, "*MAT_ELASTIC\n         1       1.0     1.0E4       0.3\n");
-  deck.cards += heed_warp;
-  auto s = simulation_of(deck.text(1e9));
-  World& world = s->world();
-  const Vec omega(0.4, -0.3, 0.8);
-  for (Index n = 0; n < world.nodes.size(); ++n) {
-    world.nodes.v.set(n, omega.cross(world.nodes.x.vec(n)));
-    shared_fields::angular_velocity.find(world.nodes.fields)->set(n, omega);
-  }
-  start_ledger(*s);
-  const Real start = world.energy.initial;
-  for (int k = 0; k < 4000; ++k) s->step(do_nothing);
-  EXPECT_LT(energy_error(*s), 1e-3);
-  EXPECT_LT(world.energy.internal + world.energy.hourglass, 1e-3 * start);
+  expect_spin_without_strain([](ShellDeck& deck) { deck.cards += heed_warp; });
 }
 
 // Large bending of warped shells keeps the energy of all, drilling included.

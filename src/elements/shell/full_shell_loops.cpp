@@ -50,11 +50,7 @@ COURANT_INLINE void full_strain_of(Index first, Index n, Index k, Real dt, const
   Triple x[quad], v[quad], w[quad], d[3], dv[3], dw[3];
   gather_corners<quad>(mesh, first, n, x, v, w);
   differences<quad>(x, d), differences<quad>(v, dv), differences<quad>(w, dw);
-  for (int m = 0; m < 3; ++m) {
-    store(s.place[3 * m] + k, d[m].x), store(s.place[3 * m + 1] + k, d[m].y);
-    store(s.place[3 * m + 2] + k, d[m].z);
-    d[m] = d[m] - (0.5 * dt) * dv[m];
-  }
+  keep_places<quad>(k, dt, dv, d, s);
   const Flat f = flat_of<quad>(d, control.invariant_axes);
   store(s.middle_area + k, f.A);
   const Modes a = modes_of(f, d);
@@ -125,15 +121,9 @@ COURANT_INLINE void add_shear(const Sides& s, const SideShear& g, Native vz[3], 
 COURANT_INLINE void full_forces_of(Index first, Index n, Index k, Real dt, const ShellControl& control,
                                    const ShellState& state, ShellScratch& s) {
   Triple d[3];
-  for (int m = 0; m < 3; ++m)
-    d[m] = {load(s.place[3 * m] + k), load(s.place[3 * m + 1] + k), load(s.place[3 * m + 2] + k)};
+  kept_places<quad>(k, s, d);
   const Flat f = flat_of<quad>(d, control.invariant_axes);
-  Native t = load(state.thickness + first, n);
-  if (control.thins) {
-    const Native half = (0.5 * dt) * load(s.thickening + k);
-    t *= (1.0 + half) / (1.0 - half);  // of second order
-    store(state.thickness + first, t, n);
-  }
+  const Native t = new_thickness(first, n, k, dt, control, state, s);
   const Native rho = load(state.mass + first, n) * f.inverse_A / t;
   const Native press = t * bulk_viscosity<quad>(first, n, k, dt, t, rho, d, f, control, state, s);
   const Modes a = modes_of(f, d);
@@ -165,13 +155,8 @@ COURANT_INLINE void full_forces_of(Index first, Index n, Index k, Real dt, const
   t0.z = mz[0];
   Triple g[3];
   for (int m = 0; m < 3; ++m) g[m] = {vx[m], vy[m], vz[m]};
-  // nothing resists a rigid rotation: the transpose of rates_of
-  const Triple turn = turn_of(a, cross(a.m[0], g[0]) + cross(a.m[1], g[1]) + cross(a.m[2], g[2]) + t0);
-  for (int m = 0; m < 3; ++m) g[m] = g[m] - cross(turn, a.m[m]);
-  const Triple none{all(0), all(0), all(0)},
-      turns[3] = {{tx[0], ty[0], mz[1]}, {tx[1], ty[1], mz[2]}, {tx[2], ty[2], mz[3]}};
-  on_corners_of(state.corner_force, first, n, f, none, g);
-  on_corners_of(state.corner_moment, first, n, f, t0, turns);
+  const Triple turns[3] = {{tx[0], ty[0], mz[1]}, {tx[1], ty[1], mz[2]}, {tx[2], ty[2], mz[3]}};
+  push_corners(first, n, f, a, g, t0, turns, state);
 }
 
 void full_strain(const ShellLoops::Block& block, const ShellControl& control, const ShellMesh& mesh,

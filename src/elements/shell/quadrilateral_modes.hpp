@@ -108,4 +108,16 @@ COURANT_INLINE void on_corners_of(Real* const* out, Index first, Index n, const 
   }
 }
 
+/// Forces `of_v` along the modes and moments `t0`, `of_w` as forces and moments on the corners. Nothing
+/// resists a rigid rotation: the transpose of rates_of.
+COURANT_INLINE void push_corners(Index first, Index n, const Flat& f, const Modes& a, Triple of_v[3],
+                                 const Triple& t0, const Triple of_w[3], const ShellState& state) {
+  const Triple turn =
+      turn_of(a, cross(a.m[0], of_v[0]) + cross(a.m[1], of_v[1]) + cross(a.m[2], of_v[2]) + t0);
+  for (int m = 0; m < 3; ++m) of_v[m] = of_v[m] - cross(turn, a.m[m]);
+  const Triple none{all(0), all(0), all(0)};
+  on_corners_of(state.corner_force, first, n, f, none, of_v);
+  on_corners_of(state.corner_moment, first, n, f, t0, of_w);
+}
+
 }  // namespace courant::COURANT_SIMD

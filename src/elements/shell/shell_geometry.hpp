@@ -164,6 +164,34 @@ COURANT_INLINE Native bulk_viscosity(Index first, Index n, Index k, Real dt, Nat
   }
   return q;
 }
+/// Keeps the differences of places for the forces, and takes them to the middle of the step.
+template <int corners>
+COURANT_INLINE void keep_places(Index k, Real dt, const Triple dv[3], Triple d[3], ShellScratch& s) {
+  constexpr int modes = corners == quad ? 3 : 2;
+  for (int m = 0; m < modes; ++m) {
+    store(s.place[3 * m] + k, d[m].x), store(s.place[3 * m + 1] + k, d[m].y);
+    store(s.place[3 * m + 2] + k, d[m].z);
+    d[m] = d[m] - (0.5 * dt) * dv[m];
+  }
+}
+/// Those of the end of the step.
+template <int corners>
+COURANT_INLINE void kept_places(Index k, const ShellScratch& s, Triple d[3]) {
+  constexpr int modes = corners == quad ? 3 : 2;
+  for (int m = 0; m < modes; ++m)
+    d[m] = {load(s.place[3 * m] + k), load(s.place[3 * m + 1] + k), load(s.place[3 * m + 2] + k)};
+}
+/// The thickness at the end of the step, which ISTUPD 1 makes another one.
+COURANT_INLINE Native new_thickness(Index first, Index n, Index k, Real dt, const ShellControl& control,
+                                    const ShellState& state, const ShellScratch& s) {
+  Native t = load(state.thickness + first, n);
+  if (!control.thins) return t;
+  const Native half = (0.5 * dt) * load(s.thickening + k);
+  t *= (1.0 + half) / (1.0 - half);  // of second order
+  store(state.thickness + first, t, n);
+  return t;
+}
+
 /// The least stable step of a block.
 COURANT_INLINE ShellLoops::Found shortest_of(const ShellLoops::Block& block, const ShellScratch& scratch) {
   const Real* limit = scratch.step_limit;

@@ -36,12 +36,7 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Shel
   Triple x[corners], v[corners], w[corners], d[3], dv[3], dw[3];
   gather_corners<corners>(mesh, first, n, x, v, w);
   differences<corners>(x, d), differences<corners>(v, dv), differences<corners>(w, dw);
-  constexpr int modes = corners == quad ? 3 : 2;
-  for (int m = 0; m < modes; ++m) {
-    store(s.place[3 * m] + k, d[m].x), store(s.place[3 * m + 1] + k, d[m].y);
-    store(s.place[3 * m + 2] + k, d[m].z);
-    d[m] = d[m] - (0.5 * dt) * dv[m];
-  }
+  keep_places<corners>(k, dt, dv, d, s);
   const Flat f = flat_of<corners>(d, control.invariant_axes);
   store(s.middle_area + k, f.A);
   const Slopes vx = slopes(f, dot(dv[0], f.e1), dot(dv[1], f.e1)),
@@ -118,15 +113,9 @@ template <int corners>
 COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const ShellControl& control,
                               const ShellState& state, ShellScratch& s) {
   Triple d[3];
-  for (int m = 0; m < (corners == quad ? 3 : 2); ++m)
-    d[m] = {load(s.place[3 * m] + k), load(s.place[3 * m + 1] + k), load(s.place[3 * m + 2] + k)};
+  kept_places<corners>(k, s, d);
   const Flat f = flat_of<corners>(d, control.invariant_axes);
-  Native t = load(state.thickness + first, n);
-  if (control.thins) {
-    const Native half = (0.5 * dt) * load(s.thickening + k);
-    t *= (1.0 + half) / (1.0 - half);  // of second order
-    store(state.thickness + first, t, n);
-  }
+  const Native t = new_thickness(first, n, k, dt, control, state, s);
   Native R[8], Q[5];
   integrate(first, n, k, dt, control.shear_factor, t, state, s, R);
   const Native rho = load(state.mass + first, n) * f.inverse_A / t;

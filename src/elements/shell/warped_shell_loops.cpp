@@ -23,11 +23,7 @@ COURANT_INLINE void warped_strain_of(Index first, Index n, Index k, Real dt, con
   Triple x[quad], v[quad], w[quad], d[3], dv[3], dw[3];
   gather_corners<quad>(mesh, first, n, x, v, w);
   differences<quad>(x, d), differences<quad>(v, dv), differences<quad>(w, dw);
-  for (int m = 0; m < 3; ++m) {
-    store(s.place[3 * m] + k, d[m].x), store(s.place[3 * m + 1] + k, d[m].y);
-    store(s.place[3 * m + 2] + k, d[m].z);
-    d[m] = d[m] - (0.5 * dt) * dv[m];
-  }
+  keep_places<quad>(k, dt, dv, d, s);
   const Flat f = flat_of<quad>(d, control.invariant_axes);
   store(s.middle_area + k, f.A);
   const Modes a = modes_of(f, d);
@@ -56,17 +52,11 @@ COURANT_INLINE void warped_strain_of(Index first, Index n, Index k, Real dt, con
 COURANT_INLINE void warped_forces_of(Index first, Index n, Index k, Real dt, const ShellControl& control,
                                      const ShellState& state, ShellScratch& s) {
   Triple d[3];
-  for (int m = 0; m < 3; ++m)
-    d[m] = {load(s.place[3 * m] + k), load(s.place[3 * m + 1] + k), load(s.place[3 * m + 2] + k)};
+  kept_places<quad>(k, s, d);
   const Flat f = flat_of<quad>(d, control.invariant_axes);
-  Native t = load(state.thickness + first, n);
+  const Native t = new_thickness(first, n, k, dt, control, state, s);
   Native R[8], Q[5];
   integrate(first, n, k, dt, control.shear_factor, t, state, s, R);
-  if (control.thins) {
-    const Native half = (0.5 * dt) * load(s.thickening + k);
-    t *= (1.0 + half) / (1.0 - half);  // of second order
-    store(state.thickness + first, t, n);
-  }
   const Native rho = load(state.mass + first, n) * f.inverse_A / t;
   const Native press = t * bulk_viscosity<quad>(first, n, k, dt, t, rho, d, f, control, state, s);
   hourglass_forces(first, n, k, dt, t, f, rho, control, state, s, Q);
@@ -88,14 +78,8 @@ COURANT_INLINE void warped_forces_of(Index first, Index n, Index k, Real dt, con
   const Triple t0{-f.A * R[7], f.A * R[6], mz[0]};
   Triple of_v[3];
   for (int m = 0; m < 3; ++m) of_v[m] = {g[0][m], g[1][m], g[2][m]};
-  // nothing resists a rigid rotation: the transpose of rates_of
-  const Triple turn =
-      turn_of(a, cross(a.m[0], of_v[0]) + cross(a.m[1], of_v[1]) + cross(a.m[2], of_v[2]) + t0);
-  for (int m = 0; m < 3; ++m) of_v[m] = of_v[m] - cross(turn, a.m[m]);
-  const Triple none{all(0), all(0), all(0)},
-      of_w[3] = {{g[3][0], g[4][0], mz[1]}, {g[3][1], g[4][1], mz[2]}, {g[3][2], g[4][2], mz[3]}};
-  on_corners_of(state.corner_force, first, n, f, none, of_v);
-  on_corners_of(state.corner_moment, first, n, f, t0, of_w);
+  const Triple of_w[3] = {{g[3][0], g[4][0], mz[1]}, {g[3][1], g[4][1], mz[2]}, {g[3][2], g[4][2], mz[3]}};
+  push_corners(first, n, f, a, of_v, t0, of_w, state);
 }
 
 void warped_strain(const ShellLoops::Block& block, const ShellControl& control, const ShellMesh& mesh,

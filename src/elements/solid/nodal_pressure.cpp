@@ -9,6 +9,21 @@
 
 namespace courant {
 
+namespace {
+
+Real mean_stress(const HexahedronState& state, Index e) {
+  return (state.stress[0][e] + state.stress[1][e] + state.stress[2][e]) / 3;
+}
+
+/// Half a step's work of the mean stress through `opened`, less that of the trace of D, which is counted.
+void add_work(const HexahedronLoops::Block& block, Index i, Real trace, const HexahedronState& state,
+              HexahedronScratch& scratch, const NodalPressure::Scratch& own) {
+  scratch.work[i] += 0.5 * mean_stress(state, block.begin + i) *
+                     (own.opened[i] - block.dt * scratch.middle_volume[i] * trace);
+}
+
+}  // namespace
+
 NodalPressure::NodalPressure(const ElementGroup& group, World& world)
     : group_(group),
       first_(static_cast<std::size_t>(world.nodes.size()) + 1, 0),
@@ -30,9 +45,7 @@ NodalPressure::NodalPressure(const ElementGroup& group, World& world)
     volume_.data(0)[e] = volume_.data(1)[e] = counted_[e] = group.V0[e];
     int found = 0;
     for (int c = 0; c < group.corners(); ++c) {
-      bool first = true;
-      for (int b = 0; b < c; ++b) first = first && group.node.data(b)[e] != group.node.data(c)[e];
-      if (!first) continue;
+      if (!group.is_first(e, c)) continue;
       if (found == corners) throw std::logic_error("pressures of nodes are for tetrahedra");
       corner_[found++][static_cast<std::size_t>(e)] = c;
     }
@@ -87,18 +100,15 @@ void NodalPressure::strain(const HexahedronLoops::Block& block, const Hexahedron
     for (int k = 0; k < 3; ++k) scratch.rate[k][i] += (wanted - trace) / 3;
     scratch.compression[i] = 1 / now - 1;
     own.opened[i] = group_.V0[e] * (now - before);
-    const Real mean_stress = (state.stress[0][e] + state.stress[1][e] + state.stress[2][e]) / 3;
-    scratch.work[i] += 0.5 * mean_stress * (own.opened[i] - block.dt * scratch.middle_volume[i] * trace);
+    add_work(block, i, trace, state, scratch, own);
   }
 }
 
 void NodalPressure::work(const HexahedronLoops::Block& block, const HexahedronState& state,
                          HexahedronScratch& scratch, const Scratch& own) const {
   for (Index i = 0; i < block.count; ++i) {
-    const Index e = block.begin + i;
     const Real trace = scratch.rate[0][i] + scratch.rate[1][i] + scratch.rate[2][i];
-    const Real mean_stress = (state.stress[0][e] + state.stress[1][e] + state.stress[2][e]) / 3;
-    scratch.work[i] += 0.5 * mean_stress * (own.opened[i] - block.dt * scratch.middle_volume[i] * trace);
+    add_work(block, i, trace, state, scratch, own);
   }
 }
 
@@ -106,8 +116,7 @@ void NodalPressure::keep(const HexahedronLoops::Block& block, const HexahedronSt
                          const Erosion* erosion) const {
   for (Index e = block.begin; e < block.begin + block.count; ++e) {
     if (erosion && erosion->dead(e)) counted_[e] = 0;
-    const Real mean_stress = (state.stress[0][e] + state.stress[1][e] + state.stress[2][e]) / 3;
-    pressure_[e] = counted_[e] * (state.viscous_pressure[e] - mean_stress);
+    pressure_[e] = counted_[e] * (state.viscous_pressure[e] - mean_stress(state, e));
   }
 }
 

@@ -49,8 +49,9 @@ class NodalPressure {
   struct NodalPressures;
   struct Push;
   static constexpr int corners = 4;
-  /// Adds up component `from` of elements over those of a node. `part`: of the elements' fields.
+  /// Over the elements at a node.
   Real sum_at(Index node, const Real* of_element) const;
+  /// Over the nodes of an element.
   Real mean(Index e, const Real* of_node) const;
   /// 6 V, and 6 dV/dx of the corners but the first. [L3], [L2]
   Real edges(const World& world, Index e, Vec b[3]) const;

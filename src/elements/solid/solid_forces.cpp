@@ -248,12 +248,7 @@ class SolidForces : public Material,
     else
       of.law.update(points);
     answered(points, begin, 0, failing);
-    if (of.nodal) {
-      loops_.work(block, of.state, scratch);
-      of.nodal->work(block, of.state, scratch, by_nodes);
-      return loops_.forces(block, of.control, of.state, scratch);
-    }
-    if (!damping_) return push(of, block, of.state, scratch);
+    if (!damping_) return push(of, block, of.state, scratch, by_nodes);
     damping_->add(of.law, 0, points,
                   {begin,
                    {scratch.half_turn[0], scratch.half_turn[1], scratch.half_turn[2]},
@@ -261,11 +256,13 @@ class SolidForces : public Material,
                    scratch.work});
     HexahedronState damped = of.state;
     for (int k = 0; k < 6; ++k) damped.stress[k] = damping_->damped(0, k);
-    return push(of, block, damped, scratch);
+    return push(of, block, damped, scratch, by_nodes);
   }
   HexahedronLoops::Found push(const Answer& of, const HexahedronLoops::Block& block,
-                              const HexahedronState& state, HexahedronScratch& scratch) const {
+                              const HexahedronState& state, HexahedronScratch& scratch,
+                              const NodalPressure::Scratch& by_nodes) const {
     loops_.work(block, state, scratch);
+    if (of.nodal) of.nodal->work(block, state, scratch, by_nodes);
     return loops_.forces(block, of.control, state, scratch);
   }
 

@@ -74,12 +74,11 @@ Real last_change(const Curve& curve) {
   return 0;
 }
 
-/// Curves that act in that phase whatever their SIDR.
+}  // namespace
+
 bool is_of_relaxation(std::string_view field) {
   return field == "LCIDDR" || field == "LCDR";
 }
-
-}  // namespace
 
 void for_load_curves(const Deck& deck, const std::function<void(const Entry&, const char*, Id)>& of) {
   const auto& registry = keyword_registry();
@@ -173,15 +172,9 @@ Relaxation relaxation_of(const Deck& deck, const Model& model, bool has_particle
                  fmt::format(
                      "curve {} is a formula, which is known up to ENDTIM only, and acts in a relaxation", id),
                  "give it by points, with *DEFINE_CURVE");
-    const auto& registry = keyword_registry();
-    const bool accelerates = std::any_of(registry.begin(), registry.end(), [&](const auto& spec) {
-      bool found = false;
-      if (!spec->names[0].starts_with("BOUNDARY_PRESCRIBED_MOTION")) return false;
-      spec->for_each(deck, static_cast<std::int32_t>(&spec - registry.data()), [&](const Entry& one) {
-        found = found || (&one == &entry && spec->number_of(one, 0, vad_field) == 1);
-      });
-      return found;
-    });
+    const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(entry.keyword)];
+    const bool accelerates =
+        spec.names[0].starts_with("BOUNDARY_PRESCRIBED_MOTION") && spec.number_of(entry, 0, vad_field) == 1;
     if (accelerates)
       deck.error(diagnostics, entry, "VAD",
                  "accelerations that are prescribed in a relaxation are not supported",

@@ -2,6 +2,7 @@
 // *CONTROL_DYNAMIC_RELAXATION: a phase before the run that brings what loads hold to rest.
 #include <functional>
 #include <limits>
+#include <string_view>
 
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
@@ -23,6 +24,9 @@ Relaxation relaxation_of(const Deck& deck, const Model& model, bool has_particle
 
 /// TSSFDR, or TSSFAC.
 Real relaxation_tssfac(const Deck& deck, Real tssfac);
+
+/// Whether the curve of such a field acts in that phase alone, whatever its SIDR.
+bool is_of_relaxation(std::string_view field);
 
 /// Calls of(entry, field, curve id) for each curve that a load, a motion, damping or a rigid wall has.
 void for_load_curves(const Deck& deck, const std::function<void(const Entry&, const char*, Id)>& of);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/rotation.hpp"
 #include "keyword/source.hpp"
 #include "model/definitions/define_cards.hpp"
 #include "model/model_builder.hpp"
@@ -12,18 +13,6 @@
 namespace courant {
 
 namespace {
-
-/// Axes of a right-handed system from its x axis and a vector in its xy plane; nothing if they span no plane.
-std::optional<Matrix> axes_from(const Vec& x, const Vec& xy) {
-  constexpr Real parallel = 1e-8;  // sine of the angle between the two
-  const Vec z = x.cross(xy);
-  if (!(z.norm() > parallel * x.norm() * xy.norm())) return std::nullopt;
-  Matrix axes;
-  axes.col(0) = x.normalized();
-  axes.col(2) = z.normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  return axes;
-}
 
 constexpr const char* no_plane = "the two directions are parallel or zero: they span no plane";
 

@@ -31,7 +31,7 @@ void ModelBuilder::warn_of_short_curves() {
     const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(entry.keyword)];
     const auto found = model_.curves.find(id);
     if (found == model_.curves.end() || found->second.ordinate.size() < 2 || found->second.silent ||
-        found->second.by_formula || std::string_view(field).ends_with("DR"))
+        found->second.by_formula || is_of_relaxation(field))
       return;  // of one point: a constant
     const Real birth = number_named(spec, entry, "BIRTH", 0);
     const Real until = std::min(model_.endtim, number_named(spec, entry, "DEATH", model_.endtim));

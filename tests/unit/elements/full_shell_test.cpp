@@ -173,22 +173,7 @@ TEST(FullShell, ForcesArePowersSlopesAndBalance) {
         expected[e] = -power - 2 * g.bulk[e] / dt;  // of the mean of no force and the one now
       }
     });
-    for (std::size_t e = 0; e < g.size(); ++e) {
-      Real power = 0;
-      Vec sum = Vec::Zero(), about = Vec::Zero();
-      for (int c = 0; c < 4; ++c) {
-        Vec f, m;
-        for (int k = 0; k < 3; ++k)
-          f[k] = g.force[static_cast<std::size_t>(3 * c + k)][e],
-          m[k] = g.moment[static_cast<std::size_t>(3 * c + k)][e];
-        const auto n = static_cast<std::size_t>(g.corner[static_cast<std::size_t>(c)][e]);
-        power += f.dot(g.v[n]) + m.dot(g.w[n]);
-        sum += f, about += m + g.x[n].cross(f);
-      }
-      EXPECT_NEAR(power, expected[e], 1e-7) << e;
-      EXPECT_NEAR(sum.norm(), 0, 1e-14);
-      EXPECT_NEAR(about.norm(), 0, 1e-14);
-    }
+    expect_power_and_balance(g, expected, 1e-14);
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 // Static solutions with the loops of shells: stiffness by unit motions, the twisted beam.
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -82,6 +84,27 @@ inline Real twisted_beam(int n, int m, Real t, Real P, bool in_plane, const Form
   }
   const Column u = solve(stiffness(g), held, load);
   return u[6 * ((m / 2) * (n + 1) + n) + axis];
+}
+
+/// Forces and moments of each element do that work per time in the motion at hand (1e-7), and have no
+/// resultants.
+inline void expect_power_and_balance(const ShellPatch& g, const std::vector<Real>& expected, Real round_off) {
+  for (std::size_t e = 0; e < g.size(); ++e) {
+    Real power = 0;
+    Vec sum = Vec::Zero(), about = Vec::Zero();
+    for (int c = 0; c < 4; ++c) {
+      Vec f, m;
+      for (int k = 0; k < 3; ++k)
+        f[k] = g.force[static_cast<std::size_t>(3 * c + k)][e],
+        m[k] = g.moment[static_cast<std::size_t>(3 * c + k)][e];
+      const auto n = static_cast<std::size_t>(g.corner[static_cast<std::size_t>(c)][e]);
+      power += f.dot(g.v[n]) + m.dot(g.w[n]);
+      sum += f, about += m + g.x[n].cross(f);
+    }
+    EXPECT_NEAR(power, expected[e], 1e-7) << e;
+    EXPECT_NEAR(sum.norm(), 0, round_off);
+    EXPECT_NEAR(about.norm(), 0, round_off);
+  }
 }
 
 }  // namespace courant::test
