@@ -36,7 +36,7 @@ void give_stiffness(Facet& f, const ContactLaw& law, const WallBodies& bodies, c
   f.r = law.sbst > 0 ? 0.5 * law.sbst : 0.5 * g.thickness[f.segment] * law.sfsbt;
   f.m = infinity;
   if (!f.moves) return;
-  f.body = bodies.body(f.node[0]);
+  f.body = f.centred ? -1 : bodies.body(f.node[0]);
   for (const Index n : a) f.m = std::min(f.m, world.nodes.m[n]);
 }
 
@@ -74,7 +74,9 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
   else if (options_.thickness_from_volume)
     radius_ = particle_field(world, prefix + "radius", "L", 1);
 
-  facets_ = make_facets(world, segments);
+  facets_ = make_facets(world, segments, [&](Index n) {
+    return dim_ == 3 && !world.nodes.held[n] && options_.bodies.body(n) < 0;
+  });
   Real r = 0, k_facet = 0, m_facet = infinity;
   for (Facet& f : facets_) {
     give_stiffness(f, law_, options_.bodies, world);
@@ -186,7 +188,7 @@ void Contact::update_facets(const World& world, const Clock& clock) {
     walls_[s] = make_wall(f);
     Real most = 0;
     for (int e = 0; e < 4; ++e) {
-      before_[s][e] = f.x[e] - world.nodes.v.vec(f.node[std::min(e, f.corners - 1)]) * clock.dt_old;
+      before_[s][e] = f.x[e] - at_corner(f, e, [&](Index n) { return world.nodes.v.vec(n); }) * clock.dt_old;
       most = std::max(most, (f.x[e] - old[e]).squaredNorm());
     }
     return most;
@@ -215,7 +217,7 @@ void Contact::start(World& world, const Clock& clock) {
   for (const Index s : written_) {
     const Facet& f = facets_[s];
     if (!f.moves)  // others are cleared with the forces of all nodes
-      for (int e = 0; e < f.corners; ++e) world.nodes.f.set(f.node[e], Vec::Zero());
+      for (int e = 0; e < node_count(f); ++e) world.nodes.f.set(f.node[e], Vec::Zero());
     world.segments.contact_force.set(f.segment, Vec::Zero());
   }
   written_.clear();
@@ -273,7 +275,7 @@ void Contact::give_to_wall(World& world, const Block& b, std::size_t touch,
   const Index s = b.touches[touch].facet;
   const Facet& f = facets_[s];
   const Vec force = force_of(b, touch);
-  for (int e = 0; e < f.corners; ++e) world.nodes.f.add(f.node[e], -share[e] * force);
+  for (int e = 0; e < node_count(f); ++e) world.nodes.f.add(f.node[e], -share[e] * force);
   world.segments.contact_force.add(f.segment, -force);
   written_.push_back(s);
 }

@@ -27,7 +27,7 @@ bool is_flat_and_convex(const Corners& x) {
 
 void update_facet(Facet& f, const Nodes& nodes) {
   Vec centre = Vec::Zero();
-  for (int e = 0; e < 4; ++e) f.x[e] = nodes.x.vec(f.node[std::min(e, f.corners - 1)]);
+  for (int e = 0; e < 4; ++e) f.x[e] = at_corner(f, e, [&](Index n) { return nodes.x.vec(n); });
   for (int e = 0; e < f.corners; ++e) centre += f.x[e] / f.corners;
   const Vec n = f.corners == 4 ? Vec((f.x[2] - f.x[0]).cross(f.x[3] - f.x[1]))
                                : triangle_normal(f.x[0], f.x[1], f.x[2]);
@@ -42,15 +42,17 @@ void update_facet(Facet& f, const Nodes& nodes) {
   f.tolerance = joint_tolerance * f.radius;
 }
 
-std::vector<Facet> make_facets(const World& world, const std::vector<Index>& segments) {
+std::vector<Facet> make_facets(const World& world, const std::vector<Index>& segments,
+                               const std::function<bool(Index node)>& deforms) {
   std::vector<Facet> out;
   out.reserve(segments.size());
-  const auto add = [&](Index s, std::array<Index, 4> node, int corners) {
+  const auto add = [&](Index s, std::array<Index, 4> node, int corners, bool centred = false) {
     Facet f;
     f.segment = s;
     f.node = node;
     f.corners = corners;
-    for (int e = 0; e < corners; ++e) f.moves = f.moves || !world.nodes.held[node[e]];
+    f.centred = centred;
+    for (int e = 0; e < node_count(f); ++e) f.moves = f.moves || !world.nodes.held[node[e]];
     update_facet(f, world.nodes);
     if (f.n.squaredNorm() > 0.5)
       out.push_back(f);  // a segment without area has no normal and cannot be touched
@@ -61,6 +63,8 @@ std::vector<Facet> make_facets(const World& world, const std::vector<Index>& seg
     for (int e = 0; e < 4; ++e) x[e] = world.nodes.x.vec(a[e]);
     if (a[2] == a[3]) {
       add(s, a, 3);
+    } else if (std::any_of(a.begin(), a.end(), deforms)) {
+      for (int e = 0; e < 4; ++e) add(s, {a[e], a[(e + 1) % 4], a[(e + 2) % 4], a[(e + 3) % 4]}, 3, true);
     } else if (is_flat_and_convex(x)) {
       add(s, a, 4);
     } else {
@@ -118,7 +122,9 @@ std::array<Real, 4> shape_functions(const Facet& f, const Vec& q) {
     const Vec n = triangle_normal(f.x[0], f.x[1], f.x[2]);
     const Real a = triangle_normal(q, f.x[1], f.x[2]).dot(n) / n.squaredNorm();
     const Real b = triangle_normal(q, f.x[2], f.x[0]).dot(n) / n.squaredNorm();
-    return {a, b, 1 - a - b, 0};
+    const Real c = 1 - a - b;
+    if (f.centred) return {a + 0.25 * c, b + 0.25 * c, 0.25 * c, 0.25 * c};
+    return {a, b, c, 0};
   }
   // Inverse bilinear map by Newton's method in the facet's plane; exact in one step for parallelograms.
   const Vec e1 = (f.x[1] - f.x[0]).normalized(), e2 = f.n.cross(e1);

@@ -1,6 +1,9 @@
 #pragma once
-// A flat convex face that particles can touch: a triangle, a flat quad, or one half of a warped quad.
+// A flat convex face that particles can touch: a triangle, a flat quad, one half of a warped quad, or a
+// fourth of one that deforms.
+#include <algorithm>
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "state/world.hpp"
@@ -19,6 +22,7 @@ struct Facet {
   Real tolerance = 0;  ///< lengths below this are zero: patches whose nodes are not merged still join [L]
   int corners = 3;
   std::array<Index, 4> node{};  ///< indices into World::nodes
+  bool centred = false;         ///< a triangle of which the third corner is the middle of the four nodes
   Index segment = 0;            ///< index into World::segments
   bool moves = false;           ///< some node belongs to a body that can move
   Real r = 0;                   ///< contact distance of the segment, half its thickness [L]
@@ -27,9 +31,24 @@ struct Facet {
   Index body = -1;              ///< rigid body it belongs to; -1: none
 };
 
+/// How many nodes move the facet.
+inline int node_count(const Facet& f) {
+  return f.centred ? 4 : f.corners;
+}
+/// What a corner has of a vector that nodes have.
+template <class OfNode>
+Vec at_corner(const Facet& f, int corner, const OfNode& of_node) {
+  if (!f.centred || corner < 2) return of_node(f.node[std::min(corner, f.corners - 1)]);
+  return 0.25 * (of_node(f.node[0]) + of_node(f.node[1]) + of_node(f.node[2]) + of_node(f.node[3]));
+}
+
 /// Facets of the given segments with their present shape. Flat convex quads stay whole, others become two
-/// triangles. Only geometry, node, segment and moves are filled.
-std::vector<Facet> make_facets(const World& world, const std::vector<Index>& segments);
+/// triangles; those of which `deforms` holds for a node become four around their middle, with forces on nodes
+/// that are those of the places of the facets, however the quad warps. Only geometry, node, segment and moves
+/// are filled.
+std::vector<Facet> make_facets(
+    const World& world, const std::vector<Index>& segments,
+    const std::function<bool(Index node)>& deforms = [](Index) { return false; });
 
 /// Takes plane, circle and edges from the nodes' positions.
 void update_facet(Facet& facet, const Nodes& nodes);
@@ -59,8 +78,8 @@ Vec nearest_on_rim(const Facet& f, const Vec& y);
 bool passes_through(const Facet& f, const Corners& before, int side, const Vec& from, const Vec& to,
                     Real& fraction);
 
-/// Shape functions of the facet's corners at a point of its plane (linear or bilinear); they sum to 1. shape:
-/// corners [-]
+/// Shares that the facet's nodes have in a point of its plane (linear or bilinear); they sum to 1. shape: its
+/// nodes [-]
 std::array<Real, 4> shape_functions(const Facet& f, const Vec& q);
 
 }  // namespace courant

@@ -42,7 +42,7 @@ struct Contact::Supports {
   /// The largest part of n^2 along which a corner of a facet can give way. [-]
   Real free_share(const Facet& f, const Vec& n) const {
     Real out = 0;
-    for (int e = 0; e < f.corners; ++e) out = std::max(out, nodes.part_of(n, f.node[e]).squaredNorm());
+    for (int e = 0; e < node_count(f); ++e) out = std::max(out, nodes.part_of(n, f.node[e]).squaredNorm());
     return out;
   }
 };
@@ -103,7 +103,7 @@ void Contact::strike(World& world, const Clock& clock) {
       const Facet& f = facets_[a.facet];
       if (!f.moves) continue;
       const auto share = shape_functions(f, a.q);
-      for (int e = 0; e < f.corners; ++e)
+      for (int e = 0; e < node_count(f); ++e)
         world.nodes.f.add(f.node[e], supports.nodes.part_of(-share[e] * a.held * in_plane(a.n), f.node[e]));
     }
   if (held_now_ > 0) world.counters["contact_held"] += held_now_;
@@ -173,7 +173,8 @@ Real Contact::gap_at_end(const World& world, const Clock& clock, Index i, const 
   Corners x{};
   Vec centre = Vec::Zero();
   for (int e = 0; e < f.corners; ++e) {
-    x[e] = f.x[e] + clock.dt * (world.nodes.v.vec(f.node[e]) + options_.bodies.change(f.body, f.x[e], clock));
+    const Vec v = at_corner(f, e, [&](Index n) { return world.nodes.v.vec(n); });
+    x[e] = f.x[e] + clock.dt * (v + options_.bodies.change(f.body, f.x[e], clock));
     centre += x[e] / f.corners;
   }
   const Vec n =
@@ -219,7 +220,7 @@ Real Contact::correct(World& world, const Clock& clock, const Supports& supports
 Vec Contact::wall_kick(const World& world, const Facet& f, const Vec& q, Real time) const {
   const auto N = shape_functions(f, q);
   Vec out = Vec::Zero();
-  for (int e = 0; e < f.corners; ++e)
+  for (int e = 0; e < node_count(f); ++e)
     out += N[e] * time / world.nodes.m[f.node[e]] * world.nodes.f.vec(f.node[e]);
   return out;
 }

@@ -53,6 +53,10 @@ Vec share_pushes(Pushes& p) {
     share_two(p.at[0], p.at[1]);
   else
     share_many(p);
+  return way_out(p);
+}
+
+Vec way_out(const Pushes& p) {
   Vec u = Vec::Zero();
   for (int i = 0; i < p.count; ++i) u += p.at[i].share * p.at[i].n;
   return u;

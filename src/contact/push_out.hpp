@@ -38,4 +38,7 @@ struct Pushes {
 /// above -0.9 so that a gap narrower than the particle stays solvable.
 Vec share_pushes(Pushes& pushes);
 
+/// The displacement u that the shares give. [L]
+Vec way_out(const Pushes& pushes);
+
 }  // namespace courant

@@ -24,7 +24,7 @@ void Contact::find_incidence(const World& world) {
   };
   build(of_node_, world.nodes.size(), [&](auto&& add) {
     for (Index k = 0; k < moving; ++k)
-      for (int e = 0; e < facets_[moving_[k]].corners; ++e) add(facets_[moving_[k]].node[e], {k, e});
+      for (int e = 0; e < node_count(facets_[moving_[k]]); ++e) add(facets_[moving_[k]].node[e], {k, e});
   });
   build(of_segment_, world.segments.size(), [&](auto&& add) {
     for (Index k = 0; k < moving; ++k) add(facets_[moving_[k]].segment, {k, -1});

@@ -198,18 +198,24 @@ Vec Contact::wall_velocity(const World& world, const Facet& f, const Vec& q) con
   if (!f.moves) return Vec::Zero();
   const auto N = shape_functions(f, q);
   Vec v = Vec::Zero();
-  for (int e = 0; e < f.corners; ++e) v += N[e] * world.nodes.v.vec(f.node[e]);
+  for (int e = 0; e < node_count(f); ++e) v += N[e] * world.nodes.v.vec(f.node[e]);
   return v;
 }
 
+// Where several walls push, k |u|^2/2 is the potential of their forces, u the way out, and the share of a
+// wall is what it grows by as the wall moves on below the place that u leads to, not below the particle.
+// There the wall takes its force; else walls that fold around particles would do work on them that nobody
+// pays.
 void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& slot, const Pushes& pushes) {
   const Index i = slot.particle;
   const Real m = world.particles.m[i];
+  const Vec out = world.particles.x.vec(i) + way_out(pushes);
   Vec total = Vec::Zero();
   for (int j = 0; j < pushes.count; ++j) {
-    const Push& p = pushes.at[j];
+    Push p = pushes.at[j];
     if (!(p.share > 0)) continue;
     const Facet& f = facets_[p.facet];
+    if (p.face && pushes.count > 1) p.q = out - plane_distance(f, out) * f.n;
     const Real k = stiffness(i, slot.k, f.k, f, world);
     b.touches.push_back(
         {.particle = i, .facet = p.facet, .share = p.share, .depth = p.depth, .k = k, .n = p.n, .q = p.q});

@@ -1,5 +1,7 @@
 #include "elements/largest_frequency.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -50,42 +52,84 @@ void GroupNodes::assemble(const Field<Real>& of_corners, Real factor, NodalVecto
   }
 }
 
+namespace {
+
+/// What K does to vectors of nodes that move, in the inner product of their masses: M^-1 K.
+class MassScaledStiffness {
+ public:
+  MassScaledStiffness(const std::vector<Real>& m, const std::vector<std::array<bool, 3>>& held, Real size,
+                      const std::function<void(const NodalVector& u, NodalVector& Ku)>& stiffness)
+      : m_(m), held_(held), size_(size), stiffness_(stiffness) {}
+
+  bool moves(std::size_t i, std::size_t k) const { return m_[i] > 0 && !held_[i][k]; }
+  Real product(const NodalVector& a, const NodalVector& b) const {
+    Real sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < m_.size(); ++i) sum += m_[i] * a[k][i] * b[k][i];
+    return sum;
+  }
+  /// out = M^-1 K u - b v; `scratch` is of the same size.
+  void apply(const NodalVector& u, Real b, const NodalVector& v, NodalVector& scratch,
+             NodalVector& out) const {
+    const Real scale = size_ / largest_component(u);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < m_.size(); ++i) scratch[k][i] = scale * u[k][i];
+    stiffness_(scratch, out);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < m_.size(); ++i)
+        out[k][i] = moves(i, k) ? out[k][i] / (scale * m_[i]) - b * v[k][i] : 0;
+  }
+
+ private:
+  const std::vector<Real>& m_;
+  const std::vector<std::array<bool, 3>>& held_;
+  Real size_;
+  const std::function<void(const NodalVector& u, NodalVector& Ku)>& stiffness_;
+};
+
+void add_to(NodalVector& to, Real factor, const NodalVector& of) {
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < to[k].size(); ++i) to[k][i] += factor * of[k][i];
+}
+
+}  // namespace
+
+// Lanczos' recurrence: the largest eigenvalue of the small tridiagonal matrix grows towards that of M^-1 K.
 Real largest_frequency(const std::vector<Real>& m, const std::vector<std::array<bool, 3>>& held, Real size,
                        const std::function<void(const NodalVector& u, NodalVector& Ku)>& stiffness) {
-  constexpr int most_rounds = 60;
-  constexpr Real close = 1e-3;  // growth of the estimate over five rounds at which it is taken
-  const std::size_t n = m.size();
-  NodalVector u, Ku;
+  constexpr Eigen::Index most_rounds = 40, looked_back = 3;
+  constexpr Real close = 1e-3;  // growth of the estimate over three rounds at which it is taken
+  const MassScaledStiffness A(m, held, size, stiffness);
+  NodalVector before, u, next, scratch;
   std::mt19937 random(1);
   for (std::size_t k = 0; k < 3; ++k) {
-    Ku[k].assign(n, 0);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (NodalVector* v : {&before, &next, &scratch}) (*v)[k].assign(m.size(), 0);
+    for (std::size_t i = 0; i < m.size(); ++i) {
       const Real number = static_cast<Real>(random()) / static_cast<Real>(std::mt19937::max()) - 0.5;
-      u[k].push_back(m[i] > 0 && !held[i][k] ? number : 0);
+      u[k].push_back(A.moves(i, k) ? number : 0);
     }
   }
-  Real estimate = 0, before = 0;
-  for (int round = 0; round < most_rounds; ++round) {
-    const Real most = largest_component(u);
-    if (!(most > 0)) return 0;
+  std::vector<Real> diagonal, beside, estimates{0};
+  Real beta = std::sqrt(A.product(u, u)), first = beta;
+  for (Eigen::Index round = 1; round <= most_rounds && beta > 1e-12 * first; ++round) {
     for (auto& of_axis : u)
-      for (Real& a : of_axis) a *= size / most;
-    stiffness(u, Ku);
-    Real old_norm = 0, new_norm = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t i = 0; i < n; ++i) {
-        if (!(m[i] > 0) || held[i][k]) continue;
-        old_norm += m[i] * u[k][i] * u[k][i];
-        u[k][i] = Ku[k][i] / m[i];
-        new_norm += m[i] * u[k][i] * u[k][i];
-      }
-    if (!(old_norm > 0)) return 0;
-    estimate = std::sqrt(std::sqrt(new_norm / old_norm));
-    if (round % 5 != 4) continue;
-    if (estimate < (1 + close) * before) break;
-    before = estimate;
+      for (Real& a : of_axis) a /= beta;
+    A.apply(u, diagonal.empty() ? 0 : beta, before, scratch, next);
+    diagonal.push_back(A.product(next, u));
+    add_to(next, -diagonal.back(), u);
+    std::swap(before, u), std::swap(u, next);
+    beta = std::sqrt(A.product(u, u));
+    if (round == 1) first = std::max(std::abs(diagonal.front()), beta);
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small;
+    small.computeFromTridiagonal(Eigen::Map<Eigen::VectorXd>(diagonal.data(), round),
+                                 Eigen::Map<Eigen::VectorXd>(beside.data(), round - 1),
+                                 Eigen::EigenvaluesOnly);
+    estimates.push_back(std::sqrt(std::max(Real(0), small.eigenvalues()[round - 1])));
+    beside.push_back(beta);
+    if (round > looked_back && !(estimates.back() >= (1 + close) * *(estimates.end() - 1 - looked_back)))
+      break;
   }
-  return estimate;
+  return estimates.back();
 }
 
 Real below_frequency(Real asked, Real step, Real omega) {

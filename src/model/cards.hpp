@@ -24,8 +24,10 @@ struct ElementShellCard : Entry {
   Id eid, pid, n1, n2, n3, n4;
   Id n5, n6, n7, n8;
   Real thic1, thic2, thic3, thic4, beta;  ///< of _THICKNESS and _BETA
-  bool has_thickness() const { return name >= 1; }
-  bool has_beta() const { return name == 2 || beta != 0; }
+  Real offset;                            ///< of _OFFSET [L]
+  bool has_thickness() const { return name % 3 != 0; }
+  bool has_beta() const { return name % 3 == 2 || beta != 0; }
+  bool has_offset() const { return name >= 3; }
 };
 
 struct PartCard : Entry {

@@ -53,6 +53,7 @@ void Model::release_mesh() {
   std::vector<ModelSegment>().swap(segments);
   shell_thickness.clear();
   shell_beta.clear();
+  shell_offset.clear();
   shell_layup.clear();
   held_rotations.clear();
   angular_velocity.clear();

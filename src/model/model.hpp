@@ -218,8 +218,10 @@ struct Model {
   std::vector<ModelSolid> solids;
   std::vector<ModelBeam> beams;
   std::unordered_map<Index, std::array<Real, 4>> shell_thickness;  ///< of shells with one of their own [L]
-  std::unordered_map<Index, Real> shell_beta;    ///< angle of the material, of shells with one [degrees]
-  std::vector<ModelLayup> layups;                ///< different ones
+  std::unordered_map<Index, Real> shell_beta;  ///< angle of the material, of shells with one [degrees]
+  std::unordered_map<Index, Real>
+      shell_offset;                ///< height of the middle over the nodes, with one of their own [L]
+  std::vector<ModelLayup> layups;  ///< different ones
   std::unordered_map<Index, Index> shell_layup;  ///< index into layups, of shells with layers of their own
   /// Of nodes, where some turn: rotations that BOUNDARY_SPC or RC hold, initial angular velocity.
   std::unordered_map<Index, std::array<bool, 3>> held_rotations;

@@ -28,6 +28,23 @@ void check_rigid_layups(const Deck& deck, const Model& model, Diagnostics& diagn
   }
 }
 
+void warn_of_offsets(const Deck& deck, const Model& model, const ShellSections& sections,
+                     Diagnostics& diagnostics) {
+  std::set<Index> offset;
+  for (const auto& [shell, height] : model.shell_offset)
+    if (height != 0) offset.insert(model.shells[shell].part);
+  for (Index k = 0; k < Index(model.parts.size()); ++k) {
+    const ModelPart& part = model.parts[k];
+    const SectionShell* const s = part.has_shell && part.rigid ? sections.of(part) : nullptr;
+    if (s && (s->nloc != 0 || offset.contains(k)))
+      deck.warning(diagnostics, *s, "NLOC",
+                   fmt::format("the shells of part {} are rigid: their mass and their faces stay where the "
+                               "nodes are",
+                               part.id),
+                   "offsets are for shells that deform");
+  }
+}
+
 std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
                                  const std::function<std::optional<ShellMaterial>(Index, Index)>& material,
                                  Diagnostics& diagnostics) {
@@ -42,6 +59,7 @@ std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
                  "use 2 (Belytschko-Tsay)");
   }
   check_rigid_layups(deck, model, diagnostics);
+  warn_of_offsets(deck, model, sections, diagnostics);
   const std::vector<bool> by_part = parts_with_own_layers(model);
   std::vector<WallPart> out(model.parts.size());
   std::set<const SectionShell*> told;  // several parts may name one

@@ -5,6 +5,7 @@
 
 #include "keyword/registry.hpp"
 #include "model/mesh/part_composite.hpp"
+#include "model/transforms/transformation.hpp"
 
 namespace courant {
 
@@ -20,7 +21,7 @@ ShellSections::ShellSections(const Deck& deck, const Model& model) {
   for (const PartCompositeCard& card : deck.all<PartCompositeCard>()) {
     SectionShell s;
     static_cast<Entry&>(s) = card;
-    s.elform = card.elform, s.shrf = card.shrf, s.marea = card.marea;
+    s.elform = card.elform, s.shrf = card.shrf, s.marea = card.marea, s.nloc = card.nloc;
     const auto part = model.part_of_id.find(card.pid);
     if (part == model.part_of_id.end()) continue;
     const std::vector<ModelPly>& plies = model.parts[static_cast<std::size_t>(part->second)].plies;
@@ -96,11 +97,9 @@ const RegisterKeyword<S> section_shell{
                  "-",
                  "id that *PART refers to",
                  {.required = true, .check = Check::positive}},
-                {"ELFORM",
-                 &S::elform,
-                 "-",
-                 "formulation of shells that deform: 2 Belytschko-Tsay, 4 flat triangle, 16 2 x 2 points",
-                 {.standard = 2}},
+                {"ELFORM", &S::elform, "-",
+                 "formulation of shells that deform: 2 Belytschko-Tsay, 4 flat triangle, 16 2 x 2 points; 0: "
+                 "THEORY of *CONTROL_SHELL"},
                 {"SHRF", &S::shrf, "-", "factor of transverse shear", {.standard = 1}},
                 {"NIP", &S::nip, "-", "points through the thickness", {.standard = 2}},
                 {"PROPT", &S::propt, "-", "print option", {.standard = 1, .honour = ignored}},
@@ -116,7 +115,7 @@ const RegisterKeyword<S> section_shell{
                 {"T2", &S::t2, "L", "thickness at corner 2, 0: T1", {.check = Check::not_negative}},
                 {"T3", &S::t3, "L", "thickness at corner 3, 0: T1", {.check = Check::not_negative}},
                 {"T4", &S::t4, "L", "thickness at corner 4, 0: T1", {.check = Check::not_negative}},
-                {"NLOC", &S::nloc, "-", "reference surface off the middle", {.honour = no}},
+                {"NLOC", &S::nloc, "-", "place of the nodes: 1 upper face, -1 lower, 0 middle"},
                 {"MAREA", &S::marea, "M/L2", "mass per area besides RO t", {.check = Check::not_negative}},
                 {"IDOF", &S::idof, "-", "thickness strain: not 3"},
                 {"EDGSET", &S::edgset, "-", "edge set of seat belts", {.honour = no}}}},
@@ -128,7 +127,8 @@ const RegisterKeyword<S> section_shell{
           // how many lines these have, their own numbers tell; such sections are refused
           {.fields = {{"USER", &S::user, "-", "user-defined formulation (ELFORM 101 to 105)"}},
            .repeat = true,
-           .when = [](const S& s) { return s.user_defined(); }}}}};
+           .when = [](const S& s) { return s.user_defined(); }}},
+     .move = turn_height<&S::nloc>}};
 
 }  // namespace
 }  // namespace courant

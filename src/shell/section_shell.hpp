@@ -14,7 +14,7 @@ namespace courant {
 struct SectionShell : Entry {
   std::string title;
   Id secid = 0;
-  int elform = 2, nip = 2, irid = 0, icomp = 0, setyp = 1, edgset = 0;
+  int elform = 0, nip = 2, irid = 0, icomp = 0, setyp = 1, edgset = 0;
   Real shrf = 1, propt = 1;
   std::vector<std::string> user{};  ///< cards of what is not supported
   bool user_defined() const { return elform >= 101 && elform <= 105; }

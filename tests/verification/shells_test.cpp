@@ -318,6 +318,37 @@ TEST(Shells, ParticlesPushAPlateAndMomentumStays) {
   EXPECT_LT(test::energy_error(*s), 0.02);
 }
 
+// A few particles hit a net of few shells that turns into hills and valleys; what they lose it gets.
+TEST(Shells, ParticlesOnACoarseNetMakeNoEnergy) {
+  for (const char* soft : {"         0", "         1"}) {
+    ShellDeck deck;
+    deck.plate(0.06, 0.06, 4, 4, 1, [](const Vec& x) { return Vec(x - Vec(0.03, 0.03, 0)); });
+    deck.part(1, 0.0008, "*MAT_ELASTIC\n         1    1550.0   6.0E+10       0.1\n");
+    deck.hold(2, "xyzXYZ", [](const Vec& x) { return std::max(std::abs(x[0]), std::abs(x[1])) > 0.029; });
+    std::size_t n = deck.nodes.size();
+    deck.particles = "*ELEMENT_SPH\n";
+    for (const Real z : {0.008, 0.014})
+      for (const Real y : {-0.003, 0.003})
+        for (const Real x : {-0.003, 0.003}) {
+          deck.nodes.push_back(Vec(x, y, z));
+          deck.particles += fmt::format("{:8}{:8}{:16.6e}\n", ++n, 4, 2.16e-4);
+        }
+    deck.cards += fmt::format(
+        "*CONTROL_TIMESTEP\n       0.0       0.3\n*PART\nwater\n         4         4         4         "
+        "4\n*SECTION_SPH\n         4\n*MAT_NULL\n         4    1000.0\n"
+        "*EOS_GRUNEISEN\n         4    1480.0       1.9       0.0       0.0       0.1\n\n"
+        "*INITIAL_VELOCITY_GENERATION\n         4         2       0.0       0.0       0.0     -20.0\n\n"
+        "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n         4         1         3         3\n\n\n{}\n",
+        soft);
+    auto s = simulation_of(deck.text(1));
+    start_ledger(*s);
+    while (s->clock().t < 1.2e-3) s->step(watch_nothing);
+    EXPECT_GT(s->world().energy.internal, 0.05 * s->world().energy.initial);
+    EXPECT_LT(test::energy_error(*s), 0.01) << soft;
+    EXPECT_EQ(s->world().counters["leaked_particles"], 0);
+  }
+}
+
 // A plate on a rigid frame that turns: nodes of both go with the body, and the plate's moments act on it.
 TEST(Shells, NodesOfRigidBodiesTurnWithThem) {
   ShellDeck deck;

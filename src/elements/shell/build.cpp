@@ -64,7 +64,7 @@ class ShellReader {
 
  private:
   void set_options(const ModelPart& part, const SectionShell& s, bool whole, ShellPart& out) {
-    out.marea = s.marea, out.full = s.elform == fully_integrated;
+    out.marea = s.marea, out.nloc = s.nloc, out.full = formulation(s) == fully_integrated;
     out.rotary_scale = control_ ? control_->rotascl : 1;
     out.warp_warning = control_ ? control_->wrpang : out.warp_warning;
     ShellControl& c = out.control;
@@ -94,32 +94,45 @@ class ShellReader {
   }
 
   void check_section(const SectionShell& s, const ModelPart& part) {
-    const auto like = similar.find(s.elform);
+    const int elform = formulation(s);
+    const auto like = similar.find(elform);
     if (like != similar.end())
       deck_.warning(diagnostics_, s, "ELFORM",
                     fmt::format("{} ({}) is not there for shells that deform, as those of part {}: 2 is used "
                                 "in its place",
-                                s.elform, like->second, part.id),
+                                elform, like->second, part.id),
                     "2 (Belytschko-Tsay) says the same without this warning");
-    else if (s.elform != belytschko_tsay && s.elform != flat_triangle && s.elform != fully_integrated)
-      error(
-          s, "ELFORM",
-          fmt::format("'{}' is not supported for shells that deform, as those of part {}", s.elform, part.id),
-          "supported values: 2 (Belytschko-Tsay), 16 (2 x 2 points), 4 for triangles; 1, 6, 7, 10 and 11 "
-          "become "
-          "2");
+    else if (elform != belytschko_tsay && elform != flat_triangle && elform != fully_integrated)
+      error(s, "ELFORM",
+            fmt::format("'{}' is not supported for shells that deform, as those of part {}", elform, part.id),
+            "supported values: 2 (Belytschko-Tsay), 16 (2 x 2 points), 4 for triangles; 1, 6, 7, 10 and 11 "
+            "become "
+            "2");
     const bool has_quads =
         std::any_of(model_.shells.begin(), model_.shells.end(), [&](const ModelShell& shell) {
           return model_.parts[static_cast<std::size_t>(shell.part)].id == part.id &&
                  shell.node[2] != shell.node[3];
         });
-    if (s.elform == flat_triangle && has_quads)
+    if (elform == flat_triangle && has_quads)
       deck_.warning(diagnostics_, s, "ELFORM",
                     fmt::format("4 is for triangles: 2 is used for the quadrilaterals of part {}", part.id));
     if (s.idof == 3)
       error(s, "IDOF", "'3' is not supported: contact does not squeeze shells", "leave it blank");
     if (!(s.shrf > 0))
       error(s, "SHRF", fmt::format("expected a number > 0, got '{:g}'", s.shrf), "5/6 is usual");
+  }
+
+  bool has_offsets() const {
+    return !model_.shell_offset.empty() ||
+           std::any_of(model_.parts.begin(), model_.parts.end(), [&](const ModelPart& part) {
+             const SectionShell* const s = part.has_shell && !part.rigid ? sections_.of(part) : nullptr;
+             return s && s->nloc != 0;
+           });
+  }
+  /// ELFORM, or THEORY where the section names none.
+  int formulation(const SectionShell& s) const {
+    if (s.elform != 0) return s.elform;
+    return control_ ? control_->theory : belytschko_tsay;
   }
 
   void check_control(const ControlShell& c) {
@@ -130,7 +143,6 @@ class ShellReader {
     refuse("ESORT", c.esort != 0 && c.esort != 1, c.esort, "triangles are of formulation 4 (0 and 1)");
     refuse("ISTUPD", c.istupd != 0 && c.istupd != 1, c.istupd,
            "the thickness stays (0) or follows all of the strain (1)");
-    refuse("THEORY", c.theory != belytschko_tsay, c.theory, "the default formulation is 2");
     refuse("BWC", c.bwc != 1 && c.bwc != 2, c.bwc, "shells of ELFORM 2 heed their warp (1) or do not (2)");
     refuse("MITER", c.miter != 1 && c.miter != 2, c.miter, "plane stress is iterated to convergence (1, 2)");
     refuse("ROTASCL", !(c.rotascl > 0), c.rotascl, "rotary inertia must be above 0");
@@ -142,6 +154,8 @@ class ShellReader {
     refuse("STRETCH", c.stretch != 0, c.stretch, "no shell is deleted");
     refuse("ICRQ", c.icrq != 0, c.icrq, "each shell has one thickness");
     refuse("NFAIL1", c.nfail1 != 0, c.nfail1, "no shell is deleted");
+    refuse("CNTCO", c.cntco != 0 && has_offsets(), c.cntco,
+           "contact takes shells with an offset as if their middle were at the nodes");
     refuse("DRCPSID", c.drcpsid != 0, static_cast<Real>(c.drcpsid), "rotations about the normal are free");
   }
 

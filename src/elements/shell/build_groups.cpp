@@ -126,6 +126,11 @@ class LayerDirections {
   bool told_ = false;
 };
 
+constexpr const char* offset_name = "shell_offset";
+Field<Real>& add_offset(const ElementGroup& group) {
+  return group.fields.add<Real>({.name = offset_name, .dimension = "-", .restart = false});
+}
+
 ElementGroup& add_group(World& world, const std::string& name, std::size_t part, int corners, Index size) {
   FieldSet& set = world.add_set(name);
   set.resize(size);
@@ -163,8 +168,19 @@ std::vector<Alike> alike_shells(const Model& model, const std::vector<ShellPart>
   return out;
 }
 
+/// NLOC, or OFFSET of the shell, as offset_of_shells has it.
+Real offset_of(const Model& model, const ShellPart& part, Index shell, Real t) {
+  const auto own = model.shell_offset.find(shell);
+  return own == model.shell_offset.end() ? -part.nloc : 2 * own->second / t;
+}
+
+bool some_are_offset(const Model& model, const ShellPart& part, const std::vector<Index>& shells) {
+  return part.nloc != 0 ||
+         std::any_of(shells.begin(), shells.end(), [&](Index s) { return model.shell_offset.contains(s); });
+}
+
 /// Mass of an element, and the rotary inertia of each corner.
-void weigh(const ShellPart& part, const std::array<Vec, 4>& x, Real t, int corners, Index e,
+void weigh(const ShellPart& part, const std::array<Vec, 4>& x, Real t, Real offset, int corners, Index e,
            ElementGroup& group, Field<Real>& corner_inertia) {
   const Real area = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]).norm();
   group.V0[e] = area * t;
@@ -174,7 +190,8 @@ void weigh(const ShellPart& part, const std::array<Vec, 4>& x, Real t, int corne
   const Real modulus = c.length_rule == 2 ? c.E : c.plate_modulus;
   const Real f = std::max(Real(1), 3 * c.shear_factor * c.G / modulus);
   const Real l2 = std::max(area, length * length);
-  corner_inertia[e] = part.rotary_scale * group.mass[e] / corners * (t * t + f * l2) / 12;
+  const Real t2 = t * t * (1 + 3 * offset * offset);
+  corner_inertia[e] = part.rotary_scale * group.mass[e] / corners * (t2 + f * l2) / 12;
 }
 
 /// Elements of `group`, which are these shells of the model.
@@ -182,6 +199,7 @@ void fill_group(const Model& model, const ShellPart& part, const std::vector<Ind
                 const std::vector<Index>& node_of, World& world, ElementGroup& group,
                 NodalRotations& rotations, Diagnostics& diagnostics) {
   Field<Real>& corner_inertia = corner_inertia_of(group);
+  Field<Real>* const offset = some_are_offset(model, part, shells) ? &add_offset(group) : nullptr;
   std::optional<LayerDirections> directions;
   if (part.has_axes())
     directions.emplace(model, part, model.parts[static_cast<std::size_t>(group.part)], group, diagnostics);
@@ -193,7 +211,9 @@ void fill_group(const Model& model, const ShellPart& part, const std::vector<Ind
     for (std::size_t c = 0; c < 4; ++c)
       x[c] = world.nodes.x.vec(node_of[static_cast<std::size_t>(shell.node[c])]);
     if (directions) directions->fill(e, s, x);
-    weigh(part, x, world.segments.thickness[s], group.corners(), e, group, corner_inertia);
+    const Real t = world.segments.thickness[s], off = offset ? offset_of(model, part, s, t) : 0;
+    if (offset) (*offset)[e] = off;
+    weigh(part, x, t, off, group.corners(), e, group, corner_inertia);
     for (int corner = 0; corner < group.corners(); ++corner) {
       const Index n = node_of[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(corner)])];
       group.node.data(corner)[e] = n;
@@ -206,6 +226,10 @@ void fill_group(const Model& model, const ShellPart& part, const std::vector<Ind
 
 Field<Real>& corner_inertia_of(const ElementGroup& group) {
   return group.fields.add<Real>({.name = "corner_inertia", .dimension = "ML2", .restart = false});
+}
+
+Field<Real>* offset_of_shells(const ElementGroup& group) {
+  return dynamic_cast<Field<Real>*>(group.fields.find(offset_name));
 }
 
 Field<Real>& layer_directions_of(const ElementGroup& group, std::size_t layers) {

@@ -33,7 +33,7 @@ const RegisterKeyword<C> control_shell{
           .optional = true},
          {.fields = {{"PSSTUPD", &C::psstupd, "-", "parts with ISTUPD", id_of(IdSpace::part_set)},
                      {"SIDT4TU", &C::sidt4tu, "-", "parts of formulation 4 with ISTUPD"},
-                     {"CNTCO", &C::cntco, "-", "contact at offset shells", no_effect},
+                     {"CNTCO", &C::cntco, "-", "contact at offset shells: takes them as not offset"},
                      {"ITSFLG", &C::itsflg, "-", "initial transverse stress", no_effect},
                      {"IRQUAD", &C::irquad, "-", "points of quadratic shells", no_effect_but(3)},
                      {"W-MODE", &C::wmode, "-", "deletion by warping"},

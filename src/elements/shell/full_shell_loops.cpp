@@ -79,15 +79,14 @@ COURANT_INLINE void full_strain_of(Index first, Index n, Index k, Real dt, const
 }
 
 void full_at_point(const ShellLoops::Block& block, int point, const ShellState& state, ShellScratch& s) {
-  const Real half = 0.5 * state.zeta[point];
-  const Real* t = state.thickness + block.begin;
+  Real z[block_size];
+  heights_at(block, point, state, z);
   const Real(*const of)[block_size] = s.quarter[point / (state.points / 4)];
 #pragma omp simd
   for (Index i = 0; i < block.count; ++i) {
-    const Real z = half * t[i];
-    s.rate[0][i] = of[0][i] + z * of[2][i];
-    s.rate[1][i] = of[1][i] + z * of[3][i];
-    s.rate[3][i] = s.membrane[2][i] + z * of[4][i];
+    s.rate[0][i] = of[0][i] + z[i] * of[2][i];
+    s.rate[1][i] = of[1][i] + z[i] * of[3][i];
+    s.rate[3][i] = s.membrane[2][i] + z[i] * of[4][i];
     s.rate[4][i] = of[6][i];
     s.rate[5][i] = of[5][i];
   }

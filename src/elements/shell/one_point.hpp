@@ -6,14 +6,13 @@
 namespace courant::COURANT_SIMD {
 
 inline void at_point(const ShellLoops::Block& block, int point, const ShellState& state, ShellScratch& s) {
-  const Real half = 0.5 * state.zeta[point];
-  const Real* t = state.thickness + block.begin;
+  Real z[block_size];
+  heights_at(block, point, state, z);
 #pragma omp simd
   for (Index i = 0; i < block.count; ++i) {
-    const Real z = half * t[i];
-    s.rate[0][i] = s.membrane[0][i] + z * s.curvature[0][i];
-    s.rate[1][i] = s.membrane[1][i] + z * s.curvature[1][i];
-    s.rate[3][i] = s.membrane[2][i] + z * s.curvature[2][i];
+    s.rate[0][i] = s.membrane[0][i] + z[i] * s.curvature[0][i];
+    s.rate[1][i] = s.membrane[1][i] + z[i] * s.curvature[1][i];
+    s.rate[3][i] = s.membrane[2][i] + z[i] * s.curvature[2][i];
     s.rate[4][i] = s.shear[1][i];
     s.rate[5][i] = s.shear[0][i];
   }

@@ -61,6 +61,7 @@ class ShellForces : public Material,
                                    .components = ShellState::generalised(places_, control_.warps)});
     if (control_.Q1 != 0 || control_.Q2 != 0)
       viscous_ = &group.fields.add<Real>({.name = "bulk_viscosity_force", .dimension = "M/T2"});
+    offset_ = offset_of_shells(group);
     if (part.has_axes()) directions_ = &layer_directions_of(group, layers_.size());
     fails_with_all_ = part.fails_with_all;
     stiffens_ = std::any_of(layers_.begin(), layers_.end(), [](const Layer& l) { return l.law->stiffens(); });
@@ -87,6 +88,7 @@ class ShellForces : public Material,
     if (hourglass_force_) a.updates(*hourglass_force_);
     if (viscous_) a.updates(*viscous_);
     if (directions_) a.reads(*directions_);
+    if (offset_) a.reads(*offset_);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (erosion_) erosion_->declare(world, a);
     if (damping_) damping_->declare(a);
@@ -107,6 +109,7 @@ class ShellForces : public Material,
     state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
     state_.bulk_viscosity_energy = bulk_viscosity_.data();
     state_.viscous_force = viscous_ ? viscous_->data() : nullptr;
+    state_.offset = offset_ ? offset_->data() : nullptr;
     for (int k = 0; k < 3 * group_.corners(); ++k) {
       state_.corner_force[k] = group_.corner_force.data(k);
       state_.corner_moment[k] = group_.corner_moment->data(k);
@@ -461,6 +464,7 @@ class ShellForces : public Material,
   std::unique_ptr<StiffnessDamping> damping_;  ///< null: none
   std::shared_ptr<Erosion> erosion_;           ///< null: nothing fails
   const Field<Real>* directions_ = nullptr;    ///< null: no law knows any
+  const Field<Real>* offset_ = nullptr;        ///< null: the middle is where the nodes are
   bool fails_with_all_ = false;
   bool stiffens_ = false;  ///< the law of some layer does
 };

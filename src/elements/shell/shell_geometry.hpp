@@ -118,16 +118,28 @@ COURANT_INLINE void store_vector(Real* const* p, Index first, const Triple& a, I
   store(p[0] + first, a.x, n), store(p[1] + first, a.y, n), store(p[2] + first, a.z, n);
 }
 
+/// Height of a point over the nodes. [L]
+inline void heights_at(const ShellLoops::Block& block, int point, const ShellState& state, Real* z) {
+  const Real half = 0.5 * state.zeta[point];
+  const Real* t = state.thickness + block.begin;
+#pragma omp simd
+  for (Index i = 0; i < block.count; ++i) z[i] = half * t[i];
+  if (!state.offset) return;
+  const Real* offset = state.offset + block.begin;
+#pragma omp simd
+  for (Index i = 0; i < block.count; ++i) z[i] += 0.5 * offset[i] * t[i];
+}
+
 /// N, M and Q of the points [begin, end) of a place in the plane, `share` times their weights, and what they
 /// add to those of the step before.
 COURANT_INLINE void integrate_layers(Index first, Index n, int begin, int end, Real share, Real factor,
                                      Native t, const ShellState& state, Real* const* resultant, Native R[8],
                                      Native old[8]) {
   for (int m = 0; m < 8; ++m) R[m] = all(0);
-  const Native half = 0.5 * t;
+  const Native half = 0.5 * t, offset = state.offset ? load(state.offset + first, n) : all(0);
   for (int p = begin; p < end; ++p) {
     const Real* const* stress = state.stress + 6 * p;
-    const Native w = (share * state.share[p]) * t, arm = state.zeta[p] * half;
+    const Native w = (share * state.share[p]) * t, arm = (state.zeta[p] + offset) * half;
     const Native xx = w * load(stress[0] + first, n), yy = w * load(stress[1] + first, n),
                  xy = w * load(stress[3] + first, n);
     R[0] += xx, R[1] += yy, R[2] += xy;

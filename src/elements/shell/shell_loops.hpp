@@ -42,6 +42,7 @@ struct ShellState {
   }
   Real* viscous_force = nullptr;  ///< q times the thickness; null: no bulk viscosity [M/T2]
   Real* thickness;                ///< [L]
+  const Real* offset = nullptr;   ///< of the middle over the nodes, over half the thickness; null: 0
   const Real* mass;               ///< [M]
   Real *internal_energy, *hourglass_energy, *bulk_viscosity_energy;  ///< what they took is added [ML2/T2]
   Real *corner_force[12], *corner_moment[12];  ///< out: of corner c in direction k at [3 c + k], on the node

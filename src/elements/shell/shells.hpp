@@ -27,6 +27,7 @@ struct ShellPart {
   bool full = false;              ///< ELFORM 16: 2 x 2 points in the plane of quadrilaterals
   std::vector<Real> zeta, share;  ///< points through the thickness: height over half of it, weight (sum 1)
   Real marea = 0;                 ///< mass per area besides that of the law [M/L2]
+  Real nloc = 0;                  ///< NLOC: height of the nodes over the middle, over half the thickness
   Real rotary_scale = 1;          ///< ROTASCL
   Real warp_warning = 20;         ///< WRPANG [degrees]
   /// Of shells with layers of their own what those are made of; each with its index into Model::layups.
@@ -78,6 +79,9 @@ Field<Real>& layer_stress_of(const ElementGroup& group, int points);
 /// A number or tensor that the law of point p keeps.
 Field<Real>& layer_history_of(const ElementGroup& group, const HistoryVariable& kind, int point);
 Field<Real>& thickness_of_shells(const ElementGroup& group);  ///< [L]
+/// Height of the middle surface over the nodes along the normal, over half the thickness, with which it grows
+/// and shrinks; null: it is where the nodes are. `build_shells` fills it. [-]
+Field<Real>* offset_of_shells(const ElementGroup& group);
 /// Tells histories of the shells of a group, which `part` are made of.
 std::shared_ptr<Pass> make_shell_report(const ShellPart& part, const ElementGroup& group);
 

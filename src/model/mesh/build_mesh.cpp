@@ -140,6 +140,7 @@ void ModelBuilder::build_shells() {
     if (s < 0) continue;
     if (card.has_thickness()) model_.shell_thickness[s] = {card.thic1, card.thic2, card.thic3, card.thic4};
     if (card.has_beta()) model_.shell_beta[s] = card.beta;
+    if (card.has_offset()) model_.shell_offset[s] = card.offset;
   }
   build_layered_shells(composites);
   shell_cards_ = {};
@@ -175,6 +176,7 @@ void ModelBuilder::build_layered_shells(const std::vector<ElementShellCompositeC
   for (const ElementShellCompositeCard& card : cards) {
     const Index s = add_shell(card);
     if (s < 0) continue;
+    if (card.has_offset()) model_.shell_offset[s] = card.offset;
     std::vector<ModelPly> plies = card.plies();
     std::pair<Index, std::vector<Real>> key{model_.shells[static_cast<std::size_t>(s)].part, {}};
     for (const ModelPly& ply : plies)

@@ -85,8 +85,9 @@ const FieldRules last_corner{.check = Check::not_negative, .width = 8, .refers =
 const FieldRules mid_side{.honour = Honour::no, .width = 8, .refers = IdSpace::node};
 const FieldRules thickness{.check = Check::not_negative, .width = 16};
 const RegisterKeyword<S> element_shell{
-    {.names = {"ELEMENT_SHELL", "ELEMENT_SHELL_THICKNESS", "ELEMENT_SHELL_BETA"},
-     .purpose = "shells of 3 (N4 = N3 or 0) or 4 nodes; _THICKNESS and _BETA add a card",
+    {.names = {"ELEMENT_SHELL", "ELEMENT_SHELL_THICKNESS", "ELEMENT_SHELL_BETA", "ELEMENT_SHELL_OFFSET",
+               "ELEMENT_SHELL_THICKNESS_OFFSET", "ELEMENT_SHELL_BETA_OFFSET"},
+     .purpose = "shells of 3 (N4 = N3 or 0) or 4 nodes; _THICKNESS and _BETA add a card, _OFFSET another",
      .id_space = IdSpace::shell,
      .cards = {{.fields = {{"EID", &S::eid, "-", "element id", element},
                            {"PID", &S::pid, "-", "part id", of_part},
@@ -107,7 +108,14 @@ const RegisterKeyword<S> element_shell{
                             "-",
                             "angle of the material in place of its own, degrees; 0 with _THICKNESS: its own",
                             {.width = 16}}},
-                .when = [](const S& e) { return e.has_thickness(); }}}}};
+                .when = [](const S& e) { return e.has_thickness(); }},
+               {.fields = {{"OFFSET",
+                            &S::offset,
+                            "L",
+                            "height of the middle surface over the nodes, in the place of NLOC",
+                            {.width = 16}}},
+                .when = [](const S& e) { return e.has_offset(); }}},
+     .move = turn_height<&S::offset>}};
 
 using P = PartCard;
 const RegisterKeyword<P> part{{.names = {"PART"},

@@ -2,6 +2,7 @@
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/mesh/shell_composite.hpp"
+#include "model/transforms/transformation.hpp"
 
 namespace courant {
 
@@ -40,8 +41,8 @@ const RegisterKeyword<Shell> element_shell_composite{
                {.fields = {{"OFFSET",
                             &Shell::offset,
                             "L",
-                            "reference surface off the plane of the nodes",
-                            {.honour = Honour::no, .width = 16}}},
+                            "height of the middle surface over the nodes, in the place of NLOC",
+                            {.width = 16}}},
                 .when = [](const Shell& e) { return e.has_offset(); }},
                {.fields = {{"MID1", &Shell::mid1, "-", "material of a layer", layer_material},
                            {"THICK1", &Shell::thick1, "L", "its thickness", layer_thickness},
@@ -60,7 +61,8 @@ const RegisterKeyword<Shell> element_shell_composite{
                            {"PLYID", &Shell::plyid, "-", "name of the layer", {.honour = Honour::ignored}}},
                 .repeat = true,
                 .until_entry = true,
-                .when = [](const Shell& e) { return e.is_long(); }}}}};
+                .when = [](const Shell& e) { return e.is_long(); }}},
+     .move = turn_height<&Shell::offset>}};
 
 }  // namespace
 

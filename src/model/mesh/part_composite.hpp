@@ -8,7 +8,7 @@ namespace courant {
 
 /// *PART_COMPOSITE: shells whose layers stand with their part; it needs no section.
 struct PartCompositeCard : PartCard, PlyRows {
-  int elform = 2, thshel = 0;
+  int elform = 0, thshel = 0;
   Real shrf = 1, nloc = 0, marea = 0;
   std::vector<Id> tmid1{}, tmid2{}, plyid{};
   std::vector<Real> shrfac{};

@@ -8,7 +8,6 @@ namespace courant {
 
 /// *ELEMENT_SHELL_COMPOSITE and its like: shells whose layers stand with each of them.
 struct ElementShellCompositeCard : ElementShellCard, PlyRows {
-  Real offset = 0;
   std::vector<Id> plyid{};
   bool is_long() const { return name % 2 == 1; }
   bool has_offset() const { return name >= 2; }

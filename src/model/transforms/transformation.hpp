@@ -61,4 +61,11 @@ std::string refuse_stretch(const Affine& motion, std::string_view what);
 /// A velocity turns with its file. Under a scaling it could mean two things.
 std::string move_velocity(Real& x, Real& y, Real& z, const Affine& motion);
 
+/// A mirror turns the normals of shells round, and so what a card counts along them.
+template <auto height, typename Table>
+std::string turn_height(Table& card, const Affine& motion) {
+  if (motion.linear().determinant() < 0) card.*height = -(card.*height);
+  return {};
+}
+
 }  // namespace courant

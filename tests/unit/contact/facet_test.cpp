@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "contact/facet_grid.hpp"
 #include "contact/wall.hpp"
 
@@ -61,6 +63,36 @@ TEST(Facet, ShapeFunctionsReproducePositions) {
     for (int e = 0; e < f.corners; ++e) back += N[e] * f.x[e], sum += N[e];
     EXPECT_NEAR((back - q).norm(), 0, 1e-12);
     EXPECT_NEAR(sum, 1, 1e-12);
+  }
+}
+
+// The way in which its nodes share a force is that in which they move the place of it; else a wall that warps
+// does another work than it takes.
+TEST(Facet, NodesOfAQuadThatDeformsShareForcesAsTheyMoveIt) {
+  World w = world_of({{Vec(0, 0, 0), Vec(2, 0, 0.1), Vec(2.5, 1, 0), Vec(0, 1.2, 0.2)}});
+  const std::vector<Facet> facets = make_facets(w, {0}, [](Index) { return true; });
+  ASSERT_EQ(facets.size(), 4u);
+  const Vec v[4] = {Vec(0.3, -0.2, 0.7), Vec(0.1, 0.5, -0.4), Vec(-0.6, 0.2, 0.9), Vec(0.4, 0.3, -0.8)};
+  const Real step = 1e-6;
+  for (const Facet& f : facets) {
+    const Vec q = 0.5 * f.x[0] + 0.2 * f.x[1] + 0.3 * f.x[2], y = q + 0.3 * f.n;
+    const auto N = shape_functions(f, q);
+    Real along = 0;
+    for (int e = 0; e < 4; ++e) along += N[e] * v[f.node[e]].dot(f.n);
+    EXPECT_GT(*std::min_element(N.begin(), N.end()), 0);
+    Facet moved[2] = {f, f};
+    for (int way = 0; way < 2; ++way) {
+      World other = world_of({{w.nodes.x.vec(0), w.nodes.x.vec(1), w.nodes.x.vec(2), w.nodes.x.vec(3)}});
+      for (Index n = 0; n < 4; ++n)
+        other.nodes.x.set(n, Vec(w.nodes.x.vec(n) + (way == 0 ? -step : step) * v[n]));
+      update_facet(moved[way], other.nodes);
+    }
+    // the place itself goes with the facet, turning about q
+    Real at[2];
+    for (int way = 0; way < 2; ++way) at[way] = plane_distance(moved[way], y);
+    Vec turned = Vec::Zero();
+    for (int way = 0; way < 2; ++way) turned += (way == 0 ? -1 : 1) * moved[way].n / (2 * step);
+    EXPECT_NEAR((at[1] - at[0]) / (2 * step), -along + turned.dot(y - q), 1e-8);
   }
 }
 
