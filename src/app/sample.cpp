@@ -108,6 +108,18 @@ void sample_elements(const World& world, Sample& s) {
   }
 }
 
+/// Of particles, bodies and what moves by itself: a node of a body may have elements of another part, whose
+/// masses count with both.
+void sum_masses(const World& world, Sample& s) {
+  Vec momentum = Vec::Zero();
+  const auto add = [&](Real m, const Vec& v) { s.mass += m, momentum += m * v; };
+  for (Index i = 0; i < world.particles.active; ++i) add(world.particles.m[i], world.particles.v.vec(i));
+  for (Index n = 0; n < world.nodes.size(); ++n)
+    if (!world.nodes.follow[n]) add(world.nodes.m[n], world.nodes.v.vec(n));
+  for (const RigidBodyReport& body : s.bodies) add(body.mass, body.v);
+  if (s.mass > 0) s.velocity = momentum / s.mass;
+}
+
 void sample_parts(const World& world, const Model& model, Sample& s) {
   const Particles& p = world.particles;
   const auto* volume = shared_fields::reference_volume.find(p.fields);
@@ -131,9 +143,7 @@ void sample_parts(const World& world, const Model& model, Sample& s) {
     part.kinetic = body.kinetic_energy;
     part.rigid_velocity = body.v;
   }
-  Vec momentum = Vec::Zero();
-  for (const PartSample& part : s.parts) s.mass += part.mass, momentum += part.momentum;
-  if (s.mass > 0) s.velocity = momentum / s.mass;
+  sum_masses(world, s);
 }
 
 void sample_boundary_forces(const World& world, const Clock& clock, std::vector<BoundaryForce>& out) {

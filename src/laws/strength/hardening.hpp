@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include "keyword/deck.hpp"
@@ -11,13 +12,18 @@ struct Hardening {
 
   Real slope(std::size_t k) const { return (stress[k + 1] - stress[k]) / (strain[k + 1] - strain[k]); }
   std::size_t piece(Real e) const {
-    std::size_t k = 0;
-    while (k + 2 < strain.size() && e >= strain[k + 1]) ++k;
-    return k;
+    if (strain.size() <= 2) return 0;
+    const auto first = strain.begin() + 1;
+    return static_cast<std::size_t>(std::upper_bound(first, strain.end() - 1, e) - first);
   }
   Real at(Real e) const {
     const std::size_t k = piece(e);
     return stress[k] + slope(k) * (e - strain[k]);
+  }
+  Real at(Real e, Real& slope_there) const {
+    const std::size_t k = piece(e);
+    slope_there = slope(k);
+    return stress[k] + slope_there * (e - strain[k]);
   }
   /// The plastic strain de at which q - 3 G de is `scale` times the yield stress at e + de; q is above that
   /// at e. Exact: the pieces are walked through, on each of which this is linear.

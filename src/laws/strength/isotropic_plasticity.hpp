@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "laws/strength/plane_return.hpp"
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/strength.hpp"
 
@@ -11,6 +12,7 @@ namespace courant {
 /// J2 plasticity with isotropic hardening beside Hooke's law: s_tr = s + 2 G dev(D) dt is returned along
 /// itself to q = q_tr - 3 G de = yield stress at e + de. Yield has increment(block, i, q, e, three_g): the de
 /// of point i, whose trial state has q [M/LT2] and plastic strain e; 0 where it does not yield. [-]
+/// Where needs_rate() is false the yield stress at e and its slope are at_rest(e, slope). [M/LT2]
 template <class Yield>
 class IsotropicPlasticity : public StrengthLaw {
  public:
@@ -34,6 +36,13 @@ class IsotropicPlasticity : public StrengthLaw {
     }
     constexpr Real none = 1e-300;  // there is no increment where q is 0
     return_radially(shear_, 0, none, block, FixedCentre{}, trial);
+    keep_stiffness(block, sound_speed());
+  }
+  void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
+    if (yield_.needs_rate() || !(block.dt > 0)) return StrengthLaw::update_in_plane_stress(block, rate_zz);
+    update_in_plane(lambda_, shear_, block, rate_zz, [this](Index count, const Real* e, Real* Y, Real* h) {
+      for (Index i = 0; i < count; ++i) Y[i] = yield_.at_rest(e[i], h[i]);
+    });
     keep_stiffness(block, sound_speed());
   }
 

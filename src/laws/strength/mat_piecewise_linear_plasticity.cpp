@@ -25,6 +25,12 @@ struct YieldStress {
   Real added = 0;     ///< what (rate/C)^(1/P) is a factor of; 0: of the yield stress [M/LT2]
   Curve factor{};     ///< LCSR, over the rate; empty: none
 
+  bool needs_rate() const { return rate != Rate::none; }
+  Real at_rest(Real e, Real& slope) const {
+    const Real y = curves.front().at(e, slope);
+    if (y < 0) slope = 0;
+    return std::max(y, Real(0));
+  }
   /// Where the rate counts by one factor for all plastic strains.
   bool is_scaled() const { return curves.size() == 1 && !(added > 0 && C > 0); }
   Real scale(Real r) const {

@@ -5,6 +5,7 @@
 
 #include "keyword/common_rules.hpp"
 #include "laws/strength/linear_hardening.hpp"
+#include "laws/strength/plane_return.hpp"
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/strength.hpp"
 
@@ -36,74 +37,19 @@ class PlasticKinematic : public StrengthLaw {
     keep_stiffness(block, sound_speed());
   }
 
-  /// Without back stress and rates in closed form (Simo & Taylor 1986): with P = (xx + yy)^2/4 and S = 3 (xx
-  /// - yy)^2/4 + 3 (xy^2 + yz^2 + zx^2) of the trial stress, q^2 = P/f^2 + S/g^2, f = 1 + E m/(3 (1 - nu)), g
-  /// = 1
-  /// + 2 G m, and de = 2/3 m q. Newton's method from m = 0 comes to q = SIGY + Ep (e + de) from one side.
+  /// Without back stress and rates by the multiplier alone.
   void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
     if (a_.kinematic > 0 || a_.C > 0 || !(block.dt > 0))
       return StrengthLaw::update_in_plane_stress(block, rate_zz);
-    const Real across = a_.lambda / (a_.lambda + 2 * a_.G), twice = 2 * a_.G * block.dt;
-    const Real common = a_.lambda * (1 - across) * block.dt;
-    const Real of_f = a_.G * (3 * a_.lambda + 2 * a_.G) / (3 * (a_.lambda + a_.G)) / (1 - nu());
-    const Real *dxx = block.rate[0], *dyy = block.rate[1], *dxy = block.rate[3], *dyz = block.rate[4],
-               *dzx = block.rate[5];
-    Real *xx = block.stress[0], *yy = block.stress[1], *xy = block.stress[3], *yz = block.stress[4],
-         *zx = block.stress[5], *plastic = block.history[0];
-    PlaneReturn r;
+    update_in_plane(a_.lambda, a_.G, block, rate_zz, [this](Index count, const Real* e, Real* Y, Real* h) {
 #pragma omp simd
-    for (Index i = 0; i < block.count; ++i) {
-      const Real trace = common * (dxx[i] + dyy[i]);
-      rate_zz[i] = xx[i] + yy[i];  // the sum before, for now
-      xx[i] += trace + twice * dxx[i], yy[i] += trace + twice * dyy[i];
-      xy[i] += twice * dxy[i], yz[i] += twice * dyz[i], zx[i] += twice * dzx[i];
-      const Real sum = xx[i] + yy[i], difference = xx[i] - yy[i];
-      r.P[i] = 0.25 * sum * sum;
-      r.S[i] = 0.75 * difference * difference + 3 * (xy[i] * xy[i] + yz[i] * yz[i] + zx[i] * zx[i]);
-      r.m[i] = 0;
-    }
-    r.solve(block.count, of_f, 2 * a_.G, a_.yield, a_.isotropic, plastic);
-    const Real bulk = 1 / (3 * bulk_modulus() * block.dt);
-#pragma omp simd
-    for (Index i = 0; i < block.count; ++i) {
-      const Real f = 1 / (1 + of_f * r.m[i]), g = 1 / (1 + 2 * a_.G * r.m[i]);
-      const Real sum = f * (xx[i] + yy[i]), difference = g * (xx[i] - yy[i]);
-      plastic[i] += 2.0 / 3 * r.m[i] * std::sqrt(r.P[i] * f * f + r.S[i] * g * g);
-      xx[i] = 0.5 * (sum + difference), yy[i] = 0.5 * (sum - difference);
-      xy[i] *= g, yz[i] *= g, zx[i] *= g;
-      rate_zz[i] = (sum - rate_zz[i]) * bulk - dxx[i] - dyy[i];  // the volume changes elastically
-    }
+      for (Index i = 0; i < count; ++i) Y[i] = a_.yield + a_.isotropic * e[i], h[i] = a_.isotropic;
+    });
     keep_stiffness(block, sound_speed());
   }
 
  private:
-  /// The multipliers m of points of a block.
-  struct PlaneReturn {
-    Real P[block_size], S[block_size], m[block_size];
-    void solve(Index count, Real of_f, Real of_g, Real yield, Real hardening, const Real* plastic) {
-      constexpr int rounds = 60;
-      constexpr Real close = 1e-12;
-      for (int k = 0; k < rounds; ++k) {
-        Real most = 0;
-#pragma omp simd reduction(max : most)
-        for (Index i = 0; i < count; ++i) {
-          const Real f = 1 / (1 + of_f * m[i]), g = 1 / (1 + of_g * m[i]);
-          const Real p = P[i] * f * f, s = S[i] * g * g, q = std::sqrt(p + s);
-          const Real fall = (p * f * of_f + s * g * of_g) / std::max(q, yield);  // -dq/dm
-          const Real Y = yield + hardening * plastic[i];
-          const Real over = std::max(q - Y - hardening * (2.0 / 3) * m[i] * q, Real(0));
-          const Real slope = std::max(fall + hardening * (2.0 / 3) * (q - m[i] * fall), yield * Real(1e-300));
-          m[i] += over / slope;
-          most = std::max(most, over / Y);
-        }
-        if (!(most > close)) return;
-      }
-    }
-  };
-  Real nu() const {
-    return a_.lambda / (2 * (a_.lambda + a_.G));
-  }
-
+ private:
   template <class Centre>
   void update(const PointBlock& block, const Centre& centre) const {
     PlasticTrial trial;

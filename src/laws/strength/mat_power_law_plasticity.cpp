@@ -19,6 +19,12 @@ struct PowerLaw {
   Real e0 = 0;           ///< strain at which yielding begins [-]
   Real C = 0, P = 0;     ///< [1/T], [-]; C = 0: none
   bool viscous = false;  ///< VP: the rate is that of plastic strain
+  bool needs_rate() const { return C > 0; }
+  Real at_rest(Real e, Real& slope) const {
+    const Real y = K * std::pow(e0 + e, N);
+    slope = N * y / (e0 + e);
+    return y;
+  }
   Real at(Real e, Real rate) const {
     return K * std::pow(e0 + e, N) * (C > 0 ? 1 + std::pow(rate / C, 1 / P) : 1);
   }

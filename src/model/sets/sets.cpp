@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "model/mesh/cards_elements.hpp"
+#include "model/sets/unused_ids.hpp"
 
 namespace courant {
 
@@ -139,6 +140,22 @@ SetResolver::Found SetResolver::members(SetKind kind, const Definition& definiti
   return found;
 }
 
+void SetResolver::missing(const Entry& entry, std::string_view field, Id value, std::string message,
+                          std::string hint) {
+  constexpr IdSpace spaces[] = {IdSpace::node_set, IdSpace::part_set, IdSpace::shell_set, IdSpace::solid_set,
+                                IdSpace::segment_set};
+  if (!unused_) {
+    unused_.emplace();
+    for (const UnusedId& one : find_unused_ids(deck_).named) unused_->emplace(one.space, one.id);
+  }
+  const auto& [kind, id] = path_.back();
+  if (!unused_->contains({spaces[static_cast<std::size_t>(kind)], id}))
+    return error(entry, field, value, std::move(message), std::move(hint));
+  if (left_out_.emplace(kind, id).second)
+    report_(Severity::warning, entry, field, {row_, value}, message + ", and nothing names the set",
+            "the set is left out");
+}
+
 SetResolver::Found SetResolver::listed(SetKind kind, const SetCard& card, SetForm form) {
   Members out;
   out.reserve(card.ids.size());
@@ -156,11 +173,11 @@ SetResolver::Found SetResolver::listed(SetKind kind, const SetCard& card, SetFor
     }
     whole = false;
     if (kind == SetKind::node)
-      error(card, member_field(kind, form), id, fmt::format("node {} has no coordinates", id),
-            "define it with *NODE");
+      missing(card, member_field(kind, form), id, fmt::format("node {} has no coordinates", id),
+              "define it with *NODE");
     else
-      error(card, member_field(kind, form), id, fmt::format("{} {} does not exist", set_word(kind), id),
-            fmt::format("define it with {}", kind == SetKind::shell ? "*ELEMENT_SHELL" : "*ELEMENT_SOLID"));
+      missing(card, member_field(kind, form), id, fmt::format("{} {} does not exist", set_word(kind), id),
+              fmt::format("define it with {}", kind == SetKind::shell ? "*ELEMENT_SHELL" : "*ELEMENT_SOLID"));
   }
   if (!whole) return std::nullopt;
   return out;
@@ -381,7 +398,7 @@ Index SetResolver::segment_of_ids(const SetCard& card, std::string_view field, c
     if (id == 0) continue;
     const Index n = node_of_id_.find(id);
     if (n < 0) {
-      error(card, field, id, fmt::format("node {} has no coordinates", id), "define it with *NODE");
+      missing(card, field, id, fmt::format("node {} has no coordinates", id), "define it with *NODE");
       return -1;
     }
     if (std::find(corners.begin(), corners.end(), n) == corners.end()) corners.push_back(n);

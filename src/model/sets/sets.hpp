@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -97,6 +98,9 @@ class SetResolver {
     report_(Severity::error, entry, field, {row_, value}, std::move(message), std::move(hint));
   }
 
+  /// A member of the set being found that is not there: an error, unless nothing names the set.
+  void missing(const Entry& entry, std::string_view field, Id value, std::string message, std::string hint);
+
   const Deck& deck_;
   Model& model_;
   const IdIndex& node_of_id_;
@@ -106,6 +110,8 @@ class SetResolver {
   std::size_t row_ = 0;                       // of the table being read, for messages
   std::optional<IdIndex> shell_of_id_, solid_of_id_;
   std::map<std::array<Index, 4>, Index> segment_of_corners_;
+  std::optional<std::set<std::pair<IdSpace, Id>>> unused_;  ///< found with the first member that is missing
+  std::set<std::pair<SetKind, Id>> left_out_;               ///< of those the ones that lack a member
 };
 
 }  // namespace courant

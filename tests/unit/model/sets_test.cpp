@@ -193,9 +193,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         SetFault{"NodeMissing", "*SET_NODE_COLUMN\n1\n5\n10\n",
                  "(NID, node id [-]): node 10 has no coordinates"},
-        SetFault{"ShellMissing", "*SET_SHELL\n1\n5\n",
+        SetFault{"ShellMissing", "*SET_SHELL\n1\n5\n*DATABASE_HISTORY_SHELL_SET\n1\n",
                  "shell 5 does not exist\n  hint: define it with *ELEMENT_SHELL"},
-        SetFault{"SolidMissing", "*SET_SOLID\n1\n5\n",
+        SetFault{"SolidMissing", "*SET_SOLID\n1\n5\n*DATABASE_HISTORY_SOLID_SET\n1\n",
                  "solid 5 does not exist\n  hint: define it with *ELEMENT_SOLID"},
         SetFault{"SetMissing", "*SET_NODE_ADD\n1\n2\n",
                  "node set 2 does not exist\n  hint: define it with *SET_NODE_LIST"},
