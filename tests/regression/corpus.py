@@ -33,6 +33,8 @@ KINDS = [("ELEMENT_SPH", "SPH particles", (16, 32)), ("ELEMENT_SOLID", "solids",
          ("ELEMENT_MASS_PART", "masses added to parts", (8, 24)), ("ELEMENT_MASS", "lumped masses", (16, 32)),
          ("ELEMENT_INERTIA", "lumped inertias", None)]
 
+RUNS = "## Runs of decks of structures"  # a section that deck_runs.py makes
+
 
 def kind_of(name):
     fitting = [k for k in KINDS if name == k[0] or name.startswith(k[0] + "_")]
@@ -221,8 +223,10 @@ def main():
     text = page(rows, kinds, reasons, uncounted)
     print(text)
     if "--write" in sys.argv:
-        with open(os.path.join(source, "docs", "conformance.md"), "w", encoding="utf-8") as file:
-            file.write(text)
+        path = os.path.join(source, "docs", "conformance.md")
+        runs = open(path, encoding="utf-8").read().partition(RUNS)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text + ("\n" + runs[1] + runs[2] if runs[1] else ""))
     print("\n".join(failures))
     return f"{len(failures)} failed" if failures else 0
 

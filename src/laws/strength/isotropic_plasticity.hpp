@@ -40,15 +40,17 @@ class IsotropicPlasticity : public StrengthLaw {
   }
   void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
     if (yield_.needs_rate() || !(block.dt > 0)) return StrengthLaw::update_in_plane_stress(block, rate_zz);
-    update_in_plane(lambda_, shear_, block, rate_zz, [this](Index count, const Real* e, Real* Y, Real* h) {
-      for (Index i = 0; i < count; ++i) Y[i] = yield_.at_rest(e[i], h[i]);
-    });
+    update_in_plane(in_plane_, {lambda_, shear_}, block, rate_zz,
+                    [this](Index count, const Real* e, Real* Y, Real* h) {
+                      for (Index i = 0; i < count; ++i) Y[i] = yield_.at_rest(e[i], h[i]);
+                    });
     keep_stiffness(block, sound_speed());
   }
 
  private:
   Real lambda_, shear_;
   Yield yield_;
+  PlaneReturnLoops in_plane_ = plane_return_loops();
 };
 
 }  // namespace courant

@@ -41,10 +41,12 @@ class PlasticKinematic : public StrengthLaw {
   void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
     if (a_.kinematic > 0 || a_.C > 0 || !(block.dt > 0))
       return StrengthLaw::update_in_plane_stress(block, rate_zz);
-    update_in_plane(a_.lambda, a_.G, block, rate_zz, [this](Index count, const Real* e, Real* Y, Real* h) {
+    update_in_plane(in_plane_, {a_.lambda, a_.G}, block, rate_zz,
+                    [this](Index count, const Real* e, Real* Y, Real* h) {
 #pragma omp simd
-      for (Index i = 0; i < count; ++i) Y[i] = a_.yield + a_.isotropic * e[i], h[i] = a_.isotropic;
-    });
+                      for (Index i = 0; i < count; ++i)
+                        Y[i] = a_.yield + a_.isotropic * e[i], h[i] = a_.isotropic;
+                    });
     keep_stiffness(block, sound_speed());
   }
 
@@ -104,6 +106,7 @@ class PlasticKinematic : public StrengthLaw {
   }
 
   LinearHardening a_;
+  PlaneReturnLoops in_plane_ = plane_return_loops();
 };
 
 struct MatPlasticKinematic : Entry {

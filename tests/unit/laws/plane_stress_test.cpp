@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/instruction_set.hpp"
 #include "law_from_cards.hpp"
 #include "laws/strength/strength.hpp"
 #include "parallel/parallel.hpp"
@@ -142,4 +143,34 @@ TEST(PlaneStress, KinematicHardeningWithRatesHasNoStressAcross) {
       }
     }
   }
+}
+
+// Curves with bends, one that falls, a power law: what trial steps find, the multiplier finds, too, in loops
+// of each instruction set.
+TEST(PlaneStress, TheMultiplierGivesWhatTrialStepsGive) {
+  const std::pair<const char*, const char*> laws[] = {
+      {"MAT_PIECEWISE_LINEAR_PLASTICITY", "1,2.0,2.5,0.3,0.2,0.5\n"},
+      {"MAT_PIECEWISE_LINEAR_PLASTICITY", "1,2.0,2.5,0.3\n\n0.0,0.02,0.05,0.2,0.4\n0.2,0.3,0.31,0.6,0.6\n"},
+      {"MAT_PIECEWISE_LINEAR_PLASTICITY", "1,2.0,2.5,0.3\n\n0.0,0.05,0.5,1.0\n0.2,0.25,0.15,0.15\n"},
+      {"MAT_POWER_LAW_PLASTICITY", "1,2.0,2.5,0.3,0.5,0.3\n0.15\n"}};
+  for (const InstructionSet set : instruction_sets()) {
+    use_instruction_set(set);
+    for (const auto& [name, cards] : laws) {
+      const auto law = test::law_from_cards(name, cards);
+      SheetPoints a, b;
+      for (SheetPoints* p : {&a, &b}) {
+        p->fill_rates(0.3);
+        for (const Real dt : {0.4, 0.2, 0.6}) p->step(*law, dt, p == &a);
+      }
+      int plastic = 0;
+      for (Index i = 0; i < SheetPoints::count; ++i) {
+        plastic += b.history[0][i] > 0;
+        EXPECT_NEAR(a.history[0][i], b.history[0][i], 1e-9) << name << " " << i;
+        EXPECT_NEAR(a.rate_zz[i], b.rate_zz[i], 1e-8) << name << " " << i;
+        for (int k = 0; k < 6; ++k) EXPECT_NEAR(a.stress[k][i], b.stress[k][i], 1e-9) << name << k;
+      }
+      EXPECT_GT(plastic, 10);
+    }
+  }
+  use_instruction_set(instruction_sets().back());
 }
