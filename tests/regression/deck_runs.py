@@ -64,7 +64,8 @@ def judge(name, fact, summary, first, found, wrong):
         faults.append(f"ended: {summary['reason']}, verdict {summary['verdict']}")
     energy = summary["energy"]
     reasons = "; ".join(str(r).split(":")[0] for r in summary.get("verdict_reasons") or [])
-    row = [f"{mass:.5g} / {fact['mass']:.5g}", f"{kinetic:.5g} / {fact.get('kinetic_energy_0') or 0:.5g}",
+    found_or_not = lambda value: "-" if math.isnan(value) else f"{value:.5g}"
+    row = [f"{found_or_not(mass)} / {fact['mass']:.5g}", f"{found_or_not(kinetic)} / {fact.get('kinetic_energy_0') or 0:.5g}",
            f"{first:.4g} / {counted:.4g}" if counted else f"{first:.4g} /", f"{summary['time']:.4g} / {fact['end_time']:.4g}",
            f"{100 * energy['error']:.2g} %", summary["verdict"] + (f": {reasons}" if reasons else "") + ("; **" + ", ".join(faults) + "**" if faults else "")]
     return row, not faults
