@@ -15,7 +15,7 @@ namespace {
 /// Laws of the materials that solids may have, by id.
 class SolidLaws {
  public:
-  SolidLaws(const Deck& deck, const Model& model) : eos_(deck) {
+  SolidLaws(const Deck& deck, const Model& model) : eos_(deck, model) {
     for (const StrengthEntry& kind : strength_registry()) {
       if (!tells_directions(kind.keyword)) known_ += "*" + kind.keyword + ", ";
       for (const auto& [id, law] : kind.all(deck, model)) laws_.emplace(id, law);

@@ -43,9 +43,9 @@ Real SolidPressure::initial_sound_speed() const {
 }
 
 void SolidPressure::split(const HexahedronLoops::Block& block, const HexahedronState& state,
-                          const Real* energy, HexahedronScratch& scratch, Scratch& own) const {
+                          const Real* energy, Real* memory, HexahedronScratch& scratch, Scratch& own) const {
   const Real* mu = scratch.compression;
-  eos_->evaluate({block.count, mu, own.A, own.dA, own.B, own.dB});
+  eos_->evaluate({block.count, mu, own.A, own.dA, own.B, own.dB, memory ? memory + block.begin : nullptr});
   const Real shear = 4 * law_->shear_modulus() / 3;
   Real *xx = state.stress[0] + block.begin, *yy = state.stress[1] + block.begin,
        *zz = state.stress[2] + block.begin;

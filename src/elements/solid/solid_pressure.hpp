@@ -45,9 +45,10 @@ class SolidPressure {
   Real bulk_modulus() const;
 
   /// Behind `strain`, before the law: leaves the deviator in the stress, energy and pressure in `own`, and
-  /// the sound speed that q is to be made of in `scratch`. `energy`: internal, of the elements. [ML2/T2]
+  /// the sound speed that q is to be made of in `scratch`. `energy`: internal, of the elements [ML2/T2];
+  /// `memory`: what the law remembers of them, null where it does not.
   void split(const HexahedronLoops::Block& block, const HexahedronState& state, const Real* energy,
-             HexahedronScratch& scratch, Scratch& own) const;
+             Real* memory, HexahedronScratch& scratch, Scratch& own) const;
   /// Behind q, before the law.
   void predict(const HexahedronLoops::Block& block, const HexahedronState& state,
                const HexahedronScratch& scratch, Scratch& own) const;
