@@ -26,7 +26,7 @@ Real pressure_of(const Simulation& s, Index e) {
 }
 
 /// n cubes along x, 1 long altogether, that move along x alone; the end at x = 0 is held.
-SolidDeck row(int n, const std::string& cards) {
+SolidDeck crushed_row(int n, const std::string& cards) {
   SolidDeck deck;
   deck.block(Vec(1, 1.0 / n, 1.0 / n), n, 1, 1, 1);
   deck.cards = "*PART\nrow\n1,1,1,1\n*SECTION_SOLID\n1,1\n" + cards;
@@ -37,7 +37,7 @@ SolidDeck row(int n, const std::string& cards) {
   return deck;
 }
 
-void step_to(Simulation& s, Real t) {
+void run_crush_to(Simulation& s, Real t) {
   while (s.clock().t < t) s.step(do_nothing);
 }
 
@@ -51,7 +51,7 @@ const std::string soil =
 // A cube is pressed to V = 0.74, let go until V = 0.9, pressed to V = 0.7.
 TEST(CrushedSolids, ComeBackAlongTheirModulusAndKeepTheEnergyBalance) {
   for (const auto& [tssfac, bound] : {std::pair(0.4, 1e-3), std::pair(0.1, 1e-4)}) {
-    SolidDeck deck = row(1, soil + "*CONTROL_BULK_VISCOSITY\n1e-9,1e-9\n");
+    SolidDeck deck = crushed_row(1, soil + "*CONTROL_BULK_VISCOSITY\n1e-9,1e-9\n");
     deck.cards += fmt::format(
         "*CONTROL_TIMESTEP\n0.0,{}\n*BOUNDARY_PRESCRIBED_MOTION_SET\n3,1,0,1\n*DEFINE_CURVE\n1\n0.0,-0.01\n"
         "26.0,-0.01\n26.0001,0.01\n42.0,0.01\n42.0001,-0.01\n62.0,-0.01\n",
@@ -60,7 +60,7 @@ TEST(CrushedSolids, ComeBackAlongTheirModulusAndKeepTheEnergyBalance) {
     start_ledger(*s);
     const Field<Real>& x = s->world().nodes.x;
     const auto look = [&](Real t) {
-      step_to(*s, t);
+      run_crush_to(*s, t);
       s->step(do_nothing);
       Real width = 0;  // a step after the law
       for (Index n = 0; n < s->world().nodes.size(); ++n) width = std::max(width, x.data(0)[n]);
@@ -87,7 +87,7 @@ TEST(CrushedSolids, ComeBackAlongTheirModulusAndKeepTheEnergyBalance) {
 
 // Of the steeper way: K(0) = 20 of density 2, though C begins with 10.
 TEST(CrushedSolids, HaveTheStepOfTheSteeperWay) {
-  auto s = simulation_of(row(4, soil + "*CONTROL_BULK_VISCOSITY\n1e-9,1e-9\n").text(1));
+  auto s = simulation_of(crushed_row(4, soil + "*CONTROL_BULK_VISCOSITY\n1e-9,1e-9\n").text(1));
   s->step(do_nothing);
   EXPECT_NEAR(s->clock().dt, 0.9 * 0.25 / std::sqrt(10.0), 1e-6);
 }
@@ -107,7 +107,7 @@ TEST(CrushedSolids, AShockCrushesAndARarefactionLeavesThemSo) {
   }
   const Real p1 = -modulus * std::log(V1), us = up / (1 - V1), left = V1 * std::exp(p1 / 40);
   for (const int n : {50, 100, 200}) {
-    SolidDeck deck = row(n, straight);
+    SolidDeck deck = crushed_row(n, straight);
     deck.cards += fmt::format("*INITIAL_VELOCITY\n3\n{:.6g},0.0,0.0\n", -up);
     auto s = simulation_of(deck.text(1));
     start_ledger(*s);
@@ -125,10 +125,10 @@ TEST(CrushedSolids, AShockCrushesAndARarefactionLeavesThemSo) {
       }
       return sum / count;
     };
-    step_to(*s, 0.9 / us);
+    run_crush_to(*s, 0.9 / us);
     EXPECT_NEAR(mean(0.2, 0.8, false) / p1, 1, 0.01) << n;
     EXPECT_NEAR(mean(0.2, 0.8, true) / V1, 1, 0.005) << n;
-    step_to(*s, 1 / us + 0.35 * V1 / std::sqrt(40 / ro * V1));
+    run_crush_to(*s, 1 / us + 0.35 * V1 / std::sqrt(40 / ro * V1));
     EXPECT_NEAR(mean(0.8, 0.95, false) / p1, 0, 0.03) << n;
     EXPECT_NEAR(mean(0.8, 0.95, true) / left, 1, 0.01) << n;
     EXPECT_LT(test::energy_error_of_a_step(*s), 1e-3) << n;
@@ -138,13 +138,14 @@ TEST(CrushedSolids, AShockCrushesAndARarefactionLeavesThemSo) {
 // Without A3 it is a gas with p = B2 E/V: p V^(1 + B2) stays, as V grows to 2, slowly and without viscosity.
 TEST(CrushedSolids, ProductsOfADetonationFollowTheirIsentrope) {
   for (const Real a3 : {1e-12, 0.5}) {
-    SolidDeck deck = row(1, fmt::format("*MAT_NULL\n1,1.0\n*EOS_SACK_TUESDAY\n1,2.0,1.0,{},0.25,0.4,2.5,1.0\n"
-                                        "*CONTROL_BULK_VISCOSITY\n1e-9,1e-9\n*CONTROL_TIMESTEP\n0.0,0.1\n",
-                                        a3));
+    SolidDeck deck =
+        crushed_row(1, fmt::format("*MAT_NULL\n1,1.0\n*EOS_SACK_TUESDAY\n1,2.0,1.0,{},0.25,0.4,2.5,1.0\n"
+                                   "*CONTROL_BULK_VISCOSITY\n1e-9,1e-9\n*CONTROL_TIMESTEP\n0.0,0.1\n",
+                                   a3));
     deck.cards += "*BOUNDARY_PRESCRIBED_MOTION_SET\n3,1,0,1\n*DEFINE_CURVE\n1\n0.0,0.02\n1e9,0.02\n";
     auto s = simulation_of(deck.text(100));
     start_ledger(*s);
-    step_to(*s, 50);
+    run_crush_to(*s, 50);
     s->step(do_nothing);
     const Real V = 1 + 0.02 * (s->clock().t - s->clock().dt_old);
     // dE = -(A(v) + 0.4 E/v) dv by Simpson's rule in small parts: (E v^0.4)' = -A v^0.4
@@ -190,7 +191,7 @@ TEST(CrushedSolids, ParticlesRememberToo) {
       nodes + "*ELEMENT_SPH\n" + particles + "*END\n";
   auto s = simulation_of(text);
   start_ledger(*s);
-  step_to(*s, 0.6);
+  run_crush_to(*s, 0.6);
   const Particles& p = s->world().particles;
   const auto* most = dynamic_cast<const Field<Real>*>(p.fields.find("greatest_compression"));
   ASSERT_NE(most, nullptr);

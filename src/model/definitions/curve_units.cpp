@@ -40,6 +40,7 @@ constexpr CurveDimensions known[] = {
     {"EOS_TABULATED_COMPACTION", "LCC", "-", "M/LT2"},
     {"EOS_TABULATED_COMPACTION", "LCT", "-", "-"},
     {"EOS_TABULATED_COMPACTION", "LCK", "-", "M/LT2"},
+    {"MAT_CABLE_DISCRETE_BEAM", "LCID", "-", "M/LT2"},
     {"MAT_CRUSHABLE_FOAM", "LCID", "-", "M/LT2"},
     {"MAT_LOW_DENSITY_FOAM", "LCID", "-", "M/LT2"},
     {"MAT_ENHANCED_COMPOSITE_DAMAGE", "LCXC", "1/T", "M/LT2"},
