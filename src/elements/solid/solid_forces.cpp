@@ -77,7 +77,7 @@ class SolidForces : public Material,
       if (full_) full_->damp_by(damping_.get());
     }
     if (part.pressure) start_pressure();
-    if (part.nodal) nodal_ = NodalPressure::add(group, world);
+    if (part.nodal) nodal_ = NodalPressure::add(group, part.relative_volume(), world);
     if (const FailureRules& rules = options.failure[static_cast<std::size_t>(group.part)]; rules.any())
       options.eroding.push_back(erosion_ = make_erosion(rules, world));
   }
@@ -264,19 +264,24 @@ class SolidForces : public Material,
                               const HexahedronState& state, HexahedronScratch& scratch,
                               const NodalPressure::Scratch& by_nodes) const {
     loops_.work(block, state, scratch);
-    if (of.nodal) of.nodal->work(block, state, scratch, by_nodes);
+    if (of.nodal && !state.heats) of.nodal->work(block, state, scratch, by_nodes);
     return loops_.forces(block, of.control, state, scratch);
   }
 
   /// The same with eight points.
   HexahedronLoops::Found advance_points(const Answer& of, const HexahedronLoops::Block& block,
                                         FullHexahedronScratch& scratch, const Clock* failing) {
-    return full_->advance(
-        {of.mesh, of.control, of.state, of.law}, block, scratch,
-        {[&] {
-           if (failing && erosion_->any_dead(block.begin)) still_dead(block.begin, block.count, scratch);
-         },
-         [&](int point, const PointBlock& points) { answered(points, block.begin, point, failing); }});
+    const FullPoints::Answer answer{of.mesh, of.control, of.state, of.law};
+    const FullPoints::Between between{
+        [&] {
+          if (failing && erosion_->any_dead(block.begin)) still_dead(block.begin, block.count, scratch);
+        },
+        [&](int point, const PointBlock& points) { answered(points, block.begin, point, failing); }};
+    if (!of.pressure) return full_->advance(answer, block, scratch, between);
+    FullPoints::Fluid fluid{*of.pressure, internal_.data(), memory()};
+    const HexahedronLoops::Found out = full_->advance(answer, fluid, block, scratch, between);
+    of_pressure_[static_cast<std::size_t>(block.begin / block_size)] = fluid.found;
+    return out;
   }
 
   /// Behind the law at a point.
@@ -392,6 +397,7 @@ class SolidForces : public Material,
   /// Pressure and energy of the equation of state at the start.
   void start_pressure() {
     const Real p = material_.pressure->initial_pressure(), E0 = material_.pressure->eos().E0;
+    if (full_) full_->start_pressure(p);
     for (Index e = 0; e < group_.size(); ++e) {
       for (int k = 0; k < 3; ++k) stress_.data(k)[e] = -p;
       internal_[e] = E0 * V0_[e];
