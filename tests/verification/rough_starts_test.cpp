@@ -81,9 +81,10 @@ TEST(RoughStarts, BalanceOfSolids) {
                                              {hexahedra, 1, 4},
                                              {hexahedra, 1, 5},
                                              {hexahedra, 2, 1},
-                                             {tetrahedra, 1, 1}})
+                                             {tetrahedra, 1, 1},
+                                             {tetrahedra, 13, 1}})
       for (const Real tssfac : {0.9, 0.67, 0.3}) {
-        if (material == copper && elform == 2) continue;  // no equation of state with eight points
+        if (elform == 13 && tssfac < 0.9) continue;  // slow
         auto s = simulation_of(rough_block({material, cells, elform, ihq, tssfac}).text(1));
         give_velocities(*s, 20);
         EXPECT_LT(worst_error(*s, 100), bound)
@@ -93,10 +94,12 @@ TEST(RoughStarts, BalanceOfSolids) {
 
 // A block of hot gas that nothing holds doubles its size in some ten steps: what it loses its nodes must get.
 TEST(RoughStarts, BalanceOfAGasThatExpands) {
-  for (const CellShape cells : {CellShape::hexahedron, CellShape::tetrahedra})
+  const CellShape hexahedra = CellShape::hexahedron, tetrahedra = CellShape::tetrahedra;
+  for (const auto& [cells, elform] : {std::pair(hexahedra, 1), {hexahedra, 2}, {tetrahedra, 1}})
     for (const int ihq : {1, 2, 5})
       for (const Real tssfac : {0.9, 0.3}) {
-        auto s = simulation_of(rough_block({gas, cells, 1, ihq, tssfac}).text(1));
+        if (ihq != 1 && elform != 1) continue;
+        auto s = simulation_of(rough_block({gas, cells, elform, ihq, tssfac}).text(1));
         start_ledger(*s);
         while (s->clock().t < 2e-5) s->step(do_nothing);
         EXPECT_LT(energy_error_of_a_step(*s), bound) << ihq << " TSSFAC " << tssfac;

@@ -76,7 +76,7 @@ class BeamReader {
                                part.secid, deck_.found_instead(IdSpace::section, part.secid)),
                    "");
     const SectionBeam& s = *section->second;
-    if (!check_section(s) || !whole_) return false;
+    if (s.used() == 6 || !check_section(s) || !whole_) return false;  // cables are read elsewhere
     out.kind = s.used() == 1 ? BeamKind::integrated : s.used() == 2 ? BeamKind::resultant : BeamKind::truss;
     out.part = static_cast<Index>(index), out.nsm = s.nsm;
     const auto law = laws_.find(part.mid);
@@ -129,7 +129,8 @@ class BeamReader {
     };
     if (s.used() == 0)
       refuse("ELFORM", fmt::format("'{}' is not supported", s.elform),
-             "supported: 1 (Hughes-Liu), 2 (Belytschko-Schwer), 3 (truss), 9 (weld); 4 and 5 become 1, 13 "
+             "supported: 1 (Hughes-Liu), 2 (Belytschko-Schwer), 3 (truss), 6 (cable), 9 (weld); 4 and 5 "
+             "become 1, 13 "
              "becomes 2");
     else if (s.elform > 3 && !s.weld())
       deck_.warning(diagnostics_, s, "ELFORM",
@@ -148,6 +149,9 @@ class BeamReader {
     const auto own = [&](std::size_t k, Real of_section) {
       return beam.measures[k] > 0 ? beam.measures[k] : of_section;
     };
+    if (beam.measures[4] < 0)
+      error(beam.card, "PARM5", fmt::format("expected a number >= 0, got '{:g}'", beam.measures[4]),
+            "only cables (ELFORM 6) have an offset there");
     BeamMeasures m;
     if (kind == BeamKind::truss) {
       m.A = own(0, s.a);
@@ -173,7 +177,7 @@ class BeamReader {
       error(beam.card, "PARM3", "a stress at the start of trusses is not supported",
             "leave the field blank or 0");
     const auto idle = [&](const char* field, Real value) {
-      if (value != 0)
+      if (value > 0)
         deck_.warning(diagnostics_, beam.card, field,
                       fmt::format("'{:g}' has no effect with ELFORM {}", value, s.used()), "leave it blank");
     };

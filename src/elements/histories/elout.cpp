@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "elements/beam/mat_cable.hpp"
 #include "elements/histories/cards_elout.hpp"
 #include "elements/histories/element_choice.hpp"
 #include "elements/histories/elout_text.hpp"
@@ -40,6 +41,7 @@ std::map<Id, int> material_numbers(const Deck& deck, const Model& model) {
   for (const StrengthEntry& kind : strength_registry())
     if (const LawName* name = find_law(kind.keyword))
       for (const auto& [id, law] : kind.all(deck, model)) out.emplace(id, std::atoi(name->number));
+  for (const MatCableDiscreteBeam& cable : deck.all<MatCableDiscreteBeam>()) out.emplace(cable.mid, 71);
   return out;
 }
 

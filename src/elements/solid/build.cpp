@@ -15,7 +15,7 @@ namespace {
 /// Laws of the materials that solids may have, by id.
 class SolidLaws {
  public:
-  SolidLaws(const Deck& deck, const Model& model) : eos_(deck) {
+  SolidLaws(const Deck& deck, const Model& model) : eos_(deck, model) {
     for (const StrengthEntry& kind : strength_registry()) {
       if (!tells_directions(kind.keyword)) known_ += "*" + kind.keyword + ", ";
       for (const auto& [id, law] : kind.all(deck, model)) laws_.emplace(id, law);
@@ -41,12 +41,14 @@ class SolidLaws {
       const auto eos = eos_.find(deck, part, law->second->ro, "solids", diagnostics);
       if (!eos) return;
       out.pressure = std::make_shared<SolidPressure>(eos, law->second);
-      if (out.full || out.nodal)
-        deck.error(diagnostics, part.card, "SECID",
-                   fmt::format("solids with {}, as those of part {}, cannot have an equation of state",
-                               out.full ? "eight points" : "pressures averaged over nodes", part.id),
-                   out.full ? "give them ELFORM 1" : "give them ELFORM 10");
-      if (law->second->shear_modulus() == 0 && out.viscosity.ihq >= 4)
+      if (law->second->shear_modulus() == 0 && out.nodal)
+        deck.warning(
+            diagnostics, part.card, "SECID",
+            fmt::format("the solids of part {} are a fluid, and nothing resists motions that keep the mean "
+                        "volumes at their nodes",
+                        part.id),
+            "ELFORM 10 resists them");
+      if (law->second->shear_modulus() == 0 && !out.full && !out.nodal && out.viscosity.ihq >= 4)
         deck.warning(diagnostics, part.card, "HGID",
                      fmt::format("the solids of part {} are a fluid, and IHQ "
                                  "{} is a stiffness: elements that flow "

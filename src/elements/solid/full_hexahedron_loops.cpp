@@ -39,7 +39,21 @@ COURANT_INLINE void gather_of(Index first, Index n, Index k, const HexahedronMes
   store(scratch.compression + k, 64.0 * load(state.V0 + first, n) / volume64(a) - 1.0);
 }
 
-COURANT_INLINE void begin_of(Index k, Real dt, FullHexahedronScratch& scratch) {
+/// Half a step's change of volume at the rates sum b_I.v_I with the places of `later` steps from its end.
+COURANT_INLINE Native opened_at(Index k, Real dt, Real later, const FullHexahedronScratch& scratch) {
+  Triple a[7];
+  for (int m = 0; m < 7; ++m)
+    a[m] = triple(scratch.place + 3 * m, k) + later * dt * triple(scratch.speed + 3 * m, k);
+  const Geometry there = geometry(a);
+  Native opening = all(0);
+  for (int m = 0; m < 6; ++m) opening += dot(triple(scratch.speed + 3 * m, k), there.g[m]);
+  return 0.0078125 * dt * opening;
+}
+
+COURANT_INLINE void begin_of(Index k, Real dt, bool heats, FullHexahedronScratch& scratch) {
+  if (heats)
+    store(scratch.opened[0] + k, opened_at(k, dt, -1, scratch)),
+        store(scratch.opened[1] + k, opened_at(k, dt, 0, scratch));
   const Real back = -0.5 * dt;
   Triple a[7], w[7];
   for (int m = 0; m < 7; ++m) {
@@ -157,8 +171,8 @@ void gather(const FullHexahedronLoops::Block& block, const HexahedronMesh& mesh,
     gather_of(block.begin + k, native_lanes, k, mesh, state, scratch);
   if (whole < block.count) gather_of(block.begin + whole, block.count - whole, whole, mesh, state, scratch);
 }
-void begin(const FullHexahedronLoops::Block& block, FullHexahedronScratch& scratch) {
-  for (Index k = 0; k < block.count; k += native_lanes) begin_of(k, block.dt, scratch);
+void begin(const FullHexahedronLoops::Block& block, bool heats, FullHexahedronScratch& scratch) {
+  for (Index k = 0; k < block.count; k += native_lanes) begin_of(k, block.dt, heats, scratch);
 }
 void strain(const FullHexahedronLoops::Block& block, int point, const HexahedronState& state,
             FullHexahedronScratch& scratch) {

@@ -26,8 +26,8 @@ struct FullHexahedronLoops {
   /// Gathers corners, and the compression.
   void (*gather)(const Block& block, const HexahedronMesh& mesh, const HexahedronState& state,
                  FullHexahedronScratch& scratch);
-  /// Volume and mean of tr D at mid-step; sums are 0.
-  void (*begin)(const Block& block, FullHexahedronScratch& scratch);
+  /// Volume and mean of tr D at mid-step; sums are 0. With `heats` also `opened`.
+  void (*begin)(const Block& block, bool heats, FullHexahedronScratch& scratch);
   /// Of a point, whose stress and tensors `state` has: D; stress and tensors turned by the spin there; half
   /// of the work of stress.
   void (*strain)(const Block& block, int point, const HexahedronState& state, FullHexahedronScratch& scratch);

@@ -1,5 +1,6 @@
 #include "elements/solid/full_points.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -20,33 +21,40 @@ FullPoints::FullPoints(const ElementGroup& group, const StrengthLaw& law)
 
 void FullPoints::declare(Accesses& a) const {
   a.updates(stress_);
+  if (pressure_) a.updates(*pressure_);
   for (const Field<Real>* h : history_) a.updates(*h);
+}
+
+PointBlock FullPoints::at_point(int p, const HexahedronLoops::Block& block, FullHexahedronScratch& scratch,
+                                HexahedronState& state, std::array<Real*, 16>& history) const {
+  PointBlock at;
+  at.count = block.count, at.dt = block.dt;
+  for (int k = 0; k < 6; ++k) {
+    const auto c = static_cast<std::size_t>(k);
+    state.stress[k] = stress_.data(6 * p + k);
+    at.rate[c] = scratch.rate[k], at.stress[c] = state.stress[k] + block.begin;
+    for (std::size_t t = 0; t < tensors_.size(); ++t) state.tensor[t][k] = tensors_[t]->data(6 * p + k);
+  }
+  std::size_t numbers = 0;
+  for (Field<Real>* h : history_) {
+    const int n = h->info().components / points;
+    for (int k = 0; k < n; ++k) history[numbers++] = h->data(n * p + k) + block.begin;
+  }
+  at.history = {history.data(), numbers};
+  at.compression = scratch.compression, at.sound_speed = scratch.sound_speed;
+  return at;
 }
 
 HexahedronLoops::Found FullPoints::advance(const Answer& of, const HexahedronLoops::Block& block,
                                            FullHexahedronScratch& scratch, const Between& between) const {
   loops_.gather(block, of.mesh, of.state, scratch);
   between.gathered();
-  loops_.begin(block, scratch);
+  loops_.begin(block, false, scratch);
   HexahedronState state = of.state;
   state.tensors = static_cast<int>(tensors_.size());
   std::array<Real*, 16> history{};
   for (int p = 0; p < points; ++p) {
-    PointBlock at;
-    at.count = block.count, at.dt = block.dt;
-    for (int k = 0; k < 6; ++k) {
-      const auto c = static_cast<std::size_t>(k);
-      state.stress[k] = stress_.data(6 * p + k);
-      at.rate[c] = scratch.rate[k], at.stress[c] = state.stress[k] + block.begin;
-      for (std::size_t t = 0; t < tensors_.size(); ++t) state.tensor[t][k] = tensors_[t]->data(6 * p + k);
-    }
-    std::size_t numbers = 0;
-    for (Field<Real>* h : history_) {
-      const int n = h->info().components / points;
-      for (int k = 0; k < n; ++k) history[numbers++] = h->data(n * p + k) + block.begin;
-    }
-    at.history = {history.data(), numbers};
-    at.compression = scratch.compression, at.sound_speed = scratch.sound_speed;
+    PointBlock at = at_point(p, block, scratch, state, history);
     loops_.strain(block, p, state, scratch);
     of.law.update(at);
     between.answered(p, at);
@@ -66,6 +74,14 @@ HexahedronLoops::Found FullPoints::advance(const Answer& of, const HexahedronLoo
 void FullPoints::reset() {
   stress_.fill(0);
   for (Field<Real>* h : history_) h->fill(0);
+  if (pressure_) pressure_->fill(0);
+}
+
+void FullPoints::start_pressure(Real p) {
+  pressure_ = &group_.fields.add<Real>({.name = "pressure_of_points", .dimension = "M/LT2"});
+  pressure_->fill(p);
+  for (int point = 0; point < points; ++point)
+    for (int k = 0; k < 3; ++k) std::fill_n(stress_.data(6 * point + k), group_.size(), -p);
 }
 
 void FullPoints::average(Field<Real>& stress, const std::vector<Field<Real>*>& history) const {
@@ -98,6 +114,7 @@ std::vector<PointReport> FullPoints::report(Index e, bool all_points) const {
 
 std::vector<Field<Real>*> FullPoints::of_deleted() const {
   std::vector<Field<Real>*> out{&stress_};
+  if (pressure_) out.push_back(pressure_);
   for (Field<Real>* h : history_)
     if (h->info().components == 6 * points) out.push_back(h);
   return out;

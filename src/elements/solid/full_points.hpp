@@ -1,10 +1,12 @@
 #pragma once
 // Stress and history at the eight points of fully integrated solids (ELFORM 2) of a part.
+#include <array>
 #include <functional>
 #include <vector>
 
 #include "elements/element_report.hpp"
 #include "elements/solid/full_hexahedron_loops.hpp"
+#include "elements/solid/solid_pressure.hpp"
 #include "laws/strength/strength.hpp"
 #include "state/entities.hpp"
 
@@ -21,6 +23,14 @@ class FullPoints {
     const HexahedronState& state;
     const StrengthLaw& law;
   };
+  /// Of an equation of state: one pressure for all points of an element, of its mean compression and its
+  /// energy. A point that has failed has no deviator; the pressure stays until the element goes.
+  struct Fluid {
+    const SolidPressure& law;
+    const Real* energy;            ///< internal, of the elements [ML2/T2]
+    Real* memory;                  ///< as of SolidPressure::split
+    SolidPressure::Found found{};  ///< out
+  };
   /// What happens behind the gathering of the corners, and behind the law at each point.
   struct Between {
     std::function<void()> gathered;
@@ -36,8 +46,13 @@ class FullPoints {
   void declare(Accesses& a) const;
   HexahedronLoops::Found advance(const Answer& of, const HexahedronLoops::Block& block,
                                  FullHexahedronScratch& scratch, const Between& between) const;
+  /// The same with an equation of state.
+  HexahedronLoops::Found advance(const Answer& of, Fluid& fluid, const HexahedronLoops::Block& block,
+                                 FullHexahedronScratch& scratch, const Between& between) const;
   /// No stress, no history.
   void reset();
+  /// At the start, of an equation of state. Adds a field. [M/LT2]
+  void start_pressure(Real p);
   /// Means over the points. `history`: a field for each number of the law, as the law has them.
   void average(Field<Real>& stress, const std::vector<Field<Real>*>& history) const;
   /// The points of an element, or their mean, without plastic strains.
@@ -47,11 +62,15 @@ class FullPoints {
 
  private:
   static constexpr int points = FullHexahedronLoops::points;
+  /// What the law gets at point p, whose stress and tensors `state` then has. `history`: room.
+  PointBlock at_point(int p, const HexahedronLoops::Block& block, FullHexahedronScratch& scratch,
+                      HexahedronState& state, std::array<Real*, 16>& history) const;
   const ElementGroup& group_;
   FullHexahedronLoops loops_ = full_hexahedron_loops();
   Field<Real>& stress_;                ///< component 6 p + k of point p
   std::vector<Field<Real>*> history_;  ///< of each number of the law, component n p + k
   std::vector<Field<Real>*> tensors_;  ///< those among them, and others
+  Field<Real>* pressure_ = nullptr;    ///< of an equation of state, by element; null: none
   const StiffnessDamping* damping_ = nullptr;
 };
 

@@ -24,7 +24,7 @@ void add_work(const HexahedronLoops::Block& block, Index i, Real trace, const He
 
 }  // namespace
 
-NodalPressure::NodalPressure(const ElementGroup& group, World& world)
+NodalPressure::NodalPressure(const ElementGroup& group, Real relative_volume, World& world)
     : group_(group),
       first_(static_cast<std::size_t>(world.nodes.size()) + 1, 0),
       volume_(group.fields.add<Real>({.name = "volumes", .dimension = "L3", .components = 2})),
@@ -42,7 +42,8 @@ NodalPressure::NodalPressure(const ElementGroup& group, World& world)
   const auto n = static_cast<std::size_t>(group.size());
   for (auto& corner : corner_) corner.resize(n);
   for (Index e = 0; e < group.size(); ++e) {
-    volume_.data(0)[e] = volume_.data(1)[e] = counted_[e] = group.V0[e];
+    counted_[e] = group.V0[e];
+    volume_.data(0)[e] = volume_.data(1)[e] = relative_volume * group.V0[e];
     int found = 0;
     for (int c = 0; c < group.corners(); ++c) {
       if (!group.is_first(e, c)) continue;
@@ -100,7 +101,12 @@ void NodalPressure::strain(const HexahedronLoops::Block& block, const Hexahedron
     for (int k = 0; k < 3; ++k) scratch.rate[k][i] += (wanted - trace) / 3;
     scratch.compression[i] = 1 / now - 1;
     own.opened[i] = group_.V0[e] * (now - before);
-    add_work(block, i, trace, state, scratch, own);
+    if (!state.heats) {
+      add_work(block, i, trace, state, scratch, own);
+      continue;
+    }
+    scratch.work[i] += mean_stress(state, e) * (0.5 * own.opened[i] - scratch.opened[0][i]);
+    scratch.opened[0][i] = scratch.opened[1][i] = 0.5 * own.opened[i];
   }
 }
 
@@ -209,8 +215,9 @@ struct NodalPressure::Push : Pass {
   }
 };
 
-std::shared_ptr<NodalPressure> NodalPressure::add(const ElementGroup& group, World& world) {
-  const auto of = std::make_shared<NodalPressure>(group, world);
+std::shared_ptr<NodalPressure> NodalPressure::add(const ElementGroup& group, Real relative_volume,
+                                                  World& world) {
+  const auto of = std::make_shared<NodalPressure>(group, relative_volume, world);
   world.passes.add(std::make_shared<Volumes>(of));
   world.passes.add(std::make_shared<NodalVolumes>(of));
   world.passes.add(std::make_shared<NodalPressures>(of));

@@ -24,23 +24,25 @@ class NodalPressure {
     Real opened[block_size];  ///< V0 times the change of J_e' in the step [L3]
   };
 
-  /// Adds fields to the group, whose reference volumes are known, and to the nodes.
-  NodalPressure(const ElementGroup& group, World& world);
+  /// Adds fields to the group, whose reference volumes are known, and to the nodes. `relative_volume`: V/V0
+  /// at the start.
+  NodalPressure(const ElementGroup& group, Real relative_volume, World& world);
 
   /// Of the pass over the elements that calls the hooks.
   void declare(Accesses& a) const;
   /// Behind `strain` of the loops: the trace of D, and the compression. The mean stress works through
-  /// `opened`: what that is more than in `strain` is added.
+  /// `opened`: what that is more than in `strain` is added. With an equation of state (`heats`) that of
+  /// `scratch` is made the same, and all that follows works through it.
   void strain(const HexahedronLoops::Block& block, const HexahedronState& state, HexahedronScratch& scratch,
               Scratch& own) const;
-  /// Behind the law: the same of the new stress.
+  /// Behind the law: the same of the new stress; not with an equation of state.
   void work(const HexahedronLoops::Block& block, const HexahedronState& state, HexahedronScratch& scratch,
             const Scratch& own) const;
   /// Behind the forces, once it is known who has failed. `erosion`: null where nothing can.
   void keep(const HexahedronLoops::Block& block, const HexahedronState& state, const Erosion* erosion) const;
 
   /// Makes it, with the passes before and behind that one.
-  static std::shared_ptr<NodalPressure> add(const ElementGroup& group, World& world);
+  static std::shared_ptr<NodalPressure> add(const ElementGroup& group, Real relative_volume, World& world);
 
  private:
   struct Pass;

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "base/run_error.hpp"
 #include "elements/element_report.hpp"
 #include "elements/largest_frequency.hpp"
 #include "elements/solid/full_points.hpp"
 #include "elements/solid/nodal_pressure.hpp"
+#include "elements/solid/solid_faults.hpp"
 #include "elements/solid/solids.hpp"
 #include "elements/stiffness_damping.hpp"
 #include "state/reports.hpp"
@@ -77,7 +77,7 @@ class SolidForces : public Material,
       if (full_) full_->damp_by(damping_.get());
     }
     if (part.pressure) start_pressure();
-    if (part.nodal) nodal_ = NodalPressure::add(group, world);
+    if (part.nodal) nodal_ = NodalPressure::add(group, part.relative_volume(), world);
     if (const FailureRules& rules = options.failure[static_cast<std::size_t>(group.part)]; rules.any())
       options.eroding.push_back(erosion_ = make_erosion(rules, world));
   }
@@ -89,6 +89,7 @@ class SolidForces : public Material,
     a.updates(bulk_viscosity_).updates(viscous_).writes(group_.corner_force);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (hourglass_force_) a.updates(*hourglass_force_);
+    if (memory_) a.updates(*memory_);
     if (full_) full_->declare(a);
     if (nodal_) nodal_->declare(a);
     if (damping_) damping_->declare(a);
@@ -145,10 +146,11 @@ class SolidForces : public Material,
   void finish(World& world, const Clock& clock) override {
     std::int64_t without_speed = 0;
     for (const HexahedronLoops::Found& found : found_)
-      if (!(found.least_volume > 0)) stop_for_volume(found, clock);
+      if (!(found.least_volume > 0)) stop_for_volume(group_, part_id_, found, clock);
     for (const SolidPressure::Found& found : of_pressure_) {
       without_speed += found.without_speed;
-      if (found.beyond >= 0) stop_for_compression(found.beyond, clock);
+      if (found.beyond >= 0)
+        stop_for_compression(group_, part_id_, material_.pressure->eos().mu_limit(), found.beyond, clock);
     }
     if (without_speed > 0) world.counters["sound_speed_clamped"] += without_speed;
     if (!scaled_) return;
@@ -262,19 +264,24 @@ class SolidForces : public Material,
                               const HexahedronState& state, HexahedronScratch& scratch,
                               const NodalPressure::Scratch& by_nodes) const {
     loops_.work(block, state, scratch);
-    if (of.nodal) of.nodal->work(block, state, scratch, by_nodes);
+    if (of.nodal && !state.heats) of.nodal->work(block, state, scratch, by_nodes);
     return loops_.forces(block, of.control, state, scratch);
   }
 
   /// The same with eight points.
   HexahedronLoops::Found advance_points(const Answer& of, const HexahedronLoops::Block& block,
                                         FullHexahedronScratch& scratch, const Clock* failing) {
-    return full_->advance(
-        {of.mesh, of.control, of.state, of.law}, block, scratch,
-        {[&] {
-           if (failing && erosion_->any_dead(block.begin)) still_dead(block.begin, block.count, scratch);
-         },
-         [&](int point, const PointBlock& points) { answered(points, block.begin, point, failing); }});
+    const FullPoints::Answer answer{of.mesh, of.control, of.state, of.law};
+    const FullPoints::Between between{
+        [&] {
+          if (failing && erosion_->any_dead(block.begin)) still_dead(block.begin, block.count, scratch);
+        },
+        [&](int point, const PointBlock& points) { answered(points, block.begin, point, failing); }};
+    if (!of.pressure) return full_->advance(answer, block, scratch, between);
+    FullPoints::Fluid fluid{*of.pressure, internal_.data(), memory()};
+    const HexahedronLoops::Found out = full_->advance(answer, fluid, block, scratch, between);
+    of_pressure_[static_cast<std::size_t>(block.begin / block_size)] = fluid.found;
+    return out;
   }
 
   /// Behind the law at a point.
@@ -289,7 +296,7 @@ class SolidForces : public Material,
   SolidPressure::Found update_with_pressure(const Answer& of, const HexahedronLoops::Block& block,
                                             HexahedronScratch& scratch, PointBlock& points) const {
     SolidPressure::Scratch own;
-    of.pressure->split(block, of.state, internal_.data(), scratch, own);
+    of.pressure->split(block, of.state, internal_.data(), memory(), scratch, own);
     loops_.viscosity(block, of.control, of.state, scratch);
     of.pressure->predict(block, of.state, scratch, own);
     points.pressure = own.pressure, points.energy = own.energy, points.least_pressure = own.least_pressure;
@@ -390,9 +397,14 @@ class SolidForces : public Material,
   /// Pressure and energy of the equation of state at the start.
   void start_pressure() {
     const Real p = material_.pressure->initial_pressure(), E0 = material_.pressure->eos().E0;
+    if (full_) full_->start_pressure(p);
     for (Index e = 0; e < group_.size(); ++e) {
       for (int k = 0; k < 3; ++k) stress_.data(k)[e] = -p;
       internal_[e] = E0 * V0_[e];
+    }
+    if (const char* field = material_.pressure->eos().memory()) {
+      memory_ = &group_.fields.add<Real>({.name = field, .dimension = "-", .output = true});
+      memory_->fill(material_.pressure->eos().memory_at_start());
     }
   }
 
@@ -432,27 +444,9 @@ class SolidForces : public Material,
   Real total(const Field<Real>& field) const {
     return sum(group_.size(), [&](Index e) { return erosion_ && erosion_->dead(e) ? 0 : field[e]; });
   }
+  Real* memory() const { return memory_ ? memory_->data() : nullptr; }
   Real total_of_dead(const Field<Real>& field) const {
     return sum(group_.size(), [&](Index e) { return erosion_->dead(e) ? field[e] : 0; });
-  }
-  [[noreturn]] void stop_for_compression(Index e, const Clock& clock) const {
-    throw RunError(
-        fmt::format(
-            "solid {} of part {} is compressed beyond the end of its equation of state, {:.4g} times its "
-            "reference density, where the pressure becomes infinite, at time {:.6g}, cycle {}",
-            group_.id[e], part_id_, 1 + material_.pressure->eos().mu_limit(), clock.t, clock.cycle),
-        StopCause::density);
-  }
-  [[noreturn]] void stop_for_volume(const HexahedronLoops::Found& found, const Clock& clock) const {
-    const ReadsForMessage unchecked;
-    throw RunError(
-        fmt::format("solid {} of part {} has {} at time {:.6g}, cycle {}", group_.id[found.smallest],
-                    part_id_,
-                    std::isnan(found.least_volume)
-                        ? std::string("a volume that is no number")
-                        : fmt::format("turned inside out (volume {:.4g} of its first)", found.least_volume),
-                    clock.t, clock.cycle),
-        std::isnan(found.least_volume) ? StopCause::not_finite : StopCause::element);
   }
 
   const ElementGroup& group_;
@@ -466,6 +460,7 @@ class SolidForces : public Material,
   Field<Real>&stress_, &V0_, &rho0_, &internal_, &hourglass_, &bulk_viscosity_;
   Field<Real>& viscous_;                    ///< q of bulk viscosity
   Field<Real>* hourglass_force_ = nullptr;  ///< null: eight points, or QM 0
+  Field<Real>* memory_ = nullptr;           ///< of the equation of state; null: it has none
   std::vector<Field<Real>*> history_;
   HexahedronMesh mesh_{};
   HexahedronState state_{};

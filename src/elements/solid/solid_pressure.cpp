@@ -42,18 +42,15 @@ Real SolidPressure::initial_sound_speed() const {
   return std::sqrt((bulk_modulus() + 4 * law_->shear_modulus() / 3) * eos_->V0 / law_->ro);
 }
 
-void SolidPressure::split(const HexahedronLoops::Block& block, const HexahedronState& state,
-                          const Real* energy, HexahedronScratch& scratch, Scratch& own) const {
+void SolidPressure::evaluate(const HexahedronLoops::Block& block, const HexahedronState& state,
+                             const Real* energy, Real* memory, HexahedronScratch& scratch,
+                             Scratch& own) const {
   const Real* mu = scratch.compression;
-  eos_->evaluate({block.count, mu, own.A, own.dA, own.B, own.dB});
+  eos_->evaluate({block.count, mu, own.A, own.dA, own.B, own.dB, memory ? memory + block.begin : nullptr});
   const Real shear = 4 * law_->shear_modulus() / 3;
-  Real *xx = state.stress[0] + block.begin, *yy = state.stress[1] + block.begin,
-       *zz = state.stress[2] + block.begin;
   const Real *V0 = state.V0 + block.begin, *rho0 = state.rho0 + block.begin;
 #pragma omp simd
   for (Index i = 0; i < block.count; ++i) {
-    const Real p = -(xx[i] + yy[i] + zz[i]) / 3;
-    xx[i] += p, yy[i] += p, zz[i] += p;
     const Real E = energy[block.begin + i] / V0[i], v = 1 / (1 + mu[i]);
     const Real slope = own.dA[i] + own.dB[i] * E + own.B[i] * (own.A[i] + own.B[i] * E) * v * v;
     own.energy[i] = E;
@@ -62,6 +59,56 @@ void SolidPressure::split(const HexahedronLoops::Block& block, const HexahedronS
     scratch.sound_speed[i] = std::sqrt((std::max(slope, Real(0)) + shear * v) / rho0[i]);
   }
   std::fill_n(own.least_pressure, block.count, law_->pressure_cutoff());
+}
+
+void SolidPressure::split(const HexahedronLoops::Block& block, const HexahedronState& state,
+                          const Real* energy, Real* memory, HexahedronScratch& scratch, Scratch& own) const {
+  evaluate(block, state, energy, memory, scratch, own);
+  Real *xx = state.stress[0] + block.begin, *yy = state.stress[1] + block.begin,
+       *zz = state.stress[2] + block.begin;
+#pragma omp simd
+  for (Index i = 0; i < block.count; ++i) {
+    const Real p = -(xx[i] + yy[i] + zz[i]) / 3;
+    xx[i] += p, yy[i] += p, zz[i] += p;
+  }
+}
+
+void SolidPressure::begin(const HexahedronLoops::Block& block, const HexahedronControl& control,
+                          const HexahedronState& state, const Means& means, HexahedronScratch& scratch,
+                          Scratch& own) const {
+  evaluate(block, state, means.energy, means.memory, scratch, own);
+  for (Index i = 0; i < block.count; ++i) {
+    scratch.work[i] -= means.pressure[i] * scratch.opened[0][i];
+    scratch.rate[0][i] = means.trace[i], scratch.rate[1][i] = scratch.rate[2][i] = 0;  // of which q is made
+  }
+  loops_.viscosity(block, control, state, scratch);
+  predict(block, state, scratch, own);
+  std::copy_n(scratch.work, block.count, own.counted);
+}
+
+SolidPressure::Found SolidPressure::complete(const HexahedronLoops::Block& block,
+                                             const HexahedronState& state, Real* pressure, Real* sound_speed,
+                                             HexahedronScratch& scratch, Scratch& own) const {
+  const Real *V0 = state.V0 + block.begin, *mu = scratch.compression;
+  Found found;
+  for (Index i = 0; i < block.count; ++i) {
+    const Real E = own.energy[i] + (scratch.work[i] - own.counted[i]) / V0[i];
+    pressure[i] = finish(i, E, mu[i], own, sound_speed[i], found);
+    scratch.work[i] -= pressure[i] * scratch.opened[1][i];
+    if (!(mu[i] < eos_->mu_limit()) && found.beyond < 0) found.beyond = block.begin + i;
+  }
+  return found;
+}
+
+Real SolidPressure::finish(Index i, Real E, Real mu, const Scratch& own, Real& sound_speed,
+                           Found& found) const {
+  const Real p = std::max((own.A[i] + own.B[i] * E) / (1 + own.B[i] * own.half_dv[i]), own.least_pressure[i]);
+  E -= own.half_dv[i] * p;
+  const Real v = 1 / (1 + mu);
+  const Real c2 = (own.dA[i] + own.dB[i] * E + own.B[i] * p * v * v) / law_->ro;
+  sound_speed = std::sqrt(std::max(c2, Real(0)) + sound_speed * sound_speed);
+  found.without_speed += c2 < 0;
+  return p;
 }
 
 void SolidPressure::predict(const HexahedronLoops::Block& block, const HexahedronState& state,
@@ -81,22 +128,15 @@ SolidPressure::Found SolidPressure::complete(const HexahedronLoops::Block& block
                                              Scratch& own) const {
   Real* const* stress = state.stress;
   const Real *V0 = state.V0 + block.begin, *mu = scratch.compression;
-  const Real ro = law_->ro, limit = eos_->mu_limit();
   Found found;
   for (Index i = 0; i < block.count; ++i) {
     const Index e = block.begin + i;
     Real power = 0;
     for (int k = 0; k < 6; ++k) power += (k < 3 ? 1 : 2) * stress[k][e] * scratch.rate[k][i];
-    Real E = own.energy[i] + 0.5 * block.dt * scratch.middle_volume[i] * power / V0[i];
-    const Real p =
-        std::max((own.A[i] + own.B[i] * E) / (1 + own.B[i] * own.half_dv[i]), own.least_pressure[i]);
-    E -= own.half_dv[i] * p;
+    const Real E = own.energy[i] + 0.5 * block.dt * scratch.middle_volume[i] * power / V0[i];
+    const Real p = finish(i, E, mu[i], own, scratch.sound_speed[i], found);
     for (int k = 0; k < 3; ++k) stress[k][e] -= p;
-    const Real v = 1 / (1 + mu[i]);
-    const Real c2 = (own.dA[i] + own.dB[i] * E + own.B[i] * p * v * v) / ro, share = scratch.sound_speed[i];
-    scratch.sound_speed[i] = std::sqrt(std::max(c2, Real(0)) + share * share);
-    found.without_speed += c2 < 0;
-    if (!(mu[i] < limit) && found.beyond < 0) found.beyond = e;
+    if (!(mu[i] < eos_->mu_limit()) && found.beyond < 0) found.beyond = e;
   }
   return found;
 }

@@ -2,6 +2,7 @@
 // Equations of state p = A(mu) + B(mu) E with mu = rho/rho0 - 1 and E the internal energy per reference
 // volume. A law is a small struct with A, B and their derivatives; one file per law registers it with its
 // card, and nothing else is edited. Laws know no particles, elements or world.
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -11,6 +12,7 @@
 
 #include "keyword/deck.hpp"
 #include "keyword/registry.hpp"
+#include "model/model.hpp"
 
 namespace courant {
 
@@ -20,6 +22,16 @@ struct EosBlock {
   const Real* mu = nullptr;  ///< rho/rho0 - 1
   Real *A = nullptr, *dA = nullptr;
   Real *B = nullptr, *dB = nullptr;  ///< null: not asked for
+  /// What a law remembers of each point (EosLaw::memory), which is brought up to date; null: as at the start.
+  Real* memory = nullptr;
+};
+
+/// A law that remembers the greatest compression of a point: A(mu, most), dA(mu, most), and stiffness(mu,
+/// most), dp/dmu of the steepest way from there, which the sound speed is made of. `memory` is the name of
+/// the field.
+template <class Law>
+concept RemembersCompression = requires {
+  Law::memory;
 };
 
 /// A law read from the deck, or made for a test.
@@ -27,8 +39,13 @@ class EosLaw {
  public:
   virtual ~EosLaw() = default;
   virtual std::string name() const = 0;
-  /// A and dA/dmu of a block, and B and dB/dmu where they are asked for.
+  /// A and dA/dmu of a block, and B and dB/dmu where they are asked for. Of a law with a memory dA/dmu is
+  /// that of the steepest way on.
   virtual void evaluate(const EosBlock& block) const = 0;
+  /// Name of the number that the law remembers of each point, the greatest mu so far; null: none.
+  virtual const char* memory() const { return nullptr; }
+  Real memory_at_start() const { return 1 / V0 - 1; }  ///< [-]
+  // Where a law has a memory, these are of a point that has not come here before.
   virtual Real pressure(Real mu, Real E) const = 0;  ///< [M/LT2]
   virtual Real slope(Real mu, Real E) const = 0;     ///< dp/dmu at constant E [M/LT2]
   /// c^2 = dp/drho at constant entropy = (dp/dmu + B p / (1 + mu)^2) / rho0, from dE = -p dv with v = 1/(1 +
@@ -54,10 +71,10 @@ struct EosReference {
 struct EosEntry {
   std::string keyword, equation, source;
   std::vector<EosReference> references;
-  std::function<std::vector<std::pair<Id, std::shared_ptr<EosLaw>>>(const Deck&)>
-      all;  ///< every law of this kind in a deck
+  /// Every law of this kind in a deck. The model has the curves.
+  std::function<std::vector<std::pair<Id, std::shared_ptr<EosLaw>>>(const Deck&, const Model&)> all;
   /// Reports what the table of the keyword cannot tell of its cards.
-  std::function<void(const Deck&, Diagnostics&)> check;
+  std::function<void(const Deck&, const Model&, Diagnostics&)> check;
 };
 
 std::vector<EosEntry>& eos_registry();
@@ -71,20 +88,35 @@ class EosLawOf : public EosLaw {
     const Law law = law_;
     const Real* mu = block.mu;
     Real *A = block.A, *dA = block.dA;
+    if constexpr (RemembersCompression<Law>) {
+      for (Index k = 0; k < block.count; ++k) {
+        const Real most = std::max(block.memory ? block.memory[k] : memory_at_start(), mu[k]);
+        A[k] = law.A(mu[k], most), dA[k] = law.stiffness(mu[k], most);
+        if (block.memory) block.memory[k] = most;
+      }
+    } else {
 #pragma omp simd
-    for (Index k = 0; k < block.count; ++k) A[k] = law.A(mu[k]), dA[k] = law.dA(mu[k]);
+      for (Index k = 0; k < block.count; ++k) A[k] = law.A(mu[k]), dA[k] = law.dA(mu[k]);
+    }
     if (!block.B) return;
     Real *B = block.B, *dB = block.dB;
     for (Index k = 0; k < block.count; ++k) B[k] = law.B(mu[k]), dB[k] = law.dB(mu[k]);
   }
+  const char* memory() const override {
+    if constexpr (RemembersCompression<Law>)
+      return Law::memory;
+    else
+      return nullptr;
+  }
   Real pressure(Real mu, Real E) const override {
-    return law_.A(mu) + law_.B(mu) * E;
+    return first(mu).A + law_.B(mu) * E;
   }
   Real slope(Real mu, Real E) const override {
-    return law_.dA(mu) + law_.dB(mu) * E;
+    return first(mu).dA + law_.dB(mu) * E;
   }
   Real sound_speed2(Real rho0, Real mu, Real E) const override {
-    return (law_.dA(mu) + law_.dB(mu) * E + law_.B(mu) * pressure(mu, E) / ((1 + mu) * (1 + mu))) / rho0;
+    return (first(mu).stiffness + law_.dB(mu) * E + law_.B(mu) * pressure(mu, E) / ((1 + mu) * (1 + mu))) /
+           rho0;
   }
   bool uses_energy() const override {
     return law_.uses_energy();
@@ -103,6 +135,19 @@ class EosLawOf : public EosLaw {
   }
 
  private:
+  struct Cold {
+    Real A, dA, stiffness;
+  };
+  /// Without energy, of a point that was never more compressed.
+  Cold first(Real mu) const {
+    if constexpr (RemembersCompression<Law>) {
+      const Real most = std::max(mu, memory_at_start());
+      return {law_.A(mu, most), law_.dA(mu, most), law_.stiffness(mu, most)};
+    } else {
+      const Real slope = law_.dA(mu);
+      return {law_.A(mu), slope, slope};
+    }
+  }
   std::shared_ptr<EosLaw> with_law(Law law, Real rho0) const {
     auto out = std::make_shared<EosLawOf<Law>>(law);
     out->E0 = E0 + rho0 * specific_E0;
@@ -112,9 +157,11 @@ class EosLawOf : public EosLaw {
   Law law_;
 };
 
-/// Card must have members eosid and functions law(), e0(), v0(), and may have specific_e0(). A law whose
+/// Card must have members eosid and functions law(), e0(), v0(), and may have specific_e0(); law() takes the
+/// model where it needs its curves. A law whose
 /// formula holds the reference density gives A and dA for the density 1 and has at_density(rho0); one that
-/// ends somewhere in compression has mu_limit(). The card may have check(deck, diagnostics).
+/// ends somewhere in compression has mu_limit(). The card may have check(deck, diagnostics), or with the
+/// model between both.
 template <class Card>
 struct RegisterEos {
   RegisterEos(std::string equation, std::string source, std::vector<EosReference> references,
@@ -124,10 +171,16 @@ struct RegisterEos {
     entry.equation = std::move(equation);
     entry.source = std::move(source);
     entry.references = std::move(references);
-    entry.all = [](const Deck& deck) {
+    entry.all = [](const Deck& deck, const Model& model) {
       std::vector<std::pair<Id, std::shared_ptr<EosLaw>>> laws;
       for (const Card& card : deck.all<Card>()) {
-        auto law = std::make_shared<EosLawOf<decltype(card.law())>>(card.law());
+        const auto make = [&] {
+          if constexpr (requires { card.law(model); })
+            return card.law(model);
+          else
+            return card.law();
+        };
+        auto law = std::make_shared<EosLawOf<decltype(make())>>(make());
         law->E0 = card.e0();
         law->V0 = card.v0();
         if constexpr (requires { card.specific_e0(); }) law->specific_E0 = card.specific_e0();
@@ -135,9 +188,12 @@ struct RegisterEos {
       }
       return laws;
     };
-    entry.check = [](const Deck& deck, Diagnostics& diagnostics) {
-      if constexpr (requires(const Card& card) { card.check(deck, diagnostics); })
-        for (const Card& card : deck.all<Card>()) card.check(deck, diagnostics);
+    entry.check = [](const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+      for (const Card& card : deck.all<Card>())
+        if constexpr (requires { card.check(deck, model, diagnostics); })
+          card.check(deck, model, diagnostics);
+        else if constexpr (requires { card.check(deck, diagnostics); })
+          card.check(deck, diagnostics);
     };
     eos_registry().push_back(std::move(entry));
     register_keyword(make_keyword_spec<Card>(std::move(keyword)));

@@ -35,9 +35,9 @@ void check_start(const Deck& deck, const ModelPart& part, const EosLaw& eos, Rea
 
 }  // namespace
 
-PartEos::PartEos(const Deck& deck) {
+PartEos::PartEos(const Deck& deck, const Model& model) {
   for (const EosEntry& kind : eos_registry())
-    for (const auto& [id, law] : kind.all(deck)) laws_.emplace(id, law);
+    for (const auto& [id, law] : kind.all(deck, model)) laws_.emplace(id, law);
 }
 
 std::shared_ptr<EosLaw> PartEos::at_density(Id id, const std::shared_ptr<EosLaw>& law, Real ro) {

@@ -13,7 +13,7 @@ namespace courant {
 /// and the same density share one.
 class PartEos {
  public:
-  explicit PartEos(const Deck& deck);
+  PartEos(const Deck& deck, const Model& model);
   /// Whether there is one for `part`; an error where not. `what`: "particles", "solids".
   bool exists(const Deck& deck, const ModelPart& part, const char* what, Diagnostics& diagnostics) const;
   /// That of `part`, whose material has density `ro` and gives no pressure; null, and an error, where there

@@ -38,12 +38,17 @@ EquationOfState::EquationOfState(std::shared_ptr<const EosLaw> law, EosParts par
   same_for_all_ = parts_.all_parts;
   for (std::size_t k = 1; k < parts_.rho0.size(); ++k)
     same_for_all_ = same_for_all_ && parts_.rho0[k] == parts_.rho0[0] && parts_.pc[k] == parts_.pc[0];
+  if (!law_->memory()) return;
+  memory_ = &world.particles.fields.add<Real>({.name = law_->memory(), .dimension = "-", .output = true});
+  for (Index i = 0; i < world.particles.size(); ++i)
+    if (parts_.mine[world.particles.part[i]]) (*memory_)[i] = law_->memory_at_start();
 }
 
 void EquationOfState::declare(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
   a.reads(p.drhodt).updates(p.rho).updates(p.p).updates(p.E).updates(p.c);
   if (!same_for_all_) a.reads(p.part);
+  if (memory_) a.updates(*memory_);
   if (!law_->uses_energy() || heat_.empty()) return;
   a.reads(reference_volume_);
   for (const Field<Real>* heat : heat_) a.reads_before(*heat);
@@ -88,7 +93,7 @@ void EquationOfState::advance_with_energy(Particles& p, Real dt, Index begin, In
     p.rho[i] += p.drhodt[i] * dt;
     dv[i - begin] = rho0 / p.rho[i] - v_old, mu[i - begin] = p.rho[i] / rho0 - 1;
   }
-  law_->evaluate({end - begin, mu.data(), A.data(), dA.data(), B.data(), dB.data()});
+  law_->evaluate({end - begin, mu.data(), A.data(), dA.data(), B.data(), dB.data(), memory(begin)});
   for (Index i = begin, k = 0; i < end; ++i, ++k) {
     Real E = p.E[i] - 0.5 * dv[k] * p.p[i];
     Real power = 0;
@@ -111,7 +116,7 @@ void EquationOfState::advance_without(Particles& p, Real dt, Index begin, Index 
   const Real rho0 = parts_.rho0[part];
   std::array<Real, block_size> mu, half_dv, A, dA;
   loops_.compress(p.drhodt.data(), dt, rho0, p.rho.data(), mu.data(), half_dv.data(), begin, end);
-  law_->evaluate({end - begin, mu.data(), A.data(), dA.data()});
+  law_->evaluate({end - begin, mu.data(), A.data(), dA.data(), nullptr, nullptr, memory(begin)});
   Index without_speed = 0;
 #pragma omp simd reduction(+ : without_speed)
   for (Index k = 0; k < end - begin; ++k) without_speed += dA[k] < 0;

@@ -49,11 +49,14 @@ class EquationOfState : public Material {
   /// The same with B = 0, in a form that vectorises: E only counts the work of the pressure.
   void advance_without(Particles& p, Real dt, Index begin, Index end, Index part, Found& found) const;
 
+  Real* memory(Index begin) const { return memory_ ? memory_->data() + begin : nullptr; }
+
   std::shared_ptr<const EosLaw> law_;
   ParticleLoops loops_ = particle_loops();
   EosParts parts_;
   std::vector<const Field<Real>*> heat_;
   Field<Real>& reference_volume_;
+  Field<Real>* memory_ = nullptr;  ///< null: the law has none
   Real mu_limit_;
   std::vector<Found> found_;
   bool same_for_all_ = false;  ///< every particle is mine, with one rho0 and one pc

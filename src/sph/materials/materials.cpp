@@ -28,7 +28,7 @@ struct Known {
 
 /// Cards that the tables of their keywords cannot judge; those of strength only where particles have it.
 void check_cards(const Deck& deck, const Model& model, const Known& known, Diagnostics& diagnostics) {
-  for (const EosEntry& kind : eos_registry()) kind.check(deck, diagnostics);
+  for (const EosEntry& kind : eos_registry()) kind.check(deck, model, diagnostics);
   const bool strong = std::any_of(model.parts.begin(), model.parts.end(), [&](const ModelPart& part) {
     return part.has_sph && known.strengths.count(part.mid) > 0;
   });
@@ -79,7 +79,7 @@ SphMaterial PartMaterial::for_particles() const {
 std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   const Known known(deck, model);
   check_cards(deck, model, known, diagnostics);
-  PartEos laws(deck);
+  PartEos laws(deck, model);
   std::vector<PartMaterial> out(model.parts.size());
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const ModelPart& part = model.parts[k];

@@ -22,7 +22,7 @@ std::shared_ptr<EosLaw> law_of(const std::string& keyword, const std::string& ca
   std::filesystem::remove(path);
   EXPECT_TRUE(diagnostics.ok()) << diagnostics.text();
   for (const EosEntry& kind : eos_registry())
-    for (const auto& [id, law] : kind.all(deck)) return law->at_density(rho0);
+    for (const auto& [id, law] : kind.all(deck, Model{})) return law->at_density(rho0);
   return nullptr;
 }
 

@@ -22,7 +22,7 @@ std::shared_ptr<EosLaw> law_of(const std::string& keyword, const std::string& ca
   const Deck deck = read_deck("eos.k", options, diagnostics);
   EXPECT_TRUE(diagnostics.ok()) << diagnostics.text();
   for (const EosEntry& kind : eos_registry())
-    if (kind.keyword == keyword) return kind.all(deck).at(0).second;
+    if (kind.keyword == keyword) return kind.all(deck, Model{}).at(0).second;
   return nullptr;
 }
 std::shared_ptr<EosLaw> polynomial_of(const std::string& cards) {
@@ -74,6 +74,44 @@ TEST(EquationOfState, AnIdealGasStaysOnItsIsentrope) {
   EXPECT_NEAR(p.rho[0], 2, 1e-12);
   EXPECT_NEAR(p.p[0], std::pow(2.0, gamma), 2e-6);
   EXPECT_NEAR(p.c[0], std::sqrt(gamma * p.p[0] / p.rho[0]), 1e-9);
+}
+
+// In along C to ln V = -0.3, where p = 5.5, out along K = 30 to p = 0 and in again; work into E, with a law
+// that uses it and without.
+TEST(EquationOfState, WhatWasCrushedComesBackAlongItsModulus) {
+  for (const char* gama : {"0.0", "1e-30"}) {
+    const auto law =
+        law_of("EOS_TABULATED_COMPACTION", std::string("1,") + gama +
+                                               "\n0.0,-0.1,-0.5\n\n0.0,1.0,10.0\n\n1.0,1.0,1.0\n\n"
+                                               "20.0,20.0,40.0\n\n");
+    World world;
+    Particles& p = world.particles;
+    p.fields.resize(1);
+    p.rho[0] = 2, p.active = p.moving = 1;
+    const auto pass = pass_of(law, 2, -1e20, world);
+    Clock clock;
+    clock.dt_old = 1;
+    const auto go_to = [&](Real eV) {
+      const Real from = std::log(2 / p.rho[0]);
+      constexpr int steps = 1000;
+      for (int k = 1; k <= steps; ++k) {
+        p.drhodt[0] = 2 * std::exp(-from - (eV - from) * k / steps) - p.rho[0];
+        courant::test::run(*pass, world, clock);
+      }
+    };
+    go_to(-0.3);
+    EXPECT_NEAR(p.p[0], 5.5, 1e-9);
+    EXPECT_NEAR(p.c[0], std::sqrt(30 / p.rho[0]), 1e-9);
+    // -int p dv with s = -ln v: of p = 10 s, and of 1 + 22.5 (s - 0.1)
+    const Real a = std::exp(-0.1), b = std::exp(-0.3), taken = p.E[0];
+    EXPECT_NEAR(taken, 10 * (1 - 1.1 * a) + (1 + 22.5) * a - (5.5 + 22.5) * b, 1e-5);
+    go_to(-0.3 + 5.5 / 30);
+    EXPECT_NEAR(p.p[0], 0, 1e-9);
+    EXPECT_NEAR(p.E[0], taken - b * (30 * std::exp(5.5 / 30) - 35.5), 1e-5);
+    go_to(-0.3);
+    EXPECT_NEAR(p.p[0], 5.5, 1e-9);
+    EXPECT_NEAR(p.E[0], taken, 1e-5);
+  }
 }
 
 TEST(EquationOfState, ViscousHeatGoesIntoTheEnergyOfALawThatUsesIt) {

@@ -1,0 +1,167 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "elements/beam/cables.hpp"
+#include "elements/beam/mat_cable.hpp"
+#include "elements/beam/section_beam.hpp"
+#include "model/conditions/relaxation.hpp"
+
+namespace courant {
+
+namespace {
+
+template <class Card>
+const Card* card_with_id(const Deck& deck, Id Card::*id, Id wanted) {
+  const std::vector<Card>& cards = deck.all<Card>();
+  const auto found = std::find_if(cards.begin(), cards.end(), [&](const Card& c) { return c.*id == wanted; });
+  return found == cards.end() ? nullptr : &*found;
+}
+
+class CableReader {
+ public:
+  CableReader(const Deck& deck, const Model& model, Diagnostics& diagnostics)
+      : deck_(deck), model_(model), diagnostics_(diagnostics) {}
+
+  void read(std::size_t index, std::vector<CablePart>& out) {
+    const ModelPart& part = model_.parts[index];
+    const auto* section = card_with_id(deck_, &SectionBeam::secid, part.secid);
+    if (!section || section->used() != 6 || part.rigid) return;
+    const auto* card = card_with_id(deck_, &MatCableDiscreteBeam::mid, part.mid);
+    if (!card)
+      return error(
+          part.card, "MID",
+          fmt::format("the beams of part {} with ELFORM 6 need a *MAT_CABLE_DISCRETE_BEAM with id {}; {}",
+                      part.id, part.mid, deck_.found_instead(IdSpace::material, part.mid)),
+          "other materials of discrete beams are not supported; *ELEMENT_DISCRETE has springs and dampers");
+    const auto law = law_of(*card);
+    if (!law) return;
+    warn_of_section(*section);
+    CablePart cables{static_cast<Index>(index), *law};
+    for (const ModelBeam& beam : model_.beams)
+      if (beam.part == cables.part) add(beam, *section, *card, cables);
+    out.push_back(std::move(cables));
+  }
+
+ private:
+  void error(const Entry& card, const char* field, std::string message, std::string hint) {
+    deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
+  }
+
+  /// Nothing, and an error, where the card does not make one.
+  std::optional<CableLaw> law_of(const MatCableDiscreteBeam& card) {
+    CableLaw law{.F0 = card.f0, .ro = card.ro};
+    if (card.lcid != 0) {
+      const auto curve = model_.curves.find(card.lcid);
+      if (curve == model_.curves.end()) return std::nullopt;  // told with the references
+      if (!take_curve(card, curve->second, law)) return std::nullopt;
+    } else if (card.e == 0 && card.f0 == 0) {
+      error(card, "E", "the cable has neither a modulus, nor a curve, nor a tension: it would carry nothing",
+            "give E or LCID");
+      return std::nullopt;
+    } else {
+      (card.e > 0 ? law.E : law.stiffness) = std::abs(card.e);
+    }
+    if (card.mxeps < 1e20) law.most_strain = card.mxeps;
+    if (card.mxfrc < 1e20) law.most_force = card.mxfrc;
+    if (card.tramp > 0) law.ramp_from = card.tstart, law.ramp = card.tramp;
+    if (card.tmaxf0 > 0 || card.tramp > 0) law.held_until = std::max(card.tmaxf0, law.ramp_from + law.ramp);
+    if (card.tstart > 0 && card.tramp == 0)
+      deck_.warning(diagnostics_, card, "TSTART", "has no effect without TRAMP", "leave it blank");
+    Diagnostics unused;
+    if (law.held_until > 0 && relaxation_of(deck_, model_, false, unused).asked) {
+      error(card, "TMAXF0",
+            "a tension that is held or rises is not supported in a deck that is brought to rest first",
+            "leave TMAXF0 and TRAMP blank: the relaxation brings F0 and what it pulls at to rest");
+      return std::nullopt;
+    }
+    return law;
+  }
+
+  bool take_curve(const MatCableDiscreteBeam& card, const Curve& curve, CableLaw& law) {
+    law.strain = curve.abscissa, law.stress = curve.ordinate;
+    for (std::size_t k = 1; k < law.strain.size(); ++k) {
+      if (law.strain[k] > law.strain[k - 1]) continue;
+      error(card, "LCID", fmt::format("curve {} jumps: a cable would be infinitely stiff there", card.lcid),
+            "give its points increasing abscissae");
+      return false;
+    }
+    if (law.strain.size() > 1) return true;
+    error(card, "LCID", fmt::format("curve {} has one point", card.lcid), "a cable needs two or more");
+    return false;
+  }
+
+  void warn_of_section(const SectionBeam& s) {
+    if (s.iner != 0)
+      deck_.warning(
+          diagnostics_, s, "INER",
+          "has no effect on cables, which turn nothing: nodes that they share with shells and beams "
+          "turn as without them",
+          "leave it blank");
+    if (s.nsm != 0)
+      deck_.warning(diagnostics_, s, "NSM", "has no effect on discrete beams", "VOL and RO give their mass");
+  }
+
+  void add(const ModelBeam& beam, const SectionBeam& s, const MatCableDiscreteBeam& card, CablePart& out) {
+    const auto own = [&](std::size_t k, Real of_section) {
+      return beam.measures[k] != 0 ? beam.measures[k] : of_section;
+    };
+    const auto x = [&](std::size_t k) { return model_.nodes[static_cast<std::size_t>(beam.node[k])].x; };
+    const Real volume = own(0, s.vol), area = own(3, s.ca), offset = own(4, s.offset);
+    const Real length = (x(1) - x(0)).norm(), rest = length - offset;
+    const bool by_area = out.law.E > 0 || !out.law.strain.empty();
+    if (by_area && !(area > 0))
+      return error(s, "CA", fmt::format("cable {} has no area, which its stiffness is made of", beam.id),
+                   "give CA here, or PARM4 of *ELEMENT_BEAM_THICKNESS");
+    if (!(rest > 0))
+      return error(
+          s, "OFFSET",
+          fmt::format("cable {}: an offset of {:g} leaves no length of {:g}", beam.id, offset, length),
+          "an offset < 0 is slack, > 0 a tension at the start");
+    const Real mass = card.ro * (volume > 0 ? volume : area * length);
+    if (!(mass > 0))
+      return error(s, "VOL", fmt::format("cable {} has neither a volume nor an area: no mass", beam.id),
+                   "VOL times RO is its mass");
+    out.beams.push_back(&beam), out.area.push_back(area), out.rest.push_back(rest), out.mass.push_back(mass);
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+Real CableLaw::preload(Real t) const {
+  return ramp > 0 ? F0 * std::clamp((t - ramp_from) / ramp, Real(0), Real(1)) : F0;
+}
+
+Real CableLaw::answer(Real area, Real rest, Real dL) const {
+  if (strain.empty()) return (E > 0 ? E * area / rest : stiffness) * dL;
+  const Real e = dL / rest;
+  const auto above = std::upper_bound(strain.begin() + 1, strain.end() - 1, e);
+  const auto k = static_cast<std::size_t>(above - strain.begin()) - 1;
+  return area * (stress[k] + (stress[k + 1] - stress[k]) / (strain[k + 1] - strain[k]) * (e - strain[k]));
+}
+
+Real CableLaw::steepest(Real area, Real rest) const {
+  if (strain.empty()) return E > 0 ? E * area / rest : stiffness;
+  Real most = 0;
+  for (std::size_t k = 0; k + 1 < strain.size(); ++k)
+    most = std::max(most, (stress[k + 1] - stress[k]) / (strain[k + 1] - strain[k]));
+  return most * area / rest;
+}
+
+std::vector<CablePart> find_cable_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  std::vector<CablePart> out;
+  if (model.beams.empty()) return out;
+  CableReader reader(deck, model, diagnostics);
+  for (std::size_t k = 0; k < model.parts.size(); ++k)
+    if (model.parts[k].has_beam) reader.read(k, out);
+  return out;
+}
+
+}  // namespace courant

@@ -1,0 +1,16 @@
+#pragma once
+// Solids with which a run cannot go on.
+#include "elements/solid/hexahedron_loops.hpp"
+#include "state/entities.hpp"
+#include "state/pass.hpp"
+
+namespace courant {
+
+/// Element e of part `part` is beyond mu_limit, where its equation of state has ended.
+[[noreturn]] void stop_for_compression(const ElementGroup& group, Id part, Real mu_limit, Index e,
+                                       const Clock& clock);
+/// An element is turned inside out, or has a volume that is no number.
+[[noreturn]] void stop_for_volume(const ElementGroup& group, Id part, const HexahedronLoops::Found& found,
+                                  const Clock& clock);
+
+}  // namespace courant
