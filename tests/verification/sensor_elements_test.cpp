@@ -104,6 +104,26 @@ TEST(SensorElements, SpringsSwitchInTime) {
   }
 }
 
+// A shell that a rotation of 1 rad/s bends about y: its upper point, sqrt(0.6) of half the thickness up, is
+// pulled with E t z, and its lower one pressed.
+TEST(SensorElements, LayersOfAShellDiffer) {
+  for (const auto& [layer, sign] : {std::pair("TOP", 1.0), std::pair("BOT", -1.0)}) {
+    const std::string text =
+        fmt::format(
+            "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*PART\nshell\n2,2,2\n*SECTION_SHELL\n2,2,1.0,3\n0.1,0.1,0."
+            "1,0.1\n"
+            "*MAT_ELASTIC\n2,1.0,{},0.0\n*ELEMENT_SHELL\n1,2,11,12,13,14\n*NODE\n11,0.0,0.0,0.0,7,7\n12,1.0,"
+            "0.0,0.0,"
+            "7,6\n13,1.0,1.0,0.0,7,6\n14,0.0,1.0,0.0,7,7\n*SET_NODE_LIST\n1\n12,13\n"
+            "*BOUNDARY_PRESCRIBED_MOTION_SET\n1,6,0,1,{}\n*DEFINE_CURVE\n1\n0.0,1.0\n9.0,1.0\n",
+            young, sign) +
+        measure(fmt::format("ELEMENT\n1,SHELL,1,XX,STRESS,{}", layer), "3000.0") + "*END\n";
+    auto s = simulation_of(text);
+    ASSERT_NE(s, nullptr);
+    EXPECT_NEAR(switched_at(*s, 1) / (3000 / (young * std::sqrt(0.6) * 0.05)), 1, 0.02) << layer;
+  }
+}
+
 // A cantilever along x of two beams of length 0.5, s along y: a load that grows slowly along z (t) or y (s)
 // is the shear force in each, and has the moment of the arm in the middle of the first.
 TEST(SensorElements, BeamsTellShearAndMoments) {
