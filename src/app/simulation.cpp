@@ -18,10 +18,12 @@
 #include "elements/erosion.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "elements/nodal_rotations.hpp"
+#include "elements/node_inertias.hpp"
 #include "elements/stiffness_damping.hpp"
 #include "extension/additions.hpp"
 #include "loads/idle_parts.hpp"
 #include "loads/loads.hpp"
+#include "loads/sensors.hpp"
 #include "model/build_model.hpp"
 #include "model/mesh/plane_strain.hpp"
 #include "model/transforms/included_entries.hpp"
@@ -176,6 +178,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     report_weld_scaling(model_, beams_, world_, diagnostics);
   }
   if (bodies_) rules_.share = bodies_->step_share();
+  add_rotary_inertias(deck_, model_, world_, diagnostics);
   start_rotations(model_, node_of, world_);
   if (diagnostics.ok()) add_tied_contacts(diagnostics);
   read_supported_walls(deck_, model_, world_, sph_, diagnostics);
@@ -228,6 +231,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   if (particles) add_particle_passes(diagnostics);
   if (!diagnostics.ok()) return;
   add_node_passes(diagnostics);
+  if (diagnostics.ok()) check_sensors(deck_, world_, diagnostics);
   if (!diagnostics.ok()) return;
   rules_.dtinit = model_.dtinit;
   if (model_.dt_max_given) rules_.dt_max = model_.dt_max;
@@ -256,7 +260,7 @@ void Simulation::report_what_needs_particles(Diagnostics& diagnostics) {
 // Rotations of nodes of shells obey the same equation as places.
 void Simulation::add_rotations() {
   const Points rotations = rotations_of(world_.nodes);
-  world_.passes.add(make_moment_assembly(world_));
+  if (const auto moments = make_moment_assembly(world_)) world_.passes.add(moments);
   if (const auto loads = make_nodal_loads(nodal_loads_, model_, rotations, world_)) world_.passes.add(loads);
   for (const auto& pass :
        {make_fixed_points(model_, rotations, world_), make_damping(damping_, rotations, world_)})

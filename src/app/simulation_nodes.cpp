@@ -8,9 +8,9 @@
 #include "contact/cards.hpp"
 #include "contact/nodes/build.hpp"
 #include "elements/nodal_assembly.hpp"
+#include "elements/node_inertias.hpp"
 #include "extension/additions.hpp"
 #include "loads/node_sets.hpp"
-#include "loads/sensors.hpp"
 #include "rigid/build_joints.hpp"
 #include "rigid/joint_stiffness.hpp"
 #include "rigid/time_limit.hpp"
@@ -31,14 +31,13 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
           deck_, model_, bodies_ ? bodies_->wall_bodies(world_) : WallBodies{}, world_, diagnostics))
     world_.passes.add(pressure);
   else
-    left_out_.push_back({"pressure on segments", "no *LOAD_SEGMENT, no *LOAD_SHELL"});
+    left_out_.push_back({"pressure on segments", "no *LOAD_SEGMENT, no *LOAD_SHELL, no *LOAD_BLAST"});
   if (bodies_move && moves_all_by_bodies()) world_.passes.add(make_body_time_limit(bodies_, model_.endtim));
   add_contacts_of_nodes(diagnostics);
   if (!add_joint_stiffness(deck_, model_, bodies_, world_, diagnostics))
     left_out_.push_back({"joint stiffness", "no *CONSTRAINED_JOINT_STIFFNESS"});
   if (!add_joints(deck_, model_, bodies_, world_, diagnostics))
     left_out_.push_back({"joints", "no *CONSTRAINED_JOINT"});
-  check_sensors(deck_, world_, diagnostics);
   if (const auto sets = make_node_sets(deck_, model_, world_, diagnostics))
     world_.passes.add(sets);
   else
@@ -47,6 +46,7 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
   add_springs(diagnostics);
   const bool turn = has_rotations(world_.nodes);
   if (turn) world_.passes.add(make_clear_forces(rotations_of(world_.nodes)));
+  add_inertia_tensors(deck_, model_, !damping_.empty(), world_, diagnostics);
   hold_massless_nodes(diagnostics);
   if (!diagnostics.ok()) return;
   world_.passes.add(make_nodal_assembly(world_));

@@ -37,7 +37,8 @@ void give_stiffness(Facet& f, const ContactLaw& law, const WallBodies& bodies, c
   f.m = infinity;
   if (!f.moves) return;
   f.body = f.centred ? -1 : bodies.body(f.node[0]);
-  for (const Index n : a) f.m = std::min(f.m, world.nodes.m[n]);
+  for (const Index n : a)
+    if (!world.nodes.held[n]) f.m = std::min(f.m, world.nodes.m[n]);
 }
 
 Field<Real>* particle_field(World& world, const std::string& name, const std::string& dimension,

@@ -103,8 +103,13 @@ void Contact::strike(World& world, const Clock& clock) {
       const Facet& f = facets_[a.facet];
       if (!f.moves) continue;
       const auto share = shape_functions(f, a.q);
-      for (int e = 0; e < node_count(f); ++e)
-        world.nodes.f.add(f.node[e], supports.nodes.part_of(-share[e] * a.held * in_plane(a.n), f.node[e]));
+      for (int e = 0; e < node_count(f); ++e) {
+        const Vec force = supports.nodes.part_of(-share[e] * a.held * in_plane(a.n), f.node[e]);
+        if (const Index body = options_.bodies.body(f.node[e]); f.body < 0 && body >= 0)
+          options_.bodies.push(body, world.nodes.x.vec(f.node[e]), force);
+        else
+          world.nodes.f.add(f.node[e], force);
+      }
     }
   if (held_now_ > 0) world.counters["contact_held"] += held_now_;
 }
@@ -221,7 +226,8 @@ Vec Contact::wall_kick(const World& world, const Facet& f, const Vec& q, Real ti
   const auto N = shape_functions(f, q);
   Vec out = Vec::Zero();
   for (int e = 0; e < node_count(f); ++e)
-    out += N[e] * time / world.nodes.m[f.node[e]] * world.nodes.f.vec(f.node[e]);
+    if (f.body >= 0 || options_.bodies.body(f.node[e]) < 0)
+      out += N[e] * time / world.nodes.m[f.node[e]] * world.nodes.f.vec(f.node[e]);
   return out;
 }
 

@@ -25,16 +25,17 @@ class RigidWallReader {
   RigidWallReader(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics)
       : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
     for (const RigidWallPlanar& card : deck.all<RigidWallPlanar>()) taken_.insert(card.id);
+    for (const RigidWallOrtho& card : deck.all<RigidWallOrtho>()) taken_.insert(card.id);
     for (const RigidWallGeometric& card : deck.all<RigidWallGeometric>()) taken_.insert(card.id);
   }
 
   void add(const RigidWallPlanar& card) {
     RigidWallSetup wall = start(card);
-    wall.mass = card.mass, wall.speed = card.moving() ? card.v0 : 0, wall.weld_speed = card.wvel;
-    if (!read_normal(card, wall) || (card.finite() && !read_edge(card, wall)) ||
-        !read_friction(card, wall, true))
-      return;
-    choose_points(card, std::move(wall));
+    if (read_plane(card, wall) && read_friction(card, wall, true)) choose_points(card, std::move(wall));
+  }
+  void add(const RigidWallOrtho& card) {
+    RigidWallSetup wall = start(card);
+    if (read_plane(card, wall) && read_ortho(card, wall)) choose_points(card, std::move(wall));
   }
   void add(const RigidWallGeometric& card) {
     RigidWallSetup wall = start(card);
@@ -110,6 +111,11 @@ class RigidWallReader {
     return true;
   }
 
+  bool read_plane(const RigidWallPlanar& card, RigidWallSetup& wall) {
+    wall.mass = card.mass, wall.speed = card.moving() ? card.v0 : 0, wall.weld_speed = card.wvel;
+    return read_normal(card, wall) && (!card.finite() || read_edge(card, wall));
+  }
+
   bool read_edge(const RigidWallCard& card, RigidWallSetup& wall) {
     const Vec n = wall.shape.n(), edge = card.edge() - card.tail();
     const Vec along = edge - edge.dot(n) * n;
@@ -179,6 +185,47 @@ class RigidWallReader {
                             : "0 slides, up to 1 is Coulomb's coefficient, 1 does not slide");
     const bool sticks = card.fric == 1 || card.fric == 3;
     wall.friction = sticks ? std::numeric_limits<Real>::infinity() : wall.welds ? 0 : card.fric;
+    return true;
+  }
+
+  bool read_ortho(const RigidWallOrtho& card, RigidWallSetup& wall) {
+    if (card.fric != 0)
+      return error(card, "FRIC", fmt::format("'{:g}' stands beside the friction of _ORTHO", card.fric),
+                   "leave it 0, or leave out _ORTHO");
+    OrthoFriction& friction = wall.ortho.emplace();
+    friction.at_rest = {card.sfrica, card.sfricb}, friction.sliding = {card.dfrica, card.dfricb};
+    friction.decay = {card.decaya, card.decayb};
+    friction.d = Vec(card.d1, card.d2, card.d3);
+    if ((card.node1 > 0 || card.node2 > 0) && !read_ortho_nodes(card, wall)) return false;
+    const Vec n = wall.shape.n(), along = friction.d - friction.d.dot(n) * n;
+    constexpr Real least_sine = 1e-6;
+    if (!(along.norm() > least_sine * friction.d.norm()))
+      return error(card, card.node1 > 0 ? "NODE1" : "D1",
+                   "the direction a of friction has no length along the wall",
+                   "give NODE1 and NODE2, or D1, D2, D3, not along the normal");
+    return true;
+  }
+  bool read_ortho_nodes(const RigidWallOrtho& card, RigidWallSetup& wall) {
+    std::array<Vec, 2> place;
+    std::size_t k = 0;
+    for (const auto& [field, id] : {std::pair("NODE1", card.node1), std::pair("NODE2", card.node2)}) {
+      const auto of_id = [id = id](const ModelNode& node) { return node.id == id; };
+      const auto node = std::find_if(model_.nodes.begin(), model_.nodes.end(), of_id);
+      if (node == model_.nodes.end())
+        return error(card, field, fmt::format("node {} does not exist", id), "define it with *NODE");
+      const Index n = static_cast<Index>(node - model_.nodes.begin());
+      if (std::any_of(model_.sph.begin(), model_.sph.end(), [n](const ModelSph& s) { return s.node == n; }))
+        return error(card, field, fmt::format("node {} carries a particle", id),
+                     "name nodes of elements, or give D1, D2, D3");
+      place[k] = node->x;
+      for (Index i = 0; i < world_.nodes.size(); ++i)  // one that is none of the world stays
+        if (world_.nodes.id[i] == id) wall.ortho_nodes[k] = i;
+      ++k;
+    }
+    wall.ortho->d = place[1] - place[0];
+    if ((wall.ortho_nodes[0] < 0) != (wall.ortho_nodes[1] < 0))
+      return error(card, "NODE1", "one of the two nodes moves with elements, and the other one with nothing",
+                   "name two nodes of elements or bodies");
     return true;
   }
 
@@ -283,6 +330,7 @@ class RigidWallReader {
 bool add_rigid_walls(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics) {
   RigidWallReader reader(deck, model, world, diagnostics);
   for (const RigidWallPlanar& card : deck.all<RigidWallPlanar>()) reader.add(card);
+  for (const RigidWallOrtho& card : deck.all<RigidWallOrtho>()) reader.add(card);
   for (const RigidWallGeometric& card : deck.all<RigidWallGeometric>()) reader.add(card);
   return diagnostics.ok() && reader.finish();
 }

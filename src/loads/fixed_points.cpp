@@ -29,10 +29,11 @@ class FixedPoints : public Constraint, public BoundaryForceReporter {
         if (fixed_[i] & (1 << k)) points.v->data(k)[i] = 0;
     }
     if (model.output.spcforc.asked())
-      support_ = &points.set->add<Real>({.name = points.turns ? "support_moment" : "support_force",
-                                         .dimension = points.turns ? "ML2/T2" : "ML/T2",
-                                         .components = 3,
-                                         .restart = false});
+      support_ =
+          points.turns
+              ? &shared_fields::support_moment.add(*points.set)
+              : &points.set->add<Real>(
+                    {.name = "support_force", .dimension = "ML/T2", .components = 3, .restart = false});
   }
   std::string name() const override { return "fixed " + points_.name() + " (SPC)"; }
   const FieldSet& over(const World&) const override { return points_.fields(); }

@@ -47,7 +47,9 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
   std::span<const HeldPoints> sets() const { return sets_; }
 
   /// Chooses its motion over the coming step; returns its speed.
-  Real prepare(const Clock& clock) {
+  Real prepare(const World& world, const Clock& clock) {
+    if (const auto [n1, n2] = wall_.ortho_nodes; wall_.ortho && n1 >= 0)
+      wall_.ortho->d = world.nodes.x.vec(n2) - world.nodes.x.vec(n1);
     if (wall_.motion)
       drive_ = wall_.motion->velocity(clock.t, clock.dt, clock.dt_old, 0) * wall_.motion->direction;
     return std::abs(speed_) + drive_.norm();
@@ -126,6 +128,7 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
   void keep(Archive& archive) override {
     archive("speed", speed_), archive("way", way_), archive("impulse", impulse_), archive("lost", lost_);
     archive("moved", moved_);
+    archive("force", force_);  // sensors look before walls strike
   }
 
  private:
@@ -138,12 +141,13 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
 
   /// What a point would do without this wall in this step.
   struct Approach {
-    bool held = false;    ///< the wall may act on it
-    bool welded = false;  ///< and pull, too
-    Vec v, n;             ///< velocity after the step [L/T]; normal where it comes to the wall
-    Vec along;            ///< of the normal what is free to move
-    Real inertia = 0;     ///< of a force along the normal [M]
-    Real u = 0;           ///< speed at which it just comes to the plane [L/T]
+    bool held = false;      ///< the wall may act on it
+    bool welded = false;    ///< and pull, too
+    bool confined = false;  ///< some axis is held
+    Vec v, n;               ///< velocity after the step [L/T]; normal where it comes to the wall
+    Vec along;              ///< of the normal what is free to move
+    Real inertia = 0;       ///< of a force along the normal [M]
+    Real u = 0;             ///< speed at which it just comes to the plane [L/T]
   };
   Approach approach(const HeldPoints& set, const Clock& clock, int dim, Index i) const {
     Approach a;
@@ -153,7 +157,7 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     const WallShape::Near near = nearest(x);
     a.n = a.along = near.n;
     for (int k = 0; k < 3; ++k)
-      if ((set.axes && (*set.axes)[i] & (1 << k)) || k >= dim) a.along[k] = 0;
+      if ((set.axes && (*set.axes)[i] & (1 << k)) || k >= dim) a.along[k] = 0, a.confined = true;
     constexpr Real free_enough = 1e-12;
     const Real share = a.along.squaredNorm(), m = (*set.points.m)[i];
     if (share < free_enough) return a;
@@ -217,9 +221,10 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
   Vec force_on(const Approach& a, Real w, Real m, Real dt) const {
     const Real normal = a.inertia * (w - a.u) / dt;
     Vec force = normal * a.along;
-    if (wall_.friction == 0) return force;
+    if (wall_.friction == 0 && !wall_.ortho) return force;
     Vec slip = a.v + force * (dt / m) - drive_;
     slip -= slip.dot(a.along) / a.along.squaredNorm() * a.along;
+    if (wall_.ortho) return force + wall_.ortho->force(a.n, slip, std::abs(normal), m, dt, a.confined);
     const Real speed = slip.norm(), stops = m * speed / dt;
     if (speed > 0) force -= std::min(wall_.friction * std::abs(normal), stops) / speed * slip;
     return force;
@@ -260,7 +265,7 @@ class RigidWalls : public Impact {
   /// Nothing gets faster by being stopped: twice the way of a point and a wall is enough.
   std::shared_ptr<const RigidWall::Near> find_near(const World& world, const Clock& clock) const {
     Real fastest = 0;
-    for (const auto& wall : walls_) fastest = std::max(fastest, wall->prepare(clock));
+    for (const auto& wall : walls_) fastest = std::max(fastest, wall->prepare(world, clock));
     const std::span<const HeldPoints> sets = walls_.front()->sets();
     auto near = std::make_shared<RigidWall::Near>(sets.size());
     for (std::size_t s = 0; s < sets.size(); ++s) {

@@ -1,9 +1,11 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "loads/wall_friction.hpp"
 #include "loads/wall_shape.hpp"
 #include "model/conditions/prescribed_motion.hpp"
 #include "state/points.hpp"
@@ -17,10 +19,12 @@ struct RigidWallSetup {
   std::string title;
   WallShape shape;
   Real birth = 0, death = 1e20;
-  Real mass = 0;       ///< 0: it does not give way. Of planes only
-  Real speed = 0;      ///< at the start, along the normal, of one with a mass [L/T]
-  Real friction = 0;   ///< infinite where nothing slides
-  bool welds = false;  ///< what comes faster than weld_speed [L/T]
+  Real mass = 0;                             ///< 0: it does not give way. Of planes only
+  Real speed = 0;                            ///< at the start, along the normal, of one with a mass [L/T]
+  Real friction = 0;                         ///< infinite where nothing slides
+  std::optional<OrthoFriction> ortho{};      ///< instead of that, where it differs by direction
+  std::array<Index, 2> ortho_nodes{-1, -1};  ///< of World::nodes, between which d is; -1: d stays
+  bool welds = false;                        ///< what comes faster than weld_speed [L/T]
   Real weld_speed = 0;
   std::optional<PrescribedMotion> motion{};  ///< of the whole wall, without turning
 };

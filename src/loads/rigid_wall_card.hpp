@@ -28,6 +28,12 @@ struct RigidWallPlanar : RigidWallCard {
   int soft = 0;
 };
 
+/// *RIGIDWALL_PLANAR_ORTHO with its options
+struct RigidWallOrtho : RigidWallPlanar {
+  Id node1 = 0, node2 = 0;
+  Real sfrica = 0, sfricb = 0, dfrica = 0, dfricb = 0, decaya = 0, decayb = 0, d1 = 0, d2 = 0, d3 = 0;
+};
+
 /// *RIGIDWALL_GEOMETRIC_FLAT, _PRISM, _CYLINDER and _SPHERE with their options
 struct RigidWallGeometric : RigidWallCard {
   enum class Shape { flat, prism, cylinder, sphere };

@@ -8,6 +8,7 @@
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "loads/blast_cards.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
 #include "model/definitions/named_curve.hpp"
@@ -117,6 +118,7 @@ const RegisterKeyword<LoadShell> load_shell_keyword{
 struct PressureFace {
   std::array<Index, 4> node{};
   std::size_t load = 0;
+  Index blast = -1;  ///< among the waves; -1: the load presses
   int corners() const { return node[2] == node[3] ? 3 : 4; }
 };
 struct PressureLoad {
@@ -125,13 +127,26 @@ struct PressureLoad {
   Real operator()(Real t) const { return t < at ? 0 : sf * curve(t - at); }  ///< [M/LT2]
 };
 
+/// What a charge does to a face, which stood there at the start.
+struct BlastOnFace {
+  std::size_t source = 0;
+  BlastWave wave{};
+  Real scale = 1;
+};
+
 /// -p A n, half the cross product of the diagonals, in equal shares for the corners. Each node works out the
 /// faces it is a corner of, in the order of the deck: the same bits on any number of threads.
 class SegmentPressure : public Force, public EnergyTerm {
  public:
-  SegmentPressure(std::vector<PressureLoad> loads, std::vector<PressureFace> faces, WallBodies bodies,
+  SegmentPressure(std::vector<PressureLoad> loads, std::vector<PressureFace> faces,
+                  std::vector<BlastSource> charges, std::vector<BlastOnFace> blasts, WallBodies bodies,
                   World& world)
-      : bodies_(std::move(bodies)), loads_(std::move(loads)), faces_(std::move(faces)), nodes_(&world.nodes) {
+      : bodies_(std::move(bodies)),
+        loads_(std::move(loads)),
+        faces_(std::move(faces)),
+        charges_(std::move(charges)),
+        blasts_(std::move(blasts)),
+        nodes_(&world.nodes) {
     std::vector<Index> node, face;
     for (std::size_t k = 0; k < faces_.size(); ++k)
       for (int c = 0; c < faces_[k].corners(); ++c)
@@ -147,7 +162,7 @@ class SegmentPressure : public Force, public EnergyTerm {
   }
 
   void start(World&, const Clock& clock) override {
-    pressure_.clear();
+    pressure_.clear(), now_ = clock.t, half_ = 0.5 * clock.dt_old;
     for (const PressureLoad& load : loads_) pressure_.push_back(load(clock.t));
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
@@ -177,9 +192,21 @@ class SegmentPressure : public Force, public EnergyTerm {
       const auto x = [&](std::size_t c) { return nodes_->x.vec(f.node[c]); };
       const Vec area = f.corners() == 3 ? Vec((x(1) - x(0)).cross(x(2) - x(0)) / 2)
                                         : Vec((x(2) - x(0)).cross(x(3) - x(1)) / 2);
-      out -= pressure_[f.load] / f.corners() * area;
+      const Real p = f.blast < 0 ? pressure_[f.load] : blast_on(f, area);
+      out -= p / f.corners() * area;
     }
     return out;
+  }
+
+  Real blast_on(const PressureFace& f, const Vec& area) const {
+    const BlastOnFace& blast = blasts_[static_cast<std::size_t>(f.blast)];
+    const BlastSource& charge = charges_[blast.source];
+    Vec middle = Vec::Zero();
+    for (int c = 0; c < f.corners(); ++c)
+      middle += nodes_->x.vec(f.node[static_cast<std::size_t>(c)]) / f.corners();
+    const Vec to_charge = charge.place - middle;
+    const Real cosine = area.dot(to_charge) / (area.norm() * to_charge.norm());
+    return blast.scale * charge.pressure(blast.wave, now_, half_, cosine);
   }
 
   /// Of the velocities before and after the kick to come, as for other nodes.
@@ -192,6 +219,9 @@ class SegmentPressure : public Force, public EnergyTerm {
   WallBodies bodies_;
   std::vector<PressureLoad> loads_;
   std::vector<PressureFace> faces_;
+  std::vector<BlastSource> charges_;
+  std::vector<BlastOnFace> blasts_;
+  Real now_ = 0, half_ = 0;  ///< half of the step before, for that to come [T]
   const Nodes* nodes_;
   std::vector<Index> first_, of_node_;  ///< faces of each node
   std::vector<Real> pressure_;          ///< of each load now [M/LT2]
@@ -200,7 +230,11 @@ class SegmentPressure : public Force, public EnergyTerm {
 class PressureReader {
  public:
   PressureReader(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), diagnostics_(diagnostics) {
+      : charges(blast_sources(deck, model, diagnostics)),
+        deck_(deck),
+        model_(model),
+        world_(world),
+        diagnostics_(diagnostics) {
     for (Index n = 0; n < world.nodes.size(); ++n) world_node_[world.nodes.id[n]] = n;
   }
   void add(const LoadSegment& card) {
@@ -214,12 +248,21 @@ class PressureReader {
       return deck_.error(diagnostics_, card, "SSID", fmt::format("segment set {} does not exist", card.ssid),
                          "define it with *SET_SEGMENT");
     if (!add_load(card, card.lcid, card.sf, card.at)) return;
-    for (const Index s : set->second) {
-      const auto& node = model_.segments[static_cast<std::size_t>(s)].node;
-      std::array<Id, 4> id{};
-      for (std::size_t c = 0; c < 4; ++c) id[c] = model_.nodes[static_cast<std::size_t>(node[c])].id;
-      if (!add_face(card, "SSID", id)) return;
-    }
+    for (const Index s : set->second)
+      if (!add_face(card, "SSID", corners_of(model_.segments[static_cast<std::size_t>(s)].node))) return;
+  }
+  void add(const BlastSegment& card) {
+    std::array<Id, 4> id{card.n1, card.n2, card.n3, card.n4 == 0 ? card.n3 : card.n4};
+    if (id[3] == id[0]) id[3] = id[2];
+    add_blast(card, "N1", id);
+  }
+  void add(const BlastSegmentSet& card) {
+    const auto set = model_.segment_sets.find(card.ssid);
+    if (set == model_.segment_sets.end())
+      return deck_.error(diagnostics_, card, "SSID", fmt::format("segment set {} does not exist", card.ssid),
+                         "define it with *SET_SEGMENT");
+    for (const Index s : set->second)
+      if (!add_blast(card, "SSID", corners_of(model_.segments[static_cast<std::size_t>(s)].node))) return;
   }
   void add(const LoadShell& card) {
     std::vector<Index> shells;
@@ -237,17 +280,52 @@ class PressureReader {
       shells.push_back(found);
     }
     if (!add_load(card, card.lcid, card.sf, card.at)) return;
-    for (const Index s : shells) {
-      const auto& node = model_.shells[static_cast<std::size_t>(s)].node;
-      std::array<Id, 4> id{};
-      for (std::size_t c = 0; c < 4; ++c) id[c] = model_.nodes[static_cast<std::size_t>(node[c])].id;
-      if (!add_face(card, "EID", id)) return;
-    }
+    for (const Index s : shells)
+      if (!add_face(card, "EID", corners_of(model_.shells[static_cast<std::size_t>(s)].node))) return;
   }
   std::vector<PressureLoad> loads;
   std::vector<PressureFace> faces;
+  std::vector<BlastSource> charges;
+  std::vector<BlastOnFace> blasts;
 
  private:
+  std::array<Id, 4> corners_of(const std::array<Index, 4>& node) const {
+    std::array<Id, 4> id{};
+    for (std::size_t c = 0; c < 4; ++c) id[c] = model_.nodes[static_cast<std::size_t>(node[c])].id;
+    return id;
+  }
+  template <class Card>
+  bool add_blast(const Card& card, const char* field, const std::array<Id, 4>& id) {
+    const auto refuse = [&](const char* at, std::string message, const char* hint) {
+      deck_.error(diagnostics_, card, at, std::move(message), hint);
+      return false;
+    };
+    const auto charge = std::find_if(charges.begin(), charges.end(),
+                                     [&](const BlastSource& one) { return one.id == card.bid; });
+    if (charge == charges.end())
+      return refuse("BID", fmt::format("charge {} does not exist", card.bid),
+                    "define it with *LOAD_BLAST_ENHANCED");
+    if (world_.dim == 2)
+      return refuse("BID", "blasts are not supported in plane scenes", "use *LOAD_SEGMENT");
+    if (!add_face(card, field, id)) return false;
+    PressureFace& face = faces.back();
+    Vec middle = Vec::Zero();
+    for (int c = 0; c < face.corners(); ++c)
+      middle += world_.nodes.x.vec(face.node[static_cast<std::size_t>(c)]) / face.corners();
+    const Real distance = (charge->place - middle).norm();
+    const auto wave = charge->wave_at(distance);
+    if (!wave) {
+      const BlastRange range = blast_range(charge->kind);
+      return refuse(field,
+                    fmt::format("the face of node {} is {:.4g} ft/lb^(1/3) from charge {}, and the fits hold "
+                                "from {:g} to {:g}",
+                                id[0], charge->scaled(distance), card.bid, range.least, range.most),
+                    "check M, the place of the charge and UNIT, or leave the face out");
+    }
+    face.blast = static_cast<Index>(blasts.size());
+    blasts.push_back({static_cast<std::size_t>(charge - charges.begin()), *wave, card.scalep});
+    return true;
+  }
   /// Index into Model::shells; -1: there is none.
   Index shell_of(Id id) {
     if (shell_of_id_.empty())
@@ -288,9 +366,21 @@ class PressureReader {
 
   const Deck& deck_;
   const Model& model_;
+  const World& world_;
   Diagnostics& diagnostics_;
   std::map<Id, Index> world_node_, shell_of_id_;
 };
+
+/// Of lists that are not all empty.
+template <class... Lists>
+const Entry& first_card(const Lists&... lists) {
+  const Entry* out = nullptr;
+  const auto look = [&out](const auto& list) {
+    if (!out && !list.empty()) out = &list.front();
+  };
+  (look(lists), ...);
+  return *out;
+}
 
 }  // namespace
 
@@ -299,19 +389,25 @@ std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& mode
   const auto& segments = deck.all<LoadSegment>();
   const auto& sets = deck.all<LoadSegmentSet>();
   const auto& shells = deck.all<LoadShell>();
-  if (segments.empty() && sets.empty() && shells.empty()) return nullptr;
+  const auto& blasts = deck.all<BlastSegment>();
+  const auto& blast_sets = deck.all<BlastSegmentSet>();
   PressureReader reader(deck, model, world, diagnostics);
+  if (!reader.charges.empty() && blasts.empty() && blast_sets.empty())
+    deck.warning(diagnostics, reader.charges.front().card, "BID", "the blast pushes nothing",
+                 "name faces by *LOAD_BLAST_SEGMENT or _SET");
   for (const LoadSegment& card : segments) reader.add(card);
   for (const LoadSegmentSet& card : sets) reader.add(card);
   for (const LoadShell& card : shells) reader.add(card);
+  for (const BlastSegment& card : blasts) reader.add(card);
+  for (const BlastSegmentSet& card : blast_sets) reader.add(card);
   if (reader.faces.empty()) return nullptr;
   if (shared_fields::eroded.find(world.segments.fields))
-    diagnostics.warning(deck.where(!segments.empty() ? static_cast<const Entry&>(segments.front())
-                                   : !sets.empty()   ? static_cast<const Entry&>(sets.front())
-                                                     : shells.front()),
+    diagnostics.warning(deck.where(first_card(segments, sets, shells, blasts, blast_sets)),
                         "elements may fail: the pressure goes on to push the nodes of faces that are deleted",
                         "end it by its curve");
-  return std::make_shared<SegmentPressure>(std::move(reader.loads), std::move(reader.faces), bodies, world);
+  return std::make_shared<SegmentPressure>(std::move(reader.loads), std::move(reader.faces),
+                                           std::move(reader.charges), std::move(reader.blasts), bodies,
+                                           world);
 }
 
 }  // namespace courant

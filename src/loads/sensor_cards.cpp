@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -11,11 +10,11 @@
 #include "extension/additions.hpp"
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "loads/sensor_force.hpp"
 #include "loads/sensor_math.hpp"
 #include "loads/sensors.hpp"
 #include "model/conditions/motion_ids.hpp"
 #include "state/ending.hpp"
-#include "state/reports.hpp"
 
 namespace courant {
 
@@ -26,11 +25,6 @@ using namespace rules;
 struct SensorDefineNode : Entry {
   Id sensid = 0, node1 = 0, node2 = 0;
   std::string vid, ctype, setopt;
-};
-struct SensorDefineForce : Entry {
-  Id sensid = 0, typeid_ = 0;
-  std::string ftype, vid;
-  int crd = 0;
 };
 struct SensorDefineMisc : Entry {
   Id sensid = 0;
@@ -69,29 +63,6 @@ const RegisterKeyword<Node> sensor_define_node{
               {},
               {"CTYPE", &Node::ctype, "-", "COORD or VEL; ACC, which a blank field means, is refused"},
               {"SETOPT", &Node::setopt, "-", "of sets of nodes", unsupported}}}}}};
-
-using Force = SensorDefineForce;
-IdSpace exerting_space(const Force& f) {
-  return f.ftype == "CONTACT" ? IdSpace::contact : f.ftype == "JOINT" ? IdSpace::joint : IdSpace::none;
-}
-const RegisterKeyword<Force> sensor_define_force{
-    {.names = {"SENSOR_DEFINE_FORCE"},
-     .purpose =
-         "force of a contact between elements, of a force transducer or of a joint, for switches; other "
-         "forces are read, and switches that ask for one are refused",
-     .cards = {
-         {.fields = {{"SENSID", &Force::sensid, "-", "id that switches refer to", required_id},
-                     {"FTYPE", &Force::ftype, "-", "CONTACT: on SURFA, or JOINT: on its second body"},
-                     {"TYPEID",
-                      &Force::typeid_,
-                      "-",
-                      "number of that",
-                      {.check = Check::not_negative},
-                      exerting_space},
-                     {"VID", &Force::vid, "-",
-                      "X, Y, Z, or a vector; blank or 0: the magnitude. Of joints also XMOMENT, YMOMENT, "
-                      "ZMOMENT"},
-                     {"CRD", &Force::crd, "-", "system that turns with a node", unsupported}}}}}};
 
 using Misc = SensorDefineMisc;
 std::string keep_curve_of_sensor(Misc& card, const Conversion& conversion) {
@@ -191,14 +162,15 @@ const RegisterKeyword<TerminationSensor> termination_sensor{
 class SensorReader {
  public:
   SensorReader(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), diagnostics_(diagnostics) {
+      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
     for (Index n = 0; n < world.nodes.size(); ++n) node_of_id_.emplace(world.nodes.id[n], n);
   }
 
   std::shared_ptr<SensorBoard> read() {
     for (const Node& card : deck_.all<Node>()) add(card);
-    for (const Force& card : deck_.all<Force>()) add(card);
     for (const Misc& card : deck_.all<Misc>()) add(card);
+    for (const SensorKind& kind : sensor_kinds())
+      for (Sensor& one : kind(deck_, model_, world_, diagnostics_)) add_one(std::move(one));
     for (const Math& card : deck_.all<Math>()) add(card);
     for (const Switch& card : deck_.all<Switch>()) add(card);
     for (const Control& card : deck_.all<Control>()) add(card);
@@ -240,73 +212,19 @@ class SensorReader {
       error(card, "CTYPE",
             fmt::format("'{}' is not supported", card.ctype.empty() ? "ACC (blank)" : card.ctype),
             "COORD or VEL: accelerations are of single steps");
-    out.direction = direction_of(card, card.vid);
+    out.direction = sensor_direction(deck_, model_, card, card.vid, diagnostics_);
     sensors_.push_back({card.sensid, [out](const World& world, const Clock&) { return out.value(world); }});
   }
 
-  /// Zero: the magnitude.
-  Vec direction_of(const Entry& card, const std::string& vid) {
-    if (vid.empty() || vid == "0") return Vec::Zero();
-    constexpr std::string_view axes = "XYZ";
-    const auto axis = vid.size() == 1 ? axes.find(vid[0]) : std::string_view::npos;
-    if (axis != std::string_view::npos) return Vec::Unit(static_cast<Eigen::Index>(axis));
-    Id id = 0;
-    const auto vector = whole_number(vid, id) ? model_.vectors.find(id) : model_.vectors.end();
-    if (vector == model_.vectors.end()) {
-      error(card, "VID", fmt::format("vector {} does not exist", vid), "X, Y, Z, or a *DEFINE_VECTOR");
-      return Vec::Zero();
-    }
-    const Vec along = vector->second.head - vector->second.tail;
-    if (vector->second.moves || !(along.norm() > 0))
-      error(card, "VID", fmt::format("vector {} turns with nodes, or has no direction", vid),
-            "give it by two places that differ");
-    return along.norm() > 0 ? Vec(along.normalized()) : Vec(Vec::Zero());
-  }
   static bool whole_number(const std::string& text, Id& value) {
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
     return fault == std::errc() && end == text.data() + text.size();
   }
 
-  /// Of other kinds of forces there is no sensor; who asks for one is told.
-  void add(const Force& card) {
-    const bool joint = card.ftype == "JOINT";
-    if ((!joint && card.ftype != "CONTACT") || !is_new(card)) return;
-    std::string vid = card.vid;
-    const bool moment = joint && vid.size() == 7 && vid.substr(1) == "MOMENT";
-    if (moment) vid.resize(1);
-    const Vec along = direction_of(card, vid);
-    const Id id = card.typeid_;
-    const auto measured = [along](const Vec& f) { return along.squaredNorm() > 0 ? f.dot(along) : f.norm(); };
-    Sensor out{.id = card.sensid, .value = nullptr, .card = card};
-    if (joint) {
-      out.there = [id](const World& world) { return !forces_of_joint(world, id).empty(); };
-      out.value = [id, moment, measured](const World& world, const Clock&) {
-        Vec sum = Vec::Zero();
-        for (const JointForce& one : forces_of_joint(world, id)) sum += moment ? one.moment : one.force;
-        return measured(sum);
-      };
-    } else {
-      out.there = [id](const World& world) { return force_of_contact(world, id).has_value(); };
-      out.value = [id, measured](const World& world, const Clock&) {
-        return measured(force_of_contact(world, id).value_or(Vec::Zero()));
-      };
-    }
-    sensors_.push_back(std::move(out));
-  }
-  static std::vector<JointForce> forces_of_joint(const World& world, Id id) {
-    std::vector<JointForce> all, out;
-    for (const auto* pass : world.passes.all<const JointReporter>()) pass->report_joints(all);
-    std::copy_if(all.begin(), all.end(), std::back_inserter(out),
-                 [&](const JointForce& one) { return one.id == id; });
-    return out;
-  }
-  /// Nothing: there is no such contact.
-  static std::optional<Vec> force_of_contact(const World& world, Id id) {
-    std::optional<Vec> sum;
-    for (const auto* pass : world.passes.all<const InterfaceReporter>())
-      if (const InterfaceForce one = pass->report(); one.id == id)
-        sum = sum.value_or(Vec::Zero()) + one.on_surfa;
-    return sum;
+  void add_one(Sensor sensor) {
+    if (find(sensors_, sensor.id) < 0) return sensors_.push_back(std::move(sensor));
+    error(sensor.card, "SENSID", fmt::format("sensor {} is defined twice", sensor.id),
+          "give it another number");
   }
 
   void add(const Misc& card) {
@@ -372,13 +290,13 @@ class SensorReader {
   int find_sensor(const Entry& card, const char* field, Id id) {
     const int found = find(sensors_, id);
     if (found >= 0) return found;
-    const auto& forces = deck_.all<Force>();
+    const auto& forces = deck_.all<SensorDefineForce>();
     const auto force =
-        std::find_if(forces.begin(), forces.end(), [&](const Force& f) { return f.sensid == id; });
+        std::find_if(forces.begin(), forces.end(), [&](const auto& f) { return f.sensid == id; });
     if (force != forces.end())
       error(card, field,
             fmt::format("sensor {} is a force ({}), by which nothing can be switched", id, force->ftype),
-            "forces of CONTACT and JOINT can");
+            "forces of CONTACT, JOINT, RWALL and XSECTION can");
     else
       error(card, field, fmt::format("sensor {} does not exist", id),
             "define it with *SENSOR_DEFINE_NODE or its like; those of CALC-MATH above it");
@@ -420,6 +338,7 @@ class SensorReader {
 
   const Deck& deck_;
   const Model& model_;
+  const World& world_;
   Diagnostics& diagnostics_;
   std::unordered_map<Id, Index> node_of_id_;
   std::vector<Sensor> sensors_;
@@ -465,9 +384,8 @@ void check_sensors(const Deck& deck, const World& world, Diagnostics& diagnostic
                    "give it one by _ID; tied contacts stay tied");
     for (const Sensor& sensor : board->sensors())
       if (sensor.there && !sensor.there(world))
-        deck.error(diagnostics, sensor.card, "TYPEID",
-                   "no contact between elements, or joint, has this number",
-                   "give it one by _ID; forces on particles are not measured");
+        deck.error(diagnostics, sensor.card, "TYPEID", "nothing that exerts such a force has this number",
+                   "give it one by _ID; forces of contacts on particles are not measured");
   }
 }
 

@@ -7,6 +7,11 @@
 
 namespace courant {
 
+std::vector<SensorKind>& sensor_kinds() {
+  static std::vector<SensorKind> all;
+  return all;
+}
+
 Real NodeSensor::value(const World& world) const {
   const auto of = [&](Index n) { return velocity ? world.nodes.v.vec(n) : world.nodes.x.vec(n); };
   const Vec a = base < 0 ? of(node) : Vec(of(node) - of(base));

@@ -3,6 +3,7 @@
 // ends the run.
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "keyword/deck.hpp"
@@ -19,6 +20,14 @@ struct Sensor {
   /// Whether who exerts the force is in the world; null: nobody is needed.
   std::function<bool(const World&)> there = nullptr;
   Entry card{};  ///< for messages
+};
+
+/// A file that adds sensors reads its cards and returns them; they may look at the passes of the world, which
+/// are all there when the first value is asked for.
+using SensorKind = std::function<std::vector<Sensor>(const Deck&, const Model&, const World&, Diagnostics&)>;
+std::vector<SensorKind>& sensor_kinds();
+struct RegisterSensors {
+  explicit RegisterSensors(SensorKind kind) { sensor_kinds().push_back(std::move(kind)); }
 };
 
 /// What a node does along a direction, seen from another one.

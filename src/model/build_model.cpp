@@ -41,6 +41,7 @@ Model ModelBuilder::build() {
   check_beams();
   build_coordinate_systems();  // of nodes: where these have gone
   build_vectors();
+  build_inertias();
   build_control();
   build_relaxation();
   build_output();

@@ -89,6 +89,17 @@ struct ModelBeam {
   Entry card;                      ///< the ELEMENT_BEAM card, for messages
 };
 
+/// *ELEMENT_INERTIA: mass and inertia on a node.
+struct ModelInertia {
+  Id id = 0;
+  Index node = -1;
+  Real mass = 0;              ///< [M]
+  Matrix J = Matrix::Zero();  ///< about its own centre, global axes [ML2]
+  Vec offset = Vec::Zero();   ///< of the centre from the node [L]
+  Entry card;
+  bool turns() const { return J.norm() > 0; }
+};
+
 /// A face told by its corners; triangle: node[3] == node[2], line in 2D: node[3] == node[2] == node[1]. Its
 /// normal follows from the order of the corners.
 struct ModelSegment {
@@ -217,6 +228,7 @@ struct Model {
   std::vector<ModelShell> shells;
   std::vector<ModelSolid> solids;
   std::vector<ModelBeam> beams;
+  std::vector<ModelInertia> inertias;
   std::unordered_map<Index, std::array<Real, 4>> shell_thickness;  ///< of shells with one of their own [L]
   std::unordered_map<Index, Real> shell_beta;  ///< angle of the material, of shells with one [degrees]
   std::unordered_map<Index, Real>
@@ -250,8 +262,8 @@ struct Model {
   bool dt_max_given = false;
   Curve dt_max;  ///< LCTM: largest step over time
 
-  /// Whether nodes may turn: shells and beams have moments.
-  bool turns() const { return !shells.empty() || !beams.empty(); }
+  /// Whether nodes may turn: shells and beams have moments, and nodes may have an inertia of their own.
+  bool turns() const { return !shells.empty() || !beams.empty() || !inertias.empty(); }
   /// Gives back nodes, particles, solids and the sets of nodes and elements, once the world is built from
   /// them.
   void release_mesh();

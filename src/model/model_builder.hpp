@@ -55,6 +55,8 @@ class ModelBuilder {
   // build_beams.cpp
   void build_beams();
   void check_beams();
+  // build_inertias.cpp
+  void build_inertias();
   // build_field_output.cpp
   void build_field_output();
   void build_left_out_parts(const Entry& card, Id psetid);

@@ -30,9 +30,9 @@ std::string glstat_text(const Sample& s, Real first_potential) {
   for (const InterfaceForce& i : s.interfaces) contact_dissipated += i.energy_damping + i.energy_friction;
   Real at_walls = 0;
   for (const RigidWallForce& wall : s.rigid_walls) at_walls += wall.dissipated;
-  Real mass = 0, added_mass = 0, eroded_internal = 0, eroded_hourglass = 0;
+  Real added_mass = 0, eroded_internal = 0, eroded_hourglass = 0;
   for (const PartSample& part : s.parts) {
-    mass += part.mass, added_mass += part.added_mass;
+    added_mass += part.added_mass;
     eroded_internal += part.eroded_internal, eroded_hourglass += part.eroded_hourglass;
   }
   const Real eroded = eroded_internal + eroded_hourglass;
@@ -62,8 +62,8 @@ std::string glstat_text(const Sample& s, Real first_potential) {
   out += line("global x velocity", s.velocity.x()) + line("global y velocity", s.velocity.y());
   out += line("global z velocity", s.velocity.z());
   if (added_mass != 0)
-    out +=
-        line("added mass", added_mass) + line("percentage increase", 100 * added_mass / (mass - added_mass));
+    out += line("added mass", added_mass) +
+           line("percentage increase", 100 * added_mass / (s.mass - added_mass));
   out += fmt::sprintf(" %s%14d\n", "time per zone cycle.(nanosec)..",
                       static_cast<long long>(s.ns_per_zone_cycle + 0.5));
   return out;

@@ -19,6 +19,7 @@
 #include "rigid/mat_rigid.hpp"
 #include "rigid/merge.hpp"
 #include "rigid/nodal_bodies.hpp"
+#include "rigid/node_inertias.hpp"
 #include "rigid/rigid.hpp"
 #include "state/step_share.hpp"
 #include "surfaces/skin.hpp"
@@ -163,6 +164,7 @@ class Builder {
     const MassIntegrals at_nodes = lumped(b.nodes, world_);
     if (at_nodes.m > 0) b.J_lumped = at_nodes.inertia();
     if (!take_masses(b)) return;  // the elements' own errors tell why
+    if (!add_node_inertias(deck_, model_, world_node_, world_, b, diagnostics_)) return;
     if (const auto start = starts_.find(b.part); start != starts_.end())
       b.v = start->second.v, b.L = b.J0 * start->second.omega;
     for (const Index n : b.nodes) b.X.push_back(world_.nodes.x.vec(n) - b.x);

@@ -8,6 +8,7 @@
 #include "rigid/body_mass.hpp"
 #include "rigid/given_inertia.hpp"
 #include "rigid/held_nodes.hpp"
+#include "rigid/node_inertias.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
@@ -110,6 +111,7 @@ bool build_nodal_body(const NodalBody& nodal, const Deck& deck, const Model& mod
     take_mass(b, at_nodes);
     add_rotary(model, nodal, world_node, world, b);
   }
+  if (!add_node_inertias(deck, model, world_node, world, b, diagnostics)) return false;
   Real size = 0;
   for (const Index n : b.nodes) size = std::max(size, (world.nodes.x.vec(n) - b.x).norm());
   complete_inertia(b, size);

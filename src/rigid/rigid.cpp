@@ -116,7 +116,11 @@ bool RigidBodies::add_mass_at(Index node, Real mass, Real inertia, World& world)
     const auto among = [&](const std::vector<Index>& nodes) {
       return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
     };
-    if (!among(b.nodes) || b.fixed() || !(mass > 0)) continue;
+    if (!among(b.nodes) || !(mass > 0)) continue;
+    if (b.fixed()) {
+      b.m += mass;  // which nothing moves
+      continue;
+    }
     if (among(b.unweighed)) return false;
     RigidBody more;
     more.m = mass, more.x = world.nodes.x.vec(node), more.v = b.v + b.omega.cross(more.x - b.x);

@@ -47,6 +47,9 @@ inline const SharedField<Real> angular_velocity{
 inline const SharedField<Real> moment{
     {.name = "moment", .dimension = "ML2/T2", .components = 3, .restart = false}};
 inline const SharedField<Real> rotary_inertia{{.name = "rotary_inertia", .dimension = "ML2"}};
+/// Nodes: moment with which SPC hold their rotations.
+inline const SharedField<Real> support_moment{
+    {.name = "support_moment", .dimension = "ML2/T2", .components = 3, .restart = false}};
 /// Nodes: the share of their mass that mass scaling added [M].
 inline const SharedField<Real> added_mass{{.name = "added_mass", .dimension = "M", .output = true}};
 /// Elements and faces: 0 there, else one of the values below. Only where elements may fail.

@@ -224,7 +224,7 @@ def main():
     print(text)
     if "--write" in sys.argv:
         path = os.path.join(source, "docs", "conformance.md")
-        runs = open(path, encoding="utf-8").read().partition(RUNS)
+        runs = open(path, encoding="utf-8").read().partition(RUNS) if os.path.exists(path) else ("", "", "")
         with open(path, "w", encoding="utf-8") as file:
             file.write(text + ("\n" + runs[1] + runs[2] if runs[1] else ""))
     print("\n".join(failures))

@@ -94,6 +94,7 @@ ODD = {"*DEFINE_SPH_ACTIVE_REGION": "cards of all shapes at once", "*DEFINE_SPH_
        "*CONTROL_DYNAMIC_RELAXATION": "cards of all IDRFLG at once",
        "*DEFINE_FUNCTION": "a text that is no function",
        "*INTEGRATION_SHELL": "points beside ESOP 1, which places them itself",
+       "*INTEGRATION_BEAM": "cards of all shapes at once",
        "*ELEMENT_SHELL_BETA_OFFSET": "thicknesses of mid-side nodes that are not there",
        "*RIGIDWALL_GEOMETRIC_CYLINDER_MOTION": "a card of sections that are not there",
        "*RIGIDWALL_GEOMETRIC_CYLINDER_DISPLAY": "a card of sections that are not there",

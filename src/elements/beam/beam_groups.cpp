@@ -39,12 +39,14 @@ Real largest_square(BeamKind kind, const StrengthLaw& law, const BeamMeasures& m
   const Real across = 4 * std::max(pull, Real(0)) / (length * mass);
   const Real along = 4 * E * m.A / (resists * mass);
   if (kind == BeamKind::truss) return along + across;
-  const Real I = std::max(m.Iss, m.Itt);
+  const Real I = m.coupled ? m.Iss + m.Itt : std::max(m.Iss, m.Itt);  // not below the largest of any axes
   const Real twist = 2 * G * m.J / (resists * inertia), apart = 2 * E * I / (resists * inertia);
   const Real phi = m.shear_area > 0 ? 12 * E * I / (G * m.shear_area * resists * resists) : 0;
   const Real k =
       kind == BeamKind::integrated ? 0.5 * m.shear_area * G * length : 6 * E * I / (resists * (1 + phi));
   const Real alike = k * (1 / inertia + 8 / (mass * length * length)) + across;
+  if (m.coupled)  // no more than the traces of what goes together
+    return std::max(along + apart + across, twist + 2 * alike);
   return std::max({along + across, twist, apart, alike});
 }
 

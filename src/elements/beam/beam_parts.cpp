@@ -8,7 +8,9 @@
 #include <string>
 
 #include "elements/beam/beams.hpp"
+#include "elements/beam/integration_beam.hpp"
 #include "elements/beam/section_beam.hpp"
+#include "elements/beam/standard_section.hpp"
 
 namespace courant {
 
@@ -51,6 +53,9 @@ class BeamReader {
   BeamReader(const Deck& deck, const Model& model, Diagnostics& diagnostics)
       : deck_(deck), model_(model), diagnostics_(diagnostics) {
     for (const SectionBeam& s : deck.all<SectionBeam>()) sections_.emplace(s.secid, &s);
+    for (const IntegrationBeam& rule : deck.all<IntegrationBeam>())
+      if (!rules_.emplace(rule.irid, &rule).second)
+        error(rule, "IRID", fmt::format("rule {} is defined twice", rule.irid), "give it another number");
     const int errors = diagnostics.errors();
     const bool checked = std::any_of(model.parts.begin(), model.parts.end(), [](const ModelPart& p) {
       return !p.rigid && (p.has_solid || p.has_shell);  // with them
@@ -107,7 +112,8 @@ class BeamReader {
       out.weld = weld_strength(*std::find_if(cards.begin(), cards.end(),
                                              [&](const MatSpotweld& card) { return card.mid == part.mid; }));
     }
-    if (out.kind == BeamKind::integrated) out.points = section_points(static_cast<int>(s.rule), s.tube());
+    if (out.kind == BeamKind::integrated)
+      out.points = s.rule < 0 ? points_of_rule(s) : section_points(static_cast<int>(s.rule), s.tube());
     if (out.kind == BeamKind::truss) out.points = {SectionPoint()};
     for (const ModelBeam& beam : model_.beams)
       if (beam.part == out.part) add(beam, s, out);
@@ -136,12 +142,104 @@ class BeamReader {
       deck_.warning(diagnostics_, s, "ELFORM",
                     fmt::format("{} is not there: {} is used in its place", s.elform, s.used()),
                     "the same formulation by its own number says the same without this warning");
+    if (s.used() == 1 && s.rule < 0) {
+      if (!check_rule(s)) good = false, refused_.insert(&s);
+      return good;
+    }
     if (s.used() == 1 && !(s.rule >= 1 && s.rule <= 5 && s.rule == std::floor(s.rule)))
-      refuse("QR/IRID", fmt::format("'{:g}' is not supported", s.rule),
-             "1 to 5: one point, 2 x 2, 3 x 3 of Gauss, 3 x 3 of Lobatto, 4 x 4 of Gauss");
+      refuse(
+          "QR/IRID", fmt::format("'{:g}' is not supported", s.rule),
+          "1 to 5: one point, 2 x 2, 3 x 3 of Gauss, 3 x 3 of Lobatto, 4 x 4 of Gauss; minus the IRID of an "
+          "*INTEGRATION_BEAM");
     if (s.used() == 1 && s.cst != 0 && s.cst != 1)
-      refuse("CST", fmt::format("'{:g}' is not supported", s.cst), "0 for a rectangle, 1 for a tube");
+      refuse("CST", fmt::format("'{:g}' is not supported", s.cst),
+             "0 for a rectangle, 1 for a tube; 2 goes with a rule of *INTEGRATION_BEAM");
     return good;
+  }
+
+  /// The rule that a section names.
+  bool check_rule(const SectionBeam& s) {
+    const auto found = rules_.find(static_cast<Id>(-s.rule));
+    if (found == rules_.end() || s.rule != std::floor(s.rule))
+      return error(s, "QR/IRID", fmt::format("rule {:g} does not exist", -s.rule),
+                   "define it with *INTEGRATION_BEAM");
+    const IntegrationBeam& rule = *found->second;
+    if (s.tube() || (s.cst != 0 && s.cst != 2))
+      return error(s, s.weld() || s.elform == 5 ? "QR/IRID" : "CST",
+                   "a tube has points of its own, beside a rule of *INTEGRATION_BEAM",
+                   "use ELFORM 1 and CST 2, or 0");
+    if (rule.icst > 0 && (rule.nip > 0 || rule.ra > 0))
+      return error(rule, "NIP", "points and RA stand beside the standard section ICST", "give one of them");
+    if (rule.icst > 0) return read_standard(rule);
+    if (rule.nip == 0 || static_cast<int>(rule.s.size()) != rule.nip)
+      return error(rule, "NIP", fmt::format("{} points stand here, not {}", rule.s.size(), rule.nip),
+                   "give each point a card, or ICST a standard section");
+    if (!(rule.ra > 0))
+      return error(rule, "RA", "the section has no area", "give its area over that of TS1 x TT1");
+    Real sum = 0;
+    for (std::size_t k = 0; k < rule.s.size(); ++k) {
+      if (!(std::abs(rule.s[k]) <= 1 && std::abs(rule.t[k]) <= 1))
+        return error(
+            rule, "S",
+            fmt::format("point {} lies outside of the section: {:g}, {:g}", k + 1, rule.s[k], rule.t[k]),
+            "S and T are from -1 to 1");
+      if (rule.pid[k] != 0)
+        return error(rule, "PID", fmt::format("point {} has a material of its own", k + 1),
+                     "materials that differ by point are not supported: leave PID 0");
+      sum += rule.wf[k];
+    }
+    constexpr Real close = 1e-3;  // weights are written with few digits
+    if (std::abs(sum - 1) < close) return true;
+    return error(rule, "WF", fmt::format("the weights sum up to {:g}, not 1", sum),
+                 "each is the share of the area");
+  }
+  bool read_standard(const IntegrationBeam& rule) {
+    std::string why;
+    const auto section = standard_section(rule.icst, rule.dimensions(), rule.k, why);
+    if (section.cells.empty())
+      return error(rule, rule.icst > 9 && rule.icst != 11 ? "ICST" : "D1", std::move(why),
+                   "or give the points of the section by NIP, S, T and WF");
+    standard_[&rule] = section;
+    return true;
+  }
+  /// In shares of half the widths, and of the area.
+  std::vector<SectionPoint> points_of_rule(const SectionBeam& s) const {
+    const IntegrationBeam& rule = *rules_.at(static_cast<Id>(-s.rule));
+    std::vector<SectionPoint> out;
+    if (rule.icst == 0) {
+      Real sum = 0;
+      for (const Real wf : rule.wf) sum += wf;
+      for (std::size_t k = 0; k < rule.s.size(); ++k) out.push_back({rule.s[k], rule.t[k], rule.wf[k] / sum});
+      return out;
+    }
+    const StandardSection& section = standard_.at(&rule);
+    Real area = 0;
+    for (const SectionCell& cell : section.cells) area += cell.area;
+    for (const SectionCell& cell : section.cells)
+      out.push_back({2 * cell.s / section.width_s, 2 * cell.t / section.width_t, cell.area / area});
+    return out;
+  }
+  /// Of a section whose points are known; `ts`, `tt`: widths of the beam, of which a standard section has its
+  /// own.
+  BeamMeasures measures_of_rule(const SectionBeam& s, Real ts, Real tt) const {
+    const IntegrationBeam& rule = *rules_.at(static_cast<Id>(-s.rule));
+    BeamMeasures m;
+    m.A = rule.ra * ts * tt, m.half_s = ts / 2, m.half_t = tt / 2;
+    if (rule.icst > 0) {
+      const StandardSection& section = standard_.at(&rule);
+      m.A = 0, m.half_s = section.width_s / 2, m.half_t = section.width_t / 2;
+      for (const SectionCell& cell : section.cells) m.A += cell.area;
+    }
+    Real of_s = 0, of_t = 0, of_st = 0;
+    for (const SectionPoint& point : points_of_rule(s)) {
+      const Real at_s = point.s * m.half_s, at_t = point.t * m.half_t, area = point.share * m.A;
+      m.Iss += area * at_t * at_t, m.Itt += area * at_s * at_s;
+      of_s += area * at_s, of_t += area * at_t, of_st += area * at_s * at_t;
+    }
+    constexpr Real round_off = 1e-9;
+    m.coupled = std::abs(of_s) > round_off * m.A * m.half_s || std::abs(of_t) > round_off * m.A * m.half_t ||
+                std::abs(of_st) > round_off * m.A * m.half_s * m.half_t;
+    return m;
   }
 
   /// The measures of one beam; of end 1 and 2 the mean.
@@ -163,7 +261,13 @@ class BeamReader {
     } else {
       const Real ts1 = own(0, s.ts1), ts2 = own(1, s.ts2), tt1 = own(2, s.tt1), tt2 = own(3, s.tt2);
       const Real ts = 0.5 * (ts1 + (ts2 > 0 ? ts2 : ts1)), tt = 0.5 * (tt1 + (tt2 > 0 ? tt2 : tt1));
-      if (s.tube()) {
+      if (s.rule < 0) {
+        m = measures_of_rule(s, ts, tt);
+        if (rules_.at(static_cast<Id>(-s.rule))->icst > 0 && beam.measures[0] > 0)
+          deck_.warning(diagnostics_, beam.card, "PARM1",
+                        "widths of *ELEMENT_BEAM_THICKNESS have no effect on a standard section (ICST)",
+                        "give D1 to D4 of *INTEGRATION_BEAM");
+      } else if (s.tube()) {
         m.A = pi / 4 * (ts * ts - tt * tt);
         m.half_s = m.half_t = std::sqrt((ts * ts + tt * tt) / 8);
         m.Iss = m.Itt = m.A * m.half_s * m.half_s / 2;
@@ -206,7 +310,7 @@ class BeamReader {
     s_axis -= s_axis.dot(r) * r;
     constexpr Real sliver = 1e-6, same = 1e-9;
     if (!(s_axis.norm() > sliver * asked)) {
-      if (out.kind != BeamKind::truss && std::abs(m->Iss - m->Itt) > same * m->Iss) {
+      if (out.kind != BeamKind::truss && (m->coupled || std::abs(m->Iss - m->Itt) > same * m->Iss)) {
         error(beam.card, "N3", fmt::format("beam {} has no direction of its axis s", beam.id),
               "give it a third node off the line from N1 to N2, or a direction by _ORIENTATION");
         return;
@@ -225,6 +329,8 @@ class BeamReader {
   Diagnostics& diagnostics_;
   bool whole_ = true;  ///< the cards of materials
   std::map<Id, const SectionBeam*> sections_;
+  std::map<Id, const IntegrationBeam*> rules_;
+  std::map<const IntegrationBeam*, StandardSection> standard_;
   std::map<Id, std::pair<std::shared_ptr<StrengthLaw>, std::string>> laws_;
   std::set<const SectionBeam*> checked_, refused_;
 };

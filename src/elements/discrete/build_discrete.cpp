@@ -22,9 +22,9 @@ NodesById nodes_by_id(const Model& model) {
   return out;
 }
 
-bool has_any(const Deck& deck) {
+bool has_any(const Deck& deck, const Model& model) {
   return !deck.all<ElementDiscreteCard>().empty() || !deck.all<ElementMassCard>().empty() ||
-         !deck.all<ElementMassSetCard>().empty();
+         !deck.all<ElementMassSetCard>().empty() || !model.inertias.empty();
 }
 
 class DiscreteReader {
@@ -63,6 +63,10 @@ class DiscreteReader {
       else
         add(card, set->second);
     }
+    if (!model_.inertias.empty()) NodalRotations(world_.nodes.fields);
+    for (const ModelInertia& one : model_.inertias)
+      if (const Index n = node(one.card, "NID", one.node); n >= 0 && one.mass > 0)
+        masses.emplace_back(n, one.mass), ids.push_back(one.id);
     if (masses.empty()) return;
     FieldSet& set = world_.add_set("lumped masses");
     set.resize(static_cast<Index>(masses.size()));
@@ -234,7 +238,7 @@ Field<Real>& stretch_of(const SpringPart& part) {
 
 std::vector<Index> discrete_nodes(const Deck& deck, const Model& model) {
   std::vector<Index> out;
-  if (!has_any(deck)) return out;
+  if (!has_any(deck, model)) return out;
   const NodesById of_id = nodes_by_id(model);
   const auto add = [&](Id id) {
     if (const auto n = of_id.find(id); n != of_id.end()) out.push_back(n->second);
@@ -244,6 +248,7 @@ std::vector<Index> discrete_nodes(const Deck& deck, const Model& model) {
   for (const ElementMassSetCard& card : deck.all<ElementMassSetCard>())
     if (const auto set = model.node_sets.find(card.nid); set != model.node_sets.end())
       out.insert(out.end(), set->second.begin(), set->second.end());
+  for (const ModelInertia& one : model.inertias) out.push_back(one.node);
   return out;
 }
 
@@ -251,7 +256,7 @@ std::vector<SpringPart> build_discrete(const Deck& deck, const Model& model,
                                        const std::vector<Index>& node_of, World& world,
                                        Diagnostics& diagnostics) {
   add_part_masses(deck, model, world, diagnostics);
-  if (!has_any(deck)) return {};
+  if (!has_any(deck, model)) return {};
   DiscreteReader reader(deck, model, node_of, world, diagnostics);
   reader.add_masses();
   return reader.springs();

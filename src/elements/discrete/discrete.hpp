@@ -2,6 +2,7 @@
 // Springs, dampers and lumped masses in the world: a group of springs for each part, one of all masses.
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,8 @@ struct SpringReporter {
   virtual ~SpringReporter() = default;
   /// Those that deforc shows.
   virtual void report_springs(std::vector<SpringForce>& out) const = 0;
+  /// That with this id, shown or not; nothing where there is none.
+  virtual std::optional<SpringForce> find_spring(Id id) const = 0;
 };
 
 }  // namespace courant

@@ -84,14 +84,21 @@ class SpringForces : public Material, public EnergyTerm, public PartReporter, pu
   }
   void report_springs(std::vector<SpringForce>& out) const override {
     for (Index e = 0; e < group_.size(); ++e)
-      if (part_.shown[at(e)])
-        out.push_back({group_.id[e], part_.turns, force_[e] * direction_.vec(e), force_[e], stretch_[e]});
+      if (part_.shown[at(e)]) out.push_back(spring(e));
+  }
+  std::optional<SpringForce> find_spring(Id id) const override {
+    for (Index e = 0; e < group_.size(); ++e)
+      if (group_.id[e] == id) return spring(e);
+    return std::nullopt;
   }
 
  private:
   Field<Real>& add(const char* field, const char* dimension, int components, bool output) {
     return group_.fields.add<Real>(
         {.name = field, .dimension = dimension, .components = components, .output = output});
+  }
+  SpringForce spring(Index e) const {
+    return {group_.id[e], part_.turns, force_[e] * direction_.vec(e), force_[e], stretch_[e]};
   }
   static std::size_t at(Index e) { return static_cast<std::size_t>(e); }
   bool is_free(Index e) const { return part_.along[at(e)].isZero(); }

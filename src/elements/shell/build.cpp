@@ -95,6 +95,7 @@ class ShellReader {
 
   void check_section(const SectionShell& s, const ModelPart& part) {
     const int elform = formulation(s);
+    const char* from = s.elform == 0 && control_ ? " (THEORY of *CONTROL_SHELL)" : "";
     const auto like = similar.find(elform);
     if (like != similar.end())
       deck_.warning(diagnostics_, s, "ELFORM",
@@ -104,7 +105,8 @@ class ShellReader {
                     "2 (Belytschko-Tsay) says the same without this warning");
     else if (elform != belytschko_tsay && elform != flat_triangle && elform != fully_integrated)
       error(s, "ELFORM",
-            fmt::format("'{}' is not supported for shells that deform, as those of part {}", elform, part.id),
+            fmt::format("'{}'{} is not supported for shells that deform, as those of part {}", elform, from,
+                        part.id),
             "supported values: 2 (Belytschko-Tsay), 16 (2 x 2 points), 4 for triangles; 1, 6, 7, 10 and 11 "
             "become "
             "2");
@@ -123,7 +125,12 @@ class ShellReader {
   }
 
   bool has_offsets() const {
-    return !model_.shell_offset.empty() ||
+    const auto deforms = [&](Index shell) {
+      return !model_.parts[static_cast<std::size_t>(model_.shells[static_cast<std::size_t>(shell)].part)]
+                  .rigid;
+    };
+    return std::any_of(model_.shell_offset.begin(), model_.shell_offset.end(),
+                       [&](const auto& one) { return one.second != 0 && deforms(one.first); }) ||
            std::any_of(model_.parts.begin(), model_.parts.end(), [&](const ModelPart& part) {
              const SectionShell* const s = part.has_shell && !part.rigid ? sections_.of(part) : nullptr;
              return s && s->nloc != 0;

@@ -51,7 +51,6 @@ class PlasticKinematic : public StrengthLaw {
   }
 
  private:
- private:
   template <class Centre>
   void update(const PointBlock& block, const Centre& centre) const {
     PlasticTrial trial;

@@ -18,9 +18,10 @@ struct PlaneElasticity {
 
 /// Points of a block on their way to the surface.
 struct PlaneReturn {
-  Real P[block_size], S[block_size];          ///< [M2/L2T4]
-  Real m[block_size];                         ///< [LT2/M]
-  Real low[block_size], high[block_size];     ///< m of a q above, below the yield stress
+  Real P[block_size], S[block_size];       ///< [M2/L2T4]
+  Real m[block_size];                      ///< [LT2/M]
+  Real low[block_size], high[block_size];  ///< m of a q above, below the yield stress
+  Real least[block_size];  ///< beside which excesses are judged, as beside the yield stress [M/LT2]
   Real q[block_size], fall[block_size];       ///< at m; -dq/dm
   Real plastic[block_size];                   ///< at m [-]
   Real yield[block_size], slope[block_size];  ///< at that strain; d yield/d plastic [M/LT2]
@@ -48,7 +49,7 @@ template <class Harden>
 void update_in_plane(const PlaneReturnLoops& loops, const PlaneElasticity& law, const PointBlock& block,
                      Real* rate_zz, const Harden& harden) {
   constexpr int rounds = 100;
-  constexpr Real close = 1e-7;  // before the last step, which squares it
+  constexpr Real close = 1e-7;  // before the last step, which squares it where hardening has no bend
   PlaneReturn r;
   loops.go(law, block, rate_zz, r);
   for (int k = 0; k < rounds; ++k) {

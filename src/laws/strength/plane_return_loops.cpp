@@ -12,6 +12,7 @@ namespace {
 void go(const PlaneElasticity& law, const PointBlock& block, Real* sum_before, PlaneReturn& r) {
   const Real across = law.lambda / (law.lambda + 2 * law.G), twice = 2 * law.G * block.dt;
   const Real common = law.lambda * (1 - across) * block.dt, far = 1e12 / (2 * law.G);
+  constexpr Real small = 1e-3, none = 1e-300;
   const Real *dxx = block.rate[0], *dyy = block.rate[1], *dxy = block.rate[3], *dyz = block.rate[4],
              *dzx = block.rate[5];
   Real *xx = block.stress[0], *yy = block.stress[1], *xy = block.stress[3], *yz = block.stress[4],
@@ -26,6 +27,7 @@ void go(const PlaneElasticity& law, const PointBlock& block, Real* sum_before, P
     r.P[i] = 0.25 * sum * sum;
     r.S[i] = 0.75 * difference * difference + 3 * (xy[i] * xy[i] + yz[i] * yz[i] + zx[i] * zx[i]);
     r.m[i] = r.low[i] = 0, r.high[i] = far;
+    r.least[i] = small * std::sqrt(r.P[i] + r.S[i]) + none;
   }
 }
 
@@ -51,11 +53,13 @@ Real approach(Index count, PlaneReturn& r) {
     const Real low = over > 0 ? r.m[i] : r.low[i], high = over > 0 ? r.high[i] : r.m[i];
     const Real steep = r.fall[i] + r.slope[i] * (2.0 / 3) * (r.q[i] - r.m[i] * r.fall[i]);
     const Real newton = r.m[i] + over / (steep > none ? steep : none), middle = 0.5 * (low + high);
-    const Real next = newton >= low && newton <= high ? newton : middle;
-    const bool open = high > low && size > round_off * r.yield[i];
+    const Real within = newton >= low && newton <= high ? newton : middle;
+    const Real next = r.yield[i] > 0 ? within : high;  // softening has left no strength
+    const Real scale = r.yield[i] + r.least[i];
+    const bool open = high > low && size > round_off * scale;
     r.low[i] = low, r.high[i] = high;
     r.m[i] = open ? next : r.m[i];
-    const Real left = open ? size / r.yield[i] : 0;
+    const Real left = open ? size / scale : 0;
     most = left > most ? left : most;
   }
   return most;

@@ -55,7 +55,7 @@ const RegisterKeyword<Layered> part_composite{
                 {"SHRFAC", &Layered::shrfac, "-", "factor of its shear stress", {.honour = Honour::no}}},
            .repeat = true,
            .when = [](const Layered& c) { return c.is_long(); }}},
-     .move = turn_height<&Layered::nloc>}};
+     .move = refuse_mirror<Layered>}};
 
 }  // namespace
 

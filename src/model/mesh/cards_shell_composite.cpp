@@ -62,7 +62,7 @@ const RegisterKeyword<Shell> element_shell_composite{
                 .repeat = true,
                 .until_entry = true,
                 .when = [](const Shell& e) { return e.is_long(); }}},
-     .move = turn_height<&Shell::offset>}};
+     .move = refuse_mirror<Shell>}};
 
 }  // namespace
 

@@ -340,6 +340,9 @@ const SetResolver::Members* SetResolver::other(const SetCard& card, std::string_
     return nullptr;
   }
   resolve(kind, id, it->second);
+  if (left_out_.contains({kind, id}))  // by a number in the text of a row that a parameter stands for
+    error(card, field, id, fmt::format("{} set {} has members that are not there", set_word(kind), id),
+          "the warning tells which");
   const Members& found = target(kind)[id];
   return found.empty() ? nullptr : &found;  // an empty set was refused already
 }

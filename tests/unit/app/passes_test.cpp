@@ -76,7 +76,7 @@ const Lists bare{
      "contact no *CONTACT",
      "rigid bodies no *MAT_RIGID",
      "forces on nodes no node moves",
-     "pressure on segments no *LOAD_SEGMENT, no *LOAD_SHELL",
+     "pressure on segments no *LOAD_SEGMENT, no *LOAD_SHELL, no *LOAD_BLAST",
      "joint stiffness no *CONSTRAINED_JOINT_STIFFNESS",
      "joints no *CONSTRAINED_JOINT",
      "node sets that move alike no *CONSTRAINED_NODE_SET",

@@ -1,0 +1,35 @@
+#pragma once
+// *SENSOR_DEFINE_FORCE, and along which direction sensors measure.
+#include <optional>
+#include <string>
+
+#include "keyword/deck.hpp"
+#include "loads/sensors.hpp"
+#include "model/model.hpp"
+
+namespace courant {
+
+struct SensorDefineForce : Entry {
+  Id sensid = 0, typeid_ = 0;
+  std::string title, ftype, vid;
+  int crd = 0;
+};
+
+/// Of a force and a moment one component, or the magnitude of one.
+struct SensorAxis {
+  Vec along = Vec::Zero();  ///< 0: the magnitude
+  bool moment = false;
+  Real of(const Vec& force, const Vec& moment_there = Vec::Zero()) const {
+    const Vec& one = moment ? moment_there : force;
+    return along.squaredNorm() > 0 ? one.dot(along) : one.norm();
+  }
+};
+
+/// VID: X, Y, Z or a vector; zero, which is the magnitude, where it is blank or 0. Errors are reported.
+Vec sensor_direction(const Deck& deck, const Model& model, const Entry& card, const std::string& vid,
+                     Diagnostics& diagnostics);
+/// VID of a force: also M; with `moments` XMOMENT, YMOMENT, ZMOMENT, MMOMENT.
+SensorAxis sensor_axis(const Deck& deck, const Model& model, const SensorDefineForce& card, bool moments,
+                       Diagnostics& diagnostics);
+
+}  // namespace courant

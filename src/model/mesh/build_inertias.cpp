@@ -1,0 +1,93 @@
+// *ELEMENT_INERTIA: masses on nodes that have an inertia of their own.
+#include <fmt/format.h>
+
+#include <unordered_map>
+
+#include <Eigen/Eigenvalues>
+
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "model/mesh/cards_inertia.hpp"
+#include "model/model_builder.hpp"
+#include "model/transforms/transformation.hpp"
+
+namespace courant {
+
+namespace {
+
+using NodeMass = ElementInertiaCard;
+constexpr FieldRules inertia_id{.required = true, .check = Check::positive, .width = 8};
+constexpr FieldRules inertia_node{
+    .required = true, .check = Check::positive, .width = 8, .refers = IdSpace::node};
+constexpr FieldRules inertia_system{
+    .check = Check::not_negative, .width = 8, .refers = IdSpace::coordinate_system};
+constexpr FieldRules moment_of_inertia{.check = Check::not_negative};
+
+bool has_offset(const NodeMass& card) {
+  return card.name == 1;
+}
+
+/// The tensor turns with the file, unless it stands in axes of its own, which turn.
+std::string move_inertia(NodeMass& card, const Affine& motion) {
+  if (card.csid != 0) return {};
+  if (!keeps_lengths(motion)) return refuse_stretch(motion, "inertia");
+  const Matrix turned = motion.linear() * card.inertia() * motion.linear().transpose();
+  card.ixx = turned(0, 0), card.iyy = turned(1, 1), card.izz = turned(2, 2);
+  card.ixy = turned(0, 1), card.ixz = turned(0, 2), card.iyz = turned(1, 2);
+  return {};
+}
+
+const RegisterKeyword<NodeMass> element_inertia{
+    {.names = {"ELEMENT_INERTIA", "ELEMENT_INERTIA_OFFSET"},
+     .purpose = "mass and inertia on a node; with _OFFSET, on rigid bodies, beside it",
+     .id_space = IdSpace::mass,
+     .cards = {{.fields = {{"EID", &NodeMass::eid, "-", "element id", inertia_id},
+                           {"NID", &NodeMass::nid, "-", "node that carries it", inertia_node},
+                           {"CSID", &NodeMass::csid, "-",
+                            "system of the principal axes; 0: a tensor along global axes", inertia_system}}},
+               {.fields = {{"IXX", &NodeMass::ixx, "ML2", "of the tensor about its centre of mass",
+                            moment_of_inertia},
+                           {"IXY", &NodeMass::ixy, "ML2", "of the tensor; 0 with CSID"},
+                           {"IXZ", &NodeMass::ixz, "ML2", "of the tensor; 0 with CSID"},
+                           {"IYY", &NodeMass::iyy, "ML2", "of the tensor", moment_of_inertia},
+                           {"IYZ", &NodeMass::iyz, "ML2", "of the tensor; 0 with CSID"},
+                           {"IZZ", &NodeMass::izz, "ML2", "of the tensor", moment_of_inertia},
+                           {"MASS", &NodeMass::mass, "M", "mass", {.check = Check::not_negative}}}},
+               {.fields = {{"X-OFF", &NodeMass::x_off, "L", "from the node to the centre of mass",
+                            rules::direction},
+                           {"Y_OFF", &NodeMass::y_off, "L", "from the node to the centre of mass"},
+                           {"Z_OFF", &NodeMass::z_off, "L", "from the node to the centre of mass"}},
+                .when = has_offset}},
+     .move = move_inertia}};
+
+}  // namespace
+
+void ModelBuilder::build_inertias() {
+  std::unordered_map<Id, const NodeMass*> known;
+  for (const NodeMass& card : deck_.all<NodeMass>()) {
+    const auto [it, is_new] = known.try_emplace(card.eid, &card);
+    if (!is_new) duplicate(card, "EID", "inertia", card.eid, deck_.where(*it->second));
+    ModelInertia one{.id = card.eid, .mass = card.mass, .J = card.inertia(), .card = card};
+    one.node = node(card, "NID", card.nid);
+    one.offset = Vec(card.x_off, card.y_off, card.z_off);
+    if (card.csid != 0) {
+      const CoordinateSystem* system = coordinate_system(card, "CSID", card.csid);
+      if (card.ixy != 0 || card.ixz != 0 || card.iyz != 0)
+        error(card, "IXY", "IXY, IXZ and IYZ stand beside CSID, whose axes are the principal ones",
+              "leave them 0, or CSID");
+      if (one.offset.norm() > 0)
+        error(card, "CSID", "an offset beside CSID is not supported: along which axes it counts is not told",
+              "give the tensor along global axes, with CSID 0");
+      if (system) one.J = system->axes * one.J * system->axes.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix> own(one.J);
+    const Vec principal = own.eigenvalues();
+    constexpr Real round_off = 1e-9;
+    if (principal[0] < -round_off * principal[2])
+      error(card, "IXX", fmt::format("the tensor has a principal moment below 0, {:.4g}", principal[0]),
+            "IXY, IXZ and IYZ are the elements of the tensor, minus the integrals of x y, x z and y z");
+    if (one.node >= 0) model_.inertias.push_back(std::move(one));
+  }
+}
+
+}  // namespace courant
