@@ -46,6 +46,8 @@ struct ElementReporter {
   /// What a cut through the element counts besides its points: of shells the thickness [L], of beams the area
   /// [L2], of solids 1.
   virtual Real cut_measure(Index e) const = 0;
+  /// Of beams: false where they pull and do nothing else.
+  virtual bool bends() const { return true; }
 };
 
 }  // namespace courant

@@ -139,18 +139,26 @@ const Fits& air_fits() {
   return fits;
 }
 
-/// b of the impulse P T (1/b - (1 - exp(-b))/b^2), which falls with b from P T/2 at 0.
+/// Of a wave (1 - tau) exp(-b tau) what it gives up to tau = 1.
+Real positive_share(Real b) {
+  constexpr Real small = 1e-4;
+  return std::abs(b) < small ? 0.5 - b / 6 : (b - 1 + std::exp(-b)) / (b * b);
+}
+/// Of its suction (1 - tau) exp(-b - a (tau - 1)), tau > 1: a is b, but so large that the suction takes back
+/// no more than the wave gave, as it does below b = 1. Far from charges b falls to 0, where it would take
+/// all.
+Real suction_decay(Real b) {
+  return std::max(b, std::sqrt(std::exp(-b) / positive_share(b)));
+}
+
+/// b of the impulse P T positive_share(b), which falls with b from P T/2 at 0.
 Real decay_of(Real peak, Real duration, Real impulse) {
   const Real share = impulse / (peak * duration);
-  const auto of = [](Real b) {
-    constexpr Real small = 1e-4;
-    return std::abs(b) < small ? 0.5 - b / 6 : (b - 1 + std::exp(-b)) / (b * b);
-  };
   Real low = -50, high = 1e4;
   constexpr int halvings = 100;
   for (int k = 0; k < halvings; ++k) {
     const Real middle = 0.5 * (low + high);
-    (of(middle) > share ? low : high) = middle;
+    (positive_share(middle) > share ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -178,7 +186,11 @@ Real BlastWave::impulse(Real t, Real c, bool positive_only) const {
   Real tau = (t - arrival) / duration;
   if (positive_only) tau = std::min(tau, Real(1));
   if (tau <= 0) return 0;
-  const auto of = [tau](Real b) {  // of (1 - tau) exp(-b tau)
+  const auto of = [tau](Real b) {
+    if (tau > 1) {
+      const Real a = suction_decay(b), x = a * (tau - 1);
+      return positive_share(b) - std::exp(-b) * (1 - (1 + x) * std::exp(-x)) / (a * a);
+    }
     constexpr Real small = 1e-4;
     if (std::abs(b) < small) return tau - 0.5 * tau * tau;
     const Real gone = -std::expm1(-b * tau);
@@ -191,8 +203,10 @@ Real BlastWave::impulse(Real t, Real c, bool positive_only) const {
 Real BlastWave::pressure(Real t, Real c, bool positive_only) const {
   const Real tau = (t - arrival) / duration;
   if (tau < 0 || (positive_only && tau > 1)) return 0;
-  const Real passing = incident * std::exp(-incident_decay * tau),
-             thrown_back = reflected * std::exp(-reflected_decay * tau);
+  const auto of = [tau](Real b) {
+    return tau > 1 ? std::exp(-b - suction_decay(b) * (tau - 1)) : std::exp(-b * tau);
+  };
+  const Real passing = incident * of(incident_decay), thrown_back = reflected * of(reflected_decay);
   const Real on_face = c > 0 ? thrown_back * c * c + passing * (1 + c - 2 * c * c) : passing;
   return on_face * (1 - tau);
 }

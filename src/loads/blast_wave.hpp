@@ -10,7 +10,8 @@ enum class BlastKind {
 };
 
 /// What a charge does at a distance: p(t) = peak (1 - tau) exp(-decay tau), tau = (t - arrival)/duration, of
-/// the wave that passes by and of the one that a wall at right angles throws back.
+/// the wave that passes by and of the one that a wall at right angles throws back; behind tau = 1 the suction
+/// falls faster where it would take back more than the wave gave (decay < 1).
 struct BlastWave {
   Real arrival = 0, duration = 0;                    ///< [ms]
   Real incident = 0, reflected = 0;                  ///< peaks above the pressure of the air [psi]

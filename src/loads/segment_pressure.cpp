@@ -229,12 +229,9 @@ class SegmentPressure : public Force, public EnergyTerm {
 
 class PressureReader {
  public:
-  PressureReader(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics)
-      : charges(blast_sources(deck, model, diagnostics)),
-        deck_(deck),
-        model_(model),
-        world_(world),
-        diagnostics_(diagnostics) {
+  PressureReader(const Deck& deck, const Model& model, const World& world, std::vector<BlastSource> sources,
+                 Diagnostics& diagnostics)
+      : charges(std::move(sources)), deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
     for (Index n = 0; n < world.nodes.size(); ++n) world_node_[world.nodes.id[n]] = n;
   }
   void add(const LoadSegment& card) {
@@ -391,10 +388,13 @@ std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& mode
   const auto& shells = deck.all<LoadShell>();
   const auto& blasts = deck.all<BlastSegment>();
   const auto& blast_sets = deck.all<BlastSegmentSet>();
-  PressureReader reader(deck, model, world, diagnostics);
-  if (!reader.charges.empty() && blasts.empty() && blast_sets.empty())
-    deck.warning(diagnostics, reader.charges.front().card, "BID", "the blast pushes nothing",
+  std::vector<BlastSource> charges = blast_sources(deck, model, diagnostics);
+  if (!charges.empty() && blasts.empty() && blast_sets.empty())
+    deck.warning(diagnostics, charges.front().card, "BID", "the blast pushes nothing",
                  "name faces by *LOAD_BLAST_SEGMENT or _SET");
+  if (segments.empty() && sets.empty() && shells.empty() && blasts.empty() && blast_sets.empty())
+    return nullptr;
+  PressureReader reader(deck, model, world, std::move(charges), diagnostics);
   for (const LoadSegment& card : segments) reader.add(card);
   for (const LoadSegmentSet& card : sets) reader.add(card);
   for (const LoadShell& card : shells) reader.add(card);

@@ -7,6 +7,7 @@
 
 #include "elements/element_report.hpp"
 #include "same_bits.hpp"
+#include "shocks.hpp"
 #include "solid_decks.hpp"
 
 namespace courant::test::averaged_pressure {
@@ -75,17 +76,6 @@ std::vector<Slice> slices_of(const Simulation& s, int n) {
   for (Slice& slice : out) slice.x /= slice.share, slice.p /= slice.share, slice.E /= slice.share;
   return out;
 }
-Real front_of(const std::vector<Slice>& slices, Real level) {
-  for (std::size_t k = slices.size() - 1; k > 0; --k)
-    if (slices[k - 1].p >= level && slices[k].p < level)
-      return slices[k - 1].x +
-             (slices[k - 1].p - level) / (slices[k - 1].p - slices[k].p) * (slices[k].x - slices[k - 1].x);
-  return 0;
-}
-
-void run_to(Simulation& s, Real t) {
-  while (s.clock().t < t) s.step(do_nothing);
-}
 
 }  // namespace
 
@@ -102,11 +92,8 @@ TEST(AveragedPressure, AShockIsOnItsHugoniot) {
         deck.cards += fmt::format("*INITIAL_VELOCITY\n3\n{:.6g},0.0,0.0\n", -up);
         auto s = simulation_of(deck.text(1));
         start_ledger(*s);
-        run_to(*s, 0.4 / us);
-        const Real first = front_of(slices_of(*s, n), 0.5 * p), t = s->clock().t;
-        run_to(*s, 0.7 / us);
-        const auto slices = slices_of(*s, n);
-        const Real speed = (front_of(slices, 0.5 * p) - first) / (s->clock().t - t);
+        const auto [speed, slices] =
+            shock_of(*s, us, 0.5 * p, [n](const Simulation& now) { return slices_of(now, n); });
         const bool nodal = kind.elform == 13;
         EXPECT_NEAR((speed + up) / us, 1, nodal ? 0.015 : 0.5 / n) << kind.elform << " " << n;
         Real sum_p = 0, sum_E = 0;
@@ -132,7 +119,7 @@ TEST(AveragedPressure, AGasIsCompressedAlongItsIsentrope) {
       auto s = simulation_of(deck.text(100));
       start_ledger(*s);
       EXPECT_NEAR(s->world().energy.initial, 2.5, 1e-12);
-      run_to(*s, 25);
+      run_until(*s, 25);
       s->step(do_nothing);
       const Real V = 1 - 0.02 * (s->clock().t - s->clock().dt_old);
       const ElementGroup& group = *s->world().groups.at(0);
@@ -163,7 +150,7 @@ TEST(AveragedPressure, TheDeviatorsWorkHeats) {
         "CURVE\n1\n"
         "0.0,0.01\n1e9,0.01\n";
     auto s = simulation_of(deck.text(100));
-    run_to(*s, 50);
+    run_until(*s, 50);
     s->step(do_nothing);
     const Real gamma = 0.01 * (s->clock().t - s->clock().dt_old), tau = 0.01;
     const ElementGroup& group = *s->world().groups.at(0);
@@ -188,7 +175,7 @@ TEST(AveragedPressure, TensionEndsAsSpallHasIt) {
                       option));
       deck.cards += "*BOUNDARY_PRESCRIBED_MOTION_SET\n3,1,0,1\n*DEFINE_CURVE\n1\n0.0,0.01\n1e9,0.01\n";
       auto s = simulation_of(deck.text(100));
-      run_to(*s, 4);
+      run_until(*s, 4);
       for (const PointReport& point : reports_of(*s)) {
         EXPECT_NEAR(point.stress[0], option == 1 ? 0.02 + 0.4 * std::log1p(0.04) : 0, 1e-3) << kind.elform;
         EXPECT_NEAR(point.stress[1], option == 1 ? 0.02 - 0.2 * std::log1p(0.04) : 0, 1e-3) << kind.elform;
@@ -223,7 +210,7 @@ TEST(AveragedPressure, WhatIsCrushedRemembers) {
         "*BOUNDARY_PRESCRIBED_MOTION_SET\n3,1,0,1\n*DEFINE_CURVE\n1\n0.0,-0.01\n26.0,-0.01\n26.0001,0.01\n"
         "42.0,0.01\n";
     auto s = simulation_of(deck.text(100));
-    run_to(*s, 35);
+    run_until(*s, 35);
     s->step(do_nothing);
     const Real V = 0.74 + 0.01 * (s->clock().t - s->clock().dt_old - 26), e1 = -std::log(0.74);
     const Real p = 1 + 22.5 * (e1 - 0.1) + (20 + 50 * (e1 - 0.1)) * (-std::log(V) - e1);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "same_bits.hpp"
+#include "shocks.hpp"
 #include "solid_decks.hpp"
 
 using namespace courant;
@@ -37,10 +38,6 @@ SolidDeck crushed_row(int n, const std::string& cards) {
   return deck;
 }
 
-void run_crush_to(Simulation& s, Real t) {
-  while (s.clock().t < t) s.step(do_nothing);
-}
-
 /// C 0, 1, 10 and K 20, 20, 40 at ln V = 0, -0.1, -0.5.
 const std::string soil =
     "*MAT_NULL\n1,2.0,-1e20,0.0\n"
@@ -60,7 +57,7 @@ TEST(CrushedSolids, ComeBackAlongTheirModulusAndKeepTheEnergyBalance) {
     start_ledger(*s);
     const Field<Real>& x = s->world().nodes.x;
     const auto look = [&](Real t) {
-      run_crush_to(*s, t);
+      test::run_until(*s, t);
       s->step(do_nothing);
       Real width = 0;  // a step after the law
       for (Index n = 0; n < s->world().nodes.size(); ++n) width = std::max(width, x.data(0)[n]);
@@ -125,10 +122,10 @@ TEST(CrushedSolids, AShockCrushesAndARarefactionLeavesThemSo) {
       }
       return sum / count;
     };
-    run_crush_to(*s, 0.9 / us);
+    test::run_until(*s, 0.9 / us);
     EXPECT_NEAR(mean(0.2, 0.8, false) / p1, 1, 0.01) << n;
     EXPECT_NEAR(mean(0.2, 0.8, true) / V1, 1, 0.005) << n;
-    run_crush_to(*s, 1 / us + 0.35 * V1 / std::sqrt(40 / ro * V1));
+    test::run_until(*s, 1 / us + 0.35 * V1 / std::sqrt(40 / ro * V1));
     EXPECT_NEAR(mean(0.8, 0.95, false) / p1, 0, 0.03) << n;
     EXPECT_NEAR(mean(0.8, 0.95, true) / left, 1, 0.01) << n;
     EXPECT_LT(test::energy_error_of_a_step(*s), 1e-3) << n;
@@ -145,7 +142,7 @@ TEST(CrushedSolids, ProductsOfADetonationFollowTheirIsentrope) {
     deck.cards += "*BOUNDARY_PRESCRIBED_MOTION_SET\n3,1,0,1\n*DEFINE_CURVE\n1\n0.0,0.02\n1e9,0.02\n";
     auto s = simulation_of(deck.text(100));
     start_ledger(*s);
-    run_crush_to(*s, 50);
+    test::run_until(*s, 50);
     s->step(do_nothing);
     const Real V = 1 + 0.02 * (s->clock().t - s->clock().dt_old);
     // dE = -(A(v) + 0.4 E/v) dv by Simpson's rule in small parts: (E v^0.4)' = -A v^0.4
@@ -191,7 +188,7 @@ TEST(CrushedSolids, ParticlesRememberToo) {
       nodes + "*ELEMENT_SPH\n" + particles + "*END\n";
   auto s = simulation_of(text);
   start_ledger(*s);
-  run_crush_to(*s, 0.6);
+  test::run_until(*s, 0.6);
   const Particles& p = s->world().particles;
   const auto* most = dynamic_cast<const Field<Real>*>(p.fields.find("greatest_compression"));
   ASSERT_NE(most, nullptr);

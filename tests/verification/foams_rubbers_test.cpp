@@ -6,6 +6,7 @@
 
 #include "same_bits.hpp"
 #include "shell_decks.hpp"
+#include "shocks.hpp"
 #include "solid_decks.hpp"
 
 using namespace courant;
@@ -44,10 +45,6 @@ Real foam_pull(Simulation& s, int n) {
   return std::abs(sum);
 }
 
-void foam_run_to(Simulation& s, Real t) {
-  while (s.clock().t < t) s.step(do_nothing);
-}
-
 const std::string crushable_card =
     "*MAT_CRUSHABLE_FOAM\n1,1.0,500.0,0.0,7,0.5\n*DEFINE_CURVE\n7\n0.0,1.0\n0.5,2.0\n0.8,8.0\n";
 const std::string springy_card =
@@ -64,7 +61,7 @@ TEST(FoamsAndRubbers, CrushingTakesTheAreaUnderTheCurve) {
     test::start_ledger(*s);
     for (const auto& [strain, stress, area] :
          {std::tuple{0.25, 1.5, 0.3125}, std::tuple{0.5, 2.0, 0.75}, std::tuple{0.7, 6.0, 1.55}}) {
-      foam_run_to(*s, strain / 0.005);
+      test::run_until(*s, strain / 0.005);
       EXPECT_NEAR(foam_pull(*s, n), stress, 0.01 * stress) << n;
       sample_energy(s->world(), s->clock());
       EXPECT_NEAR(s->world().energy.external_work, area, 0.01 * area) << n;
@@ -80,15 +77,15 @@ TEST(FoamsAndRubbers, SoftFoamComesBackWithLessForce) {
     auto s = simulation_of(
         foam_cube(n, springy_card, "0.0,-0.01\n60.0,-0.01\n60.01,0.01\n1e9,0.01\n", false).text(1e9));
     test::start_ledger(*s);
-    foam_run_to(*s, 30);
+    test::run_until(*s, 30);
     EXPECT_NEAR(foam_pull(*s, n), 1.2, 0.01 * 1.2) << n;
-    foam_run_to(*s, 60);
+    test::run_until(*s, 60);
     EXPECT_NEAR(foam_pull(*s, n), 1.5, 0.01 * 1.5) << n;
     sample_energy(s->world(), s->clock());
     EXPECT_NEAR(s->world().energy.external_work, 0.675, 0.01 * 0.675) << n;
-    foam_run_to(*s, 90);
+    test::run_until(*s, 90);
     EXPECT_NEAR(foam_pull(*s, n), 1.2 * (0.1 + 0.9 * std::pow(0.27 / 0.675, 2)), 0.01) << n;
-    foam_run_to(*s, 119.9);
+    test::run_until(*s, 119.9);
     // d(W^3)/3 of loading: of 0.675 come back 0.1 + 0.3 of it
     sample_energy(s->world(), s->clock());
     EXPECT_NEAR(s->world().energy.external_work, 0.675 * (1 - 0.4), 0.01 * 0.675) << n;
@@ -102,7 +99,7 @@ TEST(FoamsAndRubbers, StressRelaxesWhileTheStrainIsHeld) {
     auto s = simulation_of(
         foam_cube(n, viscous_card, "0.0,0.01\n1.0,0.01\n1.0001,0.0\n1e9,0.0\n", true).text(1e9));
     for (const Real t : {5.0, 20.0, 60.0}) {
-      foam_run_to(*s, t);
+      test::run_until(*s, t);
       // pulled at a steady rate for 1: the mean of the decay over that time
       const Real G = 10 + 20 * std::exp(-0.05 * t) * std::expm1(0.05) / 0.05;
       const Real stress = (50 + 4 * G / 3) * std::log(1.01);
@@ -117,7 +114,7 @@ TEST(FoamsAndRubbers, RubberIsPulledAsInClosedForm) {
     auto s = simulation_of(foam_cube(n, rubber_card, "0.0,0.005\n1e9,0.005\n", false).text(1e9));
     test::start_ledger(*s);
     for (const Real l : {1.2, 1.6}) {
-      foam_run_to(*s, (l - 1) / 0.005);
+      test::run_until(*s, (l - 1) / 0.005);
       const Real force = 10 * (l - std::pow(l, -1 - 2 * 0.463));
       EXPECT_NEAR(foam_pull(*s, n), force, 0.01 * force) << n << " " << l;
     }

@@ -248,7 +248,7 @@ TEST(NodeInertias, AreRefusedByName) {
   };
   expect(top_deck(1, tensor(1, 1, 1, 2), Vec::Zero()), "the tensor has a principal moment below 0");
   expect(top_deck(1, tensor(0, 1, 1), Vec::Zero()), "has no inertia about an axis about which it may turn");
-  expect(top_deck(1, tensor(1, 2, 3), Vec::Zero(), "*DAMPING_GLOBAL\n0,0.5\n"), "whose rotation is damped");
+  expect(top_deck(1, tensor(1, 2, 3), Vec::Zero(), "*DAMPING_GLOBAL\n0,0.5\n"), "in a deck with damping");
   expect(top_deck(1, tensor(1, 2, 3), Vec::Zero(),
                   "*DEFINE_CURVE\n1\n0.0,1.0\n9.0,1.0\n*BOUNDARY_PRESCRIBED_MOTION_NODE\n1,5,0,1\n"),
          "whose rotation is prescribed");

@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "same_bits.hpp"
+#include "shocks.hpp"
 #include "solid_decks.hpp"
 
 using namespace courant;
+using test::CellShape;
 using test::do_nothing;
 using test::expect_same_bits;
 using test::simulation_of;
@@ -69,19 +71,6 @@ SolidDeck impact(int n, Real up, const std::string& material) {
   return deck;
 }
 
-/// Where the pressure, which falls along x, passes `level`.
-Real front(const std::vector<Element>& elements, Real level) {
-  for (std::size_t k = elements.size() - 1; k > 0; --k) {
-    const Element &a = elements[k - 1], &b = elements[k];
-    if (a.p >= level && b.p < level) return a.x + (a.p - level) / (a.p - b.p) * (b.x - a.x);
-  }
-  return 0;
-}
-
-void step_until(Simulation& s, Real t) {
-  while (s.clock().t < t) s.step(do_nothing);
-}
-
 }  // namespace
 
 // us = C + S1 up, p = rho0 us up, rho = rho0 us/(us - up), E = rho0 up^2/2. Behind the wall a few elements
@@ -94,11 +83,8 @@ TEST(SolidPressure, AShockInCopperIsOnItsHugoniot) {
     for (const int n : {100, 200, 400}) {
       auto s = simulation_of(impact(n, up, material).text(1));
       start_ledger(*s);
-      step_until(*s, 0.4 / us);
-      const Real first = front(elements_of(*s, 0, ro), 0.5 * p), t = s->clock().t;
-      step_until(*s, 0.7 / us);
-      const auto elements = elements_of(*s, 0, ro);
-      const Real speed = (front(elements, 0.5 * p) - first) / (s->clock().t - t);
+      const auto [speed, elements] =
+          test::shock_of(*s, us, 0.5 * p, [ro](const Simulation& now) { return elements_of(now, 0, ro); });
       EXPECT_NEAR((speed + up) / us, 1, 0.003) << n;
       Real sum_p = 0, sum_volume = 0, sum_E = 0;
       int count = 0;
@@ -172,7 +158,7 @@ TEST(SolidPressure, AGasInATubeFollowsTheExactSolution) {
   for (const int n : {100, 200, 400}) {
     auto s = simulation_of(tube(n).text(1));
     start_ledger(*s);
-    step_until(*s, 0.2);
+    test::run_until(*s, 0.2);
     Real error = 0, p = 0;
     int count = 0;
     for (const std::size_t g : {0u, 1u})
@@ -206,7 +192,7 @@ TEST(SolidPressure, AGasIsCompressedAlongItsIsentrope) {
       auto s = simulation_of(deck.text(100));
       start_ledger(*s);
       EXPECT_NEAR(s->world().energy.initial, 2.5, 1e-12);
-      step_until(*s, 25);
+      test::run_until(*s, 25);
       s->step(do_nothing);
       const Real V = 1 - 0.02 * (s->clock().t - s->clock().dt_old);
       for (const Element& e : elements_of(*s, 0, 1)) {
@@ -266,7 +252,7 @@ TEST(SolidPressure, TensionEndsAsSpallHasIt) {
 TEST(SolidPressure, PressureRaisesTheYieldStress) {
   auto s = simulation_of(
       pulled(std::string("*MAT_010_SPALL\n1,1.0,0.3,0.001\n0.05,0.5,1.0\n") + stiff_eos, -0.01).text(100));
-  step_until(*s, 20);
+  test::run_until(*s, 20);
   const Field<Real>& stress = field_of(*s->world().groups.at(0), "stress");
   const Real p = -(stress.data(0)[0] + 2 * stress.data(1)[0]) / 3;
   EXPECT_NEAR(p, 0.25, 0.001);
@@ -306,7 +292,7 @@ TEST(SolidPressure, AFluidIsViscous) {
       "*BOUNDARY_SPC_SET\n1,0,1,1,1\n2,0,0,1,1\n*BOUNDARY_PRESCRIBED_MOTION_SET\n2,1,0,1\n*DEFINE_CURVE\n1\n"
       "0.0,0.01\n1e9,0.01\n";
   auto s = simulation_of(deck.text(100));
-  step_until(*s, 5);
+  test::run_until(*s, 5);
   EXPECT_NEAR(field_of(*s->world().groups.at(0), "stress").data(3)[0], 0.3 * 0.01, 1e-9);
   // explicit viscosity: (4/3) MU/(RO L) beside the speed of sound 1
   EXPECT_NEAR(s->clock().dt, 0.9 / (0.4 + std::sqrt(1.16)), 0.02);
@@ -328,7 +314,7 @@ TEST(SolidPressure, TheDeviatorsWorkHeats) {
         "CURVE\n1\n"
         "0.0,0.01\n1e9,0.01\n";
     auto s = simulation_of(deck.text(100));
-    step_until(*s, 50);
+    test::run_until(*s, 50);
     s->step(do_nothing);
     const Real gamma = 0.01 * (s->clock().t - s->clock().dt_old), tau = 0.01;
     const Field<Real>&stress = field_of(*s->world().groups.at(0), "stress"),
@@ -389,7 +375,7 @@ TEST(SolidPressure, ParticlesTakeTheSameLaws) {
         nodes + "*ELEMENT_SPH\n" + particles + "*END\n";
     auto s = simulation_of(text);
     start_ledger(*s);
-    step_until(*s, 6e-4);
+    test::run_until(*s, 6e-4);
     const auto* plastic =
         dynamic_cast<const Field<Real>*>(s->world().particles.fields.find("plastic_strain"));
     ASSERT_NE(plastic, nullptr);

@@ -23,7 +23,6 @@ namespace courant {
 namespace {
 
 using Quaternion = Eigen::Quaterniond;
-
 /// Axis times angle, up to pi, of q.
 Vec rotation_vector(Quaternion q) {
   if (q.w() < 0) q.coeffs() = -q.coeffs();
@@ -176,6 +175,7 @@ class BeamForces : public Material,
   ElementKind kind() const override { return ElementKind::beam; }
   const ElementGroup& reported() const override { return group_; }
   Real cut_measure(Index e) const override { return part_.measures[at(e)].A; }
+  bool bends() const override { return turns_; }
   ElementReport report_element(const World& world, Index e, const ElementReportOptions&) const override {
     ElementReport out{.deleted = dead(e)};
     const auto g = [&](Part6 k) { return answer_.data(k)[e]; };

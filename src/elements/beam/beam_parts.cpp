@@ -142,6 +142,9 @@ class BeamReader {
       deck_.warning(diagnostics_, s, "ELFORM",
                     fmt::format("{} is not there: {} is used in its place", s.elform, s.used()),
                     "the same formulation by its own number says the same without this warning");
+    if (s.used() != 1 && s.rule < 0)
+      deck_.warning(diagnostics_, s, "QR/IRID", fmt::format("has no effect with ELFORM {}", s.elform),
+                    "a rule of *INTEGRATION_BEAM is for ELFORM 1");
     if (s.used() == 1 && s.rule < 0) {
       if (!check_rule(s)) good = false, refused_.insert(&s);
       return good;
@@ -194,6 +197,9 @@ class BeamReader {
                  "each is the share of the area");
   }
   bool read_standard(const IntegrationBeam& rule) {
+    constexpr int finest = 20;
+    if (rule.k < 0 || rule.k > finest)
+      return error(rule, "K", fmt::format("'{}' is not supported", rule.k), fmt::format("0 to {}", finest));
     std::string why;
     const auto section = standard_section(rule.icst, rule.dimensions(), rule.k, why);
     if (section.cells.empty())

@@ -87,6 +87,7 @@ class CableForces : public Material,
   ElementKind kind() const override { return ElementKind::beam; }
   const ElementGroup& reported() const override { return group_; }
   Real cut_measure(Index e) const override { return area_[at(e)]; }
+  bool bends() const override { return false; }
   ElementReport report_element(const World&, Index e, const ElementReportOptions&) const override {
     return {.deleted = dead(e), .resultants = {force_[e]}};
   }

@@ -101,6 +101,9 @@ class CableReader {
           "has no effect on cables, which turn nothing: nodes that they share with shells and beams "
           "turn as without them",
           "leave it blank");
+    if (s.rule < 0 || s.cst == 2)
+      deck_.warning(diagnostics_, s, s.rule < 0 ? "QR/IRID" : "CST", "has no effect on cables",
+                    "a rule of *INTEGRATION_BEAM is for ELFORM 1");
     if (s.nsm != 0)
       deck_.warning(diagnostics_, s, "NSM", "has no effect on discrete beams", "VOL and RO give their mass");
   }

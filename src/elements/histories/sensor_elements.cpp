@@ -142,6 +142,12 @@ class ElementSensors {
     } else if (diagnostics_.ok()) {
       error(card, "ELEMID", "a rigid element has no stress and never fails", "name one that deforms");
     }
+    const bool pull = card.ctype == "FAIL" || (card.ctype == "FORCE" && card.comp == "AXIAL");
+    for (const ReportedElement& one : elements)
+      if (!pull && !one.reporter->bends()) {
+        error(card, "COMP", "trusses and cables have no moments and no shear", "AXIAL, with FORCE");
+        return false;
+      }
     for (const ReportedElement& one : elements)
       out.push_back([one, number](const World& world) {
         return number(one.reporter->report_element(world, one.e, {}));

@@ -25,15 +25,15 @@ struct Compaction {
   Real gamma;
   Real A(Real mu, Real most) const {
     const Real e = std::log1p(most);
-    return tables->C(e) + (mu < most ? tables->K(e) * (std::log1p(mu) - e) : 0);
+    return tables->C(e) + (mu < most ? tables->K.held(e) * (std::log1p(mu) - e) : 0);
   }
   Real dA(Real mu, Real most) const {
     const Real e = std::log1p(most);
-    return (mu < most ? tables->K(e) : tables->C.slope(e)) / (1 + mu);
+    return (mu < most ? tables->K.held(e) : tables->C.slope(e)) / (1 + mu);
   }
   /// Of the steeper of the two ways from a point of the curve.
   Real stiffness(Real mu, Real most) const {
-    const Real e = std::log1p(most), K = tables->K(e);
+    const Real e = std::log1p(most), K = tables->K.held(e);
     return (mu < most ? K : std::max(K, tables->C.slope(e))) / (1 + mu);
   }
   Real B(Real mu) const { return gamma * tables->T(std::log1p(mu)); }
@@ -73,13 +73,13 @@ void Table008::check(const Deck& deck, const Model& model, Diagnostics& diagnost
   for (std::size_t k = 0; k + 1 < C.strain().size(); ++k) {
     const Real e = C.strain()[k], slope = C.slope(std::nextafter(e, C.strain()[k + 1]));
     constexpr Real round_off = 1e-9;
-    if (C.strain()[k + 1] <= 0 || slope <= K(std::max(e, Real(0))) * (1 + round_off)) continue;
+    if (C.strain()[k + 1] <= 0 || slope <= K.held(std::max(e, Real(0))) * (1 + round_off)) continue;
     return deck.warning(
         diagnostics, *this, field,
         fmt::format(
             "K = {:g} at ln(V) = {:g} is less steep than C, which rises by {:g}: what is unloaded there "
             "gives back more than it took",
-            K(std::max(e, Real(0))), -std::max(e, Real(0)), slope),
+            K.held(std::max(e, Real(0))), -std::max(e, Real(0)), slope),
         "K is at least -dC/d ln(V)");
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 // Functions of the volumetric strain, as cards of equations of state give them by points or curves.
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <utility>
@@ -20,6 +21,10 @@ class VolumeTable {
       : strain_(std::move(strain)), value_(std::move(value)) {}
   Real operator()(Real strain) const;
   Real slope(Real strain) const;
+  /// The same, but constant before the first point and beyond the last.
+  Real held(Real strain) const {
+    return known() ? (*this)(std::clamp(strain, strain_.front(), strain_.back())) : 0;
+  }
   const std::vector<Real>& strain() const { return strain_; }
   const std::vector<Real>& value() const { return value_; }
   bool is_zero() const;

@@ -144,7 +144,8 @@ TEST(EosTabulated, RefusesStrainsThatGoBothWays) {
 }
 
 // In to ln V = -0.3, where C = 5.5 and K = 30; out along K, through 0 at -0.3 + 5.5/30 into tension; back in
-// along it, and from -0.3 on along C again; out from -0.5 along K = 40.
+// along it, and from -0.3 on along C again; out from -0.5 along K = 40, which holds beyond its last point,
+// too.
 TEST(EosTabulatedCompaction, GoesInAlongCAndBackAlongK) {
   const auto law = law_of(entry_of("EOS_TABULATED_COMPACTION"), crushed);
   Real memory = law->memory_at_start();
@@ -171,8 +172,8 @@ TEST(EosTabulatedCompaction, GoesInAlongCAndBackAlongK) {
                         {-0.4, 7.75, 35},
                         {-0.5, 10, 40},
                         {-0.4, 6, 40},
-                        {-0.6, 12.25, 45},
-                        {-0.5, 7.75, 45}}) {
+                        {-0.6, 12.25, 40},
+                        {-0.5, 8.25, 40}}) {
     const auto [p, modulus] = at(s.eV);
     EXPECT_NEAR(p, s.p, 1e-12) << s.eV;
     EXPECT_NEAR(modulus, s.modulus, s.eV == -0.1 ? 3 : 1e-12) << s.eV;  // a corner of C
