@@ -425,4 +425,6 @@ TEST(Shells, NodesOfRigidBodiesTurnWithThem) {
   const Field<Real>& w = *shared_fields::angular_velocity.find(nodes.fields);
   EXPECT_NEAR(omega[1], 20, 2);
   EXPECT_NEAR((w.vec(0) - omega).norm(), 0, 1e-12);
+  // masses on nodes that both have count once
+  EXPECT_NEAR(s->sample("").mass / (1.25 * 0.02 * 7850), 1, 1e-12);
 }
