@@ -89,9 +89,10 @@ class Run {
   void print_start() {
     messag_.line(fmt::format("Courant {}", COURANT_VERSION));
     messag_.line(fmt::format("deck {}: {}", summary_.deck, summary_.title));
-    messag_.line(fmt::format("{} particles in {}D, {} solids, {} nodes, {} segments, {} thread{}",
-                             summary_.particles, s_.world().dim, summary_.elements, s_.world().nodes.size(),
-                             s_.world().segments.size(), threads(), threads() == 1 ? "" : "s"));
+    messag_.line(
+        fmt::format("{} particles in {}D, {} elements that deform, {} nodes, {} segments, {} thread{}",
+                    summary_.particles, s_.world().dim, summary_.elements, s_.world().nodes.size(),
+                    s_.world().segments.size(), threads(), threads() == 1 ? "" : "s"));
     for (const std::string& warning : options_.warnings) messag_.line(warning);
     messag_.keep(s_.passes());
     if (options_.print) options_.print(s_.passes_in_short() + "; `messag` lists them");
