@@ -176,7 +176,7 @@ void Contact::declare(const World& world, Accesses& a) const {
   }
   a.in_finish().updates(*leaked_);
   if (moves) a.writes(reactions_resource_);
-  if (deforms_) a.reads(n.m, Reach::others);
+  if (deforms_) a.reads(n.m, Reach::others).reads(n.held, Reach::others);
 }
 
 void Contact::update_facets(const World& world, const Clock& clock) {
