@@ -73,14 +73,14 @@ void Contact::add_reaction_on_node(Index node, Vec& force) const {
 // particles, is above that with w^2 = sum of k_t N_ti (1 + sum_j N_tj) / m_i. Rigid bodies have limits of
 // their own. [1/T2]
 Real Contact::stiffness_of_node(const World& world, Index node) const {
-  if (world.nodes.held[node] || options_.bodies.body(node) >= 0) return 0;
   Real sum = 0;
   for_each_reaction(of_node_, node, [&](const Reaction& r, int corner) {
     Real all = 1;  // with the particle's
     for (const Real share : r.share) all += std::abs(share);
     if (facets_[r.facet].body < 0) sum += all * r.k * std::abs(r.share[corner]);
   });
-  return sum > 0 ? sum / world.nodes.m[node] : 0;
+  if (!(sum > 0) || world.nodes.held[node] || options_.bodies.body(node) >= 0) return 0;
+  return sum / world.nodes.m[node];
 }
 
 void Contact::add_reaction_on_segment(Index segment, Vec& force) const {

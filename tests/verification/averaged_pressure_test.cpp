@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "elements/element_report.hpp"
+#include "pressure_decks.hpp"
 #include "same_bits.hpp"
-#include "shocks.hpp"
 #include "solid_decks.hpp"
 
 namespace courant::test::averaged_pressure {
@@ -138,17 +138,7 @@ TEST(AveragedPressure, TheDeviatorsWorkHeats) {
   for (const Kind& kind : kinds) {
     SolidDeck deck;
     deck.cells = kind.cells;
-    deck.block(Vec(1, 1, 1), 1, 1, 1, 1);
-    deck.cards = fmt::format(
-        "*PART\ncube\n1,1,1,1\n*SECTION_SOLID\n1,{}\n*MAT_ELASTIC_PLASTIC_HYDRO\n1,1.0,0.3,0.01732051\n"
-        "*EOS_LINEAR_POLYNOMIAL\n1,0.0,1.0,0.0,0.0,1.0\n0.0,1.0\n*CONTROL_TIMESTEP\n0.0,0.1\n",
-        kind.elform);
-    deck.node_set(1, [](const Vec& x) { return x[1] < 0.5; });
-    deck.node_set(2, [](const Vec& x) { return x[1] > 0.5; });
-    deck.cards +=
-        "*BOUNDARY_SPC_SET\n1,0,1,1,1\n2,0,0,1,1\n*BOUNDARY_PRESCRIBED_MOTION_SET\n2,1,0,1\n*DEFINE_"
-        "CURVE\n1\n"
-        "0.0,0.01\n1e9,0.01\n";
+    shear_a_cube(deck, kind.elform, "*MAT_ELASTIC_PLASTIC_HYDRO\n1,1.0,0.3,0.01732051\n");
     auto s = simulation_of(deck.text(100));
     run_until(*s, 50);
     s->step(do_nothing);

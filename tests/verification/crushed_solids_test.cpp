@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "pressure_decks.hpp"
 #include "same_bits.hpp"
-#include "shocks.hpp"
 #include "solid_decks.hpp"
 
 using namespace courant;
@@ -172,20 +172,7 @@ TEST(CrushedSolids, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
 }
 
 TEST(CrushedSolids, ParticlesRememberToo) {
-  std::string nodes, particles;
-  int id = 0;
-  for (int j = 0; j < 16; ++j)
-    for (int i = 0; i < 8; ++i) {
-      nodes += fmt::format("{:8}{:16.8f}{:16.8f}{:16.8f}\n", ++id, 0.05 + 0.1 * i, 0.051 + 0.1 * j, 0.0);
-      particles += fmt::format("{:8}{:8}{:16.8f}\n", id, 1, 0.02);
-    }
-  const std::string text =
-      "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*CONTROL_SPH\n1,0,1e20,2\n*PART\nsoil\n1,1,1,1\n"
-      "*SECTION_SPH\n1,1.3,1.0,1.0\n" +
-      soil +
-      "*RIGIDWALL_PLANAR\n0\n0.0,0.0,0.0,0.0,1.0,0.0\n*INITIAL_VELOCITY\n0\n0.0,-0.5,0.0\n"
-      "*NODE\n" +
-      nodes + "*ELEMENT_SPH\n" + particles + "*END\n";
+  const std::string text = test::particles_against_a_wall(8, 16, 0.02, 0.5, soil);
   auto s = simulation_of(text);
   start_ledger(*s);
   test::run_until(*s, 0.6);

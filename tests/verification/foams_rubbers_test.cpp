@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "pressure_decks.hpp"
 #include "same_bits.hpp"
 #include "shell_decks.hpp"
-#include "shocks.hpp"
 #include "solid_decks.hpp"
 
 using namespace courant;

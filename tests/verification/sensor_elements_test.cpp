@@ -166,16 +166,18 @@ TEST(SensorElements, FailureSwitches) {
   EXPECT_NEAR(seen, (std::exp(0.21) - 1) / pull_speed, 0.02 / pull_speed);
 }
 
+/// A cube of mass 1 with the speed 2.
+const std::string cube_in_flight =
+    "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*PART\ncube\n1,1,1\n*SECTION_SOLID\n1,1\n*MAT_ELASTIC\n1,1.0,1."
+    "0E6,"
+    "0.0\n*ELEMENT_SOLID\n1,1,1,2,3,4,5,6,7,8\n*NODE\n1,0.0,0.0,0.0\n2,1.0,0.0,0.0\n3,1.0,1.0,0.0\n4,0.0,1."
+    "0,"
+    "0.0\n5,0.0,0.0,1.0\n6,1.0,0.0,1.0\n7,1.0,1.0,1.0\n8,0.0,1.0,1.0\n*INITIAL_VELOCITY\n0\n2.0\n";
+
 // A cube of mass 1 that hits a wall at 0.2 after 0.1: it is stopped within a step, at v m/dt.
 TEST(SensorElements, RigidWallsSwitch) {
-  const std::string text =
-      "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*PART\ncube\n1,1,1\n*SECTION_SOLID\n1,1\n*MAT_ELASTIC\n1,1.0,1."
-      "0E6,"
-      "0.0\n*ELEMENT_SOLID\n1,1,1,2,3,4,5,6,7,8\n*NODE\n1,0.0,0.0,0.0\n2,1.0,0.0,0.0\n3,1.0,1.0,0.0\n4,0.0,1."
-      "0,"
-      "0.0\n5,0.0,0.0,1.0\n6,1.0,0.0,1.0\n7,1.0,1.0,1.0\n8,0.0,1.0,1.0\n*INITIAL_VELOCITY\n0\n2.0\n"
-      "*RIGIDWALL_PLANAR_ID\n7\n0\n1.2,0.0,0.0,0.0,0.0,0.0\n" +
-      measure("FORCE\n1,RWALL,7,X", "1.0") + "*END\n";
+  const std::string text = cube_in_flight + "*RIGIDWALL_PLANAR_ID\n7\n0\n1.2,0.0,0.0,0.0,0.0,0.0\n" +
+                           measure("FORCE\n1,RWALL,7,X", "1.0") + "*END\n";
   auto s = simulation_of(text);
   ASSERT_NE(s, nullptr);
   const Real seen = switched_at(*s, 1, 0.3);
@@ -210,11 +212,7 @@ TEST(SensorElements, AreRefusedByName) {
 // The force of the wall is that of the step before, also over a restart.
 TEST(SensorElements, HaveTheSameBitsOverARestart) {
   const std::string text =
-      "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*PART\ncube\n1,1,1\n*SECTION_SOLID\n1,1\n*MAT_ELASTIC\n1,1.0,1."
-      "0E6,"
-      "0.0\n*ELEMENT_SOLID\n1,1,1,2,3,4,5,6,7,8\n*NODE\n1,0.0,0.0,0.0\n2,1.0,0.0,0.0\n3,1.0,1.0,0.0\n4,0.0,1."
-      "0,"
-      "0.0\n5,0.0,0.0,1.0\n6,1.0,0.0,1.0\n7,1.0,1.0,1.0\n8,0.0,1.0,1.0\n*INITIAL_VELOCITY\n0\n2.0\n"
+      cube_in_flight +
       "*BOUNDARY_PRESCRIBED_MOTION_NODE_ID\n5,drive\n1,2,0,1\n*DEFINE_CURVE\n1\n0.0,1.0\n9.0,1.0\n"
       "*SENSOR_CONTROL\n1,PRESC-MOT,5\nOFF,1\n"
       "*RIGIDWALL_PLANAR_ID\n7\n0\n1.02,0.0,0.0,0.0,0.0,0.0\n" +

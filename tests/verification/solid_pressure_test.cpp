@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "pressure_decks.hpp"
 #include "same_bits.hpp"
-#include "shocks.hpp"
 #include "solid_decks.hpp"
 
 using namespace courant;
@@ -304,15 +304,7 @@ TEST(SolidPressure, TheDeviatorsWorkHeats) {
   for (const char* material : {"*MAT_ELASTIC_PLASTIC_HYDRO\n1,1.0,0.3,0.01732051\n",
                                "*MAT_JOHNSON_COOK\n1,1.0,0.3\n0.01732051\n\n\n"}) {
     SolidDeck deck;
-    deck.block(Vec(1, 1, 1), 1, 1, 1, 1);
-    deck.cards = std::string("*PART\ncube\n1,1,1,1\n*SECTION_SOLID\n1,1\n") + material +
-                 "*EOS_LINEAR_POLYNOMIAL\n1,0.0,1.0,0.0,0.0,1.0\n0.0,1.0\n*CONTROL_TIMESTEP\n0.0,0.1\n";
-    deck.node_set(1, [](const Vec& x) { return x[1] < 0.5; });
-    deck.node_set(2, [](const Vec& x) { return x[1] > 0.5; });
-    deck.cards +=
-        "*BOUNDARY_SPC_SET\n1,0,1,1,1\n2,0,0,1,1\n*BOUNDARY_PRESCRIBED_MOTION_SET\n2,1,0,1\n*DEFINE_"
-        "CURVE\n1\n"
-        "0.0,0.01\n1e9,0.01\n";
+    test::shear_a_cube(deck, 1, material);
     auto s = simulation_of(deck.text(100));
     test::run_until(*s, 50);
     s->step(do_nothing);
@@ -360,19 +352,8 @@ TEST(SolidPressure, ParticlesTakeTheSameLaws) {
       "1.0,,1.0\n";
   const char* const spalls = "*MAT_ELASTIC_PLASTIC_HYDRO_SPALL\n1,8930.0,46e9,1e8,1e8,-3e8\n0.1,0.0,3\n";
   for (const char* material : {jc, spalls}) {
-    std::string nodes, particles;
-    int id = 0;
-    for (int j = 0; j < 20; ++j)
-      for (int i = 0; i < 10; ++i) {
-        nodes += fmt::format("{:8}{:16.8f}{:16.8f}{:16.8f}\n", ++id, 0.05 + 0.1 * i, 0.051 + 0.1 * j, 0.0);
-        particles += fmt::format("{:8}{:8}{:16.8f}\n", id, 1, 89.3);
-      }
     const std::string text =
-        std::string("*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*CONTROL_SPH\n1,0,1e20,2\n") +
-        "*PART\nblock\n1,1,1,1\n*SECTION_SPH\n1,1.3,1.0,1.0\n" + material + copper_eos +
-        "*RIGIDWALL_PLANAR\n0\n0.0,0.0,0.0,0.0,1.0,0.0\n*INITIAL_VELOCITY\n0\n0.0,-200.0,0.0\n"
-        "*NODE\n" +
-        nodes + "*ELEMENT_SPH\n" + particles + "*END\n";
+        test::particles_against_a_wall(10, 20, 89.3, 200, std::string(material) + copper_eos);
     auto s = simulation_of(text);
     start_ledger(*s);
     test::run_until(*s, 6e-4);

@@ -82,16 +82,19 @@ class CableReader {
   }
 
   bool take_curve(const MatCableDiscreteBeam& card, const Curve& curve, CableLaw& law) {
-    law.strain = curve.abscissa, law.stress = curve.ordinate;
-    for (std::size_t k = 1; k < law.strain.size(); ++k) {
-      if (law.strain[k] > law.strain[k - 1]) continue;
+    const std::vector<Real>& strain = curve.abscissa;
+    for (std::size_t k = 1; k < strain.size(); ++k) {
+      if (strain[k] > strain[k - 1]) continue;
       error(card, "LCID", fmt::format("curve {} jumps: a cable would be infinitely stiff there", card.lcid),
             "give its points increasing abscissae");
       return false;
     }
-    if (law.strain.size() > 1) return true;
-    error(card, "LCID", fmt::format("curve {} has one point", card.lcid), "a cable needs two or more");
-    return false;
+    if (strain.size() < 2) {
+      error(card, "LCID", fmt::format("curve {} has one point", card.lcid), "a cable needs two or more");
+      return false;
+    }
+    law.curve = {strain, curve.ordinate};
+    return true;
   }
 
   void warn_of_section(const SectionBeam& s) {
@@ -115,7 +118,7 @@ class CableReader {
     const auto x = [&](std::size_t k) { return model_.nodes[static_cast<std::size_t>(beam.node[k])].x; };
     const Real volume = own(0, s.vol), area = own(3, s.ca), offset = own(4, s.offset);
     const Real length = (x(1) - x(0)).norm(), rest = length - offset;
-    const bool by_area = out.law.E > 0 || !out.law.strain.empty();
+    const bool by_area = out.law.E > 0 || !out.law.curve.empty();
     if (by_area && !(area > 0))
       return error(s, "CA", fmt::format("cable {} has no area, which its stiffness is made of", beam.id),
                    "give CA here, or PARM4 of *ELEMENT_BEAM_THICKNESS");
@@ -143,18 +146,14 @@ Real CableLaw::preload(Real t) const {
 }
 
 Real CableLaw::answer(Real area, Real rest, Real dL) const {
-  if (strain.empty()) return (E > 0 ? E * area / rest : stiffness) * dL;
-  const Real e = dL / rest;
-  const auto above = std::upper_bound(strain.begin() + 1, strain.end() - 1, e);
-  const auto k = static_cast<std::size_t>(above - strain.begin()) - 1;
-  return area * (stress[k] + (stress[k + 1] - stress[k]) / (strain[k + 1] - strain[k]) * (e - strain[k]));
+  if (curve.empty()) return (E > 0 ? E * area / rest : stiffness) * dL;
+  return area * curve(dL / rest);
 }
 
 Real CableLaw::steepest(Real area, Real rest) const {
-  if (strain.empty()) return E > 0 ? E * area / rest : stiffness;
+  if (curve.empty()) return E > 0 ? E * area / rest : stiffness;
   Real most = 0;
-  for (std::size_t k = 0; k + 1 < strain.size(); ++k)
-    most = std::max(most, (stress[k + 1] - stress[k]) / (strain[k + 1] - strain[k]));
+  for (std::size_t k = 0; k < curve.pieces(); ++k) most = std::max(most, curve.slope(k));
   return most * area / rest;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/straight_pieces.hpp"
 #include "elements/erosion.hpp"
 #include "model/model.hpp"
 #include "state/world.hpp"
@@ -17,7 +18,7 @@ struct CableLaw {
   static constexpr Real never = std::numeric_limits<Real>::infinity();
   Real E = 0;                                    ///< Young's modulus [M/LT2]; 0: by `stiffness` or `curve`
   Real stiffness = 0;                            ///< -E of the card, of each cable [M/T2]
-  std::vector<Real> strain{}, stress{};          ///< of the curve, straight beyond its ends; empty: none
+  StraightPieces curve{};                        ///< stress over strain; empty: none
   Real F0 = 0;                                   ///< [ML/T2]
   Real ramp_from = 0, ramp = 0, held_until = 0;  ///< [T]
   Real most_strain = never, most_force = never;  ///< the cable breaks there

@@ -4,41 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
+#include "base/straight_pieces.hpp"
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
 
 namespace {
-
-/// Force over stretch or rate: linear between the points, and beyond them as in the outermost piece, as
-/// constitutive curves are in LS-DYNA.
-class Line {
- public:
-  explicit Line(const Curve& curve) : x_(curve.abscissa), y_(curve.ordinate) {}
-  Real operator()(Real x) const {
-    const std::size_t k = piece(x);
-    return y_[k] + slope(k) * (x - x_[k]);
-  }
-  /// The largest |slope| of pieces that [from, to] touches.
-  Real steepest(Real from, Real to) const {
-    Real most = 0;
-    for (std::size_t k = piece(from), last = piece(to); k <= last; ++k)
-      most = std::max(most, std::abs(slope(k)));
-    return most;
-  }
-
- private:
-  std::size_t piece(Real x) const {
-    const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
-    return static_cast<std::size_t>(above - x_.begin()) - 1;
-  }
-  Real slope(std::size_t k) const { return (y_[k + 1] - y_[k]) / (x_[k + 1] - x_[k]); }
-  std::vector<Real> x_, y_;
-};
 
 /// Stretches that the next step may reach, too.
 constexpr Real ahead = 2;
@@ -73,17 +47,16 @@ struct Elastoplastic : SpringLaw {
 };
 
 struct NonlinearElastic : SpringLaw {
-  Line force;
-  std::optional<Line> by_rate;
-  NonlinearElastic(const Curve& f, const Curve* factor) : force(f) {
-    if (factor) by_rate.emplace(*factor);
+  StraightPieces force, by_rate;
+  NonlinearElastic(const Curve& f, const Curve* factor) : force(f.abscissa, f.ordinate) {
+    if (factor) by_rate = {factor->abscissa, factor->ordinate};
   }
   SpringAnswer answer(const SpringMotion& m, Real*) const override {
     const Real reach = ahead * std::abs(m.change), f = force(m.stretch);
     SpringAnswer out{f, force.steepest(m.stretch - reach, m.stretch + reach), 0};
-    if (by_rate) {
-      const Real factor = (*by_rate)(m.rate),
-                 steep = by_rate->steepest(std::min(m.rate, Real(0)), std::max(m.rate, Real(0)));
+    if (!by_rate.empty()) {
+      const Real factor = by_rate(m.rate),
+                 steep = by_rate.steepest(std::min(m.rate, Real(0)), std::max(m.rate, Real(0)));
       out = {f * factor, out.stiffness * std::abs(factor), std::abs(f) * steep};
     }
     return out;
@@ -91,8 +64,8 @@ struct NonlinearElastic : SpringLaw {
 };
 
 struct NonlinearViscous : SpringLaw {
-  Line force;
-  explicit NonlinearViscous(const Curve& f) : force(f) {}
+  StraightPieces force;
+  explicit NonlinearViscous(const Curve& f) : force(f.abscissa, f.ordinate) {}
   SpringAnswer answer(const SpringMotion& m, Real*) const override {
     const Real reach = ahead * std::abs(m.rate);
     return {force(m.rate), 0, force.steepest(m.rate - reach, m.rate + reach)};

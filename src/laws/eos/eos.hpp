@@ -12,6 +12,7 @@
 
 #include "keyword/deck.hpp"
 #include "keyword/registry.hpp"
+#include "laws/check_cards.hpp"
 #include "model/model.hpp"
 
 namespace courant {
@@ -188,13 +189,7 @@ struct RegisterEos {
       }
       return laws;
     };
-    entry.check = [](const Deck& deck, const Model& model, Diagnostics& diagnostics) {
-      for (const Card& card : deck.all<Card>())
-        if constexpr (requires { card.check(deck, model, diagnostics); })
-          card.check(deck, model, diagnostics);
-        else if constexpr (requires { card.check(deck, diagnostics); })
-          card.check(deck, diagnostics);
-    };
+    entry.check = &check_cards<Card>;
     eos_registry().push_back(std::move(entry));
     register_keyword(make_keyword_spec<Card>(std::move(keyword)));
   }

@@ -1,7 +1,7 @@
 #pragma once
-#include <algorithm>
 #include <vector>
 
+#include "base/straight_pieces.hpp"
 #include "keyword/deck.hpp"
 
 namespace courant {
@@ -10,15 +10,11 @@ namespace courant {
 struct Hardening {
   std::vector<Real> strain, stress;  ///< at least two points, strain from 0 on, strictly increasing
 
-  Real slope(std::size_t k) const { return (stress[k + 1] - stress[k]) / (strain[k + 1] - strain[k]); }
-  std::size_t piece(Real e) const {
-    if (strain.size() <= 2) return 0;
-    const auto first = strain.begin() + 1;
-    return static_cast<std::size_t>(std::upper_bound(first, strain.end() - 1, e) - first);
-  }
+  Real slope(std::size_t k) const { return slope_of_piece(strain, stress, k); }
+  std::size_t piece(Real e) const { return piece_of(strain, e); }
   Real at(Real e) const {
-    const std::size_t k = piece(e);
-    return stress[k] + slope(k) * (e - strain[k]);
+    Real unused;
+    return at(e, unused);
   }
   Real at(Real e, Real& slope_there) const {
     const std::size_t k = piece(e);

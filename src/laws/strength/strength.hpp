@@ -11,6 +11,7 @@
 
 #include "keyword/deck.hpp"
 #include "keyword/registry.hpp"
+#include "laws/check_cards.hpp"
 #include "laws/point_block.hpp"
 #include "model/model.hpp"
 
@@ -124,13 +125,7 @@ struct RegisterStrength {
           laws.emplace_back(card.mid, card.law());
       return laws;
     };
-    entry.check = [](const Deck& deck, const Model& model, Diagnostics& diagnostics) {
-      for (const Card& card : deck.all<Card>())
-        if constexpr (requires { card.check(deck, model, diagnostics); })
-          card.check(deck, model, diagnostics);
-        else if constexpr (requires { card.check(deck, diagnostics); })
-          card.check(deck, diagnostics);
-    };
+    entry.check = &check_cards<Card>;
     add_to_strength_registry(std::move(entry));
     register_keyword(make_keyword_spec<Card>(std::move(keyword)));
   }
