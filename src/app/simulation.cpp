@@ -12,10 +12,12 @@
 #include "app/scene_warnings.hpp"
 #include "app/skin.hpp"
 #include "contact/cards.hpp"
+#include "contact/contact_numbers.hpp"
 #include "contact/nodes/build.hpp"
 #include "contact/tied/build.hpp"
 #include "elements/beam/cables.hpp"
 #include "elements/erosion.hpp"
+#include "elements/histories/secforc.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "elements/nodal_rotations.hpp"
 #include "elements/node_inertias.hpp"
@@ -91,6 +93,7 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
   s->relaxation_ = relaxation_of(s->deck_, s->model_, !s->model_.sph.empty(), diagnostics);
   if (!holds_places(deck_path, s->model_, diagnostics)) return nullptr;
   release_mesh_cards(s->deck_);
+  number_contacts(s->deck_, diagnostics);
   s->injections_ = add_injected_particles(s->deck_, s->model_, diagnostics);
   const bool model_is_whole = diagnostics.ok();
   s->build_parts(diagnostics);
@@ -161,7 +164,8 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     std::vector<bool> by_pressure;
     for (const SolidPart& part : solids_) by_pressure.push_back(part.pressure != nullptr || part.nodal);
     ElementOptions options{mass_scaling_of(deck_), failure_rules(deck_, model_, laws, diagnostics),
-                           stiffness_damping(deck_, model_, laws, by_pressure, diagnostics)};
+                           stiffness_damping(deck_, model_, laws, by_pressure, diagnostics),
+                           has_cross_sections(deck_)};
     add_solid_passes(model_, solids_, node_of, options, world_);
     add_shell_passes(model_, shells_, node_of, options, world_);
     build_beams(model_, beams_, node_of, world_, diagnostics);
@@ -260,7 +264,6 @@ void Simulation::report_what_needs_particles(Diagnostics& diagnostics) {
 // Rotations of nodes of shells obey the same equation as places.
 void Simulation::add_rotations() {
   const Points rotations = rotations_of(world_.nodes);
-  if (const auto moments = make_moment_assembly(world_)) world_.passes.add(moments);
   if (const auto loads = make_nodal_loads(nodal_loads_, model_, rotations, world_)) world_.passes.add(loads);
   for (const auto& pass :
        {make_fixed_points(model_, rotations, world_), make_damping(damping_, rotations, world_)})

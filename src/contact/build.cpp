@@ -134,10 +134,10 @@ std::vector<InterfaceLawsOf>& interface_law_registry() {
 
 namespace {
 
-ContactLaw law_of(const Deck& deck, const ContactCard& c, int number) {
+ContactLaw law_of(const Deck& deck, const ContactCard& c) {
   const ControlContact* control = deck.last<ControlContact>();
   ContactLaw law;
-  law.id = c.cid > 0 ? c.cid : number;
+  law.id = c.cid;
   law.title = c.title;
   if (control) {
     law.slsfac = control->slsfac;
@@ -157,8 +157,7 @@ ContactLaw law_of(const Deck& deck, const ContactCard& c, int number) {
 std::vector<AskedInterfaceLaw> interface_laws(const Deck& deck, Diagnostics& diagnostics) {
   std::vector<AskedInterfaceLaw> out;
   std::set<Id> contacts;
-  Id number = 0;
-  for (const ContactCard& c : deck.all<ContactCard>()) ++number, contacts.insert(c.cid > 0 ? c.cid : number);
+  for (const ContactCard& c : deck.all<ContactCard>()) contacts.insert(c.cid);
   for (const LiteralPenalty& card : deck.all<LiteralPenalty>())
     if (card.cid > 0 && !contacts.contains(card.cid))
       deck.error(diagnostics, card, "CID", fmt::format("contact {} does not exist", card.cid),
@@ -197,7 +196,7 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
     builder.refuse_for_particles(c);
     const std::vector<Index> segments = builder.segments(c);
     if (diagnostics.errors() > errors || segments.empty()) continue;
-    ContactLaw law = law_of(deck, c, number);
+    ContactLaw law = law_of(deck, c);
     if (SensorBoard* const board = sensors_of(deck, model, world, diagnostics))
       law.gate = board->gate_of_contact(c.cid);
     auto contact = std::make_shared<Contact>(std::move(law), options, number, segments, tracked, world);

@@ -34,24 +34,26 @@ Tiebreak tiebreak_of(const C& card) {
 /// Card 4 of those that hold until they break.
 std::vector<CardOf<C>> tiebreak_cards() {
   constexpr FieldRules strength{.required = true, .check = Check::positive};
+  constexpr FieldRules of_option{.check = Check::not_negative};
   return {
-      {.fields = {{"OPTION",
-                   &C::option,
-                   "-",
-                   "nodes that touch at the start hold until the stress is reached (2), until the opening "
-                   "PARAM (6, 8)",
-                   {.standard = 1}},
-                  {"NFLS", &C::nfls, "M/LT2", "normal stress that breaks it", strength},
-                  {"SFLS", &C::sfls, "M/LT2", "shear stress that breaks it", strength},
-                  {"PARAM",
-                   &C::param,
-                   "L",
-                   "with OPTION 6 and 8: opening at which nothing holds any more, behind a straight fall",
-                   {.check = Check::not_negative}},
-                  {"ERATEN", &C::eraten, "M/T2", "of other options", {.honour = no}},
-                  {"ERATES", &C::erates, "M/T2", "of other options", {.honour = no}},
-                  {"CT2CN", &C::ct2cn, "-", "of other options", {.honour = no}},
-                  {"CN", &C::cn, "M/L2T2", "of other options", {.honour = no}}},
+      {.fields =
+           {{"OPTION",
+             &C::option,
+             "-",
+             "nodes that touch at the start or later hold for ever (1), until the stress is reached (3); "
+             "those that touch at the start until the stress (2), until the opening PARAM (6, 8)",
+             {.standard = 1}},
+            {"NFLS", &C::nfls, "M/LT2", "normal stress that breaks it", of_option},
+            {"SFLS", &C::sfls, "M/LT2", "shear stress that breaks it", of_option},
+            {"PARAM",
+             &C::param,
+             "L",
+             "with OPTION 6 and 8: opening at which nothing holds any more, behind a straight fall",
+             {.check = Check::not_negative}},
+            {"ERATEN", &C::eraten, "M/T2", "of other options", {.honour = no}},
+            {"ERATES", &C::erates, "M/T2", "of other options", {.honour = no}},
+            {"CT2CN", &C::ct2cn, "-", "of other options", {.honour = no}},
+            {"CN", &C::cn, "M/L2T2", "of other options", {.honour = no}}},
        .when = [](const C& card) { return tiebreak_of(card) == Tiebreak::by_option; }},
       {.fields =
            {{"NFLF", &C::nfls, "ML/T2", "normal force on a node that breaks it", strength},

@@ -59,6 +59,7 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
       hold_(!law_.literal),
       eroded_(shared_fields::eroded.find(world.segments.fields)) {
   const std::string prefix = fmt::format("contact_{}_", number_);
+  world.segments.keep_contact_force();
   Particles& p = world.particles;
   k_particle_ = particle_field(world, prefix + "stiffness", "M/T2", 1);
   admissible_ = particle_field(world, prefix + "admissible", "L", 3);
@@ -165,7 +166,7 @@ void Contact::declare(const World& world, Accesses& a) const {
   a.in_start();
   if (sleeps) a.reads(p.x, Reach::others).reads(p.v, Reach::others).updates(*admissible_);
   if (moves) a.reads(n.x, Reach::others).reads(n.v, Reach::others);
-  if (held) a.updates(n.f).updates(world.segments.contact_force);
+  if (held) a.updates(n.f).updates(*world.segments.contact_force);
   if (eroded_) {
     a.reads(*eroded_, Reach::others).reads(p.x, Reach::others).reads(p.v, Reach::others);
     a.reads(*k_particle_, Reach::others).updates(*admissible_).updates(*leaked_);
@@ -219,7 +220,7 @@ void Contact::start(World& world, const Clock& clock) {
     const Facet& f = facets_[s];
     if (!f.moves)  // others are cleared with the forces of all nodes
       for (int e = 0; e < node_count(f); ++e) world.nodes.f.set(f.node[e], Vec::Zero());
-    world.segments.contact_force.set(f.segment, Vec::Zero());
+    world.segments.contact_force->set(f.segment, Vec::Zero());
   }
   written_.clear();
   shown_ = false;
@@ -277,7 +278,7 @@ void Contact::give_to_wall(World& world, const Block& b, std::size_t touch,
   const Facet& f = facets_[s];
   const Vec force = force_of(b, touch);
   for (int e = 0; e < node_count(f); ++e) world.nodes.f.add(f.node[e], -share[e] * force);
-  world.segments.contact_force.add(f.segment, -force);
+  world.segments.contact_force->add(f.segment, -force);
   written_.push_back(s);
 }
 

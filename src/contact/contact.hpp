@@ -78,7 +78,7 @@ class Contact : public Force,
   void start(World& world, const Clock& clock) override;
   void block(World& world, const Clock& clock, Index begin, Index end) override;
   void finish(World& world, const Clock& clock) override;
-  /// Adds the forces on fixed walls to nodes.f and segments.contact_force. No motion depends on these, so
+  /// Adds the forces on fixed walls to nodes.f and segments.contact_force-> No motion depends on these, so
   /// this is left to who wants to see them; before particles move again.
   void show_forces(World& world);
   /// What touches leave for the faces and nodes of walls that move; complete after `finish`.

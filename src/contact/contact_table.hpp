@@ -91,6 +91,7 @@ KeywordOf<T> contact_head(std::vector<std::string> names, std::string purpose, s
           .id_space = IdSpace::contact,
           .id_option = true,
           .mpp_option = true,
+          .id_may_repeat = true,
           .title = &T::title,
           .id = &T::cid,
           .many = false,

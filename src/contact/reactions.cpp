@@ -115,13 +115,13 @@ class FaceReactions : public Force {
   std::string name() const override { return contact_->name() + " (faces)"; }
   const FieldSet& over(const World& world) const override { return world.segments.fields; }
   void declare(const World& world, Accesses& a) const override {
-    a.reads(contact_->reactions(), Reach::others).updates(world.segments.contact_force);
+    a.reads(contact_->reactions(), Reach::others).updates(*world.segments.contact_force);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
     for (Index s = begin; s < end; ++s) {
       Vec force = Vec::Zero();
       contact_->add_reaction_on_segment(s, force);
-      world.segments.contact_force.add(s, force);
+      world.segments.contact_force->add(s, force);
     }
   }
 

@@ -251,8 +251,8 @@ void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real
     step_limit[i] = wave_time[i] = infinite;
     if (volume) volume[i] = 1;
     clear(e);
-    for (int k = 0; k < 3 * group_.corners(); ++k) {
-      group_.corner_force.data(k)[e] = 0;
+    for (int k = 0; group_.corner_force && k < 3 * group_.corners(); ++k) {
+      group_.corner_force->data(k)[e] = 0;
       if (group_.corner_moment) group_.corner_moment->data(k)[e] = 0;
     }
   }

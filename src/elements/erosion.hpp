@@ -144,6 +144,7 @@ struct ElementOptions {
   MassScaling scaling;
   std::vector<FailureRules> failure;                ///< by part of the model
   std::vector<Real> stiffness_damping;              ///< COEF by part of the model, 0: none
+  bool sections = false;                            ///< somebody asks for forces on corners
   std::vector<std::shared_ptr<Erosion>> eroding{};  ///< out: of groups that may fail
 };
 

@@ -21,7 +21,7 @@ Real largest_component(const NodalVector& u) {
 
 GroupNodes::GroupNodes(const ElementGroup& group, const std::vector<std::array<bool, 3>>& held_in_world,
                        const Nodes& nodes) {
-  std::vector<Index> used;
+  std::vector<Index>& used = used_;
   for (int c = 0; c < group.corners(); ++c)
     used.insert(used.end(), group.node.data(c), group.node.data(c) + group.size());
   std::sort(used.begin(), used.end());
@@ -40,10 +40,27 @@ GroupNodes::GroupNodes(const ElementGroup& group, const std::vector<std::array<b
     }
 }
 
-void GroupNodes::assemble(const Field<Real>& of_corners, Real factor, NodalVector& sums,
-                          std::size_t first) const {
+void GroupNodes::assemble(const Field<Real>& of_blocks, const std::vector<Index>& place_node, Real factor,
+                          NodalVector& sums, std::size_t first) const {
   for (std::size_t k = 0; k < 3; ++k) {
     Real* const to = sums[k].data() + first;
+    std::fill(to, to + m.size(), 0);
+    const Real* f = of_blocks.data(static_cast<int>(k));
+    for (std::size_t p = 0; p < place_node.size(); ++p) to[place_node[p]] += factor * f[p];
+  }
+}
+
+std::vector<Index> GroupNodes::nodes_of_places(const BlockSums& sums) const {
+  std::vector<Index> out;
+  out.reserve(sums.nodes().size());
+  for (const Index n : sums.nodes())
+    out.push_back(static_cast<Index>(std::lower_bound(used_.begin(), used_.end(), n) - used_.begin()));
+  return out;
+}
+
+void GroupNodes::assemble(const Field<Real>& of_corners, Real factor, NodalVector& sums) const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    Real* const to = sums[k].data();
     std::fill(to, to + m.size(), 0);
     for (std::size_t c = 0; c < corner.size(); ++c) {
       const Real* f = of_corners.data(static_cast<int>(3 * c + k));

@@ -21,7 +21,15 @@ struct GroupNodes {
   std::vector<std::vector<Index>> corner;   ///< of elements, by corner
   /// Sums of what elements have for their corners, component 3 c + k of corner c, times a factor, into the
   /// entries from `first` on.
-  void assemble(const Field<Real>& of_corners, Real factor, NodalVector& sums, std::size_t first = 0) const;
+  void assemble(const Field<Real>& of_corners, Real factor, NodalVector& sums) const;
+  /// The same of what they left for their nodes by block. `place_node`: as nodes_of_places gives it.
+  void assemble(const Field<Real>& of_blocks, const std::vector<Index>& place_node, Real factor,
+                NodalVector& sums, std::size_t first) const;
+  /// Of each place of BlockSums the node, numbered as here.
+  std::vector<Index> nodes_of_places(const BlockSums& sums) const;
+
+ private:
+  std::vector<Index> used_;  ///< nodes of the world, ascending
 };
 
 /// The largest omega with K u = omega^2 M u, K symmetric, M of the masses of nodes `m` (0: the node has no

@@ -125,8 +125,8 @@ Real damped_share(Real beta, Real undamped) {
 StiffnessDamping::StiffnessDamping(Real coef, const ElementGroup& group, int points, int tensors)
     : coef_(coef),
       beta_(group.fields.add<Real>({.name = "stiffness_damping_time", .dimension = "T"})),
-      damped_(group.fields.add<Real>(
-          {.name = "damped_stress", .dimension = "M/LT2", .components = 6 * points, .restart = false})) {
+      damped_(
+          group.fields.add<Real>({.name = "damped_stress", .dimension = "M/LT2", .components = 6 * points})) {
   if (tensors > 0)
     damping_ =
         &group.fields.add<Real>({.name = "damping_stress", .dimension = "M/LT2", .components = 6 * tensors});

@@ -135,7 +135,9 @@ struct KeywordOf {
   bool id_option = false;     ///< NAME_ID adds a card ID I10, HEADING A70
   bool mpp_option = false;    ///< NAME_MPP adds one or two cards for parallel runs, which have no effect here
   bool collect_option = false;  ///< NAME_COLLECT adds to what an earlier entry with the same id defines
-  bool heading = false;         ///< always starts with an A70 heading card (*PART)
+  /// The id may be that of an earlier entry: who builds this one gives it another, and tells so.
+  bool id_may_repeat = false;
+  bool heading = false;  ///< always starts with an A70 heading card (*PART)
   std::string T::*title = nullptr;
   Id T::*id = nullptr;
   /// The coordinate system in which places and directions are given, 0 global. With one *INCLUDE_TRANSFORM

@@ -123,7 +123,7 @@ void CardReader::refuse_second_definition(const Entry& entry) {
   // no id, one that was refused already, or none that must be unique
   if (id <= 0 || is_mesh(spec_->id_space) || may_repeat(spec_->id_space)) return;
   const Entry* first = deck_.define(spec_->id_space, id, entry);
-  if (!first || block_.match.collect) return;
+  if (!first || block_.match.collect || spec_->id_may_repeat) return;
   deck_.error(*diagnostics_, entry, block_.match.id ? "" : spec_->cards[0].fields[0].name,
               fmt::format("{} {} is defined twice, first as {} at {}", id_word(spec_->id_space), id,
                           deck_.keyword(*first), deck_.place(*first)),

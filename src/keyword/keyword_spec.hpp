@@ -85,7 +85,7 @@ class KeywordSpec {
   std::string purpose, lacking;
   IdSpace id_space = IdSpace::none;
   bool title_option = false, id_option = false, mpp_option = false, collect_option = false;
-  bool heading = false, once = false, many = true;
+  bool id_may_repeat = false, heading = false, once = false, many = true;
   std::optional<std::size_t> title, id, local;  ///< offsets of these members of KeywordOf
   std::vector<CardSpec> cards;
 
@@ -194,7 +194,8 @@ class TableSpec : public KeywordSpec {
     names = std::move(keyword.names), purpose = std::move(keyword.purpose);
     lacking = std::move(keyword.lacking), id_space = keyword.id_space;
     title_option = keyword.title_option, id_option = keyword.id_option, mpp_option = keyword.mpp_option;
-    collect_option = keyword.collect_option, heading = keyword.heading;
+    collect_option = keyword.collect_option, id_may_repeat = keyword.id_may_repeat;
+    heading = keyword.heading;
     once = keyword.once, many = keyword.many;
     if (keyword.title) title = offset_of(standard_, keyword.title);
     if (keyword.id) id = offset_of(standard_, keyword.id);

@@ -48,6 +48,7 @@ Real ModelLayup::thickness() const {
 void Model::release_mesh() {
   std::vector<ModelNode>().swap(nodes);  // clear() would keep the memory
   std::vector<ModelSph>().swap(sph);
+  std::vector<ModelShell>().swap(shells);
   std::vector<ModelSolid>().swap(solids);
   std::vector<ModelBeam>().swap(beams);
   std::vector<ModelSegment>().swap(segments);

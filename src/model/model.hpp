@@ -264,8 +264,7 @@ struct Model {
 
   /// Whether nodes may turn: shells and beams have moments, and nodes may have an inertia of their own.
   bool turns() const { return !shells.empty() || !beams.empty() || !inertias.empty(); }
-  /// Gives back nodes, particles, solids and the sets of nodes and elements, once the world is built from
-  /// them.
+  /// Gives back nodes, particles, elements and the sets of them, once the world is built from them.
   void release_mesh();
 };
 

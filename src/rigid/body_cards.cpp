@@ -101,7 +101,7 @@ const RegisterKeyword<Load> load_rigid_body_keyword{
 class BodyCardReader {
  public:
   BodyCardReader(const Deck& deck, const Model& model, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), diagnostics_(diagnostics), of_nodes_(nodal_body_ids(deck)) {}
+      : deck_(deck), model_(model), diagnostics_(diagnostics), of_nodes_(nodal_body_ids(deck, model)) {}
 
   /// Index of a rigid part.
   std::optional<Index> rigid_part(const Entry& card, Id pid) {

@@ -76,6 +76,7 @@ KeywordOf<NB> nodal_body_keyword() {
       .purpose = "nodes of elements that move as one rigid body; its mass is theirs, or with _INERTIA given",
       .id_space = IdSpace::part,
       .title_option = true,
+      .id_may_repeat = true,
       .title = &NB::title,
       .cards = {first_card(), spc_card()},
       .move = move_nodal_body};
@@ -147,12 +148,22 @@ class NodalBodyReader {
     for (std::size_t n = 0; n < model.nodes.size(); ++n)
       node_of_id_[model.nodes[n].id] = static_cast<Index>(n);
     for (const ModelSph& s : model.sph) particles_.insert(s.node);
-    for (const ModelPart& part : model.parts) next_id_ = std::max(next_id_, part.id + 1);
+    for (const ModelPart& part : model.parts)
+      next_id_ = std::max(next_id_, part.id + 1), taken_.insert(part.id);
     for (const NB& card : deck.all<NB>()) next_id_ = std::max(next_id_, card.pid + 1);
   }
 
   void add(const NB& card) {
-    NodalBody b{.id = card.pid, .name = fmt::format("nodal rigid body {}", card.pid), .card = card};
+    const bool is_new = taken_.insert(card.pid).second;
+    const Id id = is_new ? card.pid : next_id_++;
+    if (!is_new)
+      deck_.warning(
+          diagnostics_, card, "PID",
+          fmt::format("part {} is defined already: this body is {} in outputs, and nothing in the deck "
+                      "can name it",
+                      card.pid, id),
+          "give it an id that no part has");
+    NodalBody b{.id = id, .name = fmt::format("nodal rigid body {}", id), .card = card};
     if (!add_set(card, card.nsid == 0 ? "PID" : "NSID", card.nsid == 0 ? card.pid : card.nsid, b)) return;
     if (card.pnode != 0) {
       const auto node = node_of_id_.find(std::abs(card.pnode));
@@ -238,15 +249,17 @@ class NodalBodyReader {
   Diagnostics& diagnostics_;
   std::map<Id, Index> node_of_id_;
   std::set<Index> particles_;
+  std::set<Id> taken_;
   Id next_id_ = 1;
   std::vector<NodalBody> bodies_;
 };
 
 }  // namespace
 
-std::set<Id> nodal_body_ids(const Deck& deck) {
+std::set<Id> nodal_body_ids(const Deck& deck, const Model& model) {
   std::set<Id> out;
-  for (const NB& card : deck.all<NB>()) out.insert(card.pid);
+  for (const NB& card : deck.all<NB>())
+    if (!model.part_of_id.contains(card.pid)) out.insert(card.pid);
   return out;
 }
 

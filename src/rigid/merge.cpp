@@ -74,7 +74,7 @@ class MergeReader {
   /// Index of a rigid part; -1 where it is none.
   Index rigid_part(const Entry& card, const char* field, Id id) {
     const auto part = model_.part_of_id.find(id);
-    if (nodal_body_ids(deck_).contains(id))
+    if (nodal_body_ids(deck_, model_).contains(id))
       error(card, field, fmt::format("{} is a rigid body of nodes, which cannot be merged with parts", id),
             "let its nodes go with the part by *CONSTRAINED_EXTRA_NODES_SET instead");
     else if (part == model_.part_of_id.end())

@@ -24,7 +24,7 @@ struct NodalBody {
 };
 
 /// Numbers of those of *CONSTRAINED_NODAL_RIGID_BODY.
-std::set<Id> nodal_body_ids(const Deck& deck);
+std::set<Id> nodal_body_ids(const Deck& deck, const Model& model);
 
 /// In the order of the deck: first those of *CONSTRAINED_NODAL_RIGID_BODY. Refuses by name: sets and nodes
 /// that are not there, particles, constraints along local axes.

@@ -93,7 +93,7 @@ std::optional<Matrix> axes_of_material(const MatRigid& m, const Model& model) {
 class Follower {
  public:
   Follower(const Deck& deck, const Model& model, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), diagnostics_(diagnostics), of_nodes_(nodal_body_ids(deck)) {}
+      : deck_(deck), model_(model), diagnostics_(diagnostics), of_nodes_(nodal_body_ids(deck, model)) {}
 
   void add(const PrescribedMotion& motion, std::vector<RigidBody>& bodies) {
     if (motion.part < 0 && !of_nodes_.contains(motion.body))

@@ -2,6 +2,7 @@
 // What exists in a run: SPH particles, shell nodes, contact segments, and the bodies that own rigid nodes.
 #include <array>
 
+#include "state/block_sums.hpp"
 #include "state/field.hpp"
 
 namespace courant {
@@ -85,36 +86,55 @@ struct Segments {
       fields.add<Real>({.name = "bulk_modulus", .dimension = "M/LT2"});  ///< E/(3(1-2 nu)) of the material
   Field<Real>& volume = fields.add<Real>(
       {.name = "element_volume", .dimension = "L3"});  ///< of the solid behind the face; 0: a shell
-  Field<Real>& contact_force = fields.add<Real>(
-      {.name = "contact_force", .dimension = "ML/T2", .components = 3, .output = true, .restart = false});
+  Field<Real>* contact_force = nullptr;                ///< null: nothing can touch them [ML/T2]
+  Field<Real>& keep_contact_force() {
+    return *(contact_force = &fields.add<Real>({.name = "contact_force",
+                                                .dimension = "ML/T2",
+                                                .components = 3,
+                                                .output = true,
+                                                .restart = false}));
+  }
   Field<Index>& part = fields.add<Index>({.name = "part", .dimension = "-"});
   Field<Id>& id = fields.add<Id>({.name = "id", .dimension = "-", .output = true});
   Index size() const { return fields.size(); }
   std::array<Index, 4> nodes(Index s) const { return {node0[s], node1[s], node2[s], node3[s]}; }
 };
 
-/// Elements of one kind and one part, whose forces on their nodes are gathered by a pass over the nodes.
+/// Elements of one kind and one part, whose forces on their nodes are gathered by a pass over the nodes:
+/// those on corners, or sums by block.
 struct ElementGroup {
-  ElementGroup(FieldSet& set, Index part_index, int corners)
+  enum class Leaves { corners, sums };
+  ElementGroup(FieldSet& set, Index part_index, int corners, Leaves leaves = Leaves::corners)
       : fields(set),
         node(set.add<Index>({.name = "node", .dimension = "-", .components = corners})),
-        corner_force(set.add<Real>(
-            {.name = "corner_force", .dimension = "ML/T2", .components = 3 * corners, .restart = false})),
         V0(set.add<Real>({.name = "reference_volume", .dimension = "L3"})),
         mass(set.add<Real>({.name = "mass", .dimension = "M"})),
         id(set.add<Id>({.name = "id", .dimension = "-", .output = true})),
-        part(part_index) {}
+        part(part_index) {
+    if (leaves == Leaves::corners) keep_corner_forces();
+  }
+  void keep_corner_forces() {
+    corner_force = &fields.add<Real>(
+        {.name = "corner_force", .dimension = "ML/T2", .components = 3 * corners(), .restart = false});
+  }
+  void keep_corner_moments() {
+    corner_moment = &fields.add<Real>(
+        {.name = "corner_moment", .dimension = "ML2/T2", .components = 3 * corners(), .restart = false});
+  }
   FieldSet& fields;
-  Field<Index>& node;         ///< component c: index of corner c into World::nodes
-  Field<Real>& corner_force;  ///< component 3 c + k: on corner c in direction k
-  Field<Real>& V0;            ///< volume at the start [L3]
-  Field<Real>& mass;          ///< for the corners by `share` [M]
+  Field<Index>& node;  ///< component c: index of corner c into World::nodes
+  Field<Real>& V0;     ///< volume at the start [L3]
+  Field<Real>& mass;   ///< for the corners by `share` [M]
   Field<Id>& id;
-  Index part;                            ///< index into the model's parts
-  Index layup = -1;                      ///< shells with layers of their own: index into the model's layups
-  Field<Real>* corner_moment = nullptr;  ///< on rotations of the corners, as corner_force; null: solids
-  bool repeats_nodes = false;            ///< some element has a node at several corners
-  Field<Index>* segment = nullptr;       ///< shells: index into World::segments of each; null: solids
+  Index part;        ///< index into the model's parts
+  Index layup = -1;  ///< shells with layers of their own: index into the model's layups
+  /// Component 3 c + k: on corner c in direction k. Null: what they leave is `sums`, and nobody else asks.
+  Field<Real>* corner_force = nullptr;
+  Field<Real>* corner_moment =
+      nullptr;                      ///< on rotations of the corners, as corner_force; null: none, or sums
+  std::unique_ptr<BlockSums> sums;  ///< null: what they leave is corner_force and corner_moment
+  bool repeats_nodes = false;       ///< some element has a node at several corners
+  Field<Index>* segment = nullptr;  ///< shells: index into World::segments of each; null: solids
   int corners() const { return node.info().components; }
   Index size() const { return fields.size(); }
   /// Whether the node of a corner stands at no corner before it.

@@ -50,7 +50,7 @@ class Springs : public Material, public TimeLimit, public EnergyTerm {
   const FieldSet& over(const World&) const override { return group_.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.reads(world.nodes.x, Reach::others).reads(group_.node).reads(K).reads(L0);
-    a.writes(energy_).writes(group_.corner_force);
+    a.writes(energy_).writes(*group_.corner_force);
     a.in_finish().reads(world.nodes.m, Reach::others);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
@@ -59,8 +59,8 @@ class Springs : public Material, public TimeLimit, public EnergyTerm {
       const Real length = d.norm(), stretch = length - L0[e];
       const Vec pull = length > 0 ? Vec(K[e] * stretch / length * d) : Vec(Vec::Zero());
       for (int k = 0; k < 3; ++k) {
-        group_.corner_force.data(k)[e] = pull[k];
-        group_.corner_force.data(3 + k)[e] = -pull[k];
+        group_.corner_force->data(k)[e] = pull[k];
+        group_.corner_force->data(3 + k)[e] = -pull[k];
       }
       energy_[e] = 0.5 * K[e] * stretch * stretch;
     }

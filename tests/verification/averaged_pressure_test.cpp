@@ -228,7 +228,7 @@ TEST(AveragedPressure, DeletedElementsLeaveNothing) {
     EXPECT_NEAR(s->clock().t, 3.56, 0.05) << kind.elform;
     for (int k = 0; k < 5; ++k) s->step(do_nothing);
     for (int k = 0; k < 24; ++k)
-      EXPECT_EQ(s->world().groups.at(0)->corner_force.data(k)[0], 0) << kind.elform;
+      EXPECT_EQ(s->world().groups.at(0)->corner_force->data(k)[0], 0) << kind.elform;
     sample_energy(s->world(), s->clock());
     EXPECT_GT(s->world().energy.dissipated, 0);
     EXPECT_LT(std::abs(s->world().energy.internal), 1e-15);

@@ -181,7 +181,7 @@ TEST(Cables, BreakAtTheirStrainOrForce) {
     EXPECT_NEAR(stretch, at, 1e-3) << limits;
     EXPECT_NEAR(last, 10, 0.1) << limits;
     EXPECT_EQ(pull_of(*s), 0);
-    for (int k = 0; k < 6; ++k) EXPECT_EQ(s->world().groups.at(0)->corner_force.data(k)[0], 0);
+    for (int k = 0; k < 6; ++k) EXPECT_EQ(s->world().groups.at(0)->corner_force->data(k)[0], 0);
     sample_energy(s->world(), s->clock());
     EXPECT_EQ(s->world().energy.internal, 0);
     EXPECT_NEAR(s->world().energy.dissipated, 0.5 * 10 * 0.1, 0.02);

@@ -109,9 +109,10 @@ PulledPly pulled_ply(const std::string& cards, Real way) {
   while (s->clock().t < end) s->step(do_nothing);
   const World& world = s->world();
   const ElementGroup& group = *world.groups[0];
-  const auto* resultants = dynamic_cast<const Field<Real>*>(group.fields.find("resultants"));
+  const Field<Real>& stress = layer_stress_of(group, 2);
+  const Real force = (stress.data(at_layer(0, 0))[0] + stress.data(at_layer(1, 0))[0]) / 2;
   const Vec a = world.nodes.x.vec(0), b = world.nodes.x.vec(2);
-  return {resultants->data(0)[0] / way, (1 - (b - a)[1]) / way};
+  return {force / way, (1 - (b - a)[1]) / way};
 }
 
 }  // namespace

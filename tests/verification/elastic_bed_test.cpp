@@ -88,7 +88,7 @@ Settled settle(Real dx, Real mesh) {
       if (clock.t < 0.25) return;
       ++samples;
       for (std::size_t k = 0; k < top.size(); ++k) {
-        force[k] -= world.segments.contact_force.data(2)[top[k]];
+        force[k] -= world.segments.contact_force->data(2)[top[k]];
         for (const Index n : world.segments.nodes(top[k]))
           sum += (L - world.nodes.x.data(2)[n]) / (4.0 * Real(top.size()));
       }

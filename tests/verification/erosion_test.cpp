@@ -28,7 +28,7 @@ Real largest_force(const Simulation& s) {
   const ElementGroup& group = *s.world().groups[0];
   Real most = 0;
   for (int k = 0; k < 3 * group.corners(); ++k)
-    most = std::max(most, std::abs(group.corner_force.data(k)[0]));
+    most = std::max(most, std::abs(group.corner_force->data(k)[0]));
   return most;
 }
 
@@ -218,7 +218,7 @@ std::unique_ptr<Simulation> bent_shell(const std::string& material, Real h) {
 TEST(Erosion, ShellsKeepWhatHasNotFailed) {
   auto s = bent_shell("*MAT_PLASTIC_KINEMATIC\n1,1.0,100.0,0.0,1.0,0.0,1.0\n0.0,0.0,0.01\n", 0.1);
   start_ledger(*s);
-  const auto moment = [&] { return std::abs(s->world().groups[0]->corner_moment->data(1)[0]); };
+  const auto moment = [&] { return std::abs(s->world().groups[0]->sums->moment.data(1)[0]); };
   Real most = 0, when = 0;
   while (s->clock().t < 100) {
     s->step(do_nothing);

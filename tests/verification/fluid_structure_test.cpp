@@ -86,7 +86,7 @@ Plate plate(const Parameters& parameters) {
       time += dt, out.deflection += dt * (world.nodes.x.data(1)[middle] - start);
       Real force = 0;
       for (Index k = 0; k < world.segments.size(); ++k)
-        if (world.segments.part[k] == 2) force -= world.segments.contact_force.data(1)[k];
+        if (world.segments.part[k] == 2) force -= world.segments.contact_force->data(1)[k];
       out.weight += dt * force / (rho * 9.81 * 2);
     });
   out.deflection /= time, out.weight /= time;
@@ -317,7 +317,7 @@ TEST(FluidStructure, ADeletedPlateIsNoWall) {
   while (s->clock().t < 4e-4)
     s->step([&](World& world, const Clock&, const std::string&) {
       for (Index k = 0; k < world.segments.size(); ++k)
-        if (eroded[k]) on_deleted = std::max(on_deleted, world.segments.contact_force.vec(k).norm());
+        if (eroded[k]) on_deleted = std::max(on_deleted, world.segments.contact_force->vec(k).norm());
     });
   Index behind = 0;
   for (Index i = 0; i < w.particles.size(); ++i) behind += w.particles.x.data(2)[i] < -0.01;
@@ -382,7 +382,7 @@ TEST(FluidStructure, ParticlesMeetWhatDeletionLaysBare) {
   while (s->clock().t < 1.5e-4)
     s->step([&](World& world, const Clock&, const std::string&) {
       for (const Index k : hidden) {
-        const Real force = world.segments.contact_force.vec(k).norm();
+        const Real force = world.segments.contact_force->vec(k).norm();
         (eroded[k] == 0 ? bare : wrong) = std::max(eroded[k] == 0 ? bare : wrong, force);
       }
     });

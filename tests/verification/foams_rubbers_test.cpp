@@ -41,7 +41,7 @@ Real foam_pull(Simulation& s, int n) {
   Real sum = 0;
   for (Index e = 0; e < group.size(); ++e)
     if (e % n == n - 1)
-      for (const int corner : {1, 2, 5, 6}) sum += group.corner_force.data(3 * corner)[e];
+      for (const int corner : {1, 2, 5, 6}) sum += group.corner_force->data(3 * corner)[e];
   return std::abs(sum);
 }
 

@@ -236,7 +236,7 @@ TEST(FullSolids, AreDeleted) {
     while (s->world().counters["deleted_elements"] == 0 && s->clock().t < 50) s->step(do_nothing);
     time[elform - 1] = s->clock().t;
     for (int k = 0; k < 3; ++k) s->step(do_nothing);
-    for (int k = 0; k < 24; ++k) EXPECT_EQ(s->world().groups.at(0)->corner_force.data(k)[0], 0);
+    for (int k = 0; k < 24; ++k) EXPECT_EQ(s->world().groups.at(0)->corner_force->data(k)[0], 0);
     EXPECT_GT(s->world().energy.dissipated, 1e-4);
   }
   EXPECT_LT(time[0], 49);

@@ -68,7 +68,7 @@ inline void expect_no_force_inside(const ElementGroup& group, Index nodes, Real 
   for (Index e = 0; e < group.size(); ++e)
     for (int c = 0; c < 8; ++c)
       for (int k = 0; k < 3; ++k)
-        force[static_cast<std::size_t>(group.node.data(c)[e])][k] += group.corner_force.data(3 * c + k)[e];
+        force[static_cast<std::size_t>(group.node.data(c)[e])][k] += group.corner_force->data(3 * c + k)[e];
   for (int k = 1; k < 3; ++k)
     for (int j = 1; j < 3; ++j)
       for (int i = 1; i < 3; ++i)

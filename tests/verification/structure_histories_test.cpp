@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "beam_decks.hpp"
 #include "elements/histories/secforc.hpp"
@@ -54,10 +55,12 @@ std::string text_of(Simulation& s, const char* name) {
 
 std::vector<ElementReport> reports_of(const Simulation& s, ElementKind kind,
                                       ElementReportOptions options = {}) {
-  std::vector<ElementReport> out;
+  std::map<Id, ElementReport> by_id;
   for (const auto* reporter : s.world().passes.all<const ElementReporter>())
     for (Index e = 0; reporter->kind() == kind && e < reporter->reported().size(); ++e)
-      out.push_back(reporter->report_element(s.world(), e, options));
+      by_id[reporter->reported().id[e]] = reporter->report_element(s.world(), e, options);
+  std::vector<ElementReport> out;
+  for (auto& [id, report] : by_id) out.push_back(std::move(report));
   return out;
 }
 

@@ -49,18 +49,20 @@ class NodeContactBuilder {
       add_nodes(c, 1, finder_.nodes(c, ContactSide::b, faces_b), faces_b, sides);
       add_faces(c, 0, 2U, faces_a, sides);
     }
-    if (!can_touch(sides)) return warn_of_nothing(c, number, !nodes_a.empty());
+    if (!can_touch(sides)) return warn_of_nothing(c, !nodes_a.empty());
     if (world_.dim == 2)
       return diagnostics_.error(deck_.where(c),
                                 deck_.keyword(c) + ": elements do not touch each other in a plane scene yet",
                                 "leave it out, or make the scene one of three dimensions");
     if (!shells_have_thickness(c, kind, sides)) return;
     warn_of_kind(c, kind);
-    NodeContactLaw law = law_of(c, number);
+    NodeContactLaw law = law_of(c);
     if (c.bt > 0 || law.gate.there()) world_.counters["penetrations_at_birth"] += 0;
     auto contact =
         std::make_shared<NodeContact>(std::move(law), std::move(sides), options_.bodies, number, world_);
     report_penetrations(c, contact->penetrations(world_));
+    for (const auto& pass : world_.passes.all<TouchHolder>())
+      if (pass->of_contact() == c.cid) contact->let_hold(*pass);
     add_node_contact(world_, contact);
     contacts_.push_back(contact);
   }
@@ -94,8 +96,8 @@ class NodeContactBuilder {
       without_effect("SFSB", c.sfsb != 1 && c.sfsb != 0, "nodes of SURFA alone are kept off faces");
   }
 
-  void warn_of_nothing(const ContactCard& c, int number, bool has_nodes) {
-    if (options_.with_particles.contains(c.cid > 0 ? c.cid : number)) return;
+  void warn_of_nothing(const ContactCard& c, bool has_nodes) {
+    if (options_.with_particles.contains(c.cid)) return;
     diagnostics_.warning(deck_.where(c),
                          fmt::format("{}: nothing of it can touch: {}", deck_.keyword(c),
                                      has_nodes ? "its nodes and faces are held or belong to one rigid body"
@@ -222,9 +224,9 @@ class NodeContactBuilder {
     return false;
   }
 
-  NodeContactLaw law_of(const ContactCard& c, int number) const {
+  NodeContactLaw law_of(const ContactCard& c) const {
     NodeContactLaw law;
-    law.id = c.cid > 0 ? c.cid : number;
+    law.id = c.cid;
     law.title = c.title;
     law.slsfac = control_.slsfac, law.penopt = control_.penopt;
     law.sfs = {c.sfsa, c.sfsb};

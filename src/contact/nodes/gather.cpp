@@ -80,7 +80,8 @@ TimeLimit::Limit NodeContact::limit(const World& world, const Clock&) {
   if (!(stiffest_.omega2 > 0)) return {std::numeric_limits<Real>::infinity(), name()};
   constexpr Real most_of_elements = 0.95;  // else nothing would be left
   const Real s = std::min(law_.tssfac, most_of_elements), xi = 0.02 * law_.vdc;
-  return {2 / std::sqrt(stiffest_.omega2) * std::sqrt(1 - s * s) * (std::sqrt(1 + xi * xi) - xi),
+  const Real part = holder_ ? 0.5 : 1;  // springs that hold the same nodes ask for the other half
+  return {2 / std::sqrt(stiffest_.omega2) * std::sqrt(part * (1 - s * s)) * (std::sqrt(1 + xi * xi) - xi),
           fmt::format("{} (node {})", name(), world.nodes.id[stiffest_.node])};
 }
 

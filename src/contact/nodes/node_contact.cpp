@@ -35,6 +35,7 @@ NodeContact::NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodi
       faces_(std::move(sides.faces)),
       set_(&world.add_set(fmt::format("contact {} nodes", number))),
       eroded_(shared_fields::eroded.find(world.segments.fields)) {
+  world.segments.keep_contact_force();
   in_touch_ = &slot_field<Index>(*set_, "in_touch", "-", most_touches);
   leaked_ = &slot_field<Index>(*set_, "leaked", "-", 1);
   side_ = &slot_field<Real>(*set_, "side", "-", most_touches);
@@ -92,8 +93,9 @@ void NodeContact::declare(const World& world, Accesses& a) const {
   a.in_start().reads(n.x, Reach::others).reads(n.v, Reach::others).updates(*in_touch_);
   a.reads(n.held, Reach::others);
   if (eroded_) a.reads(*eroded_, Reach::others).in_block().reads(*eroded_, Reach::others);
-  a.in_finish().updates(*leaked_).writes(touches_resource_).updates(world.segments.contact_force);
+  a.in_finish().updates(*leaked_).writes(touches_resource_).updates(*world.segments.contact_force);
   a.reads(n.m, Reach::others).reads(n.held, Reach::others);
+  if (holder_) a.reads(n.x, Reach::others);
 }
 
 // Lists are made anew when nodes may have come nearer than lists reach.
@@ -221,7 +223,7 @@ void NodeContact::finish(World& world, const Clock&) {
   }
   for (const Touch& touch : touches_) {
     deepest = std::max(deepest, touch.depth);
-    world.segments.contact_force.add(face(touch.face).segment, -touch.force);
+    world.segments.contact_force->add(face(touch.face).segment, -touch.force);
   }
   if (deepest > 0) {
     Real& most = world.maxima["max_penetration"];
@@ -237,6 +239,12 @@ void NodeContact::finish(World& world, const Clock&) {
     }
   if (!asleep_) fresh_ = false;
   gather(world);
+  if (holder_) tell_holder(world);
+}
+
+void NodeContact::tell_holder(World& world) {
+  for (const Touch& touch : touches_)
+    if (touch.pass == 0 && touch.depth > 0) holder_->touched(world, touch.node, face(touch.face).segment);
 }
 
 NodeContact::Slot NodeContact::load(Index i, int k) const {

@@ -8,6 +8,7 @@
 
 #include "contact/nodes/face.hpp"
 #include "contact/nodes/face_search.hpp"
+#include "contact/nodes/touch_holder.hpp"
 #include "loads/sensors.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
@@ -89,6 +90,8 @@ class NodeContact : public Force,
 
   /// What touches leave for all nodes; complete after `finish`.
   const Resource& touches() const { return touches_resource_; }
+  /// Tells `holder`, a pass of the same world, of nodes that touch from now on.
+  void let_hold(TouchHolder& holder) { holder_ = &holder; }
   /// Adds what a node got from all touches, in the order of touches. [ML/T2]
   void add_force_on(Index node, Vec& force) const;
 
@@ -116,6 +119,7 @@ class NodeContact : public Force,
     Vec aside = Vec::Zero();     ///< unit vector away from that edge
     Projection at{};             ///< now
     Real gap = 0;                ///< now; < 0: in touch [L]
+    bool late = false;           ///< it was behind the face a step ago, touched by nothing
   };
   using Slots = std::array<Slot, most_touches>;
 
@@ -188,12 +192,14 @@ class NodeContact : public Force,
   Slot load(Index i, int k) const;
   void store(Index i, int k, const Slot& slot);
   void gather(const World& world);
+  void tell_holder(World& world);
   Vec middle_velocity(const World& world, const Clock& clock, const Field<Index>* driven, Index node) const;
   const ContactFace& face(Index f) const { return faces_[static_cast<std::size_t>(f)]; }
   const ContactNode& node(Index i) const { return nodes_[static_cast<std::size_t>(i)]; }
 
   NodeContactLaw law_;
   WallBodies bodies_;
+  TouchHolder* holder_ = nullptr;  ///< null: nodes touch and leave
   int number_;
   bool friction_on_, drag_on_;
   std::vector<ContactNode> nodes_;

@@ -199,10 +199,13 @@ bool NodeContact::arrives(const World& world, const Clock& clock, Index i, const
   }
   const Real gap_before = slot.side * before - r;
   if (gap_before < -arrival_tolerance * f.depth) return false;
+  slot.late = gap_before < -rounding * size_;
+  if (slot.late) slot.slack = -gap_before;  // it comes with no energy
   const Real way = gap_before - slot.gap, left = way > 0 ? std::min(-slot.gap / way, Real(1)) : Real(0);
-  if (moved.squaredNorm() * left * left < 1e-12 * f.area) return true;
-  const Vec there = nodes.x.vec(node(i).node) - left * moved;
-  return project(corners_of(f, nodes.x), f.corners, there).over;
+  if (!slot.late && moved.squaredNorm() * left * left < 1e-12 * f.area) return true;
+  const Projection there =
+      project(corners_of(f, nodes.x), f.corners, nodes.x.vec(node(i).node) - left * moved);
+  return slot.late ? there.inside : there.over;
 }
 
 // Whether a node starts so deep inside another part that no face takes it.
@@ -228,6 +231,7 @@ bool NodeContact::take(const World& world, Index i, const Slot& slot, Slots& slo
     }
     const ContactFace& g = face(other.face);
     if (f.shared(g) == 0) continue;
+    if (slot.late) return false;
     const Vec apart = shape_of(corners_of(f, world.nodes.x), f.corners).centre -
                       shape_of(corners_of(g, world.nodes.x), g.corners).centre;
     if (other.n.dot(apart) > rise * apart.norm()) continue;
@@ -249,9 +253,11 @@ void NodeContact::find_touches(const World& world, const Clock& clock, const Blo
     if (!seen.at.over || is_taken(slots, seen.face) || goes_on(slots, seen)) continue;
     Slot slot;
     if (!arrives(world, clock, i, seen, slot)) continue;
-    // the deepest first, of nodes that start there the least deep one; of equals the first face
+    // the deepest first, of nodes that start there the least deep one, late ones last; of equals the first
+    // face
     int at = count;
     const auto before = [&](const Slot& other) {
+      if (slot.late != other.late) return other.late;
       return fresh_ ? slot.gap > other.gap : slot.gap < other.gap;
     };
     while (at > 0 && before(found[static_cast<std::size_t>(at) - 1])) --at;

@@ -14,8 +14,6 @@ namespace courant {
 
 namespace {
 
-/// What it names is found as for contacts.
-struct TransducerCard : ContactCard {};
 using T = TransducerCard;
 
 IdSpace space_of_surface(int type) {
@@ -104,11 +102,6 @@ void add_force_transducers(const Deck& deck, const Model& model, const NodeConta
                            const std::vector<std::shared_ptr<const NodeContact>>& contacts, World& world,
                            Diagnostics& diagnostics) {
   FaceFinder finder(deck, model, options.bulk_modulus, world, diagnostics);
-  const auto& others = deck.all<ContactCard>();
-  std::set<Id> taken;
-  for (std::size_t k = 0; k < others.size(); ++k)
-    taken.insert(others[k].cid > 0 ? others[k].cid : static_cast<Id>(k + 1));
-  for (const T& card : deck.all<T>()) taken.insert(card.cid);
   for (const T& card : deck.all<T>()) {
     const int errors = diagnostics.errors();
     const std::vector<Index> faces = finder.faces(card, ContactSide::a);
@@ -130,10 +123,7 @@ void add_force_transducers(const Deck& deck, const Model& model, const NodeConta
                    contacts.empty() ? "there is no contact of elements whose force it could tell"
                                     : "it has no nodes of elements",
                    "leave it out");
-    Id id = card.cid;
-    for (Id next = 1; id == 0; ++next)
-      if (taken.insert(next).second) id = next;
-    world.passes.add(std::make_shared<ForceTransducer>(id, card.title, nodes, contacts));
+    world.passes.add(std::make_shared<ForceTransducer>(card.cid, card.title, nodes, contacts));
   }
 }
 

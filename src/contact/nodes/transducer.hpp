@@ -2,9 +2,13 @@
 #include <memory>
 #include <vector>
 
+#include "contact/cards.hpp"
 #include "contact/nodes/build.hpp"
 
 namespace courant {
+
+/// What it names is found as for contacts.
+struct TransducerCard : ContactCard {};
 
 /// *CONTACT_FORCE_TRANSDUCER_PENALTY: adds one interface for each, which tells the force that `contacts` do
 /// to the nodes of its SURFA. Refuses by name: sets and parts that are not there, scenes with contacts of

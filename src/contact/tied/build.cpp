@@ -34,12 +34,11 @@ class TiedBuilder {
     if (const ControlContact* control = deck.last<ControlContact>()) slsfac_ = control->slsfac;
     for (const ModelNode& node : model.nodes) node_of_id_[node.id] = &node;
     for (Index n = 0; n < world.nodes.size(); ++n) of_world_.insert(world.nodes.id[n]);
-    Id number = 0;
-    for (const ContactCard& c : deck.all<ContactCard>()) ++number, taken_.insert(c.cid > 0 ? c.cid : number);
-    for (const TiedCard& c : deck.all<TiedCard>()) ++number, taken_.insert(c.cid > 0 ? c.cid : number);
+    for (const ContactCard& c : deck.all<ContactCard>()) taken_.insert(c.cid);
+    for (const TiedCard& c : deck.all<TiedCard>()) taken_.insert(c.cid);
   }
 
-  void add(const TiedCard& c, Id number) {
+  void add(const TiedCard& c) {
     std::vector<Tie> ties;
     const TiedKind kind = kind_of(c);
     if (!find(c, ties, kind.welds && (c.surfatyp == 2 || c.surfatyp == 3))) return;
@@ -51,7 +50,7 @@ class TiedBuilder {
     }
     if (ties.empty()) return;
     world_.counters["tied_nodes"] += static_cast<std::int64_t>(ties.size());
-    const Id id = c.cid > 0 ? c.cid : number;
+    const Id id = c.cid;
     if (kind.form == TieForm::exact) return add_exact(c, id, kind.turns, ties);
     TieStrength strength;
     if (kind.fails) strength.normal = c.fs, strength.shear = c.fd;
@@ -59,32 +58,27 @@ class TiedBuilder {
   }
 
   /// Contacts that hold until they break; what they do then is another pass.
-  void add_tiebreak(const ContactCard& c, Id number) {
+  void add_tiebreak(const ContactCard& c) {
+    if (!check_tiebreak(c)) return;
     const Tiebreak kind = kind_of(c).tiebreak;
-    const bool softens = kind == Tiebreak::by_option && (c.option == 6 || c.option == 8);
-    if (kind == Tiebreak::by_option && c.option != 2 && !softens)
-      return error(c, "OPTION", fmt::format("{} is not supported", c.option),
-                   "2 holds nodes that touch at the start until the stress is reached, 6 and 8 until the "
-                   "opening PARAM behind that");
-    if (softens ? !(c.param > 0) : c.param != 0)
-      return error(c, "PARAM",
-                   fmt::format("expected {}, got '{:g}'", softens ? "an opening > 0" : "0", c.param),
-                   "with OPTION 6 and 8 the opening at which nothing holds any more, else none");
-    if (world_.particles.size() > 0 && kind_of(c).nodes)
-      return error(c, "SURFA", "particles cannot be held at faces", "use the contact without _TIEBREAK");
+    const bool by_option = kind == Tiebreak::by_option;
+    LaterTies later{.contact = c.cid, .scale = slsfac_, .tssfac = options_.tssfac, .bodies = options_.bodies};
+    const bool sticks = by_option && (c.option == 1 || c.option == 3);
     std::vector<Tie> ties;
-    if (!find(c, ties) || ties.empty()) return;
-    if (softens) warn_of_soft(c, ties);
+    if (!find(c, ties, false, sticks ? &later : nullptr) || (ties.empty() && !sticks)) return;
+    if (softens(c)) warn_of_soft(c, ties);
     world_.counters["tied_nodes"] += static_cast<std::int64_t>(ties.size());
-    Id id = number;  // contact itself has its own
+    Id id = c.cid;  // which contact itself has
     while (taken_.contains(id)) ++id;
     taken_.insert(id);
-    hold_by_springs(
-        {.id = id,
-         .title = (c.title.empty() ? fmt::format("contact {}", c.cid > 0 ? c.cid : number) : c.title) +
-                  " until it breaks",
-         .strength = {c.nfls, c.sfls, c.nen, c.mes, kind != Tiebreak::force, softens ? c.param : 0}},
-        std::move(ties));
+    TiedSpringsLaw law{
+        .id = id,
+        .title = (c.title.empty() ? fmt::format("contact {}", c.cid) : c.title) + " until it breaks",
+        .strength = {by_option && c.option == 1 ? 0 : c.nfls, c.sfls, c.nen, c.mes, kind != Tiebreak::force,
+                     softens(c) ? c.param : 0}};
+    if (!sticks) return hold_by_springs(std::move(law), std::move(ties));
+    for (Tie& tie : ties) tie.k *= slsfac_;
+    add_springs(std::move(law), std::move(ties), std::move(later), world_);
   }
 
   /// Those that tie exactly, all at once. What they leave of the step of elements. [-]
@@ -110,6 +104,28 @@ class TiedBuilder {
   }
 
  private:
+  static bool softens(const ContactCard& c) {
+    return kind_of(c).tiebreak == Tiebreak::by_option && (c.option == 6 || c.option == 8);
+  }
+  bool check_tiebreak(const ContactCard& c) {
+    const int errors = diagnostics_.errors();
+    const bool by_option = kind_of(c).tiebreak == Tiebreak::by_option;
+    if (by_option && (c.option < 1 || (c.option > 3 && !softens(c))))
+      error(c, "OPTION", fmt::format("{} is not supported", c.option),
+            "1 holds nodes that touch, at the start or later, for ever, 3 until the stress is reached; 2 "
+            "and, with "
+            "the opening PARAM behind that, 6 and 8 those that touch at the start");
+    for (const auto& [field, value] : {std::pair("NFLS", c.nfls), std::pair("SFLS", c.sfls)})
+      if (by_option && c.option != 1 && !(value > 0))
+        error(c, field, fmt::format("expected a number > 0, got '{:g}'", value),
+              "only OPTION 1 holds for ever");
+    if (softens(c) ? !(c.param > 0) : c.param != 0)
+      error(c, "PARAM", fmt::format("expected {}, got '{:g}'", softens(c) ? "an opening > 0" : "0", c.param),
+            "with OPTION 6 and 8 the opening at which nothing holds any more, else none");
+    if (world_.particles.size() > 0 && kind_of(c).nodes)
+      error(c, "SURFA", "particles cannot be held at faces", "use the contact without _TIEBREAK");
+    return diagnostics_.errors() == errors;
+  }
   /// What a corner has that a rigid body moves.
   struct Given {
     Index node;
@@ -175,8 +191,10 @@ class TiedBuilder {
   }
 
   /// Which nodes are next to which faces, with what is to be told of that.
-  /// `of_elements`: SURFA names parts, whose elements need no faces.
-  bool find(const ContactCard& c, std::vector<Tie>& ties, bool of_elements = false) {
+  /// `of_elements`: SURFA names parts, whose elements need no faces. `later`: gets nodes and faces, which may
+  /// be tied where they come to touch.
+  bool find(const ContactCard& c, std::vector<Tie>& ties, bool of_elements = false,
+            LaterTies* later = nullptr) {
     const int errors = diagnostics_.errors();
     if (world_.dim == 2) {
       error(c, "", "tied contact needs a scene of three dimensions", "leave it out");
@@ -191,8 +209,11 @@ class TiedBuilder {
     if (diagnostics_.errors() > errors) return false;
     const bool of_nodes = of_elements || c.surfatyp == 4;
     std::vector<Index> of_both;
-    ties = find_ties(sides_.nodes(c, nodes_a, of_nodes ? finder_.faces_around(nodes_a) : faces_a),
-                     sides_.faces(c, faces_b), TieSides::tolerance(c), world_.nodes.x, &of_both);
+    std::vector<TieNode> nodes = sides_.nodes(c, nodes_a, of_nodes ? finder_.faces_around(nodes_a) : faces_a);
+    std::vector<TieFace> faces = sides_.faces(c, faces_b);
+    ties = find_ties(nodes, faces, TieSides::tolerance(c), world_.nodes.x, &of_both);
+    if (later) later->nodes = std::move(nodes), later->faces = std::move(faces);
+    if (later && !nodes_a.empty()) return true;
     warn_of_free(c, nodes_a, faces_b, ties);
     warn_of_both(c, of_both);
     warn_of_coarse(c, ties);
@@ -454,12 +475,9 @@ Real add_tied_contacts(const Deck& deck, const Model& model, const TiedOptions& 
                                [](const ContactCard& c) { return kind_of(c).tiebreak != Tiebreak::none; });
   if (cards.empty() && !any) return 1;
   TiedBuilder builder(deck, model, options, world, diagnostics);
-  Id number = 0;
-  for (const ContactCard& c : others) {
-    ++number;
-    if (kind_of(c).tiebreak != Tiebreak::none) builder.add_tiebreak(c, number);
-  }
-  for (const TiedCard& c : cards) builder.add(c, ++number);
+  for (const ContactCard& c : others)
+    if (kind_of(c).tiebreak != Tiebreak::none) builder.add_tiebreak(c);
+  for (const TiedCard& c : cards) builder.add(c);
   return diagnostics.ok() ? builder.finish() : 1;
 }
 

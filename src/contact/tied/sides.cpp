@@ -30,6 +30,7 @@ std::vector<TieFace> TieSides::faces(const ContactCard& c, const std::vector<Ind
   for (const Index s : segments) {
     TieFace& f = out.emplace_back();
     f.node = world_.segments.nodes(s), f.segment = s;
+    f.two_sided = !(world_.segments.volume[s] > 0);
     f.corners = f.node[2] == f.node[3] ? 3 : 4;
     f.area = area_of(corners_at(s));
     f.r = 0.5 * thickness(s, c.sbst, c.sfsbt);

@@ -2,16 +2,56 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
+#include "contact/nodes/touch_holder.hpp"
 #include "parallel/parallel.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
 
 namespace {
+
+/// Springs k_t that act on nodes with shares b_tn: no frequency is above max_n (sum_t k_t b_tn sum_j b_tj) /
+/// m_n (Gershgorin). Elements leave 1 - TSSFAC^2 of the square of a stable step to others. Nodes of a rigid
+/// body that is lighter than they are count as if they were as light.
+TimeLimit::Limit limit_of_springs(const std::vector<Tie>& ties, Real tssfac, const WallBodies& bodies,
+                                  const World& world) {
+  const Nodes& nodes = world.nodes;
+  const TieShares shares(ties, true, nodes.size());
+  std::vector<std::array<Real, 4>> share(ties.size());
+  std::vector<Real> spread(ties.size(), 1);
+  for (std::size_t t = 0; t < ties.size(); ++t) {
+    share[t] = largest_shares(ties[t].at, nodes.x);
+    for (const Real one : share[t]) spread[t] += one;
+  }
+  std::map<Index, Real> lighter;
+  Real most = 0;
+  Index stiffest = -1;
+  for (Index n = 0; n < nodes.size(); ++n) {
+    Real sum = 0;
+    shares.for_each(n, [&](const TieShares::Share& one) {
+      const auto t = static_cast<std::size_t>(one.tie);
+      sum += ties[t].k * spread[t] * (one.corner < 0 ? 1 : share[t][static_cast<std::size_t>(one.corner)]);
+    });
+    if (!(sum > 0) || nodes.held[n]) continue;
+    if (const Index body = bodies.body(n); body >= 0 && bodies.lighter) {
+      const auto [known, is_new] = lighter.try_emplace(body, 1);
+      if (is_new) known->second = std::max(Real(1), bodies.lighter(body));
+      sum *= known->second;
+    }
+    if (sum > most * nodes.m[n]) most = sum / nodes.m[n], stiffest = n;
+  }
+  if (stiffest < 0) return {std::numeric_limits<Real>::infinity(), "tied contact"};
+  constexpr Real most_of_elements = 0.95;  // else nothing would be left
+  const Real s = std::min(tssfac, most_of_elements);
+  return {2 / std::sqrt(most) * std::sqrt(1 - s * s),
+          fmt::format("tied contact (node {})", nodes.id[stiffest])};
+}
 
 class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, public Restartable {
  public:
@@ -20,7 +60,8 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
         ties_(std::move(ties)),
         broken_(ties_.size(), 0),
         now_(ties_.size()),
-        shares_(ties_, true, world.nodes.size()),
+        nodes_(world.nodes.size()),
+        shares_(ties_, true, nodes_),
         eroded_(shared_fields::eroded.find(world.segments.fields)) {
     if (law_.strength.breaks()) world.counters.try_emplace("broken_ties", 0);
     if (law_.strength.opening > 0) onset_.assign(ties_.size(), 0), widest_ = onset_;
@@ -76,6 +117,16 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     archive("lost_so_far", lost_so_far_);
   }
 
+ protected:
+  /// After a change of ties_.
+  void fit() {
+    broken_.resize(ties_.size(), 0), now_.resize(ties_.size());
+    shares_ = TieShares(ties_, true, nodes_);
+  }
+
+  TiedSpringsLaw law_;
+  std::vector<Tie> ties_;
+
  private:
   struct Now {
     Vec force = Vec::Zero();  ///< on the node [ML/T2]
@@ -123,12 +174,11 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     now.stored = 0.5 * k * c * c;
     now.on = on_corners(ties_[t].at, x, -now.force);
   }
-  /// Whether the stress breaks the spring. The normal of the face points at the side of the node where there
-  /// is a gap, else out of solids, and away from the other side of shells.
+  /// Whether the stress breaks the spring.
   bool is_beyond(const Tie& tie, const Field<Real>& x, const Vec& force) const {
     if (!law_.strength.breaks()) return false;
     const Vec n = normal_of(tie.at, x);
-    const Real along = -force.dot(n) * (tie.at.gap < 0 ? -1 : 1);  // > 0: the node is pulled off the face
+    const Real along = -force.dot(n) * tie.side;  // > 0: the node is pulled off the face
     const Vec across = force - force.dot(n) * n;
     const TieStrength& most = law_.strength;
     const Real area = most.stress ? tie.area : 1;
@@ -137,58 +187,110 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
            1;
   }
 
-  TiedSpringsLaw law_;
-  std::vector<Tie> ties_;
   std::vector<Index> broken_;
   std::vector<Real> onset_, widest_;  ///< distances where damage began and has come to, 0: not yet [L]
   std::vector<Now> now_;
+  Index nodes_;  ///< of the world
   TieShares shares_;
   const Field<Index>* eroded_;       ///< of segments; null: nothing fails
   Real lost_ = 0, lost_so_far_ = 0;  ///< stored in springs that broke [ML2/T2]
 };
 
-/// Springs k_t that act on nodes with shares b_tn: no frequency is above max_n (sum_t k_t b_tn sum_j b_tj) /
-/// m_n (Gershgorin). Elements leave 1 - TSSFAC^2 of the square of a stable step to others. Nodes of a rigid
-/// body that is lighter than they are count as if they were as light.
+/// Those of nodes that are held where they touch, too, each once.
+class StickingSprings : public TiedSprings, public TouchHolder, public TimeLimit {
+ public:
+  StickingSprings(TiedSpringsLaw law, std::vector<Tie> ties, LaterTies later, World& world)
+      : TiedSprings(std::move(law), std::move(ties), world),
+        later_(std::move(later)),
+        at_start_(ties_.size()) {
+    for (const TieNode& n : later_.nodes) node_.emplace(n.node, &n);
+    for (const TieFace& f : later_.faces) face_.emplace(f.segment, &f);
+    take_nodes();
+    world.counters.try_emplace("tied_nodes", 0);
+  }
+  std::string name() const override { return TiedSprings::name(); }
+  Id of_contact() const override { return later_.contact; }
+  void touched(World& world, Index node, Index segment) override {
+    const auto n = node_.find(node);
+    const auto f = face_.find(segment);
+    if (held_.contains(node) || n == node_.end() || f == face_.end()) return;
+    const Field<Real>& x = world.nodes.x;
+    const TieFace& face = *f->second;
+    const Projection at = project(corners_of(face, x), face.corners, x.vec(node));
+    constexpr Real rounding = 1e-6;
+    if (*std::min_element(at.N.begin(), at.N.end()) < -rounding) return;  // it may come to stand over a face
+    held_.insert(node);
+    ties_.push_back(tie_at(*n->second, face, at, x));
+    ties_.back().k *= later_.scale;
+    fit();
+    ++world.counters["tied_nodes"];
+    known_ = false;
+  }
+  /// Of all of them, whenever there are more.
+  Limit limit(const World& world, const Clock&) override {
+    if (!known_) limit_ = limit_of_springs(ties_, later_.tssfac, later_.bodies, world);
+    if (!known_)
+      limit_.dt *= std::sqrt(0.5);  // contact, which pushes held nodes, too, asks for the other half
+    known_ = true;
+    return limit_;
+  }
+  /// Those that came later stand in the state.
+  void keep(Archive& archive) override {
+    std::vector<Index> whole;
+    std::vector<Real> real;
+    for (std::size_t t = at_start_; t < ties_.size(); ++t) {
+      const Tie& tie = ties_[t];
+      whole.insert(whole.end(), {tie.node, tie.segment, tie.at.corners});
+      whole.insert(whole.end(), tie.at.node.begin(), tie.at.node.end());
+      for (const auto& numbers : {tie.at.N, tie.at.by_s, tie.at.by_t})
+        real.insert(real.end(), numbers.begin(), numbers.end());
+      real.insert(real.end(), {tie.at.gap, tie.area, tie.k, tie.side});
+    }
+    archive("later_nodes", whole), archive("later_numbers", real);
+    if (archive.loading()) load(whole, real);
+    TiedSprings::keep(archive);
+  }
+
+ private:
+  static constexpr std::size_t whole_each = 7, real_each = 16;
+  void load(const std::vector<Index>& whole, const std::vector<Real>& real) {
+    ties_.resize(at_start_);
+    for (std::size_t k = 0; k < whole.size() / whole_each; ++k) {
+      const Index* n = whole.data() + whole_each * k;
+      const Real* r = real.data() + real_each * k;
+      Tie tie{.node = n[0], .segment = n[1], .area = r[13], .k = r[14], .side = r[15]};
+      tie.at.corners = n[2], tie.at.gap = r[12];
+      std::copy_n(n + 3, 4, tie.at.node.begin());
+      std::copy_n(r, 4, tie.at.N.begin());
+      std::copy_n(r + 4, 4, tie.at.by_s.begin()), std::copy_n(r + 8, 4, tie.at.by_t.begin());
+      ties_.push_back(tie);
+    }
+    fit();
+    take_nodes(), known_ = false;
+  }
+  void take_nodes() {
+    held_.clear();
+    for (const Tie& tie : ties_) held_.insert(tie.node);
+  }
+
+  LaterTies later_;
+  std::map<Index, const TieNode*> node_;
+  std::map<Index, const TieFace*> face_;  ///< by segment
+  std::size_t at_start_;
+  std::set<Index> held_;  ///< nodes, also those whose springs broke
+  Limit limit_{std::numeric_limits<Real>::infinity(), "tied contact"};
+  bool known_ = false;
+};
+
+/// Of springs whose nodes are known at the start.
 class SpringLimit : public TimeLimit {
  public:
-  SpringLimit(const std::vector<Tie>& ties, Real tssfac, const WallBodies& bodies, const World& world) {
-    const Nodes& nodes = world.nodes;
-    const TieShares shares(ties, true, nodes.size());
-    std::vector<std::array<Real, 4>> share(ties.size());
-    std::vector<Real> spread(ties.size(), 1);
-    for (std::size_t t = 0; t < ties.size(); ++t) {
-      share[t] = largest_shares(ties[t].at, nodes.x);
-      for (const Real one : share[t]) spread[t] += one;
-    }
-    std::map<Index, Real> lighter;
-    Real most = 0;
-    Index stiffest = -1;
-    for (Index n = 0; n < nodes.size(); ++n) {
-      Real sum = 0;
-      shares.for_each(n, [&](const TieShares::Share& one) {
-        const auto t = static_cast<std::size_t>(one.tie);
-        sum += ties[t].k * spread[t] * (one.corner < 0 ? 1 : share[t][static_cast<std::size_t>(one.corner)]);
-      });
-      if (!(sum > 0) || nodes.held[n]) continue;
-      if (const Index body = bodies.body(n); body >= 0 && bodies.lighter) {
-        const auto [known, is_new] = lighter.try_emplace(body, 1);
-        if (is_new) known->second = std::max(Real(1), bodies.lighter(body));
-        sum *= known->second;
-      }
-      if (sum > most * nodes.m[n]) most = sum / nodes.m[n], stiffest = n;
-    }
-    if (stiffest < 0) return;
-    constexpr Real most_of_elements = 0.95;  // else nothing would be left
-    const Real s = std::min(tssfac, most_of_elements);
-    limit_ = {2 / std::sqrt(most) * std::sqrt(1 - s * s),
-              fmt::format("tied contact (node {})", nodes.id[stiffest])};
-  }
+  explicit SpringLimit(Limit limit) : limit_(std::move(limit)) {}
   std::string name() const override { return "tied contact (step)"; }
   Limit limit(const World&, const Clock&) override { return limit_; }
 
  private:
-  Limit limit_{std::numeric_limits<Real>::infinity(), "tied contact"};
+  Limit limit_;
 };
 
 }  // namespace
@@ -197,8 +299,14 @@ void add_springs(TiedSpringsLaw law, std::vector<Tie> ties, World& world) {
   world.passes.add(std::make_shared<TiedSprings>(std::move(law), std::move(ties), world));
 }
 
+void add_springs(TiedSpringsLaw law, std::vector<Tie> ties, LaterTies later, World& world) {
+  world.passes.add(
+      std::make_shared<StickingSprings>(std::move(law), std::move(ties), std::move(later), world));
+}
+
 void add_spring_limit(const std::vector<Tie>& ties, Real tssfac, const WallBodies& bodies, World& world) {
-  if (!ties.empty()) world.passes.add(std::make_shared<SpringLimit>(ties, tssfac, bodies, world));
+  if (!ties.empty())
+    world.passes.add(std::make_shared<SpringLimit>(limit_of_springs(ties, tssfac, bodies, world)));
 }
 
 }  // namespace courant

@@ -30,9 +30,21 @@ struct TiedSpringsLaw {
   TieStrength strength{};
 };
 
+/// What else may be tied, each node once, where it comes to touch.
+struct LaterTies {
+  Id contact = 0;  ///< which tells
+  std::vector<TieNode> nodes{};
+  std::vector<TieFace> faces{};
+  Real scale = 1;  ///< of Tie::k
+  Real tssfac = 0.9;
+  WallBodies bodies{};
+};
+
 /// Adds springs of stiffness Tie::k between nodes and their places on faces. A spring ends with its face,
 /// too; what it stores then is dissipated.
 void add_springs(TiedSpringsLaw law, std::vector<Tie> ties, World& world);
+/// With others that come later.
+void add_springs(TiedSpringsLaw law, std::vector<Tie> ties, LaterTies later, World& world);
 /// Keeps the step below what all springs of the scene together ask for. `tssfac`: what elements take of their
 /// own step. [-]
 void add_spring_limit(const std::vector<Tie>& ties, Real tssfac, const WallBodies& bodies, World& world);

@@ -40,6 +40,15 @@ void take_area(const TieNode& node, const TieFace& f, const Vec& n, Tie& tie) {
 
 }  // namespace
 
+Tie tie_at(const TieNode& node, const TieFace& face, const Projection& at, const Field<Real>& x) {
+  Tie tie{.node = node.node,
+          .segment = face.segment,
+          .at = face_point(face, at, at.n.dot(x.vec(node.node) - at.q))};
+  if (face.two_sided && tie.at.gap < 0) tie.side = -1;
+  take_area(node, face, at.n, tie);
+  return tie;
+}
+
 std::vector<Tie> find_ties(const std::vector<TieNode>& nodes, const std::vector<TieFace>& faces, Real given,
                            const Field<Real>& x, std::vector<Index>* corners_near) {
   std::set<Index> corners;
@@ -68,8 +77,7 @@ std::vector<Tie> find_ties(const std::vector<TieNode>& nodes, const std::vector<
       if (!(given > 0)) most = std::max(most, 0.6 * (n.thickness + 2 * f.r));
       if (!p.over || std::abs(gap) > most || !(std::abs(gap) < nearest)) return;
       nearest = std::abs(gap);
-      best.segment = f.segment, best.at = face_point(f, p, gap);
-      take_area(n, f, p.n, best);
+      best = tie_at(n, f, p, x);
     });
     if (!std::isfinite(nearest)) continue;
     if (!corners.contains(n.node))

@@ -29,6 +29,7 @@ struct Tie {
   Real area = 0;  ///< for which the node stands [L2]
   Real cell = 0;  ///< of one of the node's own faces there, on average; 0 without [L2]
   Real k = 0;     ///< of a penalty spring, before scales [M/T2]
+  Real side = 1;  ///< of the face that the node is on: of shells -1 where it is against the normal
 };
 
 /// Each node with the nearest face that it is over and no further from than the tolerance: `given` if > 0,
@@ -37,6 +38,9 @@ struct Tie {
 /// not their own go to `corners_near`.
 std::vector<Tie> find_ties(const std::vector<TieNode>& nodes, const std::vector<TieFace>& faces, Real given,
                            const Field<Real>& x, std::vector<Index>* corners_near = nullptr);
+
+/// Of a node at a place over a face.
+Tie tie_at(const TieNode& node, const TieFace& face, const Projection& at, const Field<Real>& x);
 
 /// The parts of ties in each node of the world, so that forces are gathered in a fixed order.
 class TieShares {

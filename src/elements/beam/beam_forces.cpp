@@ -99,7 +99,7 @@ class BeamForces : public Material,
   void declare(const World& world, Accesses& a) const override {
     a.reads(world.nodes.x, Reach::others).reads(group_.node).reads(group_.mass).reads(start_);
     if (turns_) a.reads(*w_, Reach::others).updates(ends_).writes(*group_.corner_moment);
-    a.updates(deformation_).updates(answer_).updates(energy_).writes(group_.corner_force);
+    a.updates(deformation_).updates(answer_).updates(energy_).writes(*group_.corner_force);
     if (!part_.points.empty()) a.updates(stress_);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (sections_) sections_->declare(a);
@@ -420,7 +420,7 @@ class BeamForces : public Material,
         group_.corner_moment->data(k)[e] = turn1[k], group_.corner_moment->data(3 + k)[e] = turn2[k];
     }
     for (int k = 0; k < 3; ++k)
-      group_.corner_force.data(k)[e] = on1[k], group_.corner_force.data(3 + k)[e] = -on1[k];
+      group_.corner_force->data(k)[e] = on1[k], group_.corner_force->data(3 + k)[e] = -on1[k];
     steps_[at(e)] = step_of(e, frame.length, pull);
     if (!damping_) return;
     (*beta_)[e] = coef_ > 0 ? coef_ * steps_[at(e)] : -coef_;

@@ -80,8 +80,7 @@ void build_beams(const Model& model, std::vector<BeamPart>& parts, const std::ve
     const bool turns = part.kind != BeamKind::truss;
     if (turns) {
       NodalRotations(world.nodes.fields);
-      group.corner_moment =
-          &set.add<Real>({.name = "corner_moment", .dimension = "ML2/T2", .components = 6, .restart = false});
+      group.keep_corner_moments();
     }
     for (Index e = 0; e < group.size(); ++e) {
       const auto at = static_cast<std::size_t>(e);

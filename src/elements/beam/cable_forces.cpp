@@ -49,7 +49,7 @@ class CableForces : public Material,
   const FieldSet& over(const World&) const override { return group_.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.reads(world.nodes.x, Reach::others).reads(group_.node).reads(group_.mass);
-    a.updates(rest_).updates(length_).updates(force_).updates(energy_).writes(group_.corner_force);
+    a.updates(rest_).updates(length_).updates(force_).updates(energy_).writes(*group_.corner_force);
     if (erosion_) erosion_->declare(world, a);
   }
 
@@ -129,7 +129,7 @@ class CableForces : public Material,
     force_[e] = F, length_[e] = length;
     const Vec along = length > 0 ? Vec(between / length) : Vec(Vec::Zero());
     for (int k = 0; k < 3; ++k)
-      group_.corner_force.data(k)[e] = F * along[k], group_.corner_force.data(3 + k)[e] = -F * along[k];
+      group_.corner_force->data(k)[e] = F * along[k], group_.corner_force->data(3 + k)[e] = -F * along[k];
     // alone, with half its mass at each end: along itself, and across itself as stiff as F over its length
     const Real across = length > 0 ? F / length : 0;
     steps_[at(e)] = std::sqrt(group_.mass[e] / (law_.steepest(area_[at(e)], reference_[at(e)]) + across));

@@ -102,8 +102,7 @@ class DiscreteReader {
       part.group = world_.groups.emplace_back(std::make_unique<ElementGroup>(set, index, 2)).get();
       if (part.turns) {
         NodalRotations(world_.nodes.fields);
-        part.group->corner_moment = &set.add<Real>(
-            {.name = "corner_moment", .dimension = "ML2/T2", .components = 6, .restart = false});
+        part.group->keep_corner_moments();
       }
       for (std::size_t k = 0; k < cards.size(); ++k) add_spring(*cards[k], static_cast<Index>(k), part);
       out.push_back(std::move(part));

@@ -46,7 +46,7 @@ class SpringForces : public Material, public EnergyTerm, public PartReporter, pu
     a.reads(world.nodes.x, Reach::others).reads(world.nodes.v, Reach::others);
     if (turning_) a.reads(*turning_, Reach::others);
     a.reads(group_.node).reads(start_).updates(stretch_).updates(force_).updates(energy_).updates(state_);
-    a.updates(direction_).writes(group_.corner_force);
+    a.updates(direction_).writes(*group_.corner_force);
     if (group_.corner_moment) a.writes(*group_.corner_moment);
   }
 
@@ -137,11 +137,11 @@ class SpringForces : public Material, public EnergyTerm, public PartReporter, pu
   }
   /// `pull`: on the first end; the second one gets the opposite, unless it is the ground.
   void leave(Index e, const Vec& pull) {
-    Field<Real>& to = part_.turns ? *group_.corner_moment : group_.corner_force;
+    Field<Real>& to = part_.turns ? *group_.corner_moment : *group_.corner_force;
     for (int k = 0; k < 3; ++k) {
       to.data(k)[e] = pull[k];
       to.data(3 + k)[e] = part_.grounded[at(e)] ? 0 : -pull[k];
-      if (part_.turns) group_.corner_force.data(k)[e] = group_.corner_force.data(3 + k)[e] = 0;
+      if (part_.turns) group_.corner_force->data(k)[e] = group_.corner_force->data(3 + k)[e] = 0;
     }
   }
 

@@ -167,7 +167,7 @@ SectionForce CrossSection::force(const World& world) const {
       const auto at_corner = [&](const Field<Real>& field) {
         return Vec(field.data(3 * c)[e], field.data(3 * c + 1)[e], field.data(3 * c + 2)[e]);
       };
-      const Vec x = world.nodes.x.vec(group.node.data(c)[e]), f = at_corner(group.corner_force);
+      const Vec x = world.nodes.x.vec(group.node.data(c)[e]), f = at_corner(*group.corner_force);
       out.force += f;
       about_origin += x.cross(f);
       if (group.corner_moment) about_origin += at_corner(*group.corner_moment);

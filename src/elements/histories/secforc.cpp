@@ -160,7 +160,7 @@ class SectionReader {
 };
 
 void build_sections(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics) {
-  const bool any = !deck.all<CrossSectionPlaneCard>().empty() || !deck.all<CrossSectionSetCard>().empty();
+  const bool any = has_cross_sections(deck);
   if (any) world.passes.add(SectionReader(deck, model, world, diagnostics).read());
   const auto* card = deck.last<DatabaseSecforc>();
   if (card && card->dt > 0 && !any)
@@ -206,5 +206,9 @@ const RegisterAsciiHistory secforc{
                 " line#3  centroids                x           y           z            area  \n"}};
 
 }  // namespace
+
+bool has_cross_sections(const Deck& deck) {
+  return !deck.all<CrossSectionPlaneCard>().empty() || !deck.all<CrossSectionSetCard>().empty();
+}
 
 }  // namespace courant

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "elements/histories/cross_section.hpp"
+#include "keyword/deck.hpp"
 
 namespace courant {
 
@@ -10,5 +11,8 @@ struct CrossSections : Pass {
   std::string name() const override { return "cross sections"; }
   std::vector<CrossSection> sections{};
 };
+
+/// Whether it has any: they ask elements for the forces on their corners.
+bool has_cross_sections(const Deck& deck);
 
 }  // namespace courant

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -134,10 +135,8 @@ Field<Real>& add_offset(const ElementGroup& group) {
 ElementGroup& add_group(World& world, const std::string& name, std::size_t part, int corners, Index size) {
   FieldSet& set = world.add_set(name);
   set.resize(size);
-  ElementGroup& group =
-      *world.groups.emplace_back(std::make_unique<ElementGroup>(set, static_cast<Index>(part), corners));
-  group.corner_moment = &set.add<Real>(
-      {.name = "corner_moment", .dimension = "ML2/T2", .components = 3 * corners, .restart = false});
+  ElementGroup& group = *world.groups.emplace_back(
+      std::make_unique<ElementGroup>(set, static_cast<Index>(part), corners, ElementGroup::Leaves::sums));
   group.segment = &set.add<Index>({.name = "segment", .dimension = "-"});
   return group;
 }
@@ -148,6 +147,44 @@ struct Alike {
   bool triangles = false;
   std::vector<Index> shells{};  ///< of the model
 };
+
+/// The bits of a number, each with two zeros in front.
+std::uint64_t spread(std::uint64_t a) {
+  constexpr int most = 21;
+  std::uint64_t out = 0;
+  for (int b = 0; b < most; ++b) out |= (a >> b & 1) << (3 * b);
+  return out;
+}
+
+/// Neighbours one behind the other, in blocks of few nodes: along Morton's curve through cells as large as
+/// shells mostly are.
+void sort_by_place(const Model& model, std::vector<Index>& shells) {
+  const auto at = [&](Index s, std::size_t c) -> const Vec& {
+    const ModelShell& shell = model.shells[static_cast<std::size_t>(s)];
+    return model.nodes[static_cast<std::size_t>(shell.node[c])].x;
+  };
+  std::vector<Vec> middle;
+  std::vector<Real> side;
+  Vec low = at(shells.front(), 0), high = low;
+  for (const Index s : shells) {
+    middle.push_back((at(s, 0) + at(s, 1) + at(s, 2) + at(s, 3)) / 4);
+    side.push_back((at(s, 2) - at(s, 0)).norm() / std::sqrt(Real(2)));
+    low = low.cwiseMin(middle.back()), high = high.cwiseMax(middle.back());
+  }
+  std::nth_element(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(side.size() / 2), side.end());
+  constexpr Real most_cells = (1 << 21) - 2;
+  const Real cell = std::max(side[side.size() / 2], (high - low).maxCoeff() / most_cells);
+  if (!(cell > 0)) return;
+  std::vector<std::pair<std::uint64_t, Index>> keys;
+  for (std::size_t k = 0; k < shells.size(); ++k) {
+    const auto along = [&](int axis) {
+      return spread(static_cast<std::uint64_t>((middle[k][axis] - low[axis]) / cell + 0.5));
+    };
+    keys.emplace_back(along(0) | along(1) << 1 | along(2) << 2, shells[k]);
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t k = 0; k < shells.size(); ++k) shells[k] = keys[k].second;
+}
 
 std::vector<Alike> alike_shells(const Model& model, const std::vector<ShellPart>& parts) {
   const std::vector<Index> group_of = layups_of_groups(model);
@@ -163,8 +200,10 @@ std::vector<Alike> alike_shells(const Model& model, const std::vector<ShellPart>
     last->second.push_back(static_cast<Index>(s));
   }
   std::vector<Alike> out;
-  for (auto& [key, shells] : sorted)
+  for (auto& [key, shells] : sorted) {
+    sort_by_place(model, shells);
     out.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), std::move(shells)});
+  }
   return out;
 }
 
@@ -220,6 +259,7 @@ void fill_group(const Model& model, const ShellPart& part, const std::vector<Ind
       rotations.inertia[n] += corner_inertia[e];
     }
   }
+  group.sums = std::make_unique<BlockSums>(group.node, group.size(), group.fields.name());
 }
 
 }  // namespace

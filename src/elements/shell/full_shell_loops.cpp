@@ -46,7 +46,8 @@ COURANT_INLINE Shear shear_at(const SideShear& g, const Map& map, Real s, Real t
 }
 
 COURANT_INLINE void full_strain_of(Index first, Index n, Index k, Real dt, const ShellControl& control,
-                                   const ShellMesh& mesh, ShellScratch& s) {
+                                   const ShellMesh& mesh, const ShellState& state, ShellScratch& s) {
+  keep_resultants(first, n, k, 4, control.shear_factor, state, s);
   Triple x[quad], v[quad], w[quad], d[3], dv[3], dw[3];
   gather_corners<quad>(mesh, first, n, x, v, w);
   differences<quad>(x, d), differences<quad>(v, dv), differences<quad>(w, dw);
@@ -94,16 +95,14 @@ void full_at_point(const ShellLoops::Block& block, int point, const ShellState& 
 
 /// N, M and Q of one of the points in the plane; their work joins the internal energy.
 COURANT_INLINE void integrate_quarter(Index first, Index n, Index k, Real dt, Real factor, Native t, int q,
-                                      const ShellState& state, const ShellScratch& s, Native R[8]) {
-  Native old[8];
-  const int layers = state.points / 4;
-  integrate_layers(first, n, q * layers, (q + 1) * layers, 4, factor, t, state, state.resultant + 8 * q, R,
-                   old);
+                                      const ShellState& state, ShellScratch& s, Native R[8]) {
+  Native both[8];
+  integrate_layers(first, n, k, q, 4, factor, t, state, s, R, both);
   const Real(*const of)[block_size] = s.quarter[q];
-  const Native power = old[0] * load(of[0] + k) + old[1] * load(of[1] + k) + old[3] * load(of[2] + k) +
-                       old[4] * load(of[3] + k) +
-                       2.0 * (old[2] * load(s.membrane[2] + k) + old[5] * load(of[4] + k) +
-                              old[6] * load(of[5] + k) + old[7] * load(of[6] + k));
+  const Native power = both[0] * load(of[0] + k) + both[1] * load(of[1] + k) + both[3] * load(of[2] + k) +
+                       both[4] * load(of[3] + k) +
+                       2.0 * (both[2] * load(s.membrane[2] + k) + both[5] * load(of[4] + k) +
+                              both[6] * load(of[5] + k) + both[7] * load(of[6] + k));
   add_to(state.internal_energy + first, 0.5 * dt * load(s.quarter_area[q] + k) * power, n);
 }
 
@@ -155,14 +154,14 @@ COURANT_INLINE void full_forces_of(Index first, Index n, Index k, Real dt, const
   Triple g[3];
   for (int m = 0; m < 3; ++m) g[m] = {vx[m], vy[m], vz[m]};
   const Triple turns[3] = {{tx[0], ty[0], mz[1]}, {tx[1], ty[1], mz[2]}, {tx[2], ty[2], mz[3]}};
-  push_corners(first, n, f, a, g, t0, turns, state);
+  push_corners(k, f, a, g, t0, turns, s);
 }
 
 void full_strain(const ShellLoops::Block& block, const ShellControl& control, const ShellMesh& mesh,
-                 ShellScratch& scratch) {
+                 const ShellState& state, ShellScratch& scratch) {
   for (Index k = 0; k < block.count; k += native_lanes)
     full_strain_of(block.begin + k, block.count - k < native_lanes ? block.count - k : native_lanes, k,
-                   block.dt, control, mesh, scratch);
+                   block.dt, control, mesh, state, scratch);
 }
 
 ShellLoops::Found full_forces(const ShellLoops::Block& block, const ShellControl& control,

@@ -20,13 +20,13 @@ inline void at_point(const ShellLoops::Block& block, int point, const ShellState
 
 /// N, M and Q from the stress of the points; their work over the step joins the internal energy.
 COURANT_INLINE void integrate(Index first, Index n, Index k, Real dt, Real factor, Native t,
-                              const ShellState& state, const ShellScratch& s, Native R[8]) {
-  Native old[8];
-  integrate_layers(first, n, 0, state.points, 1, factor, t, state, state.resultant, R, old);
-  const Native power = old[0] * load(s.membrane[0] + k) + old[1] * load(s.membrane[1] + k) +
-                       old[3] * load(s.curvature[0] + k) + old[4] * load(s.curvature[1] + k) +
-                       2.0 * (old[2] * load(s.membrane[2] + k) + old[5] * load(s.curvature[2] + k) +
-                              old[6] * load(s.shear[0] + k) + old[7] * load(s.shear[1] + k));
+                              const ShellState& state, ShellScratch& s, Native R[8]) {
+  Native both[8];
+  integrate_layers(first, n, k, 0, 1, factor, t, state, s, R, both);
+  const Native power = both[0] * load(s.membrane[0] + k) + both[1] * load(s.membrane[1] + k) +
+                       both[3] * load(s.curvature[0] + k) + both[4] * load(s.curvature[1] + k) +
+                       2.0 * (both[2] * load(s.membrane[2] + k) + both[5] * load(s.curvature[2] + k) +
+                              both[6] * load(s.shear[0] + k) + both[7] * load(s.shear[1] + k));
   add_to(state.internal_energy + first, 0.5 * dt * load(s.middle_area + k) * power, n);
 }
 

@@ -99,25 +99,25 @@ COURANT_INLINE Native drilling(Index first, Index n, Index k, Real dt, Native t,
 }
 
 /// From forces along modes to what acts on the corners, in global axes.
-COURANT_INLINE void on_corners_of(Real* const* out, Index first, Index n, const Flat& f, const Triple& g0,
+COURANT_INLINE void on_corners_of(Real (*out)[block_size], Index k, const Flat& f, const Triple& g0,
                                   const Triple g[3]) {
   constexpr Real xi[4] = {-1, 1, 1, -1}, eta[4] = {-1, -1, 1, 1};
   for (int c = 0; c < quad; ++c) {
     const Triple a = -0.25 * (g0 + xi[c] * g[0] + eta[c] * g[1] + (xi[c] * eta[c]) * g[2]);
-    store_vector(out + 3 * c, first, a.x * f.e1 + a.y * f.e2 + a.z * f.e3, n);
+    store_vector(out + 3 * c, k, a.x * f.e1 + a.y * f.e2 + a.z * f.e3);
   }
 }
 
 /// Forces `of_v` along the modes and moments `t0`, `of_w` as forces and moments on the corners. Nothing
 /// resists a rigid rotation: the transpose of rates_of.
-COURANT_INLINE void push_corners(Index first, Index n, const Flat& f, const Modes& a, Triple of_v[3],
-                                 const Triple& t0, const Triple of_w[3], const ShellState& state) {
+COURANT_INLINE void push_corners(Index k, const Flat& f, const Modes& a, Triple of_v[3], const Triple& t0,
+                                 const Triple of_w[3], ShellScratch& s) {
   const Triple turn =
       turn_of(a, cross(a.m[0], of_v[0]) + cross(a.m[1], of_v[1]) + cross(a.m[2], of_v[2]) + t0);
   for (int m = 0; m < 3; ++m) of_v[m] = of_v[m] - cross(turn, a.m[m]);
   const Triple none{all(0), all(0), all(0)};
-  on_corners_of(state.corner_force, first, n, f, none, of_v);
-  on_corners_of(state.corner_moment, first, n, f, t0, of_w);
+  on_corners_of(s.corner_force, k, f, none, of_v);
+  on_corners_of(s.corner_moment, k, f, t0, of_w);
 }
 
 }  // namespace courant::COURANT_SIMD

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <string>
 
 #include "base/run_error.hpp"
@@ -23,14 +22,10 @@ namespace {
 /// Shells of a part, all of one shape: strain rates of the last motion, the law at each point through the
 /// thickness, hourglass control, forces and moments on the corners, which passes over the nodes gather.
 /// Formulae: shell_loops.hpp.
-class ShellForces : public Material,
-                    public TimeLimit,
-                    public EnergyTerm,
-                    public PartReporter,
-                    public FieldFiller {
+class ShellForces : public Material, public TimeLimit, public EnergyTerm, public PartReporter {
  public:
   ShellForces(const ShellPart& part, const ElementGroup& group, Id part_id, Real tssfac,
-              ElementOptions& options, bool shown, const std::vector<std::array<bool, 3>>& held, World& world)
+              ElementOptions& options, const std::vector<std::array<bool, 3>>& held, World& world)
       : group_(group),
         layers_(layers_of(part)),
         part_id_(part_id),
@@ -41,8 +36,6 @@ class ShellForces : public Material,
         places_(part.full && group.corners() == 4 ? 4 : 1),
         loops_(shell_loops(group.corners(), places_, part.control)),
         stress_(layer_stress_of(group, places_ * static_cast<int>(part.zeta.size()))),
-        resultants_(
-            group.fields.add<Real>({.name = "resultants", .dimension = "-", .components = 8 * places_})),
         thickness_(thickness_of_shells(group)),
         internal_(group.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
         hourglass_(
@@ -68,7 +61,6 @@ class ShellForces : public Material,
     for (int p = 0; p < state_.points; ++p)
       for (const HistoryVariable& h : layer_of(p).law->history())
         history_.push_back(&layer_history_of(group, h, p));
-    if (shown) add_shown_fields();
     for (Index e = 0; e < group_.size(); ++e) thickness_[e] = world.segments.thickness[(*group_.segment)[e]];
     start(world, {});
     if (options.scaling.step > 0) scale_masses(options.scaling, world);
@@ -82,9 +74,10 @@ class ShellForces : public Material,
   const FieldSet& over(const World&) const override { return group_.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.reads(world.nodes.x, Reach::others).reads(world.nodes.v, Reach::others).reads(w_, Reach::others);
-    a.reads(group_.node).reads(group_.mass).updates(stress_).updates(resultants_).updates(internal_);
+    a.reads(group_.node).reads(group_.mass).updates(stress_).updates(internal_);
     a.updates(hourglass_).updates(bulk_viscosity_).updates(thickness_);
-    a.writes(group_.corner_force).writes(*group_.corner_moment);
+    a.writes(group_.sums->force).writes(group_.sums->moment);
+    if (group_.corner_force) a.writes(*group_.corner_force).writes(*group_.corner_moment);
     if (hourglass_force_) a.updates(*hourglass_force_);
     if (viscous_) a.updates(*viscous_);
     if (directions_) a.reads(*directions_);
@@ -101,8 +94,8 @@ class ShellForces : public Material,
     for (int k = 0; k < 3; ++k)
       mesh_.x[k] = world.nodes.x.data(k), mesh_.v[k] = world.nodes.v.data(k), mesh_.w[k] = w_.data(k);
     for (int c = 0; c < group_.corners(); ++c) mesh_.corner[c] = group_.node.data(c);
-    for (int k = 0; k < 6 * state_.points; ++k) state_.stress[k] = stress_.data(k);
-    for (int k = 0; k < 8 * places_; ++k) state_.resultant[k] = resultants_.data(k);
+    for (int p = 0; p < state_.points; ++p)
+      for (const int k : {0, 1, 3, 4, 5}) state_.stress[6 * p + k] = stress_.data(at_layer(p, k));
     for (int k = 0; hourglass_force_ && k < hourglass_force_->info().components; ++k)
       state_.hourglass[k] = hourglass_force_->data(k);
     state_.thickness = thickness_.data(), state_.mass = (scaled_ ? scaled_->inertial() : group_.mass).data();
@@ -110,13 +103,13 @@ class ShellForces : public Material,
     state_.bulk_viscosity_energy = bulk_viscosity_.data();
     state_.viscous_force = viscous_ ? viscous_->data() : nullptr;
     state_.offset = offset_ ? offset_->data() : nullptr;
-    for (int k = 0; k < 3 * group_.corners(); ++k) {
-      state_.corner_force[k] = group_.corner_force.data(k);
-      state_.corner_moment[k] = group_.corner_moment->data(k);
-    }
     history_data_.clear();
     for (Field<Real>* h : history_)
       for (int k = 0; k < h->info().components; ++k) history_data_.push_back(h->data(k));
+    if (damping_) {
+      damped_ = std::make_unique<ShellState>(state_);
+      for (int k = 0; k < 6 * state_.points; ++k) damped_->stress[k] = damping_->damped(k / 6, k % 6);
+    }
     found_.resize(static_cast<std::size_t>(block_count(group_.size())));
   }
   void block(World&, const Clock& clock, Index begin, Index end) override {
@@ -127,6 +120,7 @@ class ShellForces : public Material,
     found = advance(mesh_, control_, clock.dt_old, begin, end, scratch, erosion_ ? &clock : nullptr);
     if (damping_) damping_->shorten(begin, count, scratch.wave_time, scratch.step_limit);
     if (erosion_) erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, nullptr);
+    leave_forces(begin, count, scratch);
     const bool lighter = scaled_ && scaled_->look(begin, count, scratch.wave_time, scratch.step_limit);
     if (!lighter && !stiffens_ && !damping_ && !(erosion_ && erosion_->any_dead(begin))) return;
     const Index shortest = least_of(scratch.step_limit, count);
@@ -176,49 +170,17 @@ class ShellForces : public Material,
     }
   }
 
-  /// Stress of the outer points in global axes, resultants in those of the element.
-  void fill_fields(World& world) override {
-    if (!shown_stress_[0]) return;
-    for (Index e = 0; e < group_.size(); ++e) {
-      const Matrix axes = axes_of(world, e);
-      for (std::size_t side = 0; side < 2; ++side) {
-        const auto s = [&](int k) { return mean_of_layer(side == 0 ? 0 : layers() - 1, k, e); };
-        Matrix local;
-        local << s(0), s(3), s(5), s(3), s(1), s(4), s(5), s(4), s(2);
-        shown_stress_[side]->set_tensor(e, axes * local * axes.transpose());
-      }
-      for (int k = 0; k < 3; ++k)
-        shown_force_->data(k)[e] = mean_resultant(k, e), shown_moment_->data(k)[e] = mean_resultant(3 + k, e);
-      for (const auto& [to, first, layers] : shown_history_) {
-        Real most = first->data()[e];
-        for (const Field<Real>* layer : layers) most = std::max(most, layer->data()[e]);
-        (*to)[e] = most;
-      }
-    }
-  }
-
  private:
   static constexpr std::size_t most_history = 16;
 
   int layers() const { return state_.points / places_; }
-  /// Over the places in the plane.
-  Real mean_of_layer(int layer, int component, Index e) const {
-    Real sum = 0;
-    for (int q = 0; q < places_; ++q) sum += stress_.data(6 * (q * layers() + layer) + component)[e];
-    return sum / places_;
-  }
-  Real mean_resultant(int component, Index e) const {
-    Real sum = 0;
-    for (int q = 0; q < places_; ++q) sum += resultants_.data(8 * q + component)[e];
-    return sum / places_;
-  }
-
   ShellLoops::Found advance(const ShellMesh& mesh, const ShellControl& control, Real dt, Index begin,
                             Index end, ShellScratch& scratch, const Clock* failing = nullptr) const {
     const ShellLoops::Block block{begin, end - begin, dt};
-    loops_.strain(block, control, mesh, scratch);
+    const ShellState& pushing = damped_ ? *damped_ : state_;
+    loops_.strain(block, control, mesh, pushing, scratch);
     if (failing && erosion_->any_dead(begin)) still_dead(begin, block.count, scratch);
-    Real rate_zz[block_size], sound_speed[block_size], faster[block_size];
+    Real rate_zz[block_size], sound_speed[block_size], faster[block_size], stress_zz[block_size] = {};
     std::fill(scratch.thickening, scratch.thickening + block.count, 0);
     std::fill(faster, faster + block.count, 1);
     std::array<Real*, most_history> history{};
@@ -229,7 +191,7 @@ class ShellForces : public Material,
     for (int p = 0; p < state_.points; ++p) {
       loops_.at_point(block, p, state_, scratch);
       for (std::size_t k = 0; k < 6; ++k)
-        points.stress[k] = state_.stress[6 * static_cast<std::size_t>(p) + k] + begin;
+        points.stress[k] = k == 2 ? stress_zz : state_.stress[6 * static_cast<std::size_t>(p) + k] + begin;
       const Layer& layer = layer_of(p);
       first += numbers, numbers = layer.numbers;
       for (std::size_t k = 0; k < numbers; ++k) history[k] = history_data_[first + k] + begin;
@@ -246,18 +208,10 @@ class ShellForces : public Material,
       if (damping_) damping_->add_in_plane(*layer.law, p, points, begin);
       for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
     }
-    const ShellLoops::Found found = push(block, control, scratch);
+    const ShellLoops::Found found = loops_.forces(block, control, pushing, scratch);
     for (Index i = 0; stiffens_ && i < block.count; ++i)
       scratch.step_limit[i] /= faster[i], scratch.wave_time[i] /= faster[i];
     return found;
-  }
-
-  ShellLoops::Found push(const ShellLoops::Block& block, const ShellControl& control,
-                         ShellScratch& scratch) const {
-    if (!damping_) return loops_.forces(block, control, state_, scratch);
-    ShellState damped = state_;
-    for (int k = 0; k < 6 * state_.points; ++k) damped.stress[k] = damping_->damped(k / 6, k % 6);
-    return loops_.forces(block, control, damped, scratch);
   }
 
   std::shared_ptr<Erosion> make_erosion(FailureRules rules, World& world) {
@@ -304,6 +258,19 @@ class ShellForces : public Material,
     }
   }
 
+  /// Of dead elements none.
+  void leave_forces(Index begin, Index count, ShellScratch& s) const {
+    for (Index i = 0; erosion_ && erosion_->any_dead(begin) && i < count; ++i)
+      for (int k = 0; erosion_->dead(begin + i) && k < 12; ++k)
+        s.corner_force[k][i] = s.corner_moment[k][i] = 0;
+    BlockSums& sums = *group_.sums;
+    sums.set(sums.force, begin, count, s.corner_force), sums.set(sums.moment, begin, count, s.corner_moment);
+    for (int k = 0; group_.corner_force && k < 3 * group_.corners(); ++k) {
+      std::copy_n(s.corner_force[k], count, group_.corner_force->data(k) + begin);
+      std::copy_n(s.corner_moment[k], count, group_.corner_moment->data(k) + begin);
+    }
+  }
+
   void scale_masses(const MassScaling& scaling, World& world) {
     std::vector<Real> wave_time(static_cast<std::size_t>(group_.size()));
     for (Index begin = 0; begin < group_.size(); begin += block_size) {
@@ -327,6 +294,7 @@ class ShellForces : public Material,
     if (!(least_area > 0)) return;
     const GroupNodes own(group_, held, world.nodes);
     const std::size_t nodes = own.m.size();
+    const std::vector<Index> place_node = own.nodes_of_places(*group_.sums);
     std::vector<Real> mass = own.m;
     std::vector<std::array<bool, 3>> all_held = own.held;
     mass.resize(2 * nodes, 0), all_held.resize(2 * nodes, {false, false, false});
@@ -350,9 +318,10 @@ class ShellForces : public Material,
                                              ShellScratch scratch;
                                              found[static_cast<std::size_t>(begin / block_size)] =
                                                  advance(mesh, elastic, 1, begin, end, scratch);
+                                             leave_forces(begin, end - begin, scratch);
                                            });
-                                           own.assemble(group_.corner_force, -1, Ku);
-                                           own.assemble(*group_.corner_moment, -1, Ku, nodes);
+                                           own.assemble(group_.sums->force, place_node, -1, Ku, 0);
+                                           own.assemble(group_.sums->moment, place_node, -1, Ku, nodes);
                                          });
     Real step = std::numeric_limits<Real>::infinity();
     for (const ShellLoops::Found& f : found) step = std::min(step, f.step);
@@ -364,41 +333,12 @@ class ShellForces : public Material,
 
   /// To the state of the start: without stress, history, energies and forces.
   void reset() {
-    for (Field<Real>* field : {&stress_, &resultants_, &internal_, &hourglass_, &bulk_viscosity_})
-      field->fill(0);
+    for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) field->fill(0);
     for (Field<Real>* h : history_) h->fill(0);
     if (hourglass_force_) hourglass_force_->fill(0);
     if (viscous_) viscous_->fill(0);
-    group_.corner_force.fill(0), group_.corner_moment->fill(0);
   }
 
-  void add_shown_fields() {
-    const auto add = [&](const char* name, const char* dimension, int components) {
-      return &group_.fields.add<Real>(
-          {.name = name, .dimension = dimension, .components = components, .output = true, .restart = false});
-    };
-    shown_stress_ = {add("stress_lower", "M/LT2", 6), add("stress_upper", "M/LT2", 6)};
-    shown_force_ = add("membrane_force", "M/T2", 3), shown_moment_ = add("bending_moment", "ML/T2", 3);
-    std::map<std::string, std::size_t> shown;  // by name, where it stands
-    std::size_t at = 0;
-    for (int p = 0; p < state_.points; ++p)
-      for (const HistoryVariable& kind : layer_of(p).law->history()) {
-        const Field<Real>* of_layer = history_[at++];
-        if (kind.components != 1) continue;
-        const auto [place, is_new] = shown.emplace(kind.name, shown_history_.size());
-        if (is_new)
-          shown_history_.push_back({add(kind.name.c_str(), kind.dimension.c_str(), 1), of_layer, {}});
-        shown_history_[place->second].layers.push_back(of_layer);
-      }
-  }
-
-  /// The axes of an element as columns.
-  Matrix axes_of(const World& world, Index e) const {
-    std::array<Vec, 4> x;
-    for (std::size_t c = 0; c < x.size(); ++c)
-      x[c] = world.nodes.x.vec(group_.node.data(std::min(static_cast<int>(c), group_.corners() - 1))[e]);
-    return shell_axes(x, group_.corners(), control_.invariant_axes);
-  }
   Real total(const Field<Real>& field) const {
     return sum(group_.size(), [&](Index e) { return erosion_ && erosion_->dead(e) ? 0 : field[e]; });
   }
@@ -433,12 +373,6 @@ class ShellForces : public Material,
   }
   const Layer& layer_of(int point) const { return layers_[static_cast<std::size_t>(point % layers())]; }
 
-  /// The largest value over the layers, for the field files.
-  struct Largest {
-    Field<Real>* to;
-    const Field<Real>* first;
-    std::vector<const Field<Real>*> layers;
-  };
   const ElementGroup& group_;
   std::vector<Layer> layers_;
   Id part_id_;
@@ -448,20 +382,18 @@ class ShellForces : public Material,
   ShellControl control_;
   int places_;  ///< of points in the plane
   ShellLoops loops_;
-  Field<Real>&stress_, &resultants_, &thickness_, &internal_, &hourglass_, &bulk_viscosity_;
+  Field<Real>&stress_, &thickness_, &internal_, &hourglass_, &bulk_viscosity_;
   const Field<Real>& corner_inertia_;  ///< rotary inertia for each corner [ML2]
   Field<Real>* hourglass_force_ = nullptr;
   Field<Real>* viscous_ = nullptr;     ///< q times the thickness
   std::vector<Field<Real>*> history_;  ///< of the first layer, of the second, ...
-  std::array<Field<Real>*, 2> shown_stress_{};
-  Field<Real>*shown_force_ = nullptr, *shown_moment_ = nullptr;
-  std::vector<Largest> shown_history_;
   ShellMesh mesh_{};
   ShellState state_{};
   std::vector<Real*> history_data_;
   std::vector<ShellLoops::Found> found_;       ///< in each block
   std::unique_ptr<ScaledMass> scaled_;         ///< null: no mass scaling
   std::unique_ptr<StiffnessDamping> damping_;  ///< null: none
+  std::unique_ptr<ShellState> damped_;         ///< with the stress that pushes the nodes; null: `state_`
   std::shared_ptr<Erosion> erosion_;           ///< null: nothing fails
   const Field<Real>* directions_ = nullptr;    ///< null: no law knows any
   const Field<Real>* offset_ = nullptr;        ///< null: the middle is where the nodes are
@@ -488,9 +420,10 @@ void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
       for (const HistoryVariable& h : part.law_of(k).history()) numbers += h.components;
       if (numbers > 16) throw std::logic_error("a law with more than 16 history numbers");
     }
+    if (options.sections) group->keep_corner_forces(), group->keep_corner_moments();
     world.passes.add(std::make_shared<ShellForces>(part, *group, model.parts[named].id, model.tssfac, options,
-                                                   shown, held, world));
-    world.passes.add(make_shell_report(part, *group));
+                                                   held, world));
+    world.passes.add(make_shell_report(part, *group, shown));
   }
 }
 

@@ -114,8 +114,8 @@ COURANT_INLINE Length length_of(const Triple d[3], const Flat& f, const ShellCon
   return {native_max(root(shortest), wide), control.E / rho};
 }
 
-COURANT_INLINE void store_vector(Real* const* p, Index first, const Triple& a, Index n) {
-  store(p[0] + first, a.x, n), store(p[1] + first, a.y, n), store(p[2] + first, a.z, n);
+COURANT_INLINE void store_vector(Real (*p)[block_size], Index k, const Triple& a) {
+  store(p[0] + k, a.x), store(p[1] + k, a.y), store(p[2] + k, a.z);
 }
 
 /// Height of a point over the nodes. [L]
@@ -130,16 +130,15 @@ inline void heights_at(const ShellLoops::Block& block, int point, const ShellSta
   for (Index i = 0; i < block.count; ++i) z[i] += 0.5 * offset[i] * t[i];
 }
 
-/// N, M and Q of the points [begin, end) of a place in the plane, `share` times their weights, and what they
-/// add to those of the step before.
-COURANT_INLINE void integrate_layers(Index first, Index n, int begin, int end, Real share, Real factor,
-                                     Native t, const ShellState& state, Real* const* resultant, Native R[8],
-                                     Native old[8]) {
+/// N, M and Q of place q of `places` in the plane.
+COURANT_INLINE void resultants_of(Index first, Index n, int q, int places, Real factor, Native t,
+                                  const ShellState& state, Native R[8]) {
   for (int m = 0; m < 8; ++m) R[m] = all(0);
+  const int layers = state.points / places, begin = q * layers, end = begin + layers;
   const Native half = 0.5 * t, offset = state.offset ? load(state.offset + first, n) : all(0);
   for (int p = begin; p < end; ++p) {
     const Real* const* stress = state.stress + 6 * p;
-    const Native w = (share * state.share[p]) * t, arm = (state.zeta[p] + offset) * half;
+    const Native w = (places * state.share[p]) * t, arm = (state.zeta[p] + offset) * half;
     const Native xx = w * load(stress[0] + first, n), yy = w * load(stress[1] + first, n),
                  xy = w * load(stress[3] + first, n);
     R[0] += xx, R[1] += yy, R[2] += xy;
@@ -147,9 +146,25 @@ COURANT_INLINE void integrate_layers(Index first, Index n, int begin, int end, R
     R[6] += w * load(stress[5] + first, n), R[7] += w * load(stress[4] + first, n);
   }
   R[6] *= factor, R[7] *= factor;
+}
+/// Those of the stress so far, kept for `integrate_layers`.
+COURANT_INLINE void keep_resultants(Index first, Index n, Index k, int places, Real factor,
+                                    const ShellState& state, ShellScratch& s) {
+  const Native t = load(state.thickness + first, n);
+  for (int q = 0; q < places; ++q) {
+    Native R[8];
+    resultants_of(first, n, q, places, factor, t, state, R);
+    for (int m = 0; m < 8; ++m) store(s.resultant[8 * q + m] + k, R[m]);
+  }
+}
+/// Those of the new stress, and their sum with the kept ones.
+COURANT_INLINE void integrate_layers(Index first, Index n, Index k, int q, int places, Real factor, Native t,
+                                     const ShellState& state, ShellScratch& s, Native R[8], Native both[8]) {
+  resultants_of(first, n, q, places, factor, t, state, R);
   for (int m = 0; m < 8; ++m) {
-    old[m] = R[m] + load(resultant[m] + first, n);
-    store(resultant[m] + first, R[m], n);
+    Real* const kept = s.resultant[8 * q + m] + k;
+    both[m] = R[m] + load(kept);
+    store(kept, R[m]);
   }
 }
 

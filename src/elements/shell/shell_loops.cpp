@@ -32,7 +32,8 @@ COURANT_INLINE ShearGaps shear_gaps(const Flat& f) {
 
 template <int corners>
 COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const ShellControl& control,
-                              const ShellMesh& mesh, ShellScratch& s) {
+                              const ShellMesh& mesh, const ShellState& state, ShellScratch& s) {
+  keep_resultants(first, n, k, 1, control.shear_factor, state, s);
   Triple x[corners], v[corners], w[corners], d[3], dv[3], dw[3];
   gather_corners<corners>(mesh, first, n, x, v, w);
   differences<corners>(x, d), differences<corners>(v, dv), differences<corners>(w, dw);
@@ -70,42 +71,42 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Shel
 
 /// Forces along the differences and the hourglass mode, turned to the global axes, become those on corners.
 template <int corners>
-COURANT_INLINE void to_corners(Real* const* out, Index first, Index n, const Triple& d0, const Triple& d1,
+COURANT_INLINE void to_corners(Real (*out)[block_size], Index k, const Triple& d0, const Triple& d1,
                                const Triple& h) {
   const Triple none{all(0), all(0), all(0)};
   if (corners == quad) {
-    store_vector(out, first, none - d0 - h, n), store_vector(out + 3, first, h - d1, n);
-    store_vector(out + 6, first, d0 - h, n), store_vector(out + 9, first, d1 + h, n);
+    store_vector(out, k, none - d0 - h), store_vector(out + 3, k, h - d1);
+    store_vector(out + 6, k, d0 - h), store_vector(out + 9, k, d1 + h);
   } else {
-    store_vector(out, first, d0 + d1, n), store_vector(out + 3, first, none - d0, n);
-    store_vector(out + 6, first, none - d1, n);
+    store_vector(out, k, d0 + d1), store_vector(out + 3, k, none - d0);
+    store_vector(out + 6, k, none - d1);
   }
 }
 
 template <int corners>
-COURANT_INLINE void store_moments(Index first, Index n, const Flat& f, const Native R[8], const Native Q[5],
-                                  const ShellState& state) {
+COURANT_INLINE void store_moments(Index k, const Flat& f, const Native R[8], const Native Q[5],
+                                  ShellScratch& scratch) {
   const Native a = f.hx * f.inverse_A, b = f.hy * f.inverse_A;
   const bool has_hourglass = corners == quad;
   const Native qx = has_hourglass ? Q[3] : all(0), qy = has_hourglass ? Q[4] : all(0);
   const Along x = has_hourglass ? along(f, -R[5] - a * qx, -R[4] - b * qx) : along(f, -R[5], -R[4]),
               y = has_hourglass ? along(f, R[3] - a * qy, R[5] - b * qy) : along(f, R[3], R[5]);
   const Triple d0 = x.d0 * f.e1 + y.d0 * f.e2, d1 = x.d1 * f.e1 + y.d1 * f.e2;
-  Real* const* out = state.corner_moment;
+  Real(*const out)[block_size] = scratch.corner_moment;
   if (corners == quad) {
     const Triple h = qx * f.e1 + qy * f.e2;
     const Native part = -0.25 * f.A;  // of shear, the same on all corners
     const Triple s = (-part * R[7]) * f.e1 + (part * R[6]) * f.e2;
-    store_vector(out, first, s - d0 - h, n), store_vector(out + 3, first, s - d1 + h, n);
-    store_vector(out + 6, first, s + d0 - h, n), store_vector(out + 9, first, s + d1 + h, n);
+    store_vector(out, k, s - d0 - h), store_vector(out + 3, k, s - d1 + h);
+    store_vector(out + 6, k, s + d0 - h), store_vector(out + 9, k, s + d1 + h);
   } else {
     const ShearGaps gaps = shear_gaps(f);
     Triple s[3];
     for (int i = 0; i < 3; ++i)
       s[i] = (f.A * (gaps.xx[i] * R[6] + gaps.yx[i] * R[7])) * f.e1 -
              (f.A * (gaps.xy[i] * R[6] + gaps.yy[i] * R[7])) * f.e2;
-    store_vector(out, first, s[0] + d0 + d1, n), store_vector(out + 3, first, s[1] - d0, n);
-    store_vector(out + 6, first, s[2] - d1, n);
+    store_vector(out, k, s[0] + d0 + d1), store_vector(out + 3, k, s[1] - d0);
+    store_vector(out + 6, k, s[2] - d1);
   }
 }
 
@@ -133,17 +134,17 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Shel
   } else {
     x = along(f, Nxx, R[2]), y = along(f, R[2], Nyy), z = along(f, R[6], R[7]);
   }
-  to_corners<corners>(state.corner_force, first, n, x.d0 * f.e1 + y.d0 * f.e2 + z.d0 * f.e3,
+  to_corners<corners>(s.corner_force, k, x.d0 * f.e1 + y.d0 * f.e2 + z.d0 * f.e3,
                       x.d1 * f.e1 + y.d1 * f.e2 + z.d1 * f.e3, h);
-  store_moments<corners>(first, n, f, R, Q, state);
+  store_moments<corners>(k, f, R, Q, s);
 }
 
 template <int corners>
 void strain(const ShellLoops::Block& block, const ShellControl& control, const ShellMesh& mesh,
-            ShellScratch& scratch) {
+            const ShellState& state, ShellScratch& scratch) {
   for (Index k = 0; k < block.count; k += native_lanes)
     strain_of<corners>(block.begin + k, block.count - k < native_lanes ? block.count - k : native_lanes, k,
-                       block.dt, control, mesh, scratch);
+                       block.dt, control, mesh, state, scratch);
 }
 
 template <int corners>

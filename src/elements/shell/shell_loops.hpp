@@ -30,9 +30,8 @@ struct ShellState {
   int points = 2;
   /// Of each: height over half the thickness, weight (sum 1).
   Real zeta[most_in_plane * most_points], share[most_in_plane * most_points];
-  Real* stress[6 * most_in_plane * most_points];  ///< of point p: xx yy zz xy yz zx at 6 p, zz is 0 [M/LT2]
-  /// N xx yy xy [M/T2], M xx yy xy [ML/T2], Q xz yz [M/T2]; of place q in the plane at 8 q.
-  Real* resultant[8 * most_in_plane];
+  /// Of point p: xx yy zz xy yz zx at 6 p; zz, which is 0, is not looked at. [M/LT2]
+  Real* stress[6 * most_in_plane * most_points];
   /// Generalised forces on vx vy vz wx wy, null for triangles, behind them, of shells that heed their warp,
   /// moments against drilling, of each corner; with 2 x 2 points these alone.
   static constexpr int hourglass_modes = 5, most_generalised = 9;
@@ -45,7 +44,6 @@ struct ShellState {
   const Real* offset = nullptr;   ///< of the middle over the nodes, over half the thickness; null: 0
   const Real* mass;               ///< [M]
   Real *internal_energy, *hourglass_energy, *bulk_viscosity_energy;  ///< what they took is added [ML2/T2]
-  Real *corner_force[12], *corner_moment[12];  ///< out: of corner c in direction k at [3 c + k], on the node
 };
 
 /// What holds for all elements of a group.
@@ -72,11 +70,16 @@ struct ShellScratch {
   Real hourglass_rate[ShellState::most_generalised][block_size];  ///< of what `hourglass` are the forces
   /// 2 x 2 points: D xx yy, curvature xx yy xy, D zx yz at each place, and the area there at mid-step.
   Real quarter[4][7][block_size], quarter_area[4][block_size];
-  Real middle_area[block_size];          ///< at mid-step [L2]
+  Real middle_area[block_size];  ///< at mid-step [L2]
+  /// N xx yy xy [M/T2], M xx yy xy [ML/T2], Q xz yz [M/T2], of place q in the plane at 8 q: `strain` leaves
+  /// those of the stress so far, `forces` those of the new one.
+  Real resultant[8 * ShellState::most_in_plane][block_size];
   alignas(64) Real rate[6][block_size];  ///< of a point, `at_point` writes it; zz is left alone [1/T]
   Real thickening[block_size];           ///< in: mean of D zz over the points [1/T]
   Real step_limit[block_size];           ///< out: stable step [T]
   Real wave_time[block_size];            ///< out: the same without viscosity [T]
+  /// Out: of corner c in direction k at 3 c + k, on the node. [ML/T2], [ML2/T2]
+  Real corner_force[12][block_size], corner_moment[12][block_size];
 };
 
 struct ShellLoops {
@@ -90,7 +93,7 @@ struct ShellLoops {
     Index shortest;  ///< whose it is, of the group
   };
   void (*strain)(const Block& block, const ShellControl& control, const ShellMesh& mesh,
-                 ShellScratch& scratch);
+                 const ShellState& state, ShellScratch& scratch);
   void (*at_point)(const Block& block, int point, const ShellState& state, ShellScratch& scratch);
   /// Behind the law: resultants and their work, corner forces and moments with the geometry at the end of the
   /// step, energies, thickness, stable step.

@@ -73,17 +73,22 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
 /// Rotary inertia that an element has for each of its corners; `build_shells` fills it. [ML2]
 Field<Real>& corner_inertia_of(const ElementGroup& group);
 
-/// Stress at the points of shells, component 6 p + k of point p: layer p % layers at place p / layers in the
-/// plane, in the axes of the element. [M/LT2]
+/// Stress at the points of shells, in the axes of the element, zz = 0 left out. Point p is layer p % layers
+/// at place p / layers in the plane. [M/LT2]
 Field<Real>& layer_stress_of(const ElementGroup& group, int points);
+/// Where component k of point p stands there: xx yy xy yz zx, k = 0, 1, 3, 4, 5.
+constexpr int at_layer(int point, int k) {
+  return 5 * point + k - (k > 2);
+}
 /// A number or tensor that the law of point p keeps.
 Field<Real>& layer_history_of(const ElementGroup& group, const HistoryVariable& kind, int point);
 Field<Real>& thickness_of_shells(const ElementGroup& group);  ///< [L]
 /// Height of the middle surface over the nodes along the normal, over half the thickness, with which it grows
 /// and shrinks; null: it is where the nodes are. `build_shells` fills it. [-]
 Field<Real>* offset_of_shells(const ElementGroup& group);
-/// Tells histories of the shells of a group, which `part` are made of.
-std::shared_ptr<Pass> make_shell_report(const ShellPart& part, const ElementGroup& group);
+/// Tells histories of the shells of a group, which `part` are made of, and, where they are `shown`, the field
+/// files.
+std::shared_ptr<Pass> make_shell_report(const ShellPart& part, const ElementGroup& group, bool shown);
 
 /// Adds the forces of shells to the passes of `world`. Computes the largest frequency of each group, which
 /// bounds the step.

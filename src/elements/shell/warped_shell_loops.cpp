@@ -19,7 +19,8 @@ COURANT_INLINE Native hourglass_part(const Flat& f, const Map& middle, const Nat
 }
 
 COURANT_INLINE void warped_strain_of(Index first, Index n, Index k, Real dt, const ShellControl& control,
-                                     const ShellMesh& mesh, ShellScratch& s) {
+                                     const ShellMesh& mesh, const ShellState& state, ShellScratch& s) {
+  keep_resultants(first, n, k, 1, control.shear_factor, state, s);
   Triple x[quad], v[quad], w[quad], d[3], dv[3], dw[3];
   gather_corners<quad>(mesh, first, n, x, v, w);
   differences<quad>(x, d), differences<quad>(v, dv), differences<quad>(w, dw);
@@ -79,14 +80,14 @@ COURANT_INLINE void warped_forces_of(Index first, Index n, Index k, Real dt, con
   Triple of_v[3];
   for (int m = 0; m < 3; ++m) of_v[m] = {g[0][m], g[1][m], g[2][m]};
   const Triple of_w[3] = {{g[3][0], g[4][0], mz[1]}, {g[3][1], g[4][1], mz[2]}, {g[3][2], g[4][2], mz[3]}};
-  push_corners(first, n, f, a, of_v, t0, of_w, state);
+  push_corners(k, f, a, of_v, t0, of_w, s);
 }
 
 void warped_strain(const ShellLoops::Block& block, const ShellControl& control, const ShellMesh& mesh,
-                   ShellScratch& scratch) {
+                   const ShellState& state, ShellScratch& scratch) {
   for (Index k = 0; k < block.count; k += native_lanes)
     warped_strain_of(block.begin + k, block.count - k < native_lanes ? block.count - k : native_lanes, k,
-                     block.dt, control, mesh, scratch);
+                     block.dt, control, mesh, state, scratch);
 }
 
 ShellLoops::Found warped_forces(const ShellLoops::Block& block, const ShellControl& control,

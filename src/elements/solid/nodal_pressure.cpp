@@ -196,7 +196,7 @@ struct NodalPressure::Push : Pass {
   explicit Push(std::shared_ptr<NodalPressure> whose) : Pass(std::move(whose), "means of pressures", false) {}
   void declare(const World& world, Accesses& a) const override {
     a.reads(world.nodes.x, Reach::others).reads(of->group_.node).reads(of->nodal_pressure_, Reach::others);
-    a.reads(of->pressure_).reads(of->counted_).updates(of->group_.corner_force);
+    a.reads(of->pressure_).reads(of->counted_).updates(*of->group_.corner_force);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
     const Real* V0 = of->counted_.data();
@@ -211,7 +211,7 @@ struct NodalPressure::Push : Pass {
   }
   void push(Index e, int c, const Vec& f) const {
     const int corner = of->corner_[c][static_cast<std::size_t>(e)];
-    for (int k = 0; k < 3; ++k) of->group_.corner_force.data(3 * corner + k)[e] += f[k];
+    for (int k = 0; k < 3; ++k) of->group_.corner_force->data(3 * corner + k)[e] += f[k];
   }
 };
 

@@ -86,7 +86,7 @@ class SolidForces : public Material,
   void declare(const World& world, Accesses& a) const override {
     a.reads(world.nodes.x, Reach::others).reads(world.nodes.v, Reach::others).reads(group_.node);
     a.reads(V0_).reads(rho0_).updates(stress_).updates(internal_).updates(hourglass_);
-    a.updates(bulk_viscosity_).updates(viscous_).writes(group_.corner_force);
+    a.updates(bulk_viscosity_).updates(viscous_).writes(*group_.corner_force);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (hourglass_force_) a.updates(*hourglass_force_);
     if (memory_) a.updates(*memory_);
@@ -107,7 +107,7 @@ class SolidForces : public Material,
     state_.V0 = V0_.data(), state_.rho0 = rho0_.data();
     state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
     state_.bulk_viscosity_energy = bulk_viscosity_.data();
-    for (int k = 0; k < 3 * group_.corners(); ++k) state_.corner_force[k] = group_.corner_force.data(k);
+    for (int k = 0; k < 3 * group_.corners(); ++k) state_.corner_force[k] = group_.corner_force->data(k);
     for (int k = 0; hourglass_force_ && k < 12; ++k) state_.hourglass_force[k] = hourglass_force_->data(k);
     history_data_.clear();
     state_.tensors = 0;
@@ -347,7 +347,7 @@ class SolidForces : public Material,
             found[static_cast<std::size_t>(begin / block_size)] =
                 advance({mesh, elastic, state, *linear, nullptr, nullptr}, 1, begin, end, scratch);
           });
-          own.assemble(group_.corner_force, -1, Ku);
+          own.assemble(*group_.corner_force, -1, Ku);
         });
     Real step = std::numeric_limits<Real>::infinity();
     for (const HexahedronLoops::Found& f : found) step = std::min(step, f.step);
@@ -391,7 +391,7 @@ class SolidForces : public Material,
     for (Field<Real>* h : history_) h->fill(0);
     if (full_) full_->reset();
     if (hourglass_force_) hourglass_force_->fill(0);
-    group_.corner_force.fill(0);
+    group_.corner_force->fill(0);
   }
 
   /// Pressure and energy of the equation of state at the start.

@@ -208,7 +208,7 @@ void WallImages::declare_forces(const World& world, Accesses& a) const {
   if (drag_) a.reads(*drag_);
   if (!any_moves_) return;
   const Segments& s = world.segments;
-  a.in_finish().updates(s.contact_force).updates(world.nodes.f);
+  a.in_finish().updates(*s.contact_force).updates(world.nodes.f);
   a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
 }
 
@@ -275,7 +275,7 @@ void WallImages::give_reactions(World& world) const {
     for (const Reaction& r : block.reactions) {
       const auto nodes = world.segments.nodes(r.segment);
       for (std::size_t e = 0; e < 4; ++e) {
-        world.segments.contact_force.add(r.segment, r.on_node[e]);
+        world.segments.contact_force->add(r.segment, r.on_node[e]);
         world.nodes.f.add(nodes[e], r.on_node[e]);
       }
     }

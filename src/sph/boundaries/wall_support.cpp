@@ -34,6 +34,7 @@ WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& n
       walls_(s.walls),
       least_y_(least_distance * s.spacing),
       mu_(s.mu) {
+  world.segments.keep_contact_force();
   moves_.assign(static_cast<std::size_t>(world.segments.size()), 0);
   for (const Index segment : walls_.segments)
     moves_[static_cast<std::size_t>(segment)] = segment_moves(world, segment);
@@ -179,11 +180,11 @@ void WallSupport::declare_force(const World& world, Accesses& a) const {
   const Segments& s = world.segments;
   if (any_moves_) {
     a.reads(p.x).reads(p.h).reads(p.part);
-    a.in_finish().updates(s.contact_force).updates(world.nodes.f);
+    a.in_finish().updates(*s.contact_force).updates(world.nodes.f);
     a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
   }
   a.in_start().reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
-  a.updates(s.contact_force).updates(world.nodes.f);
+  a.updates(*s.contact_force).updates(world.nodes.f);
 }
 
 void WallSupport::add_reactions(const Particles& p, Index i, std::vector<Reaction>& to) const {
@@ -279,7 +280,7 @@ void WallSupport::show_forces(World& world) {
   const Particles& p = world.particles;
   const auto give = [&](Index segment, const Vec& force) {
     if (moves_[static_cast<std::size_t>(segment)]) return;  // it has its force already
-    world.segments.contact_force.add(segment, force);
+    world.segments.contact_force->add(segment, force);
     for (const Index n : world.segments.nodes(segment)) world.nodes.f.add(n, 0.25 * force);
     if (shown_.empty() || shown_.back() != segment) shown_.push_back(segment);
   };
@@ -303,7 +304,7 @@ void WallSupport::show_forces(World& world) {
 
 void WallSupport::take_back_forces(World& world) {
   for (const Index s : shown_) {
-    world.segments.contact_force.set(s, Vec::Zero());
+    world.segments.contact_force->set(s, Vec::Zero());
     for (const Index n : world.segments.nodes(s)) world.nodes.f.set(n, Vec::Zero());
   }
   shown_.clear();
@@ -423,7 +424,7 @@ class WallSupportForce : public Force {
       for (const WallSupport::Reaction& r : block) {
         const auto nodes = world.segments.nodes(r.segment);
         for (std::size_t e = 0; e < 4; ++e) {
-          world.segments.contact_force.add(r.segment, r.on_node[e]);
+          world.segments.contact_force->add(r.segment, r.on_node[e]);
           world.nodes.f.add(nodes[e], r.on_node[e]);
         }
       }

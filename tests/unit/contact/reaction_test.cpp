@@ -16,7 +16,7 @@ Sums sums(const World& w) {
   Sums s;
   for (Index i = 0; i < w.particles.size(); ++i) s.particles += w.particles.f.vec(i);
   for (Index n = 0; n < w.nodes.size(); ++n) s.nodes += w.nodes.f.vec(n);
-  for (Index k = 0; k < w.segments.size(); ++k) s.segments += w.segments.contact_force.vec(k);
+  for (Index k = 0; k < w.segments.size(); ++k) s.segments += w.segments.contact_force->vec(k);
   return s;
 }
 
@@ -107,7 +107,7 @@ std::vector<Real> forces_of_many(int on_threads) {
     // each face's share lies where its particles do, so the sum of its nodes is its own
     Real of_nodes = 0;
     for (int e = 0; e < 4; ++e) of_nodes += s.world.nodes.f.vec(4 * k + e).z();
-    out.push_back(s.world.segments.contact_force.vec(k).z());
+    out.push_back(s.world.segments.contact_force->vec(k).z());
     EXPECT_NEAR(of_nodes, out.back(), 1e-12 * f.particles.norm());
   }
   return out;

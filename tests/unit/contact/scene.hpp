@@ -83,14 +83,14 @@ struct Scene {
     for (Index s = 0; s < world.segments.size(); ++s) {
       Vec force = Vec::Zero();
       from.add_reaction_on_segment(s, force);
-      world.segments.contact_force.add(s, force);
+      world.segments.contact_force->add(s, force);
     }
   }
   /// Forces on walls that move are cleared in each step; those on walls that are held, by the interface.
   void clear_walls() {
     for (int k = 0; k < 3 && !held; ++k) {
       std::fill_n(world.nodes.f.data(k), world.nodes.size(), 0.0);
-      std::fill_n(world.segments.contact_force.data(k), world.segments.size(), 0.0);
+      std::fill_n(world.segments.contact_force->data(k), world.segments.size(), 0.0);
     }
   }
 

@@ -60,7 +60,7 @@ Trace run(const WallCase& c, bool shortcuts) {
   }
   s.contact->show_forces(s.world);
   trace.add(s.world.nodes.f, s.world.nodes.size());
-  trace.add(s.world.segments.contact_force, s.world.segments.size());
+  trace.add(*s.world.segments.contact_force, s.world.segments.size());
   trace.leaked = s.world.counters.at("leaked_particles");
   trace.deepest = s.world.maxima.at("max_penetration");
   return trace;

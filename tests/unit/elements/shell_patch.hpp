@@ -124,24 +124,27 @@ struct ShellPatch {
     }
     for (int c = 0; c < corners; ++c) mesh.corner[c] = corner[c].data();
     for (int k = 0; k < 240; ++k) state.stress[k] = stress[k].data();
-    for (int k = 0; k < 32; ++k) state.resultant[k] = resultant[k].data();
     for (std::size_t k = 0; k < hourglass.size(); ++k) state.hourglass[k] = hourglass[k].data();
     state.thickness = thickness.data(), state.mass = mass.data();
     state.internal_energy = internal.data(), state.hourglass_energy = hourglass_energy.data();
     state.bulk_viscosity_energy = bulk.data(), state.viscous_force = viscous_force.data();
-    for (int k = 0; k < 12; ++k)
-      state.corner_force[k] = force[k].data(), state.corner_moment[k] = moment[k].data();
     ShellLoops::Found least{1e300, 0};
     for (Index begin = 0; begin < static_cast<Index>(size()); begin += block_size) {
       const ShellLoops::Block block{begin, std::min<Index>(block_size, static_cast<Index>(size()) - begin),
                                     dt};
-      loops.strain(block, control, mesh, scratch);
+      loops.strain(block, control, mesh, state, scratch);
       std::fill(scratch.thickening, scratch.thickening + block.count, 0);
       for (int p = 0; p < state.points; ++p) {
         loops.at_point(block, p, state, scratch);
         law(block, p);
       }
       const ShellLoops::Found found = loops.forces(block, control, state, scratch);
+      const auto keep = [&](const auto& from, auto& to) {
+        for (std::size_t k = 0; k < to.size(); ++k)
+          std::copy(from[k], from[k] + block.count, to[k].begin() + begin);
+      };
+      keep(scratch.corner_force, force), keep(scratch.corner_moment, moment);
+      keep(scratch.resultant, resultant);
       if (found.step < least.step) least = found;
       look(begin, block.count);
     }

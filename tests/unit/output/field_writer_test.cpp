@@ -181,7 +181,7 @@ TEST(FieldWriter, SameBytesWhetherWrittenAtOnceOrByTheQueue) {
     JobQueue queue(capacity);
     for (int state = 0; state < 40; ++state) {
       world.particles.p[1] = state;
-      world.segments.contact_force.set(0, {0, 1.0 * state, 0});
+      world.segments.contact_force->set(0, {0, 1.0 * state, 0});
       queue.submit([&writer, taken = writer.take(world, 0.1 * state, state)] { writer.write(taken); });
       world.particles.p[1] = -1;  // the world goes on
     }

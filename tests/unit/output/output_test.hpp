@@ -65,7 +65,7 @@ inline void fill_small_world(World& world) {
     s.id[i] = 200 + i;
     s.part[i] = 1;
     s.thickness[i] = 0.001;
-    s.contact_force.set(i, {0, -5.0 - i, 0});
+    s.keep_contact_force().set(i, {0, -5.0 - i, 0});
     s.node0[i] = 0, s.node1[i] = 1, s.node2[i] = 2, s.node3[i] = i == 0 ? 3 : 2;
   }
 }
