@@ -48,7 +48,12 @@ class SolidLaws {
                         "volumes at their nodes",
                         part.id),
             "ELFORM 10 resists them");
-      if (law->second->shear_modulus() == 0 && !out.full && !out.nodal && out.viscosity.ihq >= 4)
+      if (law->second->shear_modulus() == 0 && !out.full && out.viscosity.ihq == 6)
+        deck.error(diagnostics, part.card, "HGID",
+                   fmt::format("the solids of part {} are a fluid, and IHQ 6 goes by moduli that it has not",
+                               part.id),
+                   "IHQ 1 to 3 are viscous");
+      else if (law->second->shear_modulus() == 0 && !out.full && !out.nodal && out.viscosity.ihq >= 4)
         deck.warning(diagnostics, part.card, "HGID",
                      fmt::format("the solids of part {} are a fluid, and IHQ "
                                  "{} is a stiffness: elements that flow "
@@ -92,6 +97,19 @@ std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Di
     out[k].nodal = solid_formulation(deck, part) == 13;
     laws.take(deck, part, out[k], diagnostics);
   }
+  return out;
+}
+
+HexahedronControl control_of(const SolidPart& part) {
+  HexahedronControl out{.hourglass = part.viscosity.ihq,
+                        .QM = part.viscosity.qm,
+                        .Q1 = part.viscosity.q1,
+                        .Q2 = part.viscosity.q2,
+                        .MU = part.law->viscosity()};
+  const Real K = part.bulk_modulus(), G = part.law->shear_modulus();
+  if (!(G > 0)) return out;  // a fluid
+  out.G = G, out.E = 9 * K * G / (3 * K + G), out.nu = out.E / (2 * G) - 1;
+  out.plate_modulus = out.E / (1 - out.nu * out.nu);
   return out;
 }
 
