@@ -3,6 +3,7 @@
 #include <map>
 
 #include "elements/solid/section_solid.hpp"
+#include "elements/solid/solid_axes.hpp"
 #include "elements/solid/solids.hpp"
 #include "laws/eos/find_eos.hpp"
 #include "laws/fluid/mat_null.hpp"
@@ -32,11 +33,12 @@ class SolidLaws {
                  "add one of " + known_ + "*MAT_NULL, or a *MAT_RIGID, and give its id here");
       return;
     }
-    if (law->second->axes())
-      deck.error(
-          diagnostics, part.card, "MID",
-          fmt::format("directions of a material in solids, as those of part {}, are not supported", part.id),
-          "shells have them; solids take isotropic materials");
+    if (law->second->axes() && law->second->in_sheets())
+      deck.error(diagnostics, part.card, "MID",
+                 fmt::format("this material in solids, as those of part {}, is not supported: its directions "
+                             "are those of shells",
+                             part.id),
+                 "solids take isotropic materials and *MAT_HONEYCOMB");
     if (law->second->deviator_only()) {
       const auto eos = eos_.find(deck, part, law->second->ro, "solids", diagnostics);
       if (!eos) return;
@@ -96,6 +98,8 @@ std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Di
     out[k].viscosity = viscosity[k], out[k].full = solid_formulation(deck, part) == 2;
     out[k].nodal = solid_formulation(deck, part) == 13;
     laws.take(deck, part, out[k], diagnostics);
+    if (out[k].law && out[k].law->axes())
+      check_directions(deck, model, static_cast<Index>(k), *out[k].law->axes(), diagnostics);
   }
   return out;
 }

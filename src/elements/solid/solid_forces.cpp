@@ -9,6 +9,7 @@
 #include "elements/largest_frequency.hpp"
 #include "elements/solid/full_points.hpp"
 #include "elements/solid/nodal_pressure.hpp"
+#include "elements/solid/solid_axes.hpp"
 #include "elements/solid/solid_faults.hpp"
 #include "elements/solid/solids.hpp"
 #include "elements/stiffness_damping.hpp"
@@ -389,6 +390,7 @@ class SolidForces : public Material,
     if (full_) full_->reset();
     if (hourglass_force_) hourglass_force_->fill(0);
     group_.corner_force.fill(0);
+    if (law_->axes()) lay_directions(*law_->axes(), group_, mesh_, *history_.front(), full_.get());
   }
 
   /// Pressure and energy of the equation of state at the start.
