@@ -66,7 +66,7 @@ Real frequency_of_cantilever(int along, int through, Real nu, int ihq, Real QM, 
   std::array<Real, 2> crossing{};
   int found = 0;
   Real before = 0;
-  while (found < 2) {
+  while (found < 2 && s->clock().t < 1e4) {
     s->step(do_nothing);
     Real q = 0;
     for (Index n = 0; n < world.nodes.size(); ++n) {

@@ -113,7 +113,7 @@ TEST(Fabrics, MembranesSwingAsStrings) {
     ShellDeck deck;
     deck.plate(1, 0.1, n, 1, 1);
     deck.cards = "*PART\nstrip\n1,1,1\n*SECTION_SHELL\n1,5\n0.01\n*MAT_FABRIC\n1,1.0,100.0,,,0.0\n\n\n\n\n";
-    deck.hold(1, "y", [](const Vec&) { return true; });
+    deck.hold(1, "yXYZ", [](const Vec&) { return true; });  // held rotations do not matter to a membrane
     deck.hold(2, "xz", [](const Vec& x) { return x[0] < 1e-9; });
     deck.hold(3, "z", [](const Vec& x) { return x[0] > 1 - 1e-9; });
     deck.node_set(4, [](const Vec& x) { return x[0] > 1 - 1e-9; });
