@@ -20,6 +20,8 @@ import yaml
 
 HERE = pathlib.Path(__file__).resolve().parent
 LONGEST = 600  # seconds
+OF_UNITS = ("Decks/", "FullShell.", "CompositeDamage.", "OrthoWall.", "BlastWave.", "BlockSums.", "TensionField.", "WovenFabric.", "Honeycomb.",
+            "SimplifiedRubber.", "RateFoam.")  # tests of unit_tests
 
 
 def declared():
@@ -54,7 +56,7 @@ def run(program, tests, number=None):
 def noticed(build, change, number=None):
     """By which test, "" if by none."""
     for program in ("verification_tests", "unit_tests"):
-        tests = ":".join(t for t in change["tests"] if t.startswith(("Decks/", "FullShell.", "CompositeDamage.", "OrthoWall.", "BlastWave.", "BlockSums.")) == (program == "unit_tests"))
+        tests = ":".join(t for t in change["tests"] if t.startswith(OF_UNITS) == (program == "unit_tests"))
         if tests and (who := run(build / "tests" / program, tests, number)):
             return who
     return ""

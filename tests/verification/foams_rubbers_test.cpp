@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cube_decks.hpp"
 #include "pressure_decks.hpp"
 #include "same_bits.hpp"
 #include "shell_decks.hpp"
@@ -11,39 +12,13 @@
 
 using namespace courant;
 using test::do_nothing;
+using test::driven_cube;
+using test::pull_of_cube;
 using test::ShellDeck;
 using test::simulation_of;
 using test::SolidDeck;
 
 namespace {
-
-/// A cube of n^3 elements between planes of symmetry, its end at x = 1 moved as curve 1 has it; `confined`:
-/// no other side moves.
-SolidDeck foam_cube(int n, const std::string& material, const std::string& motion, bool confined) {
-  SolidDeck deck;
-  deck.block(Vec(1, 1, 1), n, n, n, 1);
-  deck.cards = "*PART\ncube\n1,1,1\n*SECTION_SOLID\n1,1\n" + material;
-  for (const int axis : {0, 1, 2}) {
-    deck.node_set(axis + 1, [&](const Vec& x) {
-      return x[axis] < 1e-9 || (confined && axis > 0 && x[axis] > 1 - 1e-9);
-    });
-    deck.cards += fmt::format("*BOUNDARY_SPC_SET\n{},0,{},{},{}\n", axis + 1, int(axis == 0), int(axis == 1),
-                              int(axis == 2));
-  }
-  deck.node_set(4, [](const Vec& x) { return x[0] > 1 - 1e-9; });
-  deck.cards += "*BOUNDARY_PRESCRIBED_MOTION_SET\n4,1,0,1\n*DEFINE_CURVE\n1\n" + motion;
-  return deck;
-}
-
-/// What the elements pull at the nodes x = 1 of the block with n^3 elements.
-Real foam_pull(Simulation& s, int n) {
-  const ElementGroup& group = *s.world().groups[0];
-  Real sum = 0;
-  for (Index e = 0; e < group.size(); ++e)
-    if (e % n == n - 1)
-      for (const int corner : {1, 2, 5, 6}) sum += group.corner_force->data(3 * corner)[e];
-  return std::abs(sum);
-}
 
 const std::string crushable_card =
     "*MAT_CRUSHABLE_FOAM\n1,1.0,500.0,0.0,7,0.5\n*DEFINE_CURVE\n7\n0.0,1.0\n0.5,2.0\n0.8,8.0\n";
@@ -57,12 +32,12 @@ const std::string rubber_card = "*MAT_BLATZ-KO_RUBBER\n1,1.0,10.0\n";
 // Crushed to 30 %: the work is the area under the curve, 1.75 + ..., less what would spring back.
 TEST(FoamsAndRubbers, CrushingTakesTheAreaUnderTheCurve) {
   for (const int n : {1, 3}) {
-    auto s = simulation_of(foam_cube(n, crushable_card, "0.0,-0.005\n1e9,-0.005\n", false).text(1e9));
+    auto s = simulation_of(driven_cube(n, crushable_card, "0.0,-0.005\n1e9,-0.005\n", false).text(1e9));
     test::start_ledger(*s);
     for (const auto& [strain, stress, area] :
          {std::tuple{0.25, 1.5, 0.3125}, std::tuple{0.5, 2.0, 0.75}, std::tuple{0.7, 6.0, 1.55}}) {
       test::run_until(*s, strain / 0.005);
-      EXPECT_NEAR(foam_pull(*s, n), stress, 0.01 * stress) << n;
+      EXPECT_NEAR(pull_of_cube(*s, n), stress, 0.01 * stress) << n;
       sample_energy(s->world(), s->clock());
       EXPECT_NEAR(s->world().energy.external_work, area, 0.01 * area) << n;
     }
@@ -75,16 +50,16 @@ TEST(FoamsAndRubbers, CrushingTakesTheAreaUnderTheCurve) {
 TEST(FoamsAndRubbers, SoftFoamComesBackWithLessForce) {
   for (const int n : {1, 2}) {
     auto s = simulation_of(
-        foam_cube(n, springy_card, "0.0,-0.01\n60.0,-0.01\n60.01,0.01\n1e9,0.01\n", false).text(1e9));
+        driven_cube(n, springy_card, "0.0,-0.01\n60.0,-0.01\n60.01,0.01\n1e9,0.01\n", false).text(1e9));
     test::start_ledger(*s);
     test::run_until(*s, 30);
-    EXPECT_NEAR(foam_pull(*s, n), 1.2, 0.01 * 1.2) << n;
+    EXPECT_NEAR(pull_of_cube(*s, n), 1.2, 0.01 * 1.2) << n;
     test::run_until(*s, 60);
-    EXPECT_NEAR(foam_pull(*s, n), 1.5, 0.01 * 1.5) << n;
+    EXPECT_NEAR(pull_of_cube(*s, n), 1.5, 0.01 * 1.5) << n;
     sample_energy(s->world(), s->clock());
     EXPECT_NEAR(s->world().energy.external_work, 0.675, 0.01 * 0.675) << n;
     test::run_until(*s, 90);
-    EXPECT_NEAR(foam_pull(*s, n), 1.2 * (0.1 + 0.9 * std::pow(0.27 / 0.675, 2)), 0.01) << n;
+    EXPECT_NEAR(pull_of_cube(*s, n), 1.2 * (0.1 + 0.9 * std::pow(0.27 / 0.675, 2)), 0.01) << n;
     test::run_until(*s, 119.9);
     // d(W^3)/3 of loading: of 0.675 come back 0.1 + 0.3 of it
     sample_energy(s->world(), s->clock());
@@ -97,13 +72,13 @@ TEST(FoamsAndRubbers, SoftFoamComesBackWithLessForce) {
 TEST(FoamsAndRubbers, StressRelaxesWhileTheStrainIsHeld) {
   for (const int n : {1, 2}) {
     auto s = simulation_of(
-        foam_cube(n, viscous_card, "0.0,0.01\n1.0,0.01\n1.0001,0.0\n1e9,0.0\n", true).text(1e9));
+        driven_cube(n, viscous_card, "0.0,0.01\n1.0,0.01\n1.0001,0.0\n1e9,0.0\n", true).text(1e9));
     for (const Real t : {5.0, 20.0, 60.0}) {
       test::run_until(*s, t);
       // pulled at a steady rate for 1: the mean of the decay over that time
       const Real G = 10 + 20 * std::exp(-0.05 * t) * std::expm1(0.05) / 0.05;
       const Real stress = (50 + 4 * G / 3) * std::log(1.01);
-      EXPECT_NEAR(foam_pull(*s, n), stress, 0.01 * stress) << n << " " << t;
+      EXPECT_NEAR(pull_of_cube(*s, n), stress, 0.01 * stress) << n << " " << t;
     }
   }
 }
@@ -111,12 +86,12 @@ TEST(FoamsAndRubbers, StressRelaxesWhileTheStrainIsHeld) {
 // Pulled to 1.6 with free sides: G (l - l^(-1 - 2 nu)) over the area at the start.
 TEST(FoamsAndRubbers, RubberIsPulledAsInClosedForm) {
   for (const int n : {1, 3}) {
-    auto s = simulation_of(foam_cube(n, rubber_card, "0.0,0.005\n1e9,0.005\n", false).text(1e9));
+    auto s = simulation_of(driven_cube(n, rubber_card, "0.0,0.005\n1e9,0.005\n", false).text(1e9));
     test::start_ledger(*s);
     for (const Real l : {1.2, 1.6}) {
       test::run_until(*s, (l - 1) / 0.005);
       const Real force = 10 * (l - std::pow(l, -1 - 2 * 0.463));
-      EXPECT_NEAR(foam_pull(*s, n), force, 0.01 * force) << n << " " << l;
+      EXPECT_NEAR(pull_of_cube(*s, n), force, 0.01 * force) << n << " " << l;
     }
     EXPECT_LT(test::energy_error(*s), 0.01);
   }

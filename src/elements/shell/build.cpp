@@ -17,7 +17,7 @@ namespace courant {
 
 namespace {
 
-constexpr int belytschko_tsay = 2, flat_triangle = 4, fully_integrated = 16;
+constexpr int belytschko_tsay = 2, flat_triangle = 4, membrane = 5, full_membrane = 9, fully_integrated = 16;
 
 /// Formulations that differ from Belytschko and Tsay's in details, and that it stands for with a warning.
 const std::map<int, const char*> similar = {{1, "Hughes-Liu"},
@@ -25,6 +25,10 @@ const std::map<int, const char*> similar = {{1, "Hughes-Liu"},
                                             {7, "selectively reduced Hughes-Liu"},
                                             {10, "Belytschko-Wong-Chiang"},
                                             {11, "fast Hughes-Liu"}};
+constexpr const char* formulations =
+    "supported values: 2 (Belytschko-Tsay), 16 (2 x 2 points), 4 for triangles, 5 and 9 (membranes); 1, 6, "
+    "7, "
+    "10 and 11 become 2";
 
 class ShellReader {
  public:
@@ -45,7 +49,9 @@ class ShellReader {
     if (!section) return false;  // which the segments report
     const SectionShell& s = *section;
     if (checked_.insert(&s).second) check_section(s, part);
-    const bool whole = layers_.read(part, s, control_ && control_->intgrd == 1, out);
+    SectionShell points = s;
+    if (is_membrane(s)) points.nip = 1, points.irid = 0;
+    const bool whole = layers_.read(part, points, control_ && control_->intgrd == 1, out);
     set_options(part, s, whole, out);
     return whole;
   }
@@ -69,7 +75,7 @@ class ShellReader {
     out.warp_warning = control_ ? control_->wrpang : out.warp_warning;
     ShellControl& c = out.control;
     if (whole) set_moduli(out, c);
-    c.shear_factor = s.shrf;
+    c.shear_factor = is_membrane(s) ? 0 : s.shrf;
     c.thins = control_ && control_->istupd == 1;
     c.warps = control_ && control_->bwc == 1 && !out.full;
     if (const auto* accuracy = deck_.last<ControlAccuracy>()) c.invariant_axes = accuracy->invariant_shells();
@@ -103,13 +109,13 @@ class ShellReader {
                                 "in its place",
                                 elform, like->second, part.id),
                     "2 (Belytschko-Tsay) says the same without this warning");
-    else if (elform != belytschko_tsay && elform != flat_triangle && elform != fully_integrated)
+    else if (!is_membrane(s) && elform != belytschko_tsay && elform != flat_triangle &&
+             elform != fully_integrated)
       error(s, "ELFORM",
             fmt::format("'{}'{} is not supported for shells that deform, as those of part {}", elform, from,
                         part.id),
-            "supported values: 2 (Belytschko-Tsay), 16 (2 x 2 points), 4 for triangles; 1, 6, 7, 10 and 11 "
-            "become "
-            "2");
+            formulations);
+    if (is_membrane(s)) check_membrane(s, part);
     const bool has_quads =
         std::any_of(model_.shells.begin(), model_.shells.end(), [&](const ModelShell& shell) {
           return model_.parts[static_cast<std::size_t>(shell.part)].id == part.id &&
@@ -122,6 +128,36 @@ class ShellReader {
       error(s, "IDOF", "'3' is not supported: contact does not squeeze shells", "leave it blank");
     if (!(s.shrf > 0))
       error(s, "SHRF", fmt::format("expected a number > 0, got '{:g}'", s.shrf), "5/6 is usual");
+  }
+
+  /// One layer in the middle and no shear across: nothing bends.
+  bool is_membrane(const SectionShell& s) const {
+    return formulation(s) == membrane || formulation(s) == full_membrane;
+  }
+  void check_membrane(const SectionShell& s, const ModelPart& part) {
+    if (formulation(s) == full_membrane)
+      deck_.warning(diagnostics_, s, "ELFORM",
+                    fmt::format("9 (membranes of 2 x 2 points) is not there for shells that deform, as those "
+                                "of part {}: 5, of one point with hourglass control, is used in its place",
+                                part.id),
+                    "5 says the same without this warning");
+    if (s.irid != 0)
+      error(s, "QR/IRID", fmt::format("'{}' is not supported: membranes have one layer", s.irid),
+            "leave it blank");
+    if (s.nloc != 0 || has_layers_or_offsets(part))
+      error(s, "ELFORM",
+            fmt::format("{} is not supported for the layers or offsets of part {}: membranes do not bend",
+                        formulation(s), part.id),
+            "2 bends");
+  }
+  bool has_layers_or_offsets(const ModelPart& part) const {
+    const auto index = static_cast<Index>(&part - model_.parts.data());
+    return !part.plies.empty() ||
+           std::any_of(model_.layups.begin(), model_.layups.end(),
+                       [&](const ModelLayup& layup) { return layup.part == index; }) ||
+           std::any_of(model_.shell_offset.begin(), model_.shell_offset.end(), [&](const auto& one) {
+             return one.second != 0 && model_.shells[static_cast<std::size_t>(one.first)].part == index;
+           });
   }
 
   bool has_offsets() const {

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "elements/solid/section_solid.hpp"
+#include "elements/solid/solid_axes.hpp"
 #include "elements/solid/solids.hpp"
 #include "laws/eos/find_eos.hpp"
 #include "laws/fluid/mat_null.hpp"
@@ -32,11 +33,12 @@ class SolidLaws {
                  "add one of " + known_ + "*MAT_NULL, or a *MAT_RIGID, and give its id here");
       return;
     }
-    if (law->second->axes())
-      deck.error(
-          diagnostics, part.card, "MID",
-          fmt::format("directions of a material in solids, as those of part {}, are not supported", part.id),
-          "shells have them; solids take isotropic materials");
+    if (law->second->axes() && law->second->in_sheets())
+      deck.error(diagnostics, part.card, "MID",
+                 fmt::format("this material in solids, as those of part {}, is not supported: its directions "
+                             "are those of shells",
+                             part.id),
+                 "solids take isotropic materials and *MAT_HONEYCOMB");
     if (law->second->deviator_only()) {
       const auto eos = eos_.find(deck, part, law->second->ro, "solids", diagnostics);
       if (!eos) return;
@@ -48,7 +50,12 @@ class SolidLaws {
                         "volumes at their nodes",
                         part.id),
             "ELFORM 10 resists them");
-      if (law->second->shear_modulus() == 0 && !out.full && !out.nodal && out.viscosity.ihq >= 4)
+      if (law->second->shear_modulus() == 0 && !out.full && out.viscosity.ihq == 6)
+        deck.error(diagnostics, part.card, "HGID",
+                   fmt::format("the solids of part {} are a fluid, and IHQ 6 goes by moduli that it has not",
+                               part.id),
+                   "IHQ 1 to 3 are viscous");
+      else if (law->second->shear_modulus() == 0 && !out.full && !out.nodal && out.viscosity.ihq >= 4)
         deck.warning(diagnostics, part.card, "HGID",
                      fmt::format("the solids of part {} are a fluid, and IHQ "
                                  "{} is a stiffness: elements that flow "
@@ -91,7 +98,22 @@ std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Di
     out[k].viscosity = viscosity[k], out[k].full = solid_formulation(deck, part) == 2;
     out[k].nodal = solid_formulation(deck, part) == 13;
     laws.take(deck, part, out[k], diagnostics);
+    if (out[k].law && out[k].law->axes())
+      check_directions(deck, model, static_cast<Index>(k), *out[k].law->axes(), diagnostics);
   }
+  return out;
+}
+
+HexahedronControl control_of(const SolidPart& part) {
+  HexahedronControl out{.hourglass = part.viscosity.ihq,
+                        .QM = part.viscosity.qm,
+                        .Q1 = part.viscosity.q1,
+                        .Q2 = part.viscosity.q2,
+                        .MU = part.law->viscosity()};
+  const Real K = part.bulk_modulus(), G = part.law->shear_modulus();
+  if (!(G > 0)) return out;  // a fluid
+  out.G = G, out.E = 9 * K * G / (3 * K + G), out.nu = out.E / (2 * G) - 1;
+  out.plate_modulus = out.E / (1 - out.nu * out.nu);
   return out;
 }
 

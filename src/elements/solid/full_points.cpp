@@ -84,6 +84,11 @@ void FullPoints::start_pressure(Real p) {
     for (int k = 0; k < 3; ++k) std::fill_n(stress_.data(6 * point + k), group_.size(), -p);
 }
 
+void FullPoints::set_tensor(std::size_t number, Index e, const std::array<Real, 6>& tensor) {
+  for (int p = 0; p < points; ++p)
+    for (int k = 0; k < 6; ++k) history_[number]->data(6 * p + k)[e] = tensor[static_cast<std::size_t>(k)];
+}
+
 void FullPoints::average(Field<Real>& stress, const std::vector<Field<Real>*>& history) const {
   const auto mean = [&](const Field<Real>& from, Field<Real>& to) {
     const int n = to.info().components;

@@ -51,6 +51,8 @@ class FullPoints {
                                  FullHexahedronScratch& scratch, const Between& between) const;
   /// No stress, no history.
   void reset();
+  /// What all points of an element have of a tensor of the law's history, the one with this number.
+  void set_tensor(std::size_t number, Index e, const std::array<Real, 6>& tensor);
   /// At the start, of an equation of state. Adds a field. [M/LT2]
   void start_pressure(Real p);
   /// Means over the points. `history`: a field for each number of the law, as the law has them.

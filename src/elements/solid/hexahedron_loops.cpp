@@ -83,17 +83,23 @@ struct Hourglass {
   Native a;  ///< force over rate of a mode [M/T]; with a stiffness its growth in the step
   bool plain, stiff;
   Native inverse_V64;
-  Native* kept = nullptr;  ///< forces of the four modes, with a stiffness turned; out: now [ML/T2]
+  Native* kept = nullptr;         ///< forces of the four modes, with a stiffness turned; out: now [ML/T2]
+  const Native* given = nullptr;  ///< IHQ 6: all is done, these are the forces [ML/T2]
 };
+COURANT_INLINE void orthogonal_rates(const Triple a[7], const Native w[7], const Geometry& q,
+                                     Native inverse_V64, Native rate[4]) {
+  const Triple L = gradient64(w, q.g);
+  for (int m = 0; m < 4; ++m) rate[m] = w[3 + m] - inverse_V64 * dot(L, a[3 + m]);
+}
 COURANT_INLINE Native force_modes(const Triple a[7], const Native w[7], const Geometry& q, Triple T,
                                   const Hourglass& h, Native out[7]) {
   Native rate[4] = {w[3], w[4], w[5], w[6]};
-  if (!h.plain) {
-    const Triple L = gradient64(w, q.g);
-    for (int m = 0; m < 4; ++m) rate[m] -= h.inverse_V64 * dot(L, a[3 + m]);
-  }
   Native power = all(0);
-  for (int m = 0; m < 4; ++m) {
+  if (h.given)
+    for (int m = 0; m < 4; ++m) rate[m] = h.given[m];
+  else if (!h.plain)
+    orthogonal_rates(a, w, q, h.inverse_V64, rate);
+  for (int m = 0; m < 4 && !h.given; ++m) {
     const Native now = h.stiff ? h.kept[m] + h.a * rate[m] : h.a * rate[m];
     power += 0.5 * (h.kept[m] + now) * rate[m];
     rate[m] = h.kept[m] = now;
@@ -115,6 +121,71 @@ COURANT_INLINE Native hourglass_stiffness(Native modulus, const Geometry& q, Nat
   Native squares = dot(q.g[0], q.g[0]);
   for (int m = 1; m < 6; ++m) squares += dot(q.g[m], q.g[m]);
   return 0.015625 * modulus * squares * inverse_V64;
+}
+
+/// Belytschko & Bindeman 1993, ASQBI, as a brick along the axes e of the element has it, of half lengths l.
+/// A mode of amplitude q strains it, with b, c, d different and the signs of mode b those of xi_c xi_d: along
+/// d by A = q_dc xi_b/l_d together with C = q_cd xi_b/l_c, where the stress along b is 0; by 2 D_bc =
+/// (q_bb/l_c + q_cc/l_b) xi_d; by q_b4 xi_c xi_d/l_b, where the stress is along b. No other strains: so
+/// bending is not stiffer than it is. `kept`: forces of the modes along e, before and out: now. [ML/T2]
+struct AssumedStrain {
+  Triple e[3];
+  Native length[3];
+};
+COURANT_INLINE AssumedStrain axes_of(const Triple a[7]) {
+  AssumedStrain out;
+  out.e[0] = (1.0 / root(dot(a[0], a[0]))) * a[0];
+  const Native along = dot(a[1], out.e[0]);
+  const Triple second{a[1].x - along * out.e[0].x, a[1].y - along * out.e[0].y, a[1].z - along * out.e[0].z};
+  out.e[1] = (1.0 / root(dot(second, second))) * second;
+  out.e[2] = cross(out.e[0], out.e[1]);
+  for (int i = 0; i < 3; ++i) out.length[i] = 0.125 * dot(a[i], out.e[i]);
+  return out;
+}
+COURANT_INLINE void strain_modes(const Native q[3][4], const Native l[3], Native V,
+                                 const HexahedronControl& control, Native kept[3][4]) {
+  const Native bending = control.QM * control.plate_modulus / 3 * V, shear = control.QM * control.G / 3 * V,
+               along = control.QM * control.E / 9 * V;
+  for (int b = 0; b < 3; ++b) {
+    const int c = (b + 1) % 3, d = (b + 2) % 3;
+    const Native A = q[d][c] / l[d], C = q[c][d] / l[c];
+    kept[d][c] += bending * (A + control.nu * C) / l[d];
+    kept[c][d] += bending * (C + control.nu * A) / l[c];
+    const Native D = shear * (q[b][b] / l[c] + q[c][c] / l[b]);
+    kept[b][b] += D / l[c], kept[c][c] += D / l[b];
+    kept[b][3] += along * q[b][3] / (l[b] * l[b]);
+  }
+}
+/// Rates of the modes by the geometry in the middle of the step, along the axes there. With that at its end
+/// energy would come from nowhere to first order in dt. `force`: out, along space, as elements lie at the end
+/// of the step. Returns the power.
+COURANT_INLINE Native assumed_strain_forces(const Triple a[7], const Native w[3][7], Real dt,
+                                            const HexahedronControl& control, Native kept[3][4],
+                                            Native force[3][4]) {
+  Triple middle[7];
+  for (int m = 0; m < 7; ++m)
+    middle[m] = {a[m].x - 0.5 * dt * w[0][m], a[m].y - 0.5 * dt * w[1][m], a[m].z - 0.5 * dt * w[2][m]};
+  const Geometry q = geometry(middle);
+  const AssumedStrain brick = axes_of(middle), end = axes_of(a);
+  Native rate[3][4], local[3][4], strained[3][4], old[3][4], power = all(0);
+  for (int i = 0; i < 3; ++i) orthogonal_rates(middle, w[i], q, 1.0 / q.V64, rate[i]);
+  for (int b = 0; b < 3; ++b)
+    for (int m = 0; m < 4; ++m) {
+      local[b][m] = dot(brick.e[b], Triple{rate[0][m], rate[1][m], rate[2][m]});
+      strained[b][m] = 0.015625 * dt * local[b][m];  // amplitudes are 1/8 of sums over corners, twice
+      old[b][m] = kept[b][m];
+    }
+  strain_modes(strained, brick.length, 0.015625 * q.V64, control, kept);
+  for (int b = 0; b < 3; ++b)
+    for (int m = 0; m < 4; ++m) power += 0.5 * (old[b][m] + kept[b][m]) * local[b][m];
+  for (int m = 0; m < 4; ++m) {
+    force[0][m] = force[1][m] = force[2][m] = all(0);
+    for (int b = 0; b < 3; ++b) {
+      force[0][m] += kept[b][m] * end.e[b].x, force[1][m] += kept[b][m] * end.e[b].y;
+      force[2][m] += kept[b][m] * end.e[b].z;
+    }
+  }
+  return power;
 }
 
 /// Of each direction and mode those of the step before; a stiffness turns with the element.
@@ -148,19 +219,24 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Hexa
   const Compressed of = compressed(first, n, k, dt, control, state, a, now.V64, scratch);
   const Native inverse_V64 = of.inverse_V64, rho = of.rho, c = of.c, l = of.l, q = of.q;
 
-  Native s[6], w[7], modes[7], f[8], power = all(0);
+  Native s[6], w[3][7], modes[7], f[8], power = all(0);
   for (int j = 0; j < 6; ++j) s[j] = load(state.stress[j] + first, n);
   const Triple T[3] = {{s[0] - q, s[3], s[5]}, {s[3], s[1] - q, s[4]}, {s[5], s[4], s[2] - q}};
   Native kept[3][4]{};
   const bool keeps = state.hourglass_force[0] != nullptr;
-  if (keeps) old_hourglass_forces(first, n, k, control.stiff(), state, scratch, kept);
+  const bool assumes = keeps && control.hourglass == 6;  // whose forces lie along axes of the element
+  if (keeps) old_hourglass_forces(first, n, k, control.stiff() && !assumes, state, scratch, kept);
   Hourglass hourglass{control.stiff() ? dt * hourglass_stiffness(control.QM * rho * c * c, now, inverse_V64)
                                       : 0.25 * control.QM * rho * c * l * l,
                       control.hourglass == 1, control.stiff(), inverse_V64};
+  for (int i = 0; i < 3; ++i)
+    for (int m = 0; m < 7; ++m) w[i][m] = load(scratch.speed[3 * m + i] + k);
+  Native given[3][4];
+  if (assumes) power += assumed_strain_forces(a, w, dt, control, kept, given);
   for (int i = 0; i < 3; ++i) {
-    for (int m = 0; m < 7; ++m) w[m] = load(scratch.speed[3 * m + i] + k);
     hourglass.kept = kept[i];
-    power += force_modes(a, w, now, T[i], hourglass, modes);
+    hourglass.given = assumes ? given[i] : nullptr;
+    power += force_modes(a, w[i], now, T[i], hourglass, modes);
     corners_of(modes, f);
     for (int j = 0; j < 8; ++j) store(state.corner_force[3 * j + i] + first, f[j], n);
     if (keeps)

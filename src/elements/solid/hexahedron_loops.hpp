@@ -40,11 +40,13 @@ struct HexahedronState {
 /// *CONTROL_HOURGLASS or *HOURGLASS, and *CONTROL_BULK_VISCOSITY.
 struct HexahedronControl {
   /// IHQ: 1 viscous on the plain modes Gamma, else on those orthogonal to linear fields, viscous (2, 3) or
-  /// a stiffness (4, 5).
+  /// a stiffness (4, 5), or that of assumed strains (6).
   int hourglass = 2;
   bool stiff() const { return hourglass >= 4; }
   Real QM = 0.1, Q1 = 1.5, Q2 = 0.06;
   Real MU = 0;  ///< dynamic viscosity of a fluid, which the stable step heeds [M/LT]
+  /// Of the material at rest, for IHQ 6: Young's modulus, shear modulus, E/(1 - nu^2) [M/LT2]; nu [-]
+  Real E = 0, G = 0, plate_modulus = 0, nu = 0;
 };
 
 /// What a thread keeps of the block it works on, from one loop to the next.

@@ -14,10 +14,10 @@ namespace courant {
 
 namespace {
 
-constexpr int last_own = 5, assumed_strain = 6;
-constexpr Real most_as_5 = 0.1;
-constexpr Real stable_qm =
-    0.15;  ///< LS-DYNA's advice: above it hourglass forces may make the solids unstable
+constexpr int assumed_strain = 6;
+/// LS-DYNA's advice: above it hourglass forces may make the solids unstable. Assumed strains are those of the
+/// material with 1.
+constexpr Real stable_qm = 0.15, stable_assumed = 1;
 
 class Reader {
  public:
@@ -47,8 +47,8 @@ class Reader {
     else
       take(card, "IHQ", card.ihq, part, out);
     if (card.qm != 0) {
-      out.qm = card.ihq == assumed_strain ? std::min(card.qm, most_as_5) : card.qm;
-      check_coefficient(card, "QM", out.qm);
+      out.qm = card.qm;
+      check_coefficient(card, "QM", out);
     }
     return out;
   }
@@ -57,38 +57,29 @@ class Reader {
   void take_global(const ModelPart& part, SolidViscosity& out) {
     if (!control_) return;
     if (control_->ihq != 0) take(*control_, "IHQ", control_->ihq, part, out);
-    out.qm = control_->ihq == assumed_strain ? std::min(control_->qh, most_as_5) : control_->qh;
-    check_coefficient(*control_, "QH", out.qm);
+    out.qm = control_->qh;
+    check_coefficient(*control_, "QH", out);
   }
 
   void take(const Entry& card, const char* field, int ihq, const ModelPart& part, SolidViscosity& out) {
-    if (ihq > 0 && ihq <= last_own) {
+    if (ihq > 0 && ihq <= assumed_strain)
       out.ihq = ihq;
-    } else if (ihq == assumed_strain) {
-      out.ihq = last_own;
-      if (told_.insert({&card, field}).second)
-        deck_.warning(
-            diagnostics_, card, field,
-            fmt::format("the assumed strains of IHQ 6 are not supported: solids as those of part {} "
-                        "get the stiffness of IHQ 5, with QM 0.1 at most",
-                        part.id),
-            "bending of few elements through the thickness is softer so: refine the mesh");
-    } else if (told_.insert({&card, field}).second) {
+    else if (told_.insert({&card, field}).second)
       deck_.error(diagnostics_, card, field,
                   fmt::format("'{}' is not supported for solids, as those of part {}", ihq, part.id),
-                  "supported values: 0 to 5; 1 to 3 are viscous, 4 and 5 a stiffness; 6 becomes 5");
-    }
+                  "supported values: 0 to 6; 1 to 3 are viscous, 4 and 5 a stiffness, 6 has assumed strains");
   }
 
-  void check_coefficient(const Entry& card, const char* field, Real value) {
-    if (value >= 0 && value <= stable_qm) return;
+  void check_coefficient(const Entry& card, const char* field, const SolidViscosity& of) {
+    const Real value = of.qm, most = of.ihq == assumed_strain ? stable_assumed : stable_qm;
+    if (value >= 0 && value <= most) return;
     if (!told_.insert({&card, field}).second) return;
     if (value < 0)
       deck_.error(diagnostics_, card, field, fmt::format("expected a number >= 0, got '{:g}'", value));
     else
       deck_.warning(diagnostics_, card, field,
                     fmt::format("hourglass control with a coefficient of {:g} may be unstable", value),
-                    fmt::format("keep it at {:g} or below", stable_qm));
+                    fmt::format("keep it at {:g} or below", most));
   }
 
   const Deck& deck_;

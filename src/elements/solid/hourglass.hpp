@@ -8,7 +8,8 @@ namespace courant {
 
 /// Hourglass control and bulk viscosity of the solids of a part.
 struct SolidViscosity {
-  int ihq = 1;     ///< 1 viscous, 2 and 3 Flanagan-Belytschko viscous, 4 and 5 the same as a stiffness
+  /// 1 viscous, 2 and 3 Flanagan-Belytschko viscous, 4 and 5 the same as a stiffness, 6 assumed strains
+  int ihq = 1;
   Real qm = 0.1;   ///< hourglass coefficient
   Real q1 = 1.5;   ///< quadratic bulk viscosity
   Real q2 = 0.06;  ///< linear bulk viscosity

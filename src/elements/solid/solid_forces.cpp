@@ -9,6 +9,7 @@
 #include "elements/largest_frequency.hpp"
 #include "elements/solid/full_points.hpp"
 #include "elements/solid/nodal_pressure.hpp"
+#include "elements/solid/solid_axes.hpp"
 #include "elements/solid/solid_faults.hpp"
 #include "elements/solid/solids.hpp"
 #include "elements/stiffness_damping.hpp"
@@ -47,11 +48,7 @@ class SolidForces : public Material,
             group.fields.add<Real>({.name = "hourglass_energy", .dimension = "ML2/T2", .output = true})),
         bulk_viscosity_(group.fields.add<Real>({.name = "bulk_viscosity_energy", .dimension = "ML2/T2"})),
         viscous_(group.fields.add<Real>({.name = "bulk_viscosity_pressure", .dimension = "M/LT2"})) {
-    control_ = {.hourglass = part.viscosity.ihq,
-                .QM = part.viscosity.qm,
-                .Q1 = part.viscosity.q1,
-                .Q2 = part.viscosity.q2,
-                .MU = law_->viscosity()};
+    control_ = control_of(part);
     for (const HistoryVariable& h : law_->history())
       history_.push_back(&group.fields.add<Real>({.name = h.name,
                                                   .dimension = h.dimension,
@@ -330,8 +327,9 @@ class SolidForces : public Material,
     HexahedronMesh mesh;
     for (std::size_t k = 0; k < 3; ++k) mesh.x[k] = own.x[k].data();
     for (std::size_t c = 0; c < own.corner.size(); ++c) mesh.corner[c] = own.corner[c].data();
-    const HexahedronControl elastic{
-        .hourglass = control_.hourglass, .QM = control_.stiff() ? control_.QM : 0, .Q1 = 0, .Q2 = 0};
+    HexahedronControl elastic = control_;
+    elastic.Q1 = elastic.Q2 = elastic.MU = 0;
+    if (!elastic.stiff()) elastic.QM = 0;
     std::vector<HexahedronLoops::Found> found(found_.size());
     // an equation of state answers a change of volume, which nothing moves for here
     const std::shared_ptr<StrengthLaw> linear =
@@ -392,6 +390,7 @@ class SolidForces : public Material,
     if (full_) full_->reset();
     if (hourglass_force_) hourglass_force_->fill(0);
     group_.corner_force->fill(0);
+    if (law_->axes()) lay_directions(*law_->axes(), group_, mesh_, *history_.front(), full_.get());
   }
 
   /// Pressure and energy of the equation of state at the start.

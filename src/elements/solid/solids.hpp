@@ -33,6 +33,9 @@ struct SolidPart {
 /// formulations, are errors.
 std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
+/// For the loops, of hourglass control, bulk viscosity and the material at rest.
+HexahedronControl control_of(const SolidPart& part);
+
 /// Adds a group of elements for each part with solids, and their masses to world.nodes. `node_of`: the node
 /// of the world of each node of the model.
 void build_solids(const Model& model, const std::vector<SolidPart>& parts, const std::vector<Index>& node_of,

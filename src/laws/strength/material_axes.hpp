@@ -1,5 +1,6 @@
 #pragma once
 // Laws that know directions: how a deck says where they lie, and the fields of the cards that say so.
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,23 +11,35 @@
 
 namespace courant {
 
-/// Where a lies in a shell before it is turned about the normal n by BETA.
+/// Where a lies in a shell before it is turned about the normal n by BETA; where a, b, c lie in a solid.
 struct MaterialAxes {
   enum class Rule {
-    side,    ///< AOPT 0: along side 1-2
-    vector,  ///< AOPT 2, and < 0: along `along`, projected on the shell
-    across,  ///< AOPT 3: along `along` x n
+    side,    ///< AOPT 0: along side 1-2; b in a solid towards node 4
+    vector,  ///< AOPT 2, and < 0: along `along`, projected on the shell; b in a solid towards `beside`
+    across,  ///< AOPT 3: along `along` x n; c in a solid is n, the normal of the middle between its faces
   } rule = Rule::side;
-  Vec along = Vec::Zero();  ///< [-]
-  Real beta = 0;            ///< [degrees]
+  Vec along = Vec::Zero();   ///< [-]
+  Real beta = 0;             ///< [degrees]
+  Vec beside = Vec::Zero();  ///< [-]
 };
 
-/// Whether cards of a keyword tell directions: shells alone can have such a material.
+/// Whether cards of a keyword tell directions.
 bool tells_directions(const std::string& keyword);
 
 /// In the plane of a shell. Nothing where the rule names no direction there.
 /// `n`: its unit normal; `side`: from node 1 to 2.
 bool direction_in_shell(const MaterialAxes& axes, const Vec& n, const Vec& side, Vec& a);
+
+/// In a hexahedron with these corners: unit vectors a, b, c as columns. Nothing where the rule names none.
+bool directions_in_solid(const MaterialAxes& axes, const std::array<Vec, 8>& corner, Matrix& directions);
+
+/// What laws of solids keep first of their directions, since a tensor turns with the body: a a + 2 b b + 3 c
+/// c. Solids lay it at the start.
+inline constexpr const char* material_directions = "material_directions";
+/// xx yy zz xy yz zx. [-]
+std::array<Real, 6> direction_tensor(const Matrix& directions);
+/// Back from it, up to signs; of a tensor that is 0 x, y, z.
+Matrix directions_of_tensor(const std::array<Real, 6>& tensor);
 
 /// Stiffnesses of a sheet in plane stress by its own directions. [M/LT2]
 struct SheetStiffness {
@@ -37,14 +50,16 @@ struct SheetStiffness {
   Real largest(Real G) const;
 };
 
-/// What cards of such laws have alike. Directions d (AOPT 2) and points P serve solids only.
+/// What cards of such laws have alike. Directions d (AOPT 2) serve solids only.
 struct DirectionsCard : Entry {
   Real aopt = 0, xp = 0, yp = 0, zp = 0, a1 = 0, a2 = 0, a3 = 0;
   Real v1 = 0, v2 = 0, v3 = 0, d1 = 0, d2 = 0, d3 = 0;
   /// From valid cards. `angle`: their BETA [degrees].
   MaterialAxes axes(const Model& model, Real angle) const;
-  /// Reports rules that shells do not have, and directions that are missing.
+  /// Reports rules that are not there, and directions that are missing.
   void check_axes(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
+  /// The same for solids.
+  void check_axes_in_solids(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
 };
 
 /// XP YP ZP A1 A2 A3, and V1 V2 V3 D1 D2 D3; a card adds its own last fields.

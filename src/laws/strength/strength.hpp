@@ -49,11 +49,11 @@ class StrengthLaw {
   virtual Real bulk_modulus() const = 0;   ///< at rest; 0 with `deviator_only` [M/LT2]
   virtual Real shear_modulus() const = 0;  ///< at rest [M/LT2]
   /// How the directions a, b lie by which the law tells its rates and stresses (material_axes.hpp); null: it
-  /// has none. Only shells can turn to them.
+  /// has none. Shells turn to them; in solids a law turns itself, by its history `material_directions`.
   virtual const MaterialAxes* axes() const { return nullptr; }
   /// Waves can be faster than at rest, as `sound_speed` of a block tells: shells heed it.
   virtual bool stiffens() const { return false; }
-  /// Whether shells and beams can have it.
+  /// Whether shells and beams can have it; of laws with directions shells alone can, or solids alone.
   virtual bool in_sheets() const { return true; }
   /// Largest stiffness of a sheet in plane stress whose one side is held: E/(1 - nu^2), at rest. [M/LT2]
   virtual Real plane_modulus() const;

@@ -23,7 +23,8 @@ const RegisterKeyword<Hourglass> hourglass{
          {.fields = {
               {"HGID", &Hourglass::hgid, "-", "id that *PART refers to", required_id},
               {"IHQ", &Hourglass::ihq, "-",
-               "1 to 3 viscous, 4 and 5 a stiffness, 0 that of *CONTROL_HOURGLASS"},
+               "1 to 3 viscous, 4 and 5 a stiffness, 6 assumed strains in solids, 0 that of "
+               "*CONTROL_HOURGLASS"},
               {"QM", &Hourglass::qm, "-", "its coefficient; 0: 0.1, with IHQ 0 that of *CONTROL_HOURGLASS"},
               {"IBQ", &Hourglass::ibq, "-", "not used", no_effect},
               {"Q1", &Hourglass::q1, "-",
@@ -39,7 +40,8 @@ const RegisterKeyword<H> control_hourglass{
      .purpose = "hourglass control of elements without an *HOURGLASS; particles and rigid shells have none",
      .once = true,
      .many = false,
-     .cards = {{.fields = {{"IHQ", &H::ihq, "-", "1 to 3 viscous, 0 as 1; 4 and 5 a stiffness"},
+     .cards = {{.fields = {{"IHQ", &H::ihq, "-",
+                            "1 to 3 viscous, 0 as 1; 4 and 5 a stiffness; 6 assumed strains in solids"},
                            {"QH", &H::qh, "-", "coefficient; 0 is the default, write 1.0E-20 for none",
                             or_blank(0.1)}}}}}};
 

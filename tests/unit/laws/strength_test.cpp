@@ -264,7 +264,7 @@ TEST(StrengthRegistry, AClosedCycleOfStrainGivesNoWork) {
       else if (size < 1 || point.history.empty())
         EXPECT_NEAR(work, 0, 1e-10 * most) << kind.keyword;
       else if (law.axes())
-        EXPECT_GE(work, 0) << kind.keyword;  // all of a ply may be gone in the first step
+        EXPECT_GE(work, -1e-10 * most) << kind.keyword;  // all of a ply may be gone, fabric is elastic
       else
         EXPECT_GT(work, 0) << kind.keyword;
     }
