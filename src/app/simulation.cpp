@@ -23,6 +23,7 @@
 #include "extension/additions.hpp"
 #include "loads/idle_parts.hpp"
 #include "loads/loads.hpp"
+#include "loads/sensor_force.hpp"
 #include "loads/sensors.hpp"
 #include "model/build_model.hpp"
 #include "model/mesh/plane_strain.hpp"
@@ -262,8 +263,8 @@ void Simulation::add_rotations() {
   const Points rotations = rotations_of(world_.nodes);
   if (const auto moments = make_moment_assembly(world_)) world_.passes.add(moments);
   if (const auto loads = make_nodal_loads(nodal_loads_, model_, rotations, world_)) world_.passes.add(loads);
-  for (const auto& pass :
-       {make_fixed_points(model_, rotations, world_), make_damping(damping_, rotations, world_)})
+  for (const auto& pass : {make_fixed_points(model_, rotations, world_, measures_supports(deck_)),
+                           make_damping(damping_, rotations, world_)})
     if (pass) world_.passes.add(pass);
   if (model_.phase == RunPhase::relaxation)
     world_.passes.add(make_slow_points(rotations, relaxation_.factor));
@@ -297,7 +298,7 @@ void Simulation::add_loads(const Points& points, const BodyAcceleration& acceler
           : make_body_load(acceleration, points, world_, particles ? neighbours_ : nullptr),
       "body loads", "*LOAD_BODY, *LOAD_GRAVITY_PART");
   add(make_nodal_loads(nodal_loads_, model_, points, world_), "nodal forces", "*LOAD_NODE");
-  add(make_fixed_points(model_, points, world_), "SPC", "*BOUNDARY_SPC");
+  add(make_fixed_points(model_, points, world_, measures_supports(deck_)), "SPC", "*BOUNDARY_SPC");
   add(make_damping(damping_, points, world_), "damping", "*DAMPING");
   if (model_.phase == RunPhase::relaxation) world_.passes.add(make_slow_points(points, relaxation_.factor));
 }
