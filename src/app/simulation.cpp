@@ -15,6 +15,7 @@
 #include "contact/nodes/build.hpp"
 #include "contact/tied/build.hpp"
 #include "elements/beam/cables.hpp"
+#include "elements/beam/discrete_beams.hpp"
 #include "elements/erosion.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "elements/nodal_rotations.hpp"
@@ -129,6 +130,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   shells_ = find_shell_parts(deck_, model_, diagnostics);
   beams_ = find_beam_parts(deck_, model_, diagnostics);
   const std::vector<CablePart> cables = find_cable_parts(deck_, model_, diagnostics);
+  const auto discrete_beams = find_discrete_beam_parts(deck_, model_, diagnostics);
   const auto shell_material = [&](Index part, Index layup) -> std::optional<ShellMaterial> {
     if (const auto m = rigid_material(deck_, model_, part)) return ShellMaterial{m->ro, m->E, m->pr};
     if (!shells_[part].law) return std::nullopt;
@@ -168,6 +170,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     build_beams(model_, beams_, node_of, world_, diagnostics);
     add_beam_passes(model_, beams_, options, world_);
     build_cables(model_, cables, node_of, options, world_, diagnostics);
+    build_discrete_beams(model_, discrete_beams, node_of, options, world_, diagnostics);
     springs_ = build_discrete(deck_, model_, node_of, world_, diagnostics);
     add_inner_faces(options.eroding);
     add_erosion(model_, std::move(options.eroding), world_);
