@@ -23,6 +23,7 @@
 #include "elements/stiffness_damping.hpp"
 #include "extension/additions.hpp"
 #include "loads/idle_parts.hpp"
+#include "loads/interpolation.hpp"
 #include "loads/loads.hpp"
 #include "loads/sensor_force.hpp"
 #include "loads/sensors.hpp"
@@ -202,6 +203,7 @@ void Simulation::add_tied_contacts(Diagnostics& diagnostics) {
   const MassScaling scaling = mass_scaling_of(deck_);
   options.mass_grows = scaling.step > 0 && !scaling.once;
   rules_.share *= courant::add_tied_contacts(deck_, model_, options, world_, diagnostics);
+  rules_.share *= add_interpolations(deck_, model_, model_.tssfac, options.mass_grows, world_, diagnostics);
 }
 
 // Of solids that may fail, where a contact is to go on with what deletion lays bare.
