@@ -34,7 +34,8 @@ std::string bar_with_open_end(int n, int axis, Real length, Real c, const std::s
   for (int k = 0; k <= 100; ++k)
     curve += fmt::format("{},{}\n", T * k / 100, pulse_speed * std::pow(std::sin(pi * k / 100), 2));
   deck.cards += fmt::format(
-      "*BOUNDARY_PRESCRIBED_MOTION_SET\n2,{},0,9\n*DEFINE_CURVE\n9\n{}1e9,0.0\n*CONTROL_BULK_VISCOSITY\n1e-20,"
+      "*BOUNDARY_PRESCRIBED_MOTION_SET\n2,{},0,9\n*DEFINE_CURVE\n9\n{}1e9,0.0\n*CONTROL_BULK_VISCOSITY\n1e-"
+      "20,"
       "1e-20\n",
       axis + 1, curve);
   deck.cards += "*PART\nbar\n1,1,1\n*SECTION_SOLID\n1,1\n*MAT_ELASTIC\n1,1000.0,1.0E9,0.25\n";
