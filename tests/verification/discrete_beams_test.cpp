@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "beam_decks.hpp"
+#include "elements/beam/discrete_beam_law.hpp"
 #include "same_bits.hpp"
 #include "solid_decks.hpp"
 #include "state/shared_fields.hpp"
@@ -248,6 +249,20 @@ TEST(DiscreteBeams, SpringsYield) {
       }
       EXPECT_NEAR(force_of_six(*s, d), side * (7 - 100 * (most - side * u())), 1e-9) << d;
     }
+}
+
+// All of it in one step, over the bend of the curve.
+TEST(DiscreteBeams, SpringsYieldOverBends) {
+  Curve curve;
+  curve.abscissa = {0, 0.1, 1}, curve.ordinate = {5, 7, 7};
+  BeamSpring spring;
+  spring.k = 100, spring.yield = YieldCurve(curve);
+  for (const Real side : {1, -1}) {
+    Real state[SpringLaw::numbers] = {};
+    EXPECT_NEAR(spring.answer({.stretch = 0.3 * side, .rate = 0, .change = 0.3 * side}, state).force,
+                7 * side, 1e-12);
+    EXPECT_NEAR(state[1], 0.3 - 7.0 / 100, 1e-12);
+  }
 }
 
 // The sum of squares of forces, or of displacements, over their limits comes to 1: at 3/4 of u = 0.2, or
