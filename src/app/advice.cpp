@@ -85,6 +85,8 @@ std::string advice(const StopFacts& f) {
     return "elements that are pressed or distorted ask for shorter and shorter steps: lower |DT2MS| of "
            "*CONTROL_TIMESTEP, let elements that collapse be deleted (ERODE, *MAT_ADD_EROSION), or raise "
            "ENDMAS of *CONTROL_TERMINATION if that much mass does not matter";
+  if (f.cause == StopCause::direction)
+    return "name two nodes whose line stays along the wall, or give the direction by D1, D2, D3, which stays";
   std::string text = advice_for_start(f);
   if (text.empty()) text = advice_for_flow(f);
   if (text.empty())

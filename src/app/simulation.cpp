@@ -16,6 +16,7 @@
 #include "contact/nodes/build.hpp"
 #include "contact/tied/build.hpp"
 #include "elements/beam/cables.hpp"
+#include "elements/beam/discrete_beams.hpp"
 #include "elements/erosion.hpp"
 #include "elements/histories/secforc.hpp"
 #include "elements/nodal_assembly.hpp"
@@ -24,7 +25,9 @@
 #include "elements/stiffness_damping.hpp"
 #include "extension/additions.hpp"
 #include "loads/idle_parts.hpp"
+#include "loads/interpolation.hpp"
 #include "loads/loads.hpp"
+#include "loads/sensor_force.hpp"
 #include "loads/sensors.hpp"
 #include "model/build_model.hpp"
 #include "model/mesh/plane_strain.hpp"
@@ -131,6 +134,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   shells_ = find_shell_parts(deck_, model_, diagnostics);
   beams_ = find_beam_parts(deck_, model_, diagnostics);
   const std::vector<CablePart> cables = find_cable_parts(deck_, model_, diagnostics);
+  const auto discrete_beams = find_discrete_beam_parts(deck_, model_, diagnostics);
   const auto shell_material = [&](Index part, Index layup) -> std::optional<ShellMaterial> {
     if (const auto m = rigid_material(deck_, model_, part)) return ShellMaterial{m->ro, m->E, m->pr};
     if (!shells_[part].law) return std::nullopt;
@@ -171,6 +175,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     build_beams(model_, beams_, node_of, world_, diagnostics);
     add_beam_passes(model_, beams_, options, world_);
     build_cables(model_, cables, node_of, options, world_, diagnostics);
+    build_discrete_beams(model_, discrete_beams, node_of, options, world_, diagnostics);
     springs_ = build_discrete(deck_, model_, node_of, world_, diagnostics);
     add_inner_faces(options.eroding);
     add_erosion(model_, std::move(options.eroding), world_);
@@ -202,6 +207,7 @@ void Simulation::add_tied_contacts(Diagnostics& diagnostics) {
   const MassScaling scaling = mass_scaling_of(deck_);
   options.mass_grows = scaling.step > 0 && !scaling.once;
   rules_.share *= courant::add_tied_contacts(deck_, model_, options, world_, diagnostics);
+  rules_.share *= add_interpolations(deck_, model_, model_.tssfac, options.mass_grows, world_, diagnostics);
 }
 
 // Of solids that may fail, where a contact is to go on with what deletion lays bare.
@@ -265,8 +271,8 @@ void Simulation::report_what_needs_particles(Diagnostics& diagnostics) {
 void Simulation::add_rotations() {
   const Points rotations = rotations_of(world_.nodes);
   if (const auto loads = make_nodal_loads(nodal_loads_, model_, rotations, world_)) world_.passes.add(loads);
-  for (const auto& pass :
-       {make_fixed_points(model_, rotations, world_), make_damping(damping_, rotations, world_)})
+  for (const auto& pass : {make_fixed_points(model_, rotations, world_, measures_supports(deck_)),
+                           make_damping(damping_, rotations, world_)})
     if (pass) world_.passes.add(pass);
   if (model_.phase == RunPhase::relaxation)
     world_.passes.add(make_slow_points(rotations, relaxation_.factor));
@@ -300,7 +306,7 @@ void Simulation::add_loads(const Points& points, const BodyAcceleration& acceler
           : make_body_load(acceleration, points, world_, particles ? neighbours_ : nullptr),
       "body loads", "*LOAD_BODY, *LOAD_GRAVITY_PART");
   add(make_nodal_loads(nodal_loads_, model_, points, world_), "nodal forces", "*LOAD_NODE");
-  add(make_fixed_points(model_, points, world_), "SPC", "*BOUNDARY_SPC");
+  add(make_fixed_points(model_, points, world_, measures_supports(deck_)), "SPC", "*BOUNDARY_SPC");
   add(make_damping(damping_, points, world_), "damping", "*DAMPING");
   if (model_.phase == RunPhase::relaxation) world_.passes.add(make_slow_points(points, relaxation_.factor));
 }

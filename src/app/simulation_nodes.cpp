@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 #include "app/simulation.hpp"
 #include "contact/cards.hpp"
@@ -11,6 +13,7 @@
 #include "elements/node_inertias.hpp"
 #include "extension/additions.hpp"
 #include "loads/node_sets.hpp"
+#include "loads/non_reflecting.hpp"
 #include "rigid/build_joints.hpp"
 #include "rigid/joint_stiffness.hpp"
 #include "rigid/time_limit.hpp"
@@ -50,6 +53,13 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
   hold_massless_nodes(diagnostics);
   if (!diagnostics.ok()) return;
   world_.passes.add(make_nodal_assembly(world_));
+  const auto speeds = [this](Index part) -> std::optional<WaveSpeeds> {
+    const auto& law = law_of_elements(part);
+    if (!law) return std::nullopt;
+    return WaveSpeeds{law->ro, sound_speed_of_elements(part), std::sqrt(law->shear_modulus() / law->ro)};
+  };
+  if (const auto dampers = make_non_reflecting(deck_, model_, speeds, world_, diagnostics))
+    world_.passes.add(dampers);
   add_loads(points_of(world_.nodes), BodyAcceleration(model_.body_loads));
   world_.passes.add(make_point_motion(points_of(world_.nodes)));
   world_.passes.add(make_kinetic_energy(points_of(world_.nodes)));

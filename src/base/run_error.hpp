@@ -13,6 +13,7 @@ enum class StopCause {
   element,     ///< an element without volume
   step_size,   ///< below DTMIN, or nothing limits it
   added_mass,  ///< of mass scaling, beyond ENDMAS
+  direction,   ///< one that follows nodes has no meaning any more
   energy,      ///< more than came in, or beyond ENDENG
 };
 

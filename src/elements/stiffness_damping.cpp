@@ -74,6 +74,10 @@ class StiffnessReader {
     if (model_.parts[part].rigid)
       return deck_.warning(diagnostics_, card, "PID",
                            fmt::format("part {} is rigid: damping by stiffness does nothing to it", id));
+    if (!laws_[part] && model_.parts[part].has_beam)
+      return error(card, "PID",
+                   fmt::format("the cables or discrete beams of part {} know no damping by stiffness", id),
+                   "*MAT_066 to _068 have dampers; *DAMPING_PART_MASS or *DAMPING_GLOBAL damp cables");
     if (!laws_[part])
       return error(card, "PID", fmt::format("part {} has no solids, shells or beams that deform", id),
                    "name parts of elements with a material of strength");

@@ -18,7 +18,7 @@ std::array<bool, 3> held_by_deck(const Model& model, Index node, const Points& p
 class FixedPoints : public Constraint, public BoundaryForceReporter {
  public:
   /// `node`: of each point, index into Model::nodes.
-  FixedPoints(const Model& model, std::span<const Index> node, Points points)
+  FixedPoints(const Model& model, std::span<const Index> node, Points points, bool measured)
       : points_(points), fixed_(points.held().add(*points.set)) {
     for (Index i = 0; i < points.set->size(); ++i) {
       const Index n = node[static_cast<std::size_t>(i)];
@@ -28,7 +28,7 @@ class FixedPoints : public Constraint, public BoundaryForceReporter {
       for (int k = 0; k < 3; ++k)  // outside the box, too, where the pass below does not come
         if (fixed_[i] & (1 << k)) points.v->data(k)[i] = 0;
     }
-    if (model.output.spcforc.asked())
+    if (measured || model.output.spcforc.asked())
       support_ =
           points.turns
               ? &shared_fields::support_moment.add(*points.set)
@@ -70,7 +70,8 @@ class FixedPoints : public Constraint, public BoundaryForceReporter {
 
 }  // namespace
 
-std::shared_ptr<Constraint> make_fixed_points(const Model& model, Points points, World& world) {
+std::shared_ptr<Constraint> make_fixed_points(const Model& model, Points points, World& world,
+                                              bool measured) {
   const std::vector<Index> node = model_nodes(model, world, points);
   const auto is_fixed = [&](std::size_t i) {
     if (node[i] < 0 || (points.follow && (*points.follow)[static_cast<Index>(i)])) return false;
@@ -78,7 +79,7 @@ std::shared_ptr<Constraint> make_fixed_points(const Model& model, Points points,
     return fixed[0] || fixed[1] || fixed[2];
   };
   for (std::size_t i = 0; i < node.size(); ++i)
-    if (is_fixed(i)) return std::make_shared<FixedPoints>(model, node, points);
+    if (is_fixed(i)) return std::make_shared<FixedPoints>(model, node, points, measured);
   return nullptr;
 }
 

@@ -30,7 +30,9 @@ std::shared_ptr<Force> make_body_load(BodyAcceleration acceleration, Points poin
                                       std::shared_ptr<Neighbours> neighbours = nullptr);
 
 /// BOUNDARY_SPC and TC of *NODE. nullptr where no point is fixed, or only such as follow a rigid body.
-std::shared_ptr<Constraint> make_fixed_points(const Model& model, Points points, World& world);
+/// `measured`: reactions are reported also where *DATABASE_SPCFORC does not ask.
+std::shared_ptr<Constraint> make_fixed_points(const Model& model, Points points, World& world,
+                                              bool measured = false);
 
 /// What prescribed motions of points have to respect.
 struct MotionLimits {

@@ -7,6 +7,7 @@
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "loads/interpolation.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
 #include "model/definitions/named_curve.hpp"
@@ -80,8 +81,10 @@ class NodalLoadReader {
     is_loaded_.assign(model.nodes.size(), 0);
     for (const ModelSph& s : model.sph) is_loaded_[static_cast<std::size_t>(s.node)] = 1;
     const Nodes& nodes = world.nodes;
+    const std::set<Id> hand_on = interpolated_nodes(deck);
     for (Index i = 0; i < nodes.size(); ++i)
-      if (const auto n = node_of_id_.find(nodes.id[i]); n != node_of_id_.end() && !nodes.follow[i])
+      if (const auto n = node_of_id_.find(nodes.id[i]);
+          n != node_of_id_.end() && (!nodes.follow[i] || hand_on.contains(nodes.id[i])))
         is_loaded_[static_cast<std::size_t>(n->second)] = 1;
     turns_.assign(model.nodes.size(), 0);
     const Field<Index>* none = shared_fields::no_rotation.find(nodes.fields);
@@ -185,9 +188,14 @@ class NodalForces : public Force, public EnergyTerm {
 
   void start(World&, const Clock& clock) override {
     forces_.assign(groups_.size(), Vec::Zero());
+    means_.assign(groups_.size(), Vec::Zero());
     for (std::size_t g = 0; g < groups_.size(); ++g)
-      for (const std::size_t k : groups_[g])
-        forces_[g] += loads_[k].sf * loads_[k].curve(clock.t) * loads_[k].direction;
+      for (const std::size_t k : groups_[g]) {
+        const NodalLoad& load = loads_[k];
+        const Real now = load.curve(clock.t), before = load.curve(clock.t - clock.dt_old);
+        forces_[g] += load.sf * now * load.direction;
+        means_[g] += load.sf * 0.5 * (now + before) * load.direction;
+      }
   }
   void block(World&, const Clock&, Index begin, Index end) override {
     for (Index i = begin; i < end; ++i)
@@ -195,7 +203,13 @@ class NodalForces : public Force, public EnergyTerm {
   }
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
     const MiddleVelocity v(points_, clock);
-    const auto work_on = [&](Index i) { return group_[i] == 0 ? 0 : force(i).dot(v(i)) * clock.dt_mean(); };
+    // what others move has its velocity from them: the work of the step that was
+    const auto work_on = [&](Index i) -> Real {
+      if (group_[i] == 0) return 0;
+      if (!points_.turns && points_.follow && (*points_.follow)[i] != 0)
+        return means_[static_cast<std::size_t>(group_[i])].dot(points_.v->vec(i)) * clock.dt_old;
+      return force(i).dot(v(i)) * clock.dt_mean();
+    };
     const Index n = loaded_points(points_, world);
     ledger.external_work += sum(n, work_on);
     ledger.throughput += sum(n, [&](Index i) { return std::abs(work_on(i)); });
@@ -209,6 +223,7 @@ class NodalForces : public Force, public EnergyTerm {
   Points points_;
   Field<Index>& group_;      ///< of each point
   std::vector<Vec> forces_;  ///< of each group now
+  std::vector<Vec> means_;   ///< of each group over the last step
 };
 
 }  // namespace
@@ -236,7 +251,9 @@ std::shared_ptr<Force> make_nodal_loads(const std::vector<NodalLoad>& loads, con
   std::map<Loads, Index> known{{Loads(), 0}};
   std::vector<Loads> groups{Loads()};
   for (std::size_t i = 0; i < node.size(); ++i) {
-    if (node[i] < 0 || (points.follow && (*points.follow)[static_cast<Index>(i)])) continue;
+    const Index follows = points.follow ? (*points.follow)[static_cast<Index>(i)] : 0;
+    constexpr Index by_body = 1;
+    if (node[i] < 0 || (points.turns ? follows != 0 : follows == by_body)) continue;
     const Loads& mine = loads_of[static_cast<std::size_t>(node[i])];
     const auto [it, is_new] = known.try_emplace(mine, static_cast<Index>(groups.size()));
     if (is_new) groups.push_back(mine);

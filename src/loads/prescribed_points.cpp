@@ -9,7 +9,6 @@
 
 #include "loads/loads.hpp"
 #include "loads/sensors.hpp"
-#include "model/conditions/motion_ids.hpp"
 
 #include "parallel/parallel.hpp"
 #include "state/reports.hpp"
@@ -176,8 +175,7 @@ class PrescribedBuilder {
       return error(motion, "in 2D particles stay in their plane, so nothing moves along z", "use DOF 1 or 2");
     motions_.push_back(motion);
     if (gates_.board)
-      gates_.control.push_back(
-          gates_.board->control_of(SensorControl::Of::motion, motion_id(deck_, motion.card)));
+      gates_.control.push_back(gates_.board->control_of(SensorControl::Of::motion, motion.id));
     for (const Index n : motion.nodes)
       if (!add(motion, n)) return;  // one message for each card
   }

@@ -296,7 +296,7 @@ class SensorReader {
     if (force != forces.end())
       error(card, field,
             fmt::format("sensor {} is a force ({}), by which nothing can be switched", id, force->ftype),
-            "forces of CONTACT, JOINT, RWALL and XSECTION can");
+            "forces of CONTACT, JOINT, PRESC-MOT, RWALL, SPC and XSECTION can");
     else
       error(card, field, fmt::format("sensor {} does not exist", id),
             "define it with *SENSOR_DEFINE_NODE or its like; those of CALC-MATH above it");
@@ -384,8 +384,10 @@ void check_sensors(const Deck& deck, const World& world, Diagnostics& diagnostic
                    "give it one by _ID; tied contacts stay tied");
     for (const Sensor& sensor : board->sensors())
       if (sensor.there && !sensor.there(world))
-        deck.error(diagnostics, sensor.card, "TYPEID", "nothing that exerts such a force has this number",
-                   "give it one by _ID; forces of contacts on particles are not measured");
+        deck.error(
+            diagnostics, sensor.card, "TYPEID", "nothing that exerts such a force has this number",
+            "give it one by _ID; forces of contacts on particles, and of constraints on nodes of rigid "
+            "bodies, are not measured");
   }
 }
 

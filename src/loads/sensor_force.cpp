@@ -17,23 +17,26 @@ namespace {
 
 using ForceSensor = SensorDefineForce;
 IdSpace exerting_space(const ForceSensor& f) {
-  return f.ftype == "CONTACT" ? IdSpace::contact
-         : f.ftype == "JOINT" ? IdSpace::joint
-         : f.ftype == "RWALL" ? IdSpace::rigid_wall
-                              : IdSpace::none;
+  return f.ftype == "CONTACT"                         ? IdSpace::contact
+         : f.ftype == "JOINT"                         ? IdSpace::joint
+         : f.ftype == "RWALL"                         ? IdSpace::rigid_wall
+         : f.ftype == "SPC" || f.ftype == "PRESC-MOT" ? IdSpace::boundary
+                                                      : IdSpace::none;
 }
 const RegisterKeyword<ForceSensor> sensor_define_force{
     {.names = {"SENSOR_DEFINE_FORCE"},
-     .purpose =
-         "force of a contact between elements, of a force transducer, a joint, a rigid wall or a cross "
-         "section, for switches; other forces are read, and switches that ask for one are refused",
+     .purpose = "force of a contact between elements, of a force transducer, a joint, a rigid wall, a cross "
+                "section, "
+                "a constraint or a prescribed motion, for switches; other forces are read, and switches that "
+                "ask for one are refused",
      .title_option = true,
      .title = &ForceSensor::title,
      .cards = {
          {.fields = {{"SENSID", &ForceSensor::sensid, "-", "id that switches refer to", rules::required_id},
                      {"FTYPE", &ForceSensor::ftype, "-",
                       "CONTACT: on SURFA; JOINT: on its second body; RWALL: on the wall, in the step before; "
-                      "XSECTION: of *DATABASE_CROSS_SECTION"},
+                      "XSECTION: of *DATABASE_CROSS_SECTION; SPC, PRESC-MOT: by which a *BOUNDARY_SPC or "
+                      "_PRESCRIBED_MOTION acts on all that it holds or drives"},
                      {"TYPEID",
                       &ForceSensor::typeid_,
                       "-",
@@ -41,8 +44,9 @@ const RegisterKeyword<ForceSensor> sensor_define_force{
                       {.check = Check::not_negative},
                       exerting_space},
                      {"VID", &ForceSensor::vid, "-",
-                      "X, Y, Z, or a vector; M, blank or 0: the magnitude. Of joints and cross sections also "
-                      "XMOMENT, YMOMENT, ZMOMENT, MMOMENT"},
+                      "X, Y, Z, or a vector; M, blank or 0: the magnitude. Except of contacts and walls also "
+                      "XMOMENT, YMOMENT, ZMOMENT, MMOMENT: of SPC and PRESC-MOT the sum of moments, without "
+                      "those of the forces"},
                      {"CRD", &ForceSensor::crd, "-", "system that turns with a node", unsupported}}}}}};
 
 std::vector<JointForce> forces_of_joint(const World& world, Id id) {

@@ -15,6 +15,9 @@ struct SensorDefineForce : Entry {
   int crd = 0;
 };
 
+/// Whether a sensor asks for forces of *BOUNDARY_SPC.
+bool measures_supports(const Deck& deck);
+
 /// Of a force and a moment one component, or the magnitude of one.
 struct SensorAxis {
   Vec along = Vec::Zero();  ///< 0: the magnitude

@@ -49,7 +49,8 @@ Vec OrthoFriction::force(const Vec& n, const Vec& slip, Real normal, Real m, Rea
   if (!(along.norm() > least_sine * d.norm()))
     throw RunError(
         "the direction of friction between NODE1 and NODE2 of a *RIGIDWALL_PLANAR_ORTHO is normal "
-        "to the wall");
+        "to the wall",
+        StopCause::direction);
   const Vec a = along.normalized(), b = n.cross(a);
   const Pair u{slip.dot(a), slip.dot(b)}, mu = coefficients(slip.norm());
   const Real speed = std::hypot(u[0], u[1]);

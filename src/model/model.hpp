@@ -86,7 +86,9 @@ struct ModelBeam {
   Index third = -1;                ///< N3, -1: none
   Vec direction = Vec::Zero();     ///< of _ORIENTATION, 0: none
   std::array<Real, 5> measures{};  ///< of _THICKNESS; 0: of the section
-  Entry card;                      ///< the ELEMENT_BEAM card, for messages
+  std::array<int, 4> released{};   ///< RT1, RR1, RT2, RR2, as TC of *NODE; of local axes if LOCAL is 2
+  bool released_globally = false;
+  Entry card;  ///< the ELEMENT_BEAM card, for messages
 };
 
 /// *ELEMENT_INERTIA: mass and inertia on a node.

@@ -33,14 +33,52 @@ std::optional<MatRigid> material_of(const Deck& deck, const Model& model, Index 
   return switched_material(deck, model, part);
 }
 
-void read_constraints(const Deck& deck, const MatRigid& m, RigidBody& body, Diagnostics& diagnostics) {
+/// CMO -1: CON1 is a system, the six digits of CON2 hold translations and rotations along its axes. Bodies
+/// are held along global ones: that works as long as each held axis is along one of them, or all three are
+/// held.
+void read_local_constraints(const Deck& deck, const Model& model, const MatRigid& m, RigidBody& body,
+                            Diagnostics& diagnostics) {
+  const auto error = [&](const char* field, std::string message, const char* hint) {
+    deck.error(diagnostics, m, field, std::move(message), hint);
+  };
+  const auto system = model.coordinate_systems.find(static_cast<Id>(m.con1));
+  if (m.con1 != std::floor(m.con1) || system == model.coordinate_systems.end())
+    return error("CON1", fmt::format("coordinate system {:g} does not exist", m.con1),
+                 "with CMO = -1 it names a *DEFINE_COORDINATE_SYSTEM");
+  if (system->second.moves)
+    return error("CON1", fmt::format("system {:g} turns with nodes", m.con1), "give one that stays");
+  const std::string digits = fmt::format("{:06g}", m.con2);
+  if (digits.size() != 6 || digits.find_first_not_of("01") != std::string::npos)
+    return error("CON2", fmt::format("expected six digits 0 or 1, got '{:g}'", m.con2),
+                 "with CMO = -1: 110001 holds translations along x and y, and rotations about z");
+  constexpr Real along = 1 - 1e-9;  // cosine
+  for (std::size_t first : {0, 3}) {
+    auto& held = first == 0 ? body.held : body.no_turn;
+    if (digits.substr(first, 3) == "111") held = {true, true, true};
+    for (std::size_t k = 0; k < 3 && held != std::array{true, true, true}; ++k) {
+      if (digits[first + k] == '0') continue;
+      Eigen::Index nearest = 0;
+      if (system->second.axes.col(static_cast<Eigen::Index>(k)).cwiseAbs().maxCoeff(&nearest) < along)
+        return error(
+            "CON1",
+            fmt::format("constraints along axes of system {:g}, which are not along global ones, are "
+                        "not supported",
+                        m.con1),
+            "hold all three axes, or use a system along the global axes");
+      held[static_cast<std::size_t>(nearest)] = true;
+    }
+  }
+}
+
+void read_constraints(const Deck& deck, const Model& model, const MatRigid& m, RigidBody& body,
+                      Diagnostics& diagnostics) {
   if (!(m.pr < 0.5))
     deck.error(diagnostics, m, "PR", fmt::format("expected a number < 0.5, got '{:g}'", m.pr),
                "the contact stiffness is E / (3 (1 - 2 PR)); 0.3 is steel");
   if (m.cmo == 0) return;  // CON1 and CON2 have no meaning then
+  if (m.cmo == -1) return read_local_constraints(deck, model, m, body, diagnostics);
   if (m.cmo != 1) {
-    deck.error(diagnostics, m, "CMO",
-               fmt::format("'{:g}' (a constraint along local axes or of a point) is not supported", m.cmo),
+    deck.error(diagnostics, m, "CMO", fmt::format("'{:g}' (a constraint of a point) is not supported", m.cmo),
                "use CMO = 1 with CON1 and CON2 along the global axes");
     return;
   }
@@ -97,7 +135,7 @@ class Builder {
     b.part_index = part, b.parts = merges_.group(part);
     b.c2 = m.ro > 0 ? m.E / m.ro : 0;
     Diagnostics told_before;
-    read_constraints(deck_, m, b, checked_.insert(m.mid).second ? diagnostics_ : told_before);
+    read_constraints(deck_, model_, m, b, checked_.insert(m.mid).second ? diagnostics_ : told_before);
     std::set<Index> nodes;
     for (const ModelShell& shell : model_.shells)
       if (shell.part == part)

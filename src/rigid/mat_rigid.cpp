@@ -33,6 +33,9 @@ std::string move_constraints(M& m, const Affine& motion) {
 std::string convert_system(M& m, const Conversion& conversion) {
   if (Vec(m.v1, m.v2, m.v3) == Vec::Zero() && m.lco == std::floor(m.lco) && std::abs(m.lco) < 1e15)
     m.lco = static_cast<Real>(conversion.offsets.shifted(IdSpace::coordinate_system, static_cast<Id>(m.lco)));
+  if (m.cmo == -1 && m.con1 == std::floor(m.con1))
+    m.con1 =
+        static_cast<Real>(conversion.offsets.shifted(IdSpace::coordinate_system, static_cast<Id>(m.con1)));
   return {};
 }
 
@@ -55,22 +58,34 @@ const RegisterKeyword<M> mat_rigid{
                       {"COUPLE", &M::couple, "-", "coupling with other codes", {.honour = no}},
                       {"M", &M::m, "-", "coupling with other codes", {.honour = no}},
                       {"ALIAS", &M::alias, "-", "coupling with other codes", {.honour = no}}}},
-          {.fields =
-               {{"CMO", &M::cmo, "-", "0 free, 1 constrained along the global axes", {}},
-                {"CON1", &M::con1, "-", "held translations: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 all", {}},
-                {"CON2", &M::con2, "-", "held rotations: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 all", {}},
-                {"SPCNID",
-                 &M::spcnid,
-                 "-",
-                 "node of a point constraint",
-                 {.honour = no, .refers = IdSpace::node}},
-                {"XSPC",
-                 &M::xspc,
-                 "L",
-                 "point of a point constraint",
-                 {.honour = no, .spatial = Spatial::point}},
-                {"YSPC", &M::yspc, "L", "point of a point constraint", {.honour = no}},
-                {"ZSPC", &M::zspc, "L", "point of a point constraint", {.honour = no}}},
+          {.fields = {{"CMO",
+                       &M::cmo,
+                       "-",
+                       "0 free, 1 held along global axes, -1 along those of a system, as far as they are "
+                       "global, too",
+                       {}},
+                      {"CON1",
+                       &M::con1,
+                       "-",
+                       "held translations: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 all; CMO -1: the system",
+                       {}},
+                      {"CON2",
+                       &M::con2,
+                       "-",
+                       "held rotations alike; CMO -1: six digits, 1 holds x, y, z, about x, y, z",
+                       {}},
+                      {"SPCNID",
+                       &M::spcnid,
+                       "-",
+                       "node of a point constraint",
+                       {.honour = no, .refers = IdSpace::node}},
+                      {"XSPC",
+                       &M::xspc,
+                       "L",
+                       "point of a point constraint",
+                       {.honour = no, .spatial = Spatial::point}},
+                      {"YSPC", &M::yspc, "L", "point of a point constraint", {.honour = no}},
+                      {"ZSPC", &M::zspc, "L", "point of a point constraint", {.honour = no}}},
            .optional = true},
           {.fields = {{"LCO",
                        &M::lco,

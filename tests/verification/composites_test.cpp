@@ -87,6 +87,23 @@ TEST(Composites, AnglesAndDirectionsSayTheSame) {
   }
 }
 
+// A mirror x -> -x turns the normal round, and the sense of an angle about it: BETA stays, and the material
+// lies as its mirror image, 30 degrees from -x.
+TEST(Composites, MirroredShellsKeepTheirAngle) {
+  const Eigen::Matrix3d expected = 0.01 * turned_stiffness(-30);
+  const std::string plain = "*PART\nplate\n1,1,7\n*SECTION_SHELL\n1,2,1.0,3\n0.01\n", none = "0.0,0.0,0.0";
+  for (const std::string& material :
+       {orthotropic(7, "0.0", none, none, 30), orthotropic(7, "3.0", none, "-0.5,-0.8660254037844386,0.0"),
+        orthotropic(7, "3.0", none, "0.0,-1.0,0.0", 30)}) {
+    ShellDeck deck = one_shell(plain + material);
+    for (Vec& x : deck.nodes) x[0] = -x[0];
+    const auto found = measured_stiffness(deck.text(1));
+    for (int mode = 0; mode < 3; ++mode)
+      for (int k = 0; k < 2; ++k)  // what is along the axes has no sign to lose
+        EXPECT_NEAR(found(k, mode), expected(k, mode), 1e-5 * expected.norm()) << material << mode;
+  }
+}
+
 namespace {
 
 /// A shell with a strip's freedom is pulled along x until its end has moved by `way`; the force over the

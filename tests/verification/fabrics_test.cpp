@@ -42,7 +42,8 @@ Real fabric_force(Simulation& s, int n, int axis) {
   const BlockSums& sums = *s.world().groups[0]->sums;
   Real sum = 0;
   for (std::size_t p = 0; p < sums.nodes().size(); ++p)
-    if (sums.nodes()[p] >= n * (n + 1)) sum -= sums.force.vec(static_cast<Index>(p))[axis];  // of the last row
+    if (sums.nodes()[p] >= n * (n + 1))
+      sum -= sums.force.vec(static_cast<Index>(p))[axis];  // of the last row
   return sum / 0.01;
 }
 

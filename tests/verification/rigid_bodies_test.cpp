@@ -174,3 +174,28 @@ TEST(RigidBodyCards, ADeformablePartMayBeRigidFromTheStart) {
   EXPECT_NEAR((b.x - Vec(0.1, 0.2, 0.3) - s->clock().t * Vec(1, 2, 3)).norm(), 0, 1e-12);
   EXPECT_NEAR(b.omega[0], 0.5, 1e-12);
 }
+
+// CMO -1: along a system whose x is y, whose y is -x, and about whose z: the same as 4 (xy) and 3 (z) with
+// CMO 1.
+TEST(RigidBodies, HeldAlongASystem) {
+  const auto places = [](const std::string& line) {
+    auto s = test::simulation_of(
+        "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*PART\nplate\n1,1,1\n*SECTION_SHELL\n1,2\n0.01\n*MAT_RIGID\n1,"
+        "1000.0,"
+        "1.0E9,0.3\n" +
+        line +
+        "*DEFINE_COORDINATE_SYSTEM\n4,0.0,0.0,0.0,0.0,1.0,0.0\n-1.0,0.0,0.0\n"
+        "*NODE\n1,0.0,0.0,0.0\n2,1.0,0.0,0.0\n3,1.0,1.0,0.0\n4,0.0,1.0,0.0\n*ELEMENT_SHELL\n"
+        "       1       1       1       2       3       "
+        "4\n*INITIAL_VELOCITY_GENERATION\n1,2,3.0,1.0,2.0,3.0\n"
+        "0.0,0.0,0.0,0.3,0.5,1.0\n*END\n");
+    while (s->clock().t < 0.2) s->step(test::do_nothing);
+    std::vector<Vec> out;
+    for (Index n = 0; n < 4; ++n) out.push_back(s->world().nodes.x.vec(n));
+    return out;
+  };
+  EXPECT_TRUE(places("-1.0,4.0,110001\n") == places("1.0,4.0,3.0\n"));
+  EXPECT_TRUE(places("-1.0,4.0,010000\n") == places("1.0,1.0,0.0\n"));
+  EXPECT_TRUE(places("-1.0,4.0,000100\n") == places("1.0,0.0,2.0\n"));
+  EXPECT_FALSE(places("-1.0,4.0,000100\n") == places("1.0,0.0,1.0\n"));
+}

@@ -206,7 +206,7 @@ TEST(SensorElements, AreRefusedByName) {
          "'blank' is not supported");
   expect(measure("ELEMENT\n1,DISC-ELE,7,,FORCE", "1.0"), "nothing that exerts such a force has this number");
   expect(measure("FORCE\n1,RWALL,7,X", "1.0"), "nothing that exerts such a force has this number");
-  expect(measure("FORCE\n1,SPC,7,X", "1.0"), "by which nothing can be switched");
+  expect(measure("FORCE\n1,AIRBAG,7,X", "1.0"), "by which nothing can be switched");
 }
 
 // The force of the wall is that of the step before, also over a restart.

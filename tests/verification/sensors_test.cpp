@@ -250,3 +250,95 @@ TEST(Sensors, OfForcesHaveTheSameBitsOnThreadsAndAfterARestart) {
   for (; s->clock().t < 0.012; ++steps) s->step(do_nothing);
   for (const Real part : {0.5, 0.7, 0.9}) test::expect_same_bits(deck, steps, static_cast<int>(part * steps));
 }
+
+namespace {
+
+/// What sensor 1 measures, and what the histories show of boundaries, at the same time.
+struct MeasuredBoundary {
+  Real sensor = 0;
+  Sample sample{};
+};
+MeasuredBoundary measure_boundary(Simulation& s) {
+  MeasuredBoundary out;
+  s.step([&](World& world, const Clock& clock, const std::string& who) {
+    out.sensor = world.passes.all<SensorBoard>().front()->sensors().front().value(world, clock);
+    out.sample = s.sample(who);
+  });
+  return out;
+}
+
+}  // namespace
+
+// A plate hangs in its held edge while its weight grows: both are what spcforc prints of its nodes, the sum
+// is m g where the plate is held alone.
+TEST(Sensors, ForceOfConstraintsIsThatOfSpcforc) {
+  const auto deck = [](const std::string& vid) {
+    ShellDeck deck;
+    deck.plate(1, 1, 2, 2, 1);
+    deck.part(1, 0.01, "*MAT_ELASTIC\n1,1000.0,1.0E9,0.3\n");
+    deck.node_set(1, [](const Vec& x) { return x[0] < 0.1; });
+    deck.node_set(2, [](const Vec& x) { return x[0] > 0.9; });
+    deck.cards +=
+        "*BOUNDARY_SPC_SET_ID\n         4edge\n1,0,0,0,1,0,1,0\n         5other\n2,0,0,0,1\n"
+        "*BOUNDARY_SPC_SET\n1,0,1,1\n2,0,1,1\n" +
+        growing_weight +
+        fmt::format(
+            "*SENSOR_DEFINE_FORCE\n1,SPC,4,{}\n*SENSOR_SWITCH\n8,SENSOR,1,GT,10.0\n"
+            "*TERMINATION_SENSOR\n8\n",
+            vid);
+    return deck.text(1);
+  };
+  for (const std::string vid : {"Z", "M", "YMOMENT"}) {
+    auto s = simulation_of(deck(vid));
+    while (s->clock().t < 0.02) s->step(do_nothing);
+    const MeasuredBoundary now = measure_boundary(*s);
+    Vec force = Vec::Zero(), moment = Vec::Zero();
+    Real all = 0;
+    const Nodes& nodes = s->world().nodes;
+    for (const BoundaryForce& one : now.sample.boundary_forces) {
+      const auto n = static_cast<Index>(std::find(nodes.id.data(), nodes.id.data() + nodes.size(), one.id) -
+                                        nodes.id.data());
+      all += one.force[2];
+      if (nodes.x.data(0)[n] > 0.1) continue;
+      force[2] += one.force[2], moment[1] += one.moment[1];
+    }
+    const Real expected = vid == "YMOMENT" ? moment[1] : force[2];
+    EXPECT_GT(std::abs(expected), 1e-3) << vid;
+    EXPECT_NEAR(now.sensor, vid == "M" ? std::abs(expected) : expected, 1e-12 * std::abs(expected)) << vid;
+    EXPECT_GT(all, force[2]);
+  }
+}
+
+// m times 50 m/s2 of 10 kg of nodes, what bndout prints; the other direction, driven by another card, does
+// not count.
+TEST(Sensors, ForceOfMotionsIsThatOfBndout) {
+  for (const std::string vid : {"Z", "0", "X"}) {
+    auto s =
+        simulation_of(moved_plate("*BOUNDARY_PRESCRIBED_MOTION_SET_ID\n        31side\n1,1,0,9,0.5\n"
+                                  "*SENSOR_DEFINE_FORCE\n1,PRESC-MOT,30," +
+                                  vid +
+                                  "\n*SENSOR_SWITCH\n8,SENSOR,1,GT,1e9\n"
+                                  "*TERMINATION_SENSOR\n8\n"));
+    while (s->clock().t < 0.01) s->step(do_nothing);
+    const MeasuredBoundary now = measure_boundary(*s);
+    Real z = 0;
+    for (const BoundaryForce& one : now.sample.boundary_forces) z += one.force[2];
+    EXPECT_NEAR(z, 10 * acceleration, 1e-3 * 10 * acceleration);
+    EXPECT_NEAR(now.sensor, vid == "X" ? 0 : z, 1e-9 * z) << vid;
+  }
+}
+
+// A rigid body of 3 kg is driven along z: m a, as bndout's.
+TEST(Sensors, ForceOfMotionsOfBodies) {
+  test::JointDeck deck;
+  const int body = deck.body({.x = Vec(0, 0, -1), .m = 3});
+  deck.more = fmt::format(
+      "*BOUNDARY_PRESCRIBED_MOTION_RIGID_ID\n        30lift\n{},3,0,9\n*DEFINE_CURVE\n9\n0.0,0.0\n1.0,{}\n"
+      "*SENSOR_DEFINE_FORCE\n1,PRESC-MOT,30,Z\n*SENSOR_SWITCH\n8,SENSOR,1,GT,1e9\n*TERMINATION_SENSOR\n8\n",
+      body, acceleration);
+  auto s = simulation_of(deck.text(1));
+  while (s->clock().t < 0.1) s->step(do_nothing);
+  const MeasuredBoundary now = measure_boundary(*s);
+  EXPECT_NEAR(now.sensor, 3 * acceleration, 1e-6 * 3 * acceleration);
+  EXPECT_NEAR(now.sensor, now.sample.boundary_forces.at(0).force[2], 1e-9);
+}

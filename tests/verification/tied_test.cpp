@@ -490,7 +490,7 @@ TEST(TiebreakContact, BreaksAtTheGivenStress) {
   EXPECT_NEAR(pulled.most, 1e4, 300);
   RecordProperty("stress", fmt::format("{:.1f}", pulled.most));
   EXPECT_EQ(pulled.broken, 25);
-  EXPECT_LT(pulled.after, 10);  // rims that swing side by side
+  EXPECT_LT(pulled.after, 10);           // rims that swing side by side
   EXPECT_LT(pulled.energy_error, 4e-3);  // it falls with the step: what is torn swings freely
   const Torn pushed = tear(by_option, 3, -4e-4);
   EXPECT_EQ(pushed.broken, 0);

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Geometry>
-
-#include "base/rotation.hpp"
 #include "base/run_error.hpp"
+#include "elements/beam/beam_frame.hpp"
 #include "elements/beam/beams.hpp"
 #include "elements/beam/elastic_beam.hpp"
 #include "elements/element_report.hpp"
@@ -23,27 +21,6 @@ namespace courant {
 namespace {
 
 using Quaternion = Eigen::Quaterniond;
-/// Axis times angle, up to pi, of q.
-Vec rotation_vector(Quaternion q) {
-  if (q.w() < 0) q.coeffs() = -q.coeffs();
-  const Real n = q.vec().norm();
-  return n > 0 ? Vec(2 * std::atan2(n, q.w()) / n * q.vec()) : Vec(2 * q.vec());
-}
-
-/// Where a beam lies: r from end to end, s halfway between those of the ends.
-struct BeamFrame {
-  Real length;
-  Matrix axes;
-};
-BeamFrame frame_of(const Vec& between, const Matrix& end1, const Matrix& end2) {
-  BeamFrame out{between.norm(), Matrix::Identity()};
-  const Vec r = between / out.length;
-  Vec s = end1.col(1) + end2.col(1);
-  s = (s - s.dot(r) * r).normalized();
-  out.axes.col(0) = r, out.axes.col(1) = s, out.axes.col(2) = r.cross(s);
-  return out;
-}
-
 /// Beams of a part: they turn with their ends and nodes as far as these are rigid, and what is left deforms
 /// them. Theory: docs/theory.md.
 class BeamForces : public Material,
@@ -304,14 +281,15 @@ class BeamForces : public Material,
       frame.length = between.norm();
       frame.axes.col(0) = between / frame.length;
     } else {
-      std::array<Quaternion, 2> q;
-      for (int c = 0; c < 2; ++c) {
-        q[at(c)] = turned_by(clock.dt_old * w_->vec(group_.node.data(c)[e]), end_of(e, c));
-        put_end(e, c, q[at(c)]);
-      }
-      frame = frame_of(between, q[0].toRotationMatrix(), q[1].toRotationMatrix());
-      const Quaternion back = Quaternion(frame.axes).conjugate();
-      const Vec turn1 = rotation_vector(back * q[0]), turn2 = rotation_vector(back * q[1]);
+      std::array<Quaternion, 2> ends{end_of(e, 0), end_of(e, 1)};
+      std::array<Vec, 2> angle;
+      for (int c = 0; c < 2; ++c) angle[at(c)] = clock.dt_old * w_->vec(group_.node.data(c)[e]);
+      const BeamReleases* const releases = part_.releases.empty() ? nullptr : &part_.releases[at(e)];
+      const TurnedEnds turned = releases && releases->any() ? turn_ends(between, angle, *releases, ends)
+                                                            : turn_ends(between, angle, ends);
+      for (int c = 0; c < 2; ++c) put_end(e, c, ends[at(c)]);
+      frame = turned.frame;
+      const auto& [turn1, turn2] = turned.turn;
       now[twist] = turn2[0] - turn1[0];
       // s is the mean of both ends': beyond half a turn of twist it would point the other way
       folded_[at(e)] = turn1.norm() > most_turn || turn2.norm() > most_turn ||
@@ -322,7 +300,10 @@ class BeamForces : public Material,
   }
 
   Six resultants(Index e, const Six& d) const {
-    return resultant_end_forces({E_, G_, start_[e]}, part_.measures[at(e)], d);
+    const ElasticBeam beam{E_, G_, start_[e]};
+    return part_.releases.empty()
+               ? resultant_end_forces(beam, part_.measures[at(e)], d)
+               : released_end_forces(beam, part_.measures[at(e)], part_.releases[at(e)], d);
   }
 
   /// Stress at the points of the section in the middle of the beam, and its resultants.

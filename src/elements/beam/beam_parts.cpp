@@ -11,6 +11,7 @@
 #include "elements/beam/integration_beam.hpp"
 #include "elements/beam/section_beam.hpp"
 #include "elements/beam/standard_section.hpp"
+#include "model/transforms/transformation.hpp"
 
 namespace courant {
 
@@ -81,7 +82,7 @@ class BeamReader {
                                part.secid, deck_.found_instead(IdSpace::section, part.secid)),
                    "");
     const SectionBeam& s = *section->second;
-    if (s.used() == 6 || !check_section(s) || !whole_) return false;  // cables are read elsewhere
+    if (s.used() == 6 || !check_section(s) || !whole_) return false;  // discrete beams are read elsewhere
     out.kind = s.used() == 1 ? BeamKind::integrated : s.used() == 2 ? BeamKind::resultant : BeamKind::truss;
     out.part = static_cast<Index>(index), out.nsm = s.nsm;
     const auto law = laws_.find(part.mid);
@@ -304,11 +305,40 @@ class BeamReader {
     return std::nullopt;
   }
 
+  /// RT1 to RR2; nothing, and an error, where they are not supported.
+  std::optional<BeamReleases> releases_of(const ModelBeam& beam, bool resultant) {
+    constexpr std::array fields{"RT1", "RR1", "RT2", "RR2"};
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      const int code = beam.released[k];
+      if (code == 0) continue;
+      const bool slides_across = k % 2 == 0 && code != 1;
+      if (resultant && !slides_across && !beam.released_globally) continue;
+      error(beam.card, fields[k],
+            !resultant ? fmt::format("the ends of beam {} cannot be released", beam.id)
+            : slides_across
+                ? fmt::format("'{}' is not supported: beam {} would slide across its line", code, beam.id)
+                : fmt::format("beam {} is released along or about global axes (LOCAL 1)", beam.id),
+            !resultant      ? "only beams with ELFORM 2 or 13 have releases"
+            : slides_across ? "1, along r, is supported"
+                            : "give LOCAL 2, the axes of the beam");
+      return std::nullopt;
+    }
+    BeamReleases out;
+    out.pull = beam.released[0] != 0 || beam.released[2] != 0;
+    out.turns = {axes_of_code(beam.released[1]), axes_of_code(beam.released[3])};
+    return out;
+  }
+
   void add(const ModelBeam& beam, const SectionBeam& s, BeamPart& out) {
     const auto m = measures_of(beam, s, out.kind);
-    if (!m) return;
+    const auto releases = releases_of(beam, out.kind == BeamKind::resultant);
+    if (!m || !releases) return;
     const auto x = [&](Index n) { return model_.nodes[static_cast<std::size_t>(n)].x; };
-    const Vec r = (x(beam.node[1]) - x(beam.node[0])).normalized();
+    const Vec between = x(beam.node[1]) - x(beam.node[0]), r = between.normalized();
+    if (!(between.norm() > 0)) {
+      error(beam.card, "N2", fmt::format("beam {} has no length", beam.id), "");
+      return;
+    }
     Vec s_axis = beam.direction.norm() > 0 ? beam.direction
                  : beam.third >= 0         ? Vec(x(beam.third) - x(beam.node[0]))
                                            : Vec(Vec::Zero());
@@ -316,7 +346,8 @@ class BeamReader {
     s_axis -= s_axis.dot(r) * r;
     constexpr Real sliver = 1e-6, same = 1e-9;
     if (!(s_axis.norm() > sliver * asked)) {
-      if (out.kind != BeamKind::truss && (m->coupled || std::abs(m->Iss - m->Itt) > same * m->Iss)) {
+      if (out.kind != BeamKind::truss &&
+          (m->coupled || std::abs(m->Iss - m->Itt) > same * m->Iss || releases->tell_axes())) {
         error(beam.card, "N3", fmt::format("beam {} has no direction of its axis s", beam.id),
               "give it a third node off the line from N1 to N2, or a direction by _ORIENTATION");
         return;
@@ -327,6 +358,8 @@ class BeamReader {
     }
     Matrix axes;
     axes.col(0) = r, axes.col(1) = s_axis.normalized(), axes.col(2) = r.cross(Vec(axes.col(1)));
+    if (releases->any()) out.releases.resize(out.beams.size());
+    if (releases->any() || !out.releases.empty()) out.releases.push_back(*releases);
     out.beams.push_back(&beam), out.measures.push_back(*m), out.axes.push_back(axes);
   }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "elements/beam/beam_frame.hpp"
 #include "elements/beam/weld.hpp"
 #include "elements/erosion.hpp"
 #include "laws/strength/strength.hpp"
@@ -42,9 +43,10 @@ struct BeamPart {
   std::vector<SectionPoint> points{};
   std::vector<const ModelBeam*> beams{};
   std::vector<BeamMeasures> measures{};
-  std::vector<Matrix> axes{};          ///< r, s, t at the start, as columns
-  Real nsm = 0;                        ///< mass per length besides that of the law [M/L]
-  std::optional<WeldStrength> weld{};  ///< of ELFORM 9
+  std::vector<BeamReleases> releases{};  ///< empty: none
+  std::vector<Matrix> axes{};            ///< r, s, t at the start, as columns
+  Real nsm = 0;                          ///< mass per length besides that of the law [M/L]
+  std::optional<WeldStrength> weld{};    ///< of ELFORM 9
   ElementGroup* group = nullptr;
 };
 

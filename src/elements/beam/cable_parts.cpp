@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "elements/beam/cables.hpp"
+#include "elements/beam/discrete_beam_law.hpp"
 #include "elements/beam/mat_cable.hpp"
 #include "elements/beam/section_beam.hpp"
 #include "model/conditions/relaxation.hpp"
@@ -31,12 +32,15 @@ class CableReader {
     const auto* section = card_with_id(deck_, &SectionBeam::secid, part.secid);
     if (!section || section->used() != 6 || part.rigid) return;
     const auto* card = card_with_id(deck_, &MatCableDiscreteBeam::mid, part.mid);
+    if (!card && is_discrete_beam_material(deck_, part.mid)) return;  // read elsewhere
     if (!card)
       return error(
           part.card, "MID",
-          fmt::format("the beams of part {} with ELFORM 6 need a *MAT_CABLE_DISCRETE_BEAM with id {}; {}",
+          fmt::format("the beams of part {} with ELFORM 6 need a material of discrete beams with id {}; {}",
                       part.id, part.mid, deck_.found_instead(IdSpace::material, part.mid)),
-          "other materials of discrete beams are not supported; *ELEMENT_DISCRETE has springs and dampers");
+          "*MAT_CABLE_DISCRETE_BEAM, *MAT_LINEAR_ELASTIC_DISCRETE_BEAM, "
+          "*MAT_NONLINEAR_ELASTIC_DISCRETE_BEAM, "
+          "*MAT_NONLINEAR_PLASTIC_DISCRETE_BEAM");
     const auto law = law_of(*card);
     if (!law) return;
     warn_of_section(*section);
@@ -104,6 +108,12 @@ class CableReader {
           "has no effect on cables, which turn nothing: nodes that they share with shells and beams "
           "turn as without them",
           "leave it blank");
+    if (s.scoor != 0 || s.cid != 0 || s.rrcon != 0 || s.srcon != 0 || s.trcon != 0)
+      deck_.warning(diagnostics_, s,
+                    s.scoor != 0 ? "SCOOR"
+                    : s.cid != 0 ? "CID"
+                                 : "RRCON",
+                    "has no effect on cables, which have no axes", "leave it blank");
     if (s.rule < 0 || s.cst == 2)
       deck_.warning(diagnostics_, s, s.rule < 0 ? "QR/IRID" : "CST", "has no effect on cables",
                     "a rule of *INTEGRATION_BEAM is for ELFORM 1");
@@ -112,6 +122,11 @@ class CableReader {
   }
 
   void add(const ModelBeam& beam, const SectionBeam& s, const MatCableDiscreteBeam& card, CablePart& out) {
+    for (std::size_t k = 0; k < beam.released.size(); ++k)
+      if (beam.released[k] != 0)
+        return error(beam.card, std::array{"RT1", "RR1", "RT2", "RR2"}[k],
+                     fmt::format("the ends of cable {} cannot be released", beam.id),
+                     "cables transmit their pull alone: leave the field blank");
     const auto own = [&](std::size_t k, Real of_section) {
       return beam.measures[k] != 0 ? beam.measures[k] : of_section;
     };
@@ -122,6 +137,8 @@ class CableReader {
     if (by_area && !(area > 0))
       return error(s, "CA", fmt::format("cable {} has no area, which its stiffness is made of", beam.id),
                    "give CA here, or PARM4 of *ELEMENT_BEAM_THICKNESS");
+    if (!(length > 0))
+      return error(beam.card, "N2", fmt::format("cable {} has no length", beam.id), "move one of its nodes");
     if (!(rest > 0))
       return error(
           s, "OFFSET",

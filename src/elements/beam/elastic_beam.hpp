@@ -20,6 +20,10 @@ struct ElasticBeam {
 /// Linear in elongation, twist and rotations of the ends, of the beam of Euler and Bernoulli, or with a shear
 /// area of Timoshenko. docs/theory.md
 Six resultant_end_forces(const ElasticBeam& beam, const BeamMeasures& m, const Six& d);
+/// The same where no moment passes hinges, and no pull an end that slides: the ends of the beam turn and move
+/// there as they would alone.
+Six released_end_forces(const ElasticBeam& beam, const BeamMeasures& m, const BeamReleases& releases,
+                        const Six& d);
 /// The same of a beam with points in the section of its middle, or a truss.
 Six integrated_end_forces(const ElasticBeam& beam, const BeamPart& part, const BeamMeasures& m, const Six& d);
 

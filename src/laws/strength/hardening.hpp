@@ -3,6 +3,7 @@
 
 #include "base/straight_pieces.hpp"
 #include "keyword/deck.hpp"
+#include "model/model.hpp"
 
 namespace courant {
 
@@ -32,15 +33,21 @@ struct Hardening {
   }
 };
 
-inline constexpr const char* falls_too_fast =
-    "the yield stress falls faster than 3 G: stress has no unique answer";
+/// How steep the yield stress may fall over plastic strain so that stress has one answer.
+struct SteepestFall {
+  Real slope;            ///< < 0: not reached [M/LT2]
+  const char* too_fast;  ///< why a steeper one is refused
+};
+/// In solids and particles 3 G. Where stresses vanish, what is left answers more softly: in shells E/(2 (1 -
+/// nu)), of equal pulls along two axes (plane_return.hpp: dq/dm against dq/de), in beams E.
+SteepestFall steepest_fall_in_solids(Real G);
+SteepestFall steepest_fall(const Model& model, Id mid, Real E, Real nu);
 
 /// Takes away the blank fields behind the last point of a table of EPS and ES.
 void drop_blank_points(Hardening& table);
 
-/// Reports what is wrong with the points of such a table, of which there is at least one. G: shear modulus
-/// [M/LT2].
-void check_points(const Deck& deck, const Entry& card, const Hardening& points, Real G,
+/// Reports what is wrong with the points of such a table, of which there is at least one.
+void check_points(const Deck& deck, const Entry& card, const Hardening& points, const SteepestFall& fall,
                   Diagnostics& diagnostics);
 
 }  // namespace courant

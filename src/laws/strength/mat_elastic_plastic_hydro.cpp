@@ -101,7 +101,8 @@ struct MatElasticPlasticHydro : Entry {
       deck.error(diagnostics, *this, "SPALL", fmt::format("expected 1, 2 or 3, got '{:g}'", spall),
                  "1 limits the pressure, 2 and 3 spall");
     const Hardening points = table();
-    if (!points.strain.empty()) return check_points(deck, *this, points, G, diagnostics);
+    if (!points.strain.empty())
+      return check_points(deck, *this, points, steepest_fall_in_solids(G), diagnostics);
     if (!(sigy > 0))
       deck.error(diagnostics, *this, "SIGY", fmt::format("expected a number > 0, got '{:g}'", sigy),
                  "the yield stress comes from SIGY and EH, or from the table of EPS and ES");

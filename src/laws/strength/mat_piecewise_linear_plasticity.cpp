@@ -139,8 +139,8 @@ void M::check_curve(const Deck& deck, const Model& model, Id id, Diagnostics& di
     if (!(points.strain[k] > points.strain[k - 1]))
       return fail(fmt::format("curve {} jumps at plastic strain {:g}", id, points.strain[k]),
                   "plastic strains increase from point to point");
-    if (!(points.slope(k - 1) > -3 * E / (2 * (1 + pr))))
-      return fail(fmt::format("curve {} behind point {}: {}", id, k, falls_too_fast), "");
+    if (const SteepestFall fall = steepest_fall(model, mid, E, pr); !(points.slope(k - 1) > fall.slope))
+      return fail(fmt::format("curve {} behind point {}: {}", id, k, fall.too_fast), "");
   }
   if (points.strain.front() != 0)
     deck.warning(diagnostics, *this, "LCSS",
@@ -169,7 +169,7 @@ void M::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) co
   expect(pr < 0.5, "PR", "a number < 0.5", pr, "a material that keeps its volume has no finite bulk modulus");
   expect(fail >= 0, "FAIL", "a number >= 0", fail, "failure by a subroutine of one's own is not supported");
   if (const Hardening points = table(); lcss == 0 && !points.strain.empty()) {
-    check_points(deck, *this, points, E / (2 * (1 + pr)), diagnostics);
+    check_points(deck, *this, points, steepest_fall(model, mid, E, pr), diagnostics);
   } else if (lcss == 0) {
     expect(sigy > 0, "SIGY", "a number > 0", sigy,
            "the yield stress comes from LCSS, from the table of EPS and ES, or from SIGY and ETAN");

@@ -167,7 +167,7 @@ class Reader {
     motion.birth = card.birth;
     motion.death = card.death;
     motion.nodes = std::move(nodes);
-    motion.part = part, motion.body = body;
+    motion.part = part, motion.body = body, motion.id = card.entry_id;
     motion.card = card;
     if (card.dof == along_vector) {
       if (!set_vector(card, motion)) return;
@@ -221,16 +221,6 @@ class Reader {
 };
 
 }  // namespace
-
-Id motion_id(const Deck& deck, const Entry& card) {
-  Id found = 0;
-  const auto look = [&](const auto& cards) {
-    for (const auto& one : cards)
-      if (one.keyword == card.keyword && one.file == card.file && one.line == card.line) found = one.entry_id;
-  };
-  look(deck.all<MotionOfNode>()), look(deck.all<MotionOfSet>());
-  return found;
-}
 
 bool has_motion_of_nodes(const Deck& deck, Id id) {
   const auto among = [&](const auto& cards) {

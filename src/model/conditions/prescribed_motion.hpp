@@ -20,6 +20,7 @@ struct PrescribedMotion {
   Real sf = 1;                   ///< factor of the values
   Real birth = 0, death = 1e28;  ///< [T]
   std::vector<Index> nodes;      ///< _NODE and _SET: indices into Model::nodes
+  Id id = 0;                     ///< its number, by _ID; 0: none
   Id body = 0;                   ///< _RIGID: a part or a body of nodes; 0: none
   Index part = -1;               ///< index of that part into Model::parts; -1: a body of nodes, or not there
   Entry card;                    ///< for messages

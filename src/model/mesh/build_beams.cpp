@@ -16,7 +16,7 @@ using Beam = ElementBeamCard;
 constexpr FieldRules beam_id{.required = true, .check = Check::positive, .width = 8};
 constexpr FieldRules end_node{
     .required = true, .check = Check::positive, .width = 8, .refers = IdSpace::node};
-constexpr FieldRules release_of_end{.honour = Honour::no, .width = 8};
+constexpr FieldRules release_of_end{.allowed = {0, 1, 2, 3, 4, 5, 6, 7}, .width = 8};
 constexpr FieldRules measure_of_beam{.check = Check::not_negative, .width = 16};
 
 /// Lengths, areas or moments of area, as the section has it.
@@ -45,18 +45,20 @@ const RegisterKeyword<Beam> element_beam{
                        "-",
                        "node in the plane of the local axes r (from N1 to N2) and s",
                        {.check = Check::not_negative, .width = 8, .refers = IdSpace::node}},
-                      {"RT1", &Beam::rt1, "-", "released translations at end 1", release_of_end},
-                      {"RR1", &Beam::rr1, "-", "released rotations at end 1", release_of_end},
-                      {"RT2", &Beam::rt2, "-", "released translations at end 2", release_of_end},
-                      {"RR2", &Beam::rr2, "-", "released rotations at end 2", release_of_end},
+                      {"RT1", &Beam::rt1, "-",
+                       "1: slides along r at end 1; 2 to 7, along other axes, are refused", release_of_end},
+                      {"RR1", &Beam::rr1, "-",
+                       "hinge at end 1 of ELFORM 2: 1 r, 2 s, 3 t, 4 rs, 5 st, 6 tr, 7 all", release_of_end},
+                      {"RT2", &Beam::rt2, "-", "the same at end 2", release_of_end},
+                      {"RR2", &Beam::rr2, "-", "the same at end 2", release_of_end},
                       {"LOCAL",
                        &Beam::local,
                        "-",
-                       "system of the releases",
-                       {.standard = 2, .honour = Honour::ignored, .width = 8}}}},
-          {.fields = {{"PARM1", &Beam::parm1, "-", "TS1, or A; of cables VOL", measure_of_beam},
-                      {"PARM2", &Beam::parm2, "-", "TS2, or ISS; of cables INER", measure_of_beam},
-                      {"PARM3", &Beam::parm3, "-", "TT1, or ITT; of cables CID", measure_of_beam},
+                       "system of releases: 2 local; 1, global, is refused with one",
+                       {.standard = 2, .allowed = {0, 1, 2}, .width = 8}}}},
+          {.fields = {{"PARM1", &Beam::parm1, "-", "TS1, or A; of discrete beams VOL", measure_of_beam},
+                      {"PARM2", &Beam::parm2, "-", "TS2, or ISS; of discrete beams INER", measure_of_beam},
+                      {"PARM3", &Beam::parm3, "-", "TT1, or ITT; of discrete beams CID", measure_of_beam},
                       {"PARM4", &Beam::parm4, "-", "TT2, or J; of cables CA", measure_of_beam},
                       {"PARM5", &Beam::parm5, "-", "SA; of cables OFFSET", {.width = 16}}},
            .when = [](const Beam& b) { return b.has_thickness(); }},
@@ -81,6 +83,7 @@ void ModelBuilder::build_beams() {
     if (card.n3 != 0) beam.third = node(card, "N3", card.n3);
     beam.direction = Vec(card.vx, card.vy, card.vz);
     if (card.has_thickness()) beam.measures = {card.parm1, card.parm2, card.parm3, card.parm4, card.parm5};
+    beam.released = {card.rt1, card.rr1, card.rt2, card.rr2}, beam.released_globally = card.local == 1;
     if (beam.part < 0 || beam.node[0] < 0 || beam.node[1] < 0) continue;
     ModelPart& p = model_.parts[static_cast<std::size_t>(beam.part)];
     if ((p.has_sph || p.has_shell || p.has_solid) && !p.has_beam)
@@ -97,8 +100,6 @@ void ModelBuilder::check_beams() {
   if (!model_.beams.empty())
     for (const ModelSph& s : model_.sph) particle[static_cast<std::size_t>(s.node)] = true;
   for (const ModelBeam& beam : model_.beams) {
-    const auto x = [&](std::size_t k) { return model_.nodes[static_cast<std::size_t>(beam.node[k])].x; };
-    if (!((x(1) - x(0)).norm() > 0)) error(beam.card, "N2", fmt::format("beam {} has no length", beam.id));
     for (const Index n : beam.node)
       if (particle[static_cast<std::size_t>(n)])
         error(beam.card, "N1",

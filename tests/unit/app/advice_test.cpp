@@ -31,6 +31,12 @@ TEST(Advice, WithoutACauseTheStepSize) {
   expect_hint(sound(), "lower TSSFAC of *CONTROL_TIMESTEP (now 0.9)");
 }
 
+TEST(Advice, DirectionsThatFollowNodesAreNamed) {
+  StopFacts f = sound();
+  f.cause = StopCause::direction;
+  expect_hint(f, "name two nodes whose line stays along the wall");
+}
+
 TEST(Advice, TooMuchAddedMassIsNoMatterOfSpeeds) {
   StopFacts f = sound();
   f.cause = StopCause::added_mass, f.dt_set_by = "solid 3 of part 2";

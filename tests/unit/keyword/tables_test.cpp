@@ -22,6 +22,8 @@ const std::map<std::string, const char*> plain_numbers = {
     {"INCLUDE_TRANSFORM IDDOFF", "an offset"},
     {"INCLUDE_TRANSFORM IDROFF", "an offset"},
     {"COURANT_LITERAL_PENALTY CID", "an id, or a number among contacts without"},
+    {"CONSTRAINED_INTERPOLATION ICID", "a number among interpolations"},
+    {"CONSTRAINED_INTERPOLATION IDOF", "digits of degrees of freedom"},
     {"CONTROL_TERMINATION ENDCYC", "a number of steps, which may be large"},
     {"INTEGRATION_BEAM IRID", "a number among rules"},
     {"INTEGRATION_SHELL IRID", "a number among rules"},

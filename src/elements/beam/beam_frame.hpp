@@ -1,0 +1,41 @@
+#pragma once
+// Where a beam lies, and how its ends turn against it.
+#include <array>
+
+#include <Eigen/Geometry>
+
+#include "base/real.hpp"
+
+namespace courant {
+
+/// r from end to end, s halfway between those of the ends.
+struct BeamFrame {
+  Real length = 0;  ///< [L]
+  Matrix axes = Matrix::Identity();
+};
+
+/// RT1 to RR2 of *ELEMENT_BEAM, along and about r, s, t of the beam.
+struct BeamReleases {
+  bool pull = false;                           ///< slides along r
+  std::array<std::array<bool, 3>, 2> turns{};  ///< of end 1 and 2, about r, s, t: hinges
+  bool twist() const { return turns[0][0] || turns[1][0]; }
+  /// Whether bending is released about one of s and t alone, which then have to be known.
+  bool tell_axes() const { return turns[0][1] != turns[0][2] || turns[1][1] != turns[1][2]; }
+  bool any() const { return pull || turns != std::array<std::array<bool, 3>, 2>{}; }
+};
+
+struct TurnedEnds {
+  BeamFrame frame;
+  std::array<Vec, 2> turn;  ///< of the ends against the frame, axis times angle, along r, s, t [-]
+};
+
+/// `ends`: orientations at t^{n-1}, turned with their nodes by `angle` (global axes) on return. `between`:
+/// from end to end now.
+TurnedEnds turn_ends(const Vec& between, const std::array<Vec, 2>& angle,
+                     std::array<Eigen::Quaterniond, 2>& ends);
+/// The same where ends turn without their nodes: about released axes they stay with the beam, about r with
+/// the other end.
+TurnedEnds turn_ends(const Vec& between, const std::array<Vec, 2>& angle, const BeamReleases& releases,
+                     std::array<Eigen::Quaterniond, 2>& ends);
+
+}  // namespace courant

@@ -1,0 +1,436 @@
+// *CONSTRAINED_INTERPOLATION.
+#include "loads/interpolation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "base/rotation.hpp"
+#include "extension/additions.hpp"
+#include "keyword/common_rules.hpp"
+#include "keyword/registry.hpp"
+#include "state/points.hpp"
+#include "state/shared_fields.hpp"
+#include "state/step_share.hpp"
+
+namespace courant {
+
+namespace {
+
+struct ConstrainedInterpolation : Entry {
+  Id icid = 0, dnid = 0, cidd = 0;
+  int ddof = 123456, ityp = 0, idnsw = 0, fgm = 0;
+  std::vector<Id> inid{};
+  std::vector<Id> idof{};
+  std::vector<Real> twghtx{}, twghty{}, twghtz{}, rwghtx{}, rwghty{}, rwghtz{};
+};
+using CI = ConstrainedInterpolation;
+
+IdSpace independent_space(const CI& card) {
+  return card.ityp == 1 ? IdSpace::node_set : IdSpace::node;
+}
+const FieldRules weight_of_node{.check = Check::not_negative};
+
+const RegisterKeyword<CI> constrained_interpolation{
+    {.names = {"CONSTRAINED_INTERPOLATION"},
+     .purpose = "node that goes and turns with the weighted mean of others, which bear what it bears",
+     .many = false,
+     .cards = {
+         {.fields = {{"ICID", &CI::icid, "-", "number", {.check = Check::not_negative}},
+                     {"DNID", &CI::dnid, "-", "dependent node", rules::required_id_of(IdSpace::node)},
+                     {"DDOF",
+                      &CI::ddof,
+                      "-",
+                      "123: it does not turn with the others; 123456: it does",
+                      {.standard = 123456, .allowed = {123, 123456}}},
+                     {"CIDD",
+                      &CI::cidd,
+                      "-",
+                      "system of the degrees of freedom",
+                      {.honour = Honour::no, .refers = IdSpace::coordinate_system}},
+                     {"ITYP", &CI::ityp, "-", "INID is 0 a node, 1 a node set", {.allowed = {0, 1}}},
+                     {"IDNSW", &CI::idnsw, "-", "what happens where nodes are deleted", unsupported},
+                     {"FGM", &CI::fgm, "-", "of implicit runs", no_effect}}},
+         {.fields = {{"INID", &CI::inid, "-", "independent node or set", rules::required_id,
+                      independent_space},
+                     {"IDOF",
+                      &CI::idof,
+                      "-",
+                      "123, or 123456 (also blank) where the nodes do not turn: only their places count",
+                      {.standard = 123456, .allowed = {123, 123456}}},
+                     {"TWGHTX", &CI::twghtx, "-", "weight of each node, 0: 1", rules::or_blank(1)},
+                     {"TWGHTY", &CI::twghty, "-", "the same along y; 0 or TWGHTX", weight_of_node},
+                     {"TWGHTZ", &CI::twghtz, "-", "the same along z; 0 or TWGHTX", weight_of_node},
+                     {"RWGHTX", &CI::rwghtx, "-", "weights of rotations", no_effect},
+                     {"RWGHTY", &CI::rwghty, "-", "the same", no_effect},
+                     {"RWGHTZ", &CI::rwghtz, "-", "the same", no_effect}},
+          .repeat = true}}}};
+
+/// Nodes are indices into World::nodes.
+struct Interpolation {
+  Index node = -1;
+  bool turns = false;  ///< its rotation follows, too
+  std::vector<Index> of{};
+  std::vector<Real> weight{};  ///< of each, with the sum 1
+};
+
+/// Centre and second moment of the independent nodes, by weight: sum w r, sum w (r^2 - r r).
+struct Cloud {
+  Vec centre = Vec::Zero();
+  Matrix J = Matrix::Zero();
+};
+template <class Place>
+Cloud cloud_of(const Interpolation& i, const Place& place) {
+  Cloud out;
+  for (std::size_t k = 0; k < i.of.size(); ++k) out.centre += i.weight[k] * place(i.of[k]);
+  for (std::size_t k = 0; k < i.of.size(); ++k) {
+    const Vec r = place(i.of[k]) - out.centre;
+    out.J += i.weight[k] * (r.squaredNorm() * Matrix::Identity() - r * r.transpose());
+  }
+  return out;
+}
+
+/// Hands force and moment of the dependent node to the independent ones: w (F + theta x r), theta = J^-1
+/// (M + (x - c) x F), so that both sums are kept.
+class InterpolationForces : public Constraint {
+ public:
+  InterpolationForces(std::vector<Interpolation> all, World& world)
+      : all_(std::move(all)),
+        moment_(shared_fields::moment.find(world.nodes.fields)),
+        part_of_(static_cast<std::size_t>(world.nodes.size())) {
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      for (std::size_t k = 0; k < all_[i].of.size(); ++k)
+        part_of_[static_cast<std::size_t>(all_[i].of[k])].push_back({i, all_[i].weight[k]});
+  }
+  std::string name() const override { return "interpolated nodes"; }
+  const FieldSet& over(const World& world) const override { return world.nodes.fields; }
+  void declare(const World& world, Accesses& a) const override {
+    a.in_start().reads_before(world.nodes.f, Reach::others).reads(world.nodes.x, Reach::others);
+    if (moment_) a.reads_before(*moment_, Reach::others);
+    a.in_block().updates(world.nodes.f).reads(world.nodes.x);
+  }
+  void start(World& world, const Clock&) override {
+    loads_.clear();
+    for (const Interpolation& i : all_) {
+      const Cloud cloud = cloud_of(i, [&](Index n) { return world.nodes.x.vec(n); });
+      const Vec force = world.nodes.f.vec(i.node), arm = world.nodes.x.vec(i.node) - cloud.centre;
+      Vec moment = arm.cross(force);
+      if (moment_ && i.turns) moment += moment_->vec(i.node);
+      loads_.push_back({cloud.centre, force, cloud.J.inverse() * moment});
+    }
+  }
+  void block(World& world, const Clock&, Index begin, Index end) override {
+    for (Index n = begin; n < end; ++n)
+      for (const Share& share : part_of_[static_cast<std::size_t>(n)]) {
+        const Load& load = loads_[share.of];
+        const Vec r = world.nodes.x.vec(n) - load.centre;
+        world.nodes.f.add(n, share.weight * (load.force + load.theta.cross(r)));
+      }
+  }
+
+ private:
+  struct Share {
+    std::size_t of;
+    Real weight;
+  };
+  struct Load {
+    Vec centre, force, theta;
+  };
+  std::vector<Interpolation> all_;
+  const Field<Real>* moment_;  ///< null: nothing turns
+  std::vector<std::vector<Share>> part_of_;
+  std::vector<Load> loads_;
+};
+
+/// The mean velocity and spin of the independent nodes over the step move the dependent one, which a motion
+/// of all as one keeps in its place exactly.
+class InterpolationMotion : public Motion {
+ public:
+  InterpolationMotion(std::vector<Interpolation> all, World& world)
+      : all_(std::move(all)),
+        angle_(shared_fields::rotation.find(world.nodes.fields)),
+        speed_(shared_fields::angular_velocity.find(world.nodes.fields)) {}
+  std::string name() const override { return "interpolated nodes (motion)"; }
+  const FieldSet& over(const World& world) const override { return world.nodes.fields; }
+  void declare(const World& world, Accesses& a) const override {
+    a.in_finish().revises(world.nodes.x).revises(world.nodes.v);
+    if (speed_) a.revises(*angle_).revises(*speed_);
+  }
+  void block(World&, const Clock&, Index, Index) override {}
+  void finish(World& world, const Clock& clock) override {
+    Nodes& nodes = world.nodes;
+    const Real dt = clock.dt;
+    for (const Interpolation& i : all_) {
+      const Cloud cloud =
+          cloud_of(i, [&](Index n) { return Vec(nodes.x.vec(n) - 0.5 * dt * nodes.v.vec(n)); });
+      Vec velocity = Vec::Zero(), spin = Vec::Zero();
+      for (std::size_t k = 0; k < i.of.size(); ++k) velocity += i.weight[k] * nodes.v.vec(i.of[k]);
+      for (std::size_t k = 0; k < i.of.size(); ++k) {
+        const Vec v = nodes.v.vec(i.of[k]), r = nodes.x.vec(i.of[k]) - 0.5 * dt * v - cloud.centre;
+        spin += i.weight[k] * r.cross(v);
+      }
+      // of chords: 2 tan(angle/2) over dt
+      const Vec chord = cloud.J.inverse() * spin;
+      const Real half = 0.5 * dt * chord.norm();
+      const Vec turn = half > 0 ? Vec(2 * std::atan(half) / half * 0.5 * dt * chord) : Vec(Vec::Zero());
+      const Vec old = nodes.x.vec(i.node), arm = old - (cloud.centre - 0.5 * dt * velocity);
+      const Vec now =
+          cloud.centre + 0.5 * dt * velocity + turned_by(turn, Eigen::Quaterniond::Identity()) * arm;
+      if (dt > 0) nodes.v.set(i.node, (now - old) / dt);
+      nodes.x.set(i.node, now);
+      if (!speed_ || !i.turns || !(dt > 0)) continue;
+      speed_->set(i.node, turn / dt);
+      angle_->add(i.node, turn);
+    }
+  }
+
+ private:
+  std::vector<Interpolation> all_;
+  Field<Real>*angle_, *speed_;  ///< null: nothing turns
+};
+
+class InterpolationBuilder {
+ public:
+  InterpolationBuilder(const Deck& deck, const Model& model, bool mass_grows, World& world,
+                       Diagnostics& diagnostics)
+      : deck_(deck), model_(model), mass_grows_(mass_grows), world_(world), diagnostics_(diagnostics) {
+    for (Index n = 0; n < world.nodes.size(); ++n) world_node_[world.nodes.id[n]] = n;
+    for (std::size_t n = 0; n < model.nodes.size(); ++n)
+      model_node_[model.nodes[n].id] = static_cast<Index>(n);
+  }
+
+  void add(const CI& card) {
+    if (mass_grows_)
+      return error(card, "DNID", "it is not supported beside mass scaling (DT2MS < 0)",
+                   "leave DT2MS of *CONTROL_TIMESTEP blank");
+    Interpolation out;
+    const ModelNode* node = find(card, "DNID", card.dnid, out.node);
+    if (!node || !check_dependent(card, *node, out)) return;
+    std::map<Index, Real> weights;
+    for (std::size_t k = 0; k < card.inid.size(); ++k)
+      if (!read_independent(card, k, weights)) return;
+    Real sum = 0;
+    for (const auto& [n, weight] : weights) sum += weight;
+    for (const auto& [n, weight] : weights)
+      if (weight > 0) out.of.push_back(n), out.weight.push_back(weight / sum);
+    if (!spans(out))
+      return error(card, "INID", "the independent nodes lie on one line, and do not tell how the node turns",
+                   "name three or more that span a plane");
+    all_.push_back(std::move(out));
+  }
+
+  /// What is left of the step.
+  Real finish(Real tssfac) {
+    Real growth = 1;
+    for (const Interpolation& i : all_) {
+      start(i);
+      growth = std::max(growth, growth_of(i));
+    }
+    world_.passes.add(std::make_shared<InterpolationForces>(all_, world_));
+    world_.passes.add(std::make_shared<InterpolationMotion>(all_, world_));
+    const Real share = step_share(tssfac, growth);
+    if (share < 1)
+      diagnostics_.warning(
+          {deck_.files[0].name},
+          fmt::format("*CONSTRAINED_INTERPOLATION: dependent nodes give way more easily than "
+                      "by their own mass; {:.3g} of the step of elements is taken",
+                      share),
+          "spread the independent nodes further, around the dependent one");
+    return share;
+  }
+  bool any() const { return !all_.empty(); }
+
+ private:
+  void error(const CI& card, const char* field, std::string message, std::string hint) {
+    deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
+  }
+
+  const ModelNode* find(const CI& card, const char* field, Id id, Index& out) {
+    const auto known = model_node_.find(id);
+    const auto found = world_node_.find(id);
+    if (known == model_node_.end())
+      error(card, field, fmt::format("node {} does not exist", id), "define it with *NODE");
+    else if (found == world_node_.end())
+      error(card, field, fmt::format("node {} belongs to no element", id),
+            "name nodes of solids, shells and beams");
+    else if (world_.nodes.follow[found->second] != 0)
+      error(card, field,
+            fmt::format("node {} goes with a rigid body, a face to which it is tied, or others", id),
+            "name nodes that move by their forces");
+    else
+      return out = found->second, &model_.nodes[static_cast<std::size_t>(known->second)];
+    return nullptr;
+  }
+
+  bool check_dependent(const CI& card, const ModelNode& node, Interpolation& out) {
+    const auto turns = model_.held_rotations.find(static_cast<Index>(&node - model_.nodes.data()));
+    const bool held = node.fixed[0] || node.fixed[1] || node.fixed[2] ||
+                      (card.ddof != 123 && turns != model_.held_rotations.end());
+    const bool twice = !taken_.insert(out.node).second;
+    out.turns = card.ddof != 123 && has_rotations(world_.nodes);
+    if (!held && !twice) return true;
+    error(card, "DNID",
+          fmt::format("node {} is {}", node.id,
+                      held ? "held by *BOUNDARY_SPC, TC or RC" : "dependent already, on other nodes"),
+          held ? "hold the independent nodes" : "name all of them in one keyword");
+    return false;
+  }
+
+  bool read_independent(const CI& card, std::size_t k, std::map<Index, Real>& weights) {
+    const Real w = card.twghtx[k] != 0 ? card.twghtx[k] : 1;
+    for (const auto& [field, other] :
+         {std::pair("TWGHTY", card.twghty[k]), std::pair("TWGHTZ", card.twghtz[k])})
+      if (other != 0 && other != w) {
+        error(card, field, fmt::format("'{:g}' differs from TWGHTX", other),
+              "one weight for all axes: leave it 0");
+        return false;
+      }
+    if (!(w > 0)) {
+      error(card, "TWGHTX", fmt::format("expected a number > 0, got '{:g}'", w), "leave the node out");
+      return false;
+    }
+    std::vector<Id> ids;
+    if (card.ityp == 0) {
+      ids = {card.inid[k]};
+    } else if (const auto set = model_.node_sets.find(card.inid[k]); set != model_.node_sets.end()) {
+      for (const Index n : set->second) ids.push_back(model_.nodes[static_cast<std::size_t>(n)].id);
+    } else {
+      error(card, "INID", fmt::format("node set {} does not exist", card.inid[k]),
+            "define it with *SET_NODE");
+      return false;
+    }
+    for (const Id id : ids)
+      if (!add_independent(card, id, card.idof[k] != 123, w, weights)) return false;
+    return true;
+  }
+
+  bool add_independent(const CI& card, Id id, bool turning, Real w, std::map<Index, Real>& weights) {
+    Index n = -1;
+    if (interpolated_nodes(deck_).contains(id)) {
+      error(card, "INID", fmt::format("node {} depends on others itself", id), "name those instead");
+      return false;
+    }
+    if (!find(card, "INID", id, n)) return false;
+    const auto* inertia = shared_fields::rotary_inertia.find(world_.nodes.fields);
+    if (turning && inertia && (*inertia)[n] > 0) {
+      error(card, "IDOF", fmt::format("node {} turns, and its rotation would count", id),
+            "give IDOF 123: only places of independent nodes count here");
+      return false;
+    }
+    if (!(world_.nodes.m[n] > 0)) {
+      error(card, "INID", fmt::format("node {} has no mass", id), "name nodes of elements");
+      return false;
+    }
+    weights[n] += w;
+    return true;
+  }
+
+  bool spans(const Interpolation& i) const {
+    if (i.of.empty()) return false;
+    const Cloud cloud = cloud_of(i, [&](Index n) { return world_.nodes.x.vec(n); });
+    const Eigen::SelfAdjointEigenSolver<Matrix> own(cloud.J, Eigen::EigenvaluesOnly);
+    constexpr Real thin = 1e-6;
+    return own.eigenvalues()[0] > thin * own.eigenvalues()[2];
+  }
+
+  /// The independent nodes get mass and momentum of the dependent one.
+  void start(const Interpolation& i) {
+    Nodes& nodes = world_.nodes;
+    const Real mass = nodes.m[i.node];
+    const Vec momentum = mass * nodes.v.vec(i.node);
+    const Cloud cloud = cloud_of(i, [&](Index n) { return nodes.x.vec(n); });
+    Vec velocity = Vec::Zero(), spin = Vec::Zero();
+    for (std::size_t k = 0; k < i.of.size(); ++k) {
+      const Index n = i.of[k];
+      const Real more = i.weight[k] * mass;
+      nodes.v.set(n, (nodes.m[n] * nodes.v.vec(n) + i.weight[k] * momentum) / (nodes.m[n] + more));
+      nodes.m[n] += more;
+      velocity += i.weight[k] * nodes.v.vec(n);
+      spin += i.weight[k] * (nodes.x.vec(n) - cloud.centre).cross(nodes.v.vec(n));
+    }
+    const Vec omega = cloud.J.inverse() * spin;
+    nodes.v.set(i.node, velocity + omega.cross(nodes.x.vec(i.node) - cloud.centre));
+    nodes.follow[i.node] = 2;  // not 1: no rigid body moves it
+    if (!i.turns) return;
+    (*shared_fields::no_rotation.find(nodes.fields))[i.node] = 1;
+    shared_fields::angular_velocity.find(nodes.fields)->set(i.node, omega);
+  }
+
+  /// By how much the largest frequency of elements on the dependent node may grow: forces and moments on it
+  /// give it up to the square of that times the acceleration that its own mass and inertia would.
+  Real growth_of(const Interpolation& i) const {
+    const Nodes& nodes = world_.nodes;
+    const Real mass = nodes.m[i.node];
+    const Real inertia = i.turns ? (*shared_fields::rotary_inertia.find(nodes.fields))[i.node] : 0;
+    if (!(mass > 0)) return 1;
+    const Cloud cloud = cloud_of(i, [&](Index n) { return nodes.x.vec(n); });
+    const auto skew = [](const Vec& a) {
+      Matrix out;
+      out << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
+      return out;
+    };
+    const Matrix back = cloud.J.inverse(), arm = skew(nodes.x.vec(i.node) - cloud.centre);
+    Eigen::Matrix<Real, 6, 6> gives = Eigen::Matrix<Real, 6, 6>::Zero();
+    for (std::size_t k = 0; k < i.of.size(); ++k) {
+      const Matrix r = skew(nodes.x.vec(i.of[k]) - cloud.centre);
+      Eigen::Matrix<Real, 3, 6> on;  // force on the node, by force and moment on the dependent one
+      on.leftCols(3) = i.weight[k] * (Matrix::Identity() - r * back * arm);
+      on.rightCols(3) = -i.weight[k] * r * back;
+      gives += on.transpose() * on / nodes.m[i.of[k]];
+    }
+    gives.topLeftCorner(3, 3) *= mass;
+    gives.topRightCorner(3, 3) *= std::sqrt(mass * inertia);
+    gives.bottomLeftCorner(3, 3) *= std::sqrt(mass * inertia);
+    gives.bottomRightCorner(3, 3) *= inertia;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<Real, 6, 6>> own(gives, Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(Real(1), own.eigenvalues()[5]));
+  }
+
+  const Deck& deck_;
+  const Model& model_;
+  bool mass_grows_;
+  World& world_;
+  Diagnostics& diagnostics_;
+  std::map<Id, Index> world_node_, model_node_;
+  std::set<Index> taken_;
+  std::vector<Interpolation> all_;
+};
+
+/// Dependent nodes may belong to no element.
+const RegisterAddition dependent_nodes{"*CONSTRAINED_INTERPOLATION",
+                                       [](const Deck&, const Model&, World&, Diagnostics&) {},
+                                       [](const Deck& deck, const Model& model) {
+                                         const std::set<Id> ids = interpolated_nodes(deck);
+                                         std::vector<Index> out;
+                                         for (std::size_t n = 0; n < model.nodes.size() && !ids.empty(); ++n)
+                                           if (ids.contains(model.nodes[n].id))
+                                             out.push_back(static_cast<Index>(n));
+                                         return out;
+                                       }};
+
+}  // namespace
+
+std::set<Id> interpolated_nodes(const Deck& deck) {
+  std::set<Id> out;
+  for (const CI& card : deck.all<CI>()) out.insert(card.dnid);
+  return out;
+}
+
+Real add_interpolations(const Deck& deck, const Model& model, Real tssfac, bool mass_grows, World& world,
+                        Diagnostics& diagnostics) {
+  const auto& cards = deck.all<CI>();
+  if (cards.empty()) return 1;
+  InterpolationBuilder builder(deck, model, mass_grows, world, diagnostics);
+  for (const CI& card : cards) builder.add(card);
+  return diagnostics.ok() && builder.any() ? builder.finish(tssfac) : 1;
+}
+
+}  // namespace courant
