@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "loads/loads.hpp"
 #include "loads/sensors.hpp"
@@ -41,11 +42,14 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
         gates_(std::move(gates)),
         groups_(std::move(groups)),
         group_(group),
-        work_(work) {}
+        work_(work),
+        around_(!points_.turns && std::any_of(motions_.begin(), motions_.end(),
+                                              [](const PrescribedMotion& m) { return m.around >= 0; })) {}
   std::string name() const override { return "prescribed " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override {
     a.updates(*points_.v).updates(*points_.f).reads(group_);
+    if (around_) a.reads(*points_.x);
   }
 
   void start(World&, const Clock& clock) override { choose(clock); }
@@ -54,7 +58,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
       if (group_[i] == 0) continue;
       for (const Drive* drive : drives_[static_cast<std::size_t>(group_[i])]) {
         const Vec &d = drive->direction, v = points_.v->vec(i), f = points_.f->vec(i);
-        points_.v->add(i, (drive->velocity(v) - v.dot(d)) * d);
+        points_.v->add(i, (drive->velocity(v, place(i)) - v.dot(d)) * d);
         points_.f->add(i, -f.dot(d) * d);
       }
     }
@@ -70,7 +74,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
       if (group_[i] == 0) return work;
       for (const Drive* drive : drives_[static_cast<std::size_t>(group_[i])]) {
         const Vec v = points_.v->vec(i);
-        const Real before = v.dot(drive->direction), after = drive->velocity(v);
+        const Real before = v.dot(drive->direction), after = drive->velocity(v, place(i));
         const Real force = points_.f->vec(i).dot(drive->direction);
         work += ((*points_.m)[i] * (after - before) - force * dt) * 0.5 * (before + after);
       }
@@ -93,11 +97,10 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
           .work = (*work_)[i]};
       Vec& sum = points_.turns ? force.moment : force.force;
       for (const std::size_t k : groups_[static_cast<std::size_t>(group_[i])]) {
-        const PrescribedMotion& m = motions_[k];
         if (!drives(k, clock)) continue;
-        const Vec& d = m.direction;
+        const Vec& d = motions_[k].direction;
         const Real before = points_.v->vec(i).dot(d);
-        const Real after = m.velocity(clock.t, clock.dt, clock.dt_old, before);
+        const Real after = drive_of(motions_[k], clock).velocity(points_.v->vec(i), place(i));
         const Real acceleration = (after - before) / clock.dt_mean();
         sum += ((*points_.m)[i] * acceleration - points_.f->vec(i).dot(d)) * d;
       }
@@ -106,12 +109,27 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
   }
 
  private:
-  /// What a motion does in the coming step: v.direction becomes `at_zero` + `keep` v.direction.
+  /// What a motion does in the coming step: v.direction becomes `at_zero` + `keep` v.direction, and, of
+  /// points that go round an axis, `per_place`.(x - centre).
   struct Drive {
     Vec direction = Vec::Zero();
     Real at_zero = 0, keep = 0;
-    Real velocity(const Vec& v) const { return at_zero + keep * v.dot(direction); }
+    Vec per_place = Vec::Zero(), centre = Vec::Zero();
+    Real velocity(const Vec& v, const Vec& x) const {
+      return at_zero + keep * v.dot(direction) + per_place.dot(x - centre);
+    }
   };
+  static Drive drive_of(const PrescribedMotion& m, const Clock& clock) {
+    const Real at_zero = m.velocity(clock.t, clock.dt, clock.dt_old, 0);
+    if (m.around < 0)
+      return {m.direction, at_zero, m.kind == PrescribedMotion::Kind::acceleration ? 1.0 : 0.0};
+    if (!(clock.dt > 0)) return {m.direction};
+    // the chord of the arc that leads to the place at the end of the step
+    const Matrix turn = Eigen::AngleAxisd(at_zero * clock.dt, Vec::Unit(m.around)).toRotationMatrix();
+    const Matrix chord = (turn - Matrix::Identity()) / clock.dt;
+    return {m.direction, 0, 0, chord.transpose() * m.direction, m.centre};
+  }
+  Vec place(Index i) const { return around_ ? points_.x->vec(i) : Vec(Vec::Zero()); }
 
   bool drives(std::size_t k, const Clock& clock) const {
     return motions_[k].drives(clock.t, clock.dt) && gates_.open(k);
@@ -119,12 +137,8 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
 
   void choose(const Clock& clock) {
     all_.assign(motions_.size(), {});
-    for (std::size_t k = 0; k < motions_.size(); ++k) {
-      const PrescribedMotion& m = motions_[k];
-      if (drives(k, clock))
-        all_[k] = {m.direction, m.velocity(clock.t, clock.dt, clock.dt_old, 0),
-                   m.kind == PrescribedMotion::Kind::acceleration ? 1.0 : 0.0};
-    }
+    for (std::size_t k = 0; k < motions_.size(); ++k)
+      if (drives(k, clock)) all_[k] = drive_of(motions_[k], clock);
     drives_.assign(groups_.size(), {});
     for (std::size_t g = 0; g < groups_.size(); ++g)
       for (const std::size_t k : groups_[g])
@@ -137,6 +151,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
   std::vector<Group> groups_;                      ///< the first one is empty
   Field<Index>& group_;                            ///< of each point
   Field<Real>* work_;                              ///< on each point so far; null: nobody asks
+  bool around_;                                    ///< some go round an axis
   std::vector<Drive> all_;                         ///< of each motion
   std::vector<std::vector<const Drive*>> drives_;  ///< of each group, those that drive in this step
 };
@@ -171,8 +186,10 @@ class PrescribedBuilder {
   }
 
   void add(const PrescribedMotion& motion) {
-    if (limits_.dim == 2 && !motion.turns && motion.direction[2] != 0)
-      return error(motion, "in 2D particles stay in their plane, so nothing moves along z", "use DOF 1 or 2");
+    if (limits_.dim == 2 && !motion.turns && (motion.direction[2] != 0 || motion.around >= 0))
+      return error(motion,
+                   "in 2D particles stay in their plane, so nothing moves along z or is driven round an axis",
+                   "use DOF 1 or 2");
     motions_.push_back(motion);
     if (gates_.board)
       gates_.control.push_back(gates_.board->control_of(SensorControl::Of::motion, motion.id));

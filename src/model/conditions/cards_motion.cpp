@@ -38,12 +38,19 @@ struct MotionOfRigidLocal : MotionCard {
   static constexpr const char* field = "PID";
 };
 
-constexpr int along_vector = 4, first_rotation = 5;
+constexpr int along_vector = 4, first_rotation = 5, first_around = 9;
 
 /// Directions are axes: they stay where a file is only shifted. Vectors move with their file.
 std::string keep_axes(MotionCard& card, const Affine& motion) {
   if (card.dof == along_vector) return refuse_stretch(motion, "motions");
-  if (motion.linear() == Matrix::Identity()) return {};
+  if (motion.linear() == Matrix::Identity()) {
+    if (card.dof >= first_around && card.dof < first_around + 3) {
+      const int axis = card.dof - first_around;
+      card.offset1 += motion.translation()[(axis + 1) % 3],
+          card.offset2 += motion.translation()[(axis + 2) % 3];
+    }
+    return {};
+  }
   return "its direction is an axis, which a transformation that turns or stretches the file would change";
 }
 
@@ -60,24 +67,25 @@ KeywordOf<T> motion_keyword(std::string name, std::string purpose, IdSpace refer
       .id_option = true,
       .title = &T::title,
       .id = &T::entry_id,
-      .cards =
-          {{.fields =
-                {{field, &T::id, "-", "what moves", id},
-                 {"DOF", &T::dof, "-",
-                  "direction: 1-3 x, y, z, 4 along VID; of bodies and nodes of shells also 5-7 about x, y, z",
-                  dof},
-                 {"VAD", &T::vad, "-", "0 velocity, 1 acceleration, 2 displacement"},
-                 {"LCID", &T::lcid, "-", "curve of the motion, over t - BIRTH", curve},
-                 {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
-                 {"VID", &T::vid, "-", "vector; negative: coordinate system", id_of(IdSpace::vector)},
-                 {"DEATH", &T::death, "T", "end time", or_blank(1e28)},
-                 {"BIRTH", &T::birth, "T", "start time", time}}},
-           {.fields = {{"OFFSET1", &T::offset1, "L", "offset of the axis"},
-                       {"OFFSET2", &T::offset2, "L", "offset of the axis"},
-                       {"LRB", &T::lrb, "-", "body to which the motion is relative", id_of(IdSpace::part)},
-                       {"NODE1", &T::node1, "-", "node of the orientation", id_of(IdSpace::node)},
-                       {"NODE2", &T::node2, "-", "node of the orientation", id_of(IdSpace::node)}},
-            .when = [](const T& e) { return std::abs(e.dof) >= 9 || e.vad == 4; }}},
+      .cards = {{.fields = {{field, &T::id, "-", "what moves", id},
+                            {"DOF", &T::dof, "-",
+                             "direction: 1-3 x, y, z, 4 along VID; of bodies and nodes of shells also 5-7 "
+                             "about x, y, z; of "
+                             "nodes 9-11 round an axis along x, y, z",
+                             dof},
+                            {"VAD", &T::vad, "-", "0 velocity, 1 acceleration, 2 displacement"},
+                            {"LCID", &T::lcid, "-", "curve of the motion, over t - BIRTH", curve},
+                            {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
+                            {"VID", &T::vid, "-", "vector; negative: coordinate system",
+                             id_of(IdSpace::vector)},
+                            {"DEATH", &T::death, "T", "end time", or_blank(1e28)},
+                            {"BIRTH", &T::birth, "T", "start time", time}}},
+                {.fields = {{"OFFSET1", &T::offset1, "L", "place of the axis: y, z, x with DOF 9, 10, 11"},
+                            {"OFFSET2", &T::offset2, "L", "place of the axis: z, x, y with DOF 9, 10, 11"},
+                            {"LRB", &T::lrb, "-", "body to which the motion is relative", unsupported},
+                            {"NODE1", &T::node1, "-", "node of the orientation", unsupported},
+                            {"NODE2", &T::node2, "-", "node of the orientation", unsupported}},
+                 .when = [](const T& e) { return std::abs(e.dof) >= 9 || e.vad == 4; }}},
       .move = [](T& card, const Affine& motion) {
         return std::is_same_v<T, MotionOfRigidLocal> ? std::string()
                                                      : keep_axes(card, motion);  // its axes move
@@ -134,11 +142,17 @@ class Reader {
 
   bool supported(const MotionCard& card, bool of_body) {
     const int most = of_body || model_.turns() ? first_rotation + 2 : along_vector;
-    const bool direction = card.dof >= 1 && card.dof <= most, kind = card.vad >= 0 && card.vad <= 2;
+    const bool around = !of_body && card.dof >= first_around && card.dof < first_around + 3;
+    const bool direction = around || (card.dof >= 1 && card.dof <= most),
+               kind = card.vad >= 0 && card.vad <= 2 && !(around && card.vad == 1);
     if (!direction)
       deck_.error(diagnostics_, card, "DOF", fmt::format("'{}' is not supported", card.dof),
-                  fmt::format("supported: 1 to {}", most));
-    if (!kind)
+                  fmt::format("supported: 1 to {}{}", most, of_body ? "" : ", 9 to 11"));
+    if (!kind && around)
+      deck_.error(diagnostics_, card, "VAD",
+                  fmt::format("'{}' is not supported with DOF {}", card.vad, card.dof),
+                  "supported: 0 (angular velocity) and 2 (angle)");
+    else if (!kind)
       deck_.error(diagnostics_, card, "VAD", fmt::format("'{}' is not supported", card.vad),
                   "supported: 0 to 2; curves of time, in the global system");
     return direction && kind;
@@ -161,7 +175,8 @@ class Reader {
     if (curve == model_.curves.end()) return missing(card, "LCID", "curve", card.lcid, "*DEFINE_CURVE");
     PrescribedMotion motion;
     motion.kind = static_cast<PrescribedMotion::Kind>(card.vad);
-    motion.turns = card.dof >= first_rotation;
+    const bool around = card.dof >= first_around;
+    motion.turns = card.dof >= first_rotation && !around;
     motion.curve = curve->second;
     motion.sf = card.sf;
     motion.birth = card.birth;
@@ -172,7 +187,7 @@ class Reader {
     if (card.dof == along_vector) {
       if (!set_vector(card, motion)) return;
     } else {
-      motion.direction[motion.turns ? card.dof - first_rotation : card.dof - 1] = 1;
+      if (!around) motion.direction[motion.turns ? card.dof - first_rotation : card.dof - 1] = 1;
       if (card.vid != 0)
         return deck_.error(
             diagnostics_, card, "VID",
@@ -184,7 +199,18 @@ class Reader {
           diagnostics_, card, "LCID",
           fmt::format("curve {} jumps, so that displacements would need an infinite velocity", card.lcid),
           "give the jump some time");
+    if (around) return add_around(card, std::move(motion));
     motions_.push_back(std::move(motion));
+  }
+  /// Two of them, along the axes of the plane.
+  void add_around(const MotionCard& card, PrescribedMotion motion) {
+    const int axis = card.dof - first_around, first = (axis + 1) % 3, second = (axis + 2) % 3;
+    motion.around = axis;
+    motion.centre[first] = card.offset1, motion.centre[second] = card.offset2;
+    for (const int k : {first, second}) {
+      motion.direction = Vec::Unit(k);
+      motions_.push_back(motion);
+    }
   }
 
   bool set_vector(const MotionCard& card, PrescribedMotion& motion) {

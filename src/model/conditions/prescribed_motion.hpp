@@ -12,10 +12,13 @@ namespace courant {
 struct PrescribedMotion {
   enum class Kind { velocity, acceleration, displacement };
   Kind kind = Kind::velocity;
-  bool turns = false;            ///< about `direction`, with angles for displacements [-]
-  Vec direction = Vec::Zero();   ///< unit; of `local` motions in the axes of the body, or, once it follows
-                                 ///< them, as it was at the start
-  bool local = false;            ///< the direction turns with the body
+  bool turns = false;           ///< about `direction`, with angles for displacements [-]
+  Vec direction = Vec::Zero();  ///< unit; of `local` motions in the axes of the body, or, once it follows
+                                ///< them, as it was at the start
+  bool local = false;           ///< the direction turns with the body
+  int around = -1;  ///< nodes go round an axis along x, y, z (0, 1, 2) through `centre`, of which this is
+                    ///< the part along `direction`; the curve tells angles; -1: straight on
+  Vec centre = Vec::Zero();      ///< [L]
   Curve curve;                   ///< of time; values [L/T], [L/T2] or [L], of rotations [1/T], [1/T2] or [-]
   Real sf = 1;                   ///< factor of the values
   Real birth = 0, death = 1e28;  ///< [T]
