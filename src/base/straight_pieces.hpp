@@ -27,6 +27,7 @@ class StraightPieces {
   /// As many x, rising, as y; two or more.
   StraightPieces(std::vector<Real> x, std::vector<Real> y) : x_(std::move(x)), y_(std::move(y)) {}
   bool empty() const { return x_.empty(); }
+  Real last() const { return x_.empty() ? 0 : x_.back(); }  ///< point
   std::size_t pieces() const { return x_.empty() ? 0 : x_.size() - 1; }
   Real slope(std::size_t k) const { return slope_of_piece(x_, y_, k); }
   Real operator()(Real x) const {

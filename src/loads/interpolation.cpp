@@ -20,6 +20,7 @@
 #include "state/points.hpp"
 #include "state/shared_fields.hpp"
 #include "state/step_share.hpp"
+#include "state/tied_mass.hpp"
 
 namespace courant {
 
@@ -202,6 +203,7 @@ class InterpolationBuilder {
   InterpolationBuilder(const Deck& deck, const Model& model, bool mass_grows, World& world,
                        Diagnostics& diagnostics)
       : deck_(deck), model_(model), mass_grows_(mass_grows), world_(world), diagnostics_(diagnostics) {
+    beside_ties_ = shared_fields::tied_mass.find(world.nodes.fields) != nullptr;
     for (Index n = 0; n < world.nodes.size(); ++n) world_node_[world.nodes.id[n]] = n;
     for (std::size_t n = 0; n < model.nodes.size(); ++n)
       model_node_[model.nodes[n].id] = static_cast<Index>(n);
@@ -209,8 +211,11 @@ class InterpolationBuilder {
 
   void add(const CI& card) {
     if (mass_grows_)
-      return error(card, "DNID", "it is not supported beside mass scaling (DT2MS < 0)",
-                   "leave DT2MS of *CONTROL_TIMESTEP blank");
+      return error(card, "DNID", "it is not supported beside mass scaling that goes on",
+                   "give MS1ST 1, or leave DT2MS of *CONTROL_TIMESTEP blank");
+    if (beside_ties_)
+      return error(card, "DNID", "it is not supported beside contacts that tie exactly",
+                   "use these contacts with _OFFSET, whose springs may stand beside it");
     Interpolation out;
     const ModelNode* node = find(card, "DNID", card.dnid, out.node);
     if (!node || !check_dependent(card, *node, out)) return;
@@ -353,6 +358,7 @@ class InterpolationBuilder {
       const Real more = i.weight[k] * mass;
       nodes.v.set(n, (nodes.m[n] * nodes.v.vec(n) + i.weight[k] * momentum) / (nodes.m[n] + more));
       nodes.m[n] += more;
+      shared_fields::tied_mass.add(nodes.fields)[n] += more;  // which weighs where the dependent node is
       velocity += i.weight[k] * nodes.v.vec(n);
       spin += i.weight[k] * (nodes.x.vec(n) - cloud.centre).cross(nodes.v.vec(n));
     }
@@ -396,7 +402,7 @@ class InterpolationBuilder {
 
   const Deck& deck_;
   const Model& model_;
-  bool mass_grows_;
+  bool mass_grows_, beside_ties_ = false;
   World& world_;
   Diagnostics& diagnostics_;
   std::map<Id, Index> world_node_, model_node_;

@@ -86,13 +86,16 @@ Real force_of_support(const Support& support, const SensorAxis& axis, const Worl
   return axis.of(force, moment);
 }
 
-/// Whether each node moves, or turns, by its forces: those of rigid bodies do not, and nobody measures there.
+/// Whether each node of the world moves, or turns, by its forces: those of rigid bodies do not, and nobody
+/// measures there.
 bool all_there(const Support& support, bool moment, const World& world) {
   const auto& nodes = moment ? support.turns : support.moves;
-  std::size_t count = 0;
+  std::size_t count = 0, there = 0;
   for (const BoundaryForce& one : all_forces(world, {.dt = 1}))
     count += one.kind == (moment ? Kind::held_rotation : Kind::held_point) && nodes.contains(one.id);
-  return count > 0 && count == nodes.size();
+  for (Index n = 0; n < world.nodes.size(); ++n) there += nodes.contains(world.nodes.id[n]);
+  for (Index i = 0; i < world.particles.size(); ++i) there += nodes.contains(world.particles.id[i]);
+  return count > 0 && count == there;
 }
 
 Sensor sensor_of_support(const SensorDefineForce& card, Support support, const SensorAxis& axis) {

@@ -159,3 +159,22 @@ TEST(Interpolation, LoadsOnTheNodeDoWork) {
   EXPECT_NEAR(s->world().energy.external_work, kinetic, 0.01 * kinetic);
   EXPECT_LT(test::energy_error_of_a_step(*s), 0.01);
 }
+
+// What hangs on the node weighs once, where the node is: all fall with g, also with mass scaling of the
+// start, and the ledger knows the work.
+TEST(Interpolation, WhatHangsOnTheNodeFallsAsTheRest) {
+  for (const char* scaling : {"", "*CONTROL_TIMESTEP\n0.0,0.2,0,0.0,-1.0E-3,0,0,1\n"}) {
+    SolidDeck deck =
+        interpolated_cube({0.5, 0.5, 0.5}, all_corners,
+                          "*ELEMENT_MASS\n1,9,20.0\n*LOAD_BODY_Z\n9,10.0\n" + constant_curve_of_9 + scaling);
+    auto s = simulation_of(deck.text(10));
+    start_ledger(*s);
+    while (s->clock().t < 0.2) s->step(do_nothing);
+    const World& world = s->world();
+    for (Index n = 0; n < 8; ++n)
+      EXPECT_NEAR(world.nodes.v.vec(n)[2], -10 * (s->clock().t - 0.5 * s->clock().dt_old),
+                  10 * s->clock().dt_old)
+          << scaling;
+    EXPECT_LT(test::energy_error_of_a_step(*s), 1e-3) << scaling;
+  }
+}

@@ -102,6 +102,9 @@ void add_force_transducers(const Deck& deck, const Model& model, const NodeConta
                            const std::vector<std::shared_ptr<const NodeContact>>& contacts, World& world,
                            Diagnostics& diagnostics) {
   FaceFinder finder(deck, model, options.bulk_modulus, world, diagnostics);
+  const auto& others = deck.all<ContactCard>();
+  const bool holds = std::any_of(others.begin(), others.end(),
+                                 [](const ContactCard& c) { return kind_of(c).tiebreak != Tiebreak::none; });
   for (const T& card : deck.all<T>()) {
     const int errors = diagnostics.errors();
     const std::vector<Index> faces = finder.faces(card, ContactSide::a);
@@ -118,6 +121,12 @@ void add_force_transducers(const Deck& deck, const Model& model, const NodeConta
     if (!options.with_particles.empty())
       deck.error(diagnostics, card, "SURFA", "the forces of particles are not told by transducers",
                  "leave it out, or the contacts of particles: their own forces are in rcforc");
+    if (holds)
+      deck.warning(
+          diagnostics, card, "SURFA",
+          "the force with which contacts with _TIEBREAK hold nodes is not in it: rcforc tells that under "
+          "a number of its own",
+          "add both where they act on the same nodes");
     if (nodes.empty() || contacts.empty())
       deck.warning(diagnostics, card, "SURFA",
                    contacts.empty() ? "there is no contact of elements whose force it could tell"

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "contact/nodes/build.hpp"
+#include "contact/nodes/transducer.hpp"
 #include "contact/tied/constraint.hpp"
 #include "contact/tied/sides.hpp"
 #include "contact/tied/springs.hpp"
@@ -36,6 +37,7 @@ class TiedBuilder {
     for (Index n = 0; n < world.nodes.size(); ++n) of_world_.insert(world.nodes.id[n]);
     for (const ContactCard& c : deck.all<ContactCard>()) taken_.insert(c.cid);
     for (const TiedCard& c : deck.all<TiedCard>()) taken_.insert(c.cid);
+    for (const TransducerCard& c : deck.all<TransducerCard>()) taken_.insert(c.cid);
   }
 
   void add(const TiedCard& c) {

@@ -222,9 +222,14 @@ class StickingSprings : public TiedSprings, public TouchHolder, public TimeLimit
     held_.insert(node);
     ties_.push_back(tie_at(*n->second, face, at, x));
     ties_.back().k *= later_.scale;
-    fit();
+    grown_ = true;
     ++world.counters["tied_nodes"];
     known_ = false;
+  }
+  void start(World& world, const Clock& clock) override {
+    if (grown_) fit();
+    grown_ = false;
+    TiedSprings::start(world, clock);
   }
   /// Of all of them, whenever there are more.
   Limit limit(const World& world, const Clock&) override {
@@ -236,6 +241,8 @@ class StickingSprings : public TiedSprings, public TouchHolder, public TimeLimit
   }
   /// Those that came later stand in the state.
   void keep(Archive& archive) override {
+    if (grown_) fit();
+    grown_ = false;
     std::vector<Index> whole;
     std::vector<Real> real;
     for (std::size_t t = at_start_; t < ties_.size(); ++t) {
@@ -248,6 +255,9 @@ class StickingSprings : public TiedSprings, public TouchHolder, public TimeLimit
     }
     archive("later_nodes", whole), archive("later_numbers", real);
     if (archive.loading()) load(whole, real);
+    Index known = known_;
+    archive("limit", limit_.dt), archive("limit_of", limit_.who), archive("limit_known", known);
+    known_ = known != 0;
     TiedSprings::keep(archive);
   }
 
@@ -266,7 +276,7 @@ class StickingSprings : public TiedSprings, public TouchHolder, public TimeLimit
       ties_.push_back(tie);
     }
     fit();
-    take_nodes(), known_ = false;
+    take_nodes();
   }
   void take_nodes() {
     held_.clear();
@@ -279,7 +289,8 @@ class StickingSprings : public TiedSprings, public TouchHolder, public TimeLimit
   std::size_t at_start_;
   std::set<Index> held_;  ///< nodes, also those whose springs broke
   Limit limit_{std::numeric_limits<Real>::infinity(), "tied contact"};
-  bool known_ = false;
+  bool known_ = false;  ///< `limit_` is of all ties
+  bool grown_ = false;  ///< ties came since the last step
 };
 
 /// Of springs whose nodes are known at the start.

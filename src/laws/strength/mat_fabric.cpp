@@ -64,13 +64,25 @@ class FibreCurve {
   Real modulus() const { return modulus_; }
   /// The largest slope there is, for the step. [M/LT2]
   Real steepest() const {
-    Real out = modulus_;
-    for (const StraightPieces* curve : {&loading_, &unloading_})
-      for (std::size_t k = 0; k < curve->pieces(); ++k) out = std::max(out, curve->slope(k));
-    return out;
+    Real out = modulus_, back = 0;
+    for (std::size_t k = 0; k < loading_.pieces(); ++k) out = std::max(out, loading_.slope(k));
+    for (std::size_t k = 0; k < unloading_.pieces(); ++k) back = std::max(back, unloading_.slope(k));
+    return std::max(out, stretched_ ? back * most_stretched() : back);
   }
 
  private:
+  /// How much a stretched curve is shorter at most, up to four times the largest strain of loading. [-]
+  Real most_stretched() const {
+    constexpr int looks = 400;
+    const Real last = 4 * std::max(loading_.last(), unloading_.last());
+    Real out = 1;
+    for (int k = 1; k <= looks && last > 0; ++k) {
+      const Real most = last * k / looks, top = loading_(most);
+      if (top > 0) out = std::max(out, reached_at_(top) / most);
+    }
+    return out;
+  }
+
   Real modulus_ = 0;
   StraightPieces loading_, unloading_;
   StraightPieces reached_at_;  ///< strain over stress of unloading
