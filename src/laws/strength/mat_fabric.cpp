@@ -67,18 +67,20 @@ class FibreCurve {
     Real out = modulus_, back = 0;
     for (std::size_t k = 0; k < loading_.pieces(); ++k) out = std::max(out, loading_.slope(k));
     for (std::size_t k = 0; k < unloading_.pieces(); ++k) back = std::max(back, unloading_.slope(k));
-    return std::max(out, stretched_ ? back * most_stretched() : back);
+    return std::max(out, stretched_ ? steepest_stretched() : back);
   }
 
  private:
-  /// How much a stretched curve is shorter at most, up to four times the largest strain of loading. [-]
-  Real most_stretched() const {
+  /// Of stretched unloading from strains up to four times the largest of the curves. [M/LT2]
+  Real steepest_stretched() const {
     constexpr int looks = 400;
     const Real last = 4 * std::max(loading_.last(), unloading_.last());
-    Real out = 1;
+    Real out = 0;
     for (int k = 1; k <= looks && last > 0; ++k) {
       const Real most = last * k / looks, top = loading_(most);
-      if (top > 0) out = std::max(out, reached_at_(top) / most);
+      if (!(top > 0)) continue;
+      const Real at_top = reached_at_(top);
+      out = std::max(out, unloading_.steepest(0, at_top) * at_top / most);
     }
     return out;
   }
