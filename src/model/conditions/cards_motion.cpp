@@ -40,6 +40,10 @@ struct MotionOfRigidLocal : MotionCard {
 
 constexpr int along_vector = 4, first_rotation = 5, first_around = 9;
 
+constexpr FieldRules refused_id(IdSpace space) {
+  return {.honour = Honour::no, .refers = space};
+}
+
 /// Directions are axes: they stay where a file is only shifted. Vectors move with their file.
 std::string keep_axes(MotionCard& card, const Affine& motion) {
   if (card.dof == along_vector) return refuse_stretch(motion, "motions");
@@ -82,9 +86,10 @@ KeywordOf<T> motion_keyword(std::string name, std::string purpose, IdSpace refer
                             {"BIRTH", &T::birth, "T", "start time", time}}},
                 {.fields = {{"OFFSET1", &T::offset1, "L", "place of the axis: y, z, x with DOF 9, 10, 11"},
                             {"OFFSET2", &T::offset2, "L", "place of the axis: z, x, y with DOF 9, 10, 11"},
-                            {"LRB", &T::lrb, "-", "body to which the motion is relative", unsupported},
-                            {"NODE1", &T::node1, "-", "node of the orientation", unsupported},
-                            {"NODE2", &T::node2, "-", "node of the orientation", unsupported}},
+                            {"LRB", &T::lrb, "-", "body to which the motion is relative",
+                             refused_id(IdSpace::part)},
+                            {"NODE1", &T::node1, "-", "node of the orientation", refused_id(IdSpace::node)},
+                            {"NODE2", &T::node2, "-", "node of the orientation", refused_id(IdSpace::node)}},
                  .when = [](const T& e) { return std::abs(e.dof) >= 9 || e.vad == 4; }}},
       .move = [](T& card, const Affine& motion) {
         return std::is_same_v<T, MotionOfRigidLocal> ? std::string()
