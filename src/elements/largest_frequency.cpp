@@ -21,20 +21,19 @@ Real largest_component(const NodalVector& u) {
 
 GroupNodes::GroupNodes(const ElementGroup& group, const std::vector<std::array<bool, 3>>& held_in_world,
                        const Nodes& nodes) {
-  std::vector<Index>& used = used_;
   for (int c = 0; c < group.corners(); ++c)
-    used.insert(used.end(), group.node.data(c), group.node.data(c) + group.size());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (const Index n : used) {
+    used_.insert(used_.end(), group.node.data(c), group.node.data(c) + group.size());
+  std::sort(used_.begin(), used_.end());
+  used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
+  for (const Index n : used_) {
     for (int k = 0; k < 3; ++k) x[static_cast<std::size_t>(k)].push_back(nodes.x.data(k)[n]);
     held.push_back(held_in_world[static_cast<std::size_t>(n)]);
   }
-  m.assign(used.size(), 0);
+  m.assign(used_.size(), 0);
   corner.resize(static_cast<std::size_t>(group.corners()));
   for (int c = 0; c < group.corners(); ++c)
     for (Index e = 0; e < group.size(); ++e) {
-      const auto place = std::lower_bound(used.begin(), used.end(), group.node.data(c)[e]) - used.begin();
+      const auto place = std::lower_bound(used_.begin(), used_.end(), group.node.data(c)[e]) - used_.begin();
       corner[static_cast<std::size_t>(c)].push_back(static_cast<Index>(place));
       m[static_cast<std::size_t>(place)] += group.mass[e] * group.share(e, c);
     }

@@ -211,9 +211,10 @@ class StickingSprings : public TiedSprings, public TouchHolder, public TimeLimit
   std::string name() const override { return TiedSprings::name(); }
   Id of_contact() const override { return later_.contact; }
   void touched(World& world, Index node, Index segment) override {
+    if (held_.contains(node)) return;
     const auto n = node_.find(node);
     const auto f = face_.find(segment);
-    if (held_.contains(node) || n == node_.end() || f == face_.end()) return;
+    if (n == node_.end() || f == face_.end()) return;
     const Field<Real>& x = world.nodes.x;
     const TieFace& face = *f->second;
     const Projection at = project(corners_of(face, x), face.corners, x.vec(node));

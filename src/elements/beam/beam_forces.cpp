@@ -109,11 +109,8 @@ class BeamForces : public Material,
   }
 
   Limit limit(const World&, const Clock&) override {
-    std::size_t least = 0;
-    for (std::size_t e = 0; e < steps_.size(); ++e)
-      if (!std::isnan(steps_[least]) && !(steps_[e] >= steps_[least])) least = e;
-    return {tssfac_ * steps_[least],
-            fmt::format("beam {} of part {}", group_.id[static_cast<Index>(least)], part_id_)};
+    const Index least = least_of(steps_.data(), group_.size());
+    return {tssfac_ * steps_[at(least)], fmt::format("beam {} of part {}", group_.id[least], part_id_)};
   }
   void record(World&, const Clock&, EnergyLedger&) override {}
   void sample(const World&, const Clock&, EnergyLedger& ledger) const override { ledger.internal += total(); }

@@ -4,88 +4,39 @@
 #include <cmath>
 
 #include "elements/beam/cables.hpp"
-#include "elements/element_report.hpp"
-#include "state/reports.hpp"
+#include "elements/beam/two_node_forces.hpp"
 
 namespace courant {
 
 namespace {
 
-/// Cables of a part: length since the last motion, the law, forces on the ends, which a pass over the nodes
-/// gathers.
-class CableForces : public Material,
-                    public TimeLimit,
-                    public EnergyTerm,
-                    public PartReporter,
-                    public ElementReporter {
+/// Cables of a part: length since the last motion, the law, forces on the ends.
+class CableForces : public TwoNodeForces {
  public:
   CableForces(const CablePart& part, ElementGroup& group, Id part_id, Real tssfac, ElementOptions& options,
               World& world)
-      : law_(part.law),
+      : TwoNodeForces(group, part_id, tssfac, "cable"),
+        law_(part.law),
         area_(part.area),
         reference_(part.rest),
-        group_(group),
-        part_id_(part_id),
-        tssfac_(tssfac),
-        rest_(add("rest_length", "L", false)),
-        length_(add("length", "L", false)),
-        force_(add("axial_force", "ML/T2", true)),
-        energy_(add("internal_energy", "ML2/T2", true)),
-        steps_(area_.size()) {
+        rest_(add("rest_length", "L", 1, false)),
+        length_(add("length", "L", 1, false)),
+        force_(add("axial_force", "ML/T2", 1, true)) {
     for (Index e = 0; e < group_.size(); ++e) {
       rest_[e] = reference_[at(e)], length_[e] = between_ends(world, e).norm();
       // what it holds from the start is there without work
       force_[e] = pull(e, 0, length_[e]);
       if (law_.F0 == 0) energy_[e] = start_energy(e);
     }
-    if (law_.most_strain < CableLaw::never || law_.most_force < CableLaw::never) {
-      erosion_ = std::make_shared<Erosion>(FailureRules{}, group_, 1,
-                                           Erosion::Energies{&energy_, nullptr, nullptr}, world);
-      erosion_->vanishes(force_);
-      options.eroding.push_back(erosion_);
-    }
+    if (law_.most_strain < CableLaw::never || law_.most_force < CableLaw::never)
+      may_fail(force_, options, world);
   }
-  std::string name() const override { return group_.fields.name(); }
-  const FieldSet& over(const World&) const override { return group_.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.reads(world.nodes.x, Reach::others).reads(group_.node).reads(group_.mass);
     a.updates(rest_).updates(length_).updates(force_).updates(energy_).writes(*group_.corner_force);
     if (erosion_) erosion_->declare(world, a);
   }
 
-  void block(World& world, const Clock& clock, Index begin, Index end) override {
-    if (erosion_) erosion_->begin_block(begin, end - begin);
-    for (Index e = begin; e < end; ++e) advance(world, clock, begin, e);
-    if (!erosion_) return;
-    std::array<Real, block_size> unused{};
-    erosion_->judge(begin, end - begin, tssfac_, steps_.data() + begin, unused.data(), nullptr);
-  }
-
-  Limit limit(const World&, const Clock&) override {
-    std::size_t least = 0;
-    for (std::size_t e = 0; e < steps_.size(); ++e)
-      if (!std::isnan(steps_[least]) && !(steps_[e] >= steps_[least])) least = e;
-    return {tssfac_ * steps_[least],
-            fmt::format("cable {} of part {}", group_.id[static_cast<Index>(least)], part_id_)};
-  }
-  void record(World&, const Clock&, EnergyLedger&) override {}
-  void sample(const World&, const Clock&, EnergyLedger& ledger) const override { ledger.internal += total(); }
-  void report_part(const World& world, std::vector<PartSums>& parts) const override {
-    PartSums& out = parts[at(group_.part)];
-    out.internal += total();
-    for (Index e = 0; e < group_.size(); ++e) {
-      out.mass += group_.mass[e];
-      if (dead(e)) out.eroded_internal += energy_[e];
-      for (int c = 0; c < 2; ++c) {
-        const Vec v = world.nodes.v.vec(group_.node.data(c)[e]);
-        out.momentum += group_.mass[e] / 2 * v;
-        out.kinetic += group_.mass[e] / 4 * v.squaredNorm();
-      }
-    }
-  }
-
-  ElementKind kind() const override { return ElementKind::beam; }
-  const ElementGroup& reported() const override { return group_; }
   Real cut_measure(Index e) const override { return area_[at(e)]; }
   bool bends() const override { return false; }
   ElementReport report_element(const World&, Index e, const ElementReportOptions&) const override {
@@ -93,14 +44,6 @@ class CableForces : public Material,
   }
 
  private:
-  static std::size_t at(Index e) { return static_cast<std::size_t>(e); }
-  Field<Real>& add(const char* field, const char* dimension, bool output) {
-    return group_.fields.add<Real>({.name = field, .dimension = dimension, .output = output});
-  }
-  bool dead(Index e) const { return erosion_ && erosion_->dead(e); }
-  Real total() const {
-    return sum(group_.size(), [&](Index e) { return dead(e) ? 0 : energy_[e]; });
-  }
   Vec between_ends(const World& world, Index e) const {
     return world.nodes.x.vec(group_.node.data(1)[e]) - world.nodes.x.vec(group_.node.data(0)[e]);
   }
@@ -119,10 +62,9 @@ class CableForces : public Material,
     return law_.held_until > 0 ? 0 : work;
   }
 
-  void advance(const World& world, const Clock& clock, Index begin, Index e) {
+  void advance(const World& world, const Clock& clock, Index begin, Index e) override {
     const Vec between = between_ends(world, e);
     const Real length = between.norm();
-    if (dead(e)) return;  // who judges takes its forces
     const Real F = pull(e, clock.t, length);
     if (law_.holds(clock.t)) rest_[e] = length;
     energy_[e] += 0.5 * (force_[e] + F) * (length - length_[e]);
@@ -146,13 +88,8 @@ class CableForces : public Material,
 
   CableLaw law_;
   std::vector<Real> area_, reference_;
-  ElementGroup& group_;
-  Id part_id_;
-  Real tssfac_;
   Field<Real>& rest_;  ///< length at which dL is 0
-  Field<Real>&length_, &force_, &energy_;
-  std::vector<Real> steps_;
-  std::shared_ptr<Erosion> erosion_;  ///< null: nothing breaks
+  Field<Real>&length_, &force_;
 };
 
 }  // namespace

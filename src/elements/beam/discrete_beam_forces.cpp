@@ -8,9 +8,8 @@
 
 #include "base/rotation.hpp"
 #include "elements/beam/discrete_beams.hpp"
-#include "elements/element_report.hpp"
+#include "elements/beam/two_node_forces.hpp"
 #include "elements/nodal_rotations.hpp"
-#include "state/reports.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
@@ -20,40 +19,26 @@ namespace {
 using Quaternion = Eigen::Quaterniond;
 
 /// Discrete beams of a part: displacements and angles along the triad since the last motion, the laws, forces
-/// and moments on the ends, which passes over the nodes gather. Theory: docs/theory.md.
-class DiscreteBeamForces : public Material,
-                           public TimeLimit,
-                           public EnergyTerm,
-                           public PartReporter,
-                           public ElementReporter {
+/// and moments on the ends. Theory: docs/theory.md.
+class DiscreteBeamForces : public TwoNodeForces {
  public:
   DiscreteBeamForces(const DiscreteBeamPart& part, ElementGroup& group, Id part_id, Real tssfac,
                      ElementOptions& options, World& world)
-      : law_(part.law),
+      : TwoNodeForces(group, part_id, tssfac, "discrete beam"),
+        law_(part.law),
         triad_(part.triad),
         inertia_(part.inertia),
-        group_(group),
-        part_id_(part_id),
-        tssfac_(tssfac),
         w_(shared_fields::angular_velocity.find(world.nodes.fields)),
         axes_(add("triad", "-", 4, false)),
         displacement_(add("displacement", "-", 6, false)),
         answer_(add("end_forces", "-", 6, false)),
-        state_(add("law_state", "-", 6 * SpringLaw::numbers, false)),
-        energy_(add("internal_energy", "ML2/T2", 1, true)),
-        steps_(inertia_.size()) {
+        state_(add("law_state", "-", 6 * SpringLaw::numbers, false)) {
     for (Index e = 0; e < group_.size(); ++e) {
       put_triad(e, Quaternion(part.axes[at(e)]));
       for (std::size_t d = 0; d < 6; ++d) answer_.data(static_cast<int>(d))[e] = law_->springs[d].preload;
     }
-    if (!law_->limits.any()) return;
-    erosion_ = std::make_shared<Erosion>(FailureRules{}, group_, 1,
-                                         Erosion::Energies{&energy_, nullptr, nullptr}, world);
-    erosion_->vanishes(answer_);
-    options.eroding.push_back(erosion_);
+    if (law_->limits.any()) may_fail(answer_, options, world);
   }
-  std::string name() const override { return group_.fields.name(); }
-  const FieldSet& over(const World&) const override { return group_.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.reads(world.nodes.x, Reach::others).reads(world.nodes.v, Reach::others);
     if (w_) a.reads(*w_, Reach::others);
@@ -63,42 +48,6 @@ class DiscreteBeamForces : public Material,
     if (erosion_) erosion_->declare(world, a);
   }
 
-  void block(World& world, const Clock& clock, Index begin, Index end) override {
-    if (erosion_) erosion_->begin_block(begin, end - begin);
-    for (Index e = begin; e < end; ++e)
-      if (!dead(e)) advance(world, clock, begin, e);  // of the others who judges takes the forces
-    if (!erosion_) return;
-    std::array<Real, block_size> unused{};
-    erosion_->judge(begin, end - begin, tssfac_, steps_.data() + begin, unused.data(), nullptr);
-  }
-
-  Limit limit(const World&, const Clock&) override {
-    std::size_t least = 0;
-    for (std::size_t e = 0; e < steps_.size(); ++e)
-      if (!std::isnan(steps_[least]) && !(steps_[e] >= steps_[least])) least = e;
-    return {tssfac_ * steps_[least],
-            fmt::format("discrete beam {} of part {}", group_.id[static_cast<Index>(least)], part_id_)};
-  }
-  void record(World&, const Clock&, EnergyLedger&) override {}
-  void sample(const World&, const Clock&, EnergyLedger& ledger) const override { ledger.internal += total(); }
-  void report_part(const World& world, std::vector<PartSums>& parts) const override {
-    PartSums& out = parts[at(group_.part)];
-    out.internal += total();
-    for (Index e = 0; e < group_.size(); ++e) {
-      out.mass += group_.mass[e];
-      if (dead(e)) out.eroded_internal += energy_[e];
-      for (int c = 0; c < 2; ++c) {
-        const Index n = group_.node.data(c)[e];
-        const Vec v = world.nodes.v.vec(n);
-        out.momentum += group_.mass[e] / 2 * v;
-        out.kinetic += group_.mass[e] / 4 * v.squaredNorm();
-        if (w_) out.kinetic += inertia_[at(e)] / 4 * w_->vec(n).squaredNorm();
-      }
-    }
-  }
-
-  ElementKind kind() const override { return ElementKind::beam; }
-  const ElementGroup& reported() const override { return group_; }
   Real cut_measure(Index) const override { return 1; }
   ElementReport report_element(const World&, Index e, const ElementReportOptions&) const override {
     const auto f = [&](int d) { return answer_.data(d)[e]; };
@@ -106,15 +55,6 @@ class DiscreteBeamForces : public Material,
   }
 
  private:
-  static std::size_t at(Index e) { return static_cast<std::size_t>(e); }
-  Field<Real>& add(const char* field, const char* dimension, int components, bool output) {
-    return group_.fields.add<Real>(
-        {.name = field, .dimension = dimension, .components = components, .output = output});
-  }
-  bool dead(Index e) const { return erosion_ && erosion_->dead(e); }
-  Real total() const {
-    return sum(group_.size(), [&](Index e) { return dead(e) ? 0 : energy_[e]; });
-  }
   Quaternion triad(Index e) const {
     const auto q = [&](int k) { return axes_.data(k)[e]; };
     return Quaternion(q(0), q(1), q(2), q(3));
@@ -122,6 +62,10 @@ class DiscreteBeamForces : public Material,
   void put_triad(Index e, const Quaternion& q) {
     const Real values[] = {q.w(), q.x(), q.y(), q.z()};
     for (int k = 0; k < 4; ++k) axes_.data(k)[e] = values[k];
+  }
+
+  Real turning_energy(Index e, Index node) const override {
+    return w_ ? inertia_[at(e)] / 4 * w_->vec(node).squaredNorm() : 0;
   }
 
   /// How the ends of a beam moved over the last half step.
@@ -149,7 +93,7 @@ class DiscreteBeamForces : public Material,
     return (Quaternion::FromTwoVectors(turned * Vec::UnitX(), between) * turned).normalized();
   }
 
-  void advance(const World& world, const Clock& clock, Index begin, Index e) {
+  void advance(const World& world, const Clock& clock, Index begin, Index e) override {
     const Ends ends = ends_of(world, e);
     const Vec middle = ends.between - 0.5 * clock.dt_old * ends.v;
     const Quaternion before = triad(e), now = turned_triad(before, ends, clock.dt_old, ends.between);
@@ -225,16 +169,10 @@ class DiscreteBeamForces : public Material,
   std::shared_ptr<const DiscreteBeamLaw> law_;
   DiscreteTriad triad_;
   std::vector<Real> inertia_;
-  ElementGroup& group_;
-  Id part_id_;
-  Real tssfac_;
   const Field<Real>* w_;  ///< of nodes; null: nothing turns
   Field<Real>& axes_;     ///< of the triad: quaternion w x y z
   Field<Real>&displacement_, &answer_;
   Field<Real>& state_;  ///< of each spring, one after the other
-  Field<Real>& energy_;
-  std::vector<Real> steps_;
-  std::shared_ptr<Erosion> erosion_;  ///< null: nothing fails
 };
 
 void fill_group(const DiscreteBeamPart& part, const std::vector<Index>& node_of, bool turns,
@@ -270,8 +208,7 @@ void build_discrete_beams(const Model& model, const std::vector<DiscreteBeamPart
         std::any_of(part.inertia.begin(), part.inertia.end(), [](Real inertia) { return inertia > 0; });
     if (turns) {
       NodalRotations(world.nodes.fields);
-      group.corner_moment =
-          &set.add<Real>({.name = "corner_moment", .dimension = "ML2/T2", .components = 6, .restart = false});
+      group.keep_corner_moments();
     }
     fill_group(part, node_of, turns, group, world);
     world.passes.add(

@@ -1,12 +1,11 @@
 // *MAT_NONLINEAR_ELASTIC_DISCRETE_BEAM
-#include "elements/beam/discrete_beam_limits.hpp"
-#include "keyword/common_rules.hpp"
+#include "elements/beam/discrete_beam_cards.hpp"
 
 namespace courant {
 
 namespace {
 
-struct NonlinearElasticBeam : NonlinearBeamCard {
+struct NonlinearElasticBeam : DiscreteBeamCard, BeamFailureFields {
   Id lcidtr = 0, lcidts = 0, lcidtt = 0, lcidrr = 0, lcidrs = 0, lcidrt = 0;
   Id lcidtdr = 0, lcidtds = 0, lcidtdt = 0, lcidrdr = 0, lcidrds = 0, lcidrdt = 0;
 
@@ -17,7 +16,7 @@ struct NonlinearElasticBeam : NonlinearBeamCard {
     const std::array forces{lcidtr, lcidts, lcidtt, lcidrr, lcidrs, lcidrt};
     const std::array dampings{lcidtdr, lcidtds, lcidtdt, lcidrdr, lcidrds, lcidrdt};
     auto out = std::make_shared<DiscreteBeamLaw>();
-    put_shared(*out);
+    put_shared(*out), put_limits(*out);
     const auto take = [&](const char* field, Id id, ForceCurve& to) {
       if (id == 0) return true;
       const Curve* curve = beam_curve(deck, model, *this, field, id, diagnostics);
@@ -42,36 +41,32 @@ const RegisterDiscreteBeam<NonlinearElasticBeam> mat_nonlinear_elastic_discrete_
      .title_option = true,
      .title = &NonlinearElasticBeam::title,
      .cards = {
-         {.fields = {{"MID", &NonlinearElasticBeam::mid, "-", "id that *PART refers to", rules::required_id},
-                     {"RO", &NonlinearElasticBeam::ro, "M/L3", "density, of VOL of *SECTION_BEAM",
-                      rules::required_positive},
-                     {"LCIDTR", &NonlinearElasticBeam::lcidtr, "-",
-                      "curve of the force over the displacement along r",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCIDTS", &NonlinearElasticBeam::lcidts, "-", "along s",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCIDTT", &NonlinearElasticBeam::lcidtt, "-", "along t",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCIDRR", &NonlinearElasticBeam::lcidrr, "-",
-                      "curve of the moment over the angle about r", rules::optional_id_of(IdSpace::curve)},
-                     {"LCIDRS", &NonlinearElasticBeam::lcidrs, "-", "about s",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCIDRT", &NonlinearElasticBeam::lcidrt, "-", "about t",
-                      rules::optional_id_of(IdSpace::curve)}}},
-         {.fields = {{"LCIDTDR", &NonlinearElasticBeam::lcidtdr, "-",
-                      "curve of the damping force over the rate along r",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCIDTDS", &NonlinearElasticBeam::lcidtds, "-", "along s",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCIDTDT", &NonlinearElasticBeam::lcidtdt, "-", "along t",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCIDRDR", &NonlinearElasticBeam::lcidrdr, "-",
-                      "curve of the damping moment over the rate about r",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCIDRDS", &NonlinearElasticBeam::lcidrds, "-", "about s",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCIDRDT", &NonlinearElasticBeam::lcidrdt, "-", "about t",
-                      rules::optional_id_of(IdSpace::curve)}}},
+         first_card_of_beams<NonlinearElasticBeam>(
+             {{"LCIDTR", &NonlinearElasticBeam::lcidtr, "-",
+               "curve of the force over the displacement along r", rules::optional_id_of(IdSpace::curve)},
+              {"LCIDTS", &NonlinearElasticBeam::lcidts, "-", "along s",
+               rules::optional_id_of(IdSpace::curve)},
+              {"LCIDTT", &NonlinearElasticBeam::lcidtt, "-", "along t",
+               rules::optional_id_of(IdSpace::curve)},
+              {"LCIDRR", &NonlinearElasticBeam::lcidrr, "-", "curve of the moment over the angle about r",
+               rules::optional_id_of(IdSpace::curve)},
+              {"LCIDRS", &NonlinearElasticBeam::lcidrs, "-", "about s",
+               rules::optional_id_of(IdSpace::curve)},
+              {"LCIDRT", &NonlinearElasticBeam::lcidrt, "-", "about t",
+               rules::optional_id_of(IdSpace::curve)}}),
+         {.fields =
+              {{"LCIDTDR", &NonlinearElasticBeam::lcidtdr, "-",
+                "curve of the damping force over the rate along r", rules::optional_id_of(IdSpace::curve)},
+               {"LCIDTDS", &NonlinearElasticBeam::lcidtds, "-", "along s",
+                rules::optional_id_of(IdSpace::curve)},
+               {"LCIDTDT", &NonlinearElasticBeam::lcidtdt, "-", "along t",
+                rules::optional_id_of(IdSpace::curve)},
+               {"LCIDRDR", &NonlinearElasticBeam::lcidrdr, "-",
+                "curve of the damping moment over the rate about r", rules::optional_id_of(IdSpace::curve)},
+               {"LCIDRDS", &NonlinearElasticBeam::lcidrds, "-", "about s",
+                rules::optional_id_of(IdSpace::curve)},
+               {"LCIDRDT", &NonlinearElasticBeam::lcidrdt, "-", "about t",
+                rules::optional_id_of(IdSpace::curve)}}},
          preload_of_beams<NonlinearElasticBeam>(),
          failure_forces_of_beams<NonlinearElasticBeam>(),
          failure_displacements_of_beams<NonlinearElasticBeam>()}}};

@@ -1,32 +1,27 @@
 // *MAT_NONLINEAR_PLASTIC_DISCRETE_BEAM
 #include <fmt/format.h>
 
-#include "elements/beam/discrete_beam_limits.hpp"
-#include "keyword/common_rules.hpp"
+#include "elements/beam/discrete_beam_cards.hpp"
 
 namespace courant {
 
 namespace {
 
-struct NonlinearPlasticBeam : NonlinearBeamCard {
-  Real tkr = 0, tks = 0, tkt = 0, rkr = 0, rks = 0, rkt = 0;
-  Real tdr = 0, tds = 0, tdt = 0, rdr = 0, rds = 0, rdt = 0;
+struct NonlinearPlasticBeam : DiscreteBeamCard, LinearBeamFields, BeamFailureFields {
   Id lcpdr = 0, lcpds = 0, lcpdt = 0, lcpmr = 0, lcpms = 0, lcpmt = 0;
 
   /// Null behind an error.
   std::shared_ptr<DiscreteBeamLaw> law(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
     constexpr std::array fields{"LCPDR", "LCPDS", "LCPDT", "LCPMR", "LCPMS", "LCPMT"};
-    const SixOfBeam k{tkr, tks, tkt, rkr, rks, rkt}, c{tdr, tds, tdt, rdr, rds, rdt};
     const std::array curves{lcpdr, lcpds, lcpdt, lcpmr, lcpms, lcpmt};
     auto out = std::make_shared<DiscreteBeamLaw>();
-    put_shared(*out);
+    put_shared(*out), put_linear(*out), put_limits(*out);
     bool good = true;
     for (std::size_t d = 0; d < 6; ++d) {
       BeamSpring& spring = out->springs[d];
-      spring.k = k[d], spring.c = c[d];
-      if (curves[d] == 0 || k[d] == 0) continue;  // without a stiffness there is nothing that yields
+      if (curves[d] == 0 || spring.k == 0) continue;  // without a stiffness there is nothing that yields
       const Curve* curve = beam_curve(deck, model, *this, fields[d], curves[d], diagnostics);
-      good = curve && yields(deck, fields[d], k[d], *curve, diagnostics) && good;
+      good = curve && yields(deck, fields[d], spring.k, *curve, diagnostics) && good;
       if (curve) spring.yield = YieldCurve(*curve);
     }
     return good ? out : nullptr;
@@ -65,36 +60,20 @@ const RegisterDiscreteBeam<NonlinearPlasticBeam> mat_nonlinear_plastic_discrete_
      .title_option = true,
      .title = &NonlinearPlasticBeam::title,
      .cards = {
-         {.fields = {{"MID", &NonlinearPlasticBeam::mid, "-", "id that *PART refers to", rules::required_id},
-                     {"RO", &NonlinearPlasticBeam::ro, "M/L3", "density, of VOL of *SECTION_BEAM",
-                      rules::required_positive},
-                     {"TKR", &NonlinearPlasticBeam::tkr, "M/T2", "stiffness along r", beam_at_least_0},
-                     {"TKS", &NonlinearPlasticBeam::tks, "M/T2", "along s", beam_at_least_0},
-                     {"TKT", &NonlinearPlasticBeam::tkt, "M/T2", "along t", beam_at_least_0},
-                     {"RKR", &NonlinearPlasticBeam::rkr, "ML2/T2", "stiffness about r", beam_at_least_0},
-                     {"RKS", &NonlinearPlasticBeam::rks, "ML2/T2", "about s", beam_at_least_0},
-                     {"RKT", &NonlinearPlasticBeam::rkt, "ML2/T2", "about t", beam_at_least_0}}},
-         {.fields = {{"TDR", &NonlinearPlasticBeam::tdr, "M/T", "damping along r", beam_at_least_0},
-                     {"TDS", &NonlinearPlasticBeam::tds, "M/T", "along s", beam_at_least_0},
-                     {"TDT", &NonlinearPlasticBeam::tdt, "M/T", "along t", beam_at_least_0},
-                     {"RDR", &NonlinearPlasticBeam::rdr, "ML2/T", "damping about r", beam_at_least_0},
-                     {"RDS", &NonlinearPlasticBeam::rds, "ML2/T", "about s", beam_at_least_0},
-                     {"RDT", &NonlinearPlasticBeam::rdt, "ML2/T", "about t", beam_at_least_0}}},
-         {.fields = {{"LCPDR", &NonlinearPlasticBeam::lcpdr, "-",
-                      "curve of the force at which it yields over the plastic displacement along r; 0: "
-                      "elastic",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCPDS", &NonlinearPlasticBeam::lcpds, "-", "along s",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCPDT", &NonlinearPlasticBeam::lcpdt, "-", "along t",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCPMR", &NonlinearPlasticBeam::lcpmr, "-",
-                      "curve of the moment over the plastic angle about r",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCPMS", &NonlinearPlasticBeam::lcpms, "-", "about s",
-                      rules::optional_id_of(IdSpace::curve)},
-                     {"LCPMT", &NonlinearPlasticBeam::lcpmt, "-", "about t",
-                      rules::optional_id_of(IdSpace::curve)}}},
+         stiffness_of_beams<NonlinearPlasticBeam>(),
+         damping_of_beams<NonlinearPlasticBeam>(),
+         {.fields =
+              {{"LCPDR", &NonlinearPlasticBeam::lcpdr, "-",
+                "curve of the force at which it yields over the plastic displacement along r; 0: "
+                "elastic",
+                rules::optional_id_of(IdSpace::curve)},
+               {"LCPDS", &NonlinearPlasticBeam::lcpds, "-", "along s", rules::optional_id_of(IdSpace::curve)},
+               {"LCPDT", &NonlinearPlasticBeam::lcpdt, "-", "along t", rules::optional_id_of(IdSpace::curve)},
+               {"LCPMR", &NonlinearPlasticBeam::lcpmr, "-",
+                "curve of the moment over the plastic angle about r", rules::optional_id_of(IdSpace::curve)},
+               {"LCPMS", &NonlinearPlasticBeam::lcpms, "-", "about s", rules::optional_id_of(IdSpace::curve)},
+               {"LCPMT", &NonlinearPlasticBeam::lcpmt, "-", "about t",
+                rules::optional_id_of(IdSpace::curve)}}},
          failure_forces_of_beams<NonlinearPlasticBeam>(),
          failure_displacements_of_beams<NonlinearPlasticBeam>(),
          preload_of_beams<NonlinearPlasticBeam>()}}};

@@ -152,7 +152,7 @@ bool deforms(const World& world, Index segment) {
 void read_supported_walls(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
                           Diagnostics& diagnostics) {
   SupportedWalls& walls = settings.walls;
-  if (world.particles.size() == 0) return;  // there may be a million of shells
+  if (world.particles.size() == 0) return;  // there may be a million shells
   walls.friction.assign(static_cast<std::size_t>(world.segments.size()), {});
   const CourantWallSupport* first = nullptr;
   for (const auto& c : deck.all<CourantWallSupport>()) {
