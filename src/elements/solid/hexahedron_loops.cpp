@@ -31,8 +31,19 @@ COURANT_INLINE Native mean_stress_otherwise(int end, Index k, Real dt, const Nat
   return (1.0 / 3) * (s[0] + s[1] + s[2]) * (load(scratch.opened[end] + k) - middle);
 }
 
+/// Rates of the modes of hourglass control that linear fields leave alone, in the place of the plain ones.
+/// With the geometry in the middle of the step: that at its end would strain what turns, and a stiffness then
+/// makes energy without bound.
+COURANT_INLINE void orthogonal_rates(const Triple middle[7], const Native v[3][7], const Triple L[3],
+                                     Native inverse_V64, Index k, HexahedronScratch& scratch) {
+  for (int m = 3; m < 7; ++m)
+    for (int i = 0; i < 3; ++i)
+      store(scratch.speed[3 * m + i] + k, v[i][m] - inverse_V64 * dot(L[i], middle[m]));
+}
+
 COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const HexahedronMesh& mesh,
-                              const HexahedronState& state, HexahedronScratch& scratch) {
+                              const HexahedronControl& control, const HexahedronState& state,
+                              HexahedronScratch& scratch) {
   Native x[3][7], v[3][7];
   gather_modes(mesh, first, n, k, scratch, x, v);
   Triple a[7], L[3];
@@ -45,10 +56,11 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Hexa
     store(scratch.opened[0] + k, (0.0078125 * dt) * opening64(v, geometry(a)));
   }
   const Real back = -0.5 * dt;
-  for (int m = 0; m < 6; ++m)
+  for (int m = 0; m < 7; ++m)
     a[m] = {x[0][m] + back * v[0][m], x[1][m] + back * v[1][m], x[2][m] + back * v[2][m]};
   const Geometry middle = geometry(a);
   for (int i = 0; i < 3; ++i) L[i] = gradient64(v[i], middle.g);
+  if (control.hourglass != 1) orthogonal_rates(a, v, L, 1.0 / middle.V64, k, scratch);
   const Native scale = 1.0 / middle.V64, half = 0.5 * scale, turn = 0.5 * dt * half;
   const Native V = 0.015625 * middle.V64;
   store(scratch.middle_volume + k, V);
@@ -86,32 +98,26 @@ struct Hourglass {
   Native* kept = nullptr;         ///< forces of the four modes, with a stiffness turned; out: now [ML/T2]
   const Native* given = nullptr;  ///< IHQ 6: all is done, these are the forces [ML/T2]
 };
-COURANT_INLINE void orthogonal_rates(const Triple a[7], const Native w[7], const Geometry& q,
-                                     Native inverse_V64, Native rate[4]) {
-  const Triple L = gradient64(w, q.g);
-  for (int m = 0; m < 4; ++m) rate[m] = w[3 + m] - inverse_V64 * dot(L, a[3 + m]);
-}
-COURANT_INLINE Native force_modes(const Triple a[7], const Native w[7], const Geometry& q, Triple T,
+COURANT_INLINE Native force_modes(const Triple a[7], const Native rate[4], const Geometry& q, Triple T,
                                   const Hourglass& h, Native out[7]) {
-  Native rate[4] = {w[3], w[4], w[5], w[6]};
-  Native power = all(0);
-  if (h.given)
-    for (int m = 0; m < 4; ++m) rate[m] = h.given[m];
-  else if (!h.plain)
-    orthogonal_rates(a, w, q, h.inverse_V64, rate);
-  for (int m = 0; m < 4 && !h.given; ++m) {
-    const Native now = h.stiff ? h.kept[m] + h.a * rate[m] : h.a * rate[m];
-    power += 0.5 * (h.kept[m] + now) * rate[m];
-    rate[m] = h.kept[m] = now;
+  Native now[4], power = all(0);
+  for (int m = 0; m < 4; ++m) {
+    if (h.given) {
+      now[m] = h.given[m];
+      continue;
+    }
+    now[m] = h.stiff ? h.kept[m] + h.a * rate[m] : h.a * rate[m];
+    power += 0.5 * (h.kept[m] + now[m]) * rate[m];
+    h.kept[m] = now[m];
   }
   if (!h.plain)
     for (int m = 0; m < 4; ++m) {
-      const Native share = 64.0 * h.inverse_V64 * rate[m];
+      const Native share = 64.0 * h.inverse_V64 * now[m];
       T = {T.x - share * a[3 + m].x, T.y - share * a[3 + m].y, T.z - share * a[3 + m].z};
     }
   for (int m = 0; m < 6; ++m) out[m] = -0.015625 * dot(T, q.g[m]);
-  for (int m = 0; m < 3; ++m) out[3 + m] -= rate[m];
-  out[6] = -rate[3];
+  for (int m = 0; m < 3; ++m) out[3 + m] -= now[m];
+  out[6] = -now[3];
   return power;
 }
 
@@ -132,7 +138,7 @@ struct AssumedStrain {
   Triple e[3];
   Native length[3];
 };
-COURANT_INLINE AssumedStrain axes_of(const Triple a[7]) {
+COURANT_INLINE AssumedStrain axes_of(const Triple a[3]) {
   AssumedStrain out;
   out.e[0] = (1.0 / root(dot(a[0], a[0]))) * a[0];
   const Native along = dot(a[1], out.e[0]);
@@ -156,26 +162,23 @@ COURANT_INLINE void strain_modes(const Native q[3][4], const Native l[3], Native
     kept[b][3] += along * q[b][3] / (l[b] * l[b]);
   }
 }
-/// Rates of the modes by the geometry in the middle of the step, along the axes there. With that at its end
-/// energy would come from nowhere to first order in dt. `force`: out, along space, as elements lie at the end
-/// of the step. Returns the power.
-COURANT_INLINE Native assumed_strain_forces(const Triple a[7], const Native w[3][7], Real dt,
-                                            const HexahedronControl& control, Native kept[3][4],
+/// Rates of the modes along the axes in the middle of the step. `force`: out, along space, as elements lie at
+/// the end of the step. Returns the power.
+COURANT_INLINE Native assumed_strain_forces(const Triple a[7], const Native rate[3][4], Real dt, Index k,
+                                            const HexahedronControl& control,
+                                            const HexahedronScratch& scratch, Native kept[3][4],
                                             Native force[3][4]) {
-  Triple middle[7];
-  for (int m = 0; m < 7; ++m)
-    middle[m] = {a[m].x - 0.5 * dt * w[0][m], a[m].y - 0.5 * dt * w[1][m], a[m].z - 0.5 * dt * w[2][m]};
-  const Geometry q = geometry(middle);
+  Triple middle[3];
+  for (int m = 0; m < 3; ++m) middle[m] = a[m] - (0.5 * dt) * triple(scratch.speed + 3 * m, k);
   const AssumedStrain brick = axes_of(middle), end = axes_of(a);
-  Native rate[3][4], local[3][4], strained[3][4], old[3][4], power = all(0);
-  for (int i = 0; i < 3; ++i) orthogonal_rates(middle, w[i], q, 1.0 / q.V64, rate[i]);
+  Native local[3][4], strained[3][4], old[3][4], power = all(0);
   for (int b = 0; b < 3; ++b)
     for (int m = 0; m < 4; ++m) {
       local[b][m] = dot(brick.e[b], Triple{rate[0][m], rate[1][m], rate[2][m]});
       strained[b][m] = 0.015625 * dt * local[b][m];  // amplitudes are 1/8 of sums over corners, twice
       old[b][m] = kept[b][m];
     }
-  strain_modes(strained, brick.length, 0.015625 * q.V64, control, kept);
+  strain_modes(strained, brick.length, load(scratch.middle_volume + k), control, kept);
   for (int b = 0; b < 3; ++b)
     for (int m = 0; m < 4; ++m) power += 0.5 * (old[b][m] + kept[b][m]) * local[b][m];
   for (int m = 0; m < 4; ++m) {
@@ -188,15 +191,19 @@ COURANT_INLINE Native assumed_strain_forces(const Triple a[7], const Native w[3]
   return power;
 }
 
-/// Of each direction and mode those of the step before; a stiffness turns with the element.
+/// Of each direction and mode those of the step before; a stiffness turns with the element, and so do its
+/// rates from the middle of the step.
 COURANT_INLINE void old_hourglass_forces(Index first, Index n, Index k, bool stiff,
                                          const HexahedronState& state, const HexahedronScratch& scratch,
-                                         Native kept[3][4]) {
+                                         Native kept[3][4], Native rate[3][4]) {
   for (int m = 0; m < 4; ++m)
     for (int i = 0; i < 3; ++i) kept[i][m] = load(state.hourglass_force[3 * m + i] + first, n);
   if (!stiff) return;
-  const Triple h = triple(scratch.half_turn, k);
-  for (int m = 0; m < 4; ++m) turn_vector(h.x, h.y, h.z, kept[0][m], kept[1][m], kept[2][m]);
+  const Triple h = triple(scratch.half_turn, k), half = 0.5 * h;
+  for (int m = 0; m < 4; ++m) {
+    turn_vector(h.x, h.y, h.z, kept[0][m], kept[1][m], kept[2][m]);
+    turn_vector(half.x, half.y, half.z, rate[0][m], rate[1][m], rate[2][m]);
+  }
 }
 
 COURANT_INLINE void viscosity_of(Index first, Index n, Index k, const HexahedronControl& control,
@@ -219,24 +226,24 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Hexa
   const Compressed of = compressed(first, n, k, dt, control, state, a, now.V64, scratch);
   const Native inverse_V64 = of.inverse_V64, rho = of.rho, c = of.c, l = of.l, q = of.q;
 
-  Native s[6], w[3][7], modes[7], f[8], power = all(0);
+  Native s[6], rate[3][4], modes[7], f[8], power = all(0);
   for (int j = 0; j < 6; ++j) s[j] = load(state.stress[j] + first, n);
   const Triple T[3] = {{s[0] - q, s[3], s[5]}, {s[3], s[1] - q, s[4]}, {s[5], s[4], s[2] - q}};
   Native kept[3][4]{};
   const bool keeps = state.hourglass_force[0] != nullptr;
   const bool assumes = keeps && control.hourglass == 6;  // whose forces lie along axes of the element
-  if (keeps) old_hourglass_forces(first, n, k, control.stiff() && !assumes, state, scratch, kept);
+  for (int i = 0; i < 3; ++i)
+    for (int m = 0; m < 4; ++m) rate[i][m] = load(scratch.speed[3 * (3 + m) + i] + k);
+  if (keeps) old_hourglass_forces(first, n, k, control.stiff() && !assumes, state, scratch, kept, rate);
   Hourglass hourglass{control.stiff() ? dt * hourglass_stiffness(control.QM * rho * c * c, now, inverse_V64)
                                       : 0.25 * control.QM * rho * c * l * l,
                       control.hourglass == 1, control.stiff(), inverse_V64};
-  for (int i = 0; i < 3; ++i)
-    for (int m = 0; m < 7; ++m) w[i][m] = load(scratch.speed[3 * m + i] + k);
   Native given[3][4];
-  if (assumes) power += assumed_strain_forces(a, w, dt, control, kept, given);
+  if (assumes) power += assumed_strain_forces(a, rate, dt, k, control, scratch, kept, given);
   for (int i = 0; i < 3; ++i) {
     hourglass.kept = kept[i];
     hourglass.given = assumes ? given[i] : nullptr;
-    power += force_modes(a, w[i], now, T[i], hourglass, modes);
+    power += force_modes(a, rate[i], now, T[i], hourglass, modes);
     corners_of(modes, f);
     for (int j = 0; j < 8; ++j) store(state.corner_force[3 * j + i] + first, f[j], n);
     if (keeps)
@@ -246,13 +253,13 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Hexa
   if (state.internal_energy) add(state.internal_energy + first, load(scratch.work + k), n);
 }
 
-void strain(const HexahedronLoops::Block& block, const HexahedronMesh& mesh, const HexahedronState& state,
-            HexahedronScratch& scratch) {
+void strain(const HexahedronLoops::Block& block, const HexahedronMesh& mesh, const HexahedronControl& control,
+            const HexahedronState& state, HexahedronScratch& scratch) {
   const Index whole = block.count - block.count % native_lanes;
   for (Index k = 0; k < whole; k += native_lanes)
-    strain_of(block.begin + k, native_lanes, k, block.dt, mesh, state, scratch);
+    strain_of(block.begin + k, native_lanes, k, block.dt, mesh, control, state, scratch);
   if (whole < block.count)
-    strain_of(block.begin + whole, block.count - whole, whole, block.dt, mesh, state, scratch);
+    strain_of(block.begin + whole, block.count - whole, whole, block.dt, mesh, control, state, scratch);
 }
 
 void viscosity(const HexahedronLoops::Block& block, const HexahedronControl& control,

@@ -53,10 +53,11 @@ struct HexahedronControl {
 struct HexahedronScratch {
   alignas(64) Real rate[6][block_size];  ///< D of mid-step in the axes at its end: xx yy zz xy yz zx [1/T]
   Real place[21][block_size];            ///< modes 1 to 7 of x, three components each [L]
-  Real speed[21][block_size];            ///< the same of v [L/T]
-  Real half_turn[3][block_size];         ///< of the step, as in objective.hpp [-]
-  Real compression[block_size];          ///< rho/rho0 - 1 at the end of the step [-]
-  Real middle_volume[block_size];        ///< at mid-step [L3]
+  /// The same of v; with one point those from 4 on without linear fields, but for IHQ 1. [L/T]
+  Real speed[21][block_size];
+  Real half_turn[3][block_size];   ///< of the step, as in objective.hpp [-]
+  Real compression[block_size];    ///< rho/rho0 - 1 at the end of the step [-]
+  Real middle_volume[block_size];  ///< at mid-step [L3]
   /// With `heats`: sum b_I.v_I dt/2 with the b_I = dV/dx_I of the start and of the end of the step,
   /// through which the pressures there push corners: the gas gives to the last bit what the nodes get. [L3]
   Real opened[2][block_size];
@@ -73,10 +74,10 @@ struct HexahedronLoops {
     Index begin, count;
     Real dt;  ///< of the step that led here; 0: none yet [T]
   };
-  /// Gathers corners; D, and stress and tensors of the law turned by the spin (Hughes-Winget), with the
-  /// geometry in the middle of the step.
-  void (*strain)(const Block& block, const HexahedronMesh& mesh, const HexahedronState& state,
-                 HexahedronScratch& scratch);
+  /// Gathers corners; D, rates of hourglass control, and stress and tensors of the law turned by the spin
+  /// (Hughes-Winget), with the geometry in the middle of the step.
+  void (*strain)(const Block& block, const HexahedronMesh& mesh, const HexahedronControl& control,
+                 const HexahedronState& state, HexahedronScratch& scratch);
   /// Bulk viscosity of an equation of state, with the sound speed in `scratch`:
   /// q at the end of the step in the place of that at its start, and the work of both through `opened` added
   /// to that of stress.

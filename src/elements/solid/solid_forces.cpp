@@ -227,7 +227,7 @@ class SolidForces : public Material,
                                  FullHexahedronScratch& scratch, const Clock* failing = nullptr) {
     const HexahedronLoops::Block block{begin, end - begin, dt};
     if (full_) return advance_points(of, block, scratch, failing);
-    loops_.strain(block, of.mesh, of.state, scratch);
+    loops_.strain(block, of.mesh, of.control, of.state, scratch);
     if (failing && erosion_->any_dead(begin)) still_dead(begin, block.count, scratch);
     NodalPressure::Scratch by_nodes;
     if (of.nodal) of.nodal->strain(block, of.state, scratch, by_nodes);
@@ -425,7 +425,7 @@ class SolidForces : public Material,
     for (Index begin = 0; begin < n; begin += block_size) {
       HexahedronScratch scratch;
       const HexahedronLoops::Block block{begin, std::min<Index>(block_size, n - begin), 0};
-      loops_.strain(block, mesh_, state_, scratch);
+      loops_.strain(block, mesh_, control_, state_, scratch);
       std::fill(scratch.sound_speed, scratch.sound_speed + block.count, material_.sound_speed());
       loops_.forces(block, control_, state_, scratch);
       for (Index k = 0; k < block.count; ++k) {
