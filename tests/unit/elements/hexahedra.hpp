@@ -115,7 +115,7 @@ struct Hexahedra {
     const Index n = static_cast<Index>(size());
     for (Index begin = 0; begin < n; begin += block_size) {
       const HexahedronLoops::Block block{begin, std::min(block_size, n - begin), dt};
-      loops.strain(block, mesh, state, scratch);
+      loops.strain(block, mesh, control, state, scratch);
       law(block);
       loops.work(block, state, scratch);
       const auto found = loops.forces(block, control, state, scratch);
