@@ -42,27 +42,35 @@ void NodeContact::gather(const World& world) {
     }
   }
   stiffest_ = {};
+  due_ = std::numeric_limits<Real>::infinity();
   if (shares_.empty()) return;
+  for (const Touch& touch : touches_)
+    if (touch.due > 0) due_ = std::min(due_, touch.due);
   counting_sort(key_, static_cast<Index>(involved_.size()), first_, order_);
   stiffest_ = reduce(
       static_cast<Index>(involved_.size()), Stiffest(),
       [&](Index begin, Index end) {
         Stiffest out;
-        for (Index p = begin; p < end; ++p) {
-          const Index n = involved_[static_cast<std::size_t>(p)];
-          Real sum = 0;
-          for (Index s = first_[static_cast<std::size_t>(p)]; s < first_[static_cast<std::size_t>(p) + 1];
-               ++s) {
-            const Share& share = shares_[static_cast<std::size_t>(order_[static_cast<std::size_t>(s)])];
-            const Touch& touch = touches_[static_cast<std::size_t>(share.touch)];
-            sum += touch.k * std::abs(share_of(share)) * touch.spread;
-          }
-          const Real omega2 = sum / world.nodes.m[n];
-          if (omega2 > out.omega2 && !world.nodes.held[n]) out = {omega2, n};
-        }
+        for (Index p = begin; p < end; ++p) out.take(pull_on(world, p));
         return out;
       },
-      [](const Stiffest& a, const Stiffest& b) { return b.omega2 > a.omega2 ? b : a; });
+      [](Stiffest a, const Stiffest& b) {
+        a.take(b);
+        return a;
+      });
+}
+
+NodeContact::Stiffest NodeContact::pull_on(const World& world, Index p) const {
+  const Index n = involved_[static_cast<std::size_t>(p)];
+  Real now = 0, soon = 0;
+  for (Index s = first_[static_cast<std::size_t>(p)]; s < first_[static_cast<std::size_t>(p) + 1]; ++s) {
+    const Share& share = shares_[static_cast<std::size_t>(order_[static_cast<std::size_t>(s)])];
+    const Touch& touch = touches_[static_cast<std::size_t>(share.touch)];
+    (touch.due > 0 ? soon : now) += touch.k * std::abs(share_of(share)) * touch.spread;
+  }
+  if (world.nodes.held[n]) return {};
+  const Real m = world.nodes.m[n];
+  return {{now / m, n}, {(now + soon) / m, n}};
 }
 
 void NodeContact::add_force_on(Index node, Vec& force) const {
@@ -77,12 +85,23 @@ void NodeContact::add_force_on(Index node, Vec& force) const {
 // Where springs k_t act on nodes with shares b_tn, no frequency is above max_n (sum_t k_t |b_tn| sum_j
 // |b_tj|) / m_n (Gershgorin). Elements leave 1 - TSSFAC^2 of the square of a stable step to others.
 TimeLimit::Limit NodeContact::limit(const World& world, const Clock&) {
-  if (!(stiffest_.omega2 > 0)) return {std::numeric_limits<Real>::infinity(), name()};
   constexpr Real most_of_elements = 0.95;  // else nothing would be left
+  constexpr Real resolved = 0.9;           // omega dt, else bounces are too coarse
   const Real s = std::min(law_.tssfac, most_of_elements), xi = 0.02 * law_.vdc;
   const Real part = holder_ ? 0.5 : 1;  // springs that hold the same nodes ask for the other half
-  return {2 / std::sqrt(stiffest_.omega2) * std::sqrt(part * (1 - s * s)) * (std::sqrt(1 + xi * xi) - xi),
-          fmt::format("{} (node {})", name(), world.nodes.id[stiffest_.node])};
+  const auto allowed = [&](Real omega2) {
+    const Real stable = 2 * std::sqrt(part * (1 - s * s)) * (std::sqrt(1 + xi * xi) - xi);
+    return std::min(stable, resolved) / std::sqrt(omega2);
+  };
+  const auto told = [&](Real dt, Index node) {
+    return Limit{dt, fmt::format("{} (node {})", name(), world.nodes.id[node])};
+  };
+  const Frequency &now = stiffest_.now, &soon = stiffest_.soon;
+  const Real dt = now.omega2 > 0 ? allowed(now.omega2) : std::numeric_limits<Real>::infinity();
+  // up to the surface, or as short as springs there ask for
+  if (soon.omega2 > now.omega2)
+    if (const Real then = std::max(due_, allowed(soon.omega2)); then < dt) return told(then, soon.node);
+  return now.omega2 > 0 ? told(dt, now.node) : Limit{dt, name()};
 }
 
 // Mean over the step about to be taken; of driven nodes, which do not follow their forces, that before.

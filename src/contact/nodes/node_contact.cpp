@@ -55,6 +55,10 @@ NodeContact::NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodi
 void NodeContact::take_involved(const World& world) {
   std::vector<char> is_in(static_cast<std::size_t>(world.nodes.size()), 0);
   for (const ContactNode& n : nodes_) is_in[static_cast<std::size_t>(n.node)] = 1;
+  std::size_t tracked_corners = 0;
+  for (const ContactFace& f : faces_)
+    for (const Index n : f.node) tracked_corners += is_in[static_cast<std::size_t>(n)] == 1;
+  both_ways_ = tracked_corners > 2 * faces_.size();
   for (const ContactFace& f : faces_)
     for (const Index n : f.node) is_in[static_cast<std::size_t>(n)] = 1;
   place_.assign(is_in.size(), -1);
@@ -119,7 +123,7 @@ void NodeContact::follow(World& world, const Clock& clock) {
       [](const Most& a, const Most& b) {
         return Most{std::max(a.moved2, b.moved2), std::max(a.v2, b.v2)};
       });
-  reach_ = std::max(least_reach * size_, 2.2 * std::sqrt(most.v2) * clock.dt_old);
+  reach_ = std::max(least_reach * size_, 2.2 * std::sqrt(most.v2) * std::max(clock.dt_old, soft_dt_));
   const auto deleted = world.counters.find("deleted_elements");
   const std::int64_t count = deleted == world.counters.end() ? 0 : deleted->second;
   if (count == eroded_count_ && listed_once_ && reach_ + 2.01 * std::sqrt(most.moved2) <= listed_reach_)

@@ -129,6 +129,7 @@ class NodeContact : public Force,
     Real k = 0, depth = 0;  ///< [M/T2], below `slack` [L]
     Vec n = Vec::Zero();    ///< towards the node
     std::array<Real, 4> N{};
+    Real due = 0;      ///< > 0: no touch yet, but after this time [T]
     Real stored = 0;   ///< [ML2/T2]
     Real spread = 0;   ///< sum of the shares of what can move, 1 for the node [-]
     Real damping = 0;  ///< along n [ML/T2]
@@ -151,9 +152,16 @@ class NodeContact : public Force,
     Real damping_work = 0, friction_work = 0;
     Real let_go = 0;  ///< energy of touches with faces that are deleted [ML2/T2]
   };
-  struct Stiffest {   ///< by what is in touch with it
-    Real omega2 = 0;  ///< bound of the largest frequency, squared [1/T2]
+  struct Frequency {
+    Real omega2 = 0;  ///< bound of the largest one, squared [1/T2]
     Index node = -1;  ///< of World::nodes
+  };
+  struct Stiffest {
+    Frequency now, soon;  ///< by what is in touch; with what will be
+    void take(const Stiffest& other) {
+      if (other.now.omega2 > now.omega2) now = other.now;
+      if (other.soon.omega2 > soon.omega2) soon = other.soon;
+    }
   };
   struct Share {  ///< of a touch
     Index touch = 0;
@@ -184,6 +192,9 @@ class NodeContact : public Force,
   void give_stiffness(const World& world, Index i, Slot& slot) const;
   void fade(const World& world, const Slot& slot, Touch& touch) const;
   void push(const World& world, const Clock& clock, Block& b, Index i, Slot& slot) const;
+  void fill(const World& world, const Clock& clock, Slot& slot, Touch& touch) const;
+  void expect(const World& world, const Clock& clock, Block& b, Index i) const;
+  Real way_of(const Clock& clock, const Touch& touch, Real speed, Real mobility) const;
   Vec friction_force(const Clock& clock, const Slot& slot, const Vec& n, const Vec& v, Real fn) const;
   Vec velocity_of_face(const World& world, const ContactFace& f, const std::array<Real, 4>& N) const;
   Real mass_of(const World& world, Index node) const;
@@ -192,6 +203,7 @@ class NodeContact : public Force,
   Slot load(Index i, int k) const;
   void store(Index i, int k, const Slot& slot);
   void gather(const World& world);
+  Stiffest pull_on(const World& world, Index p) const;
   void tell_holder(World& world);
   Vec middle_velocity(const World& world, const Clock& clock, const Field<Index>* driven, Index node) const;
   const ContactFace& face(Index f) const { return faces_[static_cast<std::size_t>(f)]; }
@@ -202,6 +214,7 @@ class NodeContact : public Force,
   TouchHolder* holder_ = nullptr;  ///< null: nodes touch and leave
   int number_;
   bool friction_on_, drag_on_;
+  bool both_ways_ = false;  ///< corners of faces are tracked nodes
   std::vector<ContactNode> nodes_;
   std::vector<OwnFace> own_;
   std::vector<ContactFace> faces_;
@@ -229,6 +242,7 @@ class NodeContact : public Force,
   std::vector<Share> shares_;
   std::vector<Index> key_, first_, order_;  ///< shares_ by place in involved_
   Stiffest stiffest_;
+  Real due_ = 0;  ///< until the next node comes through a face [T]
   Resource touches_resource_{"touches of nodes"};
   Real damping_work_ = 0, friction_work_ = 0;
   const Field<Index>* eroded_;     ///< of segments; null: nothing fails

@@ -11,7 +11,22 @@ namespace {
 
 constexpr Real unbounded = std::numeric_limits<Real>::infinity();
 
+/// Of a spring's force where the node came through the surface within the last step, or leaves it within the
+/// next: the impulses of a step are no longer those of the depth in its middle, and a bounce would give back
+/// 1 +- (omega dt)^2/4 of its energy, by chance. With this factor the sums of leapfrog, v^2 + omega^2 d_n
+/// d_n+1, close to first order in how far the surface is from a sample.
+Real part_of_step(Real depth, Real way) {
+  return way > depth ? 0.5 * (1 + depth / way) : Real(1);
+}
+
 }  // namespace
+
+// How far the node goes in a step along the normal: in by what it has come, out by what its spring adds to
+// that, twice where nodes of the face have springs, too.
+Real NodeContact::way_of(const Clock& clock, const Touch& touch, Real speed, Real mobility) const {
+  const Real springs = both_ways_ ? 2 : 1, dt = clock.dt_old;
+  return dt * std::max(-speed, speed + springs * touch.k * touch.depth * mobility * dt);
+}
 
 Vec NodeContact::velocity_of_face(const World& world, const ContactFace& f,
                                   const std::array<Real, 4>& N) const {
@@ -90,7 +105,6 @@ void NodeContact::fade(const World& world, const Slot& slot, Touch& touch) const
 }
 
 void NodeContact::push(const World& world, const Clock& clock, Block& b, Index i, Slot& slot) const {
-  const ContactFace& f = face(slot.face);
   const ContactNode& who = node(i);
   slot.slack = std::min(slot.slack, -slot.gap);
   Touch touch;
@@ -99,7 +113,14 @@ void NodeContact::push(const World& world, const Clock& clock, Block& b, Index i
   touch.n = slot.n, touch.N = slot.at.N;
   touch.stored = 0.5 * touch.k * touch.depth * touch.depth;
   if (slot.beyond > 0) fade(world, slot, touch);
-  const Real m = mass_of(world, who.node);
+  fill(world, clock, slot, touch);
+  b.touches.push_back(touch);
+}
+
+// All but where the touch is and what it stores.
+void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch& touch) const {
+  const ContactFace& f = face(touch.face);
+  const Real m = mass_of(world, touch.node);
   Real mobility = 0;  // of the face where it is touched [1/M]
   for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e) {
     if (world.nodes.held[f.node[e]]) continue;
@@ -107,8 +128,10 @@ void NodeContact::push(const World& world, const Clock& clock, Block& b, Index i
     touch.spread += std::abs(touch.N[e]);
   }
   if (std::isfinite(m)) touch.spread += 1;
-  Real fn = touch.k * touch.depth;
-  const Vec v = world.nodes.v.vec(who.node) - velocity_of_face(world, f, touch.N);
+  const Vec v = world.nodes.v.vec(touch.node) - velocity_of_face(world, f, touch.N);
+  const Real part = part_of_step(touch.depth, way_of(clock, touch, v.dot(touch.n), 1 / m + mobility));
+  Real fn = part * touch.k * touch.depth;
+  for (Real& t : touch.tilt) t *= part;
   if (law_.vdc > 0 && touch.depth > 0) {
     // of the critical damping of node and face: 2 m omega, m the smaller mass
     const Real omega = std::sqrt(touch.k * (1 / m + mobility)), lighter = std::min(m, 1 / mobility);
@@ -117,6 +140,32 @@ void NodeContact::push(const World& world, const Clock& clock, Block& b, Index i
   }
   if (friction_on_) slot.friction = touch.friction = friction_force(clock, slot, touch.n, v, fn);
   touch.force = fn * touch.n + touch.friction;
+}
+
+// The spring that a node will have which comes through a face within a step, no force: so that steps are
+// short enough for it by then. The force of the first sample behind the surface pushes through half of the
+// step that led there, which would not be bounded else.
+void NodeContact::expect(const World& world, const Clock& clock, Block& b, Index i) const {
+  Slot next;
+  Real soonest = soft_dt_ > 0 ? soft_dt_ : unbounded;
+  for (const Seen& seen : b.seen) {
+    if (!seen.at.over) continue;
+    const ContactFace& f = face(seen.face);
+    const Real side = f.two_sided && seen.d < 0 ? -1 : 1, gap = side * seen.d - f.r - node(i).r;
+    if (gap < 0) continue;
+    const Vec v = world.nodes.v.vec(node(i).node) - velocity_of_face(world, f, seen.at.N);
+    const Real closing = -side * seen.at.n.dot(v);
+    if (!(closing > 0 && gap < closing * soonest)) continue;
+    soonest = gap / closing;
+    next.face = seen.face, next.at = seen.at, next.side = side, next.n = side * seen.at.n;
+  }
+  if (next.face < 0) return;
+  give_stiffness(world, i, next);
+  Touch touch;
+  touch.node = node(i).node, touch.face = next.face, touch.pass = node(i).pass;
+  touch.k = next.k, touch.n = next.n, touch.N = next.at.N;
+  touch.due = std::max(soonest, std::numeric_limits<Real>::min());
+  fill(world, clock, next, touch);
   b.touches.push_back(touch);
 }
 

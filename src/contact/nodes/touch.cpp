@@ -80,8 +80,13 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   for (Slot& slot : slots)
     if (slot.face >= 0 && !hold(world, b, i, x, slots, slot)) slot = Slot();
   find_touches(world, clock, b, i, slots);
-  for (Slot& slot : slots)
-    if (slot.face >= 0) push(world, clock, b, i, slot);
+  bool touches = false;
+  for (Slot& slot : slots) {
+    if (slot.face < 0) continue;
+    touches = true;
+    push(world, clock, b, i, slot);
+  }
+  if (!touches) expect(world, clock, b, i);
   for (int k = 0; k < most_touches; ++k) {
     const Slot& slot = slots[static_cast<std::size_t>(k)];
     if (any || slot.face >= 0) store(i, k, slot);

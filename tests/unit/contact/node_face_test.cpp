@@ -121,6 +121,7 @@ TEST(NodeFace, ShapesChangeAsByDifferences) {
 }
 
 // k = SLSFAC min(25, 100) = 2.5; depth 0.004: on the node upwards, on the corners by their shape functions.
+// 0.004 of the 0.005 of the step are behind the surface: 0.9 of the spring's force.
 TEST(NodeContactTouch, PushesTheNodeAndTheCorners) {
   TouchScene scene;
   scene.held = false;
@@ -128,13 +129,43 @@ TEST(NodeContactTouch, PushesTheNodeAndTheCorners) {
   scene.step(0);
   EXPECT_EQ(scene.force_on(4).norm(), 0) << "in front";
   scene.step(0.005);
-  EXPECT_NEAR((scene.force_on(4) - Vec(0, 0, 2.5 * 0.004)).norm(), 0, 1e-15);
+  const Real force = 0.9 * 2.5 * 0.004;
+  EXPECT_NEAR((scene.force_on(4) - Vec(0, 0, force)).norm(), 0, 1e-15);
   const Real N[4] = {0.25 * 0.5 * 0.8, 0.25 * 1.5 * 0.8, 0.25 * 1.5 * 1.2, 0.25 * 0.5 * 1.2};
   for (Index n = 0; n < 4; ++n)
-    EXPECT_NEAR((scene.force_on(n) + Vec(0, 0, N[n] * 2.5 * 0.004)).norm(), 0, 1e-15) << n;
+    EXPECT_NEAR((scene.force_on(n) + Vec(0, 0, N[n] * force)).norm(), 0, 1e-15) << n;
   EXPECT_NEAR(scene.contact->report().energy_stored, 0.5 * 2.5 * 0.004 * 0.004, 1e-18);
   // omega^2 <= 2.5 max(1 * 2/1, N (2)/2), of which elements leave 1 - 0.81
   EXPECT_NEAR(scene.contact->limit(scene.world, scene.clock).dt, 2 / std::sqrt(5 / 0.19), 1e-12);
+  scene.step(0.005);  // 0.009 deep
+  EXPECT_NEAR(scene.force_on(4)[2], 2.5 * 0.009, 1e-15) << "a step inside";
+}
+
+// 0.4 of a step after the last sample: 0.7 of the force, where the spring adds but little to the speed.
+TEST(NodeContactTouch, PushesLessInTheLastStep) {
+  TouchScene scene;
+  scene.build();
+  scene.step(0);
+  scene.step(0.002);
+  for (Index n = 4; n < 8; ++n) scene.world.nodes.v.set(n, Vec(0, 0, 1));
+  scene.step(0.0006);
+  const Real depth = 0.0004, way = 0.0006 * (1 + 2.5 * depth * 0.0006);
+  EXPECT_NEAR(scene.force_on(4)[2], 0.5 * (1 + depth / way) * 2.5 * depth, 1e-15);
+}
+
+// Before anything touches, the step may lead to the surface, or be as short as springs there ask for.
+TEST(NodeContactTouch, AllowsAStepUpToTheSurface) {
+  TouchScene scene;
+  scene.law.soft = 1, scene.law.dtstif = 1e-5;  // SOFSCL 0.1: omega^2 = 0.05/dtstif^2, 0.9/omega = 4e-5
+  scene.build();
+  scene.step(0);
+  EXPECT_EQ(scene.force_on(4).norm(), 0);
+  EXPECT_NEAR(scene.contact->limit(scene.world, scene.clock).dt, 0.001, 1e-12) << "up to the surface";
+  scene.step(0.00099);
+  EXPECT_NEAR(scene.contact->limit(scene.world, scene.clock).dt, 2e-5 * std::sqrt(0.19 / 0.05), 1e-12);
+  for (Index n = 4; n < 8; ++n) scene.world.nodes.v.set(n, Vec(0, 0, 1));
+  scene.step(0.00001);
+  EXPECT_EQ(scene.contact->limit(scene.world, scene.clock).dt, std::numeric_limits<Real>::infinity());
 }
 
 // A node that starts behind the face, as that of the far side of the same body, is never in touch with it.
@@ -180,5 +211,5 @@ TEST(NodeContactTouch, SoftOneFollowsTheStep) {
   scene.build();
   scene.step(0);
   scene.step(0.005);
-  EXPECT_NEAR(scene.force_on(4)[2], 0.2 * 0.5 * 1 / 1e-4 * 0.004, 1e-10);
+  EXPECT_NEAR(scene.force_on(4)[2], 0.9 * 0.2 * 0.5 * 1 / 1e-4 * 0.004, 1e-10);  // 0.9: 0.8 of a step inside
 }
