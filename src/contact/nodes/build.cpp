@@ -152,6 +152,9 @@ class NodeContactBuilder {
     return (c.sldstf > 0 ? c.sldstf : g.K[s]) * area * area / g.volume[s];
   }
 
+  /// Small faces of large solids hold nodes to this depth, of their width.
+  static constexpr Real most_widths = 4;
+
   void add_faces(const ContactCard& c, int side, unsigned pass, const std::vector<Index>& segments,
                  ContactSides& sides) {
     const Segments& g = world_.segments;
@@ -164,8 +167,9 @@ class NodeContactBuilder {
       f.r = half_thickness(c, side, s);
       f.k = stiffness(c, s, f.area);
       const Real through = c.penmax > 0 ? c.penmax : 1;
-      f.depth = f.two_sided ? through * std::max(2 * f.r, 0.5 * std::sqrt(f.area))
-                            : 0.95 * through * g.volume[s] / f.area;
+      const Real width = std::sqrt(f.area);
+      f.depth = f.two_sided ? through * std::max(2 * f.r, 0.5 * width)
+                            : through * std::min(0.95 * g.volume[s] / f.area, most_widths * width);
       sides.faces.push_back(f);
     }
   }

@@ -122,33 +122,24 @@ Projection project(const FaceCorners& x, int corners, const Vec& y) {
   return p;
 }
 
-bool project_beyond(const FaceCorners& x, int corners, const Vec& y, Projection& p) {
-  if (corners == 3) {
-    p = on_plane_of_triangle(x, y);
-    return true;
-  }
-  constexpr Real furthest = 3;  // a width of the face beside it
-  const auto [s, t] = nearest_on_quadrilateral(x, y);
-  if (!(std::max(std::abs(s), std::abs(t)) <= furthest)) return false;
-  p = at(x, s, t);
-  return true;
+Vec project_beyond(const FaceCorners& x, int corners, const Vec& y, Projection& p) {
+  p = project_on_rim(x, corners, y);
+  p.n = plane_normal(x);
+  const Vec w = y - p.q, aside = w - w.dot(p.n) * p.n;
+  if (!(aside.dot(p.q - shape_of(x, corners).centre) > 0)) return Vec::Zero();
+  const auto change = plane_change(x, corners, aside);
+  for (std::size_t e = 0; e < 4; ++e) p.N[e] += change[e];
+  p.q += aside;
+  return aside;
 }
 
-std::array<Real, 4> shape_change(const FaceCorners& x, int corners, const std::array<Real, 4>& N,
-                                 const Vec& along) {
-  // of the map's two directions: how each N changes along them
-  const Real s = -N[0] + N[1] + N[2] - N[3], t = -N[0] - N[1] + N[2] + N[3];
-  std::array<Real, 4> by_s{-0.25 * (1 - t), 0.25 * (1 - t), 0.25 * (1 + t), -0.25 * (1 + t)};
-  std::array<Real, 4> by_t{-0.25 * (1 - s), -0.25 * (1 + s), 0.25 * (1 + s), 0.25 * (1 - s)};
-  if (corners == 3) by_s = {-1, 1, 0, 0}, by_t = {-1, 0, 1, 0};
-  Vec xs = Vec::Zero(), xt = Vec::Zero();
-  for (std::size_t e = 0; e < 4; ++e) xs += by_s[e] * x[e], xt += by_t[e] * x[e];
-  const Real ss = xs.squaredNorm(), tt = xt.squaredNorm(), st = xs.dot(xt), det = ss * tt - st * st;
-  const Real a = (along.dot(xs) * tt - along.dot(xt) * st) / det,
-             b = (along.dot(xt) * ss - along.dot(xs) * st) / det;
-  std::array<Real, 4> out;
-  for (std::size_t e = 0; e < 4; ++e) out[e] = a * by_s[e] + b * by_t[e];
-  return out;
+std::array<Real, 4> plane_change(const FaceCorners& x, int corners, const Vec& along) {
+  const Vec a = x[2] - x[0], b = corners == 3 ? Vec(x[1] - x[0]) : Vec(x[3] - x[1]);
+  const Real aa = a.squaredNorm(), bb = b.squaredNorm(), ab = a.dot(b), det = aa * bb - ab * ab;
+  const Real by_a = (along.dot(a) * bb - along.dot(b) * ab) / det,
+             by_b = (along.dot(b) * aa - along.dot(a) * ab) / det;
+  if (corners == 3) return {-by_a - by_b, by_b, by_a, 0};
+  return {-by_a, -by_b, by_a, by_b};
 }
 
 Real area_of(const FaceCorners& x) {

@@ -46,6 +46,12 @@ inline Real edge_of(const ContactFace& f) {
   return 2 * edge_margin * std::sqrt(f.area);
 }
 
+/// A node that slides off an outer edge is pushed until it is as far beside it as it is deep, but no further
+/// than half a width. [L]
+inline Real fading_length(const ContactFace& f, Real depth) {
+  return std::min(depth, 0.5 * std::sqrt(f.area));
+}
+
 using FaceCorners = std::array<Vec, 4>;
 
 /// The point of a face nearest to a place. Beyond an edge: still that of the bilinear map while `over` holds,
@@ -60,15 +66,16 @@ struct Projection {
 
 FaceShape shape_of(const FaceCorners& x, int corners);
 Projection project(const FaceCorners& x, int corners, const Vec& y);
-/// The nearest point of the face as it would go on beyond its edges, up to its width; returns false further
-/// away.
-bool project_beyond(const FaceCorners& x, int corners, const Vec& y, Projection& p);
+/// The nearest point of the plane that goes on from the nearest point of the edges, along the diagonals, with
+/// N that go on with it; returns the way there from the edge, 0 where it would lead inwards. [L] Not along
+/// the bilinear face, which warps ever more beyond its edges.
+Vec project_beyond(const FaceCorners& x, int corners, const Vec& y, Projection& p);
 /// The nearest point of the edges, with the normal of the face there.
 Projection project_on_rim(const FaceCorners& x, int corners, const Vec& y);
 
-/// How the shape functions change along a vector of the face's plane, at a point given by its N. [1/L]
-std::array<Real, 4> shape_change(const FaceCorners& x, int corners, const std::array<Real, 4>& N,
-                                 const Vec& along);
+/// How the shape functions of the plane along both diagonals (of a triangle: its plane) change along a vector
+/// in it, times the length of that. [-]
+std::array<Real, 4> plane_change(const FaceCorners& x, int corners, const Vec& along);
 
 inline FaceCorners corners_of(const ContactFace& f, const Field<Real>& x) {
   return {x.vec(f.node[0]), x.vec(f.node[1]), x.vec(f.node[2]), x.vec(f.node[3])};

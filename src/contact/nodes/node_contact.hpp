@@ -70,8 +70,6 @@ class NodeContact : public Force,
                     public InterfaceReporter {
  public:
   static constexpr int most_touches = 3;
-  /// A node that slides off an outer edge is pushed until it is this far beside it, of its depth.
-  static constexpr Real fading = 1;
 
   /// `number` counts interfaces from 1 and keeps their sets apart. Adds a set of fields to `world`.
   NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodies, int number, World& world);
@@ -127,7 +125,8 @@ class NodeContact : public Force,
     Index node = 0, face = 0;  ///< of World::nodes; of faces_
     unsigned pass = 0;
     Real k = 0, depth = 0;  ///< [M/T2], below `slack` [L]
-    Vec n = Vec::Zero();    ///< towards the node
+    Real faded = 1;         ///< force beside an outer edge, of that of the depth [-]
+    Vec n = Vec::Zero();    ///< along the push, towards the node
     std::array<Real, 4> N{};
     Real due = 0;      ///< > 0: no touch yet, but after this time [T]
     Real stored = 0;   ///< [ML2/T2]

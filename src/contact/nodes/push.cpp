@@ -84,24 +84,25 @@ Vec NodeContact::friction_force(const Clock& clock, const Slot& slot, const Vec&
   return asked > most ? Vec(trial * (most / asked)) : trial;
 }
 
-// Beside an outer edge: the energy k depth^2/2 times w(u) = 1 - 3 u^2 + 2 u^3, u = (beyond - margin)/(fading
-// depth), and the forces that follow from it: on the node, which is pushed off the edge, too, and on the
-// corners, as the face may turn about the edge.
+// Beside an outer edge: the energy k depth^2/2 times w(u) = 1 - 3 u^2 + 2 u^3, u = (beyond - margin)/length,
+// and the forces that follow from it: on the node, which is pushed off the edge, too, and on the corners, as
+// the face may turn about the edge.
 void NodeContact::fade(const World& world, const Slot& slot, Touch& touch) const {
   const Real depth = touch.depth;
   if (!(depth > 0)) return;
   if (slot.beyond <= edge_of(face(slot.face))) return;
   const Real past = std::max(slot.beyond - edge_of(face(slot.face)), Real(0));
-  const Real u = std::min(past / (fading * depth), Real(1)), w = 1 - u * u * (3 - 2 * u);
-  const Real normal = w + 3 * u * u * (1 - u), aside = 3 * u * (1 - u) / fading;
+  const Real length = fading_length(face(slot.face), depth), grows = length < depth ? 0 : 1;
+  const Real u = std::min(past / length, Real(1)), w = 1 - u * u * (3 - 2 * u);
+  const Real normal = w + grows * 3 * u * u * (1 - u), aside = 3 * u * (1 - u) * depth / length;
   const Vec push = normal * slot.n + aside * slot.aside;
   const ContactFace& f = face(slot.face);
-  touch.tilt = shape_change(corners_of(f, world.nodes.x), f.corners, slot.at.N, slot.aside);
+  touch.tilt = plane_change(corners_of(f, world.nodes.x), f.corners, slot.aside);
   for (Real& t : touch.tilt) t *= -touch.k * depth * aside * depth;
   touch.lever = slot.n;
   touch.stored *= w;
-  touch.depth = depth * push.norm();
-  if (touch.depth > 0) touch.n = push.normalized();
+  touch.faded = push.norm();
+  if (touch.faded > 0) touch.n = push / touch.faded;
 }
 
 void NodeContact::push(const World& world, const Clock& clock, Block& b, Index i, Slot& slot) const {
@@ -130,7 +131,7 @@ void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch
   if (std::isfinite(m)) touch.spread += 1;
   const Vec v = world.nodes.v.vec(touch.node) - velocity_of_face(world, f, touch.N);
   const Real part = part_of_step(touch.depth, way_of(clock, touch, v.dot(touch.n), 1 / m + mobility));
-  Real fn = part * touch.k * touch.depth;
+  Real fn = part * touch.k * touch.depth * touch.faded;
   for (Real& t : touch.tilt) t *= part;
   if (law_.vdc > 0 && touch.depth > 0) {
     // of the critical damping of node and face: 2 m omega, m the smaller mass

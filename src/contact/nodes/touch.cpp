@@ -173,12 +173,11 @@ bool NodeContact::past_edge(const World& world, const Vec& x, bool wedge, Real r
   }
   const ContactFace& f = face(slot.face);
   const FaceCorners corners = corners_of(f, world.nodes.x);
-  if (!project_beyond(corners, f.corners, x, slot.at)) return false;
+  const Vec aside = project_beyond(corners, f.corners, x, slot.at);
   slot.n = slot.side * slot.at.n;
   slot.gap = slot.n.dot(x - slot.at.q) - r;
-  const Vec aside = slot.at.q - project_on_rim(corners, f.corners, slot.at.q).q;
   slot.beyond = aside.norm();
-  if (!(slot.beyond - edge_of(f) < -fading * slot.gap)) return false;
+  if (!(slot.beyond - edge_of(f) < fading_length(f, -slot.gap))) return false;
   slot.aside = slot.beyond > 0 ? Vec(aside / slot.beyond) : Vec(Vec::Zero());
   return true;
 }

@@ -103,21 +103,43 @@ TEST(NodeFace, TrianglesHaveLinearShapes) {
   EXPECT_NEAR((project(x, 3, Vec(2, 1, 0)).q - Vec(1.6, 0.2, 0)).norm(), 0, 1e-14);
 }
 
-TEST(NodeFace, ShapesChangeAsByDifferences) {
+// Beyond an edge a face goes on as its mean plane: what sums up to the place does so there, too, and a motion
+// of the corners turns the plane as it turns the diagonals.
+TEST(NodeFace, GoesOnBeyondItsEdgesAsAPlane) {
   std::mt19937 random(5);
-  const FaceCorners x = random_quad(random);
-  const Projection p = project(x, 4, on_quad(x, 0.3, -0.6));
-  const Vec along = (x[1] - x[0] + 0.3 * (x[3] - x[0])).normalized();
-  const Vec in_plane = (along - along.dot(p.n) * p.n).normalized();
-  const auto change = shape_change(x, 4, p.N, in_plane);
-  constexpr Real step = 1e-6;
-  const Projection ahead = project(x, 4, p.q + step * in_plane);
-  Real sum = 0;
-  for (std::size_t e = 0; e < 4; ++e) {
-    EXPECT_NEAR((ahead.N[e] - p.N[e]) / step, change[e], 1e-5);
-    sum += change[e];
+  std::uniform_real_distribution<Real> some(-2.5, 2.5);
+  int beyond = 0;
+  for (int k = 0; k < 200; ++k) {
+    FaceCorners x = random_quad(random);
+    const int corners = k % 2 ? 4 : 3;
+    if (corners == 3) x[3] = x[2];
+    const Vec y(some(random), some(random), 0.2 * some(random));
+    Projection p;
+    const Vec aside = project_beyond(x, corners, y, p);
+    Vec q = Vec::Zero();
+    for (std::size_t e = 0; e < 4; ++e) q += p.N[e] * x[e];
+    EXPECT_NEAR((q - p.q).norm(), 0, 1e-12);
+    EXPECT_NEAR(p.N[0] + p.N[1] + p.N[2] + p.N[3], 1, 1e-12);
+    if (!(aside.norm() > 0)) continue;
+    ++beyond;
+    EXPECT_NEAR((y - p.q).cross(p.n).norm(), 0, 1e-12) << "along the normal";
+    EXPECT_NEAR(aside.dot(p.n), 0, 1e-12);
+    const Projection rim = project_on_rim(x, corners, y);
+    EXPECT_NEAR((p.q - rim.q - aside).norm(), 0, 1e-12);
+    // the distance from the plane changes with each corner as its N tell
+    const Real d = p.n.dot(y - p.q);
+    for (std::size_t e = 0; e < static_cast<std::size_t>(corners); ++e) {
+      constexpr Real step = 1e-6;
+      FaceCorners moved = x;
+      moved[e] += step * p.n;
+      Vec foot = Vec::Zero();  // of the rim, which goes with its corners
+      for (std::size_t c = 0; c < 4; ++c) foot += rim.N[c] * moved[c];
+      const Vec n = corners == 3 ? (moved[1] - moved[0]).cross(moved[2] - moved[0])
+                                 : (moved[2] - moved[0]).cross(moved[3] - moved[1]);
+      EXPECT_NEAR((n.normalized().dot(y - foot) - d) / step, -p.N[e], 1e-4) << k;
+    }
   }
-  EXPECT_NEAR(sum, 0, 1e-14);
+  EXPECT_GT(beyond, 50);
 }
 
 // k = SLSFAC min(25, 100) = 2.5; depth 0.004: on the node upwards, on the corners by their shape functions.
