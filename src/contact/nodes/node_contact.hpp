@@ -193,6 +193,7 @@ class NodeContact : public Force,
   void push(const World& world, const Clock& clock, Block& b, Index i, Slot& slot) const;
   void fill(const World& world, const Clock& clock, Slot& slot, Touch& touch) const;
   void expect(const World& world, const Clock& clock, Block& b, Index i) const;
+  std::array<Real, 2> mobility_of(const World& world, const Touch& touch) const;
   Real way_of(const Clock& clock, const Touch& touch, Real speed, Real mobility) const;
   Vec friction_force(const Clock& clock, const Slot& slot, const Vec& n, const Vec& v, Real fn) const;
   Vec velocity_of_face(const World& world, const ContactFace& f, const std::array<Real, 4>& N) const;

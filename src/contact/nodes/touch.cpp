@@ -124,9 +124,10 @@ bool NodeContact::hold(const World& world, Block& b, Index i, const Vec& x, cons
   return false;
 }
 
-// Where the face goes on smoothly, the node is with the nearest of the faces that it is behind: so depth is
-// continuous. Beyond an edge of its face it goes on to a neighbour, too. Where it is in front of the one
-// across the edge, it has left the body round an outer edge.
+// Where the face goes on smoothly, the node is with the nearest of the faces, so that depth is continuous:
+// behind the faces of a solid the least deep one, within the thickness of a dented shell the deepest. Beyond
+// an edge of its face it goes on to a neighbour, too. Where it is in front of the one across the edge, it has
+// left the body round an outer edge.
 bool NodeContact::move_on(const World& world, const Block& b, Index i, const Vec& x, const Slots& slots,
                           Slot& slot, bool inside) const {
   const ContactFace& f = face(slot.face);
@@ -136,7 +137,8 @@ bool NodeContact::move_on(const World& world, const Block& b, Index i, const Vec
     return true;
   };
   const Seen* best = nullptr;
-  Real best_gap = 0, best_side = 1;
+  const Real distance = std::abs(slot.gap + f.r + node(i).r);
+  Real best_distance = 0, best_gap = 0, best_side = 1;
   bool best_is_smooth = false, outside = false, wedge = false;
   for (const Seen& seen : b.seen) {
     const ContactFace& g = face(seen.face);
@@ -146,9 +148,10 @@ bool NodeContact::move_on(const World& world, const Block& b, Index i, const Vec
     const bool goes_on = side * along > bent, across = !inside && at_rim(g);
     const bool rises = slot.n.dot(shapes_[static_cast<std::size_t>(seen.face)].centre - slot.at.q) > 0;
     if (seen.at.inside && (goes_on || (across && rises && gap < 0))) {
-      if (inside && gap <= slot.gap + rounding * size_) continue;
-      if (best && (best_is_smooth > goes_on || (best_is_smooth == goes_on && gap <= best_gap))) continue;
-      best = &seen, best_gap = gap, best_side = side, best_is_smooth = goes_on;
+      const Real far = std::abs(seen.d);
+      if (inside && far >= distance - rounding * size_) continue;
+      if (best && (best_is_smooth > goes_on || (best_is_smooth == goes_on && far >= best_distance))) continue;
+      best = &seen, best_distance = far, best_gap = gap, best_side = side, best_is_smooth = goes_on;
     } else if (across) {
       (gap >= 0 || !(goes_on || rises) ? outside : wedge) = true;
     }
