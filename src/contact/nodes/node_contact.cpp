@@ -284,8 +284,8 @@ NodeContact::Penetrations NodeContact::penetrations(World& world) {
     shapes_[static_cast<std::size_t>(f)] = shape_of(corners_of(face(f), world.nodes.x), face(f).corners);
   for (Index i = 0; i < set_->size(); ++i) {
     Block& b = blocks_[static_cast<std::size_t>(i / block_size)];
-    look(world, b, i, world.nodes.x.vec(node(i).node), true);
     Slots slots;
+    look(world, b, i, world.nodes.x.vec(node(i).node), slots);
     find_touches(world, {}, b, i, slots);
     Real deepest = 0;
     for (const Slot& slot : slots)

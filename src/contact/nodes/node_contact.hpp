@@ -174,7 +174,8 @@ class NodeContact : public Force,
   void find_sizes();
   bool may_touch(const World& world, const ContactNode& node, const ContactFace& face) const;
   void touch(World& world, const Clock& clock, Block& b, Index i);
-  void look(const World& world, Block& b, Index i, const Vec& x, bool deep) const;
+  void look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const;
+  bool goes_on_at(const Slots& slots, const ContactFace& f) const;
   bool is_lost(const World& world, const Block& b, Index i) const;
   bool hold(const World& world, Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot) const;
   bool past_edge(const World& world, const Vec& x, bool wedge, Real r, Slot& slot) const;

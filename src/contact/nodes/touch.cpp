@@ -44,9 +44,17 @@ bool NodeContact::is_taken(const Slots& slots, Index face) const {
   return false;
 }
 
-// Candidates within reach, at the places of now: lists may hold more, or not, with the same result. `deep`:
-// as far behind faces as touches may be, so that a node in touch sees where its face goes on.
-void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, bool deep) const {
+// Whether the node touches the face, or one that shares a corner with it.
+bool NodeContact::goes_on_at(const Slots& slots, const ContactFace& f) const {
+  for (const Slot& slot : slots)
+    if (slot.face >= 0 && face(slot.face).shared(f) > 0) return true;
+  return false;
+}
+
+// Candidates within reach, at the places of now: lists may hold more, or not, with the same result. Faces
+// that the node touches and their neighbours are seen as far behind as touches may be, so that it finds where
+// they go on; others not, which in a heap of bodies are many.
+void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const {
   b.seen.clear();
   const auto k = static_cast<std::size_t>(i % block_size);
   for (Index c = b.first[k]; c < b.first[k + 1]; ++c) {
@@ -54,6 +62,7 @@ void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, bool
     const ContactFace& f = face(s);
     const FaceShape& shape = shapes_[static_cast<std::size_t>(s)];
     const Vec w = x - shape.centre;
+    const bool deep = fresh_ || goes_on_at(slots, f);
     const Real reach = f.r + node(i).r + (deep ? std::max(reach_, f.depth) : reach_),
                around = 1.05 * shape.radius + reach;
     if (w.squaredNorm() > around * around || distance_from_box(shape, w) > reach + edge_slack * shape.radius)
@@ -72,10 +81,10 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   for (int k = 0; k < most_touches; ++k) any = any || in_touch_->data(k)[i] != 0;
   if (!any && b.first[c] == b.first[c + 1]) return;
   const Vec x = world.nodes.x.vec(node(i).node);
-  look(world, b, i, x, any || fresh_);
   Slots slots;
   if (any)
     for (int k = 0; k < most_touches; ++k) slots[static_cast<std::size_t>(k)] = load(i, k);
+  look(world, b, i, x, slots);
   if (eroded_) let_go(world, b, i, x, slots);
   for (Slot& slot : slots)
     if (slot.face >= 0 && !hold(world, b, i, x, slots, slot)) slot = Slot();
