@@ -78,8 +78,13 @@ bool Lookouts::any_in(const Vec& low, const Vec& high) const {
 }
 
 WallSurface::WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
-                         std::vector<GhostPlane> planes, const Lookouts* from, const WallBelts* belts)
-    : dim_(world.dim), reach_(reach), spacing_(spacing), mirrors_and_periods_(std::move(planes)) {
+                         std::vector<GhostPlane> planes, const Lookouts* from, const WallBelts* belts,
+                         Real beyond)
+    : dim_(world.dim),
+      reach_(reach),
+      farthest_(reach + beyond),
+      spacing_(spacing),
+      mirrors_and_periods_(std::move(planes)) {
   std::vector<char> seen(segments.size(), 1);
   if (from)
     for_each(static_cast<Index>(segments.size()), [&](Index k) {
@@ -269,10 +274,10 @@ void WallSurface::add_images(int k) {
     }
   };
   if (plane.kind == GhostPlane::Kind::mirror) {
-    add(1, [&](Real d) { return d < reach_; });
+    add(1, [&](Real d) { return d < farthest_; });
   } else {
-    add(2, [&](Real d) { return d < reach_; });
-    add(1, [&](Real d) { return plane.period - d < reach_; });
+    add(2, [&](Real d) { return d < farthest_; });
+    add(1, [&](Real d) { return plane.period - d < farthest_; });
   }
 }
 
@@ -294,7 +299,7 @@ void WallSurface::sort_into_cells() {
   for (const WallPoint& p : points_) low = low.cwiseMin(p.x), high = high.cwiseMax(p.x);
   if (points_.empty()) low = high = Vec::Zero();
   low_ = low;
-  cell_ = reach_;
+  cell_ = farthest_;
   const Real most = std::max<Real>(1e6, 4.0 * points());  // cells of a large wall must not fill the memory
   const auto count = [&] {
     for (int k = 0; k < 3; ++k) cells_[k] = 1 + static_cast<Index>((high[k] - low[k]) / cell_);
@@ -356,13 +361,6 @@ WallSurface::View WallSurface::view_from(const Vec& x) const {
   return view;
 }
 
-std::vector<Index> WallSurface::faces_around(const Vec& x) const {
-  const Vec from = in_plane(x);
-  std::array<Index, 27> cells;
-  const int n = cells_around(from, cells);
-  return faces_near(from, cells, n);
-}
-
 std::vector<Index> WallSurface::faces_next_to(const Vec& x) const {
   const Vec from = in_plane(x);
   std::array<Index, 27> cells;
@@ -388,11 +386,16 @@ bool WallSurface::is_at_face(Index f, const Vec& q) const {
   return is_at(faces_[f].side, q);
 }
 
-std::vector<Index> WallSurface::faces_near(const Vec& x, const std::array<Index, 27>& cells, int n) const {
+std::vector<Index> WallSurface::faces_around(const Vec& x, Real within) const {
+  const Vec from = in_plane(x);
+  std::array<Index, 27> cells;
+  const int n = cells_around(from, cells);
   std::vector<Index> found;
   for (int k = 0; k < n; ++k)
     for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q)
-      if (near(q, x) && (found.empty() || found.back() != points_[q].face)) found.push_back(points_[q].face);
+      if ((at_[q] - from).squaredNorm() < within * within &&
+          (found.empty() || found.back() != points_[q].face))
+        found.push_back(points_[q].face);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
