@@ -2,6 +2,7 @@
 // What particles see of walls that are held, by cells of space.
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -13,10 +14,11 @@ namespace courant {
 /// From anywhere in a cell.
 struct WallOutlook {
   bool nothing = true;
+  bool alike = true;  ///< the faces of each sheet are
   WallPaths::Sheets sheets;
-  std::vector<WallRoom> rooms;  ///< of which places in the cell may be in one
-  /// The room that x stands in; null: none.
-  const WallRoom* room_of(const Vec& x) const;
+  std::vector<OpenRoom> rooms;  ///< of which places in the cell may be in one
+  /// The room that x stands in, who sees edges that far; null: none.
+  const WallRoom* room_of(const Vec& x, Real sight) const;
 };
 
 /// Walls that are held look the same from a place whenever somebody comes there, so each cell is looked from
@@ -32,6 +34,9 @@ class WallOutlooks {
   /// From where active particles are now.
   void look_from(const Particles& p);
   const WallOutlook& of(Index i) const { return *seen_[static_cast<std::size_t>(i)]; }
+  /// The room of a particle that is at x and sees walls as far as `sight` until the next search; null: none.
+  /// `own`: where it is kept if its cell has none for all of its places.
+  const WallRoom* room(Index i, const Vec& x, Real sight, std::unique_ptr<WallRoom>& own) const;
   const WallPaths& paths() const { return paths_; }
 
  private:

@@ -33,6 +33,14 @@ struct WallPull {
   Vec at = Vec::Zero(), force = Vec::Zero(), lever = Vec::Zero();
 };
 
+/// A room for who does not see these edges, where something ends in front of its walls.
+struct OpenRoom {
+  WallRoom room;
+  std::vector<std::pair<Vec, Vec>> ends;
+  /// Whether x is in front of all walls, and farther than `sight` from any of the edges.
+  bool holds(const Vec& x, Real sight) const;
+};
+
 /// Walls act as mirrors do, each piece as far as it goes: i meets the image of j in a wall where the straight
 /// way from i to the image goes through that wall, and so does j, since the way back is the same. Images of
 /// images fill corners, again where the way, thrown back by one wall after the other, meets each of them.
@@ -99,7 +107,7 @@ class WallPaths {
   Sheets sheets_around(const Vec& x, Real within) const;
   /// The rooms that places may stand in that are no farther than `half` from the centre, as far as `reach`
   /// from them, of the sheets that stand that far around. [L]
-  std::vector<WallRoom> rooms_about(const Sheets& sheets, const Vec& centre, Real half, Real reach) const;
+  std::vector<OpenRoom> rooms_about(const Sheets& sheets, const Vec& centre, Real half, Real reach) const;
   /// Appends the ways from i to j that walls change; `reach`: how far the kernel does [L].
   void add(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y, Real reach,
            std::vector<WallPath>& to, std::vector<WallPull>* pulls = nullptr) const {
@@ -196,7 +204,9 @@ class WallPaths {
   };
   struct Box;
   void leave_out_hidden(Box& box) const;
-  bool closes(const Box& box, const Sheets& sheets, const Vec& centre, Real inside, Real around) const;
+  bool stands_upright(const Box& box, const Vec& centre, Real inside) const;
+  std::vector<std::pair<Vec, Vec>> ends_in(const Box& box, const Sheets& sheets, const Vec& centre,
+                                           Real around) const;
   Sheet sheet_of(Index face) const;
   Sheets sheets_of(const std::vector<Index>& faces) const;
   bool goes_on_in(const Sheet& sheet, Index face) const;

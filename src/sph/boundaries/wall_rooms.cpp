@@ -35,7 +35,7 @@ struct WallPaths::Box {
   }
 };
 
-/// Leaves out what stands wholly behind another wall; that this one hides it is for `closes` to find out.
+/// Leaves out what stands wholly behind another wall; that this one hides it is for others to find out.
 void WallPaths::leave_out_hidden(Box& box) const {
   const Real most = 1e-3 * surface_.reach();
   const auto is_behind = [&](std::size_t t, std::size_t k) {
@@ -53,10 +53,8 @@ void WallPaths::leave_out_hidden(Box& box) const {
       }
 }
 
-/// Whether the walls are at right angles, each covers all of its side of the box within `around` of `centre`,
-/// and none of the other sheets ends in there.
-bool WallPaths::closes(const Box& box, const Sheets& sheets, const Vec& centre, Real inside,
-                       Real around) const {
+/// Whether the walls are at right angles to each other, and in the box they are there.
+bool WallPaths::stands_upright(const Box& box, const Vec& centre, Real inside) const {
   const std::size_t n = box.walls.size();
   if (n == 0 || n > static_cast<std::size_t>(dim_)) return false;
   for (std::size_t k = 0; k < n; ++k) {
@@ -69,6 +67,13 @@ bool WallPaths::closes(const Box& box, const Sheets& sheets, const Vec& centre, 
     }
     if (!is_inside(*box.walls[k], q)) return false;
   }
+  return true;
+}
+
+/// Edges in the box within `around` of `centre`: up to them, each wall covers all of its side.
+std::vector<std::pair<Vec, Vec>> WallPaths::ends_in(const Box& box, const Sheets& sheets, const Vec& centre,
+                                                    Real around) const {
+  std::vector<std::pair<Vec, Vec>> ends;
   const Real most = 1e-3 * surface_.reach();
   for (const Sheet& sheet : sheets)
     for (const auto& [face, e] : sheet.edges) {
@@ -76,21 +81,21 @@ bool WallPaths::closes(const Box& box, const Sheets& sheets, const Vec& centre, 
       const Vec a = surface_.in_plane(f.x[e]), b = surface_.in_plane(f.x[(e + 1) % f.corners]);
       if (distance_to(centre, a, b) > around) continue;
       bool hidden = false;
-      for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t k = 0; k < box.walls.size(); ++k)
         hidden |= box.walls[k] != &sheet && std::max(box.height(k, a), box.height(k, b)) <= most;
       for (const Sheet* s : box.far) {
         const Real side = s->height(centre) > 0 ? 1 : -1;
         hidden |= s != &sheet && std::max(side * s->height(a), side * s->height(b)) <= most;
       }
-      if (!hidden) return false;
+      if (!hidden) ends.push_back({a, b});
     }
-  return true;
+  return ends;
 }
 
-std::vector<WallRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at, Real half,
+std::vector<OpenRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at, Real half,
                                              Real reach) const {
   const Vec centre = surface_.in_plane(at);
-  std::vector<WallRoom> rooms;
+  std::vector<OpenRoom> rooms;
   Box near;
   for (const Sheet& s : sheets) {
     if (s.body >= 0) return rooms;
@@ -108,15 +113,15 @@ std::vector<WallRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at
     for (std::size_t k = 0; k < either.size(); ++k)
       if (turned >> k & 1U) box.side[either[k]] *= -1;
     leave_out_hidden(box);
-    if (!closes(box, sheets, centre, 0.1 * half, reach + half + 0.5 * width_)) continue;
-    WallRoom room;
+    if (!stands_upright(box, centre, 1e-3 * reach)) continue;
+    rooms.push_back({{}, ends_in(box, sheets, centre, reach + half + 0.5 * width_)});
+    WallRoom& room = rooms.back().room;
     for (std::size_t k = 0; k < box.walls.size(); ++k) {
       const Vec n = box.side[k] * box.walls[k]->n;
       for (int c = 0; c < 3; ++c) room.n[k][c] = n[c];
       room.offset[k] = box.side[k] * box.walls[k]->offset, room.face[k] = box.walls[k]->faces.front();
     }
     room.walls = static_cast<int>(box.walls.size());
-    rooms.push_back(room);
   }
   return rooms;
 }
@@ -169,6 +174,17 @@ void WallOutlooks::look_from(const Particles& p) {
   });
 }
 
+const WallRoom* WallOutlooks::room(Index i, const Vec& at, Real sight, std::unique_ptr<WallRoom>& own) const {
+  const Vec x = surface_.in_plane(at);
+  own.reset();
+  if (of(i).nothing) return nullptr;
+  if (const WallRoom* room = of(i).room_of(x, sight + 0.5 * width_)) return room;
+  if (!of(i).alike) return nullptr;
+  for (const OpenRoom& open : paths_.rooms_about(of(i).sheets, x, 0, sight))
+    if (open.ends.empty()) own = std::make_unique<WallRoom>(open.room);
+  return own.get();
+}
+
 WallOutlook WallOutlooks::outlook_from(const Vec& middle) const {
   const Real half = half_of(cell_, surface_.dim());
   WallOutlook out;
@@ -179,18 +195,21 @@ WallOutlook WallOutlooks::outlook_from(const Vec& middle) const {
   const auto alike = [&](const WallPaths::Sheet& s) {
     return std::all_of(s.faces.begin(), s.faces.end(), [&](Index f) { return alike_(s.faces[0], f); });
   };
-  if (!out.nothing && std::all_of(out.sheets.begin(), out.sheets.end(), alike))
-    out.rooms = paths_.rooms_about(out.sheets, middle, half, reach_);
+  out.alike = std::all_of(out.sheets.begin(), out.sheets.end(), alike);
+  if (!out.nothing && out.alike) out.rooms = paths_.rooms_about(out.sheets, middle, half, reach_);
   return out;
 }
 
-const WallRoom* WallOutlook::room_of(const Vec& x) const {
-  for (const WallRoom& room : rooms) {
-    bool holds = true;
-    for (int k = 0; k < room.walls; ++k)
-      holds &= room.n[k][0] * x[0] + room.n[k][1] * x[1] + room.n[k][2] * x[2] > room.offset[k];
-    if (holds) return &room;
-  }
+bool OpenRoom::holds(const Vec& x, Real sight) const {
+  for (int k = 0; k < room.walls; ++k)
+    if (!(Vec(room.n[k][0], room.n[k][1], room.n[k][2]).dot(x) > room.offset[k])) return false;
+  return std::none_of(ends.begin(), ends.end(),
+                      [&](const auto& edge) { return distance_to(x, edge.first, edge.second) <= sight; });
+}
+
+const WallRoom* WallOutlook::room_of(const Vec& x, Real sight) const {
+  for (const OpenRoom& open : rooms)
+    if (open.holds(x, sight)) return &open.room;
   return nullptr;
 }
 

@@ -254,9 +254,10 @@ void WallSupport::relist(World& world) {
 void WallSupport::look_for_rooms(const Particles& p) {
   if (!outlooks_) return;
   outlooks_->look_from(p);
-  rooms_.resize(static_cast<std::size_t>(p.active));
+  rooms_.resize(static_cast<std::size_t>(p.active)), own_rooms_.resize(static_cast<std::size_t>(p.active));
   for_each(p.active, [&](Index i) {
-    rooms_[static_cast<std::size_t>(i)] = outlooks_->of(i).room_of(surface_->in_plane(p.x.vec(i)));
+    const auto k = static_cast<std::size_t>(i);  // nobody moves farther than half the skin before the next
+    rooms_[k] = outlooks_->room(i, p.x.vec(i), sight(p, i) + 0.51 * neighbours_.skin(), own_rooms_[k]);
   });
 }
 

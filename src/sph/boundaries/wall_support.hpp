@@ -148,7 +148,8 @@ class WallSupport : public Rate,
   std::optional<WallSurface> surface_;
   std::optional<WallOutlooks> outlooks_;
   std::vector<const WallRoom*> rooms_;  ///< of active particles, since neighbours were searched
-  std::vector<Real> mu_;                ///< per part, 0: none [M/LT]
+  std::vector<std::unique_ptr<WallRoom>> own_rooms_;
+  std::vector<Real> mu_;  ///< per part, 0: none [M/LT]
   /// Of active particles, until the next refresh, or where walls move the next step: `nothing`, `pieces` or a
   /// face of the one plane they see.
   std::vector<Index> view_;
