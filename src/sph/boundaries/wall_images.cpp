@@ -1,5 +1,6 @@
 // METHOD 1 of *COURANT_WALL_SUPPORT: walls as mirrors of the water beside them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -92,11 +93,14 @@ void WallImages::look(World& world) {
   const Particles& p = world.particles;
   const auto n = static_cast<std::size_t>(p.active);
   if (any_moves_) sheets_.assign(n, {});
-  rooms_.assign(n, nullptr), strange_.assign(n, 0);
+  rooms_.assign(n, nullptr), own_rooms_.resize(n), strange_.assign(n, 0);
   for_each(p.active, [&](Index i) {
     force_.set(i, Vec::Zero());
     if (!support_->is_near(i)) return;
-    if (!viscosity_) rooms_[i] = support_->room(i);
+    const auto k = static_cast<std::size_t>(i);
+    if (!viscosity_ && support_->outlooks())
+      rooms_[k] =
+          support_->outlooks()->open_room(i, p.x.vec(i), support_->sight_until_search(p, i), own_rooms_[k]);
     if (!any_moves_) return;
     sheets_[i] = at_end().seen_from(p.x.vec(i));
     if (mixed_ && sheets_[i].size() == 1 && sheets_[i][0].endless)  // whose faces may not be alike
@@ -128,16 +132,15 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   block.paths.clear(), block.pulls.clear(), block.reactions.clear();
   block.belt_power = 0;
-  if (!any_moves_ && !viscosity_) room_rates_(arrays(world.particles), lists_of(*neighbours_, begin, end));
+  if (!any_moves_ && !viscosity_) {
+    room_rates_(arrays(world.particles, begin), lists_of(*neighbours_, begin, end));
+    add_doubtful_ways(world.particles, begin, block);
+  }
   for (Index i = begin; i < end; ++i) {
     if (!sees(i) || in_room(i)) continue;
     const bool moves = any_moves_ && std::any_of(sheets(i).begin(), sheets(i).end(),
                                                  [](const auto& s) { return s.body >= 0; });
-    const Particles& p = world.particles;
-    const WallPaths::Some some =
-        moves ? WallPaths::all
-              : at_end().within(sheets(i), p.x.vec(i),
-                                table_.support() * p.h[i] + 3 * width_ + 2 * half_step_ * p.v.vec(i).norm());
+    const WallPaths::Some some = moves ? WallPaths::all : seen_from(world.particles, i);
     for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
       moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, some, block);
   }
@@ -212,8 +215,38 @@ void WallImages::add_rate(Particles& p, const WallPath& path, const std::vector<
       (path.weight * slope(h, path.d) * speed(p, path).dot(path.d) + kernel(h, path.d) * share_rate);
 }
 
-WallMirrorArrays WallImages::arrays(Particles& p) {
+/// What may matter to ways from particle i in this step.
+WallPaths::Some WallImages::seen_from(const Particles& p, Index i) const {
+  const Real reach = table_.support() * p.h[i] + 3 * width_ + 2 * half_step_ * p.v.vec(i).norm();
+  return at_end().within(sheets(i), p.x.vec(i), reach);
+}
+
+/// Those of pairs of which particle i stands in a room that one of its ways may leave.
+void WallImages::add_doubtful_ways(Particles& p, Index begin, Block& block) {
+  const Index* const list = neighbours_->list(begin / block_size);
+  const Index* const start = neighbours_->starts(begin / block_size);
+  std::array<WallPaths::Some, block_size> seen{};
+  Index group = 0;
+  for (Index k = 0; k < block.doubts; ++k) {
+    const Index entry = block.doubt[static_cast<std::size_t>(k)];
+    while (entry >= start[group + 1]) ++group;
+    for (Index l = 0; l < Neighbours::lanes; ++l) {
+      if ((block.doubt_lanes[static_cast<std::size_t>(k)] >> l & 1) == 0) continue;
+      const Index in_block = group * Neighbours::lanes + l, i = begin + in_block;
+      WallPaths::Some& some = seen[static_cast<std::size_t>(in_block)];
+      if (some == 0) some = seen_from(p, i);
+      add_ways(p, i, list[entry], some, block);
+    }
+  }
+}
+
+WallMirrorArrays WallImages::arrays(Particles& p, Index begin) {
+  Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
+  const auto entries = static_cast<std::size_t>(neighbours_->entries(begin / block_size));
+  if (block.doubt.size() < entries) block.doubt.resize(entries), block.doubt_lanes.resize(entries);
   WallMirrorArrays a{};
+  a.doubt = block.doubt.data(), a.doubt_lanes = block.doubt_lanes.data(), a.doubts = &block.doubts;
+  a.width = width_;
   for (int k = 0; k < 3; ++k) {
     a.x[k] = p.x.data(k), a.v[k] = p.v.data(k);
     a.f[k] = p.f.data(k), a.wall_force[k] = force_.data(k);
@@ -247,7 +280,7 @@ void WallImages::forces(World& world, Index begin, Index end) {
   const Real* V = volumes_->current();
   for (Index i = begin; i < end; ++i)
     if (sees(i) && !in_room(i)) force_.set(i, drag_ ? drag_->vec(i) : Vec(Vec::Zero()));
-  if (!any_moves_ && !viscosity_) room_forces_(arrays(p), lists_of(*neighbours_, begin, end));
+  if (!any_moves_ && !viscosity_) room_forces_(arrays(p, begin), lists_of(*neighbours_, begin, end));
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   for (const WallPath& path : block.paths) {
     const Index i = path.i, j = path.j;

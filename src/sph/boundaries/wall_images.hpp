@@ -66,7 +66,10 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
     std::vector<WallPull> pulls;  ///< of paths
     std::vector<WallPull> now;    ///< of the path at hand
     std::vector<Reaction> reactions;
-    Real belt_power = 0;  ///< of belts on water [ML2/T3]
+    Real belt_power = 0;       ///< of belts on water [ML2/T3]
+    std::vector<Index> doubt;  ///< WallMirrorArrays
+    std::vector<unsigned char> doubt_lanes;
+    Index doubts = 0;
   };
   void add_ways(Particles& p, Index i, Index j, WallPaths::Some some, Block& block);
   void add_ways_of_moving(Particles& p, Index i, Index j, Block& block);
@@ -81,7 +84,9 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   bool in_room(Index i) const {
     return rooms_[static_cast<std::size_t>(i)] && strange_[static_cast<std::size_t>(i)] == 0;
   }
-  WallMirrorArrays arrays(Particles& p);
+  WallMirrorArrays arrays(Particles& p, Index begin);
+  void add_doubtful_ways(Particles& p, Index begin, Block& block);
+  WallPaths::Some seen_from(const Particles& p, Index i) const;
   const WallSurface& surface() const { return surface_ ? *surface_ : support_->surface(); }
   /// (dW/dr)/r [1/L^(dim+2)]
   Real slope(Real h, const Vec& d) const;
@@ -116,7 +121,8 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   const AnyKernel* kernel_;
   WallMirrorLoop room_rates_, room_forces_;
   std::vector<const WallRoom*> rooms_;  ///< of those that see walls, since then
-  std::vector<char> strange_;           ///< WallMirrorArrays
+  std::vector<std::unique_ptr<WallRoom>> own_rooms_;
+  std::vector<char> strange_;  ///< WallMirrorArrays
   std::vector<Block> blocks_;
 };
 

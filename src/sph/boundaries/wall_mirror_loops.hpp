@@ -23,10 +23,17 @@ struct WallMirrorArrays {
   Real h, delta;
   Real half_step;               ///< rates are those of places half a step ago [T]
   Real aside[3];                ///< so far aside of their places particles are looked at [L]
+  Real width;                   ///< of edges [L]
   const WallRoom* const* room;  ///< of each particle; null: none
-  /// Of each particle: 1 where something within reach is on the other side of a wall, so that nothing is
-  /// added here. Rates set it, forces read it.
+  /// Of each particle: 1 where it is not in its room, so that nothing is added here. Rates set it, forces
+  /// read it.
   char* strange;
+  /// Pairs that may see each other by other ways than those of the room, of which nothing is added here:
+  /// entries of the lists, ascending, and by bits which of the eight i. Rates set them, forces read them;
+  /// there is room for all entries.
+  Index* doubt;
+  unsigned char* doubt_lanes;
+  Index* doubts;            ///< how many
   const AnyKernel* kernel;  ///< that of the run
 };
 

@@ -37,6 +37,8 @@ class WallOutlooks {
   /// The room of a particle that is at x and sees walls as far as `sight` until the next search; null: none.
   /// `own`: where it is kept if its cell has none for all of its places.
   const WallRoom* room(Index i, const Vec& x, Real sight, std::unique_ptr<WallRoom>& own) const;
+  /// The same, of one whose walls may end within sight, but not within half of the width.
+  const WallRoom* open_room(Index i, const Vec& x, Real sight, std::unique_ptr<WallRoom>& own) const;
   const WallPaths& paths() const { return paths_; }
 
  private:

@@ -156,9 +156,54 @@ WallPaths::Sheets WallPaths::sheets_of(const std::vector<Index>& faces) const {
     if (known == out.end()) known = out.insert(out.end(), sheet_of(f));
     known->faces.push_back(f);
     for (int e = 0; e < 4; ++e)
-      if (edges_[f][e].ends) known->edges.push_back({f, e});
+      if (edges_[f][e].ends) add_edge(*known, f, e);
   }
   compare(out);
+  return out;
+}
+
+/// Edges that go on straight beside the same other faces are one.
+void WallPaths::add_edge(Sheet& sheet, Index face, int edge) const {
+  const auto& f = this->face(face);
+  Brink out{.face = face, .edge = edge, .from = f.x[edge], .to = f.x[(edge + 1) % f.corners]};
+  const Real near = 1e-6 * surface_.reach();
+  const auto alike = [&](const Corner& a, const Corner& b) {
+    return (a.n - b.n).norm() < 1e-9 && std::abs(a.here - b.here) < 1e-9 &&
+           std::abs(a.there - b.there) < 1e-9;
+  };
+  const auto goes_on = [&](const Brink& known) {
+    const auto &these = edges_[known.face][known.edge].corners, &others = edges_[face][edge].corners;
+    const Vec along = known.to - known.from;
+    return (this->face(known.face).inward[known.edge] - f.inward[edge]).norm() < 1e-9 &&
+           along.cross(out.to - known.from).norm() < near * along.norm() && these.size() == others.size() &&
+           std::equal(these.begin(), these.end(), others.begin(), alike);
+  };
+  for (bool more = sheet.body < 0; more;) {
+    more = false;
+    for (std::size_t k = 0; k < sheet.edges.size(); ++k) {
+      const Brink& known = sheet.edges[k];
+      if (!goes_on(known)) continue;
+      if ((known.to - out.from).norm() < near)
+        out.from = known.from;
+      else if ((known.from - out.to).norm() < near)
+        out.to = known.to;
+      else
+        continue;
+      sheet.edges.erase(sheet.edges.begin() + static_cast<std::ptrdiff_t>(k));
+      more = true;
+      break;
+    }
+  }
+  out.find_middle();
+  sheet.edges.push_back(out);
+}
+
+/// Where an edge of a wall that moves is now.
+WallPaths::Brink WallPaths::now(const Brink& edge) const {
+  const auto& f = face(edge.face);
+  Brink out{
+      .face = edge.face, .edge = edge.edge, .from = f.x[edge.edge], .to = f.x[(edge.edge + 1) % f.corners]};
+  out.find_middle();
   return out;
 }
 
@@ -209,9 +254,9 @@ bool WallPaths::lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const {
 /// Whether sheets meet in a convex corner: no way goes from one to the other.
 bool WallPaths::turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const {
   return std::any_of(sheet.edges.begin(), sheet.edges.end(), [&](const auto& edge) {
-    const auto& [face, e] = edge;
-    const auto& f = this->face(face);
-    return lies_in(f.x[e], f.x[(e + 1) % f.corners], &other) && is_free(face, e, x) && is_free(face, e, y);
+    const Brink here = sheet.body < 0 ? edge : now(edge);
+    return lies_in(here.from, here.to, &other) && is_free(edge.face, edge.edge, x) &&
+           is_free(edge.face, edge.edge, y);
   });
 }
 
@@ -235,14 +280,19 @@ WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& 
   Real near = 0.5 * width_;
   const Vec middle = 0.5 * (start + b);
   const Real around = 0.5 * (b - start).norm() + near;
-  for (const auto& [face, e] : sheet.edges) {
-    const Edge& edge = edges_[face][e];
+  for (const Brink& brink : sheet.edges) {
+    Brink moved;
+    if (sheet.body >= 0) moved = now(brink);
+    const Brink& edge = sheet.body >= 0 ? moved : brink;
     if ((edge.middle - middle).squaredNorm() > power<2>(around + edge.half)) continue;
-    const auto& f = this->face(face);
-    const Vec &c = f.x[e], &d = f.x[(e + 1) % f.corners];
-    const bool passed = lies_in(c, d, but) || lies_in(c, d, and_but);
+    const Vec &c = edge.from, &d = edge.to;
     const Nearest to_edge = nearest(start, b, c, d);
     const Real r = to_edge.distance();
+    if (r >= std::max(near, 2 * overlap * surface_.reach())) continue;
+    const Index face = edge.face;
+    const int e = edge.edge;
+    const auto& f = this->face(face);
+    const bool passed = lies_in(c, d, but) || lies_in(c, d, and_but);
     if (!passed && (r >= near || !is_free(face, e, x) || !is_free(face, e, y))) continue;
     // what joins faces does not count where they end
     if (out.inside && nearest(out.at, out.at, c, d).distance() < 2 * overlap * surface_.reach())

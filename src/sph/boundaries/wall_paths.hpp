@@ -35,8 +35,12 @@ struct WallPull {
 
 /// A room for who does not see these edges, where something ends in front of its walls.
 struct OpenRoom {
-  WallRoom room;
-  std::vector<std::pair<Vec, Vec>> ends;
+  WallRoom room;                          ///< without ends
+  WallRoom open;                          ///< with these
+  bool known = true;                      ///< `open` has them all
+  std::vector<std::pair<Vec, Vec>> ends;  ///< edges
+  /// Whether x is in front of all walls, and `within` off where they end.
+  bool holds_open(const Vec& x, Real within) const;
   /// Whether x is in front of all walls, and farther than `sight` from any of the edges.
   bool holds(const Vec& x, Real sight) const;
 };
@@ -56,6 +60,15 @@ struct OpenRoom {
 /// all goes along alike: forces by it keep momentum and its moment.
 class WallPaths {
  public:
+  /// An edge of a sheet, of one face or, where walls are held, of several side by side.
+  struct Brink {
+    Index face = 0;
+    int edge = 0;
+    Vec from = Vec::Zero(), to = Vec::Zero();
+    Vec middle = Vec::Zero();
+    Real half = 0;  ///< of its length [L]
+    void find_middle() { middle = 0.5 * (from + to), half = 0.5 * (to - from).norm(); }
+  };
   /// A flat piece of wall as somebody sees it; `endless`: nothing else, and none of its edges.
   struct Sheet {
     Vec n = Vec::Zero();
@@ -65,7 +78,7 @@ class WallPaths {
     Index face = 0;   ///< one of them
     Index body = -1;  ///< which they all follow; -1: they are held
     std::vector<Index> faces;
-    std::vector<std::pair<Index, int>> edges;  ///< of these faces, where nothing goes on in the plane
+    std::vector<Brink> edges;  ///< of these faces, where nothing goes on in the plane
     /// Of the sheets of the same body those, by number, all of whose faces lie on its negative, or positive,
     /// side: no way that comes from the other one goes there next.
     std::uint64_t under = 0, over = 0;
@@ -205,12 +218,13 @@ class WallPaths {
   struct Box;
   void leave_out_hidden(Box& box) const;
   bool stands_upright(const Box& box, const Vec& centre, Real inside) const;
-  std::vector<std::pair<Vec, Vec>> ends_in(const Box& box, const Sheets& sheets, const Vec& centre,
-                                           Real around) const;
+  void find_ends(const Box& box, const Sheets& sheets, const Vec& centre, Real around, OpenRoom& room) const;
   Sheet sheet_of(Index face) const;
   Sheets sheets_of(const std::vector<Index>& faces) const;
   bool goes_on_in(const Sheet& sheet, Index face) const;
   Edge edge_of(Index face, int edge) const;
+  void add_edge(Sheet& sheet, Index face, int edge) const;
+  Brink now(const Brink& edge) const;
   bool is_free(Index face, int edge, const Vec& p) const;
   bool is_inside(const Sheet& sheet, const Vec& q) const;
   bool lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const;

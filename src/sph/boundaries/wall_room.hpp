@@ -12,6 +12,14 @@ struct WallRoom {
   Real n[3][3]{};    ///< into the room
   Real offset[3]{};  ///< x is n.x - offset in front of the wall [L]
   Index face[3]{};   ///< one of each wall's
+  /// Where a wall ends: by a straight line along it, m.x = limit, m out of the room.
+  struct End {
+    Real m[3]{}, limit = 0;
+    Real n[3]{}, offset = 0;  ///< of that wall
+  };
+  static constexpr int most_ends = 4;
+  int ends = 0;
+  End end[most_ends];
 };
 
 }  // namespace courant

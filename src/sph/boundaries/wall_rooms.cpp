@@ -21,6 +21,22 @@ Real distance_to(const Vec& x, const Vec& a, const Vec& b) {
   return (x - a - s * along).norm();
 }
 
+/// Notes that a wall of a room ends at a line through `at`, if there is room for it.
+bool add_end(WallRoom& room, int wall, const Vec& out, const Vec& at) {
+  const Real limit = out.dot(at);
+  for (int e = 0; e < room.ends; ++e) {
+    const WallRoom::End& known = room.end[e];
+    if ((Vec(known.m[0], known.m[1], known.m[2]) - out).norm() < 1e-6 &&
+        std::abs(known.limit - limit) < 1e-6 * (std::abs(limit) + at.norm()))
+      return true;
+  }
+  if (room.ends == WallRoom::most_ends) return false;
+  WallRoom::End& end = room.end[room.ends++];
+  for (int c = 0; c < 3; ++c) end.m[c] = out[c], end.n[c] = room.n[wall][c];
+  end.limit = limit, end.offset = room.offset[wall];
+  return true;
+}
+
 }  // namespace
 
 /// Walls of which some are those of a room, each seen from one side.
@@ -71,14 +87,12 @@ bool WallPaths::stands_upright(const Box& box, const Vec& centre, Real inside) c
 }
 
 /// Edges in the box within `around` of `centre`: up to them, each wall covers all of its side.
-std::vector<std::pair<Vec, Vec>> WallPaths::ends_in(const Box& box, const Sheets& sheets, const Vec& centre,
-                                                    Real around) const {
-  std::vector<std::pair<Vec, Vec>> ends;
+void WallPaths::find_ends(const Box& box, const Sheets& sheets, const Vec& centre, Real around,
+                          OpenRoom& room) const {
   const Real most = 1e-3 * surface_.reach();
   for (const Sheet& sheet : sheets)
-    for (const auto& [face, e] : sheet.edges) {
-      const auto& f = this->face(face);
-      const Vec a = surface_.in_plane(f.x[e]), b = surface_.in_plane(f.x[(e + 1) % f.corners]);
+    for (const Brink& edge : sheet.edges) {
+      const Vec a = surface_.in_plane(edge.from), b = surface_.in_plane(edge.to);
       if (distance_to(centre, a, b) > around) continue;
       bool hidden = false;
       for (std::size_t k = 0; k < box.walls.size(); ++k)
@@ -87,9 +101,12 @@ std::vector<std::pair<Vec, Vec>> WallPaths::ends_in(const Box& box, const Sheets
         const Real side = s->height(centre) > 0 ? 1 : -1;
         hidden |= s != &sheet && std::max(side * s->height(a), side * s->height(b)) <= most;
       }
-      if (!hidden) ends.push_back({a, b});
+      if (hidden) continue;
+      room.ends.push_back({a, b});
+      const auto wall = std::find(box.walls.begin(), box.walls.end(), &sheet);
+      room.known &= wall != box.walls.end() && add_end(room.open, static_cast<int>(wall - box.walls.begin()),
+                                                       -face(edge.face).inward[edge.edge], a);
     }
-  return ends;
 }
 
 std::vector<OpenRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at, Real half,
@@ -99,7 +116,10 @@ std::vector<OpenRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at
   Box near;
   for (const Sheet& s : sheets) {
     if (s.body >= 0) return rooms;
-    (std::abs(s.height(centre)) < reach + half ? near.walls : near.far).push_back(&s);
+    if (s.off(centre) < reach + half)
+      near.walls.push_back(&s);
+    else if (std::abs(s.height(centre)) >= reach + half)
+      near.far.push_back(&s);
   }
   std::vector<std::size_t> either;  // those that the places about the centre are on both sides of
   for (std::size_t k = 0; k < near.walls.size(); ++k) {
@@ -114,14 +134,17 @@ std::vector<OpenRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at
       if (turned >> k & 1U) box.side[either[k]] *= -1;
     leave_out_hidden(box);
     if (!stands_upright(box, centre, 1e-3 * reach)) continue;
-    rooms.push_back({{}, ends_in(box, sheets, centre, reach + half + 0.5 * width_)});
-    WallRoom& room = rooms.back().room;
+    OpenRoom room;
+    WallRoom& walls = room.open;
     for (std::size_t k = 0; k < box.walls.size(); ++k) {
       const Vec n = box.side[k] * box.walls[k]->n;
-      for (int c = 0; c < 3; ++c) room.n[k][c] = n[c];
-      room.offset[k] = box.side[k] * box.walls[k]->offset, room.face[k] = box.walls[k]->faces.front();
+      for (int c = 0; c < 3; ++c) walls.n[k][c] = n[c];
+      walls.offset[k] = box.side[k] * box.walls[k]->offset, walls.face[k] = box.walls[k]->faces.front();
     }
-    room.walls = static_cast<int>(box.walls.size());
+    walls.walls = static_cast<int>(box.walls.size());
+    room.room = walls;
+    find_ends(box, sheets, centre, reach + half + 0.5 * width_, room);
+    rooms.push_back(room);
   }
   return rooms;
 }
@@ -185,6 +208,18 @@ const WallRoom* WallOutlooks::room(Index i, const Vec& at, Real sight, std::uniq
   return own.get();
 }
 
+const WallRoom* WallOutlooks::open_room(Index i, const Vec& at, Real sight,
+                                        std::unique_ptr<WallRoom>& own) const {
+  if (const WallRoom* closed = room(i, at, sight, own)) return closed;
+  if (of(i).nothing || !of(i).alike) return nullptr;
+  const Vec x = surface_.in_plane(at);
+  for (const OpenRoom& room : of(i).rooms)
+    if (room.holds_open(x, 0.5 * width_)) return &room.open;
+  for (const OpenRoom& room : paths_.rooms_about(of(i).sheets, x, 0, sight))
+    if (room.holds_open(x, 0.5 * width_)) own = std::make_unique<WallRoom>(room.open);
+  return own.get();
+}
+
 WallOutlook WallOutlooks::outlook_from(const Vec& middle) const {
   const Real half = half_of(cell_, surface_.dim());
   WallOutlook out;
@@ -205,6 +240,15 @@ bool OpenRoom::holds(const Vec& x, Real sight) const {
     if (!(Vec(room.n[k][0], room.n[k][1], room.n[k][2]).dot(x) > room.offset[k])) return false;
   return std::none_of(ends.begin(), ends.end(),
                       [&](const auto& edge) { return distance_to(x, edge.first, edge.second) <= sight; });
+}
+
+bool OpenRoom::holds_open(const Vec& x, Real within) const {
+  const auto at = [&](const Real(&n)[3]) { return n[0] * x[0] + n[1] * x[1] + n[2] * x[2]; };
+  for (int k = 0; k < open.walls; ++k)
+    if (!(at(open.n[k]) > open.offset[k])) return false;
+  for (int e = 0; e < open.ends; ++e)
+    if (!(at(open.end[e].m) < open.end[e].limit - within)) return false;
+  return known;
 }
 
 const WallRoom* WallOutlook::room_of(const Vec& x, Real sight) const {

@@ -256,8 +256,8 @@ void WallSupport::look_for_rooms(const Particles& p) {
   outlooks_->look_from(p);
   rooms_.resize(static_cast<std::size_t>(p.active)), own_rooms_.resize(static_cast<std::size_t>(p.active));
   for_each(p.active, [&](Index i) {
-    const auto k = static_cast<std::size_t>(i);  // nobody moves farther than half the skin before the next
-    rooms_[k] = outlooks_->room(i, p.x.vec(i), sight(p, i) + 0.51 * neighbours_.skin(), own_rooms_[k]);
+    const auto k = static_cast<std::size_t>(i);
+    rooms_[k] = outlooks_->room(i, p.x.vec(i), sight_until_search(p, i), own_rooms_[k]);
   });
 }
 

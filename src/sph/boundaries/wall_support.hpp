@@ -54,6 +54,11 @@ class WallSupport : public Rate,
   bool is_near(Index i) const { return view_[i] != nothing; }
   const WallSurface& surface() const { return *surface_; }
   bool any_moves() const { return any_moves_; }
+  /// How far particle i sees walls until neighbours are searched next: nobody moves farther than half the
+  /// skin until then. [L]
+  Real sight_until_search(const Particles& p, Index i) const {
+    return sight(p, i) + 0.51 * neighbours_.skin();
+  }
   /// What particles see of walls, where it is known by places: all are held, and reach one h.
   const WallOutlooks* outlooks() const { return outlooks_ ? &*outlooks_ : nullptr; }
   /// The room of a particle that sees any wall; null: none.
