@@ -17,6 +17,7 @@ struct WallOutlook {
   bool alike = true;  ///< the faces of each sheet are
   WallPaths::Sheets sheets;
   std::vector<OpenRoom> rooms;  ///< of which places in the cell may be in one
+  std::vector<Index> points;    ///< of the surface, that may matter where rooms do not do
   /// The room that x stands in, who sees edges that far; null: none.
   const WallRoom* room_of(const Vec& x, Real sight) const;
 };
@@ -25,10 +26,10 @@ struct WallOutlook {
 /// once. What is in sight of a particle when neighbours are searched stays so until the next search.
 class WallOutlooks {
  public:
-  /// `cell`: their size; `reach`: how far anybody looks, and goes until the next search; `width`: of edges
-  /// [L]. The surface must reach `half_of` a cell and half of the width farther.
   /// Walls of a room are of faces that are `alike`.
   using Alike = std::function<bool(Index face, Index other)>;
+  /// `width`: of edges; `cell`: size of cells; `reach`: how far anybody looks, and goes until the next search
+  /// [L]. The surface must look twice `half_of` a cell and half of the width farther.
   WallOutlooks(const WallSurface& surface, Real width, Real cell, Real reach, Alike alike);
   static Real half_of(Real cell, int dim);
   /// From where active particles are now.

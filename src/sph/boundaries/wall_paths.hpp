@@ -217,6 +217,7 @@ class WallPaths {
   };
   struct Box;
   void leave_out_hidden(Box& box) const;
+  bool rises_from(const Sheet& sheet, const Sheet& other, const Vec& x) const;
   bool stands_upright(const Box& box, const Vec& centre, Real inside) const;
   void find_ends(const Box& box, const Sheets& sheets, const Vec& centre, Real around, OpenRoom& room) const;
   Sheet sheet_of(Index face) const;

@@ -86,6 +86,15 @@ bool WallPaths::stands_upright(const Box& box, const Vec& centre, Real inside) c
   return true;
 }
 
+/// Whether any of a sheet is on the side of another one that x is on.
+bool WallPaths::rises_from(const Sheet& sheet, const Sheet& other, const Vec& x) const {
+  const Real side = other.height(x) > 0 ? 1 : -1, most = 1e-3 * surface_.reach();
+  return std::any_of(sheet.faces.begin(), sheet.faces.end(), [&](Index f) {
+    return std::any_of(face(f).x.begin(), face(f).x.begin() + face(f).corners,
+                       [&](const Vec& c) { return side * other.height(surface_.in_plane(c)) > most; });
+  });
+}
+
 /// Edges in the box within `around` of `centre`: up to them, each wall covers all of its side.
 void WallPaths::find_ends(const Box& box, const Sheets& sheets, const Vec& centre, Real around,
                           OpenRoom& room) const {
@@ -97,10 +106,11 @@ void WallPaths::find_ends(const Box& box, const Sheets& sheets, const Vec& centr
       bool hidden = false;
       for (std::size_t k = 0; k < box.walls.size(); ++k)
         hidden |= box.walls[k] != &sheet && std::max(box.height(k, a), box.height(k, b)) <= most;
-      for (const Sheet* s : box.far) {
-        const Real side = s->height(centre) > 0 ? 1 : -1;
-        hidden |= s != &sheet && std::max(side * s->height(a), side * s->height(b)) <= most;
-      }
+      hidden |= std::any_of(box.far.begin(), box.far.end(), [&](const Sheet* far) {
+        const Real side = far->height(centre) > 0 ? 1 : -1;
+        return far != &sheet && std::max(side * far->height(a), side * far->height(b)) <= most &&
+               rises_from(*far, sheet, centre);
+      });
       if (hidden) continue;
       room.ends.push_back({a, b});
       const auto wall = std::find(box.walls.begin(), box.walls.end(), &sheet);
@@ -232,6 +242,9 @@ WallOutlook WallOutlooks::outlook_from(const Vec& middle) const {
   };
   out.alike = std::all_of(out.sheets.begin(), out.sheets.end(), alike);
   if (!out.nothing && out.alike) out.rooms = paths_.rooms_about(out.sheets, middle, half, reach_);
+  const bool closed = !out.rooms.empty() && std::all_of(out.rooms.begin(), out.rooms.end(),
+                                                        [](const OpenRoom& r) { return r.ends.empty(); });
+  if (!out.nothing && !closed) out.points = surface_.points_around(middle, surface_.reach() + 2 * half);
   return out;
 }
 

@@ -70,7 +70,7 @@ WallSupport::Sums WallSupport::sums_over_points(const Particles& p, Index i, Rea
   Sums s;
   // what was in sight half a step ago, too
   const Real within = any_moves_ ? surface_->reach() : sight(p, i) + std::abs(half_step) * v.norm();
-  surface_->for_each_seen(x, within, [&](const WallPoint& q, const Vec& away) {
+  for_each_seen(p, i, within, [&](const WallPoint& q, const Vec& away) {
     const Vec d = q.x - x, u = v - q.v;
     const Real W = kernel(h, d), before = kernel(h, d + half_step * u), behind = volume_behind(h, d, away);
     s.slope += away * W;

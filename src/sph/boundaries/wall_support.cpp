@@ -65,7 +65,7 @@ void WallSupport::rebuild(const World& world) {
   if (any_moves_ && world.particles.active > 0) from.emplace(world.particles, reach, walls_.planes);
   const bool stays = !any_moves_ && !evolving_h_;
   const Real width = walls_.images ? WallPaths::usual_width * spacing_ : 0,
-             beyond = WallOutlooks::half_of(spacing_, dim_) + 0.5 * width + spacing;
+             beyond = 2 * WallOutlooks::half_of(spacing_, dim_) + 0.5 * width + spacing;
   outlooks_.reset();
   surface_.emplace(world, walls_.segments, spacing, reach, walls_.planes, from ? &*from : nullptr,
                    &walls_.belts, stays ? beyond : 0);
@@ -157,7 +157,7 @@ WallSupport::Hold WallSupport::hold_on(const Particles& p, Index i) const {
     hold.force = -muV * hold_in_room(p, i, *room) * p.v.vec(i), hold.heat = -hold.force.dot(p.v.vec(i));
     return hold;
   }
-  surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
+  for_each_seen(p, i, sight(p, i), [&](const WallPoint& q, const Vec& away) {
     const Vec slide = belt_velocity(q), u = p.v.vec(i) - q.v - slide,
               force = -muV * held_by(p, i, q, away) * u;
     hold.force += force, hold.heat -= force.dot(u), hold.belt_power += force.dot(slide);
@@ -213,10 +213,10 @@ void WallSupport::add_reactions(const Particles& p, Index i, std::vector<Reactio
   };
   Real rubbing = 0;  // now that densities have changed
   if (rubbing_[i] > 0)
-    surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
+    for_each_seen(p, i, sight(p, i), [&](const WallPoint& q, const Vec& away) {
       rubbing += rubbed_by(q, away, kernel(p.h[i], q.x - p.x.vec(i)));
     });
-  surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
+  for_each_seen(p, i, sight(p, i), [&](const WallPoint& q, const Vec& away) {
     const Index segment = surface_->segment_of(q.face);
     if (!moves_[static_cast<std::size_t>(segment)]) return;
     const Real W = kernel(p.h[i], q.x - p.x.vec(i));
@@ -328,7 +328,7 @@ void WallSupport::show_forces(World& world) {
     const Vec force = force_on(p, i);
     Real weight = 0;
     shares.clear();
-    surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
+    for_each_seen(p, i, sight(p, i), [&](const WallPoint& q, const Vec& away) {
       const Real one = away.norm() * kernel(p.h[i], q.x - p.x.vec(i));
       const Index segment = surface_->segment_of(q.face);
       weight += one;

@@ -126,6 +126,15 @@ class WallSupport : public Rate,
     return table_.kernel(d.norm() / h) / (dim_ == 2 ? power<2>(h) : power<3>(h));
   }
   Real volume_behind(Real h, const Vec& d, const Vec& away) const;
+  /// `WallSurface::for_each_seen` of particle i.
+  template <class F>
+  void for_each_seen(const Particles& p, Index i, Real within, F&& f) const {
+    const std::vector<Index>* const among = outlooks_ ? &outlooks_->of(i).points : nullptr;
+    if (among && !among->empty())
+      surface_->for_each_seen(p.x.vec(i), within, *among, std::forward<F>(f));
+    else
+      surface_->for_each_seen(p.x.vec(i), within, std::forward<F>(f));
+  }
   /// From how near pieces of wall have to do with particle i. [L]
   Real sight(const Particles& p, Index i) const { return table_.support() * p.h[i]; }
 

@@ -128,15 +128,29 @@ class WallSurface {
   template <class F>
   void for_each_seen(const Vec& x, Real within, F&& f) const {
     const Vec from = in_plane(x);
-    const Sight sight = sight_from(from, within);
+    show_seen(from, sight_from(from, within), std::forward<F>(f));
+  }
+  /// The same where these are all points that may matter, as `points_around` lists them.
+  template <class F>
+  void for_each_seen(const Vec& x, Real within, const std::vector<Index>& among, F&& f) const {
+    const Vec from = in_plane(x);
+    SightSearch search(*this, from, within);
+    for (const Index q : among) search.look_at(q);
+    show_seen(from, search.found(), std::forward<F>(f));
+  }
+  /// Ascending.
+  std::vector<Index> points_around(const Vec& x, Real within) const;
+
+ private:
+  struct Sight;
+  template <class F>
+  void show_seen(const Vec& from, const Sight& sight, F&& f) const {
     for (const Index q : sight.points) {
       const WallPoint& point = points_[q];
       if (hidden(point, from, sight)) continue;
       f(point, point.area.dot(point.x - from) < 0 ? Vec(-point.area) : point.area);
     }
   }
-
- private:
   /// What is alike to 1e-6 of the reach has one key.
   using Key = std::array<std::int64_t, 6>;
   Key key(const Vec& a, const Vec& b) const;
@@ -168,6 +182,25 @@ class WallSurface {
     std::vector<Index> points;
     std::vector<Screen> screens;  ///< none where all is in one plane
     Real doubt = 0;               ///< places so near to a plane may be on either side of one of its faces [L]
+  };
+  class SightSearch {
+   public:
+    SightSearch(const WallSurface& surface, const Vec& from, Real within);
+    void look_at(Index point) {
+      const Real r2 = (surface_.at_[static_cast<std::size_t>(point)] - from_).squaredNorm();
+      if (r2 < around2_) take(point, r2);
+    }
+    Sight found();
+
+   private:
+    void take(Index point, Real r2);
+    const WallSurface& surface_;
+    Vec from_;
+    Real within2_, around2_;  ///< of points, and of what may stand before them [L2]
+    std::vector<Index> faces_;
+    Index plane_ = -1;
+    bool corner_ = false;
+    Sight out_;
   };
   Sight sight_from(const Vec& from, Real within) const;
   bool hidden(const WallPoint& point, const Vec& from, const Sight& sight) const;
