@@ -32,7 +32,7 @@ void WallImages::drag(Particles& p, const WallPath& path, Block& block) const {
   const Real hold = path.weight * V[i] * V[j] * ((*viscosity_)[i] + (*viscosity_)[j]) * slope(p.h[i], path.d);
   Vec u = p.v.vec(i);
   std::array<WallPaths::Crossing, 4> met;
-  const int n = at_end().crossings(sheets_[i], path, p.x.vec(i), p.x.vec(j), met);
+  const int n = at_end().crossings(sheets(i), path, p.x.vec(i), p.x.vec(j), met);
   std::array<Vec, 4> slide;
   for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
     const WallSurface::Face& face = at_end().face(met[k].face);

@@ -1,11 +1,13 @@
 // METHOD 1 of *COURANT_WALL_SUPPORT: walls as mirrors of the water beside them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "search/neighbours.hpp"
 #include "sph/boundaries/wall_images.hpp"
 #include "sph/core/fields.hpp"
+#include "sph/core/view.hpp"
 
 namespace courant {
 
@@ -25,7 +27,11 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
       diffusion_(s.density_diffusion > 0 ? &sph_fields::density_diffusion(world.particles) : nullptr),
       walls_(s.walls),
       width_(WallPaths::usual_width * s.spacing),
-      any_moves_(support_->any_moves()) {
+      any_moves_(support_->any_moves()),
+      kernel_(&any_kernel(s.kernel)),
+      room_rates_(mirror_rates_loop(s.kernel, s.dim)),
+      room_forces_(mirror_forces_loop(s.kernel, s.dim)) {
+  if (diffusion_) potential_ = &sph_fields::potential(world.particles);
   spacing_ = support_->surface().spacing(), reach_ = support_->surface().reach();
   if (walls_.hold) {
     viscosity_ = &sph_fields::viscosity(world.particles);
@@ -35,10 +41,7 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
     for (const Index segment : walls_.segments)
       mixed_ |= !walls_.friction[static_cast<std::size_t>(segment)].no_slip || walls_.belts.any();
   }
-  if (!any_moves_) {
-    paths_from_.emplace(support_->surface(), dim_, width_);
-    return;
-  }
+  if (!any_moves_) return;
   std::vector<char> known(static_cast<std::size_t>(world.nodes.size()), 0);
   for (const Index segment : walls_.segments)
     if (segment_moves(world, segment))
@@ -65,9 +68,8 @@ void WallImages::keep(Archive& archive) {
   if (any_moves_) archive("searched_at", searched_at_);
 }
 
-/// Walls are searched where they were; those that are held have a new surface after loading.
+/// Walls are searched where they were.
 void WallImages::relist(World& world) {
-  if (!any_moves_) paths_from_.emplace(support_->surface(), dim_, width_);
   std::vector<Vec> now;
   const bool known = searched_at_.size() == nodes_.size();
   for (const Index n : nodes_) now.push_back(world.nodes.x.vec(n));
@@ -89,12 +91,20 @@ void WallImages::search(const World& world) {
 void WallImages::look(World& world) {
   search(world);
   const Particles& p = world.particles;
-  sheets_.assign(p.active, {});
+  const auto n = static_cast<std::size_t>(p.active);
+  if (any_moves_) sheets_.assign(n, {});
+  rooms_.assign(n, nullptr), own_rooms_.resize(n), strange_.assign(n, 0);
   for_each(p.active, [&](Index i) {
-    if (support_->is_near(i)) sheets_[i] = at_end().seen_from(p.x.vec(i));
+    force_.set(i, Vec::Zero());
+    if (!support_->is_near(i)) return;
+    const auto k = static_cast<std::size_t>(i);
+    if (!viscosity_ && support_->outlooks())
+      rooms_[k] =
+          support_->outlooks()->open_room(i, p.x.vec(i), support_->sight_until_search(p, i), own_rooms_[k]);
+    if (!any_moves_) return;
+    sheets_[i] = at_end().seen_from(p.x.vec(i));
     if (mixed_ && sheets_[i].size() == 1 && sheets_[i][0].endless)  // whose faces may not be alike
       sheets_[i][0].faces = surface().faces_around(p.x.vec(i));
-    force_.set(i, Vec::Zero());
   });
 }
 
@@ -122,12 +132,17 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   block.paths.clear(), block.pulls.clear(), block.reactions.clear();
   block.belt_power = 0;
+  if (!any_moves_ && !viscosity_) {
+    room_rates_(arrays(world.particles, begin), lists_of(*neighbours_, begin, end));
+    add_doubtful_ways(world.particles, begin, block);
+  }
   for (Index i = begin; i < end; ++i) {
-    if (sheets_[i].empty()) continue;
-    const bool moves = any_moves_ && std::any_of(sheets_[i].begin(), sheets_[i].end(),
+    if (!sees(i) || in_room(i)) continue;
+    const bool moves = any_moves_ && std::any_of(sheets(i).begin(), sheets(i).end(),
                                                  [](const auto& s) { return s.body >= 0; });
+    const WallPaths::Some some = moves ? WallPaths::all : seen_from(world.particles, i);
     for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
-      moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, block);
+      moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, some, block);
   }
   if (!viscosity_) return;
   for (Index i = begin; i < end; ++i) drag_->set(i, Vec::Zero());
@@ -136,12 +151,12 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
 
 /// Ways are looked for in the middle of the step, where its rates belong, and taken along to its end, where
 /// forces act; those on their way over an edge are looked at there again.
-void WallImages::add_ways(Particles& p, Index i, Index j, Block& block) {
+void WallImages::add_ways(Particles& p, Index i, Index j, WallPaths::Some some, Block& block) {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
   const Real reach = table_.support() * p.h[i];
   std::vector<WallPath>& paths = block.paths;
   const std::size_t first = paths.size();
-  at_end().add(sheets_[i], i, in_the_middle(i), j, in_the_middle(j), reach, paths);
+  at_end().add(sheets(i), some, i, in_the_middle(i), j, in_the_middle(j), reach, paths);
   bool at_edge = false;
   for (std::size_t k = first; k < paths.size(); ++k) {
     add_rate(p, paths[k], block.pulls);
@@ -150,7 +165,7 @@ void WallImages::add_ways(Particles& p, Index i, Index j, Block& block) {
   }
   if (!at_edge) return;
   paths.resize(first);
-  at_end().add(sheets_[i], i, p.x.vec(i), j, p.x.vec(j), reach, paths);
+  at_end().add(sheets(i), some, i, p.x.vec(i), j, p.x.vec(j), reach, paths);
 }
 
 /// The same where walls move.
@@ -200,11 +215,55 @@ void WallImages::add_rate(Particles& p, const WallPath& path, const std::vector<
       (path.weight * slope(h, path.d) * speed(p, path).dot(path.d) + kernel(h, path.d) * share_rate);
 }
 
+/// What may matter to ways from particle i in this step.
+WallPaths::Some WallImages::seen_from(const Particles& p, Index i) const {
+  const Real reach = table_.support() * p.h[i] + 3 * width_ + 2 * half_step_ * p.v.vec(i).norm();
+  return at_end().within(sheets(i), p.x.vec(i), reach);
+}
+
+/// Those of pairs of which particle i stands in a room that one of its ways may leave.
+void WallImages::add_doubtful_ways(Particles& p, Index begin, Block& block) {
+  const Index* const list = neighbours_->list(begin / block_size);
+  const Index* const start = neighbours_->starts(begin / block_size);
+  std::array<WallPaths::Some, block_size> seen{};
+  Index group = 0;
+  for (Index k = 0; k < block.doubts; ++k) {
+    const Index entry = block.doubt[static_cast<std::size_t>(k)];
+    while (entry >= start[group + 1]) ++group;
+    for (Index l = 0; l < Neighbours::lanes; ++l) {
+      if ((block.doubt_lanes[static_cast<std::size_t>(k)] >> l & 1) == 0) continue;
+      const Index in_block = group * Neighbours::lanes + l, i = begin + in_block;
+      WallPaths::Some& some = seen[static_cast<std::size_t>(in_block)];
+      if (some == 0) some = seen_from(p, i);
+      add_ways(p, i, list[entry], some, block);
+    }
+  }
+}
+
+WallMirrorArrays WallImages::arrays(Particles& p, Index begin) {
+  Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
+  const auto entries = static_cast<std::size_t>(neighbours_->entries(begin / block_size));
+  if (block.doubt.size() < entries) block.doubt.resize(entries), block.doubt_lanes.resize(entries);
+  WallMirrorArrays a{};
+  a.doubt = block.doubt.data(), a.doubt_lanes = block.doubt_lanes.data(), a.doubts = &block.doubts;
+  a.width = width_;
+  for (int k = 0; k < 3; ++k) {
+    a.x[k] = p.x.data(k), a.v[k] = p.v.data(k);
+    a.f[k] = p.f.data(k), a.wall_force[k] = force_.data(k);
+    a.aside[k] = at_end().shift()[k];
+  }
+  a.V = volumes_->current(), a.rho = p.rho.data(), a.p = pressure_.data(), a.drhodt = p.drhodt.data();
+  if (diffusion_) a.c = p.c.data(), a.potential = potential_->data(), a.diffusion = diffusion_->data();
+  a.h = p.active > 0 ? p.h[0] : 1, a.delta = delta_, a.half_step = half_step_;
+  a.room = rooms_.data(), a.strange = strange_.data(), a.kernel = kernel_;
+  return a;
+}
+
 void WallImages::declare_forces(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
   a.reads(p.x, Reach::others).reads(pressure_, Reach::others).reads(volumes_->now(), Reach::others);
   a.reads(p.h).reads(p.rho).reads(p.c).reads(p.part).updates(p.f).updates(force_);
-  if (diffusion_) a.updates(*diffusion_);
+  if (diffusion_) a.updates(*diffusion_).reads(*potential_, Reach::others);
   if (drag_) a.reads(*drag_);
   if (!any_moves_) return;
   const Segments& s = world.segments;
@@ -220,7 +279,8 @@ void WallImages::forces(World& world, Index begin, Index end) {
   Particles& p = world.particles;
   const Real* V = volumes_->current();
   for (Index i = begin; i < end; ++i)
-    if (!sheets_[i].empty()) force_.set(i, drag_ ? drag_->vec(i) : Vec(Vec::Zero()));
+    if (sees(i) && !in_room(i)) force_.set(i, drag_ ? drag_->vec(i) : Vec(Vec::Zero()));
+  if (!any_moves_ && !viscosity_) room_forces_(arrays(p, begin), lists_of(*neighbours_, begin, end));
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   for (const WallPath& path : block.paths) {
     const Index i = path.i, j = path.j;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "sph/boundaries/wall_mirror_loops.hpp"
 #include "sph/boundaries/wall_paths.hpp"
 #include "sph/boundaries/wall_support.hpp"
 #include "sph/core/pair_volumes.hpp"
@@ -65,13 +66,27 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
     std::vector<WallPull> pulls;  ///< of paths
     std::vector<WallPull> now;    ///< of the path at hand
     std::vector<Reaction> reactions;
-    Real belt_power = 0;  ///< of belts on water [ML2/T3]
+    Real belt_power = 0;       ///< of belts on water [ML2/T3]
+    std::vector<Index> doubt;  ///< WallMirrorArrays
+    std::vector<unsigned char> doubt_lanes;
+    Index doubts = 0;
   };
-  void add_ways(Particles& p, Index i, Index j, Block& block);
+  void add_ways(Particles& p, Index i, Index j, WallPaths::Some some, Block& block);
   void add_ways_of_moving(Particles& p, Index i, Index j, Block& block);
   void react(const Particles& p, const WallPath& path, const Vec& force, Real per_share, Block& block) const;
   void give(const WallPull& pull, Real times, Block& block) const;
-  const WallPaths& at_end() const { return *paths_from_; }
+  const WallPaths& at_end() const { return any_moves_ ? *paths_from_ : support_->outlooks()->paths(); }
+  const WallPaths::Sheets& sheets(Index i) const {
+    return any_moves_ ? sheets_[static_cast<std::size_t>(i)] : support_->outlooks()->of(i).sheets;
+  }
+  bool sees(Index i) const { return support_->is_near(i) && !sheets(i).empty(); }
+  /// Whether the loops over rooms look at particle i in this step.
+  bool in_room(Index i) const {
+    return rooms_[static_cast<std::size_t>(i)] && strange_[static_cast<std::size_t>(i)] == 0;
+  }
+  WallMirrorArrays arrays(Particles& p, Index begin);
+  void add_doubtful_ways(Particles& p, Index begin, Block& block);
+  WallPaths::Some seen_from(const Particles& p, Index i) const;
   const WallSurface& surface() const { return surface_ ? *surface_ : support_->surface(); }
   /// (dW/dr)/r [1/L^(dim+2)]
   Real slope(Real h, const Vec& d) const;
@@ -90,7 +105,7 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   std::shared_ptr<PairVolumes> volumes_;
   std::shared_ptr<WallSupport> support_;
   Field<Real>&pressure_, &force_;
-  Field<Real>* diffusion_;
+  Field<Real>*diffusion_, *potential_ = nullptr;
   /// Where walls hold water fast; `viscous_` where there is no turbulence.
   Field<Real>*viscosity_ = nullptr, *heat_ = nullptr, *drag_ = nullptr, *viscous_ = nullptr;
   SupportedWalls walls_;
@@ -100,9 +115,14 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   std::optional<WallSurface> surface_;     ///< where walls move: at the last refresh
   std::vector<Index> nodes_;               ///< of walls that move
   std::vector<Vec> searched_at_;           ///< where these were then
-  std::optional<WallPaths> paths_from_;    ///< now; of walls that are held edges are judged once
+  std::optional<WallPaths> paths_from_;    ///< where walls move: now
   std::optional<WallPaths> in_middle_;     ///< where walls move: in the middle of the step
-  std::vector<WallPaths::Sheets> sheets_;  ///< of active particles, since the last refresh
+  std::vector<WallPaths::Sheets> sheets_;  ///< where walls move: of active particles, since the last refresh
+  const AnyKernel* kernel_;
+  WallMirrorLoop room_rates_, room_forces_;
+  std::vector<const WallRoom*> rooms_;  ///< of those that see walls, since then
+  std::vector<std::unique_ptr<WallRoom>> own_rooms_;
+  std::vector<char> strange_;  ///< WallMirrorArrays
   std::vector<Block> blocks_;
 };
 

@@ -14,6 +14,7 @@ namespace {
 constexpr Real touching = 1e-3;   ///< of the reach: what is nearer is joined, as decks round places
 constexpr Real overlap = 1e-4;    ///< of the reach: so far faces go on past their edges
 constexpr Real level = 1 - 1e-6;  ///< cosine of the angle between normals of faces in one plane
+constexpr Real most_passed = 2;   ///< widths by which a way may pass edges, with room to spare
 constexpr Real bent = 0.87;       ///< cosine of the turn up to which one face goes on in the next
 
 /// The places where two pieces of lines come nearest, and how far on the first one that is, from 0 to 1.
@@ -122,12 +123,6 @@ WallPaths::Sheets WallPaths::seen_from(const Vec& x) const {
   Sheets out;
   const WallSurface::View view = surface_.view_from(x);
   if (view.nothing) return out;
-  const auto sheet_of = [&](Index face) {
-    const auto& f = this->face(face);
-    Sheet sheet;
-    sheet.n = f.n, sheet.offset = f.offset, sheet.plane = f.plane, sheet.face = face, sheet.body = f.body;
-    return sheet;
-  };
   const std::vector<Index> around = surface_.faces_around(x);
   // exactly, or a pair of particles would not look alike from both
   const auto ends = [&](Index f) {
@@ -140,14 +135,75 @@ WallPaths::Sheets WallPaths::seen_from(const Vec& x) const {
     out.back().endless = true;
     return out;
   }
-  for (const Index f : around) {
+  return sheets_of(around);
+}
+
+WallPaths::Sheets WallPaths::sheets_around(const Vec& x, Real within) const {
+  return sheets_of(surface_.faces_around(x, within + surface_.spacing()));
+}
+
+WallPaths::Sheet WallPaths::sheet_of(Index face) const {
+  const auto& f = this->face(face);
+  Sheet sheet;
+  sheet.n = f.n, sheet.offset = f.offset, sheet.plane = f.plane, sheet.face = face, sheet.body = f.body;
+  return sheet;
+}
+
+WallPaths::Sheets WallPaths::sheets_of(const std::vector<Index>& faces) const {
+  Sheets out;
+  for (const Index f : faces) {
     auto known = std::find_if(out.begin(), out.end(), [&](const Sheet& s) { return goes_on_in(s, f); });
     if (known == out.end()) known = out.insert(out.end(), sheet_of(f));
     known->faces.push_back(f);
     for (int e = 0; e < 4; ++e)
-      if (edges_[f][e].ends) known->edges.push_back({f, e});
+      if (edges_[f][e].ends) add_edge(*known, f, e);
   }
-  if (out.size() > 1) compare(out);
+  compare(out);
+  return out;
+}
+
+/// Edges that go on straight beside the same other faces are one.
+void WallPaths::add_edge(Sheet& sheet, Index face, int edge) const {
+  const auto& f = this->face(face);
+  Brink out{.face = face, .edge = edge, .from = f.x[edge], .to = f.x[(edge + 1) % f.corners]};
+  const Real near = 1e-6 * surface_.reach();
+  const auto alike = [&](const Corner& a, const Corner& b) {
+    return (a.n - b.n).norm() < 1e-9 && std::abs(a.here - b.here) < 1e-9 &&
+           std::abs(a.there - b.there) < 1e-9;
+  };
+  const auto goes_on = [&](const Brink& known) {
+    const auto &these = edges_[known.face][known.edge].corners, &others = edges_[face][edge].corners;
+    const Vec along = known.to - known.from;
+    return (this->face(known.face).inward[known.edge] - f.inward[edge]).norm() < 1e-9 &&
+           along.cross(out.to - known.from).norm() < near * along.norm() && these.size() == others.size() &&
+           std::equal(these.begin(), these.end(), others.begin(), alike);
+  };
+  for (bool more = sheet.body < 0; more;) {
+    more = false;
+    for (std::size_t k = 0; k < sheet.edges.size(); ++k) {
+      const Brink& known = sheet.edges[k];
+      if (!goes_on(known)) continue;
+      if ((known.to - out.from).norm() < near)
+        out.from = known.from;
+      else if ((known.from - out.to).norm() < near)
+        out.to = known.to;
+      else
+        continue;
+      sheet.edges.erase(sheet.edges.begin() + static_cast<std::ptrdiff_t>(k));
+      more = true;
+      break;
+    }
+  }
+  out.find_middle();
+  sheet.edges.push_back(out);
+}
+
+/// Where an edge of a wall that moves is now.
+WallPaths::Brink WallPaths::now(const Brink& edge) const {
+  const auto& f = face(edge.face);
+  Brink out{
+      .face = edge.face, .edge = edge.edge, .from = f.x[edge.edge], .to = f.x[(edge.edge + 1) % f.corners]};
+  out.find_middle();
   return out;
 }
 
@@ -161,7 +217,11 @@ void WallPaths::compare(Sheets& sheets) const {
     Index n = 0;
     for_each_corner(s, [&](const Vec& x) { s.middle += x, ++n; });
     s.middle /= n, s.half = 0;
-    for_each_corner(s, [&](const Vec& x) { s.half = std::max(s.half, (x - s.middle).norm()); });
+    s.low = s.high = s.middle;
+    for_each_corner(s, [&](const Vec& x) {
+      s.half = std::max(s.half, (x - s.middle).norm());
+      s.low = s.low.cwiseMin(x), s.high = s.high.cwiseMax(x);
+    });
     for (std::size_t k = 0; k < std::min<std::size_t>(sheets.size(), 64); ++k) {
       const Sheet& other = sheets[k];
       if (&other == &s || other.body != s.body) continue;
@@ -194,9 +254,9 @@ bool WallPaths::lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const {
 /// Whether sheets meet in a convex corner: no way goes from one to the other.
 bool WallPaths::turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const {
   return std::any_of(sheet.edges.begin(), sheet.edges.end(), [&](const auto& edge) {
-    const auto& [face, e] = edge;
-    const auto& f = this->face(face);
-    return lies_in(f.x[e], f.x[(e + 1) % f.corners], &other) && is_free(face, e, x) && is_free(face, e, y);
+    const Brink here = sheet.body < 0 ? edge : now(edge);
+    return lies_in(here.from, here.to, &other) && is_free(edge.face, edge.edge, x) &&
+           is_free(edge.face, edge.edge, y);
   });
 }
 
@@ -220,14 +280,19 @@ WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& 
   Real near = 0.5 * width_;
   const Vec middle = 0.5 * (start + b);
   const Real around = 0.5 * (b - start).norm() + near;
-  for (const auto& [face, e] : sheet.edges) {
-    const Edge& edge = edges_[face][e];
+  for (const Brink& brink : sheet.edges) {
+    Brink moved;
+    if (sheet.body >= 0) moved = now(brink);
+    const Brink& edge = sheet.body >= 0 ? moved : brink;
     if ((edge.middle - middle).squaredNorm() > power<2>(around + edge.half)) continue;
-    const auto& f = this->face(face);
-    const Vec &c = f.x[e], &d = f.x[(e + 1) % f.corners];
-    const bool passed = lies_in(c, d, but) || lies_in(c, d, and_but);
+    const Vec &c = edge.from, &d = edge.to;
     const Nearest to_edge = nearest(start, b, c, d);
     const Real r = to_edge.distance();
+    if (r >= std::max(near, 2 * overlap * surface_.reach())) continue;
+    const Index face = edge.face;
+    const int e = edge.edge;
+    const auto& f = this->face(face);
+    const bool passed = lies_in(c, d, but) || lies_in(c, d, and_but);
     if (!passed && (r >= near || !is_free(face, e, x) || !is_free(face, e, y))) continue;
     // what joins faces does not count where they end
     if (out.inside && nearest(out.at, out.at, c, d).distance() < 2 * overlap * surface_.reach())
@@ -246,11 +311,13 @@ WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& 
 }
 
 /// What hides most of a way from `a` to `b`.
-WallPaths::Meeting WallPaths::hidden(const Sheets& sheets, const Vec& a, const Vec& b, const Vec& x,
-                                     const Vec& y, const Sheet* but, const Sheet* and_but) const {
+WallPaths::Meeting WallPaths::hidden(const Sheets& sheets, Some some, const Vec& a, const Vec& b,
+                                     const Vec& x, const Vec& y, const Sheet* but,
+                                     const Sheet* and_but) const {
   Meeting most;
-  for (const Sheet& s : sheets) {
-    if (&s == but || &s == and_but) continue;
+  for (std::size_t k = 0; k < sheets.size(); ++k) {
+    const Sheet& s = sheets[k];
+    if (&s == but || &s == and_but || !has(some, k)) continue;
     const Real from = s.height(a), to = s.height(b);
     if (!(from * to < 0) && (s.edges.empty() || std::min(std::abs(from), std::abs(to)) > 0.5 * width_))
       continue;  // as `meet` would find
@@ -260,24 +327,44 @@ WallPaths::Meeting WallPaths::hidden(const Sheets& sheets, const Vec& a, const V
   return most;
 }
 
-void WallPaths::add(const Sheets& sheets, Index i, const Vec& at_i, Index j, const Vec& at_j, Real reach,
-                    std::vector<WallPath>& to, std::vector<WallPull>* pulls) const {
+WallPaths::Some WallPaths::within(const Sheets& sheets, const Vec& at, Real reach) const {
+  const Vec x = put_aside(at);
+  Some out = sheets.size() > 63 ? Some(1) << 63 : 0;
+  for (std::size_t k = 0; k < std::min<std::size_t>(sheets.size(), 63); ++k)
+    if (sheets[k].off(x) <= reach) out |= Some(1) << k;
+  return out;
+}
+
+/// A way that has to do with a wall is no shorter than what both ends are off it, but for widths of edges.
+void WallPaths::add(const Sheets& sheets, Some some, Index i, const Vec& at_i, Index j, const Vec& at_j,
+                    Real reach, std::vector<WallPath>& to, std::vector<WallPull>* pulls) const {
   const Vec x = put_aside(at_i), y = put_aside(at_j, i == j);
   if ((y - x).squaredNorm() >= reach * reach) return;  // images are farther
-  if (i != j) add_straight(sheets, i, x, j, y, to, pulls);
   Real from_x = reach, from_y = reach;
-  for (const Sheet& s : sheets) {
+  for (std::size_t k = 0; k < std::min<std::size_t>(sheets.size(), 63); ++k) {
+    if (!has(some, k)) continue;
+    const Sheet& s = sheets[k];
+    if (s.off(x) + s.off(y) > reach + most_passed * width_) {
+      some &= ~(Some(1) << k);
+      continue;
+    }
     from_x = std::min(from_x, std::abs(s.height(x)));
     from_y = std::min(from_y, std::abs(s.height(y)));
   }
+  for (std::size_t k = 63; k < sheets.size(); ++k) {
+    from_x = std::min(from_x, std::abs(sheets[k].height(x)));
+    from_y = std::min(from_y, std::abs(sheets[k].height(y)));
+  }
+  if (some == 0) return;
+  if (i != j) add_straight(sheets, some, i, x, j, y, to, pulls);
   if (from_x + from_y > reach + width_) return;
   Sequence by;
-  add_thrown_back({sheets, i, j, x, y, reach, from_y, to, pulls}, by, x, 0);
+  add_thrown_back({sheets, some, i, j, x, y, reach, from_y, to, pulls}, by, x, 0);
 }
 
-void WallPaths::add_straight(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y,
+void WallPaths::add_straight(const Sheets& sheets, Some some, Index i, const Vec& x, Index j, const Vec& y,
                              std::vector<WallPath>& to, std::vector<WallPull>* pulls) const {
-  const Meeting m = hidden(sheets, x, y, x, y);
+  const Meeting m = hidden(sheets, some, x, y, x, y);
   if (!(m.share > 0)) return;
   WallPath path{.i = i, .j = j, .weight = -m.share, .d = x - y};
   path.by_i = -m.by_start, path.by_j = -m.by_end;
@@ -296,6 +383,7 @@ void WallPaths::add_thrown_back(const Search& search, Sequence& by, const Vec& x
   const std::size_t most = dim_ == 2 ? 4 : 3;
   const Sheets& sheets = search.sheets;
   for (std::size_t k = 0; k < sheets.size(); ++k) {
+    if (!has(search.some, k)) continue;
     const Sheet& s = sheets[k];
     if (by.empty() ? std::abs(s.height(search.x)) > search.reach : by.back() == &s) continue;
     if (by.size() == 1 && by.front()->turns_away(k, search.x)) continue;
@@ -332,9 +420,9 @@ void WallPaths::add_path(const Search& search, const Sequence& by) const {
   if (s.endless && !search.pulls)
     path.weight = s.height(search.x) * s.height(image) < 0;  // nothing else is there
   else if (search.pulls)
-    follow<true>(search.sheets, by, search.x, search.y, image, path, search.pulls);
+    follow<true>(search.sheets, search.some, by, search.x, search.y, image, path, search.pulls);
   else
-    follow<false>(search.sheets, by, search.x, search.y, image, path, search.pulls);
+    follow<false>(search.sheets, search.some, by, search.x, search.y, image, path, search.pulls);
   if (search.i == search.j)
     path.by_i = path.by_j = 0.5 * (path.by_i + path.by_j);  // but for rounding they are
   if (!(path.weight > 0)) return;
@@ -356,8 +444,8 @@ void WallPaths::note_walls(const Sheets& sheets, const Sequence& by, Vec y, Wall
 /// gives the path its share and the slopes of that: a product of what walls take and of what none of the
 /// others hides.
 template <bool recorded>
-void WallPaths::follow(const Sheets& sheets, const Sequence& by, const Vec& x, const Vec& y, Vec target,
-                       WallPath& path, [[maybe_unused]] std::vector<WallPull>* pulls) const {
+void WallPaths::follow(const Sheets& sheets, Some some, const Sequence& by, const Vec& x, const Vec& y,
+                       Vec target, WallPath& path, [[maybe_unused]] std::vector<WallPull>* pulls) const {
   [[maybe_unused]] std::conditional_t<recorded, Way, char> way;
   Vec start = x, at = x;
   // what these change by when x and y do
@@ -385,7 +473,7 @@ void WallPaths::follow(const Sheets& sheets, const Sequence& by, const Vec& x, c
       const Real part = s->height(start) / (s->height(start) - s->height(target));
       m_by_x = (1 - part) * in_wall * start_by_x, m_by_y = part * in_wall * target_by_y;
     }
-    const Meeting h = hidden(sheets, at, m.at, x, y, last, s);
+    const Meeting h = hidden(sheets, some, at, m.at, x, y, last, s);
     if constexpr (recorded) way.hidden[way.steps - 1] = h;
     if (!times(1 - h.share, -(at_by_x.transpose() * h.by_start + m_by_x.transpose() * h.by_end),
                -(at_by_y.transpose() * h.by_start + m_by_y.transpose() * h.by_end)))
@@ -394,7 +482,7 @@ void WallPaths::follow(const Sheets& sheets, const Sequence& by, const Vec& x, c
     start_by_x = s->turn() * start_by_x, target_by_y = s->turn() * target_by_y;
     at = m.at, at_by_x = m_by_x, at_by_y = m_by_y, last = s;
   }
-  const Meeting h = hidden(sheets, at, y, x, y, last);
+  const Meeting h = hidden(sheets, some, at, y, x, y, last);
   if (!times(1 - h.share, -at_by_x.transpose() * h.by_start, -at_by_y.transpose() * h.by_start - h.by_end))
     return;
   path.weight = share, path.by_i = by_x, path.by_j = by_y;

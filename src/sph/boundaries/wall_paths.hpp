@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sph/boundaries/wall_room.hpp"
 #include "sph/boundaries/wall_surface.hpp"
 
 namespace courant {
@@ -32,6 +33,18 @@ struct WallPull {
   Vec at = Vec::Zero(), force = Vec::Zero(), lever = Vec::Zero();
 };
 
+/// A room for who does not see these edges, where something ends in front of its walls.
+struct OpenRoom {
+  WallRoom room;                          ///< without ends
+  WallRoom open;                          ///< with these
+  bool known = true;                      ///< `open` has them all
+  std::vector<std::pair<Vec, Vec>> ends;  ///< edges
+  /// Whether x is in front of all walls, and `within` off where they end.
+  bool holds_open(const Vec& x, Real within) const;
+  /// Whether x is in front of all walls, and farther than `sight` from any of the edges.
+  bool holds(const Vec& x, Real sight) const;
+};
+
 /// Walls act as mirrors do, each piece as far as it goes: i meets the image of j in a wall where the straight
 /// way from i to the image goes through that wall, and so does j, since the way back is the same. Images of
 /// images fill corners, again where the way, thrown back by one wall after the other, meets each of them.
@@ -47,6 +60,15 @@ struct WallPull {
 /// all goes along alike: forces by it keep momentum and its moment.
 class WallPaths {
  public:
+  /// An edge of a sheet, of one face or, where walls are held, of several side by side.
+  struct Brink {
+    Index face = 0;
+    int edge = 0;
+    Vec from = Vec::Zero(), to = Vec::Zero();
+    Vec middle = Vec::Zero();
+    Real half = 0;  ///< of its length [L]
+    void find_middle() { middle = 0.5 * (from + to), half = 0.5 * (to - from).norm(); }
+  };
   /// A flat piece of wall as somebody sees it; `endless`: nothing else, and none of its edges.
   struct Sheet {
     Vec n = Vec::Zero();
@@ -56,12 +78,13 @@ class WallPaths {
     Index face = 0;   ///< one of them
     Index body = -1;  ///< which they all follow; -1: they are held
     std::vector<Index> faces;
-    std::vector<std::pair<Index, int>> edges;  ///< of these faces, where nothing goes on in the plane
+    std::vector<Brink> edges;  ///< of these faces, where nothing goes on in the plane
     /// Of the sheets of the same body those, by number, all of whose faces lie on its negative, or positive,
     /// side: no way that comes from the other one goes there next.
     std::uint64_t under = 0, over = 0;
     Vec middle = Vec::Zero();  ///< of its faces when they were looked for, of which none is farther than
     Real half = std::numeric_limits<Real>::infinity();  ///< this [L]
+    Vec low = Vec::Constant(-half), high = -low;        ///< about its faces, where they are held [L]
     Real height(const Vec& x) const { return n.dot(x) - offset; }
     Vec image(const Vec& x) const { return x - 2 * height(x) * n; }
     Matrix turn() const { return Matrix::Identity() - 2 * n * n.transpose(); }
@@ -70,10 +93,14 @@ class WallPaths {
     }
     /// What a way from x to it is no shorter than; from it to another one. [L]
     Real off(const Vec& x) const {
-      return body < 0 ? std::max((x - middle).norm() - half, Real(0)) : std::abs(height(x));
+      if (body >= 0) return std::abs(height(x));
+      return std::max(std::abs(height(x)), (low - x).cwiseMax(x - high).cwiseMax(0).norm());
     }
     Real off(const Sheet& other) const {
-      return body == other.body ? std::max((middle - other.middle).norm() - half - other.half, Real(0)) : 0;
+      if (body != other.body) return 0;
+      const Real apart = std::max((middle - other.middle).norm() - half - other.half, Real(0));
+      if (body >= 0) return apart;
+      return std::max(apart, (low - other.high).cwiseMax(other.low - high).cwiseMax(0).norm());
     }
   };
   using Sheets = std::vector<Sheet>;
@@ -89,9 +116,25 @@ class WallPaths {
 
   /// What may throw back ways from about x.
   Sheets seen_from(const Vec& x) const;
+  /// All that stands within a distance of x [L], each with its faces and edges.
+  Sheets sheets_around(const Vec& x, Real within) const;
+  /// The rooms that places may stand in that are no farther than `half` from the centre, as far as `reach`
+  /// from them, of the sheets that stand that far around. [L]
+  std::vector<OpenRoom> rooms_about(const Sheets& sheets, const Vec& centre, Real half, Real reach) const;
   /// Appends the ways from i to j that walls change; `reach`: how far the kernel does [L].
   void add(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y, Real reach,
+           std::vector<WallPath>& to, std::vector<WallPull>* pulls = nullptr) const {
+    add(sheets, all, i, x, j, y, reach, to, pulls);
+  }
+  /// Sheets by their numbers, one bit each; those behind the first 63 have the last one.
+  using Some = std::uint64_t;
+  static constexpr Some all = ~Some(0);
+  static bool has(Some some, std::size_t k) { return (some >> std::min<std::size_t>(k, 63) & 1) != 0; }
+  /// The same by what may matter to a way from x.
+  void add(const Sheets& sheets, Some some, Index i, const Vec& x, Index j, const Vec& y, Real reach,
            std::vector<WallPath>& to, std::vector<WallPull>* pulls = nullptr) const;
+  /// What may matter to ways from x, that go as far as the reach.
+  Some within(const Sheets& sheets, const Vec& x, Real reach) const;
 
   /// Where walls that move were `back` ago, by their velocity over the last step. [T]
   void take_along(const World& world, Real back);
@@ -172,24 +215,34 @@ class WallPaths {
     std::array<const Sheet*, 4> sheets_{};
     std::size_t size_ = 0;
   };
+  struct Box;
+  void leave_out_hidden(Box& box) const;
+  bool rises_from(const Sheet& sheet, const Sheet& other, const Vec& x) const;
+  bool stands_upright(const Box& box, const Vec& centre, Real inside) const;
+  void find_ends(const Box& box, const Sheets& sheets, const Vec& centre, Real around, OpenRoom& room) const;
+  Sheet sheet_of(Index face) const;
+  Sheets sheets_of(const std::vector<Index>& faces) const;
   bool goes_on_in(const Sheet& sheet, Index face) const;
   Edge edge_of(Index face, int edge) const;
+  void add_edge(Sheet& sheet, Index face, int edge) const;
+  Brink now(const Brink& edge) const;
   bool is_free(Index face, int edge, const Vec& p) const;
   bool is_inside(const Sheet& sheet, const Vec& q) const;
   bool lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const;
   bool turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const;
   Meeting meet(const Sheet& sheet, const Vec& a, const Vec& b, const Vec& start, const Vec& x, const Vec& y,
                const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
-  Meeting hidden(const Sheets& sheets, const Vec& a, const Vec& b, const Vec& x, const Vec& y,
+  Meeting hidden(const Sheets& sheets, Some some, const Vec& a, const Vec& b, const Vec& x, const Vec& y,
                  const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
   template <bool recorded>
-  void follow(const Sheets& sheets, const Sequence& by, const Vec& x, const Vec& y, Vec target,
+  void follow(const Sheets& sheets, Some some, const Sequence& by, const Vec& x, const Vec& y, Vec target,
               WallPath& path, std::vector<WallPull>* pulls) const;
-  void add_straight(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y,
+  void add_straight(const Sheets& sheets, Some some, Index i, const Vec& x, Index j, const Vec& y,
                     std::vector<WallPath>& to, std::vector<WallPull>* pulls) const;
   /// Which ways from i to j are looked for; `least_y`: what y is off any sheet.
   struct Search {
     const Sheets& sheets;
+    Some some;
     Index i, j;
     Vec x, y;
     Real reach, least_y;

@@ -15,7 +15,6 @@ namespace courant {
 
 namespace {
 
-constexpr Real points_per_h = 4;  ///< the kernel's integral over a plane is then right to 1e-5 from 0.3 h on
 constexpr Real most_points_per_h = 16;  ///< of the largest h, where h differs
 
 }  // namespace
@@ -24,6 +23,7 @@ WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& n
     : dim_(s.dim),
       evolving_h_(s.evolving_h),
       table_(s.kernel, s.dim),
+      spacing_(s.spacing),
       slope_(sph_fields::wall_slope(world.particles)),
       fill_(sph_fields::wall_fill(world.particles)),
       pressure_(std::holds_alternative<BulkViscosity>(s.viscosity)
@@ -53,6 +53,7 @@ WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& n
     gradient_ = &sph_fields::wall_gradient(world.particles);
     excess_ = &sph_fields::renormalisation(world.particles);
   }
+  if (!any_moves_ && !evolving_h_ && (integrates_ || walls_.hold)) corners_.emplace(s.kernel, s.dim);
   measure_h(world);
   rebuild(world);
 }
@@ -62,8 +63,15 @@ void WallSupport::rebuild(const World& world) {
   const Real reach = table_.support() * most_h_ + neighbours_.largest_skin() + past_edges_;
   std::optional<Lookouts> from;  // a surface of every step is that of what water can see
   if (any_moves_ && world.particles.active > 0) from.emplace(world.particles, reach, walls_.planes);
+  const bool stays = !any_moves_ && !evolving_h_;
+  const Real width = walls_.images ? WallPaths::usual_width * spacing_ : 0,
+             beyond = 2 * WallOutlooks::half_of(spacing_, dim_) + 0.5 * width + spacing;
+  outlooks_.reset();
   surface_.emplace(world, walls_.segments, spacing, reach, walls_.planes, from ? &*from : nullptr,
-                   &walls_.belts);
+                   &walls_.belts, stays ? beyond : 0);
+  if (stays)
+    outlooks_.emplace(*surface_, width, spacing_, table_.support() * most_h_ + neighbours_.largest_skin(),
+                      [this](Index f, Index other) { return are_alike(f, other); });
   for (Index f = 0; f < surface_->faces(); ++f) {
     const WallFriction &law = friction_of(f), &first = friction_of(0);
     one_law_ &= law.cf == first.cf && law.log_law == first.log_law && law.ks == first.ks &&
@@ -105,8 +113,10 @@ void WallSupport::block(World& world, const Clock& clock, Index begin, Index end
     if (any_moves_ && !image_force_ && (view_[i] = look(p, i)) == nothing) set(i, {});
     if (view_[i] == nothing || !(integrates_ || rubs_)) continue;
     const Real half_step = 0.5 * clock.dt_old;
-    const Sums sums =
-        view_[i] >= 0 ? sums_over_plane(p, i, view_[i], half_step) : sums_over_points(p, i, half_step);
+    const WallRoom* const room = this->room(i);
+    const Sums sums = room            ? sums_in_room(p, i, *room, half_step)
+                      : view_[i] >= 0 ? sums_over_plane(p, i, view_[i], half_step)
+                                      : sums_over_points(p, i, half_step);
     set(i, sums);
     if (!image_force_) p.drhodt[i] += 2 * p.rho[i] * sums.squeeze;
   }
@@ -143,7 +153,11 @@ WallSupport::Hold WallSupport::hold_on(const Particles& p, Index i) const {
   Hold hold;
   if (!viscosity_) return hold;
   const Real muV = p.m[i] / p.rho[i] * (*viscosity_)[i];
-  surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
+  if (const WallRoom* const room = this->room(i)) {
+    hold.force = -muV * hold_in_room(p, i, *room) * p.v.vec(i), hold.heat = -hold.force.dot(p.v.vec(i));
+    return hold;
+  }
+  for_each_seen(p, i, sight(p, i), [&](const WallPoint& q, const Vec& away) {
     const Vec slide = belt_velocity(q), u = p.v.vec(i) - q.v - slide,
               force = -muV * held_by(p, i, q, away) * u;
     hold.force += force, hold.heat -= force.dot(u), hold.belt_power += force.dot(slide);
@@ -199,10 +213,10 @@ void WallSupport::add_reactions(const Particles& p, Index i, std::vector<Reactio
   };
   Real rubbing = 0;  // now that densities have changed
   if (rubbing_[i] > 0)
-    surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
+    for_each_seen(p, i, sight(p, i), [&](const WallPoint& q, const Vec& away) {
       rubbing += rubbed_by(q, away, kernel(p.h[i], q.x - p.x.vec(i)));
     });
-  surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
+  for_each_seen(p, i, sight(p, i), [&](const WallPoint& q, const Vec& away) {
     const Index segment = surface_->segment_of(q.face);
     if (!moves_[static_cast<std::size_t>(segment)]) return;
     const Real W = kernel(p.h[i], q.x - p.x.vec(i));
@@ -224,6 +238,7 @@ void WallSupport::refreshed(World& world, const Clock&, std::span<const Index>) 
   Particles& p = world.particles;
   if (evolving_h_) measure_h(world);
   if (evolving_h_ || (any_moves_ && image_force_)) rebuild(world);
+  look_for_rooms(p);
   view_.assign(p.active, nothing);
   for_each(p.active, [&](Index i) {
     view_[i] = look(p, i);
@@ -231,7 +246,30 @@ void WallSupport::refreshed(World& world, const Clock&, std::span<const Index>) 
   });
 }
 
+void WallSupport::relist(World& world) {
+  rebuild(world);
+  look_for_rooms(world.particles);
+}
+
+void WallSupport::look_for_rooms(const Particles& p) {
+  if (!outlooks_) return;
+  outlooks_->look_from(p);
+  rooms_.resize(static_cast<std::size_t>(p.active)), own_rooms_.resize(static_cast<std::size_t>(p.active));
+  for_each(p.active, [&](Index i) {
+    const auto k = static_cast<std::size_t>(i);
+    rooms_[k] = outlooks_->room(i, p.x.vec(i), sight_until_search(p, i), own_rooms_[k]);
+  });
+}
+
+/// Whether faces rub alike, and neither belongs to a belt.
+bool WallSupport::are_alike(Index face, Index other) const {
+  const WallFriction &one = friction_of(face), &two = friction_of(other);
+  return one.cf == two.cf && one.log_law == two.log_law && one.ks == two.ks && one.no_slip == two.no_slip &&
+         surface_->face(face).belt < 0 && surface_->face(other).belt < 0;
+}
+
 Index WallSupport::look(const Particles& p, Index i) const {
+  if (outlooks_) return outlooks_->of(i).nothing || is_spray(p, i) ? nothing : pieces;
   const WallSurface::View view = surface_->view_from(p.x.vec(i));
   if (view.nothing || is_spray(p, i)) return nothing;
   return one_law_ && !any_moves_ && view.flat >= 0 ? view.flat : pieces;
@@ -290,7 +328,7 @@ void WallSupport::show_forces(World& world) {
     const Vec force = force_on(p, i);
     Real weight = 0;
     shares.clear();
-    surface_->for_each_seen(p.x.vec(i), sight(p, i), [&](const WallPoint& q, const Vec& away) {
+    for_each_seen(p, i, sight(p, i), [&](const WallPoint& q, const Vec& away) {
       const Real one = away.norm() * kernel(p.h[i], q.x - p.x.vec(i));
       const Index segment = surface_->segment_of(q.face);
       weight += one;
@@ -332,66 +370,6 @@ Vec WallSupport::friction_on(const Particles& p, Index i, const Vec& v) const {
 
 Vec WallSupport::belt_velocity(const WallPoint& q) const {
   return surface_->face(q.face).slide_at(belt_factors_, q.x);
-}
-
-Real WallSupport::friction_coefficient(const Particles& p, Index i, Index face, const Vec& wall) const {
-  const WallFriction& law = friction_of(face);
-  if (!law.log_law) return law.cf;
-  const Vec n = surface_->away(face, p.x.vec(i)), u = p.v.vec(i) - wall, along = u - u.dot(n) * n;
-  const Real speed = along.norm(), nu = mu_.empty() ? 0 : mu_[p.part[i]] / p.rho[i];
-  const Real y = std::max(surface_->distance(face, p.x.vec(i)), least_y_);
-  const Real u_star = friction_velocity(speed, y, nu, law.ks);
-  return speed > 0 ? 2 * power<2>(u_star / speed) : 0;
-}
-
-WallSupport::Sums WallSupport::sums_over_points(const Particles& p, Index i, Real half_step) const {
-  const Real h = p.h[i];
-  const Vec x = p.x.vec(i), v = p.v.vec(i);
-  Sums s;
-  // what was in sight half a step ago, too
-  const Real within = any_moves_ ? surface_->reach() : sight(p, i) + std::abs(half_step) * v.norm();
-  surface_->for_each_seen(x, within, [&](const WallPoint& q, const Vec& away) {
-    const Vec d = q.x - x, u = v - q.v;
-    const Real W = kernel(h, d), before = kernel(h, d + half_step * u), behind = volume_behind(h, d, away);
-    s.slope += away * W;
-    s.squeeze += u.dot(away) * before;
-    s.fill += behind;
-    const Vec slide = slide_ ? belt_velocity(q) : Vec(Vec::Zero()), wall = q.v + slide;
-    const Real rubbing = rubs_ ? friction_coefficient(p, i, q.face, wall) * away.norm() * W : 0;
-    s.rubbing += rubbing;
-    if (velocity_) s.wall_velocity += rubbing * wall;
-    if (slide_) s.wall_slide += rubbing * slide;
-    if (!moment_) return;
-    s.moment += W * d * away.transpose();
-    s.gradient += before * (u * away.transpose() + away * u.transpose());
-  });
-  if (s.rubbing > 0) s.wall_velocity /= s.rubbing, s.wall_slide /= s.rubbing;
-  if (moment_) s.moment = 0.5 * (s.moment + s.moment.transpose().eval()) + s.fill * Matrix::Identity();
-  return s;
-}
-
-WallSupport::Sums WallSupport::sums_over_plane(const Particles& p, Index i, Index face,
-                                               Real half_step) const {
-  const Real h = p.h[i];
-  const Vec x = p.x.vec(i), v = p.v.vec(i);
-  const Vec away = surface_->away(face, x);
-  const Real d = surface_->distance(face, x), W = table_.plane(d / h) / h;
-  const Real before = table_.plane(surface_->distance(face, x - half_step * v) / h) / h;
-  Sums s{.slope = W * away,
-         .squeeze = before * v.dot(away),
-         .fill = table_.behind(d / h),
-         .rubbing = rubs_ ? friction_coefficient(p, i, face, Vec::Zero()) * W : 0};
-  if (!moment_) return s;
-  s.moment = d * W * away * away.transpose() + s.fill * Matrix::Identity();
-  s.gradient = before * (v * away.transpose() + away * v.transpose());
-  return s;
-}
-
-/// Of the kernel's integral, what lies in the shadow of a piece of wall. Nearer than the pieces are large,
-/// r is that of their edge.
-Real WallSupport::volume_behind(Real h, const Vec& d, const Vec& away) const {
-  const Real r = std::max(d.norm(), 0.3 * h / points_per_h), R = r / h;
-  return away.dot(d) / power<2>(r) * table_.tail(R) / (dim_ == 2 ? 1 : r);
 }
 
 namespace {

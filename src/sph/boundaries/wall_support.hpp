@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "sph/boundaries/wall_corner_tables.hpp"
+#include "sph/boundaries/wall_outlooks.hpp"
 #include "sph/boundaries/wall_surface.hpp"
 #include "sph/boundaries/wall_tables.hpp"
 #include "sph/sph.hpp"
@@ -52,6 +54,15 @@ class WallSupport : public Rate,
   bool is_near(Index i) const { return view_[i] != nothing; }
   const WallSurface& surface() const { return *surface_; }
   bool any_moves() const { return any_moves_; }
+  /// How far particle i sees walls until neighbours are searched next: nobody moves farther than half the
+  /// skin until then. [L]
+  Real sight_until_search(const Particles& p, Index i) const {
+    return sight(p, i) + 0.51 * neighbours_.skin();
+  }
+  /// What particles see of walls, where it is known by places: all are held, and reach one h.
+  const WallOutlooks* outlooks() const { return outlooks_ ? &*outlooks_ : nullptr; }
+  /// The room of a particle that sees any wall; null: none.
+  const WallRoom* room(Index i) const { return outlooks_ ? rooms_[static_cast<std::size_t>(i)] : nullptr; }
   /// By which belts go in this step. [-]
   const std::vector<Real>& belt_factors() const { return belt_factors_; }
 
@@ -65,7 +76,7 @@ class WallSupport : public Rate,
 
   void refreshed(World& world, const Clock&, std::span<const Index>) override;
   void keep(Archive& archive) override;
-  void relist(World& world) override { rebuild(world); }
+  void relist(World& world) override;
 
   // What friction takes over the step, by the mean of the velocities before and after the kick.
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
@@ -84,6 +95,8 @@ class WallSupport : public Rate,
     Matrix moment = Matrix::Zero(), gradient = Matrix::Zero();
   };
   void rebuild(const World& world);
+  void look_for_rooms(const Particles& p);
+  bool are_alike(Index face, Index other) const;
   /// Whether walls are looked at in every step: they move, and something is summed over their pieces.
   bool follows() const { return any_moves_ && (!image_force_ || integrates_ || rubs_); }
   void measure_h(const World& world);
@@ -107,10 +120,21 @@ class WallSupport : public Rate,
   Real friction_coefficient(const Particles& p, Index i, Index face, const Vec& wall) const;
   Sums sums_over_points(const Particles& p, Index i, Real half_step) const;
   Sums sums_over_plane(const Particles& p, Index i, Index face, Real half_step) const;
+  Sums sums_in_room(const Particles& p, Index i, const WallRoom& room, Real half_step) const;
+  Real hold_in_room(const Particles& p, Index i, const WallRoom& room) const;
   Real kernel(Real h, const Vec& d) const {
     return table_.kernel(d.norm() / h) / (dim_ == 2 ? power<2>(h) : power<3>(h));
   }
   Real volume_behind(Real h, const Vec& d, const Vec& away) const;
+  /// `WallSurface::for_each_seen` of particle i.
+  template <class F>
+  void for_each_seen(const Particles& p, Index i, Real within, F&& f) const {
+    const std::vector<Index>* const among = outlooks_ ? &outlooks_->of(i).points : nullptr;
+    if (among && !among->empty())
+      surface_->for_each_seen(p.x.vec(i), within, *among, std::forward<F>(f));
+    else
+      surface_->for_each_seen(p.x.vec(i), within, std::forward<F>(f));
+  }
   /// From how near pieces of wall have to do with particle i. [L]
   Real sight(const Particles& p, Index i) const { return table_.support() * p.h[i]; }
 
@@ -119,6 +143,8 @@ class WallSupport : public Rate,
   Real past_edges_ = 0;     ///< so much farther METHOD 1 looks [L]
   bool integrates_ = true;  ///< somebody besides friction asks for the integrals over walls
   WallTables table_;
+  Real spacing_;  ///< of particles [L]
+  std::optional<WallCornerTables> corners_;
   Field<Real>&slope_, &fill_;
   Field<Real>& pressure_;  ///< with that of bulk viscosity, as pair forces take it
   Field<Real>& rubbing_;
@@ -134,11 +160,16 @@ class WallSupport : public Rate,
   std::vector<Hold> holds_;        ///< sums of each block in this step
   Real least_h_ = 0, most_h_ = 0;  ///< when neighbours were searched last [L]
   std::optional<WallSurface> surface_;
+  std::optional<WallOutlooks> outlooks_;
+  std::vector<const WallRoom*> rooms_;  ///< of active particles, since neighbours were searched
+  std::vector<std::unique_ptr<WallRoom>> own_rooms_;
   std::vector<Real> mu_;  ///< per part, 0: none [M/LT]
   /// Of active particles, until the next refresh, or where walls move the next step: `nothing`, `pieces` or a
   /// face of the one plane they see.
   std::vector<Index> view_;
   static constexpr Index nothing = -2, pieces = -1;
+  /// Of pieces: the kernel's integral over a plane is then right to 1e-5 from 0.3 h on.
+  static constexpr Real points_per_h = 4;
   bool one_law_ = true;       ///< of friction for all walls
   bool rubs_ = false;         ///< any wall
   std::vector<Index> shown_;  ///< segments that have forces of this step

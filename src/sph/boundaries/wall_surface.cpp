@@ -78,8 +78,13 @@ bool Lookouts::any_in(const Vec& low, const Vec& high) const {
 }
 
 WallSurface::WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
-                         std::vector<GhostPlane> planes, const Lookouts* from, const WallBelts* belts)
-    : dim_(world.dim), reach_(reach), spacing_(spacing), mirrors_and_periods_(std::move(planes)) {
+                         std::vector<GhostPlane> planes, const Lookouts* from, const WallBelts* belts,
+                         Real beyond)
+    : dim_(world.dim),
+      reach_(reach),
+      farthest_(reach + beyond),
+      spacing_(spacing),
+      mirrors_and_periods_(std::move(planes)) {
   std::vector<char> seen(segments.size(), 1);
   if (from)
     for_each(static_cast<Index>(segments.size()), [&](Index k) {
@@ -269,10 +274,10 @@ void WallSurface::add_images(int k) {
     }
   };
   if (plane.kind == GhostPlane::Kind::mirror) {
-    add(1, [&](Real d) { return d < reach_; });
+    add(1, [&](Real d) { return d < farthest_; });
   } else {
-    add(2, [&](Real d) { return d < reach_; });
-    add(1, [&](Real d) { return plane.period - d < reach_; });
+    add(2, [&](Real d) { return d < farthest_; });
+    add(1, [&](Real d) { return plane.period - d < farthest_; });
   }
 }
 
@@ -294,7 +299,7 @@ void WallSurface::sort_into_cells() {
   for (const WallPoint& p : points_) low = low.cwiseMin(p.x), high = high.cwiseMax(p.x);
   if (points_.empty()) low = high = Vec::Zero();
   low_ = low;
-  cell_ = reach_;
+  cell_ = farthest_;
   const Real most = std::max<Real>(1e6, 4.0 * points());  // cells of a large wall must not fill the memory
   const auto count = [&] {
     for (int k = 0; k < 3; ++k) cells_[k] = 1 + static_cast<Index>((high[k] - low[k]) / cell_);
@@ -356,13 +361,6 @@ WallSurface::View WallSurface::view_from(const Vec& x) const {
   return view;
 }
 
-std::vector<Index> WallSurface::faces_around(const Vec& x) const {
-  const Vec from = in_plane(x);
-  std::array<Index, 27> cells;
-  const int n = cells_around(from, cells);
-  return faces_near(from, cells, n);
-}
-
 std::vector<Index> WallSurface::faces_next_to(const Vec& x) const {
   const Vec from = in_plane(x);
   std::array<Index, 27> cells;
@@ -388,50 +386,71 @@ bool WallSurface::is_at_face(Index f, const Vec& q) const {
   return is_at(faces_[f].side, q);
 }
 
-std::vector<Index> WallSurface::faces_near(const Vec& x, const std::array<Index, 27>& cells, int n) const {
+std::vector<Index> WallSurface::faces_around(const Vec& x, Real within) const {
+  const Vec from = in_plane(x);
+  std::array<Index, 27> cells;
+  const int n = cells_around(from, cells);
   std::vector<Index> found;
   for (int k = 0; k < n; ++k)
     for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q)
-      if (near(q, x) && (found.empty() || found.back() != points_[q].face)) found.push_back(points_[q].face);
+      if ((at_[q] - from).squaredNorm() < within * within &&
+          (found.empty() || found.back() != points_[q].face))
+        found.push_back(points_[q].face);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
-/// What stands between is nearer, and some point of it not much farther than the piece it is on is large.
-WallSurface::Sight WallSurface::sight_from(const Vec& from, Real within) const {
-  Sight out;
+std::vector<Index> WallSurface::points_around(const Vec& x, Real within) const {
+  const Vec from = in_plane(x);
   std::array<Index, 27> cells;
   const int n = cells_around(from, cells);
-  const Real most = std::min(within, reach_), most2 = most * most,
-             around2 = power<2>(std::min(within + spacing_, reach_));
-  std::vector<Index> faces;
-  Index plane = -1;
-  bool corner = false;
+  std::vector<Index> found;
   for (int k = 0; k < n; ++k)
-    for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q) {
-      const Real r2 = (at_[q] - from).squaredNorm();
-      if (!(r2 < around2)) continue;
-      if (r2 < most2) out.points.push_back(q);
-      const Index face = points_[q].face;
-      if (!faces.empty() && faces.back() == face) continue;
-      corner |= plane >= 0 && faces_[face].plane != plane;
-      plane = faces_[face].plane;
-      faces.push_back(face);
-    }
-  if (!corner || out.points.empty()) return out;
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  for (const Index face : faces) {
-    const Face& f = faces_[face];
-    auto known = std::find_if(out.screens.begin(), out.screens.end(),
+    for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q)
+      if ((at_[q] - from).squaredNorm() < within * within) found.push_back(q);
+  return found;
+}
+
+/// What stands between is nearer, and some point of it not much farther than the piece it is on is large.
+WallSurface::SightSearch::SightSearch(const WallSurface& surface, const Vec& from, Real within)
+    : surface_(surface),
+      from_(from),
+      within2_(power<2>(std::min(within, surface.reach_))),
+      around2_(power<2>(std::min(within + surface.spacing_, surface.reach_))) {}
+
+void WallSurface::SightSearch::take(Index point, Real r2) {
+  if (r2 < within2_) out_.points.push_back(point);
+  const Index face = surface_.points_[point].face;
+  if (!faces_.empty() && faces_.back() == face) return;
+  corner_ |= plane_ >= 0 && surface_.faces_[face].plane != plane_;
+  plane_ = surface_.faces_[face].plane;
+  faces_.push_back(face);
+}
+
+WallSurface::Sight WallSurface::SightSearch::found() {
+  if (!corner_ || out_.points.empty()) return std::move(out_);
+  std::sort(faces_.begin(), faces_.end());
+  faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+  for (const Index face : faces_) {
+    const Face& f = surface_.faces_[face];
+    auto known = std::find_if(out_.screens.begin(), out_.screens.end(),
                               [&](const Screen& s) { return s.plane == f.plane; });
-    if (known == out.screens.end())
-      known = out.screens.insert(known, {f.plane, f.n, f.offset, height(face, from), {}});
+    if (known == out_.screens.end())
+      known = out_.screens.insert(known, {f.plane, f.n, f.offset, surface_.height(face, from_), {}});
     known->faces.push_back(face);
   }
-  out.doubt = 1e-4 * reach_ + 1e-5 * from.norm();  // faces have one plane by a key that rounds
-  return out;
+  out_.doubt = 1e-4 * surface_.reach_ + 1e-5 * from_.norm();  // faces have one plane by a key that rounds
+  return std::move(out_);
+}
+
+WallSurface::Sight WallSurface::sight_from(const Vec& from, Real within) const {
+  SightSearch search(*this, from, within);
+  std::array<Index, 27> cells;
+  const int n = cells_around(from, cells);
+  for (int k = 0; k < n; ++k)
+    for (Index q = first_[cells[k]]; q < first_[cells[k] + 1]; ++q) search.look_at(q);
+  return search.found();
 }
 
 bool WallSurface::hidden(const WallPoint& point, const Vec& from, const Sight& sight) const {

@@ -48,10 +48,10 @@ class Lookouts {
 class WallSurface {
  public:
   /// `spacing`: of points [L]; `reach`: farthest that anything looks [L]. `from`: what nothing there can see
-  /// is left out. `belts`: what moves along itself.
+  /// is left out. `belts`: what moves along itself. `beyond`: so much farther `faces_around` may look [L].
   WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
               std::vector<GhostPlane> planes = {}, const Lookouts* from = nullptr,
-              const WallBelts* belts = nullptr);
+              const WallBelts* belts = nullptr, Real beyond = 0);
 
   Index faces() const { return static_cast<Index>(faces_.size()); }
   Index points() const { return static_cast<Index>(points_.size()); }
@@ -108,13 +108,15 @@ class WallSurface {
   /// moment are those at x, also past the edges.
   std::array<Real, 4> weights_of_nodes(const Face& face, const Vec& x) const;
   /// Faces that have points within the reach of x, ascending.
-  std::vector<Index> faces_around(const Vec& x) const;
+  std::vector<Index> faces_around(const Vec& x) const { return faces_around(x, reach_); }
+  std::vector<Index> faces_around(const Vec& x, Real within) const;
   /// Faces among which is the one next to x, where any is within the reach; ascending.
   std::vector<Index> faces_next_to(const Vec& x) const;
   /// Whether q, in the plane of a face, is where that face or its image counts.
   bool is_at_face(Index f, const Vec& q) const;
   Real reach() const { return reach_; }
   Real spacing() const { return spacing_; }
+  int dim() const { return dim_; }
   Vec in_plane(const Vec& x) const { return dim_ == 2 ? Vec(x[0], x[1], 0) : x; }
 
   /// Calls f(point, away) for each point nearer than the reach, and than `within`, that can be seen from x
@@ -126,15 +128,29 @@ class WallSurface {
   template <class F>
   void for_each_seen(const Vec& x, Real within, F&& f) const {
     const Vec from = in_plane(x);
-    const Sight sight = sight_from(from, within);
+    show_seen(from, sight_from(from, within), std::forward<F>(f));
+  }
+  /// The same where these are all points that may matter, as `points_around` lists them.
+  template <class F>
+  void for_each_seen(const Vec& x, Real within, const std::vector<Index>& among, F&& f) const {
+    const Vec from = in_plane(x);
+    SightSearch search(*this, from, within);
+    for (const Index q : among) search.look_at(q);
+    show_seen(from, search.found(), std::forward<F>(f));
+  }
+  /// Ascending.
+  std::vector<Index> points_around(const Vec& x, Real within) const;
+
+ private:
+  struct Sight;
+  template <class F>
+  void show_seen(const Vec& from, const Sight& sight, F&& f) const {
     for (const Index q : sight.points) {
       const WallPoint& point = points_[q];
       if (hidden(point, from, sight)) continue;
       f(point, point.area.dot(point.x - from) < 0 ? Vec(-point.area) : point.area);
     }
   }
-
- private:
   /// What is alike to 1e-6 of the reach has one key.
   using Key = std::array<std::int64_t, 6>;
   Key key(const Vec& a, const Vec& b) const;
@@ -154,7 +170,6 @@ class WallSurface {
   void sort_into_cells();
   bool near(Index point, const Vec& x) const { return (at_[point] - x).squaredNorm() < reach_ * reach_; }
   int cells_around(const Vec& x, std::array<Index, 27>& cells) const;
-  std::vector<Index> faces_near(const Vec& x, const std::array<Index, 27>& cells, int n) const;
   /// Faces of one plane that may stand between somebody and what is on its other side.
   struct Screen {
     Index plane = 0;
@@ -168,12 +183,32 @@ class WallSurface {
     std::vector<Screen> screens;  ///< none where all is in one plane
     Real doubt = 0;               ///< places so near to a plane may be on either side of one of its faces [L]
   };
+  class SightSearch {
+   public:
+    SightSearch(const WallSurface& surface, const Vec& from, Real within);
+    void look_at(Index point) {
+      const Real r2 = (surface_.at_[static_cast<std::size_t>(point)] - from_).squaredNorm();
+      if (r2 < around2_) take(point, r2);
+    }
+    Sight found();
+
+   private:
+    void take(Index point, Real r2);
+    const WallSurface& surface_;
+    Vec from_;
+    Real within2_, around2_;  ///< of points, and of what may stand before them [L2]
+    std::vector<Index> faces_;
+    Index plane_ = -1;
+    bool corner_ = false;
+    Sight out_;
+  };
   Sight sight_from(const Vec& from, Real within) const;
   bool hidden(const WallPoint& point, const Vec& from, const Sight& sight) const;
 
   int dim_;
   Real reach_;
-  Real spacing_;  ///< pieces are no longer
+  Real farthest_;  ///< that faces are looked for [L]
+  Real spacing_;   ///< pieces are no longer
   std::vector<GhostPlane> mirrors_and_periods_;
   std::vector<Face> faces_;
   std::set<Key> lines_;

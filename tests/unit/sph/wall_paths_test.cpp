@@ -5,7 +5,9 @@
 #include <functional>
 #include <string>
 
+#include "sph/boundaries/wall_mirror_loops.hpp"
 #include "sph/boundaries/wall_paths.hpp"
+#include "sph/boundaries/wall_tables.hpp"
 #include "sph/core/kernel.hpp"
 
 namespace courant::wall_paths_test {
@@ -376,6 +378,169 @@ TEST(WallPaths, ShowAParticleToItselfInCorners) {
       EXPECT_EQ(found.size(), images) << angle << " " << turn;
       for (const WallPath& p : found) EXPECT_EQ(p.weight, 1) << angle << " " << turn;
     }
+  }
+}
+
+/// Particles beside walls, each a neighbour of all, as the loops over rooms take them.
+struct Crowd {
+  std::vector<Real> x[3], v[3], V, p, rho, drhodt, f[3], wall_force[3];
+  std::vector<const WallRoom*> room;
+  std::vector<WallRoom> rooms;
+  std::vector<char> strange;
+  std::vector<Index> list, start, doubt;
+  std::vector<unsigned char> lanes;
+  Index doubts = 0;
+  Vec at(std::size_t i) const { return Vec(x[0][i], x[1][i], x[2][i]); }
+  Vec velocity(std::size_t i) const { return Vec(v[0][i], v[1][i], v[2][i]); }
+  bool is_doubtful(std::size_t i, std::size_t j) const {
+    for (Index k = 0; k < doubts; ++k) {
+      const Index entry = doubt[static_cast<std::size_t>(k)];
+      const std::size_t group = static_cast<std::size_t>(entry) / V.size();
+      if (group == i / 8 && list[static_cast<std::size_t>(entry)] == static_cast<Index>(j) &&
+          (lanes[static_cast<std::size_t>(k)] >> i % 8 & 1) != 0)
+        return true;
+    }
+    return false;
+  }
+  WallMirrorArrays arrays(const Vec& aside) {
+    WallMirrorArrays a{};
+    for (int c = 0; c < 3; ++c) {
+      a.x[c] = x[c].data(), a.v[c] = v[c].data(), a.f[c] = f[c].data();
+      a.wall_force[c] = wall_force[c].data(), a.aside[c] = aside[c];
+    }
+    a.V = V.data(), a.rho = rho.data(), a.p = p.data(), a.drhodt = drhodt.data();
+    a.h = h, a.half_step = 1e-3, a.width = WallPaths::usual_width * dx;
+    a.room = room.data(), a.strange = strange.data();
+    a.doubt = doubt.data(), a.doubt_lanes = lanes.data(), a.doubts = &doubts;
+    a.kernel = &any_kernel(KernelChoice::cubic_spline);
+    return a;
+  }
+};
+template <class Wet>
+Crowd crowd_about(const WallPaths& paths, int dim, Real wide, const Wet& wet) {
+  Crowd out;
+  for (int k = 0; out.V.size() < 64; ++k) {
+    const Vec x(wide * std::sin(1.3 * k), wide * std::cos(2.1 * k + 1),
+                dim == 3 ? wide * std::sin(3.7 * k) : 0);
+    if (!wet(x)) continue;
+    for (int c = 0; c < 3; ++c)
+      out.x[c].push_back(x[c]), out.v[c].push_back(c < dim ? std::sin(k + 2.0 * c) : 0);
+    out.V.push_back(1 + 0.5 * std::sin(k)), out.p.push_back(2 + std::cos(3 * k)), out.rho.push_back(1);
+  }
+  const std::size_t n = out.V.size();
+  for (auto* to : {&out.drhodt, &out.f[0], &out.f[1], &out.f[2], &out.wall_force[0], &out.wall_force[1],
+                   &out.wall_force[2]})
+    to->assign(n, 0);
+  out.rooms.resize(n), out.room.resize(n), out.strange.assign(n, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (const OpenRoom& r :
+         paths.rooms_about(paths.sheets_around(out.at(i), 2.2 * h + dx), out.at(i), 0, 2 * h))
+      if (r.holds_open(out.at(i), 0.6 * dx)) out.rooms[i] = r.open, out.room[i] = &out.rooms[i];
+  for (std::size_t g = 0; g <= n / 8; ++g) out.start.push_back(static_cast<Index>(g * n));
+  for (std::size_t g = 0; g < n / 8; ++g)
+    for (std::size_t j = 0; j < n; ++j) out.list.push_back(static_cast<Index>(j));
+  out.doubt.resize(out.list.size()), out.lanes.resize(out.list.size());
+  return out;
+}
+
+// What the loops add of pairs that they do not doubt is what the ways between them are, in corners and beside
+// the ends of walls.
+TEST(WallPaths, AreThoseOfRoomsWhereWaysLeaveNone) {
+  struct Place {
+    const char* name;
+    int dim;
+    std::vector<std::array<Vec, 4>> walls;
+    bool (*wet)(const Vec&);
+  };
+  const Real L = 1;
+  const Place places[] = {
+      {"corner",
+       2,
+       {line(Vec::Zero(), Vec(1, 0, 0)), line(Vec::Zero(), Vec(0, 1, 0))},
+       [](const Vec& y) { return y[0] > 0 && y[1] > 0; }},
+      {"step",
+       2,
+       {line(Vec(-1, 0, 0), Vec::Zero()), line(Vec::Zero(), Vec(0, -1, 0))},
+       [](const Vec& y) { return y[0] > 0 || y[1] > 0; }},
+      {"plate", 2, {line(Vec(-1, 0, 0), Vec(0.05, 0, 0))}, [](const Vec&) { return true; }},
+      {"tilted corner",
+       2,
+       {line(Vec::Zero(), at_angle(20, 1)), line(Vec::Zero(), at_angle(110, 1))},
+       [](const Vec& y) { return at_angle(110, 1).dot(y) > 0 && at_angle(20, 1).dot(y) > 0; }},
+      {"corner of three",
+       3,
+       {{Vec(0, 0, 0), Vec(L, 0, 0), Vec(L, L, 0), Vec(0, L, 0)},
+        {Vec(0, 0, 0), Vec(0, L, 0), Vec(0, L, L), Vec(0, 0, L)},
+        {Vec(0, 0, 0), Vec(L, 0, 0), Vec(L, 0, L), Vec(0, 0, L)}},
+       [](const Vec& y) { return y.minCoeff() > 0; }},
+      {"block on a floor",
+       3,
+       {{Vec(-L, -L, -0.1), Vec(L, -L, -0.1), Vec(L, L, -0.1), Vec(-L, L, -0.1)},
+        {Vec(0, -L, -0.1), Vec(0, L, -0.1), Vec(0, L, 0.1), Vec(0, -L, 0.1)},
+        {Vec(0, -L, 0.1), Vec(0, L, 0.1), Vec(L, L, 0.1), Vec(L, -L, 0.1)}},
+       [](const Vec& y) { return y[2] > -0.1 && (y[0] < 0 || y[2] > 0.1); }}};
+  for (const Place& place : places) {
+    World world;
+    add_plates(world, place.walls, place.dim);
+    std::vector<Index> all(place.walls.size());
+    for (std::size_t s = 0; s < all.size(); ++s) all[s] = static_cast<Index>(s);
+    const WallSurface surface(world, all, h / 4, 2.1 * h + dx, {}, nullptr, nullptr, 0.3 * h + dx);
+    const WallPaths paths(surface, place.dim, WallPaths::usual_width * dx);
+    Crowd crowd = crowd_about(paths, place.dim, 0.3, place.wet);
+    const WallMirrorArrays a = crowd.arrays(paths.shift());
+    const NeighbourLists lists{crowd.list.data(), crowd.start.data(), 0, static_cast<Index>(crowd.V.size())};
+    mirror_rates_loop(KernelChoice::cubic_spline, place.dim)(a, lists);
+    mirror_forces_loop(KernelChoice::cubic_spline, place.dim)(a, lists);
+    const WallTables table(KernelChoice::cubic_spline, place.dim);
+    int looked = 0, ways = 0;
+    for (std::size_t i = 0; i < crowd.V.size(); ++i) {
+      if (!crowd.room[i] || crowd.strange[i] != 0) continue;
+      ++looked;
+      Real rate = 0;
+      Vec force = Vec::Zero();
+      const auto sheets = paths.sheets_around(crowd.at(i), 2.2 * h + dx);
+      for (std::size_t j = 0; j < crowd.V.size(); ++j) {
+        if (j == i || crowd.is_doubtful(i, j)) continue;  // oneself is seen from other places aside
+        const auto slope = [&](const Vec& d) {
+          return table.slope(d.norm() / h) / (d.norm() * h * (place.dim == 2 ? h * h : h * h * h));
+        };
+        std::vector<WallPath> earlier, now;
+        const auto back = [&](std::size_t k) { return Vec(crowd.at(k) - 1e-3 * crowd.velocity(k)); };
+        paths.add(sheets, static_cast<Index>(i), back(i), static_cast<Index>(j), back(j), 2 * h, earlier);
+        for (const WallPath& way : earlier)
+          rate += crowd.V[j] * way.weight * slope(way.d) *
+                  (crowd.velocity(i) - way.turn * crowd.velocity(j)).dot(way.d);
+        paths.add(sheets, static_cast<Index>(i), crowd.at(i), static_cast<Index>(j), crowd.at(j), 2 * h, now);
+        for (const WallPath& way : now) {
+          EXPECT_TRUE(way.by_i.isZero()) << place.name << " " << crowd.at(i).transpose();
+          force -= crowd.V[i] * crowd.V[j] * (crowd.p[i] + crowd.p[j]) * way.weight * slope(way.d) * way.d;
+        }
+        ways += static_cast<int>(now.size());
+      }
+      const Real scale = 1e-4 / (h * h * h * (place.dim == 2 ? 1 : h));
+      // what oneself adds, from one place aside
+      WallRoom room = *crowd.room[i];
+      const Vec x = crowd.at(i) + paths.shift(), earlier = x - 1e-3 * crowd.velocity(i),
+                u = crowd.velocity(i);
+      for (int S = 1; S < 1 << room.walls && !crowd.is_doubtful(i, i); ++S) {
+        Vec d = Vec::Zero(), before = d, over = d;
+        for (int k = 0; k < room.walls; ++k) {
+          if ((S >> k & 1) == 0) continue;
+          const Vec n(room.n[k][0], room.n[k][1], room.n[k][2]);
+          d += 2 * (n.dot(x) - room.offset[k]) * n, before += 2 * (n.dot(earlier) - room.offset[k]) * n;
+          over += 2 * n.dot(u) * n;
+        }
+        const auto slope = [&](const Vec& e) {
+          return table.slope(e.norm() / h) / (e.norm() * h * (place.dim == 2 ? h * h : h * h * h));
+        };
+        rate += crowd.V[i] * slope(before) * over.dot(before);
+        force -= crowd.V[i] * crowd.V[i] * 2 * crowd.p[i] * slope(d) * d;
+      }
+      EXPECT_NEAR(crowd.drhodt[i], rate, scale) << place.name << ": " << crowd.at(i).transpose();
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(crowd.f[c][i], force[c], 4 * scale) << place.name;
+    }
+    EXPECT_GT(looked, 10) << place.name;
+    EXPECT_GT(ways, 20) << place.name;
   }
 }
 

@@ -569,6 +569,40 @@ TEST(WallSupport, CompletesTheMomentMatrixOfRenormalisedForms) {
   }
 }
 
+// Both walls in closed form: of the floor, what is in front of the side wall, and of that, what is over the
+// floor.
+TEST(WallSupport, IntegratesOverBothWallsOfACorner) {
+  const std::string side =
+      "*NODE\n9011,0.,0.,-2.\n9012,0.,3.,-2.\n9013,0.,3.,3.\n9014,0.,0.,3.\n*ELEMENT_SHELL\n2,2,9011,9012,"
+      "9013,9014\n";
+  std::string text = on_floor(side + support, "0.3,-0.5,0.", 6, ",0,1");
+  const auto s = test::build_deck(text, false);
+  ASSERT_TRUE(s);
+  std::string who;
+  s->evaluate(who);
+  Particles& p = s->world().particles;
+  for (const Vec& place : {Vec(0.05, 0.05, 0), Vec(0.15, 0.05, 0), Vec(0.05, 0.15, 0)}) {
+    const Index i = at(p, place);
+    const Vec x = p.x.vec(i), b = sph_fields::wall_slope(p).vec(i);
+    EXPECT_NEAR(b[0], -line(x, Vec::Zero(), Vec(0, 3, 0)), 1e-3 / h) << x.transpose();
+    EXPECT_NEAR(b[1], -line(x, Vec::Zero(), Vec(3, 0, 0)), 1e-3 / h) << x.transpose();
+    const auto behind = [](const Vec& y) { return y[0] < 0 || y[1] < 0; };
+    EXPECT_NEAR(sph_fields::wall_fill(p)[i], volume(x, behind), 4e-3) << x.transpose();
+    const Matrix moment = sph_fields::wall_moment(p).tensor(i);  // as pieces have it
+    Matrix pieces = Matrix::Zero();
+    constexpr int n = 4000;
+    for (int k = 0; k < n; ++k)
+      for (const int along : {0, 1}) {
+        Vec q = Vec::Zero(), away = Vec::Zero();
+        q[along] = (k + 0.5) / n, away[1 - along] = -1;
+        pieces += W((q - x).norm()) / n * (q - x) * away.transpose();
+      }
+    pieces = 0.5 * (pieces + pieces.transpose().eval()) + volume(x, behind) * Matrix::Identity();
+    for (int c = 0; c < 2; ++c)
+      for (int d = 0; d < 2; ++d) EXPECT_NEAR(moment(c, d), pieces(c, d), 4e-3) << x.transpose();
+  }
+}
+
 TEST(WallSupport, FollowsAnHThatChanges) {
   for (const std::string& form : {"0", "1"}) {
     std::string text =
