@@ -150,7 +150,8 @@ void check_parts(const Deck& deck, const Model& model, const A& c, Diagnostics& 
       deck.error(diagnostics, c, "MID",
                  fmt::format("beams cannot fail: part {} has some of this material", part.id),
                  "give them a material of their own");
-    used = used || part.has_sph || part.has_beam || (!part.rigid && (part.has_solid || part.has_shell));
+    used = used || part.has_sph || part.has_beam ||
+           (!part.rigid && !part.null && (part.has_solid || part.has_shell));
   }
   if (!used)
     deck.warning(diagnostics, c, "MID",

@@ -171,6 +171,21 @@ std::vector<Index> FaceFinder::faces(const ContactCard& card, ContactSide side, 
   return out;
 }
 
+bool FaceFinder::are_stiff(const ContactCard& card, const std::vector<Index>& faces, bool by_mass) {
+  const Segments& g = world_.segments;
+  const auto soft = std::find_if(faces.begin(), faces.end(), [&](Index s) {
+    return model_.parts[static_cast<std::size_t>(g.part[s])].null && !(g.K[s] > 0);
+  });
+  if (soft == faces.end() || by_mass) return true;
+  diagnostics_.error(
+      deck_.where(card),
+      fmt::format("{}: the shells of part {} are of a *MAT_NULL without YM: contact has no "
+                  "stiffness there",
+                  deck_.keyword(card), model_.parts[static_cast<std::size_t>(g.part[*soft])].id),
+      "give YM and PR of what they cover");
+  return false;
+}
+
 std::vector<Index> FaceFinder::nodes(const ContactCard& card, ContactSide side,
                                      const std::vector<Index>& faces) {
   const SideFields f = fields_of(card, side);

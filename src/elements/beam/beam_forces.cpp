@@ -11,6 +11,7 @@
 #include "elements/beam/elastic_beam.hpp"
 #include "elements/element_report.hpp"
 #include "elements/mass_scaling.hpp"
+#include "elements/null_elements.hpp"
 #include "elements/stiffness_damping.hpp"
 #include "laws/strength/beam_stress.hpp"
 #include "state/reports.hpp"
@@ -470,7 +471,9 @@ void add_beam_passes(const Model& model, const std::vector<BeamPart>& parts, Ele
                      World& world) {
   const bool shown = model.output.d3plot.asked() || model.output.d3plot_count > 0;
   for (const BeamPart& part : parts)
-    if (part.group)
+    if (part.group && part.null)
+      world.passes.add(make_null_elements(*part.group));
+    else if (part.group)
       world.passes.add(std::make_shared<BeamForces>(part, model.parts[static_cast<std::size_t>(part.part)].id,
                                                     model.tssfac, shown, options, world));
 }

@@ -9,6 +9,7 @@
 #include "elements/shell/hourglass_shell.hpp"
 #include "elements/shell/layers.hpp"
 #include "elements/shell/shells.hpp"
+#include "laws/fluid/mat_null.hpp"
 #include "model/cards.hpp"
 #include "model/conditions/viscosity_cards.hpp"
 #include "shell/section_shell.hpp"
@@ -213,6 +214,7 @@ class ShellReader {
 };
 
 ElasticConstants constants_of(Real K, Real G) {
+  if (K == 0 && G == 0) return {};  // of *MAT_NULL without YM
   return {9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)};
 }
 
@@ -231,6 +233,14 @@ ElasticConstants elastic_constants(const ShellPart& part) {
 }
 
 namespace {
+
+/// Shells without a stress: one layer whose law is never asked.
+ShellPart null_part(const MatNull& m) {
+  ShellPart out;
+  out.law = m.coat(), out.null = true;
+  out.zeta = {0}, out.share = {1};
+  return out;
+}
 
 /// `by_part`: some shells have the layers that stand with the part; else the first of the others stand for
 /// it, too.
@@ -265,7 +275,11 @@ std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Di
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const ModelPart& part = model.parts[k];
     solids = solids || (part.has_solid && !part.rigid);
-    if (part.has_shell && !part.has_sph && !part.rigid) deforming.push_back(k);
+    if (!part.has_shell || part.has_sph || part.rigid) continue;
+    if (part.null)
+      out[k] = null_part(*mat_null_of(deck, part.mid));
+    else
+      deforming.push_back(k);
   }
   if (deforming.empty()) return out;
   const int errors = diagnostics.errors();
