@@ -140,6 +140,36 @@ TEST(Erosion, EachCriterionFailsWhereTheStretchReachesIt) {
   }
 }
 
+// A beam (ELFORM 1) and a truss with Poisson's ratio 0.3: its sides shrink, so that the effective strain is
+// 2/3 (1 + nu) of the stretch and the volume's 1 - 2 nu of it.
+TEST(Erosion, BeamsFailByTheCriteriaOfTheCard) {
+  struct Case {
+    const char* card;  // from EXCL on
+    Real strain;
+  };
+  const Case cases[] = {{"\n       0.0      0.05", 0.05},
+                        {"\n       0.0       0.0      0.05", 0.05},
+                        {"\n       0.0       0.0       0.0      0.06", 0.06},
+                        {"       0.0       0.0       0.0      0.04\n       0.0", 0.06 / 1.3},
+                        {"       0.0       0.0       0.0       0.0      0.02\n       0.0", 0.05},
+                        {"\n       0.0       0.0       0.0       0.0      0.03", 0.06 / 1.3}};
+  for (const bool truss : {false, true})
+    for (const Case& c : cases) {
+      auto s = simulation_of(fmt::format(
+          "*KEYWORD\n*CONTROL_TERMINATION\n1e9\n*CONTROL_TIMESTEP\n0.0,0.5\n*PART\nbeam\n1,1,1\n*SECTION_"
+          "BEAM\n"
+          "{}*MAT_ELASTIC\n1,1.0,1.0,0.3\n*MAT_ADD_EROSION\n         1{}\n*NODE\n1,0.0,0.0,0.0,7,7\n"
+          "2,1.0,0.0,0.0,,7\n3,0.0,1.0,0.0,7,7\n*BOUNDARY_PRESCRIBED_MOTION_NODE\n2,1,0,1\n*DEFINE_CURVE\n1\n"
+          "0.0,0.001\n1e9,0.001\n*ELEMENT_BEAM\n       1       1       1       2       3\n*END\n",
+          truss ? "1,3\n0.01\n" : "1,1,0.8,2\n0.1,0.1,0.1,0.1\n", c.card));
+      const Real t = time_of_failure(*s);
+      EXPECT_EQ(elements_deleted(*s), 1) << c.card << truss;
+      EXPECT_NEAR(std::log(1 + 0.001 * t), c.strain, 0.001) << c.card << truss;
+      EXPECT_EQ(largest_force(*s), 0) << c.card;
+      EXPECT_LT(test::energy_error(*s), 0.02) << c.card;
+    }
+}
+
 TEST(Erosion, TimeAndImpulse) {
   auto timed = simulation_of(
       one_cube(

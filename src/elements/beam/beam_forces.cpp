@@ -308,6 +308,7 @@ class BeamForces : public Material,
   void integrate(const Clock& clock, Index begin, Index end, Change& change) {
     const Index n = end - begin;
     std::array<std::array<Real, block_size>, 3> rate{}, unused{};
+    std::array<Real, block_size> across{}, none{};
     std::array<Real, block_size> sound{};
     std::array<Six, block_size> middle{};  // pull, torsion, moments about s and t, shear along s and t
     PointBlock points;
@@ -334,14 +335,15 @@ class BeamForces : public Material,
         for (int c = 0; c < history_[k]->info().components; ++c)
           numbers.push_back(history_[k]->data(c) + begin);
       points.history = numbers;
-      update_in_beam(*part_.law, points);
+      update_in_beam(*part_.law, points, across.data());
       if (erosion_)
         erosion_->look({.point = static_cast<int>(p),
                         .begin = begin,
                         .count = n,
                         .t = clock.t,
                         .dt = clock.dt_old,
-                        .rate = points.rate,
+                        .rate = {rate[0].data(), across.data(), across.data(), rate[1].data(), none.data(),
+                                 rate[2].data()},
                         .stress = points.stress,
                         .plastic = plastic_ < 0 ? nullptr : numbers[at(plastic_)],
                         .by_law = fails_ < 0 ? nullptr : numbers[at(fails_)]});

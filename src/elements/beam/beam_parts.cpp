@@ -109,6 +109,11 @@ class BeamReader {
                    out.kind == BeamKind::resultant
                        ? "ELFORM 2 takes *MAT_ELASTIC; ELFORM 1 has plastic materials, too"
                        : "use *MAT_ELASTIC, *MAT_PLASTIC_KINEMATIC or *MAT_PIECEWISE_LINEAR_PLASTICITY");
+    if ((out.kind == BeamKind::resultant || s.weld()) && has_erosion_card(deck_, part.mid))
+      return error(part.card, "MID",
+                   fmt::format("*MAT_ADD_EROSION is not supported in the beams of part {}, {}", part.id,
+                               s.weld() ? "which are welds" : "whose section has no points"),
+                   s.weld() ? "*MAT_SPOTWELD has limits of its own" : "ELFORM 1 and 3 have points");
     out.law = law->second.first;
     if (s.weld()) {
       const auto& cards = deck_.all<MatSpotweld>();
