@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/run_error.hpp"
+#include "elements/beam/beam_axes.hpp"
 #include "elements/beam/beam_frame.hpp"
 #include "elements/beam/beams.hpp"
 #include "elements/beam/elastic_beam.hpp"
@@ -30,7 +31,8 @@ class BeamForces : public Material,
                    public PartReporter,
                    public WeldReporter,
                    public ElementReporter,
-                   public FieldFiller {
+                   public FieldFiller,
+                   public BeamAxes {
  public:
   BeamForces(BeamPart part, Id part_id, Real tssfac, bool shown, ElementOptions& options, World& world)
       : part_(std::move(part)),
@@ -147,6 +149,21 @@ class BeamForces : public Material,
     }
   }
 
+  const ElementGroup& beams() const override { return group_; }
+  bool knows_section() const override { return turns_; }
+  void declare_axes(const World&, Accesses& a) const override {
+    if (turns_) a.reads(ends_, Reach::others);
+  }
+  Matrix axes_of(const World& world, Index e) const override {
+    const Vec between = between_ends(world, e);
+    Matrix axes = Matrix::Identity();
+    if (!turns_) {
+      axes.col(0) = between.normalized();
+      return axes;
+    }
+    std::array<Quaternion, 2> ends{end_of(e, 0), end_of(e, 1)};
+    return turn_ends(between, {Vec::Zero(), Vec::Zero()}, ends).frame.axes;
+  }
   ElementKind kind() const override { return ElementKind::beam; }
   const ElementGroup& reported() const override { return group_; }
   Real cut_measure(Index e) const override { return part_.measures[at(e)].A; }
