@@ -77,7 +77,9 @@ class Builder {
       if (chosen[world_.segments.part[s]] && !(world_.segments.volume[s] > 0)) out.push_back(s);
     for (const Index s : skin)
       if (goes_inside(c) || !is_hidden(s)) out.push_back(s);
-    FaceFinder(deck_, model_, options_.bulk_modulus, world_, diagnostics_).are_stiff(c, out, c.soft == 1);
+    FaceFinder finder(deck_, model_, options_.bulk_modulus, world_, diagnostics_);
+    finder.leave_out_symmetric(c, out);
+    finder.are_stiff(c, out, c.soft == 1);
     return out;
   }
 

@@ -393,6 +393,39 @@ TEST(Erosion, ContactIsOverWithTheShellsThatAreDeleted) {
 }
 
 // Deletion of the upper layer lays the lower one bare, where a contact is asked to go on with it.
+// ISYM 1 leaves out the face on the plane of symmetry z = 0: what comes from below goes through it, while the
+// other side of the block is still touched.
+TEST(Erosion, FacesOnPlanesOfSymmetryAreLeftOut) {
+  for (const bool below : {true, false})
+    for (const int isym : {0, 1}) {
+      SolidDeck deck;
+      deck.block(Vec(3, 3, 1), 3, 3, 1, 1);
+      const std::size_t first = deck.block(Vec(0.5, 0.5, 0.5), 1, 1, 1, 2, [&](const Vec& x) {
+        return Vec(x + Vec(1.25, 1.25, below ? -0.6 : 1.1));
+      });
+      deck.cards =
+          "*CONTROL_TIMESTEP\n       0.0       0.5\n" + soft_material +
+          "*PART\nblock\n         1         1         1\n*PART\nsmall\n         2         1         1\n"
+          "*SECTION_SOLID\n         1         1\n*CONTACT_ERODING_NODES_TO_SURFACE\n"
+          "         2         1         3         3\n       0.0\n       1.0\n" +
+          fmt::format("{:10}         0         1\n", isym);
+      deck.node_set(1, [&](const Vec& x) { return std::abs(x[2]) < 1e-9; });
+      deck.cards +=
+          "*BOUNDARY_SPC_SET\n         1         0         0         0         1\n*INITIAL_VELOCITY_NODE\n";
+      for (std::size_t n = first; n <= deck.nodes.size(); ++n)
+        deck.cards += fmt::format("{:10}       0.0       0.0{:10.3e}\n", n, below ? 0.05 : -0.05);
+      auto s = simulation_of(deck.text(100));
+      while (s->clock().t < 12) s->step(do_nothing);
+      Real speed = 0;
+      for (std::size_t n = first - 1; n < deck.nodes.size(); ++n)
+        speed += s->world().nodes.v.vec(static_cast<Index>(n))[2] / 8;
+      if (below && isym == 1)
+        EXPECT_NEAR(speed, 0.05, 1e-9);
+      else
+        EXPECT_LT(speed * (below ? 1 : -1), 0) << below << isym;
+    }
+}
+
 TEST(Erosion, FacesThatDeletionLaysBareAreTouched) {
   for (const auto& [erosop, kind, bounces] : {std::tuple(1, "ERODING_SURFACE_TO_SURFACE", true),
                                               {0, "ERODING_SURFACE_TO_SURFACE", false},
