@@ -215,8 +215,11 @@ TEST(SwitchedParts, GoToAndFroInPairs) {
   start_ledger(*s);
   std::vector<Vec> before;  // of the block
   Real in_flight = 0;
-  std::int64_t acted = 0;
-  bool rigid = false;
+  s->step(do_nothing);
+  std::int64_t acted = s->world().counters["rigid_switches"];
+  EXPECT_EQ(acted, 1) << "nothing touches at the start";
+  before = places_of_nodes(s->world()), before.resize(first);
+  bool rigid = true;
   while (s->clock().t < 0.5) {
     s->step(do_nothing);
     const auto now = s->world().counters["rigid_switches"];
