@@ -8,12 +8,17 @@ std::vector<Index> build_nodes(const Model& model, const std::vector<Index>& mor
     if (node < 0 || node_of[node] == 0) return;
     node_of[node] = 0, part[node] = of_part;
   };
-  for (const ModelShell& shell : model.shells)
-    for (const Index n : shell.node) use(n, shell.part);
+  const auto of_shells = [&](bool null) {
+    for (const ModelShell& shell : model.shells)
+      if (model.parts[shell.part].null == null)
+        for (const Index n : shell.node) use(n, shell.part);
+  };
+  of_shells(false);
   for (const ModelSolid& solid : model.solids)
     for (const Index n : solid.node) use(n, solid.part);
   for (const ModelBeam& beam : model.beams)
     for (const Index n : beam.node) use(n, beam.part);
+  of_shells(true);  // a coat leaves nodes to what it covers
   std::vector<char> particle(more.empty() ? 0 : model.nodes.size(), 0);
   if (!more.empty())
     for (const ModelSph& s : model.sph) particle[s.node] = 1;

@@ -124,7 +124,8 @@ void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
     }
     const StrengthLaw& law = *s.law_of_elements(group->part);
     if (group->segment) {  // counted with the faces
-      row.rho = law.ro, row.c = law.sound_speed();
+      row.rho = law.ro;
+      if (group->pushes) row.c = law.sound_speed();
       if (row.mass == none) row.mass = 0;
       for (Index e = 0; e < group->size(); ++e) row.mass += group->mass[e];
       add_speed(world, *group, row);
@@ -133,7 +134,8 @@ void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
     row = PartRow();
     const bool beams = group->corners() == 2;
     row.elements = group->size(), row.kind = beams ? "beam" : "solid", row.mass = row.volume = 0;
-    row.rho = law.ro, row.c = s.sound_speed_of_elements(group->part);
+    row.rho = law.ro;
+    if (group->pushes) row.c = s.sound_speed_of_elements(group->part);
     for (Index e = 0; e < group->size(); ++e) row.mass += group->mass[e], row.volume += group->V0[e];
     row.spacing = std::cbrt(row.volume / row.elements);
     if (beams) row.spacing = shortest_of(world, *group);

@@ -24,6 +24,7 @@
 #include "elements/node_inertias.hpp"
 #include "elements/stiffness_damping.hpp"
 #include "extension/additions.hpp"
+#include "laws/fluid/mat_null.hpp"
 #include "loads/idle_parts.hpp"
 #include "loads/interpolation.hpp"
 #include "loads/loads.hpp"
@@ -36,6 +37,7 @@
 #include "rigid/build_joints.hpp"
 #include "rigid/joint_stiffness.hpp"
 #include "rigid/nodal_bodies.hpp"
+#include "rigid/switched_parts.hpp"
 #include "rigid/time_limit.hpp"
 #include "shell/shell.hpp"
 #include "sph/boundaries/frozen_outlet.hpp"
@@ -129,7 +131,9 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   for (ModelPart& part : model_.parts) {
     world_.part_ids.push_back(part.id);
     part.rigid = rigid_material(deck_, model_, model_.part_of_id.at(part.id)).has_value();
+    part.null = is_null(deck_, model_, part);
   }
+  check_null_parts(deck_, model_, diagnostics);
   materials_ = find_materials(deck_, model_, diagnostics);
   shells_ = find_shell_parts(deck_, model_, diagnostics);
   beams_ = find_beam_parts(deck_, model_, diagnostics);
@@ -164,7 +168,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     build_shells(model_, shells_, node_of, world_, diagnostics);
     std::vector<std::shared_ptr<StrengthLaw>> laws;
     for (std::size_t k = 0; k < model_.parts.size(); ++k)
-      laws.push_back(law_of_elements(static_cast<Index>(k)));
+      laws.push_back(model_.parts[k].null ? nullptr : law_of_elements(static_cast<Index>(k)));
     std::vector<bool> by_pressure;
     for (const SolidPart& part : solids_) by_pressure.push_back(part.pressure != nullptr || part.nodal);
     ElementOptions options{mass_scaling_of(deck_), failure_rules(deck_, model_, laws, diagnostics),
@@ -242,6 +246,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   if (!diagnostics.ok()) return;
   add_node_passes(diagnostics);
   if (diagnostics.ok()) check_sensors(deck_, world_, diagnostics);
+  if (diagnostics.ok()) check_switches(deck_, world_, diagnostics);
   if (!diagnostics.ok()) return;
   rules_.dtinit = model_.dtinit;
   if (model_.dt_max_given) rules_.dt_max = model_.dt_max;

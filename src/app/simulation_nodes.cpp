@@ -70,7 +70,8 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
 bool Simulation::moves_all_by_bodies() const {
   return world_.particles.size() == 0 &&
          std::all_of(world_.groups.begin(), world_.groups.end(), [](const auto& group) {
-           return sum(group->size(), [&](Index e) { return group->mass[e]; }) == 0 || group->corners() == 1;
+           return sum(group->size(), [&](Index e) { return group->mass[e]; }) == 0 || group->corners() == 1 ||
+                  !group->pushes;
          });
 }
 

@@ -77,6 +77,9 @@ class Builder {
       if (chosen[world_.segments.part[s]] && !(world_.segments.volume[s] > 0)) out.push_back(s);
     for (const Index s : skin)
       if (goes_inside(c) || !is_hidden(s)) out.push_back(s);
+    FaceFinder finder(deck_, model_, options_.bulk_modulus, world_, diagnostics_);
+    finder.leave_out_symmetric(c, out);
+    finder.are_stiff(c, out, c.soft == 1);
     return out;
   }
 
@@ -90,7 +93,9 @@ class Builder {
   std::vector<Index> named_faces(const ContactCard& c) {
     FaceFinder finder(deck_, model_, options_.bulk_modulus, world_, diagnostics_);
     finder.with_inner(goes_inside(c));
-    return finder.faces(c, ContactSide::b);
+    std::vector<Index> out = finder.faces(c, ContactSide::b);
+    finder.are_stiff(c, out, c.soft == 1);
+    return out;
   }
 
   std::vector<bool> nodes_of_set(const ContactCard& c, std::vector<bool> out) {

@@ -78,7 +78,11 @@ KeywordOf<C> contact_keyword() {
       "penalty contact of nodes of elements, or particles (SURFA of _NODES_TO_SURFACE), with faces");
   out.cards.push_back(
       {.fields =
-           {{"ISYM", &C::erode_isym, "-", "faces on symmetry planes, of eroding contacts", {.honour = no}},
+           {{"ISYM",
+             &C::erode_isym,
+             "-",
+             "of eroding contacts: 1 leaves out faces of solids whose nodes are held along their normal",
+             {.allowed = {0, 1}}},
             {"EROSOP",
              &C::erosop,
              "-",

@@ -138,17 +138,20 @@ void check_card(const Deck& deck, const A& c, Diagnostics& diagnostics) {
 }
 
 /// Parts of the card's material, and whether it does anything there.
-void check_parts(const Deck& deck, const Model& model, const A& c, Diagnostics& diagnostics) {
+void check_parts(const Deck& deck, const Model& model, const std::vector<std::shared_ptr<StrengthLaw>>& laws,
+                 const A& c, Diagnostics& diagnostics) {
   bool used = false;
-  for (const ModelPart& part : model.parts) {
-    if (part.mid != c.mid) continue;
+  for (std::size_t k = 0; k < model.parts.size(); ++k) {
+    const ModelPart& part = model.parts[k];
+    if (part.mid != c.mid || part.null) continue;
     if (part.has_sph)
       deck.error(diagnostics, c, "MID",
                  fmt::format("particles cannot fail: part {} has some of this material", part.id),
                  "give them a material of their own");
-    if (part.has_beam)
+    if (part.has_beam && !laws[k])
       deck.error(diagnostics, c, "MID",
-                 fmt::format("beams cannot fail: part {} has some of this material", part.id),
+                 fmt::format("cables and discrete beams cannot fail by it: part {} has some of this material",
+                             part.id),
                  "give them a material of their own");
     used = used || part.has_sph || part.has_beam || (!part.rigid && (part.has_solid || part.has_shell));
   }
@@ -171,7 +174,7 @@ std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
   std::map<Id, const A*> cards;
   for (const A& card : deck.all<A>()) {
     check_card(deck, card, diagnostics);
-    check_parts(deck, model, card, diagnostics);
+    check_parts(deck, model, laws, card, diagnostics);
     if (!cards.emplace(card.mid, &card).second)
       deck.error(diagnostics, card, "MID", fmt::format("there is another card for material {}", card.mid),
                  "give all criteria on one card");

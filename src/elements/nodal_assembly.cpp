@@ -26,7 +26,7 @@ class NodalAssembly : public Force {
     for (const auto& group : world.groups)
       if (group->sums)
         list_sums(*group->sums, list, list_node);
-      else if (group->corners() > 1)  // not of lumped masses
+      else if (group->pushes && group->corners() > 1)  // not of lumped masses
         fill_tables(*group, list, list_node);
     for (const Index n : list_node) ++first_[static_cast<std::size_t>(n) + 1];
     for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];

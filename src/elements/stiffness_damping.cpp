@@ -74,6 +74,10 @@ class StiffnessReader {
     if (model_.parts[part].rigid)
       return deck_.warning(diagnostics_, card, "PID",
                            fmt::format("part {} is rigid: damping by stiffness does nothing to it", id));
+    if (model_.parts[part].null)
+      return deck_.warning(
+          diagnostics_, card, "PID",
+          fmt::format("part {} is of *MAT_NULL: damping by stiffness does nothing to it", id));
     if (!laws_[part] && model_.parts[part].has_beam)
       return error(card, "PID",
                    fmt::format("the cables or discrete beams of part {} know no damping by stiffness", id),

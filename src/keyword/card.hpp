@@ -122,6 +122,8 @@ struct CardOf {
   /// Of a repeated one with one list of texts: lines are taken whole, with their blanks and commas, and with
   /// values in the place of &names.
   bool whole_lines = false;
+  /// Of a repeated one: it ends where this does not hold for the rows read so far, and the next card follows.
+  bool (*more)(const T&) = nullptr;
   bool (*when)(const T&) = nullptr;  ///< the card is there only if this holds for the cards read so far
 };
 

@@ -203,12 +203,17 @@ void CardReader::read_cards(DataLines& data, EntrySink& sink) {
     const CardSpec& card = spec_->cards[c];
     if (card.conditional && !spec_->has_card(sink.entry(), c)) continue;
     if (card.repeat) {
-      for (; !data.done() && !full() && !only_blanks_left(data); data.step()) {
+      for (; !data.done() && !full() && !only_blanks_left(data) && spec_->has_more(sink.entry(), c);
+           data.step()) {
         if (card.until_entry && begins_entry(data.line())) return;
         if (card.whole_lines)
           read_whole_line(data, c, sink);
         else
           read_card(data, c, sink);
+      }
+      if (card.counted) {
+        if (!full() && spec_->has_more(sink.entry(), c)) return missing(data, fmt::format("card {}", c + 1));
+        continue;
       }
       while (!data.done()) data.step();
       return;

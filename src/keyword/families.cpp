@@ -108,7 +108,7 @@ constexpr Family families[] = {
     {"DEFINE_TABLE", "this kind of table"},
     {"DEFINE_TRANSFORMATION", "transformations"},
     {"DEFINE_VECTOR", "this kind of vector"},
-    {"DEFORMABLE_TO_RIGID", "switches between deformable and rigid while a run goes on"},
+    {"DEFORMABLE_TO_RIGID", "inertia given to parts that become rigid"},
     {"DELETE", "deletions at a restart"},
     {"DUALCESE", "compressible flows (dual CESE)"},
     {"EF", "exchange factors of radiation"},

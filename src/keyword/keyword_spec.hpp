@@ -40,6 +40,7 @@ struct CardSpec {
   bool until_entry = false;  ///< repeats up to the next entry, see CardOf
   bool whole_lines = false;  ///< see CardOf
   bool conditional = false;  ///< there only under a condition, see KeywordSpec::has_card
+  bool counted = false;      ///< repeats under a condition, see KeywordSpec::has_more
   bool is_table = false;     ///< several vectors: each card adds one to each of them
 };
 
@@ -60,6 +61,8 @@ class KeywordSpec {
   virtual std::unique_ptr<EntrySink> sink(Deck& deck) const = 0;
   /// Whether the card is there, as far as the entry was read.
   virtual bool has_card(const Entry& entry, std::size_t card) const = 0;
+  /// Whether a repeated card goes on behind the rows read so far, see CardOf::more.
+  virtual bool has_more(const Entry& entry, std::size_t card) const = 0;
   /// All entries of the keyword with this place in the registry.
   virtual void for_each(const Deck& deck, std::int32_t keyword,
                         const std::function<void(const Entry&)>& visit) const = 0;
@@ -206,7 +209,8 @@ class TableSpec : public KeywordSpec {
                     .repeat = card.repeat,
                     .until_entry = card.until_entry,
                     .whole_lines = card.whole_lines,
-                    .conditional = card.when != nullptr};
+                    .conditional = card.when != nullptr,
+                    .counted = card.more != nullptr};
       for (std::size_t f = 0; f < card.fields.size(); ++f) {
         const FieldOf<Table>& field = card.fields[f];
         spec.fields[f] = {field.name,
@@ -223,6 +227,10 @@ class TableSpec : public KeywordSpec {
   bool has_card(const Entry& entry, std::size_t card) const override {
     const auto when = own_cards_[card].when;
     return !when || when(static_cast<const Table&>(entry));
+  }
+  bool has_more(const Entry& entry, std::size_t card) const override {
+    const auto more = own_cards_[card].more;
+    return !more || more(static_cast<const Table&>(entry));
   }
 
  protected:

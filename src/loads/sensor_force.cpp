@@ -56,20 +56,6 @@ std::vector<JointForce> forces_of_joint(const World& world, Id id) {
                [&](const JointForce& one) { return one.id == id; });
   return out;
 }
-/// Nothing: there is no such contact.
-std::optional<Vec> force_of_contact(const World& world, Id id) {
-  std::optional<Vec> sum;
-  for (const auto* pass : world.passes.all<const InterfaceReporter>())
-    if (const InterfaceForce one = pass->report(); one.id == id)
-      sum = sum.value_or(Vec::Zero()) + one.on_surfa;
-  return sum;
-}
-/// Nothing: there is no such wall.
-std::optional<Vec> force_on_wall(const World& world, Id id) {
-  for (const auto* wall : world.passes.all<const RigidWallReporter>())
-    if (const RigidWallForce one = wall->report_wall(); one.id == id) return one.force;
-  return std::nullopt;
-}
 
 Sensor sensor_of(const ForceSensor& card, const SensorAxis& axis) {
   const Id id = card.typeid_;
@@ -102,6 +88,20 @@ const RegisterSensors sensors_of_forces{
     }};
 
 }  // namespace
+
+std::optional<Vec> force_of_contact(const World& world, Id id) {
+  std::optional<Vec> sum;
+  for (const auto* pass : world.passes.all<const InterfaceReporter>())
+    if (const InterfaceForce one = pass->report(); one.id == id)
+      sum = sum.value_or(Vec::Zero()) + one.on_surfa;
+  return sum;
+}
+
+std::optional<Vec> force_on_wall(const World& world, Id id) {
+  for (const auto* wall : world.passes.all<const RigidWallReporter>())
+    if (const RigidWallForce one = wall->report_wall(); one.id == id) return one.force;
+  return std::nullopt;
+}
 
 Vec sensor_direction(const Deck& deck, const Model& model, const Entry& card, const std::string& vid,
                      Diagnostics& diagnostics) {

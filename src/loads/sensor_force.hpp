@@ -15,6 +15,11 @@ struct SensorDefineForce : Entry {
   int crd = 0;
 };
 
+/// Force of all contacts with a number on their SURFA at t^n; nothing: there is none. [ML/T2]
+std::optional<Vec> force_of_contact(const World& world, Id id);
+/// On a rigid wall, in the step before; nothing: there is no such wall. [ML/T2]
+std::optional<Vec> force_on_wall(const World& world, Id id);
+
 /// Whether a sensor asks for forces of *BOUNDARY_SPC.
 bool measures_supports(const Deck& deck);
 

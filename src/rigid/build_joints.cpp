@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "model/definitions/named_curve.hpp"
@@ -130,6 +131,35 @@ class JointReader {
                  "the nodes of a pair must be at the same place at the start");
   }
 
+  /// What slides along its axis may have its nodes anywhere on that. True: they are not at one place, and all
+  /// is well; nothing: they are.
+  std::optional<bool> read_line(const JointCard& card, const Joint& joint, Real size) {
+    constexpr Real rounding = 1e-4, digits = 1e-6;  // as above
+    if (joint.kind != JointKind::screw && joint.kind != JointKind::cylindrical) return std::nullopt;
+    const Real most = std::max(rounding * size, digits * place_[0].norm());
+    const std::size_t pairs = pairs_of(joint.kind);
+    bool apart = false;
+    for (std::size_t k = 0; k < pairs; ++k)
+      apart = apart || (place_[2 * k + 1] - place_[2 * k]).norm() > most;
+    if (!apart) return std::nullopt;
+    const Vec axis = (place_[2] - place_[0]).normalized();
+    const auto across = [&](const Vec& d) { return Vec(d - d.dot(axis) * axis); };
+    for (std::size_t k = 1; k < 2 * pairs; k += 2) {
+      const Vec& foot = k == 5 ? place_[4] : place_[0];
+      if (const Real beside = across(place_[k] - foot).norm(); !(beside <= most))
+        return error(card, k,
+                     fmt::format("node {} is {:.4g} beside {}", card.nodes()[k], beside,
+                                 k == 5 ? fmt::format("the line through {} along the axis", card.n5)
+                                        : fmt::format("the axis from {} to {}", card.n1, card.n3)),
+                     "nodes of a pair are at one place at the start, or one behind the other along the axis");
+    }
+    if ((place_[3] - place_[1]).dot(axis) > 0) return true;
+    return error(card, 3,
+                 fmt::format("the axis from {} to {} does not point as that from {} to {}", card.n2, card.n4,
+                             card.n1, card.n3),
+                 "exchange the two");
+  }
+
   bool read_drive(const JointCard& card, Joint& joint) {
     const Curve* curve = curve_named(deck_, model_, card, "LCID", card.lcid, diagnostics_);
     if (!curve) return false;
@@ -165,12 +195,14 @@ class JointReader {
     Real size = own_size(joint);
     for (std::size_t k = 2; k < 2 * pairs_of(joint.kind); ++k)
       size = std::max(size, (place_[k] - place_[k % 2]).norm());
-    Vec at, on_axis = Vec::Zero(), beside = Vec::Zero();
-    if (!meet(card, 0, size, at)) return false;
+    Vec at = place_[0], on_axis = place_[2], beside = Vec::Zero();
+    const auto apart = read_line(card, joint, size);
+    if (apart && !*apart) return false;
+    if (!apart && !meet(card, 0, size, at)) return false;
     joint.at_a = at - a.x, joint.at_b = at - b.x;
     if (pairs_of(joint.kind) == 1) return true;
     if (joint.kind == JointKind::universal) return read_cross(card, joint, size);
-    if (!meet(card, 1, size, on_axis)) return false;
+    if (!apart && !meet(card, 1, size, on_axis)) return false;
     constexpr Real least = 1e-3;
     const Vec axis = on_axis - at;
     if (!(axis.norm() > least * size))
@@ -181,7 +213,8 @@ class JointReader {
     joint.axes_a.col(2) = axis.normalized();
     joint.axes_a.col(0) = Vec(joint.axes_a.col(2)).unitOrthogonal();
     if (pairs_of(joint.kind) == 3) {
-      if (!meet(card, 2, size, beside)) return false;
+      beside = place_[4];
+      if (!apart && !meet(card, 2, size, beside)) return false;
       const Vec arm = beside - at, across = arm - arm.dot(Vec(joint.axes_a.col(2))) * joint.axes_a.col(2);
       if (!(across.norm() > least * size))
         return error(card, 4, fmt::format("node {} is on the axis from {} to {}", card.n5, card.n1, card.n3),

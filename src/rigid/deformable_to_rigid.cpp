@@ -8,6 +8,7 @@
 
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "rigid/switch_cards.hpp"
 
 namespace courant {
 
@@ -69,14 +70,31 @@ bool is_layered(const Model& model, const ModelPart& part) {
 
 std::optional<MatRigid> switched_material(const Deck& deck, const Model& model, Index part) {
   const ModelPart& p = model.parts[static_cast<std::size_t>(part)];
-  if (p.has_sph || is_layered(model, p) || !switch_of(deck, p.id)) return std::nullopt;
+  if (p.has_sph || is_layered(model, p) || !switch_of(deck, p.id) || is_released(deck, model, part))
+    return std::nullopt;
   return constants_of(deck, p.mid);
 }
 
-std::vector<SwitchedLead> switched_leads(const Deck& deck) {
+namespace {
+
+bool is_released(const Deck& deck, const Model& model, const Switch& card) {
+  const auto part = model.part_of_id.find(card.pid);
+  return part != model.part_of_id.end() && is_released(deck, model, part->second);
+}
+
+}  // namespace
+
+std::vector<SwitchedLead> switched_leads(const Deck& deck, const Model& model) {
   std::vector<SwitchedLead> out;
   for (const Switch& card : deck.all<Switch>())
-    if (card.lrb != 0) out.push_back({card.lrb, card.pid, card});
+    if (card.lrb != 0 && !is_released(deck, model, card)) out.push_back({card.lrb, card.pid, card});
+  return out;
+}
+
+std::vector<SwitchedLead> released_later(const Deck& deck, const Model& model) {
+  std::vector<SwitchedLead> out;
+  for (const Switch& card : deck.all<Switch>())
+    if (is_released(deck, model, card)) out.push_back({card.lrb, card.pid, card});
   return out;
 }
 
@@ -104,7 +122,7 @@ void check_switched_parts(const Deck& deck, const Model& model, Diagnostics& dia
     else if (is_layered(model, part))
       error("PID", fmt::format("part {} is a layered composite, which cannot become rigid", card.pid),
             "leave the switch out");
-    else if (!part.rigid)
+    else if (!part.rigid && !is_released(deck, model, card))
       error("PID",
             fmt::format("material {} of part {} has no RO, E and PR for a rigid body", part.mid, card.pid),
             "use an elastic or plastic material, or *MAT_RIGID");

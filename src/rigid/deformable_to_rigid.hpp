@@ -18,7 +18,9 @@ struct SwitchedLead {
   Id lead = 0, part = 0;
   Entry card{};
 };
-std::vector<SwitchedLead> switched_leads(const Deck& deck);
+std::vector<SwitchedLead> switched_leads(const Deck& deck, const Model& model);
+/// Parts that *DEFORMABLE_TO_RIGID_AUTOMATIC makes deformable later, so that they are rigid for a while only.
+std::vector<SwitchedLead> released_later(const Deck& deck, const Model& model);
 
 /// The *DEFORMABLE_TO_RIGID without LRB of a part; null where there is none.
 const Entry* switched_alone(const Deck& deck, Id part);

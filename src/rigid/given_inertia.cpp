@@ -48,9 +48,14 @@ bool take_given_inertia(const Deck& deck, const Model& model, const PartInertiaC
   }
   b.J0 = axes * card.inertia() * axes.transpose();
   const Matrix second = 0.5 * b.J0.trace() * Matrix::Identity() - b.J0;  // of x x^T dm
+  if (!is_positive(b.J0, -1e-9 * b.J0.trace()))
+    return error("IXX", "no body has such an inertia", "principal moments are above 0");
   if (!is_positive(second, 1e-9 * b.J0.trace()))
-    return error("IXX", "no body has such an inertia",
-                 "of the principal moments none is larger than the sum of the others");
+    deck.warning(
+        diagnostics, card, "IXX",
+        "no body has such an inertia: of its principal moments one is larger than the sum of the others; it "
+        "turns by it all the same",
+        "look at the signs and the axes of the tensor");
   b.v = Vec(card.vtx, card.vty, card.vtz), b.L = b.J0 * Vec(card.vrx, card.vry, card.vrz);
   return true;
 }

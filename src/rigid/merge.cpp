@@ -142,7 +142,7 @@ BodyMerges body_merges(const Deck& deck, const Model& model, Diagnostics& diagno
   MergeReader reader(deck, model, diagnostics);
   for (const RigidBodiesCard& card : deck.all<RigidBodiesCard>())
     reader.add(card, "PIDL", card.pidl, "PIDC", card.pidc, card.iflag == 1);
-  for (const SwitchedLead& one : switched_leads(deck))
+  for (const SwitchedLead& one : switched_leads(deck, model))
     reader.add(one.card, "LRB", one.lead, "PID", one.part, true);
   reader.join_switched();
   return reader.finish();

@@ -101,16 +101,17 @@ struct Segments {
 };
 
 /// Elements of one kind and one part, whose forces on their nodes are gathered by a pass over the nodes:
-/// those on corners, or sums by block.
+/// those on corners, or sums by block. Those that have mass alone (`pushes` is false) leave none.
 struct ElementGroup {
-  enum class Leaves { corners, sums };
+  enum class Leaves { corners, sums, nothing };
   ElementGroup(FieldSet& set, Index part_index, int corners, Leaves leaves = Leaves::corners)
       : fields(set),
         node(set.add<Index>({.name = "node", .dimension = "-", .components = corners})),
         V0(set.add<Real>({.name = "reference_volume", .dimension = "L3"})),
         mass(set.add<Real>({.name = "mass", .dimension = "M"})),
         id(set.add<Id>({.name = "id", .dimension = "-", .output = true})),
-        part(part_index) {
+        part(part_index),
+        pushes(leaves != Leaves::nothing) {
     if (leaves == Leaves::corners) keep_corner_forces();
   }
   void keep_corner_forces() {
@@ -127,6 +128,7 @@ struct ElementGroup {
   Field<Real>& mass;   ///< for the corners by `share` [M]
   Field<Id>& id;
   Index part;        ///< index into the model's parts
+  bool pushes;       ///< false: its elements have mass and no forces
   Index layup = -1;  ///< shells with layers of their own: index into the model's layups
   /// Component 3 c + k: on corner c in direction k. Null: what they leave is `sums`, and nobody else asks.
   Field<Real>* corner_force = nullptr;

@@ -226,6 +226,37 @@ TEST(DiscreteBeams, CurvesOfForceAndDamping) {
     }
 }
 
+// The same by *MAT_119 and, along r, *MAT_121; they fail at limits that differ in tension and compression.
+TEST(DiscreteBeams, GeneralNonlinearBeamsFollowTheirCurves) {
+  const std::string curves =
+      "*DEFINE_CURVE\n1\n0.0,0.0\n0.1,20.0\n0.3,30.0\n*DEFINE_CURVE\n2\n-1.0,-10.0\n0.0,0.0\n1.0,400.0\n"
+      "*DEFINE_CURVE\n3\n0.0,0.0\n1.0,3.0\n";
+  for (int d = -1; d < 6; ++d)  // -1: *MAT_121
+    for (const Real side : {1, -1}) {
+      const int axis = std::max(d, 0);
+      const std::string material =
+          d < 0 ? "*MAT_GENERAL_NONLINEAR_1DOF_DISCRETE_BEAM\n1,2.0,0.0,0,0.0,0.9\n1,0,3\n0.15,0.1\n"
+                : "*MAT_GENERAL_NONLINEAR_6DOF_DISCRETE_BEAM\n1,2.0,0.0,0.0,0,0.0,0.9\n1,2,1,2,1,2\n0\n3,3,3,"
+                  "3,3,3\n"
+                  "0\n0.15,0.15,0.15,0.15,0.15,0.15\n0.1,0.1,0.1,0.1,0.1,0.1\n";
+      BeamDeck deck =
+          six_springs_deck({0, 0, 0}, free_along[axis], six_springs_section(0), material + curves);
+      deck.cards += driven_six(axis, fmt::format("0.0,0.0\n1.0,{}\n", 0.2 * side));
+      auto s = simulation_of(deck.text(1));
+      Real last = 0;
+      while (s->clock().t < 0.95) {
+        s->step(do_nothing);
+        const Real u = six_of(*s, "displacement").data(axis)[0], far = std::abs(u);
+        if (s->clock().t > 0.1 && force_of_six(*s, axis) == 0) break;
+        const Real mirrored = side * (far < 0.1 ? 200 * far : 20 + 50 * (far - 0.1));
+        const Real force = (axis % 2 == 0 ? mirrored : u > 0 ? 400 * u : 10 * u) + 3 * 0.2 * side;
+        if (s->clock().t > 0.1) EXPECT_NEAR(force_of_six(*s, axis), force, 1e-6) << d << side;
+        last = u;
+      }
+      EXPECT_NEAR(last, side > 0 ? 0.15 : -0.1, 0.003) << d;
+    }
+}
+
 // K = 100, yields at 5, hardens by 20 up to the plastic stretch 0.1, then level at 7: to 0.3 and back to 0.
 TEST(DiscreteBeams, SpringsYield) {
   for (int d = 0; d < 6; ++d)

@@ -140,6 +140,36 @@ TEST(Erosion, EachCriterionFailsWhereTheStretchReachesIt) {
   }
 }
 
+// A beam (ELFORM 1) and a truss with Poisson's ratio 0.3: its sides shrink, so that the effective strain is
+// 2/3 (1 + nu) of the stretch and the volume's 1 - 2 nu of it.
+TEST(Erosion, BeamsFailByTheCriteriaOfTheCard) {
+  struct Case {
+    const char* card;  // from EXCL on
+    Real strain;
+  };
+  const Case cases[] = {{"\n       0.0      0.05", 0.05},
+                        {"\n       0.0       0.0      0.05", 0.05},
+                        {"\n       0.0       0.0       0.0      0.06", 0.06},
+                        {"       0.0       0.0       0.0      0.04\n       0.0", 0.06 / 1.3},
+                        {"       0.0       0.0       0.0       0.0      0.02\n       0.0", 0.05},
+                        {"\n       0.0       0.0       0.0       0.0      0.03", 0.06 / 1.3}};
+  for (const bool truss : {false, true})
+    for (const Case& c : cases) {
+      auto s = simulation_of(fmt::format(
+          "*KEYWORD\n*CONTROL_TERMINATION\n1e9\n*CONTROL_TIMESTEP\n0.0,0.5\n*PART\nbeam\n1,1,1\n*SECTION_"
+          "BEAM\n"
+          "{}*MAT_ELASTIC\n1,1.0,1.0,0.3\n*MAT_ADD_EROSION\n         1{}\n*NODE\n1,0.0,0.0,0.0,7,7\n"
+          "2,1.0,0.0,0.0,,7\n3,0.0,1.0,0.0,7,7\n*BOUNDARY_PRESCRIBED_MOTION_NODE\n2,1,0,1\n*DEFINE_CURVE\n1\n"
+          "0.0,0.001\n1e9,0.001\n*ELEMENT_BEAM\n       1       1       1       2       3\n*END\n",
+          truss ? "1,3\n0.01\n" : "1,1,0.8,2\n0.1,0.1,0.1,0.1\n", c.card));
+      const Real t = time_of_failure(*s);
+      EXPECT_EQ(elements_deleted(*s), 1) << c.card << truss;
+      EXPECT_NEAR(std::log(1 + 0.001 * t), c.strain, 0.001) << c.card << truss;
+      EXPECT_EQ(largest_force(*s), 0) << c.card;
+      EXPECT_LT(test::energy_error(*s), 0.02) << c.card;
+    }
+}
+
 TEST(Erosion, TimeAndImpulse) {
   auto timed = simulation_of(
       one_cube(
@@ -363,6 +393,39 @@ TEST(Erosion, ContactIsOverWithTheShellsThatAreDeleted) {
 }
 
 // Deletion of the upper layer lays the lower one bare, where a contact is asked to go on with it.
+// ISYM 1 leaves out the face on the plane of symmetry z = 0: what comes from below goes through it, while the
+// other side of the block is still touched.
+TEST(Erosion, FacesOnPlanesOfSymmetryAreLeftOut) {
+  for (const bool below : {true, false})
+    for (const int isym : {0, 1}) {
+      SolidDeck deck;
+      deck.block(Vec(3, 3, 1), 3, 3, 1, 1);
+      const std::size_t first = deck.block(Vec(0.5, 0.5, 0.5), 1, 1, 1, 2, [&](const Vec& x) {
+        return Vec(x + Vec(1.25, 1.25, below ? -0.6 : 1.1));
+      });
+      deck.cards =
+          "*CONTROL_TIMESTEP\n       0.0       0.5\n" + soft_material +
+          "*PART\nblock\n         1         1         1\n*PART\nsmall\n         2         1         1\n"
+          "*SECTION_SOLID\n         1         1\n*CONTACT_ERODING_NODES_TO_SURFACE\n"
+          "         2         1         3         3\n       0.0\n       1.0\n" +
+          fmt::format("{:10}         0         1\n", isym);
+      deck.node_set(1, [&](const Vec& x) { return std::abs(x[2]) < 1e-9; });
+      deck.cards +=
+          "*BOUNDARY_SPC_SET\n         1         0         0         0         1\n*INITIAL_VELOCITY_NODE\n";
+      for (std::size_t n = first; n <= deck.nodes.size(); ++n)
+        deck.cards += fmt::format("{:10}       0.0       0.0{:10.3e}\n", n, below ? 0.05 : -0.05);
+      auto s = simulation_of(deck.text(100));
+      while (s->clock().t < 12) s->step(do_nothing);
+      Real speed = 0;
+      for (std::size_t n = first - 1; n < deck.nodes.size(); ++n)
+        speed += s->world().nodes.v.vec(static_cast<Index>(n))[2] / 8;
+      if (below && isym == 1)
+        EXPECT_NEAR(speed, 0.05, 1e-9);
+      else
+        EXPECT_LT(speed * (below ? 1 : -1), 0) << below << isym;
+    }
+}
+
 TEST(Erosion, FacesThatDeletionLaysBareAreTouched) {
   for (const auto& [erosop, kind, bounces] : {std::tuple(1, "ERODING_SURFACE_TO_SURFACE", true),
                                               {0, "ERODING_SURFACE_TO_SURFACE", false},

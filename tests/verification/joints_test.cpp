@@ -272,29 +272,35 @@ TEST(Joints, EachKindKeepsMomentumAndEnergy) {
   }
 }
 
-// A nut that does not turn, on a screw that is driven.
+// A nut that does not turn, on a screw that is driven; the nodes of the two may be apart along the axis.
 TEST(Joints, ScrewAdvancesByItsPitch) {
-  JointDeck deck;
-  const Matrix J = diagonal(0.01, 0.01, 0.01);
-  const int screw = deck.body({.J = J, .con1 = 7, .con2 = 5});
-  const int nut = deck.body({.x = {0.5, 0, 0}, .m = 3, .J = J, .con2 = 7});
-  deck.joint("SCREW", screw, nut, {Vec(0.5, 0, 0), Vec(0.9, 0, 0), Vec(0.5, 0.2, 0)}, 0.04);
-  deck.more = fmt::format(
-      "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n{:10}         5         0         7       1.0\n*DEFINE_CURVE\n"
-      "         7\n0.0,0.0\n1.0,20.0\n",
-      screw);
-  auto s = simulation_of(deck.text(1));
-  const RigidBody& b = s->bodies()->bodies().back();
-  std::vector<JointForce> forces;
-  while (s->clock().t < 0.99) {
-    s->step(do_nothing);
-    const Real t = s->clock().t;
-    // right-handed: as the screw turns by +1 the nut turns by -1 as seen from it
-    ASSERT_NEAR(b.x[0] - 0.5, -0.04 * 10 * t * t, 1e-9) << t;
+  for (const Real apart : {0.0, 0.3}) {
+    JointDeck deck;
+    const Matrix J = diagonal(0.01, 0.01, 0.01);
+    const int screw = deck.body({.J = J, .con1 = 7, .con2 = 5});
+    const int nut = deck.body({.x = {0.5, 0, 0}, .m = 3, .J = J, .con2 = 7});
+    const Vec by(apart, 0, 0);
+    std::vector<Vec> places;
+    for (const Vec& x : {Vec(0.5, 0, 0), Vec(0.9, 0, 0), Vec(0.5, 0.2, 0)})
+      places.push_back(x), places.push_back(x + by);
+    deck.joint_at("SCREW", screw, nut, places, "0.04");
+    deck.more = fmt::format(
+        "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n{:10}         5         0         7       1.0\n*DEFINE_CURVE\n"
+        "         7\n0.0,0.0\n1.0,20.0\n",
+        screw);
+    auto s = simulation_of(deck.text(1));
+    const RigidBody& b = s->bodies()->bodies().back();
+    std::vector<JointForce> forces;
+    while (s->clock().t < 0.99) {
+      s->step(do_nothing);
+      const Real t = s->clock().t;
+      // right-handed: as the screw turns by +1 the nut turns by -1 as seen from it
+      ASSERT_NEAR(b.x[0] - 0.5, -0.04 * 10 * t * t, 1e-9) << t;
+    }
+    joints_of(*s).report_joints(forces);
+    EXPECT_NEAR(forces[0].force[0], -3 * 0.04 * 20, 1e-6);
+    EXPECT_GT(std::abs(joints_of(*s).all()[0].turned), 9) << "it went round";
   }
-  joints_of(*s).report_joints(forces);
-  EXPECT_NEAR(forces[0].force[0], -3 * 0.04 * 20, 1e-6);
-  EXPECT_GT(std::abs(joints_of(*s).all()[0].turned), 9) << "it went round";
 }
 
 TEST(Joints, TellWhatAnInconsistentStartLoses) {

@@ -203,15 +203,18 @@ TEST(NodeContact, TransducersTellTheForceOnTheirParts) {
                 "*CONTACT_FORCE_TRANSDUCER_PENALTY_ID\n        11middle\n         2         0         3\n\n\n"
                 "*CONTACT_FORCE_TRANSDUCER_PENALTY\n         3         0         3\n"
                 "*CONTACT_FORCE_TRANSDUCER_PENALTY\n         7         0         2\n"
-                "*CONTACT_FORCE_TRANSDUCER_PENALTY\n         1         0         3\n";
+                "*CONTACT_FORCE_TRANSDUCER_PENALTY\n         1         0         3\n"
+                "*CONTACT_FORCE_TRANSDUCER_PENALTY\n         2         1         3         3\n"
+                "*CONTACT_FORCE_TRANSDUCER_PENALTY\n         2         3         3         3\n"
+                "*CONTACT_FORCE_TRANSDUCER_PENALTY\n         1         3         3         3\n";
   auto s = simulation_of(deck.text(1));
   while (s->clock().t < 0.15) s->step(write_nothing);
   const auto all = s->world().passes.all<InterfaceReporter>();
-  ASSERT_EQ(all.size(), 6u);
+  ASSERT_EQ(all.size(), 9u);
   const Real one = rho * g * L * L * L;
-  const std::array<Real, 4> expected{one, one, 2 * one, -2 * one};
-  const std::array<Id, 4> ids{11, 4, 5, 6};
-  for (std::size_t k = 0; k < 4; ++k) {
+  const std::array<Real, 7> expected{one, one, 2 * one, -2 * one, 2 * one, -one, 0};  // the last between two
+  const std::array<Id, 7> ids{11, 4, 5, 6, 7, 8, 9};
+  for (std::size_t k = 0; k < 7; ++k) {
     const InterfaceForce told = all[2 + k]->report();
     EXPECT_EQ(told.id, ids[k]);
     EXPECT_NEAR((told.on_surfa - Vec(0, 0, expected[k])).norm(), 0, 2e-3 * one) << k;

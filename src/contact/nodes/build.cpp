@@ -40,6 +40,8 @@ class NodeContactBuilder {
     const std::vector<Index> faces_b = kind.single ? faces_a : finder_.faces(c, ContactSide::b);
     const std::vector<Index> nodes_a = finder_.nodes(c, ContactSide::a, faces_a);
     check(c, nodes_a);
+    if (finder_.are_stiff(c, faces_a, c.soft != 0) && !kind.single)
+      finder_.are_stiff(c, faces_b, c.soft != 0);
     if (diagnostics_.errors() > errors) return;
     ContactSides sides;
     thickness_ = thickness_of(c, kind);

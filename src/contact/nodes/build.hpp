@@ -40,6 +40,13 @@ class FaceFinder {
   std::vector<Index> nodes(const ContactCard& card, ContactSide side, const std::vector<Index>& faces);
   /// The same of a side that names parts: nodes of all elements that these have, of beams, too.
   std::vector<Index> nodes_of_elements(const ContactCard& card, ContactSide side);
+  /// Whether a penalty of the card finds a stiffness there; an error where it does not: shells of *MAT_NULL
+  /// have that of YM, which may be 0.
+  /// `by_mass`: SOFT 1 takes it from masses.
+  bool are_stiff(const ContactCard& card, const std::vector<Index>& faces, bool by_mass);
+  /// Those that ISYM 1 of an eroding contact leaves out: faces of solids all of whose corners are held along
+  /// their normal, if that is along a global axis.
+  void leave_out_symmetric(const ContactCard& card, std::vector<Index>& faces) const;
   /// All faces of the elements that nodes belong to.
   std::vector<Index> faces_around(const std::vector<Index>& nodes);
 

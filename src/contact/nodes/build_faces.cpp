@@ -156,6 +156,7 @@ std::vector<Index> FaceFinder::faces(const ContactCard& card, ContactSide side, 
     out = of_shell_set(card, f.field, f.id);
   else
     out = of_parts(card, f.field, parts_of(card, f.field, f.id, everything ? all : f.type));
+  leave_out_symmetric(card, out);
   if (f.box == 0) return out;
   const auto box = model_.boxes.find(f.box);
   if (box == model_.boxes.end()) {
@@ -169,6 +170,38 @@ std::vector<Index> FaceFinder::faces(const ContactCard& card, ContactSide side, 
                         [&](Index n) { return box->second.contains(world_.nodes.x.vec(n)); });
   });
   return out;
+}
+
+void FaceFinder::leave_out_symmetric(const ContactCard& card, std::vector<Index>& faces) const {
+  if (card.erode_isym != 1) return;
+  std::map<Id, std::array<bool, 3>> fixed;
+  for (const ModelNode& node : model_.nodes) fixed[node.id] = node.fixed;
+  constexpr Real along = 1 - 1e-6;  // cosine
+  const Nodes& nodes = world_.nodes;
+  std::erase_if(faces, [&](Index s) {
+    const auto a = world_.segments.nodes(s);
+    const auto x = [&](std::size_t c) { return nodes.x.vec(a[c]); };
+    const Vec n = (x(2) - x(0)).cross(x(3) - x(1)).normalized();
+    Eigen::Index axis = 0;
+    if (!(world_.segments.volume[s] > 0) || n.cwiseAbs().maxCoeff(&axis) < along) return false;
+    return std::all_of(a.begin(), a.end(),
+                       [&](Index corner) { return fixed[nodes.id[corner]][static_cast<std::size_t>(axis)]; });
+  });
+}
+
+bool FaceFinder::are_stiff(const ContactCard& card, const std::vector<Index>& faces, bool by_mass) {
+  const Segments& g = world_.segments;
+  const auto soft = std::find_if(faces.begin(), faces.end(), [&](Index s) {
+    return model_.parts[static_cast<std::size_t>(g.part[s])].null && !(g.K[s] > 0);
+  });
+  if (soft == faces.end() || by_mass) return true;
+  diagnostics_.error(
+      deck_.where(card),
+      fmt::format("{}: the shells of part {} are of a *MAT_NULL without YM: contact has no "
+                  "stiffness there",
+                  deck_.keyword(card), model_.parts[static_cast<std::size_t>(g.part[*soft])].id),
+      "give YM and PR of what they cover");
+  return false;
 }
 
 std::vector<Index> FaceFinder::nodes(const ContactCard& card, ContactSide side,

@@ -82,6 +82,20 @@ void NodeContact::add_force_on(Index node, Vec& force) const {
   }
 }
 
+Vec NodeContact::force_between(const Surface& a, const Surface& b) const {
+  note_access(touches_resource_);
+  Vec sum = Vec::Zero();
+  for (const Touch& touch : touches_) {
+    const auto n = static_cast<std::size_t>(touch.node);
+    const Index s = face(touch.face).segment;
+    if (a.node[n] != 0 && b.has_segment(s))
+      sum += touch.force;
+    else if (b.node[n] != 0 && a.has_segment(s))
+      sum -= touch.force;
+  }
+  return sum;
+}
+
 // Where springs k_t act on nodes with shares b_tn, no frequency is above max_n (sum_t k_t |b_tn| sum_j
 // |b_tj|) / m_n (Gershgorin). Elements leave 1 - TSSFAC^2 of the square of a stable step to others.
 TimeLimit::Limit NodeContact::limit(const World& world, const Clock&) {

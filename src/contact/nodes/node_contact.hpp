@@ -92,6 +92,15 @@ class NodeContact : public Force,
   void let_hold(TouchHolder& holder) { holder_ = &holder; }
   /// Adds what a node got from all touches, in the order of touches. [ML/T2]
   void add_force_on(Index node, Vec& force) const;
+  /// Nodes and segments of the world, 1 for those of a surface.
+  struct Surface {
+    std::vector<char> node, segment;
+    bool has_segment(Index s) const {
+      return s < static_cast<Index>(segment.size()) && segment[static_cast<std::size_t>(s)] != 0;
+    }
+  };
+  /// What touches between nodes of one and faces of the other do to `a`. [ML/T2]
+  Vec force_between(const Surface& a, const Surface& b) const;
 
   struct Penetrations {
     Index count = 0;

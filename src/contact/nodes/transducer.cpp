@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <set>
 
 #include "contact/contact_table.hpp"
@@ -32,17 +34,22 @@ const RegisterKeyword<T> transducer_keyword{contact_head<T>(
             "what SURFATYP tells",
             {},
             [](const T& card) { return space_of_surface(card.surfatyp); }},
-           {"SURFB", &T::surfb, "-", "forces between SURFA and SURFB alone", unsupported,
+           {"SURFB",
+            &T::surfb,
+            "-",
+            "0: all forces on SURFA; else those between SURFA and SURFB alone",
+            {},
             [](const T& card) { return space_of_surface(card.surfbtyp); }},
            {"SURFATYP",
             &T::surfatyp,
             "-",
             "0 segment set, 1 shell set, 2 part set, 3 part, 5 all, 6 all but a part set",
             {.allowed = {0, 1, 2, 3, 5, 6}}},
-           {"SURFBTYP", &T::surfbtyp, "-", "kind of SURFB", no_effect},
+           {"SURFBTYP", &T::surfbtyp, "-", "kind of SURFB, as SURFATYP", {.allowed = {0, 1, 2, 3, 5, 6}}},
            {"SABOXID", &T::saboxid, "-", "box that restricts SURFA at the start",
             rules::optional_id_of(IdSpace::box)},
-           {"SBBOXID", &T::sbboxid, "-", "box of SURFB", {.honour = Honour::ignored, .refers = IdSpace::box}},
+           {"SBBOXID", &T::sbboxid, "-", "box that restricts SURFB at the start",
+            rules::optional_id_of(IdSpace::box)},
            {"SAPR", &T::sapr, "-", "SURFA in interface files", no_effect},
            {"SBPR", &T::sbpr, "-", "SURFB in interface files", no_effect}}},
      {.fields = {{"FS", &T::fs, "-", "friction: none of its own", no_effect},
@@ -68,13 +75,22 @@ const RegisterKeyword<T> transducer_keyword{contact_head<T>(
 class ForceTransducer : public Pass, public InterfaceReporter {
  public:
   ForceTransducer(Id id, std::string title, std::vector<Index> nodes,
+                  std::optional<std::array<NodeContact::Surface, 2>> between,
                   std::vector<std::shared_ptr<const NodeContact>> contacts)
-      : id_(id), title_(std::move(title)), nodes_(std::move(nodes)), contacts_(std::move(contacts)) {}
+      : id_(id),
+        title_(std::move(title)),
+        nodes_(std::move(nodes)),
+        between_(std::move(between)),
+        contacts_(std::move(contacts)) {}
   std::string name() const override { return fmt::format("force transducer {}", id_); }
   InterfaceForce report() const override {
     InterfaceForce out{.id = id_, .title = title_};
-    for (const auto& contact : contacts_)
-      for (const Index n : nodes_) contact->add_force_on(n, out.on_surfa);
+    for (const auto& contact : contacts_) {
+      if (between_)
+        out.on_surfa += contact->force_between((*between_)[0], (*between_)[1]);
+      else
+        for (const Index n : nodes_) contact->add_force_on(n, out.on_surfa);
+    }
     return out;
   }
 
@@ -82,8 +98,19 @@ class ForceTransducer : public Pass, public InterfaceReporter {
   Id id_;
   std::string title_;
   std::vector<Index> nodes_;
+  std::optional<std::array<NodeContact::Surface, 2>> between_;  ///< SURFA and SURFB; nothing: all on SURFA
   std::vector<std::shared_ptr<const NodeContact>> contacts_;
 };
+
+NodeContact::Surface surface_of(const World& world, const std::vector<Index>& faces) {
+  NodeContact::Surface out{std::vector<char>(static_cast<std::size_t>(world.nodes.size()), 0),
+                           std::vector<char>(static_cast<std::size_t>(world.segments.size()), 0)};
+  for (const Index s : faces) {
+    out.segment[static_cast<std::size_t>(s)] = 1;
+    for (const Index n : world.segments.nodes(s)) out.node[static_cast<std::size_t>(n)] = 1;
+  }
+  return out;
+}
 
 /// How many of the nodes belong to faces of other parts, too.
 std::ptrdiff_t shared_nodes(const World& world, const std::vector<Index>& nodes,
@@ -109,8 +136,13 @@ void add_force_transducers(const Deck& deck, const Model& model, const NodeConta
     const int errors = diagnostics.errors();
     const std::vector<Index> faces = finder.faces(card, ContactSide::a);
     const std::vector<Index> nodes = finder.nodes(card, ContactSide::a, faces);
+    std::optional<std::array<NodeContact::Surface, 2>> between;
+    if (card.surfb != 0 || card.surfbtyp == 5) {
+      const std::vector<Index> of_b = finder.faces(card, ContactSide::b);
+      between = {surface_of(world, faces), surface_of(world, of_b)};
+    }
     if (diagnostics.errors() > errors) continue;
-    if (const auto shared = shared_nodes(world, nodes, faces); shared > 0)
+    if (const auto shared = between ? 0 : shared_nodes(world, nodes, faces); shared > 0)
       deck.warning(
           diagnostics, card, "SURFA",
           fmt::format(
@@ -132,7 +164,8 @@ void add_force_transducers(const Deck& deck, const Model& model, const NodeConta
                    contacts.empty() ? "there is no contact of elements whose force it could tell"
                                     : "it has no nodes of elements",
                    "leave it out");
-    world.passes.add(std::make_shared<ForceTransducer>(card.cid, card.title, nodes, contacts));
+    world.passes.add(
+        std::make_shared<ForceTransducer>(card.cid, card.title, nodes, std::move(between), contacts));
   }
 }
 

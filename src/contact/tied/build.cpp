@@ -54,6 +54,7 @@ class TiedBuilder {
     world_.counters["tied_nodes"] += static_cast<std::int64_t>(ties.size());
     const Id id = c.cid;
     if (kind.form == TieForm::exact) return add_exact(c, id, kind.turns, ties);
+    if (!finder_.are_stiff(c, finder_.faces(c, ContactSide::b, false), false)) return;
     TieStrength strength;
     if (kind.fails) strength.normal = c.fs, strength.shear = c.fd;
     hold_by_springs({.id = id, .title = c.title, .strength = strength}, std::move(ties));
@@ -68,6 +69,7 @@ class TiedBuilder {
     const bool sticks = by_option && (c.option == 1 || c.option == 3);
     std::vector<Tie> ties;
     if (!find(c, ties, false, sticks ? &later : nullptr) || (ties.empty() && !sticks)) return;
+    if (!finder_.are_stiff(c, finder_.faces(c, ContactSide::b, false), false)) return;
     if (softens(c)) warn_of_soft(c, ties);
     world_.counters["tied_nodes"] += static_cast<std::int64_t>(ties.size());
     Id id = c.cid;  // which contact itself has

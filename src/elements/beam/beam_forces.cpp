@@ -6,11 +6,13 @@
 #include <limits>
 
 #include "base/run_error.hpp"
+#include "elements/beam/beam_axes.hpp"
 #include "elements/beam/beam_frame.hpp"
 #include "elements/beam/beams.hpp"
 #include "elements/beam/elastic_beam.hpp"
 #include "elements/element_report.hpp"
 #include "elements/mass_scaling.hpp"
+#include "elements/null_elements.hpp"
 #include "elements/stiffness_damping.hpp"
 #include "laws/strength/beam_stress.hpp"
 #include "state/reports.hpp"
@@ -29,7 +31,8 @@ class BeamForces : public Material,
                    public PartReporter,
                    public WeldReporter,
                    public ElementReporter,
-                   public FieldFiller {
+                   public FieldFiller,
+                   public BeamAxes {
  public:
   BeamForces(BeamPart part, Id part_id, Real tssfac, bool shown, ElementOptions& options, World& world)
       : part_(std::move(part)),
@@ -146,6 +149,21 @@ class BeamForces : public Material,
     }
   }
 
+  const ElementGroup& beams() const override { return group_; }
+  bool knows_section() const override { return turns_; }
+  void declare_axes(const World&, Accesses& a) const override {
+    if (turns_) a.reads(ends_, Reach::others);
+  }
+  Matrix axes_of(const World& world, Index e) const override {
+    const Vec between = between_ends(world, e);
+    Matrix axes = Matrix::Identity();
+    if (!turns_) {
+      axes.col(0) = between.normalized();
+      return axes;
+    }
+    std::array<Quaternion, 2> ends{end_of(e, 0), end_of(e, 1)};
+    return turn_ends(between, {Vec::Zero(), Vec::Zero()}, ends).frame.axes;
+  }
   ElementKind kind() const override { return ElementKind::beam; }
   const ElementGroup& reported() const override { return group_; }
   Real cut_measure(Index e) const override { return part_.measures[at(e)].A; }
@@ -307,6 +325,7 @@ class BeamForces : public Material,
   void integrate(const Clock& clock, Index begin, Index end, Change& change) {
     const Index n = end - begin;
     std::array<std::array<Real, block_size>, 3> rate{}, unused{};
+    std::array<Real, block_size> across{}, none{};
     std::array<Real, block_size> sound{};
     std::array<Six, block_size> middle{};  // pull, torsion, moments about s and t, shear along s and t
     PointBlock points;
@@ -333,14 +352,15 @@ class BeamForces : public Material,
         for (int c = 0; c < history_[k]->info().components; ++c)
           numbers.push_back(history_[k]->data(c) + begin);
       points.history = numbers;
-      update_in_beam(*part_.law, points);
+      update_in_beam(*part_.law, points, across.data());
       if (erosion_)
         erosion_->look({.point = static_cast<int>(p),
                         .begin = begin,
                         .count = n,
                         .t = clock.t,
                         .dt = clock.dt_old,
-                        .rate = points.rate,
+                        .rate = {rate[0].data(), across.data(), across.data(), rate[1].data(), none.data(),
+                                 rate[2].data()},
                         .stress = points.stress,
                         .plastic = plastic_ < 0 ? nullptr : numbers[at(plastic_)],
                         .by_law = fails_ < 0 ? nullptr : numbers[at(fails_)]});
@@ -470,7 +490,9 @@ void add_beam_passes(const Model& model, const std::vector<BeamPart>& parts, Ele
                      World& world) {
   const bool shown = model.output.d3plot.asked() || model.output.d3plot_count > 0;
   for (const BeamPart& part : parts)
-    if (part.group)
+    if (part.group && part.null)
+      world.passes.add(make_null_elements(*part.group));
+    else if (part.group)
       world.passes.add(std::make_shared<BeamForces>(part, model.parts[static_cast<std::size_t>(part.part)].id,
                                                     model.tssfac, shown, options, world));
 }

@@ -75,7 +75,11 @@ void build_beams(const Model& model, std::vector<BeamPart>& parts, const std::ve
                                "make the scene three-dimensional");
     FieldSet& set = world.add_set(fmt::format("beams of part {}", of_model.id));
     set.resize(static_cast<Index>(part.beams.size()));
-    part.group = world.groups.emplace_back(std::make_unique<ElementGroup>(set, part.part, 2)).get();
+    part.group =
+        world.groups
+            .emplace_back(std::make_unique<ElementGroup>(
+                set, part.part, 2, part.null ? ElementGroup::Leaves::nothing : ElementGroup::Leaves::corners))
+            .get();
     ElementGroup& group = *part.group;
     const bool turns = part.kind != BeamKind::truss;
     if (turns) {

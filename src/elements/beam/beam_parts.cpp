@@ -11,6 +11,7 @@
 #include "elements/beam/integration_beam.hpp"
 #include "elements/beam/section_beam.hpp"
 #include "elements/beam/standard_section.hpp"
+#include "laws/fluid/mat_null.hpp"
 #include "model/transforms/transformation.hpp"
 
 namespace courant {
@@ -82,6 +83,7 @@ class BeamReader {
                                part.secid, deck_.found_instead(IdSpace::section, part.secid)),
                    "");
     const SectionBeam& s = *section->second;
+    if (part.null) return read_null(index, s, out);
     if (s.used() == 6 || !check_section(s) || !whole_) return false;  // discrete beams are read elsewhere
     out.kind = s.used() == 1 ? BeamKind::integrated : s.used() == 2 ? BeamKind::resultant : BeamKind::truss;
     out.part = static_cast<Index>(index), out.nsm = s.nsm;
@@ -107,6 +109,11 @@ class BeamReader {
                    out.kind == BeamKind::resultant
                        ? "ELFORM 2 takes *MAT_ELASTIC; ELFORM 1 has plastic materials, too"
                        : "use *MAT_ELASTIC, *MAT_PLASTIC_KINEMATIC or *MAT_PIECEWISE_LINEAR_PLASTICITY");
+    if ((out.kind == BeamKind::resultant || s.weld()) && has_erosion_card(deck_, part.mid))
+      return error(part.card, "MID",
+                   fmt::format("*MAT_ADD_EROSION is not supported in the beams of part {}, {}", part.id,
+                               s.weld() ? "which are welds" : "whose section has no points"),
+                   s.weld() ? "*MAT_SPOTWELD has limits of its own" : "ELFORM 1 and 3 have points");
     out.law = law->second.first;
     if (s.weld()) {
       const auto& cards = deck_.all<MatSpotweld>();
@@ -125,6 +132,34 @@ class BeamReader {
   bool error(const Entry& card, const char* field, std::string message, std::string hint) {
     deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
     return false;
+  }
+
+  /// Beams without a stress need an area, and no directions.
+  bool read_null(std::size_t index, const SectionBeam& s, BeamPart& out) {
+    const ModelPart& part = model_.parts[index];
+    if (s.used() == 6)
+      return error(
+          part.card, "MID",
+          fmt::format("*MAT_NULL is not supported in the discrete beams or cables of part {}", part.id),
+          "*MAT_066 to _068, or *MAT_CABLE_DISCRETE_BEAM; ELFORM 1 or 3 with *MAT_NULL weigh alone");
+    if (!check_section(s)) return false;
+    out.kind = BeamKind::truss, out.null = true;
+    out.part = static_cast<Index>(index), out.nsm = s.nsm, out.law = mat_null_of(deck_, part.mid)->coat();
+    for (const ModelBeam& beam : model_.beams) {
+      if (beam.part != out.part) continue;
+      BeamMeasures m;
+      if (s.used() == 1) {
+        const auto whole = measures_of(beam, s, BeamKind::integrated);
+        if (!whole) continue;
+        m = *whole;
+      } else if (m.A = beam.measures[0] > 0 ? beam.measures[0] : s.a; !(m.A > 0)) {
+        error(s, "A", fmt::format("beam {} has no area", beam.id),
+              "measures stand in the second line of *SECTION_BEAM, or in *ELEMENT_BEAM_THICKNESS");
+        continue;
+      }
+      out.beams.push_back(&beam), out.measures.push_back(m), out.axes.push_back(Matrix::Identity());
+    }
+    return true;
   }
 
   bool check_section(const SectionBeam& s) {

@@ -38,6 +38,7 @@ struct BeamMeasures {
 /// What beams of a part are made of; vectors by element of the group.
 struct BeamPart {
   std::shared_ptr<StrengthLaw> law;  ///< null: the part has no beams
+  bool null = false;                 ///< *MAT_NULL: mass, no stress
   Index part = 0;
   BeamKind kind = BeamKind::truss;
   std::vector<SectionPoint> points{};

@@ -36,7 +36,7 @@ struct BeamFailureFields {
 
   void put_limits(DiscreteBeamLaw& law) const {
     law.limits.force = {ffailr, ffails, ffailt, mfailr, mfails, mfailt};
-    law.limits.displacement = {ufailr, ufails, ufailt, tfailr, tfails, tfailt};
+    law.limits.displacement = law.limits.negative = {ufailr, ufails, ufailt, tfailr, tfails, tfailt};
   }
 };
 

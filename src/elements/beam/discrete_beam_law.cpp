@@ -56,14 +56,15 @@ SpringAnswer BeamSpring::answer(const SpringMotion& m, Real* state) const {
 }
 
 std::string BeamLimits::failure(const SixOfBeam& forces, const SixOfBeam& displacements) const {
-  const auto used = [](const SixOfBeam& of, const SixOfBeam& most) {
+  const auto used = [](const SixOfBeam& of, const SixOfBeam& most, const SixOfBeam& least) {
     Real sum = 0;
     for (std::size_t k = 0; k < of.size(); ++k)
-      if (most[k] > 0) sum += of[k] / most[k] * (of[k] / most[k]);
+      if (const Real limit = of[k] < 0 ? least[k] : most[k]; limit > 0)
+        sum += of[k] / limit * (of[k] / limit);
     return sum;
   };
-  if (const Real sum = used(forces, force); sum >= 1) return fmt::format("forces, {:.4g} of 1", sum);
-  if (const Real sum = used(displacements, displacement); sum >= 1)
+  if (const Real sum = used(forces, force, force); sum >= 1) return fmt::format("forces, {:.4g} of 1", sum);
+  if (const Real sum = used(displacements, displacement, negative); sum >= 1)
     return fmt::format("displacements, {:.4g} of 1", sum);
   return {};
 }

@@ -57,10 +57,10 @@ struct BeamSpring : SpringLaw {
 };
 
 /// What it fails at: the sum of squares of forces, or of displacements, over these comes to 1; 0: does not
-/// count.
+/// count. `negative`: of displacements below 0.
 struct BeamLimits {
-  SixOfBeam force{}, displacement{};
-  bool any() const { return force != SixOfBeam{} || displacement != SixOfBeam{}; }
+  SixOfBeam force{}, displacement{}, negative{};
+  bool any() const { return force != SixOfBeam{} || displacement != SixOfBeam{} || negative != SixOfBeam{}; }
   /// Why it fails; empty: it does not.
   std::string failure(const SixOfBeam& forces, const SixOfBeam& displacements) const;
 };

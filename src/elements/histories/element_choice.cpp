@@ -27,9 +27,11 @@ const ReportedElement* ElementChoice::find(const Entry& card, const char* field,
                                            const char* of) {
   if (const auto found = at_.find({kind, id}); found != at_.end()) return &all_[found->second];
   if (in_model(kind, id))
-    deck_.warning(diagnostics_, card, field,
-                  fmt::format("{} {} belongs to a rigid body, which has no stress: {} does not tell of it",
-                              element_word(kind), id, of));
+    deck_.warning(
+        diagnostics_, card, field,
+        fmt::format("{} {} belongs to a rigid body or is of *MAT_NULL, so that it has no stress: {} "
+                    "does not tell of it",
+                    element_word(kind), id, of));
   else
     deck_.error(diagnostics_, card, field, fmt::format("{} {} does not exist", element_word(kind), id));
   return nullptr;
@@ -48,10 +50,11 @@ std::vector<ReportedElement> ElementChoice::set(const Entry& card, const char* f
       deck_.error(diagnostics_, card, field,
                   fmt::format("{} {} of set {} does not exist", element_word(kind), member, id));
   if (rigid > 0)
-    deck_.warning(diagnostics_, card, field,
-                  fmt::format("{} of the {}s of set {} belong to rigid bodies, which have no stress: {} does "
-                              "not tell of them",
-                              rigid, element_word(kind), id, of));
+    deck_.warning(
+        diagnostics_, card, field,
+        fmt::format("{} of the {}s of set {} belong to rigid bodies or are of *MAT_NULL, so that they "
+                    "have no stress: {} does not tell of them",
+                    rigid, element_word(kind), id, of));
   return out;
 }
 

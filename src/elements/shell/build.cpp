@@ -9,6 +9,7 @@
 #include "elements/shell/hourglass_shell.hpp"
 #include "elements/shell/layers.hpp"
 #include "elements/shell/shells.hpp"
+#include "laws/fluid/mat_null.hpp"
 #include "model/cards.hpp"
 #include "model/conditions/viscosity_cards.hpp"
 #include "shell/section_shell.hpp"
@@ -19,16 +20,24 @@ namespace {
 
 constexpr int belytschko_tsay = 2, flat_triangle = 4, membrane = 5, full_membrane = 9, fully_integrated = 16;
 
-/// Formulations that differ from Belytschko and Tsay's in details, and that it stands for with a warning.
-const std::map<int, const char*> similar = {{1, "Hughes-Liu"},
-                                            {6, "selectively reduced Hughes-Liu"},
-                                            {7, "selectively reduced Hughes-Liu"},
-                                            {10, "Belytschko-Wong-Chiang"},
-                                            {11, "fast Hughes-Liu"}};
+/// Formulations that differ in details from one that stands for them with a warning.
+struct Similar {
+  const char* name;
+  int used;
+};
+const std::map<int, Similar> similar = {
+    {1, {"Hughes-Liu", belytschko_tsay}},
+    {3, {"triangle of Bazeley, Cheung, Irons and Zienkiewicz", flat_triangle}},
+    {6, {"selectively reduced Hughes-Liu", belytschko_tsay}},
+    {7, {"selectively reduced Hughes-Liu", belytschko_tsay}},
+    {10, {"Belytschko-Wong-Chiang", belytschko_tsay}},
+    {11, {"fast Hughes-Liu", belytschko_tsay}},
+    {17, {"discrete Kirchhoff triangle", flat_triangle}},
+    {18, {"linear discrete Kirchhoff", fully_integrated}}};
 constexpr const char* formulations =
     "supported values: 2 (Belytschko-Tsay), 16 (2 x 2 points), 4 for triangles, 5 and 9 (membranes); 1, 6, "
-    "7, "
-    "10 and 11 become 2";
+    "7, 10 and "
+    "11 become 2, 3 and 17 become 4, 18 becomes 16";
 
 class ShellReader {
  public:
@@ -70,7 +79,7 @@ class ShellReader {
 
  private:
   void set_options(const ModelPart& part, const SectionShell& s, bool whole, ShellPart& out) {
-    out.marea = s.marea, out.nloc = s.nloc, out.full = formulation(s) == fully_integrated;
+    out.marea = s.marea, out.nloc = s.nloc, out.full = used(s) == fully_integrated;
     out.rotary_scale = control_ ? control_->rotascl : 1;
     out.warp_warning = control_ ? control_->wrpang : out.warp_warning;
     ShellControl& c = out.control;
@@ -104,11 +113,14 @@ class ShellReader {
     const char* from = s.elform == 0 && control_ ? " (THEORY of *CONTROL_SHELL)" : "";
     const auto like = similar.find(elform);
     if (like != similar.end())
-      deck_.warning(diagnostics_, s, "ELFORM",
-                    fmt::format("{} ({}) is not there for shells that deform, as those of part {}: 2 is used "
-                                "in its place",
-                                elform, like->second, part.id),
-                    "2 (Belytschko-Tsay) says the same without this warning");
+      deck_.warning(
+          diagnostics_, s, "ELFORM",
+          fmt::format("{} ({}) is not there for shells that deform, as those of part {}: {} is used "
+                      "in its place",
+                      elform, like->second.name, part.id, like->second.used),
+          fmt::format("{} says the same without this warning", like->second.used == belytschko_tsay
+                                                                   ? "2 (Belytschko-Tsay)"
+                                                                   : std::to_string(like->second.used)));
     else if (!is_membrane(s) && elform != belytschko_tsay && elform != flat_triangle &&
              elform != fully_integrated)
       error(s, "ELFORM",
@@ -121,7 +133,7 @@ class ShellReader {
           return model_.parts[static_cast<std::size_t>(shell.part)].id == part.id &&
                  shell.node[2] != shell.node[3];
         });
-    if (elform == flat_triangle && has_quads)
+    if (used(s) == flat_triangle && has_quads)
       deck_.warning(diagnostics_, s, "ELFORM",
                     fmt::format("4 is for triangles: 2 is used for the quadrilaterals of part {}", part.id));
     if (s.idof == 3)
@@ -172,6 +184,11 @@ class ShellReader {
              return s && s->nloc != 0;
            });
   }
+  /// What stands for it.
+  int used(const SectionShell& s) const {
+    const auto like = similar.find(formulation(s));
+    return like == similar.end() ? formulation(s) : like->second.used;
+  }
   /// ELFORM, or THEORY where the section names none.
   int formulation(const SectionShell& s) const {
     if (s.elform != 0) return s.elform;
@@ -183,7 +200,11 @@ class ShellReader {
       if (wrong)
         error(c, field, fmt::format("'{:g}' is not supported: {}", value, what), "leave the field blank");
     };
-    refuse("ESORT", c.esort != 0 && c.esort != 1, c.esort, "triangles are of formulation 4 (0 and 1)");
+    if (c.esort == 2)
+      deck_.warning(diagnostics_, c, "ESORT",
+                    "2 asks for discrete Kirchhoff triangles (17): 4 is used in their place",
+                    "1 says the same without this warning");
+    refuse("ESORT", c.esort < 0 || c.esort > 2, c.esort, "triangles are of formulation 4 (0 and 1)");
     refuse("ISTUPD", c.istupd != 0 && c.istupd != 1, c.istupd,
            "the thickness stays (0) or follows all of the strain (1)");
     refuse("BWC", c.bwc != 1 && c.bwc != 2, c.bwc, "shells of ELFORM 2 heed their warp (1) or do not (2)");
@@ -213,6 +234,7 @@ class ShellReader {
 };
 
 ElasticConstants constants_of(Real K, Real G) {
+  if (K == 0 && G == 0) return {};  // of *MAT_NULL without YM
   return {9 * K * G / (3 * K + G), (3 * K - 2 * G) / (6 * K + 2 * G)};
 }
 
@@ -231,6 +253,14 @@ ElasticConstants elastic_constants(const ShellPart& part) {
 }
 
 namespace {
+
+/// Shells without a stress: one layer whose law is never asked.
+ShellPart null_part(const MatNull& m) {
+  ShellPart out;
+  out.law = m.coat(), out.null = true;
+  out.zeta = {0}, out.share = {1};
+  return out;
+}
 
 /// `by_part`: some shells have the layers that stand with the part; else the first of the others stand for
 /// it, too.
@@ -265,7 +295,11 @@ std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Di
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const ModelPart& part = model.parts[k];
     solids = solids || (part.has_solid && !part.rigid);
-    if (part.has_shell && !part.has_sph && !part.rigid) deforming.push_back(k);
+    if (!part.has_shell || part.has_sph || part.rigid) continue;
+    if (part.null)
+      out[k] = null_part(*mat_null_of(deck, part.mid));
+    else
+      deforming.push_back(k);
   }
   if (deforming.empty()) return out;
   const int errors = diagnostics.errors();

@@ -38,7 +38,7 @@ void warn_of_warp(const Model& model, const std::vector<ShellPart>& parts, const
   for (std::size_t s = 0; s < model.shells.size(); ++s) {
     const auto part = static_cast<std::size_t>(model.shells[s].part);
     const auto node = world.segments.nodes(static_cast<Index>(s));
-    if (!parts[part].law || node[2] == node[3] || parts[part].control.drilling > 0)
+    if (!parts[part].law || parts[part].null || node[2] == node[3] || parts[part].control.drilling > 0)
       continue;  // that has a stiffness of warping
     const Real angle = warp_angle(world, node);
     if (!(angle > parts[part].warp_warning)) continue;
@@ -132,11 +132,12 @@ Field<Real>& add_offset(const ElementGroup& group) {
   return group.fields.add<Real>({.name = offset_name, .dimension = "-", .restart = false});
 }
 
-ElementGroup& add_group(World& world, const std::string& name, std::size_t part, int corners, Index size) {
+ElementGroup& add_group(World& world, const std::string& name, std::size_t part, int corners, Index size,
+                        ElementGroup::Leaves leaves) {
   FieldSet& set = world.add_set(name);
   set.resize(size);
   ElementGroup& group = *world.groups.emplace_back(
-      std::make_unique<ElementGroup>(set, static_cast<Index>(part), corners, ElementGroup::Leaves::sums));
+      std::make_unique<ElementGroup>(set, static_cast<Index>(part), corners, leaves));
   group.segment = &set.add<Index>({.name = "segment", .dimension = "-"});
   return group;
 }
@@ -218,26 +219,32 @@ bool some_are_offset(const Model& model, const ShellPart& part, const std::vecto
          std::any_of(shells.begin(), shells.end(), [&](Index s) { return model.shell_offset.contains(s); });
 }
 
-/// Mass of an element, and the rotary inertia of each corner.
-void weigh(const ShellPart& part, const std::array<Vec, 4>& x, Real t, Real offset, int corners, Index e,
-           ElementGroup& group, Field<Real>& corner_inertia) {
+/// Mass of an element. Returns its area. [L2]
+Real weigh(const ShellPart& part, const std::array<Vec, 4>& x, Real t, Index e, ElementGroup& group) {
   const Real area = 0.5 * (x[2] - x[0]).cross(x[3] - x[1]).norm();
   group.V0[e] = area * t;
   group.mass[e] = (part.density() * t + part.marea) * area;
+  return area;
+}
+
+/// Rotary inertia of each corner. [ML2]
+Real inertia_of_corner(const ShellPart& part, const std::array<Vec, 4>& x, Real t, Real offset, int corners,
+                       Real area, Real mass) {
   const ShellControl& c = part.control;
   const Real length = longest_step_length(x, area, corners, c.length_rule);
   const Real modulus = c.length_rule == 2 ? c.E : c.plate_modulus;
   const Real f = std::max(Real(1), 3 * c.shear_factor * c.G / modulus);
   const Real l2 = std::max(area, length * length);
   const Real t2 = t * t * (1 + 3 * offset * offset);
-  corner_inertia[e] = part.rotary_scale * group.mass[e] / corners * (t2 + f * l2) / 12;
+  return part.rotary_scale * mass / corners * (t2 + f * l2) / 12;
 }
 
 /// Elements of `group`, which are these shells of the model.
 void fill_group(const Model& model, const ShellPart& part, const std::vector<Index>& shells,
                 const std::vector<Index>& node_of, World& world, ElementGroup& group,
-                NodalRotations& rotations, Diagnostics& diagnostics) {
-  Field<Real>& corner_inertia = corner_inertia_of(group);
+                Diagnostics& diagnostics) {
+  Field<Real>* const corner_inertia = part.null ? nullptr : &corner_inertia_of(group);
+  Field<Real>* const of_nodes = part.null ? nullptr : &NodalRotations(world.nodes.fields).inertia;
   Field<Real>* const offset = some_are_offset(model, part, shells) ? &add_offset(group) : nullptr;
   std::optional<LayerDirections> directions;
   if (part.has_axes())
@@ -252,14 +259,16 @@ void fill_group(const Model& model, const ShellPart& part, const std::vector<Ind
     if (directions) directions->fill(e, s, x);
     const Real t = world.segments.thickness[s], off = offset ? offset_of(model, part, s, t) : 0;
     if (offset) (*offset)[e] = off;
-    weigh(part, x, t, off, group.corners(), e, group, corner_inertia);
+    const Real area = weigh(part, x, t, e, group);
+    if (corner_inertia)
+      (*corner_inertia)[e] = inertia_of_corner(part, x, t, off, group.corners(), area, group.mass[e]);
     for (int corner = 0; corner < group.corners(); ++corner) {
       const Index n = node_of[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(corner)])];
       group.node.data(corner)[e] = n;
-      rotations.inertia[n] += corner_inertia[e];
+      if (corner_inertia) (*of_nodes)[n] += (*corner_inertia)[e];
     }
   }
-  group.sums = std::make_unique<BlockSums>(group.node, group.size(), group.fields.name());
+  if (group.pushes) group.sums = std::make_unique<BlockSums>(group.node, group.size(), group.fields.name());
 }
 
 }  // namespace
@@ -299,16 +308,16 @@ Matrix shell_axes(const std::array<Vec, 4>& x, int corners, bool invariant) {
 void build_shells(const Model& model, const std::vector<ShellPart>& parts, const std::vector<Index>& node_of,
                   World& world, Diagnostics& diagnostics) {
   if (std::none_of(parts.begin(), parts.end(), [](const ShellPart& p) { return p.law != nullptr; })) return;
-  NodalRotations rotations(world.nodes.fields);
   for (const Alike& alike : alike_shells(model, parts)) {
     const auto part = static_cast<std::size_t>(alike.part);
     const std::string kind = alike.triangles ? "triangles" : "shells";
     const std::string own = alike.layup < 0 ? "" : fmt::format(" with layers {}", alike.layup + 1);
-    ElementGroup& group = add_group(world, fmt::format("{} of part {}{}", kind, model.parts[part].id, own),
-                                    part, alike.triangles ? 3 : 4, static_cast<Index>(alike.shells.size()));
+    ElementGroup& group =
+        add_group(world, fmt::format("{} of part {}{}", kind, model.parts[part].id, own), part,
+                  alike.triangles ? 3 : 4, static_cast<Index>(alike.shells.size()),
+                  parts[part].null ? ElementGroup::Leaves::nothing : ElementGroup::Leaves::sums);
     group.layup = alike.layup;
-    fill_group(model, parts[part].of(alike.layup), alike.shells, node_of, world, group, rotations,
-               diagnostics);
+    fill_group(model, parts[part].of(alike.layup), alike.shells, node_of, world, group, diagnostics);
   }
   warn_of_warp(model, parts, world, diagnostics);
 }

@@ -8,6 +8,7 @@
 
 #include "base/run_error.hpp"
 #include "elements/largest_frequency.hpp"
+#include "elements/null_elements.hpp"
 #include "elements/shell/layer_axes.hpp"
 #include "elements/shell/layers.hpp"
 #include "elements/shell/shells.hpp"
@@ -407,12 +408,27 @@ Field<Real>& thickness_of_shells(const ElementGroup& group) {
   return group.fields.add<Real>({.name = "shell_thickness", .dimension = "L", .output = true});
 }
 
+namespace {
+
+/// Of shells whose thickness never changes.
+void show_thickness(const ElementGroup& group, const World& world) {
+  Field<Real>& thickness = thickness_of_shells(group);
+  for (Index e = 0; e < group.size(); ++e) thickness[e] = world.segments.thickness[(*group.segment)[e]];
+}
+
+}  // namespace
+
 void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
                       const std::vector<Index>& node_of, ElementOptions& options, World& world) {
   const bool shown = model.output.d3plot.asked() || model.output.d3plot_count > 0;
   const std::vector<std::array<bool, 3>> held = held_at_start(model, node_of, world.nodes);
   for (const auto& group : world.groups) {
     if (!group->segment) continue;
+    if (!group->pushes) {
+      show_thickness(*group, world);
+      world.passes.add(make_null_elements(*group));
+      continue;
+    }
     const auto named = static_cast<std::size_t>(group->part);
     const ShellPart& part = parts[named].of(group->layup);
     for (std::size_t k = 0; k < part.zeta.size(); ++k) {

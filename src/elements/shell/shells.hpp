@@ -18,6 +18,7 @@ struct ShellPart {
   /// Null: the part has no shells that deform. Of layers with several the first that can fail, else the
   /// first.
   std::shared_ptr<StrengthLaw> law;
+  bool null = false;  ///< *MAT_NULL: mass and faces, no stress
   /// Of each point through the thickness its own, and the angle of its directions about the normal [degrees];
   /// empty: `law` in all, without an angle.
   std::vector<std::shared_ptr<StrengthLaw>> laws{};

@@ -6,7 +6,8 @@
 
 namespace courant {
 
-/// *MAT_NULL (*MAT_009): a fluid; pressure from its EOS, tau = 2 MU D'.
+/// *MAT_NULL (*MAT_009): a fluid; pressure from its EOS, tau = 2 MU D'. Shells and beams of it have mass and
+/// no stress: YM and PR are for what touches them.
 struct MatNull : Entry {
   Id mid = 0;
   Real ro = 0, pc = 0, mu = 0, terod = 0, cerod = 0, ym = 0, pr = 0;
@@ -14,6 +15,17 @@ struct MatNull : Entry {
   /// For elements; particles find the viscous stress by sums over pairs. Its
   /// pressure does not fall below PC.
   std::shared_ptr<StrengthLaw> law() const;
+  /// For shells and beams: RO, and the moduli that contact asks for.
+  std::shared_ptr<StrengthLaw> coat() const;
 };
+
+/// Null: the material is another one or missing.
+const MatNull* mat_null_of(const Deck& deck, Id mid);
+
+/// Whether a part is of shells or beams of *MAT_NULL, without layers. ModelPart::rigid must be set.
+bool is_null(const Deck& deck, const Model& model, const ModelPart& part);
+
+/// Tells of fields that do nothing to shells and beams of *MAT_NULL, once for each material.
+void check_null_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 }  // namespace courant

@@ -78,16 +78,16 @@ void StrengthLaw::update_in_plane_stress(const PointBlock& block, Real* rate_zz)
 }
 
 // As above, of the sum of stress yy and zz, which answers to both rates at once.
-void update_in_beam(const StrengthLaw& law, const PointBlock& block) {
+void update_in_beam(const StrengthLaw& law, const PointBlock& block, Real* rate_yy) {
   constexpr int most_trials = 30;
   constexpr Real close = 1e-10;
   const Real K = law.bulk_modulus(), G = law.shear_modulus(), modulus = 2 * K + 2 * G / 3;
   const Real share = (K - 2 * G / 3) / modulus;  // nu
-  std::array<Real, block_size> rate_yy{}, old_rate{}, old_stress{}, none{};
+  std::array<Real, block_size> old_rate{}, old_stress{}, none{};
   std::array<char, block_size> done{};
   PointBlock trial = block;
-  trial.rate[1] = trial.rate[2] = rate_yy.data(), trial.rate[4] = none.data();
-  for (Index i = 0; i < block.count; ++i) rate_yy[static_cast<std::size_t>(i)] = -share * block.rate[0][i];
+  trial.rate[1] = trial.rate[2] = rate_yy, trial.rate[4] = none.data();
+  for (Index i = 0; i < block.count; ++i) rate_yy[i] = -share * block.rate[0][i];
   const Kept kept(block);
   Real *yy = block.stress[1], *zz = block.stress[2];
   for (int k = 0;; ++k) {
@@ -97,10 +97,10 @@ void update_in_beam(const StrengthLaw& law, const PointBlock& block) {
     for (Index i = 0; i < block.count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       if (done[at]) continue;
-      const Real stress = 0.5 * (yy[i] + zz[i]), rate = rate_yy[at], before = old_stress[at];
+      const Real stress = 0.5 * (yy[i] + zz[i]), rate = rate_yy[i], before = old_stress[at];
       done[at] = !(std::abs(stress) > close * size_of_stress(block, i));
       const Real slope = k > 0 && stress != before ? (stress - before) / (rate - old_rate[at]) : 0;
-      if (!done[at]) rate_yy[at] -= stress / (slope > 0 ? slope : modulus * block.dt);
+      if (!done[at]) rate_yy[i] -= stress / (slope > 0 ? slope : modulus * block.dt);
       old_rate[at] = rate, old_stress[at] = stress;
       all_done = all_done && done[at];
     }

@@ -1,0 +1,36 @@
+#pragma once
+// *DEFORMABLE_TO_RIGID_AUTOMATIC: parts that become rigid, or deformable again, while a run goes on.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+
+namespace courant {
+
+struct AutomaticSwitch : Entry {
+  Id swset = 0, entno = 0, relsw = 0;
+  int code = 0, paired = 0, nrbf = 0, ncsf = 0, rwf = 0, d2r = 0, r2d = 0;
+  Real time1 = 0, time2 = 1e20, time3 = 0, dtmax = 0, offset = 0;
+  std::vector<Id> pid{}, lrb{}, soft_pid{};
+  std::vector<std::string> ptype{}, soft_ptype{};
+  bool of_wall() const { return code == 1 || code == 3; }
+  bool of_contact() const { return code == 2 || code == 4; }
+};
+
+/// A part and the one with which it is one rigid body, 0: none. Indices into Model::parts.
+struct PartAndLead {
+  Index part = 0;
+  Id lead = 0;
+};
+/// What a switch makes rigid, and what deformable; parts and sets that are not there are errors.
+std::vector<PartAndLead> parts_to_rigid(const Deck& deck, const Model& model, const AutomaticSwitch& card,
+                                        Diagnostics& diagnostics);
+std::vector<Index> parts_to_deformable(const Deck& deck, const Model& model, const AutomaticSwitch& card,
+                                       Diagnostics& diagnostics);
+
+/// Whether some switch makes a part deformable, so that it has elements that deform.
+bool is_released(const Deck& deck, const Model& model, Index part);
+
+}  // namespace courant
