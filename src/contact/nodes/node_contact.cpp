@@ -55,10 +55,6 @@ NodeContact::NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodi
 void NodeContact::take_involved(const World& world) {
   std::vector<char> is_in(static_cast<std::size_t>(world.nodes.size()), 0);
   for (const ContactNode& n : nodes_) is_in[static_cast<std::size_t>(n.node)] = 1;
-  std::size_t tracked_corners = 0;
-  for (const ContactFace& f : faces_)
-    for (const Index n : f.node) tracked_corners += is_in[static_cast<std::size_t>(n)] == 1;
-  both_ways_ = tracked_corners > 2 * faces_.size();
   for (const ContactFace& f : faces_)
     for (const Index n : f.node) is_in[static_cast<std::size_t>(n)] = 1;
   place_.assign(is_in.size(), -1);
@@ -199,6 +195,11 @@ void NodeContact::start(World& world, const Clock& clock) {
   }
   asleep_ = false;
   follow(world, clock);
+  touched_.assign(involved_.size(), 0);
+  for (int k = 0; k < most_touches; ++k)
+    for (Index i = 0; i < set_->size(); ++i)
+      if (in_touch_->data(k)[i] != 0)
+        touched_[static_cast<std::size_t>(place_[static_cast<std::size_t>(node(i).node)])] = 1;
   for_each(static_cast<Index>(listed_.size()), [&](Index k) {
     const auto f = static_cast<std::size_t>(listed_[static_cast<std::size_t>(k)]);
     shapes_[f] = shape_of(corners_of(faces_[f], world.nodes.x), faces_[f].corners);

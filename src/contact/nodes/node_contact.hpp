@@ -202,8 +202,7 @@ class NodeContact : public Force,
   void fade(const World& world, const Slot& slot, Touch& touch) const;
   void push(const World& world, const Clock& clock, Block& b, Index i, Slot& slot) const;
   void fill(const World& world, const Clock& clock, Slot& slot, Touch& touch) const;
-  void expect(const World& world, const Clock& clock, Block& b, Index i) const;
-  std::array<Real, 2> mobility_of(const World& world, const Touch& touch) const;
+  void expect(const World& world, const Clock& clock, Block& b, Index i, const Slots& slots) const;
   Real way_of(const Clock& clock, const Touch& touch, Real speed, Real mobility) const;
   Vec friction_force(const Clock& clock, const Slot& slot, const Vec& n, const Vec& v, Real fn) const;
   Vec velocity_of_face(const World& world, const ContactFace& f, const std::array<Real, 4>& N) const;
@@ -224,7 +223,6 @@ class NodeContact : public Force,
   TouchHolder* holder_ = nullptr;  ///< null: nodes touch and leave
   int number_;
   bool friction_on_, drag_on_;
-  bool both_ways_ = false;  ///< corners of faces are tracked nodes
   std::vector<ContactNode> nodes_;
   std::vector<OwnFace> own_;
   std::vector<ContactFace> faces_;
@@ -239,6 +237,7 @@ class NodeContact : public Force,
   Real listed_reach_ = 0;        ///< of the lists [L]
   std::vector<Index> involved_;  ///< nodes of World, tracked or corners, ascending
   std::vector<Index> place_;     ///< of each node of World in involved_, or -1
+  std::vector<char> touched_;    ///< of those: a tracked node that touched something a step ago
   std::vector<Vec> listed_at_;   ///< where those were when lists were made
   std::vector<Index> listed_;    ///< faces that are candidates, ascending
   std::vector<FaceShape> shapes_;  ///< of those, by face

@@ -22,9 +22,14 @@ Real part_of_step(Real depth, Real way) {
 }  // namespace
 
 // How far the node goes in a step along the normal: in by what it has come, out by what its spring adds to
-// that, twice where nodes of the face have springs, too.
+// that, and those of the corners of the face as far as they touched something a step ago.
 Real NodeContact::way_of(const Clock& clock, const Touch& touch, Real speed, Real mobility) const {
-  const Real springs = both_ways_ ? 2 : 1, dt = clock.dt_old;
+  const Real dt = clock.dt_old;
+  Real springs = 1;
+  const ContactFace& f = face(touch.face);
+  for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
+    springs += std::max(touch.N[e], Real(0)) *
+               touched_[static_cast<std::size_t>(place_[static_cast<std::size_t>(f.node[e])])];
   return dt * std::max(-speed, speed + springs * touch.k * touch.depth * mobility * dt);
 }
 
@@ -118,45 +123,28 @@ void NodeContact::push(const World& world, const Clock& clock, Block& b, Index i
   b.touches.push_back(touch);
 }
 
-// By how much the node and the place of the face give way for an impulse along the push between them. [1/M]
-std::array<Real, 2> NodeContact::mobility_of(const World& world, const Touch& touch) const {
-  const Nodes& nodes = world.nodes;
-  const ContactFace& f = face(touch.face);
-  std::array<Real, 2> out{};
-  if (const Index body = bodies_.body(touch.node); body >= 0)
-    out[0] = bodies_.give_alone(body, nodes.x.vec(touch.node), touch.n);
-  else if (!nodes.held[touch.node])
-    out[0] = 1 / nodes.m[touch.node];
-  const Index body = bodies_.body(f.node[0]);
-  Vec q = Vec::Zero();
-  bool one = body >= 0;
-  for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e) {
-    one = one && bodies_.body(f.node[e]) == body;
-    q += touch.N[e] * nodes.x.vec(f.node[e]);
-    if (!nodes.held[f.node[e]]) out[1] += touch.N[e] * touch.N[e] / nodes.m[f.node[e]];
-  }
-  if (one) out[1] = bodies_.give_alone(body, q, touch.n);
-  return out;
-}
-
 // All but where the touch is and what it stores.
 void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch& touch) const {
   const ContactFace& f = face(touch.face);
-  for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
-    if (!world.nodes.held[f.node[e]]) touch.spread += std::abs(touch.N[e]);
-  if (!world.nodes.held[touch.node]) touch.spread += 1;
+  const Real m = mass_of(world, touch.node);
+  Real mobility = 0;  // of the face where it is touched [1/M]
+  for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e) {
+    if (world.nodes.held[f.node[e]]) continue;
+    mobility += touch.N[e] * touch.N[e] / world.nodes.m[f.node[e]];
+    touch.spread += std::abs(touch.N[e]);
+  }
+  if (std::isfinite(m)) touch.spread += 1;
   if (!(touch.depth > 0)) {
     slot.friction = Vec::Zero();
     return;
   }
-  const auto [of_node, of_face] = mobility_of(world, touch);
   const Vec v = world.nodes.v.vec(touch.node) - velocity_of_face(world, f, touch.N);
-  const Real part = part_of_step(touch.depth, way_of(clock, touch, v.dot(touch.n), of_node + of_face));
+  const Real part = part_of_step(touch.depth, way_of(clock, touch, v.dot(touch.n), 1 / m + mobility));
   Real fn = part * touch.k * touch.depth * touch.faded;
   for (Real& t : touch.tilt) t *= part;
   if (law_.vdc > 0) {
     // of the critical damping of node and face: 2 m omega, m the smaller mass
-    const Real omega = std::sqrt(touch.k * (of_node + of_face)), lighter = 1 / std::max(of_node, of_face);
+    const Real omega = std::sqrt(touch.k * (1 / m + mobility)), lighter = std::min(m, 1 / mobility);
     touch.damping = std::max(-0.01 * law_.vdc * 2 * lighter * omega * v.dot(touch.n), -fn);  // never pulls
     fn += touch.damping;
   }
@@ -167,11 +155,12 @@ void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch
 // The spring that a node will have which comes through a face within a step, no force: so that steps are
 // short enough for it by then. The force of the first sample behind the surface pushes through half of the
 // step that led there, which would not be bounded else.
-void NodeContact::expect(const World& world, const Clock& clock, Block& b, Index i) const {
+void NodeContact::expect(const World& world, const Clock& clock, Block& b, Index i,
+                         const Slots& slots) const {
   Slot next;
   Real soonest = soft_dt_ > 0 ? soft_dt_ : unbounded;
   for (const Seen& seen : b.seen) {
-    if (!seen.at.over) continue;
+    if (!seen.at.over || is_taken(slots, seen.face) || goes_on(slots, seen)) continue;
     const ContactFace& f = face(seen.face);
     const Real side = f.two_sided && seen.d < 0 ? -1 : 1, gap = side * seen.d - f.r - node(i).r;
     if (gap < 0) continue;

@@ -89,13 +89,10 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   for (Slot& slot : slots)
     if (slot.face >= 0 && !hold(world, b, i, x, slots, slot)) slot = Slot();
   find_touches(world, clock, b, i, slots);
-  bool touches = false;
-  for (Slot& slot : slots) {
-    if (slot.face < 0) continue;
-    touches = true;
-    push(world, clock, b, i, slot);
-  }
-  if (!touches) expect(world, clock, b, i);
+  for (Slot& slot : slots)
+    if (slot.face >= 0) push(world, clock, b, i, slot);
+  if (std::any_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face < 0; }))
+    expect(world, clock, b, i, slots);
   for (int k = 0; k < most_touches; ++k) {
     const Slot& slot = slots[static_cast<std::size_t>(k)];
     if (any || slot.face >= 0) store(i, k, slot);
@@ -146,8 +143,13 @@ bool NodeContact::move_on(const World& world, const Block& b, Index i, const Vec
     return true;
   };
   const Seen* best = nullptr;
-  const Real distance = std::abs(slot.gap + f.r + node(i).r);
-  Real best_distance = 0, best_gap = 0, best_side = 1;
+  const Real slot_d = slot.gap + f.r + node(i).r;
+  Real best_d = 0, best_gap = 0, best_side = 1;
+  const auto nearer = [&](Real d, Real gap, Real than, Real its_gap) {
+    if (d > 0 && than > 0) return gap < its_gap - rounding * size_;
+    if (d <= 0 && than <= 0) return gap > its_gap + rounding * size_;
+    return std::abs(d) < std::abs(than) - rounding * size_;
+  };
   bool best_is_smooth = false, outside = false, wedge = false;
   for (const Seen& seen : b.seen) {
     const ContactFace& g = face(seen.face);
@@ -157,10 +159,12 @@ bool NodeContact::move_on(const World& world, const Block& b, Index i, const Vec
     const bool goes_on = side * along > bent, across = !inside && at_rim(g);
     const bool rises = slot.n.dot(shapes_[static_cast<std::size_t>(seen.face)].centre - slot.at.q) > 0;
     if (seen.at.inside && (goes_on || (across && rises && gap < 0))) {
-      const Real far = std::abs(seen.d);
-      if (inside && far >= distance - rounding * size_) continue;
-      if (best && (best_is_smooth > goes_on || (best_is_smooth == goes_on && far >= best_distance))) continue;
-      best = &seen, best_distance = far, best_gap = gap, best_side = side, best_is_smooth = goes_on;
+      const Real d = side * seen.d;
+      if (inside && !nearer(d, gap, slot_d, slot.gap)) continue;
+      if (best &&
+          (best_is_smooth > goes_on || (best_is_smooth == goes_on && !nearer(d, gap, best_d, best_gap))))
+        continue;
+      best = &seen, best_d = d, best_gap = gap, best_side = side, best_is_smooth = goes_on;
     } else if (across) {
       (gap >= 0 || !(goes_on || rises) ? outside : wedge) = true;
     }

@@ -1,0 +1,86 @@
+// Contact of nodes with faces at its ends: rigid blocks of many nodes with damping, tools that give way
+// nowhere, soft floors before stiff walls.
+#include <gtest/gtest.h>
+
+#include "shell_decks.hpp"
+#include "solid_decks.hpp"
+
+using namespace courant;
+using test::do_nothing;
+using test::simulation_of;
+using test::SolidDeck;
+
+namespace {
+
+/// A rigid block of n x n solids over a held rigid plate, at 1 m/s downwards: free along z, or driven.
+SolidDeck block_over_plate(int n, const std::string& motion) {
+  SolidDeck deck;
+  deck.block(Vec(0.02, 0.02, 0.02 / n), n, n, 1, 1,
+             [](const Vec& x) { return Vec(x + Vec(0.01, 0.01, 0.002)); });
+  deck.cards =
+      "*PART\nblock\n1,1,1\n*SECTION_SOLID\n1,1\n*MAT_RIGID\n1,2000.0,1.0E8,0.3\n1,0,7\n"
+      "*PART\nplate\n2,2,2\n*SECTION_SHELL\n2,2\n0.002,0.002,0.002,0.002\n*MAT_RIGID\n2,2000.0,1.0E8,0.3\n1,"
+      "7,7\n"
+      "*CONTACT_AUTOMATIC_SINGLE_SURFACE\n0,0,0,0\n0.0,0.0,0.0,0.0,20.0\n\n" +
+      motion;
+  const std::size_t first = deck.nodes.size() + 1;
+  for (const Real y : {0.0, 0.04})
+    for (const Real x : {0.0, 0.04}) deck.nodes.emplace_back(x, y, 0);
+  deck.particles =
+      fmt::format("*ELEMENT_SHELL\n100001,2,{},{},{},{}\n", first, first + 1, first + 3, first + 2);
+  return deck;
+}
+
+}  // namespace
+
+// Each node damps by its own mass: by that of its body, as often as there are nodes, it made fifteen times
+// the energy that came.
+TEST(ContactExtremes, DampingTakesEnergyFromRigidBlocksOfAnyMesh) {
+  std::vector<Real> left;
+  for (const int n : {4, 20, 40}) {
+    auto s =
+        simulation_of(block_over_plate(n, "*INITIAL_VELOCITY_GENERATION\n1,2,0.0,0.0,0.0,-1.0\n\n").text(1));
+    test::start_ledger(*s);
+    const Real before = s->world().energy.kinetic;
+    while (s->clock().t < 0.003) s->step(do_nothing);
+    test::energy_error_of_a_step(*s);
+    left.push_back(s->world().energy.kinetic / before);
+    EXPECT_LT(left.back(), 0.6) << n;
+    EXPECT_GT(left.back(), 0.3) << n;
+  }
+  EXPECT_NEAR(left[1], left[2], 0.05);
+}
+
+TEST(ContactExtremes, ADrivenToolOnAFixedDieWithDampingRuns) {
+  auto s = simulation_of(
+      block_over_plate(
+          1, "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n1,3,0,1,-1.0\n*DEFINE_CURVE\n1\n0.0,1.0\n1.0,1.0\n")
+          .text(1));
+  while (s->clock().t < 0.0015) s->step(do_nothing);
+  EXPECT_NEAR(s->world().nodes.v.vec(0)[2], -1, 1e-12);
+}
+
+// A point slides on a soft floor into a stiff wall: the step is that of the wall before it is there.
+TEST(ContactExtremes, WallsAreToldOfWhileAFloorIsTouched) {
+  test::ShellDeck deck;
+  deck.plate(0.4, 0.2, 2, 1, 1, [](const Vec& x) { return Vec(x - Vec(0.2, 0.1, 0)); });
+  deck.plate(0.2, 0.2, 1, 1, 2, [](const Vec& x) { return Vec(0.2, x[1] - 0.1, x[0] - 0.1); });
+  for (const int part : {1, 2})
+    deck.cards += fmt::format("*PART\nwall\n{0},1,{0}\n*MAT_RIGID\n{0},2000.0,{1},0.3\n1,7,7\n", part,
+                              part == 1 ? "1.0E4" : "1.0E11");
+  deck.cards += "*SECTION_SHELL\n1,2\n0.002,0.002,0.002,0.002\n";
+  deck.nodes.emplace_back(0.13123, 0.05, 0.00099);
+  deck.node_set(9, [](const Vec& x) { return x[1] > 0.04 && x[1] < 0.06; });
+  deck.cards += fmt::format(
+      "*ELEMENT_MASS\n1,{0},1.0E-6\n*INITIAL_VELOCITY_NODE\n{0},20.0,0.0,0.0\n*SET_PART_LIST\n1\n1,2\n"
+      "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n9,1,4,2\n\n\n",
+      deck.nodes.size());
+  auto s = simulation_of(deck.text(1));
+  test::start_ledger(*s);
+  const Real before = s->world().energy.kinetic;
+  while (s->clock().t < 0.005) s->step(do_nothing);
+  test::energy_error_of_a_step(*s);
+  const Vec v = s->world().nodes.v.vec(s->world().nodes.size() - 1);
+  EXPECT_LT(v[0], 0) << "came back";
+  EXPECT_NEAR(s->world().energy.kinetic / before, 1, 0.05);
+}
