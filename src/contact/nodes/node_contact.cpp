@@ -227,7 +227,8 @@ void NodeContact::finish(World& world, const Clock&) {
     }
   }
   for (const Touch& touch : touches_) {
-    deepest = std::max(deepest, touch.depth);
+    // beside an edge that of the energy left, as the node is no longer where the face is
+    if (touch.stored > 0) deepest = std::max(deepest, std::sqrt(2 * touch.stored / touch.k));
     world.segments.contact_force->add(face(touch.face).segment, -touch.force);
   }
   if (deepest > 0) {
