@@ -83,6 +83,7 @@ class BeamLoads : public Force, public EnergyTerm {
     for (const LoadedBeam& one : beams_)
       if (passes.insert(one.of).second) {
         one.of->declare_axes(world, a);
+        a.reads(one.of->beams().node, Reach::others);
         if (const auto* eroded = shared_fields::eroded.find(one.of->beams().fields))
           a.reads(*eroded, Reach::others);
       }

@@ -133,7 +133,7 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   block.paths.clear(), block.pulls.clear(), block.reactions.clear();
   block.belt_power = 0;
   if (!any_moves_ && !viscosity_) {
-    room_rates_(arrays(world.particles, begin), lists_of(*neighbours_, begin, end));
+    room_rates_(arrays_of_rates(world.particles, begin), lists_of(*neighbours_, begin, end));
     add_doubtful_ways(world.particles, begin, block);
   }
   for (Index i = begin; i < end; ++i) {
@@ -240,6 +240,7 @@ void WallImages::add_doubtful_ways(Particles& p, Index begin, Block& block) {
   }
 }
 
+/// What rates need; forces need more.
 WallMirrorArrays WallImages::arrays(Particles& p, Index begin) {
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   const auto entries = static_cast<std::size_t>(neighbours_->entries(begin / block_size));
@@ -247,15 +248,25 @@ WallMirrorArrays WallImages::arrays(Particles& p, Index begin) {
   WallMirrorArrays a{};
   a.doubt = block.doubt.data(), a.doubt_lanes = block.doubt_lanes.data(), a.doubts = &block.doubts;
   a.width = width_;
-  for (int k = 0; k < 3; ++k) {
-    a.x[k] = p.x.data(k), a.v[k] = p.v.data(k);
-    a.f[k] = p.f.data(k), a.wall_force[k] = force_.data(k);
-    a.aside[k] = at_end().shift()[k];
-  }
-  a.V = volumes_->current(), a.rho = p.rho.data(), a.p = pressure_.data(), a.drhodt = p.drhodt.data();
-  if (diffusion_) a.c = p.c.data(), a.potential = potential_->data(), a.diffusion = diffusion_->data();
+  for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.aside[k] = at_end().shift()[k];
+  a.V = volumes_->current(), a.rho = p.rho.data();
   a.h = p.active > 0 ? p.h[0] : 1, a.delta = delta_, a.half_step = half_step_;
   a.room = rooms_.data(), a.strange = strange_.data(), a.kernel = kernel_;
+  return a;
+}
+
+WallMirrorArrays WallImages::arrays_of_rates(Particles& p, Index begin) {
+  WallMirrorArrays a = arrays(p, begin);
+  for (int k = 0; k < 3; ++k) a.v[k] = p.v.data(k);
+  a.drhodt = p.drhodt.data();
+  return a;
+}
+
+WallMirrorArrays WallImages::arrays_of_forces(Particles& p, Index begin) {
+  WallMirrorArrays a = arrays(p, begin);
+  for (int k = 0; k < 3; ++k) a.f[k] = p.f.data(k), a.wall_force[k] = force_.data(k);
+  a.p = pressure_.data();
+  if (diffusion_) a.c = p.c.data(), a.potential = potential_->data(), a.diffusion = diffusion_->data();
   return a;
 }
 
@@ -280,7 +291,8 @@ void WallImages::forces(World& world, Index begin, Index end) {
   const Real* V = volumes_->current();
   for (Index i = begin; i < end; ++i)
     if (sees(i) && !in_room(i)) force_.set(i, drag_ ? drag_->vec(i) : Vec(Vec::Zero()));
-  if (!any_moves_ && !viscosity_) room_forces_(arrays(p, begin), lists_of(*neighbours_, begin, end));
+  if (!any_moves_ && !viscosity_)
+    room_forces_(arrays_of_forces(p, begin), lists_of(*neighbours_, begin, end));
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   for (const WallPath& path : block.paths) {
     const Index i = path.i, j = path.j;

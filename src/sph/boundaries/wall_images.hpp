@@ -85,6 +85,8 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
     return rooms_[static_cast<std::size_t>(i)] && strange_[static_cast<std::size_t>(i)] == 0;
   }
   WallMirrorArrays arrays(Particles& p, Index begin);
+  WallMirrorArrays arrays_of_rates(Particles& p, Index begin);
+  WallMirrorArrays arrays_of_forces(Particles& p, Index begin);
   void add_doubtful_ways(Particles& p, Index begin, Block& block);
   WallPaths::Some seen_from(const Particles& p, Index i) const;
   const WallSurface& surface() const { return surface_ ? *surface_ : support_->surface(); }

@@ -296,7 +296,7 @@ WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& 
     if (!passed && (r >= near || !is_free(face, e, x) || !is_free(face, e, y))) continue;
     // what joins faces does not count where they end
     if (out.inside && nearest(out.at, out.at, c, d).distance() < 2 * overlap * surface_.reach())
-      out.inside = f.inward[e].dot(out.at - c) > 1e-8 * surface_.reach();
+      out.inside = f.inward[e].dot(out.at - c) > 1e-12 * surface_.reach();
     if (passed) continue;  // the way ends on the other side of that edge
     near = r;
     if (!out.crosses) out.at = to_edge.there;
