@@ -26,9 +26,13 @@ Vec plane_normal(const FaceCorners& x) {
 
 }  // namespace
 
+Vec centre_of(const FaceCorners& x, int corners) {
+  return corners == 4 ? Vec(0.25 * (x[0] + x[1] + x[2] + x[3])) : Vec((x[0] + x[1] + x[2]) / 3);
+}
+
 FaceShape shape_of(const FaceCorners& x, int corners) {
   FaceShape out;
-  out.centre = corners == 4 ? Vec(0.25 * (x[0] + x[1] + x[2] + x[3])) : Vec((x[0] + x[1] + x[2]) / 3);
+  out.centre = centre_of(x, corners);
   out.n = plane_normal(x);
   const Vec side = x[1] - x[0] + x[2] - x[3];
   out.along = (side - side.dot(out.n) * out.n).normalized(), out.across = out.n.cross(out.along);
@@ -126,7 +130,7 @@ Vec project_beyond(const FaceCorners& x, int corners, const Vec& y, Projection& 
   p = project_on_rim(x, corners, y);
   p.n = plane_normal(x);
   const Vec w = y - p.q, aside = w - w.dot(p.n) * p.n;
-  if (!(aside.dot(p.q - shape_of(x, corners).centre) > 0)) return Vec::Zero();
+  if (!(aside.dot(p.q - centre_of(x, corners)) > 0)) return Vec::Zero();
   const auto change = plane_change(x, corners, aside);
   for (std::size_t e = 0; e < 4; ++e) p.N[e] += change[e];
   p.q += aside;

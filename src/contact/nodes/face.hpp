@@ -64,6 +64,8 @@ struct Projection {
   bool over = false;        ///< within the face, or beyond an edge by less than `edge_margin`
 };
 
+/// Mean of the corners. [L]
+Vec centre_of(const FaceCorners& x, int corners);
 FaceShape shape_of(const FaceCorners& x, int corners);
 Projection project(const FaceCorners& x, int corners, const Vec& y);
 /// The nearest point of the plane that goes on from the nearest point of the edges, along the diagonals, with

@@ -93,15 +93,13 @@ Vec NodeContact::friction_force(const Clock& clock, const Slot& slot, const Vec&
 // and the forces that follow from it: on the node, which is pushed off the edge, too, and on the corners, as
 // the face may turn about the edge.
 void NodeContact::fade(const World& world, const Slot& slot, Touch& touch) const {
-  const Real depth = touch.depth;
-  if (!(depth > 0)) return;
-  if (slot.beyond <= edge_of(face(slot.face))) return;
-  const Real past = std::max(slot.beyond - edge_of(face(slot.face)), Real(0));
-  const Real length = fading_length(face(slot.face), depth), grows = length < depth ? 0 : 1;
+  const ContactFace& f = face(slot.face);
+  const Real depth = touch.depth, past = slot.beyond - edge_of(f);
+  if (!(depth > 0 && past > 0)) return;
+  const Real length = fading_length(f, depth), grows = length < depth ? 0 : 1;
   const Real u = std::min(past / length, Real(1)), w = 1 - u * u * (3 - 2 * u);
   const Real normal = w + grows * 3 * u * u * (1 - u), aside = 3 * u * (1 - u) * depth / length;
   const Vec push = normal * slot.n + aside * slot.aside;
-  const ContactFace& f = face(slot.face);
   touch.tilt = plane_change(corners_of(f, world.nodes.x), f.corners, slot.aside);
   for (Real& t : touch.tilt) t *= -touch.k * depth * aside * depth;
   touch.lever = slot.n;

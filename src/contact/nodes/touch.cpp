@@ -252,8 +252,8 @@ bool NodeContact::take(const World& world, Index i, const Slot& slot, Slots& slo
     const ContactFace& g = face(other.face);
     if (f.shared(g) == 0) continue;
     if (slot.late) return false;
-    const Vec apart = shape_of(corners_of(f, world.nodes.x), f.corners).centre -
-                      shape_of(corners_of(g, world.nodes.x), g.corners).centre;
+    const Vec apart = centre_of(corners_of(f, world.nodes.x), f.corners) -
+                      centre_of(corners_of(g, world.nodes.x), g.corners);
     if (other.n.dot(apart) > rise * apart.norm()) continue;
     if (other.n.dot(slot.n) > smooth || slot.gap >= other.gap) return false;
     to = &other;

@@ -46,11 +46,11 @@ Vec velocity_at(const WallSurface::Face& face, const Vec& x) {
 
 WallDistance::WallDistance(std::vector<Index> segments, Real reach, Real cell, std::vector<GhostPlane> planes,
                            const World& world)
-    : segments_(std::move(segments)), reach_(reach), cell_(cell), planes_(std::move(planes)) {
+    : segments_(std::move(segments)), reach_(reach), cells_(cell), planes_(std::move(planes)) {
   for (const Index s : segments_) any_moves_ |= segment_moves(world, s);
   // from the middle of a cell what is within the reach of any place in it must be seen
   surface_.emplace(world, segments_, reach_ / pieces_per_reach,
-                   (1 + 1 / pieces_per_reach) * reach_ + (any_moves_ ? 0 : cell_), planes_);
+                   (1 + 1 / pieces_per_reach) * reach_ + (any_moves_ ? 0 : cell), planes_);
 }
 
 void WallDistance::follow(const World& world, std::int64_t rebuilds) {
@@ -65,19 +65,9 @@ void WallDistance::follow(const World& world, std::int64_t rebuilds) {
   rebuilds_ = rebuilds;
   for (Index i = 0; i < p.active; ++i) {
     const Vec x = p.x.vec(i);
-    const auto [place, is_new] = next_to_.try_emplace(cell_of(x));
-    if (is_new) place->second = next_to_cell(cell_ * ((x / cell_).array().floor() + Real(0.5)).matrix());
+    const auto [place, is_new] = next_to_.try_emplace(cells_.of(x));
+    if (is_new) place->second = next_to_cell(cells_.middle(x));
   }
-}
-
-std::uint64_t WallDistance::cell_of(const Vec& x) const {
-  constexpr int bits = 21;  // for each axis
-  std::uint64_t key = 0;
-  for (int k = 0; k < 3; ++k) {
-    const auto place = static_cast<std::int64_t>(std::floor(x[k] / cell_));
-    key = key << bits | (static_cast<std::uint64_t>(place) & ((std::uint64_t(1) << bits) - 1));
-  }
-  return key;
 }
 
 /// No place of the cell is farther from its middle than half of its diagonal, r; so the face next to a place
@@ -88,7 +78,7 @@ std::vector<Index> WallDistance::next_to_cell(const Vec& middle) const {
   std::vector<Real> distance;
   for (const Index f : around) distance.push_back((from - next_on(surface_->face(f), from)).norm());
   if (around.empty()) return {};
-  const Real most = *std::min_element(distance.begin(), distance.end()) + std::sqrt(Real(3)) * cell_;
+  const Real most = *std::min_element(distance.begin(), distance.end()) + std::sqrt(Real(3)) * cells_.size();
   std::vector<Index> out;
   for (std::size_t k = 0; k < around.size(); ++k)
     if (distance[k] <= most) out.push_back(around[k]);
@@ -96,7 +86,7 @@ std::vector<Index> WallDistance::next_to_cell(const Vec& middle) const {
 }
 
 NearestWall WallDistance::nearest(const Vec& x) const {
-  const auto known = any_moves_ ? next_to_.end() : next_to_.find(cell_of(x));
+  const auto known = any_moves_ ? next_to_.end() : next_to_.find(cells_.of(x));
   return known != next_to_.end() ? nearest_of(known->second, x) : nearest_of(surface_->faces_next_to(x), x);
 }
 

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "sph/boundaries/space_cells.hpp"
 #include "sph/boundaries/wall_surface.hpp"
 #include "state/world.hpp"
 
@@ -31,14 +32,13 @@ class WallDistance {
   NearestWall nearest(const Vec& x) const;
 
  private:
-  /// Of the cell in which x stands. Walls that are held are looked at from few cells, each time anew.
-  std::uint64_t cell_of(const Vec& x) const;
   std::vector<Index> next_to_cell(const Vec& middle) const;
   template <class Faces>
   NearestWall nearest_of(const Faces& faces, const Vec& x) const;
 
   std::vector<Index> segments_;
-  Real reach_, cell_;
+  Real reach_;
+  SpaceCells cells_;  ///< walls that are held are looked at from few, each time anew
   std::vector<GhostPlane> planes_;
   std::unordered_map<std::uint64_t, std::vector<Index>> next_to_;  ///< faces that may be next, by cell
   std::int64_t rebuilds_ = -1;

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "sph/boundaries/space_cells.hpp"
 #include "sph/boundaries/wall_paths.hpp"
 #include "sph/boundaries/wall_room.hpp"
 
@@ -43,12 +44,12 @@ class WallOutlooks {
   const WallPaths& paths() const { return paths_; }
 
  private:
-  std::uint64_t cell_of(const Vec& x) const;
   WallOutlook outlook_from(const Vec& middle) const;
 
   const WallSurface& surface_;
   WallPaths paths_;
-  Real cell_, reach_, width_;
+  Real reach_, width_;
+  SpaceCells cells_;
   Alike alike_;
   std::unordered_map<std::uint64_t, WallOutlook> outlooks_;
   std::vector<const WallOutlook*> seen_;

@@ -162,24 +162,14 @@ std::vector<OpenRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at
 WallOutlooks::WallOutlooks(const WallSurface& surface, Real width, Real cell, Real reach, Alike alike)
     : surface_(surface),
       paths_(surface, surface.dim(), width),
-      cell_(cell),
       reach_(reach),
       width_(width),
+      cells_(cell),
       alike_(std::move(alike)) {}
 
 /// What a place in a cell is farthest from its middle. [L]
 Real WallOutlooks::half_of(Real cell, int dim) {
   return 0.5 * std::sqrt(Real(dim)) * cell;
-}
-
-std::uint64_t WallOutlooks::cell_of(const Vec& x) const {
-  constexpr int bits = 21;  // for each axis
-  std::uint64_t key = 0;
-  for (int k = 0; k < 3; ++k) {
-    const auto place = static_cast<std::int64_t>(std::floor(x[k] / cell_));
-    key = key << bits | (static_cast<std::uint64_t>(place) & ((std::uint64_t(1) << bits) - 1));
-  }
-  return key;
 }
 
 void WallOutlooks::look_from(const Particles& p) {
@@ -188,7 +178,7 @@ void WallOutlooks::look_from(const Particles& p) {
   std::uint64_t last = 0;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const Vec x = surface_.in_plane(p.x.vec(static_cast<Index>(i)));
-    const std::uint64_t cell = cell_of(x);
+    const std::uint64_t cell = cells_.of(x);
     if (i > 0 && cell == last) {
       seen_[i] = seen_[i - 1];
       continue;
@@ -196,8 +186,7 @@ void WallOutlooks::look_from(const Particles& p) {
     last = cell;
     const auto [place, is_new] = outlooks_.try_emplace(cell);
     if (is_new) {
-      const Vec middle = cell_ * ((x / cell_).array().floor() + Real(0.5)).matrix();
-      unknown.push_back({surface_.in_plane(middle), &place->second});
+      unknown.push_back({surface_.in_plane(cells_.middle(x)), &place->second});
     }
     seen_[i] = &place->second;
   }
@@ -231,7 +220,7 @@ const WallRoom* WallOutlooks::open_room(Index i, const Vec& at, Real sight,
 }
 
 WallOutlook WallOutlooks::outlook_from(const Vec& middle) const {
-  const Real half = half_of(cell_, surface_.dim());
+  const Real half = half_of(cells_.size(), surface_.dim());
   WallOutlook out;
   out.sheets = paths_.sheets_around(middle, reach_ + half + 0.5 * width_);
   out.nothing = std::all_of(out.sheets.begin(), out.sheets.end(), [&](const WallPaths::Sheet& s) {
