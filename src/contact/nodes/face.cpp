@@ -111,19 +111,24 @@ Projection on_plane_of_triangle(const FaceCorners& x, const Vec& y) {
 
 }  // namespace
 
-Projection project(const FaceCorners& x, int corners, const Vec& y) {
+Projection project_over(const FaceCorners& x, int corners, const Vec& y) {
   if (corners == 3) {
     Projection p = on_plane_of_triangle(x, y);
     const Real least = std::min({p.N[0], p.N[1], p.N[2]});
     p.inside = least >= 0, p.over = least >= -edge_margin;
-    return p.over ? p : project_on_rim(x, 3, y);
+    return p;
   }
   const auto [s, t] = nearest_on_quadrilateral(x, y);
   const Real most = std::max(std::abs(s), std::abs(t));
-  if (!(most <= 1 + 2 * edge_margin)) return project_on_rim(x, 4, y);
+  if (!(most <= 1 + 2 * edge_margin)) return {};
   Projection p = at(x, s, t);
   p.over = true, p.inside = most <= 1;
   return p;
+}
+
+Projection project(const FaceCorners& x, int corners, const Vec& y) {
+  const Projection p = project_over(x, corners, y);
+  return p.over ? p : project_on_rim(x, corners, y);
 }
 
 Vec project_beyond(const FaceCorners& x, int corners, const Vec& y, Projection& p) {

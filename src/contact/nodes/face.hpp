@@ -68,6 +68,8 @@ struct Projection {
 Vec centre_of(const FaceCorners& x, int corners);
 FaceShape shape_of(const FaceCorners& x, int corners);
 Projection project(const FaceCorners& x, int corners, const Vec& y);
+/// The same where the place is over the face; else nothing holds but that it is not.
+Projection project_over(const FaceCorners& x, int corners, const Vec& y);
 /// The nearest point of the plane that goes on from the nearest point of the edges, along the diagonals, with
 /// N that go on with it; returns the way there from the edge, 0 where it would lead inwards. [L] Not along
 /// the bilinear face, which warps ever more beyond its edges.

@@ -192,6 +192,7 @@ class TouchForces : public Force {
     a.reads(contact_->touches(), Reach::others).updates(world.nodes.f);
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
+    if (!contact_->touches_something()) return;
     for (Index n = begin; n < end; ++n) {
       Vec force = Vec::Zero();
       contact_->add_force_on(n, force);

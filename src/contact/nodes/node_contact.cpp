@@ -16,6 +16,8 @@ namespace {
 constexpr Real least_reach = 0.3;
 /// Lists hold until nodes may have come nearer by this, of a usual face.
 constexpr Real list_margin = 0.3;
+/// Near candidates hold until nodes may have come nearer by this, of a usual face, or by so many steps.
+constexpr Real least_near_margin = 0.05, near_steps = 8;
 
 template <class T>
 Field<T>& slot_field(FieldSet& set, const char* name, const char* dimension, int components) {
@@ -64,6 +66,7 @@ void NodeContact::take_involved(const World& world) {
     involved_.push_back(n);
   }
   listed_at_.assign(involved_.size(), Vec::Zero());
+  narrowed_at_ = listed_at_;
 }
 
 // Of the smaller half of the faces, so that few large ones make no long lists for all.
@@ -102,31 +105,41 @@ void NodeContact::declare(const World& world, Accesses& a) const {
 void NodeContact::follow(World& world, const Clock& clock) {
   const Nodes& nodes = world.nodes;
   struct Most {
-    Real moved2 = 0, v2 = 0;
+    Real listed2 = 0, narrowed2 = 0, v2 = 0;
+    void take(const Most& other) {
+      listed2 = std::max(listed2, other.listed2), narrowed2 = std::max(narrowed2, other.narrowed2);
+      v2 = std::max(v2, other.v2);
+    }
   };
   const Most most = reduce(
       static_cast<Index>(involved_.size()), Most(),
       [&](Index begin, Index end) {
         Most out;
         for (Index k = begin; k < end; ++k) {
-          const Index n = involved_[static_cast<std::size_t>(k)];
-          out.moved2 =
-              std::max(out.moved2, (nodes.x.vec(n) - listed_at_[static_cast<std::size_t>(k)]).squaredNorm());
-          out.v2 = std::max(out.v2, nodes.v.vec(n).squaredNorm());
+          const auto i = static_cast<std::size_t>(k);
+          const Vec x = nodes.x.vec(involved_[i]);
+          out.take({(x - listed_at_[i]).squaredNorm(), (x - narrowed_at_[i]).squaredNorm(),
+                    nodes.v.vec(involved_[i]).squaredNorm()});
         }
         return out;
       },
-      [](const Most& a, const Most& b) {
-        return Most{std::max(a.moved2, b.moved2), std::max(a.v2, b.v2)};
+      [](Most a, const Most& b) {
+        a.take(b);
+        return a;
       });
-  reach_ = std::max(least_reach * size_, 2.2 * std::sqrt(most.v2) * std::max(clock.dt_old, soft_dt_));
+  closing_ = 2.2 * std::sqrt(most.v2) * std::max(clock.dt_old, soft_dt_);
+  reach_ = std::max(least_reach * size_, closing_);
   const auto deleted = world.counters.find("deleted_elements");
   const std::int64_t count = deleted == world.counters.end() ? 0 : deleted->second;
-  if (count == eroded_count_ && listed_once_ && reach_ + 2.01 * std::sqrt(most.moved2) <= listed_reach_)
-    return;
-  eroded_count_ = count;
-  listed_reach_ = reach_ + std::max(list_margin * size_, reach_ - least_reach * size_);
-  list(world);
+  if (count != eroded_count_ || !listed_once_ || reach_ + 2.01 * std::sqrt(most.listed2) > listed_reach_) {
+    eroded_count_ = count;
+    listed_reach_ = reach_ + std::max(list_margin * size_, reach_ - least_reach * size_);
+    list(world);
+  }
+  moved_ = 1.005 * std::sqrt(most.narrowed2);
+  if (fresh_ || !narrowed_ || closing_ + 2 * moved_ > near_closing_ + near_margin_ ||
+      reach_ + 2 * moved_ > near_reach_ + near_margin_)
+    narrow(world);
 }
 
 bool NodeContact::may_touch(const World& world, const ContactNode& n, const ContactFace& f) const {
@@ -167,7 +180,23 @@ void NodeContact::list(World& world) {
   for (std::size_t f = 0; f < faces_.size(); ++f)
     if (wanted[f]) listed_.push_back(static_cast<Index>(f));
   shapes_.resize(faces_.size());
-  listed_once_ = true;
+  listed_once_ = true, narrowed_ = false;
+}
+
+// Of most nodes in most steps all candidates are too far away to be met: they have no near ones. Who may meet
+// one has all that matter to a node in touch.
+void NodeContact::narrow(const World& world) {
+  near_closing_ = closing_, near_reach_ = reach_, moved_ = 0;
+  near_margin_ = std::min(std::max(least_near_margin * size_, near_steps * closing_), listed_reach_ - reach_);
+  for_each(static_cast<Index>(listed_.size()), [&](Index k) {
+    const auto f = static_cast<std::size_t>(listed_[static_cast<std::size_t>(k)]);
+    shapes_[f] = shape_of(corners_of(faces_[f], world.nodes.x), faces_[f].corners);
+  });
+  for_each(static_cast<Index>(involved_.size()), [&](Index k) {
+    narrowed_at_[static_cast<std::size_t>(k)] = world.nodes.x.vec(involved_[static_cast<std::size_t>(k)]);
+  });
+  for_each_block(set_->size(), [&](Index begin, Index end) { narrow_block(world, begin, end); });
+  narrowed_ = !fresh_;
 }
 
 void NodeContact::list_block(const World& world, Index begin, Index end) {
@@ -200,10 +229,6 @@ void NodeContact::start(World& world, const Clock& clock) {
     for (Index i = 0; i < set_->size(); ++i)
       if (in_touch_->data(k)[i] != 0)
         touched_[static_cast<std::size_t>(place_[static_cast<std::size_t>(node(i).node)])] = 1;
-  for_each(static_cast<Index>(listed_.size()), [&](Index k) {
-    const auto f = static_cast<std::size_t>(listed_[static_cast<std::size_t>(k)]);
-    shapes_[f] = shape_of(corners_of(faces_[f], world.nodes.x), faces_[f].corners);
-  });
 }
 
 void NodeContact::block(World& world, const Clock& clock, Index begin, Index end) {
@@ -282,8 +307,6 @@ NodeContact::Penetrations NodeContact::penetrations(World& world) {
   Penetrations out;
   if (law_.birth > 0 || !law_.gate.open()) return out;
   follow(world, {});
-  for (const Index f : listed_)
-    shapes_[static_cast<std::size_t>(f)] = shape_of(corners_of(face(f), world.nodes.x), face(f).corners);
   for (Index i = 0; i < set_->size(); ++i) {
     Block& b = blocks_[static_cast<std::size_t>(i / block_size)];
     Slots slots;

@@ -90,6 +90,7 @@ class NodeContact : public Force,
   const Resource& touches() const { return touches_resource_; }
   /// Tells `holder`, a pass of the same world, of nodes that touch from now on.
   void let_hold(TouchHolder& holder) { holder_ = &holder; }
+  bool touches_something() const { return !shares_.empty(); }
   /// Adds what a node got from all touches, in the order of touches. [ML/T2]
   void add_force_on(Index node, Vec& force) const;
   /// Nodes and segments of the world, 1 for those of a surface.
@@ -151,9 +152,10 @@ class NodeContact : public Force,
     Projection at;
     Real d = 0;  ///< distance along the normal [L]
   };
-  struct alignas(64) Block {       ///< of tracked nodes
-    std::vector<Index> first;      ///< of each node's candidates, and the end
-    std::vector<Index> candidate;  ///< ascending
+  struct alignas(64) Block {              ///< of tracked nodes
+    std::vector<Index> first;             ///< of each node's candidates, and the end
+    std::vector<Index> candidate;         ///< ascending
+    std::vector<Index> first_near, near;  ///< the same, of those that may matter until they are taken anew
     std::vector<Touch> touches;
     std::vector<Index> leaked;  ///< tracked nodes
     std::vector<Seen> seen;     ///< scratch
@@ -178,6 +180,11 @@ class NodeContact : public Force,
 
   void follow(World& world, const Clock& clock);
   void list(World& world);
+  void narrow(const World& world);
+  void narrow_block(const World& world, Index begin, Index end);
+  bool touches_any(Index i) const;
+  Real idle_reach(const ContactFace& f, Real closing) const;
+  bool may_reach(Index face, const Vec& x, Real reach) const;
   void list_block(const World& world, Index begin, Index end);
   void take_involved(const World& world);
   void find_sizes();
@@ -231,17 +238,22 @@ class NodeContact : public Force,
   Field<Real>*side_, *k_, *slack_, *area_, *friction_;
 
   FaceSearch search_;
-  Real r_most_ = 0;              ///< largest, of the nodes [L]
-  Real size_ = 0;                ///< usual, of a face [L]
-  Real reach_ = 0;               ///< faces further away than the contact distance and this are left alone [L]
-  Real listed_reach_ = 0;        ///< of the lists [L]
-  std::vector<Index> involved_;  ///< nodes of World, tracked or corners, ascending
-  std::vector<Index> place_;     ///< of each node of World in involved_, or -1
-  std::vector<char> touched_;    ///< of those: a tracked node that touched something a step ago
-  std::vector<Vec> listed_at_;   ///< where those were when lists were made
-  std::vector<Index> listed_;    ///< faces that are candidates, ascending
-  std::vector<FaceShape> shapes_;  ///< of those, by face
-  bool listed_once_ = false;
+  Real r_most_ = 0;        ///< largest, of the nodes [L]
+  Real size_ = 0;          ///< usual, of a face [L]
+  Real reach_ = 0;         ///< faces further away than the contact distance and this are left alone [L]
+  Real listed_reach_ = 0;  ///< of the lists [L]
+  Real closing_ = 0;       ///< no node and face come nearer within a step [L]
+  Real near_margin_ = 0;   ///< of near candidates: what nodes may come nearer until they are taken anew [L]
+  Real near_closing_ = 0, near_reach_ = 0;  ///< closing_ and reach_ for which they were taken [L]
+  Real moved_ = 0;                          ///< no node by more since then [L]
+  std::vector<Index> involved_;             ///< nodes of World, tracked or corners, ascending
+  std::vector<Index> place_;                ///< of each node of World in involved_, or -1
+  std::vector<char> touched_;               ///< of those: a tracked node that touched something a step ago
+  std::vector<Vec> listed_at_;              ///< where those were when lists were made
+  std::vector<Vec> narrowed_at_;            ///< and when near candidates were taken
+  std::vector<Index> listed_;               ///< faces that are candidates, ascending
+  std::vector<FaceShape> shapes_;           ///< of those, by face, when near candidates were taken
+  bool listed_once_ = false, narrowed_ = false;
   bool fresh_ = true;  ///< nodes may be behind faces without having come through them
   bool asleep_ = false;
   Real soft_dt_ = 0;  ///< longest step so far [T]

@@ -51,35 +51,81 @@ bool NodeContact::goes_on_at(const Slots& slots, const ContactFace& f) const {
   return false;
 }
 
+bool NodeContact::touches_any(Index i) const {
+  for (int k = 0; k < most_touches; ++k)
+    if (in_touch_->data(k)[i] != 0) return true;
+  return false;
+}
+
+// How far from a face a node that touches nothing may meet it within a step, if they come nearer by
+// `closing`; also from behind, where it may arrive late.
+Real NodeContact::idle_reach(const ContactFace& f, Real closing) const {
+  return closing + 1.5 * arrival_tolerance * f.depth;
+}
+
+// Whether a face, as it was when near candidates were taken, may be nearer to a place than `reach`.
+bool NodeContact::may_reach(Index face, const Vec& x, Real reach) const {
+  const FaceShape& shape = shapes_[static_cast<std::size_t>(face)];
+  const Vec w = x - shape.centre;
+  const Real around = 1.05 * shape.radius + reach;
+  return w.squaredNorm() <= around * around &&
+         distance_from_box(shape, w) <= reach + edge_slack * shape.radius;
+}
+
+void NodeContact::narrow_block(const World& world, Index begin, Index end) {
+  Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];
+  b.first_near.clear(), b.near.clear();
+  for (Index i = begin; i < end; ++i) {
+    b.first_near.push_back(static_cast<Index>(b.near.size()));
+    const Vec x = world.nodes.x.vec(node(i).node);
+    const auto k = static_cast<std::size_t>(i - begin);
+    const auto candidates = [&](const auto& holds) {
+      return std::any_of(b.candidate.begin() + b.first[k], b.candidate.begin() + b.first[k + 1], holds);
+    };
+    const auto within = [&](Index s, Real reach) {
+      return may_reach(s, x, face(s).r + node(i).r + reach + near_margin_);
+    };
+    if (!fresh_ && !touches_any(i) &&
+        !candidates([&](Index s) { return within(s, idle_reach(face(s), closing_)); }))
+      continue;
+    candidates([&](Index s) {
+      if (within(s, std::max(reach_, face(s).depth))) b.near.push_back(s);
+      return false;
+    });
+  }
+  b.first_near.push_back(static_cast<Index>(b.near.size()));
+}
+
 // Candidates within reach, at the places of now: lists may hold more, or not, with the same result. Faces
 // that the node touches and their neighbours are seen as far behind as touches may be, so that it finds where
-// they go on; others not, which in a heap of bodies are many.
+// they go on; others not, which in a heap of bodies are many. To a node that touches nothing only faces that
+// it is over matter.
 void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const {
   b.seen.clear();
   const auto k = static_cast<std::size_t>(i % block_size);
-  for (Index c = b.first[k]; c < b.first[k + 1]; ++c) {
-    const Index s = b.candidate[static_cast<std::size_t>(c)];
+  const bool idle =
+      !fresh_ && std::none_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face >= 0; });
+  for (Index c = b.first_near[k]; c < b.first_near[k + 1]; ++c) {
+    const Index s = b.near[static_cast<std::size_t>(c)];
     const ContactFace& f = face(s);
-    const FaceShape& shape = shapes_[static_cast<std::size_t>(s)];
-    const Vec w = x - shape.centre;
     const bool deep = fresh_ || goes_on_at(slots, f);
-    const Real reach = f.r + node(i).r + (deep ? std::max(reach_, f.depth) : reach_),
-               around = 1.05 * shape.radius + reach;
-    if (w.squaredNorm() > around * around || distance_from_box(shape, w) > reach + edge_slack * shape.radius)
-      continue;
+    const Real reach = f.r + node(i).r +
+                       (idle   ? idle_reach(f, closing_)
+                        : deep ? std::max(reach_, f.depth)
+                               : reach_);
+    if (!may_reach(s, x, reach + moved_)) continue;
     Seen& seen = b.seen.emplace_back();
     seen.face = s;
-    seen.at = project(corners_of(f, world.nodes.x), f.corners, x);
+    seen.at = (idle ? project_over : project)(corners_of(f, world.nodes.x), f.corners, x);
     seen.d = seen.at.n.dot(x - seen.at.q);
-    if ((x - seen.at.q).squaredNorm() > reach * reach) b.seen.pop_back();
+    if ((idle && !seen.at.over) || (x - seen.at.q).squaredNorm() > reach * reach) b.seen.pop_back();
   }
 }
 
 void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   const auto c = static_cast<std::size_t>(i % block_size);
-  bool any = false;
-  for (int k = 0; k < most_touches; ++k) any = any || in_touch_->data(k)[i] != 0;
-  if (!any && b.first[c] == b.first[c + 1]) return;
+  const bool any = touches_any(i);
+  if (!any && b.first_near[c] == b.first_near[c + 1]) return;
   const Vec x = world.nodes.x.vec(node(i).node);
   Slots slots;
   if (any)
@@ -157,7 +203,7 @@ bool NodeContact::move_on(const World& world, const Block& b, Index i, const Vec
     const Real along = slot.n.dot(seen.at.n), side = g.two_sided && along < 0 ? -1 : 1;
     const Real gap = side * seen.at.n.dot(x - seen.at.q) - g.r - node(i).r;
     const bool goes_on = side * along > bent, across = !inside && at_rim(g);
-    const bool rises = slot.n.dot(shapes_[static_cast<std::size_t>(seen.face)].centre - slot.at.q) > 0;
+    const bool rises = slot.n.dot(centre_of(corners_of(g, world.nodes.x), g.corners) - slot.at.q) > 0;
     if (seen.at.inside && (goes_on || (across && rises && gap < 0))) {
       const Real d = side * seen.d;
       if (inside && !nearer(d, gap, slot_d, slot.gap)) continue;
