@@ -22,8 +22,8 @@ namespace {
 const Real rod_r = std::sqrt(1e-4 / pi);  // of square_1
 
 std::string general_contact(Real mu = 0, Real vdc = 0, const std::string& more = "") {
-  return fmt::format("*CONTACT_AUTOMATIC_GENERAL\n         0\n{:10.4g}{:10.4g}{:>20}{:10.4g}\n       1.0\n", mu,
-                     mu, "", vdc) +
+  return fmt::format("*CONTACT_AUTOMATIC_GENERAL\n         0\n{:10.4g}{:10.4g}{:>20}{:10.4g}\n       1.0\n",
+                     mu, mu, "", vdc) +
          more;
 }
 
@@ -37,8 +37,8 @@ int add_rod(BeamDeck& deck, const Vec& a, const Vec& b, int n) {
 }
 
 /// A rod of length 0.2 along x above one that crosses it at an angle below, which it hits after `way`.
-BeamDeck crossed_rods(int n, Real v, Real way, Real angle = 90, const std::string& contact = general_contact(),
-                      Vec off = Vec::Zero()) {
+BeamDeck crossed_rods(int n, Real v, Real way, Real angle = 90,
+                      const std::string& contact = general_contact(), Vec off = Vec::Zero()) {
   BeamDeck deck;
   deck.part(1, square_1, steel_of_beams);
   const Vec along(std::cos(angle * pi / 180), std::sin(angle * pi / 180), 0);
@@ -98,7 +98,8 @@ TEST(EdgeContact, CrossedRodsExchangeTheirVelocities) {
     }
     const World& w = s->world();
     print("two masses", {v, (end - begin) / (pi * std::sqrt(m / (2 * k))), most / (0.25 * m * v * v),
-                         w.nodes.v.vec(0)[2] / v, w.nodes.v.vec(3)[2] / v, edge_residual(*s), s->clock().dt * std::sqrt(2*k/m)});
+                         w.nodes.v.vec(0)[2] / v, w.nodes.v.vec(3)[2] / v, edge_residual(*s),
+                         s->clock().dt * std::sqrt(2 * k / m)});
     EXPECT_NEAR((end - begin) / (pi * std::sqrt(m / (2 * k))), 1, 0.25) << v;
     EXPECT_NEAR(w.nodes.v.vec(0)[2] / v, 0, 0.02) << v;
     EXPECT_NEAR(w.nodes.v.vec(3)[2] / v, -1, 0.02) << v;
@@ -114,8 +115,8 @@ TEST(EdgeContact, RodsThatCrossKeepMomentumAndEnergy) {
     for (const Real v : {1.0, 20.0, 100.0})
       for (const Real angle : {90.0, 30.0, 10.0, 0.0}) {
         if (n == 1 && v > 20) continue;  // so soft that one goes round the other
-        auto s = simulation_of(
-            crossed_rods(n, v, 1e-4, angle, general_contact(), Vec(0.013, 0.002, 0)).text(1));
+        auto s =
+            simulation_of(crossed_rods(n, v, 1e-4, angle, general_contact(), Vec(0.013, 0.002, 0)).text(1));
         start_ledger(*s);
         const Vec p = edge_momentum(s->world());
         const Real end = 1e-4 / v + 1e-3;
@@ -143,7 +144,8 @@ TEST(EdgeContact, KeepsAngularMomentum) {
     const Vec p = edge_momentum(s->world()), l = edge_spin(s->world());
     while (s->clock().t < 1e-3) s->step(test::do_nothing);
     const World& w = s->world();
-    print("spin", {angle, (edge_spin(w) - l).norm() / l.norm(), (edge_momentum(w) - p).norm() / p.norm(), w.nodes.v.vec(0)[2], w.nodes.v.vec(1)[2]});
+    print("spin", {angle, (edge_spin(w) - l).norm() / l.norm(), (edge_momentum(w) - p).norm() / p.norm(),
+                   w.nodes.v.vec(0)[2], w.nodes.v.vec(1)[2]});
     EXPECT_LT((edge_spin(w) - l).norm(), 1e-12 * l.norm()) << angle;
     EXPECT_LT((edge_momentum(w) - p).norm(), 1e-12 * p.norm());
     EXPECT_GT(std::abs(w.nodes.v.vec(0)[2] - w.nodes.v.vec(1)[2]), 0.1) << angle;
@@ -154,7 +156,8 @@ namespace {
 
 std::string segment_contact(int depth, const std::string& name = "AUTOMATIC_SINGLE_SURFACE") {
   return fmt::format(
-      "*CONTACT_{}\n         0\n       0.0\n       1.0\n         2{:>50}\n*CONTROL_CONTACT\n\n{:>60}\n", name, depth, 1);
+      "*CONTACT_{}\n         0\n       0.0\n       1.0\n         2{:>50}\n*CONTROL_CONTACT\n\n{:>60}\n", name,
+      depth, 1);
 }
 
 /// A plate that stands on its edge, above one that it hits with this after `way`: edges of n elements each,
@@ -167,7 +170,8 @@ test::ShellDeck crossed_plates(int n, Real v, Real t, Real way, Real angle, cons
   const Real c = std::cos(angle * pi / 180), s = std::sin(angle * pi / 180);
   deck.plate(0.1, 0.05, n, n / 2, 2,
              [&](const Vec& x) { return Vec((x[0] - 0.05) * c, (x[0] - 0.05) * s, x[1] - 0.05); });
-  deck.part(1, t, fmt::format(fmt::runtime(material), 1)), deck.part(2, t, fmt::format(fmt::runtime(material), 2));
+  deck.part(1, t, fmt::format(fmt::runtime(material), 1)),
+      deck.part(2, t, fmt::format(fmt::runtime(material), 2));
   const auto upper = deck.nodes.size() / 2;
   std::size_t k = 0;
   deck.velocity([&](const Vec&) { return k++ < upper ? Vec(0, 0, -v) : Vec(Vec::Zero()); });
@@ -193,8 +197,10 @@ TEST(EdgeContact, EdgesOfShellsMeet) {
         const Index half = w.nodes.size() / 2;
         for (Index k = 0; k < half; ++k) up += w.nodes.x.vec(k)[2], low += w.nodes.x.vec(k + half)[2];
         edge_residual(*s);
-        print("plates", {Real(n), angle, w.energy.unexplained() / w.energy.initial,w.energy.residual() / w.energy.initial, w.energy.dissipated/w.energy.initial,
-                         w.maxima.at("max_penetration") / 0.002, (up - low) / Real(half), 0.05+0.002, Real(s->clock().cycle)});
+        print("plates", {Real(n), angle, w.energy.unexplained() / w.energy.initial,
+                         w.energy.residual() / w.energy.initial, w.energy.dissipated / w.energy.initial,
+                         w.maxima.at("max_penetration") / 0.002, (up - low) / Real(half), 0.05 + 0.002,
+                         Real(s->clock().cycle)});
         EXPECT_LT(std::abs(w.energy.unexplained() / w.energy.initial), 0.01) << contact << n << " " << angle;
         EXPECT_LT((edge_momentum(w) - p).norm(), 1e-12 * p.norm());
         EXPECT_GT(w.maxima.at("max_penetration"), 0);
@@ -207,14 +213,15 @@ TEST(EdgeContact, EdgesOfShellsMeet) {
 TEST(EdgeContact, RigidEdgesGiveAllBack) {
   for (const int n : {2, 10})
     for (const Real angle : {90.0, 30.0}) {
-      auto s = simulation_of(
-          crossed_plates(n, 1, 0.002, 1e-4, angle, rigid_plate, segment_contact(5)).text(5e-4));
+      auto s =
+          simulation_of(crossed_plates(n, 1, 0.002, 1e-4, angle, rigid_plate, segment_contact(5)).text(5e-4));
       start_ledger(*s);
       while (s->clock().t < 5e-4) s->step(test::do_nothing);
       const World& w = s->world();
       const Index half = w.nodes.size() / 2;
       Real up = 0, low = 0;
-      for (Index k = 0; k < half; ++k) up += w.nodes.v.vec(k)[2] / Real(half), low += w.nodes.v.vec(half+k)[2] / Real(half);
+      for (Index k = 0; k < half; ++k)
+        up += w.nodes.v.vec(k)[2] / Real(half), low += w.nodes.v.vec(half + k)[2] / Real(half);
       print("rigid", {Real(n), angle, up, low, Real(s->clock().cycle)});
       EXPECT_NEAR(up, 0, 0.02);
       EXPECT_NEAR(low, -1, 0.02);
@@ -235,11 +242,83 @@ TEST(EdgeContact, WhatGoesThroughWithinAStepComesBack) {
       edge_residual(*s);
       Real up = 0, low = 0;
       for (int k = 0; k <= n; ++k) up += w.nodes.x.vec(k)[2], low += w.nodes.x.vec(n + 1 + k)[2];
-      print("swept", {Real(n), v, w.energy.unexplained() / w.energy.initial,
-                      w.maxima.at("max_penetration"), (up - low) / (n + 1), Real(s->clock().cycle)});
+      print("swept", {Real(n), v, w.energy.unexplained() / w.energy.initial, w.maxima.at("max_penetration"),
+                      (up - low) / (n + 1), Real(s->clock().cycle)});
       EXPECT_EQ(w.counters.at("leaked_edges"), 0) << n << " " << v;
       EXPECT_GT(up - low, 0) << n << " " << v;
       EXPECT_LT(std::abs(w.energy.unexplained() / w.energy.initial), 0.01) << n << " " << v;
+    }
+}
+
+namespace {
+
+/// A net of n x n woven wires of radius 1 mm, 10 mm apart, held at their ends, and a rigid ball of radius 20
+/// mm above its middle. No wire shares a node with another.
+test::SolidDeck net_and_ball(int n, Real v) {
+  test::SolidDeck deck;
+  const Real pitch = 0.01, r = 0.001, a = r * (1 + 1e-9), radius = 0.02, half = 0.5 * pitch * (n + 1);
+  deck.block(Vec(2, 2, 2), 4, 4, 4, 1, [&](const Vec& x) {
+    const Vec y = x - Vec(1, 1, 1);
+    const Real most = y.cwiseAbs().maxCoeff();
+    return Vec(Vec(0, 0, radius + 2.2 * r) + (most > 0 ? Vec(y.normalized() * (most * radius)) : y));
+  });
+  const std::size_t ball = deck.nodes.size();
+  deck.cards =
+      "*PART\nball\n         1         1         1\n*SECTION_SOLID\n         1         1\n"
+      "*MAT_RIGID\n         1    7800.0   2.1E+11       0.3\n"
+      "*PART\nwires\n         2         2         2\n*SECTION_BEAM\n         2         1       1.0         2 "
+      "        1\n"
+      "     0.002     0.002\n*MAT_ELASTIC\n         2    7850.0   2.1E+11       0.3\n";
+  std::string held = "*SET_NODE_LIST\n         9\n";
+  int beam = 0;
+  deck.particles = "*ELEMENT_BEAM\n";
+  for (const int along : {0, 1})
+    for (int i = 1; i <= n; ++i) {
+      const std::size_t first = deck.nodes.size() + 1;
+      for (int j = 0; j <= n + 1; ++j) {
+        const Real up = (along == 0 ? a : -a) * ((i + j) % 2 == 0 ? 1 : -1) * (j > 0 && j <= n ? 1 : 0);
+        const Real x = pitch * j - half, y = pitch * i - half;
+        deck.nodes.push_back(along == 0 ? Vec(x, y, up) : Vec(y, x, up));
+      }
+      held += fmt::format("{:10}{:10}\n", first, deck.nodes.size());
+      deck.nodes.push_back(deck.nodes.back() + Vec(0, 0, 0.1));
+      for (int j = 0; j <= n; ++j)
+        deck.particles +=
+            fmt::format("{:8}{:8}{:8}{:8}{:8}\n", 1000 + ++beam, 2, first + static_cast<std::size_t>(j),
+                        first + static_cast<std::size_t>(j) + 1, deck.nodes.size());
+    }
+  deck.cards +=
+      held +
+      "*BOUNDARY_SPC_SET\n         9         0         1         1         1\n*INITIAL_VELOCITY_NODE\n";
+  for (std::size_t k = 1; k <= ball; ++k)
+    deck.cards += fmt::format("{:10}{:10}{:10}{:10.3f}\n", k, 0.0, 0.0, -v);
+  deck.cards += general_contact();
+  return deck;
+}
+
+}  // namespace
+
+// A net stops a ball and throws it back: where wires cross they hold each other by their edges alone.
+TEST(EdgeContact, NetThrowsABallBack) {
+  constexpr int n = 6;
+  auto s = simulation_of(net_and_ball(n, 10).text(1));
+  start_ledger(*s);
+  const World& w = s->world();
+  while (s->clock().t < 2.5e-3) s->step(test::do_nothing);
+  edge_residual(*s);
+  const Real back = w.nodes.v.vec(0)[2];
+  print("net", {w.energy.unexplained() / w.energy.initial, back, w.maxima.at("max_penetration"),
+                Real(s->clock().cycle)});
+  EXPECT_LT(std::abs(w.energy.unexplained() / w.energy.initial), 0.01);
+  EXPECT_GT(back, 7.5);
+  EXPECT_LT(back, 10);
+  EXPECT_EQ(w.counters.at("leaked_edges") + w.counters.at("leaked_nodes"), 0);
+  const Index ball = w.nodes.size() - 2 * n * (n + 2);
+  for (Index i = 1; i <= n; ++i)
+    for (Index j = 1; j <= n; ++j) {
+      const Index a = ball + (i - 1) * (n + 2) + j, b = ball + (n + j - 1) * (n + 2) + i;
+      const Real above = w.nodes.x.vec(a)[2] - w.nodes.x.vec(b)[2];
+      EXPECT_GT((i + j) % 2 == 0 ? above : -above, 0.001) << "wires " << i << " and " << j;
     }
 }
 
@@ -253,6 +332,6 @@ TEST(EdgeContact, IsThereWhereItIsAskedFor) {
 
 TEST(EdgeContact, StateIsTheSameForAnyThreadsAndAfterARestart) {
   for (const Real angle : {90.0, 5.0})
-    test::expect_same_bits(crossed_rods(70, 20, 1e-4, angle, general_contact(0.2, 10), Vec(0.01, 0.001, 0)).text(1),
-                           40, 25);
+    test::expect_same_bits(
+        crossed_rods(70, 20, 1e-4, angle, general_contact(0.2, 10), Vec(0.01, 0.001, 0)).text(1), 40, 25);
 }

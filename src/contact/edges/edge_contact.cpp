@@ -178,7 +178,7 @@ void EdgeContact::start(World& world, const Clock& clock) {
   }
   asleep_ = false;
   follow(world, clock);
-  go_on(world);
+  go_on(world, clock);
 }
 
 void EdgeContact::block(World& world, const Clock& clock, Index begin, Index end) {

@@ -68,7 +68,7 @@ class EdgeContact : public Force,
     Index place = crossing;
     Vec n = Vec::Zero();  ///< unit vector from b to a, on the side that a came from
     Real k = 0;           ///< of the whole pair [M/T2]
-    Real slack = 0;       ///< depth without a force [L]
+    Real slack = 0;       ///< depth without a force; less than 0 by how pairs changed within steps [L]
     Vec friction = Vec::Zero();
     // of this step
     NearestPoints at;
@@ -98,8 +98,8 @@ class EdgeContact : public Force,
   bool held_by_nodes(Index a, Index b) const;
   EdgeEnds ends(const World& world, Index e) const { return ends_of(edge(e), world.nodes.x); }
   EdgeEnds ends_before(const World& world, const Clock& clock, Index e) const;
-  void go_on(const World& world);
-  void hand_on(const World& world, Touch& touch) const;
+  void go_on(const World& world, const Clock& clock);
+  void hand_on(const World& world, const Clock& clock, Touch& touch) const;
   Real gap_of(Touch& touch) const;
   bool is_too_deep(const Touch& touch) const;
   bool find_nearer(const World& world, const Pair& pair, bool ties, Pair& best) const;

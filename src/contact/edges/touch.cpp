@@ -94,19 +94,24 @@ Real EdgeContact::gap_of(Touch& touch) const {
   return touch.gap = distance - reach_of(touch.a, touch.b);
 }
 
-// A touch that goes on to a nearer pair is no deeper there than where it was: that would come from nowhere.
-void EdgeContact::hand_on(const World& world, Touch& touch) const {
+// Half of the step is the old pair's, half the nearer one's, as are the impulses: the depth is what that makes
+// of it, so that no energy comes or goes however often a touch changes to and fro.
+void EdgeContact::hand_on(const World& world, const Clock& clock, Touch& touch) const {
   const Pair now{touch.a, touch.b, touch.at, false};
   Pair nearer;
   if (!find_nearer(world, now, false, nearer)) return;
-  const Real gap = gap_of(touch);
+  const auto change = [&] {
+    return clock.dt_old * touch.n.dot(velocity([&](Index n) { return Vec(world.nodes.v.vec(n)); }, touch));
+  };
+  const Real gap = gap_of(touch), change_of_gap = change();
   touch.a = nearer.a, touch.b = nearer.b, touch.at = nearer.at;
   if (nearer.turned) touch.n = -touch.n, touch.friction = -touch.friction;
-  touch.slack += std::max(gap - gap_of(touch), Real(0));
+  const Real new_gap = gap_of(touch);
+  touch.slack += gap - 0.5 * change_of_gap - (new_gap - 0.5 * change());
 }
 
 // Touches go on to neighbours; those that part end, and lose nothing.
-void EdgeContact::go_on(const World& world) {
+void EdgeContact::go_on(const World& world, const Clock& clock) {
   std::vector<Touch> kept;
   parted_.clear();
   for (Touch touch : touches_) {
@@ -115,12 +120,12 @@ void EdgeContact::go_on(const World& world) {
     const bool there = is_there(edge(touch.a)) && is_there(edge(touch.b));
     if (there && touch.place == crossing) {
       touch.at = nearest_points(ends(world, touch.a), ends(world, touch.b));
-      hand_on(world, touch);
+      hand_on(world, clock, touch);
     } else if (!there || !place_along(world, touch)) {
       let_go_ += touch.stored;
       continue;
     }
-    if (gap_of(touch) >= 0) {
+    if (gap_of(touch) + std::min(touch.slack, Real(0)) >= 0) {
       parted_.insert({{from.a, from.b}, {touch.a, touch.b}});
       continue;
     }
