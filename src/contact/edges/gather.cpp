@@ -161,7 +161,7 @@ void EdgeContact::record(World& world, const Clock& clock, EnergyLedger& ledger)
   ledger.throughput += std::abs(damping + friction);
 }
 
-// As of nodes: what friction springs store now is not dissipated yet, and counts as if it were.
+// As of nodes: friction springs hold part of the friction work, which is not dissipated yet.
 void EdgeContact::sample(const World&, const Clock&, EnergyLedger& ledger) const {
   for (const Touch& touch : touches_) ledger.contact += touch.stored;
 }

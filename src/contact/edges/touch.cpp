@@ -94,8 +94,8 @@ Real EdgeContact::gap_of(Touch& touch) const {
   return touch.gap = distance - reach_of(touch.a, touch.b);
 }
 
-// Half of the step is the old pair's, half the nearer one's, as are the impulses: the depth is what that makes
-// of it, so that no energy comes or goes however often a touch changes to and fro.
+// Half of the step is the old pair's, half the nearer one's, as are the impulses: the depth is what that
+// makes of it, so that no energy comes or goes however often a touch changes to and fro.
 void EdgeContact::hand_on(const World& world, const Clock& clock, Touch& touch) const {
   const Pair now{touch.a, touch.b, touch.at, false};
   Pair nearer;
