@@ -342,6 +342,20 @@ TEST(EdgeContact, NetThrowsABallBack) {
     }
 }
 
+// Springs that ask for a smaller step than the rods, wherever within a step they meet.
+TEST(EdgeContact, StiffSpringsAreToldBeforeTheyPush) {
+  std::string stiff = general_contact();
+  stiff.replace(stiff.rfind("       1.0"), 10, "     100.0");
+  for (const Real way : {1e-4, 1.3e-4, 1.7e-4}) {
+    auto s = simulation_of(crossed_rods(4, 5, way, 50, stiff, Vec(0.013, 0.002, 0)).text(1));
+    start_ledger(*s);
+    while (s->clock().t < way / 5 + 3e-4) s->step(test::do_nothing);
+    edge_residual(*s);
+    const EnergyLedger& e = s->world().energy;
+    EXPECT_LT(std::abs(e.unexplained() / e.initial), 0.01) << way;
+  }
+}
+
 // Without it they go through each other, and all is as before.
 TEST(EdgeContact, IsThereWhereItIsAskedFor) {
   auto s = simulation_of(crossed_plates(4, 5, 0.002, 1e-4, 90, elastic_plate, segment_contact(3)).text(1));
