@@ -77,19 +77,20 @@ std::string EdgeContact::name() const {
 
 void EdgeContact::declare(const World& world, Accesses& a) const {
   const Nodes& n = world.nodes;
-  const auto reads_state = [&] {
-    a.reads(n.x, Reach::others).reads(n.v, Reach::others).reads(n.m, Reach::others);
-    a.reads(n.held, Reach::others);
+  const auto reads_erosion = [&] {
     if (eroded_) a.reads(*eroded_, Reach::others);
     for (const ContactEdge& e : edges_)
       if (e.eroded) a.reads(*e.eroded, Reach::others);
   };
-  reads_state();
+  a.reads(n.x, Reach::others).reads(n.v, Reach::others).reads(n.m, Reach::others);
+  a.reads(n.held, Reach::others);
+  reads_erosion();
   if (nodes_) a.reads(nodes_->touches(), Reach::others);
-  a.in_start();
-  reads_state();
+  a.in_start().reads(n.x, Reach::others).reads(n.v, Reach::others).reads(n.held, Reach::others);
+  reads_erosion();
   a.in_finish().writes(touches_resource_).updates(*world.segments.contact_force);
-  reads_state();
+  a.reads(n.m, Reach::others).reads(n.held, Reach::others);
+  if (eroded_) a.reads(*eroded_, Reach::others);
 }
 
 // Lists are made anew when nodes may have come nearer than lists reach.
