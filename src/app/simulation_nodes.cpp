@@ -8,6 +8,7 @@
 
 #include "app/simulation.hpp"
 #include "contact/cards.hpp"
+#include "contact/edges/build.hpp"
 #include "contact/nodes/build.hpp"
 #include "elements/nodal_assembly.hpp"
 #include "elements/node_inertias.hpp"
@@ -108,18 +109,22 @@ void Simulation::hold_massless_nodes(Diagnostics& diagnostics) {
 }
 
 void Simulation::add_contacts_of_nodes(Diagnostics& diagnostics) {
-  if (!model_.beams.empty() && !deck_.all<ContactCard>().empty())
+  const auto& cards = deck_.all<ContactCard>();
+  const bool beams_touch =
+      std::any_of(cards.begin(), cards.end(), [](const ContactCard& c) { return kind_of(c).edges; });
+  if (!model_.beams.empty() && !cards.empty() && !beams_touch)
     diagnostics.warning(
-        deck_.where(deck_.all<ContactCard>().front()),
+        deck_.where(cards.front()),
         fmt::format("{}: beams take no part in contact, only the shells and solids beside them",
-                    deck_.keyword(deck_.all<ContactCard>().front())),
-        "give what must touch faces");
+                    deck_.keyword(cards.front())),
+        "use *CONTACT_AUTOMATIC_GENERAL, or give what must touch faces");
   NodeContactOptions options;
   options.bulk_modulus = [this](Index part) { return bulk_modulus(part); };
   if (bodies_) options.bodies = bodies_->wall_bodies(world_);
   options.tssfac = model_.tssfac;
   for (const auto& contact : contacts_) options.with_particles.insert(contact->report().id);
-  add_node_contacts(deck_, model_, options, world_, diagnostics);
+  const NodeContactsByCard nodes = add_node_contacts(deck_, model_, options, world_, diagnostics);
+  add_edge_contacts(deck_, model_, options, nodes, world_, diagnostics);
 }
 
 }  // namespace courant

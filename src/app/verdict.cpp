@@ -101,17 +101,17 @@ std::int64_t counted(const Summary& s, const char* name) {
   return found == s.counters.end() ? std::int64_t(0) : found->second;
 }
 
-/// Nodes of elements that contact could not keep in front of a face.
-void add_leaked_nodes(const Summary& s, std::vector<Finding>& out) {
-  const std::int64_t leaked = counted(s, "leaked_nodes");
+/// Nodes of elements that contact could not keep in front of a face, or edges on the side they came from.
+void add_leaked(const Summary& s, const char* what, const char* through, std::vector<Finding>& out) {
+  const std::int64_t leaked = counted(s, fmt::format("leaked_{}s", what).c_str());
   if (leaked <= 0) return;
-  const Real part =
-      static_cast<Real>(leaked) / static_cast<Real>(std::max(counted(s, "contact_nodes"), leaked));
+  const std::int64_t all = counted(s, fmt::format("contact_{}s", what).c_str());
+  const Real part = static_cast<Real>(leaked) / static_cast<Real>(std::max(all, leaked));
   if (!(part > std::min(s.limits.leaks_doubtful, s.limits.leaks_broken))) return;
   out.push_back({part > s.limits.leaks_broken,
-                 fmt::format("{} node{} went through a face, {:.2g} % of those in contacts: make the contact "
+                 fmt::format("{} {}{} went through {}, {:.2g} % of those in contacts: make the contact "
                              "stiffer (SFSA, SLSFAC, SOFT 1), or the mesh finer where bodies meet",
-                             leaked, leaked == 1 ? "" : "s", 100 * part)});
+                             leaked, what, leaked == 1 ? "" : "s", through, 100 * part)});
 }
 
 void add_leaks(const Summary& s, std::vector<Finding>& out) {
@@ -158,7 +158,8 @@ std::vector<Finding> findings(const Summary& s) {
   std::vector<Finding> out;
   if (s.termination == "error") out.push_back({true, s.reason});
   add_leaks(s, out);
-  add_leaked_nodes(s, out);
+  add_leaked(s, "node", "a face", out);
+  add_leaked(s, "edge", "another", out);
   add_held(s, out);
   add_joint_gap(s, out);
   add_relaxation(s, out);

@@ -1,5 +1,8 @@
 #include "contact/cards.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "contact/contact_table.hpp"
 #include "keyword/registry.hpp"
 
@@ -21,7 +24,8 @@ constexpr ContactKind kinds[] = {{.nodes = true},
                                  {.automatic = false},
                                  {.nodes = true, .eroding = true},
                                  {.single = true, .eroding = true},
-                                 {.two_way = true, .eroding = true}};
+                                 {.two_way = true, .eroding = true},
+                                 {.single = true, .edges = true, .inner = true}};
 constexpr ContactKind tiebreak_kinds[] = {
     {.two_way = true, .tiebreak = Tiebreak::by_option},
     {.tiebreak = Tiebreak::by_option},
@@ -74,7 +78,8 @@ KeywordOf<C> contact_keyword() {
        "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE", "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE",
        "CONTACT_AUTOMATIC_GENERAL", "CONTACT_NODES_TO_SURFACE", "CONTACT_SINGLE_SURFACE",
        "CONTACT_SURFACE_TO_SURFACE", "CONTACT_ONE_WAY_SURFACE_TO_SURFACE", "CONTACT_ERODING_NODES_TO_SURFACE",
-       "CONTACT_ERODING_SINGLE_SURFACE", "CONTACT_ERODING_SURFACE_TO_SURFACE"},
+       "CONTACT_ERODING_SINGLE_SURFACE", "CONTACT_ERODING_SURFACE_TO_SURFACE",
+       "CONTACT_AUTOMATIC_GENERAL_INTERIOR"},
       "penalty contact of nodes of elements, or particles (SURFA of _NODES_TO_SURFACE), with faces");
   out.cards.push_back(
       {.fields =
@@ -235,6 +240,15 @@ ContactKind kind_of(const ContactCard& card) {
       card.keyword >= 0 &&
       keyword_registry()[static_cast<std::size_t>(card.keyword)]->names.front() == first_tiebreak;
   return ties ? tiebreak_kinds[card.name] : kinds[card.name];
+}
+
+bool asks_for_edges(const ContactCard& card) {
+  const ContactKind kind = kind_of(card);
+  if (kind.edges) return true;
+  constexpr int depths[] = {5, 15, 25, 35};
+  return card.soft == 2 && kind.automatic && !kind.eroding && kind.tiebreak == Tiebreak::none &&
+         (kind.single || kind.two_way) &&
+         std::find(std::begin(depths), std::end(depths), card.depth) != std::end(depths);
 }
 
 }  // namespace courant

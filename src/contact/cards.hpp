@@ -43,11 +43,14 @@ struct ContactKind {
   bool single = false;    ///< one surface with itself
   bool two_way = false;   ///< nodes of SURFB on faces of SURFA, too
   bool nodes = false;     ///< SURFA gives nodes, which may be particles
-  bool edges = false;     ///< edges on edges, too
+  bool edges = false;     ///< edges on edges, and beams, too
+  bool inner = false;     ///< all edges of shells, not only free ones
   bool eroding = false;   ///< faces that deletion of solids lays bare, too
   Tiebreak tiebreak = Tiebreak::none;
 };
 ContactKind kind_of(const ContactCard& card);
+/// Whether edges touch edges: by the name, or SOFT 2 with such a DEPTH.
+bool asks_for_edges(const ContactCard& card);
 
 /// *COURANT_LITERAL_PENALTY
 struct LiteralPenalty : Entry {

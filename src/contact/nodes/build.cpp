@@ -4,20 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
+#include "contact/nodes/measures.hpp"
 #include "contact/nodes/transducer.hpp"
 
 namespace courant {
 
 namespace {
-
-/// *CONTROL_CONTACT and the card: what they say of the thickness of shells.
-struct ShellThickness {
-  bool of_rigid = true, of_others = true;
-  bool limited = false;  ///< to 0.4 of the shortest edge
-};
 
 class NodeContactBuilder {
  public:
@@ -28,9 +24,8 @@ class NodeContactBuilder {
         options_(options),
         world_(world),
         diagnostics_(diagnostics),
-        finder_(deck, model, options.bulk_modulus, world, diagnostics) {
-    if (const ControlContact* control = deck.last<ControlContact>()) control_ = *control;
-  }
+        finder_(deck, model, options.bulk_modulus, world, diagnostics),
+        measures_(deck, model, options.tssfac, world, diagnostics) {}
 
   void add(const ContactCard& c, int number) {
     const int errors = diagnostics_.errors();
@@ -44,21 +39,22 @@ class NodeContactBuilder {
       finder_.are_stiff(c, faces_b, c.soft != 0);
     if (diagnostics_.errors() > errors) return;
     ContactSides sides;
-    thickness_ = thickness_of(c, kind);
-    add_nodes(c, 0, nodes_a, c.surfatyp == 4 ? finder_.faces_around(nodes_a) : faces_a, sides);
+    measures_.take(c);
+    add_nodes(0, nodes_a, c.surfatyp == 4 ? finder_.faces_around(nodes_a) : faces_a, sides);
     add_faces(c, kind.single ? 0 : 1, 1U, faces_b, sides);
     if (kind.two_way) {
-      add_nodes(c, 1, finder_.nodes(c, ContactSide::b, faces_b), faces_b, sides);
+      add_nodes(1, finder_.nodes(c, ContactSide::b, faces_b), faces_b, sides);
       add_faces(c, 0, 2U, faces_a, sides);
     }
-    if (!can_touch(sides)) return warn_of_nothing(c, !nodes_a.empty());
+    if (kind.edges) add_beam_nodes(c, sides);
+    if (!can_touch(sides)) return asks_for_edges(c) ? void() : warn_of_nothing(c, !nodes_a.empty());
     if (world_.dim == 2)
       return diagnostics_.error(deck_.where(c),
                                 deck_.keyword(c) + ": elements do not touch each other in a plane scene yet",
                                 "leave it out, or make the scene one of three dimensions");
     if (!shells_have_thickness(c, kind, sides)) return;
     warn_of_kind(c, kind);
-    NodeContactLaw law = law_of(c);
+    NodeContactLaw law = measures_.law();
     if (c.bt > 0 || law.gate.there()) world_.counters["penetrations_at_birth"] += 0;
     auto contact =
         std::make_shared<NodeContact>(std::move(law), std::move(sides), options_.bodies, number, world_);
@@ -67,8 +63,10 @@ class NodeContactBuilder {
       if (pass->of_contact() == c.cid) contact->let_hold(*pass);
     add_node_contact(world_, contact);
     contacts_.push_back(contact);
+    of_card_[number] = contact;
   }
   const std::vector<std::shared_ptr<const NodeContact>>& contacts() const { return contacts_; }
+  const std::map<int, std::shared_ptr<const NodeContact>>& of_card() const { return of_card_; }
 
  private:
   void check(const ContactCard& c, const std::vector<Index>& nodes_a) {
@@ -82,12 +80,10 @@ class NodeContactBuilder {
   }
 
   void warn_of_kind(const ContactCard& c, const ContactKind& kind) {
-    if (kind.edges)
-      diagnostics_.warning(deck_.where(c),
-                           deck_.keyword(c) + ": nodes are kept off faces, edges are not kept off edges",
-                           "where edges meet edges only, they go through each other");
     if (c.soft == 2)
-      deck_.warning(diagnostics_, c, "SOFT", "2 (faces on faces) runs as 1 (nodes on faces)",
+      deck_.warning(diagnostics_, c, "SOFT",
+                    asks_for_edges(c) ? "2 (faces on faces) runs as 1 (nodes on faces, edges on edges)"
+                                      : "2 (faces on faces) runs as 1 (nodes on faces)",
                     "give 1 where that is meant");
     const auto without_effect = [&](const char* field, bool given, const char* why) {
       if (given)
@@ -107,12 +103,6 @@ class NodeContactBuilder {
                          "leave it out, or name other parts");
   }
 
-  ShellThickness thickness_of(const ContactCard& c, const ContactKind& kind) const {
-    if (kind.automatic) return {.limited = kind.single && control_.ssthk == 0};
-    const int which = c.thkopt == 2 ? 0 : c.thkopt == 1 ? c.shlthk : control_.shlthk;
-    return {.of_rigid = which == 2, .of_others = which >= 1, .limited = false};
-  }
-
   // A face without thickness has no two sides that could be told apart.
   bool shells_have_thickness(const ContactCard& c, const ContactKind& kind, const ContactSides& sides) {
     for (const ContactFace& f : sides.faces) {
@@ -129,31 +119,6 @@ class NodeContactBuilder {
     return true;
   }
 
-  Real half_thickness(const ContactCard& c, int side, Index s) const {
-    const Segments& g = world_.segments;
-    const auto a = g.nodes(s);
-    if (g.volume[s] > 0) return 0.5 * c.sldthk;
-    const bool rigid = model_.parts[static_cast<std::size_t>(g.part[s])].rigid;
-    if (!(rigid ? thickness_.of_rigid : thickness_.of_others)) return 0;
-    const Real given = side == 0 ? c.sast : c.sbst, scale = side == 0 ? c.sfsat : c.sfsbt;
-    Real t = given > 0 ? given : g.thickness[s] * scale;
-    if (thickness_.limited)
-      for (std::size_t e = 0; e < 4; ++e) {
-        const Index n = a[e], next = a[(e + 1) % 4];
-        if (n != next) t = std::min(t, 0.4 * (world_.nodes.x.vec(n) - world_.nodes.x.vec(next)).norm());
-      }
-    return 0.5 * t;
-  }
-
-  Real stiffness(const ContactCard& c, Index s, Real area) const {
-    const Segments& g = world_.segments;
-    const auto a = g.nodes(s);
-    const FaceCorners x{world_.nodes.x.vec(a[0]), world_.nodes.x.vec(a[1]), world_.nodes.x.vec(a[2]),
-                        world_.nodes.x.vec(a[3])};
-    if (!(g.volume[s] > 0)) return g.K[s] * area / longest_diagonal(x, a[2] == a[3] ? 3 : 4);
-    return (c.sldstf > 0 ? c.sldstf : g.K[s]) * area * area / g.volume[s];
-  }
-
   /// Small faces of large solids hold nodes to this depth, of their width.
   static constexpr Real most_widths = 4;
 
@@ -166,8 +131,8 @@ class NodeContactBuilder {
       f.corners = f.node[2] == f.node[3] ? 3 : 4;
       f.two_sided = !(g.volume[s] > 0);
       f.area = area_of(corners_of(f, world_.nodes.x));
-      f.r = half_thickness(c, side, s);
-      f.k = stiffness(c, s, f.area);
+      f.r = measures_.half_thickness(side, s);
+      f.k = measures_.stiffness(s, f.area);
       const Real through = c.penmax > 0 ? c.penmax : 1;
       const Real width = std::sqrt(f.area);
       f.depth = f.two_sided ? through * std::max(2 * f.r, 0.5 * width)
@@ -177,8 +142,8 @@ class NodeContactBuilder {
   }
 
   /// `around`: faces that the nodes may belong to.
-  void add_nodes(const ContactCard& c, unsigned pass, const std::vector<Index>& nodes,
-                 const std::vector<Index>& around, ContactSides& sides) {
+  void add_nodes(unsigned pass, const std::vector<Index>& nodes, const std::vector<Index>& around,
+                 ContactSides& sides) {
     const Segments& g = world_.segments;
     std::vector<std::vector<Index>> faces_of(static_cast<std::size_t>(world_.nodes.size()));
     for (const Index s : around) {
@@ -196,11 +161,25 @@ class NodeContactBuilder {
         const Real area = area_of({world_.nodes.x.vec(own.node[0]), world_.nodes.x.vec(own.node[1]),
                                    world_.nodes.x.vec(own.node[2]), world_.nodes.x.vec(own.node[3])});
         const int corners = own.node[2] == own.node[3] ? 3 : 4;
-        own.area = area / corners, own.k = stiffness(c, s, area) / corners;
-        node.r = std::max(node.r, half_thickness(c, static_cast<int>(pass), s));
+        own.area = area / corners, own.k = measures_.stiffness(s, area) / corners;
+        node.r = std::max(node.r, measures_.half_thickness(static_cast<int>(pass), s));
         sides.own.push_back(own);
       }
       node.last = static_cast<Index>(sides.own.size());
+      sides.nodes.push_back(node);
+    }
+  }
+
+  /// Nodes of beams that no face has, as balls of their radius.
+  void add_beam_nodes(const ContactCard& c, ContactSides& sides) {
+    std::map<Index, Real> radius;
+    for (const BeamEdge& beam : finder_.beams(c))
+      for (const Index n : beam.node) radius[n] = std::max(radius[n], measures_.beam_radius(beam.area));
+    for (const ContactNode& node : sides.nodes) radius.erase(node.node);
+    for (const auto& [n, r] : radius) {
+      ContactNode node;
+      node.node = n, node.r = r;
+      node.first = node.last = static_cast<Index>(sides.own.size());
       sides.nodes.push_back(node);
     }
   }
@@ -230,23 +209,6 @@ class NodeContactBuilder {
     return false;
   }
 
-  NodeContactLaw law_of(const ContactCard& c) const {
-    NodeContactLaw law;
-    law.id = c.cid;
-    law.title = c.title;
-    law.slsfac = control_.slsfac, law.penopt = control_.penopt;
-    law.sfs = {c.sfsa, c.sfsb};
-    law.fs = c.fs * c.fsf, law.fd = c.fd * c.fsf, law.dc = c.dc, law.vc = c.vc * c.vsf;
-    law.vdc = c.vdc;
-    law.birth = c.bt, law.death = c.dt;
-    if (SensorBoard* const board = sensors_of(deck_, model_, world_, diagnostics_))
-      law.gate = board->gate_of_contact(c.cid);
-    law.soft = c.soft, law.sofscl = c.sofscl, law.dtstif = c.dtstif;
-    law.tssfac = options_.tssfac;
-    law.enmass = control_.enmass;
-    return law;
-  }
-
   void report_penetrations(const ContactCard& c, const NodeContact::Penetrations& p) {
     world_.counters["initial_penetrations"] += p.count + p.lost;
     if (p.lost > 0)
@@ -270,19 +232,20 @@ class NodeContactBuilder {
   World& world_;
   Diagnostics& diagnostics_;
   FaceFinder finder_;
-  ControlContact control_;
-  ShellThickness thickness_;
+  ContactMeasures measures_;
   std::vector<std::shared_ptr<const NodeContact>> contacts_;
+  std::map<int, std::shared_ptr<const NodeContact>> of_card_;
 };
 
 }  // namespace
 
-void add_node_contacts(const Deck& deck, const Model& model, const NodeContactOptions& options, World& world,
-                       Diagnostics& diagnostics) {
+NodeContactsByCard add_node_contacts(const Deck& deck, const Model& model, const NodeContactOptions& options,
+                                     World& world, Diagnostics& diagnostics) {
   NodeContactBuilder builder(deck, model, options, world, diagnostics);
   int number = 0;
   for (const ContactCard& c : deck.all<ContactCard>()) builder.add(c, ++number);
   add_force_transducers(deck, model, options, builder.contacts(), world, diagnostics);
+  return builder.of_card();
 }
 
 }  // namespace courant

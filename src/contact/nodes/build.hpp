@@ -16,6 +16,14 @@ namespace courant {
 
 enum class ContactSide { a, b };
 
+/// A beam that touches.
+struct BeamEdge {
+  std::size_t group = 0;  ///< index into World::groups
+  Index element = 0;
+  std::array<Index, 2> node{};  ///< indices into World::nodes
+  Real length = 0, area = 0;    ///< [L], [L2]
+};
+
 /// The faces and nodes that the sides of a card name. Faces of solids are added to world.segments where they
 /// are not there yet. What is missing is reported.
 class FaceFinder {
@@ -40,6 +48,9 @@ class FaceFinder {
   std::vector<Index> nodes(const ContactCard& card, ContactSide side, const std::vector<Index>& faces);
   /// The same of a side that names parts: nodes of all elements that these have, of beams, too.
   std::vector<Index> nodes_of_elements(const ContactCard& card, ContactSide side);
+  /// Beams with a length and a cross section that SURFA names by parts, or with all; those all of whose ends
+  /// are in SABOXID.
+  std::vector<BeamEdge> beams(const ContactCard& card);
   /// Whether a penalty of the card finds a stiffness there; an error where it does not: shells of *MAT_NULL
   /// have that of YM, which may be 0.
   /// `by_mass`: SOFT 1 takes it from masses.
@@ -80,10 +91,13 @@ struct NodeContactOptions {
   std::set<Id> with_particles{};  ///< contacts that particles take part in
 };
 
+/// By the number of the card, counted from 1; those of which something can touch.
+using NodeContactsByCard = std::map<int, std::shared_ptr<const NodeContact>>;
+
 /// Contact of nodes for all *CONTACT cards of the deck, added to the passes of `world`; particles are left to
 /// build_contacts. Elements must be there, and Nodes::held, ::follow be set. Reports what is not supported,
 /// and as warnings initial penetrations and contacts of which nothing can touch.
-void add_node_contacts(const Deck& deck, const Model& model, const NodeContactOptions& options, World& world,
-                       Diagnostics& diagnostics);
+NodeContactsByCard add_node_contacts(const Deck& deck, const Model& model, const NodeContactOptions& options,
+                                     World& world, Diagnostics& diagnostics);
 
 }  // namespace courant

@@ -81,7 +81,7 @@ std::vector<char> FaceFinder::parts_of(const ContactCard& card, const char* fiel
     const ModelPart& named = model_.parts[static_cast<std::size_t>(k)];
     out[static_cast<std::size_t>(k)] = type != all_but_parts;
     if (type != all_but_parts && !named.has_shell && !named.has_solid &&
-        !(kind_of(card).nodes && field[4] == 'A'))
+        !(kind_of(card).nodes && field[4] == 'A') && !(kind_of(card).edges && named.has_beam))
       deck_.error(diagnostics_, card, field, fmt::format("part {} has no shells and no solids", named.id),
                   named.has_sph ? "particles can be SURFA of *CONTACT_AUTOMATIC_NODES_TO_SURFACE"
                                 : "name parts of shells or solids");
@@ -235,6 +235,32 @@ std::vector<Index> FaceFinder::nodes_of_elements(const ContactCard& card, Contac
     deck_.error(diagnostics_, card, f.box_field, fmt::format("box {} does not exist", f.box),
                 "define it with *DEFINE_BOX");
   keep_in_box(f.box, out);
+  return out;
+}
+
+std::vector<BeamEdge> FaceFinder::beams(const ContactCard& card) {
+  const SideFields f = fields_of(card, ContactSide::a);
+  std::vector<BeamEdge> out;
+  if (f.type == segment_set || f.type == shell_set || f.type == node_set) {
+    if (f.id != 0) return out;
+  }
+  const auto chosen = parts_of(card, f.field, f.id, f.id == 0 ? static_cast<int>(all) : f.type);
+  const auto box = model_.boxes.find(f.box);
+  for (std::size_t g = 0; g < world_.groups.size(); ++g) {
+    const ElementGroup& group = *world_.groups[g];
+    if (group.corners() != 2 || !chosen[static_cast<std::size_t>(group.part)]) continue;
+    for (Index e = 0; e < group.size(); ++e) {
+      BeamEdge beam{.group = g, .element = e, .node = {group.node.data(0)[e], group.node.data(1)[e]}};
+      const std::array<Vec, 2> x{world_.nodes.x.vec(beam.node[0]), world_.nodes.x.vec(beam.node[1])};
+      beam.length = (x[1] - x[0]).norm();
+      if (!(beam.length > 0 && group.V0[e] > 0)) continue;
+      if (f.box != 0 && box != model_.boxes.end() &&
+          !(box->second.contains(x[0]) && box->second.contains(x[1])))
+        continue;
+      beam.area = group.V0[e] / beam.length;
+      out.push_back(beam);
+    }
+  }
   return out;
 }
 

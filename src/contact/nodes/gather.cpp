@@ -48,19 +48,19 @@ void NodeContact::gather(const World& world) {
     if (touch.due > 0) due_ = std::min(due_, touch.due);
   counting_sort(key_, static_cast<Index>(involved_.size()), first_, order_);
   stiffest_ = reduce(
-      static_cast<Index>(involved_.size()), Stiffest(),
+      static_cast<Index>(involved_.size()), StiffestContact(),
       [&](Index begin, Index end) {
-        Stiffest out;
+        StiffestContact out;
         for (Index p = begin; p < end; ++p) out.take(pull_on(world, p));
         return out;
       },
-      [](Stiffest a, const Stiffest& b) {
+      [](StiffestContact a, const StiffestContact& b) {
         a.take(b);
         return a;
       });
 }
 
-NodeContact::Stiffest NodeContact::pull_on(const World& world, Index p) const {
+StiffestContact NodeContact::pull_on(const World& world, Index p) const {
   const Index n = involved_[static_cast<std::size_t>(p)];
   Real now = 0, soon = 0;
   for (Index s = first_[static_cast<std::size_t>(p)]; s < first_[static_cast<std::size_t>(p) + 1]; ++s) {
@@ -96,37 +96,21 @@ Vec NodeContact::force_between(const Surface& a, const Surface& b) const {
   return sum;
 }
 
-// Where springs k_t act on nodes with shares b_tn, no frequency is above max_n (sum_t k_t |b_tn| sum_j
-// |b_tj|) / m_n (Gershgorin). Elements leave 1 - TSSFAC^2 of the square of a stable step to others.
 TimeLimit::Limit NodeContact::limit(const World& world, const Clock&) {
-  constexpr Real most_of_elements = 0.95;  // else nothing would be left
-  constexpr Real resolved = 0.9;           // omega dt, else bounces are too coarse
-  const Real s = std::min(law_.tssfac, most_of_elements), xi = 0.02 * law_.vdc;
-  const Real part = holder_ ? 0.5 : 1;  // springs that hold the same nodes ask for the other half
-  const auto allowed = [&](Real omega2) {
-    const Real stable = 2 * std::sqrt(part * (1 - s * s)) * (std::sqrt(1 + xi * xi) - xi);
-    return std::min(stable, resolved) / std::sqrt(omega2);
-  };
-  const auto told = [&](Real dt, Index node) {
-    return Limit{dt, fmt::format("{} (node {})", name(), world.nodes.id[node])};
-  };
-  const Frequency &now = stiffest_.now, &soon = stiffest_.soon;
-  const Real dt = now.omega2 > 0 ? allowed(now.omega2) : std::numeric_limits<Real>::infinity();
-  // up to the surface, or as short as springs there ask for
-  if (soon.omega2 > now.omega2)
-    if (const Real then = std::max(due_, allowed(soon.omega2)); then < dt) return told(then, soon.node);
-  return now.omega2 > 0 ? told(dt, now.node) : Limit{dt, name()};
+  // springs that hold the same nodes, and edges, ask for the other half
+  return limit_of(law_, stiffest_, due_, holder_ || law_.with_edges ? 0.5 : 1, name(), world);
 }
 
-// Mean over the step about to be taken; of driven nodes, which do not follow their forces, that before.
-Vec NodeContact::middle_velocity(const World& world, const Clock& clock, const Field<Index>* driven,
-                                 Index n) const {
-  const Nodes& nodes = world.nodes;
-  const Vec v = nodes.v.vec(n);
-  if (nodes.held[n] || (driven && (*driven)[n] != 0)) return v;
-  const Index body = bodies_.body(n);
-  if (body >= 0) return v + 0.5 * bodies_.change(body, nodes.x.vec(n), clock);
-  return v + 0.5 * clock.dt_mean() / nodes.m[n] * nodes.f.vec(n);
+bool NodeContact::holds(Index node, Index segment) const {
+  note_access(touches_resource_);
+  const Index p = place_[static_cast<std::size_t>(node)];
+  if (shares_.empty() || p < 0) return false;
+  for (Index s = first_[static_cast<std::size_t>(p)]; s < first_[static_cast<std::size_t>(p) + 1]; ++s) {
+    const Share& share = shares_[static_cast<std::size_t>(order_[static_cast<std::size_t>(s)])];
+    if (share.corner < 0 && face(touches_[static_cast<std::size_t>(share.touch)].face).segment == segment)
+      return true;
+  }
+  return false;
 }
 
 void NodeContact::record(World& world, const Clock& clock, EnergyLedger& ledger) {
@@ -144,9 +128,9 @@ void NodeContact::record(World& world, const Clock& clock, EnergyLedger& ledger)
         for (Index t = begin; t < end; ++t) {
           const Touch& touch = touches_[static_cast<std::size_t>(t)];
           const ContactFace& f = face(touch.face);
-          Vec v = middle_velocity(world, clock, driven, touch.node);
+          Vec v = middle_velocity(world, bodies_, clock, driven, touch.node);
           for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
-            v -= touch.N[e] * middle_velocity(world, clock, driven, f.node[e]);
+            v -= touch.N[e] * middle_velocity(world, bodies_, clock, driven, f.node[e]);
           out.damping -= touch.damping * touch.n.dot(v) * clock.dt_mean();
           out.friction -= touch.friction.dot(v) * clock.dt_mean();
         }

@@ -8,31 +8,14 @@
 
 #include "contact/nodes/face.hpp"
 #include "contact/nodes/face_search.hpp"
+#include "contact/nodes/penalty.hpp"
 #include "contact/nodes/touch_holder.hpp"
-#include "loads/sensors.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
 #include "state/wall_bodies.hpp"
 #include "state/world.hpp"
 
 namespace courant {
-
-/// One interface as the deck gives it; names as on the card and in *CONTROL_CONTACT.
-struct NodeContactLaw {
-  Id id = 0;
-  std::string title;
-  Real slsfac = 0.1;
-  std::array<Real, 2> sfs{1, 1};        ///< of the nodes of each pass (SFSA, SFSB) [-]
-  Real fs = 0, fd = 0, dc = 0, vc = 0;  ///< friction [-, -, T/L, M/LT2]
-  Real vdc = 0;                         ///< damping, percent of critical
-  Real birth = 0, death = 1e20;         ///< [T]
-  SensorGate gate{};
-  bool sleeps(Real t) const { return t < birth || t > death || !gate.open(); }
-  int soft = 0, penopt = 1;
-  Real sofscl = 0.1, dtstif = 0;  ///< SOFT 1: scale [-] and step if given [T]
-  Real tssfac = 0.9;              ///< what elements leave of their own step
-  int enmass = 0;                 ///< whose nodes go on to touch once their elements are deleted
-};
 
 /// A node that touches faces.
 struct ContactNode {
@@ -100,6 +83,8 @@ class NodeContact : public Force,
       return s < static_cast<Index>(segment.size()) && segment[static_cast<std::size_t>(s)] != 0;
     }
   };
+  /// Whether a touch pushes the node off the face of a segment of the world, or is about to.
+  bool holds(Index node, Index segment) const;
   /// What touches between nodes of one and faces of the other do to `a`. [ML/T2]
   Vec force_between(const Surface& a, const Surface& b) const;
 
@@ -162,17 +147,6 @@ class NodeContact : public Force,
     Real damping_work = 0, friction_work = 0;
     Real let_go = 0;  ///< energy of touches with faces that are deleted [ML2/T2]
   };
-  struct Frequency {
-    Real omega2 = 0;  ///< bound of the largest one, squared [1/T2]
-    Index node = -1;  ///< of World::nodes
-  };
-  struct Stiffest {
-    Frequency now, soon;  ///< by what is in touch; with what will be
-    void take(const Stiffest& other) {
-      if (other.now.omega2 > now.omega2) now = other.now;
-      if (other.soon.omega2 > soon.omega2) soon = other.soon;
-    }
-  };
   struct Share {  ///< of a touch
     Index touch = 0;
     int corner = -1;  ///< -1: the node itself
@@ -211,7 +185,6 @@ class NodeContact : public Force,
   void fill(const World& world, const Clock& clock, Slot& slot, Touch& touch) const;
   void expect(const World& world, const Clock& clock, Block& b, Index i, const Slots& slots) const;
   Real way_of(const Clock& clock, const Touch& touch, Real speed, Real mobility) const;
-  Vec friction_force(const Clock& clock, const Slot& slot, const Vec& n, const Vec& v, Real fn) const;
   Vec velocity_of_face(const World& world, const ContactFace& f, const std::array<Real, 4>& N) const;
   Real mass_of(const World& world, Index node) const;
   Real share_of(const Share& share) const;
@@ -219,9 +192,8 @@ class NodeContact : public Force,
   Slot load(Index i, int k) const;
   void store(Index i, int k, const Slot& slot);
   void gather(const World& world);
-  Stiffest pull_on(const World& world, Index p) const;
+  StiffestContact pull_on(const World& world, Index p) const;
   void tell_holder(World& world);
-  Vec middle_velocity(const World& world, const Clock& clock, const Field<Index>* driven, Index node) const;
   const ContactFace& face(Index f) const { return faces_[static_cast<std::size_t>(f)]; }
   const ContactNode& node(Index i) const { return nodes_[static_cast<std::size_t>(i)]; }
 
@@ -262,7 +234,7 @@ class NodeContact : public Force,
   std::vector<Touch> touches_;  ///< of all blocks
   std::vector<Share> shares_;
   std::vector<Index> key_, first_, order_;  ///< shares_ by place in involved_
-  Stiffest stiffest_;
+  StiffestContact stiffest_;
   Real due_ = 0;  ///< until the next node comes through a face [T]
   Resource touches_resource_{"touches of nodes"};
   Real damping_work_ = 0, friction_work_ = 0;

@@ -11,14 +11,6 @@ namespace {
 
 constexpr Real unbounded = std::numeric_limits<Real>::infinity();
 
-/// Of a spring's force where the node came through the surface within the last step, or leaves it within the
-/// next: the impulses of a step are no longer those of the depth in its middle, and a bounce would give back
-/// 1 +- (omega dt)^2/4 of its energy, by chance. With this factor the sums of leapfrog, v^2 + omega^2 d_n
-/// d_n+1, close to first order in how far the surface is from a sample.
-Real part_of_step(Real depth, Real way) {
-  return way > depth ? 0.5 * (1 + depth / way) : Real(1);
-}
-
 }  // namespace
 
 // How far the node goes in a step along the normal: in by what it has come, out by what its spring adds to
@@ -72,21 +64,6 @@ void NodeContact::give_stiffness(const World& world, Index i, Slot& slot) const 
   for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
     m = std::min(m, mass_of(world, f.node[e]));
   if (std::isfinite(m)) slot.k = std::max(slot.k, law_.sofscl * 0.5 * m / (dt * dt));
-}
-
-// Elastic predictor: the spring of the last step, turned into the tangent plane, plus -k times the slip since
-// then.
-Vec NodeContact::friction_force(const Clock& clock, const Slot& slot, const Vec& n, const Vec& v,
-                                Real fn) const {
-  const Vec turned = slot.friction - slot.friction.dot(n) * n;
-  const Real size = turned.norm();
-  const Vec old = size > 0 ? Vec(turned * (slot.friction.norm() / size)) : Vec(Vec::Zero());
-  const Vec slip = v - v.dot(n) * n;
-  const Vec trial = old - slot.k * clock.dt_old * slip;
-  Real most = (law_.fd + (law_.fs - law_.fd) * std::exp(-law_.dc * slip.norm())) * fn;
-  if (law_.vc > 0) most = std::min(most, law_.vc * slot.area);
-  const Real asked = trial.norm();
-  return asked > most ? Vec(trial * (most / asked)) : trial;
 }
 
 // Beside an outer edge: the energy k depth^2/2 times w(u) = 1 - 3 u^2 + 2 u^3, u = (beyond - margin)/length,
@@ -146,7 +123,9 @@ void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch
     touch.damping = std::max(-0.01 * law_.vdc * 2 * lighter * omega * v.dot(touch.n), -fn);  // never pulls
     fn += touch.damping;
   }
-  if (friction_on_) slot.friction = touch.friction = friction_force(clock, slot, touch.n, v, fn);
+  if (friction_on_)
+    slot.friction = touch.friction =
+        friction_of(law_, slot.friction, touch.n, v, slot.k * clock.dt_old, fn, slot.area);
   touch.force = fn * touch.n + touch.friction;
 }
 

@@ -1,0 +1,75 @@
+#include "contact/nodes/measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/nodes/face.hpp"
+
+namespace courant {
+
+ContactMeasures::ContactMeasures(const Deck& deck, const Model& model, Real tssfac, World& world,
+                                 Diagnostics& diagnostics)
+    : deck_(deck), model_(model), tssfac_(tssfac), world_(world), diagnostics_(diagnostics) {
+  if (const ControlContact* control = deck.last<ControlContact>()) control_ = *control;
+}
+
+void ContactMeasures::take(const ContactCard& card) {
+  card_ = &card;
+  const ContactKind kind = kind_of(card);
+  if (kind.automatic) {
+    shells_ = {.limited = kind.single && control_.ssthk == 0};
+    return;
+  }
+  const int which = card.thkopt == 2 ? 0 : card.thkopt == 1 ? card.shlthk : control_.shlthk;
+  shells_ = {.of_rigid = which == 2, .of_others = which >= 1, .limited = false};
+}
+
+Real ContactMeasures::half_thickness(int side, Index s) const {
+  const Segments& g = world_.segments;
+  const auto a = g.nodes(s);
+  if (g.volume[s] > 0) return 0.5 * card_->sldthk;
+  const bool rigid = model_.parts[static_cast<std::size_t>(g.part[s])].rigid;
+  if (!(rigid ? shells_.of_rigid : shells_.of_others)) return 0;
+  const Real given = side == 0 ? card_->sast : card_->sbst, scale = side == 0 ? card_->sfsat : card_->sfsbt;
+  Real t = given > 0 ? given : g.thickness[s] * scale;
+  if (shells_.limited)
+    for (std::size_t e = 0; e < 4; ++e) {
+      const Index n = a[e], next = a[(e + 1) % 4];
+      if (n != next) t = std::min(t, 0.4 * (world_.nodes.x.vec(n) - world_.nodes.x.vec(next)).norm());
+    }
+  return 0.5 * t;
+}
+
+Real ContactMeasures::beam_radius(Real area) const {
+  return card_->sast > 0 ? 0.5 * card_->sast : card_->sfsat * std::sqrt(area / pi);
+}
+
+Real ContactMeasures::stiffness(Index s, Real area) const {
+  const Segments& g = world_.segments;
+  const auto a = g.nodes(s);
+  const FaceCorners x{world_.nodes.x.vec(a[0]), world_.nodes.x.vec(a[1]), world_.nodes.x.vec(a[2]),
+                      world_.nodes.x.vec(a[3])};
+  if (!(g.volume[s] > 0)) return g.K[s] * area / longest_diagonal(x, a[2] == a[3] ? 3 : 4);
+  return (card_->sldstf > 0 ? card_->sldstf : g.K[s]) * area * area / g.volume[s];
+}
+
+NodeContactLaw ContactMeasures::law() const {
+  const ContactCard& c = *card_;
+  NodeContactLaw law;
+  law.id = c.cid;
+  law.title = c.title;
+  law.slsfac = control_.slsfac, law.penopt = control_.penopt;
+  law.sfs = {c.sfsa, c.sfsb};
+  law.fs = c.fs * c.fsf, law.fd = c.fd * c.fsf, law.dc = c.dc, law.vc = c.vc * c.vsf;
+  law.vdc = c.vdc;
+  law.birth = c.bt, law.death = c.dt;
+  if (SensorBoard* const board = sensors_of(deck_, model_, world_, diagnostics_))
+    law.gate = board->gate_of_contact(c.cid);
+  law.soft = c.soft, law.sofscl = c.sofscl, law.dtstif = c.dtstif;
+  law.tssfac = tssfac_;
+  law.enmass = control_.enmass;
+  law.with_edges = asks_for_edges(c);
+  return law;
+}
+
+}  // namespace courant
