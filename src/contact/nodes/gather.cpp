@@ -96,9 +96,21 @@ Vec NodeContact::force_between(const Surface& a, const Surface& b) const {
   return sum;
 }
 
+// Steps that go to and fro between what contact and what elements allow would pump the highest modes of the
+// mesh (parametric resonance; leapfrog's energy of a mode changes with its omega dt): what contact allows
+// grows slowly.
+TimeLimit::Limit NodeContact::limit(const World& world, const Clock& clock) {
+  constexpr Real growth = 1.0005;  // a step
+  if (clock.cycle != limited_) last_dt_ = next_dt_, limited_ = clock.cycle;
+  Limit out = limit_now(world);
+  if (const Real eased = growth * last_dt_; eased < soft_dt_ && eased < out.dt) out.dt = eased;
+  next_dt_ = out.dt;
+  return out;
+}
+
 // Where springs k_t act on nodes with shares b_tn, no frequency is above max_n (sum_t k_t |b_tn| sum_j
 // |b_tj|) / m_n (Gershgorin). Elements leave 1 - TSSFAC^2 of the square of a stable step to others.
-TimeLimit::Limit NodeContact::limit(const World& world, const Clock&) {
+TimeLimit::Limit NodeContact::limit_now(const World& world) const {
   constexpr Real most_of_elements = 0.95;  // else nothing would be left
   constexpr Real resolved = 0.9;           // omega dt, else bounces are too coarse
   const Real s = std::min(law_.tssfac, most_of_elements), xi = 0.02 * law_.vdc;

@@ -273,6 +273,9 @@ void NodeContact::keep(Archive& archive) {
   archive("fresh", fresh_);
   archive("asleep", asleep_);
   archive("soft_dt", soft_dt_);
+  archive("last_dt", last_dt_);
+  archive("next_dt", next_dt_);
+  archive("limited", limited_);
   archive("damping_work", damping_work_);
   archive("friction_work", friction_work_);
   if (archive.loading()) listed_once_ = false;

@@ -212,6 +212,7 @@ class NodeContact : public Force,
   Slot load(Index i, int k) const;
   void store(Index i, int k, const Slot& slot);
   void gather(const World& world);
+  Limit limit_now(const World& world) const;  // by what touches now and soon
   Stiffest pull_on(const World& world, Index p) const;
   void tell_holder(World& world);
   Vec middle_velocity(const World& world, const Clock& clock, const Field<Index>* driven, Index node) const;
@@ -244,7 +245,10 @@ class NodeContact : public Force,
   bool listed_once_ = false;
   bool fresh_ = true;  ///< nodes may be behind faces without having come through them
   bool asleep_ = false;
-  Real soft_dt_ = 0;  ///< longest step so far [T]
+  Real soft_dt_ = 0;                                      ///< longest step so far [T]
+  Real last_dt_ = std::numeric_limits<Real>::infinity();  ///< step allowed a step ago [T]
+  Real next_dt_ = last_dt_;                               ///< the same, now [T]
+  std::int64_t limited_ = -1;                             ///< cycle of next_dt_
 
   std::vector<Block> blocks_;
   std::vector<Touch> touches_;  ///< of all blocks
