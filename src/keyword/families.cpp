@@ -13,6 +13,7 @@ namespace {
 struct Family {
   const char* prefix;  ///< whole words
   const char* what;    ///< "airbags"; "this ..." where supported ones of the same prefix exist
+  const char* hint = "";
 };
 
 /// The longest prefix that fits counts.
@@ -97,7 +98,8 @@ constexpr Family families[] = {
     {"DEFINE_COORDINATE", "this kind of coordinate system"},
     {"DEFINE_CPM", "corpuscular gas particles"},
     {"DEFINE_CURVE", "this kind of curve"},
-    {"DEFINE_DEATH_TIMES", "times at which elements are deleted"},
+    {"DEFINE_DEATH_TIMES", "times at which elements are deleted",
+     "FAILTM of *MAT_ADD_EROSION deletes the elements of a material at a time"},
     {"DEFINE_DE", "discrete element spheres"},
     {"DEFINE_ELEMENT_DEATH", "times at which elements are deleted"},
     {"DEFINE_FORMING", "metal-forming tools"},
@@ -141,7 +143,8 @@ constexpr Family families[] = {
     {"INCLUDE_NASTRAN", "Nastran files"},
     {"INCLUDE_STAMPED", "results of stamping"},
     {"INITIAL", "this initial condition"},
-    {"INITIAL_AXIAL_FORCE", "initial stresses"},
+    {"INITIAL_AXIAL_FORCE", "initial stresses",
+     "F0 of *MAT_CABLE_DISCRETE_BEAM is the tension of cables at the start"},
     {"INITIAL_DETONATION", "detonations"},
     {"INITIAL_FOAM_REFERENCE_GEOMETRY", "reference geometries"},
     {"INITIAL_PWP", "pore pressures"},
@@ -184,7 +187,8 @@ constexpr Family families[] = {
     {"PARTICLE", "particles of gas or blast"},
     {"PERTURBATION", "perturbations"},
     {"RAIL", "rails"},
-    {"RIGID_DEFORMABLE", "switches between deformable and rigid at restarts"},
+    {"RIGID_DEFORMABLE", "switches between deformable and rigid at restarts",
+     "*DEFORMABLE_TO_RIGID_AUTOMATIC switches parts while a run goes on, at a time or by a force"},
     {"RIGIDWALL", "rigid walls"},
     {"RVE", "representative volumes"},
     {"SECTION", "this kind of section"},
@@ -358,7 +362,8 @@ Refusal Families::refusal(const std::string& name) const {
                     law->family, by_number ? law->name : law->number),
         supported_beginning_with(law->family)};
   }
-  if (family) return {family->what, is_this(family->what) ? supported_beginning_with(family->prefix) : ""};
+  if (family)
+    return {family->what, is_this(family->what) ? supported_beginning_with(family->prefix) : family->hint};
   constexpr std::size_t longest = 100;  // a whole line is no slip of the pen, and takes long to compare
   const std::string near = name.size() > longest ? std::string() : nearest_word(name, supported_);
   return {"", near.empty() ? "`courant keywords` lists the supported keywords"

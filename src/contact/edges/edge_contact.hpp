@@ -145,6 +145,7 @@ class EdgeContact : public Force,
   std::int64_t eroded_count_ = 0;
   bool listed_once_ = false, fresh_ = true, asleep_ = false;
   Real soft_dt_ = 0;  ///< longest step so far [T]
+  EasedStep eased_;
 
   std::vector<Block> blocks_;
   std::vector<Touch> touches_;              ///< sorted; in `block` those that go on

@@ -229,6 +229,7 @@ class NodeContact : public Force,
   bool fresh_ = true;  ///< nodes may be behind faces without having come through them
   bool asleep_ = false;
   Real soft_dt_ = 0;  ///< longest step so far [T]
+  EasedStep eased_;
 
   std::vector<Block> blocks_;
   std::vector<Touch> touches_;  ///< of all blocks
