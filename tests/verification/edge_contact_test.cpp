@@ -313,14 +313,13 @@ test::SolidDeck net_and_ball(int n, Real v) {
       "*BOUNDARY_SPC_SET\n         9         0         1         1         1\n*INITIAL_VELOCITY_NODE\n";
   for (std::size_t k = 1; k <= ball; ++k)
     deck.cards += fmt::format("{:10}{:10}{:10}{:10.3f}\n", k, 0.0, 0.0, -v);
-  deck.cards += general_contact() + "*CONTROL_TIMESTEP\n       0.0       0.6\n";
+  deck.cards += general_contact();
   return deck;
 }
 
 }  // namespace
 
-// A net stops a ball and throws it back: where wires cross they hold each other by their edges alone. (The
-// wires themselves need TSSFAC 0.6.)
+// A net stops a ball and throws it back: where wires cross they hold each other by their edges alone.
 TEST(EdgeContact, NetThrowsABallBack) {
   constexpr int n = 6;
   auto s = simulation_of(net_and_ball(n, 10).text(1));
