@@ -7,7 +7,8 @@ from page_text import heading, hours, number, percent, table
 
 FIGURES = (("types", "J and the toe over time, before the colours of the types"), ("vorticity", "Vorticity in 1/s, the paper's Figures 7 to 12"),
            ("level", "Surface at distances from the mean toe"), ("spectra_level", "Spectrum of the surface, the paper's Figures 13 and 14"),
-           ("spectra_pressure", "Spectrum of the pressure at the bed, the paper's Figures 16 to 19"), ("correlations", "Correlations, the paper's Figures 24 and 25"))
+           ("spectra_pressure", "Spectrum of the pressure at the bed, the paper's Figures 16 to 19"), ("correlations", "Correlations, the paper's Figures 24 and 25"),
+           ("regime", "F1 against y_t/y1 between the bounds of momentum, the paper's Figure 15"))
 SETTING = """The one setting of the tests, fixed before they ran: `keyword_decks/abrupt_drop/abrupt_drop.yaml`, standard k-epsilon with the constants of books, smooth beds that rub by the logarithmic law, nothing fitted; y1, v1
 and y_t as printed (T3: 18.18 cm for "1818"); a bed of 0.5 m before the step; the inflow uniform, under its hydrostatic pressure, k from 10 % of v1 and eddies of half the depth; at the end a level outlet at y_t; start with the toe at
 the step. The rule of the types stands in [post.md](post.md#a-jump-at-an-abrupt-drop)."""
