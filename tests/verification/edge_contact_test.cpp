@@ -341,6 +341,30 @@ TEST(EdgeContact, NetThrowsABallBack) {
     }
 }
 
+// What a step leads so far that no spring could bring it back is told.
+TEST(EdgeContact, RodsThatCannotBeHeldAreCounted) {
+  int counted = 0;
+  for (const Real way : {0.03, 0.08, 0.13, 0.18, 0.23}) {
+    auto s = simulation_of(crossed_rods(1, 6000, way).text(1));
+    const World& w = s->world();
+    while (s->clock().t < 1e-4) s->step(test::do_nothing);
+    const bool through = w.nodes.x.vec(0)[2] < w.nodes.x.vec(3)[2];
+    EXPECT_EQ(through, w.counters.at("leaked_edges") > 0) << way;
+    counted += through;
+  }
+  EXPECT_GT(counted, 0);
+}
+
+// SOFT 1 takes its stiffness from a step, which none is known before the first one.
+TEST(EdgeContact, SoftSpringsHoldWhatTouchesAtTheStart) {
+  const std::string soft = "*CONTACT_AUTOMATIC_GENERAL\n         0\n\n     1e-12\n         1\n";
+  auto s = simulation_of(crossed_rods(1, 1, -0.1 * rod_r, 90, soft).text(1));
+  const World& w = s->world();
+  while (s->clock().t < 2e-3) s->step(test::do_nothing);
+  EXPECT_GT(w.nodes.x.vec(0)[2], w.nodes.x.vec(3)[2]);
+  EXPECT_EQ(w.counters.at("leaked_edges"), 0);
+}
+
 // Springs that ask for a smaller step than the rods, wherever within a step they meet.
 TEST(EdgeContact, StiffSpringsAreToldBeforeTheyPush) {
   std::string stiff = general_contact();

@@ -86,7 +86,8 @@ void EdgeContact::declare(const World& world, Accesses& a) const {
   a.reads(n.held, Reach::others);
   reads_erosion();
   if (nodes_) a.reads(nodes_->touches(), Reach::others);
-  a.in_start().reads(n.x, Reach::others).reads(n.v, Reach::others).reads(n.held, Reach::others);
+  a.in_start().reads(n.x, Reach::others).reads(n.v, Reach::others).reads(n.m, Reach::others);
+  a.reads(n.held, Reach::others);
   reads_erosion();
   a.in_finish().writes(touches_resource_).updates(*world.segments.contact_force);
   a.reads(n.m, Reach::others).reads(n.held, Reach::others);
@@ -170,6 +171,7 @@ bool EdgeContact::held_by_nodes(Index a, Index b) const {
 }
 
 void EdgeContact::start(World& world, const Clock& clock) {
+  first_step_ = soft_dt_ == 0 && clock.dt_old > 0;
   soft_dt_ = std::max(soft_dt_, clock.dt_old);
   if (law_.sleeps(clock.t)) {  // at its death what it stores is lost
     for (const Touch& touch : touches_) let_go_ += touch.stored;
@@ -184,7 +186,7 @@ void EdgeContact::start(World& world, const Clock& clock) {
 
 void EdgeContact::block(World& world, const Clock& clock, Index begin, Index end) {
   Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];
-  b.touches.clear();
+  b.touches.clear(), b.leaked = 0;
   if (asleep_) return;
   const auto of_edge = [&](Index i) {
     Touch key;
@@ -206,7 +208,10 @@ void EdgeContact::block(World& world, const Clock& clock, Index begin, Index end
 void EdgeContact::finish(World& world, const Clock&) {
   touches_.clear();
   Real deepest = 0;
-  for (const Block& b : blocks_) touches_.insert(touches_.end(), b.touches.begin(), b.touches.end());
+  for (const Block& b : blocks_) {
+    touches_.insert(touches_.end(), b.touches.begin(), b.touches.end());
+    leaked_ += b.leaked;
+  }
   if (asleep_) touches_.clear();
   world.counters["leaked_edges"] += leaked_, leaked_ = 0;
   for (const Touch& touch : touches_) {

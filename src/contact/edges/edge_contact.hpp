@@ -84,6 +84,7 @@ class EdgeContact : public Force,
   struct alignas(64) Block {              ///< of edges
     std::vector<Index> first, candidate;  ///< of each edge, those behind it, ascending
     std::vector<Touch> touches;
+    std::int64_t leaked = 0;  ///< crossings too deep to be held
   };
   struct Pair {
     Index a = 0, b = 0;  ///< a < b
@@ -144,7 +145,8 @@ class EdgeContact : public Force,
   std::vector<Vec> listed_at_;   ///< where those were when lists were made
   std::int64_t eroded_count_ = 0;
   bool listed_once_ = false, fresh_ = true, asleep_ = false;
-  Real soft_dt_ = 0;  ///< longest step so far [T]
+  Real soft_dt_ = 0;         ///< longest step so far [T]
+  bool first_step_ = false;  ///< of the run: SOFT 1 knows a step from now on
   EasedStep eased_;
 
   std::vector<Block> blocks_;

@@ -82,7 +82,7 @@ void EdgeContact::push(const World& world, const Clock& clock, Touch& touch) con
   const Real springs = k * (of_a + of_b) + pulled_by_others(world, touch);
   const Real way = dt * std::max(-speed, speed + springs * touch.depth * dt);
   Real fn = part_of_step(touch.depth, way) * k * touch.depth;
-  if (law_.vdc > 0) {
+  if (law_.vdc > 0 && of_a + of_b > 0) {
     // of the critical damping of both edges: 2 m omega, m the smaller mass
     const Real omega = std::sqrt(k * (of_a + of_b)), lighter = 1 / std::max(of_a, of_b);
     touch.damping = std::max(-0.01 * law_.vdc * 2 * lighter * omega * speed, -fn);  // never pulls
@@ -174,7 +174,8 @@ InterfaceForce EdgeContact::report() const {
   for (const Touch& touch : touches_) {
     out.on_surfa += (edge(touch.a).sides & 1U) != 0 ? touch.force : Vec(-touch.force);
     out.energy_stored += touch.stored;
-    if (friction_on_ && touch.depth > 0) springs += 0.5 * touch.friction.squaredNorm() / touch.stiffness();
+    if (friction_on_ && touch.depth > 0 && touch.k > 0)
+      springs += 0.5 * touch.friction.squaredNorm() / touch.stiffness();
   }
   out.energy_stored += springs;
   out.energy_damping = damping_work_;

@@ -116,6 +116,7 @@ void EdgeContact::go_on(const World& world, const Clock& clock) {
   parted_.clear();
   for (Touch touch : touches_) {
     if (touch.due > 0) continue;
+    if (first_step_) touch.k = stiffness_of(world, touch.a, touch.b);
     const Pair from{touch.a, touch.b, {}, false};
     const bool there = is_there(edge(touch.a)) && is_there(edge(touch.b));
     if (there && touch.place == crossing) {
@@ -234,7 +235,11 @@ void EdgeContact::begin_crossing(const World& world, const Clock& clock, const P
   Touch touch;
   touch.a = pair.a, touch.b = pair.b, touch.at = pair.at;
   begin(world, touch, through, old);
-  if (touch.gap < 0 && !is_too_deep(touch)) b.touches.push_back(touch);
+  if (touch.gap >= 0) return;
+  if (!is_too_deep(touch))
+    b.touches.push_back(touch);
+  else if (through)
+    ++b.leaked;
 }
 
 void EdgeContact::begin_along(const World& world, const Clock& clock, const Pair& pair, Place place,

@@ -47,13 +47,13 @@ class NodeContactBuilder {
       add_faces(c, 0, 2U, faces_a, sides);
     }
     if (kind.edges) add_beam_nodes(c, sides);
+    warn_of_kind(c, kind);
     if (!can_touch(sides)) return asks_for_edges(c) ? void() : warn_of_nothing(c, !nodes_a.empty());
     if (world_.dim == 2)
       return diagnostics_.error(deck_.where(c),
                                 deck_.keyword(c) + ": elements do not touch each other in a plane scene yet",
                                 "leave it out, or make the scene one of three dimensions");
     if (!shells_have_thickness(c, kind, sides)) return;
-    warn_of_kind(c, kind);
     NodeContactLaw law = measures_.law();
     if (c.bt > 0 || law.gate.there()) world_.counters["penetrations_at_birth"] += 0;
     auto contact =
@@ -90,6 +90,12 @@ class NodeContactBuilder {
         deck_.warning(diagnostics_, c, field, fmt::format("has no effect: {}", why), "leave it blank");
     };
     if (kind.single) without_effect("SURFB", c.surfb != 0, "a single surface is SURFA alone");
+    if (!asks_for_edges(c)) {
+      without_effect("DEPTH", c.depth == 5 || c.depth >= 15,
+                     "edges touch edges with SOFT 2 and DEPTH 5, 15, 25, 35 in AUTOMATIC contacts of one or "
+                     "two surfaces alone");
+      without_effect("EDGEK", c.edgek != 0, "it is of edges that touch edges");
+    }
     if (!kind.two_way || kind.single)
       without_effect("SFSB", c.sfsb != 1 && c.sfsb != 0, "nodes of SURFA alone are kept off faces");
   }

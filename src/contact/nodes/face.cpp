@@ -78,12 +78,13 @@ Projection project_on_rim(const FaceCorners& x, int corners, const Vec& y) {
 namespace {
 
 /// Newton's method for the nearest point of r(s, t): (r - y).r_s = (r - y).r_t = 0. Of a flat parallelogram
-/// the first step is exact.
+/// the first step is exact. Where it goes to and fro, on folded faces, far outside: they have no foot there.
 std::array<Real, 2> nearest_on_quadrilateral(const FaceCorners& x, const Vec& y) {
   const Vec mean = 0.25 * (x[0] + x[1] + x[2] + x[3]), a = 0.25 * (x[1] - x[0] + x[2] - x[3]),
             b = 0.25 * (x[3] - x[0] + x[2] - x[1]), c = 0.25 * (x[0] - x[1] + x[2] - x[3]);
   constexpr Real enough = 1e-7, wild = 4;  // the error is of the order of the last step squared
   constexpr int most = 12;
+  constexpr Real lost = 0.01;  // the last step of what converges, if slowly, is less
   Real s = 0, t = 0;
   for (int it = 0; it < most; ++it) {
     const Vec w = mean + s * a + t * b + s * t * c - y, rs = a + t * c, rt = b + s * c;
@@ -93,6 +94,7 @@ std::array<Real, 2> nearest_on_quadrilateral(const FaceCorners& x, const Vec& y)
     const Real ds = (h * st - g * tt) / det, dt = (g * st - h * ss) / det;
     s = std::clamp(s + ds, -wild, wild), t = std::clamp(t + dt, -wild, wild);
     if (std::abs(ds) + std::abs(dt) < enough) break;
+    if (it == most - 1 && !(std::abs(ds) + std::abs(dt) < lost)) return {2 * wild, 2 * wild};
   }
   return {s, t};
 }

@@ -158,7 +158,7 @@ InterfaceForce NodeContact::report() const {
   for (const Touch& touch : touches_) {
     out.on_surfa += touch.pass == 0 ? touch.force : Vec(-touch.force);
     out.energy_stored += touch.stored;
-    if (friction_on_) springs += 0.5 * touch.friction.squaredNorm() / touch.k;
+    if (friction_on_ && touch.k > 0) springs += 0.5 * touch.friction.squaredNorm() / touch.k;
   }
   out.energy_stored += springs;
   out.energy_damping = damping_work_;

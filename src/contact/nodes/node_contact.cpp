@@ -213,6 +213,7 @@ void NodeContact::list_block(const World& world, Index begin, Index end) {
 }
 
 void NodeContact::start(World& world, const Clock& clock) {
+  first_step_ = soft_dt_ == 0 && clock.dt_old > 0;
   soft_dt_ = std::max(soft_dt_, clock.dt_old);
   if (law_.sleeps(clock.t)) {
     if (!asleep_)  // at its death what it stores is lost

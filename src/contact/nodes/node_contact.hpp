@@ -228,7 +228,8 @@ class NodeContact : public Force,
   bool listed_once_ = false, narrowed_ = false;
   bool fresh_ = true;  ///< nodes may be behind faces without having come through them
   bool asleep_ = false;
-  Real soft_dt_ = 0;  ///< longest step so far [T]
+  Real soft_dt_ = 0;         ///< longest step so far [T]
+  bool first_step_ = false;  ///< of the run: SOFT 1 knows a step from now on
   EasedStep eased_;
 
   std::vector<Block> blocks_;

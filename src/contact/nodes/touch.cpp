@@ -168,6 +168,7 @@ bool NodeContact::hold(const World& world, Block& b, Index i, const Vec& x, cons
   const bool inside = slot.at.inside;
   if (!inside && slot.at.over) slot.at = project_on_rim(corners, f.corners, x);
   slot.n = slot.side * slot.at.n;
+  if (first_step_) give_stiffness(world, i, slot);
   slot.beyond = 0;
   slot.gap = slot.n.dot(x - slot.at.q) - f.r - node(i).r;
   if (!move_on(world, b, i, x, slots, slot, inside) || slot.gap >= 0) return false;
