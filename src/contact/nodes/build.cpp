@@ -47,13 +47,14 @@ class NodeContactBuilder {
       add_faces(c, 0, 2U, faces_a, sides);
     }
     if (kind.edges) add_beam_nodes(c, sides);
-    warn_of_kind(c, kind);
-    if (!can_touch(sides)) return asks_for_edges(c) ? void() : warn_of_nothing(c, !nodes_a.empty());
+    if (!can_touch(sides))
+      return asks_for_edges(c) ? warn_of_kind(c, kind) : warn_of_nothing(c, !nodes_a.empty());
     if (world_.dim == 2)
       return diagnostics_.error(deck_.where(c),
                                 deck_.keyword(c) + ": elements do not touch each other in a plane scene yet",
                                 "leave it out, or make the scene one of three dimensions");
     if (!shells_have_thickness(c, kind, sides)) return;
+    warn_of_kind(c, kind);
     NodeContactLaw law = measures_.law();
     if (c.bt > 0 || law.gate.there()) world_.counters["penetrations_at_birth"] += 0;
     auto contact =
