@@ -113,8 +113,8 @@ class EdgeContactBuilder {
       const auto a = world_.segments.nodes(faces[k]);
       const FaceCorners x{world_.nodes.x.vec(a[0]), world_.nodes.x.vec(a[1]), world_.nodes.x.vec(a[2]),
                           world_.nodes.x.vec(a[3])};
-      n[k] = (x[2] - x[0]).cross(x[3] - x[1]).normalized();
-      centre[k] = centre_of(x, a[2] == a[3] ? 3 : 4);
+      const FaceShape shape = shape_of(x, a[2] == a[3] ? 3 : 4);
+      n[k] = shape.n, centre[k] = shape.centre;
     }
     return n[0].dot(n[1]) < sharp && n[0].dot(centre[1] - centre[0]) < 0;
   }

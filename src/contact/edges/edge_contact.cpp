@@ -112,7 +112,14 @@ void EdgeContact::follow(World& world, const Clock& clock) {
 }
 
 void EdgeContact::list(World& world) {
-  search_.build(edges_, world.nodes.x, listed_reach_);
+  std::vector<BoxGrid::Box> boxes;
+  boxes.reserve(edges_.size());
+  for (const ContactEdge& e : edges_) {
+    const EdgeEnds x = ends_of(e, world.nodes.x);
+    const Real around = 0.5 * listed_reach_ + e.r;  // of two boxes: both
+    boxes.push_back({x[0].cwiseMin(x[1]).array() - around, x[0].cwiseMax(x[1]).array() + around});
+  }
+  search_.build(std::move(boxes));
   for (std::size_t k = 0; k < involved_.size(); ++k) listed_at_[k] = world.nodes.x.vec(involved_[k]);
   for_each_block(set_->size(), [&](Index begin, Index end) {
     Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "contact/edges/edge.hpp"
-#include "contact/edges/edge_search.hpp"
 #include "contact/nodes/node_contact.hpp"
+#include "search/box_grid.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
 #include "state/wall_bodies.hpp"
@@ -50,6 +50,7 @@ class EdgeContact : public Force,
 
   /// What touches leave for all nodes; complete after `finish`.
   const Resource& touches() const { return touches_resource_; }
+  bool touches_something() const { return !key_.empty(); }
   /// Adds what a node got from all touches, in the order of touches. [ML/T2]
   void add_force_on(Index node, Vec& force) const;
 
@@ -136,7 +137,7 @@ class EdgeContact : public Force,
   FieldSet* set_;
   const Field<Index>* eroded_;  ///< of segments; null: none fails
 
-  EdgeSearch search_;
+  BoxGrid search_;
   Real size_ = 0;                ///< usual length of an edge [L]
   Real reach_ = 0;               ///< pairs further apart than their radii and this are left alone [L]
   Real listed_reach_ = 0;        ///< of the lists [L]

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "contact/edges/edge_contact.hpp"
+#include "contact/nodes/contact_forces.hpp"
 #include "parallel/counting_sort.hpp"
 #include "parallel/parallel.hpp"
 #include "state/shared_fields.hpp"
@@ -183,34 +184,10 @@ InterfaceForce EdgeContact::report() const {
   return out;
 }
 
-namespace {
-
-class EdgeForces : public Force {
- public:
-  explicit EdgeForces(std::shared_ptr<const EdgeContact> contact) : contact_(std::move(contact)) {}
-  std::string name() const override { return contact_->name() + " (forces)"; }
-  const FieldSet& over(const World& world) const override { return world.nodes.fields; }
-  void declare(const World& world, Accesses& a) const override {
-    a.reads(contact_->touches(), Reach::others).updates(world.nodes.f);
-  }
-  void block(World& world, const Clock&, Index begin, Index end) override {
-    for (Index n = begin; n < end; ++n) {
-      Vec force = Vec::Zero();
-      contact_->add_force_on(n, force);
-      world.nodes.f.add(n, force);
-    }
-  }
-
- private:
-  std::shared_ptr<const EdgeContact> contact_;
-};
-
-}  // namespace
-
 void add_edge_contact(World& world, const std::shared_ptr<EdgeContact>& contact) {
   add_clear_face_forces(world);
   world.passes.add(contact);
-  world.passes.add(std::make_shared<EdgeForces>(contact));
+  world.passes.add(std::make_shared<ContactForces<EdgeContact>>(contact));
 }
 
 }  // namespace courant

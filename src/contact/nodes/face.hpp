@@ -2,7 +2,9 @@
 // A face of an element that nodes touch: bilinear, whatever its warp.
 #include <array>
 #include <cmath>
+#include <vector>
 
+#include "search/box_grid.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -84,6 +86,11 @@ std::array<Real, 4> plane_change(const FaceCorners& x, int corners, const Vec& a
 inline FaceCorners corners_of(const ContactFace& f, const Field<Real>& x) {
   return {x.vec(f.node[0]), x.vec(f.node[1]), x.vec(f.node[2]), x.vec(f.node[3])};
 }
+
+/// Boxes that reach `reach` further than faces and their r; where a depth is beyond `least`, by the
+/// difference more. [L] On all threads.
+std::vector<BoxGrid::Box> boxes_around(const std::vector<ContactFace>& faces, const Field<Real>& x,
+                                       Real reach, Real least);
 
 /// Area of a face, and its longest diagonal (of a triangle: side). [L2], [L]
 Real area_of(const FaceCorners& x);

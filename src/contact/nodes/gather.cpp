@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "contact/nodes/contact_forces.hpp"
 #include "contact/nodes/node_contact.hpp"
 #include "parallel/counting_sort.hpp"
 #include "parallel/parallel.hpp"
@@ -166,35 +167,10 @@ InterfaceForce NodeContact::report() const {
   return out;
 }
 
-namespace {
-
-class TouchForces : public Force {
- public:
-  explicit TouchForces(std::shared_ptr<const NodeContact> contact) : contact_(std::move(contact)) {}
-  std::string name() const override { return contact_->name() + " (forces)"; }
-  const FieldSet& over(const World& world) const override { return world.nodes.fields; }
-  void declare(const World& world, Accesses& a) const override {
-    a.reads(contact_->touches(), Reach::others).updates(world.nodes.f);
-  }
-  void block(World& world, const Clock&, Index begin, Index end) override {
-    if (!contact_->touches_something()) return;
-    for (Index n = begin; n < end; ++n) {
-      Vec force = Vec::Zero();
-      contact_->add_force_on(n, force);
-      world.nodes.f.add(n, force);
-    }
-  }
-
- private:
-  std::shared_ptr<const NodeContact> contact_;
-};
-
-}  // namespace
-
 void add_node_contact(World& world, const std::shared_ptr<NodeContact>& contact) {
   add_clear_face_forces(world);
   world.passes.add(contact);
-  world.passes.add(std::make_shared<TouchForces>(contact));
+  world.passes.add(std::make_shared<ContactForces<NodeContact>>(contact));
 }
 
 }  // namespace courant

@@ -168,7 +168,7 @@ void NodeContact::list(World& world) {
   may_touch_.resize(nodes_.size());
   for_each(set_->size(), [&](Index i) { may_touch_[static_cast<std::size_t>(i)] = has_faces(node(i)); });
   const Nodes& nodes = world.nodes;
-  search_.build(faces_, nodes.x, r_most_ + listed_reach_, least_reach * size_);
+  search_.build(boxes_around(faces_, nodes.x, r_most_ + listed_reach_, least_reach * size_));
   for_each(static_cast<Index>(involved_.size()), [&](Index k) {
     listed_at_[static_cast<std::size_t>(k)] = nodes.x.vec(involved_[static_cast<std::size_t>(k)]);
   });

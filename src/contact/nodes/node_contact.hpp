@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "contact/nodes/face.hpp"
-#include "contact/nodes/face_search.hpp"
 #include "contact/nodes/penalty.hpp"
 #include "contact/nodes/touch_holder.hpp"
+#include "search/box_grid.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
 #include "state/wall_bodies.hpp"
@@ -157,7 +157,7 @@ class NodeContact : public Force,
   void narrow(const World& world);
   void narrow_block(const World& world, Index begin, Index end);
   bool touches_any(Index i) const;
-  Real idle_reach(const ContactFace& f, Real closing) const;
+  Real idle_reach(const ContactFace& f) const;
   bool may_reach(Index face, const Vec& x, Real reach) const;
   void list_block(const World& world, Index begin, Index end);
   void take_involved(const World& world);
@@ -209,7 +209,7 @@ class NodeContact : public Force,
   Field<Index>*in_touch_, *leaked_;  ///< by slot: face + 1, or 0; by node
   Field<Real>*side_, *k_, *slack_, *area_, *friction_;
 
-  FaceSearch search_;
+  BoxGrid search_;
   Real r_most_ = 0;        ///< largest, of the nodes [L]
   Real size_ = 0;          ///< usual, of a face [L]
   Real reach_ = 0;         ///< faces further away than the contact distance and this are left alone [L]

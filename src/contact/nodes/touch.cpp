@@ -1,6 +1,7 @@
 // Which faces a node touches, from step to step.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "contact/nodes/node_contact.hpp"
 #include "parallel/parallel.hpp"
@@ -57,10 +58,10 @@ bool NodeContact::touches_any(Index i) const {
   return false;
 }
 
-// How far from a face a node that touches nothing may meet it within a step, if they come nearer by
-// `closing`; also from behind, where it may arrive late.
-Real NodeContact::idle_reach(const ContactFace& f, Real closing) const {
-  return closing + 1.5 * arrival_tolerance * f.depth;
+// How far from a face a node that touches nothing may meet it within a step; also from behind, where it may
+// arrive late.
+Real NodeContact::idle_reach(const ContactFace& f) const {
+  return closing_ + 1.5 * arrival_tolerance * f.depth;
 }
 
 // Whether a face, as it was when near candidates were taken, may be nearer to a place than `reach`.
@@ -79,19 +80,15 @@ void NodeContact::narrow_block(const World& world, Index begin, Index end) {
     b.first_near.push_back(static_cast<Index>(b.near.size()));
     const Vec x = world.nodes.x.vec(node(i).node);
     const auto k = static_cast<std::size_t>(i - begin);
-    const auto candidates = [&](const auto& holds) {
-      return std::any_of(b.candidate.begin() + b.first[k], b.candidate.begin() + b.first[k + 1], holds);
-    };
+    const auto first = b.candidate.begin() + b.first[k], last = b.candidate.begin() + b.first[k + 1];
     const auto within = [&](Index s, Real reach) {
       return may_reach(s, x, face(s).r + node(i).r + reach + near_margin_);
     };
     if (!fresh_ && !touches_any(i) &&
-        !candidates([&](Index s) { return within(s, idle_reach(face(s), closing_)); }))
+        std::none_of(first, last, [&](Index s) { return within(s, idle_reach(face(s))); }))
       continue;
-    candidates([&](Index s) {
-      if (within(s, std::max(reach_, face(s).depth))) b.near.push_back(s);
-      return false;
-    });
+    std::copy_if(first, last, std::back_inserter(b.near),
+                 [&](Index s) { return within(s, std::max(reach_, face(s).depth)); });
   }
   b.first_near.push_back(static_cast<Index>(b.near.size()));
 }
@@ -109,10 +106,7 @@ void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, cons
     const Index s = b.near[static_cast<std::size_t>(c)];
     const ContactFace& f = face(s);
     const bool deep = fresh_ || goes_on_at(slots, f);
-    const Real reach = f.r + node(i).r +
-                       (idle   ? idle_reach(f, closing_)
-                        : deep ? std::max(reach_, f.depth)
-                               : reach_);
+    const Real reach = f.r + node(i).r + (idle ? idle_reach(f) : deep ? std::max(reach_, f.depth) : reach_);
     if (!may_reach(s, x, reach + moved_)) continue;
     Seen& seen = b.seen.emplace_back();
     seen.face = s;

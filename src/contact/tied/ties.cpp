@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "contact/nodes/face_search.hpp"
+#include "contact/nodes/face.hpp"
 
 namespace courant {
 
@@ -61,8 +61,8 @@ std::vector<Tie> find_ties(const std::vector<TieNode>& nodes, const std::vector<
     reach = std::max({reach, tolerance.back(), given > 0 ? 0 : 0.6 * (thickest + 2 * f.r),
                       2 * edge_margin * longest_diagonal(corners_of(f, x), f.corners)});
   }
-  FaceSearch search;
-  search.build(faces, x, reach, reach);
+  BoxGrid search;
+  search.build(boxes_around(faces, x, reach, reach));
   std::vector<Tie> out;
   for (const TieNode& n : nodes) {
     const Vec y = x.vec(n.node);
