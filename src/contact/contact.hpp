@@ -89,6 +89,7 @@ class Contact : public Force,
   void add_reaction_on_segment(Index segment, Vec& force) const;
   bool has_moving_walls() const { return !moving_.empty(); }
   void refreshed(World& world, const Clock& clock, std::span<const Index> old_of_new) override;
+  bool rings() const override { return false; }
   Limit limit(const World& world, const Clock& clock) override;
   void strike(World& world, const Clock& clock) override;
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;

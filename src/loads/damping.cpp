@@ -233,6 +233,7 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
     }
   }
 
+  bool rings() const override { return false; }
   Limit limit(const World&, const Clock& clock) override {
     Real most = 0;
     for (const Vec& d : constants_) most += d.maxCoeff();

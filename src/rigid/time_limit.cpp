@@ -11,6 +11,7 @@ class BodyTimeLimit : public TimeLimit {
   BodyTimeLimit(std::shared_ptr<const RigidBodies> bodies, Real endtim)
       : bodies_(std::move(bodies)), longest_(endtim / 1000) {}
   std::string name() const override { return "rigid bodies (step)"; }
+  bool rings() const override { return false; }
   Limit limit(const World&, const Clock&) override {
     constexpr Real most_angle = 0.01;
     Limit out{longest_, "rigid bodies: ENDTIM / 1000"};

@@ -9,6 +9,7 @@
 #include "time/guard.hpp"
 #include "time/pass_timer.hpp"
 #include "time/stage.hpp"
+#include "time/steady_step.hpp"
 
 namespace courant {
 
@@ -38,11 +39,12 @@ class Stepper : public Restartable {
   /// Everything up to the choice of dt and the impacts that depend on it, without moving: for `courant
   /// check`.
   void evaluate(Clock& clock, std::string& controlled_by);
-  const std::string& stages() const { return stages_; }  ///< as text
-  void forget_first_step() { first_dt_ = 0; }            ///< for DTMIN: the next one is the first
+  const std::string& stages() const { return stages_; }      ///< as text
+  void forget_first_step() { first_dt_ = 0, steady_ = {}; }  ///< the next one is the first
   void keep(Archive& archive) override {
     archive("first_dt", first_dt_);
     archive("first_tssfac", first_tssfac_);
+    steady_.keep(archive);
   }
 
  private:
@@ -58,7 +60,9 @@ class Stepper : public Restartable {
   std::vector<Impact*> impacts_;
   std::vector<EnergyTerm*> terms_;
   std::vector<Stage> forces_, motion_;
-  TimeLimit::Limit computed_{0, {}};      ///< what passes allow, whatever DTINIT and LCTM say
+  TimeLimit::Limit computed_{0, {}};  ///< what passes allow, whatever DTINIT and LCTM say
+  bool rings_;                        ///< what limits the step
+  SteadyStep steady_;
   Real first_dt_ = 0, first_tssfac_ = 1;  ///< of the first step: that [T], and TSSFAC
 };
 

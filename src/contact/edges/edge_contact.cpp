@@ -256,7 +256,6 @@ void EdgeContact::keep(Archive& archive) {
   archive("fresh", fresh_);
   archive("asleep", asleep_);
   archive("soft_dt", soft_dt_);
-  eased_.keep(archive);
   archive("damping_work", damping_work_);
   archive("friction_work", friction_work_);
   if (!archive.loading()) return;

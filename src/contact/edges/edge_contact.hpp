@@ -148,7 +148,6 @@ class EdgeContact : public Force,
   bool listed_once_ = false, fresh_ = true, asleep_ = false;
   Real soft_dt_ = 0;         ///< longest step so far [T]
   bool first_step_ = false;  ///< of the run: SOFT 1 knows a step from now on
-  EasedStep eased_;
 
   std::vector<Block> blocks_;
   std::vector<Touch> touches_;              ///< sorted; in `block` those that go on

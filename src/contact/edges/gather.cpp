@@ -141,8 +141,8 @@ void EdgeContact::add_force_on(Index node, Vec& force) const {
   }
 }
 
-TimeLimit::Limit EdgeContact::limit(const World& world, const Clock& clock) {
-  return eased_.limit(limit_of(law_, stiffest_, due_, nodes_ ? 0.5 : 1, name(), world), soft_dt_, clock);
+TimeLimit::Limit EdgeContact::limit(const World& world, const Clock&) {
+  return limit_of(law_, stiffest_, due_, nodes_ ? 0.5 : 1, name(), world);
 }
 
 void EdgeContact::record(World& world, const Clock& clock, EnergyLedger& ledger) {

@@ -97,10 +97,10 @@ Vec NodeContact::force_between(const Surface& a, const Surface& b) const {
   return sum;
 }
 
-TimeLimit::Limit NodeContact::limit(const World& world, const Clock& clock) {
+TimeLimit::Limit NodeContact::limit(const World& world, const Clock&) {
   // springs that hold the same nodes, and edges, ask for the other half
   const Real part = holder_ || law_.with_edges ? 0.5 : 1;
-  return eased_.limit(limit_of(law_, stiffest_, due_, part, name(), world), soft_dt_, clock);
+  return limit_of(law_, stiffest_, due_, part, name(), world);
 }
 
 bool NodeContact::holds(Index node, Index segment) const {

@@ -230,7 +230,6 @@ class NodeContact : public Force,
   bool asleep_ = false;
   Real soft_dt_ = 0;         ///< longest step so far [T]
   bool first_step_ = false;  ///< of the run: SOFT 1 knows a step from now on
-  EasedStep eased_;
 
   std::vector<Block> blocks_;
   std::vector<Touch> touches_;  ///< of all blocks

@@ -43,20 +43,6 @@ TimeLimit::Limit limit_of(const NodeContactLaw& law, const StiffestContact& stif
   return now.omega2 > 0 ? told(dt, now.node) : TimeLimit::Limit{dt, name};
 }
 
-TimeLimit::Limit EasedStep::limit(TimeLimit::Limit now, Real longest, const Clock& clock) {
-  constexpr Real growth = 1.0005;  // a step
-  if (clock.cycle != cycle_) last_ = next_, cycle_ = clock.cycle;
-  if (const Real eased = growth * last_; eased < longest && eased < now.dt) now.dt = eased;
-  next_ = now.dt;
-  return now;
-}
-
-void EasedStep::keep(Archive& archive) {
-  archive("last_dt", last_);
-  archive("next_dt", next_);
-  archive("limited", cycle_);
-}
-
 Vec middle_velocity(const World& world, const WallBodies& bodies, const Clock& clock,
                     const Field<Index>* driven, Index n) {
   const Nodes& nodes = world.nodes;

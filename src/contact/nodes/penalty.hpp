@@ -40,21 +40,6 @@ struct StiffestContact {
 TimeLimit::Limit limit_of(const NodeContactLaw& law, const StiffestContact& stiffest, Real due, Real part,
                           const std::string& name, const World& world);
 
-/// Steps that go to and fro between what contact and what elements allow would pump the highest modes of the
-/// mesh (parametric resonance: leapfrog's energy of a mode changes with its omega dt). So what contact allows
-/// grows slowly once it has bound.
-class EasedStep {
- public:
-  /// `now`: by what touches; `longest`: step so far [T]. The same however often it is asked within a cycle.
-  TimeLimit::Limit limit(TimeLimit::Limit now, Real longest, const Clock& clock);
-  void keep(Archive& archive);
-
- private:
-  Real last_ = std::numeric_limits<Real>::infinity();  ///< allowed a step ago [T]
-  Real next_ = last_;                                  ///< now [T]
-  std::int64_t cycle_ = -1;                            ///< of next_
-};
-
 /// Mean over the step about to be taken; of driven nodes, which do not follow their forces, that before.
 /// [L/T]
 Vec middle_velocity(const World& world, const WallBodies& bodies, const Clock& clock,

@@ -216,7 +216,7 @@ class BeamForces : public Material,
   /// Of the beams of a block.
   struct Change {
     std::array<Six, block_size> now{}, after{};
-    std::array<BeamFrame, block_size> frame{};
+    std::array<TurnedEnds, block_size> turned{};
   };
   static std::size_t at(Index e) { return static_cast<std::size_t>(e); }
   Field<Real>& add(const char* field, const char* dimension, int components) {
@@ -284,7 +284,8 @@ class BeamForces : public Material,
 
   void move(const World& world, const Clock& clock, Index e, Index i, Change& change) {
     Six& now = change.now[at(i)];
-    BeamFrame& frame = change.frame[at(i)];
+    TurnedEnds& turned = change.turned[at(i)];
+    BeamFrame& frame = turned.frame;
     const Vec between = between_ends(world, e);
     now = {};
     if (dead(e)) {  // taken as it is at rest
@@ -299,11 +300,9 @@ class BeamForces : public Material,
       std::array<Quaternion, 2> ends{end_of(e, 0), end_of(e, 1)};
       std::array<Vec, 2> angle;
       for (int c = 0; c < 2; ++c) angle[at(c)] = clock.dt_old * w_->vec(group_.node.data(c)[e]);
-      const BeamReleases* const releases = part_.releases.empty() ? nullptr : &part_.releases[at(e)];
-      const TurnedEnds turned = releases && releases->any() ? turn_ends(between, angle, *releases, ends)
-                                                            : turn_ends(between, angle, ends);
+      const BeamReleases* const releases = releases_of(e);
+      turned = releases ? turn_ends(between, angle, *releases, ends) : turn_ends(between, angle, ends);
       for (int c = 0; c < 2; ++c) put_end(e, c, ends[at(c)]);
-      frame = turned.frame;
       const auto& [turn1, turn2] = turned.turn;
       now[twist] = turn2[0] - turn1[0];
       // s is the mean of both ends': beyond half a turn of twist it would point the other way
@@ -312,6 +311,11 @@ class BeamForces : public Material,
       now[turn1_s] = turn1[1], now[turn2_s] = turn2[1], now[turn1_t] = turn1[2], now[turn2_t] = turn2[2];
     }
     now[elongation] = frame.length - start_[e];
+  }
+
+  /// Null: none.
+  const BeamReleases* releases_of(Index e) const {
+    return part_.releases.empty() || !part_.releases[at(e)].any() ? nullptr : &part_.releases[at(e)];
   }
 
   Six resultants(Index e, const Six& d) const {
@@ -338,7 +342,7 @@ class BeamForces : public Material,
       for (Index i = 0; i < n; ++i) {
         const BeamMeasures& m = part_.measures[at(begin + i)];
         const Six d = change_of(begin + i, change.now[at(i)]);
-        const Real L = change.frame[at(i)].length - 0.5 * d[elongation], s = point.s * m.half_s,
+        const Real L = change.turned[at(i)].frame.length - 0.5 * d[elongation], s = point.s * m.half_s,
                    t = point.t * m.half_t;
         rate[0][at(i)] =
             per_time / L * (d[elongation] - s * (d[turn2_t] - d[turn1_t]) + t * (d[turn2_s] - d[turn1_s]));
@@ -377,7 +381,7 @@ class BeamForces : public Material,
       const BeamMeasures& m = part_.measures[at(begin + i)];
       const Six& sum = middle[at(i)];
       if (sections_ && !dead(begin + i)) why_[at(begin + i)] = sections_->look(begin + i, sum, clock.t);
-      const Real half = turns_ ? 0.5 * change.frame[at(i)].length * m.shear_area / m.A : 0;
+      const Real half = turns_ ? 0.5 * change.turned[at(i)].frame.length * m.shear_area / m.A : 0;
       change.after[at(i)] = {sum[0],
                              sum[1],
                              -sum[2] + half * sum[5],
@@ -398,7 +402,6 @@ class BeamForces : public Material,
     const Six& now = change.now[at(i)];
     Six g = change.after[at(i)];
     const Real pull = g[elongation];
-    const BeamFrame& frame = change.frame[at(i)];
     const Six damping = damping_ ? damped(clock, e, change_of(e, now)) : Six{};
     Real work = damping_ ? work_of_damping(e, change_of(e, now), damping) : 0;
     for (int k = 0; k < count6; ++k) {
@@ -407,19 +410,17 @@ class BeamForces : public Material,
     }
     energy_[e] += work;
     for (int k = 0; damping_ && k < count6; ++k) g[at(k)] += damping[at(k)];
-    const Vec r = frame.axes.col(0);
-    Vec on1 = g[elongation] * r;
-    if (turns_) {
-      const Vec s = frame.axes.col(1), t = frame.axes.col(2);
-      on1 += ((g[turn1_s] + g[turn2_s]) * t - (g[turn1_t] + g[turn2_t]) * s) / frame.length;
-      const Vec turn1 = g[twist] * r - g[turn1_s] * s - g[turn1_t] * t,
-                turn2 = -g[twist] * r - g[turn2_s] * s - g[turn2_t] * t;
-      for (int k = 0; k < 3; ++k)
-        group_.corner_moment->data(k)[e] = turn1[k], group_.corner_moment->data(3 + k)[e] = turn2[k];
+    const TurnedEnds& turned = change.turned[at(i)];
+    NodalForces on;
+    on.force = g[elongation] * turned.frame.axes.col(0);
+    if (turns_)
+      on = nodal_forces(turned, releases_of(e), g[elongation],
+                        {Vec(-g[twist], g[turn1_s], g[turn1_t]), Vec(g[twist], g[turn2_s], g[turn2_t])});
+    for (int k = 0; k < 3; ++k) {
+      group_.corner_force->data(k)[e] = on.force[k], group_.corner_force->data(3 + k)[e] = -on.force[k];
+      for (int c = 0; turns_ && c < 2; ++c) group_.corner_moment->data(3 * c + k)[e] = on.moment[at(c)][k];
     }
-    for (int k = 0; k < 3; ++k)
-      group_.corner_force->data(k)[e] = on1[k], group_.corner_force->data(3 + k)[e] = -on1[k];
-    steps_[at(e)] = step_of(e, frame.length, pull);
+    steps_[at(e)] = step_of(e, turned.frame.length, pull);
     if (!damping_) return;
     (*beta_)[e] = coef_ > 0 ? coef_ * steps_[at(e)] : -coef_;
     steps_[at(e)] *= damped_share((*beta_)[e], steps_[at(e)]);

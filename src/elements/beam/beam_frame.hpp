@@ -26,8 +26,24 @@ struct BeamReleases {
 
 struct TurnedEnds {
   BeamFrame frame;
-  std::array<Vec, 2> turn;  ///< of the ends against the frame, axis times angle, along r, s, t [-]
+  std::array<Vec, 2> turn{
+      Vec::Zero(), Vec::Zero()};  ///< of the ends against the frame, axis times angle, along r, s, t [-]
+  std::array<Vec, 2> leads{
+      Vec::Zero(),
+      Vec::Zero()};  ///< turn of the frame about r by that of each end: r . w = sum leads . w_end [-]
+  Real lean = 0;     ///< and by end 2 that moves along t, times the length: - lean t . v/L [-]
 };
+
+/// On the nodes of a beam; end 2 feels -force.
+struct NodalForces {
+  Vec force = Vec::Zero();                              ///< on end 1 [ML/T2]
+  std::array<Vec, 2> moment{Vec::Zero(), Vec::Zero()};  ///< [ML2/T2]
+};
+
+/// That do the work of `pull` on the length and of `moment` (along r, s, t) on the turns of the ends, however
+/// far these are: what passes through hinges is left out.
+NodalForces nodal_forces(const TurnedEnds& turned, const BeamReleases* releases, Real pull,
+                         const std::array<Vec, 2>& moment);
 
 /// `ends`: orientations at t^{n-1}, turned with their nodes by `angle` (global axes) on return. `between`:
 /// from end to end now.

@@ -136,6 +136,7 @@ class LevelOutlet : public Force, public TimeLimit, public EnergyTerm, public Re
     next_works_ = true;
   }
 
+  bool rings() const override { return false; }
   Limit limit(const World&, const Clock&) override { return {o_.tau, "TAU of " + name_}; }
 
   /// What the force does on the mean of the velocities before and after the kick.

@@ -37,6 +37,7 @@ class SphTimeLimit : public Reduction, public TimeLimit {
     smallest_[begin / block_size] = smallest;
   }
 
+  bool rings() const override { return false; }
   Limit limit(const World& world, const Clock&) override {
     const Particles& p = world.particles;
     std::size_t block = 0;

@@ -117,6 +117,7 @@ class RiemannMass : public Force, public TimeLimit {
     loop_(a_, lists_of(*neighbours_, begin, end));
     fastest_[begin / block_size] = *std::max_element(decay_.data() + begin, decay_.data() + end);
   }
+  bool rings() const override { return false; }
   Limit limit(const World&, const Clock&) override {
     Real fastest = 0;
     for (const Real decay : fastest_) fastest = std::max(fastest, decay);

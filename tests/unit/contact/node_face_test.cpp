@@ -190,22 +190,6 @@ TEST(NodeContactTouch, AllowsAStepUpToTheSurface) {
   EXPECT_EQ(scene.contact->limit(scene.world, scene.clock).dt, std::numeric_limits<Real>::infinity());
 }
 
-// Asked twice for the same step, as after a restart, it tells the same.
-TEST(NodeContactTouch, LetsTheStepGrowSlowlyOnceItHasBoundIt) {
-  TouchScene scene;
-  scene.law.soft = 1, scene.law.dtstif = 1e-5;
-  scene.build();
-  scene.step(0.00099);
-  const Real bound = scene.contact->limit(scene.world, scene.clock).dt;
-  for (Index n = 4; n < 8; ++n) scene.world.nodes.v.set(n, Vec(0, 0, 1));
-  scene.step(0.00001);
-  for (const int step : {1, 2}) {
-    ++scene.clock.cycle;
-    for (int k = 0; k < 2; ++k)
-      EXPECT_NEAR(scene.contact->limit(scene.world, scene.clock).dt / bound, std::pow(1.0005, step), 1e-12);
-  }
-}
-
 // A node that starts behind the face, as that of the far side of the same body, is never in touch with it.
 TEST(NodeContactTouch, IsWithWhoCameFromInFront) {
   TouchScene scene;

@@ -18,6 +18,7 @@ struct Steps : TimeLimit {
   bool change;
   Steps(Real dt, bool change) : dt(dt), change(change) {}
   std::string name() const override { return "steps"; }
+  bool rings() const override { return false; }
   Limit limit(const World&, const Clock& clock) override {
     return {change ? dt * static_cast<Real>(1 + (clock.cycle * 7) % 5) : dt, "test"};
   }

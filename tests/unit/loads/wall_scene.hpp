@@ -14,6 +14,7 @@ namespace courant::test {
 /// Steps of changing size.
 struct WallSteps : TimeLimit {
   std::string name() const override { return "steps"; }
+  bool rings() const override { return false; }
   Limit limit(const World&, const Clock& clock) override {
     return {1e-3 * static_cast<Real>(1 + (clock.cycle * 7) % 5), "test"};
   }

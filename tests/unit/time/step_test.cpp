@@ -15,6 +15,7 @@ namespace {
 /// Steps whose size changes every time.
 struct ChangingSteps : TimeLimit {
   std::string name() const override { return "changing"; }
+  bool rings() const override { return false; }
   Limit limit(const World&, const Clock& clock) override {
     return {0.001 * (1 + (clock.cycle * 7) % 5), "test"};
   }

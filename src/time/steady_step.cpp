@@ -1,0 +1,44 @@
+#include "time/steady_step.hpp"
+
+#include <algorithm>
+
+namespace courant {
+
+namespace {
+
+constexpr Real growth = 1.0005;      ///< a step
+constexpr std::int64_t steps = 200;  ///< of a while
+constexpr Real most_below = 0.01;    ///< the limit
+constexpr Real further = 4;   ///< the step falls than the limit did, so that it soon lies below its swing
+constexpr Real worth = 0.02;  ///< growth
+
+}  // namespace
+
+void SteadyStep::look_again() {
+  least_ = none, left_ = steps;
+}
+
+Real SteadyStep::next(Real allowed) {
+  if (dt_ == none || !(allowed >= dt_)) {  // NaN goes through: the run must stop there
+    const Real fall = dt_ == none ? 0 : 1 - allowed / dt_;
+    dt_ = target_ = allowed * (1 - std::min(most_below, further * fall));
+    look_again();
+    return dt_;
+  }
+  least_ = std::min(least_, allowed);
+  if (--left_ == 0) {
+    if (least_ > (1 + worth) * dt_) target_ = (1 - most_below) * least_;
+    look_again();
+  }
+  dt_ = std::max(dt_, std::min({growth * dt_, target_, allowed}));
+  return dt_;
+}
+
+void SteadyStep::keep(Archive& archive) {
+  archive("steady_dt", dt_);
+  archive("steady_target", target_);
+  archive("steady_least", least_);
+  archive("steady_left", left_);
+}
+
+}  // namespace courant

@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+
+#include "base/real.hpp"
+#include "state/saved_state.hpp"
+
+namespace courant {
+
+/// A step that stays what it is. Leapfrog keeps, of a mode, v^2 + omega^2 x^2 (1 - (omega dt)^2/4) with one
+/// dt alone: steps that follow a limit as it goes to and fro with the strain of the smallest element, or as
+/// corners touch and leave, pump the highest modes of the mesh (parametric resonance). So the step falls at
+/// once, to somewhat below the limit; and after a while in which more was allowed it grows slowly to the
+/// least of that while. Theory: docs/theory.md.
+class SteadyStep {
+ public:
+  /// `allowed`: what the passes allow [T]. Once a cycle.
+  Real next(Real allowed);
+  void keep(Archive& archive);
+
+ private:
+  void look_again();
+
+  static constexpr Real none = std::numeric_limits<Real>::infinity();
+  Real dt_ = none;         ///< the last one [T]
+  Real target_ = none;     ///< to which it grows [T]
+  Real least_ = none;      ///< allowed in this while [T]
+  std::int64_t left_ = 0;  ///< steps of this while
+};
+
+}  // namespace courant
