@@ -36,6 +36,17 @@ Real beam_frequency(Simulation& s, const Field<Real>& field, int component, Inde
   return at.size() < 2 ? 0 : static_cast<Real>(at.size() - 1) / (2 * (at.back() - at.front()));
 }
 
+/// Of all nodes about the origin.
+Vec angular_momentum_of(Simulation& s) {
+  Nodes& nodes = s.world().nodes;
+  const Field<Real>& inertia = *shared_fields::rotary_inertia.find(nodes.fields);
+  const Field<Real>& w = *shared_fields::angular_velocity.find(nodes.fields);
+  Vec sum = Vec::Zero();
+  for (Index n = 0; n < nodes.size(); ++n)
+    sum += nodes.m[n] * nodes.x.vec(n).cross(nodes.v.vec(n)) + inertia[n] * w.vec(n);
+  return sum;
+}
+
 /// Kept with the results of the tests.
 void note(const std::string& what, Real value) {
   testing::Test::RecordProperty(what, fmt::format("{:.5f}", value));
@@ -334,6 +345,8 @@ TEST(Beams, BentFarKeepTheirEnergy) {
         deck.cards += "*CONTROL_TIMESTEP\n       0.0       0.9\n";
         auto s = simulation_of(deck.text(1e6));
         start_ledger(*s);
+        s->step(test::do_nothing);
+        const Vec turning = angular_momentum_of(*s);
         Real worst = 0;
         for (int k = 0; k < 6000; ++k) {
           s->step(test::do_nothing);
@@ -341,6 +354,7 @@ TEST(Beams, BentFarKeepTheirEnergy) {
         }
         note(fmt::format("energy_of_form_{}_d_{}_um_at_{}", form, std::lround(1e6 * d), speed), worst);
         EXPECT_LT(worst, bound) << form << " " << d << " " << speed;
+        EXPECT_LT((angular_momentum_of(*s) - turning).norm(), 1e-11 * turning.norm()) << form << " " << d;
       }
 }
 
