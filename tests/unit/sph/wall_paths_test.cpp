@@ -637,5 +637,28 @@ TEST(WallPaths, AreThoseOfEdgesInTheirLoops) {
   }
 }
 
+// An edge alone: no corner that looks in, no narrow wedge, which hides more, nothing else in sight.
+TEST(WallPaths, FindEdgesThatStandAlone) {
+  const auto edge_at = [](const Vec& x, const std::vector<std::array<Vec, 4>>& walls) {
+    World world;
+    add_plates(world, walls, 2);
+    std::vector<Index> all(walls.size());
+    for (std::size_t s = 0; s < all.size(); ++s) all[s] = static_cast<Index>(s);
+    const WallSurface surface(world, all, h / 4, 2.1 * h + dx, {}, nullptr, nullptr, 0.3 * h + dx);
+    const WallPaths paths(surface, 2, WallPaths::usual_width * dx);
+    return paths.edge_about(paths.sheets_around(x, 2.2 * h + dx), x, 2 * h);
+  };
+  const auto side = [](Real angle) { return line(Vec::Zero(), at_angle(angle, 1)); };
+  const Vec x = at_angle(200, 0.1);
+  EXPECT_TRUE(edge_at(x, {side(0), side(100)}));
+  EXPECT_TRUE(edge_at(x, {side(0), side(90)}));
+  EXPECT_TRUE(edge_at(x, {side(0)}));
+  EXPECT_FALSE(edge_at(x, {side(0), side(60)})) << "narrow";
+  EXPECT_FALSE(edge_at(at_angle(45, 0.1), {side(0), side(90)})) << "between the walls";
+  EXPECT_FALSE(edge_at(at_angle(90, 0.1), {line(Vec(-1, 0, 0), Vec(1, 0, 0))})) << "no end";
+  EXPECT_FALSE(edge_at(x, {side(0), line(Vec(-0.3, -1, 0), Vec(-0.3, 1, 0))})) << "another wall";
+  EXPECT_FALSE(edge_at(x, {line(Vec::Zero(), Vec(0.1, 0, 0))})) << "both ends";
+}
+
 }  // namespace
 }  // namespace courant::wall_paths_test
