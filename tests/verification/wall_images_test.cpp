@@ -78,6 +78,38 @@ TEST(WallImages, HoldTwoLevelsBesideAThinWall) {
   EXPECT_LT(coarse.speed, 0.005);
 }
 
+// Speed that should not be, rms over all particles and 1.5 s, of that of long waves.
+TEST(WallImages, LeaveWaterOverAStepAtRest) {
+  // two rows in the height of the step; more take longer, and come out in docs/verification_options.md
+  const auto nothing = [](World&, const Clock&, const std::string&) {};
+  Diagnostics diagnostics;
+  auto s = Simulation::build(test::generated_from("tests/verification/scenes/still_step.yaml", {{"n", "2"}}),
+                             {}, diagnostics);
+  ASSERT_TRUE(s != nullptr) << diagnostics.text();
+  std::string who;
+  s->evaluate(who);
+  const Particles& p = s->world().particles;
+  Real square = 0, largest = 0;
+  int samples = 0;
+  while (s->clock().t < 3) {
+    s->step(nothing);
+    if (s->clock().t < 1.5) continue;
+    Real sum = 0;
+    for (Index i = 0; i < p.active; ++i) sum += p.v.vec(i).squaredNorm();
+    square += sum / static_cast<Real>(p.active), ++samples;
+    for (Index i = 0; i < p.active; ++i) {
+      const Vec x = p.x.vec(i);
+      if (std::abs(x[0]) > 0.032 || x[1] > 0.064) continue;
+      largest = std::max(largest, std::abs(p.p[i] - rho0 * g * (depth - x[1])) / (rho0 * g * depth));
+    }
+  }
+  const Real rms = std::sqrt(square / samples / (g * depth));
+  std::printf("rms %.4f %% of sqrt(g H), pressure beside it within %.2f %% of rho g H\n", 100 * rms,
+              100 * largest);
+  EXPECT_LT(rms, 0.003);
+  EXPECT_LT(largest, 0.02);
+}
+
 // Convex corners, where the mirrors of top and sides end, and the corners at its feet.
 TEST(WallImages, HoldWaterOverABlock) {
   for (const int n : {10, 20}) {

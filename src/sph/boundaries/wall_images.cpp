@@ -30,7 +30,9 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
       any_moves_(support_->any_moves()),
       kernel_(&any_kernel(s.kernel)),
       room_rates_(mirror_rates_loop(s.kernel, s.dim)),
-      room_forces_(mirror_forces_loop(s.kernel, s.dim)) {
+      room_forces_(mirror_forces_loop(s.kernel, s.dim)),
+      edge_rates_(edge_rates_loop(s.kernel, s.dim)),
+      edge_forces_(edge_forces_loop(s.kernel, s.dim)) {
   if (diffusion_) potential_ = &sph_fields::potential(world.particles);
   spacing_ = support_->surface().spacing(), reach_ = support_->surface().reach();
   if (walls_.hold) {
@@ -94,18 +96,30 @@ void WallImages::look(World& world) {
   const auto n = static_cast<std::size_t>(p.active);
   if (any_moves_) sheets_.assign(n, {});
   rooms_.assign(n, nullptr), own_rooms_.resize(n), strange_.assign(n, 0);
+  edges_.assign(n, nullptr), own_edges_.resize(n);
   for_each(p.active, [&](Index i) {
     force_.set(i, Vec::Zero());
     if (!support_->is_near(i)) return;
-    const auto k = static_cast<std::size_t>(i);
-    if (!viscosity_ && support_->outlooks())
-      rooms_[k] =
-          support_->outlooks()->open_room(i, p.x.vec(i), support_->sight_until_search(p, i), own_rooms_[k]);
+    if (!viscosity_ && support_->outlooks()) find_room(p, i);
     if (!any_moves_) return;
     sheets_[i] = at_end().seen_from(p.x.vec(i));
     if (mixed_ && sheets_[i].size() == 1 && sheets_[i][0].endless)  // whose faces may not be alike
       sheets_[i][0].faces = surface().faces_around(p.x.vec(i));
   });
+}
+
+/// A closed room, an edge and nothing else, or a room some ways leave.
+void WallImages::find_room(const Particles& p, Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  const WallOutlooks& outlooks = *support_->outlooks();
+  const Vec x = p.x.vec(i);
+  const Real sight = support_->sight_until_search(p, i);
+  if ((rooms_[k] = outlooks.room(i, x, sight, own_rooms_[k]))) return;
+  own_edges_[k] = outlooks.paths().edge_about(outlooks.of(i).sheets, x, sight);
+  if (own_edges_[k])
+    edges_[k] = &*own_edges_[k];
+  else
+    rooms_[k] = outlooks.open_room(i, x, sight, own_rooms_[k]);
 }
 
 void WallImages::declare(const World& world, Accesses& a) const {
@@ -133,7 +147,9 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   block.paths.clear(), block.pulls.clear(), block.reactions.clear();
   block.belt_power = 0;
   if (!any_moves_ && !viscosity_) {
-    room_rates_(arrays_of_rates(world.particles, begin), lists_of(*neighbours_, begin, end));
+    const WallMirrorArrays a = arrays_of_rates(world.particles, begin);
+    room_rates_(a, lists_of(*neighbours_, begin, end));
+    edge_rates_(a, lists_of(*neighbours_, begin, end));
     add_doubtful_ways(world.particles, begin, block);
   }
   for (Index i = begin; i < end; ++i) {
@@ -251,7 +267,7 @@ WallMirrorArrays WallImages::arrays(Particles& p, Index begin) {
   for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.aside[k] = at_end().shift()[k];
   a.V = volumes_->current(), a.rho = p.rho.data();
   a.h = p.active > 0 ? p.h[0] : 1, a.delta = delta_, a.half_step = half_step_;
-  a.room = rooms_.data(), a.strange = strange_.data(), a.kernel = kernel_;
+  a.room = rooms_.data(), a.edge = edges_.data(), a.strange = strange_.data(), a.kernel = kernel_;
   return a;
 }
 
@@ -291,8 +307,11 @@ void WallImages::forces(World& world, Index begin, Index end) {
   const Real* V = volumes_->current();
   for (Index i = begin; i < end; ++i)
     if (sees(i) && !in_room(i)) force_.set(i, drag_ ? drag_->vec(i) : Vec(Vec::Zero()));
-  if (!any_moves_ && !viscosity_)
-    room_forces_(arrays_of_forces(p, begin), lists_of(*neighbours_, begin, end));
+  if (!any_moves_ && !viscosity_) {
+    const WallMirrorArrays a = arrays_of_forces(p, begin);
+    room_forces_(a, lists_of(*neighbours_, begin, end));
+    edge_forces_(a, lists_of(*neighbours_, begin, end));
+  }
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   for (const WallPath& path : block.paths) {
     const Index i = path.i, j = path.j;

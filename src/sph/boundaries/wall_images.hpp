@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "sph/boundaries/wall_mirror_loops.hpp"
+#include "sph/boundaries/wall_edge_loops.hpp"
 #include "sph/boundaries/wall_paths.hpp"
 #include "sph/boundaries/wall_support.hpp"
 #include "sph/core/pair_volumes.hpp"
@@ -55,6 +55,7 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
  private:
   void look(World& world);
   void search(const World& world);
+  void find_room(const Particles& p, Index i);
   /// What a segment that moves gets, on its nodes [ML/T2].
   struct Reaction {
     Index segment;
@@ -80,9 +81,10 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
     return any_moves_ ? sheets_[static_cast<std::size_t>(i)] : support_->outlooks()->of(i).sheets;
   }
   bool sees(Index i) const { return support_->is_near(i) && !sheets(i).empty(); }
-  /// Whether the loops over rooms look at particle i in this step.
+  /// Whether the loops over rooms and edges look at particle i in this step.
   bool in_room(Index i) const {
-    return rooms_[static_cast<std::size_t>(i)] && strange_[static_cast<std::size_t>(i)] == 0;
+    const auto k = static_cast<std::size_t>(i);
+    return (rooms_[k] || edges_[k]) && strange_[k] == 0;
   }
   WallMirrorArrays arrays(Particles& p, Index begin);
   WallMirrorArrays arrays_of_rates(Particles& p, Index begin);
@@ -121,9 +123,11 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   std::optional<WallPaths> in_middle_;     ///< where walls move: in the middle of the step
   std::vector<WallPaths::Sheets> sheets_;  ///< where walls move: of active particles, since the last refresh
   const AnyKernel* kernel_;
-  WallMirrorLoop room_rates_, room_forces_;
+  WallMirrorLoop room_rates_, room_forces_, edge_rates_, edge_forces_;
   std::vector<const WallRoom*> rooms_;  ///< of those that see walls, since then
   std::vector<std::unique_ptr<WallRoom>> own_rooms_;
+  std::vector<const WallEdge*> edges_;  ///< of those that stand beside one and have no closed room
+  std::vector<std::optional<WallEdge>> own_edges_;
   std::vector<char> strange_;  ///< WallMirrorArrays
   std::vector<Block> blocks_;
 };

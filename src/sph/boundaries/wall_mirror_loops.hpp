@@ -25,8 +25,9 @@ struct WallMirrorArrays {
   Real aside[3];                ///< so far aside of their places particles are looked at [L]
   Real width;                   ///< of edges [L]
   const WallRoom* const* room;  ///< of each particle; null: none
-  /// Of each particle: 1 where it is not in its room, so that nothing is added here. Rates set it, forces
-  /// read it.
+  const WallEdge* const* edge;  ///< the same, of those that have no room
+  /// Of each particle: 1 where it is not in its room or beside its edge, so that nothing is added here. Rates
+  /// set it, forces read it.
   char* strange;
   /// Pairs that may see each other by other ways than those of the room, of which nothing is added here:
   /// entries of the lists, ascending, and by bits which of the eight i. Rates set them, forces read them;

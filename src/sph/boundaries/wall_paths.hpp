@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -121,6 +122,8 @@ class WallPaths {
   /// The rooms that places may stand in that are no farther than `half` from the centre, as far as `reach`
   /// from them, of the sheets that stand that far around. [L]
   std::vector<OpenRoom> rooms_about(const Sheets& sheets, const Vec& centre, Real half, Real reach) const;
+  /// The edge that is all that stands within `sight` and half of the width about x; none: there is more. [L]
+  std::optional<WallEdge> edge_about(const Sheets& sheets, const Vec& x, Real sight) const;
   /// Appends the ways from i to j that walls change; `reach`: how far the kernel does [L].
   void add(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y, Real reach,
            std::vector<WallPath>& to, std::vector<WallPull>* pulls = nullptr) const {
@@ -216,6 +219,11 @@ class WallPaths {
     std::size_t size_ = 0;
   };
   struct Box;
+  struct Ending {
+    const Sheet* sheet;
+    const Brink* edge;
+  };
+  bool is_one_edge(const Ending& one, const Ending& other) const;
   void leave_out_hidden(Box& box) const;
   bool rises_from(const Sheet& sheet, const Sheet& other, const Vec& x) const;
   bool stands_upright(const Box& box, const Vec& centre, Real inside) const;

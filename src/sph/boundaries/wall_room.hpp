@@ -22,4 +22,13 @@ struct WallRoom {
   End end[most_ends];
 };
 
+/// An edge beside which nothing else stands: where one wall ends, that is seen from both sides, or where two
+/// meet that turn away from each other, at a right angle of what they enclose or a wider one. Plain numbers.
+struct WallEdge {
+  int walls = 0;
+  Real at[3]{};    ///< a place on it [L]
+  Real n[2][3]{};  ///< of each wall, away from the other
+  Real m[2][3]{};  ///< from the edge into each wall
+};
+
 }  // namespace courant

@@ -11,7 +11,8 @@ namespace courant {
 
 namespace {
 
-constexpr Real upright = 1e-6;  ///< cosine of the angle between walls of a room
+constexpr Real upright = 1e-6;     ///< cosine of the angle between walls of a room
+constexpr Real level_walls = 0.1;  ///< sine of the angle between walls that are two
 
 /// How far x is from the way from a to b.
 Real distance_to(const Vec& x, const Vec& a, const Vec& b) {
@@ -157,6 +158,51 @@ std::vector<OpenRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at
     rooms.push_back(room);
   }
   return rooms;
+}
+
+/// Whether two walls meet there, turn away from each other, and enclose a right angle or a wider one.
+bool WallPaths::is_one_edge(const Ending& one, const Ending& other) const {
+  const Real near = 1e-6 * surface_.reach();
+  const Vec &a = one.edge->from, &b = one.edge->to, &c = other.edge->from, &d = other.edge->to;
+  const Vec along = (b - a).normalized();
+  if (along.cross(c - a).norm() > near || along.cross(d - a).norm() > near) return false;
+  const Vec &into = face(one.edge->face).inward[one.edge->edge],
+            &other_into = face(other.edge->face).inward[other.edge->edge];
+  return into.dot(other_into) < upright && into.cross(other_into).norm() > level_walls;
+}
+
+std::optional<WallEdge> WallPaths::edge_about(const Sheets& sheets, const Vec& at, Real sight) const {
+  const Vec x = surface_.in_plane(at);
+  const Real around = sight + 0.5 * width_;
+  std::vector<Ending> near;
+  for (const Sheet& s : sheets) {
+    if (s.body >= 0) return {};
+    if (s.off(x) > around) continue;
+    near.push_back({&s, nullptr});
+    for (const Brink& edge : s.edges) {
+      if (distance_to(x, edge.from, edge.to) > around) continue;
+      const bool goes_on = dim_ == 2 || std::min((edge.from - x).norm(), (edge.to - x).norm()) > around;
+      if (near.back().edge || !goes_on) return {};
+      near.back().edge = &edge;
+    }
+    if (!near.back().edge || near.size() > 2) return {};
+  }
+  if (near.empty() || (near.size() == 2 && !is_one_edge(near[0], near[1]))) return {};
+  if (near.size() == 1 && !edges_[near[0].edge->face][near[0].edge->edge].corners.empty()) return {};
+  WallEdge out;
+  bool in_front = near.size() == 1;
+  for (const Ending& e : near) {
+    const auto into = [&](const Ending& of) { return face(of.edge->face).inward[of.edge->edge]; };
+    const Vec m = into(e);
+    const bool turned = near.size() == 2 && e.sheet->n.dot(into(&e == &near[0] ? near[1] : near[0])) > 0;
+    const Vec n = turned ? Vec(-e.sheet->n) : e.sheet->n;
+    for (int c = 0; c < 3; ++c) out.n[out.walls][c] = n[c], out.m[out.walls][c] = m[c];
+    ++out.walls;
+    in_front |= n.dot(x - near[0].edge->from) > 0;
+  }
+  if (!in_front) return {};
+  for (int c = 0; c < 3; ++c) out.at[c] = near[0].edge->from[c];
+  return out;
 }
 
 WallOutlooks::WallOutlooks(const WallSurface& surface, Real width, Real cell, Real reach, Alike alike)

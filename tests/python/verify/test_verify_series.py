@@ -34,6 +34,13 @@ def test_simple_takes() -> None:
             take_number(series, how, at)
 
 
+def test_mean_of_a_curve_does_not_weigh_dense_points_more() -> None:
+    s = Series([0, 0.1, 0.2, 0.3, 1.3], [0, 1, 2, 3, 3])
+    assert s.mean_between(-math.inf, math.inf) == pytest.approx((0.45 + 3) / 1.3)
+    assert s.mean_between(0.15, 0.8) == pytest.approx((0.15 * 2.25 + 0.5 * 3) / 0.65), "ends between points"
+    assert math.isnan(s.mean_between(1.5, 2))
+
+
 @pytest.mark.parametrize("cycles", [2.2, 3.0, 3.7, 10.4])
 @pytest.mark.parametrize("phase", [0.0, 1.0, 2.5, 4.0])
 def test_period_of_a_sine(cycles: float, phase: float) -> None:

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "sph/boundaries/wall_mirror_loops.hpp"
+#include "sph/boundaries/wall_edge_loops.hpp"
 #include "sph/boundaries/wall_paths.hpp"
 #include "sph/boundaries/wall_tables.hpp"
 #include "sph/core/kernel.hpp"
@@ -386,6 +386,8 @@ struct Crowd {
   std::vector<Real> x[3], v[3], V, p, rho, drhodt, f[3], wall_force[3];
   std::vector<const WallRoom*> room;
   std::vector<WallRoom> rooms;
+  std::vector<const WallEdge*> edge;
+  std::vector<WallEdge> edges;
   std::vector<char> strange;
   std::vector<Index> list, start, doubt;
   std::vector<unsigned char> lanes;
@@ -410,7 +412,7 @@ struct Crowd {
     }
     a.V = V.data(), a.rho = rho.data(), a.p = p.data(), a.drhodt = drhodt.data();
     a.h = h, a.half_step = 1e-3, a.width = WallPaths::usual_width * dx;
-    a.room = room.data(), a.strange = strange.data();
+    a.room = room.data(), a.edge = edge.data(), a.strange = strange.data();
     a.doubt = doubt.data(), a.doubt_lanes = lanes.data(), a.doubts = &doubts;
     a.kernel = &any_kernel(KernelChoice::cubic_spline);
     return a;
@@ -436,6 +438,10 @@ Crowd crowd_about(const WallPaths& paths, int dim, Real wide, const Wet& wet) {
     for (const OpenRoom& r :
          paths.rooms_about(paths.sheets_around(out.at(i), 2.2 * h + dx), out.at(i), 0, 2 * h))
       if (r.holds_open(out.at(i), 0.6 * dx)) out.rooms[i] = r.open, out.room[i] = &out.rooms[i];
+  out.edges.resize(n), out.edge.resize(n);
+  for (std::size_t i = 0; i < n; ++i)
+    if (const auto edge = paths.edge_about(paths.sheets_around(out.at(i), 2.2 * h + dx), out.at(i), 2 * h))
+      out.edges[i] = *edge, out.edge[i] = &out.edges[i];
   for (std::size_t g = 0; g <= n / 8; ++g) out.start.push_back(static_cast<Index>(g * n));
   for (std::size_t g = 0; g < n / 8; ++g)
     for (std::size_t j = 0; j < n; ++j) out.list.push_back(static_cast<Index>(j));
@@ -542,6 +548,116 @@ TEST(WallPaths, AreThoseOfRoomsWhereWaysLeaveNone) {
     EXPECT_GT(looked, 10) << place.name;
     EXPECT_GT(ways, 20) << place.name;
   }
+}
+
+/// What ways by WallPaths add to the rate of density of particle i, and the force on it.
+std::pair<Real, Vec> by_ways(const WallPaths& paths, const Crowd& crowd, std::size_t i, int dim) {
+  const WallTables table(KernelChoice::cubic_spline, dim);
+  const Real volume = dim == 2 ? h * h : h * h * h;
+  const auto slope = [&](const Vec& d) { return table.slope(d.norm() / h) / (d.norm() * h * volume); };
+  const auto kernel = [&](const Vec& d) { return table.kernel(d.norm() / h) / volume; };
+  const auto sheets = paths.sheets_around(crowd.at(i), 2.2 * h + dx);
+  Real rate = 0;
+  Vec force = Vec::Zero();
+  for (std::size_t j = 0; j < crowd.V.size(); ++j) {
+    std::vector<WallPath> earlier, now;
+    const auto back = [&](std::size_t k) { return Vec(crowd.at(k) - 1e-3 * crowd.velocity(k)); };
+    paths.add(sheets, static_cast<Index>(i), back(i), static_cast<Index>(j), back(j), 2 * h, earlier);
+    for (const WallPath& way : earlier)
+      rate += crowd.V[j] *
+              (way.weight * slope(way.d) * (crowd.velocity(i) - way.turn * crowd.velocity(j)).dot(way.d) +
+               kernel(way.d) * (way.by_i.dot(crowd.velocity(i)) + way.by_j.dot(crowd.velocity(j))));
+    paths.add(sheets, static_cast<Index>(i), crowd.at(i), static_cast<Index>(j), crowd.at(j), 2 * h, now);
+    for (const WallPath& way : now)
+      force -= crowd.V[i] * crowd.V[j] * (crowd.p[i] + crowd.p[j]) *
+               (way.weight * slope(way.d) * way.d + kernel(way.d) * way.by_i);
+  }
+  return {rate, force};
+}
+
+// What the loops over edges add is what all ways of these particles do, those that pass the edge and those
+// that it hides among them.
+TEST(WallPaths, AreThoseOfEdgesInTheirLoops) {
+  struct Place {
+    const char* name;
+    int dim;
+    std::vector<std::array<Vec, 4>> walls;
+    bool (*wet)(const Vec&);
+  };
+  const auto anywhere = [](const Vec&) { return true; };
+  const Place places[] = {
+      {"step",
+       2,
+       {line(Vec(-1, 0, 0), Vec::Zero()), line(Vec::Zero(), Vec(0, -1, 0))},
+       [](const Vec& y) { return y[0] > 0 || y[1] > 0; }},
+      {"step that is wet inside, too",
+       2,
+       {line(Vec(-1, 0, 0), Vec::Zero()), line(Vec::Zero(), Vec(0, -1, 0))},
+       anywhere},
+      {"blunt edge",
+       2,
+       {line(Vec::Zero(), at_angle(100, 1)), line(Vec::Zero(), at_angle(-30, 1))},
+       [](const Vec& y) { return at_angle(10, 1).dot(y) < 0 || at_angle(60, 1).dot(y) > 0; }},
+      {"end of a plate", 2, {line(Vec(-1, 0, 0), Vec(0.05, 0, 0))}, anywhere},
+      {"edge in space",
+       3,
+       {{Vec(-1, -1, 0), Vec(0, -1, 0), Vec(0, 1, 0), Vec(-1, 1, 0)},
+        {Vec(0, -1, 0), Vec(0, 1, 0), Vec(0, 1, -1), Vec(0, -1, -1)}},
+       [](const Vec& y) { return y[0] > 0 || y[2] > 0; }},
+      {"end of a plate in space",
+       3,
+       {{Vec(-1, -1, 0), Vec(0, -1, 0), Vec(0, 1, 0.5), Vec(-1, 1, 0.5)}},
+       anywhere}};
+  for (const Place& place : places) {
+    World world;
+    add_plates(world, place.walls, place.dim);
+    std::vector<Index> all(place.walls.size());
+    for (std::size_t s = 0; s < all.size(); ++s) all[s] = static_cast<Index>(s);
+    const WallSurface surface(world, all, h / 4, 2.1 * h + dx, {}, nullptr, nullptr, 0.3 * h + dx);
+    const WallPaths paths(surface, place.dim, WallPaths::usual_width * dx);
+    Crowd crowd = crowd_about(paths, place.dim, 0.2, place.wet);
+    const WallMirrorArrays a = crowd.arrays(paths.shift());
+    const NeighbourLists lists{crowd.list.data(), crowd.start.data(), 0, static_cast<Index>(crowd.V.size())};
+    edge_rates_loop(KernelChoice::cubic_spline, place.dim)(a, lists);
+    edge_forces_loop(KernelChoice::cubic_spline, place.dim)(a, lists);
+    int looked = 0;
+    Real most = 0;
+    for (std::size_t i = 0; i < crowd.V.size(); ++i) {
+      if (!crowd.edge[i] || crowd.strange[i] != 0) continue;
+      ++looked;
+      const auto [rate, force] = by_ways(paths, crowd, i, place.dim);
+      const Real scale = 1e-4 / (h * h * h * (place.dim == 2 ? 1 : h));
+      most = std::max(most, std::abs(rate));
+      EXPECT_NEAR(crowd.drhodt[i], rate, 4 * scale) << place.name << ": " << crowd.at(i).transpose();
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(crowd.f[c][i], force[c], 8 * scale) << place.name << ": " << crowd.at(i).transpose();
+    }
+    EXPECT_GT(looked, 30) << place.name;
+    EXPECT_GT(most, 1e3 * 1e-4 / (h * h * h)) << place.name;
+  }
+}
+
+// An edge alone: no corner that looks in, no narrow wedge, which hides more, nothing else in sight.
+TEST(WallPaths, FindEdgesThatStandAlone) {
+  const auto edge_at = [](const Vec& x, const std::vector<std::array<Vec, 4>>& walls) {
+    World world;
+    add_plates(world, walls, 2);
+    std::vector<Index> all(walls.size());
+    for (std::size_t s = 0; s < all.size(); ++s) all[s] = static_cast<Index>(s);
+    const WallSurface surface(world, all, h / 4, 2.1 * h + dx, {}, nullptr, nullptr, 0.3 * h + dx);
+    const WallPaths paths(surface, 2, WallPaths::usual_width * dx);
+    return paths.edge_about(paths.sheets_around(x, 2.2 * h + dx), x, 2 * h);
+  };
+  const auto side = [](Real angle) { return line(Vec::Zero(), at_angle(angle, 1)); };
+  const Vec x = at_angle(200, 0.1);
+  EXPECT_TRUE(edge_at(x, {side(0), side(100)}));
+  EXPECT_TRUE(edge_at(x, {side(0), side(90)}));
+  EXPECT_TRUE(edge_at(x, {side(0)}));
+  EXPECT_FALSE(edge_at(x, {side(0), side(60)})) << "narrow";
+  EXPECT_FALSE(edge_at(at_angle(45, 0.1), {side(0), side(90)})) << "between the walls";
+  EXPECT_FALSE(edge_at(at_angle(90, 0.1), {line(Vec(-1, 0, 0), Vec(1, 0, 0))})) << "no end";
+  EXPECT_FALSE(edge_at(x, {side(0), line(Vec(-0.3, -1, 0), Vec(-0.3, 1, 0))})) << "another wall";
+  EXPECT_FALSE(edge_at(x, {line(Vec::Zero(), Vec(0.1, 0, 0))})) << "both ends";
 }
 
 }  // namespace

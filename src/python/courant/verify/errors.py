@@ -138,6 +138,11 @@ def _number_of_table(o: Observation, m: Measured, variables: Variables) -> float
         if value is None:
             raise NotComparable(f"the reference does not reach {x:.6g}")
         return value
+    if o.take == "mean" and len(table) > 1:  # its points need not be even
+        value = table.mean_between(window.start, window.end)
+        if math.isnan(value):
+            raise NotComparable("the reference does not reach there")
+        return value
     try:
         return take_number(table.window(window.start, window.end), o.take, window.at)
     except NoValue as fault:

@@ -33,6 +33,15 @@ class Series:
         inside = (self.x >= start) & (self.x <= end)
         return Series(self.x[inside], self.y[inside])
 
+    def mean_between(self, start: float, end: float) -> float:
+        """Of the lines through the points, over what of start <= x <= end they cover, however dense they stand; NaN where that is nothing."""
+        start, end = max(start, float(self.x[0])), min(end, float(self.x[-1]))
+        if not end > start:
+            return math.nan
+        x = np.concatenate([[start], self.x[(self.x > start) & (self.x < end)], [end]])
+        y = self.values_at(x)
+        return sum_of(0.5 * (y[1:] + y[:-1]) * np.diff(x)) / (end - start)
+
     def thinned(self, most: int) -> Series:
         """At most `most` points, evenly chosen, the ends among them."""
         if len(self) <= most:

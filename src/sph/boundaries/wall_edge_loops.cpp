@@ -1,0 +1,272 @@
+// Compiled once for each instruction set; see docs/architecture.md.
+#include "sph/boundaries/wall_edge_loops.hpp"
+
+#include "sph/core/kernel_packs.hpp"
+
+namespace courant::COURANT_SIMD {
+
+namespace {
+
+constexpr Real nowhere = 1e30;  ///< so far off is the edge of a particle that has none [L]
+
+/// 1 where a > 0, else 0.
+COURANT_INLINE Pack is_positive(const Pack& a) {
+  Pack out;
+  const Native one = 1 - Native{}, none{};
+  for (int k = 0; k < parts; ++k) out.part[k] = a.part[k] > none ? one : none;
+  return out;
+}
+
+/// How a way passes an edge, in the plane across it.
+struct Passing {
+  Pack share;       ///< of the way, that a wall takes which it meets or not
+  Pack by_start;    ///< slope of the share, with the distance from the edge at the way's start [1/L]
+  Pack by_end;      ///< and at its end
+  Pack over, into;  ///< the direction of these slopes, along n and m
+};
+
+/// The way from (h, e) to (h_to, e_to), off the wall's plane and from the edge into the wall.
+COURANT_INLINE Passing pass(const Pack& h, const Pack& e, const Pack& h_to, const Pack& e_to,
+                            const Pack& meets, const Pack& free, Real width, const Pack& tiny) {
+  const Pack dh = h_to - h, de = e_to - e;
+  const Pack part = min(max((0 - (h * dh + e * de)) / (dh * dh + de * de + tiny), Pack::zero()), Pack::of(1));
+  const Pack over = h + part * dh, into = e + part * de, r2 = over * over + into * into + tiny,
+             rinv = rsqrt(r2);
+  const Pack side = (2 * meets - 1) * (1 / width), near = min(r2 * rinv, Pack::of(0.5 * width)),
+             t = 0.5 + side * near, steep = free * (6 * t * (1 - t) * side);
+  return {free * (t * t * (3 - 2 * t)), (1 - part) * steep, part * steep, over * rinv, into * rinv};
+}
+
+/// Walls about the edges of eight particles.
+template <int Dim>
+struct EightEdges {
+  Difference<Dim> n[2], m[2];
+  Pack height[2], inward[2];  ///< of the particles themselves
+  Real without[lanes];        ///< 1: this one has no edge, or is not looked at
+
+  /// `set`: strange ones are found here, else they are known.
+  EightEdges(const WallMirrorArrays& a, Index i, Index count, Real back, bool set) {
+    Real axis[4][3][lanes], offset[4][lanes];
+    for (Index l = 0; l < lanes; ++l) {
+      const WallEdge* edge = l < count ? a.edge[i + l] : nullptr;
+      if (edge && set) a.strange[i + l] = is_strange(a, *edge, i + l, back);
+      if (edge && a.strange[i + l] != 0) edge = nullptr;
+      without[l] = edge == nullptr;
+      for (int k = 0; k < 4; ++k) {  // n and m of the first wall, then of the second one
+        const Real* of = !edge || k / 2 >= edge->walls ? nullptr
+                         : k % 2 == 0                  ? edge->n[k / 2]
+                                                       : edge->m[k / 2];
+        offset[k][l] = of || k % 2 == 1 ? 0 : -nowhere;
+        for (int c = 0; c < 3; ++c) axis[k][c][l] = of ? of[c] : 0;
+        for (int c = 0; of && c < Dim; ++c) offset[k][l] += of[c] * (edge->at[c] - a.aside[c]);
+      }
+    }
+    for (int k = 0; k < 2; ++k) {
+      take(n[k], axis[2 * k]), take(m[k], axis[2 * k + 1]);
+      height[k] = Pack::zero() - Pack::load(offset[2 * k]);
+      inward[k] = Pack::zero() - Pack::load(offset[2 * k + 1]);
+    }
+  }
+  COURANT_INLINE void stand_at(const Places<Dim>& x) {
+    for (int k = 0; k < 2; ++k) height[k] += along(n[k], x), inward[k] += along(m[k], x);
+  }
+  COURANT_INLINE static Pack along(const Difference<Dim>& n, const Places<Dim>& x) {
+    const Pack two = n.x * x.x + n.y * x.y;
+    if constexpr (Dim == 3) return two + n.z * x.z;
+    return two;
+  }
+
+ private:
+  /// Whether it stands in what two walls enclose.
+  static bool is_strange(const WallMirrorArrays& a, const WallEdge& edge, Index i, Real back) {
+    bool behind = edge.walls == 2;
+    for (int k = 0; k < edge.walls; ++k) {
+      Real h = 0;
+      for (int c = 0; c < Dim; ++c)
+        h += edge.n[k][c] * (a.x[c][i] + a.aside[c] - back * a.v[c][i] - edge.at[c]);
+      behind = behind && !(h > 0);
+    }
+    return behind;
+  }
+  static void take(Difference<Dim>& to, const Real (&from)[3][lanes]) {
+    to.x = Pack::load(from[0]), to.y = Pack::load(from[1]);
+    if constexpr (Dim == 3) to.z = Pack::load(from[2]);
+  }
+};
+
+/// What walls about an edge do to the ways of a pair.
+template <int Dim>
+struct Ways {
+  Pack there[2];            ///< of j, as `height` of i
+  Passing straight, by[2];  ///< what hides that way; what each wall throws back
+  COURANT_INLINE Ways(const EightEdges<Dim>& edges, const Difference<Dim>& d, Real width, const Pack& tiny) {
+    Pack inward[2], hides[2];
+    for (int k = 0; k < 2; ++k) {
+      there[k] = edges.height[k] - dot(edges.n[k], d);
+      inward[k] = edges.inward[k] - dot(edges.m[k], d);
+    }
+    // no way passes the edge to who stands in what walls enclose
+    const Pack free = is_positive(max(there[0], there[1]));
+    for (int k = 0; k < 2; ++k) {
+      const Pack &h = edges.height[k], &e = edges.inward[k];
+      const Pack across = inward[k] * h, back = e * there[k];
+      hides[k] = is_positive(min(0 - h * there[k], (across - back) * h));
+      by[k] = pass(h, e, 0 - there[k], inward[k], is_positive(min(h * there[k], (across + back) * h)), free,
+                   width, tiny);
+    }
+    straight = pass(edges.height[0], edges.inward[0], there[0], inward[0], max(hides[0], hides[1]), free,
+                    width, tiny);
+    straight.share += 1 - free;
+  }
+};
+
+template <class Kernel, int Dim>
+void group_rates(const Kernel& kernel, const WallMirrorArrays& a, const NeighbourLists& lists, Index g,
+                 Index i, Index count) {
+  const Real half = a.half_step, hinv = 1 / a.h;
+  const Pack reach2 = Pack::of(power<2>(kernel.support * a.h)), tiny = Pack::of(tiny_distance2 * a.h * a.h);
+  const Real slope_norm = gradient_norm<Dim>(kernel, a.h), norm = shape_norm<Dim>(kernel, a.h);
+  EightEdges<Dim> edges(a, i, count, half, true);
+  Places<Dim> xi(a.x, i, count);
+  const Places<Dim> vi(a.v, i, count);
+  xi.x -= half * vi.x, xi.y -= half * vi.y;
+  if constexpr (Dim == 3) xi.z -= half * vi.z;
+  edges.stand_at(xi);
+  Pack speed[2], inward_speed[2];
+  for (int k = 0; k < 2; ++k)
+    speed[k] = edges.along(edges.n[k], vi), inward_speed[k] = edges.along(edges.m[k], vi);
+  Pack div = Pack::zero();
+  for (Index entry = lists.start[g]; entry < lists.start[g + 1]; ++entry) {
+    const std::ptrdiff_t j = lists.list[entry];
+    Difference<Dim> d, u(vi, a.v, j);
+    d.x = xi.x - (a.x[0][j] - half * a.v[0][j]), d.y = xi.y - (a.x[1][j] - half * a.v[1][j]);
+    if constexpr (Dim == 3) d.z = xi.z - (a.x[2][j] - half * a.v[2][j]);
+    const Pack r2 = dot_plus(d, d, tiny);
+    if (!any_less(r2, reach2)) continue;  // ways of such pairs are not looked for
+    const Ways<Dim> ways(edges, d, a.width, tiny);
+    const Pack u_dot_d = dot(u, d);
+    Pack change = Pack::zero();
+    const auto add = [&](const Passing& way, const Pack& far2, const Pack& along, const Pack& share_rate) {
+      const Pack rinv = rsqrt(far2), R = far2 * rinv * hinv;
+      change += slope_norm * way.share * gradient_shape(kernel, R, rinv) * along +
+                norm * kernel.shape(R) * share_rate;
+    };
+    for (int k = 0; k < 2; ++k) {
+      const Passing& way = ways.by[k];
+      if (!any_less(Pack::zero(), way.share)) continue;
+      const Pack of_j = speed[k] - dot(edges.n[k], u), inward_of_j = inward_speed[k] - dot(edges.m[k], u);
+      add(way, max(r2 + 4 * edges.height[k] * ways.there[k], tiny),
+          u_dot_d + 2 * (speed[k] * ways.there[k] + of_j * edges.height[k]),
+          way.by_start * (way.over * speed[k] + way.into * inward_speed[k]) +
+              way.by_end * (way.into * inward_of_j - way.over * of_j));
+    }
+    const Passing& way = ways.straight;
+    if (any_less(Pack::zero(), way.share)) {
+      const Pack thrown_back = change;
+      const Pack of_j = speed[0] - dot(edges.n[0], u), inward_of_j = inward_speed[0] - dot(edges.m[0], u);
+      change = Pack::zero();
+      add(way, r2, u_dot_d,
+          way.by_start * (way.over * speed[0] + way.into * inward_speed[0]) +
+              way.by_end * (way.over * of_j + way.into * inward_of_j));
+      change = thrown_back - is_positive(r2 - 2 * tiny) * change;  // none goes to oneself
+    }
+    div += a.V[j] * is_positive(reach2 - r2) * change;
+  }
+  Real rate[lanes];
+  div.store(rate);
+  for (Index l = 0; l < count; ++l)
+    if (edges.without[l] == 0) a.drhodt[i + l] += a.rho[i + l] * rate[l];
+}
+
+template <class Kernel, int Dim>
+void group_forces(const Kernel& kernel, const WallMirrorArrays& a, const NeighbourLists& lists, Index g,
+                  Index i, Index count) {
+  const Real hinv = 1 / a.h;
+  const Pack reach2 = Pack::of(power<2>(kernel.support * a.h)), tiny = Pack::of(tiny_distance2 * a.h * a.h);
+  const Real slope_norm = gradient_norm<Dim>(kernel, a.h), norm = shape_norm<Dim>(kernel, a.h);
+  EightEdges<Dim> edges(a, i, count, 0, false);
+  const Places<Dim> xi(a.x, i, count);
+  edges.stand_at(xi);
+  const bool diffuses = a.diffusion != nullptr;
+  const Pack pi = Pack::load(a.p + i, count), rho = Pack::load(a.rho + i, count),
+             phi = diffuses ? Pack::load(a.potential + i, count) : Pack::zero();
+  Sum<Dim> force, hidden;
+  Pack over[2] = {Pack::zero(), Pack::zero()}, into[2] = {Pack::zero(), Pack::zero()},
+       diffusion = Pack::zero();
+  for (Index entry = lists.start[g]; entry < lists.start[g + 1]; ++entry) {
+    const std::ptrdiff_t j = lists.list[entry];
+    const Difference<Dim> d(xi, a.x, j);
+    const Pack r2 = dot_plus(d, d, tiny);
+    if (!any_less(r2, reach2)) continue;
+    const Ways<Dim> ways(edges, d, a.width, tiny);
+    const Pack volume = a.V[j] * is_positive(reach2 - r2), pressure = volume * (pi + a.p[j]);
+    Pack all = Pack::zero();
+    for (int k = 0; k < 2; ++k) {
+      const Passing& way = ways.by[k];
+      if (!any_less(Pack::zero(), way.share)) continue;
+      const Pack far2 = max(r2 + 4 * edges.height[k] * ways.there[k], tiny), rinv = rsqrt(far2),
+                 R = far2 * rinv * hinv, slope = slope_norm * way.share * gradient_shape(kernel, R, rinv),
+                 share_slope = norm * kernel.shape(R) * way.by_start;
+      force.add(pressure * slope, d);
+      over[k] += pressure * (2 * slope * ways.there[k] + share_slope * way.over);
+      into[k] += pressure * share_slope * way.into;
+      all += slope;
+    }
+    const Passing& way = ways.straight;
+    if (any_less(Pack::zero(), way.share)) {
+      const Pack rinv = rsqrt(r2), R = r2 * rinv * hinv, other = is_positive(r2 - 2 * tiny),
+                 slope = other * (slope_norm * way.share * gradient_shape(kernel, R, rinv)),
+                 share_slope = other * (norm * kernel.shape(R) * way.by_start);
+      hidden.add(pressure * slope, d);
+      over[0] -= pressure * share_slope * way.over, into[0] -= pressure * share_slope * way.into;
+      all -= slope;
+    }
+    if (diffuses) diffusion += volume * all * (a.p[j] - pi + rho * (a.potential[j] - phi));
+  }
+  for (int k = 0; k < 2; ++k) force.add(over[k], edges.n[k]), force.add(into[k], edges.m[k]);
+  const Pack factor = 0 - Pack::load(a.V + i, count);
+  Real of[3][lanes], taken[3][lanes], of_diffusion[lanes];
+  (factor * force.x).store(of[0]), (factor * force.y).store(of[1]), (factor * force.z).store(of[2]);
+  (factor * hidden.x).store(taken[0]), (factor * hidden.y).store(taken[1]);
+  (factor * hidden.z).store(taken[2]);
+  (-2 * a.delta * a.h * diffusion).store(of_diffusion);
+  for (Index l = 0; l < count; ++l) {
+    if (edges.without[l] != 0) continue;
+    for (int c = 0; c < Dim; ++c) {
+      a.f[c][i + l] += of[c][l] - taken[c][l];
+      a.wall_force[c][i + l] = of[c][l];
+    }
+    if (diffuses) a.diffusion[i + l] += of_diffusion[l] / a.c[i + l];
+  }
+}
+
+/// Calls the loop for groups of eight any of which has an edge.
+template <class Kernel, int Dim, bool Rates>
+void loop(const WallMirrorArrays& a, const NeighbourLists& lists) {
+  const Kernel kernel = kernel_of<Kernel>(a.kernel);
+  for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
+    const Index count = lists.end - i < lanes ? lists.end - i : lanes;
+    bool any = false;
+    for (Index l = 0; l < count; ++l) any = any || a.edge[i + l] != nullptr;
+    if (!any) continue;
+    if constexpr (Rates)
+      group_rates<Kernel, Dim>(kernel, a, lists, g, i, count);
+    else
+      group_forces<Kernel, Dim>(kernel, a, lists, g, i, count);
+  }
+}
+
+}  // namespace
+
+WallMirrorLoop edge_rates_loop(KernelChoice choice, int dim) {
+  return with_loop_kernel(choice, [&]<class Kernel>(std::type_identity<Kernel>) -> WallMirrorLoop {
+    return dim == 2 ? &loop<Kernel, 2, true> : &loop<Kernel, 3, true>;
+  });
+}
+WallMirrorLoop edge_forces_loop(KernelChoice choice, int dim) {
+  return with_loop_kernel(choice, [&]<class Kernel>(std::type_identity<Kernel>) -> WallMirrorLoop {
+    return dim == 2 ? &loop<Kernel, 2, false> : &loop<Kernel, 3, false>;
+  });
+}
+
+}  // namespace courant::COURANT_SIMD
