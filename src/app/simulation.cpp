@@ -178,7 +178,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     add_shell_passes(model_, shells_, node_of, options, world_);
     build_beams(model_, beams_, node_of, world_, diagnostics);
     add_beam_passes(model_, beams_, options, world_);
-    build_cables(model_, cables, node_of, options, world_, diagnostics);
+    build_cables(model_, cables, node_of, options, world_);
     build_discrete_beams(model_, discrete_beams, node_of, options, world_, diagnostics);
     springs_ = build_discrete(deck_, model_, node_of, world_, diagnostics);
     add_inner_faces(options.eroding);
