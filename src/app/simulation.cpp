@@ -178,7 +178,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
     add_shell_passes(model_, shells_, node_of, options, world_);
     build_beams(model_, beams_, node_of, world_, diagnostics);
     add_beam_passes(model_, beams_, options, world_);
-    build_cables(model_, cables, node_of, options, world_, diagnostics);
+    build_cables(model_, cables, node_of, options, world_);
     build_discrete_beams(model_, discrete_beams, node_of, options, world_, diagnostics);
     springs_ = build_discrete(deck_, model_, node_of, world_, diagnostics);
     add_inner_faces(options.eroding);
@@ -285,15 +285,15 @@ void Simulation::add_rotations() {
   world_.passes.add(make_kinetic_energy(rotations));
 }
 
-// For contact; solids without a law have been reported.
+// For contact, times SSF of *PART_CONTACT; solids without a law have been reported.
 Real Simulation::bulk_modulus(Index part) const {
+  const Real scale = model_.parts[static_cast<std::size_t>(part)].ssf;
   if (const SolidPart& solids = solids_[static_cast<std::size_t>(part)]; solids.law)
-    return solids.bulk_modulus();
-  const auto& own = law_of_elements(part);
-  const auto& law = own ? own : materials_[part].strength;
-  if (law) return law->bulk_modulus();
+    return scale * solids.bulk_modulus();
+  const auto &own = law_of_elements(part), &law = own ? own : materials_[part].strength;
+  if (law) return scale * law->bulk_modulus();
   const auto rigid = rigid_material(deck_, model_, part);
-  return rigid ? rigid->E / (3 * (1 - 2 * rigid->pr)) : 0;
+  return rigid ? scale * rigid->E / (3 * (1 - 2 * rigid->pr)) : 0;
 }
 
 // The same for everything that moves.

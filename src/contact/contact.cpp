@@ -8,6 +8,7 @@
 #include "contact/near.hpp"
 #include "parallel/parallel.hpp"
 #include "state/shared_fields.hpp"
+#include "surfaces/contact_thickness.hpp"
 
 namespace courant {
 namespace {
@@ -33,7 +34,7 @@ void give_stiffness(Facet& f, const ContactLaw& law, const WallBodies& bodies, c
   const Real V = g.volume[f.segment];
   const Real length = world.dim == 2 ? 1 : V > 0 ? area * area / V : area / diagonal;
   f.k = law.slsfac * law.sfsb * g.K[f.segment] * length;
-  f.r = law.sbst > 0 ? 0.5 * law.sbst : 0.5 * g.thickness[f.segment] * law.sfsbt;
+  f.r = law.sbst > 0 ? 0.5 * law.sbst : 0.5 * contact_thickness(g, f.segment) * law.sfsbt;
   f.m = infinity;
   if (!f.moves) return;
   f.body = f.centred ? -1 : bodies.body(f.node[0]);

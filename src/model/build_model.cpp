@@ -28,6 +28,7 @@ Model ModelBuilder::build() {
   build_shells();
   build_solids();
   build_beams();
+  check_part_contacts();
   check_shared_nodes();
   build_curves();
   build_function_curves();

@@ -37,10 +37,11 @@ struct ModelPart {
   Location where;  ///< of the PART card, for messages
   Entry card;      ///< the PART card, for messages about one of its fields
   bool has_sph = false, has_shell = false, has_solid = false, has_beam = false;
-  bool rigid = false;             ///< its material is a *MAT_RIGID
-  bool null = false;              ///< shells or beams of *MAT_NULL: mass and faces without a stress
-  bool velocity_given = false;    ///< INITIAL_VELOCITY_GENERATION names this part
-  std::vector<ModelPly> plies{};  ///< of *PART_COMPOSITE, from the lower face to the upper; else none
+  bool rigid = false;               ///< its material is a *MAT_RIGID
+  bool null = false;                ///< shells or beams of *MAT_NULL: mass and faces without a stress
+  bool velocity_given = false;      ///< INITIAL_VELOCITY_GENERATION names this part
+  std::vector<ModelPly> plies{};    ///< of *PART_COMPOSITE, from the lower face to the upper; else none
+  Real optt = 0, sft = 1, ssf = 1;  ///< of *PART_CONTACT [L, -, -]
 };
 
 /// Layers that shells of a part have as their own, whatever stands with the part.

@@ -30,6 +30,7 @@ class ModelBuilder {
   // build_mesh.cpp
   void build_nodes();
   void build_parts();
+  void check_part_contacts();
   void check_plies(const Entry& card, const std::vector<ModelPly>& plies, const std::string& whose);
   void build_particles();
   void build_shells();

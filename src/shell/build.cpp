@@ -6,6 +6,7 @@
 
 #include "shell/section_shell.hpp"
 #include "shell/shell.hpp"
+#include "state/shared_fields.hpp"
 
 namespace courant {
 namespace {
@@ -108,6 +109,12 @@ Real thickness_of(const Model& model, Index shell, Real of_section) {
   return sum / corners;
 }
 
+/// That of *PART_CONTACT, where it is another one than the shell's.
+void give_contact_thickness(const ModelPart& part, Index s, Segments& g) {
+  const Real t = part.optt > 0 ? part.optt : part.sft * g.thickness[s];
+  if (t != g.thickness[s]) shared_fields::contact_thickness.add(g.fields)[s] = t;
+}
+
 std::vector<std::optional<ShellMaterial>> materials_of_layups(
     const Model& model, const std::function<std::optional<ShellMaterial>(Index, Index)>& material) {
   const std::vector<Index> group_of = layups_of_groups(model);
@@ -144,10 +151,11 @@ void build_segments(const Deck& deck, const Model& model,
           "its nodes coincide or lie on a line");
     if (!part.usable) continue;
     g.thickness[s] = thickness_of(model, s, part.thickness);
+    give_contact_thickness(model.parts[shell.part], s, g);
     const auto layup = model.shell_layup.find(s);
     const ShellMaterial own =
         layup == model.shell_layup.end() ? part.material : of_layup[layup->second].value_or(part.material);
-    g.K[s] = own.E / (3 * (1 - 2 * own.pr));
+    g.K[s] = model.parts[shell.part].ssf * own.E / (3 * (1 - 2 * own.pr));
     const int corners = a[2] == a[3] ? 3 : 4;
     const Real m = (own.ro * g.thickness[s] + part.marea) * area / corners;
     for (int e = 0; e < corners; ++e) nodes.m[a[e]] += m;

@@ -83,7 +83,8 @@ struct Segments {
   Field<Index>& node3 = fields.add<Index>({.name = "node3", .dimension = "-"});
   Field<Real>& thickness = fields.add<Real>({.name = "thickness", .dimension = "L", .output = true});
   Field<Real>& K =
-      fields.add<Real>({.name = "bulk_modulus", .dimension = "M/LT2"});  ///< E/(3(1-2 nu)) of the material
+      fields.add<Real>({.name = "bulk_modulus",
+                        .dimension = "M/LT2"});  ///< E/(3(1-2 nu)) of the material, times SSF of its part
   Field<Real>& volume = fields.add<Real>(
       {.name = "element_volume", .dimension = "L3"});  ///< of the solid behind the face; 0: a shell
   Field<Real>* contact_force = nullptr;                ///< null: nothing can touch them [ML/T2]

@@ -56,6 +56,9 @@ inline const SharedField<Real> added_mass{{.name = "added_mass", .dimension = "M
 inline const SharedField<Index> eroded{{.name = "eroded", .dimension = "-"}};
 inline constexpr Index deleted = 1;
 inline constexpr Index hidden = 2;  ///< an inner face of solids, which deletion may lay bare
+/// Faces of shells: thickness with which contact counts. Only where it is not that of the shells.
+inline const SharedField<Real> contact_thickness{
+    {.name = "contact_thickness", .dimension = "L", .restart = false}};
 /// Nodes: 1 where moments do not turn it: a rigid body does, or it belongs to no shell that deforms.
 inline const SharedField<Index> no_rotation{{.name = "no_rotation", .dimension = "-"}};
 /// As held_axes and prescribed_motion, of rotations.

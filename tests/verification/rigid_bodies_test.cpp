@@ -130,14 +130,16 @@ const char* const given =
 
 // Weight acts on the given mass, not on that of the elements, of which the part has 48.
 TEST(RigidBodyCards, WeightOfAPartActsOnTheGivenMass) {
-  const auto s = brick(given, "*LOAD_GRAVITY_PART\n         1         3         1       2.0\n");
-  const RigidBody& b = s->bodies()->bodies().front();
-  test::start_ledger(*s);
-  while (s->clock().t < 0.5) s->step(do_nothing);
-  EXPECT_NEAR(b.force[2], -14, 1e-12);
-  EXPECT_NEAR(b.moment.norm(), 0, 1e-12);
-  sample_energy(s->world(), s->clock());
-  EXPECT_LT(std::abs(s->world().energy.unexplained()), 1e-9 * s->world().energy.kinetic);
+  for (const char* curve : {"1", "0"}) {  // without a curve at all times
+    const auto s = brick(given, fmt::format("*LOAD_GRAVITY_PART\n1,3,{},2.0\n", curve));
+    const RigidBody& b = s->bodies()->bodies().front();
+    test::start_ledger(*s);
+    while (s->clock().t < 0.5) s->step(do_nothing);
+    EXPECT_NEAR(b.force[2], -14, 1e-12);
+    EXPECT_NEAR(b.moment.norm(), 0, 1e-12);
+    sample_energy(s->world(), s->clock());
+    EXPECT_LT(std::abs(s->world().energy.unexplained()), 1e-9 * s->world().energy.kinetic);
+  }
 }
 
 // In a frame that turns with w: force m w^2 r of the centre, moment -w x J w.

@@ -543,6 +543,21 @@ TEST(TiebreakContact, TiedSurfacesFailAtTheirStresses) {
   EXPECT_EQ(tear(name + "   20000.0   20000.0\n" + scales, 3, 4e-4).broken, 0);
 }
 
+// The stress grows until then as it would without an end; the motion takes 0.02 to start.
+TEST(TiedContact, SpringsEndAtTheirDeath) {
+  const auto glue = [](Real death) {
+    return "*CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET_ID\n         7glue\n         2         1         3         "
+           "3\n" +
+           fmt::format("{:>70}{:10}\n      10.0      10.0\n", "", death);
+  };
+  const Torn ends = tear(glue(0.06), 3, 4e-4), holds = tear(glue(1), 3, 4e-4);
+  EXPECT_NEAR(ends.most / holds.most, 0.05 / 0.14, 0.01);
+  EXPECT_EQ(ends.after, 0);
+  EXPECT_GT(holds.after, 0.9 * holds.most);
+  EXPECT_GT(ends.lost, 0);
+  EXPECT_LT(ends.energy_error, 4e-3);
+}
+
 TEST(TiebreakContact, SofteningHasTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
   const std::string deck = torn_deck(
       tiebreak("AUTOMATIC_SURFACE_TO_SURFACE_TIEBREAK", "         6   10000.0     100.0    0.0010\n"), 1,

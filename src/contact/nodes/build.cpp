@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "contact/nodes/measures.hpp"
+#include "contact/nodes/solid_stacks.hpp"
 #include "contact/nodes/transducer.hpp"
 
 namespace courant {
@@ -144,8 +146,17 @@ class NodeContactBuilder {
       const Real width = std::sqrt(f.area);
       f.depth = f.two_sided ? through * std::max(2 * f.r, 0.5 * width)
                             : through * std::min(0.95 * g.volume[s] / f.area, most_widths * width);
+      f.through = f.two_sided
+                      ? f.depth
+                      : through * std::min(0.95 * stacks().behind(s, f.area, most_widths * width / 0.95),
+                                           most_widths * width);
       sides.faces.push_back(f);
     }
+  }
+
+  const SolidStacks& stacks() {
+    if (!stacks_) stacks_.emplace(world_);
+    return *stacks_;
   }
 
   /// `around`: faces that the nodes may belong to.
@@ -240,6 +251,7 @@ class NodeContactBuilder {
   Diagnostics& diagnostics_;
   FaceFinder finder_;
   ContactMeasures measures_;
+  std::optional<SolidStacks> stacks_;
   std::vector<std::shared_ptr<const NodeContact>> contacts_;
   std::map<int, std::shared_ptr<const NodeContact>> of_card_;
 };

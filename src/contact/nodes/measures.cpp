@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/nodes/face.hpp"
+#include "surfaces/contact_thickness.hpp"
 
 namespace courant {
 
@@ -31,7 +32,7 @@ Real ContactMeasures::half_thickness(int side, Index s) const {
   const bool rigid = model_.parts[static_cast<std::size_t>(g.part[s])].rigid;
   if (!(rigid ? shells_.of_rigid : shells_.of_others)) return 0;
   const Real given = side == 0 ? card_->sast : card_->sbst, scale = side == 0 ? card_->sfsat : card_->sfsbt;
-  Real t = given > 0 ? given : g.thickness[s] * scale;
+  Real t = given > 0 ? given : contact_thickness(g, s) * scale;
   if (shells_.limited)
     for (std::size_t e = 0; e < 4; ++e) {
       const Index n = a[e], next = a[(e + 1) % 4];

@@ -146,7 +146,7 @@ void NodeContact::let_go(const World& world, Block& b, Index i, const Vec& x, Sl
     const ContactFace& f = face(slot.face);
     const Projection at = project(corners_of(f, world.nodes.x), f.corners, x);
     const Real depth = f.r + node(i).r - slot.side * at.n.dot(x - at.q) - slot.slack;
-    if (depth > 0 && depth < f.depth + f.r + node(i).r) b.let_go += 0.5 * slot.k * depth * depth;
+    if (depth > 0 && depth < f.through + f.r + node(i).r) b.let_go += 0.5 * slot.k * depth * depth;
     slot = Slot();
   }
 }
@@ -166,7 +166,7 @@ bool NodeContact::hold(const World& world, Block& b, Index i, const Vec& x, cons
   slot.beyond = 0;
   slot.gap = slot.n.dot(x - slot.at.q) - f.r - node(i).r;
   if (!move_on(world, b, i, x, slots, slot, inside) || slot.gap >= 0) return false;
-  if (slot.beyond > 0 || slot.gap + f.r + node(i).r >= -face(slot.face).depth) return true;
+  if (slot.beyond > 0 || slot.gap + f.r + node(i).r >= -face(slot.face).through) return true;
   b.leaked.push_back(i);
   return false;
 }

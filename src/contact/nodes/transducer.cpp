@@ -9,6 +9,7 @@
 #include <set>
 
 #include "contact/contact_table.hpp"
+#include "contact/edges/edge_contact.hpp"
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 
@@ -26,7 +27,7 @@ IdSpace space_of_surface(int type) {
 constexpr FieldRules time_span{.standard = 1e20, .honour = Honour::output_only};
 const RegisterKeyword<T> transducer_keyword{contact_head<T>(
     {"CONTACT_FORCE_TRANSDUCER_PENALTY"},
-    "force of all contacts of elements on SURFA, in rcforc; it pushes nothing itself",
+    "force of all contacts of elements on SURFA, with those of edges, in rcforc; it pushes nothing itself",
     {{.fields =
           {{"SURFA",
             &T::surfa,
@@ -76,8 +77,9 @@ class ForceTransducer : public Pass, public InterfaceReporter {
  public:
   ForceTransducer(Id id, std::string title, std::vector<Index> nodes,
                   std::optional<std::array<NodeContact::Surface, 2>> between,
-                  std::vector<std::shared_ptr<const NodeContact>> contacts)
-      : id_(id),
+                  std::vector<std::shared_ptr<const NodeContact>> contacts, const World& world)
+      : world_(world),
+        id_(id),
         title_(std::move(title)),
         nodes_(std::move(nodes)),
         between_(std::move(between)),
@@ -91,10 +93,15 @@ class ForceTransducer : public Pass, public InterfaceReporter {
       else
         for (const Index n : nodes_) contact->add_force_on(n, out.on_surfa);
     }
+    if (between_) return out;
+    for (const auto* edges : world_.passes.all<const EdgeContact>())
+      if (edges->touches_something())
+        for (const Index n : nodes_) edges->add_force_on(n, out.on_surfa);
     return out;
   }
 
  private:
+  const World& world_;
   Id id_;
   std::string title_;
   std::vector<Index> nodes_;
@@ -153,6 +160,9 @@ void add_force_transducers(const Deck& deck, const Model& model, const NodeConta
     if (!options.with_particles.empty())
       deck.error(diagnostics, card, "SURFA", "the forces of particles are not told by transducers",
                  "leave it out, or the contacts of particles: their own forces are in rcforc");
+    if (between && std::any_of(others.begin(), others.end(), asks_for_edges))
+      deck.warning(diagnostics, card, "SURFB", "the forces between edges of SURFA and SURFB are not in it",
+                   "leave SURFB out: all forces on SURFA have those of edges, too");
     if (holds)
       deck.warning(
           diagnostics, card, "SURFA",
@@ -165,7 +175,7 @@ void add_force_transducers(const Deck& deck, const Model& model, const NodeConta
                                     : "it has no nodes of elements",
                    "leave it out");
     world.passes.add(
-        std::make_shared<ForceTransducer>(card.cid, card.title, nodes, std::move(between), contacts));
+        std::make_shared<ForceTransducer>(card.cid, card.title, nodes, std::move(between), contacts, world));
   }
 }
 

@@ -57,7 +57,7 @@ class TiedBuilder {
     if (!finder_.are_stiff(c, finder_.faces(c, ContactSide::b, false), false)) return;
     TieStrength strength;
     if (kind.fails) strength.normal = c.fs, strength.shear = c.fd;
-    hold_by_springs({.id = id, .title = c.title, .strength = strength}, std::move(ties));
+    hold_by_springs({.id = id, .title = c.title, .strength = strength, .death = c.dt}, std::move(ties));
   }
 
   /// Contacts that hold until they break; what they do then is another pass.
@@ -79,7 +79,8 @@ class TiedBuilder {
         .id = id,
         .title = (c.title.empty() ? fmt::format("contact {}", c.cid) : c.title) + " until it breaks",
         .strength = {by_option && c.option == 1 ? 0 : c.nfls, c.sfls, c.nen, c.mes, kind != Tiebreak::force,
-                     softens(c) ? c.param : 0}};
+                     softens(c) ? c.param : 0},
+        .death = c.dt};
     if (!sticks) return hold_by_springs(std::move(law), std::move(ties));
     for (Tie& tie : ties) tie.k *= slsfac_;
     add_springs(std::move(law), std::move(ties), std::move(later), world_);
@@ -126,6 +127,7 @@ class TiedBuilder {
     if (softens(c) ? !(c.param > 0) : c.param != 0)
       error(c, "PARAM", fmt::format("expected {}, got '{:g}'", softens(c) ? "an opening > 0" : "0", c.param),
             "with OPTION 6 and 8 the opening at which nothing holds any more, else none");
+    if (c.bt > 0) error(c, "BT", "what holds from the start has no birth", "leave it blank");
     if (world_.particles.size() > 0 && kind_of(c).nodes)
       error(c, "SURFA", "particles cannot be held at faces", "use the contact without _TIEBREAK");
     return diagnostics_.errors() == errors;
@@ -252,6 +254,7 @@ class TiedBuilder {
     for (const auto& group : world_.groups)
       if (shared_fields::eroded.find(group->fields)) eroding.insert(group->part);
     const int errors = diagnostics_.errors();
+    if (c.dt < 1e20) error(c, "DT", "nodes that are tied exactly stay so to the end", springs);
     if (options_.mass_grows && !of_beams(ties))
       error(c, "", "nodes that are tied exactly get no mass from mass scaling (DT2MS) once the run goes on",
             "give MS1ST 1, or use the contact with _OFFSET");

@@ -74,7 +74,8 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     a.in_block().updates(world.nodes.f);
   }
 
-  void start(World& world, const Clock&) override {
+  void start(World& world, const Clock& clock) override {
+    if (clock.t >= law_.death) return end();
     for_each(static_cast<Index>(ties_.size()), [&](Index t) { look(world, static_cast<std::size_t>(t)); });
     for (std::size_t t = 0; t < ties_.size(); ++t) {
       lost_ += now_[t].lost, now_[t].lost = 0;
@@ -128,6 +129,11 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
   std::vector<Tie> ties_;
 
  private:
+  /// What they hold is lost.
+  void end() {
+    for (std::size_t t = 0; t < ties_.size(); ++t) lost_ += now_[t].stored, now_[t] = {}, broken_[t] = 1;
+  }
+
   struct Now {
     Vec force = Vec::Zero();  ///< on the node [ML/T2]
     std::array<Vec, 4> on{Vec::Zero(), Vec::Zero(), Vec::Zero(), Vec::Zero()};

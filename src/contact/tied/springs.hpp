@@ -28,6 +28,7 @@ struct TiedSpringsLaw {
   Id id = 0;
   std::string title;
   TieStrength strength{};
+  Real death = 1e20;  ///< from then on none holds [T]
 };
 
 /// What else may be tied, each node once, where it comes to touch.

@@ -411,8 +411,7 @@ class BeamForces : public Material,
     energy_[e] += work;
     for (int k = 0; damping_ && k < count6; ++k) g[at(k)] += damping[at(k)];
     const TurnedEnds& turned = change.turned[at(i)];
-    NodalForces on;
-    on.force = g[elongation] * turned.frame.axes.col(0);
+    NodalForces on{g[elongation] * turned.frame.axes.col(0)};
     if (turns_)
       on = nodal_forces(turned, releases_of(e), g[elongation],
                         {Vec(-g[twist], g[turn1_s], g[turn1_t]), Vec(g[twist], g[turn2_s], g[turn2_t])});

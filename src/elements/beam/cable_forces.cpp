@@ -95,12 +95,9 @@ class CableForces : public TwoNodeForces {
 }  // namespace
 
 void build_cables(const Model& model, const std::vector<CablePart>& parts, const std::vector<Index>& node_of,
-                  ElementOptions& options, World& world, Diagnostics& diagnostics) {
+                  ElementOptions& options, World& world) {
   for (const CablePart& part : parts) {
     const ModelPart& of_model = model.parts[static_cast<std::size_t>(part.part)];
-    if (world.dim == 2)
-      return diagnostics.error(of_model.where, "cables are not supported in 2D scenes (IDIM 2)",
-                               "make the scene three-dimensional");
     if (part.beams.empty()) continue;
     FieldSet& set = world.add_set(fmt::format("beams of part {}", of_model.id));
     set.resize(static_cast<Index>(part.beams.size()));

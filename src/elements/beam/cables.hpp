@@ -42,9 +42,8 @@ struct CablePart {
 
 /// Parts of *SECTION_BEAM with ELFORM 6. Refuses other materials, and cables without mass, area or length.
 std::vector<CablePart> find_cable_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics);
-/// Adds groups, masses and passes. `node_of`: the node of the world of each node of the model. 2D is an
-/// error.
+/// Adds groups, masses and passes. `node_of`: the node of the world of each node of the model.
 void build_cables(const Model& model, const std::vector<CablePart>& parts, const std::vector<Index>& node_of,
-                  ElementOptions& options, World& world, Diagnostics& diagnostics);
+                  ElementOptions& options, World& world);
 
 }  // namespace courant

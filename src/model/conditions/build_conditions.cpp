@@ -118,7 +118,8 @@ std::vector<Index> ModelBuilder::loaded_parts() {
 
 void ModelBuilder::build_gravity_of_parts() {
   for (const LoadGravityPartCard& card : deck_.all<LoadGravityPartCard>()) {
-    const Curve* found = curve(card, "LC", card.lc);
+    static const Curve always{.abscissa = {0, 1e30}, .ordinate = {1, 1}};
+    const Curve* found = card.lc == 0 ? &always : curve(card, "LC", card.lc);
     std::vector<Index> parts;
     if (!card.of_sets()) {
       if (const Index p = part(card, "PID", card.pid); p >= 0) parts = {p};

@@ -80,7 +80,13 @@ void ModelBuilder::build_parts() {
     model_.parts.push_back(std::move(part));
   };
   for (const PartCard& card : deck_.all<PartCard>()) add(card);
-  for (const PartContactCard& card : deck_.all<PartContactCard>()) add(card);
+  for (const PartContactCard& card : deck_.all<PartContactCard>()) {
+    const std::size_t before = model_.parts.size();
+    add(card);
+    if (model_.parts.size() == before) continue;
+    ModelPart& part = model_.parts.back();
+    part.optt = card.optt, part.sft = card.sft, part.ssf = card.ssf;
+  }
   for (const PartInertiaCard& card : deck_.all<PartInertiaCard>()) add(card);
   for (const PartCompositeCard& card : deck_.all<PartCompositeCard>()) {
     const std::size_t before = model_.parts.size();
@@ -90,6 +96,26 @@ void ModelBuilder::build_parts() {
     part.plies = card.plies();
     if (!part.plies.empty()) part.mid = part.plies.front().mid;  // of a rigid part that of all
     check_plies(card, part.plies, fmt::format("part {}", part.id));
+  }
+}
+
+void ModelBuilder::check_part_contacts() {
+  for (const PartContactCard& card : deck_.all<PartContactCard>()) {
+    const ModelPart& part = model_.parts[static_cast<std::size_t>(model_.part_of_id.at(card.pid))];
+    const auto without_effect = [&](const char* field, std::string why) {
+      deck_.warning(diagnostics_, card, field, "has no effect: " + why, "leave it blank");
+    };
+    const char* const thickness = card.optt > 0 ? "OPTT" : "SFT";
+    if (card.optt > 0 && part.has_beam)
+      error(card, "OPTT",
+            fmt::format("part {} is of beams, whose radius in contacts is that of their section", part.id),
+            "give SAST or SFSAT of the contact");
+    else if ((card.optt > 0 || card.sft != 1) && !part.has_shell)
+      without_effect(thickness, fmt::format("part {} has no shells", part.id));
+    if (card.optt > 0 && card.sft != 1) without_effect("SFT", "OPTT gives the thickness");
+    if (card.ssf != 1 && part.has_sph)
+      error(card, "SSF", "particles have no stiffness in contacts that their part scales",
+            "give SFSA of the contact");
   }
 }
 

@@ -9,6 +9,7 @@
 #include "sph/boundaries/wall_surface.hpp"
 #include "sph/cards.hpp"
 #include "sph/sph.hpp"
+#include "surfaces/contact_thickness.hpp"
 
 namespace courant {
 
@@ -168,7 +169,7 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
                    "name rigid parts; contact alone holds particles off shells that deform");
         return;
       }
-      thickness = world.segments.thickness[s];
+      thickness = contact_thickness(world.segments, s);
       if (walls.friction[s].cf >= 0) {
         deck.error(diagnostics, c, "SURFB",
                    fmt::format("part {} is named twice", model.parts[world.segments.part[s]].id),

@@ -46,7 +46,8 @@ struct TouchScene {
     }
     world.segments.fields.resize(1);
     ContactSides sides;
-    sides.faces.push_back({.node = {0, 1, 2, 3}, .k = 100, .area = 4, .depth = depth, .passes = 1});
+    sides.faces.push_back(
+        {.node = {0, 1, 2, 3}, .k = 100, .area = 4, .depth = depth, .through = depth, .passes = 1});
     sides.own.push_back({.node = {4, 7, 6, 5}, .k = 25, .area = 0.25});
     ContactNode node;
     node.node = 4, node.last = 1;
