@@ -22,6 +22,24 @@
 
 namespace courant {
 
+namespace {
+
+void warn_of_beams_that_touch_nothing(const Deck& deck, const Model& model, const NodeContactOptions& options,
+                                      Diagnostics& diagnostics) {
+  const ContactCard* of_faces = nullptr;
+  for (const ContactCard& c : deck.all<ContactCard>()) {
+    if (kind_of(c).edges) return;
+    if (!of_faces && !options.with_particles.contains(c.cid)) of_faces = &c;
+  }
+  if (model.beams.empty() || !of_faces) return;
+  diagnostics.warning(deck.where(*of_faces),
+                      fmt::format("{}: beams take no part in contact, only the shells and solids beside them",
+                                  deck.keyword(*of_faces)),
+                      "use *CONTACT_AUTOMATIC_GENERAL, or give what must touch faces");
+}
+
+}  // namespace
+
 // Nodes of elements move by their forces; those of rigid bodies with these.
 void Simulation::add_node_passes(Diagnostics& diagnostics) {
   add_bodies();
@@ -109,20 +127,12 @@ void Simulation::hold_massless_nodes(Diagnostics& diagnostics) {
 }
 
 void Simulation::add_contacts_of_nodes(Diagnostics& diagnostics) {
-  const auto& cards = deck_.all<ContactCard>();
-  const bool beams_touch =
-      std::any_of(cards.begin(), cards.end(), [](const ContactCard& c) { return kind_of(c).edges; });
-  if (!model_.beams.empty() && !cards.empty() && !beams_touch)
-    diagnostics.warning(
-        deck_.where(cards.front()),
-        fmt::format("{}: beams take no part in contact, only the shells and solids beside them",
-                    deck_.keyword(cards.front())),
-        "use *CONTACT_AUTOMATIC_GENERAL, or give what must touch faces");
   NodeContactOptions options;
   options.bulk_modulus = [this](Index part) { return bulk_modulus(part); };
   if (bodies_) options.bodies = bodies_->wall_bodies(world_);
   options.tssfac = model_.tssfac;
   for (const auto& contact : contacts_) options.with_particles.insert(contact->report().id);
+  warn_of_beams_that_touch_nothing(deck_, model_, options, diagnostics);
   const NodeContactsByCard nodes = add_node_contacts(deck_, model_, options, world_, diagnostics);
   add_edge_contacts(deck_, model_, options, nodes, world_, diagnostics);
 }
