@@ -32,8 +32,10 @@ const RegisterKeyword<V> verdict_card{
               {"RESB", &V::resb, "-", "broken above this error of the energy balance; 0: 0.1", share},
               {"LEAKD", &V::leakd, "-", "doubtful above this share of leaked particles; 0: any leak", share},
               {"LEAKB", &V::leakb, "-", "broken above this share of leaked particles; 0: 0.001", share},
-              {"HGD", &V::hgd, "-", "doubtful above this hourglass energy, of the internal; 0: 0.1", share},
-              {"HGB", &V::hgb, "-", "broken above this hourglass energy, of the internal; 0: never", share},
+              {"HGD", &V::hgd, "-", "doubtful above this hourglass energy, of the largest internal; 0: 0.1",
+               share},
+              {"HGB", &V::hgb, "-", "broken above this hourglass energy, of the largest internal; 0: never",
+               share},
               {"MACHD", &V::machd, "-", "doubtful above this speed of a liquid, of its sound; 0: 0.2", share},
               {"DENSD", &V::densd, "-", "doubtful above this change of a liquid's density; 0: 0.1",
                share}}}}}};
@@ -128,13 +130,14 @@ void add_leaks(const Summary& s, std::vector<Finding>& out) {
 
 void add_hourglass(const Summary& s, std::vector<Finding>& out) {
   const EnergyLedger& e = s.energy;
-  const Real share = e.hourglass / std::max(std::abs(e.internal), std::abs(e.hourglass) * 1e-12);
+  const Real internal = std::max(std::abs(e.internal), e.most_internal);
+  const Real share = e.hourglass / std::max(internal, std::abs(e.hourglass) * 1e-12);
   if (!(e.hourglass > least_hourglass * e.scale()) ||
       !(share > std::min(s.limits.hourglass_doubtful, s.limits.hourglass_broken)))
     return;
   out.push_back(
       {share > s.limits.hourglass_broken,
-       fmt::format("hourglass energy is {:.3g} % of the internal energy: refine the mesh, or choose "
+       fmt::format("hourglass energy is {:.3g} % of the largest internal energy: refine the mesh, or choose "
                    "another IHQ or QM of *HOURGLASS",
                    100 * share)});
 }

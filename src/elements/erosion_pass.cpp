@@ -83,19 +83,23 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
     if (!torn.empty()) weaken_beside(torn);
     if (first_step_ == 0 && dtmin_ > 0) find_first_step(world, clock);
   }
-  /// Where no element is left the step stays.
+  /// Where no element is left the step is the longest so far.
+  bool rings() const override { return false; }
   Limit limit(const World& world, const Clock& clock) override {
     constexpr Real none = std::numeric_limits<Real>::infinity();
+    longest_ = std::max(longest_, clock.dt_old);
     Index dead = 0, all = 0;
     for (const auto& group : groups_)
       if (group->all_dead()) dead += group->group().size();
     for (const auto& group : world.groups)
       if (group->corners() > 1) all += group->size();  // lumped masses have no step
-    return {dead == all ? clock.dt_old : none, "the last element, which is deleted"};
+    return {dead == all ? longest_ : none, "the last element, which is deleted"};
   }
   const std::vector<ElementFailure>& failures() const override { return failures_; }
 
-  void keep(Archive& archive) override { archive("first_step", first_step_); }
+  void keep(Archive& archive) override {
+    archive("first_step", first_step_), archive("longest_step", longest_);
+  }
   void loaded(World&) override {
     for (const auto& group : groups_) group->loaded(), group->set_least_step(dtmin_ * first_step_);
   }
@@ -148,6 +152,7 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
   Field<Index>& eroded_;  ///< of segments
   SolidFaces faces_;
   Real first_step_ = 0;  ///< [T]
+  Real longest_ = 0;     ///< step so far [T]
   std::vector<ElementFailure> failures_;
 };
 

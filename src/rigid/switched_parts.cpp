@@ -63,6 +63,7 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
     for (SwitchedBody& body : bodies_)
       if (body.active != 0) move(world, clock, body);
   }
+  bool rings() const override { return false; }
   Limit limit(const World&, const Clock&) override { return {longest_, "DTMAX of " + name()}; }
 
   void record(World&, const Clock& clock, EnergyLedger&) override {

@@ -84,6 +84,7 @@ void keep_ledger(EnergyLedger& e, Archive& archive) {
   archive("below", e.below);
   archive("below_at_start", e.below_at_start);
   archive("peak", e.peak);
+  archive("most_internal", e.most_internal);
 }
 
 }  // namespace

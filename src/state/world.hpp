@@ -34,6 +34,7 @@ struct EnergyLedger {
   /// What leapfrog keeps of linear motion, exactly at every stable step, is less than the energy at t^n by
   /// sum f^2 dt^2/(8 m): of the step that led here, and of the first one, which the ledger starts from.
   Real below = 0, below_at_start = 0;
+  Real most_internal = 0;  ///< largest that the guard saw
   Real peak = 0;  ///< largest `present` that the guard saw, and at least round-off of the rest energy m c^2
   Real total() const {
     return kinetic + internal + potential + contact + hourglass + bulk_viscosity + dissipated;

@@ -186,12 +186,14 @@ void Guard::keep(Archive& archive) {
 
 void Guard::start(EnergyLedger& e) {
   e.peak = least_energy_;
+  e.most_internal = std::abs(e.internal);
   initial_size_ = held_by(e);
   initial_potential_ = e.potential;
   initial_internal_ = e.internal;
 }
 
 void Guard::note_peak(EnergyLedger& e) const {
+  e.most_internal = std::max(e.most_internal, std::abs(e.internal));
   e.peak = std::max(e.peak, held_by(e) + std::max(initial_potential_ - e.potential, Real(0)));
 }
 

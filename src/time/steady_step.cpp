@@ -1,12 +1,13 @@
 #include "time/steady_step.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace courant {
 
 namespace {
 
-constexpr Real growth = 1.0005;      ///< a step
+constexpr Real growth = 1.005;       ///< a step
 constexpr std::int64_t steps = 200;  ///< of a while
 constexpr Real most_below = 0.01;    ///< the limit
 constexpr Real further = 4;   ///< the step falls than the limit did, so that it soon lies below its swing
@@ -16,6 +17,16 @@ constexpr Real worth = 0.02;  ///< growth
 
 void SteadyStep::look_again() {
   least_ = none, left_ = steps;
+}
+
+TimeLimit::Limit SteadyStep::next(Real ringing, Real others, std::string who) {
+  constexpr Real far_below = 0.5;
+  const Real before = dt_, now = std::min(ringing, others);
+  const Real steady = next(std::min(ringing, std::max(others, far_below * ringing)));
+  if (others <= steady) return {others, std::move(who)};
+  if (steady < before) who_ = who;
+  if (steady < (1 - 2 * most_below) * now) return {steady, who_ + ", in a step before"};
+  return {steady, std::move(who)};
 }
 
 Real SteadyStep::next(Real allowed) {
@@ -39,6 +50,7 @@ void SteadyStep::keep(Archive& archive) {
   archive("steady_target", target_);
   archive("steady_least", least_);
   archive("steady_left", left_);
+  archive("steady_who", who_);
 }
 
 }  // namespace courant

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <string>
 
 #include "base/real.hpp"
+#include "state/pass.hpp"
 #include "state/saved_state.hpp"
 
 namespace courant {
@@ -14,7 +16,10 @@ namespace courant {
 /// least of that while. Theory: docs/theory.md.
 class SteadyStep {
  public:
-  /// `allowed`: what the passes allow [T]. Once a cycle.
+  /// `ringing`: what those allow that would be pumped, finite, `others` the others [T]; `who` sets the
+  /// smaller one now. Once a cycle. Others that are far below do no harm, and are taken as they come.
+  TimeLimit::Limit next(Real ringing, Real others, std::string who);
+  /// `allowed`: finite [T].
   Real next(Real allowed);
   void keep(Archive& archive);
 
@@ -26,6 +31,7 @@ class SteadyStep {
   Real target_ = none;     ///< to which it grows [T]
   Real least_ = none;      ///< allowed in this while [T]
   std::int64_t left_ = 0;  ///< steps of this while
+  std::string who_;        ///< made it fall
 };
 
 }  // namespace courant

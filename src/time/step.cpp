@@ -16,16 +16,20 @@ namespace {
 
 /// Returns what the passes allow.
 TimeLimit::Limit choose_dt(World& world, const std::vector<TimeLimit*>& limits, Clock& clock,
-                           const StepRules& rules, SteadyStep* steady, std::string& who) {
-  TimeLimit::Limit smallest{std::numeric_limits<Real>::infinity(), "nothing"};
+                           const StepRules& rules, SteadyStep& steady, std::string& who) {
+  constexpr Real none = std::numeric_limits<Real>::infinity();
+  TimeLimit::Limit smallest{none, "nothing"};
+  Real ringing = none, others = none;
   for (TimeLimit* limit : limits) {
     TimeLimit::Limit one = limit->limit(world, clock);
+    Real& of_its_kind = limit->rings() ? ringing : others;
+    of_its_kind = std::min(of_its_kind, rules.share * one.dt);
     // NaN is the smallest of all: the run must stop there
     if (!std::isnan(smallest.dt) && !(one.dt >= smallest.dt)) smallest = std::move(one);
   }
   smallest.dt *= rules.share;
   const TimeLimit::Limit computed = smallest;
-  if (steady) smallest.dt = steady->next(smallest.dt);
+  if (ringing < none && smallest.dt > 0) smallest = steady.next(ringing, others, std::move(smallest.who));
   if (clock.cycle == 0 && rules.dtinit > 0 && rules.dtinit < smallest.dt) smallest = {rules.dtinit, "DTINIT"};
   if (rules.dt_max) {
     const Real most = rules.dt_max(clock.t);
@@ -77,8 +81,7 @@ Stepper::Stepper(World& world, Neighbours* neighbours, StepRules rules, PassTime
       exchangers_(world.passes.all<Exchanger>()),
       limits_(world.passes.all<TimeLimit>()),
       impacts_(world.passes.all<Impact>()),
-      terms_(world.passes.all<EnergyTerm>()),
-      rings_(std::any_of(limits_.begin(), limits_.end(), [](const TimeLimit* l) { return l->rings(); })) {
+      terms_(world.passes.all<EnergyTerm>()) {
   if (neighbours && !world.passes.contains(*neighbours->watch())) world.passes.add(neighbours->watch());
   Schedule schedule = make_schedule(world);
   stages_ = text_of(schedule);
@@ -93,9 +96,8 @@ void Stepper::evaluate(Clock& clock, std::string& controlled_by) {
   if (rebuilt)
     for (Exchanger* e : exchangers_) timer_.measure(e->name(), [&] { e->exchange_all(world_); });
   for (Stage& stage : forces_) stage.run(world_, clock);
-  timer_.measure("time step", [&] {
-    computed_ = choose_dt(world_, limits_, clock, rules_, rings_ ? &steady_ : nullptr, controlled_by);
-  });
+  timer_.measure("time step",
+                 [&] { computed_ = choose_dt(world_, limits_, clock, rules_, steady_, controlled_by); });
   for (Impact* impact : impacts_) timer_.measure(impact->name(), [&] { impact->strike(world_, clock); });
 }
 

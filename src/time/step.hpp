@@ -61,7 +61,6 @@ class Stepper : public Restartable {
   std::vector<EnergyTerm*> terms_;
   std::vector<Stage> forces_, motion_;
   TimeLimit::Limit computed_{0, {}};  ///< what passes allow, whatever DTINIT and LCTM say
-  bool rings_;                        ///< what limits the step
   SteadyStep steady_;
   Real first_dt_ = 0, first_tssfac_ = 1;  ///< of the first step: that [T], and TSSFAC
 };

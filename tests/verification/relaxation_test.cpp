@@ -243,3 +243,29 @@ TEST(Relaxation, HasTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
   for (int k = 0; k < 10; ++k) second->step(test::do_nothing);
   EXPECT_TRUE(reference == test::state_of(second->world()));
 }
+
+// A block hangs at another one by springs that end at 0.05 s: the relaxation goes on for longer, in a time of
+// its own, and the weight hangs there until then.
+TEST(Relaxation, TiesThatEndInTheRunHoldBeforeIt) {
+  test::SolidDeck deck;
+  for (const int part : {1, 2}) {
+    deck.block(Vec(1, 1, 1), 2, 2, 2, part, [part](const Vec& x) { return Vec(x - Vec(0, 0, part)); });
+    deck.cards += fmt::format("*PART\nblock\n{0},1,1\n", part);
+  }
+  deck.cards += "*SECTION_SOLID\n1,1\n*MAT_ELASTIC\n1,1000.0,1.0e6,0.0\n";
+  deck.node_set(1, [](const Vec& x) { return x[2] > -1e-9; });
+  deck.cards += "*BOUNDARY_SPC_SET\n1,0,1,1,1\n*LOAD_BODY_Z\n1,10.0\n" + constant(1, 2) +
+                "*CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET_ID\n7,glue\n2,1,3,3\n,,,,,,0.0,0.05\n\n" +
+                relaxation(250, 1e-3, 0.995);
+  const Relaxed r = relaxed(deck.text(0.1));
+  EXPECT_TRUE(r.end.converged);
+  const auto hangs = [&] {
+    return r.run->world().passes.all<InterfaceReporter>().at(0)->report().on_surfa[2];
+  };
+  while (r.run->clock().t < 0.04) {
+    r.run->step(test::do_nothing);
+    EXPECT_NEAR(std::abs(hangs()), 1e4, 300);
+  }
+  while (r.run->clock().t < 0.06) r.run->step(test::do_nothing);
+  EXPECT_EQ(hangs(), 0);
+}

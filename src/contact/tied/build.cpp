@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -57,7 +58,13 @@ class TiedBuilder {
     if (!finder_.are_stiff(c, finder_.faces(c, ContactSide::b, false), false)) return;
     TieStrength strength;
     if (kind.fails) strength.normal = c.fs, strength.shear = c.fd;
-    hold_by_springs({.id = id, .title = c.title, .strength = strength, .death = c.dt}, std::move(ties));
+    hold_by_springs({.id = id, .title = c.title, .strength = strength, .death = death_of(c)},
+                    std::move(ties));
+  }
+
+  /// Relaxation in front of the run has a time of its own, in which nothing dies.
+  Real death_of(const ContactCard& c) const {
+    return model_.phase == RunPhase::relaxation ? std::numeric_limits<Real>::infinity() : c.dt;
   }
 
   /// Contacts that hold until they break; what they do then is another pass.
@@ -80,7 +87,7 @@ class TiedBuilder {
         .title = (c.title.empty() ? fmt::format("contact {}", c.cid) : c.title) + " until it breaks",
         .strength = {by_option && c.option == 1 ? 0 : c.nfls, c.sfls, c.nen, c.mes, kind != Tiebreak::force,
                      softens(c) ? c.param : 0},
-        .death = c.dt};
+        .death = death_of(c)};
     if (!sticks) return hold_by_springs(std::move(law), std::move(ties));
     for (Tie& tie : ties) tie.k *= slsfac_;
     add_springs(std::move(law), std::move(ties), std::move(later), world_);

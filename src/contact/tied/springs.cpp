@@ -112,7 +112,7 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     return out;
   }
   void keep(Archive& archive) override {
-    archive("broken", broken_);
+    archive("broken", broken_), archive("over", over_);
     if (law_.strength.opening > 0) archive("onset", onset_), archive("widest", widest_);
     archive("lost", lost_);
     archive("lost_so_far", lost_so_far_);
@@ -127,11 +127,13 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
 
   TiedSpringsLaw law_;
   std::vector<Tie> ties_;
+  Index over_ = 0;  ///< past their death
 
  private:
   /// What they hold is lost.
   void end() {
     for (std::size_t t = 0; t < ties_.size(); ++t) lost_ += now_[t].stored, now_[t] = {}, broken_[t] = 1;
+    over_ = 1;
   }
 
   struct Now {
@@ -217,7 +219,7 @@ class StickingSprings : public TiedSprings, public TouchHolder, public TimeLimit
   std::string name() const override { return TiedSprings::name(); }
   Id of_contact() const override { return later_.contact; }
   void touched(World& world, Index node, Index segment) override {
-    if (held_.contains(node)) return;
+    if (over_ != 0 || held_.contains(node)) return;
     const auto n = node_.find(node);
     const auto f = face_.find(segment);
     if (n == node_.end() || f == face_.end()) return;

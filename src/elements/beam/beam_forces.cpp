@@ -60,7 +60,7 @@ class BeamForces : public Material,
     const Real K = part_.law->bulk_modulus();
     G_ = part_.law->shear_modulus(), E_ = 9 * K * G_ / (3 * K + G_);
     for (Index e = 0; e < group_.size(); ++e) {
-      start_[e] = between_ends(world, e).norm();
+      start_[e] = between_ends(world.nodes.x, e).norm();
       for (int c = 0; c < 2; ++c) put_end(e, c, Quaternion(part_.axes[at(e)]));
     }
     if (shown) add_shown_fields();
@@ -81,6 +81,7 @@ class BeamForces : public Material,
     if (turns_) a.reads(*w_, Reach::others).updates(ends_).writes(*group_.corner_moment);
     a.updates(deformation_).updates(answer_).updates(energy_).writes(*group_.corner_force);
     if (!part_.points.empty()) a.updates(stress_);
+    if (!part_.releases.empty()) a.reads(world.nodes.v, Reach::others);
     for (const Field<Real>* h : history_) a.updates(*h);
     if (sections_) sections_->declare(a);
     if (scaled_) a.reads(scaled_->inertial());
@@ -144,7 +145,7 @@ class BeamForces : public Material,
                      .shear = std::hypot(f[4], f[5]),
                      .moment = std::hypot(f[2], f[3]),
                      .torsion = f[1],
-                     .length = between_ends(world, e).norm(),
+                     .length = between_ends(world.nodes.x, e).norm(),
                      .failure_time = sections_->failure_time(e)});
     }
   }
@@ -155,7 +156,7 @@ class BeamForces : public Material,
     if (turns_) a.reads(ends_, Reach::others);
   }
   Matrix axes_of(const World& world, Index e) const override {
-    const Vec between = between_ends(world, e);
+    const Vec between = between_ends(world.nodes.x, e);
     Matrix axes = Matrix::Identity();
     if (!turns_) {
       axes.col(0) = between.normalized();
@@ -171,7 +172,7 @@ class BeamForces : public Material,
   ElementReport report_element(const World& world, Index e, const ElementReportOptions&) const override {
     ElementReport out{.deleted = dead(e)};
     const auto g = [&](Part6 k) { return answer_.data(k)[e]; };
-    const Real L = between_ends(world, e).norm();
+    const Real L = between_ends(world.nodes.x, e).norm();
     out.resultants = {g(elongation),
                       -(g(turn1_t) + g(turn2_t)) / L,
                       (g(turn1_s) + g(turn2_s)) / L,
@@ -270,8 +271,8 @@ class BeamForces : public Material,
     for (Index e = begin; sections_ && e < end; ++e)
       if (dead(e) && !before[at(e - begin)]) sections_->failed(e, clock.t);
   }
-  Vec between_ends(const World& world, Index e) const {
-    return world.nodes.x.vec(group_.node.data(1)[e]) - world.nodes.x.vec(group_.node.data(0)[e]);
+  Vec between_ends(const Field<Real>& of, Index e) const {
+    return of.vec(group_.node.data(1)[e]) - of.vec(group_.node.data(0)[e]);
   }
   Quaternion end_of(Index e, int c) const {
     const auto q = [&](int k) { return ends_.data(4 * c + k)[e]; };
@@ -286,7 +287,7 @@ class BeamForces : public Material,
     Six& now = change.now[at(i)];
     TurnedEnds& turned = change.turned[at(i)];
     BeamFrame& frame = turned.frame;
-    const Vec between = between_ends(world, e);
+    const Vec between = between_ends(world.nodes.x, e);
     now = {};
     if (dead(e)) {  // taken as it is at rest
       for (int k = 0; k < count6; ++k) now[at(k)] = deformation_.data(k)[e];
@@ -301,7 +302,9 @@ class BeamForces : public Material,
       std::array<Vec, 2> angle;
       for (int c = 0; c < 2; ++c) angle[at(c)] = clock.dt_old * w_->vec(group_.node.data(c)[e]);
       const BeamReleases* const releases = releases_of(e);
-      turned = releases ? turn_ends(between, angle, *releases, ends) : turn_ends(between, angle, ends);
+      turned = releases ? turn_ends(between, between - clock.dt_old * between_ends(world.nodes.v, e), angle,
+                                    *releases, ends)
+                        : turn_ends(between, angle, ends);
       for (int c = 0; c < 2; ++c) put_end(e, c, ends[at(c)]);
       const auto& [turn1, turn2] = turned.turn;
       now[twist] = turn2[0] - turn1[0];
@@ -313,18 +316,15 @@ class BeamForces : public Material,
     now[elongation] = frame.length - start_[e];
   }
 
-  /// Null: none.
   const BeamReleases* releases_of(Index e) const {
     return part_.releases.empty() || !part_.releases[at(e)].any() ? nullptr : &part_.releases[at(e)];
   }
-
   Six resultants(Index e, const Six& d) const {
     const ElasticBeam beam{E_, G_, start_[e]};
     return part_.releases.empty()
                ? resultant_end_forces(beam, part_.measures[at(e)], d)
                : released_end_forces(beam, part_.measures[at(e)], part_.releases[at(e)], d);
   }
-
   /// Stress at the points of the section in the middle of the beam, and its resultants.
   void integrate(const Clock& clock, Index begin, Index end, Change& change) {
     const Index n = end - begin;
@@ -419,12 +419,12 @@ class BeamForces : public Material,
       group_.corner_force->data(k)[e] = on.force[k], group_.corner_force->data(3 + k)[e] = -on.force[k];
       for (int c = 0; turns_ && c < 2; ++c) group_.corner_moment->data(3 * c + k)[e] = on.moment[at(c)][k];
     }
-    steps_[at(e)] = step_of(e, turned.frame.length, pull);
+    steps_[at(e)] = step_of(e, turned.frame.length, pull) *
+                    (turns_ ? bent_step(turned, part_.measures[at(e)].thickness2(start_[e])) : 1);
     if (!damping_) return;
     (*beta_)[e] = coef_ > 0 ? coef_ * steps_[at(e)] : -coef_;
     steps_[at(e)] *= damped_share((*beta_)[e], steps_[at(e)]);
   }
-
   /// beta times the rates of the end forces of an elastic beam.
   Six damped(const Clock& clock, Index e, const Six& d) const {
     Six out = part_.kind == BeamKind::resultant

@@ -34,6 +34,10 @@ struct TurnedEnds {
   Real lean = 0;     ///< and by end 2 that moves along t, times the length: - lean t . v/L [-]
 };
 
+/// Share of the step of a straight beam that a bent one allows: moments resist turns of the ends where it is
+/// thick, and its frame turns faster than its ends about r where they lean far. `thickness2`: 12 I/(A L^2).
+Real bent_step(const TurnedEnds& turned, Real thickness2);
+
 /// On the nodes of a beam; end 2 feels -force.
 struct NodalForces {
   Vec force = Vec::Zero();                              ///< on end 1 [ML/T2]
@@ -50,8 +54,8 @@ NodalForces nodal_forces(const TurnedEnds& turned, const BeamReleases* releases,
 TurnedEnds turn_ends(const Vec& between, const std::array<Vec, 2>& angle,
                      std::array<Eigen::Quaterniond, 2>& ends);
 /// The same where ends turn without their nodes: about released axes they stay with the beam, about r with
-/// the other end.
-TurnedEnds turn_ends(const Vec& between, const std::array<Vec, 2>& angle, const BeamReleases& releases,
-                     std::array<Eigen::Quaterniond, 2>& ends);
+/// the other end. `between_before`: a step ago.
+TurnedEnds turn_ends(const Vec& between, const Vec& between_before, const std::array<Vec, 2>& angle,
+                     const BeamReleases& releases, std::array<Eigen::Quaterniond, 2>& ends);
 
 }  // namespace courant

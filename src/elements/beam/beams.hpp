@@ -1,5 +1,6 @@
 #pragma once
 // Beams and trusses in the world: a group for each part, and the pass over it.
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -33,6 +34,8 @@ struct BeamMeasures {
   Real half_s = 0, half_t = 0;          ///< to which points belong [L]
   /// The node line is no principal axis: pull bends it, and bending about s and t go together.
   bool coupled = false;
+  /// Square of the thickness of a rectangle with these over its length. [-]
+  Real thickness2(Real L) const { return 12 * std::max(Iss, Itt) / (A * L * L); }
 };
 
 /// What beams of a part are made of; vectors by element of the group.

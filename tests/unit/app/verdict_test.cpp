@@ -128,11 +128,16 @@ TEST(Verdict, HourglassEnergyAboveATenthOfTheInternalIsDoubtful) {
   EXPECT_EQ(verdict(s), "sound");
   s.energy.hourglass = 0.041;
   EXPECT_THAT(texts(findings(s)),
-              ElementsAre(HasSubstr("hourglass energy is 10.2 % of the internal energy")));
+              ElementsAre(HasSubstr("hourglass energy is 10.2 % of the largest internal energy")));
   EXPECT_EQ(verdict(s), "doubtful");
   s.energy = {
       .kinetic = 1, .internal = 1e-6, .hourglass = 1e-5, .initial = 1, .peak = 1};  // a block that flies
   EXPECT_EQ(verdict(s), "sound");
+  s.energy = {
+      .kinetic = 0.98, .internal = 1e-6, .hourglass = 0.02, .initial = 1, .most_internal = 0.21, .peak = 1};
+  EXPECT_EQ(verdict(s), "sound") << "thrown back";
+  s.energy.most_internal = 0.19;
+  EXPECT_EQ(verdict(s), "doubtful");
 }
 
 TEST(Verdict, ClampsErrorsAndRangesSpeakAgainstARun) {
