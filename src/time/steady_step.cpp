@@ -7,7 +7,7 @@ namespace courant {
 
 namespace {
 
-constexpr Real growth = 1.005;       ///< a step
+constexpr Real growth = 1.002;       ///< a step
 constexpr std::int64_t steps = 200;  ///< of a while
 constexpr Real most_below = 0.01;    ///< the limit
 constexpr Real further = 4;   ///< the step falls than the limit did, so that it soon lies below its swing
