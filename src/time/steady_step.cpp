@@ -21,6 +21,12 @@ void SteadyStep::look_again() {
 
 TimeLimit::Limit SteadyStep::next(Real ringing, Real others, std::string who) {
   constexpr Real far_below = 0.5;
+  if (ringing == none) {
+    const Real steady = dt_ == none ? none : next(std::max(others, dt_));
+    if (steady < (1 - 3 * most_below) * others) return {steady, who_ + ", in a step before"};
+    *this = {};
+    return {others, std::move(who)};
+  }
   const Real before = dt_, now = std::min(ringing, others);
   const Real steady = next(std::min(ringing, std::max(others, far_below * ringing)));
   if (others <= steady) return {others, std::move(who)};

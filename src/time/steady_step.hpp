@@ -16,8 +16,9 @@ namespace courant {
 /// least of that while. Theory: docs/theory.md.
 class SteadyStep {
  public:
-  /// `ringing`: what those allow that would be pumped, finite, `others` the others [T]; `who` sets the
-  /// smaller one now. Once a cycle. Others that are far below do no harm, and are taken as they come.
+  /// `ringing`: what those allow that would be pumped, `others` the others [T], not both infinite; `who` sets
+  /// the smaller one now. Once a cycle. Others that are far below do no harm, and are taken as they come, as
+  /// they are where nothing rings, once the step has grown to them.
   TimeLimit::Limit next(Real ringing, Real others, std::string who);
   /// `allowed`: finite [T].
   Real next(Real allowed);

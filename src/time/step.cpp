@@ -29,7 +29,7 @@ TimeLimit::Limit choose_dt(World& world, const std::vector<TimeLimit*>& limits, 
   }
   smallest.dt *= rules.share;
   const TimeLimit::Limit computed = smallest;
-  if (ringing < none && smallest.dt > 0) smallest = steady.next(ringing, others, std::move(smallest.who));
+  if (smallest.dt > 0 && smallest.dt < none) smallest = steady.next(ringing, others, std::move(smallest.who));
   if (clock.cycle == 0 && rules.dtinit > 0 && rules.dtinit < smallest.dt) smallest = {rules.dtinit, "DTINIT"};
   if (rules.dt_max) {
     const Real most = rules.dt_max(clock.t);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "time/steady_step.hpp"
 
@@ -69,4 +70,24 @@ TEST(SteadyStep, TakesOthersAsTheyComeWhereTheyAreFarBelow) {
   const TimeLimit::Limit held = near.next(1, 1, "element");
   EXPECT_NEAR(held.dt, 0.792, 1e-12);
   EXPECT_EQ(held.who, "fluid, in a step before");
+}
+
+TEST(SteadyStep, GrowsSlowlyToOthersWhenNothingRingsAnyMore) {
+  constexpr Real none = std::numeric_limits<Real>::infinity();
+  SteadyStep steady;
+  EXPECT_EQ(steady.next(none, 1, "body").dt, 1);
+  Real last = steady.next(0.5, 1, "contact").dt;
+  EXPECT_EQ(last, 0.5);
+  for (int k = 0; k < 199; ++k) EXPECT_EQ(steady.next(none, k % 2 == 0 ? 1 : 0.9, "body").dt, last);
+  while (last < 0.87) {
+    const TimeLimit::Limit now = steady.next(none, 0.9, "body");
+    EXPECT_LE(now.dt, last * 1.002000001);
+    EXPECT_GE(now.dt, last);
+    EXPECT_EQ(now.who, "contact, in a step before");
+    last = now.dt;
+  }
+  for (int k = 0; k < 20; ++k) last = steady.next(none, 0.9, "body").dt;
+  EXPECT_EQ(last, 0.9);
+  EXPECT_EQ(steady.next(none, 0.3, "body").dt, 0.3);
+  EXPECT_EQ(steady.next(none, 0.9, "body").dt, 0.9);
 }
