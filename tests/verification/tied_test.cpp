@@ -546,7 +546,8 @@ TEST(TiebreakContact, TiedSurfacesFailAtTheirStresses) {
 // The stress grows until then as it would without an end; the motion takes 0.02 to start.
 TEST(TiedContact, SpringsEndAtTheirDeath) {
   const auto glue = [](Real death) {
-    return "*CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET_ID\n         7glue\n         2         1         3         "
+    return "*CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET_ID\n         7glue\n         2         1         3       "
+           "  "
            "3\n" +
            fmt::format("{:>70}{:10}\n      10.0      10.0\n", "", death);
   };
