@@ -18,7 +18,8 @@ std::string plates_edge_on_edge() {
     deck.part(part, 0.002, fmt::format("*MAT_ELASTIC\n{:10}    7850.0   2.1E+11       0.3\n", part));
   deck.velocity([](const Vec& x) { return Vec(0, 0, x[2] > 1e-3 ? -5 : 0); });
   deck.cards +=
-      "*CONTACT_AUTOMATIC_GENERAL\n0\n0.0\n1.0\n*CONTACT_FORCE_TRANSDUCER_PENALTY_ID\n         9upper\n1,0,3\n"
+      "*CONTACT_AUTOMATIC_GENERAL\n0\n0.0\n1.0\n*CONTACT_FORCE_TRANSDUCER_PENALTY_ID\n         "
+      "9upper\n1,0,3\n"
       "*CONTACT_FORCE_TRANSDUCER_PENALTY_ID\n        10lower\n2,0,3\n";
   return deck.text(1);
 }
