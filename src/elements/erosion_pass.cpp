@@ -83,8 +83,8 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
     if (!torn.empty()) weaken_beside(torn);
     if (first_step_ == 0 && dtmin_ > 0) find_first_step(world, clock);
   }
-  /// Where no element is left the step is the longest so far.
   bool rings() const override { return false; }
+  /// Where no element is left the step is the longest so far.
   Limit limit(const World& world, const Clock& clock) override {
     constexpr Real none = std::numeric_limits<Real>::infinity();
     longest_ = std::max(longest_, clock.dt_old);

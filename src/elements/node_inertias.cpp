@@ -118,8 +118,8 @@ class InertiaTensors : public Impact, public TimeLimit, public EnergyTerm, publi
     cycle_ = clock.cycle;
   }
 
-  /// A fifth of a radian a step: the energy then is right to 0.1 %, and the iteration comes to its end.
   bool rings() const override { return false; }
+  /// A fifth of a radian a step: the energy then is right to 0.1 %, and the iteration comes to its end.
   Limit limit(const World& world, const Clock&) override {
     constexpr Real largest_turn = 0.2;
     Real most = 0;

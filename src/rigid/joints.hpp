@@ -41,9 +41,9 @@ class Joints : public BodyTies,
   Start make_start_consistent(World& world);
   /// Throws RunError where the equations cannot be met.
   void strike(World& world, const Clock& clock) override;
+  bool rings() const override { return false; }
   /// Half of what is stable: joints that pull at their arms by the forces of the step before let a body swing
   /// with the frequency of a string.
-  bool rings() const override { return false; }
   Limit limit(const World& world, const Clock& clock) override;
   void report_joints(std::vector<JointForce>& out) const override;
   /// What motors do comes from outside; other joints do no work.

@@ -91,8 +91,9 @@ struct TimeLimit : virtual Pass {
     std::string who;  ///< what set it: "sph particle 17 of part 1"
   };
   virtual Limit limit(const World& world, const Clock& clock) = 0;
-  /// Whether what it limits would be pumped by steps that go to and fro: elements, contact. Not fluids, whose
-  /// limits lie far below what would make them unstable, and which change all the time.
+  /// Whether what it limits would be pumped by steps that go to and fro: elements, springs, contact of nodes.
+  /// Not fluids, turning bodies and joints, whose limits lie far below what would make them unstable, and
+  /// change all the time.
   virtual bool rings() const { return true; }
 };
 /// Keeps what depends on the order or the neighbourhood of particles. Called after particles were sorted and
