@@ -9,6 +9,7 @@
 
 #include "contact/cards.hpp"
 #include "model/mesh/named_parts.hpp"
+#include "rigid/switch_cards.hpp"
 
 namespace courant {
 namespace {
@@ -258,7 +259,8 @@ class SceneWarnings {
 
 }  // namespace
 
-void warn_of_scene(const Simulation& simulation, Diagnostics& diagnostics) {
+void warn_of_scene(const Simulation& simulation, bool goes_on, Diagnostics& diagnostics) {
+  if (!goes_on) warn_of_switch_at_restart(simulation.deck(), diagnostics);
   SceneWarnings(simulation, diagnostics).all();
 }
 

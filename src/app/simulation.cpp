@@ -115,7 +115,7 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
         "give it particles, solids, shells, beams, or a rigid body that is not held in all directions");
   if (model_is_whole) s->add_passes(diagnostics);
   if (!diagnostics.ok()) return nullptr;
-  warn_of_scene(*s, diagnostics);
+  warn_of_scene(*s, before != nullptr, diagnostics);
   s->release_tables();
   return s;
 }

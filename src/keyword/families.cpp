@@ -187,8 +187,6 @@ constexpr Family families[] = {
     {"PARTICLE", "particles of gas or blast"},
     {"PERTURBATION", "perturbations"},
     {"RAIL", "rails"},
-    {"RIGID_DEFORMABLE", "switches between deformable and rigid at restarts",
-     "*DEFORMABLE_TO_RIGID_AUTOMATIC switches parts while a run goes on, at a time or by a force"},
     {"RIGIDWALL", "rigid walls"},
     {"RVE", "representative volumes"},
     {"SECTION", "this kind of section"},

@@ -289,10 +289,8 @@ WallBodies RigidBodies::wall_bodies(const World& world) {
   out.of_node.assign(static_cast<std::size_t>(world.nodes.size()), -1);
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     for (const Index n : bodies_[k].nodes) out.of_node[static_cast<std::size_t>(n)] = static_cast<Index>(k);
-  out.give = [this](Index body, const Vec& q, const Vec& n) {
+  out.give_alone = [this](Index body, const Vec& q, const Vec& n) {
     const RigidBody& b = bodies_[static_cast<std::size_t>(body)];
-    if (ties_ && ties_->tied(static_cast<std::size_t>(body)))
-      return ties_->give(static_cast<std::size_t>(body), q, n);
     Vec free = n, arm = (q - b.x).cross(n);
     for (int k = 0; k < 3; ++k) {
       if (b.held[k]) free[k] = 0;
@@ -304,6 +302,10 @@ WallBodies RigidBodies::wall_bodies(const World& world) {
       free -= free.dot(d) * d;
     }
     return free.squaredNorm() / b.m + arm.dot(b.turning_beside_drives(arm, nullptr));
+  };
+  out.give = [this, alone = out.give_alone](Index body, const Vec& q, const Vec& n) {
+    const auto k = static_cast<std::size_t>(body);
+    return ties_ && ties_->tied(k) ? ties_->give(k, q, n) : alone(body, q, n);
   };
   out.change = [this](Index body, const Vec& q, const Clock& clock) -> Vec {
     const RigidBody& b = bodies_[static_cast<std::size_t>(body)];

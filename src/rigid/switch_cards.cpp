@@ -90,7 +90,46 @@ const RegisterKeyword<A> automatic_switch{
           .repeat = true,
           .more = [](const A& card) { return static_cast<int>(card.soft_pid.size()) < card.r2d; }}}}};
 
-std::vector<Index> parts_of(const Deck& deck, const Model& model, const A& card, const char* field, Id id,
+struct ToRigidAtRestart : Entry {
+  Id pid = 0, lrb = 0;
+};
+struct ToDeformableAtRestart : Entry {
+  Id pid = 0;
+};
+struct ControlAtRestart : Entry {
+  int nrbf = 0, ncsf = 0, rwf = 0;
+  Real dtmax = 0;
+};
+using D2R = ToRigidAtRestart;
+using R2D = ToDeformableAtRestart;
+using C = ControlAtRestart;
+
+const RegisterKeyword<D2R> to_rigid_at_restart{
+    {.names = {"RIGID_DEFORMABLE_D2R"},
+     .purpose = "part that becomes rigid when a run goes on from a restart file (`--restart`)",
+     .cards = {{.fields = {{"PID", &D2R::pid, "-", "part", rules::required_id_of(IdSpace::part)},
+                           {"LRB", &D2R::lrb, "-", "another such part with which it is one body, 0 none",
+                            rules::optional_id_of(IdSpace::part)}}}}}};
+const RegisterKeyword<R2D> to_deformable_at_restart{
+    {.names = {"RIGID_DEFORMABLE_R2D"},
+     .purpose = "part that becomes deformable again when a run goes on from a restart file",
+     .cards = {{.fields = {{"PID", &R2D::pid, "-", "part that *DEFORMABLE_TO_RIGID_AUTOMATIC made rigid",
+                            rules::required_id_of(IdSpace::part)}}}}}};
+const RegisterKeyword<C> control_at_restart{
+    {.names = {"RIGID_DEFORMABLE_CONTROL"},
+     .purpose = "what else changes when parts are switched at a restart",
+     .many = false,
+     .cards = {
+         {.fields = {{"NRBF", &C::nrbf, "-", "deletes or activates rigid bodies of nodes", unsupported},
+                     {"NCSF", &C::ncsf, "-", "deletes or activates node sets that move alike", unsupported},
+                     {"RWF", &C::rwf, "-", "deletes or activates rigid walls", unsupported},
+                     {"DTMAX",
+                      &C::dtmax,
+                      "T",
+                      "longest step from then on, 0 none",
+                      {.check = Check::not_negative}}}}}}};
+
+std::vector<Index> parts_of(const Deck& deck, const Model& model, const Entry& card, const char* field, Id id,
                             const std::string& type, Diagnostics& diagnostics) {
   const auto refuse = [&](std::string message, const char* hint) {
     deck.error(diagnostics, card, field, std::move(message), hint);
@@ -116,7 +155,8 @@ std::vector<PartAndLead> parts_to_rigid(const Deck& deck, const Model& model, co
                                         Diagnostics& diagnostics) {
   std::vector<PartAndLead> out;
   for (std::size_t k = 0; k < card.pid.size(); ++k)
-    for (const Index part : parts_of(deck, model, card, "D2R", card.pid[k], card.ptype[k], diagnostics))
+    for (const Index part :
+         parts_of(deck, model, card, card.d2r_field, card.pid[k], card.ptype[k], diagnostics))
       out.push_back({part, card.lrb[k]});
   return out;
 }
@@ -125,10 +165,34 @@ std::vector<Index> parts_to_deformable(const Deck& deck, const Model& model, con
                                        Diagnostics& diagnostics) {
   std::vector<Index> out;
   for (std::size_t k = 0; k < card.soft_pid.size(); ++k)
-    for (const Index part :
-         parts_of(deck, model, card, "R2D", card.soft_pid[k], card.soft_ptype[k], diagnostics))
+    for (const Index part : parts_of(deck, model, card.of_r2d(), card.r2d_field, card.soft_pid[k],
+                                     card.soft_ptype[k], diagnostics))
       out.push_back(part);
   return out;
+}
+
+std::optional<AutomaticSwitch> switch_at_restart(const Deck& deck) {
+  A out;
+  out.d2r_field = out.r2d_field = "PID";
+  for (const C& card : deck.all<C>()) static_cast<Entry&>(out) = card, out.dtmax = card.dtmax;
+  for (const R2D& card : deck.all<R2D>()) {
+    static_cast<Entry&>(out) = out.r2d_entry.emplace(card);
+    out.soft_pid.push_back(card.pid), out.soft_ptype.emplace_back();
+  }
+  for (const D2R& card : deck.all<D2R>()) {
+    static_cast<Entry&>(out) = card;
+    out.pid.push_back(card.pid), out.lrb.push_back(card.lrb), out.ptype.emplace_back();
+  }
+  out.d2r = static_cast<int>(out.pid.size()), out.r2d = static_cast<int>(out.soft_pid.size());
+  if (out.line == 0) return std::nullopt;
+  return out;
+}
+
+void warn_of_switch_at_restart(const Deck& deck, Diagnostics& diagnostics) {
+  if (const auto card = switch_at_restart(deck))
+    deck.warning(diagnostics, *card, "PID",
+                 "parts are switched when a run goes on from a restart file; this one starts anew",
+                 "run the deck with --restart, or switch parts by *DEFORMABLE_TO_RIGID_AUTOMATIC");
 }
 
 bool is_released(const Deck& deck, const Model& model, Index part) {

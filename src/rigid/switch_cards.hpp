@@ -1,5 +1,7 @@
 #pragma once
-// *DEFORMABLE_TO_RIGID_AUTOMATIC: parts that become rigid, or deformable again, while a run goes on.
+// *DEFORMABLE_TO_RIGID_AUTOMATIC and *RIGID_DEFORMABLE: parts that become rigid, or deformable again, while a
+// run goes on or when it is taken up again.
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +17,9 @@ struct AutomaticSwitch : Entry {
   Real time1 = 0, time2 = 1e20, time3 = 0, dtmax = 0, offset = 0;
   std::vector<Id> pid{}, lrb{}, soft_pid{};
   std::vector<std::string> ptype{}, soft_ptype{};
+  const char *d2r_field = "D2R", *r2d_field = "R2D";  ///< where lists stand, for messages
+  std::optional<Entry> r2d_entry{};                   ///< of another card than this
+  const Entry& of_r2d() const { return r2d_entry ? *r2d_entry : *this; }
   bool of_wall() const { return code == 1 || code == 3; }
   bool of_contact() const { return code == 2 || code == 4; }
 };
@@ -29,6 +34,12 @@ std::vector<PartAndLead> parts_to_rigid(const Deck& deck, const Model& model, co
                                         Diagnostics& diagnostics);
 std::vector<Index> parts_to_deformable(const Deck& deck, const Model& model, const AutomaticSwitch& card,
                                        Diagnostics& diagnostics);
+
+/// What *RIGID_DEFORMABLE_D2R, _R2D and _CONTROL ask for when a run goes on from a restart file, as one
+/// switch.
+std::optional<AutomaticSwitch> switch_at_restart(const Deck& deck);
+/// A run that starts anew does nothing of that: a warning.
+void warn_of_switch_at_restart(const Deck& deck, Diagnostics& diagnostics);
 
 /// Whether some switch makes a part deformable, so that it has elements that deform.
 bool is_released(const Deck& deck, const Model& model, Index part);

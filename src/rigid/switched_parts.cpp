@@ -1,7 +1,7 @@
-// Parts that are rigid for a while (*DEFORMABLE_TO_RIGID_AUTOMATIC). Their nodes stay nodes that move by
-// their forces: while a part is rigid, these are replaced by those that make the nodes move as one body, once
-// all forces at t^n and dt are known. So whatever pushes nodes, pushes the body; elements turn with it
-// without a strain, and keep their stress.
+// Parts that are rigid for a while (*DEFORMABLE_TO_RIGID_AUTOMATIC, *RIGID_DEFORMABLE). Their nodes stay
+// nodes that move by their forces: while a part is rigid, these are replaced by those that make the nodes
+// move as one body, once all forces at t^n and dt are known. So whatever pushes nodes, pushes the body;
+// elements turn with it without a strain, and keep their stress.
 #include "rigid/switched_parts.hpp"
 
 #include <fmt/format.h>
@@ -40,6 +40,7 @@ struct SwitchedBody {
 struct PartSwitch {
   AutomaticSwitch card;
   std::vector<std::size_t> stiffens{}, releases{};
+  bool at_restart = false;  ///< not before the run is taken up again
   int related = -1;
   Index acted = 0;  ///< how often
 };
@@ -77,11 +78,17 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
   void keep(Archive& archive) override {
+    goes_on_ = goes_on_ || archive.loading();
+    const auto is_new = [&](const std::string& what) { return archive.loading() && !archive.has(what); };
+    if (is_new("looked_at")) return;  // the run so far had no switches
     archive("looked_at", looked_at_), archive("blocked_until", blocked_until_), archive("longest", longest_);
     for (std::size_t k = 0; k < switches_.size(); ++k)
-      archive(fmt::format("acted {}", k), switches_[k].acted);
+      if (const std::string acted = fmt::format("acted {}", k); !is_new(acted))
+        archive(acted, switches_[k].acted);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
-      const Archive::Group inside(archive, fmt::format("body {}", k));
+      const std::string of_body = fmt::format("body {}", k);
+      if (is_new(of_body + "/active")) continue;
+      const Archive::Group inside(archive, of_body);
       RigidBody& b = bodies_[k].b;
       archive("active", bodies_[k].active), archive("mass", b.m), archive("places", b.X);
       archive("x", b.x), archive("v", b.v), archive("L", b.L), archive("omega", b.omega);
@@ -92,6 +99,7 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
 
  private:
   bool may_act(const PartSwitch& s) const {
+    if (s.at_restart) return goes_on_ && s.acted == 0;
     const Index of_related = s.related < 0 ? 0 : switches_[static_cast<std::size_t>(s.related)].acted;
     if (s.card.paired == 1) return s.acted == of_related;
     if (s.card.paired == -1) return s.acted < of_related;
@@ -222,6 +230,7 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
   const Field<Index>* no_turn_;
   std::int64_t looked_at_ = -1;  ///< cycle
   Real blocked_until_ = 0;       ///< [T]
+  bool goes_on_ = false;         ///< from a restart file
   Real longest_ = std::numeric_limits<Real>::infinity();
 };
 
@@ -264,17 +273,27 @@ class SwitchReader {
       deck_.warning(diagnostics_, card, "D2R", "the switch names no part: it does nothing", "leave it out");
     switches_.push_back(std::move(s));
   }
+  void add_at_restart(const AutomaticSwitch& card) {
+    switches_.push_back(
+        {.card = card,
+         .stiffens = add_bodies(card, "PID", parts_to_rigid(deck_, model_, card, diagnostics_)),
+         .at_restart = true});
+  }
   void finish() {
     for (PartSwitch& s : switches_) {
       relate(s);
       const std::vector<Index> soft = parts_to_deformable(deck_, model_, s.card, diagnostics_);
       for (const Index part : soft) {
         if (model_.parts[static_cast<std::size_t>(part)].rigid)
-          error(s.card, "R2D", fmt::format("part {} is a *MAT_RIGID, which cannot deform", id_of(part)),
-                "give it a material with strength, and make it rigid by *DEFORMABLE_TO_RIGID");
+          error(s.card.of_r2d(), s.card.r2d_field,
+                fmt::format("part {} is {}", id_of(part),
+                            s.at_restart ? "rigid for good" : "a *MAT_RIGID, which cannot deform"),
+                s.at_restart ? "let the run that comes before name it in R2D of a "
+                               "*DEFORMABLE_TO_RIGID_AUTOMATIC, if with a TIME1 behind its end"
+                             : "give it a material with strength, and make it rigid by *DEFORMABLE_TO_RIGID");
         else if (std::none_of(bodies_.begin(), bodies_.end(),
                               [&](const SwitchedBody& b) { return has(b, part); }))
-          deck_.warning(diagnostics_, s.card, "R2D",
+          deck_.warning(diagnostics_, s.card.of_r2d(), s.card.r2d_field,
                         fmt::format("part {} is never rigid before", id_of(part)),
                         "make it rigid by another switch, or by *DEFORMABLE_TO_RIGID");
       }
@@ -282,7 +301,7 @@ class SwitchReader {
     }
     if (!world_.passes.all<const RigidWallReporter>().empty() && !bodies_.empty())
       deck_.warning(
-          diagnostics_, switches_.front().card, "D2R",
+          diagnostics_, switches_.front().card, switches_.front().card.d2r_field,
           "rigid walls stop the nodes of a part that is rigid for a while one by one: the body gets a "
           "little behind them, and what it loses there is not the walls' account",
           "let it be deformable where it meets a wall: CODE 3 with R2D");
@@ -322,7 +341,7 @@ class SwitchReader {
     });
     if (count == static_cast<std::ptrdiff_t>(parts.size())) return s.releases.push_back(k);
     if (count > 0)
-      error(s.card, "R2D",
+      error(s.card.of_r2d(), s.card.r2d_field,
             fmt::format("part {} is one rigid body with parts that stay rigid", id_of(soft.front())),
             "release all parts of a body at once");
   }
@@ -424,14 +443,16 @@ const RegisterAddition switched_parts{
     "*DEFORMABLE_TO_RIGID_AUTOMATIC",
     [](const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics) {
       const auto& cards = deck.all<AutomaticSwitch>();
-      if (cards.empty()) return;
+      const auto at_restart = switch_at_restart(deck);
+      if (cards.empty() && !at_restart) return;
       if (world.dim == 2)
-        return deck.error(diagnostics, cards.front(), "SWSET",
+        return deck.error(diagnostics, cards.empty() ? *at_restart : cards.front(), "SWSET",
                           "parts of a plane scene cannot become rigid for a while",
                           "make the scene three-dimensional");
       SwitchReader reader(deck, model, world, diagnostics);
       reader.add_start();
       for (const AutomaticSwitch& card : cards) reader.add(card);
+      if (at_restart) reader.add_at_restart(*at_restart);
       reader.finish();
     }};
 

@@ -102,6 +102,8 @@ class Archive {
     fixed(name, saved_type<T>(), rows.size(), count * sizeof(T), starts);
   }
 
+  /// Whether the state holds something under that name.
+  bool has(const std::string& name) const { return state_.contains(prefix_ + name); }
   /// Numbers saved under that name in all rows, while loading.
   std::size_t count(const std::string& name) const;
 

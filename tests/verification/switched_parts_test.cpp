@@ -243,3 +243,55 @@ TEST(SwitchedParts, SameBitsWithThreadsAndRestart) {
     test::expect_same_bits(deck.text(1), 100, saved_at);
   }
 }
+
+// *RIGID_DEFORMABLE: the same bits as the switch that acts by itself at the time of the restart; what comes
+// behind goes on from a file of the second run as ever.
+TEST(SwitchedParts, SwitchWhenARunIsTakenUpAgain) {
+  SolidDeck block;
+  block.block(Vec(0.5, 0.3, 0.2), 5, 4, 4, 1);
+  const auto deck = [&](const std::string& cards) {
+    block.cards = solid_part + all_as_set +
+                  "*INITIAL_VELOCITY_GENERATION\n1,2,3.0,1.0,0.0,0.0\n0.0,0.0,0.0,0.3,0.2,1.0\n" + cards;
+    return block.text(1);
+  };
+  const auto taken_up = [](Simulation& before, const std::string& text) {
+    SavedState state;
+    Archive save = Archive::saver(state);
+    before.keep(save);
+    auto after = simulation_of(text);
+    Archive load = Archive::loader(state);
+    after->keep(load);
+    return after;
+  };
+  const auto step = [](Simulation& s, int steps) {
+    for (int k = 0; k < steps; ++k) s.step(do_nothing);
+  };
+  const std::string stiffen = "*RIGID_DEFORMABLE_D2R\n1\n*RIGID_DEFORMABLE_CONTROL\n0,0,0,1.0E-3\n";
+  auto first = simulation_of(deck(stiffen));
+  step(*first, 60);
+  EXPECT_EQ(first->world().counters["rigid_switches"], 0) << "not before a restart";
+  auto by_itself = taken_up(*first, deck("*DEFORMABLE_TO_RIGID_AUTOMATIC\n7\n0,0,0,1.0E-3,1\n1,0,PART\n"));
+  auto plain = simulation_of(deck(""));
+  step(*plain, 60);
+  auto second = taken_up(*plain, deck(stiffen));
+  const auto start = places_of_nodes(second->world());
+  step(*by_itself, 40), step(*second, 40);
+  EXPECT_EQ(second->world().counters["rigid_switches"], 1);
+  EXPECT_LE(second->clock().dt, 1e-3);
+  EXPECT_LT(change_of_shape(second->world(), start), 1e-13);
+  EXPECT_EQ(test::state_of(second->world()), test::state_of(by_itself->world()));
+  auto third = taken_up(*second, deck(stiffen));
+  step(*second, 20), step(*third, 20);
+  EXPECT_EQ(third->world().counters["rigid_switches"], 1) << "once";
+  EXPECT_EQ(test::state_of(third->world()), test::state_of(second->world()));
+
+  const std::string rigid = switch_of(1, "0,0.01", true);
+  auto stiff = simulation_of(deck(rigid));
+  step(*stiff, 60);
+  auto freed = taken_up(*stiff, deck(rigid + "*RIGID_DEFORMABLE_R2D\n1\n"));
+  auto timed = taken_up(*stiff, deck(rigid + switch_of(2, fmt::format("0,{}", stiff->clock().t), false)));
+  const auto shape = places_of_nodes(freed->world());
+  step(*freed, 40), step(*timed, 40);
+  EXPECT_GT(change_of_shape(freed->world(), shape), 1e-5);
+  EXPECT_EQ(test::state_of(freed->world()), test::state_of(timed->world()));
+}

@@ -53,6 +53,7 @@ class EdgeContact : public Force,
   bool touches_something() const { return !key_.empty(); }
   /// Adds what a node got from all touches, in the order of touches. [ML/T2]
   void add_force_on(Index node, Vec& force) const;
+  const std::vector<Index>& involved() const { return involved_; }  ///< nodes that may get some, ascending
 
   struct Penetrations {
     Index count = 0;
@@ -116,6 +117,7 @@ class EdgeContact : public Force,
   Real longest_step(const Clock& clock) const { return std::max(clock.dt_old, soft_dt_); }
   void push(const World& world, const Clock& clock, Touch& touch) const;
   Real mobility(const World& world, const Touch& touch, int side) const;
+  Real mobility_of_body(const World& world, const Touch& touch, int side, Real of_nodes) const;
   Real pulled_by_others(const World& world, const Touch& touch) const;
   Vec velocity(const std::function<Vec(Index)>& of_node, const Touch& touch) const;
   void gather(const World& world);

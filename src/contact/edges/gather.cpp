@@ -51,6 +51,16 @@ Real EdgeContact::mobility(const World& world, const Touch& touch, int side) con
   return sum;
 }
 
+// The same along the push where a or b belongs to a rigid body, which does not move by the masses of its
+// nodes.
+Real EdgeContact::mobility_of_body(const World& world, const Touch& touch, int side, Real of_nodes) const {
+  const Index body = bodies_.body(node_of(touch, 2 * side));
+  if (body < 0 || bodies_.body(node_of(touch, 2 * side + 1)) != body) return of_nodes;
+  const EdgeEnds ends = ends_of(edge(side == 0 ? touch.a : touch.b), world.nodes.x);
+  return bodies_.give_alone(body, ends[0] + (side == 0 ? touch.at.s : touch.at.t) * (ends[1] - ends[0]),
+                            touch.n);
+}
+
 // What other touches of a step ago, as deep as this one, add to its rate of speed over its depth. [1/T2]
 Real EdgeContact::pulled_by_others(const World& world, const Touch& touch) const {
   Real sum = 0;
@@ -80,9 +90,13 @@ void EdgeContact::push(const World& world, const Clock& clock, Touch& touch) con
   touch.stored = 0.5 * k * touch.depth * touch.depth;
   const Vec v = velocity([&](Index n) { return Vec(world.nodes.v.vec(n)); }, touch);
   const Real speed = v.dot(touch.n), dt = clock.dt_old;
-  const Real springs = k * (of_a + of_b) + pulled_by_others(world, touch);
-  const Real way = dt * std::max(-speed, speed + springs * touch.depth * dt);
-  Real fn = part_of_step(touch.depth, way) * k * touch.depth;
+  const Real others = pulled_by_others(world, touch);
+  Real part = part_of_step(touch.depth, speed, dt, k * (of_a + of_b) + others);
+  if (part < 1) {
+    const Real gives = mobility_of_body(world, touch, 0, of_a) + mobility_of_body(world, touch, 1, of_b);
+    part = part_of_step(touch.depth, speed, dt, k * gives + others);
+  }
+  Real fn = part * k * touch.depth;
   if (law_.vdc > 0 && of_a + of_b > 0) {
     // of the critical damping of both edges: 2 m omega, m the smaller mass
     const Real omega = std::sqrt(k * (of_a + of_b)), lighter = 1 / std::max(of_a, of_b);

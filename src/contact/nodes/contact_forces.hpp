@@ -1,8 +1,10 @@
 #pragma once
 // The pass that adds to nodes what a contact of nodes or edges leaves for them.
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "state/world.hpp"
 
@@ -20,10 +22,11 @@ class ContactForces : public Force {
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
     if (!contact_->touches_something()) return;
-    for (Index n = begin; n < end; ++n) {
+    const std::vector<Index>& nodes = contact_->involved();
+    for (auto n = std::lower_bound(nodes.begin(), nodes.end(), begin); n != nodes.end() && *n < end; ++n) {
       Vec force = Vec::Zero();
-      contact_->add_force_on(n, force);
-      world.nodes.f.add(n, force);
+      contact_->add_force_on(*n, force);
+      world.nodes.f.add(*n, force);
     }
   }
 

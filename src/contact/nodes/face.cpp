@@ -50,10 +50,10 @@ FaceShape shape_of(const FaceCorners& x, int corners) {
   return out;
 }
 
-Real distance_from_box(const FaceShape& shape, const Vec& w) {
+Real distance_from_box(const FaceShape& shape, const Vec& w, Real wider) {
   const Real u = w.dot(shape.along), v = w.dot(shape.across);
-  const Real beside = std::max({shape.extent[0] - u, u - shape.extent[1], Real(0)}),
-             across = std::max({shape.extent[2] - v, v - shape.extent[3], Real(0)}),
+  const Real beside = std::max({shape.extent[0] - u, u - shape.extent[1], wider}) - wider,
+             across = std::max({shape.extent[2] - v, v - shape.extent[3], wider}) - wider,
              above = std::max(std::abs(w.dot(shape.n)) - shape.warp, Real(0));
   return std::sqrt(beside * beside + across * across + above * above);
 }

@@ -38,8 +38,9 @@ struct FaceShape {
   std::array<Real, 4> extent{};  ///< least and greatest of the corners along both, from the centre [L]
 };
 
-/// Distance of a place, given from the centre, from a box around the corners: at most that from the face. [L]
-Real distance_from_box(const FaceShape& shape, const Vec& w);
+/// Distance of a place, given from the centre, from a box around the corners, `wider` along the face: at most
+/// that from the face. [L]
+Real distance_from_box(const FaceShape& shape, const Vec& w, Real wider);
 
 /// Faces reach this much over their edges, of their width, so that rounding leaves no gap between neighbours.
 inline constexpr Real edge_margin = 0.0125;

@@ -226,17 +226,20 @@ void NodeContact::start(World& world, const Clock& clock) {
   asleep_ = false;
   follow(world, clock);
   touched_.assign(involved_.size(), 0);
+  for (Block& b : blocks_) b.idle = b.near.empty();
   for (int k = 0; k < most_touches; ++k)
     for (Index i = 0; i < set_->size(); ++i)
-      if (in_touch_->data(k)[i] != 0)
+      if (in_touch_->data(k)[i] != 0) {
         touched_[static_cast<std::size_t>(place_[static_cast<std::size_t>(node(i).node)])] = 1;
+        blocks_[static_cast<std::size_t>(i / block_size)].idle = false;
+      }
 }
 
 void NodeContact::block(World& world, const Clock& clock, Index begin, Index end) {
   Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];
   b.touches.clear(), b.leaked.clear();
   b.let_go = 0;
-  if (asleep_) return;
+  if (asleep_ || b.idle) return;
   for (Index i = begin; i < end; ++i) touch(world, clock, b, i);
 }
 

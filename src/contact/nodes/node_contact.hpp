@@ -76,6 +76,7 @@ class NodeContact : public Force,
   bool touches_something() const { return !shares_.empty(); }
   /// Adds what a node got from all touches, in the order of touches. [ML/T2]
   void add_force_on(Index node, Vec& force) const;
+  const std::vector<Index>& involved() const { return involved_; }  ///< nodes that may get some, ascending
   /// Nodes and segments of the world, 1 for those of a surface.
   struct Surface {
     std::vector<char> node, segment;
@@ -141,6 +142,7 @@ class NodeContact : public Force,
     std::vector<Index> first;             ///< of each node's candidates, and the end
     std::vector<Index> candidate;         ///< ascending
     std::vector<Index> first_near, near;  ///< the same, of those that may matter until they are taken anew
+    bool idle = false;                    ///< none of its nodes touches anything or has anything near
     std::vector<Touch> touches;
     std::vector<Index> leaked;  ///< tracked nodes
     std::vector<Seen> seen;     ///< scratch
@@ -184,7 +186,7 @@ class NodeContact : public Force,
   void push(const World& world, const Clock& clock, Block& b, Index i, Slot& slot) const;
   void fill(const World& world, const Clock& clock, Slot& slot, Touch& touch) const;
   void expect(const World& world, const Clock& clock, Block& b, Index i, const Slots& slots) const;
-  Real way_of(const Clock& clock, const Touch& touch, Real speed, Real mobility) const;
+  Real part_of(const World& world, const Clock& clock, const Touch& touch, Real speed, Real mobility) const;
   Vec velocity_of_face(const World& world, const ContactFace& f, const std::array<Real, 4>& N) const;
   Real mass_of(const World& world, Index node) const;
   Real share_of(const Share& share) const;

@@ -37,9 +37,11 @@ TimeLimit::Limit limit_of(const NodeContactLaw& law, const StiffestContact& stif
   };
   const ContactFrequency &now = stiffest.now, &soon = stiffest.soon;
   const Real dt = now.omega2 > 0 ? allowed(now.omega2) : std::numeric_limits<Real>::infinity();
-  // up to the surface, or as short as springs there ask for
-  if (soon.omega2 > now.omega2)
-    if (const Real then = std::max(due, allowed(soon.omega2)); then < dt) return told(then, soon.node);
+  // up to the surface but for a short step or two, so that none that is long leads behind it; forces may let
+  // the node come sooner
+  constexpr Real sure = 0.9;
+  if (const Real step = allowed(soon.omega2); soon.omega2 > now.omega2)
+    if (const Real then = std::max(sure * due - step, step); then < dt) return told(then, soon.node);
   return now.omega2 > 0 ? told(dt, now.node) : TimeLimit::Limit{dt, name};
 }
 

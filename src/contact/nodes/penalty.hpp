@@ -1,5 +1,7 @@
 #pragma once
 // What penalties between nodes, faces and edges share: their force within a step, friction, the step.
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -12,10 +14,18 @@ namespace courant {
 
 /// Of a spring's force where the surface lies within the last step, or within the next: the impulses of a
 /// step are no longer those of the depth in its middle, and a bounce would give back 1 +- (omega dt)^2/4 of
-/// its energy, by chance. With this factor the sums of leapfrog, v^2 + omega^2 d_n d_n+1, close to first
-/// order in how far the surface is from a sample. `way`: of a step, at most. [-]
-inline Real part_of_step(Real depth, Real way) {
-  return way > depth ? 0.5 * (1 + depth / way) : Real(1);
+/// its energy, by chance. With this factor the sums of leapfrog, v^2 + omega^2 d_n d_n+1, stay what they are
+/// outside, v^2. `speed`: out of the surface, in the half step before [L/T]; omega2: of the spring, with what
+/// acts beside it [1/T2]. [-]
+inline Real part_of_step(Real depth, Real speed, Real dt, Real omega2) {
+  const Real theta = std::min(omega2 * dt * dt, Real(1)), before = std::abs(speed) * dt;
+  const bool comes = speed < 0 && before > depth, goes = speed > 0 && before + theta * depth > depth;
+  if (!comes && !goes) return 1;
+  const Real after =
+      comes ? 0.5 * (std::sqrt(theta * depth * (theta * depth - 4 * depth) + 4 * before * before) -
+                     theta * depth)
+            : std::sqrt(before * before + theta * depth * (depth + before));
+  return (depth + (comes ? after : before)) / (before + after);
 }
 
 /// Elastic predictor: the spring of the last step, turned into the tangent plane of n, plus -k times the slip

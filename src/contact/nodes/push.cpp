@@ -13,16 +13,25 @@ constexpr Real unbounded = std::numeric_limits<Real>::infinity();
 
 }  // namespace
 
-// How far the node goes in a step along the normal: in by what it has come, out by what its spring adds to
-// that, and those of the corners of the face as far as they touched something a step ago.
-Real NodeContact::way_of(const Clock& clock, const Touch& touch, Real speed, Real mobility) const {
-  const Real dt = clock.dt_old;
-  Real springs = 1;
+// Of the force: see part_of_step. Beside the spring act those of the corners of the face as far as they
+// touched something a step ago. Nodes of bodies move as these do, not by masses of their own.
+Real NodeContact::part_of(const World& world, const Clock& clock, const Touch& touch, Real speed,
+                          Real mobility) const {
   const ContactFace& f = face(touch.face);
+  Real springs = 1;
   for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
     springs += std::max(touch.N[e], Real(0)) *
                touched_[static_cast<std::size_t>(place_[static_cast<std::size_t>(f.node[e])])];
-  return dt * std::max(-speed, speed + springs * touch.k * touch.depth * mobility * dt);
+  const auto part = [&](Real gives) {
+    return part_of_step(touch.depth, speed, clock.dt_old, springs * touch.k * gives);
+  };
+  const Real of_nodes = part(mobility);
+  const Index body = bodies_.body(touch.node), under = bodies_.body(f.node[0]);
+  if (of_nodes == 1 || (body < 0 && under < 0)) return of_nodes;
+  const Vec x = world.nodes.x.vec(touch.node);
+  const Real of_node = world.nodes.held[touch.node] ? 0 : 1 / world.nodes.m[touch.node];
+  return part((body < 0 ? of_node : bodies_.give_alone(body, x, touch.n)) +
+              (under < 0 ? mobility - of_node : bodies_.give_alone(under, x, touch.n)));
 }
 
 Vec NodeContact::velocity_of_face(const World& world, const ContactFace& f,
@@ -114,7 +123,7 @@ void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch
     return;
   }
   const Vec v = world.nodes.v.vec(touch.node) - velocity_of_face(world, f, touch.N);
-  const Real part = part_of_step(touch.depth, way_of(clock, touch, v.dot(touch.n), 1 / m + mobility));
+  const Real part = part_of(world, clock, touch, v.dot(touch.n), 1 / m + mobility);
   Real fn = part * touch.k * touch.depth * touch.faded;
   for (Real& t : touch.tilt) t *= part;
   if (law_.vdc > 0) {

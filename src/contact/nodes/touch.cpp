@@ -23,8 +23,9 @@ constexpr Real rounding = 1e-9;
 constexpr Real rise = 0.25;
 /// Along faces that meet at less than this angle (cosine) a node goes on with the nearest.
 constexpr Real bent = 0.5;
-/// What a face reaches beyond its corners (edge_margin), and rounding, of its radius.
-constexpr Real edge_slack = 0.05;
+/// What a face reaches beyond its corners (edge_margin), and by which it is off their mean plane there, of
+/// its radius; with rounding.
+constexpr Real edge_slack = 0.05, off_plane = 0.005;
 /// Neighbours whose normals differ by less go on in one another (cosine).
 constexpr Real smooth = 0.866;
 
@@ -69,8 +70,8 @@ bool NodeContact::may_reach(Index face, const Vec& x, Real reach) const {
   const FaceShape& shape = shapes_[static_cast<std::size_t>(face)];
   const Vec w = x - shape.centre;
   const Real around = 1.05 * shape.radius + reach;
-  return w.squaredNorm() <= around * around &&
-         distance_from_box(shape, w) <= reach + edge_slack * shape.radius;
+  return w.squaredNorm() <= around * around && distance_from_box(shape, w, edge_slack * shape.radius) <=
+                                                   reach + off_plane * shape.radius + edge_slack * shape.warp;
 }
 
 void NodeContact::narrow_block(const World& world, Index begin, Index end) {

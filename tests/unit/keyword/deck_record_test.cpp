@@ -87,6 +87,26 @@ TEST(DeckRecord, OfTheStepOnlyItsScaleMayChange) {
             std::string::npos);
 }
 
+TEST(DeckRecord, PartsMayBeSwitchedAtARestart) {
+  const auto compared = [](const std::string& before, const std::string& now) {
+    const auto with = [](const std::string& card) {
+      std::string text = first;
+      return text.replace(text.find("*END\n"), 5, card + "*END\n");
+    };
+    const Deck deck = read(with(now));
+    Diagnostics diagnostics;
+    Outcome out{compare_decks(record_deck(read(with(before))), deck, record_deck(deck), diagnostics), ""};
+    out.errors = diagnostics.text();
+    return out;
+  };
+  const std::string one = "*RIGID_DEFORMABLE_D2R\n1\n", other = "*RIGID_DEFORMABLE_D2R\n2\n";
+  EXPECT_EQ(compared("", one).allowed, Lines{"*RIGID_DEFORMABLE_D2R: new"});
+  EXPECT_EQ(compared("", one).errors, "");
+  EXPECT_TRUE(compared(one, one).allowed.empty());
+  EXPECT_NE(compared(one, "").errors, "") << "what was switched stays so";
+  EXPECT_NE(compared(one, other).errors, "");
+}
+
 TEST(DeckRecord, AnythingElseIsRefusedByName) {
   const std::string message = changed("1,1000.", "1,900.").errors;
   EXPECT_EQ(message.rfind("deck.k:3:3: error: *MAT_NULL field 2 (RO", 0), 0u) << message;
