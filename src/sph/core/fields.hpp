@@ -194,8 +194,8 @@ inline Field<Real>& bulk_dissipation(Particles& p) {
 inline Field<Real>& density_sources(Particles& p) {
   return p.fields.add<Real>({.name = "density_sources", .dimension = "M/L3T", .restart = false});
 }
-/// The same as equations of state take it over the last step, and of the last rates: the force, and the power
-/// with which it turns into heat what velocities it takes it from, f.v more than that (viscous_heat.cpp).
+/// The same as equations of state take it over a step, made of the forces at both of its ends; and of the
+/// last rates F, and its power more by F.v, so that less F.v' it is what F takes from velocities v'.
 inline Field<Real>& viscous_heat(Particles& p) {
   return p.fields.add<Real>({.name = "viscous_heat", .dimension = "ML2/T3", .restart = false});
 }
