@@ -70,6 +70,11 @@ std::string advice_for_flow(const StopFacts& f) {
         "the density fell to {:.3g} RO in tension, which PC < 0 of *MAT_NULL allows: set PC = 0, "
         "or near it, so that the fluid parts instead",
         f.density_low);
+  if (f.strength && f.cause == StopCause::density && f.density_low < 0.5)
+    return fmt::format(
+        "the density fell to {:.3g} RO: pieces of a solid fly apart; use a plain FORM of *CONTROL_SPH, 0, or "
+        "lower TSSFAC",
+        f.density_low);
   if (f.cause == StopCause::step_size && told)
     return fmt::format(
         "{} set the step: look at its speed and sound speed there; MAXV of *CONTROL_SPH limits "
@@ -107,7 +112,8 @@ StopFacts facts_at_start(Simulation& s) {
   f.sound_speed = std::numeric_limits<Real>::infinity();
   for (const PartRange& part : s.guard().ranges())
     if (part.c0 > 0) f.sound_speed = std::min(f.sound_speed, part.c0);
-  for (const PartMaterial& m : s.materials()) f.tension = f.tension || (m.found && m.pc < 0);
+  for (const PartMaterial& m : s.materials())
+    f.strength |= m.strength != nullptr, f.tension |= m.found && !m.strength && m.pc < 0;
   Vec low = p.size() > 0 ? p.x.vec(0) : Vec::Zero(), high = low;
   for (Index i = 0; i < p.size(); ++i) {
     f.start_speed = std::max(f.start_speed, p.v.vec(i).norm());

@@ -24,7 +24,8 @@ struct StopFacts {
   std::int64_t initial_penetrations = 0;
   Real initial_depth = 0;   ///< deepest of these
   std::int64_t leaked = 0;  ///< particles that went through a wall
-  bool tension = false;     ///< some material allows tension (PC < 0)
+  bool tension = false;     ///< some liquid allows tension (PC < 0)
+  bool strength = false;    ///< some particles have strength
 };
 
 /// Taken when the first step is known: what later states no longer tell.

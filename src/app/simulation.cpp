@@ -330,7 +330,7 @@ void Simulation::add_neighbours(Diagnostics& diagnostics) {
 void Simulation::add_particle_passes(Diagnostics& diagnostics) {
   if (diagnostics.ok()) set_initial_pressures(deck_, model_, materials_, world_, diagnostics);
   if (diagnostics.ok()) set_inlet_pressures(injections_, deck_, model_, materials_, world_, diagnostics);
-  if (diagnostics.ok()) add_equations_of_state(world_, model_, materials_, !sph_.mu.empty());
+  if (diagnostics.ok()) add_equations_of_state(world_, model_, materials_, sph_);
   contacts_ = build_contacts(deck_, model_,
                              {.skip_inactive = sph_.skip_inactive_contact,
                               .thickness_from_volume = sph_.thickness_from_volume,

@@ -61,7 +61,7 @@ BareSteps::BareSteps(const SquareOfWater& water, bool ledger) {
   neighbours_ = std::make_shared<Neighbours>(first_skin * h, settings.region);
   neighbours_->adapt_skin(least_skin * h, most_skin * h, skin_weight);
   if (!settings.evolving_h) neighbours_->keep_h();
-  add_equations_of_state(world_, model, materials, !settings.mu.empty());
+  add_equations_of_state(world_, model, materials, settings);
   world_.passes.add(make_clear_forces(points_of(world_.particles)));
   world_.passes.add(make_point_motion(points_of(world_.particles)));
   world_.passes.add(make_kinetic_energy(points_of(world_.particles)));

@@ -21,7 +21,7 @@ import yaml
 HERE = pathlib.Path(__file__).resolve().parent
 LONGEST = 600  # seconds
 OF_UNITS = ("Decks/", "FullShell.", "CompositeDamage.", "OrthoWall.", "BlastWave.", "BlockSums.", "TensionField.", "WovenFabric.", "Honeycomb.",
-            "SimplifiedRubber.", "RateFoam.", "WallPaths.", "WallSupport.")  # tests of unit_tests
+            "SimplifiedRubber.", "RateFoam.", "WallPaths.", "WallSupport.", "EquationOfState.", "Spall.")  # tests of unit_tests
 
 
 def declared():

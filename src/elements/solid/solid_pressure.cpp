@@ -105,7 +105,9 @@ Real SolidPressure::finish(Index i, Real E, Real mu, const Scratch& own, Real& s
   const Real p = std::max((own.A[i] + own.B[i] * E) / (1 + own.B[i] * own.half_dv[i]), own.least_pressure[i]);
   E -= own.half_dv[i] * p;
   const Real v = 1 / (1 + mu);
-  const Real c2 = (own.dA[i] + own.dB[i] * E + own.B[i] * p * v * v) / law_->ro;
+  // where tension is cut off, its work does not soften
+  const Real working = p > own.least_pressure[i] ? own.B[i] * p * v * v : 0;
+  const Real c2 = (own.dA[i] + own.dB[i] * E + working) / law_->ro;
   sound_speed = std::sqrt(std::max(c2, Real(0)) + sound_speed * sound_speed);
   found.without_speed += c2 < 0;
   return p;

@@ -37,8 +37,8 @@ class JohnsonCook : public StrengthLaw {
     for (Index i = 0; i < block.count; ++i) flow(block, i, kept, trial);
     return_radially(a_.G, 0, std::numeric_limits<Real>::min(), block, FixedCentre{}, trial);
     if (a_.damages()) damage(block, kept, trial);
-    if (kept.spalled) a_.spall.look(block, kept.spalled);
     keep_stiffness(block, sound_speed());
+    if (kept.spalled) a_.spall.look(block, kept.spalled);
   }
 
  private:

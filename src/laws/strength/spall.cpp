@@ -23,6 +23,7 @@ void Spall::look(const PointBlock& block, Real* spalled) const {
     if (spalled[i] == 0) continue;
     for (Real* stress : block.stress) stress[i] = 0;
     if (block.least_pressure) block.least_pressure[i] = 0;
+    if (block.sound_speed) block.sound_speed[i] = 0;
   }
 }
 

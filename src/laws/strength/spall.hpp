@@ -15,7 +15,8 @@ struct Spall {
   /// Points keep whether they have spalled: one number of the law's history.
   bool keeps() const { return option != 1 && limit > -std::numeric_limits<Real>::infinity(); }
   Real cutoff() const { return option == 1 ? limit : -std::numeric_limits<Real>::infinity(); }
-  /// Behind the return of the deviator. `spalled`: 0 or 1 of each point.
+  /// Behind the return of the deviator and its share of the sound speed, which is 0 then. `spalled`: 0 or 1
+  /// of each point.
   void look(const PointBlock& block, Real* spalled) const;
 
   /// PC of a card, on which 0 is none.

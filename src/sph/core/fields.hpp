@@ -194,6 +194,22 @@ inline Field<Real>& bulk_dissipation(Particles& p) {
 inline Field<Real>& density_sources(Particles& p) {
   return p.fields.add<Real>({.name = "density_sources", .dimension = "M/L3T", .restart = false});
 }
+/// The same as equations of state take it over a step, made of the forces at both of its ends; and of the
+/// last rates F, and its power more by F.v, so that less F.v' it is what F takes from velocities v'.
+inline Field<Real>& viscous_heat(Particles& p) {
+  return p.fields.add<Real>({.name = "viscous_heat", .dimension = "ML2/T3", .restart = false});
+}
+inline Field<Real>& last_viscous_force(Particles& p) {
+  return p.fields.add<Real>({.name = "last_viscous_force", .dimension = "ML/T2", .components = 3});
+}
+inline Field<Real>& last_viscous_power(Particles& p) {
+  return p.fields.add<Real>({.name = "last_viscous_power", .dimension = "ML2/T3"});
+}
+/// Pressure below which an equation of state is cut off, of materials with strength beside it: particles that
+/// have spalled bear no tension
+inline Field<Real>& least_pressure(Particles& p) {
+  return p.fields.add<Real>({.name = "least_pressure", .dimension = "M/LT2"});
+}
 /// Power that MU turns into heat
 inline Field<Real>& viscous_dissipation(Particles& p) {
   return p.fields.add<Real>({.name = "viscous_dissipation", .dimension = "ML2/T3"});

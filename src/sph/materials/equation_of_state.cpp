@@ -49,7 +49,9 @@ void EquationOfState::declare(const World& world, Accesses& a) const {
   a.reads(p.drhodt).updates(p.rho).updates(p.p).updates(p.E).updates(p.c);
   if (!same_for_all_) a.reads(p.part);
   if (memory_) a.updates(*memory_);
-  if (!law_->uses_energy() || heat_.empty()) return;
+  if (!law_->uses_energy()) return;
+  if (parts_.least_pressure) a.reads_before(*parts_.least_pressure);
+  if (heat_.empty()) return;
   a.reads(reference_volume_);
   for (const Field<Real>* heat : heat_) a.reads_before(*heat);
 }
@@ -99,11 +101,14 @@ void EquationOfState::advance_with_energy(Particles& p, Real dt, Index begin, In
     Real power = 0;
     for (const Field<Real>* heat : heat_) power += (*heat)[i];
     if (!heat_.empty() && reference_volume_[i] > 0) E += power * dt / reference_volume_[i];
-    const Real pressure = std::max((A[k] + B[k] * E) / (1 + 0.5 * B[k] * dv[k]), pc);
+    const Real least = parts_.least_pressure ? (*parts_.least_pressure)[i] : pc;
+    const Real pressure = std::max((A[k] + B[k] * E) / (1 + 0.5 * B[k] * dv[k]), least);
     E -= 0.5 * dv[k] * pressure;
     p.p[i] = pressure;
     p.E[i] = E;
-    const Real c2 = (dA[k] + dB[k] * E + B[k] * pressure / ((1 + mu[k]) * (1 + mu[k]))) / rho0;
+    // where tension is cut off, its work does not soften
+    const Real working = pressure > least ? B[k] * pressure / ((1 + mu[k]) * (1 + mu[k])) : 0;
+    const Real c2 = (dA[k] + dB[k] * E + working) / rho0;
     p.c[i] = std::sqrt(std::max(c2, Real(0)));
     found.without_speed += c2 < 0;
     if (!(p.rho[i] >= found.lowest * rho0)) found.lowest = p.rho[i] / rho0;  // also where it is not a number

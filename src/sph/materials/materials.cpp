@@ -10,6 +10,7 @@
 #include "laws/fluid/mat_null.hpp"
 #include "sph/core/fields.hpp"
 #include "sph/materials/equation_of_state.hpp"
+#include "sph/materials/strength.hpp"
 
 namespace courant {
 
@@ -141,8 +142,18 @@ std::string parts_of_several_materials(const Model& model) {
   return {};
 }
 
+namespace {
+
+const Field<Real>& set_least_pressures(const std::vector<PartMaterial>& materials, Particles& p) {
+  Field<Real>& least = sph_fields::least_pressure(p);
+  for (Index i = 0; i < p.size(); ++i) least[i] = std::max(materials[p.part[i]].pc, no_cutoff);
+  return least;
+}
+
+}  // namespace
+
 void add_equations_of_state(World& world, const Model& model, const std::vector<PartMaterial>& materials,
-                            bool viscous) {
+                            const SphSettings& s) {
   Particles& p = world.particles;
   for (Index i = 0; i < p.size(); ++i) {
     const PartMaterial& m = materials[p.part[i]];
@@ -152,8 +163,10 @@ void add_equations_of_state(World& world, const Model& model, const std::vector<
     p.p[i] = std::max(m.eos->pressure(mu, m.eos->E0), m.pc);
     p.c[i] = std::sqrt(m.eos->sound_speed2(m.ro, mu, m.eos->E0));
   }
-  std::vector<const Field<Real>*> heat{&sph_fields::dissipation(p)};
-  if (viscous) heat.push_back(&sph_fields::viscous_dissipation(p));
+  const bool warm = !s.heat_in_internal.empty(), strong = !s.strength.empty();
+  std::vector<const Field<Real>*> heat{warm ? &add_viscous_heat(s, world) : &sph_fields::dissipation(p)};
+  if (!s.mu.empty()) heat.push_back(&sph_fields::viscous_dissipation(p));
+  const Field<Real>* least_pressure = warm && strong ? &set_least_pressures(materials, p) : nullptr;
   std::map<EosLaw*, EosParts> parts_of_law;
   std::vector<std::shared_ptr<EosLaw>> order;
   bool some_without = false;
@@ -166,6 +179,7 @@ void add_equations_of_state(World& world, const Model& model, const std::vector<
       mine.mine.assign(model.parts.size(), 0);
       mine.rho0.assign(model.parts.size(), 0);
       mine.pc.assign(model.parts.size(), 0);
+      mine.least_pressure = least_pressure;
     }
     mine.mine[k] = 1;
     mine.rho0[k] = materials[k].ro;

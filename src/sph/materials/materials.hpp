@@ -31,8 +31,12 @@ struct PartMaterial {
 std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 /// Sets p, c, E of particles with an equation of state from rho, and adds one pass per equation of state to
-/// the world. `viscous`: some part has a viscosity MU, whose heat goes into E, too.
+/// the world. The heat of artificial viscosity and of MU goes into E.
 void add_equations_of_state(World& world, const Model& model, const std::vector<PartMaterial>& materials,
-                            bool viscous);
+                            const SphSettings& s);
+
+/// The power of the artificial viscosity as it goes into E over a step; adds the pass that works it out,
+/// where there is one.
+const Field<Real>& add_viscous_heat(const SphSettings& s, World& world);
 
 }  // namespace courant

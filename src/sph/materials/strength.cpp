@@ -53,7 +53,7 @@ class Spin : public Rate {
 struct Points64 {
   std::array<std::array<Real, block_size>, 6> rate;
   std::array<std::array<Real, block_size>, 3> spin;
-  std::array<Real, block_size> mu, c, dv, work, least_pressure;
+  std::array<Real, block_size> mu, c, dv, work, cutoff;
 };
 
 /// s:D of the deviator of a stress; both xx yy zz xy yz zx
@@ -74,6 +74,7 @@ class StrengthStress : public Material {
         rate_(sph_fields::strain_rate(world.particles)),
         spin_(sph_fields::spin(world.particles)),
         kept_(sph_fields::law_stress(world.particles)) {
+    if (!s.heat_in_internal.empty()) least_ = &sph_fields::least_pressure(world.particles);
     for (const auto& law : laws_) {
       history_.emplace_back();
       if (!law) continue;
@@ -87,6 +88,7 @@ class StrengthStress : public Material {
     const Particles& p = world.particles;
     a.reads(rate_).reads(spin_).reads(p.drhodt).reads(p.part);
     a.updates(p.rho).updates(p.p).updates(p.E).updates(p.c).updates(kept_);
+    if (least_) a.updates(*least_);
     for (const auto& fields : history_)
       for (const Field<Real>* field : fields) a.updates(*field);
   }
@@ -121,8 +123,9 @@ class StrengthStress : public Material {
     for (int k = 0; k < 6; ++k) block.rate[k] = at.rate[k].data(), block.stress[k] = kept_.data(k) + begin;
     block.compression = at.mu.data(), block.energy = p.E.data() + begin, block.sound_speed = at.c.data();
     if (law.deviator_only()) {
-      block.pressure = p.p.data() + begin, block.least_pressure = at.least_pressure.data();
-      at.least_pressure.fill(law.pressure_cutoff());
+      block.pressure = p.p.data() + begin;
+      block.least_pressure = least_ ? least_->data() + begin : at.cutoff.data();
+      std::fill_n(block.least_pressure, block.count, std::max(law.pressure_cutoff(), no_cutoff));
     }
     std::array<Real*, most_history> history{};
     const auto& fields = history_[p.part[begin]];
@@ -196,9 +199,9 @@ class StrengthStress : public Material {
     for (Index k = 0; k < block.count; ++k) {
       Real &c = p.c[begin + k], &pressure = p.p[begin + k];
       c = std::sqrt(c * c + at.c[k] * at.c[k]);
-      const Real lacks = at.least_pressure[k] - pressure;
+      const Real lacks = block.least_pressure[k] - pressure;
       if (!(lacks > 0)) continue;
-      pressure = at.least_pressure[k], p.E[begin + k] -= 0.5 * at.dv[k] * lacks;
+      pressure = block.least_pressure[k], p.E[begin + k] -= 0.5 * at.dv[k] * lacks;
     }
   }
   static void take_pressure(Particles& p, Index begin, const Points64& at, const PointBlock& block) {
@@ -221,6 +224,7 @@ class StrengthStress : public Material {
   static constexpr std::size_t most_history = 16;
   std::vector<std::shared_ptr<const StrengthLaw>> laws_;
   Field<Real>&rate_, &spin_, &kept_;
+  Field<Real>* least_ = nullptr;                    ///< null: no equation of state uses energy
   std::vector<std::vector<Field<Real>*>> history_;  ///< of each part
   std::vector<char> broken_;                        ///< blocks with a density that is none
 };

@@ -1,10 +1,14 @@
 #pragma once
 // Particles whose material has strength: stress from the rate of strain.
+#include <limits>
 #include <memory>
 
 #include "sph/sph.hpp"
 
 namespace courant {
+
+/// Instead of infinity, which no field may hold. [M/LT2]
+inline constexpr Real no_cutoff = std::numeric_limits<Real>::lowest();
 
 /// *COURANT_ARTIFICIAL_STRESS, and what cannot stand beside strength: refused by name. Behind all other
 /// settings.

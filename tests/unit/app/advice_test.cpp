@@ -99,6 +99,8 @@ TEST(Advice, DensityTooHighOrTorn) {
   expect_hint(f, "set PC = 0");
   f.tension = false;  // no tension to speak of
   expect_hint(f, "lower TSSFAC");
+  f.strength = true;
+  expect_hint(f, "the density fell to 0.3 RO: pieces of a solid fly apart");
 }
 
 PartRange calm() {

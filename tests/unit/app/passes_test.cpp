@@ -326,6 +326,12 @@ TEST(Passes, AnotherEquationOfState) {
   expect_change(scene, {}, {"laws eos murnaghan"}, {}, {"laws eos linear polynomial"});
 }
 
+TEST(Passes, AnEquationOfStateThatUsesEnergy) {
+  SmallScene scene;
+  scene.eos = "*EOS_GRUNEISEN\n1,30.,2.,,,0.3\n1.\n";
+  expect_change(scene, {}, {"laws eos gruneisen", "rates viscous heat"}, {}, {"laws eos linear polynomial"});
+}
+
 TEST(Passes, TwoPartsWithOneLawShareAPass) {
   SmallScene scene;
   scene.extra =

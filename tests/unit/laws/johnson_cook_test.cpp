@@ -139,6 +139,7 @@ TEST(Spall, ComesByPressureOrPrincipalStress) {
     EXPECT_EQ(point.least, option == 1 ? -50 : 0);
     point.p = 100, point.shear(1, 1e-6);
     EXPECT_EQ(point.q() == 0, option != 1) << "for good";
+    EXPECT_EQ(point.c == 0, option != 1) << "no waves of shear";
   }
 }
 

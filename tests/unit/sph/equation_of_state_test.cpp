@@ -8,6 +8,7 @@
 #include "../run_pass.hpp"
 #include "base/run_error.hpp"
 #include "sph/core/fields.hpp"
+#include "sph/materials/materials.hpp"
 
 using namespace courant;
 
@@ -133,6 +134,57 @@ TEST(EquationOfState, ViscousHeatGoesIntoTheEnergyOfALawThatUsesIt) {
     EXPECT_NEAR(p.E[0], 2.5 + (uses ? 0.2 : 0), 1e-14);
     EXPECT_NEAR(p.p[0], uses ? 0.4 * 2.7 : 0, 1e-14);
   }
+}
+
+// dE = -q dv: f acts on the velocities before the kick and behind it, half of it on either.
+TEST(EquationOfState, TakesViscousHeatOfTheForcesAtBothEndsOfAStep) {
+  World world;
+  Particles& p = world.particles;
+  p.fields.resize(2);
+  p.active = p.moving = 1;
+  SphSettings settings;
+  const Field<Real>& heat = add_viscous_heat(settings, world);
+  const auto go = [&](const Vec& v, const Vec& f, Real power) {
+    p.v.set(0, v), p.f.set(0, f), sph_fields::dissipation(p)[0] = power;
+    for (BlockPass* pass : world.passes.in_phase(Phase::rates, world)) courant::test::run(*pass, world, {});
+    return heat[0];
+  };
+  EXPECT_EQ(go(Vec(3, 0, 1), Vec(2, 5, 0), 5), 2.5) << "no force before";
+  // the force (2, 5, 0) took 5 from (3, 0, 1): 5 - 2 (2.5 - 3) - 5 (0.2 - 0) = 5 from what they are now
+  EXPECT_EQ(go(Vec(2.5, 0.2, 7), Vec(1, 0, 0), 4), 4.5);
+  EXPECT_EQ(go(Vec(2.5, 0.2, 7), Vec::Zero(), 0), 2);
+  EXPECT_EQ(go(Vec(1, 1, 1), Vec::Zero(), 0), 0);
+  // not where heat is that of the step before, or made of more than forces
+  settings.viscosity = BulkViscosity{};
+  EXPECT_EQ(&add_viscous_heat(settings, world), &sph_fields::dissipation(p));
+  settings.viscosity = MonaghanViscosity{}, settings.density_diffusion = 0.1;
+  EXPECT_EQ(&add_viscous_heat(settings, world), &sph_fields::dissipation(p));
+}
+
+// p = C1 mu + C4 E: without the cut-off c^2 = (C1 + C4 p/(1 + mu)^2)/rho0 is negative far out.
+TEST(EquationOfState, WhereTensionIsCutOffItsWorkDoesNotSoften) {
+  const auto law = polynomial_of("1,0.0,8.0,0.0,0.0,2.0\n0.0,1.0\n");
+  World world;
+  Particles& p = world.particles;
+  p.fields.resize(2);
+  p.active = p.moving = 2;
+  p.rho[0] = 0.9, p.rho[1] = 0.1;
+  Field<Real>& least = sph_fields::least_pressure(p);
+  Clock clock;
+  courant::test::run(*pass_of(law, 1, -1, world), world, clock);
+  EXPECT_NEAR(p.p[0], -0.8, 1e-14);
+  EXPECT_NEAR(p.c[0], std::sqrt(8 - 2 * 0.8 / 0.81), 1e-14);
+  EXPECT_EQ(p.p[1], -1);
+  EXPECT_NEAR(p.c[1], std::sqrt(8.0), 1e-14);
+  least[0] = 0, least[1] = -5;  // spalled; and another cut-off than PC
+  EosParts parts{{1}, true, {1}, {-1}};
+  parts.least_pressure = &least;
+  EquationOfState pass(law, parts, {}, world);
+  courant::test::run(pass, world, clock);
+  EXPECT_EQ(p.p[0], 0);
+  EXPECT_NEAR(p.c[0], std::sqrt(8.0), 1e-14);
+  EXPECT_EQ(p.p[1], -5);
+  EXPECT_EQ(world.counters.count("sound_speed_clamped"), 0u);
 }
 
 TEST(EquationOfState, CutsTensionAtPcAndStopsAtNegativeDensity) {
