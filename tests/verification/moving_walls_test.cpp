@@ -93,6 +93,31 @@ TEST(MovingWalls, CarryWaterAsIfItStoodStill) {
   EXPECT_LT(apart, 1e-10);
 }
 
+// A box that is lowered far above the water changes nothing in it, but that walls are no longer all held.
+TEST(MovingWalls, LeaveWaterBesideHeldWallsAsItIs) {
+  const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
+    EXPECT_NE(text.find(what), std::string::npos);
+    return text.replace(text.find(what), what.size(), by);
+  };
+  const std::string free = "         1         3         4", step = "         0       0.9";
+  const std::string deck = replaced(
+      test::deck_of_scene("floating_box", {{"lift", "1"}, {"n", "6"}}), step,
+      step + "         0       0.0       0.0        78\n*DEFINE_CURVE\n        78\n0.0,2e-4\n9.0,2e-4");
+  const std::string held = replaced(deck, free, "         1         7         7");
+  const std::string lowered =
+      replaced(deck, free,
+               "         1         6         7\n*BOUNDARY_PRESCRIBED_MOTION_RIGID\n"
+               "         3         2         0        77\n*DEFINE_CURVE\n        77\n0.0,-0.2\n9.0,-0.2");
+  const auto one = started(lowered), other = started(held);
+  const auto start = places(*one);
+  run(*one, 0.1), run(*other, 0.1);
+  const Real moved = farthest(start, places(*one), Vec::Zero());
+  const Real apart = farthest(places(*one), places(*other), Vec::Zero());
+  std::printf("moved by %.2e m, apart by %.2e m\n", moved, apart);
+  EXPECT_GT(moved, 0.02);
+  EXPECT_LT(apart, 1e-12);
+}
+
 // The pressure that carries the water is that of a force on it, and so is how the surface tilts.
 TEST(MovingWalls, PushWaterAsAForceDoes) {
   for (const char* lid : {"1", "0"}) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -122,6 +123,10 @@ class WallPaths {
   /// The rooms that places may stand in that are no farther than `half` from the centre, as far as `reach`
   /// from them, of the sheets that stand that far around. [L]
   std::vector<OpenRoom> rooms_about(const Sheets& sheets, const Vec& centre, Real half, Real reach) const;
+  /// Of these, the room whose walls end nowhere in sight, or the one whose walls do, but not within half of
+  /// the width of x; null: none.
+  std::unique_ptr<WallRoom> closed_room_about(const Sheets& sheets, const Vec& x, Real sight) const;
+  std::unique_ptr<WallRoom> open_room_about(const Sheets& sheets, const Vec& x, Real sight) const;
   /// The edge that is all that stands within `sight` and half of the width about x; none: there is more. [L]
   std::optional<WallEdge> edge_about(const Sheets& sheets, const Vec& x, Real sight) const;
   /// Appends the ways from i to j that walls change; `reach`: how far the kernel does [L].

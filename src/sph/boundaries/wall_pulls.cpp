@@ -35,8 +35,11 @@ void WallPaths::find_corner(Index face, int edge, Corner& corner) const {
 }
 
 void WallPaths::place(Sheets& sheets) const {
-  for (Sheet& sheet : sheets)
-    if (sheet.body >= 0) sheet.n = face(sheet.face).n, sheet.offset = face(sheet.face).offset;
+  for (Sheet& sheet : sheets) {
+    if (sheet.body < 0) continue;
+    sheet.n = face(sheet.face).n, sheet.offset = face(sheet.face).offset;
+    for (Brink& edge : sheet.edges) edge = now(edge);
+  }
 }
 
 /// Where a wall throws back what is at x and moves with `velocity`, which goes over to that of the image.
