@@ -100,7 +100,7 @@ void WallImages::look(World& world) {
   search(world);
   const Particles& p = world.particles;
   const auto n = static_cast<std::size_t>(p.active);
-  if (any_moves_) sheets_.assign(n, {});
+  if (any_moves_) sheets_.assign(n, {}), flats_.assign(n, -1), before_flat_.assign(n, 0);
   rooms_.assign(n, nullptr), own_rooms_.resize(n), strange_.assign(n, 0);
   edges_.assign(n, nullptr), own_edges_.resize(n);
   for_each(p.active, [&](Index i) {
@@ -109,7 +109,7 @@ void WallImages::look(World& world) {
     if (!viscosity_ && support_->outlooks()) find_room(p, i);
     if (!any_moves_) return;
     sheets_[i] = at_end().seen_from(p.x.vec(i));
-    if (!viscosity_ && !any_moves_among(i)) find_held_room(p, i);
+    if (!viscosity_) any_moves_among(i) ? find_flat(p, i) : find_held_room(p, i);
     if (mixed_ && sheets_[i].size() == 1 && sheets_[i][0].endless)  // whose faces may not be alike
       sheets_[i][0].faces = surface().faces_around(p.x.vec(i));
   });
@@ -179,6 +179,10 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   for (Index i = begin; i < end; ++i) {
     if (!sees(i) || in_room(i)) continue;
     const bool moves = any_moves_among(i);
+    if (any_moves_ && (before_flat_[i] = has_flat_to_itself(world.particles, i))) {
+      add_flat_rate(world.particles, i);
+      continue;
+    }
     if (moves) place_sheets(i, block);
     const WallPaths::Some some = moves ? WallPaths::all : seen_from(world.particles, i);
     for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
@@ -343,6 +347,8 @@ void WallImages::forces(World& world, Index begin, Index end) {
     edge_forces_(a, lists_of(*neighbours_, begin, end));
   }
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
+  for (Index i = begin; any_moves_ && i < end; ++i)
+    if (sees(i) && before_flat_[i]) add_flat_forces(p, i, block);
   for (const WallPath& path : block.paths) {
     const Index i = path.i, j = path.j;
     const Real share = path.weight * V[j] * slope(p.h[i], path.d), pressure = pressure_[i] + pressure_[j],

@@ -58,6 +58,7 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   void search(const World& world);
   void find_room(const Particles& p, Index i);
   void find_held_room(const Particles& p, Index i);
+  void find_flat(const Particles& p, Index i);
   /// What a segment that moves gets, on its nodes [ML/T2].
   struct Reaction {
     Index segment;
@@ -78,6 +79,10 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   void add_ways(Particles& p, Index i, Index j, WallPaths::Some some, Block& block);
   void place_sheets(Index i, Block& block);
   void add_ways_of_moving(Particles& p, Index i, Index j, Block& block);
+  struct Flat;
+  bool has_flat_to_itself(const Particles& p, Index i) const;
+  void add_flat_rate(Particles& p, Index i) const;
+  void add_flat_forces(Particles& p, Index i, Block& block) const;
   void react(const Particles& p, const WallPath& path, const Vec& force, Real per_share, Block& block) const;
   void give(const WallPull& pull, Real times, Block& block) const;
   const WallPaths& at_end() const { return any_moves_ ? *paths_from_ : support_->outlooks()->paths(); }
@@ -131,6 +136,8 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   std::optional<WallPaths> paths_from_;    ///< where walls move: now
   std::optional<WallPaths> in_middle_;     ///< where walls move: in the middle of the step
   std::vector<WallPaths::Sheets> sheets_;  ///< where walls move: of active particles, since the last refresh
+  std::vector<Index> flats_;  ///< a face of the one flat wall that is in sight and moves, since then; else -1
+  std::vector<char> before_flat_;  ///< whether the sums of this step are those over its images alone
   const AnyKernel* kernel_;
   WallMirrorLoop room_rates_, room_forces_, edge_rates_, edge_forces_;
   std::vector<const WallRoom*> rooms_;  ///< of those that see walls, since then

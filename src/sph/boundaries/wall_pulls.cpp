@@ -60,7 +60,6 @@ void WallPaths::bring(const Sheets& sheets, const Vec& at_i, const Vec& at_j, Wa
   path.d = put_aside(at_i) - at;
 }
 
-/// The face of a sheet at q, or the one next to it.
 Index WallPaths::face_at(const Sheet& sheet, const Vec& q) const {
   Index best = sheet.face;
   Real most = -std::numeric_limits<Real>::infinity();
