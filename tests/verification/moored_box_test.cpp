@@ -53,9 +53,9 @@ TEST(MooredBox, SwaysOnRopesThatBearTheExcessOfBuoyancy) {
   std::printf("turns back at %.3f s, %.2f mm off; ropes pull with %.4f of the excess\n", when, 1e3 * most,
               sum / time / excess);
   EXPECT_NEAR(sum / time / excess, 1, 0.03);
-  EXPECT_NEAR(when / 0.283, 1, 0.1);
+  EXPECT_NEAR(when / 0.283, 1, 0.07);
   EXPECT_LT(most, 7.34e-3);
-  EXPECT_GT(most, 0.75 * 7.34e-3);
+  EXPECT_GT(most, 0.88 * 7.34e-3);
   run.expect_sound();
 }
 

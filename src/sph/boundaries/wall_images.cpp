@@ -11,6 +11,12 @@
 
 namespace courant {
 
+namespace {
+
+constexpr Real rounded = 1 + 1e-9;  ///< times the reach: whoever is farther has nothing to do with anybody
+
+}  // namespace
+
 WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                        std::shared_ptr<PairVolumes> volumes, std::shared_ptr<WallSupport> support)
     : dim_(s.dim),
@@ -94,7 +100,7 @@ void WallImages::look(World& world) {
   search(world);
   const Particles& p = world.particles;
   const auto n = static_cast<std::size_t>(p.active);
-  if (any_moves_) sheets_.assign(n, {});
+  if (any_moves_) sheets_.assign(n, {}), flats_.assign(n, -1), before_flat_.assign(n, 0);
   rooms_.assign(n, nullptr), own_rooms_.resize(n), strange_.assign(n, 0);
   edges_.assign(n, nullptr), own_edges_.resize(n);
   for_each(p.active, [&](Index i) {
@@ -103,6 +109,7 @@ void WallImages::look(World& world) {
     if (!viscosity_ && support_->outlooks()) find_room(p, i);
     if (!any_moves_) return;
     sheets_[i] = at_end().seen_from(p.x.vec(i));
+    if (!viscosity_) any_moves_among(i) ? find_flat(p, i) : find_held_room(p, i);
     if (mixed_ && sheets_[i].size() == 1 && sheets_[i][0].endless)  // whose faces may not be alike
       sheets_[i][0].faces = surface().faces_around(p.x.vec(i));
   });
@@ -120,6 +127,23 @@ void WallImages::find_room(const Particles& p, Index i) {
     edges_[k] = &*own_edges_[k];
   else
     rooms_[k] = outlooks.open_room(i, x, sight, own_rooms_[k]);
+}
+
+/// The same beside walls that are held, where others move, out of sight.
+void WallImages::find_held_room(const Particles& p, Index i) {
+  const auto k = static_cast<std::size_t>(i);
+  const Vec x = surface().in_plane(p.x.vec(i));
+  const Real sight = support_->sight_until_search(p, i);
+  const WallPaths::Sheets around = at_end().sheets_around(x, sight + 0.5 * width_);
+  own_rooms_[k] = at_end().closed_room_about(around, x, sight);
+  if (!own_rooms_[k]) {
+    own_edges_[k] = at_end().edge_about(around, x, sight);
+    if (own_edges_[k])
+      edges_[k] = &*own_edges_[k];
+    else
+      own_rooms_[k] = at_end().open_room_about(around, x, sight);
+  }
+  rooms_[k] = own_rooms_[k].get();
 }
 
 void WallImages::declare(const World& world, Accesses& a) const {
@@ -146,7 +170,7 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   block.paths.clear(), block.pulls.clear(), block.reactions.clear();
   block.belt_power = 0;
-  if (!any_moves_ && !viscosity_) {
+  if (!viscosity_) {
     const WallMirrorArrays a = arrays_of_rates(world.particles, begin);
     room_rates_(a, lists_of(*neighbours_, begin, end));
     edge_rates_(a, lists_of(*neighbours_, begin, end));
@@ -154,8 +178,12 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   }
   for (Index i = begin; i < end; ++i) {
     if (!sees(i) || in_room(i)) continue;
-    const bool moves = any_moves_ && std::any_of(sheets(i).begin(), sheets(i).end(),
-                                                 [](const auto& s) { return s.body >= 0; });
+    const bool moves = any_moves_among(i);
+    if (any_moves_ && (before_flat_[i] = has_flat_to_itself(world.particles, i))) {
+      add_flat_rate(world.particles, i);
+      continue;
+    }
+    if (moves) place_sheets(i, block);
     const WallPaths::Some some = moves ? WallPaths::all : seen_from(world.particles, i);
     for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
       moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, some, block);
@@ -184,20 +212,26 @@ void WallImages::add_ways(Particles& p, Index i, Index j, WallPaths::Some some, 
   at_end().add(sheets(i), some, i, p.x.vec(i), j, p.x.vec(j), reach, paths);
 }
 
+/// Brings what particle i sees to where walls are in the middle of the step and at its end.
+void WallImages::place_sheets(Index i, Block& block) {
+  block.in_middle = sheets_[i];
+  in_middle_->place(block.in_middle);
+  at_end().place(sheets_[i]);
+}
+
 /// The same where walls move.
 void WallImages::add_ways_of_moving(Particles& p, Index i, Index j, Block& block) {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
   const Real reach = table_.support() * p.h[i];
+  if ((in_the_middle(j) - in_the_middle(i)).squaredNorm() > power<2>(reach * rounded)) return;
   std::vector<WallPath>& paths = block.paths;
   const std::size_t first = paths.size(), first_pull = block.pulls.size();
-  in_middle_->place(sheets_[i]);
-  in_middle_->add(sheets_[i], i, in_the_middle(i), j, in_the_middle(j), reach, paths, &block.pulls);
+  in_middle_->add(block.in_middle, i, in_the_middle(i), j, in_the_middle(j), reach, paths, &block.pulls);
   bool at_edge = false;
   for (std::size_t k = first; k < paths.size(); ++k) {
     add_rate(p, paths[k], block.pulls);
     at_edge |= std::abs(paths[k].weight) < 1;
   }
-  at_end().place(sheets_[i]);
   if (at_edge) {
     paths.resize(first), block.pulls.resize(first_pull);
     at_end().add(sheets_[i], i, p.x.vec(i), j, p.x.vec(j), reach, paths, &block.pulls);
@@ -307,12 +341,14 @@ void WallImages::forces(World& world, Index begin, Index end) {
   const Real* V = volumes_->current();
   for (Index i = begin; i < end; ++i)
     if (sees(i) && !in_room(i)) force_.set(i, drag_ ? drag_->vec(i) : Vec(Vec::Zero()));
-  if (!any_moves_ && !viscosity_) {
+  if (!viscosity_) {
     const WallMirrorArrays a = arrays_of_forces(p, begin);
     room_forces_(a, lists_of(*neighbours_, begin, end));
     edge_forces_(a, lists_of(*neighbours_, begin, end));
   }
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
+  for (Index i = begin; any_moves_ && i < end; ++i)
+    if (sees(i) && before_flat_[i]) add_flat_forces(p, i, block);
   for (const WallPath& path : block.paths) {
     const Index i = path.i, j = path.j;
     const Real share = path.weight * V[j] * slope(p.h[i], path.d), pressure = pressure_[i] + pressure_[j],

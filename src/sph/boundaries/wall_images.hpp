@@ -1,5 +1,6 @@
 #pragma once
 // What walls of shells do as mirrors of the water beside them.
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -56,6 +57,8 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   void look(World& world);
   void search(const World& world);
   void find_room(const Particles& p, Index i);
+  void find_held_room(const Particles& p, Index i);
+  void find_flat(const Particles& p, Index i);
   /// What a segment that moves gets, on its nodes [ML/T2].
   struct Reaction {
     Index segment;
@@ -66,6 +69,7 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
     std::vector<WallPath> paths;  ///< in this step, by particles
     std::vector<WallPull> pulls;  ///< of paths
     std::vector<WallPull> now;    ///< of the path at hand
+    WallPaths::Sheets in_middle;  ///< of the particle at hand, where walls are in the middle of the step
     std::vector<Reaction> reactions;
     Real belt_power = 0;       ///< of belts on water [ML2/T3]
     std::vector<Index> doubt;  ///< WallMirrorArrays
@@ -73,12 +77,22 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
     Index doubts = 0;
   };
   void add_ways(Particles& p, Index i, Index j, WallPaths::Some some, Block& block);
+  void place_sheets(Index i, Block& block);
   void add_ways_of_moving(Particles& p, Index i, Index j, Block& block);
+  struct Flat;
+  bool has_flat_to_itself(const Particles& p, Index i) const;
+  void add_flat_rate(Particles& p, Index i) const;
+  void add_flat_forces(Particles& p, Index i, Block& block) const;
   void react(const Particles& p, const WallPath& path, const Vec& force, Real per_share, Block& block) const;
   void give(const WallPull& pull, Real times, Block& block) const;
   const WallPaths& at_end() const { return any_moves_ ? *paths_from_ : support_->outlooks()->paths(); }
   const WallPaths::Sheets& sheets(Index i) const {
     return any_moves_ ? sheets_[static_cast<std::size_t>(i)] : support_->outlooks()->of(i).sheets;
+  }
+  /// Whether particle i sees walls that move.
+  bool any_moves_among(Index i) const {
+    return any_moves_ &&
+           std::any_of(sheets(i).begin(), sheets(i).end(), [](const auto& s) { return s.body >= 0; });
   }
   bool sees(Index i) const { return support_->is_near(i) && !sheets(i).empty(); }
   /// Whether the loops over rooms and edges look at particle i in this step.
@@ -122,6 +136,8 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   std::optional<WallPaths> paths_from_;    ///< where walls move: now
   std::optional<WallPaths> in_middle_;     ///< where walls move: in the middle of the step
   std::vector<WallPaths::Sheets> sheets_;  ///< where walls move: of active particles, since the last refresh
+  std::vector<Index> flats_;  ///< a face of the one flat wall that is in sight and moves, since then; else -1
+  std::vector<char> before_flat_;  ///< whether the sums of this step are those over its images alone
   const AnyKernel* kernel_;
   WallMirrorLoop room_rates_, room_forces_, edge_rates_, edge_forces_;
   std::vector<const WallRoom*> rooms_;  ///< of those that see walls, since then

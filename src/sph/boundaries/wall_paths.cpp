@@ -254,8 +254,7 @@ bool WallPaths::lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const {
 /// Whether sheets meet in a convex corner: no way goes from one to the other.
 bool WallPaths::turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const {
   return std::any_of(sheet.edges.begin(), sheet.edges.end(), [&](const auto& edge) {
-    const Brink here = sheet.body < 0 ? edge : now(edge);
-    return lies_in(here.from, here.to, &other) && is_free(edge.face, edge.edge, x) &&
+    return lies_in(edge.from, edge.to, &other) && is_free(edge.face, edge.edge, x) &&
            is_free(edge.face, edge.edge, y);
   });
 }
@@ -280,10 +279,7 @@ WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& 
   Real near = 0.5 * width_;
   const Vec middle = 0.5 * (start + b);
   const Real around = 0.5 * (b - start).norm() + near;
-  for (const Brink& brink : sheet.edges) {
-    Brink moved;
-    if (sheet.body >= 0) moved = now(brink);
-    const Brink& edge = sheet.body >= 0 ? moved : brink;
+  for (const Brink& edge : sheet.edges) {
     if ((edge.middle - middle).squaredNorm() > power<2>(around + edge.half)) continue;
     const Vec &c = edge.from, &d = edge.to;
     const Nearest to_edge = nearest(start, b, c, d);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -122,8 +123,15 @@ class WallPaths {
   /// The rooms that places may stand in that are no farther than `half` from the centre, as far as `reach`
   /// from them, of the sheets that stand that far around. [L]
   std::vector<OpenRoom> rooms_about(const Sheets& sheets, const Vec& centre, Real half, Real reach) const;
+  /// Of these, the room whose walls end nowhere in sight, or the one whose walls do, but not within half of
+  /// the width of x; null: none.
+  std::unique_ptr<WallRoom> closed_room_about(const Sheets& sheets, const Vec& x, Real sight) const;
+  std::unique_ptr<WallRoom> open_room_about(const Sheets& sheets, const Vec& x, Real sight) const;
   /// The edge that is all that stands within `sight` and half of the width about x; none: there is more. [L]
   std::optional<WallEdge> edge_about(const Sheets& sheets, const Vec& x, Real sight) const;
+  /// A face of the sheet that is all that stands within `sight` and half of the width about x, without an
+  /// edge there, if it moves; else -1. [L]
+  Index moving_flat_about(const Sheets& sheets, const Vec& x, Real sight) const;
   /// Appends the ways from i to j that walls change; `reach`: how far the kernel does [L].
   void add(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y, Real reach,
            std::vector<WallPath>& to, std::vector<WallPull>* pulls = nullptr) const {
@@ -143,6 +151,8 @@ class WallPaths {
   void take_along(const World& world, Real back);
   void place(Sheets& sheets) const;
   bool any_moves() const { return any_moves_; }
+  /// The face of a sheet at q, or the one next to it.
+  Index face_at(const Sheet& sheet, const Vec& q) const;
   /// Velocity of what moves with a face at x [L/T].
   Vec velocity(Index face, const Vec& x) const {
     return motions_.empty() ? Vec(Vec::Zero()) : motions_[face].at(x);
@@ -150,6 +160,8 @@ class WallPaths {
   const WallSurface::Face& face(Index f) const { return faces_[f]; }
   /// So far aside places are looked at (`WallPull::at` with them). [L]
   Vec shift() const { return put_aside(Vec::Zero()); }
+  /// How much farther aside a particle is looked at by itself. [L]
+  Vec shift_of_itself() const { return aside_again_ - aside_; }
   /// Takes a way that a wall throws back to where its walls are placed now, but for its share. To oneself,
   /// too, it comes from both ends alike, so that no force is left along the wall.
   void bring(const Sheets& sheets, const Vec& x, const Vec& y, WallPath& path) const;
@@ -269,7 +281,6 @@ class WallPaths {
   Vec velocity_of(const Sheet& sheet, const Vec& x) const {
     return sheet.body < 0 ? Vec(Vec::Zero()) : velocity(sheet.face, x);
   }
-  Index face_at(const Sheet& sheet, const Vec& q) const;
   void pull(const Sheet& sheet, const Vec& at, const Vec& by_image, std::vector<WallPull>& to) const;
   void pull_edge(const Meeting& m, Real times, std::vector<WallPull>& to) const;
   void pull_start(const Way& way, int k, Vec by, std::vector<WallPull>& to) const;

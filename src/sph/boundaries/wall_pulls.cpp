@@ -35,8 +35,11 @@ void WallPaths::find_corner(Index face, int edge, Corner& corner) const {
 }
 
 void WallPaths::place(Sheets& sheets) const {
-  for (Sheet& sheet : sheets)
-    if (sheet.body >= 0) sheet.n = face(sheet.face).n, sheet.offset = face(sheet.face).offset;
+  for (Sheet& sheet : sheets) {
+    if (sheet.body < 0) continue;
+    sheet.n = face(sheet.face).n, sheet.offset = face(sheet.face).offset;
+    for (Brink& edge : sheet.edges) edge = now(edge);
+  }
 }
 
 /// Where a wall throws back what is at x and moves with `velocity`, which goes over to that of the image.
@@ -57,7 +60,6 @@ void WallPaths::bring(const Sheets& sheets, const Vec& at_i, const Vec& at_j, Wa
   path.d = put_aside(at_i) - at;
 }
 
-/// The face of a sheet at q, or the one next to it.
 Index WallPaths::face_at(const Sheet& sheet, const Vec& q) const {
   Index best = sheet.face;
   Real most = -std::numeric_limits<Real>::infinity();

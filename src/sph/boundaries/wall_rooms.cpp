@@ -160,6 +160,20 @@ std::vector<OpenRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at
   return rooms;
 }
 
+std::unique_ptr<WallRoom> WallPaths::closed_room_about(const Sheets& sheets, const Vec& x, Real sight) const {
+  std::unique_ptr<WallRoom> out;
+  for (const OpenRoom& room : rooms_about(sheets, x, 0, sight))
+    if (room.ends.empty()) out = std::make_unique<WallRoom>(room.room);
+  return out;
+}
+
+std::unique_ptr<WallRoom> WallPaths::open_room_about(const Sheets& sheets, const Vec& x, Real sight) const {
+  std::unique_ptr<WallRoom> out;
+  for (const OpenRoom& room : rooms_about(sheets, x, 0, sight))
+    if (room.holds_open(x, 0.5 * width_)) out = std::make_unique<WallRoom>(room.open);
+  return out;
+}
+
 /// Whether two walls meet there, turn away from each other, and enclose a right angle or a wider one.
 bool WallPaths::is_one_edge(const Ending& one, const Ending& other) const {
   const Real near = 1e-6 * surface_.reach();
@@ -248,8 +262,7 @@ const WallRoom* WallOutlooks::room(Index i, const Vec& at, Real sight, std::uniq
   if (of(i).nothing) return nullptr;
   if (const WallRoom* room = of(i).room_of(x, sight + 0.5 * width_)) return room;
   if (!of(i).alike) return nullptr;
-  for (const OpenRoom& open : paths_.rooms_about(of(i).sheets, x, 0, sight))
-    if (open.ends.empty()) own = std::make_unique<WallRoom>(open.room);
+  own = paths_.closed_room_about(of(i).sheets, x, sight);
   return own.get();
 }
 
@@ -260,8 +273,7 @@ const WallRoom* WallOutlooks::open_room(Index i, const Vec& at, Real sight,
   const Vec x = surface_.in_plane(at);
   for (const OpenRoom& room : of(i).rooms)
     if (room.holds_open(x, 0.5 * width_)) return &room.open;
-  for (const OpenRoom& room : paths_.rooms_about(of(i).sheets, x, 0, sight))
-    if (room.holds_open(x, 0.5 * width_)) own = std::make_unique<WallRoom>(room.open);
+  own = paths_.open_room_about(of(i).sheets, x, sight);
   return own.get();
 }
 

@@ -146,4 +146,36 @@ TEST(KernelChoice, LeadsToItsKernel) {
       EXPECT_EQ(a == b, std::string(kernel_name(a)) == kernel_name(b));
 }
 
+/// Work of pressure on pure shear of a square lattice that is sheared so by `strain`, per area, pressure and
+/// rate; spacing 1, rows turned by `turn`.
+Real work_of_shear(KernelChoice choice, Real h, Real turn, Real strain) {
+  const AnyKernel& kernel = any_kernel(choice);
+  const int n = int(std::ceil(kernel.support * h)) + 1;
+  Real sum = 0;
+  for (int a = -n; a <= n; ++a)
+    for (int b = -n; b <= n; ++b) {
+      if (a == 0 && b == 0) continue;
+      const Real x = (a * std::cos(turn) - b * std::sin(turn)) * std::exp(strain);
+      const Real y = (a * std::sin(turn) + b * std::cos(turn)) * std::exp(-strain), r = std::hypot(x, y);
+      sum += (x * x - y * y) / r * gradient_norm(choice, 2, h) * kernel.gradient(r / h);
+    }
+  return sum;
+}
+/// Of the lattice under pressure p, over p; < 0: it gives way.
+Real shear_stiffness(KernelChoice choice, Real h, Real turn) {
+  const Real d = 1e-4;
+  return (work_of_shear(choice, h, turn, d) - work_of_shear(choice, h, turn, -d)) / (2 * d);
+}
+
+// The table of docs/theory.md: how much the sums of a lattice resist shear that leaves its density as it is.
+TEST(KernelChoice, SaysHowStiffALatticeUnderPressureIs) {
+  const Real diagonal = pi / 4;
+  EXPECT_NEAR(shear_stiffness(KernelChoice::cubic_spline, 1.2, 0), 0.282, 5e-4);
+  EXPECT_NEAR(shear_stiffness(KernelChoice::cubic_spline, 1.2, diagonal), 0.145, 5e-4);
+  EXPECT_NEAR(shear_stiffness(KernelChoice::cubic_spline, 1.5, 0), -0.534, 5e-4);
+  EXPECT_NEAR(shear_stiffness(KernelChoice::quintic_spline, 1.2, 0), 0.0125, 5e-5);
+  EXPECT_NEAR(shear_stiffness(KernelChoice::quintic_spline, 1.2, diagonal), 0.0146, 5e-5);
+  EXPECT_NEAR(shear_stiffness(KernelChoice::wendland_c2, 2, 0), 0.0377, 5e-5);
+}
+
 }  // namespace
