@@ -26,8 +26,8 @@ Vec friction_of(const NodeContactLaw& law, const Vec& old, const Vec& n, const V
 TimeLimit::Limit limit_of(const NodeContactLaw& law, const StiffestContact& stiffest, Real due, Real part,
                           const std::string& name, const World& world) {
   constexpr Real most_of_elements = 0.95;  // else nothing would be left
-  constexpr Real resolved = 0.9;           // omega dt, else bounces are too coarse
   const Real s = std::min(law.tssfac, most_of_elements), xi = 0.02 * law.vdc;
+  const Real resolved = std::min(law.tssfac, Real(0.9));  // omega dt, else bounces are too coarse
   const auto allowed = [&](Real omega2) {
     const Real stable = 2 * std::sqrt(part * (1 - s * s)) * (std::sqrt(1 + xi * xi) - xi);
     return std::min(stable, resolved) / std::sqrt(omega2);

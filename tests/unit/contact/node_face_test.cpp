@@ -206,6 +206,19 @@ TEST(NodeContactTouch, AllowsAStepUpToTheSurface) {
   EXPECT_EQ(scene.contact->limit(scene.world, scene.clock).dt, std::numeric_limits<Real>::infinity());
 }
 
+// TSSFAC is the part of a stable step that elements take, of which the rest is left to contact; and no more
+// of a step over its springs than that.
+TEST(NodeContactTouch, TakesStepsByTssfac) {
+  for (const auto& [tssfac, omega_dt] :
+       {std::pair(0.95, 2 * std::sqrt(1 - 0.95 * 0.95)), {0.5, 0.5}, {0.1, 0.1}}) {
+    TouchScene scene;
+    scene.law.tssfac = tssfac;
+    scene.build();
+    scene.step(0), scene.step(0.005);
+    EXPECT_NEAR(scene.contact->limit(scene.world, scene.clock).dt, omega_dt / std::sqrt(2.5), 1e-12) << tssfac;
+  }
+}
+
 // A node that starts behind the face, as that of the far side of the same body, is never in touch with it.
 TEST(NodeContactTouch, IsWithWhoCameFromInFront) {
   TouchScene scene;
