@@ -259,8 +259,8 @@ class SceneWarnings {
 
 }  // namespace
 
-void warn_of_scene(const Simulation& simulation, bool goes_on, Diagnostics& diagnostics) {
-  if (!goes_on) warn_of_switch_at_restart(simulation.deck(), diagnostics);
+void warn_of_scene(const Simulation& simulation, Diagnostics& diagnostics) {
+  if (!simulation.world().goes_on) warn_of_switch_at_restart(simulation.deck(), diagnostics);
   SceneWarnings(simulation, diagnostics).all();
 }
 

@@ -92,7 +92,7 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
   for (const char* row : {"keyword reader", "set-up"}) s->timer_.row(row);  // stand first
   s->deck_ = std::move(deck);
   if (!diagnostics.ok()) return nullptr;  // what could not be read or moved would only cause more messages
-  s->record_ = record_deck(s->deck_);
+  s->record_ = record_deck(s->deck_), s->world_.goes_on = before != nullptr;
   if (before) s->changes_ = compare_decks(*before, s->deck_, s->record_, diagnostics);
   s->model_ = build_model(s->deck_, diagnostics, phase);
   s->relaxation_ = relaxation_of(s->deck_, s->model_, !s->model_.sph.empty(), diagnostics);
@@ -115,7 +115,7 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
         "give it particles, solids, shells, beams, or a rigid body that is not held in all directions");
   if (model_is_whole) s->add_passes(diagnostics);
   if (!diagnostics.ok()) return nullptr;
-  warn_of_scene(*s, before != nullptr, diagnostics);
+  warn_of_scene(*s, diagnostics);
   s->release_tables();
   return s;
 }

@@ -291,6 +291,7 @@ WallBodies RigidBodies::wall_bodies(const World& world) {
     for (const Index n : bodies_[k].nodes) out.of_node[static_cast<std::size_t>(n)] = static_cast<Index>(k);
   out.give_alone = [this](Index body, const Vec& q, const Vec& n) {
     const RigidBody& b = bodies_[static_cast<std::size_t>(body)];
+    if (b.fixed()) return Real(0);
     Vec free = n, arm = (q - b.x).cross(n);
     for (int k = 0; k < 3; ++k) {
       if (b.held[k]) free[k] = 0;

@@ -165,32 +165,37 @@ std::vector<Index> parts_to_deformable(const Deck& deck, const Model& model, con
                                        Diagnostics& diagnostics) {
   std::vector<Index> out;
   for (std::size_t k = 0; k < card.soft_pid.size(); ++k)
-    for (const Index part : parts_of(deck, model, card.of_r2d(), card.r2d_field, card.soft_pid[k],
-                                     card.soft_ptype[k], diagnostics))
+    for (const Index part :
+         parts_of(deck, model, card, card.r2d_field, card.soft_pid[k], card.soft_ptype[k], diagnostics))
       out.push_back(part);
   return out;
 }
 
-std::optional<AutomaticSwitch> switch_at_restart(const Deck& deck) {
-  A out;
-  out.d2r_field = out.r2d_field = "PID";
-  for (const C& card : deck.all<C>()) static_cast<Entry&>(out) = card, out.dtmax = card.dtmax;
+std::vector<AutomaticSwitch> switches_at_restart(const Deck& deck) {
+  std::vector<A> out;
+  const auto begin = [&](const Entry& card, const char* name, const char* field) -> A& {
+    if (out.empty() || out.back().at_restart != name) {
+      A& one = out.emplace_back();
+      static_cast<Entry&>(one) = card;
+      one.at_restart = name, one.first_field = one.d2r_field = one.r2d_field = field;
+    }
+    return out.back();
+  };
   for (const R2D& card : deck.all<R2D>()) {
-    static_cast<Entry&>(out) = out.r2d_entry.emplace(card);
-    out.soft_pid.push_back(card.pid), out.soft_ptype.emplace_back();
+    A& one = begin(card, "R2D", "PID");
+    one.soft_pid.push_back(card.pid), one.soft_ptype.emplace_back(), ++one.r2d;
   }
   for (const D2R& card : deck.all<D2R>()) {
-    static_cast<Entry&>(out) = card;
-    out.pid.push_back(card.pid), out.lrb.push_back(card.lrb), out.ptype.emplace_back();
+    A& one = begin(card, "D2R", "PID");
+    one.pid.push_back(card.pid), one.lrb.push_back(card.lrb), one.ptype.emplace_back(), ++one.d2r;
   }
-  out.d2r = static_cast<int>(out.pid.size()), out.r2d = static_cast<int>(out.soft_pid.size());
-  if (out.line == 0) return std::nullopt;
+  for (const C& card : deck.all<C>()) begin(card, "CONTROL", "DTMAX").dtmax = card.dtmax;
   return out;
 }
 
 void warn_of_switch_at_restart(const Deck& deck, Diagnostics& diagnostics) {
-  if (const auto card = switch_at_restart(deck))
-    deck.warning(diagnostics, *card, "PID",
+  if (const auto cards = switches_at_restart(deck); !cards.empty())
+    deck.warning(diagnostics, cards.front(), cards.front().first_field,
                  "parts are switched when a run goes on from a restart file; this one starts anew",
                  "run the deck with --restart, or switch parts by *DEFORMABLE_TO_RIGID_AUTOMATIC");
 }

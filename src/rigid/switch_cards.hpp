@@ -1,7 +1,6 @@
 #pragma once
 // *DEFORMABLE_TO_RIGID_AUTOMATIC and *RIGID_DEFORMABLE: parts that become rigid, or deformable again, while a
 // run goes on or when it is taken up again.
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,9 +16,8 @@ struct AutomaticSwitch : Entry {
   Real time1 = 0, time2 = 1e20, time3 = 0, dtmax = 0, offset = 0;
   std::vector<Id> pid{}, lrb{}, soft_pid{};
   std::vector<std::string> ptype{}, soft_ptype{};
-  const char *d2r_field = "D2R", *r2d_field = "R2D";  ///< where lists stand, for messages
-  std::optional<Entry> r2d_entry{};                   ///< of another card than this
-  const Entry& of_r2d() const { return r2d_entry ? *r2d_entry : *this; }
+  std::string at_restart{};  ///< of *RIGID_DEFORMABLE: what its name ends in
+  const char *first_field = "SWSET", *d2r_field = "D2R", *r2d_field = "R2D";  ///< for messages
   bool of_wall() const { return code == 1 || code == 3; }
   bool of_contact() const { return code == 2 || code == 4; }
 };
@@ -35,9 +33,9 @@ std::vector<PartAndLead> parts_to_rigid(const Deck& deck, const Model& model, co
 std::vector<Index> parts_to_deformable(const Deck& deck, const Model& model, const AutomaticSwitch& card,
                                        Diagnostics& diagnostics);
 
-/// What *RIGID_DEFORMABLE_D2R, _R2D and _CONTROL ask for when a run goes on from a restart file, as one
-/// switch.
-std::optional<AutomaticSwitch> switch_at_restart(const Deck& deck);
+/// What *RIGID_DEFORMABLE_R2D, _D2R and _CONTROL ask for when a run goes on from a restart file: a switch for
+/// each that is there, in this order, so that one may be added at a later restart.
+std::vector<AutomaticSwitch> switches_at_restart(const Deck& deck);
 /// A run that starts anew does nothing of that: a warning.
 void warn_of_switch_at_restart(const Deck& deck, Diagnostics& diagnostics);
 

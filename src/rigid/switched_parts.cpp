@@ -40,7 +40,6 @@ struct SwitchedBody {
 struct PartSwitch {
   AutomaticSwitch card;
   std::vector<std::size_t> stiffens{}, releases{};
-  bool at_restart = false;  ///< not before the run is taken up again
   int related = -1;
   Index acted = 0;  ///< how often
 };
@@ -78,12 +77,13 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
   void keep(Archive& archive) override {
-    goes_on_ = goes_on_ || archive.loading();
     const auto is_new = [&](const std::string& what) { return archive.loading() && !archive.has(what); };
     if (is_new("looked_at")) return;  // the run so far had no switches
     archive("looked_at", looked_at_), archive("blocked_until", blocked_until_), archive("longest", longest_);
     for (std::size_t k = 0; k < switches_.size(); ++k)
-      if (const std::string acted = fmt::format("acted {}", k); !is_new(acted))
+      if (const std::string& name = switches_[k].card.at_restart,
+          acted = fmt::format("acted {}", name.empty() ? std::to_string(k) : name);
+          !is_new(acted))
         archive(acted, switches_[k].acted);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       const std::string of_body = fmt::format("body {}", k);
@@ -98,8 +98,8 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
   }
 
  private:
-  bool may_act(const PartSwitch& s) const {
-    if (s.at_restart) return goes_on_ && s.acted == 0;
+  bool may_act(const PartSwitch& s, const World& world) const {
+    if (!s.card.at_restart.empty()) return world.goes_on && s.acted == 0;
     const Index of_related = s.related < 0 ? 0 : switches_[static_cast<std::size_t>(s.related)].acted;
     if (s.card.paired == 1) return s.acted == of_related;
     if (s.card.paired == -1) return s.acted < of_related;
@@ -118,13 +118,15 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
     if (looked_at_ < 0)
       for (const std::size_t k : at_start_) stiffen(world, clock, bodies_[k]);
     for (PartSwitch& s : switches_) {
-      if (clock.t < blocked_until_ || !may_act(s) || !holds(s.card, world, clock.t)) continue;
+      if (clock.t < blocked_until_ || !may_act(s, world) || !holds(s.card, world, clock.t)) continue;
       ++s.acted;
-      for (const std::size_t k : s.releases) release(world, clock, bodies_[k]);
-      for (const std::size_t k : s.stiffens) stiffen(world, clock, bodies_[k]);
+      bool any = s.card.at_restart.empty();
+      for (const std::size_t k : s.releases) any |= release(world, clock, bodies_[k]);
+      for (const std::size_t k : s.stiffens) any |= stiffen(world, clock, bodies_[k]);
       if (s.card.time3 > 0) blocked_until_ = clock.t + s.card.time3;
-      longest_ = s.card.dtmax > 0 ? s.card.dtmax : std::numeric_limits<Real>::infinity();
-      ++world.counters["rigid_switches"];
+      if (s.card.at_restart.empty() || s.card.dtmax > 0)
+        longest_ = s.card.dtmax > 0 ? s.card.dtmax : std::numeric_limits<Real>::infinity();
+      world.counters["rigid_switches"] += any;
     }
   }
 
@@ -132,8 +134,8 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
 
   /// Momenta stay; what the nodes move against each other at t^n, half a step behind their velocities, is
   /// lost.
-  void stiffen(World& world, const Clock& clock, SwitchedBody& body) {
-    if (body.active != 0 || some_part_is_rigid(body)) return;
+  bool stiffen(World& world, const Clock& clock, SwitchedBody& body) {
+    if (body.active != 0 || some_part_is_rigid(body)) return false;
     RigidBody& b = body.b;
     const Nodes& nodes = world.nodes;
     const Real half = 0.5 * clock.dt_old;
@@ -162,6 +164,7 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
     b.v -= half / b.m * b.force, b.L -= half * b.moment;
     body.active = 1;
     give_half_step(world, clock.dt_old, b);
+    return true;
   }
   /// Velocities of nodes as the step before would have left them.
   void give_half_step(World& world, Real dt_old, RigidBody& b) const {
@@ -182,8 +185,8 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
     });
   }
   /// At t^n the nodes have the velocities of the body.
-  void release(World& world, const Clock& clock, SwitchedBody& body) {
-    if (body.active == 0) return;
+  bool release(World& world, const Clock& clock, SwitchedBody& body) {
+    if (body.active == 0) return false;
     body.active = 0;
     RigidBody& b = body.b;
     Nodes& nodes = world.nodes;
@@ -194,6 +197,7 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
       nodes.v.set(n, v + omega.cross(nodes.x.vec(n) - b.x) - half / nodes.m[n] * nodes.f.vec(n));
       if (turns(n)) omega_->set(n, omega - half / (*inertia_)[n] * moment_->vec(n));
     }
+    return true;
   }
 
   void sum_forces(const World& world, RigidBody& b) const {
@@ -230,7 +234,6 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
   const Field<Index>* no_turn_;
   std::int64_t looked_at_ = -1;  ///< cycle
   Real blocked_until_ = 0;       ///< [T]
-  bool goes_on_ = false;         ///< from a restart file
   Real longest_ = std::numeric_limits<Real>::infinity();
 };
 
@@ -276,8 +279,7 @@ class SwitchReader {
   void add_at_restart(const AutomaticSwitch& card) {
     switches_.push_back(
         {.card = card,
-         .stiffens = add_bodies(card, "PID", parts_to_rigid(deck_, model_, card, diagnostics_)),
-         .at_restart = true});
+         .stiffens = add_bodies(card, card.d2r_field, parts_to_rigid(deck_, model_, card, diagnostics_))});
   }
   void finish() {
     for (PartSwitch& s : switches_) {
@@ -285,15 +287,17 @@ class SwitchReader {
       const std::vector<Index> soft = parts_to_deformable(deck_, model_, s.card, diagnostics_);
       for (const Index part : soft) {
         if (model_.parts[static_cast<std::size_t>(part)].rigid)
-          error(s.card.of_r2d(), s.card.r2d_field,
-                fmt::format("part {} is {}", id_of(part),
-                            s.at_restart ? "rigid for good" : "a *MAT_RIGID, which cannot deform"),
-                s.at_restart ? "let the run that comes before name it in R2D of a "
-                               "*DEFORMABLE_TO_RIGID_AUTOMATIC, if with a TIME1 behind its end"
-                             : "give it a material with strength, and make it rigid by *DEFORMABLE_TO_RIGID");
+          error(s.card, s.card.r2d_field,
+                fmt::format(
+                    "part {} is {}", id_of(part),
+                    !s.card.at_restart.empty() ? "rigid for good" : "a *MAT_RIGID, which cannot deform"),
+                !s.card.at_restart.empty()
+                    ? "let the run that comes before name it in R2D of a "
+                      "*DEFORMABLE_TO_RIGID_AUTOMATIC, if with a TIME1 behind its end"
+                    : "give it a material with strength, and make it rigid by *DEFORMABLE_TO_RIGID");
         else if (std::none_of(bodies_.begin(), bodies_.end(),
                               [&](const SwitchedBody& b) { return has(b, part); }))
-          deck_.warning(diagnostics_, s.card.of_r2d(), s.card.r2d_field,
+          deck_.warning(diagnostics_, s.card, s.card.r2d_field,
                         fmt::format("part {} is never rigid before", id_of(part)),
                         "make it rigid by another switch, or by *DEFORMABLE_TO_RIGID");
       }
@@ -341,7 +345,7 @@ class SwitchReader {
     });
     if (count == static_cast<std::ptrdiff_t>(parts.size())) return s.releases.push_back(k);
     if (count > 0)
-      error(s.card.of_r2d(), s.card.r2d_field,
+      error(s.card, s.card.r2d_field,
             fmt::format("part {} is one rigid body with parts that stay rigid", id_of(soft.front())),
             "release all parts of a body at once");
   }
@@ -443,16 +447,17 @@ const RegisterAddition switched_parts{
     "*DEFORMABLE_TO_RIGID_AUTOMATIC",
     [](const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics) {
       const auto& cards = deck.all<AutomaticSwitch>();
-      const auto at_restart = switch_at_restart(deck);
-      if (cards.empty() && !at_restart) return;
+      const std::vector<AutomaticSwitch> at_restart = switches_at_restart(deck);
+      if (cards.empty() && at_restart.empty()) return;
       if (world.dim == 2)
-        return deck.error(diagnostics, cards.empty() ? *at_restart : cards.front(), "SWSET",
+        return deck.error(diagnostics, cards.empty() ? at_restart.front() : cards.front(),
+                          cards.empty() ? at_restart.front().first_field : "SWSET",
                           "parts of a plane scene cannot become rigid for a while",
                           "make the scene three-dimensional");
       SwitchReader reader(deck, model, world, diagnostics);
       reader.add_start();
       for (const AutomaticSwitch& card : cards) reader.add(card);
-      if (at_restart) reader.add_at_restart(*at_restart);
+      for (const AutomaticSwitch& card : at_restart) reader.add_at_restart(card);
       reader.finish();
     }};
 

@@ -54,7 +54,8 @@ struct EnergyLedger {
 using Counters = std::map<std::string, std::int64_t>;
 
 struct World {
-  int dim = 3;  ///< 2 or 3 (IDIM)
+  int dim = 3;           ///< 2 or 3 (IDIM)
+  bool goes_on = false;  ///< from a restart file
   Particles particles;
   std::vector<Id> part_ids;  ///< number in the deck of each part index
   Nodes nodes;

@@ -261,6 +261,7 @@ TEST(SwitchedParts, SwitchWhenARunIsTakenUpAgain) {
     auto after = simulation_of(text);
     Archive load = Archive::loader(state);
     after->keep(load);
+    after->world().goes_on = true;
     return after;
   };
   const auto step = [](Simulation& s, int steps) {
@@ -284,6 +285,13 @@ TEST(SwitchedParts, SwitchWhenARunIsTakenUpAgain) {
   step(*second, 20), step(*third, 20);
   EXPECT_EQ(third->world().counters["rigid_switches"], 1) << "once";
   EXPECT_EQ(test::state_of(third->world()), test::state_of(second->world()));
+
+  // later still it is freed again
+  const auto shape_then = places_of_nodes(third->world());
+  auto fourth = taken_up(*third, deck(stiffen + "*RIGID_DEFORMABLE_R2D\n1\n"));
+  step(*fourth, 40);
+  EXPECT_EQ(fourth->world().counters["rigid_switches"], 2);
+  EXPECT_GT(change_of_shape(fourth->world(), shape_then), 1e-5);
 
   const std::string rigid = switch_of(1, "0,0.01", true);
   auto stiff = simulation_of(deck(rigid));

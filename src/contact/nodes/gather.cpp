@@ -45,10 +45,14 @@ void NodeContact::gather(const World& world) {
   stiffest_ = {};
   due_ = std::numeric_limits<Real>::infinity();
   if (shares_.empty()) return;
-  for (const Touch& touch : touches_)
+  for (const Touch& touch : touches_) {
     if (touch.due > 0) due_ = std::min(due_, touch.due);
+    // of one alone where bodies give way by more than the masses of their nodes tell
+    const ContactFrequency own{touch.k * touch.spread * std::max(touch.gives[0], touch.gives[1]), touch.node};
+    stiffest_.take({touch.due > 0 ? ContactFrequency() : own, own});
+  }
   counting_sort(key_, static_cast<Index>(involved_.size()), first_, order_);
-  stiffest_ = reduce(
+  const StiffestContact of_nodes = reduce(
       static_cast<Index>(involved_.size()), StiffestContact(),
       [&](Index begin, Index end) {
         StiffestContact out;
@@ -59,6 +63,16 @@ void NodeContact::gather(const World& world) {
         a.take(b);
         return a;
       });
+  stiffest_.take(of_nodes);
+}
+
+void NodeContact::sum_springs_of_bodies(const Clock& clock) {
+  std::fill(body_springs_.begin(), body_springs_.end(), 0);
+  constexpr Real soon = 2;  // steps
+  for (const Touch& touch : touches_)
+    for (const Index body : touch.body)
+      if (body >= 0 && touch.due < soon * clock.dt_old)
+        body_springs_[static_cast<std::size_t>(body)] += touch.k;
 }
 
 StiffestContact NodeContact::pull_on(const World& world, Index p) const {

@@ -47,6 +47,8 @@ NodeContact::NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodi
   friction_ = &slot_field<Real>(*set_, "friction", "ML/T2", 3 * most_touches);
   set_->resize(static_cast<Index>(nodes_.size()));
   blocks_.resize(static_cast<std::size_t>(block_count(set_->size())));
+  if (const auto& of_node = bodies_.of_node; !of_node.empty())
+    body_springs_.assign(static_cast<std::size_t>(*std::max_element(of_node.begin(), of_node.end()) + 1), 0);
   world.counters.try_emplace("leaked_nodes", 0);
   world.counters["contact_nodes"] += set_->size();
   world.maxima.try_emplace("max_penetration", 0);
@@ -243,7 +245,7 @@ void NodeContact::block(World& world, const Clock& clock, Index begin, Index end
   for (Index i = begin; i < end; ++i) touch(world, clock, b, i);
 }
 
-void NodeContact::finish(World& world, const Clock&) {
+void NodeContact::finish(World& world, const Clock& clock) {
   touches_.clear();
   Real deepest = 0;
   for (const Block& b : blocks_) {
@@ -260,6 +262,7 @@ void NodeContact::finish(World& world, const Clock&) {
     if (touch.stored > 0) deepest = std::max(deepest, std::sqrt(2 * touch.stored / touch.k));
     world.segments.contact_force->add(face(touch.face).segment, -touch.force);
   }
+  sum_springs_of_bodies(clock);
   if (deepest > 0) {
     Real& most = world.maxima["max_penetration"];
     most = std::max(most, deepest);
@@ -302,6 +305,7 @@ void NodeContact::keep(Archive& archive) {
   archive("fresh", fresh_);
   archive("asleep", asleep_);
   archive("soft_dt", soft_dt_);
+  archive("body_springs", body_springs_);
   archive("damping_work", damping_work_);
   archive("friction_work", friction_work_);
   if (archive.loading()) listed_once_ = false;

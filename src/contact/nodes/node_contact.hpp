@@ -124,10 +124,12 @@ class NodeContact : public Force,
     Real faded = 1;         ///< force beside an outer edge, of that of the depth [-]
     Vec n = Vec::Zero();    ///< along the push, towards the node
     std::array<Real, 4> N{};
-    Real due = 0;      ///< > 0: no touch yet, but after this time [T]
-    Real stored = 0;   ///< [ML2/T2]
-    Real spread = 0;   ///< sum of the shares of what can move, 1 for the node [-]
-    Real damping = 0;  ///< along n [ML/T2]
+    Real due = 0;                       ///< > 0: no touch yet, but after this time [T]
+    std::array<Index, 2> body{-1, -1};  ///< of the node, of the face
+    std::array<Real, 2> gives{};        ///< along n there, of those [1/M]
+    Real stored = 0;                    ///< [ML2/T2]
+    Real spread = 0;                    ///< sum of the shares of what can move, 1 for the node [-]
+    Real damping = 0;                   ///< along n [ML/T2]
     Vec friction = Vec::Zero();
     Vec lever = Vec::Zero();     ///< normal of the face where `tilt` acts
     std::array<Real, 4> tilt{};  ///< on the corners besides their shares, along it; sums to 0 [ML/T2]
@@ -186,7 +188,10 @@ class NodeContact : public Force,
   void push(const World& world, const Clock& clock, Block& b, Index i, Slot& slot) const;
   void fill(const World& world, const Clock& clock, Slot& slot, Touch& touch) const;
   void expect(const World& world, const Clock& clock, Block& b, Index i, const Slots& slots) const;
-  Real part_of(const World& world, const Clock& clock, const Touch& touch, Real speed, Real mobility) const;
+  Index body_under(const ContactFace& f) const;
+  void find_bodies(const World& world, Touch& touch) const;
+  void sum_springs_of_bodies(const Clock& clock);
+  Real part_of(const Clock& clock, const Touch& touch, Real speed, const std::array<Real, 2>& mobility) const;
   Vec velocity_of_face(const World& world, const ContactFace& f, const std::array<Real, 4>& N) const;
   Real mass_of(const World& world, Index node) const;
   Real share_of(const Share& share) const;
@@ -222,6 +227,7 @@ class NodeContact : public Force,
   Real moved_ = 0;                          ///< no node by more since then [L]
   std::vector<Index> involved_;             ///< nodes of World, tracked or corners, ascending
   std::vector<Index> place_;                ///< of each node of World in involved_, or -1
+  std::vector<Real> body_springs_;          ///< by body: of touches a step ago, and of those due soon [M/T2]
   std::vector<char> touched_;               ///< of those: a tracked node that touched something a step ago
   std::vector<Vec> listed_at_;              ///< where those were when lists were made
   std::vector<Vec> narrowed_at_;            ///< and when near candidates were taken

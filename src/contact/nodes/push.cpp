@@ -13,25 +13,42 @@ constexpr Real unbounded = std::numeric_limits<Real>::infinity();
 
 }  // namespace
 
+// Of a node, or of all corners of a face; -1 where they are of none, or of several.
+Index NodeContact::body_under(const ContactFace& f) const {
+  const Index body = bodies_.body(f.node[0]);
+  const auto last = f.node.begin() + f.corners;
+  return body >= 0 && std::all_of(f.node.begin(), last, [&](Index n) { return bodies_.body(n) == body; })
+             ? body
+             : -1;
+}
+
+// Nodes of bodies move as these do, not by masses of their own.
+void NodeContact::find_bodies(const World& world, Touch& touch) const {
+  touch.body = {bodies_.body(touch.node), body_under(face(touch.face))};
+  const Vec x = world.nodes.x.vec(touch.node);
+  for (std::size_t side = 0; side < 2; ++side)
+    if (touch.body[side] >= 0) touch.gives[side] = bodies_.give_alone(touch.body[side], x, touch.n);
+}
+
 // Of the force: see part_of_step. Beside the spring act those of the corners of the face as far as they
-// touched something a step ago. Nodes of bodies move as these do, not by masses of their own.
-Real NodeContact::part_of(const World& world, const Clock& clock, const Touch& touch, Real speed,
-                          Real mobility) const {
+// touched something a step ago, and on a body all that touch it, but no more than by the masses of its nodes:
+// on the place of one all push that come at once, with arms of their own.
+Real NodeContact::part_of(const Clock& clock, const Touch& touch, Real speed,
+                          const std::array<Real, 2>& mobility) const {
   const ContactFace& f = face(touch.face);
-  Real springs = 1;
+  Real springs = 1, omega2 = 0;
   for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
     springs += std::max(touch.N[e], Real(0)) *
                touched_[static_cast<std::size_t>(place_[static_cast<std::size_t>(f.node[e])])];
-  const auto part = [&](Real gives) {
-    return part_of_step(touch.depth, speed, clock.dt_old, springs * touch.k * gives);
-  };
-  const Real of_nodes = part(mobility);
-  const Index body = bodies_.body(touch.node), under = bodies_.body(f.node[0]);
-  if (of_nodes == 1 || (body < 0 && under < 0)) return of_nodes;
-  const Vec x = world.nodes.x.vec(touch.node);
-  const Real of_node = world.nodes.held[touch.node] ? 0 : 1 / world.nodes.m[touch.node];
-  return part((body < 0 ? of_node : bodies_.give_alone(body, x, touch.n)) +
-              (under < 0 ? mobility - of_node : bodies_.give_alone(under, x, touch.n)));
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Real by_nodes = springs * touch.k * mobility[side];
+    const Index body = touch.body[side];
+    const Real all = body < 0 ? 0 : body_springs_[static_cast<std::size_t>(body)];
+    omega2 += body < 0 ? by_nodes
+                       : std::max(touch.k * touch.gives[side],
+                                  std::min(by_nodes, std::max(all, touch.k) * touch.gives[side]));
+  }
+  return part_of_step(touch.depth, speed, clock.dt_old, omega2);
 }
 
 Vec NodeContact::velocity_of_face(const World& world, const ContactFace& f,
@@ -118,12 +135,13 @@ void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch
     touch.spread += std::abs(touch.N[e]);
   }
   if (std::isfinite(m)) touch.spread += 1;
+  if (!bodies_.of_node.empty()) find_bodies(world, touch);
   if (!(touch.depth > 0)) {
     slot.friction = Vec::Zero();
     return;
   }
   const Vec v = world.nodes.v.vec(touch.node) - velocity_of_face(world, f, touch.N);
-  const Real part = part_of(world, clock, touch, v.dot(touch.n), 1 / m + mobility);
+  const Real part = part_of(clock, touch, v.dot(touch.n), {1 / m, mobility});
   Real fn = part * touch.k * touch.depth * touch.faded;
   for (Real& t : touch.tilt) t *= part;
   if (law_.vdc > 0) {
