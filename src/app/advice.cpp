@@ -72,8 +72,8 @@ std::string advice_for_flow(const StopFacts& f) {
         f.density_low);
   if (f.strength && f.cause == StopCause::density && f.density_low < 0.5)
     return fmt::format(
-        "the density fell to {:.3g} RO: pieces of a solid fly apart; use a plain FORM of *CONTROL_SPH, 0, or "
-        "lower TSSFAC",
+        "the density fell to {:.3g} RO: pieces of a solid fly apart; use FORM 0 of *CONTROL_SPH if it is "
+        "another, or lower TSSFAC",
         f.density_low);
   if (f.cause == StopCause::step_size && told)
     return fmt::format(

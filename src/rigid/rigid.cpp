@@ -289,24 +289,25 @@ WallBodies RigidBodies::wall_bodies(const World& world) {
   out.of_node.assign(static_cast<std::size_t>(world.nodes.size()), -1);
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     for (const Index n : bodies_[k].nodes) out.of_node[static_cast<std::size_t>(n)] = static_cast<Index>(k);
-  out.give_alone = [this](Index body, const Vec& q, const Vec& n) {
+  out.answer_alone = [this](Index body, const Vec& q, const Vec& impulse, const Vec& moment) -> Vec {
     const RigidBody& b = bodies_[static_cast<std::size_t>(body)];
-    if (b.fixed()) return Real(0);
-    Vec free = n, arm = (q - b.x).cross(n);
+    if (b.fixed()) return Vec::Zero();
+    const Vec arm = q - b.x;
+    Vec free = impulse, turn = moment + arm.cross(impulse);
     for (int k = 0; k < 3; ++k) {
       if (b.held[k]) free[k] = 0;
-      if (b.no_turn[k]) arm[k] = 0;
+      if (b.no_turn[k]) turn[k] = 0;
     }
     for (const PrescribedMotion& motion : b.motions) {
       if (motion.turns) continue;
       const Vec d = b.direction_of(motion, b.q);
       free -= free.dot(d) * d;
     }
-    return free.squaredNorm() / b.m + arm.dot(b.turning_beside_drives(arm, nullptr));
+    return free / b.m + b.turning_beside_drives(turn, nullptr).cross(arm);
   };
-  out.give = [this, alone = out.give_alone](Index body, const Vec& q, const Vec& n) {
+  out.give = [this, alone = out.answer_alone](Index body, const Vec& q, const Vec& n) {
     const auto k = static_cast<std::size_t>(body);
-    return ties_ && ties_->tied(k) ? ties_->give(k, q, n) : alone(body, q, n);
+    return ties_ && ties_->tied(k) ? ties_->give(k, q, n) : n.dot(alone(body, q, n, Vec::Zero()));
   };
   out.change = [this](Index body, const Vec& q, const Clock& clock) -> Vec {
     const RigidBody& b = bodies_[static_cast<std::size_t>(body)];

@@ -66,13 +66,18 @@ void NodeContact::gather(const World& world) {
   stiffest_.take(of_nodes);
 }
 
-void NodeContact::sum_springs_of_bodies(const Clock& clock) {
-  std::fill(body_springs_.begin(), body_springs_.end(), 0);
+void NodeContact::sum_springs_of_bodies(const World& world, const Clock& clock) {
+  body_springs_.assign(body_springs_.size(), 0);
+  body_push_.assign(body_springs_.size(), Vec::Zero()), body_turn_ = body_push_;
   constexpr Real soon = 2;  // steps
   for (const Touch& touch : touches_)
-    for (const Index body : touch.body)
-      if (body >= 0 && touch.due < soon * clock.dt_old)
-        body_springs_[static_cast<std::size_t>(body)] += touch.k;
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (touch.body[side] < 0 || (clock.dt_old > 0 && !(touch.due < soon * clock.dt_old))) continue;
+      const auto b = static_cast<std::size_t>(touch.body[side]);
+      const Vec push = (side == 0 ? touch.k : -touch.k) * touch.n;
+      body_springs_[b] += touch.k, body_push_[b] += push;
+      body_turn_[b] += world.nodes.x.vec(touch.node).cross(push);
+    }
 }
 
 StiffestContact NodeContact::pull_on(const World& world, Index p) const {

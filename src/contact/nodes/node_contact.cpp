@@ -49,6 +49,7 @@ NodeContact::NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodi
   blocks_.resize(static_cast<std::size_t>(block_count(set_->size())));
   if (const auto& of_node = bodies_.of_node; !of_node.empty())
     body_springs_.assign(static_cast<std::size_t>(*std::max_element(of_node.begin(), of_node.end()) + 1), 0);
+  body_push_.assign(body_springs_.size(), Vec::Zero()), body_turn_ = body_push_;
   world.counters.try_emplace("leaked_nodes", 0);
   world.counters["contact_nodes"] += set_->size();
   world.maxima.try_emplace("max_penetration", 0);
@@ -100,7 +101,7 @@ void NodeContact::declare(const World& world, Accesses& a) const {
   if (eroded_) a.reads(*eroded_, Reach::others).in_block().reads(*eroded_, Reach::others);
   a.in_finish().updates(*leaked_).writes(touches_resource_).updates(*world.segments.contact_force);
   a.reads(n.m, Reach::others).reads(n.held, Reach::others);
-  if (holder_) a.reads(n.x, Reach::others);
+  if (holder_ || !body_springs_.empty()) a.reads(n.x, Reach::others);
 }
 
 // Lists are made anew when nodes may have come nearer than lists reach.
@@ -262,7 +263,7 @@ void NodeContact::finish(World& world, const Clock& clock) {
     if (touch.stored > 0) deepest = std::max(deepest, std::sqrt(2 * touch.stored / touch.k));
     world.segments.contact_force->add(face(touch.face).segment, -touch.force);
   }
-  sum_springs_of_bodies(clock);
+  sum_springs_of_bodies(world, clock);
   if (deepest > 0) {
     Real& most = world.maxima["max_penetration"];
     most = std::max(most, deepest);
@@ -306,6 +307,7 @@ void NodeContact::keep(Archive& archive) {
   archive("asleep", asleep_);
   archive("soft_dt", soft_dt_);
   archive("body_springs", body_springs_);
+  archive("body_push", body_push_), archive("body_turn", body_turn_);
   archive("damping_work", damping_work_);
   archive("friction_work", friction_work_);
   if (archive.loading()) listed_once_ = false;

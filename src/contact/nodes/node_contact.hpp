@@ -190,8 +190,9 @@ class NodeContact : public Force,
   void expect(const World& world, const Clock& clock, Block& b, Index i, const Slots& slots) const;
   Index body_under(const ContactFace& f) const;
   void find_bodies(const World& world, Touch& touch) const;
-  void sum_springs_of_bodies(const Clock& clock);
-  Real part_of(const Clock& clock, const Touch& touch, Real speed, const std::array<Real, 2>& mobility) const;
+  void sum_springs_of_bodies(const World& world, const Clock& clock);
+  Real part_of(const World& world, const Clock& clock, const Touch& touch, Real speed,
+               const std::array<Real, 2>& mobility) const;
   Vec velocity_of_face(const World& world, const ContactFace& f, const std::array<Real, 4>& N) const;
   Real mass_of(const World& world, Index node) const;
   Real share_of(const Share& share) const;
@@ -227,7 +228,9 @@ class NodeContact : public Force,
   Real moved_ = 0;                          ///< no node by more since then [L]
   std::vector<Index> involved_;             ///< nodes of World, tracked or corners, ascending
   std::vector<Index> place_;                ///< of each node of World in involved_, or -1
-  std::vector<Real> body_springs_;          ///< by body: of touches a step ago, and of those due soon [M/T2]
+  // by body, of touches a step ago, and of those due soon: stiffness; along their pushes; its moment about 0
+  std::vector<Real> body_springs_;          ///< [M/T2]
+  std::vector<Vec> body_push_, body_turn_;  ///< [M/T2], [ML/T2]
   std::vector<char> touched_;               ///< of those: a tracked node that touched something a step ago
   std::vector<Vec> listed_at_;              ///< where those were when lists were made
   std::vector<Vec> narrowed_at_;            ///< and when near candidates were taken

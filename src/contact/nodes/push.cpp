@@ -31,11 +31,11 @@ void NodeContact::find_bodies(const World& world, Touch& touch) const {
 }
 
 // Of the force: see part_of_step. Beside the spring act those of the corners of the face as far as they
-// touched something a step ago, and on a body all that touch it, but no more than by the masses of its nodes:
-// on the place of one all push that come at once, with arms of their own.
-Real NodeContact::part_of(const Clock& clock, const Touch& touch, Real speed,
+// touched something a step ago, and on a body all that touch it, as deep as this one.
+Real NodeContact::part_of(const World& world, const Clock& clock, const Touch& touch, Real speed,
                           const std::array<Real, 2>& mobility) const {
   const ContactFace& f = face(touch.face);
+  const Vec x = world.nodes.x.vec(touch.node);
   Real springs = 1, omega2 = 0;
   for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
     springs += std::max(touch.N[e], Real(0)) *
@@ -43,10 +43,19 @@ Real NodeContact::part_of(const Clock& clock, const Touch& touch, Real speed,
   for (std::size_t side = 0; side < 2; ++side) {
     const Real by_nodes = springs * touch.k * mobility[side];
     const Index body = touch.body[side];
-    const Real all = body < 0 ? 0 : body_springs_[static_cast<std::size_t>(body)];
-    omega2 += body < 0 ? by_nodes
-                       : std::max(touch.k * touch.gives[side],
-                                  std::min(by_nodes, std::max(all, touch.k) * touch.gives[side]));
+    if (body < 0) {
+      omega2 += by_nodes;
+      continue;
+    }
+    const auto b = static_cast<std::size_t>(body);
+    constexpr Real alone = 1.5;
+    const Real own = touch.k * touch.gives[side];
+    if (body_springs_[b] < alone * touch.k) {
+      omega2 += own;
+      continue;
+    }
+    const Vec answer = bodies_.answer_alone(body, x, body_push_[b], body_turn_[b] - x.cross(body_push_[b]));
+    omega2 += std::max((side == 0 ? 1 : -1) * touch.n.dot(answer), Real(0));
   }
   return part_of_step(touch.depth, speed, clock.dt_old, omega2);
 }
@@ -141,7 +150,7 @@ void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch
     return;
   }
   const Vec v = world.nodes.v.vec(touch.node) - velocity_of_face(world, f, touch.N);
-  const Real part = part_of(clock, touch, v.dot(touch.n), {1 / m, mobility});
+  const Real part = part_of(world, clock, touch, v.dot(touch.n), {1 / m, mobility});
   Real fn = part * touch.k * touch.depth * touch.faded;
   for (Real& t : touch.tilt) t *= part;
   if (law_.vdc > 0) {
