@@ -271,9 +271,10 @@ TEST(SwitchedParts, SwitchWhenARunIsTakenUpAgain) {
   auto first = simulation_of(deck(stiffen));
   step(*first, 60);
   EXPECT_EQ(first->world().counters["rigid_switches"], 0) << "not before a restart";
-  auto by_itself = taken_up(*first, deck("*DEFORMABLE_TO_RIGID_AUTOMATIC\n7\n0,0,0,1.0E-3,1\n1,0,PART\n"));
   auto plain = simulation_of(deck(""));
   step(*plain, 60);
+  EXPECT_EQ(test::state_of(first->world()), test::state_of(plain->world()));
+  auto by_itself = taken_up(*plain, deck("*DEFORMABLE_TO_RIGID_AUTOMATIC\n7\n0,0,0,1.0E-3,1\n1,0,PART\n"));
   auto second = taken_up(*plain, deck(stiffen));
   const auto start = places_of_nodes(second->world());
   step(*by_itself, 40), step(*second, 40);

@@ -215,7 +215,8 @@ TEST(NodeContactTouch, TakesStepsByTssfac) {
     scene.law.tssfac = tssfac;
     scene.build();
     scene.step(0), scene.step(0.005);
-    EXPECT_NEAR(scene.contact->limit(scene.world, scene.clock).dt, omega_dt / std::sqrt(2.5), 1e-12) << tssfac;
+    EXPECT_NEAR(scene.contact->limit(scene.world, scene.clock).dt, omega_dt / std::sqrt(2.5), 1e-12)
+        << tssfac;
   }
 }
 
