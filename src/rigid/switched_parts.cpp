@@ -449,9 +449,9 @@ const RegisterAddition switched_parts{
       const auto& cards = deck.all<AutomaticSwitch>();
       const std::vector<AutomaticSwitch> at_restart = switches_at_restart(deck);
       if (cards.empty() && at_restart.empty()) return;
+      const AutomaticSwitch& first = cards.empty() ? at_restart.front() : cards.front();
       if (world.dim == 2)
-        return deck.error(diagnostics, cards.empty() ? at_restart.front() : cards.front(),
-                          cards.empty() ? at_restart.front().first_field : "SWSET",
+        return deck.error(diagnostics, first, first.first_field,
                           "parts of a plane scene cannot become rigid for a while",
                           "make the scene three-dimensional");
       SwitchReader reader(deck, model, world, diagnostics);

@@ -67,6 +67,7 @@ void NodeContact::gather(const World& world) {
 }
 
 void NodeContact::sum_springs_of_bodies(const World& world, const Clock& clock) {
+  if (body_springs_.empty()) return;
   body_springs_.assign(body_springs_.size(), 0);
   body_push_.assign(body_springs_.size(), Vec::Zero()), body_turn_ = body_push_;
   constexpr Real soon = 2;  // steps

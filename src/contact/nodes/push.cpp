@@ -13,7 +13,7 @@ constexpr Real unbounded = std::numeric_limits<Real>::infinity();
 
 }  // namespace
 
-// Of a node, or of all corners of a face; -1 where they are of none, or of several.
+// The body that all corners of a face belong to; -1: none.
 Index NodeContact::body_under(const ContactFace& f) const {
   const Index body = bodies_.body(f.node[0]);
   const auto last = f.node.begin() + f.corners;
@@ -41,17 +41,15 @@ Real NodeContact::part_of(const World& world, const Clock& clock, const Touch& t
     springs += std::max(touch.N[e], Real(0)) *
                touched_[static_cast<std::size_t>(place_[static_cast<std::size_t>(f.node[e])])];
   for (std::size_t side = 0; side < 2; ++side) {
-    const Real by_nodes = springs * touch.k * mobility[side];
     const Index body = touch.body[side];
     if (body < 0) {
-      omega2 += by_nodes;
+      omega2 += springs * touch.k * mobility[side];
       continue;
     }
     const auto b = static_cast<std::size_t>(body);
-    constexpr Real alone = 1.5;
-    const Real own = touch.k * touch.gives[side];
+    constexpr Real alone = 1.5;  // times its own spring: nobody else touches, or nobody knew of this touch
     if (body_springs_[b] < alone * touch.k) {
-      omega2 += own;
+      omega2 += touch.k * touch.gives[side];
       continue;
     }
     const Vec answer = bodies_.answer_alone(body, x, body_push_[b], body_turn_[b] - x.cross(body_push_[b]));
