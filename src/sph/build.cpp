@@ -180,7 +180,8 @@ class Builder {
   void read_xsph() {
     const auto* c = deck_.last<CourantXsph>();
     if (c == nullptr) return;
-    settings_.xsph = c->eps, settings_.xsph_normed = c->norm == 1;
+    (c->vel == 1 ? settings_.velocity_smoothing : settings_.xsph) = c->eps;
+    settings_.xsph_normed = c->norm == 1;
     if (c->eps > 1)
       deck_.error(diagnostics_, *c, "EPS", fmt::format("expected at most 1, got '{:g}'", c->eps),
                   "0.5 is usual; with 1 particles move with the mean velocity of their neighbours");
@@ -453,7 +454,11 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   if (s.xsph > 0)
     add_xsph(s, world, neighbours, volumes);
   else
-    left_out.push_back({"XSPH", "no *COURANT_XSPH"});
+    left_out.push_back({"XSPH", "no *COURANT_XSPH with VEL 0"});
+  if (s.velocity_smoothing > 0)
+    add_velocity_smoothing(s, world, neighbours, volumes);
+  else
+    left_out.push_back({"velocity smoothing", "no *COURANT_XSPH with VEL 1"});
   if (s.xsph > 0 && !(s.shift.strength > 0)) add_drift_rate(s, world, neighbours, volumes);
   if (s.reinitialisation.every > 0)
     add_density_reinitialisation(s, world, neighbours, volumes);

@@ -84,7 +84,7 @@ struct CourantRenormalisation : Entry {
 /// *COURANT_XSPH, ours.
 struct CourantXsph : Entry {
   Real eps = 0;
-  int norm = 0;
+  int norm = 0, vel = 0;
 };
 
 }  // namespace courant

@@ -122,6 +122,7 @@ struct SphSettings {
   ShiftRules shift;
   std::vector<GhostPlane> mirrors;  ///< symmetry planes, along which alone particles near them drift
   Real xsph = 0;                    ///< *COURANT_XSPH: EPS; 0: none
+  Real velocity_smoothing = 0;      ///< the same where VEL is 1
   bool xsph_normed = false;         ///< over the sum of the kernel (Shepard)
   Real maxv = 0;                    ///< 0: no limit; < 0: clip; > 0: switch off [L/T]
   std::optional<Neighbours::Region> region;
@@ -209,6 +210,9 @@ ReinitialisationRules read_density_reinitialisation(const Deck&, const Model&, D
 /// Adds to the rates what smooths the density every few steps; behind all other rates of density.
 void add_density_reinitialisation(const SphSettings&, World&, std::shared_ptr<Neighbours>,
                                   std::shared_ptr<PairVolumes>);
+/// *COURANT_XSPH with VEL 1: adds to the rates the force that smooths velocities.
+void add_velocity_smoothing(const SphSettings&, World&, std::shared_ptr<Neighbours>,
+                            std::shared_ptr<PairVolumes>);
 /// Adds the motions by which particles drift, behind that by their velocity; what sets the velocities of
 /// drift comes with `add_sph_passes`.
 void add_drifts(const SphSettings&, const BodyAcceleration& loads, World&);

@@ -378,6 +378,13 @@ TEST(Restart, ShiftingWithCorrectionsAndXsph) {
       {20, 75}, 120);
 }
 
+TEST(Restart, VelocitySmoothing) {
+  expect_same({.n = 10,
+               .start = "1.5,-0.5,0.",
+               .extra = test::gravity_cards + test::floor_cards() + "*COURANT_XSPH\n0.01,1,1\n"},
+              {1, 20, 75}, 120);
+}
+
 TEST(Restart, SymmetryPlane) {
   expect_same(
       {.n = 8,

@@ -65,6 +65,9 @@ const std::vector<Choice>& choices() {
        [](Scene& s) { s.form = "1", s.extra += "*COURANT_RENORMALISATION\n0,1\n"; }, true, 0.05},  // neither
       {"XSPH", "xsph", [](Scene& s) { s.extra += "*COURANT_XSPH\n0.5\n"; }},
       {"XSPH, normed", "xsph", [](Scene& s) { s.extra += "*COURANT_XSPH\n0.5,1\n"; }},
+      {"XSPH of velocities", "xsph", [](Scene& s) { s.extra += "*COURANT_XSPH\n0.01,0,1\n"; }},
+      {"XSPH of velocities, normed", "xsph", [](Scene& s) { s.extra += "*COURANT_XSPH\n0.01,1,1\n"; },
+       false},  // means of unequal sums
       {"shifting", "shifting", [](Scene& s) { s.ishift = "1"; }},
       {"shifting, velocity corrected", "shifting",
        [](Scene& s) { s.ishift = "1", s.extra += "*COURANT_SHIFTING\n2.,0.2,0.,1\n"; }, false},

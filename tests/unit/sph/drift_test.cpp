@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "../app/small_scene.hpp"
@@ -239,6 +240,79 @@ TEST(Xsph, EnergyIsKept) {
   run(*s, 1.5);
   const EnergyLedger e = s->sample("").energy;
   EXPECT_LT(std::abs(e.residual()), std::abs(residual_without()) + 0.01 * e.throughput);
+}
+
+/// Of the cubic spline: what one smoothing leaves of a wave of that number, sum_j V_j W_ij cos(k x_ij) on the
+/// lattice.
+Real smoothed_share(Real k, Real dx, Real h) {
+  Real sum = 0;
+  for (int a = -9; a <= 9; ++a)
+    for (int b = -9; b <= 9; ++b) {
+      const Real q = dx * std::hypot(a, b) / h;
+      const Real W = q < 1 ? 1 - 1.5 * q * q + 0.75 * q * q * q : q < 2 ? 0.25 * std::pow(2 - q, 3) : 0;
+      sum += dx * dx * 10 / (7 * std::numbers::pi * h * h) * W * std::cos(k * dx * a);
+    }
+  return sum;
+}
+
+/// What a shear wave v_y = sin(k x) keeps of itself in 50 steps.
+Real kept_of_shear_wave(Real k, const std::string& cards) {
+  const auto s = test::build_deck(cloud(0.0, false, everywhere + cards));
+  Particles& p = s->world().particles;
+  for (Index i = 0; i < p.size(); ++i) p.v.set(i, {0, 1e-4 * std::sin(k * p.x.vec(i)[0]), 0});
+  const auto energy = [&] {
+    Real sum = 0;
+    for (Index i = 0; i < p.active; ++i) sum += p.v.vec(i).squaredNorm();
+    return sum;
+  };
+  steps(*s, 2);  // the first smooths nothing: no step was before it
+  const Real before = energy();
+  steps(*s, 50);
+  return std::sqrt(energy() / before);
+}
+
+// It loses EPS (1 - its smoothed share) in each step, beside what the other viscosity of the scene takes.
+TEST(VelocitySmoothing, ShearWavesDecayAsTheKernelHasIt) {
+  const Real k = 2 * std::numbers::pi, h = test::build_deck(cloud(0.0, false, ""))->world().particles.h[0];
+  const Real filling = smoothed_share(0, 0.1, h), share = smoothed_share(k, 0.1, h);
+  const Real without = kept_of_shear_wave(k, "");
+  for (const Real eps : {0.02, 0.1})
+    for (const int normed : {0, 1}) {
+      const Real lost = eps * (normed ? 1 - share / filling : filling - share);
+      const Real kept = kept_of_shear_wave(k, fmt::format("*COURANT_XSPH\n{},{},1\n", eps, normed));
+      EXPECT_NEAR(std::log(kept / without), 50 * std::log(1 - lost), 0.03 * 50 * lost)
+          << eps << " " << normed;
+    }
+}
+
+TEST(VelocitySmoothing, KeepsMomentumAndTellsItsHeat) {
+  const auto of = [](const std::string& cards) {
+    const auto s = test::build_deck(cloud(0.02, false, everywhere + cards));
+    Particles& p = s->world().particles;
+    steps(*s, 1);
+    for (Index i = 0; i < p.size(); ++i)
+      p.v.set(i, {0.1 * std::sin(double(p.id[i])), 0.01 * double(p.id[i] % 7), 0});
+    const auto momentum = [&] {
+      Vec sum = Vec::Zero();
+      for (Index i = 0; i < p.active; ++i) sum += p.m[i] * p.v.vec(i);
+      return sum;
+    };
+    const Vec before = momentum();
+    steps(*s, 1);
+    const EnergyLedger first = s->sample("").energy;
+    steps(*s, 10);
+    EXPECT_LT((momentum() - before).norm(), 1e-11 * before.norm());
+    return (s->sample("").energy.residual() - first.residual()) / first.kinetic;
+  };
+  EXPECT_LT(std::abs(of("*COURANT_XSPH\n0.02,0,1\n") - of("")), 0.01);
+}
+
+TEST(VelocitySmoothing, LeavesUniformFlowAlone) {
+  const auto a = test::build_deck(cloud(0.0, false, everywhere + "*COURANT_XSPH\n0.02,1,1\n"));
+  const auto b = test::build_deck(cloud(0.0, false, everywhere));
+  steps(*a, 20), steps(*b, 20);
+  for (Index i = 0; i < 100; ++i)
+    EXPECT_LT((a->world().particles.v.vec(i) - b->world().particles.v.vec(i)).norm(), 1e-10);
 }
 
 TEST(Xsph, WithoutStrengthIsNotThere) {
