@@ -425,6 +425,12 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
                                      std::shared_ptr<Neighbours> neighbours) {
   std::vector<PassNote> left_out;
   const auto volumes = make_pair_volumes(world);
+  const auto add_or_tell = [&](bool on, auto add, const char* name, const char* reason) {
+    if (on)
+      add(s, world, neighbours, volumes);
+    else
+      left_out.push_back({name, reason});
+  };
   const PairPasses pairs = make_pair_passes(s, world, neighbours, volumes);
   for (const auto& pass : pairs.rates) world.passes.add(pass);
   std::shared_ptr<Force> wall_images;
@@ -432,10 +438,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
     wall_images = add_wall_support(s, world, neighbours, volumes);
   else
     left_out.push_back({"wall support", "no *COURANT_WALL_SUPPORT"});
-  if (s.renormalised)
-    add_renormalisation(s, world, neighbours, volumes);
-  else
-    left_out.push_back({"renormalisation", "FORM of *CONTROL_SPH is a plain one"});
+  add_or_tell(s.renormalised, add_renormalisation, "renormalisation", "FORM of *CONTROL_SPH is a plain one");
   const bool riemann = std::holds_alternative<RiemannFlux>(s.viscosity);
   if (riemann)
     add_riemann(s, world, neighbours, volumes);
@@ -443,27 +446,14 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
     left_out.push_back({"Riemann flux", "no *COURANT_RIEMANN"});
   if (s.density_diffusion > 0 || riemann) add_density_diffusion(s, world);
   if (s.density_diffusion == 0) left_out.push_back({"density diffusion", "no *COURANT_DENSITY_DIFFUSION"});
-  if (s.volume_tau > 0)
-    add_volume_control(s, world, neighbours, volumes);
-  else
-    left_out.push_back({"volume control", "no *COURANT_VOLUME_CONTROL"});
-  if (s.shift.strength > 0)
-    add_shifting(s, world, neighbours, volumes);
-  else
-    left_out.push_back({"shifting", "ISHIFT 0"});
-  if (s.xsph > 0)
-    add_xsph(s, world, neighbours, volumes);
-  else
-    left_out.push_back({"XSPH", "no *COURANT_XSPH with VEL 0"});
-  if (s.velocity_smoothing > 0)
-    add_velocity_smoothing(s, world, neighbours, volumes);
-  else
-    left_out.push_back({"velocity smoothing", "no *COURANT_XSPH with VEL 1"});
+  add_or_tell(s.volume_tau > 0, add_volume_control, "volume control", "no *COURANT_VOLUME_CONTROL");
+  add_or_tell(s.shift.strength > 0, add_shifting, "shifting", "ISHIFT 0");
+  add_or_tell(s.xsph > 0, add_xsph, "XSPH", "no *COURANT_XSPH with VEL 0");
+  add_or_tell(s.velocity_smoothing > 0, add_velocity_smoothing, "velocity smoothing",
+              "no *COURANT_XSPH with VEL 1");
   if (s.xsph > 0 && !(s.shift.strength > 0)) add_drift_rate(s, world, neighbours, volumes);
-  if (s.reinitialisation.every > 0)
-    add_density_reinitialisation(s, world, neighbours, volumes);
-  else
-    left_out.push_back({"re-initialisation", "no *COURANT_DENSITY_REINITIALISATION"});
+  add_or_tell(s.reinitialisation.every > 0, add_density_reinitialisation, "re-initialisation",
+              "no *COURANT_DENSITY_REINITIALISATION");
   if (s.geometry_eps == 0) left_out.push_back({"frozen gradients", "no *COURANT_PAIR_GEOMETRY"});
   if (s.evolving_h)
     world.passes.add(make_smoothing_length(s, world));
