@@ -170,6 +170,7 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   block.paths.clear(), block.pulls.clear(), block.reactions.clear();
   block.belt_power = 0;
+  for (Outlook& outlook : block.outlooks) outlook.i = -1;
   if (!viscosity_) {
     const WallMirrorArrays a = arrays_of_rates(world.particles, begin);
     room_rates_(a, lists_of(*neighbours_, begin, end));
@@ -184,23 +185,37 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
       continue;
     }
     if (moves) place_sheets(i, block);
-    const WallPaths::Some some = moves ? WallPaths::all : seen_from(world.particles, i);
     for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
-      moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, some, block);
+      moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, block);
   }
   if (!viscosity_) return;
   for (Index i = begin; i < end; ++i) drag_->set(i, Vec::Zero());
   for (const WallPath& path : block.paths) drag(world.particles, path, block);
 }
 
+/// Where particle i stands in the middle of the step; beside walls that move once these are placed there.
+WallImages::Outlook& WallImages::outlook(const Particles& p, Index i, Block& block) const {
+  block.outlooks.resize(Neighbours::lanes);
+  Outlook& out = block.outlooks[static_cast<std::size_t>(i % Neighbours::lanes)];
+  if (out.i == i) return out;
+  out.i = i, out.knows_end = false;
+  const bool moves = any_moves_among(i);
+  (moves ? *in_middle_ : at_end())
+      .stand(moves ? block.in_middle : sheets(i), p.x.vec(i) - half_step_ * p.v.vec(i),
+             table_.support() * p.h[i], out.middle);
+  return out;
+}
+
 /// Ways are looked for in the middle of the step, where its rates belong, and taken along to its end, where
 /// forces act; those on their way over an edge are looked at there again.
-void WallImages::add_ways(Particles& p, Index i, Index j, WallPaths::Some some, Block& block) {
+void WallImages::add_ways(Particles& p, Index i, Index j, Block& block) {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
   const Real reach = table_.support() * p.h[i];
+  if ((in_the_middle(j) - in_the_middle(i)).squaredNorm() > power<2>(reach * rounded)) return;
+  Outlook& from = outlook(p, i, block);
   std::vector<WallPath>& paths = block.paths;
   const std::size_t first = paths.size();
-  at_end().add(sheets(i), some, i, in_the_middle(i), j, in_the_middle(j), reach, paths);
+  at_end().add(from.middle, i, j, in_the_middle(j), paths);
   bool at_edge = false;
   for (std::size_t k = first; k < paths.size(); ++k) {
     add_rate(p, paths[k], block.pulls);
@@ -209,7 +224,14 @@ void WallImages::add_ways(Particles& p, Index i, Index j, WallPaths::Some some, 
   }
   if (!at_edge) return;
   paths.resize(first);
-  at_end().add(sheets(i), some, i, p.x.vec(i), j, p.x.vec(j), reach, paths);
+  add_ways_at_end(p, j, from, paths);
+}
+
+void WallImages::add_ways_at_end(const Particles& p, Index j, Outlook& from, std::vector<WallPath>& to,
+                                 std::vector<WallPull>* pulls) const {
+  if (!std::exchange(from.knows_end, true))
+    at_end().stand(sheets(from.i), p.x.vec(from.i), table_.support() * p.h[from.i], from.end);
+  at_end().add(from.end, from.i, j, p.x.vec(j), to, pulls);
 }
 
 /// Brings what particle i sees to where walls are in the middle of the step and at its end.
@@ -226,7 +248,8 @@ void WallImages::add_ways_of_moving(Particles& p, Index i, Index j, Block& block
   if ((in_the_middle(j) - in_the_middle(i)).squaredNorm() > power<2>(reach * rounded)) return;
   std::vector<WallPath>& paths = block.paths;
   const std::size_t first = paths.size(), first_pull = block.pulls.size();
-  in_middle_->add(block.in_middle, i, in_the_middle(i), j, in_the_middle(j), reach, paths, &block.pulls);
+  Outlook& from = outlook(p, i, block);
+  in_middle_->add(from.middle, i, j, in_the_middle(j), paths, &block.pulls);
   bool at_edge = false;
   for (std::size_t k = first; k < paths.size(); ++k) {
     add_rate(p, paths[k], block.pulls);
@@ -234,7 +257,7 @@ void WallImages::add_ways_of_moving(Particles& p, Index i, Index j, Block& block
   }
   if (at_edge) {
     paths.resize(first), block.pulls.resize(first_pull);
-    at_end().add(sheets_[i], i, p.x.vec(i), j, p.x.vec(j), reach, paths, &block.pulls);
+    add_ways_at_end(p, j, from, paths, &block.pulls);
   }
   for (std::size_t k = first; k < paths.size(); ++k)
     if (paths[k].moves)
@@ -265,27 +288,17 @@ void WallImages::add_rate(Particles& p, const WallPath& path, const std::vector<
       (path.weight * slope(h, path.d) * speed(p, path).dot(path.d) + kernel(h, path.d) * share_rate);
 }
 
-/// What may matter to ways from particle i in this step.
-WallPaths::Some WallImages::seen_from(const Particles& p, Index i) const {
-  const Real reach = table_.support() * p.h[i] + 3 * width_ + 2 * half_step_ * p.v.vec(i).norm();
-  return at_end().within(sheets(i), p.x.vec(i), reach);
-}
-
 /// Those of pairs of which particle i stands in a room that one of its ways may leave.
 void WallImages::add_doubtful_ways(Particles& p, Index begin, Block& block) {
   const Index* const list = neighbours_->list(begin / block_size);
   const Index* const start = neighbours_->starts(begin / block_size);
-  std::array<WallPaths::Some, block_size> seen{};
   Index group = 0;
   for (Index k = 0; k < block.doubts; ++k) {
     const Index entry = block.doubt[static_cast<std::size_t>(k)];
     while (entry >= start[group + 1]) ++group;
     for (Index l = 0; l < Neighbours::lanes; ++l) {
       if ((block.doubt_lanes[static_cast<std::size_t>(k)] >> l & 1) == 0) continue;
-      const Index in_block = group * Neighbours::lanes + l, i = begin + in_block;
-      WallPaths::Some& some = seen[static_cast<std::size_t>(in_block)];
-      if (some == 0) some = seen_from(p, i);
-      add_ways(p, i, list[entry], some, block);
+      add_ways(p, begin + group * Neighbours::lanes + l, list[entry], block);
     }
   }
 }

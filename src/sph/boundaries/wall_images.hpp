@@ -64,19 +64,29 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
     Index segment;
     std::array<Vec, 4> on_node{Vec::Zero(), Vec::Zero(), Vec::Zero(), Vec::Zero()};
   };
+  /// From where particle i sees what it does, in the middle of the step and, if anybody asks, at its end.
+  struct Outlook {
+    Index i = -1;
+    bool knows_end = false;
+    WallPaths::Standpoint middle, end;
+  };
   /// Of a block of particles.
   struct Block {
-    std::vector<WallPath> paths;  ///< in this step, by particles
-    std::vector<WallPull> pulls;  ///< of paths
-    std::vector<WallPull> now;    ///< of the path at hand
-    WallPaths::Sheets in_middle;  ///< of the particle at hand, where walls are in the middle of the step
+    std::vector<Outlook> outlooks;  ///< of a group, once any sees ways
+    std::vector<WallPath> paths;    ///< in this step, by particles
+    std::vector<WallPull> pulls;    ///< of paths
+    std::vector<WallPull> now;      ///< of the path at hand
+    WallPaths::Sheets in_middle;    ///< of the particle at hand, where walls are in the middle of the step
     std::vector<Reaction> reactions;
     Real belt_power = 0;       ///< of belts on water [ML2/T3]
     std::vector<Index> doubt;  ///< WallMirrorArrays
     std::vector<unsigned char> doubt_lanes;
     Index doubts = 0;
   };
-  void add_ways(Particles& p, Index i, Index j, WallPaths::Some some, Block& block);
+  Outlook& outlook(const Particles& p, Index i, Block& block) const;
+  void add_ways(Particles& p, Index i, Index j, Block& block);
+  void add_ways_at_end(const Particles& p, Index j, Outlook& from, std::vector<WallPath>& to,
+                       std::vector<WallPull>* pulls = nullptr) const;
   void place_sheets(Index i, Block& block);
   void add_ways_of_moving(Particles& p, Index i, Index j, Block& block);
   struct Flat;
@@ -104,7 +114,6 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   WallMirrorArrays arrays_of_rates(Particles& p, Index begin);
   WallMirrorArrays arrays_of_forces(Particles& p, Index begin);
   void add_doubtful_ways(Particles& p, Index begin, Block& block);
-  WallPaths::Some seen_from(const Particles& p, Index i) const;
   const WallSurface& surface() const { return surface_ ? *surface_ : support_->surface(); }
   /// (dW/dr)/r [1/L^(dim+2)]
   Real slope(Real h, const Vec& d) const;
