@@ -22,7 +22,6 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
     : dim_(s.dim),
       delta_(s.density_diffusion),
       loads_(s.loads),
-      table_(s.kernel, s.dim),
       neighbours_(std::move(neighbours)),
       volumes_(std::move(volumes)),
       support_(std::move(support)),
@@ -59,11 +58,12 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
 
 Real WallImages::slope(Real h, const Vec& d) const {
   const Real r = std::max(d.norm(), 1e-9 * h);
-  return table_.slope(r / h) / (r * h * (dim_ == 2 ? power<2>(h) : power<3>(h)));
+  return kernel_->gradient_factor * kernel_->C(dim_) * kernel_->gradient(r / h) /
+         (r * h * (dim_ == 2 ? power<2>(h) : power<3>(h)));
 }
 
 Real WallImages::kernel(Real h, const Vec& d) const {
-  return table_.kernel(d.norm() / h) / (dim_ == 2 ? power<2>(h) : power<3>(h));
+  return kernel_->C(dim_) * kernel_->shape(d.norm() / h) / (dim_ == 2 ? power<2>(h) : power<3>(h));
 }
 
 void WallImages::refreshed(World& world, const Clock&, std::span<const Index>) {
@@ -101,6 +101,7 @@ void WallImages::look(World& world) {
   const Particles& p = world.particles;
   const auto n = static_cast<std::size_t>(p.active);
   if (any_moves_) sheets_.assign(n, {}), flats_.assign(n, -1), before_flat_.assign(n, 0);
+  if (any_moves_) moving_edges_.assign(n, {});
   rooms_.assign(n, nullptr), own_rooms_.resize(n), strange_.assign(n, 0);
   edges_.assign(n, nullptr), own_edges_.resize(n);
   for_each(p.active, [&](Index i) {
@@ -110,6 +111,7 @@ void WallImages::look(World& world) {
     if (!any_moves_) return;
     sheets_[i] = at_end().seen_from(p.x.vec(i));
     if (!viscosity_) any_moves_among(i) ? find_flat(p, i) : find_held_room(p, i);
+    if (!viscosity_ && any_moves_among(i) && flats_[i] < 0) find_moving_edge(p, i);
     if (mixed_ && sheets_[i].size() == 1 && sheets_[i][0].endless)  // whose faces may not be alike
       sheets_[i][0].faces = surface().faces_around(p.x.vec(i));
   });
@@ -172,6 +174,7 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   block.belt_power = 0;
   for (Outlook& outlook : block.outlooks) outlook.i = -1;
   if (!viscosity_) {
+    place_edges_in_middle(begin, end, block);
     const WallMirrorArrays a = arrays_of_rates(world.particles, begin);
     room_rates_(a, lists_of(*neighbours_, begin, end));
     edge_rates_(a, lists_of(*neighbours_, begin, end));
@@ -202,7 +205,7 @@ WallImages::Outlook& WallImages::outlook(const Particles& p, Index i, Block& blo
   const bool moves = any_moves_among(i);
   (moves ? *in_middle_ : at_end())
       .stand(moves ? block.in_middle : sheets(i), p.x.vec(i) - half_step_ * p.v.vec(i),
-             table_.support() * p.h[i], out.middle);
+             kernel_->support * p.h[i], out.middle);
   return out;
 }
 
@@ -210,7 +213,7 @@ WallImages::Outlook& WallImages::outlook(const Particles& p, Index i, Block& blo
 /// forces act; those on their way over an edge are looked at there again.
 void WallImages::add_ways(Particles& p, Index i, Index j, Block& block) {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
-  const Real reach = table_.support() * p.h[i];
+  const Real reach = kernel_->support * p.h[i];
   if ((in_the_middle(j) - in_the_middle(i)).squaredNorm() > power<2>(reach * rounded)) return;
   Outlook& from = outlook(p, i, block);
   std::vector<WallPath>& paths = block.paths;
@@ -230,7 +233,7 @@ void WallImages::add_ways(Particles& p, Index i, Index j, Block& block) {
 void WallImages::add_ways_at_end(const Particles& p, Index j, Outlook& from, std::vector<WallPath>& to,
                                  std::vector<WallPull>* pulls) const {
   if (!std::exchange(from.knows_end, true))
-    at_end().stand(sheets(from.i), p.x.vec(from.i), table_.support() * p.h[from.i], from.end);
+    at_end().stand(sheets(from.i), p.x.vec(from.i), kernel_->support * p.h[from.i], from.end);
   at_end().add(from.end, from.i, j, p.x.vec(j), to, pulls);
 }
 
@@ -244,7 +247,7 @@ void WallImages::place_sheets(Index i, Block& block) {
 /// The same where walls move.
 void WallImages::add_ways_of_moving(Particles& p, Index i, Index j, Block& block) {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
-  const Real reach = table_.support() * p.h[i];
+  const Real reach = kernel_->support * p.h[i];
   if ((in_the_middle(j) - in_the_middle(i)).squaredNorm() > power<2>(reach * rounded)) return;
   std::vector<WallPath>& paths = block.paths;
   const std::size_t first = paths.size(), first_pull = block.pulls.size();
@@ -311,6 +314,7 @@ WallMirrorArrays WallImages::arrays(Particles& p, Index begin) {
   WallMirrorArrays a{};
   a.doubt = block.doubt.data(), a.doubt_lanes = block.doubt_lanes.data(), a.doubts = &block.doubts;
   a.width = width_;
+  if (block.has_moving_edges) a.pull = block.edge_pulls.data(), a.ways = block.ways.data();
   for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.aside[k] = at_end().shift()[k];
   a.V = volumes_->current(), a.rho = p.rho.data();
   a.h = p.active > 0 ? p.h[0] : 1, a.delta = delta_, a.half_step = half_step_;
@@ -354,12 +358,14 @@ void WallImages::forces(World& world, Index begin, Index end) {
   const Real* V = volumes_->current();
   for (Index i = begin; i < end; ++i)
     if (sees(i) && !in_room(i)) force_.set(i, drag_ ? drag_->vec(i) : Vec(Vec::Zero()));
+  Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   if (!viscosity_) {
+    place_edges_at_end(begin, end, block);
     const WallMirrorArrays a = arrays_of_forces(p, begin);
     room_forces_(a, lists_of(*neighbours_, begin, end));
     edge_forces_(a, lists_of(*neighbours_, begin, end));
+    react_of_edges(p, begin, end, block);
   }
-  Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   for (Index i = begin; any_moves_ && i < end; ++i)
     if (sees(i) && before_flat_[i]) add_flat_forces(p, i, block);
   for (const WallPath& path : block.paths) {

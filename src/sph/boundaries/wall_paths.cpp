@@ -146,7 +146,8 @@ WallPaths::Sheets WallPaths::sheets_of(const std::vector<Index>& faces) const {
 /// Edges that go on straight beside the same other faces are one.
 void WallPaths::add_edge(Sheet& sheet, Index face, int edge) const {
   const auto& f = this->face(face);
-  Brink out{.face = face, .edge = edge, .from = f.x[edge], .to = f.x[(edge + 1) % f.corners]};
+  Brink out{.face = face, .edge = edge, .last_face = face, .last_edge = edge};
+  out.from = f.x[edge], out.to = f.x[(edge + 1) % f.corners];
   const Real near = 1e-6 * surface_.reach();
   const auto alike = [&](const Corner& a, const Corner& b) {
     return (a.n - b.n).norm() < 1e-9 && std::abs(a.here - b.here) < 1e-9 &&
@@ -155,19 +156,20 @@ void WallPaths::add_edge(Sheet& sheet, Index face, int edge) const {
   const auto goes_on = [&](const Brink& known) {
     const auto &these = edges_[known.face][known.edge].corners, &others = edges_[face][edge].corners;
     const Vec along = known.to - known.from;
+    if (sheet.body >= 0 && this->face(known.face).side != f.side) return false;  // its image goes its own way
     return (this->face(known.face).inward[known.edge] - f.inward[edge]).norm() < 1e-9 &&
            along.cross(out.to - known.from).norm() < near * along.norm() && these.size() == others.size() &&
            std::equal(these.begin(), these.end(), others.begin(), alike);
   };
-  for (bool more = sheet.body < 0; more;) {
+  for (bool more = true; more;) {
     more = false;
     for (std::size_t k = 0; k < sheet.edges.size(); ++k) {
       const Brink& known = sheet.edges[k];
       if (!goes_on(known)) continue;
       if ((known.to - out.from).norm() < near)
-        out.from = known.from;
+        out.from = known.from, out.face = known.face, out.edge = known.edge;
       else if ((known.from - out.to).norm() < near)
-        out.to = known.to;
+        out.to = known.to, out.last_face = known.last_face, out.last_edge = known.last_edge;
       else
         continue;
       sheet.edges.erase(sheet.edges.begin() + static_cast<std::ptrdiff_t>(k));
@@ -175,16 +177,14 @@ void WallPaths::add_edge(Sheet& sheet, Index face, int edge) const {
       break;
     }
   }
-  out.find_middle();
   sheet.edges.push_back(out);
 }
 
 /// Where an edge of a wall that moves is now.
 WallPaths::Brink WallPaths::now(const Brink& edge) const {
-  const auto& f = face(edge.face);
-  Brink out{
-      .face = edge.face, .edge = edge.edge, .from = f.x[edge.edge], .to = f.x[(edge.edge + 1) % f.corners]};
-  out.find_middle();
+  const auto &first = face(edge.face), &last = face(edge.last_face);
+  Brink out = edge;
+  out.from = first.x[edge.edge], out.to = last.x[(edge.last_edge + 1) % last.corners];
   return out;
 }
 
@@ -217,12 +217,13 @@ void WallPaths::compare(Sheets& sheets) const {
 }
 
 bool WallPaths::is_inside(const Sheet& sheet, const Vec& q) const {
+  const Vec past = Vec::Constant(overlap * surface_.reach());
+  if (!sheet.is_within({q - past, q + past})) return false;
   return sheet.endless || std::any_of(sheet.faces.begin(), sheet.faces.end(), [&](Index face) {
            const auto& f = this->face(face);
-           bool in = surface_.is_at_face(face, q);
            for (int e = 0; e < f.corners; ++e)
-             in &= f.inward[e].dot(q - f.x[e]) > -overlap * surface_.reach();
-           return in;
+             if (!(f.inward[e].dot(q - f.x[e]) > -overlap * surface_.reach())) return false;
+           return surface_.is_at_face(face, q);
          });
 }
 

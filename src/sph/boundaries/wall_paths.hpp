@@ -62,14 +62,22 @@ struct OpenRoom {
 /// all goes along alike: forces by it keep momentum and its moment.
 class WallPaths {
  public:
-  /// An edge of a sheet, of one face or, where walls are held, of several side by side.
+  /// Along the axes.
+  struct Box {
+    Vec low, high;
+    bool meets(const Box& other) const {
+      return other.low[0] <= high[0] && other.low[1] <= high[1] && other.low[2] <= high[2] &&
+             low[0] <= other.high[0] && low[1] <= other.high[1] && low[2] <= other.high[2];
+    }
+  };
+  /// An edge of a sheet, of one face or of several side by side.
   struct Brink {
     Index face = 0;
     int edge = 0;
+    Index last_face = 0;  ///< where there are several, that of `to`
+    int last_edge = 0;
     Vec from = Vec::Zero(), to = Vec::Zero();
-    Vec middle = Vec::Zero();
-    Real half = 0;  ///< of its length [L]
-    void find_middle() { middle = 0.5 * (from + to), half = 0.5 * (to - from).norm(); }
+    bool is_within(const Box& b) const { return b.meets({from.cwiseMin(to), from.cwiseMax(to)}); }
   };
   /// A flat piece of wall as somebody sees it; `endless`: nothing else, and none of its edges.
   struct Sheet {
@@ -103,10 +111,7 @@ class WallPaths {
           body == other.body ? std::max((middle - other.middle).norm() - half - other.half, Real(0)) : 0;
       return std::max(apart, (low - other.high).cwiseMax(other.low - high).cwiseMax(0).norm());
     }
-    bool is_within(const Vec& from, const Vec& to) const {
-      return from[0] <= high[0] && from[1] <= high[1] && from[2] <= high[2] && low[0] <= to[0] &&
-             low[1] <= to[1] && low[2] <= to[2];
-    }
+    bool is_within(const Box& b) const { return b.meets({low, high}); }
   };
   using Sheets = std::vector<Sheet>;
   /// Over which a free edge goes over to nothing, of the spacing of particles; by trial at steps and blocks.
@@ -119,6 +124,8 @@ class WallPaths {
   WallPaths& operator=(const WallPaths&) = delete;
   ~WallPaths() = default;
 
+  /// How far x is from the way from a to b.
+  static Real distance_to(const Vec& x, const Vec& a, const Vec& b);
   /// What may throw back ways from about x.
   Sheets seen_from(const Vec& x) const;
   /// All that stands within a distance of x [L], each with its faces and edges.
@@ -132,6 +139,16 @@ class WallPaths {
   std::unique_ptr<WallRoom> open_room_about(const Sheets& sheets, const Vec& x, Real sight) const;
   /// The edge that is all that stands within `sight` and half of the width about x; none: there is more. [L]
   std::optional<WallEdge> edge_about(const Sheets& sheets, const Vec& x, Real sight) const;
+  /// An edge of a body that moves, by numbers of its sheets, and of their edges.
+  struct LoneEdge {
+    int walls = 0;
+    std::array<std::size_t, 2> sheet{}, edge{};
+    std::array<Real, 2>
+        side{};  ///< -1: the normal away from the other wall is that of the sheet turned round
+  };
+  /// The same of a body that moves, and where such an edge is and how it goes now.
+  std::optional<LoneEdge> moving_edge_about(const Sheets& sheets, const Vec& x, Real sight) const;
+  WallEdge placed(const LoneEdge& edge, const Sheets& sheets) const;
   /// A face of the sheet that is all that stands within `sight` and half of the width about x, without an
   /// edge there, if it moves; else -1. [L]
   Index moving_flat_about(const Sheets& sheets, const Vec& x, Real sight) const;
@@ -258,16 +275,18 @@ class WallPaths {
     std::vector<WallPath>& to;
     std::vector<WallPull>* pulls;
   };
-  struct Box;
+  struct Walls;
   struct Ending {
     const Sheet* sheet;
     const Brink* edge;
   };
   bool is_one_edge(const Ending& one, const Ending& other) const;
-  void leave_out_hidden(Box& box) const;
+  std::optional<LoneEdge> lone_edge_about(const Sheets& sheets, const Vec& x, Real around, bool moves) const;
+  void leave_out_hidden(Walls& box) const;
   bool rises_from(const Sheet& sheet, const Sheet& other, const Vec& x) const;
-  bool stands_upright(const Box& box, const Vec& centre, Real inside) const;
-  void find_ends(const Box& box, const Sheets& sheets, const Vec& centre, Real around, OpenRoom& room) const;
+  bool stands_upright(const Walls& box, const Vec& centre, Real inside) const;
+  void find_ends(const Walls& box, const Sheets& sheets, const Vec& centre, Real around,
+                 OpenRoom& room) const;
   Sheet sheet_of(Index face) const;
   Sheets sheets_of(const std::vector<Index>& faces) const;
   bool goes_on_in(const Sheet& sheet, Index face) const;
@@ -278,14 +297,19 @@ class WallPaths {
   bool is_inside(const Sheet& sheet, const Vec& q) const;
   bool lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const;
   bool turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const;
-  Meeting meet(const Sheet& sheet, const Vec& a, const Vec& b, const Vec& start, const Vec& x, const Vec& y,
-               const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
+  /// About a way, with what may pass edges there.
+  Box box_about(const Vec& a, const Vec& b) const {
+    const Vec near = Vec::Constant(std::max(0.5 * width_, 2 * overlap * surface_.reach()));
+    return {a.cwiseMin(b) - near, a.cwiseMax(b) + near};
+  }
+  Meeting meet(const Sheet& sheet, const Box& about, const Vec& a, const Vec& b, const Vec& start,
+               const Vec& x, const Vec& y, const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
   Meeting hidden(const Pair& pair, const Vec& a, const Vec& b, const Sheet* but = nullptr,
                  const Sheet* and_but = nullptr) const;
   Real follow(const Pair& pair, const Sequence& by, Vec target, Way& way) const;
   void find_slopes(const Way& way, WallPath& path, std::vector<WallPull>* pulls) const;
   void find_routes(Standpoint& from, Sequence& by, const Vec& there, Real until, Real least) const;
-  bool may_end(const Standpoint& from, const Route& route, Real height, Real off) const;
+  bool may_end(const Standpoint& from, const Route& route, const Vec& y) const;
   void add_straight(const Pair& pair) const;
   void add_path(const Pair& pair, const Route& route) const;
   void compare(Sheets& sheets) const;
@@ -329,8 +353,8 @@ class WallPaths::Standpoint {
   Some some_ = 0;  ///< sheets that may matter
   Vec x_ = Vec::Zero();
   Real reach_ = 0;
-  std::vector<Real> height_, off_;              ///< over sheets and off them
-  std::vector<Real> height_there_, off_there_;  ///< of whom is looked at
+  std::vector<Real> height_, off_;  ///< over sheets and off them
+  std::vector<Real> height_there_;  ///< of whom is looked at
   std::vector<Route> routes_;
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sph/boundaries/wall_paths.hpp"
+#include "sph/core/kernel.hpp"
 
 namespace courant {
 
@@ -10,7 +11,8 @@ namespace {
 
 constexpr Real most_passed = 2;  ///< widths by which a way may pass edges, with room to spare
 
-/// The places where two pieces of lines come nearest, and how far on the first one that is, from 0 to 1.
+/// The places where two pieces of lines come nearest, and how far on the first one that is, from 0 to 1. Of
+/// two that are level, the middle of where they are side by side, as seen from both ends alike.
 struct Nearest {
   Vec here, there;
   Real part = 0;
@@ -20,7 +22,11 @@ Nearest nearest(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
   const Vec u = b - a, v = d - c, w = a - c;
   const Real uu = u.squaredNorm(), uv = u.dot(v), vv = std::max(v.squaredNorm(), Real(1e-300)), uw = u.dot(w),
              vw = v.dot(w), det = uu * vv - uv * uv;
-  Real s = det > 1e-12 * uu * vv ? std::clamp((uv * vw - vv * uw) / det, Real(0), Real(1)) : Real(0);
+  Real s = 0;
+  if (det > 1e-12 * uu * vv)
+    s = std::clamp((uv * vw - vv * uw) / det, Real(0), Real(1));
+  else if (uu > 0)
+    s = 0.5 * (std::clamp(-uw / uu, Real(0), Real(1)) + std::clamp((uv - uw) / uu, Real(0), Real(1)));
   const Real t = std::clamp((uv * s + vw) / vv, Real(0), Real(1));
   if (uu > 0) s = std::clamp((uv * t - uw) / uu, Real(0), Real(1));
   return {a + s * u, c + t * v, s};
@@ -46,8 +52,9 @@ bool WallPaths::turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, 
 /// nothing else closes for particles at x and y, it goes over from all to nothing within the width, as the
 /// way passes before the edge or behind it. So the faces on both sides of a corner, and the way past it,
 /// share all ways alike.
-WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& b, const Vec& start,
-                                   const Vec& x, const Vec& y, const Sheet* but, const Sheet* and_but) const {
+WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Box& about, const Vec& a, const Vec& b,
+                                   const Vec& start, const Vec& x, const Vec& y, const Sheet* but,
+                                   const Sheet* and_but) const {
   const Real from = sheet.height(a), to = sheet.height(b);
   Meeting out = Meeting::nowhere();
   out.crosses = from * to < 0;
@@ -60,10 +67,8 @@ WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& 
     out.inside = is_inside(sheet, out.at);
   }
   Real near = 0.5 * width_;
-  const Vec middle = 0.5 * (start + b);
-  const Real around = 0.5 * (b - start).norm() + near;
   for (const Brink& edge : sheet.edges) {
-    if ((edge.middle - middle).squaredNorm() > power<2>(around + edge.half)) continue;
+    if (!edge.is_within(about)) continue;
     const Vec &c = edge.from, &d = edge.to;
     const Nearest to_edge = nearest(start, b, c, d);
     const Real r = to_edge.distance();
@@ -93,16 +98,15 @@ WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& 
 WallPaths::Meeting WallPaths::hidden(const Pair& pair, const Vec& a, const Vec& b, const Sheet* but,
                                      const Sheet* and_but) const {
   const Sheets& sheets = *pair.from.sheets_;
-  const Real near = std::max(0.5 * width_, 2 * overlap * surface_.reach());
-  const Vec low = a.cwiseMin(b) - Vec::Constant(near), high = a.cwiseMax(b) + Vec::Constant(near);
+  const Box about = box_about(a, b);
   Meeting most = Meeting::nowhere();
   for (std::size_t k = 0; k < sheets.size(); ++k) {
     const Sheet& s = sheets[k];
-    if (&s == but || &s == and_but || !has(pair.some, k) || !s.is_within(low, high)) continue;
+    if (&s == but || &s == and_but || !has(pair.some, k) || !s.is_within(about)) continue;
     const Real from = s.height(a), to = s.height(b);
     if (!(from * to < 0) && (s.edges.empty() || std::min(std::abs(from), std::abs(to)) > 0.5 * width_))
       continue;  // as `meet` would find
-    const Meeting m = meet(s, a, b, a, pair.from.x_, pair.y, but, and_but);
+    const Meeting m = meet(s, about, a, b, a, pair.from.x_, pair.y, but, and_but);
     if (m.share > most.share) most = m;
   }
   return most;
@@ -156,13 +160,13 @@ void WallPaths::find_routes(Standpoint& from, Sequence& by, const Vec& there, Re
   }
 }
 
-/// Whether a way may end at who is so far off the last of its walls: it meets them all, and is no shorter
-/// than what its ends are off the first and the last one.
-bool WallPaths::may_end(const Standpoint& from, const Route& route, Real height, Real off) const {
+/// Whether a way by several walls may end at y: it meets them all, and is no shorter than what its ends are
+/// off the first and the last one.
+bool WallPaths::may_end(const Standpoint& from, const Route& route, const Vec& y) const {
   constexpr Real rounded = 1 + 1e-9;
-  if (route.by.size() < 2) return true;
+  const Real height = from.height_there_[route.last];
   return height * route.side > 0 && route.front + std::abs(height) <= from.reach_ * rounded &&
-         route.until + off <= from.reach_ + Real(route.by.size()) * width_;
+         route.until + route.by.back()->off(y) <= from.reach_ + Real(route.by.size()) * width_;
 }
 
 void WallPaths::add(Standpoint& from, Index i, Index j, const Vec& at_j, std::vector<WallPath>& to,
@@ -178,13 +182,12 @@ void WallPaths::add(Standpoint& from, Index i, Index j, const Vec& at_j, std::ve
   const Real reach = from.reach_;
   if ((y - x).squaredNorm() >= reach * reach) return;  // images are farther
   const Sheets& sheets = *from.sheets_;
-  from.height_there_.resize(sheets.size()), from.off_there_.resize(sheets.size());
+  from.height_there_.resize(sheets.size());
   Real from_x = reach, from_y = reach;
   for (std::size_t k = 0; k < sheets.size(); ++k) {
     if (!has(pair.some, k)) continue;
     const Real height = from.height_there_[k] = sheets[k].height(y);
-    const Real off = from.off_there_[k] = sheets[k].off(y);
-    if (k < 63 && from.off_[k] + off > reach + most_passed * width_) {
+    if (k < 63 && from.off_[k] + std::abs(height) > reach + most_passed * width_) {
       pair.some &= ~bit(k);
       continue;
     }
@@ -196,8 +199,7 @@ void WallPaths::add(Standpoint& from, Index i, Index j, const Vec& at_j, std::ve
   for (const Route& route : from.routes_) {
     if ((route.there - y).squaredNorm() >= reach * reach || (route.walls & ~pair.some) != 0) continue;
     if (route.least + from_y > reach) continue;
-    if (may_end(from, route, from.height_there_[route.last], from.off_there_[route.last]))
-      add_path(pair, route);
+    if (route.by.size() == 1 || may_end(from, route, y)) add_path(pair, route);
   }
 }
 
@@ -256,7 +258,9 @@ Real WallPaths::follow(const Pair& pair, const Sequence& by, Vec target, Way& wa
   const Sheet* last = nullptr;
   way.end = y;
   for (const Sheet* s : by) {
-    const Meeting m = meet(*s, at, target, start, x, y);
+    const Box about = box_about(start, target);
+    if (!s->is_within(about)) return 0;
+    const Meeting m = meet(*s, about, at, target, start, x, y);
     way.step(*s, start, target, m);
     if (!times(m.share, m)) return 0;
     if (by.size() > 1 &&
