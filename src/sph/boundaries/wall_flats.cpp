@@ -12,15 +12,13 @@ Index WallPaths::moving_flat_about(const Sheets& sheets, const Vec& at, Real sig
   const Real around = sight + 0.5 * width_;
   const Sheet* only = nullptr;
   for (const Sheet& s : sheets) {
-    if (std::abs(s.height(x)) > around && s.body < 0) continue;
+    if (s.off(x) > around) continue;
     if (only || s.body < 0) return -1;
     only = &s;
   }
   if (!only || !is_inside(*only, only->image(x) + only->height(x) * only->n)) return -1;
   for (const Brink& edge : only->edges) {
-    const Vec along = edge.to - edge.from;
-    const Real part = std::clamp((x - edge.from).dot(along) / along.squaredNorm(), Real(0), Real(1));
-    if ((x - edge.from - part * along).norm() <= around) return -1;
+    if (distance_to(x, edge.from, edge.to) <= around) return -1;
   }
   return only->face;
 }
@@ -28,9 +26,8 @@ Index WallPaths::moving_flat_about(const Sheets& sheets, const Vec& at, Real sig
 void WallImages::find_flat(const Particles& p, Index i) {
   const Vec x = p.x.vec(i);
   // both may move by half of the skin
-  const Real sight = 2 * support_->sight_until_search(p, i) - table_.support() * p.h[i];
-  flats_[static_cast<std::size_t>(i)] =
-      at_end().moving_flat_about(at_end().sheets_around(x, sight + 0.5 * width_), x, sight);
+  const Real sight = 2 * support_->sight_until_search(p, i) - kernel_->support * p.h[i];
+  flats_[static_cast<std::size_t>(i)] = at_end().moving_flat_about(sheets(i), x, sight);
 }
 
 /// The plane of a flat wall, its normal towards who sees it, for places that are looked at `aside` of where
@@ -51,7 +48,7 @@ bool WallImages::has_flat_to_itself(const Particles& p, Index i) const {
   if (f < 0) return false;
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
   const Vec x = in_the_middle(i);
-  const Real reach2 = power<2>(table_.support() * p.h[i]);
+  const Real reach2 = power<2>(kernel_->support * p.h[i]);
   const Flat flat(in_middle_->face(f), x, at_end().shift());
   const auto& js = neighbours_->of_group(i / Neighbours::lanes);
   return std::all_of(js.begin(), js.end(), [&](Index j) {
@@ -65,7 +62,7 @@ void WallImages::add_flat_rate(Particles& p, Index i) const {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
   const Index f = flats_[static_cast<std::size_t>(i)];
   const Vec x = in_the_middle(i), u = p.v.vec(i) - in_middle_->velocity(f, x);
-  const Real h = p.h[i], reach2 = power<2>(table_.support() * h);
+  const Real h = p.h[i], reach2 = power<2>(kernel_->support * h);
   const Flat flat(in_middle_->face(f), x, at_end().shift());
   const Real height = flat.height(x);
   Real rate = 0;
@@ -85,7 +82,7 @@ void WallImages::add_flat_rate(Particles& p, Index i) const {
 void WallImages::add_flat_forces(Particles& p, Index i, Block& block) const {
   const Index f = flats_[static_cast<std::size_t>(i)];
   const Vec x = p.x.vec(i);
-  const Real h = p.h[i], reach2 = power<2>(table_.support() * h);
+  const Real h = p.h[i], reach2 = power<2>(kernel_->support * h);
   const Flat flat(at_end().face(f), x, at_end().shift());
   const Real height = flat.height(x);
   // whoever is within reach in the middle of the step, as others see it

@@ -22,7 +22,6 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
     : dim_(s.dim),
       delta_(s.density_diffusion),
       loads_(s.loads),
-      table_(s.kernel, s.dim),
       neighbours_(std::move(neighbours)),
       volumes_(std::move(volumes)),
       support_(std::move(support)),
@@ -59,11 +58,12 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
 
 Real WallImages::slope(Real h, const Vec& d) const {
   const Real r = std::max(d.norm(), 1e-9 * h);
-  return table_.slope(r / h) / (r * h * (dim_ == 2 ? power<2>(h) : power<3>(h)));
+  return kernel_->gradient_factor * kernel_->C(dim_) * kernel_->gradient(r / h) /
+         (r * h * (dim_ == 2 ? power<2>(h) : power<3>(h)));
 }
 
 Real WallImages::kernel(Real h, const Vec& d) const {
-  return table_.kernel(d.norm() / h) / (dim_ == 2 ? power<2>(h) : power<3>(h));
+  return kernel_->C(dim_) * kernel_->shape(d.norm() / h) / (dim_ == 2 ? power<2>(h) : power<3>(h));
 }
 
 void WallImages::refreshed(World& world, const Clock&, std::span<const Index>) {
@@ -101,6 +101,7 @@ void WallImages::look(World& world) {
   const Particles& p = world.particles;
   const auto n = static_cast<std::size_t>(p.active);
   if (any_moves_) sheets_.assign(n, {}), flats_.assign(n, -1), before_flat_.assign(n, 0);
+  if (any_moves_) moving_edges_.assign(n, {});
   rooms_.assign(n, nullptr), own_rooms_.resize(n), strange_.assign(n, 0);
   edges_.assign(n, nullptr), own_edges_.resize(n);
   for_each(p.active, [&](Index i) {
@@ -110,6 +111,7 @@ void WallImages::look(World& world) {
     if (!any_moves_) return;
     sheets_[i] = at_end().seen_from(p.x.vec(i));
     if (!viscosity_) any_moves_among(i) ? find_flat(p, i) : find_held_room(p, i);
+    if (!viscosity_ && any_moves_among(i) && flats_[i] < 0) find_moving_edge(p, i);
     if (mixed_ && sheets_[i].size() == 1 && sheets_[i][0].endless)  // whose faces may not be alike
       sheets_[i][0].faces = surface().faces_around(p.x.vec(i));
   });
@@ -170,7 +172,9 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   block.paths.clear(), block.pulls.clear(), block.reactions.clear();
   block.belt_power = 0;
+  for (Outlook& outlook : block.outlooks) outlook.i = -1;
   if (!viscosity_) {
+    place_edges_in_middle(begin, end, block);
     const WallMirrorArrays a = arrays_of_rates(world.particles, begin);
     room_rates_(a, lists_of(*neighbours_, begin, end));
     edge_rates_(a, lists_of(*neighbours_, begin, end));
@@ -184,23 +188,37 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
       continue;
     }
     if (moves) place_sheets(i, block);
-    const WallPaths::Some some = moves ? WallPaths::all : seen_from(world.particles, i);
     for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
-      moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, some, block);
+      moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, block);
   }
   if (!viscosity_) return;
   for (Index i = begin; i < end; ++i) drag_->set(i, Vec::Zero());
   for (const WallPath& path : block.paths) drag(world.particles, path, block);
 }
 
+/// Where particle i stands in the middle of the step; beside walls that move once these are placed there.
+WallImages::Outlook& WallImages::outlook(const Particles& p, Index i, Block& block) const {
+  block.outlooks.resize(Neighbours::lanes);
+  Outlook& out = block.outlooks[static_cast<std::size_t>(i % Neighbours::lanes)];
+  if (out.i == i) return out;
+  out.i = i, out.knows_end = false;
+  const bool moves = any_moves_among(i);
+  (moves ? *in_middle_ : at_end())
+      .stand(moves ? block.in_middle : sheets(i), p.x.vec(i) - half_step_ * p.v.vec(i),
+             kernel_->support * p.h[i], out.middle);
+  return out;
+}
+
 /// Ways are looked for in the middle of the step, where its rates belong, and taken along to its end, where
 /// forces act; those on their way over an edge are looked at there again.
-void WallImages::add_ways(Particles& p, Index i, Index j, WallPaths::Some some, Block& block) {
+void WallImages::add_ways(Particles& p, Index i, Index j, Block& block) {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
-  const Real reach = table_.support() * p.h[i];
+  const Real reach = kernel_->support * p.h[i];
+  if ((in_the_middle(j) - in_the_middle(i)).squaredNorm() > power<2>(reach * rounded)) return;
+  Outlook& from = outlook(p, i, block);
   std::vector<WallPath>& paths = block.paths;
   const std::size_t first = paths.size();
-  at_end().add(sheets(i), some, i, in_the_middle(i), j, in_the_middle(j), reach, paths);
+  at_end().add(from.middle, i, j, in_the_middle(j), paths);
   bool at_edge = false;
   for (std::size_t k = first; k < paths.size(); ++k) {
     add_rate(p, paths[k], block.pulls);
@@ -209,7 +227,14 @@ void WallImages::add_ways(Particles& p, Index i, Index j, WallPaths::Some some, 
   }
   if (!at_edge) return;
   paths.resize(first);
-  at_end().add(sheets(i), some, i, p.x.vec(i), j, p.x.vec(j), reach, paths);
+  add_ways_at_end(p, j, from, paths);
+}
+
+void WallImages::add_ways_at_end(const Particles& p, Index j, Outlook& from, std::vector<WallPath>& to,
+                                 std::vector<WallPull>* pulls) const {
+  if (!std::exchange(from.knows_end, true))
+    at_end().stand(sheets(from.i), p.x.vec(from.i), kernel_->support * p.h[from.i], from.end);
+  at_end().add(from.end, from.i, j, p.x.vec(j), to, pulls);
 }
 
 /// Brings what particle i sees to where walls are in the middle of the step and at its end.
@@ -222,11 +247,12 @@ void WallImages::place_sheets(Index i, Block& block) {
 /// The same where walls move.
 void WallImages::add_ways_of_moving(Particles& p, Index i, Index j, Block& block) {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
-  const Real reach = table_.support() * p.h[i];
+  const Real reach = kernel_->support * p.h[i];
   if ((in_the_middle(j) - in_the_middle(i)).squaredNorm() > power<2>(reach * rounded)) return;
   std::vector<WallPath>& paths = block.paths;
   const std::size_t first = paths.size(), first_pull = block.pulls.size();
-  in_middle_->add(block.in_middle, i, in_the_middle(i), j, in_the_middle(j), reach, paths, &block.pulls);
+  Outlook& from = outlook(p, i, block);
+  in_middle_->add(from.middle, i, j, in_the_middle(j), paths, &block.pulls);
   bool at_edge = false;
   for (std::size_t k = first; k < paths.size(); ++k) {
     add_rate(p, paths[k], block.pulls);
@@ -234,7 +260,7 @@ void WallImages::add_ways_of_moving(Particles& p, Index i, Index j, Block& block
   }
   if (at_edge) {
     paths.resize(first), block.pulls.resize(first_pull);
-    at_end().add(sheets_[i], i, p.x.vec(i), j, p.x.vec(j), reach, paths, &block.pulls);
+    add_ways_at_end(p, j, from, paths, &block.pulls);
   }
   for (std::size_t k = first; k < paths.size(); ++k)
     if (paths[k].moves)
@@ -265,27 +291,17 @@ void WallImages::add_rate(Particles& p, const WallPath& path, const std::vector<
       (path.weight * slope(h, path.d) * speed(p, path).dot(path.d) + kernel(h, path.d) * share_rate);
 }
 
-/// What may matter to ways from particle i in this step.
-WallPaths::Some WallImages::seen_from(const Particles& p, Index i) const {
-  const Real reach = table_.support() * p.h[i] + 3 * width_ + 2 * half_step_ * p.v.vec(i).norm();
-  return at_end().within(sheets(i), p.x.vec(i), reach);
-}
-
 /// Those of pairs of which particle i stands in a room that one of its ways may leave.
 void WallImages::add_doubtful_ways(Particles& p, Index begin, Block& block) {
   const Index* const list = neighbours_->list(begin / block_size);
   const Index* const start = neighbours_->starts(begin / block_size);
-  std::array<WallPaths::Some, block_size> seen{};
   Index group = 0;
   for (Index k = 0; k < block.doubts; ++k) {
     const Index entry = block.doubt[static_cast<std::size_t>(k)];
     while (entry >= start[group + 1]) ++group;
     for (Index l = 0; l < Neighbours::lanes; ++l) {
       if ((block.doubt_lanes[static_cast<std::size_t>(k)] >> l & 1) == 0) continue;
-      const Index in_block = group * Neighbours::lanes + l, i = begin + in_block;
-      WallPaths::Some& some = seen[static_cast<std::size_t>(in_block)];
-      if (some == 0) some = seen_from(p, i);
-      add_ways(p, i, list[entry], some, block);
+      add_ways(p, begin + group * Neighbours::lanes + l, list[entry], block);
     }
   }
 }
@@ -298,6 +314,7 @@ WallMirrorArrays WallImages::arrays(Particles& p, Index begin) {
   WallMirrorArrays a{};
   a.doubt = block.doubt.data(), a.doubt_lanes = block.doubt_lanes.data(), a.doubts = &block.doubts;
   a.width = width_;
+  if (block.has_moving_edges) a.pull = block.edge_pulls.data(), a.ways = block.ways.data();
   for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.aside[k] = at_end().shift()[k];
   a.V = volumes_->current(), a.rho = p.rho.data();
   a.h = p.active > 0 ? p.h[0] : 1, a.delta = delta_, a.half_step = half_step_;
@@ -341,12 +358,14 @@ void WallImages::forces(World& world, Index begin, Index end) {
   const Real* V = volumes_->current();
   for (Index i = begin; i < end; ++i)
     if (sees(i) && !in_room(i)) force_.set(i, drag_ ? drag_->vec(i) : Vec(Vec::Zero()));
+  Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   if (!viscosity_) {
+    place_edges_at_end(begin, end, block);
     const WallMirrorArrays a = arrays_of_forces(p, begin);
     room_forces_(a, lists_of(*neighbours_, begin, end));
     edge_forces_(a, lists_of(*neighbours_, begin, end));
+    react_of_edges(p, begin, end, block);
   }
-  Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   for (Index i = begin; any_moves_ && i < end; ++i)
     if (sees(i) && before_flat_[i]) add_flat_forces(p, i, block);
   for (const WallPath& path : block.paths) {

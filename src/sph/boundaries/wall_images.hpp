@@ -1,6 +1,7 @@
 #pragma once
 // What walls of shells do as mirrors of the water beside them.
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -59,26 +60,43 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   void find_room(const Particles& p, Index i);
   void find_held_room(const Particles& p, Index i);
   void find_flat(const Particles& p, Index i);
+  void find_moving_edge(const Particles& p, Index i);
   /// What a segment that moves gets, on its nodes [ML/T2].
   struct Reaction {
     Index segment;
     std::array<Vec, 4> on_node{Vec::Zero(), Vec::Zero(), Vec::Zero(), Vec::Zero()};
   };
+  /// From where particle i sees what it does, in the middle of the step and, if anybody asks, at its end.
+  struct Outlook {
+    Index i = -1;
+    bool knows_end = false;
+    WallPaths::Standpoint middle, end;
+  };
   /// Of a block of particles.
   struct Block {
-    std::vector<WallPath> paths;  ///< in this step, by particles
-    std::vector<WallPull> pulls;  ///< of paths
-    std::vector<WallPull> now;    ///< of the path at hand
-    WallPaths::Sheets in_middle;  ///< of the particle at hand, where walls are in the middle of the step
+    std::vector<Outlook> outlooks;  ///< of a group, once any sees ways
+    std::vector<WallPath> paths;    ///< in this step, by particles
+    std::vector<WallPull> pulls;    ///< of paths
+    std::vector<WallPull> now;      ///< of the path at hand
+    WallPaths::Sheets in_middle;    ///< of the particle at hand, where walls are in the middle of the step
     std::vector<Reaction> reactions;
     Real belt_power = 0;       ///< of belts on water [ML2/T3]
     std::vector<Index> doubt;  ///< WallMirrorArrays
     std::vector<unsigned char> doubt_lanes;
     Index doubts = 0;
+    bool has_moving_edges = false;
+    std::vector<WallEdgePull> edge_pulls;  ///< of its particles
+    std::vector<std::uint32_t> ways;       ///< WallMirrorArrays
   };
-  void add_ways(Particles& p, Index i, Index j, WallPaths::Some some, Block& block);
+  Outlook& outlook(const Particles& p, Index i, Block& block) const;
+  void add_ways(Particles& p, Index i, Index j, Block& block);
+  void add_ways_at_end(const Particles& p, Index j, Outlook& from, std::vector<WallPath>& to,
+                       std::vector<WallPull>* pulls = nullptr) const;
   void place_sheets(Index i, Block& block);
   void add_ways_of_moving(Particles& p, Index i, Index j, Block& block);
+  void place_edges_in_middle(Index begin, Index end, Block& block);
+  void place_edges_at_end(Index begin, Index end, const Block& block);
+  void react_of_edges(const Particles& p, Index begin, Index end, Block& block) const;
   struct Flat;
   bool has_flat_to_itself(const Particles& p, Index i) const;
   void add_flat_rate(Particles& p, Index i) const;
@@ -104,7 +122,6 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   WallMirrorArrays arrays_of_rates(Particles& p, Index begin);
   WallMirrorArrays arrays_of_forces(Particles& p, Index begin);
   void add_doubtful_ways(Particles& p, Index begin, Block& block);
-  WallPaths::Some seen_from(const Particles& p, Index i) const;
   const WallSurface& surface() const { return surface_ ? *surface_ : support_->surface(); }
   /// (dW/dr)/r [1/L^(dim+2)]
   Real slope(Real h, const Vec& d) const;
@@ -118,7 +135,6 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   Real delta_, half_step_ = 0;
   BodyAcceleration loads_;
   BodyAcceleration::At now_;
-  WallTables table_;
   std::shared_ptr<Neighbours> neighbours_;
   std::shared_ptr<PairVolumes> volumes_;
   std::shared_ptr<WallSupport> support_;
@@ -144,7 +160,8 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   std::vector<std::unique_ptr<WallRoom>> own_rooms_;
   std::vector<const WallEdge*> edges_;  ///< of those that stand beside one and have no closed room
   std::vector<std::optional<WallEdge>> own_edges_;
-  std::vector<char> strange_;  ///< WallMirrorArrays
+  std::vector<std::optional<WallPaths::LoneEdge>> moving_edges_;  ///< where walls move: those that do
+  std::vector<char> strange_;                                     ///< WallMirrorArrays
   std::vector<Block> blocks_;
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 // Sums over the images of particles in rooms (see WallRoom); compiled once for each instruction set, as
 // pair_loops.hpp.
+#include <cstdint>
+
 #include "sph/boundaries/wall_room.hpp"
 #include "sph/core/kernel_choice.hpp"
 #include "sph/core/neighbour_lists.hpp"
@@ -26,6 +28,13 @@ struct WallMirrorArrays {
   Real width;                   ///< of edges [L]
   const WallRoom* const* room;  ///< of each particle; null: none
   const WallEdge* const* edge;  ///< the same, of those that have no room
+  /// Of each particle of the lists that stands beside an edge that moves; null: none does.
+  WallEdgePull* pull;
+  /// Of each entry of the lists, four bits for each of eight i beside such an edge: whether a way passes the
+  /// edge near by in the middle of the step, where forces look at all ways at its end; if not, which ways
+  /// there are, by the first wall, by the second one, and one that is hidden. Rates set them, forces read
+  /// them.
+  std::uint32_t* ways;
   /// Of each particle: 1 where it is not in its room or beside its edge, so that nothing is added here. Rates
   /// set it, forces read it.
   char* strange;

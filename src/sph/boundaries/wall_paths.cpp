@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "parallel/parallel.hpp"
 #include "sph/core/kernel.hpp"
@@ -11,27 +10,8 @@ namespace courant {
 
 namespace {
 
-constexpr Real touching = 1e-3;   ///< of the reach: what is nearer is joined, as decks round places
-constexpr Real overlap = 1e-4;    ///< of the reach: so far faces go on past their edges
 constexpr Real level = 1 - 1e-6;  ///< cosine of the angle between normals of faces in one plane
-constexpr Real most_passed = 2;   ///< widths by which a way may pass edges, with room to spare
 constexpr Real bent = 0.87;       ///< cosine of the turn up to which one face goes on in the next
-
-/// The places where two pieces of lines come nearest, and how far on the first one that is, from 0 to 1.
-struct Nearest {
-  Vec here, there;
-  Real part = 0;
-  Real distance() const { return (here - there).norm(); }
-};
-Nearest nearest(const Vec& a, const Vec& b, const Vec& c, const Vec& d) {
-  const Vec u = b - a, v = d - c, w = a - c;
-  const Real uu = u.squaredNorm(), uv = u.dot(v), vv = std::max(v.squaredNorm(), Real(1e-300)), uw = u.dot(w),
-             vw = v.dot(w), det = uu * vv - uv * uv;
-  Real s = det > 1e-12 * uu * vv ? std::clamp((uv * vw - vv * uw) / det, Real(0), Real(1)) : Real(0);
-  const Real t = std::clamp((uv * s + vw) / vv, Real(0), Real(1));
-  if (uu > 0) s = std::clamp((uv * t - uw) / uu, Real(0), Real(1));
-  return {a + s * u, c + t * v, s};
-}
 
 /// No way goes exactly through an edge, or between particles and faces that stand on one lattice, when all
 /// particles are looked at a little aside of their places, which does not matter otherwise; at the other end
@@ -70,7 +50,8 @@ WallPaths::WallPaths(const WallPaths& other)
       any_moves_(other.any_moves_),
       faces_(other.faces_),
       moved_(other.moved_),
-      motions_(other.motions_) {
+      motions_(other.motions_),
+      boxes_(other.boxes_) {
   if (!moved_.empty()) faces_ = moved_.data();
 }
 
@@ -165,7 +146,8 @@ WallPaths::Sheets WallPaths::sheets_of(const std::vector<Index>& faces) const {
 /// Edges that go on straight beside the same other faces are one.
 void WallPaths::add_edge(Sheet& sheet, Index face, int edge) const {
   const auto& f = this->face(face);
-  Brink out{.face = face, .edge = edge, .from = f.x[edge], .to = f.x[(edge + 1) % f.corners]};
+  Brink out{.face = face, .edge = edge, .last_face = face, .last_edge = edge};
+  out.from = f.x[edge], out.to = f.x[(edge + 1) % f.corners];
   const Real near = 1e-6 * surface_.reach();
   const auto alike = [&](const Corner& a, const Corner& b) {
     return (a.n - b.n).norm() < 1e-9 && std::abs(a.here - b.here) < 1e-9 &&
@@ -174,19 +156,20 @@ void WallPaths::add_edge(Sheet& sheet, Index face, int edge) const {
   const auto goes_on = [&](const Brink& known) {
     const auto &these = edges_[known.face][known.edge].corners, &others = edges_[face][edge].corners;
     const Vec along = known.to - known.from;
+    if (sheet.body >= 0 && this->face(known.face).side != f.side) return false;  // its image goes its own way
     return (this->face(known.face).inward[known.edge] - f.inward[edge]).norm() < 1e-9 &&
            along.cross(out.to - known.from).norm() < near * along.norm() && these.size() == others.size() &&
            std::equal(these.begin(), these.end(), others.begin(), alike);
   };
-  for (bool more = sheet.body < 0; more;) {
+  for (bool more = true; more;) {
     more = false;
     for (std::size_t k = 0; k < sheet.edges.size(); ++k) {
       const Brink& known = sheet.edges[k];
       if (!goes_on(known)) continue;
       if ((known.to - out.from).norm() < near)
-        out.from = known.from;
+        out.from = known.from, out.face = known.face, out.edge = known.edge;
       else if ((known.from - out.to).norm() < near)
-        out.to = known.to;
+        out.to = known.to, out.last_face = known.last_face, out.last_edge = known.last_edge;
       else
         continue;
       sheet.edges.erase(sheet.edges.begin() + static_cast<std::ptrdiff_t>(k));
@@ -194,16 +177,14 @@ void WallPaths::add_edge(Sheet& sheet, Index face, int edge) const {
       break;
     }
   }
-  out.find_middle();
   sheet.edges.push_back(out);
 }
 
 /// Where an edge of a wall that moves is now.
 WallPaths::Brink WallPaths::now(const Brink& edge) const {
-  const auto& f = face(edge.face);
-  Brink out{
-      .face = edge.face, .edge = edge.edge, .from = f.x[edge.edge], .to = f.x[(edge.edge + 1) % f.corners]};
-  out.find_middle();
+  const auto &first = face(edge.face), &last = face(edge.last_face);
+  Brink out = edge;
+  out.from = first.x[edge.edge], out.to = last.x[(edge.last_edge + 1) % last.corners];
   return out;
 }
 
@@ -236,258 +217,14 @@ void WallPaths::compare(Sheets& sheets) const {
 }
 
 bool WallPaths::is_inside(const Sheet& sheet, const Vec& q) const {
+  const Vec past = Vec::Constant(overlap * surface_.reach());
+  if (!sheet.is_within({q - past, q + past})) return false;
   return sheet.endless || std::any_of(sheet.faces.begin(), sheet.faces.end(), [&](Index face) {
            const auto& f = this->face(face);
-           bool in = surface_.is_at_face(face, q);
            for (int e = 0; e < f.corners; ++e)
-             in &= f.inward[e].dot(q - f.x[e]) > -overlap * surface_.reach();
-           return in;
+             if (!(f.inward[e].dot(q - f.x[e]) > -overlap * surface_.reach())) return false;
+           return surface_.is_at_face(face, q);
          });
-}
-
-/// Whether both ends of an edge lie in the plane of a sheet.
-bool WallPaths::lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const {
-  const Real most = touching * surface_.reach();
-  return sheet && std::abs(sheet->height(c)) < most && std::abs(sheet->height(d)) < most;
-}
-
-/// Whether sheets meet in a convex corner: no way goes from one to the other.
-bool WallPaths::turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const {
-  return std::any_of(sheet.edges.begin(), sheet.edges.end(), [&](const auto& edge) {
-    return lies_in(edge.from, edge.to, &other) && is_free(edge.face, edge.edge, x) &&
-           is_free(edge.face, edge.edge, y);
-  });
-}
-
-/// How much of a way from `a` to `b`, which began at `start`, the sheet takes: where it passes an edge that
-/// nothing else closes for particles at x and y, it goes over from all to nothing within the width, as the
-/// way passes before the edge or behind it. So the faces on both sides of a corner, and the way past it,
-/// share all ways alike.
-WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Vec& a, const Vec& b, const Vec& start,
-                                   const Vec& x, const Vec& y, const Sheet* but, const Sheet* and_but) const {
-  const Real from = sheet.height(a), to = sheet.height(b);
-  Meeting out;
-  out.crosses = from * to < 0;
-  // edges lie in the plane, and are not nearer than it is
-  if (!out.crosses &&
-      (sheet.edges.empty() || std::min(std::abs(sheet.height(start)), std::abs(to)) > 0.5 * width_))
-    return {};
-  if (out.crosses) {
-    out.at = a + (b - a) * (from / (from - to));
-    out.inside = is_inside(sheet, out.at);
-  }
-  Real near = 0.5 * width_;
-  const Vec middle = 0.5 * (start + b);
-  const Real around = 0.5 * (b - start).norm() + near;
-  for (const Brink& edge : sheet.edges) {
-    if ((edge.middle - middle).squaredNorm() > power<2>(around + edge.half)) continue;
-    const Vec &c = edge.from, &d = edge.to;
-    const Nearest to_edge = nearest(start, b, c, d);
-    const Real r = to_edge.distance();
-    if (r >= std::max(near, 2 * overlap * surface_.reach())) continue;
-    const Index face = edge.face;
-    const int e = edge.edge;
-    const auto& f = this->face(face);
-    const bool passed = lies_in(c, d, but) || lies_in(c, d, and_but);
-    if (!passed && (r >= near || !is_free(face, e, x) || !is_free(face, e, y))) continue;
-    // what joins faces does not count where they end
-    if (out.inside && nearest(out.at, out.at, c, d).distance() < 2 * overlap * surface_.reach())
-      out.inside = f.inward[e].dot(out.at - c) > 1e-12 * surface_.reach();
-    if (passed) continue;  // the way ends on the other side of that edge
-    near = r;
-    if (!out.crosses) out.at = to_edge.there;
-    out.edge_of = face, out.on_edge = to_edge.there;
-    const Vec away = (to_edge.here - to_edge.there) / std::max(r, Real(1e-300));
-    out.by_start = (1 - to_edge.part) * away, out.by_end = to_edge.part * away;
-  }
-  const Real side = out.inside ? 1 : -1, t = 0.5 + side * near / width_;
-  out.share = t * t * (3 - 2 * t);
-  out.by_start *= 6 * t * (1 - t) * side / width_, out.by_end *= 6 * t * (1 - t) * side / width_;
-  return out;
-}
-
-/// What hides most of a way from `a` to `b`.
-WallPaths::Meeting WallPaths::hidden(const Sheets& sheets, Some some, const Vec& a, const Vec& b,
-                                     const Vec& x, const Vec& y, const Sheet* but,
-                                     const Sheet* and_but) const {
-  Meeting most;
-  for (std::size_t k = 0; k < sheets.size(); ++k) {
-    const Sheet& s = sheets[k];
-    if (&s == but || &s == and_but || !has(some, k)) continue;
-    const Real from = s.height(a), to = s.height(b);
-    if (!(from * to < 0) && (s.edges.empty() || std::min(std::abs(from), std::abs(to)) > 0.5 * width_))
-      continue;  // as `meet` would find
-    const Meeting m = meet(s, a, b, a, x, y, but, and_but);
-    if (m.share > most.share) most = m;
-  }
-  return most;
-}
-
-WallPaths::Some WallPaths::within(const Sheets& sheets, const Vec& at, Real reach) const {
-  const Vec x = put_aside(at);
-  Some out = sheets.size() > 63 ? Some(1) << 63 : 0;
-  for (std::size_t k = 0; k < std::min<std::size_t>(sheets.size(), 63); ++k)
-    if (sheets[k].off(x) <= reach) out |= Some(1) << k;
-  return out;
-}
-
-/// A way that has to do with a wall is no shorter than what both ends are off it, but for widths of edges.
-void WallPaths::add(const Sheets& sheets, Some some, Index i, const Vec& at_i, Index j, const Vec& at_j,
-                    Real reach, std::vector<WallPath>& to, std::vector<WallPull>* pulls) const {
-  const Vec x = put_aside(at_i), y = put_aside(at_j, i == j);
-  if ((y - x).squaredNorm() >= reach * reach) return;  // images are farther
-  Real from_x = reach, from_y = reach;
-  for (std::size_t k = 0; k < std::min<std::size_t>(sheets.size(), 63); ++k) {
-    if (!has(some, k)) continue;
-    const Sheet& s = sheets[k];
-    if (s.off(x) + s.off(y) > reach + most_passed * width_) {
-      some &= ~(Some(1) << k);
-      continue;
-    }
-    from_x = std::min(from_x, std::abs(s.height(x)));
-    from_y = std::min(from_y, std::abs(s.height(y)));
-  }
-  for (std::size_t k = 63; k < sheets.size(); ++k) {
-    from_x = std::min(from_x, std::abs(sheets[k].height(x)));
-    from_y = std::min(from_y, std::abs(sheets[k].height(y)));
-  }
-  if (some == 0) return;
-  if (i != j) add_straight(sheets, some, i, x, j, y, to, pulls);
-  if (from_x + from_y > reach + width_) return;
-  Sequence by;
-  add_thrown_back({sheets, some, i, j, x, y, reach, from_y, to, pulls}, by, x, 0);
-}
-
-void WallPaths::add_straight(const Sheets& sheets, Some some, Index i, const Vec& x, Index j, const Vec& y,
-                             std::vector<WallPath>& to, std::vector<WallPull>* pulls) const {
-  const Meeting m = hidden(sheets, some, x, y, x, y);
-  if (!(m.share > 0)) return;
-  WallPath path{.i = i, .j = j, .weight = -m.share, .d = x - y};
-  path.by_i = -m.by_start, path.by_j = -m.by_end;
-  if (pulls) {
-    path.pulls = static_cast<Index>(pulls->size());
-    pull_edge(m, 1, *pulls);
-    path.pulls_end = static_cast<Index>(pulls->size());
-  }
-  to.push_back(path);
-}
-
-/// Ways by the walls `by`, behind all of which x is seen at `x_there`, and then one more, or several: as many
-/// as there are directions, or two more in the plane, where corners may be sharp. `way`: they are no shorter
-/// up to the last of these walls, but for a width for each of them: ways may pass edges by half of that.
-void WallPaths::add_thrown_back(const Search& search, Sequence& by, const Vec& x_there, Real way) const {
-  const std::size_t most = dim_ == 2 ? 4 : 3;
-  const Sheets& sheets = search.sheets;
-  for (std::size_t k = 0; k < sheets.size(); ++k) {
-    if (!has(search.some, k)) continue;
-    const Sheet& s = sheets[k];
-    if (by.empty() ? std::abs(s.height(search.x)) > search.reach : by.back() == &s) continue;
-    if (by.size() == 1 && by.front()->turns_away(k, search.x)) continue;
-    const Real until = by.empty() ? s.off(search.x) : way + by.back()->off(s);
-    if (until + search.least_y > search.reach + Real(by.size() + 1) * width_) continue;
-    const bool ends = by.empty() || may_end(search, by, s, x_there, until);
-    const Vec there = s.image(x_there);
-    by.push_back(&s);
-    if (ends && (there - search.y).squaredNorm() < search.reach * search.reach) add_path(search, by);
-    if (by.size() < most && sheets.size() > 1) add_thrown_back(search, by, there, until);
-    by.pop_back();
-  }
-}
-
-/// Whether a way by the walls `by` may end with one more. It would meet them all, so that it comes from where
-/// y is to the last one, and is no shorter than what x is off the first and y off the last.
-bool WallPaths::may_end(const Search& search, const Sequence& by, const Sheet& last, const Vec& x_there,
-                        Real way) const {
-  constexpr Real rounded = 1 + 1e-9;
-  const Real from_y = last.height(search.y);
-  if (!(from_y * last.height(x_there) > 0)) return false;
-  if (std::abs(by.front()->height(search.x)) + std::abs(from_y) > search.reach * rounded) return false;
-  if (last.turns_away(static_cast<std::size_t>(by.back() - search.sheets.data()), search.y)) return false;
-  return way + last.off(search.y) <= search.reach + Real(by.size() + 1) * width_;
-}
-
-void WallPaths::add_path(const Search& search, const Sequence& by) const {
-  WallPath path{.i = search.i, .j = search.j};
-  Vec image = search.y;
-  for (std::size_t k = by.size(); k-- > 0;) image = by[k]->image(image);
-  path.d = search.x - image;
-  for (const Sheet* sheet : by) path.turn = path.turn * sheet->turn();
-  const Sheet& s = *by.back();
-  if (s.endless && !search.pulls)
-    path.weight = s.height(search.x) * s.height(image) < 0;  // nothing else is there
-  else if (search.pulls)
-    follow<true>(search.sheets, search.some, by, search.x, search.y, image, path, search.pulls);
-  else
-    follow<false>(search.sheets, search.some, by, search.x, search.y, image, path, search.pulls);
-  if (search.i == search.j)
-    path.by_i = path.by_j = 0.5 * (path.by_i + path.by_j);  // but for rounding they are
-  if (!(path.weight > 0)) return;
-  note_walls(search.sheets, by, search.y, path);
-  search.to.push_back(path);
-}
-
-/// Which walls throw a way back, and how they take the image of y along.
-void WallPaths::note_walls(const Sheets& sheets, const Sequence& by, Vec y, WallPath& path) const {
-  for (std::size_t k = 0; k < by.size(); ++k) {
-    path.by[k] = static_cast<signed char>(by[k] - sheets.data());
-    path.moves |= by[k]->body >= 0;
-  }
-  if (!path.moves) return;
-  for (std::size_t k = by.size(); k-- > 0;) y = image(*by[k], y, path.drift);
-}
-
-/// Follows the way from x towards the image of y behind the walls `by`, each of which turns it back, and
-/// gives the path its share and the slopes of that: a product of what walls take and of what none of the
-/// others hides.
-template <bool recorded>
-void WallPaths::follow(const Sheets& sheets, Some some, const Sequence& by, const Vec& x, const Vec& y,
-                       Vec target, WallPath& path, [[maybe_unused]] std::vector<WallPull>* pulls) const {
-  [[maybe_unused]] std::conditional_t<recorded, Way, char> way;
-  Vec start = x, at = x;
-  // what these change by when x and y do
-  Matrix start_by_x = Matrix::Identity(), target_by_y = path.turn, at_by_x = start_by_x,
-         at_by_y = Matrix::Zero();
-  Real share = 1;
-  Vec by_x = Vec::Zero(), by_y = Vec::Zero();
-  const auto times = [&](Real factor, const Vec& slope_x, const Vec& slope_y) {
-    by_x = factor * by_x + share * slope_x, by_y = factor * by_y + share * slope_y;
-    share *= factor;
-    return share > 0;
-  };
-  const Sheet* last = nullptr;
-  for (const Sheet* s : by) {
-    const Meeting m = meet(*s, at, target, start, x, y);
-    if constexpr (recorded) way.step(*s, start, target, m);
-    if (by.size() > 1 &&
-        (!m.crosses || (last && (turn_away(*s, *last, x, y) || (any_moves_ && turn_away(*last, *s, x, y))))))
-      return;
-    if (!times(m.share, start_by_x.transpose() * m.by_start, target_by_y.transpose() * m.by_end)) return;
-    Matrix m_by_x = Matrix::Zero(), m_by_y = Matrix::Zero();
-    if (m.crosses) {
-      const Vec along = target - start;
-      const Matrix in_wall = Matrix::Identity() - along * s->n.transpose() / s->n.dot(along);
-      const Real part = s->height(start) / (s->height(start) - s->height(target));
-      m_by_x = (1 - part) * in_wall * start_by_x, m_by_y = part * in_wall * target_by_y;
-    }
-    const Meeting h = hidden(sheets, some, at, m.at, x, y, last, s);
-    if constexpr (recorded) way.hidden[way.steps - 1] = h;
-    if (!times(1 - h.share, -(at_by_x.transpose() * h.by_start + m_by_x.transpose() * h.by_end),
-               -(at_by_y.transpose() * h.by_start + m_by_y.transpose() * h.by_end)))
-      return;
-    start = s->image(start), target = s->image(target);
-    start_by_x = s->turn() * start_by_x, target_by_y = s->turn() * target_by_y;
-    at = m.at, at_by_x = m_by_x, at_by_y = m_by_y, last = s;
-  }
-  const Meeting h = hidden(sheets, some, at, y, x, y, last);
-  if (!times(1 - h.share, -at_by_x.transpose() * h.by_start, -at_by_y.transpose() * h.by_start - h.by_end))
-    return;
-  path.weight = share, path.by_i = by_x, path.by_j = by_y;
-  if constexpr (recorded) {
-    way.hidden[way.steps] = h, way.end = y;
-    path.pulls = static_cast<Index>(pulls->size());
-    pull_all(way, share, *pulls);
-    path.pulls_end = static_cast<Index>(pulls->size());
-  }
 }
 
 }  // namespace courant

@@ -62,14 +62,22 @@ struct OpenRoom {
 /// all goes along alike: forces by it keep momentum and its moment.
 class WallPaths {
  public:
-  /// An edge of a sheet, of one face or, where walls are held, of several side by side.
+  /// Along the axes.
+  struct Box {
+    Vec low, high;
+    bool meets(const Box& other) const {
+      return other.low[0] <= high[0] && other.low[1] <= high[1] && other.low[2] <= high[2] &&
+             low[0] <= other.high[0] && low[1] <= other.high[1] && low[2] <= other.high[2];
+    }
+  };
+  /// An edge of a sheet, of one face or of several side by side.
   struct Brink {
     Index face = 0;
     int edge = 0;
+    Index last_face = 0;  ///< where there are several, that of `to`
+    int last_edge = 0;
     Vec from = Vec::Zero(), to = Vec::Zero();
-    Vec middle = Vec::Zero();
-    Real half = 0;  ///< of its length [L]
-    void find_middle() { middle = 0.5 * (from + to), half = 0.5 * (to - from).norm(); }
+    bool is_within(const Box& b) const { return b.meets({from.cwiseMin(to), from.cwiseMax(to)}); }
   };
   /// A flat piece of wall as somebody sees it; `endless`: nothing else, and none of its edges.
   struct Sheet {
@@ -86,24 +94,24 @@ class WallPaths {
     std::uint64_t under = 0, over = 0;
     Vec middle = Vec::Zero();  ///< of its faces when they were looked for, of which none is farther than
     Real half = std::numeric_limits<Real>::infinity();  ///< this [L]
-    Vec low = Vec::Constant(-half), high = -low;        ///< about its faces, where they are held [L]
+    Vec low = Vec::Constant(-half), high = -low;        ///< about its faces where they are [L]
     Real height(const Vec& x) const { return n.dot(x) - offset; }
     Vec image(const Vec& x) const { return x - 2 * height(x) * n; }
     Matrix turn() const { return Matrix::Identity() - 2 * n * n.transpose(); }
-    bool turns_away(std::size_t other, const Vec& from) const {
-      return other < 64 && (((height(from) > 0 ? under : over) >> other) & 1) != 0;
+    /// `from`: the height of where ways come from.
+    bool turns_away(std::size_t other, Real from) const {
+      return other < 64 && (((from > 0 ? under : over) >> other) & 1) != 0;
     }
     /// What a way from x to it is no shorter than; from it to another one. [L]
     Real off(const Vec& x) const {
-      if (body >= 0) return std::abs(height(x));
       return std::max(std::abs(height(x)), (low - x).cwiseMax(x - high).cwiseMax(0).norm());
     }
     Real off(const Sheet& other) const {
-      if (body != other.body) return 0;
-      const Real apart = std::max((middle - other.middle).norm() - half - other.half, Real(0));
-      if (body >= 0) return apart;
+      const Real apart =
+          body == other.body ? std::max((middle - other.middle).norm() - half - other.half, Real(0)) : 0;
       return std::max(apart, (low - other.high).cwiseMax(other.low - high).cwiseMax(0).norm());
     }
+    bool is_within(const Box& b) const { return b.meets({low, high}); }
   };
   using Sheets = std::vector<Sheet>;
   /// Over which a free edge goes over to nothing, of the spacing of particles; by trial at steps and blocks.
@@ -116,6 +124,8 @@ class WallPaths {
   WallPaths& operator=(const WallPaths&) = delete;
   ~WallPaths() = default;
 
+  /// How far x is from the way from a to b.
+  static Real distance_to(const Vec& x, const Vec& a, const Vec& b);
   /// What may throw back ways from about x.
   Sheets seen_from(const Vec& x) const;
   /// All that stands within a distance of x [L], each with its faces and edges.
@@ -129,23 +139,33 @@ class WallPaths {
   std::unique_ptr<WallRoom> open_room_about(const Sheets& sheets, const Vec& x, Real sight) const;
   /// The edge that is all that stands within `sight` and half of the width about x; none: there is more. [L]
   std::optional<WallEdge> edge_about(const Sheets& sheets, const Vec& x, Real sight) const;
+  /// An edge of a body that moves, by numbers of its sheets, and of their edges.
+  struct LoneEdge {
+    int walls = 0;
+    std::array<std::size_t, 2> sheet{}, edge{};
+    std::array<Real, 2>
+        side{};  ///< -1: the normal away from the other wall is that of the sheet turned round
+  };
+  /// The same of a body that moves, and where such an edge is and how it goes now.
+  std::optional<LoneEdge> moving_edge_about(const Sheets& sheets, const Vec& x, Real sight) const;
+  WallEdge placed(const LoneEdge& edge, const Sheets& sheets) const;
   /// A face of the sheet that is all that stands within `sight` and half of the width about x, without an
   /// edge there, if it moves; else -1. [L]
   Index moving_flat_about(const Sheets& sheets, const Vec& x, Real sight) const;
-  /// Appends the ways from i to j that walls change; `reach`: how far the kernel does [L].
-  void add(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y, Real reach,
-           std::vector<WallPath>& to, std::vector<WallPull>* pulls = nullptr) const {
-    add(sheets, all, i, x, j, y, reach, to, pulls);
-  }
   /// Sheets by their numbers, one bit each; those behind the first 63 have the last one.
   using Some = std::uint64_t;
-  static constexpr Some all = ~Some(0);
-  static bool has(Some some, std::size_t k) { return (some >> std::min<std::size_t>(k, 63) & 1) != 0; }
-  /// The same by what may matter to a way from x.
-  void add(const Sheets& sheets, Some some, Index i, const Vec& x, Index j, const Vec& y, Real reach,
+  static Some bit(std::size_t k) { return Some(1) << std::min<std::size_t>(k, 63); }
+  static bool has(Some some, std::size_t k) { return (some & bit(k)) != 0; }
+  class Standpoint;
+  /// Looks from x, as far as the kernel reaches, at sheets, which must stay where they are as long as
+  /// somebody stands there [L].
+  void stand(const Sheets& sheets, const Vec& x, Real reach, Standpoint& to) const;
+  /// Appends the ways from particle i, that stands there, to j at y, that walls change.
+  void add(Standpoint& from, Index i, Index j, const Vec& y, std::vector<WallPath>& to,
+           std::vector<WallPull>* pulls = nullptr) const;
+  /// The same for one pair.
+  void add(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y, Real reach,
            std::vector<WallPath>& to, std::vector<WallPull>* pulls = nullptr) const;
-  /// What may matter to ways from x, that go as far as the reach.
-  Some within(const Sheets& sheets, const Vec& x, Real reach) const;
 
   /// Where walls that move were `back` ago, by their velocity over the last step. [T]
   void take_along(const World& world, Real back);
@@ -194,21 +214,26 @@ class WallPaths {
   };
   /// Where on a sheet a way meets it.
   struct Meeting {
-    bool crosses = false, inside = false;
-    Vec at = Vec::Zero();
-    Real share = 0;
-    Vec by_start = Vec::Zero(), by_end = Vec::Zero();  ///< slopes of the share [1/L]
-    Index edge_of = -1;                                ///< the face whose edge makes it go over
-    Vec on_edge;                                       ///< where there is one
+    bool crosses, inside;
+    Vec at;
+    Real share;
+    Vec by_start, by_end;  ///< slopes of the share [1/L]
+    const Sheet* edge_of;  ///< the sheet whose edge makes it go over
+    Vec on_edge;           ///< where there is one
+    static Meeting nowhere() {
+      return {false, false, Vec::Zero(), 0, Vec::Zero(), Vec::Zero(), nullptr, Vec::Zero()};
+    }
   };
   /// How a way went, for whom its share depends on.
   struct Way {
-    std::array<const Sheet*, 4> by{};
+    std::array<const Sheet*, 4> by;
     std::array<Vec, 4> start, target;  ///< before each wall turns the way back
     std::array<Meeting, 4> met;        ///< with that wall
     std::array<Meeting, 5> hidden;     ///< before each wall, and at the end
-    Vec end = Vec::Zero();
-    int steps = 0;
+    Vec end;
+    int steps;
+    bool bends;                        ///< its share goes over at an edge
+    Way() : steps(0), bends(false) {}  // the rest is set as far as the way goes
     void step(const Sheet& sheet, const Vec& from, const Vec& to, const Meeting& m) {
       by[steps] = &sheet, start[steps] = from, target[steps] = to, met[steps++] = m;
     }
@@ -230,16 +255,38 @@ class WallPaths {
     std::array<const Sheet*, 4> sheets_{};
     std::size_t size_ = 0;
   };
-  struct Box;
+  /// Walls that may throw a way back in turn, as far as that depends on where it starts.
+  struct Route {
+    Sequence by;
+    Some walls = 0;                    ///< the same
+    std::size_t last = 0;              ///< of them
+    Matrix turn = Matrix::Identity();  ///< as of WallPath
+    Vec there = Vec::Zero();           ///< where its start is seen behind all of them
+    Real until = 0, least = 0;         ///< `find_routes`
+    Real side = 0;                     ///< of the last wall, on which it ends
+    Real front = 0;                    ///< what the start is off the first one [L]
+  };
+  /// Two particles between which ways are looked for.
+  struct Pair {
+    const Standpoint& from;
+    Index i, j;
+    Vec y;
+    Some some;  ///< sheets that may matter
+    std::vector<WallPath>& to;
+    std::vector<WallPull>* pulls;
+  };
+  struct Walls;
   struct Ending {
     const Sheet* sheet;
     const Brink* edge;
   };
   bool is_one_edge(const Ending& one, const Ending& other) const;
-  void leave_out_hidden(Box& box) const;
+  std::optional<LoneEdge> lone_edge_about(const Sheets& sheets, const Vec& x, Real around, bool moves) const;
+  void leave_out_hidden(Walls& box) const;
   bool rises_from(const Sheet& sheet, const Sheet& other, const Vec& x) const;
-  bool stands_upright(const Box& box, const Vec& centre, Real inside) const;
-  void find_ends(const Box& box, const Sheets& sheets, const Vec& centre, Real around, OpenRoom& room) const;
+  bool stands_upright(const Walls& box, const Vec& centre, Real inside) const;
+  void find_ends(const Walls& box, const Sheets& sheets, const Vec& centre, Real around,
+                 OpenRoom& room) const;
   Sheet sheet_of(Index face) const;
   Sheets sheets_of(const std::vector<Index>& faces) const;
   bool goes_on_in(const Sheet& sheet, Index face) const;
@@ -250,29 +297,21 @@ class WallPaths {
   bool is_inside(const Sheet& sheet, const Vec& q) const;
   bool lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const;
   bool turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const;
-  Meeting meet(const Sheet& sheet, const Vec& a, const Vec& b, const Vec& start, const Vec& x, const Vec& y,
-               const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
-  Meeting hidden(const Sheets& sheets, Some some, const Vec& a, const Vec& b, const Vec& x, const Vec& y,
-                 const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
-  template <bool recorded>
-  void follow(const Sheets& sheets, Some some, const Sequence& by, const Vec& x, const Vec& y, Vec target,
-              WallPath& path, std::vector<WallPull>* pulls) const;
-  void add_straight(const Sheets& sheets, Some some, Index i, const Vec& x, Index j, const Vec& y,
-                    std::vector<WallPath>& to, std::vector<WallPull>* pulls) const;
-  /// Which ways from i to j are looked for; `least_y`: what y is off any sheet.
-  struct Search {
-    const Sheets& sheets;
-    Some some;
-    Index i, j;
-    Vec x, y;
-    Real reach, least_y;
-    std::vector<WallPath>& to;
-    std::vector<WallPull>* pulls;
-  };
-  void add_thrown_back(const Search& search, Sequence& by, const Vec& x_there, Real way) const;
-  void add_path(const Search& search, const Sequence& by) const;
-  bool may_end(const Search& search, const Sequence& by, const Sheet& last, const Vec& x_there,
-               Real way) const;
+  /// About a way, with what may pass edges there.
+  Box box_about(const Vec& a, const Vec& b) const {
+    const Vec near = Vec::Constant(std::max(0.5 * width_, 2 * overlap * surface_.reach()));
+    return {a.cwiseMin(b) - near, a.cwiseMax(b) + near};
+  }
+  Meeting meet(const Sheet& sheet, const Box& about, const Vec& a, const Vec& b, const Vec& start,
+               const Vec& x, const Vec& y, const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
+  Meeting hidden(const Pair& pair, const Vec& a, const Vec& b, const Sheet* but = nullptr,
+                 const Sheet* and_but = nullptr) const;
+  Real follow(const Pair& pair, const Sequence& by, Vec target, Way& way) const;
+  void find_slopes(const Way& way, WallPath& path, std::vector<WallPull>* pulls) const;
+  void find_routes(Standpoint& from, Sequence& by, const Vec& there, Real until, Real least) const;
+  bool may_end(const Standpoint& from, const Route& route, const Vec& y) const;
+  void add_straight(const Pair& pair) const;
+  void add_path(const Pair& pair, const Route& route) const;
   void compare(Sheets& sheets) const;
 
   void find_corner(Index face, int edge, Corner& corner) const;
@@ -291,6 +330,9 @@ class WallPaths {
     return surface_.in_plane(x) + (again ? aside_again_ : aside_);
   }
 
+  static constexpr Real touching = 1e-3;  ///< of the reach: what is nearer is joined, as decks round places
+  static constexpr Real overlap = 1e-4;   ///< of the reach: so far faces go on past their edges
+
   const WallSurface& surface_;
   int dim_;
   Real width_;
@@ -300,6 +342,27 @@ class WallPaths {
   const WallSurface::Face* faces_;        ///< as in the surface, or `moved_`
   std::vector<WallSurface::Face> moved_;  ///< where they are now; empty: as in the surface
   std::vector<WallMotion> motions_;
+  std::vector<std::pair<Vec, Vec>> boxes_;  ///< about faces where they are now; none: as in the surface
 };
+
+/// Where somebody stands and looks from, and what may be seen from there.
+class WallPaths::Standpoint {
+ private:
+  friend class WallPaths;
+  const Sheets* sheets_ = nullptr;
+  Some some_ = 0;  ///< sheets that may matter
+  Vec x_ = Vec::Zero();
+  Real reach_ = 0;
+  std::vector<Real> height_, off_;  ///< over sheets and off them
+  std::vector<Real> height_there_;  ///< of whom is looked at
+  std::vector<Route> routes_;
+};
+
+inline void WallPaths::add(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y, Real reach,
+                           std::vector<WallPath>& to, std::vector<WallPull>* pulls) const {
+  Standpoint from;
+  stand(sheets, x, reach, from);
+  add(from, i, j, y, to, pulls);
+}
 
 }  // namespace courant

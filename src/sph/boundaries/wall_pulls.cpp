@@ -16,7 +16,14 @@ void WallPaths::take_along(const World& world, Real back) {
     if (!moved_.empty()) faces_ = moved_.data();
   }
   surface_.take_along(moved_, motions_, world, back);
+  boxes_.resize(moved_.size());
   for_each(surface_.faces(), [&](Index f) {
+    Vec low = surface_.in_plane(moved_[f].x[0]), high = low;
+    for (int e = 1; e < moved_[f].corners; ++e) {
+      const Vec x = surface_.in_plane(moved_[f].x[e]);
+      low = low.cwiseMin(x), high = high.cwiseMax(x);
+    }
+    boxes_[f] = {low, high};
     for (int e = 0; e < moved_[f].corners; ++e) {
       Edge& edge = edges_[f][e];
       if (!edge.ends) continue;
@@ -39,6 +46,10 @@ void WallPaths::place(Sheets& sheets) const {
     if (sheet.body < 0) continue;
     sheet.n = face(sheet.face).n, sheet.offset = face(sheet.face).offset;
     for (Brink& edge : sheet.edges) edge = now(edge);
+    if (sheet.faces.empty()) continue;
+    sheet.low = Vec::Constant(std::numeric_limits<Real>::infinity()), sheet.high = -sheet.low;
+    for (const Index f : sheet.faces)
+      sheet.low = sheet.low.cwiseMin(boxes_[f].first), sheet.high = sheet.high.cwiseMax(boxes_[f].second);
   }
 }
 
@@ -89,8 +100,9 @@ void WallPaths::pull(const Sheet& sheet, const Vec& at, const Vec& by_image,
 }
 
 void WallPaths::pull_edge(const Meeting& m, Real times, std::vector<WallPull>& to) const {
-  if (m.edge_of < 0 || face(m.edge_of).body < 0) return;
-  to.push_back({.face = m.edge_of, .at = m.on_edge, .force = times * (m.by_start + m.by_end)});
+  if (!m.edge_of || m.edge_of->body < 0) return;
+  to.push_back(
+      {.face = face_at(*m.edge_of, m.on_edge), .at = m.on_edge, .force = times * (m.by_start + m.by_end)});
 }
 
 /// `by` belongs to where the way starts before wall k, behind the ones before it.
@@ -115,8 +127,8 @@ void WallPaths::pull_hit(const Way& way, int k, const Vec& by, std::vector<WallP
   const Sheet& s = *way.by[k];
   const Meeting& m = way.met[k];
   if (!m.crosses) {
-    if (m.edge_of >= 0 && face(m.edge_of).body >= 0)
-      to.push_back({.face = m.edge_of, .at = m.on_edge, .force = by});
+    if (m.edge_of && m.edge_of->body >= 0)
+      to.push_back({.face = face_at(*m.edge_of, m.on_edge), .at = m.on_edge, .force = by});
     return;
   }
   const Vec along = way.target[k] - way.start[k], with_wall = along.dot(by) / s.n.dot(along) * s.n;
@@ -129,14 +141,14 @@ void WallPaths::pull_hit(const Way& way, int k, const Vec& by, std::vector<WallP
 /// The share is a product of what walls take and of what none of the others hides.
 void WallPaths::pull_all(const Way& way, Real share, std::vector<WallPull>& to) const {
   for (int k = 0; k <= way.steps; ++k) {
-    if (const Meeting& h = way.hidden[k]; h.edge_of >= 0 && h.share > 0) {
+    if (const Meeting& h = way.hidden[k]; h.edge_of && h.share > 0) {
       const Real others = share / (1 - h.share);
       pull_hit(way, k - 1, -others * h.by_start, to);
       pull_hit(way, k, -others * h.by_end, to);
       pull_edge(h, others, to);
     }
     if (k == way.steps) break;
-    if (const Meeting& m = way.met[k]; m.edge_of >= 0) {
+    if (const Meeting& m = way.met[k]; m.edge_of) {
       const Real others = share / m.share;
       pull_start(way, k, others * m.by_start, to);
       pull_target(way, k, others * m.by_end, to);

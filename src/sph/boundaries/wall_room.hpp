@@ -29,6 +29,17 @@ struct WallEdge {
   Real at[3]{};    ///< a place on it [L]
   Real n[2][3]{};  ///< of each wall, away from the other
   Real m[2][3]{};  ///< from the edge into each wall
+  bool moves = false;
+  Real v[3]{}, spin[3]{};  ///< of the body that it belongs to, at `at` [L/T], [1/T]
+};
+
+/// What a particle beside an edge that moves does to that: its half of each way, as it meets walls and edge.
+struct WallEdgePull {
+  Real push[2]{};           ///< on each wall, along its n [ML/T2]
+  Real inward[2]{};         ///< times how far from the particle's foot that is, along m [ML2/T2]
+  Real along[2]{};          ///< and along the edge
+  Real edge[2][2]{};        ///< on the edge, along n and m of each wall
+  Real edge_along[2][2]{};  ///< times how far along the edge from the particle
 };
 
 }  // namespace courant

@@ -11,16 +11,7 @@ namespace courant {
 
 namespace {
 
-constexpr Real upright = 1e-6;     ///< cosine of the angle between walls of a room
-constexpr Real level_walls = 0.1;  ///< sine of the angle between walls that are two
-
-/// How far x is from the way from a to b.
-Real distance_to(const Vec& x, const Vec& a, const Vec& b) {
-  const Vec along = b - a;
-  const Real s =
-      std::clamp((x - a).dot(along) / std::max(along.squaredNorm(), Real(1e-300)), Real(0), Real(1));
-  return (x - a - s * along).norm();
-}
+constexpr Real upright = 1e-6;  ///< cosine of the angle between walls of a room
 
 /// Notes that a wall of a room ends at a line through `at`, if there is room for it.
 bool add_end(WallRoom& room, int wall, const Vec& out, const Vec& at) {
@@ -40,8 +31,15 @@ bool add_end(WallRoom& room, int wall, const Vec& out, const Vec& at) {
 
 }  // namespace
 
+Real WallPaths::distance_to(const Vec& x, const Vec& a, const Vec& b) {
+  const Vec along = b - a;
+  const Real s =
+      std::clamp((x - a).dot(along) / std::max(along.squaredNorm(), Real(1e-300)), Real(0), Real(1));
+  return (x - a - s * along).norm();
+}
+
 /// Walls of which some are those of a room, each seen from one side.
-struct WallPaths::Box {
+struct WallPaths::Walls {
   std::vector<const Sheet*> walls;
   std::vector<Real> side;
   std::vector<const Sheet*> far;  ///< out of reach, though what ends at them is not
@@ -53,7 +51,7 @@ struct WallPaths::Box {
 };
 
 /// Leaves out what stands wholly behind another wall; that this one hides it is for others to find out.
-void WallPaths::leave_out_hidden(Box& box) const {
+void WallPaths::leave_out_hidden(Walls& box) const {
   const Real most = 1e-3 * surface_.reach();
   const auto is_behind = [&](std::size_t t, std::size_t k) {
     return std::all_of(box.walls[t]->faces.begin(), box.walls[t]->faces.end(), [&](Index f) {
@@ -71,7 +69,7 @@ void WallPaths::leave_out_hidden(Box& box) const {
 }
 
 /// Whether the walls are at right angles to each other, and in the box they are there.
-bool WallPaths::stands_upright(const Box& box, const Vec& centre, Real inside) const {
+bool WallPaths::stands_upright(const Walls& box, const Vec& centre, Real inside) const {
   const std::size_t n = box.walls.size();
   if (n == 0 || n > static_cast<std::size_t>(dim_)) return false;
   for (std::size_t k = 0; k < n; ++k) {
@@ -97,7 +95,7 @@ bool WallPaths::rises_from(const Sheet& sheet, const Sheet& other, const Vec& x)
 }
 
 /// Edges in the box within `around` of `centre`: up to them, each wall covers all of its side.
-void WallPaths::find_ends(const Box& box, const Sheets& sheets, const Vec& centre, Real around,
+void WallPaths::find_ends(const Walls& box, const Sheets& sheets, const Vec& centre, Real around,
                           OpenRoom& room) const {
   const Real most = 1e-3 * surface_.reach();
   for (const Sheet& sheet : sheets)
@@ -124,7 +122,7 @@ std::vector<OpenRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at
                                              Real reach) const {
   const Vec centre = surface_.in_plane(at);
   std::vector<OpenRoom> rooms;
-  Box near;
+  Walls near;
   for (const Sheet& s : sheets) {
     if (s.body >= 0) return rooms;
     if (s.off(centre) < reach + half)
@@ -140,7 +138,7 @@ std::vector<OpenRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at
   }
   if (either.size() > 3) return rooms;
   for (unsigned turned = 0; turned < 1U << either.size(); ++turned) {
-    Box box = near;
+    Walls box = near;
     for (std::size_t k = 0; k < either.size(); ++k)
       if (turned >> k & 1U) box.side[either[k]] *= -1;
     leave_out_hidden(box);
@@ -171,51 +169,6 @@ std::unique_ptr<WallRoom> WallPaths::open_room_about(const Sheets& sheets, const
   std::unique_ptr<WallRoom> out;
   for (const OpenRoom& room : rooms_about(sheets, x, 0, sight))
     if (room.holds_open(x, 0.5 * width_)) out = std::make_unique<WallRoom>(room.open);
-  return out;
-}
-
-/// Whether two walls meet there, turn away from each other, and enclose a right angle or a wider one.
-bool WallPaths::is_one_edge(const Ending& one, const Ending& other) const {
-  const Real near = 1e-6 * surface_.reach();
-  const Vec &a = one.edge->from, &b = one.edge->to, &c = other.edge->from, &d = other.edge->to;
-  const Vec along = (b - a).normalized();
-  if (along.cross(c - a).norm() > near || along.cross(d - a).norm() > near) return false;
-  const Vec &into = face(one.edge->face).inward[one.edge->edge],
-            &other_into = face(other.edge->face).inward[other.edge->edge];
-  return into.dot(other_into) < upright && into.cross(other_into).norm() > level_walls;
-}
-
-std::optional<WallEdge> WallPaths::edge_about(const Sheets& sheets, const Vec& at, Real sight) const {
-  const Vec x = surface_.in_plane(at);
-  const Real around = sight + 0.5 * width_;
-  std::vector<Ending> near;
-  for (const Sheet& s : sheets) {
-    if (s.body >= 0) return {};
-    if (s.off(x) > around) continue;
-    near.push_back({&s, nullptr});
-    for (const Brink& edge : s.edges) {
-      if (distance_to(x, edge.from, edge.to) > around) continue;
-      const bool goes_on = dim_ == 2 || std::min((edge.from - x).norm(), (edge.to - x).norm()) > around;
-      if (near.back().edge || !goes_on) return {};
-      near.back().edge = &edge;
-    }
-    if (!near.back().edge || near.size() > 2) return {};
-  }
-  if (near.empty() || (near.size() == 2 && !is_one_edge(near[0], near[1]))) return {};
-  if (near.size() == 1 && !edges_[near[0].edge->face][near[0].edge->edge].corners.empty()) return {};
-  WallEdge out;
-  bool in_front = near.size() == 1;
-  for (const Ending& e : near) {
-    const auto into = [&](const Ending& of) { return face(of.edge->face).inward[of.edge->edge]; };
-    const Vec m = into(e);
-    const bool turned = near.size() == 2 && e.sheet->n.dot(into(&e == &near[0] ? near[1] : near[0])) > 0;
-    const Vec n = turned ? Vec(-e.sheet->n) : e.sheet->n;
-    for (int c = 0; c < 3; ++c) out.n[out.walls][c] = n[c], out.m[out.walls][c] = m[c];
-    ++out.walls;
-    in_front |= n.dot(x - near[0].edge->from) > 0;
-  }
-  if (!in_front) return {};
-  for (int c = 0; c < 3; ++c) out.at[c] = near[0].edge->from[c];
   return out;
 }
 
@@ -298,8 +251,9 @@ WallOutlook WallOutlooks::outlook_from(const Vec& middle) const {
 bool OpenRoom::holds(const Vec& x, Real sight) const {
   for (int k = 0; k < room.walls; ++k)
     if (!(Vec(room.n[k][0], room.n[k][1], room.n[k][2]).dot(x) > room.offset[k])) return false;
-  return std::none_of(ends.begin(), ends.end(),
-                      [&](const auto& edge) { return distance_to(x, edge.first, edge.second) <= sight; });
+  return std::none_of(ends.begin(), ends.end(), [&](const auto& edge) {
+    return WallPaths::distance_to(x, edge.first, edge.second) <= sight;
+  });
 }
 
 bool OpenRoom::holds_open(const Vec& x, Real within) const {

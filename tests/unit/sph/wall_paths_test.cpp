@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "sph/boundaries/wall_edge_loops.hpp"
@@ -634,6 +635,158 @@ TEST(WallPaths, AreThoseOfEdgesInTheirLoops) {
     }
     EXPECT_GT(looked, 30) << place.name;
     EXPECT_GT(most, 1e3 * 1e-4 / (h * h * h)) << place.name;
+  }
+}
+
+/// What particle i does to a body that moves, and what it gets.
+struct Exchange {
+  Real rate = 0;
+  Vec force = Vec::Zero(), on_wall = Vec::Zero(), moment = Vec::Zero();
+  void give(const WallPaths& paths, const WallPull& pull, Real times) {
+    on_wall += times * pull.force;
+    moment +=
+        times * ((pull.at - paths.shift()).cross(pull.force) + pull.lever.cross(paths.face(pull.face).n));
+  }
+};
+
+/// As WallImages follows the ways of particle i one by one where walls move.
+Exchange by_moving_ways(const WallPaths& middle, const WallPaths& end, const WallPaths::Sheets& around,
+                        const Crowd& crowd, std::size_t i, int dim) {
+  const AnyKernel& kernel = any_kernel(KernelChoice::cubic_spline);
+  const Real norm = kernel.C(dim) / (dim == 2 ? h * h : h * h * h);
+  const auto W = [&](const Vec& d) { return norm * kernel.shape(d.norm() / h); };
+  const auto slope = [&](const Vec& d) {
+    return norm * kernel.gradient_factor * kernel.gradient(d.norm() / h) / (d.norm() * h);
+  };
+  auto then = around, now = around;
+  middle.place(then), end.place(now);
+  Exchange out;
+  for (std::size_t j = 0; j < crowd.V.size(); ++j) {
+    const auto back = [&](std::size_t k) { return Vec(crowd.at(k) - 1e-3 * crowd.velocity(k)); };
+    const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
+    std::vector<WallPath> ways;
+    std::vector<WallPull> pulls;
+    middle.add(then, a, back(i), b, back(j), 2 * h, ways, &pulls);
+    bool at_edge = false;
+    for (const WallPath& way : ways) {
+      Real turns = way.by_i.dot(crowd.velocity(i)) + way.by_j.dot(crowd.velocity(j));
+      for (Index k = way.pulls; k < way.pulls_end; ++k) {
+        const Vec v = middle.velocity(pulls[k].face, pulls[k].at),
+                  farther = middle.velocity(pulls[k].face, pulls[k].at + pulls[k].lever);
+        turns += pulls[k].force.dot(v) + middle.face(pulls[k].face).n.dot(farther - v);
+      }
+      const Vec u = crowd.velocity(i) - way.turn * crowd.velocity(j) - way.drift;
+      out.rate += crowd.V[j] * (way.weight * slope(way.d) * u.dot(way.d) + W(way.d) * turns);
+      at_edge |= std::abs(way.weight) < 1;
+    }
+    if (at_edge)
+      ways.clear(), pulls.clear(), end.add(now, a, crowd.at(i), b, crowd.at(j), 2 * h, ways, &pulls);
+    for (WallPath& way : ways) {
+      if (way.moves)
+        end.bring(now, crowd.at(i), crowd.at(j), way);
+      else
+        way.d = crowd.at(i) - crowd.at(j);
+      const Real pressure = -crowd.V[i] * crowd.V[j] * (crowd.p[i] + crowd.p[j]);
+      const Vec along = pressure * way.weight * slope(way.d) * way.d;
+      out.force += along + pressure * W(way.d) * way.by_i;
+      for (Index k = way.pulls; k < way.pulls_end; ++k) out.give(end, pulls[k], 0.5 * pressure * W(way.d));
+      std::vector<WallPull> images;
+      if (way.moves) end.pull_images(now, way, crowd.at(j), -along, images);
+      for (const WallPull& pull : images) out.give(end, pull, -0.5);
+    }
+  }
+  return out;
+}
+
+/// What a particle at x does to its edge, as the loops have it.
+Exchange of_edge(const WallEdge& edge, const WallEdgePull& pull, const Vec& x) {
+  const auto vec = [](const Real(&of)[3]) { return Vec(of[0], of[1], of[2]); };
+  Exchange out;
+  const Vec axis = vec(edge.n[0]).cross(vec(edge.m[0])), from = vec(edge.at),
+            place = from + axis.dot(x - from) * axis;
+  for (int k = 0; k < edge.walls; ++k) {
+    const Vec n = vec(edge.n[k]), m = vec(edge.m[k]), foot = x - n.dot(x - from) * n,
+              at_edge = pull.edge[k][0] * n + pull.edge[k][1] * m;
+    out.on_wall += pull.push[k] * n + at_edge;
+    out.moment += foot.cross(pull.push[k] * n) + (pull.inward[k] * m + pull.along[k] * axis).cross(n) +
+                  place.cross(at_edge) + axis.cross(pull.edge_along[k][0] * n + pull.edge_along[k][1] * m);
+  }
+  return out;
+}
+
+// The same where the body goes along and turns: rates, forces, and what the body gets.
+TEST(WallPaths, AreThoseOfEdgesThatMoveInTheirLoops) {
+  struct Place {
+    const char* name;
+    int dim;
+    std::vector<std::array<Vec, 4>> walls;
+    bool (*wet)(const Vec&);
+  };
+  const Place places[] = {
+      {"step",
+       2,
+       {line(Vec(-1, 0, 0), Vec::Zero()), line(Vec::Zero(), Vec(0, -1, 0))},
+       [](const Vec& y) { return y[0] > 0.02 || y[1] > 0.02; }},
+      {"end of a plate", 2, {line(Vec(-1, 0, 0), Vec(0.05, 0, 0))}, [](const Vec&) { return true; }},
+      {"edge in space",
+       3,
+       {{Vec(-1, -1, 0), Vec(0, -1, 0), Vec(0, 1, 0), Vec(-1, 1, 0)},
+        {Vec(0, -1, 0), Vec(0, 1, 0), Vec(0, 1, -1), Vec(0, -1, -1)}},
+       [](const Vec& y) { return y[0] > 0.02 || y[2] > 0.02; }}};
+  for (const Place& place : places) {
+    World world;
+    add_plates(world, place.walls, place.dim);
+    std::vector<Index> all;
+    const Vec spin = place.dim == 2 ? Vec(0, 0, 1.7) : Vec(0.8, -1.1, 1.7);
+    Matrix turn = Matrix::Identity();  // as a rigid body where it is in the middle of the step
+    for (int c = 0; c < 3; ++c) turn.col(c) += 1e-3 * spin.cross(Vec(Vec::Unit(c)));
+    for (Index n = 0; n < world.nodes.size(); ++n) {
+      world.nodes.held[n] = 0;
+      const Vec v = Vec(0.4, -0.7, place.dim == 2 ? 0 : 0.3) + spin.cross(world.nodes.x.vec(n));
+      world.nodes.v.set(n, turn.inverse() * v);
+    }
+    for (Index s = 0; s < world.segments.size(); ++s) all.push_back(s), world.segments.part[s] = 0;
+    const WallSurface surface(world, all, h / 4, 2.1 * h + dx, {}, nullptr, nullptr, 0.3 * h + dx);
+    const WallPaths searched(surface, place.dim, WallPaths::usual_width * dx);
+    WallPaths middle = searched, end = searched;
+    middle.take_along(world, 1e-3), end.take_along(world, 0);
+    Crowd crowd = crowd_about(searched, place.dim, 0.2, place.wet);
+    const std::size_t n = crowd.V.size();
+    std::vector<WallPaths::Sheets> sheets(n);
+    std::vector<std::optional<WallPaths::LoneEdge>> edges(n);
+    const auto place_edges = [&](const WallPaths& paths) {
+      for (std::size_t i = 0; i < n; ++i) {
+        if (!edges[i]) continue;
+        paths.place(sheets[i]);
+        crowd.edges[i] = paths.placed(*edges[i], sheets[i]), crowd.edge[i] = &crowd.edges[i];
+      }
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      sheets[i] = searched.sheets_around(crowd.at(i), 2.2 * h + dx);
+      edges[i] = searched.moving_edge_about(sheets[i], crowd.at(i), 2 * h);
+    }
+    WallMirrorArrays a = crowd.arrays(searched.shift());
+    std::vector<WallEdgePull> pulls(n);
+    std::vector<std::uint32_t> ways(crowd.list.size());
+    a.pull = pulls.data(), a.ways = ways.data();
+    const NeighbourLists lists{crowd.list.data(), crowd.start.data(), 0, static_cast<Index>(n)};
+    place_edges(middle), edge_rates_loop(KernelChoice::cubic_spline, place.dim)(a, lists);
+    place_edges(end), edge_forces_loop(KernelChoice::cubic_spline, place.dim)(a, lists);
+    int looked = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!edges[i] || crowd.strange[i] != 0) continue;
+      ++looked;
+      const Exchange exact = by_moving_ways(middle, end, sheets[i], crowd, i, place.dim),
+                     edge = of_edge(crowd.edges[i], pulls[i], crowd.at(i));
+      const Real scale = 1e-4 / (h * h * h * (place.dim == 2 ? 1 : h));  // oneself is seen from places aside
+      EXPECT_NEAR(crowd.drhodt[i], exact.rate, 4 * scale) << place.name << ": " << crowd.at(i).transpose();
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(crowd.f[c][i], exact.force[c], 8 * scale) << place.name;
+        EXPECT_NEAR(edge.on_wall[c], exact.on_wall[c], 8 * scale) << place.name;
+        EXPECT_NEAR(edge.moment[c], exact.moment[c], 2 * scale) << place.name;
+      }
+    }
+    EXPECT_GT(looked, 30) << place.name;
   }
 }
 
