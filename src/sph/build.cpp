@@ -54,7 +54,7 @@ class Builder {
     if (const auto* c = deck_.last<CourantVolumeControl>()) settings_.volume_tau = c->tau;
     settings_.reinitialisation = read_density_reinitialisation(deck_, model_, diagnostics_);
     read_shifting();
-    read_xsph();
+    read_xsph(deck_, settings_, diagnostics_);
     read_riemann(deck_, model_, material_, settings_, diagnostics_);
     read_form(deck_, settings_, diagnostics_);
     read_strength(deck_, model_, settings_, diagnostics_);
@@ -175,16 +175,6 @@ class Builder {
                   fmt::format("expected a number below {}, which is div r inside, got '{:g}'", settings_.dim,
                               c->surface),
                   "1.5 in 2D and 2.5 in 3D tell a surface from the inside");
-  }
-
-  void read_xsph() {
-    const auto* c = deck_.last<CourantXsph>();
-    if (c == nullptr) return;
-    (c->vel == 1 ? settings_.velocity_smoothing : settings_.xsph) = c->eps;
-    settings_.xsph_normed = c->norm == 1;
-    if (c->eps > 1)
-      deck_.error(diagnostics_, *c, "EPS", fmt::format("expected at most 1, got '{:g}'", c->eps),
-                  "0.5 is usual; with 1 particles move with the mean velocity of their neighbours");
   }
 
   void read_pair_geometry() {
@@ -448,9 +438,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   if (s.density_diffusion == 0) left_out.push_back({"density diffusion", "no *COURANT_DENSITY_DIFFUSION"});
   add_or_tell(s.volume_tau > 0, add_volume_control, "volume control", "no *COURANT_VOLUME_CONTROL");
   add_or_tell(s.shift.strength > 0, add_shifting, "shifting", "ISHIFT 0");
-  add_or_tell(s.xsph > 0, add_xsph, "XSPH", "no *COURANT_XSPH with VEL 0");
-  add_or_tell(s.velocity_smoothing > 0, add_velocity_smoothing, "velocity smoothing",
-              "no *COURANT_XSPH with VEL 1");
+  add_or_tell(s.xsph > 0 || s.velocity_smoothing > 0, add_xsph, "XSPH", "no *COURANT_XSPH");
   if (s.xsph > 0 && !(s.shift.strength > 0)) add_drift_rate(s, world, neighbours, volumes);
   add_or_tell(s.reinitialisation.every > 0, add_density_reinitialisation, "re-initialisation",
               "no *COURANT_DENSITY_REINITIALISATION");

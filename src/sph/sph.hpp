@@ -210,9 +210,10 @@ ReinitialisationRules read_density_reinitialisation(const Deck&, const Model&, D
 /// Adds to the rates what smooths the density every few steps; behind all other rates of density.
 void add_density_reinitialisation(const SphSettings&, World&, std::shared_ptr<Neighbours>,
                                   std::shared_ptr<PairVolumes>);
-/// *COURANT_XSPH with VEL 1: adds to the rates the force that smooths velocities.
-void add_velocity_smoothing(const SphSettings&, World&, std::shared_ptr<Neighbours>,
-                            std::shared_ptr<PairVolumes>);
+/// Behind the other settings that it may contradict.
+void read_xsph(const Deck&, SphSettings&, Diagnostics&);
+/// *COURANT_XSPH with VEL 1: adds what smooths velocities, once the step is known.
+void add_velocity_smoothing(World&);
 /// Adds the motions by which particles drift, behind that by their velocity; what sets the velocities of
 /// drift comes with `add_sph_passes`.
 void add_drifts(const SphSettings&, const BodyAcceleration& loads, World&);

@@ -175,8 +175,8 @@ void read_strength(const Deck& deck, const Model& model, SphSettings& s, Diagnos
   refuse(s.shift.strength > 0, "ISHIFT of *CONTROL_SPH", "stresses belong to the places of the material");
   refuse(s.reverse_correction, "REVERSE of *COURANT_RENORMALISATION",
          "it is a correction of pressures alone");
-  refuse(s.xsph > 0 || s.velocity_smoothing > 0, "*COURANT_XSPH",
-         "stresses follow the velocities, not the smoothed ones");
+  refuse(s.xsph > 0, "*COURANT_XSPH", "stresses follow the velocities, not the smoothed ones");
+  refuse(s.velocity_smoothing > 0, "VEL 1 of *COURANT_XSPH", "it is a viscosity of liquids");
 }
 
 void add_artificial_stress(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,

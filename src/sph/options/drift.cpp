@@ -142,6 +142,7 @@ void add_drifts(const SphSettings& s, const BodyAcceleration& loads, World& worl
          .correct = s.shift.correct,
          .longest = longest_shift});
   if (s.xsph > 0) add({.name = "XSPH motion", .statistics = xsph_statistics, .first = !shifts});
+  if (s.velocity_smoothing > 0) add_velocity_smoothing(world);
 }
 
 DriftDensity::DriftDensity(World& world)

@@ -56,8 +56,7 @@ const Lists bare{
      "density diffusion no *COURANT_DENSITY_DIFFUSION",
      "volume control no *COURANT_VOLUME_CONTROL",
      "shifting ISHIFT 0",
-     "XSPH no *COURANT_XSPH with VEL 0",
-     "velocity smoothing no *COURANT_XSPH with VEL 1",
+     "XSPH no *COURANT_XSPH",
      "re-initialisation no *COURANT_DENSITY_REINITIALISATION",
      "frozen gradients no *COURANT_PAIR_GEOMETRY",
      "smoothing length HMIN = HMAX = 1: h is constant",
@@ -306,7 +305,7 @@ TEST(Passes, Drifts) {
                 {"rates XSPH", "rates drift (density)", "reductions drift work", "energy drift work",
                  "relocation XSPH motion"});
   scene.extra = "*COURANT_XSPH\n0.01,1,1\n";
-  expect_change(scene, {"velocity smoothing"}, {"rates velocity smoothing", "energy velocity smoothing"});
+  expect_change(scene, {"XSPH"}, {"rates XSPH", "energy velocity smoothing", "impact velocity smoothing"});
 }
 
 TEST(Passes, PrescribedMotionOfParticles) {
