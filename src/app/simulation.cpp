@@ -237,7 +237,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   add_prescribed_motions(diagnostics);
   if (!add_rigid_walls(deck_, model_, world_, diagnostics))
     left_out_.push_back({"rigid walls", "no *RIGIDWALL"});
-  else if (sph_.xsph > 0 || sph_.shift.strength > 0)
+  else if (sph_.xsph > 0 || sph_.velocity_smoothing > 0 || sph_.shift.strength > 0)
     diagnostics.warning({deck_.files[0].name},
                         "rigid walls stop the velocity of particles, not what shifting or averaged "
                         "velocities move them by: they may get a little behind a wall",
