@@ -430,10 +430,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
     left_out.push_back({"wall support", "no *COURANT_WALL_SUPPORT"});
   add_or_tell(s.renormalised, add_renormalisation, "renormalisation", "FORM of *CONTROL_SPH is a plain one");
   const bool riemann = std::holds_alternative<RiemannFlux>(s.viscosity);
-  if (riemann)
-    add_riemann(s, world, neighbours, volumes);
-  else
-    left_out.push_back({"Riemann flux", "no *COURANT_RIEMANN"});
+  add_or_tell(riemann, add_riemann, "Riemann flux", "no *COURANT_RIEMANN");
   if (s.density_diffusion > 0 || riemann) add_density_diffusion(s, world);
   if (s.density_diffusion == 0) left_out.push_back({"density diffusion", "no *COURANT_DENSITY_DIFFUSION"});
   add_or_tell(s.volume_tau > 0, add_volume_control, "volume control", "no *COURANT_VOLUME_CONTROL");

@@ -15,7 +15,6 @@ bool WallPaths::is_one_edge(const Ending& one, const Ending& other) const {
   if (along.cross(c - a).norm() > near || along.cross(d - a).norm() > near) return false;
   const Vec &into = face(one.edge->face).inward[one.edge->edge],
             &other_into = face(other.edge->face).inward[other.edge->edge];
-  constexpr Real upright = 1e-6;     // cosine of the angle between walls of a room
   constexpr Real level_walls = 0.1;  // sine of the angle between walls that are two
   return into.dot(other_into) < upright && into.cross(other_into).norm() > level_walls;
 }

@@ -331,6 +331,7 @@ class WallPaths {
   }
 
   static constexpr Real touching = 1e-3;  ///< of the reach: what is nearer is joined, as decks round places
+  static constexpr Real upright = 1e-6;   ///< cosine of the angle between walls of a room
   static constexpr Real overlap = 1e-4;   ///< of the reach: so far faces go on past their edges
 
   const WallSurface& surface_;

@@ -11,8 +11,6 @@ namespace courant {
 
 namespace {
 
-constexpr Real upright = 1e-6;  ///< cosine of the angle between walls of a room
-
 /// Notes that a wall of a room ends at a line through `at`, if there is room for it.
 bool add_end(WallRoom& room, int wall, const Vec& out, const Vec& at) {
   const Real limit = out.dot(at);

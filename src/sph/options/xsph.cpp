@@ -6,6 +6,7 @@
 
 #include "keyword/deck.hpp"
 #include "keyword/registry.hpp"
+#include "loads/middle_velocity.hpp"
 #include "parallel/parallel.hpp"
 #include "sph/cards.hpp"
 #include "sph/core/pair_volumes.hpp"
@@ -44,7 +45,7 @@ const RegisterKeyword<CourantXsph> xsph_keyword{
                {.allowed = {0, 1}}}}}}}};
 
 /// u_i = EPS sum_j m_j/rho_ij (v_j - v_i) W_ij (NORM 1: over sum_j m_j/rho_ij W_ij), of the velocities and
-/// places after the last motion; the next motion takes it.
+/// places after the last motion; the next motion takes it, with VEL 1 its kick.
 class Xsph : public Rate {
  public:
   Xsph(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
@@ -105,10 +106,10 @@ class VelocitySmoothing : public Impact, public EnergyTerm {
     });
   }
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
-    const Particles& p = world.particles;
-    const Real gained = sum(p.active, [&](Index i) {
-      return p.m[i] * change_.vec(i).dot(p.v.vec(i) + 0.5 * clock.dt_mean() / p.m[i] * p.f.vec(i));
-    });
+    Particles& p = world.particles;
+    const Points points = points_of(p);
+    const MiddleVelocity v(points, clock);
+    const Real gained = sum(p.active, [&](Index i) { return p.m[i] * change_.vec(i).dot(v(i)); });
     ledger.dissipated -= gained;
     ledger.throughput += std::abs(gained);
   }

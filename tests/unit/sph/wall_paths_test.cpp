@@ -450,17 +450,19 @@ Crowd crowd_about(const WallPaths& paths, int dim, Real wide, const Wet& wet) {
   return out;
 }
 
+/// Walls, and where water is.
+struct Plates {
+  const char* name;
+  int dim;
+  std::vector<std::array<Vec, 4>> walls;
+  bool (*wet)(const Vec&);
+};
+
 // What the loops add of pairs that they do not doubt is what the ways between them are, in corners and beside
 // the ends of walls.
 TEST(WallPaths, AreThoseOfRoomsWhereWaysLeaveNone) {
-  struct Place {
-    const char* name;
-    int dim;
-    std::vector<std::array<Vec, 4>> walls;
-    bool (*wet)(const Vec&);
-  };
   const Real L = 1;
-  const Place places[] = {
+  const Plates places[] = {
       {"corner",
        2,
        {line(Vec::Zero(), Vec(1, 0, 0)), line(Vec::Zero(), Vec(0, 1, 0))},
@@ -486,7 +488,7 @@ TEST(WallPaths, AreThoseOfRoomsWhereWaysLeaveNone) {
         {Vec(0, -L, -0.1), Vec(0, L, -0.1), Vec(0, L, 0.1), Vec(0, -L, 0.1)},
         {Vec(0, -L, 0.1), Vec(0, L, 0.1), Vec(L, L, 0.1), Vec(L, -L, 0.1)}},
        [](const Vec& y) { return y[2] > -0.1 && (y[0] < 0 || y[2] > 0.1); }}};
-  for (const Place& place : places) {
+  for (const Plates& place : places) {
     World world;
     add_plates(world, place.walls, place.dim);
     std::vector<Index> all(place.walls.size());
@@ -579,14 +581,8 @@ std::pair<Real, Vec> by_ways(const WallPaths& paths, const Crowd& crowd, std::si
 // What the loops over edges add is what all ways of these particles do, those that pass the edge and those
 // that it hides among them.
 TEST(WallPaths, AreThoseOfEdgesInTheirLoops) {
-  struct Place {
-    const char* name;
-    int dim;
-    std::vector<std::array<Vec, 4>> walls;
-    bool (*wet)(const Vec&);
-  };
   const auto anywhere = [](const Vec&) { return true; };
-  const Place places[] = {
+  const Plates places[] = {
       {"step",
        2,
        {line(Vec(-1, 0, 0), Vec::Zero()), line(Vec::Zero(), Vec(0, -1, 0))},
@@ -609,7 +605,7 @@ TEST(WallPaths, AreThoseOfEdgesInTheirLoops) {
        3,
        {{Vec(-1, -1, 0), Vec(0, -1, 0), Vec(0, 1, 0.5), Vec(-1, 1, 0.5)}},
        anywhere}};
-  for (const Place& place : places) {
+  for (const Plates& place : places) {
     World world;
     add_plates(world, place.walls, place.dim);
     std::vector<Index> all(place.walls.size());
@@ -716,13 +712,7 @@ Exchange of_edge(const WallEdge& edge, const WallEdgePull& pull, const Vec& x) {
 
 // The same where the body goes along and turns: rates, forces, and what the body gets.
 TEST(WallPaths, AreThoseOfEdgesThatMoveInTheirLoops) {
-  struct Place {
-    const char* name;
-    int dim;
-    std::vector<std::array<Vec, 4>> walls;
-    bool (*wet)(const Vec&);
-  };
-  const Place places[] = {
+  const Plates places[] = {
       {"step",
        2,
        {line(Vec(-1, 0, 0), Vec::Zero()), line(Vec::Zero(), Vec(0, -1, 0))},
@@ -733,7 +723,7 @@ TEST(WallPaths, AreThoseOfEdgesThatMoveInTheirLoops) {
        {{Vec(-1, -1, 0), Vec(0, -1, 0), Vec(0, 1, 0), Vec(-1, 1, 0)},
         {Vec(0, -1, 0), Vec(0, 1, 0), Vec(0, 1, -1), Vec(0, -1, -1)}},
        [](const Vec& y) { return y[0] > 0.02 || y[2] > 0.02; }}};
-  for (const Place& place : places) {
+  for (const Plates& place : places) {
     World world;
     add_plates(world, place.walls, place.dim);
     std::vector<Index> all;
