@@ -7,7 +7,6 @@
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "search/nearest_distance.hpp"
-#include "sph/boundaries/injection.hpp"
 #include "sph/sph.hpp"
 
 namespace courant {
@@ -56,14 +55,8 @@ class PlaneBuilder {
   std::vector<GhostPlane> build(const SphSettings& settings, Real reach) {
     for (const auto& card : deck_.all<BoundarySphSymmetryPlane>()) add_mirror(card);
     for (const auto& card : deck_.all<BoundarySphPeriodic>()) {
-      if (first_injection(deck_))
-        diagnostics_.error(deck_.where(card), "*BOUNDARY_SPH_PERIODIC: not beside an inlet of particles",
-                           "use symmetry planes");
-      if (settings.region)
-        diagnostics_.error(deck_.where(card),
-                           "*BOUNDARY_SPH_PERIODIC: not beside a computational box (BOXID)",
-                           "leave BOXID of *CONTROL_SPH blank, or use symmetry planes");
       add_periodic(card);
+      if (settings.region) check_box(*settings.region, card);
     }
     if (diagnostics_.ok()) check_together(reach);
     if (diagnostics_.ok()) check_particles();
@@ -97,6 +90,42 @@ class PlaneBuilder {
                          "directions, each from its plane towards the other",
                          "*DEFINE_VECTOR: tail on the plane, head inside");
     add({GhostPlane::Kind::periodic, first->second.tail, n, period}, c);
+  }
+
+  /// The computational box must hold both planes: what leaves it leaves the run, and would not come back.
+  void check_box(const Region& box, const BoundarySphPeriodic& c) {
+    if (planes_.empty() || cards_.back() != &c) return;  // the card was refused
+    const GhostPlane& plane = planes_.back();
+    const Real slack = rounding_of_decks * plane.period;
+    for (int k = 0; k < world_.dim; ++k) {
+      const bool across = std::abs(plane.normal[k]) > parallel,
+                 along = std::abs(plane.normal[k]) > 1 - parallel;
+      const Real a = plane.point[k], b = a + plane.period * plane.normal[k];
+      if (!across || (along && box.low[k] <= std::min(a, b) + slack && box.high[k] >= std::max(a, b) - slack))
+        continue;
+      diagnostics_.error(
+          deck_.where(c),
+          fmt::format("{}: the computational box (BOXID of *CONTROL_SPH) ends between the planes, {:g} to "
+                      "{:g} along {}",
+                      deck_.keyword(c), box.low[k], box.high[k], "xyz"[k]),
+          "let it reach over both planes, which must be at right angles to an axis beside a box");
+      return;
+    }
+  }
+
+  /// What an inlet lets in must not have come through the planes before.
+  void check_inlets(std::size_t k) {
+    const Particles& p = world_.particles;
+    const Vec& normal = planes_[k].normal;
+    for (Index i = 0; i < p.size(); ++i) {
+      if (p.state[i] != particle_waiting || std::abs(p.v.vec(i).dot(normal)) <= parallel * p.v.vec(i).norm())
+        continue;
+      diagnostics_.error(deck_.where(model_.sph[i].card),
+                         fmt::format("{}: its velocity leads through the planes of {}",
+                                     deck_.keyword(model_.sph[i].card), place(*cards_[k])),
+                         "beside periodic planes water must enter along them");
+      return;
+    }
   }
 
   bool normal_is_good(const Entry& card, const Vec& tail, const Vec& head) {
@@ -156,7 +185,10 @@ class PlaneBuilder {
   void check_particles() {
     const Particles& p = world_.particles;
     for (std::size_t k = 0; k < planes_.size(); ++k) {
-      if (planes_[k].period > 0) wrap(k);
+      if (planes_[k].period > 0) {
+        check_inlets(k);
+        wrap(k);
+      }
       for (Index i = 0; i < p.size(); ++i) {
         const Real d = (p.x.vec(i) - planes_[k].point).dot(planes_[k].normal);
         if (d >= 0 && (planes_[k].period == 0 || d < planes_[k].period)) continue;

@@ -27,7 +27,8 @@ struct Tank {
   std::string planes;
   Real mu = 20, endtim = 0.05;
   std::string section = "1,1.2,1,1", gravity;
-  bool boxed = false;  ///< particles with |x| > 0.5 are outside the computational box
+  bool boxed = false;  ///< particles with |x| > `half_box` are outside the computational box
+  Real half_box = 0.5;
 
   static Id id_of(int column, int row) { return 1000 * (row + 100) + column + 100; }
   /// Symmetric about x = 0 and y = 0, of period 2 in x.
@@ -37,7 +38,7 @@ struct Tank {
   std::string deck() const {
     std::string out = "*KEYWORD\n*CONTROL_TERMINATION\n" + fmt::format("{}\n", endtim) +
                       fmt::format("*CONTROL_SPH\n1,{},1e20,2\n0,0,0,0,0,0,0\n", boxed ? 1 : 0) +
-                      (boxed ? "*DEFINE_BOX\n1,-0.5,0.5,-9,9,-1,1\n" : "") +
+                      (boxed ? fmt::format("*DEFINE_BOX\n1,{},{},-9,9,-1,1\n", -half_box, half_box) : "") +
                       "*PART\nwater\n1,1,1,1\n*SECTION_SPH\n" + section + "\n*MAT_NULL\n" +
                       fmt::format("1,1000.0,-1e20,{}\n*EOS_LINEAR_POLYNOMIAL\n1,0,4e5\n\n", mu) + planes +
                       gravity;
@@ -161,6 +162,61 @@ TEST(GhostParticles, APeriodicTankIsTwoOfThemInARow) {
       "*DEFINE_VECTOR\n1,-1,0,0,5,0,0\n2,3,0.3,0,-1,0.3,0\n*BOUNDARY_SPH_PERIODIC\n1,2\n";
   expect_same(run({.left = -10, .nx = 20, .low = 0, .ny = 10, .planes = periodic_x, .endtim = 0.2}),
               run({.left = -10, .nx = 40, .low = 0, .ny = 10, .planes = twice, .endtim = 0.2}), 2);
+}
+
+TEST(GhostParticles, APeriodicTankMayStandInABoxThatEndsAtItsPlanes) {
+  Tank tank{.left = -10, .nx = 20, .low = 0, .ny = 10, .planes = periodic_x, .endtim = 0.2};
+  const States open = run(tank);
+  tank.boxed = true, tank.half_box = 1;
+  expect_same(run(tank), open, 2);
+}
+
+/// A stream of `rows` rows, faster at some heights than at others, that comes through x = 0 into a box which
+/// it leaves again, between periodic planes below and above it.
+std::unique_ptr<Simulation> run_stream(int rows) {
+  const Real width = 0.1 * rows;
+  std::string nodes = "*NODE\n", elements = "*ELEMENT_SPH\n", velocities = "*INITIAL_VELOCITY_NODE\n";
+  for (int column = 0; column < 10; ++column)
+    for (int row = 0; row < rows; ++row) {
+      const Real x = 0.1 * column + 0.05, y = 0.1 * row + 0.05;
+      const int id = 100 * column + row + 1;
+      nodes += fmt::format("{},{:.17g},{:.17g},0\n", id, x, y);
+      elements += fmt::format("{},1,10.0\n", id);
+      velocities += fmt::format("{},{:.17g},{:.17g},0\n", id, 3 + 0.5 * std::cos(2 * pi * y),
+                                std::sin(2 * pi * (x + y)));
+    }
+  auto s = test::build_deck(
+      "*KEYWORD\n*CONTROL_TERMINATION\n0.2\n*CONTROL_SPH\n1,1,1e20,2\n0,0,0,0,0,0,0\n" +
+      fmt::format("*DEFINE_BOX\n1,0,0.8,0,{},-1,1\n*DEFINE_VECTOR\n1,0,0,0,0,1,0\n2,0,{},0,0,0,0\n", width,
+                  width) +
+      "*BOUNDARY_SPH_PERIODIC\n1,2\n*PART\nwater\n1,1,1,1\n*PART\ninflow\n2,1,1,1\n*SECTION_SPH\n1,1.2,1,1\n"
+      "*MAT_NULL\n1,1000.0,-1e20,20\n*EOS_LINEAR_POLYNOMIAL\n1,0,4e5\n\n" +
+      fmt::format("*DEFINE_SPH_INJECTION_SIMPLIFIED\n2,3,{},0.1\n0,{},0,1,0,0\n", width / 2, width / 2) +
+      nodes + elements + velocities + "*END\n");
+  while (s && s->clock().t < 0.2)
+    s->step([&](World& world, const Clock& clock, const std::string&) {
+      sample_energy(world, clock);
+      if (clock.cycle == 0) world.energy.initial = world.energy.total();
+    });
+  return s;
+}
+
+TEST(GhostParticles, AnInletBetweenPeriodicPlanesIsHalfOfOneTwiceAsWide) {
+  const auto once = run_stream(10), twice = run_stream(20);
+  ASSERT_TRUE(once && twice);
+  const EnergyLedger &a = once->world().energy, &b = twice->world().energy;
+  Real inflow = 0, across = 0;
+  const Particles& p = once->world().particles;
+  for (Index i = 0; i < p.active; ++i)
+    if (p.part[i] == 1) inflow += p.m[i], across = std::max(across, std::abs(p.v.vec(i)[1]));
+  EXPECT_NEAR(inflow, 1000 * 3 * 0.2, 1000 * 3 * 0.2 * 0.1);  // over 1 m of width, by half a layer
+  EXPECT_GT(across, 0.1);                                     // it feels the water before it
+  EXPECT_EQ(2 * p.active, twice->world().particles.active);
+  EXPECT_LT(p.active, 100 + 60);  // some have left the box
+  EXPECT_NEAR(2 * a.kinetic, b.kinetic, 1e-9 * b.initial);
+  EXPECT_NEAR(2 * a.internal, b.internal, 1e-9 * b.initial);
+  EXPECT_NEAR(2 * a.dissipated, b.dissipated, 1e-9 * b.initial);
+  EXPECT_NEAR(2 * a.throughput, b.throughput, 1e-9 * b.initial);
 }
 
 TEST(GhostParticles, SameBitsOnAnyNumberOfThreads) {
