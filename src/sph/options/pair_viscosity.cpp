@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loads/middle_velocity.hpp"
 #include "parallel/parallel.hpp"
 #include "search/neighbours.hpp"
 #include "sph/core/fields.hpp"
@@ -16,7 +17,8 @@ namespace {
 
 /// Takes the place of the viscous stress, which does not see velocities that change from row to row: where a
 /// wall holds the lowest row, rows pair off. Heat is that of the velocities before the kick; what the kick
-/// changes of it, by the force of walls, too, is added behind it.
+/// changes of it, by the force of walls, too, is added behind it; particles that are driven it does not
+/// change.
 class PairViscosity : public Rate, public EnergyTerm {
  public:
   PairViscosity(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
@@ -54,9 +56,10 @@ class PairViscosity : public Rate, public EnergyTerm {
     }
   }
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
-    const Particles& p = world.particles;
-    const Real power = sum(
-        p.active, [&](Index i) { return -0.5 * clock.dt_mean() / p.m[i] * force_.vec(i).dot(p.f.vec(i)); });
+    Particles& p = world.particles;
+    const Points points = points_of(p);
+    const MiddleVelocity middle(points, clock);
+    const Real power = sum(p.active, [&](Index i) { return force_.vec(i).dot(p.v.vec(i) - middle(i)); });
     ledger.dissipated += power * clock.dt_mean();
     ledger.throughput += std::abs(power) * clock.dt_mean();
   }

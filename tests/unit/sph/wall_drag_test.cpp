@@ -130,6 +130,23 @@ TEST(WallDrag, BooksTheWorkOfABelt) {
     }
 }
 
+// Rows that are driven above the water do work on it, and rub on it without being slowed.
+TEST(WallDrag, BooksTheWorkOfDrivenParticles) {
+  const std::string driven =
+      "*DEFINE_BOX\n9,-9.,9.,0.5,9.,-9.,9.\n*SET_NODE_GENERAL\n8\nBOX,9\n"
+      "*BOUNDARY_PRESCRIBED_MOTION_SET\n8,1,0,6\n8,2,0,7\n"
+      "*DEFINE_CURVE\n6\n0.,2.\n9.,2.\n*DEFINE_CURVE\n7\n0.,0.\n9.,0.\n";
+  const auto s = sheared(held_water(1, held, driven, 8), [](Real y) { return y > 0.5 ? 2 : 0; });
+  ASSERT_TRUE(s);
+  sample_energy(s->world(), s->clock());
+  s->world().energy.initial = s->world().energy.total();
+  test::run(*s, 0.3);
+  const EnergyLedger energy = s->sample("").energy;
+  EXPECT_GT(energy.external_work, 1);
+  EXPECT_GT(energy.dissipated, 1);
+  EXPECT_LT(std::abs(energy.residual()), 0.004 * energy.dissipated);
+}
+
 // A plate as heavy as the water, free to move: it gets what the water loses.
 TEST(WallDrag, GivesAFreeWallWhatWaterLoses) {
   for (const int method : {0, 1}) {
