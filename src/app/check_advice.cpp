@@ -52,6 +52,20 @@ FlowScale flow_scale(const Simulation& s) {
   return f;
 }
 
+/// Standard deviation of a kernel over h, in the plane: kernels of equal width smooth alike.
+Real width_of(KernelChoice choice) {
+  return with_kernel(choice, [](auto kernel) {
+    constexpr int steps = 200;
+    constexpr Real dR = decltype(kernel)::support / steps;
+    Real all = 0, second = 0;
+    for (int k = 0; k < steps; ++k) {
+      const Real R = (k + 0.5) * dR, share = R * kernel.shape(R);
+      all += share, second += R * R * share;
+    }
+    return std::sqrt(second / (2 * all));
+  });
+}
+
 class ChoiceAdvice {
  public:
   ChoiceAdvice(const Simulation& s, const ModelFacts& facts) : s_(s), facts_(facts), flow_(flow_scale(s)) {}
@@ -69,6 +83,7 @@ class ChoiceAdvice {
       slowest_ = std::min(slowest_, m.c0());
     }
     if (std::isfinite(slowest_) && flow_.speed > 0) contacts();
+    if (std::isfinite(slowest_) && flow_.g > 0) bodies_afloat();
     return std::move(out_);
   }
 
@@ -100,15 +115,19 @@ class ChoiceAdvice {
         id(k), spacings, facts_.parts[k].spacing, flow_.height, flow_.height / usual);
   }
 
+  /// Widths as of the cubic spline; wider than 1.5 spacings it and the quadratic one let particles pair.
   void smoothing_length(std::size_t k) {
-    constexpr Real least = 2.2, most = 3, usual = 2.4;  // of the spacing
-    const Real support = kernel_support(s_.sph().kernel), dx = facts_.parts[k].spacing;
-    const Real reach = support * facts_.parts[k].h / dx;
-    if (!(dx > 0) || (reach >= least && reach <= most)) return;
-    add("part {}: particles reach {:.3g} spacings, {} is usual: {}; type CSLH = {:.3g} (and SPHINI 0) in "
+    constexpr Real least = 1.1, most = 1.5, most_smooth = 2, usual = 1.2;
+    const KernelChoice kernel = s_.sph().kernel;
+    const bool pairs = kernel == KernelChoice::cubic_spline || kernel == KernelChoice::quadratic_spline;
+    const Real support = kernel_support(kernel), dx = facts_.parts[k].spacing, h = facts_.parts[k].h;
+    const Real as_cubic = width_of(kernel) / width_of(KernelChoice::cubic_spline);
+    const Real width = as_cubic * h / dx;
+    if (!(dx > 0) || (width >= least && width <= (pairs ? most : most_smooth))) return;
+    add("part {}: particles reach {:.3g} spacings, {:.2g} is usual: {}; type CSLH = {:.3g} (and SPHINI 0) in "
         "*SECTION_SPH",
-        id(k), reach, usual, reach < least ? "sums have too few neighbours" : "details are smoothed away",
-        usual / support);
+        id(k), support * h / dx, support * usual / as_cubic,
+        width < least ? "sums have too few neighbours" : "details are smoothed away", usual / as_cubic);
   }
 
   void tension(std::size_t k) {
@@ -133,6 +152,18 @@ class ChoiceAdvice {
         "(LAW 2 of *COURANT_WALL_SUPPORT) rubs too little where water is turbulent; type LAW = 1 and the "
         "roughness KS",
         id(k), flow_.speed, most * nu / (share * flow_.speed), dx);
+  }
+
+  /// The lattice of the cubic spline resists shear (docs/theory.md, Kernel).
+  void bodies_afloat() {
+    if (s_.sph().kernel != KernelChoice::cubic_spline || !s_.bodies()) return;
+    for (const RigidBody& b : s_.bodies()->bodies()) {
+      if (b.fixed() || !b.motions.empty()) continue;
+      return add(
+          "{}: if it floats, it heaves a fifth too little and hardly rolls, as particles of the cubic spline "
+          "resist shear under pressure; type SPHKERN = 1 in *SECTION_SPH",
+          b.name);
+    }
   }
 
   void contacts() {

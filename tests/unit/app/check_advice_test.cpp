@@ -71,6 +71,37 @@ TEST(CheckAdvice, SpacingAndSmoothingLength) {
   EXPECT_TRUE(holds(advice_of(scene), "details are smoothed away; type CSLH = 1.2"));
 }
 
+// Wider kernels of smaller support and the other way round: what counts is their width.
+TEST(CheckAdvice, SmoothingLengthOfOtherKernels) {
+  SmallScene scene = fine_scene();
+  for (const char* quintic : {"1,1.,1.,1.,0.,1e20,0.,1", "1,1.4,1.,1.,0.,1e20,0.,1"}) {
+    scene.section = quintic;
+    EXPECT_EQ(advice_of(scene), "");
+  }
+  scene.section = "1,0.8,1.,1.,0.,1e20,0.,1";
+  EXPECT_TRUE(holds(advice_of(scene),
+                    "reach 2.4 spacings, 2.9 is usual: sums have too few neighbours; type CSLH = 0.97"))
+      << advice_of(scene);
+  scene.section = "1,2.,1.,1.";
+  scene.extra = std::string(earth) + "*COURANT_KERNEL\nwendland_c2\n";
+  EXPECT_EQ(advice_of(scene), "");
+}
+
+TEST(CheckAdvice, BodiesThatMayFloat) {
+  SmallScene scene = fine_scene();
+  scene.extra = std::string(earth) + test::floor_cards(0);
+  EXPECT_FALSE(holds(advice_of(scene), "floats"));   // held
+  std::string loose = test::floor_cards(0, 1, "0");  // and one deep in z
+  for (const auto& [wide, deep] : {std::pair{",0,-2.\n", ",0,0.\n"}, {",0,3.\n", ",0,1.\n"}})
+    for (std::size_t at; (at = loose.find(wide)) != std::string::npos;)
+      loose.replace(at, std::string(wide).size(), deep);
+  scene.extra = earth + loose;
+  EXPECT_TRUE(holds(advice_of(scene), "if it floats, it heaves a fifth too little")) << advice_of(scene);
+  EXPECT_TRUE(holds(advice_of(scene), "type SPHKERN = 1 in *SECTION_SPH"));
+  scene.section = "1,1.2,1.,1.,0.,1e20,0.,1";
+  EXPECT_FALSE(holds(advice_of(scene), "floats"));
+}
+
 TEST(CheckAdvice, TensionMattersUnderGravityAlone) {
   SmallScene scene = fine_scene();
   scene.material = "1,1000.,0.";
