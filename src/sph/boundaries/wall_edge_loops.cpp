@@ -150,6 +150,10 @@ struct Ways {
                     width, tiny);
     straight.share += 1 - free;
   }
+  /// 1 where i and j are on different sides of the plane of a wall, else 0.
+  COURANT_INLINE Pack across(const EightEdges<Dim>& edges) const {
+    return is_positive(max(0 - edges.height[0] * there[0], 0 - edges.height[1] * there[1]));
+  }
   /// What i is off the image of j by a wall, squared.
   COURANT_INLINE Pack far2(const EightEdges<Dim>& edges, int k, const Pack& r2, const Pack& tiny) const {
     return max(r2 + 4 * edges.height[k] * there[k], tiny);
@@ -271,7 +275,8 @@ void group_rates(const Kernel& kernel, const WallMirrorArrays& a, const Neighbou
     speed[k] = edges.along(edges.n[k], vi) - dot(edges.n[k], edges.v);
     inward_speed[k] = edges.along(edges.m[k], vi) - dot(edges.m[k], edges.v);
   }
-  Pack div = Pack::zero();
+  const Pack kept = 1 - Pack::load(a.edge_loss + i, count);
+  Pack div = Pack::zero(), passing[2] = {Pack::zero(), Pack::zero()};
   for (Index entry = lists.start[g]; entry < lists.start[g + 1]; ++entry) {
     const std::ptrdiff_t j = lists.list[entry];
     Difference<Dim> d, u(vi, a.v, j);
@@ -285,10 +290,13 @@ void group_rates(const Kernel& kernel, const WallMirrorArrays& a, const Neighbou
     if (edges.move) a.ways[entry] = ways.note(edges, r2, reach2, tiny);
     const Pack u_dot_d = dot(u, d);
     Pack change = Pack::zero();
-    const auto add = [&](const Passing& way, const Pack& far2, const Pack& along, const Pack& share_rate) {
-      const Pack rinv = rsqrt(far2), R = far2 * rinv * hinv;
+    const Pack within = a.V[j] * is_positive(reach2 - r2);
+    const auto add = [&](const Passing& way, const Pack& far2, const Pack& along, const Pack& share_rate,
+                         const Pack& exists, int kind) {
+      const Pack rinv = rsqrt(far2), R = far2 * rinv * hinv, W = norm * kernel.shape(R);
       change += slope_norm * way.share * gradient_shape(kernel, R, rinv) * along +
-                norm * kernel.shape(R) * share_rate;
+                kept * (1 - a.edge_loss[j]) * W * share_rate;
+      passing[kind] += within * exists * W * max(way.by_start, 0 - way.by_start);
     };
     for (int k = 0; k < 2; ++k) {
       const Passing& way = ways.by[k];
@@ -297,24 +305,30 @@ void group_rates(const Kernel& kernel, const WallMirrorArrays& a, const Neighbou
       add(way, ways.far2(edges, k, r2, tiny),
           u_dot_d + 2 * (speed[k] * ways.there[k] + of_j * edges.height[k]),
           way.by_start * (way.over * speed[k] + way.into * inward_speed[k]) +
-              way.by_end * (way.into * inward_of_j - way.over * of_j));
+              way.by_end * (way.into * inward_of_j - way.over * of_j),
+          Pack::of(1), 0);
     }
     const Passing& way = ways.straight;
     if (any_less(Pack::zero(), way.share)) {
       const Pack thrown_back = change;
       const Pack of_j = speed[0] - dot(edges.n[0], u), inward_of_j = inward_speed[0] - dot(edges.m[0], u);
+      const Pack other = is_positive(r2 - 2 * tiny);  // none goes to oneself
       change = Pack::zero();
       add(way, r2, u_dot_d,
           way.by_start * (way.over * speed[0] + way.into * inward_speed[0]) +
-              way.by_end * (way.over * of_j + way.into * inward_of_j));
-      change = thrown_back - is_positive(r2 - 2 * tiny) * change;  // none goes to oneself
+              way.by_end * (way.over * of_j + way.into * inward_of_j),
+          other * ways.across(edges), 1);
+      change = thrown_back - other * change;
     }
-    div += a.V[j] * is_positive(reach2 - r2) * change;
+    div += within * change;
   }
-  Real rate[lanes];
-  div.store(rate);
-  for (Index l = 0; l < count; ++l)
-    if (edges.without[l] == 0) a.drhodt[i + l] += a.rho[i + l] * rate[l];
+  Real rate[lanes], sum[2][lanes];
+  div.store(rate), passing[0].store(sum[0]), passing[1].store(sum[1]);
+  for (Index l = 0; l < count; ++l) {
+    if (edges.without[l] != 0) continue;
+    a.drhodt[i + l] += a.rho[i + l] * rate[l];
+    for (int k = 0; k < 2; ++k) a.edge_sum[k][i + l] += sum[k][l];
+  }
 }
 
 /// Adds what ways do to particles; `hidden` is taken off, as no wall's.
@@ -352,6 +366,7 @@ void group_forces(const Kernel& kernel, const WallMirrorArrays& a, const Neighbo
   Pack over[2] = {Pack::zero(), Pack::zero()}, into[2] = {Pack::zero(), Pack::zero()},
        diffusion = Pack::zero();
   EightPulls<Dim> pulls(edges);
+  const Pack kept = 1 - Pack::load(a.edge_loss + i, count);
   for (Index entry = lists.start[g]; entry < lists.start[g + 1]; ++entry) {
     const std::ptrdiff_t j = lists.list[entry];
     const Difference<Dim> d(xi, a.x, j);
@@ -367,7 +382,8 @@ void group_forces(const Kernel& kernel, const WallMirrorArrays& a, const Neighbo
       if (!any_less(Pack::zero(), way.share)) continue;
       const Pack far2 = ways.far2(edges, k, r2, tiny), rinv = rsqrt(far2), R = far2 * rinv * hinv,
                  slope = slope_norm * way.share * gradient_shape(kernel, R, rinv),
-                 share = norm * kernel.shape(R), share_slope = share * way.by_start;
+                 share = kept * (1 - a.edge_loss[j]) * norm * kernel.shape(R),
+                 share_slope = share * way.by_start;
       force.add(pressure * slope, d);
       over[k] += pressure * (2 * slope * ways.there[k] + share_slope * way.over);
       into[k] += pressure * share_slope * way.into;
@@ -378,7 +394,8 @@ void group_forces(const Kernel& kernel, const WallMirrorArrays& a, const Neighbo
     if (any_less(Pack::zero(), way.share)) {
       const Pack rinv = rsqrt(r2), R = r2 * rinv * hinv, other = is_positive(r2 - 2 * tiny),
                  slope = other * (slope_norm * way.share * gradient_shape(kernel, R, rinv)),
-                 share = other * (norm * kernel.shape(R)), share_slope = share * way.by_start;
+                 share = kept * (1 - a.edge_loss[j]) * other * (norm * kernel.shape(R)),
+                 share_slope = share * way.by_start;
       hidden.add(pressure * slope, d);
       over[0] -= pressure * share_slope * way.over, into[0] -= pressure * share_slope * way.into;
       all -= slope;

@@ -29,6 +29,7 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
                     ? sph_fields::pressure_plus_q(world.particles)
                     : world.particles.p),
       force_(sph_fields::wall_force(world.particles)),
+      edge_loss_(sph_fields::edge_loss(world.particles)),
       diffusion_(s.density_diffusion > 0 ? &sph_fields::density_diffusion(world.particles) : nullptr),
       walls_(s.walls),
       width_(WallPaths::usual_width * s.spacing),
@@ -152,6 +153,7 @@ void WallImages::declare(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
   a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.h);
   a.reads(volumes_->before(), Reach::others).reads_before(p.rho).updates(p.drhodt);
+  a.reads(edge_loss_, Reach::others);
   if (viscosity_) a.reads(*viscosity_, Reach::others).updates(p.f).updates(*heat_).writes(*drag_);
   if (viscous_) a.updates(*viscous_);
   if (!any_moves_) return;
@@ -163,6 +165,7 @@ void WallImages::declare(const World& world, Accesses& a) const {
 void WallImages::start(World& world, const Clock& clock) {
   half_step_ = 0.5 * clock.dt_old;
   blocks_.resize(static_cast<std::size_t>(block_count(world.particles.active)));
+  for (auto& sum : edge_sum_) sum.assign(static_cast<std::size_t>(world.particles.active), 0);
   if (!any_moves_) return;
   paths_from_->take_along(world, 0);
   in_middle_->take_along(world, half_step_);
@@ -275,8 +278,12 @@ Vec WallImages::speed(const Particles& p, const WallPath& path) const {
   return path.moves ? Vec(over - path.drift) : over;
 }
 
-void WallImages::add_rate(Particles& p, const WallPath& path, const std::vector<WallPull>& pulls) const {
-  const Real h = p.h[path.i];
+Real WallImages::kept(const WallPath& path) const {
+  return (1 - edge_loss_[path.i]) * (1 - edge_loss_[path.j]);
+}
+
+void WallImages::add_rate(Particles& p, const WallPath& path, const std::vector<WallPull>& pulls) {
+  const Real h = p.h[path.i], V = volumes_->current()[path.j], W = kernel(h, path.d);
   Real share_rate = path.by_i.dot(p.v.vec(path.i)) + path.by_j.dot(p.v.vec(path.j));
   for (Index k = path.pulls; k < path.pulls_end; ++k) {
     const WallPull& pull = pulls[static_cast<std::size_t>(k)];
@@ -287,8 +294,10 @@ void WallImages::add_rate(Particles& p, const WallPath& path, const std::vector<
           in_middle_->face(pull.face).n.dot(in_middle_->velocity(pull.face, pull.at + pull.lever) - v);
   }
   p.drhodt[path.i] +=
-      p.rho[path.i] * volumes_->current()[path.j] *
-      (path.weight * slope(h, path.d) * speed(p, path).dot(path.d) + kernel(h, path.d) * share_rate);
+      p.rho[path.i] * V *
+      (path.weight * slope(h, path.d) * speed(p, path).dot(path.d) + kept(path) * W * share_rate);
+  if (path.weight > 0 || path.across)
+    edge_sum_[path.weight > 0 ? 0 : 1][static_cast<std::size_t>(path.i)] += V * W * path.by_i.norm();
 }
 
 /// Those of pairs of which particle i stands in a room that one of its ways may leave.
@@ -318,6 +327,8 @@ WallMirrorArrays WallImages::arrays(Particles& p, Index begin) {
   for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.aside[k] = at_end().shift()[k];
   a.V = volumes_->current(), a.rho = p.rho.data();
   a.h = p.active > 0 ? p.h[0] : 1, a.delta = delta_, a.half_step = half_step_;
+  a.edge_loss = edge_loss_.data();
+  for (int k = 0; k < 2; ++k) a.edge_sum[k] = edge_sum_[k].data();
   a.room = rooms_.data(), a.edge = edges_.data(), a.strange = strange_.data(), a.kernel = kernel_;
   return a;
 }
@@ -343,6 +354,8 @@ void WallImages::declare_forces(const World& world, Accesses& a) const {
   a.reads(p.h).reads(p.rho).reads(p.c).reads(p.part).updates(p.f).updates(force_);
   if (diffusion_) a.updates(*diffusion_).reads(*potential_, Reach::others);
   if (drag_) a.reads(*drag_);
+  a.reads(edge_loss_, Reach::others);
+  a.in_finish().updates(edge_loss_);
   if (!any_moves_) return;
   const Segments& s = world.segments;
   a.in_finish().updates(*s.contact_force).updates(world.nodes.f);
@@ -371,7 +384,7 @@ void WallImages::forces(World& world, Index begin, Index end) {
   for (const WallPath& path : block.paths) {
     const Index i = path.i, j = path.j;
     const Real share = path.weight * V[j] * slope(p.h[i], path.d), pressure = pressure_[i] + pressure_[j],
-               W = V[j] * kernel(p.h[i], path.d);
+               W = kept(path) * V[j] * kernel(p.h[i], path.d);
     // the way to oneself stands for the way back, too, which in a corner is another
     const Vec d = path.moves && i == j ? Vec(0.5 * (path.d - path.turn.transpose() * path.d)) : path.d;
     const Vec force = -V[i] * pressure * (share * d + W * path.by_i);
@@ -415,6 +428,17 @@ void WallImages::give(const WallPull& pull, Real times, Block& block) const {
   for (std::size_t e = 0; e < 4; ++e) to.on_node[e] += (there[e] - weight[e]) * normal;
 }
 
+void WallImages::weigh_edges(World& world) {
+  constexpr Real dry = 0.12, wet = 0.25;  // docs/theory.md, METHOD 1
+  for_each(world.particles.active, [&](Index i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Real thrown_back = edge_sum_[0][k], seen = edge_sum_[1][k];
+    const Real t =
+        thrown_back > 0 ? std::clamp((seen / thrown_back - dry) / (wet - dry), Real(0), Real(1)) : 1;
+    edge_loss_[i] = 1 - t * t * (3 - 2 * t);
+  });
+}
+
 void WallImages::give_reactions(World& world) const {
   if (!any_moves_) return;
   for (const Block& block : blocks_)
@@ -438,7 +462,10 @@ class WallImageForces : public Force {
   void block(World& world, const Clock&, Index begin, Index end) override {
     images_->forces(world, begin, end);
   }
-  void finish(World& world, const Clock&) override { images_->give_reactions(world); }
+  void finish(World& world, const Clock&) override {
+    images_->give_reactions(world);
+    images_->weigh_edges(world);
+  }
 
  private:
   std::shared_ptr<WallImages> images_;

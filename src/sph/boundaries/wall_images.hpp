@@ -51,6 +51,10 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   void declare_forces(const World& world, Accesses& a) const;
   void start_forces(const Clock& clock);
   void forces(World& world, Index begin, Index end);
+  /// What the next step leaves out of changes of shares at edges: they belong to water that goes round an
+  /// edge, where a way that walls throw no longer back sees water instead. Where that is missing the surface
+  /// is free.
+  void weigh_edges(World& world);
   /// Gives walls that move what blocks have for them.
   void give_reactions(World& world) const;
 
@@ -129,7 +133,9 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   Real kernel(Real h, const Vec& d) const;
   Vec speed(const Particles& p, const WallPath& path) const;
   void drag(Particles& p, const WallPath& path, Block& block) const;
-  void add_rate(Particles& p, const WallPath& path, const std::vector<WallPull>& pulls) const;
+  void add_rate(Particles& p, const WallPath& path, const std::vector<WallPull>& pulls);
+  /// Of how its share changes, what is not left out.
+  Real kept(const WallPath& path) const;
 
   int dim_;
   Real delta_, half_step_ = 0;
@@ -138,7 +144,8 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   std::shared_ptr<Neighbours> neighbours_;
   std::shared_ptr<PairVolumes> volumes_;
   std::shared_ptr<WallSupport> support_;
-  Field<Real>&pressure_, &force_;
+  Field<Real>&pressure_, &force_, &edge_loss_;
+  std::array<std::vector<Real>, 2> edge_sum_;  ///< of this step, by particles
   Field<Real>*diffusion_, *potential_ = nullptr;
   /// Where walls hold water fast; `viscous_` where there is no turbulence.
   Field<Real>*viscosity_ = nullptr, *heat_ = nullptr, *drag_ = nullptr, *viscous_ = nullptr;

@@ -23,9 +23,13 @@ struct WallMirrorArrays {
   const Real* potential;  ///< -g.x [L2/T2]
   Real* diffusion;        ///< rate of rho by diffusion [M/L3T]; null: none
   Real h, delta;
-  Real half_step;               ///< rates are those of places half a step ago [T]
-  Real aside[3];                ///< so far aside of their places particles are looked at [L]
-  Real width;                   ///< of edges [L]
+  Real half_step;         ///< rates are those of places half a step ago [T]
+  Real aside[3];          ///< so far aside of their places particles are looked at [L]
+  Real width;             ///< of edges [L]
+  const Real* edge_loss;  ///< sph_fields::edge_loss
+  /// Of each particle beside an edge, added: sums of V W and the slope of the share over ways that walls
+  /// throw back, and over straight ones to the other side of a wall's plane [1/L]
+  Real* edge_sum[2];
   const WallRoom* const* room;  ///< of each particle; null: none
   const WallEdge* const* edge;  ///< the same, of those that have no room
   /// Of each particle of the lists that stands beside an edge that moves; null: none does.

@@ -24,7 +24,8 @@ struct WallPath {
   Vec drift = Vec::Zero();                     ///< velocity of the image where j rests [L/T]
   std::array<signed char, 4> by{-1, -1, -1, -1};  ///< the sheets that throw it back, in turn
   bool moves = false;                             ///< any of them does
-  Index pulls = 0, pulls_end = 0;                 ///< how the share goes over with the places of walls
+  bool across = false;  ///< of a straight way: its ends are on different sides of the plane of a wall
+  Index pulls = 0, pulls_end = 0;  ///< how the share goes over with the places of walls
 };
 
 /// How something changes with the place of a rigid piece of wall: by `force` times the way of what moves with

@@ -209,6 +209,9 @@ void WallPaths::add_straight(const Pair& pair) const {
   if (!(m.share > 0)) return;
   WallPath path{.i = pair.i, .j = pair.j, .weight = -m.share, .d = x - y};
   path.by_i = -m.by_start, path.by_j = -m.by_end;
+  const Sheets& sheets = *pair.from.sheets_;
+  for (std::size_t k = 0; m.edge_of && k < sheets.size(); ++k)
+    path.across |= has(pair.some, k) && sheets[k].height(x) * sheets[k].height(y) < 0;
   if (pair.pulls) {
     path.pulls = static_cast<Index>(pair.pulls->size());
     pull_edge(m, 1, *pair.pulls);

@@ -165,6 +165,10 @@ inline Field<Real>& wall_gradient(Particles& p) {
 inline Field<Real>& wall_force(Particles& p) {
   return p.fields.add<Real>({.name = "wall_force", .dimension = "ML/T2", .components = 3, .restart = false});
 }
+/// What is left out of how shares of ways change at edges, which past them have no water: 0 nothing, 1 all
+inline Field<Real>& edge_loss(Particles& p) {
+  return p.fields.add<Real>({.name = "edge_loss", .dimension = "-", .exchange = true});
+}
 /// Force of MU between pairs and with walls that hold water fast
 inline Field<Real>& viscous_force(Particles& p) {
   return p.fields.add<Real>(
