@@ -12,7 +12,7 @@ from courant.verify.driver import Options, Verification
 from courant.verify.model import Suite
 from courant.verify.plan import PlannedRun, folder_name, plan_runs
 from courant.verify.reference import read_table
-from courant.verify.scene import scene_values
+from courant.verify.scene import scene_files, scene_values
 from courant.verify.suite import read_suite
 
 SCENE = """
@@ -209,6 +209,21 @@ def test_parameters_of_scenes_and_bases(tmp_path: Path) -> None:
     assert scene_values(scene, {"x": "1"}) is None
     scene.write_text("base: none.yaml\n")
     assert scene_values(scene, {}) is None
+
+
+def test_bases_of_bases(tmp_path: Path) -> None:
+    (tmp_path / "lowest.yaml").write_text("parameters: {a: 2, b: a * own, c: 7}\n")
+    (tmp_path / "base.yaml").write_text("base: lowest.yaml\nparameters: {c: 5, e: b + late}\n")
+    (tmp_path / "other.yaml").write_text("base: lowest.yaml\nparameters: {f: a}\n")
+    scene = tmp_path / "scene.yaml"
+    scene.write_text("base: [base.yaml, other.yaml]\nparameters: {own: 3, late: b + c}\n")
+    values = scene_values(scene, {})
+    assert values is not None
+    del values["pi"]
+    assert values == pytest.approx({"a": 2, "b": 6, "c": 5, "own": 3, "late": 11, "e": 17, "f": 2})
+    assert [file.name for file in scene_files(scene)] == ["scene.yaml", "lowest.yaml", "base.yaml", "other.yaml"]
+    (tmp_path / "lowest.yaml").write_text("base: base.yaml\n")
+    assert scene_values(scene, {}) is None, "a base of itself"
 
 
 def test_folders_have_names_of_their_own() -> None:
