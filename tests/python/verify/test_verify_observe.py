@@ -111,6 +111,21 @@ def test_particles(folder: Path) -> None:
     assert measured(folder, "particles", "h2", "final").why == "unknown name 'h2'"
 
 
+def test_surfaces(tmp_path: Path) -> None:
+    cells = np.arange(200)
+    places = 0.1 * np.column_stack([cells % 20 + 0.5, cells // 20 + 0.5, 0 * cells])
+    places = np.vstack([places, [[1, 3, 0]]]).astype("f4")  # and a drop
+    full = {"mass": 10.0, "density": 1000.0, "smoothing_length": 0.12}
+    block = {"Points": places, **{name: np.full(201, value) for name, value in full.items()}, "active": np.ones(201, "B")}
+    write_states(tmp_path, {0.0: block, 1.0: block | {"Points": places + np.array([0, 0.5, 0], "f4")}})
+    series = measured(tmp_path, "surface", "", "curve", x="9 * dx", bed="2 * dx").series
+    assert series.x == pytest.approx([0, 1])
+    assert series.y == pytest.approx([0.8, 1.3], abs=2e-3), "drops are no water"
+    assert number(tmp_path, "surface", "", "final", x="1", where="1.0 - y") == pytest.approx(1, abs=2e-3)
+    assert number(tmp_path, "surface", "", "final", x="3") == 0, "it is dry there"
+    assert measured(tmp_path, "surface", "", "final", x="1 / 0").why == "division by zero, got '1 / 0'"
+
+
 def test_profiles(folder: Path) -> None:
     o = Observation("o", kind="profile", of="p", along="1 - y", at="0.48", reference=Reference("formula", "g * (1 - y) + t"))
     exact = observed(folder, o)

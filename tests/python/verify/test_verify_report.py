@@ -58,6 +58,20 @@ def test_numbers_and_words(written: str, expected: str) -> None:
     assert written.replace("\u00a0", " ") == expected
 
 
+def test_links() -> None:
+    assert text.links("See [a_b](c_d.md#e-f), [g].\n[h](x y)") == [("See ", ""), ("a_b", "c_d.md#e-f"), (", [g].\n[h](x y)", "")]
+    assert text.links("[here](#there)") == [("here", "#there")]
+    assert text.links("[a](<script>) [b](https://x) [c](javascript:d)") == [("[a](<script>) [b](https://x) [c](javascript:d)", "")]
+
+
+def test_links_of_the_page(tmp_path: Path) -> None:
+    made = suite(wave())
+    made.suite.about = "See *all* of [a_b](c_d.md#e-f) & [g]."
+    write_page(made, tmp_path / "page.md", tmp_path / "pictures")
+    assert "\nSee \\*all\\* of [a\\_b](c_d.md#e-f) &amp; \\[g\\].\n\n**" in (tmp_path / "page.md").read_text()
+    assert "<p>See *all* of a_b &amp; [g].</p>" in html(made)
+
+
 def test_paragraphs() -> None:
     assert text.paragraphs("a\nb\n \n\nc\n") == ["a\nb", "c"]
 

@@ -12,7 +12,7 @@ from courant.verify.driver import Options, Verification
 from courant.verify.model import Suite
 from courant.verify.plan import PlannedRun, folder_name, plan_runs
 from courant.verify.reference import read_table
-from courant.verify.scene import scene_values
+from courant.verify.scene import scene_files, scene_values
 from courant.verify.suite import read_suite
 
 SCENE = """
@@ -147,6 +147,11 @@ FAULTS = [
     (OBSERVING + "{name: a, of: t, reduce: sum}\n", "'reduce' belongs to kind: particles"),
     (OBSERVING + "{name: a, of: t, empty: 0}\n", "'empty' belongs to kind: particles"),
     (OBSERVING + "{name: a, of: t, bins: 4}\n", "'bins' belongs to profiles"),
+    (OBSERVING + "{name: a, of: t, bed: 1}\n", "'bed' belongs to kind: surface"),
+    (OBSERVING + "{name: a, kind: particles, of: t, x: 1}\n", "'x' belongs to kind: surface"),
+    (OBSERVING + "{name: a, kind: surface}\n", "lacks the key 'x'"),
+    (OBSERVING + "{name: a, kind: surface, x: 1, of: t}\n", "'of' belongs to other kinds"),
+    (OBSERVING + "{name: a, kind: surface, x: vx}\n", "unknown name 'vx'"),
     (OBSERVING + "{name: a, kind: profile, of: p, along: x, bins: 2.5}\n", "must be a whole number"),
     (OBSERVING + "{name: a, kind: profile, of: p, along: x, bins: 4, take: max, reference: y}\n", "unknown name 'y'"),
     (OBSERVING + "{name: a, of: t, reference: 1, align: 1}\n", "'align' belongs to curves against a csv"),
@@ -209,6 +214,32 @@ def test_parameters_of_scenes_and_bases(tmp_path: Path) -> None:
     assert scene_values(scene, {"x": "1"}) is None
     scene.write_text("base: none.yaml\n")
     assert scene_values(scene, {}) is None
+
+
+def test_bases_of_bases(tmp_path: Path) -> None:
+    (tmp_path / "lowest.yaml").write_text("parameters: {a: 2, b: a * own, c: 7}\n")
+    (tmp_path / "base.yaml").write_text("base: lowest.yaml\nparameters: {c: 5, e: b + late}\n")
+    (tmp_path / "other.yaml").write_text("base: lowest.yaml\nparameters: {f: a}\n")
+    scene = tmp_path / "scene.yaml"
+    scene.write_text("base: [base.yaml, other.yaml]\nparameters: {own: 3, late: b + c}\n")
+    values = scene_values(scene, {})
+    assert values is not None
+    del values["pi"]
+    assert values == pytest.approx({"a": 2, "b": 6, "c": 5, "own": 3, "late": 11, "e": 17, "f": 2})
+    assert [file.name for file in scene_files(scene)] == ["scene.yaml", "lowest.yaml", "base.yaml", "other.yaml"]
+    (tmp_path / "lowest.yaml").write_text("base: base.yaml\n")
+    assert scene_values(scene, {}) is None, "a base of itself"
+
+
+SUITES = [file for file in sorted(Path(__file__).parents[2].glob("verification/*.yaml")) if "\ncases:" in file.read_text()]
+
+
+@pytest.mark.parametrize("file", SUITES, ids=lambda file: file.stem)
+def test_suites_of_the_project_can_be_read(file: Path) -> None:
+    diagnostics = Diagnostics()
+    suite = read_suite(file, diagnostics)
+    assert diagnostics.ok, diagnostics.text()
+    assert plan_runs(suite, lambda run, k: [], 1, diagnostics) and diagnostics.ok, diagnostics.text()
 
 
 def test_folders_have_names_of_their_own() -> None:

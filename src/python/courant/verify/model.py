@@ -61,6 +61,8 @@ class Observation:
     start: str | None = None  # the keys `from` and `to`: window in t, expressions of parameters
     end: str | None = None
     at: str | None = None
+    x: str = ""  # of kind surface: place of the line and height of the bed there, expressions of parameters
+    bed: str = ""
     reference: Reference = field(default_factory=Reference)
     align: int = 0
     norm: str = "l2"

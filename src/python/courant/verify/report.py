@@ -16,7 +16,7 @@ from .figures import figures
 from .model import SuiteResult
 from .pareto import cheapest_within_bounds
 from .tables import check_text, checks_table, overview_table, runs_table
-from .text import escape_markdown, escape_xml, file_stem, number, paragraphs, percent, seconds
+from .text import escape_markdown, escape_xml, file_stem, links, number, paragraphs, percent, seconds
 
 _TEMPLATES = Path(__file__).with_name("templates")
 _MOST_OPEN_ROWS = 30  # of a table; a longer one is opened by the reader
@@ -38,7 +38,8 @@ def _render(template: str, escape: Callable[[str], str], result: SuiteResult, **
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(_TEMPLATES), trim_blocks=True, lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined, autoescape=False, keep_trailing_newline=True,
                                      finalize=lambda value: value if isinstance(value, _Markup) else escape(str(value)))
-    environment.filters |= {"percent": percent, "seconds": seconds, "number": number, "paragraphs": paragraphs, "stem": file_stem}
+    environment.filters |= {"percent": percent, "seconds": seconds, "number": number, "paragraphs": paragraphs, "links": links,
+                            "stem": file_stem}
     environment.globals |= {
         "result": result, "verdict": verdict(result), "figures": figures, "cheapest": cheapest_within_bounds, "check_text": check_text,
         "checks_table": checks_table, "runs_table": runs_table, "overview": overview_table(result), "most_rows": _MOST_OPEN_ROWS,

@@ -3,7 +3,9 @@ scene with a fault has no values."""
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from ..diagnostics import Diagnostics
@@ -23,19 +25,46 @@ def _entries(node: Node | None) -> dict[str, Node]:
     return {scalar_text(key): value for key, value in node.value}
 
 
+@dataclass
+class _Base:
+    """A file that scenes have in common. `above`: names of parameters of the files that this one is a base of."""
+
+    file: Path
+    entries: dict[str, Node]
+    above: set[str]
+
+
+def _names_of(entries: Mapping[str, Node]) -> set[str]:
+    return set(_entries(entries["parameters"])) if "parameters" in entries else set()
+
+
+def _bases(file: Path, entries: Mapping[str, Node], above: set[str], found: dict[Path, _Base]) -> None:
+    """Adds the bases of a file, each once and after its own. Raises ExpressionFault where one cannot be read."""
+    base = entries.get("base")
+    for node in [] if base is None else base.value if is_list(base) else [base]:
+        path = Path(os.path.normpath(file.parent / scalar_text(node)))
+        if path in found:
+            found[path].above |= above
+            continue
+        inner = _map(path)
+        _bases(path, inner, above | _names_of(inner), found)
+        found[path] = _Base(path, inner, set(above))
+
+
 def scene_files(file: Path) -> list[Path]:
-    """The scene and its bases."""
+    """The scene, its bases, and theirs."""
+    found: dict[Path, _Base] = {}
     try:
-        base = _map(file).get("base")
-    except ExpressionFault:
-        return [file]
-    names = [] if base is None else base.value if is_list(base) else [base]
-    return [file, *(file.parent / scalar_text(name) for name in names)]
+        entries = _map(file)
+        _bases(file, entries, _names_of(entries), found)
+    except (ExpressionFault, RecursionError):
+        pass
+    return [file, *found]
 
 
 def scene_values(file: Path, overrides: Mapping[str, str]) -> Variables | None:
-    """Values of all parameters and of pi; None if the scene has a fault that keeps them from being known. Parameters of bases stand before the
-    scene's own, but for those that need these; the scene's own stand above the bases' of the same name."""
+    """Values of all parameters and of pi; None if the scene has a fault that keeps them from being known. Parameters of bases count as soon as all
+    that they need is there, the scene's own one after the other; of several of the same name that of the file which has the others as bases."""
     values: Variables = {"pi": math.pi}
 
     def take(name: str, node: Node) -> None:
@@ -43,20 +72,29 @@ def scene_values(file: Path, overrides: Mapping[str, str]) -> Variables | None:
             raise ExpressionFault("it stands twice")
         values[name] = evaluate(overrides.get(name, scalar_text(node)), values)
 
-    try:
-        own, *bases = ([(name, node) for name, node in _entries(found["parameters"]).items()] if "parameters" in found else []
-                       for found in map(_map, scene_files(file)))
-        names, later = {name for name, _ in own}, []
-        for name, node in (entry for base in bases for entry in base if entry[0] not in names):
+    def take_ready(waiting: list[tuple[str, Node]]) -> list[tuple[str, Node]]:
+        """Those of bases that wait on, after all that can be has been taken."""
+        left = []
+        for name, node in waiting:
             try:
                 evaluate(scalar_text(node), values)
             except ExpressionFault:
-                later.append((name, node))
+                left.append((name, node))
             else:
                 take(name, node)
-        for name, node in own + later:
+        return left if len(left) == len(waiting) else take_ready(left)
+
+    try:
+        entries, found = _map(file), dict[Path, _Base]()
+        _bases(file, entries, _names_of(entries), found)
+        waiting = take_ready([(name, node) for base in found.values() if "parameters" in base.entries
+                              for name, node in _entries(base.entries["parameters"]).items() if name not in base.above])
+        for name, node in _entries(entries["parameters"]).items() if "parameters" in entries else ():
             take(name, node)
-    except ExpressionFault:
+            waiting = take_ready(waiting)
+        for name, node in waiting:
+            take(name, node)
+    except (ExpressionFault, RecursionError):
         return None
     return values if all(name in values for name in overrides) else None
 

@@ -16,7 +16,7 @@ from .suite_check import CheckedExpression, check_case, check_observation
 _COLUMNS = ("csv_x", "csv_y", "scale_x", "scale_y", "offset_x", "offset_y")
 _OF_CASE = ("name", "title", "about", "scene", "deck", "parameters", "resolution", "resolutions", "size", "settings", "observations", "stability",
             "time_limit", "picture_of", "picture_title", "picture_at", "picture_where")
-_OF_OBSERVATION = ("name", "title", "unit", "kind", "of", "where", "along", "bins", "reduce", "empty", "take", "align", "from", "to", "at", "reference",
+_OF_OBSERVATION = ("name", "title", "unit", "kind", "of", "where", "along", "bins", "reduce", "empty", "take", "align", "from", "to", "at", "x", "bed", "reference",
                    "norm", "scale", "bound", "bound_settings", "least_order")
 
 
@@ -133,9 +133,9 @@ class _CaseReader:
         out = Observation(_word(map_, "[A-Za-z_][A-Za-z0-9_]*", "letters, digits and _"), unit=map_.text("unit"))
         out.title = map_.text("title") or out.name
         out.kind = map_.choice("kind", KINDS.names(), out.kind)
-        found = self.expressions(map_, KINDS[out.kind].of if out.kind in KINDS else "particles", "of", required=True)
+        found = self.expressions(map_, KINDS[out.kind].of if out.kind in KINDS else "particles", "of", required=out.kind != "surface")
         found |= self.expressions(map_, "particles", "where") | self.expressions(map_, "particles", "along", required=out.is_profile)
-        moments = self.expressions(map_, "nothing", "from", "to", "at", "scale")
+        moments = self.expressions(map_, "nothing", "from", "to", "at", "scale", "bed") | self.expressions(map_, "nothing", "x", required=out.kind == "surface")
         out.start, out.end, out.at = (moments.pop(key) or None for key in ("from", "to", "at"))
         for key, text in (found | moments).items():
             setattr(out, key, text)

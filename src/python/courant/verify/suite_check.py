@@ -26,12 +26,15 @@ class CheckedExpression(NamedTuple):
 
 def check_observation(map_: YamlMap, o: Observation) -> None:
     """Whether the keys of an observation fit each other; faults are told at the map."""
-    own, profile, taken, has = o.kind not in ("history", "particles", "profile"), o.is_profile, o.take, map_.has
+    own, profile, taken, has = o.kind not in ("history", "particles", "profile", "surface"), o.is_profile, o.take, map_.has
+    surface = o.kind == "surface"
     rules = [(o.kind == "history" and has("where"), "where", "'where' belongs to particles and profiles"),
         (not profile and not own and has("along"), "along", "'along' belongs to profiles"),
-        (o.kind in ("history", "profile") and not o.bins and has("reduce"), "reduce",
+        (surface and has("of"), "of", "a surface is the depth of the water, 'of' belongs to other kinds"),
+        *((not surface and not own and has(key), key, f"'{key}' belongs to kind: surface") for key in ("x", "bed")),
+        (o.kind in ("history", "profile", "surface") and not o.bins and has("reduce"), "reduce",
          "'reduce' belongs to kind: particles, and to profiles with bins"),
-        (o.kind in ("history", "profile") and has("empty"), "empty", "'empty' belongs to kind: particles"),
+        (o.kind in ("history", "profile", "surface") and has("empty"), "empty", "'empty' belongs to kind: particles"),
         (not profile and not own and has("bins"), "bins", "'bins' belongs to profiles"),
         (profile and taken != "curve" and not (o.bins and taken in ("mean", "min", "max")), "take",
          "a profile can only be taken as a curve, one with bins also as mean, min or max"),

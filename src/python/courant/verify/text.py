@@ -85,6 +85,13 @@ def paragraphs(text: str) -> list[str]:
     return [part.strip("\n") for part in re.split(r"\n(?:[ \t\r]*\n)+", text) if part.strip()]
 
 
+def links(text: str) -> list[tuple[str, str]]:
+    """Pieces of a text with links to pages and places of pages, `[words](page.md#place)`: words, and the target; blank where there is none."""
+    pieces = re.split(r"\[([^\[\]\n]+)\]\(([\w./-]*(?:#[\w-]+)?)\)", text)
+    found = [(words, "") for words in pieces[::3]]
+    return [one for k, words in enumerate(found) for one in (words, (pieces[3 * k + 1], pieces[3 * k + 2]) if 3 * k + 1 < len(pieces) else ("", "")) if one[0]]
+
+
 def plain(text: str) -> str:
     """Without control characters and what XML does not allow: one of them would make an SVG file unreadable."""
     return re.sub("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]", "?", text)
