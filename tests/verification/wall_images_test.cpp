@@ -126,6 +126,38 @@ TEST(WallImages, HoldWaterOverABlock) {
   }
 }
 
+// Water that leaves an edge into the air: the pressure at the bed falls from that of rest to nothing, and
+// nothing pulls or rings.
+TEST(WallImages, LetWaterLeaveABrink) {
+  const int n = 8;
+  const std::string deck =
+      test::generated_from("tests/verification/scenes/free_overfall.yaml",
+                           {{"method", "1"}, {"n", "8"}, {"length", "0.58"}, {"endtim", "1.5"}});
+  Diagnostics diagnostics;
+  auto s = Simulation::build(deck, {}, diagnostics);
+  ASSERT_TRUE(s != nullptr) << diagnostics.text();
+  const Particles& p = s->world().particles;
+  const Real dx = 0.116 / n;
+  Real sum = 0, square = 0;
+  int samples = 0;
+  while (s->clock().t < 1.5) {
+    s->step([](World&, const Clock&, const std::string&) {});
+    if (s->clock().t < 0.7) continue;
+    for (Index i = 0; i < p.active; ++i) {
+      const Vec x = p.x.vec(i);
+      if (x[0] < -3 * dx || x[0] > 0 || x[1] > dx) continue;
+      const Real pressure = p.p[i] / (rho0 * g * dx);
+      sum += pressure, square += pressure * pressure, ++samples;
+    }
+  }
+  const Real mean = sum / samples, deviation = std::sqrt(square / samples - mean * mean);
+  std::printf("pressure over three spacings before the brink %.2f rho g dx, deviation %.2f\n", mean,
+              deviation);
+  EXPECT_GT(mean, 3);  // 8 where nothing flows
+  EXPECT_LT(mean, 7);
+  EXPECT_LT(deviation, 6);
+}
+
 TEST(WallImages, GiveTheSameBitsOnAnyThreadsAndAfterARestart) {
   std::ifstream file(baffle({{"n", "16"}}));
   std::stringstream text;

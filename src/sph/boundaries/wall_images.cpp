@@ -13,6 +13,7 @@ namespace courant {
 
 namespace {
 
+constexpr Real tiny = 1e-300;
 constexpr Real rounded = 1 + 1e-9;  ///< times the reach: whoever is farther has nothing to do with anybody
 
 }  // namespace
@@ -429,13 +430,13 @@ void WallImages::give(const WallPull& pull, Real times, Block& block) const {
 }
 
 void WallImages::weigh_edges(World& world) {
-  constexpr Real dry = 0.12, wet = 0.25;  // docs/theory.md, METHOD 1
+  constexpr Real dry = 0.06, wet = 0.16, enough = 0.015;  // docs/theory.md, METHOD 1
   for_each(world.particles.active, [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
     const Real thrown_back = edge_sum_[0][k], seen = edge_sum_[1][k];
     const Real t =
-        thrown_back > 0 ? std::clamp((seen / thrown_back - dry) / (wet - dry), Real(0), Real(1)) : 1;
-    edge_loss_[i] = 1 - t * t * (3 - 2 * t);
+        std::clamp((seen - dry * thrown_back) / ((wet - dry) * thrown_back + tiny), Real(0), Real(1));
+    edge_loss_[i] = (1 - t * t * (3 - 2 * t)) * std::min(Real(1), spacing_ * thrown_back / enough);
   });
 }
 

@@ -384,7 +384,7 @@ TEST(WallPaths, ShowAParticleToItselfInCorners) {
 
 /// Particles beside walls, each a neighbour of all, as the loops over rooms take them.
 struct Crowd {
-  std::vector<Real> x[3], v[3], V, p, rho, drhodt, f[3], wall_force[3];
+  std::vector<Real> x[3], v[3], V, p, rho, drhodt, f[3], wall_force[3], edge_loss, edge_sum[2];
   std::vector<const WallRoom*> room;
   std::vector<WallRoom> rooms;
   std::vector<const WallEdge*> edge;
@@ -395,6 +395,8 @@ struct Crowd {
   Index doubts = 0;
   Vec at(std::size_t i) const { return Vec(x[0][i], x[1][i], x[2][i]); }
   Vec velocity(std::size_t i) const { return Vec(v[0][i], v[1][i], v[2][i]); }
+  /// Of what a pair's share changes by.
+  Real kept(std::size_t i, std::size_t j) const { return (1 - edge_loss[i]) * (1 - edge_loss[j]); }
   bool is_doubtful(std::size_t i, std::size_t j) const {
     for (Index k = 0; k < doubts; ++k) {
       const Index entry = doubt[static_cast<std::size_t>(k)];
@@ -413,6 +415,8 @@ struct Crowd {
     }
     a.V = V.data(), a.rho = rho.data(), a.p = p.data(), a.drhodt = drhodt.data();
     a.h = h, a.half_step = 1e-3, a.width = WallPaths::usual_width * dx;
+    a.edge_loss = edge_loss.data();
+    for (int k = 0; k < 2; ++k) a.edge_sum[k] = edge_sum[k].data();
     a.room = room.data(), a.edge = edge.data(), a.strange = strange.data();
     a.doubt = doubt.data(), a.doubt_lanes = lanes.data(), a.doubts = &doubts;
     a.kernel = &any_kernel(KernelChoice::cubic_spline);
@@ -429,10 +433,11 @@ Crowd crowd_about(const WallPaths& paths, int dim, Real wide, const Wet& wet) {
     for (int c = 0; c < 3; ++c)
       out.x[c].push_back(x[c]), out.v[c].push_back(c < dim ? std::sin(k + 2.0 * c) : 0);
     out.V.push_back(1 + 0.5 * std::sin(k)), out.p.push_back(2 + std::cos(3 * k)), out.rho.push_back(1);
+    out.edge_loss.push_back(0.3 + 0.3 * std::sin(5 * k));
   }
   const std::size_t n = out.V.size();
   for (auto* to : {&out.drhodt, &out.f[0], &out.f[1], &out.f[2], &out.wall_force[0], &out.wall_force[1],
-                   &out.wall_force[2]})
+                   &out.wall_force[2], &out.edge_sum[0], &out.edge_sum[1]})
     to->assign(n, 0);
   out.rooms.resize(n), out.room.resize(n), out.strange.assign(n, 0);
   for (std::size_t i = 0; i < n; ++i)
@@ -553,29 +558,37 @@ TEST(WallPaths, AreThoseOfRoomsWhereWaysLeaveNone) {
   }
 }
 
-/// What ways by WallPaths add to the rate of density of particle i, and the force on it.
-std::pair<Real, Vec> by_ways(const WallPaths& paths, const Crowd& crowd, std::size_t i, int dim) {
+/// What ways by WallPaths add to the rate of density of a particle and the force on it, and its edge_sum.
+struct ByWays {
+  Real rate = 0;
+  Vec force = Vec::Zero();
+  std::array<Real, 2> sum{};
+};
+ByWays by_ways(const WallPaths& paths, const Crowd& crowd, std::size_t i, int dim) {
   const WallTables table(KernelChoice::cubic_spline, dim);
   const Real volume = dim == 2 ? h * h : h * h * h;
   const auto slope = [&](const Vec& d) { return table.slope(d.norm() / h) / (d.norm() * h * volume); };
   const auto kernel = [&](const Vec& d) { return table.kernel(d.norm() / h) / volume; };
   const auto sheets = paths.sheets_around(crowd.at(i), 2.2 * h + dx);
-  Real rate = 0;
-  Vec force = Vec::Zero();
+  ByWays out;
   for (std::size_t j = 0; j < crowd.V.size(); ++j) {
     std::vector<WallPath> earlier, now;
     const auto back = [&](std::size_t k) { return Vec(crowd.at(k) - 1e-3 * crowd.velocity(k)); };
     paths.add(sheets, static_cast<Index>(i), back(i), static_cast<Index>(j), back(j), 2 * h, earlier);
-    for (const WallPath& way : earlier)
-      rate += crowd.V[j] *
-              (way.weight * slope(way.d) * (crowd.velocity(i) - way.turn * crowd.velocity(j)).dot(way.d) +
-               kernel(way.d) * (way.by_i.dot(crowd.velocity(i)) + way.by_j.dot(crowd.velocity(j))));
+    for (const WallPath& way : earlier) {
+      if (way.weight > 0 || way.across)
+        out.sum[way.weight > 0 ? 0 : 1] += crowd.V[j] * kernel(way.d) * way.by_i.norm();
+      out.rate += crowd.V[j] *
+                  (way.weight * slope(way.d) * (crowd.velocity(i) - way.turn * crowd.velocity(j)).dot(way.d) +
+                   crowd.kept(i, j) * kernel(way.d) *
+                       (way.by_i.dot(crowd.velocity(i)) + way.by_j.dot(crowd.velocity(j))));
+    }
     paths.add(sheets, static_cast<Index>(i), crowd.at(i), static_cast<Index>(j), crowd.at(j), 2 * h, now);
     for (const WallPath& way : now)
-      force -= crowd.V[i] * crowd.V[j] * (crowd.p[i] + crowd.p[j]) *
-               (way.weight * slope(way.d) * way.d + kernel(way.d) * way.by_i);
+      out.force -= crowd.V[i] * crowd.V[j] * (crowd.p[i] + crowd.p[j]) *
+                   (way.weight * slope(way.d) * way.d + crowd.kept(i, j) * kernel(way.d) * way.by_i);
   }
-  return {rate, force};
+  return out;
 }
 
 // What the loops over edges add is what all ways of these particles do, those that pass the edge and those
@@ -622,12 +635,14 @@ TEST(WallPaths, AreThoseOfEdgesInTheirLoops) {
     for (std::size_t i = 0; i < crowd.V.size(); ++i) {
       if (!crowd.edge[i] || crowd.strange[i] != 0) continue;
       ++looked;
-      const auto [rate, force] = by_ways(paths, crowd, i, place.dim);
+      const auto [rate, force, sum] = by_ways(paths, crowd, i, place.dim);
       const Real scale = 1e-4 / (h * h * h * (place.dim == 2 ? 1 : h));
       most = std::max(most, std::abs(rate));
       EXPECT_NEAR(crowd.drhodt[i], rate, 4 * scale) << place.name << ": " << crowd.at(i).transpose();
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(crowd.f[c][i], force[c], 8 * scale) << place.name << ": " << crowd.at(i).transpose();
+      for (std::size_t k = 0; k < 2; ++k)
+        EXPECT_NEAR(crowd.edge_sum[k][i], sum[k], 4 * scale) << place.name << ": " << crowd.at(i).transpose();
     }
     EXPECT_GT(looked, 30) << place.name;
     EXPECT_GT(most, 1e3 * 1e-4 / (h * h * h)) << place.name;
@@ -672,7 +687,8 @@ Exchange by_moving_ways(const WallPaths& middle, const WallPaths& end, const Wal
         turns += pulls[k].force.dot(v) + middle.face(pulls[k].face).n.dot(farther - v);
       }
       const Vec u = crowd.velocity(i) - way.turn * crowd.velocity(j) - way.drift;
-      out.rate += crowd.V[j] * (way.weight * slope(way.d) * u.dot(way.d) + W(way.d) * turns);
+      out.rate +=
+          crowd.V[j] * (way.weight * slope(way.d) * u.dot(way.d) + crowd.kept(i, j) * W(way.d) * turns);
       at_edge |= std::abs(way.weight) < 1;
     }
     if (at_edge)
@@ -684,8 +700,9 @@ Exchange by_moving_ways(const WallPaths& middle, const WallPaths& end, const Wal
         way.d = crowd.at(i) - crowd.at(j);
       const Real pressure = -crowd.V[i] * crowd.V[j] * (crowd.p[i] + crowd.p[j]);
       const Vec along = pressure * way.weight * slope(way.d) * way.d;
-      out.force += along + pressure * W(way.d) * way.by_i;
-      for (Index k = way.pulls; k < way.pulls_end; ++k) out.give(end, pulls[k], 0.5 * pressure * W(way.d));
+      const Real goes_over = pressure * crowd.kept(i, j) * W(way.d);
+      out.force += along + goes_over * way.by_i;
+      for (Index k = way.pulls; k < way.pulls_end; ++k) out.give(end, pulls[k], 0.5 * goes_over);
       std::vector<WallPull> images;
       if (way.moves) end.pull_images(now, way, crowd.at(j), -along, images);
       for (const WallPull& pull : images) out.give(end, pull, -0.5);
