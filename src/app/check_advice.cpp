@@ -160,7 +160,8 @@ class ChoiceAdvice {
     for (const RigidBody& b : s_.bodies()->bodies()) {
       if (b.fixed() || !b.motions.empty()) continue;
       return add(
-          "{}: if it floats, it heaves a fifth too little and hardly rolls, as particles of the cubic spline "
+          "{}: if it floats, it heaves a fifth and rolls a third too little, as particles of the cubic "
+          "spline "
           "resist shear under pressure; type SPHKERN = 1 in *SECTION_SPH",
           b.name);
     }

@@ -1,5 +1,6 @@
 // *BOUNDARY_SPH_SYMMETRY_PLANE and *BOUNDARY_SPH_PERIODIC: planes behind which particles have ghosts.
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -59,7 +60,7 @@ class PlaneBuilder {
       if (settings.region) check_box(*settings.region, card);
     }
     if (diagnostics_.ok()) check_together(reach);
-    if (diagnostics_.ok()) check_particles();
+    if (diagnostics_.ok()) check_particles(settings.region ? &*settings.region : nullptr);
     return planes_;
   }
 
@@ -105,25 +106,41 @@ class PlaneBuilder {
         continue;
       diagnostics_.error(
           deck_.where(c),
-          fmt::format("{}: the computational box (BOXID of *CONTROL_SPH) ends between the planes, {:g} to "
-                      "{:g} along {}",
-                      deck_.keyword(c), box.low[k], box.high[k], "xyz"[k]),
-          "let it reach over both planes, which must be at right angles to an axis beside a box");
+          along
+              ? fmt::format("{}: the computational box (BOXID of *CONTROL_SPH) ends between the planes, {:g} "
+                            "to {:g} along {}",
+                            deck_.keyword(c), box.low[k], box.high[k], "xyz"[k])
+              : fmt::format(
+                    "{}: beside a computational box (BOXID of *CONTROL_SPH) the planes must be at right "
+                    "angles to an axis",
+                    deck_.keyword(c)),
+          along ? "let it reach over both planes" : "turn the scene, or leave BOXID blank");
       return;
     }
   }
 
-  /// What an inlet lets in must not have come through the planes before.
-  void check_inlets(std::size_t k) {
+  /// What comes into the box later, from an inlet or from where nothing is solved, must not have come through
+  /// the planes before: when it is there is told by its straight way.
+  void check_arrivals(std::size_t k, const Region* box) {
+    constexpr Real anywhere = 1e300;
     const Particles& p = world_.particles;
     const Vec& normal = planes_[k].normal;
+    std::optional<Region> between;  // the box, but across the planes
+    if (box) between = *box;
+    for (int c = 0; box && c < 3; ++c)
+      if (std::abs(normal[c]) > parallel) between->low[c] = -anywhere, between->high[c] = anywhere;
     for (Index i = 0; i < p.size(); ++i) {
-      if (p.state[i] != particle_waiting || std::abs(p.v.vec(i).dot(normal)) <= parallel * p.v.vec(i).norm())
-        continue;
-      diagnostics_.error(deck_.where(model_.sph[i].card),
-                         fmt::format("{}: its velocity leads through the planes of {}",
-                                     deck_.keyword(model_.sph[i].card), place(*cards_[k])),
-                         "beside periodic planes water must enter along them");
+      const Vec x = p.x.vec(i), v = p.v.vec(i);
+      const bool waits = p.state[i] == particle_waiting ||
+                         (box && box->time_to_reach(x, v, 0) != between->time_to_reach(x, v, 0));
+      if (!waits || std::abs(v.dot(normal)) <= parallel * v.norm()) continue;
+      diagnostics_.error(
+          deck_.where(model_.sph[i].card),
+          fmt::format(
+              "{}: the velocity of particle {}, which is not yet solved for, leads through the planes "
+              "of {}",
+              deck_.keyword(model_.sph[i].card), p.id[i], place(*cards_[k])),
+          "beside periodic planes water must come in along them");
       return;
     }
   }
@@ -182,11 +199,11 @@ class PlaneBuilder {
                        "make the domain wider or h smaller");
   }
 
-  void check_particles() {
+  void check_particles(const Region* box) {
     const Particles& p = world_.particles;
     for (std::size_t k = 0; k < planes_.size(); ++k) {
       if (planes_[k].period > 0) {
-        check_inlets(k);
+        check_arrivals(k, box);
         wrap(k);
       }
       for (Index i = 0; i < p.size(); ++i) {

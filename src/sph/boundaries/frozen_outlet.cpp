@@ -138,6 +138,10 @@ class FrozenOutletReader {
     o.axis = std::abs(card.dir) - 1, o.sign = card.dir > 0 ? 1 : -1;
     if (o.axis >= settings_.dim)
       return refuse(card, "DIR", "in 2D nothing flows along z", "use 1, -1, 2 or -2");
+    for (const GhostPlane& plane : settings_.walls.planes)
+      if (plane.kind == GhostPlane::Kind::periodic && std::abs(plane.normal[o.axis]) > 1e-9)
+        return refuse(card, "DIR", "the face is behind a periodic plane, through which water comes back",
+                      "let water leave along the planes");
     o.face = card.dir > 0 ? settings_.region->high[o.axis] : settings_.region->low[o.axis];
     return true;
   }

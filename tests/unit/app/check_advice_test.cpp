@@ -96,7 +96,8 @@ TEST(CheckAdvice, BodiesThatMayFloat) {
     for (std::size_t at; (at = loose.find(wide)) != std::string::npos;)
       loose.replace(at, std::string(wide).size(), deep);
   scene.extra = earth + loose;
-  EXPECT_TRUE(holds(advice_of(scene), "if it floats, it heaves a fifth too little")) << advice_of(scene);
+  EXPECT_TRUE(holds(advice_of(scene), "if it floats, it heaves a fifth and rolls a third too little"))
+      << advice_of(scene);
   EXPECT_TRUE(holds(advice_of(scene), "type SPHKERN = 1 in *SECTION_SPH"));
   scene.section = "1,1.2,1.,1.,0.,1e20,0.,1";
   EXPECT_FALSE(holds(advice_of(scene), "floats"));
