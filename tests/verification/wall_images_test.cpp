@@ -155,7 +155,7 @@ TEST(WallImages, LetWaterLeaveABrink) {
               deviation);
   EXPECT_GT(mean, 3);  // 8 where nothing flows
   EXPECT_LT(mean, 7);
-  EXPECT_LT(deviation, 6);
+  EXPECT_LT(deviation, 4);
 }
 
 TEST(WallImages, GiveTheSameBitsOnAnyThreadsAndAfterARestart) {
