@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/range_warnings.hpp"
 #include "keyword/registry.hpp"
@@ -78,8 +79,9 @@ void add_joint_gap(const Summary& s, std::vector<Finding>& out) {
                           share->second)});
 }
 
-/// Hourglass energy below this share of all that the scene is about does no harm.
-constexpr Real least_hourglass = 1e-3;
+/// Where internal energy is negligible, below this share of the scene's energy, this share is what hourglass
+/// energy is judged against: blocks that fall or slide.
+constexpr Real least_internal = 0.1;
 
 void add_energy(const Summary& s, std::vector<Finding>& out) {
   const EnergyLedger& e = s.energy;
@@ -130,16 +132,15 @@ void add_leaks(const Summary& s, std::vector<Finding>& out) {
 
 void add_hourglass(const Summary& s, std::vector<Finding>& out) {
   const EnergyLedger& e = s.energy;
-  const Real internal = std::max(std::abs(e.internal), e.most_internal);
-  const Real share = e.hourglass / std::max(internal, std::abs(e.hourglass) * 1e-12);
-  if (!(e.hourglass > least_hourglass * e.scale()) ||
-      !(share > std::min(s.limits.hourglass_doubtful, s.limits.hourglass_broken)))
-    return;
+  const Real internal = std::max(std::abs(e.internal), e.most_internal), least = least_internal * e.scale();
+  const Real share = e.hourglass / std::max({internal, least, std::numeric_limits<Real>::min()});
+  if (!(share > std::min(s.limits.hourglass_doubtful, s.limits.hourglass_broken))) return;
   out.push_back(
       {share > s.limits.hourglass_broken,
-       fmt::format("hourglass energy is {:.3g} % of the largest internal energy: refine the mesh, or choose "
-                   "another IHQ or QM of *HOURGLASS",
-                   100 * share)});
+       fmt::format("hourglass energy is {:.3g} % of {}: refine the mesh, or choose another IHQ or QM of "
+                   "*HOURGLASS",
+                   100 * share,
+                   internal < least ? "a tenth of the scene's energy" : "the largest internal energy")});
 }
 
 void add_clamps(const Summary& s, std::vector<Finding>& out) {

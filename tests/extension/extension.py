@@ -168,6 +168,50 @@ fine("run", deck, "-o", "slip", "--quiet", *loads("interface_law"))
 t, momentum = history("slip", "global/time"), history("slip", "parts/1/momentum")[:, 0] / 30
 error = numpy.abs(momentum - numpy.exp(-4 * t)).max()
 check(error < 0.005, f"viscous slip: v = exp(-4 t) at all times, error {error:.1e} of 5e-3")
+
+# nodes with faces take no such laws
+nodes = """*KEYWORD
+*NODE
+1,0.,0.,0.
+2,1.,0.,0.
+3,1.,1.,0.
+4,0.,1.,0.
+11,0.4,0.4,0.06
+12,0.5,0.4,0.06
+13,0.5,0.5,0.06
+14,0.4,0.5,0.06
+*ELEMENT_SHELL
+1,1,1,2,3,4
+2,2,11,12,13,14
+*PART
+floor
+1,1,1
+*PART
+plate
+2,1,2
+*SECTION_SHELL
+1,2
+0.05
+*MAT_RIGID
+1,1000.,1.E6,0.25
+1.,7,7
+*MAT_ELASTIC
+2,1000.,1.E6,0.25
+*CONTACT_AUTOMATIC_NODES_TO_SURFACE_ID
+5,slide
+2,1,3,3
+
+
+*CONTACT_EXAMPLE_VISCOUS_SLIP
+5,50.
+*CONTROL_TERMINATION
+0.4
+*END
+"""
+with open("nodes_slip.k", "w") as file:
+    file.write(nodes)
+code, text = call("run", "nodes_slip.k", "-o", "nodes_slip", *loads("interface_law"))
+check(code == 1 and "nodes_slip.k:31:1: error: *CONTACT_EXAMPLE_VISCOUS_SLIP: contact 5 is one of nodes with faces" in text, f"a law on a contact of nodes is refused: {text[-300:]}")
 lost = history("slip", "contacts/7/energy_friction")[-1]
 near(lost, 0.5 * 30 * (1 - numpy.exp(-8 * t[-1])), 0.005, "viscous slip: energy taken")
 with open(deck) as file, open("no_contact.k", "w") as out:

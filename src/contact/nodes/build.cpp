@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "contact/interface_law.hpp"
 #include "contact/nodes/measures.hpp"
 #include "contact/nodes/solid_stacks.hpp"
 #include "contact/nodes/transducer.hpp"
@@ -56,6 +57,7 @@ class NodeContactBuilder {
                                 deck_.keyword(c) + ": elements do not touch each other in a plane scene yet",
                                 "leave it out, or make the scene one of three dimensions");
     if (!shells_have_thickness(c, kind, sides)) return;
+    refuse_laws(c);
     warn_of_kind(c, kind);
     NodeContactLaw law = measures_.law();
     if (c.bt > 0 || law.gate.there()) world_.counters["penetrations_at_birth"] += 0;
@@ -80,6 +82,19 @@ class NodeContactBuilder {
     if (c.fs == 2)
       deck_.error(diagnostics_, c, "FS", "FS = 2 asks for a friction table, which is not supported",
                   "give a coefficient other than 2");
+  }
+
+  // Laws of users act on particles.
+  void refuse_laws(const ContactCard& c) {
+    for (const InterfaceLawsOf& laws : interface_law_registry())
+      for (const AskedInterfaceLaw& one : laws(deck_))
+        if (one.contact == c.cid)
+          deck_.error(
+              diagnostics_, one.card, "",
+              fmt::format("contact {} is one of nodes with faces, to which laws of an interface do not "
+                          "apply yet: they act on particles",
+                          c.cid),
+              "give particles and elements contacts of their own, and the law the id of that of particles");
   }
 
   void warn_of_kind(const ContactCard& c, const ContactKind& kind) {

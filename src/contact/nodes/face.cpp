@@ -10,6 +10,8 @@ namespace courant {
 namespace {
 
 constexpr Real infinite = std::numeric_limits<Real>::infinity();
+/// Within this beyond an edge, of a width, rounding decides.
+constexpr Real edge_rounding = 1e-8;
 
 Projection at(const FaceCorners& x, Real s, Real t) {
   Projection p;
@@ -22,11 +24,11 @@ Projection at(const FaceCorners& x, Real s, Real t) {
   return p;
 }
 
+}  // namespace
+
 Vec plane_normal(const FaceCorners& x) {
   return (x[2] - x[0]).cross(x[3] - x[1]).normalized();
 }
-
-}  // namespace
 
 Vec centre_of(const FaceCorners& x, int corners) {
   return corners == 4 ? Vec(0.25 * (x[0] + x[1] + x[2] + x[3])) : Vec((x[0] + x[1] + x[2]) / 3);
@@ -119,14 +121,19 @@ Projection project_over(const FaceCorners& x, int corners, const Vec& y) {
   if (corners == 3) {
     Projection p = on_plane_of_triangle(x, y);
     const Real least = std::min({p.N[0], p.N[1], p.N[2]});
-    p.inside = least >= 0, p.over = least >= -edge_margin;
+    p.inside = least >= 0, p.within = least > edge_rounding, p.over = least >= -edge_margin;
+    for (unsigned e = 0; e < 3; ++e)
+      if (p.N[(e + 2) % 3] < -edge_rounding) p.beyond |= 1U << e;
     return p;
   }
   const auto [s, t] = nearest_on_quadrilateral(x, y);
   const Real most = std::max(std::abs(s), std::abs(t));
   if (!(most <= 1 + 2 * edge_margin)) return {};
   Projection p = at(x, s, t);
-  p.over = true, p.inside = most <= 1;
+  p.over = true, p.inside = most <= 1, p.within = most < 1 - 2 * edge_rounding;
+  const std::array<Real, 4> past{-t, s, t, -s};
+  for (unsigned e = 0; e < 4; ++e)
+    if (past[e] > 1 + 2 * edge_rounding) p.beyond |= 1U << e;
   return p;
 }
 

@@ -42,10 +42,10 @@ struct FaceShape {
 /// that from the face. [L]
 Real distance_from_box(const FaceShape& shape, const Vec& w, Real wider);
 
-/// Faces reach this much over their edges, of their width, so that rounding leaves no gap between neighbours.
+/// Faces reach this far beyond their edges, of their width: over faces that go on there, and for ties.
 inline constexpr Real edge_margin = 0.0125;
 
-/// Edges that stand on each other may be off by this. [L]
+/// A node that slides off an outer edge is pushed in full up to here beyond it. [L]
 inline Real edge_of(const ContactFace& f) {
   return 2 * edge_margin * std::sqrt(f.area);
 }
@@ -65,9 +65,13 @@ struct Projection {
   Vec n = Vec::Zero();      ///< unit normal of the face there [-]
   std::array<Real, 4> N{};  ///< shape functions there, which sum to 1 [-]
   bool inside = false;      ///< within the face
+  bool within = false;      ///< the same, by more than rounding
   bool over = false;        ///< within the face, or beyond an edge by less than `edge_margin`
+  unsigned beyond = 0;      ///< bit e: over, but beyond edge e (from corner e on) by more than rounding
 };
 
+/// Unit normal of the plane along both diagonals.
+Vec plane_normal(const FaceCorners& x);
 /// Mean of the corners. [L]
 Vec centre_of(const FaceCorners& x, int corners);
 FaceShape shape_of(const FaceCorners& x, int corners);
@@ -85,7 +89,8 @@ Projection project_on_rim(const FaceCorners& x, int corners, const Vec& y);
 /// in it, times the length of that. [-]
 std::array<Real, 4> plane_change(const FaceCorners& x, int corners, const Vec& along);
 
-inline FaceCorners corners_of(const ContactFace& f, const Field<Real>& x) {
+template <class Face>
+FaceCorners corners_of(const Face& f, const Field<Real>& x) {
   return {x.vec(f.node[0]), x.vec(f.node[1]), x.vec(f.node[2]), x.vec(f.node[3])};
 }
 

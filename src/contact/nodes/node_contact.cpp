@@ -35,6 +35,7 @@ NodeContact::NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodi
       nodes_(std::move(sides.nodes)),
       own_(std::move(sides.own)),
       faces_(std::move(sides.faces)),
+      edges_(faces_),
       set_(&world.add_set(fmt::format("contact {} nodes", number))),
       eroded_(shared_fields::eroded.find(world.segments.fields)) {
   world.segments.keep_contact_force();
@@ -95,7 +96,13 @@ void NodeContact::declare(const World& world, Accesses& a) const {
   const Nodes& n = world.nodes;
   a.reads(n.x, Reach::others).reads(n.v, Reach::others).reads(n.m, Reach::others);
   a.reads(n.held, Reach::others);
-  a.updates(*in_touch_).updates(*side_).updates(*k_).updates(*slack_).updates(*area_).updates(*friction_);
+  a.updates(*in_touch_)
+
+      .updates(*side_)
+      .updates(*k_)
+      .updates(*slack_)
+      .updates(*area_)
+      .updates(*friction_);
   a.in_start().reads(n.x, Reach::others).reads(n.v, Reach::others).updates(*in_touch_);
   a.reads(n.held, Reach::others);
   if (eroded_) a.reads(*eroded_, Reach::others).in_block().reads(*eroded_, Reach::others);
@@ -248,7 +255,7 @@ void NodeContact::block(World& world, const Clock& clock, Index begin, Index end
 
 void NodeContact::finish(World& world, const Clock& clock) {
   touches_.clear();
-  Real deepest = 0;
+  deepest_ = 0;
   for (const Block& b : blocks_) {
     touches_.insert(touches_.end(), b.touches.begin(), b.touches.end());
     let_go_ += b.let_go;
@@ -260,13 +267,13 @@ void NodeContact::finish(World& world, const Clock& clock) {
   }
   for (const Touch& touch : touches_) {
     // beside an edge that of the energy left, as the node is no longer where the face is
-    if (touch.stored > 0) deepest = std::max(deepest, std::sqrt(2 * touch.stored / touch.k));
+    if (touch.stored > 0) deepest_ = std::max(deepest_, std::sqrt(2 * touch.stored / touch.k));
     world.segments.contact_force->add(face(touch.face).segment, -touch.force);
   }
   sum_springs_of_bodies(world, clock);
-  if (deepest > 0) {
+  if (deepest_ > 0) {
     Real& most = world.maxima["max_penetration"];
-    most = std::max(most, deepest);
+    most = std::max(most, deepest_);
   }
   // who is born later than the run tells here what of the start is told while the run is built
   if (!asleep_ && fresh_ && (law_.birth > 0 || law_.gate.there()))
@@ -306,6 +313,7 @@ void NodeContact::keep(Archive& archive) {
   archive("fresh", fresh_);
   archive("asleep", asleep_);
   archive("soft_dt", soft_dt_);
+  archive("deepest", deepest_);
   archive("body_springs", body_springs_);
   archive("body_push", body_push_), archive("body_turn", body_turn_);
   archive("damping_work", damping_work_);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact/nodes/face.hpp"
+#include "contact/nodes/face_edges.hpp"
 #include "contact/nodes/penalty.hpp"
 #include "contact/nodes/touch_holder.hpp"
 #include "search/box_grid.hpp"
@@ -53,6 +54,8 @@ class NodeContact : public Force,
                     public InterfaceReporter {
  public:
   static constexpr int most_touches = 3;
+  /// What is less deep at the start is rounding, of a usual face.
+  static constexpr Real start_rounding = 1e-6;
 
   /// `number` counts interfaces from 1 and keeps their sets apart. Adds a set of fields to `world`.
   NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodies, int number, World& world);
@@ -170,6 +173,7 @@ class NodeContact : public Force,
   void touch(World& world, const Clock& clock, Block& b, Index i);
   void look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const;
   bool goes_on_at(const Slots& slots, const ContactFace& f) const;
+  bool starts_on(const World& world, const Block& b, Index i, const ContactFace& f) const;
   bool is_lost(const World& world, const Block& b, Index i) const;
   bool hold(const World& world, Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot) const;
   bool past_edge(const World& world, const Vec& x, bool wedge, Real r, Slot& slot) const;
@@ -177,6 +181,13 @@ class NodeContact : public Force,
                bool inside) const;
   void find_touches(const World& world, const Clock& clock, const Block& b, Index i, Slots& slots) const;
   bool arrives(const World& world, const Clock& clock, Index i, const Seen& seen, Slot& slot) const;
+  bool is_smooth_at(const World& world, Index f, unsigned e) const;
+  bool overlaps(const World& world, Index i, Index f) const;
+  bool ends_before(const World& world, Index i, Index f, const Projection& p) const;
+  Vec normal_of(const World& world, const OwnFace& own) const;
+  Vec smooth_normal(const World& world, const ContactNode& n) const;
+  bool looks_at(const World& world, const ContactNode& n, const Vec& normal) const;
+  bool grazes(const World& world, Index i, const Slot& slot) const;
   bool is_there(const ContactFace& f) const { return !eroded_ || (*eroded_)[f.segment] == 0; }
   bool has_faces(const ContactNode& n) const;
   void let_go(const World& world, Block& b, Index i, const Vec& x, Slots& slots) const;
@@ -213,6 +224,7 @@ class NodeContact : public Force,
   std::vector<ContactNode> nodes_;
   std::vector<OwnFace> own_;
   std::vector<ContactFace> faces_;
+  FaceEdges edges_;  ///< of faces_
   FieldSet* set_;
   Field<Index>*in_touch_, *leaked_;  ///< by slot: face + 1, or 0; by node
   Field<Real>*side_, *k_, *slack_, *area_, *friction_;
@@ -247,7 +259,8 @@ class NodeContact : public Force,
   std::vector<Share> shares_;
   std::vector<Index> key_, first_, order_;  ///< shares_ by place in involved_
   StiffestContact stiffest_;
-  Real due_ = 0;  ///< until the next node comes through a face [T]
+  Real due_ = 0;      ///< until the next node comes through a face [T]
+  Real deepest_ = 0;  ///< a step ago [L]
   Resource touches_resource_{"touches of nodes"};
   Real damping_work_ = 0, friction_work_ = 0;
   const Field<Index>* eroded_;     ///< of segments; null: nothing fails

@@ -80,9 +80,7 @@ void NodeContact::give_stiffness(const World& world, Index i, Slot& slot) const 
   Real k = 0, all = 0, area = 0;
   for (Index o = who.first; o < who.last; ++o) {
     const OwnFace& own = own_[static_cast<std::size_t>(o)];
-    const FaceCorners x{world.nodes.x.vec(own.node[0]), world.nodes.x.vec(own.node[1]),
-                        world.nodes.x.vec(own.node[2]), world.nodes.x.vec(own.node[3])};
-    const Real looks = -(x[2] - x[0]).cross(x[3] - x[1]).normalized().dot(n);
+    const Real looks = -normal_of(world, own).dot(n);
     const Real share = own.two_sided ? std::abs(looks) : std::max(looks, Real(0));
     k += share * own.k, area += share * own.area, all += own.k;
   }

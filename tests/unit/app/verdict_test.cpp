@@ -138,6 +138,12 @@ TEST(Verdict, HourglassEnergyAboveATenthOfTheInternalIsDoubtful) {
   EXPECT_EQ(verdict(s), "sound") << "thrown back";
   s.energy.most_internal = 0.19;
   EXPECT_EQ(verdict(s), "doubtful");
+  s.energy = {
+      .kinetic = 1, .internal = 1e-5, .hourglass = 0.009, .initial = 1, .peak = 1};  // a block that slides
+  EXPECT_EQ(verdict(s), "sound");
+  s.energy.hourglass = 0.011;
+  EXPECT_THAT(texts(findings(s)),
+              ElementsAre(HasSubstr("hourglass energy is 11 % of a tenth of the scene's energy")));
 }
 
 TEST(Verdict, ClampsErrorsAndRangesSpeakAgainstARun) {

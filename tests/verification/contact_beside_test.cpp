@@ -1,0 +1,160 @@
+// What passes beside a body, and what slides on one, feels no push from beside.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "solid_decks.hpp"
+#include "state/reports.hpp"
+
+using namespace courant;
+using test::simulation_of;
+using test::SolidDeck;
+
+namespace contact_beside_test {
+namespace {
+
+using Turn = Eigen::Matrix3d;
+
+Turn some_turn(bool turned) {
+  return turned ? Turn(Eigen::AngleAxisd(0.83, Vec(1, -2, 0.7).normalized())) : Turn::Identity();
+}
+
+/// Shapes of nodes: shifted, then turned.
+auto placed(const Turn& turn, const Vec& by) {
+  return [=](const Vec& x) { return Vec(turn * (x + by)); };
+}
+
+std::string contact(const std::string& kind, Real friction = 0) {
+  std::string name = kind == "single"    ? "AUTOMATIC_SINGLE_SURFACE"
+                     : kind == "general" ? "AUTOMATIC_GENERAL"
+                     : kind == "nodes"   ? "AUTOMATIC_NODES_TO_SURFACE"
+                                         : "AUTOMATIC_SURFACE_TO_SURFACE";
+  std::string sides = kind == "single" || kind == "general" ? "0" : "1,2,3,3";
+  return fmt::format("*CONTACT_{}\n{}\n{:g},{:g}\n\n{}", name, sides, friction, friction,
+                     kind == "soft 1"   ? "1\n"
+                     : kind == "soft 2" ? "2,,,,35\n"
+                                        : "");
+}
+
+std::string part(int id, bool rigid) {
+  return fmt::format("*PART\nblock\n{0},1,{0}\n*MAT_{1}\n{0},1000.0,1e7,0.3\n{2}", id,
+                     rigid ? "RIGID" : "ELASTIC", rigid ? "1,7,7\n" : "");
+}
+
+std::string along(const Vec& v, const std::string& card) {
+  return fmt::format(fmt::runtime(card), v[0], v[1], v[2]);
+}
+
+std::string moving(const Vec& v) {
+  return along(v, "*INITIAL_VELOCITY_GENERATION\n1,2,0.0,{:.16g},{:.16g},{:.16g}\n");
+}
+
+/// Largest force of all contacts while the run goes on, and the largest change of a velocity of part 1.
+struct Felt {
+  Real force = 0, change = 0;
+};
+Felt felt_in(Simulation& s, Real until) {
+  const auto reports = s.world().passes.all<const InterfaceReporter>();
+  const Nodes& nodes = s.world().nodes;
+  std::vector<Vec> v;
+  for (Index n = 0; n < nodes.size(); ++n) v.push_back(nodes.v.vec(n));
+  Felt out;
+  while (s.clock().t < until) {
+    s.step(test::do_nothing);
+    for (const auto& one : reports) out.force = std::max(out.force, one->report().on_surfa.norm());
+  }
+  for (Index n = 0; n < nodes.size(); ++n)
+    out.change = std::max(out.change, (nodes.v.vec(n) - v[static_cast<std::size_t>(n)]).norm());
+  return out;
+}
+
+const std::vector<std::string> kinds{"surfaces", "single", "general", "nodes", "soft 1", "soft 2"};
+
+}  // namespace
+
+// Past a wall, and past its edges, at every small distance.
+TEST(ContactBeside, ABlockThatPassesAWallFeelsNothing) {
+  int k = 0;
+  for (const Real gap : {1e-6, 1e-4, 5e-4, 8e-4, 2e-3})
+    for (const bool rigid : {false, true})
+      for (const Real aside : {0.0, 0.14}) {
+        const std::string& kind = kinds[static_cast<std::size_t>(++k) % kinds.size()];
+        const Turn turn = some_turn(k % 3 != 0);
+        SolidDeck deck;
+        deck.block(Vec(0.2, 0.2, 0.2), 2, 2, 2, 1, placed(turn, Vec(gap, aside, 0)));
+        deck.block(Vec(0.1, 0.35, 0.5), 1, 3, 8, 2, placed(turn, Vec(-0.1, -0.07, -0.4)));
+        deck.cards = "*SECTION_SOLID\n1,1\n" + part(1, false) + part(2, rigid) + contact(kind) +
+                     moving(turn * Vec(0, 0, -2));
+        const auto s = simulation_of(deck.text(1));
+        const Felt felt = felt_in(*s, 0.15);
+        EXPECT_EQ(felt.force, 0) << kind << " " << gap << " " << aside;
+        EXPECT_LT(felt.change, 1e-12) << kind << " " << gap << " " << aside;
+      }
+}
+
+// A square peg that goes through a hole of eight blocks with play at its sides.
+TEST(ContactBeside, APegGoesThroughItsHole) {
+  for (const Real play : {1e-5, 5e-4})
+    for (const std::string& kind : kinds) {
+      const Turn turn = some_turn(kind != "single");
+      SolidDeck deck;
+      deck.block(Vec(0.1 - 2 * play, 0.1 - 2 * play, 0.2), 2, 2, 3, 1,
+                 placed(turn, Vec(0.1 + play, 0.1 + play, 0.06)));
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          if (i != 1 || j != 1)
+            deck.block(Vec(0.1, 0.1, 0.05), 3, 3, 1, 2, placed(turn, Vec(0.1 * i, 0.1 * j, 0)));
+      deck.cards = "*SECTION_SOLID\n1,1\n" + part(1, false) + part(2, true) + contact(kind) +
+                   moving(turn * Vec(0, 0, -3));
+      const auto s = simulation_of(deck.text(1));
+      const Felt felt = felt_in(*s, 0.1);
+      EXPECT_EQ(felt.force, 0) << kind << " " << play;
+      EXPECT_LT(felt.change, 1e-12) << kind << " " << play;
+    }
+}
+
+// Over a floor of one part or two with nodes of their own, of solids that deform or rigid ones: without
+// friction at its speed, with friction v^2/(2 mu g). The floor's nodes are level with the block's lower
+// edges, or above them by what the weight presses.
+TEST(ContactBeside, ABlockSlidesAtItsSpeedOrStopsByFriction) {
+  constexpr Real g = 10, v = 1;
+  int k = 0;
+  for (const Real friction : {0.0, 0.3})
+    for (const bool two : {false, true})
+      for (const char* kind : {"surfaces", "single", "soft 1", "nodes"}) {
+        const Turn turn = some_turn(++k % 2 == 0);
+        SolidDeck deck;
+        deck.block(Vec(0.2, 0.2, 0.1), 2, 2, 1, 1, placed(turn, Vec::Zero()));
+        const std::size_t block = deck.nodes.size();
+        const bool rigid = k % 3 != 0;
+        if (two) deck.block(Vec(0.5, 0.5, 0.1), 3, 3, 1, 2, placed(turn, Vec(-0.2, -0.15, -0.1)));
+        deck.block(Vec(two ? 0.6 : 1.1, 0.5, 0.1), two ? 4 : 7, 3, 1, 2,
+                   placed(turn, Vec(two ? 0.3 : -0.2, -0.15, -0.1)));
+        deck.node_set(7, [&](const Vec& x) { return (turn.transpose() * x)[2] < -0.05; });
+        deck.cards += "*SECTION_SOLID\n1,1\n" + part(1, false) + part(2, rigid) + contact(kind, friction) +
+                      (rigid ? "" : "*BOUNDARY_SPC_SET\n7,0,1,1,1\n") + moving(turn * Vec(v, 0, 0)) +
+                      "*DAMPING_PART_STIFFNESS\n1,0.1\n*DEFINE_CURVE\n9\n0,1\n9,1\n" +
+                      along(turn * Vec(0, 0, g),
+                            "*LOAD_BODY_X\n9,{:.16g}\n*LOAD_BODY_Y\n9,{:.16g}\n*LOAD_BODY_Z\n9,{:.16g}\n");
+        const auto s = simulation_of(deck.text(1));
+        EXPECT_EQ(s->world().counters.at("initial_penetrations"), 0) << kind;
+        const Nodes& nodes = s->world().nodes;
+        const auto mean = [&](const Field<Real>& of) {
+          Vec sum = Vec::Zero();
+          Real m = 0;
+          for (Index n = 0; n < static_cast<Index>(block); ++n)
+            sum += nodes.m[n] * of.vec(n), m += nodes.m[n];
+          return Vec(turn.transpose() * sum / m);
+        };
+        const Vec start = mean(nodes.x);
+        while (s->clock().t < 0.4) s->step(test::do_nothing);
+        if (friction == 0)
+          EXPECT_NEAR(mean(nodes.v)[0], v, 1e-3 * v) << kind << " " << two;
+        else
+          EXPECT_NEAR((mean(nodes.x) - start)[0], v * v / (2 * friction * g),
+                      0.01 * v * v / (2 * friction * g))
+              << kind << " " << two;
+      }
+}
+
+}  // namespace contact_beside_test
