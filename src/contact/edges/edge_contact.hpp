@@ -109,6 +109,7 @@ class EdgeContact : public Force,
   void begin_touches(const World& world, const Clock& clock, Block& b, Index i, Index j) const;
   void begin_crossing(const World& world, const Clock& clock, const Pair& pair, Block& b) const;
   void begin_along(const World& world, const Clock& clock, const Pair& pair, Place place, Block& b) const;
+  bool grazes(const World& world, const Pair& pair) const;
   bool crossed(const World& world, const Clock& clock, const Pair& pair) const;
   void begin(const World& world, Touch& touch, bool through, const NearestPoints& old) const;
   void expect(const World& world, const Pair& pair, Block& b) const;

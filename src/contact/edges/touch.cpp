@@ -18,6 +18,8 @@ constexpr Real straight_on = 0.5;
 constexpr Real edge_rounding = 1e-9;
 /// What is less deep at the start is rounding, of a usual edge.
 constexpr Real edge_start_rounding = 1e-6;
+/// Edges graze a corner within this, of their length.
+constexpr Real least_level = 1e-6, most_level = 0.1;
 /// Gauss points of [0, 1].
 const std::array<Real, 2> gauss_points{0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12)};
 
@@ -224,9 +226,32 @@ bool EdgeContact::crossed(const World& world, const Clock& clock, const Pair& pa
   return times % 2 == 1;
 }
 
+// Whether edges went through each other so close to a corner of one that its surface there is level with that
+// of the other, as far as nodes are deep: what slides on a floor that has an edge, and goes over it.
+bool EdgeContact::grazes(const World& world, const Pair& pair) const {
+  const Real level = nodes_ ? 2 * nodes_->deepest() : 0;
+  const auto near_corner = [&](Index e, Real at) {
+    const EdgeEnds x = ends(world, e);
+    const std::size_t end = at > 0.5 ? 1 : 0;
+    const Vec w = x[1 - end] - x[end];
+    const Real length = w.norm();
+    if (!(std::abs(at - static_cast<Real>(end)) * length <
+          std::clamp(level, least_level * length, most_level * length)))
+      return false;
+    const Index n = edge(e).node[end];
+    const auto& on = next_[static_cast<std::size_t>(e)][end];
+    return std::none_of(on.begin(), on.end(), [&](Index other) {
+      const Vec further = world.nodes.x.vec(edge(other).other_end(n)) - x[end];
+      return w.dot(further) < -straight_on * length * further.norm();
+    });
+  };
+  return near_corner(pair.a, pair.at.s) || near_corner(pair.b, pair.at.t);
+}
+
 void EdgeContact::begin_crossing(const World& world, const Clock& clock, const Pair& pair, Block& b) const {
   const Real r = reach_of(pair.a, pair.b);
   const bool through = crossed(world, clock, pair);
+  if (through && grazes(world, pair)) return;
   if (!through && !(pair.at.distance < r)) return expect(world, pair, b);
   Pair nearer;
   if (find_nearer(world, pair, true, nearer)) return;

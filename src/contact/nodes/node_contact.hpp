@@ -76,6 +76,7 @@ class NodeContact : public Force,
   const Resource& touches() const { return touches_resource_; }
   /// Tells `holder`, a pass of the same world, of nodes that touch from now on.
   void let_hold(TouchHolder& holder) { holder_ = &holder; }
+  Real deepest() const { return deepest_; }  ///< of the touches of the last step [L]
   bool touches_something() const { return !shares_.empty(); }
   /// Adds what a node got from all touches, in the order of touches. [ML/T2]
   void add_force_on(Index node, Vec& force) const;

@@ -269,8 +269,8 @@ bool NodeContact::arrives(const World& world, const Clock& clock, Index i, const
   if (!slot.late && moved.squaredNorm() * left * left < 1e-12 * f.area) return !grazes(world, i, slot);
   const Projection there =
       project(corners_of(f, nodes.x), f.corners, nodes.x.vec(node(i).node) - left * moved);
-  if (!(slot.late ? there.inside : there.over && !(there.beyond && ends_before(world, i, seen.face, there))))
-    return false;
+  const bool came_over = there.over && !(there.beyond && ends_before(world, i, seen.face, there));
+  if (!(slot.late ? there.inside : came_over)) return false;
   return !grazes(world, i, slot);
 }
 
