@@ -43,7 +43,7 @@ class Run {
         lock_(options.dir),
         goes_on_(prepare_folder(options, simulation.deck())),
         messag_(
-            std::filesystem::path(options.dir) / "messag",
+            result_path(options.dir, result_names::messag),
             [this](std::string_view line) {
               if (options_.print) options_.print(std::string(line));
             },
@@ -201,7 +201,7 @@ class Run {
   }
 
   std::filesystem::path restart_file(const std::string& name) const {
-    return std::filesystem::path(options_.dir) / "restart" / name;
+    return result_path(options_.dir, "restart/" + name);
   }
 
   void copy_state() {
@@ -385,7 +385,7 @@ class Run {
     y.output.states = fields_.states(), y.output.field_bytes = fields_.bytes();
     y.output.history_bytes = histories_.bytes();
     attempt([&] { print_end(); });
-    attempt([&] { write_summary(std::filesystem::path(options_.dir) / "summary.yaml", y); });
+    attempt([&] { write_summary(result_path(options_.dir, result_names::summary), y); });
   }
 
   std::string restart_call(const std::string& file) const {

@@ -1,8 +1,6 @@
 #include "output/restart_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "output/file.hpp"
 #include "output/hdf5.hpp"
 
 namespace courant {
@@ -130,55 +129,6 @@ std::string image_of(const fs::path& file, SavedState& state) {
   return bytes;
 }
 
-/// A file that was opened by its number; closes it where nobody else did.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  int number() const { return number_; }
-  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
-
- private:
-  int number_;
-};
-
-bool write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
-/// Also the new name is on the disk then, where the file system can tell.
-void sync_folder(const fs::path& folder) {
-  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (descriptor.number() >= 0) ::fsync(descriptor.number());
-}
-
-void write_to_disk(const fs::path& file, std::string_view bytes, std::string_view trailer) {
-  fs::path temporary = file;
-  temporary += ".tmp";
-  const auto fail = [&](int number) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw OutputError(file, std::strerror(number));
-  };
-  Descriptor out(make_new_file(temporary));
-  if (out.number() < 0) throw OutputError(file, std::strerror(errno));
-  if (!write_all(out.number(), bytes) || !write_all(out.number(), trailer)) fail(errno);
-  if (::fsync(out.number()) != 0 && errno != EINVAL && errno != ENOSYS) fail(errno);  // a pipe cannot
-  if (!out.close()) fail(errno);
-  if (std::rename(temporary.c_str(), file.c_str()) != 0) fail(errno);
-  sync_folder(file.parent_path());
-}
-
 [[noreturn]] void refuse(const fs::path& file, const std::string& why) {
   throw RestartError(fmt::format("cannot restart from '{}': {}", file.string(), why));
 }
@@ -267,7 +217,7 @@ bool get(hid_t file, const std::string& path, SavedArray& to) {
 void write_restart_file(const fs::path& file, SavedState& state, std::int64_t cycle) {
   const std::string bytes = image_of(file, state);
   const std::uint32_t crc = crc_of(crc_of(0, bytes), trailer_without_crc(restart_format, cycle));
-  write_to_disk(file, bytes, trailer_of({restart_format, cycle, crc}));
+  write_file(file, {bytes, trailer_of({restart_format, cycle, crc})}, Durable::yes);
 }
 
 SavedState read_restart_file(const fs::path& file) {
