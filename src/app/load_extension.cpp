@@ -60,7 +60,7 @@ std::string load_extension(const std::string& file) {
   if (!std::filesystem::is_regular_file(file, error))  // a pipe would be waited for
     return fmt::format("{} is no file", file);
   const std::filesystem::path path =
-      std::filesystem::absolute(file, error);  // dlopen looks for plain names elsewhere
+      std::filesystem::absolute(file, error);     // dlopen looks for plain names elsewhere
   static std::set<std::filesystem::path> loaded;  // more than one call in a process may name it
   const std::filesystem::path same = std::filesystem::weakly_canonical(path, error);
   if (loaded.contains(same)) return "";

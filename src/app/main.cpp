@@ -52,11 +52,12 @@ int main(int argc, char** argv) {
   try {
     const int code = courant::command_line(argc, argv);
     // libraries that have run out of memory, as HDF5, may crash when they clean up
-    if (code == courant::exit_run && std::fflush(nullptr) == 0) std::_Exit(code);
+    if (code != courant::exit_ok && std::fflush(nullptr) == 0) std::_Exit(code);
     return code;
   } catch (const std::bad_alloc&) {
     tell_of_memory();
-    return courant::exit_other;
+    std::fflush(nullptr);
+    std::_Exit(courant::exit_other);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "courant: %s\n", error.what());
     return courant::exit_other;

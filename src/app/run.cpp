@@ -357,9 +357,9 @@ class Run {
   void explain(StopCause cause) {
     failed_state_ = true;
     s_.guard().note_ranges(s_.world(), s_.clock());
+    s_.show_wall_forces();
     add_facts_at_stop(facts_, s_, cause, who_);
-    summary_.advice = advice(facts_);
-    failure_ += "\n     hint: " + summary_.advice;
+    failure_ += "\n     hint: " + (summary_.advice = advice(facts_));
   }
 
   /// Writes what can still be written; a second failure must not hide the first.
@@ -483,7 +483,7 @@ class Run {
   static constexpr int weight_of_state = 16;
   /// Writes fields_ and histories_, which nothing else may touch before it has been waited for. The last
   /// member: its jobs end before what they write to.
-  JobQueue writer_{2 * weight_of_state};
+  JobQueue writer_{memory_is_limited() ? 0 : 2 * weight_of_state};
 };
 
 }  // namespace

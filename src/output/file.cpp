@@ -21,7 +21,7 @@ std::string advice(const std::string& reason) {
   if (reason == std::strerror(EACCES) || reason == std::strerror(EROFS) || reason == std::strerror(EPERM))
     return "make the folder writable, or choose another with -o";
   if (reason.rfind("no memory", 0) == 0 || reason.find("allocate memory") != std::string::npos ||
-      reason == "HDF5 failed" || reason == std::strerror(ENOMEM))
+      reason.rfind("HDF5 failed", 0) == 0 || reason == std::strerror(ENOMEM))
     return "give the run more memory (ulimit -v, fewer --threads), or ask for no restart file "
            "(--no-final-dump)";
   if (reason.rfind("it is ", 0) == 0)

@@ -111,8 +111,14 @@ bool put(hid_t file, const std::string& path, const SavedArray& array) {
 
 /// All of the state as the bytes of an HDF5 file. Throws OutputError.
 std::string image_of(const fs::path& file, SavedState& state) {
-  const auto stop = [&] { throw OutputError(file, "no memory for a copy of the state in HDF5's form"); };
-  const Hdf5Silence silence;
+  std::size_t size_of_state = 0;
+  for (const auto& [path, array] : state) size_of_state += array.bytes.size();
+  constexpr std::size_t of_dataset = 8192;
+  const Hdf5Use use(file, 2 * size_of_state + state.size() * of_dataset);
+  const auto stop = [&] {
+    Hdf5Use::failed();
+    throw OutputError(file, "no memory for a copy of the state in HDF5's form");
+  };
   Image image(file.string());
   Hdf5Handle h5(image.create(), H5Fclose);
   if (h5 < 0) stop();
@@ -223,7 +229,7 @@ void write_restart_file(const fs::path& file, SavedState& state, std::int64_t cy
 SavedState read_restart_file(const fs::path& file) {
   std::string bytes = whole_content(file);
   check(file, bytes);
-  const Hdf5Silence silence;
+  const Hdf5Use use(file, 4 * bytes.size());
   Image image(file.string());
   const Hdf5Handle h5(image.open(bytes), H5Fclose);
   if (h5 < 0) refuse(file, "HDF5 cannot read it");

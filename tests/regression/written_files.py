@@ -88,7 +88,8 @@ for name in ("deck.k.tmp", "deck.k.part"):
 check(call("generate", scene, "-o", "deck.k")[0] == 0 and content("deck.k.tmp") == content("deck.k.part") == b"mine", "what is beside a deck stays")
 
 # --- the file of a relaxation
-RELAX = "*CONTROL_DYNAMIC_RELAXATION\n20,0.5,0.9,1e-4,0,0,1\n"
+HELD = "*SET_NODE_LIST\n7\n1,2,3,4\n*BOUNDARY_SPC_SET\n7,0,1,1,1\n*LOAD_BODY_Z\n9\n*DEFINE_CURVE\n9,2\n0.,1.\n9.,1.\n"
+RELAX = HELD + "*CONTROL_DYNAMIC_RELAXATION\n20,0.5,0.9,0.01,0,0,1\n"
 deck("relaxed.k", more=RELAX)
 code, said = call("run", "relaxed.k", "-o", "relaxed", "--quiet")
 check(code == 0 and b"kinetic" in content("relaxed/relax"), f"a relaxation is written down {said if code else ''}")
