@@ -26,9 +26,9 @@ WORDS = [b"1e300", b"-1e300", b"nan", b"inf", b"1e-300", b"0", b"-1", b"21474836
 FINDING = re.compile(rb"AddressSanitizer|UndefinedBehavior|LeakSanitizer|runtime error:|terminate called")
 
 
-def changed(data):
+def changed(data, most=6):
     """A few changes of words, lines and bytes."""
-    for _ in range(draw.randint(1, 6)):
+    for _ in range(draw.randint(1, most)):
         kind, lines = draw.randrange(7), data.split(b"\n")
         at, to = draw.randrange(len(lines)), draw.randrange(len(lines))
         if kind < 3:  # a field
@@ -91,6 +91,7 @@ decks = sorted([*(project / "tests/decks/accept").glob("*.k"), *(project / "test
 scenes = sorted((project / "keyword_decks").glob("*/scene.yaml"))
 small = project / "tests/fuzz/results.k"
 assert decks and scenes and small.exists()
+runnable = [deck for deck in [small, *decks, *sorted((project / "keyword_decks").glob("*/*.k"))] if call("check", str(deck))[0] == 0]
 code, said = call("run", str(small), "-o", "whole", "--quiet", "--threads", "1")
 states = sorted(Path("whole/restart").glob("*.h5"))
 assert states, said
@@ -102,7 +103,7 @@ for k in range(count):
         look("check of a deck", name, ["check", name])
     elif share < 6:
         name = f"{k}.k"
-        Path(name).write_bytes(changed(draw.choice(decks).read_bytes().replace(b"*END", b"*CONTROL_CPU\n2.\n*END")))
+        Path(name).write_bytes(changed(draw.choice(runnable).read_bytes().replace(b"*END", b"*CONTROL_CPU\n2.\n*END"), 2))
         look("run of a deck", name, ["run", name, "-o", "out", "--quiet", "--threads", "2"])
     elif share < 8:
         name = f"{k}.h5"

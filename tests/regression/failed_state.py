@@ -59,7 +59,7 @@ b
 *DATABASE_BINARY_D3PLOT
 {plot}
 *DATABASE_BINARY_RUNRSF
-200,9
+60,9
 *END
 """
 name = "fields/failed_solids.vtu"
