@@ -91,7 +91,9 @@ decks = sorted([*(project / "tests/decks/accept").glob("*.k"), *(project / "test
 scenes = sorted((project / "keyword_decks").glob("*/scene.yaml"))
 small = project / "tests/fuzz/results.k"
 assert decks and scenes and small.exists()
-runnable = [deck for deck in [small, *decks, *sorted((project / "keyword_decks").glob("*/*.k"))] if call("check", str(deck))[0] == 0]
+for scene in scenes:
+    call("generate", str(scene), "-o", f"{scene.parent.name}.k")
+runnable = [deck for deck in [small, *decks, *sorted(Path().glob("*.k"))] if call("check", str(deck))[0] == 0]
 code, said = call("run", str(small), "-o", "whole", "--quiet", "--threads", "1")
 states = sorted(Path("whole/restart").glob("*.h5"))
 assert states, said
@@ -103,7 +105,7 @@ for k in range(count):
         look("check of a deck", name, ["check", name])
     elif share < 6:
         name = f"{k}.k"
-        Path(name).write_bytes(changed(draw.choice(runnable).read_bytes().replace(b"*END", b"*CONTROL_CPU\n2.\n*END"), 2))
+        Path(name).write_bytes(changed(draw.choice(runnable).read_bytes().replace(b"*END", b"*CONTROL_CPU\n0.5\n*END"), 2))
         look("run of a deck", name, ["run", name, "-o", "out", "--quiet", "--threads", "2"])
     elif share < 8:
         name = f"{k}.h5"

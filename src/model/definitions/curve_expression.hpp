@@ -1,5 +1,6 @@
 #pragma once
 // What *DEFINE_CURVE_FUNCTION and *DEFINE_FUNCTION compute: expressions of the time.
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -51,16 +52,18 @@ class CurveExpression {
 /// formula of usual length.
 class SamplingBudget {
  public:
-  void add_curve() { left_ += 2e6; }
+  void add_curve() { own_ = 2e6; }
   /// False where that is more than is left, and from then on.
   bool take(Real operations) {
-    spent_ = spent_ || operations > left_;
-    left_ -= operations;
+    const Real shared = std::max(operations - own_, Real(0));
+    own_ -= operations - shared;
+    spent_ = spent_ || shared > left_;
+    left_ -= shared;
     return !spent_;
   }
 
  private:
-  Real left_ = 1e8;
+  Real left_ = 1e8, own_ = 0;  ///< of all curves, of the one at hand
   bool spent_ = false;
 };
 
