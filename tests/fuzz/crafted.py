@@ -49,6 +49,21 @@ def changed(data, most=6):
     return data
 
 
+def with_other_numbers(data):
+    """A deck with one to three numbers changed by up to a million times, or in sign, whichever keyword they are of."""
+    blocks = re.split(rb"^(?=\*)", data, flags=re.M)
+    for _ in range(draw.randint(1, 3)):
+        at = draw.randrange(1, len(blocks))
+        numbers = list(re.finditer(rb"(?<![\w.])-?\d+(?:\.\d*)?(?:[eE][+-]?\d+)?(?![\w.])", blocks[at]))
+        if not numbers:
+            continue
+        one = draw.choice(numbers)
+        value = float(one[0]) * draw.choice([-1, 0, 1, 2, 0.5, 10 ** draw.uniform(-6, 6)])
+        text = f"{value:.3g}" if b"." in one[0] or abs(value) < 1e-3 else f"{int(value)}"
+        blocks[at] = blocks[at][:one.start()] + text.encode()[:10].rjust(len(one[0])) + blocks[at][one.end():]
+    return b"".join(blocks)
+
+
 def signed(image, trailer):
     """Bytes of a restart file with a trailer that fits."""
     begin = trailer[:-9]
@@ -105,7 +120,9 @@ for k in range(count):
         look("check of a deck", name, ["check", name])
     elif share < 6:
         name = f"{k}.k"
-        Path(name).write_bytes(changed(draw.choice(runnable).read_bytes().replace(b"*END", b"*CONTROL_CPU\n0.5\n*END"), 2))
+        deck = draw.choice(runnable)
+        data = deck.read_bytes().replace(b"../decks/", os.fsencode(project / "tests/decks") + b"/").replace(b"*END", b"*CONTROL_CPU\n0.5\n*END")
+        Path(name).write_bytes(changed(data, 1) if draw.random() < 0.3 else with_other_numbers(data))
         look("run of a deck", name, ["run", name, "-o", "out", "--quiet", "--threads", "2"])
     elif share < 8:
         name = f"{k}.h5"

@@ -25,6 +25,8 @@ class OutputError(Exception):
     def __init__(self, file: Path, fault: OSError) -> None:
         advice = next((text for numbers, text in _ADVICE.items() if fault.errno in numbers),
                       "check the folder and the disk, or choose another folder with -o")
+        if fault.errno is None:
+            advice = "rename or remove it, or choose another name or folder; nothing was changed"
         super().__init__(f"{CANNOT_WRITE}{file}': {fault.strerror or fault}\n  hint: {advice}")
         self.file = file
 
