@@ -38,7 +38,6 @@ std::string keyword_twice(std::size_t first) {
 /// Why a file must not run: objects of other headers have another layout, and it would crash. Empty for what
 /// is no shared object: the linker says why.
 std::string compiled_against_others(const std::filesystem::path& file) {
-  if (std::error_code error; !std::filesystem::is_regular_file(file, error)) return "";
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   if (bytes.compare(0, 4, "\177ELF") != 0) return "";
@@ -58,9 +57,13 @@ std::string compiled_against_others(const std::filesystem::path& file) {
 std::string load_extension(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return fmt::format("the file {} does not exist", file);
+  if (!std::filesystem::is_regular_file(file, error))  // a pipe would be waited for
+    return fmt::format("{} is no file", file);
   const std::filesystem::path path =
-      std::filesystem::absolute(file, error);  // dlopen looks for plain names elsewhere
-  if (dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD)) return "";
+      std::filesystem::absolute(file, error);     // dlopen looks for plain names elsewhere
+  static std::set<std::filesystem::path> loaded;  // more than one call in a process may name it
+  const std::filesystem::path same = std::filesystem::weakly_canonical(path, error);
+  if (loaded.contains(same)) return "";
   if (const std::string why = compiled_against_others(path); !why.empty())
     return fmt::format("{} {}", file, why);
   const std::size_t before = registered(), keywords = keyword_registry().size();
@@ -81,6 +84,7 @@ std::string load_extension(const std::string& file) {
   if (registered() == before) return fmt::format("{} registers nothing: no keyword, law or addition", file);
   if (const std::string twice = keyword_twice(keywords); !twice.empty())
     return fmt::format("{} registers *{}, which is there already", file, twice);
+  loaded.insert(same);
   return "";
 }
 

@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include <new>
 
 #include "app/cli.hpp"
+#include "app/resources.hpp"
 #include "parallel/start_over.hpp"
 
 namespace {
@@ -49,14 +51,17 @@ void tell_of_memory() {
 int main(int argc, char** argv) {
   courant::start_over_for_speed(argv);
   std::set_terminate(end);
+  // each thread would set addresses apart for its own memory, more than a limit may have
+  if (courant::memory_is_limited()) ::mallopt(M_ARENA_MAX, 1);
   try {
     const int code = courant::command_line(argc, argv);
     // libraries that have run out of memory, as HDF5, may crash when they clean up
-    if (code == courant::exit_run && std::fflush(nullptr) == 0) std::_Exit(code);
+    if (code != courant::exit_ok && std::fflush(nullptr) == 0) std::_Exit(code);
     return code;
   } catch (const std::bad_alloc&) {
     tell_of_memory();
-    return courant::exit_other;
+    std::fflush(nullptr);
+    std::_Exit(courant::exit_other);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "courant: %s\n", error.what());
     return courant::exit_other;

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 
 #include "base/run_error.hpp"
 #include "output/file.hpp"
+#include "output/result_names.hpp"
 #include "parallel/parallel.hpp"
 #include "state/restartable.hpp"
 #include "state/shared_fields.hpp"
@@ -61,14 +60,12 @@ RelaxationEnd relax_before(Simulation& run, const RunOptions& options,
                            const std::function<void(const std::string&)>& tell) {
   if (!run.relaxation().asked) return {.converged = true};
   if (!options.relaxing) throw RunError("the deck asks for a relaxation, and no simulation of it was given");
-  const std::filesystem::path name = std::filesystem::path(options.dir) / "relax";
-  std::ofstream file(name);
-  file << "#         time       kinetic         ratio\n";
+  TextFile file(result_path(options.dir, result_names::relaxation));
+  file.write(relaxation_head);
   tell(" dynamic relaxation");
   const RelaxationEnd end = relax(
       *options.relaxing, [&] { return options.stop && *options.stop; },
-      [&](const std::string& line) { file << line << std::flush; });
-  if (!file) throw OutputError(name, "the disk may be full");
+      [&](const std::string& line) { file.write(line); });
   tell(fmt::format(" {} at time {:.6g}, cycle {}: kinetic energy {:.3e} of its largest",
                    end.converged ? "converged"
                    : end.stopped ? "stopped"

@@ -7,6 +7,9 @@
 
 namespace courant {
 
+/// First line of the file `relax`.
+inline constexpr const char* relaxation_head = "#         time       kinetic         ratio\n";
+
 struct RelaxationEnd {
   bool converged = false, stopped = false;
   Real ratio = 0;  ///< largest kinetic energy since the look before, over the largest of all [-]

@@ -19,4 +19,12 @@ std::int64_t peak_memory() {
   return usage.ru_maxrss * 1024;
 }
 
+bool memory_is_limited() {
+  for (const auto what : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (::getrlimit(what, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) return true;
+  }
+  return false;
+}
+
 }  // namespace courant

@@ -10,6 +10,7 @@
 #include "app/restart_cards.hpp"
 #include "app/result_folder.hpp"
 #include "base/instruction_set.hpp"
+#include "output/hdf5.hpp"
 #include "output/restart_file.hpp"
 
 namespace courant {
@@ -168,6 +169,7 @@ bool prepare_folder(const RunOptions& options, const Deck& deck) {
   for (const DeckFile& file : deck.files) inputs.push_back(file.name);
   if (options.restart && !goes_on) inputs.push_back(options.restart->file);
   check_result_folder(dir, inputs);
+  Hdf5Use::reserve();
   make_folder(dir / "restart");
   retire_restart_files(dir, goes_on ? options.restart->cycle : -1,
                        options.restart ? options.restart->file : fs::path());

@@ -8,6 +8,7 @@
 #include "app/simulation.hpp"
 #include "base/restart_error.hpp"
 #include "output/ascii.hpp"
+#include "output/result_names.hpp"
 #include "state/saved_state.hpp"
 
 namespace courant {

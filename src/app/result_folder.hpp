@@ -5,7 +5,7 @@
 
 namespace courant {
 
-/// Whether runs write files of this name to their folder, or to `fields` in it.
+/// Whether runs write files of this name to their folder, or to `fields` or `restart` in it.
 bool is_result_name(const std::filesystem::path& name_in_folder);
 
 /// Throws OutputError where a file that runs write is there as a link or as something else than a file, or is
@@ -13,8 +13,8 @@ bool is_result_name(const std::filesystem::path& name_in_folder);
 void check_result_folder(const std::filesystem::path& dir, const std::vector<std::filesystem::path>& inputs);
 
 /// Removes the files of an earlier run, so that none passes for one of the next: `fields`, `fields.pvd`,
-/// `messag`, `summary.yaml`, `history.h5`. ASCII histories are the affair of Histories, restart files that of
-/// retire_restart_files.
+/// `messag`, `summary.yaml`, `history.h5`, `relax`. ASCII histories are the affair of Histories, restart
+/// files that of retire_restart_files.
 void remove_results(const std::filesystem::path& dir);
 
 }  // namespace courant

@@ -43,7 +43,7 @@ class Run {
         lock_(options.dir),
         goes_on_(prepare_folder(options, simulation.deck())),
         messag_(
-            std::filesystem::path(options.dir) / "messag",
+            result_path(options.dir, result_names::messag),
             [this](std::string_view line) {
               if (options_.print) options_.print(std::string(line));
             },
@@ -201,7 +201,7 @@ class Run {
   }
 
   std::filesystem::path restart_file(const std::string& name) const {
-    return std::filesystem::path(options_.dir) / "restart" / name;
+    return result_path(options_.dir, "restart/" + name);
   }
 
   void copy_state() {
@@ -357,9 +357,9 @@ class Run {
   void explain(StopCause cause) {
     failed_state_ = true;
     s_.guard().note_ranges(s_.world(), s_.clock());
+    s_.show_wall_forces();
     add_facts_at_stop(facts_, s_, cause, who_);
-    summary_.advice = advice(facts_);
-    failure_ += "\n     hint: " + summary_.advice;
+    failure_ += "\n     hint: " + (summary_.advice = advice(facts_));
   }
 
   /// Writes what can still be written; a second failure must not hide the first.
@@ -385,7 +385,7 @@ class Run {
     y.output.states = fields_.states(), y.output.field_bytes = fields_.bytes();
     y.output.history_bytes = histories_.bytes();
     attempt([&] { print_end(); });
-    attempt([&] { write_summary(std::filesystem::path(options_.dir) / "summary.yaml", y); });
+    attempt([&] { write_summary(result_path(options_.dir, result_names::summary), y); });
   }
 
   std::string restart_call(const std::string& file) const {
@@ -483,7 +483,7 @@ class Run {
   static constexpr int weight_of_state = 16;
   /// Writes fields_ and histories_, which nothing else may touch before it has been waited for. The last
   /// member: its jobs end before what they write to.
-  JobQueue writer_{2 * weight_of_state};
+  JobQueue writer_{memory_is_limited() ? 0 : 2 * weight_of_state};
 };
 
 }  // namespace

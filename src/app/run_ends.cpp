@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/run_error.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
@@ -37,6 +38,7 @@ std::optional<RunEnd> RunEnds::reached(double cpu) const {
   const Id endcyc = s_.model().endcyc;
   if (stop_ && stop_->load())
     return RunEnd{.reason = fmt::format("stopped by a signal at time {:.6g}", clock.t), .interrupted = true};
+  stop_without_progress(clock);
   if (endcyc > 0 && clock.cycle >= endcyc) return RunEnd{.reason = "termination cycle reached"};
   for (const Ending* ending : endings_)
     if (auto why = ending->ended(s_.world(), clock)) return RunEnd{.reason = *std::move(why)};
@@ -46,6 +48,17 @@ std::optional<RunEnd> RunEnds::reached(double cpu) const {
         .interrupted = true,
         .wants_restart = true};
   return std::nullopt;
+}
+
+void RunEnds::stop_without_progress(const Clock& clock) const {
+  constexpr int interval = 64;       // steps from look to look: a step may be short once, as DTINIT
+  constexpr Real most_steps = 1e14;  // years of computing
+  const Real left = s_.model().endtim - clock.t;
+  if (clock.cycle == 0 || clock.cycle % interval != 0 || !(left > most_steps * clock.dt_old)) return;
+  throw RunError(fmt::format("the run gets nowhere: steps of {:.4g} at time {:.6g}, cycle {}, where {:.4g} "
+                             "is left to ENDTIM",
+                             clock.dt_old, clock.t, clock.cycle, left),
+                 StopCause::step_size);
 }
 
 }  // namespace courant

@@ -21,9 +21,12 @@ class RunEnds {
   /// `stop`: set by a signal; may be null.
   RunEnds(Simulation& simulation, const std::atomic<bool>* stop);
   /// Between two steps. `cpu`: time of all threads since this call of the program began [s]
+  /// Throws RunError where the steps have become so short that the end cannot be reached.
   std::optional<RunEnd> reached(double cpu) const;
 
  private:
+  void stop_without_progress(const Clock& clock) const;
+
   Simulation& s_;
   const std::atomic<bool>* stop_;
   double most_cpu_ = 0;  ///< 0: no limit [s]

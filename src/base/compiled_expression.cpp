@@ -117,7 +117,7 @@ Real CompiledExpression::call(const Step& step, const Real* arguments) {
 
 Real CompiledExpression::operator()(const Real* values) const {
   constexpr std::size_t usual_depth = 32;
-  std::array<Real, usual_depth> usual{};
+  std::array<Real, usual_depth> usual;
   std::vector<Real> deep(depth_ > usual_depth ? depth_ : 0);
   Real* const bottom = deep.empty() ? usual.data() : deep.data();
   Real* top = bottom;  // the next free place

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/utf8.hpp"
+
 namespace courant {
 
 namespace {
@@ -10,17 +12,9 @@ namespace {
 /// several lines (what another program said) keeps all of them.
 void make_presentable(std::string& text) {
   const bool several_lines = text.find('\n') != std::string::npos;
-  if (!several_lines && text.size() > Diagnostics::longest_text) {
-    std::size_t end = Diagnostics::longest_text;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
-      --end;  // within a UTF-8 character
-    text.resize(end);
-    text += "...";
-  }
-  for (char& c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte < 0x20 && c != '\n') || byte == 0x7F) c = '?';
-  }
+  if (!several_lines && text.size() > Diagnostics::longest_text)
+    text = std::string(cut_utf8(text, Diagnostics::longest_text)) + "...";
+  text = without_controls(text);
 }
 
 }  // namespace

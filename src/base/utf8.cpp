@@ -27,4 +27,29 @@ std::string valid_utf8(std::string_view text) {
   return out;
 }
 
+std::string without_controls(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  const auto is_continuation = [&](std::size_t k) {
+    return k < text.size() && (static_cast<unsigned char>(text[k]) & 0xC0) == 0x80;
+  };
+  std::size_t of_character = 0;  // bytes that go on with the character before
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const bool goes_on = of_character > 0 && is_continuation(i);
+    of_character = goes_on ? of_character - 1 : byte < 0xC2 ? 0 : byte < 0xE0 ? 1 : byte < 0xF0 ? 2 : 3;
+    const bool ascii = (byte < 0x20 && byte != '\n') || byte == 0x7F;
+    const bool latin = byte >= 0x80 && byte < 0xA0 && (!goes_on || out.back() == '\xC2');
+    if (latin && goes_on) out.pop_back();
+    out += ascii || latin ? '?' : text[i];
+  }
+  return out;
+}
+
+std::string_view cut_utf8(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return text;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0) == 0x80) --most;
+  return text.substr(0, most);
+}
+
 }  // namespace courant

@@ -8,4 +8,11 @@ namespace courant {
 /// JSON takes others.
 std::string valid_utf8(std::string_view text);
 
+/// The text with '?' for control characters, which could act on a terminal (those of ASCII but line feeds,
+/// and those of Latin 1, as single bytes or as UTF-8).
+std::string without_controls(std::string_view text);
+
+/// The first bytes, `most` at most, without a part of a UTF-8 character at the end.
+std::string_view cut_utf8(std::string_view text, std::size_t most);
+
 }  // namespace courant

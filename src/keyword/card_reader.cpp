@@ -5,6 +5,7 @@
 #include <cctype>
 #include <limits>
 
+#include "base/utf8.hpp"
 #include "keyword/number.hpp"
 
 namespace courant {
@@ -141,7 +142,7 @@ bool CardReader::read_title_lines(DataLines& data, EntrySink& sink) {
     return true;
   };
   if (spec_->heading) {
-    sink.set_title(parameters_.with_texts(trimmed(data.line())));
+    sink.set_title(parameters_.title(data.line()));
     data.step();
   }
   if (block_.match.id) {
@@ -151,7 +152,7 @@ bool CardReader::read_title_lines(DataLines& data, EntrySink& sink) {
   }
   if (block_.match.title) {
     if (!next("the title line")) return false;
-    sink.set_title(parameters_.with_texts(trimmed(data.line())));
+    sink.set_title(parameters_.title(data.line()));
     data.step();
   }
   if (block_.match.mpp) {
@@ -194,8 +195,7 @@ void CardReader::read_id_line(std::string_view line, int number, EntrySink& sink
                                     spec_->names[static_cast<std::size_t>(block_.match.name)], fault),
                         hint);
   sink.set_id(id);
-  sink.set_title(
-      parameters_.with_texts(trimmed(line.substr(std::min(end + (comma < width ? 1 : 0), line.size())))));
+  sink.set_title(parameters_.title(line.substr(std::min(end + (comma < width ? 1 : 0), line.size()))));
 }
 
 void CardReader::read_cards(DataLines& data, EntrySink& sink) {
@@ -336,7 +336,7 @@ void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, En
     if (spec.rules.honour == Honour::no)
       field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text),
                   "leave the field blank");
-    sink.set_text(card, field, slice.text);
+    sink.set_text(card, field, without_controls(slice.text));
     return;
   }
   if (Parameters::is_reference(slice.text) && !substitute(card, field, slice, held)) return;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/nearest_word.hpp"
+#include "base/utf8.hpp"
 #include "keyword/source.hpp"
 
 namespace courant {
@@ -192,6 +193,11 @@ std::string Parameters::with_texts(std::string_view text) {
   std::string out = replaced(text, uses);
   for (const std::size_t index : uses) mark_used(index);
   return out;
+}
+
+std::string Parameters::title(std::string_view text) {
+  const std::string whole = with_texts(cut_utf8(trimmed(text), 2 * longest_title));
+  return without_controls(cut_utf8(whole, longest_title));
 }
 
 std::string Parameters::replaced(std::string_view text, std::vector<std::size_t>& uses) const {

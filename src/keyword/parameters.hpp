@@ -64,6 +64,9 @@ class Parameters {
   Resolved resolve(std::string_view text);
   /// A title, file name or other text with each &name of a text parameter replaced; other & stay.
   std::string with_texts(std::string_view text);
+  /// The same for a title or heading: its first 500 bytes, without control characters.
+  std::string title(std::string_view text);
+  static constexpr std::size_t longest_title = 500;  ///< [bytes]
   /// Text that is not read as fields: what it mentions counts as used.
   void note_mentions(std::string_view text);
 

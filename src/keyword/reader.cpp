@@ -235,7 +235,11 @@ Treatment DeckReader::refuse(const std::string& name, const Location& where) {
 void DeckReader::read_title(const File& file, std::size_t line) {
   DataLines data(*file.source, line + 1);
   if (data.done()) return;
-  deck_.title = parameters_.with_texts(trimmed(data.line()));
+  deck_.title = parameters_.title(data.line());
+  if (const std::size_t length = trimmed(data.line()).size(); length > Parameters::longest_title)
+    diagnostics_.warning(
+        place(file, data.index()),
+        fmt::format("*TITLE: the first {} of {} characters are taken", Parameters::longest_title, length));
   data.step();
   warn_of_more_lines(file, data, "TITLE");
 }

@@ -7,6 +7,8 @@
 #include <ctime>
 #include <fstream>
 
+#include "output/result_names.hpp"
+
 namespace courant {
 
 std::string ascii_header(const std::string& title, const std::string& date) {
@@ -73,7 +75,7 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
              requests.added[k].columns,
          [k](const Sample& s) { return k < s.added.size() ? s.added[k] : std::string(); });
   choose_h5_times(requests.h5);
-  if (!h5_schedules_.empty()) h5_.emplace(dir / "history.h5");
+  if (!h5_schedules_.empty()) h5_.emplace(result_path(dir, result_names::history));
   if (!resume) return;
   set_first_potential(*resume);
   const auto rows = static_cast<std::size_t>(resume->rows);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "output/field_data.hpp"
+#include "output/result_names.hpp"
 #include "output/vtk_arrays.hpp"
 
 namespace courant {
@@ -110,7 +111,7 @@ void FieldWriter::write(FieldState state) {
 
 void FieldWriter::put(const std::string& file, VtkEncoder& encoder, VtkDataSet data) {
   const VtkEncoder::File encoded = encoder.encode(std::move(data));
-  write_file(dir_ / file, {encoded.header, encoded.data});
+  write_file(result_path(dir_, file), {encoded.header, encoded.data});
   bytes_ += static_cast<std::int64_t>(encoded.header.size() + encoded.data.size());
 }
 
@@ -170,7 +171,7 @@ void FieldWriter::cut(int number) {
 
 void FieldWriter::write_index() {
   write_file(
-      dir_ / "fields.pvd",
+      result_path(dir_, result_names::fields_index),
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
       "  <Collection>\n" +
           entries_ + "  </Collection>\n</VTKFile>\n");

@@ -1,13 +1,14 @@
 #pragma once
-// Checked writing of files. A file carries its final name only once all of it is on the disk.
+// Checked writing of files, and the one place that opens what is written
+// (tests/architecture/one_writer.py looks for others). A file carries its final name only once all of it is
+// on the disk.
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <initializer_list>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace courant {
 
@@ -19,24 +20,61 @@ class OutputError : public std::runtime_error {
   /// `reason` as the system puts it, for example "No space left on device".
   OutputError(const std::filesystem::path& file, const std::string& reason);
   const std::filesystem::path& file() const { return file_; }
+  const std::string& reason() const { return reason_; }
 
  private:
   std::filesystem::path file_;
+  std::string reason_;
 };
 
 /// Makes the folder and its parents. Throws OutputError.
 void make_folder(const std::filesystem::path& dir);
 
-/// Makes an empty file for writing in place of one of that name, or of a link: nothing goes through it.
-/// Returns its descriptor, or -1 with errno.
-int make_new_file(const std::filesystem::path& file);
+/// Why results cannot take the place of what is there under this name: a link, or no ordinary file; "" where
+/// they can.
+std::string why_no_file(const std::filesystem::path& file);
 
+/// A descriptor, closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor();
+  int number() const { return number_; }
+  bool close();  ///< false, with errno, where the system reports a fault
+
+ private:
+  int number_;
+};
+
+enum class Opening {
+  new_file,  ///< an empty file; none of that name may be there
+  empty,     ///< the file of that name without its content, or a new one
+  at_end,    ///< the file of that name, to go on behind its content, or a new one
+  as_it_is,  ///< the file of that name for reading and writing, or a new one
+  device,    ///< a device or pipe that is there, also through links
+};
+/// Opens for writing. Links, and what is no ordinary file, are refused except for `device`, which refuses
+/// what is neither a character device nor a pipe with a reader. Never waits. Throws OutputError.
+Descriptor open_for_writing(const std::filesystem::path& file, Opening how);
+
+enum class Durable { no, yes };  ///< yes: on the disk before the call returns
 /// Writes the pieces, one after the other, to `file.tmp` and renames it to `file`, so that readers see the
-/// old file or the whole new one. Throws OutputError; `file` is then as it was before and `file.tmp` is gone.
-void write_file(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces);
+/// old file or the whole new one. For files whose name the program chooses: `file.tmp` is the program's,
+/// too. A link or what is no ordinary file is not replaced. Throws OutputError; `file` is then as it was
+/// before and `file.tmp` is gone.
+void write_file(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces,
+                Durable durable = Durable::no);
 inline void write_file(const std::filesystem::path& file, std::string_view content) {
   write_file(file, {content});
 }
+/// The same for a file that the user names: the temporary name is one that nothing has, and what goes to a
+/// device or pipe (/dev/null, /dev/stdout) is written to it.
+void write_named_file(const std::filesystem::path& file, std::string_view content);
 
 /// A text file that grows while the run goes on; each write reaches the system before the call returns. A
 /// write that fails leaves the file as it was before.
@@ -51,11 +89,10 @@ class TextFile {
   void cut(std::uintmax_t size);
 
  private:
-  struct Close {
-    void operator()(std::FILE* f) const { std::fclose(f); }
-  };
+  bool cut_to(std::uintmax_t size);  ///< false with errno
+
   std::filesystem::path file_;
-  std::unique_ptr<std::FILE, Close> stream_;
+  Descriptor descriptor_;
   std::uintmax_t size_ = 0;  ///< of what was written whole [bytes]
 };
 

@@ -1,16 +1,14 @@
 #include "output/folder_lock.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <string>
 
-#include "output/file.hpp"
+#include "output/result_names.hpp"
 
 namespace courant {
 namespace {
@@ -31,31 +29,29 @@ bool is_at(int descriptor, const std::filesystem::path& file) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".courant_lock") {
+FolderLock::FolderLock(const std::filesystem::path& folder) : file_(result_path(folder, result_names::lock)) {
   make_folder(folder);
   while (true) {
-    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
-    if (descriptor_ < 0)
-      throw OutputError(file_, errno == ELOOP ? "it is a link, and results are not written through links"
-                                              : std::strerror(errno));
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      const int number = errno;
-      const std::string who = holder(descriptor_);
-      if (number != EWOULDBLOCK) return;  // a file system without locks
-      ::close(descriptor_);
-      throw OutputError(folder, "another run" + who + " is writing there");
+    Descriptor opened = open_for_writing(file_, Opening::as_it_is);
+    if (::flock(opened.number(), LOCK_EX | LOCK_NB) != 0) {
+      if (errno == EWOULDBLOCK)
+        throw OutputError(folder, "another run" + holder(opened.number()) + " is writing there");
+      descriptor_ = std::move(opened);  // a file system without locks
+      return;
     }
-    if (is_at(descriptor_, file_)) break;
-    ::close(descriptor_);
+    if (!is_at(opened.number(), file_)) continue;
+    descriptor_ = std::move(opened);
+    break;
   }
   const std::string me = std::to_string(::getpid());
   // only for messages: a lock without a number is a lock all the same
-  if (::ftruncate(descriptor_, 0) == 0 && ::pwrite(descriptor_, me.data(), me.size(), 0) < 0) return;
+  if (::ftruncate(descriptor_.number(), 0) == 0 &&
+      ::pwrite(descriptor_.number(), me.data(), me.size(), 0) < 0)
+    return;
 }
 
 FolderLock::~FolderLock() {
   ::unlink(file_.c_str());
-  ::close(descriptor_);
 }
 
 }  // namespace courant

@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
 
+#include "output/file.hpp"
+
 namespace courant {
 
 /// While it lives no other run writes its results to the folder. The system gives the lock back when the
@@ -16,7 +18,7 @@ class FolderLock {
 
  private:
   std::filesystem::path file_;
-  int descriptor_ = -1;
+  Descriptor descriptor_{-1};
 };
 
 }  // namespace courant

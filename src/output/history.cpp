@@ -32,7 +32,7 @@ std::string innermost_error() {
   // The system's reason is somewhere in HDF5's sentence; the plain reason is what users and our advice know.
   for (int number : {ENOSPC, EDQUOT, EFBIG, EACCES, EROFS, EPERM, EIO})
     if (text.find(std::strerror(number)) != std::string::npos) return std::strerror(number);
-  return text.empty() ? "HDF5 failed" : text;
+  return text.empty() ? "HDF5 failed" : "HDF5 failed: " + text;
 }
 
 std::string content(const std::filesystem::path& file) {
@@ -169,7 +169,10 @@ class HistoryFile {
   }
 
   void check(hid_t result) const {
-    if (result < 0) throw OutputError(name_, innermost_error());
+    if (result >= 0) return;
+    const std::string why = innermost_error();
+    Hdf5Use::failed();
+    throw OutputError(name_, why);
   }
 
   std::filesystem::path name_;
@@ -186,9 +189,9 @@ History::History(std::filesystem::path file, std::size_t buffered_samples, std::
       last_flush_(std::chrono::steady_clock::now()) {}
 
 std::size_t History::resume(std::size_t rows) {
-  const Hdf5Silence silence;
   std::error_code none;
   if (!std::filesystem::exists(file_, none)) return 0;
+  const Hdf5Use use(file_, 4 * std::filesystem::file_size(file_, none));
   HistoryFile h5(file_, content(file_));
   rows_in_file_ = h5.cut(rows);
   write_checked(file_, h5.image());
@@ -206,6 +209,12 @@ void History::record(const Sample& sample) {
     flush();
 }
 
+std::size_t History::bytes_buffered() const {
+  std::size_t numbers = 0;
+  for (const auto& [path, c] : columns_) numbers += c.values.size();
+  return sizeof(double) * numbers;
+}
+
 // Each flush writes all rows anew: a larger file is left alone longer, as far as memory allows.
 std::size_t History::enough_rows() const {
   std::size_t width = 0;
@@ -217,7 +226,10 @@ std::size_t History::enough_rows() const {
 void History::flush() {
   last_flush_ = std::chrono::steady_clock::now();
   if (rows_ == 0) return;
-  const Hdf5Silence silence;
+  std::error_code none;
+  const std::size_t before = rows_in_file_ > 0 ? std::filesystem::file_size(file_, none) : 0;
+  constexpr std::size_t of_dataset = 8192;
+  const Hdf5Use use(file_, 4 * (before + bytes_buffered()) + columns_.size() * of_dataset);
   HistoryFile h5(file_, rows_in_file_ > 0 ? content(file_) : std::string());
   for (auto& [path, c] : columns_) {
     c.values.resize(rows_ * static_cast<std::size_t>(c.components), std::numeric_limits<double>::quiet_NaN());

@@ -55,6 +55,7 @@ class History {
   void put_entities(const Sample& sample);
   void put_bodies(const Sample& sample);
   void put_points(const Sample& sample);
+  std::size_t bytes_buffered() const;
   std::size_t enough_rows() const;  ///< buffered ones that are worth a flush
 
   std::filesystem::path file_;

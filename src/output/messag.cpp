@@ -5,6 +5,8 @@
 
 #include <ctime>
 
+#include "base/utf8.hpp"
+
 namespace courant {
 
 namespace {
@@ -24,11 +26,11 @@ Messag::Messag(const std::filesystem::path& file, Echo echo, bool append)
 
 void Messag::line(std::string_view text) {
   keep(text);
-  if (echo_) echo_(text);
+  if (echo_) echo_(without_controls(text));
 }
 
 void Messag::keep(std::string_view text) {
-  file_.write(std::string(text) + "\n");
+  file_.write(without_controls(text) + "\n");
 }
 
 void Messag::keep_status(std::int64_t cycle, Real t, Real dt, std::string_view what) {

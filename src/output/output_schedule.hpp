@@ -49,7 +49,7 @@ class OutputSchedule {
  private:
   void go_on() {
     if (!after_) {
-      k_ += 1;
+      k_ = std::max(k_ + 1, std::nextafter(k_, std::numeric_limits<Real>::infinity()));
       return;
     }
     const Real due = after_(next_);

@@ -1,8 +1,6 @@
 #include "output/restart_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "output/file.hpp"
 #include "output/hdf5.hpp"
 
 namespace courant {
@@ -112,8 +111,14 @@ bool put(hid_t file, const std::string& path, const SavedArray& array) {
 
 /// All of the state as the bytes of an HDF5 file. Throws OutputError.
 std::string image_of(const fs::path& file, SavedState& state) {
-  const auto stop = [&] { throw OutputError(file, "no memory for a copy of the state in HDF5's form"); };
-  const Hdf5Silence silence;
+  std::size_t size_of_state = 0;
+  for (const auto& [path, array] : state) size_of_state += array.bytes.size();
+  constexpr std::size_t of_dataset = 8192;
+  const Hdf5Use use(file, 2 * size_of_state + state.size() * of_dataset);
+  const auto stop = [&] {
+    Hdf5Use::failed();
+    throw OutputError(file, "no memory for a copy of the state in HDF5's form");
+  };
   Image image(file.string());
   Hdf5Handle h5(image.create(), H5Fclose);
   if (h5 < 0) stop();
@@ -128,55 +133,6 @@ std::string image_of(const fs::path& file, SavedState& state) {
   if (H5Fget_file_image(h5, bytes.data(), bytes.size()) < 0) stop();
   if (h5.close() < 0) stop();
   return bytes;
-}
-
-/// A file that was opened by its number; closes it where nobody else did.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  int number() const { return number_; }
-  bool close() { return ::close(std::exchange(number_, -1)) == 0; }
-
- private:
-  int number_;
-};
-
-bool write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
-/// Also the new name is on the disk then, where the file system can tell.
-void sync_folder(const fs::path& folder) {
-  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (descriptor.number() >= 0) ::fsync(descriptor.number());
-}
-
-void write_to_disk(const fs::path& file, std::string_view bytes, std::string_view trailer) {
-  fs::path temporary = file;
-  temporary += ".tmp";
-  const auto fail = [&](int number) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw OutputError(file, std::strerror(number));
-  };
-  Descriptor out(make_new_file(temporary));
-  if (out.number() < 0) throw OutputError(file, std::strerror(errno));
-  if (!write_all(out.number(), bytes) || !write_all(out.number(), trailer)) fail(errno);
-  if (::fsync(out.number()) != 0 && errno != EINVAL && errno != ENOSYS) fail(errno);  // a pipe cannot
-  if (!out.close()) fail(errno);
-  if (std::rename(temporary.c_str(), file.c_str()) != 0) fail(errno);
-  sync_folder(file.parent_path());
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& why) {
@@ -267,13 +223,13 @@ bool get(hid_t file, const std::string& path, SavedArray& to) {
 void write_restart_file(const fs::path& file, SavedState& state, std::int64_t cycle) {
   const std::string bytes = image_of(file, state);
   const std::uint32_t crc = crc_of(crc_of(0, bytes), trailer_without_crc(restart_format, cycle));
-  write_to_disk(file, bytes, trailer_of({restart_format, cycle, crc}));
+  write_file(file, {bytes, trailer_of({restart_format, cycle, crc})}, Durable::yes);
 }
 
 SavedState read_restart_file(const fs::path& file) {
   std::string bytes = whole_content(file);
   check(file, bytes);
-  const Hdf5Silence silence;
+  const Hdf5Use use(file, 4 * bytes.size());
   Image image(file.string());
   const Hdf5Handle h5(image.open(bytes), H5Fclose);
   if (h5 < 0) refuse(file, "HDF5 cannot read it");

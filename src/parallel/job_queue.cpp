@@ -40,12 +40,14 @@ void JobQueue::push(Entry entry) {
   changed_.wait(lock, [&] { return failed_ || load_ == 0 || load_ + entry.weight <= capacity_; });
   tell_failure(lock);
   if (failed_) return;
-  load_ += entry.weight;
+  const int weight = entry.weight;
   if (thread_.joinable()) {
     jobs_.push_back(std::move(entry));
+    load_ += weight;
     lock.unlock();
     changed_.notify_all();
   } else {
+    load_ += weight;
     run(std::move(entry), lock);
     tell_failure(lock);
   }

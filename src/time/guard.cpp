@@ -200,10 +200,13 @@ void Guard::note_peak(EnergyLedger& e) const {
 // What came in: the energy at the start, work and inflow, and what fell or expanded. Dissipation is part of
 // throughput but brings nothing in: without it an instability cannot hide behind its own friction.
 void Guard::stop_for_energy(const EnergyLedger& e, const Clock& clock) {
-  if (!is_finite(e.total()))
-    throw RunError(fmt::format("the energy became {} at time {:.6g}, cycle {}: the run is unstable",
-                               e.total(), clock.t, clock.cycle),
-                   StopCause::not_finite);
+  for (const auto& [name, value] : {std::pair{"energy", e.total()},
+                                    {"external work", e.external_work},
+                                    {"sum of all work", e.throughput}})
+    if (!is_finite(value))
+      throw RunError(fmt::format("the {} became {} at time {:.6g}, cycle {}: the run is unstable", name,
+                                 value, clock.t, clock.cycle),
+                     StopCause::not_finite);
   if (clock.cycle == 0 || clock.cycle % interval != 0) return;  // whoever else asks for a look, at outputs
   const Real now = least_energy_ + initial_size_ + std::max(e.throughput - e.dissipated, Real(0)) +
                    std::max(initial_potential_ - e.potential, Real(0)) +

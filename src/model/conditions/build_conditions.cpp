@@ -65,6 +65,7 @@ void ModelBuilder::build_output() {
     out.d3plot.interval = card->dt;
     out.d3plot_count = card->npltc;
     if (card->npltc > 0) out.d3plot.interval = model_.endtim / card->npltc;
+    check_interval(*card, "DT", out.d3plot.interval, most_due);
     build_output_curve(*card, "LCDT", card->lcdt, std::max(card->ioopt, 1), out.d3plot);
     build_left_out_parts(*card, card->psetid);
   }

@@ -198,6 +198,12 @@ class FunctionReader {
     if (!returned_ && !take('=')) return fail("'=' is missing");
     const std::size_t end = text_.find(';', at_);
     if (end == std::string_view::npos) return fail("';' is missing");
+    constexpr std::size_t most = 1000;
+    if (assignments.size() == most) {
+      at_ = begin;
+      return fail(fmt::format("the function has more than {} statements", most),
+                  "give points with *DEFINE_CURVE");
+    }
     assignments.push_back({returned_ ? "" : name, text_.substr(at_, end - at_), at_});
     at_ = end + 1;
   }
@@ -276,13 +282,22 @@ CurveExpression CurveExpression::of_function(std::string_view text, TextFault& f
   return out;
 }
 
+std::size_t CurveExpression::operations() const {
+  std::size_t sum = 0;
+  for (const Step& step : steps_) sum += step.value.operations();
+  return sum;
+}
+
 Real CurveExpression::operator()(Real time) const {
-  std::vector<Real> values(values_ + 1, 0);
-  std::copy(constants.begin(), constants.end(), values.begin());
+  constexpr std::size_t usual_count = 16;
+  std::array<Real, usual_count> usual{};
+  std::vector<Real> many(values_ < usual_count ? 0 : values_ + 1, 0);
+  Real* const values = many.empty() ? usual.data() : many.data();
+  std::copy(constants.begin(), constants.end(), values);
   values[constants.size()] = time;
   Real result = 0;
   for (const Step& step : steps_) {
-    result = step.value(values.data());
+    result = step.value(values);
     if (steps_.size() > 1) values[step.to] = result;
   }
   return result;
@@ -292,11 +307,20 @@ namespace {
 
 class Sampler {
  public:
-  Sampler(const std::function<Real(Real)>& f, Real from, Real to, Curve& curve)
-      : f_(f), from_(from), to_(to), curve_(curve) {}
+  Sampler(const std::function<Real(Real)>& f, std::size_t operations, Real from, Real to,
+          SamplingBudget& budget, Curve& curve)
+      : f_(f),
+        operations_(static_cast<Real>(operations)),
+        budget_(budget),
+        from_(from),
+        to_(to),
+        curve_(curve) {}
 
   std::string run() {
-    constexpr int pieces = 65536;
+    constexpr int pieces = 65536, looks = 3;  // at the ends of a piece and within it
+    budget_.add_curve();
+    take(looks * pieces);
+    if (!fault_.empty()) return fault_;
     std::vector<Real> x(pieces + 1), y(pieces + 1);
     Real least = 0, most = 0;
     for (std::size_t k = 0; k < x.size(); ++k) {
@@ -311,6 +335,10 @@ class Sampler {
   }
 
  private:
+  void take(Real evaluations) {
+    if (!budget_.take(evaluations * operations_) && fault_.empty())
+      fault_ = "it takes too many operations, together with the curves by a formula before it";
+  }
   Real value(Real x) {
     const Real y = f_(x);
     if (!std::isfinite(y) && fault_.empty()) fault_ = fmt::format("it has no finite value at {:.6g}", x);
@@ -334,11 +362,14 @@ class Sampler {
       put(b, ya);
       return put(b, yb);
     }
+    take(4);
     between(a, ya, middle, y);
     between(middle, y, b, yb);
   }
 
   const std::function<Real(Real)>& f_;
+  Real operations_;
+  SamplingBudget& budget_;
   Real from_, to_, tolerance_ = 0;
   Curve& curve_;
   std::string fault_;
@@ -346,8 +377,9 @@ class Sampler {
 
 }  // namespace
 
-std::string sample_curve(const std::function<Real(Real)>& f, Real from, Real to, Curve& curve) {
-  return Sampler(f, from, to, curve).run();
+std::string sample_curve(const std::function<Real(Real)>& f, std::size_t operations, Real from, Real to,
+                         SamplingBudget& budget, Curve& curve) {
+  return Sampler(f, operations, from, to, budget, curve).run();
 }
 
 }  // namespace courant

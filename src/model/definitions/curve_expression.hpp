@@ -1,5 +1,6 @@
 #pragma once
 // What *DEFINE_CURVE_FUNCTION and *DEFINE_FUNCTION compute: expressions of the time.
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -34,6 +35,8 @@ class CurveExpression {
   static CurveExpression of_function(std::string_view text, TextFault& fault);
   /// Not a number where there is no value.
   Real operator()(Real time) const;
+  /// Of one evaluation.
+  std::size_t operations() const;
 
  private:
   /// Values: PI, DTOR, RTOD, arguments, then what assignments made.
@@ -45,9 +48,29 @@ class CurveExpression {
   std::size_t arguments_ = 1, values_ = 0;
 };
 
+/// Operations that the curves of a deck may take together: some two seconds, and for each curve a look at a
+/// formula of usual length.
+class SamplingBudget {
+ public:
+  void add_curve() { own_ = 2e6; }
+  /// False where that is more than is left, and from then on.
+  bool take(Real operations) {
+    const Real shared = std::max(operations - own_, Real(0));
+    own_ -= operations - shared;
+    spent_ = spent_ || shared > left_;
+    left_ -= shared;
+    return !spent_;
+  }
+
+ private:
+  Real left_ = 1e8, own_ = 0;  ///< of all curves, of the one at hand
+  bool spent_ = false;
+};
+
 /// A function of one number on [from, to] as a curve of straight pieces, which differ from it by less than
-/// 1e-7 of its range; jumps are jumps. Returns what is wrong, else nothing: the function has no value
-/// somewhere, or changes too often.
-std::string sample_curve(const std::function<Real(Real)>& f, Real from, Real to, Curve& curve);
+/// 1e-7 of its range; jumps are jumps. `operations`: of one evaluation. Returns what is wrong, else nothing:
+/// the function has no value somewhere, changes too often, or takes more than the budget.
+std::string sample_curve(const std::function<Real(Real)>& f, std::size_t operations, Real from, Real to,
+                         SamplingBudget& budget, Curve& curve);
 
 }  // namespace courant

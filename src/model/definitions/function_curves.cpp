@@ -127,12 +127,13 @@ void ModelBuilder::build_function_curves() {
       diagnostics_.error(where, deck_.keyword(card) + ": " + fault.message, fault.hint);
     return true;
   };
-  const auto sample = [&](const Entry& card, const char* field, Id id, int sidr,
+  SamplingBudget budget;
+  const auto sample = [&](const Entry& card, const char* field, Id id, int sidr, std::size_t operations,
                           const std::function<Real(Real)>& f) {
     Curve& curve = model_.curves[id];
     curve = Curve{};
     curve.id = id, curve.sidr = sidr, curve.by_formula = true;
-    if (const std::string why = sample_curve(f, 0, until, curve); !why.empty())
+    if (const std::string why = sample_curve(f, operations, 0, until, budget, curve); !why.empty())
       error(card, field, fmt::format("curve {} cannot be taken between t = 0 and {:g}: {}", id, until, why),
             "IF chooses between expressions; where one of them has no value the other counts");
   };
@@ -141,7 +142,7 @@ void ModelBuilder::build_function_curves() {
     const CurveExpression f = CurveExpression::of_time(joined(card.function), fault);
     model_.curves[card.lcid].id = card.lcid;
     if (told(card, card.function, fault)) continue;
-    sample(card, "FUNCTION", card.lcid, card.sidr,
+    sample(card, "FUNCTION", card.lcid, card.sidr, f.operations(),
            [&](Real t) { return card.sfo * (f(t / card.sfa - card.offa) + card.offo); });
   }
   for (const F& card : deck_.all<F>()) {
@@ -149,7 +150,7 @@ void ModelBuilder::build_function_curves() {
     const CurveExpression f = CurveExpression::of_function(joined(card.function), fault);
     model_.curves[card.fid].id = card.fid;
     if (told(card, card.function, fault)) continue;
-    sample(card, "FUNCTION", card.fid, 0, [&](Real t) { return f(t); });
+    sample(card, "FUNCTION", card.fid, 0, f.operations(), [&](Real t) { return f(t); });
   }
   for (const CS& card : deck_.all<CS>()) add_smooth_curve(card, sample);
   check_function_curves();
@@ -176,7 +177,7 @@ void ModelBuilder::add_smooth_curve(const Card& card, const Sample& sample) {
                    "TEND - TSTART must be at least twice TRISE");
     vmax = card.dist / (tend - card.tstart - card.trise);
   }
-  sample(card, "DIST", card.lcid, card.sidr, [&](Real t) -> Real {
+  sample(card, "DIST", card.lcid, card.sidr, 5, [&](Real t) -> Real {
     const Real from_end = std::min(t - card.tstart, tend - t);
     if (from_end <= 0) return 0;
     return from_end >= card.trise ? vmax : 0.5 * vmax * (1 - std::cos(pi * from_end / card.trise));

@@ -18,7 +18,18 @@ void ModelBuilder::build_output_curve(const Entry& card, std::string_view field,
   if (rule != OutputTimes::Rule::abscissae && (f.empty() || *std::min_element(f.begin(), f.end()) <= 0))
     return error(card, field, fmt::format("curve {} gives an output interval that is not above 0", id),
                  "its ordinates are intervals of time");
+  if (rule != OutputTimes::Rule::abscissae)
+    check_interval(card, field, *std::min_element(f.begin(), f.end()), 1e7);
   out = {.interval = 0, .rule = rule, .curve = *found};
+}
+
+/// Times that cannot be told apart, or too many to look at each.
+void ModelBuilder::check_interval(const Entry& card, std::string_view field, Real interval, Real most) {
+  if (interval > 0 && model_.endtim > most * interval)
+    error(card, field,
+          fmt::format("an interval of {:g} is due {:.2g} times until ENDTIM {:g}", interval,
+                      model_.endtim / interval, model_.endtim),
+          fmt::format("at most {:g} are counted; one state in each step is the most that is written", most));
 }
 
 void ModelBuilder::build_histories() {
@@ -38,6 +49,7 @@ void ModelBuilder::build_histories() {
     else if (one.interval < 0)
       error(card, "DT", fmt::format("the interval is {:g}", one.interval), "it must not be negative");
     one.interval = std::max<Real>(one.interval, 0);
+    check_interval(card, "DT", one.interval, most_due);
     if (one.asked() && card.name == nodout && out.history_node.empty())
       deck_.warning(diagnostics_, card, "DT", "no node is named: nodout holds no values",
                     "name nodes by *DATABASE_HISTORY_NODE");

@@ -8,6 +8,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Generic, TypeVar
 
+from .files import note_input
+
 Function = TypeVar("Function")
 
 
@@ -57,6 +59,7 @@ def load_file(file: str | Path) -> None:
     spec = importlib.util.spec_from_file_location(name, path)
     if spec is None or spec.loader is None or not path.is_file():
         raise LoadFault(f"'{file}' is no Python file")
+    note_input(path)
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module  # as dataclasses of the file need it
     try:

@@ -28,6 +28,7 @@ from .ascii_histories import AsciiFile
 from .ascii_kinds import column_name
 from .diagnostics import CourantError, Diagnostics
 from .fields import FieldFault, FieldFile, StateFiles, read_states
+from .files import write_figure
 from .histories import HistoryFile
 from .optional import module
 from .tables import Table, table_of
@@ -353,7 +354,7 @@ class Results:
         """A table, as `table` takes its name, over time; or with `field` or `t` a picture of the state nearest to t, of the last one if not given.
 
         `field`: of particles, nodes or elements: "speed", "stress.mises". `keys`: others of a view (docs/post.md), as range=(0, 2), up="z",
-        azimuth=60. Gives matplotlib's figure, and writes it to `file`. Raises MissingModule, KeyError with the names there are.
+        azimuth=60. Gives matplotlib's figure, and writes it to `file`. Raises OutputError, MissingModule, KeyError with the names there are.
         """
         if field is None and t is None and not keys:
             return self.table(what).plot(*names, file=file)
@@ -361,5 +362,5 @@ class Results:
 
         made = draw_view(self, View("plot", field or "", times=None if t is None else [t], **keys))
         if file is not None:
-            made.savefig(file)
+            write_figure(made, Path(file), named=True)
         return made

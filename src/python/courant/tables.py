@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from .files import write_figure
 from .optional import module
 
 
@@ -105,7 +106,7 @@ class Table:
         panels[0, 0].set_title(self.name)
         panels[-1, 0].set_xlabel(f"{first.name} [{first.unit}]")
         if file is not None:
-            figure.savefig(file)
+            write_figure(figure, Path(file), named=True)
         return figure
 
 

@@ -12,6 +12,7 @@ from typing import Any, List, TypeVar  # list is a method here
 import yaml
 
 from .diagnostics import Diagnostics, Location
+from .files import note_input
 from .words import did_you_mean, shortest
 
 Node = yaml.Node
@@ -66,6 +67,7 @@ def load_yaml(file: str | Path, what: str, hint: str, diagnostics: Diagnostics) 
     except OSError:
         diagnostics.error(file, f"cannot read the {what}", f"check the path; {hint}")
         return None
+    note_input(Path(file))
     return parse_yaml(data, str(file), diagnostics)
 
 

@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "app/relaxation.hpp"
 #include "output/file.hpp"
 
 namespace courant {
@@ -34,8 +35,9 @@ class ResultFolder : public testing::Test {
 };
 
 TEST_F(ResultFolder, KnowsItsFilesByTheirNames) {
-  for (const char* ours : {"messag", "glstat", "summary.yaml", "summary.yaml.tmp", "history.h5", "fields.pvd",
-                           "fields/particles_0012.vtp", "fields/shells_12345.vtu", "fields/failed.vtp"})
+  for (const char* ours :
+       {"messag", "glstat", "summary.yaml", "summary.yaml.tmp", "history.h5", "fields.pvd", "relax",
+        "fields/particles_0012.vtp", "fields/shells_12345.vtu", "fields/failed.vtp", "restart/runrsf.h5"})
     EXPECT_TRUE(is_result_name(ours)) << ours;
   for (const char* other :
        {"deck.k", "summary.yml", "particles_0012.vtp", "fields/particles_.vtp", "fields/particles_12a.vtp",
@@ -56,6 +58,15 @@ TEST_F(ResultFolder, LosesTheFilesOfAnEarlierRunAndNoOthers) {
   std::sort(left.begin(), left.end());
   EXPECT_EQ(left, (std::vector<std::string>{"deck.k", "fields/notes.txt", "fields/particles_of_mine.vtp",
                                             "notes.txt"}));
+}
+
+TEST_F(ResultFolder, LosesTheFileOfARelaxationAndNoOtherOfThatName) {
+  put("relax");
+  remove_results(folder_);
+  EXPECT_TRUE(fs::exists(folder_ / "relax"));
+  std::ofstream(folder_ / "relax") << relaxation_head << "0 0 0\n";
+  remove_results(folder_);
+  EXPECT_FALSE(fs::exists(folder_ / "relax"));
 }
 
 TEST_F(ResultFolder, IsRefusedWhereAResultWouldGoOverAnInputOrThroughALink) {

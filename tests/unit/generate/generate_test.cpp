@@ -239,7 +239,7 @@ TEST_F(Generate, LeavesNothingWhereItCannotWrite) {
   const std::string scene = (folder_ / "scene.yaml").string();
   EXPECT_NE(fails(scene, (folder_ / "missing/deck.k").string()).find("the deck cannot be written"),
             std::string::npos);
-  EXPECT_NE(fails(scene, folder_.string()).find("this is a folder"), std::string::npos);
+  EXPECT_NE(fails(scene, folder_.string()).find("it is no file"), std::string::npos);
   EXPECT_NE(fails((folder_ / "none.yaml").string(), (folder_ / "deck.k").string()).find("cannot be read"),
             std::string::npos);
   EXPECT_NE(fails(scene, (folder_ / "." / "scene.yaml").string()).find("would take the place of the scene"),

@@ -92,7 +92,8 @@ TEST(CurveExpression, FunctionsInC) {
 TEST(CurveExpression, ACurveFollowsItsFormulaAndJumpsWhereThatDoes) {
   const auto far = [](const std::function<Real(Real)>& f, Real end) {
     Curve curve;
-    EXPECT_EQ(sample_curve(f, 0, end, curve), "");
+    SamplingBudget budget;
+    EXPECT_EQ(sample_curve(f, 5, 0, end, budget, curve), "");
     Real most = 0;
     for (int k = 0; k <= 77777; ++k)
       most = std::max(most, std::abs(curve(end * k / 77777) - f(end * k / 77777)));
@@ -102,9 +103,31 @@ TEST(CurveExpression, ACurveFollowsItsFormulaAndJumpsWhereThatDoes) {
   EXPECT_LT(far([](Real t) { return std::sin(2 * pi * 4096 * t); }, 0.1), 1e-7 * 2);  // of the first points
   EXPECT_LT(far([](Real t) { return 1e6 + std::exp(-30 * t); }, 1), 1e-7);
   Curve curve;
-  EXPECT_EQ(sample_curve([](Real t) { return t < 0.3 ? 1.0 : 5.0; }, 0, 1, curve), "");
+  SamplingBudget budget;
+  EXPECT_EQ(sample_curve([](Real t) { return t < 0.3 ? 1.0 : 5.0; }, 5, 0, 1, budget, curve), "");
   EXPECT_EQ(curve(0.3 - 1e-11), 1);
   EXPECT_EQ(curve(0.3 + 1e-11), 5);
   Curve none;
-  EXPECT_NE(sample_curve([](Real t) { return t < 0.5 ? t : std::sqrt(-t); }, 0, 1, none), "");
+  EXPECT_NE(sample_curve([](Real t) { return t < 0.5 ? t : std::sqrt(-t); }, 5, 0, 1, budget, none), "");
+}
+
+TEST(CurveExpression, CurvesOfADeckTakeNoMoreThanTheirBudgetTogether) {
+  SamplingBudget budget;
+  Curve curve;
+  for (int k = 0; k < 1000; ++k) {  // usual ones have room, however many
+    curve = {};
+    ASSERT_EQ(sample_curve([](Real t) { return 2 * t; }, 5, 0, 1, budget, curve), "") << k;
+  }
+  curve = {};
+  EXPECT_NE(sample_curve([](Real t) { return t; }, 3000, 0, 1, budget, curve), "");
+  EXPECT_TRUE(curve.abscissa.empty()) << "refused before anything is computed";
+  EXPECT_NE(sample_curve([](Real t) { return t; }, 1, 0, 1, budget, curve), "");
+  const std::string statements = [] {
+    std::string out = "float f(float t) {";
+    for (int k = 0; k < 1000; ++k) out += " a = t;";
+    return out + " return a; }";
+  }();
+  TextFault fault;
+  CurveExpression::of_function(statements, fault);
+  EXPECT_EQ(fault.message, "the function has more than 1000 statements");
 }

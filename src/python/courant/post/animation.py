@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..files import write_by
 from ..optional import module
 from ..style import pyplot
 from .camera import up_of
@@ -61,8 +62,12 @@ def _write(writer: Any, frames: list[np.ndarray], path: Path) -> None:
     height, width = frames[0].shape[:2]
     figure = plt.figure(figsize=(width / _DPI, height / _DPI), dpi=_DPI)
     image = figure.figimage(frames[0])
-    with writer.saving(figure, str(path), _DPI):
-        for frame in frames:
-            image.set_data(frame)
-            writer.grab_frame()
+
+    def save(file: Path) -> None:
+        with writer.saving(figure, str(file), _DPI):
+            for frame in frames:
+                image.set_data(frame)
+                writer.grab_frame()
+
+    write_by(save, path)
     plt.close(figure)

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ..files import write_figure
 from ..optional import module
 from ..style import FIELD_COLOURS, LOOKS, MARKERS, SPEED_COLOURS, WALLS, pyplot
 from .figures import CHARTS, Figure
@@ -112,7 +113,7 @@ def draw_figure(data: dict[str, Any], one: dict[str, Any], folder: Path, fill: C
         fill(axes)
     _finish_axes(axes, one, data["title"])
     for ending in data["formats"]:
-        figure.savefig(folder / f"{one['name']}.{ending}")
+        write_figure(figure, folder / f"{one['name']}.{ending}")
     plt.close(figure)
 
 
@@ -147,7 +148,7 @@ def draw_depth(folder: Path, title: str, recipe: JumpRecipe, jump: JumpResult) -
     axes.set(xlim=(t.min(), max(t.max(), t.min() + 1e-9)), ylim=(0, max(1.3, 1.05 * ratio.max())))
     axes.grid(True)
     axes.legend(loc="lower right")
-    figure.savefig(folder / "depth.png")
+    write_figure(figure, folder / "depth.png")
     plt.close(figure)
 
 
@@ -179,7 +180,7 @@ def draw_velocity(folder: Path, title: str, recipe: SnapshotRecipe, snapshots: d
     panels[-1, 0].set_xlabel("x [m]")
     figure.suptitle(plain(title), fontsize=10)
     figure.colorbar(dots, ax=panels[:, 0].tolist(), label="velocity |v| [m/s]", shrink=0.6, aspect=30, pad=0.01)
-    figure.savefig(folder / "velocity.png")
+    write_figure(figure, folder / "velocity.png")
     plt.close(figure)
 
 

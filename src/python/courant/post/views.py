@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..diagnostics import CourantError, Diagnostics, Location
+from ..files import write_figure
 from ..optional import module
 from ..style import pyplot
 from ..units import Dimension
@@ -155,7 +156,7 @@ def _colour_bar(figure: Any, panels: list[Any], view: View, label: str, limits: 
 
 
 def save_view(figure: Any, path: Path) -> None:
-    figure.savefig(path, dpi=_DPI, pil_kwargs={"optimize": True})
+    write_figure(figure, path, dpi=_DPI, pil_kwargs={"optimize": True})
     module("matplotlib.pyplot").close(figure)
 
 

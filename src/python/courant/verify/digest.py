@@ -8,6 +8,8 @@ import subprocess
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from ..files import note_input
+
 _BLOCK = re.compile(r"^\*(INCLUDE|PARAMETER)\S*[^\n]*\n((?:(?!\*)[^\n]*(?:\n|$))*)", re.I | re.M)
 
 
@@ -21,7 +23,10 @@ def digest(*parts: str | bytes) -> str:
 
 
 def digest_of_files(files: Iterable[Path]) -> str:
-    """Of the content of files; one that cannot be read counts by its name."""
+    """Of the content of files, which are inputs; one that cannot be read counts by its name."""
+    files = list(files)
+    for file in files:
+        note_input(file)
     return digest(*(file.read_bytes() if file.is_file() else str(file) for file in files))
 
 

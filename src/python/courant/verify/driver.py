@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..diagnostics import Diagnostics
-from ..files import OutputError, make_folder
+from ..files import OutputError, make_folder, move, open_for_writing
 from ..terminal import processors
 from ..words import nearest_word
 from .digest import digest, digest_of_build, digest_of_deck, digest_of_files
@@ -68,10 +68,7 @@ def _locked(folder: Path, diagnostics: Diagnostics) -> Iterator[None]:
     if (folder / "runs").exists() and not file.exists():
         diagnostics.error(folder, "the folder holds something else called 'runs'", hint)
         raise Refused
-    try:
-        descriptor = os.open(file, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644)
-    except OSError as fault:
-        raise OutputError(file, fault) from fault
+    descriptor = open_for_writing(file, keep=True)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
@@ -157,7 +154,7 @@ class Verification:
                 diagnostics.error(run.folder, "another call has changed the folder meanwhile", "call again")
                 raise Refused
             if run.generated:
-                _move(run.generated, run.deck)
+                move(run.generated, run.deck)
             bytes_ = run.deck.stat().st_size if run.deck.is_file() else 0
             # the number of steps grows with the resolution, in 2D like the root of the number of particles
             run.cost = bytes_**1.5 / (run.size**3 if case.deck and run.size > 0 else 1)
@@ -243,13 +240,6 @@ class Verification:
         out.setting, out.resolution, out.parameters = run.setting, run.resolution, run.parameters
         out.size, out.reused = run.size, run.reused
         return out
-
-
-def _move(source: Path, target: Path) -> None:
-    try:
-        shutil.move(source, target)
-    except OSError as fault:
-        raise OutputError(target, fault) from fault
 
 
 def _clear(run: PlannedRun) -> None:

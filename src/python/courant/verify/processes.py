@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..files import open_for_writing
 from .record import RunRecord
 
 PATIENCE = 5.0  # with a run beyond its limit, to write its last state [s]
@@ -43,7 +44,7 @@ class _Child:
             if os.getppid() != parent:  # the parent was gone before that
                 os._exit(127)
 
-        with open(self.job.folder / "errors.txt", "wb") as log:
+        with open(open_for_writing(self.job.folder / "errors.txt"), "wb") as log:
             try:  # a group of its own: an interrupt from the terminal is ours to hand on
                 process = subprocess.Popen(self.job.words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, process_group=0,
                                            preexec_fn=die_with_the_parent)

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ..diagnostics import Diagnostics, Location
+from ..files import note_input
 from ..words import did_you_mean
 from ..yaml_map import as_number
 from .series import Series
@@ -30,6 +31,7 @@ class _TableReader:
         except OSError:
             self.diagnostics.error(self.file, "cannot read the table", "check the path; it counts from the suite")
             return Series()
+        note_input(self.file)
         wanted: tuple[int, int] | None = None
         commas = True
         for self.line, line in enumerate(lines, 1):

@@ -102,4 +102,4 @@ def write_page(result: SuiteResult, page: Path, picture_folder: Path) -> None:
     make_folder(page.absolute().parent)
     make_folder(picture_folder)
     text = _render("page.md.j2", escape_markdown, result, add=_Pictures(page, picture_folder).add, standalone=standalone_svg)
-    write_file(page, re.sub(r"\n{3,}", "\n\n", text).rstrip("\n") + "\n")
+    write_file(page, re.sub(r"\n{3,}", "\n\n", text).rstrip("\n") + "\n", named=True)
