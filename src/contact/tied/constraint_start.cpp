@@ -1,4 +1,5 @@
 // How nodes that are tied exactly start: masses and velocities of the corners of their faces.
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -47,7 +48,7 @@ class JoinedStart {
           nodes_.push_back(n), added_.push_back(0), stiffest.push_back(start.weight[n]);
           held_.push_back(held(n, start.turns));
         }
-        added_[at->second] += share[e] * start.weight[tie.node];
+        if (!tied.on_body[t]) added_[at->second] += share[e] * start.weight[tie.node];
         stiffest[at->second] += most[e] * most[e] * start.weight[tie.node];
       }
     }
@@ -68,6 +69,12 @@ class JoinedStart {
     if (start_.turns) return out;
     Field<Real>& carried = shared_fields::tied_mass.add(world_.nodes.fields);
     for (std::size_t k = 0; k < nodes_.size(); ++k) carried[nodes_[k]] += added_[k];
+    for (const std::size_t t : start_.ties) {  // which bodies weigh
+      const Tie& tie = tied_.ties[t];
+      const std::array<Real, 4> share = mass_shares(tie.at);
+      for (std::size_t e = 0; e < static_cast<std::size_t>(tie.at.corners); ++e)
+        if (world_.nodes.follow[tie.at.node[e]] == 1) carried[tie.node] += share[e] * start_.weight[tie.node];
+    }
     return out;
   }
 
@@ -198,7 +205,10 @@ Real growth_of_frequencies(const TiedConstraint& tied, const HeldAxes& held, con
   const GapInertia inertia(tied, held, world);
   constexpr Real most = 1e8, enough = 1e-3;
   Real out = 1;
-  for (const Tie& tie : tied.ties) {
+  for (std::size_t t = 0; t < tied.ties.size(); ++t) {
+    const Tie& tie = tied.ties[t];
+    const auto moves_alone = [&](Index n) { return world.nodes.follow[n] == 0; };
+    if (tied.on_body[t] || std::all_of(tie.at.node.begin(), tie.at.node.end(), moves_alone)) continue;
     if (!(world.nodes.m[tie.node] > 0) || inertia.is_below(tie, out)) continue;
     Real low = out, high = 2 * out;
     while (high < most && !inertia.is_below(tie, high)) low = high, high *= 2;
