@@ -25,8 +25,8 @@ CarriedMass::CarriedMass(std::shared_ptr<const Carriage> how, std::string name, 
     const auto carriers = how_->carriers(i);
     const auto shares = how_->shares(i);
     const Real mass = nodes.m[how_->node(i)];
-    counts_.push_back(mass > 0 && std::all_of(carriers.begin(), carriers.end(),
-                                              [&](Index n) { return nodes.follow[n] == 0; }));
+    counts_.push_back(mass > 0 && how_->weighs(world, i));
+    any_ = any_ || counts_[i];
     for (std::size_t k = 0; k < carriers.size(); ++k) {
       const auto [at, is_new] = place.try_emplace(carriers[k], node_.size());
       if (is_new)
@@ -251,7 +251,7 @@ void CarriedMass::push(World& world, const Clock& clock) {
 }
 
 void CarriedMass::strike(World& world, const Clock& clock) {
-  if (!(clock.dt > 0)) return;
+  if (!(clock.dt > 0) || !any_) return;
   look(world);
   find_velocities(world, clock);
   push(world, clock);
@@ -261,11 +261,11 @@ void CarriedMass::move(World& world, const Clock& clock) {
   if (!(clock.dt > 0)) return;
   Nodes& nodes = world.nodes;
   each_carrier([&](std::size_t c) { x_[c] = nodes.x.vec(node_[c]), v_[c] = nodes.v.vec(node_[c]); });
-  note_changes(world, x_, v_, clock);
+  if (any_) note_changes(world, x_, v_, clock);
   const Real dt = clock.dt_mean();
   each_carrier([&](std::size_t c) {
     const Index n = node_[c];
-    if (nodes.follow[n] != 0) return;
+    if (!any_ || nodes.follow[n] != 0) return;
     const Vec force = nodes.f.vec(n), got = dt * own_[c] / nodes.m[n] * force + pulled(c, change_, turned_);
     open_.set(n, free(c, open_.vec(n) + dt * (force - pushed_[c]) - got));
   });
@@ -295,7 +295,7 @@ CarriedMass::Energies CarriedMass::energies(const World& world, Real dt) const {
     if (inertia_ && how_->spins(i)) add((*inertia_)[n], spin_->vec(n), spin_a_[i]);
   }
   for (std::size_t c = 0; c < node_.size(); ++c)
-    if (const Index n = node_[c]; nodes.follow[n] == 0)
+    if (const Index n = node_[c]; !slots_of_[c].empty())
       add(own_[c] - nodes.m[n], nodes.v.vec(n), nodes.f.vec(n) / nodes.m[n]);
   return out;
 }

@@ -25,6 +25,8 @@ struct Carriage {
   virtual std::span<const Index> carriers(std::size_t i) const = 0;
   /// Of the mass of a carried node, which World::nodes has at the carriers. The sum is 1. [-]
   virtual std::span<const Real> shares(std::size_t i) const = 0;
+  /// Whether its inertia counts where it is; else the masses of World::nodes are all there is.
+  virtual bool weighs(const World& /*world*/, std::size_t /*i*/) const { return true; }
   /// Whether W counts: no carrier has a rotation that the carried node follows.
   virtual bool spins(std::size_t /*i*/) const { return false; }
   /// At t^n, of each carrier.
@@ -40,8 +42,7 @@ struct Carriage {
 /// v_s that of the motion of the carriers in this very step. B^T keeps sums of forces and moments, so that
 /// momentum and angular momentum change by forces from outside alone. Forces of carriers are changed so that
 /// the usual kick does that with the mass that they have in World::nodes. What later forces of the same step
-/// (walls, impacts) leave open is made good in the next one. Carriers that bodies move are left out: there
-/// the masses are those of World::nodes.
+/// (walls, impacts) leave open is made good in the next one.
 class CarriedMass : public Impact, public EnergyTerm {
  public:
   CarriedMass(std::shared_ptr<const Carriage> how, std::string name, World& world);
@@ -97,7 +98,7 @@ class CarriedMass : public Impact, public EnergyTerm {
   Vecs change_, turned_;                   ///< of their momenta in the step
   Vecs a_, spin_a_;                        ///< their accelerations
   Vecs momenta_, turning_;                 ///< for products
-  bool looked_ = false;
+  bool looked_ = false, any_ = false;      ///< some inertia counts
 };
 
 }  // namespace courant

@@ -278,7 +278,8 @@ TEST(TiedContact, SpinsFreelyAcrossAGap) {
         const auto [p_now, L_now] = tied_momenta(*s);
         const auto [x, mass] = centre();
         EXPECT_LT((p_now - p).norm(), 1e-13 * p.norm()) << gap << " " << speed;
-        EXPECT_LT((L_now - L).norm(), 1e-13 * L.norm()) << gap << " " << speed;
+        if (gap > 0)  // else the corners have shares of the masses
+          EXPECT_LT((L_now - L).norm(), 1e-13 * L.norm()) << gap << " " << speed;
         EXPECT_LT((x - start - s->clock().t * p / mass).norm(), 1e-12) << gap << " " << speed;
         EXPECT_LT(test::energy_error_of_a_step(*s), 2e-3) << gap << " " << speed;
       }

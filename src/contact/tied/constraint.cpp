@@ -74,6 +74,9 @@ class OnFaces : public Carriage {
   std::span<const Real> shares(std::size_t i) const override {
     return std::span(shares_[i]).first(static_cast<std::size_t>(at(i).corners));
   }
+  bool weighs(const World& world, std::size_t i) const override {
+    return weighs_where_it_is(tied_->ties[i], world);
+  }
   void rates(const World& world, std::size_t i, std::span<Rate> out) const override {
     const std::array<Matrix, 4> all = rates_of(at(i), world.nodes.x);
     for (std::size_t e = 0; e < out.size(); ++e) out[e].B = all[e];

@@ -30,6 +30,9 @@ struct TiedConstraint {
   std::vector<Contact> contacts{};
 };
 
+/// Whether the inertia of a node counts where it is.
+bool weighs_where_it_is(const Tie& tie, const World& world);
+
 struct TiedStart {
   Real before = 0, after = 0;  ///< kinetic energy of the nodes and corners that can move [ML2/T2]
 };

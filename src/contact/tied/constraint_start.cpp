@@ -201,14 +201,23 @@ class GapInertia {
 
 }  // namespace
 
+bool weighs_where_it_is(const Tie& tie, const World& world) {
+  constexpr Real none = 1e-9;  // of the width of the face
+  Vec low = world.nodes.x.vec(tie.at.node[0]), high = low;
+  for (const Index n : tie.at.node) {
+    if (world.nodes.follow[n] != 0) return false;
+    low = low.cwiseMin(world.nodes.x.vec(n)), high = high.cwiseMax(world.nodes.x.vec(n));
+  }
+  return std::abs(tie.at.gap) > none * (high - low).norm();
+}
+
 Real growth_of_frequencies(const TiedConstraint& tied, const HeldAxes& held, const World& world) {
   const GapInertia inertia(tied, held, world);
   constexpr Real most = 1e8, enough = 1e-3;
   Real out = 1;
   for (std::size_t t = 0; t < tied.ties.size(); ++t) {
     const Tie& tie = tied.ties[t];
-    const auto moves_alone = [&](Index n) { return world.nodes.follow[n] == 0; };
-    if (tied.on_body[t] || std::all_of(tie.at.node.begin(), tie.at.node.end(), moves_alone)) continue;
+    if (tied.on_body[t] || weighs_where_it_is(tie, world)) continue;
     if (!(world.nodes.m[tie.node] > 0) || inertia.is_below(tie, out)) continue;
     Real low = out, high = 2 * out;
     while (high < most && !inertia.is_below(tie, high)) low = high, high *= 2;
