@@ -152,7 +152,7 @@ class Model:
     blocks: list = field(default_factory=list)  # (keyword, lines, may be shuffled)
     joins: list = field(default_factory=list)  # keywords that join bodies: left out to find masses
     bodies: dict = field(default_factory=dict)  # of rigid ones: part to nodes
-    particles: dict = field(default_factory=dict)
+    riders: int = 0  # the rigid part that has the masses of all tied nodes
 
     def node(self, k: int, x: Sequence[float]):
         self.nodes[k] = np.asarray(x, float)

@@ -97,8 +97,10 @@ def momenta(state: dict, bare: dict, model: Model) -> tuple[np.ndarray, np.ndarr
         m, x, v = bare["nodes/mass"][i], state["nodes/position"][:, k], state["nodes/velocity"][:, k]
         turns = "nodes/rotary_inertia" in bare
         if int(one) in of_body:
-            bodies.setdefault(of_body[int(one)], 0.0)
-            bodies[of_body[int(one)]] += m
+            bodies[of_body[int(one)]] = bodies.get(of_body[int(one)], 0.0) + m
+            continue
+        if model.riders and state["nodes/follow"][k] == 2:
+            bodies[model.riders] = bodies.get(model.riders, 0.0) + m
             continue
         P, C, M = P + m * v, C + m * x, M + m
         L = L + m * np.cross(x, v)

@@ -167,8 +167,21 @@ def of_ties():
                 m.blocks[-1][1][0] = [P(2), P(1), 3, 3]
             m.spins(OMEGA, (1, 2, 3))
             if gap == 0 and "OFFSET" not in kind.replace("CONSTRAINED_OFFSET", ""):
-                m.loose = {"angular momentum": 1e-5}  # corners have shares of the masses of what is tied without a gap
+                m.loose = {"angular momentum": 5e-3}  # corners have shares of the masses of what is tied without a gap
             yield m
+    for gap in (0.0, 0.02):
+        m = Model(f"TIED_SURFACE_TO_SURFACE on a rigid body, gap {gap}", free=True, size=0.4, dt=5e-5)
+        m.box(1, (0, 0, 0), (0.2, 0.2, 0.2), (2, 2, 2), 1)
+        m.box(2, (0.013, 0.007, 0.2 + gap), (0.16, 0.17, 0.2), (3, 3, 2), 101)
+        m.card("SECTION_SOLID", [1, 1])
+        m.part(1)
+        rigid(m, 1)
+        solid(m, 2)
+        m.bodies, m.riders = {1: [n for n in m.nodes if n < 100]}, 1
+        m.card("CONTACT_TIED_SURFACE_TO_SURFACE", [P(2), P(1), 3, 3], [0], [1, 1, length(-0.05), length(-0.05)], join=True)
+        m.card("INITIAL_VELOCITY_RIGID_BODY", [P(1), velocity((1, 2, 3)), spin(OMEGA)])
+        m.spins(OMEGA, (1, 2, 3), [n for n in m.nodes if n > 100], (0.1, 0.1, 0.1))
+        yield m
     m = Model("TIED_SHELL_EDGE_TO_SURFACE", free=True, size=0.4, dt=2e-5)
     full_projection(m)
     m.plate(1, (0, 0, 0), (0.3, 0, 0), (0, 0.3, 0), (2, 2), 1)
