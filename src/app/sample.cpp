@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "app/momentum_watch.hpp"
 #include "app/simulation.hpp"
 #include "extension/additions.hpp"
 #include "state/shared_fields.hpp"
+#include "state/tied_mass.hpp"
 
 namespace courant {
 
@@ -108,14 +110,16 @@ void sample_elements(const World& world, Sample& s) {
   }
 }
 
-/// Of particles, bodies and what moves by itself: a node of a body may have elements of another part, whose
-/// masses count with both.
+/// Of particles, bodies, what moves by itself and what that carries: a node of a body may have elements of
+/// another part, whose masses count with both.
 void sum_masses(const World& world, Sample& s) {
   Vec momentum = Vec::Zero();
   const auto add = [&](Real m, const Vec& v) { s.mass += m, momentum += m * v; };
   for (Index i = 0; i < world.particles.active; ++i) add(world.particles.m[i], world.particles.v.vec(i));
+  const Field<Real>* carried = shared_fields::tied_mass.find(world.nodes.fields);
   for (Index n = 0; n < world.nodes.size(); ++n)
-    if (!world.nodes.follow[n]) add(world.nodes.m[n], world.nodes.v.vec(n));
+    if (world.nodes.follow[n] != 1)
+      add(world.nodes.m[n] - (carried ? (*carried)[n] : 0), world.nodes.v.vec(n));
   for (const RigidBodyReport& body : s.bodies) add(body.mass, body.v);
   if (s.mass > 0) s.velocity = momentum / s.mass;
 }
@@ -182,6 +186,7 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   s.energy = world_.energy;
   if (bodies_) s.bodies = bodies_->reports(), s.body_motions = bodies_->motions(clock_);
   sample_parts(world_, model_, s);
+  for (auto* watch : world_.passes.all<MomentumWatch>()) watch->look(s, world_);
   for (const auto& contact : contacts_) s.interfaces.push_back(contact->report());
   for (const auto* nodes : world_.passes.all<const InterfaceReporter>())
     add_interface(nodes->report(), s.interfaces);

@@ -203,15 +203,15 @@ void Simulation::add_tied_contacts(Diagnostics& diagnostics) {
   options.bulk_modulus = [this](Index part) { return bulk_modulus(part); };
   if (bodies_) {
     options.bodies = bodies_->wall_bodies(world_);
-    options.give_body = [this](Index node, Real mass, Real inertia) {
-      return bodies_->add_mass_at(node, mass, inertia, world_);
+    options.give_body = [this](Index node, const Vec& place, Real mass, Real inertia) {
+      return bodies_->add_mass_at(node, place, mass, inertia, world_);
     };
   }
   options.tssfac = model_.tssfac;
   const MassScaling scaling = mass_scaling_of(deck_);
   options.mass_grows = scaling.step > 0 && !scaling.once;
   rules_.share *= courant::add_tied_contacts(deck_, model_, options, world_, diagnostics);
-  rules_.share *= add_interpolations(deck_, model_, model_.tssfac, options.mass_grows, world_, diagnostics);
+  add_interpolations(deck_, model_, options.mass_grows, world_, diagnostics);
 }
 
 // Of solids that may fail, where a contact is to go on with what deletion lays bare.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "app/momentum_watch.hpp"
 #include "app/simulation.hpp"
 #include "contact/cards.hpp"
 #include "contact/edges/build.hpp"
@@ -43,6 +44,7 @@ void warn_of_beams_that_touch_nothing(const Deck& deck, const Model& model, cons
 // Nodes of elements move by their forces; those of rigid bodies with these.
 void Simulation::add_node_passes(Diagnostics& diagnostics) {
   add_bodies();
+  if (is_free_system(deck_, model_, bodies_.get())) world_.passes.add(std::make_shared<MomentumWatch>());
   for (const Addition& addition : additions()) addition.build(deck_, model_, world_, diagnostics);
   const bool bodies_move = bodies_ && bodies_->any_moves();
   if (bodies_move || !world_.groups.empty())

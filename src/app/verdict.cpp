@@ -83,6 +83,17 @@ void add_joint_gap(const Summary& s, std::vector<Finding>& out) {
 /// energy is judged against: blocks that fall or slide.
 constexpr Real least_internal = 0.1;
 
+/// Momentum that came or went where nothing outside acts, of the largest sum of the momenta of parts.
+void add_momentum(const Summary& s, std::vector<Finding>& out) {
+  constexpr Real doubtful = 1e-3;
+  const auto share = s.maxima.find("momentum_change_share");
+  if (share == s.maxima.end() || !(share->second > doubtful)) return;
+  out.push_back(
+      {false, fmt::format("total momentum changed by {:.2g} % of that of the parts, though nothing outside "
+                          "acts on them: what joins them, or contact, pushes one of two bodies only",
+                          100 * share->second)});
+}
+
 void add_energy(const Summary& s, std::vector<Finding>& out) {
   const EnergyLedger& e = s.energy;
   const Real error = e.error();
@@ -166,6 +177,7 @@ std::vector<Finding> findings(const Summary& s) {
   add_leaked(s, "edge", "another", out);
   add_held(s, out);
   add_joint_gap(s, out);
+  add_momentum(s, out);
   add_relaxation(s, out);
   add_energy(s, out);
   add_hourglass(s, out);

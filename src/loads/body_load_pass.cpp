@@ -20,15 +20,18 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
         neighbours_(std::move(neighbours)),
         added_(shared_fields::added_mass.find(points.fields())),
         tied_(shared_fields::tied_mass.find(points.fields())) {
-    // heights count from the lowest point against gravity
+    // heights count from the lowest point against gravity; where it begins at 0, from the mean of all places,
+    // which no order of points changes
     const Vec g = acceleration_.at(0).everywhere();
-    bool any = false;
+    Vec mean = Vec::Zero();
+    Real count = 0;
     for (Index i = 0; i < points_.set->size(); ++i) {
       if (!acts_on(i)) continue;
       const Vec x = points_.x->vec(i);
-      if (!any || -g.dot(x) < -g.dot(origin_)) origin_ = x;
-      any = true;
+      if (count == 0 || -g.dot(x) < -g.dot(origin_)) origin_ = x;
+      mean += x, ++count;
     }
+    if (g.isZero(0) && count > 0) origin_ = mean / count;
     particles_ = points_.set == &world.particles.fields;
   }
   std::string name() const override {

@@ -2,6 +2,7 @@
 #include "loads/loads.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
+#include "state/tied_mass.hpp"
 
 namespace courant {
 
@@ -30,10 +31,7 @@ class FixedPoints : public Constraint, public BoundaryForceReporter {
     }
     if (measured || model.output.spcforc.asked())
       support_ =
-          points.turns
-              ? &shared_fields::support_moment.add(*points.set)
-              : &points.set->add<Real>(
-                    {.name = "support_force", .dimension = "ML/T2", .components = 3, .restart = false});
+          &(points.turns ? shared_fields::support_moment : shared_fields::support_force).add(*points.set);
   }
   std::string name() const override { return "fixed " + points_.name() + " (SPC)"; }
   const FieldSet& over(const World&) const override { return points_.fields(); }

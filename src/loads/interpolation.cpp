@@ -17,9 +17,9 @@
 #include "extension/additions.hpp"
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "loads/carried_mass.hpp"
 #include "state/points.hpp"
 #include "state/shared_fields.hpp"
-#include "state/step_share.hpp"
 #include "state/tied_mass.hpp"
 
 namespace courant {
@@ -88,15 +88,20 @@ struct Cloud {
   Vec centre = Vec::Zero();
   Matrix J = Matrix::Zero();
 };
-template <class Place>
-Cloud cloud_of(const Interpolation& i, const Place& place) {
+Cloud cloud_of(const std::vector<Real>& weight, const std::vector<Vec>& x) {
   Cloud out;
-  for (std::size_t k = 0; k < i.of.size(); ++k) out.centre += i.weight[k] * place(i.of[k]);
-  for (std::size_t k = 0; k < i.of.size(); ++k) {
-    const Vec r = place(i.of[k]) - out.centre;
-    out.J += i.weight[k] * (r.squaredNorm() * Matrix::Identity() - r * r.transpose());
+  for (std::size_t k = 0; k < x.size(); ++k) out.centre += weight[k] * x[k];
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const Vec r = x[k] - out.centre;
+    out.J += weight[k] * (r.squaredNorm() * Matrix::Identity() - r * r.transpose());
   }
   return out;
+}
+template <class Place>
+Cloud cloud_of(const Interpolation& i, const Place& place) {
+  std::vector<Vec> x;
+  for (const Index n : i.of) x.push_back(place(n));
+  return cloud_of(i.weight, x);
 }
 
 /// Hands force and moment of the dependent node to the independent ones: w (F + theta x r), theta = J^-1
@@ -151,12 +156,60 @@ class InterpolationForces : public Constraint {
   std::vector<Load> loads_;
 };
 
+Matrix skew(const Vec& a) {
+  Matrix out;
+  out << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
+  return out;
+}
+
 /// The mean velocity and spin of the independent nodes over the step move the dependent one, which a motion
 /// of all as one keeps in its place exactly.
+class ByMeans : public Carriage {
+ public:
+  explicit ByMeans(std::vector<Interpolation> all) : all_(std::move(all)) {}
+  std::size_t size() const override { return all_.size(); }
+  Index node(std::size_t i) const override { return all_[i].node; }
+  std::span<const Index> carriers(std::size_t i) const override { return all_[i].of; }
+  std::span<const Real> shares(std::size_t i) const override { return all_[i].weight; }
+  bool spins(std::size_t i) const override { return all_[i].turns; }
+  void rates(const World& world, std::size_t i, std::span<Rate> out) const override {
+    const Interpolation& one = all_[i];
+    const Cloud cloud = cloud_of(one, [&](Index n) { return world.nodes.x.vec(n); });
+    const Matrix back = cloud.J.inverse(), arm = skew(world.nodes.x.vec(one.node) - cloud.centre);
+    for (std::size_t k = 0; k < one.of.size(); ++k) {
+      out[k].W = one.weight[k] * back * skew(world.nodes.x.vec(one.of[k]) - cloud.centre);
+      out[k].B = one.weight[k] * Matrix::Identity() - arm * out[k].W;
+    }
+  }
+  Chord chord(const World& world, std::size_t i, std::span<const Vec> x, std::span<const Vec> v,
+              Real dt) const override {
+    const Interpolation& one = all_[i];
+    std::vector<Vec> middle(x.begin(), x.end());
+    for (std::size_t k = 0; k < middle.size(); ++k) middle[k] -= 0.5 * dt * v[k];
+    const Cloud cloud = cloud_of(one.weight, middle);
+    Vec velocity = Vec::Zero(), spin = Vec::Zero();
+    for (std::size_t k = 0; k < middle.size(); ++k) {
+      velocity += one.weight[k] * v[k];
+      spin += one.weight[k] * (middle[k] - cloud.centre).cross(v[k]);
+    }
+    // of chords: 2 tan(angle/2) over dt
+    const Vec rate = cloud.J.inverse() * spin;
+    const Real half = 0.5 * dt * rate.norm();
+    const Vec turn = half > 0 ? Vec(2 * std::atan(half) / half * 0.5 * dt * rate) : Vec(Vec::Zero());
+    const Vec old = world.nodes.x.vec(one.node), arm = old - (cloud.centre - 0.5 * dt * velocity);
+    const Vec moved = turned_by(turn, Eigen::Quaterniond::Identity()) * arm - arm;
+    return {old + dt * velocity + moved, velocity + moved / dt, turn / dt};
+  }
+
+ private:
+  std::vector<Interpolation> all_;
+};
+
 class InterpolationMotion : public Motion {
  public:
-  InterpolationMotion(std::vector<Interpolation> all, World& world)
+  InterpolationMotion(std::vector<Interpolation> all, std::shared_ptr<CarriedMass> inertia, World& world)
       : all_(std::move(all)),
+        inertia_(std::move(inertia)),
         angle_(shared_fields::rotation.find(world.nodes.fields)),
         speed_(shared_fields::angular_velocity.find(world.nodes.fields)) {}
   std::string name() const override { return "interpolated nodes (motion)"; }
@@ -167,34 +220,14 @@ class InterpolationMotion : public Motion {
   }
   void block(World&, const Clock&, Index, Index) override {}
   void finish(World& world, const Clock& clock) override {
-    Nodes& nodes = world.nodes;
-    const Real dt = clock.dt;
-    for (const Interpolation& i : all_) {
-      const Cloud cloud =
-          cloud_of(i, [&](Index n) { return Vec(nodes.x.vec(n) - 0.5 * dt * nodes.v.vec(n)); });
-      Vec velocity = Vec::Zero(), spin = Vec::Zero();
-      for (std::size_t k = 0; k < i.of.size(); ++k) velocity += i.weight[k] * nodes.v.vec(i.of[k]);
-      for (std::size_t k = 0; k < i.of.size(); ++k) {
-        const Vec v = nodes.v.vec(i.of[k]), r = nodes.x.vec(i.of[k]) - 0.5 * dt * v - cloud.centre;
-        spin += i.weight[k] * r.cross(v);
-      }
-      // of chords: 2 tan(angle/2) over dt
-      const Vec chord = cloud.J.inverse() * spin;
-      const Real half = 0.5 * dt * chord.norm();
-      const Vec turn = half > 0 ? Vec(2 * std::atan(half) / half * 0.5 * dt * chord) : Vec(Vec::Zero());
-      const Vec old = nodes.x.vec(i.node), arm = old - (cloud.centre - 0.5 * dt * velocity);
-      const Vec now =
-          cloud.centre + 0.5 * dt * velocity + turned_by(turn, Eigen::Quaterniond::Identity()) * arm;
-      if (dt > 0) nodes.v.set(i.node, (now - old) / dt);
-      nodes.x.set(i.node, now);
-      if (!speed_ || !i.turns || !(dt > 0)) continue;
-      speed_->set(i.node, turn / dt);
-      angle_->add(i.node, turn);
-    }
+    inertia_->move(world, clock);
+    for (const Interpolation& i : all_)
+      if (speed_ && i.turns) angle_->add(i.node, clock.dt * speed_->vec(i.node));
   }
 
  private:
   std::vector<Interpolation> all_;
+  std::shared_ptr<CarriedMass> inertia_;
   Field<Real>*angle_, *speed_;  ///< null: nothing turns
 };
 
@@ -232,24 +265,13 @@ class InterpolationBuilder {
     all_.push_back(std::move(out));
   }
 
-  /// What is left of the step.
-  Real finish(Real tssfac) {
-    Real growth = 1;
-    for (const Interpolation& i : all_) {
-      start(i);
-      growth = std::max(growth, growth_of(i));
-    }
+  void finish() {
+    for (const Interpolation& i : all_) start(i);
     world_.passes.add(std::make_shared<InterpolationForces>(all_, world_));
-    world_.passes.add(std::make_shared<InterpolationMotion>(all_, world_));
-    const Real share = step_share(tssfac, growth);
-    if (share < 1)
-      diagnostics_.warning(
-          {deck_.files[0].name},
-          fmt::format("*CONSTRAINED_INTERPOLATION: dependent nodes give way more easily than "
-                      "by their own mass; {:.3g} of the step of elements is taken",
-                      share),
-          "spread the independent nodes further, around the dependent one");
-    return share;
+    const auto inertia = world_.passes.add(std::make_shared<CarriedMass>(
+        std::make_shared<ByMeans>(all_), "inertia of interpolated nodes", world_));
+    inertia->join(world_);
+    world_.passes.add(std::make_shared<InterpolationMotion>(all_, inertia, world_));
   }
   bool any() const { return !all_.empty(); }
 
@@ -346,58 +368,16 @@ class InterpolationBuilder {
     return own.eigenvalues()[0] > thin * own.eigenvalues()[2];
   }
 
-  /// The independent nodes get mass and momentum of the dependent one.
+  /// The independent nodes get the mass of the dependent one.
   void start(const Interpolation& i) {
     Nodes& nodes = world_.nodes;
-    const Real mass = nodes.m[i.node];
-    const Vec momentum = mass * nodes.v.vec(i.node);
-    const Cloud cloud = cloud_of(i, [&](Index n) { return nodes.x.vec(n); });
-    Vec velocity = Vec::Zero(), spin = Vec::Zero();
+    Field<Real>& carried = shared_fields::tied_mass.add(nodes.fields);
     for (std::size_t k = 0; k < i.of.size(); ++k) {
-      const Index n = i.of[k];
-      const Real more = i.weight[k] * mass;
-      nodes.v.set(n, (nodes.m[n] * nodes.v.vec(n) + i.weight[k] * momentum) / (nodes.m[n] + more));
-      nodes.m[n] += more;
-      shared_fields::tied_mass.add(nodes.fields)[n] += more;  // which weighs where the dependent node is
-      velocity += i.weight[k] * nodes.v.vec(n);
-      spin += i.weight[k] * (nodes.x.vec(n) - cloud.centre).cross(nodes.v.vec(n));
+      const Real more = i.weight[k] * nodes.m[i.node];
+      nodes.m[i.of[k]] += more, carried[i.of[k]] += more;  // which weighs where the dependent node is
     }
-    const Vec omega = cloud.J.inverse() * spin;
-    nodes.v.set(i.node, velocity + omega.cross(nodes.x.vec(i.node) - cloud.centre));
     nodes.follow[i.node] = 2;  // not 1: no rigid body moves it
-    if (!i.turns) return;
-    (*shared_fields::no_rotation.find(nodes.fields))[i.node] = 1;
-    shared_fields::angular_velocity.find(nodes.fields)->set(i.node, omega);
-  }
-
-  /// By how much the largest frequency of elements on the dependent node may grow: forces and moments on it
-  /// give it up to the square of that times the acceleration that its own mass and inertia would.
-  Real growth_of(const Interpolation& i) const {
-    const Nodes& nodes = world_.nodes;
-    const Real mass = nodes.m[i.node];
-    const Real inertia = i.turns ? (*shared_fields::rotary_inertia.find(nodes.fields))[i.node] : 0;
-    if (!(mass > 0)) return 1;
-    const Cloud cloud = cloud_of(i, [&](Index n) { return nodes.x.vec(n); });
-    const auto skew = [](const Vec& a) {
-      Matrix out;
-      out << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-      return out;
-    };
-    const Matrix back = cloud.J.inverse(), arm = skew(nodes.x.vec(i.node) - cloud.centre);
-    Eigen::Matrix<Real, 6, 6> gives = Eigen::Matrix<Real, 6, 6>::Zero();
-    for (std::size_t k = 0; k < i.of.size(); ++k) {
-      const Matrix r = skew(nodes.x.vec(i.of[k]) - cloud.centre);
-      Eigen::Matrix<Real, 3, 6> on;  // force on the node, by force and moment on the dependent one
-      on.leftCols(3) = i.weight[k] * (Matrix::Identity() - r * back * arm);
-      on.rightCols(3) = -i.weight[k] * r * back;
-      gives += on.transpose() * on / nodes.m[i.of[k]];
-    }
-    gives.topLeftCorner(3, 3) *= mass;
-    gives.topRightCorner(3, 3) *= std::sqrt(mass * inertia);
-    gives.bottomLeftCorner(3, 3) *= std::sqrt(mass * inertia);
-    gives.bottomRightCorner(3, 3) *= inertia;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<Real, 6, 6>> own(gives, Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(Real(1), own.eigenvalues()[5]));
+    if (i.turns) (*shared_fields::no_rotation.find(nodes.fields))[i.node] = 1;
   }
 
   const Deck& deck_;
@@ -430,13 +410,13 @@ std::set<Id> interpolated_nodes(const Deck& deck) {
   return out;
 }
 
-Real add_interpolations(const Deck& deck, const Model& model, Real tssfac, bool mass_grows, World& world,
+void add_interpolations(const Deck& deck, const Model& model, bool mass_grows, World& world,
                         Diagnostics& diagnostics) {
   const auto& cards = deck.all<CI>();
-  if (cards.empty()) return 1;
+  if (cards.empty()) return;
   InterpolationBuilder builder(deck, model, mass_grows, world, diagnostics);
   for (const CI& card : cards) builder.add(card);
-  return diagnostics.ok() && builder.any() ? builder.finish(tssfac) : 1;
+  if (diagnostics.ok() && builder.any()) builder.finish();
 }
 
 }  // namespace courant

@@ -12,12 +12,10 @@ namespace courant {
 std::set<Id> interpolated_nodes(const Deck& deck);
 
 /// *CONSTRAINED_INTERPOLATION: adds the passes, and gives the independent nodes the mass of the dependent
-/// ones. Call it once masses, bodies and tied contacts are there. Returns what is left of the step of
-/// elements
-/// [-]. `mass_grows`: mass is scaled while the run goes on. Refuses by name: nodes that something else moves
-/// or holds, other degrees of freedom than 123 and 123456, weights that differ by axis, independent nodes on
-/// one line.
-Real add_interpolations(const Deck& deck, const Model& model, Real tssfac, bool mass_grows, World& world,
+/// ones. Call it once masses, bodies and tied contacts are there. `mass_grows`: mass is scaled while the run
+/// goes on. Refuses by name: nodes that something else moves or holds, other degrees of freedom than 123 and
+/// 123456, weights that differ by axis, independent nodes on one line.
+void add_interpolations(const Deck& deck, const Model& model, bool mass_grows, World& world,
                         Diagnostics& diagnostics);
 
 }  // namespace courant

@@ -11,6 +11,7 @@
 #include "keyword/registry.hpp"
 #include "model/transforms/transformation.hpp"
 #include "state/shared_fields.hpp"
+#include "state/tied_mass.hpp"
 
 namespace courant {
 
@@ -57,13 +58,17 @@ struct SharedAxes {
 /// f_i = m_i (sum f / sum m), so that all have one acceleration, and what joins them does no work.
 class NodeSets : public Constraint {
  public:
-  explicit NodeSets(std::vector<SharedAxes> sets, const World& world)
+  NodeSets(std::vector<SharedAxes> sets, World& world)
       : sets_(std::move(sets)), a_(sets_.size(), Vec::Zero()), on_(sets_.size(), 1) {
     set_of_.assign(static_cast<std::size_t>(world.nodes.size()), {-1, -1, -1});
+    Field<Index>& alike = shared_fields::alike_axes.add(world.nodes.fields);
     for (std::size_t s = 0; s < sets_.size(); ++s)
       for (const Index n : sets_[s].nodes)
         for (std::size_t k = 0; k < 3; ++k)
-          if (sets_[s].axes[k]) set_of_[static_cast<std::size_t>(n)][k] = static_cast<Index>(s);
+          if (sets_[s].axes[k]) {
+            set_of_[static_cast<std::size_t>(n)][k] = static_cast<Index>(s);
+            alike[n] |= static_cast<Index>(1) << k;
+          }
   }
   std::string name() const override { return "node sets that move alike"; }
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }

@@ -111,7 +111,7 @@ std::vector<Index> RigidBodies::unweighed_nodes() const {
   return out;
 }
 
-bool RigidBodies::add_mass_at(Index node, Real mass, Real inertia, World& world) {
+bool RigidBodies::add_mass_at(Index node, const Vec& place, Real mass, Real inertia, World& world) {
   for (RigidBody& b : bodies_) {
     const auto among = [&](const std::vector<Index>& nodes) {
       return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
@@ -123,7 +123,7 @@ bool RigidBodies::add_mass_at(Index node, Real mass, Real inertia, World& world)
     }
     if (among(b.unweighed)) return false;
     RigidBody more;
-    more.m = mass, more.x = world.nodes.x.vec(node), more.v = b.v + b.omega.cross(more.x - b.x);
+    more.m = mass, more.x = place, more.v = b.v + b.omega.cross(more.x - b.x);
     more.J0 = inertia * Matrix::Identity(), more.L = more.J0 * b.omega;
     join_mass(b, more);
     for (std::size_t k = 0; k < b.nodes.size(); ++k) b.X[k] = world.nodes.x.vec(b.nodes[k]) - b.x;

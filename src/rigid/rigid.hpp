@@ -160,9 +160,9 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   void start_moving(const std::vector<std::array<Vec, 2>>& motion, World& world);
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
   const std::vector<RigidBody>& bodies() const { return bodies_; }
-  /// Before the first step: a node of a body has got heavier, and the body with it; false where its inertia
-  /// is given. [M], [ML2]
-  bool add_mass_at(Index node, Real mass, Real inertia, World& world);
+  /// Before the first step: the body of a node gets more mass, at a place; false where its inertia is given.
+  /// [L], [M], [ML2]
+  bool add_mass_at(Index node, const Vec& place, Real mass, Real inertia, World& world);
   std::vector<Index> unweighed_nodes() const;  ///< of all bodies, indices into World::nodes
   /// Force and moment are those on the free body; zero for bodies that are fixed.
   std::vector<RigidBodyReport> reports() const;

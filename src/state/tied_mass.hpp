@@ -3,7 +3,16 @@
 
 namespace courant::shared_fields {
 
-/// Nodes: the share of their mass that belongs to nodes which are tied to their faces, and weighs there. [M]
+/// Nodes: the share of their mass that belongs to nodes which they carry, and weighs there; of a carried node
+/// the share that rigid bodies have. [M]
 inline const SharedField<Real> tied_mass{{.name = "tied_mass", .dimension = "M", .restart = false}};
+
+/// Nodes: momentum that the last step did not yet give to carriers of others. [ML/T]
+inline const SharedField<Real> open_momentum{{.name = "open_momentum", .dimension = "ML/T", .components = 3}};
+/// Nodes: axes along which they move as others of a node set do, 1 x + 2 y + 4 z.
+inline const SharedField<Index> alike_axes{{.name = "alike_axes", .dimension = "-", .restart = false}};
+/// Nodes and particles: force with which SPC hold them. [ML/T2]
+inline const SharedField<Real> support_force{
+    {.name = "support_force", .dimension = "ML/T2", .components = 3, .restart = false}};
 
 }  // namespace courant::shared_fields

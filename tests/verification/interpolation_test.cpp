@@ -9,6 +9,7 @@
 #include "same_bits.hpp"
 #include "solid_decks.hpp"
 #include "state/shared_fields.hpp"
+#include "state/tied_mass.hpp"
 
 using namespace courant;
 using test::do_nothing;
@@ -118,11 +119,12 @@ TEST(Interpolation, KeepsMomentumAndAngularMomentum) {
   const Field<Real>& w = *shared_fields::angular_velocity.find(nodes.fields);
   start_ledger(*s);
   const auto sums = [&] {
-    Vec p = Vec::Zero(),
-        L = 0.02 * w.vec(9);  // node 9 gives its mass to the cube, its inertia does not count
+    const Field<Real>& carried = *shared_fields::tied_mass.find(nodes.fields);
+    const Field<Real>& inertia = *shared_fields::rotary_inertia.find(nodes.fields);
+    Vec p = Vec::Zero(), L = inertia[8] * w.vec(8) + inertia[9] * w.vec(9);
     for (Index n = 0; n < 10; ++n) {
-      if (n == 8) continue;
-      p += nodes.m[n] * nodes.v.vec(n), L += nodes.m[n] * nodes.x.vec(n).cross(nodes.v.vec(n));
+      const Real m = nodes.m[n] - carried[n];  // that of node 9 is where it is
+      p += m * nodes.v.vec(n), L += m * nodes.x.vec(n).cross(nodes.v.vec(n));
     }
     return std::pair(p, L);
   };

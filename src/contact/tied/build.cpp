@@ -12,6 +12,7 @@
 #include "contact/nodes/build.hpp"
 #include "contact/nodes/transducer.hpp"
 #include "contact/tied/constraint.hpp"
+#include "contact/tied/on_bodies.hpp"
 #include "contact/tied/sides.hpp"
 #include "contact/tied/springs.hpp"
 #include "contact/tied/tied_card.hpp"
@@ -99,9 +100,15 @@ class TiedBuilder {
     if (!first_card_) return 1;
     const HeldAxes held = [this](Index n, bool turns) { return held_axes(n, turns); };
     const Real share = share_of_step(growth_of_frequencies(*exact_, held, world_));
-    const std::vector<Given> before = of_bodies();
+    const MassesOfBodies bodies(*exact_, options_, world_);
     const TiedStart start = start_constraint(*exact_, held, world_);
-    give_bodies(before);
+    if (const Real lost = bodies.give(world_); lost > 0)
+      diagnostics_.warning(
+          deck_.where(*first_card_),
+          fmt::format("{}: {:.4g} [M] of nodes that are tied to rigid bodies count for nothing: the mass of "
+                      "these is given",
+                      deck_.keyword(*first_card_), lost),
+          "add it to what the cards of the bodies give");
     constexpr Real rounding = 1e-6;
     if (start.before - start.after > rounding * start.before)
       diagnostics_.warning(
@@ -139,38 +146,6 @@ class TiedBuilder {
       error(c, "SURFA", "particles cannot be held at faces", "use the contact without _TIEBREAK");
     return diagnostics_.errors() == errors;
   }
-  /// What a corner has that a rigid body moves.
-  struct Given {
-    Index node;
-    Real mass, inertia;
-  };
-  Real inertia_of(Index node) const {
-    const Field<Real>* inertia = shared_fields::rotary_inertia.find(world_.nodes.fields);
-    return inertia ? (*inertia)[node] : 0;
-  }
-  std::vector<Given> of_bodies() const {
-    std::vector<Given> out;
-    for (const Index n : corners_)
-      if (options_.give_body && options_.bodies.body(n) >= 0)
-        out.push_back({n, world_.nodes.m[n], inertia_of(n)});
-    return out;
-  }
-
-  void give_bodies(const std::vector<Given>& before) {
-    Real lost = 0;
-    for (const Given& one : before) {
-      const Real more = world_.nodes.m[one.node] - one.mass;
-      if (!options_.give_body(one.node, more, inertia_of(one.node) - one.inertia)) lost += more;
-    }
-    if (lost > 0)
-      diagnostics_.warning(
-          deck_.where(*first_card_),
-          fmt::format("{}: {:.4g} [M] of nodes that are tied to rigid bodies count for nothing: the mass of "
-                      "these is given",
-                      deck_.keyword(*first_card_), lost),
-          "add it to what the cards of the bodies give");
-  }
-
   void hold_by_springs(TiedSpringsLaw law, std::vector<Tie> ties) {
     for (Tie& tie : ties) tie.k *= slsfac_;
     springs_.insert(springs_.end(), ties.begin(), ties.end());
@@ -413,6 +388,7 @@ class TiedBuilder {
     const std::size_t first = exact_->ties.size();
     exact_->ties.insert(exact_->ties.end(), ties.begin(), ties.end());
     exact_->turns.resize(exact_->ties.size(), 0);
+    for (const Tie& tie : ties) exact_->on_body.push_back(is_on_body(tie, options_.bodies));
     exact_->contacts.push_back({id, c.title, first, exact_->ties.size()});
     if (turns) take_turns(c, first);
     if (!first_card_) first_card_ = &c;

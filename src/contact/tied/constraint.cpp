@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "contact/tied/turning.hpp"
+#include "loads/carried_mass.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
@@ -59,18 +60,52 @@ class TiedForces : public Constraint {
   std::vector<Forces> forces_;
 };
 
+/// Nodes that faces carry.
+class OnFaces : public Carriage {
+ public:
+  explicit OnFaces(std::shared_ptr<const TiedConstraint> tied) : tied_(std::move(tied)) {
+    for (const Tie& tie : tied_->ties) shares_.push_back(mass_shares(tie.at));
+  }
+  std::size_t size() const override { return tied_->ties.size(); }
+  Index node(std::size_t i) const override { return tied_->ties[i].node; }
+  std::span<const Index> carriers(std::size_t i) const override {
+    return std::span(at(i).node).first(static_cast<std::size_t>(at(i).corners));
+  }
+  std::span<const Real> shares(std::size_t i) const override {
+    return std::span(shares_[i]).first(static_cast<std::size_t>(at(i).corners));
+  }
+  bool weighs(const World& world, std::size_t i) const override {
+    return weighs_where_it_is(tied_->ties[i], world);
+  }
+  void rates(const World& world, std::size_t i, std::span<Rate> out) const override {
+    const std::array<Matrix, 4> all = rates_of(at(i), world.nodes.x);
+    for (std::size_t e = 0; e < out.size(); ++e) out[e].B = all[e];
+  }
+  Chord chord(const World&, std::size_t i, std::span<const Vec> x, std::span<const Vec> v,
+              Real dt) const override {
+    const PointStep step = step_of(at(i), x, v, dt);
+    return {step.x, step.v};
+  }
+
+ private:
+  const FacePoint& at(std::size_t i) const { return tied_->ties[i].at; }
+  std::shared_ptr<const TiedConstraint> tied_;
+  std::vector<std::array<Real, 4>> shares_;
+};
+
 /// What the faces do to the nodes of one contact: what their motion takes beyond their own forces.
 class TiedReport : public Pass, public InterfaceReporter {
  public:
-  TiedReport(std::shared_ptr<const TiedConstraint> tied, std::size_t contact, const Nodes& nodes)
-      : tied_(std::move(tied)), contact_(contact), nodes_(nodes) {}
+  TiedReport(std::shared_ptr<const TiedConstraint> tied, std::shared_ptr<const CarriedMass> inertia,
+             std::size_t contact, const Nodes& nodes)
+      : tied_(std::move(tied)), inertia_(std::move(inertia)), contact_(contact), nodes_(nodes) {}
   std::string name() const override { return fmt::format("tied contact {}", of().id); }
   InterfaceForce report() const override {
     InterfaceForce out{.id = of().id, .title = of().title};
     for (std::size_t t = of().first; t < of().last; ++t) {
       const Tie& tie = tied_->ties[t];
-      Vec a = Vec::Zero();
-      for (std::size_t e = 0; e < static_cast<std::size_t>(tie.at.corners); ++e)
+      Vec a = inertia_->counts(t) ? inertia_->acceleration(t) : Vec(Vec::Zero());
+      for (std::size_t e = 0; !inertia_->counts(t) && e < static_cast<std::size_t>(tie.at.corners); ++e)
         if (const Index n = tie.at.node[e];
             nodes_.follow[n] == 0)  // of bodies it is not known yet, and left out
           a += tie.at.N[e] / nodes_.m[n] * nodes_.f.vec(n);
@@ -82,14 +117,16 @@ class TiedReport : public Pass, public InterfaceReporter {
  private:
   const TiedConstraint::Contact& of() const { return tied_->contacts[contact_]; }
   std::shared_ptr<const TiedConstraint> tied_;
+  std::shared_ptr<const CarriedMass> inertia_;
   std::size_t contact_;
   const Nodes& nodes_;
 };
 
 class TiedMotion : public Motion {
  public:
-  TiedMotion(std::shared_ptr<const TiedConstraint> tied, const World& world)
-      : tied_(std::move(tied)), turning_(*tied_, world) {}
+  TiedMotion(std::shared_ptr<const TiedConstraint> tied, std::shared_ptr<CarriedMass> inertia,
+             const World& world)
+      : tied_(std::move(tied)), inertia_(std::move(inertia)), turning_(*tied_, world) {}
   std::string name() const override { return "tied contacts (motion)"; }
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
   void declare(const World& world, Accesses& a) const override {
@@ -98,14 +135,11 @@ class TiedMotion : public Motion {
   }
   void block(World&, const Clock&, Index, Index) override {}
   void finish(World& world, const Clock& clock) override {
-    Nodes& nodes = world.nodes;
+    inertia_->move(world, clock);
+    if (!turning_) return;
     for_each(static_cast<Index>(tied_->ties.size()), [&](Index t) {
       const Tie& tie = tied_->ties[static_cast<std::size_t>(t)];
-      const Vec old = nodes.x.vec(tie.node), now = place_of(tie.at, nodes.x);
-      // the chord of the step, as of rigid bodies
-      if (clock.dt > 0) nodes.v.set(tie.node, (now - old) / clock.dt);
-      nodes.x.set(tie.node, now);
-      if (!turning_ || !tied_->turns[static_cast<std::size_t>(t)]) return;
+      if (!tied_->turns[static_cast<std::size_t>(t)]) return;
       turning_.angle->set(tie.node, mean_of(tie.at, *turning_.angle));
       turning_.speed->set(tie.node, mean_of(tie.at, *turning_.speed));
     });
@@ -113,6 +147,7 @@ class TiedMotion : public Motion {
 
  private:
   std::shared_ptr<const TiedConstraint> tied_;
+  std::shared_ptr<CarriedMass> inertia_;
   TurningFields turning_;
 };
 
@@ -120,9 +155,11 @@ class TiedMotion : public Motion {
 
 void add_constraint(std::shared_ptr<const TiedConstraint> tied, World& world) {
   world.passes.add(std::make_shared<TiedForces>(tied, world));
-  world.passes.add(std::make_shared<TiedMotion>(tied, world));
+  const auto inertia = world.passes.add(
+      std::make_shared<CarriedMass>(std::make_shared<OnFaces>(tied), "inertia of tied nodes", world));
+  world.passes.add(std::make_shared<TiedMotion>(tied, inertia, world));
   for (std::size_t k = 0; k < tied->contacts.size(); ++k)
-    world.passes.add(std::make_shared<TiedReport>(tied, k, world.nodes));
+    world.passes.add(std::make_shared<TiedReport>(tied, inertia, k, world.nodes));
 }
 
 }  // namespace courant

@@ -1,4 +1,5 @@
 // How nodes that are tied exactly start: masses and velocities of the corners of their faces.
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -47,7 +48,7 @@ class JoinedStart {
           nodes_.push_back(n), added_.push_back(0), stiffest.push_back(start.weight[n]);
           held_.push_back(held(n, start.turns));
         }
-        added_[at->second] += share[e] * start.weight[tie.node];
+        if (!tied.on_body[t]) added_[at->second] += share[e] * start.weight[tie.node];
         stiffest[at->second] += most[e] * most[e] * start.weight[tie.node];
       }
     }
@@ -68,6 +69,12 @@ class JoinedStart {
     if (start_.turns) return out;
     Field<Real>& carried = shared_fields::tied_mass.add(world_.nodes.fields);
     for (std::size_t k = 0; k < nodes_.size(); ++k) carried[nodes_[k]] += added_[k];
+    for (const std::size_t t : start_.ties) {  // which bodies weigh
+      const Tie& tie = tied_.ties[t];
+      const std::array<Real, 4> share = mass_shares(tie.at);
+      for (std::size_t e = 0; e < static_cast<std::size_t>(tie.at.corners); ++e)
+        if (world_.nodes.follow[tie.at.node[e]] == 1) carried[tie.node] += share[e] * start_.weight[tie.node];
+    }
     return out;
   }
 
@@ -194,11 +201,23 @@ class GapInertia {
 
 }  // namespace
 
+bool weighs_where_it_is(const Tie& tie, const World& world) {
+  constexpr Real none = 1e-9;  // of the width of the face
+  Vec low = world.nodes.x.vec(tie.at.node[0]), high = low;
+  for (const Index n : tie.at.node) {
+    if (world.nodes.follow[n] != 0) return false;
+    low = low.cwiseMin(world.nodes.x.vec(n)), high = high.cwiseMax(world.nodes.x.vec(n));
+  }
+  return std::abs(tie.at.gap) > none * (high - low).norm();
+}
+
 Real growth_of_frequencies(const TiedConstraint& tied, const HeldAxes& held, const World& world) {
   const GapInertia inertia(tied, held, world);
   constexpr Real most = 1e8, enough = 1e-3;
   Real out = 1;
-  for (const Tie& tie : tied.ties) {
+  for (std::size_t t = 0; t < tied.ties.size(); ++t) {
+    const Tie& tie = tied.ties[t];
+    if (tied.on_body[t] || weighs_where_it_is(tie, world)) continue;
     if (!(world.nodes.m[tie.node] > 0) || inertia.is_below(tie, out)) continue;
     Real low = out, high = 2 * out;
     while (high < most && !inertia.is_below(tie, high)) low = high, high *= 2;

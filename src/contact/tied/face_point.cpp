@@ -12,14 +12,25 @@ struct FaceFrame {
   Real area = 0;  ///< length of s x t [L2]
 };
 
-FaceFrame frame_of(const FacePoint& p, const Field<Real>& x) {
+/// `at`: of each corner [L]
+template <class Place>
+FaceFrame frame_at(const FacePoint& p, const Place& at) {
   FaceFrame out;
   for (std::size_t e = 0; e < static_cast<std::size_t>(p.corners); ++e) {
-    const Vec corner = x.vec(p.node[e]);
+    const Vec corner = at(e);
     out.q += p.N[e] * corner, out.s += p.by_s[e] * corner, out.t += p.by_t[e] * corner;
   }
   const Vec c = out.s.cross(out.t);
   out.area = c.norm(), out.n = c / out.area;
+  return out;
+}
+FaceFrame frame_of(const FacePoint& p, const Field<Real>& x) {
+  return frame_at(p, [&](std::size_t e) { return x.vec(p.node[e]); });
+}
+
+Matrix skew(const Vec& a) {
+  Matrix out;
+  out << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
   return out;
 }
 
@@ -57,6 +68,29 @@ Vec velocity_of(const FacePoint& p, const Field<Real>& x, const Field<Real>& v) 
     change += p.by_s[e] * corner.cross(now.t) + p.by_t[e] * now.s.cross(corner);
   }
   return out + p.gap / now.area * (change - change.dot(now.n) * now.n);
+}
+
+std::array<Matrix, 4> rates_of(const FacePoint& p, const Field<Real>& x) {
+  std::array<Matrix, 4> out;
+  for (std::size_t e = 0; e < 4; ++e) out[e] = p.N[e] * Matrix::Identity();
+  if (p.gap == 0) return out;
+  const FaceFrame now = frame_of(p, x);
+  const Matrix across = p.gap / now.area * (Matrix::Identity() - now.n * now.n.transpose());
+  const Matrix by_s = across * skew(now.t), by_t = across * skew(now.s);
+  for (std::size_t e = 0; e < static_cast<std::size_t>(p.corners); ++e)
+    out[e] += p.by_t[e] * by_t - p.by_s[e] * by_s;
+  return out;
+}
+
+PointStep step_of(const FacePoint& p, std::span<const Vec> x, std::span<const Vec> v, Real dt) {
+  PointStep out;
+  for (std::size_t e = 0; e < static_cast<std::size_t>(p.corners); ++e)
+    out.x += p.N[e] * x[e], out.v += p.N[e] * v[e];
+  if (p.gap == 0) return out;
+  const Vec before = frame_at(p, [&](std::size_t e) -> Vec { return x[e] - dt * v[e]; }).n,
+            after = frame_at(p, [&](std::size_t e) -> Vec { return x[e]; }).n;
+  out.x += p.gap * after, out.v += p.gap / dt * (after - before);
+  return out;
 }
 
 std::array<Vec, 4> on_corners(const FacePoint& p, const Field<Real>& x, const Vec& force) {

@@ -1,6 +1,7 @@
 #pragma once
 // Where a tied node stands beside a face, and how forces there act on the corners.
 #include <array>
+#include <span>
 
 #include "contact/nodes/face.hpp"
 
@@ -24,6 +25,14 @@ Vec place_of(const FacePoint& point, const Field<Real>& x);
 Vec normal_of(const FacePoint& point, const Field<Real>& x);
 /// Its velocity where the corners have velocities v.
 Vec velocity_of(const FacePoint& point, const Field<Real>& x, const Field<Real>& v);
+/// The part of each corner in that: velocity = sum_e B_e v_e.
+std::array<Matrix, 4> rates_of(const FacePoint& point, const Field<Real>& x);
+/// Where the point is once its corners are at x after a step dt with the velocities v, and the velocity that
+/// took it there.
+struct PointStep {
+  Vec x = Vec::Zero(), v = Vec::Zero();
+};
+PointStep step_of(const FacePoint& point, std::span<const Vec> x, std::span<const Vec> v, Real dt);
 /// What a force at the point is on each corner: it does the same work in any motion of the corners, so that
 /// the sums of forces and of moments are the same, too. [ML/T2]
 std::array<Vec, 4> on_corners(const FacePoint& point, const Field<Real>& x, const Vec& force);

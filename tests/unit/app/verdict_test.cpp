@@ -122,6 +122,16 @@ TEST(Verdict, AJointThatOpensIsDoubtful) {
   EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("a joint of rigid bodies opened by 1.1e-05 of")));
 }
 
+TEST(Verdict, MomentumThatChangesWhereNothingActsIsDoubtful) {
+  Summary s = with_error(0);
+  s.maxima["momentum_change_share"] = 0.9e-3;
+  EXPECT_EQ(verdict(s), "sound");
+  s.maxima["momentum_change_share"] = 1.1e-3;
+  EXPECT_EQ(verdict(s), "doubtful");
+  EXPECT_THAT(texts(findings(s)),
+              ElementsAre(HasSubstr("total momentum changed by 0.11 % of that of the parts")));
+}
+
 TEST(Verdict, HourglassEnergyAboveATenthOfTheInternalIsDoubtful) {
   Summary s = with_error(0);
   s.energy = {.kinetic = 0.5, .internal = 0.4, .hourglass = 0.039, .initial = 0.939, .peak = 1};

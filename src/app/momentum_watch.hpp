@@ -1,0 +1,31 @@
+#pragma once
+// Whether momentum stays where nothing outside acts.
+#include "keyword/deck.hpp"
+#include "model/model.hpp"
+#include "output/sample.hpp"
+#include "rigid/rigid.hpp"
+#include "state/restartable.hpp"
+
+namespace courant {
+
+/// Looks when histories are written. `maxima` of the world get `momentum_change_share`: the largest change of
+/// total momentum since the start, of the largest sum of the momenta of parts; 0 where it is round-off of
+/// what moves.
+class MomentumWatch : public Pass, public Restartable {
+ public:
+  std::string name() const override { return "total momentum"; }
+  void look(const Sample& sample, World& world);
+  void keep(Archive& archive) override;
+
+ private:
+  bool began_ = false;
+  Real mass_ = 0, most_ = 0;  ///< of the start; largest sum of the momenta of parts
+  Real change_ = 0;           ///< largest so far
+  Vec first_ = Vec::Zero();
+};
+
+/// Whether nothing outside acts on what moves: the deck has only keywords that describe bodies, their
+/// materials, contacts and constraints among them, and outputs; nothing is held or driven.
+bool is_free_system(const Deck& deck, const Model& model, const RigidBodies* bodies);
+
+}  // namespace courant
