@@ -46,6 +46,16 @@ TEST(Verdict, EnergyErrorIsSoundBelowOnePerCentAndBrokenAboveTen) {
   EXPECT_EQ(verdict(with_error(std::nan(""))), "broken");
 }
 
+// Mass that moving nodes get has momentum that came from nowhere.
+TEST(Verdict, MomentumOfMassAddedOnTheWay) {
+  Summary s = with_error(0);
+  s.maxima = {{"momentum_of_added_mass", 0.0099}, {"momentum_of_nodes", 1}};
+  EXPECT_EQ(verdict(s), "sound");
+  s.maxima["momentum_of_added_mass"] = 0.0101;
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("mass that DT2MS added on the way brought momentum "
+                                                        "with it, 1.01 % of that of all nodes")));
+}
+
 // A limit of its own may be the stricter one.
 TEST(Verdict, BrokenLimitsBelowTheDoubtfulOnesCount) {
   Summary s = with_error(0.03);
