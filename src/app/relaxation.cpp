@@ -61,8 +61,8 @@ class Settling {
 
  private:
   static constexpr Real settled = 1e-6;
-  static std::vector<Vec> values(const Field<Real>& field) {
-    std::vector<Vec> out(static_cast<std::size_t>(field.size()));
+  std::vector<Vec> values(const Field<Real>& field) const {
+    std::vector<Vec> out(static_cast<std::size_t>(nodes_.size()));
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = field.vec(static_cast<Index>(i));
     return out;
   }

@@ -236,7 +236,7 @@ void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real
     Index of_law = 0, of_card = 0;
     for (int p = 0; p < points_; ++p)
       of_law += (failed_.data(p)[e] & by_law) != 0, of_card += (failed_.data(p)[e] & by_card) != 0;
-    const bool inside_out = rules_.small_step && volume && !(volume[i] > 0);
+    const bool inside_out = turned_inside_out(volume, i);
     if (of_card >= points_needed()) {
       const auto why = std::find_if(why_[block].begin(), why_[block].end(),
                                     [&](const Failed& one) { return one.element == e; });
@@ -252,10 +252,12 @@ void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real
     } else if (std::string why = why_by_step(e, share * step_limit[i]); !why.empty()) {
       strike(begin, e, std::move(why));
     }
-    const auto& kept = kept_[static_cast<std::size_t>(e)];
-    if (!dead(e)) continue;
-    take_back(e, i, push);
-    if (inside_out || !std::isfinite(energy_of(e))) put_back(e, kept);
+  }
+  for (const Failed& failed : newly_[block]) {
+    const Index e = failed.element;
+    take_back(e, e - begin, push);
+    if (turned_inside_out(volume, e - begin) || !std::isfinite(energy_of(e)))
+      put_back(e, kept_[static_cast<std::size_t>(e)]);
   }
   if (dead_[block] == 0) return;
   for (Index i = 0; i < count; ++i) {

@@ -137,6 +137,9 @@ class Erosion {
   std::string why_by_law() const;
   std::string why_by_step(Index e, Real step) const;
   void put_back(Index e, const std::array<Real, 3>& kept) const;
+  bool turned_inside_out(const Real* volume, Index i) const {
+    return rules_.small_step && volume && !(volume[i] > 0);
+  }
   void take_back(Index e, Index i, const CornerPush& push) const;
   Index points_needed() const;
   void strike(Index begin, Index e, std::string why);

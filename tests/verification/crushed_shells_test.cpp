@@ -75,5 +75,5 @@ TEST(CrushedShells, HourglassForcesGrowNoFurtherThanTheSectionBears) {
 }
 
 TEST(CrushedShells, SameBitsOnAnyNumberOfThreadsAndAfterARestart) {
-  test::expect_same_bits(tube(10, 2, "*CONTROL_HOURGLASS\n4,0.05\n"), 900, 450);
+  test::expect_same_bits(tube(10, 2, "*CONTROL_HOURGLASS\n4,0.05\n"), 240, 120);
 }
