@@ -136,6 +136,8 @@ RelaxationEnd relax_before(Simulation& run, const RunOptions& options,
   run.start_from(*options.relaxing);
   if (!end.converged) run.world().maxima["relaxation_ratio"] = end.ratio;
   if (!end.converged && end.factor > 0) run.world().maxima["relaxation_factor"] = end.factor;
+  if (const auto angle = run.world().maxima.find("angle_between_facets"); angle != run.world().maxima.end())
+    run.world().maxima["angle_of_relaxed_facets"] = angle->second;
   if (end.yielded > 0) run.world().maxima["relaxation_plastic_strain"] = end.yielded;
   return end;
 }

@@ -67,6 +67,17 @@ void add_relaxation(const Summary& s, std::vector<Finding>& out) {
                                     ratio->second, factor)});
 }
 
+/// Statics of shells that have no stiffness where they meet.
+void add_facets(const Summary& s, std::vector<Finding>& out) {
+  const auto angle = s.maxima.find("angle_of_relaxed_facets");
+  if (angle == s.maxima.end()) return;
+  out.push_back(
+      {false, fmt::format("shells of formulation 2 that meet at angles of up to {:.3g} degrees came to rest "
+                          "under a load: without a stiffness about the normal curved surfaces and open "
+                          "sections give way too far; give BWC 1 of *CONTROL_SHELL, or ELFORM 16",
+                          angle->second)});
+}
+
 /// What yields keeps what it overshoots by.
 void add_overshoot(const Summary& s, std::vector<Finding>& out) {
   const auto strain = s.maxima.find("relaxation_plastic_strain");
@@ -191,6 +202,7 @@ std::vector<Finding> findings(const Summary& s) {
   add_joint_gap(s, out);
   add_relaxation(s, out);
   add_overshoot(s, out);
+  add_facets(s, out);
   add_energy(s, out);
   add_hourglass(s, out);
   add_scaled_momentum(s, out);

@@ -123,8 +123,8 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
     const Id id = group.id[failed.element];
     const bool shell = group.segment != nullptr, beam = group.corners() == 2;
     const std::string kind = beam ? "beam" : shell ? "shell" : "solid";
-    const Real lost = erosion.energy_of(failed.element);
-    world.energy.dissipated += lost, world.energy.throughput += std::abs(lost);
+    world.energy.dissipated += erosion.energy_of(failed.element);
+    world.energy.throughput += std::abs(erosion.energy_of(failed.element));
     ++world.counters["deleted_" + kind + "s"];
     ++world.counters["deleted_elements"];
     world.maxima["mass_of_deleted_elements"] += group.mass[failed.element];

@@ -80,6 +80,7 @@ class NodeContactBuilder {
     if (c.fs == 2)
       deck_.error(diagnostics_, c, "FS", "FS = 2 asks for a friction table, which is not supported",
                   "give a coefficient other than 2");
+    warn_of_sliding(deck_, c, diagnostics_);
   }
 
   void warn_of_kind(const ContactCard& c, const ContactKind& kind) {

@@ -46,6 +46,20 @@ TEST(Verdict, EnergyErrorIsSoundBelowOnePerCentAndBrokenAboveTen) {
   EXPECT_EQ(verdict(with_error(std::nan(""))), "broken");
 }
 
+TEST(Verdict, RelaxationsOfYieldingAndOfFacets) {
+  Summary s = with_error(0);
+  s.maxima = {{"relaxation_plastic_strain", 0.0057}};
+  EXPECT_THAT(texts(findings(s)),
+              ElementsAre(HasSubstr("yielded, to a plastic strain of 0.0057, in a dynamic "
+                                    "relaxation whose load acts at once")));
+  s.maxima = {{"angle_between_facets", 2.5}};  // noted by check
+  EXPECT_EQ(verdict(s), "sound");
+  s.maxima["angle_of_relaxed_facets"] = 2.5;
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("give BWC 1 of *CONTROL_SHELL")));
+  s.maxima = {{"relaxation_ratio", 0.1}, {"relaxation_factor", 0.998}};
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("a DRFCTR of 0.998, by its lowest frequency")));
+}
+
 // Mass that moving nodes get has momentum that came from nowhere.
 TEST(Verdict, MomentumOfMassAddedOnTheWay) {
   Summary s = with_error(0);
