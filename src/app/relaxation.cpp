@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "base/run_error.hpp"
 #include "output/file.hpp"
@@ -29,14 +32,66 @@ Real kinetic_energy(Simulation& s) {
   return out + (s.bodies() ? s.bodies()->kinetic_energy() : 0);
 }
 
+/// How nodes come to rest: from look to look.
+class Settling {
+ public:
+  explicit Settling(const Nodes& nodes)
+      : nodes_(nodes), start_(values(nodes.x)), x_(start_), f_(values(nodes.f)) {}
+  /// Looks, and estimates the share of the way that is ahead: each look brings less than that before it by a
+  /// factor, and will. Until there are two looks, and while changes grow, it is all. [-]
+  Real ahead() {
+    const std::vector<Vec> x = values(nodes_.x), f = values(nodes_.f);
+    Real way = 0, change = 0, pull = 0, inertia = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Vec d = x[i] - x_[i];
+      const Real m = nodes_.m[static_cast<Index>(i)];
+      way += (x[i] - start_[i]).squaredNorm(), change += d.squaredNorm();
+      if (m > 0) pull -= d.dot(f[i] - f_[i]), inertia += m * d.squaredNorm();
+    }
+    way = std::sqrt(way), change = std::sqrt(change);
+    frequency_ = pull > 0 && inertia > 0 ? std::sqrt(pull / inertia) : 0;
+    const Real before = std::exchange(change_, change);
+    x_ = x, f_ = f;
+    if (!(change > settled * way)) return 0;
+    return change < before ? change * change / (before - change) / way : 1;
+  }
+  /// Of the last change, by Rayleigh's quotient; 0: none. [1/T]
+  Real frequency() const { return frequency_; }
+
+ private:
+  static constexpr Real settled = 1e-6;
+  std::vector<Vec> values(const Field<Real>& field) const {
+    std::vector<Vec> out(static_cast<std::size_t>(nodes_.size()));
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = field.vec(static_cast<Index>(i));
+    return out;
+  }
+  const Nodes& nodes_;
+  std::vector<Vec> start_, x_, f_;
+  Real change_ = 0, frequency_ = 0;
+};
+
+/// Largest plastic strain of all points of elements.
+Real most_plastic_strain(const World& world) {
+  Real most = 0;
+  for (const auto& group : world.groups)
+    for (const auto& field : group->fields.all())
+      if (const auto* reals = dynamic_cast<const Field<Real>*>(field.get());
+          reals && reals->info().name.find("plastic_strain") != std::string::npos)
+        for (int k = 0; k < reals->info().components; ++k)
+          for (Index e = 0; e < group->size(); ++e) most = std::max(most, reals->data(k)[e]);
+  return most;
+}
+
 }  // namespace
 
 RelaxationEnd relax(Simulation& s, const std::function<bool()>& stop,
                     const std::function<void(const std::string&)>& line) {
   const Relaxation& rules = s.relaxation();
   RelaxationEnd out;
+  constexpr Real near = 1e-3;  // of the way
   Real peak = 0, recent = 0;
   s.slow_down(0);
+  Settling settling(s.world().nodes);
   while (!out.converged && !out.stopped && s.clock().t < rules.end) {
     s.step([](World&, const Clock&, const std::string&) {});
     s.slow_bodies(rules.factor);
@@ -45,14 +100,18 @@ RelaxationEnd relax(Simulation& s, const std::function<bool()>& stop,
     out.stopped = stop();
     if (s.clock().cycle % rules.check_every != 0) continue;
     out.ratio = peak > 0 ? recent / peak : 0;
-    line(fmt::format("{:14.6e}{:14.6e}{:14.6e}\n", s.clock().t, kinetic, out.ratio));
-    out.converged = out.ratio < rules.tolerance && s.clock().t >= rules.ramp;
+    out.ahead = settling.ahead();
+    if (const Real w = settling.frequency(); w * s.clock().dt < 0.5) out.factor = 1 - 2 * w * s.clock().dt;
+    line(fmt::format("{:14.6e}{:14.6e}{:14.6e}{:14.6e}{:16.9f}\n", s.clock().t, kinetic, out.ratio, out.ahead,
+                     out.factor));
+    out.converged = out.ratio < rules.tolerance && out.ahead < near && s.clock().t >= rules.ramp;
     recent = 0;
   }
   std::string who;
   s.evaluate(who);  // stresses of the last step
   s.guard().look(s.world(), s.clock());
   out.time = s.clock().t, out.steps = s.clock().cycle;
+  if (rules.at_once) out.yielded = most_plastic_strain(s.world());
   return out;
 }
 
@@ -73,6 +132,10 @@ RelaxationEnd relax_before(Simulation& run, const RunOptions& options,
                    end.time, end.steps, end.ratio));
   run.start_from(*options.relaxing);
   if (!end.converged) run.world().maxima["relaxation_ratio"] = end.ratio;
+  if (!end.converged && end.factor > 0) run.world().maxima["relaxation_factor"] = end.factor;
+  if (const auto angle = run.world().maxima.find("angle_between_facets"); angle != run.world().maxima.end())
+    run.world().maxima["angle_of_relaxed_facets"] = angle->second;
+  if (end.yielded > 0) run.world().maxima["relaxation_plastic_strain"] = end.yielded;
   return end;
 }
 

@@ -8,17 +8,21 @@
 namespace courant {
 
 /// First line of the file `relax`.
-inline constexpr const char* relaxation_head = "#         time       kinetic         ratio\n";
+inline constexpr const char* relaxation_head =
+    "#         time       kinetic         ratio         ahead     best DRFCTR\n";
 
 struct RelaxationEnd {
   bool converged = false, stopped = false;
-  Real ratio = 0;  ///< largest kinetic energy since the look before, over the largest of all [-]
-  Real time = 0;   ///< [T]
+  Real ratio = 0;    ///< largest kinetic energy since the look before, over the largest of all [-]
+  Real ahead = 1;    ///< share of the way of the nodes that is still ahead, by how changes shrink [-]
+  Real factor = 0;   ///< DRFCTR that suits the lowest frequency; 0: not known [-]
+  Real yielded = 0;  ///< largest plastic strain, where a load acts at once [-]
+  Real time = 0;     ///< [T]
   std::int64_t steps = 0;
 };
 
 /// Runs a simulation of RunPhase::relaxation until it is at rest, DRTERM, or `stop` says so. `line` gets a
-/// line for each look: time, kinetic energy, ratio. Throws RunError.
+/// line for each look: time, kinetic energy, ratio, share of the way ahead, best DRFCTR. Throws RunError.
 RelaxationEnd relax(Simulation& relaxing, const std::function<bool()>& stop,
                     const std::function<void(const std::string&)>& line);
 

@@ -422,7 +422,7 @@ void Simulation::add_ghosts(Real h, Diagnostics& diagnostics) {
 }
 
 void Simulation::add_prescribed_motions(Diagnostics& diagnostics) {
-  const std::vector<PrescribedMotion> motions = prescribed_motions(deck_, model_, diagnostics);
+  const auto motions = prescribed_motions(deck_, model_, diagnostics, relaxation_.asked);
   if (motions.empty()) left_out_.push_back({"prescribed motion", "no *BOUNDARY_PRESCRIBED_MOTION"});
   MotionLimits limits{.dim = sph_.dim, .boxed = sph_.region.has_value()};
   for (const GhostPlane& plane : planes_)

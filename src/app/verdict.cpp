@@ -57,14 +57,38 @@ void add_held(const Summary& s, std::vector<Finding>& out) {
 
 /// The run began with what was not at rest.
 void add_relaxation(const Summary& s, std::vector<Finding>& out) {
-  const auto ratio = s.maxima.find("relaxation_ratio");
+  const auto ratio = s.maxima.find("relaxation_ratio"), best = s.maxima.find("relaxation_factor");
   if (ratio == s.maxima.end()) return;
+  const std::string factor = best == s.maxima.end()
+                                 ? "a DRFCTR of 1 - 2 w dt, w the lowest frequency"
+                                 : fmt::format("a DRFCTR of {:.6g}, by its lowest frequency", best->second);
+  out.push_back({false, fmt::format("the dynamic relaxation before the run ended with {:.2g} of its largest "
+                                    "kinetic energy, and was not at rest: what follows swings about "
+                                    "the preloaded state; give it a later DRTERM, or {}",
+                                    ratio->second, factor)});
+}
+
+/// Statics of shells that have no stiffness where they meet.
+void add_facets(const Summary& s, std::vector<Finding>& out) {
+  const auto angle = s.maxima.find("angle_of_relaxed_facets");
+  if (angle == s.maxima.end()) return;
   out.push_back(
-      {false, fmt::format("the dynamic relaxation before the run ended with {:.2g} of its largest "
-                          "kinetic energy, which is not within DRTOL: what follows swings about "
-                          "the preloaded state; give it a later DRTERM, or a DRFCTR of 1 - 2 w dt, w "
+      {false, fmt::format("shells of formulation 2 that meet at angles of up to {:.3g} degrees came to rest "
+                          "under a load: without a stiffness about the normal curved surfaces and open "
+                          "sections give way too far; give BWC 1 of *CONTROL_SHELL, or ELFORM 16",
+                          angle->second)});
+}
+
+/// What yields keeps what it overshoots by.
+void add_overshoot(const Summary& s, std::vector<Finding>& out) {
+  const auto strain = s.maxima.find("relaxation_plastic_strain");
+  if (strain == s.maxima.end()) return;
+  out.push_back(
+      {false, fmt::format("material yielded, to a plastic strain of {:.2g}, in a dynamic relaxation "
+                          "whose load acts at once: it swings beyond its rest there, and keeps "
+                          "what that bent; let the curve of the load rise over some periods of "
                           "the lowest frequency",
-                          ratio->second)});
+                          strain->second)});
 }
 
 /// Joints that were drawn apart, of the size of the smaller body: beyond 1e-4 the run stops.
@@ -154,6 +178,17 @@ void add_hourglass(const Summary& s, std::vector<Finding>& out) {
                    internal < least ? "a tenth of the scene's energy" : "the largest internal energy")});
 }
 
+/// Mass that scaling gave to nodes that move already.
+void add_scaled_momentum(const Summary& s, std::vector<Finding>& out) {
+  const auto added = s.maxima.find("momentum_of_added_mass"), all = s.maxima.find("momentum_of_nodes");
+  if (added == s.maxima.end() || all == s.maxima.end() || !(all->second > 0)) return;
+  const Real share = added->second / all->second;
+  if (!(share > s.limits.residual_doubtful)) return;
+  out.push_back({false, fmt::format("mass that DT2MS added on the way brought momentum with it, {:.3g} % of "
+                                    "that of all nodes: take a smaller |DT2MS|, or MS1ST 1",
+                                    100 * share)});
+}
+
 void add_clamps(const Summary& s, std::vector<Finding>& out) {
   const auto count = [&](const char* name) { return counted(s, name); };
   if (const auto n = count("sound_speed_clamped"); n > 0)
@@ -179,8 +214,11 @@ std::vector<Finding> findings(const Summary& s) {
   add_joint_gap(s, out);
   add_momentum(s, out);
   add_relaxation(s, out);
+  add_overshoot(s, out);
+  add_facets(s, out);
   add_energy(s, out);
   add_hourglass(s, out);
+  add_scaled_momentum(s, out);
   add_clamps(s, out);
   for (std::string& text : range_warnings(s.ranges, s.limits.mach_doubtful, s.limits.density_doubtful))
     out.push_back({false, std::move(text)});

@@ -193,6 +193,7 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
     if (c.fs == 2)
       deck.error(diagnostics, c, "FS", "FS = 2 asks for a friction table, which is not supported",
                  "give a coefficient other than 2");
+    if (world.nodes.size() == 0) warn_of_sliding(deck, c, diagnostics);  // else contact of nodes does
     if (!kind_of(c).nodes || world.particles.size() == 0) continue;
     const std::vector<bool> tracked = builder.tracked(c);
     if (diagnostics.errors() == errors &&

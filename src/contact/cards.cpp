@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "contact/contact_table.hpp"
+#include "keyword/deck.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
@@ -249,6 +250,14 @@ bool asks_for_edges(const ContactCard& card) {
   return card.soft == 2 && kind.automatic && !kind.eroding && kind.tiebreak == Tiebreak::none &&
          (kind.single || kind.two_way) &&
          std::find(std::begin(depths), std::end(depths), card.depth) != std::end(depths);
+}
+
+void warn_of_sliding(const Deck& deck, const ContactCard& card, Diagnostics& diagnostics) {
+  if (card.fs != 0 || !(card.fd > 0)) return;
+  deck.warning(diagnostics, card, "FD",
+               card.dc > 0 ? "with FS 0 friction grows from 0 at rest to FD with the speed of sliding"
+                           : "has no effect with FS 0 and DC 0: nothing rubs",
+               "give FS the coefficient of rest; with DC 0 it is that of sliding, too");
 }
 
 }  // namespace courant

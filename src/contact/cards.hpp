@@ -3,6 +3,9 @@
 
 namespace courant {
 
+class Deck;
+class Diagnostics;
+
 /// *CONTACT_AUTOMATIC_NODES_TO_SURFACE and its kin; field names and units as in the keywords' table.
 struct ContactCard : Entry {
   Id cid = 0;
@@ -51,6 +54,8 @@ struct ContactKind {
 ContactKind kind_of(const ContactCard& card);
 /// Whether edges touch edges: by the name, or SOFT 2 with such a DEPTH.
 bool asks_for_edges(const ContactCard& card);
+/// FS 0 with FD > 0 rubs nothing at rest.
+void warn_of_sliding(const Deck& deck, const ContactCard& card, Diagnostics& diagnostics);
 
 /// *COURANT_LITERAL_PENALTY
 struct LiteralPenalty : Entry {

@@ -70,12 +70,21 @@ int history_at(const StrengthLaw& law, const std::string& variable) {
   return -1;
 }
 
+CornerPush::CornerPush(const ElementGroup& group, Index begin, Real dt) : dt(dt) {
+  for (int k = 0; k < 3 * group.corners(); ++k) {
+    force[static_cast<std::size_t>(k)] = group.corner_force->data(k) + begin;
+    if (group.corner_moment) moment[static_cast<std::size_t>(k)] = group.corner_moment->data(k) + begin;
+  }
+}
+
 Erosion::Erosion(const FailureRules& rules, const ElementGroup& group, int points, Energies energies,
                  World& world)
     : rules_(rules),
       group_(group),
       points_(points),
       energies_(energies),
+      v_(&world.nodes.v),
+      w_(shared_fields::angular_velocity.find(world.nodes.fields)),
       eroded_(shared_fields::eroded.add(group.fields)),
       failed_(group.fields.add<Index>({.name = "failed_points", .dimension = "-", .components = points})) {
   if (rules.measures_strain())
@@ -92,7 +101,8 @@ Erosion::Erosion(const FailureRules& rules, const ElementGroup& group, int point
 }
 
 void Erosion::declare(const World&, Accesses& a) const {
-  a.updates(eroded_).updates(failed_);
+  a.updates(eroded_).updates(failed_).reads(*v_, Reach::others);
+  if (w_) a.reads(*w_, Reach::others);
   if (strain_) a.updates(*strain_);
   if (impulse_) a.updates(*impulse_);
   if (first_step_) a.updates(*first_step_);
@@ -217,7 +227,8 @@ void Erosion::strike(Index begin, Index e, std::string why) {
   clear(e);
 }
 
-void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real* wave_time, Real* volume) {
+void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real* wave_time, Real* volume,
+                    const CornerPush& push) {
   const auto block = static_cast<std::size_t>(begin / block_size);
   for (Index i = 0; i < count; ++i) {
     const Index e = begin + i;
@@ -225,7 +236,7 @@ void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real
     Index of_law = 0, of_card = 0;
     for (int p = 0; p < points_; ++p)
       of_law += (failed_.data(p)[e] & by_law) != 0, of_card += (failed_.data(p)[e] & by_card) != 0;
-    const bool inside_out = rules_.small_step && volume && !(volume[i] > 0);
+    const bool inside_out = turned_inside_out(volume, i);
     if (of_card >= points_needed()) {
       const auto why = std::find_if(why_[block].begin(), why_[block].end(),
                                     [&](const Failed& one) { return one.element == e; });
@@ -241,8 +252,12 @@ void Erosion::judge(Index begin, Index count, Real share, Real* step_limit, Real
     } else if (std::string why = why_by_step(e, share * step_limit[i]); !why.empty()) {
       strike(begin, e, std::move(why));
     }
-    const auto& kept = kept_[static_cast<std::size_t>(e)];
-    if (dead(e) && (inside_out || !std::isfinite(energy_of(e)))) put_back(e, kept);
+  }
+  for (const Failed& failed : newly_[block]) {
+    const Index e = failed.element;
+    take_back(e, e - begin, push);
+    if (turned_inside_out(volume, e - begin) || !std::isfinite(energy_of(e)))
+      put_back(e, kept_[static_cast<std::size_t>(e)]);
   }
   if (dead_[block] == 0) return;
   for (Index i = 0; i < count; ++i) {
@@ -271,6 +286,20 @@ void Erosion::put_back(Index e, const std::array<Real, 3>& kept) const {
   Field<Real>* const fields[] = {energies_.internal, energies_.bulk_viscosity, energies_.hourglass};
   for (std::size_t k = 0; k < kept.size(); ++k)
     if (fields[k]) (*fields[k])[e] = kept[k];
+}
+
+// The old forces push through the first half of the step, the new ones would through the second.
+void Erosion::take_back(Index e, Index i, const CornerPush& push) const {
+  Real power = 0;
+  for (int c = 0; c < group_.corners(); ++c) {
+    const Index n = group_.node.data(c)[e];
+    for (int k = 0; k < 3; ++k) {
+      const auto at = static_cast<std::size_t>(3 * c + k);
+      power += push.force[at][i] * v_->data(k)[n];
+      if (w_ && push.moment[at]) power += push.moment[at][i] * w_->data(k)[n];
+    }
+  }
+  (*energies_.internal)[e] += 0.5 * push.dt * power;
 }
 
 Real Erosion::energy_of(Index e) const {

@@ -66,6 +66,21 @@ struct FailingPoints {
   Real law_limit = FailureRules::never;  ///< of this point, where layers differ; never: of the rules
 };
 
+/// What elements of a block push their corners with at the end of a step: corner c in direction k at 3 c + k,
+/// from the first element of the block on. `moment` null: corners do not turn. [ML/T2], [ML2/T2]
+struct CornerPush {
+  static constexpr std::size_t most = 24;
+  std::array<const Real*, most> force{}, moment{};
+  Real dt = 0;  ///< of the step [T]
+  /// What is in `corner_force` and `corner_moment` of a group.
+  CornerPush(const ElementGroup& group, Index begin, Real dt);
+  /// Of shells, from the rows that their loops leave.
+  template <class Rows>
+  CornerPush(const Rows& forces, const Rows& moments, Real dt) : dt(dt) {
+    for (std::size_t k = 0; k < std::size(forces); ++k) force[k] = forces[k], moment[k] = moments[k];
+  }
+};
+
 /// The elements of a group that may fail: solids, shells, beams. Deleted ones keep their energies, which
 /// count as dissipated.
 class Erosion {
@@ -98,8 +113,10 @@ class Erosion {
   /// Takes an element away for another reason; before `judge`.
   void fail(Index begin, Index e, std::string why) { strike(begin, e, std::move(why)); }
   /// Behind the forces. `share`: of the step that is taken [-]; `volume`: relative ones, null: shells. Marks
-  /// who fails now, and takes the forces of all that are dead and the limits they have on the step.
-  void judge(Index begin, Index count, Real share, Real* step_limit, Real* wave_time, Real* volume);
+  /// who fails now, and takes the forces of all that are dead and the limits they have on the step. The half
+  /// step of work that forces of `push` would do, but do not any more, is taken out of the energies again.
+  void judge(Index begin, Index count, Real share, Real* step_limit, Real* wave_time, Real* volume,
+             const CornerPush& push);
 
   // for who deletes:
   void declare_booking(Accesses& a) const;
@@ -120,6 +137,10 @@ class Erosion {
   std::string why_by_law() const;
   std::string why_by_step(Index e, Real step) const;
   void put_back(Index e, const std::array<Real, 3>& kept) const;
+  bool turned_inside_out(const Real* volume, Index i) const {
+    return rules_.small_step && volume && !(volume[i] > 0);
+  }
+  void take_back(Index e, Index i, const CornerPush& push) const;
   Index points_needed() const;
   void strike(Index begin, Index e, std::string why);
 
@@ -127,6 +148,7 @@ class Erosion {
   const ElementGroup& group_;
   int points_;
   Energies energies_;
+  const Field<Real>*v_, *w_;  ///< of nodes; `w_` null: they do not turn
   Field<Index>& eroded_;
   Field<Index>& failed_;  ///< by point: by_law, by_card
   Field<Real>*strain_ = nullptr, *impulse_ = nullptr;

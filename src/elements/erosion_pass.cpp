@@ -124,6 +124,7 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
     const bool shell = group.segment != nullptr, beam = group.corners() == 2;
     const std::string kind = beam ? "beam" : shell ? "shell" : "solid";
     world.energy.dissipated += erosion.energy_of(failed.element);
+    world.energy.throughput += std::abs(erosion.energy_of(failed.element));
     ++world.counters["deleted_" + kind + "s"];
     ++world.counters["deleted_elements"];
     world.maxima["mass_of_deleted_elements"] += group.mass[failed.element];

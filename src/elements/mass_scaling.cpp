@@ -143,6 +143,12 @@ bool ScaledMass::look(Index begin, Index count, const Real* wave_time, Real* ste
 
 const std::vector<Index>& ScaledMass::grow(World& world) {
   grown_.clear();
+  if (std::any_of(lacks_.begin(), lacks_.end(), [](const auto& lacks) { return !lacks.empty(); })) {
+    const Nodes& nodes = world.nodes;
+    const Real all = sum(nodes.size(), [&](Index n) { return nodes.m[n] * nodes.v.vec(n).norm(); });
+    Real& most = world.maxima["momentum_of_nodes"];
+    most = std::max(most, all);
+  }
   for (std::vector<Lack>& lacks : lacks_) {
     for (const Lack& lack : lacks) {
       add(lack.element, (lack.growth - 1) * inertial_[lack.element], true, world);
@@ -159,13 +165,13 @@ void ScaledMass::add(Index e, Real mass, bool started, World& world) {
   Field<Real>* inertia = shared_fields::rotary_inertia.find(nodes.fields);
   const Field<Real>* w = shared_fields::angular_velocity.find(nodes.fields);
   const Field<Index>* none = shared_fields::no_rotation.find(nodes.fields);
-  Real work = 0, given = 0;
+  Real work = 0, given = 0, momentum = 0;
   for (int c = 0; c < group_.corners(); ++c) {
     const Index n = group_.node.data(c)[e];
     if (started && nodes.follow[n]) continue;
     const Real share = mass * group_.share(e, c);
     nodes.m[n] += share, of_nodes_[n] += share, of_corners_.data(c)[e] += share, given += share;
-    work += 0.5 * share * nodes.v.vec(n).squaredNorm();
+    work += 0.5 * share * nodes.v.vec(n).squaredNorm(), momentum += share * nodes.v.vec(n).norm();
     if (!corner_inertia_) continue;
     const Real more = (*corner_inertia_)[e] * (mass / own);
     (*inertia)[n] += more;
@@ -176,6 +182,7 @@ void ScaledMass::add(Index e, Real mass, bool started, World& world) {
   world.maxima[name_in_summary] += given;
   if (!started) return;
   world.energy.external_work += work, world.energy.throughput += std::abs(work);
+  world.maxima["momentum_of_added_mass"] += momentum;
 }
 
 void take_back_added_mass(const std::vector<Index>& nodes, World& world) {

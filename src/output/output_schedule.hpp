@@ -10,7 +10,7 @@
 namespace courant {
 
 /// When an output is due. A state due at t_out is written at the cycle with t <= t_out < t + dt, as LS-DYNA
-/// does; several due times within one step give one state.
+/// does; several due times within one step give one state. Times that differ by round-off are one.
 class OutputSchedule {
  public:
   /// The due time behind a due time; infinity: none. [T]
@@ -23,13 +23,13 @@ class OutputSchedule {
 
   bool is_wanted() const { return interval_ > 0 || after_; }
   /// Whether a state is due in [t, t + dt). Changes nothing.
-  bool is_due(Real t, Real dt) const { return is_wanted() && next() < t + dt; }
+  bool is_due(Real t, Real dt) const { return is_wanted() && next() < before(t + dt); }
 
   /// Whether a state is due in [t, t + dt); if so, the next one is due after that step.
   bool take(Real t, Real dt) {
     if (!is_due(t, dt)) return false;
-    if (!after_) k_ = std::max(k_ + 1, std::floor((t + dt) / interval_));
-    while (next() < t + dt) go_on();
+    if (!after_) k_ = std::max(k_ + 1, std::floor(before(t + dt) / interval_));
+    while (next() < before(t + dt)) go_on();
     return true;
   }
 
@@ -40,13 +40,15 @@ class OutputSchedule {
       next_ = first_;
     else
       k_ = std::max<Real>(0, std::floor(t / interval_));
-    while (next() < t) go_on();
+    while (next() < before(t)) go_on();
   }
 
   Real next() const { return after_ ? next_ : k_ * interval_; }  ///< product: no drift [T]
   Real interval() const { return interval_; }                    ///< 0: by `after`, or never due [T]
 
  private:
+  /// A sum of a million steps may be off by this much of itself.
+  static Real before(Real t) { return t - 1e-10 * std::abs(t); }
   void go_on() {
     if (!after_) {
       k_ = std::max(k_ + 1, std::nextafter(k_, std::numeric_limits<Real>::infinity()));

@@ -100,6 +100,25 @@ TEST(Welds, WhatTheyStoredIsDissipated) {
 }
 
 // sigma = SIGY + EH (e - sigma/E) in a slow pull, until e - sigma/E = EFAIL.
+// One that breaks within the first looks of the guard ends no healthy run, and the ledger closes: forces of
+// the step in which it breaks never push.
+TEST(Welds, BreakEarlyWithoutEnergyFromNowhere) {
+  auto s = simulation_of(
+      "*KEYWORD\n*CONTROL_TERMINATION\n0.0002\n*CONTROL_TIMESTEP\n0,0.9\n*NODE\n1,0,0,0\n2,0.01,0,0\n3,0,1,"
+      "0\n"
+      "*ELEMENT_BEAM\n       1       1       1       2       3\n*PART\nweld\n1,1,1\n*SECTION_BEAM\n"
+      "1,9,1.0,2,1\n0.006,0.006\n*MAT_SPOTWELD\n1,7800,2e11,0.3,1e9,1e9,0,0\n0,2e3\n"
+      "*BOUNDARY_SPC_NODE\n1,0,1,1,1,1,1,1\n2,0,0,1,1,1,1,1\n"
+      "*BOUNDARY_PRESCRIBED_MOTION_NODE\n2,1,0,9,1.0\n*DEFINE_CURVE\n9\n0,0.05\n1,0.05\n*END\n");
+  Guard& guard = s->guard();
+  while (s->clock().t < 2e-4)
+    s->step([&](World& world, const Clock& clock, const std::string&) {
+      if (clock.cycle % Guard::interval == 0) guard.look(world, clock);
+    });
+  EXPECT_EQ(deleted(*s), 1);
+  EXPECT_LT(energy_error_of_a_step(*s), 1e-6);
+}
+
 TEST(Welds, HardenAndFailByPlasticStrain) {
   auto s = simulation_of(weld(strength("0.03", 400, 1000), ",4,7",
                               "*BOUNDARY_PRESCRIBED_MOTION_NODE\n2,3,0,2,1.0\n*DEFINE_CURVE\n2\n0.0,"

@@ -82,6 +82,7 @@ class NodeContactBuilder {
     if (c.fs == 2)
       deck_.error(diagnostics_, c, "FS", "FS = 2 asks for a friction table, which is not supported",
                   "give a coefficient other than 2");
+    warn_of_sliding(deck_, c, diagnostics_);
   }
 
   // Laws of users act on particles.

@@ -248,7 +248,6 @@ class BeamForces : public Material,
                                            &inertia, world);
     scaled_->start(step, world);
   }
-
   void make_erosion(const FailureRules& rules, ElementOptions& options, World& world) {
     erosion_ =
         std::make_shared<Erosion>(rules, group_, std::max<int>(1, static_cast<int>(part_.points.size())),
@@ -264,10 +263,11 @@ class BeamForces : public Material,
   void judge(const Clock& clock, Index begin, Index end) {
     std::array<Real, block_size> unused{};
     std::array<bool, block_size> before{};
-    for (Index e = begin; e < end; ++e) before[at(e - begin)] = dead(e);
     for (Index e = begin; e < end; ++e)
-      if (sections_ && !dead(e) && !why_[at(e)].empty()) erosion_->fail(begin, e, why_[at(e)]);
-    erosion_->judge(begin, end - begin, tssfac_, steps_.data() + begin, unused.data(), nullptr);
+      if (!(before[at(e - begin)] = dead(e)) && sections_ && !why_[at(e)].empty())
+        erosion_->fail(begin, e, why_[at(e)]);
+    erosion_->judge(begin, end - begin, tssfac_, steps_.data() + begin, unused.data(), nullptr,
+                    {group_, begin, clock.dt_old});
     for (Index e = begin; sections_ && e < end; ++e)
       if (dead(e) && !before[at(e - begin)]) sections_->failed(e, clock.t);
   }

@@ -117,8 +117,15 @@ class BeamReader {
     out.law = law->second.first;
     if (s.weld()) {
       const auto& cards = deck_.all<MatSpotweld>();
-      out.weld = weld_strength(*std::find_if(cards.begin(), cards.end(),
-                                             [&](const MatSpotweld& card) { return card.mid == part.mid; }));
+      const MatSpotweld& card = *std::find_if(cards.begin(), cards.end(),
+                                              [&](const MatSpotweld& one) { return one.mid == part.mid; });
+      out.weld = weld_strength(card);
+      const bool bends = card.mss > 0 || card.mtt > 0, shears = card.nrs > 0 || card.nrt > 0;
+      if (bends && !shears)
+        deck_.warning(diagnostics_, card, card.mss > 0 ? "MSS" : "MTT",
+                      "moments are those in the middle of the weld: one that is sheared between sheets that "
+                      "do not turn has them at its ends alone, and does not fail",
+                      "give NRS and NRT");
     }
     if (out.kind == BeamKind::integrated)
       out.points = s.rule < 0 ? points_of_rule(s) : section_points(static_cast<int>(s.rule), s.tube());

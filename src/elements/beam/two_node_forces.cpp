@@ -28,7 +28,8 @@ void TwoNodeForces::block(World& world, const Clock& clock, Index begin, Index e
     if (!dead(e)) advance(world, clock, begin, e);  // of the others who judges takes the forces
   if (!erosion_) return;
   std::array<Real, block_size> unused{};
-  erosion_->judge(begin, end - begin, tssfac_, steps_.data() + begin, unused.data(), nullptr);
+  erosion_->judge(begin, end - begin, tssfac_, steps_.data() + begin, unused.data(), nullptr,
+                  {group_, begin, clock.dt_old});
 }
 
 TimeLimit::Limit TwoNodeForces::limit(const World&, const Clock&) {

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "elements/nodal_rotations.hpp"
+#include "elements/shell/facets.hpp"
 #include "elements/shell/shells.hpp"
 #include "laws/strength/material_axes.hpp"
 #include "state/shared_fields.hpp"
@@ -320,6 +321,7 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
     fill_group(model, parts[part].of(alike.layup), alike.shells, node_of, world, group, diagnostics);
   }
   warn_of_warp(model, parts, world, diagnostics);
+  note_facets(model, parts, world, diagnostics);
 }
 
 }  // namespace courant

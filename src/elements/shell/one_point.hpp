@@ -30,6 +30,18 @@ COURANT_INLINE void integrate(Index first, Index n, Index k, Real dt, Real facto
   add_to(state.internal_energy + first, 0.5 * dt * load(s.middle_area + k) * power, n);
 }
 
+/// What a section that has flowed bears of hourglass forces: a fourth of those at which its modes alone would
+/// be fully plastic, as the rest of its strength goes into what one point sees. Without end before. [M/T2
+/// ...]
+COURANT_INLINE void bound_hourglass(Index first, Index n, Native t, Native A, const ShellState& state,
+                                    Native bound[3]) {
+  constexpr Real share = 0.25, endless = 1e300, root_three = 1.7320508075688772;
+  const Native flow = load(state.flow_stress + first, n), side = root(A), yields = share * t * flow;
+  bound[0] = flow > 0.0 ? 0.25 * yields * side : all(endless);
+  bound[1] = flow > 0.0 ? (0.5 / root_three) * yields * t : all(endless);
+  bound[2] = flow > 0.0 ? 0.0625 * yields * t * side : all(endless);
+}
+
 /// Generalised forces of hourglass control; what they take is counted.
 COURANT_INLINE void hourglass_forces(Index first, Index n, Index k, Real dt, Native t, const Flat& f,
                                      Native rho, const ShellControl& control, const ShellState& state,
@@ -47,10 +59,17 @@ COURANT_INLINE void hourglass_forces(Index first, Index n, Index k, Real dt, Nat
     bending = (0.0722 * control.QB) * impedance * t * f.A;
   }
   const Native a[5] = {membrane, membrane, warping, bending, bending};
+  const bool bounded = control.stiffness && state.flow_stress;
+  Native bound[3];
+  if (bounded) bound_hourglass(first, n, t, f.A, state, bound);
   Native taken = all(0);
   for (int m = 0; m < 5; ++m) {
     const Native rate = load(s.hourglass_rate[m] + k), old = load(state.hourglass[m] + first, n);
     Q[m] = control.stiffness ? old + dt * a[m] * rate : a[m] * rate;
+    if (bounded) {
+      const Native most = bound[m < 2 ? 0 : m > 2 ? 2 : 1];
+      Q[m] = native_max(-most, native_min(most, Q[m]));
+    }
     store(state.hourglass[m] + first, Q[m], n);
     taken += 0.5 * (old + Q[m]) * rate;  // each pushes through half a step
   }

@@ -9,6 +9,7 @@
 #include "base/run_error.hpp"
 #include "elements/largest_frequency.hpp"
 #include "elements/null_elements.hpp"
+#include "elements/shell/flow_stress.hpp"
 #include "elements/shell/layer_axes.hpp"
 #include "elements/shell/layers.hpp"
 #include "elements/shell/shells.hpp"
@@ -53,6 +54,10 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
           &group.fields.add<Real>({.name = "hourglass_force",
                                    .dimension = "-",
                                    .components = ShellState::generalised(places_, control_.warps)});
+    const bool flows =
+        std::any_of(layers_.begin(), layers_.end(), [](const Layer& l) { return l.plastic >= 0; });
+    if (places_ == 1 && hourglass_force_ && control_.stiffness && flows)
+      flow_stress_ = &group.fields.add<Real>({.name = "flow_stress", .dimension = "M/LT2"});
     if (control_.Q1 != 0 || control_.Q2 != 0)
       viscous_ = &group.fields.add<Real>({.name = "bulk_viscosity_force", .dimension = "M/T2"});
     offset_ = offset_of_shells(group);
@@ -80,6 +85,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     a.writes(group_.sums->force).writes(group_.sums->moment);
     if (group_.corner_force) a.writes(*group_.corner_force).writes(*group_.corner_moment);
     if (hourglass_force_) a.updates(*hourglass_force_);
+    if (flow_stress_) a.updates(*flow_stress_);
     if (viscous_) a.updates(*viscous_);
     if (directions_) a.reads(*directions_);
     if (offset_) a.reads(*offset_);
@@ -102,6 +108,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     state_.thickness = thickness_.data(), state_.mass = (scaled_ ? scaled_->inertial() : group_.mass).data();
     state_.internal_energy = internal_.data(), state_.hourglass_energy = hourglass_.data();
     state_.bulk_viscosity_energy = bulk_viscosity_.data();
+    state_.flow_stress = flow_stress_ ? flow_stress_->data() : nullptr;
     state_.viscous_force = viscous_ ? viscous_->data() : nullptr;
     state_.offset = offset_ ? offset_->data() : nullptr;
     history_data_.clear();
@@ -120,7 +127,9 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     if (erosion_) erosion_->begin_block(begin, count);
     found = advance(mesh_, control_, clock.dt_old, begin, end, scratch, erosion_ ? &clock : nullptr);
     if (damping_) damping_->shorten(begin, count, scratch.wave_time, scratch.step_limit);
-    if (erosion_) erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, nullptr);
+    if (erosion_)
+      erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, nullptr,
+                      {scratch.corner_force, scratch.corner_moment, clock.dt_old});
     leave_forces(begin, count, scratch);
     const bool lighter = scaled_ && scaled_->look(begin, count, scratch.wave_time, scratch.step_limit);
     if (!lighter && !stiffens_ && !damping_ && !(erosion_ && erosion_->any_dead(begin))) return;
@@ -184,6 +193,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     Real rate_zz[block_size], sound_speed[block_size], faster[block_size], stress_zz[block_size] = {};
     std::fill(scratch.thickening, scratch.thickening + block.count, 0);
     std::fill(faster, faster + block.count, 1);
+    FlowStress flow(block.count);
     std::array<Real*, most_history> history{};
     std::size_t numbers = 0, first = 0;
     PointBlock points;
@@ -197,11 +207,13 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       first += numbers, numbers = layer.numbers;
       for (std::size_t k = 0; k < numbers; ++k) history[k] = history_data_[first + k] + begin;
       points.history = std::span<Real* const>(history.data(), numbers);
+      if (flow_stress_ && layer.plastic >= 0) flow.before(history[static_cast<std::size_t>(layer.plastic)]);
       if (layer.law->axes())
         update_along_axes(*layer.law, directions_->data(2 * (p % layers())) + begin,
                           directions_->data(2 * (p % layers()) + 1) + begin, points, rate_zz);
       else
         layer.law->update_in_plane_stress(points, rate_zz);
+      if (flow_stress_ && layer.plastic >= 0) flow.after(points, state_.share[p]);
       if (layer.law->stiffens())
         for (Index i = 0; i < block.count; ++i)
           faster[i] = std::max(faster[i], sound_speed[i] / layer.law->sound_speed());
@@ -209,6 +221,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       if (damping_) damping_->add_in_plane(*layer.law, p, points, begin);
       for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
     }
+    if (flow_stress_) flow.keep(flow_stress_->data() + begin);
     const ShellLoops::Found found = loops_.forces(block, control, pushing, scratch);
     for (Index i = 0; stiffens_ && i < block.count; ++i)
       scratch.step_limit[i] /= faster[i], scratch.wave_time[i] /= faster[i];
@@ -337,6 +350,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) field->fill(0);
     for (Field<Real>* h : history_) h->fill(0);
     if (hourglass_force_) hourglass_force_->fill(0);
+    if (flow_stress_) flow_stress_->fill(0);
     if (viscous_) viscous_->fill(0);
   }
 
@@ -386,8 +400,9 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   Field<Real>&stress_, &thickness_, &internal_, &hourglass_, &bulk_viscosity_;
   const Field<Real>& corner_inertia_;  ///< rotary inertia for each corner [ML2]
   Field<Real>* hourglass_force_ = nullptr;
-  Field<Real>* viscous_ = nullptr;     ///< q times the thickness
-  std::vector<Field<Real>*> history_;  ///< of the first layer, of the second, ...
+  Field<Real>* flow_stress_ = nullptr;  ///< null: hourglass forces grow without a bound
+  Field<Real>* viscous_ = nullptr;      ///< q times the thickness
+  std::vector<Field<Real>*> history_;   ///< of the first layer, of the second, ...
   ShellMesh mesh_{};
   ShellState state_{};
   std::vector<Real*> history_data_;

@@ -39,6 +39,9 @@ struct ShellState {
   static int generalised(int places, bool warps) {
     return places == 1 && warps ? most_generalised : hourglass_modes;
   }
+  /// von Mises stress at which the section flowed last, 0: it never did; null: hourglass forces have no
+  /// bound. [M/LT2]
+  const Real* flow_stress = nullptr;
   Real* viscous_force = nullptr;  ///< q times the thickness; null: no bulk viscosity [M/T2]
   Real* thickness;                ///< [L]
   const Real* offset = nullptr;   ///< of the middle over the nodes, over half the thickness; null: 0

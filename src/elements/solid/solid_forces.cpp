@@ -131,7 +131,8 @@ class SolidForces : public Material,
                     begin, end, scratch, erosion_ ? &clock : nullptr);
     if (damping_) damping_->shorten(begin, count, scratch.wave_time, scratch.step_limit);
     if (erosion_)
-      erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, scratch.relative_volume);
+      erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, scratch.relative_volume,
+                      {group_, begin, clock.dt_old});
     if (nodal_) nodal_->keep({begin, count, clock.dt_old}, state_, erosion_.get());
     const bool lighter = scaled_ && scaled_->look(begin, count, scratch.wave_time, scratch.step_limit);
     if (!lighter && !damping_ && !(erosion_ && erosion_->any_dead(begin))) return;

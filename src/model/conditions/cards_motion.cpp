@@ -204,6 +204,7 @@ class Reader {
           diagnostics_, card, "LCID",
           fmt::format("curve {} jumps, so that displacements would need an infinite velocity", card.lcid),
           "give the jump some time");
+    if (motion.kind == PrescribedMotion::Kind::displacement) motion.jump = motion.curve(0);
     if (around) return add_around(card, std::move(motion));
     motions_.push_back(std::move(motion));
   }
@@ -251,6 +252,23 @@ class Reader {
   std::vector<PrescribedMotion> motions_;
 };
 
+/// Warns of displacements that are not 0 at BIRTH.
+void warn_of_jumps(const Deck& deck, const std::vector<PrescribedMotion>& motions, Diagnostics& diagnostics) {
+  constexpr Real round_off = 1e-9;
+  const Entry* told = nullptr;
+  for (const PrescribedMotion& motion : motions) {
+    Real most = 0;
+    for (const Real y : motion.curve.ordinate) most = std::max(most, std::abs(y));
+    const bool again = told && told->line == motion.card.line && told->file == motion.card.file;
+    if (motion.curve.silent || again || !(std::abs(motion.jump) > round_off * most)) continue;
+    told = &motion.card;
+    deck.warning(diagnostics, motion.card, "LCID",
+                 fmt::format("the displacement begins with {:g} at BIRTH: it jumps there in one step",
+                             motion.sf * motion.jump),
+                 "let the curve begin at 0, and rise in the time that it should take");
+  }
+}
+
 }  // namespace
 
 bool has_motion_of_nodes(const Deck& deck, Id id) {
@@ -261,8 +279,12 @@ bool has_motion_of_nodes(const Deck& deck, Id id) {
 }
 
 std::vector<PrescribedMotion> prescribed_motions(const Deck& deck, const Model& model,
-                                                 Diagnostics& diagnostics) {
-  return Reader(deck, model, diagnostics).read();
+                                                 Diagnostics& diagnostics, bool relaxed) {
+  std::vector<PrescribedMotion> out = Reader(deck, model, diagnostics).read();
+  if (relaxed && model.phase == RunPhase::transient)
+    for (PrescribedMotion& motion : out) motion.jump = 0;
+  warn_of_jumps(deck, out, diagnostics);
+  return out;
 }
 
 }  // namespace courant

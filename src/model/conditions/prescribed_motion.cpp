@@ -58,8 +58,10 @@ Real PrescribedMotion::velocity(Real t, Real dt, Real dt_old, Real before) const
   switch (kind) {
     case Kind::velocity:
       return sf * integral(curve, from, end) / (end - from);
-    case Kind::displacement:
-      return sf * rise(curve, from, end) / dt;
+    case Kind::displacement: {
+      const bool first = !(dt_old > 0) || t - 0.5 * dt_old < birth;
+      return sf * (first ? jump + rise(curve, 0, end) : rise(curve, from, end)) / dt;
+    }
     case Kind::acceleration: {
       const Real last = dt_old > 0 ? mean_of_integral(curve, start - dt_old, start) : 0;
       return before + sf * (mean_of_integral(curve, start, end) - last);

@@ -22,6 +22,7 @@ struct PrescribedMotion {
   Curve curve;                   ///< of time; values [L/T], [L/T2] or [L], of rotations [1/T], [1/T2] or [-]
   Real sf = 1;                   ///< factor of the values
   Real birth = 0, death = 1e28;  ///< [T]
+  Real jump = 0;                 ///< of displacements: the curve's value at BIRTH, made in the first step
   std::vector<Index> nodes;      ///< _NODE and _SET: indices into Model::nodes
   Id id = 0;                     ///< its number, by _ID; 0: none
   Id body = 0;                   ///< _RIGID: a part or a body of nodes; 0: none
@@ -33,9 +34,9 @@ struct PrescribedMotion {
     return !curve.silent && t + 0.5 * dt >= birth && t + 0.5 * dt < death;
   }
   /// Velocity over the step from t to t + dt, whose length gives the place at t + dt exactly: the mean of the
-  /// curve over the step, or the rise of displacements over dt. Of accelerations: `before`, the velocity over
-  /// the step before, plus the change of the mean velocity from one step (of length dt_old, 0: there is none)
-  /// to the next.
+  /// curve over the step, or the rise of displacements over dt, in the first step from 0. Of accelerations:
+  /// `before`, the velocity over the step before, plus the change of the mean velocity from one step (of
+  /// length dt_old, 0: there is none) to the next.
   Real velocity(Real t, Real dt, Real dt_old, Real before) const;
 };
 
@@ -47,9 +48,10 @@ Real rise(const Curve& curve, Real a, Real b);
 Real mean_of_integral(const Curve& curve, Real a, Real b);
 
 /// All prescribed motions of a deck. Refuses by name: missing curves, vectors and nodes, vectors that
-/// turn with nodes, coordinate systems, displacements that jump.
+/// turn with nodes, coordinate systems, displacements that jump; warns of those that are not 0 at BIRTH, but
+/// not in a run behind a relaxation (`relaxed`), which has made that jump.
 std::vector<PrescribedMotion> prescribed_motions(const Deck& deck, const Model& model,
-                                                 Diagnostics& diagnostics);
+                                                 Diagnostics& diagnostics, bool relaxed = false);
 
 /// Why two motions of one node or body cannot both hold, else nothing: both drive one direction, or
 /// directions that are not at right angles, at the same time.

@@ -74,6 +74,12 @@ Real last_change(const Curve& curve) {
   return 0;
 }
 
+/// Of curves that may be silent in this phase.
+bool begins_above_none(Curve curve) {
+  curve.silent = false;
+  return curve(0) != 0;
+}
+
 }  // namespace
 
 bool is_of_relaxation(std::string_view field) {
@@ -136,6 +142,9 @@ Relaxation relaxation_of(const Deck& deck, const Model& model, bool has_particle
     const auto curve = model.curves.find(id);
     if (curve == model.curves.end()) return;
     if (curve->second.sidr == 1 || of_relaxation) out.ramp = std::max(out.ramp, last_change(curve->second));
+    const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(entry.keyword)];
+    if ((of_relaxation || curve->second.sidr != 0) && spec.names[0].starts_with("LOAD_"))
+      out.at_once = out.at_once || begins_above_none(curve->second);
     if (!of_relaxation && curve->second.sidr != 0 && (most == 0 || curve->second.sidr == 1))
       most = curve->second.sidr, of_load = entry;
   });

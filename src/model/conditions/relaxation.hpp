@@ -15,6 +15,7 @@ struct Relaxation {
   Real tolerance = 1e-3;                             ///< DRTOL: of the largest kinetic energy so far
   Real factor = 0.995;                               ///< DRFCTR: of velocities, in each step
   Real end = std::numeric_limits<Real>::infinity();  ///< DRTERM [T]
+  bool at_once = false;                              ///< a load begins with more than 0
   Real ramp = 0;                                     ///< loads of this phase alone change until then [T]
 };
 

@@ -46,6 +46,30 @@ TEST(Verdict, EnergyErrorIsSoundBelowOnePerCentAndBrokenAboveTen) {
   EXPECT_EQ(verdict(with_error(std::nan(""))), "broken");
 }
 
+TEST(Verdict, RelaxationsOfYieldingAndOfFacets) {
+  Summary s = with_error(0);
+  s.maxima = {{"relaxation_plastic_strain", 0.0057}};
+  EXPECT_THAT(texts(findings(s)),
+              ElementsAre(HasSubstr("yielded, to a plastic strain of 0.0057, in a dynamic "
+                                    "relaxation whose load acts at once")));
+  s.maxima = {{"angle_between_facets", 2.5}};  // noted by check
+  EXPECT_EQ(verdict(s), "sound");
+  s.maxima["angle_of_relaxed_facets"] = 2.5;
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("give BWC 1 of *CONTROL_SHELL")));
+  s.maxima = {{"relaxation_ratio", 0.1}, {"relaxation_factor", 0.998}};
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("a DRFCTR of 0.998, by its lowest frequency")));
+}
+
+// Mass that moving nodes get has momentum that came from nowhere.
+TEST(Verdict, MomentumOfMassAddedOnTheWay) {
+  Summary s = with_error(0);
+  s.maxima = {{"momentum_of_added_mass", 0.0099}, {"momentum_of_nodes", 1}};
+  EXPECT_EQ(verdict(s), "sound");
+  s.maxima["momentum_of_added_mass"] = 0.0101;
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("mass that DT2MS added on the way brought momentum "
+                                                        "with it, 1.01 % of that of all nodes")));
+}
+
 // A limit of its own may be the stricter one.
 TEST(Verdict, BrokenLimitsBelowTheDoubtfulOnesCount) {
   Summary s = with_error(0.03);

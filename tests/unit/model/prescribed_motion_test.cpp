@@ -57,9 +57,13 @@ TEST(PrescribedMotion, BringsWhatItDrivesWhereTheIntegralSays) {
   const auto v = motion(Kind::velocity, {0, 1, 2}, {0, 2, 0});
   EXPECT_NEAR(place(v, 0.7, 5), 0.49, 1e-14);
   EXPECT_NEAR(place(v, 3, 5), 2, 1e-14);
-  const auto x = motion(Kind::displacement, {0, 1, 2}, {0.5, 2, -1});  // counts from its first value
+  auto x = motion(Kind::displacement, {0, 1, 2}, {0.5, 2, -1});  // behind a relaxation from its first value
   EXPECT_NEAR(place(x, 1, 5), 1.5, 1e-14);
   EXPECT_NEAR(place(x, 3, 5), -1.5, 1e-14);
+  x.jump = 0.5;  // else it is where the curve says, from the first step on
+  EXPECT_NEAR(place(x, 0.01, 5), 0.515, 1e-14);
+  EXPECT_NEAR(place(x, 1, 5), 2, 1e-14);
+  EXPECT_NEAR(place(x, 3, 5), -1, 1e-14);
   // a = 6 t: x = v0 t + t^3; then a = 0: on with v0 + 3
   const auto a = motion(Kind::acceleration, {0, 1, 1}, {0, 6, 0});
   EXPECT_NEAR(place(a, 0.8, 5), 0.8 * 5 + 0.512, 1e-13);
@@ -74,6 +78,8 @@ TEST(PrescribedMotion, ScalesShiftsAndEnds) {
   auto x = motion(Kind::displacement, {0, 1}, {0, 2});
   x.birth = 0.505;  // within a step: the place at the end is exact all the same
   EXPECT_NEAR(place(x, 1.505, 0), 2, 1e-13);
+  x.birth = 0.498;  // in the first half of a step, which is not driven: the next one makes up for it
+  EXPECT_NEAR(place(x, 1.4, 0), 2 * (1.4 - 0.498), 1e-13);
 }
 
 TEST(PrescribedMotion, ClashesWhereTwoDriveOneDirection) {

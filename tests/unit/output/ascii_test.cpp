@@ -212,6 +212,22 @@ TEST(OutputSchedule, LastCycleBeforeTheDueTime) {
   EXPECT_FALSE(OutputSchedule(0).take(0, 1));
 }
 
+// Sums of steps end beside the due time by round-off, in some units only: the sample is that of this time.
+TEST(OutputSchedule, RoundOffMovesNoSample) {
+  for (const Real unit : {1.0, 1e-3, 1e3, 0.7}) {
+    const Real dt = 0.0005 * unit;
+    OutputSchedule schedule(10 * dt), after(0, [dt](Real due) { return due + 10 * dt; });
+    Real t = 0;
+    for (int n = 0; n <= 100000; ++n, t += dt) {
+      ASSERT_EQ(schedule.take(t, dt), n % 10 == 0) << unit << " " << n;
+      ASSERT_EQ(after.take(t, dt), n % 10 == 0) << unit << " " << n;
+    }
+    OutputSchedule again(10 * dt);
+    again.skip_to(t);  // behind a restart the same ones
+    EXPECT_DOUBLE_EQ(again.next(), schedule.next());
+  }
+}
+
 TEST(OutputSchedule, FollowsWhatTellsTheNextTime) {
   OutputSchedule schedule(0, [](Real due) { return due + (due < 0.25 ? 0.1 : 1); });  // 0 0.1 0.2 0.3 1.3
   std::vector<int> taken;
