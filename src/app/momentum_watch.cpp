@@ -68,7 +68,7 @@ bool is_free_system(const Deck& deck, const Model& model, const RigidBodies* bod
 
 // Momenta are of v^{n-1/2}: what acts among parts changes no sum, whatever the step.
 void MomentumWatch::look(const Sample& s, World& world) {
-  if (world.particles.active != world.particles.size()) return;
+  if (!free_ || world.particles.active != world.particles.size()) return;
   const Vec now = s.mass * s.velocity;
   if (!began_) began_ = true, mass_ = s.mass, first_ = now;
   constexpr Real same = 1e-9;

@@ -13,12 +13,14 @@ namespace courant {
 /// what moves.
 class MomentumWatch : public Pass, public Restartable {
  public:
+  /// `free`: nothing outside acts; else it looks at nothing, but is there for restarts that change that.
+  explicit MomentumWatch(bool free) : free_(free) {}
   std::string name() const override { return "total momentum"; }
   void look(const Sample& sample, World& world);
   void keep(Archive& archive) override;
 
  private:
-  bool began_ = false;
+  bool free_, began_ = false;
   Real mass_ = 0, most_ = 0;  ///< of the start; largest sum of the momenta of parts
   Real change_ = 0;           ///< largest so far
   Vec first_ = Vec::Zero();

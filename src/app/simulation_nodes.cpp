@@ -44,7 +44,7 @@ void warn_of_beams_that_touch_nothing(const Deck& deck, const Model& model, cons
 // Nodes of elements move by their forces; those of rigid bodies with these.
 void Simulation::add_node_passes(Diagnostics& diagnostics) {
   add_bodies();
-  if (is_free_system(deck_, model_, bodies_.get())) world_.passes.add(std::make_shared<MomentumWatch>());
+  world_.passes.add(std::make_shared<MomentumWatch>(is_free_system(deck_, model_, bodies_.get())));
   for (const Addition& addition : additions()) addition.build(deck_, model_, world_, diagnostics);
   const bool bodies_move = bodies_ && bodies_->any_moves();
   if (bodies_move || !world_.groups.empty())

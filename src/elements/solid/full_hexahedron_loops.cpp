@@ -98,6 +98,8 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Gaus
   const Native lacks = (load(scratch.mean_trace + k) - D[0] - D[1] - D[2]) * (1.0 / 3);
   for (int j = 0; j < 3; ++j) D[j] += lacks;
   const Triple h{turn * (L[2].y - L[1].z), turn * (L[0].z - L[2].x), turn * (L[1].x - L[0].y)};
+  store(scratch.half_turn[0] + k, h.x), store(scratch.half_turn[1] + k, h.y);
+  store(scratch.half_turn[2] + k, h.z);
   turn_rate(h.x, h.y, h.z, D[0], D[1], D[2], D[3], D[4], D[5]);
   Native s[6];
   for (int j = 0; j < 6; ++j) store(scratch.rate[j] + k, D[j]), s[j] = load(state.stress[j] + first, n);
