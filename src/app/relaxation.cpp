@@ -45,7 +45,8 @@ class Settling {
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Vec d = x[i] - x_[i];
       const Real m = nodes_.m[static_cast<Index>(i)];
-      way += (x[i] - start_[i]).squaredNorm(), change += d.squaredNorm();
+      way += m * (x[i] - start_[i]).squaredNorm(),
+          change += m * d.squaredNorm();  // what is light counts little
       if (m > 0) pull -= d.dot(f[i] - f_[i]), inertia += m * d.squaredNorm();
     }
     way = std::sqrt(way), change = std::sqrt(change);
@@ -88,7 +89,9 @@ RelaxationEnd relax(Simulation& s, const std::function<bool()>& stop,
                     const std::function<void(const std::string&)>& line) {
   const Relaxation& rules = s.relaxation();
   RelaxationEnd out;
-  constexpr Real near = 1e-3;  // of the way
+  constexpr Real near = 1e-3;      // of the way
+  constexpr int most_looks = 200;  // of a system at rest by its energy, parts of which drift without an end
+  int drifts = 0;
   Real peak = 0, recent = 0;
   s.slow_down(0);
   Settling settling(s.world().nodes);
@@ -104,7 +107,10 @@ RelaxationEnd relax(Simulation& s, const std::function<bool()>& stop,
     if (const Real w = settling.frequency(); w * s.clock().dt < 0.5) out.factor = 1 - 2 * w * s.clock().dt;
     line(fmt::format("{:14.6e}{:14.6e}{:14.6e}{:14.6e}{:16.9f}\n", s.clock().t, kinetic, out.ratio, out.ahead,
                      out.factor));
-    out.converged = out.ratio < rules.tolerance && out.ahead < near && s.clock().t >= rules.ramp;
+    const bool at_rest = out.ratio < rules.tolerance && s.clock().t >= rules.ramp;
+    drifts = at_rest && !(out.ahead < 1) ? drifts + 1 : 0;
+    out.creeps = drifts >= most_looks;
+    out.converged = at_rest && (out.ahead < near || out.creeps);
     recent = 0;
   }
   std::string who;
@@ -135,6 +141,7 @@ RelaxationEnd relax_before(Simulation& run, const RunOptions& options,
   if (!end.converged && end.factor > 0) run.world().maxima["relaxation_factor"] = end.factor;
   if (const auto angle = run.world().maxima.find("angle_between_facets"); angle != run.world().maxima.end())
     run.world().maxima["angle_of_relaxed_facets"] = angle->second;
+  if (end.creeps) run.world().maxima["relaxation_ahead"] = end.ahead;
   if (end.yielded > 0) run.world().maxima["relaxation_plastic_strain"] = end.yielded;
   return end;
 }

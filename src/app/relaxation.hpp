@@ -13,11 +13,12 @@ inline constexpr const char* relaxation_head =
 
 struct RelaxationEnd {
   bool converged = false, stopped = false;
-  Real ratio = 0;    ///< largest kinetic energy since the look before, over the largest of all [-]
-  Real ahead = 1;    ///< share of the way of the nodes that is still ahead, by how changes shrink [-]
-  Real factor = 0;   ///< DRFCTR that suits the lowest frequency; 0: not known [-]
-  Real yielded = 0;  ///< largest plastic strain, where a load acts at once [-]
-  Real time = 0;     ///< [T]
+  Real ratio = 0;       ///< largest kinetic energy since the look before, over the largest of all [-]
+  Real ahead = 1;       ///< share of the way of the nodes that is still ahead, by how changes shrink [-]
+  Real factor = 0;      ///< DRFCTR that suits the lowest frequency; 0: not known [-]
+  bool creeps = false;  ///< at rest by its energy for long, but nodes moved on
+  Real yielded = 0;     ///< largest plastic strain, where a load acts at once [-]
+  Real time = 0;        ///< [T]
   std::int64_t steps = 0;
 };
 

@@ -91,6 +91,17 @@ void add_overshoot(const Summary& s, std::vector<Finding>& out) {
                           strain->second)});
 }
 
+/// At rest by its energy, but something moves on.
+void add_creep(const Summary& s, std::vector<Finding>& out) {
+  const auto ahead = s.maxima.find("relaxation_ahead");
+  if (ahead == s.maxima.end()) return;
+  out.push_back(
+      {false,
+       fmt::format("the dynamic relaxation ended at rest by its kinetic energy, but nodes still crept, with "
+                   "{:.2g} of their way ahead: hold what is loose, or give a DRFCTR nearer to 1",
+                   ahead->second)});
+}
+
 /// Joints that were drawn apart, of the size of the smaller body: beyond 1e-4 the run stops.
 void add_joint_gap(const Summary& s, std::vector<Finding>& out) {
   constexpr Real doubtful = 1e-5;
@@ -103,9 +114,11 @@ void add_joint_gap(const Summary& s, std::vector<Finding>& out) {
                           share->second)});
 }
 
-/// Where internal energy is negligible, below this share of the scene's energy, this share is what hourglass
-/// energy is judged against: blocks that fall or slide.
-constexpr Real least_internal = 0.1;
+/// Hourglass energy below this share of all that the scene is about does no harm.
+constexpr Real least_hourglass = 1e-3;
+/// Internal energy below this share is negligible, in blocks that fall or slide: hourglass energy is judged
+/// against a tenth of the scene's.
+constexpr Real least_internal = 0.01;
 
 /// Momentum that came or went where nothing outside acts, of the largest sum of the momenta of parts.
 void add_momentum(const Summary& s, std::vector<Finding>& out) {
@@ -167,15 +180,19 @@ void add_leaks(const Summary& s, std::vector<Finding>& out) {
 
 void add_hourglass(const Summary& s, std::vector<Finding>& out) {
   const EnergyLedger& e = s.energy;
-  const Real internal = std::max(std::abs(e.internal), e.most_internal), least = least_internal * e.scale();
-  const Real share = e.hourglass / std::max({internal, least, std::numeric_limits<Real>::min()});
-  if (!(share > std::min(s.limits.hourglass_doubtful, s.limits.hourglass_broken))) return;
+  const Real internal = std::max(std::abs(e.internal), e.most_internal);
+  const bool negligible = internal < least_internal * e.scale();
+  const Real share =
+      e.hourglass / std::max(negligible ? 0.1 * e.scale() : internal, std::numeric_limits<Real>::min());
+  if (!(e.hourglass > least_hourglass * e.scale()) ||
+      !(share > std::min(s.limits.hourglass_doubtful, s.limits.hourglass_broken)))
+    return;
   out.push_back(
       {share > s.limits.hourglass_broken,
        fmt::format("hourglass energy is {:.3g} % of {}: refine the mesh, or choose another IHQ or QM of "
                    "*HOURGLASS",
                    100 * share,
-                   internal < least ? "a tenth of the scene's energy" : "the largest internal energy")});
+                   negligible ? "a tenth of the scene's energy" : "the largest internal energy")});
 }
 
 /// Mass that scaling gave to nodes that move already.
@@ -214,6 +231,7 @@ std::vector<Finding> findings(const Summary& s) {
   add_joint_gap(s, out);
   add_momentum(s, out);
   add_relaxation(s, out);
+  add_creep(s, out);
   add_overshoot(s, out);
   add_facets(s, out);
   add_energy(s, out);

@@ -48,17 +48,15 @@ CarriedMass::CarriedMass(std::shared_ptr<const Carriage> how, std::string name, 
     of_carried->assign(counts_.size(), Vec::Zero());
 }
 
-// Supports, motions and node sets have told of themselves before the first step.
 void CarriedMass::find_free_axes(const World& world) {
   const FieldSet& nodes = world.nodes.fields;
   const Field<Index>*held = shared_fields::held_axes.find(nodes),
-        *driven = shared_fields::prescribed_motion.find(nodes),
-        *alike = shared_fields::alike_axes.find(nodes);
+        *driven = shared_fields::driven_axes.find(nodes), *alike = shared_fields::alike_axes.find(nodes);
   for (std::size_t c = 0; c < node_.size(); ++c) {
-    const Index n = node_[c], bits = (held ? (*held)[n] : 0) | (alike ? (*alike)[n] : 0);
+    const Index n = node_[c],
+                bits = (held ? (*held)[n] : 0) | (driven ? (*driven)[n] : 0) | (alike ? (*alike)[n] : 0);
     for (int k = 0; k < 3; ++k)
-      is_free_[c][static_cast<std::size_t>(k)] =
-          world.nodes.follow[n] == 0 && !(driven && (*driven)[n] != 0) && !(bits & (1 << k));
+      is_free_[c][static_cast<std::size_t>(k)] = world.nodes.follow[n] == 0 && !(bits & (1 << k));
   }
 }
 
@@ -94,7 +92,7 @@ Carriage::Chord CarriedMass::chord(const World& world, std::size_t i, const Vecs
 }
 
 void CarriedMass::look(World& world) {
-  if (!looked_) find_free_axes(world), looked_ = true;
+  find_free_axes(world);
   for_each(static_cast<Index>(counts_.size()), [&](Index k) {
     const auto i = static_cast<std::size_t>(k);
     const Index n = how_->node(i);
@@ -165,7 +163,6 @@ CarriedMass::Vecs CarriedMass::solve(Vecs r) {
 
 void CarriedMass::join(World& world) {
   look(world);
-  looked_ = false;  // supports are not there yet
   constexpr int rounds = 3;
   for (int round = 0; round < rounds; ++round) {
     Vecs r(node_.size());

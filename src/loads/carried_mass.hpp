@@ -98,7 +98,7 @@ class CarriedMass : public Impact, public EnergyTerm {
   Vecs change_, turned_;                   ///< of their momenta in the step
   Vecs a_, spin_a_;                        ///< their accelerations
   Vecs momenta_, turning_;                 ///< for products
-  bool looked_ = false, any_ = false;      ///< some inertia counts
+  bool any_ = false;                       ///< some inertia counts
 };
 
 }  // namespace courant

@@ -43,12 +43,14 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
         groups_(std::move(groups)),
         group_(group),
         work_(work),
+        axes_(points.turns ? nullptr : &shared_fields::driven_axes.add(*points.set)),
         around_(!points_.turns && std::any_of(motions_.begin(), motions_.end(),
                                               [](const PrescribedMotion& m) { return m.around >= 0; })) {}
   std::string name() const override { return "prescribed " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override {
     a.updates(*points_.v).updates(*points_.f).reads(group_);
+    if (axes_) a.updates(*axes_);
     if (around_) a.reads(*points_.x);
   }
 
@@ -56,6 +58,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
   void block(World& world, const Clock&, Index begin, Index end) override {
     for (Index i = begin; i < std::min(end, loaded_points(points_, world)); ++i) {
       if (group_[i] == 0) continue;
+      if (axes_) (*axes_)[i] = axes_of_[static_cast<std::size_t>(group_[i])];
       for (const Drive* drive : drives_[static_cast<std::size_t>(group_[i])]) {
         const Vec &d = drive->direction, v = points_.v->vec(i), f = points_.f->vec(i);
         points_.v->add(i, (drive->velocity(v, place(i)) - v.dot(d)) * d);
@@ -140,9 +143,14 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
     for (std::size_t k = 0; k < motions_.size(); ++k)
       if (drives(k, clock)) all_[k] = drive_of(motions_[k], clock);
     drives_.assign(groups_.size(), {});
+    axes_of_.assign(groups_.size(), 0);
     for (std::size_t g = 0; g < groups_.size(); ++g)
-      for (const std::size_t k : groups_[g])
-        if (drives(k, clock)) drives_[g].push_back(&all_[k]);
+      for (const std::size_t k : groups_[g]) {
+        if (!drives(k, clock)) continue;
+        drives_[g].push_back(&all_[k]);
+        for (int axis = 0; axis < 3; ++axis)
+          if (all_[k].direction[axis] != 0) axes_of_[g] |= 1 << axis;
+      }
   }
 
   Points points_;
@@ -151,6 +159,8 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
   std::vector<Group> groups_;                      ///< the first one is empty
   Field<Index>& group_;                            ///< of each point
   Field<Real>* work_;                              ///< on each point so far; null: nobody asks
+  Field<Index>* axes_;                             ///< null: of rotations
+  std::vector<Index> axes_of_;                     ///< of each group, in this step
   bool around_;                                    ///< some go round an axis
   std::vector<Drive> all_;                         ///< of each motion
   std::vector<std::vector<const Drive*>> drives_;  ///< of each group, those that drive in this step

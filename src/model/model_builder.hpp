@@ -51,6 +51,7 @@ class ModelBuilder {
   void build_history_sph();
   void build_history_node();
   static constexpr Real most_due = 1e15;  ///< of intervals until ENDTIM: their times differ
+  void check_curve(const Entry& card, std::string_view field, const Curve& curve);
   void check_interval(const Entry& card, std::string_view field, Real interval, Real most);
   void build_output_curve(const Entry& card, std::string_view field, Id id, int ioopt, OutputTimes& out);
   std::vector<Index> listed_nodes(const Entry& card, const std::vector<Id>& ids, bool sets,

@@ -27,6 +27,9 @@ inline const SharedField<Index> near_wall{{.name = "near_wall", .dimension = "-"
 inline const SharedField<Index> held_axes{{.name = "fixed", .dimension = "-"}};
 /// Points: != 0 where a prescribed motion drives them.
 inline const SharedField<Index> prescribed_motion{{.name = "prescribed_motion", .dimension = "-"}};
+/// Nodes: axes along which prescribed motions drive them in this step, 1 x + 2 y + 4 z; oblique ones along
+/// all that they have a part of.
+inline const SharedField<Index> driven_axes{{.name = "driven_axes", .dimension = "-"}};
 /// Particles: acceleration towards a mirror that does not turn round behind it, as it should; whoever adds
 /// such a force tells it here, gravity apart.
 inline const SharedField<Real> mirror_pull{{.name = "mirror_pull", .dimension = "L/T2", .restart = false}};

@@ -211,7 +211,7 @@ plate
 with open("nodes_slip.k", "w") as file:
     file.write(nodes)
 code, text = call("run", "nodes_slip.k", "-o", "nodes_slip", *loads("interface_law"))
-check(code == 1 and "nodes_slip.k:31:1: error: *CONTACT_EXAMPLE_VISCOUS_SLIP: contact 5 is one of nodes with faces" in text, f"a law on a contact of nodes is refused: {text[-300:]}")
+check(code == 1 and "nodes_slip.k:34:1: error: *CONTACT_EXAMPLE_VISCOUS_SLIP: contact 5 is one of nodes with faces" in text, f"a law on a contact of nodes is refused: {text[-300:]}")
 lost = history("slip", "contacts/7/energy_friction")[-1]
 near(lost, 0.5 * 30 * (1 - numpy.exp(-8 * t[-1])), 0.005, "viscous slip: energy taken")
 with open(deck) as file, open("no_contact.k", "w") as out:
@@ -286,7 +286,7 @@ for file, says in (("missing.so", "the file missing.so does not exist"), ("text.
                    (f"{objects}/twice.so", r"twice.so registers \*MAT_ELASTIC, which is there already"),
                    (f"{objects}/nothing.so", "nothing.so registers nothing"),
                    (f"{objects}/other_headers.so", "other_headers.so was compiled against the headers of another Courant"),
-                   (f"{objects}/unstamped.so", "unstamped.so does not say which headers it was compiled against"), (".", "cannot be loaded")):
+                   (f"{objects}/unstamped.so", "unstamped.so does not say which headers it was compiled against"), (".", "is no file")):
     code, text = call("run", deck, "-o", "wrong", "--load", file)
     check(code == 1 and re.search("^error: --load: .*" + f"(?:{says})", text, re.M) is not None and not os.path.exists("wrong"), f"--load {os.path.basename(file)}: {text.strip()[:200]}")
 

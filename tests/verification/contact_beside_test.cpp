@@ -163,4 +163,55 @@ TEST(ContactBeside, ABlockSlidesAtItsSpeedOrStopsByFriction) {
       }
 }
 
+// A wall that stands on a floor of the same body: the block's lower edge is level with the floor, but that
+// does not rise in front of it.
+TEST(ContactBeside, ABlockOnAFloorMeetsAWallOfTheSameBody) {
+  for (const char* kind : {"nodes", "surfaces", "single"}) {
+    SolidDeck deck;
+    const std::size_t floor =
+        deck.block(Vec(0.4, 0.3, 0.1), 4, 3, 1, 2, placed(some_turn(false), Vec(0, 0, -0.1)));
+    deck.block(Vec(0.1, 0.06, 0.2), 1, 1, 2, 1, placed(some_turn(false), Vec(0.19, 0.12, 0)));
+    const auto top = [&](int i, int j) { return floor + static_cast<std::size_t>(i + 5 * (j + 4)); };
+    const std::size_t up = deck.nodes.size() + 1;
+    for (const auto& [i, j] : {std::pair(3, 1), {4, 1}, {4, 2}, {3, 2}})
+      deck.nodes.emplace_back(0.1 * i, 0.1 * j, 0.1);
+    deck.elements += fmt::format("{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}\n", 901, 2, top(3, 1), top(4, 1),
+                                 top(4, 2), top(3, 2), up, up + 1, up + 2, up + 3);
+    deck.cards =
+        "*SECTION_SOLID\n1,1\n" + part(1, false) + part(2, true) + contact(kind) + moving(Vec(1, 0, 0));
+    const auto s = simulation_of(deck.text(1));
+    EXPECT_EQ(s->world().counters.at("initial_penetrations"), 0) << kind;
+    while (s->clock().t < 0.03) s->step(test::do_nothing);
+    Real momentum = 0, mass = 0;
+    for (std::size_t n = floor + 39; n < floor + 39 + 12; ++n) {
+      const auto k = static_cast<Index>(n);
+      momentum += s->world().nodes.m[k] * s->world().nodes.v.vec(k)[0], mass += s->world().nodes.m[k];
+    }
+    EXPECT_LT(momentum / mass, -0.5) << kind << ": it bounces";
+  }
+}
+
+// A block that lands on the rim of a floor with 6 % of its width is held there, whatever else lies on that
+// floor.
+TEST(ContactBeside, WhatLiesElsewhereDoesNotTakeARimAway) {
+  for (const bool heavy : {false, true}) {
+    SolidDeck deck;
+    deck.block(Vec(0.4, 0.1, 0.1), 4, 1, 1, 2, placed(some_turn(false), Vec(0, 0, -0.1)));
+    const std::size_t first = deck.nodes.size();
+    deck.block(Vec(0.1, 0.1, 0.1), 1, 1, 1, 1, placed(some_turn(false), Vec(0.394, 0, 0.02)));
+    if (heavy) deck.block(Vec(0.1, 0.1, 0.1), 1, 1, 1, 3, placed(some_turn(false), Vec(0.13, 0, 0)));
+    deck.cards = "*SECTION_SOLID\n1,1\n" + part(1, false) + part(2, true) +
+                 "*PART\nheavy\n3,1,3\n*MAT_ELASTIC\n3,1e5,1e7,0.3\n" + contact("single") +
+                 moving(Vec(0, 0, -2)) + weight(Vec(0, 0, 50));
+    const auto s = simulation_of(deck.text(1));
+    Real highest = -1e3;
+    while (s->clock().t < 0.03) {
+      s->step(test::do_nothing);
+      for (std::size_t n = first; n < first + 8; ++n)
+        highest = std::max(highest, s->world().nodes.v.vec(static_cast<Index>(n))[2]);
+    }
+    EXPECT_GT(highest, 0.5) << "its rim bounces, heavy " << heavy;
+  }
+}
+
 }  // namespace contact_beside_test

@@ -229,7 +229,10 @@ bool EdgeContact::crossed(const World& world, const Clock& clock, const Pair& pa
 // Whether edges went through each other so close to a corner of one that its surface there is level with that
 // of the other, as far as nodes are deep: what slides on a floor that has an edge, and goes over it.
 bool EdgeContact::grazes(const World& world, const Pair& pair) const {
-  const Real level = nodes_ ? 2 * nodes_->deepest() : 0;
+  Real level = 0;
+  if (nodes_)
+    for (const Index e : {pair.a, pair.b})
+      for (const Index n : edge(e).node) level = std::max(level, 2 * nodes_->depth_at(n));
   const auto near_corner = [&](Index e, Real at) {
     const EdgeEnds x = ends(world, e);
     const std::size_t end = at > 0.5 ? 1 : 0;

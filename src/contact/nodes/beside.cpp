@@ -61,7 +61,7 @@ bool NodeContact::overlaps(const World& world, Index i, Index f) const {
   };
   for (Index o = who.first; o < who.last; ++o) {
     const OwnFace& own = own_[static_cast<std::size_t>(o)];
-    if (!looks(own, normal_of(world, own), n)) continue;
+    if (!is_there(own) || !looks(own, normal_of(world, own), n)) continue;
     const FaceCorners y = corners_of(own, world.nodes.x);
     const int corners = own.node[2] == own.node[3] ? 3 : 4;
     if (any_over(y, corners, x, on.corners) || any_over(x, on.corners, y, corners)) return true;
@@ -89,7 +89,7 @@ Vec NodeContact::smooth_normal(const World& world, const ContactNode& n) const {
   std::vector<Part> fan;
   for (std::size_t k = 0; k < count; ++k) {
     const OwnFace& own = own_[static_cast<std::size_t>(n.first) + k];
-    if (eroded_ && (*eroded_)[own.segment] != 0) continue;
+    if (!is_there(own)) continue;
     const std::size_t corners = own.node[2] == own.node[3] ? 3 : 4;
     const auto at =
         static_cast<std::size_t>(std::find(own.node.begin(), own.node.end(), n.node) - own.node.begin());
@@ -121,7 +121,7 @@ bool NodeContact::looks_at(const World& world, const ContactNode& n, const Vec& 
   if (n.first == n.last) return true;
   for (Index o = n.first; o < n.last; ++o) {
     const OwnFace& own = own_[static_cast<std::size_t>(o)];
-    if (looks(own, normal_of(world, own), normal)) return true;
+    if (is_there(own) && looks(own, normal_of(world, own), normal)) return true;
   }
   return false;
 }
@@ -129,22 +129,30 @@ bool NodeContact::looks_at(const World& world, const ContactNode& n, const Vec& 
 // A node that comes through a face only because its own surface is level with the one behind an edge of that
 // face: a floor under a block that slides on it. A node within a smooth surface never touches what stands
 // upright on that surface. Another, at the edge of a floor, is level with the surface behind the edge as far
-// as nodes of this interface are deep.
+// as the nodes around both are deep.
 bool NodeContact::grazes(const World& world, Index i, const Slot& slot) const {
   const ContactNode& n = node(i);
   if (const Vec own = smooth_normal(world, n); !own.isZero()) return std::abs(own.dot(slot.n)) < upright;
   const ContactFace& f = face(slot.face);
-  const Real width = std::sqrt(f.area),
-             level = std::clamp(2 * deepest_, least_level * width, most_level * width);
+  const Real width = std::sqrt(f.area);
+  Real deepest = 0;  // of the nodes around this one
+  for (Index o = n.first; o < n.last; ++o)
+    for (const Index corner : own_[static_cast<std::size_t>(o)].node)
+      deepest = std::max(deepest, depth_at(corner));
   const FaceCorners x = corners_of(f, world.nodes.x);
   for (unsigned e = 0; e < static_cast<unsigned>(f.corners); ++e) {
     const auto ends = ends_of_edge(f, e);
     const Vec along = (x[ends[1]] - x[ends[0]]).normalized(), w = slot.at.q - x[ends[0]];
+    const Real depth = std::max({deepest, depth_at(f.node[ends[0]]), depth_at(f.node[ends[1]])});
+    const Real level = std::clamp(2 * depth, least_level * width, most_level * width);
     if (!((w - w.dot(along) * along).norm() < level) || is_smooth_at(world, slot.face, e)) continue;
     const bool level_with = edges_.any_at(slot.face, e, [&](Index g) {
       const ContactFace& other = face(g);
-      return (other.passes & f.passes) && is_there(other) &&
-             looks_at(world, n, plane_normal(corners_of(other, world.nodes.x)));
+      const FaceCorners y = corners_of(other, world.nodes.x);
+      const bool falls_away =
+          inward(y, other, x[ends[0]], along).dot(slot.n) < 0;  // else the edge is an inner one
+      return (other.passes & f.passes) && is_there(other) && falls_away &&
+             looks_at(world, n, plane_normal(y));
     });
     if (level_with) return true;
   }

@@ -41,6 +41,7 @@ NodeContact::NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodi
   world.segments.keep_contact_force();
   in_touch_ = &slot_field<Index>(*set_, "in_touch", "-", most_touches);
   leaked_ = &slot_field<Index>(*set_, "leaked", "-", 1);
+  depth_ = &slot_field<Real>(*set_, "depth", "L", 1);
   side_ = &slot_field<Real>(*set_, "side", "-", most_touches);
   k_ = &slot_field<Real>(*set_, "stiffness", "M/T2", most_touches);
   slack_ = &slot_field<Real>(*set_, "slack", "L", most_touches);
@@ -97,13 +98,13 @@ void NodeContact::declare(const World& world, Accesses& a) const {
   a.reads(n.x, Reach::others).reads(n.v, Reach::others).reads(n.m, Reach::others);
   a.reads(n.held, Reach::others);
   a.updates(*in_touch_)
-
+      .updates(*depth_)
       .updates(*side_)
       .updates(*k_)
       .updates(*slack_)
       .updates(*area_)
       .updates(*friction_);
-  a.in_start().reads(n.x, Reach::others).reads(n.v, Reach::others).updates(*in_touch_);
+  a.in_start().reads(n.x, Reach::others).reads(n.v, Reach::others).updates(*in_touch_).updates(*depth_);
   a.reads(n.held, Reach::others);
   if (eroded_) a.reads(*eroded_, Reach::others).in_block().reads(*eroded_, Reach::others);
   a.in_finish().updates(*leaked_).writes(touches_resource_).updates(*world.segments.contact_force);
@@ -230,12 +231,17 @@ void NodeContact::start(World& world, const Clock& clock) {
       for (const Touch& touch : touches_) let_go_ += touch.stored;
     if (!asleep_)
       for (int k = 0; k < most_touches; ++k) std::fill_n(in_touch_->data(k), set_->size(), 0);
+    if (!asleep_) depth_->fill(0);
     asleep_ = fresh_ = true;
     return;
   }
   asleep_ = false;
   follow(world, clock);
-  touched_.assign(involved_.size(), 0);
+  touched_.assign(involved_.size(), 0), depths_.assign(involved_.size(), 0);
+  for (Index i = 0; i < set_->size(); ++i) {
+    Real& depth = depths_[static_cast<std::size_t>(place_[static_cast<std::size_t>(node(i).node)])];
+    depth = std::max(depth, (*depth_)[i]);
+  }
   for (Block& b : blocks_) b.idle = b.near.empty();
   for (int k = 0; k < most_touches; ++k)
     for (Index i = 0; i < set_->size(); ++i)
@@ -255,7 +261,7 @@ void NodeContact::block(World& world, const Clock& clock, Index begin, Index end
 
 void NodeContact::finish(World& world, const Clock& clock) {
   touches_.clear();
-  deepest_ = 0;
+  Real deepest = 0;
   for (const Block& b : blocks_) {
     touches_.insert(touches_.end(), b.touches.begin(), b.touches.end());
     let_go_ += b.let_go;
@@ -267,13 +273,13 @@ void NodeContact::finish(World& world, const Clock& clock) {
   }
   for (const Touch& touch : touches_) {
     // beside an edge that of the energy left, as the node is no longer where the face is
-    if (touch.stored > 0) deepest_ = std::max(deepest_, std::sqrt(2 * touch.stored / touch.k));
+    if (touch.stored > 0) deepest = std::max(deepest, std::sqrt(2 * touch.stored / touch.k));
     world.segments.contact_force->add(face(touch.face).segment, -touch.force);
   }
   sum_springs_of_bodies(world, clock);
-  if (deepest_ > 0) {
+  if (deepest > 0) {
     Real& most = world.maxima["max_penetration"];
-    most = std::max(most, deepest_);
+    most = std::max(most, deepest);
   }
   // who is born later than the run tells here what of the start is told while the run is built
   if (!asleep_ && fresh_ && (law_.birth > 0 || law_.gate.there()))
@@ -313,7 +319,6 @@ void NodeContact::keep(Archive& archive) {
   archive("fresh", fresh_);
   archive("asleep", asleep_);
   archive("soft_dt", soft_dt_);
-  archive("deepest", deepest_);
   archive("body_springs", body_springs_);
   archive("body_push", body_push_), archive("body_turn", body_turn_);
   archive("damping_work", damping_work_);

@@ -76,7 +76,11 @@ class NodeContact : public Force,
   const Resource& touches() const { return touches_resource_; }
   /// Tells `holder`, a pass of the same world, of nodes that touch from now on.
   void let_hold(TouchHolder& holder) { holder_ = &holder; }
-  Real deepest() const { return deepest_; }  ///< of the touches of the last step [L]
+  /// How deep a node was in its touches a step ago. [L]
+  Real depth_at(Index node) const {
+    const Index p = place_[static_cast<std::size_t>(node)];
+    return p < 0 || depths_.empty() ? Real(0) : depths_[static_cast<std::size_t>(p)];
+  }
   bool touches_something() const { return !shares_.empty(); }
   /// Adds what a node got from all touches, in the order of touches. [ML/T2]
   void add_force_on(Index node, Vec& force) const;
@@ -189,6 +193,7 @@ class NodeContact : public Force,
   Vec smooth_normal(const World& world, const ContactNode& n) const;
   bool looks_at(const World& world, const ContactNode& n, const Vec& normal) const;
   bool grazes(const World& world, Index i, const Slot& slot) const;
+  bool is_there(const OwnFace& f) const { return !eroded_ || (*eroded_)[f.segment] == 0; }
   bool is_there(const ContactFace& f) const { return !eroded_ || (*eroded_)[f.segment] == 0; }
   bool has_faces(const ContactNode& n) const;
   void let_go(const World& world, Block& b, Index i, const Vec& x, Slots& slots) const;
@@ -229,6 +234,7 @@ class NodeContact : public Force,
   FieldSet* set_;
   Field<Index>*in_touch_, *leaked_;  ///< by slot: face + 1, or 0; by node
   Field<Real>*side_, *k_, *slack_, *area_, *friction_;
+  Field<Real>* depth_;  ///< by node: of its deepest touch [L]
 
   BoxGrid search_;
   Real r_most_ = 0;        ///< largest, of the nodes [L]
@@ -244,6 +250,7 @@ class NodeContact : public Force,
   // by body, of touches a step ago, and of those due soon: stiffness; along their pushes; its moment about 0
   std::vector<Real> body_springs_;          ///< [M/T2]
   std::vector<Vec> body_push_, body_turn_;  ///< [M/T2], [ML/T2]
+  std::vector<Real> depths_;                ///< of those nodes, a step ago [L]
   std::vector<char> touched_;               ///< of those: a tracked node that touched something a step ago
   std::vector<Vec> listed_at_;              ///< where those were when lists were made
   std::vector<Vec> narrowed_at_;            ///< and when near candidates were taken
@@ -260,8 +267,7 @@ class NodeContact : public Force,
   std::vector<Share> shares_;
   std::vector<Index> key_, first_, order_;  ///< shares_ by place in involved_
   StiffestContact stiffest_;
-  Real due_ = 0;      ///< until the next node comes through a face [T]
-  Real deepest_ = 0;  ///< a step ago [L]
+  Real due_ = 0;  ///< until the next node comes through a face [T]
   Resource touches_resource_{"touches of nodes"};
   Real damping_work_ = 0, friction_work_ = 0;
   const Field<Index>* eroded_;     ///< of segments; null: nothing fails

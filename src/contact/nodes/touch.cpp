@@ -111,7 +111,7 @@ void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, cons
     seen.face = s;
     const FaceCorners corners = corners_of(f, world.nodes.x);
     seen.at = (idle ? project_over : project)(corners, f.corners, x);
-    if (seen.at.beyond && ends_before(world, i, s, seen.at))
+    if (seen.at.over && seen.at.beyond && ends_before(world, i, s, seen.at))
       seen.at = idle ? Projection() : project_on_rim(corners, f.corners, x);
     seen.d = seen.at.n.dot(x - seen.at.q);
     if ((idle && !seen.at.over) || (x - seen.at.q).squaredNorm() > reach * reach) b.seen.pop_back();
@@ -135,10 +135,13 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
     if (slot.face >= 0) push(world, clock, b, i, slot);
   if (std::any_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face < 0; }))
     expect(world, clock, b, i, slots);
+  Real depth = 0;
   for (int k = 0; k < most_touches; ++k) {
     const Slot& slot = slots[static_cast<std::size_t>(k)];
     if (any || slot.face >= 0) store(i, k, slot);
+    if (slot.face >= 0) depth = std::max(depth, -slot.gap - slot.slack);
   }
+  (*depth_)[i] = depth;
 }
 
 // Of what is deleted: its springs lose what they hold.

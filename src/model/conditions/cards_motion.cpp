@@ -282,7 +282,8 @@ std::vector<PrescribedMotion> prescribed_motions(const Deck& deck, const Model& 
                                                  Diagnostics& diagnostics, bool relaxed) {
   std::vector<PrescribedMotion> out = Reader(deck, model, diagnostics).read();
   if (relaxed && model.phase == RunPhase::transient)
-    for (PrescribedMotion& motion : out) motion.jump = 0;
+    for (PrescribedMotion& motion : out)
+      if (motion.curve.sidr == 2 && motion.birth <= 0) motion.jump = 0;  // made in the relaxation
   warn_of_jumps(deck, out, diagnostics);
   return out;
 }

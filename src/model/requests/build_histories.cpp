@@ -18,14 +18,30 @@ void ModelBuilder::build_output_curve(const Entry& card, std::string_view field,
   if (rule != OutputTimes::Rule::abscissae && (f.empty() || *std::min_element(f.begin(), f.end()) <= 0))
     return error(card, field, fmt::format("curve {} gives an output interval that is not above 0", id),
                  "its ordinates are intervals of time");
-  if (rule != OutputTimes::Rule::abscissae)
-    check_interval(card, field, *std::min_element(f.begin(), f.end()), 1e7);
+  if (rule != OutputTimes::Rule::abscissae) check_curve(card, field, *found);
   out = {.interval = 0, .rule = rule, .curve = *found};
+}
+
+/// Its intervals, piece by piece.
+void ModelBuilder::check_curve(const Entry& card, std::string_view field, const Curve& curve) {
+  constexpr Real most = 1e7;
+  const auto& t = curve.abscissa;
+  const auto& f = curve.ordinate;
+  Real count = 0;
+  for (std::size_t k = 0; k + 1 < t.size(); ++k)
+    count += std::max<Real>(0, std::min(t[k + 1], model_.endtim) - std::max<Real>(t[k], 0)) /
+             std::min(f[k], f[k + 1]);
+  if (!t.empty()) count += std::max<Real>(0, model_.endtim - t.back()) / f.back();
+  if (model_.endcyc == 0 && count > most)
+    error(card, field,
+          fmt::format("the intervals of the curve are due {:.2g} times until ENDTIM {:g}", count,
+                      model_.endtim),
+          fmt::format("at most {:g} are counted; one state in each step is the most that is written", most));
 }
 
 /// Times that cannot be told apart, or too many to look at each.
 void ModelBuilder::check_interval(const Entry& card, std::string_view field, Real interval, Real most) {
-  if (interval > 0 && model_.endtim > most * interval)
+  if (interval > 0 && model_.endcyc == 0 && model_.endtim > most * interval)
     error(card, field,
           fmt::format("an interval of {:g} is due {:.2g} times until ENDTIM {:g}", interval,
                       model_.endtim / interval, model_.endtim),
