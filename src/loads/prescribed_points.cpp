@@ -43,7 +43,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
         groups_(std::move(groups)),
         group_(group),
         work_(work),
-        axes_(points.turns ? nullptr : &shared_fields::driven_axes.add(*points.set)),
+        axes_(points.turns || !points.follow ? nullptr : &shared_fields::driven_axes.add(*points.set)),
         around_(!points_.turns && std::any_of(motions_.begin(), motions_.end(),
                                               [](const PrescribedMotion& m) { return m.around >= 0; })) {}
   std::string name() const override { return "prescribed " + points_.name(); }
@@ -159,7 +159,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
   std::vector<Group> groups_;                      ///< the first one is empty
   Field<Index>& group_;                            ///< of each point
   Field<Real>* work_;                              ///< on each point so far; null: nobody asks
-  Field<Index>* axes_;                             ///< null: of rotations
+  Field<Index>* axes_;                             ///< null: of rotations, or of particles
   std::vector<Index> axes_of_;                     ///< of each group, in this step
   bool around_;                                    ///< some go round an axis
   std::vector<Drive> all_;                         ///< of each motion

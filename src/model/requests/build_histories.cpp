@@ -34,8 +34,7 @@ void ModelBuilder::check_curve(const Entry& card, std::string_view field, const 
   if (!t.empty()) count += std::max<Real>(0, model_.endtim - t.back()) / f.back();
   if (model_.endcyc == 0 && count > most)
     error(card, field,
-          fmt::format("the intervals of the curve are due {:.2g} times until ENDTIM {:g}", count,
-                      model_.endtim),
+          fmt::format("what the curve asks for is due {:.2g} times until ENDTIM {:g}", count, model_.endtim),
           fmt::format("at most {:g} are counted; one state in each step is the most that is written", most));
 }
 
