@@ -121,7 +121,7 @@ TEST(ContactBeside, APegGoesThroughItsHole) {
     }
 }
 
-// Over a floor of one part or two with nodes of their own, of solids that deform or rigid ones: without
+// Over a floor of one piece or of three with nodes of their own, of solids that deform or rigid ones: without
 // friction at its speed, with friction v^2/(2 mu g). The floor's nodes are level with the block's lower
 // edges, or above them by what the weight presses.
 TEST(ContactBeside, ABlockSlidesAtItsSpeedOrStopsByFriction) {
@@ -135,9 +135,11 @@ TEST(ContactBeside, ABlockSlidesAtItsSpeedOrStopsByFriction) {
         deck.block(Vec(0.2, 0.2, 0.1), 2, 2, 1, 1, placed(turn, Vec::Zero()));
         const std::size_t block = deck.nodes.size();
         const bool rigid = k % 3 != 0;
-        if (two) deck.block(Vec(0.5, 0.5, 0.1), 3, 3, 1, 2, placed(turn, Vec(-0.2, -0.15, -0.1)));
-        deck.block(Vec(two ? 0.6 : 1.1, 0.5, 0.1), two ? 4 : 7, 3, 1, 2,
-                   placed(turn, Vec(two ? 0.3 : -0.2, -0.15, -0.1)));
+        const std::vector<Real> seams =
+            two ? std::vector<Real>{-0.2, 0.15, 0.4, 0.9} : std::vector<Real>{-0.2, 0.9};
+        for (std::size_t m = 0; m + 1 < seams.size(); ++m)
+          deck.block(Vec(seams[m + 1] - seams[m], 0.5, 0.1), two ? 2 : 7, 3, 1, 2,
+                     placed(turn, Vec(seams[m], -0.15, -0.1)));
         deck.node_set(7, [&](const Vec& x) { return (turn.transpose() * x)[2] < -0.05; });
         deck.cards += "*SECTION_SOLID\n1,1\n" + part(1, false) + part(2, rigid) + contact(kind, friction) +
                       (rigid ? "" : "*BOUNDARY_SPC_SET\n7,0,1,1,1\n") + moving(turn * Vec(v, 0, 0)) +
@@ -155,7 +157,8 @@ TEST(ContactBeside, ABlockSlidesAtItsSpeedOrStopsByFriction) {
         const Vec start = mean(nodes.x);
         while (s->clock().t < 0.4) s->step(test::do_nothing);
         if (friction == 0)
-          EXPECT_NEAR(mean(nodes.v)[0], v, 1e-3 * v) << kind << " " << two;
+          // at a seam nodes that bear weight give back what they store, m g/2 times their depth
+          EXPECT_NEAR(mean(nodes.v)[0], v, (two ? 5e-3 : 1e-3) * v) << kind << " " << two;
         else
           EXPECT_NEAR((mean(nodes.x) - start)[0], v * v / (2 * friction * g),
                       0.01 * v * v / (2 * friction * g))
