@@ -41,16 +41,15 @@ class Settling {
   /// factor, and will. Until there are two looks, and while changes grow, it is all. [-]
   Real ahead() {
     const std::vector<Vec> x = values(nodes_.x), f = values(nodes_.f);
-    Real way = 0, change = 0, pull = 0, inertia = 0;
+    Real way = 0, change = 0, pull = 0;  // weighed by mass: what is light counts little
     for (std::size_t i = 0; i < x.size(); ++i) {
       const Vec d = x[i] - x_[i];
       const Real m = nodes_.m[static_cast<Index>(i)];
-      way += m * (x[i] - start_[i]).squaredNorm(),
-          change += m * d.squaredNorm();  // what is light counts little
-      if (m > 0) pull -= d.dot(f[i] - f_[i]), inertia += m * d.squaredNorm();
+      way += m * (x[i] - start_[i]).squaredNorm(), change += m * d.squaredNorm();
+      if (m > 0) pull -= d.dot(f[i] - f_[i]);
     }
+    frequency_ = pull > 0 && change > 0 ? std::sqrt(pull / change) : 0;
     way = std::sqrt(way), change = std::sqrt(change);
-    frequency_ = pull > 0 && inertia > 0 ? std::sqrt(pull / inertia) : 0;
     const Real before = std::exchange(change_, change);
     x_ = x, f_ = f;
     if (!(change > settled * way)) return 0;

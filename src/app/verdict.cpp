@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "app/range_warnings.hpp"
 #include "keyword/registry.hpp"
@@ -41,11 +42,15 @@ const RegisterKeyword<V> verdict_card{
               {"DENSD", &V::densd, "-", "doubtful above this change of a liquid's density; 0: 0.1",
                share}}}}}};
 
+/// Of the maxima of the run; nothing where none was noted.
+std::optional<Real> largest(const Summary& s, const char* name) {
+  const auto found = s.maxima.find(name);
+  return found == s.maxima.end() ? std::nullopt : std::optional(found->second);
+}
+
 /// What walls did beyond their penalty matters where it took energy.
 void add_held(const Summary& s, std::vector<Finding>& out) {
-  const auto energy = s.maxima.find("contact_held_energy");
-  if (energy == s.maxima.end()) return;
-  const Real share = energy->second / s.energy.scale();
+  const Real share = largest(s, "contact_held_energy").value_or(0) / s.energy.scale();
   if (!(share > s.limits.residual_doubtful)) return;
   out.push_back(
       {false,
@@ -57,78 +62,71 @@ void add_held(const Summary& s, std::vector<Finding>& out) {
 
 /// The run began with what was not at rest.
 void add_relaxation(const Summary& s, std::vector<Finding>& out) {
-  const auto ratio = s.maxima.find("relaxation_ratio"), best = s.maxima.find("relaxation_factor");
-  if (ratio == s.maxima.end()) return;
-  const std::string factor = best == s.maxima.end()
-                                 ? "a DRFCTR of 1 - 2 w dt, w the lowest frequency"
-                                 : fmt::format("a DRFCTR of {:.6g}, by its lowest frequency", best->second);
+  const auto ratio = largest(s, "relaxation_ratio"), best = largest(s, "relaxation_factor");
+  if (!ratio) return;
+  const std::string factor = best ? fmt::format("a DRFCTR of {:.6g}, by its lowest frequency", *best)
+                                  : "a DRFCTR of 1 - 2 w dt, w the lowest frequency";
   out.push_back({false, fmt::format("the dynamic relaxation before the run ended with {:.2g} of its largest "
                                     "kinetic energy, and was not at rest: what follows swings about "
                                     "the preloaded state; give it a later DRTERM, or {}",
-                                    ratio->second, factor)});
+                                    *ratio, factor)});
 }
 
 /// Statics of shells that have no stiffness where they meet.
 void add_facets(const Summary& s, std::vector<Finding>& out) {
-  const auto angle = s.maxima.find("angle_of_relaxed_facets");
-  if (angle == s.maxima.end()) return;
+  const auto angle = largest(s, "angle_of_relaxed_facets");
+  if (!angle) return;
   out.push_back(
       {false, fmt::format("shells of formulation 2 that meet at angles of up to {:.3g} degrees came to rest "
                           "under a load: without a stiffness about the normal curved surfaces and open "
                           "sections give way too far; give BWC 1 of *CONTROL_SHELL, or ELFORM 16",
-                          angle->second)});
+                          *angle)});
 }
 
 /// What yields keeps what it overshoots by.
 void add_overshoot(const Summary& s, std::vector<Finding>& out) {
-  const auto strain = s.maxima.find("relaxation_plastic_strain");
-  if (strain == s.maxima.end()) return;
+  const auto strain = largest(s, "relaxation_plastic_strain");
+  if (!strain) return;
   out.push_back(
       {false, fmt::format("material yielded, to a plastic strain of {:.2g}, in a dynamic relaxation "
                           "whose load acts at once: it swings beyond its rest there, and keeps "
                           "what that bent; let the curve of the load rise over some periods of "
                           "the lowest frequency",
-                          strain->second)});
+                          *strain)});
 }
 
 /// At rest by its energy, but something moves on.
 void add_creep(const Summary& s, std::vector<Finding>& out) {
-  const auto ahead = s.maxima.find("relaxation_ahead");
-  if (ahead == s.maxima.end()) return;
+  const auto ahead = largest(s, "relaxation_ahead");
+  if (!ahead) return;
   out.push_back(
       {false,
        fmt::format("the dynamic relaxation ended at rest by its kinetic energy, but nodes still crept, with "
                    "{:.2g} of their way ahead: hold what is loose, or give a DRFCTR nearer to 1",
-                   ahead->second)});
+                   *ahead)});
 }
 
 /// Joints that were drawn apart, of the size of the smaller body: beyond 1e-4 the run stops.
 void add_joint_gap(const Summary& s, std::vector<Finding>& out) {
   constexpr Real doubtful = 1e-5;
-  const auto share = s.maxima.find("joint_gap_share");
-  if (share == s.maxima.end() || !(share->second > doubtful)) return;
+  const Real share = largest(s, "joint_gap_share").value_or(0);
+  if (!(share > doubtful)) return;
   out.push_back(
       {false, fmt::format("a joint of rigid bodies opened by {:.2g} of the size of its smaller body: "
                           "what drives or holds its bodies, or axes that are askew in a closed loop, "
                           "do not let it hold",
-                          share->second)});
+                          share)});
 }
-
-/// Hourglass energy below this share of all that the scene is about does no harm.
-constexpr Real least_hourglass = 1e-3;
-/// Internal energy below this share is negligible, in blocks that fall or slide: hourglass energy is judged
-/// against a tenth of the scene's.
-constexpr Real least_internal = 0.01;
 
 /// Momentum that came or went where nothing outside acts, of the largest sum of the momenta of parts.
 void add_momentum(const Summary& s, std::vector<Finding>& out) {
   constexpr Real doubtful = 1e-3;
-  const auto share = s.maxima.find("momentum_change_share");
-  if (share == s.maxima.end() || !(share->second > doubtful)) return;
+  const Real share = largest(s, "momentum_change_share").value_or(0);
+  if (!(share > doubtful)) return;
   out.push_back(
       {false, fmt::format("total momentum changed by {:.2g} % of that of the parts, though nothing outside "
                           "acts on them: what joins them, or contact, pushes one of two bodies only",
-                          100 * share->second)});
+                          100 * share)});
 }
 
 void add_energy(const Summary& s, std::vector<Finding>& out) {
@@ -178,6 +176,12 @@ void add_leaks(const Summary& s, std::vector<Finding>& out) {
                    s.leaked_particles, s.leaked_particles == 1 ? "" : "s", 100 * part)});
 }
 
+/// Hourglass energy below this share of all that the scene is about does no harm.
+constexpr Real least_hourglass = 1e-3;
+/// Internal energy below this share is negligible, in blocks that fall or slide: hourglass energy is judged
+/// against a tenth of the scene's.
+constexpr Real least_internal = 0.01;
+
 void add_hourglass(const Summary& s, std::vector<Finding>& out) {
   const EnergyLedger& e = s.energy;
   const Real internal = std::max(std::abs(e.internal), e.most_internal);
@@ -197,9 +201,10 @@ void add_hourglass(const Summary& s, std::vector<Finding>& out) {
 
 /// Mass that scaling gave to nodes that move already.
 void add_scaled_momentum(const Summary& s, std::vector<Finding>& out) {
-  const auto added = s.maxima.find("momentum_of_added_mass"), all = s.maxima.find("momentum_of_nodes");
-  if (added == s.maxima.end() || all == s.maxima.end() || !(all->second > 0)) return;
-  const Real share = added->second / all->second;
+  const Real added = largest(s, "momentum_of_added_mass").value_or(0),
+             all = largest(s, "momentum_of_nodes").value_or(0);
+  if (!(all > 0)) return;
+  const Real share = added / all;
   if (!(share > s.limits.residual_doubtful)) return;
   out.push_back({false, fmt::format("mass that DT2MS added on the way brought momentum with it, {:.3g} % of "
                                     "that of all nodes: take a smaller |DT2MS|, or MS1ST 1",

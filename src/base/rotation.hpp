@@ -14,6 +14,13 @@ inline Eigen::Quaterniond turned_by(const Vec& angle, const Eigen::Quaterniond& 
   return (Eigen::Quaterniond(Eigen::AngleAxisd(a, angle / a)) * q).normalized();
 }
 
+/// The matrix of a x, the cross product with a.
+inline Matrix skew(const Vec& a) {
+  Matrix out;
+  out << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
+  return out;
+}
+
 /// Axes of a right-handed system from its x axis and a vector in its xy plane; nothing if they span no plane.
 inline std::optional<Matrix> axes_from(const Vec& x, const Vec& xy) {
   constexpr Real parallel = 1e-8;  // sine of the angle between the two

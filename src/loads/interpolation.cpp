@@ -156,12 +156,6 @@ class InterpolationForces : public Constraint {
   std::vector<Load> loads_;
 };
 
-Matrix skew(const Vec& a) {
-  Matrix out;
-  out << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-  return out;
-}
-
 /// The mean velocity and spin of the independent nodes over the step move the dependent one, which a motion
 /// of all as one keeps in its place exactly.
 class ByMeans : public Carriage {

@@ -18,8 +18,6 @@ constexpr Real straight_on = 0.5;
 constexpr Real edge_rounding = 1e-9;
 /// What is less deep at the start is rounding, of a usual edge.
 constexpr Real edge_start_rounding = 1e-6;
-/// Edges graze a corner within this, of their length.
-constexpr Real least_level = 1e-6, most_level = 0.1;
 /// Gauss points of [0, 1].
 const std::array<Real, 2> gauss_points{0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12)};
 
@@ -229,18 +227,16 @@ bool EdgeContact::crossed(const World& world, const Clock& clock, const Pair& pa
 // Whether edges went through each other so close to a corner of one that its surface there is level with that
 // of the other, as far as nodes are deep: what slides on a floor that has an edge, and goes over it.
 bool EdgeContact::grazes(const World& world, const Pair& pair) const {
-  Real level = 0;
+  Real depth = 0;
   if (nodes_)
     for (const Index e : {pair.a, pair.b})
-      for (const Index n : edge(e).node) level = std::max(level, 2 * nodes_->depth_at(n));
+      for (const Index n : edge(e).node) depth = std::max(depth, nodes_->depth_at(n));
   const auto near_corner = [&](Index e, Real at) {
     const EdgeEnds x = ends(world, e);
     const std::size_t end = at > 0.5 ? 1 : 0;
     const Vec w = x[1 - end] - x[end];
     const Real length = w.norm();
-    if (!(std::abs(at - static_cast<Real>(end)) * length <
-          std::clamp(level, least_level * length, most_level * length)))
-      return false;
+    if (!(std::abs(at - static_cast<Real>(end)) * length < level_at(depth, length))) return false;
     const Index n = edge(e).node[end];
     const auto& on = next_[static_cast<std::size_t>(e)][end];
     return std::none_of(on.begin(), on.end(), [&](Index other) {

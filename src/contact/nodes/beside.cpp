@@ -14,8 +14,6 @@ constexpr Real smooth_edge = 0.5;
 constexpr Real smooth_node = 0.8;
 /// Normals that differ from a right angle by less stand upright on each other (cosine of 80 degrees).
 constexpr Real upright = 0.17;
-/// A node is level with the surface behind an edge within this, of a width.
-constexpr Real least_level = 1e-6, most_level = 0.1;
 
 /// From the middle of an edge to the centre of a face, at right angles to the edge.
 Vec inward(const FaceCorners& x, const ContactFace& f, const Vec& a, const Vec& along) {
@@ -55,7 +53,7 @@ bool NodeContact::overlaps(const World& world, Index i, Index f) const {
   const FaceCorners x = corners_of(on, world.nodes.x);
   const Vec n = plane_normal(x);
   const ContactNode& who = node(i);
-  const auto any_over = [&](const FaceCorners& of, int corners, const FaceCorners& face, int its_corners) {
+  const auto any_over = [](const FaceCorners& of, int corners, const FaceCorners& face, int its_corners) {
     return std::any_of(of.begin(), of.begin() + corners,
                        [&](const Vec& corner) { return project_over(face, its_corners, corner).within; });
   };
@@ -63,18 +61,17 @@ bool NodeContact::overlaps(const World& world, Index i, Index f) const {
     const OwnFace& own = own_[static_cast<std::size_t>(o)];
     if (!is_there(own) || !looks(own, normal_of(world, own), n)) continue;
     const FaceCorners y = corners_of(own, world.nodes.x);
-    const int corners = own.node[2] == own.node[3] ? 3 : 4;
-    if (any_over(y, corners, x, on.corners) || any_over(x, on.corners, y, corners)) return true;
+    if (any_over(y, own.corners(), x, on.corners) || any_over(x, on.corners, y, own.corners())) return true;
   }
   return false;
 }
 
 // A face reaches a little beyond its edges where the surface goes on, and where bodies stand edge on edge, as
 // far as they deform: not to what passes beside it.
-bool NodeContact::ends_before(const World& world, Index i, Index f, const Projection& p) const {
+bool NodeContact::is_over(const World& world, Index i, Index f, const Projection& p) const {
   for (unsigned e = 0; e < 4; ++e)
-    if (p.beyond & (1U << e) && !is_smooth_at(world, f, e)) return !overlaps(world, i, f);
-  return false;
+    if (p.beyond & (1U << e) && !is_smooth_at(world, f, e)) return overlaps(world, i, f);
+  return p.over;
 }
 
 // Mean normal of the faces around a node within a smooth surface; 0 at rims, edges and corners of a body.
@@ -90,7 +87,7 @@ Vec NodeContact::smooth_normal(const World& world, const ContactNode& n) const {
   for (std::size_t k = 0; k < count; ++k) {
     const OwnFace& own = own_[static_cast<std::size_t>(n.first) + k];
     if (!is_there(own)) continue;
-    const std::size_t corners = own.node[2] == own.node[3] ? 3 : 4;
+    const auto corners = static_cast<std::size_t>(own.corners());
     const auto at =
         static_cast<std::size_t>(std::find(own.node.begin(), own.node.end(), n.node) - own.node.begin());
     fan.push_back(
@@ -129,11 +126,11 @@ bool NodeContact::looks_at(const World& world, const ContactNode& n, const Vec& 
 // A node that comes through a face only because its own surface is level with the one behind an edge of that
 // face: a floor under a block that slides on it. A node within a smooth surface never touches what stands
 // upright on that surface. Another, at the edge of a floor, is level with the surface behind the edge as far
-// as the nodes around both are deep.
-bool NodeContact::grazes(const World& world, Index i, const Slot& slot) const {
+// as the nodes around both are deep. `q`, `normal`: of the face where the node meets it.
+bool NodeContact::grazes(const World& world, Index i, Index touched, const Vec& q, const Vec& normal) const {
   const ContactNode& n = node(i);
-  if (const Vec own = smooth_normal(world, n); !own.isZero()) return std::abs(own.dot(slot.n)) < upright;
-  const ContactFace& f = face(slot.face);
+  if (const Vec own = smooth_normal(world, n); !own.isZero()) return std::abs(own.dot(normal)) < upright;
+  const ContactFace& f = face(touched);
   const Real width = std::sqrt(f.area);
   Real deepest = 0;  // of the nodes around this one
   for (Index o = n.first; o < n.last; ++o)
@@ -142,15 +139,15 @@ bool NodeContact::grazes(const World& world, Index i, const Slot& slot) const {
   const FaceCorners x = corners_of(f, world.nodes.x);
   for (unsigned e = 0; e < static_cast<unsigned>(f.corners); ++e) {
     const auto ends = ends_of_edge(f, e);
-    const Vec along = (x[ends[1]] - x[ends[0]]).normalized(), w = slot.at.q - x[ends[0]];
+    const Vec along = (x[ends[1]] - x[ends[0]]).normalized(), w = q - x[ends[0]];
     const Real depth = std::max({deepest, depth_at(f.node[ends[0]]), depth_at(f.node[ends[1]])});
-    const Real level = std::clamp(2 * depth, least_level * width, most_level * width);
-    if (!((w - w.dot(along) * along).norm() < level) || is_smooth_at(world, slot.face, e)) continue;
-    const bool level_with = edges_.any_at(slot.face, e, [&](Index g) {
+    if (!((w - w.dot(along) * along).norm() < level_at(depth, width)) || is_smooth_at(world, touched, e))
+      continue;
+    const bool level_with = edges_.any_at(touched, e, [&](Index g) {
       const ContactFace& other = face(g);
       const FaceCorners y = corners_of(other, world.nodes.x);
       const bool falls_away =
-          inward(y, other, x[ends[0]], along).dot(slot.n) < 0;  // else the edge is an inner one
+          inward(y, other, x[ends[0]], along).dot(normal) < 0;  // else the edge is an inner one
       return (other.passes & f.passes) && is_there(other) && falls_away &&
              looks_at(world, n, plane_normal(y));
     });

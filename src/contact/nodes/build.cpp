@@ -194,8 +194,7 @@ class NodeContactBuilder {
         own.node = g.nodes(s), own.segment = s, own.two_sided = !(g.volume[s] > 0);
         const Real area = area_of({world_.nodes.x.vec(own.node[0]), world_.nodes.x.vec(own.node[1]),
                                    world_.nodes.x.vec(own.node[2]), world_.nodes.x.vec(own.node[3])});
-        const int corners = own.node[2] == own.node[3] ? 3 : 4;
-        own.area = area / corners, own.k = measures_.stiffness(s, area) / corners;
+        own.area = area / own.corners(), own.k = measures_.stiffness(s, area) / own.corners();
         node.r = std::max(node.r, measures_.half_thickness(static_cast<int>(pass), s));
         sides.own.push_back(own);
       }

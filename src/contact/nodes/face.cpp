@@ -122,7 +122,7 @@ Projection project_over(const FaceCorners& x, int corners, const Vec& y) {
     Projection p = on_plane_of_triangle(x, y);
     const Real least = std::min({p.N[0], p.N[1], p.N[2]});
     p.inside = least >= 0, p.within = least > edge_rounding, p.over = least >= -edge_margin;
-    for (unsigned e = 0; e < 3; ++e)
+    for (unsigned e = 0; p.over && e < 3; ++e)
       if (p.N[(e + 2) % 3] < -edge_rounding) p.beyond |= 1U << e;
     return p;
   }

@@ -1,5 +1,6 @@
 #pragma once
 // A face of an element that nodes touch: bilinear, whatever its warp.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -54,6 +55,12 @@ inline Real edge_of(const ContactFace& f) {
 /// than half a width. [L]
 inline Real fading_length(const ContactFace& f, Real depth) {
   return std::min(depth, 0.5 * std::sqrt(f.area));
+}
+
+/// What goes over an edge is level with what is behind it within this: twice what contact is deep there, as
+/// far as that is more than rounding and less than a tenth of a width. [L]
+inline Real level_at(Real depth, Real width) {
+  return std::clamp(2 * depth, 1e-6 * width, 0.1 * width);
 }
 
 using FaceCorners = std::array<Vec, 4>;

@@ -238,15 +238,12 @@ void NodeContact::start(World& world, const Clock& clock) {
   asleep_ = false;
   follow(world, clock);
   touched_.assign(involved_.size(), 0), depths_.assign(involved_.size(), 0);
-  for (Index i = 0; i < set_->size(); ++i) {
-    Real& depth = depths_[static_cast<std::size_t>(place_[static_cast<std::size_t>(node(i).node)])];
-    depth = std::max(depth, (*depth_)[i]);
-  }
   for (Block& b : blocks_) b.idle = b.near.empty();
   for (int k = 0; k < most_touches; ++k)
     for (Index i = 0; i < set_->size(); ++i)
       if (in_touch_->data(k)[i] != 0) {
-        touched_[static_cast<std::size_t>(place_[static_cast<std::size_t>(node(i).node)])] = 1;
+        const auto place = static_cast<std::size_t>(place_[static_cast<std::size_t>(node(i).node)]);
+        touched_[place] = 1, depths_[place] = std::max(depths_[place], (*depth_)[i]);
         blocks_[static_cast<std::size_t>(i / block_size)].idle = false;
       }
 }

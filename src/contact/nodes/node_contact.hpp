@@ -32,6 +32,7 @@ struct OwnFace {
   Index segment = 0;  ///< index into World::segments
   bool two_sided = false;
   Real k = 0, area = 0;  ///< share of the node [M/T2], [L2]
+  int corners() const { return node[2] == node[3] ? 3 : 4; }
 };
 
 /// What touches what.
@@ -54,8 +55,6 @@ class NodeContact : public Force,
                     public InterfaceReporter {
  public:
   static constexpr int most_touches = 3;
-  /// What is less deep at the start is rounding, of a usual face.
-  static constexpr Real start_rounding = 1e-6;
 
   /// `number` counts interfaces from 1 and keeps their sets apart. Adds a set of fields to `world`.
   NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodies, int number, World& world);
@@ -178,7 +177,6 @@ class NodeContact : public Force,
   void touch(World& world, const Clock& clock, Block& b, Index i);
   void look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const;
   bool goes_on_at(const Slots& slots, const ContactFace& f) const;
-  bool starts_on(const World& world, const Block& b, Index i, const ContactFace& f) const;
   bool is_lost(const World& world, const Block& b, Index i) const;
   bool hold(const World& world, Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot) const;
   bool past_edge(const World& world, const Vec& x, bool wedge, Real r, Slot& slot) const;
@@ -188,13 +186,15 @@ class NodeContact : public Force,
   bool arrives(const World& world, const Clock& clock, Index i, const Seen& seen, Slot& slot) const;
   bool is_smooth_at(const World& world, Index f, unsigned e) const;
   bool overlaps(const World& world, Index i, Index f) const;
-  bool ends_before(const World& world, Index i, Index f, const Projection& p) const;
+  bool is_over(const World& world, Index i, Index f, const Projection& p) const;
   Vec normal_of(const World& world, const OwnFace& own) const;
   Vec smooth_normal(const World& world, const ContactNode& n) const;
   bool looks_at(const World& world, const ContactNode& n, const Vec& normal) const;
-  bool grazes(const World& world, Index i, const Slot& slot) const;
-  bool is_there(const OwnFace& f) const { return !eroded_ || (*eroded_)[f.segment] == 0; }
-  bool is_there(const ContactFace& f) const { return !eroded_ || (*eroded_)[f.segment] == 0; }
+  bool grazes(const World& world, Index i, Index touched, const Vec& q, const Vec& normal) const;
+  template <class Face>
+  bool is_there(const Face& f) const {
+    return !eroded_ || (*eroded_)[f.segment] == 0;
+  }
   bool has_faces(const ContactNode& n) const;
   void let_go(const World& world, Block& b, Index i, const Vec& x, Slots& slots) const;
   bool take(const World& world, Index i, const Slot& slot, Slots& slots) const;

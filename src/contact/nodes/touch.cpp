@@ -13,6 +13,8 @@ namespace {
 /// Who is behind a face and was no further behind it a step ago than this has come through it, of the depth
 /// at which a node counts as through.
 constexpr Real arrival_tolerance = 0.02;
+/// What is less deep at the start is rounding, of a usual face.
+constexpr Real start_rounding = 1e-6;
 /// Nodes that start behind the face of a solid by less than this, of that depth, are taken for touching it.
 constexpr Real start_depth = 0.4;
 /// Lengths that are rounding, of a usual face.
@@ -111,7 +113,7 @@ void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, cons
     seen.face = s;
     const FaceCorners corners = corners_of(f, world.nodes.x);
     seen.at = (idle ? project_over : project)(corners, f.corners, x);
-    if (seen.at.over && seen.at.beyond && ends_before(world, i, s, seen.at))
+    if (seen.at.over && !is_over(world, i, s, seen.at))
       seen.at = idle ? Projection() : project_on_rim(corners, f.corners, x);
     seen.d = seen.at.n.dot(x - seen.at.q);
     if ((idle && !seen.at.over) || (x - seen.at.q).squaredNorm() > reach * reach) b.seen.pop_back();
@@ -261,43 +263,28 @@ bool NodeContact::arrives(const World& world, const Clock& clock, Index i, const
   if (slot.gap >= 0) return false;
   if (fresh_) {
     slot.slack = -slot.gap;
-    return -slot.gap > start_rounding * size_ && -slot.gap <= (f.two_sided ? r : start_depth * f.depth) &&
-           !grazes(world, i, slot);
+    return -slot.gap > start_rounding * size_ && -slot.gap <= (f.two_sided ? r : start_depth * f.depth);
   }
   const Real gap_before = slot.side * before - r;
   if (gap_before < -arrival_tolerance * f.depth) return false;
   slot.late = gap_before < -rounding * size_;
   if (slot.late) slot.slack = -gap_before;  // it comes with no energy
   const Real way = gap_before - slot.gap, left = way > 0 ? std::min(-slot.gap / way, Real(1)) : Real(0);
-  if (!slot.late && moved.squaredNorm() * left * left < 1e-12 * f.area) return !grazes(world, i, slot);
+  if (!slot.late && moved.squaredNorm() * left * left < 1e-12 * f.area) return true;
   const Projection there =
       project(corners_of(f, nodes.x), f.corners, nodes.x.vec(node(i).node) - left * moved);
-  const bool came_over = there.over && !(there.beyond && ends_before(world, i, seen.face, there));
-  if (!(slot.late ? there.inside : came_over)) return false;
-  return !grazes(world, i, slot);
-}
-
-// Whether a node starts on a face that it may touch, beside this one of the same surface: it is behind
-// neither.
-bool NodeContact::starts_on(const World& world, const Block& b, Index i, const ContactFace& f) const {
-  return std::any_of(b.seen.begin(), b.seen.end(), [&](const Seen& seen) {
-    const ContactFace& g = face(seen.face);
-    const Real d = g.two_sided ? std::abs(seen.d) : seen.d;
-    return seen.at.over && std::abs(d - g.r - node(i).r) <= start_rounding * size_ && f.shared(g) > 0 &&
-           looks_at(world, node(i), seen.at.n);
-  });
+  return slot.late ? there.inside : is_over(world, i, seen.face, there);
 }
 
 // Whether a node starts so deep inside another part that no face takes it.
 bool NodeContact::is_lost(const World& world, const Block& b, Index i) const {
-  for (const Seen& seen : b.seen) {
+  return std::any_of(b.seen.begin(), b.seen.end(), [&](const Seen& seen) {
     const ContactFace& f = face(seen.face);
-    if (starts_on(world, b, i, f)) continue;
     const bool other = world.segments.part[f.segment] != world.nodes.part[node(i).node];
     const Real gap = seen.d - f.r - node(i).r;
-    if (other && !f.two_sided && seen.at.over && gap < -start_depth * f.depth && gap > -f.depth) return true;
-  }
-  return false;
+    return other && !f.two_sided && seen.at.over && gap < -start_depth * f.depth && gap > -f.depth &&
+           !grazes(world, i, seen.face, seen.at.q, seen.at.n);
+  });
 }
 
 // Puts a new touch beside those there are. A neighbour of a touching face is another wall only where it rises
@@ -333,9 +320,8 @@ void NodeContact::find_touches(const World& world, const Clock& clock, const Blo
   int count = 0;
   for (const Seen& seen : b.seen) {
     if (!seen.at.over || is_taken(slots, seen.face) || goes_on(slots, seen)) continue;
-    if (fresh_ && starts_on(world, b, i, face(seen.face))) continue;
     Slot slot;
-    if (!arrives(world, clock, i, seen, slot)) continue;
+    if (!arrives(world, clock, i, seen, slot) || grazes(world, i, slot.face, slot.at.q, slot.n)) continue;
     // the deepest first, of nodes that start there the least deep one, late ones last; of equals the first
     // face
     int at = count;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/rotation.hpp"
+
 namespace courant {
 
 namespace {
@@ -26,12 +28,6 @@ FaceFrame frame_at(const FacePoint& p, const Place& at) {
 }
 FaceFrame frame_of(const FacePoint& p, const Field<Real>& x) {
   return frame_at(p, [&](std::size_t e) { return x.vec(p.node[e]); });
-}
-
-Matrix skew(const Vec& a) {
-  Matrix out;
-  out << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-  return out;
 }
 
 }  // namespace

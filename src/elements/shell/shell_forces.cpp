@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "base/run_error.hpp"
@@ -193,7 +194,8 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     Real rate_zz[block_size], sound_speed[block_size], faster[block_size], stress_zz[block_size] = {};
     std::fill(scratch.thickening, scratch.thickening + block.count, 0);
     std::fill(faster, faster + block.count, 1);
-    FlowStress flow(block.count);
+    std::optional<FlowStress> flow;
+    if (flow_stress_) flow.emplace(block.count);
     std::array<Real*, most_history> history{};
     std::size_t numbers = 0, first = 0;
     PointBlock points;
@@ -207,13 +209,13 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       first += numbers, numbers = layer.numbers;
       for (std::size_t k = 0; k < numbers; ++k) history[k] = history_data_[first + k] + begin;
       points.history = std::span<Real* const>(history.data(), numbers);
-      if (flow_stress_ && layer.plastic >= 0) flow.before(history[static_cast<std::size_t>(layer.plastic)]);
+      if (flow && layer.plastic >= 0) flow->before(history[static_cast<std::size_t>(layer.plastic)]);
       if (layer.law->axes())
         update_along_axes(*layer.law, directions_->data(2 * (p % layers())) + begin,
                           directions_->data(2 * (p % layers()) + 1) + begin, points, rate_zz);
       else
         layer.law->update_in_plane_stress(points, rate_zz);
-      if (flow_stress_ && layer.plastic >= 0) flow.after(points, state_.share[p]);
+      if (flow && layer.plastic >= 0) flow->after(points, state_.share[p]);
       if (layer.law->stiffens())
         for (Index i = 0; i < block.count; ++i)
           faster[i] = std::max(faster[i], sound_speed[i] / layer.law->sound_speed());
@@ -221,7 +223,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       if (damping_) damping_->add_in_plane(*layer.law, p, points, begin);
       for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
     }
-    if (flow_stress_) flow.keep(flow_stress_->data() + begin);
+    if (flow) flow->keep(flow_stress_->data() + begin);
     const ShellLoops::Found found = loops_.forces(block, control, pushing, scratch);
     for (Index i = 0; stiffens_ && i < block.count; ++i)
       scratch.step_limit[i] /= faster[i], scratch.wave_time[i] /= faster[i];

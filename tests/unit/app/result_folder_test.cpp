@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "../temporary_folder.hpp"
 #include "app/relaxation.hpp"
 #include "output/file.hpp"
 
@@ -14,14 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class ResultFolder : public testing::Test {
+class ResultFolder : public test::TemporaryFolder {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
+    TemporaryFolder::SetUp();
     fs::create_directories(folder_ / "fields");
   }
-  void TearDown() override { fs::remove_all(folder_); }
   void put(const fs::path& name) const { std::ofstream(folder_ / name) << "something\n"; }
   std::string fault(const std::vector<fs::path>& inputs = {}) const {
     try {
@@ -31,7 +30,6 @@ class ResultFolder : public testing::Test {
     }
     return "";
   }
-  fs::path folder_;
 };
 
 TEST_F(ResultFolder, KnowsItsFilesByTheirNames) {

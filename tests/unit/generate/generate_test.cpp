@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "../temporary_folder.hpp"
 #include "generate/scene.hpp"
 
 namespace courant {
@@ -24,16 +25,8 @@ std::string read(const fs::path& path) {
   return text.str();
 }
 
-class Generate : public ::testing::Test {
+class Generate : public test::TemporaryFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / (std::string("courant_generate_") +
-                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// The deck of a scene given as text; messages go to `messages_` with the folder taken off.
   std::string deck(const std::string& scene, const std::map<std::string, std::string>& params = {}) {
     std::ofstream(folder_ / "scene.yaml") << scene;
@@ -54,7 +47,6 @@ class Generate : public ::testing::Test {
     EXPECT_NE(messages_.find(message), std::string::npos) << messages_;
   }
 
-  fs::path folder_;
   std::string messages_;
   bool ok_ = false;
 };

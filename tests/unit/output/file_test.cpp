@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "../temporary_folder.hpp"
 #include "output/output_schedule.hpp"
 #include "output/result_names.hpp"
 
@@ -17,14 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class WrittenFile : public testing::Test {
+class WrittenFile : public test::TemporaryFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   void put(const fs::path& name) const { std::ofstream(folder_ / name) << "mine"; }
   std::string text(const fs::path& name) const {
     std::ifstream stream(folder_ / name);
@@ -39,7 +34,6 @@ class WrittenFile : public testing::Test {
     }
     return "";
   }
-  fs::path folder_;
 };
 
 TEST_F(WrittenFile, DevicesStayWhatTheyAre) {

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "../temporary_folder.hpp"
 #include "output/folder_lock.hpp"
 #include "output/hdf5.hpp"
 
@@ -17,15 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class RestartFiles : public testing::Test {
+class RestartFiles : public test::TemporaryFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   static SavedState state() {
     SavedState out;
     Archive archive = Archive::saver(out);
@@ -61,7 +55,6 @@ class RestartFiles : public testing::Test {
     }
     return "";
   }
-  fs::path folder_;
 };
 
 TEST_F(RestartFiles, GiveBackEveryBit) {
