@@ -1,5 +1,5 @@
 # Writes compiled_against.hpp where the text of a header of the folder `source` has changed: cmake -Dsource=... -Dto=... -P
-file(GLOB_RECURSE headers RELATIVE ${source} ${source}/*.hpp)
+file(GLOB_RECURSE headers RELATIVE ${source} ${source}/*.hpp ${source}/*_cards.yaml)
 list(SORT headers)
 foreach(header ${headers})
   file(SHA256 ${source}/${header} hash)

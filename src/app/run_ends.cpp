@@ -1,4 +1,5 @@
 #include "app/run_ends.hpp"
+#include "app/app_cards.hpp"
 
 #include <fmt/format.h>
 
@@ -9,22 +10,7 @@ namespace courant {
 
 namespace {
 
-struct ControlCpu : Entry {
-  Real cputim = 0;
-  int iglst = 0;
-};
-
-const RegisterKeyword<ControlCpu> control_cpu{
-    {.names = {"CONTROL_CPU"},
-     .purpose = "limit of CPU time, after which a run writes a restart file and ends",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"CPUTIM",
-                            &ControlCpu::cputim,
-                            "-",
-                            "CPU time of all threads in seconds, of each call; 0 no limit",
-                            {.check = Check::not_negative}},
-                           {"IGLST", &ControlCpu::iglst, "-", "CPU times in glstat", no_output}}}}}};
+const RegisterKeyword<ControlCpu> control_cpu{control_cpu_table()};
 
 }  // namespace
 

@@ -1,4 +1,5 @@
 #include "app/verdict.hpp"
+#include "app/app_cards.hpp"
 
 #include <fmt/format.h>
 
@@ -14,33 +15,9 @@ namespace courant {
 
 namespace {
 
-/// Fields that are 0 or blank keep the usual limit.
-struct VerdictCard : Entry {
-  Real resd = 0, resb = 0, leakd = 0, leakb = 0, hgd = 0, hgb = 0, machd = 0, densd = 0;
-};
-
 const FieldRules share{.check = Check::not_negative};
 
-using V = VerdictCard;
-const RegisterKeyword<V> verdict_card{
-    {.names = {"COURANT_VERDICT"},
-     .purpose = "limits beyond which the results of a run are doubtful or broken",
-     .once = true,
-     .many = false,
-     .cards = {
-         {.fields = {
-              {"RESD", &V::resd, "-",
-               "doubtful above this error of the energy balance, of the scene's energy; 0: 0.01", share},
-              {"RESB", &V::resb, "-", "broken above this error of the energy balance; 0: 0.1", share},
-              {"LEAKD", &V::leakd, "-", "doubtful above this share of leaked particles; 0: any leak", share},
-              {"LEAKB", &V::leakb, "-", "broken above this share of leaked particles; 0: 0.001", share},
-              {"HGD", &V::hgd, "-", "doubtful above this hourglass energy, of the largest internal; 0: 0.1",
-               share},
-              {"HGB", &V::hgb, "-", "broken above this hourglass energy, of the largest internal; 0: never",
-               share},
-              {"MACHD", &V::machd, "-", "doubtful above this speed of a liquid, of its sound; 0: 0.2", share},
-              {"DENSD", &V::densd, "-", "doubtful above this change of a liquid's density; 0: 0.1",
-               share}}}}}};
+const RegisterKeyword<VerdictCard> verdict_card{courant_verdict_table()};
 
 /// Of the maxima of the run; nothing where none was noted.
 std::optional<Real> largest(const Summary& s, const char* name) {

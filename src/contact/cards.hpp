@@ -1,4 +1,5 @@
 #pragma once
+#include "contact/contact_cards.hpp"
 #include "keyword/card.hpp"
 
 namespace courant {
@@ -56,24 +57,5 @@ ContactKind kind_of(const ContactCard& card);
 bool asks_for_edges(const ContactCard& card);
 /// FS 0 with FD > 0 rubs nothing at rest.
 void warn_of_sliding(const Deck& deck, const ContactCard& card, Diagnostics& diagnostics);
-
-/// *COURANT_LITERAL_PENALTY
-struct LiteralPenalty : Entry {
-  Id cid = 0;
-};
-
-/// *CONTROL_CONTACT
-struct ControlContact : Entry {
-  Real slsfac = 0.1, rwpnal = 0, xpene = 4;
-  int islchk = 1, shlthk = 0, penopt = 1, thkchg = 0, orien = 1, enmass = 0;
-  int usrstr = 0, usrfrc = 0, nsbcs = 0, interm = 0, ssthk = 0, ecdt = 0, tiedprj = 0;
-  Real sfric = 0, dfric = 0, edc = 0, vfc = 0, th = 0, th_sf = 0, pen_sf = 0, ptscl = 1;
-  int ignore = 0, frceng = 0, skiprwg = 0, outseg = 0, spotstp = 0, spotdel = 0, dir_tie = 0;
-  Real spothin = 0;
-  int isym = 0, nserod = 0, rwgaps = 1, icov = 0, ithoff = 0;
-  Real rwgdth = 0, rwksf = 1, swradf = 0;
-  int shledg = 0, pstiff = 0, ithcnt = 0, tdcnof = 0, ftall = 0, igactc = 0;
-  Real shltrw = 0;
-};
 
 }  // namespace courant

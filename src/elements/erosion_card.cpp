@@ -5,8 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "elements/element_cards.hpp"
 #include "elements/erosion.hpp"
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
 
@@ -14,15 +14,7 @@ namespace courant {
 
 namespace {
 
-struct MatAddErosion : Entry {
-  std::string title;
-  Id mid = 0;
-  Real excl = 0, mxpres = 0, mneps = 0, effeps = 0, voleps = 0, numfip = 1, ncs = 1;
-  Real mnpres = 0, sigp1 = 0, sigvm = 0, mxeps = 0, epssh = 0, sigth = 0, impulse = 0, failtm = 0;
-  int idam = 0;
-  Id lcregd = 0, lcfld = 0, lceps12 = 0, lceps13 = 0, lcepsmx = 0;
-  Real epsthin = 0, engcrt = 0, radcrt = 0, dteflt = 0, volfrac = 0, mxtmp = 0, dtmin = 0;
-  int nsff = 10;
+struct MatAddErosion : MatAddErosionFields {
   /// A value that asks for its criterion.
   bool asks(Real value) const { return value != 0 && value != excl; }
   /// Of the criteria.
@@ -36,62 +28,7 @@ struct MatAddErosion : Entry {
 };
 
 using A = MatAddErosion;
-constexpr FieldRules curve_of_other{.honour = Honour::no, .refers = IdSpace::curve};
-const RegisterKeyword<A> mat_add_erosion{
-    {.names = {"MAT_ADD_EROSION"},
-     .purpose = "criteria by which elements of a material fail and are deleted",
-     .title_option = true,
-     .title = &A::title,
-     .many = false,
-     .cards = {{.fields = {{"MID", &A::mid, "-", "material", rules::required_id_of(IdSpace::material)},
-                           {"EXCL", &A::excl, "-", "a value that switches a criterion off, as 0 does"},
-                           {"MXPRES", &A::mxpres, "M/LT2", "largest pressure"},
-                           {"MNEPS", &A::mneps, "-", "least principal strain"},
-                           {"EFFEPS", &A::effeps, "-", "largest effective strain, < 0: of plastic strain"},
-                           {"VOLEPS", &A::voleps, "-", "volume strain: largest where > 0, least where < 0"},
-                           {"NUMFIP",
-                            &A::numfip,
-                            "-",
-                            "points that must fail; < 0: per cent of those of a shell",
-                            {.standard = 1, .zero_is_standard = true}},
-                           {"NCS",
-                            &A::ncs,
-                            "-",
-                            "criteria that must hold at once",
-                            {.standard = 1, .zero_is_standard = true, .check = Check::positive}}}},
-               {.fields = {{"MNPRES", &A::mnpres, "M/LT2", "least pressure (tension < 0)"},
-                           {"SIGP1", &A::sigp1, "M/LT2", "largest principal stress"},
-                           {"SIGVM", &A::sigvm, "M/LT2", "largest effective stress"},
-                           {"MXEPS", &A::mxeps, "-", "largest principal strain"},
-                           {"EPSSH", &A::epssh, "-", "largest shear strain, of the tensor"},
-                           {"SIGTH", &A::sigth, "M/LT2", "threshold of the impulse criterion"},
-                           {"IMPULSE", &A::impulse, "M2/L2T3",
-                            "largest integral of (principal stress - SIGTH)^2 dt"},
-                           {"FAILTM", &A::failtm, "T", "time of failure, < 0: the same"}}},
-               {.fields = {{"IDAM", &A::idam, "-", "damage model", unsupported},
-                           {},
-                           {},
-                           {},
-                           {},
-                           {},
-                           {},
-                           {"LCREGD", &A::lcregd, "-", "curve of the element size", curve_of_other}},
-                .optional = true},
-               {.fields = {{"LCFLD", &A::lcfld, "-", "forming limit diagram", curve_of_other},
-                           {"NSFF", &A::nsff, "-", "steps between looks, of LCFLD", no_effect_but(10)},
-                           {"EPSTHIN", &A::epsthin, "-", "thinning of shells", unsupported},
-                           {"ENGCRT", &A::engcrt, "ML2/T2", "energy of nonlocal failure", unsupported},
-                           {"RADCRT", &A::radcrt, "L", "radius of nonlocal failure", no_effect},
-                           {"LCEPS12", &A::lceps12, "-", "curve of in-plane strains", curve_of_other},
-                           {"LCEPS13", &A::lceps13, "-", "curve of strains", curve_of_other},
-                           {"LCEPSMX", &A::lcepsmx, "-", "curve of strains", curve_of_other}},
-                .optional = true},
-               {.fields = {{"DTEFLT", &A::dteflt, "T", "time of averages", no_effect},
-                           {"VOLFRAC", &A::volfrac, "-",
-                            "share of failed volume, of elements with many points", no_effect},
-                           {"MXTMP", &A::mxtmp, "-", "largest temperature", unsupported},
-                           {"DTMIN", &A::dtmin, "T", "least step", unsupported}},
-                .optional = true}}}};
+const RegisterKeyword<A> mat_add_erosion{mat_add_erosion_table()};
 
 /// The criteria of a card.
 void take_card(const A& c, FailureRules& out) {

@@ -70,6 +70,13 @@ class Allowed {
   std::size_t size_ = 0;
 };
 
+/// Dimensions of the numbers of a curve or table that a field names; empty: not known.
+struct CurveOf {
+  const char* abscissa = "";
+  const char* ordinate = "";
+  bool known() const { return *abscissa != 0; }
+};
+
 struct FieldRules {
   Real standard = 0;  ///< value of a blank field; also of 0 when `zero_is_standard`
   bool zero_is_standard = true;
@@ -82,6 +89,7 @@ struct FieldRules {
       IdSpace::none;  ///< what the ids in this field number; for the first field KeywordOf::id_space
   Spatial spatial = Spatial::none;
   bool pairs = false;  ///< of a list of ids: two and two on each card, so blank and 0 stay in it
+  CurveOf curve{};     ///< of curve ids; *INCLUDE_TRANSFORM changes the units of the curves
 };
 
 // Rules that many tables share.
@@ -109,6 +117,8 @@ struct FieldOf {
   FieldRules rules{};
   /// Where it depends on other fields (a type beside it) what the ids number; instead of rules.refers.
   IdSpace (*refers)(const T&) = nullptr;
+  /// Where it depends on other fields what the numbers of the curve are; instead of rules.curve.
+  CurveOf (*curve_of)(const T&) = nullptr;
 };
 
 template <class T>

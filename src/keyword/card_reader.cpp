@@ -201,9 +201,9 @@ void CardReader::read_id_line(std::string_view line, int number, EntrySink& sink
 void CardReader::read_cards(DataLines& data, EntrySink& sink) {
   for (std::size_t c = 0; c < spec_->cards.size(); ++c) {
     const CardSpec& card = spec_->cards[c];
-    if (card.conditional && !spec_->has_card(sink.entry(), c)) continue;
+    if (card.when && !card.when(sink.entry())) continue;
     if (card.repeat) {
-      for (; !data.done() && !full() && !only_blanks_left(data) && spec_->has_more(sink.entry(), c);
+      for (; !data.done() && !full() && !only_blanks_left(data) && (!card.more || card.more(sink.entry()));
            data.step()) {
         if (card.until_entry && begins_entry(data.line())) return;
         if (card.whole_lines)
@@ -211,8 +211,8 @@ void CardReader::read_cards(DataLines& data, EntrySink& sink) {
         else
           read_card(data, c, sink);
       }
-      if (card.counted) {
-        if (!full() && spec_->has_more(sink.entry(), c)) return missing(data, fmt::format("card {}", c + 1));
+      if (card.more) {
+        if (!full() && card.more(sink.entry())) return missing(data, fmt::format("card {}", c + 1));
         continue;
       }
       while (!data.done()) data.step();

@@ -24,4 +24,10 @@ constexpr FieldRules or_blank(Real standard) {
   return {.standard = standard};
 }
 
+/// Of a field that names a curve: dimensions of its numbers.
+constexpr FieldRules over(FieldRules rules, const char* abscissa, const char* ordinate) {
+  rules.curve = {abscissa, ordinate};
+  return rules;
+}
+
 }  // namespace courant::rules

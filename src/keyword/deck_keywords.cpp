@@ -1,14 +1,11 @@
 // Keywords that shape the deck itself. read_deck handles them by name; the tables are for the documentation.
+#include "keyword/deck_cards.hpp"
 #include "keyword/parameters.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
 
 namespace {
-
-struct DeckLevel : Entry {
-  std::string text;
-};
 
 const RegisterKeyword<DeckLevel> keyword_keyword{
     {.names = {"KEYWORD", "KEYWORD_ID", "KEYWORD_JOBID"},
@@ -64,23 +61,8 @@ const RegisterKeyword<DeckLevel> parameter_expression_keyword{
                             "numbers, names with or without &, operators, parentheses, functions",
                             {.width = 70}}}}}}};
 
-const RegisterKeyword<DeckLevel> parameter_type_keyword{
-    {.names = {"PARAMETER_TYPE"},
-     .purpose = "as *PARAMETER, one pair per line, with a word for pre-processors behind it",
-     .cards = {{.fields = {{"PRMR", &DeckLevel::text, "-", "type letter and name"},
-                           {"VAL", &DeckLevel::text, "-", "value"},
-                           {"PRTYP", &DeckLevel::text, "-", "what the value numbers", no_effect}}}}}};
-
-const RegisterKeyword<ParameterDuplication> parameter_duplication{
-    {.names = {"PARAMETER_DUPLICATION"},
-     .purpose = "what a second definition of a parameter with another value does, from here on: 1 warning, "
-                "ignored; 2 warning, taken; 3 error; 4 taken; 5 ignored. *PARAMETER_MUTABLE needs none of it",
-     .many = false,
-     .cards = {{.fields = {{"DFLAG",
-                            &ParameterDuplication::dflag,
-                            "-",
-                            "the choice",
-                            {.standard = 1, .allowed = {1, 2, 3, 4, 5}}}}}}}};
+const RegisterKeyword<DeckLevel> parameter_type_keyword{parameter_type_table()};
+const RegisterKeyword<ParameterDuplication> parameter_duplication{parameter_duplication_table()};
 
 }  // namespace
 

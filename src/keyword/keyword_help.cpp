@@ -70,7 +70,7 @@ std::string card_line(const CardSpec& card, std::size_t number) {
   if (card.repeat) out += ", repeated up to the next keyword";
   if (card.until_entry) out += ", or to the next line with all that card 1 requires";
   if (card.optional) out += ", optional";
-  if (card.conditional) out += ", only where the cards before it ask for it";
+  if (card.when) out += ", only where the cards before it ask for it";
   return out;
 }
 

@@ -85,7 +85,7 @@ bool KeywordSpec::is_own_id(std::size_t card, std::size_t field) const {
 IdSpace KeywordSpec::space_of(const Entry& entry, std::size_t card, std::size_t field) const {
   if (is_own_id(card, field)) return id_space;
   const FieldSpec& f = cards[card].fields[field];
-  return f.dependent ? dependent_space(entry, card, field) : f.rules.refers;
+  return f.refers ? f.refers(entry) : f.rules.refers;
 }
 
 Id KeywordSpec::id_of(const Entry& entry) const {
@@ -134,7 +134,8 @@ void KeywordSpec::for_each_member(
   std::vector<std::size_t> seen;
   for (const bool there : {true, false})
     for (std::size_t c = 0; c < cards.size(); ++c) {
-      if (shares_members_ ? has_card(entry, c) != there : !there) continue;
+      const auto& when = cards[c].when;
+      if (shares_members_ ? (!when || when(entry)) != there : !there) continue;
       for (std::size_t f = 0; f < cards[c].fields.size(); ++f) {
         const FieldSpec& field = cards[c].fields[f];
         if (shares_members_ && field.type != FieldType::skip) {
@@ -155,7 +156,7 @@ std::string KeywordSpec::convert(Entry& entry, const Conversion& conversion) con
     std::string& text = value_at<std::string>(entry, *title);
     text = converted_title(conversion, text);
   }
-  return convert_rest(entry, conversion);
+  return convert_rest ? convert_rest(entry, conversion) : std::string();
 }
 
 void KeywordSpec::move(Deck& deck, std::int32_t keyword,
@@ -166,26 +167,30 @@ void KeywordSpec::move(Deck& deck, std::int32_t keyword,
     if (!motion) return;
     if (!local || value_at<Id>(entry, *local) == 0)
       for_each_member(entry, [&](std::size_t c, std::size_t f) { move_field(entry, cards[c], f, *motion); });
-    const std::string reason = move_rest(entry, *motion);
+    const std::string reason = move_rest ? move_rest(entry, *motion) : std::string();
     if (!reason.empty()) refuse(entry, reason);
   });
 }
 
-void KeywordSpec::add_card(CardSpec card, Entry& standard) {
-  int column = 0, vectors = 0;
-  for (FieldSpec& field : card.fields) {
-    field.column = column;
-    column += field.rules.width;
-    vectors += field.is_vector();
-    if (!field.is_vector()) set_number(standard, field, field.rules.standard);
-    for (const CardSpec& before : cards)
-      for (const FieldSpec& other : before.fields)
-        shares_members_ = shares_members_ || (other.type != FieldType::skip && other.offset == field.offset);
+void KeywordSpec::complete(Entry& standard) {
+  std::vector<std::size_t> offsets;
+  for (CardSpec& card : cards) {
+    int column = 0, vectors = 0;
+    for (FieldSpec& field : card.fields) {
+      field.column = column;
+      column += field.rules.width;
+      vectors += field.is_vector();
+      if (field.type == FieldType::skip) continue;
+      if (!field.is_vector()) set_number(standard, field, field.rules.standard);
+      const bool seen = std::find(offsets.begin(), offsets.end(), field.offset) != offsets.end();
+      shares_members_ = shares_members_ || seen;
+    }
+    for (const FieldSpec& field : card.fields)
+      if (field.type != FieldType::skip) offsets.push_back(field.offset);
+    // two vectors side by side are columns of a table (abscissa, ordinate); a single one is a list
+    card.is_table = vectors > 1;
+    if (vectors == 1 && card.fields.back().is_vector()) card.fields.back().takes_rest = true;
   }
-  // two vectors side by side are columns of a table (abscissa, ordinate); a single one is a list
-  card.is_table = vectors > 1;
-  if (vectors == 1 && card.fields.back().is_vector()) card.fields.back().takes_rest = true;
-  cards.push_back(std::move(card));
 }
 
 void EntrySink::set_integer(std::size_t card, std::size_t field, Id value) {

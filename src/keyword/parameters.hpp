@@ -11,14 +11,9 @@
 #include "base/diagnostic.hpp"
 #include "base/expression.hpp"
 #include "keyword/deck.hpp"
+#include "keyword/deck_cards.hpp"
 
 namespace courant {
-
-/// *PARAMETER_DUPLICATION: what becomes of a second definition of a name.
-struct ParameterDuplication : Entry {
-  /// 1 warn and keep the first, 2 warn and take the second, 3 error, 4 take the second, 5 keep the first
-  int dflag = 1;
-};
 
 class Parameters {
  public:

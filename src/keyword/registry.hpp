@@ -1,5 +1,6 @@
 #pragma once
 // The list of supported keywords. Files register theirs at start-up; nothing else is edited for a new one.
+#include <concepts>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -22,9 +23,11 @@ void register_keyword(std::shared_ptr<const KeywordSpec> spec);
 /// card.hpp).
 template <class T>
 struct RegisterKeyword {
-  explicit RegisterKeyword(KeywordOf<T> keyword) {
-    add_law_names(keyword.names);
-    register_keyword(make_keyword_spec<T>(std::move(keyword)));
+  explicit RegisterKeyword(KeywordOf<T> keyword) : RegisterKeyword(table_of(std::move(keyword))) {}
+  template <std::same_as<KeywordTable> Made>
+  explicit RegisterKeyword(Made table) {
+    add_law_names(table.names);
+    register_keyword(make_keyword_spec<T>(std::move(table)));
   }
 };
 

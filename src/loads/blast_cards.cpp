@@ -1,4 +1,5 @@
 #include "loads/blast_cards.hpp"
+#include "loads/load_cards.hpp"
 
 #include <algorithm>
 #include <array>
@@ -92,18 +93,7 @@ const RegisterKeyword<BlastFaceCard> load_blast_segment{
        if (motion.linear().determinant() < 0) std::swap(card.n1, card.n3);
        return std::string();
      }}};
-using BlastFacesCard = BlastSegmentSet;
-const RegisterKeyword<BlastFacesCard> load_blast_segment_set{
-    {.names = {"LOAD_BLAST_SEGMENT_SET"},
-     .purpose = "faces of a segment set that a blast pushes, as by *LOAD_BLAST_SEGMENT",
-     .cards = {
-         {.fields = {
-              {"BID", &BlastFacesCard::bid, "-", "charge", rules::required_id},
-              {"SSID", &BlastFacesCard::ssid, "-", "segment set",
-               rules::required_id_of(IdSpace::segment_set)},
-              {"ALEPID", &BlastFacesCard::alepid, "-", "ambient part of an ALE air", ambient_part},
-              {"SFNRB", &BlastFacesCard::sfnrb, "-", "of ambient parts", no_effect},
-              {"SCALEP", &BlastFacesCard::scalep, "-", "factor on the pressure", rules::or_blank(1)}}}}}};
+const RegisterKeyword<BlastSegmentSet> load_blast_segment_set{load_blast_segment_set_table()};
 
 /// Pounds, feet, milliseconds and psi per unit of mass, length, time and pressure, by UNIT - 1; of 5 none.
 constexpr Real foot = 0.3048, pound = 0.45359237, psi = 6894.757293168361, slug_dozen = 175.12683524647636;

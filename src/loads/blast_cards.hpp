@@ -5,6 +5,7 @@
 
 #include "keyword/deck.hpp"
 #include "loads/blast_wave.hpp"
+#include "loads/load_cards.hpp"
 #include "model/model.hpp"
 
 namespace courant {
@@ -35,11 +36,6 @@ std::vector<BlastSource> blast_sources(const Deck& deck, const Model& model, Dia
 /// *LOAD_BLAST_SEGMENT
 struct BlastSegment : Entry {
   Id bid = 0, n1 = 0, n2 = 0, n3 = 0, n4 = 0, alepid = 0;
-  Real sfnrb = 0, scalep = 1;
-};
-/// *LOAD_BLAST_SEGMENT_SET
-struct BlastSegmentSet : Entry {
-  Id bid = 0, ssid = 0, alepid = 0;
   Real sfnrb = 0, scalep = 1;
 };
 

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "loads/idle_parts.hpp"
+#include "loads/load_cards.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
 #include "model/definitions/named_curve.hpp"
@@ -21,77 +21,17 @@ namespace courant {
 
 namespace {
 
-struct DampingCard : Entry {
-  Id lcid = 0;
-  Real stx = 0, sty = 0, stz = 0, srx = 0, sry = 0, srz = 0;
+struct DampingCard : DampingFields {
   Vec scale() const { return {stx, sty, stz}; }
   Vec turn_scale() const { return {srx, sry, srz}; }
 };
-struct DampingGlobal : DampingCard {
-  Real valdmp = 0;
-};
+struct DampingGlobal : DampingCard {};
 struct DampingPartMass : DampingCard {
   bool of_sets() const { return name == 1; }
-  Id pid = 0;
-  Real sf = 0;
-  int flag = 0;
 };
 
-std::string keep_scales(const Vec& scale, const Vec& turn_scale, const Affine& motion) {
-  const bool even = scale == Vec::Constant(scale[0]) && turn_scale == Vec::Constant(turn_scale[0]);
-  if (even || motion.linear() == Matrix::Identity()) return {};
-  return "its scales are along axes, which a transformation that turns or stretches the file would change";
-}
-
-using DG = DampingGlobal;
-const RegisterKeyword<DG> damping_global_keyword{
-    {.names = {"DAMPING_GLOBAL"},
-     .purpose = "damping force -D m v on all that moves",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"LCID", &DG::lcid, "-", "curve of D over time, 0 constant",
-                            rules::optional_id_of(IdSpace::curve)},
-                           {"VALDMP",
-                            &DG::valdmp,
-                            "1/T",
-                            "constant D, where there is no curve",
-                            {.check = Check::not_negative}},
-                           {"STX", &DG::stx, "-", "scale of D along x; all six 0: 1"},
-                           {"STY", &DG::sty, "-", "scale of D along y"},
-                           {"STZ", &DG::stz, "-", "scale of D along z"},
-                           {"SRX", &DG::srx, "-", "scale on rotations of nodes of shells"},
-                           {"SRY", &DG::sry, "-", "scale on rotations"},
-                           {"SRZ", &DG::srz, "-", "scale on rotations"}}}},
-     .move = [](DG& card, const Affine& motion) {
-       return keep_scales(card.scale(), card.turn_scale(), motion);
-     }}};
-
-using DP = DampingPartMass;
-const RegisterKeyword<DP> damping_part_mass_keyword{
-    {.names = {"DAMPING_PART_MASS", "DAMPING_PART_MASS_SET"},
-     .purpose = "damping force -D m v on parts",
-     .cards = {{.fields = {{"PID",
-                            &DP::pid,
-                            "-",
-                            "part id; _SET: part set id",
-                            {.required = true, .check = Check::positive},
-                            [](const DP& card) {
-                              return card.of_sets() ? IdSpace::part_set : IdSpace::part;
-                            }},
-                           {"LCID", &DP::lcid, "-", "curve of D over time [1/T]",
-                            rules::required_id_of(IdSpace::curve)},
-                           {"SF", &DP::sf, "-", "scale of the curve", rules::or_blank(1)},
-                           {"FLAG", &DP::flag, "-", "1: a card of scales follows", {.allowed = {0, 1}}}}},
-               {.fields = {{"STX", &DP::stx, "-", "scale of D along x"},
-                           {"STY", &DP::sty, "-", "scale of D along y"},
-                           {"STZ", &DP::stz, "-", "scale of D along z"},
-                           {"SRX", &DP::srx, "-", "scale on rotations of nodes of shells"},
-                           {"SRY", &DP::sry, "-", "scale on rotations"},
-                           {"SRZ", &DP::srz, "-", "scale on rotations"}},
-                .when = [](const DP& card) { return card.flag == 1; }}},
-     .move = [](DP& card, const Affine& motion) {
-       return keep_scales(card.scale(), card.turn_scale(), motion);
-     }}};
+const RegisterKeyword<DampingGlobal> damping_global_keyword{damping_global_table()};
+const RegisterKeyword<DampingPartMass> damping_part_mass_keyword{damping_part_mass_table()};
 
 class DampingReader {
  public:
@@ -277,6 +217,14 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
 };
 
 }  // namespace
+
+std::string keep_scales(DampingFields& fields, const Affine& motion) {
+  const auto& card = static_cast<const DampingCard&>(fields);
+  const Vec scale = card.scale(), turn_scale = card.turn_scale();
+  const bool even = scale == Vec::Constant(scale[0]) && turn_scale == Vec::Constant(turn_scale[0]);
+  if (even || motion.linear() == Matrix::Identity()) return {};
+  return "its scales are along axes, which a transformation that turns or stretches the file would change";
+}
 
 std::vector<Damping> damping_of(const Deck& deck, const Model& model, const World& world,
                                 Diagnostics& diagnostics) {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "extension/additions.hpp"
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "loads/load_cards.hpp"
 #include "state/ending.hpp"
 #include "state/shared_fields.hpp"
 
@@ -15,38 +15,7 @@ namespace {
 
 constexpr Real nowhere = 1e21;
 
-struct TerminationNode : Entry {
-  Id nid = 0;
-  int stop = 0;
-  Real maxc = nowhere, minc = -nowhere;
-};
-
-/// Coordinates belong to the deck, not to the nodes of a file.
-std::string keep_coordinate(TerminationNode&, const Affine& motion) {
-  if (motion.matrix().isApprox(Affine::Identity().matrix(), 1e-12)) return {};
-  return "its coordinates do not move with a file that is moved";
-}
-
-const RegisterKeyword<TerminationNode> termination_node{
-    {.names = {"TERMINATION_NODE"},
-     .purpose = "the run ends when a node has come to a coordinate",
-     .cards = {{.fields = {{"NID", &TerminationNode::nid, "-", "node", rules::required_id_of(IdSpace::node)},
-                           {"STOP",
-                            &TerminationNode::stop,
-                            "-",
-                            "1-3 by x, y, z; 4 by touching a contact surface",
-                            {.required = true, .allowed = {1, 2, 3}}},
-                           {"MAXC",
-                            &TerminationNode::maxc,
-                            "L",
-                            "ends at this coordinate or above, blank never",
-                            {.standard = nowhere, .zero_is_standard = false}},
-                           {"MINC",
-                            &TerminationNode::minc,
-                            "L",
-                            "ends at this coordinate or below, blank never",
-                            {.standard = -nowhere, .zero_is_standard = false}}}}},
-     .move = keep_coordinate}};
+const RegisterKeyword<TerminationNode> termination_node{termination_node_table()};
 
 class EndAtNode : public Ending {
  public:
@@ -84,18 +53,7 @@ const RegisterAddition end_at_node{
       }
     }};
 
-struct TerminationDeleted : Entry {
-  Id pid = 0;
-  int nds = 0;
-};
-
-const RegisterKeyword<TerminationDeleted> termination_deleted{
-    {.names = {"TERMINATION_DELETED_SHELLS", "TERMINATION_DELETED_SOLIDS"},
-     .purpose = "the run ends when so many elements of a part are deleted",
-     .cards = {
-         {.fields = {
-              {"PID", &TerminationDeleted::pid, "-", "part", rules::required_id_of(IdSpace::part)},
-              {"NDS", &TerminationDeleted::nds, "-", "number of elements", rules::required_positive}}}}}};
+const RegisterKeyword<TerminationDeleted> termination_deleted{termination_deleted_shells_table()};
 
 class EndAtDeletions : public Ending {
  public:
@@ -143,5 +101,11 @@ const RegisterAddition end_at_deletions{
     }};
 
 }  // namespace
+
+/// Coordinates belong to the deck, not to the nodes of a file.
+std::string keep_coordinate(TerminationNode&, const Affine& motion) {
+  if (motion.matrix().isApprox(Affine::Identity().matrix(), 1e-12)) return {};
+  return "its coordinates do not move with a file that is moved";
+}
 
 }  // namespace courant

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "loads/interpolation.hpp"
+#include "loads/load_cards.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
 #include "model/definitions/named_curve.hpp"
@@ -19,11 +19,6 @@ namespace courant {
 
 namespace {
 
-struct LoadNodeCard : Entry {
-  Id nid = 0, lcid = 0, cid = 0, m1 = 0, m2 = 0, m3 = 0;
-  int dof = 0;
-  Real sf = 0;
-};
 struct LoadNodePoint : LoadNodeCard {
   static constexpr const char* field = "NID";
 };
@@ -31,42 +26,8 @@ struct LoadNodeSet : LoadNodeCard {
   static constexpr const char* field = "NSID";
 };
 
-/// Directions are axes; those of a system of their own move with it.
-std::string keep_force_axes(const LoadNodeCard& card, const Affine& motion) {
-  if (card.cid != 0 || motion.linear() == Matrix::Identity()) return {};
-  return "its direction is an axis, which a transformation that turns or stretches the file would change";
-}
-
-template <class T>
-KeywordOf<T> load_node_keyword(std::string name, std::string purpose, IdSpace refers) {
-  using namespace rules;
-  FieldRules follower = no_effect;
-  follower.refers = IdSpace::node;
-  return {.names = {std::move(name)},
-          .purpose = std::move(purpose),
-          .cards = {{.fields = {{T::field, &T::nid, "-", "where it acts", required_id_of(refers)},
-                                {"DOF",
-                                 &T::dof,
-                                 "-",
-                                 "direction: 1 x, 2 y, 3 z; 5, 6, 7: a moment about x, y, z",
-                                 {.required = true, .check = Check::positive}},
-                                {"LCID", &T::lcid, "-", "curve of the force on each node over time",
-                                 required_id_of(IdSpace::curve)},
-                                {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
-                                {"CID",
-                                 &T::cid,
-                                 "-",
-                                 "system of the directions, 0 global",
-                                 {.check = Check::not_negative, .refers = IdSpace::coordinate_system}},
-                                {"M1", &T::m1, "-", "node of a follower load", follower},
-                                {"M2", &T::m2, "-", "node of a follower load", follower},
-                                {"M3", &T::m3, "-", "node of a follower load", follower}}}},
-          .move = [](T& card, const Affine& motion) { return keep_force_axes(card, motion); }};
-}
-const RegisterKeyword<LoadNodePoint> load_node_point_keyword{
-    load_node_keyword<LoadNodePoint>("LOAD_NODE_POINT", "force on a node", IdSpace::node)};
-const RegisterKeyword<LoadNodeSet> load_node_set_keyword{
-    load_node_keyword<LoadNodeSet>("LOAD_NODE_SET", "force on each node of a set", IdSpace::node_set)};
+const RegisterKeyword<LoadNodePoint> load_node_point_keyword{load_node_point_table()};
+const RegisterKeyword<LoadNodeSet> load_node_set_keyword{load_node_set_table()};
 
 class NodalLoadReader {
  public:
@@ -227,6 +188,15 @@ class NodalForces : public Force, public EnergyTerm {
 };
 
 }  // namespace
+
+/// Directions are axes; those of a system of their own move with it.
+std::string keep_force_axes(LoadNodeCard& card, const Affine& motion) {
+  if (card.cid != 0 || motion.linear() == Matrix::Identity()) return {};
+  return "its direction is an axis, which a transformation that turns or stretches the file would change";
+}
+CurveOf curve_of_force(const LoadNodeCard& card) {
+  return {"T", card.dof > 3 ? "ML2/T2" : "ML/T2"};
+}
 
 std::vector<NodalLoad> nodal_loads(const Deck& deck, const Model& model, const World& world,
                                    Diagnostics& diagnostics) {

@@ -1,5 +1,6 @@
 // *CONSTRAINED_NODE_SET.
 #include "loads/node_sets.hpp"
+#include "loads/load_cards.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +8,6 @@
 #include <array>
 #include <map>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/transforms/transformation.hpp"
 #include "state/shared_fields.hpp"
@@ -17,36 +17,9 @@ namespace courant {
 
 namespace {
 
-struct ConstrainedNodeSet : Entry {
-  std::string title;
-  Id cnsid = 0, nsid = 0;
-  int dof = 1;
-  Real tf = 1e20;
-};
 using CN = ConstrainedNodeSet;
 
-std::string keep_shared_axes(CN& card, const Affine& motion) {
-  if (card.dof == 7 || motion.linear() == Matrix::Identity()) return {};
-  return "its directions are axes, which a transformation that turns or stretches the file would change";
-}
-const RegisterKeyword<CN> constrained_node_set{
-    {.names = {"CONSTRAINED_NODE_SET"},
-     .purpose = "nodes that move alike along axes, each where it is",
-     .id_option = true,
-     .title = &CN::title,
-     .id = &CN::cnsid,
-     .cards = {{.fields = {{"NSID", &CN::nsid, "-", "node set", rules::required_id_of(IdSpace::node_set)},
-                           {"DOF",
-                            &CN::dof,
-                            "-",
-                            "axes: 1 x, 2 y, 3 z, 4 xy, 5 yz, 6 zx, 7 all",
-                            {.standard = 1, .allowed = {1, 2, 3, 4, 5, 6, 7}}},
-                           {"TF",
-                            &CN::tf,
-                            "T",
-                            "from then on they move alone; 0: never",
-                            {.standard = 1e20, .check = Check::not_negative}}}}},
-     .move = keep_shared_axes}};
+const RegisterKeyword<CN> constrained_node_set{constrained_node_set_table()};
 
 /// Nodes that share their acceleration along some axes: that of the sum of their forces and masses.
 struct SharedAxes {
@@ -205,6 +178,11 @@ class NodeSetBuilder {
 };
 
 }  // namespace
+
+std::string keep_shared_axes(ConstrainedNodeSet& card, const Affine& motion) {
+  if (card.dof == 7 || motion.linear() == Matrix::Identity()) return {};
+  return "its directions are axes, which a transformation that turns or stretches the file would change";
+}
 
 std::shared_ptr<Constraint> make_node_sets(const Deck& deck, const Model& model, World& world,
                                            Diagnostics& diagnostics) {

@@ -1,5 +1,6 @@
 // *BOUNDARY_NON_REFLECTING.
 #include "loads/non_reflecting.hpp"
+#include "loads/load_cards.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "loads/middle_velocity.hpp"
 #include "parallel/parallel.hpp"
@@ -21,21 +21,9 @@ namespace courant {
 
 namespace {
 
-struct NonReflecting : Entry {
-  Id ssid = 0;
-  Real ad = 0, as = 0;
-};
 using NR = NonReflecting;
 
-const RegisterKeyword<NR> boundary_non_reflecting{
-    {.names = {"BOUNDARY_NON_REFLECTING"},
-     .purpose =
-         "faces of solids through which waves leave: tractions -RO c v along and across the normal, of "
-         "the material at rest",
-     .cards = {
-         {.fields = {{"SSID", &NR::ssid, "-", "segment set", rules::required_id_of(IdSpace::segment_set)},
-                     {"AD", &NR::ad, "-", "0: waves of dilatation leave, else they do not"},
-                     {"AS", &NR::as, "-", "0: waves of shear leave, else they do not"}}}}}};
+const RegisterKeyword<NR> boundary_non_reflecting{boundary_non_reflecting_table()};
 
 /// f -= C v with the v of the middle of the kick, as of damping by mass: f becomes (1 + dt/2m C)^-1 (f - C
 /// v), which damps at any step. Lysmer & Kuhlemeyer 1969.

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "loads/blast_cards.hpp"
+#include "loads/load_cards.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"
 #include "model/definitions/named_curve.hpp"
@@ -21,98 +21,16 @@ namespace courant {
 
 namespace {
 
-using Segment = struct LoadSegment;
-struct LoadSegment : Entry {
-  std::string title;
-  Id id = 0, lcid = 0, n1 = 0, n2 = 0, n3 = 0, n4 = 0, n5 = 0, n6 = 0, n7 = 0, n8 = 0;
-  Real sf = 1, at = 0;
-};
-using SegmentSet = struct LoadSegmentSet;
-struct LoadSegmentSet : Entry {
-  std::string title;
-  Id id = 0, ssid = 0, lcid = 0;
-  Real sf = 1, at = 0;
-};
+using Segment = LoadSegment;
 
-constexpr FieldRules mid_side_node{.honour = Honour::no, .refers = IdSpace::node};
-constexpr FieldRules arrival{.check = Check::not_negative};
+const RegisterKeyword<Segment> load_segment_keyword{load_segment_table()};
+const RegisterKeyword<LoadSegmentSet> load_segment_set_keyword{load_segment_set_table()};
 
-/// A mirror turns faces inside out.
-std::string keep_side(Segment& card, const Affine& motion) {
-  if (motion.linear().determinant() < 0) std::swap(card.n1, card.n3);
-  return {};
-}
-
-const RegisterKeyword<Segment> load_segment_keyword{
-    {.names = {"LOAD_SEGMENT"},
-     .purpose =
-         "pressure on a face between nodes; where positive against its normal, which is up where N1 to N4 "
-         "run counter-clockwise",
-     .id_option = true,
-     .title = &Segment::title,
-     .id = &Segment::id,
-     .cards = {{.fields = {{"LCID", &Segment::lcid, "-", "curve of the pressure over time",
-                            rules::required_id_of(IdSpace::curve)},
-                           {"SF", &Segment::sf, "-", "scale of the curve", rules::or_blank(1)},
-                           {"AT", &Segment::at, "T", "time at which the curve begins, no pressure before",
-                            arrival},
-                           {"N1", &Segment::n1, "-", "corner", rules::required_id_of(IdSpace::node)},
-                           {"N2", &Segment::n2, "-", "corner", rules::required_id_of(IdSpace::node)},
-                           {"N3", &Segment::n3, "-", "corner", rules::required_id_of(IdSpace::node)},
-                           {"N4", &Segment::n4, "-", "corner; of a triangle N3 or 0",
-                            rules::optional_id_of(IdSpace::node)},
-                           {"N5", &Segment::n5, "-", "node in the middle of an edge", mid_side_node}}},
-               {.fields = {{"N6", &Segment::n6, "-", "node in the middle of an edge", mid_side_node},
-                           {"N7", &Segment::n7, "-", "node in the middle of an edge", mid_side_node},
-                           {"N8", &Segment::n8, "-", "node in the middle of an edge", mid_side_node}},
-                .when = [](const Segment& s) { return s.n5 != 0; }}},
-     .move = keep_side}};
-
-const RegisterKeyword<SegmentSet> load_segment_set_keyword{
-    {.names = {"LOAD_SEGMENT_SET"},
-     .purpose = "pressure on the faces of a segment set, as by *LOAD_SEGMENT",
-     .id_option = true,
-     .title = &SegmentSet::title,
-     .id = &SegmentSet::id,
-     .cards = {{.fields = {{"SSID", &SegmentSet::ssid, "-", "segment set",
-                            rules::required_id_of(IdSpace::segment_set)},
-                           {"LCID", &SegmentSet::lcid, "-", "curve of the pressure over time",
-                            rules::required_id_of(IdSpace::curve)},
-                           {"SF", &SegmentSet::sf, "-", "scale of the curve", rules::or_blank(1)},
-                           {"AT", &SegmentSet::at, "T", "time at which the curve begins, no pressure before",
-                            arrival}}}}}};
-
-struct LoadShell : Entry {
-  std::string title;
-  Id id = 0, eid = 0, lcid = 0;
-  Real sf = 1, at = 0;
+struct LoadShell : LoadShellFields {
   bool is_set() const { return name == 1; }  ///< names stand in this order
 };
 
-IdSpace shells_of(const LoadShell& card) {
-  return card.is_set() ? IdSpace::shell_set : IdSpace::shell;
-}
-
-/// The normal of a shell that is mirrored with its file is on the other side.
-std::string keep_shell_side(LoadShell& card, const Affine& motion) {
-  if (motion.linear().determinant() < 0) card.sf = -card.sf;
-  return {};
-}
-
-const RegisterKeyword<LoadShell> load_shell_keyword{
-    {.names = {"LOAD_SHELL_ELEMENT", "LOAD_SHELL_SET"},
-     .purpose = "pressure on shells; where positive against their normal, as by *LOAD_SEGMENT",
-     .id_option = true,
-     .title = &LoadShell::title,
-     .id = &LoadShell::id,
-     .cards = {{.fields = {{"EID", &LoadShell::eid, "-", "shell, or set of shells", rules::required_id,
-                            shells_of},
-                           {"LCID", &LoadShell::lcid, "-", "curve of the pressure over time",
-                            rules::required_id_of(IdSpace::curve)},
-                           {"SF", &LoadShell::sf, "-", "scale of the curve", rules::or_blank(1)},
-                           {"AT", &LoadShell::at, "T", "time at which the curve begins, no pressure before",
-                            arrival}}}},
-     .move = keep_shell_side}};
+const RegisterKeyword<LoadShell> load_shell_keyword{load_shell_element_table()};
 
 /// A pressure and where it acts: corners as nodes of the world, of a triangle the third again.
 struct PressureFace {
@@ -380,6 +298,18 @@ const Entry& first_card(const Lists&... lists) {
 }
 
 }  // namespace
+
+/// The normal of a shell that is mirrored with its file is on the other side.
+std::string keep_shell_side(LoadShellFields& card, const Affine& motion) {
+  if (motion.linear().determinant() < 0) card.sf = -card.sf;
+  return {};
+}
+
+/// A mirror turns faces inside out.
+std::string keep_side(LoadSegment& card, const Affine& motion) {
+  if (motion.linear().determinant() < 0) std::swap(card.n1, card.n3);
+  return {};
+}
 
 std::shared_ptr<Force> make_segment_pressure(const Deck& deck, const Model& model, const WallBodies& bodies,
                                              World& world, Diagnostics& diagnostics) {

@@ -10,6 +10,7 @@
 #include "extension/additions.hpp"
 #include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "loads/load_cards.hpp"
 #include "loads/sensor_force.hpp"
 #include "loads/sensor_math.hpp"
 #include "loads/sensors.hpp"
@@ -22,23 +23,6 @@ namespace {
 
 using namespace rules;
 
-struct SensorDefineNode : Entry {
-  Id sensid = 0, node1 = 0, node2 = 0;
-  std::string vid, ctype, setopt;
-};
-struct SensorDefineMisc : Entry {
-  Id sensid = 0;
-  std::string mtype, i0, i1, i2, i3, i4, i5;
-};
-struct SensorCalcMath : Entry {
-  Id sensid = 0, sens1 = 0, sens2 = 0, sens3 = 0, sens4 = 0, sens5 = 0, sens6 = 0;
-  std::string calc;
-};
-struct SensorSwitchCard : Entry {
-  Id switid = 0, sensid = 0, filtrid = 0;
-  std::string type, logic;
-  Real value = 0, timwin = 0, tdelay = 0;
-};
 struct SensorControlCard : Entry {
   Id cntlid = 0, typid = 0;
   std::string type, estyp, initstt;
@@ -46,86 +30,20 @@ struct SensorControlCard : Entry {
   int nrep = 0;
   Id swit1 = 0, swit2 = 0, swit3 = 0, swit4 = 0, swit5 = 0, swit6 = 0, swit7 = 0;
 };
-struct TerminationSensor : Entry {
-  Id swid = 0;
-};
 
 using Node = SensorDefineNode;
-const RegisterKeyword<Node> sensor_define_node{
-    {.names = {"SENSOR_DEFINE_NODE"},
-     .purpose = "what a node does, seen from another one, for switches",
-     .cards = {
-         {.fields = {
-              {"SENSID", &Node::sensid, "-", "id that switches refer to", required_id},
-              {"NODE1", &Node::node1, "-", "node", required_id_of(IdSpace::node)},
-              {"NODE2", &Node::node2, "-", "node it is seen from; 0: none", optional_id_of(IdSpace::node)},
-              {"VID", &Node::vid, "-", "X, Y, Z, or a vector; blank or 0: the magnitude"},
-              {},
-              {"CTYPE", &Node::ctype, "-", "COORD or VEL; ACC, which a blank field means, is refused"},
-              {"SETOPT", &Node::setopt, "-", "of sets of nodes", unsupported}}}}}};
+const RegisterKeyword<Node> sensor_define_node{sensor_define_node_table()};
 
 using Misc = SensorDefineMisc;
-std::string keep_curve_of_sensor(Misc& card, const Conversion& conversion) {
-  if (card.mtype != "CURVE" || !(conversion.offsets.any() || conversion.units.any())) return "";
-  return "curves of sensors are not shifted or converted: put the card into a file without";
-}
-const RegisterKeyword<Misc> sensor_define_misc{
-    {.names = {"SENSOR_DEFINE_MISC"},
-     .purpose = "the time, or a curve over it, for switches and CALC-MATH",
-     .cards = {{.fields = {{"SENSID", &Misc::sensid, "-", "id that switches refer to", required_id},
-                           {"MTYPE", &Misc::mtype, "-",
-                            "TIME or CURVE; ANGLE, which a blank field means, and "
-                            "others are refused"},
-                           {"I0", &Misc::i0, "-", "of CURVE: the curve"},
-                           {"I1", &Misc::i1, "-", "of other types", unsupported},
-                           {"I2", &Misc::i2, "-", "of other types", unsupported},
-                           {"I3", &Misc::i3, "-", "of other types", unsupported},
-                           {"I4", &Misc::i4, "-", "of other types", unsupported},
-                           {"I5", &Misc::i5, "-", "of other types", unsupported}}}},
-     .convert = keep_curve_of_sensor}};
+
+const RegisterKeyword<Misc> sensor_define_misc{sensor_define_misc_table()};
 
 using Math = SensorCalcMath;
-const FieldRules sensor_id{.check = Check::not_negative};
-const RegisterKeyword<Math> sensor_calc_math{
-    {.names = {"SENSOR_DEFINE_CALC-MATH", "SENSOR_DEFINE_CALC_MATH"},
-     .purpose = "a number from those of up to six other sensors",
-     .cards = {
-         {.fields = {{"SENSID", &Math::sensid, "-", "id that switches refer to", required_id},
-                     {"CALC", &Math::calc, "-",
-                      "SUM, ABSSUM (of the sum), SUMABS (of each), MAX, MIN, MAXMAG, MINMAG, MULTIPLY, SQRE "
-                      "(sum of squares), SQRTSQRE (its root), SQRT (sum of roots)"},
-                     {"SENS1", &Math::sens1, "-", "sensor", required_id},
-                     {"SENS2", &Math::sens2, "-", "sensor", sensor_id},
-                     {"SENS3", &Math::sens3, "-", "sensor", sensor_id},
-                     {"SENS4", &Math::sens4, "-", "sensor", sensor_id},
-                     {"SENS5", &Math::sens5, "-", "sensor", sensor_id},
-                     {"SENS6", &Math::sens6, "-", "sensor", sensor_id}}}}}};
+const RegisterKeyword<Math> sensor_calc_math{sensor_define_calc_math_table()};
 
 using Switch = SensorSwitchCard;
-std::string convert_switch(Switch& card, const Conversion& conversion) {
-  if (card.type == "TIME") card.value *= conversion.units.of("T");
-  if (card.type == "TIME" || card.value == 0 || !conversion.units.any()) return "";
-  return "VALUE has the unit of its sensor, which is not converted: put the card into a file without unit "
-         "factors";
-}
-const RegisterKeyword<Switch> sensor_switch{
-    {.names = {"SENSOR_SWITCH"},
-     .purpose = "on while a sensor is above or below a value, or from a time on",
-     .cards =
-         {{.fields =
-               {{"SWITID", &Switch::switid, "-", "id that controls refer to", required_id},
-                {"TYPE", &Switch::type, "-", "SENSOR (also blank) or TIME"},
-                {"SENSID", &Switch::sensid, "-", "sensor", {.check = Check::not_negative}},
-                {"LOGIC", &Switch::logic, "-", "GT, or LT (also blank)"},
-                {"VALUE", &Switch::value, "-", "value, or time"},
-                {"FILTRID", &Switch::filtrid, "-", "filter", unsupported},
-                {"TIMWIN", &Switch::timwin, "T", "how long it must hold", {.check = Check::not_negative}},
-                {"TDELAY",
-                 &Switch::tdelay,
-                 "T",
-                 "how much later it is on",
-                 {.check = Check::not_negative}}}}},
-     .convert = convert_switch}};
+
+const RegisterKeyword<Switch> sensor_switch{sensor_switch_table()};
 
 using Control = SensorControlCard;
 IdSpace controlled_space(const Control& c) {
@@ -154,10 +72,7 @@ const RegisterKeyword<Control> sensor_control{
                      {"SWIT6", &Control::swit6, "-", "next", switch_id},
                      {"SWIT7", &Control::swit7, "-", "last", switch_id}}}}}};
 
-const RegisterKeyword<TerminationSensor> termination_sensor{
-    {.names = {"TERMINATION_SENSOR"},
-     .purpose = "the run ends when a switch is on",
-     .cards = {{.fields = {{"SWID", &TerminationSensor::swid, "-", "switch", required_id}}}}}};
+const RegisterKeyword<TerminationSensor> termination_sensor{termination_sensor_table()};
 
 class SensorReader {
  public:
@@ -374,6 +289,18 @@ const RegisterAddition end_at_sensor{
     }};
 
 }  // namespace
+
+std::string keep_curve_of_sensor(SensorDefineMisc& card, const Conversion& conversion) {
+  if (card.mtype != "CURVE" || !(conversion.offsets.any() || conversion.units.any())) return "";
+  return "curves of sensors are not shifted or converted: put the card into a file without";
+}
+
+std::string convert_switch(SensorSwitchCard& card, const Conversion& conversion) {
+  if (card.type == "TIME") card.value *= conversion.units.of("T");
+  if (card.type == "TIME" || card.value == 0 || !conversion.units.any()) return "";
+  return "VALUE has the unit of its sensor, which is not converted: put the card into a file without unit "
+         "factors";
+}
 
 void check_sensors(const Deck& deck, const World& world, Diagnostics& diagnostics) {
   for (const auto* board : world.passes.all<const SensorBoard>()) {

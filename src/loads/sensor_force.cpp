@@ -1,4 +1,5 @@
 #include "loads/sensor_force.hpp"
+#include "loads/load_cards.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +8,6 @@
 #include <iterator>
 #include <vector>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "state/reports.hpp"
 
@@ -16,38 +16,8 @@ namespace courant {
 namespace {
 
 using ForceSensor = SensorDefineForce;
-IdSpace exerting_space(const ForceSensor& f) {
-  return f.ftype == "CONTACT"                         ? IdSpace::contact
-         : f.ftype == "JOINT"                         ? IdSpace::joint
-         : f.ftype == "RWALL"                         ? IdSpace::rigid_wall
-         : f.ftype == "SPC" || f.ftype == "PRESC-MOT" ? IdSpace::boundary
-                                                      : IdSpace::none;
-}
-const RegisterKeyword<ForceSensor> sensor_define_force{
-    {.names = {"SENSOR_DEFINE_FORCE"},
-     .purpose = "force of a contact between elements, of a force transducer, a joint, a rigid wall, a cross "
-                "section, "
-                "a constraint or a prescribed motion, for switches; other forces are read, and switches that "
-                "ask for one are refused",
-     .title_option = true,
-     .title = &ForceSensor::title,
-     .cards = {
-         {.fields = {{"SENSID", &ForceSensor::sensid, "-", "id that switches refer to", rules::required_id},
-                     {"FTYPE", &ForceSensor::ftype, "-",
-                      "CONTACT: on SURFA; JOINT: on its second body; RWALL: on the wall, in the step before; "
-                      "XSECTION: of *DATABASE_CROSS_SECTION; SPC, PRESC-MOT: by which a *BOUNDARY_SPC or "
-                      "_PRESCRIBED_MOTION acts on all that it holds or drives"},
-                     {"TYPEID",
-                      &ForceSensor::typeid_,
-                      "-",
-                      "number of that",
-                      {.check = Check::not_negative},
-                      exerting_space},
-                     {"VID", &ForceSensor::vid, "-",
-                      "X, Y, Z, or a vector; M, blank or 0: the magnitude. Except of contacts and walls also "
-                      "XMOMENT, YMOMENT, ZMOMENT, MMOMENT: of SPC and PRESC-MOT the sum of moments, without "
-                      "those of the forces"},
-                     {"CRD", &ForceSensor::crd, "-", "system that turns with a node", unsupported}}}}}};
+
+const RegisterKeyword<ForceSensor> sensor_define_force{sensor_define_force_table()};
 
 std::vector<JointForce> forces_of_joint(const World& world, Id id) {
   std::vector<JointForce> all, out;
@@ -88,6 +58,14 @@ const RegisterSensors sensors_of_forces{
     }};
 
 }  // namespace
+
+IdSpace exerting_space(const SensorDefineForce& f) {
+  return f.ftype == "CONTACT"                         ? IdSpace::contact
+         : f.ftype == "JOINT"                         ? IdSpace::joint
+         : f.ftype == "RWALL"                         ? IdSpace::rigid_wall
+         : f.ftype == "SPC" || f.ftype == "PRESC-MOT" ? IdSpace::boundary
+                                                      : IdSpace::none;
+}
 
 std::optional<Vec> force_of_contact(const World& world, Id id) {
   std::optional<Vec> sum;

@@ -4,16 +4,11 @@
 #include <string>
 
 #include "keyword/deck.hpp"
+#include "loads/load_cards.hpp"
 #include "loads/sensors.hpp"
 #include "model/model.hpp"
 
 namespace courant {
-
-struct SensorDefineForce : Entry {
-  Id sensid = 0, typeid_ = 0;
-  std::string title, ftype, vid;
-  int crd = 0;
-};
 
 /// Force of all contacts with a number on their SURFA at t^n; nothing: there is none. [ML/T2]
 std::optional<Vec> force_of_contact(const World& world, Id id);

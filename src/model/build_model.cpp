@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "model/mesh/cards_elements.hpp"
+#include "model/mesh/mesh_cards.hpp"
 #include "model/model_builder.hpp"
 #include "model/sets/sets.hpp"
 

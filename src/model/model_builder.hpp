@@ -11,7 +11,7 @@
 #include "keyword/deck.hpp"
 #include "model/cards.hpp"
 #include "model/definitions/define_cards.hpp"
-#include "model/mesh/cards_elements.hpp"
+#include "model/mesh/mesh_cards.hpp"
 #include "model/mesh/shell_composite.hpp"
 #include "model/model.hpp"
 #include "model/sets/id_index.hpp"

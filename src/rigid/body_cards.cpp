@@ -1,4 +1,5 @@
 #include "rigid/body_cards.hpp"
+#include "rigid/rigid_cards.hpp"
 
 #include <cmath>
 #include <optional>
@@ -42,61 +43,14 @@ const RegisterKeyword<ExtraNodesNode> extra_nodes_node{extra_nodes_keyword<Extra
 const RegisterKeyword<ExtraNodesSet> extra_nodes_set{extra_nodes_keyword<ExtraNodesSet>(
     "CONSTRAINED_EXTRA_NODES_SET", "nodes of a set that go with a rigid body", IdSpace::node_set)};
 
-using Start = struct InitialVelocityRigidBody;
-struct InitialVelocityRigidBody : Entry {
-  Id pid = 0, icid = 0;
-  Real vx = 0, vy = 0, vz = 0, vxr = 0, vyr = 0, vzr = 0;
-};
-/// In a mirror the sense of a rotation is turned round.
-std::string mirror_rotation(Start& card, const Affine& motion) {
-  if (card.icid == 0 && motion.linear().determinant() < 0)
-    card.vxr = -card.vxr, card.vyr = -card.vyr, card.vzr = -card.vzr;
-  return {};
-}
-/// Directions of a system of their own move with it.
-const RegisterKeyword<Start> initial_velocity_keyword{
-    {.names = {"INITIAL_VELOCITY_RIGID_BODY"},
-     .purpose = "initial velocity of rigid bodies",
-     .local = &Start::icid,
-     .cards = {{.fields = {{"PID", &Start::pid, "-", "rigid part", rules::required_id_of(IdSpace::part)},
-                           {"VX", &Start::vx, "L/T", "velocity of the centre", rules::direction},
-                           {"VY", &Start::vy, "L/T", "velocity of the centre"},
-                           {"VZ", &Start::vz, "L/T", "velocity of the centre"},
-                           {"VXR", &Start::vxr, "1/T", "angular velocity", rules::direction},
-                           {"VYR", &Start::vyr, "1/T", "angular velocity"},
-                           {"VZR", &Start::vzr, "1/T", "angular velocity"},
-                           {"ICID", &Start::icid, "-", "system of these",
-                            rules::optional_id_of(IdSpace::coordinate_system)}}}},
-     .move = mirror_rotation}};
+using Start = InitialVelocityRigidBody;
 
-using Load = struct LoadRigidBody;
-struct LoadRigidBody : Entry {
-  Id pid = 0, lcid = 0, cid = 0, m1 = 0, m2 = 0, m3 = 0;
-  int dof = 0;
-  Real sf = 1;
-};
-std::string keep_axes(Load& card, const Affine& motion) {
-  if (card.cid != 0 || motion.linear() == Matrix::Identity()) return {};
-  return "its direction is an axis, which a transformation that turns or stretches the file would change";
-}
-const FieldRules follower{.honour = Honour::ignored, .refers = IdSpace::node};
-const RegisterKeyword<Load> load_rigid_body_keyword{
-    {.names = {"LOAD_RIGID_BODY"},
-     .purpose = "force at the centre of a rigid body, or moment",
-     .cards = {{.fields = {{"PID", &Load::pid, "-", "rigid part", rules::required_id_of(IdSpace::part)},
-                           {"DOF",
-                            &Load::dof,
-                            "-",
-                            "1 to 3 force along x, y, z, 5 to 7 moment about them",
-                            {.required = true, .check = Check::positive}},
-                           {"LCID", &Load::lcid, "-", "curve over time", rules::id_of(IdSpace::curve)},
-                           {"SF", &Load::sf, "-", "scale of the curve", rules::or_blank(1)},
-                           {"CID", &Load::cid, "-", "system of the directions, 0 global",
-                            rules::optional_id_of(IdSpace::coordinate_system)},
-                           {"M1", &Load::m1, "-", "node of a follower load", follower},
-                           {"M2", &Load::m2, "-", "node of a follower load", follower},
-                           {"M3", &Load::m3, "-", "node of a follower load", follower}}}},
-     .move = keep_axes}};
+/// Directions of a system of their own move with it.
+const RegisterKeyword<Start> initial_velocity_keyword{initial_velocity_rigid_body_table()};
+
+using Load = LoadRigidBody;
+
+const RegisterKeyword<Load> load_rigid_body_keyword{load_rigid_body_table()};
 
 class BodyCardReader {
  public:
@@ -152,6 +106,22 @@ class BodyCardReader {
 };
 
 }  // namespace
+
+/// In a mirror the sense of a rotation is turned round.
+std::string mirror_rotation(InitialVelocityRigidBody& card, const Affine& motion) {
+  if (card.icid == 0 && motion.linear().determinant() < 0)
+    card.vxr = -card.vxr, card.vyr = -card.vyr, card.vzr = -card.vzr;
+  return {};
+}
+
+CurveOf curve_of_body_force(const LoadRigidBody& card) {
+  return {"T", card.dof >= 5 ? "ML2/T2" : "ML/T2"};
+}
+
+std::string keep_axes(LoadRigidBody& card, const Affine& motion) {
+  if (card.cid != 0 || motion.linear() == Matrix::Identity()) return {};
+  return "its direction is an axis, which a transformation that turns or stretches the file would change";
+}
 
 std::map<Index, std::vector<ExtraNode>> extra_nodes(const Deck& deck, const Model& model,
                                                     Diagnostics& diagnostics) {

@@ -21,6 +21,7 @@
 #include "rigid/nodal_bodies.hpp"
 #include "rigid/node_inertias.hpp"
 #include "rigid/rigid.hpp"
+#include "rigid/rigid_cards.hpp"
 #include "state/step_share.hpp"
 #include "surfaces/skin.hpp"
 
@@ -92,20 +93,7 @@ void read_constraints(const Deck& deck, const Model& model, const MatRigid& m, R
   body.no_turn = axes_of_code(code("CON2", m.con2));
 }
 
-/// *COURANT_RIGID_INERTIA
-struct RigidInertia : Entry {
-  int lumped = 0;
-};
-const RegisterKeyword<RigidInertia> rigid_inertia{
-    {.names = {"COURANT_RIGID_INERTIA"},
-     .purpose = "where the mass of rigid bodies is",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"LUMPED",
-                            &RigidInertia::lumped,
-                            "-",
-                            "0: spread over the elements, 1: at their nodes, in equal shares",
-                            {.allowed = {0, 1}}}}}}}};
+const RegisterKeyword<RigidInertia> rigid_inertia{courant_rigid_inertia_table()};
 
 class Builder {
  public:

@@ -5,81 +5,18 @@
 
 #include <optional>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/definitions/named_curve.hpp"
 #include "rigid/joint_stiffness_pass.hpp"
+#include "rigid/rigid_cards.hpp"
 
 namespace courant {
 
 namespace {
 
-struct JointStiffnessCard : Entry {
-  std::string title;
-  Id jsid = 0, pida = 0, pidb = 0, cida = 0, cidb = 0, jid = 0, lcidph = 0, lcidt = 0, lcidps = 0,
-     dlcidph = 0, dlcidt = 0, dlcidps = 0;
-  Real esph = 0, fmph = 0, est = 0, fmt = 0, esps = 0, fmps = 0, nsaph = 0, psaph = 0, nsat = 0, psat = 0,
-       nsaps = 0, psaps = 0;
-};
 using S = JointStiffnessCard;
-constexpr FieldRules curve_or_none = rules::optional_id_of(IdSpace::curve);
-constexpr FieldRules stiff{.check = Check::not_negative};
-constexpr FieldRules below{.check = Check::not_positive}, above{.check = Check::not_negative};
 
-/// Angles are about axes that go with the file only where a system gives them, and change their signs in a
-/// mirror.
-std::string turn_stiffness(S& card, const Affine& motion) {
-  constexpr Real round_off = 1e-9;
-  const Matrix A = motion.linear();
-  if (A.determinant() < 0) return "its angles would count the other way in a mirror";
-  const Matrix stretch = A.transpose() * A;
-  const bool turned = (A / std::cbrt(A.determinant()) - Matrix::Identity()).norm() > round_off;
-  if (turned &&
-      (card.cida == 0 || (stretch - stretch(0, 0) * Matrix::Identity()).norm() > round_off * stretch(0, 0)))
-    return "its angles are about the global axes (CIDA 0), which do not turn with the file: give it a "
-           "coordinate system";
-  return {};
-}
-
-const RegisterKeyword<S> joint_stiffness_keyword{
-    {.names = {"CONSTRAINED_JOINT_STIFFNESS_GENERALIZED"},
-     .purpose = "moments that resist the turning of two rigid bodies: about x of the first by PHI, about the "
-                "turned y by THETA, about z of the second by PSI",
-     .id_space = IdSpace::joint_stiffness,
-     .title_option = true,
-     .title = &S::title,
-     .cards =
-         {{.fields = {{"JSID", &S::jsid, "-", "id of the stiffness", rules::required_id},
-                      {"PIDA", &S::pida, "-", "first rigid part", rules::required_id_of(IdSpace::part)},
-                      {"PIDB", &S::pidb, "-", "second rigid part", rules::required_id_of(IdSpace::part)},
-                      {"CIDA", &S::cida, "-", "system that turns with the first part, 0 the global axes",
-                       rules::optional_id_of(IdSpace::coordinate_system)},
-                      {"CIDB", &S::cidb, "-", "system that turns with the second part, 0 as CIDA",
-                       rules::optional_id_of(IdSpace::coordinate_system)},
-                      {"JID",
-                       &S::jid,
-                       "-",
-                       "joint beside it",
-                       {.honour = Honour::ignored, .refers = IdSpace::joint}}}},
-          {.fields = {{"LCIDPH", &S::lcidph, "-", "moment over PHI, in radians, 0 none", curve_or_none},
-                      {"LCIDT", &S::lcidt, "-", "moment over THETA, 0 none", curve_or_none},
-                      {"LCIDPS", &S::lcidps, "-", "moment over PSI, 0 none", curve_or_none},
-                      {"DLCIDPH", &S::dlcidph, "-", "moment over the rate of PHI, 0 none", curve_or_none},
-                      {"DLCIDT", &S::dlcidt, "-", "moment over the rate of THETA, 0 none", curve_or_none},
-                      {"DLCIDPS", &S::dlcidps, "-", "moment over the rate of PSI, 0 none", curve_or_none}}},
-          {.fields = {{"ESPH", &S::esph, "ML2/T2", "stiffness of friction and stops of PHI, a radian", stiff},
-                      {"FMPH", &S::fmph, "ML2/T2", "largest moment of friction of PHI, 0 none", stiff},
-                      {"EST", &S::est, "ML2/T2", "stiffness of friction and stops of THETA", stiff},
-                      {"FMT", &S::fmt, "ML2/T2", "largest moment of friction of THETA, 0 none", stiff},
-                      {"ESPS", &S::esps, "ML2/T2", "stiffness of friction and stops of PSI", stiff},
-                      {"FMPS", &S::fmps, "ML2/T2", "largest moment of friction of PSI, 0 none", stiff}}},
-          {.fields = {{"NSAPH", &S::nsaph, "-", "stop of PHI below 0, degrees, 0 none", below},
-                      {"PSAPH", &S::psaph, "-", "stop of PHI above 0, degrees, 0 none", above},
-                      {"NSAT", &S::nsat, "-", "stop of THETA below 0, degrees, 0 none", below},
-                      {"PSAT", &S::psat, "-", "stop of THETA above 0, degrees, 0 none", above},
-                      {"NSAPS", &S::nsaps, "-", "stop of PSI below 0, degrees, 0 none", below},
-                      {"PSAPS", &S::psaps, "-", "stop of PSI above 0, degrees, 0 none", above}}}},
-     .move = turn_stiffness}};
+const RegisterKeyword<S> joint_stiffness_keyword{constrained_joint_stiffness_generalized_table()};
 
 class StiffnessReader {
  public:
@@ -158,6 +95,21 @@ class StiffnessReader {
 };
 
 }  // namespace
+
+/// Angles are about axes that go with the file only where a system gives them, and change their signs in a
+/// mirror.
+std::string turn_stiffness(JointStiffnessCard& card, const Affine& motion) {
+  constexpr Real round_off = 1e-9;
+  const Matrix A = motion.linear();
+  if (A.determinant() < 0) return "its angles would count the other way in a mirror";
+  const Matrix stretch = A.transpose() * A;
+  const bool turned = (A / std::cbrt(A.determinant()) - Matrix::Identity()).norm() > round_off;
+  if (turned &&
+      (card.cida == 0 || (stretch - stretch(0, 0) * Matrix::Identity()).norm() > round_off * stretch(0, 0)))
+    return "its angles are about the global axes (CIDA 0), which do not turn with the file: give it a "
+           "coordinate system";
+  return {};
+}
 
 bool add_joint_stiffness(const Deck& deck, const Model& model, std::shared_ptr<RigidBodies> bodies,
                          World& world, Diagnostics& diagnostics) {

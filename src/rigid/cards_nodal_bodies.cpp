@@ -9,6 +9,7 @@
 #include "model/mesh/inertia_table.hpp"
 #include "model/transforms/transformation.hpp"
 #include "rigid/nodal_bodies.hpp"
+#include "rigid/rigid_cards.hpp"
 
 namespace courant {
 
@@ -89,57 +90,11 @@ KeywordOf<NB> nodal_body_keyword() {
 }
 const RegisterKeyword<NB> nodal_body{nodal_body_keyword()};
 
-struct SpotweldCard : Entry {
-  std::string title;
-  Id wid = 0, n1 = 0, n2 = 0;
-  Real sn = 0, ss = 0, n = 0, m = 0, tf = 1e20, ep = 1e20;
-};
 using SW = SpotweldCard;
-constexpr FieldRules never_fails{.standard = 1e20, .honour = Honour::no};
-const RegisterKeyword<SW> spotweld_keyword{
-    {.names = {"CONSTRAINED_SPOTWELD"},
-     .purpose = "two nodes that move as one rigid body, without failure",
-     .id_option = true,
-     .title = &SW::title,
-     .id = &SW::wid,
-     .cards = {{.fields = {{"N1", &SW::n1, "-", "node", rules::required_id_of(IdSpace::node)},
-                           {"N2", &SW::n2, "-", "node", rules::required_id_of(IdSpace::node)},
-                           {"SN", &SW::sn, "ML/T2", "normal force at failure, 0 none", unsupported},
-                           {"SS", &SW::ss, "ML/T2", "shear force at failure, 0 none", unsupported},
-                           {"N", &SW::n, "-", "exponent of the normal force", no_effect},
-                           {"M", &SW::m, "-", "exponent of the shear force", no_effect},
-                           {"TF", &SW::tf, "T", "time of failure", never_fails},
-                           {"EP", &SW::ep, "-", "plastic strain at failure", never_fails}}}}}};
+const RegisterKeyword<SW> spotweld_keyword{constrained_spotweld_table()};
 
-struct WeldSpotCard : Entry {
-  std::string title;
-  Id wid = 0, nsid = 0, cid = 0;
-  int filter = 0, npr = 0, nprt = 0;
-  Real window = 0, tfail = 1e20, epsf = 0, sn = 0, ss = 0, n = 0, m = 0;
-};
 using WS = WeldSpotCard;
-const RegisterKeyword<WS> weld_spot_keyword{
-    {.names = {"CONSTRAINED_GENERALIZED_WELD_SPOT"},
-     .purpose = "nodes of a set that move as one rigid body, without failure",
-     .id_option = true,
-     .title = &WS::title,
-     .id = &WS::wid,
-     .cards = {{.fields = {{"NSID", &WS::nsid, "-", "node set", rules::required_id_of(IdSpace::node_set)},
-                           {"CID",
-                            &WS::cid,
-                            "-",
-                            "system of the output",
-                            {.honour = Honour::output_only, .refers = IdSpace::coordinate_system}},
-                           {"FILTER", &WS::filter, "-", "filter of the failure force", no_effect},
-                           {"WINDOW", &WS::window, "T", "window of that filter", no_effect},
-                           {"NPR", &WS::npr, "-", "nodes without failure in output", no_effect},
-                           {"NPRT", &WS::nprt, "-", "print option", no_effect}}},
-               {.fields = {{"TFAIL", &WS::tfail, "T", "time of failure, 0 never", never_fails},
-                           {"EPSF", &WS::epsf, "-", "plastic strain at failure, 0 none", unsupported},
-                           {"SN", &WS::sn, "ML/T2", "normal force at failure, 0 none", unsupported},
-                           {"SS", &WS::ss, "ML/T2", "shear force at failure, 0 none", unsupported},
-                           {"N", &WS::n, "-", "exponent of the normal force", no_effect},
-                           {"M", &WS::m, "-", "exponent of the shear force", no_effect}}}}}};
+const RegisterKeyword<WS> weld_spot_keyword{constrained_generalized_weld_spot_table()};
 
 class NodalBodyReader {
  public:

@@ -1,12 +1,12 @@
 // *DEFORMABLE_TO_RIGID: parts that are rigid from the start, whatever their material.
 #include "rigid/deformable_to_rigid.hpp"
+#include "rigid/rigid_cards.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "rigid/switch_cards.hpp"
 
@@ -14,19 +14,8 @@ namespace courant {
 
 namespace {
 
-struct DeformableToRigid : Entry {
-  Id pid = 0, lrb = 0;
-  std::string ptype;
-};
 using Switch = DeformableToRigid;
-const RegisterKeyword<Switch> deformable_to_rigid{
-    {.names = {"DEFORMABLE_TO_RIGID"},
-     .purpose = "part that is rigid from the start, with RO, E and PR of its material; the mass is where its "
-                "elements are",
-     .cards = {{.fields = {{"PID", &Switch::pid, "-", "part", rules::required_id_of(IdSpace::part)},
-                           {"LRB", &Switch::lrb, "-", "rigid part with which it is one body, 0 none",
-                            rules::optional_id_of(IdSpace::part)},
-                           {"PTYPE", &Switch::ptype, "-", "PART or blank", {}}}}}}};
+const RegisterKeyword<Switch> deformable_to_rigid{deformable_to_rigid_table()};
 
 const Switch* switch_of(const Deck& deck, Id pid) {
   for (const Switch& one : deck.all<Switch>())

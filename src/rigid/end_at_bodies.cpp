@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "extension/additions.hpp"
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "rigid/rigid.hpp"
+#include "rigid/rigid_cards.hpp"
 #include "state/ending.hpp"
 
 namespace courant {
@@ -14,40 +14,7 @@ namespace {
 constexpr Real never = 1e21;
 constexpr int by_magnitude = 4;
 
-struct TerminationBody : Entry {
-  Id pid = 0;
-  int stop = 0;
-  Real maxc = never, minc = -never;
-};
-
-std::string keep_direction(TerminationBody& card, const Affine& motion) {
-  const Matrix A = motion.linear();
-  if (card.stop == by_magnitude && (A.transpose() * A).isApprox(Matrix::Identity(), 1e-12)) return {};
-  if (A.isApprox(Matrix::Identity(), 1e-12)) return {};
-  return "displacements along axes do not turn, nor stretch, with a file";
-}
-
-const RegisterKeyword<TerminationBody> termination_body{
-    {.names = {"TERMINATION_BODY"},
-     .purpose = "the run ends when the centre of a rigid body has moved so far",
-     .cards = {{.fields = {{"PID", &TerminationBody::pid, "-", "rigid part, or body of nodes",
-                            rules::required_id_of(IdSpace::part)},
-                           {"STOP",
-                            &TerminationBody::stop,
-                            "-",
-                            "1-3 along x, y, z; 4 by the magnitude",
-                            {.required = true, .allowed = {1, 2, 3, by_magnitude}}},
-                           {"MAXC",
-                            &TerminationBody::maxc,
-                            "L",
-                            "ends at this displacement or above, 0 never",
-                            {.standard = never}},
-                           {"MINC",
-                            &TerminationBody::minc,
-                            "L",
-                            "ends at this displacement or below, 0 never; without meaning for STOP 4",
-                            {.standard = -never}}}}},
-     .move = keep_direction}};
+const RegisterKeyword<TerminationBody> termination_body{termination_body_table()};
 
 class EndAtBody : public Ending {
  public:
@@ -103,5 +70,12 @@ const RegisterAddition end_at_body{
     }};
 
 }  // namespace
+
+std::string keep_direction(TerminationBody& card, const Affine& motion) {
+  const Matrix A = motion.linear();
+  if (card.stop == by_magnitude && (A.transpose() * A).isApprox(Matrix::Identity(), 1e-12)) return {};
+  if (A.isApprox(Matrix::Identity(), 1e-12)) return {};
+  return "displacements along axes do not turn, nor stretch, with a file";
+}
 
 }  // namespace courant

@@ -1,8 +1,8 @@
 #include "rigid/merge.hpp"
+#include "rigid/rigid_cards.hpp"
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "rigid/deformable_to_rigid.hpp"
 #include "rigid/nodal_bodies.hpp"
@@ -11,24 +11,7 @@ namespace courant {
 
 namespace {
 
-struct RigidBodiesCard : Entry {
-  Id pidl = 0, pidc = 0;
-  int iflag = 0;
-};
-using M = RigidBodiesCard;
-const RegisterKeyword<M> rigid_bodies_keyword{
-    {.names = {"CONSTRAINED_RIGID_BODIES"},
-     .purpose = "rigid parts that move as one body, which has the name, the constraints and the loads of its "
-                "lead part",
-     .cards = {
-         {.fields = {
-              {"PIDL", &M::pidl, "-", "lead part (old PIDM)", rules::required_id_of(IdSpace::part)},
-              {"PIDC", &M::pidc, "-", "part merged into it (old PIDS)", rules::required_id_of(IdSpace::part)},
-              {"IFLAG",
-               &M::iflag,
-               "-",
-               "where *PART_INERTIA gives the lead's mass: 1 that of PIDC is added, 0 it is in it",
-               {.allowed = {0, 1}}}}}}}};
+const RegisterKeyword<RigidBodiesCard> rigid_bodies_keyword{constrained_rigid_bodies_table()};
 
 class MergeReader {
  public:

@@ -1,4 +1,5 @@
 #include "rigid/switch_cards.hpp"
+#include "rigid/rigid_cards.hpp"
 
 #include <fmt/format.h>
 
@@ -90,44 +91,13 @@ const RegisterKeyword<A> automatic_switch{
           .repeat = true,
           .more = [](const A& card) { return static_cast<int>(card.soft_pid.size()) < card.r2d; }}}}};
 
-struct ToRigidAtRestart : Entry {
-  Id pid = 0, lrb = 0;
-};
-struct ToDeformableAtRestart : Entry {
-  Id pid = 0;
-};
-struct ControlAtRestart : Entry {
-  int nrbf = 0, ncsf = 0, rwf = 0;
-  Real dtmax = 0;
-};
 using D2R = ToRigidAtRestart;
 using R2D = ToDeformableAtRestart;
 using C = ControlAtRestart;
 
-const RegisterKeyword<D2R> to_rigid_at_restart{
-    {.names = {"RIGID_DEFORMABLE_D2R"},
-     .purpose = "part that becomes rigid when a run goes on from a restart file (`--restart`)",
-     .cards = {{.fields = {{"PID", &D2R::pid, "-", "part", rules::required_id_of(IdSpace::part)},
-                           {"LRB", &D2R::lrb, "-", "another such part with which it is one body, 0 none",
-                            rules::optional_id_of(IdSpace::part)}}}}}};
-const RegisterKeyword<R2D> to_deformable_at_restart{
-    {.names = {"RIGID_DEFORMABLE_R2D"},
-     .purpose = "part that becomes deformable again when a run goes on from a restart file",
-     .cards = {{.fields = {{"PID", &R2D::pid, "-", "part that *DEFORMABLE_TO_RIGID_AUTOMATIC made rigid",
-                            rules::required_id_of(IdSpace::part)}}}}}};
-const RegisterKeyword<C> control_at_restart{
-    {.names = {"RIGID_DEFORMABLE_CONTROL"},
-     .purpose = "what else changes when parts are switched at a restart",
-     .many = false,
-     .cards = {
-         {.fields = {{"NRBF", &C::nrbf, "-", "deletes or activates rigid bodies of nodes", unsupported},
-                     {"NCSF", &C::ncsf, "-", "deletes or activates node sets that move alike", unsupported},
-                     {"RWF", &C::rwf, "-", "deletes or activates rigid walls", unsupported},
-                     {"DTMAX",
-                      &C::dtmax,
-                      "T",
-                      "longest step from then on, 0 none",
-                      {.check = Check::not_negative}}}}}}};
+const RegisterKeyword<D2R> to_rigid_at_restart{rigid_deformable_d2r_table()};
+const RegisterKeyword<R2D> to_deformable_at_restart{rigid_deformable_r2d_table()};
+const RegisterKeyword<C> control_at_restart{rigid_deformable_control_table()};
 
 std::vector<Index> parts_of(const Deck& deck, const Model& model, const Entry& card, const char* field, Id id,
                             const std::string& type, Diagnostics& diagnostics) {

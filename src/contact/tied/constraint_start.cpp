@@ -208,7 +208,8 @@ bool weighs_where_it_is(const Tie& tie, const World& world) {
     if (world.nodes.follow[n] != 0) return false;
     low = low.cwiseMin(world.nodes.x.vec(n)), high = high.cwiseMax(world.nodes.x.vec(n));
   }
-  return std::abs(tie.at.gap) > none * (high - low).norm();
+  const bool at_corner = *std::max_element(tie.at.N.begin(), tie.at.N.end()) > 1 - none;
+  return !at_corner || std::abs(tie.at.gap) > none * (high - low).norm();
 }
 
 Real growth_of_frequencies(const TiedConstraint& tied, const HeldAxes& held, const World& world) {

@@ -5,9 +5,9 @@
 #include <map>
 #include <optional>
 
+#include "elements/beam/beam_cards.hpp"
 #include "elements/beam/cables.hpp"
 #include "elements/beam/discrete_beam_law.hpp"
-#include "elements/beam/mat_cable.hpp"
 #include "elements/beam/section_beam.hpp"
 #include "model/conditions/relaxation.hpp"
 

@@ -71,8 +71,6 @@ struct DiscreteBeamLaw {
   BeamLimits limits{};
 };
 
-inline constexpr FieldRules beam_at_least_0{.check = Check::not_negative};
-
 /// By the id of the material. Curves that are missing, or jump, are errors.
 using DiscreteBeamLaws = std::map<Id, std::shared_ptr<const DiscreteBeamLaw>>;
 DiscreteBeamLaws find_discrete_beam_laws(const Deck& deck, const Model& model, Diagnostics& diagnostics);
@@ -95,7 +93,10 @@ std::vector<DiscreteBeamKind>& discrete_beam_kinds();
 /// law(deck, model, diagnostics) const`, null behind an error.
 template <class Card>
 struct RegisterDiscreteBeam {
-  explicit RegisterDiscreteBeam(KeywordOf<Card> keyword) : keyword_(std::move(keyword)) {
+  explicit RegisterDiscreteBeam(KeywordOf<Card> keyword)
+      : RegisterDiscreteBeam(table_of(std::move(keyword))) {}
+  template <std::same_as<KeywordTable> Made>
+  explicit RegisterDiscreteBeam(Made keyword) : keyword_(std::move(keyword)) {
     discrete_beam_kinds().push_back(
         {[](const Deck& deck, const Model& model, DiscreteBeamLaws& laws, Diagnostics& diagnostics) {
            for (const Card& card : deck.all<Card>())

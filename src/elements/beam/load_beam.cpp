@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "elements/beam/beam_axes.hpp"
+#include "elements/beam/beam_cards.hpp"
 #include "extension/additions.hpp"
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "loads/middle_velocity.hpp"
 #include "model/definitions/named_curve.hpp"
@@ -21,35 +21,10 @@ namespace courant {
 
 namespace {
 
-struct LoadBeam : Entry {
-  Id eid = 0, lcid = 0;
-  int dal = 1;
-  Real sf = 1;
+struct LoadBeam : LoadBeamFields {
   bool is_set() const { return name == 1; }
 };
-IdSpace loaded_beams(const LoadBeam& card) {
-  return card.is_set() ? IdSpace::beam_set : IdSpace::beam;
-}
-/// A mirror turns t over.
-std::string keep_side_of_beam(LoadBeam& card, const Affine& motion) {
-  if (card.dal == 3 && motion.linear().determinant() < 0) card.sf = -card.sf;
-  return {};
-}
-
-const RegisterKeyword<LoadBeam> load_beam{
-    {.names = {"LOAD_BEAM_ELEMENT", "LOAD_BEAM_SET"},
-     .purpose = "force per length on beams, along an axis of them that turns with them; half at each end",
-     .cards = {{.fields = {{"EID", &LoadBeam::eid, "-", "beam, or set of beams", rules::required_id,
-                            loaded_beams},
-                           {"DAL",
-                            &LoadBeam::dal,
-                            "-",
-                            "along r, from end to end (1), s (2), t (3)",
-                            {.standard = 1, .zero_is_standard = true, .allowed = {1, 2, 3}}},
-                           {"LCID", &LoadBeam::lcid, "-", "curve of the force per length over time",
-                            rules::required_id_of(IdSpace::curve)},
-                           {"SF", &LoadBeam::sf, "-", "scale of the curve", rules::or_blank(1)}}}},
-     .move = keep_side_of_beam}};
+const RegisterKeyword<LoadBeam> load_beam{load_beam_element_table()};
 
 struct LoadedBeam {
   const BeamAxes* of = nullptr;
@@ -190,5 +165,11 @@ const RegisterAddition loads_on_beams{
     }};
 
 }  // namespace
+
+/// A mirror turns t over.
+std::string keep_side_of_beam(LoadBeamFields& card, const Affine& motion) {
+  if (card.dal == 3 && motion.linear().determinant() < 0) card.sf = -card.sf;
+  return {};
+}
 
 }  // namespace courant

@@ -7,9 +7,7 @@ namespace courant {
 
 namespace {
 
-struct NonlinearPlasticBeam : DiscreteBeamCard, LinearBeamFields, BeamFailureFields {
-  Id lcpdr = 0, lcpds = 0, lcpdt = 0, lcpmr = 0, lcpms = 0, lcpmt = 0;
-
+struct NonlinearPlasticBeam : DiscreteBeamCard {
   /// Null behind an error.
   std::shared_ptr<DiscreteBeamLaw> law(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
     constexpr std::array fields{"LCPDR", "LCPDS", "LCPDT", "LCPMR", "LCPMS", "LCPMT"};
@@ -54,29 +52,7 @@ struct NonlinearPlasticBeam : DiscreteBeamCard, LinearBeamFields, BeamFailureFie
 };
 
 const RegisterDiscreteBeam<NonlinearPlasticBeam> mat_nonlinear_plastic_discrete_beam{
-    {.names = {"MAT_NONLINEAR_PLASTIC_DISCRETE_BEAM", "MAT_068"},
-     .purpose = "six springs that yield, and dampers, between the ends of beams with ELFORM 6",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &NonlinearPlasticBeam::title,
-     .cards = {
-         stiffness_of_beams<NonlinearPlasticBeam>(),
-         damping_of_beams<NonlinearPlasticBeam>(),
-         {.fields =
-              {{"LCPDR", &NonlinearPlasticBeam::lcpdr, "-",
-                "curve of the force at which it yields over the plastic displacement along r; 0: "
-                "elastic",
-                rules::optional_id_of(IdSpace::curve)},
-               {"LCPDS", &NonlinearPlasticBeam::lcpds, "-", "along s", rules::optional_id_of(IdSpace::curve)},
-               {"LCPDT", &NonlinearPlasticBeam::lcpdt, "-", "along t", rules::optional_id_of(IdSpace::curve)},
-               {"LCPMR", &NonlinearPlasticBeam::lcpmr, "-",
-                "curve of the moment over the plastic angle about r", rules::optional_id_of(IdSpace::curve)},
-               {"LCPMS", &NonlinearPlasticBeam::lcpms, "-", "about s", rules::optional_id_of(IdSpace::curve)},
-               {"LCPMT", &NonlinearPlasticBeam::lcpmt, "-", "about t",
-                rules::optional_id_of(IdSpace::curve)}}},
-         failure_forces_of_beams<NonlinearPlasticBeam>(),
-         failure_displacements_of_beams<NonlinearPlasticBeam>(),
-         preload_of_beams<NonlinearPlasticBeam>()}}};
+    mat_nonlinear_plastic_discrete_beam_table()};
 
 }  // namespace
 

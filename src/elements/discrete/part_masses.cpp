@@ -5,64 +5,18 @@
 #include <map>
 
 #include "elements/discrete/discrete.hpp"
+#include "elements/discrete/discrete_cards.hpp"
 #include "extension/additions.hpp"
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
 
 namespace {
 
-struct PartMassCard : Entry {
-  Id pid = 0, lcid = 0;
-  Real addmass = 0, finmass = 0;
-};
-struct PartSetMassCard : PartMassCard {
-  int mwd = 0;
-};
+struct PartSetMassCard : PartMassCard {};
 
-constexpr FieldRules narrow_part(IdSpace space) {
-  return {.required = true, .check = Check::positive, .width = 8, .refers = space};
-}
-template <class Card>
-std::vector<FieldOf<Card>> part_mass_fields(const char* field, IdSpace space) {
-  return {{field, &Card::pid, "-", "what gets it", narrow_part(space)},
-          {"ADDMASS", &Card::addmass, "M", "added mass", {.check = Check::not_negative, .width = 16}},
-          {"FINMASS",
-           &Card::finmass,
-           "M",
-           "mass behind the addition, in place of ADDMASS",
-           {.check = Check::not_negative, .width = 16}},
-          {"LCID",
-           &Card::lcid,
-           "-",
-           "curve of the mass over time",
-           {.honour = Honour::no, .width = 16, .refers = IdSpace::curve}}};
-}
-std::vector<FieldOf<PartSetMassCard>> set_mass_fields() {
-  auto out = part_mass_fields<PartSetMassCard>("PSID", IdSpace::part_set);
-  out.push_back({"MWD",
-                 &PartSetMassCard::mwd,
-                 "-",
-                 "by what it is spread: 0 areas of shells, volumes of solids; 1 mass",
-                 {.allowed = {0, 1}, .width = 8}});
-  return out;
-}
-
-std::vector<FieldOf<PartMassCard>> single_mass_fields() {
-  auto out = part_mass_fields<PartMassCard>("PID", IdSpace::part);
-  out[3].rules.width = 8;
-  return out;
-}
-
-const RegisterKeyword<PartMassCard> element_mass_part{
-    {.names = {"ELEMENT_MASS_PART"},
-     .purpose = "mass that is spread over the nodes of a part of shells or solids, by area or volume",
-     .cards = {{.fields = single_mass_fields()}}}};
-const RegisterKeyword<PartSetMassCard> element_mass_part_set{
-    {.names = {"ELEMENT_MASS_PART_SET"},
-     .purpose = "mass that is spread over the nodes of a set of parts of shells or solids",
-     .cards = {{.fields = set_mass_fields()}}}};
+const RegisterKeyword<PartMassCard> element_mass_part{element_mass_part_table()};
+const RegisterKeyword<PartSetMassCard> element_mass_part_set{element_mass_part_set_table()};
 
 class PartMasses {
  public:

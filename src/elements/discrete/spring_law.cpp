@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/straight_pieces.hpp"
-#include "keyword/common_rules.hpp"
+#include "elements/discrete/discrete_cards.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
@@ -94,21 +94,13 @@ struct Reader {
   }
 };
 
-struct SpringCard : Entry {
-  std::string title;
-  Id mid = 0;
-};
-
-struct MatSpringElastic : SpringCard {
-  Real k = 0;
+struct MatSpringElastic : MatSpringElasticFields {
   std::shared_ptr<SpringLaw> law(const Reader&) const { return std::make_shared<Elastic>(k); }
 };
-struct MatDamperViscous : SpringCard {
-  Real dc = 0;
+struct MatDamperViscous : MatDamperViscousFields {
   std::shared_ptr<SpringLaw> law(const Reader&) const { return std::make_shared<Viscous>(dc); }
 };
-struct MatSpringElastoplastic : SpringCard {
-  Real k = 0, kt = 0, fy = 0;
+struct MatSpringElastoplastic : MatSpringElastoplasticFields {
   std::shared_ptr<SpringLaw> law(const Reader& reader) const {
     if (kt < k) return std::make_shared<Elastoplastic>(k, kt, fy);
     reader.deck.error(reader.diagnostics, *this, "KT",
@@ -117,8 +109,7 @@ struct MatSpringElastoplastic : SpringCard {
     return nullptr;
   }
 };
-struct MatSpringNonlinearElastic : SpringCard {
-  Id lcd = 0, lcr = 0;
+struct MatSpringNonlinearElastic : MatSpringNonlinearElasticFields {
   std::shared_ptr<SpringLaw> law(const Reader& reader) const {
     const Curve* force = reader.curve(*this, "LCD", lcd);
     const Curve* factor = lcr == 0 ? nullptr : reader.curve(*this, "LCR", lcr);
@@ -126,60 +117,18 @@ struct MatSpringNonlinearElastic : SpringCard {
     return std::make_shared<NonlinearElastic>(*force, factor);
   }
 };
-struct MatDamperNonlinearViscous : SpringCard {
-  Id lcdr = 0;
+struct MatDamperNonlinearViscous : MatDamperNonlinearViscousFields {
   std::shared_ptr<SpringLaw> law(const Reader& reader) const {
     const Curve* force = reader.curve(*this, "LCDR", lcdr);
     return force ? std::make_shared<NonlinearViscous>(*force) : nullptr;
   }
 };
 
-template <class Card>
-KeywordOf<Card> keyword(const char* name, const char* number, const char* purpose,
-                        std::vector<FieldOf<Card>> fields) {
-  KeywordOf<Card> out{.names = {name, number},
-                      .purpose = purpose,
-                      .id_space = IdSpace::material,
-                      .title_option = true,
-                      .title = &Card::title,
-                      .cards = {{.fields = std::move(fields)}}};
-  return out;
-}
-
-using rules::required_id;
-using rules::required_id_of;
-constexpr FieldRules at_least_0{.check = Check::not_negative};
-constexpr FieldRules given{.required = true, .check = Check::not_negative};
-constexpr FieldRules above_0{.required = true, .check = Check::positive};
-
-using S1 = MatSpringElastic;
-const RegisterKeyword<S1> s01{
-    keyword<S1>("MAT_SPRING_ELASTIC", "MAT_S01", "spring: force K times stretch",
-                {{"MID", &S1::mid, "-", "id that *PART refers to", required_id},
-                 {"K", &S1::k, "M/T2", "stiffness; of torsional springs moment per radian", given}})};
-using S2 = MatDamperViscous;
-const RegisterKeyword<S2> s02{
-    keyword<S2>("MAT_DAMPER_VISCOUS", "MAT_S02", "damper: force DC times the rate of the stretch",
-                {{"MID", &S2::mid, "-", "id that *PART refers to", required_id},
-                 {"DC", &S2::dc, "M/T", "damping; of torsional ones moment per radian and time", given}})};
-using S3 = MatSpringElastoplastic;
-const RegisterKeyword<S3> s03{keyword<S3>("MAT_SPRING_ELASTOPLASTIC", "MAT_S03",
-                                          "spring that yields, with isotropic hardening",
-                                          {{"MID", &S3::mid, "-", "id that *PART refers to", required_id},
-                                           {"K", &S3::k, "M/T2", "elastic stiffness", above_0},
-                                           {"KT", &S3::kt, "M/T2", "slope beyond FY", at_least_0},
-                                           {"FY", &S3::fy, "ML/T2", "force at which it yields", above_0}})};
-using S4 = MatSpringNonlinearElastic;
-const RegisterKeyword<S4> s04{keyword<S4>(
-    "MAT_SPRING_NONLINEAR_ELASTIC", "MAT_S04", "spring whose force is a curve of its stretch",
-    {{"MID", &S4::mid, "-", "id that *PART refers to", required_id},
-     {"LCD", &S4::lcd, "-", "force over stretch, linear beyond its ends", required_id_of(IdSpace::curve)},
-     {"LCR", &S4::lcr, "-", "factor on it over the rate, 0 none", rules::optional_id_of(IdSpace::curve)}})};
-using S5 = MatDamperNonlinearViscous;
-const RegisterKeyword<S5> s05{keyword<S5>(
-    "MAT_DAMPER_NONLINEAR_VISCOUS", "MAT_S05", "damper whose force is a curve of the rate",
-    {{"MID", &S5::mid, "-", "id that *PART refers to", required_id},
-     {"LCDR", &S5::lcdr, "-", "force over rate, linear beyond its ends", required_id_of(IdSpace::curve)}})};
+const RegisterKeyword<MatSpringElastic> s01{mat_spring_elastic_table()};
+const RegisterKeyword<MatDamperViscous> s02{mat_damper_viscous_table()};
+const RegisterKeyword<MatSpringElastoplastic> s03{mat_spring_elastoplastic_table()};
+const RegisterKeyword<MatSpringNonlinearElastic> s04{mat_spring_nonlinear_elastic_table()};
+const RegisterKeyword<MatDamperNonlinearViscous> s05{mat_damper_nonlinear_viscous_table()};
 
 template <class Card>
 void add_laws(const Reader& reader, std::map<Id, std::shared_ptr<SpringLaw>>& laws) {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "elements/beam/mat_cable.hpp"
+#include "elements/beam/beam_cards.hpp"
 #include "elements/histories/cards_elout.hpp"
 #include "elements/histories/element_choice.hpp"
 #include "elements/histories/elout_text.hpp"

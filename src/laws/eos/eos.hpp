@@ -166,7 +166,11 @@ class EosLawOf : public EosLaw {
 template <class Card>
 struct RegisterEos {
   RegisterEos(std::string equation, std::string source, std::vector<EosReference> references,
-              KeywordOf<Card> keyword) {
+              KeywordOf<Card> keyword)
+      : RegisterEos(std::move(equation), std::move(source), std::move(references),
+                    table_of(std::move(keyword))) {}
+  template <std::same_as<KeywordTable> Made>
+  RegisterEos(std::string equation, std::string source, std::vector<EosReference> references, Made keyword) {
     EosEntry entry;
     entry.keyword = keyword.names.front();
     entry.equation = std::move(equation);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "laws/eos/eos.hpp"
+#include "laws/eos/eos_cards.hpp"
 #include "laws/eos/eos_fields.hpp"
 
 namespace courant {
@@ -71,10 +72,7 @@ struct Gruneisen {
   }
 };
 
-struct EosGruneisen : Entry {
-  Id eosid = 0, lcid = 0;
-  Real C = 0, s1 = 0, s2 = 0, s3 = 0, gamma0 = 0, a = 0, E0 = 0, V0 = 1;
-  std::string title;
+struct EosGruneisen : EosGruneisenFields {
   Gruneisen law() const { return {C * C, s1, s2, s3, gamma0, a, pole_of(s1, s2, s3)}; }
   Real e0() const { return E0; }
   Real v0() const { return V0; }
@@ -93,33 +91,7 @@ const RegisterEos<EosGruneisen> eos_gruneisen{
     {{"1,2.0,2.0\n1.0\n", 0.25, 0, 20.0 / 3, 3},
      {"1,2.0,1.25,0.25,0.5,1.0,0.5\n1.0\n", 1, 2, 23},
      {"1,2.0,1.25,0.25,0.5,1.0,0.5\n1.0\n", -0.5, 2, -0.5}},
-    {.names = {"EOS_GRUNEISEN", "EOS_004"},
-     .purpose = "shock Hugoniot us(up) of a liquid or solid, with energy by the Grueneisen gamma",
-     .id_space = IdSpace::eos,
-     .title_option = true,
-     .title = &EosGruneisen::title,
-     .cards = {
-         {.fields =
-              {eosid_field<EosGruneisen>(),
-               {"C",
-                &EosGruneisen::C,
-                "L/T",
-                "shock velocity us at particle velocity up = 0, the sound speed",
-                {.required = true, .check = Check::positive}},
-               {"S1", &EosGruneisen::s1, "-", "slope of us over up", {}},
-               {"S2", &EosGruneisen::s2, "-", "factor of (up/us) up", {}},
-               {"S3", &EosGruneisen::s3, "-", "factor of (up/us)^2 up", {}},
-               {"GAMMA0", &EosGruneisen::gamma0, "-", "Grueneisen gamma", {.check = Check::not_negative}},
-               {"A", &EosGruneisen::a, "-", "first-order volume correction to gamma", {}},
-               {"E0", &EosGruneisen::E0, "M/LT2", "initial internal energy per reference volume", {}}}},
-         {.fields = {v0_field<EosGruneisen>(),
-                     {},
-                     {"LCID",
-                      &EosGruneisen::lcid,
-                      "-",
-                      "curve of energy deposition",
-                      {.honour = Honour::no, .refers = IdSpace::curve}}},
-          .optional = true}}}};
+    eos_gruneisen_table()};
 
 }  // namespace
 

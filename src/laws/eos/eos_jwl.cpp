@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "laws/eos/eos.hpp"
+#include "laws/eos/eos_cards.hpp"
 #include "laws/eos/eos_fields.hpp"
 
 namespace courant {
@@ -26,10 +27,7 @@ struct Jwl {
   }
 };
 
-struct EosJwl : Entry {
-  Id eosid = 0;
-  Real A = 0, B = 0, r1 = 0, r2 = 0, omeg = 0, E0 = 0, V0 = 1;
-  std::string title;
+struct EosJwl : EosJwlFields {
   Jwl law() const { return {A, B, r1, r2, omeg}; }
   Real e0() const { return E0; }
   Real v0() const { return V0; }
@@ -43,23 +41,7 @@ const RegisterEos<EosJwl> eos_jwl{
     "Jones, Wilkins and Lee: Lee, Hornig and Kury 1968, UCRL-50422",
     {{"1,738.9056098930650,27.18281828459045,2.0,1.0,0.5\n", 0, 10, 85},
      {"1,545.9815003314424,29.55622439572260,2.0,1.0,0.5\n", -0.5, 8, 13.75}},
-    {.names = {"EOS_JWL", "EOS_002"},
-     .purpose = "gaseous products of a detonation",
-     .id_space = IdSpace::eos,
-     .title_option = true,
-     .title = &EosJwl::title,
-     .cards = {{.fields = {eosid_field<EosJwl>(),
-                           {"A",
-                            &EosJwl::A,
-                            "M/LT2",
-                            "factor of exp(-R1 V)",
-                            {.required = true, .check = Check::positive}},
-                           {"B", &EosJwl::B, "M/LT2", "factor of exp(-R2 V)", {}},
-                           {"R1", &EosJwl::r1, "-", "exponent", {.required = true, .check = Check::positive}},
-                           {"R2", &EosJwl::r2, "-", "exponent", {.required = true, .check = Check::positive}},
-                           {"OMEG", &EosJwl::omeg, "-", "factor of E/V", {.check = Check::not_negative}},
-                           {"E0", &EosJwl::E0, "M/LT2", "initial internal energy per reference volume", {}},
-                           v0_field<EosJwl>()}}}}};
+    eos_jwl_table()};
 
 }  // namespace
 

@@ -1,4 +1,5 @@
 #include "laws/eos/eos.hpp"
+#include "laws/eos/eos_cards.hpp"
 #include "laws/eos/eos_fields.hpp"
 
 namespace courant {
@@ -16,10 +17,7 @@ struct LinearPolynomial {
   bool uses_energy() const { return c4 != 0 || c5 != 0 || c6 != 0; }
 };
 
-struct EosLinearPolynomial : Entry {
-  Id eosid = 0;
-  Real c0 = 0, c1 = 0, c2 = 0, c3 = 0, c4 = 0, c5 = 0, c6 = 0, E0 = 0, V0 = 1;
-  std::string title;
+struct EosLinearPolynomial : EosLinearPolynomialFields {
   LinearPolynomial law() const { return {c0, c1, c2, c3, c4, c5, c6}; }
   Real e0() const { return E0; }
   Real v0() const { return V0; }
@@ -40,24 +38,7 @@ const RegisterEos<EosLinearPolynomial> eos_linear_polynomial{
      {"         1       0.0       0.0       0.0       0.0       0.4       0.4       0.0\n       2.5       "
       "1.0\n",
       0.5, 3, 1.8}},
-    {.names = {"EOS_LINEAR_POLYNOMIAL", "EOS_001"},
-     .purpose = "pressure as a polynomial of compression, with energy",
-     .id_space = IdSpace::eos,
-     .title_option = true,
-     .title = &EosLinearPolynomial::title,
-     .cards = {
-         {.fields = {eosid_field<EosLinearPolynomial>(),
-                     {"C0", &EosLinearPolynomial::c0, "M/LT2", "pressure at mu = 0", {}},
-                     {"C1", &EosLinearPolynomial::c1, "M/LT2", "bulk modulus, rho0 c0^2", {}},
-                     {"C2", &EosLinearPolynomial::c2, "M/LT2", "factor of mu^2, in compression", {}},
-                     {"C3", &EosLinearPolynomial::c3, "M/LT2", "factor of mu^3", {}},
-                     {"C4", &EosLinearPolynomial::c4, "-", "factor of E", {}},
-                     {"C5", &EosLinearPolynomial::c5, "-", "factor of mu E", {}},
-                     {"C6", &EosLinearPolynomial::c6, "-", "factor of mu^2 E, in compression", {}}}},
-         {.fields =
-              {{"E0", &EosLinearPolynomial::E0, "M/LT2", "initial internal energy per reference volume", {}},
-               v0_field<EosLinearPolynomial>()},
-          .optional = true}}}};
+    eos_linear_polynomial_table()};
 
 }  // namespace
 

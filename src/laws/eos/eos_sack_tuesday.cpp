@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "laws/eos/eos.hpp"
+#include "laws/eos/eos_cards.hpp"
 #include "laws/eos/eos_fields.hpp"
 
 namespace courant {
@@ -25,10 +26,7 @@ struct SackTuesday {
   Real factor(Real x) const { return a3 * std::pow(x, a1) * std::exp(-a2 / x); }
 };
 
-struct EosSackTuesday : Entry {
-  Id eosid = 0;
-  Real a1 = 0, a2 = 0, a3 = 0, b1 = 0, b2 = 0, E0 = 0, V0 = 1;
-  std::string title;
+struct EosSackTuesday : EosSackTuesdayFields {
   SackTuesday law() const { return {a1, a2, a3, b1, b2}; }
   Real e0() const { return E0; }
   Real v0() const { return V0; }
@@ -45,23 +43,7 @@ const RegisterEos<EosSackTuesday> eos_sack_tuesday{
     {{"1,2.0,1.0,271.8281828459045,0.25,0.5\n", 0, 10, 80},
      {"1,2.0,1.0,295.5622439572260,0.25,0.5\n", -0.5, 8, 10.75},
      {"1,2.0,1.0,1.648721270700128,0.25,0.5\n", 1, 3, 5}},
-    {.names = {"EOS_SACK_TUESDAY", "EOS_003"},
-     .purpose = "gaseous products of a detonation, by Sack",
-     .id_space = IdSpace::eos,
-     .title_option = true,
-     .title = &Sack::title,
-     .cards = {{.fields = {eosid_field<Sack>(),
-                           {"A1", &Sack::a1, "-", "exponent of 1/V", {}},
-                           {"A2", &Sack::a2, "-", "factor of -V in the exponent", {}},
-                           {"A3",
-                            &Sack::a3,
-                            "M/LT2",
-                            "factor of V^-A1 exp(-A2 V) (1 - B1/V)",
-                            {.required = true, .check = Check::positive}},
-                           {"B1", &Sack::b1, "-", "factor of -1/V", {}},
-                           {"B2", &Sack::b2, "-", "factor of E/V", {.check = Check::not_negative}},
-                           {"E0", &Sack::E0, "M/LT2", "initial internal energy per reference volume", {}},
-                           v0_field<Sack>()}}}}};
+    eos_sack_tuesday_table()};
 
 }  // namespace
 

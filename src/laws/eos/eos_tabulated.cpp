@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "laws/eos/eos.hpp"
-#include "laws/eos/eos_fields.hpp"
 #include "laws/eos/volume_table.hpp"
 
 namespace courant {
@@ -24,7 +23,6 @@ struct Tabulated {
   bool uses_energy() const { return gamma != 0 && !tables->T.is_zero(); }
 };
 
-using Table009 = struct EosTabulated;
 struct EosTabulated : VolumePoints {
   VolumeTable pressures(const Model& model) const { return volume_table(model, lcc, *this, {c(), t()}, c()); }
   VolumeTable factors(const Model& model) const { return volume_table(model, lct, *this, {c(), t()}, t()); }
@@ -58,18 +56,7 @@ const RegisterEos<EosTabulated> eos_tabulated{
      {cold, -0.048770575499285991, 4, -0.5},
      {to_rest, 0.133148453066826, 0, 0.5},
      {by_curves, 0.2840254166877414, 4, 9}},
-    {.names = {"EOS_TABULATED", "EOS_009"},
-     .purpose = "pressure from a table over the volumetric strain, with energy",
-     .id_space = IdSpace::eos,
-     .title_option = true,
-     .title = &Table009::title,
-     .cards = [] {
-       using F = VolumeFields<Table009>;
-       std::vector<CardOf<Table009>> cards = F::points();
-       cards.insert(cards.begin(), {.fields = {eosid_field<Table009>(), F::gama(), F::e0(),
-                                               v0_field<Table009>(), F::lcc(), F::lct()}});
-       return cards;
-     }()}};
+    eos_tabulated_table()};
 
 }  // namespace
 

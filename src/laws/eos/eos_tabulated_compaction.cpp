@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "laws/eos/eos.hpp"
-#include "laws/eos/eos_fields.hpp"
 #include "laws/eos/volume_table.hpp"
 
 namespace courant {
@@ -42,8 +41,6 @@ struct Compaction {
 };
 
 struct EosTabulatedCompaction : VolumePoints {
-  Id lck = 0, lcid = 0;
-  Real k1 = 0, k2 = 0, k3 = 0, k4 = 0, k5 = 0, k6 = 0, k7 = 0, k8 = 0, k9 = 0, k10 = 0;
   Column k() const { return {k1, k2, k3, k4, k5, k6, k7, k8, k9, k10}; }
   VolumeTable table(const Model& model, Id id, const Column& column) const {
     return volume_table(model, id, *this, {c(), t(), k()}, column);
@@ -84,38 +81,6 @@ void Table008::check(const Deck& deck, const Model& model, Diagnostics& diagnost
   }
 }
 
-FieldOf<Table008> modulus(const char* name, Real Table008::*member) {
-  return {name, member, "M/LT2", "bulk modulus of unloading from the EV of that number", in_wide_columns};
-}
-
-std::vector<CardOf<Table008>> cards_of_008() {
-  using F = VolumeFields<Table008>;
-  std::vector<CardOf<Table008>> cards = F::points();
-  cards.push_back(
-      {.fields = {modulus("K1", &Table008::k1), modulus("K2", &Table008::k2), modulus("K3", &Table008::k3),
-                  modulus("K4", &Table008::k4), modulus("K5", &Table008::k5)},
-       .optional = true});
-  cards.push_back(
-      {.fields = {modulus("K6", &Table008::k6), modulus("K7", &Table008::k7), modulus("K8", &Table008::k8),
-                  modulus("K9", &Table008::k9), modulus("K10", &Table008::k10)},
-       .optional = true});
-  cards.insert(cards.begin(),
-               {.fields = {eosid_field<Table008>(),
-                           F::gama(),
-                           F::e0(),
-                           v0_field<Table008>(),
-                           F::lcc(),
-                           F::lct(),
-                           {"LCK", &Table008::lck, "-", "curve of K over -ln V instead of points",
-                            rules::optional_id_of(IdSpace::curve)},
-                           {"LCID",
-                            &Table008::lcid,
-                            "-",
-                            "curve of a power that is added to E",
-                            {.honour = Honour::no, .refers = IdSpace::curve}}}});
-  return cards;
-}
-
 // By hand, on the first way in: EV 0, -0.1, -0.5; C 0, 1, 10; T 1, 1, 3; K 20, 20, 40; GAMA 1/2, E 4. At eV =
 // -0.3 C = 5.5, T = 2, p = 9.5. Expanded, along K of rest: at eV = 0.05 p = -1 + 2 = 1, T still being 1.
 const char* const crushed = "1,0.5\n0.0,-0.1,-0.5\n\n0.0,1.0,10.0\n\n1.0,1.0,3.0\n\n20.0,20.0,40.0\n\n";
@@ -129,12 +94,7 @@ const RegisterEos<Table008> eos_tabulated_compaction{
      {crushed, -0.048770575499285991, 4, 1},
      {crushed_by_curves, 0.3498588075760032, 4, 9.5},
      {crushed_by_curves, -0.048770575499285991, 4, 1}},
-    {.names = {"EOS_TABULATED_COMPACTION", "EOS_008"},
-     .purpose = "pressure of what is crushed, from a table, and back along a bulk modulus",
-     .id_space = IdSpace::eos,
-     .title_option = true,
-     .title = &Table008::title,
-     .cards = cards_of_008()}};
+    eos_tabulated_compaction_table()};
 
 }  // namespace
 

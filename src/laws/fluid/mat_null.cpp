@@ -1,4 +1,5 @@
 #include "laws/fluid/mat_null.hpp"
+#include "laws/fluid/fluid_cards.hpp"
 
 #include <fmt/format.h>
 
@@ -61,44 +62,7 @@ class Coat : public StrengthLaw {
   Real bulk_, shear_;
 };
 
-const RegisterKeyword<MatNull> mat_null{
-    {.names = {"MAT_NULL", "MAT_009"},
-     .purpose =
-         "fluid: density, tensile cut-off and viscosity; pressure comes from the part's EOS. Shells and "
-         "beams have mass and faces that touch and are pressed, and no stress",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &MatNull::title,
-     .cards = {
-         {.fields = {
-              {"MID",
-               &MatNull::mid,
-               "-",
-               "id that *PART refers to",
-               {.required = true, .check = Check::positive}},
-              {"RO", &MatNull::ro, "M/L3", "reference density", {.required = true, .check = Check::positive}},
-              {"PC", &MatNull::pc, "M/LT2", "tensile pressure cut-off, not above 0; 0 allows no tension"},
-              {"MU", &MatNull::mu, "M/LT", "dynamic viscosity", {.check = Check::not_negative}},
-              {"TEROD",
-               &MatNull::terod,
-               "-",
-               "V/V0 above which elements are deleted; 0: none",
-               {.check = Check::not_negative}},
-              {"CEROD",
-               &MatNull::cerod,
-               "-",
-               "V/V0 below which elements are deleted; 0: none",
-               {.check = Check::not_negative}},
-              {"YM",
-               &MatNull::ym,
-               "M/LT2",
-               "Young's modulus of shells, for the stiffness of contact alone",
-               {.check = Check::not_negative}},
-              {"PR",
-               &MatNull::pr,
-               "-",
-               "Poisson ratio of shells, for the stiffness of contact alone; below 0.5",
-               {.check = Check::not_negative}}}}}}};
+const RegisterKeyword<MatNull> mat_null{mat_null_table()};
 
 }  // namespace
 

@@ -2,16 +2,14 @@
 #include <memory>
 
 #include "keyword/deck.hpp"
+#include "laws/fluid/fluid_cards.hpp"
 #include "laws/strength/strength.hpp"
 
 namespace courant {
 
 /// *MAT_NULL (*MAT_009): a fluid; pressure from its EOS, tau = 2 MU D'. Shells and beams of it have mass and
 /// no stress: YM and PR are for what touches them.
-struct MatNull : Entry {
-  Id mid = 0;
-  Real ro = 0, pc = 0, mu = 0, terod = 0, cerod = 0, ym = 0, pr = 0;
-  std::string title;
+struct MatNull : MatNullFields {
   /// For elements; particles find the viscous stress by sums over pairs. Its
   /// pressure does not fall below PC.
   std::shared_ptr<StrengthLaw> law() const;

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/left_cauchy_green.hpp"
+#include "laws/strength/strength_cards.hpp"
 
 namespace courant {
 
@@ -42,10 +42,7 @@ class BlatzKo : public StrengthLaw {
 };
 
 using Blatz = struct MatBlatzKoRubber;
-struct MatBlatzKoRubber : Entry {
-  std::string title;
-  Id mid = 0;
-  Real ro = 0, g = 0, ref = 0;
+struct MatBlatzKoRubber : MatBlatzKoRubberFields {
   std::shared_ptr<StrengthLaw> law() const { return std::make_shared<BlatzKo>(ro, g); }
 };
 
@@ -59,15 +56,7 @@ const RegisterStrength<Blatz> mat_blatz_ko_rubber{
       {2.0 / 3, -0.4},
       {},
       {6 - 2 * blatz_mean, 2.0 / 3 - 2 * blatz_mean, 1.5 - 2 * blatz_mean}}},
-    {.names = {"MAT_BLATZ-KO_RUBBER", "MAT_007"},
-     .purpose = "rubber: hyperelasticity of Blatz and Ko with a Poisson ratio of 0.463",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &Blatz::title,
-     .cards = {{.fields = {{"MID", &Blatz::mid, "-", "id that *PART refers to", rules::required_id},
-                           {"RO", &Blatz::ro, "M/L3", "density", rules::required_positive},
-                           {"G", &Blatz::g, "M/LT2", "shear modulus", rules::required_positive},
-                           {"REF", &Blatz::ref, "-", "stress from a reference geometry", unsupported}}}}}};
+    mat_blatz_ko_rubber_table()};
 
 }  // namespace
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/strength.hpp"
+#include "laws/strength/strength_cards.hpp"
 
 namespace courant {
 
@@ -54,13 +54,7 @@ class CrushableFoam : public StrengthLaw {
   Curve yield_;
 };
 
-using Crushable = struct MatCrushableFoam;
-struct MatCrushableFoam : Entry {
-  std::string title;
-  Id mid = 0, lcid = 0;
-  Real ro = 0, E = 0, pr = 0, tsc = 0, damp = 0;
-  int model = 0;
-
+struct MatCrushableFoam : MatCrushableFoamFields {
   std::shared_ptr<StrengthLaw> law(const Model& model_of_deck) const {
     const auto yield = model_of_deck.curves.find(lcid);
     return std::make_shared<CrushableFoam>(ro, E, tsc,
@@ -85,7 +79,7 @@ const std::string yield_curve = "*DEFINE_CURVE\n5\n0.0,1.0\n0.5,3.0\n";
 // By hand. E = 10, TSC = 1/2, sigma_y from 1 at 0 to 3 at 1/2. D dt = (-ln(4/3), 0, 0): V/V0 = 3/4, sigma_y =
 // 2 < 10 ln(4/3). Shear 2 e_xy = 0.4 without a change of volume: 2 along one diagonal, -2 along the other,
 // held to 1/2 and -1. From there back by 0.05: elastically.
-const RegisterStrength<Crushable> mat_crushable_foam{
+const RegisterStrength<MatCrushableFoam> mat_crushable_foam{
     "sigma + E D dt, principal values between -sigma_y(1 - V/V0) and TSC",
     "LS-DYNA's MAT_063: Poisson's ratio 0, each principal stress for itself",
     {{"1,2.0,10.0,0.0,5,0.5\n" + yield_curve,
@@ -96,22 +90,7 @@ const RegisterStrength<Crushable> mat_crushable_foam{
       {-0.28768207245178090}},
      {"1,2.0,10.0,0.0,5,0.5\n" + yield_curve, {0, 0, 0, 0.2, 0, 0}, {}, {-0.25, -0.25, 0, 0.75, 0, 0}},
      {"1,2.0,10.0,0.0,5,0.5\n" + yield_curve, {0.05}, {-2}, {-1.5}, {-0.4}, {-0.35}}},
-    {.names = {"MAT_CRUSHABLE_FOAM", "MAT_063"},
-     .purpose = "foam that is crushed by a stress over its change of volume, and springs back little",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &Crushable::title,
-     .cards = {
-         {.fields = {
-              {"MID", &Crushable::mid, "-", "id that *PART refers to", rules::required_id},
-              {"RO", &Crushable::ro, "M/L3", "density", rules::required_positive},
-              {"E", &Crushable::E, "M/LT2", "Young's modulus", rules::required_positive},
-              {"PR", &Crushable::pr, "-", "Poisson ratio, which the stress does not heed", no_effect},
-              {"LCID", &Crushable::lcid, "-", "curve of the yield stress over 1 - V/V0",
-               rules::required_id_of(IdSpace::curve)},
-              {"TSC", &Crushable::tsc, "M/LT2", "tension that is borne", {.check = Check::not_negative}},
-              {"DAMP", &Crushable::damp, "-", "viscous stress: left out, with a warning"},
-              {"MODEL", &Crushable::model, "-", "another yield surface (1, 2)", {.allowed = {0}}}}}}}};
+    mat_crushable_foam_table()};
 
 }  // namespace
 

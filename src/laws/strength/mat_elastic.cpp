@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <cmath>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/strength.hpp"
+#include "laws/strength/strength_cards.hpp"
 
 namespace courant {
 
@@ -60,10 +60,7 @@ class Elastic : public StrengthLaw {
   Real lambda_, shear_;
 };
 
-struct MatElastic : Entry {
-  std::string title;
-  Id mid = 0;
-  Real ro = 0, E = 0, pr = 0, da = 0, db = 0, k = 0;
+struct MatElastic : MatElasticFields {
   std::shared_ptr<StrengthLaw> law() const { return std::make_shared<Elastic>(ro, E, pr); }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
     if (!(pr < 0.5))
@@ -79,23 +76,7 @@ const RegisterStrength<MatElastic> mat_elastic{
     "Hooke's law between rates (hypoelastic), with the objective update of Hughes & Winget 1980",
     {{"1,2.0,2.5,0.25\n", {0.1, 0, 0, 0, 0, 0}, {1, 2, 3, 4, 5, 6}, {1.3, 2.1, 3.1, 4, 5, 6}},
      {"1,2.0,2.5,0.25\n", {0, 0, 0, 0.1, 0.2, 0.3}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0.2, 0.4, 0.6}}},
-    {.names = {"MAT_ELASTIC", "MAT_001"},
-     .purpose = "linear elasticity",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &MatElastic::title,
-     .cards = {
-         {.fields = {{"MID",
-                      &MatElastic::mid,
-                      "-",
-                      "id that *PART refers to",
-                      {.required = true, .check = Check::positive}},
-                     {"RO", &MatElastic::ro, "M/L3", "density", rules::required_positive},
-                     {"E", &MatElastic::E, "M/LT2", "Young's modulus", rules::required_positive},
-                     {"PR", &MatElastic::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
-                     {"DA", &MatElastic::da, "-", "axial damping of beams", unsupported},
-                     {"DB", &MatElastic::db, "-", "bending damping of beams", unsupported},
-                     {"K", &MatElastic::k, "M/LT2", "bulk modulus of *MAT_ELASTIC_FLUID", no_effect}}}}}};
+    mat_elastic_table()};
 
 }  // namespace
 

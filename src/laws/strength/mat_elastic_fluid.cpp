@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/strength.hpp"
+#include "laws/strength/strength_cards.hpp"
 
 namespace courant {
 
@@ -34,10 +34,7 @@ class ElasticFluid : public StrengthLaw {
   Real bulk_, cavitation_;
 };
 
-struct MatElasticFluid : Entry {
-  std::string title;
-  Id mid = 0;
-  Real ro = 0, E = 0, pr = 0, da = 0, db = 0, k = 0, vc = 0, cp = 0;
+struct MatElasticFluid : MatElasticFluidFields {
   Real bulk() const { return k > 0 ? k : E / (3 * (1 - 2 * pr)); }
   std::shared_ptr<StrengthLaw> law() const { return std::make_shared<ElasticFluid>(ro, bulk(), cp); }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
@@ -59,38 +56,7 @@ const RegisterStrength<MatElasticFluid> mat_elastic_fluid{
     {{"1,2.0,,,,,3.0\n\n", {0.1, 0, 0, 0.5, 0, 0}, {-1, -1, -1}, {-0.7, -0.7, -0.7}},
      {"1,2.0,3.0,0.25\n\n", {0, 0.1, 0.1, 0, 0, 0}, {-1, -1, -1}, {-0.6, -0.6, -0.6}},
      {"1,2.0,,,,,3.0\n,0.5\n", {0.3, 0, 0, 0, 0, 0}, {}, {0.5, 0.5, 0.5}}},
-    {.names = {"MAT_ELASTIC_FLUID", "MAT_001_FLUID"},
-     .purpose = "fluid with a bulk modulus; needs no equation of state",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &MatElasticFluid::title,
-     .cards = {
-         {.fields = {{"MID",
-                      &MatElasticFluid::mid,
-                      "-",
-                      "id that *PART refers to",
-                      {.required = true, .check = Check::positive}},
-                     {"RO", &MatElasticFluid::ro, "M/L3", "density", rules::required_positive},
-                     {"E",
-                      &MatElasticFluid::E,
-                      "M/LT2",
-                      "Young's modulus, where K is 0",
-                      {.check = Check::not_negative}},
-                     {"PR",
-                      &MatElasticFluid::pr,
-                      "-",
-                      "Poisson ratio, where K is 0",
-                      {.check = Check::not_negative}},
-                     {"DA", &MatElasticFluid::da, "-", "axial damping of beams", unsupported},
-                     {"DB", &MatElasticFluid::db, "-", "bending damping of beams", unsupported},
-                     {"K", &MatElasticFluid::k, "M/LT2", "bulk modulus", {.check = Check::not_negative}}}},
-         {.fields = {{"VC", &MatElasticFluid::vc, "-", "tensor viscosity coefficient", unsupported},
-                     {"CP",
-                      &MatElasticFluid::cp,
-                      "M/LT2",
-                      "cavitation pressure: the largest tension",
-                      {.standard = 1e20, .check = Check::positive}}},
-          .optional = true}}}};
+    mat_elastic_fluid_table()};
 
 }  // namespace
 

@@ -346,7 +346,8 @@ std::string convert_least_step(ED& card, const Conversion& conversion) {
 // 0.4. XT = 0.8: the fibre fails, and without DFAILT the ply. Strain 0.3 along b: a 0.4, b 0.4; YT = 0.2: b
 // stays 0.2.
 constexpr const char* stiff_ply = "1,2.0,4.0,1.0,,0.25\n1.0,2.0,3.0\n\n\n";
-constexpr FieldRules curve_over_rate{.check = Check::not_negative, .refers = IdSpace::curve};
+constexpr FieldRules curve_over_rate =
+    rules::over({.check = Check::not_negative, .refers = IdSpace::curve}, "1/T", "M/LT2");
 const RegisterStrength<ED> mat_enhanced_composite_damage{
     "elastic by the directions of a sheet, 2 D ab = d(tau/GAB + ALPH tau^3)/dt, until fibres fail, "
     "(s_a/XT)^2 + "

@@ -270,8 +270,8 @@ using WF = MatFabric;
 
 constexpr FieldRules of_airbags{.honour = Honour::ignored};
 constexpr FieldRules at_least_0{.check = Check::not_negative};
-constexpr FieldRules fibre_curve = rules::optional_id_of(IdSpace::curve);
-constexpr FieldRules signed_curve = rules::id_of(IdSpace::curve);
+constexpr FieldRules fibre_curve = rules::over(rules::optional_id_of(IdSpace::curve), "-", "M/LT2");
+constexpr FieldRules signed_curve = rules::over(rules::id_of(IdSpace::curve), "-", "M/LT2");
 
 // By hand. EA = 4, EB = 1, PRBA = 1/4: as of *MAT_ORTHOTROPIC_ELASTIC aa = 16/3, ab = bb = 4/3; GAB = 1. A
 // liner of half the thickness, EL = 3, PRL = 1/2: aa = bb = 4, ab = 2, G = 1.

@@ -4,20 +4,15 @@
 #include <cmath>
 #include <Eigen/Eigenvalues>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/curves_over_rate.hpp"
 #include "laws/strength/left_cauchy_green.hpp"
+#include "laws/strength/strength_cards.hpp"
 
 namespace courant {
 
 namespace {
 
-struct MatFuChangFoam : Entry {
-  std::string title;
-  Id mid = 0, tbid = 0, pvid = 0;
-  Real ro = 0, E = 0, kcon = 0, tc = 0, fail = 0, damp = 0, bvflag = 0, sflag = 0, rflag = 0, tflag = 0;
-  Real sraf = 0, ref = 0, hu = 0, d0 = 0, n0 = 0, n1 = 0, n2 = 0, n3 = 0, c0 = 0, c1 = 0, c2 = 0, c3 = 0;
-  Real c4 = 0, c5 = 0, aij = 0, sij = 0, minr = 0, maxr = 0, shape = 0, expon = 1, riuld = 0;
+struct MatFuChangFoam : MatFuChangFoamFields {
   std::shared_ptr<StrengthLaw> law(const Model& model) const;
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
 };
@@ -130,13 +125,10 @@ void MatFuChangFoam::check(const Deck& deck, const Model& model, Diagnostics& di
                "tension stands below 0, strain and stress");
 }
 
-using FF = MatFuChangFoam;
-
 /// Of the fit that a table stands for.
-constexpr FieldRules of_fit{.honour = Honour::ignored};
 const std::string foam_curve = "*DEFINE_CURVE\n5\n0.0,0.0\n0.25,1.0\n1.0,4.0\n";
 // By hand. E = 10; f = 4 e. D dt = (-2/3, 0, 0): l = 1/2: f = 2 over an area that is as it was.
-const RegisterStrength<FF> mat_fu_chang_foam{
+const RegisterStrength<MatFuChangFoam> mat_fu_chang_foam{
     "sigma_k = tau(l_k - 1, rate)/(l_i l_j), compression by the curve of the rate of loading, unloading by "
     "the "
     "first "
@@ -144,62 +136,7 @@ const RegisterStrength<FF> mat_fu_chang_foam{
     "Chang, Song, Lu & DeSilva 1998 by tables, as LS-DYNA's MAT_083",
     {{"1,2.0,10.0,,,,,5\n\n\n\n" + foam_curve, {-2.0 / 3}, {}, {-2, 0, 0}, {}, {-0.75, 0, 0, 0, 0, 0}},
      {"1,2.0,10.0,,,,,5\n\n\n\n" + foam_curve, {2.0 / 21}, {}, {1, 0, 0}, {}, {0.21, 0, 0, 0, 0, 0}}},
-    {.names = {"MAT_FU_CHANG_FOAM", "MAT_083"},
-     .purpose = "foam of low density by curves of nominal stress over nominal strain for rates of strain",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &FF::title,
-     .many = false,
-     .cards = {
-         {.fields = {{"MID", &FF::mid, "-", "id that *PART refers to", rules::required_id},
-                     {"RO", &FF::ro, "M/L3", "density", rules::required_positive},
-                     {"E", &FF::E, "M/LT2", "Young's modulus in tension", rules::required_positive},
-                     {"KCON", &FF::kcon, "M/LT2", "stiffness for contact and steps", no_effect},
-                     {"TC",
-                      &FF::tc,
-                      "M/LT2",
-                      "most tension (nominal); 0: no limit",
-                      {.standard = 1e20, .check = Check::positive}},
-                     {"FAIL", &FF::fail, "-", "tension beyond TC: TC (0), none (1)"},
-                     {"DAMP", &FF::damp, "-", "viscous stress: left out, with a warning"},
-                     {"TBID", &FF::tbid, "-",
-                      "table over the rate of curves of nominal stress over nominal strain, compression "
-                      "positive, or one curve",
-                      rules::optional_id_of(IdSpace::curve)}}},
-         {.fields = {{"BVFLAG", &FF::bvflag, "-", "bulk viscosity: on, as in the rest", no_effect},
-                     {"SFLAG", &FF::sflag, "-", "rate of ln l (0), of l (1)"},
-                     {"RFLAG", &FF::rflag, "-",
-                      "rate of the largest principal strain (0), of each direction (1), of the volume (2)"},
-                     {"TFLAG", &FF::tflag, "-", "tension by E (0), by the curves below 0 (1)"},
-                     {"PVID",
-                      &FF::pvid,
-                      "-",
-                      "curve of pressure over the change of volume",
-                      {.honour = Honour::no, .refers = IdSpace::curve}},
-                     {"SRAF", &FF::sraf, "-", "mean of rates over some twelve steps: 0, 1"},
-                     {"REF", &FF::ref, "-", "stress from a reference geometry", unsupported},
-                     {"HU", &FF::hu, "-", "unloading by a share of loading", unsupported}}},
-         {.fields = {{"D0", &FF::d0, "-", "of the fit", of_fit},
-                     {"N0", &FF::n0, "-", "of the fit", of_fit},
-                     {"N1", &FF::n1, "-", "of the fit", of_fit},
-                     {"N2", &FF::n2, "-", "of the fit", of_fit},
-                     {"N3", &FF::n3, "-", "of the fit", of_fit},
-                     {"C0", &FF::c0, "-", "of the fit", of_fit},
-                     {"C1", &FF::c1, "-", "of the fit", of_fit},
-                     {"C2", &FF::c2, "-", "of the fit", of_fit}},
-          .optional = true},
-         {.fields = {{"C3", &FF::c3, "-", "of the fit", of_fit},
-                     {"C4", &FF::c4, "-", "of the fit", of_fit},
-                     {"C5", &FF::c5, "-", "of the fit", of_fit},
-                     {"AIJ", &FF::aij, "-", "of the fit", of_fit},
-                     {"SIJ", &FF::sij, "-", "of the fit", of_fit},
-                     {"MINR", &FF::minr, "1/T", "least rate of interest", unsupported},
-                     {"MAXR", &FF::maxr, "1/T", "largest rate of interest", unsupported},
-                     {"SHAPE", &FF::shape, "-", "of unloading by HU", no_effect}},
-          .optional = true},
-         {.fields = {{"EXPON", &FF::expon, "-", "of unloading by HU", no_effect_but(1)},
-                     {"RIULD", &FF::riuld, "-", "unloading that does not heed rates", unsupported}},
-          .optional = true}}}};
+    mat_fu_chang_foam_table()};
 
 }  // namespace
 

@@ -197,7 +197,7 @@ void MatHoneycomb::check(const Deck& deck, const Model& model, Diagnostics& diag
 
 using HC = MatHoneycomb;
 
-constexpr FieldRules crush_curve = rules::optional_id_of(IdSpace::curve);
+constexpr FieldRules crush_curve = rules::over(rules::optional_id_of(IdSpace::curve), "-", "M/LT2");
 constexpr const char* loose_cards =
     "1,2.0,100.0,0.25,2.0,0.2\n5\n10.0,20.0,30.0,4.0,5.0,6.0\n\n\n*DEFINE_CURVE\n5\n0.0,1.0\n0.8,5.0\n";
 // By hand, at V = 1: moduli of the loose one, each component up to 1.
@@ -234,7 +234,7 @@ const RegisterStrength<HC> mat_honeycomb{
                      {"BULK", &HC::bulk, "-", "bulk viscosity, which acts here as on all solids: 0 or 1"}}},
          {.fields = {{"LCA", &HC::lca, "-",
                       "curve of the most stress along a over 1 - V (it begins at 0 or below), or over V",
-                      rules::required_id_of(IdSpace::curve)},
+                      rules::over(rules::required_id_of(IdSpace::curve), "-", "M/LT2")},
                      {"LCB", &HC::lcb, "-", "along b; 0: LCA", crush_curve},
                      {"LCC", &HC::lcc, "-", "along c; 0: LCA", crush_curve},
                      {"LCS", &HC::lcs, "-", "of shear; 0: LCA", crush_curve},
@@ -242,7 +242,7 @@ const RegisterStrength<HC> mat_honeycomb{
                      {"LCBC", &HC::lcbc, "-", "of shear bc; 0: LCS", crush_curve},
                      {"LCCA", &HC::lcca, "-", "of shear ca; 0: LCS", crush_curve},
                      {"LCSR", &HC::lcsr, "-", "factor of all of them over the rate of strain; 0: 1",
-                      crush_curve}}},
+                      rules::over(crush_curve, "1/T", "-")}}},
          {.fields = {{"EAAU", &HC::eaau, "M/LT2", "modulus along a, loose", rules::required_positive},
                      {"EBBU", &HC::ebbu, "M/LT2", "along b", rules::required_positive},
                      {"ECCU", &HC::eccu, "M/LT2", "along c", rules::required_positive},

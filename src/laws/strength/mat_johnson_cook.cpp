@@ -1,20 +1,14 @@
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/johnson_cook.hpp"
+#include "laws/strength/strength_cards.hpp"
 
 namespace courant {
 
 namespace {
 
-struct MatJohnsonCook : Entry {
+struct MatJohnsonCook : MatJohnsonCookFields {
   static constexpr bool deviator_only = true;
-  std::string title;
-  Id mid = 0;
-  Real ro = 0, G = 0, E = 0, pr = 0, dtf = 0, vp = 0, rateop = 0;
-  Real a = 0, b = 0, n = 0, c = 0, m = 0, tm = 0, tr = 0, epso = 0;
-  Real cp = 0, pc = 0, spall = 2, it = 0, d1 = 0, d2 = 0, d3 = 0, d4 = 0;
-  Real d5 = 0, c2 = 0, erod = 0, efmin = 1e-6, numint = 0, k = 0, eps1 = 0, dmodel = 0;
 
   std::shared_ptr<StrengthLaw> law() const {
     JohnsonCookData out{.G = G, .A = a, .B = b, .n = n, .C = c};
@@ -49,12 +43,6 @@ struct MatJohnsonCook : Entry {
 
 using J = MatJohnsonCook;
 
-/// C of Cowper and Symonds is a rate.
-std::string convert_rate(J& card, const Conversion& conversion) {
-  if (card.rateop == 3) card.c *= conversion.units.of("1/T");
-  return "";
-}
-
 // By hand. G = 1, A = 3, B = 2, N = 1: shear from rest s_xy = 2 G e = 4, q = 4 sqrt(3): as linear hardening,
 // de = (4 sqrt(3) - 3)/5. Rate (dt = 1/2): s_xy = 4 sqrt(3), q = 12, D_xy = 4 sqrt(3), rate 2 D/sqrt(3) = 8 =
 // EPSO e^2, so that with C = 1/2 R = 2: A = 3, B = 0: q = 6, s_xy = 2 sqrt(3), de = 2. With CP and RO = 2, CP
@@ -85,78 +73,14 @@ const RegisterStrength<J> mat_johnson_cook{
       {0, 0, 0, 1.7320508075688772, 0, 0},
       {0, 2},
       {3, 3.5}}},
-    {.names = {"MAT_JOHNSON_COOK", "MAT_015"},
-     .purpose =
-         "plasticity that heeds strain, its rate and temperature, with damage, beside an equation of state",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &J::title,
-     .cards =
-         {{.fields =
-               {{"MID", &J::mid, "-", "id that *PART refers to", rules::required_id},
-                {"RO", &J::ro, "M/L3", "density", rules::required_positive},
-                {"G", &J::G, "M/LT2", "shear modulus", rules::required_positive},
-                {"E", &J::E, "M/LT2", "Young's modulus, of shells", no_effect},
-                {"PR", &J::pr, "-", "Poisson ratio, of shells", no_effect},
-                {"DTF", &J::dtf, "T", "least step of shells", no_effect},
-                {"VP", &J::vp, "-", "rate of all strain (0) or of plastic strain (1)"},
-                {"RATEOP", &J::rateop, "-",
-                 "factor of the rate: 0 log-linear, 1 log-quadratic (C, C2), 2 (rate/EPSO)^C, 3 Cowper and "
-                 "Symonds (C, P)"}}},
-          {.fields = {{"A", &J::a, "M/LT2", "yield stress at rest", rules::required_positive},
-                      {"B", &J::b, "M/LT2", "factor of e^N", {.check = Check::not_negative}},
-                      {"N", &J::n, "-", "exponent of plastic strain", {.check = Check::not_negative}},
-                      {"C",
-                       &J::c,
-                       "-",
-                       "influence of the rate of strain; 1/T with RATEOP 3",
-                       {.check = Check::not_negative}},
-                      {"M", &J::m, "-", "exponent of temperature", {.check = Check::not_negative}},
-                      {"TM", &J::tm, "-", "temperature of melting"},
-                      {"TR", &J::tr, "-", "temperature at the start"},
-                      {"EPSO",
-                       &J::epso,
-                       "1/T",
-                       "rate of strain from which on it counts",
-                       {.check = Check::not_negative}}}},
-          {.fields =
-               {{"CP",
-                 &J::cp,
-                 "L2/T2",
-                 "heat capacity per mass and degree; 0: plastic work does not heat",
-                 {.check = Check::not_negative}},
-                {"PC",
-                 &J::pc,
-                 "M/LT2",
-                 "tensile failure stress or pressure cut-off; 0: none",
-                 {.check = Check::not_positive}},
-                {"SPALL",
-                 &J::spall,
-                 "-",
-                 "1 pressure >= PC; a point spalls, 2: where a principal stress is above -PC, 3: where the "
-                 "pressure is below PC",
-                 {.standard = 2}},
-                {"IT", &J::it, "-", "iteration of the plastic strain, which is always done", no_effect},
-                {"D1", &J::d1, "-", "strain at fracture"},
-                {"D2", &J::d2, "-", "factor of exp(-D3 p/q)"},
-                {"D3", &J::d3, "-", "influence of tension, < 0 where tension is bad"},
-                {"D4", &J::d4, "-", "influence of the rate of strain"}}},
-          {.fields = {{"D5", &J::d5, "-", "influence of temperature"},
-                      {"C2/P", &J::c2, "-", "C2 of RATEOP 1, P of RATEOP 3"},
-                      {"EROD", &J::erod, "-",
-                       "0: elements that fail are deleted, else they lose their deviator"},
-                      {"EFMIN",
-                       &J::efmin,
-                       "-",
-                       "least strain at fracture",
-                       {.standard = 1e-6, .check = Check::positive}},
-                      {"NUMINT", &J::numint, "-", "points of shells that must fail", no_effect},
-                      {"K", &J::k, "-", "of RATEOP 5", no_effect},
-                      {"EPS1", &J::eps1, "1/T", "of RATEOP 5", no_effect},
-                      {"DMODEL", &J::dmodel, "-", "damage of Cockcroft and Latham", unsupported}},
-           .optional = true}},
-     .convert = convert_rate}};
+    mat_johnson_cook_table()};
 
 }  // namespace
+
+/// C of Cowper and Symonds is a rate.
+std::string convert_rate(MatJohnsonCookFields& card, const Conversion& conversion) {
+  if (card.rateop == 3) card.c *= conversion.units.of("1/T");
+  return "";
+}
 
 }  // namespace courant

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/left_cauchy_green.hpp"
+#include "laws/strength/strength_cards.hpp"
 
 namespace courant {
 
@@ -99,12 +99,7 @@ class LowDensityFoam : public StrengthLaw {
 };
 
 using LowDensity = struct MatLowDensityFoam;
-struct MatLowDensityFoam : Entry {
-  std::string title;
-  Id mid = 0, lcid = 0;
-  Real ro = 0, E = 0, tc = 0, hu = 0, beta = 0, damp = 0;
-  Real shape = 0, fail = 0, bvflag = 0, ed = 0, beta1 = 0, kcon = 0, ref = 0;
-
+struct MatLowDensityFoam : MatLowDensityFoamFields {
   std::shared_ptr<StrengthLaw> law(const Model& model) const {
     const auto curve = model.curves.find(lcid);
     return std::make_shared<LowDensityFoam>(
@@ -162,43 +157,7 @@ const RegisterStrength<LowDensity> mat_low_density_foam{
       {-0.5, 0, 0},
       {-0.75, 0, 0, 0, 0, 0, 0.5},
       {-0.4375, 0, 0, 0, 0, 0, 0.5}}},
-    {.names = {"MAT_LOW_DENSITY_FOAM", "MAT_057"},
-     .purpose = "foam of low density that springs back, by a curve of nominal stress over nominal strain",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &LowDensity::title,
-     .cards = {
-         {.fields = {{"MID", &LowDensity::mid, "-", "id that *PART refers to", rules::required_id},
-                     {"RO", &LowDensity::ro, "M/L3", "density", rules::required_positive},
-                     {"E", &LowDensity::E, "M/LT2", "Young's modulus in tension", rules::required_positive},
-                     {"LCID", &LowDensity::lcid, "-",
-                      "curve of nominal stress over nominal strain of compression",
-                      rules::required_id_of(IdSpace::curve)},
-                     {"TC",
-                      &LowDensity::tc,
-                      "M/LT2",
-                      "most tension (nominal); 0: no limit",
-                      {.standard = 1e20, .check = Check::positive}},
-                     {"HU",
-                      &LowDensity::hu,
-                      "-",
-                      "stress that is left of that of loading where all is unloaded",
-                      {.standard = 1, .check = Check::positive}},
-                     {"BETA", &LowDensity::beta, "1/T", "creep after unloading", unsupported},
-                     {"DAMP", &LowDensity::damp, "-", "viscous stress: left out, with a warning"}}},
-         {.fields = {{"SHAPE",
-                      &LowDensity::shape,
-                      "-",
-                      "exponent of unloading",
-                      {.standard = 1, .check = Check::positive}},
-                     {"FAIL", &LowDensity::fail, "-", "tension beyond TC: TC (0), none (1)"},
-                     {"BVFLAG", &LowDensity::bvflag, "-", "bulk viscosity: off as the rest is (0), on",
-                      no_effect},
-                     {"ED", &LowDensity::ed, "M/LT2", "modulus of relaxation", unsupported},
-                     {"BETA1", &LowDensity::beta1, "1/T", "its decay", unsupported},
-                     {"KCON", &LowDensity::kcon, "M/LT2", "stiffness for contact", no_effect},
-                     {"REF", &LowDensity::ref, "-", "stress from a reference geometry", unsupported}},
-          .optional = true}}}};
+    mat_low_density_foam_table()};
 
 }  // namespace
 

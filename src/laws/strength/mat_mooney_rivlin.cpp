@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/left_cauchy_green.hpp"
 #include "laws/strength/strength.hpp"
+#include "laws/strength/strength_cards.hpp"
 
 namespace courant {
 
@@ -52,11 +52,7 @@ class MooneyRivlin : public StrengthLaw {
   Real A_, B_, C_, D_;
 };
 
-using Rubber = struct MatMooneyRivlinRubber;
-struct MatMooneyRivlinRubber : Entry {
-  std::string title;
-  Id mid = 0, lcid = 0;
-  Real ro = 0, pr = 0, a = 0, b = 0, ref = 0, sgl = 0, sw = 0, st = 0;
+struct MatMooneyRivlinRubber : MatMooneyRivlinRubberFields {
   std::shared_ptr<StrengthLaw> law() const { return std::make_shared<MooneyRivlin>(ro, a, b, pr); }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
     if (!(pr < 0.5))
@@ -72,7 +68,7 @@ struct MatMooneyRivlinRubber : Entry {
 // By hand. Step exp about x: D dt = (2/3, 0, 0): A = 2, b = (4, 1, 1), I1 = 6, I3 = 4, J = 2. A = 1, B = 0,
 // PR 0.4: C = 1/2, D = 0: sigma = b - 1/16. A = B = 1, PR 0.45: C = 3/2, D = 1: 7 b - b^2 + 4 (6 - 3/64).
 // From there back by (-2/3, 0, 0) to rest.
-const RegisterStrength<Rubber> mat_mooney_rivlin{
+const RegisterStrength<MatMooneyRivlinRubber> mat_mooney_rivlin{
     "W = A (I1 - 3) + B (I2 - 3) + C (1/I3^2 - 1) + D (I3 - 1)^2, C = A/2 + B, D = (A (5 PR - 2) + B (11 PR "
     "- "
     "5))/(2 (1 - 2 PR)); sigma = 2/J b dW/db",
@@ -80,27 +76,7 @@ const RegisterStrength<Rubber> mat_mooney_rivlin{
     {{"1,2.0,0.4,1.0,0.0\n", {2.0 / 3}, {}, {3.9375, 0.9375, 0.9375}, {}, {3, 0, 0, 0, 0, 0}},
      {"1,2.0,0.45,1.0,1.0\n", {2.0 / 3}, {}, {35.8125, 29.8125, 29.8125}, {}, {3, 0, 0, 0, 0, 0}},
      {"1,2.0,0.45,1.0,1.0\n", {-2.0 / 3}, {9, 9, 9}, {0, 0, 0}, {3, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}}},
-    {.names = {"MAT_MOONEY-RIVLIN_RUBBER", "MAT_027"},
-     .purpose = "rubber: Mooney-Rivlin hyperelasticity",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &Rubber::title,
-     .cards = {
-         {.fields = {{"MID", &Rubber::mid, "-", "id that *PART refers to", rules::required_id},
-                     {"RO", &Rubber::ro, "M/L3", "density", rules::required_positive},
-                     {"PR", &Rubber::pr, "-", "Poisson ratio at rest, below 0.5", rules::required_positive},
-                     {"A", &Rubber::a, "M/LT2", "factor of I1 - 3", {}},
-                     {"B", &Rubber::b, "M/LT2", "factor of I2 - 3", {}},
-                     {"REF", &Rubber::ref, "-", "stress from a reference geometry", unsupported}}},
-         {.fields = {{"SGL", &Rubber::sgl, "L", "gauge length of the specimen", no_effect},
-                     {"SW", &Rubber::sw, "L", "its width", no_effect},
-                     {"ST", &Rubber::st, "L", "its thickness", no_effect},
-                     {"LCID",
-                      &Rubber::lcid,
-                      "-",
-                      "curve of force over elongation to which A and B are fitted",
-                      {.honour = Honour::no, .refers = IdSpace::curve}}},
-          .optional = true}}}};
+    mat_mooney_rivlin_rubber_table()};
 
 }  // namespace
 

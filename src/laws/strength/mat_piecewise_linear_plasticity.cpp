@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/hardening.hpp"
 #include "laws/strength/isotropic_plasticity.hpp"
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/root_below.hpp"
 #include "laws/strength/strength.hpp"
+#include "laws/strength/strength_cards.hpp"
 #include "laws/strength/thinning_failure.hpp"
 
 namespace courant {
@@ -70,14 +70,7 @@ struct YieldStress {
 };
 
 using M = struct MatPiecewiseLinearPlasticity;
-struct MatPiecewiseLinearPlasticity : Entry {
-  std::string title;
-  Id mid = 0, lcss = 0, lcsr = 0;
-  Real ro = 0, E = 0, pr = 0, sigy = 0, etan = 0, fail = 0, tdel = 0, c = 0, p = 0, rfiltf = 0;
-  int vp = 0;
-  Real eps1 = 0, eps2 = 0, eps3 = 0, eps4 = 0, eps5 = 0, eps6 = 0, eps7 = 0, eps8 = 0;
-  Real es1 = 0, es2 = 0, es3 = 0, es4 = 0, es5 = 0, es6 = 0, es7 = 0, es8 = 0;
-
+struct MatPiecewiseLinearPlasticity : MatPiecewiseLinearPlasticityFields {
   Hardening table() const {
     Hardening out{{eps1, eps2, eps3, eps4, eps5, eps6, eps7, eps8}, {es1, es2, es3, es4, es5, es6, es7, es8}};
     drop_blank_points(out);
@@ -192,59 +185,6 @@ void M::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) co
          "the rate of strain counts by C and P together; leave both blank where it does not");
 }
 
-#define EPS(k)                                                             \
-  FieldOf<Card> {                                                          \
-    "EPS" #k, &M::eps##k, "-", "effective plastic strain of point " #k, {} \
-  }
-#define ES(k)                                                 \
-  FieldOf<Card> {                                             \
-    "ES" #k, &M::es##k, "M/LT2", "yield stress at EPS" #k, {} \
-  }
-/// `more`: what follows VP on the second card.
-template <class Card>
-std::vector<CardOf<Card>> cards_of(const std::vector<FieldOf<Card>>& more) {
-  std::vector<CardOf<Card>> out = {
-      {.fields = {{"MID", &M::mid, "-", "id that *PART refers to", rules::required_id},
-                  {"RO", &M::ro, "M/L3", "density", rules::required_positive},
-                  {"E", &M::E, "M/LT2", "Young's modulus", rules::required_positive},
-                  {"PR", &M::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
-                  {"SIGY",
-                   &M::sigy,
-                   "M/LT2",
-                   "yield stress at the start, without LCSS and EPS",
-                   {.check = Check::not_negative}},
-                  {"ETAN",
-                   &M::etan,
-                   "M/LT2",
-                   "slope of stress over strain beyond it, below E",
-                   {.check = Check::not_negative}},
-                  {"FAIL", &M::fail, "-",
-                   "effective plastic strain at which points of elements fail, 0: never"},
-                  {"TDEL", &M::tdel, "T", "step at which elements are deleted", unsupported}}},
-      {.fields = {{"C", &M::c, "1/T", "of Cowper and Symonds, 0: none", {.check = Check::not_negative}},
-                  {"P", &M::p, "-", "of Cowper and Symonds", {.check = Check::not_negative}},
-                  {"LCSS", &M::lcss, "-",
-                   "curve of yield stress over plastic strain, or table of such curves over the rate (its "
-                   "logarithm where the first value is negative)",
-                   rules::optional_id_of(IdSpace::curve)},
-                  {"LCSR", &M::lcsr, "-", "curve of a factor of the yield stress over the rate",
-                   rules::id_of(IdSpace::curve)},
-                  {"VP",
-                   &M::vp,
-                   "-",
-                   "rate of all strain (0), of its deviator (-1), of plastic strain (1)",
-                   {.allowed = {-1, 0, 1}}}},
-       .optional = true},
-      {.fields = {EPS(1), EPS(2), EPS(3), EPS(4), EPS(5), EPS(6), EPS(7), EPS(8)}, .optional = true},
-      {.fields = {ES(1), ES(2), ES(3), ES(4), ES(5), ES(6), ES(7), ES(8)}, .optional = true}};
-  auto& second = out[1].fields;
-  second.insert(second.end(), more.begin(), more.end());
-  return out;
-}
-
-#undef EPS
-#undef ES
-
 // By hand. E = 2.5, PR = 1/4: lambda = G = 1, K = 5/3, 3 G = 3; dt = 1/2. dev e = (2, -1, -1): s_tr = (4, -2,
 // -2), q = 6, at a rate 4. SIGY 3, ETAN 1/2: Ep = 5/8, de = 3/(3 + 5/8) = 24/29, s = 17/29 (4, -2, -2).
 // Points (0, 3) (1/4, 4) (5/4, 4): the first piece, slope 4, would give de = 3/7 > 1/4, so the second: 6 - 3
@@ -287,18 +227,11 @@ const RegisterStrength<M> mat_piecewise_linear_plasticity{
       with_q(on_deviator, 5),
       {0},
       {(6 - on_deviator) / 3}}},
-    {.names = {"MAT_PIECEWISE_LINEAR_PLASTICITY", "MAT_024"},
-     .purpose = "elasticity and plasticity with a curve or table of hardening, and influence of the rate of "
-                "strain",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &M::title,
-     .cards = cards_of<M>({{}, {"RFILTF", &M::rfiltf, "-", "filter of rates, with VP 4", no_effect}})}};
+    mat_piecewise_linear_plasticity_table()};
 
 /// The same with failure of sheets by thinning, and a number of points that takes the element away.
 using Thinning = struct MatModifiedPiecewiseLinearPlasticity;
 struct MatModifiedPiecewiseLinearPlasticity : M {
-  Real epsthin = 0, epsmaj = 0, numint = 0;
   std::shared_ptr<StrengthLaw> law(const Model& model) const {
     ThinningLimits limits;
     if (epsthin > 0) limits.thinning = epsthin;
@@ -323,18 +256,7 @@ const RegisterStrength<Thinning> mat_modified_piecewise_linear_plasticity{
     "J2 plasticity with radial return: Krieg & Key 1976; rates: Cowper & Symonds 1957",
     {flows("1,2.0,2.5,0.25,3.0,0.5\n\n\n\n", with_q(102.0 / 29), 24.0 / 29),
      flows("1,2.0,2.5,0.25,3.0,0.5\n0.0,0.0,0,0,0,0.5,2.0,0\n\n\n", with_q(102.0 / 29), 24.0 / 29)},
-    {.names = {"MAT_MODIFIED_PIECEWISE_LINEAR_PLASTICITY", "MAT_123"},
-     .purpose =
-         "as MAT_PIECEWISE_LINEAR_PLASTICITY, with failure of shells by thinning and by strain in the plane",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &Thinning::title,
-     .cards = cards_of<Thinning>(
-         {{"EPSTHIN", &Thinning::epsthin, "-",
-           "thinning of shells at which a point fails, logarithmic; 0: never"},
-          {"EPSMAJ", &Thinning::epsmaj, "-", "larger strain in the plane at which a point fails; 0: never"},
-          {"NUMINT", &Thinning::numint, "-", "points that must fail, other than all of them (0)",
-           unsupported}})}};
+    mat_modified_piecewise_linear_plasticity_table()};
 
 }  // namespace
 

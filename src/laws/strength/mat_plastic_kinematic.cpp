@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/linear_hardening.hpp"
 #include "laws/strength/plane_return.hpp"
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/strength.hpp"
+#include "laws/strength/strength_cards.hpp"
 
 namespace courant {
 
@@ -108,11 +108,7 @@ class PlasticKinematic : public StrengthLaw {
   PlaneReturnLoops in_plane_ = plane_return_loops();
 };
 
-struct MatPlasticKinematic : Entry {
-  std::string title;
-  Id mid = 0;
-  Real ro = 0, E = 0, pr = 0, sigy = 0, etan = 0, beta = 0, src = 0, srp = 0, fs = 0;
-  int vp = 0;
+struct MatPlasticKinematic : MatPlasticKinematicFields {
   std::shared_ptr<StrengthLaw> law() const {
     const Real Ep = E * etan / (E - etan);
     LinearHardening data{.lambda = E * pr / ((1 + pr) * (1 - 2 * pr)), .G = E / (2 * (1 + pr))};
@@ -184,59 +180,7 @@ const RegisterStrength<MatPlasticKinematic> mat_plastic_kinematic{
       {2, -1, -1, 0, 0, 0},
       {0},
       {1}}},
-    {.names = {"MAT_PLASTIC_KINEMATIC", "MAT_003"},
-     .purpose =
-         "elasticity and plasticity with linear isotropic, kinematic or mixed hardening, and influence "
-         "of the rate of strain",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &MatPlasticKinematic::title,
-     .cards = {
-         {.fields = {{"MID",
-                      &MatPlasticKinematic::mid,
-                      "-",
-                      "id that *PART refers to",
-                      {.required = true, .check = Check::positive}},
-                     {"RO", &MatPlasticKinematic::ro, "M/L3", "density", rules::required_positive},
-                     {"E", &MatPlasticKinematic::E, "M/LT2", "Young's modulus", rules::required_positive},
-                     {"PR",
-                      &MatPlasticKinematic::pr,
-                      "-",
-                      "Poisson ratio, below 0.5",
-                      {.check = Check::not_negative}},
-                     {"SIGY", &MatPlasticKinematic::sigy, "M/LT2", "yield stress at the start",
-                      rules::required_positive},
-                     {"ETAN",
-                      &MatPlasticKinematic::etan,
-                      "M/LT2",
-                      "slope of stress over strain beyond it, below E",
-                      {.check = Check::not_negative}},
-                     {"BETA",
-                      &MatPlasticKinematic::beta,
-                      "-",
-                      "hardening: 0 kinematic, 1 isotropic, mixed between",
-                      {.check = Check::not_negative}}}},
-         {.fields = {{"SRC",
-                      &MatPlasticKinematic::src,
-                      "1/T",
-                      "C of Cowper and Symonds, 0: the rate has no influence",
-                      {.check = Check::not_negative}},
-                     {"SRP",
-                      &MatPlasticKinematic::srp,
-                      "-",
-                      "P of Cowper and Symonds",
-                      {.check = Check::not_negative}},
-                     {"FS",
-                      &MatPlasticKinematic::fs,
-                      "-",
-                      "effective plastic strain at which points of elements fail, 0: never",
-                      {.check = Check::not_negative}},
-                     {"VP",
-                      &MatPlasticKinematic::vp,
-                      "-",
-                      "rate of all strain (0) or of plastic strain (1)",
-                      {.allowed = {0, 1}}}},
-          .optional = true}}}};
+    mat_plastic_kinematic_table()};
 
 }  // namespace
 

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/isotropic_plasticity.hpp"
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/root_below.hpp"
 #include "laws/strength/strength.hpp"
+#include "laws/strength/strength_cards.hpp"
 
 namespace courant {
 
@@ -39,11 +39,7 @@ struct PowerLaw {
 };
 
 using Power = struct MatPowerLawPlasticity;
-struct MatPowerLawPlasticity : Entry {
-  std::string title;
-  Id mid = 0;
-  Real ro = 0, E = 0, pr = 0, k = 0, n = 0, src = 0, srp = 0, sigy = 0, vp = 0, epsf = 0;
-
+struct MatPowerLawPlasticity : MatPowerLawPlasticityFields {
   static constexpr Real largest_strain = 0.02;
   bool sigy_is_stress = false;  ///< told before it was converted
   /// SIGY is a stress, or up to 0.02 the strain e0 itself; 0: where the power law meets E e.
@@ -71,14 +67,6 @@ struct MatPowerLawPlasticity : Entry {
   }
 };
 
-/// Where SIGY is a strain it has no unit.
-std::string keep_first_strain(Power& card, const Conversion& conversion) {
-  const Real factor = conversion.units.of("M/LT2");
-  card.sigy_is_stress = card.sigy > Power::largest_strain * factor;
-  if (!card.sigy_is_stress) card.sigy /= factor;
-  return "";
-}
-
 // By hand. E = 2.5, PR = 1/4: G = 1, 3 G = 3, dt = 1/2. Pulled by (2, -1, -1): s = (4, -2, -2), q = 6. K = 3,
 // N = 1/2: with a = e0 + e before, 2 - de = sqrt(a + de), de = (5 - sqrt(9 + 4 a))/2. SIGY = 3/2: e0 = 1/4;
 // SIGY = 0: e0 = (2.5/3)^-2 = 1.44; SIGY = 0.01: that. The rate of the deviator is 4; SRC 4, SRP 2 double the
@@ -98,36 +86,17 @@ const RegisterStrength<Power> mat_power_law_plasticity{
      flows_by("1,2.0,2.5,0.25,3.0,0.5\n0.01\n", 0, 0.5 * (5 - std::sqrt(9.04))),
      flows_by("1,2.0,2.5,0.25,3.0,0.5,4.0,2.0\n0.75\n", 0, 0.5),
      flows_by("1,2.0,2.5,0.25,3.0,0.5,1.0,1.0\n0.75,1.0\n", 0, 0.5)},
-    {.names = {"MAT_POWER_LAW_PLASTICITY", "MAT_018"},
-     .purpose =
-         "elasticity and plasticity with hardening by a power of the strain, and influence of the rate",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &Power::title,
-     .cards =
-         {{.fields =
-               {{"MID", &Power::mid, "-", "id that *PART refers to", rules::required_id},
-                {"RO", &Power::ro, "M/L3", "density", rules::required_positive},
-                {"E", &Power::E, "M/LT2", "Young's modulus", rules::required_positive},
-                {"PR", &Power::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
-                {"K", &Power::k, "M/LT2", "strength coefficient", rules::required_positive},
-                {"N", &Power::n, "-", "exponent of hardening", rules::required_positive},
-                {"SRC", &Power::src, "1/T", "of Cowper and Symonds, 0: none", {.check = Check::not_negative}},
-                {"SRP", &Power::srp, "-", "of Cowper and Symonds", {.check = Check::not_negative}}}},
-          {.fields = {{"SIGY",
-                       &Power::sigy,
-                       "M/LT2",
-                       "yield stress; up to 0.02 the strain at which yielding begins; 0: where E e = K e^N",
-                       {.check = Check::not_negative}},
-                      {"VP", &Power::vp, "-", "rate of the deviator of strain (0), of plastic strain (1)"},
-                      {"EPSF",
-                       &Power::epsf,
-                       "-",
-                       "effective plastic strain at which points of elements fail, 0: never",
-                       {.check = Check::not_negative}}},
-           .optional = true}},
-     .convert = keep_first_strain}};
+    mat_power_law_plasticity_table()};
 
 }  // namespace
+
+/// Where SIGY is a strain it has no unit.
+std::string keep_first_strain(MatPowerLawPlasticityFields& fields, const Conversion& conversion) {
+  auto& card = static_cast<MatPowerLawPlasticity&>(fields);
+  const Real factor = conversion.units.of("M/LT2");
+  card.sigy_is_stress = card.sigy > Power::largest_strain * factor;
+  if (!card.sigy_is_stress) card.sigy /= factor;
+  return "";
+}
 
 }  // namespace courant

@@ -4,19 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/curves_over_rate.hpp"
+#include "laws/strength/strength_cards.hpp"
 #include "laws/strength/stretch_rubber.hpp"
 
 namespace courant {
 
 namespace {
 
-struct MatSimplifiedRubber : Entry {
-  std::string title;
-  Id mid = 0, tbid = 0, lcunld = 0;
-  Real ro = 0, km = 0, mu = 0.1, g = 0, sigf = 0, ref = 0, prten = 0, sgl = 0, sw = 0, st = 0, tension = -1;
-  Real rtype = 0, avgopt = 0, pra = 0, hu = 1, shape = 0, stol = 0, visco = 0, hisout = 0;
+struct MatSimplifiedRubber : MatSimplifiedRubberFields {
   std::vector<Real> gi{}, betai{};
   std::shared_ptr<StrengthLaw> law(const Model& model) const;
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
@@ -148,10 +144,8 @@ void MatSimplifiedRubber::check(const Deck& deck, const Model& model, Diagnostic
                  "rubber that is pulled is compressed across: give strains below 0, too");
 }
 
-using SR = MatSimplifiedRubber;
-
 // By hand. D dt = 2/3 along all axes: A = 2, J = 8, l = 1: nothing but KM (1 - 1/J).
-const RegisterStrength<SR> mat_simplified_rubber{
+const RegisterStrength<MatSimplifiedRubber> mat_simplified_rubber{
     "sigma_i = (f(l_i) - mean f)/J + KM (1 - 1/J), f(l) = sum_k m s(m - 1), m = l^((-1/2)^k), l = J^(-1/3) "
     "stretch, s "
     "the nominal stress of the test",
@@ -162,58 +156,7 @@ const RegisterStrength<SR> mat_simplified_rubber{
       {3.5, 3.5, 3.5},
       {},
       {3, 3, 3, 0, 0, 0}}},
-    {.names = {"MAT_SIMPLIFIED_RUBBER/FOAM", "MAT_181"},
-     .purpose = "rubber by curves of a uniaxial test, over the rate where there is a table; no foam",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &SR::title,
-     .many = false,
-     .cards = {
-         {.fields = {{"MID", &SR::mid, "-", "id that *PART refers to", rules::required_id},
-                     {"RO", &SR::ro, "M/L3", "density", rules::required_positive},
-                     {"KM", &SR::km, "M/LT2", "bulk modulus", rules::required_positive},
-                     {"MU",
-                      &SR::mu,
-                      "-",
-                      "viscous stress: left out; another value than the standard with a warning",
-                      {.standard = 0.1}},
-                     {"G", &SR::g, "M/LT2", "damping that does not depend on the frequency", unsupported},
-                     {"SIGF", &SR::sigf, "M/LT2", "limit of that damping", no_effect},
-                     {"REF", &SR::ref, "-", "stress from a reference geometry", unsupported},
-                     {"PRTEN", &SR::prten, "-", "Poisson ratio of foams in tension", unsupported}}},
-         {.fields = {{"SGL", &SR::sgl, "L", "gauge length of the specimen; 1: strains",
-                      rules::required_positive},
-                     {"SW", &SR::sw, "L", "its width; 1 with ST: stresses", rules::required_positive},
-                     {"ST", &SR::st, "L", "its thickness", rules::required_positive},
-                     {"LC/TBID", &SR::tbid, "-",
-                      "curve of force over elongation, or table of such curves over the rate",
-                      rules::required_id_of(IdSpace::curve)},
-                     {"TENSION",
-                      &SR::tension,
-                      "-",
-                      "rates count in loading (-1), loading in compression (0), always (1)",
-                      {.standard = -1, .zero_is_standard = false}},
-                     {"RTYPE", &SR::rtype, "-", "rate of ln l (0), of l (1)"},
-                     {"AVGOPT", &SR::avgopt, "-", "mean of rates over some twelve steps: 0, 1"},
-                     {"PRA", &SR::pra, "-", "Poisson ratio of foams, which are refused", unsupported}}},
-         {.fields = {{"LCUNLD",
-                      &SR::lcunld,
-                      "-",
-                      "curve of unloading",
-                      {.honour = Honour::no, .refers = IdSpace::curve}},
-                     {"HU",
-                      &SR::hu,
-                      "-",
-                      "stress that is left when unloaded: 1",
-                      {.standard = 1, .zero_is_standard = false}},
-                     {"SHAPE", &SR::shape, "-", "of unloading with HU below 1", no_effect},
-                     {"STOL", &SR::stol, "-", "check of stability", no_effect},
-                     {"VISCO", &SR::visco, "-", "viscous terms by curves", unsupported},
-                     {"HISOUT", &SR::hisout, "-", "history output", no_output}},
-          .optional = true},
-         {.fields = {{"GI", &SR::gi, "M/LT2", "modulus that relaxes", {.honour = Honour::no}},
-                     {"BETAI", &SR::betai, "1/T", "its rate", no_effect}},
-          .repeat = true}}}};
+    mat_simplified_rubber_foam_table()};
 
 }  // namespace
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "laws/strength/strength.hpp"
+#include "laws/strength/strength_cards.hpp"
 
 namespace courant {
 
@@ -45,11 +45,7 @@ class Viscoelastic : public StrengthLaw {
   Real bulk_, short_, long_, beta_;
 };
 
-using Relaxing = struct MatViscoelastic;
-struct MatViscoelastic : Entry {
-  std::string title;
-  Id mid = 0;
-  Real ro = 0, bulk = 0, g0 = 0, gi = 0, beta = 0;
+struct MatViscoelastic : MatViscoelasticFields {
   std::shared_ptr<StrengthLaw> law() const { return std::make_shared<Viscoelastic>(ro, bulk, g0, gi, beta); }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
     if (!(gi <= g0))
@@ -62,7 +58,7 @@ struct MatViscoelastic : Entry {
 // the deviator (2, -1, -1): m = 2/ln 2 of it, and 2 of it stay. Without strain m is halved. Of the volume
 // alone, D dt = (1, 1, 1): 5.
 constexpr Real relaxing_part = 2.8853900817779268;
-const RegisterStrength<Relaxing> mat_viscoelastic{
+const RegisterStrength<MatViscoelastic> mat_viscoelastic{
     "s = 2 int G(t - u) dev(D)(u) du, G(t) = GI + (G0 - GI) exp(-BETA t), turned with the body; pressure by "
     "BULK",
     "Herrmann & Peterson 1968",
@@ -79,21 +75,7 @@ const RegisterStrength<Relaxing> mat_viscoelastic{
       {2, -1, -1, 1, 0, 0},
       {1, -0.5, -0.5, 0.5, 0, 0}},
      {"1,2.0,1.6666666666666667,3.0,1.0\n", {1, 1, 1, 0.5, 0, 0}, {}, {5, 5, 5, 3, 0, 0}}},
-    {.names = {"MAT_VISCOELASTIC", "MAT_006"},
-     .purpose = "linear viscoelasticity: a shear modulus that decays",
-     .id_space = IdSpace::material,
-     .title_option = true,
-     .title = &Relaxing::title,
-     .cards = {{.fields = {{"MID", &Relaxing::mid, "-", "id that *PART refers to", rules::required_id},
-                           {"RO", &Relaxing::ro, "M/L3", "density", rules::required_positive},
-                           {"BULK", &Relaxing::bulk, "M/LT2", "bulk modulus", rules::required_positive},
-                           {"G0", &Relaxing::g0, "M/LT2", "shear modulus at once", rules::required_positive},
-                           {"GI", &Relaxing::gi, "M/LT2", "and in the end", {.check = Check::not_negative}},
-                           {"BETA",
-                            &Relaxing::beta,
-                            "1/T",
-                            "rate at which it decays",
-                            {.check = Check::not_negative}}}}}}};
+    mat_viscoelastic_table()};
 
 }  // namespace
 

@@ -109,7 +109,12 @@ void add_to_strength_registry(StrengthEntry entry);
 template <class Card>
 struct RegisterStrength {
   RegisterStrength(std::string equation, std::string source, std::vector<StrengthReference> references,
-                   KeywordOf<Card> keyword) {
+                   KeywordOf<Card> keyword)
+      : RegisterStrength(std::move(equation), std::move(source), std::move(references),
+                         table_of(std::move(keyword))) {}
+  template <std::same_as<KeywordTable> Made>
+  RegisterStrength(std::string equation, std::string source, std::vector<StrengthReference> references,
+                   Made keyword) {
     StrengthEntry entry;
     entry.keyword = keyword.names.front();
     entry.equation = std::move(equation);

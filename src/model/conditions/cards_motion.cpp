@@ -6,25 +6,16 @@
 #include <type_traits>
 #include <unordered_map>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
+#include "model/conditions/condition_cards.hpp"
 #include "model/conditions/motion_ids.hpp"
 #include "model/conditions/prescribed_motion.hpp"
 #include "model/transforms/transformation.hpp"
 
 namespace courant {
 
-using namespace rules;
-
 namespace {
 
-struct MotionCard : Entry {
-  std::string title;
-  Id entry_id = 0;
-  Id id = 0, lcid = 0, vid = 0, lrb = 0, node1 = 0, node2 = 0;
-  int dof = 0, vad = 0;
-  Real sf = 0, death = 0, birth = 0, offset1 = 0, offset2 = 0;
-};
 struct MotionOfNode : MotionCard {
   static constexpr const char* field = "NID";
 };
@@ -40,74 +31,10 @@ struct MotionOfRigidLocal : MotionCard {
 
 constexpr int along_vector = 4, first_rotation = 5, first_around = 9;
 
-constexpr FieldRules refused_id(IdSpace space) {
-  return {.honour = Honour::no, .refers = space};
-}
-
-/// Directions are axes: they stay where a file is only shifted. Vectors move with their file.
-std::string keep_axes(MotionCard& card, const Affine& motion) {
-  if (card.dof == along_vector) return refuse_stretch(motion, "motions");
-  if (motion.linear() == Matrix::Identity()) {
-    if (card.dof >= first_around && card.dof < first_around + 3) {
-      const int axis = card.dof - first_around;
-      card.offset1 += motion.translation()[(axis + 1) % 3],
-          card.offset2 += motion.translation()[(axis + 2) % 3];
-    }
-    return {};
-  }
-  return "its direction is an axis, which a transformation that turns or stretches the file would change";
-}
-
-template <class T>
-KeywordOf<T> motion_keyword(std::string name, std::string purpose, IdSpace refers) {
-  const char* const field = T::field;
-  const FieldRules id = required_id_of(refers), curve = required_id_of(IdSpace::curve);
-  const FieldRules dof{.required = true};
-  const FieldRules time{.check = Check::not_negative};
-  return {
-      .names = {std::move(name)},
-      .purpose = std::move(purpose),
-      .id_space = IdSpace::boundary,
-      .id_option = true,
-      .title = &T::title,
-      .id = &T::entry_id,
-      .cards = {{.fields = {{field, &T::id, "-", "what moves", id},
-                            {"DOF", &T::dof, "-",
-                             "direction: 1-3 x, y, z, 4 along VID; of bodies and nodes of shells also 5-7 "
-                             "about x, y, z; of "
-                             "nodes 9-11 round an axis along x, y, z",
-                             dof},
-                            {"VAD", &T::vad, "-", "0 velocity, 1 acceleration, 2 displacement"},
-                            {"LCID", &T::lcid, "-", "curve of the motion, over t - BIRTH", curve},
-                            {"SF", &T::sf, "-", "scale of the curve", or_blank(1)},
-                            {"VID", &T::vid, "-", "vector; negative: coordinate system",
-                             id_of(IdSpace::vector)},
-                            {"DEATH", &T::death, "T", "end time", or_blank(1e28)},
-                            {"BIRTH", &T::birth, "T", "start time", time}}},
-                {.fields = {{"OFFSET1", &T::offset1, "L", "place of the axis: y, z, x with DOF 9, 10, 11"},
-                            {"OFFSET2", &T::offset2, "L", "place of the axis: z, x, y with DOF 9, 10, 11"},
-                            {"LRB", &T::lrb, "-", "body to which the motion is relative",
-                             refused_id(IdSpace::part)},
-                            {"NODE1", &T::node1, "-", "node of the orientation", refused_id(IdSpace::node)},
-                            {"NODE2", &T::node2, "-", "node of the orientation", refused_id(IdSpace::node)}},
-                 .when = [](const T& e) { return std::abs(e.dof) >= 9 || e.vad == 4; }}},
-      .move = [](T& card, const Affine& motion) {
-        return std::is_same_v<T, MotionOfRigidLocal> ? std::string()
-                                                     : keep_axes(card, motion);  // its axes move
-      }};
-}
-
-const RegisterKeyword<MotionOfNode> of_node{motion_keyword<MotionOfNode>(
-    "BOUNDARY_PRESCRIBED_MOTION_NODE", "prescribed motion of particles", IdSpace::node)};
-const RegisterKeyword<MotionOfSet> of_set{motion_keyword<MotionOfSet>(
-    "BOUNDARY_PRESCRIBED_MOTION_SET", "prescribed motion of sets of particles", IdSpace::node_set)};
-const RegisterKeyword<MotionOfRigid> of_rigid{motion_keyword<MotionOfRigid>(
-    "BOUNDARY_PRESCRIBED_MOTION_RIGID", "prescribed motion of rigid bodies", IdSpace::part)};
-const RegisterKeyword<MotionOfRigidLocal> of_rigid_local{
-    motion_keyword<MotionOfRigidLocal>("BOUNDARY_PRESCRIBED_MOTION_RIGID_LOCAL",
-                                       "prescribed motion of rigid bodies along axes that turn with them: "
-                                       "those of LCO or A1 to V3 of *MAT_RIGID",
-                                       IdSpace::part)};
+const RegisterKeyword<MotionOfNode> of_node{boundary_prescribed_motion_node_table()};
+const RegisterKeyword<MotionOfSet> of_set{boundary_prescribed_motion_set_table()};
+const RegisterKeyword<MotionOfRigid> of_rigid{boundary_prescribed_motion_rigid_table()};
+const RegisterKeyword<MotionOfRigidLocal> of_rigid_local{boundary_prescribed_motion_rigid_local_table()};
 
 class Reader {
  public:
@@ -118,9 +45,9 @@ class Reader {
     for (const auto& card : deck_.all<MotionOfNode>())
       if (const Index n = node(card); n >= 0) add(card, {n}, -1);
     for (const auto& card : deck_.all<MotionOfSet>()) {
-      const auto found = model_.node_sets.find(card.id);
+      const auto found = model_.node_sets.find(card.moved);
       if (found == model_.node_sets.end())
-        missing(card, MotionOfSet::field, "node set", card.id, "*SET_NODE");
+        missing(card, MotionOfSet::field, "node set", card.moved, "*SET_NODE");
       else
         add(card, found->second, -1);
     }
@@ -139,9 +66,9 @@ class Reader {
     if (node_of_id_.empty())
       for (std::size_t n = 0; n < model_.nodes.size(); ++n)
         node_of_id_.emplace(model_.nodes[n].id, static_cast<Index>(n));
-    const auto found = node_of_id_.find(card.id);
+    const auto found = node_of_id_.find(card.moved);
     if (found != node_of_id_.end()) return found->second;
-    missing(card, MotionOfNode::field, "node", card.id, "*NODE");
+    missing(card, MotionOfNode::field, "node", card.moved, "*NODE");
     return -1;
   }
 
@@ -167,9 +94,9 @@ class Reader {
     if (local && card.dof == along_vector)
       return deck_.error(diagnostics_, card, "DOF", fmt::format("'{}' is not supported", card.dof),
                          "supported: 1 to 3 and 5 to 7, along and about the axes of the body");
-    const auto found = model_.part_of_id.find(card.id);  // else a body of nodes, or who moves bodies tells
+    const auto found = model_.part_of_id.find(card.moved);  // else a body of nodes, or who moves bodies tells
     const std::size_t before = motions_.size();
-    add(card, {}, found == model_.part_of_id.end() ? -1 : found->second, card.id);
+    add(card, {}, found == model_.part_of_id.end() ? -1 : found->second, card.moved);
     if (motions_.size() > before) motions_.back().local = local;
   }
 
@@ -187,7 +114,7 @@ class Reader {
     motion.birth = card.birth;
     motion.death = card.death;
     motion.nodes = std::move(nodes);
-    motion.part = part, motion.body = body, motion.id = card.entry_id;
+    motion.part = part, motion.body = body, motion.id = card.id;
     motion.card = card;
     if (card.dof == along_vector) {
       if (!set_vector(card, motion)) return;
@@ -271,9 +198,32 @@ void warn_of_jumps(const Deck& deck, const std::vector<PrescribedMotion>& motion
 
 }  // namespace
 
+/// Directions are axes: they stay where a file is only shifted. Vectors move with their file.
+std::string keep_axes(MotionCard& card, const Affine& motion) {
+  if (card.dof == along_vector) return refuse_stretch(motion, "motions");
+  if (motion.linear() == Matrix::Identity()) {
+    if (card.dof >= first_around && card.dof < first_around + 3) {
+      const int axis = card.dof - first_around;
+      card.offset1 += motion.translation()[(axis + 1) % 3],
+          card.offset2 += motion.translation()[(axis + 2) % 3];
+    }
+    return {};
+  }
+  return "its direction is an axis, which a transformation that turns or stretches the file would change";
+}
+
+bool has_offsets(const MotionCard& card) {
+  return std::abs(card.dof) >= first_around || card.vad == 4;
+}
+
+CurveOf curve_of_motion(const MotionCard& card) {
+  constexpr const char* values[3][2] = {{"L/T", "1/T"}, {"L/T2", "1/T2"}, {"L", "-"}};
+  return {"T", card.vad >= 0 && card.vad <= 2 ? values[card.vad][card.dof >= first_rotation] : "-"};
+}
+
 bool has_motion_of_nodes(const Deck& deck, Id id) {
   const auto among = [&](const auto& cards) {
-    return std::any_of(cards.begin(), cards.end(), [&](const MotionCard& one) { return one.entry_id == id; });
+    return std::any_of(cards.begin(), cards.end(), [&](const MotionCard& one) { return one.id == id; });
   };
   return among(deck.all<MotionOfNode>()) || among(deck.all<MotionOfSet>());
 }

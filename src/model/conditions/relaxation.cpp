@@ -1,10 +1,10 @@
 #include "model/conditions/relaxation.hpp"
+#include "model/conditions/condition_cards.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
 #include "model/model_builder.hpp"
@@ -14,54 +14,11 @@ namespace courant {
 
 namespace {
 
-struct RelaxationCard : Entry {
-  int nrcyck = 250, irelal = 0, idrflg = 0;
-  Real drtol = 1e-3, drfctr = 0.995, drterm = 0, tssfdr = 0, edttl = 0.04;
-};
-
 using R = RelaxationCard;
-const RegisterKeyword<R> control_dynamic_relaxation{
-    {.names = {"CONTROL_DYNAMIC_RELAXATION"},
-     .purpose = "brings what loads hold to rest before the run, by damping",
-     .once = true,
-     .many = false,
-     .cards = {
-         {.fields = {
-              {"NRCYCK",
-               &R::nrcyck,
-               "-",
-               "steps from one look at convergence to the next",
-               {.standard = 250, .check = Check::positive}},
-              {"DRTOL",
-               &R::drtol,
-               "-",
-               "at rest below this share of the largest kinetic energy so far",
-               {.standard = 1e-3, .check = Check::positive}},
-              {"DRFCTR",
-               &R::drfctr,
-               "-",
-               "factor of velocities in each step",
-               {.standard = 0.995, .check = Check::positive}},
-              {"DRTERM",
-               &R::drterm,
-               "T",
-               "time at which it ends at the latest; 0: none",
-               {.check = Check::not_negative}},
-              {"TSSFDR",
-               &R::tssfdr,
-               "-",
-               "TSSFAC of this phase; 0: that of *CONTROL_TIMESTEP",
-               {.check = Check::not_negative}},
-              {"IRELAL", &R::irelal, "-", "1 damping by the algorithm of Papadrakakis", {.allowed = {0}}},
-              {"EDTTL", &R::edttl, "-", "tolerance of IRELAL 1", no_effect_but(0.04)},
-              {"IDRFLG",
-               &R::idrflg,
-               "-",
-               "1 done, -1 done with its histories, 0 only where a curve of a load has SIDR 1 or 2",
-               {.allowed = {-1, 0, 1}}}}}}}};
+const RegisterKeyword<R> control_dynamic_relaxation{control_dynamic_relaxation_table()};
 
-bool is_load_or_motion(const KeywordSpec& spec, std::string_view field) {
-  if (!spec.lacking.empty() || !curve_dimensions(spec.names[0], field)) return false;
+bool is_load_or_motion(const KeywordSpec& spec, const FieldSpec& field) {
+  if (!spec.lacking.empty() || !(field.curve_of || field.rules.curve.known())) return false;
   const std::string& name = spec.names[0];
   return name.starts_with("LOAD_") || name.starts_with("DAMPING_") || name.starts_with("BOUNDARY_") ||
          name.starts_with("RIGIDWALL_");
@@ -92,13 +49,13 @@ void for_load_curves(const Deck& deck, const std::function<void(const Entry&, co
     const KeywordSpec& spec = *registry[k];
     const bool asked = std::any_of(spec.cards.begin(), spec.cards.end(), [&](const CardSpec& card) {
       return std::any_of(card.fields.begin(), card.fields.end(),
-                         [&](const FieldSpec& field) { return is_load_or_motion(spec, field.name); });
+                         [&](const FieldSpec& field) { return is_load_or_motion(spec, field); });
     });
     if (!asked) continue;
     spec.for_each(deck, static_cast<std::int32_t>(k), [&](const Entry& entry) {
       spec.for_each_id(entry, [&](const IdUse& id) {
         const FieldSpec& field = spec.cards[id.card].fields[id.field];
-        if (id.space == IdSpace::curve && id.id > 0 && is_load_or_motion(spec, field.name))
+        if (id.space == IdSpace::curve && id.id > 0 && is_load_or_motion(spec, field))
           of(entry, field.name.data(), id.id);
       });
     });

@@ -197,8 +197,7 @@ void ModelBuilder::check_function_curves() {
         if (found == model_.curves.end() || !found->second.by_formula) return;
         const FieldSpec& field = spec.cards[id.card].fields[id.field];
         if (field.rules.honour != Honour::yes) return;
-        const CurveDimensions* dimensions = curve_dimensions(spec.names[0], field.name);
-        if (dimensions && dimensions->abscissa == std::string_view("T")) return;
+        if (curve_of(field, entry).abscissa == std::string_view("T")) return;
         error(
             entry, field.name,
             fmt::format("curve {} is a formula of the time, and this one is not over the time", found->first),

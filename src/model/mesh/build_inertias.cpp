@@ -5,9 +5,9 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/mesh/cards_inertia.hpp"
+#include "model/mesh/mesh_cards.hpp"
 #include "model/model_builder.hpp"
 #include "model/transforms/transformation.hpp"
 
@@ -16,19 +16,17 @@ namespace courant {
 namespace {
 
 using NodeMass = ElementInertiaCard;
-constexpr FieldRules inertia_id{.required = true, .check = Check::positive, .width = 8};
-constexpr FieldRules inertia_node{
-    .required = true, .check = Check::positive, .width = 8, .refers = IdSpace::node};
-constexpr FieldRules inertia_system{
-    .check = Check::not_negative, .width = 8, .refers = IdSpace::coordinate_system};
-constexpr FieldRules moment_of_inertia{.check = Check::not_negative};
+const RegisterKeyword<NodeMass> element_inertia{element_inertia_table()};
 
-bool has_offset(const NodeMass& card) {
+}  // namespace
+
+bool has_offset(const ElementInertiaCardFields& card) {
   return card.name == 1;
 }
 
 /// The tensor turns with the file, unless it stands in axes of its own, which turn.
-std::string move_inertia(NodeMass& card, const Affine& motion) {
+std::string move_inertia(ElementInertiaCardFields& fields, const Affine& motion) {
+  auto& card = static_cast<ElementInertiaCard&>(fields);
   if (card.csid != 0) return {};
   if (!keeps_lengths(motion)) return refuse_stretch(motion, "inertia");
   const Matrix turned = motion.linear() * card.inertia() * motion.linear().transpose();
@@ -36,31 +34,6 @@ std::string move_inertia(NodeMass& card, const Affine& motion) {
   card.ixy = turned(0, 1), card.ixz = turned(0, 2), card.iyz = turned(1, 2);
   return {};
 }
-
-const RegisterKeyword<NodeMass> element_inertia{
-    {.names = {"ELEMENT_INERTIA", "ELEMENT_INERTIA_OFFSET"},
-     .purpose = "mass and inertia on a node; with _OFFSET, on rigid bodies, beside it",
-     .id_space = IdSpace::mass,
-     .cards = {{.fields = {{"EID", &NodeMass::eid, "-", "element id", inertia_id},
-                           {"NID", &NodeMass::nid, "-", "node that carries it", inertia_node},
-                           {"CSID", &NodeMass::csid, "-",
-                            "system of the principal axes; 0: a tensor along global axes", inertia_system}}},
-               {.fields = {{"IXX", &NodeMass::ixx, "ML2", "of the tensor about its centre of mass",
-                            moment_of_inertia},
-                           {"IXY", &NodeMass::ixy, "ML2", "of the tensor; 0 with CSID"},
-                           {"IXZ", &NodeMass::ixz, "ML2", "of the tensor; 0 with CSID"},
-                           {"IYY", &NodeMass::iyy, "ML2", "of the tensor", moment_of_inertia},
-                           {"IYZ", &NodeMass::iyz, "ML2", "of the tensor; 0 with CSID"},
-                           {"IZZ", &NodeMass::izz, "ML2", "of the tensor", moment_of_inertia},
-                           {"MASS", &NodeMass::mass, "M", "mass", {.check = Check::not_negative}}}},
-               {.fields = {{"X-OFF", &NodeMass::x_off, "L", "from the node to the centre of mass",
-                            rules::direction},
-                           {"Y_OFF", &NodeMass::y_off, "L", "from the node to the centre of mass"},
-                           {"Z_OFF", &NodeMass::z_off, "L", "from the node to the centre of mass"}},
-                .when = has_offset}},
-     .move = move_inertia}};
-
-}  // namespace
 
 void ModelBuilder::build_inertias() {
   std::unordered_map<Id, const NodeMass*> known;

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "model/mesh/cards_elements.hpp"
+#include "model/mesh/mesh_cards.hpp"
 #include "model/model_builder.hpp"
 
 namespace courant {

@@ -1,6 +1,7 @@
 // Tables of what the field files hold.
 #include "keyword/registry.hpp"
 #include "model/requests/output_cards.hpp"
+#include "model/requests/request_cards.hpp"
 
 namespace courant {
 
@@ -58,39 +59,7 @@ KeywordOf<DatabaseExtentBinary> database_extent_binary() {
 }
 const RegisterKeyword<DatabaseExtentBinary> database_extent_binary_keyword{database_extent_binary()};
 
-using C = CourantOutputCard;
-const FieldRules share{.standard = -1, .zero_is_standard = false};
-const FieldRules choice{.standard = -1, .zero_is_standard = false};
-const RegisterKeyword<C> courant_output{
-    {.names = {"COURANT_OUTPUT"},
-     .purpose = "content, precision and packing of the field files",
-     .once = true,
-     .many = false,
-     .cards = {
-         {.fields = {{"SMALL",
-                      &C::small,
-                      "-",
-                      "1 small files: few arrays, rounded, packed by xz",
-                      {.allowed = {0, 1}}},
-                     {"BITS", &C::bits, "-", "of real numbers", {.standard = 32, .allowed = {32, 64}}},
-                     {"COMP", &C::comp, "-", "packing: 0 none, 1 zlib, 2 xz; -1 is 1, with SMALL 2", choice},
-                     {"LEVEL", &C::level, "-", "0 fast to 9 small; -1 is 1, with SMALL 2", choice},
-                     {"EPS", &C::eps, "-",
-                      "error of values, of the range of their array; -1 is 0, with SMALL 1/256", share},
-                     {"EPSX", &C::epsx, "-", "error of places, of h; -1 is 0, with SMALL 1/64", share},
-                     {"PSET",
-                      &C::pset,
-                      "-",
-                      "parts to write, 0 all",
-                      {.check = Check::not_negative, .refers = IdSpace::part_set}},
-                     {"BOXID",
-                      &C::boxid,
-                      "-",
-                      "box in which particles are written, 0 everywhere",
-                      {.check = Check::not_negative, .refers = IdSpace::box}}}},
-         {.fields = {{"FIELDS", &C::fields, "-", "arrays of particles, by name", {.width = 20}}},
-          .optional = true,
-          .repeat = true}}}};
+const RegisterKeyword<CourantOutputCard> courant_output{courant_output_table()};
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "keyword/card.hpp"
+#include "model/requests/request_cards.hpp"
 
 namespace courant {
 
@@ -14,13 +15,6 @@ struct DatabaseExtentBinary : Entry {
       nintsld = 0, pkp_sen = 0, hydro = 0, msscl = 0, therm = 0, dtdt = 0, resplt = 0, neipb = 0, quadsld = 0,
       cubsld = 0, deleres = 0;
   Real sclp = 0;
-};
-
-struct CourantOutputCard : Entry {
-  int small, bits, comp, level;
-  Real eps, epsx;
-  Id pset, boxid;
-  std::vector<std::string> fields;
 };
 
 }  // namespace courant

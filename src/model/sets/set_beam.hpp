@@ -3,14 +3,6 @@
 #include <vector>
 
 #include "keyword/card.hpp"
+#include "model/sets/sets_cards.hpp"
 
-namespace courant {
-
-/// *SET_BEAM: ids of beams.
-struct SetBeam : Entry {
-  std::string title;
-  Id sid = 0;
-  std::vector<Id> eids;
-};
-
-}  // namespace courant
+namespace courant {}  // namespace courant

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "model/mesh/cards_elements.hpp"
+#include "model/mesh/mesh_cards.hpp"
 #include "model/sets/unused_ids.hpp"
 
 namespace courant {

@@ -2,6 +2,7 @@
 #include "keyword/number.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
+#include "model/transforms/transform_cards.hpp"
 #include "model/transforms/transformation.hpp"
 
 namespace courant {
@@ -20,7 +21,13 @@ constexpr ColumnKinds kinds[] = {
     {"TRANSL2ND", 3, 3, 1, 2}, {"ROTATE3NA", 0, 0, 1, 3}, {"POS6N", 0, 0, 1, 6},
 };
 
-std::string convert_transformation(T& card, const Conversion& conversion) {
+const RegisterKeyword<T> define_transformation{define_transformation_table()};
+const RegisterKeyword<NodeTransformCard> node_transform{node_transform_table()};
+
+}  // namespace
+
+std::string convert_transformation(DefineTransformationCardFields& fields, const Conversion& conversion) {
+  auto& card = static_cast<DefineTransformationCard&>(fields);
   std::vector<Real>* columns[] = {&card.a1, &card.a2, &card.a3, &card.a4, &card.a5, &card.a6, &card.a7};
   for (std::size_t row = 0; row < card.rows(); ++row) {
     const std::string option = upper_case(card.option[row]);
@@ -40,51 +47,5 @@ std::string convert_transformation(T& card, const Conversion& conversion) {
   }
   return {};
 }
-
-const RegisterKeyword<T> define_transformation{
-    {.names = {"DEFINE_TRANSFORMATION", "DEFINE_TRANSFORM"},
-     .purpose = "operations that move points, one after the other: TRANSL, ROTATE, SCALE, MIRROR, POS6P, "
-                "POS6N, ROTATE3NA, TRANSL2ND, MATRIX; POINT names a place for them",
-     .id_space = IdSpace::transformation,
-     .title_option = true,
-     .title = &T::title,
-     .cards = {{.fields = {{"TRANID",
-                            &T::tranid,
-                            "-",
-                            "transformation id",
-                            {.required = true, .check = Check::positive}}}},
-               {.fields = {{"OPTION", &T::option, "-", "operation, or M11 and M31 below MATRIX"},
-                           {"A1", &T::a1, "-", "first number of the operation"},
-                           {"A2", &T::a2, "-", "second number"},
-                           {"A3", &T::a3, "-", "third number"},
-                           {"A4", &T::a4, "-", "fourth number"},
-                           {"A5", &T::a5, "-", "fifth number"},
-                           {"A6", &T::a6, "-", "sixth number"},
-                           {"A7", &T::a7, "-", "seventh number"}},
-                .repeat = true}},
-     .convert = convert_transformation}};
-
-using N = NodeTransformCard;
-const RegisterKeyword<N> node_transform{
-    {.names = {"NODE_TRANSFORM"},
-     .purpose =
-         "moves the nodes of a set, once the deck and the files of INCLUDE_TRANSFORM are read and moved",
-     .cards = {{.fields = {{"TRSID",
-                            &N::trsid,
-                            "-",
-                            "transformation id",
-                            {.required = true, .check = Check::positive, .refers = IdSpace::transformation}},
-                           {"NSID",
-                            &N::nsid,
-                            "-",
-                            "node set id",
-                            {.required = true, .check = Check::positive, .refers = IdSpace::node_set}},
-                           {"IMMED",
-                            &N::immed,
-                            "-",
-                            "1 at once; the same here, if no transformation names nodes",
-                            {.allowed = {0, 1}}}}}}}};
-
-}  // namespace
 
 }  // namespace courant

@@ -1,8 +1,7 @@
 #pragma once
-#include <string_view>
-
 #include "base/diagnostic.hpp"
 #include "keyword/deck.hpp"
+#include "keyword/keyword_table.hpp"
 
 namespace courant {
 
@@ -14,14 +13,8 @@ void move_included_entries(Deck& deck, Diagnostics& diagnostics);
 /// A curve has no units of its own: those of a file with unit factors get them from who uses the curve.
 void convert_curves(Deck& deck, Diagnostics& diagnostics);
 
-/// Dimensions of the abscissa and the ordinate of a curve that a field names.
-struct CurveDimensions {
-  const char* keyword;  ///< its first name
-  const char* field;
-  const char* abscissa;
-  const char* ordinate;
-};
-/// Null if they are not known.
-const CurveDimensions* curve_dimensions(std::string_view keyword, std::string_view field);
+/// What the numbers of the curve are that a field of an entry names; not known() where its table does not
+/// say.
+CurveOf curve_of(const FieldSpec& field, const Entry& entry);
 
 }  // namespace courant

@@ -6,25 +6,17 @@
 #include <vector>
 
 #include "keyword/deck.hpp"
+#include "model/transforms/transform_cards.hpp"
 
 namespace courant {
 
 /// Row k of the table below the first card: operation `option[k]` with the numbers a[0][k] to a[6][k].
-struct DefineTransformationCard : Entry {
-  std::string title;
-  Id tranid;
-  std::vector<std::string> option;
-  std::vector<Real> a1, a2, a3, a4, a5, a6, a7;
+struct DefineTransformationCard : DefineTransformationCardFields {
   Affine motion = Affine::Identity();  ///< all operations together, once evaluate_transformations() ran
 
   std::size_t rows() const;
   bool names_nodes() const;                      ///< some operation does
   Real a(std::size_t k, std::size_t row) const;  ///< A1 is k = 1
-};
-
-struct NodeTransformCard : Entry {
-  Id trsid, nsid;
-  int immed;
 };
 
 /// Sets `motion` of every transformation: the operations act in the order in which they are listed. POINTs

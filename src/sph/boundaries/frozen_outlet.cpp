@@ -1,6 +1,7 @@
 // *COURANT_FROZEN_OUTLET: what leaves the computational box gets a velocity and the pressure below a level,
 // and keeps both.
 #include "sph/boundaries/frozen_outlet.hpp"
+#include "sph/boundaries/boundary_cards.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +9,6 @@
 #include <cmath>
 
 #include "base/run_error.hpp"
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/definitions/named_curve.hpp"
 #include "sph/boundaries/free_surface.hpp"
@@ -18,41 +18,7 @@ namespace courant {
 
 namespace {
 
-struct CourantFrozenOutlet : Entry {
-  int dir = 0;
-  Real vel = 0, xs = 0, ys = 0, zs = 0;
-  Id lcvel = 0, lclev = 0;
-};
-
-std::string keep_face(CourantFrozenOutlet&, const Affine& motion) {
-  if (motion.linear() == Matrix::Identity()) return {};
-  return "its face is one of a box along the axes, which a transformation that turns the file would change";
-}
-
-KeywordOf<CourantFrozenOutlet> frozen_outlet() {
-  using T = CourantFrozenOutlet;
-  return {.names = {"COURANT_FROZEN_OUTLET"},
-          .purpose =
-              "outlet through a face of the computational box: what leaves gets a velocity and the "
-              "hydrostatic pressure below a level, and keeps both while it is seen from inside",
-          .cards = {{.fields = {{"DIR",
-                                 &T::dir,
-                                 "-",
-                                 "face of the box that BOXID of *CONTROL_SPH names, by the direction out of "
-                                 "it: 1, 2, 3 along x, y, z, < 0 against it",
-                                 {.standard = 1, .allowed = {-3, -2, -1, 1, 2, 3}}},
-                                {"VEL", &T::vel, "L/T", "velocity along DIR", rules::required_positive},
-                                {"LCVEL", &T::lcvel, "-", "curve of a factor on VEL over time; 0: 1",
-                                 rules::id_of(IdSpace::curve)},
-                                {"XS", &T::xs, "L", "a point on the surface of the water", rules::point},
-                                {"YS", &T::ys, "L", "a point on the surface"},
-                                {"ZS", &T::zs, "L", "a point on the surface"},
-                                {"LCLEV", &T::lclev, "-",
-                                 "curve of how far the surface is above that point over time; 0: not at all",
-                                 rules::id_of(IdSpace::curve)}}}},
-          .move = keep_face};
-}
-const RegisterKeyword<CourantFrozenOutlet> frozen_outlet_keyword{frozen_outlet()};
+const RegisterKeyword<CourantFrozenOutlet> frozen_outlet_keyword{courant_frozen_outlet_table()};
 
 /// What a card means.
 struct FrozenOutlet {
@@ -190,6 +156,11 @@ class FrozenOutletReader {
 };
 
 }  // namespace
+
+std::string keep_face(CourantFrozenOutlet&, const Affine& motion) {
+  if (motion.linear() == Matrix::Identity()) return {};
+  return "its face is one of a box along the axes, which a transformation that turns the file would change";
+}
 
 bool add_frozen_outlets(const Deck& deck, const Model& model, const SphSettings& settings,
                         const std::vector<PartMaterial>& materials,

@@ -40,7 +40,7 @@ KeywordOf<DefineSphInjection> define_sph_injection() {
                        &T::vmag,
                        "-",
                        "factor on the velocity, 0: 1; < 0: curve |VMAG| of it over time",
-                       {},
+                       {.curve = {"T", "-"}},
                        [](const T& e) { return e.vmag > 0 ? IdSpace::none : IdSpace::curve; }}}},
           {.fields = {{"TBEG", &T::tbeg, "T", "start time", not_negative},
                       {"TEND", &T::tend, "T", "end time", {.standard = 1e20, .check = Check::positive}},

@@ -1,6 +1,7 @@
 // *COURANT_INFLOW: pressure under a free surface, and profile of the velocity, of the water that inlets let
 // in.
 #include "sph/boundaries/inlet_flow.hpp"
+#include "sph/boundaries/boundary_cards.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +9,6 @@
 #include <cmath>
 #include <limits>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/definitions/named_curve.hpp"
 #include "sph/boundaries/injection.hpp"
@@ -20,49 +20,7 @@ namespace {
 enum class SurfaceChoice { none = 0, upper_rim = 1, point = 2 };
 enum class Profile { uniform = 0, power = 1, logarithmic = 2, curve = 3 };
 
-struct CourantInflow : Entry {
-  Id pid = 0, lclev = 0, lcprof = 0;
-  int surf = 0, prof = 0;
-  Real xs = 0, ys = 0, zs = 0, expo = 0, ks = 0;
-};
-
-KeywordOf<CourantInflow> courant_inflow() {
-  using T = CourantInflow;
-  const FieldRules not_negative{.check = Check::not_negative};
-  return {
-      .names = {"COURANT_INFLOW"},
-      .purpose =
-          "free surface and profile of the water that the inlets of a part let in (*DEFINE_SPH_INJECTION "
-          "and its _SIMPLIFIED forms)",
-      .cards = {
-          {.fields = {{"PID", &T::pid, "-", "part of the inlets", rules::required_id_of(IdSpace::part)},
-                      {"SURF",
-                       &T::surf,
-                       "-",
-                       "hydrostatic pressure below a free surface: 0: none; 1: it is at the upper rim of the "
-                       "inlet; 2: it goes through (XS, YS, ZS)",
-                       {.allowed = {0, 1, 2}}},
-                      {"XS", &T::xs, "L", "a point on the surface, of SURF 2", rules::point},
-                      {"YS", &T::ys, "L", "a point on the surface"},
-                      {"ZS", &T::zs, "L", "a point on the surface"},
-                      {"LCLEV", &T::lclev, "-",
-                       "curve of how far the surface is above that place over time; 0: not at all",
-                       rules::id_of(IdSpace::curve)}}},
-          {.fields = {{"PROF",
-                       &T::prof,
-                       "-",
-                       "velocity over the height z above the lower rim: 0: uniform; 1: power law z^(1/EXPO); "
-                       "2: logarithm of 30 z/KS; 3: LCPROF",
-                       {.allowed = {0, 1, 2, 3}}},
-                      {"EXPO", &T::expo, "-", "of the power law", {.standard = 7, .check = Check::positive}},
-                      {"KS", &T::ks, "L",
-                       "roughness of the bed upstream; of a smooth one 3.3 nu/u*, u* its friction velocity",
-                       not_negative},
-                      {"LCPROF", &T::lcprof, "-", "curve of the factor on the velocity over z",
-                       rules::id_of(IdSpace::curve)}},
-           .optional = true}}};
-}
-const RegisterKeyword<CourantInflow> courant_inflow_keyword{courant_inflow()};
+const RegisterKeyword<CourantInflow> courant_inflow_keyword{courant_inflow_table()};
 
 class InflowReader {
  public:

@@ -1,12 +1,12 @@
 // *COURANT_LEVEL_OUTLET: draws water out of the end of a channel so that it keeps a level.
 #include "sph/boundaries/level_outlet.hpp"
+#include "sph/boundaries/boundary_cards.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/definitions/named_curve.hpp"
 #include "parallel/parallel.hpp"
@@ -16,54 +16,9 @@ namespace courant {
 
 namespace {
 
-struct CourantLevelOutlet : Entry {
-  Id boxid = 0;
-  Real level = 0, tau = 0;
-  int dir = 0;
-  Real gain = 0, tint = 0;
-  Id lclev = 0;
-};
 using C = CourantLevelOutlet;
 
-std::string keep_direction(C&, const Affine& motion) {
-  if (motion.linear() == Matrix::Identity()) return {};
-  return "its direction is an axis, which a transformation that turns or stretches the file would change";
-}
-
-const RegisterKeyword<C> level_outlet_keyword{
-    {.names = {"COURANT_LEVEL_OUTLET"},
-     .purpose = "outlet of a channel that keeps a level of the water",
-     .cards = {{.fields = {{"BOXID", &C::boxid, "-",
-                            "band before the end of the channel, its lower bound on the bed",
-                            rules::required_id_of(IdSpace::box)},
-                           {"LEVEL",
-                            &C::level,
-                            "L",
-                            "depth of the water above the lower bound of the box",
-                            {.required = true, .check = Check::positive}},
-                           {"TAU",
-                            &C::tau,
-                            "T",
-                            "time in which water of the band takes the velocity of the outlet",
-                            {.required = true, .check = Check::positive}},
-                           {"DIR",
-                            &C::dir,
-                            "-",
-                            "direction of the flow: 1, 2, 3 along x, y, z, < 0 against it",
-                            {.standard = 1, .allowed = {-3, -2, -1, 1, 2, 3}}},
-                           {"GAIN",
-                            &C::gain,
-                            "-",
-                            "factor on sqrt(g/LEVEL), by which the level sets the velocity",
-                            {.standard = 1, .check = Check::positive}},
-                           {"TINT",
-                            &C::tint,
-                            "T",
-                            "time of the integral of the level; 0: 20 sqrt(LEVEL/g)",
-                            {.check = Check::not_negative}},
-                           {"LCLEV", &C::lclev, "-", "curve of a factor on LEVEL over time; 0: 1",
-                            rules::id_of(IdSpace::curve)}}}},
-     .move = keep_direction}};
+const RegisterKeyword<C> level_outlet_keyword{courant_level_outlet_table()};
 
 /// What a card means.
 struct Outlet {
@@ -332,6 +287,11 @@ class Builder {
 };
 
 }  // namespace
+
+std::string keep_direction(CourantLevelOutlet&, const Affine& motion) {
+  if (motion.linear() == Matrix::Identity()) return {};
+  return "its direction is an axis, which a transformation that turns or stretches the file would change";
+}
 
 bool add_level_outlets(const Deck& deck, const Model& model, const SphSettings& settings,
                        std::span<const GhostPlane> planes, World& world, Diagnostics& diagnostics) {

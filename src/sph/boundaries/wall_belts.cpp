@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/definitions/named_curve.hpp"
 #include "model/mesh/named_parts.hpp"
@@ -17,48 +16,8 @@ namespace courant {
 
 namespace {
 
-/// A turn has a sense that a mirror would change, and a rate that says nothing of stretched places.
-std::string keep_turn(CourantWallBelt& card, const Affine& motion) {
-  const bool turns = card.wx != 0 || card.wy != 0 || card.wz != 0;
-  const Matrix a = motion.linear();
-  if (!turns || (a.determinant() > 0 && (a.transpose() * a).isIdentity(1e-9))) return {};
-  return "a belt that turns can be moved and turned, but not stretched or "
-         "mirrored";
-}
-
 using B = CourantWallBelt;
-const RegisterKeyword<B> wall_belt_keyword{
-    {.names = {"COURANT_WALL_BELT"},
-     .purpose = "surface of shells that moves along itself while the shells "
-                "stand: belts, lids, rims of drums",
-     .cards =
-         {{.fields =
-               {{"SURFB",
-                 &B::surfb,
-                 "-",
-                 "the shells: a part or a set of parts, of "
-                 "*COURANT_WALL_SUPPORT",
-                 {.required = true, .check = Check::positive},
-                 [](const B& c) { return c.surfbtyp == 2 ? IdSpace::part_set : IdSpace::part; }},
-                {"SURFBTYP", &B::surfbtyp, "-", "2 part set, 3 part", {.standard = 3, .allowed = {2, 3}}},
-                {"LCID", &B::lcid, "-", "curve of a factor over time; 0: 1",
-                 rules::optional_id_of(IdSpace::curve)},
-                {"SF", &B::sf, "-", "scale of the factor", rules::or_blank(1)},
-                {"VX", &B::vx, "L/T",
-                 "velocity of the surface; what is across the "
-                 "shells is left out",
-                 rules::direction},
-                {"VY", &B::vy, "L/T", "velocity of the surface"},
-                {"VZ", &B::vz, "L/T", "velocity of the surface"}}},
-          {.fields = {{"XC", &B::xc, "L", "a point of the axis about which the surface turns", rules::point},
-                      {"YC", &B::yc, "L", "a point of the axis"},
-                      {"ZC", &B::zc, "L", "a point of the axis"},
-                      {"WX", &B::wx, "1/T", "how fast it turns, along the axis; adds to the velocity",
-                       rules::direction},
-                      {"WY", &B::wy, "1/T", "how fast it turns"},
-                      {"WZ", &B::wz, "1/T", "how fast it turns"}},
-           .optional = true}},
-     .move = keep_turn}};
+const RegisterKeyword<CourantWallBelt> wall_belt_keyword{courant_wall_belt_table()};
 
 class BeltReader {
  public:
@@ -157,6 +116,15 @@ class BeltReader {
 };
 
 }  // namespace
+
+/// A turn has a sense that a mirror would change, and a rate that says nothing of stretched places.
+std::string keep_turn(CourantWallBelt& card, const Affine& motion) {
+  const bool turns = card.wx != 0 || card.wy != 0 || card.wz != 0;
+  const Matrix a = motion.linear();
+  if (!turns || (a.determinant() > 0 && (a.transpose() * a).isIdentity(1e-9))) return {};
+  return "a belt that turns can be moved and turned, but not stretched or "
+         "mirrored";
+}
 
 void read_wall_belts(const Deck& deck, const Model& model, const World& world, SphSettings& settings,
                      Diagnostics& diagnostics) {

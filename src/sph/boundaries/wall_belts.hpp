@@ -4,6 +4,7 @@
 
 #include "keyword/card.hpp"
 #include "model/model.hpp"
+#include "sph/boundaries/boundary_cards.hpp"
 
 namespace courant {
 
@@ -12,16 +13,6 @@ struct WallMotion {
   Vec x0 = Vec::Zero(), v = Vec::Zero(), omega = Vec::Zero();  ///< at x0 [L/T]; [1/T]
   /// Velocity of what moves with it at x [L/T].
   Vec at(const Vec& x) const { return v + omega.cross(x - x0); }
-};
-
-/// *COURANT_WALL_BELT, ours.
-struct CourantWallBelt : Entry {
-  Id surfb = 0;
-  int surfbtyp = 3;
-  Id lcid = 0;
-  Real sf = 1;
-  Real vx = 0, vy = 0, vz = 0;
-  Real xc = 0, yc = 0, zc = 0, wx = 0, wy = 0, wz = 0;
 };
 
 /// Of each segment the belt that it belongs to; where there is none, `of_segment` is empty.

@@ -15,46 +15,7 @@ namespace courant {
 
 namespace {
 
-const RegisterKeyword<CourantWallSupport> wall_support_keyword{
-    {.names = {"COURANT_WALL_SUPPORT"},
-     .purpose = "completes the sums of particles beside shells, still or moving; skin friction, or no slip",
-     .cards = {
-         {.fields = {
-              {"SURFB",
-               &CourantWallSupport::surfb,
-               "-",
-               "the shells: a part or a set of parts",
-               {.required = true, .check = Check::positive},
-               [](const CourantWallSupport& c) {
-                 return c.surfbtyp == 2 ? IdSpace::part_set : IdSpace::part;
-               }},
-              {"SURFBTYP",
-               &CourantWallSupport::surfbtyp,
-               "-",
-               "2 part set, 3 part",
-               {.standard = 3, .allowed = {2, 3}}},
-              {"CF",
-               &CourantWallSupport::cf,
-               "-",
-               "skin friction: shear stress over rho v^2/2; 0: the wall is smooth",
-               {.check = Check::not_negative}},
-              {"METHOD",
-               &CourantWallSupport::method,
-               "-",
-               "0: the kernel goes on with the particle's own pressure; 1: walls are mirrors (one h, plain "
-               "FORM)",
-               {.allowed = {0, 1}}},
-              {"LAW",
-               &CourantWallSupport::law,
-               "-",
-               "friction: 0 by CF; 1 by the logarithmic law, from distance and velocity; 2 no slip: water at "
-               "the wall has its velocity, and MU acts",
-               {.allowed = {0, 1, 2}}},
-              {"KS",
-               &CourantWallSupport::ks,
-               "L",
-               "LAW 1: equivalent roughness of sand; 0: a smooth wall, by MU of *MAT_NULL",
-               {.check = Check::not_negative}}}}}}};
+const RegisterKeyword<CourantWallSupport> wall_support_keyword{courant_wall_support_table()};
 
 /// Warns where contact, which acts at half the thickness, does not hold particles half a spacing from the
 /// wall, or where mirrors do, holds them before that.

@@ -3,19 +3,14 @@
 
 #include "keyword/registry.hpp"
 #include "sph/cards.hpp"
+#include "sph/core/kernel_cards.hpp"
 #include "sph/sph.hpp"
 
 namespace courant {
 
 namespace {
 
-const RegisterKeyword<CourantKernel> kernel_keyword{
-    {.names = {"COURANT_KERNEL"},
-     .purpose = "kernels that SPHKERN of *SECTION_SPH has not",
-     .once = true,
-     .many = false,
-     .cards = {
-         {.fields = {{"NAME", &CourantKernel::name, "-", "wendland_c2 or wendland_c4", {.width = 80}}}}}}};
+const RegisterKeyword<CourantKernel> kernel_keyword{courant_kernel_table()};
 
 /// The kernel that SPHKERN gives all SPH parts.
 KernelChoice kernel_of_sections(const Deck& deck, const Model& model, Diagnostics& diagnostics,

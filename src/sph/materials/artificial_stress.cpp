@@ -13,6 +13,7 @@
 #include "sph/core/fields.hpp"
 #include "sph/core/pair_volumes.hpp"
 #include "sph/core/view.hpp"
+#include "sph/materials/material_cards.hpp"
 #include "sph/materials/strength.hpp"
 #include "sph/materials/strength_loops.hpp"
 
@@ -20,27 +21,9 @@ namespace courant {
 
 namespace {
 
-struct CourantArtificialStress : Entry {
-  Real eps = 0;
-  int n = 0;
-};
 using Card = CourantArtificialStress;
 
-const RegisterKeyword<Card> artificial_stress_keyword{
-    {.names = {"COURANT_ARTIFICIAL_STRESS"},
-     .purpose = "a stress between near particles with strength in tension, which keeps them from clumping",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"EPS",
-                            &Card::eps,
-                            "-",
-                            "share of a principal tension that acts against it at W(dx), at most 1",
-                            {.standard = 0.3, .check = Check::positive}},
-                           {"N",
-                            &Card::n,
-                            "-",
-                            "exponent of W/W(dx)",
-                            {.standard = 4, .allowed = {1, 2, 3, 4, 5, 6, 8}}}}}}}};
+const RegisterKeyword<Card> artificial_stress_keyword{courant_artificial_stress_table()};
 
 /// R = -EPS sigma for each principal stress sigma > 0, along its direction: Gray, Monaghan and Swift 2001
 /// (Comput. Methods Appl. Mech. Engrg. 190), section 5, there R/rho^2; in 2D of the stresses in the plane.

@@ -1,20 +1,12 @@
 #include "keyword/registry.hpp"
 #include "sph/cards.hpp"
+#include "sph/options/option_cards.hpp"
 
 namespace courant {
 
 namespace {
 
-const RegisterKeyword<CourantPairGeometry> pair_geometry{
-    {.names = {"COURANT_PAIR_GEOMETRY"},
-     .purpose = "keep kernel gradients over several steps where sound is much faster than the flow",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"EPS",
-                            &CourantPairGeometry::eps,
-                            "-",
-                            "relative motion, in h, over which kernel gradients are frozen; 0: none",
-                            {.check = Check::not_negative}}}}}}};
+const RegisterKeyword<CourantPairGeometry> pair_geometry{courant_pair_geometry_table()};
 
 }  // namespace
 

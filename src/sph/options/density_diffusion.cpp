@@ -4,22 +4,14 @@
 #include "sph/cards.hpp"
 #include "sph/core/fields.hpp"
 #include "sph/options/density_source.hpp"
+#include "sph/options/option_cards.hpp"
 #include "sph/sph.hpp"
 
 namespace courant {
 
 namespace {
 
-const RegisterKeyword<CourantDensityDiffusion> density_diffusion_keyword{
-    {.names = {"COURANT_DENSITY_DIFFUSION"},
-     .purpose = "density diffusion that leaves hydrostatic pressure alone (delta-SPH)",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"DELTA",
-                            &CourantDensityDiffusion::delta,
-                            "-",
-                            "strength, usually 0.1; 0: none",
-                            {.check = Check::not_negative}}}}}}};
+const RegisterKeyword<CourantDensityDiffusion> density_diffusion_keyword{courant_density_diffusion_table()};
 
 /// d rho/dt += D with the D that the forces of the step before worked out beside the pressure: they know the
 /// pressures of neighbours, which change while rates are worked out. A Riemann flux takes much in one step.

@@ -10,6 +10,7 @@
 #include "sph/core/pair_volumes.hpp"
 #include "sph/core/view.hpp"
 #include "sph/options/density_source.hpp"
+#include "sph/options/option_cards.hpp"
 #include "sph/sph.hpp"
 
 namespace courant {
@@ -17,20 +18,7 @@ namespace courant {
 namespace {
 
 const RegisterKeyword<CourantDensityReinitialisation> reinitialisation_keyword{
-    {.names = {"COURANT_DENSITY_REINITIALISATION"},
-     .purpose = "density smoothed over the neighbours every few steps",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"NCYC",
-                            &CourantDensityReinitialisation::ncyc,
-                            "-",
-                            "every how many steps, usually 20 to 50; 0: never",
-                            {.check = Check::not_negative}},
-                           {"METHOD",
-                            &CourantDensityReinitialisation::method,
-                            "-",
-                            "0 Shepard; 1 moving least squares, which keep a linear density",
-                            {.allowed = {0, 1}}}}}}}};
+    courant_density_reinitialisation_table()};
 
 /// Least second moment of the neighbours' places about their mean, over h^2, with which least squares fit a
 /// plane. It is 0.32 inside (cubic spline, 2D), 0.1 at a surface, 0 where particles stand in a line.

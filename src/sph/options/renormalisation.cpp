@@ -11,6 +11,7 @@
 #include "sph/core/fields.hpp"
 #include "sph/core/pair_volumes.hpp"
 #include "sph/core/view.hpp"
+#include "sph/options/option_cards.hpp"
 #include "sph/options/renormal_loops.hpp"
 #include "sph/sph.hpp"
 
@@ -18,24 +19,7 @@ namespace courant {
 
 namespace {
 
-const RegisterKeyword<CourantRenormalisation> renormalisation_keyword{
-    {.names = {"COURANT_RENORMALISATION"},
-     .purpose = "which matrix corrects a pressure where FORM of *CONTROL_SPH is 1, 3, 6 or 16",
-     .once = true,
-     .many = false,
-     .cards = {
-         {.fields = {
-              {"REVERSE",
-               &CourantRenormalisation::reverse,
-               "-",
-               "pressure forces: 0 p_i B_i + p_j B_j; 1 p_i B_j + p_j B_i, which do not keep energy",
-               {.allowed = {0, 1}}},
-              {"PRESSURE",
-               &CourantRenormalisation::pressure,
-               "-",
-               "1: pressure forces are plain sums, and only the rates are corrected, which does not keep "
-               "energy; 0: both are corrected",
-               {.allowed = {0, 1}}}}}}}};
+const RegisterKeyword<CourantRenormalisation> renormalisation_keyword{courant_renormalisation_table()};
 
 /// Least eigenvalue of the moment matrix up to which gradients are not corrected, and from which on they are
 /// to the full; 1 inside, 1/2 at a plane surface. Where water breaks up, full corrections are unstable.

@@ -1,4 +1,5 @@
 // *COURANT_RIEMANN: fluxes between pairs by a linearised Riemann problem instead of artificial viscosity.
+#include "sph/options/option_cards.hpp"
 #include "sph/options/riemann_loops.hpp"
 
 #include <algorithm>
@@ -19,16 +20,7 @@ namespace courant {
 
 namespace {
 
-const RegisterKeyword<CourantRiemann> riemann_keyword{
-    {.names = {"COURANT_RIEMANN"},
-     .purpose = "low-dissipation Riemann flux between pairs instead of artificial viscosity",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"ETA",
-                            &CourantRiemann::eta,
-                            "-",
-                            "limits dissipation: min(ETA w/c, 1), w of approach; 0: no limiter; < 0: no flux",
-                            {.standard = 3, .zero_is_standard = false}}}}}}};
+const RegisterKeyword<CourantRiemann> riemann_keyword{courant_riemann_table()};
 
 /// Zhang, Hu and Adams 2017 (J. Comput. Phys. 335), eqs 12-20: along each pair
 ///   p* = (p_i + p_j)/2 + 1/2 rho_bar c_bar beta w,  beta = min(eta max(w/c_bar, 0), 1),

@@ -11,6 +11,7 @@
 #include "sph/core/view.hpp"
 #include "sph/options/drift.hpp"
 #include "sph/options/drift_loops.hpp"
+#include "sph/options/option_cards.hpp"
 #include "sph/sph.hpp"
 #include "state/restartable.hpp"
 
@@ -18,31 +19,7 @@ namespace courant {
 
 namespace {
 
-const RegisterKeyword<CourantShifting> shifting_keyword{
-    {.names = {"COURANT_SHIFTING"},
-     .purpose = "strength of the particle shifting that ISHIFT 1 of *CONTROL_SPH asks for",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"A",
-                            &CourantShifting::strength,
-                            "-",
-                            "a step shifts by -A h |v| dt grad C; C the sum of kernels",
-                            {.standard = 2, .check = Check::positive}},
-                           {"R",
-                            &CourantShifting::pairing,
-                            "-",
-                            "weight of the term that keeps particles from pairing; < 0: none",
-                            {.standard = 0.2}},
-                           {"SURFACE",
-                            &CourantShifting::surface,
-                            "-",
-                            "div r below which a particle stands at a surface; 0: 1.5 in 2D, 2.5 in 3D",
-                            {.check = Check::not_negative}},
-                           {"CORRECT",
-                            &CourantShifting::correct,
-                            "-",
-                            "1: the velocity changes to that of the new place, to first order",
-                            {.allowed = {0, 1}}}}}}}};
+const RegisterKeyword<CourantShifting> shifting_keyword{courant_shifting_table()};
 
 /// u_i = -A h |v_i| grad C_i, grad C_i = sum_j V_j (1 + R (W_ij/W(dx))^4) grad W_ij (Lind et al. 2012 with
 /// the coefficient of Skillen et al. 2013). What stands at a surface is not shifted, by div r = sum_j V_j

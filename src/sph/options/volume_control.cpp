@@ -10,6 +10,7 @@
 #include "sph/core/pair_volumes.hpp"
 #include "sph/core/view.hpp"
 #include "sph/options/density_source.hpp"
+#include "sph/options/option_cards.hpp"
 #include "sph/sph.hpp"
 #include "state/restartable.hpp"
 
@@ -17,16 +18,7 @@ namespace courant {
 
 namespace {
 
-const RegisterKeyword<CourantVolumeControl> volume_control_keyword{
-    {.names = {"COURANT_VOLUME_CONTROL"},
-     .purpose = "keeps the volume of water that breaks and mixes",
-     .once = true,
-     .many = false,
-     .cards = {{.fields = {{"TAU",
-                            &CourantVolumeControl::tau,
-                            "T",
-                            "time in which density and places agree again; 0: never",
-                            {.check = Check::not_negative}}}}}}};
+const RegisterKeyword<CourantVolumeControl> volume_control_keyword{courant_volume_control_table()};
 
 /// Slope of the sum of kernels, times h, from which on a particle stands at a surface; with the cubic spline.
 constexpr Real surface_slope = 0.4;

@@ -13,6 +13,7 @@
 #include "sph/core/view.hpp"
 #include "sph/options/drift.hpp"
 #include "sph/options/drift_loops.hpp"
+#include "sph/options/option_cards.hpp"
 #include "sph/sph.hpp"
 #include "state/shared_fields.hpp"
 
@@ -20,29 +21,7 @@ namespace courant {
 
 namespace {
 
-const RegisterKeyword<CourantXsph> xsph_keyword{
-    {.names = {"COURANT_XSPH"},
-     .purpose = "particles move with a velocity smoothed over their neighbours (XSPH)",
-     .once = true,
-     .many = false,
-     .cards = {
-         {.fields = {
-              {"EPS",
-               &CourantXsph::eps,
-               "-",
-               "share of the mean velocity of neighbours, usually 0.5, with VEL 1 0.01; at most 1; 0: none",
-               {.check = Check::not_negative}},
-              {"NORM",
-               &CourantXsph::norm,
-               "-",
-               "1: the mean is over the sum of the kernel (Shepard), right at surfaces, too; 0: over 1",
-               {.allowed = {0, 1}}},
-              {"VEL",
-               &CourantXsph::vel,
-               "-",
-               "1: the smoothed velocity takes the place of the velocity in each step, which acts as a "
-               "viscosity; 0: it only moves particles",
-               {.allowed = {0, 1}}}}}}}};
+const RegisterKeyword<CourantXsph> xsph_keyword{courant_xsph_table()};
 
 /// u_i = EPS sum_j m_j/rho_ij (v_j - v_i) W_ij (NORM 1: over sum_j m_j/rho_ij W_ij), of the velocities and
 /// places after the last motion; the next motion takes it, with VEL 1 its kick.

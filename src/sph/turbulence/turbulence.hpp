@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "keyword/card.hpp"
+#include "sph/turbulence/turbulence_cards.hpp"
 
 namespace courant {
 
@@ -15,12 +16,6 @@ struct CourantTurbulence : Entry {
   Real c1 = 0, c2 = 0, sigma_k = 0, sigma_e = 0, k = 0, epsilon = 0;
   int limit = 0;
   Real lsurf = 0;
-};
-
-/// *COURANT_TURBULENCE_INITIAL, ours: of the particles of a part, those of its inlets among them.
-struct CourantTurbulenceInitial : Entry {
-  Id pid = 0;
-  Real k = 0, epsilon = 0;
 };
 
 enum class TurbulenceModel { none = 0, mixing_length = 1, k_epsilon = 2, smagorinsky = 3 };

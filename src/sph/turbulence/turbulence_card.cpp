@@ -1,10 +1,10 @@
 // What *COURANT_TURBULENCE means, and what is refused of it.
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "model/mesh/named_parts.hpp"
 #include "sph/sph.hpp"
+#include "sph/turbulence/turbulence_cards.hpp"
 
 namespace courant {
 
@@ -80,14 +80,7 @@ KeywordOf<T> courant_turbulence() {
 const RegisterKeyword<T> turbulence_keyword{courant_turbulence()};
 
 const RegisterKeyword<CourantTurbulenceInitial> turbulence_initial_keyword{
-    {.names = {"COURANT_TURBULENCE_INITIAL"},
-     .purpose = "k and epsilon with which the particles of a part start, and enter by its inlets",
-     .cards = {{.fields = {{"PID", &CourantTurbulenceInitial::pid, "-", "a part of particles",
-                            rules::required_id_of(IdSpace::part)},
-                           {"K", &CourantTurbulenceInitial::k, "L2/T2", "k", rules::required_positive},
-                           {"EPS", &CourantTurbulenceInitial::epsilon, "L2/T3",
-                            "epsilon: CMU^0.75 k^1.5/l, l the length of the largest eddies",
-                            rules::required_positive}}}}}};
+    courant_turbulence_initial_table()};
 
 void read_initial_turbulence(const Deck& deck, const Model& model, TurbulenceRules& t,
                              Diagnostics& diagnostics) {
